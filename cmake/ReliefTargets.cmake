@@ -1,0 +1,22 @@
+# Compile settings that every target of Relief shares.
+include(GNUInstallDirs)
+find_package(Threads REQUIRED)
+find_package(PkgConfig)
+
+# relief_settings(TARGET): C17 without extensions, warnings, and exact floating point: no contraction
+# into fused multiply-adds and no fast-math, so results are the same bits everywhere.
+function(relief_settings target)
+  set_target_properties(${target} PROPERTIES C_STANDARD 17 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF
+                        C_VISIBILITY_PRESET hidden POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wvla -Wundef
+                         -Wstrict-prototypes -Wmissing-prototypes -ffp-contract=off
+                         $<$<CONFIG:Release>:-O3 -fno-math-errno -fno-trapping-math>)
+  if(RELIEF_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(RELIEF_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${RELIEF_SANITIZE} -fno-omit-frame-pointer
+                           -fno-sanitize-recover=all)
+    target_link_options(${target} PUBLIC -fsanitize=${RELIEF_SANITIZE})
+  endif()
+endfunction()

@@ -1,0 +1,94 @@
+/* Relief: the render stage. Puts the bodies into the camera's picture, behind what is in front of
+ * them. SPDX-License-Identifier: MIT */
+#ifndef RELIEF_COMPOSITOR_H
+#define RELIEF_COMPOSITOR_H
+
+#include "relief/snapshot.h"
+#include "relief/surface.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What the picture shows. */
+typedef enum rlf_view {
+    RLF_VIEW_CAMERA = 0,  /* colour with the bodies composited: the main view */
+    RLF_VIEW_DEPTH = 1,   /* depth, near warm to far cold */
+    RLF_VIEW_NORMALS = 2, /* rgb = (n_x, -n_y, -n_z) / 2 + 1/2 */
+    RLF_VIEW_MESH = 3,    /* wireframe of the triangle mesh over the colour image (fig. 4.5) */
+    RLF_VIEW_REGIONS = 4, /* one colour per region, with boxes (fig. 4.18) */
+    RLF_VIEW_FOREGROUND = 5,
+    RLF_VIEW_BACKGROUND = 6, /* the background model's depth */
+    RLF_VIEW_VELOCITY = 7,
+    RLF_VIEW_THICKNESS = 8,
+    RLF_VIEW_REASON = 9, /* reason codes, one colour each */
+    RLF_VIEW_COUNT = 10
+} rlf_view;
+
+/* Name as in `--view`, e.g. "normals"; NULL outside the range. */
+RLF_API const char *rlf_view_name(rlf_view view);
+/* False when no view has that name. */
+RLF_API bool rlf_view_parse(const char *name, rlf_view *out);
+
+typedef enum rlf_occlusion {
+    RLF_OCCLUSION_DEPTH = 0, /* every pixel's depth against the registered real depth */
+    RLF_OCCLUSION_THESIS =
+        1,                /* 4.2.2: one layer per body, stencil-limited, blended back to front */
+    RLF_OCCLUSION_OFF = 2 /* plain augmented reality (fig. 4.9) */
+} rlf_occlusion;
+
+typedef struct rlf_compositor_def {
+    uint32_t cookie;
+    rlf_rig rig;     /* the source's; must be set. Without colour the depth camera is used */
+    rlf_camera grid; /* the surface's camera */
+    const float *ray_x, *ray_y; /* the surface's rays; borrowed for the compositor's life */
+    int32_t width, height;      /* of the picture; 0 = the colour camera's (or depth camera's) */
+    rlf_occlusion occlusion;    /* default DEPTH */
+    rlf_vec3 light_direction;   /* from the light into the scene, camera frame; unit. default
+                                   (0.3, 0.8, 0.5) normalised */
+    bool enable_overlay;        /* text lines over the picture; default false */
+    rlf_pool *pool;             /* borrowed; NULL = one thread */
+} rlf_compositor_def;
+
+RLF_API rlf_compositor_def rlf_compositor_def_default(void);
+
+/* Everything one picture is made of; all borrowed for the call. */
+typedef struct rlf_render_input {
+    const rlf_frame *frame;       /* required; its colour may be missing: depth is shown in grey */
+    const rlf_surface *surface;   /* required */
+    const rlf_snapshot *snapshot; /* NULL = no bodies */
+    rlf_pose T_world_camera;      /* depth camera in the world */
+    rlf_view view;
+    const char *const *overlay; /* text lines, top left; used with enable_overlay */
+    int32_t overlay_count;
+} rlf_render_input;
+
+typedef struct rlf_render_output {
+    rlf_image_rgba8
+        image;          /* the composite (or the view); the compositor's, valid until next render */
+    rlf_plane_u8 matte; /* alpha of everything virtual after occlusion, 0..255; same size */
+} rlf_render_output;
+
+typedef struct rlf_compositor rlf_compositor;
+
+/* Methods of a renderer; used by librelief_gl and by anyone's own. */
+typedef struct rlf_compositor_methods {
+    rlf_result (*render)(void *self, const rlf_render_input *input, rlf_render_output *out);
+    void (*destroy)(void *self);
+    const char *name; /* "soft", "gl" */
+} rlf_compositor_methods;
+
+RLF_API rlf_result rlf_compositor_create_custom(const rlf_compositor_methods *methods, void *self,
+                                                rlf_compositor **out);
+/* The CPU renderer: pure C, same bits everywhere. */
+RLF_API rlf_result rlf_compositor_create_soft(const rlf_compositor_def *def, rlf_compositor **out);
+RLF_API void rlf_compositor_destroy(rlf_compositor **compositor);
+RLF_API const char *rlf_compositor_name(const rlf_compositor *compositor);
+/* Draws one picture. Allocates nothing after the first call. Thread-safety: one call at a time. */
+RLF_API rlf_result rlf_compositor_render(rlf_compositor *compositor, const rlf_render_input *input,
+                                         rlf_render_output *out);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

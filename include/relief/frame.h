@@ -1,0 +1,56 @@
+/* Relief: one picture from a depth camera, the value that flows from capture to surface.
+ *
+ * A frame is complete when published and never changes afterwards.
+ * SPDX-License-Identifier: MIT */
+#ifndef RELIEF_FRAME_H
+#define RELIEF_FRAME_H
+
+#include "relief/camera.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Standard deviation of depth along z: sigma(z) = c0 + c1 z + c2 z^2, metres, z in metres.
+ * Defaults: Kinect v2 after Fankhauser et al. 2015 (frontal surfaces). */
+typedef struct rlf_depth_noise {
+    double c0, c1, c2;
+} rlf_depth_noise;
+
+/* sigma at depth z, metres; never below 0.3 mm. */
+static inline double rlf_depth_noise_sigma(const rlf_depth_noise *noise, double z)
+{
+    return rlf_max(noise->c0 + z * (noise->c1 + z * noise->c2), 0.0003);
+}
+
+/* The cameras of a sensor, fixed for a source's life. */
+typedef struct rlf_rig {
+    rlf_camera depth;
+    rlf_camera color;       /* used when has_color; size of the colour frames */
+    rlf_pose T_color_depth; /* p_color = T p_depth; identity when depth is already aligned */
+    bool has_color;
+    double depth_min_m;    /* nearest depth the sensor reports, metres (Kinect v2: 0.5) */
+    double depth_max_m;    /* farthest (Kinect v2: 4.5); libraries keep what is beyond as missing */
+    rlf_depth_noise noise; /* of the raw depth */
+} rlf_rig;
+
+typedef struct rlf_frame {
+    uint64_t sequence; /* counts up by one per frame that the device made; gaps are lost frames */
+    int64_t time_ns;   /* device time, nanoseconds; increases from frame to frame */
+    const rlf_rig *rig;
+
+    /* Depth along z (not along the ray), rig->depth.width x height. Exactly one of the two is set.
+     */
+    const uint16_t *depth_u16;    /* in units; 0 = missing */
+    const float *depth_f32;       /* metres; <= 0, NaN and infinite = missing */
+    ptrdiff_t depth_stride;       /* bytes */
+    double depth_units_per_metre; /* of depth_u16: 1000 for millimetres */
+
+    /* Colour, rig->color.width x height; data NULL when this frame has none. */
+    rlf_image_rgba8 color;
+} rlf_frame;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

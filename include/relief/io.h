@@ -1,0 +1,92 @@
+/* Relief: files and devices (librelief_io). Every reader names the file and the cure when it fails.
+ *
+ * Writers that make one file write FILE.part and rename it when it is whole, so nothing
+ * half-written looks finished. Thread-safety: distinct objects and paths may be used from distinct
+ * threads. SPDX-License-Identifier: MIT */
+#ifndef RELIEF_IO_H
+#define RELIEF_IO_H
+
+#include "relief/pipeline.h"
+#include "relief/synthetic.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- sources
+ * -------------------------------------------------------------------------------------- */
+
+/* Opens any SOURCE of the command line: "synthetic:...", or a folder in the TUM layout with
+ * camera.json. `pool` is borrowed (NULL = one thread). */
+RLF_API rlf_result rlf_open_source(const char *source, rlf_pool *pool, rlf_source **out);
+
+/* TUM RGB-D folder: depth.txt, rgb.txt (optional), camera.json; see docs/formats.md. Each depth
+ * frame is paired with the colour frame nearest in time (at most 50 ms away, else none). */
+RLF_API rlf_result rlf_folder_source_open(const char *path, rlf_source **out);
+
+/* Reads camera.json. Colour absent: has_color false. depth units go to *out_units_per_metre. */
+RLF_API rlf_result rlf_rig_load(const char *path, rlf_rig *out, double *out_units_per_metre);
+
+/* ---- scenes
+ * ----------------------------------------------------------------------------------------- */
+
+/* Reads scene.json (see docs/formats.md); unknown keys, wrong types and values that the world would
+ * refuse are errors that name them. Destroy with rlf_scene_destroy. */
+RLF_API rlf_result rlf_scene_load(const char *path, rlf_scene *out);
+
+/* ---- pictures
+ * --------------------------------------------------------------------------------------- */
+
+/* Reads 16-bit grey PNG into a new array (rlf_free it). 8-bit, colour or palette is an error. */
+RLF_API rlf_result rlf_png_read_u16(const char *path, uint16_t **out, int32_t *out_width,
+                                    int32_t *out_height);
+/* Reads a PNG (any kind) or JPEG as RGBA into a new image (rlf_free its data). */
+RLF_API rlf_result rlf_picture_read(const char *path, rlf_image_rgba8 *out);
+RLF_API rlf_result rlf_png_write_rgba(const char *path, const rlf_image_rgba8 *image);
+RLF_API rlf_result rlf_png_write_u8(const char *path, const rlf_plane_u8 *plane);
+RLF_API rlf_result rlf_png_write_u16(const char *path, const uint16_t *data, int32_t width,
+                                     int32_t height);
+
+/* ---- arrays and meshes
+ * ------------------------------------------------------------------------------ */
+
+typedef enum rlf_npy_type { RLF_NPY_F32 = 0, RLF_NPY_I32 = 1, RLF_NPY_U8 = 2 } rlf_npy_type;
+
+/* Writes a NumPy 1.0 file, C order, little endian. rank 1..4. */
+RLF_API rlf_result rlf_npy_write(const char *path, rlf_npy_type type, const void *data,
+                                 const int64_t *shape, int32_t rank);
+/* Binary PLY of the surface's points with normals, and its triangles when index_count > 0. */
+RLF_API rlf_result rlf_ply_write(const char *path, const rlf_surface *surface,
+                                 const uint32_t *indices, size_t index_count);
+
+/* ---- video
+ * ------------------------------------------------------------------------------------------ */
+
+typedef struct rlf_video rlf_video;
+
+/* Opens a video by its name: .mp4 (H.264, needs the libav packages), .y4m, "-" for Y4M on stdout.
+ * Odd sizes are padded by one pixel. frames_per_second > 0. */
+RLF_API rlf_result rlf_video_open(const char *path, int32_t width, int32_t height,
+                                  double frames_per_second, rlf_video **out);
+RLF_API rlf_result rlf_video_write(rlf_video *video, const rlf_image_rgba8 *image);
+/* Finishes the file; the pointer is nulled even when it fails. NULL is allowed. */
+RLF_API rlf_result rlf_video_close(rlf_video **video);
+
+/* ---- logs
+ * ------------------------------------------------------------------------------------------- */
+
+typedef struct rlf_csv_log rlf_csv_log;
+
+/* Makes frames.csv, bodies.csv and contacts.csv in a folder (made if missing). */
+RLF_API rlf_result rlf_csv_log_open(const char *folder, rlf_csv_log **out);
+RLF_API rlf_result rlf_csv_log_write(rlf_csv_log *log, const rlf_pipeline_output *output);
+/* Flushes and closes; reports a disk that filled. The pointer is nulled even when it fails. */
+RLF_API rlf_result rlf_csv_log_close(rlf_csv_log **log);
+
+/* Makes a folder and its parents. RLF_OK when it is there already. */
+RLF_API rlf_result rlf_make_folder(const char *path);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,86 @@
+/* Relief: the frame loop. Source, surface, physics and render in one object.
+ * SPDX-License-Identifier: MIT */
+#ifndef RELIEF_PIPELINE_H
+#define RELIEF_PIPELINE_H
+
+#include "relief/compositor.h"
+#include "relief/reconstruct.h"
+#include "relief/source.h"
+#include "relief/world.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Bodies and gravity to start with; see io.h for reading one from scene.json. */
+typedef struct rlf_scene {
+    rlf_vec3 gravity;
+    rlf_body_def *bodies; /* owned when made by rlf_scene_create or rlf_scene_load */
+    int32_t body_count;
+} rlf_scene;
+
+/* The thesis's two cubes: one thrown from the camera, one from the right. Destroy it. */
+RLF_API rlf_result rlf_scene_create_two_cubes(rlf_scene *out);
+RLF_API void rlf_scene_destroy(rlf_scene *scene);
+
+typedef struct rlf_pipeline_def {
+    uint32_t cookie;
+    rlf_profile profile;
+    rlf_source *source;              /* borrowed for the pipeline's life; required */
+    rlf_reconstruct_def reconstruct; /* set by rlf_pipeline_def_default from profile and source */
+    rlf_world_def world;
+    rlf_compositor_def compositor;
+    const rlf_scene *scene;  /* copied; NULL = no bodies */
+    bool enable_render;      /* default true; false: no picture is made */
+    rlf_pose T_world_camera; /* mount pose; default identity */
+    rlf_pool *pool;          /* borrowed; NULL = one thread */
+} rlf_pipeline_def;
+
+/* Settings of a profile for a source. */
+RLF_API rlf_pipeline_def rlf_pipeline_def_default(rlf_profile profile, rlf_source *source,
+                                                  rlf_pool *pool);
+
+typedef struct rlf_stage_times {
+    double capture_ms, surface_ms, physics_ms, render_ms;
+} rlf_stage_times;
+
+/* All values of one frame; valid until the next step. */
+typedef struct rlf_pipeline_output {
+    int64_t frame_index; /* 0, 1, 2, ... */
+    double time_s;       /* since the first frame */
+    rlf_frame frame;
+    const rlf_surface *surface;
+    const rlf_snapshot *snapshot;
+    rlf_render_output render; /* image.data NULL when rendering is off */
+    rlf_stage_times times;
+} rlf_pipeline_output;
+
+typedef struct rlf_pipeline rlf_pipeline;
+
+RLF_API rlf_result rlf_pipeline_create(const rlf_pipeline_def *def, rlf_pipeline **out);
+RLF_API void rlf_pipeline_destroy(rlf_pipeline **pipeline);
+
+/* Replaces the renderer (takes ownership). NULL goes back to the soft one. */
+RLF_API rlf_result rlf_pipeline_set_compositor(rlf_pipeline *pipeline, rlf_compositor *compositor);
+/* What a compositor for this pipeline must be made with. */
+RLF_API rlf_compositor_def rlf_pipeline_get_compositor_def(const rlf_pipeline *pipeline);
+
+/* View and overlay lines of the next pictures (lines are copied, at most 32 of 127 bytes). */
+RLF_API void rlf_pipeline_set_view(rlf_pipeline *pipeline, rlf_view view);
+RLF_API void rlf_pipeline_set_overlay(rlf_pipeline *pipeline, const char *const *lines,
+                                      int32_t count);
+
+/* One frame through all stages. RLF_OK, RLF_NO_FRAME, RLF_END, or an error. Allocates nothing after
+ * the first frames. Two frames with the same time: the second advances physics by nothing. */
+RLF_API rlf_result rlf_pipeline_step(rlf_pipeline *pipeline, rlf_pipeline_output *out);
+/* Draws the last frame again, e.g. after a change of view while paused. */
+RLF_API rlf_result rlf_pipeline_redraw(rlf_pipeline *pipeline, rlf_pipeline_output *out);
+/* First frame, empty background, the scene's bodies again. */
+RLF_API rlf_result rlf_pipeline_restart(rlf_pipeline *pipeline);
+/* The world, to add or throw bodies between steps. */
+RLF_API rlf_world *rlf_pipeline_get_world(rlf_pipeline *pipeline);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

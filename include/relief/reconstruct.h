@@ -1,0 +1,101 @@
+/* Relief: the surface stage. rlf_frame in, rlf_surface out.
+ * SPDX-License-Identifier: MIT */
+#ifndef RELIEF_RECONSTRUCT_H
+#define RELIEF_RECONSTRUCT_H
+
+#include "relief/surface.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum rlf_profile {
+    RLF_PROFILE_LIVE = 0,  /* our best method for each stage, at scale factor 1 */
+    RLF_PROFILE_THESIS = 1 /* the method as written, at scale factor 8 */
+} rlf_profile;
+
+typedef enum rlf_normal_method {
+    RLF_NORMALS_SIX_FACES = 0, /* mean weighted equally over the six incident triangles (eq. 4.2) */
+    RLF_NORMALS_FOUR_FACES = 1,   /* four faces: up, left, down, right (fig. 4.7) */
+    RLF_NORMALS_THESIS = 2,       /* eq. 4.3, with fig. 4.8's rules at borders and corners */
+    RLF_NORMALS_INVERSE_DEPTH = 3 /* exact 1/z form (errata 1), edge-aware, faces the camera */
+} rlf_normal_method;
+
+typedef enum rlf_background_method {
+    RLF_BACKGROUND_OFF = 0,     /* every pixel is front sheet; no background */
+    RLF_BACKGROUND_AVERAGE = 1, /* thesis 4.4.1: mean of the first frames, static for ever */
+    RLF_BACKGROUND_ADAPTIVE = 2 /* per pixel, one-sided noise-scaled test, replaced by evidence */
+} rlf_background_method;
+
+typedef enum rlf_segment_method {
+    RLF_SEGMENT_OFF = 0,    /* the whole layer is one region */
+    RLF_SEGMENT_THESIS = 1, /* eq. 4.4 in two directions, AND, 4-connected regions, dilation */
+    RLF_SEGMENT_NOISE = 2   /* depth difference scaled with noise and slope */
+} rlf_segment_method;
+
+/* All settings of the surface stage. Any mix of methods can be run. */
+typedef struct rlf_reconstruct_def {
+    uint32_t cookie;
+    rlf_rig rig;          /* the source's; must be set */
+    int32_t scale_factor; /* 1..64; live 1, thesis 8 */
+    double depth_min_m;   /* nearer = too near; default from the rig */
+    double depth_max_m;   /* farther = too far; default from the rig */
+
+    rlf_normal_method normal_method;
+    bool normals_face_camera; /* true: n.p < 0 (errata 2); false: n_z < 0 as in eq. 4.3 */
+
+    rlf_segment_method background_segment; /* thesis: THESIS */
+    rlf_segment_method foreground_segment; /* thesis: OFF (one person), or THESIS (several) */
+    double segment_tau_m; /* eq. 4.4 threshold, metres (see docs/conventions.md for defaults) */
+    bool enable_dilation; /* fig. 4.12 */
+    int32_t min_region_points; /* smaller regions are dropped (label 0) */
+    int32_t region_capacity;   /* most regions of one surface; further ones are dropped by size */
+    bool keep_region_points;   /* fill region_points; the thesis collision needs it */
+
+    rlf_background_method background_method;
+    int32_t background_frames;     /* frames averaged at start; default 5 */
+    double foreground_threshold_m; /* AVERAGE: |z - z_bg| above this is foreground */
+    double foreground_sigmas;      /* ADAPTIVE: z_bg - z above this many sigma(z) ... */
+    double foreground_min_m;       /* ... and above this, metres */
+
+    bool enable_flying_removal; /* live: true */
+    bool enable_fill;           /* live: true: fill small holes (reason FILLED) */
+    bool enable_velocity;       /* live: true: normal velocity from depth change along the ray */
+    bool enable_thickness;      /* live: true: union of inscribed spheres */
+
+    rlf_pool *pool; /* borrowed; NULL = one thread */
+} rlf_reconstruct_def;
+
+/* Settings of a profile; `rig` is copied and its range becomes the default range. */
+RLF_API rlf_reconstruct_def rlf_reconstruct_def_default(rlf_profile profile, const rlf_rig *rig);
+
+/* Surfaces stay valid for this many further calls of rlf_reconstruct_process. */
+#define RLF_RECONSTRUCT_SURFACES 3
+
+typedef struct rlf_reconstruct rlf_reconstruct;
+
+/* Allocates everything that will ever be needed. */
+RLF_API rlf_result rlf_reconstruct_create(const rlf_reconstruct_def *def, rlf_reconstruct **out);
+RLF_API void rlf_reconstruct_destroy(rlf_reconstruct **stage);
+
+/* Makes the surface of one frame. *out_surface is the stage's and stays valid and unchanged during
+ * the next RLF_RECONSTRUCT_SURFACES - 1 calls. Allocates nothing. A frame with all pixels missing
+ * is not an error. RLF_ERROR_INVALID when the frame has no depth plane. Thread-safety: one call at
+ * a time per object. */
+RLF_API rlf_result rlf_reconstruct_process(rlf_reconstruct *stage, const rlf_frame *frame,
+                                           const rlf_surface **out_surface);
+/* Forgets the background and all history: the next frame is the first. */
+RLF_API void rlf_reconstruct_reset(rlf_reconstruct *stage);
+
+/* Normals of any organised depth grid, for measuring a method by itself: camera and rays as in
+ * rlf_surface, noise NULL for clean depth. out planes hold width*height floats, 0 where there is
+ * no normal. Allocates nothing. */
+RLF_API void rlf_compute_normals(rlf_normal_method method, bool face_camera, int32_t width,
+                                 int32_t height, const float *ray_x, const float *ray_y,
+                                 const float *depth, const rlf_depth_noise *noise, float *out_x,
+                                 float *out_y, float *out_z);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,97 @@
+/* Relief: shapes, body states and contacts, the value that flows from physics to render and logs.
+ *
+ * A snapshot is complete when published and never changes afterwards. All coordinates are in the
+ * world frame: the camera frame at start, unless a mount pose was given.
+ * SPDX-License-Identifier: MIT */
+#ifndef RELIEF_SNAPSHOT_H
+#define RELIEF_SNAPSHOT_H
+
+#include "relief/math.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define RLF_NAME_MAX 64 /* bytes of a name, with its ending zero */
+
+/* Handle of a body in a world: index + 1 and a generation, so a stale one is noticed; zero is null.
+ */
+typedef struct rlf_body_id {
+    uint32_t index1;
+    uint32_t generation;
+} rlf_body_id;
+
+typedef enum rlf_shape_type {
+    RLF_SHAPE_BOX = 0,
+    RLF_SHAPE_SPHERE = 1,
+    RLF_SHAPE_CAPSULE = 2,  /* along its local y axis */
+    RLF_SHAPE_CYLINDER = 3, /* along its local y axis */
+    RLF_SHAPE_HULL = 4
+} rlf_shape_type;
+
+/* Triangle mesh in a body's frame, origin at the centre of mass. Borrowed for the body's life. */
+typedef struct rlf_hull {
+    const rlf_vec3 *vertices; /* metres */
+    int32_t vertex_count;
+    const int32_t *triangles; /* 3 indices each, counter-clockwise seen from outside */
+    int32_t triangle_count;
+} rlf_hull;
+
+typedef struct rlf_shape {
+    rlf_shape_type type;
+    rlf_vec3 size;        /* box: full extents, metres */
+    double radius;        /* sphere, capsule, cylinder, metres */
+    double height;        /* cylinder: full height; capsule: between the two cap centres, metres */
+    const rlf_hull *hull; /* hull only */
+} rlf_shape;
+
+/* Largest distance from the shape's origin to its surface, metres. */
+RLF_API double rlf_shape_radius(const rlf_shape *shape);
+
+typedef struct rlf_body_state {
+    rlf_body_id id;
+    char name[RLF_NAME_MAX];
+    rlf_shape shape;
+    rlf_pose T_world_body;
+    rlf_vec3 velocity;         /* m/s, of the centre of mass */
+    rlf_vec3 angular_velocity; /* rad/s, world frame */
+    double mass;               /* kg */
+    float color[3];            /* linear-free sRGB 0..1 */
+    bool is_held;              /* waiting for its release time */
+    bool is_asleep;
+} rlf_body_state;
+
+/* What a body touched. */
+typedef enum rlf_contact_other {
+    RLF_CONTACT_BODY = 0,
+    RLF_CONTACT_BACKGROUND = 1,
+    RLF_CONTACT_FOREGROUND = 2
+} rlf_contact_other;
+
+typedef struct rlf_contact {
+    rlf_body_id body;
+    rlf_contact_other other;
+    rlf_body_id other_body; /* null unless other is a body */
+    int32_t region_label;   /* of the surface; 0 when other is a body or no region */
+    rlf_vec3 point;         /* world, metres */
+    rlf_vec3 normal;        /* unit, from the surface (or other body) to `body` */
+    double separation;      /* metres, negative when they overlap */
+    double impulse;         /* N s along the normal during this frame, >= 0 */
+    double surface_speed;   /* m/s of the surface along the normal, towards the body > 0 */
+    double approach_speed;  /* m/s at which they met, > 0 */
+} rlf_contact;
+
+typedef struct rlf_snapshot {
+    int64_t time_ns;  /* world time, starts at 0 */
+    uint64_t frame;   /* rlf_world_advance calls so far */
+    rlf_vec3 gravity; /* m/s^2 */
+    const rlf_body_state *bodies;
+    int32_t body_count;
+    const rlf_contact *contacts; /* of the last advance */
+    int32_t contact_count;
+} rlf_snapshot;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,79 @@
+/* Relief: where frames come from. A camera, a folder, a recording and the synthetic room are all an
+ * rlf_source; anyone can add one with rlf_source_create_custom.
+ * SPDX-License-Identifier: MIT */
+#ifndef RELIEF_SOURCE_H
+#define RELIEF_SOURCE_H
+
+#include "relief/frame.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct rlf_source_info {
+    char name[128]; /* as the user gave it, e.g. "synthetic:room" */
+    rlf_rig rig;
+    int64_t frame_count;      /* -1 = unknown or endless */
+    double frames_per_second; /* nominal; 0 = unknown */
+    bool is_live;             /* true: newest frame wins; false: lock-step, every frame */
+} rlf_source_info;
+
+/* What only a simulator knows, for the frame just given. All planes have the depth camera's size,
+ * row-major without padding, in the depth camera's frame. */
+typedef struct rlf_truth {
+    const float *depth;                          /* z, metres, without noise; 0 = nothing hit */
+    const float *normal_x, *normal_y, *normal_z; /* unit, towards the camera */
+    const int32_t *label;      /* surface id > 0, one per object (the person is one); 0 = nothing */
+    const uint8_t *foreground; /* 1 = belongs to something that was not there at start or moves */
+    const float
+        *thickness; /* z of the ray's exit from the object minus depth; 0 for the room shell */
+    const float *velocity_x, *velocity_y, *velocity_z; /* m/s of the surface point */
+    const float *background_depth; /* z of the same room without the foreground, metres */
+    const struct rlf_truth_pose *poses;
+    int32_t pose_count;
+} rlf_truth;
+
+/* True pose of a moving object or limb. */
+typedef struct rlf_truth_pose {
+    char name[32];
+    int32_t label;
+    rlf_pose T_camera_object;
+} rlf_truth_pose;
+
+typedef struct rlf_source rlf_source;
+
+/* Methods of a custom source; `self` is the context given at creation. */
+typedef struct rlf_source_methods {
+    /* Fills *out_frame; its planes stay valid until the next call. RLF_OK, RLF_NO_FRAME, RLF_END or
+     * an error. out_frame->rig is set by the caller. Required. */
+    rlf_result (*next)(void *self, rlf_frame *out_frame);
+    /* Starts again with the first frame. NULL = cannot. */
+    rlf_result (*restart)(void *self);
+    /* Truth of the last frame, or NULL. NULL = never. */
+    const rlf_truth *(*truth)(void *self);
+    /* Frees the context. NULL = nothing to free. */
+    void (*destroy)(void *self);
+} rlf_source_methods;
+
+/* Makes a source of caller's methods. Copies both structs. On failure `self` is not destroyed. */
+RLF_API rlf_result rlf_source_create_custom(const rlf_source_methods *methods,
+                                            const rlf_source_info *info, void *self,
+                                            rlf_source **out);
+/* Closes and nulls. NULL and a NULL source are allowed. */
+RLF_API void rlf_source_destroy(rlf_source **source);
+
+/* Constant for the source's life. */
+RLF_API const rlf_source_info *rlf_source_get_info(const rlf_source *source);
+/* Next frame; its planes are the source's and stay valid until the next call.
+ * Thread-safety: one thread at a time. */
+RLF_API rlf_result rlf_source_next(rlf_source *source, rlf_frame *out_frame);
+/* RLF_ERROR_UNSUPPORTED when the source cannot start again. */
+RLF_API rlf_result rlf_source_restart(rlf_source *source);
+/* Truth of the last frame, or NULL when the source knows none. Valid until the next call of next.
+ */
+RLF_API const rlf_truth *rlf_source_get_truth(rlf_source *source);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

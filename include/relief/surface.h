@@ -1,0 +1,133 @@
+/* Relief: the reconstructed surface, the value that flows from surface to physics and render.
+ *
+ * An organised grid: one sample per kept depth pixel, row-major, index = y * width + x. Planes are
+ * separate arrays (structure of arrays), 64-byte aligned, without padding between rows. Points are
+ * p = depth * (ray_x, ray_y, 1), in the depth camera's frame, metres. There is no NaN in any plane.
+ *
+ *      camera            front        back        background
+ *        o- - - - - - - - |############| - - - - - - - |          along one pixel's ray
+ *                       depth   depth+thickness    background_depth
+ *
+ * A surface is complete when published and never changes while it is published.
+ * SPDX-License-Identifier: MIT */
+#ifndef RELIEF_SURFACE_H
+#define RELIEF_SURFACE_H
+
+#include "relief/frame.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Why a pixel has (or has not) a depth. Codes 0 and 7 have depth > 0, all others depth 0. */
+typedef enum rlf_reason {
+    RLF_REASON_OK = 0,
+    RLF_REASON_TOO_NEAR = 1,
+    RLF_REASON_TOO_FAR = 2,
+    RLF_REASON_NO_RETURN = 3,       /* the sensor gave nothing */
+    RLF_REASON_FLYING = 4,          /* mixed pixel at a depth edge, removed */
+    RLF_REASON_PARALLAX_SHADOW = 5, /* structured light: the projector cannot see it */
+    RLF_REASON_OUTSIDE_LENS = 6,    /* no ray: outside the valid part of the lens model */
+    RLF_REASON_FILLED = 7,          /* estimated from neighbours or earlier frames */
+    RLF_REASON_COUNT = 8
+} rlf_reason;
+
+/* Name of a reason code, e.g. "no return". */
+RLF_API const char *rlf_reason_name(rlf_reason reason);
+
+/* Which of the two sheets a region belongs to. */
+typedef enum rlf_layer {
+    RLF_LAYER_BACKGROUND = 0, /* what stays: planes background_* */
+    RLF_LAYER_FOREGROUND = 1  /* what moves in front of it: planes depth, normal_*, ... */
+} rlf_layer;
+
+/* A connected piece of one layer. Its mask is `label plane == label` inside the rectangle. */
+typedef struct rlf_region {
+    int32_t label; /* > 0, unique among both layers of one surface */
+    rlf_layer layer;
+    int32_t point_count;
+    int32_t first_point;       /* into rlf_surface.region_points; -1 when lists are not kept */
+    int32_t x0, y0, x1, y1;    /* rectangle in grid pixels: x0 <= x < x1, y0 <= y < y1 */
+    rlf_aabb box;              /* metres, camera frame */
+    rlf_vec3 centroid;         /* metres, camera frame */
+    rlf_vec3 linear_velocity;  /* m/s of the centroid; 0 when not significant or unknown */
+    rlf_vec3 angular_velocity; /* rad/s */
+    double plane_residual;     /* RMS distance to its best plane, metres; < 0 = not computed */
+    rlf_pose oriented_pose;    /* oriented box: centre and axes */
+    rlf_vec3 oriented_half;    /* half extents, metres; 0 when not computed */
+    int64_t age_ns;            /* how long the label has been followed */
+} rlf_region;
+
+/* Where the background model stands. */
+typedef enum rlf_background_state {
+    RLF_BACKGROUND_NONE = 0,     /* the method keeps none */
+    RLF_BACKGROUND_LEARNING = 1, /* the first frames are being averaged */
+    RLF_BACKGROUND_READY = 2
+} rlf_background_state;
+
+typedef struct rlf_surface {
+    uint64_t sequence; /* of the frame it was made from */
+    int64_t time_ns;
+    int32_t width, height;
+    int32_t scale_factor; /* every scale_factor-th depth pixel is kept */
+    rlf_camera camera;    /* of the grid (decimated depth camera) */
+    rlf_depth_noise noise;
+    const float *ray_x, *ray_y; /* rays per pixel; constant for a source. Outside the lens: 0, 0 */
+
+    /* Front sheet: what the camera sees now. */
+    const float *depth;                          /* z, metres; 0 = missing */
+    const float *normal_x, *normal_y, *normal_z; /* unit and towards the camera, or 0 = missing */
+    const float *velocity_x, *velocity_y, *velocity_z; /* m/s; 0 = still or not significant */
+    const float *thickness;    /* solid behind depth, metres along z; 0 = a sheet */
+    const int32_t *label;      /* region label; 0 = none */
+    const uint8_t *reason;     /* rlf_reason */
+    const uint8_t *foreground; /* 1 = in front of the background, else 0 */
+
+    /* Back sheet: the background behind (or at) each pixel. All 0 where unknown. */
+    const float *background_depth;
+    const float *background_normal_x, *background_normal_y, *background_normal_z;
+    const int32_t *background_label;
+    rlf_background_state background_state;
+
+    /* Regions of both layers; region_points lists pixel indices region by region when kept. */
+    const rlf_region *regions;
+    int32_t region_count;
+    const int32_t *region_points;
+
+    int32_t valid_count;      /* pixels with depth > 0 */
+    int32_t foreground_count; /* pixels with foreground == 1 */
+} rlf_surface;
+
+/* Point of the front sheet at pixel index i; (0,0,0) where missing. */
+static inline rlf_vec3 rlf_surface_point(const rlf_surface *s, int32_t i)
+{
+    double z = s->depth[i];
+    return rlf_vec3_make(z * s->ray_x[i], z * s->ray_y[i], z);
+}
+/* Point of the background sheet at pixel index i; (0,0,0) where unknown. */
+static inline rlf_vec3 rlf_surface_background_point(const rlf_surface *s, int32_t i)
+{
+    double z = s->background_depth[i];
+    return rlf_vec3_make(z * s->ray_x[i], z * s->ray_y[i], z);
+}
+
+/* ---- the organised triangle mesh (thesis fig. 4.3) ----------------------------------------------
+ */
+
+/* Number of indices of the full mesh of a w x h grid: (w-1)(h-1)*6; 0 when w or h < 2. */
+RLF_API size_t rlf_mesh_index_count(int32_t width, int32_t height);
+
+/* Writes the index list, square by square, left to right, top to bottom:
+ * T1 = {n, n+1, n+w}, T2 = {n+1, n+w+1, n+w} (clockwise as seen by the camera).
+ * `out` has rlf_mesh_index_count entries. */
+RLF_API void rlf_mesh_indices(int32_t width, int32_t height, uint32_t *out);
+
+/* As above, but leaves out triangles with a missing corner or whose corners' depths differ by more
+ * than max_jump (relative to the nearest corner, e.g. 0.05). Returns the number of indices written.
+ */
+RLF_API size_t rlf_mesh_indices_valid(const rlf_surface *surface, double max_jump, uint32_t *out);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,60 @@
+/* Relief: the synthetic room, a ray-cast sensor that knows the truth.
+ *
+ * A level depth camera (Kinect v2 intrinsics) looks into a room: wall, column, floor, table, boxes,
+ * ball, chair, and a person of rounded limbs who walks and reaches. A colour camera sits 52 mm
+ * beside it. Noise and dropout follow Fankhauser et al. 2015 and the libfreenect2 invalidation
+ * chain. SPDX-License-Identifier: MIT */
+#ifndef RELIEF_SYNTHETIC_H
+#define RELIEF_SYNTHETIC_H
+
+#include "relief/source.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What is in the room. */
+typedef enum rlf_synthetic_scene {
+    RLF_SYNTHETIC_ROOM = 0,   /* everything; the person enters after the background frames */
+    RLF_SYNTHETIC_EMPTY = 1,  /* the same room, nobody in it */
+    RLF_SYNTHETIC_THESIS = 2, /* thesis chapter 5: wall 3.2 m, column, floor, person at 2.2-2.4 m */
+    RLF_SYNTHETIC_CHAIR = 3,  /* as room; the chair is taken away at t = 4 s */
+    RLF_SYNTHETIC_BOOK = 4,   /* the person holds a book edge-on, then turns it to the camera */
+    RLF_SYNTHETIC_HAND = 5    /* a hand moves close to the camera (0.6-1.2 m) */
+} rlf_synthetic_scene;
+
+typedef struct rlf_synthetic_def {
+    uint32_t cookie;
+    rlf_synthetic_scene scene; /* default room */
+    uint64_t seed;             /* of noise and dropout; default 1 */
+    double frames_per_second;  /* default 30 */
+    int64_t frame_count;       /* default 300 (10 s); -1 = endless */
+    bool enable_noise;         /* default true: axial noise, dropout, flying pixels, edge filter */
+    bool enable_edge_filter;   /* default true: the driver's invalid band at silhouettes */
+    bool enable_color;         /* default true */
+    bool enable_truth;         /* default true; false saves the truth planes' time */
+    int32_t color_width, color_height; /* default 960 x 540; fx scales with the width */
+    rlf_pool *pool;                    /* borrowed; NULL = one thread */
+} rlf_synthetic_def;
+
+RLF_API rlf_synthetic_def rlf_synthetic_def_default(void);
+
+/* Same def, same bits, on every machine and for every pool size. */
+RLF_API rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source **out);
+
+/* Reads "synthetic:NAME[?key=value[&key=value...]]" into *def: NAME one of room, empty, thesis,
+ * chair, book, hand; keys seed, frames, fps, noise (0|1), edge_filter (0|1), color (WxH or 0).
+ * RLF_ERROR_INVALID names the part that is wrong and what is allowed. */
+RLF_API rlf_result rlf_synthetic_parse(const char *source, rlf_synthetic_def *def);
+
+/* True surface point nearest along the true scene at this instant of a source made by
+ * rlf_synthetic_create: signed distance from p (camera frame, metres; negative inside a solid) and
+ * the outward unit normal there. For checking collisions against truth.
+ * RLF_ERROR_INVALID when the source is not a synthetic one. */
+RLF_API rlf_result rlf_synthetic_distance(rlf_source *source, rlf_vec3 p, double *out_distance,
+                                          rlf_vec3 *out_normal, int32_t *out_label);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

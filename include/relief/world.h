@@ -1,0 +1,143 @@
+/* Relief: the physics stage. Rigid bodies among real surfaces.
+ *
+ * Physics knows no camera: the real surface comes in as an rlf_grid, planes plus a projection.
+ * SPDX-License-Identifier: MIT */
+#ifndef RELIEF_WORLD_H
+#define RELIEF_WORLD_H
+
+#include "relief/snapshot.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- the real surface as physics sees it
+ * --------------------------------------------------------- */
+
+/* One sheet of the organised grid, in the grid's frame. Planes are width*height, row-major. */
+typedef struct rlf_grid_sheet {
+    const float *depth;                          /* z, metres; 0 = none. NULL = no such sheet */
+    const float *normal_x, *normal_y, *normal_z; /* unit towards the camera, or 0 */
+    const float *velocity_x, *velocity_y, *velocity_z; /* m/s; NULL = still */
+    const float *thickness; /* solid behind depth along z, metres; NULL = endlessly thick */
+    const int32_t *label;   /* region label; may be NULL */
+    const uint8_t *mask;    /* only pixels with mask != 0 belong to the sheet; NULL = all */
+} rlf_grid_sheet;
+
+/* A region with its points, for the thesis's broad and narrow phase. */
+typedef struct rlf_grid_region {
+    int32_t label;
+    bool is_foreground;
+    rlf_aabb box;          /* grid frame, metres */
+    const int32_t *points; /* pixel indices; NULL when not kept */
+    int32_t point_count;
+} rlf_grid_region;
+
+/* Projects a point of the grid frame to grid pixel coordinates; false when not visible. */
+typedef bool (*rlf_project_fn)(const void *context, rlf_vec3 p, double *out_u, double *out_v);
+
+typedef struct rlf_grid {
+    int32_t width, height;
+    const float *ray_x, *ray_y; /* point = depth * (ray_x, ray_y, 1) */
+    rlf_grid_sheet background;  /* what stays */
+    rlf_grid_sheet foreground;  /* what moves in front of it: mask says where */
+    const rlf_grid_region *regions;
+    int32_t region_count;
+    rlf_project_fn project;
+    const void *project_context;
+    double pixel_angle;    /* approximate radians per grid pixel, for footprint sizes */
+    rlf_pose T_world_grid; /* camera pose in the world */
+    int64_t time_ns;       /* when it was seen */
+} rlf_grid;
+
+/* ---- world
+ * ------------------------------------------------------------------------------------------ */
+
+typedef enum rlf_physics_method {
+    RLF_PHYSICS_LIVE = 0, /* substeps, grid collider on both sheets with surface velocity */
+    RLF_PHYSICS_THESIS =
+        1 /* chapter 4.3: Euler, matrix orientation, region boxes, point impulses */
+} rlf_physics_method;
+
+typedef struct rlf_world_def {
+    uint32_t cookie;
+    rlf_physics_method method;
+    rlf_vec3 gravity;          /* m/s^2; default (0, 9.81, 0): y is down */
+    int32_t body_capacity;     /* default 1024 */
+    int32_t contact_capacity;  /* default 16384 */
+    double step_hz;            /* live: fixed steps per second, default 240 */
+    double contact_distance_m; /* thesis: tau of Algorithm 3; default 0 = derived from the grid */
+    double max_speed;          /* m/s; bodies are clamped to it. default 50 */
+    rlf_aabb bounds;           /* bodies whose centre leaves it are removed from the simulation
+                                  (Algorithm 1: "while x(t) is within the scene"); default +-20 m */
+    rlf_pool *pool;            /* borrowed; NULL = one thread */
+} rlf_world_def;
+
+RLF_API rlf_world_def rlf_world_def_default(void);
+
+typedef struct rlf_body_def {
+    uint32_t cookie;
+    char name[RLF_NAME_MAX];   /* default "" = "body-N" */
+    rlf_shape shape;           /* default box 0.1 m */
+    double mass;               /* kg, > 0; default 0.1 */
+    rlf_vec3 position;         /* world, metres; default (0, 0, 1) */
+    rlf_quat orientation;      /* default identity */
+    rlf_vec3 velocity;         /* m/s */
+    rlf_vec3 angular_velocity; /* rad/s */
+    double restitution;        /* 0..1, default 0.5 */
+    double friction;           /* >= 0, default 0.5 */
+    double gravity_scale;      /* default 1 */
+    double release_time;       /* s; held still before. default 0 */
+    bool collides_with_bodies; /* default true */
+    float color[3];            /* sRGB 0..1, default orange */
+} rlf_body_def;
+
+RLF_API rlf_body_def rlf_body_def_default(void);
+
+typedef struct rlf_world rlf_world;
+
+/* Allocates everything. RLF_ERROR_INVALID names the def's field that is wrong. */
+RLF_API rlf_result rlf_world_create(const rlf_world_def *def, rlf_world **out);
+RLF_API void rlf_world_destroy(rlf_world **world);
+
+/* Adds a body (between advances). RLF_ERROR_INVALID names the field: non-finite numbers, mass <= 0,
+ * a size <= 0 or > 100 m, restitution outside 0..1. RLF_ERROR_CAPACITY when the world is full. */
+RLF_API rlf_result rlf_world_add_body(rlf_world *world, const rlf_body_def *def,
+                                      rlf_body_id *out_id);
+/* Removes a body; a stale or null id does nothing. */
+RLF_API void rlf_world_remove_body(rlf_world *world, rlf_body_id id);
+/* True when the id names a living body. */
+RLF_API bool rlf_world_has_body(const rlf_world *world, rlf_body_id id);
+/* Moves a body and sets its velocities. False for a stale id or non-finite values. */
+RLF_API bool rlf_world_set_body(rlf_world *world, rlf_body_id id, const rlf_pose *T_world_body,
+                                rlf_vec3 velocity, rlf_vec3 angular_velocity);
+/* Applies an impulse (N s) at a world point: eq. 4.13 to 4.15. False for a stale id. */
+RLF_API bool rlf_world_apply_impulse(rlf_world *world, rlf_body_id id, rlf_vec3 impulse,
+                                     rlf_vec3 point);
+/* Adds a force (N) at a world point that acts during the next advance: eq. 4.6 and 4.7. */
+RLF_API bool rlf_world_apply_force(rlf_world *world, rlf_body_id id, rlf_vec3 force,
+                                   rlf_vec3 point);
+
+/* Advances time by dt seconds (0 < dt <= 1; else nothing happens) against the surface `grid`, which
+ * may be NULL for empty space and is only read during the call. Allocates nothing. Results do not
+ * depend on the pool. Thread-safety: one call at a time per world. */
+RLF_API void rlf_world_advance(rlf_world *world, const rlf_grid *grid, double dt);
+
+/* State after the last advance; valid until the next call that changes the world. */
+RLF_API const rlf_snapshot *rlf_world_get_snapshot(const rlf_world *world);
+/* Removes all bodies and sets the time to 0. */
+RLF_API void rlf_world_reset(rlf_world *world);
+/* 64-bit hash (FNV-1a over the bits of all poses and velocities, in id order). */
+RLF_API uint64_t rlf_world_hash(const rlf_world *world);
+
+/* Kinetic plus potential energy (gravity, zero at the origin), J: for tests. */
+RLF_API double rlf_world_energy(const rlf_world *world);
+
+/* Inertia tensor of a solid shape of the given mass about its origin, body frame (C.1 and its kin).
+ */
+RLF_API rlf_mat3 rlf_shape_inertia(const rlf_shape *shape, double mass);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,129 @@
+/* Log, assert and allocator hooks: the only global state of the library. */
+#include "relief/base.h"
+
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define ALIGNMENT 64
+
+static void log_to_stderr(void *context, rlf_log_level level, const char *line)
+{
+    (void)context;
+    if (level <= RLF_LOG_WARNING) {
+        fprintf(stderr, "relief: %s%s\n", level == RLF_LOG_WARNING ? "warning: " : "", line);
+    }
+}
+
+static bool assert_default(void *context, const char *condition, const char *file, int line)
+{
+    (void)context;
+    rlf_log(RLF_LOG_ERROR, "%s:%d: the call breaks its contract: %s", file, line, condition);
+#ifdef NDEBUG
+    return false;
+#else
+    return true;
+#endif
+}
+
+static void *alloc_default(void *context, size_t size)
+{
+    (void)context;
+    return aligned_alloc(ALIGNMENT, size);
+}
+
+static void free_default(void *context, void *memory)
+{
+    (void)context;
+    free(memory);
+}
+
+static rlf_log_fn log_fn = log_to_stderr;
+static void *log_context;
+static rlf_assert_fn assert_fn = assert_default;
+static void *assert_context;
+static rlf_alloc_fn alloc_fn = alloc_default;
+static rlf_free_fn free_fn = free_default;
+static void *alloc_context;
+static atomic_uint_fast64_t alloc_calls;
+
+void rlf_set_log(rlf_log_fn fn, void *context)
+{
+    log_fn = fn;
+    log_context = context;
+}
+
+void rlf_log(rlf_log_level level, const char *format, ...)
+{
+    if (log_fn == NULL) {
+        return;
+    }
+    char line[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof(line), format, arguments);
+    va_end(arguments);
+    log_fn(log_context, level, line);
+}
+
+void rlf_set_assert(rlf_assert_fn fn, void *context)
+{
+    assert_fn = fn != NULL ? fn : assert_default;
+    assert_context = context;
+}
+
+bool rlf_assert_failed(const char *condition, const char *file, int line)
+{
+    if (assert_fn(assert_context, condition, file, line)) {
+        abort();
+    }
+    return false;
+}
+
+void rlf_set_allocator(rlf_alloc_fn alloc, rlf_free_fn release, void *context)
+{
+    bool is_complete = alloc != NULL && release != NULL;
+    alloc_fn = is_complete ? alloc : alloc_default;
+    free_fn = is_complete ? release : free_default;
+    alloc_context = context;
+}
+
+void *rlf_alloc(size_t size)
+{
+    if (size > SIZE_MAX - ALIGNMENT) {
+        rlf_fail(RLF_ERROR_MEMORY, "out of memory: %zu bytes asked for", size);
+        return NULL;
+    }
+    size_t rounded = size == 0 ? ALIGNMENT : (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    atomic_fetch_add_explicit(&alloc_calls, 1, memory_order_relaxed);
+    void *memory = alloc_fn(alloc_context, rounded);
+    if (memory == NULL) {
+        rlf_fail(RLF_ERROR_MEMORY, "out of memory: %zu bytes asked for", size);
+        return NULL;
+    }
+    memset(memory, 0, rounded);
+    return memory;
+}
+
+void *rlf_alloc_array(size_t count, size_t size)
+{
+    if (size != 0 && count > SIZE_MAX / size) {
+        rlf_fail(RLF_ERROR_MEMORY, "out of memory: %zu x %zu bytes asked for", count, size);
+        return NULL;
+    }
+    return rlf_alloc(count * size);
+}
+
+void rlf_free(void *memory)
+{
+    if (memory != NULL) {
+        free_fn(alloc_context, memory);
+    }
+}
+
+uint64_t rlf_alloc_count(void)
+{
+    return atomic_load_explicit(&alloc_calls, memory_order_relaxed);
+}

@@ -1,0 +1,101 @@
+/* Error line, allocator hooks and the worker pool. */
+#include <cmocka.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "relief/base.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void error_line_is_one_line(void **state)
+{
+    (void)state;
+    assert_int_equal(rlf_fail(RLF_ERROR_IO, "a\nb %d", 3), RLF_ERROR_IO);
+    assert_string_equal(rlf_error_text(), "a b 3");
+    assert_int_equal(rlf_fail(RLF_ERROR_IO, "file: %s", rlf_error_text()), RLF_ERROR_IO);
+    assert_string_equal(rlf_error_text(), "file: a b 3");
+    assert_string_equal(rlf_result_name(RLF_ERROR_FORMAT), "RLF_ERROR_FORMAT");
+}
+
+static void allocations_are_aligned_zeroed_and_counted(void **state)
+{
+    (void)state;
+    uint64_t before = rlf_alloc_count();
+    unsigned char *memory = rlf_alloc(100);
+    assert_non_null(memory);
+    assert_int_equal((uintptr_t)memory % 64, 0);
+    for (int i = 0; i < 100; i++) {
+        assert_int_equal(memory[i], 0);
+    }
+    rlf_free(memory);
+    assert_null(rlf_alloc_array(SIZE_MAX / 2, 4));
+    assert_int_equal(rlf_alloc_count() - before, 1);
+}
+
+static bool note_assert(void *context, const char *condition, const char *file, int line)
+{
+    (void)condition;
+    (void)file;
+    (void)line;
+    ++*(int *)context;
+    return false;
+}
+
+static void failed_assertion_is_a_safe_no_op(void **state)
+{
+    (void)state;
+    int count = 0;
+    rlf_set_assert(note_assert, &count);
+    rlf_parallel_for(NULL, 10, 0, NULL, NULL);
+    assert_int_equal(count, 1);
+    rlf_set_assert(NULL, NULL);
+}
+
+typedef struct sums {
+    int64_t chunk[100];
+} sums;
+
+static void sum_chunk(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    sums *s = context;
+    for (int32_t i = begin; i < end; i++) {
+        s->chunk[begin / 7] += i;
+    }
+}
+
+static void parallel_for_covers_the_range_once(void **state)
+{
+    (void)state;
+    for (int32_t workers = 1; workers <= 4; workers++) {
+        rlf_pool *pool = NULL;
+        assert_int_equal(rlf_pool_create(workers, &pool), RLF_OK);
+        for (int repeat = 0; repeat < 200; repeat++) {
+            sums s = {{0}};
+            rlf_parallel_for(pool, 500, 7, sum_chunk, &s);
+            int64_t total = 0;
+            for (int i = 0; i < 100; i++) {
+                total += s.chunk[i];
+            }
+            assert_int_equal(total, 499 * 500 / 2);
+        }
+        rlf_pool_destroy(&pool);
+        assert_null(pool);
+    }
+    rlf_pool *pool = NULL;
+    assert_int_equal(rlf_pool_create(-1, &pool), RLF_ERROR_INVALID);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(error_line_is_one_line),
+        cmocka_unit_test(allocations_are_aligned_zeroed_and_counted),
+        cmocka_unit_test(failed_assertion_is_a_safe_no_op),
+        cmocka_unit_test(parallel_for_covers_the_range_once),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

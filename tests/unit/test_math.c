@@ -1,0 +1,87 @@
+/* Elementary functions against libm, poses and matrices against their defining properties. */
+#include <cmocka.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "relief/math.h"
+
+#include <math.h>
+
+static void elementary_functions_agree_with_libm(void **state)
+{
+    (void)state;
+    for (int i = -20000; i <= 20000; i++) {
+        double x = i * 0.00137;
+        assert_true(fabs(rlf_sin(x) - sin(x)) < 3e-15);
+        assert_true(fabs(rlf_cos(x) - cos(x)) < 3e-15);
+        assert_true(fabs(rlf_exp(x) / exp(x) - 1.0) < 1e-14);
+        assert_true(fabs(rlf_acos(x / 30.0) - acos(x / 30.0 > 1 ? 1 : (x < -30 ? -1 : x / 30))) <
+                    1e-14);
+        assert_true(fabs(rlf_atan2(x, 1.3) - atan2(x, 1.3)) < 2e-15);
+        assert_true(fabs(rlf_atan2(-0.7, x) - atan2(-0.7, x)) < 2e-15);
+        if (i > 0) {
+            assert_true(fabs(rlf_log_e(x) - log(x)) < 1e-14);
+        }
+    }
+    assert_true(rlf_sin(1e9) == 0.0);
+    assert_true(rlf_exp(-1000.0) == 0.0);
+}
+
+static void poses_compose_and_invert(void **state)
+{
+    (void)state;
+    rlf_pose a = {{1, -2, 3},
+                  rlf_quat_from_axis_angle(rlf_normalize(rlf_vec3_make(1, 2, -1)), 1.1)};
+    rlf_pose b = {{0.5, 0.1, -4}, rlf_quat_from_rotation_vector(rlf_vec3_make(-0.3, 2.5, 0.4))};
+    rlf_vec3 p = rlf_vec3_make(0.2, -0.7, 1.9);
+    rlf_pose ab = rlf_pose_mul(&a, &b);
+    rlf_vec3 direct = rlf_transform(&a, rlf_transform(&b, p));
+    assert_true(rlf_length(rlf_sub(direct, rlf_transform(&ab, p))) < 1e-14);
+    assert_true(rlf_length(rlf_sub(p, rlf_transform_inverse(&ab, direct))) < 1e-14);
+    rlf_pose inverse = rlf_pose_invert(&ab);
+    assert_true(rlf_length(rlf_sub(p, rlf_transform(&inverse, direct))) < 1e-14);
+    rlf_mat3 R = rlf_quat_to_mat3(b.q);
+    rlf_quat q = rlf_quat_from_mat3(&R);
+    double dot = q.x * b.q.x + q.y * b.q.y + q.z * b.q.z + q.w * b.q.w;
+    assert_true(fabs(fabs(dot) - 1.0) < 1e-14);
+}
+
+static void inverse_of_a_matrix(void **state)
+{
+    (void)state;
+    rlf_mat3 a = {{{2, 1, 0.5}, {-1, 3, 0.25}, {0.1, 0.2, 4}}};
+    rlf_mat3 inverse;
+    assert_true(rlf_mat3_invert(&a, &inverse));
+    rlf_mat3 product = rlf_mat3_mul(&a, &inverse);
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            assert_true(fabs(product.m[i][j] - (i == j)) < 1e-14);
+        }
+    }
+    rlf_mat3 singular = {{{1, 2, 3}, {2, 4, 6}, {0, 1, 1}}};
+    assert_false(rlf_mat3_invert(&singular, &inverse));
+}
+
+static void model_matrix_scales_then_rotates_then_translates(void **state)
+{
+    (void)state;
+    rlf_pose T = {{1, 2, 3}, rlf_quat_from_axis_angle(rlf_vec3_make(0, 0, 1), RLF_PI / 2)};
+    rlf_mat4 m = rlf_mat4_model(&T, rlf_vec3_make(2, 3, 4));
+    /* (1,0,0) -> scaled (2,0,0) -> rotated (0,2,0) -> moved (1,4,3) */
+    assert_true(fabs(m.m[0][0] + m.m[0][3] - 1.0) < 1e-14);
+    assert_true(fabs(m.m[1][0] + m.m[1][3] - 4.0) < 1e-14);
+    assert_true(fabs(m.m[2][0] + m.m[2][3] - 3.0) < 1e-14);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(elementary_functions_agree_with_libm),
+        cmocka_unit_test(poses_compose_and_invert),
+        cmocka_unit_test(inverse_of_a_matrix),
+        cmocka_unit_test(model_matrix_scales_then_rotates_then_translates),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
