@@ -1,9 +1,10 @@
 /* Error line, allocator hooks and the worker pool. */
-#include <cmocka.h>
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <cmocka.h>
 
 #include "relief/base.h"
 

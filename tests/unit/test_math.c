@@ -1,9 +1,10 @@
 /* Elementary functions against libm, poses and matrices against their defining properties. */
-#include <cmocka.h>
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <cmocka.h>
 
 #include "relief/math.h"
 
