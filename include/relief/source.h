@@ -44,8 +44,8 @@ typedef struct rlf_source rlf_source;
 
 /* Methods of a custom source; `self` is the context given at creation. */
 typedef struct rlf_source_methods {
-    /* Fills *out_frame; its planes stay valid until the next call. RLF_OK, RLF_NO_FRAME, RLF_END or
-     * an error. out_frame->rig is set by the caller. Required. */
+    /* Fills *out_frame; its planes stay valid until the next call that returns RLF_OK. Returns
+     * RLF_OK, RLF_NO_FRAME, RLF_END or an error. out_frame->rig is set by the caller. Required. */
     rlf_result (*next)(void *self, rlf_frame *out_frame);
     /* Starts again with the first frame. NULL = cannot. */
     rlf_result (*restart)(void *self);
@@ -64,7 +64,8 @@ RLF_API void rlf_source_destroy(rlf_source **source);
 
 /* Constant for the source's life. */
 RLF_API const rlf_source_info *rlf_source_get_info(const rlf_source *source);
-/* Next frame; its planes are the source's and stay valid until the next call.
+/* Next frame; its planes are the source's and stay valid until the next call that returns RLF_OK:
+ * a call that gives no frame leaves the last one alone.
  * Thread-safety: one thread at a time. */
 RLF_API rlf_result rlf_source_next(rlf_source *source, rlf_frame *out_frame);
 /* RLF_ERROR_UNSUPPORTED when the source cannot start again. */

@@ -1,0 +1,339 @@
+/* The frame loop: capture, surface, physics, render, in this order, one frame at a time. */
+#include "relief/pipeline.h"
+
+#include "base/cookie.h"
+#include "pipeline/grid.h"
+
+#include <string.h>
+
+#define OVERLAY_LINES_MAX 32
+#define OVERLAY_LINE_SIZE 128
+#define ADVANCE_MAX_S 1.0 /* a longer gap between frames advances physics by this much only */
+
+struct rlf_pipeline {
+    rlf_pipeline_def def;
+    rlf_scene scene; /* copy; hulls stay the caller's */
+    rlf_reconstruct *reconstruct;
+    rlf_world *world;
+    rlf_compositor *compositor;
+    rlf_compositor_def compositor_def;
+    float *ray_x, *ray_y; /* rays of the grid, for the compositor */
+    rlf_grid_region *regions;
+    int32_t region_capacity;
+
+    rlf_view view;
+    char overlay[OVERLAY_LINES_MAX][OVERLAY_LINE_SIZE];
+    const char *overlay_lines[OVERLAY_LINES_MAX];
+    int32_t overlay_count;
+
+    int64_t frame_index; /* of the next frame */
+    int64_t first_time_ns, last_time_ns;
+    rlf_pipeline_output last;
+};
+
+rlf_pipeline_def rlf_pipeline_def_default(rlf_profile profile, rlf_source *source, rlf_pool *pool)
+{
+    rlf_pipeline_def def;
+    memset(&def, 0, sizeof(def));
+    def.cookie = RLF_DEF_COOKIE;
+    def.profile = profile;
+    def.source = source;
+    def.enable_render = true;
+    def.T_world_camera = rlf_pose_identity();
+    def.pool = pool;
+    if (!RLF_ASSERT(source != NULL)) {
+        return def;
+    }
+    const rlf_rig *rig = &rlf_source_get_info(source)->rig;
+    bool is_thesis = profile == RLF_PROFILE_THESIS;
+    def.reconstruct = rlf_reconstruct_def_default(profile, rig);
+    def.reconstruct.pool = pool;
+    def.world = rlf_world_def_default();
+    def.world.method = is_thesis ? RLF_PHYSICS_THESIS : RLF_PHYSICS_LIVE;
+    def.world.pool = pool;
+    def.compositor = rlf_compositor_def_default();
+    def.compositor.rig = *rig;
+    def.compositor.occlusion = is_thesis ? RLF_OCCLUSION_THESIS : RLF_OCCLUSION_DEPTH;
+    def.compositor.pool = pool;
+    return def;
+}
+
+static rlf_result copy_scene(rlf_pipeline *p, const rlf_scene *scene)
+{
+    p->scene.gravity = p->def.world.gravity;
+    if (scene == NULL) {
+        return RLF_OK;
+    }
+    p->scene.gravity = scene->gravity;
+    p->scene.body_count = scene->body_count;
+    p->scene.bodies = rlf_alloc_array((size_t)scene->body_count, sizeof(*scene->bodies));
+    if (p->scene.bodies == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    if (scene->body_count > 0) {
+        memcpy(p->scene.bodies, scene->bodies, (size_t)scene->body_count * sizeof(*scene->bodies));
+    }
+    return RLF_OK;
+}
+
+static rlf_result add_bodies(rlf_pipeline *p)
+{
+    for (int32_t i = 0; i < p->scene.body_count; i++) {
+        rlf_body_id id;
+        rlf_result result = rlf_world_add_body(p->world, &p->scene.bodies[i], &id);
+        if (result != RLF_OK) {
+            return result;
+        }
+    }
+    return RLF_OK;
+}
+
+/* Rays of the decimated grid for the compositor; the surface's own are not known before the first
+ * frame. */
+static rlf_result make_rays(rlf_pipeline *p, const rlf_camera *depth)
+{
+    rlf_camera grid = rlf_camera_decimate(depth, p->def.reconstruct.scale_factor);
+    size_t count = (size_t)grid.width * (size_t)grid.height;
+    p->ray_x = rlf_alloc_array(count, sizeof(float));
+    p->ray_y = rlf_alloc_array(count, sizeof(float));
+    if (p->ray_x == NULL || p->ray_y == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    for (int32_t i = 0; i < (int32_t)count; i++) {
+        rlf_vec3 ray;
+        if (rlf_camera_unproject(&grid, i % grid.width, i / grid.width, &ray)) {
+            p->ray_x[i] = (float)ray.x;
+            p->ray_y[i] = (float)ray.y;
+        }
+    }
+    p->compositor_def.grid = grid;
+    p->compositor_def.ray_x = p->ray_x;
+    p->compositor_def.ray_y = p->ray_y;
+    return RLF_OK;
+}
+
+static rlf_result create_stages(rlf_pipeline *p)
+{
+    rlf_result result = rlf_reconstruct_create(&p->def.reconstruct, &p->reconstruct);
+    if (result != RLF_OK) {
+        return result;
+    }
+    p->def.world.gravity = p->scene.gravity;
+    result = rlf_world_create(&p->def.world, &p->world);
+    if (result != RLF_OK) {
+        return result;
+    }
+    p->region_capacity = 2 * p->def.reconstruct.region_capacity + 2; /* two layers */
+    p->regions = rlf_alloc_array((size_t)p->region_capacity, sizeof(*p->regions));
+    if (p->regions == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    p->compositor_def = p->def.compositor;
+    result = make_rays(p, &p->def.reconstruct.rig.depth);
+    if (result != RLF_OK || !p->def.enable_render) {
+        return result;
+    }
+    return rlf_compositor_create_soft(&p->compositor_def, &p->compositor);
+}
+
+rlf_result rlf_pipeline_create(const rlf_pipeline_def *def, rlf_pipeline **out)
+{
+    if (!RLF_ASSERT(out != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    *out = NULL;
+    if (!RLF_ASSERT(def != NULL && def->cookie == RLF_DEF_COOKIE && def->source != NULL)) {
+        return rlf_fail(RLF_ERROR_INVALID, "pipeline def: start from rlf_pipeline_def_default");
+    }
+    rlf_pipeline *p = rlf_alloc(sizeof(*p));
+    if (p == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    p->def = *def;
+    rlf_result result = copy_scene(p, def->scene);
+    if (result == RLF_OK) {
+        result = create_stages(p);
+    }
+    if (result == RLF_OK) {
+        result = add_bodies(p);
+    }
+    if (result != RLF_OK) {
+        rlf_pipeline_destroy(&p);
+        return result;
+    }
+    for (int32_t i = 0; i < OVERLAY_LINES_MAX; i++) {
+        p->overlay_lines[i] = p->overlay[i];
+    }
+    *out = p;
+    return RLF_OK;
+}
+
+void rlf_pipeline_destroy(rlf_pipeline **pipeline)
+{
+    if (pipeline == NULL || *pipeline == NULL) {
+        return;
+    }
+    rlf_pipeline *p = *pipeline;
+    *pipeline = NULL;
+    rlf_compositor_destroy(&p->compositor);
+    rlf_world_destroy(&p->world);
+    rlf_reconstruct_destroy(&p->reconstruct);
+    rlf_free(p->regions);
+    rlf_free(p->ray_x);
+    rlf_free(p->ray_y);
+    rlf_free(p->scene.bodies);
+    rlf_free(p);
+}
+
+rlf_result rlf_pipeline_set_compositor(rlf_pipeline *p, rlf_compositor *compositor)
+{
+    if (!RLF_ASSERT(p != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    rlf_compositor *fresh = compositor;
+    if (fresh == NULL) {
+        rlf_result result = rlf_compositor_create_soft(&p->compositor_def, &fresh);
+        if (result != RLF_OK) {
+            return result;
+        }
+    }
+    rlf_compositor_destroy(&p->compositor);
+    p->compositor = fresh;
+    p->def.enable_render = true;
+    return RLF_OK;
+}
+
+rlf_compositor_def rlf_pipeline_get_compositor_def(const rlf_pipeline *p)
+{
+    return p->compositor_def;
+}
+
+void rlf_pipeline_set_view(rlf_pipeline *p, rlf_view view)
+{
+    if (RLF_ASSERT(p != NULL && view >= 0 && view < RLF_VIEW_COUNT)) {
+        p->view = view;
+    }
+}
+
+void rlf_pipeline_set_overlay(rlf_pipeline *p, const char *const *lines, int32_t count)
+{
+    if (!RLF_ASSERT(p != NULL && (lines != NULL || count == 0))) {
+        return;
+    }
+    p->overlay_count = count < OVERLAY_LINES_MAX ? count : OVERLAY_LINES_MAX;
+    for (int32_t i = 0; i < p->overlay_count; i++) {
+        size_t length = strlen(lines[i]);
+        length = length < OVERLAY_LINE_SIZE ? length : OVERLAY_LINE_SIZE - 1;
+        memcpy(p->overlay[i], lines[i], length);
+        p->overlay[i][length] = '\0';
+    }
+}
+
+static double elapsed_ms(int64_t *since_ns)
+{
+    int64_t now = rlf_clock_ns();
+    double ms = (double)(now - *since_ns) * 1e-6;
+    *since_ns = now;
+    return ms;
+}
+
+static void advance_world(rlf_pipeline *p)
+{
+    rlf_pipeline_output *out = &p->last;
+    rlf_grid grid;
+    grid_from_surface(out->surface, &p->def.T_world_camera, p->regions, p->region_capacity, &grid);
+    bool is_first = p->frame_index == 0;
+    double dt = is_first ? 0.0 : (double)(out->frame.time_ns - p->last_time_ns) * 1e-9;
+    if (dt > 0.0) {
+        rlf_world_advance(p->world, &grid, rlf_min(dt, ADVANCE_MAX_S));
+    }
+    if (is_first) {
+        p->first_time_ns = out->frame.time_ns;
+    }
+    p->last_time_ns = out->frame.time_ns;
+    out->time_s = (double)(out->frame.time_ns - p->first_time_ns) * 1e-9;
+    out->snapshot = rlf_world_get_snapshot(p->world);
+}
+
+static rlf_result render(rlf_pipeline *p)
+{
+    memset(&p->last.render, 0, sizeof(p->last.render));
+    if (!p->def.enable_render) {
+        return RLF_OK;
+    }
+    rlf_render_input input = {
+        .frame = &p->last.frame,
+        .surface = p->last.surface,
+        .snapshot = p->last.snapshot,
+        .T_world_camera = p->def.T_world_camera,
+        .view = p->view,
+        .overlay = p->overlay_lines,
+        .overlay_count = p->overlay_count,
+    };
+    return rlf_compositor_render(p->compositor, &input, &p->last.render);
+}
+
+rlf_result rlf_pipeline_step(rlf_pipeline *p, rlf_pipeline_output *out)
+{
+    if (!RLF_ASSERT(p != NULL && out != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    rlf_pipeline_output *last = &p->last;
+    int64_t clock = rlf_clock_ns();
+    rlf_frame frame;
+    rlf_result result = rlf_source_next(p->def.source, &frame);
+    if (result != RLF_OK) {
+        return result;
+    }
+    last->frame = frame;
+    last->times.capture_ms = elapsed_ms(&clock);
+    result = rlf_reconstruct_process(p->reconstruct, &last->frame, &last->surface);
+    if (result != RLF_OK) {
+        return result;
+    }
+    last->times.surface_ms = elapsed_ms(&clock);
+    advance_world(p);
+    last->times.physics_ms = elapsed_ms(&clock);
+    result = render(p);
+    if (result != RLF_OK) {
+        return result;
+    }
+    last->times.render_ms = elapsed_ms(&clock);
+    last->frame_index = p->frame_index++;
+    *out = *last;
+    return RLF_OK;
+}
+
+rlf_result rlf_pipeline_redraw(rlf_pipeline *p, rlf_pipeline_output *out)
+{
+    if (!RLF_ASSERT(p != NULL && out != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    if (p->frame_index == 0) {
+        return RLF_NO_FRAME;
+    }
+    p->last.snapshot = rlf_world_get_snapshot(p->world);
+    rlf_result result = render(p);
+    *out = p->last;
+    return result;
+}
+
+rlf_result rlf_pipeline_restart(rlf_pipeline *p)
+{
+    if (!RLF_ASSERT(p != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    rlf_result result = rlf_source_restart(p->def.source);
+    if (result != RLF_OK) {
+        return result;
+    }
+    rlf_reconstruct_reset(p->reconstruct);
+    rlf_world_reset(p->world);
+    p->frame_index = 0;
+    return add_bodies(p);
+}
+
+rlf_world *rlf_pipeline_get_world(rlf_pipeline *p)
+{
+    return p->world;
+}
