@@ -1,0 +1,116 @@
+/* Procedural textures in integer arithmetic: the same bytes everywhere. */
+#include "body_texture.h"
+
+body_texture_kind body_texture_kind_of(rlf_shape_type type)
+{
+    return type == RLF_SHAPE_BOX || type == RLF_SHAPE_HULL ? BODY_TEXTURE_CRATE
+                                                           : BODY_TEXTURE_STRIPE;
+}
+
+/* Noise 0..15 that is drawn out along x like wood grain. */
+static int32_t wood_grain(int32_t x, int32_t y)
+{
+    uint32_t h = (uint32_t)(x / 16) * 0x9e3779b1u ^ (uint32_t)y * 0x85ebca77u;
+    h ^= h >> 15;
+    h *= 0x2c1b3c6du;
+    h ^= h >> 13;
+    return (int32_t)(h & 15u);
+}
+
+/* Four planks, a frame round them, and a brace from corner to corner that shows orientation. */
+static int32_t crate_brightness(int32_t x, int32_t y)
+{
+    const int32_t n = BODY_TEXTURE_SIZE;
+    const int32_t frame = 14;
+    const int32_t brace = 9;
+    int32_t edge_x = x < n - 1 - x ? x : n - 1 - x;
+    int32_t edge_y = y < n - 1 - y ? y : n - 1 - y;
+    int32_t edge = edge_x < edge_y ? edge_x : edge_y;
+    if (edge < frame) {
+        bool is_upright = edge_x < edge_y;
+        int32_t grain = is_upright ? wood_grain(y, x) : wood_grain(x, y);
+        return edge < 2 ? 150 : 240 + grain;
+    }
+    if (edge < frame + 3) {
+        return 120;
+    }
+    int32_t off_diagonal = x > y ? x - y : y - x;
+    if (off_diagonal < brace) {
+        return 226 + wood_grain(x + y, y - x + n);
+    }
+    if (off_diagonal < brace + 3) {
+        return 130;
+    }
+    int32_t plank = (y - frame) / 25;
+    int32_t in_plank = (y - frame) % 25;
+    return in_plank < 2 ? 125 : 180 + 9 * (plank % 2) + wood_grain(x + 37 * plank, y);
+}
+
+/* Eight bright and dark sectors, with a bright band round the middle. */
+static int32_t stripe_brightness(int32_t x, int32_t y)
+{
+    const int32_t n = BODY_TEXTURE_SIZE;
+    if (y >= n / 2 - 8 && y < n / 2 + 8) {
+        return 235;
+    }
+    return x / (n / 8) % 2 == 0 ? 255 : 150;
+}
+
+static void fill_next_level(const uint8_t *from, int32_t from_size, uint8_t *to)
+{
+    int32_t size = from_size / 2;
+    for (int32_t y = 0; y < size; y++) {
+        for (int32_t x = 0; x < size; x++) {
+            const uint8_t *p = from + 4 * ((size_t)(2 * y) * (size_t)from_size + 2 * (size_t)x);
+            const uint8_t *q = p + 4 * (size_t)from_size;
+            for (int c = 0; c < 4; c++) {
+                *to++ = (uint8_t)((p[c] + p[c + 4] + q[c] + q[c + 4] + 2) / 4);
+            }
+        }
+    }
+}
+
+size_t body_texture_level_offset(int32_t level)
+{
+    size_t offset = 0;
+    for (int32_t i = 0; i < level; i++) {
+        size_t size = (size_t)BODY_TEXTURE_SIZE >> i;
+        offset += 4 * size * size;
+    }
+    return offset;
+}
+
+void body_texture_fill(body_texture_kind kind, uint8_t out[BODY_TEXTURE_BYTES])
+{
+    const int32_t n = BODY_TEXTURE_SIZE;
+    for (int32_t y = 0; y < n; y++) {
+        for (int32_t x = 0; x < n; x++) {
+            uint8_t *p = out + 4 * ((size_t)y * (size_t)n + (size_t)x);
+            int32_t b =
+                kind == BODY_TEXTURE_CRATE ? crate_brightness(x, y) : stripe_brightness(x, y);
+            p[0] = p[1] = p[2] = (uint8_t)b;
+            p[3] = 255;
+        }
+    }
+    for (int32_t level = 1; level < BODY_TEXTURE_LEVELS; level++) {
+        fill_next_level(out + body_texture_level_offset(level - 1), n >> (level - 1),
+                        out + body_texture_level_offset(level));
+    }
+}
+
+int32_t body_texture_level_of(const rlf_shape *shape, double z, double focal)
+{
+    double extent = 2.0 * shape->radius;
+    if (shape->type == RLF_SHAPE_BOX) {
+        extent = rlf_max(shape->size.x, rlf_max(shape->size.y, shape->size.z));
+    } else if (shape->type == RLF_SHAPE_HULL) {
+        extent = 2.0 * rlf_shape_radius(shape);
+    }
+    double pixels = z > 0.0 ? focal * extent / z : BODY_TEXTURE_SIZE;
+    int32_t level = 0;
+    /* The next level when its texels are still no larger than about 1.4 pixels. */
+    while (level < BODY_TEXTURE_LEVELS - 1 && (BODY_TEXTURE_SIZE >> level) > 1.4 * pixels) {
+        level++;
+    }
+    return level;
+}
