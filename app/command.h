@@ -1,0 +1,36 @@
+/* What the subcommands of `relief` share: the table, messages and exit statuses.
+ *
+ * Exit status: 0 done, 1 the input or the machine failed, 2 wrong usage. */
+#ifndef RELIEF_APP_COMMAND_H
+#define RELIEF_APP_COMMAND_H
+
+#include "relief/base.h"
+
+#include <signal.h>
+
+#define EXIT_DONE 0
+#define EXIT_FAILED 1
+#define EXIT_USAGE 2
+
+/* Set by Ctrl-C and SIGTERM; loops look at it once per frame and then close their files. */
+extern volatile sig_atomic_t command_interrupted;
+
+/* Prints "relief COMMAND: message (see `relief COMMAND --help`)" and returns EXIT_USAGE. */
+int command_usage(const char *command, const char *format, ...) RLF_PRINTF(2, 3);
+/* Prints the library's error line and returns EXIT_FAILED. */
+int command_failed(void);
+
+/* Whole-string numbers; false when the text is not one or is out of [low, high]. */
+bool command_parse_int(const char *text, int64_t low, int64_t high, int64_t *out);
+/* "A:B", "A:", ":B" or "N" (= ":N"): frames A <= i < B. */
+bool command_parse_range(const char *text, int64_t *out_begin, int64_t *out_end);
+
+/* One per subcommand; argv[0] is the subcommand's name. */
+int run_main(int argc, char **argv);
+int export_main(int argc, char **argv);
+int info_main(int argc, char **argv);
+int sources_main(int argc, char **argv);
+int eval_main(int argc, char **argv);
+int bench_main(int argc, char **argv);
+
+#endif

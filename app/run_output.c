@@ -1,0 +1,139 @@
+/* Video, pictures and logs of a run. */
+#define _POSIX_C_SOURCE 200809L
+#include "run_output.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#define PROGRESS_INTERVAL_NS INT64_C(500000000)
+#define PATH_SIZE 4096
+
+rlf_result run_output_open(const run_output_options *options, const rlf_source_info *info,
+                           int64_t frame_total, run_output *out)
+{
+    memset(out, 0, sizeof(*out));
+    out->options = *options;
+    out->frames_per_second = info->frames_per_second > 0.0 ? info->frames_per_second : 30.0;
+    out->frame_total = frame_total;
+    out->start_ns = out->last_frame_ns = rlf_clock_ns();
+    if (options->picture_folder != NULL) {
+        rlf_result result = rlf_make_folder(options->picture_folder);
+        if (result != RLF_OK) {
+            return result;
+        }
+    }
+    if (options->log_folder != NULL) {
+        return rlf_csv_log_open(options->log_folder, &out->log);
+    }
+    return RLF_OK;
+}
+
+static rlf_result write_video(run_output *out, const rlf_image_rgba8 *image)
+{
+    if (out->video == NULL) {
+        rlf_result result = rlf_video_open(out->options.video_path, image->width, image->height,
+                                           out->frames_per_second, &out->video);
+        if (result != RLF_OK) {
+            return result;
+        }
+    }
+    return rlf_video_write(out->video, image);
+}
+
+static rlf_result write_picture(run_output *out, const rlf_pipeline_output *frame)
+{
+    char path[PATH_SIZE];
+    int length = snprintf(path, sizeof(path), "%s/%06lld.png", out->options.picture_folder,
+                          (long long)frame->frame_index);
+    if (length < 0 || length >= PATH_SIZE) {
+        return rlf_fail(RLF_ERROR_IO, "%s: the path is too long", out->options.picture_folder);
+    }
+    out->pictures++;
+    return rlf_png_write_rgba(path, &frame->render.image);
+}
+
+static void print_progress(run_output *out)
+{
+    int64_t now = rlf_clock_ns();
+    if (out->options.is_quiet || now - out->last_progress_ns < PROGRESS_INTERVAL_NS ||
+        !isatty(STDERR_FILENO)) {
+        return;
+    }
+    out->last_progress_ns = now;
+    double fps = (double)out->frames / ((double)(now - out->start_ns) * 1e-9);
+    if (out->frame_total > 0) {
+        fprintf(stderr, "\rframe %lld of %lld, %.1f per second ", (long long)out->frames,
+                (long long)out->frame_total, fps);
+    } else {
+        fprintf(stderr, "\rframe %lld, %.1f per second ", (long long)out->frames, fps);
+    }
+}
+
+rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame)
+{
+    const rlf_stage_times *t = &frame->times;
+    timing_add_frame(&out->times, t, t->capture_ms + t->surface_ms + t->physics_ms + t->render_ms);
+    out->frames++;
+    print_progress(out);
+    rlf_result result = RLF_OK;
+    if (out->log != NULL) {
+        result = rlf_csv_log_write(out->log, frame);
+    }
+    if (result == RLF_OK && out->options.video_path != NULL) {
+        result = write_video(out, &frame->render.image);
+    }
+    if (result == RLF_OK && out->options.picture_folder != NULL &&
+        frame->frame_index % out->options.picture_every == 0) {
+        result = write_picture(out, frame);
+    }
+    return result;
+}
+
+rlf_result run_output_close(run_output *out)
+{
+    if (!out->options.is_quiet && isatty(STDERR_FILENO)) {
+        fprintf(stderr, "\r%60s\r", "");
+    }
+    rlf_result video_result = rlf_video_close(&out->video);
+    char video_error[1024];
+    snprintf(video_error, sizeof(video_error), "%s", rlf_error_text());
+    rlf_result log_result = rlf_csv_log_close(&out->log);
+    if (video_result != RLF_OK) {
+        return rlf_fail(video_result, "%s", video_error);
+    }
+    return log_result;
+}
+
+static void print_stage(FILE *file, const char *name, const timing_series *series)
+{
+    fprintf(file, "  %-8s %7.2f %7.2f\n", name, timing_percentile(series, 50),
+            timing_percentile(series, 95));
+}
+
+void run_output_print_summary(const run_output *out, const char *renderer)
+{
+    const run_output_options *o = &out->options;
+    /* A video on stdout must not be mixed with words. */
+    FILE *file = o->video_path != NULL && strcmp(o->video_path, "-") == 0 ? stderr : stdout;
+    const timing *t = &out->times;
+    double median = timing_percentile(&t->frame, 50);
+    fprintf(file, "%lld frames, renderer %s\n", (long long)out->frames, renderer);
+    fprintf(file, "  ms        median     p95\n");
+    print_stage(file, "capture", &t->capture);
+    print_stage(file, "surface", &t->surface);
+    print_stage(file, "physics", &t->physics);
+    print_stage(file, "render", &t->render);
+    print_stage(file, "loop", &t->frame);
+    fprintf(file, "  %.1f frames per second (median of the loop, without writing files)\n",
+            median > 0.0 ? 1000.0 / median : 0.0);
+    if (o->video_path != NULL && file == stdout) {
+        fprintf(file, "video:    %s\n", o->video_path);
+    }
+    if (o->picture_folder != NULL) {
+        fprintf(file, "pictures: %s (%lld)\n", o->picture_folder, (long long)out->pictures);
+    }
+    if (o->log_folder != NULL) {
+        fprintf(file, "logs:     %s/frames.csv, bodies.csv, contacts.csv\n", o->log_folder);
+    }
+}

@@ -1,0 +1,38 @@
+/* What a run leaves behind: video, pictures, logs, progress lines and a summary. */
+#ifndef RELIEF_APP_RUN_OUTPUT_H
+#define RELIEF_APP_RUN_OUTPUT_H
+
+#include "relief/io.h"
+#include "timing.h"
+
+typedef struct run_output_options {
+    const char *video_path;     /* NULL = none */
+    const char *picture_folder; /* NULL = none */
+    int64_t picture_every;      /* frames between pictures, >= 1 */
+    const char *log_folder;     /* NULL = none */
+    bool is_quiet;              /* no progress, no summary */
+    bool print_hash;            /* print the hash of all body states at the end */
+} run_output_options;
+
+typedef struct run_output {
+    run_output_options options;
+    double frames_per_second; /* of the video */
+    int64_t frame_total;      /* for progress; -1 = unknown */
+    rlf_video *video;
+    rlf_csv_log *log;
+    int64_t frames, pictures;
+    int64_t start_ns, last_frame_ns, last_progress_ns;
+    timing times;
+} run_output;
+
+/* Makes the folders and log files. */
+rlf_result run_output_open(const run_output_options *options, const rlf_source_info *info,
+                           int64_t frame_total, run_output *out);
+/* Takes one frame: writes what was asked for and notes the times. */
+rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame);
+/* Finishes all files, also after an error or Ctrl-C. */
+rlf_result run_output_close(run_output *out);
+/* Where things were written, and the median times. */
+void run_output_print_summary(const run_output *out, const char *renderer);
+
+#endif

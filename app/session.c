@@ -1,0 +1,75 @@
+/* Opens and closes what a run needs. */
+#include "session.h"
+
+#include <string.h>
+
+session_options session_options_default(void)
+{
+    session_options options;
+    memset(&options, 0, sizeof(options));
+    options.profile = RLF_PROFILE_LIVE;
+    options.enable_render = true;
+    return options;
+}
+
+bool session_parse_profile(const char *text, rlf_profile *out)
+{
+    bool is_live = strcmp(text, "live") == 0;
+    *out = is_live ? RLF_PROFILE_LIVE : RLF_PROFILE_THESIS;
+    return is_live || strcmp(text, "thesis") == 0;
+}
+
+static rlf_result open_scene(const session_options *options, rlf_scene *out)
+{
+    if (options->scene_path != NULL) {
+        return rlf_scene_load(options->scene_path, out);
+    }
+    if (options->use_default_scene) {
+        return rlf_scene_create_two_cubes(out);
+    }
+    return RLF_OK;
+}
+
+static rlf_result open_all(const session_options *options, session *s)
+{
+    rlf_result result = rlf_pool_create(options->thread_count, &s->pool);
+    if (result != RLF_OK) {
+        return result;
+    }
+    result = rlf_open_source(options->source, s->pool, &s->source);
+    if (result != RLF_OK) {
+        return result;
+    }
+    result = open_scene(options, &s->scene);
+    if (result != RLF_OK) {
+        return result;
+    }
+    rlf_pipeline_def def = rlf_pipeline_def_default(options->profile, s->source, s->pool);
+    if (s->scene.bodies != NULL) {
+        def.scene = &s->scene;
+    }
+    if (options->scale_factor > 0) {
+        def.reconstruct.scale_factor = options->scale_factor;
+    }
+    def.enable_render = options->enable_render;
+    def.compositor.enable_overlay = options->enable_overlay;
+    return rlf_pipeline_create(&def, &s->pipeline);
+}
+
+rlf_result session_open(const session_options *options, session *out)
+{
+    memset(out, 0, sizeof(*out));
+    rlf_result result = open_all(options, out);
+    if (result != RLF_OK) {
+        session_close(out);
+    }
+    return result;
+}
+
+void session_close(session *s)
+{
+    rlf_pipeline_destroy(&s->pipeline);
+    rlf_scene_destroy(&s->scene);
+    rlf_source_destroy(&s->source);
+    rlf_pool_destroy(&s->pool);
+}

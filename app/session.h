@@ -1,0 +1,33 @@
+/* Everything a subcommand opens to run frames: pool, source, scene and pipeline. */
+#ifndef RELIEF_APP_SESSION_H
+#define RELIEF_APP_SESSION_H
+
+#include "relief/io.h"
+
+typedef struct session_options {
+    const char *source;
+    const char *scene_path; /* NULL = the default scene below */
+    bool use_default_scene; /* the thesis's two cubes when there is no scene_path */
+    rlf_profile profile;
+    int32_t scale_factor; /* 0 = the profile's */
+    int32_t thread_count; /* 0 = all processors */
+    bool enable_render;
+    bool enable_overlay;
+} session_options;
+
+typedef struct session {
+    rlf_pool *pool;
+    rlf_source *source;
+    rlf_scene scene;
+    rlf_pipeline *pipeline;
+} session;
+
+session_options session_options_default(void);
+/* Opens all four; on failure everything is closed again. */
+rlf_result session_open(const session_options *options, session *out);
+void session_close(session *s);
+
+/* Reads "live" or "thesis". */
+bool session_parse_profile(const char *text, rlf_profile *out);
+
+#endif
