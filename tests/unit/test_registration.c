@@ -1,0 +1,325 @@
+/* Registration: planes keep their analytic depth, near surfaces win, the parallax shadow lies on
+ * the right side with the right width and takes the far side's depth. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "relief/camera.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct rig {
+    rlf_camera depth, color;
+    float *ray_x, *ray_y, *z;
+    rlf_plane_f32 out;
+    rlf_plane_u8 state;
+    rlf_registration *registration;
+} rig;
+
+static rlf_camera depth_camera(void)
+{
+    rlf_camera camera = {
+        .width = 512, .height = 424, .fx = 365.5, .fy = 365.5, .cx = 255.5, .cy = 211.5};
+    return camera;
+}
+
+static rlf_camera color_camera(void)
+{
+    rlf_camera camera = {
+        .width = 960, .height = 540, .fx = 540.5, .fy = 540.5, .cx = 479.5, .cy = 269.5};
+    return camera;
+}
+
+static rig make_rig(rlf_camera depth, rlf_camera color, rlf_pose T_color_depth)
+{
+    rig g = {.depth = depth, .color = color};
+    size_t count = (size_t)depth.width * (size_t)depth.height;
+    g.ray_x = calloc(count, sizeof(float));
+    g.ray_y = calloc(count, sizeof(float));
+    g.z = calloc(count, sizeof(float));
+    for (int32_t v = 0; v < depth.height; v++) {
+        for (int32_t u = 0; u < depth.width; u++) {
+            rlf_vec3 ray;
+            assert_true(rlf_camera_unproject(&depth, u, v, &ray));
+            g.ray_x[v * depth.width + u] = (float)ray.x;
+            g.ray_y[v * depth.width + u] = (float)ray.y;
+        }
+    }
+    size_t pixels = (size_t)color.width * (size_t)color.height;
+    g.out = (rlf_plane_f32){calloc(pixels, sizeof(float)), color.width, color.height,
+                            color.width * (ptrdiff_t)sizeof(float)};
+    g.state = (rlf_plane_u8){calloc(pixels, 1), color.width, color.height, color.width};
+    assert_int_equal(rlf_registration_create(&g.depth, g.ray_x, g.ray_y, &g.color, &T_color_depth,
+                                             &g.registration),
+                     RLF_OK);
+    return g;
+}
+
+static void free_rig(rig *g)
+{
+    rlf_registration_destroy(&g->registration);
+    assert_null(g->registration);
+    free(g->ray_x);
+    free(g->ray_y);
+    free(g->z);
+    free(g->out.data);
+    free(g->state.data);
+}
+
+static rlf_pose translation(double x, double y, double z)
+{
+    rlf_pose T = rlf_pose_identity();
+    T.p = rlf_vec3_make(x, y, z);
+    return T;
+}
+
+static void same_camera_is_a_copy(void **state)
+{
+    (void)state;
+    rig g = make_rig(depth_camera(), depth_camera(), rlf_pose_identity());
+    int32_t count = g.depth.width * g.depth.height;
+    for (int32_t i = 0; i < count; i++) {
+        g.z[i] = i % 7 == 3 ? 0.0f : 0.6f + 0.001f * (float)(i % 3001);
+    }
+    rlf_registration_apply(g.registration, g.z, &g.out, &g.state);
+    for (int32_t i = 0; i < count; i++) {
+        assert_true(g.out.data[i] == g.z[i]);
+        assert_int_equal(g.state.data[i],
+                         g.z[i] > 0 ? RLF_REGISTERED_VISIBLE : RLF_REGISTERED_EMPTY);
+    }
+    free_rig(&g);
+}
+
+/* A tilted plane n.p = d seen by the depth camera, checked along the colour camera's own rays. */
+static void check_plane(rig *g, const rlf_pose *T, rlf_vec3 n, double d, double max_slope_error)
+{
+    for (int32_t i = 0; i < g->depth.width * g->depth.height; i++) {
+        g->z[i] = (float)(d / (n.x * g->ray_x[i] + n.y * g->ray_y[i] + n.z));
+    }
+    rlf_registration_apply(g->registration, g->z, &g->out, &g->state);
+    rlf_vec3 n_color = rlf_rotate(T->q, n);
+    double d_color = d + rlf_dot(n_color, T->p);
+    int32_t inside = 0;
+    int32_t holes = 0;
+    for (int32_t v = 0; v < g->color.height; v++) {
+        for (int32_t u = 0; u < g->color.width; u++) {
+            rlf_vec3 ray;
+            double du, dv;
+            if (!rlf_camera_unproject(&g->color, u, v, &ray)) {
+                continue;
+            }
+            double z = d_color / rlf_dot(n_color, ray);
+            rlf_vec3 p = rlf_transform_inverse(T, rlf_scale(ray, z));
+            if (!rlf_camera_project(&g->depth, p, &du, &dv) || du < 2 || dv < 2 ||
+                du > g->depth.width - 3 || dv > g->depth.height - 3) {
+                continue;
+            }
+            inside++;
+            float got = rlf_f32_row(&g->out, v)[u];
+            holes += rlf_u8_row(&g->state, v)[u] != RLF_REGISTERED_VISIBLE;
+            assert_int_not_equal(rlf_u8_row(&g->state, v)[u], RLF_REGISTERED_EMPTY);
+            assert_true(fabs(got - z) <= max_slope_error * z);
+        }
+    }
+    assert_true(inside > g->color.width * g->color.height / 2);
+    assert_true(holes <= inside / 200); /* the rectangles themselves leave next to no gaps */
+}
+
+static void planes_keep_their_depth(void **state)
+{
+    (void)state;
+    rlf_pose T = translation(-0.052, 0.001, 0.002);
+    T.q = rlf_quat_from_axis_angle(rlf_normalize(rlf_vec3_make(0.3, 1, 0.2)), 0.01);
+    rig g = make_rig(depth_camera(), color_camera(), T);
+    check_plane(&g, &T, rlf_vec3_make(0, 0, 1), 2.0, 1e-4);
+    /* A rectangle is flat: half a depth pixel and half a colour pixel away the plane has moved. */
+    check_plane(&g, &T, rlf_normalize(rlf_vec3_make(0.4, 0.3, 1)), 1.5, 0.003);
+    free_rig(&g);
+}
+
+static void distorted_colour_camera_sees_the_same_plane(void **state)
+{
+    (void)state;
+    rlf_camera color = color_camera();
+    color.distortion_model = RLF_DISTORTION_PLUMB_BOB;
+    const double k[5] = {0.09, -0.27, 0.001, -0.0007, 0.09};
+    memcpy(color.distortion, k, sizeof(k));
+    rlf_pose T = translation(-0.052, 0, 0);
+    rig g = make_rig(depth_camera(), color, T);
+    check_plane(&g, &T, rlf_vec3_make(0, 0, 1), 2.0, 1e-4);
+    check_plane(&g, &T, rlf_normalize(rlf_vec3_make(-0.5, 0.2, 1)), 1.5, 0.004);
+    free_rig(&g);
+}
+
+/* A near strip before a far wall; returns the shadow's pixels in the middle row. */
+static void two_planes(rig *g, int32_t first, int32_t last, double z_near, double z_far)
+{
+    for (int32_t v = 0; v < g->depth.height; v++) {
+        for (int32_t u = 0; u < g->depth.width; u++) {
+            bool is_near = u >= first && u <= last;
+            g->z[v * g->depth.width + u] = (float)(is_near ? z_near : z_far);
+        }
+    }
+    rlf_registration_apply(g->registration, g->z, &g->out, &g->state);
+}
+
+static void shadow_has_its_side_width_and_depth(void **state)
+{
+    (void)state;
+    const double z_near = 1.5;
+    const double z_far = 3.0;
+    for (int side = -1; side <= 1; side += 2) {
+        double b = 0.052 * side; /* p_color = p_depth - b: the colour camera sits at +b */
+        rig g = make_rig(depth_camera(), color_camera(), translation(-b, 0, 0));
+        two_planes(&g, 200, 299, z_near, z_far);
+        double expected = g.color.fx * 0.052 * (1 / z_near - 1 / z_far);
+        double left = g.color.fx * ((199.5 - g.depth.cx) / g.depth.fx - b / z_near) + g.color.cx;
+        double right = g.color.fx * ((299.5 - g.depth.cx) / g.depth.fx - b / z_near) + g.color.cx;
+        const float *line = rlf_f32_row(&g.out, 270);
+        const uint8_t *known = rlf_u8_row(&g.state, 270);
+        int32_t near_count = 0;
+        int32_t filled = 0;
+        for (int32_t u = 130; u < 830; u++) { /* what the depth camera covers */
+            bool is_near = line[u] == (float)z_near;
+            near_count += is_near;
+            if (u > left + 1 && u < right - 1) {
+                assert_true(is_near && known[u] == RLF_REGISTERED_VISIBLE);
+            }
+            if (known[u] == RLF_REGISTERED_FILLED) {
+                filled++;
+                assert_true(line[u] == (float)z_far);
+                /* A camera to the right looks past the right edge, and the other way round. */
+                double edge = side > 0 ? right : left - expected;
+                assert_true(u > edge - 1.0 && u < edge + expected + 1.0);
+            }
+            assert_int_not_equal(known[u], RLF_REGISTERED_EMPTY);
+        }
+        assert_true(fabs(near_count - (right - left)) <= 1.0);
+        assert_true(fabs(filled - expected) <= 1.0);
+        free_rig(&g);
+    }
+}
+
+static void vertical_baseline_fills_columns(void **state)
+{
+    (void)state;
+    rig g = make_rig(depth_camera(), color_camera(), translation(0, -0.05, 0));
+    for (int32_t i = 0; i < g.depth.width * g.depth.height; i++) {
+        int32_t v = i / g.depth.width;
+        g.z[i] = v >= 180 && v < 240 ? 1.0f : 2.0f;
+    }
+    rlf_registration_apply(g.registration, g.z, &g.out, &g.state);
+    int32_t filled = 0;
+    for (int32_t v = 0; v < g.color.height; v++) {
+        if (rlf_u8_row(&g.state, v)[480] == RLF_REGISTERED_FILLED) {
+            filled++;
+            assert_true(rlf_f32_row(&g.out, v)[480] == 2.0f);
+        }
+    }
+    assert_true(fabs(filled - 540.5 * 0.05 * 0.5) <= 1.0);
+    free_rig(&g);
+}
+
+static void wide_holes_stay_empty(void **state)
+{
+    (void)state;
+    rig g = make_rig(depth_camera(), color_camera(), translation(-0.052, 0, 0));
+    two_planes(&g, 200, 299, 0.0, 3.0);
+    assert_int_equal(rlf_u8_row(&g.state, 270)[470], RLF_REGISTERED_EMPTY);
+    assert_true(rlf_f32_row(&g.out, 270)[470] == 0.0f);
+    memset(g.z, 0, (size_t)g.depth.width * (size_t)g.depth.height * sizeof(float));
+    rlf_registration_apply(g.registration, g.z, &g.out, &g.state);
+    for (int32_t i = 0; i < g.color.width * g.color.height; i++) {
+        assert_int_equal(g.state.data[i], RLF_REGISTERED_EMPTY);
+        assert_true(g.out.data[i] == 0.0f);
+    }
+    free_rig(&g);
+}
+
+/* A small depth grid makes rectangles of many pixels; strides and odd sizes are the caller's. */
+static void coarse_grid_covers_the_picture(void **state)
+{
+    (void)state;
+    rlf_camera full = depth_camera();
+    rlf_pose T = translation(-0.052, 0, 0);
+    rig g = make_rig(rlf_camera_decimate(&full, 8), color_camera(), T);
+    check_plane(&g, &T, rlf_vec3_make(0, 0, 1), 2.0, 1e-4);
+    free_rig(&g);
+    rlf_camera one = {.width = 1, .height = 1, .fx = 1, .fy = 1};
+    rig tiny = make_rig(one, one, rlf_pose_identity());
+    tiny.z[0] = 2.5f;
+    rlf_registration_apply(tiny.registration, tiny.z, &tiny.out, &tiny.state);
+    assert_true(tiny.out.data[0] == 2.5f);
+    free_rig(&tiny);
+}
+
+static void bad_depth_and_padding_are_left_alone(void **state)
+{
+    (void)state;
+    rig g = make_rig(depth_camera(), color_camera(), translation(-0.052, 0.01, -0.3));
+    int32_t count = g.depth.width * g.depth.height;
+    const float odd[6] = {NAN, INFINITY, -1.0f, 1e30f, 1e-30f, 0.29f};
+    for (int32_t i = 0; i < count; i++) {
+        g.z[i] = i % 2 == 0 ? odd[i % 6] : (i % 3 == 0 ? odd[(i / 3) % 6] : 2.0f);
+    }
+    const ptrdiff_t width = g.color.width + 3;
+    float *padded = malloc((size_t)width * (size_t)g.color.height * sizeof(float));
+    for (ptrdiff_t i = 0; i < width * g.color.height; i++) {
+        padded[i] = -7.0f;
+    }
+    rlf_plane_f32 out = {padded, g.color.width, g.color.height, width * (ptrdiff_t)sizeof(float)};
+    uint64_t before = rlf_alloc_count();
+    rlf_registration_apply(g.registration, g.z, &out, &g.state);
+    assert_int_equal(rlf_alloc_count(), before);
+    for (int32_t v = 0; v < g.color.height; v++) {
+        for (int32_t u = 0; u < g.color.width; u++) {
+            float z = rlf_f32_row(&out, v)[u];
+            bool is_empty = rlf_u8_row(&g.state, v)[u] == RLF_REGISTERED_EMPTY;
+            assert_true(is_empty ? z == 0.0f : fabsf(z - 1.7f) < 1e-5f);
+        }
+        for (int32_t u = g.color.width; u < width; u++) {
+            assert_true(padded[v * width + u] == -7.0f);
+        }
+    }
+    free(padded);
+    free_rig(&g);
+}
+
+static void wrong_cameras_are_refused(void **state)
+{
+    (void)state;
+    rlf_camera good = depth_camera();
+    rlf_camera bad = good;
+    bad.fx = 0;
+    float ray = 0;
+    rlf_pose T = rlf_pose_identity();
+    rlf_registration *r = NULL;
+    assert_int_equal(rlf_registration_create(&bad, &ray, &ray, &good, &T, &r), RLF_ERROR_INVALID);
+    assert_int_equal(rlf_registration_create(&good, &ray, &ray, &bad, &T, &r), RLF_ERROR_INVALID);
+    T.p.x = NAN;
+    assert_int_equal(rlf_registration_create(&good, &ray, &ray, &good, &T, &r), RLF_ERROR_INVALID);
+    assert_null(r);
+    rlf_registration_destroy(&r);
+    rlf_registration_destroy(NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(same_camera_is_a_copy),
+        cmocka_unit_test(planes_keep_their_depth),
+        cmocka_unit_test(distorted_colour_camera_sees_the_same_plane),
+        cmocka_unit_test(shadow_has_its_side_width_and_depth),
+        cmocka_unit_test(vertical_baseline_fills_columns),
+        cmocka_unit_test(wide_holes_stay_empty),
+        cmocka_unit_test(coarse_grid_covers_the_picture),
+        cmocka_unit_test(bad_depth_and_padding_are_left_alone),
+        cmocka_unit_test(wrong_cameras_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
