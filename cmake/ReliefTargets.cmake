@@ -20,3 +20,12 @@ function(relief_settings target)
     target_link_options(${target} PUBLIC -fsanitize=${RELIEF_SANITIZE})
   endif()
 endfunction()
+
+# relief_use(TARGET NAME MODULE...): links system libraries found by pkg-config, and remembers them
+# for the package files that ReliefInstall.cmake writes. NAME is the imported target PkgConfig::NAME.
+function(relief_use target name)
+  pkg_check_modules(${name} REQUIRED IMPORTED_TARGET GLOBAL ${ARGN})
+  target_link_libraries(${target} PRIVATE PkgConfig::${name})
+  set_property(TARGET ${target} APPEND PROPERTY RELIEF_PACKAGES ${name})
+  set_property(TARGET ${target} PROPERTY RELIEF_PACKAGES_${name} ${ARGN})
+endfunction()

@@ -1,0 +1,34 @@
+# Checks of the house itself: who may include whom, what the object code may contain, style, format,
+# scripts, and that what is installed can be used by a stranger's project.
+set(house ${CMAKE_CURRENT_LIST_DIR})
+
+# house_check(NAME COMMAND...): one test labelled house; exit status 77 is a visible skip.
+function(house_check name)
+  add_test(NAME house.${name} COMMAND ${ARGN})
+  set_tests_properties(house.${name} PROPERTIES LABELS house SKIP_RETURN_CODE 77 TIMEOUT 300)
+endfunction()
+
+house_check(include_graph ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}
+            -P ${house}/include_graph.cmake)
+house_check(include_graph_rejects ${CMAKE_COMMAND} -DCHECK=${house}/include_graph.cmake
+            -DWORK=${CMAKE_CURRENT_BINARY_DIR}/include_graph -P ${house}/include_graph_rejects.cmake)
+house_check(style ${house}/style.sh ${PROJECT_SOURCE_DIR})
+house_check(style_rejects ${house}/style_rejects.sh ${house}/style.sh
+            ${CMAKE_CURRENT_BINARY_DIR}/style)
+house_check(format ${PROJECT_SOURCE_DIR}/script/format --check)
+house_check(scripts ${house}/scripts.sh ${PROJECT_SOURCE_DIR})
+
+get_target_property(relief_type relief TYPE)
+if(relief_type STREQUAL "STATIC_LIBRARY" AND NOT RELIEF_SANITIZE)
+  house_check(symbols ${CMAKE_COMMAND} -DLIBRARY=$<TARGET_FILE:relief> -DNM=${CMAKE_NM}
+              -P ${house}/symbols.cmake)
+endif()
+
+# A sanitized library would ask the stranger's program for the same sanitizers.
+if(NOT RELIEF_SANITIZE)
+  house_check(install ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR}
+              -DWORK=${CMAKE_CURRENT_BINARY_DIR}/install\ here -DCONSUMER=${house}/consumer
+              -DCC=${CMAKE_C_COMPILER} -DGENERATOR=${CMAKE_GENERATOR} -DCONFIG=$<CONFIG>
+              -DWITH_IO=$<TARGET_EXISTS:relief_io> -DWITH_GL=$<TARGET_EXISTS:relief_gl>
+              -DWITH_APP=$<TARGET_EXISTS:relief_app> -P ${house}/install.cmake)
+endif()

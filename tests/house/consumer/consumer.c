@@ -1,0 +1,45 @@
+/* A stranger's program: drops a ball onto nothing for a second and opens the synthetic room. */
+#include "relief/relief.h"
+#ifdef WITH_IO
+#include "relief/io.h"
+#endif
+#ifdef WITH_GL
+#include "relief/gl.h"
+#endif
+
+#include <stdio.h>
+
+static double height_after_one_second(void)
+{
+    rlf_world_def world_def = rlf_world_def_default();
+    rlf_body_def body_def = rlf_body_def_default();
+    rlf_body_id id;
+    rlf_world *world = NULL;
+    double y = 0.0;
+    if (rlf_world_create(&world_def, &world) == RLF_OK &&
+        rlf_world_add_body(world, &body_def, &id) == RLF_OK) {
+        rlf_world_advance(world, NULL, 1.0);
+        y = rlf_world_get_snapshot(world)->bodies[0].T_world_body.p.y;
+    }
+    rlf_world_destroy(&world);
+    return y;
+}
+
+int main(void)
+{
+    rlf_source *source = NULL;
+    double y = height_after_one_second();
+#ifdef WITH_IO
+    rlf_result opened = rlf_open_source("synthetic:empty", NULL, &source);
+#else
+    rlf_synthetic_def def = rlf_synthetic_def_default();
+    rlf_result opened = rlf_synthetic_create(&def, &source);
+#endif
+#ifdef WITH_GL
+    rlf_gl_presenter_destroy(NULL);
+#endif
+    rlf_source_destroy(&source);
+    printf("Relief %d.%d.%d: fell %.2f m\n", RLF_VERSION_MAJOR, RLF_VERSION_MINOR,
+           RLF_VERSION_PATCH, y);
+    return opened == RLF_OK && y > 4.8 && y < 5.0 ? 0 : 1;
+}

@@ -1,0 +1,70 @@
+# Installs into a fresh folder (whose name has a blank in it) and builds a stranger's program against
+# it twice, with find_package and with pkg-config, and runs both.
+# cmake -DBUILD= -DWORK= -DCONSUMER= -DCC= -DGENERATOR= -DCONFIG= -DWITH_IO= -DWITH_GL= -DWITH_APP=
+#       -P install.cmake
+cmake_minimum_required(VERSION 3.25)
+
+function(run)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output
+                  ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    list(JOIN ARGV " " command)
+    message(FATAL_ERROR "install: '${command}' gave ${status}:\n${output}")
+  endif()
+  set(run_output "${output}" PARENT_SCOPE)
+endfunction()
+
+function(expect_file path)
+  if(NOT EXISTS ${path})
+    message(FATAL_ERROR "install: ${path} is missing")
+  endif()
+endfunction()
+
+set(prefix "${WORK}/prefix")
+file(REMOVE_RECURSE "${WORK}")
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix "${prefix}" --config ${CONFIG})
+
+set(components "")
+set(definitions "")
+set(packages relief)
+foreach(component io gl)
+  string(TOUPPER ${component} name)
+  if(WITH_${name})
+    list(APPEND components ${component})
+    list(APPEND definitions -DWITH_${name})
+    list(APPEND packages relief_${component})
+    expect_file("${prefix}/include/relief/${component}.h")
+  elseif(EXISTS "${prefix}/include/relief/${component}.h")
+    message(FATAL_ERROR "install: ${component}.h is installed, but not its library")
+  endif()
+endforeach()
+expect_file("${prefix}/include/relief/relief.h")
+if(WITH_APP)
+  expect_file("${prefix}/bin/relief")
+  expect_file("${prefix}/share/relief/scenes/two_cubes.json")
+  run("${prefix}/bin/relief" --version)
+endif()
+
+# find_package
+run(${CMAKE_COMMAND} -S ${CONSUMER} -B "${WORK}/with_cmake" -G ${GENERATOR}
+    -DCMAKE_C_COMPILER=${CC} "-DCMAKE_PREFIX_PATH=${prefix}" "-DCOMPONENTS=${components}")
+run(${CMAKE_COMMAND} --build "${WORK}/with_cmake")
+run("${WORK}/with_cmake/consumer")
+message("install: find_package: ${run_output}")
+
+# pkg-config
+find_program(pkg_config NAMES pkg-config)
+file(GLOB_RECURSE pc_files "${prefix}/*/relief.pc")
+if(NOT pc_files)
+  message(FATAL_ERROR "install: no relief.pc under ${prefix}")
+endif()
+list(GET pc_files 0 pc_file)
+get_filename_component(pc_folder "${pc_file}" DIRECTORY)
+set(ENV{PKG_CONFIG_PATH} "${pc_folder}")
+run(${pkg_config} --cflags --libs ${packages})
+string(STRIP "${run_output}" flags)
+separate_arguments(flags UNIX_COMMAND "${flags}")
+run(${CC} ${definitions} ${CONSUMER}/consumer.c -o "${WORK}/with_pkg_config" ${flags})
+run("${WORK}/with_pkg_config")
+message("install: pkg-config: ${run_output}")
+file(REMOVE_RECURSE "${WORK}")

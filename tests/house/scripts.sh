@@ -1,0 +1,35 @@
+#!/bin/sh
+# Every script parses as POSIX sh, tells its usage with --help, and refuses an option it does not
+# know with status 2: tests/house/scripts.sh ROOT. Run from elsewhere, as a user might.
+set -eu
+
+root=$1
+cd /
+for script in "$root"/script/* "$root"/.ci/run "$root"/tests/house/*.sh; do
+    sh -n "$script"
+    [ -x "$script" ] || {
+        echo "$script: not executable" >&2
+        exit 1
+    }
+done
+for name in bootstrap demo test bench format; do
+    "$root/script/$name" --help | grep -q '^usage: script/'"$name" || {
+        echo "script/$name --help: no usage line" >&2
+        exit 1
+    }
+done
+for name in bootstrap bench format; do
+    status=0
+    "$root/script/$name" --no-such-option >/dev/null 2>&1 || status=$?
+    if [ "$status" -ne 2 ]; then
+        echo "script/$name --no-such-option: status $status instead of 2" >&2
+        exit 1
+    fi
+done
+"$root/script/bootstrap" --list | grep -qx cmake
+if command -v shellcheck >/dev/null 2>&1; then
+    shellcheck "$root"/script/* "$root"/.ci/run "$root"/tests/house/*.sh
+else
+    echo "scripts: shellcheck is not here: only parsed"
+fi
+echo "scripts: clean"

@@ -1,0 +1,51 @@
+#!/bin/sh
+# Style that a machine can see: tests/house/style.sh FOLDER. Tabs, blanks at line ends, a missing
+# final newline, lines over 100 columns, functions over 80 lines, files over 600 lines, and marks of
+# unfinished work. Prints file:line and the rule; exit status 1 when there is any.
+set -eu
+
+root=$1
+cd "$root"
+
+# The marks are put together here so that this file does not find itself.
+marks="TO""DO|FIX""ME|XX""X|HA""CK"
+
+list_files() {
+    for folder in app bench examples include src tests cmake script docs scenes .ci; do
+        if [ -d "$folder" ]; then
+            find "$folder" -type f \( -name '*.[ch]' -o -name '*.cmake' -o -name '*.txt' \
+                -o -name '*.sh' -o -name '*.md' -o -name '*.json' -o -name '*.glsl' \
+                -o -path 'script/*' -o -path '.ci/*' \)
+        fi
+    done
+    for file in README.md CHANGELOG.md CMakeLists.txt CMakePresets.json; do
+        if [ -f "$file" ]; then echo "$file"; fi
+    done
+}
+
+problems=$(list_files | sort | while IFS= read -r file; do
+    if [ -s "$file" ] && [ -n "$(tail -c 1 "$file")" ]; then
+        echo "$file: no newline at the end"
+    fi
+    awk -v file="$file" -v marks="$marks" '
+        function say(text) { print file ":" FNR ": " text }
+        /\t/ { say("tab") }
+        /[ \t]$/ { say("blank at the end of the line") }
+        $0 ~ "(^|[^A-Za-z_])(" marks ")([^A-Za-z_]|$)" { say("mark of unfinished work") }
+        file ~ /\.[ch]$/ && length($0) > 100 { say("longer than 100 columns") }
+        file ~ /\.c$/ && /^[A-Za-z_].*\)[ \t]*\{?$/ { name = $0; start = FNR }
+        file ~ /\.c$/ && /^\}/ {
+            if (start && FNR - start + 1 > 80) {
+                sub(/\(.*/, "", name)
+                print file ":" start ": function of " FNR - start + 1 " lines (limit 80): " name
+            }
+            start = 0
+        }
+        END { if (file ~ /\.[ch]$/ && FNR > 600) { say("file of " FNR " lines (limit 600)") } }
+    ' "$file"
+done)
+if [ -n "$problems" ]; then
+    printf '%s\n' "$problems" >&2
+    exit 1
+fi
+echo "style: $(list_files | wc -l) files are clean"
