@@ -1,0 +1,71 @@
+/* Measures of one run against ground truth. Each keeps counts over frames and seeds. */
+#ifndef RELIEF_APP_EVAL_H
+#define RELIEF_APP_EVAL_H
+
+#include "relief/io.h"
+#include "timing.h"
+
+#define EVAL_ANGLE_BINS 18000 /* 0.01 degrees each */
+
+/* Distribution of angles between estimated and true normals. */
+typedef struct eval_angles {
+    int64_t bins[EVAL_ANGLE_BINS];
+    double sum_deg;
+    int64_t count;   /* samples with both normals */
+    int64_t wrong;   /* of them, more than 30 degrees off */
+    int64_t missing; /* samples with a true surface in range but no normal */
+} eval_angles;
+
+/* Samples inside surfaces, and within 6 pixels (full resolution) of a depth jump. */
+typedef struct eval_normals {
+    eval_angles interior, band;
+} eval_normals;
+
+typedef struct eval_confusion {
+    int64_t true_positive, false_positive, false_negative;
+} eval_confusion;
+
+/* Foreground against truth, on all pixels and where the sensor gave a depth. */
+typedef struct eval_foreground {
+    eval_confusion all, valid;
+} eval_foreground;
+
+/* Bounces of thrown bodies on real surfaces against the true scene. */
+typedef struct eval_collisions {
+    int64_t bounces; /* contacts that met at more than 0.3 m/s */
+    int64_t phantom; /* of them, farther than 5 cm from any true surface */
+    int64_t wrong;   /* of the others, normal more than 30 degrees off the true one */
+    int64_t entries; /* times a body's centre got inside something real */
+    eval_angles angles;
+    bool *was_inside; /* per body */
+    int32_t body_capacity;
+} eval_collisions;
+
+double eval_median_deg(const eval_angles *angles);
+double eval_mean_deg(const eval_angles *angles);
+/* Shares in percent; 0 when there is no sample. */
+double eval_wrong_percent(const eval_angles *angles);
+double eval_missing_percent(const eval_angles *angles);
+void eval_add_angle(eval_angles *angles, double degrees);
+
+/* Marks pixels within 6 of a jump (neighbours whose depths differ by more than 4 % of the nearer).
+ * out and scratch hold width * height bytes. */
+void eval_mark_band(const float *depth, int32_t width, int32_t height, uint8_t *out,
+                    uint8_t *scratch);
+void eval_normals_add(eval_normals *e, const rlf_surface *surface, const rlf_truth *truth,
+                      const rlf_rig *rig, const uint8_t *band);
+
+void eval_foreground_add(eval_foreground *e, const rlf_surface *surface, const rlf_truth *truth,
+                         const rlf_rig *rig);
+double eval_precision(const eval_confusion *c);
+double eval_recall(const eval_confusion *c);
+double eval_f_measure(const eval_confusion *c);
+
+/* A scene that throws cubes into the synthetic room from many sides. Destroy with
+ * rlf_scene_destroy. */
+rlf_result eval_collisions_scene(uint64_t seed, int32_t body_count, rlf_scene *out);
+rlf_result eval_collisions_init(eval_collisions *e, int32_t body_capacity);
+void eval_collisions_finish(eval_collisions *e);
+void eval_collisions_add(eval_collisions *e, const rlf_snapshot *snapshot, rlf_source *source);
+
+#endif

@@ -1,0 +1,119 @@
+/* Collisions checked against the true scene: where a body bounced, was there something, and did the
+ * contact normal point where the true surface's normal points? */
+#include "eval.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define BOUNCE_SPEED 0.3      /* m/s */
+#define PHANTOM_DISTANCE 0.05 /* m: a person moves 4 cm in a frame */
+
+/* xorshift64* (Vigna 2016): numbers in [0, 1). */
+static double next_random(uint64_t *state)
+{
+    *state ^= *state >> 12;
+    *state ^= *state << 25;
+    *state ^= *state >> 27;
+    return (double)((*state * UINT64_C(2685821657736338717)) >> 11) / 9007199254740992.0;
+}
+
+static double in_range(uint64_t *state, double low, double high)
+{
+    return low + (high - low) * next_random(state);
+}
+
+/* A 10 to 20 cm cube that flies towards a point of the room, released at its turn. */
+static rlf_body_def thrown_cube(uint64_t *state, int32_t index)
+{
+    rlf_body_def def = rlf_body_def_default();
+    snprintf(def.name, sizeof(def.name), "cube_%d", (int)index);
+    double edge = in_range(state, 0.1, 0.2);
+    def.shape.size = rlf_vec3_make(edge, edge, edge);
+    def.release_time = 0.4 + 0.12 * index;
+    double side = index % 3 - 1.0; /* from the left, the camera, the right */
+    double z = side == 0.0 ? 0.5 : 1.8;
+    def.position = rlf_vec3_make(side * 0.9 + in_range(state, -0.2, 0.2),
+                                 in_range(state, -0.5, 0.1), z + in_range(state, -0.1, 0.3));
+    rlf_vec3 target = rlf_vec3_make(in_range(state, -1.0, 1.0), in_range(state, -0.6, 0.8),
+                                    in_range(state, 2.0, 3.2));
+    rlf_vec3 direction = rlf_normalize(rlf_sub(target, def.position));
+    def.velocity = rlf_scale(direction, in_range(state, 2.0, 5.0));
+    def.angular_velocity =
+        rlf_vec3_make(in_range(state, -6, 6), in_range(state, -6, 6), in_range(state, -6, 6));
+    def.collides_with_bodies = false; /* every bounce is one on the real scene */
+    return def;
+}
+
+rlf_result eval_collisions_scene(uint64_t seed, int32_t body_count, rlf_scene *out)
+{
+    memset(out, 0, sizeof(*out));
+    out->gravity = rlf_vec3_make(0, 9.81, 0);
+    out->bodies = rlf_alloc_array((size_t)body_count, sizeof(*out->bodies));
+    if (out->bodies == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    out->body_count = body_count;
+    uint64_t state = seed * UINT64_C(0x9e3779b97f4a7c15) + 1;
+    for (int32_t i = 0; i < body_count; i++) {
+        out->bodies[i] = thrown_cube(&state, i);
+    }
+    return RLF_OK;
+}
+
+rlf_result eval_collisions_init(eval_collisions *e, int32_t body_capacity)
+{
+    memset(e, 0, sizeof(*e));
+    e->body_capacity = body_capacity;
+    e->was_inside = rlf_alloc_array((size_t)body_capacity, sizeof(bool));
+    return e->was_inside != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+}
+
+void eval_collisions_finish(eval_collisions *e)
+{
+    rlf_free(e->was_inside);
+    e->was_inside = NULL;
+}
+
+static void add_bounce(eval_collisions *e, const rlf_contact *contact, rlf_source *source)
+{
+    double distance;
+    rlf_vec3 normal;
+    int32_t label;
+    if (rlf_synthetic_distance(source, contact->point, &distance, &normal, &label) != RLF_OK) {
+        return;
+    }
+    e->bounces++;
+    if (distance > PHANTOM_DISTANCE || distance < -PHANTOM_DISTANCE) {
+        e->phantom++;
+        return;
+    }
+    double degrees = rlf_acos(rlf_dot(contact->normal, normal)) * 180.0 / RLF_PI;
+    eval_add_angle(&e->angles, degrees);
+    e->wrong += degrees > 30.0;
+}
+
+void eval_collisions_add(eval_collisions *e, const rlf_snapshot *snapshot, rlf_source *source)
+{
+    for (int32_t i = 0; i < snapshot->contact_count; i++) {
+        const rlf_contact *contact = &snapshot->contacts[i];
+        if (contact->other != RLF_CONTACT_BODY && contact->approach_speed > BOUNCE_SPEED &&
+            contact->impulse > 0.0) {
+            add_bounce(e, contact, source);
+        }
+    }
+    for (int32_t i = 0; i < snapshot->body_count; i++) {
+        const rlf_body_state *body = &snapshot->bodies[i];
+        int32_t index = (int32_t)body->id.index1 - 1;
+        double distance;
+        rlf_vec3 normal;
+        int32_t label;
+        if (index < 0 || index >= e->body_capacity || body->is_held ||
+            rlf_synthetic_distance(source, body->T_world_body.p, &distance, &normal, &label) !=
+                RLF_OK) {
+            continue;
+        }
+        bool is_inside = distance < 0.0;
+        e->entries += is_inside && !e->was_inside[index];
+        e->was_inside[index] = is_inside;
+    }
+}
