@@ -5,6 +5,7 @@ include(CMakePackageConfigHelpers)
 set(relief_package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/relief)
 set(relief_pc_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH relief_pc_to_prefix /prefix/${relief_pc_folder} /prefix)
+string(REGEX REPLACE "/$" "" relief_pc_to_prefix "${relief_pc_to_prefix}")
 
 # relief_pkg_config(NAME REQUIRES LIBS DESCRIPTION): writes NAME.pc. A static library hands its own
 # needs on to whoever links it; a shared one keeps them to itself.
