@@ -136,27 +136,23 @@ static rlf_result run_seed(eval_run *run, const eval_options *o, int64_t seed)
     char source[128];
     snprintf(source, sizeof(source), "synthetic:%s?seed=%lld&frames=%lld", o->scene,
              (long long)seed, (long long)o->frames);
+    rlf_scene scene;
+    rlf_result result = eval_collisions_scene((uint64_t)seed, THROWN_BODIES, &scene);
+    if (result != RLF_OK) {
+        return result;
+    }
     session_options options = session_options_default();
     options.source = source;
     options.profile = run->profile;
+    options.scene = &scene;
     session s;
-    memset(&s, 0, sizeof(s));
-    rlf_result result = rlf_pool_create(0, &s.pool);
-    if (result == RLF_OK) {
-        result = rlf_open_source(source, s.pool, &s.source);
+    result = session_open(&options, &s);
+    rlf_scene_destroy(&scene);
+    if (result != RLF_OK) {
+        return result;
     }
-    if (result == RLF_OK) {
-        result = eval_collisions_scene((uint64_t)seed, THROWN_BODIES, &s.scene);
-    }
-    if (result == RLF_OK) {
-        rlf_pipeline_def def = rlf_pipeline_def_default(run->profile, s.source, s.pool);
-        def.scene = &s.scene;
-        result = rlf_pipeline_create(&def, &s.pipeline);
-    }
-    if (result == RLF_OK) {
-        memset(run->collisions.was_inside, 0, THROWN_BODIES * sizeof(bool));
-        result = run_frames(run, &s, o->frames);
-    }
+    memset(run->collisions.was_inside, 0, THROWN_BODIES * sizeof(bool));
+    result = run_frames(run, &s, o->frames);
     session_close(&s);
     return result;
 }

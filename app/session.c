@@ -21,6 +21,11 @@ bool session_parse_profile(const char *text, rlf_profile *out)
 
 static rlf_result open_scene(const session_options *options, rlf_scene *out)
 {
+    if (options->scene != NULL) {
+        *out = *options->scene;
+        memset(options->scene, 0, sizeof(*options->scene));
+        return RLF_OK;
+    }
     if (options->scene_path != NULL) {
         return rlf_scene_load(options->scene_path, out);
     }

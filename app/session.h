@@ -6,6 +6,7 @@
 
 typedef struct session_options {
     const char *source;
+    rlf_scene *scene;       /* taken over (emptied) when not NULL; else the file below */
     const char *scene_path; /* NULL = the default scene below */
     bool use_default_scene; /* the thesis's two cubes when there is no scene_path */
     rlf_profile profile;
