@@ -1,0 +1,224 @@
+/* The frame loop over a source of analytic frames: a floor seen from above. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "relief/pipeline.h"
+
+#include <math.h>
+#include <string.h>
+
+#define WIDTH 160
+#define HEIGHT 120
+#define PLANE_MM 2000
+
+/* Frames of a plane at 2 m, with a chosen time step and an end. */
+typedef struct plane_source {
+    uint16_t depth[WIDTH * HEIGHT];
+    int64_t frame, frame_count, step_ns;
+} plane_source;
+
+static rlf_result plane_next(void *self, rlf_frame *out)
+{
+    plane_source *s = self;
+    if (s->frame == s->frame_count) {
+        return RLF_END;
+    }
+    memset(out, 0, sizeof(*out));
+    out->sequence = (uint64_t)s->frame;
+    out->time_ns = s->frame++ * s->step_ns;
+    out->depth_u16 = s->depth;
+    out->depth_stride = WIDTH * sizeof(uint16_t);
+    out->depth_units_per_metre = 1000;
+    return RLF_OK;
+}
+
+static rlf_result plane_restart(void *self)
+{
+    ((plane_source *)self)->frame = 0;
+    return RLF_OK;
+}
+
+static plane_source plane_memory;
+
+static rlf_source *open_plane(int64_t frame_count, int64_t step_ns)
+{
+    plane_memory.frame = 0;
+    plane_memory.frame_count = frame_count;
+    plane_memory.step_ns = step_ns;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        plane_memory.depth[i] = PLANE_MM;
+    }
+    rlf_source_info info;
+    memset(&info, 0, sizeof(info));
+    strcpy(info.name, "plane");
+    info.rig.depth = (rlf_camera){
+        .width = WIDTH, .height = HEIGHT, .fx = 120, .fy = 120, .cx = 79.5, .cy = 59.5};
+    info.rig.T_color_depth = rlf_pose_identity();
+    info.rig.depth_min_m = 0.3;
+    info.rig.depth_max_m = 8.0;
+    info.rig.noise = (rlf_depth_noise){0.001, 0.0, 0.001};
+    info.frame_count = frame_count;
+    info.frames_per_second = 30;
+    const rlf_source_methods methods = {.next = plane_next, .restart = plane_restart};
+    rlf_source *source = NULL;
+    assert_int_equal(rlf_source_create_custom(&methods, &info, &plane_memory, &source), RLF_OK);
+    return source;
+}
+
+/* Gravity along z: the plane is the floor. A 0.2 m cube starts 0.5 m above it. */
+static rlf_scene drop_scene(rlf_body_def *body)
+{
+    *body = rlf_body_def_default();
+    body->shape.size = rlf_vec3_make(0.2, 0.2, 0.2);
+    body->position = rlf_vec3_make(0, 0, 1.4);
+    body->restitution = 0.0;
+    rlf_scene scene = {.gravity = {0, 0, 9.81}, .bodies = body, .body_count = 1};
+    return scene;
+}
+
+static rlf_pipeline *open_pipeline(rlf_source *source, rlf_profile profile, rlf_pool *pool)
+{
+    rlf_body_def body;
+    rlf_scene scene = drop_scene(&body);
+    rlf_pipeline_def def = rlf_pipeline_def_default(profile, source, pool);
+    def.scene = &scene;
+    rlf_pipeline *pipeline = NULL;
+    assert_int_equal(rlf_pipeline_create(&def, &pipeline), RLF_OK);
+    return pipeline;
+}
+
+static void cube_comes_to_rest_on_the_plane(void **state)
+{
+    (void)state;
+    rlf_source *source = open_plane(90, 33333333);
+    rlf_pipeline *pipeline = open_pipeline(source, RLF_PROFILE_LIVE, NULL);
+    rlf_pipeline_output out;
+    rlf_result result;
+    while ((result = rlf_pipeline_step(pipeline, &out)) == RLF_OK) {
+        assert_int_equal(out.surface->valid_count, WIDTH * HEIGHT);
+        assert_non_null(out.render.image.data);
+    }
+    assert_int_equal(result, RLF_END);
+    assert_int_equal(out.frame_index, 89);
+    const rlf_body_state *body = &out.snapshot->bodies[0];
+    assert_true(fabs(body->T_world_body.p.z - 1.9) < 0.005);
+    assert_true(rlf_length(body->velocity) < 0.01);
+    rlf_pipeline_destroy(&pipeline);
+    rlf_source_destroy(&source);
+}
+
+static uint64_t run_hash(rlf_profile profile, int32_t workers)
+{
+    rlf_pool *pool = NULL;
+    assert_int_equal(rlf_pool_create(workers, &pool), RLF_OK);
+    rlf_source *source = open_plane(30, 33333333);
+    rlf_pipeline *pipeline = open_pipeline(source, profile, pool);
+    rlf_pipeline_output out;
+    while (rlf_pipeline_step(pipeline, &out) == RLF_OK) {
+    }
+    uint64_t hash = rlf_world_hash(rlf_pipeline_get_world(pipeline));
+    rlf_pipeline_destroy(&pipeline);
+    rlf_source_destroy(&source);
+    rlf_pool_destroy(&pool);
+    return hash;
+}
+
+static void results_do_not_depend_on_the_worker_count(void **state)
+{
+    (void)state;
+    for (int profile = 0; profile < 2; profile++) {
+        uint64_t one = run_hash((rlf_profile)profile, 1);
+        assert_true(one == run_hash((rlf_profile)profile, 2));
+        assert_true(one == run_hash((rlf_profile)profile, 4));
+    }
+    assert_true(run_hash(RLF_PROFILE_LIVE, 1) != run_hash(RLF_PROFILE_THESIS, 1));
+}
+
+static void frames_allocate_nothing_after_the_first(void **state)
+{
+    (void)state;
+    for (int profile = 0; profile < 2; profile++) {
+        rlf_source *source = open_plane(40, 33333333);
+        rlf_pipeline *pipeline = open_pipeline(source, (rlf_profile)profile, NULL);
+        rlf_pipeline_output out;
+        uint64_t after_warm_up = 0;
+        while (rlf_pipeline_step(pipeline, &out) == RLF_OK) {
+            if (out.frame_index == 9) {
+                after_warm_up = rlf_alloc_count();
+            }
+        }
+        assert_int_equal(rlf_alloc_count() - after_warm_up, 0);
+        rlf_pipeline_destroy(&pipeline);
+        rlf_source_destroy(&source);
+    }
+}
+
+static void restart_repeats_the_run_exactly(void **state)
+{
+    (void)state;
+    rlf_source *source = open_plane(20, 33333333);
+    rlf_pipeline *pipeline = open_pipeline(source, RLF_PROFILE_LIVE, NULL);
+    rlf_pipeline_output out;
+    uint64_t hashes[2];
+    for (int run = 0; run < 2; run++) {
+        while (rlf_pipeline_step(pipeline, &out) == RLF_OK) {
+        }
+        hashes[run] = rlf_world_hash(rlf_pipeline_get_world(pipeline));
+        assert_int_equal(rlf_pipeline_restart(pipeline), RLF_OK);
+    }
+    assert_true(hashes[0] == hashes[1]);
+    rlf_pipeline_destroy(&pipeline);
+    rlf_source_destroy(&source);
+}
+
+static void frames_with_the_same_time_do_not_advance_physics(void **state)
+{
+    (void)state;
+    rlf_source *source = open_plane(5, 0);
+    rlf_pipeline *pipeline = open_pipeline(source, RLF_PROFILE_LIVE, NULL);
+    rlf_pipeline_output out;
+    while (rlf_pipeline_step(pipeline, &out) == RLF_OK) {
+        assert_true(out.snapshot->bodies[0].T_world_body.p.z == 1.4);
+        assert_true(out.time_s == 0.0);
+    }
+    rlf_pipeline_destroy(&pipeline);
+    rlf_source_destroy(&source);
+}
+
+static void redraw_shows_the_last_frame_in_another_view(void **state)
+{
+    (void)state;
+    rlf_source *source = open_plane(3, 33333333);
+    rlf_pipeline *pipeline = open_pipeline(source, RLF_PROFILE_LIVE, NULL);
+    rlf_pipeline_output out;
+    assert_int_equal(rlf_pipeline_redraw(pipeline, &out), RLF_NO_FRAME);
+    while (rlf_pipeline_step(pipeline, &out) == RLF_OK) {
+    }
+    uint8_t before[4];
+    memcpy(before, out.render.image.data, 4);
+    rlf_pipeline_set_view(pipeline, RLF_VIEW_NORMALS);
+    assert_int_equal(rlf_pipeline_redraw(pipeline, &out), RLF_OK);
+    assert_memory_not_equal(before,
+                            rlf_rgba8_row(&out.render.image, out.render.image.height / 2) +
+                                4 * (out.render.image.width / 2),
+                            4);
+    rlf_pipeline_destroy(&pipeline);
+    rlf_source_destroy(&source);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cube_comes_to_rest_on_the_plane),
+        cmocka_unit_test(results_do_not_depend_on_the_worker_count),
+        cmocka_unit_test(frames_allocate_nothing_after_the_first),
+        cmocka_unit_test(restart_repeats_the_run_exactly),
+        cmocka_unit_test(frames_with_the_same_time_do_not_advance_physics),
+        cmocka_unit_test(redraw_shows_the_last_frame_in_another_view),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
