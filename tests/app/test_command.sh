@@ -1,0 +1,127 @@
+#!/bin/sh
+# Runs the relief command with good and bad arguments and checks exit statuses, messages and files.
+# usage: test_command.sh RELIEF WORK_FOLDER
+set -u
+relief=$1
+work=$2
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work" || exit 1
+failures=0
+
+fail()
+{
+    echo "FAIL: $*"
+    failures=$((failures + 1))
+}
+
+# expect STATUS TEXT ARGUMENTS...: the status, exactly one line on stderr, and TEXT in it.
+expect_error()
+{
+    status=$1
+    text=$2
+    shift 2
+    "$relief" "$@" >stdout.txt 2>stderr.txt
+    got=$?
+    [ "$got" -eq "$status" ] || fail "relief $*: exit status $got, not $status"
+    [ "$(wc -l <stderr.txt)" -eq 1 ] || fail "relief $*: not one line: $(cat stderr.txt)"
+    grep -q -- "$text" stderr.txt || fail "relief $*: no '$text' in: $(cat stderr.txt)"
+}
+
+expect_done()
+{
+    "$relief" "$@" >stdout.txt 2>stderr.txt || fail "relief $*: $? $(cat stderr.txt)"
+}
+
+# ---- help and usage ---------------------------------------------------------------------------------
+for command in "" run export info sources eval bench; do
+    # shellcheck disable=SC2086 # the empty one must vanish
+    "$relief" $command --help >stdout.txt 2>stderr.txt || fail "$command --help: status $?"
+    grep -q "usage: relief" stdout.txt || fail "$command --help: no usage"
+done
+expect_done --version
+expect_error 2 "no command 'fly'" fly
+expect_error 2 "needs a SOURCE" run
+expect_error 2 "live or thesis" run synthetic:room --profile both
+expect_error 2 "not a view" run synthetic:room --headless --view smell
+expect_error 2 "frames" run synthetic:room --headless --frames 0
+expect_error 2 "frames" run synthetic:room --headless --frames ten
+expect_error 2 "not an array" export synthetic:room --out o --what smell
+expect_error 2 "needs --out" export synthetic:room
+expect_error 2 "needs --scene" export synthetic:room --out o --what matte
+expect_error 2 "A:B" export synthetic:room --out o --what depth --frames 5:3
+
+# ---- what the world can get wrong -----------------------------------------------------------------------
+expect_error 1 "no_such_folder" run no_such_folder --headless
+expect_error 1 "synthetic" run synthetic:moon --headless
+expect_error 1 "seed" run "synthetic:room?seed=x" --headless
+expect_error 1 "missing.json" run synthetic:room --headless --scene missing.json
+printf '{"bodies": [{"shape": "box", "mass": NaN}]}' >nan.json
+expect_error 1 "nan.json" run synthetic:room --headless --scene nan.json
+printf '{"bodies": [{"shape": "box", "colour": [1, 0, 0]}]}' >unknown.json
+expect_error 1 "colour" run synthetic:room --headless --scene unknown.json
+: >file
+expect_error 1 "file" run synthetic:room --headless --frames 3 --log file/log
+expect_error 1 "file" run synthetic:room --headless --frames 3 --video file/video.y4m
+expect_error 1 "file" export synthetic:room --frames 0:2 --out file/out --what depth
+mkdir empty_folder
+expect_error 1 "camera.json" run empty_folder --headless
+expect_error 1 "frame 7" export "synthetic:room?frames=5" --frames 7:9 --out o --what depth
+find . -name '*.part' | grep -q . && fail "a .part file was left behind"
+
+# ---- what must come out ---------------------------------------------------------------------------------
+for profile in live thesis; do
+    expect_done run "synthetic:room?frames=12" --profile $profile --headless --video $profile.y4m \
+        --pictures pictures_$profile --picture-every 5 --log log_$profile --hash
+    [ -s $profile.y4m ] || fail "$profile: no video"
+    [ "$(ls pictures_$profile)" = "000000.png
+000005.png
+000010.png" ] || fail "$profile: pictures: $(ls pictures_$profile)"
+    head -n 1 log_$profile/frames.csv | grep -qx \
+        "frame,time_s,valid,missing,foreground,regions,capture_ms,surface_ms,physics_ms,render_ms" ||
+        fail "$profile: frames.csv header"
+    [ "$(wc -l <log_$profile/frames.csv)" -eq 13 ] || fail "$profile: frames.csv rows"
+    head -n 1 log_$profile/bodies.csv | grep -qx \
+        "frame,time_s,body,px,py,pz,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz" ||
+        fail "$profile: bodies.csv header"
+    [ "$(wc -l <log_$profile/bodies.csv)" -eq 25 ] || fail "$profile: bodies.csv rows"
+    head -n 1 log_$profile/contacts.csv | grep -qx \
+        "frame,time_s,body,other,px,py,pz,nx,ny,nz,separation,impulse,surface_speed" ||
+        fail "$profile: contacts.csv header"
+done
+
+# Same input, same bits, whatever the number of threads.
+"$relief" run "synthetic:room?frames=20" --headless --hash --threads 1 --quiet >hash1.txt
+"$relief" run "synthetic:room?frames=20" --headless --hash --threads 3 --quiet >hash3.txt
+grep -q "^hash [0-9a-f]\{16\}$" hash1.txt || fail "no hash: $(cat hash1.txt)"
+cmp -s hash1.txt hash3.txt || fail "hashes differ: $(cat hash1.txt hash3.txt)"
+
+printf '{"bodies": [{"name": "a", "shape": "sphere", "radius": 0.1, "position": [0, 0, 1.5]}]}' >one.json
+expect_done export "synthetic:room?frames=8" --scene one.json --frames 6:8 --out arrays --what \
+    depth,points,normals,labels,foreground,velocity,thickness,reason,color,matte,composite,mesh,true_depth,true_normals,true_labels,true_foreground,true_thickness,true_velocity,true_background,true_poses
+for name in depth points normals labels foreground velocity thickness reason color matte composite \
+    true_depth true_normals true_labels true_foreground true_thickness true_velocity true_background; do
+    [ -s arrays/$name/000006.npy ] && [ -s arrays/$name/000007.npy ] || fail "export: $name"
+    [ -e arrays/$name/000005.npy ] && fail "export: frame 5 of $name was not asked for"
+done
+[ -s arrays/mesh/000006.ply ] || fail "export: mesh"
+[ -s arrays/true_poses.csv ] || fail "export: true_poses.csv"
+
+# Ctrl-C ends a run with whole files.
+"$relief" run "synthetic:room?frames=-1" --headless --video long.y4m --log long_log --quiet &
+pid=$!
+sleep 2
+kill -INT $pid
+wait $pid || fail "interrupted run: status $?"
+[ -s long.y4m ] || fail "interrupted run: no video"
+[ -e long.y4m.part ] && fail "interrupted run: .part left"
+tail -c 1 long_log/frames.csv | od -c | grep -q '\\n' || fail "interrupted run: log cut short"
+
+if [ -e /dev/full ]; then
+    "$relief" run "synthetic:room?frames=8" --headless --quiet --video - >/dev/full 2>stderr.txt
+    [ $? -eq 1 ] || fail "full disk: status is not 1"
+    [ "$(wc -l <stderr.txt)" -eq 1 ] || fail "full disk: $(cat stderr.txt)"
+fi
+
+echo "$failures failed"
+[ "$failures" -eq 0 ]
