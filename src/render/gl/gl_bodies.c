@@ -1,0 +1,272 @@
+/* Bodies as meshes with a model matrix each (A.3 and A.5 as corrected: projection * view * T R S).
+ */
+#include "gl_bodies.h"
+
+#include "gl_program.h"
+
+#include "render/body_texture.h"
+
+#include <stddef.h>
+
+enum {
+    HULL_BATCH = 1024, /* triangles per upload */
+    UNIT_REAL_DEPTH = 0,
+    UNIT_TEXTURES = 1
+};
+
+static const char body_vertex[] =
+    "layout(location = 0) in vec4 a_position_shift;\n"
+    "layout(location = 1) in vec3 a_normal;\n"
+    "layout(location = 2) in vec2 a_uv;\n"
+    "uniform mat4 u_clip_body;\n"
+    "uniform mat3 u_camera_body;\n"
+    "uniform float u_shift;\n"
+    "out vec3 v_normal;\n"
+    "out vec2 v_uv;\n"
+    "void main()\n"
+    "{\n"
+    "    vec3 p = a_position_shift.xyz + vec3(0.0, a_position_shift.w * u_shift, 0.0);\n"
+    "    gl_Position = u_clip_body * vec4(p, 1.0);\n"
+    "    v_normal = u_camera_body * a_normal;\n"
+    "    v_uv = a_uv;\n"
+    "}\n";
+
+/* 1 / gl_FragCoord.w is the clip w, and that is z in the picture's camera: the same quantity that
+ * the registered depth holds, per pixel (4.2.2; errata 8). */
+static const char body_fragment[] =
+    "in vec3 v_normal;\n"
+    "in vec2 v_uv;\n"
+    "uniform sampler2D u_real_depth;\n"
+    "uniform sampler2DArray u_textures;\n"
+    "uniform bool u_is_occluded;\n"
+    "uniform vec3 u_color;\n"
+    "uniform vec3 u_light;\n"
+    "uniform vec2 u_ambient_diffuse;\n"
+    "uniform float u_layer;\n"
+    "uniform float u_level;\n"
+    "out vec4 o_color;\n"
+    "void main()\n"
+    "{\n"
+    "    if (u_is_occluded) {\n"
+    "        float real_z = texelFetch(u_real_depth, ivec2(gl_FragCoord.xy), 0).r;\n"
+    "        if (real_z > 0.0 && real_z < 1.0 / gl_FragCoord.w) {\n"
+    "            discard;\n"
+    "        }\n"
+    "    }\n"
+    "    float facing = max(0.0, -dot(normalize(v_normal), u_light));\n"
+    "    float light = u_ambient_diffuse.x + u_ambient_diffuse.y * facing;\n"
+    "    vec3 texel = textureLod(u_textures, vec3(v_uv, u_layer), u_level).rgb;\n"
+    "    o_color = vec4(u_color * texel * light, 1.0);\n"
+    "}\n";
+
+static void create_program_uniforms(gl_bodies *bodies)
+{
+    GLuint p = bodies->program;
+    bodies->uniforms.clip_body = glGetUniformLocation(p, "u_clip_body");
+    bodies->uniforms.camera_body = glGetUniformLocation(p, "u_camera_body");
+    bodies->uniforms.shift = glGetUniformLocation(p, "u_shift");
+    bodies->uniforms.color = glGetUniformLocation(p, "u_color");
+    bodies->uniforms.light = glGetUniformLocation(p, "u_light");
+    bodies->uniforms.layer = glGetUniformLocation(p, "u_layer");
+    bodies->uniforms.level = glGetUniformLocation(p, "u_level");
+    bodies->uniforms.is_occluded = glGetUniformLocation(p, "u_is_occluded");
+    glUseProgram(p);
+    glUniform1i(glGetUniformLocation(p, "u_real_depth"), UNIT_REAL_DEPTH);
+    glUniform1i(glGetUniformLocation(p, "u_textures"), UNIT_TEXTURES);
+    glUniform2f(glGetUniformLocation(p, "u_ambient_diffuse"), (GLfloat)BODY_LIGHT_AMBIENT,
+                (GLfloat)BODY_LIGHT_DIFFUSE);
+    glUseProgram(0);
+}
+
+/* Tells the bound vertex array how a shape_vertex lies in the bound array buffer. */
+static void describe_vertices(void)
+{
+    const GLsizei stride = (GLsizei)sizeof(shape_vertex);
+    const uintptr_t normal = offsetof(shape_vertex, normal);
+    const uintptr_t uv = offsetof(shape_vertex, uv);
+    glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, stride, NULL);
+    glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, stride, (const void *)normal);
+    glVertexAttribPointer(2, 2, GL_FLOAT, GL_FALSE, stride, (const void *)uv);
+    for (GLuint i = 0; i < 3; i++) {
+        glEnableVertexAttribArray(i);
+    }
+}
+
+static rlf_result create_meshes(gl_bodies *bodies)
+{
+    shape_mesh_set *set = rlf_alloc(sizeof *set);
+    bodies->hull_vertices = rlf_alloc_array(3 * (size_t)HULL_BATCH, sizeof(shape_vertex));
+    if (set == NULL || bodies->hull_vertices == NULL) {
+        rlf_free(set);
+        return RLF_ERROR_MEMORY;
+    }
+    shape_mesh_set_build(set);
+    for (int i = 0; i < SHAPE_MESH_UNIT_COUNT; i++) {
+        bodies->range[i] = set->range[i];
+    }
+    glGenVertexArrays(1, &bodies->vertex_array);
+    glGenBuffers(1, &bodies->vertex_buffer);
+    glGenBuffers(1, &bodies->index_buffer);
+    glBindVertexArray(bodies->vertex_array);
+    glBindBuffer(GL_ARRAY_BUFFER, bodies->vertex_buffer);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)sizeof(shape_vertex) * set->vertex_count,
+                 set->vertices, GL_STATIC_DRAW);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, bodies->index_buffer);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)sizeof(uint16_t) * set->index_count,
+                 set->indices, GL_STATIC_DRAW);
+    describe_vertices();
+    rlf_free(set);
+
+    glGenVertexArrays(1, &bodies->hull_array);
+    glGenBuffers(1, &bodies->hull_buffer);
+    glBindVertexArray(bodies->hull_array);
+    glBindBuffer(GL_ARRAY_BUFFER, bodies->hull_buffer);
+    describe_vertices();
+    glBindVertexArray(0);
+    return RLF_OK;
+}
+
+static rlf_result create_textures(gl_bodies *bodies)
+{
+    uint8_t *bytes = rlf_alloc(BODY_TEXTURE_BYTES);
+    if (bytes == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    glGenTextures(1, &bodies->textures);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, bodies->textures);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_REPEAT);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, BODY_TEXTURE_LEVELS - 1);
+    for (int32_t level = 0; level < BODY_TEXTURE_LEVELS; level++) {
+        GLsizei size = BODY_TEXTURE_SIZE >> level;
+        glTexImage3D(GL_TEXTURE_2D_ARRAY, level, GL_RGBA8, size, size, BODY_TEXTURE_KINDS, 0,
+                     GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    }
+    for (int kind = 0; kind < BODY_TEXTURE_KINDS; kind++) {
+        body_texture_fill((body_texture_kind)kind, bytes);
+        for (int32_t level = 0; level < BODY_TEXTURE_LEVELS; level++) {
+            GLsizei size = BODY_TEXTURE_SIZE >> level;
+            glTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, 0, kind, size, size, 1, GL_RGBA,
+                            GL_UNSIGNED_BYTE, bytes + body_texture_level_offset(level));
+        }
+    }
+    rlf_free(bytes);
+    return RLF_OK;
+}
+
+rlf_result gl_bodies_create(bool is_es, gl_bodies *out)
+{
+    *out = (gl_bodies){0};
+    const gl_program_source source = {"body", body_vertex, body_fragment};
+    out->program = gl_program_build(is_es, &source);
+    if (out->program == 0) {
+        return RLF_ERROR_DEVICE;
+    }
+    create_program_uniforms(out);
+    rlf_result result = create_meshes(out);
+    if (result == RLF_OK) {
+        result = create_textures(out);
+    }
+    if (result != RLF_OK) {
+        gl_bodies_destroy(out);
+    }
+    return result;
+}
+
+void gl_bodies_destroy(gl_bodies *bodies)
+{
+    const GLuint buffers[3] = {bodies->vertex_buffer, bodies->index_buffer, bodies->hull_buffer};
+    const GLuint arrays[2] = {bodies->vertex_array, bodies->hull_array};
+    glDeleteProgram(bodies->program);
+    glDeleteVertexArrays(2, arrays);
+    glDeleteBuffers(3, buffers);
+    glDeleteTextures(1, &bodies->textures);
+    rlf_free(bodies->hull_vertices);
+    *bodies = (gl_bodies){0};
+}
+
+void gl_bodies_begin(const gl_bodies *bodies, const gl_bodies_pass *pass)
+{
+    glUseProgram(bodies->program);
+    glUniform3f(bodies->uniforms.light, (GLfloat)pass->light_direction.x,
+                (GLfloat)pass->light_direction.y, (GLfloat)pass->light_direction.z);
+    glUniform1i(bodies->uniforms.is_occluded, pass->real_depth != NULL);
+    if (pass->real_depth != NULL) {
+        gl_texture_bind(pass->real_depth, UNIT_REAL_DEPTH);
+    }
+    glActiveTexture(GL_TEXTURE0 + UNIT_TEXTURES);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, bodies->textures);
+}
+
+/* Uniforms of one body. */
+static void set_body(const gl_bodies *bodies, const gl_bodies_pass *pass,
+                     const rlf_body_state *body)
+{
+    const gl_view *view = pass->view;
+    shape_mesh_scale scale = shape_mesh_scale_of(&body->shape);
+    rlf_pose T_camera_body = rlf_pose_mul(&view->T_camera_world, &body->T_world_body);
+    rlf_mat4 model = rlf_mat4_model(&T_camera_body, scale.scale);
+    rlf_mat4 clip_body = rlf_mat4_mul(&view->clip_camera, &model);
+    rlf_mat3 rotation = rlf_quat_to_mat3(T_camera_body.q);
+    GLfloat columns[9];
+    for (int i = 0; i < 9; i++) {
+        columns[i] = (GLfloat)rotation.m[i % 3][i / 3];
+    }
+    double z = rlf_transform(&view->T_picture_camera, T_camera_body.p).z;
+    gl_view_set_matrix(bodies->uniforms.clip_body, &clip_body);
+    glUniformMatrix3fv(bodies->uniforms.camera_body, 1, GL_FALSE, columns);
+    glUniform1f(bodies->uniforms.shift, (GLfloat)(scale.half_height / scale.scale.y));
+    glUniform3f(bodies->uniforms.color, body->color[0], body->color[1], body->color[2]);
+    glUniform1f(bodies->uniforms.layer, (GLfloat)body_texture_kind_of(body->shape.type));
+    glUniform1f(bodies->uniforms.level,
+                (GLfloat)body_texture_level_of(&body->shape, z, view->focal));
+}
+
+static void draw_batch(const gl_bodies *bodies, int32_t vertex_count)
+{
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)sizeof(shape_vertex) * vertex_count,
+                 bodies->hull_vertices, GL_STREAM_DRAW);
+    glDrawArrays(GL_TRIANGLES, 0, vertex_count);
+}
+
+/* A hull is its body's own and may be any size, so its triangles pass through a small buffer. */
+static void draw_hull(const gl_bodies *bodies, const rlf_shape *shape)
+{
+    double radius = rlf_shape_radius(shape);
+    int32_t count = 0;
+    glBindVertexArray(bodies->hull_array);
+    glBindBuffer(GL_ARRAY_BUFFER, bodies->hull_buffer);
+    for (int32_t i = 0; i < shape->hull->triangle_count; i++) {
+        if (shape_mesh_hull_triangle(shape->hull, i, radius, bodies->hull_vertices + count)) {
+            count += 3;
+        }
+        if (count == 3 * HULL_BATCH) {
+            draw_batch(bodies, count);
+            count = 0;
+        }
+    }
+    if (count > 0) {
+        draw_batch(bodies, count);
+    }
+}
+
+void gl_bodies_draw(const gl_bodies *bodies, const gl_bodies_pass *pass, const rlf_body_state *body)
+{
+    set_body(bodies, pass, body);
+    if (body->shape.type == RLF_SHAPE_HULL) {
+        draw_hull(bodies, &body->shape);
+        return;
+    }
+    const shape_mesh_range *range = &bodies->range[body->shape.type];
+    glBindVertexArray(bodies->vertex_array);
+    glDrawElements(GL_TRIANGLES, range->index_count, GL_UNSIGNED_SHORT,
+                   (const void *)(sizeof(uint16_t) * (uintptr_t)range->first_index));
+}
+
+void gl_bodies_end(void)
+{
+    glBindVertexArray(0);
+    glUseProgram(0);
+}

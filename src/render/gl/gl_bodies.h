@@ -1,0 +1,37 @@
+/* Draws bodies: textured, lit, and hidden per pixel by the real depth. */
+#ifndef RLF_RENDER_GL_BODIES_H
+#define RLF_RENDER_GL_BODIES_H
+
+#include "gl_texture.h"
+#include "gl_view.h"
+
+#include "render/shape_mesh.h"
+
+typedef struct gl_bodies {
+    GLuint program;
+    struct {
+        GLint clip_body, camera_body, shift, color, light, layer, level, is_occluded;
+    } uniforms;
+    GLuint vertex_array, vertex_buffer, index_buffer; /* unit meshes */
+    GLuint hull_array, hull_buffer;                   /* a hull's triangles, streamed */
+    GLuint textures;                                  /* array: one layer per texture kind */
+    shape_mesh_range range[SHAPE_MESH_UNIT_COUNT];
+    shape_vertex *hull_vertices; /* a batch on its way to hull_buffer */
+} gl_bodies;
+
+/* What all bodies of a picture share. */
+typedef struct gl_bodies_pass {
+    const gl_view *view;
+    rlf_vec3 light_direction;     /* depth camera frame, from the light into the scene */
+    const gl_texture *real_depth; /* z in the picture's camera per pixel; NULL = nothing hides */
+} gl_bodies_pass;
+
+rlf_result gl_bodies_create(bool is_es, gl_bodies *out);
+void gl_bodies_destroy(gl_bodies *bodies);
+/* Binds the program and what the pass shares. Depth test and masks are the caller's. */
+void gl_bodies_begin(const gl_bodies *bodies, const gl_bodies_pass *pass);
+void gl_bodies_draw(const gl_bodies *bodies, const gl_bodies_pass *pass,
+                    const rlf_body_state *body);
+void gl_bodies_end(void);
+
+#endif

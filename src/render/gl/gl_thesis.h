@@ -1,0 +1,31 @@
+/* Occlusion as the thesis does it (4.2.2, figs. 4.13 and 4.14): one layer of reality per body. */
+#ifndef RLF_RENDER_GL_THESIS_H
+#define RLF_RENDER_GL_THESIS_H
+
+#include "gl_bodies.h"
+#include "gl_layers.h"
+#include "gl_target.h"
+
+typedef struct gl_thesis {
+    GLuint framebuffer;    /* depth only */
+    gl_texture body_depth; /* of the one body being layered */
+} gl_thesis;
+
+rlf_result gl_thesis_create(int32_t width, int32_t height, gl_thesis *out);
+void gl_thesis_destroy(gl_thesis *thesis);
+
+typedef struct gl_thesis_pass {
+    const gl_target *target;
+    const gl_bodies *bodies;
+    const gl_layers *layers;
+    gl_bodies_pass body_pass; /* real_depth NULL: the layer hides, not the body's shader */
+    gl_layer_images images;   /* body_depth is filled in */
+} gl_thesis_pass;
+
+/* Draws one body and the layer over it. Expects the depth test on and the target bound; leaves both
+ * so. The order of bodies does not matter: the depth buffer keeps a far body from both drawing and
+ * stencilling over a nearer one. */
+void gl_thesis_draw(const gl_thesis *thesis, const gl_thesis_pass *pass,
+                    const rlf_body_state *body);
+
+#endif
