@@ -1,0 +1,297 @@
+/* camera.json: the intrinsics of the depth and colour cameras and the transform between them. */
+#include "relief/io.h"
+#include "io/camera_json.h"
+#include "io/json.h"
+
+#include <string.h>
+
+#define SIZE_MEANING "the picture's size in pixels, a whole number from 1 to 16384"
+#define FOCAL_MEANING "the focal length in pixels, between a hundredth and a hundred times the size"
+#define CENTRE_MEANING "the principal point in pixels, no farther than two sizes from the picture"
+
+/* What a folder's sensor can see when camera.json does not say: the range that Kinect, Xtion and
+ * RealSense class cameras report. */
+#define DEPTH_MIN_DEFAULT_M 0.3
+#define DEPTH_MAX_DEFAULT_M 8.0
+
+/* Quadratic growth as for every triangulating sensor (Khoshelham and Oude Elberink 2012), with the
+ * factor read off recordings of still rooms: 2 mm at 1 m, 6 mm at 2 m, 16 mm at 3.5 m. */
+static const rlf_depth_noise default_noise = {0.0008, 0.0, 0.0012};
+
+/* Deviation from a rotation that rounding to four decimals can cause. */
+#define ROTATION_TOLERANCE 1e-3
+
+static void warn_unknown(const io_json_object *object, const char *const *known, size_t count)
+{
+    const char *key = io_json_unknown_key(object, known, count);
+    if (key != NULL) {
+        char name[64];
+        io_json_printable(key, name, sizeof(name));
+        rlf_log(RLF_LOG_WARNING, "%s: %s%s%s is not a known key and is not used", object->file,
+                object->path, object->path[0] != '\0' ? "." : "", name);
+    }
+}
+
+static rlf_result read_distortion(const io_json_object *object, rlf_camera *camera)
+{
+    static const io_json_field model_field = {
+        "distortion_model", "\"none\", \"plumb_bob\" or \"rational_polynomial\"", 0, 0, false};
+    static const io_json_field plumb_bob_field = {
+        "distortion", "the 5 numbers k1 k2 p1 p2 k3 of plumb_bob", -1e6, 1e6, true};
+    static const io_json_field rational_field = {
+        "distortion", "the 8 numbers k1 k2 p1 p2 k3 k4 k5 k6 of rational_polynomial", -1e6, 1e6,
+        true};
+    const char *model = NULL;
+    rlf_result result = io_json_get_text(object, &model_field, &model);
+    if (result != RLF_OK) {
+        return result;
+    }
+    const json_t *numbers = json_object_get(object->value, "distortion");
+    if (model == NULL && numbers != NULL && json_array_size(numbers) != 0) {
+        return io_json_fail(object, "distortion_model",
+                            "is missing beside distortion: it must be "
+                            "%s",
+                            model_field.meaning);
+    }
+    if (model == NULL || strcmp(model, "none") == 0) {
+        return RLF_OK;
+    }
+    if (strcmp(model, "plumb_bob") == 0) {
+        camera->distortion_model = RLF_DISTORTION_PLUMB_BOB;
+        return io_json_get_numbers(object, &plumb_bob_field, camera->distortion, 5);
+    }
+    if (strcmp(model, "rational_polynomial") == 0) {
+        camera->distortion_model = RLF_DISTORTION_RATIONAL_POLYNOMIAL;
+        return io_json_get_numbers(object, &rational_field, camera->distortion, 8);
+    }
+    char name[64];
+    io_json_printable(model, name, sizeof(name));
+    return io_json_fail(object, "distortion_model", "is \"%s\": it must be %s", name,
+                        model_field.meaning);
+}
+
+static rlf_result read_camera(const io_json_object *object, rlf_camera *camera)
+{
+    memset(camera, 0, sizeof(*camera));
+    const io_json_field width = {"width", SIZE_MEANING, 1, RLF_IMAGE_SIZE_MAX, true};
+    const io_json_field height = {"height", SIZE_MEANING, 1, RLF_IMAGE_SIZE_MAX, true};
+    rlf_result result = io_json_get_integer(object, &width, &camera->width);
+    if (result == RLF_OK) {
+        result = io_json_get_integer(object, &height, &camera->height);
+    }
+    if (result != RLF_OK) {
+        return result;
+    }
+    /* Wide bounds: they only catch normalised intrinsics (fx = 0.7) and wrong sizes. */
+    double w = camera->width;
+    double h = camera->height;
+    const io_json_field fields[4] = {{"fx", FOCAL_MEANING, w / 100, w * 100, true},
+                                     {"fy", FOCAL_MEANING, h / 100, h * 100, true},
+                                     {"cx", CENTRE_MEANING, -2 * w, 3 * w, true},
+                                     {"cy", CENTRE_MEANING, -2 * h, 3 * h, true}};
+    double *const targets[4] = {&camera->fx, &camera->fy, &camera->cx, &camera->cy};
+    for (int i = 0; i < 4; i++) {
+        result = io_json_get_number(object, &fields[i], targets[i]);
+        if (result != RLF_OK) {
+            return result;
+        }
+    }
+    return read_distortion(object, camera);
+}
+
+static rlf_result read_depth(const io_json_object *top, rlf_rig *rig, double *out_units)
+{
+    static const char *const known[] = {"width",
+                                        "height",
+                                        "fx",
+                                        "fy",
+                                        "cx",
+                                        "cy",
+                                        "distortion_model",
+                                        "distortion",
+                                        "units_per_metre",
+                                        "depth_min_m",
+                                        "depth_max_m",
+                                        "noise"};
+    static const io_json_field field = {"depth", "an object with the depth camera's intrinsics", 0,
+                                        0, true};
+    static const io_json_field units = {
+        "units_per_metre", "the depth counts per metre, 1 to 1000000 (1000 for millimetres)", 1,
+        1e6, true};
+    static const io_json_field range[2] = {
+        {"depth_min_m", "the nearest depth in metres, 0 to 1000", 0, 1000, false},
+        {"depth_max_m", "the farthest depth in metres, > depth_min_m and at most 1000", IO_POSITIVE,
+         1000, false}};
+    static const io_json_field noise = {
+        "noise", "three numbers [c0, c1, c2]: sigma = c0 + c1 z + c2 z^2 metres", -1, 1, false};
+    io_json_object depth;
+    rlf_result result = io_json_get_object(top, &field, &depth);
+    if (result == RLF_OK) {
+        result = read_camera(&depth, &rig->depth);
+    }
+    if (result == RLF_OK) {
+        result = io_json_get_number(&depth, &units, out_units);
+    }
+    if (result == RLF_OK) {
+        result = io_json_get_number(&depth, &range[0], &rig->depth_min_m);
+    }
+    if (result == RLF_OK) {
+        result = io_json_get_number(&depth, &range[1], &rig->depth_max_m);
+    }
+    double c[3] = {rig->noise.c0, rig->noise.c1, rig->noise.c2};
+    if (result == RLF_OK) {
+        result = io_json_get_numbers(&depth, &noise, c, 3);
+    }
+    if (result != RLF_OK) {
+        return result;
+    }
+    rig->noise = (rlf_depth_noise){c[0], c[1], c[2]};
+    if (rig->depth_max_m <= rig->depth_min_m) {
+        return io_json_fail(&depth, "depth_max_m", "is %g: it must be %s", rig->depth_max_m,
+                            range[1].meaning);
+    }
+    warn_unknown(&depth, known, sizeof(known) / sizeof(known[0]));
+    return RLF_OK;
+}
+
+static rlf_result read_color(const io_json_object *top, rlf_rig *rig)
+{
+    static const char *const known[] = {"width", "height",           "fx",        "fy", "cx",
+                                        "cy",    "distortion_model", "distortion"};
+    static const io_json_field field = {"color", "an object with the colour camera's intrinsics", 0,
+                                        0, false};
+    io_json_object color;
+    rlf_result result = io_json_get_object(top, &field, &color);
+    if (result != RLF_OK || color.value == NULL) {
+        return result;
+    }
+    rig->has_color = true;
+    result = read_camera(&color, &rig->color);
+    if (result == RLF_OK) {
+        warn_unknown(&color, known, sizeof(known) / sizeof(known[0]));
+    }
+    return result;
+}
+
+/* Largest entry of |R R^T - 1|. */
+static double rotation_error(const rlf_mat3 *rotation)
+{
+    rlf_mat3 transposed = rlf_mat3_transpose(rotation);
+    rlf_mat3 product = rlf_mat3_mul(rotation, &transposed);
+    double worst = 0.0;
+    for (int i = 0; i < 9; i++) {
+        double error = product.m[i / 3][i % 3] - (i / 3 == i % 3 ? 1.0 : 0.0);
+        worst = rlf_max(worst, error < 0.0 ? -error : error);
+    }
+    return worst;
+}
+
+static double determinant(const rlf_mat3 *a)
+{
+    rlf_vec3 r0 = rlf_vec3_make(a->m[0][0], a->m[0][1], a->m[0][2]);
+    rlf_vec3 r1 = rlf_vec3_make(a->m[1][0], a->m[1][1], a->m[1][2]);
+    rlf_vec3 r2 = rlf_vec3_make(a->m[2][0], a->m[2][1], a->m[2][2]);
+    return rlf_dot(r0, rlf_cross(r1, r2));
+}
+
+static rlf_result read_rotation(const io_json_object *object, rlf_quat *out)
+{
+    static const char meaning[] =
+        "three rows of three numbers that form a rotation (orthogonal, determinant +1)";
+    const json_t *rows = json_object_get(object->value, "rotation");
+    rlf_mat3 rotation = {{{0}}};
+    bool is_complete = json_is_array(rows) && json_array_size(rows) == 3;
+    for (size_t r = 0; r < 3 && is_complete; r++) {
+        const json_t *row = json_array_get(rows, r);
+        is_complete = json_is_array(row) && json_array_size(row) == 3;
+        for (size_t c = 0; c < 3 && is_complete; c++) {
+            is_complete = json_is_number(json_array_get(row, c));
+            rotation.m[r][c] = json_number_value(json_array_get(row, c));
+        }
+    }
+    if (!is_complete) {
+        return io_json_fail(object, "rotation", "is %s: it must be %s",
+                            rows == NULL ? "missing" : "not complete", meaning);
+    }
+    double error = rotation_error(&rotation);
+    if (!(error <= ROTATION_TOLERANCE) || !(determinant(&rotation) > 0.0)) {
+        return io_json_fail(object, "rotation",
+                            "is not a rotation (off by %.3g, determinant %.3g): it must be %s",
+                            error, determinant(&rotation), meaning);
+    }
+    *out = rlf_quat_normalize(rlf_quat_from_mat3(&rotation));
+    return RLF_OK;
+}
+
+static rlf_result read_depth_to_color(const io_json_object *top, rlf_rig *rig)
+{
+    static const char *const known[] = {"rotation", "translation"};
+    static const io_json_field field = {
+        "depth_to_color", "an object with rotation and translation: p_color = R p_depth + t", 0, 0,
+        false};
+    static const io_json_field translation = {
+        "translation", "three numbers in metres (not millimetres), each at most 10", -10, 10, true};
+    io_json_object object;
+    rlf_result result = io_json_get_object(top, &field, &object);
+    if (result != RLF_OK || object.value == NULL) {
+        return result;
+    }
+    double t[3];
+    result = read_rotation(&object, &rig->T_color_depth.q);
+    if (result == RLF_OK) {
+        result = io_json_get_numbers(&object, &translation, t, 3);
+    }
+    if (result == RLF_OK) {
+        rig->T_color_depth.p = rlf_vec3_make(t[0], t[1], t[2]);
+        warn_unknown(&object, known, sizeof(known) / sizeof(known[0]));
+    }
+    return result;
+}
+
+rlf_result io_rig_parse(const io_bytes *file, rlf_rig *out, double *out_units_per_metre)
+{
+    static const char *const known[] = {"depth", "color", "depth_to_color", "note"};
+    json_t *document = NULL;
+    rlf_result result = io_json_parse(file, &document);
+    if (result != RLF_OK) {
+        return result;
+    }
+    rlf_rig rig = {.T_color_depth = rlf_pose_identity(),
+                   .depth_min_m = DEPTH_MIN_DEFAULT_M,
+                   .depth_max_m = DEPTH_MAX_DEFAULT_M,
+                   .noise = default_noise};
+    double units = 0.0;
+    io_json_object top = io_json_top(file, document);
+    result = read_depth(&top, &rig, &units);
+    if (result == RLF_OK) {
+        result = read_color(&top, &rig);
+    }
+    if (result == RLF_OK) {
+        result = read_depth_to_color(&top, &rig);
+    }
+    if (result == RLF_OK) {
+        warn_unknown(&top, known, sizeof(known) / sizeof(known[0]));
+        *out = rig;
+        *out_units_per_metre = units;
+    }
+    json_decref(document);
+    return result;
+}
+
+rlf_result rlf_rig_load(const char *path, rlf_rig *out, double *out_units_per_metre)
+{
+    if (!RLF_ASSERT(path != NULL && out != NULL && out_units_per_metre != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    io_buffer buffer = {0};
+    io_bytes file;
+    rlf_result result = io_file_read(path, IO_JSON_FILE_MAX,
+                                     "write the camera's intrinsics there, docs/formats.md shows "
+                                     "how",
+                                     &buffer, &file);
+    if (result == RLF_OK) {
+        result = io_rig_parse(&file, out, out_units_per_metre);
+    }
+    io_buffer_free(&buffer);
+    return result;
+}

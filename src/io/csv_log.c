@@ -1,0 +1,249 @@
+/* The three logs of a run: frames.csv, bodies.csv and contacts.csv. */
+#include "relief/io.h"
+#include "io/file.h"
+#include "io/number.h"
+
+#include <string.h>
+
+#define ROW_SIZE 1024 /* two quoted names and sixteen numbers need less */
+
+typedef struct row {
+    char text[ROW_SIZE];
+    size_t length;
+} row;
+
+struct rlf_csv_log {
+    io_out_file frames, bodies, contacts;
+};
+
+static void add_bytes(row *r, const char *text, size_t length)
+{
+    if (r->length > 0 && r->length + 1 < ROW_SIZE) {
+        r->text[r->length++] = ',';
+    }
+    for (size_t i = 0; i < length && r->length + 1 < ROW_SIZE; i++) {
+        r->text[r->length++] = text[i];
+    }
+}
+
+static void add_integer(row *r, int64_t x)
+{
+    char text[IO_NUMBER_SIZE];
+    int length = snprintf(text, sizeof(text), "%lld", (long long)x);
+    add_bytes(r, text, (size_t)length);
+}
+
+static void add_number(row *r, double x)
+{
+    char text[IO_NUMBER_SIZE];
+    int length = io_number_format(x, text);
+    add_bytes(r, text, (size_t)length);
+}
+
+static void add_vec3(row *r, rlf_vec3 v)
+{
+    add_number(r, v.x);
+    add_number(r, v.y);
+    add_number(r, v.z);
+}
+
+/* Quoted where it must be: RFC 4180. */
+static void add_name(row *r, const char *name)
+{
+    char text[2 * RLF_NAME_MAX + 2];
+    size_t length = 0;
+    bool is_quoted = strpbrk(name, ",\"\r\n") != NULL;
+    if (is_quoted) {
+        text[length++] = '"';
+    }
+    for (size_t i = 0; name[i] != '\0' && i < RLF_NAME_MAX; i++) {
+        if (name[i] == '"') {
+            text[length++] = '"';
+        }
+        text[length++] = name[i];
+    }
+    if (is_quoted) {
+        text[length++] = '"';
+    }
+    add_bytes(r, text, length);
+}
+
+static rlf_result end_row(io_out_file *file, row *r)
+{
+    r->text[r->length++] = '\n';
+    return io_out_write(file, r->text, r->length);
+}
+
+static rlf_result open_one(io_out_file *file, const char *folder, const char *name,
+                           const char *header)
+{
+    char path[IO_PATH_MAX];
+    rlf_result result = io_path_join(folder, name, path);
+    if (result == RLF_OK) {
+        result = io_out_open(file, path);
+    }
+    return result == RLF_OK ? io_out_write(file, header, strlen(header)) : result;
+}
+
+static rlf_result open_all(rlf_csv_log *log, const char *folder)
+{
+    rlf_result result = open_one(&log->frames, folder, "frames.csv",
+                                 "frame,time_s,valid,missing,foreground,regions,capture_ms,"
+                                 "surface_ms,physics_ms,render_ms\n");
+    if (result == RLF_OK) {
+        result = open_one(&log->bodies, folder, "bodies.csv",
+                          "frame,time_s,body,px,py,pz,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz\n");
+    }
+    if (result == RLF_OK) {
+        result = open_one(&log->contacts, folder, "contacts.csv",
+                          "frame,time_s,body,other,px,py,pz,nx,ny,nz,separation,impulse,"
+                          "surface_speed\n");
+    }
+    return result;
+}
+
+/* Closes all three; when one fails, all are removed unless they were whole already. */
+static rlf_result close_all(rlf_csv_log *log, rlf_result result)
+{
+    result = io_out_close(&log->frames, result);
+    result = io_out_close(&log->bodies, result);
+    return io_out_close(&log->contacts, result);
+}
+
+rlf_result rlf_csv_log_open(const char *folder, rlf_csv_log **out)
+{
+    if (!RLF_ASSERT(folder != NULL && out != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    *out = NULL;
+    rlf_result result = rlf_make_folder(folder);
+    if (result != RLF_OK) {
+        return result;
+    }
+    rlf_csv_log *log = rlf_alloc(sizeof(*log));
+    if (log == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    result = open_all(log, folder);
+    if (result != RLF_OK) {
+        close_all(log, result);
+        rlf_free(log);
+        return result;
+    }
+    *out = log;
+    return RLF_OK;
+}
+
+static rlf_result write_frame(rlf_csv_log *log, const rlf_pipeline_output *output)
+{
+    const rlf_surface *s = output->surface;
+    row r = {.length = 0};
+    add_integer(&r, output->frame_index);
+    add_number(&r, output->time_s);
+    add_integer(&r, s->valid_count);
+    add_integer(&r, (int64_t)s->width * s->height - s->valid_count);
+    add_integer(&r, s->foreground_count);
+    add_integer(&r, s->region_count);
+    add_number(&r, output->times.capture_ms);
+    add_number(&r, output->times.surface_ms);
+    add_number(&r, output->times.physics_ms);
+    add_number(&r, output->times.render_ms);
+    return end_row(&log->frames, &r);
+}
+
+static rlf_result write_bodies(rlf_csv_log *log, const rlf_pipeline_output *output)
+{
+    const rlf_snapshot *snapshot = output->snapshot;
+    rlf_result result = RLF_OK;
+    for (int32_t i = 0; i < snapshot->body_count && result == RLF_OK; i++) {
+        const rlf_body_state *body = &snapshot->bodies[i];
+        row r = {.length = 0};
+        add_integer(&r, output->frame_index);
+        add_number(&r, output->time_s);
+        add_name(&r, body->name);
+        add_vec3(&r, body->T_world_body.p);
+        add_number(&r, body->T_world_body.q.x);
+        add_number(&r, body->T_world_body.q.y);
+        add_number(&r, body->T_world_body.q.z);
+        add_number(&r, body->T_world_body.q.w);
+        add_vec3(&r, body->velocity);
+        add_vec3(&r, body->angular_velocity);
+        result = end_row(&log->bodies, &r);
+    }
+    return result;
+}
+
+static bool has_id(const rlf_body_state *body, rlf_body_id id)
+{
+    return body->id.index1 == id.index1 && body->id.generation == id.generation;
+}
+
+/* Usually the body stands at its index; after removals it is looked for. */
+static const char *name_of(const rlf_snapshot *snapshot, rlf_body_id id)
+{
+    int64_t guess = (int64_t)id.index1 - 1;
+    if (guess >= 0 && guess < snapshot->body_count && has_id(&snapshot->bodies[guess], id)) {
+        return snapshot->bodies[guess].name;
+    }
+    for (int32_t i = 0; i < snapshot->body_count; i++) {
+        if (has_id(&snapshot->bodies[i], id)) {
+            return snapshot->bodies[i].name;
+        }
+    }
+    return "removed"; /* it left the world's bounds in this very frame */
+}
+
+static const char *other_name(const rlf_snapshot *snapshot, const rlf_contact *contact)
+{
+    switch (contact->other) {
+    case RLF_CONTACT_BODY: return name_of(snapshot, contact->other_body);
+    case RLF_CONTACT_BACKGROUND: return "background";
+    case RLF_CONTACT_FOREGROUND: return "foreground";
+    }
+    return "unknown";
+}
+
+static rlf_result write_contacts(rlf_csv_log *log, const rlf_pipeline_output *output)
+{
+    const rlf_snapshot *snapshot = output->snapshot;
+    rlf_result result = RLF_OK;
+    for (int32_t i = 0; i < snapshot->contact_count && result == RLF_OK; i++) {
+        const rlf_contact *contact = &snapshot->contacts[i];
+        row r = {.length = 0};
+        add_integer(&r, output->frame_index);
+        add_number(&r, output->time_s);
+        add_name(&r, name_of(snapshot, contact->body));
+        add_name(&r, other_name(snapshot, contact));
+        add_vec3(&r, contact->point);
+        add_vec3(&r, contact->normal);
+        add_number(&r, contact->separation);
+        add_number(&r, contact->impulse);
+        add_number(&r, contact->surface_speed);
+        result = end_row(&log->contacts, &r);
+    }
+    return result;
+}
+
+rlf_result rlf_csv_log_write(rlf_csv_log *log, const rlf_pipeline_output *output)
+{
+    if (!RLF_ASSERT(log != NULL && output != NULL) ||
+        !RLF_ASSERT(output->surface != NULL && output->snapshot != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    rlf_result result = write_frame(log, output);
+    if (result == RLF_OK) {
+        result = write_bodies(log, output);
+    }
+    return result == RLF_OK ? write_contacts(log, output) : result;
+}
+
+rlf_result rlf_csv_log_close(rlf_csv_log **log)
+{
+    if (log == NULL || *log == NULL) {
+        return RLF_OK;
+    }
+    rlf_result result = close_all(*log, RLF_OK);
+    rlf_free(*log);
+    *log = NULL;
+    return result;
+}

@@ -1,0 +1,62 @@
+/* Whole files in, whole files out. */
+#ifndef RLF_IO_FILE_H
+#define RLF_IO_FILE_H
+
+#include "relief/base.h"
+
+#include <stdio.h>
+
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
+#error "the writers of NPY, PLY and PNG assume a little-endian machine"
+#endif
+
+#define IO_PATH_MAX 4096 /* bytes of a path, with its ending zero */
+
+/* Content of a file in memory; `name` is what error lines call it. */
+typedef struct io_bytes {
+    const char *name;
+    const uint8_t *data;
+    size_t size;
+} io_bytes;
+
+/* Memory that grows to the largest file read so far. Free with io_buffer_free. */
+typedef struct io_buffer {
+    uint8_t *data;
+    size_t capacity;
+} io_buffer;
+
+/* Makes room for `size` bytes; the old content is lost. */
+rlf_result io_buffer_reserve(io_buffer *buffer, size_t size);
+void io_buffer_free(io_buffer *buffer);
+
+/* Reads a regular file of at most `limit` bytes. *out points into the buffer and has the name
+ * `path`. `cure` ends the error line when the file is not there. */
+rlf_result io_file_read(const char *path, size_t limit, const char *cure, io_buffer *buffer,
+                        io_bytes *out);
+
+/* folder/name, or name alone when it is absolute. */
+rlf_result io_path_join(const char *folder, const char *name, char out[IO_PATH_MAX]);
+
+/* A file being written: FILE.part until it is whole. A target that exists and is no regular file
+ * (a pipe, /dev/null) is written directly, because renaming onto it would replace the device. */
+typedef struct io_out_file {
+    FILE *stream;
+    int write_errno; /* of the first failed write; 0 = none */
+    bool is_direct;
+    char path[IO_PATH_MAX];
+    char part[IO_PATH_MAX]; /* what is written to; equals path when is_direct */
+} io_out_file;
+
+/* Sets path and part, and refuses folders. */
+rlf_result io_out_prepare(io_out_file *file, const char *path);
+/* Prepares and opens. */
+rlf_result io_out_open(io_out_file *file, const char *path);
+rlf_result io_out_write(io_out_file *file, const void *data, size_t size);
+/* RLF_OK given: flushes, closes and gives the file its name. An error given, or met: removes the
+ * part file. Returns the first error. */
+rlf_result io_out_close(io_out_file *file, rlf_result result);
+/* The last step alone, for a file that somebody else closed. */
+rlf_result io_out_commit(const io_out_file *file);
+void io_out_discard(const io_out_file *file);
+
+#endif

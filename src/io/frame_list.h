@@ -1,0 +1,34 @@
+/* Lists of timestamped files: depth.txt and rgb.txt of the TUM RGB-D layout. */
+#ifndef RLF_IO_FRAME_LIST_H
+#define RLF_IO_FRAME_LIST_H
+
+#include "io/file.h"
+
+#define IO_LIST_FILE_MAX ((size_t)256 << 20)
+
+typedef struct io_list_entry {
+    int64_t time_ns;
+    int32_t line;     /* in the file, from 1 */
+    const char *name; /* as written, usually relative to the folder */
+} io_list_entry;
+
+/* Entries in order of time; equal times keep the order of the file. */
+typedef struct io_frame_list {
+    io_list_entry *entries;
+    int32_t count;
+    char *text; /* holds the names */
+} io_frame_list;
+
+/* Lines "SECONDS NAME"; empty lines and lines that start with # are skipped. Times that go
+ * backwards are sorted, with a warning. */
+rlf_result io_frame_list_parse(const io_bytes *file, io_frame_list *out);
+void io_frame_list_free(io_frame_list *list);
+
+/* Index of the entry nearest to time_ns (the earlier of two equally near), or -1 when the list is
+ * empty or the nearest is more than max_gap_ns away. */
+int32_t io_frame_list_nearest(const io_frame_list *list, int64_t time_ns, int64_t max_gap_ns);
+
+/* Frames per second from the median interval; 0 when it cannot be told. */
+rlf_result io_frame_list_rate(const io_frame_list *list, double *out_frames_per_second);
+
+#endif

@@ -1,0 +1,33 @@
+/* Convex hulls from Wavefront OBJ files. */
+#ifndef RLF_IO_HULL_OBJ_H
+#define RLF_IO_HULL_OBJ_H
+
+#include "relief/snapshot.h"
+#include "io/file.h"
+
+/* Limits of a hull that bodies collide with. */
+#define IO_HULL_VERTICES_MAX 4096
+#define IO_HULL_TRIANGLES_MAX 8192
+#define IO_OBJ_FILE_MAX ((size_t)16 << 20)
+
+/* A mesh while it is being made; both arrays are rlf_alloc'ed. */
+typedef struct io_mesh {
+    rlf_vec3 *vertices;
+    int32_t vertex_count;
+    int32_t *triangles;
+    int32_t triangle_count;
+} io_mesh;
+
+/* Reads v and f lines; polygons are split into fans, other lines are skipped. */
+rlf_result io_obj_parse(const io_bytes *file, io_mesh *out);
+void io_mesh_free(io_mesh *mesh);
+
+/* Turns a closed convex mesh into a hull with its origin at the centre of mass and triangles
+ * counter-clockwise seen from outside. The hull and its arrays are one rlf_alloc block. Vertices
+ * that no triangle uses are left out. RLF_ERROR_FORMAT when it is open or not convex. */
+rlf_result io_hull_from_mesh(const char *name, const io_mesh *mesh, rlf_hull **out);
+
+/* Both steps for a file. */
+rlf_result io_hull_load(const char *path, rlf_hull **out);
+
+#endif

@@ -1,0 +1,98 @@
+/* Pictures of either kind. */
+#include "relief/io.h"
+#include "io/picture.h"
+
+#include <string.h>
+
+rlf_result io_picture_prepare(const io_bytes *file, io_picture *picture, int64_t width,
+                              int64_t height, int64_t pixels_per_byte, size_t pixel_size)
+{
+    if (width < 1 || height < 1 || width > RLF_IMAGE_SIZE_MAX || height > RLF_IMAGE_SIZE_MAX) {
+        return rlf_fail(RLF_ERROR_FORMAT, "%s: the picture is %lld x %lld: use sizes of 1 to %d",
+                        file->name, (long long)width, (long long)height, RLF_IMAGE_SIZE_MAX);
+    }
+    bool is_wanted = (picture->width == 0 || picture->width == width) &&
+                     (picture->height == 0 || picture->height == height);
+    if (!is_wanted) {
+        return rlf_fail(RLF_ERROR_FORMAT,
+                        "%s: the picture is %lld x %lld but camera.json says %d x %d: correct "
+                        "camera.json, or take the picture out",
+                        file->name, (long long)width, (long long)height, (int)picture->width,
+                        (int)picture->height);
+    }
+    /* A few bytes that claim a huge picture must not cost a huge allocation. */
+    if (width * height / pixels_per_byte > (int64_t)file->size) {
+        return rlf_fail(RLF_ERROR_FORMAT,
+                        "%s: is cut short: %zu bytes cannot hold %lld x %lld pixels: copy or "
+                        "record it again",
+                        file->name, file->size, (long long)width, (long long)height);
+    }
+    picture->width = (int32_t)width;
+    picture->height = (int32_t)height;
+    if (picture->data == NULL) {
+        picture->data = rlf_alloc_array((size_t)(width * height), pixel_size);
+    }
+    return picture->data != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+}
+
+rlf_result io_picture_decode(const io_bytes *file, io_picture *picture)
+{
+    if (file->size == 0) {
+        return rlf_fail(RLF_ERROR_FORMAT, "%s: is empty (0 bytes): copy or record it again",
+                        file->name);
+    }
+    if (io_png_is(file)) {
+        return io_png_decode_rgba(file, picture);
+    }
+    if (file->size >= 2 && file->data[0] == 0xFF && file->data[1] == 0xD8) {
+        return io_jpeg_decode_rgba(file, picture);
+    }
+    return rlf_fail(RLF_ERROR_FORMAT, "%s: is neither PNG nor JPEG: convert it to one of them",
+                    file->name);
+}
+
+rlf_result rlf_picture_read(const char *path, rlf_image_rgba8 *out)
+{
+    if (!RLF_ASSERT(path != NULL && out != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    memset(out, 0, sizeof(*out));
+    io_buffer buffer = {0};
+    io_bytes file;
+    io_picture picture = {0};
+    rlf_result result =
+        io_file_read(path, IO_PICTURE_FILE_MAX, "check the name of the picture", &buffer, &file);
+    if (result == RLF_OK) {
+        result = io_picture_decode(&file, &picture);
+    }
+    io_buffer_free(&buffer);
+    if (result == RLF_OK) {
+        *out = (rlf_image_rgba8){picture.data, picture.width, picture.height,
+                                 (ptrdiff_t)picture.width * 4};
+    }
+    return result;
+}
+
+rlf_result rlf_png_read_u16(const char *path, uint16_t **out, int32_t *out_width,
+                            int32_t *out_height)
+{
+    if (!RLF_ASSERT(path != NULL && out != NULL && out_width != NULL && out_height != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    *out = NULL;
+    io_buffer buffer = {0};
+    io_bytes file;
+    io_picture picture = {0};
+    rlf_result result =
+        io_file_read(path, IO_PICTURE_FILE_MAX, "check the name of the picture", &buffer, &file);
+    if (result == RLF_OK) {
+        result = io_png_decode_u16(&file, &picture);
+    }
+    io_buffer_free(&buffer);
+    if (result == RLF_OK) {
+        *out = picture.data;
+        *out_width = picture.width;
+        *out_height = picture.height;
+    }
+    return result;
+}

@@ -1,0 +1,364 @@
+/* scene.json: gravity and the bodies to start with. */
+#include "relief/io.h"
+#include "io/hull_obj.h"
+#include "io/json.h"
+#include "io/scene_json.h"
+
+#include <string.h>
+
+#define BODIES_MAX 65536
+#define FINITE_MAX 1e6 /* metres, m/s, rad/s: far beyond any scene, and squares stay finite */
+#define SIZE_MAX_M 100.0
+
+static rlf_result read_vec3(const io_json_object *object, const io_json_field *field, rlf_vec3 *out)
+{
+    double v[3] = {out->x, out->y, out->z};
+    rlf_result result = io_json_get_numbers(object, field, v, 3);
+    *out = rlf_vec3_make(v[0], v[1], v[2]);
+    return result;
+}
+
+static bool is_control(char c)
+{
+    return (unsigned char)c < 0x20 || c == 0x7f;
+}
+
+static rlf_result read_name(const io_json_object *body, rlf_body_def *def)
+{
+    static const io_json_field field = {"name", "a text of 1 to 63 bytes", 0, 0, false};
+    const char *name = NULL;
+    rlf_result result = io_json_get_text(body, &field, &name);
+    if (result != RLF_OK || name == NULL) {
+        return result;
+    }
+    size_t length = strlen(name);
+    if (length == 0 || length >= RLF_NAME_MAX) {
+        return io_json_fail(body, "name", "has %zu bytes: it must be %s", length, field.meaning);
+    }
+    for (size_t i = 0; i < length; i++) {
+        if (is_control(name[i])) {
+            return io_json_fail(body, "name", "holds a control character: use printable text");
+        }
+    }
+    if (strcmp(name, "background") == 0 || strcmp(name, "foreground") == 0) {
+        return io_json_fail(body, "name",
+                            "is \"%s\", which contacts.csv uses for the real surface: choose "
+                            "another",
+                            name);
+    }
+    memcpy(def->name, name, length + 1);
+    return RLF_OK;
+}
+
+/* Name and keys of a shape; which of size, radius, height and model it takes. */
+typedef struct shape_keys {
+    const char *name;
+    rlf_shape_type type;
+    bool has_size, has_radius, has_height, has_model;
+} shape_keys;
+
+static const shape_keys shapes[] = {{"box", RLF_SHAPE_BOX, true, false, false, false},
+                                    {"sphere", RLF_SHAPE_SPHERE, false, true, false, false},
+                                    {"capsule", RLF_SHAPE_CAPSULE, false, true, true, false},
+                                    {"cylinder", RLF_SHAPE_CYLINDER, false, true, true, false},
+                                    {"hull", RLF_SHAPE_HULL, false, false, false, true}};
+
+static rlf_result find_shape(const io_json_object *body, const shape_keys **out)
+{
+    static const io_json_field field = {
+        "shape", "\"box\", \"sphere\", \"capsule\", \"cylinder\" or \"hull\"", 0, 0, false};
+    const char *name = "box";
+    rlf_result result = io_json_get_text(body, &field, &name);
+    if (result != RLF_OK) {
+        return result;
+    }
+    for (size_t i = 0; i < sizeof(shapes) / sizeof(shapes[0]); i++) {
+        if (strcmp(name, shapes[i].name) == 0) {
+            *out = &shapes[i];
+            return RLF_OK;
+        }
+    }
+    char printable[64];
+    io_json_printable(name, printable, sizeof(printable));
+    return io_json_fail(body, "shape", "is \"%s\": it must be %s", printable, field.meaning);
+}
+
+/* A key that belongs to another shape would be ignored silently. */
+static rlf_result check_shape_keys(const io_json_object *body, const shape_keys *shape)
+{
+    const struct {
+        const char *key;
+        bool is_used;
+    } keys[4] = {{"size", shape->has_size},
+                 {"radius", shape->has_radius},
+                 {"height", shape->has_height},
+                 {"model", shape->has_model}};
+    for (int i = 0; i < 4; i++) {
+        if (!keys[i].is_used && json_object_get(body->value, keys[i].key) != NULL) {
+            return io_json_fail(body, keys[i].key,
+                                "does not belong to the shape \"%s\": take it out", shape->name);
+        }
+    }
+    return RLF_OK;
+}
+
+static rlf_result read_model(const io_json_object *body, const char *folder, rlf_shape *out)
+{
+    static const io_json_field field = {"model", "the name of an OBJ file", 0, 0, true};
+    const char *name = NULL;
+    rlf_result result = io_json_get_text(body, &field, &name);
+    if (result != RLF_OK) {
+        return result;
+    }
+    char path[IO_PATH_MAX];
+    rlf_hull *hull = NULL;
+    result = io_path_join(folder, name, path);
+    if (result == RLF_OK) {
+        result = io_hull_load(path, &hull);
+    }
+    if (result != RLF_OK) {
+        return rlf_fail(result, "%s: %s.model: %s", body->file, body->path, rlf_error_text());
+    }
+    out->hull = hull;
+    return RLF_OK;
+}
+
+static rlf_result read_shape(const io_json_object *body, const char *folder, rlf_shape *out)
+{
+    static const io_json_field size = {"size",
+                                       "three full extents in metres, each > 0 and at most 100",
+                                       IO_POSITIVE, SIZE_MAX_M, false};
+    static const io_json_field radius = {"radius", "a number of metres, > 0 and at most 100",
+                                         IO_POSITIVE, SIZE_MAX_M, true};
+    static const io_json_field height = {"height", "a number of metres, > 0 and at most 100",
+                                         IO_POSITIVE, SIZE_MAX_M, true};
+    const shape_keys *shape = NULL;
+    rlf_result result = find_shape(body, &shape);
+    if (result == RLF_OK) {
+        result = check_shape_keys(body, shape);
+    }
+    if (result != RLF_OK) {
+        return result;
+    }
+    out->type = shape->type;
+    if (shape->has_size) {
+        result = read_vec3(body, &size, &out->size);
+    }
+    if (result == RLF_OK && shape->has_radius) {
+        result = io_json_get_number(body, &radius, &out->radius);
+    }
+    if (result == RLF_OK && shape->has_height) {
+        result = io_json_get_number(body, &height, &out->height);
+    }
+    if (result == RLF_OK && shape->has_model) {
+        result = read_model(body, folder, out);
+    }
+    return result;
+}
+
+static rlf_result read_orientation(const io_json_object *body, rlf_quat *out)
+{
+    static const io_json_field field = {
+        "orientation", "a quaternion [x, y, z, w] of about unit length", -1e3, 1e3, false};
+    double q[4] = {out->x, out->y, out->z, out->w};
+    rlf_result result = io_json_get_numbers(body, &field, q, 4);
+    if (result != RLF_OK) {
+        return result;
+    }
+    double norm = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    if (!(norm > 0.9 && norm < 1.1)) {
+        return io_json_fail(body, "orientation", "has the length %g: it must be %s", norm,
+                            field.meaning);
+    }
+    rlf_quat quaternion = {q[0], q[1], q[2], q[3]};
+    *out = rlf_quat_normalize(quaternion);
+    return RLF_OK;
+}
+
+static rlf_result read_motion(const io_json_object *body, rlf_body_def *def)
+{
+    static const io_json_field position = {"position", "three numbers of metres", -FINITE_MAX,
+                                           FINITE_MAX, false};
+    static const io_json_field velocity = {"velocity", "three numbers of m/s", -FINITE_MAX,
+                                           FINITE_MAX, false};
+    static const io_json_field spin = {"angular_velocity", "three numbers of rad/s", -FINITE_MAX,
+                                       FINITE_MAX, false};
+    rlf_result result = read_vec3(body, &position, &def->position);
+    if (result == RLF_OK) {
+        result = read_orientation(body, &def->orientation);
+    }
+    if (result == RLF_OK) {
+        result = read_vec3(body, &velocity, &def->velocity);
+    }
+    if (result == RLF_OK) {
+        result = read_vec3(body, &spin, &def->angular_velocity);
+    }
+    return result;
+}
+
+static rlf_result read_material(const io_json_object *body, rlf_body_def *def)
+{
+    static const io_json_field fields[5] = {
+        {"mass", "a number of kg, > 0 and at most 1e6", IO_POSITIVE, 1e6, false},
+        {"restitution", "a number from 0 to 1", 0, 1, false},
+        {"friction", "a number >= 0 and at most 1000", 0, 1000, false},
+        {"gravity_scale", "a number from -1000 to 1000", -1000, 1000, false},
+        {"release_time", "a number of seconds, >= 0 and at most 1e6", 0, 1e6, false}};
+    static const io_json_field collides = {"collides_with_bodies", "true or false", 0, 0, false};
+    static const io_json_field color = {"color", "three numbers from 0 to 1 (red, green, blue)", 0,
+                                        1, false};
+    double *const targets[5] = {&def->mass, &def->restitution, &def->friction, &def->gravity_scale,
+                                &def->release_time};
+    for (int i = 0; i < 5; i++) {
+        rlf_result result = io_json_get_number(body, &fields[i], targets[i]);
+        if (result != RLF_OK) {
+            return result;
+        }
+    }
+    rlf_result result = io_json_get_bool(body, &collides, &def->collides_with_bodies);
+    double c[3] = {def->color[0], def->color[1], def->color[2]};
+    if (result == RLF_OK) {
+        result = io_json_get_numbers(body, &color, c, 3);
+    }
+    for (int i = 0; i < 3; i++) {
+        def->color[i] = (float)c[i];
+    }
+    return result;
+}
+
+static rlf_result read_body(const io_json_object *body, const char *folder, rlf_body_def *def)
+{
+    static const char *const known[] = {"name",
+                                        "shape",
+                                        "size",
+                                        "radius",
+                                        "height",
+                                        "model",
+                                        "mass",
+                                        "position",
+                                        "orientation",
+                                        "velocity",
+                                        "angular_velocity",
+                                        "restitution",
+                                        "friction",
+                                        "gravity_scale",
+                                        "release_time",
+                                        "collides_with_bodies",
+                                        "color"};
+    const char *unknown = io_json_unknown_key(body, known, sizeof(known) / sizeof(known[0]));
+    if (unknown != NULL) {
+        return io_json_fail(body, unknown, "is not a known key: see the list in docs/formats.md");
+    }
+    rlf_result result = read_name(body, def);
+    if (result == RLF_OK) {
+        result = read_motion(body, def);
+    }
+    if (result == RLF_OK) {
+        result = read_material(body, def);
+    }
+    return result == RLF_OK ? read_shape(body, folder, &def->shape) : result;
+}
+
+/* Logs tell bodies apart by their names. */
+static rlf_result check_name_is_new(const io_json_object *body, const rlf_scene *scene,
+                                    const char *name)
+{
+    for (int32_t i = 0; i < scene->body_count && name[0] != '\0'; i++) {
+        if (strcmp(scene->bodies[i].name, name) == 0) {
+            return io_json_fail(body, "name", "is \"%s\" like that of bodies[%d]: choose another",
+                                name, (int)i);
+        }
+    }
+    return RLF_OK;
+}
+
+static rlf_result read_bodies(const io_json_object *top, const char *folder, rlf_scene *scene)
+{
+    const json_t *bodies = json_object_get(top->value, "bodies");
+    if (bodies == NULL) {
+        return RLF_OK;
+    }
+    size_t count = json_array_size(bodies);
+    if (!json_is_array(bodies) || count > BODIES_MAX) {
+        return io_json_fail(top, "bodies", "must be an array of at most %d objects", BODIES_MAX);
+    }
+    scene->bodies = rlf_alloc_array(count, sizeof(scene->bodies[0]));
+    if (scene->bodies == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    for (size_t i = 0; i < count; i++) {
+        io_json_object body = {.file = top->file, .value = json_array_get(bodies, i)};
+        snprintf(body.path, sizeof(body.path), "bodies[%zu]", i);
+        if (!json_is_object(body.value)) {
+            return io_json_fail(&body, "", "must be an object {...}");
+        }
+        rlf_body_def *def = &scene->bodies[i];
+        *def = rlf_body_def_default();
+        rlf_result result = read_body(&body, folder, def);
+        if (result == RLF_OK) {
+            result = check_name_is_new(&body, scene, def->name);
+        }
+        scene->body_count++; /* also when it failed: its hull must be freed */
+        if (result != RLF_OK) {
+            return result;
+        }
+    }
+    return RLF_OK;
+}
+
+static rlf_result read_scene(const io_json_object *top, const char *folder, rlf_scene *scene)
+{
+    static const char *const known[] = {"gravity", "bodies"};
+    static const io_json_field gravity = {
+        "gravity", "three numbers of m/s^2, each from -1000 to 1000", -1000, 1000, false};
+    const char *unknown = io_json_unknown_key(top, known, 2);
+    if (unknown != NULL) {
+        return io_json_fail(top, unknown,
+                            "is not a known key: a scene has \"gravity\" and \"bodies\"");
+    }
+    scene->gravity = rlf_world_def_default().gravity;
+    rlf_result result = read_vec3(top, &gravity, &scene->gravity);
+    return result == RLF_OK ? read_bodies(top, folder, scene) : result;
+}
+
+rlf_result io_scene_parse(const io_bytes *file, const char *folder, rlf_scene *out)
+{
+    memset(out, 0, sizeof(*out));
+    json_t *document = NULL;
+    rlf_result result = io_json_parse(file, &document);
+    if (result != RLF_OK) {
+        return result;
+    }
+    io_json_object top = io_json_top(file, document);
+    result = read_scene(&top, folder, out);
+    json_decref(document);
+    if (result != RLF_OK) {
+        rlf_scene_destroy(out);
+    }
+    return result;
+}
+
+rlf_result rlf_scene_load(const char *path, rlf_scene *out)
+{
+    if (!RLF_ASSERT(path != NULL && out != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    memset(out, 0, sizeof(*out));
+    io_buffer buffer = {0};
+    io_bytes file;
+    rlf_result result =
+        io_file_read(path, IO_JSON_FILE_MAX,
+                     "check the name of the scene, docs/formats.md shows one", &buffer, &file);
+    if (result == RLF_OK) {
+        char folder[IO_PATH_MAX] = ".";
+        const char *slash = strrchr(path, '/');
+        if (slash != NULL && (size_t)(slash - path) + 1 < IO_PATH_MAX) {
+            size_t length = (size_t)(slash - path) + 1;
+            memcpy(folder, path, length);
+            folder[length] = '\0';
+        }
+        result = io_scene_parse(&file, folder, out);
+    }
+    io_buffer_free(&buffer);
+    return result;
+}
