@@ -10,7 +10,7 @@ set(public_base base)
 set(public_math base math)
 set(public_image base image)
 set(public_camera base math image camera)
-set(public_kernel base math image)
+set(public_kernel base math image camera frame surface) # of the values: noise and reason codes
 set(public_capture base math image camera frame source synthetic)
 set(public_surface base math image camera frame surface reconstruct)
 set(public_physics base math snapshot world)
