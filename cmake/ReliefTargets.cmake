@@ -21,10 +21,14 @@ function(relief_settings target)
   endif()
 endfunction()
 
-# relief_use(TARGET NAME MODULE...): links system libraries found by pkg-config, and remembers them
-# for the package files that ReliefInstall.cmake writes. NAME is the imported target PkgConfig::NAME.
-function(relief_use target name)
-  pkg_check_modules(${name} REQUIRED IMPORTED_TARGET GLOBAL ${ARGN})
+# relief_use(TARGET NAME CURE MODULE...): links system libraries found by pkg-config as
+# PkgConfig::NAME, or stops with CURE, and remembers them for the package files that
+# ReliefInstall.cmake writes.
+function(relief_use target name cure)
+  pkg_check_modules(${name} IMPORTED_TARGET GLOBAL ${ARGN})
+  if(NOT ${name}_FOUND)
+    message(FATAL_ERROR "${cure}")
+  endif()
   target_link_libraries(${target} PRIVATE PkgConfig::${name})
   set_property(TARGET ${target} APPEND PROPERTY RELIEF_PACKAGES ${name})
   set_property(TARGET ${target} PROPERTY RELIEF_PACKAGES_${name} ${ARGN})
