@@ -1,0 +1,83 @@
+/* The background model of one row: per pixel, one-sided, scaled with the sensor's noise.
+ *
+ * A pixel nearer than the stored surface is foreground. A pixel at the stored surface refines its
+ * mean. A pixel seen beyond the stored surface proves that the surface is gone: three frames in a
+ * row replace it (no phantoms). While learning, the farthest surface seen wins at once, so that the
+ * room need not be empty; holes are filled as they are seen. */
+#include "kernel/kernel.h"
+
+enum { MEMORY = 32, PROOF = 3 };
+
+RLF_KERNEL int32_t rlf_kernel_background_row(const rlf_kernel_background *params,
+                                             const float *restrict depth, int32_t count,
+                                             float *restrict mean, uint8_t *restrict weight,
+                                             uint8_t *restrict beyond, uint8_t *restrict seen)
+{
+    rlf_kernel_noise noise = params->noise;
+    float sigmas = params->sigmas;
+    float least = params->min_m;
+    int32_t proof = params->learning ? 1 : PROOF;
+    int32_t learning = params->learning ? 1 : 0;
+    int32_t changed = 0;
+    for (int32_t i = 0; i < count; i++) {
+        float z = depth[i];
+        float m = mean[i];
+        float scaled = sigmas * rlf_kernel_sigma(noise, z);
+        float gate = scaled > least ? scaled : least;
+        int32_t valid = z > 0.0f ? 1 : 0;
+        int32_t known = m > 0.0f ? 1 : 0;
+        int32_t nearer = valid & known & (m - z > gate ? 1 : 0);
+        int32_t farther = valid & known & (z - m > gate ? 1 : 0);
+        int32_t same = valid & known & (1 - nearer) & (1 - farther);
+        int32_t fresh = valid & (1 - known);
+        int32_t count_beyond = farther ? beyond[i] + 1 : (valid ? 0 : beyond[i]);
+        int32_t replaced = farther & (count_beyond >= proof ? 1 : 0);
+        int32_t restart = replaced | (fresh & learning);
+        int32_t samples = same ? weight[i] + 1 : weight[i];
+        samples = samples > MEMORY ? MEMORY : samples;
+        samples = restart ? 1 : samples;
+        float step = (z - m) / (float)(samples > 0 ? samples : 1);
+        mean[i] = restart ? z : (same ? m + step : m);
+        weight[i] = (uint8_t)samples;
+        beyond[i] = (uint8_t)(replaced ? 0 : count_beyond);
+        seen[i] =
+            (uint8_t)(nearer ? RLF_SEEN_FOREGROUND
+                             : (fresh & (1 - learning) ? RLF_SEEN_UNKNOWN : RLF_SEEN_BACKGROUND));
+        changed += restart;
+    }
+    return changed;
+}
+
+RLF_KERNEL_PART uint8_t majority(int32_t votes, int32_t valid, uint8_t self, float z)
+{
+    uint8_t side = 2 * votes > valid ? RLF_SEEN_FOREGROUND : RLF_SEEN_BACKGROUND;
+    uint8_t kept = self == RLF_SEEN_UNKNOWN ? (uint8_t)RLF_SEEN_UNKNOWN : side;
+    return z > 0.0f ? kept : (uint8_t)0;
+}
+
+RLF_KERNEL void rlf_kernel_majority_row(const uint8_t *const rows[3], const float *const depth[3],
+                                        int32_t count, uint8_t *restrict out)
+{
+    for (int32_t i = 0; i < count; i++) {
+        if (i == 1 && count > 2) {
+            for (; i < count - 1; i++) {
+                int32_t votes = 0, valid = 0;
+                for (int32_t r = 0; r < 3; r++) {
+                    for (int32_t d = -1; d <= 1; d++) {
+                        votes += rows[r][i + d] == RLF_SEEN_FOREGROUND ? 1 : 0;
+                        valid += depth[r][i + d] > 0.0f ? 1 : 0;
+                    }
+                }
+                out[i] = majority(votes, valid, rows[1][i], depth[1][i]);
+            }
+        }
+        int32_t votes = 0, valid = 0;
+        for (int32_t r = 0; r < 3; r++) {
+            for (int32_t k = i > 0 ? i - 1 : 0; k <= i + 1 && k < count; k++) {
+                votes += rows[r][k] == RLF_SEEN_FOREGROUND ? 1 : 0;
+                valid += depth[r][k] > 0.0f ? 1 : 0;
+            }
+        }
+        out[i] = majority(votes, valid, rows[1][i], depth[1][i]);
+    }
+}

@@ -1,0 +1,139 @@
+/* The hot loops over rows: plain C that is the specification.
+ *
+ * Every kernel is a pure function of its pointers; rows do not alias. Floats are IEEE single
+ * without contraction, so each clone of a kernel gives the same bits. Depth is metres, 0 = missing.
+ */
+#ifndef RLF_KERNEL_KERNEL_H
+#define RLF_KERNEL_KERNEL_H
+
+#include "relief/frame.h"
+
+#include <stdint.h>
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) ||                         \
+    __has_feature(memory_sanitizer)
+#define RLF_KERNEL_SANITIZED 1
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define RLF_KERNEL_SANITIZED 1
+#endif
+
+/* One AVX2 clone beside the portable one, picked when the program is loaded. Sanitizers cannot run
+ * the resolver, so their builds have the portable one only. */
+#if defined(__GNUC__) && defined(__x86_64__) && defined(__GLIBC__) && !defined(RLF_KERNEL_SANITIZED)
+#define RLF_KERNEL __attribute__((target_clones("avx2", "default")))
+#else
+#define RLF_KERNEL
+#endif
+
+/* Helpers must be part of each clone, or they would run with the portable instructions. */
+#if defined(__GNUC__)
+#define RLF_KERNEL_PART static inline __attribute__((always_inline))
+#else
+#define RLF_KERNEL_PART static inline
+#endif
+
+/* sigma(z) = max(c0 + c1 z + c2 z^2, 0.3 mm) in single precision. */
+typedef struct rlf_kernel_noise {
+    float c0, c1, c2;
+} rlf_kernel_noise;
+
+static inline rlf_kernel_noise rlf_kernel_noise_make(const rlf_depth_noise *noise)
+{
+    rlf_kernel_noise n = {(float)noise->c0, (float)noise->c1, (float)noise->c2};
+    return n;
+}
+RLF_KERNEL_PART float rlf_kernel_sigma(rlf_kernel_noise n, float z)
+{
+    float sigma = n.c0 + z * (n.c1 + z * n.c2);
+    return sigma > 0.0003f ? sigma : 0.0003f;
+}
+RLF_KERNEL_PART float rlf_kernel_abs(float x)
+{
+    return x < 0.0f ? -x : x;
+}
+
+/* ---- depth_row.c: raw depth to metres and reason codes ------------------------------------------
+ */
+
+typedef struct rlf_kernel_range {
+    float near_m, far_m;
+    float metres_per_unit; /* of u16 samples */
+} rlf_kernel_range;
+
+/* Takes every step-th of the row's samples, `count` of them. */
+void rlf_kernel_depth_row_u16(const uint16_t *restrict source, int32_t step, int32_t count,
+                              rlf_kernel_range range, float *restrict depth,
+                              uint8_t *restrict reason);
+void rlf_kernel_depth_row_f32(const float *restrict source, int32_t step, int32_t count,
+                              rlf_kernel_range range, float *restrict depth,
+                              uint8_t *restrict reason);
+/* Takes depth from pixels without a ray. */
+void rlf_kernel_lens_row(const uint8_t *restrict has_ray, int32_t count, float *restrict depth,
+                         uint8_t *restrict reason);
+
+/* ---- flying_row.c: mixed pixels at depth edges
+ * --------------------------------------------------- */
+
+/* rows[0..2] are the rows above, at and below (a missing row repeats none: pass a row of zeros).
+ * Writes the kept depth and RLF_REASON_FLYING for the rest. */
+void rlf_kernel_flying_row(const float *const rows[3], int32_t count, float *restrict depth,
+                           uint8_t *restrict reason);
+
+/* ---- slope_row.c: exact normals of clean depth
+ * --------------------------------------------------- */
+
+/* Five rows centred on the current one and the three ray rows that are needed. inverse is read
+ * from -2 to count + 2 and rays from -1 to count + 1; zero outside the image. */
+typedef struct rlf_kernel_slope_in {
+    const float *inverse[5];          /* 1 / depth, 0 = missing; rows y-2 .. y+2 */
+    const float *ray_x[3], *ray_y[3]; /* rows y-1 .. y+1 */
+    int32_t count;
+} rlf_kernel_slope_in;
+
+void rlf_kernel_inverse_row(const float *restrict depth, int32_t count, float *restrict inverse);
+void rlf_kernel_slope_row(const rlf_kernel_slope_in *in, float *restrict out_x,
+                          float *restrict out_y, float *restrict out_z);
+
+/* ---- plane_tile.c: normals of noisy depth
+ * -------------------------------------------------------- */
+
+#define RLF_KERNEL_TILE 64 /* pixels on a side */
+
+typedef struct rlf_kernel_tile {
+    int32_t width, height; /* of the image */
+    int32_t x0, y0;        /* corner of the tile: even numbers */
+    int32_t x1, y1;        /* end of the tile, <= width, height, at most RLF_KERNEL_TILE further */
+    const float *depth, *ray_x, *ray_y;
+    rlf_kernel_noise noise;
+    float *out_x, *out_y, *out_z; /* planes of the image; written inside the tile only; 0 where
+                                     no plane explains the pixel */
+} rlf_kernel_tile;
+
+void rlf_kernel_plane_tile(const rlf_kernel_tile *tile);
+
+/* ---- background_row.c
+ * ---------------------------------------------------------------------------- */
+
+typedef struct rlf_kernel_background {
+    rlf_kernel_noise noise;
+    float sigmas, min_m; /* threshold: max(sigmas * sigma(z), min_m) */
+    bool learning;
+} rlf_kernel_background;
+
+/* What a pixel of the current frame is against the background model. */
+enum { RLF_SEEN_BACKGROUND = 0, RLF_SEEN_FOREGROUND = 1, RLF_SEEN_UNKNOWN = 2 };
+
+/* Classifies a row and updates the model: mean (0 = unknown), weight (samples in it, at most 32)
+ * and beyond (frames in a row that saw past it). Returns how many pixels were replaced or learnt
+ * anew. */
+int32_t rlf_kernel_background_row(const rlf_kernel_background *params, const float *restrict depth,
+                                  int32_t count, float *restrict mean, uint8_t *restrict weight,
+                                  uint8_t *restrict beyond, uint8_t *restrict seen);
+/* 3x3 majority of `seen == FOREGROUND` among the valid pixels; out is 0, 1 or (unknown) 2. */
+void rlf_kernel_majority_row(const uint8_t *const rows[3], const float *const depth[3],
+                             int32_t count, uint8_t *restrict out);
+
+#endif

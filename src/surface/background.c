@@ -1,0 +1,66 @@
+/* The back sheet: how the model becomes a published, unchanging sheet. */
+#include "surface/steps.h"
+
+#include <string.h>
+
+void rlf_background_reset(rlf_background *background, int32_t count)
+{
+    size_t n = (size_t)count;
+    memset(background->mean, 0, n * sizeof *background->mean);
+    memset(background->weight, 0, n);
+    memset(background->beyond, 0, n);
+    memset(background->unknown_age, 0, n);
+    background->frames = 0;
+    background->changed = 0;
+    background->sheet_age = 0;
+    background->state = RLF_BACKGROUND_NONE;
+    background->newest = -1;
+}
+
+/* The oldest sheet: the surfaces that are still valid refer to younger ones. */
+void rlf_background_publish(rlf_reconstruct *stage)
+{
+    rlf_background *background = &stage->background;
+    const rlf_grid *grid = &stage->grid;
+    const rlf_sheet *old = background->newest < 0 ? NULL : &background->sheets[background->newest];
+    int32_t next = (background->newest + 1) % RLF_SHEETS;
+    rlf_sheet *sheet = &background->sheets[next];
+    memcpy(sheet->depth, background->mean, (size_t)grid->count * sizeof *sheet->depth);
+    rlf_normals_job normals = {stage->def.normal_method,
+                               stage->def.normals_face_camera,
+                               grid->width,
+                               grid->height,
+                               grid->ray_x,
+                               grid->ray_y,
+                               sheet->depth,
+                               &stage->def.rig.noise,
+                               {sheet->normal[0], sheet->normal[1], sheet->normal[2]},
+                               stage->def.pool};
+    rlf_normals_compute(&normals);
+    rlf_layer_in in = {RLF_LAYER_BACKGROUND,
+                       stage->def.background_segment,
+                       sheet->depth,
+                       NULL,
+                       old == NULL ? NULL : old->label,
+                       NULL,
+                       old == NULL ? NULL : old->regions,
+                       old == NULL ? 0 : old->region_count,
+                       0};
+    rlf_layer_out out = {sheet->label, sheet->regions, sheet->region_points, 0, 0};
+    rlf_layer_segment(stage, &in, &out);
+    sheet->region_count = out.region_count;
+    sheet->point_count = out.point_count;
+    background->newest = next;
+    background->changed = 0;
+    background->sheet_age = 0;
+}
+
+void rlf_background_update(rlf_reconstruct *stage, rlf_slot *slot)
+{
+    memset(slot->foreground, 0, (size_t)stage->grid.count);
+    switch (stage->def.background_method) {
+    case RLF_BACKGROUND_OFF: break;
+    case RLF_BACKGROUND_AVERAGE: rlf_background_average_update(stage, slot); break;
+    case RLF_BACKGROUND_ADAPTIVE: rlf_background_adaptive_update(stage, slot); break;
+    }
+}

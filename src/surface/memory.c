@@ -1,0 +1,110 @@
+/* Everything the stage will ever need, allocated once. */
+#include "surface/stage.h"
+
+#include "surface/steps.h"
+
+static void *take(rlf_reconstruct *stage, size_t count, size_t size)
+{
+    void *memory = stage->block_count < RLF_STAGE_BLOCKS ? rlf_alloc_array(count, size) : NULL;
+    if (memory == NULL) {
+        stage->out_of_memory = true;
+        return NULL;
+    }
+    stage->blocks[stage->block_count++] = memory;
+    return memory;
+}
+
+static void take_grid(rlf_reconstruct *stage)
+{
+    rlf_grid *grid = &stage->grid;
+    size_t n = (size_t)grid->count;
+    float *ray_x = take(stage, n, sizeof(float));
+    float *ray_y = take(stage, n, sizeof(float));
+    uint8_t *has_ray = take(stage, n, 1);
+    if (!stage->out_of_memory) {
+        rlf_grid_fill_rays(grid, ray_x, ray_y, has_ray);
+    }
+    grid->ray_x = ray_x;
+    grid->ray_y = ray_y;
+    grid->has_ray = has_ray;
+}
+
+static void take_slot(rlf_reconstruct *stage, rlf_slot *slot)
+{
+    size_t n = (size_t)stage->grid.count;
+    slot->depth = take(stage, n, sizeof(float));
+    slot->thickness = take(stage, n, sizeof(float));
+    for (int k = 0; k < 3; k++) {
+        slot->normal[k] = take(stage, n, sizeof(float));
+        slot->velocity[k] = take(stage, n, sizeof(float));
+    }
+    slot->label = take(stage, n, sizeof(int32_t));
+    slot->reason = take(stage, n, 1);
+    slot->foreground = take(stage, n, 1);
+    slot->regions = take(stage, 2 * (size_t)stage->def.region_capacity, sizeof(rlf_region));
+    if (stage->def.keep_region_points) {
+        slot->region_points = take(stage, 2 * n, sizeof(int32_t));
+    }
+}
+
+static void take_background(rlf_reconstruct *stage)
+{
+    rlf_background *background = &stage->background;
+    size_t n = (size_t)stage->grid.count;
+    background->mean = take(stage, n, sizeof(float));
+    background->weight = take(stage, n, 1);
+    background->beyond = take(stage, n, 1);
+    background->unknown_age = take(stage, n, 1);
+    for (int i = 0; i < RLF_SHEETS; i++) {
+        rlf_sheet *sheet = &background->sheets[i];
+        sheet->depth = take(stage, n, sizeof(float));
+        for (int k = 0; k < 3; k++) {
+            sheet->normal[k] = take(stage, n, sizeof(float));
+        }
+        sheet->label = take(stage, n, sizeof(int32_t));
+        sheet->regions = take(stage, (size_t)stage->def.region_capacity, sizeof(rlf_region));
+        if (stage->def.keep_region_points) {
+            sheet->region_points = take(stage, n, sizeof(int32_t));
+        }
+    }
+}
+
+static void take_work(rlf_reconstruct *stage)
+{
+    rlf_work *work = &stage->work;
+    size_t n = (size_t)stage->grid.count;
+    for (int k = 0; k < 2; k++) {
+        work->depth[k] = take(stage, n, sizeof(float));
+        work->sum[k] = take(stage, n, sizeof(float));
+        work->mask[k] = take(stage, n, 1);
+        work->vote[k] = take(stage, n + 1, sizeof(int32_t));
+    }
+    work->links = take(stage, n, 1);
+    work->component = take(stage, n, sizeof(int32_t));
+    work->parent = take(stage, n + 1, sizeof(int32_t));
+    work->size = take(stage, n + 1, sizeof(int32_t));
+    work->map = take(stage, n + 1, sizeof(int32_t));
+    work->zeros = take(stage, (size_t)stage->grid.width, sizeof(float));
+    work->zero_plane = take(stage, n, sizeof(float));
+    work->zero_labels = take(stage, n, sizeof(int32_t));
+    work->region_sums = take(stage, (size_t)stage->def.region_capacity + 1, sizeof(rlf_region_sum));
+}
+
+bool rlf_stage_allocate(rlf_reconstruct *stage)
+{
+    take_grid(stage);
+    for (int i = 0; i < RLF_RECONSTRUCT_SURFACES; i++) {
+        take_slot(stage, &stage->ring[i]);
+    }
+    take_background(stage);
+    take_work(stage);
+    return !stage->out_of_memory;
+}
+
+void rlf_stage_release(rlf_reconstruct *stage)
+{
+    for (int32_t i = 0; i < stage->block_count; i++) {
+        rlf_free(stage->blocks[i]);
+    }
+    stage->block_count = 0;
+}

@@ -1,0 +1,82 @@
+/* The organised triangle mesh (thesis fig. 4.3). */
+#include "relief/surface.h"
+
+const char *rlf_reason_name(rlf_reason reason)
+{
+    switch (reason) {
+    case RLF_REASON_OK: return "ok";
+    case RLF_REASON_TOO_NEAR: return "too near";
+    case RLF_REASON_TOO_FAR: return "too far";
+    case RLF_REASON_NO_RETURN: return "no return";
+    case RLF_REASON_FLYING: return "flying";
+    case RLF_REASON_PARALLAX_SHADOW: return "parallax shadow";
+    case RLF_REASON_OUTSIDE_LENS: return "outside the lens";
+    case RLF_REASON_FILLED: return "filled";
+    case RLF_REASON_COUNT: break;
+    }
+    return "unknown";
+}
+
+size_t rlf_mesh_index_count(int32_t width, int32_t height)
+{
+    if (width < 2 || height < 2) {
+        return 0;
+    }
+    return (size_t)(width - 1) * (size_t)(height - 1) * 6;
+}
+
+typedef struct square {
+    uint32_t t1[3], t2[3];
+} square;
+
+static square square_at(uint32_t n, uint32_t w)
+{
+    square s = {{n, n + 1, n + w}, {n + 1, n + w + 1, n + w}};
+    return s;
+}
+
+void rlf_mesh_indices(int32_t width, int32_t height, uint32_t *out)
+{
+    for (int32_t y = 0; y + 1 < height; y++) {
+        for (int32_t x = 0; x + 1 < width; x++) {
+            square s = square_at((uint32_t)y * (uint32_t)width + (uint32_t)x, (uint32_t)width);
+            for (int k = 0; k < 3; k++) {
+                out[k] = s.t1[k];
+                out[3 + k] = s.t2[k];
+            }
+            out += 6;
+        }
+    }
+}
+
+static bool is_surface(const float *depth, const uint32_t corner[3], double max_jump)
+{
+    double low = depth[corner[0]];
+    double high = low;
+    for (int k = 1; k < 3; k++) {
+        low = rlf_min(low, depth[corner[k]]);
+        high = rlf_max(high, depth[corner[k]]);
+    }
+    return low > 0.0 && high - low <= max_jump * low;
+}
+
+size_t rlf_mesh_indices_valid(const rlf_surface *surface, double max_jump, uint32_t *out)
+{
+    size_t count = 0;
+    for (int32_t y = 0; y + 1 < surface->height; y++) {
+        for (int32_t x = 0; x + 1 < surface->width; x++) {
+            uint32_t n = (uint32_t)y * (uint32_t)surface->width + (uint32_t)x;
+            square s = square_at(n, (uint32_t)surface->width);
+            const uint32_t *const triangles[2] = {s.t1, s.t2};
+            for (int t = 0; t < 2; t++) {
+                if (!is_surface(surface->depth, triangles[t], max_jump)) {
+                    continue;
+                }
+                for (int k = 0; k < 3; k++) {
+                    out[count++] = triangles[t][k];
+                }
+            }
+        }
+    }
+    return count;
+}

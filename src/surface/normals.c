@@ -1,0 +1,61 @@
+/* Chooses the normal method and turns its result to the wanted side. */
+#include "surface/steps.h"
+
+static void turn_to_image_plane(const rlf_normals_job *job)
+{
+    size_t count = (size_t)job->width * (size_t)job->height;
+    for (size_t i = 0; i < count; i++) {
+        float sign = job->out[2][i] > 0.0f ? -1.0f : 1.0f;
+        for (int k = 0; k < 3; k++) {
+            job->out[k][i] *= sign;
+        }
+    }
+}
+
+static void turn_to_camera(const rlf_normals_job *job)
+{
+    size_t count = (size_t)job->width * (size_t)job->height;
+    for (size_t i = 0; i < count; i++) {
+        float facing =
+            job->out[0][i] * job->ray_x[i] + job->out[1][i] * job->ray_y[i] + job->out[2][i];
+        float sign = facing > 0.0f ? -1.0f : 1.0f;
+        for (int k = 0; k < 3; k++) {
+            job->out[k][i] *= sign;
+        }
+    }
+}
+
+void rlf_normals_compute(const rlf_normals_job *job)
+{
+    switch (job->method) {
+    case RLF_NORMALS_SIX_FACES:
+    case RLF_NORMALS_FOUR_FACES: rlf_normals_faces(job); break;
+    case RLF_NORMALS_THESIS: rlf_normals_thesis(job); break;
+    case RLF_NORMALS_INVERSE_DEPTH:
+        if (job->noise != NULL) {
+            rlf_normals_plane(job);
+        } else {
+            rlf_normals_slope(job);
+        }
+        break;
+    }
+    if (!job->face_camera) {
+        turn_to_image_plane(job);
+    } else if (job->method != RLF_NORMALS_INVERSE_DEPTH) {
+        turn_to_camera(job);
+    }
+}
+
+void rlf_compute_normals(rlf_normal_method method, bool face_camera, int32_t width, int32_t height,
+                         const float *ray_x, const float *ray_y, const float *depth,
+                         const rlf_depth_noise *noise, float *out_x, float *out_y, float *out_z)
+{
+    bool complete = width > 0 && height > 0 && ray_x != NULL && ray_y != NULL && depth != NULL &&
+                    out_x != NULL && out_y != NULL && out_z != NULL;
+    if (!RLF_ASSERT(complete)) {
+        return;
+    }
+    rlf_normals_job job = {method, face_camera,           width, height, ray_x, ray_y, depth,
+                           noise,  {out_x, out_y, out_z}, NULL};
+    rlf_normals_compute(&job);
+}

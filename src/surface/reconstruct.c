@@ -1,0 +1,296 @@
+/* The surface stage: one frame through all steps into the next slot of the ring. */
+#include "surface/steps.h"
+
+#include "base/cookie.h"
+
+#include <string.h>
+
+static void set_grid(rlf_reconstruct *stage)
+{
+    rlf_grid *grid = &stage->grid;
+    grid->factor = stage->def.scale_factor;
+    grid->camera = rlf_camera_decimate(&stage->def.rig.depth, grid->factor);
+    grid->width = grid->camera.width;
+    grid->height = grid->camera.height;
+    grid->count = grid->width * grid->height;
+}
+
+rlf_result rlf_reconstruct_create(const rlf_reconstruct_def *def, rlf_reconstruct **out)
+{
+    if (!RLF_ASSERT(def != NULL && out != NULL && def->cookie == RLF_DEF_COOKIE)) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "reconstruct: the def is not from rlf_reconstruct_def_default");
+    }
+    *out = NULL;
+    rlf_result result = rlf_reconstruct_def_check(def);
+    if (result != RLF_OK) {
+        return result;
+    }
+    rlf_reconstruct *stage = rlf_alloc(sizeof *stage);
+    if (stage == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    stage->def = *def;
+    set_grid(stage);
+    if (!rlf_stage_allocate(stage)) {
+        rlf_reconstruct_destroy(&stage);
+        return RLF_ERROR_MEMORY;
+    }
+    rlf_reconstruct_reset(stage);
+    *out = stage;
+    return RLF_OK;
+}
+
+void rlf_reconstruct_destroy(rlf_reconstruct **stage)
+{
+    if (stage == NULL || *stage == NULL) {
+        return;
+    }
+    rlf_stage_release(*stage);
+    rlf_free(*stage);
+    *stage = NULL;
+}
+
+void rlf_reconstruct_reset(rlf_reconstruct *stage)
+{
+    if (!RLF_ASSERT(stage != NULL)) {
+        return;
+    }
+    rlf_background_reset(&stage->background, stage->grid.count);
+    stage->previous = NULL;
+}
+
+static rlf_result check_frame(const rlf_reconstruct *stage, const rlf_frame *frame)
+{
+    const rlf_camera *camera = &stage->def.rig.depth;
+    if ((frame->depth_u16 == NULL) == (frame->depth_f32 == NULL)) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "reconstruct: frame %llu: set exactly one of depth_u16 and depth_f32",
+                        (unsigned long long)frame->sequence);
+    }
+    ptrdiff_t sample = frame->depth_u16 != NULL ? 2 : 4;
+    if (frame->depth_stride < sample * camera->width || frame->depth_stride % sample != 0) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "reconstruct: frame %llu: depth_stride is %lld; use at least %lld bytes, a "
+                        "multiple of %d",
+                        (unsigned long long)frame->sequence, (long long)frame->depth_stride,
+                        (long long)(sample * camera->width), (int)sample);
+    }
+    double units = frame->depth_units_per_metre;
+    if (frame->depth_u16 != NULL && (!(units > 0.0) || !rlf_is_finite(units))) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "reconstruct: frame %llu: depth_units_per_metre is %g; use 1000 for mm",
+                        (unsigned long long)frame->sequence, units);
+    }
+    if (frame->rig != NULL &&
+        (frame->rig->depth.width != camera->width || frame->rig->depth.height != camera->height)) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "reconstruct: frame %llu is %d x %d, the stage was made for %d x %d",
+                        (unsigned long long)frame->sequence, (int)frame->rig->depth.width,
+                        (int)frame->rig->depth.height, (int)camera->width, (int)camera->height);
+    }
+    return RLF_OK;
+}
+
+/* Depth of the slot: read, mixed pixels off, small holes filled; each step may be switched off. */
+static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot)
+{
+    bool flying = stage->def.enable_flying_removal;
+    bool fill = stage->def.enable_fill;
+    float *raw = flying ? stage->work.depth[0] : (fill ? stage->work.depth[1] : slot->depth);
+    float *kept = fill ? stage->work.depth[1] : slot->depth;
+    rlf_points_read(stage, frame, raw, slot->reason);
+    if (flying) {
+        rlf_flying_remove(stage, raw, kept, slot->reason);
+    }
+    if (fill) {
+        rlf_fill_holes(stage, kept, slot->depth, slot->reason);
+    }
+}
+
+static const rlf_sheet *newest_sheet(const rlf_reconstruct *stage)
+{
+    int32_t newest = stage->background.newest;
+    return newest < 0 ? NULL : &stage->background.sheets[newest];
+}
+
+/* Thesis 4.4.1: the background's normals are computed once; per frame only the foreground's point
+ * cloud has normals computed, by itself. */
+static void make_layered_normals(rlf_reconstruct *stage, rlf_normals_job *job, rlf_slot *slot)
+{
+    const rlf_sheet *sheet = newest_sheet(stage);
+    float *front = stage->work.depth[0];
+    int32_t count = stage->grid.count;
+    for (int32_t i = 0; i < count; i++) {
+        front[i] = slot->foreground[i] ? slot->depth[i] : 0.0f;
+    }
+    job->depth = front;
+    rlf_normals_compute(job);
+    for (int k = 0; k < 3; k++) {
+        for (int32_t i = 0; i < count; i++) {
+            bool behind = !slot->foreground[i] && slot->depth[i] > 0.0f;
+            slot->normal[k][i] = behind ? sheet->normal[k][i] : slot->normal[k][i];
+        }
+    }
+}
+
+static void make_normals(rlf_reconstruct *stage, rlf_slot *slot)
+{
+    const rlf_grid *grid = &stage->grid;
+    rlf_normals_job job = {stage->def.normal_method,
+                           stage->def.normals_face_camera,
+                           grid->width,
+                           grid->height,
+                           grid->ray_x,
+                           grid->ray_y,
+                           slot->depth,
+                           &stage->def.rig.noise,
+                           {slot->normal[0], slot->normal[1], slot->normal[2]},
+                           stage->def.pool};
+    bool layered = stage->def.background_method == RLF_BACKGROUND_AVERAGE &&
+                   stage->def.normal_method != RLF_NORMALS_INVERSE_DEPTH &&
+                   newest_sheet(stage) != NULL;
+    if (layered) {
+        make_layered_normals(stage, &job, slot);
+    } else {
+        rlf_normals_compute(&job);
+    }
+}
+
+/* Puts the background's regions first, so that the foreground's follow. */
+static void copy_background_regions(const rlf_sheet *sheet, rlf_slot *slot)
+{
+    slot->foreground_region_first = sheet == NULL ? 0 : sheet->region_count;
+    if (sheet == NULL) {
+        return;
+    }
+    memcpy(slot->regions, sheet->regions, (size_t)sheet->region_count * sizeof *slot->regions);
+    if (slot->region_points != NULL) {
+        memcpy(slot->region_points, sheet->region_points,
+               (size_t)sheet->point_count * sizeof *slot->region_points);
+    }
+}
+
+static void segment_front(rlf_reconstruct *stage, rlf_slot *slot, const uint8_t *mask)
+{
+    const rlf_slot *before = stage->previous;
+    const rlf_sheet *sheet = newest_sheet(stage);
+    int32_t first = slot->foreground_region_first;
+    int32_t offset = sheet == NULL ? 0 : sheet->point_count;
+    rlf_layer_in in = {.layer = RLF_LAYER_FOREGROUND,
+                       .method = stage->def.foreground_segment,
+                       .depth = slot->depth,
+                       .mask = mask};
+    if (before != NULL) {
+        in.previous_label = before->label;
+        in.previous_mask = mask == NULL ? NULL : before->foreground;
+        in.previous = before->regions + before->foreground_region_first;
+        in.previous_count = before->foreground_region_count;
+        in.elapsed_ns = slot->surface.time_ns - before->surface.time_ns;
+    }
+    rlf_layer_out out = {slot->label, slot->regions + first,
+                         slot->region_points == NULL ? NULL : slot->region_points + offset, 0, 0};
+    rlf_layer_segment(stage, &in, &out);
+    slot->foreground_region_count = out.region_count;
+    for (int32_t r = 0; r < out.region_count && out.points != NULL; r++) {
+        out.regions[r].first_point += offset;
+    }
+}
+
+/* Labels where the front sheet shows the background; pieces too small to be regions are noise. */
+static void finish_labels(rlf_reconstruct *stage, rlf_slot *slot)
+{
+    const rlf_sheet *sheet = newest_sheet(stage);
+    bool drop = stage->def.foreground_segment == RLF_SEGMENT_NOISE;
+    for (int32_t i = 0; i < stage->grid.count; i++) {
+        if (drop && slot->label[i] == 0) {
+            slot->foreground[i] = 0;
+        }
+        if (!slot->foreground[i] && slot->depth[i] > 0.0f && sheet != NULL) {
+            slot->label[i] = sheet->label[i];
+        }
+    }
+}
+
+static void make_regions(rlf_reconstruct *stage, rlf_slot *slot)
+{
+    copy_background_regions(newest_sheet(stage), slot);
+    slot->foreground_region_count = 0;
+    bool off = stage->def.background_method == RLF_BACKGROUND_OFF;
+    if (off || stage->background.state == RLF_BACKGROUND_READY) {
+        segment_front(stage, slot, off ? NULL : slot->foreground);
+    } else {
+        memset(slot->label, 0, (size_t)stage->grid.count * sizeof *slot->label);
+    }
+    finish_labels(stage, slot);
+}
+
+static void publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot)
+{
+    const rlf_sheet *sheet = newest_sheet(stage);
+    rlf_surface *s = &slot->surface;
+    s->sequence = frame->sequence;
+    s->width = stage->grid.width;
+    s->height = stage->grid.height;
+    s->scale_factor = stage->grid.factor;
+    s->camera = stage->grid.camera;
+    s->noise = stage->def.rig.noise;
+    s->ray_x = stage->grid.ray_x;
+    s->ray_y = stage->grid.ray_y;
+    s->depth = slot->depth;
+    s->normal_x = slot->normal[0];
+    s->normal_y = slot->normal[1];
+    s->normal_z = slot->normal[2];
+    s->velocity_x = slot->velocity[0];
+    s->velocity_y = slot->velocity[1];
+    s->velocity_z = slot->velocity[2];
+    s->thickness = slot->thickness;
+    s->label = slot->label;
+    s->reason = slot->reason;
+    s->foreground = slot->foreground;
+    const float *none = stage->work.zero_plane;
+    s->background_depth = sheet == NULL ? none : sheet->depth;
+    s->background_normal_x = sheet == NULL ? none : sheet->normal[0];
+    s->background_normal_y = sheet == NULL ? none : sheet->normal[1];
+    s->background_normal_z = sheet == NULL ? none : sheet->normal[2];
+    s->background_label = sheet == NULL ? stage->work.zero_labels : sheet->label;
+    s->background_state = stage->background.state;
+    s->regions = slot->regions;
+    s->region_count = slot->foreground_region_first + slot->foreground_region_count;
+    s->region_points = slot->region_points;
+    s->valid_count = s->foreground_count = 0;
+    for (int32_t i = 0; i < stage->grid.count; i++) {
+        s->valid_count += slot->depth[i] > 0.0f ? 1 : 0;
+        s->foreground_count += slot->foreground[i];
+    }
+}
+
+rlf_result rlf_reconstruct_process(rlf_reconstruct *stage, const rlf_frame *frame,
+                                   const rlf_surface **out_surface)
+{
+    if (!RLF_ASSERT(stage != NULL && frame != NULL && out_surface != NULL)) {
+        return rlf_fail(RLF_ERROR_INVALID, "reconstruct: NULL argument");
+    }
+    *out_surface = NULL;
+    rlf_result result = check_frame(stage, frame);
+    if (result != RLF_OK) {
+        return result;
+    }
+    stage->current = (stage->current + 1) % RLF_RECONSTRUCT_SURFACES;
+    rlf_slot *slot = &stage->ring[stage->current];
+    slot->surface.time_ns = frame->time_ns;
+    make_depth(stage, frame, slot);
+    rlf_background_update(stage, slot);
+    make_normals(stage, slot);
+    make_regions(stage, slot);
+    if (stage->def.enable_velocity) {
+        rlf_velocity_estimate(stage, slot);
+    }
+    if (stage->def.enable_thickness) {
+        rlf_thickness_estimate(stage, slot);
+    }
+    publish(stage, frame, slot);
+    stage->previous = slot;
+    *out_surface = &slot->surface;
+    return RLF_OK;
+}

@@ -1,0 +1,128 @@
+/* Which neighbouring pixels belong together: eq. 4.4, or the noise-scaled criterion. */
+#include "surface/steps.h"
+
+#include "kernel/kernel.h"
+
+static inline bool is_member(const float *depth, const uint8_t *mask, ptrdiff_t i)
+{
+    return depth[i] > 0.0f && (mask == NULL || mask[i] != 0);
+}
+
+static inline bool is_near(float a, float b, float tau)
+{
+    return rlf_kernel_abs(a - b) <= tau;
+}
+
+/* A pixel at the right or lower border has no next pixel in that direction: nothing to differ. */
+void rlf_segment_thesis_bits(const rlf_grid *grid, double tau, const float *depth,
+                             const uint8_t *mask, uint8_t *bits)
+{
+    float limit = (float)tau;
+    for (int32_t y = 0; y < grid->height; y++) {
+        for (int32_t x = 0; x < grid->width; x++) {
+            ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+            ptrdiff_t right = i + 1, down = i + grid->width;
+            bool row = x + 1 == grid->width ||
+                       (is_member(depth, mask, right) && is_near(depth[i], depth[right], limit));
+            bool column = y + 1 == grid->height ||
+                          (is_member(depth, mask, down) && is_near(depth[i], depth[down], limit));
+            bits[i] = is_member(depth, mask, i) && row && column;
+        }
+    }
+}
+
+static void thesis_links(const rlf_reconstruct *stage, const float *depth, const uint8_t *mask)
+{
+    const rlf_grid *grid = &stage->grid;
+    uint8_t *bits = stage->work.mask[1];
+    rlf_segment_thesis_bits(grid, stage->def.segment_tau_m, depth, mask, bits);
+    for (int32_t y = 0; y < grid->height; y++) {
+        for (int32_t x = 0; x < grid->width; x++) {
+            ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+            int link = bits[i] ? RLF_LINK_MEMBER : 0;
+            link |= bits[i] && x > 0 && bits[i - 1] ? RLF_LINK_LEFT : 0;
+            link |= bits[i] && y > 0 && bits[i - grid->width] ? RLF_LINK_UP : 0;
+            stage->work.links[i] = (uint8_t)link;
+        }
+    }
+}
+
+typedef struct links_job {
+    const rlf_reconstruct *stage;
+    const float *depth;
+    const uint8_t *mask;
+} links_job;
+
+/* Two pixels of one surface differ by noise, 6 sigma sqrt(2), and by the step of a surface seen at
+ * up to 80 degrees: tan(80 deg) z / f. */
+static void noise_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const links_job *job = context;
+    const rlf_grid *grid = &job->stage->grid;
+    rlf_kernel_noise noise = rlf_kernel_noise_make(&job->stage->def.rig.noise);
+    float step = (float)(5.67 / grid->camera.fx);
+    for (int32_t y = begin; y < end; y++) {
+        ptrdiff_t row = (ptrdiff_t)y * grid->width;
+        for (int32_t x = 0; x < grid->width; x++) {
+            ptrdiff_t i = row + x;
+            if (!is_member(job->depth, job->mask, i)) {
+                job->stage->work.links[i] = 0;
+                continue;
+            }
+            float z = job->depth[i];
+            float tau = 8.5f * rlf_kernel_sigma(noise, z) + step * z;
+            int link = RLF_LINK_MEMBER;
+            if (x > 0 && is_member(job->depth, job->mask, i - 1)) {
+                link |= is_near(z, job->depth[i - 1], tau) ? RLF_LINK_LEFT : 0;
+            }
+            if (y > 0 && is_member(job->depth, job->mask, i - grid->width)) {
+                link |= is_near(z, job->depth[i - grid->width], tau) ? RLF_LINK_UP : 0;
+            }
+            job->stage->work.links[i] = (uint8_t)link;
+        }
+    }
+}
+
+void rlf_segment_links(const rlf_reconstruct *stage, rlf_segment_method method, const float *depth,
+                       const uint8_t *mask)
+{
+    if (method == RLF_SEGMENT_THESIS) {
+        thesis_links(stage, depth, mask);
+        return;
+    }
+    links_job job = {stage, depth, mask};
+    rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, noise_rows, &job);
+}
+
+/* Label that a lost pixel takes: of its right, lower or lower right neighbour, one within tau
+ * first. 0 when none has a label. */
+static int32_t grown_label(const rlf_grid *grid, float tau, const float *depth,
+                           const int32_t *label, ptrdiff_t i)
+{
+    int32_t x = (int32_t)(i % grid->width), y = (int32_t)(i / grid->width);
+    bool right = x + 1 < grid->width, down = y + 1 < grid->height;
+    const bool inside[3] = {right, down, right && down};
+    const ptrdiff_t next[3] = {i + 1, i + grid->width, i + grid->width + 1};
+    int32_t any = 0;
+    for (int k = 0; k < 3; k++) {
+        int32_t candidate = inside[k] ? label[next[k]] : 0;
+        if (candidate > 0 && is_near(depth[i], depth[next[k]], tau)) {
+            return candidate;
+        }
+        any = any == 0 && candidate > 0 ? candidate : any;
+    }
+    return any;
+}
+
+/* In raster order: the neighbours that a pixel reads have not grown yet, so that labels grow by one
+ * pixel only. */
+void rlf_segment_dilate(const rlf_grid *grid, double tau, const float *depth, const uint8_t *mask,
+                        int32_t *label)
+{
+    for (int32_t i = 0; i < grid->count; i++) {
+        if (label[i] == 0 && is_member(depth, mask, i)) {
+            label[i] = grown_label(grid, (float)tau, depth, label, i);
+        }
+    }
+}

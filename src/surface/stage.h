@@ -1,0 +1,101 @@
+/* The surface stage's own state: grid, ring of published surfaces, background, work memory. */
+#ifndef RLF_SURFACE_STAGE_H
+#define RLF_SURFACE_STAGE_H
+
+#include "relief/reconstruct.h"
+
+/* The planes of a grid that every step reads. */
+typedef struct rlf_grid {
+    int32_t width, height, count;
+    int32_t factor;
+    rlf_camera camera;
+    const float *ray_x, *ray_y;
+    const uint8_t *has_ray;
+} rlf_grid;
+
+/* The buffers of one published surface. */
+typedef struct rlf_slot {
+    rlf_surface surface;
+    float *depth;
+    float *normal[3];
+    float *velocity[3];
+    float *thickness;
+    int32_t *label;
+    uint8_t *reason, *foreground;
+    rlf_region *regions;
+    int32_t *region_points;
+    int32_t foreground_region_first, foreground_region_count; /* in regions */
+} rlf_slot;
+
+/* One published state of the background. It never changes while a surface refers to it. */
+typedef struct rlf_sheet {
+    float *depth;
+    float *normal[3];
+    int32_t *label;
+    rlf_region *regions;
+    int32_t *region_points;
+    int32_t region_count, point_count;
+} rlf_sheet;
+
+/* Surfaces refer to at most RLF_RECONSTRUCT_SURFACES sheets while the next one is made. */
+enum { RLF_SHEETS = RLF_RECONSTRUCT_SURFACES + 1, RLF_STAGE_BLOCKS = 128 };
+
+/* The background model. AVERAGE: mean holds sums until it is ready. */
+typedef struct rlf_background {
+    float *mean;
+    uint8_t *weight;      /* samples in the mean */
+    uint8_t *beyond;      /* ADAPTIVE: frames in a row that saw past the mean */
+    uint8_t *unknown_age; /* ADAPTIVE: frames in a row that a hole had a background sample */
+    int32_t frames;
+    int32_t changed;   /* pixels replaced since the newest sheet was made */
+    int32_t sheet_age; /* frames since then */
+    rlf_background_state state;
+    rlf_sheet sheets[RLF_SHEETS];
+    int32_t newest; /* sheet; -1 = none */
+} rlf_background;
+
+/* Memory that is free between steps. */
+typedef struct rlf_work {
+    float *depth[2];    /* planes */
+    float *sum[2];      /* planes: velocity sums, spheres */
+    uint8_t *mask[2];   /* planes */
+    uint8_t *links;     /* plane of RLF_LINK_ bits */
+    int32_t *component; /* plane */
+    int32_t *parent;    /* count + 1 */
+    int32_t *size;      /* count + 1 */
+    int32_t *map;       /* count + 1 */
+    int32_t *vote[2];   /* count + 1 */
+    float *zeros;       /* one row */
+    float *zero_plane;  /* published where there is no background */
+    int32_t *zero_labels;
+    struct rlf_region_sum *region_sums; /* region_capacity */
+} rlf_work;
+
+struct rlf_reconstruct {
+    rlf_reconstruct_def def;
+    rlf_grid grid;
+    rlf_slot ring[RLF_RECONSTRUCT_SURFACES];
+    int32_t current;          /* slot being made or last made */
+    const rlf_slot *previous; /* slot of the frame before, NULL at the first */
+    int32_t next_label;
+    rlf_background background;
+    rlf_work work;
+    void *blocks[RLF_STAGE_BLOCKS]; /* everything allocated */
+    int32_t block_count;
+    bool out_of_memory;
+};
+
+/* def.c */
+rlf_result rlf_reconstruct_def_check(const rlf_reconstruct_def *def);
+
+/* memory.c: allocates all buffers of a stage whose def is set; false when memory is short. */
+bool rlf_stage_allocate(rlf_reconstruct *stage);
+void rlf_stage_release(rlf_reconstruct *stage);
+
+/* grid.c */
+void rlf_grid_fill_rays(const rlf_grid *grid, float *ray_x, float *ray_y, uint8_t *has_ray);
+
+/* Rows per chunk of a parallel loop: even, and a multiple of the normal tiles. */
+enum { RLF_ROW_GRAIN = 16 };
+
+#endif

@@ -1,0 +1,279 @@
+/* How thick the foreground is: the union of the largest spheres inscribed in each silhouette.
+ *
+ * On a lattice of every step-th pixel: the distance D to the region's silhouette (exact Euclidean
+ * distance transform), and for each near-medial point c a disk of radius D(c) that stands for a
+ * sphere: at p its half thickness is sqrt(D(c)^2 - |p - c|^2). Each pixel takes the largest. Bodies
+ * wider than about 20 cm are flatter than a sphere. A region that is a plane up to noise is a thin
+ * plate. Nothing reaches into the background behind it. */
+#include "surface/steps.h"
+
+#include "kernel/kernel.h"
+
+#include <math.h>
+
+enum { LATTICE_POINTS = 12000, LATTICE_STEP_LEAST = 2 };
+
+static const float same_body_m = 0.15f; /* depth that one sphere may span */
+static const float thinnest_m = 0.015f, thickest_m = 0.30f, plate_m = 0.02f;
+static const float round_below_m = 0.08f, flat_above_m = 0.12f, flat_ratio = 0.65f;
+
+/* The part of the image that has foreground, sampled. Its planes lie in work memory. */
+typedef struct lattice {
+    const rlf_reconstruct *stage;
+    const rlf_slot *slot;
+    int32_t x0, y0, step;
+    int32_t width, height;
+    int32_t *label;
+    float *depth;
+    float *column;   /* distance within the column */
+    float *radius2;  /* squared distance to the silhouette */
+    float *best;     /* largest half thickness squared */
+    int32_t *centre; /* of the sphere that gave it; -1 = none */
+} lattice;
+
+static bool find_bounds(lattice *l)
+{
+    const rlf_slot *slot = l->slot;
+    int32_t x1 = 0, y1 = 0, total = 0;
+    l->x0 = l->stage->grid.width;
+    l->y0 = l->stage->grid.height;
+    for (int32_t r = 0; r < slot->foreground_region_count; r++) {
+        const rlf_region *region = &slot->regions[slot->foreground_region_first + r];
+        l->x0 = region->x0 < l->x0 ? region->x0 : l->x0;
+        l->y0 = region->y0 < l->y0 ? region->y0 : l->y0;
+        x1 = region->x1 > x1 ? region->x1 : x1;
+        y1 = region->y1 > y1 ? region->y1 : y1;
+        total += region->point_count;
+    }
+    if (total == 0) {
+        return false;
+    }
+    l->step = LATTICE_STEP_LEAST;
+    while (total / (l->step * l->step) > LATTICE_POINTS) {
+        l->step++;
+    }
+    l->width = (x1 - l->x0 + l->step - 1) / l->step;
+    l->height = (y1 - l->y0 + l->step - 1) / l->step;
+    return true;
+}
+
+static void sample(lattice *l)
+{
+    for (int32_t y = 0; y < l->height; y++) {
+        for (int32_t x = 0; x < l->width; x++) {
+            int32_t k = y * l->width + x;
+            ptrdiff_t i =
+                (ptrdiff_t)(l->y0 + y * l->step) * l->stage->grid.width + l->x0 + x * l->step;
+            bool front = l->slot->foreground[i] != 0;
+            l->label[k] = front ? l->slot->label[i] : 0;
+            l->depth[k] = l->slot->depth[i];
+            l->best[k] = 0.0f;
+            l->centre[k] = -1;
+        }
+    }
+}
+
+/* A lattice that ends at the image's border says nothing about the silhouette there; one that ends
+ * within the image has background beyond. */
+static bool is_open(const lattice *l, int32_t side)
+{
+    const rlf_grid *grid = &l->stage->grid;
+    switch (side) {
+    case 0: return l->x0 < l->step;
+    case 1: return l->y0 < l->step;
+    case 2: return l->x0 + l->width * l->step >= grid->width;
+    default: return l->y0 + l->height * l->step >= grid->height;
+    }
+}
+
+/* Distance to the nearest other label in the column, in lattice steps. */
+static void column_distances(lattice *l)
+{
+    const float far_off = 1e6f;
+    for (int32_t x = 0; x < l->width; x++) {
+        float run = is_open(l, 1) ? far_off : 0.0f;
+        for (int32_t y = 0; y < l->height; y++) {
+            int32_t k = y * l->width + x;
+            run = y > 0 && l->label[k] != l->label[k - l->width] ? 1.0f : run + 1.0f;
+            l->column[k] = run;
+        }
+        run = is_open(l, 3) ? far_off : 0.0f;
+        for (int32_t y = l->height - 1; y >= 0; y--) {
+            int32_t k = y * l->width + x;
+            bool last = y + 1 == l->height;
+            run = !last && l->label[k] != l->label[k + l->width] ? 1.0f : run + 1.0f;
+            l->column[k] = run < l->column[k] ? run : l->column[k];
+        }
+    }
+}
+
+/* Squared distance of one point, from the columns to one side of it. */
+static float scan_row(const lattice *l, int32_t x, int32_t y, int32_t direction, float best)
+{
+    int32_t row = y * l->width;
+    int32_t label = l->label[row + x];
+    for (int32_t d = 1; (float)d * (float)d < best; d++) {
+        int32_t k = x + direction * d;
+        float across = (float)d * (float)d;
+        if (k < 0 || k >= l->width) {
+            return is_open(l, direction < 0 ? 0 : 2) ? best : across;
+        }
+        if (l->label[row + k] != label) {
+            return across;
+        }
+        float sum = across + l->column[row + k] * l->column[row + k];
+        best = sum < best ? sum : best;
+    }
+    return best;
+}
+
+static void squared_distances(lattice *l)
+{
+    for (int32_t y = 0; y < l->height; y++) {
+        for (int32_t x = 0; x < l->width; x++) {
+            int32_t k = y * l->width + x;
+            l->radius2[k] = 0.0f;
+            if (l->label[k] == 0) {
+                continue;
+            }
+            float largest = (float)(l->width + l->height);
+            float best = l->column[k] * l->column[k];
+            best = best < largest * largest ? best : largest * largest;
+            best = scan_row(l, x, y, -1, best);
+            best = scan_row(l, x, y, 1, best);
+            /* The silhouette lies half a step before the first point outside. */
+            float radius = sqrtf(best) - 0.5f;
+            l->radius2[k] = radius * radius;
+        }
+    }
+}
+
+/* No neighbour lies much deeper inside: the point is near the medial axis. */
+static bool is_near_medial(const lattice *l, int32_t x, int32_t y)
+{
+    int32_t k = y * l->width + x;
+    float own = sqrtf(l->radius2[k]);
+    for (int32_t dy = -1; dy <= 1; dy++) {
+        for (int32_t dx = -1; dx <= 1; dx++) {
+            int32_t nx = x + dx, ny = y + dy;
+            if (nx < 0 || ny < 0 || nx >= l->width || ny >= l->height) {
+                continue;
+            }
+            float rise = sqrtf(l->radius2[ny * l->width + nx]) - own;
+            if (rise > (dx != 0 && dy != 0 ? 0.9f : 0.65f)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static void paint_sphere(lattice *l, int32_t cx, int32_t cy)
+{
+    int32_t c = cy * l->width + cx;
+    float r2 = l->radius2[c];
+    int32_t reach = (int32_t)sqrtf(r2);
+    int32_t y0 = cy - reach > 0 ? cy - reach : 0;
+    int32_t y1 = cy + reach < l->height ? cy + reach : l->height - 1;
+    int32_t x0 = cx - reach > 0 ? cx - reach : 0;
+    int32_t x1 = cx + reach < l->width ? cx + reach : l->width - 1;
+    for (int32_t y = y0; y <= y1; y++) {
+        for (int32_t x = x0; x <= x1; x++) {
+            int32_t k = y * l->width + x;
+            float h2 = r2 - (float)((x - cx) * (x - cx) + (y - cy) * (y - cy));
+            bool same = l->label[k] == l->label[c] &&
+                        rlf_kernel_abs(l->depth[k] - l->depth[c]) < same_body_m;
+            if (same && h2 > l->best[k]) {
+                l->best[k] = h2;
+                l->centre[k] = c;
+            }
+        }
+    }
+}
+
+static void paint_spheres(lattice *l)
+{
+    for (int32_t y = 0; y < l->height; y++) {
+        for (int32_t x = 0; x < l->width; x++) {
+            if (l->label[y * l->width + x] != 0 && is_near_medial(l, x, y)) {
+                paint_sphere(l, x, y);
+            }
+        }
+    }
+}
+
+/* Bodies are about as deep as wide up to 16 cm, and flatter above (forearm against torso). */
+static float depth_ratio(float radius_m)
+{
+    float t = (radius_m - round_below_m) / (flat_above_m - round_below_m);
+    t = t < 0.0f ? 0.0f : (t > 1.0f ? 1.0f : t);
+    return 1.0f + t * (flat_ratio - 1.0f);
+}
+
+static float sphere_thickness(const lattice *l, int32_t x, int32_t y)
+{
+    float fx = (float)(x - l->x0) / (float)l->step;
+    float fy = (float)(y - l->y0) / (float)l->step;
+    int32_t c = l->centre[(int32_t)fy * l->width + (int32_t)fx];
+    if (c < 0) {
+        return thinnest_m;
+    }
+    float dx = fx - (float)(c % l->width), dy = fy - (float)(c / l->width);
+    float h2 = l->radius2[c] - dx * dx - dy * dy;
+    float z = l->slot->depth[(ptrdiff_t)y * l->stage->grid.width + x];
+    float metres = (float)l->step * z / (float)l->stage->grid.camera.fx;
+    float ratio = depth_ratio(sqrtf(l->radius2[c]) * metres);
+    float thickness = h2 > 0.0f ? 2.0f * sqrtf(h2) * metres * ratio : 0.0f;
+    thickness = thickness < thickest_m ? thickness : thickest_m;
+    return thickness > thinnest_m ? thickness : thinnest_m;
+}
+
+static bool is_plate(const rlf_reconstruct *stage, const rlf_region *region)
+{
+    double sigma = rlf_depth_noise_sigma(&stage->def.rig.noise, region->centroid.z);
+    return region->plane_residual >= 0.0 && region->plane_residual <= 2.0 * sigma;
+}
+
+static void write_region(const lattice *l, const rlf_region *region)
+{
+    const rlf_reconstruct *stage = l->stage;
+    const rlf_slot *slot = l->slot;
+    bool plate = is_plate(stage, region);
+    for (int32_t y = region->y0; y < region->y1; y++) {
+        for (int32_t x = region->x0; x < region->x1; x++) {
+            ptrdiff_t i = (ptrdiff_t)y * stage->grid.width + x;
+            if (slot->label[i] != region->label || !slot->foreground[i]) {
+                continue;
+            }
+            float thickness = plate ? plate_m : sphere_thickness(l, x, y);
+            float room = stage->background.mean[i] - slot->depth[i];
+            bool known = stage->background.mean[i] > 0.0f;
+            room = room > 0.0f ? room : 0.0f;
+            slot->thickness[i] = known && thickness > room ? room : thickness;
+        }
+    }
+}
+
+void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot)
+{
+    for (int32_t i = 0; i < stage->grid.count; i++) {
+        slot->thickness[i] = 0.0f;
+    }
+    lattice l = {.stage = stage, .slot = slot};
+    if (!find_bounds(&l)) {
+        return;
+    }
+    l.label = stage->work.map;
+    l.centre = stage->work.component;
+    l.depth = stage->work.depth[0];
+    l.column = stage->work.depth[1];
+    l.radius2 = stage->work.sum[0];
+    l.best = stage->work.sum[1];
+    sample(&l);
+    column_distances(&l);
+    squared_distances(&l);
+    paint_spheres(&l);
+    for (int32_t r = 0; r < slot->foreground_region_count; r++) {
+        write_region(&l, &slot->regions[slot->foreground_region_first + r]);
+    }
+}
