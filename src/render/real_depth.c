@@ -1,0 +1,137 @@
+/* Chooses the depth that hides bodies and registers it. */
+#include "real_depth.h"
+
+#include <string.h>
+
+rlf_camera real_depth_picture_camera(const rlf_compositor_def *def)
+{
+    const rlf_camera *camera = def->rig.has_color ? &def->rig.color : &def->rig.depth;
+    int32_t width = def->width > 0 ? def->width : camera->width;
+    int32_t height = def->height > 0 ? def->height : camera->height;
+    return rlf_camera_resize(camera, width, height);
+}
+
+rlf_pose real_depth_picture_pose(const rlf_compositor_def *def)
+{
+    return def->rig.has_color ? def->rig.T_color_depth : rlf_pose_identity();
+}
+
+/* Rays of every pixel of the depth camera, for frames that are registered themselves. */
+static rlf_result make_frame_rays(real_depth *real, const rlf_camera *camera)
+{
+    size_t count = (size_t)camera->width * (size_t)camera->height;
+    real->ray_x = rlf_alloc_array(count, sizeof(float));
+    real->ray_y = rlf_alloc_array(count, sizeof(float));
+    real->is_in_lens = rlf_alloc_array(count, 1);
+    if (real->ray_x == NULL || real->ray_y == NULL || real->is_in_lens == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    for (size_t i = 0; i < count; i++) {
+        double u = (double)(i % (size_t)camera->width);
+        double v = (double)(i / (size_t)camera->width);
+        rlf_vec3 ray;
+        real->is_in_lens[i] = rlf_camera_unproject(camera, u, v, &ray);
+        real->ray_x[i] = (float)ray.x;
+        real->ray_y[i] = (float)ray.y;
+    }
+    return RLF_OK;
+}
+
+static rlf_result allocate(real_depth *real, const rlf_camera *picture)
+{
+    size_t pixels = (size_t)picture->width * (size_t)picture->height;
+    real->input = rlf_alloc_array((size_t)real->width * (size_t)real->height, sizeof(float));
+    real->z.data = rlf_alloc_array(pixels, sizeof(float));
+    real->state.data = rlf_alloc_array(pixels, 1);
+    if (real->input == NULL || real->z.data == NULL || real->state.data == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    real->z.width = real->state.width = picture->width;
+    real->z.height = real->state.height = picture->height;
+    real->z.stride = picture->width * (ptrdiff_t)sizeof(float);
+    real->state.stride = picture->width;
+    return RLF_OK;
+}
+
+rlf_result real_depth_create(const rlf_compositor_def *def, const rlf_camera *camera,
+                             real_depth *out)
+{
+    memset(out, 0, sizeof(*out));
+    out->uses_frame = def->grid.width < def->rig.depth.width;
+    const rlf_camera *depth = out->uses_frame ? &def->rig.depth : &def->grid;
+    out->width = depth->width;
+    out->height = depth->height;
+    rlf_result result = allocate(out, camera);
+    if (result == RLF_OK && out->uses_frame) {
+        result = make_frame_rays(out, depth);
+    }
+    if (result == RLF_OK) {
+        rlf_pose T = real_depth_picture_pose(def);
+        result = rlf_registration_create(depth, out->uses_frame ? out->ray_x : def->ray_x,
+                                         out->uses_frame ? out->ray_y : def->ray_y, camera, &T,
+                                         &out->registration);
+    }
+    if (result != RLF_OK) {
+        real_depth_destroy(out);
+    }
+    return result;
+}
+
+void real_depth_destroy(real_depth *real)
+{
+    rlf_registration_destroy(&real->registration);
+    void *parts[6] = {real->input, real->z.data, real->state.data,
+                      real->ray_x, real->ray_y,  real->is_in_lens};
+    for (int i = 0; i < 6; i++) {
+        rlf_free(parts[i]);
+    }
+    memset(real, 0, sizeof(*real));
+}
+
+static void read_frame(real_depth *real, const rlf_frame *frame)
+{
+    double metres = frame->depth_units_per_metre > 0.0 ? 1.0 / frame->depth_units_per_metre : 0.0;
+    for (int32_t y = 0; y < real->height; y++) {
+        ptrdiff_t row = y * frame->depth_stride;
+        float *out = real->input + (size_t)y * (size_t)real->width;
+        const uint8_t *is_in_lens = real->is_in_lens + (size_t)y * (size_t)real->width;
+        if (frame->depth_u16 != NULL) {
+            const uint16_t *in =
+                (const uint16_t *)(const void *)((const char *)frame->depth_u16 + row);
+            for (int32_t x = 0; x < real->width; x++) {
+                out[x] = is_in_lens[x] ? (float)(in[x] * metres) : 0.0f;
+            }
+        } else if (frame->depth_f32 != NULL) {
+            const float *in = (const float *)(const void *)((const char *)frame->depth_f32 + row);
+            for (int32_t x = 0; x < real->width; x++) {
+                bool is_known = is_in_lens[x] && in[x] > 0.0f && in[x] < 1e6f;
+                out[x] = is_known ? in[x] : 0.0f;
+            }
+        }
+    }
+}
+
+static void read_surface(real_depth *real, const rlf_surface *surface)
+{
+    size_t count = (size_t)real->width * (size_t)real->height;
+    const float *front = surface->depth;
+    const float *back = surface->background_depth;
+    if (back == NULL) {
+        memcpy(real->input, front, count * sizeof(float));
+        return;
+    }
+    float *out = real->input;
+    for (size_t i = 0; i < count; i++) {
+        out[i] = front[i] > 0.0f ? front[i] : back[i];
+    }
+}
+
+void real_depth_update(real_depth *real, const rlf_frame *frame, const rlf_surface *surface)
+{
+    if (real->uses_frame) {
+        read_frame(real, frame);
+    } else {
+        read_surface(real, surface);
+    }
+    rlf_registration_apply(real->registration, real->input, &real->z, &real->state);
+}

@@ -1,0 +1,33 @@
+/* The real depth that a picture's bodies are compared with, seen from the picture's camera. */
+#ifndef RLF_RENDER_REAL_DEPTH_H
+#define RLF_RENDER_REAL_DEPTH_H
+
+#include "relief/compositor.h"
+
+typedef struct real_depth {
+    rlf_registration *registration;
+    float *input;       /* what is registered: the surface's size, or the frame's for coarse ones */
+    rlf_plane_f32 z;    /* metres along the picture camera's z; 0 = unknown */
+    rlf_plane_u8 state; /* rlf_registered */
+
+    /* A surface that keeps every n-th pixel is too coarse to cut bodies along a silhouette; then
+     * the frame's own depth is registered, as in the thesis (4.2.2). */
+    bool uses_frame;
+    int32_t width, height; /* of input */
+    float *ray_x, *ray_y;  /* uses_frame only */
+    uint8_t *is_in_lens;   /* uses_frame only */
+} real_depth;
+
+/* Camera that a def's picture is drawn with, and its pose: the colour camera's or, without one, the
+ * depth camera's, resized to the def's picture. */
+rlf_camera real_depth_picture_camera(const rlf_compositor_def *def);
+rlf_pose real_depth_picture_pose(const rlf_compositor_def *def); /* T_picture_depth */
+
+/* `camera` is the picture's. Allocates everything. */
+rlf_result real_depth_create(const rlf_compositor_def *def, const rlf_camera *camera,
+                             real_depth *out);
+void real_depth_destroy(real_depth *real);
+/* Fills z and state. Pixels without depth take the background's, when the surface knows it. */
+void real_depth_update(real_depth *real, const rlf_frame *frame, const rlf_surface *surface);
+
+#endif

@@ -1,0 +1,98 @@
+/* What the bodies are put into: the colour picture, resized when it has to be, or grey depth. */
+#include "render/soft/soft.h"
+
+#include <string.h>
+
+typedef struct background_job {
+    soft *s;
+    const rlf_image_rgba8 *color;
+    double near_z, far_z;
+} background_job;
+
+static void copy_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const background_job *job = context;
+    const rlf_image_rgba8 *image = &job->s->image;
+    for (int32_t y = begin; y < end; y++) {
+        memcpy(rlf_rgba8_row(image, y), rlf_rgba8_row(job->color, y), 4 * (size_t)image->width);
+    }
+}
+
+/* Position of pixel i of `to` in a line of `from` pixels: areas scale, edges repeat. */
+static int32_t source_of(int32_t i, int32_t from, int32_t to, int32_t *out_weight)
+{
+    double at = rlf_clamp((i + 0.5) * from / to - 0.5, 0.0, from - 1.0);
+    int32_t first = (int32_t)at;
+    if (first > from - 2) {
+        first = from > 1 ? from - 2 : 0;
+    }
+    *out_weight = from > 1 ? (int32_t)((at - first) * 256.0 + 0.5) : 0;
+    return first;
+}
+
+static void resize_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const background_job *job = context;
+    const soft *s = job->s;
+    const rlf_image_rgba8 *color = job->color;
+    ptrdiff_t next = color->width > 1 ? 4 : 0;
+    for (int32_t y = begin; y < end; y++) {
+        int32_t wy;
+        int32_t top = source_of(y, color->height, s->image.height, &wy);
+        const uint8_t *row0 = rlf_rgba8_row(color, top);
+        const uint8_t *row1 = color->height > 1 ? row0 + color->stride : row0;
+        uint8_t *out = rlf_rgba8_row(&s->image, y);
+        for (int32_t x = 0; x < s->image.width; x++) {
+            ptrdiff_t left = 4 * (ptrdiff_t)s->column_left[x];
+            int32_t wx = s->column_weight[x];
+            for (int c = 0; c < 4; c++) {
+                int32_t a = row0[left + c] * (256 - wx) + row0[left + next + c] * wx;
+                int32_t b = row1[left + c] * (256 - wx) + row1[left + next + c] * wx;
+                *out++ = (uint8_t)((a * (256 - wy) + b * wy + 32768) >> 16);
+            }
+        }
+    }
+}
+
+/* Near is light, far is dark, unknown is black. */
+static void grey_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const background_job *job = context;
+    const soft *s = job->s;
+    float near_z = (float)job->near_z;
+    float scale = (float)(200.0 / (job->far_z - job->near_z));
+    for (int32_t y = begin; y < end; y++) {
+        const float *z = rlf_f32_row(&s->real.z, y);
+        uint8_t *out = rlf_rgba8_row(&s->image, y);
+        for (int32_t x = 0; x < s->image.width; x++) {
+            float shade = 240.0f - (z[x] - near_z) * scale;
+            shade = shade > 240.0f ? 240.0f : (shade < 40.0f ? 40.0f : shade);
+            int32_t grey = z[x] > 0.0f ? (int32_t)shade : 0;
+            soft_put(out + 4 * (ptrdiff_t)x, soft_rgb(grey, grey, grey));
+        }
+    }
+}
+
+void soft_draw_background(soft *s, const rlf_render_input *input)
+{
+    const rlf_image_rgba8 *color = &input->frame->color;
+    background_job job = {s, color, s->def.rig.depth_min_m, s->def.rig.depth_max_m};
+    rlf_range_fn fn = grey_rows;
+    if (color->data == NULL) {
+        if (!(job.far_z > job.near_z)) {
+            job.near_z = 0.5;
+            job.far_z = 4.5;
+        }
+    } else if (color->width == s->image.width && color->height == s->image.height) {
+        fn = copy_rows;
+    } else {
+        for (int32_t x = 0; x < s->image.width; x++) {
+            s->column_left[x] = source_of(x, color->width, s->image.width, &s->column_weight[x]);
+        }
+        fn = resize_rows;
+    }
+    rlf_parallel_for(s->def.pool, s->image.height, SOFT_BAND_ROWS, fn, &job);
+}

@@ -1,0 +1,200 @@
+/* Bodies of a snapshot as triangles in the picture, nearest body first. */
+#include "render/soft/soft.h"
+
+/* What one body's vertices go through. */
+typedef struct body_transform {
+    rlf_mat3 R; /* T_picture_body */
+    rlf_vec3 p;
+    rlf_vec3 to_light; /* in the body's frame */
+    shape_mesh_scale scale;
+} body_transform;
+
+static rlf_result reserve_bodies(soft_scene *scene, int32_t count)
+{
+    if (count <= scene->body_capacity) {
+        return RLF_OK;
+    }
+    soft_body *bodies = rlf_alloc_array((size_t)count * 2, sizeof(*bodies));
+    if (bodies == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    rlf_free(scene->bodies);
+    scene->bodies = bodies;
+    scene->body_capacity = count * 2;
+    return RLF_OK;
+}
+
+static double magnitude(double x)
+{
+    return x < 0.0 ? -x : x;
+}
+
+/* False when the bounding sphere (centre c, radius r) is surely outside the picture. With
+ * c_z >= 2 r, a point of it differs from the centre by at most 2 r (1 + |c_x / c_z|) / c_z in x /
+ * z, and alike in y. */
+static bool may_be_seen(const soft *s, rlf_vec3 center, double radius)
+{
+    if (!rlf_vec3_is_finite(center) || !rlf_is_finite(radius) || center.z + radius < SOFT_NEAR_Z) {
+        return false;
+    }
+    const rlf_camera *k = &s->camera;
+    if (k->distortion_model != RLF_DISTORTION_NONE || center.z < 2.0 * radius) {
+        return true;
+    }
+    double x = center.x / center.z;
+    double y = center.y / center.z;
+    double u = k->fx * x + k->cx;
+    double v = k->fy * y + k->cy;
+    double reach = 2.0 * radius / center.z;
+    double reach_u = k->fx * reach * (1.0 + magnitude(x)) + 1.0;
+    double reach_v = k->fy * reach * (1.0 + magnitude(y)) + 1.0;
+    return u > -reach_u && u < k->width + reach_u && v > -reach_v && v < k->height + reach_v;
+}
+
+static soft_corner transform_corner(const body_transform *T, const shape_vertex *v)
+{
+    rlf_vec3 p = {v->position[0] * T->scale.scale.x,
+                  v->position[1] * T->scale.scale.y + v->shift * T->scale.half_height,
+                  v->position[2] * T->scale.scale.z};
+    double facing =
+        v->normal[0] * T->to_light.x + v->normal[1] * T->to_light.y + v->normal[2] * T->to_light.z;
+    soft_corner c;
+    c.p = rlf_add(rlf_mat3_mul_vec(&T->R, p), T->p);
+    c.attribute[SOFT_S] = v->uv[0];
+    c.attribute[SOFT_T] = v->uv[1];
+    c.attribute[SOFT_LIGHT] =
+        (float)(BODY_LIGHT_AMBIENT + BODY_LIGHT_DIFFUSE * rlf_max(facing, 0.0));
+    return c;
+}
+
+static void add_unit_mesh(soft *s, const body_transform *T, rlf_shape_type type, int32_t body)
+{
+    const shape_mesh_range *range = &s->meshes.range[type];
+    for (int32_t i = 0; i < range->vertex_count; i++) {
+        s->corners[i] = transform_corner(T, &s->meshes.vertices[range->first_vertex + i]);
+    }
+    for (int32_t i = 0; i < range->index_count; i += 3) {
+        soft_corner corners[3];
+        for (int k = 0; k < 3; k++) {
+            int32_t index = s->meshes.indices[range->first_index + i + k];
+            corners[k] = s->corners[index - range->first_vertex];
+        }
+        soft_scene_add_triangle(s, corners, body);
+    }
+}
+
+static void add_hull(soft *s, const body_transform *T, const rlf_shape *shape, int32_t body)
+{
+    double radius = rlf_shape_radius(shape);
+    for (int32_t i = 0; i < shape->hull->triangle_count; i++) {
+        shape_vertex v[3];
+        if (shape_mesh_hull_triangle(shape->hull, i, radius, v)) {
+            const soft_corner corners[3] = {transform_corner(T, &v[0]), transform_corner(T, &v[1]),
+                                            transform_corner(T, &v[2])};
+            soft_scene_add_triangle(s, corners, body);
+        }
+    }
+}
+
+static void choose_look(soft *s, const rlf_body_state *state, soft_body *body)
+{
+    for (int i = 0; i < 3; i++) {
+        body->color[i] = (float)(255.0 * rlf_clamp(state->color[i], 0.0, 1.0));
+    }
+    double focal = 0.5 * (s->camera.fx + s->camera.fy);
+    int32_t level = body_texture_level_of(&state->shape, body->center.z, focal);
+    body->texture =
+        s->textures[body_texture_kind_of(state->shape.type)] + body_texture_level_offset(level);
+    body->texture_size = BODY_TEXTURE_SIZE >> level;
+}
+
+/* Adds one body; it is left out again when none of its triangles is in the picture. */
+static rlf_result add_body(soft *s, const rlf_body_state *state, const rlf_pose *T_picture_world,
+                           int32_t index)
+{
+    soft_scene *scene = &s->scene;
+    const rlf_shape *shape = &state->shape;
+    rlf_pose T = rlf_pose_mul(T_picture_world, &state->T_world_body);
+    double radius = rlf_shape_radius(shape);
+    if (!may_be_seen(s, T.p, radius)) {
+        return RLF_OK;
+    }
+    bool is_hull = shape->type == RLF_SHAPE_HULL;
+    if ((int)shape->type < 0 || shape->type > RLF_SHAPE_HULL || (is_hull && shape->hull == NULL)) {
+        return RLF_OK;
+    }
+    int32_t count =
+        is_hull ? shape->hull->triangle_count : s->meshes.range[shape->type].index_count / 3;
+    /* The near plane may cut a triangle into two. */
+    rlf_result result = soft_scene_reserve(scene, scene->triangle_count + 2 * count);
+    if (result != RLF_OK) {
+        return result;
+    }
+    soft_body *body = &scene->bodies[scene->body_count];
+    *body = (soft_body){.first = scene->triangle_count,
+                        .x0 = s->camera.width,
+                        .y0 = s->camera.height,
+                        .center = T.p,
+                        .radius = radius,
+                        .index = index};
+    choose_look(s, state, body);
+    rlf_quat q = rlf_quat_normalize(T.q);
+    rlf_vec3 to_light = rlf_neg(rlf_rotate(s->T_picture_depth.q, s->def.light_direction));
+    body_transform transform = {rlf_quat_to_mat3(q), T.p,
+                                rlf_rotate(rlf_quat_conjugate(q), to_light),
+                                shape_mesh_scale_of(shape)};
+    if (is_hull) {
+        add_hull(s, &transform, shape, scene->body_count);
+    } else {
+        add_unit_mesh(s, &transform, shape->type, scene->body_count);
+    }
+    body->end = scene->triangle_count;
+    scene->body_count += body->end > body->first ? 1 : 0;
+    return RLF_OK;
+}
+
+static bool is_before(const soft_body *a, const soft_body *b)
+{
+    return a->center.z < b->center.z || (a->center.z == b->center.z && a->index < b->index);
+}
+
+/* Shell sort: in place, and a total order makes it the same everywhere. Triangles name their body
+ * by place, so they are renamed afterwards. */
+static void sort_bodies(soft_scene *scene)
+{
+    soft_body *bodies = scene->bodies;
+    int32_t count = scene->body_count;
+    for (int32_t gap = count / 2; gap > 0; gap /= 2) {
+        for (int32_t i = gap; i < count; i++) {
+            soft_body moving = bodies[i];
+            int32_t j = i;
+            for (; j >= gap && is_before(&moving, &bodies[j - gap]); j -= gap) {
+                bodies[j] = bodies[j - gap];
+            }
+            bodies[j] = moving;
+        }
+    }
+    for (int32_t i = 0; i < count; i++) {
+        for (int32_t t = bodies[i].first; t < bodies[i].end; t++) {
+            scene->triangles[t].body = i;
+        }
+    }
+}
+
+rlf_result soft_scene_build(soft *s, const rlf_render_input *input)
+{
+    const rlf_snapshot *snapshot = input->snapshot;
+    s->scene.triangle_count = 1;
+    s->scene.body_count = 0;
+    if (snapshot == NULL || snapshot->body_count <= 0) {
+        return RLF_OK;
+    }
+    rlf_pose T_camera_world = rlf_pose_invert(&input->T_world_camera);
+    rlf_pose T_picture_world = rlf_pose_mul(&s->T_picture_depth, &T_camera_world);
+    rlf_result result = reserve_bodies(&s->scene, snapshot->body_count);
+    for (int32_t i = 0; i < snapshot->body_count && result == RLF_OK; i++) {
+        result = add_body(s, &snapshot->bodies[i], &T_picture_world, i);
+    }
+    sort_bodies(&s->scene);
+    return result;
+}

@@ -1,0 +1,68 @@
+/* Text over the picture. */
+#include "render/soft/soft.h"
+
+#include <string.h>
+
+#define ADVANCE 6 /* dots from letter to letter */
+#define LETTER 5
+#define HEIGHT 7
+#define LINE 10 /* dots from line to line */
+#define MARGIN 2
+#define LINE_MAX_BYTES 512
+
+int32_t soft_text_scale(int32_t picture_height)
+{
+    int32_t scale = (picture_height + 150) / 300;
+    return scale < 1 ? 1 : scale;
+}
+
+int32_t soft_text_width(const char *line, int32_t scale)
+{
+    size_t length = strlen(line);
+    return (int32_t)(length < LINE_MAX_BYTES ? length : LINE_MAX_BYTES) * ADVANCE * scale;
+}
+
+static void draw_letter(const rlf_image_rgba8 *image, const soft_text *style, int32_t x,
+                        char letter)
+{
+    int code = (unsigned char)letter;
+    const uint8_t *rows = soft_font[code >= 32 && code < 127 ? code - 32 : '?' - 32];
+    int32_t scale = style->scale;
+    for (int32_t row = 0; row < HEIGHT; row++) {
+        for (int32_t column = 0; column < LETTER; column++) {
+            if ((rows[row] >> (LETTER - 1 - column) & 1) != 0) {
+                soft_rect dot = {x + column * scale, style->y + row * scale,
+                                 x + (column + 1) * scale, style->y + (row + 1) * scale};
+                soft_fill_rect(image, dot, style->color, 256);
+            }
+        }
+    }
+}
+
+void soft_draw_text(const rlf_image_rgba8 *image, const soft_text *style, const char *line)
+{
+    int32_t scale = style->scale;
+    if (style->has_backing) {
+        soft_rect strip = {style->x - MARGIN * scale, style->y - MARGIN * scale,
+                           style->x + soft_text_width(line, scale) + scale,
+                           style->y + (HEIGHT + 1) * scale};
+        soft_fill_rect(image, strip, soft_rgb(0, 0, 0), 150);
+    }
+    int32_t x = style->x;
+    for (int32_t i = 0; line[i] != '\0' && i < LINE_MAX_BYTES && x < image->width; i++) {
+        draw_letter(image, style, x, line[i]);
+        x += ADVANCE * scale;
+    }
+}
+
+void soft_draw_overlay(soft *s, const rlf_render_input *input)
+{
+    int32_t scale = soft_text_scale(s->image.height);
+    for (int32_t i = 0; i < input->overlay_count && input->overlay != NULL; i++) {
+        soft_text style = {(MARGIN + 2) * scale, (MARGIN + 2 + i * LINE) * scale, scale,
+                           soft_rgb(245, 245, 235), true};
+        if (input->overlay[i] != NULL && style.y < s->image.height) {
+            soft_draw_text(&s->image, &style, input->overlay[i]);
+        }
+    }
+}

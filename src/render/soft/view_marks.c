@@ -1,0 +1,115 @@
+/* Boxes, labels, arrows and legends over the views. */
+#include "render/soft/soft.h"
+
+#include <stdio.h>
+
+#define ARROW_STEP_PX 16   /* grid pixels between arrows */
+#define ARROW_SECONDS 0.25 /* an arrow shows where a point will be */
+
+/* Pixel centres of the grid to pixel centres of the picture. */
+static bool place(const soft *s, const soft_fit *fit, rlf_vec3 p, soft_point *out)
+{
+    double u, v;
+    if (p.z < SOFT_NEAR_Z || !rlf_camera_project(&s->def.grid, p, &u, &v)) {
+        return false;
+    }
+    out->x = fit->x0 + (u + 0.5) * fit->scale - 0.5;
+    out->y = fit->y0 + (v + 0.5) * fit->scale - 0.5;
+    return true;
+}
+
+static void draw_segment(soft *s, const soft_fit *fit, const rlf_vec3 ends[2], soft_color color)
+{
+    soft_point a, b;
+    if (place(s, fit, ends[0], &a) && place(s, fit, ends[1], &b)) {
+        soft_draw_line(&s->image, a, b, color);
+    }
+}
+
+/* The twelve edges of a region's axis-aligned box (fig. 4.18). */
+static void draw_box(soft *s, const soft_fit *fit, const rlf_aabb *box, soft_color color)
+{
+    for (int i = 0; i < 8; i++) {
+        rlf_vec3 ends[2];
+        ends[0] = rlf_vec3_make(i & 1 ? box->max.x : box->min.x, i & 2 ? box->max.y : box->min.y,
+                                i & 4 ? box->max.z : box->min.z);
+        for (int axis = 0; axis < 3; axis++) {
+            if ((i >> axis & 1) == 0) {
+                ends[1] = ends[0];
+                ends[1].x = axis == 0 ? box->max.x : ends[1].x;
+                ends[1].y = axis == 1 ? box->max.y : ends[1].y;
+                ends[1].z = axis == 2 ? box->max.z : ends[1].z;
+                draw_segment(s, fit, ends, color);
+            }
+        }
+    }
+}
+
+void soft_draw_region_marks(soft *s, const rlf_surface *surface, const soft_fit *fit)
+{
+    int32_t scale = soft_text_scale(s->image.height);
+    for (int32_t i = 0; i < surface->region_count; i++) {
+        const rlf_region *region = &surface->regions[i];
+        draw_box(s, fit, &region->box, soft_color_label(region->label));
+    }
+    for (int32_t i = 0; i < surface->region_count; i++) {
+        const rlf_region *region = &surface->regions[i];
+        char line[48];
+        snprintf(line, sizeof(line), "%s%d", region->layer == RLF_LAYER_FOREGROUND ? "fg " : "",
+                 (int)region->label);
+        double middle_x = 0.5 * (region->x0 + region->x1);
+        double middle_y = 0.5 * (region->y0 + region->y1);
+        soft_text style = {
+            fit->x0 + (int32_t)(middle_x * fit->scale) - soft_text_width(line, scale) / 2,
+            fit->y0 + (int32_t)(middle_y * fit->scale), scale, soft_rgb(255, 255, 255), true};
+        soft_draw_text(&s->image, &style, line);
+    }
+}
+
+static void draw_arrow(soft *s, soft_point from, soft_point to)
+{
+    soft_color white = soft_rgb(255, 255, 255);
+    double dx = to.x - from.x;
+    double dy = to.y - from.y;
+    if (dx * dx + dy * dy < 4.0) {
+        return;
+    }
+    soft_draw_line(&s->image, from, to, white);
+    for (int side = -1; side <= 1; side += 2) {
+        soft_point barb = {to.x - 0.25 * (dx + 0.6 * side * dy),
+                           to.y - 0.25 * (dy - 0.6 * side * dx)};
+        soft_draw_line(&s->image, to, barb, white);
+    }
+}
+
+void soft_draw_velocity_marks(soft *s, const rlf_surface *surface, const soft_fit *fit)
+{
+    int32_t factor = surface->scale_factor > 0 ? surface->scale_factor : 1;
+    int32_t step = ARROW_STEP_PX / factor > 1 ? ARROW_STEP_PX / factor : 1;
+    for (int32_t y = step / 2; y < surface->height; y += step) {
+        for (int32_t x = step / 2; x < surface->width; x += step) {
+            int32_t i = y * surface->width + x;
+            rlf_vec3 v = {surface->velocity_x[i], surface->velocity_y[i], surface->velocity_z[i]};
+            soft_point from, to;
+            if (!(surface->depth[i] > 0.0f) || !(rlf_dot(v, v) > 0.0)) {
+                continue;
+            }
+            rlf_vec3 p = rlf_surface_point(surface, i);
+            if (place(s, fit, p, &from) && place(s, fit, rlf_mad(p, v, ARROW_SECONDS), &to)) {
+                draw_arrow(s, from, to);
+            }
+        }
+    }
+}
+
+void soft_draw_reason_legend(soft *s)
+{
+    int32_t scale = soft_text_scale(s->image.height);
+    for (int32_t i = 0; i < RLF_REASON_COUNT; i++) {
+        int32_t y = s->image.height - (RLF_REASON_COUNT - i) * 11 * scale;
+        soft_text style = {16 * scale, y, scale, soft_rgb(255, 255, 255), true};
+        soft_draw_text(&s->image, &style, rlf_reason_name((rlf_reason)i));
+        soft_rect swatch = {4 * scale, y - scale, 12 * scale, y + 7 * scale};
+        soft_fill_rect(&s->image, swatch, soft_color_reason((rlf_reason)i), 256);
+    }
+}
