@@ -22,6 +22,9 @@ get_target_property(relief_type relief TYPE)
 if(relief_type STREQUAL "STATIC_LIBRARY" AND NOT RELIEF_SANITIZE)
   house_check(symbols ${CMAKE_COMMAND} -DLIBRARY=$<TARGET_FILE:relief> -DNM=${CMAKE_NM}
               -P ${house}/symbols.cmake)
+  house_check(symbols_rejects ${CMAKE_COMMAND} -DCHECK=${house}/symbols.cmake
+              -DWORK=${CMAKE_CURRENT_BINARY_DIR}/symbols -DCC=${CMAKE_C_COMPILER} -DAR=${CMAKE_AR}
+              -DNM=${CMAKE_NM} -P ${house}/symbols_rejects.cmake)
 endif()
 
 # A sanitized library would ask the stranger's program for the same sanitizers.
@@ -32,3 +35,12 @@ if(NOT RELIEF_SANITIZE)
               -DWITH_IO=$<TARGET_EXISTS:relief_io> -DWITH_GL=$<TARGET_EXISTS:relief_gl>
               -DWITH_APP=$<TARGET_EXISTS:relief_app> -P ${house}/install.cmake)
 endif()
+
+# The core needs a C compiler and nothing else: built without pkg-config and with every option off.
+house_check(minimal ${CMAKE_CTEST_COMMAND} --build-and-test ${PROJECT_SOURCE_DIR}
+            ${CMAKE_CURRENT_BINARY_DIR}/minimal --build-generator ${CMAKE_GENERATOR}
+            --build-options -DCMAKE_C_COMPILER=${CMAKE_C_COMPILER} -DCMAKE_BUILD_TYPE=Release
+            -DPKG_CONFIG_EXECUTABLE=PKG_CONFIG_EXECUTABLE-NOTFOUND -DRELIEF_WITH_IO=OFF
+            -DRELIEF_WITH_VIDEO=OFF -DRELIEF_WITH_GL=OFF -DRELIEF_WITH_VIEWER=OFF
+            -DRELIEF_BUILD_APP=OFF -DRELIEF_BUILD_BENCH=OFF -DRELIEF_BUILD_TESTS=OFF
+            -DRELIEF_WERROR=${RELIEF_WERROR} --test-command examples/hello_bounce)
