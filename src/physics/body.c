@@ -1,0 +1,169 @@
+/* Bodies from their defs, and their release from being held. */
+#include "physics/world_state.h"
+
+#include "base/cookie.h"
+
+#include <stdio.h>
+#include <string.h>
+
+rlf_body_def rlf_body_def_default(void)
+{
+    rlf_body_def def = {
+        .cookie = RLF_DEF_COOKIE,
+        .shape = {.type = RLF_SHAPE_BOX, .size = {0.1, 0.1, 0.1}},
+        .mass = 0.1,
+        .position = {0, 0, 1},
+        .orientation = {0, 0, 0, 1},
+        .restitution = 0.5,
+        .friction = 0.5,
+        .gravity_scale = 1,
+        .collides_with_bodies = true,
+        .color = {1.0f, 0.6f, 0.1f},
+    };
+    return def;
+}
+
+static rlf_result check_vectors(const rlf_body_def *def)
+{
+    const char *field = NULL;
+    rlf_quat q = def->orientation;
+    if (!rlf_vec3_is_finite(def->position)) {
+        field = "position";
+    } else if (!(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w > 1e-12) ||
+               !rlf_is_finite(q.x + q.y + q.z + q.w)) {
+        field = "orientation";
+    } else if (!rlf_vec3_is_finite(def->velocity)) {
+        field = "velocity";
+    } else if (!rlf_vec3_is_finite(def->angular_velocity)) {
+        field = "angular_velocity";
+    } else if (!rlf_is_finite(def->color[0] + def->color[1] + def->color[2])) {
+        field = "color";
+    }
+    if (field != NULL) {
+        return rlf_fail(RLF_ERROR_INVALID, "body def: %s: not a finite value that can be used",
+                        field);
+    }
+    return RLF_OK;
+}
+
+static rlf_result check_body_def(const rlf_body_def *def)
+{
+    if (memchr(def->name, 0, sizeof(def->name)) == NULL) {
+        return rlf_fail(RLF_ERROR_INVALID, "body def: name: no ending zero in %d bytes",
+                        RLF_NAME_MAX);
+    }
+    if (!(def->mass > 1e-9 && def->mass <= 1e6)) {
+        return rlf_fail(RLF_ERROR_INVALID, "body def: mass: %g: give kilograms above 0", def->mass);
+    }
+    if (!(def->restitution >= 0 && def->restitution <= 1)) {
+        return rlf_fail(RLF_ERROR_INVALID, "body def: restitution: %g: give 0 to 1",
+                        def->restitution);
+    }
+    if (!(def->friction >= 0 && def->friction <= 1e3)) {
+        return rlf_fail(RLF_ERROR_INVALID, "body def: friction: %g: give 0 to 1000", def->friction);
+    }
+    if (!rlf_is_finite(def->gravity_scale)) {
+        return rlf_fail(RLF_ERROR_INVALID, "body def: gravity_scale: not finite");
+    }
+    if (!rlf_is_finite(def->release_time)) {
+        return rlf_fail(RLF_ERROR_INVALID, "body def: release_time: not finite");
+    }
+    rlf_result result = check_vectors(def);
+    return result == RLF_OK ? phys_shape_check(&def->shape) : result;
+}
+
+static bool is_isotropic(const rlf_mat3 *inertia)
+{
+    double d = inertia->m[0][0];
+    double tolerance = 1e-12 * d;
+    for (int32_t i = 0; i < 9; i++) {
+        double off = inertia->m[i / 3][i % 3] - (i / 3 == i % 3 ? d : 0.0);
+        if (off > tolerance || off < -tolerance) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void set_held(phys_body *body, bool is_held)
+{
+    body->is_held = is_held;
+    body->inverse_mass = is_held ? 0.0 : 1.0 / body->mass;
+    body->v = is_held ? rlf_vec3_make(0, 0, 0) : body->throw_v;
+    body->w = is_held ? rlf_vec3_make(0, 0, 0) : body->throw_w;
+    phys_body_orient(body);
+}
+
+static void fill_body(phys_body *body, const rlf_body_def *def, int32_t index)
+{
+    if (def->name[0] != 0) {
+        memcpy(body->name, def->name, sizeof(body->name));
+    } else {
+        snprintf(body->name, sizeof(body->name), "body-%d", (int)index + 1);
+    }
+    memcpy(body->color, def->color, sizeof(body->color));
+    body->mass = def->mass;
+    body->restitution = def->restitution;
+    body->friction = def->friction;
+    body->gravity_scale = def->gravity_scale;
+    body->release_time = def->release_time;
+    body->collides_with_bodies = def->collides_with_bodies;
+    body->x = def->position;
+    body->throw_v = def->velocity;
+    body->throw_w = def->angular_velocity;
+    body->q = rlf_quat_normalize(def->orientation);
+    body->inertia = rlf_shape_inertia(&def->shape, def->mass);
+    body->is_isotropic = is_isotropic(&body->inertia);
+}
+
+rlf_result rlf_world_add_body(rlf_world *world, const rlf_body_def *def, rlf_body_id *out_id)
+{
+    if (!RLF_ASSERT(world != NULL && def != NULL && def->cookie == RLF_DEF_COOKIE)) {
+        return rlf_fail(RLF_ERROR_INVALID, "body def: start from rlf_body_def_default()");
+    }
+    rlf_result result = check_body_def(def);
+    if (result != RLF_OK) {
+        return result;
+    }
+    int32_t index = 0;
+    while (index < world->body_top && world->bodies[index].is_alive) {
+        index++;
+    }
+    if (index == world->def.body_capacity) {
+        return rlf_fail(RLF_ERROR_CAPACITY, "world: all %d bodies are in use: raise body_capacity",
+                        (int)world->def.body_capacity);
+    }
+    phys_body *body = &world->bodies[index];
+    phys_body fresh = {.generation = body->generation > 0 ? body->generation : 1};
+    result = phys_shape_init(&fresh.shape, &def->shape);
+    if (result != RLF_OK) {
+        return result;
+    }
+    fill_body(&fresh, def, index);
+    if (!rlf_mat3_invert(&fresh.inertia, &fresh.inverse_inertia)) {
+        phys_shape_finish(&fresh.shape);
+        return rlf_fail(RLF_ERROR_INVALID, "body def: shape: its inertia tensor has no inverse");
+    }
+    fresh.is_alive = true;
+    set_held(&fresh, world->time < def->release_time);
+    *body = fresh;
+    if (index == world->body_top) {
+        world->body_top++;
+    }
+    if (out_id != NULL) {
+        *out_id = phys_body_id(world, index);
+    }
+    phys_world_publish(world);
+    return RLF_OK;
+}
+
+void phys_world_release(rlf_world *world)
+{
+    for (int32_t i = 0; i < world->body_top; i++) {
+        phys_body *body = &world->bodies[i];
+        if (body->is_alive && body->is_held && world->time >= body->release_time - 1e-9) {
+            set_held(body, false);
+            phys_body_wake(body);
+        }
+    }
+}

@@ -1,0 +1,105 @@
+/* A rigid body's state and its contacts. Shared by all files of this module. */
+#ifndef RLF_PHYSICS_BODY_H
+#define RLF_PHYSICS_BODY_H
+
+#include "physics/shape.h"
+
+#define PHYS_SURFACE_CONTACTS 12 /* of one body with the real surface */
+#define PHYS_PAIR_CONTACTS 4     /* of two bodies */
+
+/* One touching point. The normal points from b (or the surface) to a. */
+typedef struct phys_contact {
+    int32_t a, b; /* body indices; b < 0: the surface */
+    rlf_contact_other other;
+    int32_t label;             /* region label of the surface, 0 else */
+    int32_t log;               /* entry in the frame's contact list, -1 = none yet */
+    rlf_vec3 anchor_a;         /* in a's frame, metres */
+    rlf_vec3 anchor_b;         /* in b's frame; of a surface: world, at surface_time */
+    double rounding_a;         /* the touching point of a is this far from anchor_a along -normal */
+    double rounding_b;         /* ... of b from anchor_b along the normal: round shapes roll */
+    rlf_vec3 normal;           /* world, unit */
+    rlf_vec3 surface_velocity; /* world, m/s; 0 between bodies */
+    double surface_time;       /* world time of anchor_b, s */
+    double friction, restitution;
+
+    double impulse_n, impulse_t[2]; /* N s of the last substep: start of the next one's search */
+
+    rlf_vec3 r_a, r_b, tangent[2]; /* prepared for each substep from here on */
+    double separation;             /* metres at the start of the substep */
+    double mass_n, mass_t[2];      /* effective masses, kg */
+    bool is_impacted;              /* bounced in this substep */
+} phys_contact;
+
+typedef struct phys_body {
+    uint32_t generation; /* of the handle; counts up when a body goes */
+    bool is_alive, is_held, is_asleep, collides_with_bodies;
+    char name[RLF_NAME_MAX];
+    float color[3];
+    phys_shape shape;
+    double mass, restitution, friction, gravity_scale, release_time;
+    rlf_mat3 inertia, inverse_inertia; /* body frame */
+    bool is_isotropic;                 /* inertia is a multiple of 1 */
+
+    rlf_vec3 x, v, w; /* centre of mass, its velocity, angular velocity: world */
+    rlf_quat q;
+    rlf_mat3 R;                /* of q; the thesis method integrates R itself */
+    rlf_vec3 throw_v, throw_w; /* velocities to start with when a held body is released */
+    rlf_vec3 force, torque;    /* from the caller, for the next advance */
+
+    double inverse_mass;            /* 0 while held */
+    rlf_mat3 inverse_inertia_world; /* 0 while held */
+    rlf_vec3 acceleration, angular_acceleration;
+    rlf_vec3 impact_shift, impact_turn;  /* x and orientation jump so that x(t) = x + shift + v t */
+    double impact_time;                  /* of its last bounce in this substep, s */
+    bool is_pressed;                     /* a contact held it in this substep */
+    double still_time;                   /* s it has hardly moved */
+    int32_t surface_age, surface_period; /* substeps since, and between, surface queries */
+    phys_contact surface[PHYS_SURFACE_CONTACTS];
+    int32_t surface_count;
+} phys_body;
+
+/* Recomputes R and the world inertia from q. */
+static inline void phys_body_orient(phys_body *body)
+{
+    body->R = rlf_quat_to_mat3(body->q);
+    if (body->inverse_mass == 0.0) {
+        body->inverse_inertia_world = rlf_mat3_diagonal(0, 0, 0);
+        return;
+    }
+    if (body->is_isotropic) {
+        body->inverse_inertia_world = body->inverse_inertia;
+        return;
+    }
+    rlf_mat3 half = rlf_mat3_mul(&body->R, &body->inverse_inertia);
+    rlf_mat3 transposed = rlf_mat3_transpose(&body->R);
+    body->inverse_inertia_world = rlf_mat3_mul(&half, &transposed);
+}
+
+static inline rlf_pose phys_body_pose(const phys_body *body)
+{
+    rlf_pose pose = {body->x, body->q};
+    return pose;
+}
+
+/* Velocity of the body's point at r from its centre, eq. 4.11. */
+static inline rlf_vec3 phys_body_velocity_at(const phys_body *body, rlf_vec3 r)
+{
+    return rlf_add(body->v, rlf_cross(body->w, r));
+}
+
+/* eq. 4.14 and 4.15 */
+static inline void phys_body_push(phys_body *body, rlf_vec3 impulse, rlf_vec3 r)
+{
+    body->v = rlf_mad(body->v, impulse, body->inverse_mass);
+    body->w =
+        rlf_add(body->w, rlf_mat3_mul_vec(&body->inverse_inertia_world, rlf_cross(r, impulse)));
+}
+
+/* n.((I^-1 (r x n)) x r) + 1/m: how much the point at r speeds up per unit impulse along n. */
+static inline double phys_body_mobility(const phys_body *body, rlf_vec3 r, rlf_vec3 n)
+{
+    rlf_vec3 turn = rlf_mat3_mul_vec(&body->inverse_inertia_world, rlf_cross(r, n));
+    return body->inverse_mass + rlf_dot(n, rlf_cross(turn, r));
+}
+
+#endif

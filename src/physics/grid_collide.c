@@ -1,0 +1,155 @@
+/* Contacts of one body with the grid: its own surface points against the sheets, and the sheets'
+ * outlines and bumps against it. Costs per body, not per pixel; nothing is built per frame. */
+#include "physics/grid_collide.h"
+#include "physics/grid_reduce.h"
+#include "physics/grid_scan.h"
+
+static bool set_up(grid_job *job, const grid_query *query, const phys_body *body)
+{
+    rlf_quat q_grid_body = rlf_quat_mul(query->T_grid_world.q, body->q);
+    job->query = query;
+    job->body = body;
+    job->centre = rlf_transform(&query->T_grid_world, body->x);
+    job->v = rlf_rotate(query->T_grid_world.q, body->v);
+    job->w = rlf_rotate(query->T_grid_world.q, body->w);
+    job->R_grid_body = rlf_quat_to_mat3(q_grid_body);
+    job->R_body_grid = rlf_mat3_transpose(&job->R_grid_body);
+    return job->centre.z > -body->shape.radius;
+}
+
+/* One surface point of the body along its way through the sheet's own moving frame. */
+static void cast_point(grid_job *job, rlf_vec3 anchor, double rounding, rlf_vec3 normal)
+{
+    const grid_query *query = job->query;
+    rlf_vec3 r = rlf_mat3_mul_vec(&job->R_grid_body, anchor);
+    r = rlf_mad(r, normal, -rounding);
+    rlf_vec3 q = rlf_add(job->centre, r);
+    rlf_vec3 shift = rlf_scale(job->surface_velocity, query->tau);
+    rlf_vec3 v = rlf_sub(rlf_add(job->v, rlf_cross(job->w, r)), job->surface_velocity);
+    field_hit found;
+    if (job->hit_count == GRID_HITS_MAX ||
+        !grid_field_cast(query->grid, job->sheet, rlf_sub(q, shift), rlf_scale(v, job->horizon),
+                         GRID_MARGIN, &found)) {
+        return;
+    }
+    grid_hit *hit = &job->hits[job->hit_count++];
+    hit->point = rlf_add(found.point, shift);
+    hit->normal = found.normal;
+    hit->velocity = found.velocity;
+    hit->anchor = anchor;
+    hit->rounding = rounding;
+    hit->separation = found.separation;
+    hit->label = found.label;
+    if (rounding > 0.0) { /* the touching point of a round body follows the plane that was found */
+        rlf_vec3 core = rlf_mad(q, normal, rounding);
+        hit->separation = rlf_dot(hit->normal, rlf_sub(core, hit->point)) - rounding;
+    }
+}
+
+static void cast_points(grid_job *job)
+{
+    const phys_shape *shape = &job->body->shape;
+    rlf_vec3 none = {0, 0, 0};
+    for (int32_t i = 0; i < job->normal_count; i++) {
+        rlf_vec3 core[2];
+        double rounding;
+        rlf_vec3 down = rlf_mat3_mul_vec(&job->R_body_grid, rlf_neg(job->normals[i]));
+        int32_t count = phys_shape_support(shape, down, core, &rounding);
+        for (int32_t k = 0; k < count; k++) {
+            cast_point(job, core[k], rounding, job->normals[i]);
+        }
+    }
+    for (int32_t i = 0; i < shape->point_count; i++) {
+        cast_point(job, shape->points[i], 0.0, none);
+    }
+}
+
+/* A bump counts only where no contact plane explains it: noise on a flat surface is no bump. */
+static void add_bumps(grid_job *job)
+{
+    const double NOISE = 0.01;
+    int32_t plane_count = job->hit_count;
+    for (int32_t i = 0; i < job->bump_count && job->hit_count < GRID_HITS_MAX; i++) {
+        const grid_hit *bump = &job->bumps[i];
+        bool is_explained = false;
+        for (int32_t k = 0; k < plane_count && !is_explained; k++) {
+            const grid_hit *hit = &job->hits[k];
+            double off = rlf_dot(hit->normal, rlf_sub(bump->point, hit->point));
+            is_explained = rlf_dot(hit->normal, bump->normal) > 0.7 && off < NOISE;
+        }
+        if (!is_explained) {
+            job->hits[job->hit_count++] = *bump;
+        }
+    }
+}
+
+static void collide_sheet(grid_job *job, const rlf_grid_sheet *sheet)
+{
+    job->sheet = sheet;
+    job->surface_velocity = rlf_vec3_make(0, 0, 0);
+    job->normal_count = 0;
+    job->bump_count = 0;
+    job->hit_count = 0;
+    if (sheet->depth == NULL || sheet->normal_x == NULL) {
+        return;
+    }
+    grid_scan_footprint(job);
+    cast_points(job);
+    add_bumps(job);
+}
+
+/* How many substeps this body's contacts stay good: it must not travel far in that time. */
+static int32_t query_period(const phys_body *body, double step)
+{
+    double travel = (rlf_length(body->v) + rlf_length(body->w) * body->shape.radius) * step;
+    double period = 0.2 * body->shape.inner_radius / rlf_max(travel, 1e-9);
+    return (int32_t)rlf_clamp(period, 1.0, 4.0);
+}
+
+void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
+{
+    phys_contact old[PHYS_SURFACE_CONTACTS];
+    int32_t old_count = body->surface_count;
+    for (int32_t i = 0; i < old_count; i++) {
+        old[i] = body->surface[i];
+    }
+    body->surface_count = 0;
+    body->surface_age = 0;
+    body->surface_period = query_period(body, query->step);
+    grid_job job;
+    if (!set_up(&job, query, body)) {
+        return;
+    }
+    job.horizon = (body->surface_period + 1) * query->step;
+    double speed = rlf_length(body->v) + 0.5 * rlf_length(body->w) * body->shape.radius;
+    double slip = query->grid->foreground.velocity_x != NULL ? 0.05 : 0.0;
+    job.reach = body->shape.radius + GRID_MARGIN + speed * job.horizon + slip;
+    collide_sheet(&job, &query->grid->foreground);
+    grid_reduce(&job, body, body_index, RLF_CONTACT_FOREGROUND);
+    collide_sheet(&job, &query->grid->background);
+    grid_reduce(&job, body, body_index, RLF_CONTACT_BACKGROUND);
+    grid_keep_impulses(body, old, old_count);
+}
+
+void grid_guard_centre(const grid_query *query, phys_body *body, rlf_vec3 before)
+{
+    const rlf_grid *grid = query->grid;
+    const rlf_grid_sheet *sheets[2] = {&grid->foreground, &grid->background};
+    rlf_vec3 from = rlf_transform(&query->T_grid_world, before);
+    rlf_vec3 to = rlf_transform(&query->T_grid_world, body->x);
+    rlf_vec3 path = rlf_sub(to, from);
+    for (int32_t i = 0; i < 2; i++) {
+        field_cell cell;
+        field_hit hit;
+        if (sheets[i]->depth == NULL || sheets[i]->normal_x == NULL ||
+            grid_field_at(grid, sheets[i], from, &cell) == FIELD_INSIDE ||
+            !grid_field_cast(grid, sheets[i], from, path, 0.0, &hit)) {
+            continue;
+        }
+        rlf_vec3 n = rlf_rotate(grid->T_world_grid.q, hit.normal);
+        double approach = rlf_dot(n, body->v);
+        body->x = before;
+        body->v = approach < 0.0 ? rlf_mad(body->v, n, -approach) : body->v;
+        return;
+    }
+}

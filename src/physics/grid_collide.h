@@ -1,0 +1,25 @@
+/* Contacts of one body with both sheets of the grid. */
+#ifndef RLF_PHYSICS_GRID_COLLIDE_H
+#define RLF_PHYSICS_GRID_COLLIDE_H
+
+#include "physics/body.h"
+
+/* The real surface during one substep. */
+typedef struct grid_query {
+    const rlf_grid *grid;
+    rlf_pose T_grid_world;
+    double tau; /* seconds from when the grid was seen to now; the surface moves by velocity tau */
+    bool is_moving; /* false beyond the time that extrapolation is trusted */
+    double time;    /* world time now, s */
+    double step;    /* s of a substep */
+} grid_query;
+
+/* Replaces body->surface by fresh contacts and sets how long they may be used; impulses of contacts
+ * that live on are kept. */
+void grid_collide(const grid_query *query, phys_body *body, int32_t body_index);
+
+/* Keeps the centre out of the surface: if the way from `before` enters a sheet, the body goes back
+ * and loses the speed into it. The last defence against tunnelling. */
+void grid_guard_centre(const grid_query *query, phys_body *body, rlf_vec3 before);
+
+#endif

@@ -1,0 +1,284 @@
+/* Reading one sheet of the grid: front, back and side of the solid at a point. */
+#include "physics/grid_field.h"
+
+#define ENDLESS 1e9
+/* A sheet is taken to be at least this thick, so that a point cannot sit on both its sides. */
+#define THICKNESS_MIN 0.01
+/* Missing pixels are bridged from neighbours up to this many pixels away. */
+#define BRIDGE_PX 2
+
+bool grid_cell_read(const rlf_grid *grid, const rlf_grid_sheet *sheet, int32_t x, int32_t y,
+                    field_cell *out)
+{
+    if (x < 0 || y < 0 || x >= grid->width || y >= grid->height) {
+        return false;
+    }
+    int32_t i = y * grid->width + x;
+    if (sheet->mask != NULL && sheet->mask[i] == 0) {
+        return false;
+    }
+    double z = sheet->depth[i];
+    rlf_vec3 n = rlf_vec3_make(sheet->normal_x[i], sheet->normal_y[i], sheet->normal_z[i]);
+    if (!(z > 0.0) || !(rlf_dot(n, n) > 0.25)) {
+        return false;
+    }
+    out->x = x;
+    out->y = y;
+    out->label = sheet->label != NULL ? sheet->label[i] : 0;
+    out->point = rlf_vec3_make(z * grid->ray_x[i], z * grid->ray_y[i], z);
+    out->normal = n;
+    out->velocity = rlf_vec3_make(0, 0, 0);
+    if (sheet->velocity_x != NULL) {
+        out->velocity =
+            rlf_vec3_make(sheet->velocity_x[i], sheet->velocity_y[i], sheet->velocity_z[i]);
+    }
+    out->thickness =
+        sheet->thickness != NULL ? rlf_max(sheet->thickness[i], THICKNESS_MIN) : ENDLESS;
+    return true;
+}
+
+static bool is_masked_out(const rlf_grid *grid, const rlf_grid_sheet *sheet, int32_t x, int32_t y)
+{
+    return sheet->mask != NULL && sheet->mask[y * grid->width + x] == 0;
+}
+
+/* The pixel at (x, y) or, across a small hole, the nearest one that has a surface. */
+static bool read_bridged(const rlf_grid *grid, const rlf_grid_sheet *sheet, int32_t x, int32_t y,
+                         field_cell *out)
+{
+    if (grid_cell_read(grid, sheet, x, y, out)) {
+        return true;
+    }
+    if (is_masked_out(grid, sheet, x, y)) {
+        return false;
+    }
+    for (int32_t r = 1; r <= BRIDGE_PX; r++) {
+        for (int32_t dy = -r; dy <= r; dy++) {
+            int32_t step = dy == -r || dy == r ? 1 : 2 * r;
+            for (int32_t dx = -r; dx <= r; dx += step) {
+                if (grid_cell_read(grid, sheet, x + dx, y + dy, out)) {
+                    return true;
+                }
+            }
+        }
+    }
+    return false;
+}
+
+static bool pixel_of(const rlf_grid *grid, rlf_vec3 q, int32_t *x, int32_t *y)
+{
+    double u, v;
+    if (!(q.z > 0.0) || !grid->project(grid->project_context, q, &u, &v) || !(u > -0.5) ||
+        !(v > -0.5) || !(u < grid->width - 0.5) || !(v < grid->height - 0.5)) {
+        return false;
+    }
+    *x = (int32_t)(u + 0.5);
+    *y = (int32_t)(v + 0.5);
+    return true;
+}
+
+/* Depth of the pixel's plane on the ray of q: pixels are wide on slanted surfaces. */
+static double plane_depth(const field_cell *cell, rlf_vec3 q)
+{
+    double slope = rlf_dot(cell->normal, q) / q.z;
+    double z = cell->point.z;
+    if (slope > -0.02) {
+        return z;
+    }
+    double on_ray = rlf_dot(cell->normal, cell->point) / slope;
+    return rlf_clamp(on_ray, 0.95 * z, 1.05 * z);
+}
+
+field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
+                          field_cell *out)
+{
+    int32_t x, y;
+    if (!pixel_of(grid, q, &x, &y) || !read_bridged(grid, sheet, x, y, out)) {
+        return FIELD_NONE;
+    }
+    double front = plane_depth(out, q);
+    out->back = front + out->thickness;
+    if (q.z < front) {
+        return FIELD_FRONT;
+    }
+    return q.z <= out->back ? FIELD_INSIDE : FIELD_BEHIND;
+}
+
+static rlf_vec3 back_point(const field_cell *cell)
+{
+    double scale = (cell->point.z + cell->thickness) / cell->point.z;
+    return rlf_scale(cell->point, scale);
+}
+
+/* Central differences of the back surface, turned away from the camera. */
+static rlf_vec3 back_normal(const rlf_grid *grid, const rlf_grid_sheet *sheet,
+                            const field_cell *cell)
+{
+    field_cell l, r, u, d;
+    rlf_vec3 fallback = rlf_neg(cell->normal);
+    if (!grid_cell_read(grid, sheet, cell->x - 1, cell->y, &l) ||
+        !grid_cell_read(grid, sheet, cell->x + 1, cell->y, &r) ||
+        !grid_cell_read(grid, sheet, cell->x, cell->y - 1, &u) ||
+        !grid_cell_read(grid, sheet, cell->x, cell->y + 1, &d)) {
+        return fallback;
+    }
+    rlf_vec3 n = rlf_normalize(rlf_cross(rlf_sub(back_point(&r), back_point(&l)),
+                                         rlf_sub(back_point(&d), back_point(&u))));
+    if (!(rlf_dot(n, n) > 0.5)) {
+        return fallback;
+    }
+    return rlf_dot(n, cell->point) < 0.0 ? rlf_neg(n) : n;
+}
+
+bool grid_field_side(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
+                     int32_t radius_px, rlf_vec3 *out_normal, double *out_distance)
+{
+    double pixel = q.z * grid->pixel_angle;
+    double best = (radius_px + 0.5) * pixel;
+    bool is_found = false;
+    for (int32_t k = 0; k < 8; k++) {
+        double angle = k * (RLF_PI / 4.0);
+        rlf_vec3 direction = rlf_vec3_make(rlf_cos(angle), rlf_sin(angle), 0.0);
+        for (int32_t r = 1; r <= radius_px && r * pixel < best; r++) {
+            field_cell cell;
+            field_state state = grid_field_at(grid, sheet, rlf_mad(q, direction, r * pixel), &cell);
+            if (state != FIELD_INSIDE) {
+                best = r * pixel;
+                rlf_vec3 ray = rlf_normalize(q);
+                *out_normal = rlf_normalize(rlf_mad(direction, ray, -rlf_dot(direction, ray)));
+                *out_distance = best;
+                is_found = true;
+                break;
+            }
+        }
+    }
+    return is_found;
+}
+
+static void set_hit(field_hit *hit, const field_cell *cell, rlf_vec3 point, rlf_vec3 normal)
+{
+    hit->point = point;
+    hit->normal = normal;
+    hit->velocity = cell->velocity;
+    hit->label = cell->label;
+}
+
+/* Plane through the pixel's like-minded 3x3 neighbours: one pixel's noise counts a third. */
+static void hit_front(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
+                      field_hit *hit)
+{
+    rlf_vec3 points = {0, 0, 0}, normals = {0, 0, 0};
+    double count = 0.0;
+    for (int32_t i = 0; i < 9; i++) {
+        field_cell near;
+        if (grid_cell_read(grid, sheet, cell->x + i % 3 - 1, cell->y + i / 3 - 1, &near) &&
+            rlf_dot(near.normal, cell->normal) > 0.95) {
+            double off = rlf_dot(cell->normal, rlf_sub(near.point, cell->point));
+            if (off < 0.02 && off > -0.02) {
+                points = rlf_add(points, near.point);
+                normals = rlf_add(normals, near.normal);
+                count += 1.0;
+            }
+        }
+    }
+    set_hit(hit, cell, rlf_scale(points, 1.0 / count), rlf_normalize(normals));
+}
+
+static void hit_back(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
+                     field_hit *hit)
+{
+    set_hit(hit, cell, back_point(cell), back_normal(grid, sheet, cell));
+}
+
+/* Through the nearest of front, back and side. */
+static void leave_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
+                        const field_cell *cell, field_hit *hit)
+{
+    hit_front(grid, sheet, cell, hit);
+    hit->separation = rlf_dot(hit->normal, rlf_sub(q, hit->point));
+    if (cell->thickness < ENDLESS) {
+        field_hit back;
+        hit_back(grid, sheet, cell, &back);
+        back.separation = rlf_dot(back.normal, rlf_sub(q, back.point));
+        if (back.separation > hit->separation) {
+            *hit = back;
+        }
+    }
+    const double SHALLOW = 0.01;
+    if (hit->separation < -SHALLOW) {
+        double pixel = q.z * grid->pixel_angle;
+        int32_t radius = (int32_t)rlf_min(-hit->separation / pixel, 24.0);
+        rlf_vec3 normal;
+        double distance;
+        if (grid_field_side(grid, sheet, q, radius, &normal, &distance)) {
+            set_hit(hit, cell, rlf_mad(q, normal, distance), normal);
+            hit->separation = -distance;
+        }
+    }
+}
+
+/* The path entered the solid at p: through which face? `step` is the last stretch. */
+static void enter_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 p,
+                        rlf_vec3 step, field_state from, const field_cell *cell, field_hit *hit)
+{
+    const double SLACK = 0.01;
+    field_hit back = {0};
+    hit_front(grid, sheet, cell, hit);
+    double in_front = -rlf_dot(hit->normal, rlf_sub(p, hit->point));
+    double moved = rlf_length(step) + SLACK;
+    if (from != FIELD_BEHIND && in_front <= moved) {
+        return;
+    }
+    if (cell->thickness < ENDLESS && from != FIELD_FRONT) {
+        hit_back(grid, sheet, cell, &back);
+        if (from == FIELD_BEHIND || -rlf_dot(back.normal, rlf_sub(p, back.point)) <= moved) {
+            *hit = back;
+            return;
+        }
+    }
+    rlf_vec3 normal;
+    double distance;
+    if (grid_field_side(grid, sheet, p, 4, &normal, &distance)) {
+        set_hit(hit, cell, rlf_mad(p, normal, distance), normal);
+    }
+}
+
+bool grid_field_cast(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q, rlf_vec3 path,
+                     double margin, field_hit *out)
+{
+    field_cell cell;
+    field_state state = grid_field_at(grid, sheet, q, &cell);
+    if (state == FIELD_INSIDE) {
+        leave_solid(grid, sheet, q, &cell, out);
+        return true;
+    }
+    if (state == FIELD_FRONT && rlf_dot(cell.normal, rlf_sub(q, cell.point)) < 2.0 * margin) {
+        hit_front(grid, sheet, &cell, out);
+        out->separation = rlf_dot(out->normal, rlf_sub(q, out->point));
+        if (out->separation < margin) {
+            return true;
+        }
+    } else if (state == FIELD_BEHIND && q.z - cell.back < 4.0 * margin) {
+        hit_back(grid, sheet, &cell, out);
+        out->separation = rlf_dot(out->normal, rlf_sub(q, out->point));
+        if (out->separation < margin) {
+            return true;
+        }
+    }
+    double pixels = rlf_length(path) / rlf_max(q.z * grid->pixel_angle, 1e-4);
+    int32_t steps = (int32_t)rlf_clamp(pixels + 1.0, 1.0, 64.0);
+    rlf_vec3 step = rlf_scale(path, 1.0 / steps);
+    for (int32_t k = 1; k <= steps; k++) {
+        rlf_vec3 p = rlf_mad(q, step, k);
+        field_state next = grid_field_at(grid, sheet, p, &cell);
+        bool is_through = (state == FIELD_FRONT && next == FIELD_BEHIND) ||
+                          (state == FIELD_BEHIND && next == FIELD_FRONT);
+        if (next == FIELD_INSIDE || is_through) {
+            enter_solid(grid, sheet, p, step, state, &cell, out);
+            out->separation = rlf_dot(out->normal, rlf_sub(q, out->point));
+            return true;
+        }
+        state = next;
+    }
+    return false;
+}

@@ -1,0 +1,54 @@
+/* The solid that one sheet of the organised grid describes, asked point by point.
+ *
+ * Along a pixel's ray the sheet is solid from its depth to depth + thickness. All coordinates are
+ * in the grid's frame. Where a pixel has no depth there is nothing: holes are neither walls nor
+ * traps.
+ */
+#ifndef RLF_PHYSICS_GRID_FIELD_H
+#define RLF_PHYSICS_GRID_FIELD_H
+
+#include "relief/world.h"
+
+typedef enum field_state {
+    FIELD_NONE = 0, /* no surface on this ray, or out of view */
+    FIELD_FRONT,    /* in free space before the sheet */
+    FIELD_INSIDE,
+    FIELD_BEHIND /* beyond its back */
+} field_state;
+
+/* One pixel of a sheet. */
+typedef struct field_cell {
+    int32_t x, y;
+    int32_t label;
+    rlf_vec3 point, normal, velocity;
+    double thickness; /* metres along z; 1e9 = endless */
+    double back;      /* z of the back on the query's ray */
+} field_cell;
+
+/* A place to touch: `normal` points out of the solid, separation = normal.(query - point). */
+typedef struct field_hit {
+    rlf_vec3 point, normal, velocity;
+    double separation;
+    int32_t label;
+} field_hit;
+
+/* Reads pixel (x, y); false when the sheet has no surface there. */
+bool grid_cell_read(const rlf_grid *grid, const rlf_grid_sheet *sheet, int32_t x, int32_t y,
+                    field_cell *out);
+
+/* Where q stands to the sheet; *out is set unless FIELD_NONE. */
+field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
+                          field_cell *out);
+
+/* First contact of a point that moves from q by `path`: within `margin` of the surface at q, inside
+ * the solid, or entering it on the way. The separation is that of q. False when it stays free. */
+bool grid_field_cast(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q, rlf_vec3 path,
+                     double margin, field_hit *out);
+
+/* Outline of the solid around q, as seen in the image: unit direction out of the solid, square to
+ * the view ray, and the distance to the free side, metres. False when none is within `radius_px`.
+ */
+bool grid_field_side(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
+                     int32_t radius_px, rlf_vec3 *out_normal, double *out_distance);
+
+#endif

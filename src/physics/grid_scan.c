@@ -1,0 +1,195 @@
+/* Walks the pixels under a body's footprint, thinned to a bounded number.
+ *
+ * Interior pixels give the surface's directions and bumps; outline pixels stand for the side wall
+ * of the solid behind them, from its front to its back along the ray. */
+#include "physics/grid_scan.h"
+
+#define SAMPLES_PER_SIDE 20
+
+static rlf_vec3 to_body(const grid_job *job, rlf_vec3 p)
+{
+    return rlf_mat3_mul_vec(&job->R_body_grid, rlf_sub(p, job->centre));
+}
+
+/* Speed at which surface and body approach at p along the normal. */
+static double approach_at(const grid_job *job, rlf_vec3 p, rlf_vec3 normal, rlf_vec3 velocity)
+{
+    rlf_vec3 v = rlf_add(job->v, rlf_cross(job->w, rlf_sub(p, job->centre)));
+    return rlf_dot(normal, rlf_sub(velocity, v));
+}
+
+static void note_normal(grid_job *job, rlf_vec3 normal)
+{
+    for (int32_t i = 0; i < job->normal_count; i++) {
+        if (rlf_dot(job->normals[i], normal) > 0.97) {
+            return;
+        }
+    }
+    if (job->normal_count < GRID_NORMALS_MAX) {
+        job->normals[job->normal_count++] = normal;
+    }
+}
+
+static void note_bump(grid_job *job, const grid_hit *hit)
+{
+    int32_t slot = job->bump_count;
+    if (slot == GRID_BUMPS_MAX) {
+        slot = 0;
+        for (int32_t i = 1; i < GRID_BUMPS_MAX; i++) {
+            slot = job->bumps[i].separation > job->bumps[slot].separation ? i : slot;
+        }
+        if (hit->separation >= job->bumps[slot].separation) {
+            return;
+        }
+    } else {
+        job->bump_count++;
+    }
+    job->bumps[slot] = *hit;
+}
+
+static void look_at_interior(grid_job *job, const field_cell *cell, rlf_vec3 p)
+{
+    rlf_vec3 gradient;
+    rlf_vec3 local = to_body(job, p);
+    double distance = phys_shape_distance(&job->body->shape, local, &gradient);
+    rlf_vec3 outward = rlf_neg(rlf_mat3_mul_vec(&job->R_grid_body, gradient));
+    double approach = approach_at(job, p, outward, cell->velocity);
+    double near = rlf_max(0.0, approach) * job->horizon;
+    if (distance < near + 0.5 * job->body->shape.radius) {
+        note_normal(job, cell->normal);
+    }
+    if (distance > near) {
+        return;
+    }
+    grid_hit hit = {.point = p, .velocity = cell->velocity, .label = cell->label};
+    hit.normal = rlf_dot(outward, cell->normal) > 0.3 ? cell->normal : outward;
+    hit.anchor = rlf_mad(local, gradient, -distance);
+    rlf_vec3 anchor = rlf_mat3_mul_vec(&job->R_grid_body, hit.anchor);
+    hit.separation = rlf_dot(hit.normal, rlf_sub(rlf_add(job->centre, anchor), p));
+    note_bump(job, &hit);
+}
+
+/* z at which the side wall at this pixel ends, or 0 when it is no outline: a neighbour is off the
+ * sheet (foreground) or farther than the pixel's own plane explains. */
+static double outline_end(const grid_job *job, const field_cell *cell, int32_t stride)
+{
+    const rlf_grid *grid = job->query->grid;
+    const rlf_grid_sheet *sheet = job->sheet;
+    const int32_t OFFSETS[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+    double end = 0.0;
+    for (int32_t k = 0; k < 4; k++) {
+        int32_t x = cell->x + OFFSETS[k][0] * stride;
+        int32_t y = cell->y + OFFSETS[k][1] * stride;
+        if (x < 0 || y < 0 || x >= grid->width || y >= grid->height) {
+            continue;
+        }
+        int32_t i = y * grid->width + x;
+        double z = cell->point.z;
+        if (sheet->mask != NULL && sheet->mask[i] == 0) {
+            end = rlf_max(end, z + cell->thickness);
+            continue;
+        }
+        double other = sheet->depth[i];
+        rlf_vec3 ray = rlf_vec3_make(grid->ray_x[i], grid->ray_y[i], 1.0);
+        double slope = rlf_dot(cell->normal, ray);
+        double expected = slope < -0.02 ? rlf_dot(cell->normal, cell->point) / slope : z;
+        if (other > rlf_max(z, expected) + 0.03 + 0.02 * z) {
+            end = rlf_max(end, rlf_min(other, z + cell->thickness));
+        }
+    }
+    return end;
+}
+
+static void look_at_outline(grid_job *job, const field_cell *cell, rlf_vec3 shift, double end)
+{
+    double z = cell->point.z;
+    double middle = rlf_clamp(job->centre.z, z, end);
+    double inner = 0.5 * job->body->shape.inner_radius;
+    double depths[3] = {middle, rlf_clamp(middle - inner, z, end),
+                        rlf_clamp(middle + inner, z, end)};
+    for (int32_t k = 0; k < 3 && job->hit_count < GRID_HITS_MAX / 2; k++) {
+        rlf_vec3 p = rlf_add(rlf_scale(cell->point, depths[k] / z), shift);
+        rlf_vec3 gradient;
+        rlf_vec3 local = to_body(job, p);
+        double distance = phys_shape_distance(&job->body->shape, local, &gradient);
+        rlf_vec3 normal = rlf_neg(rlf_mat3_mul_vec(&job->R_grid_body, gradient));
+        double approach = approach_at(job, p, normal, cell->velocity);
+        if (distance > GRID_MARGIN + rlf_max(0.0, approach) * job->horizon) {
+            continue;
+        }
+        grid_hit *hit = &job->hits[job->hit_count++];
+        hit->point = p;
+        hit->normal = normal;
+        hit->velocity = cell->velocity;
+        hit->anchor = rlf_mad(local, gradient, -distance);
+        hit->rounding = 0.0;
+        hit->separation = distance;
+        hit->label = cell->label;
+    }
+}
+
+/* Rectangle of pixels under the sphere of `reach` about the centre. */
+static bool footprint(const grid_job *job, int32_t rect[4], int32_t *stride)
+{
+    const rlf_grid *grid = job->query->grid;
+    double u, v;
+    rlf_vec3 c = job->centre;
+    if (!(c.z > 0.0) || !grid->project(grid->project_context, c, &u, &v)) {
+        return false;
+    }
+    double near = rlf_max(c.z - job->reach, 0.1);
+    double half = rlf_min(job->reach / (near * grid->pixel_angle) + 1.0, 4096.0);
+    rect[0] = (int32_t)rlf_clamp(u - half, 0, grid->width);
+    rect[1] = (int32_t)rlf_clamp(v - half, 0, grid->height);
+    rect[2] = (int32_t)rlf_clamp(u + half + 1, 0, grid->width);
+    rect[3] = (int32_t)rlf_clamp(v + half + 1, 0, grid->height);
+    *stride = 1 + (int32_t)(2.0 * half / SAMPLES_PER_SIDE);
+    return rect[0] < rect[2] && rect[1] < rect[3];
+}
+
+/* A cheap look first: most pixels under a body in flight are far behind it. */
+static bool is_near_in_depth(const grid_job *job, int32_t i)
+{
+    const rlf_grid_sheet *sheet = job->sheet;
+    double z = sheet->depth[i];
+    if (!(z > 0.0) || z > job->centre.z + job->reach ||
+        (sheet->mask != NULL && sheet->mask[i] == 0)) {
+        return false;
+    }
+    return true;
+}
+
+void grid_scan_footprint(grid_job *job)
+{
+    const rlf_grid *grid = job->query->grid;
+    double tau = job->query->tau;
+    int32_t rect[4], stride, moving = 0;
+    rlf_vec3 velocity = {0, 0, 0};
+    if (!footprint(job, rect, &stride)) {
+        return;
+    }
+    for (int32_t y = rect[1]; y < rect[3]; y += stride) {
+        for (int32_t x = rect[0]; x < rect[2]; x += stride) {
+            field_cell cell;
+            if (!is_near_in_depth(job, y * grid->width + x) ||
+                !grid_cell_read(grid, job->sheet, x, y, &cell)) {
+                continue;
+            }
+            rlf_vec3 shift = rlf_scale(cell.velocity, tau);
+            rlf_vec3 p = rlf_add(cell.point, shift);
+            rlf_vec3 d = rlf_sub(p, job->centre);
+            double end = outline_end(job, &cell, stride);
+            if (rlf_dot(d, d) < job->reach * job->reach) {
+                velocity = rlf_add(velocity, cell.velocity);
+                moving++;
+                look_at_interior(job, &cell, p);
+            }
+            if (end > 0.0) {
+                look_at_outline(job, &cell, shift, end);
+            }
+        }
+    }
+    if (moving > 0) {
+        job->surface_velocity = rlf_scale(velocity, 1.0 / moving);
+    }
+}

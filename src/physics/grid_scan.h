@@ -1,0 +1,45 @@
+/* The pixels under a body's footprint: outlines and bumps that its sample points may miss. */
+#ifndef RLF_PHYSICS_GRID_SCAN_H
+#define RLF_PHYSICS_GRID_SCAN_H
+
+#include "physics/grid_collide.h"
+#include "physics/grid_field.h"
+
+#define GRID_HITS_MAX 128
+#define GRID_NORMALS_MAX 4
+#define GRID_BUMPS_MAX 8
+
+/* A contact in the making, grid frame, at the time of the query. */
+typedef struct grid_hit {
+    rlf_vec3 point, normal, velocity;
+    rlf_vec3 anchor; /* body frame */
+    double rounding; /* the touching point is this far from the anchor along -normal */
+    double separation;
+    int32_t label;
+} grid_hit;
+
+/* Body and sheet in the grid's frame, and what is found. */
+typedef struct grid_job {
+    const grid_query *query;
+    const rlf_grid_sheet *sheet;
+    const phys_body *body;
+    rlf_vec3 centre, v, w; /* of the body */
+    rlf_mat3 R_grid_body, R_body_grid;
+    double horizon;            /* s until the next query */
+    double reach;              /* m from the centre within which anything can matter until then */
+    rlf_vec3 surface_velocity; /* mean under the footprint */
+    rlf_vec3 normals[GRID_NORMALS_MAX]; /* distinct directions of the surface near the body */
+    int32_t normal_count;
+    grid_hit bumps[GRID_BUMPS_MAX]; /* surface points that poke into the body */
+    int32_t bump_count;
+    grid_hit hits[GRID_HITS_MAX];
+    int32_t hit_count;
+} grid_job;
+
+/* Distance kept ready for contacts that are not there yet, metres. */
+#define GRID_MARGIN 0.004
+
+/* Fills surface_velocity, normals, bumps, and hits with the outline's points. */
+void grid_scan_footprint(grid_job *job);
+
+#endif

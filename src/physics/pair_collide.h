@@ -1,0 +1,26 @@
+/* Contacts between two bodies. */
+#ifndef RLF_PHYSICS_PAIR_COLLIDE_H
+#define RLF_PHYSICS_PAIR_COLLIDE_H
+
+#include "physics/body.h"
+
+/* A touching point in the making: world frame, normal from b to a. */
+typedef struct pair_point {
+    rlf_vec3 core_a,
+        core_b; /* the surface points are core_a - rounding_a n, core_b + rounding_b n */
+    double rounding_a, rounding_b;
+    rlf_vec3 normal;
+    double separation;
+} pair_point;
+
+#define PAIR_POINTS_MAX 192
+
+/* Points closer than margin; returns their number (box-box: at most 16). */
+int32_t pair_collide_boxes(const phys_body *a, const phys_body *b, double margin, pair_point *out);
+int32_t pair_collide_shapes(const phys_body *a, const phys_body *b, double margin, pair_point *out);
+
+/* Chooses up to PHYS_PAIR_CONTACTS of them that give the widest support; returns their number. */
+int32_t pair_reduce(const pair_point *points, int32_t count, double radius,
+                    int32_t chosen[PHYS_PAIR_CONTACTS]);
+
+#endif

@@ -1,0 +1,129 @@
+/* Sleeping by islands: bodies that touch fall asleep together. */
+#include "physics/sleep.h"
+
+#define STILL_SPEED 0.01 /* m/s, of any point of the body */
+#define STILL_TIME 0.5   /* s */
+#define TOUCHING 0.001   /* m */
+/* How far a surface may wander under a sleeper: several sigma of a depth camera at 2 m. */
+#define WANDER 0.006
+
+static bool is_fast(const phys_body *body)
+{
+    double speed = rlf_length(body->v) + rlf_length(body->w) * body->shape.radius;
+    return speed > STILL_SPEED;
+}
+
+static double least_separation(const phys_body *body)
+{
+    double least = 1.0;
+    for (int32_t i = 0; i < body->surface_count; i++) {
+        least = rlf_min(least, body->surface[i].separation);
+    }
+    return least;
+}
+
+static double gap_now(const phys_body *body, const phys_contact *c)
+{
+    rlf_vec3 r = rlf_mad(rlf_mat3_mul_vec(&body->R, c->anchor_a), c->normal, -c->rounding_a);
+    return rlf_dot(c->normal, rlf_sub(rlf_add(body->x, r), c->anchor_b));
+}
+
+void phys_wake_by_surface(rlf_world *world, const grid_query *query)
+{
+    for (int32_t i = 0; i < world->body_top; i++) {
+        phys_body *body = &world->bodies[i];
+        if (!body->is_alive || !body->is_asleep) {
+            continue;
+        }
+        double before = least_separation(body);
+        bool is_moved = false;
+        if (query == NULL) {
+            is_moved = body->surface_count > 0;
+            body->surface_count = 0;
+        } else {
+            grid_collide(query, body, i);
+        }
+        for (int32_t k = 0; k < body->surface_count; k++) {
+            phys_contact *c = &body->surface[k];
+            c->separation = gap_now(body, c);
+            is_moved = is_moved ||
+                       (c->separation < TOUCHING && rlf_length(c->surface_velocity) > STILL_SPEED);
+        }
+        double change = least_separation(body) - before;
+        if (is_moved || change > WANDER || change < -WANDER) {
+            phys_body_wake(body);
+        }
+    }
+}
+
+static bool touches(const phys_pair *pair)
+{
+    for (int32_t i = 0; i < pair->contact_count; i++) {
+        if (pair->contacts[i].separation < TOUCHING) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void phys_wake_by_touch(rlf_world *world)
+{
+    for (int32_t i = 0; i < world->pair_count; i++) {
+        phys_body *a = &world->bodies[world->pairs[i].a];
+        phys_body *b = &world->bodies[world->pairs[i].b];
+        if (a->is_asleep == b->is_asleep || !touches(&world->pairs[i])) {
+            continue;
+        }
+        phys_body *awake = a->is_asleep ? b : a;
+        if (awake->still_time == 0.0 && is_fast(awake)) {
+            phys_body_wake(a->is_asleep ? a : b);
+        }
+    }
+}
+
+static int32_t root_of(rlf_world *world, int32_t i)
+{
+    while (world->island[i] != i) {
+        world->island[i] = world->island[world->island[i]];
+        i = world->island[i];
+    }
+    return i;
+}
+
+void phys_fall_asleep(rlf_world *world, double h)
+{
+    bool is_any_tired = false;
+    for (int32_t i = 0; i < world->body_top; i++) {
+        phys_body *body = &world->bodies[i];
+        world->island[i] = i;
+        if (body->is_alive && !body->is_asleep && !body->is_held) {
+            body->still_time = is_fast(body) ? 0.0 : body->still_time + h;
+            is_any_tired = is_any_tired || body->still_time > STILL_TIME;
+        }
+    }
+    if (!is_any_tired) {
+        return;
+    }
+    for (int32_t i = 0; i < world->pair_count; i++) {
+        const phys_pair *pair = &world->pairs[i];
+        if (touches(pair) && !world->bodies[pair->a].is_held && !world->bodies[pair->b].is_held) {
+            world->island[root_of(world, pair->b)] = root_of(world, pair->a);
+        }
+    }
+    for (int32_t i = 0; i < world->body_top; i++) { /* one restless body keeps its island awake */
+        const phys_body *body = &world->bodies[i];
+        if (body->is_alive && !body->is_asleep && body->still_time <= STILL_TIME) {
+            world->bodies[root_of(world, i)].still_time =
+                rlf_min(world->bodies[root_of(world, i)].still_time, body->still_time);
+        }
+    }
+    for (int32_t i = 0; i < world->body_top; i++) {
+        phys_body *body = &world->bodies[i];
+        double rest = world->bodies[root_of(world, i)].still_time;
+        if (body->is_alive && !body->is_held && !body->is_asleep && rest > STILL_TIME &&
+            body->still_time > STILL_TIME) {
+            body->is_asleep = true;
+            body->v = body->w = rlf_vec3_make(0, 0, 0);
+        }
+    }
+}

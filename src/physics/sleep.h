@@ -1,0 +1,17 @@
+/* Rest: bodies that hardly move stop being simulated until something touches them. */
+#ifndef RLF_PHYSICS_SLEEP_H
+#define RLF_PHYSICS_SLEEP_H
+
+#include "physics/grid_collide.h"
+#include "physics/world_state.h"
+
+/* Ends the sleep of bodies whose surface moved, came closer or went away. */
+void phys_wake_by_surface(rlf_world *world, const grid_query *query);
+
+/* Ends the sleep of bodies that a moving one touches. */
+void phys_wake_by_touch(rlf_world *world);
+
+/* Puts groups of touching bodies to sleep that all have been still for half a second. */
+void phys_fall_asleep(rlf_world *world, double h);
+
+#endif

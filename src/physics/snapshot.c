@@ -1,0 +1,117 @@
+/* What leaves the stage: the snapshot, the contact list, the hash and the energy. */
+#include "physics/world_state.h"
+
+#include <string.h>
+
+void phys_world_publish(rlf_world *world)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < world->body_top; i++) {
+        const phys_body *body = &world->bodies[i];
+        if (!body->is_alive) {
+            continue;
+        }
+        rlf_body_state *state = &world->states[count++];
+        state->id = phys_body_id(world, i);
+        memcpy(state->name, body->name, sizeof(state->name));
+        state->shape = body->shape.shape;
+        state->T_world_body = phys_body_pose(body);
+        state->velocity = body->v;
+        state->angular_velocity = body->w;
+        state->mass = body->mass;
+        memcpy(state->color, body->color, sizeof(state->color));
+        state->is_held = body->is_held;
+        state->is_asleep = body->is_asleep;
+    }
+    world->snapshot.time_ns = (int64_t)(world->time * 1e9 + 0.5);
+    world->snapshot.frame = world->frame;
+    world->snapshot.gravity = world->def.gravity;
+    world->snapshot.bodies = world->states;
+    world->snapshot.body_count = count;
+    world->snapshot.contacts = world->log;
+    world->snapshot.contact_count = world->log_count;
+}
+
+const rlf_snapshot *rlf_world_get_snapshot(const rlf_world *world)
+{
+    return RLF_ASSERT(world != NULL) ? &world->snapshot : NULL;
+}
+
+void phys_log_impulse(rlf_world *world, phys_contact *contact, double impulse, double approach)
+{
+    bool is_new = contact->log < 0;
+    if (is_new) {
+        if (world->log_count == world->def.contact_capacity) {
+            return;
+        }
+        contact->log = world->log_count++;
+    }
+    rlf_contact *entry = &world->log[contact->log];
+    if (is_new) {
+        memset(entry, 0, sizeof(*entry));
+    }
+    const phys_body *body = &world->bodies[contact->a];
+    entry->body = phys_body_id(world, contact->a);
+    entry->other = contact->other;
+    if (contact->b >= 0) {
+        entry->other_body = phys_body_id(world, contact->b);
+    }
+    entry->region_label = contact->label;
+    entry->point = rlf_add(body->x, contact->r_a);
+    entry->normal = contact->normal;
+    entry->separation = contact->separation;
+    entry->impulse += impulse;
+    entry->surface_speed = rlf_dot(contact->surface_velocity, contact->normal);
+    entry->approach_speed = rlf_max(entry->approach_speed, approach);
+}
+
+/* FNV-1a (Fowler, Noll, Vo 1991) over the bytes of a double, low byte first on any machine. */
+static uint64_t hash_double(uint64_t hash, double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof(bits));
+    for (int32_t i = 0; i < 64; i += 8) {
+        hash = (hash ^ ((bits >> i) & 0xffu)) * 0x100000001b3u;
+    }
+    return hash;
+}
+
+uint64_t rlf_world_hash(const rlf_world *world)
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    if (!RLF_ASSERT(world != NULL)) {
+        return hash;
+    }
+    for (int32_t i = 0; i < world->body_top; i++) {
+        const phys_body *b = &world->bodies[i];
+        if (!b->is_alive) {
+            continue;
+        }
+        const double values[13] = {b->x.x, b->x.y, b->x.z, b->q.x, b->q.y, b->q.z, b->q.w,
+                                   b->v.x, b->v.y, b->v.z, b->w.x, b->w.y, b->w.z};
+        for (int32_t k = 0; k < 13; k++) {
+            hash = hash_double(hash, values[k]);
+        }
+    }
+    return hash;
+}
+
+double rlf_world_energy(const rlf_world *world)
+{
+    double energy = 0.0;
+    if (!RLF_ASSERT(world != NULL)) {
+        return energy;
+    }
+    for (int32_t i = 0; i < world->body_top; i++) {
+        const phys_body *b = &world->bodies[i];
+        if (!b->is_alive || b->is_held) {
+            continue;
+        }
+        rlf_mat3 Rt = rlf_mat3_transpose(&b->R);
+        rlf_vec3 w = rlf_mat3_mul_vec(&Rt, b->w);
+        energy += 0.5 * b->mass * rlf_dot(b->v, b->v) +
+                  0.5 * rlf_dot(w, rlf_mat3_mul_vec(&b->inertia, w)) -
+                  b->mass * b->gravity_scale * rlf_dot(world->def.gravity, b->x);
+    }
+    return energy;
+}

@@ -1,0 +1,282 @@
+/* The world's life: making it, adding, finding and changing bodies. */
+#include "physics/world_state.h"
+
+#include "base/cookie.h"
+
+#include <string.h>
+
+rlf_world_def rlf_world_def_default(void)
+{
+    rlf_world_def def = {
+        .cookie = RLF_DEF_COOKIE,
+        .method = RLF_PHYSICS_LIVE,
+        .gravity = {0, 9.81, 0},
+        .body_capacity = 1024,
+        .contact_capacity = 16384,
+        .step_hz = 240,
+        .max_speed = 50,
+        .bounds = {{-20, -20, -20}, {20, 20, 20}},
+    };
+    return def;
+}
+
+static rlf_result check_world_def(const rlf_world_def *def)
+{
+    if (def->method != RLF_PHYSICS_LIVE && def->method != RLF_PHYSICS_THESIS) {
+        return rlf_fail(RLF_ERROR_INVALID, "world def: method: %d is no method", (int)def->method);
+    }
+    if (!rlf_vec3_is_finite(def->gravity)) {
+        return rlf_fail(RLF_ERROR_INVALID, "world def: gravity: not finite: give m/s^2");
+    }
+    if (def->body_capacity < 1 || def->body_capacity > 1000000) {
+        return rlf_fail(RLF_ERROR_INVALID, "world def: body_capacity: %d: give 1 to 1000000",
+                        (int)def->body_capacity);
+    }
+    if (def->contact_capacity < 1 || def->contact_capacity > 10000000) {
+        return rlf_fail(RLF_ERROR_INVALID, "world def: contact_capacity: %d: give 1 to 10000000",
+                        (int)def->contact_capacity);
+    }
+    if (!(def->step_hz >= 10 && def->step_hz <= 10000)) {
+        return rlf_fail(RLF_ERROR_INVALID, "world def: step_hz: %g: give 10 to 10000",
+                        def->step_hz);
+    }
+    if (!(def->contact_distance_m >= 0 && def->contact_distance_m <= 10)) {
+        return rlf_fail(RLF_ERROR_INVALID, "world def: contact_distance_m: %g: give 0 to 10 m",
+                        def->contact_distance_m);
+    }
+    if (!(def->max_speed > 0 && def->max_speed <= 1000)) {
+        return rlf_fail(RLF_ERROR_INVALID, "world def: max_speed: %g: give up to 1000 m/s",
+                        def->max_speed);
+    }
+    rlf_vec3 size = rlf_sub(def->bounds.max, def->bounds.min);
+    if (!rlf_vec3_is_finite(size) || !(size.x > 0 && size.y > 0 && size.z > 0)) {
+        return rlf_fail(RLF_ERROR_INVALID, "world def: bounds: give min below max, finite");
+    }
+    return RLF_OK;
+}
+
+rlf_result rlf_world_create(const rlf_world_def *def, rlf_world **out)
+{
+    if (!RLF_ASSERT(out != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    *out = NULL;
+    if (!RLF_ASSERT(def != NULL && def->cookie == RLF_DEF_COOKIE)) {
+        return rlf_fail(RLF_ERROR_INVALID, "world def: start from rlf_world_def_default()");
+    }
+    rlf_result result = check_world_def(def);
+    rlf_world *world = result == RLF_OK ? rlf_alloc(sizeof(*world)) : NULL;
+    if (world == NULL) {
+        return result == RLF_OK ? RLF_ERROR_MEMORY : result;
+    }
+    world->def = *def;
+    size_t bodies = (size_t)def->body_capacity;
+    size_t pairs = (size_t)(def->contact_capacity - 1) / PHYS_PAIR_CONTACTS + 1;
+    size_t active = bodies * PHYS_SURFACE_CONTACTS + pairs * PHYS_PAIR_CONTACTS;
+    world->pair_capacity = (int32_t)pairs;
+    world->active_capacity = (int32_t)active;
+    world->bodies = rlf_alloc_array(bodies, sizeof(*world->bodies));
+    world->pairs = rlf_alloc_array(pairs, sizeof(*world->pairs));
+    world->old_pairs = rlf_alloc_array(pairs, sizeof(*world->old_pairs));
+    world->intervals = rlf_alloc_array(bodies, sizeof(*world->intervals));
+    world->island = rlf_alloc_array(bodies, sizeof(*world->island));
+    world->active = rlf_alloc_array(active, sizeof(*world->active));
+    world->event_times = rlf_alloc_array(bodies + pairs, sizeof(*world->event_times));
+    world->log = rlf_alloc_array((size_t)def->contact_capacity, sizeof(*world->log));
+    world->states = rlf_alloc_array(bodies, sizeof(*world->states));
+    if (world->bodies == NULL || world->pairs == NULL || world->old_pairs == NULL ||
+        world->intervals == NULL || world->island == NULL || world->active == NULL ||
+        world->event_times == NULL || world->log == NULL || world->states == NULL) {
+        rlf_world_destroy(&world);
+        return RLF_ERROR_MEMORY;
+    }
+    phys_world_publish(world);
+    *out = world;
+    return RLF_OK;
+}
+
+void rlf_world_destroy(rlf_world **world)
+{
+    if (world == NULL || *world == NULL) {
+        return;
+    }
+    rlf_world *w = *world;
+    for (int32_t i = 0; w->bodies != NULL && i < w->body_top; i++) {
+        phys_shape_finish(&w->bodies[i].shape);
+    }
+    rlf_free(w->bodies);
+    rlf_free(w->pairs);
+    rlf_free(w->old_pairs);
+    rlf_free(w->intervals);
+    rlf_free(w->island);
+    rlf_free(w->active);
+    rlf_free(w->event_times);
+    rlf_free(w->log);
+    rlf_free(w->states);
+    rlf_free(w);
+    *world = NULL;
+}
+
+static int32_t find_body(const rlf_world *world, rlf_body_id id)
+{
+    int32_t index = (int32_t)id.index1 - 1;
+    if (world == NULL || index < 0 || index >= world->body_top) {
+        return -1;
+    }
+    const phys_body *body = &world->bodies[index];
+    return body->is_alive && body->generation == id.generation ? index : -1;
+}
+
+bool rlf_world_has_body(const rlf_world *world, rlf_body_id id)
+{
+    return find_body(world, id) >= 0;
+}
+
+void phys_body_wake(phys_body *body)
+{
+    body->is_asleep = false;
+    body->still_time = 0.0;
+    body->surface_age = body->surface_period;
+}
+
+/* What rested on a body that goes or moves must notice. */
+static void wake_near(rlf_world *world, const phys_body *body)
+{
+    for (int32_t i = 0; i < world->body_top; i++) {
+        phys_body *other = &world->bodies[i];
+        double reach = body->shape.radius + other->shape.radius + 0.02;
+        rlf_vec3 d = rlf_sub(body->x, other->x);
+        if (other->is_alive && rlf_dot(d, d) <= reach * reach) {
+            phys_body_wake(other);
+        }
+    }
+}
+
+static void remove_body(rlf_world *world, int32_t index)
+{
+    phys_body *body = &world->bodies[index];
+    wake_near(world, body);
+    phys_shape_finish(&body->shape);
+    body->is_alive = false;
+    body->generation++;
+    body->surface_count = 0;
+    int32_t kept = 0; /* its pairs go with it */
+    for (int32_t i = 0; i < world->pair_count; i++) {
+        if (world->pairs[i].a != index && world->pairs[i].b != index) {
+            world->pairs[kept++] = world->pairs[i];
+        }
+    }
+    world->pair_count = kept;
+}
+
+void rlf_world_remove_body(rlf_world *world, rlf_body_id id)
+{
+    int32_t index = find_body(world, id);
+    if (index >= 0) {
+        remove_body(world, index);
+        phys_world_publish(world);
+    }
+}
+
+void phys_world_remove_strays(rlf_world *world)
+{
+    for (int32_t i = 0; i < world->body_top; i++) {
+        const phys_body *body = &world->bodies[i];
+        if (body->is_alive && !(rlf_aabb_distance2(&world->def.bounds, body->x) == 0.0)) {
+            remove_body(world, i);
+        }
+    }
+}
+
+bool rlf_world_set_body(rlf_world *world, rlf_body_id id, const rlf_pose *T_world_body,
+                        rlf_vec3 velocity, rlf_vec3 angular_velocity)
+{
+    int32_t index = find_body(world, id);
+    if (index < 0 || !RLF_ASSERT(T_world_body != NULL)) {
+        return false;
+    }
+    rlf_quat q = T_world_body->q;
+    if (!rlf_vec3_is_finite(T_world_body->p) || !rlf_vec3_is_finite(velocity) ||
+        !rlf_vec3_is_finite(angular_velocity) || !rlf_is_finite(q.x + q.y + q.z + q.w)) {
+        return false;
+    }
+    phys_body *body = &world->bodies[index];
+    wake_near(world, body);
+    body->x = T_world_body->p;
+    body->q = rlf_quat_normalize(q);
+    body->throw_v = velocity;
+    body->throw_w = angular_velocity;
+    if (!body->is_held) {
+        body->v = velocity;
+        body->w = angular_velocity;
+    }
+    body->surface_count = 0;
+    phys_body_orient(body);
+    wake_near(world, body);
+    phys_world_publish(world);
+    return true;
+}
+
+bool rlf_world_apply_impulse(rlf_world *world, rlf_body_id id, rlf_vec3 impulse, rlf_vec3 point)
+{
+    int32_t index = find_body(world, id);
+    if (index < 0 || !rlf_vec3_is_finite(impulse) || !rlf_vec3_is_finite(point)) {
+        return false;
+    }
+    phys_body *body = &world->bodies[index];
+    phys_body_wake(body);
+    phys_body_push(body, impulse, rlf_sub(point, body->x));
+    phys_world_publish(world);
+    return true;
+}
+
+bool rlf_world_apply_force(rlf_world *world, rlf_body_id id, rlf_vec3 force, rlf_vec3 point)
+{
+    int32_t index = find_body(world, id);
+    if (index < 0 || !rlf_vec3_is_finite(force) || !rlf_vec3_is_finite(point)) {
+        return false;
+    }
+    phys_body *body = &world->bodies[index];
+    phys_body_wake(body);
+    body->force = rlf_add(body->force, force);
+    body->torque = rlf_add(body->torque, rlf_cross(rlf_sub(point, body->x), force));
+    return true;
+}
+
+void rlf_world_reset(rlf_world *world)
+{
+    if (!RLF_ASSERT(world != NULL)) {
+        return;
+    }
+    for (int32_t i = 0; i < world->body_top; i++) {
+        if (world->bodies[i].is_alive) {
+            remove_body(world, i);
+        }
+    }
+    world->pair_count = 0;
+    world->log_count = 0;
+    world->time = 0.0;
+    world->frame = 0;
+    world->has_grid = false;
+    phys_world_publish(world);
+}
+
+void rlf_world_advance(rlf_world *world, const rlf_grid *grid, double dt)
+{
+    if (!RLF_ASSERT(world != NULL) || !(dt > 0.0 && dt <= 1.0)) {
+        return;
+    }
+    world->log_count = 0;
+    if (world->def.method == RLF_PHYSICS_THESIS) {
+        phys_thesis_advance(world, grid, dt);
+    } else {
+        phys_live_advance(world, grid, dt);
+    }
+    for (int32_t i = 0; i < world->body_top; i++) {
+        world->bodies[i].force = rlf_vec3_make(0, 0, 0);
+        world->bodies[i].torque = rlf_vec3_make(0, 0, 0);
+    }
+    world->frame++;
+    phys_world_remove_strays(world);
+    phys_world_publish(world);
+}
