@@ -13,6 +13,7 @@
 #define EDGE 0.02f        /* pixels a rectangle is widened, against rounding gaps */
 #define SPLAT_MAX 48      /* pixels: half the widest rectangle, below SHIFT */
 #define LENS_CELL 16      /* pixels between knots of the lens table: error below 0.02 px */
+#define BLOCK 16          /* pixels looked at together */
 #define LENS_KNOT_MAX 512 /* per axis */
 
 /* Distortion as offsets from the pinhole pixel, bilinear between knots. */
@@ -361,15 +362,30 @@ static void fill_hole(const rlf_registration *r, const fill_line *line, int32_t 
     }
 }
 
+/* End of the run of seen pixels from i on. Rows, the usual case, are looked at in blocks. */
+static int32_t skip_seen(const fill_line *line, int32_t i)
+{
+    if (line->depth_step == (ptrdiff_t)sizeof(float)) {
+        const float *z = depth_at(line, 0);
+        for (; i + BLOCK <= line->count; i += BLOCK) {
+            int32_t holes = 0;
+            for (int32_t k = 0; k < BLOCK; k++) {
+                holes |= z[i + k] < NOTHING ? 0 : 1;
+            }
+            if (holes != 0) {
+                break;
+            }
+        }
+    }
+    while (i < line->count && *depth_at(line, i) < NOTHING) {
+        i++;
+    }
+    return i;
+}
+
 static void fill_line_holes(const rlf_registration *r, const fill_line *line)
 {
-    int32_t i = 0;
-    while (i < line->count) {
-        if (*depth_at(line, i) < NOTHING) {
-            line->state[i * line->state_step] = RLF_REGISTERED_VISIBLE;
-            i++;
-            continue;
-        }
+    for (int32_t i = skip_seen(line, 0); i < line->count; i = skip_seen(line, i)) {
         int32_t begin = i;
         while (i < line->count && !(*depth_at(line, i) < NOTHING)) {
             i++;
@@ -382,6 +398,9 @@ static void fill_holes(const rlf_registration *r, const rlf_plane_f32 *depth,
                        const rlf_plane_u8 *state)
 {
     bool columns = r->fills_columns;
+    for (int32_t y = 0; y < state->height; y++) {
+        memset(rlf_u8_row(state, y), RLF_REGISTERED_VISIBLE, (size_t)state->width);
+    }
     int32_t lines = columns ? depth->width : depth->height;
     for (int32_t i = 0; i < lines; i++) {
         fill_line line = {
