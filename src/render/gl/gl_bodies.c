@@ -1,7 +1,7 @@
-/* Bodies as meshes with a model matrix each (A.3 and A.5 as corrected: projection * view * T R S).
- */
+/* Bodies as meshes with a model matrix T R S each (A.3 as corrected), placed by A.5. */
 #include "gl_bodies.h"
 
+#include "gl_occlusion.h"
 #include "gl_program.h"
 
 #include "render/body_texture.h"
@@ -10,15 +10,16 @@
 
 enum {
     HULL_BATCH = 1024, /* triangles per upload */
-    UNIT_REAL_DEPTH = 0,
-    UNIT_TEXTURES = 1
+    UNIT_BACKDROP = 0,
+    UNIT_REAL_DEPTH = 1,
+    UNIT_TEXTURES = 2
 };
 
 static const char body_vertex[] =
     "layout(location = 0) in vec4 a_position_shift;\n"
     "layout(location = 1) in vec3 a_normal;\n"
     "layout(location = 2) in vec2 a_uv;\n"
-    "uniform mat4 u_clip_body;\n"
+    "uniform mat4 u_picture_body;\n"
     "uniform mat3 u_camera_body;\n"
     "uniform float u_shift;\n"
     "out vec3 v_normal;\n"
@@ -26,16 +27,19 @@ static const char body_vertex[] =
     "void main()\n"
     "{\n"
     "    vec3 p = a_position_shift.xyz + vec3(0.0, a_position_shift.w * u_shift, 0.0);\n"
-    "    gl_Position = u_clip_body * vec4(p, 1.0);\n"
+    "    gl_Position = clip_of((u_picture_body * vec4(p, 1.0)).xyz);\n"
     "    v_normal = u_camera_body * a_normal;\n"
     "    v_uv = a_uv;\n"
     "}\n";
 
 /* 1 / gl_FragCoord.w is the clip w, and that is z in the picture's camera: the same quantity that
- * the registered depth holds, per pixel (4.2.2; errata 8). */
+ * the registered depth holds, per pixel (4.2.2; errata 8). The body is mixed with the backdrop here
+ * and not by blending, so that the nearest body alone decides, whatever the order of drawing. A
+ * pixel that a triangle only touches may have its centre outside, hence the clamp of uv. */
 static const char body_fragment[] =
     "in vec3 v_normal;\n"
     "in vec2 v_uv;\n"
+    "uniform sampler2D u_backdrop;\n"
     "uniform sampler2D u_real_depth;\n"
     "uniform sampler2DArray u_textures;\n"
     "uniform bool u_is_occluded;\n"
@@ -47,22 +51,22 @@ static const char body_fragment[] =
     "out vec4 o_color;\n"
     "void main()\n"
     "{\n"
-    "    if (u_is_occluded) {\n"
-    "        float real_z = texelFetch(u_real_depth, ivec2(gl_FragCoord.xy), 0).r;\n"
-    "        if (real_z > 0.0 && real_z < 1.0 / gl_FragCoord.w) {\n"
-    "            discard;\n"
-    "        }\n"
-    "    }\n"
     "    float facing = max(0.0, -dot(normalize(v_normal), u_light));\n"
     "    float light = u_ambient_diffuse.x + u_ambient_diffuse.y * facing;\n"
-    "    vec3 texel = textureLod(u_textures, vec3(v_uv, u_layer), u_level).rgb;\n"
-    "    o_color = vec4(u_color * texel * light, 1.0);\n"
+    "    vec3 uv_layer = vec3(clamp(v_uv, 0.0, 1.0), u_layer);\n"
+    "    vec3 color = u_color * light * textureLod(u_textures, uv_layer, u_level).rgb;\n"
+    "    float shown = 1.0;\n"
+    "    if (u_is_occluded) {\n"
+    "        shown = share_in_front(u_real_depth, 1.0 / gl_FragCoord.w);\n"
+    "    }\n"
+    "    vec3 real = texelFetch(u_backdrop, ivec2(gl_FragCoord.xy), 0).rgb;\n"
+    "    o_color = vec4(mix(real, min(color, 1.0), shown), shown);\n"
     "}\n";
 
 static void create_program_uniforms(gl_bodies *bodies)
 {
     GLuint p = bodies->program;
-    bodies->uniforms.clip_body = glGetUniformLocation(p, "u_clip_body");
+    bodies->uniforms.picture_body = glGetUniformLocation(p, "u_picture_body");
     bodies->uniforms.camera_body = glGetUniformLocation(p, "u_camera_body");
     bodies->uniforms.shift = glGetUniformLocation(p, "u_shift");
     bodies->uniforms.color = glGetUniformLocation(p, "u_color");
@@ -70,7 +74,9 @@ static void create_program_uniforms(gl_bodies *bodies)
     bodies->uniforms.layer = glGetUniformLocation(p, "u_layer");
     bodies->uniforms.level = glGetUniformLocation(p, "u_level");
     bodies->uniforms.is_occluded = glGetUniformLocation(p, "u_is_occluded");
+    bodies->view_uniforms = gl_view_find_uniforms(p);
     glUseProgram(p);
+    glUniform1i(glGetUniformLocation(p, "u_backdrop"), UNIT_BACKDROP);
     glUniform1i(glGetUniformLocation(p, "u_real_depth"), UNIT_REAL_DEPTH);
     glUniform1i(glGetUniformLocation(p, "u_textures"), UNIT_TEXTURES);
     glUniform2f(glGetUniformLocation(p, "u_ambient_diffuse"), (GLfloat)BODY_LIGHT_AMBIENT,
@@ -159,7 +165,8 @@ static rlf_result create_textures(gl_bodies *bodies)
 rlf_result gl_bodies_create(bool is_es, gl_bodies *out)
 {
     *out = (gl_bodies){0};
-    const gl_program_source source = {"body", body_vertex, body_fragment};
+    const gl_program_source source = {
+        "body", {gl_view_glsl, body_vertex}, {GL_OCCLUSION_GLSL, body_fragment}};
     out->program = gl_program_build(is_es, &source);
     if (out->program == 0) {
         return RLF_ERROR_DEVICE;
@@ -193,6 +200,8 @@ void gl_bodies_begin(const gl_bodies *bodies, const gl_bodies_pass *pass)
     glUniform3f(bodies->uniforms.light, (GLfloat)pass->light_direction.x,
                 (GLfloat)pass->light_direction.y, (GLfloat)pass->light_direction.z);
     glUniform1i(bodies->uniforms.is_occluded, pass->real_depth != NULL);
+    gl_view_set_uniforms(&bodies->view_uniforms, pass->view);
+    gl_texture_bind(pass->backdrop, UNIT_BACKDROP);
     if (pass->real_depth != NULL) {
         gl_texture_bind(pass->real_depth, UNIT_REAL_DEPTH);
     }
@@ -207,21 +216,21 @@ static void set_body(const gl_bodies *bodies, const gl_bodies_pass *pass,
     const gl_view *view = pass->view;
     shape_mesh_scale scale = shape_mesh_scale_of(&body->shape);
     rlf_pose T_camera_body = rlf_pose_mul(&view->T_camera_world, &body->T_world_body);
-    rlf_mat4 model = rlf_mat4_model(&T_camera_body, scale.scale);
-    rlf_mat4 clip_body = rlf_mat4_mul(&view->clip_camera, &model);
+    rlf_pose T_picture_body = rlf_pose_mul(&view->T_picture_world, &body->T_world_body);
+    rlf_mat4 view_model = rlf_mat4_model(&T_picture_body, scale.scale);
     rlf_mat3 rotation = rlf_quat_to_mat3(T_camera_body.q);
     GLfloat columns[9];
     for (int i = 0; i < 9; i++) {
         columns[i] = (GLfloat)rotation.m[i % 3][i / 3];
     }
-    double z = rlf_transform(&view->T_picture_camera, T_camera_body.p).z;
-    gl_view_set_matrix(bodies->uniforms.clip_body, &clip_body);
+    double focal = 0.5 * (view->camera.fx + view->camera.fy);
+    gl_view_set_matrix(bodies->uniforms.picture_body, &view_model);
     glUniformMatrix3fv(bodies->uniforms.camera_body, 1, GL_FALSE, columns);
     glUniform1f(bodies->uniforms.shift, (GLfloat)(scale.half_height / scale.scale.y));
     glUniform3f(bodies->uniforms.color, body->color[0], body->color[1], body->color[2]);
     glUniform1f(bodies->uniforms.layer, (GLfloat)body_texture_kind_of(body->shape.type));
     glUniform1f(bodies->uniforms.level,
-                (GLfloat)body_texture_level_of(&body->shape, z, view->focal));
+                (GLfloat)body_texture_level_of(&body->shape, T_picture_body.p.z, focal));
 }
 
 static void draw_batch(const gl_bodies *bodies, int32_t vertex_count)

@@ -10,8 +10,9 @@
 typedef struct gl_bodies {
     GLuint program;
     struct {
-        GLint clip_body, camera_body, shift, color, light, layer, level, is_occluded;
+        GLint picture_body, camera_body, shift, color, light, layer, level, is_occluded;
     } uniforms;
+    gl_view_uniforms view_uniforms;
     GLuint vertex_array, vertex_buffer, index_buffer; /* unit meshes */
     GLuint hull_array, hull_buffer;                   /* a hull's triangles, streamed */
     GLuint textures;                                  /* array: one layer per texture kind */
@@ -23,6 +24,7 @@ typedef struct gl_bodies {
 typedef struct gl_bodies_pass {
     const gl_view *view;
     rlf_vec3 light_direction;     /* depth camera frame, from the light into the scene */
+    const gl_texture *backdrop;   /* shows through where the real world hides a part of a pixel */
     const gl_texture *real_depth; /* z in the picture's camera per pixel; NULL = nothing hides */
 } gl_bodies_pass;
 

@@ -4,6 +4,7 @@
  * soft renderer inside paints as well without a GPU. */
 #include "gl_compositor.h"
 
+#include "gl_backdrop.h"
 #include "gl_bodies.h"
 #include "gl_layers.h"
 #include "gl_target.h"
@@ -11,20 +12,20 @@
 #include "gl_wireframe.h"
 
 #include "base/cookie.h"
+#include "render/real_depth.h"
+#include "render/soft/soft.h"
 
 typedef struct gl_compositor {
     rlf_compositor_def def;
-    rlf_camera picture;       /* the colour (or depth) camera at the picture's size */
-    rlf_pose T_picture_depth; /* A.2 */
+    gl_view view; /* of the picture */
     rlf_compositor *soft;
-    rlf_registration *registration;
-    rlf_plane_f32 real_depth; /* registered: z in the picture's camera */
-    rlf_plane_u8 real_state;
+    real_depth real;
     rlf_image_rgba8 image; /* read back */
     rlf_plane_u8 matte;
 
     gl_context context;
     gl_target target;
+    gl_backdrop backdrop;
     gl_bodies bodies;
     gl_layers layers;
     gl_thesis thesis;
@@ -32,8 +33,6 @@ typedef struct gl_compositor {
     gl_texture color_texture, depth_texture;
     bool has_wireframe; /* made when the view is first asked for */
 } gl_compositor;
-
-static const float wire_color[3] = {0.1f, 1.0f, 0.4f};
 
 /* ---- create and destroy --------------------------------------------------------------------- */
 
@@ -47,15 +46,14 @@ static void destroy_gl(gl_compositor *c)
     gl_thesis_destroy(&c->thesis);
     gl_layers_destroy(&c->layers);
     gl_bodies_destroy(&c->bodies);
+    gl_backdrop_destroy(&c->backdrop);
     gl_target_destroy(&c->target);
 }
 
 static void free_planes(gl_compositor *c)
 {
-    rlf_registration_destroy(&c->registration);
+    real_depth_destroy(&c->real);
     rlf_compositor_destroy(&c->soft);
-    rlf_free(c->real_depth.data);
-    rlf_free(c->real_state.data);
     rlf_free(c->image.data);
     rlf_free(c->matte.data);
 }
@@ -75,21 +73,18 @@ static void destroy(void *self)
 
 static rlf_result create_planes(gl_compositor *c)
 {
-    int32_t w = c->picture.width;
-    int32_t h = c->picture.height;
+    rlf_camera picture = real_depth_picture_camera(&c->def);
+    rlf_pose T_picture_camera = real_depth_picture_pose(&c->def);
+    int32_t w = picture.width;
+    int32_t h = picture.height;
     size_t count = (size_t)w * (size_t)h;
-    c->real_depth = (rlf_plane_f32){rlf_alloc_array(count, sizeof(float)), w, h, 4 * (ptrdiff_t)w};
-    c->real_state = (rlf_plane_u8){rlf_alloc_array(count, 1), w, h, w};
+    c->view = gl_view_make(&picture, &T_picture_camera);
     c->image = (rlf_image_rgba8){rlf_alloc_array(count, 4), w, h, 4 * (ptrdiff_t)w};
     c->matte = (rlf_plane_u8){rlf_alloc_array(count, 1), w, h, w};
-    if (c->real_depth.data == NULL || c->real_state.data == NULL || c->image.data == NULL ||
-        c->matte.data == NULL) {
+    if (c->image.data == NULL || c->matte.data == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    const rlf_compositor_def *def = &c->def;
-    rlf_result result = rlf_registration_create(&def->grid, def->ray_x, def->ray_y, &c->picture,
-                                                &c->T_picture_depth, &c->registration);
-    return result == RLF_OK ? rlf_compositor_create_soft(def, &c->soft) : result;
+    return real_depth_create(&c->def, &picture, &c->real);
 }
 
 static rlf_result check_errors(void)
@@ -109,10 +104,13 @@ static rlf_result check_errors(void)
 /* With the context current. */
 static rlf_result create_gl(gl_compositor *c)
 {
-    int32_t w = c->picture.width;
-    int32_t h = c->picture.height;
+    int32_t w = c->image.width;
+    int32_t h = c->image.height;
     bool is_es = c->context.is_es;
     rlf_result result = gl_target_create(w, h, &c->target);
+    if (result == RLF_OK) {
+        result = gl_backdrop_create(is_es, w, h, &c->backdrop);
+    }
     if (result == RLF_OK) {
         result = gl_bodies_create(is_es, &c->bodies);
     }
@@ -130,52 +128,47 @@ static rlf_result create_gl(gl_compositor *c)
     return check_errors();
 }
 
-static rlf_result check_def(const rlf_compositor_def *def)
-{
-    if (def->grid.width < 1 || def->ray_x == NULL || def->ray_y == NULL) {
-        return rlf_fail(RLF_ERROR_INVALID, "compositor: grid, ray_x and ray_y must be set");
-    }
-    if (def->width < 0 || def->height < 0 || def->width > RLF_IMAGE_SIZE_MAX ||
-        def->height > RLF_IMAGE_SIZE_MAX) {
-        return rlf_fail(RLF_ERROR_INVALID, "compositor: picture of %d x %d: use 0 to %d",
-                        (int)def->width, (int)def->height, RLF_IMAGE_SIZE_MAX);
-    }
-    return rlf_camera_check(def->rig.has_color ? &def->rig.color : &def->rig.depth, "compositor");
-}
-
-static void set_picture(gl_compositor *c)
-{
-    const rlf_rig *rig = &c->def.rig;
-    const rlf_camera *camera = rig->has_color ? &rig->color : &rig->depth;
-    int32_t w = c->def.width > 0 ? c->def.width : camera->width;
-    int32_t h = c->def.height > 0 ? c->def.height : camera->height;
-    c->picture = rlf_camera_resize(camera, w, h);
-    c->T_picture_depth = rig->has_color ? rig->T_color_depth : rlf_pose_identity();
-}
-
 static rlf_result render(void *self, const rlf_render_input *input, rlf_render_output *out);
 
 static const rlf_compositor_methods methods = {render, destroy, "gl"};
 
-/* Takes over an open context. */
-static rlf_result create(const rlf_compositor_def *def, const gl_context *context,
-                         rlf_compositor **out)
+/* Everything that needs no GL; the soft renderer inside checks the def. */
+static rlf_result prepare(const rlf_compositor_def *def, gl_compositor **out)
 {
-    gl_compositor *c = rlf_alloc(sizeof *c);
+    rlf_compositor *inner = NULL;
+    rlf_result result = rlf_compositor_create_soft(def, &inner);
+    if (result != RLF_OK) {
+        return result;
+    }
+    gl_compositor *c = rlf_alloc(sizeof(*c));
     if (c == NULL) {
+        rlf_compositor_destroy(&inner);
         return RLF_ERROR_MEMORY;
     }
     c->def = *def;
-    c->context = *context;
-    set_picture(c);
-    rlf_result result = create_planes(c);
+    c->def.light_direction = rlf_normalize(def->light_direction);
+    c->soft = inner;
+    result = create_planes(c);
+    if (result != RLF_OK) {
+        free_planes(c);
+        rlf_free(c);
+        return result;
+    }
+    *out = c;
+    return RLF_OK;
+}
+
+/* Finishes a prepared compositor with the context it was given; destroys it on failure. */
+static rlf_result finish(gl_compositor *c, rlf_compositor **out)
+{
     gl_context_saved saved;
-    if (result == RLF_OK && !gl_context_enter(&c->context, &saved)) {
-        result = rlf_fail(RLF_ERROR_DEVICE, "OpenGL: the context cannot be made current: use "
-                                            "--renderer soft");
-    } else if (result == RLF_OK) {
+    rlf_result result;
+    if (gl_context_enter(&c->context, &saved)) {
         result = create_gl(c);
         gl_context_leave(&c->context, &saved);
+    } else {
+        result = rlf_fail(RLF_ERROR_DEVICE, "OpenGL: the context cannot be made current: use "
+                                            "--renderer soft");
     }
     if (result == RLF_OK) {
         result = rlf_compositor_create_custom(&methods, c, out);
@@ -186,85 +179,108 @@ static rlf_result create(const rlf_compositor_def *def, const gl_context *contex
     return result;
 }
 
+static rlf_result create(const rlf_compositor_def *def, bool use_current_context, gl_api api,
+                         rlf_compositor **out)
+{
+    gl_context context;
+    *out = NULL;
+    rlf_result result =
+        use_current_context ? gl_context_adopt(&context) : gl_context_open(api, &context);
+    if (result != RLF_OK) {
+        return result;
+    }
+    gl_compositor *c;
+    result = prepare(def, &c);
+    if (result != RLF_OK) {
+        gl_context_close(&context);
+        return result;
+    }
+    c->context = context;
+    return finish(c, out);
+}
+
 rlf_result gl_compositor_create_offscreen(const rlf_compositor_def *def, gl_api api,
                                           rlf_compositor **out)
 {
-    gl_context context;
-    rlf_result result = check_def(def);
-    if (result == RLF_OK) {
-        result = gl_context_open(api, &context);
-    }
-    return result == RLF_OK ? create(def, &context, out) : result;
+    return create(def, false, api, out);
 }
 
 rlf_result rlf_gl_compositor_create(const rlf_compositor_def *def, bool use_current_context,
                                     rlf_compositor **out)
 {
-    if (!RLF_ASSERT(def != NULL && def->cookie == RLF_DEF_COOKIE && out != NULL)) {
+    if (!RLF_ASSERT(def != NULL && out != NULL) || !RLF_ASSERT(def->cookie == RLF_DEF_COOKIE)) {
         return RLF_ERROR_INVALID;
     }
-    if (!use_current_context) {
-        return gl_compositor_create_offscreen(def, CONTEXT_API_ANY, out);
-    }
-    gl_context context;
-    rlf_result result = check_def(def);
-    if (result == RLF_OK) {
-        result = gl_context_adopt(&context);
-    }
-    return result == RLF_OK ? create(def, &context, out) : result;
+    return create(def, use_current_context, CONTEXT_API_ANY, out);
 }
 
 /* ---- draw ----------------------------------------------------------------------------------- */
 
-/* The colour image; without one the soft renderer's grey picture of the depth. */
-static rlf_result upload_background(gl_compositor *c, const rlf_render_input *input)
+static bool has_bodies(const rlf_render_input *input)
 {
-    if (input->frame->color.data != NULL) {
+    return input->view == RLF_VIEW_CAMERA && input->snapshot != NULL &&
+           input->snapshot->body_count > 0;
+}
+
+static void update_real_depth(gl_compositor *c, const rlf_render_input *input)
+{
+    real_depth_update(&c->real, input->frame, input->surface);
+    gl_texture_upload_f32(&c->depth_texture, c->real.z.data, c->real.z.width, c->real.z.height);
+}
+
+/* The colour image, or depth in grey when the frame has none, and the bodies' shadows. */
+static void draw_backdrop(gl_compositor *c, const rlf_render_input *input)
+{
+    const rlf_rig *rig = &c->def.rig;
+    bool has_color = input->frame->color.data != NULL;
+    if (!has_color || has_bodies(input)) {
+        update_real_depth(c, input);
+    }
+    if (has_color) {
         gl_texture_upload_rgba8(&c->color_texture, &input->frame->color);
-        return RLF_OK;
+        gl_backdrop_draw_color(&c->backdrop, &c->color_texture);
+    } else {
+        bool has_range = rig->depth_max_m > rig->depth_min_m;
+        gl_backdrop_draw_grey(&c->backdrop, &c->depth_texture, has_range ? rig->depth_min_m : 0.5,
+                              has_range ? rig->depth_max_m : 4.5);
     }
-    rlf_render_input plain = *input;
-    rlf_render_output grey;
-    plain.snapshot = NULL;
-    plain.view = RLF_VIEW_CAMERA;
-    plain.overlay_count = 0;
-    rlf_result result = rlf_compositor_render(c->soft, &plain, &grey);
-    if (result == RLF_OK) {
-        gl_texture_upload_rgba8(&c->color_texture, &grey.image);
+    /* Plain augmented reality knows nothing of the real world. */
+    if (has_bodies(input) && c->def.occlusion != RLF_OCCLUSION_OFF) {
+        rlf_vec3 light = rlf_rotate(c->view.T_picture_camera.q, c->def.light_direction);
+        gl_backdrop_shadows shadows = {&c->view, &c->depth_texture, rlf_neg(light)};
+        gl_backdrop_draw_shadows(&c->backdrop, &shadows, input->snapshot);
     }
-    return result;
 }
 
-static void upload_real_depth(gl_compositor *c, const rlf_render_input *input)
+static bool is_drawable(const rlf_body_state *body)
 {
-    rlf_registration_apply(c->registration, input->surface->depth, &c->real_depth, &c->real_state);
-    gl_texture_upload_f32(&c->depth_texture, c->real_depth.data, c->real_depth.width,
-                          c->real_depth.height);
+    const rlf_shape *shape = &body->shape;
+    return (int)shape->type >= 0 && shape->type <= RLF_SHAPE_HULL &&
+           (shape->type != RLF_SHAPE_HULL || shape->hull != NULL);
 }
 
-static void draw_bodies(gl_compositor *c, const rlf_render_input *input, const gl_view *view)
+static void draw_bodies(gl_compositor *c, const rlf_snapshot *snapshot)
 {
     bool is_hidden_in_shader = c->def.occlusion == RLF_OCCLUSION_DEPTH;
-    gl_bodies_pass pass = {view, c->def.light_direction,
+    gl_bodies_pass pass = {&c->view, c->def.light_direction, &c->backdrop.texture,
                            is_hidden_in_shader ? &c->depth_texture : NULL};
-    const rlf_snapshot *snapshot = input->snapshot;
+    gl_layer_images images = {&c->backdrop.texture, &c->depth_texture, NULL};
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
     glFrontFace(GL_CW); /* see gl_view_make */
     if (c->def.occlusion == RLF_OCCLUSION_THESIS) {
-        gl_thesis_pass thesis = {
-            &c->target,
-            &c->bodies,
-            &c->layers,
-            pass,
-            {&c->color_texture, &c->depth_texture, NULL, c->target.width, c->target.height}};
+        gl_thesis_pass thesis = {&c->target, &c->bodies, &c->layers, pass, images};
         for (int32_t i = 0; i < snapshot->body_count; i++) {
-            gl_thesis_draw(&c->thesis, &thesis, &snapshot->bodies[i]);
+            if (is_drawable(&snapshot->bodies[i])) {
+                gl_thesis_draw(&c->thesis, &thesis, &snapshot->bodies[i]);
+            }
         }
     } else {
         gl_bodies_begin(&c->bodies, &pass);
         for (int32_t i = 0; i < snapshot->body_count; i++) {
-            gl_bodies_draw(&c->bodies, &pass, &snapshot->bodies[i]);
+            if (is_drawable(&snapshot->bodies[i])) {
+                gl_bodies_draw(&c->bodies, &pass, &snapshot->bodies[i]);
+            }
         }
         gl_bodies_end();
     }
@@ -273,18 +289,17 @@ static void draw_bodies(gl_compositor *c, const rlf_render_input *input, const g
     glDisable(GL_DEPTH_TEST);
 }
 
-static rlf_result draw_wireframe(gl_compositor *c, const rlf_render_input *input,
-                                 const gl_view *view)
+static rlf_result draw_wireframe(gl_compositor *c, const rlf_surface *surface)
 {
     if (!c->has_wireframe) {
-        rlf_result result = gl_wireframe_create(c->context.is_es, &c->def.grid, c->def.ray_x,
-                                                c->def.ray_y, &c->wireframe);
+        rlf_result result = gl_wireframe_create(c->context.is_es, &c->def.rig, &c->def.grid,
+                                                surface->scale_factor, &c->wireframe);
         if (result != RLF_OK) {
             return result;
         }
         c->has_wireframe = true;
     }
-    gl_wireframe_draw(&c->wireframe, input->surface, view, wire_color);
+    gl_wireframe_draw(&c->wireframe, surface, &c->view);
     return RLF_OK;
 }
 
@@ -299,30 +314,25 @@ static void reset_state(void)
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
+    glStencilMask(0xff);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
 }
 
 /* With the context current. */
 static rlf_result draw(gl_compositor *c, const rlf_render_input *input)
 {
-    gl_view view = gl_view_make(&c->picture, &c->T_picture_depth, &input->T_world_camera);
+    rlf_result result = RLF_OK;
+    gl_view_place(&c->view, &input->T_world_camera);
     reset_state();
-    rlf_result result = upload_background(c, input);
-    if (result != RLF_OK) {
-        return result;
-    }
+    draw_backdrop(c, input);
     gl_target_bind(&c->target);
     glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
-    gl_layer_images images = {&c->color_texture, NULL, NULL, c->target.width, c->target.height};
-    gl_layers_draw_background(&c->layers, &images);
+    gl_layer_images images = {&c->backdrop.texture, NULL, NULL};
+    gl_layers_draw_backdrop(&c->layers, &images);
     if (input->view == RLF_VIEW_MESH) {
-        result = draw_wireframe(c, input, &view);
-    } else if (input->snapshot != NULL && input->snapshot->body_count > 0) {
-        if (c->def.occlusion != RLF_OCCLUSION_OFF) {
-            upload_real_depth(c, input);
-        }
-        gl_target_bind(&c->target);
-        draw_bodies(c, input, &view);
+        result = draw_wireframe(c, input->surface);
+    } else if (has_bodies(input)) {
+        draw_bodies(c, input->snapshot);
     }
     gl_target_read(&c->target, &c->image);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -339,20 +349,35 @@ static void split_matte(gl_compositor *c)
     }
 }
 
+/* Lines of text, as the soft renderer places them. */
+static void draw_overlay(gl_compositor *c, const rlf_render_input *input)
+{
+    int32_t scale = soft_text_scale(c->image.height);
+    for (int32_t i = 0; i < input->overlay_count && input->overlay != NULL; i++) {
+        soft_text style = {4 * scale, (4 + 10 * i) * scale, scale, soft_rgb(245, 245, 235), true};
+        if (input->overlay[i] != NULL && style.y < c->image.height) {
+            soft_draw_text(&c->image, &style, input->overlay[i]);
+        }
+    }
+}
+
 static rlf_result render(void *self, const rlf_render_input *input, rlf_render_output *out)
 {
     gl_compositor *c = self;
     if (input->view != RLF_VIEW_CAMERA && input->view != RLF_VIEW_MESH) {
         return rlf_compositor_render(c->soft, input, out);
     }
-    if (!RLF_ASSERT(input->surface->width == c->def.grid.width &&
-                    input->surface->height == c->def.grid.height)) {
-        return RLF_ERROR_INVALID;
+    if (input->surface->width != c->def.grid.width ||
+        input->surface->height != c->def.grid.height) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "compositor: the surface is %d x %d, made for a grid of %d x %d",
+                        (int)input->surface->width, (int)input->surface->height,
+                        (int)c->def.grid.width, (int)c->def.grid.height);
     }
     gl_context_saved saved;
     if (!gl_context_enter(&c->context, &saved)) {
-        return rlf_fail(RLF_ERROR_DEVICE, "OpenGL: the driver lost the context: use --renderer "
-                                          "soft");
+        return rlf_fail(RLF_ERROR_DEVICE,
+                        "OpenGL: the driver lost the context: use --renderer soft");
     }
     rlf_result result = draw(c, input);
     gl_context_leave(&c->context, &saved);
@@ -360,6 +385,9 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
         return result;
     }
     split_matte(c);
+    if (c->def.enable_overlay) {
+        draw_overlay(c, input);
+    }
     out->image = c->image;
     out->matte = c->matte;
     return RLF_OK;

@@ -41,7 +41,7 @@ rlf_result rlf_gl_presenter_create(rlf_gl_presenter **out)
     if (p == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    const gl_program_source source = {"presenter", presenter_vertex, presenter_fragment};
+    const gl_program_source source = {"presenter", {presenter_vertex}, {presenter_fragment}};
     p->program = gl_program_build(context.is_es, &source);
     if (p->program == 0) {
         rlf_free(p);

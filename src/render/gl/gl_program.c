@@ -31,9 +31,10 @@ static void cut_to_one_line(char *text)
 static GLuint compile(bool is_es, GLenum type, const gl_program_source *source)
 {
     bool is_vertex = type == GL_VERTEX_SHADER;
-    const char *text[2] = {preamble(is_es), is_vertex ? source->vertex : source->fragment};
+    const char *const *pieces = is_vertex ? source->vertex : source->fragment;
+    const char *text[3] = {preamble(is_es), pieces[0], pieces[1] != NULL ? pieces[1] : ""};
     GLuint shader = glCreateShader(type);
-    glShaderSource(shader, 2, text, NULL);
+    glShaderSource(shader, 3, text, NULL);
     glCompileShader(shader);
     GLint is_compiled = GL_FALSE;
     glGetShaderiv(shader, GL_COMPILE_STATUS, &is_compiled);

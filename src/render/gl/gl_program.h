@@ -5,9 +5,9 @@
 #include "gl_context.h"
 
 typedef struct gl_program_source {
-    const char *name;     /* for messages */
-    const char *vertex;   /* GLSL without its #version line */
-    const char *fragment; /* likewise */
+    const char *name;        /* for messages */
+    const char *vertex[2];   /* GLSL without its #version line, in pieces; NULL = no such piece */
+    const char *fragment[2]; /* likewise */
 } gl_program_source;
 
 /* Compiles and links; 0 (and the error line) when the driver refuses. */

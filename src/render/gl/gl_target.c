@@ -1,22 +1,43 @@
-/* Framebuffer object and read back. */
+/* Framebuffer objects and read back. */
 #include "gl_target.h"
 
-static void attach_renderbuffers(gl_target *target)
+static void make_buffers(gl_target *target)
 {
-    GLuint buffers[2];
-    glGenRenderbuffers(2, buffers);
-    target->color = buffers[0];
-    target->depth_stencil = buffers[1];
+    GLsizei w = target->width;
+    GLsizei h = target->height;
+    GLuint names[3];
+    glGenRenderbuffers(3, names);
+    target->color = names[0];
+    target->depth = names[1];
+    target->resolved_color = names[2];
     glBindRenderbuffer(GL_RENDERBUFFER, target->color);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, target->width, target->height);
-    glBindRenderbuffer(GL_RENDERBUFFER, target->depth_stencil);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, target->width, target->height);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, TARGET_SAMPLES, GL_RGBA8, w, h);
+    glBindRenderbuffer(GL_RENDERBUFFER, target->depth);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, TARGET_SAMPLES, GL_DEPTH24_STENCIL8, w, h);
+    glBindRenderbuffer(GL_RENDERBUFFER, target->resolved_color);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, w, h);
     glBindRenderbuffer(GL_RENDERBUFFER, 0);
-    glGenFramebuffers(1, &target->framebuffer);
+}
+
+/* Leaves the multisampled framebuffer bound; returns what is wrong with either. */
+static GLenum make_framebuffers(gl_target *target)
+{
+    GLuint names[2];
+    glGenFramebuffers(2, names);
+    target->framebuffer = names[0];
+    target->resolved = names[1];
+    glBindFramebuffer(GL_FRAMEBUFFER, target->resolved);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                              target->resolved_color);
+    GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE) {
+        return status;
+    }
     glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target->color);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
-                              target->depth_stencil);
+                              target->depth);
+    return glCheckFramebufferStatus(GL_FRAMEBUFFER);
 }
 
 rlf_result gl_target_create(int32_t width, int32_t height, gl_target *out)
@@ -33,9 +54,9 @@ rlf_result gl_target_create(int32_t width, int32_t height, gl_target *out)
             "smaller one or --renderer soft",
             (int)width, (int)height, (int)limit);
     }
-    gl_target made = {0, 0, 0, width, height};
-    attach_renderbuffers(&made);
-    GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+    gl_target made = {.width = width, .height = height};
+    make_buffers(&made);
+    GLenum status = make_framebuffers(&made);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     if (status != GL_FRAMEBUFFER_COMPLETE) {
         gl_target_destroy(&made);
@@ -49,9 +70,10 @@ rlf_result gl_target_create(int32_t width, int32_t height, gl_target *out)
 
 void gl_target_destroy(gl_target *target)
 {
-    const GLuint buffers[2] = {target->color, target->depth_stencil};
-    glDeleteFramebuffers(1, &target->framebuffer);
-    glDeleteRenderbuffers(2, buffers);
+    const GLuint framebuffers[2] = {target->framebuffer, target->resolved};
+    const GLuint buffers[3] = {target->color, target->depth, target->resolved_color};
+    glDeleteFramebuffers(2, framebuffers);
+    glDeleteRenderbuffers(3, buffers);
     *target = (gl_target){0};
 }
 
@@ -63,7 +85,13 @@ void gl_target_bind(const gl_target *target)
 
 void gl_target_read(const gl_target *target, const rlf_image_rgba8 *out)
 {
+    GLint w = target->width;
+    GLint h = target->height;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, target->framebuffer);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target->resolved);
+    glBlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, target->resolved);
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    glReadPixels(0, 0, target->width, target->height, GL_RGBA, GL_UNSIGNED_BYTE, out->data);
+    glPixelStorei(GL_PACK_ROW_LENGTH, 0);
+    glReadPixels(0, 0, w, h, GL_RGBA, GL_UNSIGNED_BYTE, out->data);
 }

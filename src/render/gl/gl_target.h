@@ -1,5 +1,5 @@
-/* The framebuffer that pictures are drawn into and read back from. Row 0 of the picture is the
- * framebuffer's row 0; alpha is the matte. */
+/* The framebuffer that pictures are drawn into, four samples per pixel, and its read back. Row 0 of
+ * the picture is the framebuffer's row 0; alpha is the matte. */
 #ifndef RLF_RENDER_GL_TARGET_H
 #define RLF_RENDER_GL_TARGET_H
 
@@ -7,9 +7,11 @@
 
 #include "relief/image.h"
 
+#define TARGET_SAMPLES 4
+
 typedef struct gl_target {
-    GLuint framebuffer;
-    GLuint color, depth_stencil; /* renderbuffers: RGBA8 and DEPTH24_STENCIL8 */
+    GLuint framebuffer, resolved;        /* multisampled, and one sample to read from */
+    GLuint color, depth, resolved_color; /* renderbuffers: RGBA8, DEPTH24_STENCIL8, RGBA8 */
     int32_t width, height;
 } gl_target;
 
@@ -18,7 +20,8 @@ rlf_result gl_target_create(int32_t width, int32_t height, gl_target *out);
 void gl_target_destroy(gl_target *target);
 /* Binds the framebuffer and sets the viewport. */
 void gl_target_bind(const gl_target *target);
-/* Reads the whole picture into an image of the target's size without row padding. */
+/* Averages the samples and reads the whole picture into an image of the target's size without row
+ * padding. */
 void gl_target_read(const gl_target *target, const rlf_image_rgba8 *out);
 
 #endif

@@ -19,7 +19,8 @@ void gl_texture_destroy(gl_texture *texture);
 void gl_texture_upload_rgba8(gl_texture *texture, const rlf_image_rgba8 *image);
 /* width * height floats without padding, as GL_R32F: for texelFetch. */
 void gl_texture_upload_f32(gl_texture *texture, const float *data, int32_t width, int32_t height);
-/* A depth texture of this size, for a framebuffer. */
+/* Storage without content, for a framebuffer. */
+void gl_texture_allocate_rgba8(gl_texture *texture, int32_t width, int32_t height);
 void gl_texture_allocate_depth(gl_texture *texture, int32_t width, int32_t height);
 /* Makes the texture visible to samplers of the unit. */
 void gl_texture_bind(const gl_texture *texture, int unit);

@@ -57,6 +57,7 @@ void gl_thesis_draw(const gl_thesis *thesis, const gl_thesis_pass *pass, const r
     gl_layer_images images = pass->images;
     images.body_depth = &thesis->body_depth;
     glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE); /* which counts with the mirrored rows of bodies */
     glStencilFunc(GL_EQUAL, 1, 0xff);
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
     glEnable(GL_BLEND);
@@ -64,5 +65,6 @@ void gl_thesis_draw(const gl_thesis *thesis, const gl_thesis_pass *pass, const r
     gl_layers_draw_occlusion(pass->layers, &images);
     glDisable(GL_BLEND);
     glDisable(GL_STENCIL_TEST);
+    glEnable(GL_CULL_FACE);
     glEnable(GL_DEPTH_TEST);
 }

@@ -22,9 +22,9 @@ typedef struct gl_thesis_pass {
     gl_layer_images images;   /* body_depth is filled in */
 } gl_thesis_pass;
 
-/* Draws one body and the layer over it. Expects the depth test on and the target bound; leaves both
- * so. The order of bodies does not matter: the depth buffer keeps a far body from both drawing and
- * stencilling over a nearer one. */
+/* Draws one body and the layer over it. Expects the depth test and culling on and the target bound;
+ * leaves them so. The order of bodies does not matter: the depth buffer keeps a far body from both
+ * drawing and stencilling over a nearer one. */
 void gl_thesis_draw(const gl_thesis *thesis, const gl_thesis_pass *pass,
                     const rlf_body_state *body);
 

@@ -1,0 +1,216 @@
+/* Colour or grey depth, and shadows on it. */
+#include "gl_backdrop.h"
+
+#include "gl_program.h"
+
+enum { UNIT_COLOR = 0, UNIT_REAL_DEPTH = 0 };
+
+static const char color_fragment[] =
+    "uniform sampler2D u_color;\n"
+    "uniform vec2 u_size;\n"
+    "out vec4 o_color;\n"
+    "void main()\n"
+    "{\n"
+    "    vec3 color = ivec2(u_size) == textureSize(u_color, 0)\n"
+    "        ? texelFetch(u_color, ivec2(gl_FragCoord.xy), 0).rgb\n"
+    "        : textureLod(u_color, gl_FragCoord.xy / u_size, 0.0).rgb;\n"
+    "    o_color = vec4(color, 0.0);\n"
+    "}\n";
+
+static const char grey_fragment[] =
+    "uniform sampler2D u_real_depth;\n"
+    "uniform vec2 u_range;\n"
+    "out vec4 o_color;\n"
+    "void main()\n"
+    "{\n"
+    "    float z = texelFetch(u_real_depth, ivec2(gl_FragCoord.xy), 0).r;\n"
+    "    float t = (z - u_range.x) / (u_range.y - u_range.x);\n"
+    "    float grey = clamp(240.0 - 200.0 * t, 40.0, 240.0) / 255.0;\n"
+    "    o_color = vec4(vec3(z > 0.0 ? grey : 0.0), 0.0);\n"
+    "}\n";
+
+/* The shadow of a body taken as a ball, as the soft renderer draws it: of the light around, a ball
+ * hides (r / d)^2 (Quilez 2006); of the directed light, what passes it too close. */
+static const char shadow_fragment[] =
+    "const float reach = 3.0;\n"
+    "const float ambient_share = 0.5;\n"
+    "const float direct_share = 0.35;\n"
+    "uniform sampler2D u_real_depth;\n"
+    "uniform vec4 u_ball;\n" /* centre, squared radius */
+    "uniform vec3 u_to_light;\n"
+    "uniform vec4 u_intrinsics;\n" /* fx fy cx cy */
+    "out vec4 o_light;\n"
+    "void main()\n"
+    "{\n"
+    "    float z = texelFetch(u_real_depth, ivec2(gl_FragCoord.xy), 0).r;\n"
+    "    vec2 ray = (gl_FragCoord.xy - 0.5 - u_intrinsics.zw) / u_intrinsics.xy;\n"
+    "    vec3 offset = u_ball.xyz - z * vec3(ray, 1.0);\n"
+    "    float distance2 = dot(offset, offset);\n"
+    "    float reach2 = u_ball.w * reach * reach;\n"
+    "    if (z <= 0.0 || distance2 >= reach2) {\n"
+    "        discard;\n"
+    "    }\n"
+    "    float fade = 1.0 - distance2 / reach2;\n"
+    "    float size = u_ball.w / max(distance2, u_ball.w);\n"
+    "    float along = dot(offset, u_to_light);\n"
+    "    float across2 = distance2 - along * along;\n"
+    "    float direct = along > 0.0 ? max(0.0, 1.0 - across2 / (1.5 * u_ball.w)) : 0.0;\n"
+    "    float light = 1.0 - fade * (ambient_share * size + direct_share * direct);\n"
+    "    o_light = vec4(light);\n"
+    "}\n";
+
+#define SHADOW_REACH 3.0        /* radii, as in the shader */
+#define SHADOW_BALL_RADIUS 0.75 /* of the bounding sphere's, which no box or stick fills */
+
+static rlf_result make_programs(bool is_es, gl_backdrop *backdrop)
+{
+    const gl_program_source color = {"backdrop", {gl_program_screen_vertex}, {color_fragment}};
+    const gl_program_source grey = {"grey depth", {gl_program_screen_vertex}, {grey_fragment}};
+    const gl_program_source shadow = {"shadow", {gl_program_screen_vertex}, {shadow_fragment}};
+    backdrop->color_program = gl_program_build(is_es, &color);
+    if (backdrop->color_program != 0) {
+        backdrop->grey_program = gl_program_build(is_es, &grey);
+    }
+    if (backdrop->grey_program != 0) {
+        backdrop->shadow_program = gl_program_build(is_es, &shadow);
+    }
+    if (backdrop->shadow_program == 0) {
+        return RLF_ERROR_DEVICE;
+    }
+    /* All samplers read unit 0, the value that they start with. */
+    GLuint p = backdrop->shadow_program;
+    backdrop->uniforms.color_size = glGetUniformLocation(backdrop->color_program, "u_size");
+    backdrop->uniforms.grey_range = glGetUniformLocation(backdrop->grey_program, "u_range");
+    backdrop->uniforms.ball = glGetUniformLocation(p, "u_ball");
+    backdrop->uniforms.to_light = glGetUniformLocation(p, "u_to_light");
+    backdrop->uniforms.intrinsics = glGetUniformLocation(p, "u_intrinsics");
+    return RLF_OK;
+}
+
+static rlf_result make_framebuffer(int32_t width, int32_t height, gl_backdrop *backdrop)
+{
+    backdrop->texture = gl_texture_create(GL_NEAREST);
+    gl_texture_allocate_rgba8(&backdrop->texture, width, height);
+    glGenFramebuffers(1, &backdrop->framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, backdrop->framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+                           backdrop->texture.name, 0);
+    GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    if (status != GL_FRAMEBUFFER_COMPLETE) {
+        return rlf_fail(RLF_ERROR_DEVICE,
+                        "OpenGL: no texture of %d x %d to draw into (status 0x%x): use --renderer "
+                        "soft",
+                        (int)width, (int)height, (unsigned)status);
+    }
+    return RLF_OK;
+}
+
+rlf_result gl_backdrop_create(bool is_es, int32_t width, int32_t height, gl_backdrop *out)
+{
+    *out = (gl_backdrop){0};
+    rlf_result result = make_programs(is_es, out);
+    if (result == RLF_OK) {
+        result = make_framebuffer(width, height, out);
+    }
+    if (result != RLF_OK) {
+        gl_backdrop_destroy(out);
+        return result;
+    }
+    glGenVertexArrays(1, &out->empty_array);
+    return RLF_OK;
+}
+
+void gl_backdrop_destroy(gl_backdrop *backdrop)
+{
+    glDeleteProgram(backdrop->color_program);
+    glDeleteProgram(backdrop->grey_program);
+    glDeleteProgram(backdrop->shadow_program);
+    glDeleteVertexArrays(1, &backdrop->empty_array);
+    glDeleteFramebuffers(1, &backdrop->framebuffer);
+    gl_texture_destroy(&backdrop->texture);
+    *backdrop = (gl_backdrop){0};
+}
+
+static void bind(const gl_backdrop *backdrop)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, backdrop->framebuffer);
+    glViewport(0, 0, backdrop->texture.width, backdrop->texture.height);
+    glBindVertexArray(backdrop->empty_array);
+}
+
+static void unbind(void)
+{
+    glBindVertexArray(0);
+    glUseProgram(0);
+}
+
+void gl_backdrop_draw_color(const gl_backdrop *backdrop, const gl_texture *color)
+{
+    bind(backdrop);
+    glUseProgram(backdrop->color_program);
+    glUniform2f(backdrop->uniforms.color_size, (GLfloat)backdrop->texture.width,
+                (GLfloat)backdrop->texture.height);
+    gl_texture_bind(color, UNIT_COLOR);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    unbind();
+}
+
+void gl_backdrop_draw_grey(const gl_backdrop *backdrop, const gl_texture *real_depth, double near_z,
+                           double far_z)
+{
+    bind(backdrop);
+    glUseProgram(backdrop->grey_program);
+    glUniform2f(backdrop->uniforms.grey_range, (GLfloat)near_z, (GLfloat)far_z);
+    gl_texture_bind(real_depth, UNIT_REAL_DEPTH);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    unbind();
+}
+
+/* Limits drawing to the pixels that a ball's shadow can reach; false when there are none. */
+static bool limit_to_reach(const rlf_camera *k, rlf_vec3 center, double radius)
+{
+    if (!(center.z > VIEW_NEAR_M)) {
+        return false;
+    }
+    double near_z = rlf_max(center.z - 0.5 * SHADOW_REACH * radius, 0.1);
+    double u = k->fx * center.x / center.z + k->cx;
+    double v = k->fy * center.y / center.z + k->cy;
+    double reach_u = k->fx * SHADOW_REACH * radius / near_z;
+    double reach_v = k->fy * SHADOW_REACH * radius / near_z;
+    GLint x0 = (GLint)rlf_clamp(u - reach_u, 0, k->width);
+    GLint y0 = (GLint)rlf_clamp(v - reach_v, 0, k->height);
+    GLint x1 = (GLint)rlf_clamp(u + reach_u, 0, k->width);
+    GLint y1 = (GLint)rlf_clamp(v + reach_v, 0, k->height);
+    glScissor(x0, y0, x1 - x0, y1 - y0);
+    return x0 < x1 && y0 < y1;
+}
+
+void gl_backdrop_draw_shadows(const gl_backdrop *backdrop, const gl_backdrop_shadows *shadows,
+                              const rlf_snapshot *snapshot)
+{
+    const rlf_camera *k = &shadows->view->camera;
+    bind(backdrop);
+    glUseProgram(backdrop->shadow_program);
+    glUniform4f(backdrop->uniforms.intrinsics, (GLfloat)k->fx, (GLfloat)k->fy, (GLfloat)k->cx,
+                (GLfloat)k->cy);
+    glUniform3f(backdrop->uniforms.to_light, (GLfloat)shadows->to_light.x,
+                (GLfloat)shadows->to_light.y, (GLfloat)shadows->to_light.z);
+    gl_texture_bind(shadows->real_depth, UNIT_REAL_DEPTH);
+    glEnable(GL_SCISSOR_TEST);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ZERO, GL_SRC_COLOR);
+    for (int32_t i = 0; i < snapshot->body_count; i++) {
+        const rlf_body_state *body = &snapshot->bodies[i];
+        rlf_vec3 center = rlf_transform(&shadows->view->T_picture_world, body->T_world_body.p);
+        double radius = SHADOW_BALL_RADIUS * rlf_shape_radius(&body->shape);
+        if (limit_to_reach(k, center, radius)) {
+            glUniform4f(backdrop->uniforms.ball, (GLfloat)center.x, (GLfloat)center.y,
+                        (GLfloat)center.z, (GLfloat)(radius * radius));
+            glDrawArrays(GL_TRIANGLES, 0, 3);
+        }
+    }
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
+    unbind();
+}

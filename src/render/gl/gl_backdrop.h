@@ -1,0 +1,40 @@
+/* The real world behind the bodies: the colour image, or depth in grey, with the bodies' shadows on
+ * it, in a texture of the picture's size. */
+#ifndef RLF_RENDER_GL_BACKDROP_H
+#define RLF_RENDER_GL_BACKDROP_H
+
+#include "gl_texture.h"
+#include "gl_view.h"
+
+#include "relief/snapshot.h"
+
+typedef struct gl_backdrop {
+    GLuint framebuffer, empty_array;
+    gl_texture texture; /* the result */
+    GLuint color_program, grey_program, shadow_program;
+    struct {
+        GLint color_size;
+        GLint grey_range;
+        GLint ball, to_light, intrinsics;
+    } uniforms;
+} gl_backdrop;
+
+rlf_result gl_backdrop_create(bool is_es, int32_t width, int32_t height, gl_backdrop *out);
+void gl_backdrop_destroy(gl_backdrop *backdrop);
+
+/* Each draws over what is there; the framebuffer stays bound after the first of the two. */
+void gl_backdrop_draw_color(const gl_backdrop *backdrop, const gl_texture *color);
+/* Near is light, far is dark, unknown is black. */
+void gl_backdrop_draw_grey(const gl_backdrop *backdrop, const gl_texture *real_depth, double near_z,
+                           double far_z);
+
+/* Darkens what the bodies keep the light from. to_light: unit, picture camera frame. */
+typedef struct gl_backdrop_shadows {
+    const gl_view *view;
+    const gl_texture *real_depth;
+    rlf_vec3 to_light;
+} gl_backdrop_shadows;
+void gl_backdrop_draw_shadows(const gl_backdrop *backdrop, const gl_backdrop_shadows *shadows,
+                              const rlf_snapshot *snapshot);
+
+#endif
