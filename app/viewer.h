@@ -1,0 +1,37 @@
+/* The window of `relief run`: shows a pipeline's pictures and takes keys and the mouse. */
+#ifndef RELIEF_APP_VIEWER_H
+#define RELIEF_APP_VIEWER_H
+
+#include "relief/pipeline.h"
+
+#include <signal.h>
+
+/* Gets every frame after it went through the pipeline; an error ends the run. */
+typedef rlf_result (*viewer_frame_fn)(void *context, const rlf_pipeline_output *frame);
+/* Saves a picture and writes where to, e.g. "saved out/000001.png", for the screen. */
+typedef rlf_result (*viewer_picture_fn)(void *context, const rlf_image_rgba8 *image,
+                                        char *out_message, size_t message_size);
+
+typedef struct viewer_options {
+    const char *title;            /* of the window; required */
+    const char *source_name;      /* shown on screen; required */
+    double frames_per_second;     /* of playback; 0 = as frames come */
+    int64_t frame_count;          /* stop after so many; -1 = when the user closes the window */
+    bool use_gl;                  /* draw with OpenGL; the soft renderer otherwise */
+    rlf_view view;                /* to start with */
+    rlf_pose T_world_camera;      /* as the pipeline's */
+    viewer_frame_fn on_frame;     /* NULL = none */
+    viewer_picture_fn on_picture; /* NULL = pictures cannot be saved */
+    void *context;                /* of both */
+    const volatile sig_atomic_t *interrupted; /* not 0 = stop, e.g. by Ctrl-C; NULL = none */
+} viewer_options;
+
+viewer_options viewer_options_default(void);
+
+/* Opens a window and runs until it is closed, frame_count is reached or it is interrupted. The
+ * pipeline's compositor must have been made with enable_overlay. A failing OpenGL renderer is
+ * replaced by the soft one with a warning; afterwards the pipeline has a soft compositor.
+ * RLF_ERROR_DEVICE: no window to be had (no display, or no OpenGL to show pictures with). */
+rlf_result viewer_run(rlf_pipeline *pipeline, const viewer_options *options);
+
+#endif

@@ -1,0 +1,44 @@
+/* A GLFW window with an OpenGL context, and what the user did in it. */
+#ifndef RELIEF_APP_VIEWER_WINDOW_H
+#define RELIEF_APP_VIEWER_WINDOW_H
+
+#include "relief/base.h"
+
+typedef struct GLFWwindow GLFWwindow;
+
+/* Wishes since the last look, to be cleared by who fulfils them. */
+typedef struct viewer_wishes {
+    bool toggle_pause, step, restart, toggle_help, next_view, save_picture, throw_body;
+    bool refresh;               /* the window must be drawn again */
+    int32_t view;               /* -1 = none */
+    double throw_x, throw_y;    /* window position */
+    double throw_drag_fraction; /* of the window's height */
+} viewer_wishes;
+
+typedef struct viewer_window {
+    GLFWwindow *handle;
+    viewer_wishes wishes;
+    bool is_dragging;
+    double press_x, press_y;
+    int32_t windowed[4]; /* x, y, width, height before full screen */
+} viewer_window;
+
+/* Opens a window and makes its context current: OpenGL 3.3, else ES 3.0. `out` must stay where it
+ * is until closed. One window per program. RLF_ERROR_DEVICE says why there is none. */
+rlf_result viewer_window_open(const char *title, int32_t width, int32_t height, viewer_window *out);
+void viewer_window_close(viewer_window *window);
+
+/* True when the user wants to end. */
+bool viewer_window_should_close(const viewer_window *window);
+/* Takes events, waiting for one at most this long; 0 does not wait. */
+void viewer_window_poll(viewer_window *window, double timeout_s);
+/* Pixels of the default framebuffer; 0 while minimised. */
+void viewer_window_get_framebuffer_size(const viewer_window *window, int32_t *out_width,
+                                        int32_t *out_height);
+/* Size in the unit of mouse positions. */
+void viewer_window_get_size(const viewer_window *window, int32_t *out_width, int32_t *out_height);
+/* Drag of the button that is down now as a part of the window's height; < 0 when none is. */
+double viewer_window_get_drag(const viewer_window *window);
+void viewer_window_swap(viewer_window *window);
+
+#endif
