@@ -23,6 +23,24 @@ typedef enum rlf_synthetic_scene {
     RLF_SYNTHETIC_HAND = 5    /* a hand moves close to the camera (0.6-1.2 m) */
 } rlf_synthetic_scene;
 
+/* Values of rlf_truth.label. The first four are the room's shell: endlessly thick, thickness 0. */
+typedef enum rlf_synthetic_label {
+    RLF_SYNTHETIC_LABEL_WALL = 1,
+    RLF_SYNTHETIC_LABEL_FLOOR = 2,
+    RLF_SYNTHETIC_LABEL_CEILING = 3,
+    RLF_SYNTHETIC_LABEL_COLUMN = 4,
+    RLF_SYNTHETIC_LABEL_CUPBOARD = 5,
+    RLF_SYNTHETIC_LABEL_TABLE = 6,
+    RLF_SYNTHETIC_LABEL_BOX_LARGE = 7,
+    RLF_SYNTHETIC_LABEL_BOX_SMALL = 8,
+    RLF_SYNTHETIC_LABEL_BOX_TOP = 9,
+    RLF_SYNTHETIC_LABEL_BALL = 10,
+    RLF_SYNTHETIC_LABEL_CHAIR = 11,
+    RLF_SYNTHETIC_LABEL_PERSON = 12, /* from here on: foreground */
+    RLF_SYNTHETIC_LABEL_BOOK = 13,
+    RLF_SYNTHETIC_LABEL_HAND = 14
+} rlf_synthetic_label;
+
 typedef struct rlf_synthetic_def {
     uint32_t cookie;
     rlf_synthetic_scene scene; /* default room */

@@ -1,0 +1,96 @@
+/* The source object: caller's methods plus what is constant about them. */
+#include "capture/source_object.h"
+
+struct rlf_source {
+    rlf_source_methods methods;
+    rlf_source_info info;
+    void *self;
+};
+
+static rlf_result check_info(const rlf_source_info *info)
+{
+    rlf_result result = rlf_camera_check(&info->rig.depth, "source: depth camera");
+    if (result == RLF_OK && info->rig.has_color) {
+        result = rlf_camera_check(&info->rig.color, "source: color camera");
+    }
+    return result;
+}
+
+rlf_result rlf_source_create_custom(const rlf_source_methods *methods, const rlf_source_info *info,
+                                    void *self, rlf_source **out)
+{
+    if (!RLF_ASSERT(methods != NULL && methods->next != NULL && info != NULL && out != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    *out = NULL;
+    rlf_result result = check_info(info);
+    if (result != RLF_OK) {
+        return result;
+    }
+    rlf_source *source = rlf_alloc(sizeof(*source));
+    if (source == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    source->methods = *methods;
+    source->info = *info;
+    source->info.name[sizeof(source->info.name) - 1] = '\0';
+    source->self = self;
+    *out = source;
+    return RLF_OK;
+}
+
+void rlf_source_destroy(rlf_source **source)
+{
+    if (source == NULL || *source == NULL) {
+        return;
+    }
+    if ((*source)->methods.destroy != NULL) {
+        (*source)->methods.destroy((*source)->self);
+    }
+    rlf_free(*source);
+    *source = NULL;
+}
+
+const rlf_source_info *rlf_source_get_info(const rlf_source *source)
+{
+    return RLF_ASSERT(source != NULL) ? &source->info : NULL;
+}
+
+rlf_result rlf_source_next(rlf_source *source, rlf_frame *out_frame)
+{
+    if (!RLF_ASSERT(source != NULL && out_frame != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    rlf_frame frame = {.rig = &source->info.rig};
+    rlf_result result = source->methods.next(source->self, &frame);
+    frame.rig = &source->info.rig;
+    if (result == RLF_OK) {
+        *out_frame = frame;
+    }
+    return result;
+}
+
+rlf_result rlf_source_restart(rlf_source *source)
+{
+    if (!RLF_ASSERT(source != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    if (source->methods.restart == NULL) {
+        return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: this source cannot start again; open it anew",
+                        source->info.name);
+    }
+    return source->methods.restart(source->self);
+}
+
+const rlf_truth *rlf_source_get_truth(rlf_source *source)
+{
+    if (!RLF_ASSERT(source != NULL) || source->methods.truth == NULL) {
+        return NULL;
+    }
+    return source->methods.truth(source->self);
+}
+
+void *capture_source_self(const rlf_source *source, rlf_result (*next)(void *, rlf_frame *))
+{
+    return source != NULL && source->methods.next == next ? source->self : NULL;
+}

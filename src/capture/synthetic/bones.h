@@ -1,0 +1,52 @@
+/* The rigid segments of everything that moves, and the solids that are fixed to each. */
+#ifndef RLF_CAPTURE_SYNTHETIC_BONES_H
+#define RLF_CAPTURE_SYNTHETIC_BONES_H
+
+#include "capture/synthetic/scene.h"
+
+/* Limbs come in pairs: left, right. A bone's frame has its origin at its upper joint, y along the
+ * bone to the lower joint and z forward (hands: z out of the back of the hand). */
+typedef enum synth_bone {
+    SYNTH_PELVIS = 0,
+    SYNTH_CHEST,
+    SYNTH_HEAD,
+    SYNTH_UPPER_ARM,
+    SYNTH_FOREARM = SYNTH_UPPER_ARM + 2,
+    SYNTH_PALM = SYNTH_FOREARM + 2,
+    SYNTH_THIGH = SYNTH_PALM + 2,
+    SYNTH_SHIN = SYNTH_THIGH + 2,
+    SYNTH_FOOT = SYNTH_SHIN + 2,
+    SYNTH_BOOK_BONE = SYNTH_FOOT + 2,
+    SYNTH_FINGER,                         /* four proximal segments ... */
+    SYNTH_FINGER_TIP = SYNTH_FINGER + 4,  /* ... and four distal ones */
+    SYNTH_THUMB = SYNTH_FINGER_TIP + 4,
+    SYNTH_BONE_COUNT
+} synth_bone;
+
+/* A solid fixed to a bone; numbers in metres, bone frame. */
+typedef struct synth_flesh {
+    const char *name;
+    int bone;
+    synth_material material;
+    synth_shape_type type;
+    rlf_vec3 offset;
+    char axis; /* of the bone that the cone's axis runs along: 'x', 'y' or 'z' */
+    rlf_vec3 size;
+    double length, radius_a, radius_b;
+} synth_flesh;
+
+/* Bones of the person (and the book he holds) at time t, in the camera frame. */
+void synth_person_bones(const synth_scene *scene, double t, rlf_pose bones[SYNTH_BONE_COUNT]);
+/* Bones of the arm in front of the camera at time t. */
+void synth_hand_bones(const synth_scene *scene, double t, rlf_pose bones[SYNTH_BONE_COUNT]);
+
+/* Pose at `origin` with y along `direction` and z as near to `forward` as possible. */
+rlf_pose synth_bone_pose(rlf_vec3 origin, rlf_vec3 direction, rlf_vec3 forward);
+
+extern const synth_flesh synth_person_flesh[];
+extern const int32_t synth_person_flesh_count;
+extern const synth_flesh synth_hand_flesh[];
+extern const int32_t synth_hand_flesh_count;
+extern const synth_flesh synth_book_flesh;
+
+#endif

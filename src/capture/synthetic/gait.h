@@ -1,0 +1,40 @@
+/* Where the person stands and how he walks: path, heading, footfalls and gestures over time. */
+#ifndef RLF_CAPTURE_SYNTHETIC_GAIT_H
+#define RLF_CAPTURE_SYNTHETIC_GAIT_H
+
+#include "relief/synthetic.h"
+
+/* Distance of each foot from the middle plane of the body, metres. */
+#define SYNTH_FOOT_OFFSET 0.085
+
+/* Index of a side: 0 left, 1 right. */
+typedef struct synth_footing {
+    rlf_vec3 position; /* of the ankle's foot point on the floor; y is height above the floor */
+    double heading;    /* radians, 0 = along +z, pi/2 = along +x */
+} synth_footing;
+
+typedef struct synth_gait {
+    rlf_vec3 position; /* of the body on the floor, y = 0 */
+    double heading;
+    double walking;       /* 0 standing .. 1 at full stride */
+    double stride;        /* steps since the walk began: whole at mid-stance */
+    double swing;         /* left foot's lead over the right one, in steps */
+    synth_footing foot[2];
+    double reach;         /* 0..1: how far the right arm follows its gesture */
+    double gesture_time;  /* s since the gesture began */
+} synth_gait;
+
+/* t in seconds since the first frame; the script of each scene repeats for ever. */
+synth_gait synth_gait_at(rlf_synthetic_scene kind, double t);
+
+/* Seconds after which the scene's script starts again. */
+double synth_gait_period(rlf_synthetic_scene kind);
+
+/* 0 for x <= 0, 1 for x >= 1, between them 3 x^2 - 2 x^3. */
+static inline double synth_smooth(double x)
+{
+    double c = rlf_clamp(x, 0.0, 1.0);
+    return c * c * (3.0 - 2.0 * c);
+}
+
+#endif

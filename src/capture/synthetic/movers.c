@@ -1,0 +1,66 @@
+/* Puts the solids on the bones, with the velocity of their rigid motion. */
+#include "capture/synthetic/bones.h"
+
+#define DIFFERENCE_S 1e-3 /* half the interval of the central difference: error ~ h^2 / 6 jerk */
+
+typedef void (*bones_fn)(const synth_scene *, double, rlf_pose[SYNTH_BONE_COUNT]);
+
+/* Bones now and on both sides of now. */
+typedef struct motion {
+    rlf_pose before[SYNTH_BONE_COUNT];
+    rlf_pose now[SYNTH_BONE_COUNT];
+    rlf_pose after[SYNTH_BONE_COUNT];
+} motion;
+
+static rlf_pose pose_on_bone(const rlf_pose *bone, const synth_flesh *flesh)
+{
+    /* Turns the shape's y axis into the bone's x or z axis. */
+    rlf_pose local = {flesh->offset, rlf_quat_identity()};
+    if (flesh->axis == 'x') {
+        local.q = rlf_quat_from_axis_angle(rlf_vec3_make(0, 0, 1), -0.5 * RLF_PI);
+    } else if (flesh->axis == 'z') {
+        local.q = rlf_quat_from_axis_angle(rlf_vec3_make(1, 0, 0), 0.5 * RLF_PI);
+    }
+    return rlf_pose_mul(bone, &local);
+}
+
+static void put_flesh(synth_scene *scene, const synth_flesh *flesh, int32_t label, const motion *m)
+{
+    synth_part *part = &scene->movers[scene->mover_count++];
+    rlf_pose before = pose_on_bone(&m->before[flesh->bone], flesh);
+    rlf_pose after = pose_on_bone(&m->after[flesh->bone], flesh);
+    rlf_quat turn = rlf_quat_mul(after.q, rlf_quat_conjugate(before.q));
+    double rate = (turn.w < 0.0 ? -2.0 : 2.0) / (2.0 * DIFFERENCE_S);
+    *part = (synth_part){.name = flesh->name, .label = label, .material = flesh->material};
+    part->shape.type = flesh->type;
+    part->shape.size = flesh->size;
+    part->shape.length = flesh->length;
+    part->shape.radius_a = flesh->radius_a;
+    part->shape.radius_b = flesh->radius_b;
+    part->shape.T_camera_shape = pose_on_bone(&m->now[flesh->bone], flesh);
+    part->velocity = rlf_scale(rlf_sub(after.p, before.p), 1.0 / (2.0 * DIFFERENCE_S));
+    part->angular_velocity = rlf_scale(rlf_vec3_make(turn.x, turn.y, turn.z), rate);
+}
+
+void synth_scene_move(synth_scene *scene, double t)
+{
+    scene->mover_count = 0;
+    if (scene->kind == RLF_SYNTHETIC_EMPTY) {
+        return;
+    }
+    bool is_hand = scene->kind == RLF_SYNTHETIC_HAND;
+    bones_fn bones = is_hand ? synth_hand_bones : synth_person_bones;
+    motion m;
+    bones(scene, t - DIFFERENCE_S, m.before);
+    bones(scene, t, m.now);
+    bones(scene, t + DIFFERENCE_S, m.after);
+    const synth_flesh *flesh = is_hand ? synth_hand_flesh : synth_person_flesh;
+    int32_t count = is_hand ? synth_hand_flesh_count : synth_person_flesh_count;
+    int32_t label = is_hand ? RLF_SYNTHETIC_LABEL_HAND : RLF_SYNTHETIC_LABEL_PERSON;
+    for (int32_t i = 0; i < count; i++) {
+        put_flesh(scene, &flesh[i], label, &m);
+    }
+    if (scene->kind == RLF_SYNTHETIC_BOOK) {
+        put_flesh(scene, &synth_book_flesh, RLF_SYNTHETIC_LABEL_BOOK, &m);
+    }
+}

@@ -1,0 +1,159 @@
+/* The noise recipe. Every number is a function of (seed, frame, pixel). */
+#include "capture/synthetic/noise.h"
+#include "capture/synthetic/hash.h"
+
+#include <string.h>
+
+#define AMPLITUDE_THRESHOLD 0.0042f
+#define AMPLITUDE_SIGMA 0.002f
+#define JUMP_SHARE 0.04f        /* of the depth: second difference that counts as a jump */
+#define FLYING_PROBABILITY 0.5f /* that a jump pixel mixes both sides */
+#define FILTER_AT_JUMP 0.95f    /* that the driver's edge filter removes a jump pixel */
+#define FILTER_BESIDE_JUMP 0.26f
+
+void synth_noise_init(synth_noise *noise, uint64_t seed)
+{
+    const double theta_max = 80.0 * RLF_PI / 180.0;
+    *noise = (synth_noise){.seed = synth_hash2((uint32_t)seed, (uint32_t)(seed >> 32))};
+    for (int i = 0; i <= SYNTH_INCIDENCE_STEPS; i++) {
+        double theta = rlf_min(rlf_acos((double)i / SYNTH_INCIDENCE_STEPS), theta_max);
+        double ratio = theta / (0.5 * RLF_PI - theta);
+        noise->incidence[i] = (float)(ratio * ratio);
+    }
+}
+
+float synth_noise_sigma(const synth_noise *noise, float z, float cosine)
+{
+    float c = cosine < 0.0f ? 0.0f : (cosine > 1.0f ? 1.0f : cosine);
+    float x = c * (float)SYNTH_INCIDENCE_STEPS;
+    int32_t i = (int32_t)x;
+    i = i < SYNTH_INCIDENCE_STEPS ? i : SYNTH_INCIDENCE_STEPS - 1;
+    float f = x - (float)i;
+    float incidence = noise->incidence[i] + (noise->incidence[i + 1] - noise->incidence[i]) * f;
+    return 1.5f - 0.5f * z + 0.3f * z * z + 0.1f * z * sqrtf(z) * incidence;
+}
+
+float synth_noise_margin(float reflectance, float z, float cosine, float vignette)
+{
+    float amplitude = reflectance * cosine / (z * z) * vignette;
+    return (amplitude - AMPLITUDE_THRESHOLD) / AMPLITUDE_SIGMA;
+}
+
+double synth_noise_vignette(double u, double v)
+{
+    double x = (u - 255.5) / 300.0;
+    double y = (v - 211.5) / 258.0;
+    return 1.0 / (1.0 + rlf_exp(60.0 * (sqrt(x * x + y * y) - 1.045)));
+}
+
+static float magnitude(float x)
+{
+    return x < 0.0f ? -x : x;
+}
+
+static float bend_x(const float *z, size_t i)
+{
+    return magnitude(z[i - 1] - 2.0f * z[i] + z[i + 1]);
+}
+
+static float bend_y(const float *z, size_t i)
+{
+    return magnitude(z[i - SYNTH_DEPTH_WIDTH] - 2.0f * z[i] + z[i + SYNTH_DEPTH_WIDTH]);
+}
+
+uint8_t synth_is_jump(const float *z, size_t i)
+{
+    float limit = JUMP_SHARE * z[i];
+    return (uint8_t)((bend_x(z, i) > limit) | (bend_y(z, i) > limit));
+}
+
+static uint16_t quantise(const synth_noise *noise, float depth_mm)
+{
+    int is_inside = (depth_mm >= noise->min_mm) & (depth_mm <= noise->max_mm);
+    return (uint16_t)(is_inside ? (int32_t)(depth_mm + 0.5f) : 0);
+}
+
+static void apply_axial(const synth_noise *noise, const synth_noise_row *row, uint32_t key,
+                        uint16_t *out)
+{
+    size_t first = (size_t)row->y * SYNTH_DEPTH_WIDTH;
+    const float *z = row->z + first;
+    const float *sigma = row->sigma + first;
+    const float *margin = row->margin + first;
+    for (int32_t x = 0; x < SYNTH_DEPTH_WIDTH; x++) {
+        uint32_t h = synth_hash(key + (uint32_t)x * 0x9e3779b9u);
+        uint32_t h2 = h * 0x9e3779b1u;
+        h2 ^= h2 >> 15;
+        float depth = z[x] * 1000.0f + sigma[x] * synth_normal(h);
+        int is_lit = margin[x] + synth_normal(h2) >= 0.0f;
+        out[x] = quantise(noise, is_lit ? depth : 0.0f);
+    }
+}
+
+/* The two sides of the jump at index i, mixed. */
+static float flying_depth(const float *z, size_t i, float share)
+{
+    size_t step = bend_x(z, i) > bend_y(z, i) ? 1 : SYNTH_DEPTH_WIDTH;
+    return share * z[i - step] + (1.0f - share) * z[i + step];
+}
+
+static void apply_jump(const synth_noise *noise, const synth_noise_row *row, uint32_t key,
+                       int32_t x, uint16_t *out)
+{
+    size_t i = (size_t)row->y * SYNTH_DEPTH_WIDTH + (size_t)x;
+    uint32_t h = synth_hash(key ^ ((uint32_t)x * 0x85ebca6bu + 1u));
+    float choice = synth_uniform(h);
+    bool is_jump = row->jump[i] != 0;
+    if (is_jump && choice < FLYING_PROBABILITY && out[x] != 0) {
+        uint32_t h2 = synth_hash(h + 0x9e3779b9u);
+        out[x] = quantise(noise, 1000.0f * flying_depth(row->z, i, synth_uniform(h2)));
+    }
+    float removed = is_jump ? FILTER_AT_JUMP : FILTER_BESIDE_JUMP;
+    if (noise->enable_edge_filter && synth_uniform(synth_hash(h ^ 0x2545f491u)) < removed) {
+        out[x] = 0;
+    }
+}
+
+/* Visits the pixels that have a jump in their 3x3 neighbourhood. */
+static void apply_jumps(const synth_noise *noise, const synth_noise_row *row, uint32_t key,
+                        uint16_t *out)
+{
+    const uint8_t *jump = row->jump + (size_t)row->y * SYNTH_DEPTH_WIDTH;
+    uint8_t column[SYNTH_DEPTH_WIDTH];
+    uint8_t ring[SYNTH_DEPTH_WIDTH] = {0};
+    for (int32_t x = 0; x < SYNTH_DEPTH_WIDTH; x++) {
+        column[x] = jump[x - SYNTH_DEPTH_WIDTH] | jump[x] | jump[x + SYNTH_DEPTH_WIDTH];
+    }
+    for (int32_t x = 1; x < SYNTH_DEPTH_WIDTH - 1; x++) {
+        ring[x] = column[x - 1] | column[x] | column[x + 1];
+    }
+    for (int32_t block = 0; block < SYNTH_DEPTH_WIDTH; block += 8) {
+        uint64_t any;
+        memcpy(&any, ring + block, sizeof(any));
+        for (int32_t x = block; any != 0 && x < block + 8; x++) {
+            if (ring[x] != 0) {
+                apply_jump(noise, row, key, x, out);
+            }
+        }
+    }
+}
+
+void synth_noise_apply(const synth_noise *noise, const synth_noise_row *row, uint16_t *out)
+{
+    if (!noise->enable) {
+        const float *z = row->z + (size_t)row->y * SYNTH_DEPTH_WIDTH;
+        for (int32_t x = 0; x < SYNTH_DEPTH_WIDTH; x++) {
+            out[x] = quantise(noise, z[x] * 1000.0f);
+        }
+        return;
+    }
+    if (row->y == 0 || row->y == SYNTH_DEPTH_HEIGHT - 1) {
+        memset(out, 0, SYNTH_DEPTH_WIDTH * sizeof(*out));
+        return;
+    }
+    uint32_t key = synth_hash2(synth_hash2(noise->seed, row->frame), (uint32_t)row->y);
+    apply_axial(noise, row, key, out);
+    apply_jumps(noise, row, key, out);
+    out[0] = 0;
+    out[SYNTH_DEPTH_WIDTH - 1] = 0;
+}

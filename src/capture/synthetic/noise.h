@@ -1,0 +1,49 @@
+/* How a time-of-flight camera spoils true depth: axial noise, lost returns, mixed pixels at jumps
+ * and the driver's edge filter. */
+#ifndef RLF_CAPTURE_SYNTHETIC_NOISE_H
+#define RLF_CAPTURE_SYNTHETIC_NOISE_H
+
+#include "relief/frame.h"
+
+#define SYNTH_DEPTH_WIDTH 512
+#define SYNTH_DEPTH_HEIGHT 424
+#define SYNTH_INCIDENCE_STEPS 1024
+
+typedef struct synth_noise {
+    float incidence[SYNTH_INCIDENCE_STEPS + 1]; /* theta^2 / (pi/2 - theta)^2 over cos(theta) */
+    uint32_t seed;
+    bool enable;
+    bool enable_edge_filter;
+    float min_mm, max_mm; /* the sensor's range */
+} synth_noise;
+
+/* What the noise of one row needs. */
+typedef struct synth_noise_row {
+    const float *z;      /* true depth, metres, whole picture */
+    const float *sigma;  /* axial noise, millimetres */
+    const float *margin; /* amplitude above the threshold, in standard deviations */
+    const uint8_t *jump; /* 1 at depth jumps */
+    uint32_t frame;
+    int32_t y;
+} synth_noise_row;
+
+void synth_noise_init(synth_noise *noise, uint64_t seed);
+
+/* Axial standard deviation in mm at depth z (metres) and incidence cosine (Fankhauser et al. 2015,
+ * "Kinect v2 for mobile robot navigation"): 1.5 - 0.5 z + 0.3 z^2 + 0.1 z^1.5 theta^2 / (pi/2 -
+ * theta)^2, theta at most 80 degrees. */
+float synth_noise_sigma(const synth_noise *noise, float z, float cosine);
+
+/* Amplitude of the returned light above the driver's threshold, in standard deviations of it. */
+float synth_noise_margin(float reflectance, float z, float cosine, float vignette);
+
+/* Share of light that the lens passes at pixel (u, v). */
+double synth_noise_vignette(double u, double v);
+
+/* 1 where depth jumps between the neighbours of index i, which must not be on the border. */
+uint8_t synth_is_jump(const float *z, size_t i);
+
+/* Depth of row y in millimetres as the driver delivers it; 0 = missing. */
+void synth_noise_apply(const synth_noise *noise, const synth_noise_row *row, uint16_t *out);
+
+#endif

@@ -1,0 +1,194 @@
+/* "synthetic:NAME[?key=value[&key=value...]]" */
+#include "capture/synthetic/sensor.h"
+
+#include <string.h>
+
+#define PREFIX "synthetic:"
+#define SCENES "room, empty, thesis, chair, book, hand"
+#define KEYS "seed, frames, fps, noise, edge_filter, color"
+
+static const char *const scene_names[] = {"room", "empty", "thesis", "chair", "book", "hand"};
+#define SCENE_COUNT ((int)(sizeof(scene_names) / sizeof(scene_names[0])))
+
+/* A piece of the source string. */
+typedef struct piece {
+    const char *text;
+    size_t length;
+} piece;
+
+const char *synth_scene_name(rlf_synthetic_scene scene)
+{
+    return (int)scene >= 0 && (int)scene < SCENE_COUNT ? scene_names[scene] : NULL;
+}
+
+static bool is_word(piece p, const char *word)
+{
+    return strlen(word) == p.length && memcmp(p.text, word, p.length) == 0;
+}
+
+static piece until(const char *text, const char *stops)
+{
+    piece p = {text, strcspn(text, stops)};
+    return p;
+}
+
+/* Decimal digits only, at most `max`. */
+static bool read_integer(piece p, uint64_t max, uint64_t *out)
+{
+    uint64_t value = 0;
+    for (size_t i = 0; i < p.length; i++) {
+        if (p.text[i] < '0' || p.text[i] > '9') {
+            return false;
+        }
+        uint64_t digit = (uint64_t)(p.text[i] - '0');
+        if (value > (max - digit) / 10) {
+            return false;
+        }
+        value = 10 * value + digit;
+    }
+    *out = value;
+    return p.length > 0;
+}
+
+/* Digits with an optional decimal point. */
+static bool read_decimal(piece p, double *out)
+{
+    const char *point = memchr(p.text, '.', p.length);
+    piece whole = {p.text, point != NULL ? (size_t)(point - p.text) : p.length};
+    uint64_t value = 0;
+    if (!read_integer(whole, 1000000, &value)) {
+        return false;
+    }
+    *out = (double)value;
+    if (point == NULL) {
+        return true;
+    }
+    piece rest = {point + 1, p.length - whole.length - 1};
+    double scale = 1.0;
+    for (size_t i = 0; i < rest.length && i < 9; i++) {
+        scale *= 10.0;
+    }
+    rest.length = rest.length < 9 ? rest.length : 9;
+    bool is_number = read_integer(rest, 999999999, &value);
+    *out += (double)value / scale;
+    return is_number;
+}
+
+static bool read_size(piece p, rlf_synthetic_def *def)
+{
+    if (is_word(p, "0")) {
+        def->enable_color = false;
+        return true;
+    }
+    const char *cross = memchr(p.text, 'x', p.length);
+    if (cross == NULL) {
+        return false;
+    }
+    piece left = {p.text, (size_t)(cross - p.text)};
+    piece right = {cross + 1, p.length - left.length - 1};
+    uint64_t width = 0;
+    uint64_t height = 0;
+    if (!read_integer(left, 4096, &width) || !read_integer(right, 4096, &height) || width == 0 ||
+        height == 0) {
+        return false;
+    }
+    def->enable_color = true;
+    def->color_width = (int32_t)width;
+    def->color_height = (int32_t)height;
+    return true;
+}
+
+static bool read_switch(piece p, bool *out)
+{
+    *out = is_word(p, "1");
+    return is_word(p, "0") || is_word(p, "1");
+}
+
+/* What a key's value must be, in words; NULL when no such key exists. `is_good` says whether it is,
+ * and then it has been set in *def. */
+static const char *set_value(piece key, piece value, rlf_synthetic_def *def, bool *is_good)
+{
+    uint64_t number = 0;
+    if (is_word(key, "seed")) {
+        *is_good = read_integer(value, UINT64_MAX, &def->seed);
+        return "a whole number";
+    }
+    if (is_word(key, "frames")) {
+        bool is_endless = is_word(value, "-1");
+        *is_good = is_endless || read_integer(value, UINT32_MAX, &number);
+        def->frame_count = is_endless ? -1 : (int64_t)number;
+        return "-1 (endless) or a number of frames";
+    }
+    if (is_word(key, "fps")) {
+        *is_good = read_decimal(value, &def->frames_per_second) &&
+                   def->frames_per_second > 0.0 && def->frames_per_second <= 1000.0;
+        return "frames per second above 0, at most 1000";
+    }
+    if (is_word(key, "noise")) {
+        *is_good = read_switch(value, &def->enable_noise);
+        return "0 or 1";
+    }
+    if (is_word(key, "edge_filter")) {
+        *is_good = read_switch(value, &def->enable_edge_filter);
+        return "0 or 1";
+    }
+    if (is_word(key, "color")) {
+        *is_good = read_size(value, def);
+        return "WIDTHxHEIGHT, 1 to 4096 each, or 0 for none";
+    }
+    return NULL;
+}
+
+static rlf_result parse_option(const char *source, piece option, rlf_synthetic_def *def)
+{
+    piece key = until(option.text, "=&");
+    if (key.length >= option.length || option.text[key.length] != '=') {
+        return rlf_fail(RLF_ERROR_INVALID, "%s: '%.*s' is not key=value; keys are " KEYS, source,
+                        (int)option.length, option.text);
+    }
+    piece value = {option.text + key.length + 1, option.length - key.length - 1};
+    bool is_good = false;
+    const char *wanted = set_value(key, value, def, &is_good);
+    if (wanted == NULL) {
+        return rlf_fail(RLF_ERROR_INVALID, "%s: unknown key '%.*s'; use " KEYS, source,
+                        (int)key.length, key.text);
+    }
+    if (!is_good) {
+        return rlf_fail(RLF_ERROR_INVALID, "%s: %.*s is '%.*s'; use %s", source, (int)key.length,
+                        key.text, (int)value.length, value.text, wanted);
+    }
+    return RLF_OK;
+}
+
+rlf_result rlf_synthetic_parse(const char *source, rlf_synthetic_def *def)
+{
+    if (!RLF_ASSERT(source != NULL && def != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    if (strncmp(source, PREFIX, strlen(PREFIX)) != 0) {
+        return rlf_fail(RLF_ERROR_INVALID, "%s: does not start with '" PREFIX "'", source);
+    }
+    rlf_synthetic_def parsed = rlf_synthetic_def_default();
+    parsed.pool = def->cookie == parsed.cookie ? def->pool : NULL;
+    piece name = until(source + strlen(PREFIX), "?");
+    int scene = 0;
+    while (scene < SCENE_COUNT && !is_word(name, scene_names[scene])) {
+        scene++;
+    }
+    if (scene == SCENE_COUNT) {
+        return rlf_fail(RLF_ERROR_INVALID, "%s: unknown scene '%.*s'; use " SCENES, source,
+                        (int)name.length, name.text);
+    }
+    parsed.scene = (rlf_synthetic_scene)scene;
+    const char *next = name.text + name.length;
+    while (*next != '\0') {
+        piece option = until(next + 1, "&");
+        rlf_result result = parse_option(source, option, &parsed);
+        if (result != RLF_OK) {
+            return result;
+        }
+        next = option.text + option.length;
+    }
+    *def = parsed;
+    return RLF_OK;
+}

@@ -1,0 +1,71 @@
+/* What stands in the room, and who moves in it. */
+#ifndef RLF_CAPTURE_SYNTHETIC_SCENE_H
+#define RLF_CAPTURE_SYNTHETIC_SCENE_H
+
+#include "capture/synthetic/shape.h"
+#include "relief/synthetic.h"
+
+#define SYNTH_STATIC_MAX 48
+#define SYNTH_MOVER_MAX 40
+
+typedef enum synth_material {
+    SYNTH_WALL = 0,
+    SYNTH_FLOOR,
+    SYNTH_CEILING,
+    SYNTH_COLUMN,
+    SYNTH_CUPBOARD,
+    SYNTH_TABLE,
+    SYNTH_CARDBOARD,
+    SYNTH_BOX_RED,
+    SYNTH_BOX_TEAL,
+    SYNTH_BALL,
+    SYNTH_CHAIR,
+    SYNTH_SKIN,
+    SYNTH_FACE,
+    SYNTH_HAIR,
+    SYNTH_SHIRT,
+    SYNTH_TROUSERS,
+    SYNTH_SHOE,
+    SYNTH_BOOK,
+    SYNTH_MATERIAL_COUNT
+} synth_material;
+
+typedef struct synth_part {
+    synth_shape shape;
+    const char *name;
+    int32_t label; /* rlf_synthetic_label */
+    synth_material material;
+    rlf_vec3 velocity;         /* of the shape's origin, m/s, camera frame */
+    rlf_vec3 angular_velocity; /* rad/s, camera frame */
+} synth_part;
+
+typedef struct synth_scene {
+    rlf_synthetic_scene kind;
+    double floor_y;      /* height of the camera above the floor, metres */
+    double removal_time; /* s; when the last parts of the room are taken away; 0 = never */
+    synth_part statics[SYNTH_STATIC_MAX];
+    int32_t static_count;  /* at start */
+    int32_t removed_count; /* so many of the last statics go at removal_time */
+    synth_part movers[SYNTH_MOVER_MAX];
+    int32_t mover_count;
+} synth_scene;
+
+static inline bool synth_is_shell(int32_t label)
+{
+    return label >= RLF_SYNTHETIC_LABEL_WALL && label <= RLF_SYNTHETIC_LABEL_COLUMN;
+}
+
+/* Builds the room and names the movers; their poses are those of time 0. */
+void synth_scene_build(synth_scene *scene, rlf_synthetic_scene kind);
+
+/* Number of static parts that are there at time t (the first ones). */
+int32_t synth_scene_static_count(const synth_scene *scene, double t);
+
+/* Moves the movers to time t, seconds since the first frame. */
+void synth_scene_move(synth_scene *scene, double t);
+
+/* Part of parts[0..count) whose solid is nearest to p; out_normal points outwards. */
+const synth_part *synth_nearest(const synth_part *parts, int32_t count, rlf_vec3 p,
+                                double *out_distance, rlf_vec3 *out_normal);
+
+#endif

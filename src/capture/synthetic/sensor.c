@@ -1,0 +1,266 @@
+/* rlf_synthetic_create: the sensor's cameras, its frames and its truth. */
+#include "capture/synthetic/sensor.h"
+#include "capture/source_object.h"
+#include "base/cookie.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define KINECT_F 365.5          /* depth camera of the Kinect v2, pixels */
+#define KINECT_COLOR_F 1081.0   /* colour camera, pixels at 1920 x 1080 */
+#define KINECT_BASELINE 0.052   /* metres from the depth camera to the colour camera, along +x */
+#define COLOR_SIZE_MAX 4096
+#define FPS_MAX 1000.0
+#define FRAME_COUNT_MAX 4294967295 /* the noise is keyed by a 32-bit frame number */
+
+rlf_synthetic_def rlf_synthetic_def_default(void)
+{
+    rlf_synthetic_def def = {.cookie = RLF_DEF_COOKIE,
+                             .scene = RLF_SYNTHETIC_ROOM,
+                             .seed = 1,
+                             .frames_per_second = 30.0,
+                             .frame_count = 300,
+                             .enable_noise = true,
+                             .enable_edge_filter = true,
+                             .enable_color = true,
+                             .enable_truth = true,
+                             .color_width = 960,
+                             .color_height = 540};
+    return def;
+}
+
+static rlf_result check_def(const rlf_synthetic_def *def)
+{
+    if (synth_scene_name(def->scene) == NULL) {
+        return rlf_fail(RLF_ERROR_INVALID, "synthetic: scene is %d; use an rlf_synthetic_scene",
+                        (int)def->scene);
+    }
+    if (!(def->frames_per_second > 0.0 && def->frames_per_second <= FPS_MAX)) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "synthetic: frames_per_second is %g; use a number above 0, at most %g",
+                        def->frames_per_second, FPS_MAX);
+    }
+    if (def->frame_count < -1 || def->frame_count > FRAME_COUNT_MAX) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "synthetic: frame_count is %lld; use -1 (endless) or 0 to %lld",
+                        (long long)def->frame_count, (long long)FRAME_COUNT_MAX);
+    }
+    bool is_size = def->color_width >= 1 && def->color_width <= COLOR_SIZE_MAX &&
+                   def->color_height >= 1 && def->color_height <= COLOR_SIZE_MAX;
+    if (def->enable_color && !is_size) {
+        return rlf_fail(RLF_ERROR_INVALID, "synthetic: color size is %d x %d; use 1 to %d each",
+                        (int)def->color_width, (int)def->color_height, COLOR_SIZE_MAX);
+    }
+    return RLF_OK;
+}
+
+/* Nominal intrinsics without distortion; the principal point is the middle of the picture. */
+static rlf_rig make_rig(const rlf_synthetic_def *def)
+{
+    rlf_rig rig = {.T_color_depth = rlf_pose_identity(),
+                   .has_color = def->enable_color,
+                   .depth_min_m = 0.5,
+                   .depth_max_m = 4.5,
+                   /* 1.5 - 0.5 z + 0.3 z^2 mm: Fankhauser et al. 2015 for frontal surfaces */
+                   .noise = {0.0015, -0.0005, 0.0003}};
+    rig.depth = (rlf_camera){.width = SYNTH_DEPTH_WIDTH,
+                             .height = SYNTH_DEPTH_HEIGHT,
+                             .fx = KINECT_F,
+                             .fy = KINECT_F,
+                             .cx = 0.5 * (SYNTH_DEPTH_WIDTH - 1),
+                             .cy = 0.5 * (SYNTH_DEPTH_HEIGHT - 1)};
+    if (def->enable_color) {
+        double f = KINECT_COLOR_F * def->color_width / 1920.0;
+        rig.color = (rlf_camera){.width = def->color_width,
+                                 .height = def->color_height,
+                                 .fx = f,
+                                 .fy = f,
+                                 .cx = 0.5 * (def->color_width - 1),
+                                 .cy = 0.5 * (def->color_height - 1)};
+        rig.T_color_depth.p.x = -KINECT_BASELINE;
+    }
+    return rig;
+}
+
+static void sensor_destroy(void *self)
+{
+    synth_sensor *sensor = self;
+    synth_depth_destroy(&sensor->depth);
+    synth_color_destroy(&sensor->color);
+    rlf_free(sensor);
+}
+
+static void fill_truth(synth_sensor *sensor)
+{
+    const synth_depth *depth = &sensor->depth;
+    rlf_truth *truth = &sensor->truth;
+    truth->depth = depth->now.z;
+    truth->normal_x = depth->now.normal[0];
+    truth->normal_y = depth->now.normal[1];
+    truth->normal_z = depth->now.normal[2];
+    truth->label = depth->now.label;
+    truth->foreground = depth->foreground;
+    truth->thickness = depth->now.thickness;
+    truth->velocity_x = depth->velocity[0];
+    truth->velocity_y = depth->velocity[1];
+    truth->velocity_z = depth->velocity[2];
+    truth->background_depth = depth->room[depth->room_index].z;
+    truth->poses = sensor->poses;
+    truth->pose_count = sensor->scene.mover_count;
+    for (int32_t i = 0; i < sensor->scene.mover_count; i++) {
+        const synth_part *part = &sensor->scene.movers[i];
+        rlf_truth_pose *pose = &sensor->poses[i];
+        (void)snprintf(pose->name, sizeof(pose->name), "%s", part->name);
+        pose->label = part->label;
+        pose->T_camera_object = part->shape.T_camera_shape;
+    }
+}
+
+static rlf_result sensor_next(void *self, rlf_frame *out)
+{
+    synth_sensor *sensor = self;
+    const rlf_synthetic_def *def = &sensor->def;
+    if (sensor->next_frame >= (def->frame_count < 0 ? FRAME_COUNT_MAX : def->frame_count)) {
+        return RLF_END;
+    }
+    int64_t frame = sensor->next_frame++;
+    sensor->time = (double)frame / def->frames_per_second;
+    sensor->has_frame = true;
+    synth_scene_move(&sensor->scene, sensor->time);
+    bool is_removed = synth_scene_static_count(&sensor->scene, sensor->time) <
+                      sensor->scene.static_count;
+    synth_depth_render(&sensor->depth, (uint32_t)frame, is_removed ? 1 : 0);
+    if (def->enable_color) {
+        synth_color_render(&sensor->color, is_removed ? 1 : 0);
+        out->color = (rlf_image_rgba8){.data = sensor->color.out,
+                                       .width = def->color_width,
+                                       .height = def->color_height,
+                                       .stride = 4 * (ptrdiff_t)def->color_width};
+    }
+    if (def->enable_truth) {
+        fill_truth(sensor);
+    }
+    out->sequence = (uint64_t)frame;
+    out->time_ns = (int64_t)(sensor->time * 1e9 + 0.5);
+    out->depth_u16 = sensor->depth.out;
+    out->depth_stride = SYNTH_DEPTH_WIDTH * (ptrdiff_t)sizeof(uint16_t);
+    out->depth_units_per_metre = 1000.0;
+    return RLF_OK;
+}
+
+static rlf_result sensor_restart(void *self)
+{
+    synth_sensor *sensor = self;
+    sensor->next_frame = 0;
+    sensor->time = 0.0;
+    sensor->has_frame = false;
+    synth_scene_move(&sensor->scene, 0.0);
+    return RLF_OK;
+}
+
+static const rlf_truth *sensor_truth(void *self)
+{
+    synth_sensor *sensor = self;
+    return sensor->has_frame && sensor->def.enable_truth ? &sensor->truth : NULL;
+}
+
+synth_sensor *synth_sensor_of(const rlf_source *source)
+{
+    return capture_source_self(source, sensor_next);
+}
+
+static rlf_result sensor_create(const rlf_synthetic_def *def, const rlf_rig *rig,
+                                synth_sensor **out)
+{
+    synth_sensor *sensor = rlf_alloc(sizeof(*sensor));
+    if (sensor == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    sensor->def = *def;
+    synth_scene_build(&sensor->scene, def->scene);
+    sensor->depth.view.camera = rig->depth;
+    sensor->depth.pool = def->pool;
+    synth_noise *noise = &sensor->depth.noise;
+    synth_noise_init(noise, def->seed);
+    noise->enable = def->enable_noise;
+    noise->enable_edge_filter = def->enable_edge_filter;
+    noise->min_mm = (float)(1000.0 * rig->depth_min_m);
+    noise->max_mm = (float)(1000.0 * rig->depth_max_m);
+    rlf_result result = synth_depth_create(&sensor->depth, &sensor->scene, def->enable_truth);
+    if (result == RLF_OK && def->enable_color) {
+        sensor->color.view.camera = rig->color;
+        sensor->color.view.origin = rlf_neg(rig->T_color_depth.p);
+        sensor->color.pool = def->pool;
+        result = synth_color_create(&sensor->color, &sensor->scene);
+    }
+    if (result != RLF_OK) {
+        sensor_destroy(sensor);
+        return result;
+    }
+    *out = sensor;
+    return RLF_OK;
+}
+
+rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source **out)
+{
+    if (!RLF_ASSERT(def != NULL && def->cookie == RLF_DEF_COOKIE && out != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    *out = NULL;
+    rlf_result result = check_def(def);
+    if (result != RLF_OK) {
+        return result;
+    }
+    rlf_source_info info = {.rig = make_rig(def),
+                            .frame_count = def->frame_count,
+                            .frames_per_second = def->frames_per_second};
+    (void)snprintf(info.name, sizeof(info.name), "synthetic:%s", synth_scene_name(def->scene));
+    synth_sensor *sensor = NULL;
+    result = sensor_create(def, &info.rig, &sensor);
+    if (result != RLF_OK) {
+        return result;
+    }
+    static const rlf_source_methods methods = {sensor_next, sensor_restart, sensor_truth,
+                                               sensor_destroy};
+    result = rlf_source_create_custom(&methods, &info, sensor, out);
+    if (result != RLF_OK) {
+        sensor_destroy(sensor);
+    }
+    return result;
+}
+
+rlf_result rlf_synthetic_distance(rlf_source *source, rlf_vec3 p, double *out_distance,
+                                  rlf_vec3 *out_normal, int32_t *out_label)
+{
+    if (!RLF_ASSERT(source != NULL && out_distance != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    const synth_sensor *sensor = synth_sensor_of(source);
+    if (sensor == NULL) {
+        return rlf_fail(RLF_ERROR_INVALID, "%s: not a synthetic source, so its truth is unknown",
+                        rlf_source_get_info(source)->name);
+    }
+    const synth_scene *scene = &sensor->scene;
+    double distance;
+    rlf_vec3 normal;
+    double distance_to_mover;
+    rlf_vec3 normal_of_mover;
+    const synth_part *part =
+        synth_nearest(scene->statics, synth_scene_static_count(scene, sensor->time), p, &distance,
+                      &normal);
+    const synth_part *mover = synth_nearest(scene->movers, scene->mover_count, p,
+                                            &distance_to_mover, &normal_of_mover);
+    if (mover != NULL && distance_to_mover < distance) {
+        part = mover;
+        distance = distance_to_mover;
+        normal = normal_of_mover;
+    }
+    *out_distance = distance;
+    if (out_normal != NULL) {
+        *out_normal = normal;
+    }
+    if (out_label != NULL) {
+        *out_label = part->label;
+    }
+    return RLF_OK;
+}

@@ -1,0 +1,26 @@
+/* The synthetic sensor: the context behind a source made by rlf_synthetic_create. */
+#ifndef RLF_CAPTURE_SYNTHETIC_SENSOR_H
+#define RLF_CAPTURE_SYNTHETIC_SENSOR_H
+
+#include "capture/synthetic/color.h"
+#include "capture/synthetic/depth.h"
+
+typedef struct synth_sensor {
+    rlf_synthetic_def def;
+    synth_scene scene;
+    synth_depth depth;
+    synth_color color;
+    int64_t next_frame;
+    double time; /* of the frame given last, seconds; 0 before the first */
+    bool has_frame;
+    rlf_truth truth;
+    rlf_truth_pose poses[SYNTH_MOVER_MAX];
+} synth_sensor;
+
+/* Name of a scene as in "synthetic:NAME"; NULL outside the range. */
+const char *synth_scene_name(rlf_synthetic_scene scene);
+
+/* The sensor behind a source; NULL when the source is another kind. */
+synth_sensor *synth_sensor_of(const rlf_source *source);
+
+#endif

@@ -1,0 +1,135 @@
+/* Blob shadows. The floor is level and so is the camera: a picture row is a line of constant z on
+ * the floor, so the ellipses are drawn row by row. */
+#include "capture/synthetic/shadow.h"
+#include "capture/synthetic/light.h"
+
+#define ROW_MAX 4096
+#define PENUMBRA 0.10 /* metres of softness per metre between ball and floor */
+
+/* Shadow of the ball about c: projected from the lamp to the floor; softer and weaker with height.
+ */
+static void add_blob(synth_shadow *shadow, rlf_vec3 c, double radius, double floor_y)
+{
+    rlf_vec3 lamp = synth_lamp();
+    rlf_vec3 ray = rlf_sub(c, lamp);
+    if (!(ray.y > 0.1) || shadow->blob_count >= SYNTH_BLOB_MAX) {
+        return;
+    }
+    double s = (floor_y - lamp.y) / ray.y;
+    double height = rlf_max(0.0, floor_y - c.y);
+    double sharp = 1.25 * radius * s;
+    double soft = sharp + PENUMBRA * height + 0.02;
+    double level = sqrt(ray.x * ray.x + ray.z * ray.z);
+    double stretch = rlf_min(rlf_length(ray) / ray.y, 2.0);
+    synth_blob *blob = &shadow->blobs[shadow->blob_count++];
+    blob->x = (float)(lamp.x + ray.x * s);
+    blob->z = (float)(lamp.z + ray.z * s);
+    blob->along_x = (float)(level > 0.0 ? ray.x / level : 1.0);
+    blob->along_z = (float)(level > 0.0 ? ray.z / level : 0.0);
+    blob->short_radius = (float)soft;
+    blob->long_radius = (float)(soft * stretch);
+    blob->strength = (float)(0.8 * sharp * sharp / (soft * soft));
+}
+
+static void add_part(synth_shadow *shadow, const synth_shape *shape, double floor_y)
+{
+    if (shape->type != SYNTH_CONE) {
+        double radius = 0.5 * (shape->size.x + rlf_min(shape->size.y, shape->size.z));
+        add_blob(shadow, shape->T_camera_shape.p, radius, floor_y);
+        return;
+    }
+    for (int i = 0; i < 3; i++) {
+        double share = (i + 0.5) / 3.0;
+        rlf_vec3 p = rlf_transform(&shape->T_camera_shape,
+                                   rlf_vec3_make(0, share * shape->length, 0));
+        add_blob(shadow, p, shape->radius_a + (shape->radius_b - shape->radius_a) * share,
+                 floor_y);
+    }
+}
+
+static void widen_rect(synth_rect *rect, const synth_blob *blob, const synth_view *view,
+                       double floor_y)
+{
+    const rlf_camera *c = &view->camera;
+    double r = blob->long_radius;
+    double near = rlf_max(0.3, blob->z - r - view->origin.z);
+    double far = rlf_max(0.3, blob->z + r - view->origin.z);
+    double height = floor_y - view->origin.y;
+    double left = blob->x - r - view->origin.x;
+    double right = blob->x + r - view->origin.x;
+    double u0 = c->cx + c->fx * (left < 0.0 ? left / near : left / far);
+    double u1 = c->cx + c->fx * (right < 0.0 ? right / far : right / near);
+    double v0 = c->cy + c->fy * height / far;
+    double v1 = c->cy + c->fy * height / near;
+    synth_rect box = {(int32_t)rlf_clamp(u0, 0, c->width), (int32_t)rlf_clamp(v0, 0, c->height),
+                      (int32_t)rlf_clamp(u1 + 2, 0, c->width),
+                      (int32_t)rlf_clamp(v1 + 2, 0, c->height)};
+    *rect = synth_rect_union(*rect, box);
+}
+
+void synth_shadow_place(synth_shadow *shadow, const synth_scene *scene, const synth_view *view)
+{
+    shadow->blob_count = 0;
+    shadow->rect = (synth_rect){0, 0, 0, 0};
+    for (int32_t i = 0; i < scene->mover_count; i++) {
+        add_part(shadow, &scene->movers[i].shape, scene->floor_y);
+    }
+    for (int32_t i = 0; i < shadow->blob_count; i++) {
+        widen_rect(&shadow->rect, &shadow->blobs[i], view, scene->floor_y);
+    }
+}
+
+/* Multiplies light[i], pixel i of a row at floor depth z, by what the blob lets through: 1 - k (1 -
+ * d^2)^2 for the normalised distance d < 1. */
+static void dim_row(const synth_blob *blob, float x0, float step, float z, float *light,
+                    int32_t count)
+{
+    float dz = z - blob->z;
+    if (dz > blob->long_radius || dz < -blob->long_radius) {
+        return;
+    }
+    float first = (blob->x - blob->long_radius - x0) / step;
+    float last = (blob->x + blob->long_radius - x0) / step + 1.0f;
+    int32_t begin = first > 0.0f ? (first < (float)count ? (int32_t)first : count) : 0;
+    int32_t end = last < (float)count ? (last > 0.0f ? (int32_t)last : 0) : count;
+    for (int32_t i = begin; i < end; i++) {
+        float dx = x0 + step * (float)i - blob->x;
+        float along = (dx * blob->along_x + dz * blob->along_z) / blob->long_radius;
+        float aside = (dx * blob->along_z - dz * blob->along_x) / blob->short_radius;
+        float rest = 1.0f - along * along - aside * aside;
+        rest = rest > 0.0f ? rest : 0.0f;
+        light[i] *= 1.0f - blob->strength * rest * rest;
+    }
+}
+
+void synth_shadow_apply(const synth_shadow *shadow, const synth_view *view, double floor_y,
+                        int32_t y, const uint8_t *lamp, uint8_t *rgba)
+{
+    const rlf_camera *camera = &view->camera;
+    float light[ROW_MAX];
+    double slope = (y - camera->cy) / camera->fy;
+    int32_t count = shadow->rect.x1 - shadow->rect.x0;
+    if (slope <= 0.01 || count <= 0 || count > ROW_MAX) {
+        return;
+    }
+    double z = (floor_y - view->origin.y) / slope;
+    double x0 = view->origin.x + z * (shadow->rect.x0 - camera->cx) / camera->fx;
+    for (int32_t i = 0; i < count; i++) {
+        light[i] = 1.0f;
+    }
+    for (int32_t k = 0; k < shadow->blob_count; k++) {
+        dim_row(&shadow->blobs[k], (float)x0, (float)(z / camera->fx), (float)z, light, count);
+    }
+    for (int32_t i = 0; i < count; i++) {
+        size_t pixel = (size_t)y * (size_t)camera->width + (size_t)(shadow->rect.x0 + i);
+        if (lamp[pixel] == 0 || light[i] >= 0.999f) {
+            continue;
+        }
+        float linear = 1.0f - (1.0f - light[i]) * (float)lamp[pixel] * (1.0f / 255.0f);
+        float factor = sqrtf(linear); /* code values go about with the square root of light */
+        for (int c = 0; c < 3; c++) {
+            uint8_t *code = &rgba[4 * pixel + (size_t)c];
+            *code = (uint8_t)((float)*code * factor + 0.5f);
+        }
+    }
+}

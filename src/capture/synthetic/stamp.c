@@ -1,0 +1,214 @@
+/* Movers as stamps: where they project to, and their rows. */
+#include "capture/synthetic/stamp.h"
+
+#define NEAREST 0.05 /* metres; what is nearer is not drawn */
+
+/* Coefficients of one row: direction d + i step_d and origin o + i step_o for pixel i. */
+typedef struct row {
+    float d[3], step_d[3];
+    float o[3], step_o[3];
+    float z0;
+    int32_t count;
+    int32_t id;
+    float *z;
+    int32_t *part;
+} row;
+
+/* Entry into the unit sphere: |o + s d|^2 = 1. */
+static void draw_ellipsoid(const row *r)
+{
+    float *z = r->z;
+    int32_t *part = r->part;
+    for (int32_t i = 0; i < r->count; i++) {
+        float u = (float)i;
+        float dx = r->d[0] + u * r->step_d[0];
+        float dy = r->d[1] + u * r->step_d[1];
+        float dz = r->d[2] + u * r->step_d[2];
+        float ox = r->o[0] + u * r->step_o[0];
+        float oy = r->o[1] + u * r->step_o[1];
+        float oz = r->o[2] + u * r->step_o[2];
+        float a = dx * dx + dy * dy + dz * dz;
+        float b = ox * dx + oy * dy + oz * dz;
+        float c = ox * ox + oy * oy + oz * oz - 1.0f;
+        float discriminant = b * b - a * c;
+        float root = sqrtf(discriminant > 0.0f ? discriminant : 0.0f);
+        float t = r->z0 - (b + root) / a;
+        int hit = (discriminant > 0.0f) & (t > (float)NEAREST) & (t < z[i]);
+        z[i] = hit ? t : z[i];
+        part[i] = hit ? r->id : part[i];
+    }
+}
+
+/* Slab method. */
+static void draw_box(const row *r, const float half[3])
+{
+    for (int32_t i = 0; i < r->count; i++) {
+        float u = (float)i;
+        float near = -1e9f;
+        float far = 1e9f;
+        for (int k = 0; k < 3; k++) {
+            float d = r->d[k] + u * r->step_d[k];
+            float o = r->o[k] + u * r->step_o[k];
+            d = d == 0.0f ? 1e-12f : d;
+            float t1 = (-half[k] - o) / d;
+            float t2 = (half[k] - o) / d;
+            float low = t1 < t2 ? t1 : t2;
+            float high = t1 < t2 ? t2 : t1;
+            near = low > near ? low : near;
+            far = high < far ? high : far;
+        }
+        float t = r->z0 + near;
+        if (near <= far && t > (float)NEAREST && t < r->z[i]) {
+            r->z[i] = t;
+            r->part[i] = r->id;
+        }
+    }
+}
+
+/* Entry is the smallest of the entries into the two spheres and the crossings of the lateral
+ * surface between them; see intersect_cone in shape.c. */
+static void draw_cone(const row *r, const synth_stamp *stamp)
+{
+    const float sine = stamp->sine;
+    const float cosine2 = stamp->cosine2;
+    const float radius_a = stamp->radius_a;
+    const float length = stamp->length;
+    const float radius_a2 = radius_a * radius_a;
+    const float radius_b2 = stamp->radius_b * stamp->radius_b;
+    const float far = 1e9f;
+    float *z = r->z;
+    int32_t *part = r->part;
+    for (int32_t i = 0; i < r->count; i++) {
+        float u = (float)i;
+        float dx = r->d[0] + u * r->step_d[0];
+        float dy = r->d[1] + u * r->step_d[1];
+        float dz = r->d[2] + u * r->step_d[2];
+        float ox = r->o[0] + u * r->step_o[0];
+        float oy = r->o[1] + u * r->step_o[1];
+        float oz = r->o[2] + u * r->step_o[2];
+        float d_side = dx * dx + dz * dz;
+        float m_side = ox * dx + oz * dz;
+        float o_side = ox * ox + oz * oz;
+        float dd = d_side + dy * dy;
+
+        float b = m_side + oy * dy;
+        float q = b * b - dd * (o_side + oy * oy - radius_a2);
+        float entry = (-b - sqrtf(q > 0.0f ? q : 0.0f)) / dd;
+        float best = q > 0.0f ? entry : far;
+
+        float oy_b = oy - length;
+        b = m_side + oy_b * dy;
+        q = b * b - dd * (o_side + oy_b * oy_b - radius_b2);
+        entry = (-b - sqrtf(q > 0.0f ? q : 0.0f)) / dd;
+        entry = q > 0.0f ? entry : far;
+        best = entry < best ? entry : best;
+
+        float k = radius_a - sine * oy;
+        float a = cosine2 * d_side - sine * sine * dy * dy;
+        b = cosine2 * m_side + k * sine * dy;
+        float c = cosine2 * o_side - k * k;
+        q = b * b - a * c;
+        float root = sqrtf(q > 0.0f ? q : 0.0f);
+        float s = b > 0.0f ? -b - root : root - b; /* without cancellation */
+        float t1 = s / (a == 0.0f ? 1e-12f : a);
+        float t2 = c / (s == 0.0f ? 1e-12f : s);
+        float y1 = oy + t1 * dy - radius_a * sine;
+        float y2 = oy + t2 * dy - radius_a * sine;
+        float end = length * cosine2;
+        t1 = (q > 0.0f) & (y1 >= 0.0f) & (y1 <= end) ? t1 : far;
+        t2 = (q > 0.0f) & (y2 >= 0.0f) & (y2 <= end) ? t2 : far;
+        best = t1 < best ? t1 : best;
+        best = t2 < best ? t2 : best;
+
+        float t = r->z0 + best;
+        int hit = (t > (float)NEAREST) & (t < z[i]);
+        z[i] = hit ? t : z[i];
+        part[i] = hit ? r->id : part[i];
+    }
+}
+
+static void draw_stamp_row(synth_canvas *canvas, int32_t id, int32_t y)
+{
+    const synth_stamp *stamp = &canvas->stamps[id];
+    const rlf_camera *camera = &canvas->view.camera;
+    size_t first = (size_t)y * (size_t)camera->width + (size_t)stamp->rect.x0;
+    row r = {.z0 = (float)stamp->z0,
+             .count = stamp->rect.x1 - stamp->rect.x0,
+             .id = id,
+             .z = canvas->z + first,
+             .part = canvas->part + first};
+    rlf_vec3 m = synth_view_ray(&canvas->view, stamp->rect.x0, y).direction;
+    for (int k = 0; k < 3; k++) {
+        double d = stamp->A[k][0] * m.x + stamp->A[k][1] * m.y + stamp->A[k][2];
+        r.d[k] = (float)d;
+        r.step_d[k] = (float)(stamp->A[k][0] / camera->fx);
+        r.o[k] = (float)(d * stamp->z0 - stamp->offset[k]);
+        r.step_o[k] = (float)(stamp->A[k][0] / camera->fx * stamp->z0);
+    }
+    switch (stamp->type) {
+    case SYNTH_BOX: draw_box(&r, stamp->half); break;
+    case SYNTH_CONE: draw_cone(&r, stamp); break;
+    default: draw_ellipsoid(&r); break;
+    }
+}
+
+void synth_canvas_draw_row(synth_canvas *canvas, const float *static_z, int32_t y)
+{
+    const synth_rect *drawn = &canvas->drawn;
+    size_t row_start = (size_t)y * (size_t)canvas->view.camera.width;
+    for (int32_t x = drawn->x0; x < drawn->x1; x++) {
+        canvas->z[row_start + (size_t)x] = static_z[row_start + (size_t)x];
+        canvas->part[row_start + (size_t)x] = -1;
+    }
+    for (int32_t i = 0; i < canvas->stamp_count; i++) {
+        const synth_rect *rect = &canvas->stamps[i].rect;
+        if (y >= rect->y0 && y < rect->y1 && rect->x0 < rect->x1) {
+            draw_stamp_row(canvas, i, y);
+        }
+    }
+}
+
+synth_touch synth_stamp_touch(const synth_stamp *stamp, const synth_view *view, int32_t x,
+                              int32_t y, float z)
+{
+    rlf_vec3 m = synth_view_ray(view, x, y).direction;
+    const float p[3] = {(float)(m.x * z), (float)(m.y * z), z};
+    float A[3][3];
+    float q[3];
+    for (int k = 0; k < 3; k++) {
+        for (int j = 0; j < 3; j++) {
+            A[k][j] = (float)stamp->A[k][j];
+        }
+        q[k] = A[k][0] * p[0] + A[k][1] * p[1] + A[k][2] * p[2] - (float)stamp->offset[k];
+    }
+    float g[3] = {q[0], q[1], q[2]}; /* gradient in q */
+    synth_touch touch;
+    if (stamp->type == SYNTH_CONE) {
+        float rho = sqrtf(q[0] * q[0] + q[2] * q[2]);
+        float t = q[1] - rho * stamp->sine / sqrtf(stamp->cosine2);
+        t = t < 0.0f ? 0.0f : (t > stamp->length ? stamp->length : t);
+        g[1] = q[1] - t;
+    } else if (stamp->type == SYNTH_BOX) {
+        int face = 0;
+        float depth[3];
+        for (int k = 0; k < 3; k++) {
+            depth[k] = (q[k] < 0.0f ? -q[k] : q[k]) - stamp->half[k];
+            face = depth[k] > depth[face] ? k : face;
+        }
+        for (int k = 0; k < 3; k++) {
+            g[k] = k != face ? 0.0f : (q[k] < 0.0f ? -1.0f : 1.0f);
+        }
+    }
+    float n[3];
+    for (int k = 0; k < 3; k++) {
+        n[k] = A[0][k] * g[0] + A[1][k] * g[1] + A[2][k] * g[2];
+    }
+    float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    const float origin[3] = {(float)view->origin.x, (float)view->origin.y, (float)view->origin.z};
+    for (int k = 0; k < 3; k++) {
+        touch.p[k] = p[k] + origin[k];
+        touch.normal[k] = n[k] / length;
+        touch.local[k] = stamp->type == SYNTH_ELLIPSOID ? q[k] * stamp->half[k] : q[k];
+    }
+    return touch;
+}
