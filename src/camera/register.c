@@ -309,13 +309,14 @@ static void splat(const rlf_registration *r, const rlf_plane_f32 *out)
         if (x1 < x0 || y1 < y0) {
             continue;
         }
-        if (x1 - x0 <= 1 && y1 - y0 <= 1) { /* the usual size: four tests without branches */
-            float *top = rlf_f32_row(out, y0);
-            float *bottom = rlf_f32_row(out, y1);
-            top[x0] = z < top[x0] ? z : top[x0];
-            top[x1] = z < top[x1] ? z : top[x1];
-            bottom[x0] = z < bottom[x0] ? z : bottom[x0];
-            bottom[x1] = z < bottom[x1] ? z : bottom[x1];
+        if (x1 - x0 <= 1) { /* the usual size; rows of rectangles mostly share their height */
+            for (int32_t y = y0; y <= y1; y++) {
+                float *line = rlf_f32_row(out, y);
+                float left = line[x0];
+                float right = line[x1];
+                line[x0] = z < left ? z : left;
+                line[x1] = z < right ? z : right;
+            }
             continue;
         }
         for (int32_t y = y0; y <= y1; y++) {
