@@ -25,12 +25,13 @@ static const char grey_fragment[] =
     "{\n"
     "    float z = texelFetch(u_real_depth, ivec2(gl_FragCoord.xy), 0).r;\n"
     "    float t = (z - u_range.x) / (u_range.y - u_range.x);\n"
-    "    float grey = clamp(240.0 - 200.0 * t, 40.0, 240.0) / 255.0;\n"
+    "    float grey = floor(clamp(240.0 - 200.0 * t, 40.0, 240.0)) / 255.0;\n"
     "    o_color = vec4(vec3(z > 0.0 ? grey : 0.0), 0.0);\n"
     "}\n";
 
 /* The shadow of a body taken as a ball, as the soft renderer draws it: of the light around, a ball
- * hides (r / d)^2 (Quilez 2006); of the directed light, what passes it too close. */
+ * hides (r / d)^2 (Quilez 2006); of the directed light, what passes it too close. Surfaces face the
+ * camera, so one with the ball behind it does not face the ball. */
 static const char shadow_fragment[] =
     "const float reach = 3.0;\n"
     "const float ambient_share = 0.5;\n"
@@ -47,7 +48,7 @@ static const char shadow_fragment[] =
     "    vec3 offset = u_ball.xyz - z * vec3(ray, 1.0);\n"
     "    float distance2 = dot(offset, offset);\n"
     "    float reach2 = u_ball.w * reach * reach;\n"
-    "    if (z <= 0.0 || distance2 >= reach2) {\n"
+    "    if (z <= 0.0 || distance2 >= reach2 || distance2 <= 0.0) {\n"
     "        discard;\n"
     "    }\n"
     "    float fade = 1.0 - distance2 / reach2;\n"
@@ -55,7 +56,9 @@ static const char shadow_fragment[] =
     "    float along = dot(offset, u_to_light);\n"
     "    float across2 = distance2 - along * along;\n"
     "    float direct = along > 0.0 ? max(0.0, 1.0 - across2 / (1.5 * u_ball.w)) : 0.0;\n"
-    "    float light = 1.0 - fade * (ambient_share * size + direct_share * direct);\n"
+    "    float behind = max(0.0, dot(offset, vec3(ray, 1.0)));\n"
+    "    float facing = 1.0 - behind * behind / (distance2 * (1.0 + dot(ray, ray)));\n"
+    "    float light = 1.0 - fade * facing * (ambient_share * size + direct_share * direct);\n"
     "    o_light = vec4(light);\n"
     "}\n";
 
@@ -170,8 +173,8 @@ void gl_backdrop_draw_grey(const gl_backdrop *backdrop, const gl_texture *real_d
 /* Limits drawing to the pixels that a ball's shadow can reach; false when there are none. */
 static bool limit_to_reach(const rlf_camera *k, rlf_vec3 center, double radius)
 {
-    if (!(center.z > VIEW_NEAR_M)) {
-        return false;
+    if (center.z < 0.1) {
+        return false; /* around the camera: it would darken everything or nothing */
     }
     double near_z = rlf_max(center.z - 0.5 * SHADOW_REACH * radius, 0.1);
     double u = k->fx * center.x / center.z + k->cx;

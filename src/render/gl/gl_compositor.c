@@ -244,8 +244,8 @@ static void draw_backdrop(gl_compositor *c, const rlf_render_input *input)
         gl_backdrop_draw_grey(&c->backdrop, &c->depth_texture, has_range ? rig->depth_min_m : 0.5,
                               has_range ? rig->depth_max_m : 4.5);
     }
-    /* Plain augmented reality knows nothing of the real world. */
-    if (has_bodies(input) && c->def.occlusion != RLF_OCCLUSION_OFF) {
+    /* The thesis has no shadows, and plain augmented reality does not know the real world. */
+    if (has_bodies(input) && c->def.occlusion == RLF_OCCLUSION_DEPTH) {
         rlf_vec3 light = rlf_rotate(c->view.T_picture_camera.q, c->def.light_direction);
         gl_backdrop_shadows shadows = {&c->view, &c->depth_texture, rlf_neg(light)};
         gl_backdrop_draw_shadows(&c->backdrop, &shadows, input->snapshot);
