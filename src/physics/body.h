@@ -42,7 +42,9 @@ typedef struct phys_body {
 
     rlf_vec3 x, v, w; /* centre of mass, its velocity, angular velocity: world */
     rlf_quat q;
-    rlf_mat3 R;                /* of q; the thesis method integrates R itself */
+    rlf_mat3 R;                    /* of q; the thesis method integrates R itself */
+    rlf_vec3 momentum, momentum_w; /* angular momentum that goes with momentum_w and momentum_q */
+    rlf_quat momentum_q;
     rlf_vec3 throw_v, throw_w; /* velocities to start with when a held body is released */
     rlf_vec3 force, torque;    /* from the caller, for the next advance */
 

@@ -75,7 +75,7 @@ static void add_bumps(grid_job *job)
         for (int32_t k = 0; k < plane_count && !is_explained; k++) {
             const grid_hit *hit = &job->hits[k];
             double off = rlf_dot(hit->normal, rlf_sub(bump->point, hit->point));
-            is_explained = rlf_dot(hit->normal, bump->normal) > 0.7 && off < NOISE;
+            is_explained = rlf_dot(hit->normal, bump->facing) > 0.7 && off < NOISE;
         }
         if (!is_explained) {
             job->hits[job->hit_count++] = *bump;

@@ -62,7 +62,10 @@ static void look_at_interior(grid_job *job, const field_cell *cell, rlf_vec3 p)
         return;
     }
     grid_hit hit = {.point = p, .velocity = cell->velocity, .label = cell->label};
-    hit.normal = rlf_dot(outward, cell->normal) > 0.3 ? cell->normal : outward;
+    /* A feature that pokes into a side of the body pushes that side, but never into the solid. */
+    double agreement = rlf_dot(outward, cell->normal);
+    hit.normal = agreement > 0.0 && agreement < 0.3 ? outward : cell->normal;
+    hit.facing = cell->normal;
     hit.anchor = rlf_mad(local, gradient, -distance);
     rlf_vec3 anchor = rlf_mat3_mul_vec(&job->R_grid_body, hit.anchor);
     hit.separation = rlf_dot(hit.normal, rlf_sub(rlf_add(job->centre, anchor), p));

@@ -12,6 +12,7 @@
 /* A contact in the making, grid frame, at the time of the query. */
 typedef struct grid_hit {
     rlf_vec3 point, normal, velocity;
+    rlf_vec3 facing; /* of a bump: normal of the surface itself */
     rlf_vec3 anchor; /* body frame */
     double rounding; /* the touching point is this far from the anchor along -normal */
     double separation;

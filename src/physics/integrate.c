@@ -11,6 +11,24 @@ static rlf_vec3 omega_of(const phys_body *body, rlf_quat q, rlf_vec3 L)
     return rlf_rotate(q, rlf_mat3_mul_vec(&body->inverse_inertia, L_body));
 }
 
+static bool is_same_state(const phys_body *body)
+{
+    rlf_vec3 w = body->momentum_w;
+    rlf_quat q = body->momentum_q;
+    return w.x == body->w.x && w.y == body->w.y && w.z == body->w.z && q.x == body->q.x &&
+           q.y == body->q.y && q.z == body->q.z && q.w == body->q.w;
+}
+
+/* The one of the last step while nothing has turned the body since: no rounding adds up. */
+static rlf_vec3 angular_momentum(const phys_body *body)
+{
+    if (is_same_state(body)) {
+        return body->momentum;
+    }
+    rlf_vec3 w_body = rlf_rotate(rlf_quat_conjugate(body->q), body->w);
+    return rlf_rotate(body->q, rlf_mat3_mul_vec(&body->inertia, w_body));
+}
+
 /* exp(v) q */
 static rlf_quat turn(rlf_vec3 v, rlf_quat q)
 {
@@ -45,10 +63,12 @@ void phys_integrate_rotation(phys_body *body, double h)
         phys_body_orient(body);
         return;
     }
-    rlf_vec3 w_body = rlf_rotate(rlf_quat_conjugate(body->q), body->w);
-    rlf_vec3 L = rlf_rotate(body->q, rlf_mat3_mul_vec(&body->inertia, w_body));
+    rlf_vec3 L = angular_momentum(body);
     body->q = turn_cf4(body, L, h);
     body->w = omega_of(body, body->q, L);
+    body->momentum = L;
+    body->momentum_w = body->w;
+    body->momentum_q = body->q;
     phys_body_orient(body);
 }
 

@@ -5,7 +5,7 @@
 #include "physics/sleep.h"
 #include "physics/solver.h"
 
-#define SOLVE_PASSES 6
+#define SOLVE_PASSES 4
 #define RELAX_PASSES 2
 #define PAIR_PERIOD 2 /* substeps between searches for touching bodies */
 /* Extrapolating the surface along its velocity is trusted this long, s: with 10 m/s^2 the error is

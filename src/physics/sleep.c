@@ -1,7 +1,7 @@
 /* Sleeping by islands: bodies that touch fall asleep together. */
 #include "physics/sleep.h"
 
-#define STILL_SPEED 0.01 /* m/s, of any point of the body */
+#define STILL_SPEED 0.004 /* m/s, of any point of the body: a slope 0.05 deg too steep beats it */
 #define STILL_TIME 0.5   /* s */
 #define TOUCHING 0.001   /* m */
 /* How far a surface may wander under a sleeper: several sigma of a depth camera at 2 m. */

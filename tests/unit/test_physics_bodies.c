@@ -1,0 +1,198 @@
+/* Bodies against bodies, live method. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "relief/world.h"
+
+#include "grid_fixture.h"
+
+#include <math.h>
+
+static rlf_world *make_world(double gravity)
+{
+    rlf_world_def def = rlf_world_def_default();
+    def.gravity = rlf_vec3_make(0, gravity, 0);
+    def.body_capacity = 16;
+    def.contact_capacity = 512;
+    rlf_world *world = NULL;
+    assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
+    return world;
+}
+
+static rlf_body_def body_of(rlf_shape_type type)
+{
+    rlf_body_def def = rlf_body_def_default();
+    def.shape.type = type;
+    def.shape.radius = 0.05;
+    def.shape.height = 0.1;
+    def.restitution = 1;
+    return def;
+}
+
+static const rlf_body_state *body(const rlf_world *world, int i)
+{
+    return &rlf_world_get_snapshot(world)->bodies[i];
+}
+
+/* Equal masses, e = 1: velocities are exchanged. */
+static void head_on_swaps(void **state)
+{
+    (void)state;
+    const rlf_shape_type types[] = {RLF_SHAPE_SPHERE, RLF_SHAPE_BOX, RLF_SHAPE_CAPSULE,
+                                    RLF_SHAPE_CYLINDER};
+    for (size_t i = 0; i < 4; i++) {
+        rlf_world *world = make_world(0);
+        rlf_body_def def = body_of(types[i]);
+        def.position = rlf_vec3_make(-0.3, 0, 1);
+        def.velocity = rlf_vec3_make(1.5, 0, 0);
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        def.position = rlf_vec3_make(0.3, 0, 1);
+        def.velocity = rlf_vec3_make(-0.5, 0, 0);
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        for (int k = 0; k < 20; k++) {
+            rlf_world_advance(world, NULL, 1.0 / 30);
+        }
+        print_message("head on, shape %d: %.9f %.9f\n", (int)types[i], body(world, 0)->velocity.x,
+                      body(world, 1)->velocity.x);
+        assert_true(fabs(body(world, 0)->velocity.x + 0.5) < 1e-3);
+        assert_true(fabs(body(world, 1)->velocity.x - 1.5) < 1e-3);
+        double turn = rlf_length(body(world, 0)->angular_velocity);
+        assert_true(turn < 1e-6);
+        rlf_world_destroy(&world);
+    }
+}
+
+/* Newton's cradle without strings: only the last ball leaves. */
+static void chain_of_balls(void **state)
+{
+    (void)state;
+    rlf_world *world = make_world(0);
+    rlf_body_def def = body_of(RLF_SHAPE_SPHERE);
+    for (int i = 0; i < 5; i++) {
+        def.position = rlf_vec3_make(i == 0 ? -0.4 : 0.1 * i - 0.1, 0, 1);
+        def.velocity = rlf_vec3_make(i == 0 ? 2 : 0, 0, 0);
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    }
+    for (int k = 0; k < 20; k++) {
+        rlf_world_advance(world, NULL, 1.0 / 30);
+    }
+    print_message("chain:");
+    for (int i = 0; i < 5; i++) {
+        double v = body(world, i)->velocity.x;
+        print_message(" %.4f", v);
+        assert_true(fabs(v - (i == 4 ? 2.0 : 0.0)) < 0.01);
+    }
+    print_message("\n");
+    rlf_world_destroy(&world);
+}
+
+/* Any off-centre collision keeps momentum, and energy does not grow. */
+static void momentum_is_conserved(void **state)
+{
+    (void)state;
+    static const rlf_vec3 corners[4] = {
+        {-0.05, 0.05, -0.05}, {0.05, 0.05, -0.05}, {0, 0.05, 0.1}, {0, -0.15, 0}};
+    static const int32_t triangles[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+    rlf_hull hull = {corners, 4, triangles, 4};
+    for (int first = 0; first < 5; first++) {
+        for (int second = 0; second < 5; second++) {
+            rlf_world *world = make_world(0);
+            rlf_body_def a = body_of((rlf_shape_type)first), b = body_of((rlf_shape_type)second);
+            a.shape.hull = b.shape.hull = &hull;
+            a.mass = 0.2;
+            a.position = rlf_vec3_make(-0.3, 0.02, 1.01);
+            a.velocity = rlf_vec3_make(3, 0, 0);
+            a.angular_velocity = rlf_vec3_make(1, 2, 3);
+            b.position = rlf_vec3_make(0, 0, 1);
+            assert_int_equal(rlf_world_add_body(world, &a, NULL), RLF_OK);
+            assert_int_equal(rlf_world_add_body(world, &b, NULL), RLF_OK);
+            double energy = rlf_world_energy(world);
+            int touched = 0;
+            for (int k = 0; k < 20; k++) {
+                rlf_world_advance(world, NULL, 1.0 / 30);
+                touched += rlf_world_get_snapshot(world)->contact_count;
+            }
+            rlf_vec3 p = rlf_add(rlf_scale(body(world, 0)->velocity, 0.2),
+                                 rlf_scale(body(world, 1)->velocity, 0.1));
+            assert_true(touched > 0);
+            assert_true(fabs(p.x - 0.6) < 1e-9 && fabs(p.y) < 1e-9 && fabs(p.z) < 1e-9);
+            double gain = rlf_world_energy(world) / energy - 1;
+            if (gain > 0.01) {
+                print_message("shapes %d %d: energy %+.4f\n", first, second, gain);
+            }
+            assert_true(gain < 0.01);
+            rlf_world_destroy(&world);
+        }
+    }
+}
+
+/* Ten cubes on a flat grid for 20 s. */
+static void stack_of_ten(void **state)
+{
+    (void)state;
+    grid_fixture *f = grid_fixture_create();
+    grid_plane room[2] = {grid_floor(1.0), grid_wall(4)};
+    grid_fixture_set_room(f, room, 2);
+    rlf_world *world = make_world(9.81);
+    rlf_body_def def = rlf_body_def_default();
+    for (int i = 0; i < 10; i++) {
+        def.position = rlf_vec3_make(0.2, 0.95 - 0.1 * i, 2.5);
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    }
+    int asleep_at = -1;
+    for (int k = 0; k < 600; k++) {
+        f->grid.time_ns = k;
+        rlf_world_advance(world, &f->grid, 1.0 / 30);
+        if (asleep_at < 0 && body(world, 0)->is_asleep) {
+            asleep_at = k;
+        }
+    }
+    double drift = 0, penetration = 0, speed = 0;
+    for (int i = 0; i < 10; i++) {
+        rlf_vec3 p = body(world, i)->T_world_body.p;
+        double below = i == 0 ? 1.0 : body(world, i - 1)->T_world_body.p.y - 0.05;
+        penetration = rlf_max(penetration, p.y + 0.05 - below);
+        drift = rlf_max(drift, sqrt((p.x - 0.2) * (p.x - 0.2) + (p.z - 2.5) * (p.z - 2.5)));
+        speed = rlf_max(speed, rlf_length(body(world, i)->velocity));
+    }
+    print_message("stack of 10, 20 s: drift %.4f mm, penetration %.4f mm, speed %.1e m/s, asleep "
+                  "at frame %d\n",
+                  1e3 * drift, 1e3 * penetration, speed, asleep_at);
+    assert_true(drift < 0.5e-3 && penetration < 1e-3 && speed < 1e-4);
+    rlf_world_destroy(&world);
+    grid_fixture_destroy(&f);
+}
+
+static void bodies_may_ignore_bodies(void **state)
+{
+    (void)state;
+    rlf_world *world = make_world(0);
+    rlf_body_def def = body_of(RLF_SHAPE_BOX);
+    def.collides_with_bodies = false;
+    def.position = rlf_vec3_make(-0.3, 0, 1);
+    def.velocity = rlf_vec3_make(2, 0, 0);
+    rlf_world_add_body(world, &def, NULL);
+    def.collides_with_bodies = true;
+    def.position = rlf_vec3_make(0, 0, 1);
+    def.velocity = rlf_vec3_make(0, 0, 0);
+    rlf_world_add_body(world, &def, NULL);
+    for (int k = 0; k < 20; k++) {
+        rlf_world_advance(world, NULL, 1.0 / 30);
+    }
+    assert_true(body(world, 0)->velocity.x == 2.0);
+    assert_true(body(world, 1)->velocity.x == 0.0);
+    rlf_world_destroy(&world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(head_on_swaps),        cmocka_unit_test(chain_of_balls),
+        cmocka_unit_test(momentum_is_conserved), cmocka_unit_test(stack_of_ten),
+        cmocka_unit_test(bodies_may_ignore_bodies),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,267 @@
+/* A body on the grid: bounce heights, friction, rest, missing pixels. Live method. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "relief/world.h"
+
+#include "grid_fixture.h"
+
+#include <math.h>
+
+static grid_fixture *fixture;
+
+static int set_up(void **state)
+{
+    (void)state;
+    fixture = grid_fixture_create();
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    grid_fixture_destroy(&fixture);
+    return 0;
+}
+
+static rlf_world *make_world(rlf_vec3 gravity)
+{
+    rlf_world_def def = rlf_world_def_default();
+    def.gravity = gravity;
+    def.body_capacity = 8;
+    def.contact_capacity = 256;
+    rlf_world *world = NULL;
+    assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
+    return world;
+}
+
+static const rlf_body_state *first(const rlf_world *world)
+{
+    return &rlf_world_get_snapshot(world)->bodies[0];
+}
+
+static void set_floor(double height)
+{
+    grid_plane room[2] = {grid_floor(height), grid_wall(5)};
+    grid_fixture_set_room(fixture, room, 2);
+}
+
+/* Height of the next peak of the lowest point over the floor at y = 1. */
+static double bounce_height(rlf_shape_type type, double restitution)
+{
+    const double DROP = 0.8;
+    rlf_world *world = make_world(rlf_vec3_make(0, 9.81, 0));
+    rlf_body_def def = rlf_body_def_default();
+    def.shape.type = type;
+    def.shape.radius = 0.05;
+    def.shape.height = type == RLF_SHAPE_CAPSULE ? 0.08 : 0.1;
+    double half = type == RLF_SHAPE_CAPSULE ? 0.09 : 0.05;
+    def.restitution = restitution;
+    def.position = rlf_vec3_make(0.05, 1 - half - DROP, 2.5);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    double peak = -1;
+    bool is_up = false;
+    for (int k = 0; k < 400; k++) {
+        rlf_world_advance(world, &fixture->grid, 1.0 / 240);
+        is_up = is_up || first(world)->velocity.y < 0;
+        double height = 1 - half - first(world)->T_world_body.p.y;
+        peak = is_up ? rlf_max(peak, height) : peak;
+        if (is_up && first(world)->velocity.y > 0) {
+            break;
+        }
+    }
+    rlf_world_destroy(&world);
+    return peak / DROP;
+}
+
+static void bounces_to_the_square_of_restitution(void **state)
+{
+    (void)state;
+    set_floor(1);
+    const double values[] = {1, 0.8, 0.5};
+    for (int type = 0; type < 4; type++) {
+        for (int i = 0; i < 3; i++) {
+            double ratio = bounce_height((rlf_shape_type)type, values[i]);
+            print_message("shape %d, e %.1f: height ratio %.4f of %.4f\n", type, values[i], ratio,
+                          values[i] * values[i]);
+            assert_true(fabs(ratio / (values[i] * values[i]) - 1) < 0.02);
+        }
+    }
+}
+
+/* A tilted gravity makes the level floor a slope. Returns the speed after one second. */
+static double slide(double slope, double friction)
+{
+    rlf_world *world =
+        make_world(rlf_vec3_make(9.81 * sin(slope), 9.81 * cos(slope), 0));
+    rlf_body_def def = rlf_body_def_default();
+    def.friction = friction;
+    def.position = rlf_vec3_make(-1, 0.95, 2.5);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    for (int k = 0; k < 20; k++) {
+        fixture->grid.time_ns++;
+        rlf_world_advance(world, &fixture->grid, 0.02);
+    }
+    double v = first(world)->velocity.x;
+    for (int k = 0; k < 20; k++) {
+        rlf_world_advance(world, &fixture->grid, 0.02);
+    }
+    v = (first(world)->velocity.x - v) / 0.4;
+    rlf_world_destroy(&world);
+    return v;
+}
+
+static void slope_sticks_and_slips(void **state)
+{
+    (void)state;
+    set_floor(1);
+    const double mu = 0.5, critical = atan(0.5), degree = RLF_PI / 180;
+    assert_true(fabs(slide(critical - 0.05 * degree, mu)) < 1e-4);
+    double sticky = slide(critical + 0.05 * degree, mu);
+    assert_true(sticky > 1e-3);
+    for (double angle = 30; angle < 41; angle += 5) {
+        double expected = 9.81 * (sin(angle * degree) - mu * cos(angle * degree));
+        double a = slide(angle * degree, mu);
+        print_message("slope %.0f deg: acceleration %.5f of %.5f m/s^2\n", angle, a, expected);
+        assert_true(fabs(a / expected - 1) < 0.01);
+    }
+}
+
+static void sticking_cube_does_not_creep(void **state)
+{
+    (void)state;
+    set_floor(1);
+    double slope = 26 * RLF_PI / 180;
+    rlf_world *world = make_world(rlf_vec3_make(9.81 * sin(slope), 9.81 * cos(slope), 0));
+    rlf_body_def def = rlf_body_def_default();
+    def.position = rlf_vec3_make(0, 0.95, 2.5);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    for (int k = 0; k < 300; k++) {
+        rlf_world_advance(world, &fixture->grid, 1.0 / 30);
+    }
+    double creep = fabs(first(world)->T_world_body.p.x);
+    print_message("creep at 26 deg in 10 s: %.4f mm\n", 1e3 * creep);
+    assert_true(creep < 1e-4);
+    rlf_world_destroy(&world);
+}
+
+static void rests_without_drift_and_sleeps(void **state)
+{
+    (void)state;
+    set_floor(1);
+    rlf_world *world = make_world(rlf_vec3_make(0, 9.81, 0));
+    rlf_body_def def = rlf_body_def_default();
+    def.position = rlf_vec3_make(0.1, 0.9, 2.5);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    double deepest = 0;
+    for (int k = 0; k < 300; k++) {
+        fixture->grid.time_ns++;
+        rlf_world_advance(world, &fixture->grid, 1.0 / 30);
+        deepest = rlf_max(deepest, first(world)->T_world_body.p.y - 0.95);
+    }
+    rlf_vec3 p = first(world)->T_world_body.p;
+    print_message("rest: drift %.2e m, deepest %.4f mm\n", hypot(p.x - 0.1, p.z - 2.5),
+                  1e3 * deepest);
+    assert_true(first(world)->is_asleep);
+    assert_true(hypot(p.x - 0.1, p.z - 2.5) < 1e-4);
+    assert_true(deepest < 1e-3);
+    rlf_world_destroy(&world);
+}
+
+/* The floor vanishes under a sleeper: it falls within 4 frames. */
+static void falls_when_support_goes(void **state)
+{
+    (void)state;
+    set_floor(1);
+    rlf_world *world = make_world(rlf_vec3_make(0, 9.81, 0));
+    rlf_body_def def = rlf_body_def_default();
+    def.position = rlf_vec3_make(0.1, 0.949, 2.5);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    for (int k = 0; k < 60; k++) {
+        rlf_world_advance(world, &fixture->grid, 1.0 / 30);
+    }
+    assert_true(first(world)->is_asleep);
+    set_floor(1.4);
+    fixture->grid.time_ns++;
+    double before = first(world)->T_world_body.p.y;
+    for (int k = 0; k < 4; k++) {
+        rlf_world_advance(world, &fixture->grid, 1.0 / 30);
+    }
+    assert_true(first(world)->T_world_body.p.y > before + 0.05);
+    rlf_world_destroy(&world);
+}
+
+/* Holes smaller than a body do not swallow or stop it; a missing region is free space. */
+static void missing_pixels(void **state)
+{
+    (void)state;
+    set_floor(1);
+    uint32_t seed = 1;
+    for (int i = 0; i < GRID_W * GRID_H; i++) {
+        seed = seed * 1664525u + 1013904223u;
+        if ((seed >> 16) % 10 < 3) {
+            fixture->planes[2][i] = 0;
+        }
+    }
+    rlf_world *world = make_world(rlf_vec3_make(0, 9.81, 0));
+    rlf_body_def def = rlf_body_def_default();
+    def.restitution = 0;
+    def.friction = 0.1;
+    def.position = rlf_vec3_make(-0.8, 0.949, 2.5);
+    def.velocity = rlf_vec3_make(1.5, 0, 0);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    for (int k = 0; k < 30; k++) {
+        rlf_world_advance(world, &fixture->grid, 1.0 / 30);
+    }
+    rlf_vec3 p = first(world)->T_world_body.p;
+    double slid = 1.5 - 0.5 * 0.981;
+    print_message("30 %% of pixels missing: slid %.3f m of %.3f, height off by %.2f mm\n",
+                  p.x + 0.8, slid, 1e3 * (p.y - 0.95));
+    assert_true(fabs(p.y - 0.95) < 2e-3);
+    assert_true(fabs(p.x + 0.8 - slid) < 0.05);
+    memset(fixture->planes[2], 0, sizeof(float) * GRID_W * GRID_H);
+    fixture->grid.time_ns++;
+    for (int k = 0; k < 10; k++) {
+        rlf_world_advance(world, &fixture->grid, 1.0 / 30);
+    }
+    assert_true(first(world)->T_world_body.p.y > 1.3);
+    rlf_world_destroy(&world);
+}
+
+/* Inside the wall at the start: comes out at bounded speed. */
+static void comes_out_of_the_wall(void **state)
+{
+    (void)state;
+    set_floor(1);
+    rlf_world *world = make_world(rlf_vec3_make(0, 9.81, 0));
+    rlf_body_def def = rlf_body_def_default();
+    def.position = rlf_vec3_make(0.1, 0.9, 5.15);
+    def.orientation = rlf_quat_from_axis_angle(rlf_normalize(rlf_vec3_make(1, 2, 3)), 1);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    double fastest = 0;
+    for (int k = 0; k < 90; k++) {
+        rlf_world_advance(world, &fixture->grid, 1.0 / 30);
+        fastest = rlf_max(fastest, rlf_length(first(world)->velocity));
+    }
+    assert_true(fastest < 4);
+    assert_true(first(world)->T_world_body.p.z < 5);
+    assert_true(first(world)->T_world_body.p.y < 1);
+    rlf_world_destroy(&world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bounces_to_the_square_of_restitution),
+        cmocka_unit_test(slope_sticks_and_slips),
+        cmocka_unit_test(sticking_cube_does_not_creep),
+        cmocka_unit_test(rests_without_drift_and_sleeps),
+        cmocka_unit_test(falls_when_support_goes),
+        cmocka_unit_test(missing_pixels),
+        cmocka_unit_test(comes_out_of_the_wall),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
