@@ -48,36 +48,30 @@ RLF_KERNEL int32_t rlf_kernel_background_row(const rlf_kernel_background *params
     return changed;
 }
 
-RLF_KERNEL_PART uint8_t majority(int32_t votes, int32_t valid, uint8_t self, float z)
+RLF_KERNEL_PART uint8_t majority(const uint8_t *const rows[3], const float *const depth[3],
+                                 int32_t i, int32_t first, int32_t last)
 {
+    int32_t votes = 0, valid = 0;
+    for (int32_t r = 0; r < 3; r++) {
+        for (int32_t k = first; k <= last; k++) {
+            votes += rows[r][k] == RLF_SEEN_FOREGROUND ? 1 : 0;
+            valid += depth[r][k] > 0.0f ? 1 : 0;
+        }
+    }
     uint8_t side = 2 * votes > valid ? RLF_SEEN_FOREGROUND : RLF_SEEN_BACKGROUND;
-    uint8_t kept = self == RLF_SEEN_UNKNOWN ? (uint8_t)RLF_SEEN_UNKNOWN : side;
-    return z > 0.0f ? kept : (uint8_t)0;
+    uint8_t kept = rows[1][i] == RLF_SEEN_UNKNOWN ? (uint8_t)RLF_SEEN_UNKNOWN : side;
+    return depth[1][i] > 0.0f ? kept : (uint8_t)RLF_SEEN_BACKGROUND;
 }
 
 RLF_KERNEL void rlf_kernel_majority_row(const uint8_t *const rows[3], const float *const depth[3],
                                         int32_t count, uint8_t *restrict out)
 {
-    for (int32_t i = 0; i < count; i++) {
-        if (i == 1 && count > 2) {
-            for (; i < count - 1; i++) {
-                int32_t votes = 0, valid = 0;
-                for (int32_t r = 0; r < 3; r++) {
-                    for (int32_t d = -1; d <= 1; d++) {
-                        votes += rows[r][i + d] == RLF_SEEN_FOREGROUND ? 1 : 0;
-                        valid += depth[r][i + d] > 0.0f ? 1 : 0;
-                    }
-                }
-                out[i] = majority(votes, valid, rows[1][i], depth[1][i]);
-            }
-        }
-        int32_t votes = 0, valid = 0;
-        for (int32_t r = 0; r < 3; r++) {
-            for (int32_t k = i > 0 ? i - 1 : 0; k <= i + 1 && k < count; k++) {
-                votes += rows[r][k] == RLF_SEEN_FOREGROUND ? 1 : 0;
-                valid += depth[r][k] > 0.0f ? 1 : 0;
-            }
-        }
-        out[i] = majority(votes, valid, rows[1][i], depth[1][i]);
+    int32_t last = count - 1;
+    out[0] = majority(rows, depth, 0, 0, last > 0 ? 1 : 0);
+    for (int32_t i = 1; i < last; i++) {
+        out[i] = majority(rows, depth, i, i - 1, i + 1);
+    }
+    if (last > 0) {
+        out[last] = majority(rows, depth, last, last - 1, last);
     }
 }

@@ -21,6 +21,9 @@ enum {
     PLANE_PIXELS = 2 * PLANES
 };
 
+/* Largest residuals that a window may have, in sigmas. */
+static const float WIDE_SIGMAS = 1.5f, NARROW_SIGMAS = 3.0f;
+
 enum { N, X, Y, XX, XY, YY, W, XW, YW, WW };
 
 typedef struct reference {
@@ -28,7 +31,9 @@ typedef struct reference {
 } reference;
 
 typedef struct plane_rows { /* of one row of blocks, each value twice: once per pixel column */
-    float a[PLANE_PIXELS], b[PLANE_PIXELS], c[PLANE_PIXELS], score[PLANE_PIXELS];
+    float a[PLANE_PIXELS], b[PLANE_PIXELS], c[PLANE_PIXELS];
+    float weight[PLANE_PIXELS];    /* 0 = no plane */
+    float tolerance[PLANE_PIXELS]; /* of inverse depth */
 } plane_rows;
 
 typedef struct pixel_row {
@@ -38,8 +43,6 @@ typedef struct pixel_row {
 typedef struct block_row {
     float moment[MOMENTS][BLOCKS];
 } block_row;
-
-static const float no_plane = 1e30f;
 
 /* A row of the tile with its border; zero depth outside the image. */
 RLF_KERNEL_PART void load_row(const rlf_kernel_tile *t, int32_t y, pixel_row *row)
@@ -125,15 +128,26 @@ RLF_KERNEL_PART void sum_windows(const block_row *const rows[5], window_sums *re
 }
 
 typedef struct plane {
-    float a, b, c, score;
+    float a, b, c, weight, tolerance;
 } plane;
 
-/* Plane of one window. The score is the variance of the gradient that noise and misfit leave. */
-RLF_KERNEL_PART plane fit(const float (*restrict s)[PLANES], int32_t i, float ref_w,
+/* How much noisier a slanted surface is: Fankhauser et al. 2015 add a term that grows with
+ * theta^2 / (pi/2 - theta)^2, here relative to the frontal noise. `c` is the cosine. */
+RLF_KERNEL_PART float slant_factor(float c)
+{
+    float rest = c * (1.0f + 0.17f * c * c); /* pi/2 - theta = asin(c) */
+    float theta = 1.5707964f - rest;
+    float ratio = theta / (rest > 0.05f ? rest : 0.05f);
+    return 1.0f + 0.12f * ratio * ratio;
+}
+
+/* Plane of one window, weighted by the inverse variance that its gradient has from noise and
+ * misfit. Weight 0 when the residual is more than most_sigmas times the noise. */
+RLF_KERNEL_PART plane fit(const float (*restrict s)[PLANES], int32_t i, reference ref,
                           rlf_kernel_noise noise, float most_sigmas)
 {
     float n = s[N][i];
-    float inv = 1.0f / (n > 0.0f ? n : 1.0f);
+    float inv = 1.0f / (n > 1.0f ? n : 1.0f);
     float mx = s[X][i] * inv, my = s[Y][i] * inv, mw = s[W][i] * inv;
     float xx = s[XX][i] - s[X][i] * mx;
     float xy = s[XY][i] - s[X][i] * my;
@@ -142,46 +156,75 @@ RLF_KERNEL_PART plane fit(const float (*restrict s)[PLANES], int32_t i, float re
     float yw = s[YW][i] - s[Y][i] * mw;
     float ww = s[WW][i] - s[W][i] * mw;
     float det = xx * yy - xy * xy;
-    bool solvable = n > 5.5f && det > 0.02f * xx * yy && det > 0.0f;
-    float inv_det = 1.0f / (solvable ? det : 1.0f);
+    float solvable = n > 5.5f ? 1.0f : 0.0f;
+    solvable = det > 0.02f * xx * yy ? solvable : 0.0f;
+    float inv_det = solvable / (solvable > 0.0f ? det : 1.0f);
     plane p;
     p.b = (xw * yy - yw * xy) * inv_det;
     p.c = (yw * xx - xw * xy) * inv_det;
-    p.a = mw + ref_w - p.b * mx - p.c * my;
+    float w = mw + ref.w;
+    p.a = w - p.b * mx - p.c * my;
     float residual = ww - p.b * xw - p.c * yw;
     residual = residual > 0.0f ? residual : 0.0f;
     float variance = residual / (n > 4.0f ? n - 3.0f : 1.0f);
-    float w = mw + ref_w;
     w = w > 1e-3f ? w : 1e-3f;
-    float sigma_w = rlf_kernel_sigma(noise, 1.0f / w) * w * w;
-    float expected = sigma_w * sigma_w;
-    bool fits = solvable && variance <= most_sigmas * most_sigmas * expected;
+    float rx = ref.x + mx, ry = ref.y + my;
+    float nz = p.a - p.b * ref.x - p.c * ref.y;
+    float square = (p.b * p.b + p.c * p.c + nz * nz) * (rx * rx + ry * ry + 1.0f);
+    float cosine = w / sqrtf(square > w * w ? square : w * w);
+    float sigma = rlf_kernel_sigma(noise, 1.0f / w) * w * w * slant_factor(cosine);
+    float limit = most_sigmas * sigma;
+    float fits = variance <= limit * limit ? solvable : 0.0f;
     float spread = xx < yy ? xx : yy;
-    float worst = variance > expected ? variance : expected;
-    p.score = fits ? worst / (spread > 0.0f ? spread : 1.0f) : no_plane;
+    float expected = sigma * sigma;
+    p.weight = fits * spread / (variance > expected ? variance : expected);
+    p.tolerance = 3.0f * sigma;
     return p;
 }
 
-RLF_KERNEL_PART void fit_row(const window_sums *restrict sums, float ref_w, rlf_kernel_noise noise,
-                             plane_rows *restrict out)
+RLF_KERNEL_PART void fit_row(const window_sums *restrict sums, reference ref,
+                             rlf_kernel_noise noise, plane_rows *restrict out)
 {
-    float a[PLANES], b[PLANES], c[PLANES], score[PLANES];
+    float value[5][PLANES];
     for (int32_t i = 0; i < PLANES; i++) {
-        plane wide = fit(sums->wide, i, ref_w, noise, 1.5f);
-        plane narrow = fit(sums->narrow, i, ref_w, noise, 3.0f);
-        bool use_wide = wide.score < no_plane;
-        a[i] = use_wide ? wide.a : narrow.a;
-        b[i] = use_wide ? wide.b : narrow.b;
-        c[i] = use_wide ? wide.c : narrow.c;
-        score[i] = use_wide ? wide.score : narrow.score;
+        plane wide = fit(sums->wide, i, ref, noise, WIDE_SIGMAS);
+        plane narrow = fit(sums->narrow, i, ref, noise, NARROW_SIGMAS);
+        float use = wide.weight > 0.0f ? 1.0f : 0.0f;
+        float rest = 1.0f - use;
+        value[0][i] = use * wide.a + rest * narrow.a;
+        value[1][i] = use * wide.b + rest * narrow.b;
+        value[2][i] = use * wide.c + rest * narrow.c;
+        value[3][i] = use * wide.weight + rest * narrow.weight;
+        value[4][i] = use * wide.tolerance + rest * narrow.tolerance;
     }
-    for (int32_t i = 0; i < PLANES; i++) {
-        for (int32_t k = 0; k < 2; k++) {
-            out->a[2 * i + k] = a[i];
-            out->b[2 * i + k] = b[i];
-            out->c[2 * i + k] = c[i];
-            out->score[2 * i + k] = score[i];
+    float *const planes[5] = {out->a, out->b, out->c, out->weight, out->tolerance};
+    for (int32_t k = 0; k < 5; k++) {
+        for (int32_t i = 0; i < PLANES; i++) {
+            planes[k][2 * i] = value[k][i];
+            planes[k][2 * i + 1] = value[k][i];
         }
+    }
+}
+
+typedef struct choice {
+    float x[RLF_KERNEL_TILE], y[RLF_KERNEL_TILE], w[RLF_KERNEL_TILE]; /* the pixels' own */
+    float a[RLF_KERNEL_TILE], b[RLF_KERNEL_TILE], c[RLF_KERNEL_TILE];
+    float weight[RLF_KERNEL_TILE];
+} choice;
+
+/* Takes the planes `shift` pixels to the right of a row's first where they are better. */
+RLF_KERNEL_PART void offer(const plane_rows *restrict planes, int32_t shift, choice *restrict best)
+{
+    for (int32_t i = 0; i < RLF_KERNEL_TILE; i++) {
+        int32_t k = i + shift;
+        float a = planes->a[k], b = planes->b[k], c = planes->c[k];
+        float error = a + b * best->x[i] + c * best->y[i] - best->w[i];
+        float weight = rlf_kernel_abs(error) <= planes->tolerance[k] ? planes->weight[k] : 0.0f;
+        float old = best->weight[i];
+        best->a[i] = weight > old ? a : best->a[i];
+        best->b[i] = weight > old ? b : best->b[i];
+        best->c[i] = weight > old ? c : best->c[i];
+        best->weight[i] = weight > old ? weight : old;
     }
 }
 
@@ -190,39 +233,33 @@ RLF_KERNEL_PART void select_row(const rlf_kernel_tile *t, int32_t y, reference r
                                 const plane_rows *restrict planes)
 {
     ptrdiff_t offset = (ptrdiff_t)y * t->width + t->x0;
-    const float *restrict depth = t->depth + offset;
-    const float *restrict ray_x = t->ray_x + offset;
-    const float *restrict ray_y = t->ray_y + offset;
+    int32_t count = t->x1 - t->x0;
+    choice best;
+    for (int32_t i = 0; i < RLF_KERNEL_TILE; i++) {
+        best.x[i] = best.y[i] = best.w[i] = 0.0f;
+        best.a[i] = best.b[i] = best.c[i] = best.weight[i] = 0.0f;
+    }
+    for (int32_t i = 0; i < count; i++) {
+        float z = t->depth[offset + i];
+        best.x[i] = t->ray_x[offset + i] - ref.x;
+        best.y[i] = t->ray_y[offset + i] - ref.y;
+        best.w[i] = z > 0.0f ? 1.0f / (z > 0.0f ? z : 1.0f) : -1e9f; /* no plane predicts this */
+    }
+    for (int32_t row = 0; row < 3; row++) {
+        for (int32_t shift = 0; shift <= 4; shift += 2) {
+            offer(&planes[row], shift, &best);
+        }
+    }
     float *restrict out_x = t->out_x + offset;
     float *restrict out_y = t->out_y + offset;
     float *restrict out_z = t->out_z + offset;
-    int32_t count = t->x1 - t->x0;
     for (int32_t i = 0; i < count; i++) {
-        float z = depth[i];
-        float w = z > 0.0f ? 1.0f / (z > 0.0f ? z : 1.0f) : 0.0f;
-        float tolerance = 3.0f * rlf_kernel_sigma(t->noise, z) * w * w;
-        float x = ray_x[i] - ref.x;
-        float yy = ray_y[i] - ref.y;
-        float a = 0.0f, b = 0.0f, c = 0.0f, score = no_plane;
-        for (int32_t row = 0; row < 3; row++) {
-            for (int32_t column = 0; column < 3; column++) {
-                int32_t k = i + 2 * column;
-                float pa = planes[row].a[k], pb = planes[row].b[k], pc = planes[row].c[k];
-                float error = rlf_kernel_abs(pa + pb * x + pc * yy - w);
-                float value = error <= tolerance ? planes[row].score[k] : no_plane;
-                bool better = value < score;
-                a = better ? pa : a;
-                b = better ? pb : b;
-                c = better ? pc : c;
-                score = better ? value : score;
-            }
-        }
-        a = a - b * ref.x - c * ref.y;
-        float square = a * a + b * b + c * c;
-        bool usable = z > 0.0f && square > 1e-30f;
-        float scale = usable ? -1.0f / sqrtf(usable ? square : 1.0f) : 0.0f;
-        out_x[i] = b * scale;
-        out_y[i] = c * scale;
+        float a = best.a[i] - best.b[i] * ref.x - best.c[i] * ref.y;
+        float square = a * a + best.b[i] * best.b[i] + best.c[i] * best.c[i];
+        float usable = square > 1e-30f ? 1.0f : 0.0f;
+        float scale = -usable / sqrtf(usable > 0.0f ? square : 1.0f);
+        out_x[i] = best.b[i] * scale;
+        out_y[i] = best.c[i] * scale;
         out_z[i] = a * scale;
     }
 }
@@ -253,7 +290,7 @@ RLF_KERNEL void rlf_kernel_plane_tile(const rlf_kernel_tile *tile)
                                           &blocks[(row + 3) % 5], &blocks[(row + 4) % 5],
                                           &blocks[row % 5]};
         sum_windows(rows, &sums);
-        fit_row(&sums, ref.w, tile->noise, &planes[row - 4]);
+        fit_row(&sums, ref, tile->noise, &planes[row - 4]);
     }
     for (int32_t y = tile->y0; y < tile->y1; y++) {
         select_row(tile, y, ref, &planes[(y - tile->y0) / 2]);

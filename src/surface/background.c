@@ -26,16 +26,7 @@ void rlf_background_publish(rlf_reconstruct *stage)
     int32_t next = (background->newest + 1) % RLF_SHEETS;
     rlf_sheet *sheet = &background->sheets[next];
     memcpy(sheet->depth, background->mean, (size_t)grid->count * sizeof *sheet->depth);
-    rlf_normals_job normals = {stage->def.normal_method,
-                               stage->def.normals_face_camera,
-                               grid->width,
-                               grid->height,
-                               grid->ray_x,
-                               grid->ray_y,
-                               sheet->depth,
-                               &stage->def.rig.noise,
-                               {sheet->normal[0], sheet->normal[1], sheet->normal[2]},
-                               stage->def.pool};
+    rlf_normals_job normals = rlf_normals_job_make(stage, sheet->depth, sheet->normal);
     rlf_normals_compute(&normals);
     rlf_layer_in in = {RLF_LAYER_BACKGROUND,
                        stage->def.background_segment,

@@ -46,6 +46,23 @@ void rlf_normals_compute(const rlf_normals_job *job)
     }
 }
 
+rlf_normals_job rlf_normals_job_make(const rlf_reconstruct *stage, const float *depth,
+                                     float *const out[3])
+{
+    const rlf_grid *grid = &stage->grid;
+    rlf_normals_job job = {.method = stage->def.normal_method,
+                           .face_camera = stage->def.normals_face_camera,
+                           .width = grid->width,
+                           .height = grid->height,
+                           .ray_x = grid->ray_x,
+                           .ray_y = grid->ray_y,
+                           .depth = depth,
+                           .noise = &stage->def.rig.noise,
+                           .out = {out[0], out[1], out[2]},
+                           .pool = stage->def.pool};
+    return job;
+}
+
 void rlf_compute_normals(rlf_normal_method method, bool face_camera, int32_t width, int32_t height,
                          const float *ray_x, const float *ray_y, const float *depth,
                          const rlf_depth_noise *noise, float *out_x, float *out_y, float *out_z)
@@ -55,7 +72,14 @@ void rlf_compute_normals(rlf_normal_method method, bool face_camera, int32_t wid
     if (!RLF_ASSERT(complete)) {
         return;
     }
-    rlf_normals_job job = {method, face_camera,           width, height, ray_x, ray_y, depth,
-                           noise,  {out_x, out_y, out_z}, NULL};
+    rlf_normals_job job = {.method = method,
+                           .face_camera = face_camera,
+                           .width = width,
+                           .height = height,
+                           .ray_x = ray_x,
+                           .ray_y = ray_y,
+                           .depth = depth,
+                           .noise = noise,
+                           .out = {out_x, out_y, out_z}};
     rlf_normals_compute(&job);
 }

@@ -40,7 +40,7 @@ static bool has_normal(const rlf_normals_job *job, ptrdiff_t i)
 static bool from_neighbours(const rlf_normals_job *job, int32_t x, int32_t y)
 {
     ptrdiff_t i = (ptrdiff_t)y * job->width + x;
-    float z = job->depth[i];
+    float z = job->filled[i];
     rlf_vec3 sum = {0, 0, 0};
     for (int32_t dy = -2; dy <= 2; dy++) {
         for (int32_t dx = -2; dx <= 2; dx++) {
@@ -49,8 +49,8 @@ static bool from_neighbours(const rlf_normals_job *job, int32_t x, int32_t y)
                 continue;
             }
             ptrdiff_t n = (ptrdiff_t)ny * job->width + nx;
-            if (!(job->depth[n] > 0.0f) || !has_normal(job, n) ||
-                rlf_kernel_abs(job->depth[n] - z) > 0.02f * z) {
+            if (!(job->filled[n] > 0.0f) || !has_normal(job, n) ||
+                rlf_kernel_abs(job->filled[n] - z) > 0.02f * z) {
                 continue;
             }
             rlf_vec3 normal = {job->out[0][n], job->out[1][n], job->out[2][n]};
@@ -74,7 +74,7 @@ static void complete_pixels(const rlf_normals_job *job)
     for (int32_t y = 0; y < job->height; y++) {
         for (int32_t x = 0; x < job->width; x++) {
             ptrdiff_t i = (ptrdiff_t)y * job->width + x;
-            if (job->depth[i] > 0.0f && !has_normal(job, i) && !from_neighbours(job, x, y)) {
+            if (job->filled[i] > 0.0f && !has_normal(job, i) && !from_neighbours(job, x, y)) {
                 rlf_normals_slope_pixel(job, x, y);
             }
         }
@@ -86,5 +86,7 @@ void rlf_normals_plane(const rlf_normals_job *job)
     rlf_normals_job copy = *job;
     int32_t bands = (job->height + RLF_KERNEL_TILE - 1) / RLF_KERNEL_TILE;
     rlf_parallel_for(job->pool, bands, 1, plane_bands, &copy);
-    complete_pixels(job);
+    copy.filled = job->filled != NULL ? job->filled : job->depth;
+    copy.depth = copy.filled;
+    complete_pixels(&copy);
 }

@@ -136,19 +136,14 @@ static void make_layered_normals(rlf_reconstruct *stage, rlf_normals_job *job, r
 
 static void make_normals(rlf_reconstruct *stage, rlf_slot *slot)
 {
-    const rlf_grid *grid = &stage->grid;
-    rlf_normals_job job = {stage->def.normal_method,
-                           stage->def.normals_face_camera,
-                           grid->width,
-                           grid->height,
-                           grid->ray_x,
-                           grid->ray_y,
-                           slot->depth,
-                           &stage->def.rig.noise,
-                           {slot->normal[0], slot->normal[1], slot->normal[2]},
-                           stage->def.pool};
-    bool layered = stage->def.background_method == RLF_BACKGROUND_AVERAGE &&
-                   stage->def.normal_method != RLF_NORMALS_INVERSE_DEPTH &&
+    rlf_normals_job job = rlf_normals_job_make(stage, slot->depth, slot->normal);
+    bool exact = stage->def.normal_method == RLF_NORMALS_INVERSE_DEPTH;
+    if (stage->def.enable_fill &&
+        exact) { /* what was filled must not shape the normals of what was seen */
+        job.depth = stage->work.depth[1];
+        job.filled = slot->depth;
+    }
+    bool layered = stage->def.background_method == RLF_BACKGROUND_AVERAGE && !exact &&
                    newest_sheet(stage) != NULL;
     if (layered) {
         make_layered_normals(stage, &job, slot);

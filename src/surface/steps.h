@@ -23,11 +23,16 @@ typedef struct rlf_normals_job {
     bool face_camera;
     int32_t width, height;
     const float *ray_x, *ray_y, *depth;
+    const float *filled;          /* depth with holes filled: they take normals from beside them;
+                                     NULL = the same as depth */
     const rlf_depth_noise *noise; /* NULL = clean */
     float *out[3];
     rlf_pool *pool;
 } rlf_normals_job;
 
+/* With the stage's method, rays and noise. */
+rlf_normals_job rlf_normals_job_make(const rlf_reconstruct *stage, const float *depth,
+                                     float *const out[3]);
 void rlf_normals_compute(const rlf_normals_job *job);
 void rlf_normals_faces(const rlf_normals_job *job);
 void rlf_normals_thesis(const rlf_normals_job *job);

@@ -1,0 +1,101 @@
+/* Analytic depth for tests of the surface stage: planes and spheres seen by a camera, and a seeded
+ * noise source. */
+#ifndef RLF_TEST_ANALYTIC_H
+#define RLF_TEST_ANALYTIC_H
+
+#include "relief/reconstruct.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A Kinect-like rig of any size. */
+static inline rlf_rig analytic_rig(int32_t width, int32_t height)
+{
+    rlf_rig rig;
+    memset(&rig, 0, sizeof rig);
+    rig.depth.width = width;
+    rig.depth.height = height;
+    rig.depth.fx = rig.depth.fy = 0.714 * width;
+    rig.depth.cx = 0.5 * (width - 1);
+    rig.depth.cy = 0.5 * (height - 1);
+    rig.T_color_depth = rlf_pose_identity();
+    rig.depth_min_m = 0.5;
+    rig.depth_max_m = 4.5;
+    rig.noise = (rlf_depth_noise){0.0015, -0.0005, 0.0003};
+    return rig;
+}
+
+/* Depth along the ray (x, y, 1) of the plane n.p = d. */
+static inline double plane_depth(rlf_vec3 n, double d, double x, double y)
+{
+    return d / (n.x * x + n.y * y + n.z);
+}
+
+/* Depth of the near side of a sphere; 0 where the ray misses. */
+static inline double sphere_depth(rlf_vec3 centre, double radius, double x, double y)
+{
+    rlf_vec3 m = {x, y, 1.0};
+    double a = rlf_dot(m, m), b = rlf_dot(m, centre);
+    double root = b * b - a * (rlf_dot(centre, centre) - radius * radius);
+    return root < 0.0 ? 0.0 : (b - sqrt(root)) / a;
+}
+
+/* xorshift64* (Vigna 2016) and the sum of 12 uniforms: about normal, no library needed. */
+typedef struct analytic_random {
+    uint64_t state;
+} analytic_random;
+
+static inline double random_uniform(analytic_random *r)
+{
+    r->state ^= r->state >> 12;
+    r->state ^= r->state << 25;
+    r->state ^= r->state >> 27;
+    return (double)((r->state * 2685821657736338717ull) >> 11) / 9007199254740992.0;
+}
+static inline double random_normal(analytic_random *r)
+{
+    double sum = -6.0;
+    for (int i = 0; i < 12; i++) {
+        sum += random_uniform(r);
+    }
+    return sum;
+}
+
+/* A frame of float depth without padding. */
+static inline rlf_frame analytic_frame(const rlf_rig *rig, const float *depth, int32_t number)
+{
+    rlf_frame frame;
+    memset(&frame, 0, sizeof frame);
+    frame.sequence = (uint64_t)number;
+    frame.time_ns = (int64_t)number * 33333333;
+    frame.rig = rig;
+    frame.depth_f32 = depth;
+    frame.depth_stride = (ptrdiff_t)sizeof(float) * rig->depth.width;
+    return frame;
+}
+
+/* Ray planes of a camera; the caller frees both with rlf_free. */
+static inline void analytic_rays(const rlf_camera *camera, float **out_x, float **out_y)
+{
+    size_t count = (size_t)camera->width * (size_t)camera->height;
+    *out_x = rlf_alloc_array(count, sizeof(float));
+    *out_y = rlf_alloc_array(count, sizeof(float));
+    for (int32_t y = 0; y < camera->height; y++) {
+        for (int32_t x = 0; x < camera->width; x++) {
+            rlf_vec3 ray;
+            size_t i = (size_t)y * (size_t)camera->width + (size_t)x;
+            if (rlf_camera_unproject(camera, x, y, &ray)) {
+                (*out_x)[i] = (float)ray.x;
+                (*out_y)[i] = (float)ray.y;
+            }
+        }
+    }
+}
+
+/* Angle between two unit vectors, degrees, accurate near 0. */
+static inline double angle_deg(rlf_vec3 a, rlf_vec3 b)
+{
+    return rlf_atan2(rlf_length(rlf_cross(a, b)), rlf_dot(a, b)) * 180.0 / RLF_PI;
+}
+
+#endif
