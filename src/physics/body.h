@@ -56,6 +56,7 @@ typedef struct phys_body {
     bool is_pressed;                     /* a contact held it in this substep */
     double still_time;                   /* s it has hardly moved */
     int32_t surface_age, surface_period; /* substeps since, and between, surface queries */
+    rlf_vec3 surface_flow;               /* velocity of the foreground near it, grid frame */
     phys_contact surface[PHYS_SURFACE_CONTACTS];
     int32_t surface_count;
 } phys_body;

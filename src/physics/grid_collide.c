@@ -114,6 +114,7 @@ void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
         old[i] = body->surface[i];
     }
     body->surface_count = 0;
+    body->surface_flow = rlf_vec3_make(0, 0, 0);
     body->surface_age = 0;
     body->surface_period = query_period(body, query->step);
     grid_job job;
@@ -125,6 +126,7 @@ void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
     double slip = query->grid->foreground.velocity_x != NULL ? 0.05 : 0.0;
     job.reach = body->shape.radius + GRID_MARGIN + speed * job.horizon + slip;
     collide_sheet(&job, &query->grid->foreground);
+    body->surface_flow = job.surface_velocity;
     grid_reduce(&job, body, body_index, RLF_CONTACT_FOREGROUND);
     collide_sheet(&job, &query->grid->background);
     grid_reduce(&job, body, body_index, RLF_CONTACT_BACKGROUND);
@@ -137,18 +139,22 @@ void grid_guard_centre(const grid_query *query, phys_body *body, rlf_vec3 before
     const rlf_grid_sheet *sheets[2] = {&grid->foreground, &grid->background};
     rlf_vec3 from = rlf_transform(&query->T_grid_world, before);
     rlf_vec3 to = rlf_transform(&query->T_grid_world, body->x);
-    rlf_vec3 path = rlf_sub(to, from);
-    for (int32_t i = 0; i < 2; i++) {
+    rlf_vec3 flow = query->is_moving ? body->surface_flow : rlf_vec3_make(0, 0, 0);
+    for (int32_t i = 0; i < 2; i++, flow = rlf_vec3_make(0, 0, 0)) {
         field_cell cell;
         field_hit hit;
+        /* the way as the moving sheet sees it */
+        rlf_vec3 start = rlf_mad(from, flow, -query->tau);
+        rlf_vec3 path = rlf_mad(rlf_sub(to, from), flow, -query->step);
         if (sheets[i]->depth == NULL || sheets[i]->normal_x == NULL ||
-            grid_field_at(grid, sheets[i], from, &cell) == FIELD_INSIDE ||
-            !grid_field_cast(grid, sheets[i], from, path, 0.0, &hit)) {
+            grid_field_at(grid, sheets[i], start, &cell) == FIELD_INSIDE ||
+            !grid_field_cast(grid, sheets[i], start, path, 0.0, &hit)) {
             continue;
         }
         rlf_vec3 n = rlf_rotate(grid->T_world_grid.q, hit.normal);
-        double approach = rlf_dot(n, body->v);
-        body->x = before;
+        rlf_vec3 moved = rlf_rotate(grid->T_world_grid.q, rlf_scale(flow, query->step));
+        double approach = rlf_dot(n, rlf_mad(body->v, moved, -1.0 / query->step));
+        body->x = rlf_add(before, moved);
         body->v = approach < 0.0 ? rlf_mad(body->v, n, -approach) : body->v;
         return;
     }

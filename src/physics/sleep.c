@@ -2,8 +2,8 @@
 #include "physics/sleep.h"
 
 #define STILL_SPEED 0.004 /* m/s, of any point of the body: a slope 0.05 deg too steep beats it */
-#define STILL_TIME 0.5   /* s */
-#define TOUCHING 0.001   /* m */
+#define STILL_TIME 0.5    /* s */
+#define TOUCHING 0.001    /* m */
 /* How far a surface may wander under a sleeper: several sigma of a depth camera at 2 m. */
 #define WANDER 0.006
 
