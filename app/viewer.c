@@ -50,6 +50,7 @@ viewer_options viewer_options_default(void)
     options.source_name = "";
     options.frame_count = -1;
     options.use_gl = true;
+    options.show_help = true;
     options.T_world_camera = rlf_pose_identity();
     return options;
 }
@@ -123,7 +124,7 @@ static void note_times(viewer *v)
     bool is_first = v->frames_done == 0;
     const rlf_stage_times *t = &v->frame.times;
     int64_t now = rlf_clock_ns();
-    if (v->last_step_ns != 0 && now > v->last_step_ns) {
+    if (v->last_step_ns != 0 && now > v->last_step_ns && !v->is_paused) {
         double seconds = (double)(now - v->last_step_ns) / NS_PER_S;
         /* Averages periods, not rates: a long frame must count as long as it took. */
         double period = v->fps > 0.0 ? 1.0 / v->fps : seconds;
@@ -230,6 +231,7 @@ static void throw_body(viewer *v, const viewer_wishes *wishes)
     v->is_redraw_due = true;
 }
 
+/* The picture without the lines of text. */
 static void save_picture(viewer *v)
 {
     char text[OVERLAY_LINE_SIZE] = "";
@@ -359,7 +361,7 @@ rlf_result viewer_run(rlf_pipeline *pipeline, const viewer_options *options)
     memset(&v, 0, sizeof v);
     v.pipeline = pipeline;
     v.options = options;
-    v.shows_help = true;
+    v.shows_help = options->show_help;
     v.view = options->view;
     rlf_compositor_def def = rlf_pipeline_get_compositor_def(pipeline);
     const rlf_camera *camera = def.rig.has_color ? &def.rig.color : &def.rig.depth;

@@ -18,6 +18,7 @@ typedef struct viewer_options {
     double frames_per_second;     /* of playback; 0 = as frames come */
     int64_t frame_count;          /* stop after so many; -1 = when the user closes the window */
     bool use_gl;                  /* draw with OpenGL; the soft renderer otherwise */
+    bool show_help;               /* list the keys at first; default true */
     rlf_view view;                /* to start with */
     rlf_pose T_world_camera;      /* as the pipeline's */
     viewer_frame_fn on_frame;     /* NULL = none */

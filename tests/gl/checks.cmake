@@ -1,0 +1,23 @@
+# The viewer's test: its sources are part of the command, so they are built in here, and it needs a
+# display, which xvfb-run lends.
+if(NOT TARGET relief_gl OR NOT RELIEF_WITH_VIEWER)
+  return()
+endif()
+pkg_check_modules(glfw3 REQUIRED IMPORTED_TARGET glfw3)
+pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
+set(app ${PROJECT_SOURCE_DIR}/app)
+add_executable(viewer_test ${CMAKE_CURRENT_LIST_DIR}/viewer_test.c ${app}/viewer.c
+               ${app}/viewer_throw.c ${app}/viewer_window.c)
+relief_settings(viewer_test)
+# setenv is POSIX.
+target_compile_definitions(viewer_test PRIVATE _POSIX_C_SOURCE=200809L)
+target_include_directories(viewer_test PRIVATE ${app})
+target_link_libraries(viewer_test PRIVATE relief_gl relief PkgConfig::glfw3 PkgConfig::epoxy
+                      PkgConfig::cmocka m)
+find_program(RELIEF_XVFB_RUN xvfb-run DOC "Lends the viewer's test a display")
+set(launcher "")
+if(RELIEF_XVFB_RUN)
+  set(launcher ${RELIEF_XVFB_RUN} -a)
+endif()
+add_test(NAME gl.viewer_test COMMAND ${launcher} $<TARGET_FILE:viewer_test>)
+set_tests_properties(gl.viewer_test PROPERTIES LABELS gl TIMEOUT 300)

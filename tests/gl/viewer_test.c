@@ -1,0 +1,317 @@
+/* The viewer: mouse positions and rays anywhere; the window, its keys and the presenter where there
+ * is a display (the build runs this under xvfb-run when it finds it). */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "relief/gl.h"
+#include "relief/synthetic.h"
+#include "viewer.h"
+#include "viewer_throw.h"
+
+#include <epoxy/gl.h>
+
+#include <GLFW/glfw3.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- mouse ---------------------------------------------------------------------------------- */
+
+static void test_pick(void **state)
+{
+    (void)state;
+    /* A picture of 200 x 100 in a window of 400 x 400: twice as large, bars of 100 above and below.
+     */
+    const viewer_fit fit = {400, 400, 200, 100};
+    double u, v;
+    assert_true(viewer_fit_pick(&fit, 1.0, 101.0, &u, &v));
+    assert_float_equal(u, 0.0, 1e-9);
+    assert_float_equal(v, 0.0, 1e-9);
+    assert_true(viewer_fit_pick(&fit, 399.0, 299.0, &u, &v));
+    assert_float_equal(u, 199.0, 1e-9);
+    assert_float_equal(v, 99.0, 1e-9);
+    assert_false(viewer_fit_pick(&fit, 200.0, 50.0, &u, &v));
+    assert_false(viewer_fit_pick(&fit, 200.0, 350.0, &u, &v));
+}
+
+/* A point on the ray through a pixel projects back to the pixel. */
+static void test_ray(void **state)
+{
+    (void)state;
+    rlf_compositor_def def = rlf_compositor_def_default();
+    def.rig.has_color = true;
+    def.rig.color = (rlf_camera){
+        320, 240, 250, 252, 158, 121, RLF_DISTORTION_PLUMB_BOB, {0.1, -0.05, 0.001, 0.002, 0.0}};
+    def.rig.T_color_depth.p = rlf_vec3_make(0.05, 0.01, -0.02);
+    def.rig.T_color_depth.q = rlf_quat_from_rotation_vector(rlf_vec3_make(0.1, -0.2, 0.05));
+    def.width = 640;
+    def.height = 480;
+    rlf_pose T_world_camera = {{1.0, -0.5, 0.2},
+                               rlf_quat_from_rotation_vector(rlf_vec3_make(-0.3, 0.4, 0.1))};
+    viewer_ray ray = viewer_ray_make(&def, &T_world_camera, 500.0, 77.0);
+    assert_float_equal(rlf_length(ray.direction), 1.0, 1e-12);
+    rlf_vec3 p_world = rlf_mad(ray.origin, ray.direction, 1.7);
+    rlf_vec3 p_camera = rlf_transform_inverse(&T_world_camera, p_world);
+    rlf_camera picture = rlf_camera_resize(&def.rig.color, 640, 480);
+    double u, v;
+    assert_true(
+        rlf_camera_project(&picture, rlf_transform(&def.rig.T_color_depth, p_camera), &u, &v));
+    assert_float_equal(u, 500.0, 1e-6);
+    assert_float_equal(v, 77.0, 1e-6);
+}
+
+static void test_throw(void **state)
+{
+    (void)state;
+    assert_float_equal(viewer_throw_speed(0.0), VIEWER_THROW_SPEED, 0.0);
+    assert_true(viewer_throw_speed(0.1) < viewer_throw_speed(0.5));
+    assert_float_equal(viewer_throw_speed(5.0), VIEWER_THROW_SPEED_MAX, 0.0);
+    const viewer_ray ray = {{0, 0, 0}, {0, 0, 1}};
+    rlf_body_def body = viewer_throw_body(&ray, 3.0, 7);
+    assert_float_equal(body.velocity.z, 3.0, 1e-12);
+    assert_true(body.position.z > 0.2 && body.position.z < 0.6);
+}
+
+/* ---- window --------------------------------------------------------------------------------- */
+
+static bool has_display(void)
+{
+    if (getenv("DISPLAY") == NULL) {
+        print_message("SKIPPED: no display (DISPLAY is not set)\n");
+        return false;
+    }
+    return true;
+}
+
+/* What happened in a run, and what to do at which frame. */
+typedef struct script {
+    int64_t frames;
+    int32_t bodies_before, bodies_after;
+    int64_t index_after_restart;
+    int32_t pictures;
+    uint8_t camera_pixel[3], normals_pixel[3];
+    bool is_short; /* quit at the fifth frame */
+} script;
+
+static GLFWwindow *window(void)
+{
+    return glfwGetCurrentContext();
+}
+
+/* Presses a key as GLFW would report it. */
+static void press(int key)
+{
+    GLFWkeyfun on_key = glfwSetKeyCallback(window(), NULL);
+    glfwSetKeyCallback(window(), on_key);
+    on_key(window(), key, 0, GLFW_PRESS, 0);
+    on_key(window(), key, 0, GLFW_RELEASE, 0);
+}
+
+static rlf_result play(void *context, const rlf_pipeline_output *frame)
+{
+    script *s = context;
+    const rlf_image_rgba8 *image = &frame->render.image;
+    const uint8_t *pixel = rlf_rgba8_row(image, image->height - 20) + 4 * (image->width / 2);
+    s->frames++;
+    switch (s->frames) {
+    case 1:
+        memcpy(s->camera_pixel, pixel, 3);
+        press(GLFW_KEY_3);
+        break;
+    case 2:
+        memcpy(s->normals_pixel, pixel, 3);
+        press(GLFW_KEY_1);
+        glfwSetWindowSize(window(), 300, 500);
+        break;
+    case 3:
+        s->bodies_before = frame->snapshot->body_count;
+        glfwSetCursorPos(window(), 150, 250);
+        press(GLFW_KEY_T);
+        press(GLFW_KEY_P);
+        break;
+    case 4:
+        s->bodies_after = frame->snapshot->body_count;
+        press(GLFW_KEY_N); /* pauses and goes on by one frame */
+        break;
+    case 5: press(s->is_short ? GLFW_KEY_Q : GLFW_KEY_R); break; /* still paused */
+    case 6:
+        s->index_after_restart = frame->frame_index;
+        press(GLFW_KEY_SPACE);
+        break;
+    default: break;
+    }
+    return RLF_OK;
+}
+
+static rlf_result take_picture(void *context, const rlf_image_rgba8 *image, char *out_message,
+                               size_t message_size)
+{
+    script *s = context;
+    s->pictures += image->data != NULL;
+    (void)snprintf(out_message, message_size, "taken");
+    return RLF_OK;
+}
+
+static void run_script(script *s, bool use_gl)
+{
+    rlf_synthetic_def synthetic = rlf_synthetic_def_default();
+    synthetic.enable_truth = false;
+    synthetic.color_width = 320;
+    synthetic.color_height = 180;
+    rlf_source *source = NULL;
+    rlf_pipeline *pipeline = NULL;
+    assert_int_equal(rlf_synthetic_create(&synthetic, &source), RLF_OK);
+    rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_THESIS, source, NULL);
+    def.compositor.enable_overlay = true;
+    assert_int_equal(rlf_pipeline_create(&def, &pipeline), RLF_OK);
+    viewer_options options = viewer_options_default();
+    options.title = "Relief viewer test";
+    options.source_name = "synthetic:room";
+    options.frame_count = 8;
+    options.use_gl = use_gl;
+    options.on_frame = play;
+    options.on_picture = take_picture;
+    options.context = s;
+    rlf_result result = viewer_run(pipeline, &options);
+    if (result != RLF_OK) {
+        print_message("%s\n", rlf_error_text());
+    }
+    assert_int_equal(result, RLF_OK);
+    rlf_pipeline_destroy(&pipeline);
+    rlf_source_destroy(&source);
+}
+
+static void check_run(bool use_gl)
+{
+    script s = {.index_after_restart = -1};
+    run_script(&s, use_gl);
+    assert_int_equal(s.frames, 8);
+    assert_memory_not_equal(s.camera_pixel, s.normals_pixel, 3);
+    assert_int_equal(s.bodies_before, 0);
+    assert_int_equal(s.bodies_after, 1);
+    assert_int_equal(s.pictures, 1);
+    assert_int_equal(s.index_after_restart, 0);
+}
+
+static void test_window_with_gl(void **state)
+{
+    (void)state;
+    if (!has_display()) {
+        skip();
+    }
+    check_run(true);
+}
+
+static void test_window_with_soft(void **state)
+{
+    (void)state;
+    if (!has_display()) {
+        skip();
+    }
+    check_run(false);
+}
+
+static void test_quit(void **state)
+{
+    (void)state;
+    if (!has_display()) {
+        skip();
+    }
+    script s = {.is_short = true};
+    run_script(&s, true);
+    assert_int_equal(s.frames, 5);
+}
+
+static void test_no_display(void **state)
+{
+    (void)state;
+    char display[256];
+    bool had_display = getenv("DISPLAY") != NULL;
+    (void)snprintf(display, sizeof(display), "%s", had_display ? getenv("DISPLAY") : "");
+    unsetenv("DISPLAY");
+    if (getenv("WAYLAND_DISPLAY") == NULL) {
+        rlf_synthetic_def synthetic = rlf_synthetic_def_default();
+        rlf_source *source = NULL;
+        rlf_pipeline *pipeline = NULL;
+        assert_int_equal(rlf_synthetic_create(&synthetic, &source), RLF_OK);
+        rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_THESIS, source, NULL);
+        assert_int_equal(rlf_pipeline_create(&def, &pipeline), RLF_OK);
+        viewer_options options = viewer_options_default();
+        assert_int_equal(viewer_run(pipeline, &options), RLF_ERROR_DEVICE);
+        assert_non_null(strstr(rlf_error_text(), "--headless"));
+        assert_null(strchr(rlf_error_text(), '\n'));
+        rlf_pipeline_destroy(&pipeline);
+        rlf_source_destroy(&source);
+    }
+    if (had_display) {
+        setenv("DISPLAY", display, 1);
+    }
+}
+
+/* ---- presenter ------------------------------------------------------------------------------ */
+
+static void check_pixel(int x, int y_from_top, const uint8_t expected[3])
+{
+    uint8_t pixel[4];
+    glReadPixels(x, 199 - y_from_top, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel);
+    for (int c = 0; c < 3; c++) {
+        assert_in_range(pixel[c] + 2, expected[c], expected[c] + 4);
+    }
+}
+
+/* A picture of 2 x 1 blocks in a square: its rows in order, black above and below. */
+static void test_presenter(void **state)
+{
+    (void)state;
+    if (!has_display()) {
+        skip();
+    }
+    assert_true(glfwInit());
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    GLFWwindow *hidden = glfwCreateWindow(200, 200, "presenter", NULL, NULL);
+    assert_non_null(hidden);
+    glfwMakeContextCurrent(hidden);
+    rlf_gl_presenter *presenter = NULL;
+    assert_int_equal(rlf_gl_presenter_create(&presenter), RLF_OK);
+    uint8_t data[4 * 8 * 4];
+    for (int i = 0; i < 8 * 4; i++) {
+        const uint8_t color[4] = {i % 8 < 4 ? 250 : 30, i / 8 < 2 ? 200 : 10, 90, 255};
+        memcpy(data + 4 * i, color, 4);
+    }
+    const rlf_image_rgba8 image = {data, 8, 4, 32};
+    rlf_gl_presenter_draw(presenter, &image, 200, 200);
+    check_pixel(100, 20, (const uint8_t[3]){0, 0, 0});
+    check_pixel(100, 180, (const uint8_t[3]){0, 0, 0});
+    check_pixel(20, 60, (const uint8_t[3]){250, 200, 90});
+    check_pixel(180, 60, (const uint8_t[3]){30, 200, 90});
+    check_pixel(20, 140, (const uint8_t[3]){250, 10, 90});
+    rlf_gl_presenter_draw(presenter, &image, 1, 1); /* a window of one pixel */
+    rlf_gl_presenter_draw(presenter, &image, 0, 0); /* minimised */
+    assert_int_equal(glGetError(), GL_NO_ERROR);
+    rlf_gl_presenter_destroy(&presenter);
+    assert_null(presenter);
+    glfwDestroyWindow(hidden);
+    glfwTerminate();
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_pick),
+        cmocka_unit_test(test_ray),
+        cmocka_unit_test(test_throw),
+        cmocka_unit_test(test_window_with_gl),
+        cmocka_unit_test(test_window_with_soft),
+        cmocka_unit_test(test_quit),
+        cmocka_unit_test(test_no_display),
+        cmocka_unit_test(test_presenter),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
