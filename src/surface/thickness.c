@@ -11,7 +11,7 @@
 
 #include <math.h>
 
-enum { LATTICE_POINTS = 12000, LATTICE_STEP_LEAST = 2 };
+enum { LATTICE_POINTS = 12000, LATTICE_STEP_LEAST = 1 };
 
 static const float same_body_m = 0.15f; /* depth that one sphere may span */
 static const float thinnest_m = 0.015f, thickest_m = 0.30f, plate_m = 0.02f;
@@ -141,9 +141,8 @@ static void squared_distances(lattice *l)
             best = best < largest * largest ? best : largest * largest;
             best = scan_row(l, x, y, -1, best);
             best = scan_row(l, x, y, 1, best);
-            /* The silhouette lies half a step before the first point outside. */
-            float radius = sqrtf(best) - 0.5f;
-            l->radius2[k] = radius * radius;
+            /* The nearest of many points outside lies close to the silhouette itself. */
+            l->radius2[k] = best;
         }
     }
 }
@@ -221,9 +220,11 @@ static float sphere_thickness(const lattice *l, int32_t x, int32_t y)
     float dx = fx - (float)(c % l->width), dy = fy - (float)(c / l->width);
     float h2 = l->radius2[c] - dx * dx - dy * dy;
     float z = l->slot->depth[(ptrdiff_t)y * l->stage->grid.width + x];
-    float metres = (float)l->step * z / (float)l->stage->grid.camera.fx;
-    float ratio = depth_ratio(sqrtf(l->radius2[c]) * metres);
-    float thickness = h2 > 0.0f ? 2.0f * sqrtf(h2) * metres * ratio : 0.0f;
+    float scale = (float)l->step / (float)l->stage->grid.camera.fx;
+    float ratio = depth_ratio(sqrtf(l->radius2[c]) * scale * z);
+    float half = h2 > 0.0f ? sqrtf(h2) * scale * ratio : 0.0f; /* at unit depth */
+    /* The sphere's middle lies half its thickness t behind the front: t = 2 half (z + t / 2). */
+    float thickness = 2.0f * half * z / (half < 0.5f ? 1.0f - half : 0.5f);
     thickness = thickness < thickest_m ? thickness : thickest_m;
     return thickness > thinnest_m ? thickness : thinnest_m;
 }

@@ -1,0 +1,223 @@
+/* Row kernels against their definition written out pixel by pixel, at odd sizes. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "analytic.h"
+#include "kernel/kernel.h"
+
+enum { LONGEST = 70 };
+
+/* Depth with holes and jumps. */
+static void random_depth(analytic_random *r, float *depth, int32_t count)
+{
+    for (int32_t i = 0; i < count; i++) {
+        double u = random_uniform(r);
+        depth[i] = u < 0.15 ? 0.0f : (float)(u < 0.6 ? 2.0 + 0.02 * u : 1.0 + u);
+    }
+}
+
+static void depth_row_is_units_and_reasons(void **state)
+{
+    (void)state;
+    analytic_random r = {1};
+    const rlf_kernel_range range = {0.5f, 4.5f, 0.001f};
+    for (int32_t count = 1; count <= LONGEST; count++) {
+        for (int32_t step = 1; step <= 3; step++) {
+            uint16_t source[3 * LONGEST];
+            float depth[LONGEST + 1] = {0};
+            uint8_t reason[LONGEST + 1] = {0};
+            for (int32_t i = 0; i < count * step; i++) {
+                source[i] = (uint16_t)(random_uniform(&r) < 0.2 ? 0 : 6000 * random_uniform(&r));
+            }
+            depth[count] = -7.0f;
+            reason[count] = 99;
+            rlf_kernel_depth_row_u16(source, step, count, range, depth, reason);
+            for (int32_t i = 0; i < count; i++) {
+                int mm = source[i * step];
+                int expected = mm == 0     ? RLF_REASON_NO_RETURN
+                               : mm < 500  ? RLF_REASON_TOO_NEAR
+                               : mm > 4500 ? RLF_REASON_TOO_FAR
+                                           : RLF_REASON_OK;
+                assert_int_equal(reason[i], expected);
+                assert_true(depth[i] == (expected == RLF_REASON_OK ? (float)mm * 0.001f : 0.0f));
+            }
+            assert_true(depth[count] == -7.0f && reason[count] == 99);
+        }
+    }
+}
+
+static int near_enough(float a, float b, float tolerance)
+{
+    return (a > b ? a - b : b - a) <= tolerance;
+}
+
+static bool kept_by_definition(float rows[3][LONGEST + 2], int32_t i)
+{
+    float z = rows[1][i + 1];
+    float tolerance = 0.012f * z + 0.004f;
+    int close = 0, pairs = 0;
+    for (int dy = -1; dy <= 1; dy++) {
+        for (int dx = -1; dx <= 1; dx++) {
+            if (dx == 0 && dy == 0) {
+                continue;
+            }
+            float a = rows[1 + dy][i + 1 + dx], b = rows[1 - dy][i + 1 - dx];
+            close += near_enough(a, z, tolerance);
+            bool first = dy < 0 || (dy == 0 && dx < 0);
+            pairs +=
+                first && near_enough(a + b, 2.0f * z, tolerance) && near_enough(a, z, 0.06f * z);
+        }
+    }
+    return close >= 3 || pairs >= 2;
+}
+
+static void flying_row_is_its_definition(void **state)
+{
+    (void)state;
+    analytic_random r = {2};
+    int removed = 0, kept = 0;
+    for (int32_t count = 1; count <= LONGEST; count++) {
+        float rows[3][LONGEST + 2];
+        float depth[LONGEST];
+        uint8_t reason[LONGEST] = {0};
+        memset(rows, 0, sizeof rows);
+        for (int k = 0; k < 3; k++) {
+            random_depth(&r, rows[k] + 1, count);
+        }
+        const float *const in[3] = {rows[0] + 1, rows[1] + 1, rows[2] + 1};
+        rlf_kernel_flying_row(in, count, depth, reason);
+        for (int32_t i = 0; i < count; i++) {
+            float z = rows[1][i + 1];
+            bool keep = kept_by_definition(rows, i);
+            assert_true(depth[i] == (keep ? z : 0.0f));
+            assert_int_equal(reason[i], z > 0.0f && !keep ? RLF_REASON_FLYING : RLF_REASON_OK);
+            removed += z > 0.0f && !keep;
+            kept += keep;
+        }
+    }
+    assert_true(removed > 50 && kept > 50);
+}
+
+static void majority_row_is_its_definition(void **state)
+{
+    (void)state;
+    analytic_random r = {3};
+    for (int32_t count = 1; count <= LONGEST; count++) {
+        uint8_t seen[3][LONGEST], out[LONGEST];
+        float depth[3][LONGEST];
+        for (int k = 0; k < 3; k++) {
+            random_depth(&r, depth[k], count);
+            for (int32_t i = 0; i < count; i++) {
+                seen[k][i] = (uint8_t)(depth[k][i] > 0.0f ? 2.2 * random_uniform(&r) : 0);
+            }
+        }
+        const uint8_t *const rows[3] = {seen[0], seen[1], seen[2]};
+        const float *const depths[3] = {depth[0], depth[1], depth[2]};
+        rlf_kernel_majority_row(rows, depths, count, out);
+        for (int32_t i = 0; i < count; i++) {
+            int votes = 0, valid = 0;
+            for (int k = 0; k < 3; k++) {
+                for (int32_t x = i - 1; x <= i + 1; x++) {
+                    bool inside = x >= 0 && x < count;
+                    votes += inside && seen[k][x] == RLF_SEEN_FOREGROUND;
+                    valid += inside && depth[k][x] > 0.0f;
+                }
+            }
+            int expected = depth[1][i] <= 0.0f              ? RLF_SEEN_BACKGROUND
+                           : seen[1][i] == RLF_SEEN_UNKNOWN ? RLF_SEEN_UNKNOWN
+                           : 2 * votes > valid              ? RLF_SEEN_FOREGROUND
+                                                            : RLF_SEEN_BACKGROUND;
+            assert_int_equal(out[i], expected);
+        }
+    }
+}
+
+/* The model of one pixel, told as a story. */
+static void background_row_follows_the_evidence(void **state)
+{
+    (void)state;
+    rlf_kernel_background params = {{0.0015f, -0.0005f, 0.0003f}, 6.0f, 0.02f, true};
+    float mean = 0.0f;
+    uint8_t weight = 0, beyond = 0, seen = 9;
+    const float learnt[3] = {2.0f, 2.004f, 0.0f};
+    for (int k = 0; k < 3; k++) {
+        rlf_kernel_background_row(&params, &learnt[k], 1, &mean, &weight, &beyond, &seen);
+        assert_int_equal(seen, RLF_SEEN_BACKGROUND);
+    }
+    assert_true(near_enough(mean, 2.002f, 1e-6f));
+    assert_int_equal(weight, 2);
+    params.learning = false;
+    const float nearer = 1.9f, farther = 2.5f, missing = 0.0f, same = 2.002f;
+    rlf_kernel_background_row(&params, &nearer, 1, &mean, &weight, &beyond, &seen);
+    assert_int_equal(seen, RLF_SEEN_FOREGROUND);
+    for (int k = 0; k < 2; k++) { /* twice, then interrupted: no proof */
+        rlf_kernel_background_row(&params, &farther, 1, &mean, &weight, &beyond, &seen);
+    }
+    rlf_kernel_background_row(&params, &same, 1, &mean, &weight, &beyond, &seen);
+    assert_int_equal(beyond, 0);
+    assert_true(near_enough(mean, 2.002f, 1e-5f));
+    for (int k = 0; k < 3; k++) { /* a missing sample says nothing */
+        int32_t changed =
+            rlf_kernel_background_row(&params, &farther, 1, &mean, &weight, &beyond, &seen);
+        assert_int_equal(changed, k == 2);
+        rlf_kernel_background_row(&params, &missing, 1, &mean, &weight, &beyond, &seen);
+    }
+    assert_true(mean == 2.5f);
+    assert_int_equal(weight, 1);
+    for (int k = 0; k < 300; k++) { /* long memory, but not endless */
+        rlf_kernel_background_row(&params, &farther, 1, &mean, &weight, &beyond, &seen);
+    }
+    assert_int_equal(weight, 32);
+    mean = 0.0f;
+    rlf_kernel_background_row(&params, &same, 1, &mean, &weight, &beyond, &seen);
+    assert_int_equal(seen, RLF_SEEN_UNKNOWN);
+    assert_true(mean == 0.0f);
+}
+
+/* Tiles write their own pixels only, whatever their size. */
+static void plane_tile_stays_in_its_tile(void **state)
+{
+    (void)state;
+    enum { W = 75, H = 71 };
+    static float depth[W * H], ray_x[W * H], ray_y[W * H], out[3][W * H];
+    for (int i = 0; i < W * H; i++) {
+        ray_x[i] = 0.01f * (float)(i % W - 30);
+        ray_y[i] = 0.01f * (float)(i / W - 30);
+        depth[i] = 2.0f;
+        out[0][i] = out[1][i] = out[2][i] = 5.0f;
+    }
+    rlf_kernel_tile tile = {.width = W,
+                            .height = H,
+                            .x0 = 64,
+                            .y0 = 64,
+                            .x1 = W,
+                            .y1 = H,
+                            .depth = depth,
+                            .ray_x = ray_x,
+                            .ray_y = ray_y,
+                            .noise = {0.0015f, -0.0005f, 0.0003f},
+                            .out_x = out[0],
+                            .out_y = out[1],
+                            .out_z = out[2]};
+    rlf_kernel_plane_tile(&tile);
+    for (int i = 0; i < W * H; i++) {
+        bool inside = i % W >= 64 && i / W >= 64;
+        assert_true(near_enough(out[2][i], inside ? -1.0f : 5.0f, 1e-4f));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(depth_row_is_units_and_reasons),
+        cmocka_unit_test(flying_row_is_its_definition),
+        cmocka_unit_test(majority_row_is_its_definition),
+        cmocka_unit_test(background_row_follows_the_evidence),
+        cmocka_unit_test(plane_tile_stays_in_its_tile),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
