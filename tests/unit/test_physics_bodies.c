@@ -190,8 +190,10 @@ static void bodies_may_ignore_bodies(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(head_on_swaps),        cmocka_unit_test(chain_of_balls),
-        cmocka_unit_test(momentum_is_conserved), cmocka_unit_test(stack_of_ten),
+        cmocka_unit_test(head_on_swaps),
+        cmocka_unit_test(chain_of_balls),
+        cmocka_unit_test(momentum_is_conserved),
+        cmocka_unit_test(stack_of_ten),
         cmocka_unit_test(bodies_may_ignore_bodies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

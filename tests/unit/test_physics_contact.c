@@ -95,8 +95,7 @@ static void bounces_to_the_square_of_restitution(void **state)
 /* A tilted gravity makes the level floor a slope. Returns the speed after one second. */
 static double slide(double slope, double friction)
 {
-    rlf_world *world =
-        make_world(rlf_vec3_make(9.81 * sin(slope), 9.81 * cos(slope), 0));
+    rlf_world *world = make_world(rlf_vec3_make(9.81 * sin(slope), 9.81 * cos(slope), 0));
     rlf_body_def def = rlf_body_def_default();
     def.friction = friction;
     def.position = rlf_vec3_make(-1, 0.95, 2.5);

@@ -62,8 +62,9 @@ static void set_plate(double y, double velocity_y)
 
 static rlf_body_def body_of(int type)
 {
-    static const rlf_vec3 corners[6] = {{0.06, 0.05, 0},  {-0.03, 0.05, 0.05}, {-0.03, 0.05, -0.05},
-                                        {0.06, -0.05, 0}, {-0.03, -0.05, 0.05}, {-0.03, -0.05, -0.05}};
+    static const rlf_vec3 corners[6] = {{0.06, 0.05, 0},      {-0.03, 0.05, 0.05},
+                                        {-0.03, 0.05, -0.05}, {0.06, -0.05, 0},
+                                        {-0.03, -0.05, 0.05}, {-0.03, -0.05, -0.05}};
     static const int32_t triangles[24] = {0, 2, 1, 3, 4, 5, 0, 1, 4, 0, 4, 3,
                                           1, 2, 5, 1, 5, 4, 2, 0, 3, 2, 3, 5};
     static const rlf_hull hull = {corners, 6, triangles, 8};
@@ -109,8 +110,8 @@ static bool lift(int type, double speed)
     double gap = y - 0.05 - first(world)->T_world_body.p.y;
     bool is_on = gap > -0.003 && gap < 0.01 + peak;
     double floor_speed = speed * 0.9;
-    print_message("lift shape %d at %.2f m/s: speed %.3f, deepest %.1f mm, flew %.1f cm, %s\n", type,
-                  speed, leaving, -1e3 * lowest_gap, 100 * peak, is_on ? "on it" : "lost");
+    print_message("lift shape %d at %.2f m/s: speed %.3f, deepest %.1f mm, flew %.1f cm, %s\n",
+                  type, speed, leaving, -1e3 * lowest_gap, 100 * peak, is_on ? "on it" : "lost");
     rlf_world_destroy(&world);
     return is_on && leaving > floor_speed && lowest_gap > -0.005;
 }
@@ -223,8 +224,8 @@ static void boards_push(void **state)
 static double z_after_throw_from_behind(rlf_physics_method method)
 {
     set_room();
-    grid_fixture_set_slab(fixture, grid_wall(2), rlf_vec3_make(0, 0, 2),
-                          rlf_vec3_make(0.3, 0.3, 0), 0.2, rlf_vec3_make(0, 0, 0));
+    grid_fixture_set_slab(fixture, grid_wall(2), rlf_vec3_make(0, 0, 2), rlf_vec3_make(0.3, 0.3, 0),
+                          0.2, rlf_vec3_make(0, 0, 0));
     static int32_t points[GRID_W * GRID_H];
     rlf_grid_region region = {.label = 2, .is_foreground = true, .box = rlf_aabb_empty()};
     for (int32_t i = 0; i < GRID_W * GRID_H; i++) {

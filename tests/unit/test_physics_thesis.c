@@ -1,0 +1,246 @@
+/* The thesis's rigid bodies, eq. 4.5 to 4.15, C.1 and Algorithms 1 to 3, against closed forms. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "physics/thesis.h"
+
+#include "grid_fixture.h"
+
+#include <math.h>
+
+static void near(double a, double b, double tolerance)
+{
+    if (!(fabs(a - b) <= tolerance)) {
+        print_message("%.15g is not %.15g\n", a, b);
+    }
+    assert_true(fabs(a - b) <= tolerance);
+}
+
+static rlf_world *make_world(double gravity)
+{
+    rlf_world_def def = rlf_world_def_default();
+    def.method = RLF_PHYSICS_THESIS;
+    def.gravity = rlf_vec3_make(0, gravity, 0);
+    def.body_capacity = 8;
+    def.contact_capacity = 4096;
+    rlf_world *world = NULL;
+    assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
+    return world;
+}
+
+static const rlf_body_state *body(const rlf_world *world, int i)
+{
+    return &rlf_world_get_snapshot(world)->bodies[i];
+}
+
+static void orientation_stays_orthogonal(void **state)
+{
+    (void)state;
+    rlf_mat3 R = rlf_mat3_diagonal(1, 1, 1);
+    for (int i = 0; i < 1000; i++) {
+        thesis_rotate(&R, rlf_vec3_make(3, -2, 5), 1.0 / 30);
+    }
+    rlf_mat3 Rt = rlf_mat3_transpose(&R);
+    rlf_mat3 one = rlf_mat3_mul(&Rt, &R);
+    for (int i = 0; i < 9; i++) {
+        near(one.m[i / 3][i % 3], i / 3 == i % 3 ? 1 : 0, 1e-14);
+    }
+    rlf_vec3 c0 = rlf_vec3_make(R.m[0][0], R.m[1][0], R.m[2][0]);
+    rlf_vec3 c1 = rlf_vec3_make(R.m[0][1], R.m[1][1], R.m[2][1]);
+    rlf_vec3 c2 = rlf_vec3_make(R.m[0][2], R.m[1][2], R.m[2][2]);
+    near(rlf_dot(rlf_cross(c0, c1), c2), 1, 1e-14); /* a rotation, no mirror */
+}
+
+/* One Euler step about z turns by atan(w dt). */
+static void orientation_step_is_eq_4_5(void **state)
+{
+    (void)state;
+    rlf_mat3 R = rlf_mat3_diagonal(1, 1, 1);
+    thesis_rotate(&R, rlf_vec3_make(0, 0, 2), 0.1);
+    near(atan2(R.m[1][0], R.m[0][0]), atan(0.2), 1e-15);
+    near(R.m[2][2], 1, 1e-15);
+}
+
+static void cube_inertia_is_C_1(void **state)
+{
+    (void)state;
+    rlf_shape shape = {.type = RLF_SHAPE_BOX, .size = {1, 2, 3}};
+    rlf_mat3 I = rlf_shape_inertia(&shape, 12);
+    near(I.m[0][0], 4 + 9, 1e-12);
+    near(I.m[1][1], 1 + 9, 1e-12);
+    near(I.m[2][2], 4 + 1, 1e-12);
+}
+
+/* A hull in a box's shape has the box's tensor. */
+static void hull_inertia_is_exact(void **state)
+{
+    (void)state;
+    rlf_vec3 v[8];
+    for (int i = 0; i < 8; i++) {
+        v[i] = rlf_vec3_make(i & 1 ? 0.5 : -0.5, i & 2 ? 1 : -1, i & 4 ? 1.5 : -1.5);
+    }
+    const int32_t t[36] = {0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
+                           2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
+    rlf_hull hull = {v, 8, t, 12};
+    rlf_shape shape = {.type = RLF_SHAPE_HULL, .hull = &hull};
+    rlf_mat3 I = rlf_shape_inertia(&shape, 12);
+    near(I.m[0][0], 13, 1e-12);
+    near(I.m[1][1], 10, 1e-12);
+    near(I.m[2][2], 5, 1e-12);
+    near(I.m[0][1], 0, 1e-12);
+}
+
+static void forces_and_torques(void **state)
+{
+    (void)state;
+    rlf_world *world = make_world(0);
+    rlf_body_def def = rlf_body_def_default();
+    def.mass = 2;
+    def.shape.size = rlf_vec3_make(1, 1, 1);
+    rlf_body_id id;
+    assert_int_equal(rlf_world_add_body(world, &def, &id), RLF_OK);
+    rlf_vec3 at = rlf_add(def.position, rlf_vec3_make(0, 0.5, 0));
+    assert_true(rlf_world_apply_force(world, id, rlf_vec3_make(4, 0, 0), at));
+    rlf_world_advance(world, NULL, 0.1);
+    near(body(world, 0)->velocity.x, 0.2, 1e-15);                        /* 4.8 */
+    near(body(world, 0)->T_world_body.p.x, 0.02, 1e-15);                 /* Algorithm 1 */
+    near(body(world, 0)->angular_velocity.z, -0.5 * 4 * 0.1 * 3, 1e-14); /* 4.9, I = 1/3 */
+    rlf_world_destroy(&world);
+}
+
+static phys_body bare_body(double mass, rlf_vec3 x)
+{
+    phys_body b = {.mass = mass, .inverse_mass = 1 / mass, .x = x, .q = {0, 0, 0, 1}};
+    rlf_shape shape = {.type = RLF_SHAPE_BOX, .size = {1, 1, 1}};
+    b.inertia = rlf_shape_inertia(&shape, mass);
+    assert_true(rlf_mat3_invert(&b.inertia, &b.inverse_inertia));
+    phys_body_orient(&b);
+    return b;
+}
+
+/* m = 6, I = 1; r = (0.5, 0, -1): t1 = 1/6, t3 = 0.25; v_rel = -3; e = 0.5:
+ * j = 1.5 * 3 / (1/6 + 1/4) = 10.8. */
+static void impulse_formula(void **state)
+{
+    (void)state;
+    phys_body a = bare_body(6, rlf_vec3_make(0, 0, 1));
+    a.v = rlf_vec3_make(0.7, 0, -3);
+    rlf_vec3 n = {0, 0, 1};
+    rlf_vec3 p = {0.5, 0, 0};
+    near(thesis_impulse(&a, NULL, p, n, 0.5), 10.8, 1e-12);
+    near(a.v.x, 0.7, 1e-15);
+    near(a.v.z, -3 + 10.8 / 6, 1e-12);
+    near(a.w.y, -0.5 * 10.8, 1e-12); /* r x J = (0.5,0,-1) x (0,0,10.8) */
+    rlf_vec3 after = phys_body_velocity_at(&a, rlf_sub(p, a.x));
+    near(rlf_dot(n, after), 1.5, 1e-12);                 /* e |v_rel| */
+    near(thesis_impulse(&a, NULL, p, n, 0.5), 0.0, 0.0); /* moving apart: errata 6 */
+}
+
+/* Both masses: m_a = 2, m_b = 6, head on, e = 1: j = 2 * 4 / (1/2 + 1/6) = 12. */
+static void impulse_between_bodies(void **state)
+{
+    (void)state;
+    phys_body a = bare_body(2, rlf_vec3_make(1, 0, 0)), b = bare_body(6, rlf_vec3_make(0, 0, 0));
+    a.v = rlf_vec3_make(-4, 0, 0);
+    near(thesis_impulse(&a, &b, rlf_vec3_make(0.5, 0, 0), rlf_vec3_make(1, 0, 0), 1), 12, 1e-12);
+    near(a.v.x, 2, 1e-12);
+    near(b.v.x, -2, 1e-12);
+}
+
+static void broad_phase_uses_the_radius(void **state)
+{
+    (void)state;
+    rlf_aabb box = {{-1, -1, 2}, {1, 1, 3}};
+    assert_true(thesis_broad_phase(&box, rlf_vec3_make(0, 0, 2.5), 0.1));
+    assert_true(thesis_broad_phase(&box, rlf_vec3_make(0, 0, 1.95), 0.1));
+    assert_false(thesis_broad_phase(&box, rlf_vec3_make(0, 0, 1.85), 0.1));
+    assert_false(thesis_broad_phase(&box, rlf_vec3_make(1.08, 1.08, 2.5), 0.1));
+}
+
+static void bodies_conserve_momentum(void **state)
+{
+    (void)state;
+    rlf_world *world = make_world(0);
+    rlf_body_def def = rlf_body_def_default();
+    def.mass = 0.3;
+    def.position = rlf_vec3_make(-0.2, 0.02, 1.01);
+    def.velocity = rlf_vec3_make(1, 0, 0);
+    def.angular_velocity = rlf_vec3_make(1, 2, 3);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    def.mass = 0.1;
+    def.position = rlf_vec3_make(0, 0, 1);
+    def.velocity = rlf_vec3_make(0, 0, 0);
+    def.angular_velocity = rlf_vec3_make(0, 0, 0);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    int contacts = 0;
+    for (int k = 0; k < 30; k++) {
+        rlf_world_advance(world, NULL, 1.0 / 60);
+        contacts += rlf_world_get_snapshot(world)->contact_count;
+    }
+    assert_true(contacts > 0);
+    rlf_vec3 p =
+        rlf_add(rlf_scale(body(world, 0)->velocity, 0.3), rlf_scale(body(world, 1)->velocity, 0.1));
+    near(p.x, 0.3, 1e-12);
+    near(p.y, 0, 1e-12);
+    near(p.z, 0, 1e-12);
+    assert_true(body(world, 1)->velocity.x > 0.2);
+    rlf_world_destroy(&world);
+}
+
+/* A plane through the whole chain: grid, region box, points, impulse. In a mounted camera's frame,
+ * to see that the boxes are tested in the grid's frame. */
+static void bounces_off_a_plane(void **state)
+{
+    (void)state;
+    grid_fixture *f = grid_fixture_create();
+    grid_plane wall = grid_wall(2);
+    grid_fixture_set_room(f, &wall, 1);
+    f->grid.T_world_grid.p = rlf_vec3_make(0.3, -0.2, 0.5);
+    f->grid.T_world_grid.q = rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), 0.5);
+    rlf_vec3 forward = rlf_rotate(f->grid.T_world_grid.q, rlf_vec3_make(0, 0, 1));
+    rlf_world *world = make_world(0);
+    rlf_body_def def = rlf_body_def_default();
+    def.restitution = 0.8;
+    def.position = rlf_transform(&f->grid.T_world_grid, rlf_vec3_make(0, 0, 1.2));
+    def.orientation = f->grid.T_world_grid.q;
+    def.velocity = rlf_scale(forward, 2);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    double deepest = 0, approach = 0;
+    for (int k = 0; k < 40; k++) {
+        rlf_world_advance(world, &f->grid, 1.0 / 60);
+        const rlf_snapshot *s = rlf_world_get_snapshot(world);
+        rlf_vec3 p = rlf_transform_inverse(&f->grid.T_world_grid, s->bodies[0].T_world_body.p);
+        deepest = rlf_max(deepest, p.z + 0.05 - 2);
+        for (int i = 0; i < s->contact_count; i++) {
+            assert_int_equal(s->contacts[i].other, RLF_CONTACT_BACKGROUND);
+            assert_int_equal(s->contacts[i].region_label, 1);
+            assert_true(s->contacts[i].impulse > 0);
+            approach = rlf_max(approach, s->contacts[i].approach_speed);
+        }
+    }
+    near(approach, 2, 0.05);
+    assert_true(deepest < 2.0 / 60 + 0.01); /* no more than one frame's way */
+    assert_true(rlf_dot(forward, body(world, 0)->velocity) < -0.5);
+    rlf_world_destroy(&world);
+    grid_fixture_destroy(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(orientation_stays_orthogonal),
+        cmocka_unit_test(orientation_step_is_eq_4_5),
+        cmocka_unit_test(cube_inertia_is_C_1),
+        cmocka_unit_test(hull_inertia_is_exact),
+        cmocka_unit_test(forces_and_torques),
+        cmocka_unit_test(impulse_formula),
+        cmocka_unit_test(impulse_between_bodies),
+        cmocka_unit_test(broad_phase_uses_the_radius),
+        cmocka_unit_test(bodies_conserve_momentum),
+        cmocka_unit_test(bounces_off_a_plane),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,180 @@
+/* Random throws into a concave room: nothing tunnels, nothing is NaN; and what it costs. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "relief/world.h"
+
+#include "grid_fixture.h"
+
+#include <math.h>
+
+#define THROWS 200
+
+/* Floor, back wall, two side walls and a ramp, all within the view. */
+static const grid_plane ROOM[5] = {{{0, -1, 0}, -1.0},
+                                   {{0, 0, -1}, -4.5},
+                                   {{1, 0, 0}, -1.6},
+                                   {{-1, 0, 0}, -1.6},
+                                   {{0, -0.6, -0.8}, -3.6}};
+
+typedef struct random_state {
+    uint64_t x;
+} random_state;
+
+/* Knuth's 64-bit linear congruential generator; [0, 1). */
+static double next(random_state *r)
+{
+    r->x = r->x * 6364136223846793005u + 1442695040888963407u;
+    return (double)(r->x >> 11) / 9007199254740992.0;
+}
+
+/* How far p is out of the room, metres; <= 0 inside. */
+static double outside(rlf_vec3 p)
+{
+    double worst = -1e9;
+    for (int i = 0; i < 5; i++) {
+        worst = rlf_max(worst, ROOM[i].d - rlf_dot(ROOM[i].n, p));
+    }
+    return worst;
+}
+
+static bool is_in_view(rlf_vec3 p)
+{
+    double u, v;
+    return grid_fixture_project(NULL, p, &u, &v) && u > 5 && v > 5 && u < GRID_W - 6 &&
+           v < GRID_H - 6;
+}
+
+static rlf_body_def random_throw(random_state *r)
+{
+    rlf_body_def def = rlf_body_def_default();
+    def.shape.type = (rlf_shape_type)(int)(next(r) * 4);
+    double size = 0.02 + 0.13 * next(r);
+    def.shape.size = rlf_vec3_make(size, size * (0.5 + next(r)), size * (0.5 + next(r)));
+    def.shape.radius = 0.5 * size;
+    def.shape.height = size * (0.5 + next(r));
+    def.mass = 0.05 + next(r);
+    def.restitution = next(r);
+    def.friction = next(r);
+    def.position = rlf_vec3_make(1.2 * next(r) - 0.6, 0.8 * next(r) - 0.5, 1.3 + next(r));
+    def.orientation =
+        rlf_quat_normalize((rlf_quat){next(r) - 0.5, next(r) - 0.5, next(r) - 0.5, next(r) - 0.5});
+    rlf_vec3 target = rlf_vec3_make(2.4 * next(r) - 1.2, 1.6 * next(r) - 0.6, 3.5 + next(r));
+    double speed = 0.5 + 9.5 * next(r);
+    def.velocity = rlf_scale(rlf_normalize(rlf_sub(target, def.position)), speed);
+    def.angular_velocity = rlf_vec3_make(20 * next(r) - 10, 20 * next(r) - 10, 20 * next(r) - 10);
+    return def;
+}
+
+static void nothing_tunnels(void **state)
+{
+    (void)state;
+    grid_fixture *fixture = grid_fixture_create();
+    grid_fixture_set_room(fixture, ROOM, 5);
+    random_state r = {7};
+    int tunnelled = 0, bounced = 0, left = 0;
+    double worst = 0;
+    for (int i = 0; i < THROWS; i++) {
+        rlf_world_def world_def = rlf_world_def_default();
+        world_def.body_capacity = 1;
+        world_def.contact_capacity = 64;
+        rlf_world *world = NULL;
+        assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+        rlf_body_def def = random_throw(&r);
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        bool is_lost = false, has_touched = false;
+        for (int k = 0; k < 60 && !is_lost; k++) {
+            fixture->grid.time_ns++;
+            rlf_world_advance(world, &fixture->grid, 1.0 / 30);
+            const rlf_snapshot *s = rlf_world_get_snapshot(world);
+            if (s->body_count == 0) {
+                break;
+            }
+            const rlf_body_state *b = &s->bodies[0];
+            assert_true(rlf_vec3_is_finite(b->T_world_body.p));
+            assert_true(rlf_vec3_is_finite(b->velocity));
+            assert_true(rlf_vec3_is_finite(b->angular_velocity));
+            has_touched = has_touched || s->contact_count > 0;
+            if (!is_in_view(b->T_world_body.p)) { /* where nothing is seen, nothing is solid */
+                left++;
+                break;
+            }
+            worst = rlf_max(worst, outside(b->T_world_body.p));
+            is_lost = outside(b->T_world_body.p) > 0;
+        }
+        tunnelled += is_lost;
+        bounced += has_touched;
+        if (is_lost) {
+            print_message("throw %d: shape %d through\n", i, (int)def.shape.type);
+        }
+        rlf_world_destroy(&world);
+    }
+    print_message("THROW: %d of %d tunnelled, %d touched, %d left the view; centre at most %.1f mm "
+                  "outside\n",
+                  tunnelled, THROWS, bounced, left, 1e3 * worst);
+    assert_int_equal(tunnelled, 0);
+    assert_true(bounced > THROWS * 9 / 10);
+    assert_true(left < THROWS / 2);
+    grid_fixture_destroy(&fixture);
+}
+
+/* Milliseconds per advance of 1/30 s for `count` cubes that fall on the room's floor. */
+static double cost(grid_fixture *fixture, int count, double seconds)
+{
+    rlf_world_def world_def = rlf_world_def_default();
+    rlf_world *world = NULL;
+    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+    random_state r = {3};
+    for (int i = 0; i < count; i++) {
+        rlf_body_def def = rlf_body_def_default();
+        def.position =
+            rlf_vec3_make(1.6 * next(&r) - 0.8, 0.8 - 0.15 * (i / 20), 2.2 + 0.8 * next(&r));
+        def.orientation = rlf_quat_normalize((rlf_quat){next(&r), next(&r), next(&r), 1});
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    }
+    int frames = (int)(seconds * 30);
+    int64_t total = 0, worst = 0;
+    for (int k = 0; k < frames; k++) {
+        fixture->grid.time_ns++;
+        int64_t start = rlf_clock_ns();
+        rlf_world_advance(world, &fixture->grid, 1.0 / 30);
+        int64_t spent = rlf_clock_ns() - start;
+        total += spent;
+        worst = spent > worst ? spent : worst;
+    }
+    const rlf_snapshot *s = rlf_world_get_snapshot(world);
+    int lost = count - s->body_count, asleep = 0;
+    for (int i = 0; i < s->body_count; i++) {
+        lost += outside(s->bodies[i].T_world_body.p) > 0.0;
+        asleep += s->bodies[i].is_asleep;
+    }
+    double mean = 1e-6 * (double)total / frames;
+    print_message("%d cubes, %.0f s: %.3f ms per advance of 1/30 s (worst %.3f), %d asleep, %d "
+                  "lost\n",
+                  count, seconds, mean, 1e-6 * (double)worst, asleep, lost);
+    assert_int_equal(lost, 0);
+    rlf_world_destroy(&world);
+    return mean;
+}
+
+static void cost_of_a_crowd(void **state)
+{
+    (void)state;
+    grid_fixture *fixture = grid_fixture_create();
+    grid_fixture_set_room(fixture, ROOM, 5);
+    cost(fixture, 2, 1);
+    cost(fixture, 100, 4);
+    grid_fixture_destroy(&fixture);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nothing_tunnels),
+        cmocka_unit_test(cost_of_a_crowd),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
