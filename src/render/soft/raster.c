@@ -9,12 +9,6 @@
 static const double sample_x[SOFT_SAMPLES] = {-0.125, 0.375, -0.375, 0.125};
 static const double sample_y[SOFT_SAMPLES] = {-0.375, -0.125, 0.125, 0.375};
 
-/* x where the edge from corner a to corner b crosses the height y. */
-static double edge_x(const soft_triangle *t, int a, int b, double y)
-{
-    return t->x[a] + (t->x[b] - t->x[a]) * ((y - t->y[a]) / (t->y[b] - t->y[a]));
-}
-
 /* First pixel whose sample is at or beyond x, within 0..width. */
 static int32_t first_pixel(double x, int32_t width)
 {
@@ -49,8 +43,9 @@ void soft_raster_row(const soft_triangle *t, int32_t id, const soft_row *row)
         if (y < t->y[0] || y >= t->y[2]) {
             continue;
         }
-        double on_long = edge_x(t, 0, 2, y);
-        double on_short = y < t->y[1] ? edge_x(t, 0, 1, y) : edge_x(t, 1, 2, y);
+        int upper = y < t->y[1] ? 0 : 1;
+        double on_long = t->x[0] + t->slope[2] * (y - t->y[0]);
+        double on_short = t->x[upper] + t->slope[upper] * (y - t->y[upper]);
         int32_t begin = first_pixel(rlf_min(on_long, on_short) - sample_x[k], row->width);
         int32_t end = first_pixel(rlf_max(on_long, on_short) - sample_x[k], row->width);
         if (begin >= end) {

@@ -12,8 +12,8 @@ static int32_t floor_to_int(float x)
     return (float)cell > x ? cell - 1 : cell;
 }
 
-/* Bilinear, repeating; 0..1 per channel. */
-static void sample_texture(const soft_body *body, float s, float t, float out[3])
+/* Bilinear, repeating; 0..1. The patterns are grey: one channel says it all. */
+static float sample_texture(const soft_body *body, float s, float t)
 {
     int32_t size = body->texture_size;
     int32_t mask = size - 1;
@@ -27,11 +27,9 @@ static void sample_texture(const soft_body *body, float s, float t, float out[3]
     const uint8_t *bottom = body->texture + 4 * (ptrdiff_t)(((line + 1) & mask) * size);
     ptrdiff_t left = 4 * (ptrdiff_t)(column & mask);
     ptrdiff_t right = 4 * (ptrdiff_t)((column + 1) & mask);
-    for (int c = 0; c < 3; c++) {
-        float a = (float)top[left + c] * (1.0f - wx) + (float)top[right + c] * wx;
-        float b = (float)bottom[left + c] * (1.0f - wx) + (float)bottom[right + c] * wx;
-        out[c] = (a * (1.0f - wy) + b * wy) * (1.0f / 255.0f);
-    }
+    float a = (float)top[left] * (1.0f - wx) + (float)top[right] * wx;
+    float b = (float)bottom[left] * (1.0f - wx) + (float)bottom[right] * wx;
+    return (a * (1.0f - wy) + b * wy) * (1.0f / 255.0f);
 }
 
 soft_fragment soft_shade(const soft_scene *scene, const soft_triangle *t, float x, float y)
@@ -49,9 +47,9 @@ soft_fragment soft_shade(const soft_scene *scene, const soft_triangle *t, float 
     }
     float light = clamp(a[SOFT_LIGHT], 0.0f, 1.0f);
     const soft_body *body = &scene->bodies[t->body];
-    sample_texture(body, clamp(a[SOFT_S], 0.0f, 1.0f), clamp(a[SOFT_T], 0.0f, 1.0f), f.color);
+    light *= sample_texture(body, clamp(a[SOFT_S], 0.0f, 1.0f), clamp(a[SOFT_T], 0.0f, 1.0f));
     for (int c = 0; c < 3; c++) {
-        f.color[c] *= body->color[c] * light;
+        f.color[c] = body->color[c] * light;
     }
     return f;
 }

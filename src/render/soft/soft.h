@@ -35,6 +35,7 @@ typedef struct soft_plane {
 
 typedef struct soft_triangle {
     double x[3], y[3]; /* pixels, sorted by y, then x */
+    double slope[3];   /* dx / dy of the edges 0-1, 1-2, 0-2 */
     soft_plane inverse_z;
     float inverse_z_min, inverse_z_max;
     soft_plane attribute[SOFT_ATTRIBUTES]; /* divided by z: linear in the picture */

@@ -108,6 +108,13 @@ static soft_plane plane_through(const screen_corner c[3], const double value[3],
     return plane;
 }
 
+/* Level edges have no rows of their own and need no slope. */
+static double slope_of(const screen_corner *upper, const screen_corner *lower)
+{
+    double dy = lower->y - upper->y;
+    return dy > 0.0 ? (lower->x - upper->x) / dy : 0.0;
+}
+
 static double area_of(const screen_corner c[3])
 {
     return (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y);
@@ -144,6 +151,9 @@ static void add_screen_triangle(soft *s, screen_corner c[3], int32_t body_index)
         t->y[i] = c[i].y;
         values[i] = c[i].inverse_z;
     }
+    t->slope[0] = slope_of(&c[0], &c[1]);
+    t->slope[1] = slope_of(&c[1], &c[2]);
+    t->slope[2] = slope_of(&c[0], &c[2]);
     t->inverse_z = plane_through(c, values, area);
     t->inverse_z_min = (float)rlf_min(values[0], rlf_min(values[1], values[2]));
     t->inverse_z_max = (float)rlf_max(values[0], rlf_max(values[1], values[2]));

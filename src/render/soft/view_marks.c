@@ -6,15 +6,25 @@
 #define ARROW_STEP_PX 16   /* grid pixels between arrows */
 #define ARROW_SECONDS 0.25 /* an arrow shows where a point will be */
 
-/* Pixel centres of the grid to pixel centres of the picture. */
+/* The part of the picture that the enlarged grid image fills: marks do not leave it. */
+static rlf_image_rgba8 fitted_part(const soft *s, const soft_fit *fit)
+{
+    rlf_image_rgba8 part = s->image;
+    part.data = rlf_rgba8_row(&s->image, fit->y0) + 4 * (ptrdiff_t)fit->x0;
+    part.width = fit->width;
+    part.height = fit->height;
+    return part;
+}
+
+/* Pixel centres of the grid to pixel centres of that part. */
 static bool place(const soft *s, const soft_fit *fit, rlf_vec3 p, soft_point *out)
 {
     double u, v;
     if (p.z < SOFT_NEAR_Z || !rlf_camera_project(&s->def.grid, p, &u, &v)) {
         return false;
     }
-    out->x = fit->x0 + (u + 0.5) * fit->scale - 0.5;
-    out->y = fit->y0 + (v + 0.5) * fit->scale - 0.5;
+    out->x = (u + 0.5) * fit->scale - 0.5;
+    out->y = (v + 0.5) * fit->scale - 0.5;
     return true;
 }
 
@@ -22,7 +32,8 @@ static void draw_segment(soft *s, const soft_fit *fit, const rlf_vec3 ends[2], s
 {
     soft_point a, b;
     if (place(s, fit, ends[0], &a) && place(s, fit, ends[1], &b)) {
-        soft_draw_line(&s->image, a, b, color);
+        rlf_image_rgba8 part = fitted_part(s, fit);
+        soft_draw_line(&part, a, b, color);
     }
 }
 
@@ -59,14 +70,13 @@ void soft_draw_region_marks(soft *s, const rlf_surface *surface, const soft_fit 
                  (int)region->label);
         double middle_x = 0.5 * (region->x0 + region->x1);
         double middle_y = 0.5 * (region->y0 + region->y1);
-        soft_text style = {
-            fit->x0 + (int32_t)(middle_x * fit->scale) - soft_text_width(line, scale) / 2,
-            fit->y0 + (int32_t)(middle_y * fit->scale), scale, soft_rgb(255, 255, 255), true};
+        soft_text style = {(int32_t)(middle_x * fit->scale) - soft_text_width(line, scale) / 2,
+                           (int32_t)(middle_y * fit->scale), scale, soft_rgb(255, 255, 255), true};
         soft_draw_text(&s->image, &style, line);
     }
 }
 
-static void draw_arrow(soft *s, soft_point from, soft_point to)
+static void draw_arrow(const rlf_image_rgba8 *image, soft_point from, soft_point to)
 {
     soft_color white = soft_rgb(255, 255, 255);
     double dx = to.x - from.x;
@@ -74,17 +84,18 @@ static void draw_arrow(soft *s, soft_point from, soft_point to)
     if (dx * dx + dy * dy < 4.0) {
         return;
     }
-    soft_draw_line(&s->image, from, to, white);
+    soft_draw_line(image, from, to, white);
     for (int side = -1; side <= 1; side += 2) {
         soft_point barb = {to.x - 0.25 * (dx + 0.6 * side * dy),
                            to.y - 0.25 * (dy - 0.6 * side * dx)};
-        soft_draw_line(&s->image, to, barb, white);
+        soft_draw_line(image, to, barb, white);
     }
 }
 
 void soft_draw_velocity_marks(soft *s, const rlf_surface *surface, const soft_fit *fit)
 {
     int32_t factor = surface->scale_factor > 0 ? surface->scale_factor : 1;
+    rlf_image_rgba8 part = fitted_part(s, fit);
     int32_t step = ARROW_STEP_PX / factor > 1 ? ARROW_STEP_PX / factor : 1;
     for (int32_t y = step / 2; y < surface->height; y += step) {
         for (int32_t x = step / 2; x < surface->width; x += step) {
@@ -96,7 +107,7 @@ void soft_draw_velocity_marks(soft *s, const rlf_surface *surface, const soft_fi
             }
             rlf_vec3 p = rlf_surface_point(surface, i);
             if (place(s, fit, p, &from) && place(s, fit, rlf_mad(p, v, ARROW_SECONDS), &to)) {
-                draw_arrow(s, from, to);
+                draw_arrow(&part, from, to);
             }
         }
     }
