@@ -51,10 +51,12 @@ typedef struct phys_body {
     double inverse_mass;            /* 0 while held */
     rlf_mat3 inverse_inertia_world; /* 0 while held */
     rlf_vec3 acceleration, angular_acceleration;
-    rlf_vec3 impact_shift, impact_turn;  /* x and orientation jump so that x(t) = x + shift + v t */
-    double impact_time;                  /* of its last bounce in this substep, s */
-    bool is_pressed;                     /* a contact held it in this substep */
-    double still_time;                   /* s it has hardly moved */
+    rlf_vec3 impact_shift, impact_turn; /* x and orientation jump so that x(t) = x + shift + v t */
+    double impact_time;                 /* of its last bounce in this substep, s */
+    bool is_pressed;                    /* a contact held it in this substep */
+    double still_time;                  /* s it has stayed near still_x, still_q */
+    rlf_vec3 still_x;
+    rlf_quat still_q;
     int32_t surface_age, surface_period; /* substeps since, and between, surface queries */
     rlf_vec3 surface_flow;               /* velocity of the foreground near it, grid frame */
     phys_contact surface[PHYS_SURFACE_CONTACTS];

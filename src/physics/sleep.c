@@ -1,16 +1,28 @@
 /* Sleeping by islands: bodies that touch fall asleep together. */
 #include "physics/sleep.h"
 
-#define STILL_SPEED 0.004 /* m/s, of any point of the body: a slope 0.05 deg too steep beats it */
-#define STILL_TIME 0.5    /* s */
-#define TOUCHING 0.001    /* m */
+/* A body is still while no point of it leaves a small place, not while it is slow: the noise of a
+ * depth camera shakes what rests on it (some mm/s at 2 m), and a slope 0.05 degrees too steep moves
+ * a cube by 1.3 mm in the first half second. */
+#define STILL_DISTANCE 0.0012 /* m */
+#define STILL_SPEED 0.1       /* m/s: faster is not still, wherever it is */
+#define TOUCH_SPEED 0.02      /* m/s of what wakes a sleeper by touching it */
+#define STILL_TIME 0.5        /* s */
+#define TOUCHING 0.001        /* m */
 /* How far a surface may wander under a sleeper: several sigma of a depth camera at 2 m. */
 #define WANDER 0.006
 
-static bool is_fast(const phys_body *body)
+static double speed_of(const phys_body *body)
 {
-    double speed = rlf_length(body->v) + rlf_length(body->w) * body->shape.radius;
-    return speed > STILL_SPEED;
+    return rlf_length(body->v) + rlf_length(body->w) * body->shape.radius;
+}
+
+static bool has_left_its_place(const phys_body *body)
+{
+    rlf_quat turn = rlf_quat_mul(body->q, rlf_quat_conjugate(body->still_q));
+    double angle = 2.0 * rlf_length(rlf_vec3_make(turn.x, turn.y, turn.z)); /* for small angles */
+    double moved = rlf_length(rlf_sub(body->x, body->still_x)) + angle * body->shape.radius;
+    return moved > STILL_DISTANCE || speed_of(body) > STILL_SPEED;
 }
 
 static double least_separation(const phys_body *body)
@@ -47,7 +59,7 @@ void phys_wake_by_surface(rlf_world *world, const grid_query *query)
             phys_contact *c = &body->surface[k];
             c->separation = gap_now(body, c);
             is_moved = is_moved ||
-                       (c->separation < TOUCHING && rlf_length(c->surface_velocity) > STILL_SPEED);
+                       (c->separation < TOUCHING && rlf_length(c->surface_velocity) > TOUCH_SPEED);
         }
         double change = least_separation(body) - before;
         if (is_moved || change > WANDER || change < -WANDER) {
@@ -75,7 +87,7 @@ void phys_wake_by_touch(rlf_world *world)
             continue;
         }
         phys_body *awake = a->is_asleep ? b : a;
-        if (awake->still_time == 0.0 && is_fast(awake)) {
+        if (speed_of(awake) > TOUCH_SPEED) {
             phys_body_wake(a->is_asleep ? a : b);
         }
     }
@@ -97,7 +109,12 @@ void phys_fall_asleep(rlf_world *world, double h)
         phys_body *body = &world->bodies[i];
         world->island[i] = i;
         if (body->is_alive && !body->is_asleep && !body->is_held) {
-            body->still_time = is_fast(body) ? 0.0 : body->still_time + h;
+            body->still_time += h;
+            if (has_left_its_place(body)) {
+                body->still_time = 0.0;
+                body->still_x = body->x;
+                body->still_q = body->q;
+            }
             is_any_tired = is_any_tired || body->still_time > STILL_TIME;
         }
     }
