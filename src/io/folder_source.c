@@ -211,7 +211,7 @@ static rlf_result open_all(folder *self, rlf_source_info *info)
     if (result == RLF_OK) {
         result = io_frame_list_rate(&self->depth_list, &info->frames_per_second);
     }
-    snprintf(info->name, sizeof(info->name), "%s", self->path);
+    snprintf(info->name, sizeof(info->name), "%.127s", self->path);
     info->rig = self->rig;
     info->frame_count = self->depth_list.count;
     info->is_live = false;
