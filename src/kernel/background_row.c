@@ -1,29 +1,41 @@
-/* The background model of one row: per pixel, one-sided, scaled with the sensor's noise.
+/* The background model of one row: per pixel, one-sided, scaled with noise.
  *
  * A pixel nearer than the stored surface is foreground. A pixel at the stored surface refines its
  * mean. A pixel seen beyond the stored surface proves that the surface is gone: three frames in a
  * row replace it (no phantoms). While learning, the farthest surface seen wins at once, so that the
- * room need not be empty; holes are filled as they are seen. */
+ * room need not be empty; holes are filled as they are seen.
+ *
+ * The gate is the sensor's noise, or the pixel's own mean absolute deviation where that is larger:
+ * grazing, dark and distant surfaces are noisier than the sensor's model. */
 #include "kernel/kernel.h"
 
 enum { MEMORY = 32, PROOF = 3 };
 
+static const float sigmas_per_deviation = 1.2533141f; /* sqrt(pi / 2), normal distribution */
+static const float learning_gates = 3.0f;             /* before the deviation is known */
+
 RLF_KERNEL int32_t rlf_kernel_background_row(const rlf_kernel_background *params,
                                              const float *restrict depth, int32_t count,
-                                             float *restrict mean, uint8_t *restrict weight,
-                                             uint8_t *restrict beyond, uint8_t *restrict seen)
+                                             const rlf_kernel_model *model, uint8_t *restrict seen)
 {
     rlf_kernel_noise noise = params->noise;
     float sigmas = params->sigmas;
     float least = params->min_m;
+    float widen = params->learning ? learning_gates : 1.0f;
     int32_t proof = params->learning ? 1 : PROOF;
     int32_t learning = params->learning ? 1 : 0;
+    float *restrict mean = model->mean;
+    float *restrict deviation = model->deviation;
+    uint8_t *restrict weight = model->weight;
+    uint8_t *restrict beyond = model->beyond;
     int32_t changed = 0;
     for (int32_t i = 0; i < count; i++) {
         float z = depth[i];
         float m = mean[i];
         float scaled = sigmas * rlf_kernel_sigma(noise, z);
+        float own = sigmas * sigmas_per_deviation * deviation[i];
         float gate = scaled > least ? scaled : least;
+        gate = (own > gate ? own : gate) * widen;
         int32_t valid = z > 0.0f ? 1 : 0;
         int32_t known = m > 0.0f ? 1 : 0;
         int32_t nearer = valid & known & (m - z > gate ? 1 : 0);
@@ -36,8 +48,10 @@ RLF_KERNEL int32_t rlf_kernel_background_row(const rlf_kernel_background *params
         int32_t samples = same ? weight[i] + 1 : weight[i];
         samples = samples > MEMORY ? MEMORY : samples;
         samples = restart ? 1 : samples;
-        float step = (z - m) / (float)(samples > 0 ? samples : 1);
-        mean[i] = restart ? z : (same ? m + step : m);
+        float part = 1.0f / (float)(samples > 0 ? samples : 1);
+        float spread = deviation[i] + part * (rlf_kernel_abs(z - m) - deviation[i]);
+        deviation[i] = restart ? 0.0f : (same ? spread : deviation[i]);
+        mean[i] = restart ? z : (same ? m + part * (z - m) : m);
         weight[i] = (uint8_t)samples;
         beyond[i] = (uint8_t)(replaced ? 0 : count_beyond);
         seen[i] =

@@ -126,12 +126,18 @@ typedef struct rlf_kernel_background {
 /* What a pixel of the current frame is against the background model. */
 enum { RLF_SEEN_BACKGROUND = 0, RLF_SEEN_FOREGROUND = 1, RLF_SEEN_UNKNOWN = 2 };
 
-/* Classifies a row and updates the model: mean (0 = unknown), weight (samples in it, at most 32)
- * and beyond (frames in a row that saw past it). Returns how many pixels were replaced or learnt
- * anew. */
+/* Rows of the model; they do not overlap. */
+typedef struct rlf_kernel_model {
+    float *mean;      /* 0 = unknown */
+    float *deviation; /* mean absolute difference of the samples from the mean */
+    uint8_t *weight;  /* samples in the mean, at most 32 */
+    uint8_t *beyond;  /* frames in a row that saw past the mean */
+} rlf_kernel_model;
+
+/* Classifies a row and updates its model. Returns how many pixels were replaced or learnt anew. */
 int32_t rlf_kernel_background_row(const rlf_kernel_background *params, const float *restrict depth,
-                                  int32_t count, float *restrict mean, uint8_t *restrict weight,
-                                  uint8_t *restrict beyond, uint8_t *restrict seen);
+                                  int32_t count, const rlf_kernel_model *model,
+                                  uint8_t *restrict seen);
 /* 3x3 majority of `seen == FOREGROUND` among the valid pixels; out is 0, 1 or (unknown) 2. */
 void rlf_kernel_majority_row(const uint8_t *const rows[3], const float *const depth[3],
                              int32_t count, uint8_t *restrict out);

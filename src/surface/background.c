@@ -7,6 +7,7 @@ void rlf_background_reset(rlf_background *background, int32_t count)
 {
     size_t n = (size_t)count;
     memset(background->mean, 0, n * sizeof *background->mean);
+    memset(background->deviation, 0, n * sizeof *background->deviation);
     memset(background->weight, 0, n);
     memset(background->beyond, 0, n);
     memset(background->unknown_age, 0, n);

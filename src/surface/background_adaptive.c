@@ -34,9 +34,10 @@ static void model_rows(void *context, int32_t begin, int32_t end, int32_t worker
     int32_t changed = 0;
     for (int32_t y = begin; y < end; y++) {
         ptrdiff_t row = (ptrdiff_t)y * width;
-        changed += rlf_kernel_background_row(&job->params, job->slot->depth + row, width,
-                                             background->mean + row, background->weight + row,
-                                             background->beyond + row, job->seen + row);
+        const rlf_kernel_model model = {background->mean + row, background->deviation + row,
+                                        background->weight + row, background->beyond + row};
+        changed += rlf_kernel_background_row(&job->params, job->slot->depth + row, width, &model,
+                                             job->seen + row);
     }
     job->changed[begin / RLF_ROW_GRAIN] = changed;
 }
@@ -78,6 +79,7 @@ static void learn_hole(rlf_background *background, int32_t i, float z, bool fron
     int32_t age = background->unknown_age[i] + 1;
     if (age >= (front ? HOLE_FRAMES_FRONT : HOLE_FRAMES)) {
         background->mean[i] = z;
+        background->deviation[i] = 0.0f;
         background->weight[i] = 1;
         background->changed++;
         age = 0;

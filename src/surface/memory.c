@@ -52,6 +52,7 @@ static void take_background(rlf_reconstruct *stage)
     rlf_background *background = &stage->background;
     size_t n = (size_t)stage->grid.count;
     background->mean = take(stage, n, sizeof(float));
+    background->deviation = take(stage, n, sizeof(float));
     background->weight = take(stage, n, 1);
     background->beyond = take(stage, n, 1);
     background->unknown_age = take(stage, n, 1);

@@ -43,6 +43,7 @@ enum { RLF_SHEETS = RLF_RECONSTRUCT_SURFACES + 1, RLF_STAGE_BLOCKS = 128 };
 /* The background model. AVERAGE: mean holds sums until it is ready. */
 typedef struct rlf_background {
     float *mean;
+    float *deviation;     /* ADAPTIVE: mean absolute difference from the mean */
     uint8_t *weight;      /* samples in the mean */
     uint8_t *beyond;      /* ADAPTIVE: frames in a row that saw past the mean */
     uint8_t *unknown_age; /* ADAPTIVE: frames in a row that a hole had a background sample */

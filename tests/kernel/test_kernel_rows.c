@@ -141,39 +141,40 @@ static void background_row_follows_the_evidence(void **state)
 {
     (void)state;
     rlf_kernel_background params = {{0.0015f, -0.0005f, 0.0003f}, 6.0f, 0.02f, true};
-    float mean = 0.0f;
+    float mean = 0.0f, deviation = 0.0f;
     uint8_t weight = 0, beyond = 0, seen = 9;
+    const rlf_kernel_model model = {&mean, &deviation, &weight, &beyond};
     const float learnt[3] = {2.0f, 2.004f, 0.0f};
     for (int k = 0; k < 3; k++) {
-        rlf_kernel_background_row(&params, &learnt[k], 1, &mean, &weight, &beyond, &seen);
+        rlf_kernel_background_row(&params, &learnt[k], 1, &model, &seen);
         assert_int_equal(seen, RLF_SEEN_BACKGROUND);
     }
     assert_true(near_enough(mean, 2.002f, 1e-6f));
     assert_int_equal(weight, 2);
+    assert_true(near_enough(deviation, 0.002f, 1e-6f));
     params.learning = false;
     const float nearer = 1.9f, farther = 2.5f, missing = 0.0f, same = 2.002f;
-    rlf_kernel_background_row(&params, &nearer, 1, &mean, &weight, &beyond, &seen);
+    rlf_kernel_background_row(&params, &nearer, 1, &model, &seen);
     assert_int_equal(seen, RLF_SEEN_FOREGROUND);
     for (int k = 0; k < 2; k++) { /* twice, then interrupted: no proof */
-        rlf_kernel_background_row(&params, &farther, 1, &mean, &weight, &beyond, &seen);
+        rlf_kernel_background_row(&params, &farther, 1, &model, &seen);
     }
-    rlf_kernel_background_row(&params, &same, 1, &mean, &weight, &beyond, &seen);
+    rlf_kernel_background_row(&params, &same, 1, &model, &seen);
     assert_int_equal(beyond, 0);
     assert_true(near_enough(mean, 2.002f, 1e-5f));
     for (int k = 0; k < 3; k++) { /* a missing sample says nothing */
-        int32_t changed =
-            rlf_kernel_background_row(&params, &farther, 1, &mean, &weight, &beyond, &seen);
+        int32_t changed = rlf_kernel_background_row(&params, &farther, 1, &model, &seen);
         assert_int_equal(changed, k == 2);
-        rlf_kernel_background_row(&params, &missing, 1, &mean, &weight, &beyond, &seen);
+        rlf_kernel_background_row(&params, &missing, 1, &model, &seen);
     }
     assert_true(mean == 2.5f);
     assert_int_equal(weight, 1);
     for (int k = 0; k < 300; k++) { /* long memory, but not endless */
-        rlf_kernel_background_row(&params, &farther, 1, &mean, &weight, &beyond, &seen);
+        rlf_kernel_background_row(&params, &farther, 1, &model, &seen);
     }
     assert_int_equal(weight, 32);
     mean = 0.0f;
-    rlf_kernel_background_row(&params, &same, 1, &mean, &weight, &beyond, &seen);
+    rlf_kernel_background_row(&params, &same, 1, &model, &seen);
     assert_int_equal(seen, RLF_SEEN_UNKNOWN);
     assert_true(mean == 0.0f);
 }
