@@ -54,9 +54,12 @@ typedef struct phys_body {
     rlf_vec3 impact_shift, impact_turn; /* x and orientation jump so that x(t) = x + shift + v t */
     double impact_time;                 /* of its last bounce in this substep, s */
     bool is_pressed;                    /* a contact held it in this substep */
-    double still_time;                  /* s it has stayed near still_x, still_q */
+    double still_time;                  /* s it has stayed in place */
     rlf_vec3 still_x;
     rlf_quat still_q;
+    rlf_vec3 block_sum, block_mean; /* of x - still_x, over blocks of time; see sleep.c */
+    double block_time;
+    bool has_block;
     int32_t surface_age, surface_period; /* substeps since, and between, surface queries */
     rlf_vec3 surface_flow;               /* velocity of the foreground near it, grid frame */
     phys_contact surface[PHYS_SURFACE_CONTACTS];

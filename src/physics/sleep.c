@@ -1,14 +1,16 @@
 /* Sleeping by islands: bodies that touch fall asleep together. */
 #include "physics/sleep.h"
 
-/* A body is still while no point of it leaves a small place, not while it is slow: the noise of a
- * depth camera shakes what rests on it (some mm/s at 2 m), and a slope 0.05 degrees too steep moves
- * a cube by 1.3 mm in the first half second. */
-#define STILL_DISTANCE 0.0012 /* m */
-#define STILL_SPEED 0.1       /* m/s: faster is not still, wherever it is */
-#define TOUCH_SPEED 0.02      /* m/s of what wakes a sleeper by touching it */
-#define STILL_TIME 0.5        /* s */
-#define TOUCHING 0.001        /* m */
+/* A body is still while its place, averaged over blocks of time, does not drift: the noise of a
+ * depth camera shakes what rests on it (some tenths of a mm at 2 m), but a slope 0.05 degrees too
+ * steep shifts a cube by 0.7 mm from its first quarter of a second to the second. */
+#define BLOCK_TIME 0.25     /* s */
+#define DRIFT_MAX 0.0004    /* m from block to block */
+#define EXCURSION_MAX 0.004 /* m of any point from the place where the rest began */
+#define STILL_SPEED 0.3     /* m/s of any point: faster is not still, wherever it is */
+#define TOUCH_SPEED 0.02    /* m/s of what wakes a sleeper by touching it */
+#define STILL_TIME 0.45     /* s, so two blocks without drift */
+#define TOUCHING 0.001      /* m */
 /* How far a surface may wander under a sleeper: several sigma of a depth camera at 2 m. */
 #define WANDER 0.006
 
@@ -22,7 +24,40 @@ static bool has_left_its_place(const phys_body *body)
     rlf_quat turn = rlf_quat_mul(body->q, rlf_quat_conjugate(body->still_q));
     double angle = 2.0 * rlf_length(rlf_vec3_make(turn.x, turn.y, turn.z)); /* for small angles */
     double moved = rlf_length(rlf_sub(body->x, body->still_x)) + angle * body->shape.radius;
-    return moved > STILL_DISTANCE || speed_of(body) > STILL_SPEED;
+    return moved > EXCURSION_MAX || speed_of(body) > STILL_SPEED;
+}
+
+static void start_rest(phys_body *body)
+{
+    body->still_time = 0.0;
+    body->still_x = body->x;
+    body->still_q = body->q;
+    body->block_sum = rlf_vec3_make(0, 0, 0);
+    body->block_time = 0.0;
+    body->has_block = false;
+}
+
+/* Counts the time that the body has been still, block by block. */
+static void watch_rest(phys_body *body, double h)
+{
+    if (has_left_its_place(body)) {
+        start_rest(body);
+        return;
+    }
+    body->block_sum = rlf_mad(body->block_sum, rlf_sub(body->x, body->still_x), h);
+    body->block_time += h;
+    if (body->block_time < BLOCK_TIME - 1e-9) {
+        return;
+    }
+    rlf_vec3 mean = rlf_scale(body->block_sum, 1.0 / body->block_time);
+    double drift = rlf_length(rlf_sub(mean, body->block_mean));
+    if (body->has_block) {
+        body->still_time = drift <= DRIFT_MAX ? body->still_time + body->block_time : 0.0;
+    }
+    body->has_block = true;
+    body->block_mean = mean;
+    body->block_sum = rlf_vec3_make(0, 0, 0);
+    body->block_time = 0.0;
 }
 
 static double least_separation(const phys_body *body)
@@ -109,12 +144,7 @@ void phys_fall_asleep(rlf_world *world, double h)
         phys_body *body = &world->bodies[i];
         world->island[i] = i;
         if (body->is_alive && !body->is_asleep && !body->is_held) {
-            body->still_time += h;
-            if (has_left_its_place(body)) {
-                body->still_time = 0.0;
-                body->still_x = body->x;
-                body->still_q = body->q;
-            }
+            watch_rest(body, h);
             is_any_tired = is_any_tired || body->still_time > STILL_TIME;
         }
     }

@@ -136,6 +136,7 @@ void phys_body_wake(phys_body *body)
 {
     body->is_asleep = false;
     body->still_time = 0.0;
+    body->has_block = false;
     body->surface_age = body->surface_period;
 }
 
