@@ -17,8 +17,8 @@ typedef enum synth_bone {
     SYNTH_SHIN = SYNTH_THIGH + 2,
     SYNTH_FOOT = SYNTH_SHIN + 2,
     SYNTH_BOOK_BONE = SYNTH_FOOT + 2,
-    SYNTH_FINGER,                         /* four proximal segments ... */
-    SYNTH_FINGER_TIP = SYNTH_FINGER + 4,  /* ... and four distal ones */
+    SYNTH_FINGER,                        /* four proximal segments ... */
+    SYNTH_FINGER_TIP = SYNTH_FINGER + 4, /* ... and four distal ones */
     SYNTH_THUMB = SYNTH_FINGER_TIP + 4,
     SYNTH_BONE_COUNT
 } synth_bone;

@@ -159,6 +159,6 @@ void synth_color_render(synth_color *color, int32_t room_index)
     synth_shadow_place(&color->shadow, color->scene, &color->view);
     rlf_parallel_for(color->pool, camera->height, ROWS_PER_CHUNK, draw_rows, color);
     rlf_parallel_for(color->pool, camera->height, ROWS_PER_CHUNK, blend_rows, color);
-    color->dirty = synth_rect_union(synth_rect_grow(color->canvas.drawn, 1, camera),
-                                    color->shadow.rect);
+    color->dirty =
+        synth_rect_union(synth_rect_grow(color->canvas.drawn, 1, camera), color->shadow.rect);
 }

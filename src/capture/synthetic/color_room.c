@@ -115,8 +115,7 @@ static rlf_result create_room(synth_color *color, const synth_scene *scene, int3
     if (planes->rgba == NULL || planes->z == NULL || planes->lamp == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    job j = {color, scene, planes,
-             scene->static_count - (state == 1 ? scene->removed_count : 0)};
+    job j = {color, scene, planes, scene->static_count - (state == 1 ? scene->removed_count : 0)};
     int32_t tile_rows = (camera->height + SYNTH_TILE - 1) / SYNTH_TILE;
     rlf_parallel_for(color->pool, tile_rows, 1, cast_tiles, &j);
     return RLF_OK;

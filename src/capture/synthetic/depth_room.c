@@ -126,9 +126,8 @@ static rlf_result create_frame(synth_depth *depth, bool enable_truth)
         }
     }
     for (size_t i = 0; i < PIXELS; i++) {
-        depth->vignette[i] =
-            (float)synth_noise_vignette((double)(i % SYNTH_DEPTH_WIDTH),
-                                        (double)(i / SYNTH_DEPTH_WIDTH));
+        depth->vignette[i] = (float)synth_noise_vignette((double)(i % SYNTH_DEPTH_WIDTH),
+                                                         (double)(i / SYNTH_DEPTH_WIDTH));
     }
     rlf_result result = synth_canvas_create(&depth->canvas, &depth->view);
     return result == RLF_OK ? create_planes(&depth->now, enable_truth) : result;

@@ -2,13 +2,21 @@
 #include "capture/synthetic/bones.h"
 
 #define ELLIPSOID(name, bone, material, x, y, z, a, b, c)                                          \
-    {name, bone, material, SYNTH_ELLIPSOID, {x, y, z}, 'y', {a, b, c}, 0.0, 0.0, 0.0}
+    {                                                                                              \
+        name, bone, material, SYNTH_ELLIPSOID, {x, y, z}, 'y', {a, b, c}, 0.0, 0.0, 0.0            \
+    }
 #define CONE(name, bone, material, x, y, z, length, radius_a, radius_b)                            \
-    {name, bone, material, SYNTH_CONE, {x, y, z}, 'y', {0, 0, 0}, length, radius_a, radius_b}
+    {                                                                                              \
+        name, bone, material, SYNTH_CONE, {x, y, z}, 'y', {0, 0, 0}, length, radius_a, radius_b    \
+    }
 #define CROSS(name, bone, material, x, y, z, length, radius_a, radius_b)                           \
-    {name, bone, material, SYNTH_CONE, {x, y, z}, 'x', {0, 0, 0}, length, radius_a, radius_b}
+    {                                                                                              \
+        name, bone, material, SYNTH_CONE, {x, y, z}, 'x', {0, 0, 0}, length, radius_a, radius_b    \
+    }
 #define FORWARD(name, bone, material, x, y, z, length, radius_a, radius_b)                         \
-    {name, bone, material, SYNTH_CONE, {x, y, z}, 'z', {0, 0, 0}, length, radius_a, radius_b}
+    {                                                                                              \
+        name, bone, material, SYNTH_CONE, {x, y, z}, 'z', {0, 0, 0}, length, radius_a, radius_b    \
+    }
 
 /* In a bone frame y points down the limb; the trunk's frames are upright with y down. */
 const synth_flesh synth_person_flesh[] = {
@@ -41,15 +49,14 @@ const int32_t synth_person_flesh_count =
     (int32_t)(sizeof(synth_person_flesh) / sizeof(synth_person_flesh[0]));
 
 /* A book of 17 x 24 x 2.5 cm that stands on the grip: its frame's y points down. */
-const synth_flesh synth_book_flesh = {"book",        SYNTH_BOOK_BONE, SYNTH_BOOK, SYNTH_BOX,
-                                      {0, -0.10, 0}, 'y',           {0.085, 0.12, 0.0125},
-                                      0.0,           0.0,             0.0};
+const synth_flesh synth_book_flesh = {
+    "book", SYNTH_BOOK_BONE,       SYNTH_BOOK, SYNTH_BOX, {0, -0.10, 0},
+    'y',    {0.085, 0.12, 0.0125}, 0.0,        0.0,       0.0};
 
 #define FINGER(index, name, length, radius)                                                        \
-    CONE(name, SYNTH_FINGER + (index), SYNTH_SKIN, 0, 0, 0, length, radius, (radius) * 0.92)
+    CONE(name, SYNTH_FINGER + (index), SYNTH_SKIN, 0, 0, 0, length, radius, (radius)*0.92)
 #define TIP(index, name, length, radius)                                                           \
-    CONE(name, SYNTH_FINGER_TIP + (index), SYNTH_SKIN, 0, 0, 0, length, (radius) * 0.92,           \
-         (radius) * 0.8)
+    CONE(name, SYNTH_FINGER_TIP + (index), SYNTH_SKIN, 0, 0, 0, length, (radius)*0.92, (radius)*0.8)
 
 const synth_flesh synth_hand_flesh[] = {
     CONE("upper arm", SYNTH_UPPER_ARM, SYNTH_SHIRT, 0, 0, 0, 0.6, 0.075, 0.050),

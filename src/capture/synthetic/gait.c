@@ -2,7 +2,7 @@
  * carry do not slide: footfalls are planned per walk, and a foot moves only during its swing. */
 #include "capture/synthetic/gait.h"
 
-#define STEP_LENGTH 0.62 /* metres between footfalls of opposite feet */
+#define STEP_LENGTH 0.60 /* metres between footfalls of opposite feet */
 #define RAMP 0.2         /* share of a walk's time in which it speeds up, and slows down */
 #define STEP_HEIGHT 0.05 /* metres that a swinging foot is lifted */
 
@@ -32,8 +32,8 @@ static const act room_acts[] = {
     {true, 7.1, 9.9, -0.2, -3.3},
 };
 static const act thesis_acts[] = {
-    {true, 0.6, 3.6, 2.6, -0.85},     {false, 3.6, 4.3, WEST, EAST}, {true, 4.3, 6.1, -0.85, 0.95},
-    {false, 6.1, 6.8, EAST, WEST},    {true, 6.8, 9.8, 0.95, -2.6},
+    {true, 0.6, 3.6, 2.6, -0.85},  {false, 3.6, 4.3, WEST, EAST}, {true, 4.3, 6.1, -0.85, 0.95},
+    {false, 6.1, 6.8, EAST, WEST}, {true, 6.8, 9.8, 0.95, -2.6},
 };
 static const act book_acts[] = {
     {true, 0.3, 3.5, 3.35, -0.2},
@@ -79,14 +79,14 @@ static double pace(double x)
 
 /* A foot's place in steps after the body has made `u` of `steps` steps, and its lift. Footfall k is
  * at k; feet alternate, the left one takes the odd ones, and the last joins the other at `steps`.
- * The swing to footfall k lasts while the body goes from k - 1.4 to k - 0.6. */
+ * The swing to footfall k lasts while the body goes from k - 1.35 to k - 0.45. */
 static double foot_place(int side, double u, int steps, double *lift)
 {
     double place = 0.0;
     *lift = 0.0;
     for (int k = side == 0 ? 1 : 2; k <= steps + 1; k += 2) {
-        double begin = rlf_max(0.0, k - 1.4);
-        double end = rlf_min(steps, k - 0.6);
+        double begin = rlf_max(0.0, k - 1.35);
+        double end = rlf_min(steps, k - 0.45);
         double w = rlf_clamp((u - begin) / (end - begin), 0.0, 1.0);
         double target = k < steps ? k : steps;
         place += (target - place) * synth_smooth(w);
@@ -174,8 +174,8 @@ synth_gait synth_gait_at(rlf_synthetic_scene kind, double t)
     }
     if (s->reach_end > 0.0) {
         gait.gesture_time = now - s->reach_begin;
-        gait.reach = synth_smooth((now - s->reach_begin) / 0.8) *
-                     synth_smooth((s->reach_end - now) / 0.7);
+        gait.reach =
+            synth_smooth((now - s->reach_begin) / 0.8) * synth_smooth((s->reach_end - now) / 0.7);
     }
     return gait;
 }

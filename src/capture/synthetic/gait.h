@@ -16,12 +16,12 @@ typedef struct synth_footing {
 typedef struct synth_gait {
     rlf_vec3 position; /* of the body on the floor, y = 0 */
     double heading;
-    double walking;       /* 0 standing .. 1 at full stride */
-    double stride;        /* steps since the walk began: whole at mid-stance */
-    double swing;         /* left foot's lead over the right one, in steps */
+    double walking; /* 0 standing .. 1 at full stride */
+    double stride;  /* steps since the walk began: whole at mid-stance */
+    double swing;   /* left foot's lead over the right one, in steps */
     synth_footing foot[2];
-    double reach;         /* 0..1: how far the right arm follows its gesture */
-    double gesture_time;  /* s since the gesture began */
+    double reach;        /* 0..1: how far the right arm follows its gesture */
+    double gesture_time; /* s since the gesture began */
 } synth_gait;
 
 /* t in seconds since the first frame; the script of each scene repeats for ever. */

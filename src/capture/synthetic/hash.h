@@ -28,8 +28,7 @@ static inline uint32_t synth_hash2(uint32_t a, uint32_t b)
 /* Approximately standard normal (Irwin-Hall of the four bytes), bounded by +-3.45. */
 static inline float synth_normal(uint32_t h)
 {
-    int32_t sum =
-        (int32_t)((h & 255u) + ((h >> 8) & 255u) + ((h >> 16) & 255u) + (h >> 24)) - 510;
+    int32_t sum = (int32_t)((h & 255u) + ((h >> 8) & 255u) + ((h >> 16) & 255u) + (h >> 24)) - 510;
     return (float)sum * SYNTH_NORMAL_SCALE;
 }
 

@@ -6,7 +6,7 @@
 
 rlf_vec3 synth_lamp(void)
 {
-    return rlf_vec3_make(-0.75, -1.75, 1.1);
+    return rlf_vec3_make(-0.70, -1.85, 1.5);
 }
 
 rlf_vec3 synth_light(const synth_site *site, double lamp, double sky)
@@ -14,9 +14,9 @@ rlf_vec3 synth_light(const synth_site *site, double lamp, double sky)
     rlf_vec3 to_lamp = rlf_sub(synth_lamp(), site->p);
     double distance2 = rlf_dot(to_lamp, to_lamp);
     double cosine = rlf_dot(site->normal, to_lamp) / sqrt(distance2);
-    double direct = lamp * rlf_max(0.0, cosine) * 9.0 / (3.0 + distance2);
+    double direct = lamp * rlf_max(0.0, cosine) * 10.5 / (4.5 + distance2);
     double up = 0.5 - 0.5 * site->normal.y; /* 1 facing the ceiling, 0 facing the floor */
-    double ambient = sky * (0.32 + 0.14 * up);
+    double ambient = sky * (0.38 + 0.06 * up);
     /* warm lamp, bluish daylight, a little warm light back from the floor */
     return rlf_vec3_make(0.98 * direct + ambient * (1.02 - 0.06 * up), 0.92 * direct + ambient,
                          0.82 * direct + ambient * (0.94 + 0.14 * up));
@@ -36,8 +36,8 @@ static bool is_blocked(const synth_scene *scene, int32_t count, const synth_ray 
         double along = rlf_clamp(rlf_dot(to_centre, ray->direction) / length2, 0.0, 1.0);
         rlf_vec3 aside = rlf_mad(to_centre, ray->direction, -along);
         synth_interval hit;
-        if (rlf_dot(aside, aside) < radius * radius &&
-            synth_shape_intersect(shape, ray, &hit) && hit.far > 0.0 && hit.near < 1.0) {
+        if (rlf_dot(aside, aside) < radius * radius && synth_shape_intersect(shape, ray, &hit) &&
+            hit.far > 0.0 && hit.near < 1.0) {
             return true;
         }
     }

@@ -74,6 +74,18 @@ static rlf_vec3 floor_boards(double x, double z)
     return gap < 0.0022 ? rlf_scale(color, 0.35) : color;
 }
 
+/* Polished dark tiles of 30 cm with light joints. */
+static rlf_vec3 floor_tiles(double x, double z)
+{
+    const double side = 0.3;
+    double tone = lattice(floor_of(x / side), floor_of(z / side));
+    double cloud = noise(x * 11.0, z * 11.0);
+    double joint =
+        rlf_min(0.5 - absolute(fraction(x / side) - 0.5), 0.5 - absolute(fraction(z / side) - 0.5));
+    rlf_vec3 tile = rlf_scale(rgb(0.135, 0.15, 0.165), 0.75 + 0.25 * tone + 0.25 * cloud);
+    return joint * side < 0.003 ? rgb(0.28, 0.28, 0.27) : tile;
+}
+
 /* Hills and a sun in a wooden frame; u and v run from -1 to 1, v upwards. */
 static rlf_vec3 picture(double u, double v)
 {
@@ -99,9 +111,8 @@ static rlf_vec3 picture(double u, double v)
 }
 
 /* Plaster, a skirting board along the floor, a picture; `up` is height relative to the camera. */
-static rlf_vec3 wall(const synth_part *part, double x, double up)
+static rlf_vec3 wall(double x, double up)
 {
-    (void)part;
     double u = (x + 0.22) / 0.40;
     double v = (up - 0.50) / 0.30;
     if (absolute(u) <= 1.0 && absolute(v) <= 1.0) {
@@ -150,8 +161,7 @@ static rlf_vec3 ball(rlf_vec3 local)
         return rgb(0.85, 0.85, 0.82);
     }
     double sector = (rlf_atan2(local.x, local.z) / RLF_PI + 1.0) * 3.0;
-    static const double colors[3][3] = {
-        {0.80, 0.08, 0.06}, {0.86, 0.86, 0.83}, {0.05, 0.20, 0.62}};
+    static const double colors[3][3] = {{0.80, 0.08, 0.06}, {0.86, 0.86, 0.83}, {0.05, 0.20, 0.62}};
     const double *c = colors[floor_of(sector) % 3];
     return rgb(c[0], c[1], c[2]);
 }
@@ -184,7 +194,8 @@ static rlf_vec3 shirt(const synth_part *part, rlf_vec3 local)
 {
     rlf_vec3 cloth = rgb(0.50, 0.085, 0.065);
     bool is_trunk = part->shape.type == SYNTH_ELLIPSOID;
-    double up = part->shape.size.y > 0.19 ? -local.y : -local.y - 0.19; /* above the chest's middle */
+    double up =
+        part->shape.size.y > 0.19 ? -local.y : -local.y - 0.19; /* above the chest's middle */
     if (is_trunk && up > -0.015 && up < 0.035) {
         return rgb(0.80, 0.76, 0.68);
     }
@@ -206,10 +217,13 @@ static rlf_vec3 book(rlf_vec3 local)
 rlf_vec3 synth_albedo(const synth_part *part, rlf_vec3 p)
 {
     switch (part->material) {
-    case SYNTH_WALL: return wall(part, p.x, p.z);
+    case SYNTH_WALL: return wall(p.x, p.z);
     case SYNTH_FLOOR: return floor_boards(p.x, p.z);
+    case SYNTH_TILES: return floor_tiles(p.x, p.z);
+    case SYNTH_RUBBER: return rgb(0.035, 0.035, 0.04);
     case SYNTH_CEILING: return rgb(0.80, 0.80, 0.78);
-    case SYNTH_COLUMN: return rlf_scale(rgb(0.74, 0.70, 0.62), 0.96 + 0.04 * noise(p.x * 8, p.y * 8));
+    case SYNTH_COLUMN:
+        return rlf_scale(rgb(0.74, 0.70, 0.62), 0.96 + 0.04 * noise(p.x * 8, p.y * 8));
     case SYNTH_CUPBOARD: return cupboard(p, part->shape.size);
     case SYNTH_TABLE: return wood(rgb(0.47, 0.27, 0.13), rgb(0.27, 0.135, 0.06), p.x, p.z + p.y);
     case SYNTH_CARDBOARD: return cardboard(p);
@@ -221,7 +235,8 @@ rlf_vec3 synth_albedo(const synth_part *part, rlf_vec3 p)
     case SYNTH_HAIR: return rgb(0.055, 0.032, 0.020);
     case SYNTH_SHIRT: return shirt(part, p);
     case SYNTH_TROUSERS: return rgb(0.045, 0.075, 0.155);
-    case SYNTH_SHOE: return p.x > 0.030 || p.x < -0.030 ? rgb(0.6, 0.6, 0.6) : rgb(0.06, 0.06, 0.07);
+    case SYNTH_SHOE:
+        return p.x > 0.030 || p.x < -0.030 ? rgb(0.6, 0.6, 0.6) : rgb(0.06, 0.06, 0.07);
     case SYNTH_BOOK: return book(p);
     default: return rgb(0.62, 0.36, 0.24);
     }
@@ -230,12 +245,13 @@ rlf_vec3 synth_albedo(const synth_part *part, rlf_vec3 p)
 double synth_infrared(synth_material material)
 {
     static const double reflectance[SYNTH_MATERIAL_COUNT] = {
-        [SYNTH_WALL] = 0.6,       [SYNTH_FLOOR] = 0.45,   [SYNTH_CEILING] = 0.6,
-        [SYNTH_COLUMN] = 0.6,     [SYNTH_CUPBOARD] = 0.5, [SYNTH_TABLE] = 0.45,
-        [SYNTH_CARDBOARD] = 0.5,  [SYNTH_BOX_RED] = 0.45, [SYNTH_BOX_TEAL] = 0.4,
-        [SYNTH_BALL] = 0.5,       [SYNTH_CHAIR] = 0.4,    [SYNTH_SKIN] = 0.5,
-        [SYNTH_FACE] = 0.5,       [SYNTH_HAIR] = 0.15,    [SYNTH_SHIRT] = 0.45,
-        [SYNTH_TROUSERS] = 0.35,  [SYNTH_SHOE] = 0.2,     [SYNTH_BOOK] = 0.4,
+        [SYNTH_WALL] = 0.6,     [SYNTH_FLOOR] = 0.45,   [SYNTH_TILES] = 0.45,
+        [SYNTH_RUBBER] = 0.072, [SYNTH_CEILING] = 0.6,  [SYNTH_COLUMN] = 0.6,
+        [SYNTH_CUPBOARD] = 0.5, [SYNTH_TABLE] = 0.45,   [SYNTH_CARDBOARD] = 0.5,
+        [SYNTH_BOX_RED] = 0.45, [SYNTH_BOX_TEAL] = 0.4, [SYNTH_BALL] = 0.5,
+        [SYNTH_CHAIR] = 0.4,    [SYNTH_SKIN] = 0.5,     [SYNTH_FACE] = 0.5,
+        [SYNTH_HAIR] = 0.15,    [SYNTH_SHIRT] = 0.45,   [SYNTH_TROUSERS] = 0.35,
+        [SYNTH_SHOE] = 0.2,     [SYNTH_BOOK] = 0.4,
     };
     return reflectance[material];
 }
@@ -244,9 +260,8 @@ void synth_gamma_table(uint8_t table[SYNTH_GAMMA_SIZE])
 {
     for (int i = 0; i < SYNTH_GAMMA_SIZE; i++) {
         double linear = (i + 0.5) / SYNTH_GAMMA_SIZE;
-        double code = linear <= 0.0031308
-                          ? 12.92 * linear
-                          : 1.055 * rlf_exp(rlf_log_e(linear) / 2.4) - 0.055;
+        double code =
+            linear <= 0.0031308 ? 12.92 * linear : 1.055 * rlf_exp(rlf_log_e(linear) / 2.4) - 0.055;
         table[i] = (uint8_t)(code * 255.0 + 0.5);
     }
 }

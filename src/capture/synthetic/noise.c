@@ -8,8 +8,13 @@
 #define AMPLITUDE_SIGMA 0.002f
 #define JUMP_SHARE 0.04f        /* of the depth: second difference that counts as a jump */
 #define FLYING_PROBABILITY 0.5f /* that a jump pixel mixes both sides */
-#define FILTER_AT_JUMP 0.95f    /* that the driver's edge filter removes a jump pixel */
-#define FILTER_BESIDE_JUMP 0.26f
+#define KEPT_AT_JUMP 0.05f      /* that the driver's edge filter keeps a jump pixel */
+
+/* That it keeps a pixel with so many jump pixels among its eight neighbours: 0.74^n, because each
+ * of them removes it with probability 0.26. */
+static const float kept_beside_jumps[9] = {1.0f,        0.74f,       0.5476f,
+                                           0.405224f,   0.29986576f, 0.22190066f,
+                                           0.16420649f, 0.12151280f, 0.08991947f};
 
 void synth_noise_init(synth_noise *noise, uint64_t seed)
 {
@@ -97,19 +102,20 @@ static float flying_depth(const float *z, size_t i, float share)
     return share * z[i - step] + (1.0f - share) * z[i + step];
 }
 
+/* One pixel that is a jump or has `count` jump pixels in its 3x3 neighbourhood. */
 static void apply_jump(const synth_noise *noise, const synth_noise_row *row, uint32_t key,
-                       int32_t x, uint16_t *out)
+                       int32_t x, uint8_t count, uint16_t *out)
 {
     size_t i = (size_t)row->y * SYNTH_DEPTH_WIDTH + (size_t)x;
     uint32_t h = synth_hash(key ^ ((uint32_t)x * 0x85ebca6bu + 1u));
-    float choice = synth_uniform(h);
     bool is_jump = row->jump[i] != 0;
-    if (is_jump && choice < FLYING_PROBABILITY && out[x] != 0) {
+    if (is_jump && synth_uniform(h) < FLYING_PROBABILITY && out[x] != 0) {
         uint32_t h2 = synth_hash(h + 0x9e3779b9u);
         out[x] = quantise(noise, 1000.0f * flying_depth(row->z, i, synth_uniform(h2)));
     }
-    float removed = is_jump ? FILTER_AT_JUMP : FILTER_BESIDE_JUMP;
-    if (noise->enable_edge_filter && synth_uniform(synth_hash(h ^ 0x2545f491u)) < removed) {
+    float kept = kept_beside_jumps[is_jump ? count - 1 : count];
+    kept *= is_jump ? KEPT_AT_JUMP : 1.0f;
+    if (noise->enable_edge_filter && synth_uniform(synth_hash(h ^ 0x2545f491u)) >= kept) {
         out[x] = 0;
     }
 }
@@ -120,19 +126,19 @@ static void apply_jumps(const synth_noise *noise, const synth_noise_row *row, ui
 {
     const uint8_t *jump = row->jump + (size_t)row->y * SYNTH_DEPTH_WIDTH;
     uint8_t column[SYNTH_DEPTH_WIDTH];
-    uint8_t ring[SYNTH_DEPTH_WIDTH] = {0};
+    uint8_t count[SYNTH_DEPTH_WIDTH] = {0}; /* of jumps in the 3x3 neighbourhood */
     for (int32_t x = 0; x < SYNTH_DEPTH_WIDTH; x++) {
-        column[x] = jump[x - SYNTH_DEPTH_WIDTH] | jump[x] | jump[x + SYNTH_DEPTH_WIDTH];
+        column[x] = (uint8_t)(jump[x - SYNTH_DEPTH_WIDTH] + jump[x] + jump[x + SYNTH_DEPTH_WIDTH]);
     }
     for (int32_t x = 1; x < SYNTH_DEPTH_WIDTH - 1; x++) {
-        ring[x] = column[x - 1] | column[x] | column[x + 1];
+        count[x] = (uint8_t)(column[x - 1] + column[x] + column[x + 1]);
     }
     for (int32_t block = 0; block < SYNTH_DEPTH_WIDTH; block += 8) {
         uint64_t any;
-        memcpy(&any, ring + block, sizeof(any));
+        memcpy(&any, count + block, sizeof(any));
         for (int32_t x = block; any != 0 && x < block + 8; x++) {
-            if (ring[x] != 0) {
-                apply_jump(noise, row, key, x, out);
+            if (count[x] != 0) {
+                apply_jump(noise, row, key, x, count[x], out);
             }
         }
     }

@@ -120,8 +120,8 @@ static const char *set_value(piece key, piece value, rlf_synthetic_def *def, boo
         return "-1 (endless) or a number of frames";
     }
     if (is_word(key, "fps")) {
-        *is_good = read_decimal(value, &def->frames_per_second) &&
-                   def->frames_per_second > 0.0 && def->frames_per_second <= 1000.0;
+        *is_good = read_decimal(value, &def->frames_per_second) && def->frames_per_second > 0.0 &&
+                   def->frames_per_second <= 1000.0;
         return "frames per second above 0, at most 1000";
     }
     if (is_word(key, "noise")) {

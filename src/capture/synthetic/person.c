@@ -2,12 +2,14 @@
 #include "capture/synthetic/bones.h"
 #include "capture/synthetic/gait.h"
 
-#define HIP_HEIGHT 0.905
+#define HIP_HEIGHT 0.925
 #define HIP_OFFSET 0.085
 #define THIGH_LENGTH 0.43
 #define SHIN_LENGTH 0.42
 #define ANKLE_HEIGHT 0.085
-#define BALL_OF_FOOT 0.13 /* metres from the ankle forward; the foot rolls over it */
+#define TOE_LENGTH 0.16       /* metres from the ankle forward to the middle of the toes */
+#define HEEL_LENGTH 0.03      /* metres from the ankle back to the middle of the heel */
+#define SOLE_RADIUS 0.038     /* metres; toes and heel are round: the foot rolls over either */
 #define SHOULDER_HEIGHT 0.505 /* above the hips */
 #define SHOULDER_OFFSET 0.185
 #define UPPER_ARM_LENGTH 0.29
@@ -53,15 +55,15 @@ static rlf_pose body_pose(const synth_scene *scene, const synth_gait *gait)
 /* Pelvis lowest in double support, chest turned against it, head level. */
 static void set_trunk(const rlf_pose *body, const synth_gait *gait, rlf_pose *bones)
 {
-    double hip = HIP_HEIGHT -
-                 gait->walking * (0.032 - 0.012 * rlf_cos(2.0 * RLF_PI * gait->stride));
+    double hip =
+        HIP_HEIGHT - gait->walking * (0.0315 - 0.0215 * rlf_cos(2.0 * RLF_PI * gait->stride));
     double twist = 0.16 * gait->swing;
-    double lean = 0.04 + 0.05 * gait->walking + 0.05 * gait->reach;
+    double lean = 0.05 + 0.06 * gait->walking + 0.05 * gait->reach;
     rlf_pose pelvis = {rlf_vec3_make(0, -hip, 0),
                        rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), 0.6 * twist)};
-    rlf_quat chest_turn = rlf_quat_mul(
-        rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), -twist - 0.22 * gait->reach),
-        rlf_quat_from_axis_angle(rlf_vec3_make(1, 0, 0), -lean));
+    rlf_quat chest_turn =
+        rlf_quat_mul(rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), -twist - 0.22 * gait->reach),
+                     rlf_quat_from_axis_angle(rlf_vec3_make(1, 0, 0), -lean));
     rlf_pose chest = {pelvis.p, chest_turn};
     rlf_vec3 neck = rlf_transform(&chest, rlf_vec3_make(0, -0.58, 0.0));
     rlf_pose head = {neck, rlf_quat_from_axis_angle(rlf_vec3_make(1, 0, 0), -0.05)};
@@ -70,7 +72,7 @@ static void set_trunk(const rlf_pose *body, const synth_gait *gait, rlf_pose *bo
     bones[SYNTH_HEAD] = rlf_pose_mul(body, &head);
 }
 
-/* A foot behind the body rolls up over its ball, one ahead of it lands on the heel. */
+/* A foot behind the body rolls up over its toes, one ahead of it lands on the heel. */
 static double foot_pitch(const rlf_pose *body, const synth_footing *foot, double walking)
 {
     rlf_vec3 ground = foot->position;
@@ -79,7 +81,7 @@ static double foot_pitch(const rlf_pose *body, const synth_footing *foot, double
     origin.y = 0.0;
     double ahead = rlf_rotate(rlf_quat_conjugate(body->q), rlf_sub(ground, origin)).z;
     double lift = rlf_clamp(foot->position.y / 0.05, 0.0, 1.0);
-    double roll = 0.75 * synth_smooth((-ahead - 0.12) / 0.35);
+    double roll = 0.65 * synth_smooth((-ahead - 0.08) / 0.26);
     double strike = 0.35 * lift * synth_smooth(ahead / 0.25);
     return walking * (roll - strike);
 }
@@ -88,17 +90,14 @@ static void set_leg(const rlf_pose *body, const synth_gait *gait, int side, rlf_
 {
     const synth_footing *footing = &gait->foot[side];
     double pitch = foot_pitch(body, footing, gait->walking);
-    rlf_pose ground = {rlf_vec3_make(footing->position.x, body->p.y - footing->position.y,
-                                     footing->position.z),
-                       rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), footing->heading)};
-    rlf_pose roll = {rlf_vec3_make(0, 0, BALL_OF_FOOT),
+    rlf_pose ground = {
+        rlf_vec3_make(footing->position.x, body->p.y - footing->position.y, footing->position.z),
+        rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), footing->heading)};
+    double pivot = pitch < 0.0 ? -HEEL_LENGTH : TOE_LENGTH;
+    rlf_pose roll = {rlf_vec3_make(0, -SOLE_RADIUS, pivot),
                      rlf_quat_from_axis_angle(rlf_vec3_make(1, 0, 0), -pitch)};
-    if (pitch < 0.0) {
-        roll.p.z = -0.05; /* over the heel */
-    }
     rlf_pose rolled = rlf_pose_mul(&ground, &roll);
-    rlf_vec3 ankle =
-        rlf_transform(&rolled, rlf_vec3_make(0, -ANKLE_HEIGHT, -roll.p.z));
+    rlf_vec3 ankle = rlf_transform(&rolled, rlf_vec3_make(0, SOLE_RADIUS - ANKLE_HEIGHT, -pivot));
     double offset = side == 0 ? -HIP_OFFSET : HIP_OFFSET;
     rlf_vec3 hip = rlf_transform(&bones[SYNTH_PELVIS], rlf_vec3_make(offset, 0.0, 0.0));
     rlf_vec3 forward = rlf_rotate(ground.q, rlf_vec3_make(0, 0, 1));
@@ -125,12 +124,11 @@ static void set_arm(const synth_scene *scene, const rlf_pose *body, const synth_
 {
     double sign = side == 0 ? -1.0 : 1.0;
     double swing = 0.42 * sign * gait->swing + 0.06;
-    rlf_vec3 shoulder =
-        rlf_transform(&bones[SYNTH_CHEST], rlf_vec3_make(sign * SHOULDER_OFFSET,
-                                                         -SHOULDER_HEIGHT, 0.0));
+    rlf_vec3 shoulder = rlf_transform(&bones[SYNTH_CHEST],
+                                      rlf_vec3_make(sign * SHOULDER_OFFSET, -SHOULDER_HEIGHT, 0.0));
     double length = 0.525 - 0.03 * gait->walking;
-    rlf_vec3 hanging = rlf_vec3_make(sign * 0.055, length * rlf_cos(swing),
-                                     length * rlf_sin(swing) + 0.02);
+    rlf_vec3 hanging =
+        rlf_vec3_make(sign * 0.055, length * rlf_cos(swing), length * rlf_sin(swing) + 0.02);
     rlf_vec3 wrist = rlf_add(shoulder, rlf_rotate(body->q, hanging));
     double reach = scene->kind == RLF_SYNTHETIC_BOOK ? 1.0 : gait->reach;
     if (side == 1 && reach > 0.0) {

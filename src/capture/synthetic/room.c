@@ -3,8 +3,8 @@
 #include "capture/synthetic/scene.h"
 
 static const char *const label_names[] = {
-    "",          "wall",      "floor",   "ceiling", "column", "cupboard", "table", "box large",
-    "box small", "box top",   "ball",    "chair",   "person", "book",     "hand",
+    "",          "wall",    "floor", "ceiling", "column", "cupboard", "table", "box large",
+    "box small", "box top", "ball",  "chair",   "person", "book",     "hand",
 };
 
 static synth_part *add(synth_scene *scene, int32_t label, synth_material material)
@@ -24,8 +24,7 @@ static void add_half_space(synth_scene *scene, int32_t label, rlf_vec3 p, double
     synth_part *part = add(scene, label, materials[label]);
     part->shape.type = SYNTH_HALF_SPACE;
     part->shape.T_camera_shape.p = p;
-    part->shape.T_camera_shape.q =
-        rlf_quat_from_axis_angle(rlf_vec3_make(1, 0, 0), rotation);
+    part->shape.T_camera_shape.q = rlf_quat_from_axis_angle(rlf_vec3_make(1, 0, 0), rotation);
 }
 
 /* A box that stands `base` above the floor; x, z are of its centre, size is width, height, depth.
@@ -114,8 +113,11 @@ static void build_thesis(synth_scene *scene)
 {
     scene->floor_y = 1.25;
     add_shell(scene, 3.2);
+    scene->statics[scene->static_count - 1].material = SYNTH_TILES;
+    add_block(scene, RLF_SYNTHETIC_LABEL_WALL, SYNTH_RUBBER,
+              (block){0.0, 0.0, 3.2, 20.0, 0.10, 0.02, 0.0});
     add_block(scene, RLF_SYNTHETIC_LABEL_COLUMN, SYNTH_COLUMN,
-              (block){1.0, 0.0, 3.05, 0.4, 4.0, 0.3, 0.0});
+              (block){0.99, 0.0, 3.05, 0.4, 4.0, 0.3, 0.0});
 }
 
 static void build_room(synth_scene *scene)

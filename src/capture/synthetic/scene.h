@@ -11,6 +11,8 @@
 typedef enum synth_material {
     SYNTH_WALL = 0,
     SYNTH_FLOOR,
+    SYNTH_TILES,
+    SYNTH_RUBBER,
     SYNTH_CEILING,
     SYNTH_COLUMN,
     SYNTH_CUPBOARD,

@@ -6,9 +6,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#define KINECT_F 365.5          /* depth camera of the Kinect v2, pixels */
-#define KINECT_COLOR_F 1081.0   /* colour camera, pixels at 1920 x 1080 */
-#define KINECT_BASELINE 0.052   /* metres from the depth camera to the colour camera, along +x */
+#define KINECT_F 365.5        /* depth camera of the Kinect v2, pixels */
+#define KINECT_COLOR_F 1081.0 /* colour camera, pixels at 1920 x 1080 */
+#define KINECT_BASELINE 0.052 /* metres from the depth camera to the colour camera, along +x */
 #define COLOR_SIZE_MAX 4096
 #define FPS_MAX 1000.0
 #define FRAME_COUNT_MAX 4294967295 /* the noise is keyed by a 32-bit frame number */
@@ -127,8 +127,8 @@ static rlf_result sensor_next(void *self, rlf_frame *out)
     sensor->time = (double)frame / def->frames_per_second;
     sensor->has_frame = true;
     synth_scene_move(&sensor->scene, sensor->time);
-    bool is_removed = synth_scene_static_count(&sensor->scene, sensor->time) <
-                      sensor->scene.static_count;
+    bool is_removed =
+        synth_scene_static_count(&sensor->scene, sensor->time) < sensor->scene.static_count;
     synth_depth_render(&sensor->depth, (uint32_t)frame, is_removed ? 1 : 0);
     if (def->enable_color) {
         synth_color_render(&sensor->color, is_removed ? 1 : 0);
@@ -245,11 +245,10 @@ rlf_result rlf_synthetic_distance(rlf_source *source, rlf_vec3 p, double *out_di
     rlf_vec3 normal;
     double distance_to_mover;
     rlf_vec3 normal_of_mover;
-    const synth_part *part =
-        synth_nearest(scene->statics, synth_scene_static_count(scene, sensor->time), p, &distance,
-                      &normal);
-    const synth_part *mover = synth_nearest(scene->movers, scene->mover_count, p,
-                                            &distance_to_mover, &normal_of_mover);
+    const synth_part *part = synth_nearest(
+        scene->statics, synth_scene_static_count(scene, sensor->time), p, &distance, &normal);
+    const synth_part *mover =
+        synth_nearest(scene->movers, scene->mover_count, p, &distance_to_mover, &normal_of_mover);
     if (mover != NULL && distance_to_mover < distance) {
         part = mover;
         distance = distance_to_mover;

@@ -4,7 +4,8 @@
 #include "capture/synthetic/light.h"
 
 #define ROW_MAX 4096
-#define PENUMBRA 0.10 /* metres of softness per metre between ball and floor */
+#define PENUMBRA 0.06       /* metres of softness per metre between ball and floor */
+#define CONTACT_HEIGHT 0.15 /* metres */
 
 /* Shadow of the ball about c: projected from the lamp to the floor; softer and weaker with height.
  */
@@ -28,7 +29,20 @@ static void add_blob(synth_shadow *shadow, rlf_vec3 c, double radius, double flo
     blob->along_z = (float)(level > 0.0 ? ray.z / level : 0.0);
     blob->short_radius = (float)soft;
     blob->long_radius = (float)(soft * stretch);
-    blob->strength = (float)(0.8 * sharp * sharp / (soft * soft));
+    blob->strength = (float)(0.95 * sharp / soft);
+}
+
+/* What stands on the floor or is just above it also hides the room's light from the floor. */
+static void add_contact(synth_shadow *shadow, rlf_vec3 c, double radius, double floor_y)
+{
+    double gap = rlf_max(0.0, floor_y - c.y - radius);
+    if (gap > CONTACT_HEIGHT || shadow->blob_count >= SYNTH_BLOB_MAX) {
+        return;
+    }
+    float reach = (float)(1.7 * radius + 0.5 * gap);
+    float strength = (float)(0.7 * (1.0 - gap / CONTACT_HEIGHT));
+    shadow->blobs[shadow->blob_count++] =
+        (synth_blob){(float)c.x, (float)c.z, 1.0f, 0.0f, reach, reach, strength};
 }
 
 static void add_part(synth_shadow *shadow, const synth_shape *shape, double floor_y)
@@ -40,10 +54,11 @@ static void add_part(synth_shadow *shadow, const synth_shape *shape, double floo
     }
     for (int i = 0; i < 3; i++) {
         double share = (i + 0.5) / 3.0;
-        rlf_vec3 p = rlf_transform(&shape->T_camera_shape,
-                                   rlf_vec3_make(0, share * shape->length, 0));
-        add_blob(shadow, p, shape->radius_a + (shape->radius_b - shape->radius_a) * share,
-                 floor_y);
+        rlf_vec3 p =
+            rlf_transform(&shape->T_camera_shape, rlf_vec3_make(0, share * shape->length, 0));
+        double radius = shape->radius_a + (shape->radius_b - shape->radius_a) * share;
+        add_blob(shadow, p, radius, floor_y);
+        add_contact(shadow, p, radius, floor_y);
     }
 }
 

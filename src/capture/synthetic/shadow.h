@@ -5,11 +5,11 @@
 #include "capture/synthetic/scene.h"
 #include "capture/synthetic/view.h"
 
-#define SYNTH_BLOB_MAX (3 * SYNTH_MOVER_MAX)
+#define SYNTH_BLOB_MAX (6 * SYNTH_MOVER_MAX)
 
 /* A soft ellipse on the floor, stretched away from the lamp. */
 typedef struct synth_blob {
-    float x, z;           /* centre, metres, depth camera frame */
+    float x, z;             /* centre, metres, depth camera frame */
     float along_x, along_z; /* unit vector of the long axis */
     float long_radius, short_radius;
     float strength; /* share of the lamp that is hidden at the centre */

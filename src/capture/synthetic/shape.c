@@ -135,8 +135,7 @@ double synth_shape_bound(const synth_shape *shape, rlf_vec3 *out_centre)
     *out_centre = shape->T_camera_shape.p;
     switch (shape->type) {
     case SYNTH_BOX: return rlf_length(shape->size);
-    case SYNTH_ELLIPSOID:
-        return rlf_max(shape->size.x, rlf_max(shape->size.y, shape->size.z));
+    case SYNTH_ELLIPSOID: return rlf_max(shape->size.x, rlf_max(shape->size.y, shape->size.z));
     case SYNTH_CONE: {
         double reach = 0.5 * (shape->length + shape->radius_a + shape->radius_b);
         double centre = reach - shape->radius_a;

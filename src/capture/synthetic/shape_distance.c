@@ -102,6 +102,9 @@ static double distance_to_ellipsoid(rlf_vec3 size, rlf_vec3 p, rlf_vec3 *normal)
     double s = ellipsoid_root(e2, p2);
     rlf_vec3 n = rlf_vec3_make(q[0] / (s + e2[0]), q[1] / (s + e2[1]), q[2] / (s + e2[2]));
     rlf_vec3 nearest = rlf_vec3_make(e2[0] * n.x, e2[1] * n.y, e2[2] * n.z);
+    /* The root's rounding error, magnified where s is close to -e^2, must not leave the surface. */
+    double level = e2[0] * n.x * n.x + e2[1] * n.y * n.y + e2[2] * n.z * n.z;
+    nearest = rlf_scale(nearest, 1.0 / sqrt(level));
     double length = rlf_length(rlf_sub(rlf_vec3_make(q[0], q[1], q[2]), nearest));
     n = rlf_normalize(n);
     *normal = rlf_vec3_make(sign_of(p.x) * n.x, sign_of(p.y) * n.y, sign_of(p.z) * n.z);
@@ -133,9 +136,8 @@ rlf_vec3 synth_shape_normal(const synth_shape *shape, rlf_vec3 p)
     case SYNTH_BOX: (void)nearest_face(size, local, &normal); break;
     case SYNTH_CONE: (void)distance_to_cone(shape, local, &normal); break;
     default:
-        normal = rlf_normalize(rlf_vec3_make(local.x / (size.x * size.x),
-                                             local.y / (size.y * size.y),
-                                             local.z / (size.z * size.z)));
+        normal = rlf_normalize(rlf_vec3_make(
+            local.x / (size.x * size.x), local.y / (size.y * size.y), local.z / (size.z * size.z)));
         break;
     }
     return rlf_rotate(shape->T_camera_shape.q, normal);

@@ -39,9 +39,9 @@ void synth_canvas_draw_row(synth_canvas *canvas, const float *static_z, int32_t 
 
 /* Point of a stamp's surface at pixel (x, y) and depth z. */
 typedef struct synth_touch {
-    float p[3];     /* camera frame of the depth camera */
+    float p[3];      /* camera frame of the depth camera */
     float normal[3]; /* outward, unit */
-    float local[3]; /* in the shape's own frame */
+    float local[3];  /* in the shape's own frame */
 } synth_touch;
 
 synth_touch synth_stamp_touch(const synth_stamp *stamp, const synth_view *view, int32_t x,

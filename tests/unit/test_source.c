@@ -1,0 +1,127 @@
+/* The source object: a caller's methods behind rlf_source. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "relief/source.h"
+
+#include <string.h>
+
+typedef struct counter {
+    int32_t frame, limit;
+    int32_t destroyed;
+    rlf_truth truth;
+    uint16_t depth[4];
+} counter;
+
+static rlf_result counter_next(void *self, rlf_frame *out)
+{
+    counter *c = self;
+    if (c->frame == c->limit) {
+        return RLF_END;
+    }
+    out->sequence = (uint64_t)c->frame++;
+    out->depth_u16 = c->depth;
+    return RLF_OK;
+}
+
+static rlf_result counter_restart(void *self)
+{
+    ((counter *)self)->frame = 0;
+    return RLF_OK;
+}
+
+static const rlf_truth *counter_truth(void *self)
+{
+    return &((counter *)self)->truth;
+}
+
+static void counter_destroy(void *self)
+{
+    ((counter *)self)->destroyed++;
+}
+
+static rlf_source_info make_info(void)
+{
+    rlf_source_info info = {.name = "counter", .frame_count = 3};
+    info.rig.depth = (rlf_camera){.width = 2, .height = 2, .fx = 1, .fy = 1};
+    return info;
+}
+
+static void frames_come_in_order_with_the_rig(void **state)
+{
+    (void)state;
+    counter c = {.limit = 3};
+    rlf_source_info info = make_info();
+    rlf_source_methods methods = {counter_next, counter_restart, counter_truth, counter_destroy};
+    rlf_source *source = NULL;
+    assert_int_equal(rlf_source_create_custom(&methods, &info, &c, &source), RLF_OK);
+    assert_string_equal(rlf_source_get_info(source)->name, "counter");
+    assert_ptr_equal(rlf_source_get_truth(source), &c.truth);
+    for (int round = 0; round < 2; round++) {
+        rlf_frame frame;
+        for (uint64_t i = 0; i < 3; i++) {
+            assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+            assert_int_equal(frame.sequence, i);
+            assert_ptr_equal(frame.rig, &rlf_source_get_info(source)->rig);
+            assert_ptr_equal(frame.depth_u16, c.depth);
+            assert_null(frame.color.data);
+        }
+        frame.sequence = 77;
+        assert_int_equal(rlf_source_next(source, &frame), RLF_END);
+        assert_int_equal(frame.sequence, 77);
+        assert_int_equal(rlf_source_restart(source), RLF_OK);
+    }
+    rlf_source_destroy(&source);
+    assert_null(source);
+    assert_int_equal(c.destroyed, 1);
+    rlf_source_destroy(&source);
+    rlf_source_destroy(NULL);
+}
+
+static void optional_methods_may_be_missing(void **state)
+{
+    (void)state;
+    counter c = {.limit = 3};
+    rlf_source_info info = make_info();
+    rlf_source_methods methods = {.next = counter_next};
+    rlf_source *source = NULL;
+    assert_int_equal(rlf_source_create_custom(&methods, &info, &c, &source), RLF_OK);
+    assert_null(rlf_source_get_truth(source));
+    assert_int_equal(rlf_source_restart(source), RLF_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(rlf_error_text(), "counter"));
+    rlf_source_destroy(&source);
+    assert_int_equal(c.destroyed, 0);
+}
+
+static void a_bad_camera_is_named_and_self_is_kept(void **state)
+{
+    (void)state;
+    counter c = {.limit = 3};
+    rlf_source_info info = make_info();
+    rlf_source_methods methods = {counter_next, NULL, NULL, counter_destroy};
+    rlf_source *source = NULL;
+    info.rig.depth.fx = 0.0;
+    assert_int_equal(rlf_source_create_custom(&methods, &info, &c, &source), RLF_ERROR_INVALID);
+    assert_non_null(strstr(rlf_error_text(), "depth"));
+    assert_non_null(strstr(rlf_error_text(), "fx"));
+    assert_null(source);
+    info = make_info();
+    info.rig.has_color = true;
+    assert_int_equal(rlf_source_create_custom(&methods, &info, &c, &source), RLF_ERROR_INVALID);
+    assert_non_null(strstr(rlf_error_text(), "color"));
+    assert_int_equal(c.destroyed, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(frames_come_in_order_with_the_rig),
+        cmocka_unit_test(optional_methods_may_be_missing),
+        cmocka_unit_test(a_bad_camera_is_named_and_self_is_kept),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,197 @@
+/* The synthetic sensor's noise: statistics against the published model and table 5.1. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "capture/synthetic/hash.h"
+#include "capture/synthetic/noise.h"
+#include "relief/synthetic.h"
+
+#include <math.h>
+#include <string.h>
+
+#define WIDTH 512
+#define HEIGHT 424
+#define PIXELS (WIDTH * HEIGHT)
+
+static rlf_source *open_source(const char *text)
+{
+    rlf_synthetic_def def = rlf_synthetic_def_default();
+    rlf_source *source = NULL;
+    assert_int_equal(rlf_synthetic_parse(text, &def), RLF_OK);
+    assert_int_equal(rlf_synthetic_create(&def, &source), RLF_OK);
+    return source;
+}
+
+static void the_normal_numbers_are_normal(void **state)
+{
+    (void)state;
+    double sum = 0.0;
+    double sum2 = 0.0;
+    int beyond = 0;
+    const int count = 400000;
+    for (int i = 0; i < count; i++) {
+        double x = synth_normal(synth_hash((uint32_t)i * 0x9e3779b9u));
+        sum += x;
+        sum2 += x * x;
+        beyond += fabs(x) > 2.0;
+    }
+    assert_float_equal(sum / count, 0.0, 0.005);
+    assert_float_equal(sum2 / count, 1.0, 0.005);
+    assert_float_equal((double)beyond / count, 0.0455, 0.006);
+}
+
+/* Fankhauser et al. 2015, with the C library's functions. */
+static double model_mm(double z, double cosine)
+{
+    double theta = acos(cosine);
+    double ratio = theta / (0.5 * RLF_PI - theta);
+    return 1.5 - 0.5 * z + 0.3 * z * z + 0.1 * pow(z, 1.5) * ratio * ratio;
+}
+
+static void sigma_follows_the_model(void **state)
+{
+    (void)state;
+    static synth_noise noise;
+    synth_noise_init(&noise, 1);
+    for (double z = 0.5; z <= 4.5; z += 0.25) {
+        for (double angle = 0.0; angle < 75.0; angle += 2.5) {
+            double cosine = cos(angle * RLF_PI / 180.0);
+            double wanted = model_mm(z, cosine);
+            double sigma = synth_noise_sigma(&noise, (float)z, (float)cosine);
+            assert_float_equal(sigma, wanted, 0.01 * wanted);
+        }
+    }
+}
+
+/* Standard deviation over time on the wall, pixel by pixel, against the model plus rounding. */
+static void wall_noise_is_within_ten_percent(void **state)
+{
+    (void)state;
+    enum { FRAMES = 80 };
+    rlf_source *source = open_source("synthetic:empty?color=0&frames=80");
+    static double sum[PIXELS];
+    static double sum2[PIXELS];
+    static int32_t count[PIXELS];
+    rlf_frame frame;
+    while (rlf_source_next(source, &frame) == RLF_OK) {
+        const rlf_truth *truth = rlf_source_get_truth(source);
+        for (int i = 0; i < PIXELS; i++) {
+            double error = frame.depth_u16[i] - 1000.0 * truth->depth[i];
+            sum[i] += error;
+            sum2[i] += error * error;
+            count[i] += frame.depth_u16[i] != 0;
+        }
+    }
+    const rlf_truth *truth = rlf_source_get_truth(source);
+    double bias = 0.0;
+    double ratio = 0.0;
+    int pixels = 0;
+    for (int v = 70; v < 220; v++) {
+        for (int u = 150; u < 320; u++) {
+            int i = v * WIDTH + u;
+            if (truth->label[i] != RLF_SYNTHETIC_LABEL_WALL || count[i] != FRAMES) {
+                continue;
+            }
+            double x = (u - 255.5) / 365.5;
+            double y = (v - 211.5) / 365.5;
+            double model = model_mm(truth->depth[i], 1.0 / sqrt(1.0 + x * x + y * y));
+            double mean = sum[i] / FRAMES;
+            double variance = (sum2[i] - FRAMES * mean * mean) / (FRAMES - 1);
+            bias += mean;
+            ratio += variance / (model * model + 1.0 / 12.0);
+            pixels++;
+        }
+    }
+    rlf_source_destroy(&source);
+    assert_true(pixels > 10000);
+    assert_float_equal(bias / pixels, 0.0, 0.1);
+    assert_float_equal(sqrt(ratio / pixels), 1.0, 0.1);
+}
+
+/* Missing points among the pixels (8 i, 8 j). */
+typedef struct missing {
+    double full, centre;
+    int frames;
+} missing;
+
+static void add_missing(missing *m, const uint16_t *depth)
+{
+    for (int y = 0; y < 53; y++) {
+        for (int x = 0; x < 64; x++) {
+            int is_missing = depth[8 * y * WIDTH + 8 * x] == 0;
+            m->full += is_missing;
+            m->centre += is_missing && x >= 4 && x < 60 && y >= 3 && y < 50;
+        }
+    }
+    m->frames++;
+}
+
+/* Thesis, table 5.1: 165.468 and 15.548 without, 188.573 and 57.113 with a moving person. */
+static void missing_points_are_those_of_table_5_1(void **state)
+{
+    (void)state;
+    rlf_source *source = open_source("synthetic:thesis?color=0&frames=400");
+    missing m[2] = {{0, 0, 0}, {0, 0, 0}};
+    rlf_frame frame;
+    while (rlf_source_next(source, &frame) == RLF_OK) {
+        const rlf_truth *truth = rlf_source_get_truth(source);
+        const void *seen = memchr(truth->foreground, 1, PIXELS);
+        add_missing(&m[seen != NULL], frame.depth_u16);
+    }
+    rlf_source_destroy(&source);
+    assert_true(m[0].frames > 60 && m[1].frames > 200);
+    print_message("missing of 64x53: static %.1f / %.1f, with motion %.1f / %.1f\n",
+                  m[0].full / m[0].frames, m[0].centre / m[0].frames, m[1].full / m[1].frames,
+                  m[1].centre / m[1].frames);
+    assert_float_equal(m[0].full / m[0].frames, 165.468, 0.05 * 165.468);
+    assert_float_equal(m[0].centre / m[0].frames, 15.548, 0.05 * 15.548);
+    assert_float_equal(m[1].full / m[1].frames, 188.573, 0.15 * 188.573);
+    assert_float_equal(m[1].centre / m[1].frames, 57.113, 0.05 * 57.113);
+}
+
+/* Without the driver's filter silhouettes keep their pixels, and some of them fly. */
+static void the_edge_filter_can_be_left_out(void **state)
+{
+    (void)state;
+    rlf_source *source = open_source("synthetic:empty?color=0&edge_filter=0&frames=1");
+    rlf_source *filtered = open_source("synthetic:empty?color=0&frames=1");
+    rlf_frame frame;
+    rlf_frame other;
+    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    assert_int_equal(rlf_source_next(filtered, &other), RLF_OK);
+    const rlf_truth *truth = rlf_source_get_truth(source);
+    int flying = 0;
+    int removed = 0;
+    for (int y = 1; y < HEIGHT - 1; y++) {
+        for (int x = 1; x < WIDTH - 1; x++) {
+            int i = y * WIDTH + x;
+            bool is_there = frame.depth_u16[i] != 0;
+            flying += is_there && fabs(frame.depth_u16[i] - 1000.0 * truth->depth[i]) > 100.0;
+            removed += is_there && other.depth_u16[i] == 0;
+        }
+    }
+    assert_true(flying > 200);
+    assert_true(removed > 1000);
+    for (int x = 0; x < WIDTH; x++) {
+        assert_int_equal(frame.depth_u16[x], 0);
+        assert_int_equal(frame.depth_u16[(HEIGHT - 1) * WIDTH + x], 0);
+    }
+    rlf_source_destroy(&source);
+    rlf_source_destroy(&filtered);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_normal_numbers_are_normal),
+        cmocka_unit_test(sigma_follows_the_model),
+        cmocka_unit_test(wall_noise_is_within_ten_percent),
+        cmocka_unit_test(missing_points_are_those_of_table_5_1),
+        cmocka_unit_test(the_edge_filter_can_be_left_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
