@@ -84,7 +84,8 @@ RLF_API rlf_result rlf_compositor_create_custom(const rlf_compositor_methods *me
 RLF_API rlf_result rlf_compositor_create_soft(const rlf_compositor_def *def, rlf_compositor **out);
 RLF_API void rlf_compositor_destroy(rlf_compositor **compositor);
 RLF_API const char *rlf_compositor_name(const rlf_compositor *compositor);
-/* Draws one picture. Allocates nothing after the first call. Thread-safety: one call at a time. */
+/* Draws one picture. Allocates nothing after the first call, but for bodies that together have more
+ * triangles than any picture before. Thread-safety: one call at a time. */
 RLF_API rlf_result rlf_compositor_render(rlf_compositor *compositor, const rlf_render_input *input,
                                          rlf_render_output *out);
 

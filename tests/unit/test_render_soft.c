@@ -490,6 +490,41 @@ static void near_plane_cuts_cleanly(void **state)
     scene_free(s);
 }
 
+static void crowd_beyond_the_first_capacity_is_drawn(void **state)
+{
+    (void)state;
+    render_scene *s = scene_make(3.0);
+    const int32_t count = 1200;
+    rlf_body_state *crowd = calloc((size_t)count, sizeof(*crowd));
+    for (int32_t i = 0; i < count; i++) {
+        crowd[i].T_world_body = rlf_pose_identity();
+        crowd[i].T_world_body.p =
+            rlf_vec3_make(-0.8 + 0.04 * (i % 40), -0.6 + 0.04 * (i / 40.0), 1.5);
+        crowd[i].shape =
+            i % 2 == 0 ? scene_box(0.02) : (rlf_shape){.type = RLF_SHAPE_SPHERE, .radius = 0.01};
+        crowd[i].color[i % 3] = 1.0f;
+    }
+    s->snapshot.bodies = crowd;
+    s->snapshot.body_count = count;
+    rlf_compositor_def def = scene_def(s);
+    rlf_compositor *compositor = create(&def);
+    uint64_t before = rlf_alloc_count();
+    render(compositor, s);
+    assert_true(rlf_alloc_count() > before);
+    before = rlf_alloc_count();
+    rlf_render_output out = render(compositor, s);
+    assert_int_equal(rlf_alloc_count(), before);
+    for (int32_t i = 0; i < count; i++) {
+        double u, v;
+        rlf_vec3 p = rlf_transform(&s->rig.T_color_depth, crowd[i].T_world_body.p);
+        assert_true(rlf_camera_project(&s->rig.color, p, &u, &v));
+        assert_int_equal(rlf_u8_row(&out.matte, (int32_t)(v + 0.5))[(int32_t)(u + 0.5)], 255);
+    }
+    rlf_compositor_destroy(&compositor);
+    free(crowd);
+    scene_free(s);
+}
+
 static void shadow_darkens_the_wall_beside_a_ball(void **state)
 {
     (void)state;
@@ -531,6 +566,7 @@ int main(void)
         cmocka_unit_test(coarse_surface_is_cut_by_the_frame_itself),
         cmocka_unit_test(bodies_where_no_picture_can_show_them),
         cmocka_unit_test(near_plane_cuts_cleanly),
+        cmocka_unit_test(crowd_beyond_the_first_capacity_is_drawn),
         cmocka_unit_test(shadow_darkens_the_wall_beside_a_ball),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
