@@ -181,14 +181,18 @@ void grid_scan_footprint(grid_job *job)
             rlf_vec3 shift = rlf_scale(cell.velocity, tau);
             rlf_vec3 p = rlf_add(cell.point, shift);
             rlf_vec3 d = rlf_sub(p, job->centre);
-            double end = outline_end(job, &cell, stride);
             if (rlf_dot(d, d) < job->reach * job->reach) {
                 velocity = rlf_add(velocity, cell.velocity);
                 moving++;
                 look_at_interior(job, &cell, p);
             }
-            if (end > 0.0) {
-                look_at_outline(job, &cell, shift, end);
+            double level = rlf_clamp(job->centre.z, cell.point.z, cell.point.z + cell.thickness);
+            rlf_vec3 beside = rlf_mad(shift, cell.point, level / cell.point.z);
+            if (rlf_length(rlf_sub(beside, job->centre)) < job->reach) {
+                double end = outline_end(job, &cell, stride);
+                if (end > 0.0) {
+                    look_at_outline(job, &cell, shift, end);
+                }
             }
         }
     }

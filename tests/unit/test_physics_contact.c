@@ -230,6 +230,83 @@ static void missing_pixels(void **state)
     rlf_world_destroy(&world);
 }
 
+/* Twelve uniform numbers: a fair normal one. */
+static double gauss(uint64_t *seed)
+{
+    double sum = -6;
+    for (int i = 0; i < 12; i++) {
+        *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+        sum += (double)(*seed >> 11) / 9007199254740992.0;
+    }
+    return sum;
+}
+
+/* Raw sensor noise, new in every frame: the cube hardly moves, falls asleep and stays so. */
+static void rests_on_a_noisy_floor(void **state)
+{
+    (void)state;
+    set_floor(1.2);
+    rlf_world *world = make_world(rlf_vec3_make(0, 9.81, 0));
+    rlf_body_def def = rlf_body_def_default();
+    def.position = rlf_vec3_make(0.1, 1.14, 2.2);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    float *clean = malloc(sizeof(float) * GRID_W * GRID_H);
+    memcpy(clean, fixture->planes[2], sizeof(float) * GRID_W * GRID_H);
+    uint64_t seed = 11;
+    double sum = 0, square = 0;
+    int asleep_at = -1, wakes = 0;
+    bool was_asleep = false;
+    for (int k = 0; k < 300; k++) {
+        for (int i = 350 * GRID_W; i < GRID_W * GRID_H; i++) {
+            double z = clean[i];
+            fixture->planes[2][i] = (float)(z + (0.0008 + 0.0003 * z * z) * gauss(&seed));
+        }
+        fixture->grid.time_ns++;
+        rlf_world_advance(world, &fixture->grid, 1.0 / 30);
+        bool is_asleep = first(world)->is_asleep;
+        asleep_at = is_asleep && asleep_at < 0 ? k : asleep_at;
+        wakes += was_asleep && !is_asleep;
+        was_asleep = is_asleep;
+        if (k >= 8) { /* it has landed; sleep comes later */
+            double y = first(world)->T_world_body.p.y - 1.15;
+            sum += y / 292;
+            square += y * y / 292;
+        }
+    }
+    double rms = sqrt(rlf_max(square - sum * sum, 0));
+    print_message("noisy floor: jitter %.3f mm RMS, asleep at frame %d, woke %d times\n", 1e3 * rms,
+                  asleep_at, wakes);
+    assert_true(rms < 0.5e-3);
+    assert_true(fabs(sum) < 2e-3);
+    assert_true(asleep_at >= 0 && asleep_at < 90);
+    assert_int_equal(wakes, 0);
+    free(clean);
+    rlf_world_destroy(&world);
+}
+
+/* A camera that is mounted askew: the grid's frame is not the world's. */
+static void rests_under_a_tilted_camera(void **state)
+{
+    (void)state;
+    set_floor(1);
+    rlf_pose mount = {{0.5, -1, 0.3}, rlf_quat_from_axis_angle(rlf_vec3_make(1, 0, 0), 0.4)};
+    fixture->grid.T_world_grid = mount;
+    rlf_world *world = make_world(rlf_rotate(mount.q, rlf_vec3_make(0, 9.81, 0)));
+    rlf_body_def def = rlf_body_def_default();
+    def.position = rlf_transform(&mount, rlf_vec3_make(0.1, 0.8, 2.4));
+    def.orientation = mount.q;
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    for (int k = 0; k < 90; k++) {
+        fixture->grid.time_ns++;
+        rlf_world_advance(world, &fixture->grid, 1.0 / 30);
+    }
+    rlf_vec3 p = rlf_transform_inverse(&mount, first(world)->T_world_body.p);
+    assert_true(fabs(p.y - 0.95) < 1e-3 && fabs(p.x - 0.1) < 1e-3 && fabs(p.z - 2.4) < 1e-3);
+    assert_true(first(world)->is_asleep);
+    fixture->grid.T_world_grid = rlf_pose_identity();
+    rlf_world_destroy(&world);
+}
+
 /* Inside the wall at the start: comes out at bounded speed. */
 static void comes_out_of_the_wall(void **state)
 {
@@ -260,6 +337,8 @@ int main(void)
         cmocka_unit_test(rests_without_drift_and_sleeps),
         cmocka_unit_test(falls_when_support_goes),
         cmocka_unit_test(missing_pixels),
+        cmocka_unit_test(rests_on_a_noisy_floor),
+        cmocka_unit_test(rests_under_a_tilted_camera),
         cmocka_unit_test(comes_out_of_the_wall),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

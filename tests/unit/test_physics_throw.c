@@ -121,6 +121,62 @@ static void nothing_tunnels(void **state)
     grid_fixture_destroy(&fixture);
 }
 
+/* Throws at the unseen back of a slab, or at the side of a book seen edge-on. */
+static void throws_at(bool is_edge)
+{
+    grid_fixture *fixture = grid_fixture_create();
+    grid_fixture_set_room(fixture, ROOM, 5);
+    grid_fixture_set_slab(fixture, grid_wall(2), rlf_vec3_make(0, 0, 2),
+                          is_edge ? rlf_vec3_make(0.012, 0.2, 0) : rlf_vec3_make(0.25, 0.5, 0), 0.2,
+                          rlf_vec3_make(0, 0, 0));
+    random_state r = {9};
+    int bounced = 0, passed = 0;
+    for (int i = 0; i < 100; i++) {
+        rlf_world_def world_def = rlf_world_def_default();
+        world_def.body_capacity = 1;
+        world_def.contact_capacity = 64;
+        world_def.gravity = rlf_vec3_make(0, 0, 0);
+        rlf_world *world = NULL;
+        assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+        rlf_body_def def = random_throw(&r);
+        double speed = 0.5 + 4.5 * next(&r);
+        if (is_edge) {
+            def.position = rlf_vec3_make(0.5, 0.2 * next(&r) - 0.1, 2.05 + 0.1 * next(&r));
+            def.velocity = rlf_vec3_make(-speed, 0, 0);
+        } else {
+            def.position = rlf_vec3_make(0.3 * next(&r) - 0.15, 0.6 * next(&r) - 0.3, 3);
+            def.velocity = rlf_vec3_make(0, 0, -speed);
+        }
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        bool has_touched = false, is_through = false;
+        for (int k = 0; k < (int)(36 / speed) + 2; k++) {
+            fixture->grid.time_ns++;
+            rlf_world_advance(world, &fixture->grid, 1.0 / 30);
+            const rlf_snapshot *s = rlf_world_get_snapshot(world);
+            rlf_vec3 p = s->bodies[0].T_world_body.p;
+            for (int c = 0; c < s->contact_count; c++) {
+                has_touched = has_touched || s->contacts[c].other == RLF_CONTACT_FOREGROUND;
+            }
+            is_through = is_through || (is_edge ? p.x < 0 : p.z < 2);
+        }
+        bounced += has_touched && !is_through;
+        passed += is_through;
+        rlf_world_destroy(&world);
+    }
+    print_message("%s: %d of 100 bounced, %d passed\n", is_edge ? "EDGE" : "BEHIND", bounced,
+                  passed);
+    assert_int_equal(passed, 0);
+    assert_true(bounced >= 99);
+    grid_fixture_destroy(&fixture);
+}
+
+static void backs_and_edges_are_solid(void **state)
+{
+    (void)state;
+    throws_at(false);
+    throws_at(true);
+}
+
 /* Milliseconds per advance of 1/30 s for `count` cubes that fall on the room's floor. */
 static double cost(grid_fixture *fixture, int count, double seconds)
 {
@@ -174,6 +230,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_tunnels),
+        cmocka_unit_test(backs_and_edges_are_solid),
         cmocka_unit_test(cost_of_a_crowd),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
