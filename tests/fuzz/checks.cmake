@@ -1,0 +1,39 @@
+# Fuzz harnesses of librelief_io, run here on seeded mutations. With clang, libFuzzer can take the
+# harness files as they are: clang -fsanitize=fuzzer,address fuzz_NAME.c (without fuzz_driver.c).
+if(NOT TARGET relief_io)
+  return()
+endif()
+
+# The readers are built again with AddressSanitizer, unless the whole build has a sanitizer.
+include(CheckCSourceCompiles)
+set(fuzz_flags "")
+if(NOT RELIEF_SANITIZE)
+  set(CMAKE_REQUIRED_FLAGS "-fsanitize=address,undefined")
+  check_c_source_compiles("int main(void) { return 0; }" RELIEF_HAVE_ASAN)
+  unset(CMAKE_REQUIRED_FLAGS)
+  if(RELIEF_HAVE_ASAN)
+    set(fuzz_flags -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  endif()
+endif()
+
+get_target_property(fuzz_sources relief_io SOURCES)
+get_target_property(fuzz_source_dir relief_io SOURCE_DIR)
+list(TRANSFORM fuzz_sources PREPEND "${fuzz_source_dir}/" REGEX "^[^/]")
+add_library(relief_io_fuzz STATIC ${fuzz_sources} ${CMAKE_CURRENT_LIST_DIR}/fuzz_driver.c)
+relief_settings(relief_io_fuzz)
+target_include_directories(relief_io_fuzz PUBLIC ${PROJECT_SOURCE_DIR}/src
+                           ${PROJECT_SOURCE_DIR}/tests/support ${CMAKE_CURRENT_LIST_DIR})
+target_compile_options(relief_io_fuzz PUBLIC ${fuzz_flags})
+target_link_options(relief_io_fuzz PUBLIC ${fuzz_flags})
+get_target_property(fuzz_libraries relief_io LINK_LIBRARIES)
+target_link_libraries(relief_io_fuzz PUBLIC ${fuzz_libraries})
+
+set(RELIEF_FUZZ_ITERATIONS 6000 CACHE STRING "Mutations per fuzz test")
+foreach(name camera_json scene_json frame_list picture)
+  add_executable(fuzz_${name} ${CMAKE_CURRENT_LIST_DIR}/fuzz_${name}.c)
+  relief_settings(fuzz_${name})
+  target_link_libraries(fuzz_${name} PRIVATE relief_io_fuzz)
+  add_test(NAME fuzz.${name} COMMAND fuzz_${name} ${RELIEF_FUZZ_ITERATIONS}
+           WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+  set_tests_properties(fuzz.${name} PROPERTIES LABELS fuzz TIMEOUT 300)
+endforeach()

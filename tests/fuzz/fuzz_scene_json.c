@@ -1,0 +1,40 @@
+/* scene.json: any bytes give bodies that are sane, or an error line. */
+#include "fuzz.h"
+
+#include "io/scene_json.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const seeds[] = {
+    "{\"gravity\":[0,9.81,0],\"bodies\":[{\"name\":\"a\",\"shape\":\"box\",\"size\":[0.1,0.1,0.1],"
+    "\"mass\":1,\"position\":[0,0,1],\"orientation\":[0,0,0,1],\"velocity\":[1,2,3],"
+    "\"restitution\":0.5,\"color\":[1,0,0]},{\"shape\":\"sphere\",\"radius\":0.1}]}",
+    "{\"bodies\":[{\"shape\":\"capsule\",\"radius\":0.1,\"height\":0.2,\"release_time\":1},"
+    "{\"shape\":\"hull\",\"model\":\"none.obj\"}]}"};
+
+size_t fuzz_seed(int index, uint8_t *out, size_t capacity)
+{
+    if (index > 1 || strlen(seeds[index]) > capacity) {
+        return 0;
+    }
+    memcpy(out, seeds[index], strlen(seeds[index]));
+    return strlen(seeds[index]);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    io_bytes file = {"scene.json", data, size};
+    rlf_scene scene;
+    if (io_scene_parse(&file, "no-such-folder", &scene) != RLF_OK) {
+        return 0;
+    }
+    for (int32_t i = 0; i < scene.body_count; i++) {
+        const rlf_body_def *b = &scene.bodies[i];
+        if (!(b->mass > 0.0) || !rlf_vec3_is_finite(b->position) || b->name[RLF_NAME_MAX - 1]) {
+            abort();
+        }
+    }
+    rlf_scene_destroy(&scene);
+    return 0;
+}
