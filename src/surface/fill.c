@@ -1,9 +1,9 @@
 /* Fills small holes from the right side of an edge.
  *
- * A hole pixel with a valid pixel on both sides, along its row or its column, at most RLF_FILL_GAP
- * apart, is filled. When the two ends belong to one surface, inverse depth (linear on planes) is
- * interpolated; when there is an edge between them, the nearer end in the image is continued, so
- * that a silhouette stays where the middle of the gap is. */
+ * A hole pixel with a valid pixel on both sides, along its row, column or diagonal, at most
+ * RLF_FILL_GAP apart, is filled. When the two ends belong to one surface, inverse depth (linear on
+ * planes) is interpolated; when there is an edge between them, the nearer end in the image is
+ * continued, so that a silhouette stays where the middle of the gap is. */
 #include "surface/steps.h"
 
 #include "kernel/kernel.h"
@@ -13,19 +13,24 @@ typedef struct gap {
     int32_t to_before, to_after;
 } gap;
 
-static gap find_gap(const float *depth, int32_t position, int32_t length, ptrdiff_t step)
+/* Steps that stay inside the image from a pixel, to both sides. */
+typedef struct line {
+    ptrdiff_t step; /* to the next pixel */
+    int32_t before, after;
+} line;
+
+static gap find_gap(const float *depth, line l)
 {
     gap g = {0.0f, 0.0f, 0, 0};
-    int32_t reach = position < RLF_FILL_GAP ? position : RLF_FILL_GAP;
+    int32_t reach = l.before < RLF_FILL_GAP ? l.before : RLF_FILL_GAP;
     for (int32_t d = 1; d <= reach && g.before <= 0.0f; d++) {
-        g.before = depth[-(ptrdiff_t)d * step];
+        g.before = depth[-(ptrdiff_t)d * l.step];
         g.to_before = d;
     }
-    int32_t left = length - 1 - position;
     int32_t room = RLF_FILL_GAP + 1 - g.to_before;
-    reach = left < room ? left : room;
+    reach = l.after < room ? l.after : room;
     for (int32_t d = 1; d <= reach && g.before > 0.0f && g.after <= 0.0f; d++) {
-        g.after = depth[(ptrdiff_t)d * step];
+        g.after = depth[(ptrdiff_t)d * l.step];
         g.to_after = d;
     }
     return g;
@@ -60,18 +65,30 @@ typedef struct fill_job {
     uint8_t *reason;
 } fill_job;
 
+static int32_t least(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+/* The shortest closed gap along the row, the column or, failing both, a diagonal. */
 static float fill_pixel(const fill_job *job, int32_t x, int32_t y)
 {
     const rlf_grid *grid = &job->stage->grid;
     const float *at = job->depth + (ptrdiff_t)y * grid->width + x;
-    gap row = find_gap(at, x, grid->width, 1);
-    gap column = find_gap(at, y, grid->height, grid->width);
-    bool use_row = is_closed(row) && (!is_closed(column) || row.to_before + row.to_after <=
-                                                                column.to_before + column.to_after);
-    if (use_row) {
-        return bridge(row);
+    int32_t right = grid->width - 1 - x, down = grid->height - 1 - y;
+    const line lines[4] = {{1, x, right},
+                           {grid->width, y, down},
+                           {grid->width + 1, least(x, y), least(right, down)},
+                           {grid->width - 1, least(right, y), least(x, down)}};
+    gap best = {0.0f, 0.0f, 0, 0};
+    for (int k = 0; k < 4 && (k < 2 || !is_closed(best)); k++) {
+        gap g = find_gap(at, lines[k]);
+        bool shorter = g.to_before + g.to_after < best.to_before + best.to_after;
+        if (is_closed(g) && (!is_closed(best) || shorter)) {
+            best = g;
+        }
     }
-    return is_closed(column) ? bridge(column) : 0.0f;
+    return is_closed(best) ? bridge(best) : 0.0f;
 }
 
 static void fill_rows(void *context, int32_t begin, int32_t end, int32_t worker)
