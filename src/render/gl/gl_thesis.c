@@ -40,6 +40,16 @@ static void draw_body(const gl_thesis_pass *pass, const rlf_body_state *body)
 
 void gl_thesis_draw(const gl_thesis *thesis, const gl_thesis_pass *pass, const rlf_body_state *body)
 {
+    /* Clearing and layering the whole picture once per body would cost bodies times pixels. */
+    const gl_view *view = pass->body_pass.view;
+    rlf_vec3 center = rlf_transform(&view->T_picture_world, body->T_world_body.p);
+    gl_view_rect rect = gl_view_bound_sphere(view, center, rlf_shape_radius(&body->shape));
+    if (rect.width == 0 || rect.height == 0) {
+        return;
+    }
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(rect.x, rect.y, rect.width, rect.height);
+
     /* The body's z per pixel, for the layer's comparison. */
     glBindFramebuffer(GL_FRAMEBUFFER, thesis->framebuffer);
     glClear(GL_DEPTH_BUFFER_BIT);
@@ -65,6 +75,7 @@ void gl_thesis_draw(const gl_thesis *thesis, const gl_thesis_pass *pass, const r
     gl_layers_draw_occlusion(pass->layers, &images);
     glDisable(GL_BLEND);
     glDisable(GL_STENCIL_TEST);
+    glDisable(GL_SCISSOR_TEST);
     glEnable(GL_CULL_FACE);
     glEnable(GL_DEPTH_TEST);
 }
