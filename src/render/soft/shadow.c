@@ -41,21 +41,6 @@ static ball ball_of(const soft *s, const soft_body *body)
     return b;
 }
 
-/* Light that is left, 0..1, at a point with the offset d to the ball's centre, seen along `ray`. */
-static float light_left(const ball *b, const float d[3], const float ray[3])
-{
-    float distance2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-    float fade = 1.0f - distance2 / (b->radius2 * (REACH * REACH));
-    float size = b->radius2 / (distance2 > b->radius2 ? distance2 : b->radius2);
-    float along = d[0] * b->to_light[0] + d[1] * b->to_light[1] + d[2] * b->to_light[2];
-    float direct = 1.0f - (distance2 - along * along) / (b->radius2 * 1.5f);
-    direct = along > 0.0f && direct > 0.0f ? direct : 0.0f;
-    float behind = d[0] * ray[0] + d[1] * ray[1] + d[2] * ray[2];
-    float ray2 = ray[0] * ray[0] + ray[1] * ray[1] + ray[2] * ray[2];
-    float facing = behind > 0.0f ? 1.0f - behind * behind / (distance2 * ray2) : 1.0f;
-    return 1.0f - fade * facing * (AMBIENT_SHARE * size + DIRECT_SHARE * direct);
-}
-
 /* True when a pixel of [begin, end) is as deep as the ball, give or take its reach. */
 static bool may_darken(const float *z, int32_t begin, int32_t end, const float range[2])
 {
@@ -66,34 +51,61 @@ static bool may_darken(const float *z, int32_t begin, int32_t end, const float r
     return any != 0;
 }
 
+/* Light that is left, 0..1, at `count` pixels of depth z from column `first` of a row whose rays
+ * have the height ray_y. Without branches, so that compilers vectorise it. */
+static void light_left(const ball *b, const float *restrict z, ray_run rays, int32_t count,
+                       float *restrict out)
+{
+    float reach2 = b->radius2 * (REACH * REACH);
+    for (int32_t i = 0; i < count; i++) {
+        float ray_x = rays.x0 + rays.step * (float)i;
+        float dx = b->x - ray_x * z[i];
+        float dy = b->y - rays.y * z[i];
+        float dz = b->z - z[i];
+        float distance2 = dx * dx + dy * dy + dz * dz + 1e-12f;
+        float fade = 1.0f - distance2 / reach2;
+        float size = b->radius2 / (distance2 > b->radius2 ? distance2 : b->radius2);
+        float along = dx * b->to_light[0] + dy * b->to_light[1] + dz * b->to_light[2];
+        float direct = 1.0f - (distance2 - along * along) / (b->radius2 * 1.5f);
+        direct = along > 0.0f ? direct : 0.0f;
+        direct = direct > 0.0f ? direct : 0.0f;
+        float behind = dx * ray_x + dy * rays.y + dz;
+        behind = behind > 0.0f ? behind : 0.0f;
+        float ray2 = ray_x * ray_x + rays.y * rays.y + 1.0f;
+        float facing = 1.0f - behind * behind / (distance2 * ray2);
+        float lost = fade * facing * (AMBIENT_SHARE * size + DIRECT_SHARE * direct);
+        lost = fade > 0.0f ? lost : 0.0f;
+        out[i] = z[i] > 0.0f ? 1.0f - lost : 1.0f;
+    }
+}
+
+static void darken(uint8_t *pixels, const float *light, int32_t count)
+{
+    for (int32_t i = 0; i < count; i++) {
+        if (light[i] < 1.0f) {
+            uint8_t *pixel = pixels + 4 * (ptrdiff_t)i;
+            for (int c = 0; c < 3; c++) {
+                pixel[c] = (uint8_t)((float)pixel[c] * light[i] + 0.5f);
+            }
+        }
+    }
+}
+
 static void draw_ball_row(const soft *s, const ball *b, int32_t y)
 {
     const rlf_camera *k = &s->camera;
     const float *z = rlf_f32_row(&s->real.z, y);
     uint8_t *pixels = rlf_rgba8_row(&s->image, y);
-    float scale_x = (float)(1.0 / k->fx);
-    float cx = (float)k->cx;
-    float ray[3] = {0.0f, (float)((y - k->cy) / k->fy), 1.0f};
-    float reach2 = b->radius2 * (REACH * REACH);
-    float reach = (float)sqrt(reach2);
+    float reach = REACH * (float)sqrt(b->radius2);
     const float range[2] = {b->z - reach > 0.0f ? b->z - reach : 0.0f, b->z + reach};
     for (int32_t first = b->rect.x0; first < b->rect.x1; first += BLOCK) {
         int32_t last = first + BLOCK < b->rect.x1 ? first + BLOCK : b->rect.x1;
-        if (!may_darken(z, first, last, range)) {
-            continue;
-        }
-        for (int32_t x = first; x < last; x++) {
-            ray[0] = ((float)x - cx) * scale_x;
-            const float d[3] = {b->x - ray[0] * z[x], b->y - ray[1] * z[x], b->z - z[x]};
-            float distance2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-            if (!(z[x] > 0.0f) || !(distance2 < reach2) || !(distance2 > 0.0f)) {
-                continue;
-            }
-            float light = light_left(b, d, ray);
-            uint8_t *pixel = pixels + 4 * (ptrdiff_t)x;
-            for (int c = 0; c < 3; c++) {
-                pixel[c] = (uint8_t)((float)pixel[c] * light + 0.5f);
-            }
+        if (may_darken(z, first, last, range)) {
+            ray_run rays = {(float)((first - k->cx) / k->fx), (float)(1.0 / k->fx),
+                            (float)((y - k->cy) / k->fy)};
+            float light[BLOCK];
+            light_left(b, z + first, rays, last - first, light);
+            darken(pixels + 4 * (ptrdiff_t)first, light, last - first);
         }
     }
 }
