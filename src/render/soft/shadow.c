@@ -51,8 +51,13 @@ static bool may_darken(const float *z, int32_t begin, int32_t end, const float r
     return any != 0;
 }
 
-/* Light that is left, 0..1, at `count` pixels of depth z from column `first` of a row whose rays
- * have the height ray_y. Without branches, so that compilers vectorise it. */
+/* Rays (x0 + i step, y, 1) of a run of pixels. */
+typedef struct ray_run {
+    float x0, step, y;
+} ray_run;
+
+/* Light that is left, 0..1, at `count` pixels of depth z. Without branches, so that compilers
+ * vectorise it. */
 static void light_left(const ball *b, const float *restrict z, ray_run rays, int32_t count,
                        float *restrict out)
 {
