@@ -338,8 +338,9 @@ static rlf_result run_loop(viewer *v)
 
 static void choose_renderer(viewer *v)
 {
+    const viewer_options *o = v->options;
     v->renderer = "soft";
-    if (!v->options->use_gl) {
+    if (!o->use_gl || (o->avoid_software_gl && viewer_window_is_software_gl(&v->window))) {
         return;
     }
     rlf_compositor_def def = rlf_pipeline_get_compositor_def(v->pipeline);

@@ -13,17 +13,18 @@ typedef rlf_result (*viewer_picture_fn)(void *context, const rlf_image_rgba8 *im
                                         char *out_message, size_t message_size);
 
 typedef struct viewer_options {
-    const char *title;            /* of the window; required */
-    const char *source_name;      /* shown on screen; required */
-    double frames_per_second;     /* of playback; 0 = as frames come */
-    int64_t frame_count;          /* stop after so many; -1 = when the user closes the window */
-    bool use_gl;                  /* draw with OpenGL; the soft renderer otherwise */
-    bool show_help;               /* list the keys at first; default true */
-    rlf_view view;                /* to start with */
-    rlf_pose T_world_camera;      /* as the pipeline's */
-    viewer_frame_fn on_frame;     /* NULL = none */
-    viewer_picture_fn on_picture; /* NULL = pictures cannot be saved */
-    void *context;                /* of both */
+    const char *title;        /* of the window; required */
+    const char *source_name;  /* shown on screen; required */
+    double frames_per_second; /* of playback; 0 = as frames come */
+    int64_t frame_count;      /* stop after so many; -1 = when the user closes the window */
+    bool use_gl;              /* draw with OpenGL; the soft renderer otherwise */
+    bool avoid_software_gl;   /* not if OpenGL is a program on the CPU, which soft outruns; false */
+    bool show_help;           /* list the keys at first; default true */
+    rlf_view view;            /* to start with */
+    rlf_pose T_world_camera;  /* as the pipeline's */
+    viewer_frame_fn on_frame; /* NULL = none */
+    viewer_picture_fn on_picture;             /* NULL = pictures cannot be saved */
+    void *context;                            /* of both */
     const volatile sig_atomic_t *interrupted; /* not 0 = stop, e.g. by Ctrl-C; NULL = none */
 } viewer_options;
 

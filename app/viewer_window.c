@@ -4,7 +4,7 @@
 #include <GLFW/glfw3.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
+#include <string.h>
 
 /* Remembers GLFW's last complaint for our own error line. */
 static char glfw_message[256];
@@ -198,6 +198,17 @@ void viewer_window_close(viewer_window *window)
 }
 
 /* ---- the rest ------------------------------------------------------------------------------- */
+
+bool viewer_window_is_software_gl(const viewer_window *window)
+{
+    (void)window;
+    union {
+        GLFWglproc any;
+        const GLubyte *(*get_string)(GLenum name);
+    } proc = {glfwGetProcAddress("glGetString")};
+    const char *name = proc.any != NULL ? (const char *)proc.get_string(GL_RENDERER) : NULL;
+    return name != NULL && (strstr(name, "llvmpipe") != NULL || strstr(name, "softpipe") != NULL);
+}
 
 bool viewer_window_should_close(const viewer_window *window)
 {

@@ -28,6 +28,8 @@ typedef struct viewer_window {
 rlf_result viewer_window_open(const char *title, int32_t width, int32_t height, viewer_window *out);
 void viewer_window_close(viewer_window *window);
 
+/* True when the context is drawn by a program on the CPU (Mesa's llvmpipe or softpipe). */
+bool viewer_window_is_software_gl(const viewer_window *window);
 /* True when the user wants to end. */
 bool viewer_window_should_close(const viewer_window *window);
 /* Takes events, waiting for one at most this long; 0 does not wait. */

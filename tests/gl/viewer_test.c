@@ -173,6 +173,7 @@ static void run_script(script *s, bool use_gl)
     options.source_name = "synthetic:room";
     options.frame_count = 8;
     options.use_gl = use_gl;
+    options.avoid_software_gl = s->is_short;
     options.on_frame = play;
     options.on_picture = take_picture;
     options.context = s;
