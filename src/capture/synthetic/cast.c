@@ -46,14 +46,15 @@ synth_hit synth_cast(const synth_scene *scene, const synth_candidates *candidate
     return best;
 }
 
-double synth_exit(const synth_part *parts, int32_t count, int32_t label, const synth_ray *ray,
-                  double t)
+double synth_exit(const synth_part *parts, const synth_candidates *candidates, int32_t label,
+                  const synth_ray *ray, double t)
 {
-    synth_interval intervals[SYNTH_STATIC_MAX];
+    synth_interval intervals[SYNTH_PART_MAX];
     int32_t interval_count = 0;
-    for (int32_t i = 0; i < count && interval_count < SYNTH_STATIC_MAX; i++) {
-        if (parts[i].label == label &&
-            synth_shape_intersect(&parts[i].shape, ray, &intervals[interval_count])) {
+    for (int32_t k = 0; k < candidates->count; k++) {
+        const synth_part *part = &parts[candidates->index[k]];
+        if (part->label == label &&
+            synth_shape_intersect(&part->shape, ray, &intervals[interval_count])) {
             interval_count++;
         }
     }

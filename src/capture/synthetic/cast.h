@@ -7,9 +7,9 @@
 
 #define SYNTH_TILE 16 /* pixels */
 
-/* Indices of the static parts that a tile's rays may hit. */
+/* Indices of the parts that some rays may hit. */
 typedef struct synth_candidates {
-    int32_t index[SYNTH_STATIC_MAX];
+    int32_t index[SYNTH_PART_MAX];
     int32_t count;
 } synth_candidates;
 
@@ -27,8 +27,8 @@ synth_hit synth_cast(const synth_scene *scene, const synth_candidates *candidate
                      const synth_ray *ray);
 
 /* Where the ray leaves the object with this label that it entered at t: the end of the chain of
- * overlapping intervals of its parts. */
-double synth_exit(const synth_part *parts, int32_t count, int32_t label, const synth_ray *ray,
-                  double t);
+ * overlapping intervals of its parts, of which the candidates name those that the ray may hit. */
+double synth_exit(const synth_part *parts, const synth_candidates *candidates, int32_t label,
+                  const synth_ray *ray, double t);
 
 #endif

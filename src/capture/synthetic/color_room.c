@@ -19,11 +19,19 @@ static synth_site site_of(const synth_part *part, const synth_ray *ray, double t
     return site;
 }
 
-static rlf_vec3 light_at(const job *j, const synth_site *site)
+/* Light on a site, and the lamp's share of it. */
+typedef struct lit {
+    rlf_vec3 light;
+    double lamp_share;
+} lit;
+
+static lit light_at(const job *j, const synth_site *site)
 {
     double lamp = synth_lamp_share(j->scene, j->static_count, site);
     double sky = synth_sky_share(j->scene, j->static_count, site);
-    return synth_light(site, lamp, sky);
+    lit result = {synth_light(site, lamp, sky), 0.0};
+    result.lamp_share = 1.0 - synth_light(site, 0.0, sky).y / result.light.y;
+    return result;
 }
 
 static rlf_vec3 albedo_at(const synth_part *part, const synth_ray *ray, double t)
@@ -35,15 +43,6 @@ static rlf_vec3 albedo_at(const synth_part *part, const synth_ray *ray, double t
 static rlf_vec3 multiply(rlf_vec3 a, rlf_vec3 b)
 {
     return rlf_vec3_make(a.x * b.x, a.y * b.y, a.z * b.z);
-}
-
-/* Share of the lamp in the light of a floor pixel, as a byte. */
-static uint8_t lamp_byte(const job *j, const synth_site *site)
-{
-    double share = synth_lamp_share(j->scene, j->static_count, site);
-    double all = synth_light(site, share, 1.0).y;
-    double ambient = synth_light(site, 0.0, 1.0).y;
-    return (uint8_t)(255.0 * (all - ambient) / all);
 }
 
 /* Depth and floor light come from the pixel's middle; the colour is the mean of four samples. Where
@@ -59,7 +58,7 @@ static void cast_pixel(const job *j, const synth_candidates *candidates, int32_t
     }
     const synth_part *part = &j->scene->statics[hit.part];
     synth_site site = site_of(part, &middle, hit.t);
-    rlf_vec3 light = light_at(j, &site);
+    lit middle_lit = light_at(j, &site);
     rlf_vec3 sum = rlf_vec3_make(0, 0, 0);
     for (int k = 0; k < SAMPLES; k++) {
         synth_ray ray = synth_view_ray(&j->color->view, x + ((k & 1) != 0 ? 0.25 : -0.25),
@@ -69,18 +68,19 @@ static void cast_pixel(const job *j, const synth_candidates *candidates, int32_t
             continue;
         }
         const synth_part *seen = &j->scene->statics[sample.part];
-        rlf_vec3 own = light;
+        rlf_vec3 light = middle_lit.light;
         if (sample.part != hit.part) {
             synth_site edge = site_of(seen, &ray, sample.t);
-            own = light_at(j, &edge);
+            light = light_at(j, &edge).light;
         }
-        sum = rlf_add(sum, multiply(own, albedo_at(seen, &ray, sample.t)));
+        sum = rlf_add(sum, multiply(light, albedo_at(seen, &ray, sample.t)));
     }
     sum = rlf_scale(sum, 1.0 / SAMPLES);
     synth_encode(j->color->gamma, (float)sum.x, (float)sum.y, (float)sum.z,
                  &j->planes->rgba[4 * i]);
     j->planes->z[i] = (float)hit.t;
-    j->planes->lamp[i] = part->label == RLF_SYNTHETIC_LABEL_FLOOR ? lamp_byte(j, &site) : 0;
+    j->planes->lamp[i] =
+        part->label == RLF_SYNTHETIC_LABEL_FLOOR ? (uint8_t)(255.0 * middle_lit.lamp_share) : 0;
 }
 
 static void cast_tiles(void *context, int32_t begin, int32_t end, int32_t worker)

@@ -37,6 +37,18 @@ static rlf_vec3 velocity_at(const synth_part *part, rlf_vec3 p)
     return rlf_add(part->velocity, rlf_cross(part->angular_velocity, arm));
 }
 
+/* Movers whose rectangle holds pixel (x, y). */
+static void movers_at(int32_t x, int32_t y, const synth_canvas *canvas, synth_candidates *out)
+{
+    out->count = 0;
+    for (int32_t i = 0; i < canvas->stamp_count; i++) {
+        const synth_rect *r = &canvas->stamps[i].rect;
+        if (x >= r->x0 && x < r->x1 && y >= r->y0 && y < r->y1) {
+            out->index[out->count++] = i;
+        }
+    }
+}
+
 static void store_truth(synth_depth *depth, const synth_part *part, const synth_touch *touch,
                         size_t i)
 {
@@ -44,9 +56,12 @@ static void store_truth(synth_depth *depth, const synth_part *part, const synth_
     rlf_vec3 p = rlf_vec3_make(touch->p[0], touch->p[1], touch->p[2]);
     rlf_vec3 velocity = velocity_at(part, p);
     synth_ray ray = {depth->view.origin, rlf_scale(p, 1.0 / p.z)};
+    synth_candidates candidates;
+    movers_at((int32_t)(i % SYNTH_DEPTH_WIDTH), (int32_t)(i / SYNTH_DEPTH_WIDTH), &depth->canvas,
+              &candidates);
     depth->now.label[i] = part->label;
     depth->now.thickness[i] =
-        (float)(synth_exit(scene->movers, scene->mover_count, part->label, &ray, p.z) - p.z);
+        (float)(synth_exit(scene->movers, &candidates, part->label, &ray, p.z) - p.z);
     depth->foreground[i] = 1;
     for (int k = 0; k < 3; k++) {
         depth->now.normal[k][i] = touch->normal[k];

@@ -12,7 +12,8 @@ typedef struct job {
     int32_t static_count;
 } job;
 
-static void store(const job *j, const synth_ray *ray, synth_hit hit, size_t i)
+static void store(const job *j, const synth_candidates *candidates, const synth_ray *ray,
+                  synth_hit hit, size_t i)
 {
     const synth_part *part = &j->scene->statics[hit.part];
     synth_depth_planes *planes = j->planes;
@@ -33,8 +34,7 @@ static void store(const job *j, const synth_ray *ray, synth_hit hit, size_t i)
     planes->thickness[i] =
         synth_is_shell(part->label)
             ? 0.0f
-            : (float)(synth_exit(j->scene->statics, j->static_count, part->label, ray, hit.t) -
-                      hit.t);
+            : (float)(synth_exit(j->scene->statics, candidates, part->label, ray, hit.t) - hit.t);
 }
 
 /* Rows of tiles; a pixel that sees nothing keeps the zeros it was allocated with. */
@@ -55,7 +55,7 @@ static void cast_tiles(void *context, int32_t begin, int32_t end, int32_t worker
                     synth_ray ray = synth_view_ray(view, x, y);
                     synth_hit hit = synth_cast(j->scene, &candidates, &ray);
                     if (hit.part >= 0) {
-                        store(j, &ray, hit, (size_t)y * SYNTH_DEPTH_WIDTH + (size_t)x);
+                        store(j, &candidates, &ray, hit, (size_t)y * SYNTH_DEPTH_WIDTH + (size_t)x);
                     }
                 }
             }

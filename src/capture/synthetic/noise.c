@@ -69,7 +69,7 @@ static float bend_y(const float *z, size_t i)
 uint8_t synth_is_jump(const float *z, size_t i)
 {
     float limit = JUMP_SHARE * z[i];
-    return (uint8_t)((bend_x(z, i) > limit) | (bend_y(z, i) > limit));
+    return bend_x(z, i) > limit || bend_y(z, i) > limit;
 }
 
 static uint16_t quantise(const synth_noise *noise, float depth_mm)

@@ -5,8 +5,7 @@
 #include "capture/synthetic/shape.h"
 #include "relief/synthetic.h"
 
-#define SYNTH_STATIC_MAX 48
-#define SYNTH_MOVER_MAX 40
+#define SYNTH_PART_MAX 48 /* of the room, and of the movers */
 
 typedef enum synth_material {
     SYNTH_WALL = 0,
@@ -45,10 +44,10 @@ typedef struct synth_scene {
     rlf_synthetic_scene kind;
     double floor_y;      /* height of the camera above the floor, metres */
     double removal_time; /* s; when the last parts of the room are taken away; 0 = never */
-    synth_part statics[SYNTH_STATIC_MAX];
+    synth_part statics[SYNTH_PART_MAX];
     int32_t static_count;  /* at start */
     int32_t removed_count; /* so many of the last statics go at removal_time */
-    synth_part movers[SYNTH_MOVER_MAX];
+    synth_part movers[SYNTH_PART_MAX];
     int32_t mover_count;
 } synth_scene;
 

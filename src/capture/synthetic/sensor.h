@@ -14,7 +14,7 @@ typedef struct synth_sensor {
     double time; /* of the frame given last, seconds; 0 before the first */
     bool has_frame;
     rlf_truth truth;
-    rlf_truth_pose poses[SYNTH_MOVER_MAX];
+    rlf_truth_pose poses[SYNTH_PART_MAX];
 } synth_sensor;
 
 /* Name of a scene as in "synthetic:NAME"; NULL outside the range. */

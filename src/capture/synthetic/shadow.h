@@ -5,7 +5,7 @@
 #include "capture/synthetic/scene.h"
 #include "capture/synthetic/view.h"
 
-#define SYNTH_BLOB_MAX (6 * SYNTH_MOVER_MAX)
+#define SYNTH_BLOB_MAX (6 * SYNTH_PART_MAX)
 
 /* A soft ellipse on the floor, stretched away from the lamp. */
 typedef struct synth_blob {

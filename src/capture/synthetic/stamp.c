@@ -115,8 +115,8 @@ static void draw_cone(const row *r, const synth_stamp *stamp)
         float y1 = oy + t1 * dy - radius_a * sine;
         float y2 = oy + t2 * dy - radius_a * sine;
         float end = length * cosine2;
-        t1 = (q > 0.0f) & (y1 >= 0.0f) & (y1 <= end) ? t1 : far;
-        t2 = (q > 0.0f) & (y2 >= 0.0f) & (y2 <= end) ? t2 : far;
+        t1 = ((q > 0.0f) & (y1 >= 0.0f) & (y1 <= end)) ? t1 : far;
+        t2 = ((q > 0.0f) & (y2 >= 0.0f) & (y2 <= end)) ? t2 : far;
         best = t1 < best ? t1 : best;
         best = t2 < best ? t2 : best;
 

@@ -23,7 +23,7 @@ typedef struct synth_canvas {
     synth_view view;
     float *z;      /* depth of the nearest surface; valid inside `drawn` */
     int32_t *part; /* index of the mover seen, or -1; valid inside `drawn` */
-    synth_stamp stamps[SYNTH_MOVER_MAX];
+    synth_stamp stamps[SYNTH_PART_MAX];
     int32_t stamp_count;
     synth_rect drawn; /* union of all rectangles */
 } synth_canvas;
