@@ -12,6 +12,7 @@
 #define NS_PER_S 1000000000.0
 #define IDLE_WAIT_S 0.05     /* longest sleep, so that Ctrl-C is noticed */
 #define MESSAGE_S 3.0        /* how long a message stays */
+#define WINDOW_WIDTH_MIN 640 /* smaller pictures start enlarged */
 #define OVERLAY_LINES_MAX 16 /* of text over the picture */
 #define OVERLAY_LINE_SIZE 128
 #define SMOOTHING 0.1 /* of figures on screen: weight of the newest frame */
@@ -368,6 +369,10 @@ rlf_result viewer_run(rlf_pipeline *pipeline, const viewer_options *options)
     const rlf_camera *camera = def.rig.has_color ? &def.rig.color : &def.rig.depth;
     int32_t width = def.width > 0 ? def.width : camera->width;
     int32_t height = def.height > 0 ? def.height : camera->height;
+    while (width < WINDOW_WIDTH_MIN) {
+        width *= 2;
+        height *= 2;
+    }
     rlf_result result = viewer_window_open(options->title, width, height, &v.window);
     if (result != RLF_OK) {
         return result;
