@@ -3,9 +3,9 @@
  * On a plane w = 1/z = A + B x + C y in the ray (x, y, 1), whatever the lens, and the normal is
  * -(B, C, A): errata of eq. 4.3. Moments of 2x2 pixel blocks are summed over windows of 5x5 and 3x3
  * blocks (10 and 6 pixels); each block keeps the larger window whose residual is explained by the
- * sensor's noise. A pixel then takes, among the planes of the 3x3 blocks about it, the best
- * determined one that predicts the pixel's own depth (the selection of Kuwahara et al. 1976), so
- * that no window reaches across a depth edge or a crease.
+ * sensor's noise. A pixel then takes the weighted mean of those planes of the 3x3 blocks about it
+ * that predict the pixel's own depth (after the selection of Kuwahara et al. 1976): windows that
+ * reach across a depth edge or a crease drop out, and on curved surfaces the others balance.
  *
  * Sums are taken relative to the tile's middle, which keeps single precision far below the noise.
  */
@@ -22,7 +22,7 @@ enum {
 };
 
 /* Largest residuals that a window may have, in sigmas. */
-static const float WIDE_SIGMAS = 1.5f, NARROW_SIGMAS = 3.0f;
+static const float WIDE_SIGMAS = 1.3f, NARROW_SIGMAS = 3.0f;
 
 enum { N, X, Y, XX, XY, YY, W, XW, YW, WW };
 
@@ -141,8 +141,9 @@ RLF_KERNEL_PART float slant_factor(float c)
     return 1.0f + 0.12f * ratio * ratio;
 }
 
-/* Plane of one window, weighted by the inverse variance that its gradient has from noise and
- * misfit. Weight 0 when the residual is more than most_sigmas times the noise. */
+/* Plane of one window. Its weight is the square of the inverse variance that its gradient has from
+ * noise and misfit: planes that straddle a crease hardly count. 0 when the residual is more than
+ * most_sigmas times the noise. */
 RLF_KERNEL_PART plane fit(const float (*restrict s)[PLANES], int32_t i, reference ref,
                           rlf_kernel_noise noise, float most_sigmas)
 {
@@ -177,7 +178,8 @@ RLF_KERNEL_PART plane fit(const float (*restrict s)[PLANES], int32_t i, referenc
     float fits = variance <= limit * limit ? solvable : 0.0f;
     float spread = xx < yy ? xx : yy;
     float expected = sigma * sigma;
-    p.weight = fits * spread / (variance > expected ? variance : expected);
+    float certainty = spread / (variance > expected ? variance : expected);
+    p.weight = fits * certainty * certainty;
     p.tolerance = 3.0f * sigma;
     return p;
 }
@@ -206,60 +208,61 @@ RLF_KERNEL_PART void fit_row(const window_sums *restrict sums, reference ref,
     }
 }
 
-typedef struct choice {
+typedef struct blend {
     float x[RLF_KERNEL_TILE], y[RLF_KERNEL_TILE], w[RLF_KERNEL_TILE]; /* the pixels' own */
-    float a[RLF_KERNEL_TILE], b[RLF_KERNEL_TILE], c[RLF_KERNEL_TILE];
+    float a[RLF_KERNEL_TILE], b[RLF_KERNEL_TILE], c[RLF_KERNEL_TILE]; /* weighted sums */
     float weight[RLF_KERNEL_TILE];
-} choice;
+} blend;
 
-/* Takes the planes `shift` pixels to the right of a row's first where they are better. */
-RLF_KERNEL_PART void offer(const plane_rows *restrict planes, int32_t shift, choice *restrict best)
+/* Adds the planes `shift` pixels to the right of a row's first where they predict the pixel. */
+RLF_KERNEL_PART void offer(const plane_rows *restrict planes, int32_t shift, blend *restrict sums)
 {
     for (int32_t i = 0; i < RLF_KERNEL_TILE; i++) {
         int32_t k = i + shift;
         float a = planes->a[k], b = planes->b[k], c = planes->c[k];
-        float error = a + b * best->x[i] + c * best->y[i] - best->w[i];
+        float error = a + b * sums->x[i] + c * sums->y[i] - sums->w[i];
         float weight = rlf_kernel_abs(error) <= planes->tolerance[k] ? planes->weight[k] : 0.0f;
-        float old = best->weight[i];
-        best->a[i] = weight > old ? a : best->a[i];
-        best->b[i] = weight > old ? b : best->b[i];
-        best->c[i] = weight > old ? c : best->c[i];
-        best->weight[i] = weight > old ? weight : old;
+        sums->a[i] += weight * a;
+        sums->b[i] += weight * b;
+        sums->c[i] += weight * c;
+        sums->weight[i] += weight;
     }
 }
 
 /* Writes one pixel row from the three rows of planes about it. */
-RLF_KERNEL_PART void select_row(const rlf_kernel_tile *t, int32_t y, reference ref,
-                                const plane_rows *restrict planes)
+RLF_KERNEL_PART void blend_row(const rlf_kernel_tile *t, int32_t y, reference ref,
+                               const plane_rows *restrict planes)
 {
     ptrdiff_t offset = (ptrdiff_t)y * t->width + t->x0;
     int32_t count = t->x1 - t->x0;
-    choice best;
+    blend sums;
     for (int32_t i = 0; i < RLF_KERNEL_TILE; i++) {
-        best.x[i] = best.y[i] = best.w[i] = 0.0f;
-        best.a[i] = best.b[i] = best.c[i] = best.weight[i] = 0.0f;
+        sums.x[i] = sums.y[i] = sums.w[i] = 0.0f;
+        sums.a[i] = sums.b[i] = sums.c[i] = sums.weight[i] = 0.0f;
     }
     for (int32_t i = 0; i < count; i++) {
         float z = t->depth[offset + i];
-        best.x[i] = t->ray_x[offset + i] - ref.x;
-        best.y[i] = t->ray_y[offset + i] - ref.y;
-        best.w[i] = z > 0.0f ? 1.0f / (z > 0.0f ? z : 1.0f) : -1e9f; /* no plane predicts this */
+        sums.x[i] = t->ray_x[offset + i] - ref.x;
+        sums.y[i] = t->ray_y[offset + i] - ref.y;
+        sums.w[i] = z > 0.0f ? 1.0f / (z > 0.0f ? z : 1.0f) : -1e9f; /* no plane predicts this */
     }
     for (int32_t row = 0; row < 3; row++) {
         for (int32_t shift = 0; shift <= 4; shift += 2) {
-            offer(&planes[row], shift, &best);
+            offer(&planes[row], shift, &sums);
         }
     }
     float *restrict out_x = t->out_x + offset;
     float *restrict out_y = t->out_y + offset;
     float *restrict out_z = t->out_z + offset;
     for (int32_t i = 0; i < count; i++) {
-        float a = best.a[i] - best.b[i] * ref.x - best.c[i] * ref.y;
-        float square = a * a + best.b[i] * best.b[i] + best.c[i] * best.c[i];
+        float whole = sums.weight[i] > 0.0f ? 1.0f / sums.weight[i] : 0.0f;
+        float b = sums.b[i] * whole, c = sums.c[i] * whole;
+        float a = sums.a[i] * whole - b * ref.x - c * ref.y;
+        float square = a * a + b * b + c * c;
         float usable = square > 1e-30f ? 1.0f : 0.0f;
         float scale = -usable / sqrtf(usable > 0.0f ? square : 1.0f);
-        out_x[i] = best.b[i] * scale;
-        out_y[i] = best.c[i] * scale;
+        out_x[i] = b * scale;
+        out_y[i] = c * scale;
         out_z[i] = a * scale;
     }
 }
@@ -293,6 +296,6 @@ RLF_KERNEL void rlf_kernel_plane_tile(const rlf_kernel_tile *tile)
         fit_row(&sums, ref, tile->noise, &planes[row - 4]);
     }
     for (int32_t y = tile->y0; y < tile->y1; y++) {
-        select_row(tile, y, ref, &planes[(y - tile->y0) / 2]);
+        blend_row(tile, y, ref, &planes[(y - tile->y0) / 2]);
     }
 }
