@@ -183,36 +183,90 @@ static void carry_gaps(rlf_world *world, int32_t group_count)
     }
 }
 
+/* Lists of the pairs of each body, so that a bounce asks only its neighbours again. */
+static void link_pairs(rlf_world *world)
+{
+    for (int32_t i = 0; i < world->body_top; i++) {
+        world->pair_head[i] = -1;
+    }
+    for (int32_t k = 0; k < world->pair_count; k++) {
+        const phys_pair *pair = &world->pairs[k];
+        world->pair_next[2 * k] = world->pair_head[pair->a];
+        world->pair_head[pair->a] = 2 * k;
+        world->pair_next[2 * k + 1] = world->pair_head[pair->b];
+        world->pair_head[pair->b] = 2 * k + 1;
+    }
+}
+
+/* Sets a group's next event; returns the new number of pending groups. */
+static int32_t look_at_group(rlf_world *world, int32_t index, double h, int32_t pending_count)
+{
+    group g = group_at(world, index);
+    bool was_pending = world->event_times[index] <= h;
+    bool is_done = world->event_counts[index] >= EVENTS_PER_GROUP;
+    world->event_times[index] = is_done ? NO_EVENT : event_time(world, &g, h);
+    if (!was_pending && world->event_times[index] <= h) {
+        world->pending[pending_count++] = index;
+    }
+    return pending_count;
+}
+
+static int32_t look_at_body(rlf_world *world, const phys_body *body, double h,
+                            int32_t pending_count)
+{
+    int32_t index = (int32_t)(body - world->bodies);
+    pending_count = look_at_group(world, world->pair_count + index, h, pending_count);
+    for (int32_t k = world->pair_head[index]; k >= 0; k = world->pair_next[k]) {
+        pending_count = look_at_group(world, k / 2, h, pending_count);
+    }
+    return pending_count;
+}
+
+/* Earliest pending group, the lower index first among equals; drops those without an event. */
+static int32_t take_first(rlf_world *world, double h, int32_t *pending_count)
+{
+    int32_t first = -1, kept = 0;
+    for (int32_t i = 0; i < *pending_count; i++) {
+        int32_t index = world->pending[i];
+        double t = world->event_times[index];
+        if (t > h) {
+            continue;
+        }
+        world->pending[kept++] = index;
+        if (first < 0 || t < world->event_times[first] ||
+            (t == world->event_times[first] && index < first)) {
+            first = index;
+        }
+    }
+    *pending_count = kept;
+    return first;
+}
+
 void phys_solve_impacts(rlf_world *world, double h)
 {
     int32_t group_count = world->pair_count + world->body_top;
-    int32_t limit = EVENTS_PER_GROUP * group_count;
-    bool is_any = false;
+    int32_t pending_count = 0;
     for (int32_t i = 0; i < group_count; i++) {
-        group g = group_at(world, i);
-        world->event_times[i] = event_time(world, &g, h);
+        world->event_counts[i] = 0;
+        world->event_times[i] = NO_EVENT;
+        pending_count = look_at_group(world, i, h, pending_count);
     }
-    for (int32_t event = 0; event < limit; event++) {
-        int32_t first = 0;
-        for (int32_t i = 1; i < group_count; i++) {
-            first = world->event_times[i] < world->event_times[first] ? i : first;
-        }
-        if (group_count == 0 || world->event_times[first] > h) {
+    if (pending_count == 0) {
+        return;
+    }
+    link_pairs(world);
+    for (;;) {
+        int32_t first = take_first(world, h, &pending_count);
+        if (first < 0) {
             break;
         }
         group hit = group_at(world, first);
+        world->event_counts[first]++;
         bounce(world, &hit, world->event_times[first]);
-        is_any = true;
-        for (int32_t i = 0; i < group_count; i++) {
-            group g = group_at(world, i);
-            bool is_changed = g.a == hit.a || (g.b != NULL && g.b == hit.a) ||
-                              (hit.b != NULL && (g.a == hit.b || g.b == hit.b));
-            if (is_changed) {
-                world->event_times[i] = event_time(world, &g, h);
-            }
+        pending_count = look_at_body(world, hit.a, h, pending_count);
+        if (hit.b != NULL) {
+            pending_count = look_at_body(world, hit.b, h, pending_count);
         }
     }
-    if (is_any) {
-        carry_gaps(world, group_count);
-    }
+    carry_gaps(world, group_count);
 }

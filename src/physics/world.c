@@ -82,11 +82,17 @@ rlf_result rlf_world_create(const rlf_world_def *def, rlf_world **out)
     world->island = rlf_alloc_array(bodies, sizeof(*world->island));
     world->active = rlf_alloc_array(active, sizeof(*world->active));
     world->event_times = rlf_alloc_array(bodies + pairs, sizeof(*world->event_times));
+    world->event_counts = rlf_alloc_array(bodies + pairs, sizeof(*world->event_counts));
+    world->pending = rlf_alloc_array(bodies + pairs, sizeof(*world->pending));
+    world->pair_head = rlf_alloc_array(bodies, sizeof(*world->pair_head));
+    world->pair_next = rlf_alloc_array(2 * pairs, sizeof(*world->pair_next));
     world->log = rlf_alloc_array((size_t)def->contact_capacity, sizeof(*world->log));
     world->states = rlf_alloc_array(bodies, sizeof(*world->states));
     if (world->bodies == NULL || world->pairs == NULL || world->old_pairs == NULL ||
         world->intervals == NULL || world->island == NULL || world->active == NULL ||
-        world->event_times == NULL || world->log == NULL || world->states == NULL) {
+        world->event_times == NULL || world->event_counts == NULL || world->pending == NULL ||
+        world->pair_head == NULL || world->pair_next == NULL || world->log == NULL ||
+        world->states == NULL) {
         rlf_world_destroy(&world);
         return RLF_ERROR_MEMORY;
     }
@@ -111,6 +117,10 @@ void rlf_world_destroy(rlf_world **world)
     rlf_free(w->island);
     rlf_free(w->active);
     rlf_free(w->event_times);
+    rlf_free(w->event_counts);
+    rlf_free(w->pending);
+    rlf_free(w->pair_head);
+    rlf_free(w->pair_next);
     rlf_free(w->log);
     rlf_free(w->states);
     rlf_free(w);

@@ -27,7 +27,11 @@ struct rlf_world {
     phys_interval *intervals;
     int32_t *island; /* union-find parents, one per body */
     phys_contact **active;
-    double *event_times; /* one per contact group, see impact.c */
+    double *event_times;   /* see impact.c */
+    int32_t *event_counts; /* of this substep, per group */
+    int32_t *pending;      /* groups that have an event */
+    int32_t *pair_head;    /* first link of each body's list of pairs, -1 = none */
+    int32_t *pair_next;    /* link 2 k is pair k as seen from its a, 2 k + 1 from its b */
     int32_t active_capacity, active_count;
 
     rlf_contact *log; /* contacts of this frame; capacity def.contact_capacity */
