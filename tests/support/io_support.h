@@ -33,8 +33,10 @@ static inline void test_remove_tree(const char *path)
     for (struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder)) {
         if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0) {
             char child[TEST_PATH_MAX + 260];
-            snprintf(child, sizeof(child), "%s/%s", path, entry->d_name);
-            test_remove_tree(child);
+            int length = snprintf(child, sizeof(child), "%s/%s", path, entry->d_name);
+            if (length > 0 && (size_t)length < sizeof(child)) {
+                test_remove_tree(child);
+            }
         }
     }
     closedir(folder);
