@@ -181,7 +181,7 @@ static int parse(int argc, char **argv, run_options *o)
 }
 
 /* Falls back to the soft renderer, and says so, when GL is not to be had. */
-static void choose_headless_renderer(const run_options *o, session *s)
+static void choose_headless_renderer(run_options *o, session *s)
 {
     if (!o->use_gl) {
         return;
@@ -193,11 +193,13 @@ static void choose_headless_renderer(const run_options *o, session *s)
         rlf_pipeline_set_compositor(s->pipeline, compositor) == RLF_OK) {
         return;
     }
+    rlf_compositor_destroy(&compositor);
     rlf_log(RLF_LOG_WARNING, "%s; going on with the soft renderer", rlf_error_text());
 #else
     (void)s;
     rlf_log(RLF_LOG_WARNING, "this build has no OpenGL renderer; going on with the soft one");
 #endif
+    o->use_gl = false;
 }
 
 static rlf_result run_headless(const run_options *o, session *s, run_output *output)
@@ -225,17 +227,57 @@ static rlf_result run_headless(const run_options *o, session *s, run_output *out
     return RLF_OK;
 }
 
-static rlf_result run_frames(const run_options *o, session *s, run_output *output)
+#ifdef RLF_HAVE_VIEWER
+static rlf_result on_frame(void *context, const rlf_pipeline_output *frame)
+{
+    return run_output_add(context, frame);
+}
+
+static rlf_result on_picture(void *context, const rlf_image_rgba8 *image, char *out_message,
+                             size_t message_size)
+{
+    return run_output_save(context, image, out_message, message_size);
+}
+
+static rlf_result run_window(const run_options *o, session *s, run_output *output)
+{
+    const rlf_source_info *info = rlf_source_get_info(s->source);
+    viewer_options viewer = viewer_options_default();
+    viewer.title = "Relief";
+    viewer.source_name = info->name;
+    viewer.frames_per_second = info->frames_per_second;
+    viewer.frame_count = o->frame_count;
+    viewer.use_gl = o->use_gl || !o->is_renderer_set;
+    viewer.avoid_software_gl = !o->is_renderer_set;
+    viewer.view = o->view;
+    viewer.show_help = o->output.video_path == NULL;
+    viewer.on_frame = on_frame;
+    viewer.on_picture = on_picture;
+    viewer.context = output;
+    viewer.interrupted = &command_interrupted;
+    return viewer_run(s->pipeline, &viewer);
+}
+#else
+static rlf_result run_window(const run_options *o, session *s, run_output *output)
+{
+    (void)o;
+    (void)s;
+    (void)output;
+    return rlf_fail(RLF_ERROR_UNSUPPORTED, "this build has no window; add --headless");
+}
+#endif
+
+static rlf_result run_frames(run_options *o, session *s, run_output *output)
 {
     rlf_pipeline_set_view(s->pipeline, o->view);
     if (o->is_headless) {
         choose_headless_renderer(o, s);
         return run_headless(o, s, output);
     }
-    return rlf_fail(RLF_ERROR_UNSUPPORTED, "this build has no window; add --headless");
+    return run_window(o, s, output);
 }
 
-static int run_session(const run_options *o, session *s)
+static int run_session(run_options *o, session *s)
 {
     const rlf_source_info *info = rlf_source_get_info(s->source);
     int64_t total = info->frame_count;
@@ -256,7 +298,8 @@ static int run_session(const run_options *o, session *s)
                (unsigned long long)rlf_world_hash(rlf_pipeline_get_world(s->pipeline)));
     }
     if (status == EXIT_DONE && !o->output.is_quiet) {
-        run_output_print_summary(&output, o->use_gl ? "gl" : "soft");
+        bool is_gl = o->is_headless ? o->use_gl : o->use_gl || !o->is_renderer_set;
+        run_output_print_summary(&output, is_gl ? "gl" : "soft");
     }
     return status;
 }
@@ -269,6 +312,7 @@ int run_main(int argc, char **argv)
     if (status >= 0) {
         return status;
     }
+    options.session.enable_overlay = !options.is_headless;
     session s;
     if (session_open(&options.session, &s) != RLF_OK) {
         return command_failed();

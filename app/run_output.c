@@ -53,6 +53,20 @@ static rlf_result write_picture(run_output *out, const rlf_pipeline_output *fram
     return rlf_png_write_rgba(path, &frame->render.image);
 }
 
+rlf_result run_output_save(run_output *out, const rlf_image_rgba8 *image, char *out_message,
+                           size_t message_size)
+{
+    const char *folder = out->options.picture_folder != NULL ? out->options.picture_folder : ".";
+    char path[PATH_SIZE];
+    int length =
+        snprintf(path, sizeof(path), "%s/relief-%06lld.png", folder, (long long)out->frames);
+    if (length < 0 || length >= PATH_SIZE) {
+        return rlf_fail(RLF_ERROR_IO, "%s: the path is too long", folder);
+    }
+    snprintf(out_message, message_size, "saved %s", path);
+    return rlf_png_write_rgba(path, image);
+}
+
 static void print_progress(run_output *out)
 {
     int64_t now = rlf_clock_ns();

@@ -30,6 +30,9 @@ rlf_result run_output_open(const run_output_options *options, const rlf_source_i
                            int64_t frame_total, run_output *out);
 /* Takes one frame: writes what was asked for and notes the times. */
 rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame);
+/* Saves one picture as relief-NNNNNN.png in the picture folder (or here) and says where. */
+rlf_result run_output_save(run_output *out, const rlf_image_rgba8 *image, char *out_message,
+                           size_t message_size);
 /* Finishes all files, also after an error or Ctrl-C. */
 rlf_result run_output_close(run_output *out);
 /* Where things were written, and the median times. */
