@@ -8,6 +8,9 @@
 
 #include "kernel/kernel.h"
 
+/* A wide hole must not be crossed from corner to corner. */
+enum { DIAGONAL_GAP = 4 };
+
 typedef struct gap {
     float before, after; /* depths of the ends; 0 = none */
     int32_t to_before, to_after;
@@ -84,7 +87,8 @@ static float fill_pixel(const fill_job *job, int32_t x, int32_t y)
     for (int k = 0; k < 4 && (k < 2 || !is_closed(best)); k++) {
         gap g = find_gap(at, lines[k]);
         bool shorter = g.to_before + g.to_after < best.to_before + best.to_after;
-        if (is_closed(g) && (!is_closed(best) || shorter)) {
+        bool fits = k < 2 || g.to_before + g.to_after <= DIAGONAL_GAP;
+        if (is_closed(g) && fits && (!is_closed(best) || shorter)) {
             best = g;
         }
     }
