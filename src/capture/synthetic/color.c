@@ -29,7 +29,7 @@ static double sky_on_mover(const synth_color *color, const synth_site *site)
 {
     double height = rlf_clamp((color->scene->floor_y - site->p.y) / 0.6, 0.0, 1.0);
     double up = 0.5 - 0.5 * site->normal.y;
-    return (0.55 + 0.45 * height) * (0.6 + 0.4 * up);
+    return (0.55 + 0.45 * height) * (0.82 + 0.28 * up);
 }
 
 static void paint_row(synth_color *color, int32_t y)
