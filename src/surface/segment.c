@@ -53,6 +53,9 @@ typedef struct links_job {
     const uint8_t *mask;
 } links_job;
 
+/* Chin and neck, arm and chest are one person: in the foreground, small steps do not separate. */
+static const float body_step_m = 0.05f;
+
 /* Two pixels of one surface differ by noise, 6 sigma sqrt(2), and by the step of a surface seen at
  * up to 80 degrees: tan(80 deg) z / f. */
 static void noise_rows(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -62,6 +65,7 @@ static void noise_rows(void *context, int32_t begin, int32_t end, int32_t worker
     const rlf_grid *grid = &job->stage->grid;
     rlf_kernel_noise noise = rlf_kernel_noise_make(&job->stage->def.rig.noise);
     float step = (float)(5.67 / grid->camera.fx);
+    float extra = job->mask != NULL ? body_step_m : 0.0f;
     for (int32_t y = begin; y < end; y++) {
         ptrdiff_t row = (ptrdiff_t)y * grid->width;
         for (int32_t x = 0; x < grid->width; x++) {
@@ -71,7 +75,7 @@ static void noise_rows(void *context, int32_t begin, int32_t end, int32_t worker
                 continue;
             }
             float z = job->depth[i];
-            float tau = 8.5f * rlf_kernel_sigma(noise, z) + step * z;
+            float tau = 8.5f * rlf_kernel_sigma(noise, z) + step * z + extra;
             int link = RLF_LINK_MEMBER;
             if (x > 0 && is_member(job->depth, job->mask, i - 1)) {
                 link |= is_near(z, job->depth[i - 1], tau) ? RLF_LINK_LEFT : 0;

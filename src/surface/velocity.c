@@ -125,8 +125,14 @@ static void clear_velocity(const rlf_grid *grid, rlf_slot *slot)
     }
 }
 
-/* Velocity of the visible part's centroid. A silhouette that changes moves the centroid too, so
- * small steps do not count. */
+/* The centroid moves when pieces join or leave a region, too: then its step says nothing. */
+static bool is_same_shape(const rlf_region *a, const rlf_region *b)
+{
+    return 5 * a->point_count >= 4 * b->point_count && 5 * b->point_count >= 4 * a->point_count;
+}
+
+/* Velocity of the visible part's centroid. A silhouette that flickers moves the centroid a little,
+ * so small steps do not count. */
 static void region_velocities(const rlf_slot *before, rlf_slot *now, double dt)
 {
     const double least_step_m = 0.005;
@@ -135,7 +141,8 @@ static void region_velocities(const rlf_slot *before, rlf_slot *now, double dt)
         for (int32_t k = 0; k < before->foreground_region_count; k++) {
             const rlf_region *old = &before->regions[before->foreground_region_first + k];
             rlf_vec3 step = rlf_sub(region->centroid, old->centroid);
-            if (old->label == region->label && rlf_length(step) > least_step_m) {
+            bool same = old->label == region->label && is_same_shape(old, region);
+            if (same && rlf_length(step) > least_step_m) {
                 region->linear_velocity = rlf_scale(step, 1.0 / dt);
             }
         }
