@@ -196,11 +196,13 @@ static void odd_time_steps_do_nothing(void **state)
     rlf_world_destroy(&world);
 }
 
-/* 40 bodies of all shapes fall on the room; returns the hash of the run. */
+/* Bodies of all shapes fall on the room; returns the hash of the run. The thesis's narrow phase
+ * asks all points of the room for each body, so it gets fewer. */
 static uint64_t crowd(grid_fixture *f, rlf_physics_method method, rlf_pool *pool, uint64_t *allocs)
 {
     rlf_world *world = make_world(method, 64, pool);
-    for (int i = 0; i < 40; i++) {
+    int bodies = method == RLF_PHYSICS_LIVE ? 40 : 8;
+    for (int i = 0; i < bodies; i++) {
         rlf_body_def def = rlf_body_def_default();
         def.shape.type = (rlf_shape_type)(i % 4);
         def.shape.radius = 0.04;
@@ -212,7 +214,7 @@ static uint64_t crowd(grid_fixture *f, rlf_physics_method method, rlf_pool *pool
     }
     uint64_t hash = 0;
     uint64_t before = rlf_alloc_count();
-    for (int k = 0; k < 45; k++) {
+    for (int k = 0; k < (method == RLF_PHYSICS_LIVE ? 45 : 20); k++) {
         f->grid.time_ns = k;
         rlf_world_advance(world, &f->grid, 1.0 / 30);
         hash = hash * 31 + rlf_world_hash(world);
@@ -223,7 +225,7 @@ static uint64_t crowd(grid_fixture *f, rlf_physics_method method, rlf_pool *pool
         assert_true(rlf_vec3_is_finite(s->bodies[i].T_world_body.p));
         assert_true(rlf_length(s->bodies[i].velocity) <= 50);
     }
-    assert_true(s->body_count > 30);
+    assert_int_equal(s->body_count, bodies);
     rlf_world_destroy(&world);
     return hash;
 }
