@@ -21,8 +21,13 @@
 #endif
 
 /* One AVX2 clone beside the portable one, picked when the program is loaded. Sanitizers cannot run
- * the resolver, so their builds have the portable one only. */
-#if defined(__GNUC__) && defined(__x86_64__) && defined(__GLIBC__) && !defined(RLF_KERNEL_SANITIZED)
+ * the resolver, so their builds have the portable one only; so has Clang before 18, which gives the
+ * clones another symbol than their callers use. */
+#if defined(__clang__) && __clang_major__ < 18
+#define RLF_KERNEL_PORTABLE 1
+#endif
+#if defined(__GNUC__) && defined(__x86_64__) && defined(__GLIBC__) &&                              \
+    !defined(RLF_KERNEL_SANITIZED) && !defined(RLF_KERNEL_PORTABLE)
 #define RLF_KERNEL __attribute__((target_clones("avx2", "default")))
 #else
 #define RLF_KERNEL
