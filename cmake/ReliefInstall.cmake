@@ -87,6 +87,7 @@ endforeach()
 if(BUILD_SHARED_LIBS)
   foreach(library IN LISTS relief_libraries)
     target_compile_definitions(${library} PUBLIC RLF_SHARED)
+    set_target_properties(${library} PROPERTIES INSTALL_RPATH "$ORIGIN")
   endforeach()
 endif()
 
@@ -112,6 +113,8 @@ install(FILES ${PROJECT_BINARY_DIR}/reliefConfig.cmake
 
 # ---- the command ---------------------------------------------------------------------------------
 if(TARGET relief_app)
+  set_target_properties(relief_app PROPERTIES
+                        INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   install(TARGETS relief_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/relief)
 endif()
