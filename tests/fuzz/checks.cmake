@@ -4,12 +4,13 @@ if(NOT TARGET relief_io)
   return()
 endif()
 
-# The readers are built again with AddressSanitizer, unless the whole build has a sanitizer.
-include(CheckCSourceCompiles)
+# The readers are built again with AddressSanitizer where it runs (it needs /proc), unless the whole
+# build has a sanitizer.
+include(CheckCSourceRuns)
 set(fuzz_flags "")
 if(NOT RELIEF_SANITIZE)
   set(CMAKE_REQUIRED_FLAGS "-fsanitize=address,undefined")
-  check_c_source_compiles("int main(void) { return 0; }" RELIEF_HAVE_ASAN)
+  check_c_source_runs("int main(void) { return 0; }" RELIEF_HAVE_ASAN)
   unset(CMAKE_REQUIRED_FLAGS)
   if(RELIEF_HAVE_ASAN)
     set(fuzz_flags -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
