@@ -151,7 +151,7 @@ static rlf_result run_seed(eval_run *run, const eval_options *o, int64_t seed)
     if (result != RLF_OK) {
         return result;
     }
-    memset(run->collisions.was_inside, 0, THROWN_BODIES * sizeof(bool));
+    eval_collisions_restart(&run->collisions);
     result = run_frames(run, &s, o->frames);
     session_close(&s);
     return result;
@@ -262,7 +262,7 @@ static const figure figures[] = {
     {"bounces_phantom_percent", "  where nothing real is, %", phantom},
     {"bounces_mean_deg", "  mean error of the contact normal, deg", bounce_mean},
     {"bounces_over_30_percent", "  more than 30 deg off, %", bounce_wrong},
-    {"entries", "times a body's centre got inside something", entries},
+    {"entries", "times a body in view got inside something", entries},
     {"capture_ms", "median ms: capture (with truth)", capture_ms},
     {"surface_ms", "  surface", surface_ms},
     {"physics_ms", "  physics (60 bodies)", physics_ms},

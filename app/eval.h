@@ -30,14 +30,16 @@ typedef struct eval_foreground {
     eval_confusion all, valid;
 } eval_foreground;
 
-/* Bounces of thrown bodies on real surfaces against the true scene. */
+/* Bounces of thrown bodies on real surfaces against the true scene: the first touch after a flight.
+ */
 typedef struct eval_collisions {
     int64_t bounces; /* contacts that met at more than 0.3 m/s */
     int64_t phantom; /* of them, farther than 5 cm from any true surface */
     int64_t wrong;   /* of the others, normal more than 30 degrees off the true one */
-    int64_t entries; /* times a body's centre got inside something real */
+    int64_t entries; /* times a body's centre got inside something real, in view */
     eval_angles angles;
-    bool *was_inside; /* per body */
+    bool *was_inside;     /* per body */
+    double *last_touch_s; /* per body */
     int32_t body_capacity;
 } eval_collisions;
 
@@ -65,6 +67,8 @@ double eval_f_measure(const eval_confusion *c);
  * rlf_scene_destroy. */
 rlf_result eval_collisions_scene(uint64_t seed, int32_t body_count, rlf_scene *out);
 rlf_result eval_collisions_init(eval_collisions *e, int32_t body_capacity);
+/* Forgets the bodies' past; once per run. */
+void eval_collisions_restart(eval_collisions *e);
 void eval_collisions_finish(eval_collisions *e);
 void eval_collisions_add(eval_collisions *e, const rlf_snapshot *snapshot, rlf_source *source);
 

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#define FLIGHT_S 0.1          /* without a touch before it counts as a bounce again */
 #define BOUNCE_SPEED 0.3      /* m/s */
 #define PHANTOM_DISTANCE 0.05 /* m: a person moves 4 cm in a frame */
 
@@ -65,13 +66,24 @@ rlf_result eval_collisions_init(eval_collisions *e, int32_t body_capacity)
     memset(e, 0, sizeof(*e));
     e->body_capacity = body_capacity;
     e->was_inside = rlf_alloc_array((size_t)body_capacity, sizeof(bool));
-    return e->was_inside != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+    e->last_touch_s = rlf_alloc_array((size_t)body_capacity, sizeof(double));
+    return e->was_inside != NULL && e->last_touch_s != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+}
+
+void eval_collisions_restart(eval_collisions *e)
+{
+    for (int32_t i = 0; i < e->body_capacity; i++) {
+        e->was_inside[i] = false;
+        e->last_touch_s[i] = -FLIGHT_S;
+    }
 }
 
 void eval_collisions_finish(eval_collisions *e)
 {
     rlf_free(e->was_inside);
+    rlf_free(e->last_touch_s);
     e->was_inside = NULL;
+    e->last_touch_s = NULL;
 }
 
 static void add_bounce(eval_collisions *e, const rlf_contact *contact, rlf_source *source)
@@ -92,15 +104,36 @@ static void add_bounce(eval_collisions *e, const rlf_contact *contact, rlf_sourc
     e->wrong += degrees > 30.0;
 }
 
-void eval_collisions_add(eval_collisions *e, const rlf_snapshot *snapshot, rlf_source *source)
+/* Outside the view nothing is known of the room, so bodies leave it there. */
+static bool is_in_view(rlf_source *source, rlf_vec3 p)
 {
+    const rlf_camera *camera = &rlf_source_get_info(source)->rig.depth;
+    double u, v;
+    return rlf_camera_project(camera, p, &u, &v) && u >= 0.0 && v >= 0.0 &&
+           u <= camera->width - 1 && v <= camera->height - 1;
+}
+
+static void note_bounces(eval_collisions *e, const rlf_snapshot *snapshot, rlf_source *source)
+{
+    double now_s = (double)snapshot->time_ns * 1e-9;
     for (int32_t i = 0; i < snapshot->contact_count; i++) {
         const rlf_contact *contact = &snapshot->contacts[i];
-        if (contact->other != RLF_CONTACT_BODY && contact->approach_speed > BOUNCE_SPEED &&
-            contact->impulse > 0.0) {
+        int32_t index = (int32_t)contact->body.index1 - 1;
+        if (contact->other == RLF_CONTACT_BODY || contact->impulse <= 0.0 || index < 0 ||
+            index >= e->body_capacity) {
+            continue;
+        }
+        bool was_flying = now_s - e->last_touch_s[index] >= FLIGHT_S;
+        e->last_touch_s[index] = now_s;
+        if (was_flying && contact->approach_speed > BOUNCE_SPEED) {
             add_bounce(e, contact, source);
         }
     }
+}
+
+void eval_collisions_add(eval_collisions *e, const rlf_snapshot *snapshot, rlf_source *source)
+{
+    note_bounces(e, snapshot, source);
     for (int32_t i = 0; i < snapshot->body_count; i++) {
         const rlf_body_state *body = &snapshot->bodies[i];
         int32_t index = (int32_t)body->id.index1 - 1;
@@ -112,7 +145,7 @@ void eval_collisions_add(eval_collisions *e, const rlf_snapshot *snapshot, rlf_s
                 RLF_OK) {
             continue;
         }
-        bool is_inside = distance < 0.0;
+        bool is_inside = distance < 0.0 && is_in_view(source, body->T_world_body.p);
         e->entries += is_inside && !e->was_inside[index];
         e->was_inside[index] = is_inside;
     }

@@ -32,8 +32,9 @@ bool grid_cell_read(const rlf_grid *grid, const rlf_grid_sheet *sheet, int32_t x
         out->velocity =
             rlf_vec3_make(sheet->velocity_x[i], sheet->velocity_y[i], sheet->velocity_z[i]);
     }
-    out->thickness =
-        sheet->thickness != NULL ? rlf_max(sheet->thickness[i], THICKNESS_MIN) : ENDLESS;
+    double thickness = sheet->thickness != NULL ? sheet->thickness[i] : sheet->default_thickness;
+    bool is_endless = sheet->thickness == NULL && !(thickness > 0.0);
+    out->thickness = is_endless ? ENDLESS : rlf_max(thickness, THICKNESS_MIN);
     return true;
 }
 
@@ -243,6 +244,16 @@ static void enter_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_v
     }
 }
 
+/* The last stretch, from depth z_before, jumped over this pixel's whole solid. Passing from in
+ * front of one pixel to behind its neighbour does not: that is how a body flies behind a table's
+ * leg. */
+static bool is_through(const field_cell *cell, field_state before, field_state now, double z_before)
+{
+    return (before == FIELD_FRONT && now == FIELD_BEHIND &&
+            z_before < cell->back - cell->thickness) ||
+           (before == FIELD_BEHIND && now == FIELD_FRONT && z_before > cell->back);
+}
+
 bool grid_field_cast(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q, rlf_vec3 path,
                      double margin, field_hit *out)
 {
@@ -271,9 +282,7 @@ bool grid_field_cast(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3
     for (int32_t k = 1; k <= steps; k++) {
         rlf_vec3 p = rlf_mad(q, step, k);
         field_state next = grid_field_at(grid, sheet, p, &cell);
-        bool is_through = (state == FIELD_FRONT && next == FIELD_BEHIND) ||
-                          (state == FIELD_BEHIND && next == FIELD_FRONT);
-        if (next == FIELD_INSIDE || is_through) {
+        if (next == FIELD_INSIDE || is_through(&cell, state, next, p.z - step.z)) {
             enter_solid(grid, sheet, p, step, state, &cell, out);
             out->separation = rlf_dot(out->normal, rlf_sub(q, out->point));
             return true;
