@@ -284,6 +284,42 @@ static void solid_from_the_side(void **state)
     }
 }
 
+/* A post of the background, 10 cm thick: a ball flies behind it, and bounces off its front. */
+static void air_behind_a_post_is_free(void **state)
+{
+    (void)state;
+    set_room();
+    for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
+        if (i % GRID_W >= 250 && i % GRID_W < 262) {
+            fixture->planes[2][i] = 2.0f;
+            fixture->planes[3][i] = fixture->planes[4][i] = 0.0f;
+            fixture->planes[5][i] = -1.0f;
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        fixture->grid.background.default_thickness = k == 2 ? 0.0 : 0.1;
+        rlf_world *world = make_world(RLF_PHYSICS_LIVE, 0);
+        rlf_body_def def = rlf_body_def_default();
+        def.shape = (rlf_shape){.type = RLF_SHAPE_SPHERE, .radius = 0.1};
+        def.position = k == 1 ? rlf_vec3_make(0.01, 0, 1) : rlf_vec3_make(-0.8, 0, 3);
+        def.velocity = k == 1 ? rlf_vec3_make(0, 0, 3) : rlf_vec3_make(3, 0, 0);
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        for (int frame = 0; frame < 15; frame++) {
+            rlf_world_advance(world, &fixture->grid, FRAME);
+        }
+        rlf_vec3 v = first(world)->velocity;
+        if (k == 0) {
+            assert_true(v.x == 3.0); /* behind the post: untouched */
+        } else if (k == 1) {
+            assert_true(v.z < -1.0); /* off its front */
+        } else {
+            assert_true(v.x < 0.0); /* endless matter fills the air behind it */
+        }
+        rlf_world_destroy(&world);
+    }
+    fixture->grid.background.default_thickness = 0.0;
+}
+
 /* Ten frames lost while the hand moved: no explosion. */
 static void survives_lost_frames(void **state)
 {
@@ -311,9 +347,9 @@ static void survives_lost_frames(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plate_lifts_and_throws), cmocka_unit_test(boards_push),
-        cmocka_unit_test(solid_from_behind),      cmocka_unit_test(solid_from_the_side),
-        cmocka_unit_test(survives_lost_frames),
+        cmocka_unit_test(plate_lifts_and_throws),    cmocka_unit_test(boards_push),
+        cmocka_unit_test(solid_from_behind),         cmocka_unit_test(solid_from_the_side),
+        cmocka_unit_test(air_behind_a_post_is_free), cmocka_unit_test(survives_lost_frames),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
