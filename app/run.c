@@ -298,8 +298,8 @@ static int run_session(run_options *o, session *s)
                (unsigned long long)rlf_world_hash(rlf_pipeline_get_world(s->pipeline)));
     }
     if (status == EXIT_DONE && !o->output.is_quiet) {
-        bool is_gl = o->is_headless ? o->use_gl : o->use_gl || !o->is_renderer_set;
-        run_output_print_summary(&output, is_gl ? "gl" : "soft");
+        const char *renderer = o->use_gl ? "renderer gl" : "renderer soft";
+        run_output_print_summary(&output, o->is_headless ? renderer : "in a window");
     }
     return status;
 }

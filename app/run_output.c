@@ -125,14 +125,14 @@ static void print_stage(FILE *file, const char *name, const timing_series *serie
             timing_percentile(series, 95));
 }
 
-void run_output_print_summary(const run_output *out, const char *renderer)
+void run_output_print_summary(const run_output *out, const char *how)
 {
     const run_output_options *o = &out->options;
     /* A video on stdout must not be mixed with words. */
     FILE *file = o->video_path != NULL && strcmp(o->video_path, "-") == 0 ? stderr : stdout;
     const timing *t = &out->times;
     double median = timing_percentile(&t->frame, 50);
-    fprintf(file, "%lld frames, renderer %s\n", (long long)out->frames, renderer);
+    fprintf(file, "%lld frames, %s\n", (long long)out->frames, how);
     fprintf(file, "  ms        median     p95\n");
     print_stage(file, "capture", &t->capture);
     print_stage(file, "surface", &t->surface);

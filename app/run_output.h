@@ -35,7 +35,7 @@ rlf_result run_output_save(run_output *out, const rlf_image_rgba8 *image, char *
                            size_t message_size);
 /* Finishes all files, also after an error or Ctrl-C. */
 rlf_result run_output_close(run_output *out);
-/* Where things were written, and the median times. */
-void run_output_print_summary(const run_output *out, const char *renderer);
+/* Where things were written, and the median times; `how` says how frames were shown. */
+void run_output_print_summary(const run_output *out, const char *how);
 
 #endif
