@@ -1,0 +1,137 @@
+/* The measures themselves: counts and angles against hand-made surfaces and truth. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "eval.h"
+
+#include <math.h>
+#include <string.h>
+
+#define W 32
+#define H 20
+
+static void angles_give_mean_median_and_shares(void **state)
+{
+    (void)state;
+    static eval_angles angles;
+    memset(&angles, 0, sizeof(angles));
+    const double degrees[5] = {1, 2, 3, 40, 179.9999};
+    for (int i = 0; i < 5; i++) {
+        eval_add_angle(&angles, degrees[i]);
+    }
+    angles.missing = 5;
+    assert_true(fabs(eval_median_deg(&angles) - 3.0) < 0.02);
+    assert_true(fabs(eval_mean_deg(&angles) - 45.2) < 0.01);
+    assert_true(eval_wrong_percent(&angles) == 40.0);
+    assert_true(eval_missing_percent(&angles) == 50.0);
+}
+
+static void band_is_six_pixels_on_both_sides_of_a_jump(void **state)
+{
+    (void)state;
+    float depth[W * H];
+    uint8_t band[W * H], scratch[W * H];
+    for (int i = 0; i < W * H; i++) {
+        depth[i] = i % W < 16 ? 1.0f : 1.05f;
+    }
+    eval_mark_band(depth, W, H, band, scratch);
+    for (int i = 0; i < W * H; i++) {
+        bool is_near = i % W >= 15 - 6 && i % W <= 16 + 6;
+        assert_int_equal(band[i], is_near);
+    }
+    for (int i = 0; i < W * H; i++) {
+        depth[i] = i % W < 16 ? 1.0f : 1.03f; /* 3 %: no jump */
+    }
+    eval_mark_band(depth, W, H, band, scratch);
+    for (int i = 0; i < W * H; i++) {
+        assert_int_equal(band[i], 0);
+    }
+}
+
+static void decimated_normals_meet_the_right_truth(void **state)
+{
+    (void)state;
+    static float depth[W * H], nx[W * H], nz[W * H], zero[W * H], fx[8], fz[8], fzero[8];
+    static uint8_t band[W * H];
+    for (int i = 0; i < W * H; i++) {
+        depth[i] = 2.0f;
+        nx[i] = (i % W) % 8 == 0 ? 0.0f : 1.0f; /* only every 8th pixel faces the camera */
+        nz[i] = (i % W) % 8 == 0 ? -1.0f : 0.0f;
+    }
+    depth[8] = 9.0f; /* beyond the range: not counted */
+    for (int i = 0; i < 8; i++) {
+        fz[i] = i == 3 ? 0.0f : -1.0f; /* pixel 3 has no normal */
+    }
+    rlf_truth truth = {.depth = depth, .normal_x = nx, .normal_y = zero, .normal_z = nz};
+    rlf_surface surface = {.width = 4,
+                           .height = 2,
+                           .scale_factor = 8,
+                           .normal_x = fx,
+                           .normal_y = fzero,
+                           .normal_z = fz};
+    rlf_rig rig = {.depth = {.width = W, .height = H}, .depth_min_m = 0.5, .depth_max_m = 4.5};
+    static eval_normals normals;
+    memset(&normals, 0, sizeof(normals));
+    eval_normals_add(&normals, &surface, &truth, &rig, band);
+    assert_int_equal(normals.interior.count, 6);
+    assert_int_equal(normals.interior.missing, 1);
+    assert_true(eval_mean_deg(&normals.interior) == 0.0);
+    assert_int_equal(normals.band.count, 0);
+}
+
+static void foreground_counts_hits_and_misses(void **state)
+{
+    (void)state;
+    uint8_t found[6] = {1, 1, 0, 0, 1, 0};
+    uint8_t is_true[6] = {1, 0, 1, 0, 1, 0};
+    uint8_t reason[6] = {RLF_REASON_OK, RLF_REASON_FILLED, RLF_REASON_OK,
+                         RLF_REASON_OK, RLF_REASON_OK,     RLF_REASON_OK};
+    rlf_truth truth = {.foreground = is_true};
+    rlf_surface surface = {.width = 3,
+                           .height = 2,
+                           .scale_factor = 1,
+                           .foreground = found,
+                           .reason = reason,
+                           .background_state = RLF_BACKGROUND_READY};
+    rlf_rig rig = {.depth = {.width = 3, .height = 2}};
+    eval_foreground foreground;
+    memset(&foreground, 0, sizeof(foreground));
+    eval_foreground_add(&foreground, &surface, &truth, &rig);
+    assert_true(fabs(eval_precision(&foreground.all) - 2.0 / 3.0) < 1e-12);
+    assert_true(fabs(eval_recall(&foreground.all) - 2.0 / 3.0) < 1e-12);
+    assert_true(fabs(eval_f_measure(&foreground.all) - 2.0 / 3.0) < 1e-12);
+    assert_true(fabs(eval_precision(&foreground.valid) - 1.0) < 1e-12);
+    surface.background_state = RLF_BACKGROUND_LEARNING;
+    eval_foreground_add(&foreground, &surface, &truth, &rig);
+    assert_int_equal(foreground.all.true_positive, 2);
+}
+
+static void collision_scene_is_the_same_for_a_seed(void **state)
+{
+    (void)state;
+    rlf_scene a, b, c;
+    assert_int_equal(eval_collisions_scene(7, 20, &a), RLF_OK);
+    assert_int_equal(eval_collisions_scene(7, 20, &b), RLF_OK);
+    assert_int_equal(eval_collisions_scene(8, 20, &c), RLF_OK);
+    assert_memory_equal(&a.bodies[3].velocity, &b.bodies[3].velocity, sizeof(rlf_vec3));
+    assert_memory_not_equal(&a.bodies[3].velocity, &c.bodies[3].velocity, sizeof(rlf_vec3));
+    rlf_scene_destroy(&a);
+    rlf_scene_destroy(&b);
+    rlf_scene_destroy(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(angles_give_mean_median_and_shares),
+        cmocka_unit_test(band_is_six_pixels_on_both_sides_of_a_jump),
+        cmocka_unit_test(decimated_normals_meet_the_right_truth),
+        cmocka_unit_test(foreground_counts_hits_and_misses),
+        cmocka_unit_test(collision_scene_is_the_same_for_a_seed),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
