@@ -1,6 +1,7 @@
 /* `relief eval`: accuracy of both profiles against the synthetic room's ground truth. */
 #include "eval.h"
 #include "command.h"
+#include "eval_solid.h"
 #include "session.h"
 
 #include <getopt.h>
@@ -23,6 +24,7 @@ typedef struct eval_run {
     rlf_profile profile;
     eval_normals normals;
     eval_foreground foreground;
+    eval_solid solid;
     eval_collisions collisions;
     timing times;
     int32_t grid_width, grid_height;
@@ -105,6 +107,7 @@ static void measure_frame(eval_run *run, rlf_source *source, const rlf_pipeline_
     eval_mark_band(truth->depth, rig->depth.width, rig->depth.height, band, scratch);
     eval_normals_add(&run->normals, frame->surface, truth, rig, band);
     eval_foreground_add(&run->foreground, frame->surface, truth, rig);
+    eval_solid_add(&run->solid, frame->surface, truth, rig);
     eval_collisions_add(&run->collisions, frame->snapshot, source);
     const rlf_stage_times *t = &frame->times;
     timing_add_frame(&run->times, t, t->capture_ms + t->surface_ms + t->physics_ms + t->render_ms);
@@ -152,7 +155,8 @@ static rlf_result run_seed(eval_run *run, const eval_options *o, int64_t seed)
         return result;
     }
     eval_collisions_restart(&run->collisions);
-    result = run_frames(run, &s, o->frames);
+    result = eval_solid_restart(&run->solid, &rlf_source_get_info(s.source)->rig);
+    result = result == RLF_OK ? run_frames(run, &s, o->frames) : result;
     session_close(&s);
     return result;
 }
@@ -201,6 +205,43 @@ static double fg_f(const eval_run *r)
 static double fg_f_valid(const eval_run *r)
 {
     return eval_f_measure(&r->foreground.valid);
+}
+static double body_exit_cm(const eval_run *r)
+{
+    return eval_exit_mean_cm(&r->solid.body);
+}
+static double body_exit_close(const eval_run *r)
+{
+    return eval_exit_close_percent(&r->solid.body);
+}
+static double book_exit_cm(const eval_run *r)
+{
+    return eval_exit_mean_cm(&r->solid.book);
+}
+static double speed_median(const eval_run *r)
+{
+    return eval_speed_median_percent(&r->solid.normal);
+}
+static double speed_mean(const eval_run *r)
+{
+    return eval_speed_mean_percent(&r->solid.normal);
+}
+static double velocity_median(const eval_run *r)
+{
+    return eval_speed_median_percent(&r->solid.full);
+}
+static double still_zero(const eval_run *r)
+{
+    const eval_solid *s = &r->solid;
+    return s->still > 0 ? 100.0 * (double)s->still_zero / (double)s->still : 0.0;
+}
+static double phantoms_soon(const eval_run *r)
+{
+    return eval_phantom_percent(r->solid.phantoms.left_soon, r->solid.phantoms.seen_soon);
+}
+static double phantoms_late(const eval_run *r)
+{
+    return eval_phantom_percent(r->solid.phantoms.left_late, r->solid.phantoms.seen_late);
 }
 static double bounces(const eval_run *r)
 {
@@ -258,6 +299,15 @@ static const figure figures[] = {
     {"foreground_recall", "  recall", fg_recall},
     {"foreground_f", "  F", fg_f},
     {"foreground_f_valid", "  F where the sensor gave a depth", fg_f_valid},
+    {"exit_mean_cm", "thickness of people: mean exit error, cm", body_exit_cm},
+    {"exit_within_5_cm_percent", "  within 5 cm, %", body_exit_close},
+    {"book_exit_mean_cm", "  of a held book: mean, cm", book_exit_cm},
+    {"speed_median_percent", "speed along the normal (> 0.2 m/s): median, %", speed_median},
+    {"speed_mean_percent", "  mean error, %", speed_mean},
+    {"velocity_median_percent", "  whole vector: median error, %", velocity_median},
+    {"still_zero_percent", "  still pixels exactly still, %", still_zero},
+    {"background_phantoms_soon_percent", "phantoms 3 frames after (-1: none), %", phantoms_soon},
+    {"background_phantoms_late_percent", "  30 frames after, %", phantoms_late},
     {"bounces", "bounces on the real scene", bounces},
     {"bounces_phantom_percent", "  where nothing real is, %", phantom},
     {"bounces_mean_deg", "  mean error of the contact normal, deg", bounce_mean},
@@ -321,6 +371,7 @@ static rlf_result measure_profile(eval_run *run, const eval_options *o)
         result = run_seed(run, o, seed);
     }
     eval_collisions_finish(&run->collisions);
+    eval_solid_finish(&run->solid);
     return result;
 }
 
