@@ -22,6 +22,7 @@ typedef struct eval_options {
 /* Everything measured for one profile. */
 typedef struct eval_run {
     rlf_profile profile;
+    eval_depth depth;
     eval_normals normals;
     eval_foreground foreground;
     eval_solid solid;
@@ -105,6 +106,7 @@ static void measure_frame(eval_run *run, rlf_source *source, const rlf_pipeline_
     const rlf_truth *truth = rlf_source_get_truth(source);
     const rlf_rig *rig = frame->frame.rig;
     eval_mark_band(truth->depth, rig->depth.width, rig->depth.height, band, scratch);
+    eval_depth_add(&run->depth, frame->surface, &frame->frame, truth);
     eval_normals_add(&run->normals, frame->surface, truth, rig, band);
     eval_foreground_add(&run->foreground, frame->surface, truth, rig);
     eval_solid_add(&run->solid, frame->surface, truth, rig);
@@ -121,7 +123,8 @@ static rlf_result run_frames(eval_run *run, session *s, int64_t frame_count)
     size_t pixels = (size_t)depth->width * (size_t)depth->height;
     uint8_t *band = rlf_alloc(pixels);
     uint8_t *scratch = rlf_alloc(pixels);
-    rlf_result result = band != NULL && scratch != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+    rlf_result result = eval_depth_init(&run->depth, depth);
+    result = band != NULL && scratch != NULL ? result : RLF_ERROR_MEMORY;
     for (int64_t i = 0; result == RLF_OK && i < frame_count && !command_interrupted; i++) {
         rlf_pipeline_output frame;
         result = rlf_pipeline_step(s->pipeline, &frame);
@@ -131,6 +134,7 @@ static rlf_result run_frames(eval_run *run, session *s, int64_t frame_count)
     }
     rlf_free(band);
     rlf_free(scratch);
+    eval_depth_finish(&run->depth);
     return result == RLF_END ? RLF_OK : result;
 }
 
@@ -189,6 +193,47 @@ typedef struct figure {
 ANGLE_FIGURES(interior, "interior")
 ANGLE_FIGURES(band, "edge band")
 #undef ANGLE_FIGURES
+
+#define DEPTH_FIGURES(group)                                                                       \
+    static double group##_rms(const eval_run *r)                                                   \
+    {                                                                                              \
+        return eval_depth_rms_mm(&r->depth.group.seen);                                            \
+    }                                                                                              \
+    static double group##_raw_rms(const eval_run *r)                                               \
+    {                                                                                              \
+        return eval_depth_rms_mm(&r->depth.group.raw);                                             \
+    }                                                                                              \
+    static double group##_flying(const eval_run *r)                                                \
+    {                                                                                              \
+        return eval_depth_flying_percent(&r->depth.group.seen);                                    \
+    }                                                                                              \
+    static double group##_raw_flying(const eval_run *r)                                            \
+    {                                                                                              \
+        return eval_depth_flying_percent(&r->depth.group.raw);                                     \
+    }                                                                                              \
+    static double group##_missing_depth(const eval_run *r)                                         \
+    {                                                                                              \
+        return eval_depth_missing_percent(&r->depth.group);                                        \
+    }                                                                                              \
+    static double group##_raw_missing(const eval_run *r)                                           \
+    {                                                                                              \
+        return eval_depth_raw_missing_percent(&r->depth.group);                                    \
+    }                                                                                              \
+    static double group##_filled(const eval_run *r)                                                \
+    {                                                                                              \
+        return eval_depth_filled_percent(&r->depth.group);                                         \
+    }                                                                                              \
+    static double group##_filled_rms(const eval_run *r)                                            \
+    {                                                                                              \
+        return eval_depth_rms_mm(&r->depth.group.filled);                                          \
+    }                                                                                              \
+    static double group##_filled_wrong(const eval_run *r)                                          \
+    {                                                                                              \
+        return eval_depth_other_side_percent(&r->depth.group.filled);                              \
+    }
+DEPTH_FIGURES(still)
+DEPTH_FIGURES(moving)
+#undef DEPTH_FIGURES
 
 static double fg_precision(const eval_run *r)
 {
@@ -287,6 +332,25 @@ static double loop_ms(const eval_run *r)
 }
 
 static const figure figures[] = {
+    {"depth_still_rmse_mm", "depth where nothing changed for 1 s: RMSE, mm", still_rms},
+    {"depth_still_raw_rmse_mm", "  of the raw frame, mm", still_raw_rms},
+    {"depth_still_flying_percent", "  flying pixels, %", still_flying},
+    {"depth_still_raw_flying_percent", "  of the raw frame, %", still_raw_flying},
+    {"depth_still_missing_percent", "  missing, %", still_missing_depth},
+    {"depth_still_raw_missing_percent", "  of the raw frame, %", still_raw_missing},
+    {"depth_still_filled_percent", "  filled, %", still_filled},
+    {"depth_still_filled_rmse_mm", "  filled: RMSE, mm", still_filled_rms},
+    {"depth_still_filled_wrong_percent", "  filled: wrong side of an edge, %", still_filled_wrong},
+    {"depth_moving_rmse_mm", "depth of what is new in a frame: RMSE, mm", moving_rms},
+    {"depth_moving_raw_rmse_mm", "  of the raw frame, mm", moving_raw_rms},
+    {"depth_moving_flying_percent", "  flying pixels, %", moving_flying},
+    {"depth_moving_raw_flying_percent", "  of the raw frame, %", moving_raw_flying},
+    {"depth_moving_missing_percent", "  missing, %", moving_missing_depth},
+    {"depth_moving_raw_missing_percent", "  of the raw frame, %", moving_raw_missing},
+    {"depth_moving_filled_percent", "  filled, %", moving_filled},
+    {"depth_moving_filled_rmse_mm", "  filled: RMSE, mm", moving_filled_rms},
+    {"depth_moving_filled_wrong_percent", "  filled: wrong side of an edge, %",
+     moving_filled_wrong},
     {"normals_interior_median_deg", "normals, interior: median error, deg", interior_median},
     {"normals_interior_mean_deg", "  mean error, deg", interior_mean},
     {"normals_interior_over_30_percent", "  more than 30 deg off, %", interior_wrong},
