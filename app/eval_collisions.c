@@ -23,6 +23,16 @@ static double in_range(uint64_t *state, double low, double high)
     return low + (high - low) * next_random(state);
 }
 
+/* Drawn in order: a compiler may evaluate a call's arguments in any. */
+static rlf_vec3 in_box(uint64_t *state, rlf_vec3 low, rlf_vec3 high)
+{
+    rlf_vec3 v;
+    v.x = in_range(state, low.x, high.x);
+    v.y = in_range(state, low.y, high.y);
+    v.z = in_range(state, low.z, high.z);
+    return v;
+}
+
 /* A 10 to 20 cm cube that flies towards a point of the room, released at its turn. */
 static rlf_body_def thrown_cube(uint64_t *state, int32_t index)
 {
@@ -33,14 +43,12 @@ static rlf_body_def thrown_cube(uint64_t *state, int32_t index)
     def.release_time = 0.4 + 0.12 * index;
     double side = index % 3 - 1.0; /* from the left, the camera, the right */
     double z = side == 0.0 ? 0.5 : 1.8;
-    def.position = rlf_vec3_make(side * 0.9 + in_range(state, -0.2, 0.2),
-                                 in_range(state, -0.5, 0.1), z + in_range(state, -0.1, 0.3));
-    rlf_vec3 target = rlf_vec3_make(in_range(state, -1.0, 1.0), in_range(state, -0.6, 0.8),
-                                    in_range(state, 2.0, 3.2));
+    def.position = in_box(state, rlf_vec3_make(side * 0.9 - 0.2, -0.5, z - 0.1),
+                          rlf_vec3_make(side * 0.9 + 0.2, 0.1, z + 0.3));
+    rlf_vec3 target = in_box(state, rlf_vec3_make(-1, -0.6, 2), rlf_vec3_make(1, 0.8, 3.2));
     rlf_vec3 direction = rlf_normalize(rlf_sub(target, def.position));
     def.velocity = rlf_scale(direction, in_range(state, 2.0, 5.0));
-    def.angular_velocity =
-        rlf_vec3_make(in_range(state, -6, 6), in_range(state, -6, 6), in_range(state, -6, 6));
+    def.angular_velocity = in_box(state, rlf_vec3_make(-6, -6, -6), rlf_vec3_make(6, 6, 6));
     def.collides_with_bodies = false; /* every bounce is one on the real scene */
     return def;
 }
