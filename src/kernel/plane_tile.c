@@ -15,14 +15,15 @@
 
 enum {
     MOMENTS = 10,
-    PLANES = RLF_KERNEL_TILE / 2 + 2, /* blocks on a side that have a plane: one more each side */
-    BLOCKS = PLANES + 4,              /* and two more for the windows */
+    REACH = 2, /* blocks from a pixel's own to the planes that it may take */
+    PLANES = RLF_KERNEL_TILE / 2 + 2 * REACH, /* blocks on a side that have a plane */
+    BLOCKS = PLANES + 4,                      /* and two more each side for the windows */
     BLOCK_PIXELS = 2 * BLOCKS,
     PLANE_PIXELS = 2 * PLANES
 };
 
 /* Largest residuals that a window may have, in sigmas. */
-static const float WIDE_SIGMAS = 1.3f, NARROW_SIGMAS = 3.0f;
+static const float WIDE_SIGMAS = 1.15f, NARROW_SIGMAS = 3.0f;
 
 enum { N, X, Y, XX, XY, YY, W, XW, YW, WW };
 
@@ -33,7 +34,7 @@ typedef struct reference {
 typedef struct plane_rows { /* of one row of blocks, each value twice: once per pixel column */
     float a[PLANE_PIXELS], b[PLANE_PIXELS], c[PLANE_PIXELS];
     float weight[PLANE_PIXELS];    /* 0 = no plane */
-    float tolerance[PLANE_PIXELS]; /* of inverse depth */
+    float precision[PLANE_PIXELS]; /* 1 / the square of the largest error of a pixel on it */
 } plane_rows;
 
 typedef struct pixel_row {
@@ -47,7 +48,7 @@ typedef struct block_row {
 /* A row of the tile with its border; zero depth outside the image. */
 RLF_KERNEL_PART void load_row(const rlf_kernel_tile *t, int32_t y, pixel_row *row)
 {
-    int32_t first = t->x0 - 6;
+    int32_t first = t->x0 - 2 * REACH - 4;
     for (int32_t i = 0; i < BLOCK_PIXELS; i++) {
         row->z[i] = row->x[i] = row->y[i] = 0.0f;
     }
@@ -128,8 +129,13 @@ RLF_KERNEL_PART void sum_windows(const block_row *const rows[5], window_sums *re
 }
 
 typedef struct plane {
-    float a, b, c, weight, tolerance;
+    float a, b, c, weight, precision;
 } plane;
+
+typedef struct fit_in {
+    reference ref;
+    rlf_kernel_noise noise;
+} fit_in;
 
 /* How much noisier a slanted surface is: Fankhauser et al. 2015 add a term that grows with
  * theta^2 / (pi/2 - theta)^2, here relative to the frontal noise. `c` is the cosine. */
@@ -180,30 +186,90 @@ RLF_KERNEL_PART plane fit(const float (*restrict s)[PLANES], int32_t i, referenc
     float expected = sigma * sigma;
     float certainty = spread / (variance > expected ? variance : expected);
     p.weight = fits * certainty * certainty;
-    p.tolerance = 3.0f * sigma;
+    p.precision = 1.0f / (9.0f * expected);
     return p;
 }
 
-RLF_KERNEL_PART void fit_row(const window_sums *restrict sums, reference ref,
-                             rlf_kernel_noise noise, plane_rows *restrict out)
+/* Planes of one row of blocks. */
+typedef struct plane_set {
+    float a[PLANES], b[PLANES], c[PLANES], weight[PLANES], precision[PLANES];
+} plane_set;
+
+/* Puts the windows' planes where they are more certain than what is there. */
+RLF_KERNEL_PART void improve(const float (*restrict s)[PLANES], const fit_in *in, float most_sigmas,
+                             plane_set *restrict best)
 {
-    float value[5][PLANES];
     for (int32_t i = 0; i < PLANES; i++) {
-        plane wide = fit(sums->wide, i, ref, noise, WIDE_SIGMAS);
-        plane narrow = fit(sums->narrow, i, ref, noise, NARROW_SIGMAS);
-        float use = wide.weight > 0.0f ? 1.0f : 0.0f;
-        float rest = 1.0f - use;
-        value[0][i] = use * wide.a + rest * narrow.a;
-        value[1][i] = use * wide.b + rest * narrow.b;
-        value[2][i] = use * wide.c + rest * narrow.c;
-        value[3][i] = use * wide.weight + rest * narrow.weight;
-        value[4][i] = use * wide.tolerance + rest * narrow.tolerance;
+        plane p = fit(s, i, in->ref, in->noise, most_sigmas);
+        bool better = p.weight > best->weight[i];
+        best->a[i] = better ? p.a : best->a[i];
+        best->b[i] = better ? p.b : best->b[i];
+        best->c[i] = better ? p.c : best->c[i];
+        best->precision[i] = better ? p.precision : best->precision[i];
+        best->weight[i] = better ? p.weight : best->weight[i];
     }
-    float *const planes[5] = {out->a, out->b, out->c, out->weight, out->tolerance};
+}
+
+RLF_KERNEL_PART void sum_corner(const block_row *restrict upper, const block_row *restrict lower,
+                                int32_t dx, float (*restrict out)[PLANES])
+{
+    for (int32_t k = 0; k < MOMENTS; k++) {
+        const float *restrict u = upper->moment[k] + 1 + dx;
+        const float *restrict l = lower->moment[k] + 1 + dx;
+        for (int32_t i = 0; i < PLANES; i++) {
+            out[k][i] = u[i] + u[i + 1] + l[i] + l[i + 1];
+        }
+    }
+}
+
+/* Where no wide window fits: the most certain of the window of 3x3 blocks and the four of 2x2. */
+RLF_KERNEL_PART void fit_small(const block_row *const rows[5],
+                               const float (*restrict narrow)[PLANES], const fit_in *in,
+                               plane_set *restrict planes)
+{
+    plane_set best;
+    float corner[MOMENTS][PLANES];
+    for (int32_t i = 0; i < PLANES; i++) {
+        best.a[i] = best.b[i] = best.c[i] = best.weight[i] = best.precision[i] = 0.0f;
+    }
+    improve(narrow, in, NARROW_SIGMAS, &best);
+    for (int32_t k = 0; k < 4; k++) {
+        sum_corner(rows[1 + k / 2], rows[2 + k / 2], k % 2, corner);
+        improve((const float(*)[PLANES])corner, in, NARROW_SIGMAS, &best);
+    }
+    for (int32_t i = 0; i < PLANES; i++) {
+        bool none = !(planes->weight[i] > 0.0f);
+        planes->a[i] = none ? best.a[i] : planes->a[i];
+        planes->b[i] = none ? best.b[i] : planes->b[i];
+        planes->c[i] = none ? best.c[i] : planes->c[i];
+        planes->weight[i] = none ? best.weight[i] : planes->weight[i];
+        planes->precision[i] = none ? best.precision[i] : planes->precision[i];
+    }
+}
+
+RLF_KERNEL_PART void fit_row(const block_row *const rows[5], const fit_in *in,
+                             plane_rows *restrict out)
+{
+    window_sums sums;
+    plane_set planes;
+    sum_windows(rows, &sums);
+    int32_t without = 0;
+    for (int32_t i = 0; i < PLANES; i++) {
+        planes.weight[i] = 0.0f;
+        planes.a[i] = planes.b[i] = planes.c[i] = planes.precision[i] = 0.0f;
+    }
+    improve((const float(*)[PLANES])sums.wide, in, WIDE_SIGMAS, &planes);
+    for (int32_t i = 0; i < PLANES; i++) {
+        without += planes.weight[i] > 0.0f ? 0 : 1;
+    }
+    if (without > 0) {
+        fit_small(rows, (const float(*)[PLANES])sums.narrow, in, &planes);
+    }
+    const float *const from[5] = {planes.a, planes.b, planes.c, planes.weight, planes.precision};
+    float *const to[5] = {out->a, out->b, out->c, out->weight, out->precision};
     for (int32_t k = 0; k < 5; k++) {
         for (int32_t i = 0; i < PLANES; i++) {
-            planes[k][2 * i] = value[k][i];
-            planes[k][2 * i + 1] = value[k][i];
+            to[k][2 * i] = to[k][2 * i + 1] = from[k][i];
         }
     }
 }
@@ -221,7 +287,9 @@ RLF_KERNEL_PART void offer(const plane_rows *restrict planes, int32_t shift, ble
         int32_t k = i + shift;
         float a = planes->a[k], b = planes->b[k], c = planes->c[k];
         float error = a + b * sums->x[i] + c * sums->y[i] - sums->w[i];
-        float weight = rlf_kernel_abs(error) <= planes->tolerance[k] ? planes->weight[k] : 0.0f;
+        float miss = error * error * planes->precision[k];
+        float near = miss < 1.0f ? 1.0f - miss : 0.0f;
+        float weight = planes->weight[k] * near * near;
         sums->a[i] += weight * a;
         sums->b[i] += weight * b;
         sums->c[i] += weight * c;
@@ -246,8 +314,8 @@ RLF_KERNEL_PART void blend_row(const rlf_kernel_tile *t, int32_t y, reference re
         sums.y[i] = t->ray_y[offset + i] - ref.y;
         sums.w[i] = z > 0.0f ? 1.0f / (z > 0.0f ? z : 1.0f) : -1e9f; /* no plane predicts this */
     }
-    for (int32_t row = 0; row < 3; row++) {
-        for (int32_t shift = 0; shift <= 4; shift += 2) {
+    for (int32_t row = 0; row <= 2 * REACH; row++) {
+        for (int32_t shift = 0; shift <= 4 * REACH; shift += 2) {
             offer(&planes[row], shift, &sums);
         }
     }
@@ -280,20 +348,19 @@ static reference tile_reference(const rlf_kernel_tile *t)
 RLF_KERNEL void rlf_kernel_plane_tile(const rlf_kernel_tile *tile)
 {
     reference ref = tile_reference(tile);
+    const fit_in in = {ref, tile->noise};
     block_row blocks[5];
     plane_rows planes[PLANES];
-    window_sums sums;
-    int32_t plane_count = (tile->y1 - tile->y0 + 1) / 2 + 2;
+    int32_t plane_count = (tile->y1 - tile->y0 + 1) / 2 + 2 * REACH;
     for (int32_t row = 0; row < plane_count + 4; row++) {
-        block_moments(tile, tile->y0 + 2 * (row - 3), ref, &blocks[row % 5]);
+        block_moments(tile, tile->y0 + 2 * (row - REACH - 2), ref, &blocks[row % 5]);
         if (row < 4) {
             continue;
         }
         const block_row *const rows[5] = {&blocks[(row + 1) % 5], &blocks[(row + 2) % 5],
                                           &blocks[(row + 3) % 5], &blocks[(row + 4) % 5],
                                           &blocks[row % 5]};
-        sum_windows(rows, &sums);
-        fit_row(&sums, ref, tile->noise, &planes[row - 4]);
+        fit_row(rows, &in, &planes[row - 4]);
     }
     for (int32_t y = tile->y0; y < tile->y1; y++) {
         blend_row(tile, y, ref, &planes[(y - tile->y0) / 2]);
