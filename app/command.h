@@ -32,5 +32,6 @@ int info_main(int argc, char **argv);
 int sources_main(int argc, char **argv);
 int eval_main(int argc, char **argv);
 int bench_main(int argc, char **argv);
+int measure_main(int argc, char **argv);
 
 #endif

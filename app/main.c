@@ -21,6 +21,7 @@ static const subcommand subcommands[] = {
     {"info", info_main, "tell what a source is"},
     {"sources", sources_main, "list the kinds of source that this build can open"},
     {"eval", eval_main, "measure accuracy against the synthetic room's ground truth"},
+    {"measure", measure_main, "missing points and wrong normals: table 5.1 of the thesis"},
     {"bench", bench_main, "time every stage"},
 };
 #define SUBCOMMAND_COUNT ((int)(sizeof(subcommands) / sizeof(subcommands[0])))

@@ -35,6 +35,15 @@ static rlf_result open_scene(const session_options *options, rlf_scene *out)
     return RLF_OK;
 }
 
+/* Regions keep their size in the world: their least number of points follows the grid's spacing. */
+static void set_scale(rlf_reconstruct_def *def, int32_t factor)
+{
+    double ratio = (double)def->scale_factor / factor;
+    int32_t points = (int32_t)(def->min_region_points * ratio * ratio + 0.5);
+    def->min_region_points = points > 1 ? points : 1;
+    def->scale_factor = factor;
+}
+
 static rlf_result open_all(const session_options *options, session *s)
 {
     rlf_result result = rlf_pool_create(options->thread_count, &s->pool);
@@ -54,7 +63,7 @@ static rlf_result open_all(const session_options *options, session *s)
         def.scene = &s->scene;
     }
     if (options->scale_factor > 0) {
-        def.reconstruct.scale_factor = options->scale_factor;
+        set_scale(&def.reconstruct, options->scale_factor);
     }
     def.enable_render = options->enable_render;
     def.compositor.enable_overlay = options->enable_overlay;

@@ -10,6 +10,7 @@ endif()
 if(TARGET relief_app)
   relief_test(${PROJECT_SOURCE_DIR}/tests/app/test_eval.c app)
   target_sources(test_eval PRIVATE ${PROJECT_SOURCE_DIR}/app/eval_collisions.c
-                 ${PROJECT_SOURCE_DIR}/app/eval_foreground.c ${PROJECT_SOURCE_DIR}/app/eval_normals.c)
+                 ${PROJECT_SOURCE_DIR}/app/eval_foreground.c ${PROJECT_SOURCE_DIR}/app/eval_normals.c
+                 ${PROJECT_SOURCE_DIR}/app/measure_points.c)
   target_include_directories(test_eval PRIVATE ${PROJECT_SOURCE_DIR}/app)
 endif()

@@ -34,7 +34,7 @@ expect_done()
 }
 
 # ---- help and usage ---------------------------------------------------------------------------------
-for command in "" run export info sources eval bench; do
+for command in "" run export info sources eval measure bench; do
     # shellcheck disable=SC2086 # the empty one must vanish
     "$relief" $command --help >stdout.txt 2>stderr.txt || fail "$command --help: status $?"
     grep -q "usage: relief" stdout.txt || fail "$command --help: no usage"
@@ -89,6 +89,16 @@ for profile in live thesis; do
         "frame,time_s,body,other,px,py,pz,nx,ny,nz,separation,impulse,surface_speed" ||
         fail "$profile: contacts.csv header"
 done
+
+# Table 5.1 of any source.
+expect_error 2 "--scale" measure synthetic:thesis --scale 8,zero
+expect_error 1 "has no end" measure "synthetic:thesis?frames=-1"
+expect_error 1 "too few frames" measure "synthetic:thesis?frames=4"
+expect_done measure "synthetic:thesis?frames=12" --csv table.csv --json table.json
+[ "$(wc -l <table.csv)" -eq 9 ] || fail "measure: table.csv rows"
+grep -q '"counted_bad_percent"' table.json || fail "measure: table.json"
+grep -q "3392" stdout.txt || fail "measure: no full 64x53 grid"
+grep -q "2632" stdout.txt || fail "measure: no 56x47 centre"
 
 # Same input, same bits, whatever the number of threads.
 "$relief" run "synthetic:room?frames=20" --headless --hash --threads 1 --quiet >hash1.txt

@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "eval.h"
+#include "measure_points.h"
 
 #include <math.h>
 #include <string.h>
@@ -110,6 +111,43 @@ static void foreground_counts_hits_and_misses(void **state)
     assert_int_equal(foreground.all.true_positive, 2);
 }
 
+/* A 64 x 53 grid with one missing corner and one missing centre point, without and with motion. */
+static void missing_points_fall_into_the_four_cases(void **state)
+{
+    (void)state;
+    enum { COUNT = 64 * 53 };
+    static uint8_t reason[COUNT];
+    reason[0] = RLF_REASON_NO_RETURN;
+    reason[26 * 64 + 32] = RLF_REASON_TOO_FAR;
+    rlf_surface surface = {.width = 64,
+                           .height = 53,
+                           .scale_factor = 8,
+                           .reason = reason,
+                           .background_state = RLF_BACKGROUND_READY};
+    rlf_rig rig = {.depth = {.width = 512, .height = 424}};
+    measure_points m;
+    memset(&m, 0, sizeof(m));
+    measure_points_add(&m, &surface, NULL, &rig);
+    surface.foreground_count = 100;
+    reason[1] = RLF_REASON_NO_RETURN;
+    measure_points_add(&m, &surface, NULL, &rig);
+    measure_points_add(&m, &surface, NULL, &rig);
+    surface.background_state = RLF_BACKGROUND_LEARNING; /* not counted */
+    measure_points_add(&m, &surface, NULL, &rig);
+    const int64_t frames[4] = {1, 1, 2, 2}, points[4] = {3392, 2632, 3392, 2632};
+    const double missing[4] = {2, 1, 3, 1};
+    for (int c = 0; c < MEASURE_CASE_COUNT; c++) {
+        assert_int_equal(m.cases[c].frames, frames[c]);
+        assert_int_equal(m.cases[c].points, points[c]);
+        assert_true(measure_missing(&m.cases[c]) == missing[c]);
+        assert_true(measure_counted_percent(&m.cases[c]) < 0.0);
+    }
+    /* the thesis's own numbers: 57.113 of 2632 points are 8.68 % wrong normals */
+    measure_counts thesis = {.frames = 1000, .points = 2632};
+    thesis.reasons[RLF_REASON_NO_RETURN] = 57113;
+    assert_true(fabs(measure_estimated_percent(&thesis) - 8.68) < 0.005);
+}
+
 static void collision_scene_is_the_same_for_a_seed(void **state)
 {
     (void)state;
@@ -131,6 +169,7 @@ int main(void)
         cmocka_unit_test(band_is_six_pixels_on_both_sides_of_a_jump),
         cmocka_unit_test(decimated_normals_meet_the_right_truth),
         cmocka_unit_test(foreground_counts_hits_and_misses),
+        cmocka_unit_test(missing_points_fall_into_the_four_cases),
         cmocka_unit_test(collision_scene_is_the_same_for_a_seed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
