@@ -2,14 +2,19 @@
  *
  * A hole pixel with a valid pixel on both sides, along its row, column or diagonal, at most
  * RLF_FILL_GAP apart, is filled. When the two ends belong to one surface, inverse depth (linear on
- * planes) is interpolated; when there is an edge between them, the nearer end in the image is
- * continued, so that a silhouette stays where the middle of the gap is. */
+ * planes) is interpolated. When there is an edge between them, drivers have taken a band away whose
+ * middle is the edge, ragged by a pixel on both sides. The side that has more valid pixels about
+ * the hole pixel is the one it belongs to: that averages the raggedness along the edge. The depth
+ * is that side's plane, least squares in inverse depth. */
 #include "surface/steps.h"
 
 #include "kernel/kernel.h"
 
 /* A wide hole must not be crossed from corner to corner. */
-enum { DIAGONAL_GAP = 4 };
+enum { DIAGONAL_GAP = 4, REACH = 2 };
+
+/* Of inverse depth, from a side's end to a hole pixel. */
+static const float MOST_CHANGE = 0.05f;
 
 typedef struct gap {
     float before, after; /* depths of the ends; 0 = none */
@@ -44,21 +49,55 @@ static bool is_closed(gap g)
     return g.before > 0.0f && g.after > 0.0f;
 }
 
-static float bridge(gap g)
+static float interpolate(gap g)
 {
-    float span = (float)(g.to_before + g.to_after);
-    float nearest = g.before < g.after ? g.before : g.after;
-    float jump = rlf_kernel_abs(g.before - g.after);
-    if (jump > (0.01f * span + 0.01f) * nearest) {
-        return g.to_before <= g.to_after ? g.before : g.after;
-    }
-    float t = (float)g.to_before / span;
+    float t = (float)g.to_before / (float)(g.to_before + g.to_after);
     return 1.0f / ((1.0f - t) / g.before + t / g.after);
 }
 
-static bool may_fill(uint8_t reason)
+static bool is_edge(gap g)
 {
-    return reason == RLF_REASON_NO_RETURN || reason == RLF_REASON_FLYING;
+    float span = (float)(g.to_before + g.to_after);
+    float nearest = g.before < g.after ? g.before : g.after;
+    return rlf_kernel_abs(g.before - g.after) > (0.01f * span + 0.01f) * nearest;
+}
+
+/* Sums of inverse depth over the pixels of one side, relative to its end. */
+typedef struct side {
+    float end; /* inverse depth */
+    float n, x, y, xx, xy, yy, w, xw, yw;
+} side;
+
+static void add(side *s, float x, float y, float w)
+{
+    w -= s->end;
+    s->n += 1.0f;
+    s->x += x;
+    s->y += y;
+    s->xx += x * x;
+    s->xy += x * y;
+    s->yy += y * y;
+    s->w += w;
+    s->xw += x * w;
+    s->yw += y * w;
+}
+
+/* The side's plane at the pixel itself (0, 0). The ridge keeps it level across a direction in which
+ * the side has hardly an extent. */
+static float continue_side(const side *s)
+{
+    const float ridge = 0.5f;
+    float inv = s->n > 0.0f ? 1.0f / s->n : 0.0f;
+    float mx = s->x * inv, my = s->y * inv, mw = s->w * inv;
+    float xx = s->xx - s->x * mx + ridge, yy = s->yy - s->y * my + ridge;
+    float xy = s->xy - s->x * my;
+    float xw = s->xw - s->x * mw, yw = s->yw - s->y * mw;
+    float inv_det = 1.0f / (xx * yy - xy * xy);
+    float b = (xw * yy - yw * xy) * inv_det, c = (yw * xx - xw * xy) * inv_det;
+    float w = mw - b * mx - c * my;
+    float limit = MOST_CHANGE * s->end;
+    w = w > limit ? limit : w;
+    return 1.0f / (s->end + (w < -limit ? -limit : w));
 }
 
 typedef struct fill_job {
@@ -71,6 +110,32 @@ typedef struct fill_job {
 static int32_t least(int32_t a, int32_t b)
 {
     return a < b ? a : b;
+}
+
+static float choose_side(const fill_job *job, int32_t x, int32_t y, gap g)
+{
+    const rlf_grid *grid = &job->stage->grid;
+    side before = {.end = 1.0f / g.before}, after = {.end = 1.0f / g.after};
+    int32_t left = least(x, REACH), right = least(grid->width - 1 - x, REACH);
+    int32_t up = least(y, REACH), down = least(grid->height - 1 - y, REACH);
+    for (int32_t dy = -up; dy <= down; dy++) {
+        const float *row = job->depth + (ptrdiff_t)(y + dy) * grid->width + x;
+        for (int32_t dx = -left; dx <= right; dx++) {
+            if (row[dx] > 0.0f) {
+                float w = 1.0f / row[dx];
+                bool first = rlf_kernel_abs(w - before.end) < rlf_kernel_abs(w - after.end);
+                add(first ? &before : &after, (float)dx, (float)dy, w);
+            }
+        }
+    }
+    bool tie = before.n >= after.n && before.n <= after.n;
+    bool first = tie ? g.to_before <= g.to_after : before.n > after.n;
+    return continue_side(first ? &before : &after);
+}
+
+static bool may_fill(uint8_t reason)
+{
+    return reason == RLF_REASON_NO_RETURN || reason == RLF_REASON_FLYING;
 }
 
 /* The shortest closed gap along the row, the column or, failing both, a diagonal. */
@@ -92,7 +157,10 @@ static float fill_pixel(const fill_job *job, int32_t x, int32_t y)
             best = g;
         }
     }
-    return is_closed(best) ? bridge(best) : 0.0f;
+    if (!is_closed(best)) {
+        return 0.0f;
+    }
+    return is_edge(best) ? choose_side(job, x, y, best) : interpolate(best);
 }
 
 static void fill_rows(void *context, int32_t begin, int32_t end, int32_t worker)
