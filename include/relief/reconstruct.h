@@ -60,8 +60,12 @@ typedef struct rlf_reconstruct_def {
 
     bool enable_flying_removal; /* live: true */
     bool enable_fill;           /* live: true: fill small holes (reason FILLED) */
-    bool enable_velocity;       /* live: true: normal velocity from depth change along the ray */
-    bool enable_thickness;      /* live: true: union of inscribed spheres */
+    bool enable_smoothing; /* live: true: averages depth within planes, as far as the sensor's noise
+                              explains what it takes away; never across an edge or a crease */
+    bool enable_steadying; /* live: true: averages depth that does not change over 16 frames; what
+                              changes by more than the noise starts anew */
+    bool enable_velocity;  /* live: true: normal velocity from depth change along the ray */
+    bool enable_thickness; /* live: true: union of inscribed spheres */
 
     rlf_pool *pool; /* borrowed; NULL = one thread */
 } rlf_reconstruct_def;

@@ -6,10 +6,12 @@
  * room need not be empty; holes are filled as they are seen.
  *
  * The gate is the sensor's noise, or the pixel's own mean absolute deviation where that is larger:
- * grazing, dark and distant surfaces are noisier than the sensor's model. */
+ * grazing, dark and distant surfaces are noisier than the sensor's model. A pixel at a silhouette
+ * sees both sides in turn, so that its own deviation spans them: there it takes twelve frames
+ * beyond the sensor's noise. */
 #include "kernel/kernel.h"
 
-enum { MEMORY = 32, PROOF = 3 };
+enum { MEMORY = 32, PROOF = 3, PROOF_MIXED = 12 };
 
 static const float sigmas_per_deviation = 1.2533141f; /* sqrt(pi / 2), normal distribution */
 static const float learning_gates = 3.0f;             /* before the deviation is known */
@@ -35,6 +37,7 @@ RLF_KERNEL int32_t rlf_kernel_background_row(const rlf_kernel_background *params
         float scaled = sigmas * rlf_kernel_sigma(noise, z);
         float own = sigmas * sigmas_per_deviation * deviation[i];
         float gate = scaled > least ? scaled : least;
+        float least_gate = gate * widen;
         gate = (own > gate ? own : gate) * widen;
         int32_t valid = z > 0.0f ? 1 : 0;
         int32_t known = m > 0.0f ? 1 : 0;
@@ -42,8 +45,10 @@ RLF_KERNEL int32_t rlf_kernel_background_row(const rlf_kernel_background *params
         int32_t farther = valid & known & (z - m > gate ? 1 : 0);
         int32_t same = valid & known & (1 - nearer) & (1 - farther);
         int32_t fresh = valid & (1 - known);
-        int32_t count_beyond = farther ? beyond[i] + 1 : (valid ? 0 : beyond[i]);
-        int32_t replaced = farther & (count_beyond >= proof ? 1 : 0);
+        int32_t past = valid & known & (z - m > least_gate ? 1 : 0);
+        int32_t count_beyond = past ? beyond[i] + 1 : (valid ? 0 : beyond[i]);
+        int32_t needed = farther ? proof : PROOF_MIXED;
+        int32_t replaced = past & (count_beyond >= needed ? 1 : 0);
         int32_t restart = replaced | (fresh & learning);
         int32_t samples = same ? weight[i] + 1 : weight[i];
         samples = samples > MEMORY ? MEMORY : samples;

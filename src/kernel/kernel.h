@@ -55,6 +55,17 @@ RLF_KERNEL_PART float rlf_kernel_sigma(rlf_kernel_noise n, float z)
     float sigma = n.c0 + z * (n.c1 + z * n.c2);
     return sigma > 0.0003f ? sigma : 0.0003f;
 }
+/* How much noisier a slanted surface is: Fankhauser et al. 2015 add a term that grows with
+ * theta^2 / (pi/2 - theta)^2, here relative to the frontal noise. `c` is the cosine. It ends at 78
+ * degrees: a plane laid across a depth edge is steeper, and must not be excused by its own slant.
+ */
+RLF_KERNEL_PART float rlf_kernel_slant(float c)
+{
+    float rest = c * (1.0f + 0.17f * c * c); /* pi/2 - theta = asin(c) */
+    float theta = 1.5707964f - rest;
+    float ratio = theta / (rest > 0.2f ? rest : 0.2f);
+    return 1.0f + 0.12f * ratio * ratio;
+}
 RLF_KERNEL_PART float rlf_kernel_abs(float x)
 {
     return x < 0.0f ? -x : x;
@@ -115,9 +126,30 @@ typedef struct rlf_kernel_tile {
     rlf_kernel_noise noise;
     float *out_x, *out_y, *out_z; /* planes of the image; written inside the tile only; 0 where
                                      no plane explains the pixel */
+    float *out_depth;             /* as these: depth of the pixel's plane, or the pixel's own where
+                                     there is none; NULL = not wanted */
 } rlf_kernel_tile;
 
 void rlf_kernel_plane_tile(const rlf_kernel_tile *tile);
+
+/* ---- steady_row.c: gated mean over time
+ * --------------------------------------------------------- */
+
+typedef struct rlf_kernel_steady {
+    rlf_kernel_noise noise;
+    float sigmas; /* the gate, of a frontal surface's noise */
+    float most;   /* frames that a mean may stand for */
+} rlf_kernel_steady;
+
+typedef struct rlf_kernel_steady_in {
+    const float *normal[3], *ray_x, *ray_y;
+    int32_t count;
+} rlf_kernel_steady_in;
+
+/* Takes a row's depth into its means and gives it the means. Where they differ by more than the
+ * gate the mean starts anew. mean is in inverse depth; frames = 0 where there is none. */
+void rlf_kernel_steady_row(const rlf_kernel_steady *params, const rlf_kernel_steady_in *in,
+                           float *restrict depth, float *restrict mean, float *restrict frames);
 
 /* ---- background_row.c
  * ---------------------------------------------------------------------------- */

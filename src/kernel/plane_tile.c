@@ -23,7 +23,7 @@ enum {
 };
 
 /* Largest residuals that a window may have, in sigmas. */
-static const float WIDE_SIGMAS = 1.15f, NARROW_SIGMAS = 3.0f;
+static const float WIDE_SIGMAS = 1.15f, NARROW_SIGMAS = 1.6f;
 
 enum { N, X, Y, XX, XY, YY, W, XW, YW, WW };
 
@@ -137,16 +137,6 @@ typedef struct fit_in {
     rlf_kernel_noise noise;
 } fit_in;
 
-/* How much noisier a slanted surface is: Fankhauser et al. 2015 add a term that grows with
- * theta^2 / (pi/2 - theta)^2, here relative to the frontal noise. `c` is the cosine. */
-RLF_KERNEL_PART float slant_factor(float c)
-{
-    float rest = c * (1.0f + 0.17f * c * c); /* pi/2 - theta = asin(c) */
-    float theta = 1.5707964f - rest;
-    float ratio = theta / (rest > 0.05f ? rest : 0.05f);
-    return 1.0f + 0.12f * ratio * ratio;
-}
-
 /* Plane of one window. Its weight is the square of the inverse variance that its gradient has from
  * noise and misfit: planes that straddle a crease hardly count. 0 when the residual is more than
  * most_sigmas times the noise. */
@@ -179,7 +169,7 @@ RLF_KERNEL_PART plane fit(const float (*restrict s)[PLANES], int32_t i, referenc
     float nz = p.a - p.b * ref.x - p.c * ref.y;
     float square = (p.b * p.b + p.c * p.c + nz * nz) * (rx * rx + ry * ry + 1.0f);
     float cosine = w / sqrtf(square > w * w ? square : w * w);
-    float sigma = rlf_kernel_sigma(noise, 1.0f / w) * w * w * slant_factor(cosine);
+    float sigma = rlf_kernel_sigma(noise, 1.0f / w) * w * w * rlf_kernel_slant(cosine);
     float limit = most_sigmas * sigma;
     float fits = variance <= limit * limit ? solvable : 0.0f;
     float spread = xx < yy ? xx : yy;
@@ -297,7 +287,19 @@ RLF_KERNEL_PART void offer(const plane_rows *restrict planes, int32_t shift, ble
     }
 }
 
-/* Writes one pixel row from the three rows of planes about it. */
+/* Depth of the pixel's planes along its ray: what noise there is in a window is averaged, and no
+ * window reaches across an edge or a crease. */
+RLF_KERNEL_PART void project_row(const blend *restrict sums, int32_t count,
+                                 const float *restrict depth, float *restrict out)
+{
+    for (int32_t i = 0; i < count; i++) {
+        float w = sums->a[i] + sums->b[i] * sums->x[i] + sums->c[i] * sums->y[i];
+        bool known = sums->weight[i] > 0.0f && w > 0.0f;
+        out[i] = known ? sums->weight[i] / (known ? w : 1.0f) : depth[i];
+    }
+}
+
+/* Writes one pixel row from the rows of planes about it. */
 RLF_KERNEL_PART void blend_row(const rlf_kernel_tile *t, int32_t y, reference ref,
                                const plane_rows *restrict planes)
 {
@@ -332,6 +334,9 @@ RLF_KERNEL_PART void blend_row(const rlf_kernel_tile *t, int32_t y, reference re
         out_x[i] = b * scale;
         out_y[i] = c * scale;
         out_z[i] = a * scale;
+    }
+    if (t->out_depth != NULL) {
+        project_row(&sums, count, t->depth + offset, t->out_depth + offset);
     }
 }
 

@@ -48,6 +48,8 @@ static void set_live(rlf_reconstruct_def *def)
     def->background_method = RLF_BACKGROUND_ADAPTIVE;
     def->enable_flying_removal = true;
     def->enable_fill = true;
+    def->enable_smoothing = true;
+    def->enable_steadying = true;
     def->enable_velocity = true;
     def->enable_thickness = true;
 }

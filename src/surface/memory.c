@@ -91,6 +91,14 @@ static void take_work(rlf_reconstruct *stage)
     work->region_sums = take(stage, (size_t)stage->def.region_capacity + 1, sizeof(rlf_region_sum));
 }
 
+static void take_steady(rlf_reconstruct *stage)
+{
+    if (stage->def.enable_steadying) {
+        stage->steady.mean = take(stage, (size_t)stage->grid.count, sizeof(float));
+        stage->steady.frames = take(stage, (size_t)stage->grid.count, sizeof(float));
+    }
+}
+
 bool rlf_stage_allocate(rlf_reconstruct *stage)
 {
     take_grid(stage);
@@ -98,6 +106,7 @@ bool rlf_stage_allocate(rlf_reconstruct *stage)
         take_slot(stage, &stage->ring[i]);
     }
     take_background(stage);
+    take_steady(stage);
     take_work(stage);
     return !stage->out_of_memory;
 }

@@ -25,7 +25,8 @@ static void plane_bands(void *context, int32_t begin, int32_t end, int32_t worke
                                     rlf_kernel_noise_make(job->noise),
                                     job->out[0],
                                     job->out[1],
-                                    job->out[2]};
+                                    job->out[2],
+                                    job->smooth};
             rlf_kernel_plane_tile(&tile);
         }
     }
@@ -81,12 +82,23 @@ static void complete_pixels(const rlf_normals_job *job)
     }
 }
 
-void rlf_normals_plane(const rlf_normals_job *job)
+void rlf_normals_plane_fit(const rlf_normals_job *job)
 {
     rlf_normals_job copy = *job;
     int32_t bands = (job->height + RLF_KERNEL_TILE - 1) / RLF_KERNEL_TILE;
     rlf_parallel_for(job->pool, bands, 1, plane_bands, &copy);
+}
+
+void rlf_normals_plane_complete(const rlf_normals_job *job)
+{
+    rlf_normals_job copy = *job;
     copy.filled = job->filled != NULL ? job->filled : job->depth;
     copy.depth = copy.filled;
     complete_pixels(&copy);
+}
+
+void rlf_normals_plane(const rlf_normals_job *job)
+{
+    rlf_normals_plane_fit(job);
+    rlf_normals_plane_complete(job);
 }

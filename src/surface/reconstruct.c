@@ -57,6 +57,7 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
         return;
     }
     rlf_background_reset(&stage->background, stage->grid.count);
+    rlf_steady_reset(&stage->steady, stage->grid.count);
     stage->previous = NULL;
 }
 
@@ -92,19 +93,41 @@ static rlf_result check_frame(const rlf_reconstruct *stage, const rlf_frame *fra
     return RLF_OK;
 }
 
-/* Depth of the slot: read, mixed pixels off, small holes filled; each step may be switched off. */
+/* Depth and, with them, normals of the planes that explain the pixels. */
+static void make_planes(rlf_reconstruct *stage, const float *depth, float *smooth, rlf_slot *slot)
+{
+    rlf_normals_job job = rlf_normals_job_make(stage, depth, slot->normal);
+    job.smooth = smooth;
+    rlf_normals_plane_fit(&job);
+}
+
+/* Depth of the slot: read, mixed pixels off, noise averaged within planes, small holes filled,
+ * noise averaged over time; each step may be switched off. */
 static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot)
 {
     bool flying = stage->def.enable_flying_removal;
     bool fill = stage->def.enable_fill;
-    float *raw = flying ? stage->work.depth[0] : (fill ? stage->work.depth[1] : slot->depth);
-    float *kept = fill ? stage->work.depth[1] : slot->depth;
+    bool smooth = stage->def.enable_smoothing;
+    float *kept = fill || smooth ? stage->work.depth[1] : slot->depth;
+    float *raw = flying ? stage->work.depth[0] : kept;
     rlf_points_read(stage, frame, raw, slot->reason);
     if (flying) {
         rlf_flying_remove(stage, raw, kept, slot->reason);
     }
+    if (smooth) {
+        float *out = fill ? stage->work.depth[0] : slot->depth;
+        make_planes(stage, kept, out, slot);
+        kept = out;
+    }
     if (fill) {
         rlf_fill_holes(stage, kept, slot->depth, slot->reason);
+    }
+    if (smooth) {
+        rlf_normals_job job = rlf_normals_job_make(stage, slot->depth, slot->normal);
+        rlf_normals_plane_complete(&job);
+    }
+    if (stage->def.enable_steadying) {
+        rlf_steady_update(stage, slot);
     }
 }
 
@@ -138,6 +161,9 @@ static void make_normals(rlf_reconstruct *stage, rlf_slot *slot)
 {
     rlf_normals_job job = rlf_normals_job_make(stage, slot->depth, slot->normal);
     bool exact = stage->def.normal_method == RLF_NORMALS_INVERSE_DEPTH;
+    if (exact && stage->def.enable_smoothing && job.face_camera) {
+        return; /* made with the depth */
+    }
     if (stage->def.enable_fill &&
         exact) { /* what was filled must not shape the normals of what was seen */
         job.depth = stage->work.depth[1];

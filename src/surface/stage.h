@@ -55,6 +55,11 @@ typedef struct rlf_background {
     int32_t newest; /* sheet; -1 = none */
 } rlf_background;
 
+/* Means of inverse depth over time; NULL planes when they are not wanted. */
+typedef struct rlf_steady {
+    float *mean, *frames;
+} rlf_steady;
+
 /* Memory that is free between steps. */
 typedef struct rlf_work {
     float *depth[2];    /* planes */
@@ -80,6 +85,7 @@ struct rlf_reconstruct {
     const rlf_slot *previous; /* slot of the frame before, NULL at the first */
     int32_t next_label;
     rlf_background background;
+    rlf_steady steady;
     rlf_work work;
     void *blocks[RLF_STAGE_BLOCKS]; /* everything allocated */
     int32_t block_count;

@@ -17,6 +17,10 @@ void rlf_flying_remove(const rlf_reconstruct *stage, const float *raw, float *de
 enum { RLF_FILL_GAP = 8 };
 void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, float *out, uint8_t *reason);
 
+/* ---- steady.c: depth that does not change is averaged over time; needs the slot's normals ---- */
+void rlf_steady_update(const rlf_reconstruct *stage, rlf_slot *slot);
+void rlf_steady_reset(rlf_steady *steady, int32_t count);
+
 /* ---- normals ---- */
 typedef struct rlf_normals_job {
     rlf_normal_method method;
@@ -27,6 +31,7 @@ typedef struct rlf_normals_job {
                                      NULL = the same as depth */
     const rlf_depth_noise *noise; /* NULL = clean */
     float *out[3];
+    float *smooth; /* depth of the planes, when the method fits any; NULL = not wanted */
     rlf_pool *pool;
 } rlf_normals_job;
 
@@ -38,6 +43,10 @@ void rlf_normals_faces(const rlf_normals_job *job);
 void rlf_normals_thesis(const rlf_normals_job *job);
 void rlf_normals_slope(const rlf_normals_job *job);
 void rlf_normals_plane(const rlf_normals_job *job);
+/* The two halves of rlf_normals_plane: planes of what was seen, then normals of the other pixels of
+ * `filled`. */
+void rlf_normals_plane_fit(const rlf_normals_job *job);
+void rlf_normals_plane_complete(const rlf_normals_job *job);
 /* Exact inverse-depth normal of one pixel, for those that no plane explains. */
 void rlf_normals_slope_pixel(const rlf_normals_job *job, int32_t x, int32_t y);
 

@@ -17,6 +17,7 @@ static rlf_reconstruct_def plain_def(const rlf_rig *rig, int32_t factor)
     def.background_method = RLF_BACKGROUND_OFF;
     def.enable_flying_removal = false;
     def.enable_fill = false;
+    def.enable_smoothing = def.enable_steadying = false;
     return def;
 }
 

@@ -1,0 +1,170 @@
+/* The two depth filters: smoothing within planes and steadying over time. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "analytic.h"
+
+#include <math.h>
+
+enum { WIDTH = 96, HEIGHT = 72, COUNT = WIDTH * HEIGHT };
+
+typedef struct fixture {
+    rlf_rig rig;
+    float *ray_x, *ray_y;
+    float truth[COUNT], noisy[COUNT];
+    analytic_random random;
+} fixture;
+
+static int make_fixture(void **state)
+{
+    static fixture f;
+    f.rig = analytic_rig(WIDTH, HEIGHT);
+    f.random = (analytic_random){11};
+    analytic_rays(&f.rig.depth, &f.ray_x, &f.ray_y);
+    *state = &f;
+    return 0;
+}
+
+static int free_fixture(void **state)
+{
+    fixture *f = *state;
+    rlf_free(f->ray_x);
+    rlf_free(f->ray_y);
+    return 0;
+}
+
+/* A slanted board in the left half, a wall behind it, and a floor that meets the wall. */
+static void set_room(fixture *f, double board)
+{
+    rlf_vec3 slanted = rlf_normalize(rlf_vec3_make(0.3, 0.2, -1.0));
+    for (int i = 0; i < COUNT; i++) {
+        double wall = 3.0, x = f->ray_x[i], y = f->ray_y[i];
+        double floor = y > 0.0 ? 1.0 / y : 10.0;
+        double z = wall < floor ? wall : floor;
+        z = i % WIDTH < WIDTH / 2 ? plane_depth(slanted, -board, x, y) : z;
+        f->truth[i] = (float)z;
+    }
+}
+
+static void add_noise(fixture *f)
+{
+    for (int i = 0; i < COUNT; i++) {
+        double sigma = rlf_depth_noise_sigma(&f->rig.noise, f->truth[i]);
+        f->noisy[i] = f->truth[i] + (float)(sigma * random_normal(&f->random));
+    }
+}
+
+static rlf_reconstruct *make_stage(const fixture *f, bool smoothing, bool steadying)
+{
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
+    def.background_method = RLF_BACKGROUND_OFF;
+    def.enable_fill = def.enable_flying_removal = false;
+    def.enable_smoothing = smoothing;
+    def.enable_steadying = steadying;
+    rlf_reconstruct *stage = NULL;
+    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    return stage;
+}
+
+static const rlf_surface *process(fixture *f, rlf_reconstruct *stage, int32_t number)
+{
+    add_noise(f);
+    rlf_frame frame = analytic_frame(&f->rig, f->noisy, number);
+    const rlf_surface *s = NULL;
+    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    return s;
+}
+
+static double rms(const float *depth, const float *truth)
+{
+    double sum = 0.0;
+    for (int i = 0; i < COUNT; i++) {
+        sum += (depth[i] - truth[i]) * (depth[i] - truth[i]);
+    }
+    return sqrt(sum / COUNT);
+}
+
+static void smoothing_takes_noise_and_leaves_edges(void **state)
+{
+    fixture *f = *state;
+    set_room(f, 1.6);
+    rlf_reconstruct *stage = make_stage(f, true, false);
+    const rlf_surface *s = process(f, stage, 0);
+    assert_true(rms(s->depth, f->truth) < 0.4 * rms(f->noisy, f->truth));
+    for (int i = 0; i < COUNT; i++) { /* no pixel of the board goes to the wall or comes from it */
+        double sigma = rlf_depth_noise_sigma(&f->rig.noise, f->truth[i]);
+        assert_true(fabs(s->depth[i] - f->noisy[i]) < 12.0 * sigma);
+        assert_true(fabs(s->depth[i] - f->truth[i]) < 12.0 * sigma);
+    }
+    rlf_reconstruct_destroy(&stage);
+}
+
+static void without_filters_depth_is_the_frames(void **state)
+{
+    fixture *f = *state;
+    set_room(f, 1.6);
+    rlf_reconstruct *stage = make_stage(f, false, false);
+    for (int t = 0; t < 3; t++) {
+        const rlf_surface *s = process(f, stage, t);
+        assert_memory_equal(s->depth, f->noisy, sizeof f->noisy);
+    }
+    rlf_reconstruct_destroy(&stage);
+}
+
+static void what_stands_still_becomes_steady(void **state)
+{
+    fixture *f = *state;
+    set_room(f, 1.6);
+    for (int smoothing = 0; smoothing < 2; smoothing++) {
+        rlf_reconstruct *stage = make_stage(f, smoothing, true);
+        const rlf_surface *s = process(f, stage, 0);
+        double first = rms(s->depth, f->truth);
+        for (int t = 1; t < 30; t++) {
+            s = process(f, stage, t);
+        }
+        assert_true(rms(s->depth, f->truth) < 0.6 * first);
+        rlf_reconstruct_reset(stage);
+        s = process(f, stage, 30);
+        assert_true(rms(s->depth, f->truth) > 0.8 * first);
+        rlf_reconstruct_destroy(&stage);
+    }
+}
+
+/* A board that comes 5 mm nearer per frame and then jumps: the steadied depth is at most the gate
+ * away from what the frame alone gives, and exactly that after the jump. */
+static void nothing_that_moved_stays(void **state)
+{
+    fixture *f = *state;
+    rlf_reconstruct *plain = make_stage(f, true, false);
+    rlf_reconstruct *steady = make_stage(f, true, true);
+    for (int t = 0; t < 24; t++) {
+        set_room(f, t < 20 ? 1.6 - 0.005 * t : 1.2);
+        const rlf_surface *a = process(f, plain, t);
+        rlf_frame frame = analytic_frame(&f->rig, f->noisy, t);
+        const rlf_surface *b = NULL;
+        assert_int_equal(rlf_reconstruct_process(steady, &frame, &b), RLF_OK);
+        for (int i = 0; i < COUNT; i++) {
+            double sigma = rlf_depth_noise_sigma(&f->rig.noise, a->depth[i]);
+            assert_true(fabs(a->depth[i] - b->depth[i]) <= 12.0 * sigma);
+            bool jumped = t == 20 && i % WIDTH < WIDTH / 2 - 1;
+            assert_true(!jumped || fabs(a->depth[i] - b->depth[i]) < 1e-6);
+        }
+    }
+    rlf_reconstruct_destroy(&plain);
+    rlf_reconstruct_destroy(&steady);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(smoothing_takes_noise_and_leaves_edges),
+        cmocka_unit_test(without_filters_depth_is_the_frames),
+        cmocka_unit_test(what_stands_still_becomes_steady),
+        cmocka_unit_test(nothing_that_moved_stays),
+    };
+    return cmocka_run_group_tests(tests, make_fixture, free_fixture);
+}
