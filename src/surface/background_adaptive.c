@@ -13,6 +13,7 @@ enum {
     HOLE_FRAMES_FRONT = 250, /* the same for what was taken as foreground */
     SHEET_CHANGES = 30,      /* replaced pixels that make a new sheet ... */
     SHEET_FRAMES = 5,        /* ... after at least this many frames */
+    SHEET_URGENT = 400,      /* replaced pixels that make one at once: a thing has left */
     SHEET_FRAMES_LONG = 30,  /* after this many any change does */
     REFINED_FRAMES = 64      /* until then the means still get better */
 };
@@ -117,7 +118,7 @@ static bool is_sheet_due(const rlf_background *background)
         return true;
     }
     if (background->changed >= SHEET_CHANGES) {
-        return background->sheet_age >= SHEET_FRAMES;
+        return background->changed >= SHEET_URGENT || background->sheet_age >= SHEET_FRAMES;
     }
     bool refining = background->frames <= REFINED_FRAMES;
     return background->sheet_age >= SHEET_FRAMES_LONG && (background->changed > 0 || refining);
