@@ -306,6 +306,12 @@ static double bounce_wrong(const eval_run *r)
 {
     return eval_wrong_percent(&r->collisions.angles);
 }
+
+static double bounce_unexplained(const eval_run *r)
+{
+    const eval_collisions *c = &r->collisions;
+    return c->angles.count > 0 ? 100.0 * (double)c->unexplained / (double)c->angles.count : 0.0;
+}
 static double entries(const eval_run *r)
 {
     return (double)r->collisions.entries;
@@ -376,6 +382,7 @@ static const figure figures[] = {
     {"bounces_phantom_percent", "  where nothing real is, %", phantom},
     {"bounces_mean_deg", "  mean error of the contact normal, deg", bounce_mean},
     {"bounces_over_30_percent", "  more than 30 deg off, %", bounce_wrong},
+    {"bounces_unexplained_percent", "    and not at an edge, %", bounce_unexplained},
     {"entries", "times a body in view got inside something", entries},
     {"capture_ms", "median ms: capture (with truth)", capture_ms},
     {"surface_ms", "  surface", surface_ms},

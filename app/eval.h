@@ -55,10 +55,11 @@ typedef struct eval_foreground {
 /* Bounces of thrown bodies on real surfaces against the true scene: the first touch after a flight.
  */
 typedef struct eval_collisions {
-    int64_t bounces; /* contacts that met at more than 0.3 m/s */
-    int64_t phantom; /* of them, farther than 5 cm from any true surface */
-    int64_t wrong;   /* of the others, normal more than 30 degrees off the true one */
-    int64_t entries; /* times a body's centre got inside something real, in view */
+    int64_t bounces;     /* contacts that met at more than 0.3 m/s */
+    int64_t phantom;     /* of them, farther than 5 cm from any true surface */
+    int64_t wrong;       /* of the others, normal more than 30 degrees off the true one */
+    int64_t unexplained; /* of those, the ones that no edge of the true scene explains */
+    int64_t entries;     /* times a body's centre got inside something real, in view */
     eval_angles angles;
     bool *was_inside;     /* per body */
     double *last_touch_s; /* per body */

@@ -1,5 +1,6 @@
 /* Reading one sheet of the grid: front, back and side of the solid at a point. */
 #include "physics/grid_field.h"
+#include "physics/grid_edge.h"
 
 #define ENDLESS 1e9
 /* A sheet is taken to be at least this thick, so that a point cannot sit on both its sides. */
@@ -102,6 +103,12 @@ field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf
     if (q.z < front) {
         return FIELD_FRONT;
     }
+    if (sheet->thickness == NULL && out->thickness < ENDLESS) {
+        /* How thick it is was never seen: no thicker than it is wide (a table's leg). */
+        out->thickness = grid_edge_width(grid, sheet, out, out->thickness);
+        out->thickness = rlf_max(out->thickness, THICKNESS_MIN);
+        out->back = front + out->thickness;
+    }
     return q.z <= out->back ? FIELD_INSIDE : FIELD_BEHIND;
 }
 
@@ -111,22 +118,38 @@ static rlf_vec3 back_point(const field_cell *cell)
     return rlf_scale(cell->point, scale);
 }
 
+/* Back point of the neighbour at (x, y), as thick as the cell where its own thickness is but a
+ * guess. False across a step. */
+static bool read_back(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
+                      const int32_t offset[2], rlf_vec3 *out)
+{
+    field_cell near;
+    int32_t x = cell->x + offset[0], y = cell->y + offset[1];
+    if (!grid_cell_read(grid, sheet, x, y, &near) || grid_edge_end(grid, sheet, cell, x, y) > 0.0 ||
+        grid_edge_end(grid, sheet, &near, cell->x, cell->y) > 0.0) {
+        return false;
+    }
+    if (sheet->thickness == NULL) {
+        near.thickness = cell->thickness;
+    }
+    *out = back_point(&near);
+    return true;
+}
+
 /* Central differences of the back surface, turned away from the camera. */
 static rlf_vec3 back_normal(const rlf_grid *grid, const rlf_grid_sheet *sheet,
                             const field_cell *cell)
 {
-    field_cell l, r, u, d;
-    rlf_vec3 fallback = rlf_neg(cell->normal);
-    if (!grid_cell_read(grid, sheet, cell->x - 1, cell->y, &l) ||
-        !grid_cell_read(grid, sheet, cell->x + 1, cell->y, &r) ||
-        !grid_cell_read(grid, sheet, cell->x, cell->y - 1, &u) ||
-        !grid_cell_read(grid, sheet, cell->x, cell->y + 1, &d)) {
-        return fallback;
+    const int32_t OFFSETS[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    rlf_vec3 p[4];
+    for (int32_t k = 0; k < 4; k++) {
+        if (!read_back(grid, sheet, cell, OFFSETS[k], &p[k])) {
+            return rlf_neg(cell->normal);
+        }
     }
-    rlf_vec3 n = rlf_normalize(rlf_cross(rlf_sub(back_point(&r), back_point(&l)),
-                                         rlf_sub(back_point(&d), back_point(&u))));
+    rlf_vec3 n = rlf_normalize(rlf_cross(rlf_sub(p[1], p[0]), rlf_sub(p[3], p[2])));
     if (!(rlf_dot(n, n) > 0.5)) {
-        return fallback;
+        return rlf_neg(cell->normal);
     }
     return rlf_dot(n, cell->point) < 0.0 ? rlf_neg(n) : n;
 }
@@ -136,15 +159,20 @@ bool grid_field_side(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3
 {
     double pixel = q.z * grid->pixel_angle;
     double best = (radius_px + 0.5) * pixel;
+    field_cell last = {0};
     bool is_found = false;
     for (int32_t k = 0; k < 8; k++) {
         double angle = k * (RLF_PI / 4.0);
         rlf_vec3 direction = rlf_vec3_make(rlf_cos(angle), rlf_sin(angle), 0.0);
-        for (int32_t r = 1; r <= radius_px && r * pixel < best; r++) {
+        field_cell inside = {0};
+        for (int32_t r = 0; r <= radius_px && r * pixel < best; r++) {
             field_cell cell;
             field_state state = grid_field_at(grid, sheet, rlf_mad(q, direction, r * pixel), &cell);
-            if (state != FIELD_INSIDE) {
+            if (state == FIELD_INSIDE) {
+                inside = cell;
+            } else if (r > 0) {
                 best = r * pixel;
+                last = inside;
                 rlf_vec3 ray = rlf_normalize(q);
                 *out_normal = rlf_normalize(rlf_mad(direction, ray, -rlf_dot(direction, ray)));
                 *out_distance = best;
@@ -152,6 +180,12 @@ bool grid_field_side(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3
                 break;
             }
         }
+    }
+    rlf_vec3 refined; /* eight directions are coarse; the outline itself knows better */
+    if (is_found && last.point.z > 0.0 && grid_edge_normal(grid, sheet, &last, &refined) &&
+        rlf_dot(refined, *out_normal) > 0.5) {
+        *out_distance *= rlf_dot(refined, *out_normal);
+        *out_normal = refined;
     }
     return is_found;
 }

@@ -3,6 +3,7 @@
  * Interior pixels give the surface's directions and bumps; outline pixels stand for the side wall
  * of the solid behind them, from its front to its back along the ray. */
 #include "physics/grid_scan.h"
+#include "physics/grid_edge.h"
 
 #define SAMPLES_PER_SIDE 20
 
@@ -72,35 +73,33 @@ static void look_at_interior(grid_job *job, const field_cell *cell, rlf_vec3 p)
     note_bump(job, &hit);
 }
 
-/* z at which the side wall at this pixel ends, or 0 when it is no outline: a neighbour is off the
- * sheet (foreground) or farther than the pixel's own plane explains. */
+/* z at which the side wall at this pixel ends, or 0 when it is no outline. */
 static double outline_end(const grid_job *job, const field_cell *cell, int32_t stride)
 {
-    const rlf_grid *grid = job->query->grid;
-    const rlf_grid_sheet *sheet = job->sheet;
     const int32_t OFFSETS[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+    const rlf_grid_sheet *sheet = job->sheet;
     double end = 0.0;
     for (int32_t k = 0; k < 4; k++) {
         int32_t x = cell->x + OFFSETS[k][0] * stride;
         int32_t y = cell->y + OFFSETS[k][1] * stride;
-        if (x < 0 || y < 0 || x >= grid->width || y >= grid->height) {
-            continue;
-        }
-        int32_t i = y * grid->width + x;
-        double z = cell->point.z;
-        if (sheet->mask != NULL && sheet->mask[i] == 0) {
-            end = rlf_max(end, z + cell->thickness);
-            continue;
-        }
-        double other = sheet->depth[i];
-        rlf_vec3 ray = rlf_vec3_make(grid->ray_x[i], grid->ray_y[i], 1.0);
-        double slope = rlf_dot(cell->normal, ray);
-        double expected = slope < -0.02 ? rlf_dot(cell->normal, cell->point) / slope : z;
-        if (other > rlf_max(z, expected) + 0.03 + 0.02 * z) {
-            end = rlf_max(end, rlf_min(other, z + cell->thickness));
-        }
+        end = rlf_max(end, grid_edge_end(job->query->grid, sheet, cell, x, y));
+    }
+    if (end > 0.0 && sheet->thickness == NULL) { /* never seen: no deeper than wide */
+        double width = grid_edge_width(job->query->grid, sheet, cell, cell->thickness);
+        end = rlf_min(end, cell->point.z + width);
     }
     return end;
+}
+
+/* The wall's directions at an outline's point: its face, and at its front and back edge all between
+ * that face and the ray. The body's own normal there, brought into them. */
+static rlf_vec3 wall_normal(const field_cell *cell, rlf_vec3 side, rlf_vec3 normal, int32_t edge)
+{
+    rlf_vec3 ray = rlf_normalize(cell->point);
+    double out = rlf_dot(normal, side);
+    double along = rlf_dot(normal, ray);
+    along = edge < 0 ? rlf_min(along, 0.0) : edge > 0 ? rlf_max(along, 0.0) : 0.0;
+    return rlf_normalize(rlf_mad(rlf_scale(ray, along), side, rlf_max(out, 0.0)));
 }
 
 static void look_at_outline(grid_job *job, const field_cell *cell, rlf_vec3 shift, double end)
@@ -110,6 +109,8 @@ static void look_at_outline(grid_job *job, const field_cell *cell, rlf_vec3 shif
     double inner = 0.5 * job->body->shape.inner_radius;
     double depths[3] = {middle, rlf_clamp(middle - inner, z, end),
                         rlf_clamp(middle + inner, z, end)};
+    rlf_vec3 side;
+    bool has_side = grid_edge_normal(job->query->grid, job->sheet, cell, &side);
     for (int32_t k = 0; k < 3 && job->hit_count < GRID_HITS_MAX / 2; k++) {
         rlf_vec3 p = rlf_add(rlf_scale(cell->point, depths[k] / z), shift);
         rlf_vec3 gradient;
@@ -120,14 +121,19 @@ static void look_at_outline(grid_job *job, const field_cell *cell, rlf_vec3 shif
         if (distance > GRID_MARGIN + rlf_max(0.0, approach) * job->horizon) {
             continue;
         }
-        grid_hit *hit = &job->hits[job->hit_count++];
-        hit->point = p;
-        hit->normal = normal;
-        hit->velocity = cell->velocity;
-        hit->anchor = rlf_mad(local, gradient, -distance);
-        hit->rounding = 0.0;
-        hit->separation = distance;
-        hit->label = cell->label;
+        grid_hit hit = {.point = p, .velocity = cell->velocity, .label = cell->label};
+        hit.anchor = rlf_mad(local, gradient, -distance);
+        hit.normal = normal;
+        hit.separation = distance;
+        if (has_side) {
+            int32_t edge = depths[k] <= z ? -1 : depths[k] >= end ? 1 : 0;
+            hit.normal = wall_normal(cell, side, normal, edge);
+            rlf_vec3 anchor = rlf_mat3_mul_vec(&job->R_grid_body, hit.anchor);
+            hit.separation = rlf_dot(hit.normal, rlf_sub(rlf_add(job->centre, anchor), p));
+        }
+        if (rlf_dot(hit.normal, normal) > 0.3) {
+            job->hits[job->hit_count++] = hit;
+        }
     }
 }
 

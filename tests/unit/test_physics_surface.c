@@ -284,18 +284,23 @@ static void solid_from_the_side(void **state)
     }
 }
 
-/* A post of the background, 10 cm thick: a ball flies behind it, and bounces off its front. */
-static void air_behind_a_post_is_free(void **state)
+static void set_post(double z)
 {
-    (void)state;
     set_room();
     for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
         if (i % GRID_W >= 250 && i % GRID_W < 262) {
-            fixture->planes[2][i] = 2.0f;
+            fixture->planes[2][i] = (float)z;
             fixture->planes[3][i] = fixture->planes[4][i] = 0.0f;
             fixture->planes[5][i] = -1.0f;
         }
     }
+}
+
+/* A post of the background, 10 cm thick: a ball flies behind it, and bounces off its front. */
+static void air_behind_a_post_is_free(void **state)
+{
+    (void)state;
+    set_post(2);
     for (int k = 0; k < 3; k++) {
         fixture->grid.background.default_thickness = k == 2 ? 0.0 : 0.1;
         rlf_world *world = make_world(RLF_PHYSICS_LIVE, 0);
@@ -318,6 +323,62 @@ static void air_behind_a_post_is_free(void **state)
         rlf_world_destroy(&world);
     }
     fixture->grid.background.default_thickness = 0.0;
+}
+
+/* A post 6.6 cm wide is not taken to be 15 cm deep: a ball passes close behind it, but one that
+ * flies at the post's own depth hits its side. */
+static void post_is_no_deeper_than_wide(void **state)
+{
+    (void)state;
+    set_post(2);
+    fixture->grid.background.default_thickness = 0.15;
+    for (int k = 0; k < 2; k++) {
+        rlf_world *world = make_world(RLF_PHYSICS_LIVE, 0);
+        rlf_body_def def = rlf_body_def_default();
+        def.shape = (rlf_shape){.type = RLF_SHAPE_SPHERE, .radius = 0.05};
+        def.position = rlf_vec3_make(-0.5, 0, k == 0 ? 2.13 : 2.04);
+        def.velocity = rlf_vec3_make(2, 0, 0);
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        for (int frame = 0; frame < 15; frame++) {
+            rlf_world_advance(world, &fixture->grid, FRAME);
+        }
+        if (k == 0) {
+            assert_true(first(world)->velocity.x == 2.0);
+        } else {
+            assert_true(first(world)->velocity.x < -0.5);
+        }
+        rlf_world_destroy(&world);
+    }
+    fixture->grid.background.default_thickness = 0.0;
+}
+
+/* A cube that comes edge first at a straight side wall meets that wall's own normal, whatever the
+ * cube's turn. */
+static void side_wall_has_its_own_normal(void **state)
+{
+    (void)state;
+    set_room();
+    grid_fixture_set_slab(fixture, grid_wall(2), rlf_vec3_make(0, 0, 2),
+                          rlf_vec3_make(0.05, 0.3, 0), 0.4, rlf_vec3_make(0, 0, 0));
+    for (int k = 0; k < 8; k++) {
+        rlf_world *world = make_world(RLF_PHYSICS_LIVE, 0);
+        rlf_body_def def = rlf_body_def_default();
+        def.position = rlf_vec3_make(0.4, 0.02, 2.2);
+        def.velocity = rlf_vec3_make(-3, 0, 0);
+        def.orientation = rlf_quat_from_rotation_vector(rlf_vec3_make(0.1, 0.2 + 0.15 * k, 0.3));
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        bool has_touched = false;
+        for (int frame = 0; frame < 8 && !has_touched; frame++) {
+            rlf_world_advance(world, &fixture->grid, FRAME);
+            const rlf_snapshot *s = rlf_world_get_snapshot(world);
+            for (int32_t c = 0; c < s->contact_count && !has_touched; c++) {
+                has_touched = s->contacts[c].impulse > 0.0;
+                assert_true(!has_touched || s->contacts[c].normal.x > 0.97);
+            }
+        }
+        assert_true(has_touched);
+        rlf_world_destroy(&world);
+    }
 }
 
 /* Ten frames lost while the hand moved: no explosion. */
@@ -347,9 +408,14 @@ static void survives_lost_frames(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plate_lifts_and_throws),    cmocka_unit_test(boards_push),
-        cmocka_unit_test(solid_from_behind),         cmocka_unit_test(solid_from_the_side),
-        cmocka_unit_test(air_behind_a_post_is_free), cmocka_unit_test(survives_lost_frames),
+        cmocka_unit_test(plate_lifts_and_throws),
+        cmocka_unit_test(boards_push),
+        cmocka_unit_test(solid_from_behind),
+        cmocka_unit_test(solid_from_the_side),
+        cmocka_unit_test(air_behind_a_post_is_free),
+        cmocka_unit_test(survives_lost_frames),
+        cmocka_unit_test(post_is_no_deeper_than_wide),
+        cmocka_unit_test(side_wall_has_its_own_normal),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -1,0 +1,92 @@
+/* Outlines: steps in depth and rims of the mask. */
+#include "physics/grid_edge.h"
+
+#define WINDOW_PX 3
+
+/* Two pixels side by side differ by more than this only across an outline, metres. */
+static double step_at(double z)
+{
+    return 0.03 + 0.02 * z;
+}
+
+double grid_edge_end(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
+                     int32_t x, int32_t y)
+{
+    if (x < 0 || y < 0 || x >= grid->width || y >= grid->height) {
+        return 0.0;
+    }
+    int32_t i = y * grid->width + x;
+    double z = cell->point.z;
+    if (sheet->mask != NULL && sheet->mask[i] == 0) {
+        return z + cell->thickness;
+    }
+    double other = sheet->depth[i];
+    rlf_vec3 ray = rlf_vec3_make(grid->ray_x[i], grid->ray_y[i], 1.0);
+    double slope = rlf_dot(cell->normal, ray);
+    double expected = slope < -0.02 ? rlf_dot(cell->normal, cell->point) / slope : z;
+    if (other > rlf_max(z, expected) + step_at(z)) {
+        return rlf_min(other, z + cell->thickness);
+    }
+    return 0.0;
+}
+
+bool grid_edge_normal(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
+                      rlf_vec3 *out)
+{
+    double x = 0.0, y = 0.0;
+    for (int32_t dy = -WINDOW_PX; dy <= WINDOW_PX; dy++) {
+        for (int32_t dx = -WINDOW_PX; dx <= WINDOW_PX; dx++) {
+            if (dx * dx + dy * dy <= WINDOW_PX * WINDOW_PX + 1 &&
+                grid_edge_end(grid, sheet, cell, cell->x + dx, cell->y + dy) > 0.0) {
+                x += dx;
+                y += dy;
+            }
+        }
+    }
+    if (x * x + y * y < 1.0) { /* no free pixel, or as many on opposite sides */
+        return false;
+    }
+    rlf_vec3 ray = rlf_normalize(cell->point);
+    rlf_vec3 direction = rlf_vec3_make(x, y, 0.0);
+    *out = rlf_normalize(rlf_mad(direction, ray, -rlf_dot(direction, ray)));
+    return true;
+}
+
+/* Pixels from (x, y) along (dx, dy) that belong to the same solid, up to `limit`. */
+static int32_t run_length(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
+                          const int32_t direction[2], int32_t limit)
+{
+    double z = cell->point.z;
+    int32_t x = cell->x, y = cell->y;
+    for (int32_t k = 0; k < limit; k++) {
+        x += direction[0];
+        y += direction[1];
+        if (x < 0 || y < 0 || x >= grid->width || y >= grid->height) {
+            return limit; /* who knows how far it goes on out of view */
+        }
+        int32_t i = y * grid->width + x;
+        double other = sheet->depth[i];
+        if ((sheet->mask != NULL && sheet->mask[i] == 0) || other > z + step_at(z)) {
+            return k;
+        }
+        if (other > 0.0 && other < z - step_at(z)) {
+            return limit; /* something stands in front: it goes on behind */
+        }
+        z = other > 0.0 ? other : z;
+    }
+    return limit;
+}
+
+double grid_edge_width(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
+                       double limit)
+{
+    const int32_t DIRECTIONS[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    double pixel = cell->point.z * grid->pixel_angle;
+    int32_t most = (int32_t)rlf_min(limit / pixel + 1.0, 256.0);
+    int32_t runs[4];
+    for (int32_t k = 0; k < 4; k++) {
+        runs[k] = run_length(grid, sheet, cell, DIRECTIONS[k], most);
+    }
+    int32_t row = runs[0] + runs[1] + 1, column = runs[2] + runs[3] + 1;
+    return rlf_min((row < column ? row : column) * pixel, limit);
+}
