@@ -363,9 +363,12 @@ static twist fit_from(const flow_job *job, const rlf_region *region, rlf_vec3 ve
     return t;
 }
 
+/* More than chance, and more than half of one pixel's noise: small errors that pixels share, from
+ * limbs that move by themselves, do not average out. */
 static bool is_significant(const twist *t)
 {
-    return t->inliers >= LEAST_REGION_SAMPLES &&
+    const double least = 0.25;
+    return t->inliers >= LEAST_REGION_SAMPLES && t->explained > least * t->noise &&
            t->explained > significant_6 * t->noise / t->inliers * correlated_samples;
 }
 

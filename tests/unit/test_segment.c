@@ -251,6 +251,39 @@ static void too_many_regions_keep_the_largest(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
+/* A plate of 0.6 x 0.2 m that is turned in the picture and leans back. */
+static void oriented_box_fits_a_leaning_plate(void **state)
+{
+    (void)state;
+    enum { WIDTH = 256, HEIGHT = 212 };
+    static float depth[WIDTH * HEIGHT];
+    const rlf_vec3 normal = {0.0, 0.6, -0.8}, centre = {0.1, -0.05, 2.0};
+    const rlf_vec3 across = {1.0, 0.0, 0.0}, up = {0.0, 0.8, 0.6};
+    const rlf_vec3 longest = rlf_add(rlf_scale(across, 0.8), rlf_scale(up, 0.6));
+    const rlf_vec3 middle = rlf_cross(normal, longest);
+    rlf_reconstruct *stage = make_stage(WIDTH, HEIGHT, RLF_SEGMENT_NOISE, false);
+    const rlf_camera *c = &stage->def.rig.depth;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        double x = (i % WIDTH - c->cx) / c->fx, y = (i / WIDTH - c->cy) / c->fy;
+        double z = plane_depth(normal, rlf_dot(normal, centre), x, y);
+        rlf_vec3 p = rlf_sub(rlf_vec3_make(x * z, y * z, z), centre);
+        double a = rlf_dot(p, longest), b = rlf_dot(p, middle);
+        depth[i] = rlf_max(a, -a) < 0.3 && rlf_max(b, -b) < 0.1 ? (float)z : 0.0f;
+    }
+    const rlf_surface *s = process(stage, depth, 0);
+    assert_int_equal(s->region_count, 1);
+    const rlf_region *region = &s->regions[0];
+    rlf_vec3 x = rlf_rotate(region->oriented_pose.q, rlf_vec3_make(1, 0, 0));
+    rlf_vec3 z = rlf_rotate(region->oriented_pose.q, rlf_vec3_make(0, 0, 1));
+    assert_true(rlf_length(rlf_cross(x, longest)) < 0.03);
+    assert_true(rlf_length(rlf_cross(z, normal)) < 1e-3);
+    assert_true(rlf_length(rlf_sub(region->oriented_pose.p, centre)) < 0.02);
+    assert_float_equal(region->oriented_half.x, 0.3, 0.02);
+    assert_float_equal(region->oriented_half.y, 0.1, 0.02);
+    assert_true(region->oriented_half.z < 1e-3 && region->plane_residual < 1e-3);
+    rlf_reconstruct_destroy(&stage);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -262,6 +295,7 @@ int main(void)
         cmocka_unit_test(plane_residual_tells_flat_from_round),
         cmocka_unit_test(labels_stay_while_a_thing_moves),
         cmocka_unit_test(too_many_regions_keep_the_largest),
+        cmocka_unit_test(oriented_box_fits_a_leaning_plate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
