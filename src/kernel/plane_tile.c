@@ -18,12 +18,13 @@ enum {
     REACH = 2, /* blocks from a pixel's own to the planes that it may take */
     PLANES = RLF_KERNEL_TILE / 2 + 2 * REACH, /* blocks on a side that have a plane */
     BLOCKS = PLANES + 4,                      /* and two more each side for the windows */
+    SPAN = PLANES / 3,                        /* blocks that get small windows together */
     BLOCK_PIXELS = 2 * BLOCKS,
     PLANE_PIXELS = 2 * PLANES
 };
 
 /* Largest residuals that a window may have, in sigmas. */
-static const float WIDE_SIGMAS = 1.15f, NARROW_SIGMAS = 1.6f;
+static const float WIDE_SIGMAS = 1.22f, NARROW_SIGMAS = 1.6f;
 
 enum { N, X, Y, XX, XY, YY, W, XW, YW, WW };
 
@@ -187,9 +188,9 @@ typedef struct plane_set {
 
 /* Puts the windows' planes where they are more certain than what is there. */
 RLF_KERNEL_PART void improve(const float (*restrict s)[PLANES], const fit_in *in, float most_sigmas,
-                             plane_set *restrict best)
+                             int32_t first, int32_t count, plane_set *restrict best)
 {
-    for (int32_t i = 0; i < PLANES; i++) {
+    for (int32_t i = first; i < first + count; i++) {
         plane p = fit(s, i, in->ref, in->noise, most_sigmas);
         bool better = p.weight > best->weight[i];
         best->a[i] = better ? p.a : best->a[i];
@@ -201,33 +202,34 @@ RLF_KERNEL_PART void improve(const float (*restrict s)[PLANES], const fit_in *in
 }
 
 RLF_KERNEL_PART void sum_corner(const block_row *restrict upper, const block_row *restrict lower,
-                                int32_t dx, float (*restrict out)[PLANES])
+                                int32_t first, int32_t dx, float (*restrict out)[PLANES])
 {
     for (int32_t k = 0; k < MOMENTS; k++) {
         const float *restrict u = upper->moment[k] + 1 + dx;
         const float *restrict l = lower->moment[k] + 1 + dx;
-        for (int32_t i = 0; i < PLANES; i++) {
+        for (int32_t i = first; i < first + SPAN; i++) {
             out[k][i] = u[i] + u[i + 1] + l[i] + l[i + 1];
         }
     }
 }
 
-/* Where no wide window fits: the most certain of the window of 3x3 blocks and the four of 2x2. */
+/* In a span of blocks, where no wide window fits: the most certain of the window of 3x3 blocks and
+ * the four of 2x2. */
 RLF_KERNEL_PART void fit_small(const block_row *const rows[5],
                                const float (*restrict narrow)[PLANES], const fit_in *in,
-                               plane_set *restrict planes)
+                               int32_t first, plane_set *restrict planes)
 {
     plane_set best;
     float corner[MOMENTS][PLANES];
-    for (int32_t i = 0; i < PLANES; i++) {
+    for (int32_t i = first; i < first + SPAN; i++) {
         best.a[i] = best.b[i] = best.c[i] = best.weight[i] = best.precision[i] = 0.0f;
     }
-    improve(narrow, in, NARROW_SIGMAS, &best);
+    improve(narrow, in, NARROW_SIGMAS, first, SPAN, &best);
     for (int32_t k = 0; k < 4; k++) {
-        sum_corner(rows[1 + k / 2], rows[2 + k / 2], k % 2, corner);
-        improve((const float(*)[PLANES])corner, in, NARROW_SIGMAS, &best);
+        sum_corner(rows[1 + k / 2], rows[2 + k / 2], first, k % 2, corner);
+        improve((const float(*)[PLANES])corner, in, NARROW_SIGMAS, first, SPAN, &best);
     }
-    for (int32_t i = 0; i < PLANES; i++) {
+    for (int32_t i = first; i < first + SPAN; i++) {
         bool none = !(planes->weight[i] > 0.0f);
         planes->a[i] = none ? best.a[i] : planes->a[i];
         planes->b[i] = none ? best.b[i] : planes->b[i];
@@ -237,23 +239,32 @@ RLF_KERNEL_PART void fit_small(const block_row *const rows[5],
     }
 }
 
+/* Some block of the span has seen pixels about it but no plane. */
+RLF_KERNEL_PART bool needs_small(const float *restrict seen, const float *restrict weight,
+                                 int32_t first)
+{
+    int32_t without = 0;
+    for (int32_t i = first; i < first + SPAN; i++) {
+        without += (seen[i] > 0.0f) & !(weight[i] > 0.0f);
+    }
+    return without > 0;
+}
+
 RLF_KERNEL_PART void fit_row(const block_row *const rows[5], const fit_in *in,
                              plane_rows *restrict out)
 {
     window_sums sums;
     plane_set planes;
     sum_windows(rows, &sums);
-    int32_t without = 0;
     for (int32_t i = 0; i < PLANES; i++) {
         planes.weight[i] = 0.0f;
         planes.a[i] = planes.b[i] = planes.c[i] = planes.precision[i] = 0.0f;
     }
-    improve((const float(*)[PLANES])sums.wide, in, WIDE_SIGMAS, &planes);
-    for (int32_t i = 0; i < PLANES; i++) {
-        without += planes.weight[i] > 0.0f ? 0 : 1;
-    }
-    if (without > 0) {
-        fit_small(rows, (const float(*)[PLANES])sums.narrow, in, &planes);
+    improve((const float(*)[PLANES])sums.wide, in, WIDE_SIGMAS, 0, PLANES, &planes);
+    for (int32_t first = 0; first < PLANES; first += SPAN) {
+        if (needs_small(sums.narrow[N], planes.weight, first)) {
+            fit_small(rows, (const float(*)[PLANES])sums.narrow, in, first, &planes);
+        }
     }
     const float *const from[5] = {planes.a, planes.b, planes.c, planes.weight, planes.precision};
     float *const to[5] = {out->a, out->b, out->c, out->weight, out->precision};
@@ -270,20 +281,48 @@ typedef struct blend {
     float weight[RLF_KERNEL_TILE];
 } blend;
 
-/* Adds the planes `shift` pixels to the right of a row's first where they predict the pixel. */
-RLF_KERNEL_PART void offer(const plane_rows *restrict planes, int32_t shift, blend *restrict sums)
+/* Adds plane k where it predicts pixel i. */
+RLF_KERNEL_PART void offer(const plane_rows *restrict planes, int32_t k, const blend *restrict at,
+                           int32_t i, float sum[4])
+{
+    float a = planes->a[k], b = planes->b[k], c = planes->c[k];
+    float error = a + b * at->x[i] + c * at->y[i] - at->w[i];
+    float miss = error * error * planes->precision[k];
+    float near = miss < 1.0f ? 1.0f - miss : 0.0f;
+    float weight = planes->weight[k] * near * near;
+    sum[0] += weight * a;
+    sum[1] += weight * b;
+    sum[2] += weight * c;
+    sum[3] += weight;
+}
+
+/* Adds three planes of a row, whose distance in pixels is `step`. */
+RLF_KERNEL_PART void offer_three(const plane_rows *restrict planes, int32_t step,
+                                 blend *restrict sums)
 {
     for (int32_t i = 0; i < RLF_KERNEL_TILE; i++) {
-        int32_t k = i + shift;
-        float a = planes->a[k], b = planes->b[k], c = planes->c[k];
-        float error = a + b * sums->x[i] + c * sums->y[i] - sums->w[i];
-        float miss = error * error * planes->precision[k];
-        float near = miss < 1.0f ? 1.0f - miss : 0.0f;
-        float weight = planes->weight[k] * near * near;
-        sums->a[i] += weight * a;
-        sums->b[i] += weight * b;
-        sums->c[i] += weight * c;
-        sums->weight[i] += weight;
+        float sum[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+        offer(planes, i + 2 * REACH - step, sums, i, sum);
+        offer(planes, i + 2 * REACH, sums, i, sum);
+        offer(planes, i + 2 * REACH + step, sums, i, sum);
+        sums->a[i] += sum[0];
+        sums->b[i] += sum[1];
+        sums->c[i] += sum[2];
+        sums->weight[i] += sum[3];
+    }
+}
+
+/* The two planes of the middle row that are far. */
+RLF_KERNEL_PART void offer_far(const plane_rows *restrict planes, blend *restrict sums)
+{
+    for (int32_t i = 0; i < RLF_KERNEL_TILE; i++) {
+        float sum[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+        offer(planes, i, sums, i, sum);
+        offer(planes, i + 4 * REACH, sums, i, sum);
+        sums->a[i] += sum[0];
+        sums->b[i] += sum[1];
+        sums->c[i] += sum[2];
+        sums->weight[i] += sum[3];
     }
 }
 
@@ -316,11 +355,12 @@ RLF_KERNEL_PART void blend_row(const rlf_kernel_tile *t, int32_t y, reference re
         sums.y[i] = t->ray_y[offset + i] - ref.y;
         sums.w[i] = z > 0.0f ? 1.0f / (z > 0.0f ? z : 1.0f) : -1e9f; /* no plane predicts this */
     }
-    for (int32_t row = 0; row <= 2 * REACH; row++) {
-        for (int32_t shift = 0; shift <= 4 * REACH; shift += 2) {
-            offer(&planes[row], shift, &sums);
-        }
-    }
+    offer_three(&planes[0], 4, &sums); /* 3x3 blocks about the pixel and 8 farther ones */
+    offer_three(&planes[1], 2, &sums);
+    offer_three(&planes[2], 2, &sums);
+    offer_three(&planes[3], 2, &sums);
+    offer_three(&planes[4], 4, &sums);
+    offer_far(&planes[2], &sums);
     float *restrict out_x = t->out_x + offset;
     float *restrict out_y = t->out_y + offset;
     float *restrict out_z = t->out_z + offset;

@@ -5,15 +5,17 @@
  * planes) is interpolated. When there is an edge between them, drivers have taken a band away whose
  * middle is the edge, ragged by a pixel on both sides. The side that has more valid pixels about
  * the hole pixel is the one it belongs to: that averages the raggedness along the edge. The depth
- * is that side's plane, least squares in inverse depth. */
+ * is that side's plane, least squares in depth, which is straight enough within two pixels. */
 #include "surface/steps.h"
 
 #include "kernel/kernel.h"
 
+#include <string.h>
+
 /* A wide hole must not be crossed from corner to corner. */
 enum { DIAGONAL_GAP = 4, REACH = 2 };
 
-/* Of inverse depth, from a side's end to a hole pixel. */
+/* Share of the depth, from a side's end to a hole pixel. */
 static const float MOST_CHANGE = 0.05f;
 
 typedef struct gap {
@@ -62,24 +64,24 @@ static bool is_edge(gap g)
     return rlf_kernel_abs(g.before - g.after) > (0.01f * span + 0.01f) * nearest;
 }
 
-/* Sums of inverse depth over the pixels of one side, relative to its end. */
+/* Sums over the pixels of one side, depth relative to its end. */
 typedef struct side {
-    float end; /* inverse depth */
-    float n, x, y, xx, xy, yy, w, xw, yw;
+    float end;
+    float n, x, y, xx, xy, yy, z, xz, yz;
 } side;
 
-static void add(side *s, float x, float y, float w)
+static void add(side *s, float x, float y, float z)
 {
-    w -= s->end;
+    z -= s->end;
     s->n += 1.0f;
     s->x += x;
     s->y += y;
     s->xx += x * x;
     s->xy += x * y;
     s->yy += y * y;
-    s->w += w;
-    s->xw += x * w;
-    s->yw += y * w;
+    s->z += z;
+    s->xz += x * z;
+    s->yz += y * z;
 }
 
 /* The side's plane at the pixel itself (0, 0). The ridge keeps it level across a direction in which
@@ -88,16 +90,16 @@ static float continue_side(const side *s)
 {
     const float ridge = 0.5f;
     float inv = s->n > 0.0f ? 1.0f / s->n : 0.0f;
-    float mx = s->x * inv, my = s->y * inv, mw = s->w * inv;
+    float mx = s->x * inv, my = s->y * inv, mz = s->z * inv;
     float xx = s->xx - s->x * mx + ridge, yy = s->yy - s->y * my + ridge;
     float xy = s->xy - s->x * my;
-    float xw = s->xw - s->x * mw, yw = s->yw - s->y * mw;
+    float xz = s->xz - s->x * mz, yz = s->yz - s->y * mz;
     float inv_det = 1.0f / (xx * yy - xy * xy);
-    float b = (xw * yy - yw * xy) * inv_det, c = (yw * xx - xw * xy) * inv_det;
-    float w = mw - b * mx - c * my;
+    float b = (xz * yy - yz * xy) * inv_det, c = (yz * xx - xz * xy) * inv_det;
+    float z = mz - b * mx - c * my;
     float limit = MOST_CHANGE * s->end;
-    w = w > limit ? limit : w;
-    return 1.0f / (s->end + (w < -limit ? -limit : w));
+    z = z > limit ? limit : z;
+    return s->end + (z < -limit ? -limit : z);
 }
 
 typedef struct fill_job {
@@ -115,16 +117,17 @@ static int32_t least(int32_t a, int32_t b)
 static float choose_side(const fill_job *job, int32_t x, int32_t y, gap g)
 {
     const rlf_grid *grid = &job->stage->grid;
-    side before = {.end = 1.0f / g.before}, after = {.end = 1.0f / g.after};
+    side before = {.end = g.before}, after = {.end = g.after};
+    float middle = 2.0f / (1.0f / g.before + 1.0f / g.after);
+    bool before_is_near = g.before < g.after;
     int32_t left = least(x, REACH), right = least(grid->width - 1 - x, REACH);
     int32_t up = least(y, REACH), down = least(grid->height - 1 - y, REACH);
     for (int32_t dy = -up; dy <= down; dy++) {
         const float *row = job->depth + (ptrdiff_t)(y + dy) * grid->width + x;
         for (int32_t dx = -left; dx <= right; dx++) {
             if (row[dx] > 0.0f) {
-                float w = 1.0f / row[dx];
-                bool first = rlf_kernel_abs(w - before.end) < rlf_kernel_abs(w - after.end);
-                add(first ? &before : &after, (float)dx, (float)dy, w);
+                bool is_near = row[dx] < middle;
+                add(is_near == before_is_near ? &before : &after, (float)dx, (float)dy, row[dx]);
             }
         }
     }
@@ -168,11 +171,13 @@ static void fill_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     (void)worker;
     const fill_job *job = context;
     int32_t width = job->stage->grid.width;
+    ptrdiff_t first = (ptrdiff_t)begin * width;
+    memcpy(job->out + first, job->depth + first,
+           (size_t)(end - begin) * (size_t)width * sizeof *job->out);
     for (int32_t y = begin; y < end; y++) {
         for (int32_t x = 0; x < width; x++) {
             ptrdiff_t i = (ptrdiff_t)y * width + x;
-            job->out[i] = job->depth[i];
-            if (job->depth[i] > 0.0f || !may_fill(job->reason[i])) {
+            if (!may_fill(job->reason[i])) { /* all others have depth or must not have one */
                 continue;
             }
             job->out[i] = fill_pixel(job, x, y);

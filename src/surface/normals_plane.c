@@ -32,33 +32,27 @@ static void plane_bands(void *context, int32_t begin, int32_t end, int32_t worke
     }
 }
 
-static bool has_normal(const rlf_normals_job *job, ptrdiff_t i)
-{
-    return job->out[0][i] != 0.0f || job->out[1][i] != 0.0f || job->out[2][i] != 0.0f;
-}
-
 /* Mean of the normals within two pixels at the same depth, weighted by inverse squared distance. */
 static bool from_neighbours(const rlf_normals_job *job, int32_t x, int32_t y)
 {
+    static const float nearness[9] = {0.0f, 1.0f, 0.5f, 0.0f, 0.25f, 0.2f, 0.0f, 0.0f, 0.125f};
     ptrdiff_t i = (ptrdiff_t)y * job->width + x;
     float z = job->filled[i];
-    rlf_vec3 sum = {0, 0, 0};
-    for (int32_t dy = -2; dy <= 2; dy++) {
-        for (int32_t dx = -2; dx <= 2; dx++) {
-            int32_t nx = x + dx, ny = y + dy;
-            if (nx < 0 || ny < 0 || nx >= job->width || ny >= job->height || (dx == 0 && dy == 0)) {
-                continue;
-            }
-            ptrdiff_t n = (ptrdiff_t)ny * job->width + nx;
-            if (!(job->filled[n] > 0.0f) || !has_normal(job, n) ||
-                rlf_kernel_abs(job->filled[n] - z) > 0.02f * z) {
-                continue;
-            }
-            rlf_vec3 normal = {job->out[0][n], job->out[1][n], job->out[2][n]};
-            sum = rlf_mad(sum, normal, 1.0 / (dx * dx + dy * dy));
+    float most = 0.02f * z;
+    int32_t left = x < 2 ? -x : -2, right = x + 2 < job->width ? 2 : job->width - 1 - x;
+    int32_t up = y < 2 ? -y : -2, down = y + 2 < job->height ? 2 : job->height - 1 - y;
+    float sum[3] = {0.0f, 0.0f, 0.0f};
+    for (int32_t dy = up; dy <= down; dy++) {
+        for (int32_t dx = left; dx <= right; dx++) {
+            ptrdiff_t n = i + (ptrdiff_t)dy * job->width + dx;
+            bool same = rlf_kernel_abs(job->filled[n] - z) <= most;
+            float weight = same ? nearness[dx * dx + dy * dy] : 0.0f; /* missing normals are 0 */
+            sum[0] += weight * job->out[0][n];
+            sum[1] += weight * job->out[1][n];
+            sum[2] += weight * job->out[2][n];
         }
     }
-    rlf_vec3 mean = rlf_normalize(sum);
+    rlf_vec3 mean = rlf_normalize(rlf_vec3_make(sum[0], sum[1], sum[2]));
     rlf_vec3 ray = {job->ray_x[i], job->ray_y[i], 1.0};
     if (!(rlf_dot(mean, ray) < 0.0)) {
         return false;
@@ -69,14 +63,37 @@ static bool from_neighbours(const rlf_normals_job *job, int32_t x, int32_t y)
     return true;
 }
 
-/* In raster order on one thread: a pixel may use one that was completed before it. */
+static int32_t is_without(const rlf_normals_job *job, ptrdiff_t i)
+{
+    int32_t none = (job->out[0][i] == 0.0f) & (job->out[1][i] == 0.0f) & (job->out[2][i] == 0.0f);
+    return none & (job->filled[i] > 0.0f);
+}
+
+static void complete_span(const rlf_normals_job *job, int32_t y, int32_t begin, int32_t end)
+{
+    for (int32_t x = begin; x < end; x++) {
+        bool missing = is_without(job, (ptrdiff_t)y * job->width + x);
+        if (missing && !from_neighbours(job, x, y)) {
+            rlf_normals_slope_pixel(job, x, y);
+        }
+    }
+}
+
+/* In raster order on one thread: a pixel may use one that was completed before it. Most spans have
+ * nothing to do, which is found without a branch. */
 static void complete_pixels(const rlf_normals_job *job)
 {
+    enum { SPAN = 32 };
     for (int32_t y = 0; y < job->height; y++) {
-        for (int32_t x = 0; x < job->width; x++) {
-            ptrdiff_t i = (ptrdiff_t)y * job->width + x;
-            if (job->filled[i] > 0.0f && !has_normal(job, i) && !from_neighbours(job, x, y)) {
-                rlf_normals_slope_pixel(job, x, y);
+        ptrdiff_t row = (ptrdiff_t)y * job->width;
+        for (int32_t begin = 0; begin < job->width; begin += SPAN) {
+            int32_t end = begin + SPAN < job->width ? begin + SPAN : job->width;
+            int32_t missing = 0;
+            for (int32_t x = begin; x < end; x++) {
+                missing += is_without(job, row + x);
+            }
+            if (missing > 0) {
+                complete_span(job, y, begin, end);
             }
         }
     }
