@@ -17,6 +17,7 @@ typedef struct rlf_scene {
     rlf_vec3 gravity;
     rlf_body_def *bodies; /* owned when made by rlf_scene_create or rlf_scene_load */
     int32_t body_count;
+    rlf_border border; /* what is beyond the camera's view; default open */
 } rlf_scene;
 
 /* The thesis's two cubes: one thrown from the camera, one from the right. Destroy it. */

@@ -14,6 +14,13 @@ extern "C" {
 /* ---- the real surface as physics sees it
  * --------------------------------------------------------- */
 
+/* What is where the camera sees nothing: beyond its view, and in the ring of missing pixels at the
+ * border of its image. */
+typedef enum rlf_border {
+    RLF_BORDER_OPEN = 0,  /* nothing: bodies leave the room there */
+    RLF_BORDER_EXTEND = 1 /* the planes seen along the border go on: floor and walls */
+} rlf_border;
+
 /* One sheet of the organised grid, in the grid's frame. Planes are width*height, row-major. */
 typedef struct rlf_grid_sheet {
     const float *depth;                          /* z, metres; 0 = none. NULL = no such sheet */
@@ -23,6 +30,7 @@ typedef struct rlf_grid_sheet {
     double default_thickness; /* metres; 0 = endlessly thick */
     const int32_t *label;     /* region label; may be NULL */
     const uint8_t *mask;      /* only pixels with mask != 0 belong to the sheet; NULL = all */
+    rlf_border border;        /* beyond the view; the world's def may ask for more */
 } rlf_grid_sheet;
 
 /* A region with its points, for the thesis's broad and narrow phase. */
@@ -71,6 +79,7 @@ typedef struct rlf_world_def {
     double max_speed;          /* m/s; bodies are clamped to it. default 50 */
     rlf_aabb bounds;           /* bodies whose centre leaves it are removed from the simulation
                                   (Algorithm 1: "while x(t) is within the scene"); default +-20 m */
+    rlf_border border;         /* live: what the background is beyond the view; default open */
     rlf_pool *pool;            /* borrowed; NULL = one thread */
 } rlf_world_def;
 

@@ -306,18 +306,39 @@ static rlf_result read_bodies(const io_json_object *top, const char *folder, rlf
     return RLF_OK;
 }
 
+static rlf_result read_border(const io_json_object *top, rlf_border *out)
+{
+    static const io_json_field field = {"border", "\"open\" or \"extend\"", 0, 0, false};
+    const char *name = "open";
+    rlf_result result = io_json_get_text(top, &field, &name);
+    if (result != RLF_OK) {
+        return result;
+    }
+    bool is_extended = strcmp(name, "extend") == 0;
+    if (!is_extended && strcmp(name, "open") != 0) {
+        char printable[64];
+        io_json_printable(name, printable, sizeof(printable));
+        return io_json_fail(top, "border", "is \"%s\": it must be %s", printable, field.meaning);
+    }
+    *out = is_extended ? RLF_BORDER_EXTEND : RLF_BORDER_OPEN;
+    return RLF_OK;
+}
+
 static rlf_result read_scene(const io_json_object *top, const char *folder, rlf_scene *scene)
 {
-    static const char *const known[] = {"gravity", "bodies"};
+    static const char *const known[] = {"gravity", "border", "bodies"};
     static const io_json_field gravity = {
         "gravity", "three numbers of m/s^2, each from -1000 to 1000", -1000, 1000, false};
-    const char *unknown = io_json_unknown_key(top, known, 2);
+    const char *unknown = io_json_unknown_key(top, known, 3);
     if (unknown != NULL) {
-        return io_json_fail(top, unknown,
-                            "is not a known key: a scene has \"gravity\" and \"bodies\"");
+        return io_json_fail(
+            top, unknown, "is not a known key: a scene has \"gravity\", \"border\" and \"bodies\"");
     }
     scene->gravity = rlf_world_def_default().gravity;
     rlf_result result = read_vec3(top, &gravity, &scene->gravity);
+    if (result == RLF_OK) {
+        result = read_border(top, &scene->border);
+    }
     return result == RLF_OK ? read_bodies(top, folder, scene) : result;
 }
 

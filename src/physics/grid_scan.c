@@ -6,6 +6,7 @@
 #include "physics/grid_edge.h"
 
 #define SAMPLES_PER_SIDE 20
+#define RING_PX 32 /* this near the image's border pixels may be missing */
 
 static rlf_vec3 to_body(const grid_job *job, rlf_vec3 p)
 {
@@ -156,6 +157,21 @@ static bool footprint(const grid_job *job, int32_t rect[4], int32_t *stride)
     return rect[0] < rect[2] && rect[1] < rect[3];
 }
 
+/* Directions of the room beyond the border, where the body is near it or past it. */
+static void look_beyond_border(grid_job *job)
+{
+    const int32_t OFFSETS[5][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+    for (int32_t k = 0; k < 5; k++) {
+        rlf_vec3 to = rlf_vec3_make(OFFSETS[k][0], OFFSETS[k][1], 0.0);
+        field_cell cell;
+        field_state state = grid_field_at(job->query->grid, job->sheet,
+                                          rlf_mad(job->centre, to, job->reach), &cell);
+        if (state != FIELD_NONE && cell.is_extended) {
+            note_normal(job, cell.normal);
+        }
+    }
+}
+
 /* A cheap look first: most pixels under a body in flight are far behind it. */
 static bool is_near_in_depth(const grid_job *job, int32_t i)
 {
@@ -174,7 +190,13 @@ void grid_scan_footprint(grid_job *job)
     double tau = job->query->tau;
     int32_t rect[4], stride, moving = 0;
     rlf_vec3 velocity = {0, 0, 0};
-    if (!footprint(job, rect, &stride)) {
+    bool is_in_view = footprint(job, rect, &stride);
+    if (job->sheet->border == RLF_BORDER_EXTEND &&
+        (!is_in_view || rect[0] < RING_PX || rect[1] < RING_PX || rect[2] > grid->width - RING_PX ||
+         rect[3] > grid->height - RING_PX)) {
+        look_beyond_border(job);
+    }
+    if (!is_in_view) {
         return;
     }
     for (int32_t y = rect[1]; y < rect[3]; y += stride) {

@@ -195,8 +195,15 @@ static void greet_surface(rlf_world *world, const rlf_grid *grid, double h)
     phys_wake_by_surface(world, &query);
 }
 
-void phys_live_advance(rlf_world *world, const rlf_grid *grid, double dt)
+void phys_live_advance(rlf_world *world, const rlf_grid *seen, double dt)
 {
+    rlf_grid extended;
+    const rlf_grid *grid = seen;
+    if (seen != NULL && world->def.border == RLF_BORDER_EXTEND) {
+        extended = *seen;
+        extended.background.border = RLF_BORDER_EXTEND;
+        grid = &extended;
+    }
     int32_t count = (int32_t)(dt * world->def.step_hz + 1.0 - 1e-6);
     count = count < 1 ? 1 : count;
     double h = dt / count;

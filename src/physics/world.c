@@ -48,6 +48,10 @@ static rlf_result check_world_def(const rlf_world_def *def)
         return rlf_fail(RLF_ERROR_INVALID, "world def: max_speed: %g: give up to 1000 m/s",
                         def->max_speed);
     }
+    if (def->border != RLF_BORDER_OPEN && def->border != RLF_BORDER_EXTEND) {
+        return rlf_fail(RLF_ERROR_INVALID, "world def: border: %d is neither open nor extend",
+                        (int)def->border);
+    }
     rlf_vec3 size = rlf_sub(def->bounds.max, def->bounds.min);
     if (!rlf_vec3_is_finite(size) || !(size.x > 0 && size.y > 0 && size.z > 0)) {
         return rlf_fail(RLF_ERROR_INVALID, "world def: bounds: give min below max, finite");

@@ -61,10 +61,12 @@ rlf_pipeline_def rlf_pipeline_def_default(rlf_profile profile, rlf_source *sourc
 static rlf_result copy_scene(rlf_pipeline *p, const rlf_scene *scene)
 {
     p->scene.gravity = p->def.world.gravity;
+    p->scene.border = p->def.world.border;
     if (scene == NULL) {
         return RLF_OK;
     }
     p->scene.gravity = scene->gravity;
+    p->scene.border = scene->border;
     p->scene.body_count = scene->body_count;
     p->scene.bodies = rlf_alloc_array((size_t)scene->body_count, sizeof(*scene->bodies));
     if (p->scene.bodies == NULL) {
@@ -119,6 +121,7 @@ static rlf_result create_stages(rlf_pipeline *p)
         return result;
     }
     p->def.world.gravity = p->scene.gravity;
+    p->def.world.border = p->scene.border;
     result = rlf_world_create(&p->def.world, &p->world);
     if (result != RLF_OK) {
         return result;

@@ -25,6 +25,10 @@ static void empty_scene_has_default_gravity(void **state)
     assert_int_equal(parse("{}", &scene), RLF_OK);
     assert_int_equal(scene.body_count, 0);
     assert_true(scene.gravity.y == rlf_world_def_default().gravity.y);
+    assert_true(scene.border == RLF_BORDER_OPEN);
+    rlf_scene_destroy(&scene);
+    assert_int_equal(parse("{\"border\":\"extend\"}", &scene), RLF_OK);
+    assert_true(scene.border == RLF_BORDER_EXTEND);
     rlf_scene_destroy(&scene);
 }
 
@@ -79,6 +83,7 @@ static const struct {
     {"{\"gravity\":[0,9.81,0],}", RLF_ERROR_FORMAT, "scene.json:1:", "correct it"},
     {"{\"gravitiy\":[0,9.81,0]}", RLF_ERROR_INVALID, "gravitiy is not a known key", "gravity"},
     {"{\"gravity\":9.81}", RLF_ERROR_INVALID, "gravity is a number", "three numbers"},
+    {"{\"border\":\"closed\"}", RLF_ERROR_INVALID, "border is \"closed\"", "\"extend\""},
     {"{\"bodies\":{}}", RLF_ERROR_INVALID, "bodies must be an array", "array"},
     {"{\"bodies\":[7]}", RLF_ERROR_INVALID, "bodies[0]", "must be an object"},
     {BODY("{\"masss\":1}"), RLF_ERROR_INVALID, "bodies[1].masss is not a known key",

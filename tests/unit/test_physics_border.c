@@ -1,0 +1,147 @@
+/* Beyond the camera's view the room goes on, or it does not: as the world's def says. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "relief/world.h"
+
+#include "grid_fixture.h"
+
+#define FRAME (1.0 / 30)
+#define RING 7 /* pixels without depth around the image, as depth cameras have */
+
+static grid_fixture *fixture;
+
+static int set_up(void **state)
+{
+    (void)state;
+    fixture = grid_fixture_create();
+    grid_plane room[2] = {grid_floor(1.0), grid_wall(4)};
+    grid_fixture_set_room(fixture, room, 2);
+    for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
+        int32_t x = i % GRID_W, y = i / GRID_W;
+        if (x < RING || y < RING || x >= GRID_W - RING || y >= GRID_H - RING) {
+            fixture->planes[2][i] = 0.0f;
+        }
+    }
+    fixture->grid.background.default_thickness = 0.15;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    grid_fixture_destroy(&fixture);
+    return 0;
+}
+
+static rlf_shape shape_of(int k)
+{
+    const rlf_shape shapes[4] = {{.type = RLF_SHAPE_BOX, .size = {0.2, 0.2, 0.2}},
+                                 {.type = RLF_SHAPE_SPHERE, .radius = 0.1},
+                                 {.type = RLF_SHAPE_CAPSULE, .radius = 0.1, .height = 0.1},
+                                 {.type = RLF_SHAPE_CYLINDER, .radius = 0.1, .height = 0.2}};
+    return shapes[k];
+}
+
+/* Where the body is after `seconds`; false when it left the world. */
+static bool throw_body(rlf_border border, const rlf_body_def *def, double seconds, rlf_vec3 *out)
+{
+    rlf_world_def world_def = rlf_world_def_default();
+    world_def.border = border;
+    world_def.body_capacity = 1;
+    rlf_world *world = NULL;
+    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+    assert_int_equal(rlf_world_add_body(world, def, NULL), RLF_OK);
+    bool is_there = true;
+    for (int k = 0; k < (int)(seconds / FRAME) && is_there; k++) {
+        fixture->grid.time_ns++;
+        rlf_world_advance(world, &fixture->grid, FRAME);
+        is_there = rlf_world_get_snapshot(world)->body_count == 1;
+        if (is_there) {
+            *out = rlf_world_get_snapshot(world)->bodies[0].T_world_body.p;
+        }
+    }
+    rlf_world_destroy(&world);
+    return is_there;
+}
+
+/* Slid to the right, the left and towards the camera, out of view: it lies on the floor there. */
+static void body_out_of_view_lies_on_the_floor(void **state)
+{
+    (void)state;
+    const rlf_vec3 pushes[3] = {{3, 0, 0}, {-3, 0, 0}, {0, 0, -2.2}};
+    for (int k = 0; k < 12; k++) {
+        rlf_body_def def = rlf_body_def_default();
+        def.shape = shape_of(k / 3);
+        def.velocity = pushes[k % 3];
+        def.restitution = 0.2;
+        double side = k % 3 == 2 ? 0.0 : 1.5 * (pushes[k % 3].x > 0 ? 1 : -1);
+        def.position = rlf_vec3_make(side, k / 3 == 2 ? 0.85 : 0.9, k % 3 == 2 ? 1.9 : 2.4);
+        rlf_vec3 p = {0, 0, 0};
+        double u, v, highest = k / 3 == 2 ? 0.82 : 0.88;
+        assert_true(throw_body(RLF_BORDER_EXTEND, &def, 1.0, &p));
+        assert_false(grid_fixture_project(NULL, p, &u, &v));
+        if (!(p.y < 0.91 && p.y > highest)) {
+            print_message("shape %d push %d: at %.3f %.3f %.3f\n", k / 3, k % 3, p.x, p.y, p.z);
+        }
+        assert_true(p.y < 0.91 && p.y > highest);
+        bool is_there = throw_body(RLF_BORDER_OPEN, &def, 1.0, &p);
+        assert_true(!is_there || p.y > 1.2); /* fell */
+    }
+}
+
+/* Dropped where the camera never looks: floor and back wall hold it as in view. */
+static void body_that_starts_out_of_view_meets_the_room(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        rlf_body_def def = rlf_body_def_default();
+        def.shape = shape_of(k);
+        def.position = rlf_vec3_make(-3.2, -0.4, 3.0);
+        def.velocity = rlf_vec3_make(0, 0, 4);
+        rlf_vec3 p = {0, 0, 0};
+        assert_true(throw_body(RLF_BORDER_EXTEND, &def, 1.5, &p));
+        if (!(p.y < 0.95 && p.z < 4.0)) {
+            print_message("shape %d: at %.3f %.3f %.3f\n", k, p.x, p.y, p.z);
+        }
+        assert_true(p.y < 0.95 && p.z < 4.0);
+    }
+}
+
+/* The room's ring of missing pixels is no gap in the floor. */
+static void ring_is_no_gap(void **state)
+{
+    (void)state;
+    rlf_body_def def = rlf_body_def_default();
+    def.shape.size = rlf_vec3_make(0.02, 0.02, 0.02);
+    double z = 2.0;
+    double u = GRID_W - RING / 2.0;
+    def.position = rlf_vec3_make((u - GRID_CX) / GRID_F * z, 0.9, z);
+    rlf_vec3 p = {0, 0, 0};
+    assert_true(throw_body(RLF_BORDER_EXTEND, &def, 1.0, &p));
+    assert_true(p.y < 0.992);
+}
+
+static void wrong_border_is_refused(void **state)
+{
+    (void)state;
+    rlf_world_def def = rlf_world_def_default();
+    def.border = (rlf_border)7;
+    rlf_world *world = NULL;
+    assert_int_equal(rlf_world_create(&def, &world), RLF_ERROR_INVALID);
+    assert_non_null(strstr(rlf_error_text(), "border"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(body_out_of_view_lies_on_the_floor),
+        cmocka_unit_test(body_that_starts_out_of_view_meets_the_room),
+        cmocka_unit_test(ring_is_no_gap),
+        cmocka_unit_test(wrong_border_is_refused),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
