@@ -298,7 +298,7 @@ static profile measure_profile(const lattice *l, const ball *b)
             p.z += sum[1];
             p.hh += sum[0] * sum[0];
             p.hz += sum[0] * sum[1];
-            p.level += rlf_kernel_abs(sum[1]) < 2.5f * b->sigma ? 1.0f : 0.0f;
+            p.level += rlf_kernel_abs(sum[1]) < 1.5f * b->sigma ? 1.0f : 0.0f;
         }
     }
     return p;

@@ -11,7 +11,14 @@
 
 #include "kernel/kernel.h"
 
-enum { REACH = 4, STRIDE = 2, LEAST_SAMPLES = 6, PASSES = 4, LEAST_REGION_SAMPLES = 30 };
+enum {
+    REACH = 4,
+    STRIDE = 2,
+    LEAST_SAMPLES = 6,
+    PASSES = 4,
+    LEAST_REGION_SAMPLES = 30,
+    MOST_SAMPLES = 800
+};
 
 static const float fastest_m_per_s = 5.0f;
 static const double longest_gap_s = 0.2;
@@ -215,6 +222,7 @@ typedef struct twist {
     double length;
     double x[6];
     double explained, noise; /* squared speeds */
+    int32_t stride;          /* every stride-th pixel of every stride-th row is looked at */
     int32_t samples, inliers;
 } twist;
 
@@ -311,8 +319,8 @@ static void fit_pass(const flow_job *job, const rlf_region *region, double slack
     double speed = sqrt(t->x[0] * t->x[0] + t->x[1] * t->x[1] + t->x[2] * t->x[2]);
     t->samples = t->inliers = 0;
     t->noise = t->explained = 0.0;
-    for (int32_t v = region->y0; v < region->y1; v += STRIDE) {
-        for (int32_t u = region->x0; u < region->x1; u += STRIDE) {
+    for (int32_t v = region->y0; v < region->y1; v += t->stride) {
+        for (int32_t u = region->x0; u < region->x1; u += t->stride) {
             ptrdiff_t i = (ptrdiff_t)v * grid->width + u;
             if (job->now->label[i] != region->label || job->now->reason[i] != RLF_REASON_OK) {
                 continue;
@@ -357,6 +365,10 @@ static twist fit_from(const flow_job *job, const rlf_region *region, rlf_vec3 ve
     rlf_vec3 size = rlf_sub(region->box.max, region->box.min);
     twist t = {.centre = region->centroid, .x = {velocity.x, velocity.y, velocity.z}};
     t.length = rlf_max(0.25 * rlf_length(size), 0.01);
+    t.stride = STRIDE;
+    while (region->point_count > MOST_SAMPLES * t.stride * t.stride) {
+        t.stride++;
+    }
     for (int pass = 0; pass < PASSES; pass++) {
         fit_pass(job, region, slack[pass], &t);
     }
