@@ -19,6 +19,8 @@ enum {
     PLANES = RLF_KERNEL_TILE / 2 + 2 * REACH, /* blocks on a side that have a plane */
     BLOCKS = PLANES + 4,                      /* and two more each side for the windows */
     SPAN = PLANES / 3,                        /* blocks that get small windows together */
+    CORNERS = SPAN + 4,                       /* their corners, in whole vectors */
+    PADDING = 2,                              /* so that those of the last span can be read */
     BLOCK_PIXELS = 2 * BLOCKS,
     PLANE_PIXELS = 2 * PLANES
 };
@@ -43,7 +45,7 @@ typedef struct pixel_row {
 } pixel_row;
 
 typedef struct block_row {
-    float moment[MOMENTS][BLOCKS];
+    float moment[MOMENTS][BLOCKS + PADDING];
 } block_row;
 
 /* A row of the tile with its border; zero depth outside the image. */
@@ -106,6 +108,9 @@ RLF_KERNEL_PART void block_moments(const rlf_kernel_tile *t, int32_t y, referenc
     for (int32_t k = 0; k < MOMENTS; k++) {
         for (int32_t i = 0; i < BLOCKS; i++) {
             out->moment[k][i] = sum[k][2 * i] + sum[k][2 * i + 1];
+        }
+        for (int32_t i = BLOCKS; i < BLOCKS + PADDING; i++) {
+            out->moment[k][i] = 0.0f;
         }
     }
 }
@@ -201,15 +206,41 @@ RLF_KERNEL_PART void improve(const float (*restrict s)[PLANES], const fit_in *in
     }
 }
 
-RLF_KERNEL_PART void sum_corner(const block_row *restrict upper, const block_row *restrict lower,
-                                int32_t first, int32_t dx, float (*restrict out)[PLANES])
+/* Windows of 2x2 blocks, each of which is about a corner of four blocks. */
+RLF_KERNEL_PART void sum_corners(const block_row *restrict upper, const block_row *restrict lower,
+                                 int32_t first, float (*restrict out)[PLANES])
 {
     for (int32_t k = 0; k < MOMENTS; k++) {
-        const float *restrict u = upper->moment[k] + 1 + dx;
-        const float *restrict l = lower->moment[k] + 1 + dx;
-        for (int32_t i = first; i < first + SPAN; i++) {
+        const float *restrict u = upper->moment[k] + first + 1;
+        const float *restrict l = lower->moment[k] + first + 1;
+        for (int32_t i = 0; i < CORNERS; i++) {
             out[k][i] = u[i] + u[i + 1] + l[i] + l[i + 1];
         }
+    }
+}
+
+RLF_KERNEL_PART void clear_planes(plane_set *restrict planes)
+{
+    for (int32_t i = 0; i < PLANES; i++) {
+        planes->a[i] = planes->b[i] = planes->c[i] = 0.0f;
+        planes->weight[i] = planes->precision[i] = 0.0f;
+    }
+}
+
+/* Takes a span of another set's planes, from index `from` on, where they are more certain or, if
+ * only_missing, where there is none yet. */
+RLF_KERNEL_PART void take_planes(const plane_set *restrict other, int32_t from, int32_t first,
+                                 bool only_missing, plane_set *restrict planes)
+{
+    for (int32_t i = 0; i < SPAN; i++) {
+        int32_t o = from + i, p = first + i;
+        bool better =
+            only_missing ? !(planes->weight[p] > 0.0f) : other->weight[o] > planes->weight[p];
+        planes->a[p] = better ? other->a[o] : planes->a[p];
+        planes->b[p] = better ? other->b[o] : planes->b[p];
+        planes->c[p] = better ? other->c[o] : planes->c[p];
+        planes->precision[p] = better ? other->precision[o] : planes->precision[p];
+        planes->weight[p] = better ? other->weight[o] : planes->weight[p];
     }
 }
 
@@ -219,24 +250,18 @@ RLF_KERNEL_PART void fit_small(const block_row *const rows[5],
                                const float (*restrict narrow)[PLANES], const fit_in *in,
                                int32_t first, plane_set *restrict planes)
 {
-    plane_set best;
+    plane_set best, corners;
     float corner[MOMENTS][PLANES];
-    for (int32_t i = first; i < first + SPAN; i++) {
-        best.a[i] = best.b[i] = best.c[i] = best.weight[i] = best.precision[i] = 0.0f;
-    }
+    clear_planes(&best);
     improve(narrow, in, NARROW_SIGMAS, first, SPAN, &best);
-    for (int32_t k = 0; k < 4; k++) {
-        sum_corner(rows[1 + k / 2], rows[2 + k / 2], first, k % 2, corner);
-        improve((const float(*)[PLANES])corner, in, NARROW_SIGMAS, first, SPAN, &best);
+    for (int32_t k = 0; k < 2; k++) {
+        sum_corners(rows[1 + k], rows[2 + k], first, corner);
+        clear_planes(&corners);
+        improve((const float(*)[PLANES])corner, in, NARROW_SIGMAS, 0, CORNERS, &corners);
+        take_planes(&corners, 0, first, false, &best);
+        take_planes(&corners, 1, first, false, &best);
     }
-    for (int32_t i = first; i < first + SPAN; i++) {
-        bool none = !(planes->weight[i] > 0.0f);
-        planes->a[i] = none ? best.a[i] : planes->a[i];
-        planes->b[i] = none ? best.b[i] : planes->b[i];
-        planes->c[i] = none ? best.c[i] : planes->c[i];
-        planes->weight[i] = none ? best.weight[i] : planes->weight[i];
-        planes->precision[i] = none ? best.precision[i] : planes->precision[i];
-    }
+    take_planes(&best, first, first, true, planes);
 }
 
 /* Some block of the span has seen pixels about it but no plane. */
@@ -256,10 +281,7 @@ RLF_KERNEL_PART void fit_row(const block_row *const rows[5], const fit_in *in,
     window_sums sums;
     plane_set planes;
     sum_windows(rows, &sums);
-    for (int32_t i = 0; i < PLANES; i++) {
-        planes.weight[i] = 0.0f;
-        planes.a[i] = planes.b[i] = planes.c[i] = planes.precision[i] = 0.0f;
-    }
+    clear_planes(&planes);
     improve((const float(*)[PLANES])sums.wide, in, WIDE_SIGMAS, 0, PLANES, &planes);
     for (int32_t first = 0; first < PLANES; first += SPAN) {
         if (needs_small(sums.narrow[N], planes.weight, first)) {
