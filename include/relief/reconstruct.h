@@ -57,6 +57,7 @@ typedef struct rlf_reconstruct_def {
     double foreground_threshold_m; /* AVERAGE: |z - z_bg| above this is foreground */
     double foreground_sigmas;      /* ADAPTIVE: z_bg - z above this many sigma(z) ... */
     double foreground_min_m;       /* ... and above this, metres */
+    double absorb_after_s; /* ADAPTIVE: still foreground becomes background; default 20, 0 never */
 
     bool enable_flying_removal; /* live: true */
     bool enable_fill;           /* live: true: fill small holes (reason FILLED) */

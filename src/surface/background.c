@@ -11,6 +11,8 @@ void rlf_background_reset(rlf_background *background, int32_t count)
     memset(background->weight, 0, n);
     memset(background->beyond, 0, n);
     memset(background->unknown_age, 0, n);
+    memset(background->still_ms, 0, n * sizeof *background->still_ms);
+    memset(background->beneath, 0, n * sizeof *background->beneath);
     background->frames = 0;
     background->changed = 0;
     background->sheet_age = 0;

@@ -151,6 +151,7 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot)
     if (!learning) {
         rlf_parallel_for(def->pool, stage->grid.height, RLF_ROW_GRAIN, majority_rows, &job);
         decide_unknown(stage, slot);
+        rlf_background_absorb(stage, slot);
     }
     if (is_sheet_due(background)) {
         rlf_background_publish(stage);

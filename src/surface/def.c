@@ -68,6 +68,7 @@ rlf_reconstruct_def rlf_reconstruct_def_default(rlf_profile profile, const rlf_r
     def.background_frames = 5;
     def.foreground_sigmas = 6.0;
     def.foreground_min_m = 0.02;
+    def.absorb_after_s = 20.0;
     if (profile == RLF_PROFILE_THESIS) {
         set_thesis(&def);
     } else {
@@ -119,6 +120,7 @@ rlf_result rlf_reconstruct_def_check(const rlf_reconstruct_def *def)
         {"foreground_threshold_m", def->foreground_threshold_m, 0, 1000},
         {"foreground_sigmas", def->foreground_sigmas, 0, 1000},
         {"foreground_min_m", def->foreground_min_m, 0, 1000},
+        {"absorb_after_s", def->absorb_after_s, 0, 60},
         {"rig.noise.c0", noise->c0, -1, 1},
         {"rig.noise.c1", noise->c1, -1, 1},
         {"rig.noise.c2", noise->c2, -1, 1},

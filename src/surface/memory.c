@@ -56,6 +56,9 @@ static void take_background(rlf_reconstruct *stage)
     background->weight = take(stage, n, 1);
     background->beyond = take(stage, n, 1);
     background->unknown_age = take(stage, n, 1);
+    background->still = take(stage, n, sizeof(float));
+    background->still_ms = take(stage, n, sizeof(uint16_t));
+    background->beneath = take(stage, n, sizeof(float));
     for (int i = 0; i < RLF_SHEETS; i++) {
         rlf_sheet *sheet = &background->sheets[i];
         sheet->depth = take(stage, n, sizeof(float));

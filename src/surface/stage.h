@@ -47,6 +47,9 @@ typedef struct rlf_background {
     uint8_t *weight;      /* samples in the mean */
     uint8_t *beyond;      /* ADAPTIVE: frames in a row that saw past the mean */
     uint8_t *unknown_age; /* ADAPTIVE: frames in a row that a hole had a background sample */
+    float *still;         /* ADAPTIVE: depth of what stands in front */
+    uint16_t *still_ms;   /* ADAPTIVE: how long it has not moved */
+    float *beneath;       /* ADAPTIVE: the background that an absorbed thing hides; 0 = none */
     int32_t frames;
     int32_t changed;   /* pixels replaced since the newest sheet was made */
     int32_t sheet_age; /* frames since then */

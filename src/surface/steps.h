@@ -109,6 +109,8 @@ void rlf_region_measure(rlf_reconstruct *stage, const rlf_layer_in *in, const in
 void rlf_background_update(rlf_reconstruct *stage, rlf_slot *slot);
 void rlf_background_average_update(rlf_reconstruct *stage, rlf_slot *slot);
 void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot);
+/* Takes still foreground into the model, and back out; slot->foreground is finished. */
+void rlf_background_absorb(rlf_reconstruct *stage, const rlf_slot *slot);
 /* Makes a new sheet from the model: depth, normals, regions. */
 void rlf_background_publish(rlf_reconstruct *stage);
 void rlf_background_reset(rlf_background *background, int32_t count);

@@ -263,6 +263,48 @@ static void holes_of_the_background_are_filled_as_they_are_seen(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
+/* A box is put down: foreground for two seconds, then background; taken away, the wall is back at
+ * once. Someone who walks past meanwhile is foreground. */
+static void what_stands_still_becomes_background(void **state)
+{
+    (void)state;
+    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
+    assert_float_equal(def.absorb_after_s, 20.0, 0.0);
+    def.min_region_points = 8;
+    def.absorb_after_s = 2.0;
+    rlf_reconstruct *stage = NULL;
+    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    const int32_t middle = 30 * WIDTH + 40;
+    const rlf_surface *s = NULL;
+    int32_t frame = 0;
+    for (; frame < 10; frame++) {
+        wall(3.0f);
+        s = process(stage, frame);
+    }
+    for (; frame < 65; frame++) {
+        wall(3.0f);
+        box(30, 60, 2.0f);
+        s = process(stage, frame);
+        assert_int_equal(s->foreground[middle], 1);
+    }
+    for (; frame < 80; frame++) {
+        s = process(stage, frame);
+    }
+    assert_int_equal(s->foreground[middle], 0);
+    assert_float_equal(s->background_depth[middle], 2.0, 1e-3);
+    wall(3.0f);
+    box(30, 60, 2.0f);
+    box(35, 45, 1.2f);
+    s = process(stage, frame++);
+    assert_int_equal(s->foreground[middle], 1);
+    wall(3.0f);
+    s = process(stage, frame++);
+    assert_int_equal(s->foreground_count, 0);
+    assert_float_equal(s->background_depth[middle], 3.0, 1e-3);
+    rlf_reconstruct_destroy(&stage);
+}
+
 static void reset_forgets(void **state)
 {
     (void)state;
@@ -292,6 +334,7 @@ int main(void)
         cmocka_unit_test(what_left_leaves_no_phantom),
         cmocka_unit_test(the_room_need_not_be_empty),
         cmocka_unit_test(holes_of_the_background_are_filled_as_they_are_seen),
+        cmocka_unit_test(what_stands_still_becomes_background),
         cmocka_unit_test(reset_forgets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
