@@ -192,6 +192,7 @@ typedef struct figure {
     }
 ANGLE_FIGURES(interior, "interior")
 ANGLE_FIGURES(band, "edge band")
+ANGLE_FIGURES(seen, "edge band, seen pixels")
 #undef ANGLE_FIGURES
 
 #define DEPTH_FIGURES(group)                                                                       \
@@ -365,6 +366,10 @@ static const figure figures[] = {
     {"normals_band_mean_deg", "  mean error, deg", band_mean},
     {"normals_band_over_30_percent", "  more than 30 deg off, %", band_wrong},
     {"normals_band_missing_percent", "  missing, %", band_missing},
+    {"normals_band_seen_median_deg", "  without filled pixels: median, deg", seen_median},
+    {"normals_band_seen_mean_deg", "  mean error, deg", seen_mean},
+    {"normals_band_seen_over_30_percent", "  more than 30 deg off, %", seen_wrong},
+    {"normals_band_seen_missing_percent", "  missing, %", seen_missing},
     {"foreground_precision", "foreground, all pixels: precision", fg_precision},
     {"foreground_recall", "  recall", fg_recall},
     {"foreground_f", "  F", fg_f},

@@ -19,6 +19,7 @@ typedef struct eval_angles {
 /* Samples inside surfaces, and within 6 pixels (full resolution) of a depth jump. */
 typedef struct eval_normals {
     eval_angles interior, band;
+    eval_angles seen; /* of the band, without filled pixels */
 } eval_normals;
 
 /* Depth samples against truth. */

@@ -101,11 +101,16 @@ void eval_normals_add(eval_normals *e, const rlf_surface *s, const rlf_truth *tr
             double nz = s->normal_z[i];
             if (nx == 0.0 && ny == 0.0 && nz == 0.0) {
                 angles->missing++;
+                e->seen.missing += band[t] && s->reason[i] == RLF_REASON_OK;
                 continue;
             }
             double dot =
                 nx * truth->normal_x[t] + ny * truth->normal_y[t] + nz * truth->normal_z[t];
-            eval_add_angle(angles, rlf_acos(dot) * 180.0 / RLF_PI);
+            double degrees = rlf_acos(dot) * 180.0 / RLF_PI;
+            eval_add_angle(angles, degrees);
+            if (band[t] && s->reason[i] == RLF_REASON_OK) {
+                eval_add_angle(&e->seen, degrees);
+            }
         }
     }
 }
