@@ -218,12 +218,19 @@ static void segment_front(rlf_reconstruct *stage, rlf_slot *slot, const uint8_t 
     }
 }
 
-/* Labels where the front sheet shows the background; pieces too small to be regions are noise. */
+/* Labels where the front sheet shows the background; pieces too small to be regions belong to
+ * the region around them, or are noise. */
 static void finish_labels(rlf_reconstruct *stage, rlf_slot *slot)
 {
     const rlf_sheet *sheet = newest_sheet(stage);
     bool drop = stage->def.foreground_segment == RLF_SEGMENT_NOISE;
+    bool adopt = drop && slot->region_points == NULL; /* lists are complete already */
     for (int32_t i = 0; i < stage->grid.count; i++) {
+        if (adopt && slot->foreground[i] && slot->label[i] == 0) {
+            rlf_region_adopt(&stage->grid, slot->depth, i, slot->label,
+                             slot->regions + slot->foreground_region_first,
+                             slot->foreground_region_count);
+        }
         if (drop && slot->label[i] == 0) {
             slot->foreground[i] = 0;
         }

@@ -111,3 +111,36 @@ void rlf_layer_segment(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer
         out->label[i] = number == 0 ? 0 : out->regions[number - 1].label;
     }
 }
+
+/* The region in whose box (and a hand's breadth around it) a point lies; NULL = none. */
+static rlf_region *region_around(rlf_region *regions, int32_t count, rlf_vec3 p)
+{
+    const double around_m = 0.1;
+    for (int32_t r = 0; r < count; r++) {
+        rlf_vec3 low = rlf_sub(p, regions[r].box.min), high = rlf_sub(regions[r].box.max, p);
+        double out = rlf_min(rlf_min(low.x, rlf_min(low.y, low.z)),
+                             rlf_min(high.x, rlf_min(high.y, high.z)));
+        if (out > -around_m) {
+            return &regions[r];
+        }
+    }
+    return NULL;
+}
+
+void rlf_region_adopt(const rlf_grid *grid, const float *depth, ptrdiff_t i, int32_t *label,
+                      rlf_region *regions, int32_t count)
+{
+    double z = depth[i];
+    rlf_vec3 p = {z * grid->ray_x[i], z * grid->ray_y[i], z};
+    rlf_region *region = region_around(regions, count, p);
+    if (region == NULL) {
+        return;
+    }
+    int32_t x = (int32_t)(i % grid->width), y = (int32_t)(i / grid->width);
+    label[i] = region->label;
+    region->point_count++;
+    region->x0 = x < region->x0 ? x : region->x0;
+    region->y0 = y < region->y0 ? y : region->y0;
+    region->x1 = x + 1 > region->x1 ? x + 1 : region->x1;
+    region->y1 = y + 1 > region->y1 ? y + 1 : region->y1;
+}

@@ -90,6 +90,11 @@ typedef struct rlf_layer_out {
 /* Segments one layer into regions with stable labels and their statistics. */
 void rlf_layer_segment(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out);
 
+/* Gives pixel i, which belongs to a piece too small to be a region, to the region around it: a foot
+ * behind a table leg. Its label stays 0 when there is none. */
+void rlf_region_adopt(const rlf_grid *grid, const float *depth, ptrdiff_t i, int32_t *label,
+                      rlf_region *regions, int32_t count);
+
 /* ---- region_track.c ---- */
 /* Gives each region the label it had, by largest overlap, or a new one. `number` is the plane of
  * region numbers 1..out->region_count; writes regions[k].label. */

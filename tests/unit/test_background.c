@@ -305,6 +305,45 @@ static void what_stands_still_becomes_background(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
+/* Two pieces too small to be regions: one beside the box, as a foot behind a table's leg, belongs
+ * to it; one by itself is noise. */
+static void small_pieces_belong_to_what_is_around_them(void **state)
+{
+    (void)state;
+    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
+    def.min_region_points = 40;
+    rlf_reconstruct *stage = NULL;
+    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    const rlf_surface *s = NULL;
+    for (int t = 0; t < 8; t++) {
+        wall(3.0f);
+        if (t > 5) {
+            box(30, 50, 2.0f);
+        }
+        for (int k = 0; t > 5 && k < 25; k++) {
+            depth[(30 + k / 5) * WIDTH + 51 + k % 5] = t == 6 ? 3.0f : 2.02f;
+            depth[(30 + k / 5) * WIDTH + 80 + k % 5] = t == 6 ? 3.0f : 2.02f;
+        }
+        s = process(stage, t);
+    }
+    const int32_t beside = 32 * WIDTH + 53;
+    assert_int_equal(s->foreground[beside], 1);
+    assert_int_equal(s->label[beside], s->label[32 * WIDTH + 40]);
+    assert_int_equal(s->foreground[32 * WIDTH + 82], 0);
+    const rlf_region *region = &s->regions[s->region_count - 1];
+    assert_int_equal(region->label, s->label[beside]);
+    int32_t count = 0;
+    for (int i = 0; i < COUNT; i++) {
+        bool inside = i % WIDTH >= region->x0 && i % WIDTH < region->x1 &&
+                      i / WIDTH >= region->y0 && i / WIDTH < region->y1;
+        count += inside && s->label[i] == region->label;
+    }
+    assert_int_equal(count, region->point_count);
+    assert_int_equal(count, s->foreground_count);
+    rlf_reconstruct_destroy(&stage);
+}
+
 static void reset_forgets(void **state)
 {
     (void)state;
@@ -335,6 +374,7 @@ int main(void)
         cmocka_unit_test(the_room_need_not_be_empty),
         cmocka_unit_test(holes_of_the_background_are_filled_as_they_are_seen),
         cmocka_unit_test(what_stands_still_becomes_background),
+        cmocka_unit_test(small_pieces_belong_to_what_is_around_them),
         cmocka_unit_test(reset_forgets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
