@@ -99,6 +99,10 @@ typedef struct rlf_body_def {
     double gravity_scale;      /* default 1 */
     double release_time;       /* s; held still before. default 0 */
     bool collides_with_bodies; /* default true */
+    double linear_damping;     /* live: velocity falls as exp(-damping t), 1/s, >= 0; default 0 */
+    double angular_damping;    /* live: the same for the angular velocity */
+    bool is_kinematic;         /* live: moves by its velocities alone (rlf_world_set_body changes
+                                  them), pushes others, is pushed by nothing; default false */
     float color[3];            /* sRGB 0..1, default orange */
 } rlf_body_def;
 

@@ -68,6 +68,11 @@ static rlf_result check_body_def(const rlf_body_def *def)
     if (!rlf_is_finite(def->release_time)) {
         return rlf_fail(RLF_ERROR_INVALID, "body def: release_time: not finite");
     }
+    if (!(def->linear_damping >= 0 && def->linear_damping <= 1e3) ||
+        !(def->angular_damping >= 0 && def->angular_damping <= 1e3)) {
+        return rlf_fail(RLF_ERROR_INVALID, "body def: linear_damping, angular_damping: give 0 to "
+                                           "1000 per second");
+    }
     rlf_result result = check_vectors(def);
     return result == RLF_OK ? phys_shape_check(&def->shape) : result;
 }
@@ -88,7 +93,7 @@ static bool is_isotropic(const rlf_mat3 *inertia)
 static void set_held(phys_body *body, bool is_held)
 {
     body->is_held = is_held;
-    body->inverse_mass = is_held ? 0.0 : 1.0 / body->mass;
+    body->inverse_mass = is_held || body->is_kinematic ? 0.0 : 1.0 / body->mass;
     body->v = is_held ? rlf_vec3_make(0, 0, 0) : body->throw_v;
     body->w = is_held ? rlf_vec3_make(0, 0, 0) : body->throw_w;
     phys_body_orient(body);
@@ -107,6 +112,9 @@ static void fill_body(phys_body *body, const rlf_body_def *def, int32_t index)
     body->friction = def->friction;
     body->gravity_scale = def->gravity_scale;
     body->release_time = def->release_time;
+    body->linear_damping = def->linear_damping;
+    body->angular_damping = def->angular_damping;
+    body->is_kinematic = def->is_kinematic;
     body->collides_with_bodies = def->collides_with_bodies;
     body->x = def->position;
     body->throw_v = def->velocity;
@@ -124,6 +132,9 @@ rlf_result rlf_world_add_body(rlf_world *world, const rlf_body_def *def, rlf_bod
     rlf_result result = check_body_def(def);
     if (result != RLF_OK) {
         return result;
+    }
+    if (def->is_kinematic && world->def.method == RLF_PHYSICS_THESIS) {
+        return rlf_fail(RLF_ERROR_INVALID, "body def: is_kinematic: the thesis's method has none");
     }
     int32_t index = 0;
     while (index < world->body_top && world->bodies[index].is_alive) {

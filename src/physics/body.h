@@ -33,12 +33,14 @@ typedef struct phys_contact {
 typedef struct phys_body {
     uint32_t generation; /* of the handle; counts up when a body goes */
     bool is_alive, is_held, is_asleep, collides_with_bodies;
+    bool is_kinematic; /* not held: moves by v and w, and nothing changes them */
     char name[RLF_NAME_MAX];
     float color[3];
     phys_shape shape;
     double mass, restitution, friction, gravity_scale, release_time;
-    rlf_mat3 inertia, inverse_inertia; /* body frame */
-    bool is_isotropic;                 /* inertia is a multiple of 1 */
+    double linear_damping, angular_damping; /* 1/s */
+    rlf_mat3 inertia, inverse_inertia;      /* body frame */
+    bool is_isotropic;                      /* inertia is a multiple of 1 */
 
     rlf_vec3 x, v, w; /* centre of mass, its velocity, angular velocity: world */
     rlf_quat q;
@@ -48,8 +50,8 @@ typedef struct phys_body {
     rlf_vec3 throw_v, throw_w; /* velocities to start with when a held body is released */
     rlf_vec3 force, torque;    /* from the caller, for the next advance */
 
-    double inverse_mass;            /* 0 while held */
-    rlf_mat3 inverse_inertia_world; /* 0 while held */
+    double inverse_mass;            /* 0 while held, and of a kinematic body */
+    rlf_mat3 inverse_inertia_world; /* 0 while held, and of a kinematic body */
     rlf_vec3 acceleration, angular_acceleration;
     rlf_vec3 impact_shift, impact_turn; /* x and orientation jump so that x(t) = x + shift + v t */
     double impact_time;                 /* of its last bounce in this substep, s */
@@ -81,6 +83,25 @@ static inline void phys_body_orient(phys_body *body)
     rlf_mat3 half = rlf_mat3_mul(&body->R, &body->inverse_inertia);
     rlf_mat3 transposed = rlf_mat3_transpose(&body->R);
     body->inverse_inertia_world = rlf_mat3_mul(&half, &transposed);
+}
+
+/* No contact moves it: it is held or kinematic. */
+static inline bool phys_body_is_fixed(const phys_body *body)
+{
+    return body->inverse_mass == 0.0;
+}
+
+/* A kinematic body that moves now. */
+static inline bool phys_body_is_driven(const phys_body *body)
+{
+    return body->is_kinematic && !body->is_held &&
+           (rlf_dot(body->v, body->v) > 0.0 || rlf_dot(body->w, body->w) > 0.0);
+}
+
+/* It neither moves nor can be moved by what touches it. */
+static inline bool phys_body_is_idle(const phys_body *body)
+{
+    return body->is_asleep || (phys_body_is_fixed(body) && !phys_body_is_driven(body));
 }
 
 static inline rlf_pose phys_body_pose(const phys_body *body)

@@ -155,9 +155,9 @@ void phys_find_pairs(rlf_world *world, double horizon)
             const phys_body *b = &world->bodies[two->body];
             double reach = reach_a + 0.5 * (two->high - two->low);
             rlf_vec3 d = rlf_sub(a->x, b->x);
-            bool is_idle = (a->is_asleep || a->inverse_mass == 0.0) &&
-                           (b->is_asleep || b->inverse_mass == 0.0);
-            if (!is_idle && rlf_dot(d, d) <= reach * reach) {
+            bool is_idle = phys_body_is_idle(a) && phys_body_is_idle(b);
+            bool is_fixed = phys_body_is_fixed(a) && phys_body_is_fixed(b);
+            if (!is_idle && !is_fixed && rlf_dot(d, d) <= reach * reach) {
                 add_pair(world, one->body, two->body);
             }
         }

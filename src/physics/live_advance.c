@@ -88,7 +88,7 @@ static void start_bodies(rlf_world *world)
             body->acceleration = rlf_mad(gravity, body->force, body->inverse_mass);
             body->angular_acceleration =
                 rlf_mat3_mul_vec(&body->inverse_inertia_world, body->torque);
-        } else {
+        } else if (!phys_body_is_driven(body)) {
             body->v = body->w = zero;
         }
     }
@@ -106,6 +106,16 @@ static void limit_speed(phys_body *body, double max_speed, double h)
     }
 }
 
+static void damp(phys_body *body, double h)
+{
+    if (body->linear_damping > 0.0) {
+        body->v = rlf_scale(body->v, rlf_exp(-body->linear_damping * h));
+    }
+    if (body->angular_damping > 0.0) {
+        body->w = rlf_scale(body->w, rlf_exp(-body->angular_damping * h));
+    }
+}
+
 static void accelerate(rlf_world *world, double h)
 {
     for (int32_t i = 0; i < world->body_top; i++) {
@@ -113,6 +123,7 @@ static void accelerate(rlf_world *world, double h)
         if (is_moving(body)) {
             body->v = rlf_mad(body->v, body->acceleration, h);
             body->w = rlf_mad(body->w, body->angular_acceleration, h);
+            damp(body, h);
             limit_speed(body, world->def.max_speed, h);
         }
     }
@@ -122,6 +133,9 @@ static void move(rlf_world *world, const grid_query *query, double h)
 {
     for (int32_t i = 0; i < world->body_top; i++) {
         phys_body *body = &world->bodies[i];
+        if (body->is_alive && phys_body_is_driven(body)) {
+            phys_integrate_position(body, h);
+        }
         if (!is_moving(body)) {
             continue;
         }

@@ -143,7 +143,7 @@ void phys_fall_asleep(rlf_world *world, double h)
     for (int32_t i = 0; i < world->body_top; i++) {
         phys_body *body = &world->bodies[i];
         world->island[i] = i;
-        if (body->is_alive && !body->is_asleep && !body->is_held) {
+        if (body->is_alive && !body->is_asleep && !phys_body_is_fixed(body)) {
             watch_rest(body, h);
             is_any_tired = is_any_tired || body->still_time > STILL_TIME;
         }
@@ -153,7 +153,8 @@ void phys_fall_asleep(rlf_world *world, double h)
     }
     for (int32_t i = 0; i < world->pair_count; i++) {
         const phys_pair *pair = &world->pairs[i];
-        if (touches(pair) && !world->bodies[pair->a].is_held && !world->bodies[pair->b].is_held) {
+        if (touches(pair) && !phys_body_is_fixed(&world->bodies[pair->a]) &&
+            !phys_body_is_fixed(&world->bodies[pair->b])) {
             world->island[root_of(world, pair->b)] = root_of(world, pair->a);
         }
     }
@@ -167,7 +168,7 @@ void phys_fall_asleep(rlf_world *world, double h)
     for (int32_t i = 0; i < world->body_top; i++) {
         phys_body *body = &world->bodies[i];
         double rest = world->bodies[root_of(world, i)].still_time;
-        if (body->is_alive && !body->is_held && !body->is_asleep && rest > STILL_TIME &&
+        if (body->is_alive && !phys_body_is_fixed(body) && !body->is_asleep && rest > STILL_TIME &&
             body->still_time > STILL_TIME) {
             body->is_asleep = true;
             body->v = body->w = rlf_vec3_make(0, 0, 0);

@@ -104,7 +104,7 @@ double rlf_world_energy(const rlf_world *world)
     }
     for (int32_t i = 0; i < world->body_top; i++) {
         const phys_body *b = &world->bodies[i];
-        if (!b->is_alive || b->is_held) {
+        if (!b->is_alive || phys_body_is_fixed(b)) {
             continue;
         }
         rlf_mat3 Rt = rlf_mat3_transpose(&b->R);

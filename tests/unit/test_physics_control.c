@@ -1,0 +1,175 @@
+/* Bodies that the caller moves, and bodies that slow down by themselves. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "relief/world.h"
+
+#include <math.h>
+
+#define FRAME (1.0 / 60)
+
+static rlf_world *make_world(double gravity)
+{
+    rlf_world_def def = rlf_world_def_default();
+    def.gravity = rlf_vec3_make(0, gravity, 0);
+    def.body_capacity = 8;
+    def.contact_capacity = 256;
+    rlf_world *world = NULL;
+    assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
+    return world;
+}
+
+static const rlf_body_state *body(const rlf_world *world, int i)
+{
+    return &rlf_world_get_snapshot(world)->bodies[i];
+}
+
+static void advance(rlf_world *world, double seconds)
+{
+    for (int k = 0; k < (int)(seconds / FRAME + 0.5); k++) {
+        rlf_world_advance(world, NULL, FRAME);
+    }
+}
+
+/* v(t) = v0 exp(-c t), w(t) = w0 exp(-c t). */
+static void damping_is_exponential(void **state)
+{
+    (void)state;
+    rlf_world *world = make_world(0);
+    rlf_body_def def = rlf_body_def_default();
+    def.velocity = rlf_vec3_make(2, 0, 0);
+    def.angular_velocity = rlf_vec3_make(0, 3, 0);
+    def.linear_damping = 0.7;
+    def.angular_damping = 1.5;
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    advance(world, 2);
+    assert_true(fabs(body(world, 0)->velocity.x - 2 * exp(-1.4)) < 1e-9);
+    assert_true(fabs(body(world, 0)->angular_velocity.y - 3 * exp(-3.0)) < 1e-9);
+    rlf_world_destroy(&world);
+}
+
+/* Falling with damping ends at g / c. */
+static void damped_fall_has_a_last_speed(void **state)
+{
+    (void)state;
+    rlf_world *world = make_world(9.81);
+    rlf_body_def def = rlf_body_def_default();
+    def.linear_damping = 4;
+    def.position = rlf_vec3_make(0, -5, 1);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    advance(world, 4);
+    assert_true(fabs(body(world, 0)->velocity.y - 9.81 / 4) < 0.03);
+    rlf_world_destroy(&world);
+}
+
+static rlf_body_def plate(void)
+{
+    rlf_body_def def = rlf_body_def_default();
+    def.shape.size = rlf_vec3_make(0.6, 0.1, 0.6);
+    def.is_kinematic = true;
+    return def;
+}
+
+/* Gravity does not move it, and a blow does not either; its velocities do, exactly. */
+static void kinematic_body_obeys_only_the_caller(void **state)
+{
+    (void)state;
+    rlf_world *world = make_world(9.81);
+    rlf_body_def def = plate();
+    rlf_body_id id;
+    assert_int_equal(rlf_world_add_body(world, &def, &id), RLF_OK);
+    def = rlf_body_def_default();
+    def.position = rlf_vec3_make(0, -0.5, 1);
+    def.mass = 50;
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    rlf_pose pose = rlf_pose_identity();
+    pose.p = rlf_vec3_make(0, 0, 1);
+    assert_true(
+        rlf_world_set_body(world, id, &pose, rlf_vec3_make(0.25, 0, 0), rlf_vec3_make(0, 0.5, 0)));
+    assert_true(rlf_world_apply_impulse(world, id, rlf_vec3_make(9, 9, 9), pose.p));
+    advance(world, 1);
+    rlf_pose T = body(world, 0)->T_world_body;
+    assert_true(fabs(T.p.x - 0.25) < 1e-12 && T.p.y == 0.0 && T.p.z == 1.0);
+    assert_true(fabs(2 * asin(T.q.y) - 0.5) < 1e-9);
+    rlf_world_destroy(&world);
+}
+
+/* A cube asleep on the plate is woken and lifted when the plate starts, and carried when it turns
+ * to the side. */
+static void kinematic_plate_lifts_and_carries(void **state)
+{
+    (void)state;
+    rlf_world *world = make_world(9.81);
+    rlf_body_def def = plate();
+    rlf_body_id id;
+    assert_int_equal(rlf_world_add_body(world, &def, &id), RLF_OK);
+    def = rlf_body_def_default();
+    def.position = rlf_vec3_make(0.05, -0.1, 1);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    advance(world, 2);
+    assert_true(body(world, 1)->is_asleep);
+    rlf_pose pose = body(world, 0)->T_world_body;
+    rlf_vec3 none = {0, 0, 0};
+    assert_true(rlf_world_set_body(world, id, &pose, rlf_vec3_make(0, -0.5, 0), none));
+    advance(world, 1);
+    assert_true(fabs(body(world, 1)->velocity.y + 0.5) < 0.01);
+    assert_true(fabs(body(world, 1)->T_world_body.p.y + 0.6) < 0.003);
+    pose = body(world, 0)->T_world_body;
+    assert_true(rlf_world_set_body(world, id, &pose, rlf_vec3_make(0.4, 0, 0), none));
+    advance(world, 1);
+    assert_true(fabs(body(world, 1)->velocity.x - 0.4) < 0.01);
+    assert_true(fabs(body(world, 1)->T_world_body.p.y + 0.6) < 0.01);
+    rlf_world_destroy(&world);
+}
+
+/* Two kinematic bodies pass through each other: nothing moves either. */
+static void kinematic_bodies_ignore_each_other(void **state)
+{
+    (void)state;
+    rlf_world *world = make_world(9.81);
+    for (int k = 0; k < 2; k++) {
+        rlf_body_def def = plate();
+        def.position.x = k == 0 ? -1 : 1;
+        def.velocity.x = k == 0 ? 1 : -1;
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    }
+    advance(world, 2);
+    assert_true(fabs(body(world, 0)->T_world_body.p.x - 1) < 1e-9);
+    assert_true(fabs(body(world, 1)->T_world_body.p.x + 1) < 1e-9);
+    rlf_world_destroy(&world);
+}
+
+static void wrong_defs_are_refused(void **state)
+{
+    (void)state;
+    rlf_world *world = make_world(9.81);
+    rlf_body_def def = rlf_body_def_default();
+    def.linear_damping = -1;
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_ERROR_INVALID);
+    def.linear_damping = 0;
+    def.angular_damping = NAN;
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_ERROR_INVALID);
+    rlf_world_destroy(&world);
+    rlf_world_def world_def = rlf_world_def_default();
+    world_def.method = RLF_PHYSICS_THESIS;
+    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+    def = plate();
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_ERROR_INVALID);
+    rlf_world_destroy(&world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(damping_is_exponential),
+        cmocka_unit_test(damped_fall_has_a_last_speed),
+        cmocka_unit_test(kinematic_body_obeys_only_the_caller),
+        cmocka_unit_test(kinematic_plate_lifts_and_carries),
+        cmocka_unit_test(kinematic_bodies_ignore_each_other),
+        cmocka_unit_test(wrong_defs_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
