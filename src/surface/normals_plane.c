@@ -32,27 +32,46 @@ static void plane_bands(void *context, int32_t begin, int32_t end, int32_t worke
     }
 }
 
-/* Mean of the normals within two pixels at the same depth, weighted by inverse squared distance. */
-static bool from_neighbours(const rlf_normals_job *job, int32_t x, int32_t y)
+typedef struct normal_sum {
+    float x, y, z;
+} normal_sum;
+
+/* Sum of the normals at the same depth, weighted by inverse squared distance. Missing ones are 0.
+ * Inlined, so that the whole window's bounds and weights are constants. */
+static inline normal_sum add_window(const rlf_normals_job *job, ptrdiff_t i, int32_t x0, int32_t x1,
+                                    int32_t y0, int32_t y1)
 {
     static const float nearness[9] = {0.0f, 1.0f, 0.5f, 0.0f, 0.25f, 0.2f, 0.0f, 0.0f, 0.125f};
-    ptrdiff_t i = (ptrdiff_t)y * job->width + x;
+    normal_sum sum = {0.0f, 0.0f, 0.0f};
     float z = job->filled[i];
     float most = 0.02f * z;
-    int32_t left = x < 2 ? -x : -2, right = x + 2 < job->width ? 2 : job->width - 1 - x;
-    int32_t up = y < 2 ? -y : -2, down = y + 2 < job->height ? 2 : job->height - 1 - y;
-    float sum[3] = {0.0f, 0.0f, 0.0f};
-    for (int32_t dy = up; dy <= down; dy++) {
-        for (int32_t dx = left; dx <= right; dx++) {
-            ptrdiff_t n = i + (ptrdiff_t)dy * job->width + dx;
-            bool same = rlf_kernel_abs(job->filled[n] - z) <= most;
-            float weight = same ? nearness[dx * dx + dy * dy] : 0.0f; /* missing normals are 0 */
-            sum[0] += weight * job->out[0][n];
-            sum[1] += weight * job->out[1][n];
-            sum[2] += weight * job->out[2][n];
+    for (int32_t dy = y0; dy <= y1; dy++) {
+        ptrdiff_t row = i + (ptrdiff_t)dy * job->width;
+        for (int32_t dx = x0; dx <= x1; dx++) {
+            bool same = rlf_kernel_abs(job->filled[row + dx] - z) <= most;
+            float weight = same ? nearness[dx * dx + dy * dy] : 0.0f;
+            sum.x += weight * job->out[0][row + dx];
+            sum.y += weight * job->out[1][row + dx];
+            sum.z += weight * job->out[2][row + dx];
         }
     }
-    rlf_vec3 mean = rlf_normalize(rlf_vec3_make(sum[0], sum[1], sum[2]));
+    return sum;
+}
+
+static normal_sum add_cut_window(const rlf_normals_job *job, ptrdiff_t i, int32_t x, int32_t y)
+{
+    int32_t right = job->width - 1 - x, down = job->height - 1 - y;
+    return add_window(job, i, x < 2 ? -x : -2, right < 2 ? right : 2, y < 2 ? -y : -2,
+                      down < 2 ? down : 2);
+}
+
+/* Mean of the normals within two pixels at the same depth. */
+static bool from_neighbours(const rlf_normals_job *job, int32_t x, int32_t y)
+{
+    ptrdiff_t i = (ptrdiff_t)y * job->width + x;
+    bool whole = x >= 2 && y >= 2 && x + 2 < job->width && y + 2 < job->height;
+    normal_sum sum = whole ? add_window(job, i, -2, 2, -2, 2) : add_cut_window(job, i, x, y);
+    rlf_vec3 mean = rlf_normalize(rlf_vec3_make(sum.x, sum.y, sum.z));
     rlf_vec3 ray = {job->ray_x[i], job->ray_y[i], 1.0};
     if (!(rlf_dot(mean, ray) < 0.0)) {
         return false;
