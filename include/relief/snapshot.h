@@ -81,6 +81,15 @@ typedef struct rlf_contact {
     double approach_speed;  /* m/s at which they met, > 0 */
 } rlf_contact;
 
+/* Two things began or stopped touching. A body that falls asleep goes on touching what it lies on.
+ */
+typedef struct rlf_contact_event {
+    bool is_begin;    /* false: it ended, or one of the two was removed */
+    rlf_body_id body; /* of two bodies the one with the lower index */
+    rlf_contact_other other;
+    rlf_body_id other_body; /* null unless other is a body */
+} rlf_contact_event;
+
 typedef struct rlf_snapshot {
     int64_t time_ns;  /* world time, starts at 0 */
     uint64_t frame;   /* rlf_world_advance calls so far */
@@ -89,6 +98,8 @@ typedef struct rlf_snapshot {
     int32_t body_count;
     const rlf_contact *contacts; /* of the last advance */
     int32_t contact_count;
+    const rlf_contact_event *events; /* of the last advance, by body; ends and begins mixed */
+    int32_t event_count;
 } rlf_snapshot;
 
 #ifdef __cplusplus

@@ -211,13 +211,8 @@ static void greet_surface(rlf_world *world, const rlf_grid *grid, double h)
 
 void phys_live_advance(rlf_world *world, const rlf_grid *seen, double dt)
 {
-    rlf_grid extended;
-    const rlf_grid *grid = seen;
-    if (seen != NULL && world->def.border == RLF_BORDER_EXTEND) {
-        extended = *seen;
-        extended.background.border = RLF_BORDER_EXTEND;
-        grid = &extended;
-    }
+    rlf_grid copy;
+    const rlf_grid *grid = phys_world_grid(world, seen, &copy);
     int32_t count = (int32_t)(dt * world->def.step_hz + 1.0 - 1e-6);
     count = count < 1 ? 1 : count;
     double h = dt / count;

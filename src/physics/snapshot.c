@@ -30,6 +30,8 @@ void phys_world_publish(rlf_world *world)
     world->snapshot.body_count = count;
     world->snapshot.contacts = world->log;
     world->snapshot.contact_count = world->log_count;
+    world->snapshot.events = world->events;
+    world->snapshot.event_count = world->event_count;
 }
 
 const rlf_snapshot *rlf_world_get_snapshot(const rlf_world *world)

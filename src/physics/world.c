@@ -92,11 +92,16 @@ rlf_result rlf_world_create(const rlf_world_def *def, rlf_world **out)
     world->pair_next = rlf_alloc_array(2 * pairs, sizeof(*world->pair_next));
     world->log = rlf_alloc_array((size_t)def->contact_capacity, sizeof(*world->log));
     world->states = rlf_alloc_array(bodies, sizeof(*world->states));
+    size_t touches = (size_t)def->contact_capacity + bodies;
+    world->touches = rlf_alloc_array(touches, sizeof(*world->touches));
+    world->old_touches = rlf_alloc_array(touches, sizeof(*world->old_touches));
+    world->events = rlf_alloc_array(2 * touches, sizeof(*world->events));
     if (world->bodies == NULL || world->pairs == NULL || world->old_pairs == NULL ||
         world->intervals == NULL || world->island == NULL || world->active == NULL ||
         world->event_times == NULL || world->event_counts == NULL || world->pending == NULL ||
         world->pair_head == NULL || world->pair_next == NULL || world->log == NULL ||
-        world->states == NULL) {
+        world->states == NULL || world->touches == NULL || world->old_touches == NULL ||
+        world->events == NULL) {
         rlf_world_destroy(&world);
         return RLF_ERROR_MEMORY;
     }
@@ -127,6 +132,9 @@ void rlf_world_destroy(rlf_world **world)
     rlf_free(w->pair_next);
     rlf_free(w->log);
     rlf_free(w->states);
+    rlf_free(w->touches);
+    rlf_free(w->old_touches);
+    rlf_free(w->events);
     rlf_free(w);
     *world = NULL;
 }
@@ -270,6 +278,7 @@ void rlf_world_reset(rlf_world *world)
     }
     world->pair_count = 0;
     world->log_count = 0;
+    world->touch_count = world->event_count = 0;
     world->time = 0.0;
     world->frame = 0;
     world->has_grid = false;
@@ -293,5 +302,6 @@ void rlf_world_advance(rlf_world *world, const rlf_grid *grid, double dt)
     }
     world->frame++;
     phys_world_remove_strays(world);
+    phys_find_events(world);
     phys_world_publish(world);
 }

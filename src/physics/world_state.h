@@ -17,6 +17,12 @@ typedef struct phys_interval {
     int32_t body;
 } phys_interval;
 
+/* Two things that touched during an advance. */
+typedef struct phys_touch {
+    uint64_t key; /* body index, then the other: 1, 2 = the sheets, 3 + index of a body */
+    rlf_body_id body, other_body;
+} phys_touch;
+
 struct rlf_world {
     rlf_world_def def;
     phys_body *bodies;
@@ -33,6 +39,11 @@ struct rlf_world {
     int32_t *pair_head;    /* first link of each body's list of pairs, -1 = none */
     int32_t *pair_next;    /* link 2 k is pair k as seen from its a, 2 k + 1 from its b */
     int32_t active_capacity, active_count;
+
+    phys_touch *touches, *old_touches; /* of this advance and the one before, sorted by key */
+    int32_t touch_count, old_touch_count;
+    rlf_contact_event *events; /* of this advance */
+    int32_t event_count;
 
     rlf_contact *log; /* contacts of this frame; capacity def.contact_capacity */
     int32_t log_count;
@@ -63,9 +74,25 @@ void phys_body_wake(phys_body *body);
 /* Adds `impulse` at `contact` to the frame's contact list. */
 void phys_log_impulse(rlf_world *world, phys_contact *contact, double impulse, double approach);
 
+/* Lists the touches that began and ended in this advance. */
+void phys_find_events(rlf_world *world);
+
 /* One advance by each method. */
 void phys_live_advance(rlf_world *world, const rlf_grid *grid, double dt);
 void phys_thesis_advance(rlf_world *world, const rlf_grid *grid, double dt);
+
+/* The grid as this world sees it: with the border that its def asks for. `copy` holds a changed
+ * one. */
+static inline const rlf_grid *phys_world_grid(const rlf_world *world, const rlf_grid *grid,
+                                              rlf_grid *copy)
+{
+    if (grid == NULL || world->def.border != RLF_BORDER_EXTEND) {
+        return grid;
+    }
+    *copy = *grid;
+    copy->background.border = RLF_BORDER_EXTEND;
+    return copy;
+}
 
 static inline rlf_body_id phys_body_id(const rlf_world *world, int32_t index)
 {

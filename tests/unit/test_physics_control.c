@@ -1,4 +1,4 @@
-/* Bodies that the caller moves, and bodies that slow down by themselves. */
+/* Bodies that the caller moves, bodies that slow down by themselves, and who touches whom. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -142,6 +142,87 @@ static void kinematic_bodies_ignore_each_other(void **state)
     rlf_world_destroy(&world);
 }
 
+typedef struct event_counts {
+    int begun, ended;
+} event_counts;
+
+static event_counts count_events(const rlf_world *world, rlf_body_id id)
+{
+    event_counts counts = {0, 0};
+    const rlf_snapshot *s = rlf_world_get_snapshot(world);
+    for (int32_t i = 0; i < s->event_count; i++) {
+        const rlf_contact_event *e = &s->events[i];
+        if (e->body.index1 == id.index1 || e->other_body.index1 == id.index1) {
+            counts.begun += e->is_begin;
+            counts.ended += !e->is_begin;
+        }
+    }
+    return counts;
+}
+
+/* A cube is dropped on a still plate, falls asleep there and is thrown off: one begin, one end. */
+static void touching_begins_and_ends_once(void **state)
+{
+    (void)state;
+    rlf_world *world = make_world(9.81);
+    rlf_body_def def = plate();
+    def.restitution = 0;
+    rlf_body_id plate_id, cube_id;
+    assert_int_equal(rlf_world_add_body(world, &def, &plate_id), RLF_OK);
+    def = rlf_body_def_default();
+    def.position = rlf_vec3_make(0, -0.11, 1);
+    def.restitution = 0;
+    assert_int_equal(rlf_world_add_body(world, &def, &cube_id), RLF_OK);
+    event_counts total = {0, 0};
+    for (int k = 0; k < 150; k++) {
+        rlf_world_advance(world, NULL, FRAME);
+        event_counts counts = count_events(world, cube_id);
+        total.begun += counts.begun;
+        total.ended += counts.ended;
+    }
+    assert_true(body(world, 1)->is_asleep);
+    assert_int_equal(total.begun, 1);
+    assert_int_equal(total.ended, 0);
+    assert_true(rlf_world_apply_impulse(world, cube_id, rlf_vec3_make(0, -0.3, 0),
+                                        body(world, 1)->T_world_body.p));
+    advance(world, FRAME);
+    advance(world, FRAME);
+    const rlf_snapshot *s = rlf_world_get_snapshot(world);
+    int ended = count_events(world, cube_id).ended;
+    for (int k = 0; k < 3 && ended == 0; k++) {
+        advance(world, FRAME);
+        ended = count_events(world, cube_id).ended;
+    }
+    assert_int_equal(ended, 1);
+    assert_int_equal(s->events[0].body.index1, plate_id.index1);
+    assert_int_equal(s->events[0].other, RLF_CONTACT_BODY);
+    assert_int_equal(s->events[0].other_body.index1, cube_id.index1);
+    advance(world, FRAME);
+    assert_int_equal(rlf_world_get_snapshot(world)->event_count, 0);
+    rlf_world_destroy(&world);
+}
+
+/* What goes ends its touches, under its own generation. */
+static void removal_ends_touching(void **state)
+{
+    (void)state;
+    rlf_world *world = make_world(9.81);
+    rlf_body_def def = plate();
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    def = rlf_body_def_default();
+    def.position = rlf_vec3_make(0, -0.1, 1);
+    rlf_body_id id;
+    assert_int_equal(rlf_world_add_body(world, &def, &id), RLF_OK);
+    advance(world, 2);
+    rlf_world_remove_body(world, id);
+    advance(world, FRAME);
+    const rlf_snapshot *s = rlf_world_get_snapshot(world);
+    assert_int_equal(s->event_count, 1);
+    assert_false(s->events[0].is_begin);
+    assert_int_equal(s->events[0].other_body.generation, id.generation);
+    rlf_world_destroy(&world);
+}
+
 static void wrong_defs_are_refused(void **state)
 {
     (void)state;
@@ -169,6 +250,8 @@ int main(void)
         cmocka_unit_test(kinematic_body_obeys_only_the_caller),
         cmocka_unit_test(kinematic_plate_lifts_and_carries),
         cmocka_unit_test(kinematic_bodies_ignore_each_other),
+        cmocka_unit_test(touching_begins_and_ends_once),
+        cmocka_unit_test(removal_ends_touching),
         cmocka_unit_test(wrong_defs_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,56 @@
+/* Relief: questions to a world and to the real surface: what does a ray meet, what is near a point?
+ * They change nothing and allocate nothing. SPDX-License-Identifier: MIT */
+#ifndef RELIEF_QUERY_H
+#define RELIEF_QUERY_H
+
+#include "relief/world.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Why a question has the answer it has. All but HIT say that nothing was met, and what is known of
+ * the real world at the end of the ray or at the centre of the sphere. */
+typedef enum rlf_query_reason {
+    RLF_QUERY_MISS = 0,       /* free space that the camera sees, or no grid was given */
+    RLF_QUERY_HIT = 1,        /* a body or the real surface */
+    RLF_QUERY_OUTSIDE_VIEW,   /* the camera does not look there */
+    RLF_QUERY_MISSING_DEPTH,  /* it does, but its pixel has no depth */
+    RLF_QUERY_BEHIND_SURFACE, /* hidden behind what it sees */
+    RLF_QUERY_INVALID         /* an argument is not finite or not positive */
+} rlf_query_reason;
+
+typedef struct rlf_ray_hit {
+    rlf_query_reason reason;
+    rlf_contact_other other; /* what was hit; this and all below only when reason is HIT */
+    rlf_body_id body;        /* null unless other is RLF_CONTACT_BODY */
+    int32_t region_label;    /* of the surface; 0 for a body */
+    double distance;         /* metres from the ray's origin */
+    rlf_vec3 point, normal;  /* world; the normal is unit and points out of what was hit. A ray that
+                                starts inside hits at distance 0 with the normal -direction */
+} rlf_ray_hit;
+
+/* First thing within `length` metres on the ray from `origin` along `direction` (world; need not be
+ * unit). Bodies are where the last advance left them, the surface where `grid` shows it, without
+ * extrapolation; grid NULL asks the bodies alone. Surface hits are exact to about a pixel across
+ * the ray. */
+RLF_API rlf_ray_hit rlf_world_cast_ray(const rlf_world *world, const rlf_grid *grid,
+                                       rlf_vec3 origin, rlf_vec3 direction, double length);
+
+typedef struct rlf_overlap {
+    rlf_query_reason reason; /* HIT when anything overlaps */
+    int32_t body_count;      /* bodies that overlap; may be more than the list holds */
+    bool touches_background, touches_foreground;
+} rlf_overlap;
+
+/* What overlaps the sphere of `radius` metres at `centre` (world). The ids of the first `capacity`
+ * bodies, in the order of their slots, go to `ids`, which may be NULL when capacity is 0. A hull
+ * counts as near its edges and corners as the planes of its faces are. */
+RLF_API rlf_overlap rlf_world_overlap_sphere(const rlf_world *world, const rlf_grid *grid,
+                                             rlf_vec3 centre, double radius, rlf_body_id *ids,
+                                             int32_t capacity);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
