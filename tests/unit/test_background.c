@@ -322,12 +322,12 @@ static void small_pieces_belong_to_what_is_around_them(void **state)
             box(30, 50, 2.0f);
         }
         for (int k = 0; t > 5 && k < 25; k++) {
-            depth[(30 + k / 5) * WIDTH + 51 + k % 5] = t == 6 ? 3.0f : 2.02f;
+            depth[(30 + k / 5) * WIDTH + 52 + k % 5] = t == 6 ? 3.0f : 2.02f;
             depth[(30 + k / 5) * WIDTH + 80 + k % 5] = t == 6 ? 3.0f : 2.02f;
         }
         s = process(stage, t);
     }
-    const int32_t beside = 32 * WIDTH + 53;
+    const int32_t beside = 32 * WIDTH + 52;
     assert_int_equal(s->foreground[beside], 1);
     assert_int_equal(s->label[beside], s->label[32 * WIDTH + 40]);
     assert_int_equal(s->foreground[32 * WIDTH + 82], 0);
