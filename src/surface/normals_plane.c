@@ -98,23 +98,52 @@ static void complete_span(const rlf_normals_job *job, int32_t y, int32_t begin, 
     }
 }
 
-/* In raster order on one thread: a pixel may use one that was completed before it. Most spans have
- * nothing to do, which is found without a branch. */
-static void complete_pixels(const rlf_normals_job *job)
+/* Most spans have nothing to do, which is found without a branch. */
+static void complete_row(const rlf_normals_job *job, int32_t y)
 {
     enum { SPAN = 32 };
-    for (int32_t y = 0; y < job->height; y++) {
-        ptrdiff_t row = (ptrdiff_t)y * job->width;
-        for (int32_t begin = 0; begin < job->width; begin += SPAN) {
-            int32_t end = begin + SPAN < job->width ? begin + SPAN : job->width;
-            int32_t missing = 0;
-            for (int32_t x = begin; x < end; x++) {
-                missing += is_without(job, row + x);
-            }
-            if (missing > 0) {
-                complete_span(job, y, begin, end);
-            }
+    ptrdiff_t row = (ptrdiff_t)y * job->width;
+    for (int32_t begin = 0; begin < job->width; begin += SPAN) {
+        int32_t end = begin + SPAN < job->width ? begin + SPAN : job->width;
+        int32_t missing = 0;
+        for (int32_t x = begin; x < end; x++) {
+            missing += is_without(job, row + x);
         }
+        if (missing > 0) {
+            complete_span(job, y, begin, end);
+        }
+    }
+}
+
+/* Completes every second band of rows, in raster order within a band: a pixel may use one that was
+ * completed before it. The bands between them rest meanwhile, so no two threads meet and the order
+ * is the same for any number of them. */
+typedef struct completion {
+    const rlf_normals_job *job;
+    int32_t parity;
+} completion;
+
+enum { BAND_ROWS = 16 };
+
+static void complete_bands(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const completion *c = context;
+    for (int32_t pair = begin; pair < end; pair++) {
+        int32_t y0 = (2 * pair + c->parity) * BAND_ROWS;
+        int32_t y1 = y0 + BAND_ROWS < c->job->height ? y0 + BAND_ROWS : c->job->height;
+        for (int32_t y = y0; y < y1; y++) {
+            complete_row(c->job, y);
+        }
+    }
+}
+
+static void complete_pixels(const rlf_normals_job *job)
+{
+    int32_t pairs = (job->height + 2 * BAND_ROWS - 1) / (2 * BAND_ROWS);
+    for (int32_t parity = 0; parity < 2; parity++) {
+        completion c = {job, parity};
+        rlf_parallel_for(job->pool, pairs, 1, complete_bands, &c);
     }
 }
 
