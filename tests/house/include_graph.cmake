@@ -13,10 +13,10 @@ set(public_camera base math image camera)
 set(public_kernel base math image camera frame surface) # of the values: noise and reason codes
 set(public_capture base math image camera frame source synthetic)
 set(public_surface base math image camera frame surface reconstruct)
-set(public_physics base math snapshot world)
+set(public_physics base math snapshot world query)
 set(public_render base math image camera frame surface snapshot compositor)
 set(public_render_gl ${public_render} gl)
-set(public_pipeline base math image camera frame surface snapshot source synthetic reconstruct world
+set(public_pipeline base math image camera frame surface snapshot source synthetic reconstruct world query
     compositor pipeline relief)
 set(public_io ${public_pipeline} io)
 
@@ -45,11 +45,12 @@ set(header_source frame)
 set(header_synthetic source)
 set(header_reconstruct surface)
 set(header_world snapshot)
+set(header_query world)
 set(header_compositor snapshot surface)
 set(header_pipeline compositor reconstruct source world)
 set(header_io pipeline synthetic)
 set(header_gl compositor)
-set(header_relief base camera compositor frame image math pipeline reconstruct snapshot source
+set(header_relief base camera compositor frame image math pipeline query reconstruct snapshot source
     surface synthetic world)
 
 # The module that implements a public header; values belong to no module.
@@ -57,6 +58,7 @@ set(owner_source capture)
 set(owner_synthetic capture)
 set(owner_reconstruct surface)
 set(owner_world physics)
+set(owner_query physics)
 set(owner_compositor render)
 foreach(module base math image camera pipeline io)
   set(owner_${module} ${module})
