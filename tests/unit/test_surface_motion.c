@@ -102,7 +102,7 @@ static void moving_plate_has_its_velocity(void **state)
     }
     assert_in_range(count, 1700, 2500);
     assert_true(sum / count > 0.475 && sum / count < 0.525);
-    assert_true(across < 0.05); /* nothing is made up along the plate */
+    assert_true(across < 0.015); /* 9 mm/s: the twist makes up little along the plate */
     rlf_reconstruct_destroy(&s.stage);
 }
 
