@@ -76,6 +76,8 @@ RLF_API void rlf_pipeline_set_overlay(rlf_pipeline *pipeline, const char *const 
 RLF_API rlf_result rlf_pipeline_step(rlf_pipeline *pipeline, rlf_pipeline_output *out);
 /* Draws the last frame again, e.g. after a change of view while paused. */
 RLF_API rlf_result rlf_pipeline_redraw(rlf_pipeline *pipeline, rlf_pipeline_output *out);
+/* Times of the surface stage's steps; see rlf_reconstruct_set_times. */
+RLF_API void rlf_pipeline_set_surface_times(rlf_pipeline *pipeline, rlf_surface_times *times);
 /* First frame, empty background, the scene's bodies again. */
 RLF_API rlf_result rlf_pipeline_restart(rlf_pipeline *pipeline);
 /* The world, to add or throw bodies between steps. */

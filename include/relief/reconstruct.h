@@ -89,6 +89,34 @@ RLF_API void rlf_reconstruct_destroy(rlf_reconstruct **stage);
  * a time per object. */
 RLF_API rlf_result rlf_reconstruct_process(rlf_reconstruct *stage, const rlf_frame *frame,
                                            const rlf_surface **out_surface);
+/* Steps of one frame, in the order in which they run; those that are switched off take no time. */
+typedef enum rlf_surface_step {
+    RLF_SURFACE_READ = 0,   /* raw depth to metres, with reasons */
+    RLF_SURFACE_FLYING,     /* mixed pixels off */
+    RLF_SURFACE_SMOOTH,     /* planes fitted to windows: smoothed depth and, with it, normals */
+    RLF_SURFACE_FILL,       /* holes filled */
+    RLF_SURFACE_COMPLETE,   /* normals where the smoothing left none */
+    RLF_SURFACE_STEADY,     /* averaging over time */
+    RLF_SURFACE_BACKGROUND, /* background model and foreground */
+    RLF_SURFACE_NORMALS,    /* normals that were not made with the depth */
+    RLF_SURFACE_SEGMENT,    /* regions and labels */
+    RLF_SURFACE_VELOCITY,
+    RLF_SURFACE_THICKNESS,
+    RLF_SURFACE_PUBLISH, /* counts of the finished surface */
+    RLF_SURFACE_STEP_COUNT
+} rlf_surface_step;
+
+/* Name of a step, e.g. "background". */
+RLF_API const char *rlf_surface_step_name(rlf_surface_step step);
+
+typedef struct rlf_surface_times {
+    double step_ms[RLF_SURFACE_STEP_COUNT]; /* of the last frame */
+} rlf_surface_times;
+
+/* From now on each frame writes the time of its steps to *times, which is borrowed; NULL (the
+ * default) measures nothing and costs nothing. Results never depend on it. */
+RLF_API void rlf_reconstruct_set_times(rlf_reconstruct *stage, rlf_surface_times *times);
+
 /* Forgets the background and all history: the next frame is the first. */
 RLF_API void rlf_reconstruct_reset(rlf_reconstruct *stage);
 

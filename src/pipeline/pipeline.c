@@ -232,6 +232,13 @@ void rlf_pipeline_set_overlay(rlf_pipeline *p, const char *const *lines, int32_t
     }
 }
 
+void rlf_pipeline_set_surface_times(rlf_pipeline *p, rlf_surface_times *times)
+{
+    if (RLF_ASSERT(p != NULL)) {
+        rlf_reconstruct_set_times(p->reconstruct, times);
+    }
+}
+
 static double elapsed_ms(int64_t *since_ns)
 {
     int64_t now = rlf_clock_ns();

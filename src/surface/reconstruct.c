@@ -111,23 +111,29 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
     float *kept = fill || smooth ? stage->work.depth[1] : slot->depth;
     float *raw = flying ? stage->work.depth[0] : kept;
     rlf_points_read(stage, frame, raw, slot->reason);
+    rlf_stage_add_time(stage, RLF_SURFACE_READ);
     if (flying) {
         rlf_flying_remove(stage, raw, kept, slot->reason);
+        rlf_stage_add_time(stage, RLF_SURFACE_FLYING);
     }
     if (smooth) {
         float *out = fill ? stage->work.depth[0] : slot->depth;
         make_planes(stage, kept, out, slot);
+        rlf_stage_add_time(stage, RLF_SURFACE_SMOOTH);
         kept = out;
     }
     if (fill) {
         rlf_fill_holes(stage, kept, slot->depth, slot->reason);
+        rlf_stage_add_time(stage, RLF_SURFACE_FILL);
     }
     if (smooth) {
         rlf_normals_job job = rlf_normals_job_make(stage, slot->depth, slot->normal);
         rlf_normals_plane_complete(&job);
+        rlf_stage_add_time(stage, RLF_SURFACE_COMPLETE);
     }
     if (stage->def.enable_steadying) {
         rlf_steady_update(stage, slot);
+        rlf_stage_add_time(stage, RLF_SURFACE_STEADY);
     }
 }
 
@@ -307,17 +313,24 @@ rlf_result rlf_reconstruct_process(rlf_reconstruct *stage, const rlf_frame *fram
     stage->current = (stage->current + 1) % RLF_RECONSTRUCT_SURFACES;
     rlf_slot *slot = &stage->ring[stage->current];
     slot->surface.time_ns = frame->time_ns;
+    rlf_stage_start_times(stage);
     make_depth(stage, frame, slot);
     rlf_background_update(stage, slot);
+    rlf_stage_add_time(stage, RLF_SURFACE_BACKGROUND);
     make_normals(stage, slot);
+    rlf_stage_add_time(stage, RLF_SURFACE_NORMALS);
     make_regions(stage, slot);
+    rlf_stage_add_time(stage, RLF_SURFACE_SEGMENT);
     if (stage->def.enable_velocity) {
         rlf_velocity_estimate(stage, slot);
+        rlf_stage_add_time(stage, RLF_SURFACE_VELOCITY);
     }
     if (stage->def.enable_thickness) {
         rlf_thickness_estimate(stage, slot);
+        rlf_stage_add_time(stage, RLF_SURFACE_THICKNESS);
     }
     publish(stage, frame, slot);
+    rlf_stage_add_time(stage, RLF_SURFACE_PUBLISH);
     stage->previous = slot;
     *out_surface = &slot->surface;
     return RLF_OK;

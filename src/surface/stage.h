@@ -90,6 +90,8 @@ struct rlf_reconstruct {
     rlf_background background;
     rlf_steady steady;
     rlf_work work;
+    rlf_surface_times *times;       /* borrowed; NULL = not measured */
+    int64_t clock_ns;               /* end of the last step that was timed */
     void *blocks[RLF_STAGE_BLOCKS]; /* everything allocated */
     int32_t block_count;
     bool out_of_memory;
@@ -97,6 +99,10 @@ struct rlf_reconstruct {
 
 /* def.c */
 rlf_result rlf_reconstruct_def_check(const rlf_reconstruct_def *def);
+
+/* times.c: begins a frame's times; adds the time since the last call to a step. */
+void rlf_stage_start_times(rlf_reconstruct *stage);
+void rlf_stage_add_time(rlf_reconstruct *stage, rlf_surface_step step);
 
 /* memory.c: allocates all buffers of a stage whose def is set; false when memory is short. */
 bool rlf_stage_allocate(rlf_reconstruct *stage);

@@ -1,0 +1,109 @@
+/* Times of the surface stage's steps: they add up, and nothing depends on them. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "analytic.h"
+
+#include <string.h>
+
+enum { WIDTH = 320, HEIGHT = 240, FRAMES = 8, UNTIMED = 6 };
+
+static float depth[WIDTH * HEIGHT];
+
+static void draw(const rlf_rig *rig, int32_t number)
+{
+    for (int32_t i = 0; i < WIDTH * HEIGHT; i++) {
+        double rx = (i % WIDTH - rig->depth.cx) / rig->depth.fx;
+        double ry = (double)(i / WIDTH - rig->depth.cy) / rig->depth.fy;
+        double ball = sphere_depth(rlf_vec3_make(0.1 * number - 0.6, 0, 1.5), 0.3, rx, ry);
+        depth[i] = ball > 0.0 && number > 4 ? (float)ball : 2.5f;
+    }
+}
+
+static void times_add_up_and_change_nothing(void **state)
+{
+    (void)state;
+    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
+    rlf_reconstruct *timed = NULL, *plain = NULL;
+    assert_int_equal(rlf_reconstruct_create(&def, &timed), RLF_OK);
+    assert_int_equal(rlf_reconstruct_create(&def, &plain), RLF_OK);
+    rlf_surface_times times, before;
+    rlf_reconstruct_set_times(timed, &times);
+    for (int32_t k = 0; k < FRAMES; k++) {
+        draw(&rig, k);
+        rlf_frame frame = {.sequence = (uint64_t)k,
+                           .time_ns = k * INT64_C(33333333),
+                           .rig = &rig,
+                           .depth_f32 = depth,
+                           .depth_stride = WIDTH * (ptrdiff_t)sizeof(float)};
+        const rlf_surface *a = NULL, *b = NULL;
+        memset(&times, 0xff, sizeof(times)); /* NaN: every step must be written */
+        before = times;
+        rlf_reconstruct_set_times(timed, k < UNTIMED ? &times : NULL);
+        int64_t start = rlf_clock_ns();
+        assert_int_equal(rlf_reconstruct_process(timed, &frame, &a), RLF_OK);
+        double whole = (double)(rlf_clock_ns() - start) * 1e-6;
+        assert_int_equal(rlf_reconstruct_process(plain, &frame, &b), RLF_OK);
+        assert_memory_equal(a->depth, b->depth, sizeof(depth));
+        assert_memory_equal(a->velocity_x, b->velocity_x, sizeof(depth));
+        if (k >= UNTIMED) {
+            assert_memory_equal(&times, &before, sizeof(times)); /* off again: not touched */
+            continue;
+        }
+        double sum = 0;
+        for (int s = 0; s < RLF_SURFACE_STEP_COUNT; s++) {
+            assert_true(times.step_ms[s] >= 0.0);
+            sum += times.step_ms[s];
+        }
+        assert_true(sum <= whole);
+        assert_true(times.step_ms[RLF_SURFACE_SMOOTH] > 0.0);
+        assert_true(times.step_ms[RLF_SURFACE_BACKGROUND] > 0.0);
+    }
+    rlf_reconstruct_destroy(&timed);
+    rlf_reconstruct_destroy(&plain);
+}
+
+static void steps_that_are_off_take_no_time(void **state)
+{
+    (void)state;
+    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_THESIS, &rig);
+    rlf_reconstruct *stage = NULL;
+    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    rlf_surface_times times;
+    rlf_reconstruct_set_times(stage, &times);
+    draw(&rig, 0);
+    rlf_frame frame = {
+        .rig = &rig, .depth_f32 = depth, .depth_stride = WIDTH * (ptrdiff_t)sizeof(float)};
+    const rlf_surface *surface = NULL;
+    assert_int_equal(rlf_reconstruct_process(stage, &frame, &surface), RLF_OK);
+    assert_true(times.step_ms[RLF_SURFACE_SMOOTH] == 0.0);
+    assert_true(times.step_ms[RLF_SURFACE_VELOCITY] == 0.0);
+    assert_true(times.step_ms[RLF_SURFACE_NORMALS] > 0.0);
+    rlf_reconstruct_destroy(&stage);
+}
+
+static void steps_have_names(void **state)
+{
+    (void)state;
+    for (int s = 0; s < RLF_SURFACE_STEP_COUNT; s++) {
+        assert_true(strlen(rlf_surface_step_name((rlf_surface_step)s)) >= 4);
+    }
+    assert_string_equal(rlf_surface_step_name(RLF_SURFACE_PUBLISH), "publish");
+    assert_string_equal(rlf_surface_step_name(RLF_SURFACE_STEP_COUNT), "unknown");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(times_add_up_and_change_nothing),
+        cmocka_unit_test(steps_that_are_off_take_no_time),
+        cmocka_unit_test(steps_have_names),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
