@@ -9,9 +9,10 @@
 #define FOCAL_MEANING "the focal length in pixels, between a hundredth and a hundred times the size"
 #define CENTRE_MEANING "the principal point in pixels, no farther than two sizes from the picture"
 
-/* What a folder's sensor can see when camera.json does not say: the range that Kinect, Xtion and
- * RealSense class cameras report. */
-#define DEPTH_MIN_DEFAULT_M 0.3
+/* What a folder's sensor can see when camera.json does not say. A camera writes 0 where it is too
+ * near to measure, so whatever it did write is believed down to the nearest that any of its class
+ * measures. */
+#define DEPTH_MIN_DEFAULT_M 0.1
 #define DEPTH_MAX_DEFAULT_M 8.0
 
 /* Quadratic growth as for every triangulating sensor (Khoshelham and Oude Elberink 2012), with the

@@ -37,7 +37,7 @@ static void smallest_file_gets_the_defaults(void **state)
     assert_int_equal(rig.depth.distortion_model, RLF_DISTORTION_NONE);
     assert_false(rig.has_color);
     assert_true(rig.T_color_depth.q.w == 1 && rig.T_color_depth.p.x == 0);
-    assert_true(rig.depth_min_m == 0.3 && rig.depth_max_m == 8.0);
+    assert_true(rig.depth_min_m == 0.1 && rig.depth_max_m == 8.0);
     double sigma = rlf_depth_noise_sigma(&rig.noise, 2.0);
     assert_true(sigma > 0.003 && sigma < 0.008);
 }
