@@ -1,6 +1,7 @@
 /* `relief eval`: accuracy of both profiles against the synthetic room's ground truth. */
 #include "eval.h"
 #include "command.h"
+#include "eval_picture.h"
 #include "eval_solid.h"
 #include "session.h"
 
@@ -36,7 +37,8 @@ static void print_help(void)
     printf("usage: relief eval [OPTIONS]\n\n"
            "Runs the synthetic room through both profiles and measures normals, foreground and\n"
            "collisions against ground truth, and the time of each stage.\n\n"
-           "  --scene NAME      room (default), empty, thesis, chair, book, hand\n"
+           "  --scene NAME      room (default), empty, thesis, chair, book, hand,\n"
+           "                    or picture: what hides bodies, at the colour camera\n"
            "  --frames N        frames per seed, default 200\n"
            "  --seeds N         seeds 1..N of the sensor noise, default 2\n"
            "  --profile NAME    live, thesis or both (default)\n"
@@ -457,6 +459,9 @@ int eval_main(int argc, char **argv)
     int status = parse(argc, argv, &options);
     if (status >= 0) {
         return status;
+    }
+    if (strcmp(options.scene, "picture") == 0) {
+        return eval_picture_main(options.frames, options.seeds, options.json_path);
     }
     eval_run *runs = rlf_alloc_array(2, sizeof(*runs)); /* large: histograms and samples */
     if (runs == NULL) {

@@ -72,6 +72,15 @@ RLF_API rlf_result rlf_synthetic_parse(const char *source, rlf_synthetic_def *de
 RLF_API rlf_result rlf_synthetic_distance(rlf_source *source, rlf_vec3 p, double *out_distance,
                                           rlf_vec3 *out_normal, int32_t *out_label);
 
+/* Truth along rays of any camera at this instant: out_distance[i] is the t > 0 at which
+ * origin + t directions[i] (camera frame, metres) first meets the scene, 0 where it never does, and
+ * out_label[i] (may be NULL) what it meets. With direction z = 1 and an origin at z = 0, t is the
+ * depth. Rays of one call that lie close together are cheaper. For checking pictures against truth.
+ * RLF_ERROR_INVALID when the source is not a synthetic one. */
+RLF_API rlf_result rlf_synthetic_cast(rlf_source *source, rlf_vec3 origin,
+                                      const rlf_vec3 *directions, int32_t count,
+                                      float *out_distance, int32_t *out_label);
+
 #ifdef __cplusplus
 }
 #endif
