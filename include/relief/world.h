@@ -137,6 +137,20 @@ RLF_API bool rlf_world_apply_force(rlf_world *world, rlf_body_id id, rlf_vec3 fo
  * depend on the pool. Thread-safety: one call at a time per world. */
 RLF_API void rlf_world_advance(rlf_world *world, const rlf_grid *grid, double dt);
 
+/* Where the time of the last advance went, milliseconds; the thesis's method sets only the last. */
+typedef struct rlf_world_times {
+    double wake_ms;    /* what a new surface means for those that sleep */
+    double surface_ms; /* contacts with the surface */
+    double pairs_ms;   /* contacts between bodies */
+    double impacts_ms; /* bounces */
+    double solve_ms;   /* resting contacts and friction */
+    double move_ms;    /* integration */
+    double sleep_ms;   /* islands */
+    double publish_ms; /* events and snapshot */
+} rlf_world_times;
+
+RLF_API rlf_world_times rlf_world_get_times(const rlf_world *world);
+
 /* State after the last advance; valid until the next call that changes the world. */
 RLF_API const rlf_snapshot *rlf_world_get_snapshot(const rlf_world *world);
 /* Removes all bodies and sets the time to 0. */

@@ -4,7 +4,7 @@
 #include "physics/grid_reduce.h"
 #include "physics/grid_scan.h"
 
-static bool set_up(grid_job *job, const grid_query *query, const phys_body *body)
+static void set_up(grid_job *job, const grid_query *query, const phys_body *body)
 {
     rlf_quat q_grid_body = rlf_quat_mul(query->T_grid_world.q, body->q);
     job->query = query;
@@ -14,7 +14,6 @@ static bool set_up(grid_job *job, const grid_query *query, const phys_body *body
     job->w = rlf_rotate(query->T_grid_world.q, body->w);
     job->R_grid_body = rlf_quat_to_mat3(q_grid_body);
     job->R_body_grid = rlf_mat3_transpose(&job->R_grid_body);
-    return job->centre.z > -body->shape.radius;
 }
 
 /* One surface point of the body along its way through the sheet's own moving frame. */
@@ -46,10 +45,31 @@ static void cast_point(grid_job *job, rlf_vec3 anchor, double rounding, rlf_vec3
     }
 }
 
+/* Whether the point at `anchor` can come to one of the flat tiles. */
+static bool is_over_flat(const grid_job *job, rlf_vec3 anchor)
+{
+    const double BAND = 0.02; /* a tile's plane is that of its pixels up to noise and relief */
+    rlf_vec3 r = rlf_mat3_mul_vec(&job->R_grid_body, anchor);
+    rlf_vec3 v = rlf_add(job->v, rlf_cross(job->w, r));
+    rlf_vec3 q = rlf_add(job->centre, r);
+    for (int32_t i = 0; i < job->flat_count; i++) {
+        const grid_tile *tile = job->flats[i];
+        double approach = rlf_dot(tile->normal, rlf_sub(tile->velocity, v));
+        rlf_vec3 seen = rlf_mad(q, tile->velocity, -job->query->tau);
+        double height = rlf_dot(tile->normal, seen) - tile->offset;
+        if (height < BAND + rlf_max(0.0, approach) * job->horizon) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* On a plane a convex body stands on vertices, a round one on the points that its shape names. */
 static void cast_points(grid_job *job)
 {
     const phys_shape *shape = &job->body->shape;
     rlf_vec3 none = {0, 0, 0};
+    int32_t named = 0;
     for (int32_t i = 0; i < job->normal_count; i++) {
         rlf_vec3 core[2];
         double rounding;
@@ -58,9 +78,17 @@ static void cast_points(grid_job *job)
         for (int32_t k = 0; k < count; k++) {
             cast_point(job, core[k], rounding, job->normals[i]);
         }
+        named += count;
     }
-    for (int32_t i = 0; i < shape->point_count; i++) {
-        cast_point(job, shape->points[i], 0.0, none);
+    bool is_round = shape->shape.type == RLF_SHAPE_SPHERE || shape->shape.type == RLF_SHAPE_CAPSULE;
+    if (job->is_flat && is_round && named > 0) {
+        return;
+    }
+    int32_t count = job->is_flat ? shape->vertex_count : shape->point_count;
+    for (int32_t i = 0; i < count; i++) {
+        if (!job->is_flat || is_over_flat(job, shape->points[i])) {
+            cast_point(job, shape->points[i], 0.0, none);
+        }
     }
 }
 
@@ -83,19 +111,69 @@ static void add_bumps(grid_job *job)
     }
 }
 
-static void collide_sheet(grid_job *job, const rlf_grid_sheet *sheet)
+static void clear(grid_job *job)
 {
-    job->sheet = sheet;
     job->surface_velocity = rlf_vec3_make(0, 0, 0);
+    job->is_near = job->is_flat = false;
+    job->flat_count = 0;
     job->normal_count = 0;
     job->bump_count = 0;
     job->hit_count = 0;
-    if (sheet->depth == NULL || sheet->normal_x == NULL) {
+}
+
+static void collide_sheet(grid_job *job, const grid_tiles *tiles)
+{
+    clear(job);
+    job->tiles = tiles;
+    job->sheet = tiles->sheet;
+    if (job->sheet->depth == NULL || job->sheet->normal_x == NULL) {
         return;
     }
     grid_scan_footprint(job);
-    cast_points(job);
-    add_bumps(job);
+    if (job->is_near) {
+        cast_points(job);
+        add_bumps(job);
+    }
+}
+
+/* The body's point against one plane of the shell, where the camera does not see. */
+static void touch_shell(grid_job *job, const shell_plane *plane, rlf_vec3 anchor, double rounding)
+{
+    rlf_vec3 r = rlf_mat3_mul_vec(&job->R_grid_body, anchor);
+    r = rlf_mad(r, plane->normal, -rounding);
+    rlf_vec3 q = rlf_add(job->centre, r);
+    double approach = -rlf_dot(plane->normal, rlf_add(job->v, rlf_cross(job->w, r)));
+    double separation = rlf_dot(plane->normal, q) - plane->offset;
+    if (separation < GRID_MARGIN + rlf_max(0.0, approach) * job->horizon &&
+        job->hit_count < GRID_HITS_MAX && grid_shell_is_hidden(job->query->grid, q)) {
+        grid_hit hit = {.point = rlf_mad(q, plane->normal, -separation), .normal = plane->normal};
+        hit.anchor = anchor;
+        hit.rounding = rounding;
+        hit.separation = separation;
+        job->hits[job->hit_count++] = hit;
+    }
+}
+
+static void collide_shell(grid_job *job)
+{
+    const grid_shell *shell = job->query->shell;
+    for (int32_t i = 0; shell != NULL && i < shell->count; i++) {
+        const shell_plane *plane = &shell->planes[i];
+        const phys_shape *shape = &job->body->shape;
+        if (rlf_dot(plane->normal, job->centre) - plane->offset > job->reach) {
+            continue;
+        }
+        rlf_vec3 core[2];
+        double rounding;
+        rlf_vec3 down = rlf_mat3_mul_vec(&job->R_body_grid, rlf_neg(plane->normal));
+        int32_t count = phys_shape_support(shape, down, core, &rounding);
+        for (int32_t k = 0; k < count; k++) {
+            touch_shell(job, plane, core[k], rounding);
+        }
+        for (int32_t k = 0; count == 0 && k < shape->vertex_count; k++) {
+            touch_shell(job, plane, shape->points[k], 0.0);
+        }
+    }
 }
 
 /* How many substeps this body's contacts stay good: it must not travel far in that time. */
@@ -104,6 +182,25 @@ static int32_t query_period(const phys_body *body, double step)
     double travel = (rlf_length(body->v) + rlf_length(body->w) * body->shape.radius) * step;
     double period = 0.2 * body->shape.inner_radius / rlf_max(travel, 1e-9);
     return (int32_t)rlf_clamp(period, 1.0, 4.0);
+}
+
+/* How far from the body's centre anything can matter until its contacts are asked for again. */
+static double reach_of(const grid_query *query, const phys_body *body, int32_t period)
+{
+    double speed = rlf_length(body->v) + 0.5 * rlf_length(body->w) * body->shape.radius;
+    double slip = query->grid->foreground.velocity_x != NULL ? 0.05 : 0.0;
+    return body->shape.radius + GRID_MARGIN + speed * (period + 1) * query->step + slip;
+}
+
+void grid_collide_prepare(const grid_query *query, const phys_body *body)
+{
+    int32_t rect[4], stride;
+    double reach = reach_of(query, body, query_period(body, query->step));
+    rlf_vec3 centre = rlf_transform(&query->T_grid_world, body->x);
+    if (grid_footprint(query->grid, centre, reach, rect, &stride)) {
+        grid_tiles_make(query->foreground, query->grid, rect);
+        grid_tiles_make(query->background, query->grid, rect);
+    }
 }
 
 void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
@@ -118,17 +215,14 @@ void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
     body->surface_age = 0;
     body->surface_period = query_period(body, query->step);
     grid_job job;
-    if (!set_up(&job, query, body)) {
-        return;
-    }
+    set_up(&job, query, body);
     job.horizon = (body->surface_period + 1) * query->step;
-    double speed = rlf_length(body->v) + 0.5 * rlf_length(body->w) * body->shape.radius;
-    double slip = query->grid->foreground.velocity_x != NULL ? 0.05 : 0.0;
-    job.reach = body->shape.radius + GRID_MARGIN + speed * job.horizon + slip;
-    collide_sheet(&job, &query->grid->foreground);
+    job.reach = reach_of(query, body, body->surface_period);
+    collide_sheet(&job, query->foreground);
     body->surface_flow = job.surface_velocity;
     grid_reduce(&job, body, body_index, RLF_CONTACT_FOREGROUND);
-    collide_sheet(&job, &query->grid->background);
+    collide_sheet(&job, query->background);
+    collide_shell(&job);
     grid_reduce(&job, body, body_index, RLF_CONTACT_BACKGROUND);
     grid_keep_impulses(body, old, old_count);
 }

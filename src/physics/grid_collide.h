@@ -3,6 +3,8 @@
 #define RLF_PHYSICS_GRID_COLLIDE_H
 
 #include "physics/body.h"
+#include "physics/grid_shell.h"
+#include "physics/grid_tiles.h"
 
 /* The real surface during one substep. */
 typedef struct grid_query {
@@ -12,7 +14,12 @@ typedef struct grid_query {
     bool is_moving; /* false beyond the time that extrapolation is trusted */
     double time;    /* world time now, s */
     double step;    /* s of a substep */
+    grid_tiles *foreground, *background;
+    const grid_shell *shell; /* NULL: there is nothing where the camera does not look */
 } grid_query;
+
+/* Makes the tiles that grid_collide will read for this body. */
+void grid_collide_prepare(const grid_query *query, const phys_body *body);
 
 /* Replaces body->surface by fresh contacts and sets how long they may be used; impulses of contacts
  * that live on are kept. */

@@ -1,6 +1,5 @@
 /* Reading one sheet of the grid: front, back and side of the solid at a point. */
 #include "physics/grid_field.h"
-#include "physics/grid_border.h"
 #include "physics/grid_edge.h"
 
 #define ENDLESS 1e9
@@ -24,7 +23,6 @@ bool grid_cell_read(const rlf_grid *grid, const rlf_grid_sheet *sheet, int32_t x
     if (!(z > 0.0) || !(rlf_dot(n, n) > 0.25)) {
         return false;
     }
-    out->is_extended = false;
     out->x = x;
     out->y = y;
     out->label = sheet->label != NULL ? sheet->label[i] : 0;
@@ -87,12 +85,9 @@ static double plane_depth(const field_cell *cell, rlf_vec3 q)
     double slope = rlf_dot(cell->normal, q) / q.z;
     double z = cell->point.z;
     if (slope > -0.02) {
-        return cell->is_extended ? ENDLESS : z;
+        return z;
     }
     double on_ray = rlf_dot(cell->normal, cell->point) / slope;
-    if (cell->is_extended) {
-        return on_ray;
-    }
     return rlf_clamp(on_ray, 0.95 * z, 1.05 * z);
 }
 
@@ -100,9 +95,7 @@ field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf
                           field_cell *out)
 {
     int32_t x, y;
-    bool is_seen = pixel_of(grid, q, &x, &y) && read_bridged(grid, sheet, x, y, out);
-    if (!is_seen &&
-        (sheet->border != RLF_BORDER_EXTEND || !grid_border_read(grid, sheet, q, out))) {
+    if (!pixel_of(grid, q, &x, &y) || !read_bridged(grid, sheet, x, y, out)) {
         return FIELD_NONE;
     }
     double front = plane_depth(out, q);
@@ -110,7 +103,7 @@ field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf
     if (q.z < front) {
         return FIELD_FRONT;
     }
-    if (!out->is_extended && sheet->thickness == NULL && out->thickness < ENDLESS) {
+    if (sheet->thickness == NULL && out->thickness < ENDLESS) {
         /* How thick it is was never seen: no thicker than it is wide (a table's leg). */
         out->thickness = grid_edge_width(grid, sheet, out, out->thickness);
         out->thickness = rlf_max(out->thickness, THICKNESS_MIN);
@@ -150,7 +143,7 @@ static rlf_vec3 back_normal(const rlf_grid *grid, const rlf_grid_sheet *sheet,
     const int32_t OFFSETS[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     rlf_vec3 p[4];
     for (int32_t k = 0; k < 4; k++) {
-        if (cell->is_extended || !read_back(grid, sheet, cell, OFFSETS[k], &p[k])) {
+        if (!read_back(grid, sheet, cell, OFFSETS[k], &p[k])) {
             return rlf_neg(cell->normal);
         }
     }
@@ -211,10 +204,6 @@ static void hit_front(const rlf_grid *grid, const rlf_grid_sheet *sheet, const f
 {
     rlf_vec3 points = {0, 0, 0}, normals = {0, 0, 0};
     double count = 0.0;
-    if (cell->is_extended) {
-        set_hit(hit, cell, cell->point, cell->normal);
-        return;
-    }
     for (int32_t i = 0; i < 9; i++) {
         field_cell near;
         if (grid_cell_read(grid, sheet, cell->x + i % 3 - 1, cell->y + i / 3 - 1, &near) &&

@@ -23,7 +23,6 @@ typedef struct field_cell {
     rlf_vec3 point, normal, velocity;
     double thickness; /* metres along z; 1e9 = endless */
     double back;      /* z of the back on the query's ray */
-    bool is_extended; /* a plane that goes on beyond the border; see grid_border.h */
 } field_cell;
 
 /* A place to touch: `normal` points out of the solid, separation = normal.(query - point). */

@@ -6,7 +6,6 @@
 #include "physics/grid_edge.h"
 
 #define SAMPLES_PER_SIDE 20
-#define RING_PX 32 /* this near the image's border pixels may be missing */
 
 static rlf_vec3 to_body(const grid_job *job, rlf_vec3 p)
 {
@@ -138,17 +137,15 @@ static void look_at_outline(grid_job *job, const field_cell *cell, rlf_vec3 shif
     }
 }
 
-/* Rectangle of pixels under the sphere of `reach` about the centre. */
-static bool footprint(const grid_job *job, int32_t rect[4], int32_t *stride)
+bool grid_footprint(const rlf_grid *grid, rlf_vec3 centre, double reach, int32_t rect[4],
+                    int32_t *stride)
 {
-    const rlf_grid *grid = job->query->grid;
     double u, v;
-    rlf_vec3 c = job->centre;
-    if (!(c.z > 0.0) || !grid->project(grid->project_context, c, &u, &v)) {
+    if (!(centre.z > 0.0) || !grid->project(grid->project_context, centre, &u, &v)) {
         return false;
     }
-    double near = rlf_max(c.z - job->reach, 0.1);
-    double half = rlf_min(job->reach / (near * grid->pixel_angle) + 1.0, 4096.0);
+    double near = rlf_max(centre.z - reach, 0.1);
+    double half = rlf_min(reach / (near * grid->pixel_angle) + 1.0, 4096.0);
     rect[0] = (int32_t)rlf_clamp(u - half, 0, grid->width);
     rect[1] = (int32_t)rlf_clamp(v - half, 0, grid->height);
     rect[2] = (int32_t)rlf_clamp(u + half + 1, 0, grid->width);
@@ -157,74 +154,108 @@ static bool footprint(const grid_job *job, int32_t rect[4], int32_t *stride)
     return rect[0] < rect[2] && rect[1] < rect[3];
 }
 
-/* Directions of the room beyond the border, where the body is near it or past it. */
-static void look_beyond_border(grid_job *job)
+/* Sum of the velocities of what is within reach. */
+typedef struct flow_sum {
+    rlf_vec3 velocity;
+    double count;
+} flow_sum;
+
+static void look_at_pixel(grid_job *job, int32_t x, int32_t y, int32_t stride, flow_sum *flow)
 {
-    const int32_t OFFSETS[5][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-    for (int32_t k = 0; k < 5; k++) {
-        rlf_vec3 to = rlf_vec3_make(OFFSETS[k][0], OFFSETS[k][1], 0.0);
-        field_cell cell;
-        field_state state = grid_field_at(job->query->grid, job->sheet,
-                                          rlf_mad(job->centre, to, job->reach), &cell);
-        if (state != FIELD_NONE && cell.is_extended) {
-            note_normal(job, cell.normal);
+    const rlf_grid *grid = job->query->grid;
+    const rlf_grid_sheet *sheet = job->sheet;
+    int32_t i = y * grid->width + x;
+    field_cell cell;
+    double z = sheet->depth[i]; /* a cheap look first */
+    if (!(z > 0.0) || z > job->centre.z + job->reach ||
+        (sheet->mask != NULL && sheet->mask[i] == 0) || !grid_cell_read(grid, sheet, x, y, &cell)) {
+        return;
+    }
+    rlf_vec3 shift = rlf_scale(cell.velocity, job->query->tau);
+    rlf_vec3 p = rlf_add(cell.point, shift);
+    rlf_vec3 d = rlf_sub(p, job->centre);
+    double reach2 = job->reach * job->reach;
+    if (rlf_dot(d, d) < reach2) {
+        flow->velocity = rlf_add(flow->velocity, cell.velocity);
+        flow->count += 1.0;
+        look_at_interior(job, &cell, p);
+    }
+    double level = rlf_clamp(job->centre.z, z, z + cell.thickness);
+    rlf_vec3 beside = rlf_sub(rlf_mad(shift, cell.point, level / z), job->centre);
+    if (rlf_dot(beside, beside) < reach2) {
+        job->is_near = true;
+        job->is_flat = false;
+        double end = outline_end(job, &cell, stride);
+        if (end > 0.0) {
+            look_at_outline(job, &cell, shift, end);
         }
     }
 }
 
-/* A cheap look first: most pixels under a body in flight are far behind it. */
-static bool is_near_in_depth(const grid_job *job, int32_t i)
+/* A plane with nothing on it needs no look at its pixels. */
+static void look_at_flat(grid_job *job, const grid_tile *tile, flow_sum *flow)
 {
-    const rlf_grid_sheet *sheet = job->sheet;
-    double z = sheet->depth[i];
-    if (!(z > 0.0) || z > job->centre.z + job->reach ||
-        (sheet->mask != NULL && sheet->mask[i] == 0)) {
-        return false;
+    rlf_vec3 centre = rlf_mad(job->centre, tile->velocity, -job->query->tau);
+    double height = rlf_dot(tile->normal, centre) - tile->offset;
+    double depth = job->sheet->thickness == NULL ? job->sheet->default_thickness : 0.0;
+    if (height > job->reach || (depth > 0.0 && height < -depth - job->reach)) {
+        return;
     }
-    return true;
+    job->is_near = true;
+    if (height < -job->body->shape.radius || job->flat_count == GRID_FLATS_MAX) {
+        job->is_flat = false; /* it comes from behind */
+    } else {
+        job->flats[job->flat_count++] = tile;
+    }
+    if (height > -job->reach) {
+        note_normal(job, tile->normal);
+        flow->velocity = rlf_mad(flow->velocity, tile->velocity, tile->count);
+        flow->count += tile->count;
+    }
+}
+
+/* The tile's pixels within `rect` that lie on the rectangle's pattern of every stride-th. */
+static void look_at_rough(grid_job *job, const int32_t rect[4], int32_t stride,
+                          const int32_t corner[2], flow_sum *flow)
+{
+    int32_t size = job->tiles->size;
+    int32_t begin[2], end[2];
+    for (int32_t k = 0; k < 2; k++) {
+        int32_t skipped = corner[k] > rect[k] ? (corner[k] - rect[k] + stride - 1) / stride : 0;
+        begin[k] = rect[k] + skipped * stride;
+        end[k] = corner[k] + size < rect[k + 2] ? corner[k] + size : rect[k + 2];
+    }
+    for (int32_t y = begin[1]; y < end[1]; y += stride) {
+        for (int32_t x = begin[0]; x < end[0]; x += stride) {
+            look_at_pixel(job, x, y, stride, flow);
+        }
+    }
 }
 
 void grid_scan_footprint(grid_job *job)
 {
-    const rlf_grid *grid = job->query->grid;
-    double tau = job->query->tau;
-    int32_t rect[4], stride, moving = 0;
-    rlf_vec3 velocity = {0, 0, 0};
-    bool is_in_view = footprint(job, rect, &stride);
-    if (job->sheet->border == RLF_BORDER_EXTEND &&
-        (!is_in_view || rect[0] < RING_PX || rect[1] < RING_PX || rect[2] > grid->width - RING_PX ||
-         rect[3] > grid->height - RING_PX)) {
-        look_beyond_border(job);
-    }
-    if (!is_in_view) {
+    const grid_tiles *tiles = job->tiles;
+    int32_t rect[4], stride;
+    flow_sum flow = {{0, 0, 0}, 0.0};
+    if (!grid_footprint(job->query->grid, job->centre, job->reach, rect, &stride)) {
         return;
     }
-    for (int32_t y = rect[1]; y < rect[3]; y += stride) {
-        for (int32_t x = rect[0]; x < rect[2]; x += stride) {
-            field_cell cell;
-            if (!is_near_in_depth(job, y * grid->width + x) ||
-                !grid_cell_read(grid, job->sheet, x, y, &cell)) {
+    job->is_flat = true;
+    for (int32_t y = rect[1] / tiles->size; y * tiles->size < rect[3]; y++) {
+        for (int32_t x = rect[0] / tiles->size; x * tiles->size < rect[2]; x++) {
+            const grid_tile *tile = &tiles->tiles[y * tiles->columns + x];
+            const int32_t corner[2] = {x * tiles->size, y * tiles->size};
+            if (tile->kind == TILE_EMPTY || tile->near_z > job->centre.z + job->reach) {
                 continue;
             }
-            rlf_vec3 shift = rlf_scale(cell.velocity, tau);
-            rlf_vec3 p = rlf_add(cell.point, shift);
-            rlf_vec3 d = rlf_sub(p, job->centre);
-            if (rlf_dot(d, d) < job->reach * job->reach) {
-                velocity = rlf_add(velocity, cell.velocity);
-                moving++;
-                look_at_interior(job, &cell, p);
-            }
-            double level = rlf_clamp(job->centre.z, cell.point.z, cell.point.z + cell.thickness);
-            rlf_vec3 beside = rlf_mad(shift, cell.point, level / cell.point.z);
-            if (rlf_length(rlf_sub(beside, job->centre)) < job->reach) {
-                double end = outline_end(job, &cell, stride);
-                if (end > 0.0) {
-                    look_at_outline(job, &cell, shift, end);
-                }
+            if (tile->kind == TILE_FLAT) {
+                look_at_flat(job, tile, &flow);
+            } else {
+                look_at_rough(job, rect, stride, corner, &flow);
             }
         }
     }
-    if (moving > 0) {
-        job->surface_velocity = rlf_scale(velocity, 1.0 / moving);
+    if (flow.count > 0.0) {
+        job->surface_velocity = rlf_scale(flow.velocity, 1.0 / flow.count);
     }
 }

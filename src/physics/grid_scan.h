@@ -8,6 +8,7 @@
 #define GRID_HITS_MAX 128
 #define GRID_NORMALS_MAX 4
 #define GRID_BUMPS_MAX 8
+#define GRID_FLATS_MAX 16
 
 /* A contact in the making, grid frame, at the time of the query. */
 typedef struct grid_hit {
@@ -23,12 +24,17 @@ typedef struct grid_hit {
 typedef struct grid_job {
     const grid_query *query;
     const rlf_grid_sheet *sheet;
+    const grid_tiles *tiles; /* of the sheet */
     const phys_body *body;
     rlf_vec3 centre, v, w; /* of the body */
     rlf_mat3 R_grid_body, R_body_grid;
-    double horizon;            /* s until the next query */
-    double reach;              /* m from the centre within which anything can matter until then */
-    rlf_vec3 surface_velocity; /* mean under the footprint */
+    double horizon; /* s until the next query */
+    double reach;   /* m from the centre within which anything can matter until then */
+    bool is_near;   /* some of the sheet's solid is within reach */
+    bool is_flat;   /* ... and all of that is in the tiles `flats` */
+    const grid_tile *flats[GRID_FLATS_MAX];
+    int32_t flat_count;
+    rlf_vec3 surface_velocity;          /* mean under the footprint */
     rlf_vec3 normals[GRID_NORMALS_MAX]; /* distinct directions of the surface near the body */
     int32_t normal_count;
     grid_hit bumps[GRID_BUMPS_MAX]; /* surface points that poke into the body */
@@ -40,7 +46,13 @@ typedef struct grid_job {
 /* Distance kept ready for contacts that are not there yet, metres. */
 #define GRID_MARGIN 0.004
 
-/* Fills surface_velocity, normals, bumps, and hits with the outline's points. */
+/* Rectangle of pixels (ends excluded) under a sphere about `centre`, grid frame; false when it is
+ * out of view. *stride thins it to a bounded number of samples. */
+bool grid_footprint(const rlf_grid *grid, rlf_vec3 centre, double reach, int32_t rect[4],
+                    int32_t *stride);
+
+/* Fills is_near, is_flat, flats, surface_velocity, normals, bumps, and hits with the outline's
+ * points. */
 void grid_scan_footprint(grid_job *job);
 
 #endif

@@ -82,6 +82,35 @@ static void cast_at_sheet(const rlf_grid *grid, rlf_contact_other other, const r
     }
 }
 
+/* The shell of the last advance, where the camera does not see. Grid frame. */
+static void cast_at_shell(const rlf_world *world, const rlf_grid *grid, const rlf_vec3 ray[2],
+                          rlf_ray_hit *hit)
+{
+    for (int32_t i = 0; phys_world_has_shell(world, grid) && i < world->shell.count; i++) {
+        const shell_plane *plane = &world->shell.planes[i];
+        double height = rlf_dot(plane->normal, ray[0]) - plane->offset;
+        double slope = rlf_dot(plane->normal, ray[1]);
+        double t = slope < 0.0 ? rlf_max(height, 0.0) / -slope : 1e30;
+        if (t < hit->distance && grid_shell_is_hidden(grid, rlf_mad(ray[0], ray[1], t))) {
+            field_hit found = {.normal = plane->normal};
+            set_surface_hit(grid, RLF_CONTACT_BACKGROUND, &found, t, hit);
+        }
+    }
+}
+
+static bool overlaps_shell(const rlf_world *world, const rlf_grid *grid, rlf_vec3 q, double radius)
+{
+    for (int32_t i = 0; phys_world_has_shell(world, grid) && i < world->shell.count; i++) {
+        const shell_plane *plane = &world->shell.planes[i];
+        double height = rlf_dot(plane->normal, q) - plane->offset;
+        rlf_vec3 foot = rlf_mad(q, plane->normal, -rlf_max(height, 0.0));
+        if (height <= radius && grid_shell_is_hidden(grid, foot)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* What is known of the real world at q (grid frame), where nothing was met. */
 static rlf_query_reason reason_at(const rlf_grid *grid, rlf_vec3 q)
 {
@@ -105,7 +134,7 @@ static rlf_query_reason reason_at(const rlf_grid *grid, rlf_vec3 q)
     return reason;
 }
 
-rlf_ray_hit rlf_world_cast_ray(const rlf_world *world, const rlf_grid *seen, rlf_vec3 origin,
+rlf_ray_hit rlf_world_cast_ray(const rlf_world *world, const rlf_grid *grid, rlf_vec3 origin,
                                rlf_vec3 direction, double length)
 {
     rlf_ray_hit hit = {.reason = RLF_QUERY_INVALID};
@@ -114,8 +143,6 @@ rlf_ray_hit rlf_world_cast_ray(const rlf_world *world, const rlf_grid *seen, rlf
         !(norm > 0.0) || !rlf_is_finite(length) || !(length > 0.0)) {
         return hit;
     }
-    rlf_grid copy;
-    const rlf_grid *grid = phys_world_grid(world, seen, &copy);
     const rlf_vec3 ray[2] = {origin, rlf_scale(direction, 1.0 / norm)};
     hit.reason = RLF_QUERY_MISS;
     hit.distance = length;
@@ -130,6 +157,7 @@ rlf_ray_hit rlf_world_cast_ray(const rlf_world *world, const rlf_grid *seen, rlf
                                    rlf_rotate(T_grid_world.q, ray[1])};
         cast_at_sheet(grid, RLF_CONTACT_FOREGROUND, local, &hit);
         cast_at_sheet(grid, RLF_CONTACT_BACKGROUND, local, &hit);
+        cast_at_shell(world, grid, local, &hit);
         if (hit.reason != RLF_QUERY_HIT) {
             hit.reason = reason_at(grid, rlf_mad(local[0], local[1], length));
         }
@@ -175,7 +203,7 @@ static bool overlaps_sheet(const rlf_grid *grid, const rlf_grid_sheet *sheet, rl
     return false;
 }
 
-rlf_overlap rlf_world_overlap_sphere(const rlf_world *world, const rlf_grid *seen, rlf_vec3 centre,
+rlf_overlap rlf_world_overlap_sphere(const rlf_world *world, const rlf_grid *grid, rlf_vec3 centre,
                                      double radius, rlf_body_id *ids, int32_t capacity)
 {
     rlf_overlap overlap = {.reason = RLF_QUERY_INVALID};
@@ -183,8 +211,6 @@ rlf_overlap rlf_world_overlap_sphere(const rlf_world *world, const rlf_grid *see
         !rlf_vec3_is_finite(centre) || !rlf_is_finite(radius) || !(radius > 0.0)) {
         return overlap;
     }
-    rlf_grid copy;
-    const rlf_grid *grid = phys_world_grid(world, seen, &copy);
     overlap.reason = RLF_QUERY_MISS;
     for (int32_t i = 0; i < world->body_top; i++) {
         const phys_body *body = &world->bodies[i];
@@ -203,7 +229,8 @@ rlf_overlap rlf_world_overlap_sphere(const rlf_world *world, const rlf_grid *see
     if (grid != NULL) {
         rlf_pose T_grid_world = rlf_pose_invert(&grid->T_world_grid);
         q = rlf_transform(&T_grid_world, centre);
-        overlap.touches_background = overlaps_sheet(grid, &grid->background, q, radius);
+        overlap.touches_background = overlaps_sheet(grid, &grid->background, q, radius) ||
+                                     overlaps_shell(world, grid, q, radius);
         overlap.touches_foreground = overlaps_sheet(grid, &grid->foreground, q, radius);
     }
     if (overlap.body_count > 0 || overlap.touches_background || overlap.touches_foreground) {

@@ -88,6 +88,7 @@ void phys_wake_by_surface(rlf_world *world, const grid_query *query)
             is_moved = body->surface_count > 0;
             body->surface_count = 0;
         } else {
+            grid_collide_prepare(query, body);
             grid_collide(query, body, i);
         }
         for (int32_t k = 0; k < body->surface_count; k++) {

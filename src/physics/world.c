@@ -96,7 +96,10 @@ rlf_result rlf_world_create(const rlf_world_def *def, rlf_world **out)
     world->touches = rlf_alloc_array(touches, sizeof(*world->touches));
     world->old_touches = rlf_alloc_array(touches, sizeof(*world->old_touches));
     world->events = rlf_alloc_array(2 * touches, sizeof(*world->events));
-    if (world->bodies == NULL || world->pairs == NULL || world->old_pairs == NULL ||
+    world->foreground_tiles.tiles = rlf_alloc_array(TILES_MAX, sizeof(grid_tile));
+    world->background_tiles.tiles = rlf_alloc_array(TILES_MAX, sizeof(grid_tile));
+    if (world->foreground_tiles.tiles == NULL || world->background_tiles.tiles == NULL ||
+        world->bodies == NULL || world->pairs == NULL || world->old_pairs == NULL ||
         world->intervals == NULL || world->island == NULL || world->active == NULL ||
         world->event_times == NULL || world->event_counts == NULL || world->pending == NULL ||
         world->pair_head == NULL || world->pair_next == NULL || world->log == NULL ||
@@ -135,6 +138,8 @@ void rlf_world_destroy(rlf_world **world)
     rlf_free(w->touches);
     rlf_free(w->old_touches);
     rlf_free(w->events);
+    rlf_free(w->foreground_tiles.tiles);
+    rlf_free(w->background_tiles.tiles);
     rlf_free(w);
     *world = NULL;
 }
@@ -282,6 +287,7 @@ void rlf_world_reset(rlf_world *world)
     world->time = 0.0;
     world->frame = 0;
     world->has_grid = false;
+    memset(&world->shell, 0, sizeof(world->shell));
     phys_world_publish(world);
 }
 
@@ -291,6 +297,7 @@ void rlf_world_advance(rlf_world *world, const rlf_grid *grid, double dt)
         return;
     }
     world->log_count = 0;
+    memset(&world->times, 0, sizeof(world->times));
     if (world->def.method == RLF_PHYSICS_THESIS) {
         phys_thesis_advance(world, grid, dt);
     } else {
@@ -300,8 +307,16 @@ void rlf_world_advance(rlf_world *world, const rlf_grid *grid, double dt)
         world->bodies[i].force = rlf_vec3_make(0, 0, 0);
         world->bodies[i].torque = rlf_vec3_make(0, 0, 0);
     }
+    int64_t clock = rlf_clock_ns();
     world->frame++;
     phys_world_remove_strays(world);
     phys_find_events(world);
     phys_world_publish(world);
+    phys_clock(&clock, &world->times.publish_ms);
+}
+
+rlf_world_times rlf_world_get_times(const rlf_world *world)
+{
+    const rlf_world_times none = {0};
+    return RLF_ASSERT(world != NULL) ? world->times : none;
 }

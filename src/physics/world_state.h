@@ -3,6 +3,8 @@
 #define RLF_PHYSICS_WORLD_STATE_H
 
 #include "physics/body.h"
+#include "physics/grid_shell.h"
+#include "physics/grid_tiles.h"
 
 /* Two bodies that are near each other. */
 typedef struct phys_pair {
@@ -50,6 +52,8 @@ struct rlf_world {
     rlf_body_state *states;
     rlf_snapshot snapshot;
 
+    rlf_world_times times; /* of this advance */
+
     double time; /* s */
     uint64_t frame;
     int32_t substep; /* of this advance */
@@ -57,6 +61,10 @@ struct rlf_world {
     bool has_grid; /* whether the last advance saw one, and where its time stands */
     int64_t grid_time_ns;
     double grid_tau; /* s from when the grid was seen to now, negative before */
+    grid_tiles foreground_tiles, background_tiles;
+    grid_shell shell;
+    rlf_pose shell_pose; /* of the grid in the world when the shell was found */
+    double shell_time;   /* ... and the world's time */
 };
 
 /* Writes the snapshot from the bodies and the contact log. */
@@ -81,17 +89,18 @@ void phys_find_events(rlf_world *world);
 void phys_live_advance(rlf_world *world, const rlf_grid *grid, double dt);
 void phys_thesis_advance(rlf_world *world, const rlf_grid *grid, double dt);
 
-/* The grid as this world sees it: with the border that its def asks for. `copy` holds a changed
- * one. */
-static inline const rlf_grid *phys_world_grid(const rlf_world *world, const rlf_grid *grid,
-                                              rlf_grid *copy)
+/* Whether the grid's room goes on where the camera does not look. */
+static inline bool phys_world_has_shell(const rlf_world *world, const rlf_grid *grid)
 {
-    if (grid == NULL || world->def.border != RLF_BORDER_EXTEND) {
-        return grid;
-    }
-    *copy = *grid;
-    copy->background.border = RLF_BORDER_EXTEND;
-    return copy;
+    return world->def.border == RLF_BORDER_EXTEND || grid->background.border == RLF_BORDER_EXTEND;
+}
+
+/* Adds the milliseconds since *clock_ns to *sum_ms and sets the clock. */
+static inline void phys_clock(int64_t *clock_ns, double *sum_ms)
+{
+    int64_t now = rlf_clock_ns();
+    *sum_ms += 1e-6 * (double)(now - *clock_ns);
+    *clock_ns = now;
 }
 
 static inline rlf_body_id phys_body_id(const rlf_world *world, int32_t index)

@@ -1,0 +1,169 @@
+/* Milliseconds of physics per 1/60 s: showers of cubes on the live surface of the synthetic room,
+ * in which a person walks. A new surface comes 30 times a second; only rlf_world_advance is timed,
+ * which holds all that the collider needs per new surface. Prints one row per count of cubes. */
+#include "bench_physics.h"
+
+#include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define COUNTS_MAX 8
+
+typedef struct options {
+    int32_t counts[COUNTS_MAX];
+    int32_t count_count;
+    double seconds;
+    int32_t scale_factor;
+    int32_t workers;
+    uint64_t seed;
+    const char *json_path;
+} options;
+
+static void print_help(void)
+{
+    printf(
+        "usage: bench_physics [OPTIONS]\n\n"
+        "Showers of 10 cm cubes on the synthetic room, 512x424, a person walking, a new surface\n"
+        "30 times a second. Times each physics step of 1/60 s and counts cubes that get lost.\n\n"
+        "  --bodies N,N,...  default 2,100,1000,5000 (at most 8 counts)\n"
+        "  --seconds S       simulated time, default 10\n"
+        "  --scale N         keep every N-th pixel of a row and column, default 1\n"
+        "  --workers N       default 1\n"
+        "  --seed N          of the sensor's noise, default 1\n"
+        "  --json FILE       write the figures as JSON too\n");
+}
+
+static bool parse_counts(const char *text, options *o)
+{
+    char *end = NULL;
+    o->count_count = 0;
+    do {
+        long value = strtol(text, &end, 10);
+        if (end == text || value < 1 || value > 100000 || o->count_count == COUNTS_MAX) {
+            return false;
+        }
+        o->counts[o->count_count++] = (int32_t)value;
+        text = end + 1;
+    } while (*end == ',');
+    return *end == '\0';
+}
+
+static bool parse_number(const char *text, double low, double high, double *out)
+{
+    char *end = NULL;
+    *out = strtod(text, &end);
+    return end != text && *end == '\0' && *out >= low && *out <= high;
+}
+
+static bool parse(int argc, char **argv, options *o)
+{
+    static const struct option LONG[] = {
+        {"bodies", required_argument, NULL, 'b'}, {"seconds", required_argument, NULL, 't'},
+        {"scale", required_argument, NULL, 'c'},  {"workers", required_argument, NULL, 'w'},
+        {"seed", required_argument, NULL, 's'},   {"json", required_argument, NULL, 'j'},
+        {"help", no_argument, NULL, 'h'},         {0},
+    };
+    *o = (options){.counts = {2, 100, 1000, 5000}, .count_count = 4, .seconds = 10};
+    double scale = 1, workers = 1, seed = 1;
+    bool is_good = true;
+    int option;
+    while (is_good && (option = getopt_long(argc, argv, "h", LONG, NULL)) != -1) {
+        switch (option) {
+        case 'b': is_good = parse_counts(optarg, o); break;
+        case 't': is_good = parse_number(optarg, 0.1, 3600, &o->seconds); break;
+        case 'c': is_good = parse_number(optarg, 1, 64, &scale); break;
+        case 'w': is_good = parse_number(optarg, 1, 64, &workers); break;
+        case 's': is_good = parse_number(optarg, 1, 1e9, &seed); break;
+        case 'j': o->json_path = optarg; break;
+        default: is_good = false; break;
+        }
+    }
+    o->scale_factor = (int32_t)scale;
+    o->workers = (int32_t)workers;
+    o->seed = (uint64_t)seed;
+    return is_good && optind == argc;
+}
+
+static void print_rows(const shower *showers, const options *o, const room *r)
+{
+    printf("synthetic room, %dx%d, %.0f s, %d worker(s); ms per 1/60 s\n", (int)r->grid.width,
+           (int)r->grid.height, o->seconds, (int)o->workers);
+    printf("%7s %8s %8s %8s %8s | %7s %7s %7s %7s %7s %7s %7s | %6s %5s %6s\n", "cubes", "median",
+           "p95", "worst", "busiest", "wake", "surface", "pairs", "impact", "solve", "move", "rest",
+           "asleep", "lost", "allocs");
+    for (int32_t i = 0; i < o->count_count; i++) {
+        const shower *s = &showers[i];
+        const rlf_world_times *t = &s->times;
+        double n = s->step_count;
+        printf("%7d %8.3f %8.3f %8.3f %8.3f | %7.3f %7.3f %7.3f %7.3f %7.3f %7.3f %7.3f | %6d %5d "
+               "%6d\n",
+               (int)s->count, shower_percentile(s, 50), shower_percentile(s, 95),
+               shower_percentile(s, 100), shower_busiest_second(s), t->wake_ms / n,
+               t->surface_ms / n, t->pairs_ms / n, t->impacts_ms / n, t->solve_ms / n,
+               t->move_ms / n, (t->sleep_ms + t->publish_ms) / n, (int)s->asleep_count,
+               (int)s->lost_count, (int)s->alloc_count);
+    }
+    printf("median, p95, worst: of all steps; busiest: mean of the costliest second; the parts are "
+           "means\n");
+}
+
+static int write_json(const shower *showers, const options *o)
+{
+    FILE *file = fopen(o->json_path, "w");
+    if (file == NULL) {
+        fprintf(stderr, "bench_physics: %s: cannot be written\n", o->json_path);
+        return 1;
+    }
+    fprintf(file, "{\n  \"seconds\": %g, \"scale\": %d, \"workers\": %d, \"rows\": [", o->seconds,
+            (int)o->scale_factor, (int)o->workers);
+    for (int32_t i = 0; i < o->count_count; i++) {
+        const shower *s = &showers[i];
+        fprintf(
+            file,
+            "%s\n    {\"cubes\": %d, \"median_ms\": %.4f, \"p95_ms\": %.4f, \"worst_ms\": %.4f, "
+            "\"busiest_ms\": %.4f, \"asleep\": %d, \"lost\": %d, \"allocs\": %d}",
+            i > 0 ? "," : "", (int)s->count, shower_percentile(s, 50), shower_percentile(s, 95),
+            shower_percentile(s, 100), shower_busiest_second(s), (int)s->asleep_count,
+            (int)s->lost_count, (int)s->alloc_count);
+    }
+    fprintf(file, "\n  ]\n}\n");
+    return fclose(file) == 0 ? 0 : 1;
+}
+
+int main(int argc, char **argv)
+{
+    options o;
+    if (!parse(argc, argv, &o)) {
+        print_help();
+        return 2;
+    }
+    static shower showers[COUNTS_MAX];
+    room r;
+    rlf_pool *pool = NULL;
+    bool is_good =
+        rlf_pool_create(o.workers, &pool) == RLF_OK && room_open(&r, o.seed, o.scale_factor);
+    for (int32_t i = 0; i < o.count_count && is_good; i++) {
+        is_good = shower_open(&showers[i], o.counts[i], o.seconds, pool);
+    }
+    int32_t frames = (int32_t)(o.seconds * ROOM_HZ);
+    for (int32_t k = 0; k < frames && is_good; k++) {
+        is_good = room_next(&r);
+        for (int32_t i = 0; i < o.count_count && is_good; i++) {
+            is_good = shower_step(&showers[i], &r);
+        }
+    }
+    int status = is_good ? 0 : 1;
+    if (is_good) {
+        print_rows(showers, &o, &r);
+        status = o.json_path != NULL ? write_json(showers, &o) : 0;
+    } else {
+        fprintf(stderr, "bench_physics: %s\n", rlf_error_text());
+    }
+    for (int32_t i = 0; i < o.count_count; i++) {
+        shower_close(&showers[i]);
+    }
+    room_close(&r);
+    rlf_pool_destroy(&pool);
+    return status;
+}

@@ -1,0 +1,140 @@
+/* Making tiles. */
+#include "physics/grid_tiles.h"
+#include "physics/grid_field.h"
+
+#define SIZE_MIN 16
+#define SAMPLES_PER_SIDE 4 /* pixels of a tile that give its plane */
+/* Beyond the tile's own pixels: an outline is told from the pixel beside it. */
+#define RIM_PX 2
+/* What stays within this of the plane is noise, m; see add_bumps in grid_collide.c. */
+#define EVEN 0.008
+
+void grid_tiles_start(grid_tiles *tiles, const rlf_grid *grid, const rlf_grid_sheet *sheet,
+                      bool is_new)
+{
+    if (is_new || tiles->sheet == NULL) {
+        tiles->stamp++;
+    }
+    tiles->sheet = sheet;
+    tiles->size = SIZE_MIN;
+    do {
+        tiles->columns = (grid->width - 1) / tiles->size + 1;
+        tiles->rows = (grid->height - 1) / tiles->size + 1;
+        tiles->size *= 2;
+    } while (tiles->columns * tiles->rows > TILES_MAX);
+    tiles->size /= 2;
+}
+
+static int32_t least(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Counts the pixels that have a surface and finds the nearest. */
+static void measure(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet *sheet,
+                    const int32_t rect[4])
+{
+    float near_z = 1e9f;
+    int32_t count = 0;
+    for (int32_t y = rect[1]; y < rect[3]; y++) {
+        const float *depth = sheet->depth + y * grid->width;
+        const uint8_t *mask = sheet->mask != NULL ? sheet->mask + y * grid->width : NULL;
+        for (int32_t x = rect[0]; x < rect[2]; x++) {
+            bool is_there = depth[x] > 0.0f && (mask == NULL || mask[x] != 0);
+            float z = is_there ? depth[x] : 1e9f;
+            near_z = z < near_z ? z : near_z;
+            count += is_there;
+        }
+    }
+    tile->count = count;
+    tile->near_z = near_z;
+}
+
+/* Mean plane and velocity of a few of its pixels; false when they have no normals. */
+static bool fit(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet *sheet,
+                const int32_t rect[4])
+{
+    rlf_vec3 points = {0, 0, 0}, normals = {0, 0, 0}, velocities = {0, 0, 0};
+    double count = 0.0;
+    int32_t step_x = (rect[2] - rect[0]) / SAMPLES_PER_SIDE + 1;
+    int32_t step_y = (rect[3] - rect[1]) / SAMPLES_PER_SIDE + 1;
+    for (int32_t y = rect[1] + step_y / 2; y < rect[3]; y += step_y) {
+        for (int32_t x = rect[0] + step_x / 2; x < rect[2]; x += step_x) {
+            field_cell cell;
+            if (grid_cell_read(grid, sheet, x, y, &cell)) {
+                points = rlf_add(points, cell.point);
+                normals = rlf_add(normals, cell.normal);
+                velocities = rlf_add(velocities, cell.velocity);
+                count += 1.0;
+            }
+        }
+    }
+    if (count < 4.0) {
+        return false;
+    }
+    tile->normal = rlf_normalize(normals);
+    tile->offset = rlf_dot(tile->normal, points) / count;
+    tile->velocity = rlf_scale(velocities, 1.0 / count);
+    return true;
+}
+
+/* Whether every pixel of the rectangle belongs to the sheet and lies on the tile's plane, but for
+ * those without depth. */
+static bool is_even(const grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet *sheet,
+                    const int32_t rect[4])
+{
+    const float nx = (float)tile->normal.x, ny = (float)tile->normal.y, nz = (float)tile->normal.z;
+    const float offset = (float)tile->offset, even = (float)EVEN;
+    for (int32_t y = rect[1]; y < rect[3]; y++) {
+        int32_t row = y * grid->width;
+        int32_t uneven = 0;
+        for (int32_t x = rect[0]; x < rect[2]; x++) {
+            float z = sheet->depth[row + x];
+            float off = z * (nx * grid->ray_x[row + x] + ny * grid->ray_y[row + x] + nz) - offset;
+            uneven += z > 0.0f && (off > even || off < -even);
+        }
+        for (int32_t x = rect[0]; sheet->mask != NULL && x < rect[2]; x++) {
+            uneven += sheet->mask[row + x] == 0;
+        }
+        if (uneven > 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void make_tile(grid_tile *tile, const grid_tiles *tiles, const rlf_grid *grid,
+                      const int32_t at[2])
+{
+    int32_t x = at[0] * tiles->size, y = at[1] * tiles->size;
+    const int32_t own[4] = {x, y, least(x + tiles->size, grid->width),
+                            least(y + tiles->size, grid->height)};
+    const int32_t wide[4] = {x < RIM_PX ? 0 : x - RIM_PX, y < RIM_PX ? 0 : y - RIM_PX,
+                             least(own[2] + RIM_PX, grid->width),
+                             least(own[3] + RIM_PX, grid->height)};
+    tile->stamp = tiles->stamp;
+    measure(tile, grid, tiles->sheet, own);
+    if (tile->count == 0) {
+        tile->kind = TILE_EMPTY;
+    } else {
+        bool is_flat =
+            fit(tile, grid, tiles->sheet, own) && is_even(tile, grid, tiles->sheet, wide);
+        tile->kind = is_flat ? TILE_FLAT : TILE_ROUGH;
+    }
+}
+
+void grid_tiles_make(grid_tiles *tiles, const rlf_grid *grid, const int32_t rect[4])
+{
+    if (tiles->sheet->depth == NULL || tiles->sheet->normal_x == NULL) {
+        return;
+    }
+    for (int32_t row = rect[1] / tiles->size; row * tiles->size < rect[3]; row++) {
+        for (int32_t column = rect[0] / tiles->size; column * tiles->size < rect[2]; column++) {
+            grid_tile *tile = &tiles->tiles[row * tiles->columns + column];
+            const int32_t at[2] = {column, row};
+            if (tile->stamp != tiles->stamp) {
+                make_tile(tile, tiles, grid, at);
+            }
+        }
+    }
+}

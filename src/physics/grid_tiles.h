@@ -1,0 +1,41 @@
+/* A sheet in tiles of 16 x 16 pixels or more: how near it comes and where it is just a plane, so
+ * that most of a body's footprint need not be read. A tile is made when a body first comes over it,
+ * once per surface. */
+#ifndef RLF_PHYSICS_GRID_TILES_H
+#define RLF_PHYSICS_GRID_TILES_H
+
+#include "relief/world.h"
+
+#define TILES_MAX 4096
+
+typedef enum tile_kind {
+    TILE_EMPTY = 0, /* no surface */
+    TILE_FLAT,      /* one plane, and no outline in it or next to it */
+    TILE_ROUGH
+} tile_kind;
+
+typedef struct grid_tile {
+    uint64_t stamp; /* of the surface it was made for */
+    tile_kind kind;
+    int32_t count;   /* its pixels that have a surface */
+    double near_z;   /* least depth, metres */
+    rlf_vec3 normal; /* of a flat one: normal.p = offset */
+    double offset;
+    rlf_vec3 velocity; /* of a flat one: mean, m/s */
+} grid_tile;
+
+typedef struct grid_tiles {
+    const rlf_grid_sheet *sheet;
+    int32_t size, columns, rows; /* size in pixels */
+    uint64_t stamp;
+    grid_tile *tiles; /* TILES_MAX */
+} grid_tiles;
+
+/* Begins with a new surface, or goes on with the same one when `is_new` is false. */
+void grid_tiles_start(grid_tiles *tiles, const rlf_grid *grid, const rlf_grid_sheet *sheet,
+                      bool is_new);
+
+/* Makes the tiles under the rectangle of pixels x0, y0, x1, y1 (ends excluded). */
+void grid_tiles_make(grid_tiles *tiles, const rlf_grid *grid, const int32_t rect[4]);
+
+#endif
