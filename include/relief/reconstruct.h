@@ -65,6 +65,8 @@ typedef struct rlf_reconstruct_def {
                               explains what it takes away; never across an edge or a crease */
     bool enable_steadying; /* live: true: averages depth that does not change over 16 frames; what
                               changes by more than the noise starts anew */
+    bool enable_hold;      /* live: true, needs steadying: a dropped pixel keeps what was seen there
+                              (reason FILLED) while nothing moves beside it */
     bool enable_velocity;  /* live: true: normal velocity from depth change along the ray */
     bool enable_thickness; /* live: true: union of inscribed spheres */
 

@@ -143,13 +143,26 @@ typedef struct rlf_kernel_steady {
 
 typedef struct rlf_kernel_steady_in {
     const float *normal[3], *ray_x, *ray_y;
+    const uint8_t *reason; /* only pixels that are OK take part */
     int32_t count;
 } rlf_kernel_steady_in;
 
 /* Takes a row's depth into its means and gives it the means. Where they differ by more than the
- * gate the mean starts anew. mean is in inverse depth; frames = 0 where there is none. */
+ * gate the mean starts anew. mean is in inverse depth; frames = 0 where there is none, negative
+ * where it may no longer be true. */
 void rlf_kernel_steady_row(const rlf_kernel_steady *params, const rlf_kernel_steady_in *in,
                            float *restrict depth, float *restrict mean, float *restrict frames);
+
+/* ---- change_row.c: what became of what was seen
+ * ------------------------------------------------- */
+
+/* A pixel now, against the mean of what was seen there before. */
+enum { RLF_CHANGE_UNSEEN = 0, RLF_CHANGE_STILL = 1, RLF_CHANGE_MOVED = 2 };
+
+/* mean is in inverse depth; frames = 0 where there is none: that counts as still. */
+void rlf_kernel_change_row(rlf_kernel_noise noise, const float *restrict depth,
+                           const float *restrict mean, const float *restrict frames, int32_t count,
+                           uint8_t *restrict change);
 
 /* ---- background_row.c
  * ---------------------------------------------------------------------------- */

@@ -3,6 +3,8 @@
  * from the current frame than the gate: nothing that has left can stay. */
 #include "kernel/kernel.h"
 
+#include "relief/surface.h"
+
 #include <math.h>
 
 RLF_KERNEL void rlf_kernel_steady_row(const rlf_kernel_steady *params,
@@ -14,20 +16,21 @@ RLF_KERNEL void rlf_kernel_steady_row(const rlf_kernel_steady *params,
     const float *restrict nz = in->normal[2];
     const float *restrict x = in->ray_x;
     const float *restrict y = in->ray_y;
+    const uint8_t *restrict reason = in->reason;
     for (int32_t i = 0; i < in->count; i++) {
         float z = depth[i];
-        bool is_seen = z > 0.0f;
+        bool is_seen = reason[i] == RLF_REASON_OK && z > 0.0f;
         float w = 1.0f / (is_seen ? z : 1.0f);
         float facing = nx[i] * x[i] + ny[i] * y[i] + nz[i];
         float cosine = rlf_kernel_abs(facing) / sqrtf(x[i] * x[i] + y[i] * y[i] + 1.0f);
         float slant = facing < 0.0f ? rlf_kernel_slant(cosine) : 1.0f;
         float gate = params->sigmas * rlf_kernel_sigma(params->noise, z) * w * w * slant;
         bool is_same = rlf_kernel_abs(w - mean[i]) <= gate;
-        float n = (is_same ? frames[i] : 0.0f) + 1.0f;
+        float n = (is_same ? rlf_kernel_abs(frames[i]) : 0.0f) + 1.0f;
         n = n < params->most ? n : params->most;
         float next = is_same ? mean[i] + (w - mean[i]) / n : w;
-        mean[i] = is_seen ? next : 0.0f;
-        frames[i] = is_seen ? n : 0.0f;
-        depth[i] = is_seen ? 1.0f / (is_seen ? next : 1.0f) : 0.0f;
+        mean[i] = is_seen ? next : mean[i];
+        frames[i] = is_seen ? n : frames[i];
+        depth[i] = is_seen ? 1.0f / (is_seen ? next : 1.0f) : z;
     }
 }

@@ -50,6 +50,7 @@ static void set_live(rlf_reconstruct_def *def)
     def->enable_fill = true;
     def->enable_smoothing = true;
     def->enable_steadying = true;
+    def->enable_hold = true;
     def->enable_velocity = true;
     def->enable_thickness = true;
 }

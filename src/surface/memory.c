@@ -99,6 +99,7 @@ static void take_steady(rlf_reconstruct *stage)
     if (stage->def.enable_steadying) {
         stage->steady.mean = take(stage, (size_t)stage->grid.count, sizeof(float));
         stage->steady.frames = take(stage, (size_t)stage->grid.count, sizeof(float));
+        stage->steady.calm = take(stage, (size_t)stage->grid.count, 1);
     }
 }
 

@@ -116,6 +116,9 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
         rlf_flying_remove(stage, raw, kept, slot->reason);
         rlf_stage_add_time(stage, RLF_SURFACE_FLYING);
     }
+    if (stage->def.enable_hold && stage->def.enable_steadying) {
+        rlf_hold_recall(stage, kept, slot->reason);
+    }
     if (smooth) {
         float *out = fill ? stage->work.depth[0] : slot->depth;
         make_planes(stage, kept, out, slot);

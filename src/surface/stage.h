@@ -61,7 +61,11 @@ typedef struct rlf_background {
 /* Means of inverse depth over time; NULL planes when they are not wanted. */
 typedef struct rlf_steady {
     float *mean, *frames;
+    uint8_t
+        *calm; /* hold: per block of RLF_HOLD_BLOCK pixels, frames since something moved there */
 } rlf_steady;
+
+enum { RLF_HOLD_BLOCK = 8 };
 
 /* Memory that is free between steps. */
 typedef struct rlf_work {

@@ -24,7 +24,8 @@ static void steady_rows(void *context, int32_t begin, int32_t end, int32_t worke
     for (int32_t y = begin; y < end; y++) {
         ptrdiff_t row = (ptrdiff_t)y * grid->width;
         const rlf_slot *slot = job->slot;
-        rlf_kernel_steady_in in = {{0}, grid->ray_x + row, grid->ray_y + row, grid->width};
+        rlf_kernel_steady_in in = {
+            {0}, grid->ray_x + row, grid->ray_y + row, slot->reason + row, grid->width};
         for (int k = 0; k < 3; k++) {
             const float *normal = job->has_normals ? slot->normal[k] : job->stage->work.zero_plane;
             in.normal[k] = normal + row;
@@ -49,5 +50,6 @@ void rlf_steady_reset(rlf_steady *steady, int32_t count)
 {
     if (steady->frames != NULL) {
         memset(steady->frames, 0, (size_t)count * sizeof *steady->frames);
+        memset(steady->mean, 0, (size_t)count * sizeof *steady->mean);
     }
 }

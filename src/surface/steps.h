@@ -17,6 +17,9 @@ void rlf_flying_remove(const rlf_reconstruct *stage, const float *raw, float *de
 enum { RLF_FILL_GAP = 8 };
 void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, float *out, uint8_t *reason);
 
+/* ---- hold.c: dropped pixels from memory; `depth` holds what was seen ---- */
+void rlf_hold_recall(const rlf_reconstruct *stage, float *depth, uint8_t *reason);
+
 /* ---- steady.c: depth that does not change is averaged over time; needs the slot's normals ---- */
 void rlf_steady_update(const rlf_reconstruct *stage, rlf_slot *slot);
 void rlf_steady_reset(rlf_steady *steady, int32_t count);

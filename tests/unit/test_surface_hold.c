@@ -1,0 +1,162 @@
+/* Dropped pixels recalled from the frames before: what still stands is there, what left is not. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "analytic.h"
+
+#include <math.h>
+
+enum { WIDTH = 97, HEIGHT = 72, COUNT = WIDTH * HEIGHT };
+
+static const double wall_z = 3.0, board_z = 2.0;
+
+typedef struct fixture {
+    rlf_rig rig;
+    float truth[COUNT], seen[COUNT];
+    analytic_random random;
+    rlf_reconstruct *stage;
+} fixture;
+
+static int make_fixture(void **state)
+{
+    static fixture f;
+    f.rig = analytic_rig(WIDTH, HEIGHT);
+    f.random = (analytic_random){5};
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f.rig);
+    def.background_method = RLF_BACKGROUND_OFF;
+    def.enable_fill = false; /* memory alone */
+    *state = &f;
+    return rlf_reconstruct_create(&def, &f.stage) == RLF_OK ? 0 : -1;
+}
+
+static int free_fixture(void **state)
+{
+    rlf_reconstruct_destroy(&((fixture *)*state)->stage);
+    return 0;
+}
+
+/* A board of 30 columns from `left` on in front of a wall; left = WIDTH: none. */
+static void set_board(fixture *f, int32_t left)
+{
+    for (int i = 0; i < COUNT; i++) {
+        int32_t x = i % WIDTH;
+        f->truth[i] = (float)(x >= left && x < left + 30 ? board_z : wall_z);
+    }
+}
+
+static bool is_beside_edge(const fixture *f, int i)
+{
+    int32_t x = i % WIDTH;
+    bool left = x > 0 && fabsf(f->truth[i] - f->truth[i - 1]) > 0.1f;
+    return left || (x + 1 < WIDTH && fabsf(f->truth[i] - f->truth[i + 1]) > 0.1f);
+}
+
+/* One frame: noise, a share of pixels dropped, and most of those beside an edge. */
+static const rlf_surface *process(fixture *f, int32_t number, double dropped)
+{
+    for (int i = 0; i < COUNT; i++) {
+        double sigma = rlf_depth_noise_sigma(&f->rig.noise, f->truth[i]);
+        double share = is_beside_edge(f, i) ? 0.7 : dropped;
+        bool kept = random_uniform(&f->random) >= share;
+        f->seen[i] = kept ? f->truth[i] + (float)(sigma * random_normal(&f->random)) : 0.0f;
+    }
+    rlf_frame frame = analytic_frame(&f->rig, f->seen, number);
+    const rlf_surface *s = NULL;
+    assert_int_equal(rlf_reconstruct_process(f->stage, &frame, &s), RLF_OK);
+    return s;
+}
+
+static void what_stands_is_recalled(void **state)
+{
+    fixture *f = *state;
+    rlf_reconstruct_reset(f->stage);
+    set_board(f, 30);
+    const rlf_surface *s = NULL;
+    for (int t = 0; t < 40; t++) {
+        s = process(f, t, 0.1);
+    }
+    int dropped = 0, missing = 0;
+    for (int i = 0; i < COUNT; i++) {
+        dropped += f->seen[i] <= 0.0f;
+        missing += s->reason[i] == RLF_REASON_NO_RETURN;
+        if (s->depth[i] > 0.0f) {
+            assert_true(fabs(s->depth[i] - f->truth[i]) < 0.02);
+            assert_true(f->seen[i] > 0.0f || s->reason[i] == RLF_REASON_FILLED);
+            assert_true(s->normal_z[i] < -0.9f);
+        }
+    }
+    assert_true(dropped > COUNT / 12);
+    assert_true(missing < dropped / 50);
+}
+
+/* The board is gone from one frame to the next, and half of the pixels with it. */
+static void what_left_is_forgotten(void **state)
+{
+    fixture *f = *state;
+    rlf_reconstruct_reset(f->stage);
+    set_board(f, 30);
+    for (int t = 0; t < 40; t++) {
+        process(f, t, 0.1);
+    }
+    set_board(f, WIDTH);
+    for (int t = 40; t < 60; t++) {
+        const rlf_surface *s = process(f, t, 0.5);
+        for (int i = 0; i < COUNT; i++) {
+            assert_true(s->depth[i] <= 0.0f || s->depth[i] > 2.9f);
+        }
+    }
+}
+
+/* The board begins to move by half a pixel per frame. The frame in which it begins shows few of the
+ * pixels that prove it; after that nothing is recalled on the wrong side of its edges. */
+static void what_moves_is_not_recalled(void **state)
+{
+    fixture *f = *state;
+    rlf_reconstruct_reset(f->stage);
+    int wrong = 0, wrong_at_start = 0;
+    for (int t = 0; t < 60; t++) {
+        set_board(f, t < 30 ? 20 : 20 + (t - 28) / 2);
+        const rlf_surface *s = process(f, t, 0.1);
+        for (int i = 0; i < COUNT; i++) {
+            bool is_wrong = s->depth[i] > 0.0f && fabs(s->depth[i] - f->truth[i]) > 0.1;
+            wrong += is_wrong && t != 30;
+            wrong_at_start += is_wrong && t == 30;
+        }
+    }
+    assert_true(wrong_at_start < HEIGHT / 2);
+    assert_int_equal(wrong, 0);
+}
+
+static void switched_off_it_recalls_nothing(void **state)
+{
+    fixture *f = *state;
+    rlf_reconstruct *with = f->stage;
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
+    def.background_method = RLF_BACKGROUND_OFF;
+    def.enable_fill = def.enable_hold = false;
+    assert_int_equal(rlf_reconstruct_create(&def, &f->stage), RLF_OK);
+    set_board(f, 30);
+    for (int t = 0; t < 10; t++) {
+        const rlf_surface *s = process(f, t, 0.1);
+        for (int i = 0; i < COUNT; i++) {
+            assert_true(f->seen[i] > 0.0f || s->depth[i] <= 0.0f);
+        }
+    }
+    rlf_reconstruct_destroy(&f->stage);
+    f->stage = with;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_stands_is_recalled),
+        cmocka_unit_test(what_left_is_forgotten),
+        cmocka_unit_test(what_moves_is_not_recalled),
+        cmocka_unit_test(switched_off_it_recalls_nothing),
+    };
+    return cmocka_run_group_tests(tests, make_fixture, free_fixture);
+}
