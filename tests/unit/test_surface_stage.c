@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "analytic.h"
+#include "surface_check.h"
 
 #include <math.h>
 
@@ -145,29 +146,6 @@ static void surfaces_stay_as_they_were_published(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
-static void check_planes(const rlf_surface *s)
-{
-    int32_t valid = 0;
-    for (int32_t i = 0; i < s->width * s->height; i++) {
-        const float values[] = {s->depth[i],      s->normal_x[i],   s->normal_y[i],
-                                s->normal_z[i],   s->velocity_x[i], s->velocity_y[i],
-                                s->velocity_z[i], s->thickness[i],  s->background_depth[i]};
-        for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) {
-            assert_true(values[k] - values[k] == 0.0f);
-        }
-        bool has_depth = s->depth[i] > 0.0f;
-        bool usable = s->reason[i] == RLF_REASON_OK || s->reason[i] == RLF_REASON_FILLED;
-        assert_int_equal(has_depth, usable);
-        assert_true(has_depth || (!s->foreground[i] && s->label[i] == 0));
-        double length = s->normal_x[i] * s->normal_x[i] + s->normal_y[i] * s->normal_y[i] +
-                        s->normal_z[i] * s->normal_z[i];
-        assert_true(length == 0.0 || (length > 0.9999 && length < 1.0001));
-        assert_true(has_depth || length == 0.0);
-        valid += has_depth;
-    }
-    assert_int_equal(valid, s->valid_count);
-}
-
 static void every_size_and_every_rubbish_is_survived(void **state)
 {
     (void)state;
@@ -193,7 +171,7 @@ static void every_size_and_every_rubbish_is_survived(void **state)
                 rlf_frame frame = analytic_frame(&rig, depth, t);
                 const rlf_surface *s;
                 assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
-                check_planes(s);
+                surface_check(s);
             }
             rlf_reconstruct_destroy(&stage);
         }
@@ -214,7 +192,7 @@ static void live_normals_are_complete_and_face_the_camera(void **state)
         rlf_frame frame = analytic_frame(&rig, depth, t);
         const rlf_surface *s;
         assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
-        check_planes(s);
+        surface_check(s);
         for (int32_t i = 0; i < W * H; i++) {
             double facing =
                 s->normal_x[i] * s->ray_x[i] + s->normal_y[i] * s->ray_y[i] + s->normal_z[i];
