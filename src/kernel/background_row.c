@@ -21,7 +21,7 @@ RLF_KERNEL int32_t rlf_kernel_background_row(const rlf_kernel_background *params
                                              const rlf_kernel_model *model, uint8_t *restrict seen)
 {
     rlf_kernel_noise noise = params->noise;
-    float sigmas = params->sigmas;
+    float sigmas = params->sigmas, own_sigmas = params->sigmas * sigmas_per_deviation;
     float least = params->min_m;
     float widen = params->learning ? learning_gates : 1.0f;
     int32_t proof = params->learning ? 1 : PROOF;
@@ -32,65 +32,73 @@ RLF_KERNEL int32_t rlf_kernel_background_row(const rlf_kernel_background *params
     uint8_t *restrict beyond = model->beyond;
     int32_t changed = 0;
     for (int32_t i = 0; i < count; i++) {
-        float z = depth[i];
-        float m = mean[i];
-        float scaled = sigmas * rlf_kernel_sigma(noise, z);
-        float own = sigmas * sigmas_per_deviation * deviation[i];
+        float z = depth[i], m = mean[i], old = deviation[i];
+        int32_t had = weight[i], past_before = beyond[i];
+        float sigma = rlf_kernel_sigma(noise, z), off = z - m, distance = rlf_kernel_abs(off);
+        float scaled = sigmas * sigma, own = own_sigmas * old;
         float gate = scaled > least ? scaled : least;
         float least_gate = gate * widen;
         gate = (own > gate ? own : gate) * widen;
-        int32_t valid = z > 0.0f ? 1 : 0;
-        int32_t known = m > 0.0f ? 1 : 0;
-        int32_t nearer = valid & known & (m - z > gate ? 1 : 0);
-        int32_t farther = valid & known & (z - m > gate ? 1 : 0);
-        int32_t same = valid & known & (1 - nearer) & (1 - farther);
-        int32_t fresh = valid & (1 - known);
-        int32_t past = valid & known & (z - m > least_gate ? 1 : 0);
-        int32_t count_beyond = past ? beyond[i] + 1 : (valid ? 0 : beyond[i]);
-        int32_t needed = farther ? proof : PROOF_MIXED;
+        int32_t valid = z > 0.0f ? 1 : 0, known = m > 0.0f ? 1 : 0;
+        int32_t both = valid & known;
+        int32_t nearer = both & (-off > gate ? 1 : 0);
+        int32_t farther = both & (off > gate ? 1 : 0);
+        int32_t past = both & (off > least_gate ? 1 : 0);
+        int32_t same = both & ~(nearer | farther);
+        int32_t fresh = valid & ~known;
+        int32_t count_beyond = (past & valid) * (past_before + 1) + (1 - valid) * past_before;
+        int32_t needed = farther != 0 ? proof : PROOF_MIXED;
         int32_t replaced = past & (count_beyond >= needed ? 1 : 0);
         int32_t restart = replaced | (fresh & learning);
-        int32_t samples = same ? weight[i] + 1 : weight[i];
+        int32_t samples = had + same;
         samples = samples > MEMORY ? MEMORY : samples;
-        samples = restart ? 1 : samples;
-        float part = 1.0f / (float)(samples > 0 ? samples : 1);
-        float spread = deviation[i] + part * (rlf_kernel_abs(z - m) - deviation[i]);
-        deviation[i] = restart ? 0.0f : (same ? spread : deviation[i]);
-        mean[i] = restart ? z : (same ? m + part * (z - m) : m);
+        samples = restart != 0 ? 1 : samples;
+        float part = 1.0f / (float)(samples > 1 ? samples : 1);
+        float spread = old + part * (distance - old), next = m + part * off;
+        spread = same != 0 ? spread : old;
+        next = same != 0 ? next : m;
+        deviation[i] = restart != 0 ? 0.0f : spread;
+        mean[i] = restart != 0 ? z : next;
         weight[i] = (uint8_t)samples;
-        beyond[i] = (uint8_t)(replaced ? 0 : count_beyond);
-        seen[i] =
-            (uint8_t)(nearer ? RLF_SEEN_FOREGROUND
-                             : (fresh & (1 - learning) ? RLF_SEEN_UNKNOWN : RLF_SEEN_BACKGROUND));
+        beyond[i] = (uint8_t)(count_beyond * (1 - replaced));
+        seen[i] = (uint8_t)(nearer * RLF_SEEN_FOREGROUND + (fresh & ~learning) * RLF_SEEN_UNKNOWN +
+                            (1 - valid) * RLF_SEEN_MISSING);
         changed += restart;
     }
     return changed;
 }
 
-RLF_KERNEL_PART uint8_t majority(const uint8_t *const rows[3], const float *const depth[3],
-                                 int32_t i, int32_t first, int32_t last)
+/* What a pixel's vote weighs: for the foreground, against it, or nothing. */
+RLF_KERNEL_PART int8_t vote(uint8_t seen)
 {
-    int32_t votes = 0, valid = 0;
-    for (int32_t r = 0; r < 3; r++) {
-        for (int32_t k = first; k <= last; k++) {
-            votes += rows[r][k] == RLF_SEEN_FOREGROUND ? 1 : 0;
-            valid += depth[r][k] > 0.0f ? 1 : 0;
-        }
-    }
-    uint8_t side = 2 * votes > valid ? RLF_SEEN_FOREGROUND : RLF_SEEN_BACKGROUND;
-    uint8_t kept = rows[1][i] == RLF_SEEN_UNKNOWN ? (uint8_t)RLF_SEEN_UNKNOWN : side;
-    return depth[1][i] > 0.0f ? kept : (uint8_t)RLF_SEEN_BACKGROUND;
+    int8_t front = seen == RLF_SEEN_FOREGROUND ? 2 : 0;
+    return (int8_t)(front - (seen == RLF_SEEN_MISSING ? 0 : 1));
 }
 
-RLF_KERNEL void rlf_kernel_majority_row(const uint8_t *const rows[3], const float *const depth[3],
-                                        int32_t count, uint8_t *restrict out)
+RLF_KERNEL_PART uint8_t decide(uint8_t own, int8_t votes)
 {
+    uint8_t side = votes > 0 ? RLF_SEEN_FOREGROUND : RLF_SEEN_BACKGROUND;
+    uint8_t kept = own == RLF_SEEN_UNKNOWN ? (uint8_t)RLF_SEEN_UNKNOWN : side;
+    return own == RLF_SEEN_MISSING ? (uint8_t)RLF_SEEN_BACKGROUND : kept;
+}
+
+RLF_KERNEL_PART int8_t column(const uint8_t *a, const uint8_t *b, const uint8_t *c, int32_t i)
+{
+    return (int8_t)(vote(a[i]) + vote(b[i]) + vote(c[i]));
+}
+
+RLF_KERNEL void rlf_kernel_majority_row(const uint8_t *const rows[3], int32_t count,
+                                        uint8_t *restrict out)
+{
+    const uint8_t *a = rows[0], *b = rows[1], *c = rows[2];
     int32_t last = count - 1;
-    out[0] = majority(rows, depth, 0, 0, last > 0 ? 1 : 0);
+    int8_t next = column(a, b, c, last > 0 ? 1 : 0);
+    out[0] = decide(b[0], (int8_t)(column(a, b, c, 0) + (last > 0 ? next : 0)));
     for (int32_t i = 1; i < last; i++) {
-        out[i] = majority(rows, depth, i, i - 1, i + 1);
+        int8_t votes = (int8_t)(column(a, b, c, i - 1) + column(a, b, c, i));
+        out[i] = decide(b[i], (int8_t)(votes + column(a, b, c, i + 1)));
     }
     if (last > 0) {
-        out[last] = majority(rows, depth, last, last - 1, last);
+        out[last] = decide(b[last], (int8_t)(column(a, b, c, last - 1) + column(a, b, c, last)));
     }
 }

@@ -174,7 +174,12 @@ typedef struct rlf_kernel_background {
 } rlf_kernel_background;
 
 /* What a pixel of the current frame is against the background model. */
-enum { RLF_SEEN_BACKGROUND = 0, RLF_SEEN_FOREGROUND = 1, RLF_SEEN_UNKNOWN = 2 };
+enum {
+    RLF_SEEN_BACKGROUND = 0,
+    RLF_SEEN_FOREGROUND = 1,
+    RLF_SEEN_UNKNOWN = 2, /* depth where the background has none */
+    RLF_SEEN_MISSING = 3  /* no depth */
+};
 
 /* Rows of the model; they do not overlap. */
 typedef struct rlf_kernel_model {
@@ -188,8 +193,45 @@ typedef struct rlf_kernel_model {
 int32_t rlf_kernel_background_row(const rlf_kernel_background *params, const float *restrict depth,
                                   int32_t count, const rlf_kernel_model *model,
                                   uint8_t *restrict seen);
-/* 3x3 majority of `seen == FOREGROUND` among the valid pixels; out is 0, 1 or (unknown) 2. */
-void rlf_kernel_majority_row(const uint8_t *const rows[3], const float *const depth[3],
-                             int32_t count, uint8_t *restrict out);
+/* 3x3 majority of FOREGROUND among the pixels that are not MISSING, from the rows above, at and
+ * below (outside the image: a row of MISSING); out is BACKGROUND, FOREGROUND or UNKNOWN. */
+void rlf_kernel_majority_row(const uint8_t *const rows[3], int32_t count, uint8_t *restrict out);
+
+/* ---- segment_row.c: which neighbours belong together
+ * ----------------------------------------------------------- */
+
+/* Bits of a pixel: it is a member, and it belongs together with the neighbour on that side. */
+enum {
+    RLF_LINK_MEMBER = 1,
+    RLF_LINK_LEFT = 2,
+    RLF_LINK_UP = 4,
+    RLF_LINK_UP_LEFT = 8,
+    RLF_LINK_UP_RIGHT = 16
+};
+
+/* Neighbours belong together when their depths differ by at most 8.5 sigma(z) + slope z + step_m;
+ * diagonal ones may differ by sqrt(2) times the slope's part. */
+typedef struct rlf_kernel_links {
+    rlf_kernel_noise noise;
+    float slope, step_m;
+    bool diagonals;
+} rlf_kernel_links;
+
+/* A row and the one above; above the image: rows of zeros. What is left of the first pixel and
+ * right of the last is no member. */
+typedef struct rlf_kernel_links_in {
+    const float *depth, *above;
+    const uint8_t *mask, *mask_above; /* members are not 0, and have depth */
+    int32_t count;
+} rlf_kernel_links_in;
+
+void rlf_kernel_link_row(const rlf_kernel_links *params, const rlf_kernel_links_in *in,
+                         uint8_t *restrict links);
+
+/* Labels of a row: the background's where the front sheet shows it, else 0. Returns the number of
+ * pixels with depth. */
+int32_t rlf_kernel_label_row(const float *restrict depth, const uint8_t *restrict foreground,
+                             const int32_t *restrict background, int32_t count,
+                             int32_t *restrict label);
 
 #endif

@@ -49,34 +49,81 @@ static bool is_still(rlf_background *background, int32_t i, float z, float gate,
     return age >= limit_ms;
 }
 
-void rlf_background_absorb(rlf_reconstruct *stage, const rlf_slot *slot)
+static rlf_span unite(rlf_span a, rlf_span b)
+{
+    if (a.x0 >= a.x1) {
+        return b;
+    }
+    if (b.x0 >= b.x1) {
+        return a;
+    }
+    const rlf_span both = {a.x0 < b.x0 ? a.x0 : b.x0, a.x1 > b.x1 ? a.x1 : b.x1};
+    return both;
+}
+
+/* Pixels of a row that are foreground or were; returns where pixels that stand still are left. */
+static rlf_span absorb_row(rlf_reconstruct *stage, const rlf_slot *slot, int32_t y, rlf_span span,
+                           int32_t passed_ms)
 {
     const rlf_reconstruct_def *def = &stage->def;
     rlf_background *background = &stage->background;
     int32_t limit_ms = (int32_t)(1000.0 * def->absorb_after_s);
-    if (limit_ms == 0) {
+    rlf_span left = {stage->grid.width, 0};
+    for (int32_t x = span.x0; x < span.x1; x++) {
+        int32_t i = y * stage->grid.width + x;
+        float z = slot->depth[i], beneath = background->beneath[i];
+        if (!slot->foreground[i]) {
+            background->still_ms[i] = z > 0.0f ? 0 : background->still_ms[i];
+        } else if (is_still(background, i, z, gate_at(def, z), limit_ms, passed_ms)) {
+            background->beneath[i] = beneath > 0.0f ? beneath : background->mean[i];
+            background->hides[y] = 1;
+            replace(background, i, background->still[i]);
+        }
+        if (background->still_ms[i] != 0) {
+            left.x0 = x < left.x0 ? x : left.x0;
+            left.x1 = x + 1;
+        }
+    }
+    return left;
+}
+
+void rlf_background_absorb(rlf_reconstruct *stage, const rlf_slot *slot)
+{
+    if (!(stage->def.absorb_after_s > 0.0)) {
         return;
     }
     int32_t passed_ms = step_ms(stage, slot);
-    for (int32_t i = 0; i < stage->grid.count; i++) {
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        rlf_span *still = &stage->background.standing[y];
+        *still = absorb_row(stage, slot, y, unite(*still, stage->work.front[y]), passed_ms);
+    }
+}
+
+/* Takes back what is hidden in one row where it is seen again; true while any is left. */
+static bool restore_row(rlf_reconstruct *stage, const rlf_slot *slot, int32_t y)
+{
+    rlf_background *background = &stage->background;
+    bool any = false;
+    for (int32_t i = y * stage->grid.width; i < (y + 1) * stage->grid.width; i++) {
         float z = slot->depth[i], beneath = background->beneath[i];
-        if (!(z > 0.0f)) {
+        any = any || beneath > 0.0f;
+        if (!(beneath > 0.0f) || slot->foreground[i] || !(z > background->mean[i])) {
             continue;
         }
-        if (slot->foreground[i]) {
-            if (is_still(background, i, z, gate_at(def, z), limit_ms, passed_ms)) {
-                background->beneath[i] = beneath > 0.0f ? beneath : background->mean[i];
-                replace(background, i, background->still[i]);
-            }
-            continue;
+        float gate = gate_at(&stage->def, z);
+        if (z - background->mean[i] > gate && rlf_kernel_abs(z - beneath) <= gate) {
+            replace(background, i, beneath);
+            background->beneath[i] = 0.0f;
         }
-        background->still_ms[i] = 0;
-        if (beneath > 0.0f && z > background->mean[i]) {
-            float gate = gate_at(def, z);
-            if (z - background->mean[i] > gate && rlf_kernel_abs(z - beneath) <= gate) {
-                replace(background, i, beneath);
-                background->beneath[i] = 0.0f;
-            }
+    }
+    return any;
+}
+
+void rlf_background_restore(rlf_reconstruct *stage, const rlf_slot *slot)
+{
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        if (stage->background.hides[y]) {
+            stage->background.hides[y] = restore_row(stage, slot, y);
         }
     }
 }

@@ -50,27 +50,30 @@ static void majority_rows(void *context, int32_t begin, int32_t end, int32_t wor
     const rlf_grid *grid = &job->stage->grid;
     for (int32_t y = begin; y < end; y++) {
         const uint8_t *rows[3];
-        const float *depth[3];
         for (int32_t k = 0; k < 3; k++) {
             int32_t at = y - 1 + k;
             bool inside = at >= 0 && at < grid->height;
-            ptrdiff_t row = (ptrdiff_t)(inside ? at : y) * grid->width;
-            rows[k] = job->seen + row;
-            depth[k] = inside ? job->slot->depth + row : job->stage->work.zeros;
+            rows[k] = inside ? job->seen + (ptrdiff_t)at * grid->width : job->stage->work.missing;
         }
-        rlf_kernel_majority_row(rows, depth, grid->width,
-                                job->slot->foreground + (ptrdiff_t)y * grid->width);
+        uint8_t *front = job->slot->foreground + (ptrdiff_t)y * grid->width;
+        rlf_kernel_majority_row(rows, grid->width, front);
+        job->stage->work.front[y] = rlf_background_span(front, grid->width);
     }
 }
 
 /* vote[0][c]: pixels of component c that are in front of a known background. */
 static void count_seeds(const rlf_reconstruct *stage, const uint8_t *mask, int32_t components)
 {
+    const rlf_runs *runs = &stage->work.runs;
     int32_t *seeds = stage->work.vote[0];
     memset(seeds, 0, (size_t)(components + 1) * sizeof *seeds);
-    for (int32_t i = 0; i < stage->grid.count; i++) {
-        if (mask[i] == RLF_SEEN_FOREGROUND) {
-            seeds[stage->work.component[i]]++;
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        const uint8_t *row = mask + (ptrdiff_t)y * stage->grid.width;
+        for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
+            const rlf_run *run = &runs->run[r];
+            for (int32_t x = run->x0; x < run->x1; x++) {
+                seeds[run->component] += row[x] == RLF_SEEN_FOREGROUND ? 1 : 0;
+            }
         }
     }
 }
@@ -92,24 +95,33 @@ static void learn_hole(rlf_background *background, int32_t i, float z, bool fron
  * large, otherwise a hole of the model that is filled in time. */
 static void decide_unknown(rlf_reconstruct *stage, rlf_slot *slot)
 {
-    uint8_t *mask = slot->foreground;
-    int32_t count = stage->grid.count;
-    if (memchr(mask, RLF_SEEN_UNKNOWN, (size_t)count) == NULL) {
-        return;
-    }
-    rlf_segment_links(stage, RLF_SEGMENT_NOISE, slot->depth, mask);
-    int32_t components = rlf_components_find(stage);
-    count_seeds(stage, mask, components);
-    for (int32_t i = 0; i < count; i++) {
-        if (mask[i] != RLF_SEEN_UNKNOWN) {
-            continue;
+    const rlf_work *work = &stage->work;
+    count_seeds(stage, slot->foreground, stage->component_count);
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        int32_t row = y * stage->grid.width;
+        for (int32_t r = work->runs.first[y]; r < work->runs.first[y + 1]; r++) {
+            rlf_run *run = &work->runs.run[r];
+            int32_t size = work->size[run->component];
+            bool front =
+                10 * work->vote[0][run->component] >= size || size >= stage->def.min_region_points;
+            for (int32_t i = row + run->x0; i < row + run->x1; i++) {
+                if (slot->foreground[i] == RLF_SEEN_UNKNOWN) {
+                    learn_hole(&stage->background, i, slot->depth[i], front);
+                }
+                slot->foreground[i] = front;
+            }
         }
-        int32_t c = stage->work.component[i];
-        int32_t size = stage->work.size[c];
-        bool front = 10 * stage->work.vote[0][c] >= size || size >= stage->def.min_region_points;
-        mask[i] = front;
-        learn_hole(&stage->background, i, slot->depth[i], front);
     }
+}
+
+/* The sheet of the background is made by now: it needs the same memory. */
+static void find_front(rlf_reconstruct *stage, rlf_slot *slot)
+{
+    const rlf_span *spans = stage->work.front;
+    rlf_segment_links(stage, RLF_SEGMENT_NOISE, slot->depth, slot->foreground, spans);
+    stage->component_count = rlf_components_find(stage, spans);
+    stage->has_components = stage->def.foreground_segment == RLF_SEGMENT_NOISE;
+    decide_unknown(stage, slot);
 }
 
 static bool is_sheet_due(const rlf_background *background)
@@ -143,6 +155,10 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot)
     if (background->frames < INT32_MAX) {
         background->frames++;
     }
+    if (learning) {
+        memset(slot->foreground, 0, (size_t)stage->grid.count);
+        memset(stage->work.front, 0, (size_t)stage->grid.height * sizeof *stage->work.front);
+    }
     if (learning && background->frames < def->background_frames) {
         background->state = RLF_BACKGROUND_LEARNING;
         return;
@@ -150,10 +166,13 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot)
     background->state = RLF_BACKGROUND_READY;
     if (!learning) {
         rlf_parallel_for(def->pool, stage->grid.height, RLF_ROW_GRAIN, majority_rows, &job);
-        decide_unknown(stage, slot);
-        rlf_background_absorb(stage, slot);
+        rlf_background_restore(stage, slot);
     }
     if (is_sheet_due(background)) {
         rlf_background_publish(stage);
+    }
+    if (!learning) {
+        find_front(stage, slot);
+        rlf_background_absorb(stage, slot);
     }
 }

@@ -7,6 +7,8 @@
 
 #include "kernel/kernel.h"
 
+#include <string.h>
+
 static void add_frame(rlf_background *background, const float *depth, int32_t count)
 {
     for (int32_t i = 0; i < count; i++) {
@@ -30,6 +32,7 @@ void rlf_background_average_update(rlf_reconstruct *stage, rlf_slot *slot)
     int32_t count = stage->grid.count;
     if (background->state != RLF_BACKGROUND_READY) {
         background->state = RLF_BACKGROUND_LEARNING;
+        memset(slot->foreground, 0, (size_t)count);
         add_frame(background, slot->depth, count);
         if (background->frames == stage->def.background_frames) {
             divide(background, count);
@@ -43,5 +46,9 @@ void rlf_background_average_update(rlf_reconstruct *stage, rlf_slot *slot)
         float z = slot->depth[i], behind = background->mean[i];
         bool differs = rlf_kernel_abs(z - behind) > threshold;
         slot->foreground[i] = z > 0.0f && behind > 0.0f && differs;
+    }
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        int32_t width = stage->grid.width;
+        stage->work.front[y] = rlf_background_span(slot->foreground + (ptrdiff_t)y * width, width);
     }
 }

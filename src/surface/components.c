@@ -1,5 +1,8 @@
-/* Connected components in two passes with union-find (Rosenfeld and Pfaltz 1966), O(pixels). */
+/* Connected components of linked pixels, run by run, with union-find (Rosenfeld and Pfaltz 1966;
+ * runs: He, Chao and Suzuki 2008). O(pixels), whatever their number and shape. */
 #include "surface/steps.h"
+
+#include <string.h>
 
 static int32_t root_of(int32_t *parent, int32_t a)
 {
@@ -10,67 +13,113 @@ static int32_t root_of(int32_t *parent, int32_t a)
     return a;
 }
 
-/* The smaller root wins, so that a component is known by its first pixel in raster order. */
-static int32_t join(int32_t *parent, int32_t a, int32_t b)
+/* The smaller root wins, so that a component is known by its first run in raster order. */
+static void join(int32_t *parent, int32_t a, int32_t b)
 {
     a = root_of(parent, a);
     b = root_of(parent, b);
-    int32_t low = a < b ? a : b;
-    parent[a < b ? b : a] = low;
-    return low;
+    parent[a < b ? b : a] = a < b ? a : b;
 }
 
-static int32_t provisional_row(const rlf_work *work, int32_t width, ptrdiff_t row, int32_t count)
+/* First member at or after x; most bytes are 0 and are passed eight at a time. */
+static int32_t next_member(const uint8_t *links, int32_t x, int32_t end)
 {
-    const uint8_t *links = work->links + row;
-    int32_t *component = work->component + row;
-    for (int32_t x = 0; x < width; x++) {
-        uint8_t link = links[x];
-        if (!(link & RLF_LINK_MEMBER)) {
-            component[x] = 0;
-            continue;
+    uint64_t eight = 0;
+    while (x + 8 <= end) {
+        memcpy(&eight, links + x, sizeof eight);
+        if (eight != 0) {
+            break;
         }
-        bool left = (link & RLF_LINK_LEFT) != 0;
-        bool up = (link & RLF_LINK_UP) != 0;
-        if (left && up) {
-            int32_t a = component[x - 1], b = component[x - width];
-            component[x] = a == b ? a : join(work->parent, a, b);
-        } else if (left) {
-            component[x] = component[x - 1];
-        } else if (up) {
-            component[x] = component[x - width];
-        } else {
-            count++;
-            work->parent[count] = count;
-            component[x] = count;
+        x += 8;
+    }
+    while (x < end && !(links[x] & RLF_LINK_MEMBER)) {
+        x++;
+    }
+    return x;
+}
+
+static int32_t find_runs(const uint8_t *links, rlf_span span, rlf_run *runs, int32_t count)
+{
+    int32_t x = next_member(links, span.x0, span.x1);
+    while (x < span.x1) {
+        int32_t begin = x++;
+        while (x < span.x1 && (links[x] & RLF_LINK_LEFT) != 0) {
+            x++;
         }
+        runs[count++] = (rlf_run){begin, x, 0};
+        x = next_member(links, x, span.x1);
     }
     return count;
 }
 
-int32_t rlf_components_find(const rlf_reconstruct *stage)
+/* Joins run r to the run of the row above that holds x; the search begins at run a. */
+static void join_above(const rlf_work *work, int32_t r, int32_t a, int32_t x)
+{
+    while (work->runs.run[a].x1 <= x) {
+        a++;
+    }
+    join(work->parent, r, a);
+}
+
+/* Joins run r to the runs above that its pixels are linked to; *above is the first that can touch
+ * it, and only moves on. Pixels under one and the same run say the same, but for its ends. */
+static void join_run(const rlf_work *work, const uint8_t *links, int32_t r, int32_t end,
+                     int32_t *above)
+{
+    const rlf_run *runs = work->runs.run;
+    int32_t a = *above, x = runs[r].x0;
+    while (x < runs[r].x1) {
+        while (a < end && runs[a].x1 < x) {
+            a++;
+        }
+        if (a == end) {
+            break;
+        }
+        int32_t link = links[x];
+        if (link & RLF_LINK_UP_LEFT) {
+            join_above(work, r, a, x - 1);
+        }
+        if (link & RLF_LINK_UP_RIGHT) {
+            join_above(work, r, a, x + 1);
+        }
+        int32_t next = x + 1;
+        if (link & RLF_LINK_UP) {
+            int32_t over = runs[a].x1 <= x ? a + 1 : a;
+            join(work->parent, r, over);
+            next = runs[over].x1 - 1 > next ? runs[over].x1 - 1 : next;
+        }
+        x = next;
+    }
+    *above = a;
+}
+
+int32_t rlf_components_find(const rlf_reconstruct *stage, const rlf_span *spans)
 {
     const rlf_work *work = &stage->work;
-    int32_t width = stage->grid.width;
-    int32_t provisional = 0;
-    for (int32_t y = 0; y < stage->grid.height; y++) {
-        provisional = provisional_row(work, width, (ptrdiff_t)y * width, provisional);
-    }
+    int32_t width = stage->grid.width, height = stage->grid.height;
+    const rlf_span whole = {0, width};
     int32_t count = 0;
-    for (int32_t a = 1; a <= provisional; a++) {
-        int32_t root = root_of(work->parent, a);
-        work->map[a] = root == a ? ++count : work->map[root];
-    }
-    for (int32_t a = 1; a <= count; a++) {
-        work->size[a] = 0;
-    }
-    for (int32_t i = 0; i < stage->grid.count; i++) {
-        int32_t a = work->component[i];
-        if (a != 0) {
-            int32_t c = work->map[a];
-            work->component[i] = c;
-            work->size[c]++;
+    for (int32_t y = 0; y < height; y++) {
+        const uint8_t *links = work->links + (ptrdiff_t)y * width;
+        int32_t above = y > 0 ? work->runs.first[y - 1] : 0, end = count;
+        work->runs.first[y] = count;
+        count = find_runs(links, spans != NULL ? spans[y] : whole, work->runs.run, count);
+        for (int32_t r = end; r < count; r++) {
+            work->parent[r] = r;
+            join_run(work, links, r, end, &above);
         }
     }
-    return count;
+    work->runs.first[height] = count;
+    int32_t components = 0;
+    for (int32_t r = 0; r < count; r++) {
+        rlf_run *run = &work->runs.run[r];
+        int32_t root = root_of(work->parent, r);
+        if (root == r) {
+            run->component = ++components;
+            work->size[components] = 0;
+        }
+        run->component = work->runs.run[root].component;
+        work->size[run->component] += run->x1 - run->x0;
+    }
+    return components;
 }

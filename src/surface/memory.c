@@ -3,6 +3,8 @@
 
 #include "surface/steps.h"
 
+#include <string.h>
+
 static void *take(rlf_reconstruct *stage, size_t count, size_t size)
 {
     void *memory = stage->block_count < RLF_STAGE_BLOCKS ? rlf_alloc_array(count, size) : NULL;
@@ -59,6 +61,8 @@ static void take_background(rlf_reconstruct *stage)
     background->still = take(stage, n, sizeof(float));
     background->still_ms = take(stage, n, sizeof(uint16_t));
     background->beneath = take(stage, n, sizeof(float));
+    background->standing = take(stage, (size_t)stage->grid.height, sizeof(rlf_span));
+    background->hides = take(stage, (size_t)stage->grid.height, 1);
     for (int i = 0; i < RLF_SHEETS; i++) {
         rlf_sheet *sheet = &background->sheets[i];
         sheet->depth = take(stage, n, sizeof(float));
@@ -85,6 +89,9 @@ static void take_work(rlf_reconstruct *stage)
     }
     work->links = take(stage, n, 1);
     work->component = take(stage, n, sizeof(int32_t));
+    work->front = take(stage, (size_t)stage->grid.height, sizeof(rlf_span));
+    work->runs.run = take(stage, n, sizeof(rlf_run));
+    work->runs.first = take(stage, (size_t)stage->grid.height + 1, sizeof(int32_t));
     work->parent = take(stage, n + 1, sizeof(int32_t));
     work->size = take(stage, n + 1, sizeof(int32_t));
     work->map = take(stage, n + 1, sizeof(int32_t));
@@ -92,6 +99,13 @@ static void take_work(rlf_reconstruct *stage)
     work->zero_plane = take(stage, n, sizeof(float));
     work->zero_labels = take(stage, n, sizeof(int32_t));
     work->region_sums = take(stage, (size_t)stage->def.region_capacity + 1, sizeof(rlf_region_sum));
+    work->heirs = take(stage, 4 * (size_t)stage->def.region_capacity, sizeof(int32_t));
+    work->ones = take(stage, (size_t)stage->grid.width, 1);
+    work->missing = take(stage, (size_t)stage->grid.width, 1);
+    if (!stage->out_of_memory) {
+        memset(work->ones, 1, (size_t)stage->grid.width);
+        memset(work->missing, RLF_SEEN_MISSING, (size_t)stage->grid.width);
+    }
 }
 
 static void take_steady(rlf_reconstruct *stage)

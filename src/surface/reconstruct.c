@@ -56,7 +56,7 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
     if (!RLF_ASSERT(stage != NULL)) {
         return;
     }
-    rlf_background_reset(&stage->background, stage->grid.count);
+    rlf_background_reset(&stage->background, &stage->grid);
     rlf_steady_reset(&stage->steady, stage->grid.count);
     stage->previous = NULL;
 }
@@ -201,65 +201,118 @@ static void copy_background_regions(const rlf_sheet *sheet, rlf_slot *slot)
     }
 }
 
-static void segment_front(rlf_reconstruct *stage, rlf_slot *slot, const uint8_t *mask)
+static rlf_layer_in front_layer(const rlf_reconstruct *stage, const rlf_slot *slot)
 {
     const rlf_slot *before = stage->previous;
-    const rlf_sheet *sheet = newest_sheet(stage);
-    int32_t first = slot->foreground_region_first;
-    int32_t offset = sheet == NULL ? 0 : sheet->point_count;
+    bool off = stage->def.background_method == RLF_BACKGROUND_OFF;
     rlf_layer_in in = {.layer = RLF_LAYER_FOREGROUND,
                        .method = stage->def.foreground_segment,
                        .depth = slot->depth,
-                       .mask = mask};
+                       .mask = off ? NULL : slot->foreground,
+                       .spans = off ? NULL : stage->work.front,
+                       .has_components = stage->has_components,
+                       .component_count = stage->component_count};
     if (before != NULL) {
         in.previous_label = before->label;
-        in.previous_mask = mask == NULL ? NULL : before->foreground;
+        in.previous_mask = off ? NULL : before->foreground;
         in.previous = before->regions + before->foreground_region_first;
         in.previous_count = before->foreground_region_count;
         in.elapsed_ns = slot->surface.time_ns - before->surface.time_ns;
     }
-    rlf_layer_out out = {slot->label, slot->regions + first,
-                         slot->region_points == NULL ? NULL : slot->region_points + offset, 0, 0};
-    rlf_layer_segment(stage, &in, &out);
-    slot->foreground_region_count = out.region_count;
-    for (int32_t r = 0; r < out.region_count && out.points != NULL; r++) {
-        out.regions[r].first_point += offset;
+    return in;
+}
+
+/* What belongs to no region is noise. */
+static void drop_pieces(const rlf_reconstruct *stage, rlf_slot *slot)
+{
+    const rlf_runs *runs = &stage->work.runs;
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        uint8_t *row = slot->foreground + (ptrdiff_t)y * stage->grid.width;
+        for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
+            const rlf_run *run = &runs->run[r];
+            if (run->component <= 0) {
+                memset(row + run->x0, 0, (size_t)(run->x1 - run->x0));
+            }
+        }
     }
 }
 
-/* Labels where the front sheet shows the background; pieces too small to be regions belong to
- * the region around them, or are noise. */
-static void finish_labels(rlf_reconstruct *stage, rlf_slot *slot)
+static rlf_layer_out segment_front(rlf_reconstruct *stage, rlf_slot *slot)
 {
     const rlf_sheet *sheet = newest_sheet(stage);
-    bool drop = stage->def.foreground_segment == RLF_SEGMENT_NOISE;
-    bool adopt = drop && slot->region_points == NULL; /* lists are complete already */
-    for (int32_t i = 0; i < stage->grid.count; i++) {
-        if (adopt && slot->foreground[i] && slot->label[i] == 0) {
-            rlf_region_adopt(&stage->grid, slot->depth, i, slot->label,
-                             slot->regions + slot->foreground_region_first,
-                             slot->foreground_region_count);
+    int32_t offset = sheet == NULL ? 0 : sheet->point_count;
+    rlf_layer_in in = front_layer(stage, slot);
+    rlf_layer_out out = {slot->regions + slot->foreground_region_first,
+                         slot->region_points == NULL ? NULL : slot->region_points + offset, 0, 0};
+    rlf_layer_segment(stage, &in, &out);
+    for (int32_t r = 0; r < out.region_count && out.points != NULL; r++) {
+        out.regions[r].first_point += offset;
+    }
+    if (in.method == RLF_SEGMENT_NOISE && in.mask != NULL) {
+        if (out.points == NULL) { /* lists are complete already */
+            rlf_region_adopt(stage, slot->depth, &out);
         }
-        if (drop && slot->label[i] == 0) {
-            slot->foreground[i] = 0;
-        }
-        if (!slot->foreground[i] && slot->depth[i] > 0.0f && sheet != NULL) {
-            slot->label[i] = sheet->label[i];
-        }
+        drop_pieces(stage, slot);
+    }
+    return out;
+}
+
+typedef struct label_job {
+    const rlf_reconstruct *stage;
+    const int32_t *background;
+    rlf_slot *slot;
+    int32_t valid[RLF_IMAGE_SIZE_MAX / RLF_ROW_GRAIN]; /* per chunk */
+} label_job;
+
+static void label_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    label_job *job = context;
+    const rlf_slot *slot = job->slot;
+    int32_t width = job->stage->grid.width;
+    ptrdiff_t at = (ptrdiff_t)begin * width;
+    job->valid[begin / RLF_ROW_GRAIN] =
+        rlf_kernel_label_row(slot->depth + at, slot->foreground + at, job->background + at,
+                             (end - begin) * width, slot->label + at);
+}
+
+/* Labels where the front sheet shows the background, and how much it shows. */
+static void label_background(rlf_reconstruct *stage, rlf_slot *slot)
+{
+    const rlf_sheet *sheet = newest_sheet(stage);
+    label_job job = {.stage = stage,
+                     .background = sheet != NULL ? sheet->label : stage->work.zero_labels,
+                     .slot = slot};
+    rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, label_rows, &job);
+    slot->surface.valid_count = 0;
+    for (int32_t y = 0; y < stage->grid.height; y += RLF_ROW_GRAIN) {
+        slot->surface.valid_count += job.valid[y / RLF_ROW_GRAIN];
     }
 }
 
 static void make_regions(rlf_reconstruct *stage, rlf_slot *slot)
 {
     copy_background_regions(newest_sheet(stage), slot);
-    slot->foreground_region_count = 0;
     bool off = stage->def.background_method == RLF_BACKGROUND_OFF;
-    if (off || stage->background.state == RLF_BACKGROUND_READY) {
-        segment_front(stage, slot, off ? NULL : slot->foreground);
-    } else {
-        memset(slot->label, 0, (size_t)stage->grid.count * sizeof *slot->label);
+    bool has_front = off || stage->background.state == RLF_BACKGROUND_READY;
+    rlf_layer_out out = {NULL, NULL, 0, 0};
+    if (has_front) {
+        out = segment_front(stage, slot);
     }
-    finish_labels(stage, slot);
+    slot->foreground_region_count = out.region_count;
+    label_background(stage, slot);
+    if (has_front) {
+        rlf_region_write_labels(stage, &out, slot->label);
+    }
+}
+
+static int32_t count_foreground(const rlf_reconstruct *stage, const rlf_slot *slot)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < stage->grid.count; i++) {
+        count += slot->foreground[i];
+    }
+    return count;
 }
 
 static void publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot)
@@ -295,11 +348,7 @@ static void publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *sl
     s->regions = slot->regions;
     s->region_count = slot->foreground_region_first + slot->foreground_region_count;
     s->region_points = slot->region_points;
-    s->valid_count = s->foreground_count = 0;
-    for (int32_t i = 0; i < stage->grid.count; i++) {
-        s->valid_count += slot->depth[i] > 0.0f ? 1 : 0;
-        s->foreground_count += slot->foreground[i];
-    }
+    s->foreground_count = count_foreground(stage, slot);
 }
 
 rlf_result rlf_reconstruct_process(rlf_reconstruct *stage, const rlf_frame *frame,

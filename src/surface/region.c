@@ -4,16 +4,33 @@
 
 #include <string.h>
 
-static int32_t single_component(rlf_reconstruct *stage, const rlf_layer_in *in)
+/* Everything is one component. */
+static int32_t find_single(rlf_reconstruct *stage, const rlf_layer_in *in)
 {
+    rlf_segment_links(stage, RLF_SEGMENT_NOISE, in->depth, in->mask, in->spans);
+    int32_t components = rlf_components_find(stage, in->spans);
     int32_t size = 0;
-    for (int32_t i = 0; i < stage->grid.count; i++) {
-        bool member = in->depth[i] > 0.0f && (in->mask == NULL || in->mask[i] != 0);
-        stage->work.component[i] = member ? 1 : 0;
-        size += member;
+    for (int32_t c = 1; c <= components; c++) {
+        size += stage->work.size[c];
+    }
+    int32_t end = stage->work.runs.first[stage->grid.height];
+    for (int32_t r = 0; r < end; r++) {
+        stage->work.runs.run[r].component = 1;
     }
     stage->work.size[1] = size;
-    return size > 0 ? 1 : 0;
+    return components > 0 ? 1 : 0;
+}
+
+static int32_t find_components(rlf_reconstruct *stage, const rlf_layer_in *in)
+{
+    if (in->has_components) {
+        return in->component_count;
+    }
+    if (in->method == RLF_SEGMENT_OFF) {
+        return find_single(stage, in);
+    }
+    rlf_segment_links(stage, in->method, in->depth, in->mask, in->spans);
+    return rlf_components_find(stage, in->method == RLF_SEGMENT_NOISE ? in->spans : NULL);
 }
 
 /* Smallest size that leaves at most region_capacity components, found by bisection. */
@@ -37,29 +54,34 @@ static int32_t least_size(const rlf_reconstruct *stage, int32_t component_count)
     return low;
 }
 
+static void meet(const rlf_work *work, int32_t a, int32_t b)
+{
+    int32_t *best = work->vote[0];
+    if (a == b) {
+        return;
+    }
+    best[a] = best[a] == 0 || work->size[b] > work->size[best[a]] ? b : best[a];
+    best[b] = best[b] == 0 || work->size[a] > work->size[best[b]] ? a : best[b];
+}
+
 /* vote[0][c]: the largest component that touches c in the image. */
 static void find_neighbours(const rlf_reconstruct *stage, int32_t component_count)
 {
     const rlf_work *work = &stage->work;
-    int32_t *best = work->vote[0];
-    memset(best, 0, (size_t)(component_count + 1) * sizeof *best);
-    int32_t width = stage->grid.width;
+    const rlf_run *runs = work->runs.run;
+    memset(work->vote[0], 0, (size_t)(component_count + 1) * sizeof *work->vote[0]);
     for (int32_t y = 0; y < stage->grid.height; y++) {
-        for (int32_t x = 0; x < width; x++) {
-            ptrdiff_t i = (ptrdiff_t)y * width + x;
-            int32_t a = work->component[i];
-            if (a == 0) {
-                continue;
+        int32_t begin = work->runs.first[y], end = work->runs.first[y + 1];
+        int32_t above = y > 0 ? work->runs.first[y - 1] : begin;
+        for (int32_t r = begin; r < end; r++) {
+            if (r > begin && runs[r - 1].x1 == runs[r].x0) {
+                meet(work, runs[r].component, runs[r - 1].component);
             }
-            const int32_t near[2] = {x > 0 ? work->component[i - 1] : 0,
-                                     y > 0 ? work->component[i - width] : 0};
-            for (int k = 0; k < 2; k++) {
-                int32_t b = near[k];
-                if (b == 0 || b == a) {
-                    continue;
-                }
-                best[a] = best[a] == 0 || work->size[b] > work->size[best[a]] ? b : best[a];
-                best[b] = best[b] == 0 || work->size[a] > work->size[best[b]] ? a : best[b];
+            while (above < begin && runs[above].x1 <= runs[r].x0) {
+                above++;
+            }
+            for (int32_t a = above; a < begin && runs[a].x0 < runs[r].x1; a++) {
+                meet(work, runs[r].component, runs[a].component);
             }
         }
     }
@@ -86,61 +108,151 @@ static int32_t number_regions(rlf_reconstruct *stage, int32_t component_count, b
     return count;
 }
 
-void rlf_layer_segment(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out)
+static void number_runs(rlf_reconstruct *stage)
 {
-    int32_t components = 0;
-    if (in->method == RLF_SEGMENT_OFF) {
-        components = single_component(stage, in);
-    } else {
-        rlf_segment_links(stage, in->method, in->depth, in->mask);
-        components = rlf_components_find(stage);
-    }
-    bool merge = in->method == RLF_SEGMENT_NOISE;
-    out->region_count = number_regions(stage, components, merge);
-    for (int32_t i = 0; i < stage->grid.count; i++) {
-        int32_t c = stage->work.component[i];
-        out->label[i] = c == 0 ? 0 : stage->work.map[c];
-    }
-    if (in->method == RLF_SEGMENT_THESIS && stage->def.enable_dilation) {
-        rlf_segment_dilate(&stage->grid, stage->def.segment_tau_m, in->depth, in->mask, out->label);
-    }
-    rlf_region_measure(stage, in, out->label, out);
-    rlf_region_track(stage, in, out->label, out);
-    for (int32_t i = 0; i < stage->grid.count; i++) {
-        int32_t number = out->label[i];
-        out->label[i] = number == 0 ? 0 : out->regions[number - 1].label;
+    const rlf_work *work = &stage->work;
+    int32_t end = work->runs.first[stage->grid.height];
+    for (int32_t r = 0; r < end; r++) {
+        int32_t c = work->runs.run[r].component;
+        work->runs.run[r].component = c > 0 && work->map[c] > 0 ? work->map[c] : -c;
     }
 }
 
-/* The region in whose box (and a hand's breadth around it) a point lies; NULL = none. */
-static rlf_region *region_around(rlf_region *regions, int32_t count, rlf_vec3 p)
+/* Runs of the plane of region numbers. */
+static void find_runs(rlf_reconstruct *stage, const int32_t *number)
 {
-    const double around_m = 0.1;
-    for (int32_t r = 0; r < count; r++) {
-        rlf_vec3 low = rlf_sub(p, regions[r].box.min), high = rlf_sub(regions[r].box.max, p);
-        double out = rlf_min(rlf_min(low.x, rlf_min(low.y, low.z)),
-                             rlf_min(high.x, rlf_min(high.y, high.z)));
-        if (out > -around_m) {
-            return &regions[r];
+    const rlf_runs *runs = &stage->work.runs;
+    int32_t width = stage->grid.width, count = 0;
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        const int32_t *row = number + (ptrdiff_t)y * width;
+        runs->first[y] = count;
+        for (int32_t x = 0; x < width; x++) {
+            if (row[x] == 0) {
+                continue;
+            }
+            if (x > 0 && row[x] == row[x - 1]) {
+                runs->run[count - 1].x1 = x + 1;
+            } else {
+                runs->run[count++] = (rlf_run){x, x + 1, row[x]};
+            }
         }
     }
-    return NULL;
+    runs->first[stage->grid.height] = count;
 }
 
-void rlf_region_adopt(const rlf_grid *grid, const float *depth, ptrdiff_t i, int32_t *label,
-                      rlf_region *regions, int32_t count)
+static void fill_run(const rlf_run *run, int32_t value, int32_t *row)
+{
+    for (int32_t x = run->x0; x < run->x1; x++) {
+        row[x] = value;
+    }
+}
+
+/* Fig. 4.12, over a plane of region numbers. */
+static void dilate(rlf_reconstruct *stage, const rlf_layer_in *in)
+{
+    const rlf_work *work = &stage->work;
+    int32_t *number = work->component;
+    memset(number, 0, (size_t)stage->grid.count * sizeof *number);
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        for (int32_t r = work->runs.first[y]; r < work->runs.first[y + 1]; r++) {
+            const rlf_run *run = &work->runs.run[r];
+            fill_run(run, run->component > 0 ? run->component : 0,
+                     number + (ptrdiff_t)y * stage->grid.width);
+        }
+    }
+    rlf_segment_dilate(&stage->grid, stage->def.segment_tau_m, in->depth, in->mask, number);
+    find_runs(stage, number);
+}
+
+void rlf_layer_segment(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out)
+{
+    int32_t components = find_components(stage, in);
+    out->region_count = number_regions(stage, components, in->method == RLF_SEGMENT_NOISE);
+    number_runs(stage);
+    if (in->method == RLF_SEGMENT_THESIS && stage->def.enable_dilation) {
+        dilate(stage, in);
+    }
+    rlf_region_measure(stage, in, out);
+    rlf_region_track(stage, in, out);
+}
+
+void rlf_region_write_labels(const rlf_reconstruct *stage, const rlf_layer_out *out, int32_t *label)
+{
+    const rlf_runs *runs = &stage->work.runs;
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        int32_t *row = label + (ptrdiff_t)y * stage->grid.width;
+        for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
+            const rlf_run *run = &runs->run[r];
+            if (run->component > 0) {
+                fill_run(run, out->regions[run->component - 1].label, row);
+            }
+        }
+    }
+}
+
+/* The region in whose box (and a hand's breadth around it) a point lies; 0 = none. */
+static int32_t region_around(const rlf_layer_out *out, rlf_vec3 p)
+{
+    const double around_m = 0.1;
+    for (int32_t r = 0; r < out->region_count; r++) {
+        const rlf_aabb *box = &out->regions[r].box;
+        rlf_vec3 low = rlf_sub(p, box->min), high = rlf_sub(box->max, p);
+        double outside = rlf_min(rlf_min(low.x, rlf_min(low.y, low.z)),
+                                 rlf_min(high.x, rlf_min(high.y, high.z)));
+        if (outside > -around_m) {
+            return r + 1;
+        }
+    }
+    return 0;
+}
+
+static void grow(rlf_region *region, const rlf_run *run, int32_t y)
+{
+    region->point_count += run->x1 - run->x0;
+    region->x0 = run->x0 < region->x0 ? run->x0 : region->x0;
+    region->x1 = run->x1 > region->x1 ? run->x1 : region->x1;
+    region->y0 = y < region->y0 ? y : region->y0;
+    region->y1 = y + 1 > region->y1 ? y + 1 : region->y1;
+}
+
+static rlf_vec3 point_at(const rlf_grid *grid, const float *depth, int32_t i)
 {
     double z = depth[i];
-    rlf_vec3 p = {z * grid->ray_x[i], z * grid->ray_y[i], z};
-    rlf_region *region = region_around(regions, count, p);
-    if (region == NULL) {
-        return;
+    return rlf_vec3_make(z * grid->ray_x[i], z * grid->ray_y[i], z);
+}
+
+/* map[c] of the pieces: the region that an end of one of their runs is close to, 0 = none. */
+static void find_homes(const rlf_reconstruct *stage, const float *depth, const rlf_layer_out *out)
+{
+    const rlf_work *work = &stage->work;
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        int32_t row = y * stage->grid.width;
+        for (int32_t r = work->runs.first[y]; r < work->runs.first[y + 1]; r++) {
+            const rlf_run *run = &work->runs.run[r];
+            if (run->component >= 0 || work->map[-run->component] > 0) {
+                continue;
+            }
+            int32_t home = region_around(out, point_at(&stage->grid, depth, row + run->x0));
+            if (home == 0) {
+                home = region_around(out, point_at(&stage->grid, depth, row + run->x1 - 1));
+            }
+            work->map[-run->component] = home;
+        }
     }
-    int32_t x = (int32_t)(i % grid->width), y = (int32_t)(i / grid->width);
-    label[i] = region->label;
-    region->point_count++;
-    region->x0 = x < region->x0 ? x : region->x0;
-    region->y0 = y < region->y0 ? y : region->y0;
-    region->x1 = x + 1 > region->x1 ? x + 1 : region->x1;
-    region->y1 = y + 1 > region->y1 ? y + 1 : region->y1;
+}
+
+void rlf_region_adopt(rlf_reconstruct *stage, const float *depth, rlf_layer_out *out)
+{
+    const rlf_work *work = &stage->work;
+    find_homes(stage, depth, out);
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        for (int32_t r = work->runs.first[y]; r < work->runs.first[y + 1]; r++) {
+            rlf_run *run = &work->runs.run[r];
+            int32_t home = run->component < 0 ? work->map[-run->component] : 0;
+            if (home > 0) {
+                run->component = home;
+                grow(&out->regions[home - 1], run, y);
+            }
+        }
+    }
 }

@@ -15,23 +15,32 @@ static void clear_region(rlf_region *region, rlf_region_sum *sum, const rlf_laye
     *sum = (rlf_region_sum){0};
 }
 
-static void add_point(rlf_region *region, rlf_region_sum *sum, int32_t x, int32_t y, rlf_vec3 p)
+static void add_run(rlf_region *region, rlf_region_sum *sum, const rlf_grid *grid,
+                    const float *depth, const rlf_run *run, int32_t y)
 {
-    region->point_count++;
-    region->x0 = x < region->x0 ? x : region->x0;
+    region->point_count += run->x1 - run->x0;
+    region->x0 = run->x0 < region->x0 ? run->x0 : region->x0;
+    region->x1 = run->x1 > region->x1 ? run->x1 : region->x1;
     region->y0 = y < region->y0 ? y : region->y0;
-    region->x1 = x + 1 > region->x1 ? x + 1 : region->x1;
-    region->y1 = y + 1 > region->y1 ? y + 1 : region->y1;
-    rlf_aabb_extend(&region->box, p);
-    sum->s[0] += p.x;
-    sum->s[1] += p.y;
-    sum->s[2] += p.z;
-    sum->ss[0] += p.x * p.x;
-    sum->ss[1] += p.x * p.y;
-    sum->ss[2] += p.x * p.z;
-    sum->ss[3] += p.y * p.y;
-    sum->ss[4] += p.y * p.z;
-    sum->ss[5] += p.z * p.z;
+    region->y1 = y + 1;
+    rlf_aabb box = region->box;
+    rlf_region_sum t = *sum;
+    ptrdiff_t row = (ptrdiff_t)y * grid->width;
+    for (ptrdiff_t i = row + run->x0; i < row + run->x1; i++) {
+        double z = depth[i], x_m = z * grid->ray_x[i], y_m = z * grid->ray_y[i];
+        rlf_aabb_extend(&box, rlf_vec3_make(x_m, y_m, z));
+        t.s[0] += x_m;
+        t.s[1] += y_m;
+        t.s[2] += z;
+        t.ss[0] += x_m * x_m;
+        t.ss[1] += x_m * y_m;
+        t.ss[2] += x_m * z;
+        t.ss[3] += y_m * y_m;
+        t.ss[4] += y_m * z;
+        t.ss[5] += z * z;
+    }
+    region->box = box;
+    *sum = t;
 }
 
 /* Eigenvalues on the diagonal of a and eigenvectors in the columns of v: cyclic Jacobi rotations
@@ -78,7 +87,7 @@ static rlf_quat principal_axes(double v[3][3], const double value[3])
     return rlf_quat_from_mat3(&m);
 }
 
-static void finish_region(rlf_region *region, const rlf_region_sum *sum)
+static void finish_region(rlf_region *region, rlf_region_sum *sum)
 {
     double inv = 1.0 / region->point_count;
     double m[3];
@@ -97,33 +106,29 @@ static void finish_region(rlf_region *region, const rlf_region_sum *sum)
     double least = rlf_min(value[0], rlf_min(value[1], value[2]));
     region->plane_residual = sqrt(rlf_max(least, 0.0));
     region->oriented_pose.q = principal_axes(v, value);
+    sum->axis[0] = rlf_rotate(region->oriented_pose.q, rlf_vec3_make(1, 0, 0));
+    sum->axis[1] = rlf_rotate(region->oriented_pose.q, rlf_vec3_make(0, 1, 0));
+    sum->axis[2] = rlf_rotate(region->oriented_pose.q, rlf_vec3_make(0, 0, 1));
 }
 
-/* Extents along the principal axes; until finish_boxes, oriented_pose.p holds their least and
+/* Extents along the principal axes; until finish_box, oriented_pose.p holds their least and
  * oriented_half their largest values, from the centroid. */
-static void measure_boxes(const rlf_grid *grid, const rlf_layer_in *in, const int32_t *number,
-                          rlf_region *regions)
+static void add_extents(rlf_region *region, const rlf_region_sum *sum, const rlf_grid *grid,
+                        const float *depth, const rlf_run *run, int32_t y)
 {
-    rlf_region *region = NULL;
-    rlf_vec3 axis[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
-    for (int32_t i = 0; i < grid->count; i++) {
-        if (number[i] == 0) {
-            continue;
-        }
-        if (region != &regions[number[i] - 1]) {
-            region = &regions[number[i] - 1];
-            rlf_quat q = region->oriented_pose.q;
-            axis[0] = rlf_rotate(q, rlf_vec3_make(1, 0, 0));
-            axis[1] = rlf_rotate(q, rlf_vec3_make(0, 1, 0));
-            axis[2] = rlf_rotate(q, rlf_vec3_make(0, 0, 1));
-        }
-        double z = in->depth[i];
+    rlf_vec3 low = region->oriented_pose.p, high = region->oriented_half;
+    const rlf_vec3 axis[3] = {sum->axis[0], sum->axis[1], sum->axis[2]}, origin = region->centroid;
+    ptrdiff_t row = (ptrdiff_t)y * grid->width;
+    for (ptrdiff_t i = row + run->x0; i < row + run->x1; i++) {
+        double z = depth[i];
         rlf_vec3 p = {z * grid->ray_x[i], z * grid->ray_y[i], z};
-        p = rlf_sub(p, region->centroid);
+        p = rlf_sub(p, origin);
         p = rlf_vec3_make(rlf_dot(axis[0], p), rlf_dot(axis[1], p), rlf_dot(axis[2], p));
-        region->oriented_pose.p = rlf_vec3_min(region->oriented_pose.p, p);
-        region->oriented_half = rlf_vec3_max(region->oriented_half, p);
+        low = rlf_vec3_min(low, p);
+        high = rlf_vec3_max(high, p);
     }
+    region->oriented_pose.p = low;
+    region->oriented_half = high;
 }
 
 static void finish_box(rlf_region *region)
@@ -136,8 +141,9 @@ static void finish_box(rlf_region *region)
 }
 
 /* Point lists, region by region, in raster order. */
-static void list_points(rlf_reconstruct *stage, const int32_t *number, rlf_layer_out *out)
+static void list_points(rlf_reconstruct *stage, rlf_layer_out *out)
 {
+    const rlf_runs *runs = &stage->work.runs;
     int32_t *next = stage->work.vote[0];
     int32_t total = 0;
     for (int32_t r = 0; r < out->region_count; r++) {
@@ -145,42 +151,63 @@ static void list_points(rlf_reconstruct *stage, const int32_t *number, rlf_layer
         next[r] = total;
         total += out->regions[r].point_count;
     }
-    for (int32_t i = 0; i < stage->grid.count; i++) {
-        if (number[i] != 0) {
-            out->points[next[number[i] - 1]++] = i;
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        for (int32_t k = runs->first[y]; k < runs->first[y + 1]; k++) {
+            const rlf_run *run = &runs->run[k];
+            for (int32_t x = run->x0; x < run->x1 && run->component > 0; x++) {
+                out->points[next[run->component - 1]++] = y * stage->grid.width + x;
+            }
         }
     }
     out->point_count = total;
 }
 
-void rlf_region_measure(rlf_reconstruct *stage, const rlf_layer_in *in, const int32_t *number,
-                        rlf_layer_out *out)
+typedef void (*run_fn)(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out,
+                       const rlf_run *run, int32_t y);
+
+static void sum_run(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out,
+                    const rlf_run *run, int32_t y)
 {
-    const rlf_grid *grid = &stage->grid;
-    rlf_region_sum *sums = stage->work.region_sums;
-    for (int32_t r = 0; r < out->region_count; r++) {
-        clear_region(&out->regions[r], &sums[r], in, grid);
-    }
-    for (int32_t y = 0; y < grid->height; y++) {
-        for (int32_t x = 0; x < grid->width; x++) {
-            int32_t i = y * grid->width + x;
-            if (number[i] == 0) {
-                continue;
+    add_run(&out->regions[run->component - 1], &stage->work.region_sums[run->component - 1],
+            &stage->grid, in->depth, run, y);
+}
+
+static void extend_run(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out,
+                       const rlf_run *run, int32_t y)
+{
+    add_extents(&out->regions[run->component - 1], &stage->work.region_sums[run->component - 1],
+                &stage->grid, in->depth, run, y);
+}
+
+static void for_runs(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out,
+                     run_fn visit)
+{
+    const rlf_runs *runs = &stage->work.runs;
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
+            if (runs->run[r].component > 0) {
+                visit(stage, in, out, &runs->run[r], y);
             }
-            double z = in->depth[i];
-            rlf_vec3 p = {z * grid->ray_x[i], z * grid->ray_y[i], z};
-            add_point(&out->regions[number[i] - 1], &sums[number[i] - 1], x, y, p);
         }
     }
+}
+
+void rlf_region_measure(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out)
+{
+    rlf_region_sum *sums = stage->work.region_sums;
+    for (int32_t r = 0; r < out->region_count; r++) {
+        clear_region(&out->regions[r], &sums[r], in, &stage->grid);
+    }
+    for_runs(stage, in, out, sum_run);
     for (int32_t r = 0; r < out->region_count; r++) {
         finish_region(&out->regions[r], &sums[r]);
     }
-    measure_boxes(grid, in, number, out->regions);
+    for_runs(stage, in, out, extend_run);
     for (int32_t r = 0; r < out->region_count; r++) {
         finish_box(&out->regions[r]);
     }
     out->point_count = 0;
     if (out->points != NULL) {
-        list_points(stage, number, out);
+        list_points(stage, out);
     }
 }

@@ -1,55 +1,114 @@
 /* Stable labels: a region keeps the label that most of its pixels had.
  *
- * The candidate of each region is found by majority vote in one pass (Boyer and Moore 1981); of two
- * regions with the same candidate the larger keeps it. */
+ * The candidate of each region is found by majority vote in one pass (Boyer and Moore 1981); of
+ * regions with the same candidate the largest keeps it. */
 #include "surface/steps.h"
+
+#include <string.h>
 
 enum { LABEL_LIMIT = 1 << 30 };
 
-static void vote(rlf_reconstruct *stage, const rlf_layer_in *in, const int32_t *number,
-                 int32_t region_count)
+/* Which of the previous regions has a label: open addressing, at most half full. Entries are
+ * indices + 1, 0 = free. */
+typedef struct label_table {
+    const rlf_region *regions;
+    int32_t *entry;
+    uint32_t mask;
+} label_table;
+
+static uint32_t find_entry(const label_table *table, int32_t label)
 {
+    uint32_t at = ((uint32_t)label * 2654435769u) & table->mask; /* Fibonacci hashing */
+    while (table->entry[at] != 0 && table->regions[table->entry[at] - 1].label != label) {
+        at = (at + 1) & table->mask;
+    }
+    return at;
+}
+
+static label_table make_table(const rlf_reconstruct *stage, const rlf_layer_in *in)
+{
+    uint32_t size = 2;
+    while (size < 2 * (uint32_t)in->previous_count) {
+        size *= 2;
+    }
+    label_table table = {in->previous, stage->work.heirs, size - 1};
+    memset(table.entry, 0, size * sizeof *table.entry);
+    for (int32_t k = 0; k < in->previous_count; k++) {
+        table.entry[find_entry(&table, in->previous[k].label)] = k + 1;
+    }
+    return table;
+}
+
+/* `weight` votes of one kind. */
+static void add_votes(int32_t *candidate, int32_t *count, int32_t label, int32_t weight)
+{
+    if (*candidate == label) {
+        *count += weight;
+    } else if (*count >= weight) {
+        *count -= weight;
+    } else {
+        *candidate = label;
+        *count = weight - *count;
+    }
+}
+
+/* Label that pixel i had in this layer; 0 = none. */
+static inline int32_t previous_label(const rlf_layer_in *in, ptrdiff_t i)
+{
+    bool counts = in->previous_mask == NULL || in->previous_mask[i] != 0;
+    return counts ? in->previous_label[i] : 0;
+}
+
+static void vote_run(const rlf_layer_in *in, ptrdiff_t i, ptrdiff_t end, int32_t *candidate,
+                     int32_t *count)
+{
+    while (i < end) {
+        int32_t label = previous_label(in, i);
+        ptrdiff_t begin = i++;
+        while (i < end && previous_label(in, i) == label) {
+            i++;
+        }
+        if (label != 0) {
+            add_votes(candidate, count, label, (int32_t)(i - begin));
+        }
+    }
+}
+
+static void vote(rlf_reconstruct *stage, const rlf_layer_in *in, int32_t region_count)
+{
+    const rlf_runs *runs = &stage->work.runs;
     int32_t *candidate = stage->work.vote[0];
     int32_t *count = stage->work.vote[1];
-    for (int32_t r = 0; r <= region_count; r++) {
-        candidate[r] = count[r] = 0;
-    }
-    for (int32_t i = 0; i < stage->grid.count; i++) {
-        int32_t r = number[i];
-        int32_t label = in->previous_label[i];
-        bool counts = in->previous_mask == NULL || in->previous_mask[i] != 0;
-        if (r == 0 || label == 0 || !counts) {
-            continue;
+    memset(candidate, 0, (size_t)region_count * sizeof *candidate);
+    memset(count, 0, (size_t)region_count * sizeof *count);
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        ptrdiff_t row = (ptrdiff_t)y * stage->grid.width;
+        for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
+            const rlf_run *run = &runs->run[r];
+            int32_t k = run->component - 1;
+            if (k >= 0) {
+                vote_run(in, row + run->x0, row + run->x1, &candidate[k], &count[k]);
+            }
         }
-        if (count[r] == 0) {
-            candidate[r] = label;
-        }
-        count[r] += candidate[r] == label ? 1 : -1;
     }
 }
 
-static const rlf_region *find_previous(const rlf_layer_in *in, int32_t label)
+/* vote[1][k] = the largest region whose candidate is the previous region k, + 1. */
+static void find_heirs(rlf_reconstruct *stage, const rlf_layer_in *in, const label_table *table,
+                       const rlf_layer_out *out)
 {
-    for (int32_t k = 0; k < in->previous_count; k++) {
-        if (in->previous[k].label == label) {
-            return &in->previous[k];
-        }
-    }
-    return NULL;
-}
-
-static bool is_largest_heir(const rlf_layer_out *out, const int32_t *candidate, int32_t r)
-{
-    for (int32_t k = 0; k < out->region_count; k++) {
-        if (k == r || candidate[k + 1] != candidate[r + 1]) {
+    const int32_t *candidate = stage->work.vote[0];
+    int32_t *heir = stage->work.vote[1];
+    memset(heir, 0, (size_t)in->previous_count * sizeof *heir);
+    for (int32_t r = 0; r < out->region_count; r++) {
+        int32_t k = table->entry[find_entry(table, candidate[r])] - 1;
+        if (k < 0) {
             continue;
         }
-        int32_t other = out->regions[k].point_count, own = out->regions[r].point_count;
-        if (other > own || (other == own && k < r)) {
-            return false;
-        }
+        bool larger =
+            heir[k] == 0 || out->regions[r].point_count > out->regions[heir[k] - 1].point_count;
+        heir[k] = larger ? r + 1 : heir[k];
     }
-    return true;
 }
 
 static int32_t fresh_label(rlf_reconstruct *stage)
@@ -58,21 +117,25 @@ static int32_t fresh_label(rlf_reconstruct *stage)
     return stage->next_label;
 }
 
-void rlf_region_track(rlf_reconstruct *stage, const rlf_layer_in *in, const int32_t *number,
-                      rlf_layer_out *out)
+void rlf_region_track(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out)
 {
-    const int32_t *candidate = stage->work.vote[0];
-    bool has_history = in->previous_label != NULL;
-    if (has_history) {
-        vote(stage, in, number, out->region_count);
+    for (int32_t r = 0; r < out->region_count; r++) {
+        out->regions[r].label = 0;
+    }
+    if (in->previous_label != NULL) {
+        vote(stage, in, out->region_count);
+        label_table table = make_table(stage, in);
+        find_heirs(stage, in, &table, out);
+        for (int32_t k = 0; k < in->previous_count; k++) {
+            int32_t heir = stage->work.vote[1][k];
+            if (heir > 0) {
+                out->regions[heir - 1].label = in->previous[k].label;
+                out->regions[heir - 1].age_ns = in->previous[k].age_ns + in->elapsed_ns;
+            }
+        }
     }
     for (int32_t r = 0; r < out->region_count; r++) {
         rlf_region *region = &out->regions[r];
-        const rlf_region *before = NULL;
-        if (has_history && candidate[r + 1] != 0 && is_largest_heir(out, candidate, r)) {
-            before = find_previous(in, candidate[r + 1]);
-        }
-        region->label = before != NULL ? before->label : fresh_label(stage);
-        region->age_ns = before != NULL ? before->age_ns + in->elapsed_ns : 0;
+        region->label = region->label != 0 ? region->label : fresh_label(stage);
     }
 }

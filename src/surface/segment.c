@@ -1,8 +1,6 @@
 /* Which neighbouring pixels belong together: eq. 4.4, or the noise-scaled criterion. */
 #include "surface/steps.h"
 
-#include "kernel/kernel.h"
-
 static inline bool is_member(const float *depth, const uint8_t *mask, ptrdiff_t i)
 {
     return depth[i] > 0.0f && (mask == NULL || mask[i] != 0);
@@ -51,51 +49,45 @@ typedef struct links_job {
     const rlf_reconstruct *stage;
     const float *depth;
     const uint8_t *mask;
+    const rlf_span *spans;
+    rlf_kernel_links params;
 } links_job;
 
 /* Chin and neck, arm and chest are one person: in the foreground, small steps do not separate. */
 static const float body_step_m = 0.05f;
+/* tan of the steepest incidence under which a surface hangs together: 80 degrees. */
+static const double steepest = 5.67;
 
-/* Two pixels of one surface differ by noise, 6 sigma sqrt(2), and by the step of a surface seen at
- * up to 80 degrees: tan(80 deg) z / f. */
 static void noise_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
     const links_job *job = context;
     const rlf_grid *grid = &job->stage->grid;
-    rlf_kernel_noise noise = rlf_kernel_noise_make(&job->stage->def.rig.noise);
-    float step = (float)(5.67 / grid->camera.fx);
-    float extra = job->mask != NULL ? body_step_m : 0.0f;
+    const rlf_work *work = &job->stage->work;
     for (int32_t y = begin; y < end; y++) {
-        ptrdiff_t row = (ptrdiff_t)y * grid->width;
-        for (int32_t x = 0; x < grid->width; x++) {
-            ptrdiff_t i = row + x;
-            if (!is_member(job->depth, job->mask, i)) {
-                job->stage->work.links[i] = 0;
-                continue;
-            }
-            float z = job->depth[i];
-            float tau = 8.5f * rlf_kernel_sigma(noise, z) + step * z + extra;
-            int link = RLF_LINK_MEMBER;
-            if (x > 0 && is_member(job->depth, job->mask, i - 1)) {
-                link |= is_near(z, job->depth[i - 1], tau) ? RLF_LINK_LEFT : 0;
-            }
-            if (y > 0 && is_member(job->depth, job->mask, i - grid->width)) {
-                link |= is_near(z, job->depth[i - grid->width], tau) ? RLF_LINK_UP : 0;
-            }
-            job->stage->work.links[i] = (uint8_t)link;
-        }
+        const rlf_span span = job->spans != NULL ? job->spans[y] : (rlf_span){0, grid->width};
+        ptrdiff_t row = (ptrdiff_t)y * grid->width + span.x0;
+        const rlf_kernel_links_in in = {
+            .depth = job->depth + row,
+            .above = y > 0 ? job->depth + row - grid->width : work->zeros,
+            .mask = job->mask != NULL ? job->mask + row : work->ones,
+            .mask_above = job->mask != NULL && y > 0 ? job->mask + row - grid->width : work->ones,
+            .count = span.x1 - span.x0};
+        rlf_kernel_link_row(&job->params, &in, work->links + row);
     }
 }
 
 void rlf_segment_links(const rlf_reconstruct *stage, rlf_segment_method method, const float *depth,
-                       const uint8_t *mask)
+                       const uint8_t *mask, const rlf_span *spans)
 {
     if (method == RLF_SEGMENT_THESIS) {
         thesis_links(stage, depth, mask);
         return;
     }
-    links_job job = {stage, depth, mask};
+    links_job job = {.stage = stage, .depth = depth, .mask = mask, .spans = spans};
+    job.params.noise = rlf_kernel_noise_make(&stage->def.rig.noise);
+    job.params.slope = (float)(steepest / stage->grid.camera.fx);
+    job.params.step_m = mask != NULL ? body_step_m : 0.0f;
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, noise_rows, &job);
 }
 

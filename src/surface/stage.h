@@ -40,6 +40,11 @@ typedef struct rlf_sheet {
 /* Surfaces refer to at most RLF_RECONSTRUCT_SURFACES sheets while the next one is made. */
 enum { RLF_SHEETS = RLF_RECONSTRUCT_SURFACES + 1, RLF_STAGE_BLOCKS = 128 };
 
+/* Pixels x0 <= x < x1 of one row. */
+typedef struct rlf_span {
+    int32_t x0, x1;
+} rlf_span;
+
 /* The background model. AVERAGE: mean holds sums until it is ready. */
 typedef struct rlf_background {
     float *mean;
@@ -50,6 +55,8 @@ typedef struct rlf_background {
     float *still;         /* ADAPTIVE: depth of what stands in front */
     uint16_t *still_ms;   /* ADAPTIVE: how long it has not moved */
     float *beneath;       /* ADAPTIVE: the background that an absorbed thing hides; 0 = none */
+    rlf_span *standing;   /* ADAPTIVE: per row, where still_ms is not 0 */
+    uint8_t *hides;       /* ADAPTIVE: per row, whether there is anything beneath */
     int32_t frames;
     int32_t changed;   /* pixels replaced since the newest sheet was made */
     int32_t sheet_age; /* frames since then */
@@ -67,6 +74,18 @@ typedef struct rlf_steady {
 
 enum { RLF_HOLD_BLOCK = 8 };
 
+/* A run of linked pixels of one row, the unit of segmentation. */
+typedef struct rlf_run {
+    int32_t x0, x1;
+    int32_t component; /* > 0; later the number of its region, 0 = none */
+} rlf_run;
+
+/* Runs in raster order; row y has first[y] <= r < first[y + 1]. */
+typedef struct rlf_runs {
+    rlf_run *run;
+    int32_t *first; /* height + 1 */
+} rlf_runs;
+
 /* Memory that is free between steps. */
 typedef struct rlf_work {
     float *depth[2];    /* planes */
@@ -74,14 +93,19 @@ typedef struct rlf_work {
     uint8_t *mask[2];   /* planes */
     uint8_t *links;     /* plane of RLF_LINK_ bits */
     int32_t *component; /* plane */
+    rlf_span *front;    /* per row: where the foreground may be; finished with the background */
+    rlf_runs runs;      /* of the layer that was segmented last */
     int32_t *parent;    /* count + 1 */
     int32_t *size;      /* count + 1 */
     int32_t *map;       /* count + 1 */
     int32_t *vote[2];   /* count + 1 */
     float *zeros;       /* one row */
+    uint8_t *ones;      /* one row */
+    uint8_t *missing;   /* one row of RLF_SEEN_MISSING */
     float *zero_plane;  /* published where there is no background */
     int32_t *zero_labels;
     struct rlf_region_sum *region_sums; /* region_capacity */
+    int32_t *heirs;                     /* label table of region_track.c */
 } rlf_work;
 
 struct rlf_reconstruct {
@@ -94,6 +118,8 @@ struct rlf_reconstruct {
     rlf_background background;
     rlf_steady steady;
     rlf_work work;
+    bool has_components; /* work.runs holds the front sheet's, so many: */
+    int32_t component_count;
     rlf_surface_times *times;       /* borrowed; NULL = not measured */
     int64_t clock_ns;               /* end of the last step that was timed */
     void *blocks[RLF_STAGE_BLOCKS]; /* everything allocated */

@@ -3,6 +3,7 @@
 #ifndef RLF_SURFACE_STEPS_H
 #define RLF_SURFACE_STEPS_H
 
+#include "kernel/kernel.h"
 #include "surface/stage.h"
 
 /* ---- points.c: eq. 4.1 ---- */
@@ -54,15 +55,15 @@ void rlf_normals_plane_complete(const rlf_normals_job *job);
 void rlf_normals_slope_pixel(const rlf_normals_job *job, int32_t x, int32_t y);
 
 /* ---- components.c ---- */
-enum { RLF_LINK_MEMBER = 1, RLF_LINK_LEFT = 2, RLF_LINK_UP = 4 };
-/* 4-connected components of the members, over the links to the left and up, numbered from 1 in
- * raster order into work.component; work.size holds their pixel counts. Returns their number. */
-int32_t rlf_components_find(const rlf_reconstruct *stage);
+/* Connected components of the members of work.links, over their links, into work.runs; numbered
+ * from 1 in raster order. work.size holds their pixel counts. `spans`: where the members of each
+ * row are; NULL = anywhere. Returns their number. */
+int32_t rlf_components_find(const rlf_reconstruct *stage, const rlf_span *spans);
 
 /* ---- segment.c ---- */
-/* Writes work.links from depth and (when not NULL) the members' mask. */
+/* Writes work.links from depth and (when not NULL) the members' mask, within the spans. */
 void rlf_segment_links(const rlf_reconstruct *stage, rlf_segment_method method, const float *depth,
-                       const uint8_t *mask);
+                       const uint8_t *mask, const rlf_span *spans);
 /* Eq. 4.4: 1 where a pixel is valid and within tau of its right and lower neighbours. */
 void rlf_segment_thesis_bits(const rlf_grid *grid, double tau, const float *depth,
                              const uint8_t *mask, uint8_t *bits);
@@ -76,6 +77,9 @@ typedef struct rlf_layer_in {
     rlf_segment_method method;
     const float *depth;
     const uint8_t *mask;           /* members; NULL = every valid pixel */
+    const rlf_span *spans;         /* where they are; NULL = anywhere */
+    bool has_components;           /* work.runs holds them already ... */
+    int32_t component_count;       /* ... and so many */
     const int32_t *previous_label; /* labels of this layer one surface ago; NULL = none */
     const uint8_t *previous_mask;  /* where they count; NULL = everywhere */
     const rlf_region *previous;
@@ -84,44 +88,51 @@ typedef struct rlf_layer_in {
 } rlf_layer_in;
 
 typedef struct rlf_layer_out {
-    int32_t *label;
     rlf_region *regions; /* region_capacity */
     int32_t *points;     /* NULL = not kept */
     int32_t region_count, point_count;
 } rlf_layer_out;
 
-/* Segments one layer into regions with stable labels and their statistics. */
+/* Segments one layer into regions with stable labels and their statistics. Leaves work.runs with
+ * the numbers 1..region_count of the regions, and < 0, one number for each, in pieces too small to
+ * be one. */
 void rlf_layer_segment(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out);
 
-/* Gives pixel i, which belongs to a piece too small to be a region, to the region around it: a foot
- * behind a table leg. Its label stays 0 when there is none. */
-void rlf_region_adopt(const rlf_grid *grid, const float *depth, ptrdiff_t i, int32_t *label,
-                      rlf_region *regions, int32_t count);
+/* Gives pieces too small to be regions to the region around them: a foot behind a table leg. Those
+ * that have none around them stay as they are. */
+void rlf_region_adopt(rlf_reconstruct *stage, const float *depth, rlf_layer_out *out);
+
+/* Writes the regions' labels where the runs are. */
+void rlf_region_write_labels(const rlf_reconstruct *stage, const rlf_layer_out *out,
+                             int32_t *label);
 
 /* ---- region_track.c ---- */
-/* Gives each region the label it had, by largest overlap, or a new one. `number` is the plane of
- * region numbers 1..out->region_count; writes regions[k].label. */
-void rlf_region_track(rlf_reconstruct *stage, const rlf_layer_in *in, const int32_t *number,
-                      rlf_layer_out *out);
+/* Gives each region the label it had, by largest overlap, or a new one. */
+void rlf_region_track(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out);
 
 /* ---- region_stats.c ---- */
 typedef struct rlf_region_sum {
     double s[3], ss[6]; /* of points; xx xy xz yy yz zz */
+    rlf_vec3 axis[3];
 } rlf_region_sum;
-/* Rectangle, box, centroid, plane residual and point list of regions numbered in `number`. */
-void rlf_region_measure(rlf_reconstruct *stage, const rlf_layer_in *in, const int32_t *number,
-                        rlf_layer_out *out);
+/* Rectangle, boxes, centroid, plane residual and point list of the regions in work.runs. Its cost
+ * is that of their pixels, whatever the number of regions. */
+void rlf_region_measure(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out);
 
 /* ---- background.c, background_average.c, background_adaptive.c ---- */
 /* Updates the model with slot->depth and writes slot->foreground. */
 void rlf_background_update(rlf_reconstruct *stage, rlf_slot *slot);
 void rlf_background_average_update(rlf_reconstruct *stage, rlf_slot *slot);
 void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot);
-/* Takes still foreground into the model, and back out; slot->foreground is finished. */
+/* Takes still foreground into the model; slot->foreground is finished. */
 void rlf_background_absorb(rlf_reconstruct *stage, const rlf_slot *slot);
+/* Takes it back out where what it hides is seen again. */
+void rlf_background_restore(rlf_reconstruct *stage, const rlf_slot *slot);
+/* Where the first and the last foreground pixel of a row are. */
+rlf_span rlf_background_span(const uint8_t *foreground, int32_t width);
 /* Makes a new sheet from the model: depth, normals, regions. */
 void rlf_background_publish(rlf_reconstruct *stage);
-void rlf_background_reset(rlf_background *background, int32_t count);
+void rlf_background_reset(rlf_background *background, const rlf_grid *grid);
 
 /* ---- velocity.c, thickness.c ---- */
 void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot);
