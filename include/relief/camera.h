@@ -58,11 +58,14 @@ RLF_API rlf_mat4 rlf_camera_projection(const rlf_camera *camera, double near_z, 
  * camera frame with y up that looks along -z. */
 RLF_API rlf_mat4 rlf_projection_from_fov(double fov_y, double aspect, double near_z, double far_z);
 
-/* What a pixel of a registered depth image knows. */
+/* What a pixel of a registered depth image, or of the depth image itself, knows. */
 typedef enum rlf_registered {
-    RLF_REGISTERED_EMPTY = 0,   /* no depth lands here and none near enough to fill from */
+    RLF_REGISTERED_EMPTY = 0,   /* no depth (lands) here, and none near enough to fill from */
     RLF_REGISTERED_VISIBLE = 1, /* seen by both cameras */
-    RLF_REGISTERED_FILLED = 2   /* parallax shadow or splat gap, filled from the far side */
+    RLF_REGISTERED_FILLED = 2,  /* hidden from depth: parallax shadow, filled from the far side; or
+                                   a gap between depth pixels */
+    RLF_REGISTERED_HIDDEN = 3,  /* depth image only: hidden from colour by something nearer */
+    RLF_REGISTERED_OUTSIDE = 4  /* depth image only: beyond the colour image */
 } rlf_registered;
 
 /* Work memory and tables for one pair of cameras. Thread-safety: one call at a time per object. */
@@ -80,6 +83,20 @@ RLF_API void rlf_registration_destroy(rlf_registration **registration);
  * 0 where out_state is EMPTY. Allocates nothing. */
 RLF_API void rlf_registration_apply(rlf_registration *registration, const float *depth,
                                     const rlf_plane_f32 *out_depth, const rlf_plane_u8 *out_state);
+
+/* Depth aligned with the colour image, and both images' maps. */
+typedef struct rlf_aligned {
+    rlf_plane_f32 depth; /* the colour camera's size: z in its frame, 0 = EMPTY */
+    rlf_plane_u8 state;  /* alike, rlf_registered: VISIBLE, FILLED (hidden from depth) or EMPTY */
+    uint8_t *seen;       /* the depth grid's size, rlf_registered: VISIBLE, HIDDEN (from colour),
+                            OUTSIDE or EMPTY; NULL = not wanted */
+} rlf_aligned;
+
+/* rlf_registration_apply into out->depth and out->state, and the depth image's own map into
+ * out->seen: a pixel is HIDDEN when what lands where it does is nearer by more than 2 %. Allocates
+ * nothing. */
+RLF_API void rlf_registration_align(rlf_registration *registration, const float *depth,
+                                    const rlf_aligned *out);
 
 #ifdef __cplusplus
 }

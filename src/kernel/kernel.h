@@ -234,4 +234,63 @@ int32_t rlf_kernel_label_row(const float *restrict depth, const uint8_t *restric
                              const int32_t *restrict background, int32_t count,
                              int32_t *restrict label);
 
+/* ---- register_row.c: depth seen from a colour camera --------------------------------------------
+ */
+
+#define RLF_KERNEL_NOTHING 1e30f /* a depth that never wins: no surface */
+#define RLF_KERNEL_ROWS 32768    /* more than any image has; y0 and y1 share an integer */
+
+/* Ray (x, y, 1) at depth z is colour pixel u = (z a + ta) / (z c + tc), v with b and tb, at depth
+ * z c + tc. */
+typedef struct rlf_kernel_pinhole {
+    float ta, tb, tc;
+    float half_x, half_y; /* half a depth pixel, in colour pixels, at z c + tc = z */
+    float width, height;  /* of the colour image */
+} rlf_kernel_pinhole;
+
+typedef struct rlf_kernel_rays {
+    const float *a, *b, *c;
+} rlf_kernel_rays;
+
+/* Colour pixels of a row of the grid. */
+typedef struct rlf_kernel_points {
+    float *u, *v;
+    float *scale; /* of half a depth pixel */
+    float *z;     /* RLF_KERNEL_NOTHING where nothing lands */
+} rlf_kernel_points;
+
+/* A row of rectangles in colour pixels, inclusive. One without pixels has y = -1, x0 = x1 = 0, and
+ * its point's z is RLF_KERNEL_NOTHING. */
+typedef struct rlf_kernel_splat {
+    int32_t *x0, *x1;
+    int32_t *y;  /* y0 * RLF_KERNEL_ROWS + y1 */
+    int32_t *y0; /* work memory */
+} rlf_kernel_splat;
+
+/* Distortion as offsets from the pinhole pixel. */
+typedef struct rlf_kernel_lens {
+    float *du, *dv; /* [row][column]; RLF_KERNEL_NOTHING outside the lens model */
+    int32_t columns, rows;
+    float left, top;                /* pinhole pixel of knot (0, 0) */
+    float per_pixel_x, per_pixel_y; /* knots per pixel */
+} rlf_kernel_lens;
+
+void rlf_kernel_project_row(const rlf_kernel_pinhole *params, const rlf_kernel_rays *rays,
+                            const float *restrict depth, int32_t count,
+                            const rlf_kernel_points *out);
+/* Moves pinhole pixels to where the lens puts them; outside the table nothing lands. */
+void rlf_kernel_distort_row(const rlf_kernel_lens *lens, int32_t count,
+                            const rlf_kernel_points *points);
+void rlf_kernel_splat_row(const rlf_kernel_pinhole *params, const rlf_kernel_points *points,
+                          int32_t count, const rlf_kernel_splat *out);
+/* Least x0 and largest x1 of rectangles [begin, end), without those that have no pixels. */
+void rlf_kernel_splat_bounds(const rlf_kernel_splat *splat, int32_t begin, int32_t end,
+                             int32_t out[2]);
+/* Fills with RLF_KERNEL_NOTHING. */
+void rlf_kernel_clear_row(int32_t count, float *restrict out);
+/* 1 where there is a depth, else 0. */
+void rlf_kernel_seen_row(const float *restrict z, int32_t count, uint8_t *restrict out);
+/* Keeps the smaller value of each. */
+void rlf_kernel_nearer_row(const float *restrict line, int32_t count, float *restrict out);
+
 #endif

@@ -205,6 +205,45 @@ static void shadow_has_its_side_width_and_depth(void **state)
     }
 }
 
+/* The strip of the far wall that the near edge keeps from the colour camera lies on the other side
+ * of the strip that it keeps from the depth camera, and is as wide in depth pixels. */
+static void both_maps_know_what_is_hidden(void **state)
+{
+    (void)state;
+    const double z_near = 1.5;
+    const double z_far = 3.0;
+    for (int side = -1; side <= 1; side += 2) {
+        rig g = make_rig(depth_camera(), color_camera(), translation(-0.052 * side, 0, 0));
+        uint8_t *seen = malloc((size_t)g.depth.width * (size_t)g.depth.height);
+        two_planes(&g, 200, 299, z_near, z_far);
+        g.z[200 * 512 + 400] = 0.0f;
+        rlf_aligned out = {g.out, g.state, seen};
+        rlf_registration_align(g.registration, g.z, &out);
+        assert_int_equal(rlf_u8_row(&g.state, 270)[side > 0 ? 530 : 410], RLF_REGISTERED_FILLED);
+        int32_t counts[5] = {0};
+        int32_t first = 512;
+        int32_t last = 0;
+        for (int32_t u = 0; u < 512; u++) {
+            uint8_t s = seen[200 * 512 + u];
+            counts[s]++;
+            first = s == RLF_REGISTERED_HIDDEN && u < first ? u : first;
+            last = s == RLF_REGISTERED_HIDDEN && u > last ? u : last;
+        }
+        double expected = g.depth.fx * 0.052 * (1 / z_near - 1 / z_far);
+        assert_true(fabs(counts[RLF_REGISTERED_HIDDEN] - expected) <= 1.0);
+        assert_int_equal(last - first + 1, counts[RLF_REGISTERED_HIDDEN]);
+        assert_int_equal(side > 0 ? last : first, side > 0 ? 199 : 300);
+        assert_int_equal(counts[RLF_REGISTERED_EMPTY], 1);
+        assert_int_equal(counts[RLF_REGISTERED_OUTSIDE], 0);
+        assert_int_equal(seen[2 * 512 + 200],
+                         RLF_REGISTERED_OUTSIDE); /* the colour image is wide */
+        out.seen = NULL;
+        rlf_registration_align(g.registration, g.z, &out);
+        free(seen);
+        free_rig(&g);
+    }
+}
+
 static void vertical_baseline_fills_columns(void **state)
 {
     (void)state;
@@ -315,6 +354,7 @@ int main(void)
         cmocka_unit_test(planes_keep_their_depth),
         cmocka_unit_test(distorted_colour_camera_sees_the_same_plane),
         cmocka_unit_test(shadow_has_its_side_width_and_depth),
+        cmocka_unit_test(both_maps_know_what_is_hidden),
         cmocka_unit_test(vertical_baseline_fills_columns),
         cmocka_unit_test(wide_holes_stay_empty),
         cmocka_unit_test(coarse_grid_covers_the_picture),

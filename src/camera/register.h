@@ -1,0 +1,34 @@
+/* Inside registration: what creation, the warp and the filling of holes share. */
+#ifndef RLF_CAMERA_REGISTER_H
+#define RLF_CAMERA_REGISTER_H
+
+#include "kernel/kernel.h"
+#include "relief/camera.h"
+
+struct rlf_registration {
+    int32_t width, height; /* of the depth grid */
+    rlf_camera color;
+    float *a, *b, *c; /* see rlf_kernel_pinhole */
+    rlf_kernel_pinhole pinhole;
+    rlf_kernel_lens lens; /* du NULL = no distortion */
+    uint8_t *has_row;     /* per depth row: 0 = nothing of it can land in the picture */
+    float shadow_px_m;    /* parallax along a fill line: pixels of shift times metres of depth */
+    int32_t gap_px;       /* holes up to this are gaps between rectangles */
+    bool fills_columns;   /* the baseline is more vertical than horizontal */
+
+    rlf_kernel_points points; /* work memory: one depth row */
+    rlf_kernel_splat row;
+    float *line; /* work memory: one picture row; RLF_KERNEL_NOTHING between uses */
+};
+
+/* register_lens.c: the distortion of r->color as a table. */
+rlf_result registration_make_lens(rlf_registration *r);
+
+/* register_warp.c: colour pixels of row y of the depth grid, into r->points. */
+void registration_project(rlf_registration *r, const float *depth, int32_t y);
+
+/* register_fill.c: gaps and parallax shadows, and every pixel's state. */
+void registration_fill_holes(const rlf_registration *r, const rlf_plane_f32 *depth,
+                             const rlf_plane_u8 *state);
+
+#endif
