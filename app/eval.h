@@ -3,9 +3,16 @@
 #define RELIEF_APP_EVAL_H
 
 #include "relief/io.h"
-#include "timing.h"
+
+#include <math.h>
 
 #define EVAL_ANGLE_BINS 18000 /* 0.01 degrees each */
+
+/* NAN when there was nothing to measure: a figure without samples is not a figure of 0. */
+static inline double eval_percent(int64_t part, int64_t whole)
+{
+    return whole > 0 ? 100.0 * (double)part / (double)whole : NAN;
+}
 
 /* Distribution of angles between estimated and true normals. */
 typedef struct eval_angles {
@@ -21,6 +28,14 @@ typedef struct eval_normals {
     eval_angles interior, band;
     eval_angles seen; /* of the band, without filled pixels */
 } eval_normals;
+
+/* The thesis's own experiment: the centre (56 x 47 of 64 x 53 points) of its grid of every 8th
+ * pixel, in frames that show something moving. Finer grids are sampled at the same pixels. */
+typedef struct eval_centre {
+    int64_t points;  /* with a true surface in range */
+    int64_t wrong;   /* of them, normal more than 30 degrees off */
+    int64_t missing; /* of them, without a normal */
+} eval_centre;
 
 /* Depth samples against truth. */
 typedef struct eval_depth_errors {
@@ -45,7 +60,7 @@ typedef struct eval_depth {
 } eval_depth;
 
 typedef struct eval_confusion {
-    int64_t true_positive, false_positive, false_negative;
+    int64_t true_positive, false_positive, false_negative, true_negative;
 } eval_confusion;
 
 /* Foreground against truth, on all pixels and where the sensor gave a depth. */
@@ -69,9 +84,11 @@ typedef struct eval_collisions {
 
 double eval_median_deg(const eval_angles *angles);
 double eval_mean_deg(const eval_angles *angles);
-/* Shares in percent; 0 when there is no sample. */
+/* Shares in percent. These and the two above are NAN when there is no sample. */
 double eval_wrong_percent(const eval_angles *angles);
 double eval_missing_percent(const eval_angles *angles);
+/* Share of the angles below `degrees`, to 0.01 degrees. */
+double eval_within_percent(const eval_angles *angles, double degrees);
 void eval_add_angle(eval_angles *angles, double degrees);
 
 /* Marks pixels within 6 of a jump (neighbours whose depths differ by more than 4 % of the nearer).
@@ -80,6 +97,9 @@ void eval_mark_band(const float *depth, int32_t width, int32_t height, uint8_t *
                     uint8_t *scratch);
 void eval_normals_add(eval_normals *e, const rlf_surface *surface, const rlf_truth *truth,
                       const rlf_rig *rig, const uint8_t *band);
+
+void eval_centre_add(eval_centre *e, const rlf_surface *surface, const rlf_truth *truth,
+                     const rlf_rig *rig);
 
 rlf_result eval_depth_init(eval_depth *e, const rlf_camera *camera);
 void eval_depth_finish(eval_depth *e);

@@ -1,6 +1,7 @@
 /* Collisions checked against the true scene: where a body bounced, was there something, and did the
  * contact normal point where the true surface's normal points? */
 #include "eval.h"
+#include "eval_analytic.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -9,46 +10,24 @@
 #define BOUNCE_SPEED 0.3      /* m/s */
 #define PHANTOM_DISTANCE 0.05 /* m: a person moves 4 cm in a frame */
 
-/* xorshift64* (Vigna 2016): numbers in [0, 1). */
-static double next_random(uint64_t *state)
-{
-    *state ^= *state >> 12;
-    *state ^= *state << 25;
-    *state ^= *state >> 27;
-    return (double)((*state * UINT64_C(2685821657736338717)) >> 11) / 9007199254740992.0;
-}
-
-static double in_range(uint64_t *state, double low, double high)
-{
-    return low + (high - low) * next_random(state);
-}
-
-/* Drawn in order: a compiler may evaluate a call's arguments in any. */
-static rlf_vec3 in_box(uint64_t *state, rlf_vec3 low, rlf_vec3 high)
-{
-    rlf_vec3 v;
-    v.x = in_range(state, low.x, high.x);
-    v.y = in_range(state, low.y, high.y);
-    v.z = in_range(state, low.z, high.z);
-    return v;
-}
-
 /* A 10 to 20 cm cube that flies towards a point of the room, released at its turn. */
-static rlf_body_def thrown_cube(uint64_t *state, int32_t index)
+static rlf_body_def thrown_cube(eval_random *state, int32_t index)
 {
     rlf_body_def def = rlf_body_def_default();
     snprintf(def.name, sizeof(def.name), "cube_%d", (int)index);
-    double edge = in_range(state, 0.1, 0.2);
+    double edge = eval_random_range(state, 0.1, 0.2);
     def.shape.size = rlf_vec3_make(edge, edge, edge);
     def.release_time = 0.4 + 0.12 * index;
     double side = index % 3 - 1.0; /* from the left, the camera, the right */
     double z = side == 0.0 ? 0.5 : 1.8;
-    def.position = in_box(state, rlf_vec3_make(side * 0.9 - 0.2, -0.5, z - 0.1),
-                          rlf_vec3_make(side * 0.9 + 0.2, 0.1, z + 0.3));
-    rlf_vec3 target = in_box(state, rlf_vec3_make(-1, -0.6, 2), rlf_vec3_make(1, 0.8, 3.2));
+    def.position = eval_random_in_box(state, rlf_vec3_make(side * 0.9 - 0.2, -0.5, z - 0.1),
+                                      rlf_vec3_make(side * 0.9 + 0.2, 0.1, z + 0.3));
+    rlf_vec3 target =
+        eval_random_in_box(state, rlf_vec3_make(-1, -0.6, 2), rlf_vec3_make(1, 0.8, 3.2));
     rlf_vec3 direction = rlf_normalize(rlf_sub(target, def.position));
-    def.velocity = rlf_scale(direction, in_range(state, 2.0, 5.0));
-    def.angular_velocity = in_box(state, rlf_vec3_make(-6, -6, -6), rlf_vec3_make(6, 6, 6));
+    def.velocity = rlf_scale(direction, eval_random_range(state, 2.0, 5.0));
+    def.angular_velocity =
+        eval_random_in_box(state, rlf_vec3_make(-6, -6, -6), rlf_vec3_make(6, 6, 6));
     def.collides_with_bodies = false; /* every bounce is one on the real scene */
     return def;
 }
@@ -62,7 +41,7 @@ rlf_result eval_collisions_scene(uint64_t seed, int32_t body_count, rlf_scene *o
         return RLF_ERROR_MEMORY;
     }
     out->body_count = body_count;
-    uint64_t state = seed * UINT64_C(0x9e3779b97f4a7c15) + 1;
+    eval_random state = eval_random_start(seed);
     for (int32_t i = 0; i < body_count; i++) {
         out->bodies[i] = thrown_cube(&state, i);
     }

@@ -94,35 +94,30 @@ void eval_depth_add(eval_depth *e, const rlf_surface *s, const rlf_frame *frame,
 
 double eval_depth_rms_mm(const eval_depth_errors *e)
 {
-    return e->count > 0 ? 1000.0 * sqrt(e->square_sum / (double)e->count) : 0.0;
-}
-
-static double percent(int64_t part, int64_t whole)
-{
-    return whole > 0 ? 100.0 * (double)part / (double)whole : 0.0;
+    return e->count > 0 ? 1000.0 * sqrt(e->square_sum / (double)e->count) : NAN;
 }
 
 double eval_depth_flying_percent(const eval_depth_errors *e)
 {
-    return percent(e->flying, e->pixels - e->missing);
+    return eval_percent(e->flying, e->pixels - e->missing);
 }
 
 double eval_depth_other_side_percent(const eval_depth_errors *e)
 {
-    return percent(e->other_side, e->pixels - e->missing);
+    return eval_percent(e->other_side, e->pixels - e->missing);
 }
 
 double eval_depth_raw_missing_percent(const eval_depth_group *g)
 {
-    return percent(g->raw.missing, g->raw.pixels);
+    return eval_percent(g->raw.missing, g->raw.pixels);
 }
 
 double eval_depth_missing_percent(const eval_depth_group *g)
 {
-    return percent(g->seen.missing, g->seen.pixels + g->filled.pixels);
+    return eval_percent(g->seen.missing, g->seen.pixels + g->filled.pixels);
 }
 
 double eval_depth_filled_percent(const eval_depth_group *g)
 {
-    return percent(g->filled.pixels, g->seen.pixels + g->filled.pixels);
+    return eval_percent(g->filled.pixels, g->seen.pixels + g->filled.pixels);
 }

@@ -6,6 +6,7 @@ static void add(eval_confusion *c, bool found, bool is_true)
     c->true_positive += found && is_true;
     c->false_positive += found && !is_true;
     c->false_negative += !found && is_true;
+    c->true_negative += !found && !is_true;
 }
 
 void eval_foreground_add(eval_foreground *e, const rlf_surface *s, const rlf_truth *truth,

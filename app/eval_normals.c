@@ -7,7 +7,7 @@
 
 double eval_mean_deg(const eval_angles *a)
 {
-    return a->count > 0 ? a->sum_deg / (double)a->count : 0;
+    return a->count > 0 ? a->sum_deg / (double)a->count : NAN;
 }
 
 double eval_median_deg(const eval_angles *a)
@@ -19,18 +19,26 @@ double eval_median_deg(const eval_angles *a)
             return (i + 0.5) * 180.0 / EVAL_ANGLE_BINS;
         }
     }
-    return 0.0;
+    return NAN;
 }
 
 double eval_wrong_percent(const eval_angles *a)
 {
-    return a->count > 0 ? 100.0 * (double)a->wrong / (double)a->count : 0.0;
+    return eval_percent(a->wrong, a->count);
 }
 
 double eval_missing_percent(const eval_angles *a)
 {
-    int64_t total = a->count + a->missing;
-    return total > 0 ? 100.0 * (double)a->missing / (double)total : 0.0;
+    return eval_percent(a->missing, a->count + a->missing);
+}
+
+double eval_within_percent(const eval_angles *a, double degrees)
+{
+    int64_t within = 0;
+    for (int i = 0; i < (int)(degrees * EVAL_ANGLE_BINS / 180.0); i++) {
+        within += a->bins[i];
+    }
+    return eval_percent(within, a->count);
 }
 
 void eval_add_angle(eval_angles *a, double degrees)

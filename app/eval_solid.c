@@ -1,6 +1,8 @@
 /* Thickness, velocity and phantoms against truth. */
 #include "eval_solid.h"
 
+#include <math.h>
+
 #define CLOSE_M 0.05
 #define FAST_M_PER_S 0.2
 #define STILL_M_PER_S 1e-4
@@ -113,12 +115,12 @@ void eval_solid_add(eval_solid *e, const rlf_surface *s, const rlf_truth *truth,
 
 double eval_exit_mean_cm(const eval_exit *e)
 {
-    return e->count > 0 ? 100.0 * e->sum_m / (double)e->count : 0.0;
+    return e->count > 0 ? 100.0 * e->sum_m / (double)e->count : NAN;
 }
 
 double eval_exit_close_percent(const eval_exit *e)
 {
-    return e->count > 0 ? 100.0 * (double)e->close / (double)e->count : 0.0;
+    return e->count > 0 ? 100.0 * (double)e->close / (double)e->count : NAN;
 }
 
 double eval_speed_median_percent(const eval_speed *e)
@@ -130,15 +132,10 @@ double eval_speed_median_percent(const eval_speed *e)
             return (i + 0.5) * 0.1;
         }
     }
-    return 0.0;
+    return NAN;
 }
 
 double eval_speed_mean_percent(const eval_speed *e)
 {
-    return e->count > 0 ? 100.0 * e->sum / (double)e->count : 0.0;
-}
-
-double eval_phantom_percent(int64_t left, int64_t seen)
-{
-    return seen > 0 ? 100.0 * (double)left / (double)seen : -1.0;
+    return e->count > 0 ? 100.0 * e->sum / (double)e->count : NAN;
 }

@@ -43,12 +43,10 @@ rlf_result eval_solid_restart(eval_solid *e, const rlf_rig *rig);
 void eval_solid_add(eval_solid *e, const rlf_surface *surface, const rlf_truth *truth,
                     const rlf_rig *rig);
 
-/* 0 when there is no sample. */
+/* NAN when there is no sample. */
 double eval_exit_mean_cm(const eval_exit *e);
 double eval_exit_close_percent(const eval_exit *e);
 double eval_speed_median_percent(const eval_speed *e);
 double eval_speed_mean_percent(const eval_speed *e);
-/* -1 when nothing moved away. */
-double eval_phantom_percent(int64_t left, int64_t seen);
 
 #endif

@@ -20,7 +20,7 @@ static const subcommand subcommands[] = {
     {"export", export_main, "write arrays of every frame: depth, normals, labels, truth, ..."},
     {"info", info_main, "tell what a source is"},
     {"sources", sources_main, "list the kinds of source that this build can open"},
-    {"eval", eval_main, "measure accuracy against the synthetic room's ground truth"},
+    {"eval", eval_main, "measure accuracy where the truth is known, against goals and bounds"},
     {"measure", measure_main, "missing points and wrong normals: table 5.1 of the thesis"},
     {"bench", bench_main, "time every stage"},
 };

@@ -40,6 +40,9 @@ RLF_API rlf_result rlf_scene_load(const char *path, rlf_scene *out);
 /* Reads 16-bit grey PNG into a new array (rlf_free it). 8-bit, colour or palette is an error. */
 RLF_API rlf_result rlf_png_read_u16(const char *path, uint16_t **out, int32_t *out_width,
                                     int32_t *out_height);
+/* Reads 16-bit colour PNG, three numbers a pixel, into a new array (rlf_free it). */
+RLF_API rlf_result rlf_png_read_rgb_u16(const char *path, uint16_t **out, int32_t *out_width,
+                                        int32_t *out_height);
 /* Reads a PNG (any kind) or JPEG as RGBA into a new image (rlf_free its data). */
 RLF_API rlf_result rlf_picture_read(const char *path, rlf_image_rgba8 *out);
 RLF_API rlf_result rlf_png_write_rgba(const char *path, const rlf_image_rgba8 *image);

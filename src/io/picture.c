@@ -73,8 +73,10 @@ rlf_result rlf_picture_read(const char *path, rlf_image_rgba8 *out)
     return result;
 }
 
-rlf_result rlf_png_read_u16(const char *path, uint16_t **out, int32_t *out_width,
-                            int32_t *out_height)
+typedef rlf_result (*decode_fn)(const io_bytes *file, io_picture *picture);
+
+static rlf_result read_u16(const char *path, decode_fn decode, uint16_t **out, int32_t *out_width,
+                           int32_t *out_height)
 {
     if (!RLF_ASSERT(path != NULL && out != NULL && out_width != NULL && out_height != NULL)) {
         return RLF_ERROR_INVALID;
@@ -86,7 +88,7 @@ rlf_result rlf_png_read_u16(const char *path, uint16_t **out, int32_t *out_width
     rlf_result result =
         io_file_read(path, IO_PICTURE_FILE_MAX, "check the name of the picture", &buffer, &file);
     if (result == RLF_OK) {
-        result = io_png_decode_u16(&file, &picture);
+        result = decode(&file, &picture);
     }
     io_buffer_free(&buffer);
     if (result == RLF_OK) {
@@ -95,4 +97,16 @@ rlf_result rlf_png_read_u16(const char *path, uint16_t **out, int32_t *out_width
         *out_height = picture.height;
     }
     return result;
+}
+
+rlf_result rlf_png_read_u16(const char *path, uint16_t **out, int32_t *out_width,
+                            int32_t *out_height)
+{
+    return read_u16(path, io_png_decode_u16, out, out_width, out_height);
+}
+
+rlf_result rlf_png_read_rgb_u16(const char *path, uint16_t **out, int32_t *out_width,
+                                int32_t *out_height)
+{
+    return read_u16(path, io_png_decode_rgb_u16, out, out_width, out_height);
 }

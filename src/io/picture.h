@@ -20,6 +20,8 @@ bool io_png_is(const io_bytes *file);
 
 /* 16-bit grey PNG to uint16_t. On failure nothing stays allocated. */
 rlf_result io_png_decode_u16(const io_bytes *file, io_picture *picture);
+/* 16-bit colour PNG to three uint16_t a pixel. */
+rlf_result io_png_decode_rgb_u16(const io_bytes *file, io_picture *picture);
 /* Any PNG to RGBA. */
 rlf_result io_png_decode_rgba(const io_bytes *file, io_picture *picture);
 /* JPEG to RGBA. */

@@ -15,7 +15,7 @@ typedef struct reader {
     size_t position;
     png_structp png;
     png_infop info;
-    bool wants_u16;
+    int u16_channels;  /* wanted: 1 grey, 3 colour; 0 = 8-bit RGBA */
     bool owns_data;    /* picture->data was allocated here */
     rlf_result result; /* set before a longjmp of our own */
     char problem[128]; /* libpng's words */
@@ -51,19 +51,20 @@ static void leave(reader *r, rlf_result result)
     png_longjmp(r->png, 1);
 }
 
-static void check_is_depth(reader *r)
+static void check_is_u16(reader *r)
 {
     int depth = png_get_bit_depth(r->png, r->info);
     int type = png_get_color_type(r->png, r->info);
-    if (type != PNG_COLOR_TYPE_GRAY || depth != 16) {
+    bool is_grey = r->u16_channels == 1;
+    if (type != (is_grey ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB) || depth != 16) {
         const char *kind = type == PNG_COLOR_TYPE_GRAY         ? "grey"
                            : type == PNG_COLOR_TYPE_GRAY_ALPHA ? "grey with alpha"
                            : type == PNG_COLOR_TYPE_PALETTE    ? "palette"
                                                                : "colour";
-        leave(r, rlf_fail(RLF_ERROR_FORMAT,
-                          "%s: is a %d-bit %s PNG: depth must be a 16-bit grey PNG of the "
-                          "sensor's counts",
-                          r->file->name, depth, kind));
+        const char *need = is_grey ? "depth must be a 16-bit grey PNG of the sensor's counts"
+                                   : "normals must be a 16-bit colour PNG";
+        leave(r, rlf_fail(RLF_ERROR_FORMAT, "%s: is a %d-bit %s PNG: %s", r->file->name, depth,
+                          kind, need));
     }
 }
 
@@ -90,13 +91,13 @@ static void decode(reader *r)
     png_set_chunk_malloc_max(r->png, 8 << 20);
     png_set_read_fn(r->png, r, read_bytes);
     png_read_info(r->png, r->info);
-    if (r->wants_u16) {
-        check_is_depth(r);
+    if (r->u16_channels > 0) {
+        check_is_u16(r);
         png_set_swap(r->png); /* PNG is big-endian */
     } else {
         set_rgba(r);
     }
-    size_t pixel_size = r->wants_u16 ? 2 : 4;
+    size_t pixel_size = r->u16_channels > 0 ? 2 * (size_t)r->u16_channels : 4;
     r->owns_data = r->picture->data == NULL;
     rlf_result result =
         io_picture_prepare(r->file, r->picture, png_get_image_width(r->png, r->info),
@@ -176,7 +177,13 @@ static rlf_result run(reader *r)
 
 rlf_result io_png_decode_u16(const io_bytes *file, io_picture *picture)
 {
-    reader r = {.file = file, .picture = picture, .wants_u16 = true};
+    reader r = {.file = file, .picture = picture, .u16_channels = 1};
+    return run(&r);
+}
+
+rlf_result io_png_decode_rgb_u16(const io_bytes *file, io_picture *picture)
+{
+    reader r = {.file = file, .picture = picture, .u16_channels = 3};
     return run(&r);
 }
 

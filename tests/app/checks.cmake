@@ -6,11 +6,16 @@ if(TARGET relief_app)
   set_tests_properties(app.command PROPERTIES LABELS app TIMEOUT 600)
 endif()
 
-# What `relief eval` counts.
+# What `relief eval` and its kin count, and what they say about it.
 if(TARGET relief_app)
-  relief_test(${PROJECT_SOURCE_DIR}/tests/app/test_eval.c app)
-  target_sources(test_eval PRIVATE ${PROJECT_SOURCE_DIR}/app/eval_collisions.c
-                 ${PROJECT_SOURCE_DIR}/app/eval_foreground.c ${PROJECT_SOURCE_DIR}/app/eval_normals.c
-                 ${PROJECT_SOURCE_DIR}/app/measure_points.c)
-  target_include_directories(test_eval PRIVATE ${PROJECT_SOURCE_DIR}/app)
+  foreach(name test_eval test_eval_report test_eval_sections)
+    relief_test(${PROJECT_SOURCE_DIR}/tests/app/${name}.c app)
+    target_link_libraries(${name} PRIVATE relief_measures)
+  endforeach()
+endif()
+
+# Every figure within its bound, for one seed. Minutes with sanitizers, so only as released.
+if(TARGET relief_app AND CMAKE_BUILD_TYPE STREQUAL Release)
+  add_test(NAME app.eval_bounds COMMAND relief_app eval --seeds 1)
+  set_tests_properties(app.eval_bounds PROPERTIES LABELS app TIMEOUT 900)
 endif()

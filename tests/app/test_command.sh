@@ -100,6 +100,17 @@ grep -q '"counted_bad_percent"' table.json || fail "measure: table.json"
 grep -q "3392" stdout.txt || fail "measure: no full 64x53 grid"
 grep -q "2632" stdout.txt || fail "measure: no 56x47 centre"
 
+# Accuracy.
+expect_error 2 "not one of them" eval --scene moon
+expect_error 2 "live, thesis or both" eval --profile ours
+expect_error 2 "--seeds" eval --seeds 0
+expect_error 1 "no_such_frames" eval --normals no_such_frames
+expect_done eval --scene plate --seeds 2 --json eval.json
+grep -q "0 outside it" stdout.txt || fail "eval: $(cat stdout.txt)"
+grep -q '"ci95"' eval.json || fail "eval: eval.json"
+expect_done eval --scene empty --profile thesis --seeds 1 --frames 20 --threads 1
+grep -q "normals, interior" stdout.txt || fail "eval --scene empty: $(cat stdout.txt)"
+
 # Same input, same bits, whatever the number of threads.
 "$relief" run "synthetic:room?frames=20" --headless --hash --threads 1 --quiet >hash1.txt
 "$relief" run "synthetic:room?frames=20" --headless --hash --threads 3 --quiet >hash3.txt

@@ -29,6 +29,9 @@ static void angles_give_mean_median_and_shares(void **state)
     assert_true(fabs(eval_mean_deg(&angles) - 45.2) < 0.01);
     assert_true(eval_wrong_percent(&angles) == 40.0);
     assert_true(eval_missing_percent(&angles) == 50.0);
+    assert_true(eval_within_percent(&angles, 10.0) == 60.0);
+    memset(&angles, 0, sizeof(angles)); /* no samples: no figure, not a figure of 0 */
+    assert_true(isnan(eval_mean_deg(&angles)) && isnan(eval_wrong_percent(&angles)));
 }
 
 static void band_is_six_pixels_on_both_sides_of_a_jump(void **state)
@@ -82,6 +85,57 @@ static void decimated_normals_meet_the_right_truth(void **state)
     assert_int_equal(normals.interior.missing, 1);
     assert_true(eval_mean_deg(&normals.interior) == 0.0);
     assert_int_equal(normals.band.count, 0);
+}
+
+/* A 512 x 424 truth at scale 1, and the same at the thesis's scale 8, judged on the same points. */
+static void centre_is_the_thesis_grid_for_every_scale(void **state)
+{
+    (void)state;
+    enum { COUNT = 512 * 424, GRID = 64 * 53 };
+    static float depth[COUNT], ones[COUNT], zero[COUNT], found[COUNT], coarse[GRID];
+    static uint8_t foreground[COUNT];
+    for (int i = 0; i < COUNT; i++) {
+        depth[i] = 2.0f;
+        ones[i] = found[i] = -1.0f;
+    }
+    for (int i = 0; i < GRID; i++) {
+        coarse[i] = -1.0f;
+    }
+    found[26 * 8 * 512 + 30 * 8] = 0.0f; /* missing, as is its sample of the coarse grid */
+    coarse[26 * 64 + 30] = 0.0f;
+    found[26 * 8 * 512 + 31 * 8] = coarse[26 * 64 + 31] = 1.0f; /* turned away */
+    found[26 * 8 * 512 + 32 * 8 + 1] = 1.0f;                    /* no point of the grid */
+    found[0] = coarse[0] = 1.0f;                                /* not in the centre */
+    rlf_truth truth = {.depth = depth,
+                       .normal_x = zero,
+                       .normal_y = zero,
+                       .normal_z = ones,
+                       .foreground = foreground};
+    rlf_surface fine = {.width = 512,
+                        .height = 424,
+                        .scale_factor = 1,
+                        .normal_x = zero,
+                        .normal_y = zero,
+                        .normal_z = found,
+                        .background_state = RLF_BACKGROUND_READY};
+    rlf_surface thesis = fine;
+    thesis.width = 64;
+    thesis.height = 53;
+    thesis.scale_factor = 8;
+    thesis.normal_z = coarse;
+    rlf_rig rig = {.depth = {.width = 512, .height = 424}, .depth_min_m = 0.5, .depth_max_m = 4.5};
+    eval_centre centre = {0};
+    eval_centre_add(&centre, &fine, &truth, &rig);
+    assert_int_equal(centre.points, 0); /* nothing moves */
+    memset(foreground, 1, 1000);
+    eval_centre_add(&centre, &fine, &truth, &rig);
+    assert_int_equal(centre.points, 56 * 47);
+    assert_int_equal(centre.missing, 1);
+    assert_int_equal(centre.wrong, 1);
+    eval_centre_add(&centre, &thesis, &truth, &rig);
+    assert_int_equal(centre.points, 2 * 56 * 47);
+    assert_int_equal(centre.missing, 2);
+    assert_int_equal(centre.wrong, 2);
 }
 
 static void foreground_counts_hits_and_misses(void **state)
@@ -168,6 +222,7 @@ int main(void)
         cmocka_unit_test(angles_give_mean_median_and_shares),
         cmocka_unit_test(band_is_six_pixels_on_both_sides_of_a_jump),
         cmocka_unit_test(decimated_normals_meet_the_right_truth),
+        cmocka_unit_test(centre_is_the_thesis_grid_for_every_scale),
         cmocka_unit_test(foreground_counts_hits_and_misses),
         cmocka_unit_test(missing_points_fall_into_the_four_cases),
         cmocka_unit_test(collision_scene_is_the_same_for_a_seed),

@@ -70,6 +70,33 @@ static void grey_png_becomes_opaque_rgba(void **state)
     rlf_free(got.data);
 }
 
+/* 2 x 1 pixels: 0 1 0x0102 and 0xffff 0x8000 7. */
+static void sixteen_bit_color_keeps_its_bits(void **state)
+{
+    (void)state;
+    static const uint8_t png[78] = {
+        0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49,
+        0x48, 0x44, 0x52, 0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x01, 0x10, 0x02,
+        0x00, 0x00, 0x00, 0x2b, 0xd0, 0x34, 0x9e, 0x00, 0x00, 0x00, 0x15, 0x49, 0x44,
+        0x41, 0x54, 0x78, 0x9c, 0x63, 0x60, 0x60, 0x60, 0x60, 0x64, 0x64, 0xfa, 0xff,
+        0xbf, 0x81, 0x81, 0x81, 0x1d, 0x00, 0x0d, 0x28, 0x02, 0x8a, 0x53, 0x12, 0x46,
+        0x5a, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+    const uint16_t expected[6] = {0, 1, 0x0102, 0xffff, 0x8000, 7};
+    test_write("n.png", png, sizeof(png));
+    uint16_t *got = NULL;
+    int32_t width, height;
+    assert_int_equal(rlf_png_read_rgb_u16(test_path("n.png"), &got, &width, &height), RLF_OK);
+    assert_int_equal(width, 2);
+    assert_int_equal(height, 1);
+    assert_memory_equal(got, expected, sizeof(expected));
+    rlf_free(got);
+    test_expect_error(rlf_png_read_u16(test_path("n.png"), &got, &width, &height), RLF_ERROR_FORMAT,
+                      "n.png", "16-bit colour", "16-bit grey PNG");
+    assert_int_equal(rlf_png_write_u16(test_path("d.png"), expected, 2, 1), RLF_OK);
+    test_expect_error(rlf_png_read_rgb_u16(test_path("d.png"), &got, &width, &height),
+                      RLF_ERROR_FORMAT, "d.png", "16-bit grey", "16-bit colour PNG");
+}
+
 static void sixteen_bit_png_reads_as_picture(void **state)
 {
     (void)state;
@@ -262,6 +289,7 @@ int main(void)
         cmocka_unit_test(depth_png_round_trip),
         cmocka_unit_test(color_png_round_trip_with_stride),
         cmocka_unit_test(grey_png_becomes_opaque_rgba),
+        cmocka_unit_test(sixteen_bit_color_keeps_its_bits),
         cmocka_unit_test(sixteen_bit_png_reads_as_picture),
         cmocka_unit_test(jpeg_is_red_and_blue),
         cmocka_unit_test(alpha_is_dropped_when_asked),
