@@ -77,12 +77,13 @@ static rlf_result run_planes(eval_table *table, eval_stage *s, eval_random *r, r
         }
     }
     if (result == RLF_OK) {
-        eval_table_add(table, "planes", "normals_mean_deg", "planes without noise: mean error, deg",
-                       profile, eval_mean_deg(angles));
-        eval_table_add(table, "planes", "normals_over_30_percent", "  more than 30 deg off, %",
-                       profile, eval_wrong_percent(angles));
-        eval_table_add(table, "planes", "normals_missing_percent", "  missing, %", profile,
-                       eval_missing_percent(angles));
+        eval_table_add(table, "planes", "normals_mean_deg",
+                       "planes without noise: normals, mean, deg", profile, eval_mean_deg(angles));
+        eval_table_add(table, "planes", "normals_over_30_percent",
+                       "planes without noise: > 30 deg off, %", profile,
+                       eval_wrong_percent(angles));
+        eval_table_add(table, "planes", "normals_missing_percent",
+                       "planes without noise: missing, %", profile, eval_missing_percent(angles));
     }
     rlf_free(angles);
     return result;
@@ -117,12 +118,12 @@ static rlf_result run_holes(eval_table *table, eval_stage *s, eval_random *r, rl
             invented += has_normal && f->reason[i] != RLF_REASON_FILLED;
         }
     }
-    eval_table_add(table, "planes", "holes_lost_percent", "1 % missing: valid without a normal, %",
+    eval_table_add(table, "planes", "holes_lost_percent", "1 % holes: valid without a normal, %",
                    profile, eval_percent(lost, valid));
-    eval_table_add(table, "planes", "holes_spoilt_percent", "  valid, normal > 10 deg off, %",
+    eval_table_add(table, "planes", "holes_spoilt_percent", "1 % holes: valid, > 10 deg off, %",
                    profile, eval_percent(spoilt, valid));
     eval_table_add(table, "planes", "holes_invented_percent",
-                   "  missing, normal but not marked filled, %", profile,
+                   "1 % holes: unmarked normal in a hole, %", profile,
                    eval_percent(invented, holes));
     return RLF_OK;
 }

@@ -51,7 +51,7 @@ static void report(eval_table *table, const eval_stage *s, const rlf_surface *f,
     eval_table_add(table, "plate", "plate_speed_error_percent",
                    "plate at 0.5 m/s: error of its speed, %", profile,
                    100.0 * (error < 0.0 ? -error : error) / SPEED);
-    eval_table_add(table, "plate", "wall_moving_percent", "  still wall not exactly still, %",
+    eval_table_add(table, "plate", "wall_moving_percent", "wall behind it, not exactly still, %",
                    profile, eval_percent(moving, wall));
 }
 

@@ -157,13 +157,13 @@ static rlf_result run_frame(eval_table *table, const char *folder, const char *n
         rlf_profile p = (rlf_profile)profile;
         memset(angles, 0, sizeof(*angles));
         measure(&frame, p, angles);
-        eval_table_add(table, name, "normals_mean_deg", "clean depth, true normals: mean, deg", p,
+        eval_table_add(table, name, "normals_mean_deg", "clean depth: normals, mean, deg", p,
                        eval_mean_deg(angles));
-        eval_table_add(table, name, "normals_median_deg", "  median, deg", p,
+        eval_table_add(table, name, "normals_median_deg", "clean depth: normals, median, deg", p,
                        eval_median_deg(angles));
-        eval_table_add(table, name, "normals_over_30_percent", "  more than 30 deg off, %", p,
-                       eval_wrong_percent(angles));
-        eval_table_add(table, name, "normals_missing_percent", "  missing, %", p,
+        eval_table_add(table, name, "normals_over_30_percent",
+                       "clean depth: normals > 30 deg off, %", p, eval_wrong_percent(angles));
+        eval_table_add(table, name, "normals_missing_percent", "clean depth: normals missing, %", p,
                        eval_missing_percent(angles));
     }
     rlf_free(angles);

@@ -32,8 +32,8 @@ static rlf_result run_stack(eval_table *table, eval_sheet *sheet)
     if (result == RLF_OK) {
         eval_table_add(table, "physics", "stack_drift_mm", "stack of 10 cubes, 20 s: drift, mm",
                        RLF_PROFILE_LIVE, 1e3 * drift);
-        eval_table_add(table, "physics", "stack_penetration_mm", "  penetration, mm",
-                       RLF_PROFILE_LIVE, 1e3 * deepest);
+        eval_table_add(table, "physics", "stack_penetration_mm",
+                       "stack of 10 cubes, 20 s: penetration, mm", RLF_PROFILE_LIVE, 1e3 * deepest);
     }
     rlf_world_destroy(&world);
     return result;
@@ -78,8 +78,8 @@ static rlf_result run_slope(eval_table *table, const eval_sheet *sheet)
     rlf_result result = slide(sheet, 26.0 * DEGREE, 300, &slid, &speed);
     eval_table_add(table, "physics", "slope_error_deg", "slope at which a cube slips: error, deg",
                    RLF_PROFILE_LIVE, fabs(low - atan(FRICTION) / DEGREE));
-    eval_table_add(table, "physics", "creep_mm", "  creep at 26 deg in 10 s, mm", RLF_PROFILE_LIVE,
-                   1e3 * slid);
+    eval_table_add(table, "physics", "creep_mm", "slope of 26 deg, 10 s: creep, mm",
+                   RLF_PROFILE_LIVE, 1e3 * slid);
     return result;
 }
 
