@@ -27,6 +27,7 @@ typedef struct shower {
     rlf_world *world;
     int32_t count, added, step_count, step_capacity;
     double *step_ms;
+    bool is_alone;         /* one worker */
     rlf_world_times times; /* sums */
     int32_t asleep_count, lost_count, alloc_count;
     int32_t *inside; /* per body: frames inside something that stays */

@@ -146,7 +146,9 @@ rlf_result rlf_world_add_body(rlf_world *world, const rlf_body_def *def, rlf_bod
     }
     phys_body *body = &world->bodies[index];
     phys_body fresh = {.generation = body->generation > 0 ? body->generation : 1};
-    result = phys_shape_init(&fresh.shape, &def->shape);
+    fresh.surface = &world->surface[(size_t)index * PHYS_SURFACE_CONTACTS];
+    result =
+        phys_shape_init(&fresh.shape, &def->shape, &world->points[(size_t)index * PHYS_POINTS_MAX]);
     if (result != RLF_OK) {
         return result;
     }

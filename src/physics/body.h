@@ -2,70 +2,54 @@
 #ifndef RLF_PHYSICS_BODY_H
 #define RLF_PHYSICS_BODY_H
 
+#include "physics/contact.h"
 #include "physics/shape.h"
 
-#define PHYS_SURFACE_CONTACTS 12 /* of one body with the real surface */
-#define PHYS_PAIR_CONTACTS 4     /* of two bodies */
-
-/* One touching point. The normal points from b (or the surface) to a. */
-typedef struct phys_contact {
-    int32_t a, b; /* body indices; b < 0: the surface */
-    rlf_contact_other other;
-    int32_t label;             /* region label of the surface, 0 else */
-    int32_t log;               /* entry in the frame's contact list, -1 = none yet */
-    rlf_vec3 anchor_a;         /* in a's frame, metres */
-    rlf_vec3 anchor_b;         /* in b's frame; of a surface: world, at surface_time */
-    double rounding_a;         /* the touching point of a is this far from anchor_a along -normal */
-    double rounding_b;         /* ... of b from anchor_b along the normal: round shapes roll */
-    rlf_vec3 normal;           /* world, unit */
-    rlf_vec3 surface_velocity; /* world, m/s; 0 between bodies */
-    double surface_time;       /* world time of anchor_b, s */
-    double friction, restitution;
-
-    double impulse_n, impulse_t[2]; /* N s of the last substep: start of the next one's search */
-
-    rlf_vec3 r_a, r_b, tangent[2]; /* prepared for each substep from here on */
-    double separation;             /* metres at the start of the substep */
-    double mass_n, mass_t[2];      /* effective masses, kg */
-    bool is_impacted;              /* bounced in this substep */
-} phys_contact;
-
 typedef struct phys_body {
-    uint32_t generation; /* of the handle; counts up when a body goes */
+    /* what the solver reads, side by side */
+    rlf_vec3 v, w;                  /* of the centre of mass, and angular: world */
+    double inverse_mass;            /* 0 while held, and of a kinematic body */
+    rlf_mat3 inverse_inertia_world; /* 0 while held, and of a kinematic body */
+    rlf_vec3 x;                     /* centre of mass, world */
+    rlf_quat q;
+    rlf_mat3 R;    /* of q; the thesis method integrates R itself */
+    double turned; /* radians, all turns added up */
+    rlf_vec3 acceleration, angular_acceleration;
+    rlf_vec3 impact_shift, impact_turn; /* x and orientation jump so that x(t) = x + shift + v t */
+    double impact_time;                 /* of its last bounce in this substep, s */
+    int32_t busy_pass; /* the pass in which it is to be solved again; see island.c */
     bool is_alive, is_held, is_asleep, collides_with_bodies;
     bool is_kinematic; /* not held: moves by v and w, and nothing changes them */
-    char name[RLF_NAME_MAX];
-    float color[3];
+    bool is_isotropic; /* inertia is a multiple of 1 */
+    bool is_pressed;   /* a contact held it in this substep */
+    bool is_restless;  /* a bounce turned its way: its contacts are to be searched again */
+
+    uint32_t generation; /* of the handle; counts up when a body goes */
     phys_shape shape;
     double mass, restitution, friction, gravity_scale, release_time;
+    double rolling_resistance;
     double linear_damping, angular_damping; /* 1/s */
     rlf_mat3 inertia, inverse_inertia;      /* body frame */
-    bool is_isotropic;                      /* inertia is a multiple of 1 */
-
-    rlf_vec3 x, v, w; /* centre of mass, its velocity, angular velocity: world */
-    rlf_quat q;
-    rlf_mat3 R;                    /* of q; the thesis method integrates R itself */
     rlf_vec3 momentum, momentum_w; /* angular momentum that goes with momentum_w and momentum_q */
     rlf_quat momentum_q;
     rlf_vec3 throw_v, throw_w; /* velocities to start with when a held body is released */
     rlf_vec3 force, torque;    /* from the caller, for the next advance */
 
-    double inverse_mass;            /* 0 while held, and of a kinematic body */
-    rlf_mat3 inverse_inertia_world; /* 0 while held, and of a kinematic body */
-    rlf_vec3 acceleration, angular_acceleration;
-    rlf_vec3 impact_shift, impact_turn; /* x and orientation jump so that x(t) = x + shift + v t */
-    double impact_time;                 /* of its last bounce in this substep, s */
-    bool is_pressed;                    /* a contact held it in this substep */
-    double still_time;                  /* s it has stayed in place */
+    double still_time; /* s it has stayed in place */
     rlf_vec3 still_x;
     rlf_quat still_q;
     rlf_vec3 block_sum, block_mean; /* of x - still_x, over blocks of time; see sleep.c */
     double block_time;
     bool has_block;
+
     int32_t surface_age, surface_period; /* substeps since, and between, surface queries */
     rlf_vec3 surface_flow;               /* velocity of the foreground near it, grid frame */
-    phys_contact surface[PHYS_SURFACE_CONTACTS];
+    phys_stance stance;
+    phys_contact *surface; /* PHYS_SURFACE_CONTACTS */
     int32_t surface_count;
+
+    char name[RLF_NAME_MAX];
+    float color[3];
 } phys_body;
 
 /* Recomputes R and the world inertia from q. */
@@ -83,6 +67,12 @@ static inline void phys_body_orient(phys_body *body)
     rlf_mat3 half = rlf_mat3_mul(&body->R, &body->inverse_inertia);
     rlf_mat3 transposed = rlf_mat3_transpose(&body->R);
     body->inverse_inertia_world = rlf_mat3_mul(&half, &transposed);
+}
+
+/* The solver moves it. */
+static inline bool phys_body_is_moving(const phys_body *body)
+{
+    return body->is_alive && !body->is_asleep && body->inverse_mass > 0.0;
 }
 
 /* No contact moves it: it is held or kinematic. */

@@ -1,169 +1,203 @@
-/* Sweep and prune along x (Baraff 1992), then contacts pair by pair. */
+/* Broad phase: bodies in the cells of a grid, found through a hash table (Teschner et al. 2003).
+ * Cells are as large as the boxes of most bodies; the few that are larger ask everybody. */
 #include "physics/broad_phase.h"
-#include "physics/pair_collide.h"
+#include "physics/pair_search.h"
 
-#define MARGIN 0.002
+#define LARGE (-1) /* cell of a body that is larger than a cell */
+#define NONE (-2)  /* ... of one that is not there */
 
-static double reach_of(const phys_body *body, double horizon)
+static bool collides(const phys_body *body)
 {
-    double speed = rlf_length(body->v) + rlf_length(body->w) * body->shape.radius;
-    return body->shape.radius + MARGIN + speed * horizon;
+    return body->is_alive && body->collides_with_bodies;
 }
 
-/* Insertion sort: nearly sorted from one call to the next. Equal keys keep the order of bodies. */
-static int32_t sort_intervals(rlf_world *world, double horizon)
+/* Half the size of the box about a body on its way. */
+static rlf_vec3 half_of(const phys_body *body, double horizon)
 {
-    int32_t count = 0;
+    const phys_shape *shape = &body->shape;
+    double travel = rlf_length(body->v) + rlf_length(body->w) * shape->radius;
+    double margin = 0.5 * PHYS_PAIR_MARGIN + travel * horizon;
+    rlf_vec3 half = rlf_vec3_make(shape->radius, shape->radius, shape->radius);
+    if (shape->shape.type == RLF_SHAPE_BOX) {
+        double size[3] = {shape->shape.size.x, shape->shape.size.y, shape->shape.size.z};
+        double sum[3] = {0, 0, 0};
+        for (int32_t i = 0; i < 9; i++) {
+            double m = body->R.m[i / 3][i % 3];
+            sum[i / 3] += 0.5 * size[i % 3] * (m < 0.0 ? -m : m);
+        }
+        half = rlf_vec3_make(sum[0], sum[1], sum[2]);
+    }
+    return rlf_add(half, rlf_vec3_make(margin, margin, margin));
+}
+
+static double longest(rlf_vec3 half)
+{
+    return rlf_max(half.x, rlf_max(half.y, half.z));
+}
+
+/* Fills the boxes; returns the size of a cell. */
+static double measure(rlf_world *world, double horizon)
+{
+    double sum = 0.0, most = 0.0, count = 0.0;
     for (int32_t i = 0; i < world->body_top; i++) {
-        const phys_body *body = &world->bodies[i];
-        if (!body->is_alive || !body->collides_with_bodies) {
+        phys_proxy *proxy = &world->proxies[i];
+        proxy->cell = NONE;
+        if (collides(&world->bodies[i])) {
+            proxy->half = half_of(&world->bodies[i], horizon);
+            double size = longest(proxy->half);
+            proxy->cell = 0;
+            sum += size;
+            most = rlf_max(most, size);
+            count += 1.0;
+        }
+    }
+    return count > 0.0 ? 2.0 * rlf_min(most, 2.0 * sum / count) : 1.0;
+}
+
+static int32_t cell_index(double x, double cell)
+{
+    double at = x / cell + 524288.0; /* bodies are within 20 m or so of the origin */
+    return (int32_t)rlf_clamp(at, 1.0, 1048574.0);
+}
+
+/* Three numbers below 2^20 side by side. */
+static int64_t cell_at(int32_t x, int32_t y, int32_t z)
+{
+    return (int64_t)x << 40 | (int64_t)y << 20 | (int64_t)z;
+}
+
+static int32_t bucket_of(const rlf_world *world, int64_t cell)
+{
+    uint64_t mixed = (uint64_t)cell * 0x9e3779b97f4a7c15u; /* Fibonacci hashing, Knuth 6.4 */
+    return (int32_t)((mixed >> 32) & (uint64_t)(world->bucket_count - 1));
+}
+
+/* Sorts the bodies by bucket; those of a bucket stay in their order. */
+static void fill_buckets(rlf_world *world, double cell)
+{
+    int32_t kept = 0;
+    for (int32_t i = 0; i < world->bucket_count + 2; i++) {
+        world->buckets[i] = 0;
+    }
+    for (int32_t i = 0; i < world->body_top; i++) {
+        phys_proxy *proxy = &world->proxies[i];
+        rlf_vec3 x = world->bodies[i].x;
+        if (proxy->cell == NONE) {
             continue;
         }
-        double reach = reach_of(body, horizon);
-        phys_interval interval = {body->x.x - reach, body->x.x + reach, i};
-        int32_t at = count++;
-        while (at > 0 && world->intervals[at - 1].low > interval.low) {
-            world->intervals[at] = world->intervals[at - 1];
-            at--;
-        }
-        world->intervals[at] = interval;
-    }
-    return count;
-}
-
-static bool is_before(const phys_pair *p, const phys_pair *q)
-{
-    return p->a < q->a || (p->a == q->a && p->b < q->b);
-}
-
-static void add_pair(rlf_world *world, int32_t i, int32_t k)
-{
-    if (world->pair_count < world->pair_capacity) {
-        phys_pair *pair = &world->pairs[world->pair_count++];
-        pair->a = i < k ? i : k;
-        pair->b = i < k ? k : i;
-        pair->contact_count = 0;
-    }
-}
-
-/* Only a and b are set yet, so sorting moves the keys alone (Shell 1959). */
-static void sort_pairs(rlf_world *world)
-{
-    for (int32_t gap = world->pair_count / 2; gap > 0; gap /= 2) {
-        for (int32_t i = gap; i < world->pair_count; i++) {
-            phys_pair key = {.a = world->pairs[i].a, .b = world->pairs[i].b};
-            int32_t at = i;
-            while (at >= gap && is_before(&key, &world->pairs[at - gap])) {
-                world->pairs[at].a = world->pairs[at - gap].a;
-                world->pairs[at].b = world->pairs[at - gap].b;
-                at -= gap;
-            }
-            world->pairs[at].a = key.a;
-            world->pairs[at].b = key.b;
+        proxy->cell =
+            longest(proxy->half) > 0.5 * cell
+                ? LARGE
+                : cell_at(cell_index(x.x, cell), cell_index(x.y, cell), cell_index(x.z, cell));
+        if (proxy->cell != LARGE) {
+            world->buckets[bucket_of(world, proxy->cell) + 1]++;
+            kept++;
         }
     }
-}
-
-static const phys_pair *find_old(const rlf_world *world, const phys_pair *key)
-{
-    int32_t low = 0, high = world->old_pair_count;
-    while (low < high) {
-        int32_t middle = (low + high) / 2;
-        if (is_before(&world->old_pairs[middle], key)) {
-            low = middle + 1;
-        } else {
-            high = middle;
+    for (int32_t i = 0; i < world->bucket_count; i++) {
+        world->buckets[i + 1] += world->buckets[i];
+    }
+    /* Placed from the last on, each bucket's end moves down to its beginning; buckets[i + 1] then
+     * holds where bucket i begins. */
+    for (int32_t i = world->body_top - 1; i >= 0; i--) {
+        if (world->proxies[i].cell >= 0) {
+            int32_t place = --world->buckets[bucket_of(world, world->proxies[i].cell) + 1];
+            world->bucket_items[place] = i;
         }
     }
-    const phys_pair *found = &world->old_pairs[low];
-    return low < world->old_pair_count && found->a == key->a && found->b == key->b ? found : NULL;
+    world->buckets[world->bucket_count + 1] = kept;
 }
 
-static void keep_impulse(phys_contact *contact, const phys_pair *old, double limit)
+static void add_near(rlf_world *world, int32_t i, int32_t k)
 {
-    double best2 = limit * limit;
-    for (int32_t i = 0; old != NULL && i < old->contact_count; i++) {
-        const phys_contact *before = &old->contacts[i];
-        rlf_vec3 d = rlf_sub(before->anchor_a, contact->anchor_a);
-        if (rlf_dot(d, d) < best2 && rlf_dot(before->normal, contact->normal) > 0.8) {
-            best2 = rlf_dot(d, d);
-            contact->impulse_n = before->impulse_n;
-            contact->impulse_t[0] = before->impulse_t[0];
-            contact->impulse_t[1] = before->impulse_t[1];
-            contact->log = before->log;
-        }
+    if (world->near_count < world->pair_capacity) {
+        phys_near near = {i < k ? i : k, i < k ? k : i};
+        world->near[world->near_count++] = near;
     }
 }
 
-static void collide_pair(rlf_world *world, phys_pair *pair, double horizon)
+static void test(rlf_world *world, int32_t i, int32_t k)
 {
-    pair_point points[PAIR_POINTS_MAX];
-    int32_t chosen[PHYS_PAIR_CONTACTS];
-    const phys_body *a = &world->bodies[pair->a], *b = &world->bodies[pair->b];
-    rlf_vec3 v = rlf_sub(a->v, b->v);
-    double margin = MARGIN + horizon * (rlf_length(v) + rlf_length(a->w) * a->shape.radius +
-                                        rlf_length(b->w) * b->shape.radius);
-    bool are_boxes = a->shape.shape.type == RLF_SHAPE_BOX && b->shape.shape.type == RLF_SHAPE_BOX;
-    int32_t count = are_boxes ? pair_collide_boxes(a, b, margin, points)
-                              : pair_collide_shapes(a, b, margin, points);
-    double radius = rlf_min(a->shape.radius, b->shape.radius);
-    pair->contact_count = pair_reduce(points, count, radius, chosen);
-    const phys_pair *old = find_old(world, pair);
-    for (int32_t i = 0; i < pair->contact_count; i++) {
-        const pair_point *p = &points[chosen[i]];
-        phys_contact fresh = {.a = pair->a, .b = pair->b, .other = RLF_CONTACT_BODY, .log = -1};
-        fresh.anchor_a = rlf_rotate(rlf_quat_conjugate(a->q), rlf_sub(p->core_a, a->x));
-        fresh.anchor_b = rlf_rotate(rlf_quat_conjugate(b->q), rlf_sub(p->core_b, b->x));
-        fresh.rounding_a = p->rounding_a;
-        fresh.rounding_b = p->rounding_b;
-        fresh.normal = p->normal;
-        fresh.friction = sqrt(a->friction * b->friction);
-        fresh.restitution = rlf_max(a->restitution, b->restitution);
-        keep_impulse(&fresh, old, 0.2 * radius);
-        pair->contacts[i] = fresh;
+    const phys_body *a = &world->bodies[i], *b = &world->bodies[k];
+    rlf_vec3 d = rlf_sub(a->x, b->x);
+    rlf_vec3 half = rlf_add(world->proxies[i].half, world->proxies[k].half);
+    if (d.x <= half.x && d.x >= -half.x && d.y <= half.y && d.y >= -half.y && d.z <= half.z &&
+        d.z >= -half.z && !(phys_body_is_fixed(a) && phys_body_is_fixed(b))) {
+        add_near(world, i, k);
     }
 }
 
-typedef struct pair_job {
-    rlf_world *world;
-    double horizon;
-} pair_job;
-
-static void collide_range(void *context, int32_t begin, int32_t end, int32_t worker)
+/* Body i, which moves, against those of its own and the 26 cells around. */
+static void ask_cells(rlf_world *world, int32_t i, double cell)
 {
-    pair_job *job = context;
-    (void)worker;
-    for (int32_t i = begin; i < end; i++) {
-        collide_pair(job->world, &job->world->pairs[i], job->horizon);
-    }
-}
-
-void phys_find_pairs(rlf_world *world, double horizon)
-{
-    phys_pair *swap = world->old_pairs;
-    world->old_pairs = world->pairs;
-    world->pairs = swap;
-    world->old_pair_count = world->pair_count;
-    world->pair_count = 0;
-    int32_t count = sort_intervals(world, horizon);
-    for (int32_t i = 0; i < count; i++) {
-        const phys_interval *one = &world->intervals[i];
-        const phys_body *a = &world->bodies[one->body];
-        double reach_a = 0.5 * (one->high - one->low);
-        for (int32_t k = i + 1; k < count && world->intervals[k].low <= one->high; k++) {
-            const phys_interval *two = &world->intervals[k];
-            const phys_body *b = &world->bodies[two->body];
-            double reach = reach_a + 0.5 * (two->high - two->low);
-            rlf_vec3 d = rlf_sub(a->x, b->x);
-            bool is_idle = phys_body_is_idle(a) && phys_body_is_idle(b);
-            bool is_fixed = phys_body_is_fixed(a) && phys_body_is_fixed(b);
-            if (!is_idle && !is_fixed && rlf_dot(d, d) <= reach * reach) {
-                add_pair(world, one->body, two->body);
+    rlf_vec3 x = world->bodies[i].x;
+    int32_t at[3] = {cell_index(x.x, cell), cell_index(x.y, cell), cell_index(x.z, cell)};
+    for (int32_t n = 0; n < 27; n++) {
+        int64_t key = cell_at(at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1);
+        int32_t bucket = bucket_of(world, key);
+        int32_t end = world->buckets[bucket + 2];
+        for (int32_t p = world->buckets[bucket + 1]; p < end; p++) {
+            int32_t k = world->bucket_items[p];
+            if (world->proxies[k].cell == key && k != i &&
+                (k > i || phys_body_is_idle(&world->bodies[k]))) {
+                test(world, i, k);
             }
         }
     }
-    sort_pairs(world);
-    pair_job job = {world, horizon};
-    rlf_pool *pool = world->pair_count >= 64 ? world->def.pool : NULL;
-    rlf_parallel_for(pool, world->pair_count, 16, collide_range, &job);
+}
+
+/* A large body against everybody. */
+static void ask_all(rlf_world *world, int32_t i)
+{
+    bool is_idle = phys_body_is_idle(&world->bodies[i]);
+    for (int32_t k = 0; k < world->body_top; k++) {
+        int64_t cell = world->proxies[k].cell;
+        bool is_other = cell >= 0 || (cell == LARGE && k > i);
+        if (is_other && !(is_idle && phys_body_is_idle(&world->bodies[k]))) {
+            test(world, i, k);
+        }
+    }
+}
+
+/* By counting for a, by insertion for the few b of each a. */
+static void sort_near(rlf_world *world)
+{
+    int32_t *begin = world->near_begin;
+    for (int32_t i = 0; i <= world->body_top; i++) {
+        begin[i] = 0;
+    }
+    for (int32_t k = 0; k < world->near_count; k++) {
+        begin[world->near[k].a + 1]++;
+    }
+    for (int32_t i = 0; i < world->body_top; i++) {
+        begin[i + 1] += begin[i];
+    }
+    for (int32_t k = world->near_count - 1; k >= 0; k--) {
+        world->near_sorted[--begin[world->near[k].a + 1]] = world->near[k];
+    }
+    for (int32_t k = 1; k < world->near_count; k++) {
+        phys_near key = world->near_sorted[k];
+        int32_t at = k;
+        for (; at > 0 && world->near_sorted[at - 1].a == key.a &&
+               world->near_sorted[at - 1].b > key.b;
+             at--) {
+            world->near_sorted[at] = world->near_sorted[at - 1];
+        }
+        world->near_sorted[at] = key;
+    }
+}
+
+void phys_find_near(rlf_world *world, double horizon)
+{
+    world->near_count = 0;
+    double cell = measure(world, horizon);
+    fill_buckets(world, cell);
+    for (int32_t i = 0; i < world->body_top; i++) {
+        if (world->proxies[i].cell == LARGE) {
+            ask_all(world, i);
+        } else if (world->proxies[i].cell >= 0 && !phys_body_is_idle(&world->bodies[i])) {
+            ask_cells(world, i, cell);
+        }
+    }
+    sort_near(world);
 }

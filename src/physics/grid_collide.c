@@ -205,11 +205,17 @@ void grid_collide_prepare(const grid_query *query, const phys_body *body)
 
 void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
 {
-    phys_contact old[PHYS_SURFACE_CONTACTS];
+    grid_touch old[PHYS_SURFACE_CONTACTS];
     int32_t old_count = body->surface_count;
     for (int32_t i = 0; i < old_count; i++) {
-        old[i] = body->surface[i];
+        const phys_contact *c = &body->surface[i];
+        old[i] = (grid_touch){c->anchor_a, c->normal, c->other, {0}, c->log};
+        for (int32_t row = 0; row < 3; row++) {
+            old[i].impulses[row] = c->rows[row].impulse;
+        }
     }
+    body->stance.is_set = false;
+    body->is_restless = false;
     body->surface_count = 0;
     body->surface_flow = rlf_vec3_make(0, 0, 0);
     body->surface_age = 0;

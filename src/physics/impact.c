@@ -11,58 +11,50 @@
 /* Gap at which a contact of the same group takes part in an impact, metres. */
 #define TOGETHER 2e-4
 
-/* The contacts of a pair, or of a body with the surface. */
-typedef struct group {
-    phys_contact *contacts;
+/* The groups of an island that have an event, by their keys: pairs, then bodies' surfaces. */
+typedef struct event_list {
+    rlf_world *world;
+    double h;
+    int32_t *keys; /* a part of world->pending */
     int32_t count;
-    phys_body *a, *b; /* b NULL: surface */
-} group;
+} event_list;
 
-static group group_at(rlf_world *world, int32_t index)
+static phys_group group_at(const event_list *list, int32_t key)
 {
-    group g = {0};
-    if (index < world->pair_count) {
-        phys_pair *pair = &world->pairs[index];
-        g.contacts = pair->contacts;
-        g.count = pair->contact_count;
-        g.a = &world->bodies[pair->a];
-        g.b = &world->bodies[pair->b];
-        if ((g.a->is_asleep || g.a->inverse_mass == 0.0) &&
-            (g.b->is_asleep || g.b->inverse_mass == 0.0)) {
-            g.count = 0;
-        }
-        return g;
-    }
-    g.a = &world->bodies[index - world->pair_count];
-    g.contacts = g.a->surface;
-    g.count = g.a->is_alive && !g.a->is_asleep && g.a->inverse_mass > 0.0 ? g.a->surface_count : 0;
-    return g;
-}
-
-static rlf_vec3 shift_at(const phys_body *body, rlf_vec3 r)
-{
-    return rlf_add(body->impact_shift, rlf_cross(body->impact_turn, r));
+    int32_t body = key - list->world->pair_capacity;
+    return body < 0 ? phys_group_of_pair(list->world, key) : phys_group_of_body(list->world, body);
 }
 
 /* Gap of the contact extrapolated back to the start of the substep. */
-static double virtual_gap(const phys_contact *c, const group *g)
+static double virtual_gap(const phys_contact *c, const phys_group *g)
 {
-    rlf_vec3 shift = shift_at(g->a, c->r_a);
+    const phys_row *row = &c->rows[0];
+    double gap = c->separation + rlf_dot(row->direction, g->a->impact_shift) +
+                 rlf_dot(row->turn_a, g->a->impact_turn);
     if (g->b != NULL) {
-        shift = rlf_sub(shift, shift_at(g->b, c->r_b));
+        gap -=
+            rlf_dot(row->direction, g->b->impact_shift) + rlf_dot(row->turn_b, g->b->impact_turn);
     }
-    return c->separation + rlf_dot(c->normal, shift);
+    return gap;
 }
 
-static double normal_acceleration(const phys_contact *c, const group *g)
+static double normal_acceleration(const phys_contact *c, const phys_group *g)
 {
-    rlf_vec3 a = g->a->acceleration;
-    return rlf_dot(c->normal, g->b != NULL ? rlf_sub(a, g->b->acceleration) : a);
+    rlf_vec3 a = phys_body_is_moving(g->a) ? g->a->acceleration : rlf_vec3_make(0, 0, 0);
+    if (g->b != NULL && phys_body_is_moving(g->b)) {
+        a = rlf_sub(a, g->b->acceleration);
+    }
+    return rlf_dot(c->normal, a);
 }
 
-static double start_time(const group *g)
+static double time_of(const phys_body *body)
 {
-    return g->b != NULL ? rlf_max(g->a->impact_time, g->b->impact_time) : g->a->impact_time;
+    return phys_body_is_moving(body) ? body->impact_time : 0.0;
+}
+
+static double start_time(const phys_group *g)
+{
+    return g->b != NULL ? rlf_max(time_of(g->a), time_of(g->b)) : time_of(g->a);
 }
 
 /* First time from `from` on at which s + v t + a t^2/2 reaches 0 while falling. */
@@ -80,20 +72,24 @@ static double closing_time(double s, double v, double a, double from)
     return t >= from ? t : NO_EVENT;
 }
 
-static double event_time(const rlf_world *world, const group *g, double h)
+static double event_time(const phys_group *g, double h)
 {
     double from = start_time(g);
     double best = NO_EVENT;
+    phys_sides s = phys_sides_load(g);
     for (int32_t i = 0; i < g->count; i++) {
         const phys_contact *c = &g->contacts[i];
-        double v = rlf_dot(c->normal, phys_contact_velocity(world, c));
-        double a = normal_acceleration(c, g);
         if (c->restitution <= 0.0) {
             continue;
         }
-        double t = closing_time(virtual_gap(c, g), v, a, from);
+        double v = phys_row_speed(&c->rows[0], &s, g->b != NULL);
+        double a = normal_acceleration(c, g);
         /* Gravity alone gives |a| h per substep: a bounce slower than a few of these is rest. */
         double slow = 0.02 + 3.0 * (a < 0.0 ? -a : a) * h;
+        if (v + rlf_min(a * h, 0.0) >= -slow) {
+            continue;
+        }
+        double t = closing_time(virtual_gap(c, g), v, a, from);
         if (t <= h && v + a * t < -slow) {
             best = rlf_min(best, t);
         }
@@ -101,172 +97,247 @@ static double event_time(const rlf_world *world, const group *g, double h)
     return best;
 }
 
+/* Twice the kinetic energy that goes with a turn: w.I w' of a body. */
+static double turn_product(const phys_body *body, rlf_vec3 w, rlf_vec3 other)
+{
+    rlf_mat3 to_body = rlf_mat3_transpose(&body->R);
+    rlf_vec3 local = rlf_mat3_mul_vec(&to_body, w);
+    return rlf_dot(rlf_mat3_mul_vec(&to_body, other), rlf_mat3_mul_vec(&body->inertia, local));
+}
+
+/* Share of a change of a body's velocities at time t: its energy grows by s (b + s a) with it. */
+static void add_gain(const phys_body *body, rlf_vec3 v, rlf_vec3 dv, rlf_vec3 w, rlf_vec3 dw,
+                     double t, double gain[2])
+{
+    rlf_vec3 then = rlf_mad(v, body->acceleration, t);
+    gain[0] += 0.5 * body->mass * rlf_dot(dv, dv) + 0.5 * turn_product(body, dw, dw);
+    gain[1] += body->mass * rlf_dot(then, dv) + turn_product(body, w, dw);
+}
+
+static bool is_driven(const phys_group *g)
+{
+    bool is_surface_moving = false;
+    for (int32_t i = 0; i < g->count; i++) {
+        rlf_vec3 v = g->contacts[i].surface_velocity;
+        is_surface_moving = is_surface_moving || rlf_dot(v, v) > 0.0;
+    }
+    return is_surface_moving || phys_body_is_driven(g->a) ||
+           (g->b != NULL && phys_body_is_driven(g->b));
+}
+
+/* Restitution speed by speed can gain energy when bodies meet off centre with friction (Kane 1984):
+ * then the whole blow is made smaller until it does not. */
+static void limit_energy(const phys_group *g, const phys_sides *before, phys_sides *after, double t)
+{
+    double gain[2] = {0.0, 0.0};
+    phys_sides d = {.v_a = rlf_sub(after->v_a, before->v_a),
+                    .w_a = rlf_sub(after->w_a, before->w_a),
+                    .v_b = rlf_sub(after->v_b, before->v_b),
+                    .w_b = rlf_sub(after->w_b, before->w_b)};
+    if (before->mobility_a > 0.0) {
+        add_gain(g->a, before->v_a, d.v_a, before->w_a, d.w_a, t, gain);
+    }
+    if (before->mobility_b > 0.0) {
+        add_gain(g->b, before->v_b, d.v_b, before->w_b, d.w_b, t, gain);
+    }
+    if (gain[0] + gain[1] <= 0.0 || !(gain[0] > 0.0) || is_driven(g)) {
+        return;
+    }
+    double share = rlf_clamp(-gain[1] / gain[0], 0.0, 1.0);
+    after->v_a = rlf_mad(before->v_a, d.v_a, share);
+    after->w_a = rlf_mad(before->w_a, d.w_a, share);
+    after->v_b = rlf_mad(before->v_b, d.v_b, share);
+    after->w_b = rlf_mad(before->w_b, d.w_b, share);
+}
+
 /* All contacts that close at time t answer together: the normal velocities after are those before
  * times -restitution, found by sequential impulses within the group. */
-static void answer(rlf_world *world, group *g, double t)
+static void answer(phys_group *g, double t)
 {
     double target[PHYS_SURFACE_CONTACTS], approach[PHYS_SURFACE_CONTACTS];
     bool takes_part[PHYS_SURFACE_CONTACTS];
     double saved[PHYS_SURFACE_CONTACTS][3];
+    bool has_b = g->b != NULL;
+    phys_sides s = phys_sides_load(g);
+    const phys_sides before = s;
     for (int32_t i = 0; i < g->count; i++) {
         phys_contact *c = &g->contacts[i];
         double fall = normal_acceleration(c, g) * t;
-        double v = rlf_dot(c->normal, phys_contact_velocity(world, c));
+        double v = phys_row_speed(&c->rows[0], &s, has_b);
         takes_part[i] = virtual_gap(c, g) + (v + 0.5 * fall) * t <= TOGETHER;
         approach[i] = rlf_max(0.0, -(v + fall));
         target[i] = c->restitution * approach[i] - fall;
-        saved[i][0] = c->impulse_n;
-        saved[i][1] = c->impulse_t[0];
-        saved[i][2] = c->impulse_t[1];
-        c->impulse_n = c->impulse_t[0] = c->impulse_t[1] = 0.0;
+        for (int32_t row = 0; row < 3; row++) {
+            saved[i][row] = c->rows[row].impulse;
+            c->rows[row].impulse = 0.0;
+        }
     }
     for (int32_t pass = 0; pass < 12; pass++) {
         for (int32_t i = 0; i < g->count; i++) {
-            phys_contact *c = &g->contacts[i];
+            phys_row *row = &g->contacts[i].rows[0];
             if (!takes_part[i]) {
                 continue;
             }
-            double v = rlf_dot(c->normal, phys_contact_velocity(world, c));
-            double sum = rlf_max(0.0, c->impulse_n + c->mass_n * (target[i] - v));
-            phys_contact_push(world, c, rlf_scale(c->normal, sum - c->impulse_n));
-            c->impulse_n = sum;
-            phys_contact_friction(world, c);
+            double v = phys_row_speed(row, &s, has_b);
+            double sum = rlf_max(0.0, row->impulse + row->mass * (target[i] - v));
+            phys_row_push(row, &s, has_b, sum - row->impulse);
+            row->impulse = sum;
+            phys_contact_friction(&g->contacts[i], &s, has_b);
         }
     }
+    limit_energy(g, &before, &s, t);
+    phys_sides_store(&s, g);
     for (int32_t i = 0; i < g->count; i++) {
         phys_contact *c = &g->contacts[i];
-        if (c->impulse_n > 0.0) {
+        if (c->rows[0].impulse > 0.0) {
             c->is_impacted = true;
-            phys_log_impulse(world, c, c->impulse_n, approach[i]);
+            c->impulse_sum += c->rows[0].impulse;
+            c->approach = rlf_max(c->approach, approach[i]);
         }
-        c->impulse_n = saved[i][0];
-        c->impulse_t[0] = saved[i][1];
-        c->impulse_t[1] = saved[i][2];
+        for (int32_t row = 0; row < 3; row++) {
+            c->rows[row].impulse = saved[i][row];
+        }
     }
 }
 
 /* Keeps x(t) continuous at the time of the impact. */
 static void shift_back(phys_body *body, rlf_vec3 v, rlf_vec3 w, double t)
 {
-    if (body != NULL) {
+    if (body != NULL && phys_body_is_moving(body)) {
         body->impact_shift = rlf_mad(body->impact_shift, rlf_sub(body->v, v), -t);
         body->impact_turn = rlf_mad(body->impact_turn, rlf_sub(body->w, w), -t);
         body->impact_time = t;
-        body->surface_age = body->surface_period; /* its way is a new one: look again */
+        body->is_restless = true; /* its way is a new one: look again */
     }
 }
 
-static void bounce(rlf_world *world, group *g, double t)
+static void bounce(phys_group *g, double t)
 {
     rlf_vec3 v_a = g->a->v, w_a = g->a->w;
     rlf_vec3 v_b = g->b != NULL ? g->b->v : v_a;
     rlf_vec3 w_b = g->b != NULL ? g->b->w : w_a;
-    answer(world, g, t);
+    answer(g, t);
     shift_back(g->a, v_a, w_a, t);
     shift_back(g->b, v_b, w_b, t);
 }
 
 /* Gaps seen by the solver are those of the new paths; a contact that bounced must only not close
  * again. */
-static void carry_gaps(rlf_world *world, int32_t group_count)
+static void carry_gaps(const phys_group *g)
 {
-    for (int32_t i = 0; i < group_count; i++) {
-        group g = group_at(world, i);
-        if (g.count == 0 || start_time(&g) == 0.0) {
-            continue;
-        }
-        for (int32_t k = 0; k < g.count; k++) {
-            phys_contact *c = &g.contacts[k];
-            double gap = virtual_gap(c, &g);
-            c->separation = gap > 0.0 ? gap : rlf_min(c->separation, 0.0);
-        }
+    if (g->count == 0 || start_time(g) == 0.0) {
+        return;
+    }
+    for (int32_t k = 0; k < g->count; k++) {
+        phys_contact *c = &g->contacts[k];
+        double gap = virtual_gap(c, g);
+        c->separation = gap > 0.0 ? gap : rlf_min(c->separation, 0.0);
+    }
+}
+
+static void link_pair(rlf_world *world, int32_t body, int32_t link)
+{
+    if (phys_body_is_moving(&world->bodies[body])) {
+        world->pair_next[link] = world->pair_head[body];
+        world->pair_head[body] = link;
     }
 }
 
 /* Lists of the pairs of each body, so that a bounce asks only its neighbours again. */
-static void link_pairs(rlf_world *world)
+static void link_pairs(rlf_world *world, const phys_island *island)
 {
-    for (int32_t i = 0; i < world->body_top; i++) {
-        world->pair_head[i] = -1;
+    for (int32_t i = island->body_begin; i < island->body_end; i++) {
+        world->pair_head[world->island_bodies[i]] = -1;
     }
-    for (int32_t k = 0; k < world->pair_count; k++) {
-        const phys_pair *pair = &world->pairs[k];
-        world->pair_next[2 * k] = world->pair_head[pair->a];
-        world->pair_head[pair->a] = 2 * k;
-        world->pair_next[2 * k + 1] = world->pair_head[pair->b];
-        world->pair_head[pair->b] = 2 * k + 1;
+    for (int32_t k = island->pair_begin; k < island->pair_end; k++) {
+        int32_t index = world->island_pairs[k];
+        link_pair(world, world->pairs[index].a, 2 * index);
+        link_pair(world, world->pairs[index].b, 2 * index + 1);
     }
 }
 
-/* Sets a group's next event; returns the new number of pending groups. */
-static int32_t look_at_group(rlf_world *world, int32_t index, double h, int32_t pending_count)
+/* Sets a group's next event and lists it. */
+static void look_at_group(event_list *list, int32_t key)
 {
-    group g = group_at(world, index);
-    bool was_pending = world->event_times[index] <= h;
-    bool is_done = world->event_counts[index] >= EVENTS_PER_GROUP;
-    world->event_times[index] = is_done ? NO_EVENT : event_time(world, &g, h);
-    if (!was_pending && world->event_times[index] <= h) {
-        world->pending[pending_count++] = index;
+    rlf_world *world = list->world;
+    phys_group g = group_at(list, key);
+    bool was_pending = world->event_times[key] <= list->h;
+    bool is_done = world->event_counts[key] >= EVENTS_PER_GROUP;
+    world->event_times[key] = is_done ? NO_EVENT : event_time(&g, list->h);
+    if (!was_pending && world->event_times[key] <= list->h) {
+        list->keys[list->count++] = key;
     }
-    return pending_count;
 }
 
-static int32_t look_at_body(rlf_world *world, const phys_body *body, double h,
-                            int32_t pending_count)
+static void look_at_body(event_list *list, const phys_body *body)
 {
+    rlf_world *world = list->world;
+    if (body == NULL || !phys_body_is_moving(body)) {
+        return;
+    }
     int32_t index = (int32_t)(body - world->bodies);
-    pending_count = look_at_group(world, world->pair_count + index, h, pending_count);
+    look_at_group(list, world->pair_capacity + index);
     for (int32_t k = world->pair_head[index]; k >= 0; k = world->pair_next[k]) {
-        pending_count = look_at_group(world, k / 2, h, pending_count);
+        look_at_group(list, k / 2);
     }
-    return pending_count;
 }
 
-/* Earliest pending group, the lower index first among equals; drops those without an event. */
-static int32_t take_first(rlf_world *world, double h, int32_t *pending_count)
+/* Earliest pending group, the lower key first among equals; drops those without an event. */
+static int32_t take_first(event_list *list)
 {
+    const double *times = list->world->event_times;
     int32_t first = -1, kept = 0;
-    for (int32_t i = 0; i < *pending_count; i++) {
-        int32_t index = world->pending[i];
-        double t = world->event_times[index];
-        if (t > h) {
+    for (int32_t i = 0; i < list->count; i++) {
+        int32_t key = list->keys[i];
+        if (times[key] > list->h) {
             continue;
         }
-        world->pending[kept++] = index;
-        if (first < 0 || t < world->event_times[first] ||
-            (t == world->event_times[first] && index < first)) {
-            first = index;
+        list->keys[kept++] = key;
+        if (first < 0 || times[key] < times[first] || (times[key] == times[first] && key < first)) {
+            first = key;
         }
     }
-    *pending_count = kept;
+    list->count = kept;
     return first;
 }
 
-void phys_solve_impacts(rlf_world *world, double h)
+static void look_at_all(event_list *list, const phys_island *island)
 {
-    int32_t group_count = world->pair_count + world->body_top;
-    int32_t pending_count = 0;
-    for (int32_t i = 0; i < group_count; i++) {
-        world->event_counts[i] = 0;
-        world->event_times[i] = NO_EVENT;
-        pending_count = look_at_group(world, i, h, pending_count);
+    rlf_world *world = list->world;
+    int32_t pair_count = island->pair_end - island->pair_begin;
+    int32_t body_count = island->body_end - island->body_begin;
+    for (int32_t i = 0; i < pair_count + body_count; i++) {
+        int32_t key =
+            i < pair_count
+                ? world->island_pairs[island->pair_begin + i]
+                : world->pair_capacity + world->island_bodies[island->body_begin + i - pair_count];
+        world->event_counts[key] = 0;
+        world->event_times[key] = NO_EVENT;
+        look_at_group(list, key);
     }
-    if (pending_count == 0) {
+}
+
+void phys_solve_impacts(rlf_world *world, const phys_island *island, double h)
+{
+    event_list list = {world, h, world->pending + island->pair_begin + island->body_begin, 0};
+    look_at_all(&list, island);
+    if (list.count == 0) {
         return;
     }
-    link_pairs(world);
-    for (;;) {
-        int32_t first = take_first(world, h, &pending_count);
-        if (first < 0) {
-            break;
-        }
-        group hit = group_at(world, first);
+    link_pairs(world, island);
+    for (int32_t first = take_first(&list); first >= 0; first = take_first(&list)) {
+        phys_group hit = group_at(&list, first);
         world->event_counts[first]++;
-        bounce(world, &hit, world->event_times[first]);
-        pending_count = look_at_body(world, hit.a, h, pending_count);
-        if (hit.b != NULL) {
-            pending_count = look_at_body(world, hit.b, h, pending_count);
-        }
+        bounce(&hit, world->event_times[first]);
+        look_at_body(&list, hit.a);
+        look_at_body(&list, hit.b);
     }
-    carry_gaps(world, group_count);
+    for (int32_t k = island->pair_begin; k < island->pair_end; k++) {
+        phys_group g = phys_group_of_pair(world, world->island_pairs[k]);
+        carry_gaps(&g);
+    }
+    for (int32_t i = island->body_begin; i < island->body_end; i++) {
+        phys_group g = phys_group_of_body(world, world->island_bodies[i]);
+        carry_gaps(&g);
+    }
 }

@@ -53,6 +53,7 @@ static rlf_quat turn_cf4(const phys_body *body, rlf_vec3 L, double h)
 void phys_integrate_rotation(phys_body *body, double h)
 {
     double angle = rlf_length(body->w) * h;
+    body->turned += angle;
     if (angle == 0.0) {
         return;
     }
@@ -80,6 +81,7 @@ void phys_integrate_position(phys_body *body, double h)
     }
     if (rlf_dot(body->impact_turn, body->impact_turn) > 0.0) {
         body->q = turn(body->impact_turn, body->q);
+        body->turned += rlf_length(body->impact_turn);
         phys_body_orient(body);
     }
     phys_integrate_rotation(body, h);

@@ -1,24 +1,17 @@
-/* One frame by the live method: equal substeps of at most 1 / step_hz. */
-#include "physics/broad_phase.h"
+/* One frame by the live method: equal substeps of at most 1 / step_hz, in groups of up to
+ * PHYS_PERIOD_MAX between searches for pairs and islands. */
 #include "physics/grid_collide.h"
 #include "physics/integrate.h"
+#include "physics/pair_search.h"
 #include "physics/sleep.h"
 #include "physics/solver.h"
 
 #include <string.h>
 
-#define SOLVE_PASSES 4
-#define RELAX_PASSES 2
-#define PAIR_PERIOD 2 /* substeps between searches for touching bodies */
 /* Extrapolating the surface along its velocity is trusted this long, s: with 10 m/s^2 the error is
  * then 12 mm. */
 #define EXTRAPOLATION_MAX 0.05
 #define SHELL_PERIOD 0.25 /* s between searches for the room's shell */
-
-static bool is_moving(const phys_body *body)
-{
-    return body->is_alive && !body->is_asleep && body->inverse_mass > 0.0;
-}
 
 /* The shell is a part of the room: it is looked for now and then, and anew for a moved camera. */
 static void find_shell(rlf_world *world, const rlf_grid *grid)
@@ -36,11 +29,11 @@ static void find_shell(rlf_world *world, const rlf_grid *grid)
 
 /* A new grid shows the surface at the end of the advance that brings it; the same one again is
  * extrapolated. Device clock and world clock need not agree. */
-static void start_surface(rlf_world *world, const rlf_grid *grid, double dt)
+static bool start_surface(rlf_world *world, const rlf_grid *grid, double dt)
 {
     if (grid == NULL) {
         world->has_grid = false;
-        return;
+        return true;
     }
     bool is_new = !world->has_grid || grid->time_ns != world->grid_time_ns;
     if (is_new) {
@@ -53,6 +46,7 @@ static void start_surface(rlf_world *world, const rlf_grid *grid, double dt)
     }
     world->has_grid = true;
     world->grid_time_ns = grid->time_ns;
+    return is_new;
 }
 
 static grid_query query_now(rlf_world *world, const rlf_grid *grid, double h)
@@ -72,156 +66,117 @@ typedef struct surface_job {
     const grid_query *query;
 } surface_job;
 
+static bool is_due(const phys_body *body)
+{
+    return phys_body_is_moving(body) &&
+           (body->is_restless || body->surface_age >= body->surface_period);
+}
+
 static void collide_range(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     surface_job *job = context;
     (void)worker;
     for (int32_t i = begin; i < end; i++) {
         phys_body *body = &job->world->bodies[i];
-        if (is_moving(body) && body->surface_age >= body->surface_period) {
+        if (is_due(body)) {
             grid_collide(job->query, body, i);
         }
     }
 }
 
-static void find_contacts(rlf_world *world, const grid_query *query, double h)
+static void find_surface_contacts(rlf_world *world, const grid_query *query)
 {
-    int64_t clock = rlf_clock_ns();
-    if (world->substep % PAIR_PERIOD == 0) {
-        phys_find_pairs(world, (PAIR_PERIOD + 1) * h);
-    }
-    phys_clock(&clock, &world->times.pairs_ms);
-    if (query != NULL) {
-        for (int32_t i = 0; i < world->body_top; i++) {
-            phys_body *body = &world->bodies[i];
-            if (is_moving(body) && ++body->surface_age >= body->surface_period) {
+    int32_t due = 0;
+    for (int32_t i = 0; i < world->body_top; i++) {
+        phys_body *body = &world->bodies[i];
+        if (query == NULL) {
+            body->surface_count = 0;
+        } else if (phys_body_is_moving(body)) {
+            body->surface_age++;
+            if (is_due(body)) {
+                phys_log_contacts(world, body->surface, body->surface_count);
                 grid_collide_prepare(query, body);
+                due++;
             }
         }
+    }
+    if (due > 0) {
         surface_job job = {world, query};
-        rlf_pool *pool = world->body_top >= 16 ? world->def.pool : NULL;
-        rlf_parallel_for(pool, world->body_top, 4, collide_range, &job);
-        phys_clock(&clock, &world->times.surface_ms);
-        return;
-    }
-    for (int32_t i = 0; i < world->body_top; i++) {
-        world->bodies[i].surface_count = 0;
+        rlf_parallel_for(due >= 16 ? world->def.pool : NULL, world->body_top, 8, collide_range,
+                         &job);
     }
 }
 
-static void start_bodies(rlf_world *world)
-{
-    rlf_vec3 zero = {0, 0, 0};
-    for (int32_t i = 0; i < world->body_top; i++) {
-        phys_body *body = &world->bodies[i];
-        body->impact_shift = body->impact_turn = zero;
-        body->impact_time = 0.0;
-        body->is_pressed = false;
-        body->acceleration = body->angular_acceleration = zero;
-        if (is_moving(body)) {
-            rlf_vec3 gravity = rlf_scale(world->def.gravity, body->gravity_scale);
-            body->acceleration = rlf_mad(gravity, body->force, body->inverse_mass);
-            body->angular_acceleration =
-                rlf_mat3_mul_vec(&body->inverse_inertia_world, body->torque);
-        } else if (!phys_body_is_driven(body)) {
-            body->v = body->w = zero;
-        }
-    }
-}
-
-static void limit_speed(phys_body *body, double max_speed, double h)
-{
-    double speed = rlf_length(body->v);
-    double spin = rlf_length(body->w) * h;
-    if (speed > max_speed) {
-        body->v = rlf_scale(body->v, max_speed / speed);
-    }
-    if (spin > 1.0) { /* one radian per substep */
-        body->w = rlf_scale(body->w, 1.0 / spin);
-    }
-}
-
-static void damp(phys_body *body, double h)
-{
-    if (body->linear_damping > 0.0) {
-        body->v = rlf_scale(body->v, rlf_exp(-body->linear_damping * h));
-    }
-    if (body->angular_damping > 0.0) {
-        body->w = rlf_scale(body->w, rlf_exp(-body->angular_damping * h));
-    }
-}
-
-static void accelerate(rlf_world *world, double h)
-{
-    for (int32_t i = 0; i < world->body_top; i++) {
-        phys_body *body = &world->bodies[i];
-        if (is_moving(body)) {
-            body->v = rlf_mad(body->v, body->acceleration, h);
-            body->w = rlf_mad(body->w, body->angular_acceleration, h);
-            damp(body, h);
-            limit_speed(body, world->def.max_speed, h);
-        }
-    }
-}
-
-static void move(rlf_world *world, const grid_query *query, double h)
+static void move_driven(rlf_world *world, double h)
 {
     for (int32_t i = 0; i < world->body_top; i++) {
         phys_body *body = &world->bodies[i];
         if (body->is_alive && phys_body_is_driven(body)) {
             phys_integrate_position(body, h);
         }
-        if (!is_moving(body)) {
-            continue;
-        }
-        rlf_vec3 before = body->x;
-        limit_speed(body, world->def.max_speed, h);
-        phys_integrate_position(body, h);
-        rlf_vec3 moved = rlf_sub(body->x, before);
-        if (query != NULL && rlf_length(moved) > 0.1 * body->shape.inner_radius) {
-            grid_guard_centre(query, body, before);
-        }
     }
 }
 
-static void substep(rlf_world *world, const rlf_grid *grid, double h)
+typedef struct island_job {
+    rlf_world *world;
+    const grid_query *query;
+    double h;
+} island_job;
+
+static void substep_range(void *context, int32_t begin, int32_t end, int32_t worker)
 {
-    grid_query query;
-    const grid_query *q = NULL;
-    if (grid != NULL) {
-        query = query_now(world, grid, h);
-        q = &query;
+    island_job *job = context;
+    (void)worker;
+    for (int32_t i = begin; i < end; i++) {
+        phys_island_substep(job->world, &job->world->islands[i], job->query, job->h);
     }
-    phys_world_release(world);
-    find_contacts(world, q, h);
+}
+
+static void substep(rlf_world *world, const grid_query *query, double h)
+{
     int64_t clock = rlf_clock_ns();
-    start_bodies(world);
-    phys_solver_prepare(world);
-    phys_wake_by_touch(world);
+    island_job job = {world, query, h};
+    rlf_pool *pool = world->island_count >= 16 ? world->def.pool : NULL;
+    rlf_parallel_for(pool, world->island_count, 4, substep_range, &job);
+    move_driven(world, h);
     phys_clock(&clock, &world->times.solve_ms);
-    phys_solve_impacts(world, h);
-    phys_clock(&clock, &world->times.impacts_ms);
-    accelerate(world, h);
-    phys_solver_warm_start(world);
-    for (int32_t i = 0; i < SOLVE_PASSES; i++) {
-        phys_solver_pass(world, true, h);
-    }
-    phys_solver_mark_pressed(world);
-    phys_clock(&clock, &world->times.solve_ms);
-    move(world, q, h);
-    phys_clock(&clock, &world->times.move_ms);
-    for (int32_t i = 0; i < RELAX_PASSES; i++) {
-        phys_solver_pass(world, false, h);
-    }
-    phys_solver_log(world);
-    phys_clock(&clock, &world->times.solve_ms);
-    phys_fall_asleep(world, h);
-    phys_clock(&clock, &world->times.sleep_ms);
     world->time += h;
     world->grid_tau += h;
-    world->substep++;
 }
 
+/* Substeps between two searches for pairs. */
+static void leap(rlf_world *world, const rlf_grid *grid, int32_t count, double h)
+{
+    phys_world_release(world);
+    for (int32_t i = 0; i < count; i++) {
+        int64_t clock = rlf_clock_ns();
+        grid_query now;
+        const grid_query *query = NULL;
+        if (grid != NULL) {
+            now = query_now(world, grid, h);
+            query = &now;
+        }
+        if (i == 0) {
+            phys_find_pairs(world, h);
+            phys_wake_by_touch(world, (count + 1) * h);
+        } else {
+            phys_refresh_pairs(world, h);
+        }
+        phys_clock(&clock, &world->times.pairs_ms);
+        find_surface_contacts(world, query);
+        phys_clock(&clock, &world->times.surface_ms);
+        if (i == 0) {
+            phys_find_islands(world);
+            phys_clock(&clock, &world->times.sleep_ms);
+        }
+        substep(world, query, h);
+    }
+    int64_t clock = rlf_clock_ns();
+    phys_fall_asleep(world, count * h);
+    phys_clock(&clock, &world->times.sleep_ms);
+}
+
+/* The contact list begins anew. */
 static void forget_log(rlf_world *world)
 {
     for (int32_t i = 0; i < world->body_top; i++) {
@@ -230,13 +185,25 @@ static void forget_log(rlf_world *world)
         }
     }
     for (int32_t i = 0; i < world->pair_count; i++) {
-        for (int32_t k = 0; k < world->pairs[i].contact_count; k++) {
-            world->pairs[i].contacts[k].log = -1;
+        phys_pair *pair = &world->pairs[world->order[i]];
+        for (int32_t k = 0; k < pair->contact_count; k++) {
+            pair->contacts[k].log = -1;
         }
     }
 }
 
-/* Sleepers are asked once per advance, and everyone at once when the surface is a new one. */
+static void fill_log(rlf_world *world)
+{
+    for (int32_t i = 0; i < world->pair_count; i++) {
+        phys_pair *pair = &world->pairs[world->order[i]];
+        phys_log_contacts(world, pair->contacts, pair->contact_count);
+    }
+    for (int32_t i = 0; i < world->body_top; i++) {
+        phys_log_contacts(world, world->bodies[i].surface, world->bodies[i].surface_count);
+    }
+}
+
+/* When the surface is a new one everyone is asked at once, sleepers too. */
 static void greet_surface(rlf_world *world, const rlf_grid *grid, double h)
 {
     for (int32_t i = 0; i < world->body_top; i++) {
@@ -257,14 +224,16 @@ void phys_live_advance(rlf_world *world, const rlf_grid *grid, double dt)
     count = count < 1 ? 1 : count;
     double h = dt / count;
     double start = world->time;
-    world->substep = 0;
-    forget_log(world);
-    start_surface(world, grid, dt);
     int64_t clock = rlf_clock_ns();
-    greet_surface(world, grid, h);
-    phys_clock(&clock, &world->times.wake_ms);
-    for (int32_t i = 0; i < count; i++) {
-        substep(world, grid, h);
+    forget_log(world);
+    if (start_surface(world, grid, dt)) {
+        greet_surface(world, grid, h);
     }
+    phys_clock(&clock, &world->times.wake_ms);
+    for (int32_t done = 0; done < count; done += PHYS_PERIOD_MAX) {
+        int32_t rest = count - done;
+        leap(world, grid, rest < PHYS_PERIOD_MAX ? rest : PHYS_PERIOD_MAX, h);
+    }
+    fill_log(world);
     world->time = start + dt;
 }

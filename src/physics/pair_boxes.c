@@ -177,10 +177,11 @@ static int32_t face_contacts(const box *ref, const box *other, rlf_vec3 n, int32
 }
 
 int32_t pair_collide_boxes(const phys_body *body_a, const phys_body *body_b, double margin,
-                           pair_point *out)
+                           pair_point *out, double *out_gap)
 {
     box a = box_of(body_a), b = box_of(body_b);
     sat_result sat = separate(&a, &b);
+    *out_gap = sat.separation;
     if (sat.separation > margin) {
         return 0;
     }

@@ -18,7 +18,7 @@ typedef struct phys_shape {
     double inner_radius; /* about the largest sphere about the origin that fits, metres */
     phys_plane *planes;  /* of a hull, owned; else NULL */
     int32_t plane_count;
-    rlf_vec3 points[PHYS_POINTS_MAX]; /* on the surface, body frame; vertices come first */
+    rlf_vec3 *points; /* PHYS_POINTS_MAX, borrowed: on the surface, body frame; vertices first */
     int32_t point_count;
     int32_t vertex_count;
 } phys_shape;
@@ -26,8 +26,9 @@ typedef struct phys_shape {
 /* RLF_OK or RLF_ERROR_INVALID with a line that names the field. */
 rlf_result phys_shape_check(const rlf_shape *shape);
 
-/* Fills `out` from a checked shape. RLF_ERROR_MEMORY when a hull's planes do not fit in memory. */
-rlf_result phys_shape_init(phys_shape *out, const rlf_shape *shape);
+/* Fills `out` from a checked shape; `points` has room for PHYS_POINTS_MAX and lives as long.
+ * RLF_ERROR_MEMORY when a hull's planes do not fit in memory. */
+rlf_result phys_shape_init(phys_shape *out, const rlf_shape *shape, rlf_vec3 *points);
 void phys_shape_finish(phys_shape *shape);
 
 /* Signed distance of p (body frame) to the surface, negative inside, metres. out_gradient is the

@@ -108,9 +108,9 @@ static rlf_result hull_planes(phys_shape *s)
     return RLF_OK;
 }
 
-rlf_result phys_shape_init(phys_shape *out, const rlf_shape *shape)
+rlf_result phys_shape_init(phys_shape *out, const rlf_shape *shape, rlf_vec3 *points)
 {
-    phys_shape empty = {.shape = *shape};
+    phys_shape empty = {.shape = *shape, .points = points};
     *out = empty;
     out->radius = rlf_shape_radius(shape);
     out->inner_radius = out->radius;

@@ -104,26 +104,27 @@ void phys_wake_by_surface(rlf_world *world, const grid_query *query)
     }
 }
 
-static bool touches(const phys_pair *pair)
+/* Whether two bodies touch, or will when one comes nearer by `way`. */
+static bool touches(const phys_pair *pair, double way)
 {
     for (int32_t i = 0; i < pair->contact_count; i++) {
-        if (pair->contacts[i].separation < TOUCHING) {
+        if (pair->contacts[i].separation < TOUCHING + way) {
             return true;
         }
     }
     return false;
 }
 
-void phys_wake_by_touch(rlf_world *world)
+void phys_wake_by_touch(rlf_world *world, double horizon)
 {
     for (int32_t i = 0; i < world->pair_count; i++) {
-        phys_body *a = &world->bodies[world->pairs[i].a];
-        phys_body *b = &world->bodies[world->pairs[i].b];
-        if (a->is_asleep == b->is_asleep || !touches(&world->pairs[i])) {
+        const phys_pair *pair = &world->pairs[world->order[i]];
+        phys_body *a = &world->bodies[pair->a], *b = &world->bodies[pair->b];
+        if (a->is_asleep == b->is_asleep) {
             continue;
         }
-        phys_body *awake = a->is_asleep ? b : a;
-        if (speed_of(awake) > TOUCH_SPEED) {
+        double speed = speed_of(a->is_asleep ? b : a);
+        if (speed > TOUCH_SPEED && touches(pair, speed * horizon)) {
             phys_body_wake(a->is_asleep ? a : b);
         }
     }
@@ -131,9 +132,9 @@ void phys_wake_by_touch(rlf_world *world)
 
 static int32_t root_of(rlf_world *world, int32_t i)
 {
-    while (world->island[i] != i) {
-        world->island[i] = world->island[world->island[i]];
-        i = world->island[i];
+    while (world->parent[i] != i) {
+        world->parent[i] = world->parent[world->parent[i]];
+        i = world->parent[i];
     }
     return i;
 }
@@ -143,7 +144,7 @@ void phys_fall_asleep(rlf_world *world, double h)
     bool is_any_tired = false;
     for (int32_t i = 0; i < world->body_top; i++) {
         phys_body *body = &world->bodies[i];
-        world->island[i] = i;
+        world->parent[i] = i;
         if (body->is_alive && !body->is_asleep && !phys_body_is_fixed(body)) {
             watch_rest(body, h);
             is_any_tired = is_any_tired || body->still_time > STILL_TIME;
@@ -153,10 +154,10 @@ void phys_fall_asleep(rlf_world *world, double h)
         return;
     }
     for (int32_t i = 0; i < world->pair_count; i++) {
-        const phys_pair *pair = &world->pairs[i];
-        if (touches(pair) && !phys_body_is_fixed(&world->bodies[pair->a]) &&
+        const phys_pair *pair = &world->pairs[world->order[i]];
+        if (touches(pair, 0.0) && !phys_body_is_fixed(&world->bodies[pair->a]) &&
             !phys_body_is_fixed(&world->bodies[pair->b])) {
-            world->island[root_of(world, pair->b)] = root_of(world, pair->a);
+            world->parent[root_of(world, pair->b)] = root_of(world, pair->a);
         }
     }
     for (int32_t i = 0; i < world->body_top; i++) { /* one restless body keeps its island awake */
@@ -173,6 +174,7 @@ void phys_fall_asleep(rlf_world *world, double h)
             body->still_time > STILL_TIME) {
             body->is_asleep = true;
             body->v = body->w = rlf_vec3_make(0, 0, 0);
+            body->impact_shift = body->impact_turn = body->v;
         }
     }
 }

@@ -9,7 +9,7 @@
 void phys_wake_by_surface(rlf_world *world, const grid_query *query);
 
 /* Ends the sleep of bodies that a moving one touches. */
-void phys_wake_by_touch(rlf_world *world);
+void phys_wake_by_touch(rlf_world *world, double horizon);
 
 /* Puts groups of touching bodies to sleep that all have been still for half a second. */
 void phys_fall_asleep(rlf_world *world, double h);

@@ -67,6 +67,17 @@ void phys_log_impulse(rlf_world *world, phys_contact *contact, double impulse, d
     entry->approach_speed = rlf_max(entry->approach_speed, approach);
 }
 
+void phys_log_contacts(rlf_world *world, phys_contact *contacts, int32_t count)
+{
+    for (int32_t i = 0; i < count; i++) {
+        phys_contact *contact = &contacts[i];
+        if (contact->impulse_sum > 0.0) {
+            phys_log_impulse(world, contact, contact->impulse_sum, contact->approach);
+        }
+        contact->impulse_sum = contact->approach = 0.0;
+    }
+}
+
 /* FNV-1a (Fowler, Noll, Vo 1991) over the bytes of a double, low byte first on any machine. */
 static uint64_t hash_double(uint64_t hash, double value)
 {

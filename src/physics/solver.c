@@ -12,105 +12,113 @@
 #define PUSH_SPEED_MAX 3.0
 /* Overlap left alone, as a share of the body's radius, so that contacts persist. */
 #define SLOP_SHARE 0.002
+/* Rows serve until their bodies have turned by this, radians: levers are then 1 % off. */
+#define TURN_MAX 0.01
+/* Changes of a contact's speed below this ask for no further pass, m/s. */
+#define SETTLED 5e-4
 
-rlf_vec3 phys_contact_velocity(const rlf_world *world, const phys_contact *contact)
+static void make_row(phys_row *row, rlf_vec3 direction, const phys_contact *c, const phys_group *g,
+                     const phys_stance *stance)
 {
-    rlf_vec3 v = phys_body_velocity_at(&world->bodies[contact->a], contact->r_a);
-    rlf_vec3 other = contact->b >= 0
-                         ? phys_body_velocity_at(&world->bodies[contact->b], contact->r_b)
-                         : contact->surface_velocity;
-    return rlf_sub(v, other);
-}
-
-void phys_contact_push(rlf_world *world, const phys_contact *contact, rlf_vec3 impulse)
-{
-    phys_body_push(&world->bodies[contact->a], impulse, contact->r_a);
-    if (contact->b >= 0) {
-        phys_body_push(&world->bodies[contact->b], rlf_neg(impulse), contact->r_b);
+    const rlf_vec3 none = {0, 0, 0};
+    double mobility = 0.0;
+    row->direction = direction;
+    row->drive = rlf_dot(direction, c->surface_velocity);
+    row->turn_a = rlf_cross(c->r_a, direction);
+    row->spin_a = none;
+    if (stance->is_moving_a) {
+        row->spin_a = rlf_mat3_mul_vec(&g->a->inverse_inertia_world, row->turn_a);
+        mobility += g->a->inverse_mass + rlf_dot(row->turn_a, row->spin_a);
     }
-}
-
-static double effective_mass(const rlf_world *world, const phys_contact *contact, rlf_vec3 n)
-{
-    double mobility = phys_body_mobility(&world->bodies[contact->a], contact->r_a, n);
-    if (contact->b >= 0) {
-        mobility += phys_body_mobility(&world->bodies[contact->b], contact->r_b, n);
+    if (g->b != NULL) {
+        row->turn_b = rlf_cross(c->r_b, direction);
+        row->spin_b = none;
+        if (stance->is_moving_b) {
+            row->spin_b = rlf_mat3_mul_vec(&g->b->inverse_inertia_world, row->turn_b);
+            mobility += g->b->inverse_mass + rlf_dot(row->turn_b, row->spin_b);
+        }
     }
-    return mobility > 0.0 ? 1.0 / mobility : 0.0;
+    row->mass = mobility > 0.0 ? 1.0 / mobility : 0.0;
 }
 
-static void prepare_contact(rlf_world *world, phys_contact *contact)
+static void measure_gap(const rlf_world *world, phys_contact *c, const phys_group *g)
 {
-    const phys_body *a = &world->bodies[contact->a];
-    rlf_vec3 n = contact->normal;
-    contact->r_a = rlf_mad(rlf_mat3_mul_vec(&a->R, contact->anchor_a), n, -contact->rounding_a);
-    rlf_vec3 on_a = rlf_add(a->x, contact->r_a);
-    rlf_vec3 on_b;
-    if (contact->b >= 0) {
-        const phys_body *b = &world->bodies[contact->b];
-        contact->r_b = rlf_mad(rlf_mat3_mul_vec(&b->R, contact->anchor_b), n, contact->rounding_b);
-        on_b = rlf_add(b->x, contact->r_b);
+    rlf_vec3 n = c->normal;
+    c->r_a = rlf_mad(rlf_mat3_mul_vec(&g->a->R, c->anchor_a), n, -c->rounding_a);
+    rlf_vec3 on_a = rlf_add(g->a->x, c->r_a), on_b;
+    if (g->b != NULL) {
+        c->r_b = rlf_mad(rlf_mat3_mul_vec(&g->b->R, c->anchor_b), n, c->rounding_b);
+        on_b = rlf_add(g->b->x, c->r_b);
     } else {
-        on_b = rlf_mad(contact->anchor_b, contact->surface_velocity,
-                       world->time - contact->surface_time);
+        on_b = rlf_mad(c->anchor_b, c->surface_velocity, world->time - c->surface_time);
     }
-    contact->separation = rlf_dot(n, rlf_sub(on_a, on_b));
-    contact->tangent[0] = rlf_perpendicular(n);
-    contact->tangent[1] = rlf_cross(n, contact->tangent[0]);
-    contact->mass_n = effective_mass(world, contact, n);
-    contact->mass_t[0] = effective_mass(world, contact, contact->tangent[0]);
-    contact->mass_t[1] = effective_mass(world, contact, contact->tangent[1]);
-    contact->is_impacted = false;
+    c->separation = rlf_dot(n, rlf_sub(on_a, on_b));
+    c->is_impacted = false;
 }
 
-static bool is_moving(const phys_body *body)
+static phys_stance stance_of(const phys_group *g)
 {
-    return body->is_alive && !body->is_asleep && body->inverse_mass > 0.0;
+    phys_stance now = {.turned_a = g->a->turned, .is_moving_a = phys_body_is_moving(g->a)};
+    if (g->b != NULL) {
+        now.turned_b = g->b->turned;
+        now.is_moving_b = phys_body_is_moving(g->b);
+    }
+    now.is_set = true;
+    return now;
 }
 
-void phys_solver_prepare(rlf_world *world)
+void phys_group_prepare(const rlf_world *world, const phys_group *g)
 {
-    world->active_count = 0;
-    for (int32_t i = 0; i < world->pair_count; i++) {
-        phys_pair *pair = &world->pairs[i];
-        if (!is_moving(&world->bodies[pair->a]) && !is_moving(&world->bodies[pair->b])) {
-            continue;
-        }
-        for (int32_t k = 0; k < pair->contact_count; k++) {
-            world->active[world->active_count++] = &pair->contacts[k];
-        }
-    }
-    /* The real surface comes last in a pass: nothing gives way less. */
-    for (int32_t i = 0; i < world->body_top; i++) {
-        phys_body *body = &world->bodies[i];
-        for (int32_t k = 0; is_moving(body) && k < body->surface_count; k++) {
-            world->active[world->active_count++] = &body->surface[k];
+    phys_stance *before = g->stance, now = stance_of(g);
+    bool is_same = before->is_set && before->is_moving_a == now.is_moving_a &&
+                   before->is_moving_b == now.is_moving_b &&
+                   now.turned_a - before->turned_a + now.turned_b - before->turned_b < TURN_MAX;
+    for (int32_t i = 0; i < g->count; i++) {
+        phys_contact *c = &g->contacts[i];
+        measure_gap(world, c, g);
+        if (!is_same) {
+            rlf_vec3 tangent = rlf_perpendicular(c->normal);
+            make_row(&c->rows[0], c->normal, c, g, &now);
+            make_row(&c->rows[1], tangent, c, g, &now);
+            make_row(&c->rows[2], rlf_cross(c->normal, tangent), c, g, &now);
         }
     }
-    for (int32_t i = 0; i < world->active_count; i++) {
-        prepare_contact(world, world->active[i]);
+    if (!is_same) {
+        now.rolling = before->is_set ? before->rolling : now.rolling;
+        *g->stance = now;
     }
 }
 
-static rlf_vec3 friction_vector(const phys_contact *c)
+static inline void warm_start(const phys_group *g, bool has_b)
 {
-    return rlf_add(rlf_scale(c->tangent[0], c->impulse_t[0]),
-                   rlf_scale(c->tangent[1], c->impulse_t[1]));
-}
-
-void phys_solver_warm_start(rlf_world *world)
-{
-    for (int32_t i = 0; i < world->active_count; i++) {
-        const phys_contact *c = world->active[i];
-        if (c->impulse_n > 0.0) {
-            phys_contact_push(world, c, rlf_mad(friction_vector(c), c->normal, c->impulse_n));
+    phys_sides s = phys_sides_load(g);
+    for (int32_t i = 0; i < g->count; i++) {
+        const phys_contact *c = &g->contacts[i];
+        for (int32_t row = 0; row < 3 && c->rows[0].impulse > 0.0; row++) {
+            phys_row_push(&c->rows[row], &s, has_b, c->rows[row].impulse);
         }
     }
+    phys_sides_store(&s, g);
 }
 
-static void solve_normal(rlf_world *world, phys_contact *c, bool bias, double h)
+void phys_group_warm_start(const phys_group *g)
 {
-    double slop = SLOP_SHARE * world->bodies[c->a].shape.radius;
+    if (g->b != NULL) {
+        warm_start(g, true);
+    } else {
+        warm_start(g, false);
+    }
+}
+
+static inline bool is_more(double change, double limit)
+{
+    return change > limit || change < -limit;
+}
+
+static inline bool solve_normal(phys_contact *c, phys_sides *s, bool has_b, bool bias, double slop,
+                                double h)
+{
+    phys_row *row = &c->rows[0];
     double target = 0.0; /* least normal velocity */
     double mass_scale = 1.0, impulse_scale = 0.0;
     if (c->separation > 0.0) {
@@ -121,68 +129,76 @@ static void solve_normal(rlf_world *world, phys_contact *c, bool bias, double h)
         double overlap = rlf_min(c->separation + slop, 0.0);
         target = rlf_min(-SOFT_OMEGA_H / SOFT_A1 / h * overlap, PUSH_SPEED_MAX);
     }
-    double v = rlf_dot(c->normal, phys_contact_velocity(world, c));
-    double change = c->mass_n * mass_scale * (target - v) - impulse_scale * c->impulse_n;
-    double sum = rlf_max(0.0, c->impulse_n + change);
-    change = sum - c->impulse_n;
-    c->impulse_n = sum;
+    double v = phys_row_speed(row, s, has_b);
+    double change = row->mass * mass_scale * (target - v) - impulse_scale * row->impulse;
+    double sum = rlf_max(0.0, row->impulse + change);
+    change = sum - row->impulse;
+    row->impulse = sum;
     if (change != 0.0) {
-        phys_contact_push(world, c, rlf_scale(c->normal, change));
+        phys_row_push(row, s, has_b, change);
     }
+    return is_more(change, SETTLED * row->mass);
 }
 
-void phys_contact_friction(rlf_world *world, phys_contact *c)
+static inline bool solve_friction(phys_contact *c, phys_sides *s, bool has_b)
 {
-    double limit = c->friction * c->impulse_n;
-    rlf_vec3 before = friction_vector(c);
-    if (limit == 0.0 && c->impulse_t[0] == 0.0 && c->impulse_t[1] == 0.0) {
-        return;
+    phys_row *t0 = &c->rows[1], *t1 = &c->rows[2];
+    double limit = c->friction * c->rows[0].impulse;
+    double before[2] = {t0->impulse, t1->impulse};
+    if (limit == 0.0 && before[0] == 0.0 && before[1] == 0.0) {
+        return false;
     }
-    rlf_vec3 v = phys_contact_velocity(world, c);
-    for (int32_t k = 0; k < 2; k++) {
-        c->impulse_t[k] -= c->mass_t[k] * rlf_dot(c->tangent[k], v);
+    double v0 = phys_row_speed(t0, s, has_b), v1 = phys_row_speed(t1, s, has_b);
+    double j0 = before[0] - t0->mass * v0, j1 = before[1] - t1->mass * v1;
+    double length2 = j0 * j0 + j1 * j1;
+    if (length2 > limit * limit) { /* Coulomb's cone */
+        double scale = limit / sqrt(length2);
+        j0 *= scale;
+        j1 *= scale;
     }
-    double length = sqrt(c->impulse_t[0] * c->impulse_t[0] + c->impulse_t[1] * c->impulse_t[1]);
-    if (length > limit) { /* Coulomb's cone */
-        c->impulse_t[0] *= limit / length;
-        c->impulse_t[1] *= limit / length;
-    }
-    phys_contact_push(world, c, rlf_sub(friction_vector(c), before));
+    t0->impulse = j0;
+    t1->impulse = j1;
+    phys_row_push(t0, s, has_b, j0 - before[0]);
+    phys_row_push(t1, s, has_b, j1 - before[1]);
+    return is_more(j0 - before[0], SETTLED * t0->mass) ||
+           is_more(j1 - before[1], SETTLED * t1->mass);
 }
 
-void phys_solver_pass(rlf_world *world, bool bias, double h)
+bool phys_contact_friction(phys_contact *c, phys_sides *s, bool has_b)
 {
-    int32_t last = world->active_count - 1;
-    for (int32_t i = 0; i <= last; i++) {
-        solve_normal(world, world->active[i], bias, h);
-    }
-    for (int32_t i = 0; i <= last; i++) {
-        phys_contact_friction(world, world->active[i]);
-    }
-    for (int32_t i = last; i >= 0; i--) { /* and back: no corner of a face is always the first */
-        solve_normal(world, world->active[i], bias, h);
-    }
+    return solve_friction(c, s, has_b);
 }
 
-void phys_solver_mark_pressed(rlf_world *world)
+static inline bool solve(const phys_group *g, bool has_b, bool bias, double h)
 {
-    for (int32_t i = 0; i < world->active_count; i++) {
-        const phys_contact *c = world->active[i];
-        if (c->impulse_n > 0.0) {
-            world->bodies[c->a].is_pressed = true;
-            if (c->b >= 0) {
-                world->bodies[c->b].is_pressed = true;
-            }
-        }
+    bool is_busy = false;
+    double slop = SLOP_SHARE * g->a->shape.radius;
+    phys_sides s = phys_sides_load(g);
+    for (int32_t i = 0; i < g->count; i++) {
+        is_busy |= solve_normal(&g->contacts[i], &s, has_b, bias, slop, h);
     }
+    for (int32_t i = 0; i < g->count; i++) {
+        is_busy |= solve_friction(&g->contacts[i], &s, has_b);
+    }
+    for (int32_t i = g->count - 1; i >= 0; i--) { /* no corner of a face is always the first */
+        is_busy |= solve_normal(&g->contacts[i], &s, has_b, bias, slop, h);
+    }
+    phys_sides_store(&s, g);
+    return is_busy;
 }
 
-void phys_solver_log(rlf_world *world)
+bool phys_group_solve(const phys_group *g, bool bias, double h)
 {
-    for (int32_t i = 0; i < world->active_count; i++) {
-        phys_contact *c = world->active[i];
-        if (c->impulse_n > 0.0) {
-            phys_log_impulse(world, c, c->impulse_n, 0.0);
-        }
+    if (g->count == 0) {
+        return false;
+    }
+    return g->b != NULL ? solve(g, true, bias, h) : solve(g, false, bias, h);
+}
+
+void phys_group_finish(const phys_group *g)
+{
+    for (int32_t i = 0; i < g->count; i++) {
+        phys_contact *c = &g->contacts[i];
+        c->impulse_sum += c->rows[0].impulse;
     }
 }

@@ -1,4 +1,5 @@
 /* The world's life: making it, adding, finding and changing bodies. */
+#include "physics/pair_search.h"
 #include "physics/world_state.h"
 
 #include "base/cookie.h"
@@ -74,37 +75,7 @@ rlf_result rlf_world_create(const rlf_world_def *def, rlf_world **out)
         return result == RLF_OK ? RLF_ERROR_MEMORY : result;
     }
     world->def = *def;
-    size_t bodies = (size_t)def->body_capacity;
-    size_t pairs = (size_t)(def->contact_capacity - 1) / PHYS_PAIR_CONTACTS + 1;
-    size_t active = bodies * PHYS_SURFACE_CONTACTS + pairs * PHYS_PAIR_CONTACTS;
-    world->pair_capacity = (int32_t)pairs;
-    world->active_capacity = (int32_t)active;
-    world->bodies = rlf_alloc_array(bodies, sizeof(*world->bodies));
-    world->pairs = rlf_alloc_array(pairs, sizeof(*world->pairs));
-    world->old_pairs = rlf_alloc_array(pairs, sizeof(*world->old_pairs));
-    world->intervals = rlf_alloc_array(bodies, sizeof(*world->intervals));
-    world->island = rlf_alloc_array(bodies, sizeof(*world->island));
-    world->active = rlf_alloc_array(active, sizeof(*world->active));
-    world->event_times = rlf_alloc_array(bodies + pairs, sizeof(*world->event_times));
-    world->event_counts = rlf_alloc_array(bodies + pairs, sizeof(*world->event_counts));
-    world->pending = rlf_alloc_array(bodies + pairs, sizeof(*world->pending));
-    world->pair_head = rlf_alloc_array(bodies, sizeof(*world->pair_head));
-    world->pair_next = rlf_alloc_array(2 * pairs, sizeof(*world->pair_next));
-    world->log = rlf_alloc_array((size_t)def->contact_capacity, sizeof(*world->log));
-    world->states = rlf_alloc_array(bodies, sizeof(*world->states));
-    size_t touches = (size_t)def->contact_capacity + bodies;
-    world->touches = rlf_alloc_array(touches, sizeof(*world->touches));
-    world->old_touches = rlf_alloc_array(touches, sizeof(*world->old_touches));
-    world->events = rlf_alloc_array(2 * touches, sizeof(*world->events));
-    world->foreground_tiles.tiles = rlf_alloc_array(TILES_MAX, sizeof(grid_tile));
-    world->background_tiles.tiles = rlf_alloc_array(TILES_MAX, sizeof(grid_tile));
-    if (world->foreground_tiles.tiles == NULL || world->background_tiles.tiles == NULL ||
-        world->bodies == NULL || world->pairs == NULL || world->old_pairs == NULL ||
-        world->intervals == NULL || world->island == NULL || world->active == NULL ||
-        world->event_times == NULL || world->event_counts == NULL || world->pending == NULL ||
-        world->pair_head == NULL || world->pair_next == NULL || world->log == NULL ||
-        world->states == NULL || world->touches == NULL || world->old_touches == NULL ||
-        world->events == NULL) {
+    if (!phys_world_allocate(world)) {
         rlf_world_destroy(&world);
         return RLF_ERROR_MEMORY;
     }
@@ -122,24 +93,7 @@ void rlf_world_destroy(rlf_world **world)
     for (int32_t i = 0; w->bodies != NULL && i < w->body_top; i++) {
         phys_shape_finish(&w->bodies[i].shape);
     }
-    rlf_free(w->bodies);
-    rlf_free(w->pairs);
-    rlf_free(w->old_pairs);
-    rlf_free(w->intervals);
-    rlf_free(w->island);
-    rlf_free(w->active);
-    rlf_free(w->event_times);
-    rlf_free(w->event_counts);
-    rlf_free(w->pending);
-    rlf_free(w->pair_head);
-    rlf_free(w->pair_next);
-    rlf_free(w->log);
-    rlf_free(w->states);
-    rlf_free(w->touches);
-    rlf_free(w->old_touches);
-    rlf_free(w->events);
-    rlf_free(w->foreground_tiles.tiles);
-    rlf_free(w->background_tiles.tiles);
+    phys_world_free(w);
     rlf_free(w);
     *world = NULL;
 }
@@ -188,13 +142,7 @@ static void remove_body(rlf_world *world, int32_t index)
     body->is_alive = false;
     body->generation++;
     body->surface_count = 0;
-    int32_t kept = 0; /* its pairs go with it */
-    for (int32_t i = 0; i < world->pair_count; i++) {
-        if (world->pairs[i].a != index && world->pairs[i].b != index) {
-            world->pairs[kept++] = world->pairs[i];
-        }
-    }
-    world->pair_count = kept;
+    phys_drop_pairs(world, index);
 }
 
 void rlf_world_remove_body(rlf_world *world, rlf_body_id id)
@@ -239,6 +187,7 @@ bool rlf_world_set_body(rlf_world *world, rlf_body_id id, const rlf_pose *T_worl
         body->w = angular_velocity;
     }
     body->surface_count = 0;
+    body->turned += RLF_PI; /* whatever the turn was: its contacts are void */
     phys_body_orient(body);
     wake_near(world, body);
     phys_world_publish(world);
@@ -281,7 +230,6 @@ void rlf_world_reset(rlf_world *world)
             remove_body(world, i);
         }
     }
-    world->pair_count = 0;
     world->log_count = 0;
     world->touch_count = world->event_count = 0;
     world->time = 0.0;

@@ -6,18 +6,26 @@
 #include "physics/grid_shell.h"
 #include "physics/grid_tiles.h"
 
-/* Two bodies that are near each other. */
-typedef struct phys_pair {
-    int32_t a, b; /* a < b */
-    int32_t contact_count;
-    phys_contact contacts[PHYS_PAIR_CONTACTS];
-} phys_pair;
+/* Substeps between searches for pairs. */
+#define PHYS_PERIOD_MAX 4
 
-/* Interval of a body along the sweep axis. */
-typedef struct phys_interval {
-    double low, high;
-    int32_t body;
-} phys_interval;
+/* Two bodies whose boxes overlap. */
+typedef struct phys_near {
+    int32_t a, b; /* a < b */
+} phys_near;
+
+/* A body in the broad phase: the cell of its centre and half the size of its box. */
+typedef struct phys_proxy {
+    int64_t cell;
+    rlf_vec3 half;
+} phys_proxy;
+
+/* Bodies that touch each other, directly or through others; ranges of island_bodies and
+ * island_pairs. */
+typedef struct phys_island {
+    int32_t body_begin, body_end;
+    int32_t pair_begin, pair_end;
+} phys_island;
 
 /* Two things that touched during an advance. */
 typedef struct phys_touch {
@@ -30,17 +38,31 @@ struct rlf_world {
     phys_body *bodies;
     int32_t body_top; /* bodies beyond it were never used */
 
-    phys_pair *pairs, *old_pairs; /* sorted by (a, b) */
-    int32_t pair_count, old_pair_count, pair_capacity;
-    phys_interval *intervals;
-    int32_t *island; /* union-find parents, one per body */
-    phys_contact **active;
-    double *event_times;   /* see impact.c */
-    int32_t *event_counts; /* of this substep, per group */
-    int32_t *pending;      /* groups that have an event */
+    rlf_vec3 *points;      /* of the bodies' shapes */
+    phys_contact *surface; /* of the bodies */
+
+    phys_pair *pairs;           /* stay in their place while they live */
+    int32_t *order, *old_order; /* those that live, sorted by (a, b) */
+    int32_t *free_pairs;        /* those that do not */
+    int32_t pair_count, free_count, pair_capacity;
+    phys_proxy *proxies; /* see broad_phase.c */
+    int32_t *buckets, *bucket_items;
+    int32_t bucket_count; /* a power of two */
+    phys_near *near, *near_sorted;
+    int32_t near_count;
+    int32_t *near_begin; /* per body, and one more */
+
+    int32_t *parent;    /* union-find over bodies */
+    int32_t *island_of; /* per body */
+    phys_island *islands;
+    int32_t island_count;
+    int32_t *island_bodies, *island_pairs;
+
+    double *event_times;   /* see impact.c; of the pairs, then of the bodies' surfaces */
+    int32_t *event_counts; /* of this substep */
+    int32_t *pending;      /* groups that have an event; island by island */
     int32_t *pair_head;    /* first link of each body's list of pairs, -1 = none */
     int32_t *pair_next;    /* link 2 k is pair k as seen from its a, 2 k + 1 from its b */
-    int32_t active_capacity, active_count;
 
     phys_touch *touches, *old_touches; /* of this advance and the one before, sorted by key */
     int32_t touch_count, old_touch_count;
@@ -67,6 +89,11 @@ struct rlf_world {
     double shell_time;   /* ... and the world's time */
 };
 
+/* Gets all memory as the def asks; false when there is too little. phys_world_free gives it back.
+ */
+bool phys_world_allocate(rlf_world *world);
+void phys_world_free(rlf_world *world);
+
 /* Writes the snapshot from the bodies and the contact log. */
 void phys_world_publish(rlf_world *world);
 
@@ -81,6 +108,9 @@ void phys_body_wake(phys_body *body);
 
 /* Adds `impulse` at `contact` to the frame's contact list. */
 void phys_log_impulse(rlf_world *world, phys_contact *contact, double impulse, double approach);
+
+/* Moves the impulses that contacts have gathered to the list. */
+void phys_log_contacts(rlf_world *world, phys_contact *contacts, int32_t count);
 
 /* Lists the touches that began and ended in this advance. */
 void phys_find_events(rlf_world *world);

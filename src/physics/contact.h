@@ -1,0 +1,64 @@
+/* Touching points of bodies, and the pairs and surfaces that they belong to. */
+#ifndef RLF_PHYSICS_CONTACT_H
+#define RLF_PHYSICS_CONTACT_H
+
+#include "relief/snapshot.h"
+
+#define PHYS_SURFACE_CONTACTS 12 /* of one body with the real surface */
+#define PHYS_PAIR_CONTACTS 4     /* of two bodies */
+
+/* One direction in which a contact acts: what the solver reads, side by side. */
+typedef struct phys_row {
+    rlf_vec3 direction;      /* world, unit: the normal or a tangent */
+    rlf_vec3 turn_a, spin_a; /* r_a x direction, and what a unit impulse adds to w_a */
+    double mass;             /* effective, kg */
+    double impulse;          /* N s of the last substep: start of the next one's search */
+    double drive;            /* speed of the surface along the direction, m/s */
+    rlf_vec3 turn_b, spin_b; /* the same of b */
+} phys_row;
+
+/* One touching point. The normal points from b (or the surface) to a. */
+typedef struct phys_contact {
+    phys_row rows[3];  /* normal, two tangents */
+    double separation; /* metres at the start of the substep */
+    double friction, restitution;
+    bool is_impacted; /* bounced in this substep */
+    rlf_contact_other other;
+    int32_t a, b;              /* body indices; b < 0: the surface */
+    int32_t label;             /* region label of the surface, 0 else */
+    int32_t log;               /* entry in the frame's contact list, -1 = none yet */
+    double impulse_sum;        /* N s along the normal that the list does not hold yet ... */
+    double approach;           /* ... and the highest speed at which they met, m/s */
+    rlf_vec3 anchor_a;         /* in a's frame, metres */
+    rlf_vec3 anchor_b;         /* in b's frame; of a surface: world, at surface_time */
+    double rounding_a;         /* the touching point of a is this far from anchor_a along -normal */
+    double rounding_b;         /* ... of b from anchor_b along the normal: round shapes roll */
+    rlf_vec3 normal;           /* world, unit */
+    rlf_vec3 surface_velocity; /* world, m/s; 0 between bodies */
+    double surface_time;       /* world time of anchor_b, s */
+    rlf_vec3 r_a, r_b;         /* from the centres to the touching points, world */
+} phys_contact;
+
+/* Where the bodies of a group of contacts stood when its rows were made. */
+typedef struct phys_stance {
+    double turned_a, turned_b; /* phys_body.turned of each */
+    bool is_moving_a, is_moving_b;
+    bool is_set;
+    rlf_vec3 rolling; /* angular impulse against rolling of the last substep, N m s */
+} phys_stance;
+
+/* Two bodies that are near each other. */
+typedef struct phys_pair {
+    int32_t a, b;        /* a < b */
+    int32_t age, period; /* substeps since, and between, searches for contacts */
+    bool is_due;         /* contacts are to be searched now */
+    rlf_vec3 offset;     /* from a to b at the last search */
+    double turned_a, turned_b;
+    double gap;    /* m between them then, or less; < 0 when they touch or it is not known */
+    double margin; /* m within which contacts were searched */
+    phys_stance stance;
+    int32_t contact_count;
+    phys_contact contacts[PHYS_PAIR_CONTACTS];
+} phys_pair;
+
+#endif

@@ -1,0 +1,237 @@
+/* Islands, and what happens to one in a substep. No two islands share a body that moves, so they
+ * may be worked on in any order. */
+#include "physics/grid_collide.h"
+#include "physics/integrate.h"
+#include "physics/solver.h"
+
+#define SOLVE_PASSES 4
+#define RELAX_PASSES 2
+
+static int32_t root_of(rlf_world *world, int32_t i)
+{
+    while (world->parent[i] != i) {
+        world->parent[i] = world->parent[world->parent[i]];
+        i = world->parent[i];
+    }
+    return i;
+}
+
+/* Pairs that touch now, or that will be searched again before the islands are. */
+static bool links(const phys_pair *pair)
+{
+    return pair->contact_count > 0 || pair->period < PHYS_PERIOD_MAX;
+}
+
+static void unite(rlf_world *world)
+{
+    for (int32_t i = 0; i < world->body_top; i++) {
+        world->parent[i] = i;
+    }
+    for (int32_t k = 0; k < world->pair_count; k++) {
+        const phys_pair *pair = &world->pairs[world->order[k]];
+        if (links(pair) && phys_body_is_moving(&world->bodies[pair->a]) &&
+            phys_body_is_moving(&world->bodies[pair->b])) {
+            int32_t a = root_of(world, pair->a), b = root_of(world, pair->b);
+            world->parent[a > b ? a : b] = a > b ? b : a; /* the lowest body is the root */
+        }
+    }
+}
+
+/* The island of a pair: that of one of its bodies that moves; -1 when neither does, or when there
+ * is nothing between them. */
+static int32_t island_of_pair(const rlf_world *world, const phys_pair *pair)
+{
+    if (!links(pair)) {
+        return -1;
+    }
+    if (phys_body_is_moving(&world->bodies[pair->a])) {
+        return world->island_of[pair->a];
+    }
+    return phys_body_is_moving(&world->bodies[pair->b]) ? world->island_of[pair->b] : -1;
+}
+
+/* Numbers the islands by their lowest body and counts what they hold in the ..._end fields. */
+static void count_islands(rlf_world *world)
+{
+    world->island_count = 0;
+    for (int32_t i = 0; i < world->body_top; i++) {
+        if (!phys_body_is_moving(&world->bodies[i])) {
+            continue;
+        }
+        int32_t root = root_of(world, i);
+        if (root == i) {
+            world->island_of[i] = world->island_count;
+            world->islands[world->island_count++] = (phys_island){0, 0, 0, 0};
+        }
+        world->island_of[i] = world->island_of[root];
+        world->islands[world->island_of[i]].body_end++;
+    }
+    for (int32_t k = 0; k < world->pair_count; k++) {
+        int32_t island = island_of_pair(world, &world->pairs[world->order[k]]);
+        if (island >= 0) {
+            world->islands[island].pair_end++;
+        }
+    }
+}
+
+void phys_find_islands(rlf_world *world)
+{
+    unite(world);
+    count_islands(world);
+    int32_t bodies = 0, pairs = 0;
+    for (int32_t i = 0; i < world->island_count; i++) {
+        phys_island *island = &world->islands[i];
+        int32_t body_count = island->body_end, pair_count = island->pair_end;
+        *island = (phys_island){bodies, bodies, pairs, pairs};
+        bodies += body_count;
+        pairs += pair_count;
+    }
+    for (int32_t i = 0; i < world->body_top; i++) {
+        if (phys_body_is_moving(&world->bodies[i])) {
+            world->island_bodies[world->islands[world->island_of[i]].body_end++] = i;
+        }
+    }
+    for (int32_t k = 0; k < world->pair_count; k++) {
+        int32_t island = island_of_pair(world, &world->pairs[world->order[k]]);
+        if (island >= 0) {
+            world->island_pairs[world->islands[island].pair_end++] = world->order[k];
+        }
+    }
+}
+
+static void start_body(const rlf_world *world, phys_body *body)
+{
+    rlf_vec3 zero = {0, 0, 0};
+    body->impact_shift = body->impact_turn = zero;
+    body->impact_time = 0.0;
+    body->is_pressed = false;
+    rlf_vec3 gravity = rlf_scale(world->def.gravity, body->gravity_scale);
+    body->acceleration = rlf_mad(gravity, body->force, body->inverse_mass);
+    body->angular_acceleration = rlf_mat3_mul_vec(&body->inverse_inertia_world, body->torque);
+}
+
+static void limit_speed(phys_body *body, double max_speed, double h)
+{
+    double speed = rlf_length(body->v);
+    double spin = rlf_length(body->w) * h;
+    if (speed > max_speed) {
+        body->v = rlf_scale(body->v, max_speed / speed);
+    }
+    if (spin > 1.0) { /* one radian per substep */
+        body->w = rlf_scale(body->w, 1.0 / spin);
+    }
+}
+
+static void accelerate(const rlf_world *world, phys_body *body, double h)
+{
+    body->v = rlf_mad(body->v, body->acceleration, h);
+    body->w = rlf_mad(body->w, body->angular_acceleration, h);
+    if (body->linear_damping > 0.0) {
+        body->v = rlf_scale(body->v, rlf_exp(-body->linear_damping * h));
+    }
+    if (body->angular_damping > 0.0) {
+        body->w = rlf_scale(body->w, rlf_exp(-body->angular_damping * h));
+    }
+    limit_speed(body, world->def.max_speed, h);
+}
+
+static void move_body(const rlf_world *world, phys_body *body, const grid_query *query, double h)
+{
+    rlf_vec3 before = body->x;
+    limit_speed(body, world->def.max_speed, h);
+    phys_integrate_position(body, h);
+    rlf_vec3 moved = rlf_sub(body->x, before);
+    if (query != NULL && rlf_length(moved) > 0.1 * body->shape.inner_radius) {
+        grid_guard_centre(query, body, before);
+    }
+}
+
+/* Group k of an island: its pairs first. The real surface comes last: nothing gives way less. */
+static phys_group group_of(rlf_world *world, const phys_island *island, int32_t k)
+{
+    int32_t pair_count = island->pair_end - island->pair_begin;
+    if (k < pair_count) {
+        return phys_group_of_pair(world, world->island_pairs[island->pair_begin + k]);
+    }
+    return phys_group_of_body(world, world->island_bodies[island->body_begin + k - pair_count]);
+}
+
+static bool is_busy_in(const phys_group *g, int32_t pass)
+{
+    return g->a->busy_pass >= pass || (g->b != NULL && g->b->busy_pass >= pass);
+}
+
+static void set_busy(phys_body *body, int32_t pass)
+{
+    if (body != NULL && phys_body_is_moving(body)) {
+        body->busy_pass = pass;
+    }
+}
+
+/* Passes over the groups next to which something still changes. */
+static void solve(rlf_world *world, const phys_island *island, bool bias, int32_t passes, double h)
+{
+    int32_t count = island->pair_end - island->pair_begin + island->body_end - island->body_begin;
+    for (int32_t i = island->body_begin; i < island->body_end; i++) {
+        world->bodies[world->island_bodies[i]].busy_pass = 0;
+    }
+    bool is_busy = true;
+    for (int32_t pass = 0; pass < passes && is_busy; pass++) {
+        is_busy = false;
+        for (int32_t k = 0; k < count; k++) {
+            phys_group g = group_of(world, island, k);
+            if (is_busy_in(&g, pass) && phys_group_solve(&g, bias, h)) {
+                set_busy(g.a, pass + 1);
+                set_busy(g.b, pass + 1);
+                is_busy = true;
+            }
+        }
+    }
+}
+
+static void mark_pressed(const phys_group *g)
+{
+    for (int32_t i = 0; i < g->count; i++) {
+        if (g->contacts[i].rows[0].impulse > 0.0) {
+            g->a->is_pressed = g->a->is_pressed || phys_body_is_moving(g->a);
+            if (g->b != NULL && phys_body_is_moving(g->b)) {
+                g->b->is_pressed = true;
+            }
+            return;
+        }
+    }
+}
+
+void phys_island_substep(rlf_world *world, const phys_island *island, const grid_query *query,
+                         double h)
+{
+    int32_t count = island->pair_end - island->pair_begin + island->body_end - island->body_begin;
+    for (int32_t i = island->body_begin; i < island->body_end; i++) {
+        start_body(world, &world->bodies[world->island_bodies[i]]);
+    }
+    for (int32_t k = 0; k < count; k++) {
+        phys_group g = group_of(world, island, k);
+        phys_group_prepare(world, &g);
+    }
+    phys_solve_impacts(world, island, h);
+    for (int32_t i = island->body_begin; i < island->body_end; i++) {
+        accelerate(world, &world->bodies[world->island_bodies[i]], h);
+    }
+    for (int32_t k = 0; k < count; k++) {
+        phys_group g = group_of(world, island, k);
+        phys_group_warm_start(&g);
+    }
+    solve(world, island, true, SOLVE_PASSES, h);
+    for (int32_t k = 0; k < count; k++) {
+        phys_group g = group_of(world, island, k);
+        mark_pressed(&g);
+    }
+    for (int32_t i = island->body_begin; i < island->body_end; i++) {
+        move_body(world, &world->bodies[world->island_bodies[i]], query, h);
+    }
+    solve(world, island, false, RELAX_PASSES, h);
+    for (int32_t k = 0; k < count; k++) {
+        phys_group g = group_of(world, island, k);
+        phys_group_finish(&g);
+    }
+}

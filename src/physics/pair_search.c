@@ -1,0 +1,246 @@
+/* Keeping pairs from one broad phase to the next, and searching their contacts when they moved. */
+#include "physics/pair_search.h"
+#include "physics/broad_phase.h"
+#include "physics/pair_collide.h"
+
+/* Bodies that moved less than this share of their radius keep their contacts. */
+#define STILL_SHARE 0.002
+/* Fast bodies are searched again when they moved by this share of the largest ball in them. */
+#define TRAVEL_SHARE 0.2
+
+static double travel_of(const phys_body *a, const phys_body *b)
+{
+    return rlf_length(rlf_sub(a->v, b->v)) + rlf_length(a->w) * a->shape.radius +
+           rlf_length(b->w) * b->shape.radius;
+}
+
+/* How far any point of one can have moved past the other since the last search. */
+static double moved_since(const phys_pair *pair, const phys_body *a, const phys_body *b)
+{
+    rlf_vec3 offset = rlf_sub(b->x, a->x);
+    return rlf_length(rlf_sub(offset, pair->offset)) +
+           (a->turned - pair->turned_a) * a->shape.radius +
+           (b->turned - pair->turned_b) * b->shape.radius;
+}
+
+static void keep_impulse(phys_contact *contact, const phys_contact *old, int32_t old_count,
+                         double limit)
+{
+    double best2 = limit * limit;
+    for (int32_t i = 0; i < old_count; i++) {
+        const phys_contact *before = &old[i];
+        rlf_vec3 d = rlf_sub(before->anchor_a, contact->anchor_a);
+        if (rlf_dot(d, d) < best2 && rlf_dot(before->normal, contact->normal) > 0.8) {
+            best2 = rlf_dot(d, d);
+            for (int32_t row = 0; row < 3; row++) {
+                contact->rows[row].impulse = before->rows[row].impulse;
+            }
+            contact->log = before->log;
+        }
+    }
+}
+
+static void set_contacts(phys_pair *pair, const phys_body *a, const phys_body *b,
+                         const pair_point *points, const int32_t *chosen, int32_t count)
+{
+    phys_contact old[PHYS_PAIR_CONTACTS];
+    int32_t old_count = pair->contact_count;
+    for (int32_t i = 0; i < old_count; i++) {
+        old[i] = pair->contacts[i];
+    }
+    double radius = rlf_min(a->shape.radius, b->shape.radius);
+    pair->contact_count = count;
+    for (int32_t i = 0; i < count; i++) {
+        const pair_point *p = &points[chosen[i]];
+        phys_contact fresh = {.a = pair->a, .b = pair->b, .other = RLF_CONTACT_BODY, .log = -1};
+        fresh.anchor_a = rlf_rotate(rlf_quat_conjugate(a->q), rlf_sub(p->core_a, a->x));
+        fresh.anchor_b = rlf_rotate(rlf_quat_conjugate(b->q), rlf_sub(p->core_b, b->x));
+        fresh.rounding_a = p->rounding_a;
+        fresh.rounding_b = p->rounding_b;
+        fresh.normal = p->normal;
+        fresh.separation = p->separation;
+        fresh.friction = sqrt(a->friction * b->friction);
+        fresh.restitution = rlf_max(a->restitution, b->restitution);
+        keep_impulse(&fresh, old, old_count, 0.2 * radius);
+        pair->contacts[i] = fresh;
+    }
+}
+
+static void collide_pair(rlf_world *world, phys_pair *pair, double h)
+{
+    pair_point points[PAIR_POINTS_MAX];
+    int32_t chosen[PHYS_PAIR_CONTACTS];
+    const phys_body *a = &world->bodies[pair->a], *b = &world->bodies[pair->b];
+    double travel = travel_of(a, b) * h;
+    double inner = rlf_min(a->shape.inner_radius, b->shape.inner_radius);
+    double period = rlf_clamp(TRAVEL_SHARE * inner / rlf_max(travel, 1e-9), 1.0, PHYS_PERIOD_MAX);
+    pair->period = (int32_t)period;
+    pair->age = 0;
+    pair->margin = PHYS_PAIR_MARGIN + (pair->period + 1) * travel;
+    pair->offset = rlf_sub(b->x, a->x);
+    pair->turned_a = a->turned;
+    pair->turned_b = b->turned;
+    pair->stance.is_set = false;
+    bool are_boxes = a->shape.shape.type == RLF_SHAPE_BOX && b->shape.shape.type == RLF_SHAPE_BOX;
+    pair->gap = -1.0;
+    int32_t count = are_boxes ? pair_collide_boxes(a, b, pair->margin, points, &pair->gap)
+                              : pair_collide_shapes(a, b, pair->margin, points);
+    count = count > 0
+                ? pair_reduce(points, count, rlf_min(a->shape.radius, b->shape.radius), chosen)
+                : 0;
+    set_contacts(pair, a, b, points, chosen, count);
+}
+
+/* Whether a search would find what the last one found. */
+static bool is_settled(const rlf_world *world, const phys_pair *pair, double h)
+{
+    const phys_body *a = &world->bodies[pair->a], *b = &world->bodies[pair->b];
+    double moved = moved_since(pair, a, b);
+    double margin = PHYS_PAIR_MARGIN + (PHYS_PERIOD_MAX + 1) * travel_of(a, b) * h;
+    if (pair->contact_count == 0) {
+        return pair->gap - moved > margin;
+    }
+    return margin <= pair->margin + PHYS_PAIR_MARGIN &&
+           moved < STILL_SHARE * rlf_min(a->shape.radius, b->shape.radius);
+}
+
+typedef struct pair_job {
+    rlf_world *world;
+    double h;
+} pair_job;
+
+static void collide_range(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    pair_job *job = context;
+    (void)worker;
+    for (int32_t i = begin; i < end; i++) {
+        phys_pair *pair = &job->world->pairs[job->world->order[i]];
+        if (pair->is_due) {
+            collide_pair(job->world, pair, job->h);
+        }
+    }
+}
+
+static void search_due(rlf_world *world, double h)
+{
+    int32_t due = 0;
+    for (int32_t i = 0; i < world->pair_count; i++) {
+        phys_pair *pair = &world->pairs[world->order[i]];
+        if (pair->is_due) {
+            phys_log_contacts(world, pair->contacts, pair->contact_count);
+            due++;
+        }
+    }
+    if (due > 0) {
+        pair_job job = {world, h};
+        rlf_pool *pool = due >= 64 ? world->def.pool : NULL;
+        rlf_parallel_for(pool, world->pair_count, 32, collide_range, &job);
+    }
+}
+
+static void add_pair(rlf_world *world, phys_near key)
+{
+    if (world->free_count > 0) {
+        int32_t index = world->free_pairs[--world->free_count];
+        phys_pair *pair = &world->pairs[index];
+        pair->a = key.a;
+        pair->b = key.b;
+        pair->contact_count = 0;
+        pair->gap = -1.0;
+        pair->stance.is_set = false;
+        world->order[world->pair_count++] = index;
+    }
+}
+
+static bool is_before(int32_t a, int32_t b, phys_near key)
+{
+    return a < key.a || (a == key.a && b < key.b);
+}
+
+/* An old pair that is not near any more: kept while both bodies sleep. */
+static void keep_or_free(rlf_world *world, int32_t index)
+{
+    phys_pair *pair = &world->pairs[index];
+    const phys_body *a = &world->bodies[pair->a], *b = &world->bodies[pair->b];
+    if (phys_body_is_idle(a) && phys_body_is_idle(b) && pair->contact_count > 0) {
+        world->order[world->pair_count++] = index;
+        return;
+    }
+    phys_log_contacts(world, pair->contacts, pair->contact_count);
+    world->free_pairs[world->free_count++] = index;
+}
+
+/* Both lists are sorted. */
+static void merge(rlf_world *world)
+{
+    int32_t *swap = world->old_order;
+    int32_t old_count = world->pair_count, at = 0;
+    world->old_order = world->order;
+    world->order = swap;
+    world->pair_count = 0;
+    for (int32_t k = 0; k < world->near_count; k++) {
+        phys_near key = world->near_sorted[k];
+        for (; at < old_count; at++) {
+            const phys_pair *old = &world->pairs[world->old_order[at]];
+            if (!is_before(old->a, old->b, key)) {
+                break;
+            }
+            keep_or_free(world, world->old_order[at]);
+        }
+        const phys_pair *old = at < old_count ? &world->pairs[world->old_order[at]] : NULL;
+        if (old != NULL && old->a == key.a && old->b == key.b) {
+            world->order[world->pair_count++] = world->old_order[at++];
+        } else {
+            add_pair(world, key);
+        }
+    }
+    for (; at < old_count; at++) {
+        keep_or_free(world, world->old_order[at]);
+    }
+}
+
+void phys_find_pairs(rlf_world *world, double h)
+{
+    phys_find_near(world, (PHYS_PERIOD_MAX + 1) * h);
+    merge(world);
+    for (int32_t i = 0; i < world->pair_count; i++) {
+        phys_pair *pair = &world->pairs[world->order[i]];
+        bool is_idle = phys_body_is_idle(&world->bodies[pair->a]) &&
+                       phys_body_is_idle(&world->bodies[pair->b]);
+        pair->is_due = !is_idle && !is_settled(world, pair, h);
+        pair->age = 0;
+        if (!pair->is_due) {
+            pair->period = PHYS_PERIOD_MAX;
+        }
+    }
+    search_due(world, h);
+}
+
+void phys_refresh_pairs(rlf_world *world, double h)
+{
+    bool is_any_due = false;
+    for (int32_t i = 0; i < world->pair_count; i++) {
+        phys_pair *pair = &world->pairs[world->order[i]];
+        pair->is_due = ++pair->age >= pair->period;
+        is_any_due = is_any_due || pair->is_due;
+    }
+    if (is_any_due) {
+        search_due(world, h);
+    }
+}
+
+void phys_drop_pairs(rlf_world *world, int32_t body)
+{
+    int32_t kept = 0;
+    for (int32_t i = 0; i < world->pair_count; i++) {
+        int32_t index = world->order[i];
+        phys_pair *pair = &world->pairs[index];
+        if (pair->a == body || pair->b == body) {
+            phys_log_contacts(world, pair->contacts, pair->contact_count);
+            world->free_pairs[world->free_count++] = index;
+        } else {
+            world->order[kept++] = index;
+        }
+    }
+    world->pair_count = kept;
+}

@@ -1,0 +1,98 @@
+/* A world's memory: all of it is there from the start. */
+#include "physics/world_state.h"
+
+#include <string.h>
+
+/* One array: where its pointer is kept, how many elements of which size. */
+typedef struct memory_plan {
+    void *place;
+    size_t count, size;
+} memory_plan;
+
+#define PLANS_MAX 32
+#define PLAN(field, number)                                                                        \
+    {                                                                                              \
+        &w->field, (number), sizeof(*w->field)                                                     \
+    }
+
+static int32_t plan_memory(rlf_world *w, memory_plan plans[PLANS_MAX])
+{
+    size_t bodies = (size_t)w->def.body_capacity, pairs = (size_t)w->pair_capacity;
+    size_t contacts = (size_t)w->def.contact_capacity;
+    const memory_plan all[] = {
+        PLAN(bodies, bodies),
+        PLAN(points, bodies * PHYS_POINTS_MAX),
+        PLAN(surface, bodies * PHYS_SURFACE_CONTACTS),
+        PLAN(pairs, pairs),
+        PLAN(order, pairs),
+        PLAN(old_order, pairs),
+        PLAN(free_pairs, pairs),
+        PLAN(proxies, bodies),
+        PLAN(buckets, (size_t)w->bucket_count + 2),
+        PLAN(bucket_items, bodies),
+        PLAN(near, pairs),
+        PLAN(near_sorted, pairs),
+        PLAN(near_begin, bodies + 1),
+        PLAN(parent, bodies),
+        PLAN(island_of, bodies),
+        PLAN(islands, bodies),
+        PLAN(island_bodies, bodies),
+        PLAN(island_pairs, pairs),
+        PLAN(event_times, bodies + pairs),
+        PLAN(event_counts, bodies + pairs),
+        PLAN(pending, bodies + pairs),
+        PLAN(pair_head, bodies),
+        PLAN(pair_next, 2 * pairs),
+        PLAN(log, contacts),
+        PLAN(states, bodies),
+        PLAN(touches, contacts + bodies),
+        PLAN(old_touches, contacts + bodies),
+        PLAN(events, 2 * (contacts + bodies)),
+        PLAN(foreground_tiles.tiles, TILES_MAX),
+        PLAN(background_tiles.tiles, TILES_MAX),
+    };
+    memcpy(plans, all, sizeof(all));
+    return (int32_t)(sizeof(all) / sizeof(all[0]));
+}
+
+/* Crowds have about three touching pairs per body; six leave room for those that are near. */
+static void choose_sizes(rlf_world *world)
+{
+    int32_t listed = (world->def.contact_capacity - 1) / PHYS_PAIR_CONTACTS + 1;
+    int32_t crowd = 6 * world->def.body_capacity;
+    world->pair_capacity = listed > crowd ? listed : crowd;
+    world->bucket_count = 16;
+    while (world->bucket_count < 2 * world->def.body_capacity) {
+        world->bucket_count *= 2;
+    }
+}
+
+bool phys_world_allocate(rlf_world *world)
+{
+    memory_plan plans[PLANS_MAX];
+    choose_sizes(world);
+    int32_t count = plan_memory(world, plans);
+    for (int32_t i = 0; i < count; i++) {
+        void *memory = rlf_alloc_array(plans[i].count, plans[i].size);
+        memcpy(plans[i].place, &memory, sizeof(memory));
+        if (memory == NULL) {
+            return false;
+        }
+    }
+    world->free_count = world->pair_capacity;
+    for (int32_t i = 0; i < world->free_count; i++) { /* the first ones are taken first */
+        world->free_pairs[i] = world->pair_capacity - 1 - i;
+    }
+    return true;
+}
+
+void phys_world_free(rlf_world *world)
+{
+    memory_plan plans[PLANS_MAX];
+    int32_t count = plan_memory(world, plans);
+    for (int32_t i = 0; i < count; i++) {
+        void *memory;
+        memcpy(&memory, plans[i].place, sizeof(memory));
+        rlf_free(memory);
+    }
+}
