@@ -129,6 +129,9 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
         rlf_fill_holes(stage, kept, slot->depth, slot->reason);
         rlf_stage_add_time(stage, RLF_SURFACE_FILL);
     }
+    if (smooth && fill) {
+        rlf_normals_outline(stage, slot);
+    }
     if (smooth) {
         rlf_normals_job job = rlf_normals_job_make(stage, slot->depth, slot->normal);
         rlf_normals_plane_complete(&job);

@@ -54,6 +54,9 @@ void rlf_normals_plane_complete(const rlf_normals_job *job);
 /* Exact inverse-depth normal of one pixel, for those that no plane explains. */
 void rlf_normals_slope_pixel(const rlf_normals_job *job, int32_t x, int32_t y);
 
+/* Normals of filled pixels at the outline of rounded things; only seen pixels' normals are read. */
+void rlf_normals_outline(const rlf_reconstruct *stage, rlf_slot *slot);
+
 /* ---- components.c ---- */
 /* Connected components of the members of work.links, over their links, into work.runs; numbered
  * from 1 in raster order. work.size holds their pixel counts. `spans`: where the members of each

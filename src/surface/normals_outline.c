@@ -1,0 +1,208 @@
+/* Normals of filled pixels at the outline of rounded things.
+ *
+ * Where a smooth surface turns out of sight its normal is perpendicular to the ray and, in the
+ * image, points across the outline (Koenderink 1984). The sensor drops just these pixels, and the
+ * windows that fit next to them know only the part that faces the camera. Along the way out, the
+ * outward component of a circle's or a ball's unit normal grows linearly with the position in the
+ * image, up to 1 at the outline. So a filled pixel's normal lies between the mean of those that
+ * were seen further in and the outline's, if these already turn outwards; those of a flat face do
+ * not. */
+#include "surface/steps.h"
+
+#include "kernel/kernel.h"
+
+#include <math.h>
+
+enum { REACH = 2, STEPS = 5 };
+
+static const float MOST_APART = 0.05f; /* share of the depth, of samples of one surface */
+static const float LEAST_JUMP = 0.04f; /* the same, of what is behind the outline */
+static const float LEAST_TURN = 0.12f; /* share of the rounded surface's turn that must be seen */
+static const float MOST_BEND = 0.1f;   /* RMS of the samples about a steady turn: a crease bends */
+static const float MOST_ASIDE = 0.98f; /* sine of the steepest normal that is given */
+
+typedef struct outline_job {
+    int32_t width, height;
+    const float *ray_x, *ray_y, *depth;
+    const uint8_t *reason;
+    float *const *normal;
+} outline_job;
+
+/* Where the outline is, seen from a pixel in front of it. */
+typedef struct outline {
+    float x, y;     /* unit, outwards */
+    float distance; /* pixels */
+} outline;
+
+static int32_t least(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+/* From what is behind the pixel and what is not, within two pixels. False when nothing is. */
+static bool find_outline(const outline_job *job, int32_t x, int32_t y, outline *out)
+{
+    const float *at = job->depth + (ptrdiff_t)y * job->width + x;
+    float behind = at[0] * (1.0f + LEAST_JUMP), before = at[0] * (1.0f - LEAST_JUMP);
+    int32_t x0 = -least(x, REACH), x1 = least(job->width - 1 - x, REACH);
+    int32_t y0 = -least(y, REACH), y1 = least(job->height - 1 - y, REACH);
+    int32_t far_x = 0, far_y = 0, far_n = 0, near_x = 0, near_y = 0, near_n = 0, nearest = 99;
+    for (int32_t dy = y0; dy <= y1; dy++) {
+        for (int32_t dx = x0; dx <= x1; dx++) {
+            float z = at[(ptrdiff_t)dy * job->width + dx];
+            int32_t is_far = z > behind, is_near = (z > before) & !is_far;
+            int32_t square = dx * dx + dy * dy;
+            far_x += is_far * dx;
+            far_y += is_far * dy;
+            far_n += is_far;
+            near_x += is_near * dx;
+            near_y += is_near * dy;
+            near_n += is_near;
+            nearest = is_far && square < nearest ? square : nearest;
+        }
+    }
+    if (far_n < 2) {
+        return false;
+    }
+    float gx = (float)far_x / (float)far_n - (float)near_x / (float)near_n;
+    float gy = (float)far_y / (float)far_n - (float)near_y / (float)near_n;
+    float length = sqrtf(gx * gx + gy * gy);
+    if (length < 0.5f) {
+        return false;
+    }
+    *out = (outline){gx / length, gy / length, sqrtf((float)nearest) - 0.5f};
+    return true;
+}
+
+typedef struct vector {
+    float x, y, z;
+} vector;
+
+static float dot(vector a, vector b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static vector scaled(vector a, float s)
+{
+    return (vector){a.x * s, a.y * s, a.z * s};
+}
+
+static vector add(vector a, vector b)
+{
+    return (vector){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+static vector unit(vector a)
+{
+    return scaled(a, 1.0f / sqrtf(dot(a, a)));
+}
+
+/* Axes at a pixel: along its ray, outwards across the outline, and along it. */
+typedef struct axes {
+    vector ray, out, along;
+} axes;
+
+static axes make_axes(const outline_job *job, ptrdiff_t i, const outline *o)
+{
+    axes a;
+    a.ray = unit((vector){job->ray_x[i], job->ray_y[i], 1.0f});
+    vector out = {o->x, o->y, 0.0f};
+    a.out = unit(add(out, scaled(a.ray, -dot(out, a.ray))));
+    a.along = (vector){a.ray.y * a.out.z - a.ray.z * a.out.y, a.ray.z * a.out.x - a.ray.x * a.out.z,
+                       a.ray.x * a.out.y - a.ray.y * a.out.x};
+    return a;
+}
+
+/* Sums over seen samples on the way in; s = pixels from the outline, out = outward component. */
+typedef struct way_in {
+    float n, s, ss, out, oo, s_out, along;
+} way_in;
+
+static way_in walk_in(const outline_job *job, int32_t x, int32_t y, const outline *o, const axes *a)
+{
+    way_in sum = {0};
+    float z = job->depth[(ptrdiff_t)y * job->width + x];
+    for (int32_t k = 1; k <= STEPS; k++) {
+        int32_t sx = (int32_t)((float)x - (float)k * o->x + 0.5f);
+        int32_t sy = (int32_t)((float)y - (float)k * o->y + 0.5f);
+        if (sx < 0 || sy < 0 || sx >= job->width || sy >= job->height) {
+            break;
+        }
+        ptrdiff_t i = (ptrdiff_t)sy * job->width + sx;
+        if (!(rlf_kernel_abs(job->depth[i] - z) <= MOST_APART * z)) {
+            break;
+        }
+        vector n = {job->normal[0][i], job->normal[1][i], job->normal[2][i]};
+        float has = job->reason[i] == RLF_REASON_OK && n.x * n.x + n.y * n.y + n.z * n.z > 0.0f;
+        float s = o->distance + (float)(x - sx) * o->x + (float)(y - sy) * o->y;
+        float out = dot(n, a->out);
+        sum.n += has;
+        sum.s += has * s;
+        sum.ss += has * s * s;
+        sum.out += has * out;
+        sum.oo += has * out * out;
+        sum.s_out += has * s * out;
+        sum.along += has * dot(n, a->along);
+    }
+    return sum;
+}
+
+/* Whether the samples turn steadily outwards, as those of something rounded do. */
+static bool is_rounded(const way_in *in, const outline *o)
+{
+    if (in->n < 1.5f) {
+        return false;
+    }
+    float s = in->s / in->n, out = in->out / in->n;
+    float spread = in->ss - in->s * s, turn = in->out * s - in->s_out;
+    float bend = (in->oo - in->out * out) * spread - turn * turn;
+    bool steady = bend <= in->n * MOST_BEND * MOST_BEND * spread;
+    bool turns = turn * s > LEAST_TURN * spread * (1.0f - out);
+    return steady && turns && s > o->distance && out >= 0.0f;
+}
+
+static void turn_pixel(const outline_job *job, int32_t x, int32_t y)
+{
+    outline o;
+    if (!find_outline(job, x, y, &o)) {
+        return;
+    }
+    ptrdiff_t i = (ptrdiff_t)y * job->width + x;
+    axes a = make_axes(job, i, &o);
+    way_in in = walk_in(job, x, y, &o, &a);
+    if (!is_rounded(&in, &o)) {
+        return;
+    }
+    float t = o.distance * in.n / in.s; /* 0 at the outline, 1 at the samples' mean */
+    float out = 1.0f - t * (1.0f - in.out / in.n), along = t * in.along / in.n;
+    float aside = sqrtf(out * out + along * along);
+    float scale = aside > MOST_ASIDE ? MOST_ASIDE / aside : 1.0f;
+    aside *= scale;
+    vector n = add(scaled(a.out, out * scale), scaled(a.along, along * scale));
+    n = add(n, scaled(a.ray, -sqrtf(1.0f - aside * aside)));
+    job->normal[0][i] = n.x;
+    job->normal[1][i] = n.y;
+    job->normal[2][i] = n.z;
+}
+
+static void outline_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const outline_job *job = context;
+    for (int32_t y = begin; y < end; y++) {
+        for (int32_t x = 0; x < job->width; x++) {
+            if (job->reason[(ptrdiff_t)y * job->width + x] == RLF_REASON_FILLED) {
+                turn_pixel(job, x, y);
+            }
+        }
+    }
+}
+
+void rlf_normals_outline(const rlf_reconstruct *stage, rlf_slot *slot)
+{
+    const rlf_grid *grid = &stage->grid;
+    outline_job job = {grid->width, grid->height, grid->ray_x, grid->ray_y,
+                       slot->depth, slot->reason, slot->normal};
+    rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, outline_rows, &job);
+}

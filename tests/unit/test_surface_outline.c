@@ -1,0 +1,170 @@
+/* Filled pixels at the outline of things: their side and their normals. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "analytic.h"
+
+#include <math.h>
+
+enum { WIDTH = 192, HEIGHT = 120, COUNT = WIDTH * HEIGHT };
+
+typedef struct fixture {
+    rlf_rig rig;
+    float *ray_x, *ray_y;
+    float truth[COUNT], seen[COUNT];
+    rlf_vec3 normal[COUNT];
+    analytic_random random;
+} fixture;
+
+static int make_fixture(void **state)
+{
+    static fixture f;
+    f.rig = analytic_rig(WIDTH, HEIGHT);
+    f.random = (analytic_random){3};
+    analytic_rays(&f.rig.depth, &f.ray_x, &f.ray_y);
+    *state = &f;
+    return 0;
+}
+
+static int free_fixture(void **state)
+{
+    fixture *f = *state;
+    rlf_free(f->ray_x);
+    rlf_free(f->ray_y);
+    return 0;
+}
+
+static void set_wall(fixture *f, int i)
+{
+    f->truth[i] = 3.0f;
+    f->normal[i] = rlf_vec3_make(0, 0, -1);
+}
+
+static void set_ball(fixture *f, rlf_vec3 centre, double radius)
+{
+    for (int i = 0; i < COUNT; i++) {
+        double z = sphere_depth(centre, radius, f->ray_x[i], f->ray_y[i]);
+        set_wall(f, i);
+        if (z > 0.0) {
+            rlf_vec3 p = {z * f->ray_x[i], z * f->ray_y[i], z};
+            f->truth[i] = (float)z;
+            f->normal[i] = rlf_normalize(rlf_sub(p, centre));
+        }
+    }
+}
+
+static void set_board(fixture *f, rlf_vec3 n)
+{
+    for (int i = 0; i < COUNT; i++) {
+        int32_t x = i % WIDTH, y = i / WIDTH;
+        set_wall(f, i);
+        if (x >= 60 && x < 130 && y >= 20 && y < 90 + (x - 60) / 5) {
+            f->truth[i] = (float)plane_depth(n, 2.0 * n.z, f->ray_x[i], f->ray_y[i]);
+            f->normal[i] = n;
+        }
+    }
+}
+
+/* As a driver's edge filter does: none of the pixels beside an edge, some of those next to them. */
+static bool is_dropped(fixture *f, int32_t x, int32_t y)
+{
+    double kept = 1.0;
+    for (int32_t ny = y - 1; ny <= y + 1; ny++) {
+        for (int32_t nx = x - 1; nx <= x + 1; nx++) {
+            if (nx < 1 || ny < 1 || nx > WIDTH - 2 || ny > HEIGHT - 2) {
+                continue;
+            }
+            const float *z = &f->truth[ny * WIDTH + nx];
+            double step = fmax(fmax(fabs(z[-1] - z[0]), fabs(z[1] - z[0])),
+                               fmax(fabs(z[-WIDTH] - z[0]), fabs(z[WIDTH] - z[0])));
+            bool here = nx == x && ny == y;
+            kept *= step > 0.1 ? (here ? 0.0 : 0.74) : 1.0;
+        }
+    }
+    return random_uniform(&f->random) >= kept;
+}
+
+static const rlf_surface *process(fixture *f, rlf_reconstruct *stage)
+{
+    for (int i = 0; i < COUNT; i++) {
+        double sigma = rlf_depth_noise_sigma(&f->rig.noise, f->truth[i]);
+        float noise = (float)(sigma * random_normal(&f->random));
+        f->seen[i] = is_dropped(f, i % WIDTH, i / WIDTH) ? 0.0f : f->truth[i] + noise;
+    }
+    rlf_frame frame = analytic_frame(&f->rig, f->seen, 0);
+    const rlf_surface *s = NULL;
+    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    return s;
+}
+
+/* Of the thing's dropped pixels: filled on its side, with a normal within 30 degrees. */
+typedef struct score {
+    int dropped, wrong_side, wrong_normal, filled;
+    double mean_deg;
+} score;
+
+static score judge(fixture *f)
+{
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
+    rlf_reconstruct *stage = NULL;
+    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    const rlf_surface *s = process(f, stage);
+    score result = {0};
+    for (int i = 0; i < COUNT; i++) {
+        if (f->seen[i] > 0.0f || f->truth[i] > 2.9f) {
+            continue;
+        }
+        result.dropped++;
+        result.wrong_side += fabs(s->depth[i] - f->truth[i]) > 0.4 * (3.0 - f->truth[i]);
+        if (fabs(s->depth[i] - f->truth[i]) <= 0.4 * (3.0 - f->truth[i])) {
+            rlf_vec3 n = {s->normal_x[i], s->normal_y[i], s->normal_z[i]};
+            assert_true(fabs(rlf_length(n) - 1.0) < 1e-5);
+            assert_true(n.x * f->ray_x[i] + n.y * f->ray_y[i] + n.z < 0.0);
+            double deg = angle_deg(n, f->normal[i]);
+            result.filled++;
+            result.wrong_normal += deg > 30.0;
+            result.mean_deg += deg;
+        }
+    }
+    result.mean_deg /= result.filled;
+    rlf_reconstruct_destroy(&stage);
+    return result;
+}
+
+static void a_ball_turns_away_at_its_outline(void **state)
+{
+    fixture *f = *state;
+    set_ball(f, rlf_vec3_make(0.1, -0.05, 2.0), 0.3);
+    score s = judge(f);
+    assert_true(s.dropped > 100);
+    assert_true(10 * s.wrong_side < s.dropped);
+    assert_true(20 * s.wrong_normal < s.filled);
+    assert_true(s.mean_deg < 8.0);
+}
+
+static void a_board_stays_flat(void **state)
+{
+    fixture *f = *state;
+    const rlf_vec3 tilts[3] = {{0, 0, -1}, {0.5, 0, -1}, {-0.2, 0.6, -1}};
+    for (int k = 0; k < 3; k++) {
+        set_board(f, rlf_normalize(tilts[k]));
+        score s = judge(f);
+        assert_true(s.dropped > 300);
+        assert_true(10 * s.wrong_side < s.dropped);
+        assert_true(50 * s.wrong_normal < s.filled);
+        assert_true(s.mean_deg < 1.5);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_ball_turns_away_at_its_outline),
+        cmocka_unit_test(a_board_stays_flat),
+    };
+    return cmocka_run_group_tests(tests, make_fixture, free_fixture);
+}
