@@ -1,5 +1,6 @@
 /* `relief measure SOURCE`: thesis table 5.1 for any source. */
 #include "command.h"
+#include "measure_noise.h"
 #include "measure_points.h"
 #include "session.h"
 
@@ -18,6 +19,7 @@ typedef struct measure_options {
     int32_t scales[SCALES_MAX];
     int scale_count;
     const char *csv_path, *json_path;
+    bool noise; /* the sensor's noise instead of the table */
 } measure_options;
 
 static void print_help(void)
@@ -34,20 +36,19 @@ static void print_help(void)
         "  --scale LIST      scale factors, default 8,1\n"
         "  --profile NAME    thesis (default) or live: whose normals are counted\n"
         "  --csv FILE        the rows as CSV\n"
-        "  --json FILE       the rows as JSON\n\n"
+        "  --json FILE       the rows as JSON\n"
+        "  --noise           instead: the sensor's noise by distance, of a still scene\n\n"
         "examples:\n"
         "  relief measure synthetic:thesis\n"
-        "  relief measure path/to/clip --scale 8 --csv table.csv\n");
+        "  relief measure path/to/clip --scale 8 --csv table.csv\n"
+        "  relief measure path/to/clip --noise --frames 30\n");
 }
 
 static const struct option long_options[] = {
-    {"frames", required_argument, NULL, 'f'},
-    {"scale", required_argument, NULL, 's'},
-    {"profile", required_argument, NULL, 'p'},
-    {"csv", required_argument, NULL, 'c'},
-    {"json", required_argument, NULL, 'j'},
-    {"help", no_argument, NULL, 'h'},
-    {0},
+    {"frames", required_argument, NULL, 'f'},  {"scale", required_argument, NULL, 's'},
+    {"profile", required_argument, NULL, 'p'}, {"csv", required_argument, NULL, 'c'},
+    {"json", required_argument, NULL, 'j'},    {"noise", no_argument, NULL, 'n'},
+    {"help", no_argument, NULL, 'h'},          {0},
 };
 
 static bool parse_scales(const char *text, measure_options *o)
@@ -80,10 +81,11 @@ static int take_option(int option, measure_options *o)
     switch (option) {
     case 'c': o->csv_path = optarg; return -1;
     case 'j': o->json_path = optarg; return -1;
+    case 'n': o->noise = true; return -1;
     case 'f':
-        return command_parse_int(optarg, 6, 1000000000, &o->frames)
+        return command_parse_int(optarg, 1, 1000000000, &o->frames)
                    ? -1
-                   : command_usage("measure", "--frames '%s': use 6 or more", optarg);
+                   : command_usage("measure", "--frames '%s': use 1 or more", optarg);
     case 's':
         return parse_scales(optarg, o)
                    ? -1
@@ -111,6 +113,12 @@ static int parse(int argc, char **argv, measure_options *o)
     }
     if (argc - optind != 1) {
         return command_usage("measure", "needs one SOURCE");
+    }
+    if (!o->noise && o->frames >= 0 && o->frames < 6) {
+        return command_usage("measure", "--frames %d: use 6 or more", (int)o->frames);
+    }
+    if (o->noise && o->csv_path != NULL) {
+        return command_usage("measure", "--noise writes no CSV; use --json");
     }
     o->source = argv[optind];
     return -1;
@@ -271,6 +279,10 @@ int measure_main(int argc, char **argv)
     int status = parse(argc, argv, &options);
     if (status >= 0) {
         return status;
+    }
+    if (options.noise) {
+        rlf_result noise = measure_noise_run(options.source, options.frames, options.json_path);
+        return noise == RLF_OK ? EXIT_DONE : command_failed();
     }
     measure_points rows[SCALES_MAX];
     memset(rows, 0, sizeof(rows));

@@ -99,6 +99,9 @@ expect_done measure "synthetic:thesis?frames=12" --csv table.csv --json table.js
 grep -q '"counted_bad_percent"' table.json || fail "measure: table.json"
 grep -q "3392" stdout.txt || fail "measure: no full 64x53 grid"
 grep -q "2632" stdout.txt || fail "measure: no 56x47 centre"
+expect_error 2 "use 6 or more" measure synthetic:thesis --frames 5
+expect_done measure synthetic:empty --noise --frames 2 --json noise.json
+grep -q '"temporal_mm"' noise.json || fail "measure --noise: noise.json"
 
 # Accuracy.
 expect_error 2 "not one of them" eval --scene moon
