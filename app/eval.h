@@ -105,6 +105,8 @@ rlf_result eval_depth_init(eval_depth *e, const rlf_camera *camera);
 void eval_depth_finish(eval_depth *e);
 void eval_depth_add(eval_depth *e, const rlf_surface *surface, const rlf_frame *frame,
                     const rlf_truth *truth);
+/* The frame's depth at a pixel as it came, metres; <= 0 = missing. */
+float eval_raw_depth(const rlf_frame *frame, int32_t x, int32_t y);
 /* RMS of the errors below 4 cm. */
 double eval_depth_rms_mm(const eval_depth_errors *e);
 /* Shares of the samples with depth. */

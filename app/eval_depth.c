@@ -54,7 +54,7 @@ static void add(eval_depth_errors *e, float z, float truth, float least)
     }
 }
 
-static float raw_depth(const rlf_frame *frame, int32_t x, int32_t y)
+float eval_raw_depth(const rlf_frame *frame, int32_t x, int32_t y)
 {
     if (frame->depth_u16 == NULL) {
         const char *row = (const char *)frame->depth_f32 + y * frame->depth_stride;
@@ -81,7 +81,7 @@ void eval_depth_add(eval_depth *e, const rlf_surface *s, const rlf_frame *frame,
             continue;
         }
         eval_depth_group *group = still ? &e->still : &e->moving;
-        float raw = raw_depth(frame, x, y), z = s->depth[i];
+        float raw = eval_raw_depth(frame, x, y), z = s->depth[i];
         add(&group->raw, raw, real, raw > 0.0f ? distance(truth, camera, x, y, raw) : 0.0f);
         float least = z > 0.0f ? distance(truth, camera, x, y, z) : 0.0f;
         if (s->reason[i] == RLF_REASON_FILLED) {

@@ -3,6 +3,7 @@
 #define RELIEF_APP_EVAL_FIGURES_H
 
 #include "eval.h"
+#include "eval_distance.h"
 #include "eval_solid.h"
 
 /* Everything measured for one profile. */
@@ -13,6 +14,7 @@ typedef struct eval_measures {
     eval_foreground foreground;
     eval_solid solid;
     eval_collisions collisions;
+    eval_distance distance;
 } eval_measures;
 
 #define EVAL_FIGURES_MAX 64

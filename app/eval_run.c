@@ -131,6 +131,7 @@ static void measure(run *r, eval_measures *m, const rlf_pipeline_output *out)
     const rlf_rig *rig = &rlf_source_get_info(r->source)->rig;
     eval_depth_add(&m->depth, out->surface, &out->frame, truth);
     eval_normals_add(&m->normals, out->surface, truth, rig, r->band);
+    eval_distance_add(&m->distance, out->surface, &out->frame, truth, r->band);
     eval_centre_add(&m->centre, out->surface, truth, rig);
     eval_foreground_add(&m->foreground, out->surface, truth, rig);
     eval_solid_add(&m->solid, out->surface, truth, rig);
@@ -164,6 +165,10 @@ static void report(const lane *l, const char *scene, eval_table *table)
     for (int32_t i = 0; i < eval_figure_count(); i++) {
         eval_table_add(table, scene, eval_figure_key(i), eval_figure_title(i), l->profile,
                        values[i]);
+    }
+    for (int32_t i = 0; i < eval_distance_count(); i++) {
+        eval_table_add(table, scene, eval_distance_key(i), eval_distance_title(i), l->profile,
+                       eval_distance_value(&l->measures.distance, i));
     }
 }
 
