@@ -49,18 +49,6 @@ static bool is_still(rlf_background *background, int32_t i, float z, float gate,
     return age >= limit_ms;
 }
 
-static rlf_span unite(rlf_span a, rlf_span b)
-{
-    if (a.x0 >= a.x1) {
-        return b;
-    }
-    if (b.x0 >= b.x1) {
-        return a;
-    }
-    const rlf_span both = {a.x0 < b.x0 ? a.x0 : b.x0, a.x1 > b.x1 ? a.x1 : b.x1};
-    return both;
-}
-
 /* Pixels of a row that are foreground or were; returns where pixels that stand still are left. */
 static rlf_span absorb_row(rlf_reconstruct *stage, const rlf_slot *slot, int32_t y, rlf_span span,
                            int32_t passed_ms)
@@ -95,7 +83,8 @@ void rlf_background_absorb(rlf_reconstruct *stage, const rlf_slot *slot)
     int32_t passed_ms = step_ms(stage, slot);
     for (int32_t y = 0; y < stage->grid.height; y++) {
         rlf_span *still = &stage->background.standing[y];
-        *still = absorb_row(stage, slot, y, unite(*still, stage->work.front[y]), passed_ms);
+        *still =
+            absorb_row(stage, slot, y, rlf_span_unite(*still, stage->work.front[y]), passed_ms);
     }
 }
 

@@ -110,6 +110,7 @@ static void decide_unknown(rlf_reconstruct *stage, rlf_slot *slot)
                 }
                 slot->foreground[i] = front;
             }
+            run->component = front ? run->component : 0;
         }
     }
 }

@@ -2,6 +2,7 @@
 #include "surface/stage.h"
 
 #include "surface/steps.h"
+#include "surface/velocity.h"
 
 #include <string.h>
 
@@ -41,6 +42,10 @@ static void take_slot(rlf_reconstruct *stage, rlf_slot *slot)
         slot->velocity[k] = take(stage, n, sizeof(float));
     }
     slot->label = take(stage, n, sizeof(int32_t));
+    slot->moved = take(stage, (size_t)stage->grid.height, sizeof(rlf_span));
+    if (slot->moved != NULL) {
+        memset(slot->moved, 0, (size_t)stage->grid.height * sizeof *slot->moved);
+    }
     slot->reason = take(stage, n, 1);
     slot->foreground = take(stage, n, 1);
     slot->regions = take(stage, 2 * (size_t)stage->def.region_capacity, sizeof(rlf_region));
@@ -100,6 +105,7 @@ static void take_work(rlf_reconstruct *stage)
     work->zero_labels = take(stage, n, sizeof(int32_t));
     work->region_sums = take(stage, (size_t)stage->def.region_capacity + 1, sizeof(rlf_region_sum));
     work->heirs = take(stage, 4 * (size_t)stage->def.region_capacity, sizeof(int32_t));
+    work->cells = take(stage, rlf_cell_capacity(&stage->grid), sizeof(rlf_cell));
     work->ones = take(stage, (size_t)stage->grid.width, 1);
     work->missing = take(stage, (size_t)stage->grid.width, 1);
     if (!stage->out_of_memory) {

@@ -57,7 +57,7 @@ static int32_t least_size(const rlf_reconstruct *stage, int32_t component_count)
 static void meet(const rlf_work *work, int32_t a, int32_t b)
 {
     int32_t *best = work->vote[0];
-    if (a == b) {
+    if (a == b || a == 0 || b == 0) {
         return;
     }
     best[a] = best[a] == 0 || work->size[b] > work->size[best[a]] ? b : best[a];

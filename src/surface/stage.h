@@ -13,6 +13,21 @@ typedef struct rlf_grid {
     const uint8_t *has_ray;
 } rlf_grid;
 
+/* Pixels x0 <= x < x1 of one row. */
+typedef struct rlf_span {
+    int32_t x0, x1;
+} rlf_span;
+
+/* The smallest that holds both. */
+static inline rlf_span rlf_span_unite(rlf_span a, rlf_span b)
+{
+    if (a.x0 >= a.x1 || b.x0 >= b.x1) {
+        return a.x0 >= a.x1 ? b : a;
+    }
+    const rlf_span both = {a.x0 < b.x0 ? a.x0 : b.x0, a.x1 > b.x1 ? a.x1 : b.x1};
+    return both;
+}
+
 /* The buffers of one published surface. */
 typedef struct rlf_slot {
     rlf_surface surface;
@@ -22,6 +37,7 @@ typedef struct rlf_slot {
     float *thickness;
     int32_t *label;
     uint8_t *reason, *foreground;
+    rlf_span *moved; /* per row, where the velocity planes were written */
     rlf_region *regions;
     int32_t *region_points;
     int32_t foreground_region_first, foreground_region_count; /* in regions */
@@ -39,11 +55,6 @@ typedef struct rlf_sheet {
 
 /* Surfaces refer to at most RLF_RECONSTRUCT_SURFACES sheets while the next one is made. */
 enum { RLF_SHEETS = RLF_RECONSTRUCT_SURFACES + 1, RLF_STAGE_BLOCKS = 128 };
-
-/* Pixels x0 <= x < x1 of one row. */
-typedef struct rlf_span {
-    int32_t x0, x1;
-} rlf_span;
 
 /* The background model. AVERAGE: mean holds sums until it is ready. */
 typedef struct rlf_background {
@@ -77,7 +88,7 @@ enum { RLF_HOLD_BLOCK = 8 };
 /* A run of linked pixels of one row, the unit of segmentation. */
 typedef struct rlf_run {
     int32_t x0, x1;
-    int32_t component; /* > 0; later the number of its region, 0 = none */
+    int32_t component; /* > 0, 0 = none; later the number of its region */
 } rlf_run;
 
 /* Runs in raster order; row y has first[y] <= r < first[y + 1]. */
@@ -106,6 +117,7 @@ typedef struct rlf_work {
     int32_t *zero_labels;
     struct rlf_region_sum *region_sums; /* region_capacity */
     int32_t *heirs;                     /* label table of region_track.c */
+    struct rlf_cell *cells;             /* of velocity_cells.c */
 } rlf_work;
 
 struct rlf_reconstruct {

@@ -1,243 +1,34 @@
-/* Velocity of the front sheet from the change of depth along each ray.
+/* Velocity of the front sheet from the change of depth.
  *
- * Along a fixed ray m a surface that moves with speed v along its normal changes depth by
- * dz/dt = v / (n.m), exactly for planes (range flow, Spies et al. 2002), so v = (n.m) dz/dt. Only
- * this normal component can be seen in one pixel. Neighbours on a curved body see others: v is the
- * least squares solution of n.v = (n.m) dz/dt over 9x9 pixels, and its part along the pixel's
- * normal is published. Over a whole region that moves as one rigid thing, n.(v + w x r) = (n.m)
- * dz/dt gives all six unknowns; where it explains what was seen, its full velocity is published.
- * What is not significant against the sensor's noise is exactly 0. */
-#include "surface/steps.h"
+ * A surface that moves with velocity v meets the frame before, taken back by v dt: along the normal
+ * n the two must not differ. Over a region that moves as one rigid thing this gives all six
+ * unknowns of its twist (least squares with a weak prior). A region that is not rigid is fitted
+ * cell by cell (velocity_cells.c). What is not significant against the sensor's noise is exactly 0.
+ */
+#include "surface/velocity.h"
 
-#include "kernel/kernel.h"
+#include <string.h>
 
-enum {
-    REACH = 4,
-    STRIDE = 2,
-    LEAST_SAMPLES = 6,
-    PASSES = 4,
-    LEAST_REGION_SAMPLES = 30,
-    MOST_SAMPLES = 800
-};
+enum { STRIDE = 2, PASSES = 4, LEAST_REGION_SAMPLES = 30, MOST_SAMPLES = 400 };
 
-static const float fastest_m_per_s = 5.0f;
 static const double longest_gap_s = 0.2;
-static const float unknown_rest = 1e9f, rigid_rest = 2e9f;
-static const float body_step_m = 0.05f; /* within a window: farther pixels are another limb */
-/* Noise of neighbouring pixels is correlated by the drivers' 3x3 filters: 2 of every second pixel
- * count as one. */
-static const float correlated_samples = 2.0f;
-/* Squared sums of 3 and of 6 normal variables that chance exceeds once in 400 times. */
-static const float significant_3 = 14.2f, significant_6 = 20.1f;
-static const double prior_share = 0.01; /* ridge, of the mean diagonal */
+/* Squared sum of 6 normal variables that chance exceeds once in 400 times. */
+static const float significant_6 = 20.1f;
 
-typedef struct flow_job {
-    const rlf_reconstruct *stage;
-    const rlf_slot *before;
-    rlf_slot *now;
-    float dt;
-    bool all;      /* there is no background: everything may move */
-    float *speed;  /* along the normal, m/s */
-    float *facing; /* n.m where the speed is known, else 0 */
-    float *rest;   /* speed beyond the region's motion; unknown_rest where there is none,
-                      rigid_rest where the region's motion is all */
-    rlf_kernel_noise noise;
-} flow_job;
-
-/* The same region was seen in both frames, and it is one that may move. */
-static inline bool is_followed(const flow_job *job, ptrdiff_t i)
-{
-    int32_t label = job->now->label[i];
-    return label != 0 && label == job->before->label[i] && (job->now->foreground[i] || job->all);
-}
-
-/* Speed along the normal of the pixels that show the same region twice. */
-static void speed_rows(void *context, int32_t begin, int32_t end, int32_t worker)
-{
-    (void)worker;
-    const flow_job *job = context;
-    const rlf_grid *grid = &job->stage->grid;
-    const rlf_slot *now = job->now;
-    ptrdiff_t last = (ptrdiff_t)end * grid->width;
-    for (ptrdiff_t i = (ptrdiff_t)begin * grid->width; i < last; i++) {
-        job->facing[i] = job->speed[i] = 0.0f;
-        if (!is_followed(job, i)) {
-            continue;
-        }
-        float change = now->depth[i] - job->before->depth[i];
-        bool near = rlf_kernel_abs(change) <= fastest_m_per_s * job->dt;
-        if (!near || (now->reason[i] | job->before->reason[i]) != RLF_REASON_OK) {
-            continue;
-        }
-        job->facing[i] = now->normal[0][i] * grid->ray_x[i] + now->normal[1][i] * grid->ray_y[i] +
-                         now->normal[2][i];
-        job->speed[i] = job->facing[i] * change / job->dt;
-    }
-}
-
-/* Sums of the least squares for one velocity. */
-typedef struct patch {
-    float xx, xy, xz, yy, yz, zz, bx, by, bz;
-    float facing2, n;
-} patch;
-
-static void add_pixel(const flow_job *job, ptrdiff_t k, float speed, patch *p)
-{
-    float x = job->now->normal[0][k], y = job->now->normal[1][k], z = job->now->normal[2][k];
-    p->xx += x * x;
-    p->xy += x * y;
-    p->xz += x * z;
-    p->yy += y * y;
-    p->yz += y * z;
-    p->zz += z * z;
-    p->bx += x * speed;
-    p->by += y * speed;
-    p->bz += z * speed;
-    p->facing2 += job->facing[k] * job->facing[k];
-    p->n += 1.0f;
-}
-
-/* Two sums over the pixels of the same limb: of the speeds, and of what is left of them when the
- * region's motion is taken off. */
-static void gather(const flow_job *job, int32_t x, int32_t y, patch *whole, patch *rest)
-{
-    const rlf_grid *grid = &job->stage->grid;
-    ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-    float z = job->now->depth[i];
-    int32_t label = job->now->label[i];
-    *whole = *rest = (patch){0};
-    for (int32_t v = y - REACH; v <= y + REACH; v += STRIDE) {
-        for (int32_t u = x - REACH; u <= x + REACH; u += STRIDE) {
-            if (v < 0 || v >= grid->height || u < 0 || u >= grid->width) {
-                continue;
-            }
-            ptrdiff_t k = (ptrdiff_t)v * grid->width + u;
-            if (job->now->label[k] != label ||
-                rlf_kernel_abs(job->now->depth[k] - z) >= body_step_m) {
-                continue;
-            }
-            if (job->facing[k] != 0.0f) {
-                add_pixel(job, k, job->speed[k], whole);
-            }
-            if (job->rest[k] < unknown_rest) {
-                add_pixel(job, k, job->rest[k], rest);
-            }
-        }
-    }
-}
-
-/* (A + ridge) v = b by Cramer's rule. Returns the part of the squared speeds that v explains. */
-static float solve_patch(const patch *p, float v[3])
-{
-    float ridge = (float)prior_share * p->n;
-    float xx = p->xx + ridge, yy = p->yy + ridge, zz = p->zz + ridge;
-    float cxx = yy * zz - p->yz * p->yz, cxy = p->xz * p->yz - p->xy * zz;
-    float cxz = p->xy * p->yz - p->xz * yy, cyy = xx * zz - p->xz * p->xz;
-    float cyz = p->xy * p->xz - xx * p->yz, czz = xx * yy - p->xy * p->xy;
-    float inverse = 1.0f / (xx * cxx + p->xy * cxy + p->xz * cxz);
-    v[0] = (cxx * p->bx + cxy * p->by + cxz * p->bz) * inverse;
-    v[1] = (cxy * p->bx + cyy * p->by + cyz * p->bz) * inverse;
-    v[2] = (cxz * p->bx + cyz * p->by + czz * p->bz) * inverse;
-    return v[0] * p->bx + v[1] * p->by + v[2] * p->bz;
-}
-
-/* All of v, or only what was seen of it: its part along the normal. */
-static void write_velocity(const flow_job *job, ptrdiff_t i, const float v[3], bool all)
-{
-    float *const *normal = job->now->normal;
-    float along = normal[0][i] * v[0] + normal[1][i] * v[1] + normal[2][i] * v[2];
-    float out[3];
-    for (int k = 0; k < 3; k++) {
-        out[k] = all ? v[k] : normal[k][i] * along;
-    }
-    float speed = sqrtf(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
-    float scale = speed > fastest_m_per_s ? fastest_m_per_s / speed : 1.0f;
-    for (int k = 0; k < 3; k++) {
-        job->now->velocity[k][i] = scale * out[k];
-    }
-}
-
-/* On entry the velocity planes hold the region's motion. */
-static bool pixel_velocity(const flow_job *job, int32_t x, int32_t y, float v[3])
-{
-    ptrdiff_t i = (ptrdiff_t)y * job->stage->grid.width + x;
-    const float region[3] = {job->now->velocity[0][i], job->now->velocity[1][i],
-                             job->now->velocity[2][i]};
-    bool moves = region[0] != 0.0f || region[1] != 0.0f || region[2] != 0.0f;
-    patch whole, rest;
-    gather(job, x, y, &whole, &rest);
-    v[0] = v[1] = v[2] = 0.0f;
-    bool is_seen = whole.n >= (float)LEAST_SAMPLES;
-    if (is_seen) {
-        float sigma = rlf_kernel_sigma(job->noise, job->now->depth[i]) / job->dt;
-        float variance = 2.0f * sigma * sigma * correlated_samples * whole.facing2 / whole.n;
-        if (solve_patch(&whole, v) <= significant_3 * variance) {
-            v[0] = v[1] = v[2] = 0.0f;
-            return false;
-        }
-    }
-    bool whole_known = moves && (rest.n >= (float)LEAST_SAMPLES || !is_seen);
-    if (whole_known) {
-        float more[3] = {0.0f, 0.0f, 0.0f};
-        if (rest.n >= (float)LEAST_SAMPLES) {
-            solve_patch(&rest, more);
-        }
-        for (int k = 0; k < 3; k++) {
-            v[k] = region[k] + more[k];
-        }
-    }
-    return whole_known;
-}
-
-static void patch_rows(void *context, int32_t begin, int32_t end, int32_t worker)
-{
-    (void)worker;
-    const flow_job *job = context;
-    const rlf_grid *grid = &job->stage->grid;
-    for (int32_t y = begin; y < end; y++) {
-        for (int32_t x = 0; x < grid->width; x++) {
-            ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-            float v[3] = {0.0f, 0.0f, 0.0f};
-            if (job->rest[i] == rigid_rest) {
-                continue;
-            }
-            bool all = is_followed(job, i) && pixel_velocity(job, x, y, v);
-            write_velocity(job, i, v, all);
-        }
-    }
-}
-
+/* The published planes hold only what was written into the slot three frames ago. */
 static void clear_velocity(const rlf_grid *grid, rlf_slot *slot)
 {
-    for (int k = 0; k < 3; k++) {
-        for (int32_t i = 0; i < grid->count; i++) {
-            slot->velocity[k][i] = 0.0f;
+    for (int32_t y = 0; y < grid->height; y++) {
+        const rlf_span *span = &slot->moved[y];
+        for (int k = 0; k < 3; k++) {
+            memset(slot->velocity[k] + (ptrdiff_t)y * grid->width + span->x0, 0,
+                   (size_t)(span->x1 - span->x0) * sizeof(float));
         }
     }
+    memset(slot->moved, 0, (size_t)grid->height * sizeof *slot->moved);
 }
 
-/* A rigid motion about a centre; w in units of 1 / length, so that all six unknowns are speeds. */
-typedef struct twist {
-    rlf_vec3 centre;
-    double length;
-    double x[6];
-    double explained, noise; /* squared speeds */
-    int32_t stride;          /* every stride-th pixel of every stride-th row is looked at */
-    int32_t samples, inliers;
-} twist;
-
-static rlf_vec3 point_at(const rlf_grid *grid, const float *depth, ptrdiff_t i)
-{
-    double z = depth[i];
-    return rlf_vec3_make(z * grid->ray_x[i], z * grid->ray_y[i], z);
-}
-
-static rlf_vec3 normal_at(const rlf_slot *slot, ptrdiff_t i)
-{
-    return rlf_vec3_make(slot->normal[0][i], slot->normal[1][i], slot->normal[2][i]);
-}
-
-static rlf_vec3 twist_velocity(const twist *t, rlf_vec3 p)
+rlf_vec3 rlf_twist_velocity(const rlf_twist *t, rlf_vec3 p)
 {
     rlf_vec3 w = rlf_scale(rlf_vec3_make(t->x[3], t->x[4], t->x[5]), 1.0 / t->length);
     return rlf_add(rlf_vec3_make(t->x[0], t->x[1], t->x[2]), rlf_cross(w, rlf_sub(p, t->centre)));
@@ -245,29 +36,21 @@ static rlf_vec3 twist_velocity(const twist *t, rlf_vec3 p)
 
 /* Speed along the normal beyond v, from where v says that the point was; false when the region was
  * not seen there. */
-static bool speed_beyond(const flow_job *job, ptrdiff_t i, rlf_vec3 v, double *out)
+static bool speed_beyond(const rlf_flow *job, ptrdiff_t i, rlf_vec3 p, rlf_vec3 n, rlf_vec3 v,
+                         double *out)
 {
     const rlf_grid *grid = &job->stage->grid;
-    rlf_vec3 n = normal_at(job->now, i);
-    if (job->now->reason[i] != RLF_REASON_OK || (n.x == 0.0 && n.y == 0.0 && n.z == 0.0)) {
+    rlf_vec3 q = rlf_mad(p, v, -(double)job->dt);
+    ptrdiff_t k = rlf_flow_pixel_before(job, i, (float)q.x, (float)q.y, (float)q.z);
+    if (k < 0) {
         return false;
     }
-    rlf_vec3 q = rlf_mad(point_at(grid, job->now->depth, i), v, -(double)job->dt);
-    double u, w;
-    if (!rlf_camera_project(&grid->camera, q, &u, &w) || !(u > -0.5) || !(w > -0.5) ||
-        !(u < grid->width - 0.5) || !(w < grid->height - 0.5)) {
-        return false;
-    }
-    ptrdiff_t k = (ptrdiff_t)(int32_t)(w + 0.5) * grid->width + (int32_t)(u + 0.5);
-    if (job->before->label[k] != job->now->label[i] || job->before->reason[k] != RLF_REASON_OK) {
-        return false;
-    }
-    rlf_vec3 step = rlf_sub(q, point_at(grid, job->before->depth, k));
+    rlf_vec3 step = rlf_sub(q, rlf_flow_point(grid, job->before->depth, k));
     *out = rlf_dot(n, step) / (double)job->dt;
-    return rlf_dot(step, step) < 4.0 * (double)(body_step_m * body_step_m);
+    return rlf_dot(step, step) < 4.0 * (double)(rlf_flow_limb_m * rlf_flow_limb_m);
 }
 
-static void twist_row(const twist *t, rlf_vec3 p, rlf_vec3 n, double row[6])
+static void twist_row(const rlf_twist *t, rlf_vec3 p, rlf_vec3 n, double row[6])
 {
     rlf_vec3 turn = rlf_cross(rlf_sub(p, t->centre), n);
     row[0] = n.x;
@@ -304,7 +87,7 @@ static void solve_six(double a[6][6], const double b[6], double x[6])
 }
 
 /* What the sensor's noise makes of a speed, and the normal's error: 5 % of the motion. */
-static double tolerated(const flow_job *job, ptrdiff_t i, double facing, double speed)
+static double tolerated(const rlf_flow *job, ptrdiff_t i, double facing, double speed)
 {
     double sigma = rlf_kernel_sigma(job->noise, job->now->depth[i]) / job->dt;
     return 3.0 * 1.41421356 * sigma * facing + 0.05 * speed;
@@ -312,7 +95,7 @@ static double tolerated(const flow_job *job, ptrdiff_t i, double facing, double 
 
 /* One step of Gauss and Newton over the pixels that agree with the motion so far; `slack` widens
  * what agrees while it is still far off. */
-static void fit_pass(const flow_job *job, const rlf_region *region, double slack, twist *t)
+static void fit_pass(const rlf_flow *job, const rlf_region *region, double slack, rlf_twist *t)
 {
     double a[6][6] = {{0.0}}, b[6] = {0.0}, row[6], x[6];
     const rlf_grid *grid = &job->stage->grid;
@@ -326,10 +109,10 @@ static void fit_pass(const flow_job *job, const rlf_region *region, double slack
                 continue;
             }
             t->samples++;
-            rlf_vec3 p = point_at(grid, job->now->depth, i), n = normal_at(job->now, i);
+            rlf_vec3 p = rlf_flow_point(grid, job->now->depth, i), n = rlf_flow_normal(job->now, i);
             double facing = -rlf_dot(n, p) / p.z, off;
-            rlf_vec3 motion = twist_velocity(t, p);
-            if (!speed_beyond(job, i, motion, &off)) {
+            rlf_vec3 motion = rlf_twist_velocity(t, p);
+            if (!(facing > 0.0) || !speed_beyond(job, i, p, n, motion, &off)) {
                 continue;
             }
             double bound = slack + tolerated(job, i, facing, speed);
@@ -351,7 +134,7 @@ static void fit_pass(const flow_job *job, const rlf_region *region, double slack
         }
     }
     for (int k = 0; k < 6; k++) {
-        a[k][k] += prior_share * (t->inliers + 1);
+        a[k][k] += 0.01 * (t->inliers + 1);
     }
     solve_six(a, b, x);
     for (int k = 0; k < 6; k++) {
@@ -359,11 +142,11 @@ static void fit_pass(const flow_job *job, const rlf_region *region, double slack
     }
 }
 
-static twist fit_from(const flow_job *job, const rlf_region *region, rlf_vec3 velocity)
+static rlf_twist fit_from(const rlf_flow *job, const rlf_region *region, rlf_vec3 velocity)
 {
     const double slack[PASSES] = {1.0, 0.3, 0.1, 0.0};
     rlf_vec3 size = rlf_sub(region->box.max, region->box.min);
-    twist t = {.centre = region->centroid, .x = {velocity.x, velocity.y, velocity.z}};
+    rlf_twist t = {.centre = region->centroid, .x = {velocity.x, velocity.y, velocity.z}};
     t.length = rlf_max(0.25 * rlf_length(size), 0.01);
     t.stride = STRIDE;
     while (region->point_count > MOST_SAMPLES * t.stride * t.stride) {
@@ -377,35 +160,23 @@ static twist fit_from(const flow_job *job, const rlf_region *region, rlf_vec3 ve
 
 /* More than chance, and more than half of one pixel's noise: small errors that pixels share, from
  * limbs that move by themselves, do not average out. */
-static bool is_significant(const twist *t)
+static bool is_significant(const rlf_twist *t)
 {
     const double least = 0.25;
     return t->inliers >= LEAST_REGION_SAMPLES && t->explained > least * t->noise &&
-           t->explained > significant_6 * t->noise / t->inliers * correlated_samples;
+           t->explained > significant_6 * t->noise / t->inliers * rlf_flow_correlated;
 }
 
-/* Takes the region's motion as what its pixels start from. */
-static void spread_motion(const flow_job *job, const rlf_region *region, const twist *t, bool rigid)
+/* Someone who stands and moves his arms turns a little as a whole, says the twist; but that he
+ * rests explains as much of him. */
+static bool is_rest_as_likely(const rlf_flow *job, const rlf_region *region, const rlf_twist *t)
 {
-    const rlf_grid *grid = &job->stage->grid;
-    for (int32_t y = region->y0; y < region->y1; y++) {
-        for (int32_t x = region->x0; x < region->x1; x++) {
-            ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-            if (job->now->label[i] != region->label) {
-                continue;
-            }
-            rlf_vec3 v = twist_velocity(t, point_at(grid, job->now->depth, i));
-            double off, fast = rlf_length(v) / (double)fastest_m_per_s;
-            v = fast > 1.0 ? rlf_scale(v, 1.0 / fast) : v;
-            job->rest[i] = rigid ? rigid_rest : unknown_rest;
-            if (!rigid && speed_beyond(job, i, v, &off)) {
-                job->rest[i] = (float)off;
-            }
-            job->now->velocity[0][i] = (float)v.x;
-            job->now->velocity[1][i] = (float)v.y;
-            job->now->velocity[2][i] = (float)v.z;
-        }
+    rlf_twist rest = *t;
+    for (int k = 0; k < 6; k++) {
+        rest.x[k] = 0.0;
     }
+    fit_pass(job, region, 0.0, &rest);
+    return 10 * rest.inliers >= 9 * t->inliers;
 }
 
 /* The centroid moves when pieces join or leave a region, too: then its step says nothing. */
@@ -416,7 +187,7 @@ static bool is_same_shape(const rlf_region *a, const rlf_region *b)
 
 /* Velocity of the visible part's centroid. A silhouette that flickers moves the centroid a little,
  * so small steps do not count. */
-static rlf_vec3 centroid_velocity(const flow_job *job, const rlf_region *region)
+static rlf_vec3 centroid_velocity(const rlf_flow *job, const rlf_region *region)
 {
     const double least_step_m = 0.005;
     const rlf_slot *before = job->before;
@@ -431,50 +202,51 @@ static rlf_vec3 centroid_velocity(const flow_job *job, const rlf_region *region)
     return rlf_vec3_make(0, 0, 0);
 }
 
-/* Tried from rest and from the centroid's motion; what more pixels agree with is right. Where four
- * of five do, the region is rigid. */
-static void region_motion(const flow_job *job, rlf_region *region)
+/* Tried from rest and from the centroid's motion; what more pixels agree with is right. */
+static bool region_motion(const rlf_flow *job, rlf_region *region, rlf_twist *out)
 {
     rlf_vec3 seen = centroid_velocity(job, region);
-    twist t = fit_from(job, region, rlf_vec3_make(0, 0, 0));
-    if (rlf_length(seen) > 0.0) {
-        twist other = fit_from(job, region, seen);
-        t = other.inliers > t.inliers ? other : t;
+    *out = fit_from(job, region, rlf_vec3_make(0, 0, 0));
+    if (rlf_length(seen) > 0.0 && 5 * out->inliers < 4 * out->samples) {
+        rlf_twist other = fit_from(job, region, seen);
+        *out = other.inliers > out->inliers ? other : *out;
     }
-    if (!is_significant(&t) || 3 * t.inliers < t.samples) {
+    if (!is_significant(out) || 3 * out->inliers < out->samples ||
+        is_rest_as_likely(job, region, out)) {
         region->linear_velocity = seen;
-        return;
+        for (int k = 0; k < 6; k++) {
+            out->x[k] = 0.0;
+        }
+        return false;
     }
-    region->linear_velocity = rlf_vec3_make(t.x[0], t.x[1], t.x[2]);
-    region->angular_velocity = rlf_scale(rlf_vec3_make(t.x[3], t.x[4], t.x[5]), 1.0 / t.length);
-    spread_motion(job, region, &t, 5 * t.inliers >= 4 * t.samples);
+    region->linear_velocity = rlf_vec3_make(out->x[0], out->x[1], out->x[2]);
+    region->angular_velocity =
+        rlf_scale(rlf_vec3_make(out->x[3], out->x[4], out->x[5]), 1.0 / out->length);
+    return true;
 }
 
 void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot)
 {
     const rlf_slot *before = stage->previous;
+    clear_velocity(&stage->grid, slot);
     double dt =
         before == NULL ? 0.0 : 1e-9 * (double)(slot->surface.time_ns - before->surface.time_ns);
-    if (!(dt > 0.0) || dt > longest_gap_s || slot->foreground_region_count == 0) {
-        clear_velocity(&stage->grid, slot);
+    if (!(dt > 0.0) || dt > longest_gap_s) {
         return;
     }
-    flow_job job = {.stage = stage,
-                    .before = before,
-                    .now = slot,
-                    .dt = (float)dt,
-                    .all = stage->def.background_method == RLF_BACKGROUND_OFF,
-                    .speed = stage->work.sum[0],
-                    .facing = stage->work.sum[1],
-                    .rest = stage->work.depth[0],
-                    .noise = rlf_kernel_noise_make(&stage->def.rig.noise)};
-    clear_velocity(&stage->grid, slot);
-    for (int32_t i = 0; i < stage->grid.count; i++) {
-        job.rest[i] = unknown_rest;
-    }
-    rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, speed_rows, &job);
+    const rlf_flow job = {stage,
+                          before,
+                          slot,
+                          (float)dt,
+                          rlf_kernel_noise_make(&stage->def.rig.noise),
+                          stage->def.background_method == RLF_BACKGROUND_OFF};
     for (int32_t r = 0; r < slot->foreground_region_count; r++) {
-        region_motion(&job, &slot->regions[slot->foreground_region_first + r]);
+        rlf_region *region = &slot->regions[slot->foreground_region_first + r];
+        for (int32_t y = region->y0; y < region->y1; y++) {
+            slot->moved[y] = rlf_span_unite(slot->moved[y], (rlf_span){region->x0, region->x1});
+        }
+        rlf_twist twist;
+        bool moves = region_motion(&job, region, &twist);
+        rlf_velocity_cells(&job, region, &twist, moves);
     }
-    rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, patch_rows, &job);
 }

@@ -1,0 +1,90 @@
+/* What the two ways to find velocity share. */
+#ifndef RLF_SURFACE_VELOCITY_H
+#define RLF_SURFACE_VELOCITY_H
+
+#include "surface/steps.h"
+
+/* Two frames. */
+typedef struct rlf_flow {
+    const rlf_reconstruct *stage;
+    const rlf_slot *before;
+    rlf_slot *now;
+    float dt;
+    rlf_kernel_noise noise;
+    bool is_all_front; /* there is no background: everything may move */
+} rlf_flow;
+
+/* A rigid motion about a centre; w in units of 1 / length, so that all six unknowns are speeds. */
+typedef struct rlf_twist {
+    rlf_vec3 centre;
+    double length;
+    double x[6];
+    double explained, noise; /* squared speeds */
+    int32_t stride;          /* every stride-th pixel of every stride-th row is looked at */
+    int32_t samples, inliers;
+} rlf_twist;
+
+rlf_vec3 rlf_twist_velocity(const rlf_twist *t, rlf_vec3 p);
+
+/* A square of the image in one region: see velocity_cells.c. */
+typedef struct rlf_cell {
+    float velocity[3];
+    float depth; /* of the limb that it holds, metres; 0 = none of the region */
+    int32_t state;
+} rlf_cell;
+
+size_t rlf_cell_capacity(const rlf_grid *grid);
+/* Velocity of a region's pixels; `twist` is its motion as a whole, 0 unless it `moves`. */
+void rlf_velocity_cells(const rlf_flow *job, const rlf_region *region, const rlf_twist *twist,
+                        bool moves);
+
+static const float rlf_flow_fastest = 5.0f; /* m/s */
+/* Within a window: farther pixels are another limb. */
+static const float rlf_flow_limb_m = 0.05f;
+/* Noise of neighbouring pixels is correlated by the drivers' 3x3 filters: 2 of every second pixel
+ * count as one. */
+static const float rlf_flow_correlated = 2.0f;
+
+static inline rlf_vec3 rlf_flow_point(const rlf_grid *grid, const float *depth, ptrdiff_t i)
+{
+    double z = depth[i];
+    return rlf_vec3_make(z * grid->ray_x[i], z * grid->ray_y[i], z);
+}
+
+static inline rlf_vec3 rlf_flow_normal(const rlf_slot *slot, ptrdiff_t i)
+{
+    return rlf_vec3_make(slot->normal[0][i], slot->normal[1][i], slot->normal[2][i]);
+}
+
+/* Pixel of the frame before that saw point q, near pixel i, < 0 when none did. The step from i is
+ * measured with the focal length: what distortion makes of it moves the pixel a little along the
+ * surface, where the same normal makes the same of it. */
+static inline ptrdiff_t rlf_flow_pixel_before(const rlf_flow *job, ptrdiff_t i, float x, float y,
+                                              float z)
+{
+    const rlf_grid *grid = &job->stage->grid;
+    if (!(z > 0.01f)) {
+        return -1;
+    }
+    float u = (float)(i % grid->width) + (x / z - grid->ray_x[i]) * (float)grid->camera.fx;
+    float v = (float)(i / grid->width) + (y / z - grid->ray_y[i]) * (float)grid->camera.fy;
+    if (!(u > -0.5f) || !(v > -0.5f) || !(u < (float)grid->width - 0.5f) ||
+        !(v < (float)grid->height - 0.5f)) {
+        return -1;
+    }
+    ptrdiff_t k = (ptrdiff_t)(int32_t)(v + 0.5f) * grid->width + (int32_t)(u + 0.5f);
+    bool front = job->before->foreground[k] != 0 || job->is_all_front;
+    return front && job->before->reason[k] == RLF_REASON_OK ? k : -1;
+}
+
+static inline void rlf_flow_write(const rlf_flow *job, ptrdiff_t i, const float v[3])
+{
+    float square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    bool fast = square > rlf_flow_fastest * rlf_flow_fastest;
+    float scale = fast ? rlf_flow_fastest / (float)sqrt((double)square) : 1.0f;
+    for (int k = 0; k < 3; k++) {
+        job->now->velocity[k][i] = scale * v[k];
+    }
+}
+
+#endif
