@@ -22,7 +22,7 @@ static const subcommand subcommands[] = {
     {"sources", sources_main, "list the kinds of source that this build can open"},
     {"eval", eval_main, "measure accuracy where the truth is known, against goals and bounds"},
     {"measure", measure_main, "missing points and wrong normals: table 5.1 of the thesis"},
-    {"bench", bench_main, "time every stage"},
+    {"bench", bench_main, "time and memory of every stage, and how they grow"},
 };
 #define SUBCOMMAND_COUNT ((int)(sizeof(subcommands) / sizeof(subcommands[0])))
 

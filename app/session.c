@@ -35,8 +35,7 @@ static rlf_result open_scene(const session_options *options, rlf_scene *out)
     return RLF_OK;
 }
 
-/* Regions keep their size in the world: their least number of points follows the grid's spacing. */
-static void set_scale(rlf_reconstruct_def *def, int32_t factor)
+void session_set_scale(rlf_reconstruct_def *def, int32_t factor)
 {
     double ratio = (double)def->scale_factor / factor;
     int32_t points = (int32_t)(def->min_region_points * ratio * ratio + 0.5);
@@ -63,7 +62,7 @@ static rlf_result open_all(const session_options *options, session *s)
         def.scene = &s->scene;
     }
     if (options->scale_factor > 0) {
-        set_scale(&def.reconstruct, options->scale_factor);
+        session_set_scale(&def.reconstruct, options->scale_factor);
     }
     def.enable_render = options->enable_render;
     def.compositor.enable_overlay = options->enable_overlay;

@@ -28,6 +28,10 @@ session_options session_options_default(void);
 rlf_result session_open(const session_options *options, session *out);
 void session_close(session *s);
 
+/* Sets the scale factor. Regions keep their size in the world: their least number of points follows
+ * the grid's spacing. */
+void session_set_scale(rlf_reconstruct_def *def, int32_t factor);
+
 /* Reads "live" or "thesis". */
 bool session_parse_profile(const char *text, rlf_profile *out);
 

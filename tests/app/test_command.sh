@@ -114,6 +114,15 @@ grep -q '"ci95"' eval.json || fail "eval: eval.json"
 expect_done eval --scene empty --profile thesis --seeds 1 --frames 20 --threads 1
 grep -q "normals, interior" stdout.txt || fail "eval --scene empty: $(cat stdout.txt)"
 
+# Time and memory.
+expect_error 2 "--frames" bench --frames 0
+expect_error 2 "no argument" bench synthetic:room
+expect_done bench --frames 4 --quick --json bench.json
+grep -q "surface / floor" stdout.txt || fail "bench: $(cat stdout.txt)"
+grep -q '"surface/background"' bench.json || fail "bench: bench.json"
+expect_done bench --frames 4 --quick --compare bench.json
+grep -q "memory/whole .* 1.00$" stdout.txt || fail "bench --compare: $(cat stdout.txt)"
+
 # Same input, same bits, whatever the number of threads.
 "$relief" run "synthetic:room?frames=20" --headless --hash --threads 1 --quiet >hash1.txt
 "$relief" run "synthetic:room?frames=20" --headless --hash --threads 3 --quiet >hash3.txt
