@@ -28,7 +28,7 @@ static void cast_point(grid_job *job, rlf_vec3 anchor, double rounding, rlf_vec3
     field_hit found;
     if (job->hit_count == GRID_HITS_MAX ||
         !grid_field_cast(query->grid, job->sheet, rlf_sub(q, shift), rlf_scale(v, job->horizon),
-                         GRID_MARGIN, &found)) {
+                         GRID_MARGIN, job->home, &found)) {
         return;
     }
     grid_hit *hit = &job->hits[job->hit_count++];
@@ -121,7 +121,35 @@ static void clear(grid_job *job)
     job->hit_count = 0;
 }
 
-static void collide_sheet(grid_job *job, const grid_tiles *tiles)
+/* Whether the surface had not yet passed the body's centre, which is behind it now, when the body's
+ * contacts were last asked for: frames were lost, or it is fast. */
+static bool is_swept(const grid_job *job, const field_cell *cell)
+{
+    double since = job->query->time - job->body->surface_time + job->query->lag;
+    rlf_vec3 before = rlf_mad(job->centre, cell->velocity, since - job->query->tau);
+    field_cell other;
+    return rlf_dot(cell->velocity, cell->normal) > 0.0 &&
+           grid_field_at(job->query->grid, job->sheet, before, &other) != FIELD_BEHIND;
+}
+
+/* Inside a solid a body still belongs to the side from which it came. */
+static void find_home(grid_job *job, uint8_t *home)
+{
+    field_cell cell;
+    rlf_vec3 seen = rlf_mad(job->centre, job->surface_velocity, -job->query->tau);
+    field_state state = FIELD_NONE;
+    if (job->is_near) {
+        state = grid_field_at(job->query->grid, job->sheet, seen, &cell);
+    }
+    if (state == FIELD_BEHIND && *home == FIELD_FRONT && is_swept(job, &cell)) {
+        *home = FIELD_INSIDE;
+    } else if (state != FIELD_INSIDE && !(state == FIELD_BEHIND && *home == FIELD_INSIDE)) {
+        *home = (uint8_t)state;
+    }
+    job->home = (field_state)*home;
+}
+
+static void collide_sheet(grid_job *job, const grid_tiles *tiles, uint8_t *home)
 {
     clear(job);
     job->tiles = tiles;
@@ -130,6 +158,7 @@ static void collide_sheet(grid_job *job, const grid_tiles *tiles)
         return;
     }
     grid_scan_footprint(job);
+    find_home(job, home);
     if (job->is_near) {
         cast_points(job);
         add_bumps(job);
@@ -154,6 +183,22 @@ static void touch_shell(grid_job *job, const shell_plane *plane, rlf_vec3 anchor
     }
 }
 
+/* The shell has no back: what a thin wall would push out behind it stays in the room. */
+static void drop_backs(grid_job *job, const shell_plane *plane)
+{
+    const double NEAR = 0.05;
+    int32_t kept = 0;
+    for (int32_t i = 0; i < job->hit_count; i++) {
+        const grid_hit *hit = &job->hits[i];
+        bool is_back = rlf_dot(hit->normal, plane->normal) < -0.3 &&
+                       rlf_dot(plane->normal, hit->point) - plane->offset < NEAR;
+        if (!is_back) {
+            job->hits[kept++] = *hit;
+        }
+    }
+    job->hit_count = kept;
+}
+
 static void collide_shell(grid_job *job)
 {
     const grid_shell *shell = job->query->shell;
@@ -163,6 +208,7 @@ static void collide_shell(grid_job *job)
         if (rlf_dot(plane->normal, job->centre) - plane->offset > job->reach) {
             continue;
         }
+        drop_backs(job, plane);
         rlf_vec3 core[2];
         double rounding;
         rlf_vec3 down = rlf_mat3_mul_vec(&job->R_body_grid, rlf_neg(plane->normal));
@@ -224,13 +270,14 @@ void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
     set_up(&job, query, body);
     job.horizon = (body->surface_period + 1) * query->step;
     job.reach = reach_of(query, body, body->surface_period);
-    collide_sheet(&job, query->foreground);
+    collide_sheet(&job, query->foreground, &body->home[0]);
     body->surface_flow = job.surface_velocity;
     grid_reduce(&job, body, body_index, RLF_CONTACT_FOREGROUND);
-    collide_sheet(&job, query->background);
+    collide_sheet(&job, query->background, &body->home[1]);
     collide_shell(&job);
     grid_reduce(&job, body, body_index, RLF_CONTACT_BACKGROUND);
     grid_keep_impulses(body, old, old_count);
+    body->surface_time = query->time;
 }
 
 void grid_guard_centre(const grid_query *query, phys_body *body, rlf_vec3 before)
@@ -248,7 +295,7 @@ void grid_guard_centre(const grid_query *query, phys_body *body, rlf_vec3 before
         rlf_vec3 path = rlf_mad(rlf_sub(to, from), flow, -query->step);
         if (sheets[i]->depth == NULL || sheets[i]->normal_x == NULL ||
             grid_field_at(grid, sheets[i], start, &cell) == FIELD_INSIDE ||
-            !grid_field_cast(grid, sheets[i], start, path, 0.0, &hit)) {
+            !grid_field_cast(grid, sheets[i], start, path, 0.0, FIELD_NONE, &hit)) {
             continue;
         }
         rlf_vec3 n = rlf_rotate(grid->T_world_grid.q, hit.normal);

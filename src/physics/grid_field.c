@@ -225,17 +225,17 @@ static void hit_back(const rlf_grid *grid, const rlf_grid_sheet *sheet, const fi
     set_hit(hit, cell, back_point(cell), back_normal(grid, sheet, cell));
 }
 
-/* Through the nearest of front, back and side. */
+/* Through the nearest of front, back and side, or the home's face and side. */
 static void leave_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
-                        const field_cell *cell, field_hit *hit)
+                        const field_cell *cell, field_state home, field_hit *hit)
 {
     hit_front(grid, sheet, cell, hit);
     hit->separation = rlf_dot(hit->normal, rlf_sub(q, hit->point));
-    if (cell->thickness < ENDLESS) {
+    if (cell->thickness < ENDLESS && home != FIELD_FRONT && home != FIELD_INSIDE) {
         field_hit back;
         hit_back(grid, sheet, cell, &back);
         back.separation = rlf_dot(back.normal, rlf_sub(q, back.point));
-        if (back.separation > hit->separation) {
+        if (home == FIELD_BEHIND || back.separation > hit->separation) {
             *hit = back;
         }
     }
@@ -289,12 +289,12 @@ static bool is_through(const field_cell *cell, field_state before, field_state n
 }
 
 bool grid_field_cast(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q, rlf_vec3 path,
-                     double margin, field_hit *out)
+                     double margin, field_state home, field_hit *out)
 {
     field_cell cell;
     field_state state = grid_field_at(grid, sheet, q, &cell);
-    if (state == FIELD_INSIDE) {
-        leave_solid(grid, sheet, q, &cell, out);
+    if (state == FIELD_INSIDE || (state == FIELD_BEHIND && home == FIELD_INSIDE)) {
+        leave_solid(grid, sheet, q, &cell, home, out);
         return true;
     }
     if (state == FIELD_FRONT && rlf_dot(cell.normal, rlf_sub(q, cell.point)) < 2.0 * margin) {

@@ -41,9 +41,12 @@ field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf
                           field_cell *out);
 
 /* First contact of a point that moves from q by `path`: within `margin` of the surface at q, inside
- * the solid, or entering it on the way. The separation is that of q. False when it stays free. */
+ * the solid, or entering it on the way. The separation is that of q. False when it stays free.
+ * `home` is the side that the point's body belongs to: a point inside a solid leaves it there, not
+ * through its other face; FIELD_NONE: by the shortest way; FIELD_INSIDE: the solid swept over it,
+ * so that it leaves through the front even from behind. */
 bool grid_field_cast(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q, rlf_vec3 path,
-                     double margin, field_hit *out);
+                     double margin, field_state home, field_hit *out);
 
 /* Outline of the solid around q, as seen in the image: unit direction out of the solid, square to
  * the view ray, and the distance to the free side, metres. False when none is within `radius_px`.

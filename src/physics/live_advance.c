@@ -54,6 +54,7 @@ static grid_query query_now(rlf_world *world, const rlf_grid *grid, double h)
     grid_query query = {.grid = grid, .time = world->time, .step = h};
     query.T_grid_world = rlf_pose_invert(&grid->T_world_grid);
     query.tau = rlf_clamp(world->grid_tau, -EXTRAPOLATION_MAX, EXTRAPOLATION_MAX);
+    query.lag = rlf_max(query.tau - world->grid_tau, 0.0);
     query.is_moving = query.tau == world->grid_tau;
     query.foreground = &world->foreground_tiles;
     query.background = &world->background_tiles;

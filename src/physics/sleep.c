@@ -1,4 +1,5 @@
-/* Sleeping by islands: bodies that touch fall asleep together. */
+/* Sleep: a body that is still, and whose neighbours are, is left alone until something happens to
+ * it. */
 #include "physics/sleep.h"
 
 /* A body is still while its place, averaged over blocks of time, does not drift: the noise of a
@@ -40,7 +41,8 @@ static void start_rest(phys_body *body)
 /* Counts the time that the body has been still, block by block. */
 static void watch_rest(phys_body *body, double h)
 {
-    if (has_left_its_place(body)) {
+    body->has_left = has_left_its_place(body);
+    if (body->has_left) {
         start_rest(body);
         return;
     }
@@ -115,6 +117,12 @@ static bool touches(const phys_pair *pair, double way)
     return false;
 }
 
+/* Moves, and not for long at the same place. */
+static bool is_restless(const phys_body *body)
+{
+    return phys_body_is_driven(body) || (phys_body_is_moving(body) && body->still_time <= 0.0);
+}
+
 void phys_wake_by_touch(rlf_world *world, double horizon)
 {
     for (int32_t i = 0; i < world->pair_count; i++) {
@@ -123,20 +131,32 @@ void phys_wake_by_touch(rlf_world *world, double horizon)
         if (a->is_asleep == b->is_asleep) {
             continue;
         }
-        double speed = speed_of(a->is_asleep ? b : a);
-        if (speed > TOUCH_SPEED && touches(pair, speed * horizon)) {
+        const phys_body *awake = a->is_asleep ? b : a;
+        double speed = speed_of(awake);
+        bool is_hit = speed > TOUCH_SPEED && touches(pair, speed * horizon);
+        bool is_left = awake->has_left && touches(pair, EXCURSION_MAX); /* however slowly */
+        if (is_hit || is_left) {
             phys_body_wake(a->is_asleep ? a : b);
         }
     }
 }
 
-static int32_t root_of(rlf_world *world, int32_t i)
+/* A restless body keeps those awake that it touches. */
+static void disturb_neighbours(rlf_world *world)
 {
-    while (world->parent[i] != i) {
-        world->parent[i] = world->parent[world->parent[i]];
-        i = world->parent[i];
+    for (int32_t i = 0; i < world->pair_count; i++) {
+        const phys_pair *pair = &world->pairs[world->order[i]];
+        phys_body *a = &world->bodies[pair->a], *b = &world->bodies[pair->b];
+        if (!touches(pair, 0.0)) {
+            continue;
+        }
+        if (is_restless(a)) {
+            b->is_disturbed = true;
+        }
+        if (is_restless(b)) {
+            a->is_disturbed = true;
+        }
     }
-    return i;
 }
 
 void phys_fall_asleep(rlf_world *world, double h)
@@ -144,8 +164,8 @@ void phys_fall_asleep(rlf_world *world, double h)
     bool is_any_tired = false;
     for (int32_t i = 0; i < world->body_top; i++) {
         phys_body *body = &world->bodies[i];
-        world->parent[i] = i;
-        if (body->is_alive && !body->is_asleep && !phys_body_is_fixed(body)) {
+        body->is_disturbed = false;
+        if (phys_body_is_moving(body)) {
             watch_rest(body, h);
             is_any_tired = is_any_tired || body->still_time > STILL_TIME;
         }
@@ -153,25 +173,10 @@ void phys_fall_asleep(rlf_world *world, double h)
     if (!is_any_tired) {
         return;
     }
-    for (int32_t i = 0; i < world->pair_count; i++) {
-        const phys_pair *pair = &world->pairs[world->order[i]];
-        if (touches(pair, 0.0) && !phys_body_is_fixed(&world->bodies[pair->a]) &&
-            !phys_body_is_fixed(&world->bodies[pair->b])) {
-            world->parent[root_of(world, pair->b)] = root_of(world, pair->a);
-        }
-    }
-    for (int32_t i = 0; i < world->body_top; i++) { /* one restless body keeps its island awake */
-        const phys_body *body = &world->bodies[i];
-        if (body->is_alive && !body->is_asleep && body->still_time <= STILL_TIME) {
-            world->bodies[root_of(world, i)].still_time =
-                rlf_min(world->bodies[root_of(world, i)].still_time, body->still_time);
-        }
-    }
+    disturb_neighbours(world);
     for (int32_t i = 0; i < world->body_top; i++) {
         phys_body *body = &world->bodies[i];
-        double rest = world->bodies[root_of(world, i)].still_time;
-        if (body->is_alive && !phys_body_is_fixed(body) && !body->is_asleep && rest > STILL_TIME &&
-            body->still_time > STILL_TIME) {
+        if (phys_body_is_moving(body) && body->still_time > STILL_TIME && !body->is_disturbed) {
             body->is_asleep = true;
             body->v = body->w = rlf_vec3_make(0, 0, 0);
             body->impact_shift = body->impact_turn = body->v;

@@ -8,10 +8,10 @@
 /* Ends the sleep of bodies whose surface moved, came closer or went away. */
 void phys_wake_by_surface(rlf_world *world, const grid_query *query);
 
-/* Ends the sleep of bodies that a moving one touches. */
+/* Ends the sleep of bodies that a moving one touches, or will within `horizon` seconds. */
 void phys_wake_by_touch(rlf_world *world, double horizon);
 
-/* Puts groups of touching bodies to sleep that all have been still for half a second. */
+/* Puts bodies to sleep that have been still for half a second and touch nothing restless. */
 void phys_fall_asleep(rlf_world *world, double h);
 
 #endif

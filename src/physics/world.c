@@ -187,6 +187,7 @@ bool rlf_world_set_body(rlf_world *world, rlf_body_id id, const rlf_pose *T_worl
         body->w = angular_velocity;
     }
     body->surface_count = 0;
+    body->home[0] = body->home[1] = 0;
     body->turned += RLF_PI; /* whatever the turn was: its contacts are void */
     phys_body_orient(body);
     wake_near(world, body);
