@@ -18,6 +18,7 @@ typedef struct picture_method {
 } picture_method;
 
 static const picture_method methods[] = {
+    {"live_soft", "live, soft", RLF_PROFILE_LIVE, RLF_OCCLUSION_SOFT},
     {"live_hard", "live, hard", RLF_PROFILE_LIVE, RLF_OCCLUSION_DEPTH},
     {"thesis_layers", "thesis, layers", RLF_PROFILE_THESIS, RLF_OCCLUSION_THESIS},
 };

@@ -31,10 +31,13 @@ RLF_API const char *rlf_view_name(rlf_view view);
 RLF_API bool rlf_view_parse(const char *name, rlf_view *out);
 
 typedef enum rlf_occlusion {
-    RLF_OCCLUSION_DEPTH = 0, /* every pixel's depth against the registered real depth */
+    RLF_OCCLUSION_DEPTH = 0, /* hard: every pixel's depth against the registered real depth */
     RLF_OCCLUSION_THESIS =
-        1,                /* 4.2.2: one layer per body, stencil-limited, blended back to front */
-    RLF_OCCLUSION_OFF = 2 /* plain augmented reality (fig. 4.9) */
+        1,                 /* 4.2.2: one layer per body, stencil-limited, blended back to front */
+    RLF_OCCLUSION_OFF = 2, /* plain augmented reality (fig. 4.9) */
+    RLF_OCCLUSION_SOFT = 3 /* as DEPTH; at silhouettes of real things the share of the near side
+                              comes from the colour image and is steady over time, and a body fades
+                              over +-2 sigma(z) of the sensor where it meets a surface */
 } rlf_occlusion;
 
 typedef struct rlf_compositor_def {

@@ -88,12 +88,30 @@ typedef struct pixel_sum {
     float shown;    /* the same after occlusion */
 } pixel_sum;
 
+static float clamp01(float x)
+{
+    return x < 0.0f ? 0.0f : (x > 1.0f ? 1.0f : x);
+}
+
+static float share_soft(const soft *s, const float at[2], float z)
+{
+    ptrdiff_t i = (ptrdiff_t)at[1] * s->camera.width + (ptrdiff_t)at[0];
+    float fade = 0.25f / (float)rlf_depth_noise_sigma(&s->def.rig.noise, (double)z);
+    float near_share = clamp01(0.5f + (s->silhouette.near_z.data[i] - z) * fade);
+    float far_share = clamp01(0.5f + (s->silhouette.far_z.data[i] - z) * fade);
+    float cover = (float)s->silhouette.cover.data[i] * (1.0f / 255.0f);
+    return far_share + (near_share - far_share) * cover;
+}
+
 static void add_samples(const soft *s, const real_taps *taps, int32_t id, pixel_sum *sum,
                         const float at[3])
 {
     soft_fragment f = soft_shade(&s->scene, &s->scene.triangles[id], at[0], at[1]);
     float coverage = at[2];
     float shown = taps != NULL ? coverage * share_in_front(taps, f.z) : coverage;
+    if (s->def.occlusion == RLF_OCCLUSION_SOFT) {
+        shown = coverage * share_soft(s, at, f.z);
+    }
     sum->covered += coverage;
     sum->shown += shown;
     for (int c = 0; c < 3; c++) {

@@ -117,7 +117,7 @@ static void draw_ball_row(const soft *s, const ball *b, int32_t y)
 
 void soft_draw_shadows(const soft *s, int32_t begin, int32_t end)
 {
-    if (s->def.occlusion != RLF_OCCLUSION_DEPTH) {
+    if (s->def.occlusion == RLF_OCCLUSION_OFF || s->def.occlusion == RLF_OCCLUSION_THESIS) {
         return; /* the thesis has none, and plain augmented reality does not know the real world */
     }
     for (int32_t i = 0; i < s->scene.body_count; i++) {

@@ -12,6 +12,7 @@ static void destroy(void *self)
 {
     soft *s = self;
     real_depth_destroy(&s->real);
+    silhouette_destroy(&s->silhouette);
     for (int32_t i = 0; s->bands != NULL && i < s->band_count; i++) {
         rlf_free(s->bands[i].inverse_z);
         rlf_free(s->bands[i].triangle);
@@ -106,7 +107,7 @@ static rlf_result check_def(const rlf_compositor_def *def)
     if (!(length > 0.5) || !(length < 2.0)) {
         return rlf_fail(RLF_ERROR_INVALID, "compositor: light_direction is no unit vector");
     }
-    if ((int)def->occlusion < 0 || def->occlusion > RLF_OCCLUSION_OFF) {
+    if ((int)def->occlusion < 0 || def->occlusion > RLF_OCCLUSION_SOFT) {
         return rlf_fail(RLF_ERROR_INVALID, "compositor: unknown occlusion %d", (int)def->occlusion);
     }
     return RLF_OK;
@@ -117,6 +118,20 @@ static rlf_result check_def(const rlf_compositor_def *def)
 static void clear_matte(soft *s)
 {
     memset(s->matte.data, 0, (size_t)s->matte.width * (size_t)s->matte.height);
+}
+
+/* What the real world is like where the bodies are. */
+static void update_silhouette(soft *s, const rlf_render_input *input)
+{
+    silhouette_begin(&s->silhouette);
+    for (int32_t i = 0; i < s->scene.body_count; i++) {
+        silhouette_body body;
+        const soft_body *b = &s->scene.bodies[i];
+        if (silhouette_body_of_ball(&s->camera, b->center, b->radius, &body)) {
+            silhouette_add(&s->silhouette, &body);
+        }
+    }
+    silhouette_update(&s->silhouette, &s->real.z, input->frame);
 }
 
 static rlf_result draw_camera(soft *s, const rlf_render_input *input)
@@ -130,6 +145,9 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
         real_depth_update(&s->real, input->frame, input->surface);
     }
     soft_draw_background(s, input);
+    if (s->scene.body_count > 0 && s->def.occlusion == RLF_OCCLUSION_SOFT) {
+        update_silhouette(s, input);
+    }
     if (s->scene.body_count > 0) {
         soft_draw_bodies(s);
     }
@@ -185,7 +203,13 @@ static rlf_result prepare(soft *s)
         body_texture_fill((body_texture_kind)kind, s->textures[kind]);
     }
     rlf_result result = allocate(s);
-    return result == RLF_OK ? real_depth_create(&s->def, &s->camera, &s->real) : result;
+    if (result == RLF_OK) {
+        result = real_depth_create(&s->def, &s->camera, &s->real);
+    }
+    if (result == RLF_OK && s->def.occlusion == RLF_OCCLUSION_SOFT) {
+        result = silhouette_create(&s->camera, &s->def.rig.depth, s->def.pool, &s->silhouette);
+    }
+    return result;
 }
 
 rlf_result rlf_compositor_create_soft(const rlf_compositor_def *def, rlf_compositor **out)

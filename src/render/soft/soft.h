@@ -13,6 +13,7 @@
 #include "render/body_texture.h"
 #include "render/real_depth.h"
 #include "render/shape_mesh.h"
+#include "render/silhouette.h"
 
 #define SOFT_SAMPLES 4    /* per pixel, against jagged edges */
 #define SOFT_BAND_ROWS 16 /* rows that one worker draws at a time */
@@ -77,6 +78,7 @@ typedef struct soft {
     rlf_image_rgba8 image;
     rlf_plane_u8 matte;
     real_depth real;
+    silhouette silhouette; /* RLF_OCCLUSION_SOFT only */
 
     shape_mesh_set meshes;
     uint8_t textures[BODY_TEXTURE_KINDS][BODY_TEXTURE_BYTES];

@@ -1,0 +1,340 @@
+/* Which pixels may hide a body: tiles, rows, columns, and steadiness over time. */
+#include "silhouette.h"
+
+#include <string.h>
+
+#define STEADY_SHARE 4   /* a still pixel moves by a quarter of the way to its new cover */
+#define STEADY_LIGHT 5   /* steps of the mean colour that noise may change */
+#define BALL_MARGIN 1.05 /* of a ball's bounds, for what the lens bends between corners */
+
+/* ---- create --------------------------------------------------------------------------------- */
+
+static rlf_result allocate(silhouette *s, int32_t width, int32_t height)
+{
+    size_t pixels = (size_t)width * (size_t)height;
+    rlf_plane_f32 *depths[2] = {&s->near_z, &s->far_z};
+    rlf_plane_u8 *bytes[4] = {&s->cover, &s->distance, &s->last_cover, &s->last_light};
+    bool has_all = true;
+    for (int i = 0; i < 2; i++) {
+        *depths[i] = (rlf_plane_f32){rlf_alloc_array(pixels, sizeof(float)), width, height,
+                                     width * (ptrdiff_t)sizeof(float)};
+        has_all = has_all && depths[i]->data != NULL;
+    }
+    for (int i = 0; i < 4; i++) {
+        *bytes[i] = (rlf_plane_u8){rlf_alloc(pixels), width, height, width};
+        has_all = has_all && bytes[i]->data != NULL;
+    }
+    size_t tiles = (size_t)s->columns * (size_t)s->rows;
+    s->tiles = rlf_alloc_array(tiles, sizeof(*s->tiles));
+    s->own = rlf_alloc_array(tiles, sizeof(*s->own));
+    s->last_seen = rlf_alloc_array(pixels, sizeof(*s->last_seen));
+    s->offset_x = rlf_alloc_array((size_t)width, sizeof(*s->offset_x));
+    s->offset_y = rlf_alloc_array((size_t)height, sizeof(*s->offset_y));
+    has_all = has_all && s->tiles != NULL && s->own != NULL && s->last_seen != NULL &&
+              s->offset_x != NULL && s->offset_y != NULL;
+    return has_all ? RLF_OK : RLF_ERROR_MEMORY;
+}
+
+rlf_result silhouette_create(const rlf_camera *camera, const rlf_camera *depth, rlf_pool *pool,
+                             silhouette *out)
+{
+    memset(out, 0, sizeof(*out));
+    out->columns = (camera->width + SILHOUETTE_TILE - 1) / SILHOUETTE_TILE;
+    out->rows = (camera->height + SILHOUETTE_TILE - 1) / SILHOUETTE_TILE;
+    out->pool = pool;
+    double ratio = rlf_max(camera->fx / depth->fx, camera->fy / depth->fy);
+    /* Sensors lose or mix up to three depth pixels at an edge. */
+    out->reach = (int32_t)rlf_clamp(3.0 * ratio + 1.5, 2.0, SILHOUETTE_TILE);
+    rlf_result result = allocate(out, camera->width, camera->height);
+    if (result != RLF_OK) {
+        silhouette_destroy(out);
+    }
+    return result;
+}
+
+void silhouette_destroy(silhouette *s)
+{
+    void *parts[11] = {s->near_z.data,   s->far_z.data,      s->cover.data,
+                       s->distance.data, s->last_cover.data, s->last_light.data,
+                       s->last_seen,     s->tiles,           s->own,
+                       s->offset_x,      s->offset_y};
+    for (int i = 0; i < 11; i++) {
+        rlf_free(parts[i]);
+    }
+    memset(s, 0, sizeof(*s));
+}
+
+/* ---- bodies --------------------------------------------------------------------------------- */
+
+bool silhouette_body_of_ball(const rlf_camera *camera, rlf_vec3 center, double radius,
+                             silhouette_body *out)
+{
+    double low[2] = {camera->width, camera->height};
+    double high[2] = {-1.0, -1.0};
+    double reach = BALL_MARGIN * radius;
+    *out = (silhouette_body){0,
+                             0,
+                             camera->width,
+                             camera->height,
+                             (float)(center.z - radius),
+                             (float)(center.z + radius)};
+    for (int i = 0; i < 8; i++) {
+        rlf_vec3 corner = {center.x + ((i & 1) != 0 ? reach : -reach),
+                           center.y + ((i & 2) != 0 ? reach : -reach),
+                           center.z + ((i & 4) != 0 ? reach : -reach)};
+        double u, v;
+        if (corner.z < 0.01 || !rlf_camera_project(camera, corner, &u, &v)) {
+            return center.z + radius > 0.0; /* around the camera or beyond its lens: anywhere */
+        }
+        low[0] = rlf_min(low[0], u);
+        low[1] = rlf_min(low[1], v);
+        high[0] = rlf_max(high[0], u);
+        high[1] = rlf_max(high[1], v);
+    }
+    out->x0 = (int32_t)rlf_clamp(low[0] - 1.0, 0.0, camera->width);
+    out->y0 = (int32_t)rlf_clamp(low[1] - 1.0, 0.0, camera->height);
+    out->x1 = (int32_t)rlf_clamp(high[0] + 2.0, 0.0, camera->width);
+    out->y1 = (int32_t)rlf_clamp(high[1] + 2.0, 0.0, camera->height);
+    return out->x0 < out->x1 && out->y0 < out->y1;
+}
+
+void silhouette_begin(silhouette *s)
+{
+    for (int32_t i = 0; i < s->columns * s->rows; i++) {
+        s->own[i] = (silhouette_tile){SILHOUETTE_FAR, -1.0f};
+    }
+}
+
+static void widen(silhouette_tile *tile, const silhouette_tile *by)
+{
+    tile->near_z = by->near_z < tile->near_z ? by->near_z : tile->near_z;
+    tile->far_z = by->far_z > tile->far_z ? by->far_z : tile->far_z;
+}
+
+void silhouette_add(silhouette *s, const silhouette_body *body)
+{
+    const silhouette_tile range = {body->near_z, body->far_z};
+    for (int32_t y = body->y0 / SILHOUETTE_TILE; y * SILHOUETTE_TILE < body->y1; y++) {
+        for (int32_t x = body->x0 / SILHOUETTE_TILE; x * SILHOUETTE_TILE < body->x1; x++) {
+            widen(&s->own[y * s->columns + x], &range);
+        }
+    }
+}
+
+/* An edge in the next tile may reach into a tile with a body. */
+static void spread_tiles(silhouette *s)
+{
+    for (int32_t i = 0; i < s->columns * s->rows; i++) {
+        s->tiles[i] = s->own[i];
+        for (int32_t k = 0; k < 9; k++) {
+            int32_t x = i % s->columns + k % 3 - 1;
+            int32_t y = i / s->columns + k / 3 - 1;
+            if (x >= 0 && y >= 0 && x < s->columns && y < s->rows) {
+                widen(&s->tiles[i], &s->own[y * s->columns + x]);
+            }
+        }
+    }
+}
+
+static bool is_used(const silhouette_tile *tile)
+{
+    return tile->far_z >= tile->near_z;
+}
+
+/* ---- passes --------------------------------------------------------------------------------- */
+
+typedef struct pass {
+    silhouette *s;
+    const rlf_plane_f32 *z;
+    const uint8_t *color;
+    bool is_new; /* a new frame: cover may move on */
+} pass;
+
+static int32_t at_most(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Without edges: all of a pixel is as far as the registered depth says. */
+static void clear_row(const pass *p, int32_t x0, int32_t x1, int32_t y)
+{
+    const float *z = rlf_f32_row(p->z, y);
+    float *near_z = rlf_f32_row(&p->s->near_z, y);
+    float *far_z = rlf_f32_row(&p->s->far_z, y);
+    for (int32_t x = x0; x < x1; x++) {
+        float here = z[x] > 0.0f ? z[x] : SILHOUETTE_FAR;
+        near_z[x] = here;
+        far_z[x] = here;
+    }
+    memset(rlf_u8_row(&p->s->cover, y) + x0, 255, (size_t)(x1 - x0));
+    memset(rlf_u8_row(&p->s->distance, y) + x0, SILHOUETTE_NONE, (size_t)(x1 - x0));
+}
+
+/* True when depth jumps between any of a[i] and b[i]. */
+static bool has_jump(const float *a, const float *b, int32_t count)
+{
+    int32_t any = 0;
+    for (int32_t i = 0; i < count; i++) {
+        any |= silhouette_jumps(a[i], b[i]) ? 1 : 0;
+    }
+    return any != 0;
+}
+
+static void settle_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    const pass *p = context;
+    silhouette *s = p->s;
+    (void)worker;
+    int32_t width = p->z->width;
+    int32_t height = p->z->height;
+    for (int32_t y = begin * SILHOUETTE_TILE; y < at_most(end * SILHOUETTE_TILE, height); y++) {
+        const silhouette_tile *tiles = &s->tiles[y / SILHOUETTE_TILE * s->columns];
+        silhouette_line line = {.z = rlf_f32_row(p->z, y),
+                                .color = p->color != NULL ? p->color + s->offset_y[y] : NULL,
+                                .color_offset = s->offset_x,
+                                .near_z = rlf_f32_row(&s->near_z, y),
+                                .far_z = rlf_f32_row(&s->far_z, y),
+                                .cover = rlf_u8_row(&s->cover, y),
+                                .distance = rlf_u8_row(&s->distance, y),
+                                .step = 1,
+                                .across = width,
+                                .count = width,
+                                .above = y,
+                                .below = height - 1 - y};
+        for (int32_t x = 0; x < width; x += SILHOUETTE_TILE) {
+            if (is_used(&tiles[x / SILHOUETTE_TILE])) {
+                clear_row(p, x, at_most(x + SILHOUETTE_TILE, width), y);
+            }
+        }
+        for (int32_t x = 0; x < width; x += SILHOUETTE_TILE) {
+            const silhouette_tile *tile = &tiles[x / SILHOUETTE_TILE];
+            int32_t last = at_most(x + SILHOUETTE_TILE, width - 1);
+            if (is_used(tile) && has_jump(line.z + x, line.z + x + 1, last - x)) {
+                for (int32_t i = x; i < last; i++) {
+                    silhouette_settle(&line, i, tile, s->reach);
+                }
+            }
+        }
+    }
+}
+
+static void settle_columns(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    const pass *p = context;
+    silhouette *s = p->s;
+    (void)worker;
+    int32_t width = p->z->width;
+    int32_t height = p->z->height;
+    for (int32_t tile_x = begin; tile_x < end; tile_x++) {
+        int32_t x0 = tile_x * SILHOUETTE_TILE;
+        int32_t count = at_most(SILHOUETTE_TILE, width - x0);
+        for (int32_t y = 0; y < height - 1; y++) {
+            const silhouette_tile *tile = &s->tiles[y / SILHOUETTE_TILE * s->columns + tile_x];
+            const float *row = rlf_f32_row(p->z, y) + x0;
+            if (!is_used(tile) || !has_jump(row, row + width, count)) {
+                continue;
+            }
+            for (int32_t x = x0; x < x0 + count; x++) {
+                silhouette_line line = {.z = p->z->data + x,
+                                        .color =
+                                            p->color != NULL ? p->color + s->offset_x[x] : NULL,
+                                        .color_offset = s->offset_y,
+                                        .near_z = s->near_z.data + x,
+                                        .far_z = s->far_z.data + x,
+                                        .cover = s->cover.data + x,
+                                        .distance = s->distance.data + x,
+                                        .step = width,
+                                        .across = 1,
+                                        .count = height,
+                                        .above = x,
+                                        .below = width - 1 - x,
+                                        .is_column = true};
+                silhouette_settle(&line, y, tile, s->reach);
+            }
+        }
+    }
+}
+
+/* ---- steadiness ----------------------------------------------------------------------------- */
+
+static uint8_t light_of(const pass *p, int32_t x, int32_t y)
+{
+    if (p->color == NULL) {
+        return 0;
+    }
+    const uint8_t *c = p->color + p->s->offset_y[y] + p->s->offset_x[x];
+    return (uint8_t)((c[0] + 2 * c[1] + c[2]) / 4);
+}
+
+/* Where the picture has not changed the cover moves slowly, so that noise does not show. */
+static void steady_pixel(const pass *p, int32_t x, int32_t y)
+{
+    silhouette *s = p->s;
+    uint16_t *seen = &s->last_seen[(size_t)y * (size_t)s->cover.width + (size_t)x];
+    uint8_t *cover = rlf_u8_row(&s->cover, y) + x;
+    uint8_t *last = rlf_u8_row(&s->last_cover, y) + x;
+    uint8_t *light = rlf_u8_row(&s->last_light, y) + x;
+    uint8_t now = light_of(p, x, y);
+    int32_t change = now - *light;
+    uint16_t before = (uint16_t)(s->picture == 1 ? UINT16_MAX : s->picture - 1);
+    bool is_still = change <= STEADY_LIGHT && change >= -STEADY_LIGHT;
+    bool is_known = *seen == (p->is_new ? before : s->picture);
+    if (is_known && is_still) {
+        int32_t step = *cover - *last;
+        int32_t part = p->is_new ? step / STEADY_SHARE : 0;
+        *cover = (uint8_t)(*last + part);
+    }
+    *last = *cover;
+    *light = now;
+    *seen = s->picture;
+}
+
+static void steady_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    const pass *p = context;
+    const silhouette *s = p->s;
+    (void)worker;
+    for (int32_t y = begin * SILHOUETTE_TILE; y < at_most(end * SILHOUETTE_TILE, s->cover.height);
+         y++) {
+        const uint8_t *distance = rlf_u8_row(&s->distance, y);
+        for (int32_t x0 = 0; x0 < s->cover.width; x0 += SILHOUETTE_TILE) {
+            int32_t x1 = at_most(x0 + SILHOUETTE_TILE, s->cover.width);
+            int32_t tile = y / SILHOUETTE_TILE * s->columns + x0 / SILHOUETTE_TILE;
+            for (int32_t x = x0; is_used(&s->tiles[tile]) && x < x1; x++) {
+                if (distance[x] != SILHOUETTE_NONE) {
+                    steady_pixel(p, x, y);
+                }
+            }
+        }
+    }
+}
+
+/* ---- update --------------------------------------------------------------------------------- */
+
+static void fill_offsets(silhouette *s, const rlf_image_rgba8 *color)
+{
+    for (int32_t x = 0; x < s->cover.width; x++) {
+        s->offset_x[x] =
+            4 * (ptrdiff_t)((2 * (int64_t)x + 1) * color->width / (2 * s->cover.width));
+    }
+    for (int32_t y = 0; y < s->cover.height; y++) {
+        s->offset_y[y] = color->stride *
+                         (ptrdiff_t)((2 * (int64_t)y + 1) * color->height / (2 * s->cover.height));
+    }
+}
+
+void silhouette_update(silhouette *s, const rlf_plane_f32 *z, const rlf_frame *frame)
+{
+    pass p = {s, z, frame->color.data, s->picture == 0 || frame->sequence != s->last_sequence};
+    if (p.color != NULL) {
+        fill_offsets(s, &frame->color);
+    }
+    if (p.is_new) {
+        s->picture = (uint16_t)(s->picture == UINT16_MAX ? 1 : s->picture + 1);
+    }
+    s->last_sequence = frame->sequence;
+    spread_tiles(s);
+    rlf_parallel_for(s->pool, s->rows, 1, settle_rows, &p);
+    rlf_parallel_for(s->pool, s->columns, 1, settle_columns, &p);
+    rlf_parallel_for(s->pool, s->rows, 1, steady_rows, &p);
+}

@@ -1,0 +1,88 @@
+/* Silhouettes of real things where bodies are, to less than a pixel.
+ *
+ * Depth knows who is in front of whom, but its edges are as coarse as its pixels and ragged; the
+ * colour image has the edge itself. Around every depth edge that matters to a body a line of pixels
+ * across it is split where the colours change from those of the near side to those of the far
+ * side; what the split pixels are mixed of gives the share of the near side. Where both sides look
+ * alike the depth's own edge stays. Shared by both renderers. */
+#ifndef RLF_RENDER_SILHOUETTE_H
+#define RLF_RENDER_SILHOUETTE_H
+
+#include "relief/compositor.h"
+
+#define SILHOUETTE_FAR 1e9f /* depth of what hides nothing */
+#define SILHOUETTE_TILE 16  /* pixels */
+#define SILHOUETTE_NONE 255 /* distance: no edge near */
+
+/* Where a body may be. */
+typedef struct silhouette_body {
+    int32_t x0, y0, x1, y1; /* pixels x0 <= x < x1, y0 <= y < y1 */
+    float near_z, far_z;    /* metres in the picture camera's frame */
+} silhouette_body;
+
+/* Depths of the bodies in and around a tile; far_z < near_z when there are none. */
+typedef struct silhouette_tile {
+    float near_z, far_z;
+} silhouette_tile;
+
+typedef struct silhouette {
+    /* The real world in the tiles that have bodies: a pixel shows `cover` of near_z, the rest of
+     * far_z. SILHOUETTE_FAR where there is no depth. */
+    rlf_plane_f32 near_z, far_z;
+    rlf_plane_u8 cover; /* 255 = all */
+
+    rlf_plane_u8 distance; /* pixels to the edge that set a pixel, or SILHOUETTE_NONE */
+    rlf_plane_u8 last_cover, last_light;
+    uint16_t *last_seen;    /* number of the picture that set the two */
+    uint16_t picture;       /* counts up, never 0 */
+    uint64_t last_sequence; /* of the frame */
+
+    silhouette_tile *tiles;
+    silhouette_tile *own; /* the same without the neighbours */
+    int32_t columns, rows;
+    ptrdiff_t *offset_x, *offset_y; /* bytes of a picture's pixel in the colour image */
+    int32_t reach;                  /* pixels on each side of a depth edge that may be wrong */
+    rlf_pool *pool;
+} silhouette;
+
+/* `camera` is the picture's, `depth` the one that was registered. */
+rlf_result silhouette_create(const rlf_camera *camera, const rlf_camera *depth, rlf_pool *pool,
+                             silhouette *out);
+void silhouette_destroy(silhouette *s);
+
+/* Where a ball in the picture camera's frame may be; false when it is not in the picture. */
+bool silhouette_body_of_ball(const rlf_camera *camera, rlf_vec3 center, double radius,
+                             silhouette_body *out);
+/* Forgets the last picture's bodies. */
+void silhouette_begin(silhouette *s);
+void silhouette_add(silhouette *s, const silhouette_body *body);
+/* Fills near_z, far_z and cover in all tiles with bodies. z is the registered depth; the frame's
+ * colour may be missing. */
+void silhouette_update(silhouette *s, const rlf_plane_f32 *z, const rlf_frame *frame);
+
+/* silhouette_line.c: a row or a column of the picture; all steps are to the next pixel of it. */
+typedef struct silhouette_line {
+    const float *z;
+    const uint8_t *color;          /* of the line; NULL = none */
+    const ptrdiff_t *color_offset; /* bytes, per pixel of the line */
+    float *near_z, *far_z;
+    uint8_t *cover, *distance;
+    ptrdiff_t step;   /* in pixels, of all planes but the colour's */
+    ptrdiff_t across; /* to the same pixel of the next line */
+    int32_t count;
+    int32_t above, below; /* lines before and after this one */
+    bool is_column;
+} silhouette_line;
+
+/* True when depth jumps from `a` to its neighbour `b`. */
+static inline bool silhouette_jumps(float a, float b)
+{
+    float nearer = a < b ? a : b;
+    float step = a < b ? b - a : a - b;
+    return step > 0.02f + 0.012f * nearer;
+}
+/* Settles the edge between pixels i and i + 1 when it matters to bodies within `tile`. */
+void silhouette_settle(const silhouette_line *line, int32_t i, const silhouette_tile *tile,
+                       int32_t reach);
+
+#endif
