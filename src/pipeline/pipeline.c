@@ -53,7 +53,7 @@ rlf_pipeline_def rlf_pipeline_def_default(rlf_profile profile, rlf_source *sourc
     def.world.pool = pool;
     def.compositor = rlf_compositor_def_default();
     def.compositor.rig = *rig;
-    def.compositor.occlusion = is_thesis ? RLF_OCCLUSION_THESIS : RLF_OCCLUSION_DEPTH;
+    def.compositor.occlusion = is_thesis ? RLF_OCCLUSION_THESIS : RLF_OCCLUSION_SOFT;
     def.compositor.pool = pool;
     return def;
 }

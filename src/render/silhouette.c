@@ -66,25 +66,34 @@ void silhouette_destroy(silhouette *s)
 
 /* ---- bodies --------------------------------------------------------------------------------- */
 
-bool silhouette_body_of_ball(const rlf_camera *camera, rlf_vec3 center, double radius,
-                             silhouette_body *out)
+/* Where a body may be. */
+typedef struct body_bounds {
+    int32_t x0, y0, x1, y1; /* pixels x0 <= x < x1, y0 <= y < y1 */
+    silhouette_tile range;
+} body_bounds;
+
+/* Bounds of a ball in the picture camera's frame; false when it is not in the picture. */
+static bool bounds_of_ball(const rlf_camera *camera, rlf_vec3 center, double radius,
+                           body_bounds *out)
 {
     double low[2] = {camera->width, camera->height};
     double high[2] = {-1.0, -1.0};
     double reach = BALL_MARGIN * radius;
-    *out = (silhouette_body){0,
-                             0,
-                             camera->width,
-                             camera->height,
-                             (float)(center.z - radius),
-                             (float)(center.z + radius)};
+    if (!rlf_vec3_is_finite(center) || !rlf_is_finite(radius) || center.z + radius < 0.0) {
+        return false;
+    }
+    *out = (body_bounds){0,
+                         0,
+                         camera->width,
+                         camera->height,
+                         {(float)(center.z - radius), (float)(center.z + radius)}};
     for (int i = 0; i < 8; i++) {
         rlf_vec3 corner = {center.x + ((i & 1) != 0 ? reach : -reach),
                            center.y + ((i & 2) != 0 ? reach : -reach),
                            center.z + ((i & 4) != 0 ? reach : -reach)};
         double u, v;
         if (corner.z < 0.01 || !rlf_camera_project(camera, corner, &u, &v)) {
-            return center.z + radius > 0.0; /* around the camera or beyond its lens: anywhere */
+            return true; /* around the camera or beyond its lens: anywhere */
         }
         low[0] = rlf_min(low[0], u);
         low[1] = rlf_min(low[1], v);
@@ -98,25 +107,33 @@ bool silhouette_body_of_ball(const rlf_camera *camera, rlf_vec3 center, double r
     return out->x0 < out->x1 && out->y0 < out->y1;
 }
 
-void silhouette_begin(silhouette *s)
-{
-    for (int32_t i = 0; i < s->columns * s->rows; i++) {
-        s->own[i] = (silhouette_tile){SILHOUETTE_FAR, -1.0f};
-    }
-}
-
 static void widen(silhouette_tile *tile, const silhouette_tile *by)
 {
     tile->near_z = by->near_z < tile->near_z ? by->near_z : tile->near_z;
     tile->far_z = by->far_z > tile->far_z ? by->far_z : tile->far_z;
 }
 
-void silhouette_add(silhouette *s, const silhouette_body *body)
+static void add_body(silhouette *s, const body_bounds *body)
 {
-    const silhouette_tile range = {body->near_z, body->far_z};
     for (int32_t y = body->y0 / SILHOUETTE_TILE; y * SILHOUETTE_TILE < body->y1; y++) {
         for (int32_t x = body->x0 / SILHOUETTE_TILE; x * SILHOUETTE_TILE < body->x1; x++) {
-            widen(&s->own[y * s->columns + x], &range);
+            widen(&s->own[y * s->columns + x], &body->range);
+        }
+    }
+}
+
+void silhouette_place(silhouette *s, const rlf_camera *camera, const rlf_pose *T_picture_world,
+                      const rlf_snapshot *snapshot)
+{
+    for (int32_t i = 0; i < s->columns * s->rows; i++) {
+        s->own[i] = (silhouette_tile){SILHOUETTE_FAR, -1.0f};
+    }
+    for (int32_t i = 0; snapshot != NULL && i < snapshot->body_count; i++) {
+        const rlf_body_state *state = &snapshot->bodies[i];
+        rlf_vec3 center = rlf_transform(T_picture_world, state->T_world_body.p);
+        body_bounds body;
+        if (bounds_of_ball(camera, center, rlf_shape_radius(&state->shape), &body)) {
+            add_body(s, &body);
         }
     }
 }

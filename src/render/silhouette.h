@@ -14,12 +14,6 @@
 #define SILHOUETTE_TILE 16  /* pixels */
 #define SILHOUETTE_NONE 255 /* distance: no edge near */
 
-/* Where a body may be. */
-typedef struct silhouette_body {
-    int32_t x0, y0, x1, y1; /* pixels x0 <= x < x1, y0 <= y < y1 */
-    float near_z, far_z;    /* metres in the picture camera's frame */
-} silhouette_body;
-
 /* Depths of the bodies in and around a tile; far_z < near_z when there are none. */
 typedef struct silhouette_tile {
     float near_z, far_z;
@@ -50,12 +44,10 @@ rlf_result silhouette_create(const rlf_camera *camera, const rlf_camera *depth, 
                              silhouette *out);
 void silhouette_destroy(silhouette *s);
 
-/* Where a ball in the picture camera's frame may be; false when it is not in the picture. */
-bool silhouette_body_of_ball(const rlf_camera *camera, rlf_vec3 center, double radius,
-                             silhouette_body *out);
-/* Forgets the last picture's bodies. */
-void silhouette_begin(silhouette *s);
-void silhouette_add(silhouette *s, const silhouette_body *body);
+/* Takes the bodies of a snapshot (NULL = none) in place of the last picture's. `camera` is the
+ * picture's. */
+void silhouette_place(silhouette *s, const rlf_camera *camera, const rlf_pose *T_picture_world,
+                      const rlf_snapshot *snapshot);
 /* Fills near_z, far_z and cover in all tiles with bodies. z is the registered depth; the frame's
  * colour may be missing. */
 void silhouette_update(silhouette *s, const rlf_plane_f32 *z, const rlf_frame *frame);

@@ -128,6 +128,26 @@ static void test_depth_occlusion(void **state)
     check_alike(&def, CONTEXT_API_ES_30, "depth, ES 3.0");
 }
 
+/* Soft edges: a sharp pillar of its own colour, where the two share the cover that both work out on
+ * the CPU. */
+static void test_soft_occlusion(void **state)
+{
+    (void)state;
+    make_scene();
+    scene.rig.noise = (rlf_depth_noise){0.0015, -0.0005, 0.0003};
+    for (int32_t i = 0; i < SCENE_WIDTH * SCENE_HEIGHT; i++) {
+        if (i % SCENE_WIDTH > 71 && i % SCENE_WIDTH < 85) {
+            memset(&scene.color[4 * i], 20, 3);
+        }
+    }
+    rlf_compositor_def def = gl_scene_def(&scene, RLF_OCCLUSION_SOFT);
+    check_alike(&def, CONTEXT_API_CORE_33, "soft, OpenGL 3.3");
+    check_alike(&def, CONTEXT_API_ES_30, "soft, ES 3.0");
+    def.width = 240;
+    def.height = 180;
+    check_alike(&def, CONTEXT_API_ANY, "soft, resized");
+}
+
 static void test_thesis_occlusion(void **state)
 {
     (void)state;
@@ -307,6 +327,7 @@ int main(void)
     }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_depth_occlusion),
+        cmocka_unit_test(test_soft_occlusion),
         cmocka_unit_test(test_thesis_occlusion),
         cmocka_unit_test(test_no_occlusion),
         cmocka_unit_test(test_rig_and_mount),

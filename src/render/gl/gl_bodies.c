@@ -12,8 +12,14 @@ enum {
     HULL_BATCH = 1024, /* triangles per upload */
     UNIT_BACKDROP = 0,
     UNIT_REAL_DEPTH = 1,
-    UNIT_TEXTURES = 2
+    UNIT_TEXTURES = 2,
+    UNIT_NEAR = 3,
+    UNIT_FAR = 4,
+    UNIT_COVER = 5
 };
+
+/* Values of u_occlusion. */
+enum { HIDDEN_BY_NOTHING = 0, HIDDEN_BY_DEPTH = 1, HIDDEN_BY_SOFT = 2 };
 
 static const char body_vertex[] =
     "layout(location = 0) in vec4 a_position_shift;\n"
@@ -42,7 +48,11 @@ static const char body_fragment[] =
     "uniform sampler2D u_backdrop;\n"
     "uniform sampler2D u_real_depth;\n"
     "uniform sampler2DArray u_textures;\n"
-    "uniform bool u_is_occluded;\n"
+    "uniform sampler2D u_near_z;\n"
+    "uniform sampler2D u_far_z;\n"
+    "uniform sampler2D u_cover;\n"
+    "uniform vec3 u_noise;\n"
+    "uniform int u_occlusion;\n"
     "uniform vec3 u_color;\n"
     "uniform vec3 u_light;\n"
     "uniform vec2 u_ambient_diffuse;\n"
@@ -56,8 +66,11 @@ static const char body_fragment[] =
     "    vec3 uv_layer = vec3(clamp(v_uv, 0.0, 1.0), u_layer);\n"
     "    vec3 color = u_color * light * textureLod(u_textures, uv_layer, u_level).rgb;\n"
     "    float shown = 1.0;\n"
-    "    if (u_is_occluded) {\n"
-    "        shown = share_in_front(u_real_depth, 1.0 / gl_FragCoord.w);\n"
+    "    float z = 1.0 / gl_FragCoord.w;\n"
+    "    if (u_occlusion == 1) {\n"
+    "        shown = share_in_front(u_real_depth, z);\n"
+    "    } else if (u_occlusion == 2) {\n"
+    "        shown = share_of_soft(u_near_z, u_far_z, u_cover, u_noise, z);\n"
     "    }\n"
     "    vec3 real = texelFetch(u_backdrop, ivec2(gl_FragCoord.xy), 0).rgb;\n"
     "    o_color = vec4(mix(real, min(color, 1.0), shown), shown);\n"
@@ -73,12 +86,16 @@ static void create_program_uniforms(gl_bodies *bodies)
     bodies->uniforms.light = glGetUniformLocation(p, "u_light");
     bodies->uniforms.layer = glGetUniformLocation(p, "u_layer");
     bodies->uniforms.level = glGetUniformLocation(p, "u_level");
-    bodies->uniforms.is_occluded = glGetUniformLocation(p, "u_is_occluded");
+    bodies->uniforms.occlusion = glGetUniformLocation(p, "u_occlusion");
+    bodies->uniforms.noise = glGetUniformLocation(p, "u_noise");
     bodies->view_uniforms = gl_view_find_uniforms(p);
     glUseProgram(p);
     glUniform1i(glGetUniformLocation(p, "u_backdrop"), UNIT_BACKDROP);
     glUniform1i(glGetUniformLocation(p, "u_real_depth"), UNIT_REAL_DEPTH);
     glUniform1i(glGetUniformLocation(p, "u_textures"), UNIT_TEXTURES);
+    glUniform1i(glGetUniformLocation(p, "u_near_z"), UNIT_NEAR);
+    glUniform1i(glGetUniformLocation(p, "u_far_z"), UNIT_FAR);
+    glUniform1i(glGetUniformLocation(p, "u_cover"), UNIT_COVER);
     glUniform2f(glGetUniformLocation(p, "u_ambient_diffuse"), (GLfloat)BODY_LIGHT_AMBIENT,
                 (GLfloat)BODY_LIGHT_DIFFUSE);
     glUseProgram(0);
@@ -165,8 +182,9 @@ static rlf_result create_textures(gl_bodies *bodies)
 rlf_result gl_bodies_create(bool is_es, gl_bodies *out)
 {
     *out = (gl_bodies){0};
-    const gl_program_source source = {
-        "body", {gl_view_glsl, body_vertex}, {GL_OCCLUSION_GLSL, body_fragment}};
+    const gl_program_source source = {"body",
+                                      {gl_view_glsl, body_vertex},
+                                      {GL_OCCLUSION_GLSL, GL_SOFT_OCCLUSION_GLSL, body_fragment}};
     out->program = gl_program_build(is_es, &source);
     if (out->program == 0) {
         return RLF_ERROR_DEVICE;
@@ -199,11 +217,20 @@ void gl_bodies_begin(const gl_bodies *bodies, const gl_bodies_pass *pass)
     glUseProgram(bodies->program);
     glUniform3f(bodies->uniforms.light, (GLfloat)pass->light_direction.x,
                 (GLfloat)pass->light_direction.y, (GLfloat)pass->light_direction.z);
-    glUniform1i(bodies->uniforms.is_occluded, pass->real_depth != NULL);
+    int occlusion = pass->real_depth != NULL ? HIDDEN_BY_DEPTH : HIDDEN_BY_NOTHING;
+    glUniform1i(bodies->uniforms.occlusion, pass->soft != NULL ? HIDDEN_BY_SOFT : occlusion);
     gl_view_set_uniforms(&bodies->view_uniforms, pass->view);
     gl_texture_bind(pass->backdrop, UNIT_BACKDROP);
     if (pass->real_depth != NULL) {
         gl_texture_bind(pass->real_depth, UNIT_REAL_DEPTH);
+    }
+    if (pass->soft != NULL) {
+        const rlf_depth_noise *noise = pass->soft->noise;
+        glUniform3f(bodies->uniforms.noise, (GLfloat)noise->c0, (GLfloat)noise->c1,
+                    (GLfloat)noise->c2);
+        gl_texture_bind(pass->soft->near_z, UNIT_NEAR);
+        gl_texture_bind(pass->soft->far_z, UNIT_FAR);
+        gl_texture_bind(pass->soft->cover, UNIT_COVER);
     }
     glActiveTexture(GL_TEXTURE0 + UNIT_TEXTURES);
     glBindTexture(GL_TEXTURE_2D_ARRAY, bodies->textures);

@@ -5,12 +5,13 @@
 #include "gl_texture.h"
 #include "gl_view.h"
 
+#include "relief/frame.h"
 #include "render/shape_mesh.h"
 
 typedef struct gl_bodies {
     GLuint program;
     struct {
-        GLint picture_body, camera_body, shift, color, light, layer, level, is_occluded;
+        GLint picture_body, camera_body, shift, color, light, layer, level, occlusion, noise;
     } uniforms;
     gl_view_uniforms view_uniforms;
     GLuint vertex_array, vertex_buffer, index_buffer; /* unit meshes */
@@ -20,12 +21,19 @@ typedef struct gl_bodies {
     shape_vertex *hull_vertices; /* a batch on its way to hull_buffer */
 } gl_bodies;
 
+/* The real world of soft occlusion: see silhouette.h. */
+typedef struct gl_soft_real {
+    const gl_texture *near_z, *far_z, *cover;
+    const rlf_depth_noise *noise;
+} gl_soft_real;
+
 /* What all bodies of a picture share. */
 typedef struct gl_bodies_pass {
     const gl_view *view;
     rlf_vec3 light_direction;     /* depth camera frame, from the light into the scene */
     const gl_texture *backdrop;   /* shows through where the real world hides a part of a pixel */
-    const gl_texture *real_depth; /* z in the picture's camera per pixel; NULL = nothing hides */
+    const gl_texture *real_depth; /* z in the picture's camera per pixel; NULL = none */
+    const gl_soft_real *soft; /* instead of real_depth; NULL = none. Without both nothing hides */
 } gl_bodies_pass;
 
 rlf_result gl_bodies_create(bool is_es, gl_bodies *out);

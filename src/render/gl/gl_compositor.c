@@ -13,6 +13,7 @@
 
 #include "base/cookie.h"
 #include "render/real_depth.h"
+#include "render/silhouette.h"
 #include "render/soft/soft.h"
 
 typedef struct gl_compositor {
@@ -20,6 +21,7 @@ typedef struct gl_compositor {
     gl_view view; /* of the picture */
     rlf_compositor *soft;
     real_depth real;
+    silhouette silhouette; /* RLF_OCCLUSION_SOFT only */
     rlf_image_rgba8 image; /* read back */
     rlf_plane_u8 matte;
 
@@ -31,6 +33,7 @@ typedef struct gl_compositor {
     gl_thesis thesis;
     gl_wireframe wireframe;
     gl_texture color_texture, depth_texture;
+    gl_texture near_texture, far_texture, cover_texture;
     bool has_wireframe; /* made when the view is first asked for */
 } gl_compositor;
 
@@ -43,6 +46,9 @@ static void destroy_gl(gl_compositor *c)
     }
     gl_texture_destroy(&c->color_texture);
     gl_texture_destroy(&c->depth_texture);
+    gl_texture_destroy(&c->near_texture);
+    gl_texture_destroy(&c->far_texture);
+    gl_texture_destroy(&c->cover_texture);
     gl_thesis_destroy(&c->thesis);
     gl_layers_destroy(&c->layers);
     gl_bodies_destroy(&c->bodies);
@@ -53,6 +59,7 @@ static void destroy_gl(gl_compositor *c)
 static void free_planes(gl_compositor *c)
 {
     real_depth_destroy(&c->real);
+    silhouette_destroy(&c->silhouette);
     rlf_compositor_destroy(&c->soft);
     rlf_free(c->image.data);
     rlf_free(c->matte.data);
@@ -83,6 +90,13 @@ static rlf_result create_planes(gl_compositor *c)
     c->matte = (rlf_plane_u8){rlf_alloc_array(count, 1), w, h, w};
     if (c->image.data == NULL || c->matte.data == NULL) {
         return RLF_ERROR_MEMORY;
+    }
+    if (c->def.occlusion == RLF_OCCLUSION_SOFT) {
+        rlf_result result =
+            silhouette_create(&picture, &c->def.rig.depth, c->def.pool, &c->silhouette);
+        if (result != RLF_OK) {
+            return result;
+        }
     }
     return real_depth_create(&c->def, &picture, &c->real);
 }
@@ -125,6 +139,9 @@ static rlf_result create_gl(gl_compositor *c)
     }
     c->color_texture = gl_texture_create(GL_LINEAR);
     c->depth_texture = gl_texture_create(GL_NEAREST);
+    c->near_texture = gl_texture_create(GL_NEAREST);
+    c->far_texture = gl_texture_create(GL_NEAREST);
+    c->cover_texture = gl_texture_create(GL_NEAREST);
     return check_errors();
 }
 
@@ -228,6 +245,25 @@ static void update_real_depth(gl_compositor *c, const rlf_render_input *input)
     gl_texture_upload_f32(&c->depth_texture, c->real.z.data, c->real.z.width, c->real.z.height);
 }
 
+/* What the real world is like where the bodies are, as the soft renderer works it out. */
+static void update_silhouette(gl_compositor *c, const rlf_render_input *input)
+{
+    silhouette *s = &c->silhouette;
+    int32_t width = s->cover.width;
+    int32_t height = s->cover.height;
+    silhouette_place(s, &c->view.camera, &c->view.T_picture_world, input->snapshot);
+    silhouette_update(s, &c->real.z, input->frame);
+    gl_texture_upload_f32(&c->near_texture, s->near_z.data, width, height);
+    gl_texture_upload_f32(&c->far_texture, s->far_z.data, width, height);
+    gl_texture_upload_u8(&c->cover_texture, s->cover.data, width, height);
+}
+
+static bool has_shadows(const gl_compositor *c)
+{
+    /* The thesis has none, and plain augmented reality does not know the real world. */
+    return c->def.occlusion == RLF_OCCLUSION_DEPTH || c->def.occlusion == RLF_OCCLUSION_SOFT;
+}
+
 /* The colour image, or depth in grey when the frame has none, and the bodies' shadows. */
 static void draw_backdrop(gl_compositor *c, const rlf_render_input *input)
 {
@@ -244,8 +280,10 @@ static void draw_backdrop(gl_compositor *c, const rlf_render_input *input)
         gl_backdrop_draw_grey(&c->backdrop, &c->depth_texture, has_range ? rig->depth_min_m : 0.5,
                               has_range ? rig->depth_max_m : 4.5);
     }
-    /* The thesis has no shadows, and plain augmented reality does not know the real world. */
-    if (has_bodies(input) && c->def.occlusion == RLF_OCCLUSION_DEPTH) {
+    if (has_bodies(input) && c->def.occlusion == RLF_OCCLUSION_SOFT) {
+        update_silhouette(c, input);
+    }
+    if (has_bodies(input) && has_shadows(c)) {
         rlf_vec3 light = rlf_rotate(c->view.T_picture_camera.q, c->def.light_direction);
         gl_backdrop_shadows shadows = {&c->view, &c->depth_texture, rlf_neg(light)};
         gl_backdrop_draw_shadows(&c->backdrop, &shadows, input->snapshot);
@@ -261,9 +299,12 @@ static bool is_drawable(const rlf_body_state *body)
 
 static void draw_bodies(gl_compositor *c, const rlf_snapshot *snapshot)
 {
-    bool is_hidden_in_shader = c->def.occlusion == RLF_OCCLUSION_DEPTH;
+    rlf_occlusion occlusion = c->def.occlusion;
+    gl_soft_real soft_real = {&c->near_texture, &c->far_texture, &c->cover_texture,
+                              &c->def.rig.noise};
     gl_bodies_pass pass = {&c->view, c->def.light_direction, &c->backdrop.texture,
-                           is_hidden_in_shader ? &c->depth_texture : NULL};
+                           occlusion == RLF_OCCLUSION_DEPTH ? &c->depth_texture : NULL,
+                           occlusion == RLF_OCCLUSION_SOFT ? &soft_real : NULL};
     gl_layer_images images = {&c->backdrop.texture, &c->depth_texture, NULL};
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);

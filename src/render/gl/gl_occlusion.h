@@ -24,4 +24,17 @@
     "    return 1.0 - hidden / 6.0;\n"                                                             \
     "}\n"
 
+/* GLSL: `float share_of_soft(near_z, far_z, cover, noise, z)`: as soft occlusion in soft/soft.h. A
+ * pixel shows `cover` of near_z and the rest of far_z. */
+#define GL_SOFT_OCCLUSION_GLSL                                                                     \
+    "float share_of_soft(sampler2D near_z, sampler2D far_z, sampler2D cover, vec3 noise, float z)" \
+    "\n"                                                                                           \
+    "{\n"                                                                                          \
+    "    ivec2 pixel = ivec2(gl_FragCoord.xy);\n"                                                  \
+    "    float fade = 0.25 / max(noise.x + z * (noise.y + z * noise.z), 0.0003);\n"                \
+    "    vec2 real = vec2(texelFetch(near_z, pixel, 0).r, texelFetch(far_z, pixel, 0).r);\n"       \
+    "    vec2 share = clamp(0.5 + (real - z) * fade, 0.0, 1.0);\n"                                 \
+    "    return mix(share.y, share.x, texelFetch(cover, pixel, 0).r);\n"                           \
+    "}\n"
+
 #endif

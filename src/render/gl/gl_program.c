@@ -32,9 +32,12 @@ static GLuint compile(bool is_es, GLenum type, const gl_program_source *source)
 {
     bool is_vertex = type == GL_VERTEX_SHADER;
     const char *const *pieces = is_vertex ? source->vertex : source->fragment;
-    const char *text[3] = {preamble(is_es), pieces[0], pieces[1] != NULL ? pieces[1] : ""};
+    const char *text[1 + GL_PROGRAM_PIECES] = {preamble(is_es)};
+    for (int i = 0; i < GL_PROGRAM_PIECES; i++) {
+        text[1 + i] = pieces[i] != NULL ? pieces[i] : "";
+    }
     GLuint shader = glCreateShader(type);
-    glShaderSource(shader, 3, text, NULL);
+    glShaderSource(shader, 1 + GL_PROGRAM_PIECES, text, NULL);
     glCompileShader(shader);
     GLint is_compiled = GL_FALSE;
     glGetShaderiv(shader, GL_COMPILE_STATUS, &is_compiled);

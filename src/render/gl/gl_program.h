@@ -4,10 +4,13 @@
 
 #include "gl_context.h"
 
+enum { GL_PROGRAM_PIECES = 3 };
+
 typedef struct gl_program_source {
-    const char *name;        /* for messages */
-    const char *vertex[2];   /* GLSL without its #version line, in pieces; NULL = no such piece */
-    const char *fragment[2]; /* likewise */
+    const char *name;                        /* for messages */
+    const char *vertex[GL_PROGRAM_PIECES];   /* GLSL without its #version line, in pieces; NULL = no
+                                                such piece */
+    const char *fragment[GL_PROGRAM_PIECES]; /* likewise */
 } gl_program_source;
 
 /* Compiles and links; 0 (and the error line) when the driver refuses. */

@@ -58,6 +58,15 @@ void gl_texture_upload_f32(gl_texture *texture, const float *data, int32_t width
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RED, GL_FLOAT, data);
 }
 
+void gl_texture_upload_u8(gl_texture *texture, const uint8_t *data, int32_t width, int32_t height)
+{
+    if (!prepare(texture, width, height)) {
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, width, height, 0, GL_RED, GL_UNSIGNED_BYTE, NULL);
+    }
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RED, GL_UNSIGNED_BYTE, data);
+}
+
 void gl_texture_allocate_rgba8(gl_texture *texture, int32_t width, int32_t height)
 {
     (void)prepare(texture, width, height);

@@ -19,6 +19,8 @@ void gl_texture_destroy(gl_texture *texture);
 void gl_texture_upload_rgba8(gl_texture *texture, const rlf_image_rgba8 *image);
 /* width * height floats without padding, as GL_R32F: for texelFetch. */
 void gl_texture_upload_f32(gl_texture *texture, const float *data, int32_t width, int32_t height);
+/* width * height bytes without padding, as GL_R8. */
+void gl_texture_upload_u8(gl_texture *texture, const uint8_t *data, int32_t width, int32_t height);
 /* Storage without content, for a framebuffer. */
 void gl_texture_allocate_rgba8(gl_texture *texture, int32_t width, int32_t height);
 void gl_texture_allocate_depth(gl_texture *texture, int32_t width, int32_t height);

@@ -123,14 +123,9 @@ static void clear_matte(soft *s)
 /* What the real world is like where the bodies are. */
 static void update_silhouette(soft *s, const rlf_render_input *input)
 {
-    silhouette_begin(&s->silhouette);
-    for (int32_t i = 0; i < s->scene.body_count; i++) {
-        silhouette_body body;
-        const soft_body *b = &s->scene.bodies[i];
-        if (silhouette_body_of_ball(&s->camera, b->center, b->radius, &body)) {
-            silhouette_add(&s->silhouette, &body);
-        }
-    }
+    rlf_pose T_camera_world = rlf_pose_invert(&input->T_world_camera);
+    rlf_pose T_picture_world = rlf_pose_mul(&s->T_picture_depth, &T_camera_world);
+    silhouette_place(&s->silhouette, &s->camera, &T_picture_world, input->snapshot);
     silhouette_update(&s->silhouette, &s->real.z, input->frame);
 }
 

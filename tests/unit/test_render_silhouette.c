@@ -1,0 +1,243 @@
+/* Soft occlusion: edges follow the colour image where it shows them, the depth where it does not,
+ * and stay still where nothing changes. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "relief/compositor.h"
+
+#include <math.h>
+
+#include "render_scene.h"
+
+#define NEAR_Z 1.2
+#define FAR_Z 3.0
+#define BOX_Z 2.0
+
+typedef struct stage {
+    render_scene *scene;
+    rlf_compositor *compositor;
+    double left, right; /* true edges of the strip in the picture, pixels */
+} stage;
+
+static uint8_t mix(double share, int near_value, int far_value)
+{
+    return (uint8_t)(far_value + share * (near_value - far_value) + 0.5);
+}
+
+/* Colours of a strip between two edges, each edge pixel mixed by area. */
+static void paint_strip(stage *g, int near_value, int far_value)
+{
+    for (int32_t i = 0; i < 960 * 540; i++) {
+        double x = i % 960;
+        double from = rlf_max(x - 0.5, g->left);
+        double to = rlf_min(x + 0.5, g->right);
+        memset(g->scene->color + 4 * (size_t)i, mix(rlf_max(to - from, 0.0), near_value, far_value),
+               3);
+    }
+}
+
+/* A strip whose depth is `grow` depth pixels too wide on each side, before a box that it hides in
+ * part. */
+static stage make_stage(int32_t grow, rlf_pool *pool)
+{
+    stage g = {.scene = scene_make(FAR_Z)};
+    render_scene *s = g.scene;
+    s->rig.noise = (rlf_depth_noise){0.0015, -0.0005, 0.0003};
+    const rlf_camera *k = &s->rig.color;
+    g.left = k->fx * ((239.6 - 255.5) / 365.5 - 0.052 / NEAR_Z) + k->cx;
+    g.right = k->fx * ((270.3 - 255.5) / 365.5 - 0.052 / NEAR_Z) + k->cx;
+    scene_add_strip(s, 240 - grow, 271 + grow, NEAR_Z);
+    scene_add_body(s, scene_box(0.6), rlf_vec3_make(0, 0, BOX_Z));
+    paint_strip(&g, 200, 60);
+    rlf_compositor_def def = scene_def(s);
+    def.occlusion = RLF_OCCLUSION_SOFT;
+    def.pool = pool;
+    assert_int_equal(rlf_compositor_create_soft(&def, &g.compositor), RLF_OK);
+    return g;
+}
+
+static void free_stage(stage *g)
+{
+    rlf_compositor_destroy(&g->compositor);
+    scene_free(g->scene);
+}
+
+static rlf_render_output draw(stage *g)
+{
+    rlf_render_output out;
+    g->scene->frame.sequence++;
+    assert_int_equal(rlf_compositor_render(g->compositor, &g->scene->input, &out), RLF_OK);
+    return out;
+}
+
+/* Width of the hidden part of row y inside the box, pixels; out is where it begins. */
+static double hidden_width(const rlf_render_output *out, int32_t y, double *out_begin)
+{
+    const uint8_t *row = rlf_u8_row(&out->matte, y);
+    double hidden = 0.0;
+    double before = 0.0;
+    for (int32_t u = 390; u < 510; u++) { /* inside the box */
+        double share = 1.0 - row[u] / 255.0;
+        before += hidden > 0.3 || share > 0.5 ? 0.0 : 1.0 - share;
+        hidden += share;
+    }
+    *out_begin = 390.0 - 0.5 + before;
+    return hidden;
+}
+
+static void edges_follow_the_colours(void **state)
+{
+    (void)state;
+    for (int32_t grow = -1; grow <= 2; grow++) {
+        stage g = make_stage(grow, NULL);
+        rlf_render_output out = draw(&g);
+        for (int32_t y = 200; y < 340; y++) {
+            double begin;
+            double width = hidden_width(&out, y, &begin);
+            assert_true(fabs(width - (g.right - g.left)) < 0.1);
+            assert_true(fabs(begin - g.left) < 0.6);
+        }
+        free_stage(&g);
+    }
+}
+
+/* Far side and near side of one colour: only the depth knows. */
+static void edges_of_one_colour_stay_where_depth_has_them(void **state)
+{
+    (void)state;
+    stage g = make_stage(0, NULL);
+    paint_strip(&g, 120, 120);
+    rlf_render_output out = draw(&g);
+    double begin;
+    double width = hidden_width(&out, 270, &begin);
+    assert_true(fabs(width - (g.right - g.left)) < 1.5);
+    free_stage(&g);
+    stage wide = make_stage(2, NULL);
+    paint_strip(&wide, 120, 120);
+    out = draw(&wide);
+    width = hidden_width(&out, 270, &begin);
+    double ratio = 540.5 / 365.5;
+    assert_true(fabs(width - (wide.right - wide.left) - 4 * ratio) < 1.5);
+    free_stage(&wide);
+}
+
+static void missing_or_smaller_colour_is_no_trouble(void **state)
+{
+    (void)state;
+    stage g = make_stage(1, NULL);
+    uint8_t *small = calloc(480 * 270, 4);
+    for (int32_t i = 0; i < 480 * 270; i++) {
+        size_t from = 4 * (size_t)(i / 480 * 2 * 960 + i % 480 * 2);
+        memcpy(small + 4 * (size_t)i, g.scene->color + from, 4);
+    }
+    g.scene->frame.color = (rlf_image_rgba8){small, 480, 270, 4 * 480};
+    rlf_render_output out = draw(&g);
+    double begin;
+    assert_true(fabs(hidden_width(&out, 270, &begin) - (g.right - g.left)) < 2.0);
+    g.scene->frame.color.data = NULL;
+    out = draw(&g);
+    double width = hidden_width(&out, 270, &begin);
+    assert_true(fabs(width - (g.right - g.left) - 2 * 540.5 / 365.5) < 1.5);
+    free(small);
+    free_stage(&g);
+}
+
+/* Ragged depth edges that change from picture to picture, under colours with a little noise. */
+static void still_pictures_do_not_flicker(void **state)
+{
+    (void)state;
+    stage g = make_stage(0, NULL);
+    uint32_t random = 1;
+    uint8_t *last = calloc(960 * 540, 1);
+    double worst = 0.0;
+    for (int picture = 0; picture < 12; picture++) {
+        paint_strip(&g, 200, 60);
+        for (int32_t i = 0; i < 960 * 540; i++) {
+            random = random * 1664525u + 1013904223u;
+            g.scene->color[4 * i + 1] = (uint8_t)(g.scene->color[4 * i + 1] + (random >> 30));
+        }
+        for (int32_t y = 0; y < 424; y++) {
+            for (int32_t x = 238; x < 242; x++) {
+                random = random * 1664525u + 1013904223u;
+                bool is_near = x + (int32_t)(random >> 31) >= 240;
+                g.scene->planes[PLANE_DEPTH][y * 512 + x] = (float)(is_near ? NEAR_Z : FAR_Z);
+            }
+        }
+        rlf_render_output out = draw(&g);
+        double change = 0.0;
+        int32_t count = 0;
+        for (int32_t y = 200; y < 340; y++) {
+            for (int32_t u = (int32_t)g.left - 9; u < (int32_t)g.left + 9; u++) {
+                change += abs(rlf_u8_row(&out.matte, y)[u] - last[y * 960 + u]) / 255.0;
+                count++;
+            }
+        }
+        worst = picture >= 4 ? rlf_max(worst, change / count) : 0.0;
+        memcpy(last, out.matte.data, 960 * 540);
+    }
+    assert_true(worst < 0.005);
+    free(last);
+    free_stage(&g);
+}
+
+/* A body that meets a wall fades over the sensor's noise, +- 2 sigma. */
+static void contact_with_a_surface_is_soft(void **state)
+{
+    (void)state;
+    stage g = make_stage(0, NULL);
+    g.scene->snapshot.body_count = 0;
+    rlf_body_state *body = scene_add_body(g.scene, scene_box(0.4), rlf_vec3_make(0.5, 0, FAR_Z));
+    double sigma = rlf_depth_noise_sigma(&g.scene->rig.noise, FAR_Z);
+    const double in_front[4] = {2.5, 1.0, 0.0, -1.0}; /* sigma */
+    const double expected[4] = {1.0, 0.75, 0.5, 0.25};
+    for (int i = 0; i < 4; i++) {
+        body->T_world_body.p.z = FAR_Z + 0.2 - in_front[i] * sigma;
+        rlf_render_output out = draw(&g);
+        double u = 540.5 * (0.5 - 0.052) / (FAR_Z - in_front[i] * sigma) + 479.5;
+        double share = rlf_u8_row(&out.matte, 270)[(int32_t)u] / 255.0;
+        assert_true(fabs(share - expected[i]) < 0.02);
+    }
+    free_stage(&g);
+}
+
+static void threads_and_redraws_change_nothing(void **state)
+{
+    (void)state;
+    rlf_pool *pool = NULL;
+    assert_int_equal(rlf_pool_create(3, &pool), RLF_OK);
+    stage a = make_stage(1, NULL);
+    stage b = make_stage(1, pool);
+    for (int i = 0; i < 3; i++) {
+        rlf_render_output first = draw(&a);
+        rlf_render_output second = draw(&b);
+        assert_memory_equal(first.image.data, second.image.data, 960 * 540 * 4);
+        assert_memory_equal(first.matte.data, second.matte.data, 960 * 540);
+        uint64_t before = rlf_alloc_count();
+        uint8_t *matte = malloc(960 * 540);
+        memcpy(matte, first.matte.data, 960 * 540);
+        assert_int_equal(rlf_compositor_render(a.compositor, &a.scene->input, &first), RLF_OK);
+        assert_memory_equal(first.matte.data, matte, 960 * 540);
+        assert_int_equal(rlf_alloc_count(), before);
+        free(matte);
+    }
+    free_stage(&a);
+    free_stage(&b);
+    rlf_pool_destroy(&pool);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(edges_follow_the_colours),
+        cmocka_unit_test(edges_of_one_colour_stay_where_depth_has_them),
+        cmocka_unit_test(missing_or_smaller_colour_is_no_trouble),
+        cmocka_unit_test(still_pictures_do_not_flicker),
+        cmocka_unit_test(contact_with_a_surface_is_soft),
+        cmocka_unit_test(threads_and_redraws_change_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
