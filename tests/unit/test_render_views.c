@@ -347,7 +347,7 @@ static void wrong_defs_are_refused(void **state)
         def.rig.depth.fx = i == 2 ? 0.0 : def.rig.depth.fx;
         def.grid.width = i == 3 ? 0 : def.grid.width;
         def.light_direction.x = i == 4 ? NAN : def.light_direction.x;
-        def.occlusion = i == 5 ? (rlf_occlusion)3 : def.occlusion;
+        def.occlusion = i == 5 ? (rlf_occlusion)4 : def.occlusion;
         assert_int_equal(rlf_compositor_create_soft(&def, &compositor), RLF_ERROR_INVALID);
         assert_null(compositor);
         assert_true(rlf_error_text()[0] != '\0');
