@@ -1,12 +1,14 @@
-/* Normals of filled pixels at the outline of rounded things.
+/* Normals of filled pixels at the outlines of things.
  *
  * Where a smooth surface turns out of sight its normal is perpendicular to the ray and, in the
  * image, points across the outline (Koenderink 1984). The sensor drops just these pixels, and the
  * windows that fit next to them know only the part that faces the camera. Along the way out, the
  * outward component of a circle's or a ball's unit normal grows linearly with the position in the
- * image, up to 1 at the outline. So a filled pixel's normal lies between the mean of those that
- * were seen further in and the outline's, if these already turn outwards; those of a flat face do
- * not. */
+ * image, up to 1 at the outline. So a filled pixel's normal lies between the mean of those that are
+ * known further in and the outline's, if these already turn outwards.
+ *
+ * Things with faces turn at a crease. What is left of a narrow last face is a pixel here and there:
+ * the outermost known normal stands for it. */
 #include "surface/steps.h"
 
 #include "kernel/kernel.h"
@@ -20,10 +22,12 @@ static const float LEAST_JUMP = 0.04f; /* the same, of what is behind the outlin
 static const float LEAST_TURN = 0.12f; /* share of the rounded surface's turn that must be seen */
 static const float MOST_BEND = 0.1f;   /* RMS of the samples about a steady turn: a crease bends */
 static const float MOST_ASIDE = 0.98f; /* sine of the steepest normal that is given */
+static const float CREASE = 0.95f;     /* cosine between two faces */
 
 typedef struct outline_job {
     int32_t width, height;
     const float *ray_x, *ray_y, *depth;
+    const float *known; /* depth that was not filled: pixels whose normals are read, not written */
     const uint8_t *reason;
     float *const *normal;
 } outline_job;
@@ -98,6 +102,21 @@ static vector unit(vector a)
     return scaled(a, 1.0f / sqrtf(dot(a, a)));
 }
 
+/* 0 where there is none. */
+static vector known_normal(const outline_job *job, ptrdiff_t i)
+{
+    float known = job->known[i] > 0.0f ? 1.0f : 0.0f;
+    return (vector){known * job->normal[0][i], known * job->normal[1][i],
+                    known * job->normal[2][i]};
+}
+
+static void set_normal(const outline_job *job, ptrdiff_t i, vector n)
+{
+    job->normal[0][i] = n.x;
+    job->normal[1][i] = n.y;
+    job->normal[2][i] = n.z;
+}
+
 /* Axes at a pixel: along its ray, outwards across the outline, and along it. */
 typedef struct axes {
     vector ray, out, along;
@@ -133,8 +152,8 @@ static way_in walk_in(const outline_job *job, int32_t x, int32_t y, const outlin
         if (!(rlf_kernel_abs(job->depth[i] - z) <= MOST_APART * z)) {
             break;
         }
-        vector n = {job->normal[0][i], job->normal[1][i], job->normal[2][i]};
-        float has = job->reason[i] == RLF_REASON_OK && n.x * n.x + n.y * n.y + n.z * n.z > 0.0f;
+        vector n = known_normal(job, i);
+        float has = dot(n, n) > 0.0f ? 1.0f : 0.0f;
         float s = o->distance + (float)(x - sx) * o->x + (float)(y - sy) * o->y;
         float out = dot(n, a->out);
         sum.n += has;
@@ -162,6 +181,49 @@ static bool is_rounded(const way_in *in, const outline *o)
     return steady && turns && s > o->distance && out >= 0.0f;
 }
 
+static vector rounded_normal(const way_in *in, const outline *o, const axes *a)
+{
+    float t = o->distance * in->n / in->s; /* 0 at the outline, 1 at the samples' mean */
+    float out = 1.0f - t * (1.0f - in->out / in->n), along = t * in->along / in->n;
+    float aside = sqrtf(out * out + along * along);
+    float scale = aside > MOST_ASIDE ? MOST_ASIDE / aside : 1.0f;
+    aside *= scale;
+    vector n = add(scaled(a->out, out * scale), scaled(a->along, along * scale));
+    return add(n, scaled(a->ray, -sqrtf(1.0f - aside * aside)));
+}
+
+/* Where the known normals within two pixels are those of several faces and the outermost of them
+ * is turned outwards: that one. */
+static void take_outermost(const outline_job *job, int32_t x, int32_t y, const outline *o,
+                           const axes *a)
+{
+    ptrdiff_t i = (ptrdiff_t)y * job->width + x;
+    float z = job->depth[i], best = -1e9f;
+    vector mean = {0.0f, 0.0f, 0.0f}, last = mean;
+    int32_t x0 = -least(x, REACH), x1 = least(job->width - 1 - x, REACH);
+    int32_t y0 = -least(y, REACH), y1 = least(job->height - 1 - y, REACH);
+    for (int32_t dy = y0; dy <= y1; dy++) {
+        for (int32_t dx = x0; dx <= x1; dx++) {
+            ptrdiff_t k = i + (ptrdiff_t)dy * job->width + dx;
+            vector n = known_normal(job, k);
+            if (!(rlf_kernel_abs(job->depth[k] - z) < LEAST_JUMP * z) || !(dot(n, n) > 0.0f)) {
+                continue;
+            }
+            mean = add(mean, scaled(n, 1.0f / (float)(dx * dx + dy * dy)));
+            float out = o->x * (float)dx + o->y * (float)dy;
+            float along = rlf_kernel_abs(o->x * (float)dy - o->y * (float)dx);
+            bool better = out - 0.2f * along > best;
+            best = better ? out - 0.2f * along : best;
+            last = better ? n : last;
+        }
+    }
+    float length = sqrtf(dot(mean, mean));
+    bool creased = dot(last, mean) < CREASE * length;
+    if (creased && dot(last, a->out) * length > dot(mean, a->out)) {
+        set_normal(job, i, last);
+    }
+}
+
 static void turn_pixel(const outline_job *job, int32_t x, int32_t y)
 {
     outline o;
@@ -171,19 +233,11 @@ static void turn_pixel(const outline_job *job, int32_t x, int32_t y)
     ptrdiff_t i = (ptrdiff_t)y * job->width + x;
     axes a = make_axes(job, i, &o);
     way_in in = walk_in(job, x, y, &o, &a);
-    if (!is_rounded(&in, &o)) {
-        return;
+    if (is_rounded(&in, &o)) {
+        set_normal(job, i, rounded_normal(&in, &o, &a));
+    } else {
+        take_outermost(job, x, y, &o, &a);
     }
-    float t = o.distance * in.n / in.s; /* 0 at the outline, 1 at the samples' mean */
-    float out = 1.0f - t * (1.0f - in.out / in.n), along = t * in.along / in.n;
-    float aside = sqrtf(out * out + along * along);
-    float scale = aside > MOST_ASIDE ? MOST_ASIDE / aside : 1.0f;
-    aside *= scale;
-    vector n = add(scaled(a.out, out * scale), scaled(a.along, along * scale));
-    n = add(n, scaled(a.ray, -sqrtf(1.0f - aside * aside)));
-    job->normal[0][i] = n.x;
-    job->normal[1][i] = n.y;
-    job->normal[2][i] = n.z;
 }
 
 static void outline_rows(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -192,17 +246,18 @@ static void outline_rows(void *context, int32_t begin, int32_t end, int32_t work
     const outline_job *job = context;
     for (int32_t y = begin; y < end; y++) {
         for (int32_t x = 0; x < job->width; x++) {
-            if (job->reason[(ptrdiff_t)y * job->width + x] == RLF_REASON_FILLED) {
+            ptrdiff_t i = (ptrdiff_t)y * job->width + x;
+            if (job->reason[i] == RLF_REASON_FILLED && !(job->known[i] > 0.0f)) {
                 turn_pixel(job, x, y);
             }
         }
     }
 }
 
-void rlf_normals_outline(const rlf_reconstruct *stage, rlf_slot *slot)
+void rlf_normals_outline(const rlf_reconstruct *stage, const float *known, rlf_slot *slot)
 {
     const rlf_grid *grid = &stage->grid;
-    outline_job job = {grid->width, grid->height, grid->ray_x, grid->ray_y,
-                       slot->depth, slot->reason, slot->normal};
+    outline_job job = {grid->width, grid->height, grid->ray_x,  grid->ray_y,
+                       slot->depth, known,        slot->reason, slot->normal};
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, outline_rows, &job);
 }

@@ -130,7 +130,7 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
         rlf_stage_add_time(stage, RLF_SURFACE_FILL);
     }
     if (smooth && fill) {
-        rlf_normals_outline(stage, slot);
+        rlf_normals_outline(stage, stage->work.depth[1], slot);
     }
     if (smooth) {
         rlf_normals_job job = rlf_normals_job_make(stage, slot->depth, slot->normal);
@@ -140,6 +140,9 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
     if (stage->def.enable_steadying) {
         rlf_steady_update(stage, slot);
         rlf_stage_add_time(stage, RLF_SURFACE_STEADY);
+    }
+    if (smooth) {
+        rlf_normals_crease(stage, slot);
     }
 }
 

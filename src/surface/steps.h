@@ -54,8 +54,11 @@ void rlf_normals_plane_complete(const rlf_normals_job *job);
 /* Exact inverse-depth normal of one pixel, for those that no plane explains. */
 void rlf_normals_slope_pixel(const rlf_normals_job *job, int32_t x, int32_t y);
 
-/* Normals of filled pixels at the outline of rounded things; only seen pixels' normals are read. */
-void rlf_normals_outline(const rlf_reconstruct *stage, rlf_slot *slot);
+/* Normals of filled pixels at the outlines of things; `known` is the depth before filling. */
+void rlf_normals_outline(const rlf_reconstruct *stage, const float *known, rlf_slot *slot);
+
+/* Normals of seen pixels at creases, from the faces that meet there. */
+void rlf_normals_crease(const rlf_reconstruct *stage, const rlf_slot *slot);
 
 /* ---- components.c ---- */
 /* Connected components of the members of work.links, over their links, into work.runs; numbered

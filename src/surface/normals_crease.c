@@ -1,0 +1,155 @@
+/* Normals at creases.
+ *
+ * A window across a crease blends two faces. Each of them is known well a few pixels away, and two
+ * planes decide which of them a ray meets: on a convex edge the one that it meets last, in a
+ * concave corner the one that it meets first. So the crease lies where the planes meet, to a small
+ * part of a pixel, whatever the noise of the pixels on it. */
+#include "surface/steps.h"
+
+#include "kernel/kernel.h"
+
+enum { SPAN = 2, MOST_STEPS = 6 };
+
+static const float BENT = .9f;  /* cosine of normals across a pixel that lies near a crease */
+static const float CREASE = 0.9f; /* of the normals of two faces that meet in one */
+static const float MOST_SLOPE = 0.04f; /* share of the depth per pixel: no edge between */
+static const float MOST_SIGMAS = 8.0f; /* of the pixel's depth from the face; grazing is noisier */
+static const float LEAST_FACING = 0.02f; /* a face may be seen edge-on, not from behind */
+
+typedef struct crease_job {
+    int32_t width, height;
+    const float *ray_x, *ray_y, *depth;
+    const uint8_t *reason;
+    float *const *normal;
+    uint8_t *bent; /* plane: normals turn here; all others are only read */
+    rlf_kernel_noise noise;
+} crease_job;
+
+static float cosine(const crease_job *job, ptrdiff_t a, ptrdiff_t b)
+{
+    return job->normal[0][a] * job->normal[0][b] + job->normal[1][a] * job->normal[1][b] +
+           job->normal[2][a] * job->normal[2][b];
+}
+
+static uint8_t turns(const crease_job *job, ptrdiff_t a, ptrdiff_t b)
+{
+    float apart = rlf_kernel_abs(job->depth[a] - job->depth[b]);
+    int32_t joined = apart < 2.0f * SPAN * MOST_SLOPE * job->depth[a] ? 1 : 0;
+    return (uint8_t)((cosine(job, a, b) < BENT ? 1 : 0) & joined);
+}
+
+static void mark_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const crease_job *job = context;
+    ptrdiff_t width = job->width;
+    for (int32_t y = begin; y < end; y++) {
+        ptrdiff_t row = y * width;
+        ptrdiff_t up = y >= SPAN ? row - SPAN * width : row;
+        ptrdiff_t down = y + SPAN < job->height ? row + SPAN * width : row;
+        for (ptrdiff_t x = 0; x < width; x++) {
+            job->bent[row + x] = turns(job, up + x, down + x);
+        }
+        for (ptrdiff_t x = SPAN; x < width - SPAN; x++) {
+            job->bent[row + x] |= turns(job, row + x - SPAN, row + x + SPAN);
+        }
+    }
+}
+
+/* The nearest pixel in a direction that lies on a face, not on its crease; -1 = none. */
+static ptrdiff_t find_face(const crease_job *job, int32_t x, int32_t y, int32_t dx, int32_t dy)
+{
+    float z = job->depth[(ptrdiff_t)y * job->width + x];
+    for (int32_t k = 1; k <= MOST_STEPS; k++) {
+        x += dx;
+        y += dy;
+        if (x < 0 || y < 0 || x >= job->width || y >= job->height) {
+            return -1;
+        }
+        ptrdiff_t i = (ptrdiff_t)y * job->width + x;
+        if (!(rlf_kernel_abs(job->depth[i] - z) <= MOST_SLOPE * z)) {
+            return -1;
+        }
+        z = job->depth[i];
+        if (!job->bent[i]) {
+            bool usable = job->reason[i] == RLF_REASON_OK && cosine(job, i, i) > 0.5f;
+            return usable ? i : -1;
+        }
+    }
+    return -1;
+}
+
+/* Depth of the face through pixel `face` on the ray of pixel `at`; 0 where that does not meet it.
+ */
+static float face_depth(const crease_job *job, ptrdiff_t face, ptrdiff_t at)
+{
+    float nx = job->normal[0][face], ny = job->normal[1][face], nz = job->normal[2][face];
+    float offset = job->depth[face] * (nx * job->ray_x[face] + ny * job->ray_y[face] + nz);
+    float facing = nx * job->ray_x[at] + ny * job->ray_y[at] + nz;
+    return facing < -LEAST_FACING ? offset / facing : 0.0f;
+}
+
+/* Which of two faces pixel i is on; -1 when they do not meet in a crease, or not there. */
+static ptrdiff_t choose_face(const crease_job *job, ptrdiff_t i, ptrdiff_t a, ptrdiff_t b)
+{
+    float a_at_b = face_depth(job, a, b), b_at_a = face_depth(job, b, a);
+    float at_a = job->depth[a], at_b = job->depth[b];
+    bool convex = b_at_a > 0.0f && a_at_b > 0.0f && at_a > b_at_a && at_b > a_at_b;
+    bool concave = (!(b_at_a > 0.0f) || at_a < b_at_a) && (!(a_at_b > 0.0f) || at_b < a_at_b);
+    float za = face_depth(job, a, i), zb = face_depth(job, b, i);
+    if (!(za > 0.0f && zb > 0.0f) || (!convex && !concave)) {
+        return -1;
+    }
+    bool first = convex ? za > zb : za < zb;
+    float z = first ? za : zb;
+    float most = MOST_SIGMAS * rlf_kernel_sigma(job->noise, z);
+    return rlf_kernel_abs(z - job->depth[i]) <= most ? (first ? a : b) : -1;
+}
+
+/* Looks along the row, the column and the diagonals for the sharpest crease. */
+static void sharpen_pixel(const crease_job *job, int32_t x, int32_t y)
+{
+    static const int32_t along_x[4] = {1, 0, 1, 1}, along_y[4] = {0, 1, 1, -1};
+    ptrdiff_t i = (ptrdiff_t)y * job->width + x, best = -1;
+    float sharpest = CREASE;
+    for (int32_t k = 0; k < 4; k++) {
+        ptrdiff_t a = find_face(job, x, y, -along_x[k], -along_y[k]);
+        ptrdiff_t b = a < 0 ? -1 : find_face(job, x, y, along_x[k], along_y[k]);
+        if (b < 0 || !(cosine(job, a, b) < sharpest)) {
+            continue;
+        }
+        ptrdiff_t chosen = choose_face(job, i, a, b);
+        if (chosen >= 0) {
+            sharpest = cosine(job, a, b);
+            best = chosen;
+        }
+    }
+    for (int k = 0; k < 3 && best >= 0; k++) {
+        job->normal[k][i] = job->normal[k][best];
+    }
+}
+
+static void sharpen_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const crease_job *job = context;
+    for (int32_t y = begin; y < end; y++) {
+        for (int32_t x = 0; x < job->width; x++) {
+            ptrdiff_t i = (ptrdiff_t)y * job->width + x;
+            if (job->bent[i] && job->reason[i] == RLF_REASON_OK) {
+                sharpen_pixel(job, x, y);
+            }
+        }
+    }
+}
+
+void rlf_normals_crease(const rlf_reconstruct *stage, const rlf_slot *slot)
+{
+    const rlf_grid *grid = &stage->grid;
+    crease_job job = {
+        grid->width,  grid->height,        grid->ray_x,
+        grid->ray_y,  slot->depth,         slot->reason,
+        slot->normal, stage->work.mask[0], rlf_kernel_noise_make(&stage->def.rig.noise)};
+    rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, mark_rows, &job);
+    rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, sharpen_rows, &job);
+}
