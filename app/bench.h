@@ -76,7 +76,9 @@ typedef struct bench_options {
     const char *json_path, *compare_path;
     int64_t frames;
     int32_t threads;
-    bool is_quick; /* no sweeps */
+    const char *clip_path;  /* write the peers' clip, nothing else */
+    const char *peers_path; /* results of the peers' harness; NULL = none */
+    bool is_quick;          /* no sweeps */
 } bench_options;
 
 /* bench_cases.c: every stage of both profiles at scale factors 1 and 8, beside the floor; the steps

@@ -88,7 +88,7 @@ double measure_missing_percent(const measure_counts *c)
 
 double measure_estimated_percent(const measure_counts *c)
 {
-    return 4.0 * measure_missing_percent(c);
+    return rlf_min(4.0 * measure_missing_percent(c), 100.0);
 }
 
 double measure_counted_percent(const measure_counts *c)

@@ -38,7 +38,7 @@ double measure_missing(const measure_counts *c);
 /* The same as a share of the area's points, percent. */
 double measure_missing_percent(const measure_counts *c);
 /* The thesis's estimate of wrong normals: each missing point spoils its four neighbours, percent of
- * the area's points. */
+ * the area's points, at most all of them. */
 double measure_estimated_percent(const measure_counts *c);
 /* Counted against truth: normals missing or more than 30 degrees off, percent; < 0 without truth.
  */

@@ -123,6 +123,11 @@ grep -q '"surface/background"' bench.json || fail "bench: bench.json"
 expect_done bench --frames 4 --quick --compare bench.json
 grep -q "memory/whole .* 1.00$" stdout.txt || fail "bench --compare: $(cat stdout.txt)"
 
+expect_error 1 "no/clip.raw" bench --peer-clip no/clip.raw
+expect_done bench --peer-clip clip.raw
+head -n 1 clip.raw | head -c 11 | grep -q "512 424 60 " || fail "bench --peer-clip: $(head -n 1 clip.raw)"
+rm -f clip.raw clip.raw.gt
+
 # Same input, same bits, whatever the number of threads.
 "$relief" run "synthetic:room?frames=20" --headless --hash --threads 1 --quiet >hash1.txt
 "$relief" run "synthetic:room?frames=20" --headless --hash --threads 3 --quiet >hash3.txt

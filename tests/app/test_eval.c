@@ -200,6 +200,8 @@ static void missing_points_fall_into_the_four_cases(void **state)
     measure_counts thesis = {.frames = 1000, .points = 2632};
     thesis.reasons[RLF_REASON_NO_RETURN] = 57113;
     assert_true(fabs(measure_estimated_percent(&thesis) - 8.68) < 0.005);
+    thesis.reasons[RLF_REASON_NO_RETURN] = 1000000; /* 38 % missing spoil no more than all */
+    assert_true(measure_estimated_percent(&thesis) == 100.0);
 }
 
 static void collision_scene_is_the_same_for_a_seed(void **state)
