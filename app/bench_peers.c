@@ -66,7 +66,7 @@ static const peer_group groups[] = {
 
 typedef struct peer_stage {
     char peer[24], stage[64];
-    double ms;
+    double ms, least_ms;
     double values[VALUES_MAX]; /* by the group's columns; NAN = none */
 } peer_stage;
 
@@ -100,7 +100,7 @@ static peer_stage *stage_of(peer_results *r, const char *peer, const char *stage
     peer_stage *s = &r->stages[r->count++];
     snprintf(s->peer, sizeof(s->peer), "%s", peer);
     snprintf(s->stage, sizeof(s->stage), "%s", stage);
-    s->ms = NAN;
+    s->ms = s->least_ms = NAN;
     for (int k = 0; k < VALUES_MAX; k++) {
         s->values[k] = NAN;
     }
@@ -121,18 +121,19 @@ static void take_line(peer_results *r, const char *line)
 {
     char peer[24], stage[64], key[64];
     int width, height, threads;
-    double value;
+    double value, least;
     if (sscanf(line, "Q %23s %63s %d %d %d %63s %lf", peer, stage, &width, &height, &threads, key,
                &value) == 7) {
         peer_stage *s = stage_of(r, peer, stage);
         if (s != NULL) {
             set_value(s, key, value);
         }
-    } else if (line[0] != 'Q' && sscanf(line, "%23s %63s %d %d %d %lf", peer, stage, &width,
-                                        &height, &threads, &value) == 6) {
+    } else if (line[0] != 'Q' && sscanf(line, "%23s %63s %d %d %d %lf %lf", peer, stage, &width,
+                                        &height, &threads, &value, &least) == 7) {
         peer_stage *s = stage_of(r, peer, stage);
         if (s != NULL) {
             s->ms = value;
+            s->least_ms = least;
         }
     }
 }
@@ -237,6 +238,7 @@ static void add_ours(const our_times *t, const bench_quality *q, peer_results *o
         snprintf(name, sizeof(name), "%c_%s", groups[g].letter, groups[g].ours);
         peer_stage *s = stage_of(out, "relief", name);
         s->ms = timing_percentile(&t->groups[g], 50);
+        s->least_ms = timing_percentile(&t->groups[g], 0);
         memcpy(s->values, values[g], sizeof(s->values));
     }
 }
@@ -269,14 +271,14 @@ static rlf_result measure_ours(peer_results *out)
 
 static int by_time(const void *a, const void *b)
 {
-    double x = ((const peer_stage *)a)->ms, y = ((const peer_stage *)b)->ms;
+    double x = ((const peer_stage *)a)->least_ms, y = ((const peer_stage *)b)->least_ms;
     return (x > y) - (x < y);
 }
 
-static void print_group(const peer_group *g, const peer_results *r, double ours_ms,
+static void print_group(const peer_group *g, const peer_results *r, double ours_least,
                         bench_table *table)
 {
-    printf("\n%s\n%-46s %8s %8s", g->title, "", "ms", "/ ours");
+    printf("\n%s\n%-46s %8s %8s %8s", g->title, "", "median", "least", "/ ours");
     for (int k = 0; k < VALUES_MAX && g->columns[k].key != NULL; k++) {
         printf(" %10s", g->columns[k].head);
     }
@@ -288,14 +290,15 @@ static void print_group(const peer_group *g, const peer_results *r, double ours_
         }
         char name[96];
         snprintf(name, sizeof(name), "%s %s", s->peer, s->stage + 2);
-        printf("%-46s %8.3f %8.2f", name, s->ms, s->ms / ours_ms);
+        double ratio = s->least_ms / ours_least;
+        printf("%-46s %8.3f %8.3f %8.2f", name, s->ms, s->least_ms, ratio);
         for (int k = 0; k < VALUES_MAX && g->columns[k].key != NULL; k++) {
             char text[24];
             snprintf(text, sizeof(text), isnan(s->values[k]) ? "-" : "%.4g", s->values[k]);
             printf(" %10s", text);
         }
         printf("\n");
-        bench_add(table, "peers", name, "ms", s->ms, NAN, s->ms / ours_ms);
+        bench_add(table, "peers", name, "ms", s->ms, NAN, ratio);
     }
 }
 
@@ -303,7 +306,7 @@ static void print_all(peer_results *r, bench_table *table)
 {
     double ours[GROUP_COUNT];
     for (int g = 0; g < GROUP_COUNT; g++) {
-        ours[g] = r->stages[g].ms;
+        ours[g] = r->stages[g].least_ms;
     }
     qsort(r->stages, (size_t)r->count, sizeof(r->stages[0]), by_time);
     for (int g = 0; g < GROUP_COUNT; g++) {

@@ -42,7 +42,8 @@ void bench_quality_measure(const bench_clip *clip, int32_t frame, const rlf_surf
 
 /* Times profile live on the clip, reads the results of the peers' harness (lines "peer stage width
  * height threads median min cpu n" and "Q peer stage width height threads key value") and prints
- * one table per stage. Adds its rows to the table, ratio: peer's time / ours. */
+ * one table per stage. Adds its rows to the table, ratio: peer's least time / ours, which a busy
+ * machine disturbs less than medians taken at different moments. */
 rlf_result bench_peers_run(const bench_options *o, bench_table *table);
 
 #endif
