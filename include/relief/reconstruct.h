@@ -68,7 +68,7 @@ typedef struct rlf_reconstruct_def {
     bool enable_hold;      /* live: true, needs steadying: a dropped pixel keeps what was seen there
                               (reason FILLED) while nothing moves beside it */
     bool enable_velocity;  /* live: true: normal velocity from depth change along the ray */
-    bool enable_thickness; /* live: true: union of inscribed spheres */
+    bool enable_thickness; /* live: true: the back that the front's own curvature shows */
 
     rlf_pool *pool; /* borrowed; NULL = one thread */
 } rlf_reconstruct_def;

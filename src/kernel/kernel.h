@@ -293,4 +293,12 @@ void rlf_kernel_seen_row(const float *restrict z, int32_t count, uint8_t *restri
 /* Keeps the smaller value of each. */
 void rlf_kernel_nearer_row(const float *restrict line, int32_t count, float *restrict out);
 
+/* ---- body_mean_row.c ---------------------------------------------------------------------------
+ */
+
+/* 3x3 mean of a value over the pixels whose depth is within `jump` of the centre's. rows[0..2] are
+ * the rows above, at and below; out[1 .. count - 2] are written. */
+void rlf_kernel_body_mean_row(const float *const depth[3], const float *const value[3],
+                              int32_t count, float jump, float *restrict out);
+
 #endif

@@ -2,6 +2,7 @@
 #include "surface/stage.h"
 
 #include "surface/steps.h"
+#include "surface/thickness.h"
 #include "surface/velocity.h"
 
 #include <string.h>
@@ -111,6 +112,12 @@ static void take_work(rlf_reconstruct *stage)
     if (!stage->out_of_memory) {
         memset(work->ones, 1, (size_t)stage->grid.width);
         memset(work->missing, RLF_SEEN_MISSING, (size_t)stage->grid.width);
+    }
+    if (stage->def.enable_thickness) {
+        size_t lines = (size_t)(stage->grid.width + stage->grid.height);
+        work->blocks = take(stage, (size_t)stage->def.region_capacity, sizeof(rlf_block));
+        work->solid = take(stage, n, sizeof(rlf_solid));
+        work->chords = take(stage, lines * RLF_CHORDS_PER_LINE, sizeof(rlf_chord));
     }
 }
 

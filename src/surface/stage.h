@@ -100,7 +100,7 @@ typedef struct rlf_runs {
 /* Memory that is free between steps. */
 typedef struct rlf_work {
     float *depth[2];    /* planes */
-    float *sum[2];      /* planes: velocity sums, spheres */
+    float *sum[2];      /* planes: velocity sums, thickness */
     uint8_t *mask[2];   /* planes */
     uint8_t *links;     /* plane of RLF_LINK_ bits */
     int32_t *component; /* plane */
@@ -118,6 +118,9 @@ typedef struct rlf_work {
     struct rlf_region_sum *region_sums; /* region_capacity */
     int32_t *heirs;                     /* label table of region_track.c */
     struct rlf_cell *cells;             /* of velocity_cells.c */
+    struct rlf_block *blocks;           /* region_capacity */
+    struct rlf_solid *solid;            /* plane */
+    struct rlf_chord *chords;           /* of the lines in one direction */
 } rlf_work;
 
 struct rlf_reconstruct {

@@ -1,0 +1,108 @@
+/* Chords: straight cuts through the bodies of the foreground along lines of the image, and the
+ * conic whose front each of them shows.
+ *
+ * A plane through the camera cuts a quadric (ball, ellipsoid, cylinder, cone) in a conic, and
+ * inverse depth w keeps it one: at a point of the chord, l and r steps from its two ends, w =
+ * middle + slope s +- ratio sqrt(l r),
+ * + for the front, - for the back. The front is seen, so the three unknowns are a linear least
+ * squares, and the back follows. */
+#ifndef RLF_SURFACE_THICKNESS_H
+#define RLF_SURFACE_THICKNESS_H
+
+#include "kernel/kernel.h"
+#include "surface/stage.h"
+
+#include <math.h>
+
+enum { RLF_CHORD_PARTS = 6, RLF_CHORDS_PER_LINE = 16 };
+
+/* Visible pixels begin <= k < end of a chord, in steps along its line. */
+typedef struct rlf_chord_part {
+    int32_t begin, end;
+} rlf_chord_part;
+
+/* Weighted sums over the front of a chord, about its means. */
+typedef struct rlf_chord_moments {
+    float ss, hh, sh, sy, hy;
+} rlf_chord_moments;
+
+typedef struct rlf_chord {
+    float begin, end; /* of the body, in steps; part of it may be hidden */
+    float blur[2];    /* how well these are known, steps */
+    float apex;       /* of a wedge, steps; < begin: it is a conic */
+    float metres;     /* per step, at the reference depth */
+    float inverse;    /* of the reference depth */
+    float expected_slope, expected_ratio;
+    int32_t label, part_count;
+    rlf_chord_part part[RLF_CHORD_PARTS];
+    float weight, s, h, y, yy; /* sum of weights, means, variance sum of y */
+    rlf_chord_moments own, pooled, running;
+} rlf_chord;
+
+/* y = middle + slope s - ratio h, in metres about the reference depth. */
+typedef struct rlf_conic {
+    float middle, slope, ratio;
+    float variance; /* of what is left of y, m^2 */
+} rlf_conic;
+
+/* What the chords through a pixel say, weighted: its own body, and one that it hides. */
+typedef struct rlf_solid {
+    float weight, middle, half; /* sums; middle and half thickness in inverse depth */
+    float hidden_weight, hidden_middle, hidden_half;
+} rlf_solid;
+
+/* Pixels x0 <= x < x1, y0 <= y < y1. */
+typedef struct rlf_block {
+    int32_t x0, y0, x1, y1;
+} rlf_block;
+
+typedef struct rlf_chord_job {
+    const rlf_reconstruct *stage;
+    const rlf_slot *slot;
+    const float *front;   /* depth of the foreground's pixels, 0 elsewhere */
+    const float *inverse; /* 1 / depth as the sensor gave it, 0 = none */
+    rlf_solid *solid;
+    rlf_chord *chords; /* RLF_CHORDS_PER_LINE per line */
+    int32_t *counts;   /* chords of each line */
+    rlf_kernel_noise noise;
+    int32_t x0, y0, width, height; /* the block of pixels */
+    int32_t dx, dy;                /* step of the lines; dx >= 0 */
+} rlf_chord_job;
+
+/* Pixels base + k stride, 0 <= k < count. */
+typedef struct rlf_line {
+    int32_t x, y, dx, dy;
+    ptrdiff_t base, stride;
+    int32_t count;
+    float angle;  /* metres per step at a depth of 1 m */
+    float origin; /* steps from the block's corner along the lines to the first pixel */
+} rlf_line;
+
+/* ---- thickness_cut.c ---- */
+int32_t rlf_line_count(const rlf_chord_job *job);
+rlf_line rlf_line_at(const rlf_chord_job *job, int32_t index);
+/* Finds the chords of the line and measures them. Returns their number. */
+int32_t rlf_chords_cut(const rlf_chord_job *job, const rlf_line *line, rlf_chord *out);
+
+/* Half the thickness at k of a chord's solid whose ratio is 1, in steps. A conic: the power of the
+ * point; a wedge: two lines from the ends to its edge. */
+static inline float rlf_chord_profile(const rlf_chord *c, float k)
+{
+    float l = k - c->begin, r = c->end - k;
+    if (c->apex < c->begin) {
+        return sqrtf(l * r);
+    }
+    float slope = k < c->apex ? l / (c->apex - c->begin) : r / (c->end - c->apex);
+    return 0.5f * slope * (c->end - c->begin);
+}
+
+/* ---- thickness_conic.c ---- */
+/* Fills the sums of a chord whose ends and parts are known; false when it shows nothing. */
+bool rlf_chord_measure(const rlf_chord_job *job, const rlf_line *line, rlf_chord *chord);
+/* Adds to each chord what its neighbours on the lines beside it say about its shape. */
+void rlf_chords_pool(const rlf_chord_job *job, int32_t line_count);
+rlf_conic rlf_chord_solve(const rlf_chord *chord, const rlf_chord_moments *moments);
+/* Adds the solid of the conic to the pixels of the chord. */
+void rlf_chord_paint(const rlf_chord_job *job, const rlf_line *line, const rlf_chord *chord);
+
+#endif

@@ -1,0 +1,219 @@
+/* Fits conics to chords, and paints what they say. */
+#include "surface/thickness.h"
+
+#include <math.h>
+
+/* Neighbouring pixels share noise and shape error: two count as one. */
+static const float correlated_samples = 2.0f;
+static const float shape_error_m = 0.003f; /* real bodies are not quite conics */
+/* Before anything is seen, bodies are taken for balls, give or take. */
+static const float ratio_deviation = 0.6f, slope_deviation = 0.2f;
+static const float pooled_share = 0.6f; /* of the next line's sums */
+static const float alike = 0.7f;        /* overlap of chords of one body on neighbouring lines */
+static const float straight_trust = 0.1f;
+static const float trusted_rest_m = 0.003f; /* what a conic may leave and still be trusted */
+
+/* What a ball at the ray (x, y, 1) would show along the line: its middle is a plane square to the
+ * ray r, and with t the line's direction and R its radius it is R / |r| deep along z, and R |r| /
+ * sqrt(r^2 - (r.t)^2) wide. */
+static void expect_ball(const rlf_chord_job *job, const rlf_line *line, ptrdiff_t i, rlf_chord *c)
+{
+    const rlf_grid *grid = &job->stage->grid;
+    float tx = (float)line->dx / ((float)grid->camera.fx * line->angle);
+    float ty = (float)line->dy / ((float)grid->camera.fy * line->angle);
+    float x = grid->ray_x[i], y = grid->ray_y[i];
+    float r2 = 1.0f + x * x + y * y, along = x * tx + y * ty;
+    c->expected_slope = -along / r2;
+    c->expected_ratio = sqrtf(r2 - along * along) / r2;
+}
+
+/* Plain sums over the samples of a chord. */
+typedef struct sums {
+    float n, s, h, y, ss, hh, sh, sy, hy, yy;
+} sums;
+
+static inline void add_sample(sums *t, float weight, float s, float h, float y)
+{
+    float ws = weight * s, wh = weight * h, wy = weight * y;
+    t->n += weight;
+    t->s += ws;
+    t->h += wh;
+    t->y += wy;
+    t->ss += ws * s;
+    t->hh += wh * h;
+    t->sh += ws * h;
+    t->sy += ws * y;
+    t->hy += wh * y;
+    t->yy += wy * y;
+}
+
+static sums sum_samples(const rlf_chord_job *job, const rlf_line *line, const rlf_chord *c, float z)
+{
+    float sigma = rlf_kernel_sigma(job->noise, z);
+    float noise = sigma * sigma + shape_error_m * shape_error_m;
+    /* d sqrt(l r) / dl = sqrt(r / l) / 2: what an end that is not sharp is worth in depth */
+    float v0 = 0.5f * c->blur[0] * c->metres, v1 = 0.5f * c->blur[1] * c->metres;
+    v0 *= v0;
+    v1 *= v1;
+    float centre = 0.5f * (c->begin + c->end);
+    sums t = {0};
+    for (int32_t i = 0; i < c->part_count; i++) {
+        for (int32_t k = c->part[i].begin; k < c->part[i].end; k++) {
+            float w = job->inverse[line->base + k * line->stride];
+            if (w <= 0.0f) {
+                continue;
+            }
+            float l = (float)k - c->begin, r = c->end - (float)k, lr = l * r;
+            float weight = lr / (noise * lr + v0 * r * r + v1 * l * l);
+            add_sample(&t, weight, ((float)k - centre) * c->metres,
+                       rlf_chord_profile(c, (float)k) * c->metres, (c->inverse - w) * z * z);
+        }
+    }
+    return t;
+}
+
+bool rlf_chord_measure(const rlf_chord_job *job, const rlf_line *line, rlf_chord *c)
+{
+    int32_t middle = (c->part[0].begin + c->part[0].end) / 2;
+    ptrdiff_t reference = line->base + middle * line->stride;
+    float z = job->front[reference];
+    expect_ball(job, line, reference, c);
+    c->inverse = 1.0f / z;
+    c->metres = z * line->angle;
+    sums t = sum_samples(job, line, c, z);
+    if (!(t.n > 0.0f)) {
+        return false;
+    }
+    c->weight = t.n;
+    c->s = t.s / t.n;
+    c->h = t.h / t.n;
+    c->y = t.y / t.n;
+    c->yy = t.yy - t.y * c->y;
+    c->own = (rlf_chord_moments){t.ss - t.s * c->s, t.hh - t.h * c->h, t.sh - t.s * c->h,
+                                 t.sy - t.s * c->y, t.hy - t.h * c->y};
+    return true;
+}
+
+rlf_conic rlf_chord_solve(const rlf_chord *c, const rlf_chord_moments *m)
+{
+    const float slope_prior = correlated_samples / (slope_deviation * slope_deviation);
+    const float ratio_prior = correlated_samples / (ratio_deviation * ratio_deviation);
+    float ss = m->ss + slope_prior, hh = m->hh + ratio_prior;
+    float hy = m->hy - ratio_prior * c->expected_ratio;
+    float sy = m->sy + slope_prior * c->expected_slope;
+    float det = ss * hh - m->sh * m->sh;
+    rlf_conic f;
+    f.slope = (sy * hh - hy * m->sh) / det;
+    f.ratio = (sy * m->sh - hy * ss) / det;
+    f.ratio = f.ratio > 0.0f ? f.ratio : 0.0f;
+    f.middle = c->y - f.slope * c->s + f.ratio * c->h;
+    const rlf_chord_moments *o = &c->own;
+    float rest = c->yy - 2.0f * f.slope * o->sy + 2.0f * f.ratio * o->hy +
+                 f.slope * f.slope * o->ss + f.ratio * f.ratio * o->hh -
+                 2.0f * f.slope * f.ratio * o->sh;
+    f.variance = rest > 0.0f ? rest / c->weight : 0.0f;
+    return f;
+}
+
+/* The chord of the neighbouring line that is most like this one. */
+static const rlf_chord *counterpart(const rlf_chord *c, const rlf_chord *of, int32_t count,
+                                    float shift)
+{
+    const rlf_chord *best = NULL;
+    float best_share = alike;
+    for (int32_t i = 0; i < count; i++) {
+        float begin = of[i].begin + shift, end = of[i].end + shift;
+        float shared = (end < c->end ? end : c->end) - (begin > c->begin ? begin : c->begin);
+        float whole = (end > c->end ? end : c->end) - (begin < c->begin ? begin : c->begin);
+        if (of[i].label == c->label && (of[i].apex < of[i].begin) == (c->apex < c->begin) &&
+            shared > best_share * whole) {
+            best_share = shared / whole;
+            best = &of[i];
+        }
+    }
+    return best;
+}
+
+static void add_moments(rlf_chord_moments *to, const rlf_chord_moments *m)
+{
+    to->ss += pooled_share * m->ss;
+    to->hh += pooled_share * m->hh;
+    to->sh += pooled_share * m->sh;
+    to->sy += pooled_share * m->sy;
+    to->hy += pooled_share * m->hy;
+}
+
+/* One pass over the lines, each taking from the one before; forgets exponentially. */
+static void sweep(const rlf_chord_job *job, int32_t from, int32_t to, int32_t step)
+{
+    for (int32_t line = from; line != to; line += step) {
+        rlf_chord *chords = &job->chords[(ptrdiff_t)line * RLF_CHORDS_PER_LINE];
+        int32_t before = line - step;
+        float shift = 0.0f;
+        if (line != from) {
+            shift = rlf_line_at(job, before).origin - rlf_line_at(job, line).origin;
+        }
+        for (int32_t i = 0; i < job->counts[line]; i++) {
+            rlf_chord *c = &chords[i];
+            const rlf_chord *other =
+                line == from ? NULL
+                             : counterpart(c, &job->chords[(ptrdiff_t)before * RLF_CHORDS_PER_LINE],
+                                           job->counts[before], shift);
+            c->running = c->own;
+            if (other != NULL) {
+                add_moments(&c->running, &other->running);
+                add_moments(&c->pooled, &other->running);
+            }
+        }
+    }
+}
+
+void rlf_chords_pool(const rlf_chord_job *job, int32_t line_count)
+{
+    for (int32_t line = 0; line < line_count; line++) {
+        for (int32_t i = 0; i < job->counts[line]; i++) {
+            rlf_chord *c = &job->chords[(ptrdiff_t)line * RLF_CHORDS_PER_LINE + i];
+            c->pooled = c->own;
+        }
+    }
+    sweep(job, 0, line_count, 1);
+    sweep(job, line_count - 1, -1, -1);
+}
+
+/* What is straight along the chord may be any depth (a cylinder cut lengthwise), and what is not a
+ * conic has no back that we know. */
+static float trust(const rlf_conic *f)
+{
+    float bent = f->ratio < 1.0f ? f->ratio : 1.0f;
+    float rest = 1.0f + f->variance / (trusted_rest_m * trusted_rest_m);
+    return (bent * bent + straight_trust) / (rest * rest);
+}
+
+/* Short chords know best: weights are (l r)^-3/2. */
+void rlf_chord_paint(const rlf_chord_job *job, const rlf_line *line, const rlf_chord *c)
+{
+    rlf_conic f = rlf_chord_solve(c, &c->pooled);
+    float share = trust(&f) / (c->metres * c->metres * c->metres);
+    float w2 = c->inverse * c->inverse;
+    float slope = -w2 * f.slope * c->metres, half = w2 * f.ratio * c->metres;
+    float middle = c->inverse - w2 * f.middle - slope * 0.5f * (c->begin + c->end);
+    int32_t part = 0;
+    for (int32_t k = c->part[0].begin; k < c->part[c->part_count - 1].end; k++) {
+        ptrdiff_t i = line->base + k * line->stride;
+        part += k >= c->part[part].end ? 1 : 0;
+        float lr = ((float)k - c->begin) * (c->end - (float)k), root = sqrtf(lr);
+        float weight = share / (lr * root);
+        float m = weight * (middle + slope * (float)k),
+              h = weight * half * rlf_chord_profile(c, c->begin + c->end - (float)k);
+        rlf_solid *to = &job->solid[i];
+        if (k >= c->part[part].begin) {
+            to->weight += weight;
+            to->middle += m;
+            to->half += h;
+        } else if (job->front[i] > 0.0f) {
+            to->hidden_weight += weight;
+            to->hidden_middle += m;
+            to->hidden_half += h;
+        }
+    }
+}

@@ -1,0 +1,291 @@
+/* Depth of the back against bodies whose back is known: quadrics, boxes, bodies that touch, hide
+ * one another or leave the image; all with the sensor's noise. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "analytic.h"
+
+enum { WIDTH = 512, HEIGHT = 424, COUNT = WIDTH * HEIGHT, BODIES = 3 };
+
+static const double wall_z = 3.6, room_for_noise_m = 0.01;
+
+/* An ellipsoid, or with an infinite y axis a cylinder; or a box. Turned about y, then about z. */
+typedef struct body {
+    bool is_box;
+    rlf_vec3 centre, half;
+    double heading, lean;
+    double top; /* y from which it begins */
+} body;
+
+typedef struct span {
+    double near, far;
+} span;
+
+static rlf_vec3 to_body(const body *b, rlf_vec3 v)
+{
+    rlf_quat q = rlf_quat_mul(rlf_quat_from_axis_angle(rlf_vec3_make(0, 0, 1), b->lean),
+                              rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), b->heading));
+    return rlf_rotate(rlf_quat_conjugate(q), v);
+}
+
+static bool box_span(const body *b, rlf_vec3 o, rlf_vec3 m, span *out)
+{
+    const double origin[3] = {o.x, o.y, o.z}, ray[3] = {m.x, m.y, m.z};
+    const double half[3] = {b->half.x, b->half.y, b->half.z};
+    *out = (span){0.0, 1e9};
+    for (int k = 0; k < 3; k++) {
+        double inverse = 1.0 / (ray[k] != 0.0 ? ray[k] : 1e-12);
+        double t0 = (-half[k] - origin[k]) * inverse, t1 = (half[k] - origin[k]) * inverse;
+        out->near = rlf_max(out->near, rlf_min(t0, t1));
+        out->far = rlf_min(out->far, rlf_max(t0, t1));
+    }
+    return out->near < out->far;
+}
+
+/* Depths at which the ray (x, y, 1) enters and leaves the body. */
+static bool body_span(const body *b, double x, double y, span *out)
+{
+    rlf_vec3 m = to_body(b, rlf_vec3_make(x, y, 1.0)), o = to_body(b, rlf_neg(b->centre));
+    bool hit;
+    if (b->is_box) {
+        hit = box_span(b, o, m, out);
+    } else {
+        rlf_vec3 p = {m.x / b->half.x, m.y / b->half.y, m.z / b->half.z};
+        rlf_vec3 q = {o.x / b->half.x, o.y / b->half.y, o.z / b->half.z};
+        double a = rlf_dot(p, p), h = rlf_dot(p, q), root = h * h - a * (rlf_dot(q, q) - 1.0);
+        hit = root > 0.0;
+        root = hit ? sqrt(root) : 0.0;
+        *out = (span){(-h - root) / a, (-h + root) / a};
+    }
+    return hit && out->near > 0.0 && y * out->near >= b->top;
+}
+
+static const body *shown[BODIES];
+static int shown_count;
+static float depth[COUNT], exit_depth[COUNT];
+static int which[COUNT]; /* body seen; -1 = wall */
+
+/* First solid along the ray: bodies that touch there are one. */
+static void see(double x, double y, int i)
+{
+    span spans[BODIES];
+    double near = 1e9;
+    which[i] = -1;
+    for (int k = 0; k < shown_count; k++) {
+        if (!body_span(shown[k], x, y, &spans[k])) {
+            spans[k] = (span){1e9, -1e9};
+        } else if (spans[k].near < near) {
+            near = spans[k].near;
+            which[i] = k;
+        }
+    }
+    double end = which[i] < 0 ? wall_z : spans[which[i]].far;
+    for (int pass = 0; pass < shown_count; pass++) {
+        for (int k = 0; k < shown_count; k++) {
+            end = spans[k].near < end && spans[k].far > end ? spans[k].far : end;
+        }
+    }
+    depth[i] = (float)(which[i] < 0 ? wall_z : near);
+    exit_depth[i] = (float)end;
+}
+
+/* The surface after the wall was learnt and the bodies appeared. */
+static const rlf_surface *show(rlf_reconstruct **stage, rlf_pool *pool)
+{
+    static float noisy[COUNT];
+    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
+    analytic_random random = {17};
+    const rlf_surface *surface = NULL;
+    def.pool = pool;
+    assert_int_equal(rlf_reconstruct_create(&def, stage), RLF_OK);
+    for (int i = 0; i < COUNT; i++) {
+        see((i % WIDTH - rig.depth.cx) / rig.depth.fx, (i / WIDTH - rig.depth.cy) / rig.depth.fy,
+            i);
+    }
+    for (int frame = 0; frame < 9; frame++) {
+        for (int i = 0; i < COUNT; i++) {
+            double z = frame < 7 ? wall_z : depth[i];
+            noisy[i] = (float)(z + rlf_depth_noise_sigma(&rig.noise, z) * random_normal(&random));
+        }
+        rlf_frame f = analytic_frame(&rig, noisy, frame);
+        assert_int_equal(rlf_reconstruct_process(*stage, &f, &surface), RLF_OK);
+    }
+    return surface;
+}
+
+typedef struct errors {
+    double mean, close; /* metres, share within 4 cm */
+    int count;
+} errors;
+
+/* Of the exit depth, over the pixels that show body k; rows first..last. */
+static errors errors_of(const rlf_surface *f, int k, int first, int last)
+{
+    errors e = {0};
+    for (int i = first * WIDTH; i < last * WIDTH; i++) {
+        if (which[i] != k || !f->foreground[i]) {
+            continue;
+        }
+        double error = (double)f->depth[i] + f->thickness[i] - exit_depth[i];
+        assert_true(f->depth[i] + f->thickness[i] <= wall_z + room_for_noise_m);
+        e.mean += rlf_max(error, -error);
+        e.close += error < 0.04 && error > -0.04 ? 1.0 : 0.0;
+        e.count++;
+    }
+    assert_true(e.count > 200);
+    e.mean /= e.count;
+    e.close /= e.count;
+    return e;
+}
+
+static errors measure(int count, const body *bodies, int k)
+{
+    rlf_reconstruct *stage = NULL;
+    shown_count = count;
+    for (int i = 0; i < count; i++) {
+        shown[i] = &bodies[i];
+    }
+    const rlf_surface *f = show(&stage, NULL);
+    errors e = errors_of(f, k, 0, HEIGHT);
+    rlf_reconstruct_destroy(&stage);
+    return e;
+}
+
+#define ENDLESS 50.0
+
+/* The front of a quadric shows how deep it is: deeper than wide, flatter than wide, turned,
+ * leaning, anywhere in the image. */
+static void quadrics_have_their_back(void **state)
+{
+    (void)state;
+    static const body bodies[] = {
+        {.centre = {0.0, 0.0, 2.4}, .half = {0.12, 0.12, 0.12}, .top = -9},
+        {.centre = {0.7, -0.5, 2.4}, .half = {0.15, 0.15, 0.15}, .top = -9},
+        {.centre = {0.0, 0.0, 2.5}, .half = {0.12, 0.25, 0.17}, .top = -9},
+        {.centre = {0.3, 0.1, 2.5}, .half = {0.17, 0.25, 0.12}, .top = -9},
+        {.centre = {-0.3, 0.1, 2.5}, .half = {0.17, 0.3, 0.12}, .heading = 0.785, .top = -9},
+        {.centre = {0.2, 0.0, 2.2}, .half = {0.06, 0.5, 0.06}, .lean = 0.6, .top = -9},
+        {.centre = {-0.4, 0.0, 2.2}, .half = {0.05, 0.5, 0.05}, .lean = 1.57, .top = -9},
+        {.centre = {0.1, 0.0, 2.0}, .half = {0.09, ENDLESS, 0.09}, .top = -0.3},
+    };
+    for (size_t i = 0; i < sizeof bodies / sizeof bodies[0]; i++) {
+        errors e = measure(1, &bodies[i], 0);
+        assert_true(e.mean < 0.012);
+        assert_true(e.close > 0.97);
+    }
+}
+
+/* What is flat is a plate; two faces and the edge between them show the other two. */
+static void boxes_show_what_they_can(void **state)
+{
+    (void)state;
+    static const body face_on = {
+        .is_box = true, .centre = {0.1, 0, 2.3}, .half = {0.2, 0.25, 0.0125}, .top = -9};
+    static const body corner_on = {.is_box = true,
+                                   .centre = {0.1, 0, 2.4},
+                                   .half = {0.12, 0.3, 0.12},
+                                   .heading = 0.785,
+                                   .top = -9};
+    errors e = measure(1, &face_on, 0);
+    assert_true(e.mean < 0.006); /* a book */
+    e = measure(1, &corner_on, 0);
+    assert_true(e.mean < 0.03);
+}
+
+/* Each of two bodies has its own back, with air between. */
+static void a_limb_before_a_trunk(void **state)
+{
+    (void)state;
+    static const body bodies[] = {
+        {.centre = {0.0, 0.0, 2.6}, .half = {0.17, 0.3, 0.12}, .top = -9},
+        {.centre = {0.03, 0.0, 2.2}, .half = {0.05, 0.5, 0.05}, .lean = 0.3, .top = -9},
+    };
+    errors trunk = measure(2, bodies, 0);
+    errors limb = measure(2, bodies, 1);
+    assert_true(limb.mean < 0.012 && limb.close > 0.97);
+    assert_true(trunk.mean < 0.025 && trunk.close > 0.9);
+}
+
+/* A limb that lies on a trunk is one solid with it. */
+static void a_limb_on_a_trunk(void **state)
+{
+    (void)state;
+    static const body bodies[] = {
+        {.centre = {0.0, 0.0, 2.6}, .half = {0.12, 0.3, 0.17}, .top = -9},
+        {.centre = {0.0, 0.0, 2.41}, .half = {0.045, ENDLESS, 0.045}, .top = -0.2},
+    };
+    errors trunk = measure(2, bodies, 0);
+    errors limb = measure(2, bodies, 1);
+    assert_true(trunk.mean < 0.02 && limb.mean < 0.03 && limb.close > 0.85);
+}
+
+/* No background between two legs: the crease between them parts them. */
+static void legs_that_touch(void **state)
+{
+    (void)state;
+    static const body bodies[] = {
+        {.centre = {-0.075, 0.0, 2.4}, .half = {0.08, ENDLESS, 0.08}, .top = -0.1},
+        {.centre = {0.075, 0.0, 2.4}, .half = {0.08, ENDLESS, 0.08}, .top = -0.1},
+    };
+    for (int k = 0; k < 2; k++) {
+        errors e = measure(2, bodies, k);
+        assert_true(e.mean < 0.015 && e.close > 0.95);
+    }
+}
+
+/* The image's border is no silhouette. */
+static void bodies_that_leave_the_image(void **state)
+{
+    (void)state;
+    static const body bodies[] = {
+        {.centre = {-1.75, 0.0, 2.5}, .half = {0.2, 0.4, 0.2}, .top = -9},
+        {.centre = {0.4, 1.5, 2.5}, .half = {0.14, 0.4, 0.14}, .top = -9},
+    };
+    errors side = measure(2, bodies, 0);
+    errors below = measure(2, bodies, 1);
+    assert_true(below.mean < 0.015 && side.mean < 0.015);
+}
+
+static void results_do_not_depend_on_workers(void **state)
+{
+    (void)state;
+    static const body bodies[] = {
+        {.centre = {0.0, 0.0, 2.6}, .half = {0.12, 0.3, 0.17}, .top = -9},
+        {.centre = {0.0, 0.0, 2.41}, .half = {0.05, 0.5, 0.05}, .lean = 0.3, .top = -9},
+    };
+    static float alone[COUNT];
+    shown_count = 2;
+    shown[0] = &bodies[0];
+    shown[1] = &bodies[1];
+    for (int32_t workers = 1; workers <= 5; workers += 2) {
+        rlf_pool *pool = NULL;
+        rlf_reconstruct *stage = NULL;
+        assert_int_equal(rlf_pool_create(workers, &pool), RLF_OK);
+        const rlf_surface *f = show(&stage, pool);
+        if (workers == 1) {
+            memcpy(alone, f->thickness, sizeof alone);
+        }
+        assert_memory_equal(alone, f->thickness, sizeof alone);
+        rlf_reconstruct_destroy(&stage);
+        rlf_pool_destroy(&pool);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(quadrics_have_their_back),
+        cmocka_unit_test(boxes_show_what_they_can),
+        cmocka_unit_test(a_limb_before_a_trunk),
+        cmocka_unit_test(a_limb_on_a_trunk),
+        cmocka_unit_test(legs_that_touch),
+        cmocka_unit_test(bodies_that_leave_the_image),
+        cmocka_unit_test(results_do_not_depend_on_workers),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
