@@ -20,7 +20,10 @@ typedef enum rlf_synthetic_scene {
     RLF_SYNTHETIC_THESIS = 2, /* thesis chapter 5: wall 3.2 m, column, floor, person at 2.2-2.4 m */
     RLF_SYNTHETIC_CHAIR = 3,  /* as room; the chair is taken away at t = 4 s */
     RLF_SYNTHETIC_BOOK = 4,   /* the person holds a book edge-on, then turns it to the camera */
-    RLF_SYNTHETIC_HAND = 5    /* a hand moves close to the camera (0.6-1.2 m) */
+    RLF_SYNTHETIC_HAND = 5,   /* a hand moves close to the camera (0.6-1.2 m) */
+    RLF_SYNTHETIC_LIFT = 6, /* a tray comes in, rises 0.4 m at `speed` from t = 3 s on, and stops */
+    RLF_SYNTHETIC_SWIPE = 7, /* an upright board moves 1.1 m along the floor from t = 3 s on */
+    RLF_SYNTHETIC_CARRY = 8  /* a tray comes in and moves along a circle from t = 3 s on */
 } rlf_synthetic_scene;
 
 /* Values of rlf_truth.label. The first four are the room's shell: endlessly thick, thickness 0. */
@@ -38,7 +41,8 @@ typedef enum rlf_synthetic_label {
     RLF_SYNTHETIC_LABEL_CHAIR = 11,
     RLF_SYNTHETIC_LABEL_PERSON = 12, /* from here on: foreground */
     RLF_SYNTHETIC_LABEL_BOOK = 13,
-    RLF_SYNTHETIC_LABEL_HAND = 14
+    RLF_SYNTHETIC_LABEL_HAND = 14,
+    RLF_SYNTHETIC_LABEL_TRAY = 15
 } rlf_synthetic_label;
 
 typedef struct rlf_synthetic_def {
@@ -47,6 +51,7 @@ typedef struct rlf_synthetic_def {
     uint64_t seed;             /* of noise and dropout; default 1 */
     double frames_per_second;  /* default 30 */
     int64_t frame_count;       /* default 300 (10 s); -1 = endless */
+    double speed;              /* of the tray or board, m/s, above 0, at most 10; default 0.5 */
     bool enable_noise;         /* default true: axial noise, dropout, flying pixels, edge filter */
     bool enable_edge_filter;   /* default true: the driver's invalid band at silhouettes */
     bool enable_color;         /* default true */
@@ -61,7 +66,8 @@ RLF_API rlf_synthetic_def rlf_synthetic_def_default(void);
 RLF_API rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source **out);
 
 /* Reads "synthetic:NAME[?key=value[&key=value...]]" into *def: NAME one of room, empty, thesis,
- * chair, book, hand; keys seed, frames, fps, noise (0|1), edge_filter (0|1), color (WxH or 0).
+ * chair, book, hand, lift, swipe, carry; keys seed, frames, fps, speed, noise (0|1), edge_filter
+ * (0|1), color (WxH or 0).
  * RLF_ERROR_INVALID names the part that is wrong and what is allowed. */
 RLF_API rlf_result rlf_synthetic_parse(const char *source, rlf_synthetic_def *def);
 
@@ -80,6 +86,20 @@ RLF_API rlf_result rlf_synthetic_distance(rlf_source *source, rlf_vec3 p, double
 RLF_API rlf_result rlf_synthetic_cast(rlf_source *source, rlf_vec3 origin,
                                       const rlf_vec3 *directions, int32_t count,
                                       float *out_distance, int32_t *out_label);
+
+/* What rlf_synthetic_nearest found. */
+typedef struct rlf_synthetic_hit {
+    double distance;   /* metres, negative inside a solid */
+    rlf_vec3 normal;   /* unit, out of the solid, at its point nearest to p */
+    rlf_vec3 velocity; /* of that point, m/s */
+    int32_t label;     /* rlf_synthetic_label */
+} rlf_synthetic_hit;
+
+/* The same at any time (seconds since the source's first frame, >= 0), with the velocity: the true
+ * scene between two frames. RLF_ERROR_INVALID when the source is not a synthetic one.
+ * Thread-safety: as rlf_source_next. */
+RLF_API rlf_result rlf_synthetic_nearest(rlf_source *source, double time_s, rlf_vec3 p,
+                                         rlf_synthetic_hit *out);
 
 #ifdef __cplusplus
 }

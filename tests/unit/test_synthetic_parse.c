@@ -36,8 +36,9 @@ static void every_key_is_read(void **state)
 static void every_scene_has_its_name(void **state)
 {
     (void)state;
-    static const char *const names[] = {"room", "empty", "thesis", "chair", "book", "hand"};
-    for (int i = 0; i < 6; i++) {
+    static const char *const names[] = {"room", "empty", "thesis", "chair", "book",
+                                        "hand", "lift",  "swipe",  "carry"};
+    for (int i = 0; i < 9; i++) {
         char text[64] = "synthetic:";
         strcat(text, names[i]);
         rlf_synthetic_def def = rlf_synthetic_def_default();

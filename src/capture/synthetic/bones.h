@@ -40,6 +40,9 @@ void synth_person_bones(const synth_scene *scene, double t, rlf_pose bones[SYNTH
 /* Bones of the arm in front of the camera at time t. */
 void synth_hand_bones(const synth_scene *scene, double t, rlf_pose bones[SYNTH_BONE_COUNT]);
 
+/* Bones of the tray (SYNTH_BOOK_BONE) and the arm that holds it at time t. */
+void synth_tray_bones(const synth_scene *scene, double t, rlf_pose bones[SYNTH_BONE_COUNT]);
+
 /* Pose at `origin` with y along `direction` and z as near to `forward` as possible. */
 rlf_pose synth_bone_pose(rlf_vec3 origin, rlf_vec3 direction, rlf_vec3 forward);
 
@@ -48,5 +51,6 @@ extern const int32_t synth_person_flesh_count;
 extern const synth_flesh synth_hand_flesh[];
 extern const int32_t synth_hand_flesh_count;
 extern const synth_flesh synth_book_flesh;
+extern const synth_flesh synth_tray_flesh[2]; /* tray, arm */
 
 #endif

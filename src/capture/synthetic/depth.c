@@ -30,13 +30,6 @@ static void restore_row(synth_depth *depth, synth_rect rect, int32_t y)
     }
 }
 
-/* Velocity of the point p that moves with the part: v + w x (p - origin). */
-static rlf_vec3 velocity_at(const synth_part *part, rlf_vec3 p)
-{
-    rlf_vec3 arm = rlf_sub(p, part->shape.T_camera_shape.p);
-    return rlf_add(part->velocity, rlf_cross(part->angular_velocity, arm));
-}
-
 /* Movers whose rectangle holds pixel (x, y). */
 static void movers_at(int32_t x, int32_t y, const synth_canvas *canvas, synth_candidates *out)
 {
@@ -54,7 +47,7 @@ static void store_truth(synth_depth *depth, const synth_part *part, const synth_
 {
     const synth_scene *scene = depth->scene;
     rlf_vec3 p = rlf_vec3_make(touch->p[0], touch->p[1], touch->p[2]);
-    rlf_vec3 velocity = velocity_at(part, p);
+    rlf_vec3 velocity = synth_part_velocity(part, p);
     synth_ray ray = {depth->view.origin, rlf_scale(p, 1.0 / p.z)};
     synth_candidates candidates;
     movers_at((int32_t)(i % SYNTH_DEPTH_WIDTH), (int32_t)(i / SYNTH_DEPTH_WIDTH), &depth->canvas,

@@ -42,10 +42,30 @@ static void put_flesh(synth_scene *scene, const synth_flesh *flesh, int32_t labe
     part->angular_velocity = rlf_scale(rlf_vec3_make(turn.x, turn.y, turn.z), rate);
 }
 
+rlf_vec3 synth_part_velocity(const synth_part *part, rlf_vec3 p)
+{
+    rlf_vec3 arm = rlf_sub(p, part->shape.T_camera_shape.p);
+    return rlf_add(part->velocity, rlf_cross(part->angular_velocity, arm));
+}
+
+static void move_tray(synth_scene *scene, double t)
+{
+    motion m;
+    synth_tray_bones(scene, t - DIFFERENCE_S, m.before);
+    synth_tray_bones(scene, t, m.now);
+    synth_tray_bones(scene, t + DIFFERENCE_S, m.after);
+    put_flesh(scene, &synth_tray_flesh[0], RLF_SYNTHETIC_LABEL_TRAY, &m);
+    put_flesh(scene, &synth_tray_flesh[1], RLF_SYNTHETIC_LABEL_HAND, &m);
+}
+
 void synth_scene_move(synth_scene *scene, double t)
 {
     scene->mover_count = 0;
     if (scene->kind == RLF_SYNTHETIC_EMPTY) {
+        return;
+    }
+    if (synth_has_tray(scene->kind)) {
+        move_tray(scene, t);
         return;
     }
     bool is_hand = scene->kind == RLF_SYNTHETIC_HAND;

@@ -4,10 +4,11 @@
 #include <string.h>
 
 #define PREFIX "synthetic:"
-#define SCENES "room, empty, thesis, chair, book, hand"
-#define KEYS "seed, frames, fps, noise, edge_filter, color"
+#define SCENES "room, empty, thesis, chair, book, hand, lift, swipe, carry"
+#define KEYS "seed, frames, fps, speed, noise, edge_filter, color"
 
-static const char *const scene_names[] = {"room", "empty", "thesis", "chair", "book", "hand"};
+static const char *const scene_names[] = {"room", "empty", "thesis", "chair", "book",
+                                          "hand", "lift",  "swipe",  "carry"};
 #define SCENE_COUNT ((int)(sizeof(scene_names) / sizeof(scene_names[0])))
 
 /* A piece of the source string. */
@@ -123,6 +124,10 @@ static const char *set_value(piece key, piece value, rlf_synthetic_def *def, boo
         *is_good = read_decimal(value, &def->frames_per_second) && def->frames_per_second > 0.0 &&
                    def->frames_per_second <= 1000.0;
         return "frames per second above 0, at most 1000";
+    }
+    if (is_word(key, "speed")) {
+        *is_good = read_decimal(value, &def->speed) && def->speed > 0.0 && def->speed <= 10.0;
+        return "metres per second above 0, at most 10";
     }
     if (is_word(key, "noise")) {
         *is_good = read_switch(value, &def->enable_noise);

@@ -4,7 +4,7 @@
 
 static const char *const label_names[] = {
     "",          "wall",    "floor", "ceiling", "column", "cupboard", "table", "box large",
-    "box small", "box top", "ball",  "chair",   "person", "book",     "hand",
+    "box small", "box top", "ball",  "chair",   "person", "book",     "hand",  "tray",
 };
 
 static synth_part *add(synth_scene *scene, int32_t label, synth_material material)
@@ -120,11 +120,16 @@ static void build_thesis(synth_scene *scene)
               (block){0.99, 0.0, 3.05, 0.4, 4.0, 0.3, 0.0});
 }
 
-static void build_room(synth_scene *scene)
+static void build_bare(synth_scene *scene)
 {
     scene->floor_y = 1.3;
     add_shell(scene, 3.9);
     add_half_space(scene, RLF_SYNTHETIC_LABEL_CEILING, rlf_vec3_make(0, -1.4, 0), RLF_PI);
+}
+
+static void build_room(synth_scene *scene)
+{
+    build_bare(scene);
     add_block(scene, RLF_SYNTHETIC_LABEL_COLUMN, SYNTH_COLUMN,
               (block){1.05, 0.0, 3.75, 0.38, 2.7, 0.3, 0.0});
     add_block(scene, RLF_SYNTHETIC_LABEL_CUPBOARD, SYNTH_CUPBOARD,
@@ -136,9 +141,11 @@ static void build_room(synth_scene *scene)
 
 void synth_scene_build(synth_scene *scene, rlf_synthetic_scene kind)
 {
-    *scene = (synth_scene){.kind = kind};
+    *scene = (synth_scene){.kind = kind, .speed = 0.5};
     if (kind == RLF_SYNTHETIC_THESIS) {
         build_thesis(scene);
+    } else if (synth_has_tray(kind)) {
+        build_bare(scene);
     } else {
         build_room(scene);
     }

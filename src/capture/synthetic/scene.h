@@ -43,6 +43,7 @@ typedef struct synth_part {
 typedef struct synth_scene {
     rlf_synthetic_scene kind;
     double floor_y;      /* height of the camera above the floor, metres */
+    double speed;        /* of the tray, m/s */
     double removal_time; /* s; when the last parts of the room are taken away; 0 = never */
     synth_part statics[SYNTH_PART_MAX];
     int32_t static_count;  /* at start */
@@ -50,6 +51,12 @@ typedef struct synth_scene {
     synth_part movers[SYNTH_PART_MAX];
     int32_t mover_count;
 } synth_scene;
+
+/* A scene with a tray, see tray.c. */
+static inline bool synth_has_tray(rlf_synthetic_scene kind)
+{
+    return kind == RLF_SYNTHETIC_LIFT || kind == RLF_SYNTHETIC_SWIPE || kind == RLF_SYNTHETIC_CARRY;
+}
 
 static inline bool synth_is_shell(int32_t label)
 {
@@ -64,6 +71,9 @@ int32_t synth_scene_static_count(const synth_scene *scene, double t);
 
 /* Moves the movers to time t, seconds since the first frame. */
 void synth_scene_move(synth_scene *scene, double t);
+
+/* Velocity of the point p that moves with the part: v + w x (p - origin). */
+rlf_vec3 synth_part_velocity(const synth_part *part, rlf_vec3 p);
 
 /* Part of parts[0..count) whose solid is nearest to p; out_normal points outwards. */
 const synth_part *synth_nearest(const synth_part *parts, int32_t count, rlf_vec3 p,

@@ -11,6 +11,7 @@
 #define KINECT_BASELINE 0.052 /* metres from the depth camera to the colour camera, along +x */
 #define COLOR_SIZE_MAX 4096
 #define FPS_MAX 1000.0
+#define SPEED_MAX 10.0
 #define FRAME_COUNT_MAX 4294967295 /* the noise is keyed by a 32-bit frame number */
 
 rlf_synthetic_def rlf_synthetic_def_default(void)
@@ -20,6 +21,7 @@ rlf_synthetic_def rlf_synthetic_def_default(void)
                              .seed = 1,
                              .frames_per_second = 30.0,
                              .frame_count = 300,
+                             .speed = 0.5,
                              .enable_noise = true,
                              .enable_edge_filter = true,
                              .enable_color = true,
@@ -44,6 +46,11 @@ static rlf_result check_def(const rlf_synthetic_def *def)
         return rlf_fail(RLF_ERROR_INVALID,
                         "synthetic: frame_count is %lld; use -1 (endless) or 0 to %lld",
                         (long long)def->frame_count, (long long)FRAME_COUNT_MAX);
+    }
+    if (!(def->speed > 0.0 && def->speed <= SPEED_MAX)) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "synthetic: speed is %g; use a number above 0, at most %g", def->speed,
+                        SPEED_MAX);
     }
     bool is_size = def->color_width >= 1 && def->color_width <= COLOR_SIZE_MAX &&
                    def->color_height >= 1 && def->color_height <= COLOR_SIZE_MAX;
@@ -178,6 +185,8 @@ static rlf_result sensor_create(const rlf_synthetic_def *def, const rlf_rig *rig
     }
     sensor->def = *def;
     synth_scene_build(&sensor->scene, def->scene);
+    sensor->scene.speed = def->speed;
+    sensor->asked = sensor->scene;
     sensor->depth.view.camera = rig->depth;
     sensor->depth.pool = def->pool;
     synth_noise *noise = &sensor->depth.noise;
@@ -227,39 +236,4 @@ rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source **out)
         sensor_destroy(sensor);
     }
     return result;
-}
-
-rlf_result rlf_synthetic_distance(rlf_source *source, rlf_vec3 p, double *out_distance,
-                                  rlf_vec3 *out_normal, int32_t *out_label)
-{
-    if (!RLF_ASSERT(source != NULL && out_distance != NULL)) {
-        return RLF_ERROR_INVALID;
-    }
-    const synth_sensor *sensor = synth_sensor_of(source);
-    if (sensor == NULL) {
-        return rlf_fail(RLF_ERROR_INVALID, "%s: not a synthetic source, so its truth is unknown",
-                        rlf_source_get_info(source)->name);
-    }
-    const synth_scene *scene = &sensor->scene;
-    double distance;
-    rlf_vec3 normal;
-    double distance_to_mover;
-    rlf_vec3 normal_of_mover;
-    const synth_part *part = synth_nearest(
-        scene->statics, synth_scene_static_count(scene, sensor->time), p, &distance, &normal);
-    const synth_part *mover =
-        synth_nearest(scene->movers, scene->mover_count, p, &distance_to_mover, &normal_of_mover);
-    if (mover != NULL && distance_to_mover < distance) {
-        part = mover;
-        distance = distance_to_mover;
-        normal = normal_of_mover;
-    }
-    *out_distance = distance;
-    if (out_normal != NULL) {
-        *out_normal = normal;
-    }
-    if (out_label != NULL) {
-        *out_label = part->label;
-    }
-    return RLF_OK;
 }

@@ -13,6 +13,8 @@ typedef struct synth_sensor {
     int64_t next_frame;
     double time; /* of the frame given last, seconds; 0 before the first */
     bool has_frame;
+    synth_scene asked; /* the scene at the time that was asked for last; see nearest.c */
+    double asked_time;
     rlf_truth truth;
     rlf_truth_pose poses[SYNTH_PART_MAX];
 } synth_sensor;
