@@ -95,9 +95,9 @@ typedef struct rlf_synthetic_hit {
     int32_t label;     /* rlf_synthetic_label */
 } rlf_synthetic_hit;
 
-/* The same at any time (seconds since the source's first frame, >= 0), with the velocity: the true
- * scene between two frames. RLF_ERROR_INVALID when the source is not a synthetic one.
- * Thread-safety: as rlf_source_next. */
+/* As rlf_synthetic_distance at any time (seconds since the source's first frame, >= 0), with the
+ * velocity: the true scene between two frames. RLF_ERROR_INVALID when the source is not a synthetic
+ * one. Thread-safety: as rlf_source_next. */
 RLF_API rlf_result rlf_synthetic_nearest(rlf_source *source, double time_s, rlf_vec3 p,
                                          rlf_synthetic_hit *out);
 

@@ -1,6 +1,7 @@
 /* Contacts of one body with the grid: its own surface points against the sheets, and the sheets'
  * outlines and bumps against it. Costs per body, not per pixel; nothing is built per frame. */
 #include "physics/grid_collide.h"
+#include "physics/grid_ball.h"
 #include "physics/grid_reduce.h"
 #include "physics/grid_scan.h"
 
@@ -118,6 +119,7 @@ static void clear(grid_job *job)
     job->flat_count = 0;
     job->normal_count = 0;
     job->bump_count = 0;
+    job->meeting_count = 0;
     job->hit_count = 0;
 }
 
@@ -132,8 +134,9 @@ static bool is_swept(const grid_job *job, const field_cell *cell)
            grid_field_at(job->query->grid, job->sheet, before, &other) != FIELD_BEHIND;
 }
 
-/* Inside a solid a body still belongs to the side from which it came. */
-static void find_home(grid_job *job, uint8_t *home)
+/* Inside a solid a body still belongs to the side from which it came. True when it is inside, or
+ * the solid swept over it. */
+static bool find_home(grid_job *job, uint8_t *home)
 {
     field_cell cell;
     rlf_vec3 seen = rlf_mad(job->centre, job->surface_velocity, -job->query->tau);
@@ -147,6 +150,7 @@ static void find_home(grid_job *job, uint8_t *home)
         *home = (uint8_t)state;
     }
     job->home = (field_state)*home;
+    return state == FIELD_INSIDE || job->home == FIELD_INSIDE;
 }
 
 static void collide_sheet(grid_job *job, const grid_tiles *tiles, uint8_t *home)
@@ -157,9 +161,17 @@ static void collide_sheet(grid_job *job, const grid_tiles *tiles, uint8_t *home)
     if (job->sheet->depth == NULL || job->sheet->normal_x == NULL) {
         return;
     }
+    job->is_ball = job->body->shape.shape.type == RLF_SHAPE_SPHERE;
     grid_scan_footprint(job);
-    find_home(job, home);
-    if (job->is_near) {
+    bool is_inside = find_home(job, home);
+    if (job->is_ball && is_inside) { /* no touch, but a way out: by the points of its surface */
+        clear(job);
+        job->is_ball = false;
+        grid_scan_footprint(job);
+    }
+    if (job->is_ball) {
+        grid_ball_add_hits(job);
+    } else if (job->is_near) {
         cast_points(job);
         add_bumps(job);
     }

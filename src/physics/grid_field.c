@@ -2,7 +2,6 @@
 #include "physics/grid_field.h"
 #include "physics/grid_edge.h"
 
-#define ENDLESS 1e9
 /* A sheet is taken to be at least this thick, so that a point cannot sit on both its sides. */
 #define THICKNESS_MIN 0.01
 /* Missing pixels are bridged from neighbours up to this many pixels away. */
@@ -35,7 +34,7 @@ bool grid_cell_read(const rlf_grid *grid, const rlf_grid_sheet *sheet, int32_t x
     }
     double thickness = sheet->thickness != NULL ? sheet->thickness[i] : sheet->default_thickness;
     bool is_endless = sheet->thickness == NULL && !(thickness > 0.0);
-    out->thickness = is_endless ? ENDLESS : rlf_max(thickness, THICKNESS_MIN);
+    out->thickness = is_endless ? FIELD_ENDLESS : rlf_max(thickness, THICKNESS_MIN);
     return true;
 }
 
@@ -103,7 +102,7 @@ field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf
     if (q.z < front) {
         return FIELD_FRONT;
     }
-    if (sheet->thickness == NULL && out->thickness < ENDLESS) {
+    if (sheet->thickness == NULL && out->thickness < FIELD_ENDLESS) {
         /* How thick it is was never seen: no thicker than it is wide (a table's leg). */
         out->thickness = grid_edge_width(grid, sheet, out, out->thickness);
         out->thickness = rlf_max(out->thickness, THICKNESS_MIN);
@@ -136,9 +135,7 @@ static bool read_back(const rlf_grid *grid, const rlf_grid_sheet *sheet, const f
     return true;
 }
 
-/* Central differences of the back surface, turned away from the camera. */
-static rlf_vec3 back_normal(const rlf_grid *grid, const rlf_grid_sheet *sheet,
-                            const field_cell *cell)
+rlf_vec3 grid_back_normal(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell)
 {
     const int32_t OFFSETS[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     rlf_vec3 p[4];
@@ -222,7 +219,7 @@ static void hit_front(const rlf_grid *grid, const rlf_grid_sheet *sheet, const f
 static void hit_back(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
                      field_hit *hit)
 {
-    set_hit(hit, cell, back_point(cell), back_normal(grid, sheet, cell));
+    set_hit(hit, cell, back_point(cell), grid_back_normal(grid, sheet, cell));
 }
 
 /* Through the nearest of front, back and side, or the home's face and side. */
@@ -231,7 +228,7 @@ static void leave_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_v
 {
     hit_front(grid, sheet, cell, hit);
     hit->separation = rlf_dot(hit->normal, rlf_sub(q, hit->point));
-    if (cell->thickness < ENDLESS && home != FIELD_FRONT && home != FIELD_INSIDE) {
+    if (cell->thickness < FIELD_ENDLESS && home != FIELD_FRONT && home != FIELD_INSIDE) {
         field_hit back;
         hit_back(grid, sheet, cell, &back);
         back.separation = rlf_dot(back.normal, rlf_sub(q, back.point));
@@ -264,7 +261,7 @@ static void enter_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_v
     if (from != FIELD_BEHIND && in_front <= moved) {
         return;
     }
-    if (cell->thickness < ENDLESS && from != FIELD_FRONT) {
+    if (cell->thickness < FIELD_ENDLESS && from != FIELD_FRONT) {
         hit_back(grid, sheet, cell, &back);
         if (from == FIELD_BEHIND || -rlf_dot(back.normal, rlf_sub(p, back.point)) <= moved) {
             *hit = back;

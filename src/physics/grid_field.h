@@ -9,6 +9,9 @@
 
 #include "relief/world.h"
 
+/* Thickness of a solid that never ends, metres. */
+#define FIELD_ENDLESS 1e9
+
 typedef enum field_state {
     FIELD_NONE = 0, /* no surface on this ray, or out of view */
     FIELD_FRONT,    /* in free space before the sheet */
@@ -21,7 +24,7 @@ typedef struct field_cell {
     int32_t x, y;
     int32_t label;
     rlf_vec3 point, normal, velocity;
-    double thickness; /* metres along z; 1e9 = endless */
+    double thickness; /* metres along z, or FIELD_ENDLESS */
     double back;      /* z of the back on the query's ray */
 } field_cell;
 
@@ -53,5 +56,9 @@ bool grid_field_cast(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3
  */
 bool grid_field_side(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
                      int32_t radius_px, rlf_vec3 *out_normal, double *out_distance);
+
+/* Central differences of the back surface, turned away from the camera. */
+rlf_vec3 grid_back_normal(const rlf_grid *grid, const rlf_grid_sheet *sheet,
+                          const field_cell *cell);
 
 #endif

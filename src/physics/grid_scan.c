@@ -3,6 +3,7 @@
  * Interior pixels give the surface's directions and bumps; outline pixels stand for the side wall
  * of the solid behind them, from its front to its back along the ray. */
 #include "physics/grid_scan.h"
+#include "physics/grid_ball.h"
 #include "physics/grid_edge.h"
 
 #define SAMPLES_PER_SIDE 20
@@ -50,6 +51,10 @@ static void note_bump(grid_job *job, const grid_hit *hit)
 
 static void look_at_interior(grid_job *job, const field_cell *cell, rlf_vec3 p)
 {
+    if (job->is_ball) {
+        grid_ball_look(job, cell, p);
+        return;
+    }
     rlf_vec3 gradient;
     rlf_vec3 local = to_body(job, p);
     double distance = phys_shape_distance(&job->body->shape, local, &gradient);
@@ -84,16 +89,15 @@ static double outline_end(const grid_job *job, const field_cell *cell, int32_t s
         int32_t y = cell->y + OFFSETS[k][1] * stride;
         end = rlf_max(end, grid_edge_end(job->query->grid, sheet, cell, x, y));
     }
-    if (end > 0.0 && sheet->thickness == NULL) { /* never seen: no deeper than wide */
+    if (end > 0.0 && sheet->thickness == NULL &&
+        cell->thickness < FIELD_ENDLESS) { /* never seen: no deeper than wide */
         double width = grid_edge_width(job->query->grid, sheet, cell, cell->thickness);
         end = rlf_min(end, cell->point.z + width);
     }
     return end;
 }
 
-/* The wall's directions at an outline's point: its face, and at its front and back edge all between
- * that face and the ray. The body's own normal there, brought into them. */
-static rlf_vec3 wall_normal(const field_cell *cell, rlf_vec3 side, rlf_vec3 normal, int32_t edge)
+rlf_vec3 grid_wall_normal(const field_cell *cell, rlf_vec3 side, rlf_vec3 normal, int32_t edge)
 {
     rlf_vec3 ray = rlf_normalize(cell->point);
     double out = rlf_dot(normal, side);
@@ -127,7 +131,7 @@ static void look_at_outline(grid_job *job, const field_cell *cell, rlf_vec3 shif
         hit.separation = distance;
         if (has_side) {
             int32_t edge = depths[k] <= z ? -1 : depths[k] >= end ? 1 : 0;
-            hit.normal = wall_normal(cell, side, normal, edge);
+            hit.normal = grid_wall_normal(cell, side, normal, edge);
             rlf_vec3 anchor = rlf_mat3_mul_vec(&job->R_grid_body, hit.anchor);
             hit.separation = rlf_dot(hit.normal, rlf_sub(rlf_add(job->centre, anchor), p));
         }
@@ -186,7 +190,9 @@ static void look_at_pixel(grid_job *job, int32_t x, int32_t y, int32_t stride, f
         job->is_near = true;
         job->is_flat = false;
         double end = outline_end(job, &cell, stride);
-        if (end > 0.0) {
+        if (end > 0.0 && job->is_ball) {
+            grid_ball_look_outline(job, &cell, shift, end);
+        } else if (end > 0.0) {
             look_at_outline(job, &cell, shift, end);
         }
     }
@@ -202,6 +208,9 @@ static void look_at_flat(grid_job *job, const grid_tile *tile, flow_sum *flow)
         return;
     }
     job->is_near = true;
+    if (job->is_ball) {
+        grid_ball_look_tile(job, tile);
+    }
     if (height < -job->body->shape.radius || job->flat_count == GRID_FLATS_MAX) {
         job->is_flat = false; /* it comes from behind */
     } else {
@@ -241,6 +250,7 @@ void grid_scan_footprint(grid_job *job)
         return;
     }
     job->is_flat = true;
+    job->stride = stride;
     for (int32_t y = rect[1] / tiles->size; y * tiles->size < rect[3]; y++) {
         for (int32_t x = rect[0] / tiles->size; x * tiles->size < rect[2]; x++) {
             const grid_tile *tile = &tiles->tiles[y * tiles->columns + x];

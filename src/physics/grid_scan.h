@@ -9,6 +9,18 @@
 #define GRID_NORMALS_MAX 4
 #define GRID_BUMPS_MAX 8
 #define GRID_FLATS_MAX 16
+#define GRID_MEETINGS_MAX 8
+
+typedef enum grid_face { GRID_TOUCH_FRONT = 0, GRID_TOUCH_BACK, GRID_TOUCH_SIDE } grid_face;
+
+/* A place that a ball comes to before the next query; see grid_ball.h. */
+typedef struct grid_meeting {
+    grid_face face;
+    int32_t x, y;       /* pixel */
+    double time;        /* s from now; below 0: the overlap, metres */
+    rlf_vec3 direction; /* from there to the ball's centre, at that time */
+    rlf_vec3 point;     /* of a side wall: now */
+} grid_meeting;
 
 /* A contact in the making, grid frame, at the time of the query. */
 typedef struct grid_hit {
@@ -40,6 +52,10 @@ typedef struct grid_job {
     int32_t normal_count;
     grid_hit bumps[GRID_BUMPS_MAX]; /* surface points that poke into the body */
     int32_t bump_count;
+    int32_t stride; /* pixels between those of the footprint that are looked at */
+    bool is_ball;   /* touches are noted instead of normals and bumps */
+    grid_meeting meetings[GRID_MEETINGS_MAX];
+    int32_t meeting_count;
     grid_hit hits[GRID_HITS_MAX];
     int32_t hit_count;
 } grid_job;
@@ -51,6 +67,10 @@ typedef struct grid_job {
  * out of view. *stride thins it to a bounded number of samples. */
 bool grid_footprint(const rlf_grid *grid, rlf_vec3 centre, double reach, int32_t rect[4],
                     int32_t *stride);
+
+/* A side wall's direction at an outline's pixel: its face `side`, and at its front (edge < 0) and
+ * back edge (> 0) all between that face and the ray. `normal` brought into them. */
+rlf_vec3 grid_wall_normal(const field_cell *cell, rlf_vec3 side, rlf_vec3 normal, int32_t edge);
 
 /* Fills is_near, is_flat, flats, surface_velocity, normals, bumps, and hits with the outline's
  * points. */

@@ -1,0 +1,479 @@
+/* A ball's contacts.
+ *
+ * Every pixel says when the moving ball would reach it; the earliest of each direction is a touch.
+ * At the place where the ball is then, the pixels that it all but touches give a plane, each with a
+ * weight that falls with its distance: noise averages out, and a curved surface is met where it is
+ * nearest. Where that plane ends before the ball's centre is above it, the ball meets an edge, and
+ * the contact points from the edge to the centre. */
+#include "physics/grid_ball.h"
+#include "physics/grid_edge.h"
+
+#define PATCH_PX 6         /* a patch has at most 2 x 6 + 1 samples a side */
+#define MOVES 4            /* of the patch to the pixel that is touched first */
+#define BEHIND (-0.2)      /* cosine; a face is touched from its own side, up to noise */
+#define SAME_DIRECTION 0.9 /* cosine of two touches that are one */
+
+/* Distance beyond the nearest pixel's at which a pixel's weight has fallen to 0: some sigma. */
+static double band_at(double z)
+{
+    return 0.003 + 0.0005 * z * z;
+}
+
+/* Seconds until the ball, `wider` than it is, reaches p, which moves with `velocity`; below 0 for a
+ * point that is inside already, the deeper the less. False when that is not before the next query.
+ */
+static bool time_of_touch(const grid_job *job, rlf_vec3 p, rlf_vec3 velocity, double wider,
+                          double *out)
+{
+    double radius = job->body->shape.shape.radius + wider;
+    rlf_vec3 to = rlf_sub(p, job->centre);
+    rlf_vec3 w = rlf_sub(job->v, velocity);
+    double distance2 = rlf_dot(to, to);
+    double near = radius + GRID_MARGIN;
+    if (distance2 < near * near) {
+        *out = rlf_min(0.0, sqrt(distance2) - radius);
+        return true;
+    }
+    double a = rlf_dot(w, w), b = rlf_dot(to, w), c = distance2 - radius * radius;
+    double square = b * b - a * c;
+    if (b <= 0.0 || square < 0.0) {
+        return false;
+    }
+    *out = c / (b + sqrt(square));
+    return *out <= job->horizon;
+}
+
+/* Between two pixels a face may come this much nearer to the ball than both, metres: pixels are far
+ * apart on a face seen at a low angle. */
+static double sag_between(const grid_job *job, const field_cell *cell)
+{
+    double radius = job->body->shape.shape.radius;
+    double cosine = -rlf_dot(cell->normal, cell->point) / rlf_length(cell->point);
+    double pitch = job->stride * cell->point.z * job->query->grid->pixel_angle;
+    double half = 0.7 * pitch / rlf_max(cosine, 0.1); /* of the diagonal */
+    return rlf_min(0.5 * half * half / radius, 0.5 * radius);
+}
+
+/* Of touches in like directions only the earliest is kept. */
+static void note(grid_job *job, const grid_meeting *touch)
+{
+    int32_t slot = -1;
+    for (int32_t i = 0; i < job->meeting_count; i++) {
+        if (rlf_dot(job->meetings[i].direction, touch->direction) > SAME_DIRECTION) {
+            if (job->meetings[i].time <= touch->time) {
+                return;
+            }
+            slot = i;
+        }
+    }
+    if (slot < 0 && job->meeting_count < GRID_MEETINGS_MAX) {
+        slot = job->meeting_count++;
+    }
+    if (slot >= 0) {
+        job->meetings[slot] = *touch;
+    }
+}
+
+static rlf_vec3 centre_at(const grid_job *job, double time)
+{
+    return rlf_mad(job->centre, job->v, rlf_max(0.0, time));
+}
+
+/* How thick a background is was never seen: no thicker than wide (a table's leg). */
+static void limit_thickness(const grid_job *job, field_cell *cell)
+{
+    if (job->sheet->thickness == NULL) {
+        cell->thickness = grid_edge_width(job->query->grid, job->sheet, cell, cell->thickness);
+    }
+}
+
+static rlf_vec3 back_of(const field_cell *cell, rlf_vec3 p)
+{
+    return rlf_mad(p, cell->point, cell->thickness / cell->point.z);
+}
+
+void grid_ball_look(grid_job *job, const field_cell *seen, rlf_vec3 p)
+{
+    field_cell cell = *seen;
+    grid_meeting touch = {.x = cell.x, .y = cell.y};
+    double sag = sag_between(job, seen);
+    for (int32_t side = 0; side < 2; side++) {
+        bool is_back = side == 1;
+        if (is_back && (job->centre.z < p.z || cell.thickness >= FIELD_ENDLESS)) {
+            return;
+        }
+        if (is_back) {
+            limit_thickness(job, &cell);
+        }
+        rlf_vec3 point = is_back ? back_of(&cell, p) : p;
+        if (!time_of_touch(job, point, cell.velocity, sag, &touch.time)) {
+            continue;
+        }
+        rlf_vec3 moved = rlf_mad(point, cell.velocity, rlf_max(0.0, touch.time));
+        touch.direction = rlf_normalize(rlf_sub(centre_at(job, touch.time), moved));
+        touch.face = is_back ? GRID_TOUCH_BACK : GRID_TOUCH_FRONT;
+        double facing = rlf_dot(touch.direction, cell.normal);
+        if ((is_back ? -facing : facing) > BEHIND) {
+            note(job, &touch);
+        }
+    }
+}
+
+void grid_ball_look_tile(grid_job *job, const grid_tile *tile)
+{
+    const rlf_grid *grid = job->query->grid;
+    int32_t size = job->tiles->size, index = (int32_t)(tile - job->tiles->tiles);
+    int32_t x0 = index % job->tiles->columns * size, y0 = index / job->tiles->columns * size;
+    rlf_vec3 seen = rlf_mad(job->centre, tile->velocity, -job->query->tau);
+    double closing = -rlf_dot(tile->normal, rlf_sub(job->v, tile->velocity));
+    double height = rlf_dot(tile->normal, seen) - tile->offset;
+    double gap = height - job->body->shape.shape.radius;
+    double time = gap > 0.0 && closing > 0.0 ? rlf_min(gap / closing, job->horizon) : 0.0;
+    rlf_vec3 foot = rlf_mad(seen, rlf_sub(job->v, tile->velocity), time);
+    foot = rlf_mad(foot, tile->normal, tile->offset - rlf_dot(tile->normal, foot));
+    double u, v;
+    if (!(foot.z > 0.0) || !grid->project(grid->project_context, foot, &u, &v)) {
+        u = x0 + 0.5 * size;
+        v = y0 + 0.5 * size;
+    }
+    int32_t x = (int32_t)rlf_clamp(u + 0.5, x0, rlf_min(x0 + size, grid->width) - 1.0);
+    int32_t y = (int32_t)rlf_clamp(v + 0.5, y0, rlf_min(y0 + size, grid->height) - 1.0);
+    field_cell cell;
+    for (int32_t k = 0; k < 4; k++) { /* or a neighbour towards the tile's middle */
+        if (grid_cell_read(grid, job->sheet, x, y, &cell)) {
+            grid_ball_look(job, &cell, rlf_mad(cell.point, cell.velocity, job->query->tau));
+            return;
+        }
+        x += x < x0 + size / 2 ? 1 : -1;
+        y += y < y0 + size / 2 ? 1 : -1;
+    }
+}
+
+void grid_ball_look_outline(grid_job *job, const field_cell *cell, rlf_vec3 shift, double end)
+{
+    double z = cell->point.z;
+    double depth = rlf_clamp(job->centre.z, z, end);
+    grid_meeting touch = {.x = cell->x, .y = cell->y, .face = GRID_TOUCH_SIDE};
+    for (int32_t i = 0; i < 2; i++) {
+        touch.point = rlf_add(rlf_scale(cell->point, depth / z), shift);
+        if (!time_of_touch(job, touch.point, cell->velocity, 0.0, &touch.time)) {
+            return;
+        }
+        depth = rlf_clamp(centre_at(job, touch.time).z, z, end);
+    }
+    rlf_vec3 moved = rlf_mad(touch.point, cell->velocity, rlf_max(0.0, touch.time));
+    rlf_vec3 direction = rlf_normalize(rlf_sub(centre_at(job, touch.time), moved));
+    rlf_vec3 side;
+    touch.direction = direction;
+    if (grid_edge_normal(job->query->grid, job->sheet, cell, &side)) {
+        int32_t edge = depth <= z ? -1 : depth >= end ? 1 : 0;
+        touch.direction = grid_wall_normal(cell, side, direction, edge);
+    }
+    if (rlf_dot(touch.direction, direction) > 0.3) {
+        note(job, &touch);
+    }
+}
+
+/* A pixel of the patch: its point on the touched face when the ball is there, its distance. */
+typedef struct patch_sample {
+    field_cell cell;
+    rlf_vec3 point;
+    double distance; /* of the point to the ball's surface */
+} patch_sample;
+
+typedef struct patch {
+    const grid_job *job;
+    grid_face face;
+    int32_t x, y, step;
+    double time;
+    rlf_vec3 centre; /* the ball's, at that time */
+    patch_sample samples[(2 * PATCH_PX + 1) * (2 * PATCH_PX + 1)];
+    int32_t count, nearest;
+} patch;
+
+static void read_patch(patch *p)
+{
+    const grid_job *job = p->job;
+    double tau = job->query->tau + rlf_max(0.0, p->time);
+    p->centre = centre_at(job, p->time);
+    p->count = 0;
+    p->nearest = -1;
+    for (int32_t dy = -PATCH_PX; dy <= PATCH_PX; dy++) {
+        for (int32_t dx = -PATCH_PX; dx <= PATCH_PX; dx++) {
+            patch_sample *s = &p->samples[p->count];
+            if (!grid_cell_read(job->query->grid, job->sheet, p->x + dx * p->step,
+                                p->y + dy * p->step, &s->cell)) {
+                continue;
+            }
+            s->point = rlf_mad(s->cell.point, s->cell.velocity, tau);
+            if (p->face == GRID_TOUCH_BACK) {
+                limit_thickness(job, &s->cell);
+                s->point = back_of(&s->cell, s->point);
+            }
+            s->distance = rlf_length(rlf_sub(p->centre, s->point)) - job->body->shape.shape.radius;
+            if (p->nearest < 0 || s->distance < p->samples[p->nearest].distance) {
+                p->nearest = p->count;
+            }
+            p->count++;
+        }
+    }
+}
+
+/* Pixels this far apart span the patch that a ball all but touches: radius sqrt(2 r band). */
+static int32_t patch_step(const grid_job *job, double z)
+{
+    double radius = sqrt(2.0 * job->body->shape.shape.radius * band_at(z));
+    return 1 + (int32_t)(radius / (z * job->query->grid->pixel_angle * PATCH_PX));
+}
+
+/* Moves the patch to the pixel that the ball reaches first. False when it has none. */
+static bool settle(patch *p, const grid_meeting *touch)
+{
+    const grid_job *job = p->job;
+    p->face = touch->face;
+    p->x = touch->x;
+    p->y = touch->y;
+    p->time = touch->time;
+    p->step = patch_step(job, rlf_max(0.1, centre_at(job, touch->time).z));
+    for (int32_t i = 0; i < MOVES; i++) {
+        read_patch(p);
+        if (p->nearest < 0) {
+            return false;
+        }
+        const patch_sample *s = &p->samples[p->nearest];
+        if (s->cell.x == p->x && s->cell.y == p->y) {
+            break;
+        }
+        p->x = s->cell.x;
+        p->y = s->cell.y;
+        rlf_vec3 now = rlf_mad(s->point, s->cell.velocity, -rlf_max(0.0, p->time));
+        double time;
+        if (time_of_touch(job, now, s->cell.velocity, 0.0, &time)) {
+            p->time = time;
+        }
+    }
+    return true;
+}
+
+/* What the weighted pixels of a patch say. */
+typedef struct patch_mean {
+    rlf_vec3 point, normal, velocity;
+    double curvature; /* 1/m, above 0 for a bulge; 0 for a plane and a hollow */
+    double spread2;   /* mean square distance from the mean point, m^2 */
+} patch_mean;
+
+/* As much surface as the pixel shows, in pixels seen head-on at 1 m. */
+static double area_of(const field_cell *cell)
+{
+    double cosine = -rlf_dot(cell->normal, cell->point) / rlf_length(cell->point);
+    return cell->point.z * cell->point.z / rlf_max(cosine, 0.15);
+}
+
+/* Weighted means over the pixels near the ball, and the slope of the normals over the points (least
+ * squares for n - n_mean = curvature (p - p_mean)). */
+static patch_mean mean_of(const patch *p)
+{
+    double least = p->samples[p->nearest].distance;
+    double band = band_at(p->samples[p->nearest].cell.point.z);
+    rlf_vec3 points = {0, 0, 0}, normals = {0, 0, 0}, velocities = {0, 0, 0};
+    double total = 0.0, square = 0.0, product = 0.0;
+    rlf_vec3 origin = p->samples[p->nearest].point; /* small differences, few digits lost */
+    for (int32_t i = 0; i < p->count; i++) {
+        const patch_sample *s = &p->samples[i];
+        double share = 1.0 - (s->distance - least) / band;
+        if (share <= 0.0) {
+            continue;
+        }
+        double weight = share * share * area_of(&s->cell);
+        rlf_vec3 d = rlf_sub(s->point, origin);
+        points = rlf_mad(points, d, weight);
+        normals = rlf_mad(normals, s->cell.normal, weight);
+        velocities = rlf_mad(velocities, s->cell.velocity, weight);
+        square += weight * rlf_dot(d, d);
+        product += weight * rlf_dot(d, s->cell.normal);
+        total += weight;
+    }
+    rlf_vec3 d = rlf_scale(points, 1.0 / total);
+    rlf_vec3 n = rlf_scale(normals, 1.0 / total);
+    patch_mean mean = {.point = rlf_add(origin, d), .normal = rlf_normalize(n)};
+    mean.velocity = rlf_scale(velocities, 1.0 / total);
+    mean.spread2 = rlf_max(0.0, square / total - rlf_dot(d, d));
+    if (mean.spread2 > 1e-7) {
+        mean.curvature = rlf_max(0.0, (product / total - rlf_dot(d, n)) / mean.spread2);
+    }
+    return mean;
+}
+
+/* A patch that lies off the touching point by d has a normal that is off by curvature d one way,
+ * and a direction to the ball's centre that is off by d / radius the other way: together they are
+ * right. The touching point stands above the mean of a bulge. */
+static void correct_bulge(const patch *p, patch_mean *mean)
+{
+    double radius = p->job->body->shape.shape.radius;
+    rlf_vec3 direction = rlf_normalize(rlf_sub(p->centre, mean->point));
+    mean->normal = rlf_normalize(rlf_mad(mean->normal, direction, radius * mean->curvature));
+    mean->point = rlf_mad(mean->point, mean->normal, 0.5 * mean->curvature * mean->spread2);
+}
+
+/* The point of the face under the ball's centre. */
+static rlf_vec3 foot_on(const patch *p, const patch_mean *mean)
+{
+    double height = rlf_dot(mean->normal, rlf_sub(p->centre, mean->point));
+    return rlf_mad(p->centre, mean->normal, -height);
+}
+
+/* How far p's pixel lies off the face, metres; false when that is not known. */
+static bool height_at(const patch *p, const patch_mean *mean, rlf_vec3 q, double *out)
+{
+    const rlf_grid *grid = p->job->query->grid;
+    const rlf_grid_sheet *sheet = p->job->sheet;
+    double tau = p->job->query->tau + rlf_max(0.0, p->time);
+    rlf_vec3 seen = rlf_mad(q, mean->velocity, -tau); /* as the pixels show it */
+    double u, v;
+    if (!(seen.z > 0.0) || !grid->project(grid->project_context, seen, &u, &v) || !(u > -0.5) ||
+        !(v > -0.5) || !(u < grid->width - 0.5) || !(v < grid->height - 0.5)) {
+        return false;
+    }
+    int32_t x = (int32_t)(u + 0.5), y = (int32_t)(v + 0.5);
+    field_cell cell;
+    if (sheet->mask != NULL && sheet->mask[y * grid->width + x] == 0) {
+        *out = -1.0; /* free */
+        return true;
+    }
+    if (!grid_cell_read(grid, sheet, x, y, &cell)) {
+        return false;
+    }
+    rlf_vec3 moved = rlf_mad(cell.point, cell.velocity, tau);
+    *out = rlf_dot(mean->normal, rlf_sub(moved, mean->point));
+    return true;
+}
+
+/* Whether the face goes on under the ball's centre. Where something else hides that, or it is not
+ * seen, it does for as far as a patch is wide. */
+static bool is_supported(const patch *p, const patch_mean *mean)
+{
+    const double OFF = 0.015;
+    double height;
+    rlf_vec3 foot = foot_on(p, mean);
+    if (height_at(p, mean, foot, &height) && height < OFF) {
+        return height > -OFF;
+    }
+    double wide2 = 4.0 * p->job->body->shape.shape.radius * band_at(foot.z);
+    rlf_vec3 d = rlf_sub(foot, p->samples[p->nearest].point);
+    return rlf_dot(d, d) < wide2;
+}
+
+/* The edge's point nearest to the centre: that of the patch's pixels, brought onto the face, and by
+ * half a pixel on to where the face ends. */
+static rlf_vec3 edge_point(const patch *p, const patch_mean *mean)
+{
+    rlf_vec3 foot = foot_on(p, mean);
+    rlf_vec3 best = mean->point;
+    double best2 = 1e30;
+    for (int32_t i = 0; i < p->count; i++) {
+        const patch_sample *s = &p->samples[i];
+        double off = rlf_dot(mean->normal, rlf_sub(s->point, mean->point));
+        rlf_vec3 on_face = rlf_mad(s->point, mean->normal, -off);
+        rlf_vec3 d = rlf_sub(foot, on_face);
+        double d2 = rlf_dot(d, d);
+        if (off < 0.01 && off > -0.01 && d2 < best2) {
+            best2 = d2;
+            best = on_face;
+        }
+    }
+    double way = sqrt(best2);
+    double half = 0.5 * p->step * best.z * p->job->query->grid->pixel_angle;
+    if (!(way > 1e-6) || best2 >= 1e30) {
+        return best;
+    }
+    return rlf_mad(best, rlf_sub(foot, best), rlf_min(1.0, half / way));
+}
+
+/* Adds the plane that was found unless the ball does not come to it before the next query. */
+static void add_hit(grid_job *job, double time, const patch_mean *touched, int32_t label)
+{
+    double radius = job->body->shape.shape.radius;
+    double closing = rlf_dot(touched->normal, rlf_sub(touched->velocity, job->v));
+    grid_hit hit = {.normal = touched->normal, .velocity = touched->velocity, .label = label};
+    hit.rounding = radius;
+    hit.point = rlf_mad(touched->point, touched->velocity, -time); /* where it is now */
+    hit.separation = rlf_dot(hit.normal, rlf_sub(job->centre, hit.point)) - radius;
+    double near = GRID_MARGIN + rlf_max(0.0, closing) * job->horizon;
+    if (hit.separation < near && job->hit_count < GRID_HITS_MAX) {
+        job->hits[job->hit_count++] = hit;
+    }
+}
+
+static bool touch_face(const grid_job *job, grid_meeting *touch, patch_mean *out, int32_t *label)
+{
+    patch p = {.job = job};
+    if (!settle(&p, touch)) {
+        return false;
+    }
+    const patch_sample *nearest = &p.samples[p.nearest];
+    touch->time = p.time;
+    *label = nearest->cell.label;
+    *out = mean_of(&p);
+    if (p.face == GRID_TOUCH_BACK) {
+        out->normal = grid_back_normal(job->query->grid, job->sheet, &nearest->cell);
+    } else if (is_supported(&p, out)) {
+        correct_bulge(&p, out);
+    } else {
+        rlf_vec3 edge = edge_point(&p, out);
+        rlf_vec3 direction = rlf_normalize(rlf_sub(p.centre, edge));
+        if (rlf_dot(direction, out->normal) < BEHIND) {
+            return false;
+        }
+        out->normal = direction;
+        out->point = edge;
+    }
+    return true;
+}
+
+static bool touch_wall(const grid_job *job, const grid_meeting *touch, patch_mean *out,
+                       int32_t *label)
+{
+    field_cell cell;
+    if (!grid_cell_read(job->query->grid, job->sheet, touch->x, touch->y, &cell)) {
+        return false;
+    }
+    *label = cell.label;
+    out->velocity = cell.velocity;
+    out->normal = touch->direction;
+    out->point = rlf_mad(touch->point, cell.velocity, rlf_max(0.0, touch->time));
+    return true;
+}
+
+/* A plane that the ball crosses before another touch is one that it never meets: bulges fall away
+ * from their planes. */
+static bool is_met(const grid_job *job, const patch_mean *touched, double time, double first)
+{
+    rlf_vec3 point = rlf_mad(touched->point, touched->velocity, first - time);
+    double height = rlf_dot(touched->normal, rlf_sub(centre_at(job, first), point));
+    return height - job->body->shape.shape.radius > -0.002;
+}
+
+void grid_ball_add_hits(grid_job *job)
+{
+    bool is_used[GRID_MEETINGS_MAX] = {false};
+    double first = -1.0;
+    for (int32_t k = 0; k < job->meeting_count; k++) {
+        int32_t i = -1;
+        for (int32_t j = 0; j < job->meeting_count; j++) {
+            if (!is_used[j] && (i < 0 || job->meetings[j].time < job->meetings[i].time)) {
+                i = j;
+            }
+        }
+        is_used[i] = true;
+        grid_meeting touch = job->meetings[i];
+        patch_mean touched;
+        int32_t label;
+        bool is_found = touch.face == GRID_TOUCH_SIDE ? touch_wall(job, &touch, &touched, &label)
+                                                      : touch_face(job, &touch, &touched, &label);
+        double time = rlf_max(0.0, touch.time);
+        if (is_found && (first < 0.0 || is_met(job, &touched, time, first))) {
+            add_hit(job, time, &touched, label);
+            first = first < 0.0 ? time : first;
+        }
+    }
+}

@@ -1,0 +1,145 @@
+/* Where a thrown ball goes: off a bulge, off an edge and off a plane seen at a low angle, as exact
+ * geometry says. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "grid_fixture.h"
+
+#include <math.h>
+
+#define RADIUS 0.06
+
+static grid_fixture *fixture;
+
+static int set_up(void **state)
+{
+    (void)state;
+    fixture = grid_fixture_create();
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    grid_fixture_destroy(&fixture);
+    return 0;
+}
+
+/* Direction in which a ball without friction and with restitution 0.8 flies 0.5 s after. */
+static rlf_vec3 thrown(rlf_vec3 from, rlf_vec3 velocity)
+{
+    rlf_world_def world_def = rlf_world_def_default();
+    world_def.gravity = rlf_vec3_make(0, 0, 0);
+    rlf_world *world = NULL;
+    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+    rlf_body_def def = rlf_body_def_default();
+    def.shape = (rlf_shape){.type = RLF_SHAPE_SPHERE, .radius = RADIUS};
+    def.position = from;
+    def.velocity = velocity;
+    def.restitution = 0.8;
+    def.friction = 0.0;
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    for (int i = 0; i < 15; i++) {
+        fixture->grid.time_ns++;
+        rlf_world_advance(world, &fixture->grid, 1.0 / 30);
+    }
+    rlf_vec3 v = rlf_world_get_snapshot(world)->bodies[0].velocity;
+    rlf_world_destroy(&world);
+    return v;
+}
+
+static double degrees_between(rlf_vec3 a, rlf_vec3 b)
+{
+    return atan2(rlf_length(rlf_cross(a, b)), rlf_dot(a, b)) * 180.0 / RLF_PI;
+}
+
+/* A solid ball of the background before a wall at 4 m. */
+static void set_bulge(rlf_vec3 centre, double radius)
+{
+    grid_plane wall = grid_wall(4);
+    grid_fixture_set_room(fixture, &wall, 1);
+    for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
+        rlf_vec3 m = rlf_vec3_make(fixture->planes[0][i], fixture->planes[1][i], 1.0);
+        double a = rlf_dot(m, m), b = rlf_dot(m, centre);
+        double root = b * b - a * (rlf_dot(centre, centre) - radius * radius);
+        if (root < 0.0) {
+            continue;
+        }
+        double z = (b - sqrt(root)) / a;
+        rlf_vec3 n = rlf_scale(rlf_sub(rlf_scale(m, z), centre), 1.0 / radius);
+        fixture->planes[2][i] = (float)z;
+        fixture->planes[3][i] = (float)n.x;
+        fixture->planes[4][i] = (float)n.y;
+        fixture->planes[5][i] = (float)n.z;
+    }
+    fixture->grid.background.default_thickness = 0.3;
+}
+
+static void bounces_off_a_bulge_as_off_a_ball(void **state)
+{
+    (void)state;
+    const rlf_vec3 CENTRE = {0.1, 0.05, 2.4};
+    for (int k = 0; k < 2; k++) {
+        double radius = k == 0 ? 0.3 : 0.08;
+        set_bulge(CENTRE, radius);
+        double worst = 0.0;
+        for (int i = 0; i < 25; i++) {
+            double reach = 0.35 * (radius + RADIUS);
+            rlf_vec3 off = {(i % 5 - 2) * reach / 2.83, (i / 5 - 2) * reach / 2.83, 0};
+            rlf_vec3 v = {0, 0, 3};
+            rlf_vec3 from = rlf_vec3_make(CENTRE.x + off.x, CENTRE.y + off.y, 1.6);
+            double depth = sqrt((radius + RADIUS) * (radius + RADIUS) - rlf_dot(off, off));
+            rlf_vec3 n = rlf_normalize(rlf_vec3_make(off.x, off.y, -depth));
+            rlf_vec3 expected = rlf_mad(v, n, -1.8 * rlf_dot(n, v));
+            worst = fmax(worst, degrees_between(thrown(from, v), expected));
+        }
+        print_message("bulge of %.2f m: direction off by %.2f deg at most\n", radius, worst);
+        assert_true(worst < (k == 0 ? 2.0 : 4.0));
+    }
+}
+
+/* The rim of a board that faces the camera: from 20 to 70 % of the radius beyond it. */
+static void bounces_off_a_rim_where_it_is(void **state)
+{
+    (void)state;
+    grid_plane wall = grid_wall(4);
+    grid_fixture_set_room(fixture, &wall, 1);
+    grid_fixture_set_slab(fixture, grid_wall(2), rlf_vec3_make(0, 0, 2), rlf_vec3_make(0.2, 0.3, 0),
+                          0.02, rlf_vec3_make(0, 0, 0));
+    for (int i = 0; i < 6; i++) {
+        double beyond = (0.2 + 0.1 * i) * RADIUS;
+        rlf_vec3 v = {0, 0, 3};
+        rlf_vec3 n = {beyond / RADIUS, 0, -sqrt(1.0 - beyond * beyond / (RADIUS * RADIUS))};
+        rlf_vec3 expected = rlf_mad(v, n, -1.8 * rlf_dot(n, v));
+        double error = degrees_between(thrown(rlf_vec3_make(0.2 + beyond, 0.02, 1.5), v), expected);
+        print_message("rim, %.0f mm beyond it: off by %.1f deg\n", 1e3 * beyond, error);
+        assert_true(error < 10.0); /* half a pixel is 2.7 mm: 3 to 4 deg of normal */
+    }
+    memset(fixture->mask, 0, (size_t)GRID_W * GRID_H);
+}
+
+/* Pixels are 10 cm apart on a floor 0.5 m below the camera and 4 m away: none may be missed. */
+static void bounces_off_a_floor_seen_at_a_low_angle(void **state)
+{
+    (void)state;
+    grid_plane room[2] = {grid_floor(0.5), grid_wall(6)};
+    grid_fixture_set_room(fixture, room, 2);
+    for (int i = 0; i < 40; i++) {
+        rlf_vec3 v = {0.5, 2, 0.3};
+        rlf_vec3 out = thrown(rlf_vec3_make(-0.4 + 0.02 * i, 0.0, 3.2 + 0.031 * i), v);
+        assert_true(degrees_between(out, rlf_vec3_make(0.5, -1.6, 0.3)) < 0.1);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(bounces_off_a_bulge_as_off_a_ball, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(bounces_off_a_rim_where_it_is, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(bounces_off_a_floor_seen_at_a_low_angle, set_up, tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
