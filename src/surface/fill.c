@@ -3,9 +3,11 @@
  * A hole pixel with a valid pixel on both sides, along its row, column or diagonal, at most
  * RLF_FILL_GAP apart, is filled. When the two ends belong to one surface, inverse depth (linear on
  * planes) is interpolated. When there is an edge between them, drivers have taken a band away whose
- * middle is the edge, ragged by a pixel on both sides. The side that has more valid pixels about
- * the hole pixel is the one it belongs to: that averages the raggedness along the edge. The depth
- * is that side's plane, least squares in depth, which is straight enough within two pixels. */
+ * middle is the edge, ragged by a pixel on both sides. The valid pixels about the hole pixel vote,
+ * near ones more, for the side that it belongs to: that averages the raggedness along the edge. The
+ * depth is that side's plane, least squares in depth, which is straight enough within two pixels,
+ * or the background's own where that goes on there. A gap between two near ends that is wider than
+ * a driver's band shows the background in its middle. */
 #include "surface/steps.h"
 
 #include "kernel/kernel.h"
@@ -13,7 +15,7 @@
 #include <string.h>
 
 /* A wide hole must not be crossed from corner to corner. */
-enum { DIAGONAL_GAP = 4, REACH = 2 };
+enum { DIAGONAL_GAP = 4, REACH = 2, EDGE_WIDTH = 2 };
 
 /* What a pixel at a squared distance counts. */
 static const float votes_at[9] = {0.0f, 4.0f, 1.3f, 0.0f, 0.4f, 0.3f, 0.0f, 0.0f, 0.2f};
@@ -110,6 +112,8 @@ static float continue_side(const side *s)
 
 typedef struct fill_job {
     const rlf_reconstruct *stage;
+    const rlf_sheet *behind; /* the background; NULL = unknown */
+    float *const *normal;    /* NULL = not wanted */
     const float *depth;
     float *out;
     uint8_t *reason;
@@ -118,6 +122,47 @@ typedef struct fill_job {
 static int32_t least(int32_t a, int32_t b)
 {
     return a < b ? a : b;
+}
+
+/* The background has no outline about a pixel, where its own normals would be guesses too. */
+static bool is_whole(const fill_job *job, int32_t x, int32_t y)
+{
+    enum { ABOUT = 3 };
+    const rlf_grid *grid = &job->stage->grid;
+    const float *at = job->behind->depth + (ptrdiff_t)y * grid->width + x;
+    ptrdiff_t row = (ptrdiff_t)ABOUT * grid->width;
+    float most = MOST_CHANGE * at[0];
+    return x >= ABOUT && y >= ABOUT && x + ABOUT < grid->width && y + ABOUT < grid->height &&
+           rlf_kernel_abs(at[-ABOUT] - at[0]) < most && rlf_kernel_abs(at[ABOUT] - at[0]) < most &&
+           rlf_kernel_abs(at[-row] - at[0]) < most && rlf_kernel_abs(at[row] - at[0]) < most;
+}
+
+/* 0 where it is unknown. */
+static float depth_behind(const fill_job *job, int32_t x, int32_t y)
+{
+    ptrdiff_t i = (ptrdiff_t)y * job->stage->grid.width + x;
+    bool known = job->behind != NULL && job->behind->depth[i] > 0.0f;
+    return known ? job->behind->depth[i] : 0.0f;
+}
+
+/* The pixel shows the background: it has its depth and its normal. */
+static float show_behind(const fill_job *job, int32_t x, int32_t y)
+{
+    ptrdiff_t i = (ptrdiff_t)y * job->stage->grid.width + x;
+    bool normals = job->normal != NULL && is_whole(job, x, y);
+    for (int k = 0; k < 3 && normals; k++) {
+        job->normal[k][i] = job->behind->normal[k][i];
+    }
+    return job->behind->depth[i];
+}
+
+/* Between two near ends that are far enough apart for a slit: what a driver takes away beside each
+ * edge does not reach its middle. */
+static bool is_slit(const fill_job *job, int32_t x, int32_t y, gap g)
+{
+    float farthest = g.before > g.after ? g.before : g.after;
+    bool wide = g.to_before > EDGE_WIDTH && g.to_after > EDGE_WIDTH;
+    return wide && depth_behind(job, x, y) > (1.0f + MOST_CHANGE) * farthest;
 }
 
 static float choose_side(const fill_job *job, int32_t x, int32_t y, gap g)
@@ -139,7 +184,10 @@ static float choose_side(const fill_job *job, int32_t x, int32_t y, gap g)
     }
     bool tie = before.votes >= after.votes && before.votes <= after.votes;
     bool first = tie ? g.to_before <= g.to_after : before.votes > after.votes;
-    return continue_side(first ? &before : &after);
+    bool is_far = first != before_is_near;
+    float z = continue_side(first ? &before : &after);
+    bool is_behind = is_far && rlf_kernel_abs(depth_behind(job, x, y) - z) < MOST_CHANGE * z;
+    return is_behind ? show_behind(job, x, y) : z;
 }
 
 static bool may_fill(uint8_t reason)
@@ -169,6 +217,9 @@ static float fill_pixel(const fill_job *job, int32_t x, int32_t y)
     if (!is_closed(best)) {
         return 0.0f;
     }
+    if (is_slit(job, x, y, best)) {
+        return show_behind(job, x, y);
+    }
     return is_edge(best) ? choose_side(job, x, y, best) : interpolate(best);
 }
 
@@ -194,8 +245,14 @@ static void fill_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     }
 }
 
-void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, float *out, uint8_t *reason)
+void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, rlf_slot *slot)
 {
-    fill_job job = {stage, depth, out, reason};
+    int32_t newest = stage->background.newest;
+    fill_job job = {.stage = stage,
+                    .behind = newest < 0 ? NULL : &stage->background.sheets[newest],
+                    .normal = stage->def.enable_smoothing ? slot->normal : NULL,
+                    .depth = depth,
+                    .out = slot->depth,
+                    .reason = slot->reason};
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, fill_rows, &job);
 }

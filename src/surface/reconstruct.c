@@ -126,7 +126,7 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
         kept = out;
     }
     if (fill) {
-        rlf_fill_holes(stage, kept, slot->depth, slot->reason);
+        rlf_fill_holes(stage, kept, slot);
         rlf_stage_add_time(stage, RLF_SURFACE_FILL);
     }
     if (smooth && fill) {

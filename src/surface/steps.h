@@ -14,9 +14,10 @@ void rlf_points_read(const rlf_reconstruct *stage, const rlf_frame *frame, float
 /* ---- flying.c, fill.c ---- */
 void rlf_flying_remove(const rlf_reconstruct *stage, const float *raw, float *depth,
                        uint8_t *reason);
-/* Fills gaps of at most RLF_FILL_GAP pixels between valid ones; `depth` is read, `out` written. */
+/* Fills gaps of at most RLF_FILL_GAP pixels between valid ones of `depth`, into the slot. What
+ * shows the background takes its normal too, where planes have been fitted to the others. */
 enum { RLF_FILL_GAP = 8 };
-void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, float *out, uint8_t *reason);
+void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, rlf_slot *slot);
 
 /* ---- hold.c: dropped pixels from memory; `depth` holds what was seen ---- */
 void rlf_hold_recall(const rlf_reconstruct *stage, float *depth, uint8_t *reason);

@@ -23,7 +23,7 @@ typedef struct golden {
 } golden;
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0x6768d5a0c14ef9a9u, 0x0ddc26862505e9d0u, 0x41766f8d6657cf89u},
+    {RLF_PROFILE_LIVE, 0x235ae2d3715c3d96u, 0x1283097d7a54c7e0u, 0x4979a9c36bb40021u},
     {RLF_PROFILE_THESIS, 0x661dc320eb5b2361u, 0xd84652fb54683851u, 0xf068ba3d9f6846e3u},
 };
 

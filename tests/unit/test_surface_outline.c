@@ -88,14 +88,14 @@ static bool is_dropped(fixture *f, int32_t x, int32_t y)
     return random_uniform(&f->random) >= kept;
 }
 
-static const rlf_surface *process(fixture *f, rlf_reconstruct *stage)
+static const rlf_surface *process(fixture *f, rlf_reconstruct *stage, int32_t number)
 {
     for (int i = 0; i < COUNT; i++) {
         double sigma = rlf_depth_noise_sigma(&f->rig.noise, f->truth[i]);
         float noise = (float)(sigma * random_normal(&f->random));
         f->seen[i] = is_dropped(f, i % WIDTH, i / WIDTH) ? 0.0f : f->truth[i] + noise;
     }
-    rlf_frame frame = analytic_frame(&f->rig, f->seen, 0);
+    rlf_frame frame = analytic_frame(&f->rig, f->seen, number);
     const rlf_surface *s = NULL;
     assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
     return s;
@@ -112,7 +112,7 @@ static score judge(fixture *f)
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
     rlf_reconstruct *stage = NULL;
     assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
-    const rlf_surface *s = process(f, stage);
+    const rlf_surface *s = process(f, stage, 0);
     score result = {0};
     for (int i = 0; i < COUNT; i++) {
         if (f->seen[i] > 0.0f || f->truth[i] > 2.9f) {
@@ -160,11 +160,49 @@ static void a_board_stays_flat(void **state)
     }
 }
 
+/* Two boards with a slit of three columns between them, before a wall that was seen alone. */
+static void slits_are_open(void **state)
+{
+    fixture *f = *state;
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
+    rlf_reconstruct *stage = NULL;
+    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    const rlf_vec3 facing = {0, 0, -1};
+    enum { SLIT = 90, WIDE = 3 };
+    const rlf_surface *s = NULL;
+    for (int t = 0; t < 8; t++) {
+        set_board(f, facing);
+        for (int i = 0; i < COUNT; i++) {
+            int32_t x = i % WIDTH;
+            if (t < 7 || (x >= SLIT && x < SLIT + WIDE)) {
+                set_wall(f, i);
+            }
+        }
+        s = process(f, stage, t);
+    }
+    int open = 0, bridged = 0, torn = 0, boards = 0;
+    for (int32_t y = 25; y < 85; y++) {
+        for (int32_t x = SLIT - 4; x < SLIT + WIDE + 4; x++) {
+            int i = y * WIDTH + x;
+            bool is_slit = x >= SLIT && x < SLIT + WIDE;
+            open += is_slit && fabs(s->depth[i] - 3.0) < 0.05 && s->normal_z[i] < -0.99f;
+            bridged += is_slit && fabs(s->depth[i] - 2.0) < 0.05;
+            boards += !is_slit;
+            torn += !is_slit && fabs(s->depth[i] - 2.0) > 0.05;
+        }
+    }
+    assert_true(open > 120);
+    assert_true(bridged < 60);
+    assert_true(20 * torn < boards);
+    rlf_reconstruct_destroy(&stage);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_ball_turns_away_at_its_outline),
         cmocka_unit_test(a_board_stays_flat),
+        cmocka_unit_test(slits_are_open),
     };
     return cmocka_run_group_tests(tests, make_fixture, free_fixture);
 }
