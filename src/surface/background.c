@@ -1,4 +1,4 @@
-/* The back sheet: how the model becomes a published, unchanging sheet. */
+/* The back sheet: what its methods share. */
 #include "surface/steps.h"
 
 #include <string.h>
@@ -16,40 +16,13 @@ void rlf_background_reset(rlf_background *background, const rlf_grid *grid)
     memset(background->standing, 0, (size_t)grid->height * sizeof *background->standing);
     memset(background->hides, 0, (size_t)grid->height);
     background->frames = 0;
+    memset(background->changes, 0, (size_t)rlf_sheet_tiles(grid) * sizeof *background->changes);
+    memset(background->refresh, 0, (size_t)rlf_sheet_tiles(grid));
     background->changed = 0;
     background->sheet_age = 0;
+    background->is_drafting = false;
     background->state = RLF_BACKGROUND_NONE;
     background->newest = -1;
-}
-
-/* The oldest sheet: the surfaces that are still valid refer to younger ones. */
-void rlf_background_publish(rlf_reconstruct *stage)
-{
-    rlf_background *background = &stage->background;
-    const rlf_grid *grid = &stage->grid;
-    const rlf_sheet *old = background->newest < 0 ? NULL : &background->sheets[background->newest];
-    int32_t next = (background->newest + 1) % RLF_SHEETS;
-    rlf_sheet *sheet = &background->sheets[next];
-    memcpy(sheet->depth, background->mean, (size_t)grid->count * sizeof *sheet->depth);
-    rlf_normals_job normals = rlf_normals_job_make(stage, sheet->depth, sheet->normal);
-    rlf_normals_compute(&normals);
-    rlf_layer_in in = {.layer = RLF_LAYER_BACKGROUND,
-                       .method = stage->def.background_segment,
-                       .depth = sheet->depth};
-    if (old != NULL) {
-        in.previous_label = old->label;
-        in.previous = old->regions;
-        in.previous_count = old->region_count;
-    }
-    rlf_layer_out out = {sheet->regions, sheet->region_points, 0, 0};
-    rlf_layer_segment(stage, &in, &out);
-    memset(sheet->label, 0, (size_t)grid->count * sizeof *sheet->label);
-    rlf_region_write_labels(stage, &out, sheet->label);
-    sheet->region_count = out.region_count;
-    sheet->point_count = out.point_count;
-    background->newest = next;
-    background->changed = 0;
-    background->sheet_age = 0;
 }
 
 rlf_span rlf_background_span(const uint8_t *foreground, int32_t width)

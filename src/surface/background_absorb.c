@@ -23,14 +23,15 @@ static int32_t step_ms(const rlf_reconstruct *stage, const rlf_slot *slot)
     return ms > LONGEST_STEP_MS ? LONGEST_STEP_MS : (int32_t)ms;
 }
 
-static void replace(rlf_background *background, int32_t i, float z)
+static void replace(rlf_reconstruct *stage, int32_t i, float z)
 {
+    rlf_background *background = &stage->background;
     background->mean[i] = z;
     background->deviation[i] = 0.0f;
     background->weight[i] = STILL_WEIGHT;
     background->beyond[i] = 0;
     background->still_ms[i] = 0;
-    background->changed++;
+    rlf_sheet_changed(background, &stage->grid, i % stage->grid.width, i / stage->grid.width, 1);
 }
 
 /* Follows the depth of one foreground pixel; true when it has been still for `limit_ms`. */
@@ -65,7 +66,7 @@ static rlf_span absorb_row(rlf_reconstruct *stage, const rlf_slot *slot, int32_t
         } else if (is_still(background, i, z, gate_at(def, z), limit_ms, passed_ms)) {
             background->beneath[i] = beneath > 0.0f ? beneath : background->mean[i];
             background->hides[y] = 1;
-            replace(background, i, background->still[i]);
+            replace(stage, i, background->still[i]);
         }
         if (background->still_ms[i] != 0) {
             left.x0 = x < left.x0 ? x : left.x0;
@@ -101,7 +102,7 @@ static bool restore_row(rlf_reconstruct *stage, const rlf_slot *slot, int32_t y)
         }
         float gate = gate_at(&stage->def, z);
         if (z - background->mean[i] > gate && rlf_kernel_abs(z - beneath) <= gate) {
-            replace(background, i, beneath);
+            replace(stage, i, beneath);
             background->beneath[i] = 0.0f;
         }
     }

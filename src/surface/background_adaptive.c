@@ -8,14 +8,8 @@
 #include <string.h>
 
 enum {
-    CHUNKS = RLF_IMAGE_SIZE_MAX / RLF_ROW_GRAIN,
     HOLE_FRAMES = 10,        /* background samples in a row that fill a hole of the model */
     HOLE_FRAMES_FRONT = 250, /* the same for what was taken as foreground */
-    SHEET_CHANGES = 30,      /* replaced pixels that make a new sheet ... */
-    SHEET_FRAMES = 5,        /* ... after at least this many frames */
-    SHEET_URGENT = 400,      /* replaced pixels that make one at once: a thing has left */
-    SHEET_FRAMES_LONG = 30,  /* after this many any change does */
-    REFINED_FRAMES = 64      /* until then the means still get better */
 };
 
 typedef struct model_job {
@@ -23,7 +17,7 @@ typedef struct model_job {
     const rlf_slot *slot;
     rlf_kernel_background params;
     uint8_t *seen;
-    int32_t changed[CHUNKS]; /* per chunk, so that the sum does not depend on the workers */
+    int32_t tile_columns;
 } model_job;
 
 static void model_rows(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -32,15 +26,30 @@ static void model_rows(void *context, int32_t begin, int32_t end, int32_t worker
     model_job *job = context;
     const rlf_background *background = &job->stage->background;
     int32_t width = job->stage->grid.width;
-    int32_t changed = 0;
     for (int32_t y = begin; y < end; y++) {
-        ptrdiff_t row = (ptrdiff_t)y * width;
-        const rlf_kernel_model model = {background->mean + row, background->deviation + row,
-                                        background->weight + row, background->beyond + row};
-        changed += rlf_kernel_background_row(&job->params, job->slot->depth + row, width, &model,
-                                             job->seen + row);
+        for (int32_t x = 0; x < width; x += RLF_SHEET_TILE) {
+            ptrdiff_t at = (ptrdiff_t)y * width + x;
+            int32_t count = x + RLF_SHEET_TILE < width ? RLF_SHEET_TILE : width - x;
+            const rlf_kernel_model model = {background->mean + at, background->deviation + at,
+                                            background->weight + at, background->beyond + at};
+            int32_t changed = rlf_kernel_background_row(&job->params, job->slot->depth + at, count,
+                                                        &model, job->seen + at);
+            background->row_changes[y * job->tile_columns + x / RLF_SHEET_TILE] = changed;
+        }
     }
-    job->changed[begin / RLF_ROW_GRAIN] = changed;
+}
+
+/* Row by row, so that the sums do not depend on the workers. */
+static void count_changes(rlf_reconstruct *stage, int32_t tile_columns)
+{
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        for (int32_t k = 0; k < tile_columns; k++) {
+            int32_t changed = stage->background.row_changes[y * tile_columns + k];
+            if (changed > 0) {
+                rlf_sheet_changed(&stage->background, &stage->grid, k * RLF_SHEET_TILE, y, changed);
+            }
+        }
+    }
 }
 
 static void majority_rows(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -78,14 +87,16 @@ static void count_seeds(const rlf_reconstruct *stage, const uint8_t *mask, int32
     }
 }
 
-static void learn_hole(rlf_background *background, int32_t i, float z, bool front)
+static void learn_hole(rlf_reconstruct *stage, int32_t i, float z, bool front)
 {
+    rlf_background *background = &stage->background;
     int32_t age = background->unknown_age[i] + 1;
     if (age >= (front ? HOLE_FRAMES_FRONT : HOLE_FRAMES)) {
         background->mean[i] = z;
         background->deviation[i] = 0.0f;
         background->weight[i] = 1;
-        background->changed++;
+        rlf_sheet_changed(background, &stage->grid, i % stage->grid.width, i / stage->grid.width,
+                          1);
         age = 0;
     }
     background->unknown_age[i] = (uint8_t)age;
@@ -106,7 +117,7 @@ static void decide_unknown(rlf_reconstruct *stage, rlf_slot *slot)
                 10 * work->vote[0][run->component] >= size || size >= stage->def.min_region_points;
             for (int32_t i = row + run->x0; i < row + run->x1; i++) {
                 if (slot->foreground[i] == RLF_SEEN_UNKNOWN) {
-                    learn_hole(&stage->background, i, slot->depth[i], front);
+                    learn_hole(stage, i, slot->depth[i], front);
                 }
                 slot->foreground[i] = front;
             }
@@ -125,18 +136,6 @@ static void find_front(rlf_reconstruct *stage, rlf_slot *slot)
     decide_unknown(stage, slot);
 }
 
-static bool is_sheet_due(const rlf_background *background)
-{
-    if (background->newest < 0) {
-        return true;
-    }
-    if (background->changed >= SHEET_CHANGES) {
-        return background->changed >= SHEET_URGENT || background->sheet_age >= SHEET_FRAMES;
-    }
-    bool refining = background->frames <= REFINED_FRAMES;
-    return background->sheet_age >= SHEET_FRAMES_LONG && (background->changed > 0 || refining);
-}
-
 void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot)
 {
     rlf_background *background = &stage->background;
@@ -147,12 +146,10 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot)
                      .params = {rlf_kernel_noise_make(&def->rig.noise),
                                 (float)def->foreground_sigmas, (float)def->foreground_min_m,
                                 learning},
-                     .seen = stage->work.mask[0]};
+                     .seen = stage->work.mask[0],
+                     .tile_columns = (stage->grid.width + RLF_SHEET_TILE - 1) / RLF_SHEET_TILE};
     rlf_parallel_for(def->pool, stage->grid.height, RLF_ROW_GRAIN, model_rows, &job);
-    for (int32_t y = 0; y < stage->grid.height; y += RLF_ROW_GRAIN) {
-        background->changed += job.changed[y / RLF_ROW_GRAIN];
-    }
-    background->sheet_age++;
+    count_changes(stage, job.tile_columns);
     if (background->frames < INT32_MAX) {
         background->frames++;
     }
@@ -169,9 +166,7 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot)
         rlf_parallel_for(def->pool, stage->grid.height, RLF_ROW_GRAIN, majority_rows, &job);
         rlf_background_restore(stage, slot);
     }
-    if (is_sheet_due(background)) {
-        rlf_background_publish(stage);
-    }
+    rlf_sheet_advance(stage);
     if (!learning) {
         find_front(stage, slot);
         rlf_background_absorb(stage, slot);

@@ -69,6 +69,11 @@ static void take_background(rlf_reconstruct *stage)
     background->beneath = take(stage, n, sizeof(float));
     background->standing = take(stage, (size_t)stage->grid.height, sizeof(rlf_span));
     background->hides = take(stage, (size_t)stage->grid.height, 1);
+    size_t tiles = (size_t)rlf_sheet_tiles(&stage->grid);
+    background->row_changes = take(stage, tiles * RLF_SHEET_TILE, sizeof(int32_t));
+    background->changes = take(stage, tiles, sizeof(int32_t));
+    background->refresh = take(stage, tiles, 1);
+    background->version = take(stage, tiles, sizeof(int32_t));
     for (int i = 0; i < RLF_SHEETS; i++) {
         rlf_sheet *sheet = &background->sheets[i];
         sheet->depth = take(stage, n, sizeof(float));
@@ -92,6 +97,9 @@ static void take_work(rlf_reconstruct *stage)
         work->sum[k] = take(stage, n, sizeof(float));
         work->mask[k] = take(stage, n, 1);
         work->vote[k] = take(stage, n + 1, sizeof(int32_t));
+    }
+    for (int k = 0; k < 6; k++) {
+        work->crop[k] = take(stage, rlf_sheet_crop_size(), sizeof(float));
     }
     work->links = take(stage, n, 1);
     work->component = take(stage, n, sizeof(int32_t));

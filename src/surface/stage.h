@@ -51,10 +51,14 @@ typedef struct rlf_sheet {
     rlf_region *regions;
     int32_t *region_points;
     int32_t region_count, point_count;
+    int32_t version;
 } rlf_sheet;
 
 /* Surfaces refer to at most RLF_RECONSTRUCT_SURFACES sheets while the next one is made. */
-enum { RLF_SHEETS = RLF_RECONSTRUCT_SURFACES + 1, RLF_STAGE_BLOCKS = 128 };
+enum { RLF_SHEETS = RLF_RECONSTRUCT_SURFACES + 1, RLF_STAGE_BLOCKS = 160 };
+
+/* A sheet is made in tiles of so many pixels on a side. */
+enum { RLF_SHEET_TILE = 104 };
 
 /* The background model. AVERAGE: mean holds sums until it is ready. */
 typedef struct rlf_background {
@@ -69,8 +73,14 @@ typedef struct rlf_background {
     rlf_span *standing;   /* ADAPTIVE: per row, where still_ms is not 0 */
     uint8_t *hides;       /* ADAPTIVE: per row, whether there is anything beneath */
     int32_t frames;
-    int32_t changed;   /* pixels replaced since the newest sheet was made */
-    int32_t sheet_age; /* frames since then */
+    int32_t *row_changes; /* ADAPTIVE: pixels replaced in this frame, per row and tile column */
+    int32_t *changes;     /* per tile: pixels replaced since it was made */
+    int32_t changed;      /* their sum */
+    uint8_t *refresh;     /* per tile: frames + 1 until its means are better; 0 = they are */
+    int32_t *version;     /* per tile: of the sheet that it was made for */
+    int32_t next_version; /* of the next sheet */
+    int32_t sheet_age;    /* frames since the newest sheet was finished */
+    bool is_drafting;     /* the next sheet is being made */
     rlf_background_state state;
     rlf_sheet sheets[RLF_SHEETS];
     int32_t newest; /* sheet; -1 = none */
@@ -117,6 +127,7 @@ typedef struct rlf_work {
     int32_t *zero_labels;
     struct rlf_region_sum *region_sums; /* region_capacity */
     int32_t *heirs;                     /* label table of region_track.c */
+    float *crop[6];                     /* of background_sheet.c */
     struct rlf_cell *cells;             /* of velocity_cells.c */
     struct rlf_block *blocks;           /* region_capacity */
     struct rlf_solid *solid;            /* plane */

@@ -137,9 +137,18 @@ void rlf_background_absorb(rlf_reconstruct *stage, const rlf_slot *slot);
 void rlf_background_restore(rlf_reconstruct *stage, const rlf_slot *slot);
 /* Where the first and the last foreground pixel of a row are. */
 rlf_span rlf_background_span(const uint8_t *foreground, int32_t width);
-/* Makes a new sheet from the model: depth, normals, regions. */
-void rlf_background_publish(rlf_reconstruct *stage);
 void rlf_background_reset(rlf_background *background, const rlf_grid *grid);
+
+/* ---- background_sheet.c ---- */
+int32_t rlf_sheet_tiles(const rlf_grid *grid);
+size_t rlf_sheet_crop_size(void);
+/* Pixels of the tile at (x, y) were replaced. */
+void rlf_sheet_changed(rlf_background *background, const rlf_grid *grid, int32_t x, int32_t y,
+                       int32_t count);
+/* Makes a new sheet from the model: depth, normals, regions; at once, or when it is due a part of
+ * it per frame. */
+void rlf_sheet_publish(rlf_reconstruct *stage);
+void rlf_sheet_advance(rlf_reconstruct *stage);
 
 /* ---- velocity.c, thickness.c ---- */
 void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot);

@@ -1,0 +1,238 @@
+/* How the background's model becomes a published, unchanging sheet, a few tiles at a time.
+ *
+ * A draft is the oldest sheet, which no valid surface refers to. Tiles whose pixels were replaced
+ * are made anew from the model, the most changed first, so many per frame that no frame costs much
+ * more than another; a thing that leaves is published at once. A tile is made once more when the
+ * means of what is new in it have got better. */
+#include "surface/steps.h"
+
+#include <string.h>
+
+enum {
+    MARGIN = 12, /* pixels around a tile that its normals depend on; even */
+    CROP = RLF_SHEET_TILE + 2 * MARGIN,
+    PARTS = 12,           /* of the tiles are made per frame, one ... */
+    PARTS_URGENT = 5,     /* ... or, when a thing has left, one of so many */
+    CHANGES = 30,         /* replaced pixels that make a new sheet ... */
+    FRAMES = 10,          /* ... after at least this many frames */
+    CHANGES_URGENT = 400, /* replaced pixels that make one at once: a thing has left */
+    FRAMES_LONG = 30,     /* after this many any change does */
+    REFINED_FRAMES = 40   /* so many make a mean much better than the first few */
+};
+
+typedef struct rectangle {
+    int32_t x0, y0, x1, y1;
+} rectangle;
+
+static int32_t tile_columns(const rlf_grid *grid)
+{
+    return (grid->width + RLF_SHEET_TILE - 1) / RLF_SHEET_TILE;
+}
+
+int32_t rlf_sheet_tiles(const rlf_grid *grid)
+{
+    return tile_columns(grid) * ((grid->height + RLF_SHEET_TILE - 1) / RLF_SHEET_TILE);
+}
+
+size_t rlf_sheet_crop_size(void)
+{
+    return (size_t)CROP * CROP;
+}
+
+void rlf_sheet_changed(rlf_background *background, const rlf_grid *grid, int32_t x, int32_t y,
+                       int32_t count)
+{
+    background->changes[y / RLF_SHEET_TILE * tile_columns(grid) + x / RLF_SHEET_TILE] += count;
+    background->changed += count;
+}
+
+static rectangle tile_at(const rlf_grid *grid, int32_t tile)
+{
+    int32_t x0 = tile % tile_columns(grid) * RLF_SHEET_TILE;
+    int32_t y0 = tile / tile_columns(grid) * RLF_SHEET_TILE;
+    int32_t x1 = x0 + RLF_SHEET_TILE, y1 = y0 + RLF_SHEET_TILE;
+    const rectangle r = {x0, y0, x1 < grid->width ? x1 : grid->width,
+                         y1 < grid->height ? y1 : grid->height};
+    return r;
+}
+
+static rectangle widen(const rlf_grid *grid, rectangle r)
+{
+    const rectangle wide = {r.x0 > MARGIN ? r.x0 - MARGIN : 0, r.y0 > MARGIN ? r.y0 - MARGIN : 0,
+                            r.x1 + MARGIN < grid->width ? r.x1 + MARGIN : grid->width,
+                            r.y1 + MARGIN < grid->height ? r.y1 + MARGIN : grid->height};
+    return wide;
+}
+
+/* Copies r from a plane of width `from_width` whose corner is at (from_x, from_y) to another. */
+static void copy_part(rectangle r, const float *from, int32_t from_x, int32_t from_y,
+                      int32_t from_width, float *to, int32_t to_x, int32_t to_y, int32_t to_width)
+{
+    for (int32_t y = r.y0; y < r.y1; y++) {
+        memcpy(to + (ptrdiff_t)(y - to_y) * to_width + r.x0 - to_x,
+               from + (ptrdiff_t)(y - from_y) * from_width + r.x0 - from_x,
+               (size_t)(r.x1 - r.x0) * sizeof *to);
+    }
+}
+
+static void tile_is_made(rlf_background *background, int32_t tile, bool is_new)
+{
+    background->version[tile] = background->next_version;
+    background->changed -= background->changes[tile];
+    background->changes[tile] = 0;
+    bool is_waiting = background->refresh[tile] > 1;
+    background->refresh[tile] =
+        is_new ? REFINED_FRAMES : (is_waiting ? background->refresh[tile] : 0);
+}
+
+/* A tile from the model; its normals are those of a part of the image that holds all they depend
+ * on.
+ */
+static void make_tile(rlf_reconstruct *stage, rlf_sheet *sheet, int32_t tile)
+{
+    const rlf_grid *grid = &stage->grid;
+    const rectangle r = tile_at(grid, tile), wide = widen(grid, r);
+    int32_t width = wide.x1 - wide.x0;
+    float *const *crop = stage->work.crop;
+    const float *const from[3] = {stage->background.mean, grid->ray_x, grid->ray_y};
+    for (int k = 0; k < 3; k++) {
+        copy_part(wide, from[k], 0, 0, grid->width, crop[k], wide.x0, wide.y0, width);
+    }
+    rlf_normals_job job = rlf_normals_job_make(stage, crop[0], crop + 3);
+    job.width = width;
+    job.height = wide.y1 - wide.y0;
+    job.ray_x = crop[1];
+    job.ray_y = crop[2];
+    job.pool = NULL;
+    rlf_normals_compute(&job);
+    copy_part(r, stage->background.mean, 0, 0, grid->width, sheet->depth, 0, 0, grid->width);
+    for (int k = 0; k < 3; k++) {
+        copy_part(r, crop[3 + k], wide.x0, wide.y0, width, sheet->normal[k], 0, 0, grid->width);
+    }
+    tile_is_made(&stage->background, tile, stage->background.changes[tile] >= CHANGES);
+}
+
+/* Brings the oldest sheet up to the newest. */
+static void begin_draft(rlf_reconstruct *stage)
+{
+    rlf_background *background = &stage->background;
+    const rlf_grid *grid = &stage->grid;
+    const rlf_sheet *newest = &background->sheets[background->newest];
+    rlf_sheet *draft = &background->sheets[(background->newest + 1) % RLF_SHEETS];
+    for (int32_t tile = 0; tile < rlf_sheet_tiles(grid); tile++) {
+        if (background->version[tile] > draft->version) {
+            const rectangle r = tile_at(grid, tile);
+            copy_part(r, newest->depth, 0, 0, grid->width, draft->depth, 0, 0, grid->width);
+            for (int k = 0; k < 3; k++) {
+                copy_part(r, newest->normal[k], 0, 0, grid->width, draft->normal[k], 0, 0,
+                          grid->width);
+            }
+        }
+    }
+    background->is_drafting = true;
+}
+
+/* How much a tile needs to be made: its replaced pixels, or that its means are better. */
+static int32_t need_of(const rlf_background *background, int32_t tile)
+{
+    return 2 * background->changes[tile] + (background->refresh[tile] == 1 ? 1 : 0);
+}
+
+/* The tile that needs it most; -1 = none. */
+static int32_t next_tile(const rlf_background *background, int32_t tiles)
+{
+    int32_t best = -1, most = 0;
+    for (int32_t tile = 0; tile < tiles; tile++) {
+        int32_t need = need_of(background, tile);
+        best = need > most ? tile : best;
+        most = need > most ? need : most;
+    }
+    return best;
+}
+
+static void make_all(rlf_reconstruct *stage, rlf_sheet *sheet)
+{
+    rlf_background *background = &stage->background;
+    int32_t tiles = rlf_sheet_tiles(&stage->grid);
+    memcpy(sheet->depth, background->mean, (size_t)stage->grid.count * sizeof *sheet->depth);
+    rlf_normals_job normals = rlf_normals_job_make(stage, sheet->depth, sheet->normal);
+    rlf_normals_compute(&normals);
+    for (int32_t tile = 0; tile < tiles; tile++) {
+        tile_is_made(background, tile, true);
+    }
+}
+
+/* Regions of the finished draft; from now on it is the newest. */
+static void finish(rlf_reconstruct *stage)
+{
+    rlf_background *background = &stage->background;
+    const rlf_sheet *old = background->newest < 0 ? NULL : &background->sheets[background->newest];
+    int32_t next = (background->newest + 1) % RLF_SHEETS;
+    rlf_sheet *sheet = &background->sheets[next];
+    rlf_layer_in in = {.layer = RLF_LAYER_BACKGROUND,
+                       .method = stage->def.background_segment,
+                       .depth = sheet->depth};
+    if (old != NULL) {
+        in.previous_label = old->label;
+        in.previous = old->regions;
+        in.previous_count = old->region_count;
+    }
+    rlf_layer_out out = {sheet->regions, sheet->region_points, 0, 0};
+    rlf_layer_segment(stage, &in, &out);
+    memset(sheet->label, 0, (size_t)stage->grid.count * sizeof *sheet->label);
+    rlf_region_write_labels(stage, &out, sheet->label);
+    sheet->region_count = out.region_count;
+    sheet->point_count = out.point_count;
+    sheet->version = background->next_version++;
+    background->newest = next;
+    background->sheet_age = 0;
+    background->is_drafting = false;
+}
+
+void rlf_sheet_publish(rlf_reconstruct *stage)
+{
+    rlf_background *background = &stage->background;
+    make_all(stage, &background->sheets[(background->newest + 1) % RLF_SHEETS]);
+    finish(stage);
+}
+
+/* Counts the frames; true when a draft is to be begun. */
+static bool is_due(rlf_background *background, int32_t tiles)
+{
+    bool better = false;
+    for (int32_t tile = 0; tile < tiles; tile++) {
+        background->refresh[tile] -= background->refresh[tile] > 1 ? 1 : 0;
+        better = better || background->refresh[tile] == 1;
+    }
+    background->sheet_age++;
+    return better || (background->changed >= CHANGES && background->sheet_age >= FRAMES) ||
+           (background->changed > 0 && background->sheet_age >= FRAMES_LONG);
+}
+
+void rlf_sheet_advance(rlf_reconstruct *stage)
+{
+    rlf_background *background = &stage->background;
+    int32_t tiles = rlf_sheet_tiles(&stage->grid);
+    if (background->newest < 0) {
+        rlf_sheet_publish(stage);
+        return;
+    }
+    bool due = is_due(background, tiles);
+    bool urgent = background->changed >= CHANGES_URGENT;
+    if (!background->is_drafting && !urgent && !due) {
+        return;
+    }
+    if (!background->is_drafting) {
+        begin_draft(stage);
+    }
+    rlf_sheet *draft = &background->sheets[(background->newest + 1) % RLF_SHEETS];
+    int32_t most = 1 + tiles / (urgent ? PARTS_URGENT : PARTS);
+    int32_t tile = next_tile(background, tiles);
+    for (int32_t made = 0; made < most && tile >= 0; made++) {
+        make_tile(stage, draft, tile);
+        tile = next_tile(background, tiles);
+    }
+    if (urgent || tile < 0) {
+        finish(stage);
+    }
+}
