@@ -23,7 +23,7 @@ typedef struct golden {
 } golden;
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0x235ae2d3715c3d96u, 0x1283097d7a54c7e0u, 0x4979a9c36bb40021u},
+    {RLF_PROFILE_LIVE, 0x260ff034bd894d7cu, 0xdb538d3b4c602e4du, 0xd7c84782407aac24u},
     {RLF_PROFILE_THESIS, 0x661dc320eb5b2361u, 0xd84652fb54683851u, 0xf068ba3d9f6846e3u},
 };
 

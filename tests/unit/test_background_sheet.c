@@ -1,0 +1,170 @@
+/* The published background: made a few tiles a frame, it is what one made at once would be. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "analytic.h"
+#include "surface/steps.h"
+
+enum { WIDTH = 330, HEIGHT = 230, COUNT = WIDTH * HEIGHT, TILES = 4 * 3 };
+
+static float depth[COUNT];
+
+static rlf_reconstruct *make_stage(void)
+{
+    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
+    rlf_reconstruct *stage = NULL;
+    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    assert_int_equal(rlf_sheet_tiles(&stage->grid), TILES);
+    return stage;
+}
+
+/* Two noisy walls that meet in a corner, `away` farther than at first. */
+static const rlf_surface *step(rlf_reconstruct *stage, analytic_random *random, double away,
+                               int32_t number)
+{
+    const rlf_rig *rig = &stage->def.rig;
+    const rlf_vec3 left = {0.6, 0.0, -0.8}, right = {-0.6, 0.0, -0.8};
+    for (int i = 0; i < COUNT; i++) {
+        double x = (i % WIDTH - rig->depth.cx) / rig->depth.fx;
+        double y = (i / WIDTH - rig->depth.cy) / rig->depth.fy;
+        double z =
+            rlf_min(plane_depth(left, -1.6 - away, x, y), plane_depth(right, -1.6 - away, x, y));
+        depth[i] = (float)(z + rlf_depth_noise_sigma(&rig->noise, z) * random_normal(random));
+    }
+    rlf_frame frame = analytic_frame(rig, depth, number);
+    frame.rig = NULL;
+    const rlf_surface *s = NULL;
+    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    return s;
+}
+
+/* Cosine of the angle between two normals; 1 where both are missing. */
+static double agreement(const rlf_surface *s, float *const whole[3], int32_t i)
+{
+    rlf_vec3 a = {s->background_normal_x[i], s->background_normal_y[i], s->background_normal_z[i]};
+    rlf_vec3 b = {whole[0][i], whole[1][i], whole[2][i]};
+    return rlf_length(a) == 0.0 && rlf_length(b) == 0.0 ? 1.0 : rlf_dot(a, b);
+}
+
+static void tiles_make_the_same_normals_as_the_whole(void **state)
+{
+    (void)state;
+    rlf_reconstruct *stage = make_stage();
+    analytic_random random = {5};
+    const rlf_surface *s = NULL;
+    for (int t = 0; t < 90; t++) {
+        s = step(stage, &random, 0.0, t);
+    }
+    static float planes[3][COUNT];
+    float *const whole[3] = {planes[0], planes[1], planes[2]};
+    rlf_compute_normals(RLF_NORMALS_INVERSE_DEPTH, true, WIDTH, HEIGHT, s->ray_x, s->ray_y,
+                        s->background_depth, &s->noise, whole[0], whole[1], whole[2]);
+    int differ = 0;
+    for (int i = 0; i < COUNT; i++) {
+        differ += agreement(s, whole, i) < 0.99996; /* half a degree */
+    }
+    assert_true(differ * 1000 < COUNT);
+    rlf_reconstruct_destroy(&stage);
+}
+
+/* The first sheet is the mean of five frames; the last one of many. */
+static void means_get_better_without_a_change(void **state)
+{
+    (void)state;
+    rlf_reconstruct *stage = make_stage();
+    analytic_random random = {6};
+    double sum[2] = {0.0, 0.0};
+    for (int t = 0; t < 90; t++) {
+        const rlf_surface *s = step(stage, &random, 0.0, t);
+        for (int i = 0; (t == 4 || t == 89) && i < COUNT; i++) {
+            if (i % WIDTH > WIDTH / 2 - 20 && i % WIDTH < WIDTH / 2 + 20) {
+                continue; /* the corner */
+            }
+            double off = s->background_normal_x[i] * s->background_normal_x[i] - 0.36;
+            sum[t == 89] += off * off;
+        }
+    }
+    assert_true(sum[1] < 0.5 * sum[0]);
+    rlf_reconstruct_destroy(&stage);
+}
+
+static int32_t tiles_made(const rlf_reconstruct *stage, const int32_t *before)
+{
+    int32_t made = 0;
+    for (int tile = 0; tile < TILES; tile++) {
+        made += stage->background.version[tile] != before[tile];
+    }
+    return made;
+}
+
+/* The whole room steps back: everything is replaced, soon, but not in one frame. */
+static void no_frame_makes_more_than_its_share(void **state)
+{
+    (void)state;
+    rlf_reconstruct *stage = make_stage();
+    analytic_random random = {7};
+    for (int t = 0; t < 90; t++) {
+        step(stage, &random, 0.0, t);
+    }
+    int32_t before[TILES], total = 0;
+    for (int t = 90; t < 100; t++) {
+        memcpy(before, stage->background.version, sizeof before);
+        const rlf_surface *s = step(stage, &random, 0.5, t);
+        int32_t made = tiles_made(stage, before);
+        assert_true(made <= 1 + TILES / 5);
+        total += made;
+        if (t == 99) {
+            assert_true(total >= TILES);
+            for (int i = 0; i < COUNT; i++) {
+                double z = depth[i];
+                assert_true(rlf_max(s->background_depth[i] - z, z - s->background_depth[i]) < 0.1);
+            }
+        }
+    }
+    rlf_reconstruct_destroy(&stage);
+}
+
+static double sum_of(const rlf_surface *s)
+{
+    double sum = 0.0;
+    for (int i = 0; i < COUNT; i++) {
+        sum += s->background_depth[i] * (1.0 + i % 7) + s->background_normal_x[i];
+        sum += s->background_label[i];
+    }
+    return sum;
+}
+
+/* Tiles are made in a sheet that no valid surface shows. */
+static void valid_surfaces_keep_their_background(void **state)
+{
+    (void)state;
+    rlf_reconstruct *stage = make_stage();
+    analytic_random random = {8};
+    const rlf_surface *s[RLF_RECONSTRUCT_SURFACES] = {NULL};
+    double sum[RLF_RECONSTRUCT_SURFACES] = {0.0};
+    for (int t = 0; t < 60; t++) {
+        int now = t % RLF_RECONSTRUCT_SURFACES;
+        s[now] = step(stage, &random, t < 30 ? 0.0 : 0.02 * (t - 30), t);
+        sum[now] = sum_of(s[now]);
+        for (int k = 0; k < RLF_RECONSTRUCT_SURFACES; k++) {
+            assert_true(s[k] == NULL || sum_of(s[k]) == sum[k]);
+        }
+    }
+    rlf_reconstruct_destroy(&stage);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tiles_make_the_same_normals_as_the_whole),
+        cmocka_unit_test(means_get_better_without_a_change),
+        cmocka_unit_test(no_frame_makes_more_than_its_share),
+        cmocka_unit_test(valid_surfaces_keep_their_background),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
