@@ -55,16 +55,27 @@ RLF_KERNEL_PART float rlf_kernel_sigma(rlf_kernel_noise n, float z)
     float sigma = n.c0 + z * (n.c1 + z * n.c2);
     return sigma > 0.0003f ? sigma : 0.0003f;
 }
-/* How much noisier a slanted surface is: Fankhauser et al. 2015 add a term that grows with
- * theta^2 / (pi/2 - theta)^2, here relative to the frontal noise. `c` is the cosine. It ends at 78
- * degrees: a plane laid across a depth edge is steeper, and must not be excused by its own slant.
- */
-RLF_KERNEL_PART float rlf_kernel_slant(float c)
+/* Sigma of inverse depth w: sigma(z) w^2 at z = 1/w. */
+RLF_KERNEL_PART float rlf_kernel_inverse_sigma(rlf_kernel_noise n, float w)
 {
-    float rest = c * (1.0f + 0.17f * c * c); /* pi/2 - theta = asin(c) */
-    float theta = 1.5707964f - rest;
-    float ratio = theta / (rest > 0.2f ? rest : 0.2f);
-    return 1.0f + 0.12f * ratio * ratio;
+    float sigma = n.c2 + w * (n.c1 + w * n.c0);
+    float least = 0.0003f * (w * w);
+    return sigma > least ? sigma : least;
+}
+/* How much noisier a slanted surface is: Fankhauser et al. 2015 add
+ * 0.1 mm z^1.5 theta^2 / (pi/2 - theta)^2 to a Kinect v2's noise, which at 2 to 4.5 m is 0.17 to
+ * 0.19 of the frontal noise, here 0.18 of any sensor's. `along` / `length` is the cosine. It ends
+ * at 75 degrees: a plane laid across a depth edge is steeper, and must not be excused by its own
+ * slant. */
+RLF_KERNEL_PART float rlf_kernel_slant(float along, float length)
+{
+    const float most = 5.283185f; /* (pi/2) / 0.25 - 1 */
+    float square = length * length;
+    /* pi/2 - theta = asin(c), here c + 0.17 c^3; ratio = theta / (pi/2 - theta) */
+    float rest = along * (square + 0.17f * (along * along));
+    float ratio = 1.5707964f * (square * length) / rest - 1.0f;
+    ratio = ratio < most ? ratio : most;
+    return 1.0f + 0.18f * (ratio * ratio);
 }
 RLF_KERNEL_PART float rlf_kernel_abs(float x)
 {
@@ -116,12 +127,13 @@ void rlf_kernel_slope_row(const rlf_kernel_slope_in *in, float *restrict out_x,
 /* ---- plane_tile.c: normals of noisy depth
  * -------------------------------------------------------- */
 
-#define RLF_KERNEL_TILE 64 /* pixels on a side */
+#define RLF_KERNEL_TILE_WIDTH 128 /* most pixels of a tile */
+#define RLF_KERNEL_TILE_HEIGHT 64
 
 typedef struct rlf_kernel_tile {
     int32_t width, height; /* of the image */
     int32_t x0, y0;        /* corner of the tile: even numbers */
-    int32_t x1, y1;        /* end of the tile, <= width, height, at most RLF_KERNEL_TILE further */
+    int32_t x1, y1;        /* end of the tile, <= width, height */
     const float *depth, *ray_x, *ray_y;
     rlf_kernel_noise noise;
     float *out_x, *out_y, *out_z; /* planes of the image; written inside the tile only; 0 where

@@ -1,435 +1,438 @@
 /* Normals of noisy depth: least-squares planes in inverse depth, one window chosen per pixel.
  *
- * On a plane w = 1/z = A + B x + C y in the ray (x, y, 1), whatever the lens, and the normal is
- * -(B, C, A): errata of eq. 4.3. Moments of 2x2 pixel blocks are summed over windows of 5x5 and 3x3
- * blocks (10 and 6 pixels); each block keeps the larger window whose residual is explained by the
- * sensor's noise. A pixel then takes the weighted mean of those planes of the 3x3 blocks about it
- * that predict the pixel's own depth (after the selection of Kuwahara et al. 1976): windows that
- * reach across a depth edge or a crease drop out, and on curved surfaces the others balance.
+ * Each 2x2 block of pixels gets the plane of its window of 5x5 blocks where the sensor's noise
+ * explains the residual, otherwise of the most certain of the window of 3x3 blocks and the four of
+ * 2x2. A pixel then takes the weighted mean of those planes of 13 blocks about it that predict the
+ * pixel's own depth (after the selection of Kuwahara et al. 1976): windows that reach across a
+ * depth edge or a crease drop out, and on curved surfaces the others balance.
  *
- * Sums are taken relative to the tile's middle, which keeps single precision far below the noise.
- */
-#include "kernel/kernel.h"
+ * Rows of blocks stream through two rings of five: moments in, planes out, pixels from planes. */
+#include "kernel/plane_window.h"
 
-#include <math.h>
+#include <string.h>
 
 enum {
-    MOMENTS = 10,
     REACH = 2, /* blocks from a pixel's own to the planes that it may take */
-    PLANES = RLF_KERNEL_TILE / 2 + 2 * REACH, /* blocks on a side that have a plane */
-    BLOCKS = PLANES + 4,                      /* and two more each side for the windows */
-    SPAN = PLANES / 3,                        /* blocks that get small windows together */
-    CORNERS = SPAN + 4,                       /* their corners, in whole vectors */
-    PADDING = 2,                              /* so that those of the last span can be read */
-    BLOCK_PIXELS = 2 * BLOCKS,
-    PLANE_PIXELS = 2 * PLANES
+    HALO = 4,  /* blocks with moments before the tile: two more, for the windows */
+    SPAN = 8,  /* blocks that get small windows together */
+    PLANES = RLF_KERNEL_TILE_WIDTH / 2 + SPAN, /* REACH on each side of the tile, then padding */
+    CORNERS = PLANES + SPAN,
+    BLOCKS = CORNERS + SPAN,
+    PIXELS = 2 * PLANES
 };
 
 /* Largest residuals that a window may have, in sigmas. */
-static const float WIDE_SIGMAS = 1.22f, NARROW_SIGMAS = 1.6f;
+static const float WIDE_SIGMAS = 1.15f, NARROW_SIGMAS = 1.6f;
 
-enum { N, X, Y, XX, XY, YY, W, XW, YW, WW };
+enum { N, X, Y, XX, XY, YY, W, XW, YW, WW, MOMENTS };
 
-typedef struct reference {
-    float x, y, w; /* what sums are relative to */
-} reference;
+/* Plane i is of block i - REACH of the tile. The moments of that block have the index
+ * i + HALO - REACH, and the corner to its left has the index i. */
+typedef struct moment_row {
+    float of[MOMENTS][BLOCKS];
+} moment_row;
 
-typedef struct plane_rows { /* of one row of blocks, each value twice: once per pixel column */
-    float a[PLANE_PIXELS], b[PLANE_PIXELS], c[PLANE_PIXELS];
-    float weight[PLANE_PIXELS];    /* 0 = no plane */
-    float precision[PLANE_PIXELS]; /* 1 / the square of the largest error of a pixel on it */
-} plane_rows;
+typedef struct plane_row {
+    float a[CORNERS], b[CORNERS], c[CORNERS], weight[CORNERS], precision[CORNERS];
+} plane_row;
+
+typedef struct pixel_planes { /* of one row of blocks, each value twice: once per pixel column */
+    float a[PIXELS], b[PIXELS], c[PIXELS], weight[PIXELS], precision[PIXELS];
+} pixel_planes;
+
+/* Windows of 2x2 blocks, fitted span by span when one is asked for. */
+typedef struct corner_row {
+    plane_row planes;
+    bool is_fitted[CORNERS / SPAN];
+} corner_row;
+
+typedef struct tile_state {
+    const rlf_kernel_tile *tile;
+    rlf_plane_reference ref;
+    int32_t planes;        /* in a row, whole spans */
+    moment_row moments[5]; /* rings by the row's number */
+    pixel_planes pixels[5];
+    corner_row corners[2]; /* below a row of moments */
+} tile_state;
+
+/* ---- moments ---- */
 
 typedef struct pixel_row {
-    float z[BLOCK_PIXELS], x[BLOCK_PIXELS], y[BLOCK_PIXELS];
+    const float *z, *x, *y;
 } pixel_row;
 
-typedef struct block_row {
-    float moment[MOMENTS][BLOCKS + PADDING];
-} block_row;
-
-/* A row of the tile with its border; zero depth outside the image. */
-RLF_KERNEL_PART void load_row(const rlf_kernel_tile *t, int32_t y, pixel_row *row)
+RLF_KERNEL_PART void store_moments(rlf_plane_moments s, int32_t i, moment_row *out)
 {
-    int32_t first = t->x0 - 2 * REACH - 4;
-    for (int32_t i = 0; i < BLOCK_PIXELS; i++) {
-        row->z[i] = row->x[i] = row->y[i] = 0.0f;
+    out->of[N][i] = s.n;
+    out->of[X][i] = s.x;
+    out->of[Y][i] = s.y;
+    out->of[XX][i] = s.xx;
+    out->of[XY][i] = s.xy;
+    out->of[YY][i] = s.yy;
+    out->of[W][i] = s.w;
+    out->of[XW][i] = s.xw;
+    out->of[YW][i] = s.yw;
+    out->of[WW][i] = s.ww;
+}
+
+RLF_KERNEL_PART rlf_plane_moments pair_moments(const float *z, const float *x, const float *y,
+                                               rlf_plane_reference ref)
+{
+    return rlf_plane_add(rlf_plane_pixel(z[0], x[0], y[0], ref),
+                         rlf_plane_pixel(z[1], x[1], y[1], ref));
+}
+
+/* Whole blocks: `count` of them from two rows of pixels. */
+RLF_KERNEL_PART void add_blocks(pixel_row upper, pixel_row lower, rlf_plane_reference ref,
+                                int32_t count, moment_row *restrict out, int32_t first)
+{
+    const float *restrict z0 = upper.z, *restrict x0 = upper.x, *restrict y0 = upper.y;
+    const float *restrict z1 = lower.z, *restrict x1 = lower.x, *restrict y1 = lower.y;
+    for (int32_t i = 0; i < count; i++) {
+        rlf_plane_moments top = pair_moments(z0 + 2 * i, x0 + 2 * i, y0 + 2 * i, ref);
+        rlf_plane_moments low = pair_moments(z1 + 2 * i, x1 + 2 * i, y1 + 2 * i, ref);
+        store_moments(rlf_plane_add(top, low), first + i, out);
     }
+}
+
+/* The block of the last column of an odd width. */
+RLF_KERNEL_PART void add_half_block(pixel_row upper, pixel_row lower, rlf_plane_reference ref,
+                                    int32_t x, moment_row *restrict out, int32_t i)
+{
+    rlf_plane_moments top = rlf_plane_pixel(upper.z[x], upper.x[x], upper.y[x], ref);
+    rlf_plane_moments low = rlf_plane_pixel(lower.z[x], lower.x[x], lower.y[x], ref);
+    store_moments(rlf_plane_add(top, low), i, out);
+}
+
+/* Moments of the row of blocks whose first row of pixels is y. Blocks outside the image are 0 from
+ * the start and stay so. */
+RLF_KERNEL_PART void make_moments(tile_state *state, int32_t y, moment_row *restrict out)
+{
+    static const float missing[2 * BLOCKS];
+    const rlf_kernel_tile *t = state->tile;
     if (y < 0 || y >= t->height) {
+        memset(out, 0, sizeof *out);
         return;
     }
-    int32_t begin = first < 0 ? -first : 0;
-    int32_t end = first + BLOCK_PIXELS > t->width ? t->width - first : BLOCK_PIXELS;
-    ptrdiff_t offset = (ptrdiff_t)y * t->width + first;
-    for (int32_t i = begin; i < end; i++) {
-        row->z[i] = t->depth[offset + i];
-        row->x[i] = t->ray_x[offset + i];
-        row->y[i] = t->ray_y[offset + i];
+    int32_t x = t->x0 - 2 * HALO;
+    int32_t first = x < 0 ? -x / 2 : 0;
+    x += 2 * first;
+    int32_t room = (t->width - x) / 2;
+    int32_t count = state->planes + SPAN - first;
+    bool is_cut = count > room;
+    count = is_cut ? room : count;
+    ptrdiff_t i = (ptrdiff_t)y * t->width + x;
+    pixel_row upper = {t->depth + i, t->ray_x + i, t->ray_y + i};
+    pixel_row lower = {missing, upper.x, upper.y};
+    if (y + 1 < t->height) {
+        lower = (pixel_row){upper.z + t->width, upper.x + t->width, upper.y + t->width};
+    }
+    add_blocks(upper, lower, state->ref, count, out, first);
+    if (is_cut && t->width % 2 != 0) {
+        add_half_block(upper, lower, state->ref, 2 * count, out, first + count);
     }
 }
 
-RLF_KERNEL_PART void add_row(const pixel_row *restrict row, reference ref,
-                             float (*restrict sum)[BLOCK_PIXELS])
+/* ---- planes ---- */
+
+RLF_KERNEL_PART void store_plane(rlf_plane p, int32_t i, plane_row *restrict out)
 {
-    for (int32_t i = 0; i < BLOCK_PIXELS; i++) {
-        float z = row->z[i];
-        float m = z > 0.0f ? 1.0f : 0.0f;
-        float x = m * (row->x[i] - ref.x);
-        float y = m * (row->y[i] - ref.y);
-        float w = m * (1.0f / (z > 0.0f ? z : 1.0f) - ref.w);
-        sum[N][i] += m;
-        sum[X][i] += x;
-        sum[Y][i] += y;
-        sum[XX][i] += x * x;
-        sum[XY][i] += x * y;
-        sum[YY][i] += y * y;
-        sum[W][i] += w;
-        sum[XW][i] += x * w;
-        sum[YW][i] += y * w;
-        sum[WW][i] += w * w;
-    }
+    out->a[i] = p.a;
+    out->b[i] = p.b;
+    out->c[i] = p.c;
+    out->weight[i] = p.weight;
+    out->precision[i] = p.precision;
 }
 
-/* Moments of one row of 2x2 blocks, whose first pixel row is y. */
-RLF_KERNEL_PART void block_moments(const rlf_kernel_tile *t, int32_t y, reference ref,
-                                   block_row *restrict out)
+/* Puts plane `from` of another row where it is more certain than plane `to`. */
+RLF_KERNEL_PART void improve(plane_row *restrict planes, int32_t to,
+                             const plane_row *restrict other, int32_t from)
 {
-    pixel_row row;
-    float sum[MOMENTS][BLOCK_PIXELS];
-    for (int32_t k = 0; k < MOMENTS; k++) {
-        for (int32_t i = 0; i < BLOCK_PIXELS; i++) {
-            sum[k][i] = 0.0f;
-        }
-    }
-    for (int32_t dy = 0; dy < 2; dy++) {
-        load_row(t, y + dy, &row);
-        add_row(&row, ref, sum);
-    }
-    for (int32_t k = 0; k < MOMENTS; k++) {
-        for (int32_t i = 0; i < BLOCKS; i++) {
-            out->moment[k][i] = sum[k][2 * i] + sum[k][2 * i + 1];
-        }
-        for (int32_t i = BLOCKS; i < BLOCKS + PADDING; i++) {
-            out->moment[k][i] = 0.0f;
-        }
-    }
+    bool better = other->weight[from] > planes->weight[to];
+    planes->a[to] = better ? other->a[from] : planes->a[to];
+    planes->b[to] = better ? other->b[from] : planes->b[to];
+    planes->c[to] = better ? other->c[from] : planes->c[to];
+    planes->precision[to] = better ? other->precision[from] : planes->precision[to];
+    planes->weight[to] = better ? other->weight[from] : planes->weight[to];
 }
 
-typedef struct window_sums {
-    float wide[MOMENTS][PLANES], narrow[MOMENTS][PLANES];
-} window_sums;
-
-RLF_KERNEL_PART void sum_windows(const block_row *const rows[5], window_sums *restrict out)
+/* Sums of rows of moments over the blocks begin .. end - 1. */
+RLF_KERNEL_PART void sum_rows(const moment_row *const *rows, int32_t height, int32_t begin,
+                              int32_t end, moment_row *restrict out)
 {
     for (int32_t k = 0; k < MOMENTS; k++) {
-        float three[BLOCKS], five[BLOCKS];
-        for (int32_t i = 0; i < BLOCKS; i++) {
-            three[i] = rows[1]->moment[k][i] + rows[2]->moment[k][i] + rows[3]->moment[k][i];
-            five[i] = three[i] + rows[0]->moment[k][i] + rows[4]->moment[k][i];
+        float *restrict sum = out->of[k];
+        const float *row[5];
+        for (int32_t r = 0; r < 5; r++) {
+            row[r] = rows[r < height ? r : 0]->of[k];
         }
-        for (int32_t i = 0; i < PLANES; i++) {
-            out->narrow[k][i] = three[i + 1] + three[i + 2] + three[i + 3];
-            out->wide[k][i] = five[i] + five[i + 1] + five[i + 2] + five[i + 3] + five[i + 4];
-        }
-    }
-}
-
-typedef struct plane {
-    float a, b, c, weight, precision;
-} plane;
-
-typedef struct fit_in {
-    reference ref;
-    rlf_kernel_noise noise;
-} fit_in;
-
-/* Plane of one window. Its weight is the square of the inverse variance that its gradient has from
- * noise and misfit: planes that straddle a crease hardly count. 0 when the residual is more than
- * most_sigmas times the noise. */
-RLF_KERNEL_PART plane fit(const float (*restrict s)[PLANES], int32_t i, reference ref,
-                          rlf_kernel_noise noise, float most_sigmas)
-{
-    float n = s[N][i];
-    float inv = 1.0f / (n > 1.0f ? n : 1.0f);
-    float mx = s[X][i] * inv, my = s[Y][i] * inv, mw = s[W][i] * inv;
-    float xx = s[XX][i] - s[X][i] * mx;
-    float xy = s[XY][i] - s[X][i] * my;
-    float yy = s[YY][i] - s[Y][i] * my;
-    float xw = s[XW][i] - s[X][i] * mw;
-    float yw = s[YW][i] - s[Y][i] * mw;
-    float ww = s[WW][i] - s[W][i] * mw;
-    float det = xx * yy - xy * xy;
-    float solvable = n > 5.5f ? 1.0f : 0.0f;
-    solvable = det > 0.02f * xx * yy ? solvable : 0.0f;
-    float inv_det = solvable / (solvable > 0.0f ? det : 1.0f);
-    plane p;
-    p.b = (xw * yy - yw * xy) * inv_det;
-    p.c = (yw * xx - xw * xy) * inv_det;
-    float w = mw + ref.w;
-    p.a = w - p.b * mx - p.c * my;
-    float residual = ww - p.b * xw - p.c * yw;
-    residual = residual > 0.0f ? residual : 0.0f;
-    float variance = residual / (n > 4.0f ? n - 3.0f : 1.0f);
-    w = w > 1e-3f ? w : 1e-3f;
-    float rx = ref.x + mx, ry = ref.y + my;
-    float nz = p.a - p.b * ref.x - p.c * ref.y;
-    float square = (p.b * p.b + p.c * p.c + nz * nz) * (rx * rx + ry * ry + 1.0f);
-    float cosine = w / sqrtf(square > w * w ? square : w * w);
-    float sigma = rlf_kernel_sigma(noise, 1.0f / w) * w * w * rlf_kernel_slant(cosine);
-    float limit = most_sigmas * sigma;
-    float fits = variance <= limit * limit ? solvable : 0.0f;
-    float spread = xx < yy ? xx : yy;
-    float expected = sigma * sigma;
-    float certainty = spread / (variance > expected ? variance : expected);
-    p.weight = fits * certainty * certainty;
-    p.precision = 1.0f / (9.0f * expected);
-    return p;
-}
-
-/* Planes of one row of blocks. */
-typedef struct plane_set {
-    float a[PLANES], b[PLANES], c[PLANES], weight[PLANES], precision[PLANES];
-} plane_set;
-
-/* Puts the windows' planes where they are more certain than what is there. */
-RLF_KERNEL_PART void improve(const float (*restrict s)[PLANES], const fit_in *in, float most_sigmas,
-                             int32_t first, int32_t count, plane_set *restrict best)
-{
-    for (int32_t i = first; i < first + count; i++) {
-        plane p = fit(s, i, in->ref, in->noise, most_sigmas);
-        bool better = p.weight > best->weight[i];
-        best->a[i] = better ? p.a : best->a[i];
-        best->b[i] = better ? p.b : best->b[i];
-        best->c[i] = better ? p.c : best->c[i];
-        best->precision[i] = better ? p.precision : best->precision[i];
-        best->weight[i] = better ? p.weight : best->weight[i];
-    }
-}
-
-/* Windows of 2x2 blocks, each of which is about a corner of four blocks. */
-RLF_KERNEL_PART void sum_corners(const block_row *restrict upper, const block_row *restrict lower,
-                                 int32_t first, float (*restrict out)[PLANES])
-{
-    for (int32_t k = 0; k < MOMENTS; k++) {
-        const float *restrict u = upper->moment[k] + first + 1;
-        const float *restrict l = lower->moment[k] + first + 1;
-        for (int32_t i = 0; i < CORNERS; i++) {
-            out[k][i] = u[i] + u[i + 1] + l[i] + l[i + 1];
+        for (int32_t i = begin; i < end; i++) {
+            float upper = row[0][i] + row[1][i];
+            float lower = height > 3 ? row[3][i] + row[4][i] : 0.0f;
+            sum[i] = height > 3   ? upper + lower + row[2][i]
+                     : height > 2 ? upper + row[2][i]
+                                  : upper;
         }
     }
 }
 
-RLF_KERNEL_PART void clear_planes(plane_set *restrict planes)
+RLF_KERNEL_PART float run(const float *v, int32_t length)
 {
-    for (int32_t i = 0; i < PLANES; i++) {
-        planes->a[i] = planes->b[i] = planes->c[i] = 0.0f;
-        planes->weight[i] = planes->precision[i] = 0.0f;
+    float sum = v[0];
+    for (int32_t k = 1; k < length; k++) {
+        sum += v[k];
+    }
+    return sum;
+}
+
+/* Moments of the window of `length` blocks from the index i on. */
+RLF_KERNEL_PART rlf_plane_moments window(const moment_row *s, int32_t i, int32_t length)
+{
+    rlf_plane_moments sum = {run(s->of[N] + i, length),  run(s->of[X] + i, length),
+                             run(s->of[Y] + i, length),  run(s->of[XX] + i, length),
+                             run(s->of[XY] + i, length), run(s->of[YY] + i, length),
+                             run(s->of[W] + i, length),  run(s->of[XW] + i, length),
+                             run(s->of[YW] + i, length), run(s->of[WW] + i, length)};
+    return sum;
+}
+
+/* Planes of the windows of `length` blocks; that of plane i starts at the moments i + shift. */
+RLF_KERNEL_PART void fit_windows(const tile_state *state, const moment_row *restrict sums,
+                                 int32_t shift, int32_t length, float most_sigmas, int32_t first,
+                                 int32_t end, plane_row *restrict out)
+{
+    const rlf_plane_reference ref = state->ref;
+    const rlf_kernel_noise noise = state->tile->noise;
+    for (int32_t i = first; i < end; i++) {
+        store_plane(rlf_plane_fit(window(sums, i + shift, length), ref, noise, most_sigmas), i,
+                    out);
     }
 }
 
-/* Takes a span of another set's planes, from index `from` on, where they are more certain or, if
- * only_missing, where there is none yet. */
-RLF_KERNEL_PART void take_planes(const plane_set *restrict other, int32_t from, int32_t first,
-                                 bool only_missing, plane_set *restrict planes)
+/* Planes of a span of corners between two rows. */
+RLF_KERNEL_PART void fit_corners(const tile_state *state, const moment_row *const rows[2],
+                                 int32_t first, corner_row *corners)
 {
-    for (int32_t i = 0; i < SPAN; i++) {
-        int32_t o = from + i, p = first + i;
-        bool better =
-            only_missing ? !(planes->weight[p] > 0.0f) : other->weight[o] > planes->weight[p];
-        planes->a[p] = better ? other->a[o] : planes->a[p];
-        planes->b[p] = better ? other->b[o] : planes->b[p];
-        planes->c[p] = better ? other->c[o] : planes->c[p];
-        planes->precision[p] = better ? other->precision[o] : planes->precision[p];
-        planes->weight[p] = better ? other->weight[o] : planes->weight[p];
+    moment_row sums;
+    if (corners->is_fitted[first / SPAN]) {
+        return;
     }
+    corners->is_fitted[first / SPAN] = true;
+    sum_rows(rows, 2, first + 1, first + 1 + SPAN + 1, &sums);
+    fit_windows(state, &sums, 1, 2, NARROW_SIGMAS, first, first + SPAN, &corners->planes);
 }
 
-/* In a span of blocks, where no wide window fits: the most certain of the window of 3x3 blocks and
- * the four of 2x2. */
-RLF_KERNEL_PART void fit_small(const block_row *const rows[5],
-                               const float (*restrict narrow)[PLANES], const fit_in *in,
-                               int32_t first, plane_set *restrict planes)
-{
-    plane_set best, corners;
-    float corner[MOMENTS][PLANES];
-    clear_planes(&best);
-    improve(narrow, in, NARROW_SIGMAS, first, SPAN, &best);
-    for (int32_t k = 0; k < 2; k++) {
-        sum_corners(rows[1 + k], rows[2 + k], first, corner);
-        clear_planes(&corners);
-        improve((const float(*)[PLANES])corner, in, NARROW_SIGMAS, 0, CORNERS, &corners);
-        take_planes(&corners, 0, first, false, &best);
-        take_planes(&corners, 1, first, false, &best);
-    }
-    take_planes(&best, first, first, true, planes);
-}
-
-/* Some block of the span has seen pixels about it but no plane. */
-RLF_KERNEL_PART bool needs_small(const float *restrict seen, const float *restrict weight,
+/* Some block of the span has pixels enough in its widest window but no plane. */
+RLF_KERNEL_PART bool needs_small(const moment_row *restrict sums, const plane_row *restrict planes,
                                  int32_t first)
 {
     int32_t without = 0;
     for (int32_t i = first; i < first + SPAN; i++) {
-        without += (seen[i] > 0.0f) & !(weight[i] > 0.0f);
+        float n = run(sums->of[N] + i, 5);
+        without += (n > 5.5f) & !(planes->weight[i] > 0.0f);
     }
     return without > 0;
 }
 
-RLF_KERNEL_PART void fit_row(const block_row *const rows[5], const fit_in *in,
-                             plane_rows *restrict out)
+/* In a span of blocks, where no wide window fits: the most certain of the window of 3x3 blocks and
+ * the four of 2x2. */
+RLF_KERNEL_PART void fit_small(tile_state *state, const moment_row *const rows[5], int32_t row,
+                               int32_t first, plane_row *restrict planes)
 {
-    window_sums sums;
-    plane_set planes;
-    sum_windows(rows, &sums);
-    clear_planes(&planes);
-    improve((const float(*)[PLANES])sums.wide, in, WIDE_SIGMAS, 0, PLANES, &planes);
-    for (int32_t first = 0; first < PLANES; first += SPAN) {
-        if (needs_small(sums.narrow[N], planes.weight, first)) {
-            fit_small(rows, (const float(*)[PLANES])sums.narrow, in, first, &planes);
+    moment_row sums;
+    plane_row best;
+    sum_rows(rows + 1, 3, first + 1, first + 1 + SPAN + 2, &sums);
+    fit_windows(state, &sums, 1, 3, NARROW_SIGMAS, first, first + SPAN, &best);
+    for (int32_t side = 0; side < 2; side++) {
+        corner_row *corners = &state->corners[(row + 1 + side) % 2];
+        fit_corners(state, rows + 1 + side, first, corners);
+        fit_corners(state, rows + 1 + side, first + SPAN, corners);
+        for (int32_t i = first; i < first + SPAN; i++) {
+            improve(&best, i, &corners->planes, i);
+            improve(&best, i, &corners->planes, i + 1);
         }
     }
-    const float *const from[5] = {planes.a, planes.b, planes.c, planes.weight, planes.precision};
-    float *const to[5] = {out->a, out->b, out->c, out->weight, out->precision};
-    for (int32_t k = 0; k < 5; k++) {
-        for (int32_t i = 0; i < PLANES; i++) {
-            to[k][2 * i] = to[k][2 * i + 1] = from[k][i];
-        }
+    for (int32_t i = first; i < first + SPAN; i++) {
+        best.weight[i] = planes->weight[i] > 0.0f ? 0.0f : best.weight[i];
+        improve(planes, i, &best, i);
     }
 }
 
-typedef struct blend {
-    float x[RLF_KERNEL_TILE], y[RLF_KERNEL_TILE], w[RLF_KERNEL_TILE]; /* the pixels' own */
-    float a[RLF_KERNEL_TILE], b[RLF_KERNEL_TILE], c[RLF_KERNEL_TILE]; /* weighted sums */
-    float weight[RLF_KERNEL_TILE];
+RLF_KERNEL_PART void expand(const float *restrict planes, int32_t count, float *restrict pixels)
+{
+    for (int32_t i = 0; i < count; i++) {
+        pixels[2 * i] = planes[i];
+        pixels[2 * i + 1] = planes[i];
+    }
+}
+
+/* Planes of row `row` of blocks, whose moments are the third of the five rows. */
+RLF_KERNEL_PART void make_planes(tile_state *state, int32_t row)
+{
+    const moment_row *rows[5];
+    for (int32_t k = 0; k < 5; k++) {
+        rows[k] = &state->moments[(row + k) % 5];
+    }
+    moment_row sums;
+    plane_row planes;
+    memset(state->corners[row % 2].is_fitted, 0, sizeof state->corners[0].is_fitted);
+    sum_rows(rows, 5, 0, state->planes + HALO, &sums);
+    fit_windows(state, &sums, 0, 5, WIDE_SIGMAS, 0, state->planes, &planes);
+    for (int32_t first = 0; first < state->planes; first += SPAN) {
+        if (needs_small(&sums, &planes, first)) {
+            fit_small(state, rows, row, first, &planes);
+        }
+    }
+    pixel_planes *out = &state->pixels[row % 5];
+    expand(planes.a, state->planes, out->a);
+    expand(planes.b, state->planes, out->b);
+    expand(planes.c, state->planes, out->c);
+    expand(planes.weight, state->planes, out->weight);
+    expand(planes.precision, state->planes, out->precision);
+}
+
+/* ---- pixels ---- */
+
+typedef struct blend { /* of one row of pixels */
+    float x[RLF_KERNEL_TILE_WIDTH], y[RLF_KERNEL_TILE_WIDTH], w[RLF_KERNEL_TILE_WIDTH];
+    /* sums of planes times weight, and of weights */
+    float a[RLF_KERNEL_TILE_WIDTH], b[RLF_KERNEL_TILE_WIDTH], c[RLF_KERNEL_TILE_WIDTH];
+    float weight[RLF_KERNEL_TILE_WIDTH];
 } blend;
 
-/* Adds plane k where it predicts pixel i. */
-RLF_KERNEL_PART void offer(const plane_rows *restrict planes, int32_t k, const blend *restrict at,
-                           int32_t i, float sum[4])
+typedef struct plane_sum {
+    float a, b, c, weight;
+} plane_sum;
+
+/* Adds the plane at k where it predicts pixel i. */
+RLF_KERNEL_PART plane_sum offer(plane_sum sum, const pixel_planes *restrict planes, int32_t k,
+                                const blend *restrict at, int32_t i)
 {
     float a = planes->a[k], b = planes->b[k], c = planes->c[k];
     float error = a + b * at->x[i] + c * at->y[i] - at->w[i];
-    float miss = error * error * planes->precision[k];
-    float near = miss < 1.0f ? 1.0f - miss : 0.0f;
-    float weight = planes->weight[k] * near * near;
-    sum[0] += weight * a;
-    sum[1] += weight * b;
-    sum[2] += weight * c;
-    sum[3] += weight;
+    float near = 1.0f - error * error * planes->precision[k];
+    near = near > 0.0f ? near : 0.0f;
+    float weight = planes->weight[k] * (near * near);
+    plane_sum next = {sum.a + weight * a, sum.b + weight * b, sum.c + weight * c,
+                      sum.weight + weight};
+    return next;
 }
 
-/* Adds three planes of a row, whose distance in pixels is `step`. */
-RLF_KERNEL_PART void offer_three(const plane_rows *restrict planes, int32_t step,
-                                 blend *restrict sums)
-{
-    for (int32_t i = 0; i < RLF_KERNEL_TILE; i++) {
-        float sum[4] = {0.0f, 0.0f, 0.0f, 0.0f};
-        offer(planes, i + 2 * REACH - step, sums, i, sum);
-        offer(planes, i + 2 * REACH, sums, i, sum);
-        offer(planes, i + 2 * REACH + step, sums, i, sum);
-        sums->a[i] += sum[0];
-        sums->b[i] += sum[1];
-        sums->c[i] += sum[2];
-        sums->weight[i] += sum[3];
-    }
-}
-
-/* The two planes of the middle row that are far. */
-RLF_KERNEL_PART void offer_far(const plane_rows *restrict planes, blend *restrict sums)
-{
-    for (int32_t i = 0; i < RLF_KERNEL_TILE; i++) {
-        float sum[4] = {0.0f, 0.0f, 0.0f, 0.0f};
-        offer(planes, i, sums, i, sum);
-        offer(planes, i + 4 * REACH, sums, i, sum);
-        sums->a[i] += sum[0];
-        sums->b[i] += sum[1];
-        sums->c[i] += sum[2];
-        sums->weight[i] += sum[3];
-    }
-}
-
-/* Depth of the pixel's planes along its ray: what noise there is in a window is averaged, and no
- * window reaches across an edge or a crease. */
-RLF_KERNEL_PART void project_row(const blend *restrict sums, int32_t count,
-                                 const float *restrict depth, float *restrict out)
+/* Adds the planes of one row at distance 0 and two blocks, or 0 and one block, or both. */
+RLF_KERNEL_PART void offer_row(const pixel_planes *restrict planes, bool near, bool far,
+                               int32_t count, blend *restrict at)
 {
     for (int32_t i = 0; i < count; i++) {
-        float w = sums->a[i] + sums->b[i] * sums->x[i] + sums->c[i] * sums->y[i];
-        bool known = sums->weight[i] > 0.0f && w > 0.0f;
-        out[i] = known ? sums->weight[i] / (known ? w : 1.0f) : depth[i];
+        int32_t k = i + 2 * REACH;
+        plane_sum sum = {at->a[i], at->b[i], at->c[i], at->weight[i]};
+        sum = offer(sum, planes, k, at, i);
+        if (near) {
+            sum = offer(sum, planes, k - 2, at, i);
+            sum = offer(sum, planes, k + 2, at, i);
+        }
+        if (far) {
+            sum = offer(sum, planes, k - 4, at, i);
+            sum = offer(sum, planes, k + 4, at, i);
+        }
+        at->a[i] = sum.a;
+        at->b[i] = sum.b;
+        at->c[i] = sum.c;
+        at->weight[i] = sum.weight;
     }
 }
 
-/* Writes one pixel row from the rows of planes about it. */
-RLF_KERNEL_PART void blend_row(const rlf_kernel_tile *t, int32_t y, reference ref,
-                               const plane_rows *restrict planes)
+RLF_KERNEL_PART void begin_blend(const float *restrict x, const float *restrict y,
+                                 const float *restrict z, int32_t count, blend *restrict at)
 {
-    ptrdiff_t offset = (ptrdiff_t)y * t->width + t->x0;
-    int32_t count = t->x1 - t->x0;
-    blend sums;
-    for (int32_t i = 0; i < RLF_KERNEL_TILE; i++) {
-        sums.x[i] = sums.y[i] = sums.w[i] = 0.0f;
-        sums.a[i] = sums.b[i] = sums.c[i] = sums.weight[i] = 0.0f;
-    }
     for (int32_t i = 0; i < count; i++) {
-        float z = t->depth[offset + i];
-        sums.x[i] = t->ray_x[offset + i] - ref.x;
-        sums.y[i] = t->ray_y[offset + i] - ref.y;
-        sums.w[i] = z > 0.0f ? 1.0f / (z > 0.0f ? z : 1.0f) : -1e9f; /* no plane predicts this */
+        at->x[i] = x[i];
+        at->y[i] = y[i];
+        at->w[i] = z[i] > 0.0f ? 1.0f / (z[i] > 0.0f ? z[i] : 1.0f) : -1e9f; /* fits no plane */
+        at->a[i] = at->b[i] = at->c[i] = at->weight[i] = 0.0f;
     }
-    offer_three(&planes[0], 4, &sums); /* 3x3 blocks about the pixel and 8 farther ones */
-    offer_three(&planes[1], 2, &sums);
-    offer_three(&planes[2], 2, &sums);
-    offer_three(&planes[3], 2, &sums);
-    offer_three(&planes[4], 4, &sums);
-    offer_far(&planes[2], &sums);
-    float *restrict out_x = t->out_x + offset;
-    float *restrict out_y = t->out_y + offset;
-    float *restrict out_z = t->out_z + offset;
+}
+
+/* Normals, and depth where the planes meet the ray: what noise there is in a window is averaged,
+ * and no window reaches across an edge or a crease. */
+RLF_KERNEL_PART void end_blend(const blend *restrict at, const float *restrict z, int32_t count,
+                               float *restrict out_x, float *restrict out_y, float *restrict out_z,
+                               float *restrict out_depth)
+{
     for (int32_t i = 0; i < count; i++) {
-        float whole = sums.weight[i] > 0.0f ? 1.0f / sums.weight[i] : 0.0f;
-        float b = sums.b[i] * whole, c = sums.c[i] * whole;
-        float a = sums.a[i] * whole - b * ref.x - c * ref.y;
+        float weight = at->weight[i];
+        float whole = weight > 0.0f ? 1.0f / (weight > 0.0f ? weight : 1.0f) : 0.0f;
+        float a = at->a[i] * whole, b = at->b[i] * whole, c = at->c[i] * whole;
         float square = a * a + b * b + c * c;
-        float usable = square > 1e-30f ? 1.0f : 0.0f;
-        float scale = -usable / sqrtf(usable > 0.0f ? square : 1.0f);
+        float scale = square > 1e-30f ? -1.0f / sqrtf(square > 1e-30f ? square : 1.0f) : 0.0f;
         out_x[i] = b * scale;
         out_y[i] = c * scale;
         out_z[i] = a * scale;
-    }
-    if (t->out_depth != NULL) {
-        project_row(&sums, count, t->depth + offset, t->out_depth + offset);
+        float inverse = a + b * at->x[i] + c * at->y[i];
+        out_depth[i] = inverse > 0.0f ? 1.0f / (inverse > 0.0f ? inverse : 1.0f) : z[i];
     }
 }
 
-static reference tile_reference(const rlf_kernel_tile *t)
+RLF_KERNEL_PART void make_pixels(const tile_state *state, int32_t row, int32_t y)
 {
-    int32_t x = (t->x0 + t->x1) / 2;
-    int32_t y = (t->y0 + t->y1) / 2;
-    ptrdiff_t i = (ptrdiff_t)y * t->width + x;
-    float z = t->depth[i];
-    reference ref = {t->ray_x[i], t->ray_y[i], z > 0.0f ? 1.0f / z : 0.5f};
+    const rlf_kernel_tile *t = state->tile;
+    const pixel_planes *planes[5];
+    for (int32_t k = 0; k < 5; k++) {
+        planes[k] = &state->pixels[(row + k) % 5];
+    }
+    int32_t count = t->x1 - t->x0;
+    blend at;
+    float unwanted[RLF_KERNEL_TILE_WIDTH];
+    for (int32_t last = y + 2 < t->y1 ? y + 2 : t->y1; y < last; y++) {
+        ptrdiff_t i = (ptrdiff_t)y * t->width + t->x0;
+        begin_blend(t->ray_x + i, t->ray_y + i, t->depth + i, count, &at);
+        offer_row(planes[0], false, true, count, &at);
+        offer_row(planes[1], false, false, count, &at);
+        offer_row(planes[2], true, true, count, &at);
+        offer_row(planes[3], false, false, count, &at);
+        offer_row(planes[4], false, true, count, &at);
+        end_blend(&at, t->depth + i, count, t->out_x + i, t->out_y + i, t->out_z + i,
+                  t->out_depth == NULL ? unwanted : t->out_depth + i);
+    }
+}
+
+/* ---- the tile ---- */
+
+/* The middle of the tile, at the farthest of some pixels: far surfaces have the least noise in
+ * inverse depth, and need the smallest sums. */
+static rlf_plane_reference choose_reference(const rlf_kernel_tile *t)
+{
+    enum { STEP = 8 };
+    float farthest = 0.0f;
+    for (int32_t y = t->y0; y < t->y1; y += STEP) {
+        for (int32_t x = t->x0; x < t->x1; x += STEP) {
+            float z = t->depth[(ptrdiff_t)y * t->width + x];
+            farthest = z > farthest ? z : farthest;
+        }
+    }
+    ptrdiff_t middle = (ptrdiff_t)((t->y0 + t->y1) / 2) * t->width + (t->x0 + t->x1) / 2;
+    rlf_plane_reference ref = {t->ray_x[middle], t->ray_y[middle],
+                               farthest > 0.0f ? 1.0f / farthest : 0.5f};
     return ref;
 }
 
 RLF_KERNEL void rlf_kernel_plane_tile(const rlf_kernel_tile *tile)
 {
-    reference ref = tile_reference(tile);
-    const fit_in in = {ref, tile->noise};
-    block_row blocks[5];
-    plane_rows planes[PLANES];
-    int32_t plane_count = (tile->y1 - tile->y0 + 1) / 2 + 2 * REACH;
-    for (int32_t row = 0; row < plane_count + 4; row++) {
-        block_moments(tile, tile->y0 + 2 * (row - REACH - 2), ref, &blocks[row % 5]);
-        if (row < 4) {
-            continue;
+    tile_state state;
+    state.tile = tile;
+    state.ref = choose_reference(tile);
+    int32_t across = (tile->x1 - tile->x0 + 1) / 2 + 2 * REACH;
+    state.planes = (across + SPAN - 1) / SPAN * SPAN;
+    memset(state.moments, 0, sizeof state.moments);
+    memset(state.corners[1].is_fitted, 0, sizeof state.corners[1].is_fitted);
+    int32_t down = (tile->y1 - tile->y0 + 1) / 2;
+    for (int32_t row = 0; row < down + 2 * HALO; row++) {
+        make_moments(&state, tile->y0 + 2 * (row - HALO), &state.moments[row % 5]);
+        if (row >= HALO) {
+            make_planes(&state, row - HALO);
         }
-        const block_row *const rows[5] = {&blocks[(row + 1) % 5], &blocks[(row + 2) % 5],
-                                          &blocks[(row + 3) % 5], &blocks[(row + 4) % 5],
-                                          &blocks[row % 5]};
-        fit_row(rows, &in, &planes[row - 4]);
-    }
-    for (int32_t y = tile->y0; y < tile->y1; y++) {
-        blend_row(tile, y, ref, &planes[(y - tile->y0) / 2]);
+        if (row >= 2 * HALO) {
+            int32_t first = row - 2 * HALO;
+            make_pixels(&state, first, tile->y0 + 2 * first);
+        }
     }
 }

@@ -9,10 +9,10 @@ static void plane_bands(void *context, int32_t begin, int32_t end, int32_t worke
     (void)worker;
     const rlf_normals_job *job = context;
     for (int32_t band = begin; band < end; band++) {
-        for (int32_t x = 0; x < job->width; x += RLF_KERNEL_TILE) {
-            int32_t y = band * RLF_KERNEL_TILE;
-            int32_t x1 = x + RLF_KERNEL_TILE;
-            int32_t y1 = y + RLF_KERNEL_TILE;
+        for (int32_t x = 0; x < job->width; x += RLF_KERNEL_TILE_WIDTH) {
+            int32_t y = band * RLF_KERNEL_TILE_HEIGHT;
+            int32_t x1 = x + RLF_KERNEL_TILE_WIDTH;
+            int32_t y1 = y + RLF_KERNEL_TILE_HEIGHT;
             rlf_kernel_tile tile = {job->width,
                                     job->height,
                                     x,
@@ -150,7 +150,7 @@ static void complete_pixels(const rlf_normals_job *job)
 void rlf_normals_plane_fit(const rlf_normals_job *job)
 {
     rlf_normals_job copy = *job;
-    int32_t bands = (job->height + RLF_KERNEL_TILE - 1) / RLF_KERNEL_TILE;
+    int32_t bands = (job->height + RLF_KERNEL_TILE_HEIGHT - 1) / RLF_KERNEL_TILE_HEIGHT;
     rlf_parallel_for(job->pool, bands, 1, plane_bands, &copy);
 }
 
