@@ -176,6 +176,21 @@ void rlf_kernel_change_row(rlf_kernel_noise noise, const float *restrict depth,
                            const float *restrict mean, const float *restrict frames, int32_t count,
                            uint8_t *restrict change);
 
+/* ---- bend_row.c: where normals turn
+ * ------------------------------------------------------------- */
+
+#define RLF_KERNEL_BEND_SPAN 2 /* pixels from the middle to the sides that are compared */
+
+enum { RLF_BEND_ACROSS = 1, RLF_BEND_DOWN = 2 };
+
+typedef struct rlf_kernel_bend_in {
+    const float *normal[3], *depth;
+} rlf_kernel_bend_in;
+
+/* rows: the row SPAN above, the row itself and the one SPAN below; outside the image pass the row
+ * itself. Missing normals are 0 and count as turned. */
+void rlf_kernel_bend_row(const rlf_kernel_bend_in rows[3], int32_t count, uint8_t *restrict bend);
+
 /* ---- background_row.c
  * ---------------------------------------------------------------------------- */
 

@@ -8,10 +8,9 @@
 
 #include "kernel/kernel.h"
 
-enum { SPAN = 2, MOST_STEPS = 6 };
+enum { MOST_STEPS = 6 };
 
-static const float BENT = .9f;  /* cosine of normals across a pixel that lies near a crease */
-static const float CREASE = 0.9f; /* of the normals of two faces that meet in one */
+static const float CREASE = 0.9f;      /* of the normals of two faces that meet in one */
 static const float MOST_SLOPE = 0.04f; /* share of the depth per pixel: no edge between */
 static const float MOST_SIGMAS = 8.0f; /* of the pixel's depth from the face; grazing is noisier */
 static const float LEAST_FACING = 0.02f; /* a face may be seen edge-on, not from behind */
@@ -21,7 +20,7 @@ typedef struct crease_job {
     const float *ray_x, *ray_y, *depth;
     const uint8_t *reason;
     float *const *normal;
-    uint8_t *bent; /* plane: normals turn here; all others are only read */
+    uint8_t *bent; /* plane of RLF_BEND_; pixels where it is 0 are only read */
     rlf_kernel_noise noise;
 } crease_job;
 
@@ -31,28 +30,24 @@ static float cosine(const crease_job *job, ptrdiff_t a, ptrdiff_t b)
            job->normal[2][a] * job->normal[2][b];
 }
 
-static uint8_t turns(const crease_job *job, ptrdiff_t a, ptrdiff_t b)
+static rlf_kernel_bend_in row_at(const crease_job *job, ptrdiff_t row)
 {
-    float apart = rlf_kernel_abs(job->depth[a] - job->depth[b]);
-    int32_t joined = apart < 2.0f * SPAN * MOST_SLOPE * job->depth[a] ? 1 : 0;
-    return (uint8_t)((cosine(job, a, b) < BENT ? 1 : 0) & joined);
+    rlf_kernel_bend_in in = {{job->normal[0] + row, job->normal[1] + row, job->normal[2] + row},
+                             job->depth + row};
+    return in;
 }
 
 static void mark_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
     const crease_job *job = context;
-    ptrdiff_t width = job->width;
     for (int32_t y = begin; y < end; y++) {
-        ptrdiff_t row = y * width;
-        ptrdiff_t up = y >= SPAN ? row - SPAN * width : row;
-        ptrdiff_t down = y + SPAN < job->height ? row + SPAN * width : row;
-        for (ptrdiff_t x = 0; x < width; x++) {
-            job->bent[row + x] = turns(job, up + x, down + x);
-        }
-        for (ptrdiff_t x = SPAN; x < width - SPAN; x++) {
-            job->bent[row + x] |= turns(job, row + x - SPAN, row + x + SPAN);
-        }
+        int32_t up = y >= RLF_KERNEL_BEND_SPAN ? y - RLF_KERNEL_BEND_SPAN : y;
+        int32_t down = y + RLF_KERNEL_BEND_SPAN < job->height ? y + RLF_KERNEL_BEND_SPAN : y;
+        ptrdiff_t width = job->width;
+        const rlf_kernel_bend_in rows[3] = {row_at(job, up * width), row_at(job, y * width),
+                                            row_at(job, down * width)};
+        rlf_kernel_bend_row(rows, job->width, job->bent + y * width);
     }
 }
 
@@ -106,13 +101,20 @@ static ptrdiff_t choose_face(const crease_job *job, ptrdiff_t i, ptrdiff_t a, pt
     return rlf_kernel_abs(z - job->depth[i]) <= most ? (first ? a : b) : -1;
 }
 
-/* Looks along the row, the column and the diagonals for the sharpest crease. */
+/* Looks for the sharpest crease along the row and the column, where it turns there, and along the
+ * diagonals where it turns in both. */
 static void sharpen_pixel(const crease_job *job, int32_t x, int32_t y)
 {
     static const int32_t along_x[4] = {1, 0, 1, 1}, along_y[4] = {0, 1, 1, -1};
+    static const uint8_t turned[4] = {RLF_BEND_ACROSS, RLF_BEND_DOWN,
+                                      RLF_BEND_ACROSS | RLF_BEND_DOWN,
+                                      RLF_BEND_ACROSS | RLF_BEND_DOWN};
     ptrdiff_t i = (ptrdiff_t)y * job->width + x, best = -1;
     float sharpest = CREASE;
     for (int32_t k = 0; k < 4; k++) {
+        if ((job->bent[i] & turned[k]) != turned[k]) {
+            continue;
+        }
         ptrdiff_t a = find_face(job, x, y, -along_x[k], -along_y[k]);
         ptrdiff_t b = a < 0 ? -1 : find_face(job, x, y, along_x[k], along_y[k]);
         if (b < 0 || !(cosine(job, a, b) < sharpest)) {

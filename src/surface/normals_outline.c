@@ -43,6 +43,17 @@ static int32_t least(int32_t a, int32_t b)
     return a < b ? a : b;
 }
 
+/* Something is behind the pixel, two pixels away along the row or the column. */
+static bool is_beside_outline(const outline_job *job, int32_t x, int32_t y)
+{
+    const float *at = job->depth + (ptrdiff_t)y * job->width + x;
+    float behind = at[0] * (1.0f + LEAST_JUMP);
+    ptrdiff_t row = (ptrdiff_t)REACH * job->width;
+    return (x >= REACH && at[-REACH] > behind) || (y >= REACH && at[-row] > behind) ||
+           (x + REACH < job->width && at[REACH] > behind) ||
+           (y + REACH < job->height && at[row] > behind);
+}
+
 /* From what is behind the pixel and what is not, within two pixels. False when nothing is. */
 static bool find_outline(const outline_job *job, int32_t x, int32_t y, outline *out)
 {
@@ -227,7 +238,7 @@ static void take_outermost(const outline_job *job, int32_t x, int32_t y, const o
 static void turn_pixel(const outline_job *job, int32_t x, int32_t y)
 {
     outline o;
-    if (!find_outline(job, x, y, &o)) {
+    if (!is_beside_outline(job, x, y) || !find_outline(job, x, y, &o)) {
         return;
     }
     ptrdiff_t i = (ptrdiff_t)y * job->width + x;
