@@ -67,8 +67,10 @@ typedef struct rlf_reconstruct_def {
                               changes by more than the noise starts anew */
     bool enable_hold;      /* live: true, needs steadying: a dropped pixel keeps what was seen there
                               (reason FILLED) while nothing moves beside it */
-    bool enable_velocity;  /* live: true: normal velocity from depth change along the ray */
-    bool enable_thickness; /* live: true: the back that the front's own curvature shows */
+    bool enable_edge_normals; /* live: true, needs smoothing: normals of creases from the faces that
+                                 meet there, of filled outlines from how the surface turns away */
+    bool enable_velocity;     /* live: true: normal velocity from depth change along the ray */
+    bool enable_thickness;    /* live: true: the back that the front's own curvature shows */
 
     rlf_pool *pool; /* borrowed; NULL = one thread */
 } rlf_reconstruct_def;
@@ -97,8 +99,8 @@ typedef enum rlf_surface_step {
     RLF_SURFACE_FLYING,     /* mixed pixels off */
     RLF_SURFACE_SMOOTH,     /* planes fitted to windows: smoothed depth and, with it, normals */
     RLF_SURFACE_FILL,       /* holes filled */
-    RLF_SURFACE_COMPLETE,   /* normals where the smoothing left none */
-    RLF_SURFACE_STEADY,     /* averaging over time */
+    RLF_SURFACE_COMPLETE,   /* normals where the smoothing left none, and of outlines and creases */
+    RLF_SURFACE_STEADY,     /* averaging over time, dropped pixels recalled */
     RLF_SURFACE_BACKGROUND, /* background model and foreground */
     RLF_SURFACE_NORMALS,    /* normals that were not made with the depth */
     RLF_SURFACE_SEGMENT,    /* regions and labels */

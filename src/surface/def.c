@@ -51,6 +51,7 @@ static void set_live(rlf_reconstruct_def *def)
     def->enable_smoothing = true;
     def->enable_steadying = true;
     def->enable_hold = true;
+    def->enable_edge_normals = true;
     def->enable_velocity = true;
     def->enable_thickness = true;
 }

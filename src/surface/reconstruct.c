@@ -101,8 +101,20 @@ static void make_planes(rlf_reconstruct *stage, const float *depth, float *smoot
     rlf_normals_plane_fit(&job);
 }
 
-/* Depth of the slot: read, mixed pixels off, noise averaged within planes, small holes filled,
- * noise averaged over time; each step may be switched off. */
+/* Normals of what no plane explains and of what was filled; `known` is the depth before that, NULL
+ * when nothing was. */
+static void complete_planes(rlf_reconstruct *stage, const float *known, rlf_slot *slot)
+{
+    if (known != NULL && stage->def.enable_edge_normals) {
+        rlf_normals_outline(stage, known, slot);
+    }
+    rlf_normals_job job = rlf_normals_job_make(stage, slot->depth, slot->normal);
+    rlf_normals_plane_complete(&job);
+    rlf_stage_add_time(stage, RLF_SURFACE_COMPLETE);
+}
+
+/* Depth of the slot: read, mixed pixels off, dropped pixels recalled, noise averaged within planes,
+ * small holes filled, noise averaged over time; each step may be switched off. */
 static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot)
 {
     bool flying = stage->def.enable_flying_removal;
@@ -118,6 +130,7 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
     }
     if (stage->def.enable_hold && stage->def.enable_steadying) {
         rlf_hold_recall(stage, kept, slot->reason);
+        rlf_stage_add_time(stage, RLF_SURFACE_STEADY);
     }
     if (smooth) {
         float *out = fill ? stage->work.depth[0] : slot->depth;
@@ -129,20 +142,16 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
         rlf_fill_holes(stage, kept, slot);
         rlf_stage_add_time(stage, RLF_SURFACE_FILL);
     }
-    if (smooth && fill) {
-        rlf_normals_outline(stage, stage->work.depth[1], slot);
-    }
     if (smooth) {
-        rlf_normals_job job = rlf_normals_job_make(stage, slot->depth, slot->normal);
-        rlf_normals_plane_complete(&job);
-        rlf_stage_add_time(stage, RLF_SURFACE_COMPLETE);
+        complete_planes(stage, fill ? stage->work.depth[1] : NULL, slot);
     }
     if (stage->def.enable_steadying) {
         rlf_steady_update(stage, slot);
         rlf_stage_add_time(stage, RLF_SURFACE_STEADY);
     }
-    if (smooth) {
+    if (smooth && stage->def.enable_edge_normals) {
         rlf_normals_crease(stage, slot);
+        rlf_stage_add_time(stage, RLF_SURFACE_COMPLETE);
     }
 }
 
