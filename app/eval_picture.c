@@ -6,6 +6,7 @@
 #include "relief/synthetic.h"
 
 #include <jansson.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -109,22 +110,39 @@ static rlf_result draw_frame(picture_run *run, picture_errors *e)
     return result;
 }
 
-static rlf_result run_frames(picture_run *run, int64_t frame_count, bool is_still,
+/* Pictures after the warm-up, and which of them are judged. All are drawn: what is steady over time
+ * must have time. */
+typedef struct picture_schedule {
+    int64_t frames, first, every;
+} picture_schedule;
+
+static rlf_result run_frames(picture_run *run, const picture_schedule *s, bool is_still,
                              picture_errors *e)
 {
     rlf_result result = RLF_OK;
-    for (int64_t i = 0; result == RLF_OK && i < WARM_UP + frame_count && !command_interrupted;
-         i++) {
+    bool has_truth = false;
+    for (int64_t i = -WARM_UP; result == RLF_OK && i < s->frames && !command_interrupted; i++) {
         result = draw_frame(run, e);
-        bool is_new_truth = !is_still || i == WARM_UP;
-        if (result == RLF_OK && i >= WARM_UP && is_new_truth) {
+        bool is_judged = i >= s->first && (i - s->first) % s->every == 0;
+        if (result == RLF_OK && is_judged && !(is_still && has_truth)) {
             result = picture_truth_update(&run->truth, run->source);
         }
-        if (result == RLF_OK && i >= WARM_UP) {
+        if (result == RLF_OK && is_judged) {
             picture_errors_add(e, &run->truth, run->alpha[0],
-                               is_still && i > WARM_UP ? run->alpha[1] : NULL);
+                               is_still && has_truth ? run->alpha[1] : NULL);
+            has_truth = true;
         }
     }
+    return result;
+}
+
+static rlf_result measure_seed(const picture_method *method, bool is_still,
+                               const picture_schedule *schedule, int64_t seed, picture_errors *out)
+{
+    picture_run run = {0};
+    rlf_result result = open_run(&run, method, is_still ? "empty" : "room", seed);
+    result = result == RLF_OK ? run_frames(&run, schedule, is_still, out) : result;
+    close_run(&run);
     return result;
 }
 
@@ -132,11 +150,9 @@ static rlf_result measure(const picture_method *method, bool is_still, int64_t f
                           int64_t seed_count, picture_errors *out)
 {
     rlf_result result = RLF_OK;
+    const picture_schedule every_frame = {frame_count, 0, 1};
     for (int64_t seed = 1; seed <= seed_count && result == RLF_OK && !command_interrupted; seed++) {
-        picture_run run = {0};
-        result = open_run(&run, method, is_still ? "empty" : "room", seed);
-        result = result == RLF_OK ? run_frames(&run, frame_count, is_still, out) : result;
-        close_run(&run);
+        result = measure_seed(method, is_still, &every_frame, seed, out);
     }
     return result;
 }
@@ -151,7 +167,7 @@ typedef struct picture_figure {
 
 static double ratio(double part, double whole)
 {
-    return whole > 0.0 ? part / whole : 0.0;
+    return whole > 0.0 ? part / whole : NAN;
 }
 static double person_mean(const picture_errors *e)
 {
@@ -199,20 +215,20 @@ static double least_ms(const picture_errors *e)
 }
 
 static const picture_figure figures[] = {
-    {"person_mean_px", "walking person: edges are off by, px", false, person_mean},
-    {"person_p95_px", "  95th percentile", false, person_p95},
-    {"things_mean_px", "things in the room: mean, px", false, things_mean},
-    {"things_p95_px", "  95th percentile", false, things_p95},
+    {"person_mean_px", "edges of a walking person: off by, px", false, person_mean},
+    {"person_p95_px", "edges of a walking person: p95, px", false, person_p95},
+    {"things_mean_px", "edges of things: off by, px", false, things_mean},
+    {"things_p95_px", "edges of things: p95, px", false, things_p95},
     {"hidden_percent", "hidden pixels: share of the bodies', %", false, hidden_percent},
-    {"hidden_iou", "  IoU", false, hidden_iou},
-    {"alpha_error", "alpha within 9 px of an edge: mean error", false, alpha_error},
-    {"order_percent", "wrong though depths differ by 5 cm, %", false, order_percent},
+    {"hidden_iou", "hidden pixels: IoU", false, hidden_iou},
+    {"alpha_error", "alpha within 9 px of an edge: error", false, alpha_error},
+    {"order_percent", "wrong though 5 cm apart, %", false, order_percent},
     {"order_far_percent", "  more than 3 px from an edge, %", false, order_far_percent},
-    {"still_mean_px", "still room: mean, px", true, things_mean},
-    {"still_p95_px", "  95th percentile", true, things_p95},
-    {"still_hidden_iou", "  hidden pixels: IoU", true, hidden_iou},
-    {"still_alpha_error", "  alpha: mean error", true, alpha_error},
-    {"still_flicker", "  alpha: mean change to the next picture", true, flicker},
+    {"still_mean_px", "still room, edges: off by, px", true, things_mean},
+    {"still_p95_px", "still room, edges: p95, px", true, things_p95},
+    {"still_hidden_iou", "still room, hidden pixels: IoU", true, hidden_iou},
+    {"still_alpha_error", "still room, alpha: error", true, alpha_error},
+    {"still_flicker", "still room, alpha: change per picture", true, flicker},
     {"picture_ms", "picture of 20 bodies, one thread, least ms", false, least_ms},
 };
 #define FIGURE_COUNT (sizeof(figures) / sizeof(figures[0]))
@@ -227,7 +243,10 @@ static void print_table(const picture_errors errors[METHOD_COUNT][2])
     for (size_t i = 0; i < FIGURE_COUNT; i++) {
         printf("%-46s", figures[i].title);
         for (int m = 0; m < METHOD_COUNT; m++) {
-            printf(" %15.4g", figures[i].value(&errors[m][figures[i].is_still]));
+            double value = figures[i].value(&errors[m][figures[i].is_still]);
+            char text[24];
+            snprintf(text, sizeof(text), "%.4g", value);
+            printf(" %15s", isnan(value) ? "-" : text);
         }
         printf("\n");
     }
@@ -240,7 +259,8 @@ static rlf_result write_json(const picture_errors errors[METHOD_COUNT][2], const
         json_t *values = json_object();
         for (size_t i = 0; i < FIGURE_COUNT; i++) {
             double value = figures[i].value(&errors[m][figures[i].is_still]);
-            json_object_set_new(values, figures[i].key, json_real(value));
+            json_object_set_new(values, figures[i].key,
+                                isnan(value) ? json_null() : json_real(value));
         }
         json_object_set_new(root, methods[m].key, values);
     }
@@ -273,4 +293,49 @@ int eval_picture_main(int64_t frame_count, int64_t seed_count, const char *json_
     }
     rlf_free(errors);
     return result == RLF_OK ? EXIT_DONE : command_failed();
+}
+
+/* ---- rows of `relief eval` ------------------------------------------------------------------- */
+
+#define JUDGED_FIRST 20 /* picture after the warm-up: from here on the person walks before bodies  \
+                         */
+#define JUDGED_EVERY 12
+#define JUDGED_COUNT 5
+#define STILL_PICTURES 12
+
+static rlf_result add_rows(eval_table *table, const picture_method *method, int64_t seed,
+                           picture_errors errors[2])
+{
+    const picture_schedule schedules[2] = {
+        {JUDGED_FIRST + JUDGED_EVERY * (JUDGED_COUNT - 1) + 1, JUDGED_FIRST, JUDGED_EVERY},
+        {STILL_PICTURES, 0, 1}};
+    memset(errors, 0, 2 * sizeof(*errors));
+    for (int still = 0; still < 2; still++) {
+        rlf_result result =
+            measure_seed(method, still != 0, &schedules[still], seed, &errors[still]);
+        if (result != RLF_OK) {
+            return result;
+        }
+    }
+    for (size_t i = 0; i < FIGURE_COUNT; i++) {
+        if (figures[i].value != least_ms) { /* `relief bench` times */
+            eval_table_add(table, "picture", figures[i].key, figures[i].title, method->profile,
+                           figures[i].value(&errors[figures[i].is_still]));
+        }
+    }
+    return RLF_OK;
+}
+
+rlf_result eval_picture_run(eval_table *table, int64_t seed, int profile_mask)
+{
+    picture_errors *errors = rlf_alloc_array(2, sizeof(*errors));
+    rlf_result result = errors != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+    for (int m = 0; m < METHOD_COUNT && result == RLF_OK; m++) {
+        bool is_default = methods[m].occlusion != RLF_OCCLUSION_DEPTH;
+        if (is_default && (profile_mask & (1 << methods[m].profile))) {
+            result = add_rows(table, &methods[m], seed, errors);
+        }
+    }
+    rlf_free(errors);
+    return result;
 }

@@ -2,6 +2,7 @@
 #ifndef RELIEF_APP_EVAL_PICTURE_H
 #define RELIEF_APP_EVAL_PICTURE_H
 
+#include "eval_table.h"
 #include "relief/io.h"
 
 #define PICTURE_BODIES 20
@@ -10,6 +11,9 @@
 
 /* `relief eval --scene picture`. Returns the exit status. */
 int eval_picture_main(int64_t frame_count, int64_t seed_count, const char *json_path);
+/* The same as rows of `relief eval`, on a few pictures of one seed: soft occlusion for profile
+ * live, the thesis's layers for profile thesis. */
+rlf_result eval_picture_run(eval_table *table, int64_t seed, int profile_mask);
 
 /* ---- eval_picture_truth.c: what the colour camera ought to see ------------------------------- */
 
@@ -61,6 +65,7 @@ typedef struct picture_errors {
  * value per pixel. */
 void picture_errors_add(picture_errors *e, const picture_truth *t, const float *alpha,
                         const float *before);
+/* NAN when there is no edge. */
 double picture_mean(const picture_distances *d);
 double picture_percentile(const picture_distances *d, double percent);
 

@@ -3,6 +3,8 @@
 
 #include "relief/synthetic.h"
 
+#include <math.h>
+
 #define REACH 16 /* pixels: edges farther apart count as this */
 #define ORDER_M 0.05f
 #define SILHOUETTE_M 0.03f /* nearer than this the body touches what hides it */
@@ -143,11 +145,14 @@ void picture_errors_add(picture_errors *e, const picture_truth *t, const float *
 
 double picture_mean(const picture_distances *d)
 {
-    return d->count > 0 ? d->sum / (double)d->count : 0.0;
+    return d->count > 0 ? d->sum / (double)d->count : NAN;
 }
 
 double picture_percentile(const picture_distances *d, double percent)
 {
+    if (d->count == 0) {
+        return NAN;
+    }
     double left = 0.01 * percent * (double)d->count;
     for (int32_t i = 0; i < PICTURE_BINS; i++) {
         left -= (double)d->bins[i];
