@@ -1,6 +1,8 @@
 /* Which pixels may hide a body: tiles, rows, columns, and steadiness over time. */
 #include "silhouette.h"
 
+#include "kernel/kernel.h"
+
 #include <string.h>
 
 #define STEADY_SHARE 4   /* a still pixel moves by a quarter of the way to its new cover */
@@ -11,7 +13,8 @@
 
 static rlf_result allocate(silhouette *s, int32_t width, int32_t height)
 {
-    size_t pixels = (size_t)width * (size_t)height;
+    /* Readers may look at several pixels at once, beyond the last. */
+    size_t pixels = (size_t)width * (size_t)height + SILHOUETTE_TILE;
     rlf_plane_f32 *depths[2] = {&s->near_z, &s->far_z};
     rlf_plane_u8 *bytes[4] = {&s->cover, &s->distance, &s->last_cover, &s->last_light};
     bool has_all = true;
@@ -172,23 +175,27 @@ static int32_t at_most(int32_t a, int32_t b)
     return a < b ? a : b;
 }
 
+RLF_KERNEL static void copy_depth(const float *restrict z, int32_t count, float *restrict near_z,
+                                  float *restrict far_z)
+{
+    for (int32_t i = 0; i < count; i++) {
+        float here = z[i] > 0.0f ? z[i] : SILHOUETTE_FAR;
+        near_z[i] = here;
+        far_z[i] = here;
+    }
+}
+
 /* Without edges: all of a pixel is as far as the registered depth says. */
 static void clear_row(const pass *p, int32_t x0, int32_t x1, int32_t y)
 {
-    const float *z = rlf_f32_row(p->z, y);
-    float *near_z = rlf_f32_row(&p->s->near_z, y);
-    float *far_z = rlf_f32_row(&p->s->far_z, y);
-    for (int32_t x = x0; x < x1; x++) {
-        float here = z[x] > 0.0f ? z[x] : SILHOUETTE_FAR;
-        near_z[x] = here;
-        far_z[x] = here;
-    }
+    copy_depth(rlf_f32_row(p->z, y) + x0, x1 - x0, rlf_f32_row(&p->s->near_z, y) + x0,
+               rlf_f32_row(&p->s->far_z, y) + x0);
     memset(rlf_u8_row(&p->s->cover, y) + x0, 255, (size_t)(x1 - x0));
     memset(rlf_u8_row(&p->s->distance, y) + x0, SILHOUETTE_NONE, (size_t)(x1 - x0));
 }
 
 /* True when depth jumps between any of a[i] and b[i]. */
-static bool has_jump(const float *a, const float *b, int32_t count)
+RLF_KERNEL static bool has_jump(const float *a, const float *b, int32_t count)
 {
     int32_t any = 0;
     for (int32_t i = 0; i < count; i++) {
@@ -306,6 +313,15 @@ static void steady_pixel(const pass *p, int32_t x, int32_t y)
     *seen = s->picture;
 }
 
+static bool is_far_from_edges(const uint8_t *distance, int32_t count)
+{
+    uint32_t all = SILHOUETTE_NONE;
+    for (int32_t i = 0; i < count; i++) {
+        all &= distance[i];
+    }
+    return all == SILHOUETTE_NONE;
+}
+
 static void steady_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     const pass *p = context;
@@ -317,7 +333,10 @@ static void steady_rows(void *context, int32_t begin, int32_t end, int32_t worke
         for (int32_t x0 = 0; x0 < s->cover.width; x0 += SILHOUETTE_TILE) {
             int32_t x1 = at_most(x0 + SILHOUETTE_TILE, s->cover.width);
             int32_t tile = y / SILHOUETTE_TILE * s->columns + x0 / SILHOUETTE_TILE;
-            for (int32_t x = x0; is_used(&s->tiles[tile]) && x < x1; x++) {
+            if (!is_used(&s->tiles[tile]) || is_far_from_edges(distance + x0, x1 - x0)) {
+                continue;
+            }
+            for (int32_t x = x0; x < x1; x++) {
                 if (distance[x] != SILHOUETTE_NONE) {
                     steady_pixel(p, x, y);
                 }

@@ -1,4 +1,4 @@
-/* Bodies of a snapshot as triangles in the picture, nearest body first. */
+/* Bodies of a snapshot as faces in the picture, nearest body first. */
 #include "render/soft/soft.h"
 
 /* What one body's vertices go through. */
@@ -67,19 +67,23 @@ static soft_corner transform_corner(const body_transform *T, const shape_vertex 
     return c;
 }
 
+/* A box's mesh has four corners per face, in order. */
 static void add_unit_mesh(soft *s, const body_transform *T, rlf_shape_type type, int32_t body)
 {
     const shape_mesh_range *range = &s->meshes.range[type];
     for (int32_t i = 0; i < range->vertex_count; i++) {
         s->corners[i] = transform_corner(T, &s->meshes.vertices[range->first_vertex + i]);
     }
-    for (int32_t i = 0; i < range->index_count; i += 3) {
+    for (int32_t i = 0; type == RLF_SHAPE_BOX && i < range->vertex_count; i += SOFT_CORNERS) {
+        soft_scene_add_face(s, s->corners + i, SOFT_CORNERS, body);
+    }
+    for (int32_t i = 0; type != RLF_SHAPE_BOX && i < range->index_count; i += 3) {
         soft_corner corners[3];
         for (int k = 0; k < 3; k++) {
             int32_t index = s->meshes.indices[range->first_index + i + k];
             corners[k] = s->corners[index - range->first_vertex];
         }
-        soft_scene_add_triangle(s, corners, body);
+        soft_scene_add_face(s, corners, 3, body);
     }
 }
 
@@ -91,7 +95,7 @@ static void add_hull(soft *s, const body_transform *T, const rlf_shape *shape, i
         if (shape_mesh_hull_triangle(shape->hull, i, radius, v)) {
             const soft_corner corners[3] = {transform_corner(T, &v[0]), transform_corner(T, &v[1]),
                                             transform_corner(T, &v[2])};
-            soft_scene_add_triangle(s, corners, body);
+            soft_scene_add_face(s, corners, 3, body);
         }
     }
 }
@@ -104,11 +108,11 @@ static void choose_look(soft *s, const rlf_body_state *state, soft_body *body)
     double focal = 0.5 * (s->camera.fx + s->camera.fy);
     int32_t level = body_texture_level_of(&state->shape, body->center.z, focal);
     body->texture =
-        s->textures[body_texture_kind_of(state->shape.type)] + body_texture_level_offset(level);
+        s->textures[body_texture_kind_of(state->shape.type)] + body_texture_level_offset(level) / 4;
     body->texture_size = BODY_TEXTURE_SIZE >> level;
 }
 
-/* Adds one body; it is left out again when none of its triangles is in the picture. */
+/* Adds one body; it is left out again when none of its faces is in the picture. */
 static rlf_result add_body(soft *s, const rlf_body_state *state, const rlf_pose *T_picture_world,
                            int32_t index)
 {
@@ -126,13 +130,12 @@ static rlf_result add_body(soft *s, const rlf_body_state *state, const rlf_pose 
     int32_t count =
         is_hull ? shape->hull->triangle_count : s->meshes.range[shape->type].index_count / 3;
     /* The near plane may cut a triangle into two. */
-    rlf_result result = soft_scene_reserve(scene, scene->triangle_count + 2 * count);
+    rlf_result result = soft_scene_reserve(s, scene->face_count + 2 * count);
     if (result != RLF_OK) {
         return result;
     }
     soft_body *body = &scene->bodies[scene->body_count];
-    *body = (soft_body){.first = scene->triangle_count,
-                        .x0 = s->camera.width,
+    *body = (soft_body){.first = scene->face_count,
                         .y0 = s->camera.height,
                         .center = T.p,
                         .radius = radius,
@@ -148,7 +151,7 @@ static rlf_result add_body(soft *s, const rlf_body_state *state, const rlf_pose 
     } else {
         add_unit_mesh(s, &transform, shape->type, scene->body_count);
     }
-    body->end = scene->triangle_count;
+    body->end = scene->face_count;
     scene->body_count += body->end > body->first ? 1 : 0;
     return RLF_OK;
 }
@@ -158,8 +161,8 @@ static bool is_before(const soft_body *a, const soft_body *b)
     return a->center.z < b->center.z || (a->center.z == b->center.z && a->index < b->index);
 }
 
-/* Shell sort: in place, and a total order makes it the same everywhere. Triangles name their body
- * by place, so they are renamed afterwards. */
+/* Shell sort: in place, and a total order makes it the same everywhere. Faces name their body by
+ * place, so they are renamed afterwards. */
 static void sort_bodies(soft_scene *scene)
 {
     soft_body *bodies = scene->bodies;
@@ -176,7 +179,7 @@ static void sort_bodies(soft_scene *scene)
     }
     for (int32_t i = 0; i < count; i++) {
         for (int32_t t = bodies[i].first; t < bodies[i].end; t++) {
-            scene->triangles[t].body = i;
+            scene->faces[t].body = i;
         }
     }
 }
@@ -184,7 +187,7 @@ static void sort_bodies(soft_scene *scene)
 rlf_result soft_scene_build(soft *s, const rlf_render_input *input)
 {
     const rlf_snapshot *snapshot = input->snapshot;
-    s->scene.triangle_count = 1;
+    s->scene.face_count = 1;
     s->scene.body_count = 0;
     if (snapshot == NULL || snapshot->body_count <= 0) {
         return RLF_OK;

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-#define TRIANGLES_AT_START 16384
+#define FACES_AT_START 16384
 #define BODIES_AT_START 1024
 
 static void destroy(void *self)
@@ -13,14 +13,16 @@ static void destroy(void *self)
     soft *s = self;
     real_depth_destroy(&s->real);
     silhouette_destroy(&s->silhouette);
-    for (int32_t i = 0; s->bands != NULL && i < s->band_count; i++) {
-        rlf_free(s->bands[i].inverse_z);
-        rlf_free(s->bands[i].triangle);
-        rlf_free(s->bands[i].layer);
+    for (int32_t i = 0; s->workers != NULL && i < s->worker_count; i++) {
+        soft_row *row = &s->workers[i];
+        void *rows[5] = {row->inverse_z, row->face, row->sum[0], row->spans, row->list};
+        for (int k = 0; k < 5; k++) {
+            rlf_free(rows[k]);
+        }
     }
-    void *parts[9] = {s->bands,           s->image.data,    s->matte.data,
-                      s->scene.triangles, s->scene.bodies,  s->corners,
-                      s->column_left,     s->column_weight, s->grid_image.data};
+    void *parts[9] = {s->workers,     s->image.data,    s->matte.data,
+                      s->scene.faces, s->scene.bodies,  s->corners,
+                      s->column_left, s->column_weight, s->grid_image.data};
     for (int i = 0; i < 9; i++) {
         rlf_free(parts[i]);
     }
@@ -36,23 +38,31 @@ static rlf_result allocate_image(rlf_image_rgba8 *image, int32_t width, int32_t 
     return image->data != NULL ? RLF_OK : RLF_ERROR_MEMORY;
 }
 
-static rlf_result allocate_bands(soft *s)
+static rlf_result allocate_workers(soft *s)
 {
-    s->band_count = rlf_pool_worker_count(s->def.pool);
-    s->bands = rlf_alloc_array((size_t)s->band_count, sizeof(*s->bands));
-    if (s->bands == NULL) {
+    s->worker_count = rlf_pool_worker_count(s->def.pool);
+    s->workers = rlf_alloc_array((size_t)s->worker_count, sizeof(*s->workers));
+    if (s->workers == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    size_t pixels = (size_t)s->camera.width * SOFT_BAND_ROWS;
-    size_t samples = pixels * SOFT_SAMPLES;
-    bool has_layers = s->def.occlusion == RLF_OCCLUSION_THESIS;
-    for (int32_t i = 0; i < s->band_count; i++) {
-        s->bands[i].inverse_z = rlf_alloc_array(samples, sizeof(float));
-        s->bands[i].triangle = rlf_alloc_array(samples, sizeof(int32_t));
-        s->bands[i].layer = has_layers ? rlf_alloc_array(pixels, 4 * sizeof(float)) : NULL;
-        if (s->bands[i].inverse_z == NULL || s->bands[i].triangle == NULL ||
-            (has_layers && s->bands[i].layer == NULL)) {
+    int32_t lanes = (s->camera.width + SOFT_LANES - 1) / SOFT_LANES + 1;
+    size_t stride = (size_t)lanes * SOFT_LANES;
+    for (int32_t i = 0; i < s->worker_count; i++) {
+        soft_row *row = &s->workers[i];
+        row->width = s->camera.width;
+        row->stride = (ptrdiff_t)stride;
+        row->inverse_z = rlf_alloc_array(SOFT_SAMPLES * stride, sizeof(float));
+        row->face = rlf_alloc_array(SOFT_SAMPLES * stride, sizeof(int32_t));
+        float *sums = rlf_alloc_array((SOFT_SUMS + 4) * stride, sizeof(float));
+        row->sum[0] = sums;
+        if (row->inverse_z == NULL || row->face == NULL || sums == NULL) {
             return RLF_ERROR_MEMORY;
+        }
+        for (size_t k = 0; k < SOFT_SUMS; k++) {
+            row->sum[k] = sums + k * stride;
+        }
+        for (size_t k = 0; k < 4; k++) {
+            row->layer[k] = sums + (SOFT_SUMS + k) * stride;
         }
     }
     return RLF_OK;
@@ -67,10 +77,10 @@ static rlf_result allocate(soft *s)
         result = allocate_image(&s->grid_image, s->def.grid.width, s->def.grid.height);
     }
     if (result == RLF_OK) {
-        result = allocate_bands(s);
+        result = allocate_workers(s);
     }
     if (result == RLF_OK) {
-        result = soft_scene_reserve(&s->scene, TRIANGLES_AT_START);
+        result = soft_scene_reserve(s, FACES_AT_START);
     }
     s->matte = (rlf_plane_u8){rlf_alloc_array((size_t)width, (size_t)height), width, height, width};
     s->scene.body_capacity = BODIES_AT_START;
@@ -188,16 +198,49 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
     return RLF_OK;
 }
 
+/* Texels with their neighbours, so that one load has all that bilinear filtering needs; edges
+ * repeat. The patterns are grey: one channel says it all. */
+static void pack_level(const uint8_t *level, int32_t size, uint32_t *out)
+{
+    for (int32_t y = 0; y < size; y++) {
+        for (int32_t x = 0; x < size; x++) {
+            const uint8_t *top = level + 4 * (ptrdiff_t)(y * size);
+            const uint8_t *bottom = level + 4 * (ptrdiff_t)((y + 1) % size * size);
+            ptrdiff_t left = 4 * (ptrdiff_t)x;
+            ptrdiff_t right = 4 * (ptrdiff_t)((x + 1) % size);
+            *out++ = (uint32_t)top[left] | (uint32_t)top[right] << 8 |
+                     (uint32_t)bottom[left] << 16 | (uint32_t)bottom[right] << 24;
+        }
+    }
+}
+
+static rlf_result make_textures(soft *s)
+{
+    uint8_t *bytes = rlf_alloc(BODY_TEXTURE_BYTES);
+    if (bytes == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    for (int kind = 0; kind < BODY_TEXTURE_KINDS; kind++) {
+        body_texture_fill((body_texture_kind)kind, bytes);
+        for (int32_t level = 0; level < BODY_TEXTURE_LEVELS; level++) {
+            size_t offset = body_texture_level_offset(level);
+            pack_level(bytes + offset, BODY_TEXTURE_SIZE >> level, s->textures[kind] + offset / 4);
+        }
+    }
+    rlf_free(bytes);
+    return RLF_OK;
+}
+
 static rlf_result prepare(soft *s)
 {
     s->camera = real_depth_picture_camera(&s->def);
     s->T_picture_depth = real_depth_picture_pose(&s->def);
     s->def.light_direction = rlf_normalize(s->def.light_direction);
     shape_mesh_set_build(&s->meshes);
-    for (int kind = 0; kind < BODY_TEXTURE_KINDS; kind++) {
-        body_texture_fill((body_texture_kind)kind, s->textures[kind]);
+    rlf_result result = make_textures(s);
+    if (result == RLF_OK) {
+        result = allocate(s);
     }
-    rlf_result result = allocate(s);
     if (result == RLF_OK) {
         result = real_depth_create(&s->def, &s->camera, &s->real);
     }

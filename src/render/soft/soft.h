@@ -2,7 +2,7 @@
  *
  *   picture = background (colour, or depth in grey)
  *           + shadows of the bodies on it
- *           + bodies: unit meshes -> screen triangles -> what each of four samples per pixel sees
+ *           + bodies: unit meshes -> screen faces -> what each of four samples per pixel sees
  *           - where the real depth is nearer
  *
  * The picture is drawn in bands of rows that know nothing of each other, so any number of workers
@@ -10,6 +10,7 @@
 #ifndef RLF_RENDER_SOFT_H
 #define RLF_RENDER_SOFT_H
 
+#include "kernel/kernel.h"
 #include "render/body_texture.h"
 #include "render/real_depth.h"
 #include "render/shape_mesh.h"
@@ -19,57 +20,87 @@
 #define SOFT_BAND_ROWS 16 /* rows that one worker draws at a time */
 #define SOFT_NEAR_Z 0.02  /* metres: nothing nearer is drawn */
 
-/* ---- scene: what is in the picture, as triangles of screen space --------------------------- */
+/* ---- scene: what is in the picture, as faces of screen space -------------------------------- */
 
 enum { SOFT_S = 0, SOFT_T = 1, SOFT_LIGHT = 2, SOFT_ATTRIBUTES = 3 };
 
-/* Corner of a triangle in the picture camera's frame, metres. */
+/* Corner of a face in the picture camera's frame, metres. */
 typedef struct soft_corner {
     rlf_vec3 p;
     float attribute[SOFT_ATTRIBUTES];
 } soft_corner;
 
-/* at0 + dx (x - x0) + dy (y - y0), (x0, y0) being the triangle's first corner. */
+/* at0 + dx (x - x0) + dy (y - y0), (x0, y0) being the face's origin. */
 typedef struct soft_plane {
     float at0, dx, dy;
 } soft_plane;
 
-typedef struct soft_triangle {
-    double x[3], y[3]; /* pixels, sorted by y, then x */
-    double slope[3];   /* dx / dy of the edges 0-1, 1-2, 0-2 */
+enum { SOFT_CORNERS = 4 };
+
+/* A convex face with three or four corners in one plane. */
+typedef struct soft_face {
+    /* Each edge from its upper to its lower end; an edge that is level or missing ends first. */
+    double edge_x[SOFT_CORNERS], edge_y[SOFT_CORNERS], edge_end[SOFT_CORNERS];
+    double slope[SOFT_CORNERS]; /* dx / dy */
+    float origin_x, origin_y;
     soft_plane inverse_z;
     float inverse_z_min, inverse_z_max;
     soft_plane attribute[SOFT_ATTRIBUTES]; /* divided by z: linear in the picture */
     int32_t y_begin, y_end;                /* rows it may touch */
     int32_t body;                          /* into soft_scene.bodies */
-} soft_triangle;
+} soft_face;
 
 typedef struct soft_body {
-    int32_t first, end;     /* triangles */
-    int32_t x0, y0, x1, y1; /* pixels it may touch: x0 <= x < x1, y0 <= y < y1 */
-    float color[3];         /* times 255 */
-    const uint8_t *texture; /* level to sample, RGBA8 */
-    int32_t texture_size;   /* pixels, a power of two */
-    rlf_vec3 center;        /* picture camera frame, metres */
-    double radius;          /* of the bounding sphere, metres */
-    int32_t index;          /* in the snapshot */
+    int32_t first, end;      /* faces */
+    int32_t y0, y1;          /* rows it may touch: y0 <= y < y1 */
+    float color[3];          /* times 255 */
+    const uint32_t *texture; /* level to sample; a texel's bytes are itself, the next in the row,
+                                and the two below them, the first being the lowest */
+    int32_t texture_size;    /* pixels, a power of two */
+    rlf_vec3 center;         /* picture camera frame, metres */
+    double radius;           /* of the bounding sphere, metres */
+    int32_t index;           /* in the snapshot */
 } soft_body;
 
 typedef struct soft_scene {
-    soft_triangle *triangles; /* entry 0 is not used: sample value 0 means nothing */
-    int32_t triangle_count, triangle_capacity;
+    soft_face *faces; /* entry 0 is not used: sample value 0 means nothing */
+    int32_t face_count, face_capacity;
     soft_body *bodies; /* those in the picture, nearest first */
     int32_t body_count, body_capacity;
 } soft_scene;
 
 /* ---- the renderer --------------------------------------------------------------------------- */
 
-/* One worker's samples, [row][sample][x]. */
-typedef struct soft_band {
-    float *inverse_z;  /* 0 = nothing */
-    int32_t *triangle; /* 0 = nothing */
-    float *layer;      /* RLF_OCCLUSION_THESIS: bodies so far, [row][x], premultiplied RGBA */
-} soft_band;
+#define SOFT_LANES 8 /* pixels worked on at once; rows have room for so many beyond their end */
+enum { SOFT_SUMS = 5 };
+
+/* Pixels x0 <= x < x1 of a row that a face touches. */
+typedef struct soft_span {
+    int32_t face, x0, x1;
+} soft_span;
+
+/* One worker's row: all zero between rows. */
+typedef struct soft_row {
+    int32_t y, width;
+    ptrdiff_t stride;      /* from one line of samples to the next */
+    float *inverse_z;      /* [sample][x]; 0 = nothing */
+    int32_t *face;         /* [sample][x]; 0 = nothing */
+    float *sum[SOFT_SUMS]; /* red, green, blue (0..255, times shown), shown, covered */
+    float *layer[4];       /* RLF_OCCLUSION_THESIS: bodies so far, as the sums */
+    soft_span *spans;      /* of this row */
+    int32_t *list;         /* faces of a band */
+    int32_t face_capacity; /* of the two */
+} soft_row;
+
+/* What may hide a body in a row: near_z, far_z and cover of soft occlusion, or rows of registered
+ * depth, or (all NULL) nothing. */
+typedef struct soft_real_row {
+    const float *near_z, *far_z;
+    const uint8_t *cover;
+    rlf_kernel_noise noise;
+    const float *row, *above, *below;
+    int32_t width;
+} soft_real_row;
 
 typedef struct soft {
     rlf_compositor_def def;
@@ -81,11 +112,11 @@ typedef struct soft {
     silhouette silhouette; /* RLF_OCCLUSION_SOFT only */
 
     shape_mesh_set meshes;
-    uint8_t textures[BODY_TEXTURE_KINDS][BODY_TEXTURE_BYTES];
+    uint32_t textures[BODY_TEXTURE_KINDS][BODY_TEXTURE_BYTES / 4];
     soft_scene scene;
     soft_corner *corners; /* work memory: one mesh's vertices */
-    soft_band *bands;     /* one per worker */
-    int32_t band_count;
+    soft_row *workers;
+    int32_t worker_count;
 
     int32_t *column_left; /* bilinear resize, per x: left column, weight of the next one (0..256) */
     int32_t *column_weight;
@@ -96,27 +127,25 @@ typedef struct soft {
  * the latter. */
 void soft_draw_background(soft *s, const rlf_render_input *input);
 
-/* scene.c: all bodies in the picture as triangles. */
+/* scene.c: all bodies in the picture as faces. */
 rlf_result soft_scene_build(soft *s, const rlf_render_input *input);
 
-/* triangle.c: clips at the near plane, drops what faces away or lies outside, and adds the rest. */
-rlf_result soft_scene_reserve(soft_scene *scene, int32_t triangle_count);
-void soft_scene_add_triangle(soft *s, const soft_corner corners[3], int32_t body);
+/* face.c: room for so many faces, here and with every worker. */
+rlf_result soft_scene_reserve(soft *s, int32_t face_count);
+/* Clips at the near plane, drops what faces away or lies outside, and adds the rest; 3 or 4 corners
+ * in one plane. */
+void soft_scene_add_face(soft *s, const soft_corner *corners, int32_t corner_count, int32_t body);
 
-/* raster.c: lets triangle `id` win the samples of row y where it is nearest so far. `samples` is
- * the row's part of a band. */
-typedef struct soft_row {
-    float *inverse_z;
-    int32_t *triangle;
-    int32_t y, width;
-} soft_row;
-void soft_raster_row(const soft_triangle *triangle, int32_t id, const soft_row *row);
+/* raster.c: lets face `id` win the row's samples where it is nearest so far; false when it touches
+ * none. */
+bool soft_raster_row(const soft_face *face, int32_t id, const soft_row *row, soft_span *out);
 
-/* shade.c: colour (0..255) and z of a triangle at a pixel centre. */
-typedef struct soft_fragment {
-    float color[3], z;
-} soft_fragment;
-soft_fragment soft_shade(const soft_scene *scene, const soft_triangle *triangle, float x, float y);
+/* shade.c: adds what the samples see of the span's face to the row's sums. */
+void soft_shade_span(const soft_face *face, const soft_body *body, const soft_row *row,
+                     const soft_real_row *real, const soft_span *span);
+/* Puts sums (red, green, blue, shown) over `count` pixels. */
+void soft_compose_row(float *const sum[4], int32_t count, uint8_t *restrict pixels,
+                      uint8_t *restrict matte);
 
 /* bodies.c: draws the scene over the image and writes the matte. */
 void soft_draw_bodies(soft *s);
