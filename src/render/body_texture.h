@@ -1,7 +1,8 @@
 /* How bodies look: two procedural textures and the light, shared by both renderers.
  *
  * A body's pixel is  sRGB = body colour * texture * light,  light = ambient + diffuse max(0, -n.l),
- * with the normal n and the light's direction l in the depth camera's frame. */
+ * each as far as other bodies leave it, with the normal n and the light's direction l in the depth
+ * camera's frame. */
 #ifndef RLF_RENDER_BODY_TEXTURE_H
 #define RLF_RENDER_BODY_TEXTURE_H
 
@@ -16,6 +17,9 @@ enum {
 
 #define BODY_LIGHT_AMBIENT 0.45
 #define BODY_LIGHT_DIFFUSE 0.55
+/* Shares of the two that another body can take away: see caster.h. */
+#define BODY_AMBIENT_SHARE 0.6
+#define BODY_DIRECT_SHARE 0.85
 
 typedef enum body_texture_kind {
     BODY_TEXTURE_CRATE = 0,  /* planks in a frame with a brace: boxes and hulls */

@@ -2,12 +2,12 @@
 #include "silhouette.h"
 
 #include "kernel/kernel.h"
+#include "render/caster.h"
 
 #include <string.h>
 
-#define STEADY_SHARE 4   /* a still pixel moves by a quarter of the way to its new cover */
-#define STEADY_LIGHT 5   /* steps of the mean colour that noise may change */
-#define BALL_MARGIN 1.05 /* of a ball's bounds, for what the lens bends between corners */
+#define STEADY_SHARE 4 /* a still pixel moves by a quarter of the way to its new cover */
+#define STEADY_LIGHT 5 /* steps of the mean colour that noise may change */
 
 /* ---- create --------------------------------------------------------------------------------- */
 
@@ -69,58 +69,17 @@ void silhouette_destroy(silhouette *s)
 
 /* ---- bodies --------------------------------------------------------------------------------- */
 
-/* Where a body may be. */
-typedef struct body_bounds {
-    int32_t x0, y0, x1, y1; /* pixels x0 <= x < x1, y0 <= y < y1 */
-    silhouette_tile range;
-} body_bounds;
-
-/* Bounds of a ball in the picture camera's frame; false when it is not in the picture. */
-static bool bounds_of_ball(const rlf_camera *camera, rlf_vec3 center, double radius,
-                           body_bounds *out)
-{
-    double low[2] = {camera->width, camera->height};
-    double high[2] = {-1.0, -1.0};
-    double reach = BALL_MARGIN * radius;
-    if (!rlf_vec3_is_finite(center) || !rlf_is_finite(radius) || center.z + radius < 0.0) {
-        return false;
-    }
-    *out = (body_bounds){0,
-                         0,
-                         camera->width,
-                         camera->height,
-                         {(float)(center.z - radius), (float)(center.z + radius)}};
-    for (int i = 0; i < 8; i++) {
-        rlf_vec3 corner = {center.x + ((i & 1) != 0 ? reach : -reach),
-                           center.y + ((i & 2) != 0 ? reach : -reach),
-                           center.z + ((i & 4) != 0 ? reach : -reach)};
-        double u, v;
-        if (corner.z < 0.01 || !rlf_camera_project(camera, corner, &u, &v)) {
-            return true; /* around the camera or beyond its lens: anywhere */
-        }
-        low[0] = rlf_min(low[0], u);
-        low[1] = rlf_min(low[1], v);
-        high[0] = rlf_max(high[0], u);
-        high[1] = rlf_max(high[1], v);
-    }
-    out->x0 = (int32_t)rlf_clamp(low[0] - 1.0, 0.0, camera->width);
-    out->y0 = (int32_t)rlf_clamp(low[1] - 1.0, 0.0, camera->height);
-    out->x1 = (int32_t)rlf_clamp(high[0] + 2.0, 0.0, camera->width);
-    out->y1 = (int32_t)rlf_clamp(high[1] + 2.0, 0.0, camera->height);
-    return out->x0 < out->x1 && out->y0 < out->y1;
-}
-
 static void widen(silhouette_tile *tile, const silhouette_tile *by)
 {
     tile->near_z = by->near_z < tile->near_z ? by->near_z : tile->near_z;
     tile->far_z = by->far_z > tile->far_z ? by->far_z : tile->far_z;
 }
 
-static void add_body(silhouette *s, const body_bounds *body)
+static void add_body(silhouette *s, const caster_rect *rect, const silhouette_tile *range)
 {
-    for (int32_t y = body->y0 / SILHOUETTE_TILE; y * SILHOUETTE_TILE < body->y1; y++) {
-        for (int32_t x = body->x0 / SILHOUETTE_TILE; x * SILHOUETTE_TILE < body->x1; x++) {
-            widen(&s->own[y * s->columns + x], &body->range);
+    for (int32_t y = rect->y0 / SILHOUETTE_TILE; y * SILHOUETTE_TILE < rect->y1; y++) {
+        for (int32_t x = rect->x0 / SILHOUETTE_TILE; x * SILHOUETTE_TILE < rect->x1; x++) {
+            widen(&s->own[y * s->columns + x], range);
         }
     }
 }
@@ -134,9 +93,11 @@ void silhouette_place(silhouette *s, const rlf_camera *camera, const rlf_pose *T
     for (int32_t i = 0; snapshot != NULL && i < snapshot->body_count; i++) {
         const rlf_body_state *state = &snapshot->bodies[i];
         rlf_vec3 center = rlf_transform(T_picture_world, state->T_world_body.p);
-        body_bounds body;
-        if (bounds_of_ball(camera, center, rlf_shape_radius(&state->shape), &body)) {
-            add_body(s, &body);
+        double radius = rlf_shape_radius(&state->shape);
+        const silhouette_tile range = {(float)(center.z - radius), (float)(center.z + radius)};
+        caster_rect rect;
+        if (caster_rect_of_ball(camera, center, radius, &rect)) {
+            add_body(s, &rect, &range);
         }
     }
 }

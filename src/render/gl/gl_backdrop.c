@@ -29,47 +29,33 @@ static const char grey_fragment[] =
     "    o_color = vec4(vec3(z > 0.0 ? grey : 0.0), 0.0);\n"
     "}\n";
 
-/* The shadow of a body taken as a ball, as the soft renderer draws it: of the light around, a ball
- * hides (r / d)^2 (Quilez 2006); of the directed light, what passes it too close. Surfaces face the
- * camera, so one with the ball behind it does not face the ball. */
+/* Blocks of pixels share their light, as in the soft renderer. */
 static const char shadow_fragment[] =
-    "const float reach = 3.0;\n"
+    "const int block = 2;\n"
     "const float ambient_share = 0.5;\n"
     "const float direct_share = 0.35;\n"
     "uniform sampler2D u_real_depth;\n"
-    "uniform vec4 u_ball;\n" /* centre, squared radius */
-    "uniform vec3 u_to_light;\n"
+    "uniform caster u_caster;\n"
     "uniform vec4 u_intrinsics;\n" /* fx fy cx cy */
     "out vec4 o_light;\n"
     "void main()\n"
     "{\n"
-    "    float z = texelFetch(u_real_depth, ivec2(gl_FragCoord.xy), 0).r;\n"
-    "    vec2 ray = (gl_FragCoord.xy - 0.5 - u_intrinsics.zw) / u_intrinsics.xy;\n"
-    "    vec3 offset = u_ball.xyz - z * vec3(ray, 1.0);\n"
-    "    float distance2 = dot(offset, offset);\n"
-    "    float reach2 = u_ball.w * reach * reach;\n"
-    "    if (z <= 0.0 || distance2 >= reach2 || distance2 <= 0.0) {\n"
+    "    ivec2 pixel = ivec2(gl_FragCoord.xy) / block * block;\n"
+    "    float z = texelFetch(u_real_depth, pixel, 0).r;\n"
+    "    if (z <= 0.0) {\n"
     "        discard;\n"
     "    }\n"
-    "    float fade = 1.0 - distance2 / reach2;\n"
-    "    float size = u_ball.w / max(distance2, u_ball.w);\n"
-    "    float along = dot(offset, u_to_light);\n"
-    "    float across2 = distance2 - along * along;\n"
-    "    float direct = along > 0.0 ? max(0.0, 1.0 - across2 / (1.5 * u_ball.w)) : 0.0;\n"
-    "    float behind = max(0.0, dot(offset, vec3(ray, 1.0)));\n"
-    "    float facing = 1.0 - behind * behind / (distance2 * (1.0 + dot(ray, ray)));\n"
-    "    float light = 1.0 - fade * facing * (ambient_share * size + direct_share * direct);\n"
-    "    o_light = vec4(light);\n"
+    "    vec2 ray = (vec2(pixel) - u_intrinsics.zw) / u_intrinsics.xy;\n"
+    "    vec2 lost = light_lost(u_caster, ray, z);\n"
+    "    o_light = vec4((1.0 - ambient_share * lost.x) * (1.0 - direct_share * lost.y));\n"
     "}\n";
-
-#define SHADOW_REACH 3.0        /* radii, as in the shader */
-#define SHADOW_BALL_RADIUS 0.75 /* of the bounding sphere's, which no box or stick fills */
 
 static rlf_result make_programs(bool is_es, gl_backdrop *backdrop)
 {
     const gl_program_source color = {"backdrop", {gl_program_screen_vertex}, {color_fragment}};
     const gl_program_source grey = {"grey depth", {gl_program_screen_vertex}, {grey_fragment}};
-    const gl_program_source shadow = {"shadow", {gl_program_screen_vertex}, {shadow_fragment}};
+    const gl_program_source shadow = {
+        "shadow", {gl_program_screen_vertex}, {gl_caster_glsl, shadow_fragment}};
     backdrop->color_program = gl_program_build(is_es, &color);
     if (backdrop->color_program != 0) {
         backdrop->grey_program = gl_program_build(is_es, &grey);
@@ -84,8 +70,7 @@ static rlf_result make_programs(bool is_es, gl_backdrop *backdrop)
     GLuint p = backdrop->shadow_program;
     backdrop->uniforms.color_size = glGetUniformLocation(backdrop->color_program, "u_size");
     backdrop->uniforms.grey_range = glGetUniformLocation(backdrop->grey_program, "u_range");
-    backdrop->uniforms.ball = glGetUniformLocation(p, "u_ball");
-    backdrop->uniforms.to_light = glGetUniformLocation(p, "u_to_light");
+    backdrop->uniforms.caster = gl_caster_find_uniforms(p, "u_caster");
     backdrop->uniforms.intrinsics = glGetUniformLocation(p, "u_intrinsics");
     return RLF_OK;
 }
@@ -170,46 +155,23 @@ void gl_backdrop_draw_grey(const gl_backdrop *backdrop, const gl_texture *real_d
     unbind();
 }
 
-/* Limits drawing to the pixels that a ball's shadow can reach; false when there are none. */
-static bool limit_to_reach(const rlf_camera *k, rlf_vec3 center, double radius)
-{
-    if (center.z < 0.1) {
-        return false; /* around the camera: it would darken everything or nothing */
-    }
-    double near_z = rlf_max(center.z - 0.5 * SHADOW_REACH * radius, 0.1);
-    double u = k->fx * center.x / center.z + k->cx;
-    double v = k->fy * center.y / center.z + k->cy;
-    double reach_u = k->fx * SHADOW_REACH * radius / near_z;
-    double reach_v = k->fy * SHADOW_REACH * radius / near_z;
-    GLint x0 = (GLint)rlf_clamp(u - reach_u, 0, k->width);
-    GLint y0 = (GLint)rlf_clamp(v - reach_v, 0, k->height);
-    GLint x1 = (GLint)rlf_clamp(u + reach_u, 0, k->width);
-    GLint y1 = (GLint)rlf_clamp(v + reach_v, 0, k->height);
-    glScissor(x0, y0, x1 - x0, y1 - y0);
-    return x0 < x1 && y0 < y1;
-}
-
-void gl_backdrop_draw_shadows(const gl_backdrop *backdrop, const gl_backdrop_shadows *shadows,
-                              const rlf_snapshot *snapshot)
+void gl_backdrop_draw_shadows(const gl_backdrop *backdrop, const gl_backdrop_shadows *shadows)
 {
     const rlf_camera *k = &shadows->view->camera;
     bind(backdrop);
     glUseProgram(backdrop->shadow_program);
     glUniform4f(backdrop->uniforms.intrinsics, (GLfloat)k->fx, (GLfloat)k->fy, (GLfloat)k->cx,
                 (GLfloat)k->cy);
-    glUniform3f(backdrop->uniforms.to_light, (GLfloat)shadows->to_light.x,
-                (GLfloat)shadows->to_light.y, (GLfloat)shadows->to_light.z);
     gl_texture_bind(shadows->real_depth, UNIT_REAL_DEPTH);
     glEnable(GL_SCISSOR_TEST);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ZERO, GL_SRC_COLOR);
-    for (int32_t i = 0; i < snapshot->body_count; i++) {
-        const rlf_body_state *body = &snapshot->bodies[i];
-        rlf_vec3 center = rlf_transform(&shadows->view->T_picture_world, body->T_world_body.p);
-        double radius = SHADOW_BALL_RADIUS * rlf_shape_radius(&body->shape);
-        if (limit_to_reach(k, center, radius)) {
-            glUniform4f(backdrop->uniforms.ball, (GLfloat)center.x, (GLfloat)center.y,
-                        (GLfloat)center.z, (GLfloat)(radius * radius));
+    for (int32_t i = 0; i < shadows->caster_count; i++) {
+        const caster *c = &shadows->casters[i];
+        caster_rect r;
+        if (c->near_m > 0.0f && caster_reach(c, k, shadows->to_light, &r)) {
+            glScissor(r.x0, r.y0, r.x1 - r.x0, r.y1 - r.y0);
+            gl_caster_set_uniforms(&backdrop->uniforms.caster, c);
             glDrawArrays(GL_TRIANGLES, 0, 3);
         }
     }

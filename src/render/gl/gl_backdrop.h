@@ -3,10 +3,9 @@
 #ifndef RLF_RENDER_GL_BACKDROP_H
 #define RLF_RENDER_GL_BACKDROP_H
 
+#include "gl_caster.h"
 #include "gl_texture.h"
 #include "gl_view.h"
-
-#include "relief/snapshot.h"
 
 typedef struct gl_backdrop {
     GLuint framebuffer, empty_array;
@@ -15,7 +14,8 @@ typedef struct gl_backdrop {
     struct {
         GLint color_size;
         GLint grey_range;
-        GLint ball, to_light, intrinsics;
+        gl_caster_uniforms caster;
+        GLint intrinsics;
     } uniforms;
 } gl_backdrop;
 
@@ -33,8 +33,9 @@ typedef struct gl_backdrop_shadows {
     const gl_view *view;
     const gl_texture *real_depth;
     rlf_vec3 to_light;
+    const caster *casters;
+    int32_t caster_count;
 } gl_backdrop_shadows;
-void gl_backdrop_draw_shadows(const gl_backdrop *backdrop, const gl_backdrop_shadows *shadows,
-                              const rlf_snapshot *snapshot);
+void gl_backdrop_draw_shadows(const gl_backdrop *backdrop, const gl_backdrop_shadows *shadows);
 
 #endif

@@ -53,6 +53,10 @@ static const char body_fragment[] =
     "uniform sampler2D u_cover;\n"
     "uniform vec3 u_noise;\n"
     "uniform int u_occlusion;\n"
+    "uniform vec4 u_intrinsics;\n" /* fx fy cx cy */
+    "uniform caster u_shaders[3];\n"
+    "uniform int u_shader_count;\n"
+    "uniform vec2 u_body_shares;\n" /* of ambient and diffuse light that others can take */
     "uniform vec3 u_color;\n"
     "uniform vec3 u_light;\n"
     "uniform vec2 u_ambient_diffuse;\n"
@@ -62,11 +66,16 @@ static const char body_fragment[] =
     "void main()\n"
     "{\n"
     "    float facing = max(0.0, -dot(normalize(v_normal), u_light));\n"
-    "    float light = u_ambient_diffuse.x + u_ambient_diffuse.y * facing;\n"
+    "    float z = 1.0 / gl_FragCoord.w;\n"
+    "    vec2 ray = (gl_FragCoord.xy - 0.5 - u_intrinsics.zw) / u_intrinsics.xy;\n"
+    "    vec2 left = vec2(1.0);\n"
+    "    for (int i = 0; i < u_shader_count; i++) {\n"
+    "        left *= 1.0 - u_body_shares * light_lost(u_shaders[i], ray, z);\n"
+    "    }\n"
+    "    float light = dot(u_ambient_diffuse * vec2(1.0, facing), left);\n"
     "    vec3 uv_layer = vec3(clamp(v_uv, 0.0, 1.0), u_layer);\n"
     "    vec3 color = u_color * light * textureLod(u_textures, uv_layer, u_level).rgb;\n"
     "    float shown = 1.0;\n"
-    "    float z = 1.0 / gl_FragCoord.w;\n"
     "    if (u_occlusion == 1) {\n"
     "        shown = share_in_front(u_real_depth, z);\n"
     "    } else if (u_occlusion == 2) {\n"
@@ -88,6 +97,13 @@ static void create_program_uniforms(gl_bodies *bodies)
     bodies->uniforms.level = glGetUniformLocation(p, "u_level");
     bodies->uniforms.occlusion = glGetUniformLocation(p, "u_occlusion");
     bodies->uniforms.noise = glGetUniformLocation(p, "u_noise");
+    bodies->uniforms.intrinsics = glGetUniformLocation(p, "u_intrinsics");
+    bodies->uniforms.shader_count = glGetUniformLocation(p, "u_shader_count");
+    for (int i = 0; i < CASTER_BODIES; i++) {
+        const char name[] = {'u', '_', 's', 'h', 'a', 'd', 'e', 'r', 's', '[', (char)('0' + i),
+                             ']', 0};
+        bodies->uniforms.shaders[i] = gl_caster_find_uniforms(p, name);
+    }
     bodies->view_uniforms = gl_view_find_uniforms(p);
     glUseProgram(p);
     glUniform1i(glGetUniformLocation(p, "u_backdrop"), UNIT_BACKDROP);
@@ -96,6 +112,8 @@ static void create_program_uniforms(gl_bodies *bodies)
     glUniform1i(glGetUniformLocation(p, "u_near_z"), UNIT_NEAR);
     glUniform1i(glGetUniformLocation(p, "u_far_z"), UNIT_FAR);
     glUniform1i(glGetUniformLocation(p, "u_cover"), UNIT_COVER);
+    glUniform2f(glGetUniformLocation(p, "u_body_shares"), (GLfloat)BODY_AMBIENT_SHARE,
+                (GLfloat)BODY_DIRECT_SHARE);
     glUniform2f(glGetUniformLocation(p, "u_ambient_diffuse"), (GLfloat)BODY_LIGHT_AMBIENT,
                 (GLfloat)BODY_LIGHT_DIFFUSE);
     glUseProgram(0);
@@ -182,9 +200,10 @@ static rlf_result create_textures(gl_bodies *bodies)
 rlf_result gl_bodies_create(bool is_es, gl_bodies *out)
 {
     *out = (gl_bodies){0};
-    const gl_program_source source = {"body",
-                                      {gl_view_glsl, body_vertex},
-                                      {GL_OCCLUSION_GLSL, GL_SOFT_OCCLUSION_GLSL, body_fragment}};
+    const gl_program_source source = {
+        "body",
+        {gl_view_glsl, body_vertex},
+        {gl_caster_glsl, GL_OCCLUSION_GLSL GL_SOFT_OCCLUSION_GLSL, body_fragment}};
     out->program = gl_program_build(is_es, &source);
     if (out->program == 0) {
         return RLF_ERROR_DEVICE;
@@ -219,6 +238,9 @@ void gl_bodies_begin(const gl_bodies *bodies, const gl_bodies_pass *pass)
                 (GLfloat)pass->light_direction.y, (GLfloat)pass->light_direction.z);
     int occlusion = pass->real_depth != NULL ? HIDDEN_BY_DEPTH : HIDDEN_BY_NOTHING;
     glUniform1i(bodies->uniforms.occlusion, pass->soft != NULL ? HIDDEN_BY_SOFT : occlusion);
+    const rlf_camera *k = &pass->view->camera;
+    glUniform4f(bodies->uniforms.intrinsics, (GLfloat)k->fx, (GLfloat)k->fy, (GLfloat)k->cx,
+                (GLfloat)k->cy);
     gl_view_set_uniforms(&bodies->view_uniforms, pass->view);
     gl_texture_bind(pass->backdrop, UNIT_BACKDROP);
     if (pass->real_depth != NULL) {
@@ -260,6 +282,23 @@ static void set_body(const gl_bodies *bodies, const gl_bodies_pass *pass,
                 (GLfloat)body_texture_level_of(&body->shape, T_picture_body.p.z, focal));
 }
 
+/* The bodies that may take light from this one. */
+static void set_shaders(const gl_bodies *bodies, const gl_bodies_pass *pass, int32_t body_count,
+                        int32_t index)
+{
+    int32_t chosen[CASTER_BODIES];
+    int32_t count = 0;
+    if (pass->casters != NULL) {
+        rlf_vec3 l = rlf_neg(rlf_rotate(pass->view->T_picture_camera.q, pass->light_direction));
+        const float to_light[3] = {(float)l.x, (float)l.y, (float)l.z};
+        count = caster_choose(pass->casters, body_count, index, to_light, chosen);
+    }
+    glUniform1i(bodies->uniforms.shader_count, count);
+    for (int32_t i = 0; i < count; i++) {
+        gl_caster_set_uniforms(&bodies->uniforms.shaders[i], &pass->casters[chosen[i]]);
+    }
+}
+
 static void draw_batch(const gl_bodies *bodies, int32_t vertex_count)
 {
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)sizeof(shape_vertex) * vertex_count,
@@ -288,9 +327,12 @@ static void draw_hull(const gl_bodies *bodies, const rlf_shape *shape)
     }
 }
 
-void gl_bodies_draw(const gl_bodies *bodies, const gl_bodies_pass *pass, const rlf_body_state *body)
+void gl_bodies_draw(const gl_bodies *bodies, const gl_bodies_pass *pass,
+                    const rlf_snapshot *snapshot, int32_t index)
 {
+    const rlf_body_state *body = &snapshot->bodies[index];
     set_body(bodies, pass, body);
+    set_shaders(bodies, pass, snapshot->body_count, index);
     if (body->shape.type == RLF_SHAPE_HULL) {
         draw_hull(bodies, &body->shape);
         return;

@@ -2,6 +2,7 @@
 #ifndef RLF_RENDER_GL_BODIES_H
 #define RLF_RENDER_GL_BODIES_H
 
+#include "gl_caster.h"
 #include "gl_texture.h"
 #include "gl_view.h"
 
@@ -11,7 +12,9 @@
 typedef struct gl_bodies {
     GLuint program;
     struct {
-        GLint picture_body, camera_body, shift, color, light, layer, level, occlusion, noise;
+        GLint picture_body, camera_body, shift, color, light, layer, level, occlusion, noise,
+            intrinsics, shader_count;
+        gl_caster_uniforms shaders[CASTER_BODIES];
     } uniforms;
     gl_view_uniforms view_uniforms;
     GLuint vertex_array, vertex_buffer, index_buffer; /* unit meshes */
@@ -34,6 +37,7 @@ typedef struct gl_bodies_pass {
     const gl_texture *backdrop;   /* shows through where the real world hides a part of a pixel */
     const gl_texture *real_depth; /* z in the picture's camera per pixel; NULL = none */
     const gl_soft_real *soft; /* instead of real_depth; NULL = none. Without both nothing hides */
+    const caster *casters;    /* as the snapshot's bodies; NULL = no shadows */
 } gl_bodies_pass;
 
 rlf_result gl_bodies_create(bool is_es, gl_bodies *out);
@@ -41,7 +45,7 @@ void gl_bodies_destroy(gl_bodies *bodies);
 /* Binds the program and what the pass shares. Depth test and masks are the caller's. */
 void gl_bodies_begin(const gl_bodies *bodies, const gl_bodies_pass *pass);
 void gl_bodies_draw(const gl_bodies *bodies, const gl_bodies_pass *pass,
-                    const rlf_body_state *body);
+                    const rlf_snapshot *snapshot, int32_t index);
 void gl_bodies_end(void);
 
 #endif

@@ -22,6 +22,8 @@ typedef struct gl_compositor {
     rlf_compositor *soft;
     real_depth real;
     silhouette silhouette; /* RLF_OCCLUSION_SOFT only */
+    caster *casters;       /* as the snapshot's bodies */
+    int32_t caster_capacity;
     rlf_image_rgba8 image; /* read back */
     rlf_plane_u8 matte;
 
@@ -61,6 +63,7 @@ static void free_planes(gl_compositor *c)
     real_depth_destroy(&c->real);
     silhouette_destroy(&c->silhouette);
     rlf_compositor_destroy(&c->soft);
+    rlf_free(c->casters);
     rlf_free(c->image.data);
     rlf_free(c->matte.data);
 }
@@ -258,6 +261,23 @@ static void update_silhouette(gl_compositor *c, const rlf_render_input *input)
     gl_texture_upload_u8(&c->cover_texture, s->cover.data, width, height);
 }
 
+static rlf_result place_casters(gl_compositor *c, const rlf_snapshot *snapshot, rlf_vec3 to_light)
+{
+    if (snapshot->body_count > c->caster_capacity) {
+        rlf_free(c->casters);
+        c->caster_capacity = 2 * snapshot->body_count;
+        c->casters = rlf_alloc_array((size_t)c->caster_capacity, sizeof(*c->casters));
+        if (c->casters == NULL) {
+            c->caster_capacity = 0;
+            return RLF_ERROR_MEMORY;
+        }
+    }
+    for (int32_t i = 0; i < snapshot->body_count; i++) {
+        (void)caster_make(&snapshot->bodies[i], &c->view.T_picture_world, to_light, &c->casters[i]);
+    }
+    return RLF_OK;
+}
+
 static bool has_shadows(const gl_compositor *c)
 {
     /* The thesis has none, and plain augmented reality does not know the real world. */
@@ -265,8 +285,9 @@ static bool has_shadows(const gl_compositor *c)
 }
 
 /* The colour image, or depth in grey when the frame has none, and the bodies' shadows. */
-static void draw_backdrop(gl_compositor *c, const rlf_render_input *input)
+static rlf_result draw_backdrop(gl_compositor *c, const rlf_render_input *input)
 {
+    rlf_result result = RLF_OK;
     const rlf_rig *rig = &c->def.rig;
     bool has_color = input->frame->color.data != NULL;
     if (!has_color || has_bodies(input)) {
@@ -285,9 +306,15 @@ static void draw_backdrop(gl_compositor *c, const rlf_render_input *input)
     }
     if (has_bodies(input) && has_shadows(c)) {
         rlf_vec3 light = rlf_rotate(c->view.T_picture_camera.q, c->def.light_direction);
-        gl_backdrop_shadows shadows = {&c->view, &c->depth_texture, rlf_neg(light)};
-        gl_backdrop_draw_shadows(&c->backdrop, &shadows, input->snapshot);
+        gl_backdrop_shadows shadows = {&c->view, &c->depth_texture, rlf_neg(light), NULL,
+                                       input->snapshot->body_count};
+        result = place_casters(c, input->snapshot, shadows.to_light);
+        shadows.casters = c->casters;
+        if (result == RLF_OK) {
+            gl_backdrop_draw_shadows(&c->backdrop, &shadows);
+        }
     }
+    return result;
 }
 
 static bool is_drawable(const rlf_body_state *body)
@@ -302,9 +329,12 @@ static void draw_bodies(gl_compositor *c, const rlf_snapshot *snapshot)
     rlf_occlusion occlusion = c->def.occlusion;
     gl_soft_real soft_real = {&c->near_texture, &c->far_texture, &c->cover_texture,
                               &c->def.rig.noise};
-    gl_bodies_pass pass = {&c->view, c->def.light_direction, &c->backdrop.texture,
+    gl_bodies_pass pass = {&c->view,
+                           c->def.light_direction,
+                           &c->backdrop.texture,
                            occlusion == RLF_OCCLUSION_DEPTH ? &c->depth_texture : NULL,
-                           occlusion == RLF_OCCLUSION_SOFT ? &soft_real : NULL};
+                           occlusion == RLF_OCCLUSION_SOFT ? &soft_real : NULL,
+                           has_shadows(c) ? c->casters : NULL};
     gl_layer_images images = {&c->backdrop.texture, &c->depth_texture, NULL};
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
@@ -313,14 +343,14 @@ static void draw_bodies(gl_compositor *c, const rlf_snapshot *snapshot)
         gl_thesis_pass thesis = {&c->target, &c->bodies, &c->layers, pass, images};
         for (int32_t i = 0; i < snapshot->body_count; i++) {
             if (is_drawable(&snapshot->bodies[i])) {
-                gl_thesis_draw(&c->thesis, &thesis, &snapshot->bodies[i]);
+                gl_thesis_draw(&c->thesis, &thesis, snapshot, i);
             }
         }
     } else {
         gl_bodies_begin(&c->bodies, &pass);
         for (int32_t i = 0; i < snapshot->body_count; i++) {
             if (is_drawable(&snapshot->bodies[i])) {
-                gl_bodies_draw(&c->bodies, &pass, &snapshot->bodies[i]);
+                gl_bodies_draw(&c->bodies, &pass, snapshot, i);
             }
         }
         gl_bodies_end();
@@ -365,7 +395,10 @@ static rlf_result draw(gl_compositor *c, const rlf_render_input *input)
     rlf_result result = RLF_OK;
     gl_view_place(&c->view, &input->T_world_camera);
     reset_state();
-    draw_backdrop(c, input);
+    result = draw_backdrop(c, input);
+    if (result != RLF_OK) {
+        return result;
+    }
     gl_target_bind(&c->target);
     glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     gl_layer_images images = {&c->backdrop.texture, NULL, NULL};

@@ -31,19 +31,21 @@ void gl_thesis_destroy(gl_thesis *thesis)
     *thesis = (gl_thesis){0};
 }
 
-static void draw_body(const gl_thesis_pass *pass, const rlf_body_state *body)
+static void draw_body(const gl_thesis_pass *pass, const rlf_snapshot *snapshot, int32_t index)
 {
     gl_bodies_begin(pass->bodies, &pass->body_pass);
-    gl_bodies_draw(pass->bodies, &pass->body_pass, body);
+    gl_bodies_draw(pass->bodies, &pass->body_pass, snapshot, index);
     gl_bodies_end();
 }
 
-void gl_thesis_draw(const gl_thesis *thesis, const gl_thesis_pass *pass, const rlf_body_state *body)
+void gl_thesis_draw(const gl_thesis *thesis, const gl_thesis_pass *pass,
+                    const rlf_snapshot *snapshot, int32_t index)
 {
     /* Clearing and layering the whole picture once per body would cost bodies times pixels. */
     const gl_view *view = pass->body_pass.view;
-    rlf_vec3 center = rlf_transform(&view->T_picture_world, body->T_world_body.p);
-    gl_view_rect rect = gl_view_bound_sphere(view, center, rlf_shape_radius(&body->shape));
+    rlf_vec3 center = rlf_transform(&view->T_picture_world, snapshot->bodies[index].T_world_body.p);
+    gl_view_rect rect =
+        gl_view_bound_sphere(view, center, rlf_shape_radius(&snapshot->bodies[index].shape));
     if (rect.width == 0 || rect.height == 0) {
         return;
     }
@@ -53,7 +55,7 @@ void gl_thesis_draw(const gl_thesis *thesis, const gl_thesis_pass *pass, const r
     /* The body's z per pixel, for the layer's comparison. */
     glBindFramebuffer(GL_FRAMEBUFFER, thesis->framebuffer);
     glClear(GL_DEPTH_BUFFER_BIT);
-    draw_body(pass, body);
+    draw_body(pass, snapshot, index);
 
     /* The body itself marks its pixels in the stencil buffer. */
     gl_target_bind(pass->target);
@@ -61,7 +63,7 @@ void gl_thesis_draw(const gl_thesis *thesis, const gl_thesis_pass *pass, const r
     glEnable(GL_STENCIL_TEST);
     glStencilFunc(GL_ALWAYS, 1, 0xff);
     glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-    draw_body(pass, body);
+    draw_body(pass, snapshot, index);
 
     /* Reality over it. Blending scales the matte in alpha by what the layer leaves to be seen. */
     gl_layer_images images = pass->images;

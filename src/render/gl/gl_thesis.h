@@ -26,6 +26,6 @@ typedef struct gl_thesis_pass {
  * leaves them so. The order of bodies does not matter: the depth buffer keeps a far body from both
  * drawing and stencilling over a nearer one. */
 void gl_thesis_draw(const gl_thesis *thesis, const gl_thesis_pass *pass,
-                    const rlf_body_state *body);
+                    const rlf_snapshot *snapshot, int32_t index);
 
 #endif

@@ -53,7 +53,7 @@ static touched draw_faces(const soft *s, const band_faces *list, int32_t first, 
     }
     for (int32_t i = 0; i < count; i++) {
         const soft_face *face = &s->scene.faces[row->spans[i].face];
-        soft_shade_span(face, &s->scene.bodies[face->body], row, real, &row->spans[i]);
+        soft_shade_span(s, face, row, real, &row->spans[i]);
     }
     return t;
 }
@@ -147,7 +147,7 @@ static soft_real_row real_row(const soft *s, int32_t y)
 static void draw_band(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     const soft *s = context;
-    soft_draw_shadows(s, begin, end);
+    soft_draw_shadows(s, &s->shade_work[worker], begin, end);
     bool is_layered = s->def.occlusion == RLF_OCCLUSION_THESIS;
     soft_row row = s->workers[worker];
     band_faces list = {row.list, 0};

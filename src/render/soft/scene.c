@@ -19,9 +19,14 @@ static rlf_result reserve_bodies(soft_scene *scene, int32_t count)
         return RLF_ERROR_MEMORY;
     }
     rlf_free(scene->bodies);
+    rlf_free(scene->casters);
+    rlf_free(scene->reach);
     scene->bodies = bodies;
-    scene->body_capacity = count * 2;
-    return RLF_OK;
+    scene->casters = rlf_alloc_array((size_t)count * 2, sizeof(*scene->casters));
+    scene->reach = rlf_alloc_array((size_t)count * 2, sizeof(*scene->reach));
+    bool has_all = scene->casters != NULL && scene->reach != NULL;
+    scene->body_capacity = has_all ? count * 2 : 0;
+    return has_all ? RLF_OK : RLF_ERROR_MEMORY;
 }
 
 static double magnitude(double x)
@@ -142,9 +147,8 @@ static rlf_result add_body(soft *s, const rlf_body_state *state, const rlf_pose 
                         .index = index};
     choose_look(s, state, body);
     rlf_quat q = rlf_quat_normalize(T.q);
-    rlf_vec3 to_light = rlf_neg(rlf_rotate(s->T_picture_depth.q, s->def.light_direction));
     body_transform transform = {rlf_quat_to_mat3(q), T.p,
-                                rlf_rotate(rlf_quat_conjugate(q), to_light),
+                                rlf_rotate(rlf_quat_conjugate(q), s->to_light),
                                 shape_mesh_scale_of(shape)};
     if (is_hull) {
         add_hull(s, &transform, shape, scene->body_count);
@@ -184,11 +188,35 @@ static void sort_bodies(soft_scene *scene)
     }
 }
 
+/* Who takes light from whom. The thesis has no shadows, and plain augmented reality does not know
+ * the real world. */
+static void place_casters(soft *s, const rlf_snapshot *snapshot, const rlf_pose *T_picture_world)
+{
+    soft_scene *scene = &s->scene;
+    const float to_light[3] = {(float)s->to_light.x, (float)s->to_light.y, (float)s->to_light.z};
+    bool has_shadows =
+        s->def.occlusion == RLF_OCCLUSION_DEPTH || s->def.occlusion == RLF_OCCLUSION_SOFT;
+    scene->caster_count = has_shadows ? snapshot->body_count : 0;
+    for (int32_t i = 0; i < scene->caster_count; i++) {
+        caster *c = &scene->casters[i];
+        bool is_caster = caster_make(&snapshot->bodies[i], T_picture_world, s->to_light, c);
+        if (is_caster && !caster_reach(c, &s->camera, s->to_light, &scene->reach[i])) {
+            scene->reach[i] = (caster_rect){0, 0, 0, 0};
+        }
+    }
+    for (int32_t i = 0; has_shadows && i < scene->body_count; i++) {
+        soft_body *body = &scene->bodies[i];
+        body->shader_count = caster_choose(scene->casters, scene->caster_count, body->index,
+                                           to_light, body->shaders);
+    }
+}
+
 rlf_result soft_scene_build(soft *s, const rlf_render_input *input)
 {
     const rlf_snapshot *snapshot = input->snapshot;
     s->scene.face_count = 1;
     s->scene.body_count = 0;
+    s->scene.caster_count = 0;
     if (snapshot == NULL || snapshot->body_count <= 0) {
         return RLF_OK;
     }
@@ -198,6 +226,9 @@ rlf_result soft_scene_build(soft *s, const rlf_render_input *input)
     for (int32_t i = 0; i < snapshot->body_count && result == RLF_OK; i++) {
         result = add_body(s, &snapshot->bodies[i], &T_picture_world, i);
     }
-    sort_bodies(&s->scene);
+    if (result == RLF_OK) {
+        sort_bodies(&s->scene);
+        place_casters(s, snapshot, &T_picture_world);
+    }
     return result;
 }

@@ -196,9 +196,75 @@ static run run_of(const soft_face *f, const soft_body *body, float x, float y)
     return r;
 }
 
-RLF_KERNEL void soft_shade_span(const soft_face *f, const soft_body *body, const soft_row *row,
+/* ---- what takes light from a body ----------------------------------------------------------- */
+
+RLF_KERNEL_PART void apply_light(const float *restrict ambient_left,
+                                 const float *restrict direct_left, int32_t count,
+                                 float *restrict light)
+{
+    const float ambient = (float)BODY_LIGHT_AMBIENT;
+    for (int32_t i = 0; i < count; i++) {
+        light[i] = ambient * ambient_left[i] + (light[i] - ambient) * direct_left[i];
+    }
+}
+
+RLF_KERNEL_PART void fill_ones(int32_t count, float *restrict out)
+{
+    for (int32_t i = 0; i < count; i++) {
+        out[i] = 1.0f;
+    }
+}
+
+/* A ball about some pixels of a row, from their first and last depth. */
+RLF_KERNEL_PART float ball_of(const caster_rays *rays, const lanes *v, int32_t count, float out[3])
+{
+    float z[2] = {v->z[0], v->z[count - 1]};
+    float x[2] = {rays->x0 * z[0], (rays->x0 + rays->step * (float)(count - 1)) * z[1]};
+    float y[2] = {rays->y * z[0], rays->y * z[1]};
+    out[0] = 0.5f * (x[0] + x[1]);
+    out[1] = 0.5f * (y[0] + y[1]);
+    out[2] = 0.5f * (z[0] + z[1]);
+    float step[3] = {x[0] - out[0], y[0] - out[1], z[0] - out[2]};
+    return sqrtf(step[0] * step[0] + step[1] * step[1] + step[2] * step[2]);
+}
+
+/* Other bodies' contact darkening takes the light around, their shadows the directed light. */
+static void shade_by_others(const soft *s, const soft_body *body, int32_t x, int32_t y,
+                            int32_t count, lanes *v)
+{
+    const rlf_camera *k = &s->camera;
+    const caster_rays rays = {(float)((x - k->cx) / k->fx), (float)(1.0 / k->fx),
+                              (float)((y - k->cy) / k->fy)};
+    const float to_light[3] = {(float)s->to_light.x, (float)s->to_light.y, (float)s->to_light.z};
+    float ambient_left[CHUNK];
+    float direct_left[CHUNK];
+    float middle[3];
+    float radius = ball_of(&rays, v, count, middle);
+    int32_t any = CASTER_TAKES_NOTHING;
+    for (int32_t i = 0; i < body->shader_count; i++) {
+        const caster *c = &s->scene.casters[body->shaders[i]];
+        int32_t takes = caster_may_take(c, to_light, middle, radius);
+        if (takes != CASTER_TAKES_NOTHING && any == CASTER_TAKES_NOTHING) {
+            fill_ones(count, ambient_left);
+            fill_ones(count, direct_left);
+        }
+        any |= takes;
+        if ((takes & CASTER_TAKES_AMBIENT) != 0) {
+            caster_take_ambient(c, &rays, v->z, count, (float)BODY_AMBIENT_SHARE, ambient_left);
+        }
+        if ((takes & CASTER_TAKES_DIRECT) != 0) {
+            caster_take_direct(c, &rays, v->z, count, (float)BODY_DIRECT_SHARE, direct_left);
+        }
+    }
+    if (any != CASTER_TAKES_NOTHING) {
+        apply_light(ambient_left, direct_left, count, v->light);
+    }
+}
+
+RLF_KERNEL void soft_shade_span(const soft *s, const soft_face *f, const soft_row *row,
                                 const soft_real_row *real, const soft_span *span)
 {
+    const soft_body *body = &s->scene.bodies[f->body];
     run r = run_of(f, body, (float)span->x0, (float)row->y);
     lanes v;
     for (int32_t first = 0; first < span->x1 - span->x0; first += CHUNK) {
@@ -207,6 +273,9 @@ RLF_KERNEL void soft_shade_span(const soft_face *f, const soft_body *body, const
         count = (count + SOFT_LANES - 1) / SOFT_LANES * SOFT_LANES; /* no shorter steps */
         interpolate_z(&r, first, count, v.z);
         interpolate_light(&r, first, count, v.z, v.light);
+        if (body->shader_count > 0) {
+            shade_by_others(s, body, x, row->y, count, &v);
+        }
         interpolate_uv(&r, first, count, v.z, v.weight_x, v.weight_y, v.index);
         look_up(body->texture, v.index, count, v.texels);
         filter(v.texels, v.weight_x, v.weight_y, count, v.light);

@@ -1,135 +1,159 @@
-/* Soft shadows of the bodies on the real surfaces.
- *
- * Each body is taken as a ball of radius r. A real point at distance d loses the light that the
- * ball hides: of the light around, (r / d)^2 (form factor of a ball, Quilez 2006), and of the
- * directed light, what passes close to the ball. Both are for surfaces that face the ball; those
- * the camera sees face the camera, so one with the ball behind it does not. */
+/* Soft shadows of the bodies on the real surfaces: see caster.h. */
+#include "kernel/kernel.h"
 #include "render/soft/soft.h"
 
-#define REACH 3.0f /* radii from the ball within which anything is darkened */
-#define AMBIENT_SHARE 0.5f
-#define DIRECT_SHARE 0.35f
-#define BALL_RADIUS 0.75 /* of the bounding sphere's, which no box or stick fills */
-#define BLOCK 16         /* pixels looked at together */
+#define TILE SILHOUETTE_TILE /* pixels; a band of rows is as high */
+#define SAMPLES (TILE / CASTER_BLOCK)
 
-/* A ball in the picture and the rectangle that its shadow can reach. */
-typedef struct ball {
-    float x, y, z, radius2;
-    float to_light[3];
-    soft_rect rect;
-} ball;
+/* One band of rows while the bodies take light from it. */
+typedef struct shade_band {
+    const soft *s;
+    int32_t begin, end; /* rows */
+    soft_shade_work *work;
+} shade_band;
 
-static ball ball_of(const soft *s, const soft_body *body)
+RLF_KERNEL static void find_depths(const float *restrict z, int32_t count, float *restrict near_z,
+                                   float *restrict far_z)
 {
-    const rlf_camera *k = &s->camera;
-    rlf_vec3 l = rlf_neg(rlf_rotate(s->T_picture_depth.q, s->def.light_direction));
-    double r = BALL_RADIUS * body->radius;
-    double z = rlf_max(body->center.z - 0.5 * REACH * r, 0.1);
-    double u = k->fx * body->center.x / body->center.z + k->cx;
-    double v = k->fy * body->center.y / body->center.z + k->cy;
-    double reach_u = k->fx * REACH * r / z;
-    double reach_v = k->fy * REACH * r / z;
-    ball b = {(float)body->center.x,
-              (float)body->center.y,
-              (float)body->center.z,
-              (float)(r * r),
-              {(float)l.x, (float)l.y, (float)l.z},
-              {(int32_t)rlf_clamp(u - reach_u, 0, k->width),
-               (int32_t)rlf_clamp(v - reach_v, 0, k->height),
-               (int32_t)rlf_clamp(u + reach_u, 0, k->width),
-               (int32_t)rlf_clamp(v + reach_v, 0, k->height)}};
-    return b;
-}
-
-/* True when a pixel of [begin, end) is as deep as the ball, give or take its reach. */
-static bool may_darken(const float *z, int32_t begin, int32_t end, const float range[2])
-{
-    int32_t any = 0;
-    for (int32_t x = begin; x < end; x++) {
-        any |= (int32_t)(z[x] > range[0]) & (int32_t)(z[x] < range[1]);
-    }
-    return any != 0;
-}
-
-/* Rays (x0 + i step, y, 1) of a run of pixels. */
-typedef struct ray_run {
-    float x0, step, y;
-} ray_run;
-
-/* Light that is left, 0..1, at `count` pixels of depth z. Without branches, so that compilers
- * vectorise it. */
-static void light_left(const ball *b, const float *restrict z, ray_run rays, int32_t count,
-                       float *restrict out)
-{
-    float reach2 = b->radius2 * (REACH * REACH);
+    float low = *near_z;
+    float high = *far_z;
     for (int32_t i = 0; i < count; i++) {
-        float ray_x = rays.x0 + rays.step * (float)i;
-        float dx = b->x - ray_x * z[i];
-        float dy = b->y - rays.y * z[i];
-        float dz = b->z - z[i];
-        float distance2 = dx * dx + dy * dy + dz * dz + 1e-12f;
-        float fade = 1.0f - distance2 / reach2;
-        float size = b->radius2 / (distance2 > b->radius2 ? distance2 : b->radius2);
-        float along = dx * b->to_light[0] + dy * b->to_light[1] + dz * b->to_light[2];
-        float direct = 1.0f - (distance2 - along * along) / (b->radius2 * 1.5f);
-        direct = along > 0.0f ? direct : 0.0f;
-        direct = direct > 0.0f ? direct : 0.0f;
-        float behind = dx * ray_x + dy * rays.y + dz;
-        behind = behind > 0.0f ? behind : 0.0f;
-        float ray2 = ray_x * ray_x + rays.y * rays.y + 1.0f;
-        float facing = 1.0f - behind * behind / (distance2 * ray2);
-        float lost = fade * facing * (AMBIENT_SHARE * size + DIRECT_SHARE * direct);
-        lost = fade > 0.0f ? lost : 0.0f;
-        out[i] = z[i] > 0.0f ? 1.0f - lost : 1.0f;
+        float here = z[i] > 0.0f ? z[i] : 1e9f;
+        low = here < low ? here : low;
+        high = z[i] > high ? z[i] : high;
+    }
+    *near_z = low;
+    *far_z = high;
+}
+
+/* A ball about all that is real in the tile: its middle and radius, found when first needed. */
+static const soft_shade_tile *tile_at(const shade_band *b, int32_t column)
+{
+    soft_shade_tile *tile = &b->work->tiles[column];
+    if (tile->is_known) {
+        return tile;
+    }
+    const rlf_camera *k = &b->s->camera;
+    int32_t x0 = column * TILE;
+    int32_t x1 = x0 + TILE < k->width ? x0 + TILE : k->width;
+    float near_z = 1e9f;
+    float far_z = 0.0f;
+    for (int32_t y = b->begin; y < b->end; y += CASTER_BLOCK) {
+        find_depths(rlf_f32_row(&b->s->real.z, y) + x0, x1 - x0, &near_z, &far_z);
+    }
+    double x = (0.5 * (x0 + x1 - 1) - k->cx) / k->fx;
+    double y = (0.5 * (b->begin + b->end - 1) - k->cy) / k->fy;
+    double middle = 0.5 * ((double)near_z + (double)far_z);
+    double half_x = 0.5 * TILE / k->fx;
+    double half_y = 0.5 * TILE / k->fy;
+    double along = 0.5 * ((double)far_z - (double)near_z) * sqrt(x * x + y * y + 1.0);
+    double across = (double)far_z * sqrt(half_x * half_x + half_y * half_y);
+    *tile = (soft_shade_tile){{(float)(middle * x), (float)(middle * y), (float)middle},
+                              (float)(along + across),
+                              far_z > 0.0f,
+                              true,
+                              false};
+    return tile;
+}
+
+/* Samples of a row of the tile, every CASTER_BLOCK-th pixel. */
+static void gather(const float *row, int32_t x0, int32_t width, float z[SAMPLES])
+{
+    int32_t count = 0;
+    for (int32_t x = x0; x < x0 + TILE && x < width; x += CASTER_BLOCK) {
+        z[count++] = row[x];
     }
 }
 
-static void darken(uint8_t *pixels, const float *light, int32_t count)
+static void take_light(const caster *c, const shade_band *b, int32_t column, int32_t takes)
 {
-    for (int32_t i = 0; i < count; i++) {
-        if (light[i] < 1.0f) {
-            uint8_t *pixel = pixels + 4 * (ptrdiff_t)i;
-            for (int c = 0; c < 3; c++) {
-                pixel[c] = (uint8_t)((float)pixel[c] * light[i] + 0.5f);
-            }
-        }
-    }
-}
-
-static void draw_ball_row(const soft *s, const ball *b, int32_t y)
-{
-    const rlf_camera *k = &s->camera;
-    const float *z = rlf_f32_row(&s->real.z, y);
-    uint8_t *pixels = rlf_rgba8_row(&s->image, y);
-    float reach = REACH * (float)sqrt(b->radius2);
-    const float range[2] = {b->z - reach > 0.0f ? b->z - reach : 0.0f, b->z + reach};
-    for (int32_t first = b->rect.x0; first < b->rect.x1; first += BLOCK) {
-        int32_t last = first + BLOCK < b->rect.x1 ? first + BLOCK : b->rect.x1;
-        if (may_darken(z, first, last, range)) {
-            ray_run rays = {(float)((first - k->cx) / k->fx), (float)(1.0 / k->fx),
+    const rlf_camera *k = &b->s->camera;
+    soft_shade_tile *tile = &b->work->tiles[column];
+    int32_t x0 = column * TILE;
+    for (int32_t y = b->begin; y < b->end; y += CASTER_BLOCK) {
+        float z[SAMPLES] = {0};
+        int32_t line = (y - b->begin) / CASTER_BLOCK;
+        float *light = b->work->light + line * b->work->stride + column * SAMPLES;
+        caster_rays rays = {(float)((x0 - k->cx) / k->fx), (float)(CASTER_BLOCK / k->fx),
                             (float)((y - k->cy) / k->fy)};
-            float light[BLOCK];
-            light_left(b, z + first, rays, last - first, light);
-            darken(pixels + 4 * (ptrdiff_t)first, light, last - first);
+        gather(rlf_f32_row(&b->s->real.z, y), x0, k->width, z);
+        for (int32_t i = 0; !tile->is_shaded && i < SAMPLES; i++) {
+            light[i] = 1.0f;
+        }
+        if ((takes & CASTER_TAKES_AMBIENT) != 0) {
+            caster_take_ambient(c, &rays, z, SAMPLES, (float)CASTER_AMBIENT_SHARE, light);
+        }
+        if ((takes & CASTER_TAKES_DIRECT) != 0) {
+            caster_take_direct(c, &rays, z, SAMPLES, (float)CASTER_DIRECT_SHARE, light);
+        }
+    }
+    tile->is_shaded = true;
+}
+
+static void shade_by(const shade_band *b, const caster *c, const caster_rect *r)
+{
+    const soft *s = b->s;
+    const float to_light[3] = {(float)s->to_light.x, (float)s->to_light.y, (float)s->to_light.z};
+    if (r->y0 >= b->end || r->y1 <= b->begin) {
+        return;
+    }
+    for (int32_t column = r->x0 / TILE; column * TILE < r->x1; column++) {
+        const soft_shade_tile *tile = tile_at(b, column);
+        int32_t takes = tile->has_depth ? caster_may_take(c, to_light, tile->center, tile->radius)
+                                        : CASTER_TAKES_NOTHING;
+        if (takes != CASTER_TAKES_NOTHING) {
+            take_light(c, b, column, takes);
         }
     }
 }
 
-void soft_draw_shadows(const soft *s, int32_t begin, int32_t end)
+RLF_KERNEL static void darken(const float *restrict light, int32_t count, uint8_t *restrict bytes)
 {
-    if (s->def.occlusion == RLF_OCCLUSION_OFF || s->def.occlusion == RLF_OCCLUSION_THESIS) {
-        return; /* the thesis has none, and plain augmented reality does not know the real world */
+    for (int32_t i = 0; i < count; i++) {
+        bytes[i] = (uint8_t)(int32_t)((float)bytes[i] * light[i] + 0.5f);
     }
-    for (int32_t i = 0; i < s->scene.body_count; i++) {
-        const soft_body *body = &s->scene.bodies[i];
-        if (body->center.z < 0.1) {
-            continue; /* around the camera: it would darken everything or nothing */
+}
+
+/* Each sample's light goes to the pixels of its block. */
+static void darken_tile(const soft *s, const soft_shade_work *work, int32_t column, int32_t begin,
+                        int32_t end)
+{
+    int32_t x0 = column * TILE;
+    int32_t count = x0 + TILE < s->camera.width ? TILE : s->camera.width - x0;
+    float share[4 * TILE];
+    for (int32_t y = begin; y < end; y++) {
+        int32_t line = (y - begin) / CASTER_BLOCK;
+        const float *light = work->light + line * work->stride + column * SAMPLES;
+        for (int32_t x = 0; (y - begin) % CASTER_BLOCK == 0 && x < TILE; x++) {
+            float here = light[x / CASTER_BLOCK];
+            share[4 * x] = here;
+            share[4 * x + 1] = here;
+            share[4 * x + 2] = here;
+            share[4 * x + 3] = 1.0f;
         }
-        ball b = ball_of(s, body);
-        int32_t first = b.rect.y0 > begin ? b.rect.y0 : begin;
-        int32_t last = b.rect.y1 < end ? b.rect.y1 : end;
-        for (int32_t y = first; y < last; y++) {
-            draw_ball_row(s, &b, y);
+        darken(share, 4 * count, rlf_rgba8_row(&s->image, y) + 4 * (ptrdiff_t)x0);
+    }
+}
+
+void soft_draw_shadows(const soft *s, soft_shade_work *work, int32_t begin, int32_t end)
+{
+    if (s->scene.caster_count == 0) {
+        return;
+    }
+    shade_band b = {s, begin, end, work};
+    int32_t columns = (s->camera.width + TILE - 1) / TILE;
+    for (int32_t column = 0; column < columns; column++) {
+        work->tiles[column].is_known = false;
+        work->tiles[column].is_shaded = false;
+    }
+    for (int32_t i = 0; i < s->scene.caster_count; i++) {
+        if (s->scene.casters[i].near_m > 0.0f) {
+            shade_by(&b, &s->scene.casters[i], &s->scene.reach[i]);
+        }
+    }
+    for (int32_t column = 0; column < columns; column++) {
+        if (work->tiles[column].is_shaded) {
+            darken_tile(s, work, column, begin, end);
         }
     }
 }

@@ -20,10 +20,14 @@ static void destroy(void *self)
             rlf_free(rows[k]);
         }
     }
-    void *parts[9] = {s->workers,     s->image.data,    s->matte.data,
-                      s->scene.faces, s->scene.bodies,  s->corners,
-                      s->column_left, s->column_weight, s->grid_image.data};
-    for (int i = 0; i < 9; i++) {
+    for (int32_t i = 0; s->shade_work != NULL && i < s->worker_count; i++) {
+        rlf_free(s->shade_work[i].tiles);
+        rlf_free(s->shade_work[i].light);
+    }
+    void *parts[12] = {s->workers,         s->image.data, s->matte.data,    s->scene.faces,
+                       s->scene.bodies,    s->corners,    s->column_left,   s->column_weight,
+                       s->grid_image.data, s->shade_work, s->scene.casters, s->scene.reach};
+    for (int i = 0; i < 12; i++) {
         rlf_free(parts[i]);
     }
     rlf_free(s);
@@ -68,6 +72,24 @@ static rlf_result allocate_workers(soft *s)
     return RLF_OK;
 }
 
+static rlf_result allocate_shade_work(soft *s)
+{
+    size_t columns = ((size_t)s->camera.width + SILHOUETTE_TILE - 1) / SILHOUETTE_TILE;
+    s->shade_work = rlf_alloc_array((size_t)s->worker_count, sizeof(*s->shade_work));
+    for (int32_t i = 0; s->shade_work != NULL && i < s->worker_count; i++) {
+        soft_shade_work *work = &s->shade_work[i];
+        work->stride = (ptrdiff_t)(columns * SILHOUETTE_TILE / CASTER_BLOCK);
+        work->tiles = rlf_alloc_array(columns, sizeof(*work->tiles));
+        work->light = rlf_alloc_array(columns * SILHOUETTE_TILE * SOFT_BAND_ROWS /
+                                          (CASTER_BLOCK * CASTER_BLOCK),
+                                      sizeof(float));
+        if (work->tiles == NULL || work->light == NULL) {
+            return RLF_ERROR_MEMORY;
+        }
+    }
+    return s->shade_work != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+}
+
 static rlf_result allocate(soft *s)
 {
     int32_t width = s->camera.width;
@@ -80,16 +102,22 @@ static rlf_result allocate(soft *s)
         result = allocate_workers(s);
     }
     if (result == RLF_OK) {
+        result = allocate_shade_work(s);
+    }
+    if (result == RLF_OK) {
         result = soft_scene_reserve(s, FACES_AT_START);
     }
     s->matte = (rlf_plane_u8){rlf_alloc_array((size_t)width, (size_t)height), width, height, width};
     s->scene.body_capacity = BODIES_AT_START;
     s->scene.bodies = rlf_alloc_array(BODIES_AT_START, sizeof(*s->scene.bodies));
+    s->scene.casters = rlf_alloc_array(BODIES_AT_START, sizeof(*s->scene.casters));
+    s->scene.reach = rlf_alloc_array(BODIES_AT_START, sizeof(*s->scene.reach));
     s->corners = rlf_alloc_array(SHAPE_MESH_VERTEX_MAX, sizeof(*s->corners));
     s->column_left = rlf_alloc_array((size_t)width, sizeof(*s->column_left));
     s->column_weight = rlf_alloc_array((size_t)width, sizeof(*s->column_weight));
     if (result != RLF_OK || s->matte.data == NULL || s->scene.bodies == NULL ||
-        s->corners == NULL || s->column_left == NULL || s->column_weight == NULL) {
+        s->scene.casters == NULL || s->scene.reach == NULL || s->corners == NULL ||
+        s->column_left == NULL || s->column_weight == NULL) {
         return RLF_ERROR_MEMORY;
     }
     return RLF_OK;
@@ -236,6 +264,7 @@ static rlf_result prepare(soft *s)
     s->camera = real_depth_picture_camera(&s->def);
     s->T_picture_depth = real_depth_picture_pose(&s->def);
     s->def.light_direction = rlf_normalize(s->def.light_direction);
+    s->to_light = rlf_neg(rlf_rotate(s->T_picture_depth.q, s->def.light_direction));
     shape_mesh_set_build(&s->meshes);
     rlf_result result = make_textures(s);
     if (result == RLF_OK) {

@@ -12,6 +12,7 @@
 
 #include "kernel/kernel.h"
 #include "render/body_texture.h"
+#include "render/caster.h"
 #include "render/real_depth.h"
 #include "render/shape_mesh.h"
 #include "render/silhouette.h"
@@ -60,13 +61,19 @@ typedef struct soft_body {
     rlf_vec3 center;         /* picture camera frame, metres */
     double radius;           /* of the bounding sphere, metres */
     int32_t index;           /* in the snapshot */
+    int32_t shaders[CASTER_BODIES]; /* casters that may take light from it */
+    int32_t shader_count;
 } soft_body;
 
 typedef struct soft_scene {
     soft_face *faces; /* entry 0 is not used: sample value 0 means nothing */
     int32_t face_count, face_capacity;
     soft_body *bodies; /* those in the picture, nearest first */
-    int32_t body_count, body_capacity;
+    int32_t body_count;
+    caster *casters; /* as the snapshot's bodies; none without shadows */
+    caster_rect *reach;
+    int32_t caster_count;
+    int32_t body_capacity; /* of the three */
 } soft_scene;
 
 /* ---- the renderer --------------------------------------------------------------------------- */
@@ -92,6 +99,19 @@ typedef struct soft_row {
     int32_t face_capacity; /* of the two */
 } soft_row;
 
+/* A tile of the real world while bodies take light from it. */
+typedef struct soft_shade_tile {
+    float center[3], radius; /* of a ball about all of it, picture camera frame */
+    bool has_depth, is_known, is_shaded;
+} soft_shade_tile;
+
+/* One worker's band of rows. */
+typedef struct soft_shade_work {
+    soft_shade_tile *tiles;
+    float *light; /* [block row][block]: share that is left, in shaded tiles */
+    ptrdiff_t stride;
+} soft_shade_work;
+
 /* What may hide a body in a row: near_z, far_z and cover of soft occlusion, or rows of registered
  * depth, or (all NULL) nothing. */
 typedef struct soft_real_row {
@@ -116,7 +136,9 @@ typedef struct soft {
     soft_scene scene;
     soft_corner *corners; /* work memory: one mesh's vertices */
     soft_row *workers;
+    soft_shade_work *shade_work;
     int32_t worker_count;
+    rlf_vec3 to_light; /* unit, picture camera frame */
 
     int32_t *column_left; /* bilinear resize, per x: left column, weight of the next one (0..256) */
     int32_t *column_weight;
@@ -141,7 +163,7 @@ void soft_scene_add_face(soft *s, const soft_corner *corners, int32_t corner_cou
 bool soft_raster_row(const soft_face *face, int32_t id, const soft_row *row, soft_span *out);
 
 /* shade.c: adds what the samples see of the span's face to the row's sums. */
-void soft_shade_span(const soft_face *face, const soft_body *body, const soft_row *row,
+void soft_shade_span(const soft *s, const soft_face *face, const soft_row *row,
                      const soft_real_row *real, const soft_span *span);
 /* Puts sums (red, green, blue, shown) over `count` pixels. */
 void soft_compose_row(float *const sum[4], int32_t count, uint8_t *restrict pixels,
@@ -151,7 +173,7 @@ void soft_compose_row(float *const sum[4], int32_t count, uint8_t *restrict pixe
 void soft_draw_bodies(soft *s);
 
 /* shadow.c: darkens the real surfaces of rows [begin, end) that the bodies keep the light from. */
-void soft_draw_shadows(const soft *s, int32_t begin, int32_t end);
+void soft_draw_shadows(const soft *s, soft_shade_work *work, int32_t begin, int32_t end);
 
 /* ---- drawing tools -------------------------------------------------------------------------- */
 

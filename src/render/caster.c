@@ -1,0 +1,284 @@
+/* Contact darkening and shadows of bodies. */
+#include "caster.h"
+
+#define BALL_MARGIN 1.05 /* of a ball's bounds, for what the lens bends between corners */
+#define NEAREST_M 0.1    /* bodies around the camera would darken everything or nothing */
+
+/* ---- bodies --------------------------------------------------------------------------------- */
+
+static rlf_vec3 half_of_hull(const rlf_hull *hull)
+{
+    rlf_vec3 half = {0, 0, 0};
+    for (int32_t i = 0; hull != NULL && i < hull->vertex_count; i++) {
+        rlf_vec3 v = hull->vertices[i];
+        half.x = rlf_max(half.x, v.x < 0.0 ? -v.x : v.x);
+        half.y = rlf_max(half.y, v.y < 0.0 ? -v.y : v.y);
+        half.z = rlf_max(half.z, v.z < 0.0 ? -v.z : v.z);
+    }
+    return half;
+}
+
+/* Inner box and rounding. A box is rounded a little so that its shadow's edge can be soft; a
+ * cylinder's and a hull's box more, so as to fill no corners that are not there. */
+static void set_shape(const rlf_shape *shape, caster *out)
+{
+    double r = shape->radius;
+    rlf_vec3 half = rlf_scale(shape->size, 0.5);
+    double share = 0.3; /* of the least half extent that is rounding */
+    switch (shape->type) {
+    case RLF_SHAPE_BOX: break;
+    case RLF_SHAPE_SPHERE:
+        half = rlf_vec3_make(r, r, r);
+        share = 1.0;
+        break;
+    case RLF_SHAPE_CAPSULE:
+        half = rlf_vec3_make(r, 0.5 * shape->height + r, r);
+        share = 1.0;
+        break;
+    case RLF_SHAPE_CYLINDER:
+        half = rlf_vec3_make(r, 0.5 * shape->height, r);
+        share = 0.6;
+        break;
+    case RLF_SHAPE_HULL:
+        half = half_of_hull(shape->hull);
+        share = 0.6;
+        break;
+    }
+    double least = rlf_min(half.x, rlf_min(half.y, half.z));
+    double round = share * least;
+    double size = (half.x + half.y + half.z) / 3.0;
+    out->half[0] = (float)(half.x - round);
+    out->half[1] = (float)(half.y - round);
+    out->half[2] = (float)(half.z - round);
+    out->round = (float)round;
+    out->penumbra = (float)(CASTER_PENUMBRA * least);
+    out->near_m = (float)(CASTER_NEAR * size);
+    out->length_m = (float)(CASTER_LENGTH * size);
+    out->radius = (float)rlf_shape_radius(shape);
+}
+
+bool caster_make(const rlf_body_state *body, const rlf_pose *T_picture_world, rlf_vec3 to_light,
+                 caster *out)
+{
+    rlf_pose T = rlf_pose_mul(T_picture_world, &body->T_world_body);
+    rlf_mat3 R = rlf_quat_to_mat3(rlf_quat_normalize(T.q));
+    *out = (caster){.center = {(float)T.p.x, (float)T.p.y, (float)T.p.z}};
+    const rlf_vec3 l = to_light;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            out->axis[i][k] = (float)R.m[k][i];
+        }
+        out->to_light[i] = (float)(R.m[0][i] * l.x + R.m[1][i] * l.y + R.m[2][i] * l.z);
+    }
+    set_shape(&body->shape, out);
+    bool is_good = rlf_vec3_is_finite(T.p) && out->near_m > 0.0f && out->near_m < 1e6f &&
+                   T.p.z >= NEAREST_M && out->radius < 1e6f && out->half[0] - out->half[0] == 0.0f;
+    out->near_m = is_good ? out->near_m : 0.0f;
+    return is_good;
+}
+
+/* ---- reach ---------------------------------------------------------------------------------- */
+
+bool caster_rect_of_ball(const rlf_camera *camera, rlf_vec3 center, double radius, caster_rect *out)
+{
+    double low[2] = {camera->width, camera->height};
+    double high[2] = {-1.0, -1.0};
+    double reach = BALL_MARGIN * radius;
+    *out = (caster_rect){0, 0, camera->width, camera->height};
+    if (!rlf_vec3_is_finite(center) || !rlf_is_finite(radius) || center.z + radius < 0.0) {
+        return false;
+    }
+    for (int i = 0; i < 8; i++) {
+        rlf_vec3 corner = {center.x + ((i & 1) != 0 ? reach : -reach),
+                           center.y + ((i & 2) != 0 ? reach : -reach),
+                           center.z + ((i & 4) != 0 ? reach : -reach)};
+        double u, v;
+        if (corner.z < 0.01 || !rlf_camera_project(camera, corner, &u, &v)) {
+            return true; /* around the camera or beyond its lens: anywhere */
+        }
+        low[0] = rlf_min(low[0], u);
+        low[1] = rlf_min(low[1], v);
+        high[0] = rlf_max(high[0], u);
+        high[1] = rlf_max(high[1], v);
+    }
+    out->x0 = (int32_t)rlf_clamp(low[0] - 1.0, 0.0, camera->width);
+    out->y0 = (int32_t)rlf_clamp(low[1] - 1.0, 0.0, camera->height);
+    out->x1 = (int32_t)rlf_clamp(high[0] + 2.0, 0.0, camera->width);
+    out->y1 = (int32_t)rlf_clamp(high[1] + 2.0, 0.0, camera->height);
+    return out->x0 < out->x1 && out->y0 < out->y1;
+}
+
+bool caster_reach(const caster *c, const rlf_camera *camera, rlf_vec3 to_light, caster_rect *out)
+{
+    rlf_vec3 center = {(double)c->center[0], (double)c->center[1], (double)c->center[2]};
+    rlf_vec3 end = rlf_mad(center, to_light, -(double)c->length_m);
+    double edge = 0.5 * (double)c->penumbra;
+    double wide = (double)c->radius + edge + 0.5 * CASTER_SPREAD * (double)c->length_m;
+    double near_reach = (double)c->radius + rlf_max((double)c->near_m, edge);
+    caster_rect far_end;
+    (void)caster_rect_of_ball(camera, center, near_reach, out);
+    (void)caster_rect_of_ball(camera, end, wide, &far_end);
+    out->x0 = far_end.x0 < out->x0 ? far_end.x0 : out->x0;
+    out->y0 = far_end.y0 < out->y0 ? far_end.y0 : out->y0;
+    out->x1 = far_end.x1 > out->x1 ? far_end.x1 : out->x1;
+    out->y1 = far_end.y1 > out->y1 ? far_end.y1 : out->y1;
+    return out->x0 < out->x1 && out->y0 < out->y1;
+}
+
+int32_t caster_may_take(const caster *c, const float to_light[3], const float p[3], float radius)
+{
+    float v[3] = {p[0] - c->center[0], p[1] - c->center[1], p[2] - c->center[2]};
+    float square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    float near_reach = c->radius + c->near_m + radius;
+    int32_t takes = square < near_reach * near_reach ? CASTER_TAKES_AMBIENT : CASTER_TAKES_NOTHING;
+    float behind = -(v[0] * to_light[0] + v[1] * to_light[1] + v[2] * to_light[2]);
+    float deepest = behind + radius + c->radius; /* the body's own depth counts too */
+    float edge = 0.5f * c->penumbra;
+    float wide =
+        c->radius + edge + radius + (float)CASTER_SPREAD * (deepest > 0.0f ? deepest : 0.0f);
+    bool is_in_shadow = deepest > 0.0f && behind - radius < c->length_m + c->radius &&
+                        square - behind * behind < wide * wide;
+    return takes + (is_in_shadow ? CASTER_TAKES_DIRECT : 0);
+}
+
+static float distance2(const caster *a, const caster *b)
+{
+    float sum = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        float step = a->center[k] - b->center[k];
+        sum += step * step;
+    }
+    return sum;
+}
+
+int32_t caster_choose(const caster *casters, int32_t count, int32_t index, const float to_light[3],
+                      int32_t out[CASTER_BODIES])
+{
+    const caster *own = &casters[index];
+    float best[CASTER_BODIES];
+    int32_t chosen = 0;
+    for (int32_t i = 0; i < count; i++) {
+        const caster *other = &casters[i];
+        if (i == index || !(other->near_m > 0.0f) ||
+            caster_may_take(other, to_light, own->center, own->radius) == CASTER_TAKES_NOTHING) {
+            continue;
+        }
+        float away = distance2(own, other);
+        int32_t place = chosen < CASTER_BODIES ? chosen++ : CASTER_BODIES;
+        for (; place > 0 && away < best[place - 1]; place--) {
+            if (place < CASTER_BODIES) {
+                best[place] = best[place - 1];
+                out[place] = out[place - 1];
+            }
+        }
+        if (place < CASTER_BODIES) {
+            best[place] = away;
+            out[place] = i;
+        }
+    }
+    return chosen;
+}
+
+/* ---- light ---------------------------------------------------------------------------------- */
+
+RLF_KERNEL_PART float limit(float x, float low, float high)
+{
+    x = x > low ? x : low;
+    return x < high ? x : high;
+}
+
+/* A pixel's ray, and its point in the body's frame. */
+typedef struct site {
+    float ray_x, ray_y;
+    float p[3], q[3]; /* from the body's centre: picture camera frame, body frame */
+} site;
+
+RLF_KERNEL_PART site site_at(const caster *c, float ray_x, float ray_y, float z)
+{
+    site s = {ray_x,
+              ray_y,
+              {ray_x * z - c->center[0], ray_y * z - c->center[1], z - c->center[2]},
+              {0, 0, 0}};
+    for (int k = 0; k < 3; k++) {
+        s.q[k] = c->axis[k][0] * s.p[0] + c->axis[k][1] * s.p[1] + c->axis[k][2] * s.p[2];
+    }
+    return s;
+}
+
+/* Surfaces that the camera sees face it, so one with the body behind it does not face the body. */
+RLF_KERNEL_PART float facing_of(const site *s, float z)
+{
+    float behind = -(s->p[0] * s->ray_x + s->p[1] * s->ray_y + s->p[2]);
+    behind = behind > 0.0f ? behind : 0.0f;
+    float square = (s->p[0] * s->p[0] + s->p[1] * s->p[1] + s->p[2] * s->p[2]) *
+                   (s->ray_x * s->ray_x + s->ray_y * s->ray_y + 1.0f);
+    float facing = 1.0f - behind * behind / (square + 1e-12f);
+    return z > 0.0f ? facing : 0.0f;
+}
+
+/* The distance to the rounded box darkens what is near. */
+RLF_KERNEL_PART void take_ambient(const caster caster_here, const caster_rays rays,
+                                  const float *restrict z, int32_t count, float share,
+                                  float *restrict left)
+{
+    const caster c = caster_here;
+    const float per_near = 1.0f / c.near_m;
+    for (int32_t i = 0; i < count; i++) {
+        site s = site_at(&c, rays.x0 + rays.step * (float)i, rays.y, z[i]);
+        float x = s.q[0] - limit(s.q[0], -c.half[0], c.half[0]);
+        float y = s.q[1] - limit(s.q[1], -c.half[1], c.half[1]);
+        float w = s.q[2] - limit(s.q[2], -c.half[2], c.half[2]);
+        float gap = sqrtf(x * x + y * y + w * w) - c.round;
+        float close = 1.0f - (gap > 0.0f ? gap : 0.0f) * per_near;
+        close = close > 0.0f ? close : 0.0f;
+        left[i] *= 1.0f - share * close * close * facing_of(&s, z[i]);
+    }
+}
+
+/* The ray to the light passes the inner box at a least distance, found by projecting from the one
+ * to the other and back: both are convex. */
+RLF_KERNEL_PART void take_direct(const caster caster_here, const caster_rays rays,
+                                 const float *restrict z, int32_t count, float share,
+                                 float *restrict left)
+{
+    const caster c = caster_here;
+    const float lx = c.to_light[0];
+    const float ly = c.to_light[1];
+    const float lz = c.to_light[2];
+    const float per_length = 1.0f / c.length_m;
+    for (int32_t i = 0; i < count; i++) {
+        site s = site_at(&c, rays.x0 + rays.step * (float)i, rays.y, z[i]);
+        float t = -(s.q[0] * lx + s.q[1] * ly + s.q[2] * lz);
+        t = t > 0.0f ? t : 0.0f;
+        float x = limit(s.q[0] + t * lx, -c.half[0], c.half[0]);
+        float y = limit(s.q[1] + t * ly, -c.half[1], c.half[1]);
+        float w = limit(s.q[2] + t * lz, -c.half[2], c.half[2]);
+        t = (x - s.q[0]) * lx + (y - s.q[1]) * ly + (w - s.q[2]) * lz;
+        t = t > 0.0f ? t : 0.0f;
+        x = s.q[0] + t * lx;
+        y = s.q[1] + t * ly;
+        w = s.q[2] + t * lz;
+        x -= limit(x, -c.half[0], c.half[0]);
+        y -= limit(y, -c.half[1], c.half[1]);
+        w -= limit(w, -c.half[2], c.half[2]);
+        float pass = sqrtf(x * x + y * y + w * w);
+        float width = c.penumbra + (float)CASTER_SPREAD * t;
+        float hidden = limit(0.5f + (c.round - pass) / width, 0.0f, 1.0f);
+        float fade = 1.0f - t * per_length;
+        fade = fade > 0.0f ? fade : 0.0f;
+        hidden = t > 0.0f ? hidden * fade : 0.0f;
+        left[i] *= 1.0f - share * hidden * facing_of(&s, z[i]);
+    }
+}
+
+RLF_KERNEL void caster_take_ambient(const caster *c, const caster_rays *rays, const float *z,
+                                    int32_t count, float share, float *left)
+{
+    take_ambient(*c, *rays, z, count, share, left);
+}
+
+RLF_KERNEL void caster_take_direct(const caster *c, const caster_rays *rays, const float *z,
+                                   int32_t count, float share, float *left)
+{
+    take_direct(*c, *rays, z, count, share, left);
+}

@@ -1,0 +1,70 @@
+/* Bodies as what keeps light away: a box with round edges, which is a ball or a stick when the box
+ * is a point or a line. Shared by both renderers. */
+#ifndef RLF_RENDER_CASTER_H
+#define RLF_RENDER_CASTER_H
+
+#include "kernel/kernel.h"
+#include "relief/compositor.h"
+
+/* Shares of the light on a real surface that a body can take away. */
+#define CASTER_AMBIENT_SHARE 0.5
+#define CASTER_DIRECT_SHARE 0.35
+/* Of a body's size: how far it darkens what is near, and how long its shadow is. */
+#define CASTER_NEAR 1.2
+#define CASTER_LENGTH 16.0
+/* Width of the penumbra: so much of the least half extent, and so much per metre behind the body.
+ */
+#define CASTER_PENUMBRA 0.3
+#define CASTER_SPREAD 0.12
+
+enum {
+    CASTER_BODIES = 3, /* most bodies that shade another one */
+    CASTER_BLOCK = 2   /* pixels on a side that share the light of a real surface */
+};
+
+typedef struct caster {
+    float center[3];   /* picture camera frame, metres */
+    float axis[3][3];  /* the body's axes in that frame */
+    float half[3];     /* of the inner box */
+    float round;       /* what the box is grown by */
+    float to_light[3]; /* unit, body frame */
+    float penumbra;    /* metres, at the body */
+    float near_m;      /* contact darkening ends here, metres from the surface */
+    float length_m;    /* the shadow ends here, metres behind the body */
+    float radius;      /* of the bounding sphere */
+} caster;
+
+/* Pixels that something may reach. */
+typedef struct caster_rect {
+    int32_t x0, y0, x1, y1; /* x0 <= x < x1, y0 <= y < y1 */
+} caster_rect;
+
+/* False (and near_m 0) when the body casts nothing: not finite, or around the camera. to_light:
+ * unit, picture camera frame. */
+bool caster_make(const rlf_body_state *body, const rlf_pose *T_picture_world, rlf_vec3 to_light,
+                 caster *out);
+/* Where a ball in the picture camera's frame may be; false when it is not in the picture. */
+bool caster_rect_of_ball(const rlf_camera *camera, rlf_vec3 center, double radius,
+                         caster_rect *out);
+/* Where the light of surfaces can be changed. */
+bool caster_reach(const caster *c, const rlf_camera *camera, rlf_vec3 to_light, caster_rect *out);
+enum { CASTER_TAKES_NOTHING = 0, CASTER_TAKES_AMBIENT = 1, CASTER_TAKES_DIRECT = 2 };
+/* Sum of the above: what light may be taken within `radius` of p (picture camera frame). */
+int32_t caster_may_take(const caster *c, const float to_light[3], const float p[3], float radius);
+/* Indices of the nearest bodies that may take light from body `index`, which is within `radius` of
+ * its centre; returns how many. A caster with near_m 0 is none. */
+int32_t caster_choose(const caster *casters, int32_t count, int32_t index, const float to_light[3],
+                      int32_t out[CASTER_BODIES]);
+
+/* Points z (x0 + i step, y, 1), i = 0.. */
+typedef struct caster_rays {
+    float x0, step, y;
+} caster_rays;
+/* Multiplies `left` by what is left of the light around, 1 - share * (lost part), or of the
+ * directed light; 1 where z <= 0. */
+void caster_take_ambient(const caster *c, const caster_rays *rays, const float *z, int32_t count,
+                         float share, float *left);
+void caster_take_direct(const caster *c, const caster_rays *rays, const float *z, int32_t count,
+                        float share, float *left);
+
+#endif
