@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { PIECES = 48, CREASE_ARM = 3, LEAST_SPLIT = 8, MOST_HIDDEN = 200 };
+enum { PIECES = 48, CREASE_ARM = 3, LEAST_SPLIT = 8, MOST_SPLITS = 8, MOST_HIDDEN = 200 };
 
 static const float body_jump_m = 0.04f; /* of depth between neighbours: one hides the other */
 static const float crease_jump_m = 0.15f;
@@ -220,11 +220,11 @@ static void try_wedge(const pieces *p, piece *s)
 
 /* Cuts piece i in two if it is two bodies. A side that does not fall towards the crease goes on
  * behind the other. */
-static bool split(pieces *p, int32_t i)
+static bool split(pieces *p, int32_t i, int32_t splits)
 {
     bool rim[2];
     piece *s = &p->item[i];
-    if (is_one_body(p, s) || p->count == PIECES) {
+    if (is_one_body(p, s) || p->count == PIECES || splits == MOST_SPLITS) {
         return false;
     }
     int32_t at = find_crease(p, s, rim);
@@ -279,8 +279,11 @@ static bool take_chord(const pieces *p, const piece *const *chain, int32_t count
 /* Makes chords of all pieces found so far. */
 static int32_t finish(pieces *p, rlf_chord *out, int32_t out_count)
 {
-    for (int32_t i = 0; i < p->count; i++) {
-        i -= split(p, i) ? 1 : 0; /* its first half again */
+    for (int32_t i = 0, splits = 0; i < p->count; i++) {
+        if (split(p, i, splits)) {
+            splits++;
+            i--; /* its first half again */
+        }
     }
     for (int32_t i = 0; i < p->count; i++) {
         const piece *chain[RLF_CHORD_PARTS];

@@ -276,6 +276,58 @@ static void results_do_not_depend_on_workers(void **state)
     }
 }
 
+static rlf_vec3 back_point(const rlf_camera *c, int i, double z)
+{
+    return rlf_vec3_make(z * (i % WIDTH - c->cx) / c->fx, z * (i / WIDTH - c->cy) / c->fy, z);
+}
+
+/* Normal of the back by central differences; exit depths in `z` at the pixels left, right, above
+ * and below. */
+static rlf_vec3 back_normal(const rlf_camera *c, int i, const double z[4])
+{
+    rlf_vec3 across = rlf_sub(back_point(c, i + 1, z[1]), back_point(c, i - 1, z[0]));
+    rlf_vec3 down = rlf_sub(back_point(c, i + WIDTH, z[3]), back_point(c, i - WIDTH, z[2]));
+    return rlf_normalize(rlf_cross(across, down));
+}
+
+/* What hits the back bounces off in the right direction. */
+static void backs_face_the_right_way(void **state)
+{
+    (void)state;
+    static const body bodies[] = {
+        {.centre = {0.0, 0.0, 2.4}, .half = {0.15, 0.15, 0.15}, .top = -9},
+        {.centre = {-0.3, 0.1, 2.5}, .half = {0.17, 0.3, 0.12}, .heading = 0.785, .top = -9},
+        {.centre = {0.2, 0.0, 2.2}, .half = {0.06, 0.5, 0.06}, .lean = 0.6, .top = -9},
+    };
+    const int beside[4] = {-1, 1, -WIDTH, WIDTH};
+    for (size_t b = 0; b < sizeof bodies / sizeof bodies[0]; b++) {
+        rlf_reconstruct *stage = NULL;
+        shown_count = 1;
+        shown[0] = &bodies[b];
+        const rlf_surface *f = show(&stage, NULL);
+        double sum = 0.0;
+        int count = 0;
+        for (int i = WIDTH; i < COUNT - WIDTH; i++) {
+            double found[4], truth[4];
+            int inside = 0;
+            for (int k = 0; k < 4; k++) {
+                int n = i + beside[k];
+                inside += which[n] == 0 && f->foreground[n];
+                found[k] = (double)f->depth[n] + f->thickness[n];
+                truth[k] = exit_depth[n];
+            }
+            if (inside == 4) {
+                sum +=
+                    angle_deg(back_normal(&f->camera, i, found), back_normal(&f->camera, i, truth));
+                count++;
+            }
+        }
+        print_message("      %.1f deg\n", sum / count);
+        assert_true(count > 500 && sum / count < 15.0);
+        rlf_reconstruct_destroy(&stage);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -285,6 +337,7 @@ int main(void)
         cmocka_unit_test(a_limb_on_a_trunk),
         cmocka_unit_test(legs_that_touch),
         cmocka_unit_test(bodies_that_leave_the_image),
+        cmocka_unit_test(backs_face_the_right_way),
         cmocka_unit_test(results_do_not_depend_on_workers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
