@@ -189,11 +189,11 @@ static float trust(const rlf_conic *f)
     return (bent * bent + straight_trust) / (rest * rest);
 }
 
-/* Short chords know best: weights are (l r)^-3/2. */
+/* Short chords know best: weights are 1 / (l r). */
 void rlf_chord_paint(const rlf_chord_job *job, const rlf_line *line, const rlf_chord *c)
 {
     rlf_conic f = rlf_chord_solve(c, &c->pooled);
-    float share = trust(&f) / (c->metres * c->metres * c->metres);
+    float share = trust(&f) / (c->metres * c->metres);
     float w2 = c->inverse * c->inverse;
     float slope = -w2 * f.slope * c->metres, half = w2 * f.ratio * c->metres;
     float middle = c->inverse - w2 * f.middle - slope * 0.5f * (c->begin + c->end);
@@ -201,8 +201,7 @@ void rlf_chord_paint(const rlf_chord_job *job, const rlf_line *line, const rlf_c
     for (int32_t k = c->part[0].begin; k < c->part[c->part_count - 1].end; k++) {
         ptrdiff_t i = line->base + k * line->stride;
         part += k >= c->part[part].end ? 1 : 0;
-        float lr = ((float)k - c->begin) * (c->end - (float)k), root = sqrtf(lr);
-        float weight = share / (lr * root);
+        float weight = share / (((float)k - c->begin) * (c->end - (float)k));
         float m = weight * (middle + slope * (float)k),
               h = weight * half * rlf_chord_profile(c, c->begin + c->end - (float)k);
         rlf_solid *to = &job->solid[i];

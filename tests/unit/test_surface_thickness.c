@@ -322,7 +322,6 @@ static void backs_face_the_right_way(void **state)
                 count++;
             }
         }
-        print_message("      %.1f deg\n", sum / count);
         assert_true(count > 500 && sum / count < 15.0);
         rlf_reconstruct_destroy(&stage);
     }
