@@ -39,6 +39,31 @@ typedef struct phys_contact {
     rlf_vec3 r_a, r_b;         /* from the centres to the touching points, world */
 } phys_contact;
 
+/* What lives on of a contact that is searched again. */
+typedef struct phys_trace {
+    rlf_vec3 anchor_a, normal;
+    rlf_contact_other other;
+    double impulses[3];
+    int32_t log;
+} phys_trace;
+
+static inline phys_trace phys_trace_of(const phys_contact *c)
+{
+    phys_trace trace = {c->anchor_a, c->normal, c->other, {0, 0, 0}, c->log};
+    for (int32_t row = 0; row < 3; row++) {
+        trace.impulses[row] = c->rows[row].impulse;
+    }
+    return trace;
+}
+
+static inline void phys_trace_follow(const phys_trace *trace, phys_contact *c)
+{
+    for (int32_t row = 0; row < 3; row++) {
+        c->rows[row].impulse = trace->impulses[row];
+    }
+    c->log = trace->log;
+}
+
 /* Where the bodies of a group of contacts stood when its rows were made. */
 typedef struct phys_stance {
     double turned_a, turned_b; /* phys_body.turned of each */

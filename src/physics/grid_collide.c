@@ -5,6 +5,11 @@
 #include "physics/grid_reduce.h"
 #include "physics/grid_scan.h"
 
+/* Most substeps between two queries: a body that falls from rest must not fall through the margin;
+ * one that lies on something does not fall. */
+#define PERIOD_MAX 4.0
+#define PERIOD_AT_REST 8.0
+
 static void set_up(grid_job *job, const grid_query *query, const phys_body *body)
 {
     rlf_quat q_grid_body = rlf_quat_mul(query->T_grid_world.q, body->q);
@@ -235,11 +240,11 @@ static void collide_shell(grid_job *job)
 }
 
 /* How many substeps this body's contacts stay good: it must not travel far in that time. */
-static int32_t query_period(const phys_body *body, double step)
+static int32_t query_period(const phys_body *body, double step, double most)
 {
     double travel = (rlf_length(body->v) + rlf_length(body->w) * body->shape.radius) * step;
     double period = 0.2 * body->shape.inner_radius / rlf_max(travel, 1e-9);
-    return (int32_t)rlf_clamp(period, 1.0, 4.0);
+    return (int32_t)rlf_clamp(period, 1.0, most);
 }
 
 /* How far from the body's centre anything can matter until its contacts are asked for again. */
@@ -250,10 +255,17 @@ static double reach_of(const grid_query *query, const phys_body *body, int32_t p
     return body->shape.radius + GRID_MARGIN + speed * (period + 1) * query->step + slip;
 }
 
+static void set_period(grid_job *job, phys_body *body, double most)
+{
+    body->surface_period = query_period(body, job->query->step, most);
+    job->horizon = (body->surface_period + 1) * job->query->step;
+    job->reach = reach_of(job->query, body, body->surface_period);
+}
+
 void grid_collide_prepare(const grid_query *query, const phys_body *body)
 {
     int32_t rect[4], stride;
-    double reach = reach_of(query, body, query_period(body, query->step));
+    double reach = reach_of(query, body, query_period(body, query->step, PERIOD_AT_REST));
     rlf_vec3 centre = rlf_transform(&query->T_grid_world, body->x);
     if (grid_footprint(query->grid, centre, reach, rect, &stride)) {
         grid_tiles_make(query->foreground, query->grid, rect);
@@ -263,28 +275,25 @@ void grid_collide_prepare(const grid_query *query, const phys_body *body)
 
 void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
 {
-    grid_touch old[PHYS_SURFACE_CONTACTS];
+    phys_trace old[PHYS_SURFACE_CONTACTS];
     int32_t old_count = body->surface_count;
     for (int32_t i = 0; i < old_count; i++) {
-        const phys_contact *c = &body->surface[i];
-        old[i] = (grid_touch){c->anchor_a, c->normal, c->other, {0}, c->log};
-        for (int32_t row = 0; row < 3; row++) {
-            old[i].impulses[row] = c->rows[row].impulse;
-        }
+        old[i] = phys_trace_of(&body->surface[i]);
     }
     body->stance.is_set = false;
     body->is_restless = false;
     body->surface_count = 0;
     body->surface_flow = rlf_vec3_make(0, 0, 0);
     body->surface_age = 0;
-    body->surface_period = query_period(body, query->step);
     grid_job job;
     set_up(&job, query, body);
-    job.horizon = (body->surface_period + 1) * query->step;
-    job.reach = reach_of(query, body, body->surface_period);
+    set_period(&job, body, PERIOD_MAX);
     collide_sheet(&job, query->foreground, &body->home[0]);
     body->surface_flow = job.surface_velocity;
     grid_reduce(&job, body, body_index, RLF_CONTACT_FOREGROUND);
+    if (!job.is_near && body->is_pressed) {
+        set_period(&job, body, PERIOD_AT_REST);
+    }
     collide_sheet(&job, query->background, &body->home[1]);
     collide_shell(&job);
     grid_reduce(&job, body, body_index, RLF_CONTACT_BACKGROUND);

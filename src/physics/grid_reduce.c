@@ -107,7 +107,7 @@ void grid_reduce(grid_job *job, phys_body *body, int32_t body_index, rlf_contact
     }
 }
 
-void grid_keep_impulses(phys_body *body, const grid_touch *old, int32_t old_count)
+void grid_keep_impulses(phys_body *body, const phys_trace *old, int32_t old_count)
 {
     bool is_taken[PHYS_SURFACE_CONTACTS] = {false};
     double limit = 0.3 * body->shape.radius;
@@ -125,10 +125,7 @@ void grid_keep_impulses(phys_body *body, const grid_touch *old, int32_t old_coun
         }
         if (best >= 0) {
             is_taken[best] = true;
-            for (int32_t row = 0; row < 3; row++) {
-                contact->rows[row].impulse = old[best].impulses[row];
-            }
-            contact->log = old[best].log;
+            phys_trace_follow(&old[best], contact);
         }
     }
 }

@@ -8,15 +8,7 @@
  * deepest one, the farthest from it, and those that span the largest area. */
 void grid_reduce(grid_job *job, phys_body *body, int32_t body_index, rlf_contact_other other);
 
-/* What lives on of a contact. */
-typedef struct grid_touch {
-    rlf_vec3 anchor_a, normal;
-    rlf_contact_other other;
-    double impulses[3];
-    int32_t log;
-} grid_touch;
-
 /* Carries the impulses of the old contacts to the new ones at the same place. */
-void grid_keep_impulses(phys_body *body, const grid_touch *old, int32_t old_count);
+void grid_keep_impulses(phys_body *body, const phys_trace *old, int32_t old_count);
 
 #endif

@@ -241,6 +241,21 @@ static void look_at_rough(grid_job *job, const int32_t rect[4], int32_t stride,
     }
 }
 
+/* Whether the solid behind a rough tile that stands still is out of reach. */
+static bool is_out_of_reach(const grid_job *job, const grid_tile *tile)
+{
+    const rlf_grid_sheet *sheet = job->sheet;
+    if (sheet->velocity_x != NULL || sheet->thickness != NULL ||
+        !(sheet->default_thickness > 0.0)) {
+        return false; /* its pixels have to be asked one by one */
+    }
+    double scale = (tile->near_z + sheet->default_thickness) / tile->near_z;
+    rlf_aabb box = tile->box;
+    rlf_aabb_extend(&box, rlf_scale(tile->box.min, scale));
+    rlf_aabb_extend(&box, rlf_scale(tile->box.max, scale));
+    return rlf_aabb_distance2(&box, job->centre) > job->reach * job->reach;
+}
+
 void grid_scan_footprint(grid_job *job)
 {
     const grid_tiles *tiles = job->tiles;
@@ -260,7 +275,7 @@ void grid_scan_footprint(grid_job *job)
             }
             if (tile->kind == TILE_FLAT) {
                 look_at_flat(job, tile, &flow);
-            } else {
+            } else if (!is_out_of_reach(job, tile)) {
                 look_at_rough(job, rect, stride, corner, &flow);
             }
         }

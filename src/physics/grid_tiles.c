@@ -30,24 +30,32 @@ static int32_t least(int32_t a, int32_t b)
     return a < b ? a : b;
 }
 
-/* Counts the pixels that have a surface and finds the nearest. */
+/* Counts the pixels that have a surface and finds the box about them. */
 static void measure(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet *sheet,
                     const int32_t rect[4])
 {
-    float near_z = 1e9f;
+    const float FAR = 1e9f;
+    float low[3] = {FAR, FAR, FAR}, high[3] = {-FAR, -FAR, -FAR};
     int32_t count = 0;
     for (int32_t y = rect[1]; y < rect[3]; y++) {
-        const float *depth = sheet->depth + y * grid->width;
-        const uint8_t *mask = sheet->mask != NULL ? sheet->mask + y * grid->width : NULL;
+        int32_t row = y * grid->width;
+        const uint8_t *mask = sheet->mask != NULL ? sheet->mask + row : NULL;
         for (int32_t x = rect[0]; x < rect[2]; x++) {
-            bool is_there = depth[x] > 0.0f && (mask == NULL || mask[x] != 0);
-            float z = is_there ? depth[x] : 1e9f;
-            near_z = z < near_z ? z : near_z;
-            count += is_there;
+            float z = sheet->depth[row + x];
+            if (z > 0.0f && (mask == NULL || mask[x] != 0)) {
+                const float p[3] = {z * grid->ray_x[row + x], z * grid->ray_y[row + x], z};
+                for (int32_t k = 0; k < 3; k++) {
+                    low[k] = p[k] < low[k] ? p[k] : low[k];
+                    high[k] = p[k] > high[k] ? p[k] : high[k];
+                }
+                count++;
+            }
         }
     }
     tile->count = count;
-    tile->near_z = near_z;
+    tile->near_z = low[2];
+    tile->box.min = rlf_vec3_make(low[0], low[1], low[2]);
+    tile->box.max = rlf_vec3_make(high[0], high[1], high[2]);
 }
 
 /* Mean plane and velocity of a few of its pixels; false when they have no normals. */

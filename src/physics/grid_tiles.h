@@ -19,6 +19,7 @@ typedef struct grid_tile {
     tile_kind kind;
     int32_t count;   /* its pixels that have a surface */
     double near_z;   /* least depth, metres */
+    rlf_aabb box;    /* about its points at the time when they were seen */
     rlf_vec3 normal; /* of a flat one: normal.p = offset */
     double offset;
     rlf_vec3 velocity; /* of a flat one: mean, m/s */

@@ -301,6 +301,7 @@ static int32_t take_first(event_list *list)
     return first;
 }
 
+/* Prepares all groups on the way. */
 static void look_at_all(event_list *list, const phys_island *island)
 {
     rlf_world *world = list->world;
@@ -311,9 +312,13 @@ static void look_at_all(event_list *list, const phys_island *island)
             i < pair_count
                 ? world->island_pairs[island->pair_begin + i]
                 : world->pair_capacity + world->island_bodies[island->body_begin + i - pair_count];
+        phys_group g = group_at(list, key);
         world->event_counts[key] = 0;
         world->event_times[key] = NO_EVENT;
-        look_at_group(list, key);
+        phys_group_prepare(world, &g);
+        if (g.count > 0) {
+            look_at_group(list, key);
+        }
     }
 }
 

@@ -209,10 +209,6 @@ void phys_island_substep(rlf_world *world, const phys_island *island, const grid
     for (int32_t i = island->body_begin; i < island->body_end; i++) {
         start_body(world, &world->bodies[world->island_bodies[i]]);
     }
-    for (int32_t k = 0; k < count; k++) {
-        phys_group g = group_of(world, island, k);
-        phys_group_prepare(world, &g);
-    }
     phys_solve_impacts(world, island, h);
     for (int32_t i = island->body_begin; i < island->body_end; i++) {
         accelerate(world, &world->bodies[world->island_bodies[i]], h);

@@ -27,47 +27,96 @@ static box box_of(const phys_body *body)
     return b;
 }
 
-static double extent(const box *b, rlf_vec3 n)
+/* The boxes' axes in each other's: c[i][k] = a_i.b_k, and the way between the centres along each.
+ */
+typedef struct sat_frame {
+    const box *a, *b;
+    rlf_vec3 way; /* from b to a */
+    double c[3][3], abs_c[3][3];
+    double along_a[3], along_b[3];
+} sat_frame;
+
+static double magnitude(double x)
 {
-    double sum = 0.0;
+    return x < 0.0 ? -x : x;
+}
+
+static sat_frame sat_frame_of(const box *a, const box *b)
+{
+    sat_frame f = {.a = a, .b = b, .way = rlf_sub(a->centre, b->centre)};
     for (int32_t i = 0; i < 3; i++) {
-        double d = rlf_dot(b->axis[i], n);
-        sum += b->half[i] * (d < 0 ? -d : d);
+        f.along_a[i] = rlf_dot(f.way, a->axis[i]);
+        f.along_b[i] = rlf_dot(f.way, b->axis[i]);
+        for (int32_t k = 0; k < 3; k++) {
+            f.c[i][k] = rlf_dot(a->axis[i], b->axis[k]);
+            f.abs_c[i][k] = magnitude(f.c[i][k]);
+        }
     }
-    return sum;
+    return f;
 }
 
-static void try_axis(const box *a, const box *b, rlf_vec3 n, int32_t code, sat_result *best)
+/* Takes the axis when it is better: a face gives a whole patch, so an edge pair must be clearly
+ * better, a later face slightly. */
+static bool is_better(const sat_frame *f, double separation, int32_t code, sat_result *best)
 {
-    double along = rlf_dot(n, rlf_sub(a->centre, b->centre));
-    if (along < 0.0) {
-        n = rlf_neg(n);
-        along = -along;
+    double preference = code >= 6 ? 0.01 * f->a->half[0] + 1e-4 : (code > 0 ? 1e-6 : 0.0);
+    if (separation <= best->separation + preference) {
+        return false;
     }
-    double separation = along - extent(a, n) - extent(b, n);
-    /* A face gives a whole patch, so an edge pair must be clearly better, a later face slightly. */
-    double preference = code >= 6 ? 0.01 * a->half[0] + 1e-4 : (code > 0 ? 1e-6 : 0.0);
-    if (separation > best->separation + preference) {
-        best->separation = separation;
-        best->normal = n;
-        best->code = code;
+    best->separation = separation;
+    best->code = code;
+    return true;
+}
+
+static void try_faces(const sat_frame *f, sat_result *best)
+{
+    const double *ha = f->a->half, *hb = f->b->half;
+    for (int32_t i = 0; i < 3; i++) {
+        double reach =
+            ha[i] + hb[0] * f->abs_c[i][0] + hb[1] * f->abs_c[i][1] + hb[2] * f->abs_c[i][2];
+        if (is_better(f, magnitude(f->along_a[i]) - reach, i, best)) {
+            best->normal = f->along_a[i] < 0.0 ? rlf_neg(f->a->axis[i]) : f->a->axis[i];
+        }
+    }
+    for (int32_t k = 0; k < 3; k++) {
+        double reach =
+            hb[k] + ha[0] * f->abs_c[0][k] + ha[1] * f->abs_c[1][k] + ha[2] * f->abs_c[2][k];
+        if (is_better(f, magnitude(f->along_b[k]) - reach, 3 + k, best)) {
+            best->normal = f->along_b[k] < 0.0 ? rlf_neg(f->b->axis[k]) : f->b->axis[k];
+        }
     }
 }
 
-static sat_result separate(const box *a, const box *b)
+/* a_i x b_k = c[i1][k] a_i2 - c[i2][k] a_i1, of length sqrt(1 - c[i][k]^2). */
+static void try_edges(const sat_frame *f, sat_result *best)
+{
+    const double *ha = f->a->half, *hb = f->b->half;
+    for (int32_t n = 0; n < 9; n++) {
+        int32_t i = n / 3, k = n % 3;
+        int32_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+        double length2 = 1.0 - f->c[i][k] * f->c[i][k];
+        if (length2 < 1e-6) {
+            continue;
+        }
+        double along = f->c[i1][k] * f->along_a[i2] - f->c[i2][k] * f->along_a[i1];
+        double reach = ha[i1] * f->abs_c[i2][k] + ha[i2] * f->abs_c[i1][k] +
+                       hb[k1] * f->abs_c[i][k2] + hb[k2] * f->abs_c[i][k1];
+        double scale = 1.0 / sqrt(length2);
+        if (is_better(f, (magnitude(along) - reach) * scale, 6 + n, best)) {
+            rlf_vec3 axis = rlf_cross(f->a->axis[i], f->b->axis[k]);
+            best->normal = rlf_scale(axis, along < 0.0 ? -scale : scale);
+        }
+    }
+}
+
+/* Stops at the first kind of axis that shows a gap above `margin`. */
+static sat_result separate(const box *a, const box *b, double margin)
 {
     sat_result best = {.separation = -1e30};
-    for (int32_t i = 0; i < 3; i++) {
-        try_axis(a, b, a->axis[i], i, &best);
-    }
-    for (int32_t i = 0; i < 3; i++) {
-        try_axis(a, b, b->axis[i], 3 + i, &best);
-    }
-    for (int32_t i = 0; i < 9; i++) {
-        rlf_vec3 n = rlf_cross(a->axis[i / 3], b->axis[i % 3]);
-        if (rlf_dot(n, n) > 1e-6) {
-            try_axis(a, b, rlf_normalize(n), 6 + i, &best);
-        }
+    sat_frame f = sat_frame_of(a, b);
+    try_faces(&f, &best);
+    if (best.separation <= margin) {
+        try_edges(&f, &best);
     }
     return best;
 }
@@ -180,7 +229,7 @@ int32_t pair_collide_boxes(const phys_body *body_a, const phys_body *body_b, dou
                            pair_point *out, double *out_gap)
 {
     box a = box_of(body_a), b = box_of(body_b);
-    sat_result sat = separate(&a, &b);
+    sat_result sat = separate(&a, &b, margin);
     *out_gap = sat.separation;
     if (sat.separation > margin) {
         return 0;

@@ -23,19 +23,16 @@ static double moved_since(const phys_pair *pair, const phys_body *a, const phys_
            (b->turned - pair->turned_b) * b->shape.radius;
 }
 
-static void keep_impulse(phys_contact *contact, const phys_contact *old, int32_t old_count,
+static void keep_impulse(phys_contact *contact, const phys_trace *old, int32_t old_count,
                          double limit)
 {
     double best2 = limit * limit;
     for (int32_t i = 0; i < old_count; i++) {
-        const phys_contact *before = &old[i];
+        const phys_trace *before = &old[i];
         rlf_vec3 d = rlf_sub(before->anchor_a, contact->anchor_a);
         if (rlf_dot(d, d) < best2 && rlf_dot(before->normal, contact->normal) > 0.8) {
             best2 = rlf_dot(d, d);
-            for (int32_t row = 0; row < 3; row++) {
-                contact->rows[row].impulse = before->rows[row].impulse;
-            }
-            contact->log = before->log;
+            phys_trace_follow(before, contact);
         }
     }
 }
@@ -43,10 +40,10 @@ static void keep_impulse(phys_contact *contact, const phys_contact *old, int32_t
 static void set_contacts(phys_pair *pair, const phys_body *a, const phys_body *b,
                          const pair_point *points, const int32_t *chosen, int32_t count)
 {
-    phys_contact old[PHYS_PAIR_CONTACTS];
+    phys_trace old[PHYS_PAIR_CONTACTS];
     int32_t old_count = pair->contact_count;
     for (int32_t i = 0; i < old_count; i++) {
-        old[i] = pair->contacts[i];
+        old[i] = phys_trace_of(&pair->contacts[i]);
     }
     double radius = rlf_min(a->shape.radius, b->shape.radius);
     pair->contact_count = count;

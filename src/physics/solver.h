@@ -94,7 +94,8 @@ bool phys_contact_friction(phys_contact *c, phys_sides *s, bool has_b);
 /* Adds this substep's impulses to the contacts' sums and marks bodies that a contact holds. */
 void phys_group_finish(const phys_group *g);
 
-/* Bounces of this substep: restitution at the time of impact, in the order in which they happen. */
+/* Prepares the groups of an island and answers its bounces of this substep: restitution at the time
+ * of impact, in the order in which they happen. */
 void phys_solve_impacts(rlf_world *world, const phys_island *island, double h);
 
 /* Everything that happens to an island in a substep of h seconds. query NULL: empty space. */
