@@ -225,7 +225,7 @@ static void bounce(phys_group *g, double t)
  * again. */
 static void carry_gaps(const phys_group *g)
 {
-    if (g->count == 0 || start_time(g) == 0.0) {
+    if (start_time(g) == 0.0) {
         return;
     }
     for (int32_t k = 0; k < g->count; k++) {
@@ -257,13 +257,13 @@ static void link_pairs(rlf_world *world, const phys_island *island)
 }
 
 /* Sets a group's next event and lists it. */
-static void look_at_group(event_list *list, int32_t key)
+static void look_at_group(event_list *list, const phys_group *g)
 {
     rlf_world *world = list->world;
-    phys_group g = group_at(list, key);
+    int32_t key = g->key;
     bool was_pending = world->event_times[key] <= list->h;
     bool is_done = world->event_counts[key] >= EVENTS_PER_GROUP;
-    world->event_times[key] = is_done ? NO_EVENT : event_time(&g, list->h);
+    world->event_times[key] = is_done ? NO_EVENT : event_time(g, list->h);
     if (!was_pending && world->event_times[key] <= list->h) {
         list->keys[list->count++] = key;
     }
@@ -276,9 +276,11 @@ static void look_at_body(event_list *list, const phys_body *body)
         return;
     }
     int32_t index = (int32_t)(body - world->bodies);
-    look_at_group(list, world->pair_capacity + index);
+    phys_group g = phys_group_of_body(world, index);
+    look_at_group(list, &g);
     for (int32_t k = world->pair_head[index]; k >= 0; k = world->pair_next[k]) {
-        look_at_group(list, k / 2);
+        g = phys_group_of_pair(world, k / 2);
+        look_at_group(list, &g);
     }
 }
 
@@ -301,31 +303,16 @@ static int32_t take_first(event_list *list)
     return first;
 }
 
-/* Prepares all groups on the way. */
-static void look_at_all(event_list *list, const phys_island *island)
-{
-    rlf_world *world = list->world;
-    int32_t pair_count = island->pair_end - island->pair_begin;
-    int32_t body_count = island->body_end - island->body_begin;
-    for (int32_t i = 0; i < pair_count + body_count; i++) {
-        int32_t key =
-            i < pair_count
-                ? world->island_pairs[island->pair_begin + i]
-                : world->pair_capacity + world->island_bodies[island->body_begin + i - pair_count];
-        phys_group g = group_at(list, key);
-        world->event_counts[key] = 0;
-        world->event_times[key] = NO_EVENT;
-        phys_group_prepare(world, &g);
-        if (g.count > 0) {
-            look_at_group(list, key);
-        }
-    }
-}
-
-void phys_solve_impacts(rlf_world *world, const phys_island *island, double h)
+void phys_solve_impacts(rlf_world *world, const phys_island *island, const phys_group *groups,
+                        int32_t count, double h)
 {
     event_list list = {world, h, world->pending + island->pair_begin + island->body_begin, 0};
-    look_at_all(&list, island);
+    for (int32_t k = 0; k < count; k++) {
+        phys_group_prepare(world, &groups[k]);
+        world->event_counts[groups[k].key] = 0;
+        world->event_times[groups[k].key] = NO_EVENT;
+        look_at_group(&list, &groups[k]);
+    }
     if (list.count == 0) {
         return;
     }
@@ -337,12 +324,7 @@ void phys_solve_impacts(rlf_world *world, const phys_island *island, double h)
         look_at_body(&list, hit.a);
         look_at_body(&list, hit.b);
     }
-    for (int32_t k = island->pair_begin; k < island->pair_end; k++) {
-        phys_group g = phys_group_of_pair(world, world->island_pairs[k]);
-        carry_gaps(&g);
-    }
-    for (int32_t i = island->body_begin; i < island->body_end; i++) {
-        phys_group g = phys_group_of_body(world, world->island_bodies[i]);
-        carry_gaps(&g);
+    for (int32_t k = 0; k < count; k++) {
+        carry_gaps(&groups[k]);
     }
 }

@@ -146,14 +146,20 @@ static void move_body(const rlf_world *world, phys_body *body, const grid_query 
     }
 }
 
-/* Group k of an island: its pairs first. The real surface comes last: nothing gives way less. */
-static phys_group group_of(rlf_world *world, const phys_island *island, int32_t k)
+/* Lists the island's groups that have contacts: its pairs first. The real surface comes last:
+ * nothing gives way less. Returns their number. */
+static int32_t list_groups(rlf_world *world, const phys_island *island, phys_group *groups)
 {
-    int32_t pair_count = island->pair_end - island->pair_begin;
-    if (k < pair_count) {
-        return phys_group_of_pair(world, world->island_pairs[island->pair_begin + k]);
+    int32_t count = 0;
+    for (int32_t k = island->pair_begin; k < island->pair_end; k++) {
+        groups[count] = phys_group_of_pair(world, world->island_pairs[k]);
+        count += groups[count].count > 0;
     }
-    return phys_group_of_body(world, world->island_bodies[island->body_begin + k - pair_count]);
+    for (int32_t i = island->body_begin; i < island->body_end; i++) {
+        groups[count] = phys_group_of_body(world, world->island_bodies[i]);
+        count += groups[count].count > 0;
+    }
+    return count;
 }
 
 static bool is_busy_in(const phys_group *g, int32_t pass)
@@ -169,20 +175,20 @@ static void set_busy(phys_body *body, int32_t pass)
 }
 
 /* Passes over the groups next to which something still changes. */
-static void solve(rlf_world *world, const phys_island *island, bool bias, int32_t passes, double h)
+static void solve(const phys_group *groups, int32_t count, bool bias, int32_t passes, double h)
 {
-    int32_t count = island->pair_end - island->pair_begin + island->body_end - island->body_begin;
-    for (int32_t i = island->body_begin; i < island->body_end; i++) {
-        world->bodies[world->island_bodies[i]].busy_pass = 0;
+    for (int32_t k = 0; k < count; k++) {
+        set_busy(groups[k].a, 0);
+        set_busy(groups[k].b, 0);
     }
     bool is_busy = true;
     for (int32_t pass = 0; pass < passes && is_busy; pass++) {
         is_busy = false;
         for (int32_t k = 0; k < count; k++) {
-            phys_group g = group_of(world, island, k);
-            if (is_busy_in(&g, pass) && phys_group_solve(&g, bias, h)) {
-                set_busy(g.a, pass + 1);
-                set_busy(g.b, pass + 1);
+            const phys_group *g = &groups[k];
+            if (is_busy_in(g, pass) && phys_group_solve(g, bias, h)) {
+                set_busy(g->a, pass + 1);
+                set_busy(g->b, pass + 1);
                 is_busy = true;
             }
         }
@@ -205,29 +211,27 @@ static void mark_pressed(const phys_group *g)
 void phys_island_substep(rlf_world *world, const phys_island *island, const grid_query *query,
                          double h)
 {
-    int32_t count = island->pair_end - island->pair_begin + island->body_end - island->body_begin;
+    phys_group *groups = world->groups + island->pair_begin + island->body_begin;
     for (int32_t i = island->body_begin; i < island->body_end; i++) {
         start_body(world, &world->bodies[world->island_bodies[i]]);
     }
-    phys_solve_impacts(world, island, h);
+    int32_t count = list_groups(world, island, groups);
+    phys_solve_impacts(world, island, groups, count, h);
     for (int32_t i = island->body_begin; i < island->body_end; i++) {
         accelerate(world, &world->bodies[world->island_bodies[i]], h);
     }
     for (int32_t k = 0; k < count; k++) {
-        phys_group g = group_of(world, island, k);
-        phys_group_warm_start(&g);
+        phys_group_warm_start(&groups[k]);
     }
-    solve(world, island, true, SOLVE_PASSES, h);
+    solve(groups, count, true, SOLVE_PASSES, h);
     for (int32_t k = 0; k < count; k++) {
-        phys_group g = group_of(world, island, k);
-        mark_pressed(&g);
+        mark_pressed(&groups[k]);
     }
     for (int32_t i = island->body_begin; i < island->body_end; i++) {
         move_body(world, &world->bodies[world->island_bodies[i]], query, h);
     }
-    solve(world, island, false, RELAX_PASSES, h);
+    solve(groups, count, false, RELAX_PASSES, h);
     for (int32_t k = 0; k < count; k++) {
-        phys_group g = group_of(world, island, k);
-        phys_group_finish(&g);
+        phys_group_finish(&groups[k]);
     }
 }

@@ -4,14 +4,6 @@
 
 #include "physics/world_state.h"
 
-/* The contacts of a pair, or of a body with the surface. */
-typedef struct phys_group {
-    phys_contact *contacts;
-    int32_t count;
-    phys_body *a, *b; /* b NULL: surface */
-    phys_stance *stance;
-} phys_group;
-
 /* The speeds of a group's bodies while it is solved; a body that does not move has mobility 0. */
 typedef struct phys_sides {
     rlf_vec3 v_a, w_a, v_b, w_b;
@@ -21,15 +13,16 @@ typedef struct phys_sides {
 static inline phys_group phys_group_of_pair(rlf_world *world, int32_t pair_index)
 {
     phys_pair *pair = &world->pairs[pair_index];
-    phys_group g = {pair->contacts, pair->contact_count, &world->bodies[pair->a],
-                    &world->bodies[pair->b], &pair->stance};
+    phys_group g = {pair->contacts, &world->bodies[pair->a], &world->bodies[pair->b],
+                    &pair->stance,  pair->contact_count,     pair_index};
     return g;
 }
 
 static inline phys_group phys_group_of_body(rlf_world *world, int32_t body_index)
 {
     phys_body *body = &world->bodies[body_index];
-    phys_group g = {body->surface, body->surface_count, body, NULL, &body->stance};
+    int32_t key = world->pair_capacity + body_index;
+    phys_group g = {body->surface, body, NULL, &body->stance, body->surface_count, key};
     return g;
 }
 
@@ -96,7 +89,8 @@ void phys_group_finish(const phys_group *g);
 
 /* Prepares the groups of an island and answers its bounces of this substep: restitution at the time
  * of impact, in the order in which they happen. */
-void phys_solve_impacts(rlf_world *world, const phys_island *island, double h);
+void phys_solve_impacts(rlf_world *world, const phys_island *island, const phys_group *groups,
+                        int32_t count, double h);
 
 /* Everything that happens to an island in a substep of h seconds. query NULL: empty space. */
 struct grid_query;

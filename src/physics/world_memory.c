@@ -38,6 +38,7 @@ static int32_t plan_memory(rlf_world *w, memory_plan plans[PLANS_MAX])
         PLAN(islands, bodies),
         PLAN(island_bodies, bodies),
         PLAN(island_pairs, pairs),
+        PLAN(groups, bodies + pairs),
         PLAN(event_times, bodies + pairs),
         PLAN(event_counts, bodies + pairs),
         PLAN(pending, bodies + pairs),

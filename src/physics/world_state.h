@@ -9,6 +9,15 @@
 /* Substeps between searches for pairs. */
 #define PHYS_PERIOD_MAX 4
 
+/* The contacts of a pair, or of a body with the surface. */
+typedef struct phys_group {
+    phys_contact *contacts;
+    phys_body *a, *b; /* b NULL: surface */
+    phys_stance *stance;
+    int32_t count;
+    int32_t key; /* index of the pair, or of the body behind all pairs */
+} phys_group;
+
 /* Two bodies whose boxes overlap. */
 typedef struct phys_near {
     int32_t a, b; /* a < b */
@@ -57,6 +66,8 @@ struct rlf_world {
     phys_island *islands;
     int32_t island_count;
     int32_t *island_bodies, *island_pairs;
+
+    phys_group *groups; /* of each island, those that have contacts */
 
     double *event_times;   /* see impact.c; of the pairs, then of the bodies' surfaces */
     int32_t *event_counts; /* of this substep */
