@@ -23,6 +23,7 @@ typedef struct phys_contact {
     double separation; /* metres at the start of the substep */
     double friction, restitution;
     bool is_impacted; /* bounced in this substep */
+    bool is_far;      /* cannot touch in this substep */
     rlf_contact_other other;
     int32_t a, b;              /* body indices; b < 0: the surface */
     int32_t label;             /* region label of the surface, 0 else */

@@ -237,7 +237,7 @@ static void leave_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_v
         }
     }
     const double SHALLOW = 0.01;
-    if (hit->separation < -SHALLOW) {
+    if (hit->separation < -SHALLOW && home != FIELD_INSIDE) {
         double pixel = q.z * grid->pixel_angle;
         int32_t radius = (int32_t)rlf_min(-hit->separation / pixel, 24.0);
         rlf_vec3 normal;

@@ -79,7 +79,7 @@ static double event_time(const phys_group *g, double h)
     phys_sides s = phys_sides_load(g);
     for (int32_t i = 0; i < g->count; i++) {
         const phys_contact *c = &g->contacts[i];
-        if (c->restitution <= 0.0) {
+        if (c->is_far || c->restitution <= 0.0) {
             continue;
         }
         double v = phys_row_speed(&c->rows[0], &s, g->b != NULL);
@@ -164,7 +164,7 @@ static void answer(phys_group *g, double t)
         phys_contact *c = &g->contacts[i];
         double fall = normal_acceleration(c, g) * t;
         double v = phys_row_speed(&c->rows[0], &s, has_b);
-        takes_part[i] = virtual_gap(c, g) + (v + 0.5 * fall) * t <= TOGETHER;
+        takes_part[i] = !c->is_far && virtual_gap(c, g) + (v + 0.5 * fall) * t <= TOGETHER;
         approach[i] = rlf_max(0.0, -(v + fall));
         target[i] = c->restitution * approach[i] - fall;
         for (int32_t row = 0; row < 3; row++) {
@@ -308,7 +308,6 @@ void phys_solve_impacts(rlf_world *world, const phys_island *island, const phys_
 {
     event_list list = {world, h, world->pending + island->pair_begin + island->body_begin, 0};
     for (int32_t k = 0; k < count; k++) {
-        phys_group_prepare(world, &groups[k]);
         world->event_counts[groups[k].key] = 0;
         world->event_times[groups[k].key] = NO_EVENT;
         look_at_group(&list, &groups[k]);

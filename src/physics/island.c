@@ -4,7 +4,7 @@
 #include "physics/integrate.h"
 #include "physics/solver.h"
 
-#define SOLVE_PASSES 4
+#define SOLVE_PASSES 6
 #define RELAX_PASSES 2
 
 static int32_t root_of(rlf_world *world, int32_t i)
@@ -146,18 +146,19 @@ static void move_body(const rlf_world *world, phys_body *body, const grid_query 
     }
 }
 
-/* Lists the island's groups that have contacts: its pairs first. The real surface comes last:
- * nothing gives way less. Returns their number. */
-static int32_t list_groups(rlf_world *world, const phys_island *island, phys_group *groups)
+/* Prepares the island's groups and lists those that may touch in this substep: its pairs first. The
+ * real surface comes last: nothing gives way less. Returns their number. */
+static int32_t list_groups(rlf_world *world, const phys_island *island, phys_group *groups,
+                           double h)
 {
     int32_t count = 0;
     for (int32_t k = island->pair_begin; k < island->pair_end; k++) {
         groups[count] = phys_group_of_pair(world, world->island_pairs[k]);
-        count += groups[count].count > 0;
+        count += phys_group_prepare(world, &groups[count], h);
     }
     for (int32_t i = island->body_begin; i < island->body_end; i++) {
         groups[count] = phys_group_of_body(world, world->island_bodies[i]);
-        count += groups[count].count > 0;
+        count += phys_group_prepare(world, &groups[count], h);
     }
     return count;
 }
@@ -215,7 +216,7 @@ void phys_island_substep(rlf_world *world, const phys_island *island, const grid
     for (int32_t i = island->body_begin; i < island->body_end; i++) {
         start_body(world, &world->bodies[world->island_bodies[i]]);
     }
-    int32_t count = list_groups(world, island, groups);
+    int32_t count = list_groups(world, island, groups, h);
     phys_solve_impacts(world, island, groups, count, h);
     for (int32_t i = island->body_begin; i < island->body_end; i++) {
         accelerate(world, &world->bodies[world->island_bodies[i]], h);

@@ -16,6 +16,10 @@
 #define TURN_MAX 0.01
 /* Changes of a contact's speed below this ask for no further pass, m/s. */
 #define SETTLED 5e-4
+/* Contacts that are farther than their bodies can come, even when something makes them so much
+ * faster, wait for the next substep: a factor, and m/s. */
+#define FAR_FACTOR 2.0
+#define FAR_SPEED 0.2
 
 static void make_row(phys_row *row, rlf_vec3 direction, const phys_contact *c, const phys_group *g,
                      const phys_stance *stance)
@@ -67,26 +71,45 @@ static phys_stance stance_of(const phys_group *g)
     return now;
 }
 
-void phys_group_prepare(const rlf_world *world, const phys_group *g)
+static double speed_of(const phys_body *body)
+{
+    return body == NULL ? 0.0 : rlf_length(body->v) + rlf_length(body->w) * body->shape.radius;
+}
+
+bool phys_group_prepare(const rlf_world *world, const phys_group *g, double h)
 {
     phys_stance *before = g->stance, now = stance_of(g);
+    bool is_any_near = false;
+    if (g->count == 0) {
+        return false;
+    }
     bool is_same = before->is_set && before->is_moving_a == now.is_moving_a &&
                    before->is_moving_b == now.is_moving_b &&
                    now.turned_a - before->turned_a + now.turned_b - before->turned_b < TURN_MAX;
+    double way = (FAR_SPEED + FAR_FACTOR * (speed_of(g->a) + speed_of(g->b))) * h;
     for (int32_t i = 0; i < g->count; i++) {
         phys_contact *c = &g->contacts[i];
         measure_gap(world, c, g);
-        if (!is_same) {
+        c->is_far = c->separation > way + rlf_length(c->surface_velocity) * h;
+        is_any_near = is_any_near || !c->is_far;
+    }
+    for (int32_t i = 0; i < g->count; i++) {
+        phys_contact *c = &g->contacts[i];
+        if (c->is_far) {
+            c->rows[0].impulse = c->rows[1].impulse = c->rows[2].impulse = 0.0;
+        }
+        if (is_any_near && !is_same) {
             rlf_vec3 tangent = rlf_perpendicular(c->normal);
             make_row(&c->rows[0], c->normal, c, g, &now);
             make_row(&c->rows[1], tangent, c, g, &now);
             make_row(&c->rows[2], rlf_cross(c->normal, tangent), c, g, &now);
         }
     }
-    if (!is_same) {
+    if (is_any_near && !is_same) {
         now.rolling = before->is_set ? before->rolling : now.rolling;
         *g->stance = now;
     }
+    return is_any_near;
 }
 
 static inline void warm_start(const phys_group *g, bool has_b)
@@ -175,13 +198,11 @@ static inline bool solve(const phys_group *g, bool has_b, bool bias, double h)
     double slop = SLOP_SHARE * g->a->shape.radius;
     phys_sides s = phys_sides_load(g);
     for (int32_t i = 0; i < g->count; i++) {
-        is_busy |= solve_normal(&g->contacts[i], &s, has_b, bias, slop, h);
+        is_busy |=
+            !g->contacts[i].is_far && solve_normal(&g->contacts[i], &s, has_b, bias, slop, h);
     }
     for (int32_t i = 0; i < g->count; i++) {
-        is_busy |= solve_friction(&g->contacts[i], &s, has_b);
-    }
-    for (int32_t i = g->count - 1; i >= 0; i--) { /* no corner of a face is always the first */
-        is_busy |= solve_normal(&g->contacts[i], &s, has_b, bias, slop, h);
+        is_busy |= !g->contacts[i].is_far && solve_friction(&g->contacts[i], &s, has_b);
     }
     phys_sides_store(&s, g);
     return is_busy;

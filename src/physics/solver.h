@@ -69,8 +69,9 @@ static inline void phys_row_push(const phys_row *row, phys_sides *s, bool has_b,
     }
 }
 
-/* Sets the gaps of the group's contacts for a substep, and their rows where a body has turned. */
-void phys_group_prepare(const rlf_world *world, const phys_group *g);
+/* Sets the gaps of the group's contacts for a substep of h seconds, and their rows where a body has
+ * turned. Returns whether any may touch in it. */
+bool phys_group_prepare(const rlf_world *world, const phys_group *g, double h);
 
 /* Starts from the impulses of the last substep. */
 void phys_group_warm_start(const phys_group *g);
@@ -87,7 +88,7 @@ bool phys_contact_friction(phys_contact *c, phys_sides *s, bool has_b);
 /* Adds this substep's impulses to the contacts' sums and marks bodies that a contact holds. */
 void phys_group_finish(const phys_group *g);
 
-/* Prepares the groups of an island and answers its bounces of this substep: restitution at the time
+/* Bounces of this substep: restitution at the time
  * of impact, in the order in which they happen. */
 void phys_solve_impacts(rlf_world *world, const phys_island *island, const phys_group *groups,
                         int32_t count, double h);
