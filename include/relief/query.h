@@ -50,6 +50,12 @@ RLF_API rlf_overlap rlf_world_overlap_sphere(const rlf_world *world, const rlf_g
                                              rlf_vec3 centre, double radius, rlf_body_id *ids,
                                              int32_t capacity);
 
+/* HIT when two shapes in the given poses overlap or touch, MISS when there is a gap between them,
+ * INVALID for a shape that a body def could not have or a pose that is not finite. Exact to 1e-7 m
+ * for any two kinds of shapes. Thread-safety: safe. */
+RLF_API rlf_query_reason rlf_shapes_overlap(const rlf_shape *a, const rlf_pose *T_world_a,
+                                            const rlf_shape *b, const rlf_pose *T_world_b);
+
 #ifdef __cplusplus
 }
 #endif

@@ -99,6 +99,8 @@ typedef struct rlf_body_def {
     double gravity_scale;      /* default 1 */
     double release_time;       /* s; held still before. default 0 */
     bool collides_with_bodies; /* default true */
+    double rolling_resistance; /* live: a rolling ball slows down by 5/7 of this times gravity, >=
+                                  0; default 0 */
     double linear_damping;     /* live: velocity falls as exp(-damping t), 1/s, >= 0; default 0 */
     double angular_damping;    /* live: the same for the angular velocity */
     bool is_kinematic;         /* live: moves by its velocities alone (rlf_world_set_body changes

@@ -62,6 +62,10 @@ static rlf_result check_body_def(const rlf_body_def *def)
     if (!(def->friction >= 0 && def->friction <= 1e3)) {
         return rlf_fail(RLF_ERROR_INVALID, "body def: friction: %g: give 0 to 1000", def->friction);
     }
+    if (!(def->rolling_resistance >= 0 && def->rolling_resistance <= 1e3)) {
+        return rlf_fail(RLF_ERROR_INVALID, "body def: rolling_resistance: %g: give 0 to 1000",
+                        def->rolling_resistance);
+    }
     if (!rlf_is_finite(def->gravity_scale)) {
         return rlf_fail(RLF_ERROR_INVALID, "body def: gravity_scale: not finite");
     }
@@ -111,6 +115,7 @@ static void fill_body(phys_body *body, const rlf_body_def *def, int32_t index)
     body->restitution = def->restitution;
     body->friction = def->friction;
     body->gravity_scale = def->gravity_scale;
+    body->rolling_resistance = def->rolling_resistance;
     body->release_time = def->release_time;
     body->linear_damping = def->linear_damping;
     body->angular_damping = def->angular_damping;
@@ -136,10 +141,11 @@ rlf_result rlf_world_add_body(rlf_world *world, const rlf_body_def *def, rlf_bod
     if (def->is_kinematic && world->def.method == RLF_PHYSICS_THESIS) {
         return rlf_fail(RLF_ERROR_INVALID, "body def: is_kinematic: the thesis's method has none");
     }
-    int32_t index = 0;
+    int32_t index = world->has_free_slot ? 0 : world->body_top;
     while (index < world->body_top && world->bodies[index].is_alive) {
         index++;
     }
+    world->has_free_slot = index < world->body_top;
     if (index == world->def.body_capacity) {
         return rlf_fail(RLF_ERROR_CAPACITY, "world: all %d bodies are in use: raise body_capacity",
                         (int)world->def.body_capacity);
@@ -166,7 +172,11 @@ rlf_result rlf_world_add_body(rlf_world *world, const rlf_body_def *def, rlf_bod
     if (out_id != NULL) {
         *out_id = phys_body_id(world, index);
     }
-    phys_world_publish(world);
+    if (index == world->body_top - 1) {
+        phys_world_publish_last(world);
+    } else {
+        phys_world_publish(world);
+    }
     return RLF_OK;
 }
 

@@ -128,15 +128,13 @@ static void clear(grid_job *job)
     job->hit_count = 0;
 }
 
-/* Whether the surface had not yet passed the body's centre, which is behind it now, when the body's
- * contacts were last asked for: frames were lost, or it is fast. */
-static bool is_swept(const grid_job *job, const field_cell *cell)
+/* Whether the surface's plane had not yet passed the body's centre, which is behind it now, when
+ * the body's contacts were last asked for: frames were lost, or it is fast. */
+static bool is_swept(const grid_job *job, const field_cell *cell, rlf_vec3 seen)
 {
     double since = job->query->time - job->body->surface_time + job->query->lag;
-    rlf_vec3 before = rlf_mad(job->centre, cell->velocity, since - job->query->tau);
-    field_cell other;
-    return rlf_dot(cell->velocity, cell->normal) > 0.0 &&
-           grid_field_at(job->query->grid, job->sheet, before, &other) != FIELD_BEHIND;
+    double height = rlf_dot(cell->normal, rlf_sub(seen, cell->point));
+    return height + rlf_dot(cell->normal, cell->velocity) * since > 0.0;
 }
 
 /* Inside a solid a body still belongs to the side from which it came. True when it is inside, or
@@ -149,7 +147,7 @@ static bool find_home(grid_job *job, uint8_t *home)
     if (job->is_near) {
         state = grid_field_at(job->query->grid, job->sheet, seen, &cell);
     }
-    if (state == FIELD_BEHIND && *home == FIELD_FRONT && is_swept(job, &cell)) {
+    if (state == FIELD_BEHIND && *home == FIELD_FRONT && is_swept(job, &cell, seen)) {
         *home = FIELD_INSIDE;
     } else if (state != FIELD_INSIDE && !(state == FIELD_BEHIND && *home == FIELD_INSIDE)) {
         *home = (uint8_t)state;

@@ -11,7 +11,7 @@ typedef struct grid_query {
     const rlf_grid *grid;
     rlf_pose T_grid_world;
     double tau; /* seconds from when the grid was seen to now; the surface moves by velocity tau */
-    double lag; /* seconds of its way that tau leaves out, as it is not trusted so long */
+    double lag; /* seconds of the surface's way that no tau covered, as none is trusted so long */
     bool is_moving; /* false beyond the time that extrapolation is trusted */
     double time;    /* world time now, s */
     double step;    /* s of a substep */

@@ -2,6 +2,9 @@
 #include "physics/grid_field.h"
 #include "physics/grid_edge.h"
 
+/* What is not below these is no measurement, m and m/s. */
+#define FARTHEST 1e6
+#define FASTEST 1e3
 /* A sheet is taken to be at least this thick, so that a point cannot sit on both its sides. */
 #define THICKNESS_MIN 0.01
 /* Missing pixels are bridged from neighbours up to this many pixels away. */
@@ -19,7 +22,7 @@ bool grid_cell_read(const rlf_grid *grid, const rlf_grid_sheet *sheet, int32_t x
     }
     double z = sheet->depth[i];
     rlf_vec3 n = rlf_vec3_make(sheet->normal_x[i], sheet->normal_y[i], sheet->normal_z[i]);
-    if (!(z > 0.0) || !(rlf_dot(n, n) > 0.25)) {
+    if (!(z > 0.0 && z < FARTHEST) || !(rlf_dot(n, n) > 0.25 && rlf_dot(n, n) < 4.0)) {
         return false;
     }
     out->x = x;
@@ -31,6 +34,9 @@ bool grid_cell_read(const rlf_grid *grid, const rlf_grid_sheet *sheet, int32_t x
     if (sheet->velocity_x != NULL) {
         out->velocity =
             rlf_vec3_make(sheet->velocity_x[i], sheet->velocity_y[i], sheet->velocity_z[i]);
+        if (!(rlf_dot(out->velocity, out->velocity) < FASTEST * FASTEST)) {
+            out->velocity = rlf_vec3_make(0, 0, 0);
+        }
     }
     double thickness = sheet->thickness != NULL ? sheet->thickness[i] : sheet->default_thickness;
     bool is_endless = sheet->thickness == NULL && !(thickness > 0.0);

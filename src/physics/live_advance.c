@@ -37,6 +37,7 @@ static bool start_surface(rlf_world *world, const rlf_grid *grid, double dt)
     }
     bool is_new = !world->has_grid || grid->time_ns != world->grid_time_ns;
     if (is_new) {
+        world->grid_gap = world->has_grid ? rlf_max(world->grid_tau - EXTRAPOLATION_MAX, 0.0) : 0.0;
         world->grid_tau = -dt;
     }
     grid_tiles_start(&world->foreground_tiles, grid, &grid->foreground, is_new);
@@ -54,7 +55,7 @@ static grid_query query_now(rlf_world *world, const rlf_grid *grid, double h)
     grid_query query = {.grid = grid, .time = world->time, .step = h};
     query.T_grid_world = rlf_pose_invert(&grid->T_world_grid);
     query.tau = rlf_clamp(world->grid_tau, -EXTRAPOLATION_MAX, EXTRAPOLATION_MAX);
-    query.lag = rlf_max(query.tau - world->grid_tau, 0.0);
+    query.lag = rlf_max(query.tau - world->grid_tau, 0.0) + world->grid_gap;
     query.is_moving = query.tau == world->grid_tau;
     query.foreground = &world->foreground_tiles;
     query.background = &world->background_tiles;

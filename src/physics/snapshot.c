@@ -3,25 +3,33 @@
 
 #include <string.h>
 
+static void write_state(const rlf_world *world, int32_t index, rlf_body_state *state)
+{
+    const phys_body *body = &world->bodies[index];
+    state->id = phys_body_id(world, index);
+    memcpy(state->name, body->name, sizeof(state->name));
+    state->shape = body->shape.shape;
+    state->T_world_body = phys_body_pose(body);
+    state->velocity = body->v;
+    state->angular_velocity = body->w;
+    state->mass = body->mass;
+    memcpy(state->color, body->color, sizeof(state->color));
+    state->is_held = body->is_held;
+    state->is_asleep = body->is_asleep;
+}
+
+void phys_world_publish_last(rlf_world *world)
+{
+    write_state(world, world->body_top - 1, &world->states[world->snapshot.body_count++]);
+}
+
 void phys_world_publish(rlf_world *world)
 {
     int32_t count = 0;
     for (int32_t i = 0; i < world->body_top; i++) {
-        const phys_body *body = &world->bodies[i];
-        if (!body->is_alive) {
-            continue;
+        if (world->bodies[i].is_alive) {
+            write_state(world, i, &world->states[count++]);
         }
-        rlf_body_state *state = &world->states[count++];
-        state->id = phys_body_id(world, i);
-        memcpy(state->name, body->name, sizeof(state->name));
-        state->shape = body->shape.shape;
-        state->T_world_body = phys_body_pose(body);
-        state->velocity = body->v;
-        state->angular_velocity = body->w;
-        state->mass = body->mass;
-        memcpy(state->color, body->color, sizeof(state->color));
-        state->is_held = body->is_held;
-        state->is_asleep = body->is_asleep;
     }
     world->snapshot.time_ns = (int64_t)(world->time * 1e9 + 0.5);
     world->snapshot.frame = world->frame;

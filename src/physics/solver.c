@@ -109,7 +109,25 @@ bool phys_group_prepare(const rlf_world *world, const phys_group *g, double h)
         now.rolling = before->is_set ? before->rolling : now.rolling;
         *g->stance = now;
     }
+    if (!is_any_near) {
+        g->stance->rolling = rlf_vec3_make(0, 0, 0);
+    }
     return is_any_near;
+}
+
+static void turn_sides(const phys_group *g, phys_sides *s, bool has_b, rlf_vec3 impulse)
+{
+    if (s->mobility_a > 0.0) {
+        s->w_a = rlf_add(s->w_a, rlf_mat3_mul_vec(&g->a->inverse_inertia_world, impulse));
+    }
+    if (has_b && s->mobility_b > 0.0) {
+        s->w_b = rlf_sub(s->w_b, rlf_mat3_mul_vec(&g->b->inverse_inertia_world, impulse));
+    }
+}
+
+static bool resists_rolling(const phys_group *g, bool has_b)
+{
+    return g->a->rolling_resistance > 0.0 || (has_b && g->b->rolling_resistance > 0.0);
 }
 
 static inline void warm_start(const phys_group *g, bool has_b)
@@ -120,6 +138,9 @@ static inline void warm_start(const phys_group *g, bool has_b)
         for (int32_t row = 0; row < 3 && c->rows[0].impulse > 0.0; row++) {
             phys_row_push(&c->rows[row], &s, has_b, c->rows[row].impulse);
         }
+    }
+    if (resists_rolling(g, has_b)) {
+        turn_sides(g, &s, has_b, g->stance->rolling);
     }
     phys_sides_store(&s, g);
 }
@@ -192,6 +213,38 @@ bool phys_contact_friction(phys_contact *c, phys_sides *s, bool has_b)
     return solve_friction(c, s, has_b);
 }
 
+/* An angular impulse against the bodies' turning on each other, at most resistance times radius
+ * times the impulse that presses them together. */
+static bool solve_rolling(const phys_group *g, phys_sides *s, bool has_b)
+{
+    double resistance = g->a->rolling_resistance, radius = g->a->shape.radius, pressing = 0.0;
+    rlf_mat3 mobility =
+        s->mobility_a > 0.0 ? g->a->inverse_inertia_world : rlf_mat3_diagonal(0, 0, 0);
+    rlf_vec3 w = s->w_a;
+    if (has_b) {
+        resistance = rlf_max(resistance, g->b->rolling_resistance);
+        radius = rlf_min(radius, g->b->shape.radius);
+        w = rlf_sub(w, s->w_b);
+    }
+    for (int32_t i = 0; i < 9 && has_b && s->mobility_b > 0.0; i++) {
+        mobility.m[i / 3][i % 3] += g->b->inverse_inertia_world.m[i / 3][i % 3];
+    }
+    for (int32_t i = 0; i < g->count; i++) {
+        pressing += g->contacts[i].rows[0].impulse;
+    }
+    rlf_mat3 mass;
+    rlf_vec3 before = g->stance->rolling;
+    if (!rlf_mat3_invert(&mobility, &mass)) {
+        return false;
+    }
+    rlf_vec3 sum = rlf_sub(before, rlf_mat3_mul_vec(&mass, w));
+    double length = rlf_length(sum), limit = resistance * radius * pressing;
+    g->stance->rolling = length > limit ? rlf_scale(sum, limit / length) : sum;
+    rlf_vec3 change = rlf_sub(g->stance->rolling, before);
+    turn_sides(g, s, has_b, change);
+    return rlf_length(change) > 0.01 * limit;
+}
+
 static inline bool solve(const phys_group *g, bool has_b, bool bias, double h)
 {
     bool is_busy = false;
@@ -203,6 +256,9 @@ static inline bool solve(const phys_group *g, bool has_b, bool bias, double h)
     }
     for (int32_t i = 0; i < g->count; i++) {
         is_busy |= !g->contacts[i].is_far && solve_friction(&g->contacts[i], &s, has_b);
+    }
+    if (resists_rolling(g, has_b)) {
+        is_busy |= solve_rolling(g, &s, has_b);
     }
     phys_sides_store(&s, g);
     return is_busy;

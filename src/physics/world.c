@@ -140,6 +140,7 @@ static void remove_body(rlf_world *world, int32_t index)
     wake_near(world, body);
     phys_shape_finish(&body->shape);
     body->is_alive = false;
+    world->has_free_slot = true;
     body->generation++;
     body->surface_count = 0;
     phys_drop_pairs(world, index);

@@ -45,7 +45,8 @@ typedef struct phys_touch {
 struct rlf_world {
     rlf_world_def def;
     phys_body *bodies;
-    int32_t body_top; /* bodies beyond it were never used */
+    bool has_free_slot; /* bodies below body_top may have gone */
+    int32_t body_top;   /* bodies beyond it were never used */
 
     rlf_vec3 *points;      /* of the bodies' shapes */
     phys_contact *surface; /* of the bodies */
@@ -93,6 +94,7 @@ struct rlf_world {
 
     bool has_grid; /* whether the last advance saw one, and where its time stands */
     int64_t grid_time_ns;
+    double grid_gap; /* s of the last one's way that was not extrapolated before this one came */
     double grid_tau; /* s from when the grid was seen to now, negative before */
     grid_tiles foreground_tiles, background_tiles;
     grid_shell shell;
@@ -107,6 +109,9 @@ void phys_world_free(rlf_world *world);
 
 /* Writes the snapshot from the bodies and the contact log. */
 void phys_world_publish(rlf_world *world);
+
+/* Adds the body in the last slot to it. */
+void phys_world_publish_last(rlf_world *world);
 
 /* Lets go of bodies whose release time has come, and sets the masses of the held ones to none. */
 void phys_world_release(rlf_world *world);

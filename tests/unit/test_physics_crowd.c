@@ -1,0 +1,283 @@
+/* Many bodies, long stacks, lost frames and bad input: nothing explodes, nothing is allocated, and
+ * the workers do not matter. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "relief/world.h"
+
+#include "grid_fixture.h"
+
+#include <math.h>
+
+#define FRAME (1.0 / 30)
+
+static grid_fixture *fixture;
+
+static int set_up(void **state)
+{
+    (void)state;
+    fixture = grid_fixture_create();
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    grid_fixture_destroy(&fixture);
+    return 0;
+}
+
+static void set_floor(double height)
+{
+    grid_plane room[2] = {grid_floor(height), grid_wall(5)};
+    grid_fixture_set_room(fixture, room, 2);
+    memset(fixture->mask, 0, (size_t)GRID_W * GRID_H);
+    fixture->grid.time_ns++;
+}
+
+static rlf_world *make_world(int32_t bodies, rlf_pool *pool)
+{
+    rlf_world_def def = rlf_world_def_default();
+    def.body_capacity = bodies;
+    def.border = RLF_BORDER_EXTEND;
+    def.pool = pool;
+    rlf_world *world = NULL;
+    assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
+    return world;
+}
+
+/* Layers of bodies of four shapes over the floor. */
+static void add_crowd(rlf_world *world, int count)
+{
+    for (int i = 0; i < count; i++) {
+        rlf_body_def def = rlf_body_def_default();
+        def.shape.type = (rlf_shape_type)(i % 4);
+        def.shape.radius = 0.04;
+        def.shape.height = 0.08;
+        def.position = rlf_vec3_make(0.16 * (i % 12) - 0.9, 0.8 - 0.16 * (i / 120),
+                                     2.0 + 0.16 * (i / 12 % 10));
+        def.orientation = rlf_quat_from_rotation_vector(rlf_vec3_make(0.1 * i, 0.2 * i, 0.3 * i));
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    }
+}
+
+static double fastest(const rlf_world *world)
+{
+    const rlf_snapshot *s = rlf_world_get_snapshot(world);
+    double most = 0;
+    for (int i = 0; i < s->body_count; i++) {
+        assert_true(rlf_vec3_is_finite(s->bodies[i].T_world_body.p));
+        assert_true(rlf_vec3_is_finite(s->bodies[i].velocity));
+        assert_true(rlf_vec3_is_finite(s->bodies[i].angular_velocity));
+        most = rlf_max(most, rlf_length(s->bodies[i].velocity));
+    }
+    return most;
+}
+
+static void thousand_bodies_allocate_nothing(void **state)
+{
+    (void)state;
+    set_floor(1);
+    rlf_world *world = make_world(1000, NULL);
+    add_crowd(world, 1000);
+    uint64_t before = rlf_alloc_count();
+    for (int k = 0; k < 20; k++) {
+        fixture->grid.time_ns++;
+        rlf_world_advance(world, &fixture->grid, FRAME);
+        assert_true(fastest(world) < 20);
+    }
+    assert_int_equal(rlf_alloc_count() - before, 0);
+    rlf_world_destroy(&world);
+}
+
+static uint64_t hash_of_run(rlf_pool *pool)
+{
+    rlf_world *world = make_world(300, pool);
+    add_crowd(world, 300);
+    uint64_t hash = 0;
+    for (int k = 0; k < 40; k++) {
+        fixture->grid.time_ns = k + 1;
+        rlf_world_advance(world, &fixture->grid, FRAME);
+        hash = hash * 31 + rlf_world_hash(world);
+    }
+    rlf_world_destroy(&world);
+    return hash;
+}
+
+static void workers_do_not_matter(void **state)
+{
+    (void)state;
+    set_floor(1);
+    uint64_t hash = hash_of_run(NULL);
+    for (int32_t workers = 2; workers <= 4; workers++) {
+        rlf_pool *pool = NULL;
+        assert_int_equal(rlf_pool_create(workers, &pool), RLF_OK);
+        assert_true(hash_of_run(pool) == hash);
+        rlf_pool_destroy(&pool);
+    }
+}
+
+static void ten_thousand_in_one_place(void **state)
+{
+    (void)state;
+    rlf_world *world = make_world(10000, NULL);
+    rlf_body_def def = rlf_body_def_default();
+    for (int i = 0; i < 10000; i++) {
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    }
+    for (int k = 0; k < 2; k++) {
+        rlf_world_advance(world, NULL, 1.0 / 60);
+        assert_true(fastest(world) < 20);
+    }
+    rlf_world_destroy(&world);
+}
+
+/* Ten cubes on one another, the lowest added last: the order of bodies does not matter. */
+static void stack_added_from_above(void **state)
+{
+    (void)state;
+    set_floor(1);
+    rlf_world *world = make_world(10, NULL);
+    rlf_body_def def = rlf_body_def_default();
+    for (int i = 0; i < 10; i++) {
+        def.position = rlf_vec3_make(0.2, 0.95 - 0.1 * (9 - i), 2.5);
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    }
+    for (int k = 0; k < 300; k++) {
+        fixture->grid.time_ns++;
+        rlf_world_advance(world, &fixture->grid, FRAME);
+    }
+    double drift = 0;
+    for (int i = 0; i < 10; i++) {
+        rlf_vec3 p = rlf_world_get_snapshot(world)->bodies[i].T_world_body.p;
+        drift = rlf_max(drift, hypot(p.x - 0.2, p.z - 2.5));
+        drift = rlf_max(drift, fabs(p.y - (0.95 - 0.1 * (9 - i))) / 10);
+    }
+    print_message("stack added from above: drift %.3f mm\n", 1e3 * drift);
+    assert_true(drift < 0.5e-3 && fastest(world) < 1e-4);
+    rlf_world_destroy(&world);
+}
+
+/* The floor comes up or goes down by a metre from one frame to the next. */
+static void surface_jumps_a_metre(void **state)
+{
+    (void)state;
+    set_floor(1);
+    rlf_world *world = make_world(20, NULL);
+    add_crowd(world, 20);
+    for (int k = 0; k < 90; k++) {
+        set_floor(k / 15 % 2 == 0 ? 1.0 : 0.01);
+        rlf_world_advance(world, &fixture->grid, FRAME);
+        assert_true(fastest(world) < 15);
+    }
+    rlf_world_destroy(&world);
+}
+
+/* NaN and infinities in any plane of the surface. */
+static void bad_numbers_in_the_surface(void **state)
+{
+    (void)state;
+    const float bad[3] = {NAN, INFINITY, -INFINITY};
+    for (int plane = 2; plane < 14; plane++) {
+        set_floor(1);
+        grid_fixture_set_slab(fixture, grid_floor(0.9), rlf_vec3_make(0, 0.9, 2.5),
+                              rlf_vec3_make(0.4, 0, 0.4), 0.05, rlf_vec3_make(0, 0, 0));
+        for (int i = 0; i < GRID_W * GRID_H; i += 3) {
+            fixture->planes[plane][i] = bad[i / 3 % 3];
+        }
+        rlf_world *world = make_world(20, NULL);
+        add_crowd(world, 20);
+        for (int k = 0; k < 10; k++) {
+            fixture->grid.time_ns++;
+            rlf_world_advance(world, &fixture->grid, FRAME);
+            assert_true(fastest(world) < 20);
+        }
+        rlf_world_destroy(&world);
+    }
+}
+
+/* A hand rises at 0.5 m/s and only every n-th frame arrives; its speed is what two of them show.
+ * The cube stays on it. */
+static void hand_lifts_through_lost_frames(void **state)
+{
+    (void)state;
+    for (int n = 2; n <= 11; n++) {
+        set_floor(1.2);
+        rlf_world *world = make_world(1, NULL);
+        rlf_body_def def = rlf_body_def_default();
+        def.restitution = 0.2;
+        def.position = rlf_vec3_make(0.01, 0.75, 2.01);
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        double y = 0.8, seen = y;
+        for (int k = 0; k < 44; k++) {
+            y -= k >= 15 && k < 33 ? 0.5 * FRAME : 0.0;
+            if (k % n == 0) {
+                rlf_vec3 velocity = {0, k > 0 ? (y - seen) / (n * FRAME) : 0.0, 0};
+                grid_fixture_set_slab(fixture, grid_floor(y), rlf_vec3_make(0, y, 2),
+                                      rlf_vec3_make(0.2, 0, 0.2), 0.05, velocity);
+                seen = y;
+                fixture->grid.time_ns++;
+            }
+            rlf_world_advance(world, &fixture->grid, FRAME);
+            assert_true(fastest(world) < 5);
+        }
+        rlf_vec3 p = rlf_world_get_snapshot(world)->bodies[0].T_world_body.p;
+        print_message("%d of %d frames lost: the cube is %.3f m %s the hand\n", n - 1, n,
+                      fabs(p.y - y), p.y < y ? "above" : "below");
+        assert_true(n > 2 || p.y < y);
+        rlf_world_destroy(&world);
+    }
+}
+
+/* A ball that rolls without slipping slows down by 5/7 c g. */
+static void rolling_resistance_slows_a_ball(void **state)
+{
+    (void)state;
+    const double c = 0.1, r = 0.1;
+    set_floor(1);
+    for (int k = 0; k < 2; k++) {
+        rlf_world *world = make_world(1, NULL);
+        rlf_body_def def = rlf_body_def_default();
+        def.shape = (rlf_shape){.type = RLF_SHAPE_SPHERE, .radius = r};
+        def.restitution = 0;
+        def.rolling_resistance = k == 0 ? c : 0.0;
+        def.position = rlf_vec3_make(-0.6, 1 - r, 2.5);
+        def.velocity = rlf_vec3_make(1, 0, 0);
+        def.angular_velocity = rlf_vec3_make(0, 0, 1 / r);
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        for (int frame = 0; frame < 24; frame++) {
+            fixture->grid.time_ns++;
+            rlf_world_advance(world, &fixture->grid, FRAME);
+        }
+        double v = rlf_world_get_snapshot(world)->bodies[0].velocity.x;
+        double expected = k == 0 ? 1 - 5.0 / 7 * c * 9.81 * 0.8 : 1.0;
+        print_message("rolling, resistance %.1f: %.4f of %.4f m/s\n", def.rolling_resistance, v,
+                      expected);
+        assert_true(fabs(v - expected) < 0.01);
+        for (int frame = 0; frame < 30; frame++) {
+            fixture->grid.time_ns++;
+            rlf_world_advance(world, &fixture->grid, FRAME);
+        }
+        double later = rlf_world_get_snapshot(world)->bodies[0].velocity.x;
+        assert_true(k == 0 ? fabs(later) < 1e-3 : later > 0.98);
+        rlf_world_destroy(&world);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(thousand_bodies_allocate_nothing),
+        cmocka_unit_test(workers_do_not_matter),
+        cmocka_unit_test(ten_thousand_in_one_place),
+        cmocka_unit_test(stack_added_from_above),
+        cmocka_unit_test(surface_jumps_a_metre),
+        cmocka_unit_test(bad_numbers_in_the_surface),
+        cmocka_unit_test(hand_lifts_through_lost_frames),
+        cmocka_unit_test(rolling_resistance_slows_a_ball),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
