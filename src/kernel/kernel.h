@@ -9,6 +9,7 @@
 #include "relief/frame.h"
 
 #include <stdint.h>
+#include <string.h>
 
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) ||                         \
@@ -80,6 +81,20 @@ RLF_KERNEL_PART float rlf_kernel_slant(float along, float length)
 RLF_KERNEL_PART float rlf_kernel_abs(float x)
 {
     return x < 0.0f ? -x : x;
+}
+
+/* The first index from `i` on at which a byte of the row is not 0, or `count`: marks are rare. */
+RLF_KERNEL_PART int32_t rlf_kernel_next_mark(const uint8_t *row, int32_t i, int32_t count)
+{
+    uint64_t eight = 0;
+    while (i + 8 <= count && eight == 0) {
+        memcpy(&eight, row + i, sizeof eight);
+        i += eight == 0 ? 8 : 0;
+    }
+    while (i < count && row[i] == 0) {
+        i++;
+    }
+    return i;
 }
 
 /* ---- depth_row.c: raw depth to metres and reason codes ------------------------------------------

@@ -232,14 +232,15 @@ static void fill_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     memcpy(job->out + first, job->depth + first,
            (size_t)(end - begin) * (size_t)width * sizeof *job->out);
     for (int32_t y = begin; y < end; y++) {
-        for (int32_t x = 0; x < width; x++) {
+        uint8_t *reason = job->reason + (ptrdiff_t)y * width; /* 0 = OK */
+        for (int32_t x = 0; (x = rlf_kernel_next_mark(reason, x, width)) < width; x++) {
             ptrdiff_t i = (ptrdiff_t)y * width + x;
-            if (!may_fill(job->reason[i])) { /* all others have depth or must not have one */
+            if (!may_fill(reason[x])) { /* all others have depth or must not have one */
                 continue;
             }
             job->out[i] = fill_pixel(job, x, y);
             if (job->out[i] > 0.0f) {
-                job->reason[i] = RLF_REASON_FILLED;
+                reason[x] = RLF_REASON_FILLED;
             }
         }
     }

@@ -113,25 +113,33 @@ static evidence look_around(const hold_job *job, int32_t x, int32_t y)
     return e;
 }
 
+static void recall_pixel(const hold_job *job, int32_t x, int32_t y)
+{
+    ptrdiff_t i = (ptrdiff_t)y * job->stage->grid.width + x;
+    const rlf_steady *steady = &job->stage->steady;
+    evidence e = {true, false};
+    if (is_calm(job, x, y)) {
+        e = look_around(job, x, y);
+    }
+    if (e.moved) {
+        steady->frames[i] = -steady->frames[i]; /* still proves that what is seen next is new */
+    } else if (e.continued && steady->frames[i] >= LEAST_FRAMES) {
+        job->depth[i] = 1.0f / steady->mean[i];
+        job->reason[i] = RLF_REASON_FILLED;
+    }
+}
+
 static void recall_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
     const hold_job *job = context;
-    const rlf_steady *steady = &job->stage->steady;
     int32_t width = job->stage->grid.width;
     for (int32_t y = begin; y < end; y++) {
-        for (int32_t x = 0; x < width; x++) {
-            ptrdiff_t i = (ptrdiff_t)y * width + x;
-            if (!is_lost(job, i)) {
-                continue;
-            }
-            evidence e = look_around(job, x, y);
-            if (e.moved || !is_calm(job, x, y)) {
-                steady->frames[i] =
-                    -steady->frames[i]; /* still proves that what is seen next is new */
-            } else if (e.continued && steady->frames[i] >= LEAST_FRAMES) {
-                job->depth[i] = 1.0f / steady->mean[i];
-                job->reason[i] = RLF_REASON_FILLED;
+        ptrdiff_t row = (ptrdiff_t)y * width;
+        const uint8_t *reason = job->reason + row; /* 0 = OK */
+        for (int32_t x = 0; (x = rlf_kernel_next_mark(reason, x, width)) < width; x++) {
+            if (is_lost(job, row + x)) {
+                recall_pixel(job, x, y);
             }
         }
     }

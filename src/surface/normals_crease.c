@@ -136,9 +136,10 @@ static void sharpen_rows(void *context, int32_t begin, int32_t end, int32_t work
     (void)worker;
     const crease_job *job = context;
     for (int32_t y = begin; y < end; y++) {
-        for (int32_t x = 0; x < job->width; x++) {
-            ptrdiff_t i = (ptrdiff_t)y * job->width + x;
-            if (job->bent[i] && job->reason[i] == RLF_REASON_OK) {
+        ptrdiff_t row = (ptrdiff_t)y * job->width;
+        const uint8_t *bent = job->bent + row;
+        for (int32_t x = 0; (x = rlf_kernel_next_mark(bent, x, job->width)) < job->width; x++) {
+            if (job->reason[row + x] == RLF_REASON_OK) {
                 sharpen_pixel(job, x, y);
             }
         }

@@ -256,9 +256,10 @@ static void outline_rows(void *context, int32_t begin, int32_t end, int32_t work
     (void)worker;
     const outline_job *job = context;
     for (int32_t y = begin; y < end; y++) {
-        for (int32_t x = 0; x < job->width; x++) {
-            ptrdiff_t i = (ptrdiff_t)y * job->width + x;
-            if (job->reason[i] == RLF_REASON_FILLED && !(job->known[i] > 0.0f)) {
+        ptrdiff_t row = (ptrdiff_t)y * job->width;
+        const uint8_t *reason = job->reason + row; /* 0 = OK */
+        for (int32_t x = 0; (x = rlf_kernel_next_mark(reason, x, job->width)) < job->width; x++) {
+            if (reason[x] == RLF_REASON_FILLED && !(job->known[row + x] > 0.0f)) {
                 turn_pixel(job, x, y);
             }
         }
