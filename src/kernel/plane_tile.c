@@ -209,17 +209,24 @@ RLF_KERNEL_PART void fit_windows(const tile_state *state, const moment_row *rest
     }
 }
 
-/* Planes of a span of corners between two rows. */
+/* Planes of the corners between two rows, spans from `first` to `end`, as far as they are missing;
+ * long runs keep the vectors busy. */
 RLF_KERNEL_PART void fit_corners(const tile_state *state, const moment_row *const rows[2],
-                                 int32_t first, corner_row *corners)
+                                 int32_t first, int32_t end, corner_row *corners)
 {
     moment_row sums;
-    if (corners->is_fitted[first / SPAN]) {
-        return;
+    while (first < end) {
+        int32_t last = first;
+        while (last < end && !corners->is_fitted[last / SPAN]) {
+            corners->is_fitted[last / SPAN] = true;
+            last += SPAN;
+        }
+        if (last > first) {
+            sum_rows(rows, 2, first, last + SPAN, &sums);
+            fit_windows(state, &sums, 1, 2, NARROW_SIGMAS, first, last, &corners->planes);
+        }
+        first = last > first ? last : first + SPAN;
     }
-    corners->is_fitted[first / SPAN] = true;
-    sum_rows(rows, 2, first + 1, first + 1 + SPAN + 1, &sums);
-    fit_windows(state, &sums, 1, 2, NARROW_SIGMAS, first, first + SPAN, &corners->planes);
 }
 
 /* Some block of the span has pixels enough in its widest window but no plane. */
@@ -234,25 +241,24 @@ RLF_KERNEL_PART bool needs_small(const moment_row *restrict sums, const plane_ro
     return without > 0;
 }
 
-/* In a span of blocks, where no wide window fits: the most certain of the window of 3x3 blocks and
- * the four of 2x2. */
+/* In some spans of blocks, where no wide window fits: the most certain of the window of 3x3 blocks
+ * and the four of 2x2. */
 RLF_KERNEL_PART void fit_small(tile_state *state, const moment_row *const rows[5], int32_t row,
-                               int32_t first, plane_row *restrict planes)
+                               int32_t first, int32_t end, plane_row *restrict planes)
 {
     moment_row sums;
     plane_row best;
-    sum_rows(rows + 1, 3, first + 1, first + 1 + SPAN + 2, &sums);
-    fit_windows(state, &sums, 1, 3, NARROW_SIGMAS, first, first + SPAN, &best);
+    sum_rows(rows + 1, 3, first, end + SPAN, &sums);
+    fit_windows(state, &sums, 1, 3, NARROW_SIGMAS, first, end, &best);
     for (int32_t side = 0; side < 2; side++) {
         corner_row *corners = &state->corners[(row + 1 + side) % 2];
-        fit_corners(state, rows + 1 + side, first, corners);
-        fit_corners(state, rows + 1 + side, first + SPAN, corners);
-        for (int32_t i = first; i < first + SPAN; i++) {
+        fit_corners(state, rows + 1 + side, first, end + SPAN, corners);
+        for (int32_t i = first; i < end; i++) {
             improve(&best, i, &corners->planes, i);
             improve(&best, i, &corners->planes, i + 1);
         }
     }
-    for (int32_t i = first; i < first + SPAN; i++) {
+    for (int32_t i = first; i < end; i++) {
         best.weight[i] = planes->weight[i] > 0.0f ? 0.0f : best.weight[i];
         improve(planes, i, &best, i);
     }
@@ -279,8 +285,13 @@ RLF_KERNEL_PART void make_planes(tile_state *state, int32_t row)
     sum_rows(rows, 5, 0, state->planes + HALO, &sums);
     fit_windows(state, &sums, 0, 5, WIDE_SIGMAS, 0, state->planes, &planes);
     for (int32_t first = 0; first < state->planes; first += SPAN) {
-        if (needs_small(&sums, &planes, first)) {
-            fit_small(state, rows, row, first, &planes);
+        int32_t end = first;
+        while (end < state->planes && needs_small(&sums, &planes, end)) {
+            end += SPAN;
+        }
+        if (end > first) {
+            fit_small(state, rows, row, first, end, &planes);
+            first = end; /* is known to need none */
         }
     }
     pixel_planes *out = &state->pixels[row % 5];

@@ -22,9 +22,8 @@ RLF_KERNEL void rlf_kernel_steady_row(const rlf_kernel_steady *params,
         bool is_seen = reason[i] == RLF_REASON_OK && z > 0.0f;
         float w = 1.0f / (is_seen ? z : 1.0f);
         float facing = nx[i] * x[i] + ny[i] * y[i] + nz[i];
-        bool is_known = facing < 0.0f;
         float length = sqrtf(x[i] * x[i] + y[i] * y[i] + 1.0f);
-        float slant = is_known ? rlf_kernel_slant(is_known ? -facing : 1.0f, length) : 1.0f;
+        float slant = rlf_kernel_slant(facing < 0.0f ? -facing : length, length);
         float gate = params->sigmas * rlf_kernel_inverse_sigma(params->noise, w) * slant;
         bool is_same = rlf_kernel_abs(w - mean[i]) <= gate;
         float n = (is_same ? rlf_kernel_abs(frames[i]) : 0.0f) + 1.0f;
