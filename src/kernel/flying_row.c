@@ -51,11 +51,9 @@ RLF_KERNEL_PART int32_t is_kept_at_border(const float *const rows[3], int32_t co
     return is_kept(n, rows[1][i]);
 }
 
-RLF_KERNEL_PART void write_pixel(float z, int32_t kept, float *depth, uint8_t *reason)
+RLF_KERNEL_PART float kept_depth(float z, int32_t kept)
 {
-    int32_t flying = (z > 0.0f) & (kept == 0);
-    *depth = flying ? 0.0f : z;
-    *reason = flying ? (uint8_t)RLF_REASON_FLYING : *reason;
+    return kept != 0 ? z : 0.0f;
 }
 
 RLF_KERNEL void rlf_kernel_flying_row(const float *const rows[3], int32_t count,
@@ -64,14 +62,18 @@ RLF_KERNEL void rlf_kernel_flying_row(const float *const rows[3], int32_t count,
     const float *restrict up = rows[0];
     const float *restrict at = rows[1];
     const float *restrict down = rows[2];
-    write_pixel(at[0], is_kept_at_border(rows, count, 0), &depth[0], &reason[0]);
+    depth[0] = kept_depth(at[0], is_kept_at_border(rows, count, 0));
     for (int32_t i = 1; i < count - 1; i++) {
         const float n[8] = {up[i - 1], up[i],       up[i + 1], at[i - 1],
                             at[i + 1], down[i - 1], down[i],   down[i + 1]};
-        write_pixel(at[i], is_kept(n, at[i]), &depth[i], &reason[i]);
+        depth[i] = kept_depth(at[i], is_kept(n, at[i]));
     }
     if (count > 1) {
-        int32_t last = count - 1;
-        write_pixel(at[last], is_kept_at_border(rows, count, last), &depth[last], &reason[last]);
+        depth[count - 1] = kept_depth(at[count - 1], is_kept_at_border(rows, count, count - 1));
+    }
+    for (int32_t i = 0; i < count; i++) { /* apart, because bytes would make longer vectors */
+        uint8_t why = reason[i];
+        int32_t is_flying = (at[i] > 0.0f) & !(depth[i] > 0.0f);
+        reason[i] = is_flying != 0 ? (uint8_t)RLF_REASON_FLYING : why;
     }
 }
