@@ -12,5 +12,7 @@ rlf_result eval_plate_run(eval_table *table, int64_t seed, int profile_mask);
 rlf_result eval_public_run(eval_table *table, const char *folder, int profile_mask);
 /* Free flight, collisions between bodies, and bodies on sensed planes that move or rest. */
 rlf_result eval_physics_run(eval_table *table, int64_t seed, int profile_mask);
+/* Physics on what the synthetic sensor shows, against the true scene. */
+rlf_result eval_sensed_run(eval_table *table, int64_t seed, int profile_mask);
 
 #endif

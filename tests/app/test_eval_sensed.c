@@ -1,0 +1,133 @@
+/* Physics on what the synthetic sensor shows: short versions of section "sensed". */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "eval_ball.h"
+#include "eval_sensed.h"
+
+#include <math.h>
+
+/* A ball without friction onto a level floor: up again at its restitution, at the right place. */
+static void true_ball_bounces_exactly(void **state)
+{
+    (void)state;
+    rlf_source *room = NULL;
+    assert_int_equal(rlf_open_source("synthetic:empty?color=0", NULL, &room), RLF_OK);
+    const rlf_vec3 GRAVITY = {0, 9.81, 0};
+    eval_ball ball = {.x = {0, 0.5, 3}, .v = {1, 0, 0}, .radius = 0.1, .restitution = 0.5};
+    double fall = sqrt(2.0 * 0.7 / 9.81); /* from 0.5 to the floor at 1.3, less the radius */
+    eval_ball_fly(room, &ball, GRAVITY, 0.0, fall + 0.1);
+    assert_int_equal(ball.bounces, 1);
+    assert_int_equal(ball.first.label, RLF_SYNTHETIC_LABEL_FLOOR);
+    assert_true(fabs(ball.first_approach - 9.81 * fall) < 1e-3);
+    assert_true(fabs(ball.v.y - (-0.5 * 9.81 * fall + 0.981)) < 1e-3);
+    assert_true(fabs(ball.v.x - 1.0) < 1e-12 && fabs(ball.x.x - (fall + 0.1)) < 1e-9);
+    /* With friction enough to stick it rolls: v = 5/7 of the sliding speed. */
+    eval_ball rough = {
+        .x = {0, 0.5, 3}, .v = {1, 0, 0}, .radius = 0.1, .restitution = 0.5, .friction = 1.0};
+    eval_ball_fly(room, &rough, GRAVITY, 0.0, fall + 0.1);
+    assert_true(fabs(rough.v.x - 5.0 / 7.0) < 1e-9);
+    assert_true(fabs(rough.w.z - rough.v.x / 0.1) < 1e-6);
+    rlf_source_destroy(&room);
+}
+
+static void throws_into_the_still_room_stay_in_it(void **state)
+{
+    (void)state;
+    for (int32_t lost = 0; lost <= 4; lost += 4) {
+        eval_throw_def def = {
+            .source = "synthetic:empty?color=0&frames=-1", .throws = 80, .lost = lost, .seed = 9};
+        eval_throws o;
+        assert_int_equal(eval_sensed_throw(&def, &o), RLF_OK);
+        assert_int_equal(o.thrown, 80);
+        assert_int_equal(o.tunnelled, 0);
+        assert_int_equal(o.not_finite, 0);
+        assert_true(o.fastest < 15.0);
+    }
+}
+
+static void balls_bounce_as_they_truly_would(void **state)
+{
+    (void)state;
+    eval_throw_def def = {.source = "synthetic:room?color=0&frames=-1",
+                          .aim = EVAL_AIM_ANY,
+                          .throws = 80,
+                          .balls_only = true,
+                          .seed = 9};
+    eval_throws live, thesis;
+    assert_int_equal(eval_sensed_throw(&def, &live), RLF_OK);
+    def.profile = RLF_PROFILE_THESIS;
+    assert_int_equal(eval_sensed_throw(&def, &thesis), RLF_OK);
+    print_message("within 10 deg: live %d of %d, thesis %d of %d\n", (int)live.right_nearby,
+                  (int)live.bounces, (int)thesis.right_nearby, (int)thesis.bounces);
+    assert_true(live.bounces > 60);
+    assert_true(live.right_nearby > 0.85 * (double)live.bounces);
+    assert_true(thesis.right_nearby < 0.5 * (double)thesis.bounces);
+}
+
+static void backs_and_book_edges_turn_most_back(void **state)
+{
+    (void)state;
+    eval_throw_def behind = {.source = "synthetic:room?color=0&frames=-1",
+                             .aim = EVAL_AIM_BEHIND,
+                             .throws = 40,
+                             .seed = 9};
+    eval_throw_def edge = {.source = "synthetic:book?color=0&frames=-1",
+                           .aim = EVAL_AIM_EDGE,
+                           .throws = 40,
+                           .seed = 9};
+    eval_throws o;
+    assert_int_equal(eval_sensed_throw(&behind, &o), RLF_OK);
+    print_message("behind: %d of 40 bounced, %d passed\n", (int)o.bounced, (int)o.passed);
+    assert_true(o.bounced >= 33);
+    assert_int_equal(eval_sensed_throw(&edge, &o), RLF_OK);
+    print_message("edge: %d of 40 bounced, %d passed\n", (int)o.bounced, (int)o.passed);
+    assert_true(o.bounced >= 28);
+    edge.profile = RLF_PROFILE_THESIS;
+    assert_int_equal(eval_sensed_throw(&edge, &o), RLF_OK);
+    assert_true(o.bounced < 10);
+}
+
+static void trays_lift_and_boards_push(void **state)
+{
+    (void)state;
+    const rlf_shape_type shapes[3] = {RLF_SHAPE_SPHERE, RLF_SHAPE_BOX, RLF_SHAPE_HULL};
+    for (int i = 0; i < 3; i++) {
+        bool is_lifted, is_pushed;
+        double error;
+        double speed = 0.25 * (1 << i);
+        assert_int_equal(eval_sensed_lift(RLF_PROFILE_LIVE, shapes[i], speed, &is_lifted, &error),
+                         RLF_OK);
+        assert_int_equal(eval_sensed_swipe(RLF_PROFILE_LIVE, shapes[i], speed, &is_pushed), RLF_OK);
+        assert_true(is_lifted && is_pushed);
+    }
+}
+
+static void rest_is_rest_and_lost_support_is_lost(void **state)
+{
+    (void)state;
+    eval_rest rest;
+    assert_int_equal(eval_sensed_rest(RLF_PROFILE_LIVE, 8.0, &rest), RLF_OK);
+    assert_true(rest.jitter_mm <= 0.5);
+    assert_true(rest.asleep_s <= 1.0);
+    assert_int_equal(rest.wakes, 0);
+    double frames;
+    assert_int_equal(eval_sensed_chair(RLF_PROFILE_LIVE, &frames), RLF_OK);
+    assert_true(frames <= 4.0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(true_ball_bounces_exactly),
+        cmocka_unit_test(throws_into_the_still_room_stay_in_it),
+        cmocka_unit_test(balls_bounce_as_they_truly_would),
+        cmocka_unit_test(backs_and_book_edges_turn_most_back),
+        cmocka_unit_test(trays_lift_and_boards_push),
+        cmocka_unit_test(rest_is_rest_and_lost_support_is_lost),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
