@@ -1,11 +1,23 @@
 /* Milliseconds of registration and of whole composites by the CPU renderer, on one thread: least
- * and median of many pictures of a wall with a strip before it. Prints one row each. */
+ * and median of many pictures of a wall with a strip before it. Prints one row each; with --json
+ * FILE writes them too. */
 #include "render_scene.h"
 
 #include <stdio.h>
 
-#define REPEATS 101
+#define REPEATS 61
 #define BODY_COUNT 100
+#define ROW_MAX 32
+
+typedef struct row {
+    char name[64];
+    double least, median;
+} row;
+
+typedef struct report {
+    row rows[ROW_MAX];
+    int count;
+} report;
 
 static int compare(const void *a, const void *b)
 {
@@ -14,13 +26,18 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static void print_row(const char *name, double times[REPEATS])
+static void add_row(report *r, const char *name, double times[REPEATS])
 {
-    qsort(times, REPEATS, sizeof(*times), compare);
-    printf("%-34s %8.3f %8.3f\n", name, times[0], times[REPEATS / 2]);
+    if (r->count < ROW_MAX) {
+        qsort(times, REPEATS, sizeof(*times), compare);
+        row *new_row = &r->rows[r->count++];
+        *new_row = (row){.least = times[0], .median = times[REPEATS / 2]};
+        snprintf(new_row->name, sizeof(new_row->name), "%s", name);
+        printf("%-44s %8.3f %8.3f\n", name, new_row->least, new_row->median);
+    }
 }
 
-static void measure_registration(render_scene *s, const char *name)
+static void measure_registration(report *r, render_scene *s, const char *name)
 {
     rlf_registration *registration = NULL;
     if (rlf_registration_create(&s->grid, s->ray_x, s->ray_y, &s->rig.color, &s->rig.T_color_depth,
@@ -33,20 +50,21 @@ static void measure_registration(render_scene *s, const char *name)
     rlf_plane_f32 z = {malloc(pixels * sizeof(float)), width, height,
                        width * (ptrdiff_t)sizeof(float)};
     rlf_plane_u8 state = {malloc(pixels), width, height, width};
-    double times[REPEATS];
+    double times[REPEATS] = {0};
     for (int i = 0; i < REPEATS && z.data != NULL && state.data != NULL; i++) {
         int64_t start = rlf_clock_ns();
         rlf_registration_apply(registration, s->planes[PLANE_DEPTH], &z, &state);
         times[i] = (double)(rlf_clock_ns() - start) * 1e-6;
     }
-    print_row(name, times);
+    add_row(r, name, times);
     free(z.data);
     free(state.data);
     rlf_registration_destroy(&registration);
 }
 
-static void measure_composite(render_scene *s, rlf_occlusion occlusion, const char *name)
+static void measure_composite(report *r, render_scene *s, rlf_occlusion occlusion, const char *what)
 {
+    char name[64];
     rlf_compositor_def def = scene_def(s);
     def.occlusion = occlusion;
     rlf_compositor *compositor = NULL;
@@ -57,10 +75,14 @@ static void measure_composite(render_scene *s, rlf_occlusion occlusion, const ch
     double times[REPEATS];
     for (int i = 0; i < REPEATS; i++) {
         int64_t start = rlf_clock_ns();
+        s->frame.sequence++;
         rlf_compositor_render(compositor, &s->input, &out);
         times[i] = (double)(rlf_clock_ns() - start) * 1e-6;
     }
-    print_row(name, times);
+    const char *const modes[4] = {"hard", "thesis", "off", "soft"};
+    snprintf(name, sizeof(name), "%dx%d %s, %d %s", (int)s->rig.color.width,
+             (int)s->rig.color.height, modes[occlusion], (int)s->snapshot.body_count, what);
+    add_row(r, name, times);
     rlf_compositor_destroy(&compositor);
 }
 
@@ -75,35 +97,75 @@ static void fill_bodies(rlf_body_state bodies[BODY_COUNT], rlf_shape shape, doub
     }
 }
 
-int main(void)
+/* The same scene for a colour camera of twice the pixels on each side. */
+static bool enlarge(render_scene *s)
+{
+    s->rig.color = rlf_camera_resize(&s->rig.color, 1920, 1080);
+    free(s->color);
+    s->color = malloc((size_t)1920 * 1080 * 4);
+    if (s->color == NULL) {
+        return false;
+    }
+    scene_fill_color(s);
+    s->frame.color = (rlf_image_rgba8){s->color, 1920, 1080, 4 * 1920};
+    return true;
+}
+
+static void measure_counts(report *r, render_scene *s, rlf_body_state *bodies)
+{
+    const int32_t counts[4] = {0, 2, 20, BODY_COUNT};
+    const rlf_shape ball = {.type = RLF_SHAPE_SPHERE, .radius = 0.06};
+    fill_bodies(bodies, scene_box(0.12), 0.2);
+    for (int i = 0; i < 4; i++) {
+        s->snapshot.body_count = counts[i];
+        measure_composite(r, s, RLF_OCCLUSION_SOFT, "boxes of 12 cm");
+    }
+    measure_composite(r, s, RLF_OCCLUSION_DEPTH, "boxes of 12 cm");
+    measure_composite(r, s, RLF_OCCLUSION_OFF, "boxes of 12 cm");
+    measure_composite(r, s, RLF_OCCLUSION_THESIS, "boxes of 12 cm");
+    fill_bodies(bodies, ball, 0.2);
+    measure_composite(r, s, RLF_OCCLUSION_SOFT, "balls of 12 cm");
+}
+
+static int write_json(const report *r, const char *path)
+{
+    FILE *file = fopen(path, "w");
+    if (file == NULL) {
+        fprintf(stderr, "bench_render: %s: cannot be written\n", path);
+        return 1;
+    }
+    fprintf(file, "{\n");
+    for (int i = 0; i < r->count; i++) {
+        fprintf(file, "  \"%s\": {\"least_ms\": %.4f, \"median_ms\": %.4f}%s\n", r->rows[i].name,
+                r->rows[i].least, r->rows[i].median, i + 1 < r->count ? "," : "");
+    }
+    fprintf(file, "}\n");
+    return fclose(file) == 0 ? 0 : 1;
+}
+
+int main(int argc, char **argv)
 {
     static rlf_body_state bodies[BODY_COUNT];
+    static report r;
+    if (argc != 1 && (argc != 3 || strcmp(argv[1], "--json") != 0)) {
+        fprintf(stderr, "usage: bench_render [--json FILE]\n");
+        return 2;
+    }
     render_scene *s = scene_make(3.0);
     scene_add_strip(s, 220, 280, 2.0);
+    s->rig.noise = (rlf_depth_noise){0.0015, -0.0005, 0.0003};
     s->snapshot.bodies = bodies;
-    printf("%-34s %8s %8s\n", "512x424 to 960x540, one thread", "least ms", "median");
-    measure_registration(s, "registration");
+    printf("%-44s %8s %8s\n", "512x424 depth, one thread", "least ms", "median");
+    measure_registration(&r, s, "registration to 960x540");
     s->rig.color.distortion_model = RLF_DISTORTION_PLUMB_BOB;
     s->rig.color.distortion[0] = 0.05;
-    measure_registration(s, "registration, distorted colour");
-    s->rig = scene_rig();
-    fill_bodies(bodies, scene_box(0.12), 0.2);
-    const int32_t counts[4] = {0, 2, 20, BODY_COUNT};
-    for (int i = 0; i < 4; i++) {
-        char name[64];
-        s->snapshot.body_count = counts[i];
-        snprintf(name, sizeof(name), "composite, %d boxes of 12 cm", (int)counts[i]);
-        measure_composite(s, RLF_OCCLUSION_DEPTH, name);
+    measure_registration(&r, s, "registration to 960x540, distorted colour");
+    s->rig.color = scene_rig().color;
+    measure_counts(&r, s, bodies);
+    if (enlarge(s)) {
+        measure_registration(&r, s, "registration to 1920x1080");
+        measure_counts(&r, s, bodies);
     }
-    measure_composite(s, RLF_OCCLUSION_THESIS, "composite, 100 boxes, thesis");
-    rlf_shape ball = {.type = RLF_SHAPE_SPHERE, .radius = 0.06};
-    fill_bodies(bodies, ball, 0.2);
-    measure_composite(s, RLF_OCCLUSION_DEPTH, "composite, 100 spheres");
-    fill_bodies(bodies, scene_box(0.25), 0.2);
-    bodies[0].T_world_body.p = rlf_vec3_make(-0.2, 0, 1.6);
-    bodies[1].T_world_body.p = rlf_vec3_make(0.2, 0, 2.6);
-    s->snapshot.body_count = 2;
-    measure_composite(s, RLF_OCCLUSION_DEPTH, "composite, 2 boxes of 25 cm");
     scene_free(s);
-    return 0;
+    return argc == 3 ? write_json(&r, argv[2]) : 0;
 }

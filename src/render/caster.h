@@ -11,7 +11,7 @@
 #define CASTER_DIRECT_SHARE 0.35
 /* Of a body's size: how far it darkens what is near, and how long its shadow is. */
 #define CASTER_NEAR 1.2
-#define CASTER_LENGTH 16.0
+#define CASTER_LENGTH 12.0
 /* Width of the penumbra: so much of the least half extent, and so much per metre behind the body.
  */
 #define CASTER_PENUMBRA 0.3

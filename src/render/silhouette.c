@@ -7,6 +7,7 @@
 #include <string.h>
 
 #define STEADY_SHARE 4 /* a still pixel moves by a quarter of the way to its new cover */
+#define BESIDE 2       /* lines */
 #define STEADY_LIGHT 5 /* steps of the mean colour that noise may change */
 
 /* ---- create --------------------------------------------------------------------------------- */
@@ -16,14 +17,14 @@ static rlf_result allocate(silhouette *s, int32_t width, int32_t height)
     /* Readers may look at several pixels at once, beyond the last. */
     size_t pixels = (size_t)width * (size_t)height + SILHOUETTE_TILE;
     rlf_plane_f32 *depths[2] = {&s->near_z, &s->far_z};
-    rlf_plane_u8 *bytes[4] = {&s->cover, &s->distance, &s->last_cover, &s->last_light};
+    rlf_plane_u8 *bytes[5] = {&s->cover, &s->settled, &s->distance, &s->last_cover, &s->last_light};
     bool has_all = true;
     for (int i = 0; i < 2; i++) {
         *depths[i] = (rlf_plane_f32){rlf_alloc_array(pixels, sizeof(float)), width, height,
                                      width * (ptrdiff_t)sizeof(float)};
         has_all = has_all && depths[i]->data != NULL;
     }
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 5; i++) {
         *bytes[i] = (rlf_plane_u8){rlf_alloc(pixels), width, height, width};
         has_all = has_all && bytes[i]->data != NULL;
     }
@@ -57,11 +58,11 @@ rlf_result silhouette_create(const rlf_camera *camera, const rlf_camera *depth, 
 
 void silhouette_destroy(silhouette *s)
 {
-    void *parts[11] = {s->near_z.data,   s->far_z.data,      s->cover.data,
+    void *parts[12] = {s->near_z.data,   s->far_z.data,      s->cover.data,
                        s->distance.data, s->last_cover.data, s->last_light.data,
                        s->last_seen,     s->tiles,           s->own,
-                       s->offset_x,      s->offset_y};
-    for (int i = 0; i < 11; i++) {
+                       s->offset_x,      s->offset_y,        s->settled.data};
+    for (int i = 0; i < 12; i++) {
         rlf_free(parts[i]);
     }
     memset(s, 0, sizeof(*s));
@@ -165,6 +166,18 @@ RLF_KERNEL static bool has_jump(const float *a, const float *b, int32_t count)
     return any != 0;
 }
 
+/* Colours of line i, and of the lines BESIDE before and after it. */
+static void set_colors(const pass *p, const ptrdiff_t *offset, int32_t i, int32_t count,
+                       silhouette_line *line)
+{
+    if (p->color == NULL) {
+        return;
+    }
+    line->color = p->color + offset[i];
+    line->beside[0] = p->color + offset[i >= BESIDE ? i - BESIDE : 0];
+    line->beside[1] = p->color + offset[i + BESIDE < count ? i + BESIDE : count - 1];
+}
+
 static void settle_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     const pass *p = context;
@@ -175,17 +188,17 @@ static void settle_rows(void *context, int32_t begin, int32_t end, int32_t worke
     for (int32_t y = begin * SILHOUETTE_TILE; y < at_most(end * SILHOUETTE_TILE, height); y++) {
         const silhouette_tile *tiles = &s->tiles[y / SILHOUETTE_TILE * s->columns];
         silhouette_line line = {.z = rlf_f32_row(p->z, y),
-                                .color = p->color != NULL ? p->color + s->offset_y[y] : NULL,
                                 .color_offset = s->offset_x,
                                 .near_z = rlf_f32_row(&s->near_z, y),
                                 .far_z = rlf_f32_row(&s->far_z, y),
-                                .cover = rlf_u8_row(&s->cover, y),
+                                .cover = rlf_u8_row(&s->settled, y),
                                 .distance = rlf_u8_row(&s->distance, y),
                                 .step = 1,
                                 .across = width,
                                 .count = width,
                                 .above = y,
                                 .below = height - 1 - y};
+        set_colors(p, s->offset_y, y, height, &line);
         for (int32_t x = 0; x < width; x += SILHOUETTE_TILE) {
             if (is_used(&tiles[x / SILHOUETTE_TILE])) {
                 clear_row(p, x, at_most(x + SILHOUETTE_TILE, width), y);
@@ -221,12 +234,10 @@ static void settle_columns(void *context, int32_t begin, int32_t end, int32_t wo
             }
             for (int32_t x = x0; x < x0 + count; x++) {
                 silhouette_line line = {.z = p->z->data + x,
-                                        .color =
-                                            p->color != NULL ? p->color + s->offset_x[x] : NULL,
                                         .color_offset = s->offset_y,
                                         .near_z = s->near_z.data + x,
                                         .far_z = s->far_z.data + x,
-                                        .cover = s->cover.data + x,
+                                        .cover = s->settled.data + x,
                                         .distance = s->distance.data + x,
                                         .step = width,
                                         .across = 1,
@@ -234,6 +245,7 @@ static void settle_columns(void *context, int32_t begin, int32_t end, int32_t wo
                                         .above = x,
                                         .below = width - 1 - x,
                                         .is_column = true};
+                set_colors(p, s->offset_x, x, width, &line);
                 silhouette_settle(&line, y, tile, s->reach);
             }
         }
@@ -251,6 +263,32 @@ static uint8_t light_of(const pass *p, int32_t x, int32_t y)
     return (uint8_t)((c[0] + 2 * c[1] + c[2]) / 4);
 }
 
+/* A pixel that hardly any of the doubtful ones around it agree with is a line gone astray: it takes
+ * their mean. */
+static uint8_t outvoted(const silhouette *s, int32_t x, int32_t y)
+{
+    const int32_t x0 = x > 0 ? x - 1 : x;
+    const int32_t x1 = x < s->cover.width - 1 ? x + 1 : x;
+    const int32_t y0 = y > 0 ? y - 1 : y;
+    const int32_t y1 = y < s->cover.height - 1 ? y + 1 : y;
+    int32_t own = rlf_u8_row(&s->settled, y)[x];
+    int32_t count = 0;
+    int32_t near_count = 0;
+    int32_t sum = 0;
+    for (int32_t v = y0; v <= y1; v++) {
+        const uint8_t *cover = rlf_u8_row(&s->settled, v);
+        const uint8_t *distance = rlf_u8_row(&s->distance, v);
+        for (int32_t u = x0; u <= x1; u++) {
+            int32_t is_doubtful = distance[u] != SILHOUETTE_NONE ? 1 : 0;
+            count += is_doubtful;
+            sum += is_doubtful * cover[u];
+            near_count += is_doubtful * (cover[u] > 127 ? 1 : 0);
+        }
+    }
+    int32_t agreeing = own > 127 ? near_count : count - near_count;
+    return (uint8_t)(count >= 5 && agreeing <= count / 3 ? sum / count : own);
+}
+
 /* Where the picture has not changed the cover moves slowly, so that noise does not show. */
 static void steady_pixel(const pass *p, int32_t x, int32_t y)
 {
@@ -261,6 +299,7 @@ static void steady_pixel(const pass *p, int32_t x, int32_t y)
     uint8_t *light = rlf_u8_row(&s->last_light, y) + x;
     uint8_t now = light_of(p, x, y);
     int32_t change = now - *light;
+    *cover = outvoted(s, x, y);
     uint16_t before = (uint16_t)(s->picture == 1 ? UINT16_MAX : s->picture - 1);
     bool is_still = change <= STEADY_LIGHT && change >= -STEADY_LIGHT;
     bool is_known = *seen == (p->is_new ? before : s->picture);

@@ -25,6 +25,7 @@ typedef struct silhouette {
     rlf_plane_f32 near_z, far_z;
     rlf_plane_u8 cover; /* 255 = all */
 
+    rlf_plane_u8 settled;  /* cover as the lines have it, one by one */
     rlf_plane_u8 distance; /* pixels to the edge that set a pixel, or SILHOUETTE_NONE */
     rlf_plane_u8 last_cover, last_light;
     uint16_t *last_seen;    /* number of the picture that set the two */
@@ -56,6 +57,7 @@ void silhouette_update(silhouette *s, const rlf_plane_f32 *z, const rlf_frame *f
 typedef struct silhouette_line {
     const float *z;
     const uint8_t *color;          /* of the line; NULL = none */
+    const uint8_t *beside[2];      /* of lines near it, whose edges are much the same */
     const ptrdiff_t *color_offset; /* bytes, per pixel of the line */
     float *near_z, *far_z;
     uint8_t *cover, *distance;

@@ -125,12 +125,19 @@ static bool owns_edge(const silhouette_line *line, const edge *e)
     return line->is_column ? along > across : along >= across;
 }
 
-static const uint8_t *color_at(const silhouette_line *line, const edge *e, int32_t u)
+/* Sum of the colours of a pixel and of its neighbours in the lines beside. */
+static void add_colors(const silhouette_line *line, const edge *e, int32_t u, float sum[3])
 {
-    return line->color + line->color_offset[e->far_pixel + e->direction * u];
+    ptrdiff_t offset = line->color_offset[e->far_pixel + e->direction * u];
+    const uint8_t *own = line->color + offset;
+    const uint8_t *first = line->beside[0] + offset;
+    const uint8_t *second = line->beside[1] + offset;
+    for (int k = 0; k < 3; k++) {
+        sum[k] += (float)(own[k] + first[k] + second[k]);
+    }
 }
 
-/* Mean and summed variance of the colours of pixels [begin, end). */
+/* Mean and summed variance of the colours of pixels [begin, end), in this line and those beside. */
 static void add_side(const silhouette_line *line, const edge *e, int32_t begin, int32_t end,
                      float mean[3], float *variance)
 {
@@ -138,10 +145,12 @@ static void add_side(const silhouette_line *line, const edge *e, int32_t begin, 
     float squares = 0.0f;
     float count = (float)(end - begin);
     for (int32_t u = begin; u < end; u++) {
-        const uint8_t *c = color_at(line, e, u);
+        float here[3] = {0, 0, 0};
+        add_colors(line, e, u, here);
         for (int k = 0; k < 3; k++) {
-            sum[k] += (float)c[k];
-            squares += (float)c[k] * (float)c[k];
+            float c = here[k] * (1.0f / 3.0f);
+            sum[k] += c;
+            squares += c * c;
         }
     }
     for (int k = 0; k < 3; k++) {
@@ -170,13 +179,31 @@ static sides sides_of(const silhouette_line *line, const edge *e)
 
 /* (c - middle) . difference: half the square for the near side's colour, minus that for the far
  * side's. */
-static float nearness(const sides *s, const uint8_t *c)
+static float nearness(const sides *s, const float c[3])
 {
     float sum = 0.0f;
     for (int k = 0; k < 3; k++) {
-        sum += ((float)c[k] - s->middle[k]) * s->difference[k];
+        sum += (c[k] - s->middle[k]) * s->difference[k];
     }
     return sum;
+}
+
+/* Of the pixel itself, and of the mean with its neighbours beside. */
+static float own_nearness(const silhouette_line *line, const edge *e, const sides *s, int32_t u)
+{
+    const uint8_t *c = line->color + line->color_offset[e->far_pixel + e->direction * u];
+    const float own[3] = {(float)c[0], (float)c[1], (float)c[2]};
+    return nearness(s, own);
+}
+
+static float mean_nearness(const silhouette_line *line, const edge *e, const sides *s, int32_t u)
+{
+    float c[3] = {0, 0, 0};
+    add_colors(line, e, u, c);
+    for (int k = 0; k < 3; k++) {
+        c[k] *= 1.0f / 3.0f;
+    }
+    return nearness(s, c);
 }
 
 /* The split that explains the colours best: pixels u < split are near. Two normal distributions of
@@ -233,13 +260,16 @@ void silhouette_settle(const silhouette_line *line, int32_t i, const silhouette_
     if (line->color != NULL) {
         s = sides_of(line, &e);
     }
+    /* Sides that can hardly be told apart have little to say. */
+    float contrast = s.square / (CLEAR * s.variance);
+    float scale = (contrast < 1.0f ? contrast : 1.0f) / s.variance;
     near_sum[0] = 0.0f;
     for (int32_t u = -e.near_band; u < e.far_band; u++) {
-        float value = line->color != NULL ? nearness(&s, color_at(line, &e, u)) : 0.0f;
-        float evidence = value / s.variance;
+        float evidence = s.square > 0.0f ? scale * mean_nearness(line, &e, &s, u) : 0.0f;
         evidence = evidence > MOST_EVIDENCE ? MOST_EVIDENCE : evidence;
         evidence = evidence < -MOST_EVIDENCE ? -MOST_EVIDENCE : evidence;
-        mixture[u + e.near_band] = s.square > 0.0f ? clamp01(0.5f + value / s.square) : 0.5f;
+        mixture[u + e.near_band] =
+            s.square > 0.0f ? clamp01(0.5f + own_nearness(line, &e, &s, u) / s.square) : 0.5f;
         near_sum[u + e.near_band + 1] = near_sum[u + e.near_band] + evidence;
     }
     int32_t split = find_split(&e, near_sum, (float)reach / 3.0f);
