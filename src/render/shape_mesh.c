@@ -67,14 +67,14 @@ typedef struct ring {
 static int32_t add_ring(shape_mesh_set *set, const ring *r)
 {
     int32_t first = set->vertex_count;
-    for (int i = 0; i <= SHAPE_MESH_SLICES; i++) {
+    for (int i = 0; i <= set->slices; i++) {
         /* The seam's two columns must be the same points to the bit. */
-        double angle = 2.0 * RLF_PI * (i % SHAPE_MESH_SLICES) / SHAPE_MESH_SLICES;
+        double angle = 2.0 * RLF_PI * (i % set->slices) / set->slices;
         double c = rlf_cos(angle);
         double s = rlf_sin(angle);
         rlf_vec3 p = rlf_vec3_make(r->radius * c, r->y, r->radius * s);
         rlf_vec3 n = rlf_vec3_make(r->normal_radial * c, r->normal_y, r->normal_radial * s);
-        add_vertex(set, p, r->shift, n, (const double[2]){(double)i / SHAPE_MESH_SLICES, r->v});
+        add_vertex(set, p, r->shift, n, (const double[2]){(double)i / set->slices, r->v});
     }
     return first;
 }
@@ -84,7 +84,7 @@ static int32_t add_ring(shape_mesh_set *set, const ring *r)
 static void join_rings(shape_mesh_set *set, int32_t low, int32_t high, bool low_is_pole,
                        bool high_is_pole)
 {
-    for (int32_t i = 0; i < SHAPE_MESH_SLICES; i++) {
+    for (int32_t i = 0; i < set->slices; i++) {
         if (!high_is_pole) {
             add_triangle(set, low + i, high + i, high + i + 1);
         }
@@ -98,12 +98,12 @@ static void join_rings(shape_mesh_set *set, int32_t low, int32_t high, bool low_
 static void build_sphere(shape_mesh_set *set, bool is_capsule)
 {
     int32_t previous = -1;
-    int rings = SHAPE_MESH_STACKS + (is_capsule ? 2 : 1);
+    int rings = set->stacks + (is_capsule ? 2 : 1);
     for (int i = 0; i < rings; i++) {
-        bool is_upper = is_capsule && i > SHAPE_MESH_STACKS / 2;
+        bool is_upper = is_capsule && i > set->stacks / 2;
         int stack = is_upper ? i - 1 : i;
-        double angle = RLF_PI * stack / SHAPE_MESH_STACKS;
-        bool is_pole = stack == 0 || stack == SHAPE_MESH_STACKS;
+        double angle = RLF_PI * stack / set->stacks;
+        bool is_pole = stack == 0 || stack == set->stacks;
         double radial = is_pole ? 0.0 : rlf_sin(angle);
         double y = -rlf_cos(angle);
         double shift = is_capsule ? (is_upper ? 1.0 : -1.0) : 0.0;
@@ -123,13 +123,13 @@ static void build_disc(shape_mesh_set *set, double side)
     int32_t centre =
         add_vertex(set, rlf_vec3_make(0, 0.5 * side, 0), 0.0, normal, (const double[2]){0.5, 0.5});
     int32_t first = set->vertex_count;
-    for (int i = 0; i <= SHAPE_MESH_SLICES; i++) {
-        double angle = 2.0 * RLF_PI * (i % SHAPE_MESH_SLICES) / SHAPE_MESH_SLICES;
+    for (int i = 0; i <= set->slices; i++) {
+        double angle = 2.0 * RLF_PI * (i % set->slices) / set->slices;
         rlf_vec3 p = rlf_vec3_make(rlf_cos(angle), 0.5 * side, rlf_sin(angle));
         const double uv[2] = {0.5 + 0.5 * p.x, 0.5 + 0.5 * p.z};
         add_vertex(set, p, 0.0, normal, uv);
     }
-    for (int32_t i = 0; i < SHAPE_MESH_SLICES; i++) {
+    for (int32_t i = 0; i < set->slices; i++) {
         if (side > 0.0) {
             add_triangle(set, centre, first + i + 1, first + i);
         } else {
@@ -148,8 +148,10 @@ static void build_cylinder(shape_mesh_set *set)
     build_disc(set, 1.0);
 }
 
-void shape_mesh_set_build(shape_mesh_set *out)
+static void build_all(shape_mesh_set *out, int32_t slices, int32_t stacks)
 {
+    out->slices = slices;
+    out->stacks = stacks;
     out->vertex_count = 0;
     out->index_count = 0;
     for (int type = 0; type < SHAPE_MESH_UNIT_COUNT; type++) {
@@ -166,6 +168,16 @@ void shape_mesh_set_build(shape_mesh_set *out)
         range->index_count = out->index_count - range->first_index;
         range->vertex_count = out->vertex_count - range->first_vertex;
     }
+}
+
+void shape_mesh_set_build(shape_mesh_set *out)
+{
+    build_all(out, SHAPE_MESH_SLICES, SHAPE_MESH_STACKS);
+}
+
+void shape_mesh_set_build_coarse(shape_mesh_set *out)
+{
+    build_all(out, SHAPE_MESH_SLICES / 2, SHAPE_MESH_STACKS / 2);
 }
 
 shape_mesh_scale shape_mesh_scale_of(const rlf_shape *shape)

@@ -37,6 +37,7 @@ typedef struct shape_mesh_set {
     shape_vertex vertices[SHAPE_MESH_VERTEX_MAX];
     uint16_t indices[SHAPE_MESH_INDEX_MAX];
     int32_t vertex_count, index_count;
+    int32_t slices, stacks;
     shape_mesh_range range[SHAPE_MESH_UNIT_COUNT];
 } shape_mesh_set;
 
@@ -47,6 +48,8 @@ typedef struct shape_mesh_scale {
 } shape_mesh_scale;
 
 void shape_mesh_set_build(shape_mesh_set *out);
+/* Half as many slices and stacks, for bodies that are small in the picture. */
+void shape_mesh_set_build_coarse(shape_mesh_set *out);
 shape_mesh_scale shape_mesh_scale_of(const rlf_shape *shape);
 
 /* Corners of a hull's triangle in metres, flat shaded, with texture coordinates from the plane that

@@ -75,9 +75,12 @@ static soft_corner transform_corner(const body_transform *T, const shape_vertex 
 /* A box's mesh has four corners per face, in order. */
 static void add_unit_mesh(soft *s, const body_transform *T, rlf_shape_type type, int32_t body)
 {
-    const shape_mesh_range *range = &s->meshes.range[type];
+    double focal = 0.5 * (s->camera.fx + s->camera.fy);
+    bool is_small = focal * s->scene.bodies[body].radius < SOFT_COARSE_PX * T->p.z;
+    const shape_mesh_set *meshes = is_small ? &s->coarse_meshes : &s->meshes;
+    const shape_mesh_range *range = &meshes->range[type];
     for (int32_t i = 0; i < range->vertex_count; i++) {
-        s->corners[i] = transform_corner(T, &s->meshes.vertices[range->first_vertex + i]);
+        s->corners[i] = transform_corner(T, &meshes->vertices[range->first_vertex + i]);
     }
     for (int32_t i = 0; type == RLF_SHAPE_BOX && i < range->vertex_count; i += SOFT_CORNERS) {
         soft_scene_add_face(s, s->corners + i, SOFT_CORNERS, body);
@@ -85,7 +88,7 @@ static void add_unit_mesh(soft *s, const body_transform *T, rlf_shape_type type,
     for (int32_t i = 0; type != RLF_SHAPE_BOX && i < range->index_count; i += 3) {
         soft_corner corners[3];
         for (int k = 0; k < 3; k++) {
-            int32_t index = s->meshes.indices[range->first_index + i + k];
+            int32_t index = meshes->indices[range->first_index + i + k];
             corners[k] = s->corners[index - range->first_vertex];
         }
         soft_scene_add_face(s, corners, 3, body);

@@ -266,6 +266,7 @@ static rlf_result prepare(soft *s)
     s->def.light_direction = rlf_normalize(s->def.light_direction);
     s->to_light = rlf_neg(rlf_rotate(s->T_picture_depth.q, s->def.light_direction));
     shape_mesh_set_build(&s->meshes);
+    shape_mesh_set_build_coarse(&s->coarse_meshes);
     rlf_result result = make_textures(s);
     if (result == RLF_OK) {
         result = allocate(s);

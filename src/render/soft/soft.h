@@ -20,6 +20,7 @@
 #define SOFT_SAMPLES 4    /* per pixel, against jagged edges */
 #define SOFT_BAND_ROWS 16 /* rows that one worker draws at a time */
 #define SOFT_NEAR_Z 0.02  /* metres: nothing nearer is drawn */
+#define SOFT_COARSE_PX 20 /* radius: 16 corners are off by less than 0.4 pixels */
 
 /* ---- scene: what is in the picture, as faces of screen space -------------------------------- */
 
@@ -132,6 +133,7 @@ typedef struct soft {
     silhouette silhouette; /* RLF_OCCLUSION_SOFT only */
 
     shape_mesh_set meshes;
+    shape_mesh_set coarse_meshes; /* for bodies below SOFT_COARSE_PX */
     uint32_t textures[BODY_TEXTURE_KINDS][BODY_TEXTURE_BYTES / 4];
     soft_scene scene;
     soft_corner *corners; /* work memory: one mesh's vertices */
