@@ -217,14 +217,14 @@ RLF_KERNEL_PART float facing_of(const site *s, float z)
 }
 
 /* The distance to the rounded box darkens what is near. */
-RLF_KERNEL_PART void take_ambient(const caster caster_here, const caster_rays rays,
-                                  const float *restrict z, int32_t count, float share,
-                                  float *restrict left)
+RLF_KERNEL_PART void take_ambient(const caster caster_here, const float *restrict ray_x,
+                                  const float *restrict ray_y, const float *restrict z,
+                                  int32_t count, float share, float *restrict left)
 {
     const caster c = caster_here;
     const float per_near = 1.0f / c.near_m;
     for (int32_t i = 0; i < count; i++) {
-        site s = site_at(&c, rays.x0 + rays.step * (float)i, rays.y, z[i]);
+        site s = site_at(&c, ray_x[i], ray_y[i], z[i]);
         float x = s.q[0] - limit(s.q[0], -c.half[0], c.half[0]);
         float y = s.q[1] - limit(s.q[1], -c.half[1], c.half[1]);
         float w = s.q[2] - limit(s.q[2], -c.half[2], c.half[2]);
@@ -237,9 +237,9 @@ RLF_KERNEL_PART void take_ambient(const caster caster_here, const caster_rays ra
 
 /* The ray to the light passes the inner box at a least distance, found by projecting from the one
  * to the other and back: both are convex. */
-RLF_KERNEL_PART void take_direct(const caster caster_here, const caster_rays rays,
-                                 const float *restrict z, int32_t count, float share,
-                                 float *restrict left)
+RLF_KERNEL_PART void take_direct(const caster caster_here, const float *restrict ray_x,
+                                 const float *restrict ray_y, const float *restrict z,
+                                 int32_t count, float share, float *restrict left)
 {
     const caster c = caster_here;
     const float lx = c.to_light[0];
@@ -247,7 +247,7 @@ RLF_KERNEL_PART void take_direct(const caster caster_here, const caster_rays ray
     const float lz = c.to_light[2];
     const float per_length = 1.0f / c.length_m;
     for (int32_t i = 0; i < count; i++) {
-        site s = site_at(&c, rays.x0 + rays.step * (float)i, rays.y, z[i]);
+        site s = site_at(&c, ray_x[i], ray_y[i], z[i]);
         float t = -(s.q[0] * lx + s.q[1] * ly + s.q[2] * lz);
         t = t > 0.0f ? t : 0.0f;
         float x = limit(s.q[0] + t * lx, -c.half[0], c.half[0]);
@@ -271,14 +271,14 @@ RLF_KERNEL_PART void take_direct(const caster caster_here, const caster_rays ray
     }
 }
 
-RLF_KERNEL void caster_take_ambient(const caster *c, const caster_rays *rays, const float *z,
-                                    int32_t count, float share, float *left)
+RLF_KERNEL void caster_take_ambient(const caster *c, const caster_points *p, float share,
+                                    float *left)
 {
-    take_ambient(*c, *rays, z, count, share, left);
+    take_ambient(*c, p->x, p->y, p->z, p->count, share, left);
 }
 
-RLF_KERNEL void caster_take_direct(const caster *c, const caster_rays *rays, const float *z,
-                                   int32_t count, float share, float *left)
+RLF_KERNEL void caster_take_direct(const caster *c, const caster_points *p, float share,
+                                   float *left)
 {
-    take_direct(*c, *rays, z, count, share, left);
+    take_direct(*c, p->x, p->y, p->z, p->count, share, left);
 }

@@ -56,15 +56,15 @@ int32_t caster_may_take(const caster *c, const float to_light[3], const float p[
 int32_t caster_choose(const caster *casters, int32_t count, int32_t index, const float to_light[3],
                       int32_t out[CASTER_BODIES]);
 
-/* Points z (x0 + i step, y, 1), i = 0.. */
-typedef struct caster_rays {
-    float x0, step, y;
-} caster_rays;
+/* Points z (x, y, 1) in the picture camera's frame; none where z <= 0. */
+typedef struct caster_points {
+    const float *x, *y, *z;
+    int32_t count;
+} caster_points;
+
 /* Multiplies `left` by what is left of the light around, 1 - share * (lost part), or of the
- * directed light; 1 where z <= 0. */
-void caster_take_ambient(const caster *c, const caster_rays *rays, const float *z, int32_t count,
-                         float share, float *left);
-void caster_take_direct(const caster *c, const caster_rays *rays, const float *z, int32_t count,
-                        float share, float *left);
+ * directed light. */
+void caster_take_ambient(const caster *c, const caster_points *points, float share, float *left);
+void caster_take_direct(const caster *c, const caster_points *points, float share, float *left);
 
 #endif

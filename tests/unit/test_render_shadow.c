@@ -30,11 +30,13 @@ static caster make(rlf_shape shape, rlf_pose T, rlf_vec3 to_light)
 /* What is left of both lights at a point. */
 static void lights_at(const caster *c, rlf_vec3 p, float *ambient, float *direct)
 {
-    caster_rays rays = {(float)(p.x / p.z), 0.0f, (float)(p.y / p.z)};
-    float z = (float)p.z;
+    const float x = (float)(p.x / p.z);
+    const float y = (float)(p.y / p.z);
+    const float z = (float)p.z;
+    const caster_points points = {&x, &y, &z, 1};
     *ambient = *direct = 1.0f;
-    caster_take_ambient(c, &rays, &z, 1, 1.0f, ambient);
-    caster_take_direct(c, &rays, &z, 1, 1.0f, direct);
+    caster_take_ambient(c, &points, 1.0f, ambient);
+    caster_take_direct(c, &points, 1.0f, direct);
 }
 
 /* Along the light from the middle of each shape there is full shadow, fading with distance; beside

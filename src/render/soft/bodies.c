@@ -147,7 +147,7 @@ static soft_real_row real_row(const soft *s, int32_t y)
 static void draw_band(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     const soft *s = context;
-    soft_draw_shadows(s, &s->shade_work[worker], begin, end);
+    soft_draw_shadows(s, s->shade_tiles[worker], begin, end);
     bool is_layered = s->def.occlusion == RLF_OCCLUSION_THESIS;
     soft_row row = s->workers[worker];
     band_faces list = {row.list, 0};

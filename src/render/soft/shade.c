@@ -216,11 +216,12 @@ RLF_KERNEL_PART void fill_ones(int32_t count, float *restrict out)
 }
 
 /* A ball about some pixels of a row, from their first and last depth. */
-RLF_KERNEL_PART float ball_of(const caster_rays *rays, const lanes *v, int32_t count, float out[3])
+RLF_KERNEL_PART float ball_of(const caster_points *points, float out[3])
 {
-    float z[2] = {v->z[0], v->z[count - 1]};
-    float x[2] = {rays->x0 * z[0], (rays->x0 + rays->step * (float)(count - 1)) * z[1]};
-    float y[2] = {rays->y * z[0], rays->y * z[1]};
+    const int32_t last = points->count - 1;
+    float z[2] = {points->z[0], points->z[last]};
+    float x[2] = {points->x[0] * z[0], points->x[last] * z[1]};
+    float y[2] = {points->y[0] * z[0], points->y[0] * z[1]};
     out[0] = 0.5f * (x[0] + x[1]);
     out[1] = 0.5f * (y[0] + y[1]);
     out[2] = 0.5f * (z[0] + z[1]);
@@ -233,13 +234,21 @@ static void shade_by_others(const soft *s, const soft_body *body, int32_t x, int
                             int32_t count, lanes *v)
 {
     const rlf_camera *k = &s->camera;
-    const caster_rays rays = {(float)((x - k->cx) / k->fx), (float)(1.0 / k->fx),
-                              (float)((y - k->cy) / k->fy)};
     const float to_light[3] = {(float)s->to_light.x, (float)s->to_light.y, (float)s->to_light.z};
     float ambient_left[CHUNK];
     float direct_left[CHUNK];
+    float ray_x[CHUNK];
+    float ray_y[CHUNK];
     float middle[3];
-    float radius = ball_of(&rays, v, count, middle);
+    const float first = (float)((x - k->cx) / k->fx);
+    const float step = (float)(1.0 / k->fx);
+    const float down = (float)((y - k->cy) / k->fy);
+    for (int32_t i = 0; i < count; i++) {
+        ray_x[i] = first + step * (float)i;
+        ray_y[i] = down;
+    }
+    const caster_points points = {ray_x, ray_y, v->z, count};
+    float radius = ball_of(&points, middle);
     int32_t any = CASTER_TAKES_NOTHING;
     for (int32_t i = 0; i < body->shader_count; i++) {
         const caster *c = &s->scene.casters[body->shaders[i]];
@@ -250,10 +259,10 @@ static void shade_by_others(const soft *s, const soft_body *body, int32_t x, int
         }
         any |= takes;
         if ((takes & CASTER_TAKES_AMBIENT) != 0) {
-            caster_take_ambient(c, &rays, v->z, count, (float)BODY_AMBIENT_SHARE, ambient_left);
+            caster_take_ambient(c, &points, (float)BODY_AMBIENT_SHARE, ambient_left);
         }
         if ((takes & CASTER_TAKES_DIRECT) != 0) {
-            caster_take_direct(c, &rays, v->z, count, (float)BODY_DIRECT_SHARE, direct_left);
+            caster_take_direct(c, &points, (float)BODY_DIRECT_SHARE, direct_left);
         }
     }
     if (any != CASTER_TAKES_NOTHING) {

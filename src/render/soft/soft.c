@@ -20,13 +20,12 @@ static void destroy(void *self)
             rlf_free(rows[k]);
         }
     }
-    for (int32_t i = 0; s->shade_work != NULL && i < s->worker_count; i++) {
-        rlf_free(s->shade_work[i].tiles);
-        rlf_free(s->shade_work[i].light);
+    for (int32_t i = 0; s->shade_tiles != NULL && i < s->worker_count; i++) {
+        rlf_free(s->shade_tiles[i]);
     }
-    void *parts[12] = {s->workers,         s->image.data, s->matte.data,    s->scene.faces,
-                       s->scene.bodies,    s->corners,    s->column_left,   s->column_weight,
-                       s->grid_image.data, s->shade_work, s->scene.casters, s->scene.reach};
+    void *parts[12] = {s->workers,         s->image.data,  s->matte.data,    s->scene.faces,
+                       s->scene.bodies,    s->corners,     s->column_left,   s->column_weight,
+                       s->grid_image.data, s->shade_tiles, s->scene.casters, s->scene.reach};
     for (int i = 0; i < 12; i++) {
         rlf_free(parts[i]);
     }
@@ -72,22 +71,17 @@ static rlf_result allocate_workers(soft *s)
     return RLF_OK;
 }
 
-static rlf_result allocate_shade_work(soft *s)
+static rlf_result allocate_shade_tiles(soft *s)
 {
     size_t columns = ((size_t)s->camera.width + SILHOUETTE_TILE - 1) / SILHOUETTE_TILE;
-    s->shade_work = rlf_alloc_array((size_t)s->worker_count, sizeof(*s->shade_work));
-    for (int32_t i = 0; s->shade_work != NULL && i < s->worker_count; i++) {
-        soft_shade_work *work = &s->shade_work[i];
-        work->stride = (ptrdiff_t)(columns * SILHOUETTE_TILE / CASTER_BLOCK);
-        work->tiles = rlf_alloc_array(columns, sizeof(*work->tiles));
-        work->light = rlf_alloc_array(columns * SILHOUETTE_TILE * SOFT_BAND_ROWS /
-                                          (CASTER_BLOCK * CASTER_BLOCK),
-                                      sizeof(float));
-        if (work->tiles == NULL || work->light == NULL) {
+    s->shade_tiles = rlf_alloc_array((size_t)s->worker_count, sizeof(*s->shade_tiles));
+    for (int32_t i = 0; s->shade_tiles != NULL && i < s->worker_count; i++) {
+        s->shade_tiles[i] = rlf_alloc_array(columns, sizeof(**s->shade_tiles));
+        if (s->shade_tiles[i] == NULL) {
             return RLF_ERROR_MEMORY;
         }
     }
-    return s->shade_work != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+    return s->shade_tiles != NULL ? RLF_OK : RLF_ERROR_MEMORY;
 }
 
 static rlf_result allocate(soft *s)
@@ -102,7 +96,7 @@ static rlf_result allocate(soft *s)
         result = allocate_workers(s);
     }
     if (result == RLF_OK) {
-        result = allocate_shade_work(s);
+        result = allocate_shade_tiles(s);
     }
     if (result == RLF_OK) {
         result = soft_scene_reserve(s, FACES_AT_START);

@@ -100,18 +100,16 @@ typedef struct soft_row {
     int32_t face_capacity; /* of the two */
 } soft_row;
 
+#define SOFT_SHADE_SAMPLES                                                                         \
+    ((SILHOUETTE_TILE / CASTER_BLOCK) * (SILHOUETTE_TILE / CASTER_BLOCK)) /* of a tile */
+
 /* A tile of the real world while bodies take light from it. */
 typedef struct soft_shade_tile {
-    float center[3], radius; /* of a ball about all of it, picture camera frame */
+    float x[SOFT_SHADE_SAMPLES], y[SOFT_SHADE_SAMPLES], z[SOFT_SHADE_SAMPLES]; /* caster_points */
+    float light[SOFT_SHADE_SAMPLES]; /* share that is left */
+    float center[3], radius;         /* of a ball about all of it, picture camera frame */
     bool has_depth, is_known, is_shaded;
 } soft_shade_tile;
-
-/* One worker's band of rows. */
-typedef struct soft_shade_work {
-    soft_shade_tile *tiles;
-    float *light; /* [block row][block]: share that is left, in shaded tiles */
-    ptrdiff_t stride;
-} soft_shade_work;
 
 /* What may hide a body in a row: near_z, far_z and cover of soft occlusion, or rows of registered
  * depth, or (all NULL) nothing. */
@@ -138,7 +136,7 @@ typedef struct soft {
     soft_scene scene;
     soft_corner *corners; /* work memory: one mesh's vertices */
     soft_row *workers;
-    soft_shade_work *shade_work;
+    soft_shade_tile **shade_tiles; /* a band's, per worker */
     int32_t worker_count;
     rlf_vec3 to_light; /* unit, picture camera frame */
 
@@ -175,7 +173,7 @@ void soft_compose_row(float *const sum[4], int32_t count, uint8_t *restrict pixe
 void soft_draw_bodies(soft *s);
 
 /* shadow.c: darkens the real surfaces of rows [begin, end) that the bodies keep the light from. */
-void soft_draw_shadows(const soft *s, soft_shade_work *work, int32_t begin, int32_t end);
+void soft_draw_shadows(const soft *s, soft_shade_tile *tiles, int32_t begin, int32_t end);
 
 /* ---- drawing tools -------------------------------------------------------------------------- */
 
