@@ -297,8 +297,7 @@ int eval_picture_main(int64_t frame_count, int64_t seed_count, const char *json_
 
 /* ---- rows of `relief eval` ------------------------------------------------------------------- */
 
-#define JUDGED_FIRST 20 /* picture after the warm-up: from here on the person walks before bodies  \
-                         */
+#define JUDGED_FIRST 20 /* picture after the warm-up; the person walks before bodies now */
 #define JUDGED_EVERY 12
 #define JUDGED_COUNT 5
 #define STILL_PICTURES 12

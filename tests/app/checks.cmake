@@ -3,7 +3,7 @@ if(TARGET relief_app)
   add_test(NAME app.command
            COMMAND sh ${PROJECT_SOURCE_DIR}/tests/app/test_command.sh $<TARGET_FILE:relief_app>
                    ${CMAKE_CURRENT_BINARY_DIR}/app_command)
-  set_tests_properties(app.command PROPERTIES LABELS app TIMEOUT 600)
+  set_tests_properties(app.command PROPERTIES LABELS app TIMEOUT 1200) # minutes with sanitizers
 endif()
 
 # What `relief eval` and its kin count, and what they say about it.

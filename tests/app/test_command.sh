@@ -108,7 +108,7 @@ expect_error 2 "not one of them" eval --scene moon
 expect_error 2 "live, thesis or both" eval --profile ours
 expect_error 2 "--seeds" eval --seeds 0
 expect_error 1 "no_such_frames" eval --normals no_such_frames
-expect_done eval --scene plate --seeds 2 --json eval.json
+expect_done eval --scene plate --profile live --seeds 2 --json eval.json
 grep -q "0 outside it" stdout.txt || fail "eval: $(cat stdout.txt)"
 grep -q '"ci95"' eval.json || fail "eval: eval.json"
 expect_done eval --scene empty --profile thesis --seeds 1 --frames 20 --threads 1
@@ -117,10 +117,10 @@ grep -q "normals, interior" stdout.txt || fail "eval --scene empty: $(cat stdout
 # Time and memory.
 expect_error 2 "--frames" bench --frames 0
 expect_error 2 "no argument" bench synthetic:room
-expect_done bench --frames 4 --quick --json bench.json
+expect_done bench --frames 2 --quick --json bench.json
 grep -q "surface / floor" stdout.txt || fail "bench: $(cat stdout.txt)"
 grep -q '"surface/background"' bench.json || fail "bench: bench.json"
-expect_done bench --frames 4 --quick --compare bench.json
+expect_done bench --frames 1 --quick --compare bench.json
 grep -q "memory/whole .* 1.00$" stdout.txt || fail "bench --compare: $(cat stdout.txt)"
 
 expect_error 1 "no/clip.raw" bench --peer-clip no/clip.raw
