@@ -98,6 +98,10 @@ static void report_times(const bench_case *c, const case_times *t, bench_table *
         bench_add_series(table, c->name, stage_names[i], &t->stages[i], ratio);
     }
     bench_add_series(table, c->name, "floor", &t->floor.times, NAN);
+    double least_floor = timing_percentile(&t->floor.times, 0);
+    double least_surface = timing_percentile(&t->stages[SURFACE], 0);
+    bench_add(table, c->name, "surface least", "ms", least_surface, NAN,
+              least_floor > 0.0 ? least_surface / least_floor : NAN);
     for (int i = 0; i < RLF_SURFACE_STEP_COUNT; i++) {
         snprintf(name, sizeof(name), "surface/%s", rlf_surface_step_name((rlf_surface_step)i));
         double share = timing_percentile(&t->steps[i], 50) / surface_ms;
@@ -246,6 +250,10 @@ void bench_cases_print(const bench_options *o, const bench_table *table)
     printf("%-22s", "surface / floor");
     for (int c = 0; c < CASE_COUNT; c++) {
         printf(" %19.1f", bench_find(table, cases[c].name, "surface")->ratio);
+    }
+    printf("\n%-22s", "  of the least times");
+    for (int c = 0; c < CASE_COUNT; c++) {
+        printf(" %19.1f", bench_find(table, cases[c].name, "surface least")->ratio);
     }
     printf("\n%-22s", "frames per second");
     for (int c = 0; c < CASE_COUNT; c++) {

@@ -12,6 +12,7 @@ if(TARGET relief_app)
           test_eval_sensed)
     relief_test(${PROJECT_SOURCE_DIR}/tests/app/${name}.c app)
     target_link_libraries(${name} PRIVATE relief_measures)
+    set_tests_properties(app.${name} PROPERTIES TIMEOUT 1200) # minutes with sanitizers
   endforeach()
 endif()
 
