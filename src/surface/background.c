@@ -14,6 +14,7 @@ void rlf_background_reset(rlf_background *background, const rlf_grid *grid)
     memset(background->still_ms, 0, n * sizeof *background->still_ms);
     memset(background->beneath, 0, n * sizeof *background->beneath);
     memset(background->standing, 0, (size_t)grid->height * sizeof *background->standing);
+    memset(background->color, 0, n * sizeof *background->color);
     memset(background->hides, 0, (size_t)grid->height);
     background->frames = 0;
     memset(background->changes, 0, (size_t)rlf_sheet_tiles(grid) * sizeof *background->changes);

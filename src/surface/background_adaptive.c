@@ -132,7 +132,7 @@ static void find_front(rlf_reconstruct *stage, rlf_slot *slot)
     const rlf_span *spans = stage->work.front;
     rlf_segment_links(stage, RLF_SEGMENT_NOISE, slot->depth, slot->foreground, spans);
     stage->component_count = rlf_components_find(stage, spans);
-    stage->has_components = stage->def.foreground_segment == RLF_SEGMENT_NOISE;
+    stage->has_components = stage->def.foreground_segment == RLF_SEGMENT_NOISE && !stage->has_color;
     decide_unknown(stage, slot);
 }
 

@@ -171,7 +171,8 @@ static void finish(rlf_reconstruct *stage)
     rlf_sheet *sheet = &background->sheets[next];
     rlf_layer_in in = {.layer = RLF_LAYER_BACKGROUND,
                        .method = stage->def.background_segment,
-                       .depth = sheet->depth};
+                       .depth = sheet->depth,
+                       .color = stage->has_color ? background->color : NULL};
     if (old != NULL) {
         in.previous_label = old->label;
         in.previous = old->regions;

@@ -68,6 +68,7 @@ static void take_background(rlf_reconstruct *stage)
     background->still_ms = take(stage, n, sizeof(uint16_t));
     background->beneath = take(stage, n, sizeof(float));
     background->standing = take(stage, (size_t)stage->grid.height, sizeof(rlf_span));
+    background->color = take(stage, n, sizeof(uint32_t));
     background->hides = take(stage, (size_t)stage->grid.height, 1);
     size_t tiles = (size_t)rlf_sheet_tiles(&stage->grid);
     background->row_changes = take(stage, tiles * RLF_SHEET_TILE, sizeof(int32_t));
@@ -101,6 +102,7 @@ static void take_work(rlf_reconstruct *stage)
     for (int k = 0; k < 6; k++) {
         work->crop[k] = take(stage, rlf_sheet_crop_size(), sizeof(float));
     }
+    work->color = take(stage, n, sizeof(uint32_t));
     work->links = take(stage, n, 1);
     work->component = take(stage, n, sizeof(int32_t));
     work->front = take(stage, (size_t)stage->grid.height, sizeof(rlf_span));

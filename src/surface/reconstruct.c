@@ -225,6 +225,7 @@ static rlf_layer_in front_layer(const rlf_reconstruct *stage, const rlf_slot *sl
                        .depth = slot->depth,
                        .mask = off ? NULL : slot->foreground,
                        .spans = off ? NULL : stage->work.front,
+                       .color = stage->has_color ? stage->work.color : NULL,
                        .has_components = stage->has_components,
                        .component_count = stage->component_count};
     if (before != NULL) {
@@ -382,7 +383,9 @@ rlf_result rlf_reconstruct_process(rlf_reconstruct *stage, const rlf_frame *fram
     slot->surface.time_ns = frame->time_ns;
     rlf_stage_start_times(stage);
     make_depth(stage, frame, slot);
+    rlf_color_sample(stage, frame, slot->depth);
     rlf_background_update(stage, slot);
+    rlf_color_learn(stage, slot->foreground);
     rlf_stage_add_time(stage, RLF_SURFACE_BACKGROUND);
     make_normals(stage, slot);
     rlf_stage_add_time(stage, RLF_SURFACE_NORMALS);

@@ -30,7 +30,10 @@ static int32_t find_components(rlf_reconstruct *stage, const rlf_layer_in *in)
         return find_single(stage, in);
     }
     rlf_segment_links(stage, in->method, in->depth, in->mask, in->spans);
-    return rlf_components_find(stage, in->method == RLF_SEGMENT_NOISE ? in->spans : NULL);
+    if (in->color != NULL) {
+        rlf_color_cut_links(stage, in->color, in->spans);
+    }
+    return rlf_components_find(stage, in->spans);
 }
 
 /* Smallest size that leaves at most region_capacity components, found by bisection. */

@@ -11,20 +11,31 @@ static inline bool is_near(float a, float b, float tau)
     return rlf_kernel_abs(a - b) <= tau;
 }
 
-/* A pixel at the right or lower border has no next pixel in that direction: nothing to differ. */
-void rlf_segment_thesis_bits(const rlf_grid *grid, double tau, const float *depth,
+/* One kernel of eq. 4.4: pixel i against its neighbour; beyond the border there is nothing to
+ * differ.
+ */
+static bool agrees(bool inside, float tau, const float *depth, const uint8_t *mask, ptrdiff_t i,
+                   ptrdiff_t next)
+{
+    return !inside || (is_member(depth, mask, next) && is_near(depth[i], depth[next], tau));
+}
+
+void rlf_segment_thesis_bits(const rlf_grid *grid, double tau, bool diagonals, const float *depth,
                              const uint8_t *mask, uint8_t *bits)
 {
     float limit = (float)tau;
+    int32_t width = grid->width;
     for (int32_t y = 0; y < grid->height; y++) {
-        for (int32_t x = 0; x < grid->width; x++) {
-            ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-            ptrdiff_t right = i + 1, down = i + grid->width;
-            bool row = x + 1 == grid->width ||
-                       (is_member(depth, mask, right) && is_near(depth[i], depth[right], limit));
-            bool column = y + 1 == grid->height ||
-                          (is_member(depth, mask, down) && is_near(depth[i], depth[down], limit));
-            bits[i] = is_member(depth, mask, i) && row && column;
+        for (int32_t x = 0; x < width; x++) {
+            ptrdiff_t i = (ptrdiff_t)y * width + x;
+            bool right = x + 1 < width, down = y + 1 < grid->height;
+            bool same = is_member(depth, mask, i) && agrees(right, limit, depth, mask, i, i + 1) &&
+                        agrees(down, limit, depth, mask, i, i + width);
+            if (same && diagonals) {
+                same = agrees(right && down, limit, depth, mask, i, i + width + 1) &&
+                       agrees(x > 0 && down, limit, depth, mask, i, i + width - 1);
+            }
+            bits[i] = same;
         }
     }
 }
@@ -32,15 +43,20 @@ void rlf_segment_thesis_bits(const rlf_grid *grid, double tau, const float *dept
 static void thesis_links(const rlf_reconstruct *stage, const float *depth, const uint8_t *mask)
 {
     const rlf_grid *grid = &stage->grid;
+    bool diagonals = stage->def.segment_diagonals;
     uint8_t *bits = stage->work.mask[1];
-    rlf_segment_thesis_bits(grid, stage->def.segment_tau_m, depth, mask, bits);
+    rlf_segment_thesis_bits(grid, stage->def.segment_tau_m, diagonals, depth, mask, bits);
     for (int32_t y = 0; y < grid->height; y++) {
         for (int32_t x = 0; x < grid->width; x++) {
-            ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-            int link = bits[i] ? RLF_LINK_MEMBER : 0;
-            link |= bits[i] && x > 0 && bits[i - 1] ? RLF_LINK_LEFT : 0;
-            link |= bits[i] && y > 0 && bits[i - grid->width] ? RLF_LINK_UP : 0;
-            stage->work.links[i] = (uint8_t)link;
+            ptrdiff_t i = (ptrdiff_t)y * grid->width + x, up = i - grid->width;
+            int link = RLF_LINK_MEMBER;
+            link |= x > 0 && bits[i - 1] ? RLF_LINK_LEFT : 0;
+            link |= y > 0 && bits[up] ? RLF_LINK_UP : 0;
+            if (diagonals && y > 0) {
+                link |= x > 0 && bits[up - 1] ? RLF_LINK_UP_LEFT : 0;
+                link |= x + 1 < grid->width && bits[up + 1] ? RLF_LINK_UP_RIGHT : 0;
+            }
+            stage->work.links[i] = (uint8_t)(bits[i] ? link : 0);
         }
     }
 }
@@ -87,6 +103,7 @@ void rlf_segment_links(const rlf_reconstruct *stage, rlf_segment_method method, 
     links_job job = {.stage = stage, .depth = depth, .mask = mask, .spans = spans};
     job.params.noise = rlf_kernel_noise_make(&stage->def.rig.noise);
     job.params.slope = (float)(steepest / stage->grid.camera.fx);
+    job.params.diagonals = stage->def.segment_diagonals;
     job.params.step_m = mask != NULL ? body_step_m : 0.0f;
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, noise_rows, &job);
 }

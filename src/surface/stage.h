@@ -71,6 +71,7 @@ typedef struct rlf_background {
     uint16_t *still_ms;   /* ADAPTIVE: how long it has not moved */
     float *beneath;       /* ADAPTIVE: the background that an absorbed thing hides; 0 = none */
     rlf_span *standing;   /* ADAPTIVE: per row, where still_ms is not 0 */
+    uint32_t *color;      /* see segment_color.c; 0 = not seen */
     uint8_t *hides;       /* ADAPTIVE: per row, whether there is anything beneath */
     int32_t frames;
     int32_t *row_changes; /* ADAPTIVE: pixels replaced in this frame, per row and tile column */
@@ -112,6 +113,7 @@ typedef struct rlf_work {
     float *depth[2];    /* planes */
     float *sum[2];      /* planes: velocity sums, thickness */
     uint8_t *mask[2];   /* planes */
+    uint32_t *color;    /* plane: of the frame, see segment_color.c */
     uint8_t *links;     /* plane of RLF_LINK_ bits */
     int32_t *component; /* plane */
     rlf_span *front;    /* per row: where the foreground may be; finished with the background */
@@ -144,6 +146,7 @@ struct rlf_reconstruct {
     rlf_background background;
     rlf_steady steady;
     rlf_work work;
+    bool has_color;      /* work.color holds the frame's */
     bool has_components; /* work.runs holds the front sheet's, so many: */
     int32_t component_count;
     rlf_surface_times *times;       /* borrowed; NULL = not measured */
