@@ -21,7 +21,7 @@ typedef struct exporter {
     const export_options *options;
     const export_kind *kinds[EXPORT_KINDS_MAX];
     int kind_count;
-    bool write_mesh, write_poses;
+    bool write_mesh, write_regions, write_poses;
     uint32_t *indices; /* for meshes */
     FILE *poses;
     export_frame frame;
@@ -37,6 +37,7 @@ static void print_help(void)
                export_kinds[i].need == EXPORT_NEEDS_RENDER ? " (needs --scene)" : "");
     }
     printf("  %-20s PLY: points, normals and triangles\n"
+           "  %-20s NNNNNN_LABEL.ply: the same, one file per region\n"
            "  %-20s true_poses.csv: poses of the moving objects\n"
            "true_* need a synthetic source and have the depth camera's full resolution.\n\n"
            "  --frames A:B      frames A <= i < B (earlier ones are processed, not written)\n"
@@ -48,7 +49,7 @@ static void print_help(void)
            "  relief export synthetic:room --out out --what depth,normals,true_normals "
            "--frames 0:50\n"
            "  relief export path/to/clip --out out --what points,labels,mesh --profile thesis\n",
-           "mesh", "true_poses");
+           "mesh", "regions", "true_poses");
 }
 
 enum {
@@ -130,6 +131,10 @@ static int add_kind(exporter *e, const char *name)
         e->write_mesh = true;
         return -1;
     }
+    if (strcmp(name, "regions") == 0) {
+        e->write_regions = true;
+        return -1;
+    }
     if (strcmp(name, "true_poses") == 0) {
         e->write_poses = true;
         return -1;
@@ -196,9 +201,11 @@ static rlf_result make_folders(exporter *e)
             result = rlf_make_folder(path);
         }
     }
-    if (result == RLF_OK && e->write_mesh) {
-        result = make_path(e, "mesh", -1, path);
-        if (result == RLF_OK) {
+    const bool wanted[2] = {e->write_mesh, e->write_regions};
+    const char *const names[2] = {"mesh", "regions"};
+    for (int i = 0; result == RLF_OK && i < 2; i++) {
+        result = wanted[i] ? make_path(e, names[i], -1, path) : RLF_OK;
+        if (result == RLF_OK && wanted[i]) {
             result = rlf_make_folder(path);
         }
     }
@@ -262,6 +269,24 @@ static rlf_result write_mesh(exporter *e, const rlf_pipeline_output *output)
     return rlf_ply_write(path, output->surface, e->indices, count);
 }
 
+static rlf_result write_regions(exporter *e, const rlf_pipeline_output *output)
+{
+    const rlf_surface *s = output->surface;
+    rlf_result result = RLF_OK;
+    for (int32_t r = 0; r < s->region_count && result == RLF_OK; r++) {
+        const rlf_region *region = &s->regions[r];
+        char path[PATH_SIZE];
+        int length = snprintf(path, PATH_SIZE, "%s/regions/%06lld_%d.ply", e->options->out_folder,
+                              (long long)output->frame_index, (int)region->label);
+        if (length < 0 || length >= PATH_SIZE) {
+            return rlf_fail(RLF_ERROR_IO, "%s: the path is too long", e->options->out_folder);
+        }
+        size_t count = rlf_mesh_indices_region(s, region, MESH_JUMP, e->indices);
+        result = rlf_ply_write_region(path, s, region, e->indices, count);
+    }
+    return result;
+}
+
 static rlf_result write_frame(exporter *e, session *s, const rlf_pipeline_output *output)
 {
     e->frame.output = output;
@@ -287,6 +312,9 @@ static rlf_result write_frame(exporter *e, session *s, const rlf_pipeline_output
                         e->options->session.source);
     }
     rlf_result result = e->write_poses ? write_poses(e, output) : RLF_OK;
+    if (result == RLF_OK && e->write_regions) {
+        result = write_regions(e, output);
+    }
     return result == RLF_OK && e->write_mesh ? write_mesh(e, output) : result;
 }
 

@@ -61,6 +61,10 @@ RLF_API rlf_result rlf_npy_write(const char *path, rlf_npy_type type, const void
 /* Binary PLY of the surface's points with normals, and its triangles when index_count > 0. */
 RLF_API rlf_result rlf_ply_write(const char *path, const rlf_surface *surface,
                                  const uint32_t *indices, size_t index_count);
+/* As above, the points of one region of the front sheet only. */
+RLF_API rlf_result rlf_ply_write_region(const char *path, const rlf_surface *surface,
+                                        const rlf_region *region, const uint32_t *indices,
+                                        size_t index_count);
 
 /* ---- video
  * ------------------------------------------------------------------------------------------ */

@@ -127,6 +127,11 @@ RLF_API void rlf_mesh_indices(int32_t width, int32_t height, uint32_t *out);
  */
 RLF_API size_t rlf_mesh_indices_valid(const rlf_surface *surface, double max_jump, uint32_t *out);
 
+/* As above, of the triangles within one region of the front sheet: all corners have its label.
+ * Needs room for rlf_mesh_index_count of the region's rectangle. */
+RLF_API size_t rlf_mesh_indices_region(const rlf_surface *surface, const rlf_region *region,
+                                       double max_jump, uint32_t *out);
+
 #ifdef __cplusplus
 }
 #endif

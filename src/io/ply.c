@@ -8,6 +8,7 @@
 
 typedef struct ply_writer {
     const rlf_surface *surface;
+    int32_t label; /* of the points; 0 = all */
     const uint32_t *indices;
     size_t triangle_count; /* in `indices` */
     int32_t *vertex_of;    /* pixel to vertex plus one; 0 = no point there */
@@ -19,7 +20,8 @@ static int32_t number_vertices(ply_writer *w)
     int32_t pixels = w->surface->width * w->surface->height;
     int32_t count = 0;
     for (int32_t i = 0; i < pixels; i++) {
-        w->vertex_of[i] = w->surface->depth[i] > 0.0F ? ++count : 0;
+        bool own = w->label == 0 || w->surface->label[i] == w->label;
+        w->vertex_of[i] = own && w->surface->depth[i] > 0.0F ? ++count : 0;
     }
     return count;
 }
@@ -136,15 +138,16 @@ static rlf_result write_ply(ply_writer *w, const char *path)
     return io_out_close(&w->file, result);
 }
 
-rlf_result rlf_ply_write(const char *path, const rlf_surface *surface, const uint32_t *indices,
-                         size_t index_count)
+static rlf_result write_points(const char *path, const rlf_surface *surface, int32_t label,
+                               const uint32_t *indices, size_t index_count)
 {
     if (!RLF_ASSERT(path != NULL && surface != NULL) ||
         !RLF_ASSERT(indices != NULL || index_count == 0) ||
         !RLF_ASSERT(are_indices_valid(surface, indices, index_count))) {
         return RLF_ERROR_INVALID;
     }
-    ply_writer w = {.surface = surface, .indices = indices, .triangle_count = index_count / 3};
+    ply_writer w = {
+        .surface = surface, .label = label, .indices = indices, .triangle_count = index_count / 3};
     w.vertex_of =
         rlf_alloc_array((size_t)surface->width * (size_t)surface->height, sizeof(w.vertex_of[0]));
     if (w.vertex_of == NULL) {
@@ -153,4 +156,20 @@ rlf_result rlf_ply_write(const char *path, const rlf_surface *surface, const uin
     rlf_result result = write_ply(&w, path);
     rlf_free(w.vertex_of);
     return result;
+}
+
+rlf_result rlf_ply_write(const char *path, const rlf_surface *surface, const uint32_t *indices,
+                         size_t index_count)
+{
+    return write_points(path, surface, 0, indices, index_count);
+}
+
+rlf_result rlf_ply_write_region(const char *path, const rlf_surface *surface,
+                                const rlf_region *region, const uint32_t *indices,
+                                size_t index_count)
+{
+    if (!RLF_ASSERT(region != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    return write_points(path, surface, region->label, indices, index_count);
 }

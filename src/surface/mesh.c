@@ -60,22 +60,45 @@ static bool is_surface(const float *depth, const uint32_t corner[3], double max_
     return low > 0.0 && high - low <= max_jump * low;
 }
 
+/* Triangles of one square: those of the surface and, unless label is 0, of that region. */
+static size_t add_square(const rlf_surface *surface, uint32_t n, double max_jump, int32_t label,
+                         uint32_t *out)
+{
+    square s = square_at(n, (uint32_t)surface->width);
+    const uint32_t *const triangles[2] = {s.t1, s.t2};
+    size_t count = 0;
+    for (int t = 0; t < 2; t++) {
+        const uint32_t *corner = triangles[t];
+        bool own = label == 0 ||
+                   (surface->label[corner[0]] == label && surface->label[corner[1]] == label &&
+                    surface->label[corner[2]] == label);
+        for (int k = 0; own && is_surface(surface->depth, corner, max_jump) && k < 3; k++) {
+            out[count++] = corner[k];
+        }
+    }
+    return count;
+}
+
 size_t rlf_mesh_indices_valid(const rlf_surface *surface, double max_jump, uint32_t *out)
 {
     size_t count = 0;
     for (int32_t y = 0; y + 1 < surface->height; y++) {
         for (int32_t x = 0; x + 1 < surface->width; x++) {
             uint32_t n = (uint32_t)y * (uint32_t)surface->width + (uint32_t)x;
-            square s = square_at(n, (uint32_t)surface->width);
-            const uint32_t *const triangles[2] = {s.t1, s.t2};
-            for (int t = 0; t < 2; t++) {
-                if (!is_surface(surface->depth, triangles[t], max_jump)) {
-                    continue;
-                }
-                for (int k = 0; k < 3; k++) {
-                    out[count++] = triangles[t][k];
-                }
-            }
+            count += add_square(surface, n, max_jump, 0, out + count);
+        }
+    }
+    return count;
+}
+
+size_t rlf_mesh_indices_region(const rlf_surface *surface, const rlf_region *region,
+                               double max_jump, uint32_t *out)
+{
+    size_t count = 0;
+    for (int32_t y = region->y0; y + 1 < region->y1; y++) {
+        for (int32_t x = region->x0; x + 1 < region->x1; x++) {
+            uint32_t n = (uint32_t)y * (uint32_t)surface->width + (uint32_t)x;
+            count += add_square(surface, n, max_jump, region->label, out + count);
         }
     }
     return count;

@@ -69,8 +69,9 @@ typedef struct links_job {
     rlf_kernel_links params;
 } links_job;
 
-/* Chin and neck, arm and chest are one person: in the foreground, small steps do not separate. */
-static const float body_step_m = 0.05f;
+/* Chin and neck, arm and chest are one person: in the foreground, steps of a hand's breadth do not
+ * separate. */
+static const float body_step_m = 0.12f;
 /* tan of the steepest incidence under which a surface hangs together: 80 degrees. */
 static const double steepest = 5.67;
 

@@ -136,13 +136,14 @@ cmp -s hash1.txt hash3.txt || fail "hashes differ: $(cat hash1.txt hash3.txt)"
 
 printf '{"bodies": [{"name": "a", "shape": "sphere", "radius": 0.1, "position": [0, 0, 1.5]}]}' >one.json
 expect_done export "synthetic:room?frames=8" --scene one.json --frames 6:8 --out arrays --what \
-    depth,points,normals,labels,foreground,velocity,thickness,reason,color,matte,composite,mesh,true_depth,true_normals,true_labels,true_foreground,true_thickness,true_velocity,true_background,true_poses
+    depth,points,normals,labels,foreground,velocity,thickness,reason,color,matte,composite,mesh,regions,true_depth,true_normals,true_labels,true_foreground,true_thickness,true_velocity,true_background,true_poses
 for name in depth points normals labels foreground velocity thickness reason color matte composite \
     true_depth true_normals true_labels true_foreground true_thickness true_velocity true_background; do
     [ -s arrays/$name/000006.npy ] && [ -s arrays/$name/000007.npy ] || fail "export: $name"
     [ -e arrays/$name/000005.npy ] && fail "export: frame 5 of $name was not asked for"
 done
 [ -s arrays/mesh/000006.ply ] || fail "export: mesh"
+ls arrays/regions/000006_*.ply >/dev/null || fail "export: regions"
 [ -s arrays/true_poses.csv ] || fail "export: true_poses.csv"
 
 # Ctrl-C ends a run with whole files.

@@ -82,6 +82,24 @@ static void every_reason_has_a_name(void **state)
     }
 }
 
+/* Every triangle of the surface whose corners have one label belongs to that region. */
+static void regions_share_out_the_triangles_within_them(void **state)
+{
+    (void)state;
+    const float depth[12] = {1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f,
+                             1.0f, 1.0f, 1.0f, 0.0f, 1.0f, 1.0f};
+    const int32_t label[12] = {3, 3, 8, 8, 3, 3, 8, 8, 3, 0, 8, 8};
+    const rlf_surface surface = {.width = 4, .height = 3, .depth = depth, .label = label};
+    const rlf_region left = {.label = 3, .x0 = 0, .y0 = 0, .x1 = 2, .y1 = 3};
+    const rlf_region right = {.label = 8, .x0 = 2, .y0 = 0, .x1 = 4, .y1 = 3};
+    uint32_t out[36];
+    const uint32_t expected[9] = {0, 1, 4, 1, 5, 4, 4, 5, 8};
+    assert_int_equal(rlf_mesh_indices_region(&surface, &left, 0.05, out), 9);
+    assert_memory_equal(out, expected, sizeof expected);
+    assert_int_equal(rlf_mesh_indices_region(&surface, &right, 0.05, out), 12);
+    assert_int_equal(out[0], 2);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -89,6 +107,7 @@ int main(void)
         cmocka_unit_test(squares_are_t1_then_t2),
         cmocka_unit_test(mesh_is_a_consistent_triangulation),
         cmocka_unit_test(curtains_and_holes_are_left_out),
+        cmocka_unit_test(regions_share_out_the_triangles_within_them),
         cmocka_unit_test(every_reason_has_a_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
