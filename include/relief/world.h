@@ -17,8 +17,9 @@ extern "C" {
 /* What is where the camera sees nothing: beyond its view, and in the ring of missing pixels at the
  * border of its image. */
 typedef enum rlf_border {
-    RLF_BORDER_OPEN = 0,  /* nothing: bodies leave the room there */
-    RLF_BORDER_EXTEND = 1 /* the planes seen along the border go on: floor and walls */
+    RLF_BORDER_OPEN = 0, /* nothing: bodies leave the room there */
+    RLF_BORDER_EXTEND =
+        1 /* the outermost planes go on: floor and walls; also behind what hides them */
 } rlf_border;
 
 /* One sheet of the organised grid, in the grid's frame. Planes are width*height, row-major. */
