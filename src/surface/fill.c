@@ -17,8 +17,12 @@
 /* A wide hole must not be crossed from corner to corner. */
 enum { DIAGONAL_GAP = 4, REACH = 2, EDGE_WIDTH = 2 };
 
-/* What a pixel at a squared distance counts. */
-static const float votes_at[9] = {0.0f, 4.0f, 1.3f, 0.0f, 0.4f, 0.3f, 0.0f, 0.0f, 0.2f};
+/* What a pixel at an offset counts: less the farther it is. */
+static const float votes_at[2 * REACH + 1][2 * REACH + 1] = {{0.2f, 0.3f, 0.4f, 0.3f, 0.2f},
+                                                             {0.3f, 1.3f, 4.0f, 1.3f, 0.3f},
+                                                             {0.4f, 4.0f, 0.0f, 4.0f, 0.4f},
+                                                             {0.3f, 1.3f, 4.0f, 1.3f, 0.3f},
+                                                             {0.2f, 0.3f, 0.4f, 0.3f, 0.2f}};
 
 /* Share of the depth, from a side's end to a hole pixel. */
 static const float MOST_CHANGE = 0.05f;
@@ -69,27 +73,43 @@ static bool is_edge(gap g)
     return rlf_kernel_abs(g.before - g.after) > (0.01f * span + 0.01f) * nearest;
 }
 
+/* Depths about a hole pixel; 0 outside the image. */
+typedef struct window {
+    float z[2 * REACH + 1][2 * REACH + 1];
+} window;
+
 /* Sums over the pixels of one side, depth relative to its end. */
 typedef struct side {
     float end;
     float n, x, y, xx, xy, yy, z, xz, yz;
-    float votes;
 } side;
 
-static void add(side *s, int32_t dx, int32_t dy, float z)
+/* Sums over the pixels that are nearer than `middle`, or over those that are not. */
+static side sum_side(const window *w, float middle, bool is_near, float end)
 {
-    float x = (float)dx, y = (float)dy;
-    s->votes += votes_at[dx * dx + dy * dy];
-    z -= s->end;
-    s->n += 1.0f;
-    s->x += x;
-    s->y += y;
-    s->xx += x * x;
-    s->xy += x * y;
-    s->yy += y * y;
-    s->z += z;
-    s->xz += x * z;
-    s->yz += y * z;
+    side s = {.end = end};
+    for (int32_t dy = -REACH; dy <= REACH; dy++) {
+        float y = (float)dy, row_n = 0.0f, row_x = 0.0f, row_z = 0.0f, row_xz = 0.0f;
+        for (int32_t dx = -REACH; dx <= REACH; dx++) {
+            float x = (float)dx, at = w->z[dy + REACH][dx + REACH];
+            float has = (at > 0.0f) & ((at < middle) == is_near) ? 1.0f : 0.0f;
+            float z = has * (at - end);
+            row_n += has;
+            row_x += has * x;
+            row_z += z;
+            row_xz += z * x;
+            s.xx += has * x * x;
+        }
+        s.n += row_n;
+        s.x += row_x;
+        s.y += y * row_n;
+        s.xy += y * row_x;
+        s.yy += y * y * row_n;
+        s.z += row_z;
+        s.xz += row_xz;
+        s.yz += y * row_z;
+    }
+    return s;
 }
 
 /* The side's plane at the pixel itself (0, 0). The ridge keeps it level across a direction in which
@@ -165,27 +185,46 @@ static bool is_slit(const fill_job *job, int32_t x, int32_t y, gap g)
     return wide && depth_behind(job, x, y) > (1.0f + MOST_CHANGE) * farthest;
 }
 
-static float choose_side(const fill_job *job, int32_t x, int32_t y, gap g)
+static window read_window(const fill_job *job, int32_t x, int32_t y)
 {
     const rlf_grid *grid = &job->stage->grid;
-    side before = {.end = g.before}, after = {.end = g.after};
-    float middle = 2.0f / (1.0f / g.before + 1.0f / g.after);
-    bool before_is_near = g.before < g.after;
-    int32_t left = least(x, REACH), right = least(grid->width - 1 - x, REACH);
-    int32_t up = least(y, REACH), down = least(grid->height - 1 - y, REACH);
-    for (int32_t dy = -up; dy <= down; dy++) {
+    window w;
+    bool inside = x >= REACH && y >= REACH && x + REACH < grid->width && y + REACH < grid->height;
+    for (int32_t dy = -REACH; dy <= REACH; dy++) {
         const float *row = job->depth + (ptrdiff_t)(y + dy) * grid->width + x;
-        for (int32_t dx = -left; dx <= right; dx++) {
-            if (row[dx] > 0.0f) {
-                bool is_near = row[dx] < middle;
-                add(is_near == before_is_near ? &before : &after, dx, dy, row[dx]);
-            }
+        for (int32_t dx = -REACH; dx <= REACH; dx++) {
+            bool has = inside || (x + dx >= 0 && x + dx < grid->width && y + dy >= 0 &&
+                                  y + dy < grid->height);
+            w.z[dy + REACH][dx + REACH] = has ? row[dx] : 0.0f;
         }
     }
-    bool tie = before.votes >= after.votes && before.votes <= after.votes;
-    bool first = tie ? g.to_before <= g.to_after : before.votes > after.votes;
-    bool is_far = first != before_is_near;
-    float z = continue_side(first ? &before : &after);
+    return w;
+}
+
+/* Votes for the nearer side less those for the farther one. */
+static float count_votes(const window *w, float middle)
+{
+    float balance = 0.0f;
+    for (int32_t dy = 0; dy <= 2 * REACH; dy++) {
+        for (int32_t dx = 0; dx <= 2 * REACH; dx++) {
+            float z = w->z[dy][dx], vote = votes_at[dy][dx];
+            balance += z > 0.0f ? (z < middle ? vote : -vote) : 0.0f;
+        }
+    }
+    return balance;
+}
+
+static float choose_side(const fill_job *job, int32_t x, int32_t y, gap g)
+{
+    float middle = 2.0f / (1.0f / g.before + 1.0f / g.after);
+    bool before_is_near = g.before < g.after;
+    window w = read_window(job, x, y);
+    float balance = count_votes(&w, middle);
+    bool tie = rlf_kernel_abs(balance) < 0.05f; /* half of the smallest vote's difference */
+    bool first = tie ? g.to_before <= g.to_after : (balance > 0.0f) == before_is_near;
+    bool is_near = first == before_is_near, is_far = !is_near;
+    side chosen = sum_side(&w, middle, is_near, first ? g.before : g.after);
+    float z = continue_side(&chosen);
     bool is_behind = is_far && rlf_kernel_abs(depth_behind(job, x, y) - z) < MOST_CHANGE * z;
     return is_behind ? show_behind(job, x, y) : z;
 }

@@ -54,38 +54,64 @@ static bool is_beside_outline(const outline_job *job, int32_t x, int32_t y)
            (y + REACH < job->height && at[row] > behind);
 }
 
-/* From what is behind the pixel and what is not, within two pixels. False when nothing is. */
+/* Offsets of what is behind a pixel and of what is not, within two pixels, summed. */
+typedef struct sides {
+    int32_t far_x, far_y, far_n, near_x, near_y, near_n;
+    int32_t nearest; /* squared distance of what is behind */
+} sides;
+
+typedef struct bounds {
+    int32_t x0, x1, y0, y1;
+} bounds;
+
+static inline sides sum_sides(const float *at, ptrdiff_t width, bounds b)
+{
+    float behind = at[0] * (1.0f + LEAST_JUMP), before = at[0] * (1.0f - LEAST_JUMP);
+    sides s = {.nearest = 99};
+    for (int32_t dy = b.y0; dy <= b.y1; dy++) {
+        int32_t row_far = 0, row_near = 0;
+        for (int32_t dx = b.x0; dx <= b.x1; dx++) {
+            float z = at[dy * width + dx];
+            int32_t is_far = z > behind, is_near = (z > before) & !is_far;
+            int32_t square = dx * dx + dy * dy;
+            row_far += is_far;
+            row_near += is_near;
+            s.far_x += is_far * dx;
+            s.near_x += is_near * dx;
+            s.nearest = is_far & (square < s.nearest) ? square : s.nearest;
+        }
+        s.far_n += row_far;
+        s.far_y += row_far * dy;
+        s.near_n += row_near;
+        s.near_y += row_near * dy;
+    }
+    return s;
+}
+
+static bounds window_at(const outline_job *job, int32_t x, int32_t y)
+{
+    return (bounds){-least(x, REACH), least(job->width - 1 - x, REACH), -least(y, REACH),
+                    least(job->height - 1 - y, REACH)};
+}
+
+/* False when nothing is behind the pixel. */
 static bool find_outline(const outline_job *job, int32_t x, int32_t y, outline *out)
 {
     const float *at = job->depth + (ptrdiff_t)y * job->width + x;
-    float behind = at[0] * (1.0f + LEAST_JUMP), before = at[0] * (1.0f - LEAST_JUMP);
-    int32_t x0 = -least(x, REACH), x1 = least(job->width - 1 - x, REACH);
-    int32_t y0 = -least(y, REACH), y1 = least(job->height - 1 - y, REACH);
-    int32_t far_x = 0, far_y = 0, far_n = 0, near_x = 0, near_y = 0, near_n = 0, nearest = 99;
-    for (int32_t dy = y0; dy <= y1; dy++) {
-        for (int32_t dx = x0; dx <= x1; dx++) {
-            float z = at[(ptrdiff_t)dy * job->width + dx];
-            int32_t is_far = z > behind, is_near = (z > before) & !is_far;
-            int32_t square = dx * dx + dy * dy;
-            far_x += is_far * dx;
-            far_y += is_far * dy;
-            far_n += is_far;
-            near_x += is_near * dx;
-            near_y += is_near * dy;
-            near_n += is_near;
-            nearest = is_far && square < nearest ? square : nearest;
-        }
-    }
-    if (far_n < 2) {
+    const bounds whole = {-REACH, REACH, -REACH, REACH};
+    bool inside = x >= REACH && y >= REACH && x + REACH < job->width && y + REACH < job->height;
+    sides s =
+        inside ? sum_sides(at, job->width, whole) : sum_sides(at, job->width, window_at(job, x, y));
+    if (s.far_n < 2) {
         return false;
     }
-    float gx = (float)far_x / (float)far_n - (float)near_x / (float)near_n;
-    float gy = (float)far_y / (float)far_n - (float)near_y / (float)near_n;
+    float gx = (float)s.far_x / (float)s.far_n - (float)s.near_x / (float)s.near_n;
+    float gy = (float)s.far_y / (float)s.far_n - (float)s.near_y / (float)s.near_n;
     float length = sqrtf(gx * gx + gy * gy);
     if (length < 0.5f) {
         return false;
     }
-    *out = (outline){gx / length, gy / length, sqrtf((float)nearest) - 0.5f};
+    *out = (outline){gx / length, gy / length, sqrtf((float)s.nearest) - 0.5f};
     return true;
 }
 
@@ -211,10 +237,9 @@ static void take_outermost(const outline_job *job, int32_t x, int32_t y, const o
     ptrdiff_t i = (ptrdiff_t)y * job->width + x;
     float z = job->depth[i], best = -1e9f;
     vector mean = {0.0f, 0.0f, 0.0f}, last = mean;
-    int32_t x0 = -least(x, REACH), x1 = least(job->width - 1 - x, REACH);
-    int32_t y0 = -least(y, REACH), y1 = least(job->height - 1 - y, REACH);
-    for (int32_t dy = y0; dy <= y1; dy++) {
-        for (int32_t dx = x0; dx <= x1; dx++) {
+    bounds b = window_at(job, x, y);
+    for (int32_t dy = b.y0; dy <= b.y1; dy++) {
+        for (int32_t dx = b.x0; dx <= b.x1; dx++) {
             ptrdiff_t k = i + (ptrdiff_t)dy * job->width + dx;
             vector n = known_normal(job, k);
             if (!(rlf_kernel_abs(job->depth[k] - z) < LEAST_JUMP * z) || !(dot(n, n) > 0.0f)) {
