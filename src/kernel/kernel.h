@@ -21,7 +21,8 @@
 #define RLF_KERNEL_SANITIZED 1
 #endif
 
-/* One AVX2 clone beside the portable one, picked when the program is loaded. Sanitizers cannot run
+/* An AVX-512 and an AVX2 clone beside the portable one, picked when the program is loaded. Neither
+ * may fuse a product and a sum (-ffp-contract=off): the golden hashes are of all three. Sanitizers cannot run
  * the resolver, so their builds have the portable one only; so has Clang before 18, which gives the
  * clones another symbol than their callers use. */
 #if defined(__clang__) && __clang_major__ < 18
@@ -29,7 +30,7 @@
 #endif
 #if defined(__GNUC__) && defined(__x86_64__) && defined(__GLIBC__) &&                              \
     !defined(RLF_KERNEL_SANITIZED) && !defined(RLF_KERNEL_PORTABLE)
-#define RLF_KERNEL __attribute__((target_clones("avx2", "default")))
+#define RLF_KERNEL __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
 #else
 #define RLF_KERNEL
 #endif

@@ -11,7 +11,7 @@
 enum {
     MARGIN = 12, /* pixels around a tile that its normals depend on; even */
     CROP = RLF_SHEET_TILE + 2 * MARGIN,
-    PARTS = 12,           /* of the tiles are made per frame, one ... */
+    PARTS = 24,           /* of the tiles are made per frame, one ... */
     PARTS_URGENT = 5,     /* ... or, when a thing has left, one of so many */
     CHANGES = 30,         /* replaced pixels that make a new sheet ... */
     FRAMES = 10,          /* ... after at least this many frames */

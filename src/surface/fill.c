@@ -27,6 +27,11 @@ static const float votes_at[2 * REACH + 1][2 * REACH + 1] = {{0.2f, 0.3f, 0.4f, 
 /* Share of the depth, from a side's end to a hole pixel. */
 static const float MOST_CHANGE = 0.05f;
 
+static int32_t least(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
 typedef struct gap {
     float before, after; /* depths of the ends; 0 = none */
     int32_t to_before, to_after;
@@ -38,19 +43,33 @@ typedef struct line {
     int32_t before, after;
 } line;
 
+/* Steps to the first pixel with depth, RLF_FILL_GAP + 1 when none is within `reach`. Looks at all
+ * of them from the last to the first, which is faster than to stop at one: where holes end is not
+ * to be foreseen. */
+static inline int32_t steps_to_depth(const float *depth, ptrdiff_t step, int32_t reach)
+{
+    int32_t steps = RLF_FILL_GAP + 1;
+    for (int32_t d = reach; d >= 1; d--) {
+        steps = depth[d * step] > 0.0f ? d : steps;
+    }
+    return steps;
+}
+
+/* Not closed when the ends are farther apart than a gap may be, or there is none. */
 static gap find_gap(const float *depth, line l)
 {
-    gap g = {0.0f, 0.0f, 0, 0};
-    int32_t reach = l.before < RLF_FILL_GAP ? l.before : RLF_FILL_GAP;
-    for (int32_t d = 1; d <= reach && g.before <= 0.0f; d++) {
-        g.before = depth[-(ptrdiff_t)d * l.step];
-        g.to_before = d;
+    bool inside = l.before >= RLF_FILL_GAP && l.after >= RLF_FILL_GAP;
+    gap g = {0.0f, 0.0f, RLF_FILL_GAP + 1, RLF_FILL_GAP + 1};
+    if (inside) {
+        g.to_before = steps_to_depth(depth, -l.step, RLF_FILL_GAP);
+        g.to_after = steps_to_depth(depth, l.step, RLF_FILL_GAP);
+    } else {
+        g.to_before = steps_to_depth(depth, -l.step, least(l.before, RLF_FILL_GAP));
+        g.to_after = steps_to_depth(depth, l.step, least(l.after, RLF_FILL_GAP));
     }
-    int32_t room = RLF_FILL_GAP + 1 - g.to_before;
-    reach = l.after < room ? l.after : room;
-    for (int32_t d = 1; d <= reach && g.before > 0.0f && g.after <= 0.0f; d++) {
-        g.after = depth[(ptrdiff_t)d * l.step];
-        g.to_after = d;
+    if (g.to_before + g.to_after <= RLF_FILL_GAP + 1) {
+        g.before = depth[-(ptrdiff_t)g.to_before * l.step];
+        g.after = depth[(ptrdiff_t)g.to_after * l.step];
     }
     return g;
 }
@@ -138,11 +157,6 @@ typedef struct fill_job {
     float *out;
     uint8_t *reason;
 } fill_job;
-
-static int32_t least(int32_t a, int32_t b)
-{
-    return a < b ? a : b;
-}
 
 /* The background has no outline about a pixel, where its own normals would be guesses too. */
 static bool is_whole(const fill_job *job, int32_t x, int32_t y)

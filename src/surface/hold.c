@@ -90,27 +90,37 @@ typedef struct evidence {
     bool moved, continued;
 } evidence;
 
+typedef struct bounds {
+    int32_t x0, x1, y0, y1;
+} bounds;
+
+static inline evidence look_within(const hold_job *job, ptrdiff_t i, bounds b)
+{
+    ptrdiff_t width = job->stage->grid.width;
+    float w = job->stage->steady.mean[i];
+    int32_t moved = 0, continued = 0;
+    for (int32_t dy = b.y0; dy <= b.y1; dy++) {
+        for (int32_t dx = b.x0; dx <= b.x1; dx++) {
+            ptrdiff_t k = i + dy * width + dx;
+            int32_t far_x = dx < 0 ? -dx : dx, far_y = dy < 0 ? -dy : dy;
+            float most = MOST_SLOPE * (float)(far_x > far_y ? far_x : far_y) + MOST_STEP;
+            float off = rlf_kernel_abs(w * job->depth[k] - 1.0f);
+            moved |= job->change[k] == RLF_CHANGE_MOVED;
+            continued |= (job->change[k] != RLF_CHANGE_UNSEEN) & (off <= most);
+        }
+    }
+    return (evidence){moved != 0, continued != 0};
+}
+
 static evidence look_around(const hold_job *job, int32_t x, int32_t y)
 {
     const rlf_grid *grid = &job->stage->grid;
-    int32_t x0 = x < REACH ? 0 : x - REACH, y0 = y < REACH ? 0 : y - REACH;
-    int32_t x1 = least(x + REACH, grid->width - 1), y1 = least(y + REACH, grid->height - 1);
-    float w = job->stage->steady.mean[(ptrdiff_t)y * grid->width + x];
-    evidence e = {false, false};
-    for (int32_t ny = y0; ny <= y1; ny++) {
-        ptrdiff_t row = (ptrdiff_t)ny * grid->width;
-        for (int32_t nx = x0; nx <= x1; nx++) {
-            uint8_t change = job->change[row + nx];
-            e.moved = e.moved || change == RLF_CHANGE_MOVED;
-            if (change != RLF_CHANGE_UNSEEN) {
-                int32_t far_x = nx > x ? nx - x : x - nx, far_y = ny > y ? ny - y : y - ny;
-                float far = (float)(far_x > far_y ? far_x : far_y);
-                float off = rlf_kernel_abs(w * job->depth[row + nx] - 1.0f);
-                e.continued = e.continued || off <= MOST_SLOPE * far + MOST_STEP;
-            }
-        }
-    }
-    return e;
+    ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+    const bounds whole = {-REACH, REACH, -REACH, REACH};
+    const bounds cut = {-least(x, REACH), least(grid->width - 1 - x, REACH), -least(y, REACH),
+                        least(grid->height - 1 - y, REACH)};
+    bool inside = x >= REACH && y >= REACH && x + REACH < grid->width && y + REACH < grid->height;
+    return inside ? look_within(job, i, whole) : look_within(job, i, cut);
 }
 
 static void recall_pixel(const hold_job *job, int32_t x, int32_t y)

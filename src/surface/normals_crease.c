@@ -51,17 +51,23 @@ static void mark_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     }
 }
 
-/* The nearest pixel in a direction that lies on a face, not on its crease; -1 = none. */
-static ptrdiff_t find_face(const crease_job *job, int32_t x, int32_t y, int32_t dx, int32_t dy)
+/* Steps of (dx, dy) from (x, y) that stay inside the image, at most MOST_STEPS. */
+static int32_t room_for(const crease_job *job, int32_t x, int32_t y, int32_t dx, int32_t dy)
 {
-    float z = job->depth[(ptrdiff_t)y * job->width + x];
-    for (int32_t k = 1; k <= MOST_STEPS; k++) {
-        x += dx;
-        y += dy;
-        if (x < 0 || y < 0 || x >= job->width || y >= job->height) {
-            return -1;
-        }
-        ptrdiff_t i = (ptrdiff_t)y * job->width + x;
+    int32_t room = MOST_STEPS;
+    int32_t across = dx < 0 ? x : (dx > 0 ? job->width - 1 - x : room);
+    int32_t along = dy < 0 ? y : (dy > 0 ? job->height - 1 - y : room);
+    room = across < room ? across : room;
+    return along < room ? along : room;
+}
+
+/* The nearest pixel from pixel i in a direction that lies on a face, not on its crease; -1 = none.
+ */
+static ptrdiff_t find_face(const crease_job *job, ptrdiff_t i, ptrdiff_t step, int32_t room)
+{
+    float z = job->depth[i];
+    for (int32_t k = 1; k <= room; k++) {
+        i += step;
         if (!(rlf_kernel_abs(job->depth[i] - z) <= MOST_SLOPE * z)) {
             return -1;
         }
@@ -115,8 +121,12 @@ static void sharpen_pixel(const crease_job *job, int32_t x, int32_t y)
         if ((job->bent[i] & turned[k]) != turned[k]) {
             continue;
         }
-        ptrdiff_t a = find_face(job, x, y, -along_x[k], -along_y[k]);
-        ptrdiff_t b = a < 0 ? -1 : find_face(job, x, y, along_x[k], along_y[k]);
+        ptrdiff_t step = (ptrdiff_t)along_y[k] * job->width + along_x[k];
+        ptrdiff_t a = find_face(job, i, -step, room_for(job, x, y, -along_x[k], -along_y[k]));
+        if (a < 0) {
+            continue;
+        }
+        ptrdiff_t b = find_face(job, i, step, room_for(job, x, y, along_x[k], along_y[k]));
         if (b < 0 || !(cosine(job, a, b) < sharpest)) {
             continue;
         }
