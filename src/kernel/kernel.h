@@ -22,9 +22,9 @@
 #endif
 
 /* An AVX-512 and an AVX2 clone beside the portable one, picked when the program is loaded. Neither
- * may fuse a product and a sum (-ffp-contract=off): the golden hashes are of all three. Sanitizers cannot run
- * the resolver, so their builds have the portable one only; so has Clang before 18, which gives the
- * clones another symbol than their callers use. */
+ * may fuse a product and a sum (-ffp-contract=off): the golden hashes are of all three. Sanitizers
+ * cannot run the resolver, so their builds have the portable one only; so has Clang before 18,
+ * which gives the clones another symbol than their callers use. */
 #if defined(__clang__) && __clang_major__ < 18
 #define RLF_KERNEL_PORTABLE 1
 #endif

@@ -158,6 +158,39 @@ static void valid_surfaces_keep_their_background(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
+/* Early on, something small leaves: one tile changes, and the others stay in the new sheet. */
+static void one_tile_changes_alone(void **state)
+{
+    (void)state;
+    rlf_reconstruct *stage = make_stage();
+    analytic_random random = {9};
+    const rlf_vec3 left = {0.6, 0.0, -0.8}, right = {-0.6, 0.0, -0.8};
+    const rlf_rig *rig = &stage->def.rig;
+    int32_t sheets = 0;
+    for (int t = 0; t < 38; t++) {
+        for (int i = 0; i < COUNT; i++) {
+            double x = (i % WIDTH - rig->depth.cx) / rig->depth.fx;
+            double y = (i / WIDTH - rig->depth.cy) / rig->depth.fy;
+            double z = rlf_min(plane_depth(left, -1.6, x, y), plane_depth(right, -1.6, x, y));
+            bool is_thing =
+                t < 8 && i % WIDTH >= 30 && i % WIDTH < 42 && i / WIDTH >= 30 && i / WIDTH < 42;
+            z -= is_thing ? 0.4 : 0.0;
+            depth[i] = (float)(z + rlf_depth_noise_sigma(&rig->noise, z) * random_normal(&random));
+        }
+        rlf_frame frame = analytic_frame(rig, depth, t);
+        frame.rig = NULL;
+        int32_t newest = stage->background.newest;
+        const rlf_surface *s = NULL;
+        assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+        sheets += stage->background.newest != newest;
+        for (int i = 0; i < COUNT && s->background_state == RLF_BACKGROUND_READY; i++) {
+            assert_true(s->background_depth[i] > 0.0f);
+        }
+    }
+    assert_true(sheets >= 2); /* the first one, and one without the thing */
+    rlf_reconstruct_destroy(&stage);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -165,6 +198,7 @@ int main(void)
         cmocka_unit_test(means_get_better_without_a_change),
         cmocka_unit_test(no_frame_makes_more_than_its_share),
         cmocka_unit_test(valid_surfaces_keep_their_background),
+        cmocka_unit_test(one_tile_changes_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
