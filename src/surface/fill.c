@@ -9,6 +9,7 @@
  * or the background's own where that goes on there. A gap between two near ends that is wider than
  * a driver's band shows the background in its middle. */
 #include "surface/steps.h"
+#include "surface/window.h"
 
 #include "kernel/kernel.h"
 
@@ -26,11 +27,6 @@ static const float votes_at[2 * REACH + 1][2 * REACH + 1] = {{0.2f, 0.3f, 0.4f, 
 
 /* Share of the depth, from a side's end to a hole pixel. */
 static const float MOST_CHANGE = 0.05f;
-
-static int32_t least(int32_t a, int32_t b)
-{
-    return a < b ? a : b;
-}
 
 typedef struct gap {
     float before, after; /* depths of the ends; 0 = none */
@@ -64,8 +60,8 @@ static gap find_gap(const float *depth, line l)
         g.to_before = steps_to_depth(depth, -l.step, RLF_FILL_GAP);
         g.to_after = steps_to_depth(depth, l.step, RLF_FILL_GAP);
     } else {
-        g.to_before = steps_to_depth(depth, -l.step, least(l.before, RLF_FILL_GAP));
-        g.to_after = steps_to_depth(depth, l.step, least(l.after, RLF_FILL_GAP));
+        g.to_before = steps_to_depth(depth, -l.step, rlf_least(l.before, RLF_FILL_GAP));
+        g.to_after = steps_to_depth(depth, l.step, rlf_least(l.after, RLF_FILL_GAP));
     }
     if (g.to_before + g.to_after <= RLF_FILL_GAP + 1) {
         g.before = depth[-(ptrdiff_t)g.to_before * l.step];
@@ -256,8 +252,8 @@ static float fill_pixel(const fill_job *job, int32_t x, int32_t y)
     int32_t right = grid->width - 1 - x, down = grid->height - 1 - y;
     const line lines[4] = {{1, x, right},
                            {grid->width, y, down},
-                           {grid->width + 1, least(x, y), least(right, down)},
-                           {grid->width - 1, least(right, y), least(x, down)}};
+                           {grid->width + 1, rlf_least(x, y), rlf_least(right, down)},
+                           {grid->width - 1, rlf_least(right, y), rlf_least(x, down)}};
     gap best = {0.0f, 0.0f, 0, 0};
     for (int k = 0; k < 4 && (k < 2 || !is_closed(best)); k++) {
         gap g = find_gap(at, lines[k]);

@@ -5,6 +5,7 @@
  * where a pixel seen now, within two pixels, continues it, and it is forgotten for good when
  * something moves about it: so nothing that has left can stay, and nothing hangs in the air. */
 #include "surface/steps.h"
+#include "surface/window.h"
 
 #include "kernel/kernel.h"
 
@@ -29,23 +30,18 @@ typedef struct hold_job {
     uint8_t *reason;
 } hold_job;
 
-static int32_t least(int32_t a, int32_t b)
-{
-    return a < b ? a : b;
-}
-
 static void update_calm(const hold_job *job, int32_t bx, int32_t by)
 {
     const rlf_grid *grid = &job->stage->grid;
     uint8_t *calm = &job->stage->steady.calm[by * job->blocks_x + bx];
     int32_t moved = 0;
-    for (int32_t y = by * BLOCK; y < least((by + 1) * BLOCK, grid->height); y++) {
+    for (int32_t y = by * BLOCK; y < rlf_least((by + 1) * BLOCK, grid->height); y++) {
         const uint8_t *row = job->change + (ptrdiff_t)y * grid->width;
-        for (int32_t x = bx * BLOCK; x < least((bx + 1) * BLOCK, grid->width); x++) {
+        for (int32_t x = bx * BLOCK; x < rlf_least((bx + 1) * BLOCK, grid->width); x++) {
             moved += row[x] == RLF_CHANGE_MOVED;
         }
     }
-    *calm = (uint8_t)(moved >= LEAST_MOVED ? 0 : least(*calm + 1, MOST_CALM));
+    *calm = (uint8_t)(moved >= LEAST_MOVED ? 0 : rlf_least(*calm + 1, MOST_CALM));
 }
 
 static void mark_blocks(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -55,7 +51,8 @@ static void mark_blocks(void *context, int32_t begin, int32_t end, int32_t worke
     const rlf_steady *steady = &job->stage->steady;
     ptrdiff_t width = job->stage->grid.width;
     for (int32_t by = begin; by < end; by++) {
-        for (int32_t y = by * BLOCK; y < least((by + 1) * BLOCK, job->stage->grid.height); y++) {
+        for (int32_t y = by * BLOCK; y < rlf_least((by + 1) * BLOCK, job->stage->grid.height);
+             y++) {
             rlf_kernel_change_row(job->noise, job->depth + y * width, steady->mean + y * width,
                                   steady->frames + y * width, (int32_t)width,
                                   job->change + y * width);
@@ -75,8 +72,8 @@ static bool is_lost(const hold_job *job, ptrdiff_t i)
 static bool is_calm(const hold_job *job, int32_t x, int32_t y)
 {
     int32_t bx = x / BLOCK, by = y / BLOCK;
-    int32_t x0 = bx > 0 ? bx - 1 : 0, x1 = least(bx + 1, job->blocks_x - 1);
-    int32_t y0 = by > 0 ? by - 1 : 0, y1 = least(by + 1, job->blocks_y - 1);
+    int32_t x0 = bx > 0 ? bx - 1 : 0, x1 = rlf_least(bx + 1, job->blocks_x - 1);
+    int32_t y0 = by > 0 ? by - 1 : 0, y1 = rlf_least(by + 1, job->blocks_y - 1);
     bool calm = true;
     for (by = y0; by <= y1; by++) {
         for (bx = x0; bx <= x1; bx++) {
@@ -90,11 +87,7 @@ typedef struct evidence {
     bool moved, continued;
 } evidence;
 
-typedef struct bounds {
-    int32_t x0, x1, y0, y1;
-} bounds;
-
-static inline evidence look_within(const hold_job *job, ptrdiff_t i, bounds b)
+static inline evidence look_within(const hold_job *job, ptrdiff_t i, rlf_window b)
 {
     ptrdiff_t width = job->stage->grid.width;
     float w = job->stage->steady.mean[i];
@@ -116,11 +109,9 @@ static evidence look_around(const hold_job *job, int32_t x, int32_t y)
 {
     const rlf_grid *grid = &job->stage->grid;
     ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-    const bounds whole = {-REACH, REACH, -REACH, REACH};
-    const bounds cut = {-least(x, REACH), least(grid->width - 1 - x, REACH), -least(y, REACH),
-                        least(grid->height - 1 - y, REACH)};
-    bool inside = x >= REACH && y >= REACH && x + REACH < grid->width && y + REACH < grid->height;
-    return inside ? look_within(job, i, whole) : look_within(job, i, cut);
+    const rlf_window whole = {-REACH, REACH, -REACH, REACH}; /* known to the compiler: unrolled */
+    rlf_window cut = rlf_window_at(grid->width, grid->height, x, y, REACH);
+    return rlf_window_is_whole(cut, REACH) ? look_within(job, i, whole) : look_within(job, i, cut);
 }
 
 static void recall_pixel(const hold_job *job, int32_t x, int32_t y)

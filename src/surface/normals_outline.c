@@ -10,6 +10,7 @@
  * Things with faces turn at a crease. What is left of a narrow last face is a pixel here and there:
  * the outermost known normal stands for it. */
 #include "surface/steps.h"
+#include "surface/window.h"
 
 #include "kernel/kernel.h"
 
@@ -38,11 +39,6 @@ typedef struct outline {
     float distance; /* pixels */
 } outline;
 
-static int32_t least(int32_t a, int32_t b)
-{
-    return a < b ? a : b;
-}
-
 /* Something is behind the pixel, two pixels away along the row or the column. */
 static bool is_beside_outline(const outline_job *job, int32_t x, int32_t y)
 {
@@ -60,11 +56,7 @@ typedef struct sides {
     int32_t nearest; /* squared distance of what is behind */
 } sides;
 
-typedef struct bounds {
-    int32_t x0, x1, y0, y1;
-} bounds;
-
-static inline sides sum_sides(const float *at, ptrdiff_t width, bounds b)
+static inline sides sum_sides(const float *at, ptrdiff_t width, rlf_window b)
 {
     float behind = at[0] * (1.0f + LEAST_JUMP), before = at[0] * (1.0f - LEAST_JUMP);
     sides s = {.nearest = 99};
@@ -88,20 +80,14 @@ static inline sides sum_sides(const float *at, ptrdiff_t width, bounds b)
     return s;
 }
 
-static bounds window_at(const outline_job *job, int32_t x, int32_t y)
-{
-    return (bounds){-least(x, REACH), least(job->width - 1 - x, REACH), -least(y, REACH),
-                    least(job->height - 1 - y, REACH)};
-}
-
 /* False when nothing is behind the pixel. */
 static bool find_outline(const outline_job *job, int32_t x, int32_t y, outline *out)
 {
     const float *at = job->depth + (ptrdiff_t)y * job->width + x;
-    const bounds whole = {-REACH, REACH, -REACH, REACH};
-    bool inside = x >= REACH && y >= REACH && x + REACH < job->width && y + REACH < job->height;
-    sides s =
-        inside ? sum_sides(at, job->width, whole) : sum_sides(at, job->width, window_at(job, x, y));
+    const rlf_window whole = {-REACH, REACH, -REACH, REACH}; /* known to the compiler: unrolled */
+    rlf_window cut = rlf_window_at(job->width, job->height, x, y, REACH);
+    bool inside = rlf_window_is_whole(cut, REACH);
+    sides s = inside ? sum_sides(at, job->width, whole) : sum_sides(at, job->width, cut);
     if (s.far_n < 2) {
         return false;
     }
@@ -237,7 +223,7 @@ static void take_outermost(const outline_job *job, int32_t x, int32_t y, const o
     ptrdiff_t i = (ptrdiff_t)y * job->width + x;
     float z = job->depth[i], best = -1e9f;
     vector mean = {0.0f, 0.0f, 0.0f}, last = mean;
-    bounds b = window_at(job, x, y);
+    rlf_window b = rlf_window_at(job->width, job->height, x, y, REACH);
     for (int32_t dy = b.y0; dy <= b.y1; dy++) {
         for (int32_t dx = b.x0; dx <= b.x1; dx++) {
             ptrdiff_t k = i + (ptrdiff_t)dy * job->width + dx;
