@@ -6,7 +6,7 @@
 #include "relief/gl.h"
 #endif
 #ifdef RLF_HAVE_VIEWER
-#include "viewer.h"
+#include "viewer/viewer.h"
 #endif
 
 #include <getopt.h>

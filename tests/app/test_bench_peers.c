@@ -8,7 +8,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "bench_peers.h"
+#include "bench/peers.h"
 #include "command.h"
 #include "io_support.h"
 

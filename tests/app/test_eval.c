@@ -6,8 +6,8 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "eval.h"
-#include "measure_points.h"
+#include "eval/eval.h"
+#include "measure/points.h"
 
 #include <math.h>
 #include <string.h>

@@ -7,9 +7,9 @@
 #include <cmocka.h>
 
 #include "command.h"
-#include "eval_figures.h"
-#include "eval_report.h"
-#include "eval_run.h"
+#include "eval/figures.h"
+#include "eval/report.h"
+#include "eval/run.h"
 #include "statistics.h"
 
 #include <jansson.h>

@@ -8,9 +8,9 @@
 #include <cmocka.h>
 
 #include "command.h"
-#include "eval_bounds.h"
-#include "eval_sections.h"
-#include "eval_sheet.h"
+#include "eval/bounds.h"
+#include "eval/sections.h"
+#include "eval/sheet.h"
 #include "io_support.h"
 
 #include <math.h>

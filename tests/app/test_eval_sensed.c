@@ -5,8 +5,8 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "eval_ball.h"
-#include "eval_sensed.h"
+#include "eval/ball.h"
+#include "eval/sensed.h"
 
 #include <math.h>
 

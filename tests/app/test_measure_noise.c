@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "analytic.h"
-#include "measure_noise.h"
+#include "measure/noise.h"
 
 #define W 160
 #define H 120

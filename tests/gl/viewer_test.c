@@ -8,8 +8,8 @@
 
 #include "relief/gl.h"
 #include "relief/synthetic.h"
-#include "viewer.h"
-#include "viewer_throw.h"
+#include "viewer/viewer.h"
+#include "viewer/throw.h"
 
 #include <epoxy/gl.h>
 

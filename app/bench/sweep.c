@@ -1,0 +1,216 @@
+/* How the cost grows: with pixels, with regions, with people, with bodies. */
+#include "bench/bench.h"
+#include "command.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define WARM_UP 10 /* frames, of them BENCH_EMPTY_FRAMES empty */
+#define FRAMES 16
+
+static const int32_t sizes[][2] = {{160, 120}, {320, 240},  {512, 424},  {640, 480},
+                                   {960, 540}, {1280, 720}, {1920, 1080}};
+static const int32_t region_counts[] = {1, 4, 16, 64, 225};
+static const int32_t people_counts[] = {0, 1, 2, 4, 8};
+static const int32_t body_counts[] = {2, 100, 1000};
+#define COUNT(array) ((int)(sizeof(array) / sizeof((array)[0])))
+
+/* Times the surface stage of profile live on an analytic room. */
+static rlf_result time_room(const bench_room *room, rlf_pool *pool, timing_series *out,
+                            int32_t *out_regions)
+{
+    rlf_source *source = NULL;
+    rlf_reconstruct *stage = NULL;
+    rlf_result result = bench_source_create(room, &source);
+    if (result == RLF_OK) {
+        const rlf_rig *rig = &rlf_source_get_info(source)->rig;
+        rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, rig);
+        def.pool = pool;
+        result = rlf_reconstruct_create(&def, &stage);
+    }
+    memset(out, 0, sizeof(*out));
+    for (int i = 0; i < WARM_UP + FRAMES && result == RLF_OK && !command_interrupted; i++) {
+        rlf_frame frame;
+        const rlf_surface *surface = NULL;
+        result = rlf_source_next(source, &frame);
+        int64_t start = rlf_clock_ns();
+        result = result == RLF_OK ? rlf_reconstruct_process(stage, &frame, &surface) : result;
+        double ms = (double)(rlf_clock_ns() - start) * 1e-6;
+        if (result == RLF_OK && i >= WARM_UP) {
+            timing_add(out, ms);
+            *out_regions = surface->region_count;
+        }
+    }
+    rlf_reconstruct_destroy(&stage);
+    rlf_source_destroy(&source);
+    return result;
+}
+
+/* Ratio: nanoseconds per pixel beside those of 512x424 (rows before it are set afterwards). */
+static rlf_result sweep_sizes(rlf_pool *pool, timing_series *series, bench_table *table)
+{
+    int32_t first = table->count;
+    double reference = NAN;
+    for (int i = 0; i < COUNT(sizes); i++) {
+        bench_room room = {sizes[i][0], sizes[i][1], 1, 16};
+        char name[BENCH_NAME];
+        int32_t regions = 0;
+        rlf_result result = time_room(&room, pool, series, &regions);
+        if (result != RLF_OK) {
+            return result;
+        }
+        snprintf(name, sizeof(name), "%dx%d", (int)room.width, (int)room.height);
+        double per_pixel = timing_percentile(series, 50) / ((double)room.width * room.height);
+        reference = room.width == 512 ? per_pixel : reference;
+        bench_add_series(table, "resolution", name, series, per_pixel);
+    }
+    for (int32_t i = first; i < table->count; i++) {
+        table->rows[i].ratio /= reference;
+    }
+    return RLF_OK;
+}
+
+/* Ratio: beside the sweep's first row. */
+static rlf_result sweep_room(const char *group, const int32_t *counts, int count, bool is_people,
+                             rlf_pool *pool, timing_series *series, bench_table *table)
+{
+    double reference = NAN;
+    for (int i = 0; i < count; i++) {
+        bench_room room = {512, 424, is_people ? counts[i] : 0, is_people ? 4 : counts[i]};
+        char name[BENCH_NAME];
+        int32_t regions = 0;
+        rlf_result result = time_room(&room, pool, series, &regions);
+        if (result != RLF_OK) {
+            return result;
+        }
+        double ms = timing_percentile(series, 50);
+        reference = i == 0 ? ms : reference;
+        snprintf(name, sizeof(name), "%d (%d found)", (int)counts[i], (int)regions);
+        if (is_people) {
+            snprintf(name, sizeof(name), "%d", (int)counts[i]);
+        }
+        bench_add_series(table, group, name, series, ms / reference);
+    }
+    return RLF_OK;
+}
+
+/* Cubes of 10 cm in a block above floor and table, all falling at once. */
+static rlf_result make_bodies(int32_t count, rlf_scene *out)
+{
+    memset(out, 0, sizeof(*out));
+    out->gravity = rlf_vec3_make(0, 9.81, 0);
+    out->bodies = rlf_alloc_array((size_t)count, sizeof(*out->bodies));
+    if (out->bodies == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    out->body_count = count;
+    for (int32_t i = 0; i < count; i++) {
+        out->bodies[i] = rlf_body_def_default();
+        out->bodies[i].position = rlf_vec3_make(-0.72 + 0.16 * (i % 10), 0.7 - 0.14 * (i / 100),
+                                                1.6 + 0.13 * (i / 10 % 10));
+    }
+    return RLF_OK;
+}
+
+static rlf_result time_bodies(const bench_options *o, int32_t count, timing_series *out)
+{
+    rlf_scene scene;
+    rlf_result result = make_bodies(count, &scene);
+    if (result != RLF_OK) {
+        return result;
+    }
+    session_options options = session_options_default();
+    options.source = "synthetic:room?color=0";
+    options.scene = &scene;
+    options.thread_count = o->threads;
+    options.enable_render = false;
+    session s;
+    result = session_open(&options, &s);
+    rlf_scene_destroy(&scene);
+    if (result != RLF_OK) {
+        return result;
+    }
+    memset(out, 0, sizeof(*out));
+    for (int i = 0; i < 2 * (WARM_UP + FRAMES) && result == RLF_OK && !command_interrupted; i++) {
+        rlf_pipeline_output frame;
+        result = rlf_pipeline_step(s.pipeline, &frame);
+        if (result == RLF_OK && i >= WARM_UP) {
+            timing_add(out, frame.times.physics_ms);
+        }
+    }
+    session_close(&s);
+    return result;
+}
+
+/* Ratio: per body, beside that of 100 bodies. */
+static rlf_result sweep_bodies(const bench_options *o, timing_series *series, bench_table *table)
+{
+    int32_t first = table->count;
+    double reference = NAN;
+    for (int i = 0; i < COUNT(body_counts); i++) {
+        char name[BENCH_NAME];
+        rlf_result result = time_bodies(o, body_counts[i], series);
+        if (result != RLF_OK) {
+            return result;
+        }
+        double per_body = timing_percentile(series, 50) / body_counts[i];
+        reference = body_counts[i] == 100 ? per_body : reference;
+        snprintf(name, sizeof(name), "%d", (int)body_counts[i]);
+        bench_add_series(table, "bodies", name, series, per_body);
+    }
+    for (int32_t i = first; i < table->count; i++) {
+        table->rows[i].ratio /= reference;
+    }
+    return RLF_OK;
+}
+
+static rlf_result run_all(const bench_options *o, rlf_pool *pool, timing_series *series,
+                          bench_table *table)
+{
+    rlf_result result = sweep_sizes(pool, series, table);
+    if (result == RLF_OK) {
+        result =
+            sweep_room("regions", region_counts, COUNT(region_counts), false, pool, series, table);
+    }
+    if (result == RLF_OK) {
+        result =
+            sweep_room("people", people_counts, COUNT(people_counts), true, pool, series, table);
+    }
+    return result == RLF_OK ? sweep_bodies(o, series, table) : result;
+}
+
+rlf_result bench_sweeps_run(const bench_options *o, bench_table *table)
+{
+    fprintf(stderr, "sweeps\n");
+    rlf_pool *pool = NULL;
+    timing_series *series = rlf_alloc(sizeof(*series));
+    rlf_result result = rlf_pool_create(o->threads, &pool);
+    result = series != NULL ? result : RLF_ERROR_MEMORY;
+    if (result == RLF_OK) {
+        result = run_all(o, pool, series, table);
+    }
+    rlf_free(series);
+    rlf_pool_destroy(&pool);
+    return result;
+}
+
+static void print_sweep(const bench_table *table, const char *group, const char *title)
+{
+    printf("%s\n", title);
+    for (int32_t i = 0; i < table->count; i++) {
+        const bench_row *row = &table->rows[i];
+        if (strcmp(row->group, group) == 0) {
+            printf("  %-20s %9.3f %9.3f %8.2f\n", row->name, row->median, row->p95, row->ratio);
+        }
+    }
+}
+
+void bench_sweeps_print(const bench_table *table)
+{
+    printf("\nscaling, profile live: ms median, p95, ratio\n");
+    print_sweep(table, "resolution", "surface, pixels; ratio: per pixel beside 512x424");
+    print_sweep(table, "regions", "surface, regions at 512x424; ratio: beside the first");
+    print_sweep(table, "people", "surface, people at 512x424; ratio: beside the first");
+    print_sweep(table, "bodies", "physics, bodies at 512x424; ratio: per body beside 100");
+}

@@ -1,0 +1,270 @@
+/* `relief eval`: every accuracy figure, both profiles side by side, against its goal and its bound.
+ */
+#include "command.h"
+#include "eval/picture.h"
+#include "eval/report.h"
+#include "eval/run.h"
+#include "eval/sections.h"
+#include "session.h"
+
+#include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PICTURE "picture" /* by itself it has a table of its own, with every method */
+#define PICTURE_FRAMES 100
+
+typedef struct eval_options {
+    const char *section; /* NULL = all of them */
+    const char *normals_path;
+    const char *json_path;
+    int64_t frames; /* 0 = each scene's own */
+    int64_t seeds, threads;
+    int profile_mask; /* bit of each rlf_profile */
+} eval_options;
+
+/* One section with one seed; tasks run on different threads. */
+typedef struct eval_task {
+    const char *section;
+    int64_t seed;
+    const eval_options *options;
+    eval_table *table;
+    rlf_result result;
+    char error[256];
+} eval_task;
+
+typedef rlf_result (*section_fn)(eval_table *table, int64_t seed, int profile_mask);
+
+typedef struct section {
+    const char *name;
+    section_fn run;
+    const char *title;
+} section;
+
+/* Beside the synthetic scenes. */
+static const section sections[] = {
+    {PICTURE, eval_picture_run, "what hides bodies, at the colour camera"},
+    {"planes", eval_planes_run, "planes without noise, and one with holes"},
+    {"plate", eval_plate_run, "a moving plate before a still wall"},
+    {"physics", eval_physics_run, "bodies in free flight, at rest, pushed and thrown"},
+    {"sensed", eval_sensed_run, "the same on what the sensor shows, against the true scene"},
+};
+#define SECTION_COUNT ((int)(sizeof(sections) / sizeof(sections[0])))
+
+static const section *find_section(const char *name)
+{
+    for (int i = 0; i < SECTION_COUNT; i++) {
+        if (strcmp(sections[i].name, name) == 0) {
+            return &sections[i];
+        }
+    }
+    return NULL;
+}
+
+static void print_help(void)
+{
+    printf(
+        "usage: relief eval [OPTIONS]\n\n"
+        "Measures accuracy where the truth is known, for both profiles: mean over the seeds with\n"
+        "its 95 %% confidence interval, beside the goal. Exit status 1 when a figure of profile\n"
+        "live is outside its bound.\n\n"
+        "  --scene NAME      only this one, with every figure:\n");
+    for (int32_t i = 0; i < eval_scene_count; i++) {
+        printf("                      %-8s %s\n", eval_scenes[i].name, eval_scenes[i].title);
+    }
+    for (int i = 0; i < SECTION_COUNT; i++) {
+        printf("                      %-8s %s\n", sections[i].name, sections[i].title);
+    }
+    printf(
+        "  --normals DIR     clean depth with true normals: folders of depth.bin, normal.png and\n"
+        "                    params.txt (docs/measuring.md); only this unless --scene is given\n"
+        "  --seeds N         seeds 1..N of noise and throws, default 3\n"
+        "  --frames N        frames per scene, default as long as its story\n"
+        "  --profile NAME    live, thesis or both (default)\n"
+        "  --threads N       default 0 = one per processor\n"
+        "  --json FILE       everything: seeds, values, means, intervals, goals, bounds\n\n"
+        "examples:\n"
+        "  relief eval\n"
+        "  relief eval --scene chair --seeds 10 --json chair.json\n"
+        "  relief eval --normals path/to/frames\n");
+}
+
+static const struct option long_options[] = {
+    {"scene", required_argument, NULL, 's'},
+    {"normals", required_argument, NULL, 'd'},
+    {"frames", required_argument, NULL, 'f'},
+    {"seeds", required_argument, NULL, 'n'},
+    {"profile", required_argument, NULL, 'p'},
+    {"threads", required_argument, NULL, 't'},
+    {"json", required_argument, NULL, 'j'},
+    {"help", no_argument, NULL, 'h'},
+    {0},
+};
+
+static int take_profile(eval_options *o)
+{
+    rlf_profile profile;
+    if (strcmp(optarg, "both") == 0) {
+        o->profile_mask = 3;
+    } else if (session_parse_profile(optarg, &profile)) {
+        o->profile_mask = 1 << profile;
+    } else {
+        return command_usage("eval", "--profile '%s': use live, thesis or both", optarg);
+    }
+    return -1;
+}
+
+static int take_scene(eval_options *o)
+{
+    o->section = optarg;
+    bool is_known = eval_scene_find(optarg) != NULL || find_section(optarg) != NULL;
+    return is_known ? -1 : command_usage("eval", "--scene '%s' is not one of them", optarg);
+}
+
+static int take_number(const char *name, int64_t low, int64_t high, int64_t *out)
+{
+    return command_parse_int(optarg, low, high, out)
+               ? -1
+               : command_usage("eval", "--%s '%s': use %lld to %lld", name, optarg, (long long)low,
+                               (long long)high);
+}
+
+/* Returns -1 to go on, or an exit status. */
+static int take_option(int option, eval_options *o)
+{
+    switch (option) {
+    case 's': return take_scene(o);
+    case 'd': o->normals_path = optarg; return -1;
+    case 'j': o->json_path = optarg; return -1;
+    case 'p': return take_profile(o);
+    case 'f': return take_number("frames", 20, 100000, &o->frames);
+    case 'n': return take_number("seeds", 1, EVAL_SEEDS_MAX, &o->seeds);
+    case 't': return take_number("threads", 0, 64, &o->threads);
+    case 'h': print_help(); return EXIT_DONE;
+    default: return EXIT_USAGE;
+    }
+}
+
+static int parse(int argc, char **argv, eval_options *o)
+{
+    *o = (eval_options){.seeds = 3, .profile_mask = 3};
+    int option;
+    while ((option = getopt_long(argc, argv, "h", long_options, NULL)) != -1) {
+        int status = take_option(option, o);
+        if (status >= 0) {
+            return status;
+        }
+    }
+    return argc != optind ? command_usage("eval", "takes no SOURCE") : -1;
+}
+
+static rlf_result run_task(const eval_task *task)
+{
+    const eval_options *o = task->options;
+    const eval_scene *scene = eval_scene_find(task->section);
+    if (scene != NULL) {
+        int64_t frames = o->frames > 0 ? o->frames : scene->frames;
+        return eval_scene_run(task->table, scene, task->seed, frames, o->profile_mask);
+    }
+    return find_section(task->section)->run(task->table, task->seed, o->profile_mask);
+}
+
+static void run_tasks(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    eval_task *tasks = context;
+    for (int32_t i = begin; i < end && !command_interrupted; i++) {
+        tasks[i].result = run_task(&tasks[i]);
+        if (tasks[i].result != RLF_OK) { /* the error line is the thread's own */
+            snprintf(tasks[i].error, sizeof(tasks[i].error), "%s", rlf_error_text());
+        }
+        fprintf(stderr, "%s, seed %lld done\n", tasks[i].section, (long long)tasks[i].seed);
+    }
+}
+
+/* The longest first, so that no thread is left with one at the end. */
+static int32_t list_tasks(const eval_options *o, eval_task *tasks)
+{
+    int32_t count = 0;
+    for (int32_t s = 0; s < eval_scene_count + SECTION_COUNT; s++) {
+        const char *name =
+            s < eval_scene_count ? eval_scenes[s].name : sections[s - eval_scene_count].name;
+        bool is_wanted =
+            o->section != NULL ? strcmp(o->section, name) == 0 : o->normals_path == NULL;
+        for (int64_t seed = 1; is_wanted && seed <= o->seeds; seed++) {
+            tasks[count++] = (eval_task){.section = name, .seed = seed, .options = o};
+        }
+    }
+    return count;
+}
+
+static rlf_result run_all(const eval_options *o, eval_task *tasks, int32_t count, eval_table *table)
+{
+    rlf_pool *pool = NULL;
+    rlf_result result = rlf_pool_create((int32_t)o->threads, &pool);
+    for (int32_t i = 0; i < count && result == RLF_OK; i++) {
+        tasks[i].table = rlf_alloc(sizeof(*tasks[i].table));
+        result = tasks[i].table != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+    }
+    if (result == RLF_OK) {
+        rlf_parallel_for(pool, count, 1, run_tasks, tasks);
+    }
+    for (int32_t i = 0; i < count; i++) {
+        if (result == RLF_OK && tasks[i].result != RLF_OK) {
+            result = rlf_fail(tasks[i].result, "%s", tasks[i].error);
+        }
+        if (result == RLF_OK) {
+            eval_table_merge(table, tasks[i].table);
+        }
+        rlf_free(tasks[i].table);
+    }
+    rlf_pool_destroy(&pool);
+    return result;
+}
+
+static rlf_result measure(const eval_options *o, eval_table *table)
+{
+    size_t capacity = (size_t)(eval_scene_count + SECTION_COUNT) * (size_t)o->seeds;
+    eval_task *tasks = rlf_alloc_array(capacity, sizeof(*tasks));
+    if (tasks == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    rlf_result result = run_all(o, tasks, list_tasks(o, tasks), table);
+    rlf_free(tasks);
+    if (result == RLF_OK && o->normals_path != NULL) {
+        result = eval_public_run(table, o->normals_path, o->profile_mask);
+    }
+    return result;
+}
+
+int eval_main(int argc, char **argv)
+{
+    eval_options options;
+    int status = parse(argc, argv, &options);
+    if (status >= 0) {
+        return status;
+    }
+    if (options.section != NULL && strcmp(options.section, PICTURE) == 0) {
+        return eval_picture_main(options.frames > 0 ? options.frames : PICTURE_FRAMES,
+                                 options.seeds, options.json_path);
+    }
+    eval_table *table = rlf_alloc(sizeof(*table));
+    if (table == NULL) {
+        return command_failed();
+    }
+    int32_t outside = 0;
+    rlf_result result = measure(&options, table);
+    if (result == RLF_OK) {
+        eval_report_options report = {.print_all = options.section != NULL,
+                                      .is_whole = options.frames == 0 && !command_interrupted,
+                                      .json_path = options.json_path,
+                                      .seeds = options.seeds};
+        result = eval_report(table, &report, &outside);
+    }
+    rlf_free(table);
+    if (result != RLF_OK) {
+        return command_failed();
+    }
+    return outside > 0 ? EXIT_FAILED : EXIT_DONE;
+}

@@ -1,0 +1,124 @@
+/* Normal error against truth. */
+#include "eval/eval.h"
+
+#define BAND_PIXELS 6
+#define JUMP_SHARE 0.04
+#define WRONG_DEG 30.0
+
+double eval_mean_deg(const eval_angles *a)
+{
+    return a->count > 0 ? a->sum_deg / (double)a->count : NAN;
+}
+
+double eval_median_deg(const eval_angles *a)
+{
+    int64_t seen = 0;
+    for (int i = 0; i < EVAL_ANGLE_BINS; i++) {
+        seen += a->bins[i];
+        if (2 * seen >= a->count && a->count > 0) {
+            return (i + 0.5) * 180.0 / EVAL_ANGLE_BINS;
+        }
+    }
+    return NAN;
+}
+
+double eval_wrong_percent(const eval_angles *a)
+{
+    return eval_percent(a->wrong, a->count);
+}
+
+double eval_missing_percent(const eval_angles *a)
+{
+    return eval_percent(a->missing, a->count + a->missing);
+}
+
+double eval_within_percent(const eval_angles *a, double degrees)
+{
+    int64_t within = 0;
+    for (int i = 0; i < (int)(degrees * EVAL_ANGLE_BINS / 180.0); i++) {
+        within += a->bins[i];
+    }
+    return eval_percent(within, a->count);
+}
+
+void eval_add_angle(eval_angles *a, double degrees)
+{
+    int bin = (int)(degrees * EVAL_ANGLE_BINS / 180.0);
+    a->bins[bin < EVAL_ANGLE_BINS ? bin : EVAL_ANGLE_BINS - 1]++;
+    a->sum_deg += degrees;
+    a->count++;
+    a->wrong += degrees > WRONG_DEG;
+}
+
+static bool is_jump(float a, float b)
+{
+    float near = a < b ? a : b;
+    float step = a < b ? b - a : a - b;
+    return near > 0.0f && step > (float)JUMP_SHARE * near;
+}
+
+/* Square dilation by BAND_PIXELS along one axis. */
+static void dilate(const uint8_t *in, uint8_t *out, int32_t count, int32_t step)
+{
+    int32_t last = -BAND_PIXELS - 1;
+    for (int32_t i = 0; i < count; i++) {
+        last = in[i * step] ? i : last;
+        out[i * step] = i - last <= BAND_PIXELS;
+    }
+    last = count + BAND_PIXELS;
+    for (int32_t i = count - 1; i >= 0; i--) {
+        last = in[i * step] ? i : last;
+        out[i * step] |= last - i <= BAND_PIXELS;
+    }
+}
+
+void eval_mark_band(const float *depth, int32_t width, int32_t height, uint8_t *out,
+                    uint8_t *scratch)
+{
+    for (int32_t y = 0; y < height; y++) {
+        for (int32_t x = 0; x < width; x++) {
+            int32_t i = y * width + x;
+            bool right = x + 1 < width && is_jump(depth[i], depth[i + 1]);
+            bool left = x > 0 && is_jump(depth[i], depth[i - 1]);
+            bool below = y + 1 < height && is_jump(depth[i], depth[i + width]);
+            bool above = y > 0 && is_jump(depth[i], depth[i - width]);
+            out[i] = right || left || below || above;
+        }
+    }
+    for (int32_t y = 0; y < height; y++) {
+        dilate(out + (ptrdiff_t)y * width, scratch + (ptrdiff_t)y * width, width, 1);
+    }
+    for (int32_t x = 0; x < width; x++) {
+        dilate(scratch + x, out + x, height, width);
+    }
+}
+
+void eval_normals_add(eval_normals *e, const rlf_surface *s, const rlf_truth *truth,
+                      const rlf_rig *rig, const uint8_t *band)
+{
+    for (int32_t y = 0; y < s->height; y++) {
+        for (int32_t x = 0; x < s->width; x++) {
+            int32_t i = y * s->width + x;
+            int32_t t = y * s->scale_factor * rig->depth.width + x * s->scale_factor;
+            if (!(truth->depth[t] >= rig->depth_min_m && truth->depth[t] <= rig->depth_max_m)) {
+                continue;
+            }
+            eval_angles *angles = band[t] ? &e->band : &e->interior;
+            double nx = s->normal_x[i];
+            double ny = s->normal_y[i];
+            double nz = s->normal_z[i];
+            if (nx == 0.0 && ny == 0.0 && nz == 0.0) {
+                angles->missing++;
+                e->seen.missing += band[t] && s->reason[i] == RLF_REASON_OK;
+                continue;
+            }
+            double dot =
+                nx * truth->normal_x[t] + ny * truth->normal_y[t] + nz * truth->normal_z[t];
+            double degrees = rlf_acos(dot) * 180.0 / RLF_PI;
+            eval_add_angle(angles, degrees);
+            if (band[t] && s->reason[i] == RLF_REASON_OK) {
+                eval_add_angle(&e->seen, degrees);
+            }
+        }
+    }
+}

@@ -1,0 +1,72 @@
+/* How well bodies are hidden in the picture, against the truth at the colour camera. */
+#ifndef RELIEF_APP_EVAL_PICTURE_H
+#define RELIEF_APP_EVAL_PICTURE_H
+
+#include "eval/table.h"
+#include "relief/io.h"
+
+#define PICTURE_BODIES 20
+#define PICTURE_SAMPLES 16 /* per pixel, on a grid of 4 x 4 */
+#define PICTURE_BINS 640   /* of displacement, 1/40 pixel each: to 16 pixels */
+
+/* `relief eval --scene picture`. Returns the exit status. */
+int eval_picture_main(int64_t frame_count, int64_t seed_count, const char *json_path);
+/* The same as rows of `relief eval`, on a few pictures of one seed: soft occlusion for profile
+ * live, the thesis's layers for profile thesis. */
+rlf_result eval_picture_run(eval_table *table, int64_t seed, int profile_mask);
+
+/* ---- eval_picture_truth.c: what the colour camera ought to see ------------------------------- */
+
+/* Pixels that bodies cover whole, and what hides them. */
+typedef struct picture_truth {
+    rlf_camera camera;
+    rlf_vec3 origin; /* of the colour camera in the depth camera's frame */
+    int32_t *pixels; /* those measured */
+    int32_t count;
+    float *body_z;  /* [pixel][sample]; the last sample is the middle; 0 = no body */
+    float *alpha;   /* [pixel] share of the body that shows, 0..1; -1 = not measured */
+    float *gap;     /* [pixel] body's z minus the real one's in the middle, metres */
+    uint8_t *label; /* [pixel] of what is there in the middle */
+    uint8_t *band;  /* [pixel] 1 = within 9 pixels of an edge of alpha */
+    uint8_t *close; /* [pixel] 1 = within 3 pixels */
+    uint8_t *inner; /* [pixel] 1 = no pixel within 8 is unmeasured */
+} picture_truth;
+
+/* Boxes and balls all over the room that touch nothing that stands there now. */
+rlf_result picture_place_bodies(uint64_t seed, rlf_source *source,
+                                rlf_body_state bodies[PICTURE_BODIES], int32_t *out_count);
+rlf_result picture_truth_init(picture_truth *t, const rlf_rig *rig, const rlf_body_state *bodies,
+                              int32_t body_count);
+void picture_truth_finish(picture_truth *t);
+/* The truth of the source's last frame. */
+rlf_result picture_truth_update(picture_truth *t, rlf_source *source);
+
+/* ---- eval_picture_edges.c: how far a matte is off -------------------------------------------- */
+
+/* Distances between edges, in bins of 1/40 pixel. */
+typedef struct picture_distances {
+    int64_t bins[PICTURE_BINS];
+    int64_t count;
+    double sum;
+} picture_distances;
+
+typedef struct picture_errors {
+    picture_distances person, things; /* what hides the body */
+    int64_t hidden, both_hidden, either_hidden;
+    double band_sum; /* of |alpha - truth| */
+    int64_t band_count;
+    int64_t pixels, order, order_far; /* wrong though depths differ by 5 cm; beyond 3 pixels */
+    double flicker_sum;
+    int64_t flicker_count;
+    double ms; /* least time of a picture */
+} picture_errors;
+
+/* Adds one picture. `alpha` and `before` (may be NULL: the picture before, for flicker) have a
+ * value per pixel. */
+void picture_errors_add(picture_errors *e, const picture_truth *t, const float *alpha,
+                        const float *before);
+/* NAN when there is no edge. */
+double picture_mean(const picture_distances *d);
+double picture_percentile(const picture_distances *d, double percent);
+
+#endif

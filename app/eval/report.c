@@ -1,0 +1,157 @@
+/* Goal, bound, mean with its confidence interval, and the thesis beside it. */
+#include "eval/report.h"
+
+#include "statistics.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static statistics row_statistics(const eval_row *row, rlf_profile profile)
+{
+    return statistics_of(row->values[profile], row->count[profile]);
+}
+
+static eval_verdict judge(const eval_row *row, const eval_bound *bound)
+{
+    return eval_bound_judge(bound, row_statistics(row, RLF_PROFILE_LIVE).mean);
+}
+
+static bool is_outside(eval_verdict verdict, bool is_whole)
+{
+    return verdict == EVAL_OUTSIDE || (verdict == EVAL_NOT_MEASURED && is_whole);
+}
+
+static void format_mean(const statistics *s, char *out, size_t size)
+{
+    if (s->count == 0) {
+        snprintf(out, size, "-");
+    } else if (isnan(s->half_width)) {
+        snprintf(out, size, "%.4g", s->mean);
+    } else {
+        snprintf(out, size, "%.4g +-%-7.2g", s->mean, s->half_width);
+    }
+}
+
+static void format_limit(const eval_bound *bound, double value, char *out, size_t size)
+{
+    if (bound == NULL || isnan(value)) {
+        out[0] = '\0';
+    } else {
+        snprintf(out, size, "%s %.4g", bound->relation == '<' ? "<=" : ">=", value);
+    }
+}
+
+static void print_row(const eval_row *row, const eval_bound *bound, bool is_whole)
+{
+    char live[40], thesis[40], goal[24], limit[24];
+    statistics s = row_statistics(row, RLF_PROFILE_LIVE);
+    format_mean(&s, live, sizeof(live));
+    s = row_statistics(row, RLF_PROFILE_THESIS);
+    format_mean(&s, thesis, sizeof(thesis));
+    format_limit(bound, bound != NULL ? bound->goal : NAN, goal, sizeof(goal));
+    format_limit(bound, bound != NULL ? bound->bound : NAN, limit, sizeof(limit));
+    const char *mark = "";
+    if (bound != NULL && row->count[RLF_PROFILE_LIVE] > 0) {
+        eval_verdict verdict = judge(row, bound);
+        mark = is_outside(verdict, is_whole) ? eval_verdict_name(EVAL_OUTSIDE)
+                                             : eval_verdict_name(verdict);
+    }
+    printf("  %-46s %10s  %-18s %-18s %10s %s\n", row->title, goal, live, thesis, limit, mark);
+}
+
+static void print_table(const eval_table *table, const eval_report_options *o)
+{
+    printf("%-48s %10s  %-18s %-18s %10s\n", "figure: mean over seeds +- 95 % confidence", "goal",
+           "live", "thesis", "bound");
+    const char *scene = "";
+    for (int32_t i = 0; i < table->count; i++) {
+        const eval_row *row = &table->rows[i];
+        const eval_bound *bound = eval_bound_find(row->scene, row->key);
+        if (!o->print_all && bound == NULL) {
+            continue;
+        }
+        if (strcmp(scene, row->scene) != 0) {
+            printf("%s\n", row->scene);
+            scene = row->scene;
+        }
+        print_row(row, bound, o->is_whole);
+    }
+}
+
+static json_t *number_json(double value)
+{
+    return isnan(value) ? json_null() : json_real(value);
+}
+
+static json_t *profile_json(const eval_row *row, rlf_profile profile)
+{
+    statistics s = row_statistics(row, profile);
+    json_t *values = json_array();
+    for (int32_t i = 0; i < row->count[profile]; i++) {
+        json_array_append_new(values, number_json(row->values[profile][i]));
+    }
+    return json_pack("{s:o, s:o, s:o}", "mean", number_json(s.mean), "ci95",
+                     number_json(s.half_width), "values", values);
+}
+
+static json_t *row_json(const eval_row *row, bool is_whole)
+{
+    json_t *json = json_pack("{s:s, s:s, s:s}", "scene", row->scene, "key", row->key, "title",
+                             row->title + strspn(row->title, " "));
+    for (int profile = 0; profile < EVAL_PROFILES; profile++) {
+        if (row->count[profile] > 0) {
+            json_object_set_new(json, profile == RLF_PROFILE_LIVE ? "live" : "thesis",
+                                profile_json(row, (rlf_profile)profile));
+        }
+    }
+    const eval_bound *bound = eval_bound_find(row->scene, row->key);
+    if (bound != NULL) {
+        eval_verdict verdict = judge(row, bound);
+        json_object_set_new(json, "relation", json_string(bound->relation == '<' ? "<=" : ">="));
+        json_object_set_new(json, "goal", number_json(bound->goal));
+        json_object_set_new(json, "bound", number_json(bound->bound));
+        json_object_set_new(json, "reference", json_string(bound->reference));
+        json_object_set_new(json, "verdict", json_string(eval_verdict_name(verdict)));
+        json_object_set_new(json, "ok", json_boolean(!is_outside(verdict, is_whole)));
+    }
+    return json;
+}
+
+static rlf_result write_json(const eval_table *table, const eval_report_options *o, int32_t outside)
+{
+    json_t *rows = json_array();
+    for (int32_t i = 0; i < table->count; i++) {
+        json_array_append_new(rows, row_json(&table->rows[i], o->is_whole));
+    }
+    json_t *seeds = json_array();
+    for (int64_t seed = 1; seed <= o->seeds; seed++) {
+        json_array_append_new(seeds, json_integer(seed));
+    }
+    json_t *root =
+        json_pack("{s:o, s:i, s:o}", "seeds", seeds, "outside", (int)outside, "figures", rows);
+    int failed = json_dump_file(root, o->json_path, JSON_INDENT(2));
+    json_decref(root);
+    return failed ? rlf_fail(RLF_ERROR_IO, "%s: cannot be written; choose another --json file",
+                             o->json_path)
+                  : RLF_OK;
+}
+
+rlf_result eval_report(const eval_table *table, const eval_report_options *options,
+                       int32_t *out_outside)
+{
+    int32_t outside = 0, judged = 0;
+    for (int32_t i = 0; i < table->count; i++) {
+        const eval_row *row = &table->rows[i];
+        const eval_bound *bound = eval_bound_find(row->scene, row->key);
+        if (bound != NULL && row->count[RLF_PROFILE_LIVE] > 0) {
+            outside += is_outside(judge(row, bound), options->is_whole);
+            judged++;
+        }
+    }
+    print_table(table, options);
+    printf("%d figures with a bound, %d outside it\n", (int)judged, (int)outside);
+    *out_outside = outside;
+    return options->json_path != NULL ? write_json(table, options, outside) : RLF_OK;
+}

@@ -1,0 +1,18 @@
+/* The parts of `relief eval` that need no simulated camera; each adds its rows to the table. */
+#ifndef RELIEF_APP_EVAL_SECTIONS_H
+#define RELIEF_APP_EVAL_SECTIONS_H
+
+#include "eval/table.h"
+
+/* Noise-free planes of any slope over the whole field of view, and a plane with holes. */
+rlf_result eval_planes_run(eval_table *table, int64_t seed, int profile_mask);
+/* A plate that moves at 0.5 m/s before a wall, seen with noise. */
+rlf_result eval_plate_run(eval_table *table, int64_t seed, int profile_mask);
+/* Clean depth with true normals: every frame below `folder`; see docs/measuring.md. */
+rlf_result eval_public_run(eval_table *table, const char *folder, int profile_mask);
+/* Free flight, collisions between bodies, and bodies on sensed planes that move or rest. */
+rlf_result eval_physics_run(eval_table *table, int64_t seed, int profile_mask);
+/* Physics on what the synthetic sensor shows, against the true scene. */
+rlf_result eval_sensed_run(eval_table *table, int64_t seed, int profile_mask);
+
+#endif

@@ -1,0 +1,158 @@
+/* The rows of section "sensed". */
+#include "eval/sensed.h"
+
+#define THROWS 200 /* per seed and row: 5 seeds make 1000 */
+
+#define ADD(key, title, value) eval_table_add(table, "sensed", key, title, profile, value)
+
+static double percent(int64_t part, int64_t whole)
+{
+    return whole > 0 ? 100.0 * (double)part / (double)whole : 0.0;
+}
+
+static rlf_result add_static_throws(eval_table *table, rlf_profile profile, uint64_t seed)
+{
+    eval_throw_def def = {.source = "synthetic:empty?color=0&frames=-1",
+                          .throws = THROWS,
+                          .profile = profile,
+                          .seed = seed};
+    eval_throws o;
+    rlf_result result = eval_sensed_throw(&def, &o);
+    if (result == RLF_OK) {
+        ADD("throw_tunnelled", "THROW: tunnelled, of 200 throws into the still room",
+            (double)o.tunnelled);
+        ADD("throw_not_finite", "  not finite", (double)o.not_finite);
+    }
+    return result;
+}
+
+static rlf_result add_lost_frames(eval_table *table, rlf_profile profile, uint64_t seed)
+{
+    double tunnelled = 0.0, fastest = 0.0;
+    for (int32_t lost = 1; lost <= 10; lost += 3) {
+        eval_throw_def def = {.source = "synthetic:empty?color=0&frames=-1",
+                              .throws = 40,
+                              .lost = lost,
+                              .profile = profile,
+                              .seed = seed};
+        eval_throws o;
+        rlf_result result = eval_sensed_throw(&def, &o);
+        if (result != RLF_OK) {
+            return result;
+        }
+        tunnelled += (double)(o.tunnelled + o.not_finite);
+        fastest = rlf_max(fastest, o.fastest);
+    }
+    ADD("drop_tunnelled", "DROP-FRAMES, 1 to 10 lost: tunnelled, of 160", tunnelled);
+    ADD("drop_fastest", "  fastest body, m/s (thrown at up to 10)", fastest);
+    return RLF_OK;
+}
+
+static rlf_result add_aimed(eval_table *table, rlf_profile profile, uint64_t seed, bool is_edge)
+{
+    eval_throw_def def = {.source = is_edge ? "synthetic:book?color=0&frames=-1"
+                                            : "synthetic:room?color=0&frames=-1",
+                          .aim = is_edge ? EVAL_AIM_EDGE : EVAL_AIM_BEHIND,
+                          .throws = THROWS,
+                          .profile = profile,
+                          .seed = seed};
+    eval_throws o;
+    rlf_result result = eval_sensed_throw(&def, &o);
+    if (result == RLF_OK && is_edge) {
+        ADD("edge_bounced_percent", "EDGE: bounced off a book's edge, %",
+            percent(o.bounced, o.thrown));
+        ADD("edge_passed_percent", "  went through, %", percent(o.passed, o.thrown));
+    } else if (result == RLF_OK) {
+        ADD("behind_bounced_percent", "BEHIND: bounced off a person's back, %",
+            percent(o.bounced, o.thrown));
+        ADD("behind_passed_percent", "  went through, %", percent(o.passed, o.thrown));
+    }
+    return result;
+}
+
+static rlf_result add_realism(eval_table *table, rlf_profile profile, uint64_t seed)
+{
+    eval_throw_def def = {.source = "synthetic:room?color=0&frames=-1",
+                          .aim = EVAL_AIM_ANY,
+                          .throws = 2 * THROWS,
+                          .balls_only = true,
+                          .profile = profile,
+                          .seed = seed};
+    eval_throws o;
+    rlf_result result = eval_sensed_throw(&def, &o);
+    if (result == RLF_OK) {
+        ADD("realism_percent", "REALISM: bounces within 10 deg of a true one, %",
+            percent(o.right_nearby, o.bounces));
+        ADD("realism_exact_percent", "  of the true one of that very throw, %",
+            percent(o.right, o.bounces));
+        ADD("realism_phantom_percent", "  off nothing, %", percent(o.phantom, o.bounces));
+        ADD("realism_missed_percent", "  none where truth has one, %",
+            percent(o.missed, o.bounces));
+        ADD("realism_hidden_percent", "  off what the camera cannot see: within 10 deg, %",
+            percent(o.hidden_right, o.hidden));
+    }
+    return result;
+}
+
+/* Three shapes at four speeds. */
+static rlf_result add_pushes(eval_table *table, rlf_profile profile)
+{
+    const rlf_shape_type shapes[3] = {RLF_SHAPE_BOX, RLF_SHAPE_SPHERE, RLF_SHAPE_HULL};
+    const double speeds[4] = {0.25, 0.5, 1.0, 2.0};
+    double lifted = 0.0, swept = 0.0, worst = 0.0;
+    rlf_result result = RLF_OK;
+    for (int i = 0; i < 12 && result == RLF_OK; i++) {
+        bool is_lifted = false, is_swept = false;
+        double error = 0.0;
+        result = eval_sensed_lift(profile, shapes[i / 4], speeds[i % 4], &is_lifted, &error);
+        if (result == RLF_OK) {
+            result = eval_sensed_swipe(profile, shapes[i / 4], speeds[i % 4], &is_swept);
+        }
+        lifted += is_lifted;
+        swept += is_swept;
+        worst = rlf_max(worst, error);
+    }
+    ADD("lift_count", "LIFT: carried by a tray and thrown, of 12", lifted);
+    ADD("lift_error_percent", "  leaving speed, worst error, %", 100.0 * worst);
+    ADD("swipe_count", "SWIPE: pushed by a board, none passed, of 12", swept);
+    return result;
+}
+
+static rlf_result add_rest(eval_table *table, rlf_profile profile)
+{
+    int32_t stayed = 0;
+    eval_rest rest;
+    double frames = 0.0;
+    rlf_result result = eval_sensed_carry(profile, &stayed);
+    ADD("carry_stayed", "CARRY: cubes that stay on a tray at 0.5 m/s, of 3", stayed);
+    result = result == RLF_OK ? eval_sensed_rest(profile, 60.0, &rest) : result;
+    if (result == RLF_OK) {
+        ADD("noise_jitter_mm", "NOISE: cube on a table for 60 s, RMS, mm", rest.jitter_mm);
+        ADD("noise_asleep_s", "  asleep after, s", rest.asleep_s);
+        ADD("noise_wakes", "  wakes", rest.wakes);
+        result = eval_sensed_chair(profile, &frames);
+    }
+    if (result == RLF_OK) {
+        ADD("chair_frames", "CHAIR: frames until what stood on it falls", frames);
+    }
+    return result;
+}
+
+rlf_result eval_sensed_run(eval_table *table, int64_t seed, int profile_mask)
+{
+    rlf_result result = RLF_OK;
+    for (int i = 0; i < EVAL_PROFILES && result == RLF_OK; i++) {
+        rlf_profile profile = (rlf_profile)i;
+        if (!(profile_mask & (1 << i))) {
+            continue;
+        }
+        result = seed == 1 ? add_pushes(table, profile) : RLF_OK;
+        result = result == RLF_OK && seed == 1 ? add_rest(table, profile) : result;
+        result = result == RLF_OK ? add_static_throws(table, profile, (uint64_t)seed) : result;
+        result = result == RLF_OK ? add_lost_frames(table, profile, (uint64_t)seed) : result;
+        result = result == RLF_OK ? add_aimed(table, profile, (uint64_t)seed, false) : result;
+        result = result == RLF_OK ? add_aimed(table, profile, (uint64_t)seed, true) : result;
+        result = result == RLF_OK ? add_realism(table, profile, (uint64_t)seed) : result;
+    }
+    return result;
+}

@@ -1,0 +1,62 @@
+/* Mouse positions, rays and thrown cubes. */
+#include "viewer/throw.h"
+
+#define START_M 0.35 /* ahead of the camera, so that the cube does not fill the picture */
+
+bool viewer_fit_pick(const viewer_fit *fit, double window_x, double window_y, double *out_u,
+                     double *out_v)
+{
+    double scale =
+        rlf_min(fit->window_width / fit->picture_width, fit->window_height / fit->picture_height);
+    double left = 0.5 * (fit->window_width - scale * fit->picture_width);
+    double top = 0.5 * (fit->window_height - scale * fit->picture_height);
+    /* Window positions count from pixel corners, picture pixels from centres. */
+    *out_u = (window_x - left) / scale - 0.5;
+    *out_v = (window_y - top) / scale - 0.5;
+    return *out_u >= -0.5 && *out_u <= fit->picture_width - 0.5 && *out_v >= -0.5 &&
+           *out_v <= fit->picture_height - 0.5;
+}
+
+viewer_ray viewer_ray_make(const rlf_compositor_def *def, const rlf_pose *T_world_camera, double u,
+                           double v)
+{
+    const rlf_rig *rig = &def->rig;
+    const rlf_camera *camera = rig->has_color ? &rig->color : &rig->depth;
+    int32_t width = def->width > 0 ? def->width : camera->width;
+    int32_t height = def->height > 0 ? def->height : camera->height;
+    rlf_camera picture = rlf_camera_resize(camera, width, height);
+    rlf_pose T_camera_picture =
+        rig->has_color ? rlf_pose_invert(&rig->T_color_depth) : rlf_pose_identity();
+    rlf_pose T_world_picture = rlf_pose_mul(T_world_camera, &T_camera_picture);
+    rlf_vec3 ray;
+    (void)rlf_camera_unproject(&picture, u, v, &ray); /* outside the lens: the best ray */
+    viewer_ray r = {T_world_picture.p, rlf_normalize(rlf_rotate(T_world_picture.q, ray))};
+    return r;
+}
+
+double viewer_throw_speed(double drag_fraction)
+{
+    if (drag_fraction < 0.02) {
+        return VIEWER_THROW_SPEED;
+    }
+    return rlf_clamp(VIEWER_THROW_SPEED_MAX * drag_fraction, VIEWER_THROW_SPEED_MIN,
+                     VIEWER_THROW_SPEED_MAX);
+}
+
+rlf_body_def viewer_throw_body(const viewer_ray *ray, double speed, int32_t index)
+{
+    static const float colors[6][3] = {{0.95f, 0.55f, 0.15f}, {0.25f, 0.65f, 0.95f},
+                                       {0.45f, 0.85f, 0.35f}, {0.90f, 0.30f, 0.40f},
+                                       {0.75f, 0.50f, 0.95f}, {0.95f, 0.85f, 0.30f}};
+    rlf_body_def def = rlf_body_def_default();
+    def.shape.type = RLF_SHAPE_BOX;
+    def.shape.size = rlf_vec3_make(0.12, 0.12, 0.12);
+    def.mass = 0.2;
+    def.position = rlf_mad(ray->origin, ray->direction, START_M);
+    def.velocity = rlf_scale(ray->direction, speed);
+    def.angular_velocity = rlf_vec3_make(2.0, 3.0, -1.0);
+    for (int i = 0; i < 3; i++) {
+        def.color[i] = colors[index % 6][i];
+    }
+    return def;
+}
