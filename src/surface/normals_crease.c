@@ -14,6 +14,7 @@ static const float CREASE = 0.9f;      /* of the normals of two faces that meet 
 static const float MOST_SLOPE = 0.04f; /* share of the depth per pixel: no edge between */
 static const float MOST_SIGMAS = 8.0f; /* of the pixel's depth from the face; grazing is noisier */
 static const float LEAST_FACING = 0.02f; /* a face may be seen edge-on, not from behind */
+static const float LEAST_APART = 4.0f;   /* sigmas of depth from one face to the other */
 
 typedef struct crease_job {
     int32_t width, height;
@@ -90,6 +91,17 @@ static float face_depth(const crease_job *job, ptrdiff_t face, ptrdiff_t at)
     return facing < -LEAST_FACING ? offset / facing : 0.0f;
 }
 
+/* At pixel a, face b lies so far from face a that noise does not explain it, even if that is alike
+ * in all pixels of a face: real sensors' is, and structured light measures in steps, so that the
+ * many pixels of a window prove less than their number. `b_at_a` is 0 where b does not meet the
+ * ray. */
+static bool is_apart(const crease_job *job, ptrdiff_t a, float b_at_a)
+{
+    float z = job->depth[a];
+    return !(b_at_a > 0.0f) ||
+           rlf_kernel_abs(b_at_a - z) >= LEAST_APART * rlf_kernel_sigma(job->noise, z);
+}
+
 /* Which of two faces pixel i is on; -1 when they do not meet in a crease, or not there. */
 static ptrdiff_t choose_face(const crease_job *job, ptrdiff_t i, ptrdiff_t a, ptrdiff_t b)
 {
@@ -98,7 +110,8 @@ static ptrdiff_t choose_face(const crease_job *job, ptrdiff_t i, ptrdiff_t a, pt
     bool convex = b_at_a > 0.0f && a_at_b > 0.0f && at_a > b_at_a && at_b > a_at_b;
     bool concave = (!(b_at_a > 0.0f) || at_a < b_at_a) && (!(a_at_b > 0.0f) || at_b < a_at_b);
     float za = face_depth(job, a, i), zb = face_depth(job, b, i);
-    if (!(za > 0.0f && zb > 0.0f) || (!convex && !concave)) {
+    bool meet = (convex || concave) && is_apart(job, a, b_at_a) && is_apart(job, b, a_at_b);
+    if (!(za > 0.0f && zb > 0.0f) || !meet) {
         return -1;
     }
     bool first = convex ? za > zb : za < zb;
