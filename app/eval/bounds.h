@@ -6,10 +6,12 @@
 
 typedef struct eval_bound {
     const char *scene, *key;
-    char relation;         /* '<': at most, '>': at least */
-    double goal;           /* of the design; NAN = none */
-    double bound;          /* the mean over seeds must keep it, else the command fails */
-    const char *reference; /* what others reach, for the reader; "" = nobody measured it */
+    char relation; /* '<': at most, '>': at least */
+    double goal;   /* of the design; NAN = none */
+    double bound;  /* the mean over seeds must keep it, else the command fails */
+    /* For the reader: what the thesis reports, or what its method was measured to reach, and what
+     * other systems reach; "" = nobody measured it. */
+    const char *thesis, *others;
 } eval_bound;
 
 typedef enum eval_verdict {

@@ -112,7 +112,8 @@ static json_t *row_json(const eval_row *row, bool is_whole)
         json_object_set_new(json, "relation", json_string(bound->relation == '<' ? "<=" : ">="));
         json_object_set_new(json, "goal", number_json(bound->goal));
         json_object_set_new(json, "bound", number_json(bound->bound));
-        json_object_set_new(json, "reference", json_string(bound->reference));
+        json_object_set_new(json, "published", json_string(bound->thesis));
+        json_object_set_new(json, "others", json_string(bound->others));
         json_object_set_new(json, "verdict", json_string(eval_verdict_name(verdict)));
         json_object_set_new(json, "ok", json_boolean(!is_outside(verdict, is_whole)));
     }

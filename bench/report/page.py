@@ -139,19 +139,19 @@ def section_accuracy(data):
     for row in accuracy_rows(data):
         if row["scene"] != scene:
             scene = row["scene"]
-            rows.append([f'<td class="scene" colspan="6">{html.escape(scene)}</td>'])
+            rows.append([f'<td class="scene" colspan="7">{html.escape(scene)}</td>'])
         met = is_met(row)
         css = {True: "met", False: "short", None: ""}[met]
         rows.append([cell(row["title"]), cell(limit(row, "goal")), cell(spread(row.get("live")), css),
                      cell(spread(row.get("thesis"))), cell(limit(row, "bound")),
-                     cell(row.get("reference") or "")])
+                     cell(row.get("published") or ""), cell(row.get("others") or "")])
     if not rows:
         return "<p>no figures: eval.json is missing</p>"
     seeds = len(data["eval"]["seeds"])
     return (f"<p>Mean over {seeds} seeds ± 95 % confidence interval, of profile live and of the method as the "
             "thesis published it, on the same frames. Green reaches the goal, orange does not yet. The bound is "
             "what the test suite refuses to fall behind.</p>"
-            + html_table(["figure", "goal", "live", "thesis", "bound", "others"], rows)
+            + html_table(["figure", "goal", "live", "thesis", "bound", "published", "others"], rows)
             + command(f"relief eval --seeds {seeds}"))
 
 

@@ -77,8 +77,8 @@ static void rows_collect_seeds_per_profile(void **state)
 static void means_are_judged_by_goal_and_bound(void **state)
 {
     (void)state;
-    const eval_bound most = {"s", "k", '<', 1.0, 2.0, ""};
-    const eval_bound least = {"s", "k", '>', NAN, 0.5, ""};
+    const eval_bound most = {"s", "k", '<', 1.0, 2.0, "", ""};
+    const eval_bound least = {"s", "k", '>', NAN, 0.5, "", ""};
     assert_int_equal(eval_bound_judge(&most, 1.0), EVAL_GOAL_MET);
     assert_int_equal(eval_bound_judge(&most, 1.5), EVAL_WITHIN_BOUND);
     assert_int_equal(eval_bound_judge(&most, 2.001), EVAL_OUTSIDE);
