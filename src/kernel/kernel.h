@@ -8,6 +8,7 @@
 
 #include "relief/frame.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -81,7 +82,7 @@ RLF_KERNEL_PART float rlf_kernel_slant(float along, float length)
 }
 RLF_KERNEL_PART float rlf_kernel_abs(float x)
 {
-    return x < 0.0f ? -x : x;
+    return fabsf(x); /* a mask; a comparison and a choice are three times as dear */
 }
 
 /* The first index from `i` on at which a byte of the row is not 0, or `count`: marks are rare. */

@@ -7,19 +7,15 @@
 #include "surface/steps.h"
 #include "surface/window.h"
 
-#include "kernel/kernel.h"
+#include "kernel/patch.h"
 
 enum {
-    REACH = 2,
     BLOCK = RLF_HOLD_BLOCK,
     LEAST_MOVED = 2,  /* pixels of a block that make a movement: single ones may be mixed */
     LEAST_CALM = 8,   /* frames without one */
     LEAST_FRAMES = 2, /* that have seen what is recalled */
     MOST_CALM = 255
 };
-
-/* Continuing a surface: share of depth per pixel of distance, and once. */
-static const float MOST_SLOPE = 0.01f, MOST_STEP = 0.01f;
 
 typedef struct hold_job {
     const rlf_reconstruct *stage;
@@ -83,50 +79,36 @@ static bool is_calm(const hold_job *job, int32_t x, int32_t y)
     return calm;
 }
 
-typedef struct evidence {
-    bool moved, continued;
-} evidence;
-
-static inline evidence look_within(const hold_job *job, ptrdiff_t i, rlf_window b)
+static void recall_pixel(const hold_job *job, ptrdiff_t i, bool calm, uint8_t about)
 {
-    ptrdiff_t width = job->stage->grid.width;
-    float w = job->stage->steady.mean[i];
-    int32_t moved = 0, continued = 0;
-    for (int32_t dy = b.y0; dy <= b.y1; dy++) {
-        for (int32_t dx = b.x0; dx <= b.x1; dx++) {
-            ptrdiff_t k = i + dy * width + dx;
-            int32_t far_x = dx < 0 ? -dx : dx, far_y = dy < 0 ? -dy : dy;
-            float most = MOST_SLOPE * (float)(far_x > far_y ? far_x : far_y) + MOST_STEP;
-            float off = rlf_kernel_abs(w * job->depth[k] - 1.0f);
-            moved |= job->change[k] == RLF_CHANGE_MOVED;
-            continued |= (job->change[k] != RLF_CHANGE_UNSEEN) & (off <= most);
-        }
-    }
-    return (evidence){moved != 0, continued != 0};
-}
-
-static evidence look_around(const hold_job *job, int32_t x, int32_t y)
-{
-    const rlf_grid *grid = &job->stage->grid;
-    ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-    const rlf_window whole = {-REACH, REACH, -REACH, REACH}; /* known to the compiler: unrolled */
-    rlf_window cut = rlf_window_at(grid->width, grid->height, x, y, REACH);
-    return rlf_window_is_whole(cut, REACH) ? look_within(job, i, whole) : look_within(job, i, cut);
-}
-
-static void recall_pixel(const hold_job *job, int32_t x, int32_t y)
-{
-    ptrdiff_t i = (ptrdiff_t)y * job->stage->grid.width + x;
     const rlf_steady *steady = &job->stage->steady;
-    evidence e = {true, false};
-    if (is_calm(job, x, y)) {
-        e = look_around(job, x, y);
-    }
-    if (e.moved) {
+    if (!calm || (about & RLF_ABOUT_MOVED) != 0) {
         steady->frames[i] = -steady->frames[i]; /* still proves that what is seen next is new */
-    } else if (e.continued && steady->frames[i] >= LEAST_FRAMES) {
+    } else if (about != 0 && steady->frames[i] >= LEAST_FRAMES) {
         job->depth[i] = 1.0f / steady->mean[i];
         job->reason[i] = RLF_REASON_FILLED;
+    }
+}
+
+/* The lost pixels of a patch. */
+static void recall_patch(const hold_job *job, int32_t x, int32_t y)
+{
+    const rlf_grid *grid = &job->stage->grid;
+    ptrdiff_t row = (ptrdiff_t)y * grid->width;
+    int32_t size = (int32_t)sizeof(float);
+    rlf_patch depth;
+    rlf_byte_patch change;
+    float inverse[RLF_PATCH];
+    uint8_t about[RLF_PATCH];
+    rlf_patch_read(job->depth, grid->width, grid->height, x, y, &depth);
+    rlf_byte_patch_read(job->change, grid->width, grid->height, x, y, &change);
+    rlf_patch_copy(job->stage->steady.mean + row, grid->width * size, x * size, RLF_PATCH * size,
+                   inverse);
+    rlf_kernel_recall_patch(&depth, &change, inverse, about);
+    for (int32_t k = 0; k < rlf_least(RLF_PATCH, grid->width - x); k++) {
+        if (is_lost(job, row + x + k)) {
+            recall_pixel(job, row + x + k, is_calm(job, x + k, y), about[k]);
+        }
     }
 }
 
@@ -140,7 +122,8 @@ static void recall_rows(void *context, int32_t begin, int32_t end, int32_t worke
         const uint8_t *reason = job->reason + row; /* 0 = OK */
         for (int32_t x = 0; (x = rlf_kernel_next_mark(reason, x, width)) < width; x++) {
             if (is_lost(job, row + x)) {
-                recall_pixel(job, x, y);
+                recall_patch(job, x, y);
+                x += RLF_PATCH - 1;
             }
         }
     }
