@@ -8,7 +8,9 @@
 typedef struct eval_scene {
     const char *name;
     const char *title;
-    int32_t frames; /* default number, 30 a second */
+    int32_t frames;      /* default number, 30 a second */
+    const char *source;  /* synthetic scene */
+    const char *options; /* of it, each with a leading & */
 } eval_scene;
 
 extern const eval_scene eval_scenes[];

@@ -14,7 +14,7 @@ static const float CREASE = 0.9f;      /* of the normals of two faces that meet 
 static const float MOST_SLOPE = 0.04f; /* share of the depth per pixel: no edge between */
 static const float MOST_SIGMAS = 8.0f; /* of the pixel's depth from the face; grazing is noisier */
 static const float LEAST_FACING = 0.02f; /* a face may be seen edge-on, not from behind */
-static const float LEAST_APART = 4.0f;   /* sigmas of depth from one face to the other */
+static const float LEAST_APART = 2.0f;   /* sigmas of depth from one face to the other */
 
 typedef struct crease_job {
     int32_t width, height;

@@ -23,7 +23,7 @@ typedef struct golden {
 } golden;
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0xfeaa07d9b1b3070cu, 0x6fd2396e530b6e93u, 0x61b3806e1198fbb5u},
+    {RLF_PROFILE_LIVE, 0xf4f273dd513b1f08u, 0x6fd2396e530b6e93u, 0x61b3806e1198fbb5u},
     {RLF_PROFILE_THESIS, 0x661dc320eb5b2361u, 0xd84652fb54683851u, 0xf068ba3d9f6846e3u},
 };
 

@@ -31,6 +31,9 @@ static void every_key_is_read(void **state)
     assert_false(def.enable_color);
     assert_true(def.enable_noise);
     assert_int_equal(def.frame_count, 12);
+    assert_false(def.enable_structured_light);
+    assert_int_equal(rlf_synthetic_parse("synthetic:room?noise=steps", &def), RLF_OK);
+    assert_true(def.enable_noise && def.enable_structured_light);
 }
 
 static void every_scene_has_its_name(void **state)
@@ -68,7 +71,7 @@ static void an_error_names_the_part_and_the_cure(void **state)
         {"synthetic:room?fps=0", "'0'", "above 0"},
         {"synthetic:room?fps=nan", "'nan'", "above 0"},
         {"synthetic:room?fps=1e9", "'1e9'", "1000"},
-        {"synthetic:room?noise=yes", "'yes'", "0 or 1"},
+        {"synthetic:room?noise=yes", "'yes'", "0, 1 or steps"},
         {"synthetic:room?edge_filter=2", "'2'", "0 or 1"},
         {"synthetic:room?color=960", "'960'", "WIDTHxHEIGHT"},
         {"synthetic:room?color=0x10", "'0x10'", "4096"},

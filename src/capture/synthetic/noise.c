@@ -78,6 +78,17 @@ static uint16_t quantise(const synth_noise *noise, float depth_mm)
     return (uint16_t)(is_inside ? (int32_t)(depth_mm + 0.5f) : 0);
 }
 
+static void apply_steps(const synth_noise *noise, const synth_noise_row *row, uint16_t *out)
+{
+    const float *z = row->z + (size_t)row->y * SYNTH_DEPTH_WIDTH;
+    for (int32_t x = 0; x < SYNTH_DEPTH_WIDTH; x++) {
+        if (out[x] != 0) {
+            float seen = synth_noise_steps(noise, row->frame, x, row->y, z[x]);
+            out[x] = quantise(noise, 1000.0f * seen);
+        }
+    }
+}
+
 static void apply_axial(const synth_noise *noise, const synth_noise_row *row, uint32_t key,
                         uint16_t *out)
 {
@@ -159,6 +170,9 @@ void synth_noise_apply(const synth_noise *noise, const synth_noise_row *row, uin
     }
     uint32_t key = synth_hash2(synth_hash2(noise->seed, row->frame), (uint32_t)row->y);
     apply_axial(noise, row, key, out);
+    if (noise->enable_steps) {
+        apply_steps(noise, row, out);
+    }
     apply_jumps(noise, row, key, out);
     out[0] = 0;
     out[SYNTH_DEPTH_WIDTH - 1] = 0;

@@ -14,6 +14,7 @@ typedef struct synth_noise {
     uint32_t seed;
     bool enable;
     bool enable_edge_filter;
+    bool enable_steps;    /* structured light instead of time of flight */
     float min_mm, max_mm; /* the sensor's range */
 } synth_noise;
 
@@ -42,6 +43,9 @@ double synth_noise_vignette(double u, double v);
 
 /* 1 where depth jumps between the neighbours of index i, which must not be on the border. */
 uint8_t synth_is_jump(const float *z, size_t i);
+
+/* noise_steps.c: depth in metres at pixel (x, y) as structured light measures it; z > 0. */
+float synth_noise_steps(const synth_noise *noise, uint32_t frame, int32_t x, int32_t y, float z);
 
 /* Depth of row y in millimetres as the driver delivers it; 0 = missing. */
 void synth_noise_apply(const synth_noise *noise, const synth_noise_row *row, uint16_t *out);

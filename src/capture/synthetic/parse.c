@@ -130,8 +130,9 @@ static const char *set_value(piece key, piece value, rlf_synthetic_def *def, boo
         return "metres per second above 0, at most 10";
     }
     if (is_word(key, "noise")) {
-        *is_good = read_switch(value, &def->enable_noise);
-        return "0 or 1";
+        def->enable_structured_light = is_word(value, "steps");
+        *is_good = def->enable_structured_light || read_switch(value, &def->enable_noise);
+        return "0, 1 or steps";
     }
     if (is_word(key, "edge_filter")) {
         *is_good = read_switch(value, &def->enable_edge_filter);

@@ -70,6 +70,9 @@ static rlf_rig make_rig(const rlf_synthetic_def *def)
                    .depth_max_m = 4.5,
                    /* 1.5 - 0.5 z + 0.3 z^2 mm: Fankhauser et al. 2015 for frontal surfaces */
                    .noise = {0.0015, -0.0005, 0.0003}};
+    if (def->enable_structured_light) {
+        rig.noise = (rlf_depth_noise){0.0008, 0.0, 0.0012}; /* as measured of a Kinect v1 */
+    }
     rig.depth = (rlf_camera){.width = SYNTH_DEPTH_WIDTH,
                              .height = SYNTH_DEPTH_HEIGHT,
                              .fx = KINECT_F,
@@ -192,6 +195,7 @@ static rlf_result sensor_create(const rlf_synthetic_def *def, const rlf_rig *rig
     synth_noise *noise = &sensor->depth.noise;
     synth_noise_init(noise, def->seed);
     noise->enable = def->enable_noise;
+    noise->enable_steps = def->enable_structured_light;
     noise->enable_edge_filter = def->enable_edge_filter;
     noise->min_mm = (float)(1000.0 * rig->depth_min_m);
     noise->max_mm = (float)(1000.0 * rig->depth_max_m);
