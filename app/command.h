@@ -4,7 +4,7 @@
 #ifndef RELIEF_APP_COMMAND_H
 #define RELIEF_APP_COMMAND_H
 
-#include "relief/base.h"
+#include "settings.h"
 
 #include <signal.h>
 
@@ -17,6 +17,8 @@ extern volatile sig_atomic_t command_interrupted;
 
 /* Prints "relief COMMAND: message (see `relief COMMAND --help`)" and returns EXIT_USAGE. */
 int command_usage(const char *command, const char *format, ...) RLF_PRINTF(2, 3);
+/* `--set TEXT` of a command: -1 to go on, or EXIT_USAGE after saying what is wrong with it. */
+int command_set(const char *command, setting_list *s, const char *text);
 /* Prints the library's error line and returns EXIT_FAILED. */
 int command_failed(void);
 
@@ -33,5 +35,6 @@ int sources_main(int argc, char **argv);
 int eval_main(int argc, char **argv);
 int bench_main(int argc, char **argv);
 int measure_main(int argc, char **argv);
+int settings_main(int argc, char **argv);
 
 #endif

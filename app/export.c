@@ -44,6 +44,7 @@ static void print_help(void)
            "  --scene FILE      put bodies in (scene.json)\n"
            "  --profile NAME    live (default) or thesis\n"
            "  --scale N         keep every N-th depth pixel (live 1, thesis 8)\n"
+           "  --set NAME=VALUE  a setting of the surface (see `relief settings`); any number\n"
            "  --threads N       default: one per processor\n\n"
            "examples:\n"
            "  relief export synthetic:room --out out --what depth,normals,true_normals "
@@ -59,6 +60,7 @@ enum {
     OPTION_SCENE,
     OPTION_PROFILE,
     OPTION_SCALE,
+    OPTION_SET,
     OPTION_THREADS
 };
 
@@ -69,6 +71,7 @@ static const struct option long_options[] = {
     {"scene", required_argument, NULL, OPTION_SCENE},
     {"profile", required_argument, NULL, OPTION_PROFILE},
     {"scale", required_argument, NULL, OPTION_SCALE},
+    {"set", required_argument, NULL, OPTION_SET},
     {"threads", required_argument, NULL, OPTION_THREADS},
     {"help", no_argument, NULL, 'h'},
     {0},
@@ -90,6 +93,7 @@ static int take_option(int option, export_options *o)
         return session_parse_profile(optarg, &o->session.profile)
                    ? -1
                    : command_usage("export", "--profile '%s': use live or thesis", optarg);
+    case OPTION_SET: return command_set("export", &o->session.settings, optarg);
     case OPTION_SCALE:
     case OPTION_THREADS:
         if (!command_parse_int(optarg, 1, 64, &number)) {

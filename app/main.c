@@ -20,6 +20,7 @@ static const subcommand subcommands[] = {
     {"export", export_main, "write arrays of every frame: depth, normals, labels, truth, ..."},
     {"info", info_main, "tell what a source is"},
     {"sources", sources_main, "list the kinds of source that this build can open"},
+    {"settings", settings_main, "list the settings of the surface stage, for --set"},
     {"eval", eval_main, "measure accuracy where the truth is known, against goals and bounds"},
     {"measure", measure_main, "missing points and wrong normals: table 5.1 of the thesis"},
     {"bench", bench_main, "time and memory of every stage, and how they grow"},
@@ -70,6 +71,12 @@ int command_usage(const char *command, const char *format, ...)
     fprintf(stderr, " (see `relief %s --help`)\n", command);
     va_end(arguments);
     return EXIT_USAGE;
+}
+
+int command_set(const char *command, setting_list *s, const char *text)
+{
+    return settings_add(s, text) == RLF_OK ? -1
+                                           : command_usage(command, "--set %s", rlf_error_text());
 }
 
 int command_failed(void)

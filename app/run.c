@@ -40,6 +40,7 @@ static void print_help(void)
            "  --view NAME           camera (default), depth, normals, mesh, regions, foreground,\n"
            "                        background, velocity, thickness, reason\n"
            "  --scale N             keep every N-th depth pixel (live 1, thesis 8)\n"
+           "  --set NAME=VALUE      a setting of the surface (see `relief settings`); any number\n"
            "  --threads N           default: one per processor; results do not depend on it\n"
            "  --hash                print the hash of all body states at the end\n"
            "  --quiet               no progress and no summary\n\n"
@@ -62,6 +63,7 @@ enum {
     OPTION_LOG,
     OPTION_VIEW,
     OPTION_SCALE,
+    OPTION_SET,
     OPTION_THREADS,
     OPTION_HASH,
     OPTION_QUIET
@@ -79,6 +81,7 @@ static const struct option long_options[] = {
     {"log", required_argument, NULL, OPTION_LOG},
     {"view", required_argument, NULL, OPTION_VIEW},
     {"scale", required_argument, NULL, OPTION_SCALE},
+    {"set", required_argument, NULL, OPTION_SET},
     {"threads", required_argument, NULL, OPTION_THREADS},
     {"hash", no_argument, NULL, OPTION_HASH},
     {"quiet", no_argument, NULL, OPTION_QUIET},
@@ -139,6 +142,7 @@ static bool take_option(int option, run_options *o)
             return false;
         }
         return true;
+    case OPTION_SET: return command_set("run", &o->session.settings, optarg) < 0;
     case OPTION_RENDERER: return take_renderer(o);
     case OPTION_HEADLESS: o->is_headless = true; return true;
     case OPTION_VIDEO: o->output.video_path = optarg; return true;

@@ -64,6 +64,7 @@ static rlf_result open_all(const session_options *options, session *s)
     if (options->scale_factor > 0) {
         session_set_scale(&def.reconstruct, options->scale_factor);
     }
+    settings_apply(&options->settings, &def.reconstruct);
     def.enable_render = options->enable_render;
     def.compositor.enable_overlay = options->enable_overlay;
     return rlf_pipeline_create(&def, &s->pipeline);

@@ -3,6 +3,7 @@
 #define RELIEF_APP_SESSION_H
 
 #include "relief/io.h"
+#include "settings.h"
 
 typedef struct session_options {
     const char *source;
@@ -10,8 +11,9 @@ typedef struct session_options {
     const char *scene_path; /* NULL = the default scene below */
     bool use_default_scene; /* the thesis's two cubes when there is no scene_path */
     rlf_profile profile;
-    int32_t scale_factor; /* 0 = the profile's */
-    int32_t thread_count; /* 0 = all processors */
+    int32_t scale_factor;  /* 0 = the profile's */
+    setting_list settings; /* in place of the profile's */
+    int32_t thread_count;  /* 0 = all processors */
     bool enable_render;
     bool enable_overlay;
 } session_options;

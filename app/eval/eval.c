@@ -22,6 +22,7 @@ typedef struct eval_options {
     int64_t frames; /* 0 = each scene's own */
     int64_t seeds, threads;
     int profile_mask; /* bit of each rlf_profile */
+    setting_list settings;
 } eval_options;
 
 /* One section with one seed; tasks run on different threads. */
@@ -82,6 +83,8 @@ static void print_help(void)
         "  --seeds N         seeds 1..N of noise and throws, default 3\n"
         "  --frames N        frames per scene, default as long as its story\n"
         "  --profile NAME    live, thesis or both (default)\n"
+        "  --set NAME=VALUE  a setting of the surface (see `relief settings`) in place of the\n"
+        "                    profiles', in the scenes (not in the sections)\n"
         "  --threads N       default 0 = one per processor\n"
         "  --json FILE       everything: seeds, values, means, intervals, goals, bounds\n\n"
         "examples:\n"
@@ -91,15 +94,11 @@ static void print_help(void)
 }
 
 static const struct option long_options[] = {
-    {"scene", required_argument, NULL, 's'},
-    {"normals", required_argument, NULL, 'd'},
-    {"frames", required_argument, NULL, 'f'},
-    {"seeds", required_argument, NULL, 'n'},
-    {"profile", required_argument, NULL, 'p'},
-    {"threads", required_argument, NULL, 't'},
-    {"json", required_argument, NULL, 'j'},
-    {"help", no_argument, NULL, 'h'},
-    {0},
+    {"scene", required_argument, NULL, 's'},   {"normals", required_argument, NULL, 'd'},
+    {"frames", required_argument, NULL, 'f'},  {"seeds", required_argument, NULL, 'n'},
+    {"profile", required_argument, NULL, 'p'}, {"set", required_argument, NULL, 'o'},
+    {"threads", required_argument, NULL, 't'}, {"json", required_argument, NULL, 'j'},
+    {"help", no_argument, NULL, 'h'},          {0},
 };
 
 static int take_profile(eval_options *o)
@@ -140,6 +139,7 @@ static int take_option(int option, eval_options *o)
     case 'p': return take_profile(o);
     case 'f': return take_number("frames", 20, 100000, &o->frames);
     case 'n': return take_number("seeds", 1, EVAL_SEEDS_MAX, &o->seeds);
+    case 'o': return command_set("eval", &o->settings, optarg);
     case 't': return take_number("threads", 0, 64, &o->threads);
     case 'h': print_help(); return EXIT_DONE;
     default: return EXIT_USAGE;
@@ -165,7 +165,8 @@ static rlf_result run_task(const eval_task *task)
     const eval_scene *scene = eval_scene_find(task->section);
     if (scene != NULL) {
         int64_t frames = o->frames > 0 ? o->frames : scene->frames;
-        return eval_scene_run(task->table, scene, task->seed, frames, o->profile_mask);
+        return eval_scene_run(task->table, scene, task->seed, frames, o->profile_mask,
+                              &o->settings);
     }
     return find_section(task->section)->run(task->table, task->seed, o->profile_mask);
 }

@@ -43,6 +43,7 @@ typedef struct lane {
 
 typedef struct run {
     rlf_source *source;
+    const setting_list *settings;
     rlf_frame frame;
     uint8_t *band, *scratch; /* a byte per depth pixel */
     lane lanes[EVAL_PROFILES];
@@ -69,6 +70,7 @@ static rlf_result open_lane(run *r, lane *l, int64_t seed)
     rlf_pipeline_def def = rlf_pipeline_def_default(l->profile, l->echo, NULL);
     def.scene = &l->scene;
     def.enable_render = false;
+    settings_apply(r->settings, &def.reconstruct);
     result = rlf_pipeline_create(&def, &l->pipeline);
     if (result == RLF_OK) {
         result = eval_depth_init(&l->measures.depth, &info->rig.depth);
@@ -174,7 +176,7 @@ static void report(const lane *l, const char *scene, eval_table *table)
 }
 
 rlf_result eval_scene_run(eval_table *table, const eval_scene *scene, int64_t seed, int64_t frames,
-                          int profile_mask)
+                          int profile_mask, const setting_list *settings)
 {
     char name[128];
     snprintf(name, sizeof(name), "synthetic:%s?seed=%lld&frames=%lld&color=0%s", scene->source,
@@ -183,6 +185,7 @@ rlf_result eval_scene_run(eval_table *table, const eval_scene *scene, int64_t se
     if (r == NULL) {
         return RLF_ERROR_MEMORY;
     }
+    r->settings = settings;
     rlf_result result = open_run(r, name, seed, profile_mask);
     while (result == RLF_OK && !command_interrupted) {
         result = step(r);

@@ -3,6 +3,7 @@
 #define RELIEF_APP_EVAL_RUN_H
 
 #include "eval/table.h"
+#include "settings.h"
 
 /* The synthetic scenes that are measured, and for how long. */
 typedef struct eval_scene {
@@ -19,8 +20,8 @@ extern const int32_t eval_scene_count;
 const eval_scene *eval_scene_find(const char *name);
 
 /* Runs a scene on the calling thread and adds every figure; profile_mask has a bit of each
- * rlf_profile. */
+ * rlf_profile; the settings take the place of the profiles'. */
 rlf_result eval_scene_run(eval_table *table, const eval_scene *scene, int64_t seed, int64_t frames,
-                          int profile_mask);
+                          int profile_mask, const setting_list *settings);
 
 #endif

@@ -15,6 +15,7 @@
 typedef struct measure_options {
     const char *source;
     rlf_profile profile;
+    setting_list settings;
     int64_t frames; /* -1 = all */
     int32_t scales[SCALES_MAX];
     int scale_count;
@@ -35,6 +36,7 @@ static void print_help(void)
         "  --frames N        default: all frames of the source\n"
         "  --scale LIST      scale factors, default 8,1\n"
         "  --profile NAME    thesis (default) or live: whose normals are counted\n"
+        "  --set NAME=VALUE  a setting of the surface (see `relief settings`); any number\n"
         "  --csv FILE        the rows as CSV\n"
         "  --json FILE       the rows as JSON\n"
         "  --noise           instead: the sensor's noise by distance, of a still scene\n\n"
@@ -45,10 +47,15 @@ static void print_help(void)
 }
 
 static const struct option long_options[] = {
-    {"frames", required_argument, NULL, 'f'},  {"scale", required_argument, NULL, 's'},
-    {"profile", required_argument, NULL, 'p'}, {"csv", required_argument, NULL, 'c'},
-    {"json", required_argument, NULL, 'j'},    {"noise", no_argument, NULL, 'n'},
-    {"help", no_argument, NULL, 'h'},          {0},
+    {"frames", required_argument, NULL, 'f'},
+    {"scale", required_argument, NULL, 's'},
+    {"profile", required_argument, NULL, 'p'},
+    {"csv", required_argument, NULL, 'c'},
+    {"json", required_argument, NULL, 'j'},
+    {"noise", no_argument, NULL, 'n'},
+    {"set", required_argument, NULL, 'o'},
+    {"help", no_argument, NULL, 'h'},
+    {0},
 };
 
 static bool parse_scales(const char *text, measure_options *o)
@@ -95,6 +102,7 @@ static int take_option(int option, measure_options *o)
         return session_parse_profile(optarg, &o->profile)
                    ? -1
                    : command_usage("measure", "--profile '%s': use live or thesis", optarg);
+    case 'o': return command_set("measure", &o->settings, optarg);
     case 'h': print_help(); return EXIT_DONE;
     default: return EXIT_USAGE;
     }
@@ -147,6 +155,7 @@ static rlf_result measure_scale(const measure_options *o, int32_t scale, measure
     session_options options = session_options_default();
     options.source = o->source;
     options.profile = o->profile;
+    options.settings = o->settings;
     options.scale_factor = scale;
     options.enable_render = false;
     session s;

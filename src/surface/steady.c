@@ -5,8 +5,8 @@
 
 #include <string.h>
 
-/* Noise that is left after the planes' averaging is well within 1.5 sigma; without it within 3. */
-static const float smoothed_gate = 1.5f, raw_gate = 3.0f;
+/* Noise that is left after the planes' averaging is well within 1.25 sigma; without it within 3. */
+static const float smoothed_gate = 1.25f, raw_gate = 3.0f;
 static const float most_frames = 16.0f;
 
 typedef struct steady_job {

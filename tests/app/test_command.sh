@@ -34,7 +34,7 @@ expect_done()
 }
 
 # ---- help and usage ---------------------------------------------------------------------------------
-for command in "" run export info sources eval measure bench; do
+for command in "" run export info sources settings eval measure bench; do
     # shellcheck disable=SC2086 # the empty one must vanish
     "$relief" $command --help >stdout.txt 2>stderr.txt || fail "$command --help: status $?"
     grep -q "usage: relief" stdout.txt || fail "$command --help: no usage"
@@ -46,6 +46,14 @@ expect_error 2 "live or thesis" run synthetic:room --profile both
 expect_error 2 "not a view" run synthetic:room --headless --view smell
 expect_error 2 "frames" run synthetic:room --headless --frames 0
 expect_error 2 "frames" run synthetic:room --headless --frames ten
+expect_error 2 "relief settings" run synthetic:room --set smell=on
+expect_error 2 "off or on" run synthetic:room --set fill=maybe
+expect_error 2 "off or average or adaptive" measure synthetic:room --set background_method=lucky
+expect_error 2 "a count" export synthetic:room --set min_region_points=1.5
+expect_error 2 "a number" eval --set depth_max_m=far
+expect_error 1 "depth_min_m is nan" run synthetic:room --headless --frames 1 --set depth_min_m=nan
+expect_done settings synthetic:thesis
+grep -q "^steadying  *on  *off" stdout.txt || fail "settings: not listed"
 expect_error 2 "not an array" export synthetic:room --out o --what smell
 expect_error 2 "needs --out" export synthetic:room
 expect_error 2 "needs --scene" export synthetic:room --out o --what matte

@@ -23,7 +23,7 @@ typedef struct golden {
 } golden;
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0xf4f273dd513b1f08u, 0x6fd2396e530b6e93u, 0x61b3806e1198fbb5u},
+    {RLF_PROFILE_LIVE, 0xc552d617012f9456u, 0x3e3df6c95a7abaf5u, 0xdb917f6d46139277u},
     {RLF_PROFILE_THESIS, 0x661dc320eb5b2361u, 0xd84652fb54683851u, 0xf068ba3d9f6846e3u},
 };
 

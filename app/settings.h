@@ -1,0 +1,24 @@
+/* Settings of the surface stage by name, as `--set NAME=VALUE` gives them. */
+#ifndef RELIEF_APP_SETTINGS_H
+#define RELIEF_APP_SETTINGS_H
+
+#include "relief/reconstruct.h"
+
+#define SETTINGS_MAX 32
+
+typedef struct setting_list {
+    const char *texts[SETTINGS_MAX]; /* "NAME=VALUE", borrowed; later ones win */
+    int32_t count;
+} setting_list;
+
+/* Keeps "NAME=VALUE". RLF_ERROR_INVALID when there is no such setting, when it cannot have that
+ * value, or when there are too many. */
+rlf_result settings_add(setting_list *s, const char *text);
+
+/* Puts what was kept into a def. Numbers out of range are found by rlf_reconstruct_create. */
+void settings_apply(const setting_list *s, rlf_reconstruct_def *def);
+
+/* Prints every setting with the values of both profiles for a camera. */
+void settings_print(const rlf_rig *rig);
+
+#endif

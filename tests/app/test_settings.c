@@ -1,0 +1,88 @@
+/* `--set`: names and words reach the field that they name, and nothing else. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "settings.h"
+
+#include <string.h>
+
+static rlf_reconstruct_def def_of(rlf_profile profile)
+{
+    rlf_rig rig = {.depth = {.width = 64, .height = 48, .fx = 60, .fy = 60}, .depth_max_m = 4.5};
+    return rlf_reconstruct_def_default(profile, &rig);
+}
+
+static void a_setting_reaches_its_field_alone(void **state)
+{
+    (void)state;
+    setting_list list = {0};
+    assert_int_equal(settings_add(&list, "fill=off"), RLF_OK);
+    assert_int_equal(settings_add(&list, "background_method=average"), RLF_OK);
+    assert_int_equal(settings_add(&list, "region_capacity=7"), RLF_OK);
+    assert_int_equal(settings_add(&list, "segment_color_tau=0.15"), RLF_OK);
+    rlf_reconstruct_def def = def_of(RLF_PROFILE_LIVE), expected = def_of(RLF_PROFILE_LIVE);
+    settings_apply(&list, &def);
+    expected.enable_fill = false;
+    expected.background_method = RLF_BACKGROUND_AVERAGE;
+    expected.region_capacity = 7;
+    expected.segment_color_tau = 0.15;
+    assert_memory_equal(&def, &expected, sizeof def);
+}
+
+static void the_last_one_wins(void **state)
+{
+    (void)state;
+    setting_list list = {0};
+    assert_int_equal(settings_add(&list, "hold=off"), RLF_OK);
+    assert_int_equal(settings_add(&list, "hold=on"), RLF_OK);
+    rlf_reconstruct_def def = def_of(RLF_PROFILE_THESIS);
+    settings_apply(&list, &def);
+    assert_true(def.enable_hold);
+}
+
+static void what_is_no_setting_is_refused(void **state)
+{
+    (void)state;
+    static const char *const wrong[] = {"",
+                                        "fill",
+                                        "fill=",
+                                        "fil=on",
+                                        "=on",
+                                        "fill=yes",
+                                        "depth_max_m=",
+                                        "depth_max_m=3m",
+                                        "hold=ON",
+                                        "region_capacity=-1",
+                                        "region_capacity=1.5",
+                                        "region_capacity=1e99",
+                                        "normal_method=5"};
+    setting_list list = {0};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        assert_int_equal(settings_add(&list, wrong[i]), RLF_ERROR_INVALID);
+    }
+    assert_int_equal(list.count, 0);
+}
+
+static void there_is_an_end_to_them(void **state)
+{
+    (void)state;
+    setting_list list = {0};
+    for (int i = 0; i < SETTINGS_MAX; i++) {
+        assert_int_equal(settings_add(&list, "fill=on"), RLF_OK);
+    }
+    assert_int_equal(settings_add(&list, "fill=on"), RLF_ERROR_INVALID);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_setting_reaches_its_field_alone),
+        cmocka_unit_test(the_last_one_wins),
+        cmocka_unit_test(what_is_no_setting_is_refused),
+        cmocka_unit_test(there_is_an_end_to_them),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
