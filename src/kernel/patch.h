@@ -79,4 +79,43 @@ enum { RLF_ABOUT_MOVED = 1, RLF_ABOUT_CONTINUED = 2 };
 void rlf_kernel_recall_patch(const rlf_patch *depth, const rlf_byte_patch *change,
                              const float inverse[RLF_PATCH], uint8_t out[RLF_PATCH]);
 
+/* ---- fill_patch.c: depth of holes ---- */
+
+#define RLF_FILL_GAP 8 /* most pixels from end to end of what is filled, less one */
+#define RLF_GAP_WIDTH (RLF_PATCH + 2 * RLF_FILL_GAP)
+#define RLF_GAP_HEIGHT (1 + 2 * RLF_FILL_GAP)
+
+/* 1 where there is a depth, else 0; as a patch, but with RLF_FILL_GAP pixels about. */
+typedef struct rlf_gap_patch {
+    uint8_t has[RLF_GAP_HEIGHT][RLF_GAP_WIDTH];
+} rlf_gap_patch;
+
+void rlf_kernel_has_row(const float *restrict depth, int32_t count, uint8_t *restrict has);
+void rlf_gap_patch_read(const uint8_t *plane, int32_t width, int32_t height, int32_t x, int32_t y,
+                        rlf_gap_patch *out);
+
+/* Lines through a pixel, and the step along each of them. */
+enum { RLF_LINE_ROW, RLF_LINE_COLUMN, RLF_LINE_DOWN, RLF_LINE_UP, RLF_LINE_NONE };
+
+/* Of each pixel the line whose next pixels with depth on both sides are nearest to each other; a
+ * diagonal where neither its row nor its column has them. */
+typedef struct rlf_gaps {
+    uint8_t line[RLF_PATCH];
+    uint8_t to_before[RLF_PATCH], to_after[RLF_PATCH]; /* steps, > 0 unless NONE */
+} rlf_gaps;
+
+void rlf_kernel_gap_patch(const rlf_gap_patch *patch, rlf_gaps *out);
+
+/* Depths at the ends of the pixels' gaps; 0 = it has none. */
+typedef struct rlf_gap_ends {
+    float before[RLF_PATCH], after[RLF_PATCH];
+} rlf_gap_ends;
+
+/* What a depth is: between two ends of one surface, or that of the nearer or the farther side of an
+ * edge. */
+enum { RLF_FILL_BETWEEN, RLF_FILL_NEAR, RLF_FILL_FAR };
+
+void rlf_kernel_fill_patch(const rlf_patch *depth, const rlf_gaps *gaps, const rlf_gap_ends *ends,
+                           float out[RLF_PATCH], uint8_t kind[RLF_PATCH]);
+
 #endif

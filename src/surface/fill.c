@@ -11,145 +11,21 @@
 #include "surface/steps.h"
 #include "surface/window.h"
 
-#include "kernel/kernel.h"
+#include "kernel/patch.h"
 
 #include <string.h>
 
-/* A wide hole must not be crossed from corner to corner. */
-enum { DIAGONAL_GAP = 4, REACH = 2, EDGE_WIDTH = 2 };
-
-/* What a pixel at an offset counts: less the farther it is. */
-static const float votes_at[2 * REACH + 1][2 * REACH + 1] = {{0.2f, 0.3f, 0.4f, 0.3f, 0.2f},
-                                                             {0.3f, 1.3f, 4.0f, 1.3f, 0.3f},
-                                                             {0.4f, 4.0f, 0.0f, 4.0f, 0.4f},
-                                                             {0.3f, 1.3f, 4.0f, 1.3f, 0.3f},
-                                                             {0.2f, 0.3f, 0.4f, 0.3f, 0.2f}};
+enum { EDGE_WIDTH = 2 };
 
 /* Share of the depth, from a side's end to a hole pixel. */
 static const float MOST_CHANGE = 0.05f;
-
-typedef struct gap {
-    float before, after; /* depths of the ends; 0 = none */
-    int32_t to_before, to_after;
-} gap;
-
-/* Steps that stay inside the image from a pixel, to both sides. */
-typedef struct line {
-    ptrdiff_t step; /* to the next pixel */
-    int32_t before, after;
-} line;
-
-/* Steps to the first pixel with depth, RLF_FILL_GAP + 1 when none is within `reach`. Looks at all
- * of them from the last to the first, which is faster than to stop at one: where holes end is not
- * to be foreseen. */
-static inline int32_t steps_to_depth(const float *depth, ptrdiff_t step, int32_t reach)
-{
-    int32_t steps = RLF_FILL_GAP + 1;
-    for (int32_t d = reach; d >= 1; d--) {
-        steps = depth[d * step] > 0.0f ? d : steps;
-    }
-    return steps;
-}
-
-/* Not closed when the ends are farther apart than a gap may be, or there is none. */
-static gap find_gap(const float *depth, line l)
-{
-    bool inside = l.before >= RLF_FILL_GAP && l.after >= RLF_FILL_GAP;
-    gap g = {0.0f, 0.0f, RLF_FILL_GAP + 1, RLF_FILL_GAP + 1};
-    if (inside) {
-        g.to_before = steps_to_depth(depth, -l.step, RLF_FILL_GAP);
-        g.to_after = steps_to_depth(depth, l.step, RLF_FILL_GAP);
-    } else {
-        g.to_before = steps_to_depth(depth, -l.step, rlf_least(l.before, RLF_FILL_GAP));
-        g.to_after = steps_to_depth(depth, l.step, rlf_least(l.after, RLF_FILL_GAP));
-    }
-    if (g.to_before + g.to_after <= RLF_FILL_GAP + 1) {
-        g.before = depth[-(ptrdiff_t)g.to_before * l.step];
-        g.after = depth[(ptrdiff_t)g.to_after * l.step];
-    }
-    return g;
-}
-
-static bool is_closed(gap g)
-{
-    return g.before > 0.0f && g.after > 0.0f;
-}
-
-static float interpolate(gap g)
-{
-    float t = (float)g.to_before / (float)(g.to_before + g.to_after);
-    return 1.0f / ((1.0f - t) / g.before + t / g.after);
-}
-
-static bool is_edge(gap g)
-{
-    float span = (float)(g.to_before + g.to_after);
-    float nearest = g.before < g.after ? g.before : g.after;
-    return rlf_kernel_abs(g.before - g.after) > (0.01f * span + 0.01f) * nearest;
-}
-
-/* Depths about a hole pixel; 0 outside the image. */
-typedef struct window {
-    float z[2 * REACH + 1][2 * REACH + 1];
-} window;
-
-/* Sums over the pixels of one side, depth relative to its end. */
-typedef struct side {
-    float end;
-    float n, x, y, xx, xy, yy, z, xz, yz;
-} side;
-
-/* Sums over the pixels that are nearer than `middle`, or over those that are not. */
-static side sum_side(const window *w, float middle, bool is_near, float end)
-{
-    side s = {.end = end};
-    for (int32_t dy = -REACH; dy <= REACH; dy++) {
-        float y = (float)dy, row_n = 0.0f, row_x = 0.0f, row_z = 0.0f, row_xz = 0.0f;
-        for (int32_t dx = -REACH; dx <= REACH; dx++) {
-            float x = (float)dx, at = w->z[dy + REACH][dx + REACH];
-            float has = (at > 0.0f) & ((at < middle) == is_near) ? 1.0f : 0.0f;
-            float z = has * (at - end);
-            row_n += has;
-            row_x += has * x;
-            row_z += z;
-            row_xz += z * x;
-            s.xx += has * x * x;
-        }
-        s.n += row_n;
-        s.x += row_x;
-        s.y += y * row_n;
-        s.xy += y * row_x;
-        s.yy += y * y * row_n;
-        s.z += row_z;
-        s.xz += row_xz;
-        s.yz += y * row_z;
-    }
-    return s;
-}
-
-/* The side's plane at the pixel itself (0, 0). The ridge keeps it level across a direction in which
- * the side has hardly an extent. */
-static float continue_side(const side *s)
-{
-    const float ridge = 0.5f;
-    float inv = s->n > 0.0f ? 1.0f / s->n : 0.0f;
-    float mx = s->x * inv, my = s->y * inv, mz = s->z * inv;
-    float xx = s->xx - s->x * mx + ridge, yy = s->yy - s->y * my + ridge;
-    float xy = s->xy - s->x * my;
-    float xz = s->xz - s->x * mz, yz = s->yz - s->y * mz;
-    float inv_det = 1.0f / (xx * yy - xy * xy);
-    float b = (xz * yy - yz * xy) * inv_det, c = (yz * xx - xz * xy) * inv_det;
-    float z = mz - b * mx - c * my;
-    float limit = MOST_CHANGE * s->end;
-    z = z > limit ? limit : z;
-    return s->end + (z < -limit ? -limit : z);
-}
 
 typedef struct fill_job {
     const rlf_reconstruct *stage;
     const rlf_sheet *behind; /* the background; NULL = unknown */
     float *const *normal;    /* NULL = not wanted */
     const float *depth;
+    uint8_t *has; /* plane: 1 where `depth` has one */
     float *out;
     uint8_t *reason;
 } fill_job;
@@ -188,55 +64,12 @@ static float show_behind(const fill_job *job, int32_t x, int32_t y)
 
 /* Between two near ends that are far enough apart for a slit: what a driver takes away beside each
  * edge does not reach its middle. */
-static bool is_slit(const fill_job *job, int32_t x, int32_t y, gap g)
+static bool is_slit(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps,
+                    const rlf_gap_ends *ends, int32_t k)
 {
-    float farthest = g.before > g.after ? g.before : g.after;
-    bool wide = g.to_before > EDGE_WIDTH && g.to_after > EDGE_WIDTH;
+    float farthest = ends->before[k] > ends->after[k] ? ends->before[k] : ends->after[k];
+    bool wide = gaps->to_before[k] > EDGE_WIDTH && gaps->to_after[k] > EDGE_WIDTH;
     return wide && depth_behind(job, x, y) > (1.0f + MOST_CHANGE) * farthest;
-}
-
-static window read_window(const fill_job *job, int32_t x, int32_t y)
-{
-    const rlf_grid *grid = &job->stage->grid;
-    window w;
-    bool inside = x >= REACH && y >= REACH && x + REACH < grid->width && y + REACH < grid->height;
-    for (int32_t dy = -REACH; dy <= REACH; dy++) {
-        const float *row = job->depth + (ptrdiff_t)(y + dy) * grid->width + x;
-        for (int32_t dx = -REACH; dx <= REACH; dx++) {
-            bool has = inside || (x + dx >= 0 && x + dx < grid->width && y + dy >= 0 &&
-                                  y + dy < grid->height);
-            w.z[dy + REACH][dx + REACH] = has ? row[dx] : 0.0f;
-        }
-    }
-    return w;
-}
-
-/* Votes for the nearer side less those for the farther one. */
-static float count_votes(const window *w, float middle)
-{
-    float balance = 0.0f;
-    for (int32_t dy = 0; dy <= 2 * REACH; dy++) {
-        for (int32_t dx = 0; dx <= 2 * REACH; dx++) {
-            float z = w->z[dy][dx], vote = votes_at[dy][dx];
-            balance += z > 0.0f ? (z < middle ? vote : -vote) : 0.0f;
-        }
-    }
-    return balance;
-}
-
-static float choose_side(const fill_job *job, int32_t x, int32_t y, gap g)
-{
-    float middle = 2.0f / (1.0f / g.before + 1.0f / g.after);
-    bool before_is_near = g.before < g.after;
-    window w = read_window(job, x, y);
-    float balance = count_votes(&w, middle);
-    bool tie = rlf_kernel_abs(balance) < 0.05f; /* half of the smallest vote's difference */
-    bool first = tie ? g.to_before <= g.to_after : (balance > 0.0f) == before_is_near;
-    bool is_near = first == before_is_near, is_far = !is_near;
-    side chosen = sum_side(&w, middle, is_near, first ? g.before : g.after);
-    float z = continue_side(&chosen);
-    bool is_behind = is_far && rlf_kernel_abs(depth_behind(job, x, y) - z) < MOST_CHANGE * z;
-    return is_behind ? show_behind(job, x, y) : z;
 }
 
 static bool may_fill(uint8_t reason)
@@ -244,32 +77,65 @@ static bool may_fill(uint8_t reason)
     return reason == RLF_REASON_NO_RETURN || reason == RLF_REASON_FLYING;
 }
 
-/* The shortest closed gap along the row, the column or, failing both, a diagonal. */
-static float fill_pixel(const fill_job *job, int32_t x, int32_t y)
+/* Depths at the ends of the patch's gaps, of the pixels that may be filled; returns how many. */
+static int32_t read_ends(const fill_job *job, int32_t x, int32_t y, rlf_gaps *gaps,
+                         rlf_gap_ends *out)
 {
     const rlf_grid *grid = &job->stage->grid;
-    const float *at = job->depth + (ptrdiff_t)y * grid->width + x;
-    int32_t right = grid->width - 1 - x, down = grid->height - 1 - y;
-    const line lines[4] = {{1, x, right},
-                           {grid->width, y, down},
-                           {grid->width + 1, rlf_least(x, y), rlf_least(right, down)},
-                           {grid->width - 1, rlf_least(right, y), rlf_least(x, down)}};
-    gap best = {0.0f, 0.0f, 0, 0};
-    for (int k = 0; k < 4 && (k < 2 || !is_closed(best)); k++) {
-        gap g = find_gap(at, lines[k]);
-        bool shorter = g.to_before + g.to_after < best.to_before + best.to_after;
-        bool fits = k < 2 || g.to_before + g.to_after <= DIAGONAL_GAP;
-        if (is_closed(g) && fits && (!is_closed(best) || shorter)) {
-            best = g;
+    const ptrdiff_t steps[RLF_LINE_NONE] = {1, grid->width, grid->width + 1, grid->width - 1};
+    int32_t count = 0;
+    memset(out, 0, sizeof *out);
+    for (int32_t k = 0; k < rlf_least(RLF_PATCH, grid->width - x); k++) {
+        ptrdiff_t i = (ptrdiff_t)y * grid->width + x + k;
+        if (gaps->line[k] != RLF_LINE_NONE && may_fill(job->reason[i])) {
+            ptrdiff_t step = steps[gaps->line[k]];
+            out->before[k] = job->depth[i - gaps->to_before[k] * step];
+            out->after[k] = job->depth[i + gaps->to_after[k] * step];
+            count++;
         }
     }
-    if (!is_closed(best)) {
-        return 0.0f;
+    return count;
+}
+
+/* What of a patch may be filled and has an end on both sides. All others have depth or must not
+ * have one. */
+static void fill_patch(const fill_job *job, int32_t x, int32_t y)
+{
+    const rlf_grid *grid = &job->stage->grid;
+    rlf_gap_patch near;
+    rlf_gaps gaps;
+    rlf_gap_ends ends;
+    rlf_patch depth;
+    float filled[RLF_PATCH];
+    uint8_t kind[RLF_PATCH];
+    rlf_gap_patch_read(job->has, grid->width, grid->height, x, y, &near);
+    rlf_kernel_gap_patch(&near, &gaps);
+    if (read_ends(job, x, y, &gaps, &ends) == 0) {
+        return;
     }
-    if (is_slit(job, x, y, best)) {
-        return show_behind(job, x, y);
+    rlf_patch_read(job->depth, grid->width, grid->height, x, y, &depth);
+    rlf_kernel_fill_patch(&depth, &gaps, &ends, filled, kind);
+    for (int32_t k = 0; k < RLF_PATCH; k++) {
+        if (!(ends.before[k] > 0.0f)) {
+            continue;
+        }
+        ptrdiff_t i = (ptrdiff_t)y * grid->width + x + k;
+        float z = filled[k];
+        bool behind = is_slit(job, x + k, y, &gaps, &ends, k) ||
+                      (kind[k] == RLF_FILL_FAR &&
+                       rlf_kernel_abs(depth_behind(job, x + k, y) - z) < MOST_CHANGE * z);
+        job->out[i] = behind ? show_behind(job, x + k, y) : z;
+        job->reason[i] = RLF_REASON_FILLED;
     }
-    return is_edge(best) ? choose_side(job, x, y, best) : interpolate(best);
+}
+
+static void copy_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const fill_job *job = context;
+    ptrdiff_t width = job->stage->grid.width, first = begin * width, count = (end - begin) * width;
+    memcpy(job->out + first, job->depth + first, (size_t)count * sizeof *job->out);
+    rlf_kernel_has_row(job->depth + first, (int32_t)count, job->has + first);
 }
 
 static void fill_rows(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -277,19 +143,12 @@ static void fill_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     (void)worker;
     const fill_job *job = context;
     int32_t width = job->stage->grid.width;
-    ptrdiff_t first = (ptrdiff_t)begin * width;
-    memcpy(job->out + first, job->depth + first,
-           (size_t)(end - begin) * (size_t)width * sizeof *job->out);
     for (int32_t y = begin; y < end; y++) {
-        uint8_t *reason = job->reason + (ptrdiff_t)y * width; /* 0 = OK */
+        const uint8_t *reason = job->reason + (ptrdiff_t)y * width; /* 0 = OK */
         for (int32_t x = 0; (x = rlf_kernel_next_mark(reason, x, width)) < width; x++) {
-            ptrdiff_t i = (ptrdiff_t)y * width + x;
-            if (!may_fill(reason[x])) { /* all others have depth or must not have one */
-                continue;
-            }
-            job->out[i] = fill_pixel(job, x, y);
-            if (job->out[i] > 0.0f) {
-                reason[x] = RLF_REASON_FILLED;
+            if (may_fill(reason[x])) {
+                fill_patch(job, x, y);
+                x += RLF_PATCH - 1;
             }
         }
     }
@@ -302,7 +161,9 @@ void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, rlf_slot *
                     .behind = newest < 0 ? NULL : &stage->background.sheets[newest],
                     .normal = stage->def.enable_smoothing ? slot->normal : NULL,
                     .depth = depth,
+                    .has = stage->work.mask[0],
                     .out = slot->depth,
                     .reason = slot->reason};
+    rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, copy_rows, &job);
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, fill_rows, &job);
 }

@@ -3,7 +3,7 @@
 #ifndef RLF_SURFACE_STEPS_H
 #define RLF_SURFACE_STEPS_H
 
-#include "kernel/kernel.h"
+#include "kernel/patch.h"
 #include "surface/stage.h"
 
 /* ---- points.c: eq. 4.1 ---- */
@@ -16,7 +16,6 @@ void rlf_flying_remove(const rlf_reconstruct *stage, const float *raw, float *de
                        uint8_t *reason);
 /* Fills gaps of at most RLF_FILL_GAP pixels between valid ones of `depth`, into the slot. What
  * shows the background takes its normal too, where planes have been fitted to the others. */
-enum { RLF_FILL_GAP = 8 };
 void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, rlf_slot *slot);
 
 /* ---- hold.c: dropped pixels from memory; `depth` holds what was seen ---- */

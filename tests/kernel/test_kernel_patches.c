@@ -94,11 +94,98 @@ static void recall_patch_is_its_definition(void **state)
     }
 }
 
+/* Steps from the middle to the first pixel with depth. */
+static int steps_to_depth(const rlf_gap_patch *p, int32_t i, int32_t dx, int32_t dy)
+{
+    for (int d = 1; d <= RLF_FILL_GAP; d++) {
+        if (p->has[RLF_FILL_GAP + d * dy][RLF_FILL_GAP + i + d * dx] != 0) {
+            return d;
+        }
+    }
+    return RLF_FILL_GAP + 1;
+}
+
+static void gap_patch_finds_the_shortest_gap(void **state)
+{
+    (void)state;
+    static const int32_t along[4][2] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
+    analytic_random r = {9};
+    int counts[5] = {0};
+    for (int32_t t = 0; t < 600; t++) {
+        rlf_gap_patch p;
+        rlf_gaps gaps;
+        double share = 0.25 * random_uniform(&r);
+        for (int32_t k = 0; k < RLF_GAP_HEIGHT * RLF_GAP_WIDTH; k++) {
+            p.has[k / RLF_GAP_WIDTH][k % RLF_GAP_WIDTH] = random_uniform(&r) < share;
+        }
+        rlf_kernel_gap_patch(&p, &gaps);
+        for (int32_t i = 0; i < RLF_PATCH; i++) {
+            int line = RLF_LINE_NONE, best = RLF_FILL_GAP + 2;
+            for (int k = 0; k < 4 && (k < 2 || line == RLF_LINE_NONE); k++) {
+                int span = steps_to_depth(&p, i, -along[k][0], -along[k][1]) +
+                           steps_to_depth(&p, i, along[k][0], along[k][1]);
+                bool taken = span < best && span <= (k < 2 ? RLF_FILL_GAP + 1 : 4);
+                line = taken ? k : line;
+                best = taken ? span : best;
+            }
+            assert_int_equal(gaps.line[i], line);
+            if (line != RLF_LINE_NONE) {
+                const int32_t *d = along[line];
+                assert_int_equal(gaps.to_before[i], steps_to_depth(&p, i, -d[0], -d[1]));
+                assert_int_equal(gaps.to_after[i], steps_to_depth(&p, i, d[0], d[1]));
+            }
+            counts[line]++;
+        }
+    }
+    for (int k = 0; k < 5; k++) {
+        assert_true(counts[k] > 50);
+    }
+}
+
+/* Column 8 is missing; left of it is a wall at 3 m, right of it another at `right`. */
+static void fill_column(float right, float out[RLF_PATCH], uint8_t kind[RLF_PATCH])
+{
+    rlf_patch p;
+    rlf_gaps gaps;
+    rlf_gap_ends ends;
+    memset(&gaps, 0, sizeof gaps);
+    memset(&ends, 0, sizeof ends);
+    for (int32_t k = 0; k < RLF_PATCH_HEIGHT * RLF_PATCH_WIDTH; k++) {
+        int32_t x = k % RLF_PATCH_WIDTH - RLF_PATCH_ABOUT;
+        p.at[k / RLF_PATCH_WIDTH][k % RLF_PATCH_WIDTH] = x < 8 ? 3.0f : x > 8 ? right : 0.0f;
+    }
+    p.at[2][10] = 0.0f;
+    p.at[0][10] = p.at[1][10] = p.at[3][10] = p.at[4][10] = right; /* the edge is left of it */
+    gaps.to_before[8] = gaps.to_after[8] = 1;
+    ends.before[8] = 3.0f;
+    ends.after[8] = right;
+    rlf_kernel_fill_patch(&p, &gaps, &ends, out, kind);
+}
+
+static void fill_patch_continues_the_side_with_more_votes(void **state)
+{
+    (void)state;
+    float out[RLF_PATCH];
+    uint8_t kind[RLF_PATCH];
+    fill_column(2.0f, out, kind);
+    assert_int_equal(kind[8], RLF_FILL_NEAR);
+    assert_true(out[8] == 2.0f);
+    fill_column(4.0f, out, kind);
+    assert_int_equal(kind[8], RLF_FILL_FAR);
+    assert_true(out[8] == 4.0f);
+    fill_column(3.03f, out, kind); /* one slanted surface */
+    assert_int_equal(kind[8], RLF_FILL_BETWEEN);
+    double off = out[8] - 2.0 / (1.0 / 3.0 + 1.0 / 3.03);
+    assert_true(off < 1e-6 && off > -1e-6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(patches_are_copies_with_zeros_about),
         cmocka_unit_test(recall_patch_is_its_definition),
+        cmocka_unit_test(gap_patch_finds_the_shortest_gap),
+        cmocka_unit_test(fill_patch_continues_the_side_with_more_votes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
