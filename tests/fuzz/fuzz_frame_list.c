@@ -4,7 +4,6 @@
 #include "io/frame_list.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 static const char *const seeds[] = {
     "# timestamp filename\n0.000000 depth/000000.png\n0.033333 depth/000001.png\n"
@@ -13,11 +12,8 @@ static const char *const seeds[] = {
 
 size_t fuzz_seed(int index, uint8_t *out, size_t capacity)
 {
-    if (index > 1 || strlen(seeds[index]) > capacity) {
-        return 0;
-    }
-    memcpy(out, seeds[index], strlen(seeds[index]));
-    return strlen(seeds[index]);
+    int count = (int)(sizeof seeds / sizeof seeds[0]);
+    return index < count ? fuzz_copy(seeds[index], out, capacity) : 0;
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

@@ -6,27 +6,11 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "grid_fixture.h"
+#include "grid_shared.h"
 
 #include <math.h>
 
 #define RADIUS 0.06
-
-static grid_fixture *fixture;
-
-static int set_up(void **state)
-{
-    (void)state;
-    fixture = grid_fixture_create();
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    grid_fixture_destroy(&fixture);
-    return 0;
-}
 
 /* Direction in which a ball without friction and with restitution 0.8 flies 0.5 s after. */
 static rlf_vec3 thrown(rlf_vec3 from, rlf_vec3 velocity)

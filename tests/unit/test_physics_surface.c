@@ -7,27 +7,11 @@
 
 #include "relief/world.h"
 
-#include "grid_fixture.h"
+#include "grid_shared.h"
 
 #include <math.h>
 
 #define FRAME (1.0 / 30)
-
-static grid_fixture *fixture;
-
-static int set_up(void **state)
-{
-    (void)state;
-    fixture = grid_fixture_create();
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    grid_fixture_destroy(&fixture);
-    return 0;
-}
 
 static rlf_world *make_world(rlf_physics_method method, double gravity)
 {
