@@ -14,6 +14,7 @@
 
 /* Set by Ctrl-C and SIGTERM; loops look at it once per frame and then close their files. */
 extern volatile sig_atomic_t command_interrupted;
+void command_catch_interrupts(void);
 
 /* Prints "relief COMMAND: message (see `relief COMMAND --help`)" and returns EXIT_USAGE. */
 int command_usage(const char *command, const char *format, ...) RLF_PRINTF(2, 3);
@@ -21,6 +22,9 @@ int command_usage(const char *command, const char *format, ...) RLF_PRINTF(2, 3)
 int command_set(const char *command, setting_list *s, const char *text);
 /* Prints the library's error line and returns EXIT_FAILED. */
 int command_failed(void);
+/* After Ctrl-C, for commands of which half a result is none: prints that nothing was written and
+ * returns EXIT_FAILED. */
+int command_stopped(const char *command);
 
 /* Whole-string numbers; false when the text is not one or is out of [low, high]. */
 bool command_parse_int(const char *text, int64_t low, int64_t high, int64_t *out);

@@ -1,6 +1,7 @@
 /* `relief export`: arrays of every frame as NPY, meshes as PLY, true poses as CSV. */
 #include "command.h"
 #include "export_arrays.h"
+#include "options.h"
 #include "session.h"
 
 #include <getopt.h>
@@ -10,11 +11,16 @@
 #define PATH_SIZE 4096
 #define MESH_JUMP 0.05 /* relative depth step that cuts the mesh */
 
+/* begin <= i < end */
+typedef struct frame_range {
+    int64_t begin, end;
+} frame_range;
+
 typedef struct export_options {
     session_options session;
     const char *out_folder;
     const char *what;
-    int64_t begin, end;
+    frame_range frames;
 } export_options;
 
 typedef struct exporter {
@@ -53,70 +59,35 @@ static void print_help(void)
            "mesh", "regions", "true_poses");
 }
 
-enum {
-    OPTION_OUT = 256,
-    OPTION_WHAT,
-    OPTION_FRAMES,
-    OPTION_SCENE,
-    OPTION_PROFILE,
-    OPTION_SCALE,
-    OPTION_SET,
-    OPTION_THREADS
-};
-
-static const struct option long_options[] = {
-    {"out", required_argument, NULL, OPTION_OUT},
-    {"what", required_argument, NULL, OPTION_WHAT},
-    {"frames", required_argument, NULL, OPTION_FRAMES},
-    {"scene", required_argument, NULL, OPTION_SCENE},
-    {"profile", required_argument, NULL, OPTION_PROFILE},
-    {"scale", required_argument, NULL, OPTION_SCALE},
-    {"set", required_argument, NULL, OPTION_SET},
-    {"threads", required_argument, NULL, OPTION_THREADS},
-    {"help", no_argument, NULL, 'h'},
-    {0},
-};
-
-/* Returns -1 to go on, or an exit status. */
-static int take_option(int option, export_options *o)
+static bool take_range(const char *text, void *out)
 {
-    int64_t number;
-    switch (option) {
-    case OPTION_OUT: o->out_folder = optarg; return -1;
-    case OPTION_WHAT: o->what = optarg; return -1;
-    case OPTION_SCENE: o->session.scene_path = optarg; return -1;
-    case OPTION_FRAMES:
-        return command_parse_range(optarg, &o->begin, &o->end)
-                   ? -1
-                   : command_usage("export", "--frames '%s': use A:B with A < B", optarg);
-    case OPTION_PROFILE:
-        return session_parse_profile(optarg, &o->session.profile)
-                   ? -1
-                   : command_usage("export", "--profile '%s': use live or thesis", optarg);
-    case OPTION_SET: return command_set("export", &o->session.settings, optarg);
-    case OPTION_SCALE:
-    case OPTION_THREADS:
-        if (!command_parse_int(optarg, 1, 64, &number)) {
-            return command_usage("export", "'%s' is not a number from 1 to 64", optarg);
-        }
-        *(option == OPTION_SCALE ? &o->session.scale_factor : &o->session.thread_count) =
-            (int32_t)number;
-        return -1;
-    case 'h': print_help(); return EXIT_DONE;
-    default: return EXIT_USAGE;
-    }
+    frame_range *range = out;
+    return command_parse_range(text, &range->begin, &range->end);
 }
 
 static int parse(int argc, char **argv, export_options *o)
 {
     o->session = session_options_default();
-    o->end = INT64_MAX;
-    int option;
-    while ((option = getopt_long(argc, argv, "h", long_options, NULL)) != -1) {
-        int status = take_option(option, o);
-        if (status >= 0) {
-            return status;
-        }
+    o->frames.end = INT64_MAX;
+    session_options *s = &o->session;
+    const option_def options[] = {
+        {.name = "out", .kind = OPTION_TEXT, .out = &o->out_folder},
+        {.name = "what", .kind = OPTION_TEXT, .out = &o->what},
+        {.name = "frames",
+         .kind = OPTION_CHOICE,
+         .out = &o->frames,
+         .take = take_range,
+         .choices = "use A:B with A < B"},
+        {.name = "scene", .kind = OPTION_TEXT, .out = &s->scene_path},
+        {.name = "profile", .kind = OPTION_PROFILE, .out = &s->profile},
+        {.name = "scale", .kind = OPTION_INT32, .out = &s->scale_factor, .low = 1, .high = 64},
+        {.name = "threads", .kind = OPTION_INT32, .out = &s->thread_count, .low = 1, .high = 64},
+        {.name = "set", .kind = OPTION_SET, .out = &s->settings},
+        {0},
+    };
+    int status = options_parse("export", argc, argv, options, print_help);
+    if (status >= 0) {
+        return status;
     }
     if (argc - optind != 1) {
         return command_usage("export", "needs one SOURCE");
@@ -338,11 +309,11 @@ static rlf_result export_frames(exporter *e, session *s, int64_t *out_written)
             result = RLF_OK;
             continue;
         }
-        if (result == RLF_OK && output.frame_index >= e->options->begin) {
+        if (result == RLF_OK && output.frame_index >= e->options->frames.begin) {
             result = write_frame(e, s, &output);
             ++*out_written;
         }
-        if (result == RLF_OK && output.frame_index + 1 >= e->options->end) {
+        if (result == RLF_OK && output.frame_index + 1 >= e->options->frames.end) {
             return RLF_OK;
         }
     }
@@ -373,7 +344,7 @@ int export_main(int argc, char **argv)
     rlf_result result = export_frames(&e, &s, &written);
     if (result == RLF_OK && written == 0 && !command_interrupted) {
         result = rlf_fail(RLF_ERROR_INVALID, "%s: has no frame %lld or later; use --frames A:B",
-                          options.session.source, (long long)options.begin);
+                          options.session.source, (long long)options.frames.begin);
     }
     status = result == RLF_OK ? EXIT_DONE : command_failed();
     if (e.poses != NULL && fclose(e.poses) != 0 && status == EXIT_DONE) {

@@ -1,13 +1,10 @@
-/* The `relief` command: finds the subcommand and sets up Ctrl-C. */
-#define _POSIX_C_SOURCE 200809L
+/* The `relief` command: finds the subcommand. */
 #include "command.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-volatile sig_atomic_t command_interrupted;
 
 typedef struct subcommand {
     const char *name;
@@ -42,26 +39,6 @@ static void print_help(FILE *file)
             "`relief COMMAND --help` tells more. Exit status: 0 done, 1 failed, 2 wrong usage.\n");
 }
 
-static void on_interrupt(int signal_number)
-{
-    (void)signal_number;
-    command_interrupted = 1;
-}
-
-static void catch_interrupts(void)
-{
-    struct sigaction action;
-    memset(&action, 0, sizeof(action));
-    action.sa_handler = on_interrupt;
-    action.sa_flags = (int)SA_RESETHAND; /* a second Ctrl-C ends at once */
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    struct sigaction ignore;
-    memset(&ignore, 0, sizeof(ignore));
-    ignore.sa_handler = SIG_IGN; /* a closed pipe is reported by the writer instead */
-    sigaction(SIGPIPE, &ignore, NULL);
-}
-
 int command_usage(const char *command, const char *format, ...)
 {
     va_list arguments;
@@ -82,6 +59,12 @@ int command_set(const char *command, setting_list *s, const char *text)
 int command_failed(void)
 {
     fprintf(stderr, "relief: %s\n", rlf_error_text());
+    return EXIT_FAILED;
+}
+
+int command_stopped(const char *command)
+{
+    fprintf(stderr, "relief %s: stopped before the end; nothing was written\n", command);
     return EXIT_FAILED;
 }
 
@@ -138,7 +121,7 @@ int main(int argc, char **argv)
     }
     for (int i = 0; i < SUBCOMMAND_COUNT; i++) {
         if (strcmp(name, subcommands[i].name) == 0) {
-            catch_interrupts();
+            command_catch_interrupts();
             return subcommands[i].main(argc - 1, argv + 1);
         }
     }

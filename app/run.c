@@ -1,5 +1,6 @@
 /* `relief run`: frames through the whole pipeline, in a window or headless. */
 #include "command.h"
+#include "options.h"
 #include "run_output.h"
 #include "session.h"
 #ifdef RLF_HAVE_GL
@@ -51,113 +52,58 @@ static void print_help(void)
            "  relief run path/to/clip --headless --view normals --video - | mpv -\n");
 }
 
-enum {
-    OPTION_SCENE = 256,
-    OPTION_PROFILE,
-    OPTION_RENDERER,
-    OPTION_HEADLESS,
-    OPTION_FRAMES,
-    OPTION_VIDEO,
-    OPTION_PICTURES,
-    OPTION_PICTURE_EVERY,
-    OPTION_LOG,
-    OPTION_VIEW,
-    OPTION_SCALE,
-    OPTION_SET,
-    OPTION_THREADS,
-    OPTION_HASH,
-    OPTION_QUIET
-};
-
-static const struct option long_options[] = {
-    {"scene", required_argument, NULL, OPTION_SCENE},
-    {"profile", required_argument, NULL, OPTION_PROFILE},
-    {"renderer", required_argument, NULL, OPTION_RENDERER},
-    {"headless", no_argument, NULL, OPTION_HEADLESS},
-    {"frames", required_argument, NULL, OPTION_FRAMES},
-    {"video", required_argument, NULL, OPTION_VIDEO},
-    {"pictures", required_argument, NULL, OPTION_PICTURES},
-    {"picture-every", required_argument, NULL, OPTION_PICTURE_EVERY},
-    {"log", required_argument, NULL, OPTION_LOG},
-    {"view", required_argument, NULL, OPTION_VIEW},
-    {"scale", required_argument, NULL, OPTION_SCALE},
-    {"set", required_argument, NULL, OPTION_SET},
-    {"threads", required_argument, NULL, OPTION_THREADS},
-    {"hash", no_argument, NULL, OPTION_HASH},
-    {"quiet", no_argument, NULL, OPTION_QUIET},
-    {"help", no_argument, NULL, 'h'},
-    {0},
-};
-
-/* Takes one option with a number; false after saying what is wrong. */
-static bool take_number(const char *name, int64_t high, int64_t *out)
+static bool take_renderer(const char *text, void *out)
 {
-    if (command_parse_int(optarg, 1, high, out)) {
-        return true;
-    }
-    command_usage("run", "--%s '%s' is not a number from 1 to %lld", name, optarg, (long long)high);
-    return false;
-}
-
-static bool take_renderer(run_options *o)
-{
-    o->use_gl = strcmp(optarg, "gl") == 0;
+    run_options *o = out;
+    o->use_gl = strcmp(text, "gl") == 0;
     o->is_renderer_set = true;
-    if (!o->use_gl && strcmp(optarg, "soft") != 0) {
-        command_usage("run", "--renderer '%s': use soft or gl", optarg);
-        return false;
-    }
-    return true;
+    return o->use_gl || strcmp(text, "soft") == 0;
 }
 
-static bool take_numeric_option(int option, run_options *o)
+static bool take_view(const char *text, void *out)
 {
-    int64_t number = 0;
-    switch (option) {
-    case OPTION_FRAMES: return take_number("frames", 1000000000, &o->frame_count);
-    case OPTION_PICTURE_EVERY:
-        return take_number("picture-every", 1000000, &o->output.picture_every);
-    case OPTION_SCALE:
-        if (!take_number("scale", 64, &number)) {
-            return false;
-        }
-        o->session.scale_factor = (int32_t)number;
-        return true;
-    default:
-        if (!take_number("threads", 64, &number)) {
-            return false;
-        }
-        o->session.thread_count = (int32_t)number;
-        return true;
-    }
+    return rlf_view_parse(text, out);
 }
 
-static bool take_option(int option, run_options *o)
+static int read_options(int argc, char **argv, run_options *o)
 {
-    switch (option) {
-    case OPTION_SCENE: o->session.scene_path = optarg; return true;
-    case OPTION_PROFILE:
-        if (!session_parse_profile(optarg, &o->session.profile)) {
-            command_usage("run", "--profile '%s': use live or thesis", optarg);
-            return false;
-        }
-        return true;
-    case OPTION_SET: return command_set("run", &o->session.settings, optarg) < 0;
-    case OPTION_RENDERER: return take_renderer(o);
-    case OPTION_HEADLESS: o->is_headless = true; return true;
-    case OPTION_VIDEO: o->output.video_path = optarg; return true;
-    case OPTION_PICTURES: o->output.picture_folder = optarg; return true;
-    case OPTION_LOG: o->output.log_folder = optarg; return true;
-    case OPTION_VIEW:
-        if (!rlf_view_parse(optarg, &o->view)) {
-            command_usage("run", "--view '%s' is not a view", optarg);
-            return false;
-        }
-        return true;
-    case OPTION_HASH: o->output.print_hash = true; return true;
-    case OPTION_QUIET: o->output.is_quiet = true; return true;
-    default: return take_numeric_option(option, o);
-    }
+    session_options *s = &o->session;
+    run_output_options *out = &o->output;
+    const option_def options[] = {
+        {.name = "scene", .kind = OPTION_TEXT, .out = &s->scene_path},
+        {.name = "profile", .kind = OPTION_PROFILE, .out = &s->profile},
+        {.name = "renderer",
+         .kind = OPTION_CHOICE,
+         .out = o,
+         .take = take_renderer,
+         .choices = "use soft or gl"},
+        {.name = "headless", .kind = OPTION_FLAG, .out = &o->is_headless},
+        {.name = "frames",
+         .kind = OPTION_INT64,
+         .out = &o->frame_count,
+         .low = 1,
+         .high = 1000000000},
+        {.name = "video", .kind = OPTION_TEXT, .out = &out->video_path},
+        {.name = "pictures", .kind = OPTION_TEXT, .out = &out->picture_folder},
+        {.name = "picture-every",
+         .kind = OPTION_INT64,
+         .out = &out->picture_every,
+         .low = 1,
+         .high = 1000000},
+        {.name = "log", .kind = OPTION_TEXT, .out = &out->log_folder},
+        {.name = "view",
+         .kind = OPTION_CHOICE,
+         .out = &o->view,
+         .take = take_view,
+         .choices = "is not a view"},
+        {.name = "scale", .kind = OPTION_INT32, .out = &s->scale_factor, .low = 1, .high = 64},
+        {.name = "threads", .kind = OPTION_INT32, .out = &s->thread_count, .low = 1, .high = 64},
+        {.name = "hash", .kind = OPTION_FLAG, .out = &out->print_hash},
+        {.name = "quiet", .kind = OPTION_FLAG, .out = &out->is_quiet},
+        {.name = "set", .kind = OPTION_SET, .out = &s->settings},
+        {0},
+    };
+    return options_parse("run", argc, argv, options, print_help);
 }
 
 /* Returns -1 to go on, or an exit status. */
@@ -167,15 +113,9 @@ static int parse(int argc, char **argv, run_options *o)
     o->session.use_default_scene = true;
     o->output.picture_every = 30;
     o->frame_count = -1;
-    int option;
-    while ((option = getopt_long(argc, argv, "h", long_options, NULL)) != -1) {
-        if (option == 'h') {
-            print_help();
-            return EXIT_DONE;
-        }
-        if (option == '?' || !take_option(option, o)) {
-            return EXIT_USAGE;
-        }
+    int status = read_options(argc, argv, o);
+    if (status >= 0) {
+        return status;
     }
     if (argc - optind != 1) {
         return command_usage("run", argc == optind ? "needs a SOURCE" : "takes one SOURCE only");

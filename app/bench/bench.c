@@ -2,6 +2,8 @@
 #include "bench/bench.h"
 #include "bench/peers.h"
 #include "command.h"
+#include "machine.h"
+#include "options.h"
 
 #include <getopt.h>
 #include <stdio.h>
@@ -29,56 +31,25 @@ static void print_help(void)
         "  relief bench --threads 2 --json new.json --compare old.json\n");
 }
 
-static const struct option long_options[] = {
-    {"source", required_argument, NULL, 's'},
-    {"frames", required_argument, NULL, 'f'},
-    {"threads", required_argument, NULL, 't'},
-    {"quick", no_argument, NULL, 'q'},
-    {"json", required_argument, NULL, 'j'},
-    {"compare", required_argument, NULL, 'c'},
-    {"peer-clip", required_argument, NULL, 'w'},
-    {"peers", required_argument, NULL, 'p'},
-    {"help", no_argument, NULL, 'h'},
-    {0},
-};
-
-/* Returns -1 to go on, or an exit status. */
-static int take_option(int option, bench_options *o)
-{
-    int64_t threads;
-    switch (option) {
-    case 's': o->source = optarg; return -1;
-    case 'j': o->json_path = optarg; return -1;
-    case 'c': o->compare_path = optarg; return -1;
-    case 'w': o->clip_path = optarg; return -1;
-    case 'p': o->peers_path = optarg; return -1;
-    case 'q': o->is_quick = true; return -1;
-    case 'f':
-        return command_parse_int(optarg, 1, 100000, &o->frames)
-                   ? -1
-                   : command_usage("bench", "--frames '%s': use 1 to 100000", optarg);
-    case 't':
-        if (!command_parse_int(optarg, 0, 64, &threads)) {
-            return command_usage("bench", "--threads '%s': use 0 to 64", optarg);
-        }
-        o->threads = (int32_t)threads;
-        return -1;
-    case 'h': print_help(); return EXIT_DONE;
-    default: return EXIT_USAGE;
-    }
-}
-
 static int parse(int argc, char **argv, bench_options *o)
 {
     *o = (bench_options){.source = "synthetic:room", .frames = 150, .threads = 1};
-    int option;
-    while ((option = getopt_long(argc, argv, "h", long_options, NULL)) != -1) {
-        int status = take_option(option, o);
-        if (status >= 0) {
-            return status;
-        }
+    const option_def options[] = {
+        {.name = "source", .kind = OPTION_TEXT, .out = &o->source},
+        {.name = "frames", .kind = OPTION_INT64, .out = &o->frames, .low = 1, .high = 100000},
+        {.name = "threads", .kind = OPTION_INT32, .out = &o->threads, .low = 0, .high = 64},
+        {.name = "quick", .kind = OPTION_FLAG, .out = &o->is_quick},
+        {.name = "json", .kind = OPTION_TEXT, .out = &o->json_path},
+        {.name = "peer-clip", .kind = OPTION_TEXT, .out = &o->clip_path},
+        {.name = "peers", .kind = OPTION_TEXT, .out = &o->peers_path},
+        {.name = "compare", .kind = OPTION_TEXT, .out = &o->compare_path},
+        {0},
+    };
+    int status = options_parse("bench", argc, argv, options, print_help);
+    if (status < 0 && argc != optind) {
+        return command_usage("bench", "takes no argument; use --source");
     }
-    return argc != optind ? command_usage("bench", "takes no argument; use --source") : -1;
+    return status;
 }
 
 static rlf_result write_clip(const char *path)
@@ -92,30 +63,44 @@ static rlf_result write_clip(const char *path)
     return result;
 }
 
+/* What would fail after minutes fails now. */
+static rlf_result check(const bench_options *o)
+{
+    rlf_result result = o->json_path != NULL ? rlf_file_check(o->json_path) : RLF_OK;
+    if (result == RLF_OK && o->compare_path != NULL) {
+        result = bench_compare_check(o->compare_path);
+    }
+    return result == RLF_OK && o->peers_path != NULL ? bench_peers_check(o->peers_path) : result;
+}
+
 static rlf_result run(const bench_options *o, bench_table *table)
 {
     if (o->clip_path != NULL) {
         return write_clip(o->clip_path);
     }
-    rlf_result result = bench_cases_run(o, table);
-    if (result == RLF_OK) {
+    json_t *peers = NULL;
+    rlf_result result = check(o);
+    result = result == RLF_OK ? bench_cases_run(o, table) : result;
+    if (result == RLF_OK && !command_interrupted) {
+        machine_print();
         bench_cases_print(o, table);
     }
-    if (result == RLF_OK && !o->is_quick) {
+    if (result == RLF_OK && !o->is_quick && !command_interrupted) {
         result = bench_sweeps_run(o, table);
-        if (result == RLF_OK) {
+        if (result == RLF_OK && !command_interrupted) {
             bench_sweeps_print(table);
         }
     }
-    if (result == RLF_OK && o->peers_path != NULL) {
-        result = bench_peers_run(o, table);
+    if (result == RLF_OK && o->peers_path != NULL && !command_interrupted) {
+        result = bench_peers_run(o, table, &peers);
     }
-    if (result == RLF_OK && o->compare_path != NULL) {
+    if (result == RLF_OK && o->compare_path != NULL && !command_interrupted) {
         result = bench_compare(o, table);
     }
-    if (result == RLF_OK && o->json_path != NULL) {
-        result = bench_write_json(o, table);
+    if (result == RLF_OK && o->json_path != NULL && !command_interrupted) {
+        result = bench_write_json(o, table, json_incref(peers));
     }
+    json_decref(peers);
     return result;
 }
 
@@ -133,5 +118,8 @@ int bench_main(int argc, char **argv)
     }
     rlf_result result = run(&options, table);
     rlf_free(table);
+    if (command_interrupted) {
+        return command_stopped("bench");
+    }
     return result == RLF_OK ? EXIT_DONE : command_failed();
 }

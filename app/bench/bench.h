@@ -5,6 +5,8 @@
 #include "session.h"
 #include "timing.h"
 
+#include <jansson.h>
+
 #define BENCH_ROWS_MAX 512
 #define BENCH_NAME 40
 
@@ -90,8 +92,10 @@ void bench_cases_print(const bench_options *o, const bench_table *table);
 rlf_result bench_sweeps_run(const bench_options *o, bench_table *table);
 void bench_sweeps_print(const bench_table *table);
 
-/* bench_json.c */
-rlf_result bench_write_json(const bench_options *o, const bench_table *table);
+/* bench_json.c: the rows, and `peers` (taken over; NULL = none were asked for). */
+rlf_result bench_write_json(const bench_options *o, const bench_table *table, json_t *peers);
+/* Whether a file is one that can be compared with. */
+rlf_result bench_compare_check(const char *path);
 /* Prints each row beside that of an earlier run, old / new. */
 rlf_result bench_compare(const bench_options *o, const bench_table *table);
 

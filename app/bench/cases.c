@@ -74,6 +74,10 @@ static rlf_result run_frames(session *s, int64_t frames, case_times *t)
         }
     }
     bench_floor_close(&t->floor);
+    if (result == RLF_END && t->width == 0) {
+        return rlf_fail(RLF_ERROR_INVALID, "%s: has no frames",
+                        rlf_source_get_info(s->source)->name);
+    }
     return result == RLF_END ? RLF_OK : result;
 }
 

@@ -1,33 +1,26 @@
 /* The rows as JSON, and the comparison with an earlier file. */
 #include "bench/bench.h"
+#include "json_file.h"
+#include "machine.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static json_t *number_json(double value)
-{
-    return isnan(value) ? json_null() : json_real(value);
-}
-
-rlf_result bench_write_json(const bench_options *o, const bench_table *table)
+rlf_result bench_write_json(const bench_options *o, const bench_table *table, json_t *peers)
 {
     json_t *rows = json_array();
     for (int32_t i = 0; i < table->count; i++) {
         const bench_row *r = &table->rows[i];
-        json_array_append_new(rows, json_pack("{s:s, s:s, s:s, s:o, s:o, s:o}", "group", r->group,
-                                              "name", r->name, "unit", r->unit, "median",
-                                              number_json(r->median), "p95", number_json(r->p95),
-                                              "ratio", number_json(r->ratio)));
+        json_array_append_new(
+            rows, json_pack("{s:s, s:s, s:s, s:o, s:o, s:o}", "group", r->group, "name", r->name,
+                            "unit", r->unit, "median", json_file_number(r->median), "p95",
+                            json_file_number(r->p95), "ratio", json_file_number(r->ratio)));
     }
-    json_t *root = json_pack("{s:s, s:I, s:i, s:o}", "source", o->source, "frames",
-                             (json_int_t)o->frames, "threads", (int)o->threads, "rows", rows);
-    int failed = json_dump_file(root, o->json_path, JSON_INDENT(2));
-    json_decref(root);
-    return failed ? rlf_fail(RLF_ERROR_IO, "%s: cannot be written; choose another --json file",
-                             o->json_path)
-                  : RLF_OK;
+    json_t *root = json_pack("{s:o, s:s, s:I, s:i, s:o, s:o}", "machine", machine_json(), "source",
+                             o->source, "frames", (json_int_t)o->frames, "threads", (int)o->threads,
+                             "rows", rows, "peers", peers != NULL ? peers : json_null());
+    return json_file_write(o->json_path, root);
 }
 
 static const json_t *find_row(const json_t *rows, const bench_row *wanted)
@@ -44,27 +37,55 @@ static const json_t *find_row(const json_t *rows, const bench_row *wanted)
     return NULL;
 }
 
-rlf_result bench_compare(const bench_options *o, const bench_table *table)
+/* The root of a file of `relief bench --json`; NULL and the error line when it is none. */
+static json_t *load(const char *path)
 {
     json_error_t error;
-    json_t *root = json_load_file(o->compare_path, 0, &error);
-    const json_t *rows = json_object_get(root, "rows");
-    if (!json_is_array(rows)) {
-        json_decref(root);
-        return rlf_fail(RLF_ERROR_FORMAT, "%s: is not a file of `relief bench --json`",
-                        o->compare_path);
+    json_t *root = json_load_file(path, 0, &error);
+    if (root == NULL) {
+        bool is_there = error.line > 0;
+        rlf_fail(is_there ? RLF_ERROR_FORMAT : RLF_ERROR_IO,
+                 is_there ? "%s: is damaged or no JSON: %s; make it with `relief bench --json`"
+                          : "%s: cannot be read: %s; make it with `relief bench --json`",
+                 path, error.text);
+        return NULL;
     }
+    if (json_array_size(json_object_get(root, "rows")) == 0) {
+        json_decref(root);
+        rlf_fail(RLF_ERROR_FORMAT, "%s: is not a file of `relief bench --json`", path);
+        return NULL;
+    }
+    return root;
+}
+
+rlf_result bench_compare_check(const char *path)
+{
+    json_t *root = load(path);
+    json_decref(root);
+    return root != NULL ? RLF_OK : RLF_ERROR_FORMAT;
+}
+
+static void print_difference(const json_t *old, const bench_row *r)
+{
+    double before = old != NULL ? json_number_value(json_object_get(old, "median")) : NAN;
+    bool is_compared = strcmp(r->unit, "ms") == 0 || strcmp(r->unit, "MiB") == 0;
+    if (is_compared && before > 0.0 && r->median > 0.0) {
+        printf("%-14s %-22s %10.3f %10.3f %9.2f\n", r->group, r->name, before, r->median,
+               before / r->median);
+    }
+}
+
+rlf_result bench_compare(const bench_options *o, const bench_table *table)
+{
+    json_t *root = load(o->compare_path);
+    if (root == NULL) {
+        return RLF_ERROR_FORMAT;
+    }
+    const json_t *rows = json_object_get(root, "rows");
     printf("\nbeside %s: medians\n%-14s %-22s %10s %10s %9s\n", o->compare_path, "group", "name",
            "old", "new", "old/new");
     for (int32_t i = 0; i < table->count; i++) {
-        const bench_row *r = &table->rows[i];
-        const json_t *row = find_row(rows, r);
-        double old = row != NULL ? json_number_value(json_object_get(row, "median")) : NAN;
-        bool is_compared = strcmp(r->unit, "ms") == 0 || strcmp(r->unit, "MiB") == 0;
-        if (is_compared && old > 0.0 && r->median > 0.0) {
-            printf("%-14s %-22s %10.3f %10.3f %9.2f\n", r->group, r->name, old, r->median,
-                   old / r->median);
-        }
+        print_difference(find_row(rows, &table->rows[i]), &table->rows[i]);
     }
     json_decref(root);
     return RLF_OK;

@@ -4,6 +4,8 @@
 
 #include "bench/bench.h"
 
+#include <jansson.h>
+
 /* Values of bench_clip.label. */
 #define CLIP_LABEL_PERSON 1
 #define CLIP_LABEL_NOTHING 255
@@ -43,7 +45,10 @@ void bench_quality_measure(const bench_clip *clip, int32_t frame, const rlf_surf
 /* Times profile live on the clip, reads the results of the peers' harness (lines "peer stage width
  * height threads median min cpu n" and "Q peer stage width height threads key value") and prints
  * one table per stage. Adds its rows to the table, ratio: peer's least time / ours, which a busy
- * machine disturbs less than medians taken at different moments. */
-rlf_result bench_peers_run(const bench_options *o, bench_table *table);
+ * machine disturbs less than medians taken at different moments. *out_json: the whole as JSON, the
+ * caller's. */
+rlf_result bench_peers_run(const bench_options *o, bench_table *table, json_t **out_json);
+/* Whether a file holds results of the harness. */
+rlf_result bench_peers_check(const char *path);
 
 #endif

@@ -1,6 +1,8 @@
 /* Random numbers, a Kinect v2 and a surface stage. */
 #include "eval/analytic.h"
 
+#include "command.h"
+
 #include <string.h>
 
 eval_random eval_random_start(uint64_t seed)
@@ -110,7 +112,7 @@ rlf_result eval_stage_process(eval_stage *s, const rlf_surface **out)
     frame.rig = &s->rig;
     frame.depth_f32 = s->depth;
     frame.depth_stride = s->rig.depth.width * (ptrdiff_t)sizeof(float);
-    return rlf_reconstruct_process(s->reconstruct, &frame, out);
+    return command_interrupted ? RLF_END : rlf_reconstruct_process(s->reconstruct, &frame, out);
 }
 
 void eval_stage_restart(eval_stage *s)

@@ -5,6 +5,7 @@
 #include "eval/report.h"
 #include "eval/run.h"
 #include "eval/sections.h"
+#include "options.h"
 #include "session.h"
 
 #include <getopt.h>
@@ -46,6 +47,7 @@ typedef struct section {
 /* Beside the synthetic scenes. */
 static const section sections[] = {
     {PICTURE, eval_picture_run, "what hides bodies, at the colour camera"},
+    {"simulator", eval_simulator_run, "the simulated sensor beside table 5.1 of the thesis"},
     {"planes", eval_planes_run, "planes without noise, and one with holes"},
     {"plate", eval_plate_run, "a moving plate before a still wall"},
     {"physics", eval_physics_run, "bodies in free flight, at rest, pushed and thrown"},
@@ -72,10 +74,10 @@ static void print_help(void)
         "live is outside its bound.\n\n"
         "  --scene NAME      only this one, with every figure:\n");
     for (int32_t i = 0; i < eval_scene_count; i++) {
-        printf("                      %-8s %s\n", eval_scenes[i].name, eval_scenes[i].title);
+        printf("                      %-9s %s\n", eval_scenes[i].name, eval_scenes[i].title);
     }
     for (int i = 0; i < SECTION_COUNT; i++) {
-        printf("                      %-8s %s\n", sections[i].name, sections[i].title);
+        printf("                      %-9s %s\n", sections[i].name, sections[i].title);
     }
     printf(
         "  --normals DIR     clean depth with true normals: folders of depth.bin, normal.png and\n"
@@ -93,70 +95,45 @@ static void print_help(void)
         "  relief eval --normals path/to/frames\n");
 }
 
-static const struct option long_options[] = {
-    {"scene", required_argument, NULL, 's'},   {"normals", required_argument, NULL, 'd'},
-    {"frames", required_argument, NULL, 'f'},  {"seeds", required_argument, NULL, 'n'},
-    {"profile", required_argument, NULL, 'p'}, {"set", required_argument, NULL, 'o'},
-    {"threads", required_argument, NULL, 't'}, {"json", required_argument, NULL, 'j'},
-    {"help", no_argument, NULL, 'h'},          {0},
-};
-
-static int take_profile(eval_options *o)
+static bool take_profiles(const char *text, void *out)
 {
     rlf_profile profile;
-    if (strcmp(optarg, "both") == 0) {
-        o->profile_mask = 3;
-    } else if (session_parse_profile(optarg, &profile)) {
-        o->profile_mask = 1 << profile;
-    } else {
-        return command_usage("eval", "--profile '%s': use live, thesis or both", optarg);
-    }
-    return -1;
+    bool is_both = strcmp(text, "both") == 0;
+    bool is_one = !is_both && session_parse_profile(text, &profile);
+    *(int *)out = is_one ? 1 << profile : 3;
+    return is_both || is_one;
 }
 
-static int take_scene(eval_options *o)
+static bool take_scene(const char *text, void *out)
 {
-    o->section = optarg;
-    bool is_known = eval_scene_find(optarg) != NULL || find_section(optarg) != NULL;
-    return is_known ? -1 : command_usage("eval", "--scene '%s' is not one of them", optarg);
-}
-
-static int take_number(const char *name, int64_t low, int64_t high, int64_t *out)
-{
-    return command_parse_int(optarg, low, high, out)
-               ? -1
-               : command_usage("eval", "--%s '%s': use %lld to %lld", name, optarg, (long long)low,
-                               (long long)high);
-}
-
-/* Returns -1 to go on, or an exit status. */
-static int take_option(int option, eval_options *o)
-{
-    switch (option) {
-    case 's': return take_scene(o);
-    case 'd': o->normals_path = optarg; return -1;
-    case 'j': o->json_path = optarg; return -1;
-    case 'p': return take_profile(o);
-    case 'f': return take_number("frames", 20, 100000, &o->frames);
-    case 'n': return take_number("seeds", 1, EVAL_SEEDS_MAX, &o->seeds);
-    case 'o': return command_set("eval", &o->settings, optarg);
-    case 't': return take_number("threads", 0, 64, &o->threads);
-    case 'h': print_help(); return EXIT_DONE;
-    default: return EXIT_USAGE;
-    }
+    *(const char **)out = text;
+    return eval_scene_find(text) != NULL || find_section(text) != NULL;
 }
 
 static int parse(int argc, char **argv, eval_options *o)
 {
     *o = (eval_options){.seeds = 3, .profile_mask = 3};
-    int option;
-    while ((option = getopt_long(argc, argv, "h", long_options, NULL)) != -1) {
-        int status = take_option(option, o);
-        if (status >= 0) {
-            return status;
-        }
-    }
-    return argc != optind ? command_usage("eval", "takes no SOURCE") : -1;
+    const option_def options[] = {
+        {.name = "scene",
+         .kind = OPTION_CHOICE,
+         .out = &o->section,
+         .take = take_scene,
+         .choices = "is not one of them"},
+        {.name = "normals", .kind = OPTION_TEXT, .out = &o->normals_path},
+        {.name = "frames", .kind = OPTION_INT64, .out = &o->frames, .low = 20, .high = 100000},
+        {.name = "seeds", .kind = OPTION_INT64, .out = &o->seeds, .low = 1, .high = EVAL_SEEDS_MAX},
+        {.name = "profile",
+         .kind = OPTION_CHOICE,
+         .out = &o->profile_mask,
+         .take = take_profiles,
+         .choices = "use live, thesis or both"},
+        {.name = "threads", .kind = OPTION_INT64, .out = &o->threads, .low = 0, .high = 64},
+        {.name = "json", .kind = OPTION_TEXT, .out = &o->json_path},
+        {.name = "set", .kind = OPTION_SET, .out = &o->settings},
+        {0},
+    };
+    int status = options_parse("eval", argc, argv, options, print_help);
+    return status < 0 && argc != optind ? command_usage("eval", "takes no SOURCE") : status;
 }
 
 static rlf_result run_task(const eval_task *task)
@@ -246,6 +223,9 @@ int eval_main(int argc, char **argv)
     if (status >= 0) {
         return status;
     }
+    if (options.json_path != NULL && rlf_file_check(options.json_path) != RLF_OK) {
+        return command_failed();
+    }
     if (options.section != NULL && strcmp(options.section, PICTURE) == 0) {
         return eval_picture_main(options.frames > 0 ? options.frames : PICTURE_FRAMES,
                                  options.seeds, options.json_path);
@@ -256,14 +236,17 @@ int eval_main(int argc, char **argv)
     }
     int32_t outside = 0;
     rlf_result result = measure(&options, table);
-    if (result == RLF_OK) {
+    if (result == RLF_OK && !command_interrupted) {
         eval_report_options report = {.print_all = options.section != NULL,
-                                      .is_whole = options.frames == 0 && !command_interrupted,
+                                      .is_whole = options.frames == 0,
                                       .json_path = options.json_path,
                                       .seeds = options.seeds};
         result = eval_report(table, &report, &outside);
     }
     rlf_free(table);
+    if (command_interrupted) {
+        return command_stopped("eval");
+    }
     if (result != RLF_OK) {
         return command_failed();
     }

@@ -2,10 +2,10 @@
  * the same frames of the synthetic room, with a walking person and with nobody. */
 #include "eval/picture.h"
 #include "command.h"
+#include "json_file.h"
 
 #include "relief/synthetic.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -259,16 +259,11 @@ static rlf_result write_json(const picture_errors errors[METHOD_COUNT][2], const
         json_t *values = json_object();
         for (size_t i = 0; i < FIGURE_COUNT; i++) {
             double value = figures[i].value(&errors[m][figures[i].is_still]);
-            json_object_set_new(values, figures[i].key,
-                                isnan(value) ? json_null() : json_real(value));
+            json_object_set_new(values, figures[i].key, json_file_number(value));
         }
         json_object_set_new(root, methods[m].key, values);
     }
-    int failed = json_dump_file(root, path, JSON_INDENT(2));
-    json_decref(root);
-    return failed
-               ? rlf_fail(RLF_ERROR_IO, "%s: cannot be written; choose another --json file", path)
-               : RLF_OK;
+    return json_file_write(path, root);
 }
 
 int eval_picture_main(int64_t frame_count, int64_t seed_count, const char *json_path)
@@ -284,7 +279,7 @@ int eval_picture_main(int64_t frame_count, int64_t seed_count, const char *json_
             result = measure(&methods[m], still != 0, frame_count, seed_count, &errors[m][still]);
         }
     }
-    if (result == RLF_OK) {
+    if (result == RLF_OK && !command_interrupted) {
         printf("bodies in the synthetic room at the colour camera, %lld seeds x %lld frames\n",
                (long long)seed_count, (long long)frame_count);
         print_table((const picture_errors(*)[2])errors);
@@ -292,6 +287,9 @@ int eval_picture_main(int64_t frame_count, int64_t seed_count, const char *json_
             json_path != NULL ? write_json((const picture_errors(*)[2])errors, json_path) : RLF_OK;
     }
     rlf_free(errors);
+    if (command_interrupted) {
+        return command_stopped("eval");
+    }
     return result == RLF_OK ? EXIT_DONE : command_failed();
 }
 

@@ -1,9 +1,10 @@
 /* Goal, bound, mean with its confidence interval, and the thesis beside it. */
 #include "eval/report.h"
 
+#include "json_file.h"
+#include "machine.h"
 #include "statistics.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -27,6 +28,8 @@ static void format_mean(const statistics *s, char *out, size_t size)
 {
     if (s->count == 0) {
         snprintf(out, size, "-");
+    } else if (s->mean >= EVAL_NEVER / EVAL_SEEDS_MAX) {
+        snprintf(out, size, "never");
     } else if (isnan(s->half_width)) {
         snprintf(out, size, "%.4g", s->mean);
     } else {
@@ -80,20 +83,15 @@ static void print_table(const eval_table *table, const eval_report_options *o)
     }
 }
 
-static json_t *number_json(double value)
-{
-    return isnan(value) ? json_null() : json_real(value);
-}
-
 static json_t *profile_json(const eval_row *row, rlf_profile profile)
 {
     statistics s = row_statistics(row, profile);
     json_t *values = json_array();
     for (int32_t i = 0; i < row->count[profile]; i++) {
-        json_array_append_new(values, number_json(row->values[profile][i]));
+        json_array_append_new(values, json_file_number(row->values[profile][i]));
     }
-    return json_pack("{s:o, s:o, s:o}", "mean", number_json(s.mean), "ci95",
-                     number_json(s.half_width), "values", values);
+    return json_pack("{s:o, s:o, s:o}", "mean", json_file_number(s.mean), "ci95",
+                     json_file_number(s.half_width), "values", values);
 }
 
 static json_t *row_json(const eval_row *row, bool is_whole)
@@ -110,8 +108,8 @@ static json_t *row_json(const eval_row *row, bool is_whole)
     if (bound != NULL) {
         eval_verdict verdict = judge(row, bound);
         json_object_set_new(json, "relation", json_string(bound->relation == '<' ? "<=" : ">="));
-        json_object_set_new(json, "goal", number_json(bound->goal));
-        json_object_set_new(json, "bound", number_json(bound->bound));
+        json_object_set_new(json, "goal", json_file_number(bound->goal));
+        json_object_set_new(json, "bound", json_file_number(bound->bound));
         json_object_set_new(json, "published", json_string(bound->thesis));
         json_object_set_new(json, "others", json_string(bound->others));
         json_object_set_new(json, "verdict", json_string(eval_verdict_name(verdict)));
@@ -130,13 +128,9 @@ static rlf_result write_json(const eval_table *table, const eval_report_options 
     for (int64_t seed = 1; seed <= o->seeds; seed++) {
         json_array_append_new(seeds, json_integer(seed));
     }
-    json_t *root =
-        json_pack("{s:o, s:i, s:o}", "seeds", seeds, "outside", (int)outside, "figures", rows);
-    int failed = json_dump_file(root, o->json_path, JSON_INDENT(2));
-    json_decref(root);
-    return failed ? rlf_fail(RLF_ERROR_IO, "%s: cannot be written; choose another --json file",
-                             o->json_path)
-                  : RLF_OK;
+    json_t *root = json_pack("{s:o, s:o, s:i, s:o}", "machine", machine_json(), "seeds", seeds,
+                             "outside", (int)outside, "figures", rows);
+    return json_file_write(o->json_path, root);
 }
 
 rlf_result eval_report(const eval_table *table, const eval_report_options *options,

@@ -1,9 +1,11 @@
-/* The parts of `relief eval` that need no simulated camera; each adds its rows to the table. */
+/* The parts of `relief eval` beside the synthetic scenes; each adds its rows to the table. */
 #ifndef RELIEF_APP_EVAL_SECTIONS_H
 #define RELIEF_APP_EVAL_SECTIONS_H
 
 #include "eval/table.h"
 
+/* The simulated sensor itself: its missing points beside table 5.1 of the thesis. */
+rlf_result eval_simulator_run(eval_table *table, int64_t seed, int profile_mask);
 /* Noise-free planes of any slope over the whole field of view, and a plane with holes. */
 rlf_result eval_planes_run(eval_table *table, int64_t seed, int profile_mask);
 /* A plate that moves at 0.5 m/s before a wall, seen with noise. */

@@ -19,6 +19,7 @@ typedef struct eval_room {
 /* Opens a synthetic source; `lost` frames are dropped between any two. */
 rlf_result eval_room_open(const char *source, int32_t lost, rlf_profile profile, eval_room *out);
 void eval_room_close(eval_room *stage);
+/* RLF_END after Ctrl-C too. */
 rlf_result eval_room_step(eval_room *stage);
 
 typedef enum eval_aim {
@@ -67,13 +68,13 @@ rlf_result eval_sensed_carry(rlf_profile profile, int32_t *out_stayed);
 
 typedef struct eval_rest {
     double jitter_mm; /* RMS about the mean place, from 1 s after the landing on */
-    double asleep_s;  /* s from the landing to sleep; 1e9 = never */
+    double asleep_s;  /* s from the landing to sleep; EVAL_NEVER = never */
     int32_t wakes;
 } eval_rest;
 
 /* NOISE: a cube on the sensed table. */
 rlf_result eval_sensed_rest(rlf_profile profile, double seconds, eval_rest *out);
-/* CHAIR: frames from its removal until the cube on its seat falls; 1e9 = never. */
+/* CHAIR: frames from its removal until the cube on its seat falls; EVAL_NEVER = never. */
 rlf_result eval_sensed_chair(rlf_profile profile, double *out_frames);
 
 #endif

@@ -167,7 +167,7 @@ rlf_result eval_sensed_rest(rlf_profile profile, double seconds, eval_rest *out)
 {
     eval_room stage;
     rlf_result result = eval_room_open("synthetic:empty?color=0&frames=-1", 0, profile, &stage);
-    *out = (eval_rest){.asleep_s = 1e9};
+    *out = (eval_rest){.asleep_s = EVAL_NEVER};
     if (result != RLF_OK) {
         return result;
     }
@@ -203,7 +203,7 @@ rlf_result eval_sensed_chair(rlf_profile profile, double *out_frames)
     const double REMOVED = 4.0;
     eval_room stage;
     rlf_result result = eval_room_open("synthetic:chair?color=0&frames=-1", 0, profile, &stage);
-    *out_frames = 1e9;
+    *out_frames = EVAL_NEVER;
     if (result != RLF_OK) {
         return result;
     }

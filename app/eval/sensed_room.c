@@ -1,4 +1,5 @@
 /* Opening what the figures run on, with frames lost on the way if asked. */
+#include "command.h"
 #include "eval/sensed.h"
 
 #include <string.h>
@@ -47,5 +48,5 @@ void eval_room_close(eval_room *stage)
 
 rlf_result eval_room_step(eval_room *stage)
 {
-    return rlf_pipeline_step(stage->pipeline, &stage->frame);
+    return command_interrupted ? RLF_END : rlf_pipeline_step(stage->pipeline, &stage->frame);
 }

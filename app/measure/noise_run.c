@@ -1,8 +1,9 @@
 /* `relief measure SOURCE --noise`: reads the frames, prints the table, writes the JSON. */
 #include "command.h"
+#include "json_file.h"
+#include "machine.h"
 #include "measure/noise.h"
 
-#include <jansson.h>
 #include <stdio.h>
 
 static rlf_result read_frames(rlf_source *source, int64_t frames, measure_noise *out)
@@ -83,14 +84,10 @@ static rlf_result write_json(const char *path, const rlf_rig *rig, const char *n
                                 1000.0 * rlf_depth_noise_sigma(&rig->noise, middle_of(b))));
         }
     }
-    json_t *root = json_pack("{s:s, s:I, s:f, s:o}", "source", name, "frames",
-                             (json_int_t)measure_noise_frames(noise), "missing_percent",
+    json_t *root = json_pack("{s:o, s:s, s:I, s:f, s:o}", "machine", machine_json(), "source", name,
+                             "frames", (json_int_t)measure_noise_frames(noise), "missing_percent",
                              measure_noise_missing(noise), "noise", rows);
-    int failed = json_dump_file(root, path, JSON_INDENT(2));
-    json_decref(root);
-    return failed
-               ? rlf_fail(RLF_ERROR_IO, "%s: cannot be written; choose another --json file", path)
-               : RLF_OK;
+    return json_file_write(path, root);
 }
 
 rlf_result measure_noise_run(const char *source_name, int64_t frames, const char *json_path)
@@ -107,10 +104,14 @@ rlf_result measure_noise_run(const char *source_name, int64_t frames, const char
     }
     measure_noise *noise = measure_noise_create(&info->rig);
     result = noise == NULL ? RLF_ERROR_MEMORY : read_frames(source, frames, noise);
-    if (result == RLF_OK) {
+    if (result == RLF_OK && measure_noise_frames(noise) == 0 && !command_interrupted) {
+        result = rlf_fail(RLF_ERROR_INVALID, "%s: has no frames", source_name);
+    }
+    bool is_whole = result == RLF_OK && !command_interrupted;
+    if (is_whole) {
         print_table(source_name, &info->rig, noise);
     }
-    if (result == RLF_OK && json_path != NULL) {
+    if (is_whole && json_path != NULL) {
         result = write_json(json_path, &info->rig, source_name, noise);
     }
     measure_noise_destroy(&noise);

@@ -1,6 +1,8 @@
 /* Counting missing points and wrong normals per frame. */
 #include "measure/points.h"
 
+#include <math.h>
+
 /* A frame has a moving object when this share of its points is foreground: fewer is noise. */
 #define MOVING_SHARE 0.003
 #define WRONG_COSINE 0.86602540378443864676 /* cos 30 degrees */
@@ -93,5 +95,18 @@ double measure_estimated_percent(const measure_counts *c)
 
 double measure_counted_percent(const measure_counts *c)
 {
-    return c->true_points > 0 ? 100.0 * (double)c->bad_normals / (double)c->true_points : -1.0;
+    return c->true_points > 0 ? 100.0 * (double)c->bad_normals / (double)c->true_points : NAN;
+}
+
+double measure_published(const measure_points *m, measure_case c)
+{
+    static const double published[MEASURE_CASE_COUNT] = {165.468, 15.548, 188.573, 57.113};
+    return m->width == 64 && m->height == 53 ? published[c] : NAN;
+}
+
+double measure_published_off_percent(const measure_points *m, measure_case c)
+{
+    const measure_counts *counts = &m->cases[c];
+    double published = measure_published(m, c);
+    return counts->frames > 0 ? 100.0 * (measure_missing(counts) / published - 1.0) : NAN;
 }

@@ -40,8 +40,14 @@ double measure_missing_percent(const measure_counts *c);
 /* The thesis's estimate of wrong normals: each missing point spoils its four neighbours, percent of
  * the area's points, at most all of them. */
 double measure_estimated_percent(const measure_counts *c);
-/* Counted against truth: normals missing or more than 30 degrees off, percent; < 0 without truth.
+/* Counted against truth: normals missing or more than 30 degrees off, percent; NAN without truth.
  */
 double measure_counted_percent(const measure_counts *c);
+
+/* What the thesis's table 5.1 has for the case, missing points of its 64x53 grid; NAN for any other
+ * grid. */
+double measure_published(const measure_points *m, measure_case c);
+/* How far the mean is from that, percent of it, with its sign; NAN without frames. */
+double measure_published_off_percent(const measure_points *m, measure_case c);
 
 #endif

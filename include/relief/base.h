@@ -103,6 +103,12 @@ RLF_API void rlf_free(void *memory);
 /* Number of rlf_alloc calls since the program started: a test asserts that frames add none. */
 RLF_API uint64_t rlf_alloc_count(void);
 
+/* ---- machine --------------------------------------------------------------------------------- */
+
+/* Instruction set of the hot loops on this machine, for reports: "AVX-512 (x86-64-v4)", "AVX2" or
+ * "portable". Never NULL; results do not depend on it. Thread-safety: safe. */
+RLF_API const char *rlf_isa_name(void);
+
 /* ---- clock ----------------------------------------------------------------------------------- */
 
 /* Monotonic time in nanoseconds; only differences mean anything. */

@@ -93,6 +93,13 @@ RLF_API rlf_result rlf_csv_log_close(rlf_csv_log **log);
 /* Makes a folder and its parents. RLF_OK when it is there already. */
 RLF_API rlf_result rlf_make_folder(const char *path);
 
+/* Writes `size` bytes as a whole file: RLF_ERROR_IO and nothing left behind when the disk is full
+ * or the path cannot be written. A device or pipe is written directly. */
+RLF_API rlf_result rlf_file_write(const char *path, const void *data, size_t size);
+/* Tells before the work whether rlf_file_write could start: RLF_OK, or the error. Leaves the path
+ * as it is. */
+RLF_API rlf_result rlf_file_check(const char *path);
+
 #ifdef __cplusplus
 }
 #endif

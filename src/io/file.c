@@ -2,6 +2,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/file.h"
 
+#include "relief/io.h"
+
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -174,4 +176,29 @@ rlf_result io_out_close(io_out_file *file, rlf_result result)
     }
     io_out_discard(file);
     return result != RLF_OK ? result : fail_write(file);
+}
+
+rlf_result rlf_file_write(const char *path, const void *data, size_t size)
+{
+    io_out_file file;
+    rlf_result result = io_out_open(&file, path);
+    if (result != RLF_OK) {
+        return result;
+    }
+    return io_out_close(&file, io_out_write(&file, data, size));
+}
+
+rlf_result rlf_file_check(const char *path)
+{
+    io_out_file file;
+    rlf_result result = io_out_prepare(&file, path);
+    if (result != RLF_OK || file.is_direct) {
+        return result;
+    }
+    result = io_out_open(&file, path);
+    if (result == RLF_OK) {
+        fclose(file.stream);
+        io_out_discard(&file);
+    }
+    return result;
 }

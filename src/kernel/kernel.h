@@ -31,6 +31,7 @@
 #endif
 #if defined(__GNUC__) && defined(__x86_64__) && defined(__GLIBC__) &&                              \
     !defined(RLF_KERNEL_SANITIZED) && !defined(RLF_KERNEL_PORTABLE)
+#define RLF_KERNEL_HAS_CLONES 1
 #define RLF_KERNEL __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
 #else
 #define RLF_KERNEL

@@ -109,7 +109,7 @@ static void table_finds_rows_and_files_compare(void **state)
     assert_null(bench_find(&old, "live_8", "surface"));
     bench_options o = {
         .source = "s", .json_path = "bench_test.json", .compare_path = "bench_test.json"};
-    assert_int_equal(bench_write_json(&o, &old), RLF_OK);
+    assert_int_equal(bench_write_json(&o, &old, NULL), RLF_OK);
     assert_int_equal(bench_compare(&o, &now), RLF_OK); /* the new step has nothing beside it */
     o.compare_path = RLF_TEST_ROOT "/README.md";
     assert_int_equal(bench_compare(&o, &now), RLF_ERROR_FORMAT);

@@ -9,7 +9,6 @@
 #include <cmocka.h>
 
 #include "bench/peers.h"
-#include "command.h"
 #include "io_support.h"
 
 #include <math.h>
@@ -19,8 +18,6 @@
 #define W 40
 #define H 30
 #define COUNT (W * H)
-
-volatile sig_atomic_t command_interrupted; /* of the command, which is not linked here */
 
 /* A wall at 3 m whose right half is a person at 2 m. */
 typedef struct still {
@@ -150,7 +147,19 @@ static void results_stand_beside_ours(void **state)
                     "opencv A_depthTo3d_u16 512 424 1 0.2 0.2 0.2 30\n"
                     "pcl C_occ 512 424 1 2000 900 1000 30\n");
     bench_options o = {.peers_path = test_path("results.txt")};
-    assert_int_equal(bench_peers_run(&o, &table), RLF_OK);
+    json_t *json = NULL;
+    assert_int_equal(bench_peers_run(&o, &table, &json), RLF_OK);
+    json_t *normals = json_array_get(json, 0);
+    json_t *rows = json_object_get(normals, "rows");
+    assert_int_equal(json_array_size(rows), 2); /* ours is the faster one */
+    json_t *last = json_array_get(rows, 1);
+    assert_string_equal(json_string_value(json_object_get(last, "peer")), "opencv");
+    assert_true(json_real_value(json_object_get(last, "least")) == 900.0);
+    json_t *values = json_object_get(last, "values");
+    assert_int_equal(json_array_size(values), json_array_size(json_object_get(normals, "heads")));
+    assert_true(json_real_value(json_array_get(values, 0)) == 99.5);
+    assert_true(json_is_null(json_array_get(values, 1)));
+    json_decref(json);
     assert_int_equal(table.count, 4 + 2); /* ours of four stages; deprojection is of none */
     const bench_row *fals = bench_find(&table, "peers", "opencv normals_FALS_w5");
     assert_non_null(fals);
@@ -160,7 +169,8 @@ static void results_stand_beside_ours(void **state)
     assert_true(ours->ratio == 1.0 && ours->median > 0.0);
     test_write_text("nothing.txt", "# nothing\n");
     o.peers_path = test_path("nothing.txt");
-    assert_int_equal(bench_peers_run(&o, &table), RLF_ERROR_FORMAT);
+    assert_int_equal(bench_peers_check(o.peers_path), RLF_ERROR_FORMAT);
+    assert_int_equal(bench_peers_run(&o, &table, &json), RLF_ERROR_FORMAT);
 }
 
 int main(void)

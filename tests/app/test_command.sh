@@ -57,6 +57,8 @@ grep -q "^steadying  *on  *off" stdout.txt || fail "settings: not listed"
 expect_error 2 "not an array" export synthetic:room --out o --what smell
 expect_error 2 "needs --out" export synthetic:room
 expect_error 2 "needs --scene" export synthetic:room --out o --what matte
+expect_error 2 "unknown option '--fast'" run synthetic:room --fast
+expect_error 2 "--json needs a value" eval --json
 expect_error 2 "A:B" export synthetic:room --out o --what depth --frames 5:3
 
 # ---- what the world can get wrong -----------------------------------------------------------------------
@@ -102,8 +104,12 @@ done
 expect_error 2 "--scale" measure synthetic:thesis --scale 8,zero
 expect_error 1 "has no end" measure "synthetic:thesis?frames=-1"
 expect_error 1 "too few frames" measure "synthetic:thesis?frames=4"
+expect_error 1 "no/table.json" measure synthetic:thesis --json no/table.json
+expect_error 1 "no/table.csv" measure synthetic:thesis --csv no/table.csv
+expect_error 1 "has no frames" measure "synthetic:room?frames=0" --noise
 expect_done measure "synthetic:thesis?frames=12" --csv table.csv --json table.json
 [ "$(wc -l <table.csv)" -eq 9 ] || fail "measure: table.csv rows"
+grep -q '"cpu"' table.json || fail "measure: table.json names no machine"
 grep -q '"counted_bad_percent"' table.json || fail "measure: table.json"
 grep -q "3392" stdout.txt || fail "measure: no full 64x53 grid"
 grep -q "2632" stdout.txt || fail "measure: no 56x47 centre"
@@ -115,9 +121,11 @@ grep -q '"temporal_mm"' noise.json || fail "measure --noise: noise.json"
 expect_error 2 "not one of them" eval --scene moon
 expect_error 2 "live, thesis or both" eval --profile ours
 expect_error 2 "--seeds" eval --seeds 0
+expect_error 1 "no/eval.json" eval --json no/eval.json
 expect_error 1 "no_such_frames" eval --normals no_such_frames
 expect_done eval --scene plate --profile live --seeds 2 --json eval.json
 grep -q "0 outside it" stdout.txt || fail "eval: $(cat stdout.txt)"
+grep -q '"commit"' eval.json || fail "eval: eval.json names no machine"
 grep -q '"ci95"' eval.json || fail "eval: eval.json"
 expect_done eval --scene empty --profile thesis --seeds 1 --frames 20 --threads 1
 grep -q "normals, interior" stdout.txt || fail "eval --scene empty: $(cat stdout.txt)"
@@ -125,8 +133,14 @@ grep -q "normals, interior" stdout.txt || fail "eval --scene empty: $(cat stdout
 # Time and memory.
 expect_error 2 "--frames" bench --frames 0
 expect_error 2 "no argument" bench synthetic:room
+expect_error 1 "no/bench.json" bench --json no/bench.json
+expect_error 1 "no_such.json" bench --compare no_such.json
+printf '{"rows": [{"group": "live_1", "na' >cut.json
+expect_error 1 "cut.json: is damaged" bench --compare cut.json
+expect_error 1 "peers.txt" bench --peers peers.txt
 expect_done bench --frames 2 --quick --json bench.json
 grep -q "surface / floor" stdout.txt || fail "bench: $(cat stdout.txt)"
+grep -q '"isa"' bench.json || fail "bench: bench.json names no machine"
 grep -q '"surface/background"' bench.json || fail "bench: bench.json"
 expect_done bench --frames 1 --quick --compare bench.json
 grep -q "memory/whole .* 1.00$" stdout.txt || fail "bench --compare: $(cat stdout.txt)"
@@ -157,12 +171,29 @@ ls arrays/regions/000006_*.ply >/dev/null || fail "export: regions"
 # Ctrl-C ends a run with whole files.
 "$relief" run "synthetic:room?frames=-1" --headless --video long.y4m --log long_log --quiet &
 pid=$!
-sleep 2
+for wait in 1 2 3 4 5 6 7 8 9 10; do # until it is at work
+    [ -s long.y4m.part ] && break
+    sleep 1
+done
 kill -INT $pid
 wait $pid || fail "interrupted run: status $?"
 [ -s long.y4m ] || fail "interrupted run: no video"
 [ -e long.y4m.part ] && fail "interrupted run: .part left"
 tail -c 1 long_log/frames.csv | od -c | grep -q '\\n' || fail "interrupted run: log cut short"
+
+# Half a measurement is none: no file, and an earlier one stays.
+echo "{}" >kept.json
+for command in "eval --scene room" "bench --frames 100000" "measure synthetic:room?frames=-1 --frames 100000"; do
+    # shellcheck disable=SC2086 # words
+    "$relief" $command --json kept.json >stdout.txt 2>stderr.txt &
+    pid=$!
+    sleep 2
+    kill -INT $pid
+    wait $pid
+    [ $? -eq 1 ] || fail "interrupted $command: status is not 1"
+    tail -n 1 stderr.txt | grep -q "nothing was written" || fail "interrupted $command: $(cat stderr.txt)"
+    [ "$(cat kept.json)" = "{}" ] && [ ! -e kept.json.part ] || fail "interrupted $command: kept.json"
+done
 
 if [ -e /dev/full ]; then
     "$relief" run "synthetic:room?frames=8" --headless --quiet --video - >/dev/full 2>stderr.txt

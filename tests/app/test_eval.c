@@ -194,8 +194,13 @@ static void missing_points_fall_into_the_four_cases(void **state)
         assert_int_equal(m.cases[c].frames, frames[c]);
         assert_int_equal(m.cases[c].points, points[c]);
         assert_true(measure_missing(&m.cases[c]) == missing[c]);
-        assert_true(measure_counted_percent(&m.cases[c]) < 0.0);
+        assert_true(isnan(measure_counted_percent(&m.cases[c])));
     }
+    assert_true(measure_published(&m, MEASURE_MOVING_CENTRE) == 57.113);
+    assert_true(fabs(measure_published_off_percent(&m, MEASURE_STILL_FULL) -
+                     100.0 * (2.0 / 165.468 - 1.0)) < 1e-9);
+    m.width = 512; /* no such table */
+    assert_true(isnan(measure_published(&m, MEASURE_MOVING_CENTRE)));
     /* the thesis's own numbers: 57.113 of 2632 points are 8.68 % wrong normals */
     measure_counts thesis = {.frames = 1000, .points = 2632};
     thesis.reasons[RLF_REASON_NO_RETURN] = 57113;

@@ -6,7 +6,6 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "command.h"
 #include "eval/figures.h"
 #include "eval/report.h"
 #include "eval/run.h"
@@ -16,8 +15,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-volatile sig_atomic_t command_interrupted; /* of the command, which is not linked here */
 
 static eval_table table;
 

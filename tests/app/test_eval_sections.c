@@ -7,7 +7,6 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "command.h"
 #include "eval/bounds.h"
 #include "eval/sections.h"
 #include "eval/sheet.h"
@@ -17,8 +16,6 @@
 #include <string.h>
 
 #define BOTH 3
-
-volatile sig_atomic_t command_interrupted; /* of the command, which is not linked here */
 
 static eval_table table;
 

@@ -1,0 +1,27 @@
+/* Ctrl-C and SIGTERM. */
+#define _POSIX_C_SOURCE 200809L
+#include "command.h"
+
+#include <string.h>
+
+volatile sig_atomic_t command_interrupted;
+
+static void on_interrupt(int signal_number)
+{
+    (void)signal_number;
+    command_interrupted = 1;
+}
+
+void command_catch_interrupts(void)
+{
+    struct sigaction action;
+    memset(&action, 0, sizeof(action));
+    action.sa_handler = on_interrupt;
+    action.sa_flags = (int)SA_RESETHAND; /* a second Ctrl-C ends at once */
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    struct sigaction ignore;
+    memset(&ignore, 0, sizeof(ignore));
+    ignore.sa_handler = SIG_IGN; /* a closed pipe is reported by the writer instead */
+    sigaction(SIGPIPE, &ignore, NULL);
+}

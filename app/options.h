@@ -1,0 +1,34 @@
+/* Options of a subcommand as a table, read the same way by all of them. */
+#ifndef RELIEF_APP_OPTIONS_H
+#define RELIEF_APP_OPTIONS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef enum option_kind {
+    OPTION_FLAG = 0,    /* bool: set */
+    OPTION_TEXT = 1,    /* const char *: into argv */
+    OPTION_INT32 = 2,   /* int32_t within [low, high] */
+    OPTION_INT64 = 3,   /* int64_t within [low, high] */
+    OPTION_PROFILE = 4, /* rlf_profile: live or thesis */
+    OPTION_SET = 5,     /* setting_list: one more "NAME=VALUE" */
+    OPTION_CHOICE = 6   /* read by `take` */
+} option_kind;
+
+/* A table ends with a NULL name. */
+typedef struct option_def {
+    const char *name; /* without the dashes */
+    option_kind kind;
+    void *out; /* of the kind's type; what `take` is given */
+    int64_t low, high;
+    /* Reads the text into `out`; false when it is none of `choices`. */
+    bool (*take)(const char *text, void *out);
+    const char *choices; /* for the message: "use live, thesis or both" */
+} option_def;
+
+/* Reads the options of argv and leaves getopt's `optind` at the first argument. --help and -h print
+ * the help. Returns -1 to go on, or an exit status after one line that says what is wrong. */
+int options_parse(const char *command, int argc, char **argv, const option_def *options,
+                  void (*print_help)(void));
+
+#endif
