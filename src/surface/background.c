@@ -25,6 +25,8 @@ void rlf_background_reset(rlf_background *background, const rlf_grid *grid)
     background->next_version++; /* newer than that of a sheet that was never published: 0 */
     background->state = RLF_BACKGROUND_NONE;
     background->newest = -1;
+    background->is_stale = false;
+    background->other_frames = 0;
 }
 
 rlf_span rlf_background_span(const uint8_t *foreground, int32_t width)

@@ -136,10 +136,22 @@ static void find_front(rlf_reconstruct *stage, rlf_slot *slot)
     decide_unknown(stage, slot);
 }
 
+/* Keeps the newest sheet: surfaces may still refer to it. */
+static void start_anew(rlf_reconstruct *stage)
+{
+    int32_t newest = stage->background.newest;
+    rlf_background_reset(&stage->background, &stage->grid);
+    stage->background.newest = newest;
+    stage->background.is_stale = newest >= 0;
+}
+
 void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot)
 {
     rlf_background *background = &stage->background;
     const rlf_reconstruct_def *def = &stage->def;
+    if (background->state == RLF_BACKGROUND_READY && rlf_background_is_cut(stage, slot->depth)) {
+        start_anew(stage);
+    }
     bool learning = background->frames < def->background_frames;
     model_job job = {.stage = stage,
                      .slot = slot,

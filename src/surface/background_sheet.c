@@ -188,6 +188,14 @@ static void finish(rlf_reconstruct *stage)
     background->newest = next;
     background->sheet_age = 0;
     background->is_drafting = false;
+    background->is_stale = false;
+}
+
+const rlf_sheet *rlf_sheet_newest(const rlf_reconstruct *stage)
+{
+    const rlf_background *background = &stage->background;
+    bool none = background->newest < 0 || background->is_stale;
+    return none ? NULL : &background->sheets[background->newest];
 }
 
 void rlf_sheet_publish(rlf_reconstruct *stage)
@@ -214,7 +222,7 @@ void rlf_sheet_advance(rlf_reconstruct *stage)
 {
     rlf_background *background = &stage->background;
     int32_t tiles = rlf_sheet_tiles(&stage->grid);
-    if (background->newest < 0) {
+    if (rlf_sheet_newest(stage) == NULL) {
         rlf_sheet_publish(stage);
         return;
     }

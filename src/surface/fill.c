@@ -156,9 +156,8 @@ static void fill_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 
 void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, rlf_slot *slot)
 {
-    int32_t newest = stage->background.newest;
     fill_job job = {.stage = stage,
-                    .behind = newest < 0 ? NULL : &stage->background.sheets[newest],
+                    .behind = rlf_sheet_newest(stage),
                     .normal = stage->def.enable_smoothing ? slot->normal : NULL,
                     .depth = depth,
                     .has = stage->work.mask[0],

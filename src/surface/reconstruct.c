@@ -155,17 +155,11 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
     }
 }
 
-static const rlf_sheet *newest_sheet(const rlf_reconstruct *stage)
-{
-    int32_t newest = stage->background.newest;
-    return newest < 0 ? NULL : &stage->background.sheets[newest];
-}
-
 /* Thesis 4.4.1: the background's normals are computed once; per frame only the foreground's point
  * cloud has normals computed, by itself. */
 static void make_layered_normals(rlf_reconstruct *stage, rlf_normals_job *job, rlf_slot *slot)
 {
-    const rlf_sheet *sheet = newest_sheet(stage);
+    const rlf_sheet *sheet = rlf_sheet_newest(stage);
     float *front = stage->work.depth[0];
     int32_t count = stage->grid.count;
     for (int32_t i = 0; i < count; i++) {
@@ -194,7 +188,7 @@ static void make_normals(rlf_reconstruct *stage, rlf_slot *slot)
         job.filled = slot->depth;
     }
     bool layered = stage->def.background_method == RLF_BACKGROUND_AVERAGE && !exact &&
-                   newest_sheet(stage) != NULL;
+                   rlf_sheet_newest(stage) != NULL;
     if (layered) {
         make_layered_normals(stage, &job, slot);
     } else {
@@ -255,7 +249,7 @@ static void drop_pieces(const rlf_reconstruct *stage, rlf_slot *slot)
 
 static rlf_layer_out segment_front(rlf_reconstruct *stage, rlf_slot *slot)
 {
-    const rlf_sheet *sheet = newest_sheet(stage);
+    const rlf_sheet *sheet = rlf_sheet_newest(stage);
     int32_t offset = sheet == NULL ? 0 : sheet->point_count;
     rlf_layer_in in = front_layer(stage, slot);
     rlf_layer_out out = {slot->regions + slot->foreground_region_first,
@@ -295,7 +289,7 @@ static void label_rows(void *context, int32_t begin, int32_t end, int32_t worker
 /* Labels where the front sheet shows the background, and how much it shows. */
 static void label_background(rlf_reconstruct *stage, rlf_slot *slot)
 {
-    const rlf_sheet *sheet = newest_sheet(stage);
+    const rlf_sheet *sheet = rlf_sheet_newest(stage);
     label_job job = {.stage = stage,
                      .background = sheet != NULL ? sheet->label : stage->work.zero_labels,
                      .slot = slot};
@@ -308,7 +302,7 @@ static void label_background(rlf_reconstruct *stage, rlf_slot *slot)
 
 static void make_regions(rlf_reconstruct *stage, rlf_slot *slot)
 {
-    copy_background_regions(newest_sheet(stage), slot);
+    copy_background_regions(rlf_sheet_newest(stage), slot);
     bool off = stage->def.background_method == RLF_BACKGROUND_OFF;
     bool has_front = off || stage->background.state == RLF_BACKGROUND_READY;
     rlf_layer_out out = {NULL, NULL, 0, 0};
@@ -333,7 +327,7 @@ static int32_t count_foreground(const rlf_reconstruct *stage, const rlf_slot *sl
 
 static void publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot)
 {
-    const rlf_sheet *sheet = newest_sheet(stage);
+    const rlf_sheet *sheet = rlf_sheet_newest(stage);
     rlf_surface *s = &slot->surface;
     s->sequence = frame->sequence;
     s->width = stage->grid.width;

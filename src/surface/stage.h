@@ -84,7 +84,9 @@ typedef struct rlf_background {
     bool is_drafting;     /* the next sheet is being made */
     rlf_background_state state;
     rlf_sheet sheets[RLF_SHEETS];
-    int32_t newest; /* sheet; -1 = none */
+    int32_t newest;       /* sheet; -1 = none */
+    bool is_stale;        /* the newest sheet shows a room that is gone */
+    int32_t other_frames; /* ADAPTIVE: frames in a row that showed another room */
 } rlf_background;
 
 /* Means of inverse depth over time; NULL planes when they are not wanted. */

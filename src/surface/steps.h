@@ -151,6 +151,8 @@ void rlf_background_restore(rlf_reconstruct *stage, const rlf_slot *slot);
 /* Where the first and the last foreground pixel of a row are. */
 rlf_span rlf_background_span(const uint8_t *foreground, int32_t width);
 void rlf_background_reset(rlf_background *background, const rlf_grid *grid);
+/* background_cut.c: depth and those of the frames before it show another room than the model. */
+bool rlf_background_is_cut(rlf_reconstruct *stage, const float *depth);
 
 /* ---- background_sheet.c ---- */
 int32_t rlf_sheet_tiles(const rlf_grid *grid);
@@ -158,6 +160,8 @@ size_t rlf_sheet_crop_size(void);
 /* Pixels of the tile at (x, y) were replaced. */
 void rlf_sheet_changed(rlf_background *background, const rlf_grid *grid, int32_t x, int32_t y,
                        int32_t count);
+/* The sheet that surfaces refer to; NULL while the background is being learnt. */
+const rlf_sheet *rlf_sheet_newest(const rlf_reconstruct *stage);
 /* Makes a new sheet from the model: depth, normals, regions; at once, or when it is due a part of
  * it per frame. */
 void rlf_sheet_publish(rlf_reconstruct *stage);
