@@ -6,7 +6,7 @@
 #include "physics/shape.h"
 
 typedef struct phys_body {
-    /* what the solver reads, side by side */
+    /* what a substep reads, side by side */
     rlf_vec3 v, w;                  /* of the centre of mass, and angular: world */
     double inverse_mass;            /* 0 while held, and of a kinematic body */
     rlf_mat3 inverse_inertia_world; /* 0 while held, and of a kinematic body */
@@ -17,7 +17,6 @@ typedef struct phys_body {
     rlf_vec3 acceleration, angular_acceleration;
     rlf_vec3 impact_shift, impact_turn; /* x and orientation jump so that x(t) = x + shift + v t */
     double impact_time;                 /* of its last bounce in this substep, s */
-    int32_t busy_pass; /* the pass in which it is to be solved again; see island.c */
     bool is_alive, is_held, is_asleep, collides_with_bodies;
     bool is_kinematic; /* not held: moves by v and w, and nothing changes them */
     bool is_isotropic; /* inertia is a multiple of 1 */

@@ -7,29 +7,8 @@
 #define PHYS_SURFACE_CONTACTS 12 /* of one body with the real surface */
 #define PHYS_PAIR_CONTACTS 4     /* of two bodies */
 
-/* One direction in which a contact acts: what the solver reads, side by side. */
-typedef struct phys_row {
-    rlf_vec3 direction;      /* world, unit: the normal or a tangent */
-    rlf_vec3 turn_a, spin_a; /* r_a x direction, and what a unit impulse adds to w_a */
-    double mass;             /* effective, kg */
-    double impulse;          /* N s of the last substep: start of the next one's search */
-    double drive;            /* speed of the surface along the direction, m/s */
-    rlf_vec3 turn_b, spin_b; /* the same of b */
-} phys_row;
-
 /* One touching point. The normal points from b (or the surface) to a. */
 typedef struct phys_contact {
-    phys_row rows[3];  /* normal, two tangents */
-    double separation; /* metres at the start of the substep */
-    double friction, restitution;
-    bool is_impacted; /* bounced in this substep */
-    bool is_far;      /* cannot touch in this substep */
-    rlf_contact_other other;
-    int32_t a, b;              /* body indices; b < 0: the surface */
-    int32_t label;             /* region label of the surface, 0 else */
-    int32_t log;               /* entry in the frame's contact list, -1 = none yet */
-    double impulse_sum;        /* N s along the normal that the list does not hold yet ... */
-    double approach;           /* ... and the highest speed at which they met, m/s */
     rlf_vec3 anchor_a;         /* in a's frame, metres */
     rlf_vec3 anchor_b;         /* in b's frame; of a surface: world, at surface_time */
     double rounding_a;         /* the touching point of a is this far from anchor_a along -normal */
@@ -37,7 +16,18 @@ typedef struct phys_contact {
     rlf_vec3 normal;           /* world, unit */
     rlf_vec3 surface_velocity; /* world, m/s; 0 between bodies */
     double surface_time;       /* world time of anchor_b, s */
+    double impulses[3];        /* along the normal and two tangents in the last substep, N s */
     rlf_vec3 r_a, r_b;         /* from the centres to the touching points, world */
+    double separation;         /* metres at the start of the substep */
+    double friction, restitution;
+    bool is_impacted; /* bounced in this substep */
+    bool is_far;      /* cannot touch in this substep */
+    rlf_contact_other other;
+    int32_t a, b;       /* body indices; b < 0: the surface */
+    int32_t label;      /* region label of the surface, 0 else */
+    int32_t log;        /* entry in the frame's contact list, -1 = none yet */
+    double impulse_sum; /* N s along the normal that the list does not hold yet ... */
+    double approach;    /* ... and the highest speed at which they met, m/s */
 } phys_contact;
 
 /* What lives on of a contact that is searched again. */
@@ -52,7 +42,7 @@ static inline phys_trace phys_trace_of(const phys_contact *c)
 {
     phys_trace trace = {c->anchor_a, c->normal, c->other, {0, 0, 0}, c->log};
     for (int32_t row = 0; row < 3; row++) {
-        trace.impulses[row] = c->rows[row].impulse;
+        trace.impulses[row] = c->impulses[row];
     }
     return trace;
 }
@@ -60,16 +50,14 @@ static inline phys_trace phys_trace_of(const phys_contact *c)
 static inline void phys_trace_follow(const phys_trace *trace, phys_contact *c)
 {
     for (int32_t row = 0; row < 3; row++) {
-        c->rows[row].impulse = trace->impulses[row];
+        c->impulses[row] = trace->impulses[row];
     }
     c->log = trace->log;
 }
 
-/* Where the bodies of a group of contacts stood when its rows were made. */
+/* What a group of contacts holds beside them. */
 typedef struct phys_stance {
-    double turned_a, turned_b; /* phys_body.turned of each */
-    bool is_moving_a, is_moving_b;
-    bool is_set;
+    bool is_set;      /* false: the contacts are new */
     rlf_vec3 rolling; /* angular impulse against rolling of the last substep, N m s */
 } phys_stance;
 

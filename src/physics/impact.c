@@ -25,17 +25,53 @@ static phys_group group_at(const event_list *list, int32_t key)
     return body < 0 ? phys_group_of_pair(list->world, key) : phys_group_of_body(list->world, body);
 }
 
+/* The speeds of a group's bodies; a body that does not move has mobility 0. */
+typedef struct phys_sides {
+    rlf_vec3 v_a, w_a, v_b, w_b;
+    double mobility_a, mobility_b; /* 1/kg */
+} phys_sides;
+
+static phys_sides sides_load(const phys_group *g)
+{
+    phys_sides s = {.v_a = g->a->v, .w_a = g->a->w};
+    s.mobility_a = phys_body_is_moving(g->a) ? g->a->inverse_mass : 0.0;
+    if (g->b != NULL) {
+        s.v_b = g->b->v;
+        s.w_b = g->b->w;
+        s.mobility_b = phys_body_is_moving(g->b) ? g->b->inverse_mass : 0.0;
+    }
+    return s;
+}
+
+/* What does not move is not written: others may be reading it. */
+static void sides_store(const phys_sides *s, const phys_group *g)
+{
+    if (s->mobility_a > 0.0) {
+        g->a->v = s->v_a;
+        g->a->w = s->w_a;
+    }
+    if (g->b != NULL && s->mobility_b > 0.0) {
+        g->b->v = s->v_b;
+        g->b->w = s->w_b;
+    }
+}
+
+/* Velocity of a's point as b or the surface sees it. */
+static rlf_vec3 relative_velocity(const phys_contact *c, const phys_sides *s, bool has_b)
+{
+    rlf_vec3 of_a = rlf_add(s->v_a, rlf_cross(s->w_a, c->r_a));
+    return rlf_sub(of_a, has_b ? rlf_add(s->v_b, rlf_cross(s->w_b, c->r_b)) : c->surface_velocity);
+}
+
 /* Gap of the contact extrapolated back to the start of the substep. */
 static double virtual_gap(const phys_contact *c, const phys_group *g)
 {
-    const phys_row *row = &c->rows[0];
-    double gap = c->separation + rlf_dot(row->direction, g->a->impact_shift) +
-                 rlf_dot(row->turn_a, g->a->impact_turn);
+    rlf_vec3 shift = rlf_add(g->a->impact_shift, rlf_cross(g->a->impact_turn, c->r_a));
     if (g->b != NULL) {
-        gap -=
-            rlf_dot(row->direction, g->b->impact_shift) + rlf_dot(row->turn_b, g->b->impact_turn);
+        shift = rlf_sub(shift, g->b->impact_shift);
+        shift = rlf_sub(shift, rlf_cross(g->b->impact_turn, c->r_b));
     }
-    return gap;
+    return c->separation + rlf_dot(c->normal, shift);
 }
 
 static double normal_acceleration(const phys_contact *c, const phys_group *g)
@@ -76,13 +112,13 @@ static double event_time(const phys_group *g, double h)
 {
     double from = start_time(g);
     double best = NO_EVENT;
-    phys_sides s = phys_sides_load(g);
+    phys_sides s = sides_load(g);
     for (int32_t i = 0; i < g->count; i++) {
         const phys_contact *c = &g->contacts[i];
         if (c->is_far || c->restitution <= 0.0) {
             continue;
         }
-        double v = phys_row_speed(&c->rows[0], &s, g->b != NULL);
+        double v = rlf_dot(c->normal, relative_velocity(c, &s, g->b != NULL));
         double a = normal_acceleration(c, g);
         /* Gravity alone gives |a| h per substep: a bounce slower than a few of these is rest. */
         double slow = 0.02 + 3.0 * (a < 0.0 ? -a : a) * h;
@@ -150,52 +186,106 @@ static void limit_energy(const phys_group *g, const phys_sides *before, phys_sid
     after->w_b = rlf_mad(before->w_b, d.w_b, share);
 }
 
+/* A direction in which a contact acts, and what a unit impulse along it does. */
+typedef struct impact_row {
+    rlf_vec3 direction, spin_a, spin_b;
+    double mass;    /* effective, kg */
+    double impulse; /* N s */
+} impact_row;
+
+static impact_row row_make(const phys_contact *c, const phys_group *g, const phys_sides *s,
+                           rlf_vec3 direction)
+{
+    impact_row row = {.direction = direction};
+    double mobility = 0.0;
+    if (s->mobility_a > 0.0) {
+        rlf_vec3 turn = rlf_cross(c->r_a, direction);
+        row.spin_a = rlf_mat3_mul_vec(&g->a->inverse_inertia_world, turn);
+        mobility += s->mobility_a + rlf_dot(turn, row.spin_a);
+    }
+    if (s->mobility_b > 0.0) {
+        rlf_vec3 turn = rlf_cross(c->r_b, direction);
+        row.spin_b = rlf_mat3_mul_vec(&g->b->inverse_inertia_world, turn);
+        mobility += s->mobility_b + rlf_dot(turn, row.spin_b);
+    }
+    row.mass = mobility > 0.0 ? 1.0 / mobility : 0.0;
+    return row;
+}
+
+static void row_push(impact_row *row, phys_sides *s, double impulse)
+{
+    double change = impulse - row->impulse;
+    s->v_a = rlf_mad(s->v_a, row->direction, change * s->mobility_a);
+    s->w_a = rlf_mad(s->w_a, row->spin_a, change);
+    s->v_b = rlf_mad(s->v_b, row->direction, -change * s->mobility_b);
+    s->w_b = rlf_mad(s->w_b, row->spin_b, -change);
+    row->impulse = impulse;
+}
+
+/* A contact that takes part in an impact. */
+typedef struct impact_point {
+    phys_contact *contact;
+    double target, approach; /* m/s along the normal */
+    impact_row rows[3];
+} impact_point;
+
+/* One pass: the normal's row, then friction within the cone that its impulse allows. */
+static void solve_point(impact_point *p, phys_sides *s, bool has_b)
+{
+    impact_row *rows = p->rows;
+    double v = rlf_dot(rows[0].direction, relative_velocity(p->contact, s, has_b));
+    row_push(&rows[0], s, rlf_max(0.0, rows[0].impulse + rows[0].mass * (p->target - v)));
+    rlf_vec3 slip = relative_velocity(p->contact, s, has_b);
+    double j0 = rows[1].impulse - rows[1].mass * rlf_dot(rows[1].direction, slip);
+    double j1 = rows[2].impulse - rows[2].mass * rlf_dot(rows[2].direction, slip);
+    double limit = p->contact->friction * rows[0].impulse, length2 = j0 * j0 + j1 * j1;
+    double scale = length2 > limit * limit ? limit / sqrt(length2) : 1.0;
+    row_push(&rows[1], s, j0 * scale);
+    row_push(&rows[2], s, j1 * scale);
+}
+
+/* Those of the group's contacts that close at time t. */
+static int32_t list_points(const phys_group *g, const phys_sides *s, double t, impact_point *points)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < g->count; i++) {
+        phys_contact *c = &g->contacts[i];
+        double fall = normal_acceleration(c, g) * t;
+        double v = rlf_dot(c->normal, relative_velocity(c, s, g->b != NULL));
+        if (c->is_far || virtual_gap(c, g) + (v + 0.5 * fall) * t > TOGETHER) {
+            continue;
+        }
+        impact_point *p = &points[count++];
+        rlf_vec3 tangent = rlf_perpendicular(c->normal);
+        p->contact = c;
+        p->approach = rlf_max(0.0, -(v + fall));
+        p->target = c->restitution * p->approach - fall;
+        p->rows[0] = row_make(c, g, s, c->normal);
+        p->rows[1] = row_make(c, g, s, tangent);
+        p->rows[2] = row_make(c, g, s, rlf_cross(c->normal, tangent));
+    }
+    return count;
+}
+
 /* All contacts that close at time t answer together: the normal velocities after are those before
  * times -restitution, found by sequential impulses within the group. */
 static void answer(phys_group *g, double t)
 {
-    double target[PHYS_SURFACE_CONTACTS], approach[PHYS_SURFACE_CONTACTS];
-    bool takes_part[PHYS_SURFACE_CONTACTS];
-    double saved[PHYS_SURFACE_CONTACTS][3];
-    bool has_b = g->b != NULL;
-    phys_sides s = phys_sides_load(g);
+    impact_point points[PHYS_SURFACE_CONTACTS];
+    phys_sides s = sides_load(g);
     const phys_sides before = s;
-    for (int32_t i = 0; i < g->count; i++) {
-        phys_contact *c = &g->contacts[i];
-        double fall = normal_acceleration(c, g) * t;
-        double v = phys_row_speed(&c->rows[0], &s, has_b);
-        takes_part[i] = !c->is_far && virtual_gap(c, g) + (v + 0.5 * fall) * t <= TOGETHER;
-        approach[i] = rlf_max(0.0, -(v + fall));
-        target[i] = c->restitution * approach[i] - fall;
-        for (int32_t row = 0; row < 3; row++) {
-            saved[i][row] = c->rows[row].impulse;
-            c->rows[row].impulse = 0.0;
-        }
-    }
-    for (int32_t pass = 0; pass < 12; pass++) {
-        for (int32_t i = 0; i < g->count; i++) {
-            phys_row *row = &g->contacts[i].rows[0];
-            if (!takes_part[i]) {
-                continue;
-            }
-            double v = phys_row_speed(row, &s, has_b);
-            double sum = rlf_max(0.0, row->impulse + row->mass * (target[i] - v));
-            phys_row_push(row, &s, has_b, sum - row->impulse);
-            row->impulse = sum;
-            phys_contact_friction(&g->contacts[i], &s, has_b);
-        }
+    int32_t count = list_points(g, &s, t, points);
+    for (int32_t i = 0; i < 12 * count; i++) {
+        solve_point(&points[i % count], &s, g->b != NULL);
     }
     limit_energy(g, &before, &s, t);
-    phys_sides_store(&s, g);
-    for (int32_t i = 0; i < g->count; i++) {
-        phys_contact *c = &g->contacts[i];
-        if (c->rows[0].impulse > 0.0) {
+    sides_store(&s, g);
+    for (int32_t i = 0; i < count; i++) {
+        phys_contact *c = points[i].contact;
+        if (points[i].rows[0].impulse > 0.0) {
             c->is_impacted = true;
-            c->impulse_sum += c->rows[0].impulse;
-            c->approach = rlf_max(c->approach, approach[i]);
-        }
-        for (int32_t row = 0; row < 3; row++) {
-            c->rows[row].impulse = saved[i][row];
+            c->impulse_sum += points[i].rows[0].impulse;
+            c->approach = rlf_max(c->approach, points[i].approach);
         }
     }
 }

@@ -6,6 +6,7 @@
 
 #define SOLVE_PASSES 6
 #define RELAX_PASSES 2
+#define WORK_LEAST 64 /* bodies and pairs that are worked on together, in one island or more */
 
 static int32_t root_of(rlf_world *world, int32_t i)
 {
@@ -74,10 +75,48 @@ static void count_islands(rlf_world *world)
     }
 }
 
+static void load_speed(rlf_world *world, int32_t i)
+{
+    const phys_body *body = &world->bodies[i];
+    world->speeds[i] =
+        (rlf_lane_speed){{body->v.x, body->v.y, body->v.z, body->w.x, body->w.y, body->w.z}};
+}
+
+static void store_speed(rlf_world *world, int32_t i)
+{
+    phys_body *body = &world->bodies[i];
+    const double *of = world->speeds[i].of;
+    body->v = rlf_vec3_make(of[0], of[1], of[2]);
+    body->w = rlf_vec3_make(of[3], of[4], of[5]);
+}
+
+/* Small islands are worked on together, so that the solver's lanes are full. */
+static void join_islands(rlf_world *world)
+{
+    int32_t kept = -1;
+    for (int32_t i = 0; i < world->island_count; i++) {
+        phys_island island = world->islands[i], *last = &world->islands[kept < 0 ? 0 : kept];
+        if (kept < 0 || last->body_end + last->pair_end >= WORK_LEAST) {
+            world->islands[++kept] = island;
+        } else {
+            last->body_end += island.body_end;
+            last->pair_end += island.pair_end;
+        }
+        world->parent[i] = kept; /* the bodies' own parents are not needed any more */
+    }
+    world->island_count = kept + 1;
+    for (int32_t i = 0; i < world->body_top; i++) {
+        if (phys_body_is_moving(&world->bodies[i])) {
+            world->island_of[i] = world->parent[world->island_of[i]];
+        }
+    }
+}
+
 void phys_find_islands(rlf_world *world)
 {
     unite(world);
     count_islands(world);
+    join_islands(world);
     int32_t bodies = 0, pairs = 0;
     for (int32_t i = 0; i < world->island_count; i++) {
         phys_island *island = &world->islands[i];
@@ -89,6 +128,8 @@ void phys_find_islands(rlf_world *world)
     for (int32_t i = 0; i < world->body_top; i++) {
         if (phys_body_is_moving(&world->bodies[i])) {
             world->island_bodies[world->islands[world->island_of[i]].body_end++] = i;
+        } else {
+            load_speed(world, i); /* that of what pushes others stays until the next search */
         }
     }
     for (int32_t k = 0; k < world->pair_count; k++) {
@@ -163,48 +204,18 @@ static int32_t list_groups(rlf_world *world, const phys_island *island, phys_gro
     return count;
 }
 
-static bool is_busy_in(const phys_group *g, int32_t pass)
+static void mark_pressed(const phys_batch *batch)
 {
-    return g->a->busy_pass >= pass || (g->b != NULL && g->b->busy_pass >= pass);
-}
-
-static void set_busy(phys_body *body, int32_t pass)
-{
-    if (body != NULL && phys_body_is_moving(body)) {
-        body->busy_pass = pass;
-    }
-}
-
-/* Passes over the groups next to which something still changes. */
-static void solve(const phys_group *groups, int32_t count, bool bias, int32_t passes, double h)
-{
-    for (int32_t k = 0; k < count; k++) {
-        set_busy(groups[k].a, 0);
-        set_busy(groups[k].b, 0);
-    }
-    bool is_busy = true;
-    for (int32_t pass = 0; pass < passes && is_busy; pass++) {
-        is_busy = false;
-        for (int32_t k = 0; k < count; k++) {
-            const phys_group *g = &groups[k];
-            if (is_busy_in(g, pass) && phys_group_solve(g, bias, h)) {
-                set_busy(g->a, pass + 1);
-                set_busy(g->b, pass + 1);
-                is_busy = true;
+    for (int32_t i = 0; i < batch->lanes.point_count; i++) {
+        for (int32_t lane = 0; lane < batch->count; lane++) {
+            const phys_group *g = batch->groups[lane];
+            bool is_pressed = batch->lanes.points[i].impulse[0][lane] > 0.0;
+            if (is_pressed && batch->lanes.inverse_mass_a[lane] > 0.0) {
+                g->a->is_pressed = true;
             }
-        }
-    }
-}
-
-static void mark_pressed(const phys_group *g)
-{
-    for (int32_t i = 0; i < g->count; i++) {
-        if (g->contacts[i].rows[0].impulse > 0.0) {
-            g->a->is_pressed = g->a->is_pressed || phys_body_is_moving(g->a);
-            if (g->b != NULL && phys_body_is_moving(g->b)) {
+            if (is_pressed && batch->lanes.inverse_mass_b[lane] > 0.0) {
                 g->b->is_pressed = true;
             }
-            return;
         }
     }
 }
@@ -212,27 +223,35 @@ static void mark_pressed(const phys_group *g)
 void phys_island_substep(rlf_world *world, const phys_island *island, const grid_query *query,
                          double h)
 {
+    const int32_t *bodies = world->island_bodies;
+    int32_t begin = island->body_begin, end = island->body_end;
     phys_group *groups = world->groups + island->pair_begin + island->body_begin;
-    for (int32_t i = island->body_begin; i < island->body_end; i++) {
-        start_body(world, &world->bodies[world->island_bodies[i]]);
+    for (int32_t i = begin; i < end; i++) {
+        start_body(world, &world->bodies[bodies[i]]);
     }
     int32_t count = list_groups(world, island, groups, h);
     phys_solve_impacts(world, island, groups, count, h);
-    for (int32_t i = island->body_begin; i < island->body_end; i++) {
-        accelerate(world, &world->bodies[world->island_bodies[i]], h);
+    for (int32_t i = begin; i < end; i++) {
+        accelerate(world, &world->bodies[bodies[i]], h);
+        load_speed(world, bodies[i]);
+    }
+    phys_batch *batches = phys_batches_of(world, island);
+    count = phys_batches_make(world, island, groups, count, h);
+    phys_batches_warm_start(world, batches, count);
+    phys_batches_solve(world, batches, count, true, SOLVE_PASSES);
+    for (int32_t k = 0; k < count; k++) {
+        mark_pressed(&batches[k]);
+    }
+    for (int32_t i = begin; i < end; i++) {
+        store_speed(world, bodies[i]);
+        move_body(world, &world->bodies[bodies[i]], query, h);
+        load_speed(world, bodies[i]);
+    }
+    phys_batches_solve(world, batches, count, false, RELAX_PASSES);
+    for (int32_t i = begin; i < end; i++) {
+        store_speed(world, bodies[i]);
     }
     for (int32_t k = 0; k < count; k++) {
-        phys_group_warm_start(&groups[k]);
-    }
-    solve(groups, count, true, SOLVE_PASSES, h);
-    for (int32_t k = 0; k < count; k++) {
-        mark_pressed(&groups[k]);
-    }
-    for (int32_t i = island->body_begin; i < island->body_end; i++) {
-        move_body(world, &world->bodies[world->island_bodies[i]], query, h);
-    }
-    solve(groups, count, false, RELAX_PASSES, h);
-    for (int32_t k = 0; k < count; k++) {
-        phys_group_finish(&groups[k]);
+        phys_batch_finish(&batches[k]);
     }
 }

@@ -138,8 +138,8 @@ static void substep(rlf_world *world, const grid_query *query, double h)
 {
     int64_t clock = rlf_clock_ns();
     island_job job = {world, query, h};
-    rlf_pool *pool = world->island_count >= 16 ? world->def.pool : NULL;
-    rlf_parallel_for(pool, world->island_count, 4, substep_range, &job);
+    rlf_pool *pool = world->island_count > 1 ? world->def.pool : NULL;
+    rlf_parallel_for(pool, world->island_count, 1, substep_range, &job);
     move_driven(world, h);
     phys_clock(&clock, &world->times.solve_ms);
     world->time += h;

@@ -9,7 +9,7 @@ typedef struct memory_plan {
     size_t count, size;
 } memory_plan;
 
-#define PLANS_MAX 32
+#define PLANS_MAX 40
 #define PLAN(field, number)                                                                        \
     {                                                                                              \
         &w->field, (number), sizeof(*w->field)                                                     \
@@ -39,6 +39,13 @@ static int32_t plan_memory(rlf_world *w, memory_plan plans[PLANS_MAX])
         PLAN(island_bodies, bodies),
         PLAN(island_pairs, pairs),
         PLAN(groups, bodies + pairs),
+        PLAN(batches, bodies + pairs),
+        PLAN(batch_points, bodies * PHYS_SURFACE_CONTACTS + pairs * PHYS_PAIR_CONTACTS),
+        PLAN(batch_keys, bodies + pairs),
+        PLAN(batch_order, bodies + pairs),
+        PLAN(colours, bodies),
+        PLAN(speeds, bodies),
+        PLAN(busy_pass, bodies),
         PLAN(event_times, bodies + pairs),
         PLAN(event_counts, bodies + pairs),
         PLAN(pending, bodies + pairs),

@@ -2,6 +2,7 @@
 #ifndef RLF_PHYSICS_WORLD_STATE_H
 #define RLF_PHYSICS_WORLD_STATE_H
 
+#include "kernel/contact_lanes.h"
 #include "physics/body.h"
 #include "physics/grid_shell.h"
 #include "physics/grid_tiles.h"
@@ -15,8 +16,17 @@ typedef struct phys_group {
     phys_body *a, *b; /* b NULL: surface */
     phys_stance *stance;
     int32_t count;
-    int32_t key; /* index of the pair, or of the body behind all pairs */
+    int32_t key;        /* index of the pair, or of the body behind all pairs */
+    int32_t near_count; /* contacts that may touch in this substep */
 } phys_group;
+
+/* Groups that are solved side by side; see batch.c. */
+typedef struct phys_batch {
+    rlf_lane_batch lanes;
+    const phys_group *groups[RLF_LANES];
+    int32_t count;
+    bool resists_rolling; /* some group does */
+} phys_batch;
 
 /* Two bodies whose boxes overlap. */
 typedef struct phys_near {
@@ -29,8 +39,8 @@ typedef struct phys_proxy {
     rlf_vec3 half;
 } phys_proxy;
 
-/* Bodies that touch each other, directly or through others; ranges of island_bodies and
- * island_pairs. */
+/* Bodies that touch each other, directly or through others, and some more of the kind until there
+ * is work enough; ranges of island_bodies and island_pairs. */
 typedef struct phys_island {
     int32_t body_begin, body_end;
     int32_t pair_begin, pair_end;
@@ -69,6 +79,13 @@ struct rlf_world {
     int32_t *island_bodies, *island_pairs;
 
     phys_group *groups; /* of each island, those that have contacts */
+
+    phys_batch *batches; /* of each island; see batch.c */
+    rlf_lane_point *batch_points;
+    int32_t *batch_keys, *batch_order; /* of an island's groups */
+    uint64_t *colours;                 /* per body: those of its pairs, as bits */
+    rlf_lane_speed *speeds;            /* per body: its velocities while they are solved for */
+    int32_t *busy_pass;                /* per body: the pass in which it is to be solved again */
 
     double *event_times;   /* see impact.c; of the pairs, then of the bodies' surfaces */
     int32_t *event_counts; /* of this substep */

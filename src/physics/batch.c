@@ -1,0 +1,228 @@
+/* Batches: groups of contacts that share no body that moves, side by side in the solver's lanes.
+ *
+ * Pairs are coloured greedily in their order (each takes the first colour that neither of its
+ * bodies has), then a colour's groups fill batches of four, those with many points first, so that
+ * few lanes are empty. The real surface comes last: nothing gives way less. */
+#include "physics/solver.h"
+
+/* Contacts are springs of half the substep rate, critically damped, solved implicitly (Catto 2011,
+ * "Soft constraints"): omega h = pi, a1 = 2 zeta + omega h, a2 = omega h a1. A tall stack stands
+ * still where rigid contacts, solved by a few passes, keep tilting it. */
+#define SOFT_OMEGA_H RLF_PI
+#define SOFT_A1 (2.0 + SOFT_OMEGA_H)
+#define SOFT_A2 (SOFT_OMEGA_H * SOFT_A1)
+/* Overlaps are pushed apart no faster than this, m/s. */
+#define PUSH_SPEED_MAX 3.0
+/* Overlap left alone, as a share of the body's radius, so that contacts persist. */
+#define SLOP_SHARE 0.002
+
+enum {
+    COLOURS = 63, /* a body with more pairs gives the rest to batches of one lane */
+    SURFACE_KEY = (COLOURS + 1) * PHYS_PAIR_CONTACTS,
+    KEYS = SURFACE_KEY + PHYS_SURFACE_CONTACTS
+};
+
+static int32_t index_of(const rlf_world *world, const phys_body *body)
+{
+    return (int32_t)(body - world->bodies);
+}
+
+static uint64_t colours_of(const rlf_world *world, const phys_body *body)
+{
+    return phys_body_is_moving(body) ? world->colours[index_of(world, body)] : 0;
+}
+
+static void add_colour(rlf_world *world, const phys_body *body, int32_t colour)
+{
+    if (phys_body_is_moving(body)) {
+        world->colours[index_of(world, body)] |= (uint64_t)1 << colour;
+    }
+}
+
+static int32_t choose_colour(rlf_world *world, const phys_group *g)
+{
+    uint64_t taken = colours_of(world, g->a) | colours_of(world, g->b);
+    int32_t colour = 0;
+    while (colour < COLOURS && (taken >> colour & 1) != 0) {
+        colour++;
+    }
+    if (colour < COLOURS) {
+        add_colour(world, g->a, colour);
+        add_colour(world, g->b, colour);
+    }
+    return colour;
+}
+
+/* Groups of a batch have neighbouring keys: by colour, then by the number of points, most first. */
+static int32_t key_of(rlf_world *world, const phys_group *g)
+{
+    if (g->b == NULL) {
+        return SURFACE_KEY + PHYS_SURFACE_CONTACTS - g->near_count;
+    }
+    return choose_colour(world, g) * PHYS_PAIR_CONTACTS + PHYS_PAIR_CONTACTS - g->near_count;
+}
+
+/* A number that is the same for the groups that may share a batch; -1: for none. */
+static int32_t colour_of_key(int32_t key)
+{
+    int32_t colour = key / PHYS_PAIR_CONTACTS;
+    return key >= SURFACE_KEY ? COLOURS + 1 : (colour < COLOURS ? colour : -1);
+}
+
+/* By counting: groups with the same key stay in their order. */
+static void sort_groups(rlf_world *world, const phys_island *island, const phys_group *groups,
+                        int32_t count)
+{
+    int32_t begin[KEYS + 1] = {0};
+    int32_t *keys = world->batch_keys + island->pair_begin + island->body_begin;
+    int32_t *order = world->batch_order + island->pair_begin + island->body_begin;
+    for (int32_t i = island->body_begin; i < island->body_end; i++) {
+        world->colours[world->island_bodies[i]] = 0;
+    }
+    for (int32_t k = 0; k < count; k++) {
+        keys[k] = key_of(world, &groups[k]);
+        begin[keys[k] + 1]++;
+    }
+    for (int32_t key = 0; key < KEYS; key++) {
+        begin[key + 1] += begin[key];
+    }
+    for (int32_t k = 0; k < count; k++) {
+        order[begin[keys[k]]++] = k;
+    }
+}
+
+static void set_vec(rlf_lane_vec *of, int32_t lane, rlf_vec3 v)
+{
+    of->x[lane] = v.x;
+    of->y[lane] = v.y;
+    of->z[lane] = v.z;
+}
+
+static void set_targets(rlf_lane_point *p, int32_t lane, const phys_contact *c, double slop,
+                        double h)
+{
+    if (c->separation > 0.0) { /* may close the gap, not more */
+        p->target[0][lane] = p->target[1][lane] = -c->separation / h;
+    } else if (!c->is_impacted) {
+        double overlap = rlf_min(c->separation + slop, 0.0);
+        p->target[1][lane] = rlf_min(-SOFT_OMEGA_H / SOFT_A1 / h * overlap, PUSH_SPEED_MAX);
+        p->ease[lane] = 1.0 / (1.0 + SOFT_A2);
+    }
+}
+
+static void add_points(phys_batch *batch, const phys_group *g, int32_t lane, double h)
+{
+    double slop = SLOP_SHARE * g->a->shape.radius;
+    rlf_lane_point *p = batch->lanes.points;
+    for (int32_t i = 0; i < g->count; i++) {
+        const phys_contact *c = &g->contacts[i];
+        if (c->is_far) {
+            continue;
+        }
+        set_vec(&p->normal, lane, c->normal);
+        set_vec(&p->tangent, lane, rlf_perpendicular(c->normal));
+        set_vec(&p->r_a, lane, c->r_a);
+        set_vec(&p->r_b, lane, g->b != NULL ? c->r_b : c->surface_velocity);
+        set_targets(p, lane, c, slop, h);
+        p->friction[lane] = c->friction;
+        for (int32_t row = 0; row < 3 && c->impulses[0] > 0.0; row++) {
+            p->impulse[row][lane] = c->impulses[row];
+        }
+        p++;
+    }
+}
+
+static double set_inertia(rlf_lane_mat *inertia, int32_t lane, const phys_body *body)
+{
+    if (!phys_body_is_moving(body)) {
+        return 0.0;
+    }
+    const rlf_mat3 *m = &body->inverse_inertia_world;
+    inertia->xx[lane] = m->m[0][0];
+    inertia->xy[lane] = m->m[0][1];
+    inertia->xz[lane] = m->m[0][2];
+    inertia->yy[lane] = m->m[1][1];
+    inertia->yz[lane] = m->m[1][2];
+    inertia->zz[lane] = m->m[2][2];
+    return body->inverse_mass;
+}
+
+static void add_group(const rlf_world *world, phys_batch *batch, const phys_group *g, double h)
+{
+    rlf_lane_batch *lanes = &batch->lanes;
+    int32_t lane = batch->count++;
+    batch->groups[lane] = g;
+    batch->resists_rolling = batch->resists_rolling || g->a->rolling_resistance > 0.0 ||
+                             (g->b != NULL && g->b->rolling_resistance > 0.0);
+    lanes->a[lane] = index_of(world, g->a);
+    lanes->b[lane] = g->b != NULL ? index_of(world, g->b) : lanes->a[lane];
+    lanes->inverse_mass_a[lane] = set_inertia(&lanes->inverse_inertia_a, lane, g->a);
+    if (g->b != NULL) {
+        lanes->inverse_mass_b[lane] = set_inertia(&lanes->inverse_inertia_b, lane, g->b);
+    }
+    add_points(batch, g, lane, h);
+}
+
+/* A batch for a first group; the next ones have no more points. */
+static void start_batch(phys_batch *batch, rlf_lane_point *points, const phys_group *first)
+{
+    *batch = (phys_batch){.lanes = {.points = points, .point_count = first->near_count}};
+    batch->lanes.has_b = first->b != NULL;
+    for (int32_t i = 0; i < first->near_count; i++) {
+        points[i] = (rlf_lane_point){.ease = {0}};
+    }
+}
+
+static void close_batch(phys_batch *batch)
+{
+    for (int32_t lane = batch->count; lane < RLF_LANES; lane++) {
+        batch->lanes.a[lane] = batch->lanes.a[0];
+        batch->lanes.b[lane] = batch->lanes.b[0];
+    }
+    rlf_kernel_lanes_weigh(&batch->lanes);
+}
+
+int32_t phys_batches_make(rlf_world *world, const phys_island *island, const phys_group *groups,
+                          int32_t count, double h)
+{
+    phys_batch *batches = phys_batches_of(world, island);
+    rlf_lane_point *points = world->batch_points + island->pair_begin * PHYS_PAIR_CONTACTS +
+                             island->body_begin * PHYS_SURFACE_CONTACTS;
+    const int32_t *keys = world->batch_keys + island->pair_begin + island->body_begin;
+    const int32_t *order = world->batch_order + island->pair_begin + island->body_begin;
+    int32_t made = 0, colour = -1;
+    sort_groups(world, island, groups, count);
+    for (int32_t k = 0; k < count; k++) {
+        const phys_group *g = &groups[order[k]];
+        int32_t own = colour_of_key(keys[order[k]]);
+        if (made == 0 || own < 0 || own != colour || batches[made - 1].count == RLF_LANES) {
+            start_batch(&batches[made++], points, g);
+            points += g->near_count;
+            colour = own;
+        }
+        add_group(world, &batches[made - 1], g, h);
+    }
+    for (int32_t k = 0; k < made; k++) {
+        close_batch(&batches[k]);
+    }
+    return made;
+}
+
+void phys_batch_finish(const phys_batch *batch)
+{
+    for (int32_t lane = 0; lane < batch->count; lane++) {
+        const phys_group *g = batch->groups[lane];
+        const rlf_lane_point *p = batch->lanes.points;
+        for (int32_t i = 0; i < g->count; i++) {
+            phys_contact *c = &g->contacts[i];
+            if (c->is_far) {
+                continue;
+            }
+            for (int32_t row = 0; row < 3; row++) {
+                c->impulses[row] = p->impulse[row][lane];
+            }
+            c->impulse_sum += c->impulses[0];
+            p++;
+        }
+    }
+}
