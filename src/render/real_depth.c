@@ -41,7 +41,8 @@ static rlf_result allocate(real_depth *real, const rlf_camera *picture)
 {
     size_t pixels = (size_t)picture->width * (size_t)picture->height;
     real->input = rlf_alloc_array((size_t)real->width * (size_t)real->height, sizeof(float));
-    real->z.data = rlf_alloc_array(pixels, sizeof(float));
+    /* Readers may look at several pixels at once, beyond the last. */
+    real->z.data = rlf_alloc_array(pixels + 16, sizeof(float));
     real->state.data = rlf_alloc_array(pixels, 1);
     if (real->input == NULL || real->z.data == NULL || real->state.data == NULL) {
         return RLF_ERROR_MEMORY;

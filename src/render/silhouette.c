@@ -31,10 +31,12 @@ static rlf_result allocate(silhouette *s, int32_t width, int32_t height)
     size_t tiles = (size_t)s->columns * (size_t)s->rows;
     s->tiles = rlf_alloc_array(tiles, sizeof(*s->tiles));
     s->own = rlf_alloc_array(tiles, sizeof(*s->own));
+    s->marks = rlf_alloc_array(tiles, 1);
     s->last_seen = rlf_alloc_array(pixels, sizeof(*s->last_seen));
     s->offset_x = rlf_alloc_array((size_t)width, sizeof(*s->offset_x));
     s->offset_y = rlf_alloc_array((size_t)height, sizeof(*s->offset_y));
-    has_all = has_all && s->tiles != NULL && s->own != NULL && s->last_seen != NULL &&
+    has_all = has_all && s->tiles != NULL && s->own != NULL && s->marks != NULL &&
+              s->last_seen != NULL &&
               s->offset_x != NULL && s->offset_y != NULL;
     return has_all ? RLF_OK : RLF_ERROR_MEMORY;
 }
@@ -58,11 +60,12 @@ rlf_result silhouette_create(const rlf_camera *camera, const rlf_camera *depth, 
 
 void silhouette_destroy(silhouette *s)
 {
-    void *parts[12] = {s->near_z.data,   s->far_z.data,      s->cover.data,
+    void *parts[13] = {s->near_z.data,   s->far_z.data,      s->cover.data,
                        s->distance.data, s->last_cover.data, s->last_light.data,
                        s->last_seen,     s->tiles,           s->own,
-                       s->offset_x,      s->offset_y,        s->settled.data};
-    for (int i = 0; i < 12; i++) {
+                       s->offset_x,      s->offset_y,        s->settled.data,
+                       s->marks};
+    for (int i = 0; i < 13; i++) {
         rlf_free(parts[i]);
     }
     memset(s, 0, sizeof(*s));
@@ -166,6 +169,72 @@ RLF_KERNEL static bool has_jump(const float *a, const float *b, int32_t count)
     return any != 0;
 }
 
+/* True when depth jumps between a row's pixels and the next ones, or those below. */
+RLF_KERNEL static bool jumps_around(const float *row, const float *below, int32_t count)
+{
+    int32_t any = 0;
+    for (int32_t i = 0; i < count; i++) {
+        any |= silhouette_jumps(row[i], row[i + 1]) ? 1 : 0;
+        any |= silhouette_jumps(row[i], below[i]) ? 1 : 0;
+    }
+    return any != 0;
+}
+
+static bool tile_jumps(const rlf_plane_f32 *z, int32_t x0, int32_t y0)
+{
+    int32_t x1 = at_most(x0 + SILHOUETTE_TILE, z->width);
+    int32_t y1 = at_most(y0 + SILHOUETTE_TILE, z->height);
+    for (int32_t y = y0; y < y1; y++) {
+        const float *row = rlf_f32_row(z, y);
+        const float *below = rlf_f32_row(z, y + 1 < z->height ? y + 1 : y);
+        bool is_last = x1 == z->width;
+        if (jumps_around(row + x0, below + x0, x1 - x0 - (is_last ? 1 : 0)) ||
+            (is_last && silhouette_jumps(row[x1 - 1], below[x1 - 1]))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void find_jumps(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    const pass *p = context;
+    silhouette *s = p->s;
+    (void)worker;
+    for (int32_t i = begin * s->columns; i < end * s->columns; i++) {
+        bool jumps = is_used(&s->tiles[i]) && tile_jumps(p->z, i % s->columns * SILHOUETTE_TILE,
+                                                         i / s->columns * SILHOUETTE_TILE);
+        s->marks[i] = jumps ? SILHOUETTE_JUMPS : 0;
+    }
+}
+
+/* Marks the tiles within `reach` of (x, y) in its row and the rows beside, as far as they have
+ * bodies. */
+static void mark_around(silhouette *s, int32_t tile, int32_t reach, uint8_t mark)
+{
+    for (int32_t y = tile / s->columns - 1; y <= tile / s->columns + 1; y++) {
+        for (int32_t x = tile % s->columns - reach; x <= tile % s->columns + reach; x++) {
+            int32_t i = y * s->columns + x;
+            if (x >= 0 && y >= 0 && x < s->columns && y < s->rows && is_used(&s->tiles[i])) {
+                s->marks[i] |= mark;
+            }
+        }
+    }
+}
+
+static void mark_tiles(silhouette *s)
+{
+    for (int32_t i = 0; i < s->columns * s->rows; i++) {
+        if ((s->marks[i] & SILHOUETTE_JUMPS) != 0) {
+            mark_around(s, i, 1, SILHOUETTE_EDGE);
+            mark_around(s, i, 1 + SILHOUETTE_AROUND, SILHOUETTE_FILLED);
+        }
+        if (s->fills_all && is_used(&s->tiles[i])) {
+            s->marks[i] |= SILHOUETTE_FILLED;
+        }
+    }
+}
+
 /* Colours of line i, and of the lines BESIDE before and after it. */
 static void set_colors(const pass *p, const ptrdiff_t *offset, int32_t i, int32_t count,
                        silhouette_line *line)
@@ -187,6 +256,7 @@ static void settle_rows(void *context, int32_t begin, int32_t end, int32_t worke
     int32_t height = p->z->height;
     for (int32_t y = begin * SILHOUETTE_TILE; y < at_most(end * SILHOUETTE_TILE, height); y++) {
         const silhouette_tile *tiles = &s->tiles[y / SILHOUETTE_TILE * s->columns];
+        const uint8_t *marks = &s->marks[y / SILHOUETTE_TILE * s->columns];
         silhouette_line line = {.z = rlf_f32_row(p->z, y),
                                 .color_offset = s->offset_x,
                                 .near_z = rlf_f32_row(&s->near_z, y),
@@ -200,14 +270,15 @@ static void settle_rows(void *context, int32_t begin, int32_t end, int32_t worke
                                 .below = height - 1 - y};
         set_colors(p, s->offset_y, y, height, &line);
         for (int32_t x = 0; x < width; x += SILHOUETTE_TILE) {
-            if (is_used(&tiles[x / SILHOUETTE_TILE])) {
+            if ((marks[x / SILHOUETTE_TILE] & SILHOUETTE_FILLED) != 0) {
                 clear_row(p, x, at_most(x + SILHOUETTE_TILE, width), y);
             }
         }
         for (int32_t x = 0; x < width; x += SILHOUETTE_TILE) {
             const silhouette_tile *tile = &tiles[x / SILHOUETTE_TILE];
             int32_t last = at_most(x + SILHOUETTE_TILE, width - 1);
-            if (is_used(tile) && has_jump(line.z + x, line.z + x + 1, last - x)) {
+            if ((marks[x / SILHOUETTE_TILE] & SILHOUETTE_JUMPS) != 0 &&
+                has_jump(line.z + x, line.z + x + 1, last - x)) {
                 for (int32_t i = x; i < last; i++) {
                     silhouette_settle(&line, i, tile, s->reach);
                 }
@@ -227,9 +298,10 @@ static void settle_columns(void *context, int32_t begin, int32_t end, int32_t wo
         int32_t x0 = tile_x * SILHOUETTE_TILE;
         int32_t count = at_most(SILHOUETTE_TILE, width - x0);
         for (int32_t y = 0; y < height - 1; y++) {
-            const silhouette_tile *tile = &s->tiles[y / SILHOUETTE_TILE * s->columns + tile_x];
+            const int32_t at = y / SILHOUETTE_TILE * s->columns + tile_x;
+            const silhouette_tile *tile = &s->tiles[at];
             const float *row = rlf_f32_row(p->z, y) + x0;
-            if (!is_used(tile) || !has_jump(row, row + width, count)) {
+            if ((s->marks[at] & SILHOUETTE_JUMPS) == 0 || !has_jump(row, row + width, count)) {
                 continue;
             }
             for (int32_t x = x0; x < x0 + count; x++) {
@@ -333,7 +405,7 @@ static void steady_rows(void *context, int32_t begin, int32_t end, int32_t worke
         for (int32_t x0 = 0; x0 < s->cover.width; x0 += SILHOUETTE_TILE) {
             int32_t x1 = at_most(x0 + SILHOUETTE_TILE, s->cover.width);
             int32_t tile = y / SILHOUETTE_TILE * s->columns + x0 / SILHOUETTE_TILE;
-            if (!is_used(&s->tiles[tile]) || is_far_from_edges(distance + x0, x1 - x0)) {
+            if ((s->marks[tile] & SILHOUETTE_EDGE) == 0 || is_far_from_edges(distance + x0, x1 - x0)) {
                 continue;
             }
             for (int32_t x = x0; x < x1; x++) {
@@ -370,6 +442,8 @@ void silhouette_update(silhouette *s, const rlf_plane_f32 *z, const rlf_frame *f
     }
     s->last_sequence = frame->sequence;
     spread_tiles(s);
+    rlf_parallel_for(s->pool, s->rows, 1, find_jumps, &p);
+    mark_tiles(s);
     rlf_parallel_for(s->pool, s->rows, 1, settle_rows, &p);
     rlf_parallel_for(s->pool, s->columns, 1, settle_columns, &p);
     rlf_parallel_for(s->pool, s->rows, 1, steady_rows, &p);

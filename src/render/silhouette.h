@@ -19,9 +19,17 @@ typedef struct silhouette_tile {
     float near_z, far_z;
 } silhouette_tile;
 
+/* What a tile is. Where no edge reaches a pixel shows all of the registered depth. */
+enum {
+    SILHOUETTE_JUMPS = 1, /* depth jumps between its pixels, or to the next ones */
+    SILHOUETTE_EDGE = 2,  /* it, or a tile beside it, jumps: look at near_z, far_z and cover */
+    SILHOUETTE_FILLED = 4 /* near_z, far_z and cover are set: in and around those with an edge */
+};
+#define SILHOUETTE_AROUND 3 /* tiles to the left and right of an edge's that are filled too */
+
 typedef struct silhouette {
-    /* The real world in the tiles that have bodies: a pixel shows `cover` of near_z, the rest of
-     * far_z. SILHOUETTE_FAR where there is no depth. */
+    /* The real world in the filled tiles: a pixel shows `cover` of near_z, the rest of far_z.
+     * SILHOUETTE_FAR where there is no depth. */
     rlf_plane_f32 near_z, far_z;
     rlf_plane_u8 cover; /* 255 = all */
 
@@ -34,6 +42,8 @@ typedef struct silhouette {
 
     silhouette_tile *tiles;
     silhouette_tile *own; /* the same without the neighbours */
+    uint8_t *marks;       /* of the tiles with bodies in or around them; 0 for others */
+    bool fills_all;       /* every tile with bodies is filled; default false */
     int32_t columns, rows;
     ptrdiff_t *offset_x, *offset_y; /* bytes of a picture's pixel in the colour image */
     int32_t reach;                  /* pixels on each side of a depth edge that may be wrong */
@@ -49,7 +59,7 @@ void silhouette_destroy(silhouette *s);
  * picture's. */
 void silhouette_place(silhouette *s, const rlf_camera *camera, const rlf_pose *T_picture_world,
                       const rlf_snapshot *snapshot);
-/* Fills near_z, far_z and cover in all tiles with bodies. z is the registered depth; the frame's
+/* Fills near_z, far_z and cover where a body may meet an edge. z is the registered depth; the frame's
  * colour may be missing. */
 void silhouette_update(silhouette *s, const rlf_plane_f32 *z, const rlf_frame *frame);
 

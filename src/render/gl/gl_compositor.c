@@ -100,6 +100,7 @@ static rlf_result create_planes(gl_compositor *c)
         if (result != RLF_OK) {
             return result;
         }
+        c->silhouette.fills_all = true;
     }
     return real_depth_create(&c->def, &picture, &c->real);
 }

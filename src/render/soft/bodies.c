@@ -29,99 +29,115 @@ static void list_faces(const soft *s, int32_t begin, int32_t end, bool is_far_fi
     }
 }
 
-/* Pixels of a row that some face touches. */
-typedef struct touched {
-    int32_t x0, x1;
-} touched;
-
-/* Draws faces [first, end) of the list into the row's samples and sums. */
-static touched draw_faces(const soft *s, const band_faces *list, int32_t first, int32_t end,
-                          const soft_row *row, const soft_real_row *real)
+/* Where the band's faces begin and end in the group's rows; returns how many touch it. */
+static int32_t find_ends(const soft *s, const band_faces *list, const soft_group *group)
 {
-    touched t = {row->width, 0};
     int32_t count = 0;
-    for (int32_t i = first; i < end; i++) {
-        int32_t id = list->faces[i];
-        const soft_face *face = &s->scene.faces[id];
-        soft_span *span = &row->spans[count];
-        if (row->y >= face->y_begin && row->y < face->y_end &&
-            soft_raster_row(face, id, row, span)) {
-            t.x0 = span->x0 < t.x0 ? span->x0 : t.x0;
-            t.x1 = span->x1 > t.x1 ? span->x1 : t.x1;
-            count++;
+    int32_t begin = group->rows[0].y;
+    for (int32_t i = 0; i < list->count; i++) {
+        const soft_face *face = &s->scene.faces[list->faces[i]];
+        if (face->y_begin < begin + group->row_count && face->y_end > begin) {
+            soft_ends *ends = &group->ends[count++];
+            ends->face = list->faces[i];
+            soft_find_ends(face, group, ends);
         }
     }
-    for (int32_t i = 0; i < count; i++) {
-        const soft_face *face = &s->scene.faces[row->spans[i].face];
-        soft_shade_span(s, face, row, real, &row->spans[i]);
-    }
-    return t;
+    return count;
 }
 
-static void clear_row(const soft_row *row, touched t)
+/* Draws faces [first, end) of the group into the rows' samples and sums. */
+static void draw_faces(const soft *s, int32_t first, int32_t end, soft_group *group)
 {
+    for (int32_t i = first; i < end; i++) {
+        const soft_ends *ends = &group->ends[i];
+        soft_raster_face(&s->scene.faces[ends->face], ends, group);
+    }
+    for (int32_t i = first; i < end; i++) {
+        soft_shade_face(s, &group->ends[i], group);
+    }
+}
+
+static void clear_row(soft_row *row, ptrdiff_t stride)
+{
+    soft_span t = row->touched;
     size_t count = (size_t)(t.x1 - t.x0);
     for (int k = 0; k < SOFT_SAMPLES; k++) {
-        memset(row->inverse_z + k * row->stride + t.x0, 0, count * sizeof(float));
-        memset(row->face + k * row->stride + t.x0, 0, count * sizeof(int32_t));
+        memset(row->inverse_z + k * stride + t.x0, 0, count * sizeof(float));
+        memset(row->face + k * stride + t.x0, 0, count * sizeof(int32_t));
     }
     for (int k = 0; k < SOFT_SUMS; k++) {
         memset(row->sum[k] + t.x0, 0, count * sizeof(float));
     }
+    row->touched = (soft_span){INT32_MAX, 0};
 }
 
-static void draw_together(const soft *s, const band_faces *list, const soft_row *row,
-                          const soft_real_row *real)
+/* Puts the sums of pixels [t.x0, t.x1) over the picture. */
+static void compose(const soft *s, float *const sums[4], const soft_row *row, soft_span t)
 {
-    touched t = draw_faces(s, list, 0, list->count, row, real);
-    if (t.x0 < t.x1) {
-        float *const sum[4] = {row->sum[0] + t.x0, row->sum[1] + t.x0, row->sum[2] + t.x0,
-                               row->sum[3] + t.x0};
-        soft_compose_row(sum, t.x1 - t.x0, rlf_rgba8_row(&s->image, row->y) + 4 * (ptrdiff_t)t.x0,
-                         rlf_u8_row(&s->matte, row->y) + t.x0);
-        clear_row(row, t);
+    float *const sum[4] = {sums[0] + t.x0, sums[1] + t.x0, sums[2] + t.x0, sums[3] + t.x0};
+    soft_compose_row(sum, t.x1 - t.x0, rlf_rgba8_row(&s->image, row->y) + 4 * (ptrdiff_t)t.x0,
+                     rlf_u8_row(&s->matte, row->y) + t.x0);
+}
+
+static void draw_together(const soft *s, int32_t face_count, soft_group *group)
+{
+    draw_faces(s, 0, face_count, group);
+    for (int32_t i = 0; i < group->row_count; i++) {
+        soft_row *row = &group->rows[i];
+        if (row->touched.x0 < row->touched.x1) {
+            compose(s, row->sum, row, row->touched);
+            clear_row(row, group->stride);
+        }
     }
 }
 
 /* One body over the layers behind it: inside its silhouette they are gone, behind the body or
  * behind the real picture that is drawn over it. */
-static void add_layer(const soft_row *row, touched t)
+static void add_layer(const soft_row *row)
 {
     for (int k = 0; k < 4; k++) {
         float *layer = row->layer[k];
-        for (int32_t x = t.x0; x < t.x1; x++) {
+        for (int32_t x = row->touched.x0; x < row->touched.x1; x++) {
             layer[x] = layer[x] * (1.0f - row->sum[4][x]) + row->sum[k][x];
         }
     }
 }
 
-static void draw_layers(const soft *s, const band_faces *list, const soft_row *row,
-                        const soft_real_row *real)
+static void compose_layers(const soft *s, const soft_row *row, soft_span t)
 {
-    touched all = {row->width, 0};
-    for (int32_t first = 0; first < list->count;) {
-        int32_t body = s->scene.faces[list->faces[first]].body;
+    compose(s, row->layer, row, t);
+    for (int k = 0; k < 4; k++) {
+        memset(row->layer[k] + t.x0, 0, (size_t)(t.x1 - t.x0) * sizeof(float));
+    }
+}
+
+static void draw_layers(const soft *s, int32_t face_count, soft_group *group)
+{
+    soft_span all[SOFT_GROUP_ROWS];
+    for (int32_t i = 0; i < group->row_count; i++) {
+        all[i] = group->rows[i].touched;
+    }
+    for (int32_t first = 0; first < face_count;) {
+        int32_t body = s->scene.faces[group->ends[first].face].body;
         int32_t end = first;
-        while (end < list->count && s->scene.faces[list->faces[end]].body == body) {
+        while (end < face_count && s->scene.faces[group->ends[end].face].body == body) {
             end++;
         }
-        touched t = draw_faces(s, list, first, end, row, real);
-        if (t.x0 < t.x1) {
-            add_layer(row, t);
-            clear_row(row, t);
-            all.x0 = t.x0 < all.x0 ? t.x0 : all.x0;
-            all.x1 = t.x1 > all.x1 ? t.x1 : all.x1;
+        draw_faces(s, first, end, group);
+        for (int32_t i = 0; i < group->row_count; i++) {
+            soft_row *row = &group->rows[i];
+            if (row->touched.x0 < row->touched.x1) {
+                add_layer(row);
+                all[i].x0 = row->touched.x0 < all[i].x0 ? row->touched.x0 : all[i].x0;
+                all[i].x1 = row->touched.x1 > all[i].x1 ? row->touched.x1 : all[i].x1;
+                clear_row(row, group->stride);
+            }
         }
         first = end;
     }
-    if (all.x0 < all.x1) {
-        float *const layer[4] = {row->layer[0] + all.x0, row->layer[1] + all.x0,
-                                 row->layer[2] + all.x0, row->layer[3] + all.x0};
-        soft_compose_row(layer, all.x1 - all.x0,
-                         rlf_rgba8_row(&s->image, row->y) + 4 * (ptrdiff_t)all.x0,
-                         rlf_u8_row(&s->matte, row->y) + all.x0);
-        for (int k = 0; k < 4; k++) {
-            memset(layer[k], 0, (size_t)(all.x1 - all.x0) * sizeof(float));
+    for (int32_t i = 0; i < group->row_count; i++) {
+        if (all[i].x0 < all[i].x1) {
+            compose_layers(s, &group->rows[i], all[i]);
         }
     }
 }
@@ -130,16 +146,19 @@ static void draw_layers(const soft *s, const band_faces *list, const soft_row *r
 static soft_real_row real_row(const soft *s, int32_t y)
 {
     soft_real_row real = {.width = s->camera.width};
+    if (s->def.occlusion == RLF_OCCLUSION_OFF) {
+        return real;
+    }
+    int32_t last = s->camera.height - 1;
+    real.row = rlf_f32_row(&s->real.z, y);
+    real.above = rlf_f32_row(&s->real.z, y > 0 ? y - 1 : y);
+    real.below = rlf_f32_row(&s->real.z, y < last ? y + 1 : y);
     if (s->def.occlusion == RLF_OCCLUSION_SOFT) {
         real.near_z = rlf_f32_row(&s->silhouette.near_z, y);
         real.far_z = rlf_f32_row(&s->silhouette.far_z, y);
         real.cover = rlf_u8_row(&s->silhouette.cover, y);
+        real.marks = s->silhouette.marks + y / SILHOUETTE_TILE * s->silhouette.columns;
         real.noise = rlf_kernel_noise_make(&s->def.rig.noise);
-    } else if (s->def.occlusion != RLF_OCCLUSION_OFF) {
-        int32_t last = s->camera.height - 1;
-        real.row = rlf_f32_row(&s->real.z, y);
-        real.above = rlf_f32_row(&s->real.z, y > 0 ? y - 1 : y);
-        real.below = rlf_f32_row(&s->real.z, y < last ? y + 1 : y);
     }
     return real;
 }
@@ -149,15 +168,20 @@ static void draw_band(void *context, int32_t begin, int32_t end, int32_t worker)
     const soft *s = context;
     soft_draw_shadows(s, s->shade_tiles[worker], begin, end);
     bool is_layered = s->def.occlusion == RLF_OCCLUSION_THESIS;
-    soft_row row = s->workers[worker];
-    band_faces list = {row.list, 0};
+    soft_group *group = &s->workers[worker];
+    band_faces list = {group->list, 0};
     list_faces(s, begin, end, is_layered, &list);
-    for (row.y = begin; list.count > 0 && row.y < end; row.y++) {
-        soft_real_row real = real_row(s, row.y);
+    for (int32_t y = begin; list.count > 0 && y < end; y += SOFT_GROUP_ROWS) {
+        group->row_count = end - y < SOFT_GROUP_ROWS ? end - y : SOFT_GROUP_ROWS;
+        for (int32_t i = 0; i < group->row_count; i++) {
+            group->rows[i].y = y + i;
+            group->rows[i].real = real_row(s, y + i);
+        }
+        int32_t count = find_ends(s, &list, group);
         if (is_layered) {
-            draw_layers(s, &list, &row, &real);
+            draw_layers(s, count, group);
         } else {
-            draw_together(s, &list, &row, &real);
+            draw_together(s, count, group);
         }
     }
 }

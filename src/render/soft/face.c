@@ -7,12 +7,12 @@
 static rlf_result reserve_lists(soft *s, int32_t capacity)
 {
     for (int32_t i = 0; i < s->worker_count; i++) {
-        soft_row *row = &s->workers[i];
-        rlf_free(row->spans);
-        rlf_free(row->list);
-        row->spans = rlf_alloc_array((size_t)capacity, sizeof(*row->spans));
-        row->list = rlf_alloc_array((size_t)capacity, sizeof(*row->list));
-        if (row->spans == NULL || row->list == NULL) {
+        soft_group *group = &s->workers[i];
+        rlf_free(group->list);
+        rlf_free(group->ends);
+        group->list = rlf_alloc_array((size_t)capacity, sizeof(*group->list));
+        group->ends = rlf_alloc_array((size_t)capacity, sizeof(*group->ends));
+        if (group->list == NULL || group->ends == NULL) {
             return RLF_ERROR_MEMORY;
         }
     }
@@ -115,10 +115,10 @@ static void set_edge(soft_face *f, int e, const screen_corner *a, const screen_c
     const screen_corner *upper = is_down ? a : b;
     const screen_corner *lower = is_down ? b : a;
     double dy = lower->y - upper->y;
-    f->edge_x[e] = upper->x;
-    f->edge_y[e] = upper->y;
-    f->edge_end[e] = lower->y;
-    f->slope[e] = dy > 0.0 ? (lower->x - upper->x) / dy : 0.0;
+    f->edge[e] = (soft_edge){.x = upper->x,
+                             .y = upper->y,
+                             .end = lower->y,
+                             .slope = dy > 0.0 ? (lower->x - upper->x) / dy : 0.0};
 }
 
 static double area_of(const screen_corner c[3])

@@ -12,79 +12,97 @@
 static const double sample_x[SOFT_SAMPLES] = {-0.125, 0.375, -0.375, 0.125};
 static const double sample_y[SOFT_SAMPLES] = {-0.375, -0.125, 0.125, 0.375};
 
-/* Ends of the face on each line of samples; left > right where it has none. */
-RLF_KERNEL_PART void find_ends(const soft_face *f, int32_t y, double *restrict left,
-                               double *restrict right)
+/* Lines of samples of a few rows: line SOFT_SAMPLES * row + sample. */
+typedef struct lines {
+    double x[SOFT_GROUP_LINES], y[SOFT_GROUP_LINES]; /* offset of its samples, and where it is */
+    double left[SOFT_GROUP_LINES], right[SOFT_GROUP_LINES];
+} lines;
+
+RLF_KERNEL_PART void place_lines(int32_t y, int32_t count, lines *out)
 {
-    for (int k = 0; k < SOFT_SAMPLES; k++) {
-        left[k] = NOWHERE;
-        right[k] = -NOWHERE;
+    for (int32_t i = 0; i < count; i++) {
+        out->x[i] = sample_x[i % SOFT_SAMPLES];
+        out->y[i] = y + i / SOFT_SAMPLES + sample_y[i % SOFT_SAMPLES];
+        out->left[i] = NOWHERE;
+        out->right[i] = -NOWHERE;
     }
-    for (int e = 0; e < SOFT_CORNERS; e++) {
-        const double x0 = f->edge_x[e];
-        const double y0 = f->edge_y[e];
-        const double end = f->edge_end[e];
-        const double slope = f->slope[e];
-        for (int k = 0; k < SOFT_SAMPLES; k++) {
-            double at_y = y + sample_y[k];
-            double at = x0 + slope * (at_y - y0);
-            double low = at_y >= y0 ? at : NOWHERE;
-            low = at_y < end ? low : NOWHERE;
-            double high = low < NOWHERE ? low : -NOWHERE;
-            left[k] = low < left[k] ? low : left[k];
-            right[k] = high > right[k] ? high : right[k];
-        }
+}
+
+RLF_KERNEL_PART void meet_edge(const soft_edge edge, int32_t count, const double *restrict y,
+                               double *restrict left, double *restrict right)
+{
+    for (int32_t i = 0; i < count; i++) {
+        double at = edge.x + edge.slope * (y[i] - edge.y);
+        bool meets = (y[i] >= edge.y) & (y[i] < edge.end);
+        double low = meets ? at : NOWHERE;
+        double high = meets ? at : -NOWHERE;
+        left[i] = low < left[i] ? low : left[i];
+        right[i] = high > right[i] ? high : right[i];
     }
 }
 
 /* First pixels whose sample is at or beyond x, within 0..width. */
-RLF_KERNEL_PART void first_pixels(const double x[SOFT_SAMPLES], int32_t width,
-                                  int32_t out[SOFT_SAMPLES])
+RLF_KERNEL_PART void first_pixels(const double *restrict x, const double *restrict sample,
+                                  int32_t count, double width, int32_t *restrict out)
 {
-    for (int k = 0; k < SOFT_SAMPLES; k++) {
-        double at = x[k] - sample_x[k];
+    for (int32_t i = 0; i < count; i++) {
+        double at = x[i] - sample[i];
         at = at > 0.0 ? at : 0.0;
         at = at < width ? at : width;
         int32_t cell = (int32_t)at;
-        out[k] = cell + (cell < at ? 1 : 0);
+        out[i] = cell + ((double)cell < at ? 1 : 0);
     }
 }
 
-/* Keeps the larger 1/z. */
+RLF_KERNEL void soft_find_ends(const soft_face *f, const soft_group *group, soft_ends *out)
+{
+    lines l;
+    const int32_t y = group->rows[0].y;
+    const int32_t count = (group->row_count * SOFT_SAMPLES + 7) / 8 * 8;
+    place_lines(y, count, &l);
+    for (int e = 0; e < SOFT_CORNERS; e++) {
+        if (f->edge[e].end >= y - 1.0 && f->edge[e].y <= y + group->row_count) {
+            meet_edge(f->edge[e], count, l.y, l.left, l.right);
+        }
+    }
+    first_pixels(l.left, l.x, count, group->width, out->begin);
+    first_pixels(l.right, l.x, count, group->width, out->end);
+}
+
+/* Keeps the larger 1/z, in whole SOFT_LANES: those beyond the count lose. Without a branch that the
+ * compiler could make a store depend on. */
 RLF_KERNEL_PART void test_run(float *restrict inverse_z, int32_t *restrict face, int32_t count,
                               float at0, float step, int32_t id)
 {
-    for (int32_t i = 0; i < count; i++) {
-        float value = at0 + step * (float)i;
+    const uint32_t blocks = ((uint32_t)count + SOFT_LANES - 1) / SOFT_LANES;
+    for (uint32_t i = 0; i < blocks * SOFT_LANES; i++) {
+        float value = at0 + step * (float)(int32_t)i;
         float before = inverse_z[i];
         int32_t last = face[i];
+        value = (int32_t)i < count ? value : 0.0f;
+        int32_t wins = -(int32_t)(value > before);
         inverse_z[i] = value > before ? value : before;
-        face[i] = value > before ? id : last;
+        face[i] = last ^ ((last ^ id) & wins);
     }
 }
 
-RLF_KERNEL bool soft_raster_row(const soft_face *f, int32_t id, const soft_row *row, soft_span *out)
+RLF_KERNEL void soft_raster_face(const soft_face *f, const soft_ends *ends, soft_group *group)
 {
-    double left[SOFT_SAMPLES];
-    double right[SOFT_SAMPLES];
-    int32_t begin[SOFT_SAMPLES];
-    int32_t end[SOFT_SAMPLES];
-    find_ends(f, row->y, left, right);
-    first_pixels(left, row->width, begin);
-    first_pixels(right, row->width, end);
-    *out = (soft_span){id, row->width, 0};
-    float down = (float)row->y - f->origin_y;
-    for (int k = 0; k < SOFT_SAMPLES; k++) {
-        if (begin[k] < end[k]) {
-            const soft_plane *plane = &f->inverse_z;
-            float across = (float)begin[k] + (float)sample_x[k] - f->origin_x;
-            float at0 = plane->at0 + plane->dx * across + plane->dy * (down + (float)sample_y[k]);
-            ptrdiff_t first = k * row->stride + begin[k];
-            test_run(row->inverse_z + first, row->face + first, end[k] - begin[k], at0, plane->dx,
-                     id);
-            out->x0 = begin[k] < out->x0 ? begin[k] : out->x0;
-            out->x1 = end[k] > out->x1 ? end[k] : out->x1;
+    const soft_plane plane = f->inverse_z;
+    for (int32_t i = 0; i < group->row_count * SOFT_SAMPLES; i++) {
+        soft_row *row = &group->rows[i / SOFT_SAMPLES];
+        const int32_t begin = ends->begin[i];
+        const int32_t end = ends->end[i];
+        const int32_t k = i % SOFT_SAMPLES;
+        if (begin < end) {
+            float across = (float)begin + (float)sample_x[k] - f->origin_x;
+            float down = (float)row->y - f->origin_y + (float)sample_y[k];
+            float at0 = plane.at0 + plane.dx * across + plane.dy * down;
+            ptrdiff_t first = k * group->stride + begin;
+            test_run(row->inverse_z + first, row->face + first, end - begin, at0, plane.dx,
+                     ends->face);
+            row->touched.x0 = begin < row->touched.x0 ? begin : row->touched.x0;
+            row->touched.x1 = end > row->touched.x1 ? end : row->touched.x1;
         }
     }
-    return out->x0 < out->x1;
 }

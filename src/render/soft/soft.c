@@ -14,11 +14,14 @@ static void destroy(void *self)
     real_depth_destroy(&s->real);
     silhouette_destroy(&s->silhouette);
     for (int32_t i = 0; s->workers != NULL && i < s->worker_count; i++) {
-        soft_row *row = &s->workers[i];
-        void *rows[5] = {row->inverse_z, row->face, row->sum[0], row->spans, row->list};
-        for (int k = 0; k < 5; k++) {
-            rlf_free(rows[k]);
+        soft_group *group = &s->workers[i];
+        for (int k = 0; k < SOFT_GROUP_ROWS; k++) {
+            rlf_free(group->rows[k].inverse_z);
+            rlf_free(group->rows[k].face);
+            rlf_free(group->rows[k].sum[0]);
         }
+        rlf_free(group->list);
+        rlf_free(group->ends);
     }
     for (int32_t i = 0; s->shade_tiles != NULL && i < s->worker_count; i++) {
         rlf_free(s->shade_tiles[i]);
@@ -41,6 +44,25 @@ static rlf_result allocate_image(rlf_image_rgba8 *image, int32_t width, int32_t 
     return image->data != NULL ? RLF_OK : RLF_ERROR_MEMORY;
 }
 
+static rlf_result allocate_row(soft_row *row, size_t stride)
+{
+    row->inverse_z = rlf_alloc_array(SOFT_SAMPLES * stride, sizeof(float));
+    row->face = rlf_alloc_array(SOFT_SAMPLES * stride, sizeof(int32_t));
+    float *sums = rlf_alloc_array((SOFT_SUMS + 4) * stride, sizeof(float));
+    row->sum[0] = sums;
+    if (row->inverse_z == NULL || row->face == NULL || sums == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    for (size_t k = 0; k < SOFT_SUMS; k++) {
+        row->sum[k] = sums + k * stride;
+    }
+    for (size_t k = 0; k < 4; k++) {
+        row->layer[k] = sums + (SOFT_SUMS + k) * stride;
+    }
+    row->touched = (soft_span){INT32_MAX, 0};
+    return RLF_OK;
+}
+
 static rlf_result allocate_workers(soft *s)
 {
     s->worker_count = rlf_pool_worker_count(s->def.pool);
@@ -50,25 +72,16 @@ static rlf_result allocate_workers(soft *s)
     }
     int32_t lanes = (s->camera.width + SOFT_LANES - 1) / SOFT_LANES + 1;
     size_t stride = (size_t)lanes * SOFT_LANES;
+    rlf_result result = RLF_OK;
     for (int32_t i = 0; i < s->worker_count; i++) {
-        soft_row *row = &s->workers[i];
-        row->width = s->camera.width;
-        row->stride = (ptrdiff_t)stride;
-        row->inverse_z = rlf_alloc_array(SOFT_SAMPLES * stride, sizeof(float));
-        row->face = rlf_alloc_array(SOFT_SAMPLES * stride, sizeof(int32_t));
-        float *sums = rlf_alloc_array((SOFT_SUMS + 4) * stride, sizeof(float));
-        row->sum[0] = sums;
-        if (row->inverse_z == NULL || row->face == NULL || sums == NULL) {
-            return RLF_ERROR_MEMORY;
-        }
-        for (size_t k = 0; k < SOFT_SUMS; k++) {
-            row->sum[k] = sums + k * stride;
-        }
-        for (size_t k = 0; k < 4; k++) {
-            row->layer[k] = sums + (SOFT_SUMS + k) * stride;
+        soft_group *group = &s->workers[i];
+        group->width = s->camera.width;
+        group->stride = (ptrdiff_t)stride;
+        for (int k = 0; k < SOFT_GROUP_ROWS && result == RLF_OK; k++) {
+            result = allocate_row(&group->rows[k], stride);
         }
     }
-    return RLF_OK;
+    return result;
 }
 
 static rlf_result allocate_shade_tiles(soft *s)
@@ -259,6 +272,13 @@ static rlf_result prepare(soft *s)
     s->T_picture_depth = real_depth_picture_pose(&s->def);
     s->def.light_direction = rlf_normalize(s->def.light_direction);
     s->to_light = rlf_neg(rlf_rotate(s->T_picture_depth.q, s->def.light_direction));
+    s->light[0] = (float)s->to_light.x;
+    s->light[1] = (float)s->to_light.y;
+    s->light[2] = (float)s->to_light.z;
+    s->ray_x0 = (float)(-s->camera.cx / s->camera.fx);
+    s->ray_y0 = (float)(-s->camera.cy / s->camera.fy);
+    s->ray_step_x = (float)(1.0 / s->camera.fx);
+    s->ray_step_y = (float)(1.0 / s->camera.fy);
     shape_mesh_set_build(&s->meshes);
     shape_mesh_set_build_coarse(&s->coarse_meshes);
     rlf_result result = make_textures(s);

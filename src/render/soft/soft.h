@@ -39,11 +39,14 @@ typedef struct soft_plane {
 
 enum { SOFT_CORNERS = 4 };
 
+/* From its upper end (x, y) down to y = end; slope = dx / dy. A level or missing one has end = y. */
+typedef struct soft_edge {
+    double x, y, end, slope;
+} soft_edge;
+
 /* A convex face with three or four corners in one plane. */
 typedef struct soft_face {
-    /* Each edge from its upper to its lower end; an edge that is level or missing ends first. */
-    double edge_x[SOFT_CORNERS], edge_y[SOFT_CORNERS], edge_end[SOFT_CORNERS];
-    double slope[SOFT_CORNERS]; /* dx / dy */
+    soft_edge edge[SOFT_CORNERS];
     float origin_x, origin_y;
     soft_plane inverse_z;
     float inverse_z_min, inverse_z_max;
@@ -79,26 +82,53 @@ typedef struct soft_scene {
 
 /* ---- the renderer --------------------------------------------------------------------------- */
 
-#define SOFT_LANES 8 /* pixels worked on at once; rows have room for so many beyond their end */
+#define SOFT_LANES 16 /* pixels worked on at once; rows have room for so many beyond their end */
 enum { SOFT_SUMS = 5 };
 
-/* Pixels x0 <= x < x1 of a row that a face touches. */
+#define SOFT_GROUP_ROWS 4 /* rows whose ends of a face are found at once */
+#define SOFT_GROUP_LINES (SOFT_GROUP_ROWS * SOFT_SAMPLES)
+
+/* Pixels begin <= x < end of a face on each line of samples of a group of rows: line
+ * SOFT_SAMPLES * row + sample. */
+typedef struct soft_ends {
+    int32_t face;
+    int32_t begin[SOFT_GROUP_LINES], end[SOFT_GROUP_LINES];
+} soft_ends;
+
+/* What may hide a body in a row: the registered depth, and above and below it, or (all NULL)
+ * nothing; with soft occlusion near_z, far_z and cover in the tiles that are marked. */
+typedef struct soft_real_row {
+    const float *near_z, *far_z;
+    const uint8_t *cover, *marks; /* of silhouette; marks NULL = hard occlusion */
+    rlf_kernel_noise noise;
+    const float *row, *above, *below;
+    int32_t width;
+} soft_real_row;
+
+/* Pixels x0 <= x < x1 of a row; none when x0 >= x1. */
 typedef struct soft_span {
-    int32_t face, x0, x1;
+    int32_t x0, x1;
 } soft_span;
 
-/* One worker's row: all zero between rows. */
+/* A row that is being drawn: all zero between pictures. */
 typedef struct soft_row {
-    int32_t y, width;
-    ptrdiff_t stride;      /* from one line of samples to the next */
+    int32_t y;
+    soft_real_row real;
     float *inverse_z;      /* [sample][x]; 0 = nothing */
     int32_t *face;         /* [sample][x]; 0 = nothing */
     float *sum[SOFT_SUMS]; /* red, green, blue (0..255, times shown), shown, covered */
     float *layer[4];       /* RLF_OCCLUSION_THESIS: bodies so far, as the sums */
-    soft_span *spans;      /* of this row */
-    int32_t *list;         /* faces of a band */
-    int32_t face_capacity; /* of the two */
+    soft_span touched;     /* by any face */
 } soft_row;
+
+/* One worker's group of rows. */
+typedef struct soft_group {
+    soft_row rows[SOFT_GROUP_ROWS];
+    int32_t row_count, width;
+    ptrdiff_t stride; /* from one line of samples to the next */
+    int32_t *list;    /* faces of a band */
+    soft_ends *ends;  /* of those in the group */
+} soft_group;
 
 #define SOFT_SHADE_SAMPLES                                                                         \
     ((SILHOUETTE_TILE / CASTER_BLOCK) * (SILHOUETTE_TILE / CASTER_BLOCK)) /* of a tile */
@@ -110,16 +140,6 @@ typedef struct soft_shade_tile {
     float center[3], radius;         /* of a ball about all of it, picture camera frame */
     bool has_depth, is_known, is_shaded;
 } soft_shade_tile;
-
-/* What may hide a body in a row: near_z, far_z and cover of soft occlusion, or rows of registered
- * depth, or (all NULL) nothing. */
-typedef struct soft_real_row {
-    const float *near_z, *far_z;
-    const uint8_t *cover;
-    rlf_kernel_noise noise;
-    const float *row, *above, *below;
-    int32_t width;
-} soft_real_row;
 
 typedef struct soft {
     rlf_compositor_def def;
@@ -135,10 +155,13 @@ typedef struct soft {
     uint32_t textures[BODY_TEXTURE_KINDS][BODY_TEXTURE_BYTES / 4];
     soft_scene scene;
     soft_corner *corners; /* work memory: one mesh's vertices */
-    soft_row *workers;
+    soft_group *workers;
     soft_shade_tile **shade_tiles; /* a band's, per worker */
     int32_t worker_count;
     rlf_vec3 to_light; /* unit, picture camera frame */
+    float light[3];    /* the same */
+    float ray_x0, ray_step_x; /* x / z of pixel column i, without the lens: ray_x0 + i ray_step_x */
+    float ray_y0, ray_step_y;
 
     int32_t *column_left; /* bilinear resize, per x: left column, weight of the next one (0..256) */
     int32_t *column_weight;
@@ -158,14 +181,14 @@ rlf_result soft_scene_reserve(soft *s, int32_t face_count);
  * in one plane. */
 void soft_scene_add_face(soft *s, const soft_corner *corners, int32_t corner_count, int32_t body);
 
-/* raster.c: lets face `id` win the row's samples where it is nearest so far; false when it touches
- * none. */
-bool soft_raster_row(const soft_face *face, int32_t id, const soft_row *row, soft_span *out);
+/* raster.c: where the face begins and ends in the group's rows. */
+void soft_find_ends(const soft_face *face, const soft_group *group, soft_ends *out);
+/* Lets the face win the samples of the group's rows where it is nearest so far. */
+void soft_raster_face(const soft_face *face, const soft_ends *ends, soft_group *group);
 
-/* shade.c: adds what the samples see of the span's face to the row's sums. */
-void soft_shade_span(const soft *s, const soft_face *face, const soft_row *row,
-                     const soft_real_row *real, const soft_span *span);
-/* Puts sums (red, green, blue, shown) over `count` pixels. */
+/* shade.c: adds what the samples see of the face to the sums of the group's rows. */
+void soft_shade_face(const soft *s, const soft_ends *ends, const soft_group *group);
+/* compose.c: puts sums (red, green, blue, shown) over `count` pixels. */
 void soft_compose_row(float *const sum[4], int32_t count, uint8_t *restrict pixels,
                       uint8_t *restrict matte);
 
