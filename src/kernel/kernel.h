@@ -44,6 +44,14 @@
 #define RLF_KERNEL_PART static inline
 #endif
 
+/* Before a loop of a fixed number of lanes: to be vectorised, and not first unrolled into single
+ * values. */
+#if defined(__GNUC__) && !defined(__clang__)
+#define RLF_KERNEL_WHOLE _Pragma("GCC unroll 1")
+#else
+#define RLF_KERNEL_WHOLE
+#endif
+
 /* sigma(z) = max(c0 + c1 z + c2 z^2, 0.3 mm) in single precision. */
 typedef struct rlf_kernel_noise {
     float c0, c1, c2;

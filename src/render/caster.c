@@ -125,12 +125,27 @@ bool caster_reach(const caster *c, const rlf_camera *camera, rlf_vec3 to_light, 
     return out->x0 < out->x1 && out->y0 < out->y1;
 }
 
+/* Square of the distance from v (picture camera frame, from the centre) to the inner box. */
+static float distance2_of_box(const caster *c, const float v[3])
+{
+    float sum = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        float q = c->axis[k][0] * v[0] + c->axis[k][1] * v[1] + c->axis[k][2] * v[2];
+        float beyond = (q < 0.0f ? -q : q) - c->half[k];
+        sum += beyond > 0.0f ? beyond * beyond : 0.0f;
+    }
+    return sum;
+}
+
 int32_t caster_may_take(const caster *c, const float to_light[3], const float p[3], float radius)
 {
     float v[3] = {p[0] - c->center[0], p[1] - c->center[1], p[2] - c->center[2]};
     float square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    float near_reach = c->radius + c->near_m + radius;
-    int32_t takes = square < near_reach * near_reach ? CASTER_TAKES_AMBIENT : CASTER_TAKES_NOTHING;
+    float near_reach = c->round + c->near_m + radius;
+    float sphere_reach = c->radius + c->near_m + radius;
+    bool is_near =
+        square < sphere_reach * sphere_reach && distance2_of_box(c, v) < near_reach * near_reach;
+    int32_t takes = is_near ? CASTER_TAKES_AMBIENT : CASTER_TAKES_NOTHING;
     float behind = -(v[0] * to_light[0] + v[1] * to_light[1] + v[2] * to_light[2]);
     float deepest = behind + radius + c->radius; /* the body's own depth counts too */
     float edge = 0.5f * c->penumbra;

@@ -36,8 +36,7 @@ static rlf_result allocate(silhouette *s, int32_t width, int32_t height)
     s->offset_x = rlf_alloc_array((size_t)width, sizeof(*s->offset_x));
     s->offset_y = rlf_alloc_array((size_t)height, sizeof(*s->offset_y));
     has_all = has_all && s->tiles != NULL && s->own != NULL && s->marks != NULL &&
-              s->last_seen != NULL &&
-              s->offset_x != NULL && s->offset_y != NULL;
+              s->last_seen != NULL && s->offset_x != NULL && s->offset_y != NULL;
     return has_all ? RLF_OK : RLF_ERROR_MEMORY;
 }
 
@@ -60,11 +59,10 @@ rlf_result silhouette_create(const rlf_camera *camera, const rlf_camera *depth, 
 
 void silhouette_destroy(silhouette *s)
 {
-    void *parts[13] = {s->near_z.data,   s->far_z.data,      s->cover.data,
-                       s->distance.data, s->last_cover.data, s->last_light.data,
-                       s->last_seen,     s->tiles,           s->own,
-                       s->offset_x,      s->offset_y,        s->settled.data,
-                       s->marks};
+    void *parts[13] = {
+        s->near_z.data,     s->far_z.data,   s->cover.data, s->distance.data, s->last_cover.data,
+        s->last_light.data, s->last_seen,    s->tiles,      s->own,           s->offset_x,
+        s->offset_y,        s->settled.data, s->marks};
     for (int i = 0; i < 13; i++) {
         rlf_free(parts[i]);
     }
@@ -169,31 +167,33 @@ RLF_KERNEL static bool has_jump(const float *a, const float *b, int32_t count)
     return any != 0;
 }
 
-/* True when depth jumps between a row's pixels and the next ones, or those below. */
-RLF_KERNEL static bool jumps_around(const float *row, const float *below, int32_t count)
+/* Marks the tiles in which depth jumps between a row's pixels and the next ones, or those below.
+ * `whole` tiles have a pixel beyond their last. */
+RLF_KERNEL static void mark_jumps(const float *restrict row, const float *restrict below,
+                                  int32_t whole, uint8_t *restrict marks)
 {
-    int32_t any = 0;
-    for (int32_t i = 0; i < count; i++) {
-        any |= silhouette_jumps(row[i], row[i + 1]) ? 1 : 0;
-        any |= silhouette_jumps(row[i], below[i]) ? 1 : 0;
+    for (int32_t k = 0; k < whole; k++) {
+        const float *here = row + k * SILHOUETTE_TILE;
+        const float *under = below + k * SILHOUETTE_TILE;
+        int32_t any = 0;
+        RLF_KERNEL_WHOLE
+        for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
+            any |= silhouette_jumps(here[i], here[i + 1]) ? 1 : 0;
+            any |= silhouette_jumps(here[i], under[i]) ? 1 : 0;
+        }
+        marks[k] |= (uint8_t)any;
     }
-    return any != 0;
 }
 
-static bool tile_jumps(const rlf_plane_f32 *z, int32_t x0, int32_t y0)
+/* The same for the last pixels of a row, which end in a tile that may be cut. */
+static bool jumps_at_end(const float *row, const float *below, int32_t count)
 {
-    int32_t x1 = at_most(x0 + SILHOUETTE_TILE, z->width);
-    int32_t y1 = at_most(y0 + SILHOUETTE_TILE, z->height);
-    for (int32_t y = y0; y < y1; y++) {
-        const float *row = rlf_f32_row(z, y);
-        const float *below = rlf_f32_row(z, y + 1 < z->height ? y + 1 : y);
-        bool is_last = x1 == z->width;
-        if (jumps_around(row + x0, below + x0, x1 - x0 - (is_last ? 1 : 0)) ||
-            (is_last && silhouette_jumps(row[x1 - 1], below[x1 - 1]))) {
-            return true;
-        }
+    bool any = false;
+    for (int32_t i = 0; i < count; i++) {
+        any = any || silhouette_jumps(row[i], below[i]) ||
+              (i + 1 < count && silhouette_jumps(row[i], row[i + 1]));
     }
-    return false;
+    return any;
 }
 
 static void find_jumps(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -201,10 +201,27 @@ static void find_jumps(void *context, int32_t begin, int32_t end, int32_t worker
     const pass *p = context;
     silhouette *s = p->s;
     (void)worker;
-    for (int32_t i = begin * s->columns; i < end * s->columns; i++) {
-        bool jumps = is_used(&s->tiles[i]) && tile_jumps(p->z, i % s->columns * SILHOUETTE_TILE,
-                                                         i / s->columns * SILHOUETTE_TILE);
-        s->marks[i] = jumps ? SILHOUETTE_JUMPS : 0;
+    const rlf_plane_f32 *z = p->z;
+    const int32_t whole = (z->width - 1) / SILHOUETTE_TILE;
+    memset(s->marks + begin * s->columns, 0, (size_t)((end - begin) * s->columns));
+    for (int32_t y = begin * SILHOUETTE_TILE; y < at_most(end * SILHOUETTE_TILE, z->height); y++) {
+        const int32_t first = y / SILHOUETTE_TILE * s->columns;
+        const float *row = rlf_f32_row(z, y);
+        const float *below = rlf_f32_row(z, y + 1 < z->height ? y + 1 : y);
+        for (int32_t x = 0; x < whole;) {
+            int32_t run = 0;
+            while (x + run < whole && is_used(&s->tiles[first + x + run])) {
+                run++;
+            }
+            mark_jumps(row + x * SILHOUETTE_TILE, below + x * SILHOUETTE_TILE, run,
+                       s->marks + first + x);
+            x += run + 1;
+        }
+        const int32_t at = whole * SILHOUETTE_TILE;
+        if (whole < s->columns && is_used(&s->tiles[first + whole]) &&
+            jumps_at_end(row + at, below + at, z->width - at)) {
+            s->marks[first + whole] = SILHOUETTE_JUMPS;
+        }
     }
 }
 
@@ -335,34 +352,69 @@ static uint8_t light_of(const pass *p, int32_t x, int32_t y)
     return (uint8_t)((c[0] + 2 * c[1] + c[2]) / 4);
 }
 
+#define VOTERS (2 * SILHOUETTE_TILE) /* of a row: one before the tile's pixels, and beyond them */
+
+/* Of three rows' doubtful pixels, per column: how many, how many of them near, and the sum of their
+ * cover. */
+typedef struct votes {
+    int32_t count[VOTERS], near_count[VOTERS], sum[VOTERS];
+} votes;
+
+RLF_KERNEL_PART void add_votes(const uint8_t *restrict cover, const uint8_t *restrict distance,
+                               votes *v)
+{
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < VOTERS; i++) {
+        int32_t is_doubtful = distance[i] != SILHOUETTE_NONE ? 1 : 0;
+        v->count[i] += is_doubtful;
+        v->near_count[i] += is_doubtful & (cover[i] > 127 ? 1 : 0);
+        v->sum[i] += is_doubtful * cover[i];
+    }
+}
+
 /* A pixel that hardly any of the doubtful ones around it agree with is a line gone astray: it takes
  * their mean. */
-static uint8_t outvoted(const silhouette *s, int32_t x, int32_t y)
+RLF_KERNEL static void vote(uint8_t cover[3][VOTERS], uint8_t distance[3][VOTERS],
+                            uint8_t *restrict out)
 {
-    const int32_t x0 = x > 0 ? x - 1 : x;
-    const int32_t x1 = x < s->cover.width - 1 ? x + 1 : x;
-    const int32_t y0 = y > 0 ? y - 1 : y;
-    const int32_t y1 = y < s->cover.height - 1 ? y + 1 : y;
-    int32_t own = rlf_u8_row(&s->settled, y)[x];
-    int32_t count = 0;
-    int32_t near_count = 0;
-    int32_t sum = 0;
-    for (int32_t v = y0; v <= y1; v++) {
-        const uint8_t *cover = rlf_u8_row(&s->settled, v);
-        const uint8_t *distance = rlf_u8_row(&s->distance, v);
-        for (int32_t u = x0; u <= x1; u++) {
-            int32_t is_doubtful = distance[u] != SILHOUETTE_NONE ? 1 : 0;
-            count += is_doubtful;
-            sum += is_doubtful * cover[u];
-            near_count += is_doubtful * (cover[u] > 127 ? 1 : 0);
+    votes v = {{0}, {0}, {0}};
+    for (int k = 0; k < 3; k++) {
+        add_votes(cover[k], distance[k], &v);
+    }
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
+        int32_t own = cover[1][i + 1];
+        int32_t count = v.count[i] + v.count[i + 1] + v.count[i + 2];
+        int32_t near_count = v.near_count[i] + v.near_count[i + 1] + v.near_count[i + 2];
+        int32_t sum = v.sum[i] + v.sum[i + 1] + v.sum[i + 2];
+        int32_t agreeing = own > 127 ? near_count : count - near_count;
+        /* Exact: the quotient is whole, or at least a ninth away from the next whole number. */
+        int32_t mean = (int32_t)((float)sum / (float)(count > 0 ? count : 1));
+        bool is_astray = (count >= 5) & (3 * agreeing <= count);
+        out[i] = (uint8_t)(is_astray ? mean : own);
+    }
+}
+
+/* What the lines settled in pixels x0 .. x0 + SILHOUETTE_TILE of row y, without those astray. */
+static void vote_row(const silhouette *s, int32_t x0, int32_t y, uint8_t out[SILHOUETTE_TILE])
+{
+    uint8_t cover[3][VOTERS] = {{0}};
+    uint8_t distance[3][VOTERS];
+    memset(distance, SILHOUETTE_NONE, sizeof(distance));
+    const int32_t first = x0 > 0 ? x0 - 1 : 0;
+    const size_t count = (size_t)(at_most(x0 + SILHOUETTE_TILE + 1, s->cover.width) - first);
+    for (int32_t k = 0; k < 3; k++) {
+        const int32_t line = y + k - 1;
+        if (line >= 0 && line < s->cover.height) {
+            memcpy(cover[k] + (first + 1 - x0), rlf_u8_row(&s->settled, line) + first, count);
+            memcpy(distance[k] + (first + 1 - x0), rlf_u8_row(&s->distance, line) + first, count);
         }
     }
-    int32_t agreeing = own > 127 ? near_count : count - near_count;
-    return (uint8_t)(count >= 5 && agreeing <= count / 3 ? sum / count : own);
+    vote(cover, distance, out);
 }
 
 /* Where the picture has not changed the cover moves slowly, so that noise does not show. */
-static void steady_pixel(const pass *p, int32_t x, int32_t y)
+static void steady_pixel(const pass *p, int32_t x, int32_t y, uint8_t settled)
 {
     silhouette *s = p->s;
     uint16_t *seen = &s->last_seen[(size_t)y * (size_t)s->cover.width + (size_t)x];
@@ -371,7 +423,7 @@ static void steady_pixel(const pass *p, int32_t x, int32_t y)
     uint8_t *light = rlf_u8_row(&s->last_light, y) + x;
     uint8_t now = light_of(p, x, y);
     int32_t change = now - *light;
-    *cover = outvoted(s, x, y);
+    *cover = settled;
     uint16_t before = (uint16_t)(s->picture == 1 ? UINT16_MAX : s->picture - 1);
     bool is_still = change <= STEADY_LIGHT && change >= -STEADY_LIGHT;
     bool is_known = *seen == (p->is_new ? before : s->picture);
@@ -405,12 +457,15 @@ static void steady_rows(void *context, int32_t begin, int32_t end, int32_t worke
         for (int32_t x0 = 0; x0 < s->cover.width; x0 += SILHOUETTE_TILE) {
             int32_t x1 = at_most(x0 + SILHOUETTE_TILE, s->cover.width);
             int32_t tile = y / SILHOUETTE_TILE * s->columns + x0 / SILHOUETTE_TILE;
-            if ((s->marks[tile] & SILHOUETTE_EDGE) == 0 || is_far_from_edges(distance + x0, x1 - x0)) {
+            if ((s->marks[tile] & SILHOUETTE_EDGE) == 0 ||
+                is_far_from_edges(distance + x0, x1 - x0)) {
                 continue;
             }
+            uint8_t settled[SILHOUETTE_TILE];
+            vote_row(s, x0, y, settled);
             for (int32_t x = x0; x < x1; x++) {
                 if (distance[x] != SILHOUETTE_NONE) {
-                    steady_pixel(p, x, y);
+                    steady_pixel(p, x, y, settled[x - x0]);
                 }
             }
         }

@@ -59,8 +59,8 @@ void silhouette_destroy(silhouette *s);
  * picture's. */
 void silhouette_place(silhouette *s, const rlf_camera *camera, const rlf_pose *T_picture_world,
                       const rlf_snapshot *snapshot);
-/* Fills near_z, far_z and cover where a body may meet an edge. z is the registered depth; the frame's
- * colour may be missing. */
+/* Fills near_z, far_z and cover where a body may meet an edge. z is the registered depth; the
+ * frame's colour may be missing. */
 void silhouette_update(silhouette *s, const rlf_plane_f32 *z, const rlf_frame *frame);
 
 /* silhouette_line.c: a row or a column of the picture; all steps are to the next pixel of it. */

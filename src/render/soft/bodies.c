@@ -57,9 +57,22 @@ static void draw_faces(const soft *s, int32_t first, int32_t end, soft_group *gr
     }
 }
 
-static void clear_row(soft_row *row, ptrdiff_t stride)
+/* The next run of touched pixels from part `*part` on; false when there is none. */
+static bool next_run(const soft_row *row, int32_t width, int32_t *part, soft_span *out)
 {
-    soft_span t = row->touched;
+    while (*part < row->part_count && row->touched[*part] == 0) {
+        (*part)++;
+    }
+    out->x0 = *part * SOFT_PART;
+    while (*part < row->part_count && row->touched[*part] != 0) {
+        (*part)++;
+    }
+    out->x1 = *part * SOFT_PART < width ? *part * SOFT_PART : width;
+    return out->x0 < out->x1;
+}
+
+static void clear_run(const soft_row *row, ptrdiff_t stride, soft_span t)
+{
     size_t count = (size_t)(t.x1 - t.x0);
     for (int k = 0; k < SOFT_SAMPLES; k++) {
         memset(row->inverse_z + k * stride + t.x0, 0, count * sizeof(float));
@@ -68,46 +81,55 @@ static void clear_row(soft_row *row, ptrdiff_t stride)
     for (int k = 0; k < SOFT_SUMS; k++) {
         memset(row->sum[k] + t.x0, 0, count * sizeof(float));
     }
-    row->touched = (soft_span){INT32_MAX, 0};
 }
 
 /* Puts the sums of pixels [t.x0, t.x1) over the picture. */
-static void compose(const soft *s, float *const sums[4], const soft_row *row, soft_span t)
+static void compose(const soft *s, float *const sums[4], int32_t y, soft_span t)
 {
     float *const sum[4] = {sums[0] + t.x0, sums[1] + t.x0, sums[2] + t.x0, sums[3] + t.x0};
-    soft_compose_row(sum, t.x1 - t.x0, rlf_rgba8_row(&s->image, row->y) + 4 * (ptrdiff_t)t.x0,
-                     rlf_u8_row(&s->matte, row->y) + t.x0);
+    soft_compose_row(sum, t.x1 - t.x0, rlf_rgba8_row(&s->image, y) + 4 * (ptrdiff_t)t.x0,
+                     rlf_u8_row(&s->matte, y) + t.x0);
 }
 
 static void draw_together(const soft *s, int32_t face_count, soft_group *group)
 {
+    soft_span run;
     draw_faces(s, 0, face_count, group);
     for (int32_t i = 0; i < group->row_count; i++) {
-        soft_row *row = &group->rows[i];
-        if (row->touched.x0 < row->touched.x1) {
-            compose(s, row->sum, row, row->touched);
-            clear_row(row, group->stride);
+        const soft_row *row = &group->rows[i];
+        for (int32_t part = 0; next_run(row, group->width, &part, &run);) {
+            compose(s, row->sum, row->y, run);
+            clear_run(row, group->stride, run);
         }
+        memset(row->touched, 0, (size_t)row->part_count);
     }
 }
 
 /* One body over the layers behind it: inside its silhouette they are gone, behind the body or
  * behind the real picture that is drawn over it. */
-static void add_layer(const soft_row *row)
+static void add_layer(const soft_row *row, soft_span t)
 {
     for (int k = 0; k < 4; k++) {
         float *layer = row->layer[k];
-        for (int32_t x = row->touched.x0; x < row->touched.x1; x++) {
+        for (int32_t x = t.x0; x < t.x1; x++) {
             layer[x] = layer[x] * (1.0f - row->sum[4][x]) + row->sum[k][x];
         }
     }
 }
 
-static void compose_layers(const soft *s, const soft_row *row, soft_span t)
+/* Puts one body's sums over the layers; widens `all` by what it touched. */
+static void add_layers(const soft_group *group, soft_span all[SOFT_GROUP_ROWS])
 {
-    compose(s, row->layer, row, t);
-    for (int k = 0; k < 4; k++) {
-        memset(row->layer[k] + t.x0, 0, (size_t)(t.x1 - t.x0) * sizeof(float));
+    soft_span run;
+    for (int32_t i = 0; i < group->row_count; i++) {
+        const soft_row *row = &group->rows[i];
+        for (int32_t part = 0; next_run(row, group->width, &part, &run);) {
+            add_layer(row, run);
+            clear_run(row, group->stride, run);
+            all[i].x0 = run.x0 < all[i].x0 ? run.x0 : all[i].x0;
+            all[i].x1 = run.x1 > all[i].x1 ? run.x1 : all[i].x1;
+        }
+        memset(row->touched, 0, (size_t)row->part_count);
     }
 }
 
@@ -115,7 +137,7 @@ static void draw_layers(const soft *s, int32_t face_count, soft_group *group)
 {
     soft_span all[SOFT_GROUP_ROWS];
     for (int32_t i = 0; i < group->row_count; i++) {
-        all[i] = group->rows[i].touched;
+        all[i] = (soft_span){INT32_MAX, 0};
     }
     for (int32_t first = 0; first < face_count;) {
         int32_t body = s->scene.faces[group->ends[first].face].body;
@@ -124,20 +146,17 @@ static void draw_layers(const soft *s, int32_t face_count, soft_group *group)
             end++;
         }
         draw_faces(s, first, end, group);
-        for (int32_t i = 0; i < group->row_count; i++) {
-            soft_row *row = &group->rows[i];
-            if (row->touched.x0 < row->touched.x1) {
-                add_layer(row);
-                all[i].x0 = row->touched.x0 < all[i].x0 ? row->touched.x0 : all[i].x0;
-                all[i].x1 = row->touched.x1 > all[i].x1 ? row->touched.x1 : all[i].x1;
-                clear_row(row, group->stride);
-            }
-        }
+        add_layers(group, all);
         first = end;
     }
     for (int32_t i = 0; i < group->row_count; i++) {
+        const soft_row *row = &group->rows[i];
         if (all[i].x0 < all[i].x1) {
-            compose_layers(s, &group->rows[i], all[i]);
+            compose(s, row->layer, row->y, all[i]);
+            for (int k = 0; k < 4; k++) {
+                memset(row->layer[k] + all[i].x0, 0,
+                       (size_t)(all[i].x1 - all[i].x0) * sizeof(float));
+            }
         }
     }
 }

@@ -101,8 +101,9 @@ RLF_KERNEL void soft_raster_face(const soft_face *f, const soft_ends *ends, soft
             ptrdiff_t first = k * group->stride + begin;
             test_run(row->inverse_z + first, row->face + first, end - begin, at0, plane.dx,
                      ends->face);
-            row->touched.x0 = begin < row->touched.x0 ? begin : row->touched.x0;
-            row->touched.x1 = end > row->touched.x1 ? end : row->touched.x1;
+            for (int32_t part = begin / SOFT_PART; part * SOFT_PART < end; part++) {
+                row->touched[part] = 1;
+            }
         }
     }
 }

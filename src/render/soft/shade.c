@@ -1,23 +1,25 @@
-/* Colour of faces, a run of pixels at a time: body colour * texture * light, as far as the
+/* Colour of faces, SOFT_LANES pixels at a time: body colour * texture * light, as far as the
  * samples see it and the real world leaves it. */
 #include "kernel/kernel.h"
 #include "render/soft/soft.h"
 
 #define NODE_PX 4 /* pixels from one node of light to the next */
-#define CHUNK 48  /* pixels between steps: SOFT_LANES nodes reach beyond them */
+#define CHUNK 48  /* pixels that SOFT_LANES nodes serve: they reach beyond */
 
-/* Values of some pixels in a row, between steps. Every step takes a whole number of SOFT_LANES, so
- * that no pixel is left over for slower code. */
+/* Values of some pixels in a row, between steps. */
 typedef struct lanes {
-    float z[CHUNK], light[CHUNK], share[CHUNK], coverage[CHUNK];
-    float weight_x[CHUNK], weight_y[CHUNK];
-    int32_t index[CHUNK];
-    uint32_t texels[CHUNK];
+    float z[SOFT_LANES], light[SOFT_LANES], share[SOFT_LANES], coverage[SOFT_LANES];
+    float weight_x[SOFT_LANES], weight_y[SOFT_LANES];
+    int32_t index[SOFT_LANES];
+    uint32_t texels[SOFT_LANES];
 } lanes;
 
-/* What other bodies leave of the light around and of the directed light, every NODE_PX pixels. */
+#define NODES (2 * SOFT_LANES) /* of two rows */
+
+/* What other bodies leave of the light around and of the directed light: every NODE_PX pixels of
+ * one row, then of another. */
 typedef struct light_nodes {
-    float ambient[SOFT_LANES], direct[SOFT_LANES];
+    float ambient[NODES], direct[NODES];
 } light_nodes;
 
 RLF_KERNEL_PART float clamp(float x, float low, float high)
@@ -60,37 +62,39 @@ RLF_KERNEL_PART run run_of(const soft_face *f, const soft_body *body, float x, f
 
 /* Depths of pixels `step` apart. One that only a corner of the face touches has its centre outside:
  * stay within. */
-RLF_KERNEL_PART void interpolate_z(const run *r, int32_t first, int32_t step, int32_t count,
-                                   float *restrict out_z)
+RLF_KERNEL_PART void interpolate_z(const run *r, int32_t first, int32_t step, float *restrict out_z)
 {
     const ramp inverse_z = r->inverse_z;
     const float low = r->inverse_z_min;
     const float high = r->inverse_z_max;
-    for (int32_t i = 0; i < count; i++) {
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
         float x = (float)(first + step * i);
         out_z[i] = 1.0f / clamp(inverse_z.at0 + inverse_z.step * x, low, high);
     }
 }
 
-RLF_KERNEL_PART void interpolate_light(const run *r, int32_t first, int32_t count,
-                                       const float *restrict z, float *restrict out_light)
+RLF_KERNEL_PART void interpolate_light(const run *r, int32_t first, const float *restrict z,
+                                       float *restrict out_light)
 {
     const ramp light = r->attribute[SOFT_LIGHT];
-    for (int32_t i = 0; i < count; i++) {
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
         out_light[i] = clamp((light.at0 + light.step * (float)(first + i)) * z[i], 0.0f, 1.0f);
     }
 }
 
 /* Texel and weights of the next one across and down. */
-RLF_KERNEL_PART void interpolate_uv(const run *r, int32_t first, int32_t count,
-                                    const float *restrict z, float *restrict weight_x,
-                                    float *restrict weight_y, int32_t *restrict index)
+RLF_KERNEL_PART void interpolate_uv(const run *r, int32_t first, const float *restrict z,
+                                    float *restrict weight_x, float *restrict weight_y,
+                                    int32_t *restrict index)
 {
     const ramp across = r->attribute[SOFT_S];
     const ramp down = r->attribute[SOFT_T];
     const float size = r->texture_size;
     const int32_t mask = r->mask;
-    for (int32_t i = 0; i < count; i++) {
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
         float x = (float)(first + i);
         float s = clamp((across.at0 + across.step * x) * z[i], 0.0f, 1.0f);
         float t = clamp((down.at0 + down.step * x) * z[i], 0.0f, 1.0f);
@@ -105,18 +109,20 @@ RLF_KERNEL_PART void interpolate_uv(const run *r, int32_t first, int32_t count,
 }
 
 RLF_KERNEL_PART void look_up(const uint32_t *restrict texture, const int32_t *restrict index,
-                             int32_t count, uint32_t *restrict out)
+                             uint32_t *restrict out)
 {
-    for (int32_t i = 0; i < count; i++) {
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
         out[i] = texture[index[i]];
     }
 }
 
 /* Bilinear: the four neighbours are the bytes of one texel. */
 RLF_KERNEL_PART void filter(const uint32_t *restrict texels, const float *restrict weight_x,
-                            const float *restrict weight_y, int32_t count, float *restrict light)
+                            const float *restrict weight_y, float *restrict light)
 {
-    for (int32_t i = 0; i < count; i++) {
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
         float a = (float)(int32_t)(texels[i] & 255u);
         float b = (float)(int32_t)(texels[i] >> 8 & 255u);
         float c = (float)(int32_t)(texels[i] >> 16 & 255u);
@@ -132,9 +138,10 @@ RLF_KERNEL_PART void filter(const uint32_t *restrict texels, const float *restri
 /* Soft: see silhouette.h; a body fades over +- 2 sigma(z) where it meets a surface. */
 RLF_KERNEL_PART void share_soft(const float *restrict near_z, const float *restrict far_z,
                                 const uint8_t *restrict cover, rlf_kernel_noise noise,
-                                const float *restrict z, int32_t count, float *restrict share)
+                                const float *restrict z, float *restrict share)
 {
-    for (int32_t i = 0; i < count; i++) {
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
         float fade = 0.25f / rlf_kernel_sigma(noise, z[i]);
         float near_share = clamp(0.5f + (near_z[i] - z[i]) * fade, 0.0f, 1.0f);
         float far_share = clamp(0.5f + (far_z[i] - z[i]) * fade, 0.0f, 1.0f);
@@ -145,9 +152,10 @@ RLF_KERNEL_PART void share_soft(const float *restrict near_z, const float *restr
 
 /* The same without an edge near. */
 RLF_KERNEL_PART void share_plain(const float *restrict real_z, rlf_kernel_noise noise,
-                                 const float *restrict z, int32_t count, float *restrict share)
+                                 const float *restrict z, float *restrict share)
 {
-    for (int32_t i = 0; i < count; i++) {
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
         float here = real_z[i] > 0.0f ? real_z[i] : SILHOUETTE_FAR;
         float fade = 0.25f / rlf_kernel_sigma(noise, z[i]);
         share[i] = clamp(0.5f + (here - z[i]) * fade, 0.0f, 1.0f);
@@ -165,9 +173,10 @@ RLF_KERNEL_PART bool has_edge(const uint8_t *marks, int32_t x0, int32_t x1)
 
 /* Hard: the pixel's own depth counts twice, its four neighbours' once, so that edges are not
  * jagged; depth 0 is unknown and hides nothing. */
-RLF_KERNEL_PART void share_hard(const soft_real_row *real, int32_t x, int32_t count, lanes *v)
+RLF_KERNEL_PART void share_hard(const soft_real_row *real, int32_t x, lanes *v)
 {
-    for (int32_t i = 0; i < count; i++) {
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
         int32_t at = x + i < real->width ? x + i : real->width - 1;
         int32_t left = at > 0 ? at - 1 : at;
         int32_t right = at < real->width - 1 ? at + 1 : at;
@@ -181,46 +190,50 @@ RLF_KERNEL_PART void share_hard(const soft_real_row *real, int32_t x, int32_t co
     }
 }
 
-RLF_KERNEL_PART void share_all(int32_t count, float *restrict share)
+RLF_KERNEL_PART void share_all(float *restrict share)
 {
-    for (int32_t i = 0; i < count; i++) {
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
         share[i] = 1.0f;
     }
 }
 
 /* ---- sums ----------------------------------------------------------------------------------- */
 
-/* Share of the samples that see the face. */
-RLF_KERNEL_PART void cover(const int32_t *restrict face, ptrdiff_t stride, int32_t id,
-                           int32_t count, float *restrict coverage)
+/* Share of the samples that see the face, in the first `used` lanes; else 0. */
+RLF_KERNEL_PART void cover(const int32_t *restrict face, ptrdiff_t stride, int32_t id, int32_t used,
+                           float *restrict coverage)
 {
     const int32_t *restrict second = face + stride;
     const int32_t *restrict third = face + 2 * stride;
     const int32_t *restrict fourth = face + 3 * stride;
-    for (int32_t i = 0; i < count; i++) {
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
         float a = face[i] == id ? 1.0f / SOFT_SAMPLES : 0.0f;
         float b = second[i] == id ? 1.0f / SOFT_SAMPLES : 0.0f;
         float c = third[i] == id ? 1.0f / SOFT_SAMPLES : 0.0f;
         float d = fourth[i] == id ? 1.0f / SOFT_SAMPLES : 0.0f;
-        coverage[i] = (a + b) + (c + d);
+        float all = (a + b) + (c + d);
+        coverage[i] = i < used ? all : 0.0f;
     }
 }
 
 /* `share` of the light shown, with what the real world leaves of it. */
-RLF_KERNEL_PART void take_share(const float *restrict coverage, int32_t count,
-                                float *restrict share, float *restrict light)
+RLF_KERNEL_PART void take_share(const float *restrict coverage, float *restrict share,
+                                float *restrict light)
 {
-    for (int32_t i = 0; i < count; i++) {
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
         float shown = share[i] * coverage[i];
         share[i] = shown;
         light[i] *= shown;
     }
 }
 
-RLF_KERNEL_PART void add(const float *restrict values, float scale, int32_t count,
-                         float *restrict sum)
+RLF_KERNEL_PART void add(const float *restrict values, float scale, float *restrict sum)
 {
-    for (int32_t i = 0; i < count; i++) {
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
         sum[i] += scale * values[i];
     }
 }
@@ -229,10 +242,11 @@ RLF_KERNEL_PART void add(const float *restrict values, float scale, int32_t coun
 
 /* Light between the nodes: linear. */
 RLF_KERNEL_PART void apply_light(const float *restrict ambient, const float *restrict direct,
-                                 int32_t count, float *restrict light)
+                                 float *restrict light)
 {
     const float base = (float)BODY_LIGHT_AMBIENT;
-    for (int32_t k = 0; k < count / NODE_PX; k++) {
+    RLF_KERNEL_WHOLE
+    for (int32_t k = 0; k < SOFT_LANES / NODE_PX; k++) {
         const float ambient_step = (ambient[k + 1] - ambient[k]) * (1.0f / NODE_PX);
         const float direct_step = (direct[k + 1] - direct[k]) * (1.0f / NODE_PX);
         float *restrict cell = light + NODE_PX * k;
@@ -244,46 +258,72 @@ RLF_KERNEL_PART void apply_light(const float *restrict ambient, const float *res
     }
 }
 
-/* A ball about some pixels of a row, from their first and last depth. */
-RLF_KERNEL_PART float ball_of(const caster_points *points, int32_t last, float out[3])
+/* A ball about four corners. */
+RLF_KERNEL_PART float ball_of(const caster_points *points, const int32_t corner[4], float out[3])
 {
-    float z[2] = {points->z[0], points->z[last]};
-    float x[2] = {points->x[0] * z[0], points->x[last] * z[1]};
-    float y[2] = {points->y[0] * z[0], points->y[0] * z[1]};
-    out[0] = 0.5f * (x[0] + x[1]);
-    out[1] = 0.5f * (y[0] + y[1]);
-    out[2] = 0.5f * (z[0] + z[1]);
-    float step[3] = {x[0] - out[0], y[0] - out[1], z[0] - out[2]};
-    return sqrtf(step[0] * step[0] + step[1] * step[1] + step[2] * step[2]);
+    float p[4][3];
+    out[0] = out[1] = out[2] = 0.0f;
+    for (int i = 0; i < 4; i++) {
+        const float z = points->z[corner[i]];
+        p[i][0] = points->x[corner[i]] * z;
+        p[i][1] = points->y[corner[i]] * z;
+        p[i][2] = z;
+        for (int k = 0; k < 3; k++) {
+            out[k] += 0.25f * p[i][k];
+        }
+    }
+    float most = 0.0f;
+    for (int i = 0; i < 4; i++) {
+        float step[3] = {p[i][0] - out[0], p[i][1] - out[1], p[i][2] - out[2]};
+        float square = step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
+        most = square > most ? square : most;
+    }
+    return sqrtf(most);
+}
+
+/* Depths of the nodes of a row from pixel (x, y) on, and their rays. */
+RLF_KERNEL_PART void place_nodes(const soft *s, const soft_face *f, int32_t x, int32_t y,
+                                 float *restrict ray_x, float *restrict ray_y, float *restrict z)
+{
+    const run r = run_of(f, &s->scene.bodies[f->body], (float)x, (float)y);
+    const float first = s->ray_x0 + s->ray_step_x * (float)x;
+    const float step = s->ray_step_x * NODE_PX;
+    const float down = s->ray_y0 + s->ray_step_y * (float)y;
+    interpolate_z(&r, 0, NODE_PX, z);
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
+        ray_x[i] = first + step * (float)i;
+        ray_y[i] = down;
+    }
 }
 
 /* Other bodies' contact darkening takes the light around, their shadows the directed light: at
- * nodes from (x, y) on, of which `count` pixels will be drawn. False when no body takes any. */
-RLF_KERNEL_PART bool fill_nodes(const soft *s, const soft_face *f, int32_t x, int32_t y,
+ * nodes of rows y0 and y1 from x on, of which `count` pixels will be drawn. False when no body
+ * takes any. */
+RLF_KERNEL_PART bool fill_nodes(const soft *s, const soft_face *f, const int32_t y[2], int32_t x,
                                 int32_t count, light_nodes *out)
 {
     const soft_body *body = &s->scene.bodies[f->body];
-    const run r = run_of(f, body, (float)x, (float)y);
-    float ray_x[SOFT_LANES];
-    float ray_y[SOFT_LANES];
-    float z[SOFT_LANES];
-    const float first = s->ray_x0 + s->ray_step_x * (float)x;
-    const float down = s->ray_y0 + s->ray_step_y * (float)y;
-    for (int32_t i = 0; i < SOFT_LANES; i++) {
-        ray_x[i] = first + s->ray_step_x * (float)(NODE_PX * i);
-        ray_y[i] = down;
-        out->ambient[i] = 1.0f;
-        out->direct[i] = 1.0f;
+    float ray_x[NODES];
+    float ray_y[NODES];
+    float z[NODES];
+    for (int32_t i = 0; i < 2; i++) {
+        const int32_t first = i * SOFT_LANES;
+        place_nodes(s, f, x, y[i], ray_x + first, ray_y + first, z + first);
     }
-    interpolate_z(&r, 0, NODE_PX, SOFT_LANES, z);
-    const caster_points points = {ray_x, ray_y, z, SOFT_LANES};
+    const caster_points points = {ray_x, ray_y, z, NODES};
+    const int32_t last = (count + NODE_PX - 1) / NODE_PX;
+    const int32_t corner[4] = {0, last, SOFT_LANES, SOFT_LANES + last};
     float middle[3];
-    float radius = ball_of(&points, (count + NODE_PX - 1) / NODE_PX, middle);
-    int32_t any = CASTER_TAKES_NOTHING;
+    float radius = ball_of(&points, corner, middle);
+    bool is_shaded = false;
     for (int32_t i = 0; i < body->shader_count; i++) {
         const caster *c = &s->scene.casters[body->shaders[i]];
         int32_t takes = caster_may_take(c, s->light, middle, radius);
-        any |= takes;
+        for (int32_t k = 0; takes != CASTER_TAKES_NOTHING && !is_shaded && k < NODES; k++) {
+            out->ambient[k] = out->direct[k] = 1.0f;
+        }
+        is_shaded = is_shaded || takes != CASTER_TAKES_NOTHING;
         if ((takes & CASTER_TAKES_AMBIENT) != 0) {
             caster_take_ambient(c, &points, (float)BODY_AMBIENT_SHARE, out->ambient);
         }
@@ -291,56 +331,69 @@ RLF_KERNEL_PART bool fill_nodes(const soft *s, const soft_face *f, int32_t x, in
             caster_take_direct(c, &points, (float)BODY_DIRECT_SHARE, out->direct);
         }
     }
-    return any != CASTER_TAKES_NOTHING;
+    return is_shaded;
 }
 
-/* Nodes of the row at `share` of the way from the first to the last one. */
-RLF_KERNEL_PART void mix_nodes(const light_nodes *first, const light_nodes *last, float share,
-                               light_nodes *out)
+/* Nodes of a row at `share` of the way from the first to the other one, into `out`'s first row. */
+RLF_KERNEL_PART void mix_nodes(const light_nodes *nodes, float share, light_nodes *out)
 {
+    RLF_KERNEL_WHOLE
     for (int32_t i = 0; i < SOFT_LANES; i++) {
-        out->ambient[i] = first->ambient[i] + (last->ambient[i] - first->ambient[i]) * share;
-        out->direct[i] = first->direct[i] + (last->direct[i] - first->direct[i]) * share;
+        float ambient = nodes->ambient[i];
+        float direct = nodes->direct[i];
+        out->ambient[i] = ambient + (nodes->ambient[SOFT_LANES + i] - ambient) * share;
+        out->direct[i] = direct + (nodes->direct[SOFT_LANES + i] - direct) * share;
     }
 }
 
 /* ---- runs ----------------------------------------------------------------------------------- */
 
-/* Pixels x .. x + count of a row; nodes NULL = no light is taken. */
-RLF_KERNEL_PART void shade_run(const soft *s, const soft_face *f, int32_t id, const soft_row *row,
-                               ptrdiff_t stride, int32_t x, int32_t used, const light_nodes *nodes,
-                               int32_t first_node)
+/* SOFT_LANES pixels of a row; nodes NULL = no light is taken. */
+RLF_KERNEL_PART void shade_block(const soft_body *body, const run *r, int32_t first,
+                                 const light_nodes *nodes, int32_t first_node, lanes *v)
 {
+    interpolate_z(r, first, 1, v->z);
+    interpolate_light(r, first, v->z, v->light);
+    if (nodes != NULL) {
+        apply_light(nodes->ambient + first_node, nodes->direct + first_node, v->light);
+    }
+    interpolate_uv(r, first, v->z, v->weight_x, v->weight_y, v->index);
+    look_up(body->texture, v->index, v->texels);
+    filter(v->texels, v->weight_x, v->weight_y, v->light);
+}
+
+/* Adds `used` pixels of a row from x on. */
+RLF_KERNEL_PART void shade_run(const soft *s, const soft_ends *ends, const soft_group *group,
+                               const soft_row *row, int32_t x, int32_t used,
+                               const light_nodes *nodes, int32_t first_node)
+{
+    const soft_face *f = &s->scene.faces[ends->face];
     const soft_body *body = &s->scene.bodies[f->body];
     const soft_real_row *real = &row->real;
     const run r = run_of(f, body, (float)x, (float)row->y);
-    const int32_t count = (used + SOFT_LANES - 1) / SOFT_LANES * SOFT_LANES;
+    const bool is_plain = real->marks != NULL && !has_edge(real->marks, x, x + used);
     lanes v;
-    interpolate_z(&r, 0, 1, count, v.z);
-    interpolate_light(&r, 0, count, v.z, v.light);
-    if (nodes != NULL) {
-        apply_light(nodes->ambient + first_node, nodes->direct + first_node, count, v.light);
+    for (int32_t i = 0; i < used; i += SOFT_LANES) {
+        const int32_t at = x + i;
+        shade_block(body, &r, i, nodes, first_node + i / NODE_PX, &v);
+        if (is_plain) {
+            share_plain(real->row + at, real->noise, v.z, v.share);
+        } else if (real->marks != NULL) {
+            share_soft(real->near_z + at, real->far_z + at, real->cover + at, real->noise, v.z,
+                       v.share);
+        } else if (real->row != NULL) {
+            share_hard(real, at, &v);
+        } else {
+            share_all(v.share);
+        }
+        cover(row->face + at, group->stride, ends->face, used - i, v.coverage);
+        take_share(v.coverage, v.share, v.light);
+        for (int k = 0; k < 3; k++) {
+            add(v.light, body->color[k], row->sum[k] + at);
+        }
+        add(v.share, 1.0f, row->sum[3] + at);
+        add(v.coverage, 1.0f, row->sum[4] + at);
     }
-    interpolate_uv(&r, 0, count, v.z, v.weight_x, v.weight_y, v.index);
-    look_up(body->texture, v.index, count, v.texels);
-    filter(v.texels, v.weight_x, v.weight_y, count, v.light);
-    if (real->marks != NULL && !has_edge(real->marks, x, x + used)) {
-        share_plain(real->row + x, real->noise, v.z, count, v.share);
-    } else if (real->marks != NULL) {
-        share_soft(real->near_z + x, real->far_z + x, real->cover + x, real->noise, v.z, count,
-                   v.share);
-    } else if (real->row != NULL) {
-        share_hard(real, x, count, &v);
-    } else {
-        share_all(count, v.share);
-    }
-    cover(row->face + x, stride, id, count, v.coverage);
-    take_share(v.coverage, count, v.share, v.light);
-    for (int k = 0; k < 3; k++) {
-        add(v.light, body->color[k], count, row->sum[k] + x);
-    }
-    add(v.share, 1.0f, count, row->sum[3] + x);
-    add(v.coverage, 1.0f, count, row->sum[4] + x);
 }
 
 /* Pixels of row i that the face may be seen in. */
@@ -355,28 +408,26 @@ RLF_KERNEL_PART soft_span span_of(const soft_ends *ends, int32_t i)
     return span;
 }
 
-/* Columns x .. x + CHUNK of all rows: light is taken at the nodes of the first and the last row. */
+/* Columns x .. x + count of all rows: light is taken at the nodes of the first and the last row. */
 RLF_KERNEL_PART void shade_chunk(const soft *s, const soft_ends *ends, const soft_group *group,
-                                 const soft_span *spans, int32_t x)
+                                 const soft_span *spans, int32_t x, int32_t count)
 {
     const soft_face *f = &s->scene.faces[ends->face];
     const int32_t last = group->row_count - 1;
-    light_nodes nodes[3];
-    bool is_shaded = false;
-    if (s->scene.bodies[f->body].shader_count > 0) {
-        is_shaded = fill_nodes(s, f, x, group->rows[0].y, CHUNK, &nodes[0]);
-        is_shaded = fill_nodes(s, f, x, group->rows[last].y, CHUNK, &nodes[1]) || is_shaded;
-    }
+    const int32_t y[2] = {group->rows[0].y, group->rows[last].y};
+    light_nodes nodes;
+    light_nodes mixed;
+    bool is_shaded =
+        s->scene.bodies[f->body].shader_count > 0 && fill_nodes(s, f, y, x, count, &nodes);
     for (int32_t i = 0; i <= last; i++) {
         int32_t x0 = spans[i].x0 > x ? (spans[i].x0 - x) / NODE_PX * NODE_PX + x : x;
-        int32_t x1 = spans[i].x1 < x + CHUNK ? spans[i].x1 : x + CHUNK;
+        int32_t x1 = spans[i].x1 < x + count ? spans[i].x1 : x + count;
         if (x0 < x1) {
             if (is_shaded) {
-                mix_nodes(&nodes[0], &nodes[1], last > 0 ? (float)i / (float)last : 0.0f,
-                          &nodes[2]);
+                mix_nodes(&nodes, last > 0 ? (float)i / (float)last : 0.0f, &mixed);
             }
-            shade_run(s, f, ends->face, &group->rows[i], group->stride, x0, x1 - x0,
-                      is_shaded ? &nodes[2] : NULL, (x0 - x) / NODE_PX);
+            shade_run(s, ends, group, &group->rows[i], x0, x1 - x0, is_shaded ? &mixed : NULL,
+                      (x0 - x) / NODE_PX);
         }
     }
 }
@@ -391,6 +442,6 @@ RLF_KERNEL void soft_shade_face(const soft *s, const soft_ends *ends, const soft
         all.x1 = spans[i].x1 > all.x1 ? spans[i].x1 : all.x1;
     }
     for (int32_t x = all.x0; x < all.x1; x += CHUNK) {
-        shade_chunk(s, ends, group, spans, x);
+        shade_chunk(s, ends, group, spans, x, all.x1 - x < CHUNK ? all.x1 - x : CHUNK);
     }
 }

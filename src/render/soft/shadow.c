@@ -1,9 +1,12 @@
-/* Soft shadows of the bodies on the real surfaces: see caster.h. */
+/* Soft shadows of the bodies on the real surfaces: see caster.h.
+ *
+ * Where the real depth is smooth the light is worked out every few pixels and is linear between;
+ * around edges every CASTER_BLOCK pixels have their own. */
 #include "kernel/kernel.h"
 #include "render/soft/soft.h"
 
-#define TILE SILHOUETTE_TILE          /* pixels; a band of rows is as high */
-#define SAMPLES (TILE / CASTER_BLOCK) /* of a tile's row */
+#define WIDTH SOFT_SHADE_WIDTH
+#define HARDLY 0.998f /* light that is left: less than half a step of 8 bits is lost */
 
 /* One band of rows while the bodies take light from it. */
 typedef struct shade_band {
@@ -12,19 +15,42 @@ typedef struct shade_band {
     soft_shade_tile *tiles;
 } shade_band;
 
-/* Every CASTER_BLOCK-th pixel of the tile; without depth beyond the picture. */
-static void gather(const shade_band *b, int32_t column, soft_shade_tile *tile)
+static int32_t at_most(int32_t a, int32_t b)
 {
-    const rlf_camera *k = &b->s->camera;
-    for (int32_t i = 0; i < SOFT_SHADE_SAMPLES; i++) {
-        int32_t x = column * TILE + i % SAMPLES * CASTER_BLOCK;
-        int32_t y = b->begin + i / SAMPLES * CASTER_BLOCK;
-        bool is_inside = x < k->width && y < b->end;
-        tile->x[i] = (float)((x - k->cx) / k->fx);
-        tile->y[i] = (float)((y - k->cy) / k->fy);
-        tile->z[i] = is_inside ? rlf_f32_row(&b->s->real.z, y)[x] : 0.0f;
+    return a < b ? a : b;
+}
+
+/* Samples of the tile `step` pixels apart, the last ones `beyond` its last pixels; at the picture's
+ * edge they repeat. */
+static void gather(const shade_band *b, int32_t column, int32_t step, int32_t beyond,
+                   soft_shade_tile *tile)
+{
+    const soft *s = b->s;
+    tile->step = step;
+    tile->columns = WIDTH / step + beyond;
+    tile->count = tile->columns * (SOFT_BAND_ROWS / step + beyond);
+    for (int32_t i = 0; i < tile->count; i++) {
+        int32_t x = at_most(column * WIDTH + i % tile->columns * step, s->camera.width - 1);
+        int32_t y = at_most(b->begin + i / tile->columns * step, s->camera.height - 1);
+        tile->x[i] = s->ray_x0 + s->ray_step_x * (float)x;
+        tile->y[i] = s->ray_y0 + s->ray_step_y * (float)y;
+        tile->z[i] = rlf_f32_row(&s->real.z, y)[x];
         tile->light[i] = 1.0f;
     }
+}
+
+/* False when depth jumps, or begins, between samples. */
+static bool is_smooth(const soft_shade_tile *tile)
+{
+    for (int32_t i = 0; i < tile->count; i++) {
+        int32_t right = (i + 1) % tile->columns != 0 ? i + 1 : i;
+        int32_t below = i + tile->columns < tile->count ? i + tile->columns : i;
+        if (silhouette_jumps(tile->z[i], tile->z[right]) ||
+            silhouette_jumps(tile->z[i], tile->z[below])) {
+            return false;
+        }
+    }
+    return true;
 }
 
 /* A ball about all of a tile's samples: about the middle ray, as deep as they are. */
@@ -32,12 +58,12 @@ static void bound(soft_shade_tile *tile)
 {
     float near_z = 1e9f;
     float far_z = 0.0f;
-    for (int32_t i = 0; i < SOFT_SHADE_SAMPLES; i++) {
+    for (int32_t i = 0; i < tile->count; i++) {
         float z = tile->z[i];
         near_z = z > 0.0f && z < near_z ? z : near_z;
         far_z = z > far_z ? z : far_z;
     }
-    const int32_t last = SOFT_SHADE_SAMPLES - 1;
+    const int32_t last = tile->count - 1;
     float x = 0.5f * (tile->x[0] + tile->x[last]);
     float y = 0.5f * (tile->y[0] + tile->y[last]);
     float half_x = 0.5f * (tile->x[last] - tile->x[0]);
@@ -55,7 +81,10 @@ static soft_shade_tile *tile_at(const shade_band *b, int32_t column)
 {
     soft_shade_tile *tile = &b->tiles[column];
     if (!tile->is_known) {
-        gather(b, column, tile);
+        gather(b, column, b->s->shade_px, 1, tile);
+        if (!is_smooth(tile)) {
+            gather(b, column, CASTER_BLOCK, 0, tile);
+        }
         bound(tile);
         tile->is_known = true;
     }
@@ -65,14 +94,13 @@ static soft_shade_tile *tile_at(const shade_band *b, int32_t column)
 static void shade_by(const shade_band *b, const caster *c, const caster_rect *r)
 {
     const soft *s = b->s;
-    const float to_light[3] = {(float)s->to_light.x, (float)s->to_light.y, (float)s->to_light.z};
     if (r->y0 >= b->end || r->y1 <= b->begin) {
         return;
     }
-    for (int32_t column = r->x0 / TILE; column * TILE < r->x1; column++) {
+    for (int32_t column = r->x0 / WIDTH; column * WIDTH < r->x1; column++) {
         soft_shade_tile *tile = tile_at(b, column);
-        const caster_points points = {tile->x, tile->y, tile->z, SOFT_SHADE_SAMPLES};
-        int32_t takes = tile->has_depth ? caster_may_take(c, to_light, tile->center, tile->radius)
+        const caster_points points = {tile->x, tile->y, tile->z, tile->count};
+        int32_t takes = tile->has_depth ? caster_may_take(c, s->light, tile->center, tile->radius)
                                         : CASTER_TAKES_NOTHING;
         if ((takes & CASTER_TAKES_AMBIENT) != 0) {
             caster_take_ambient(c, &points, (float)CASTER_AMBIENT_SHARE, tile->light);
@@ -91,22 +119,56 @@ RLF_KERNEL static void darken(const float *restrict light, int32_t count, uint8_
     }
 }
 
-/* Each sample's light goes to the pixels of its block. */
+static void put_light(float *share, float light)
+{
+    share[0] = light;
+    share[1] = light;
+    share[2] = light;
+}
+
+/* Light of a row of a tile, `row` pixels from its top, for each byte of its pixels. */
+static void spread_light(const soft_shade_tile *tile, int32_t row, float share[4 * WIDTH])
+{
+    const int32_t step = tile->step;
+    const float *light = tile->light + row / step * tile->columns;
+    if (step == CASTER_BLOCK) {
+        for (int32_t x = 0; x < WIDTH; x++) {
+            put_light(share + 4 * x, light[x / CASTER_BLOCK]);
+        }
+        return;
+    }
+    const float down = (float)(row % step) / (float)step;
+    const float per_step = 1.0f / (float)step;
+    float left = light[0] + (light[tile->columns] - light[0]) * down;
+    for (int32_t k = 0; k + 1 < tile->columns; k++) {
+        const float *cell = light + k + 1;
+        float right = cell[0] + (cell[tile->columns] - cell[0]) * down;
+        for (int32_t x = 0; x < step; x++) {
+            put_light(share + 4 * (k * step + x), left + (right - left) * per_step * (float)x);
+        }
+        left = right;
+    }
+}
+
 static void darken_tile(const shade_band *b, int32_t column)
 {
     const soft *s = b->s;
-    int32_t x0 = column * TILE;
-    int32_t count = x0 + TILE < s->camera.width ? TILE : s->camera.width - x0;
-    float share[4 * TILE] = {0};
+    const soft_shade_tile *tile = &b->tiles[column];
+    float least = 1.0f;
+    for (int32_t i = 0; i < tile->count; i++) {
+        least = tile->light[i] < least ? tile->light[i] : least;
+    }
+    if (least > HARDLY) {
+        return;
+    }
+    int32_t x0 = column * WIDTH;
+    int32_t count = at_most(WIDTH, s->camera.width - x0);
+    float share[4 * WIDTH];
+    for (int32_t x = 0; x < WIDTH; x++) {
+        share[4 * x + 3] = 1.0f;
+    }
     for (int32_t y = b->begin; y < b->end; y++) {
-        const float *light = b->tiles[column].light + (y - b->begin) / CASTER_BLOCK * SAMPLES;
-        for (int32_t x = 0; (y - b->begin) % CASTER_BLOCK == 0 && x < TILE; x++) {
-            float here = light[x / CASTER_BLOCK];
-            share[4 * x] = here;
-            share[4 * x + 1] = here;
-            share[4 * x + 2] = here;
-            share[4 * x + 3] = 1.0f;
-        }
+        spread_light(tile, y - b->begin, share);
         darken(share, 4 * count, rlf_rgba8_row(&s->image, y) + 4 * (ptrdiff_t)x0);
     }
 }
@@ -117,7 +179,7 @@ void soft_draw_shadows(const soft *s, soft_shade_tile *tiles, int32_t begin, int
         return;
     }
     shade_band b = {s, begin, end, tiles};
-    int32_t columns = (s->camera.width + TILE - 1) / TILE;
+    int32_t columns = (s->camera.width + WIDTH - 1) / WIDTH;
     for (int32_t column = 0; column < columns; column++) {
         tiles[column].is_known = false;
         tiles[column].is_shaded = false;

@@ -7,6 +7,7 @@
 
 #define FACES_AT_START 16384
 #define BODIES_AT_START 1024
+#define FINE_FOCAL_PX 800.0 /* from here on shadows are as coarse as on half as many pixels */
 
 static void destroy(void *self)
 {
@@ -19,6 +20,7 @@ static void destroy(void *self)
             rlf_free(group->rows[k].inverse_z);
             rlf_free(group->rows[k].face);
             rlf_free(group->rows[k].sum[0]);
+            rlf_free(group->rows[k].touched);
         }
         rlf_free(group->list);
         rlf_free(group->ends);
@@ -50,7 +52,9 @@ static rlf_result allocate_row(soft_row *row, size_t stride)
     row->face = rlf_alloc_array(SOFT_SAMPLES * stride, sizeof(int32_t));
     float *sums = rlf_alloc_array((SOFT_SUMS + 4) * stride, sizeof(float));
     row->sum[0] = sums;
-    if (row->inverse_z == NULL || row->face == NULL || sums == NULL) {
+    row->part_count = ((int32_t)stride + SOFT_PART - 1) / SOFT_PART;
+    row->touched = rlf_alloc((size_t)row->part_count);
+    if (row->inverse_z == NULL || row->face == NULL || sums == NULL || row->touched == NULL) {
         return RLF_ERROR_MEMORY;
     }
     for (size_t k = 0; k < SOFT_SUMS; k++) {
@@ -59,7 +63,6 @@ static rlf_result allocate_row(soft_row *row, size_t stride)
     for (size_t k = 0; k < 4; k++) {
         row->layer[k] = sums + (SOFT_SUMS + k) * stride;
     }
-    row->touched = (soft_span){INT32_MAX, 0};
     return RLF_OK;
 }
 
@@ -86,7 +89,7 @@ static rlf_result allocate_workers(soft *s)
 
 static rlf_result allocate_shade_tiles(soft *s)
 {
-    size_t columns = ((size_t)s->camera.width + SILHOUETTE_TILE - 1) / SILHOUETTE_TILE;
+    size_t columns = ((size_t)s->camera.width + SOFT_SHADE_WIDTH - 1) / SOFT_SHADE_WIDTH;
     s->shade_tiles = rlf_alloc_array((size_t)s->worker_count, sizeof(*s->shade_tiles));
     for (int32_t i = 0; s->shade_tiles != NULL && i < s->worker_count; i++) {
         s->shade_tiles[i] = rlf_alloc_array(columns, sizeof(**s->shade_tiles));
@@ -275,6 +278,7 @@ static rlf_result prepare(soft *s)
     s->light[0] = (float)s->to_light.x;
     s->light[1] = (float)s->to_light.y;
     s->light[2] = (float)s->to_light.z;
+    s->shade_px = s->camera.fx > FINE_FOCAL_PX ? 8 : 4;
     s->ray_x0 = (float)(-s->camera.cx / s->camera.fx);
     s->ray_y0 = (float)(-s->camera.cy / s->camera.fy);
     s->ray_step_x = (float)(1.0 / s->camera.fx);

@@ -39,7 +39,8 @@ typedef struct soft_plane {
 
 enum { SOFT_CORNERS = 4 };
 
-/* From its upper end (x, y) down to y = end; slope = dx / dy. A level or missing one has end = y. */
+/* From its upper end (x, y) down to y = end; slope = dx / dy. A level or missing one has end = y.
+ */
 typedef struct soft_edge {
     double x, y, end, slope;
 } soft_edge;
@@ -105,6 +106,8 @@ typedef struct soft_real_row {
     int32_t width;
 } soft_real_row;
 
+#define SOFT_PART 32 /* pixels that are put into the picture and cleared together */
+
 /* Pixels x0 <= x < x1 of a row; none when x0 >= x1. */
 typedef struct soft_span {
     int32_t x0, x1;
@@ -118,7 +121,8 @@ typedef struct soft_row {
     int32_t *face;         /* [sample][x]; 0 = nothing */
     float *sum[SOFT_SUMS]; /* red, green, blue (0..255, times shown), shown, covered */
     float *layer[4];       /* RLF_OCCLUSION_THESIS: bodies so far, as the sums */
-    soft_span touched;     /* by any face */
+    uint8_t *touched;      /* 1 for every SOFT_PART pixels that a face touches */
+    int32_t part_count;    /* of those */
 } soft_row;
 
 /* One worker's group of rows. */
@@ -130,13 +134,15 @@ typedef struct soft_group {
     soft_ends *ends;  /* of those in the group */
 } soft_group;
 
-#define SOFT_SHADE_SAMPLES                                                                         \
-    ((SILHOUETTE_TILE / CASTER_BLOCK) * (SILHOUETTE_TILE / CASTER_BLOCK)) /* of a tile */
+#define SOFT_SHADE_WIDTH 32 /* pixels of a tile; it is as high as a band */
+#define SOFT_SHADE_SAMPLES ((SOFT_SHADE_WIDTH / CASTER_BLOCK) * (SOFT_BAND_ROWS / CASTER_BLOCK))
 
 /* A tile of the real world while bodies take light from it. */
 typedef struct soft_shade_tile {
     float x[SOFT_SHADE_SAMPLES], y[SOFT_SHADE_SAMPLES], z[SOFT_SHADE_SAMPLES]; /* caster_points */
     float light[SOFT_SHADE_SAMPLES]; /* share that is left */
+    int32_t step;                    /* pixels from one sample to the next */
+    int32_t columns, count;          /* of samples */
     float center[3], radius;         /* of a ball about all of it, picture camera frame */
     bool has_depth, is_known, is_shaded;
 } soft_shade_tile;
@@ -160,6 +166,7 @@ typedef struct soft {
     int32_t worker_count;
     rlf_vec3 to_light; /* unit, picture camera frame */
     float light[3];    /* the same */
+    int32_t shade_px;  /* pixels from one sample of shadows to the next where depth is smooth */
     float ray_x0, ray_step_x; /* x / z of pixel column i, without the lens: ray_x0 + i ray_step_x */
     float ray_y0, ray_step_y;
 
