@@ -22,7 +22,7 @@ RLF_KERNEL void rlf_kernel_has_row(const float *restrict depth, int32_t count,
 }
 
 void rlf_gap_patch_read(const uint8_t *plane, int32_t width, int32_t height, int32_t x, int32_t y,
-                        rlf_gap_patch *out)
+                        rlf_gap_patch *restrict out)
 {
     bool inside = x >= RLF_FILL_GAP && x + RLF_PATCH + RLF_FILL_GAP <= width;
     for (int32_t k = 0; k < RLF_GAP_HEIGHT; k++) {
@@ -42,8 +42,8 @@ void rlf_gap_patch_read(const uint8_t *plane, int32_t width, int32_t height, int
 
 /* Steps of (dx, dy) to the first pixel with depth; RLF_FILL_GAP + 1 when none is within `reach`.
  * Looks at all of them from the last to the first: where holes end is not to be foreseen. */
-RLF_KERNEL_PART void count_steps(const rlf_gap_patch *patch, int32_t dx, int32_t dy, int32_t reach,
-                                 uint8_t *restrict steps)
+RLF_KERNEL_PART void count_steps(const rlf_gap_patch *restrict patch, int32_t dx, int32_t dy,
+                                 int32_t reach, uint8_t *restrict steps)
 {
     const uint8_t *restrict from = &patch->has[RLF_FILL_GAP][RLF_FILL_GAP];
     for (int32_t i = 0; i < RLF_PATCH; i++) {
@@ -58,8 +58,8 @@ RLF_KERNEL_PART void count_steps(const rlf_gap_patch *patch, int32_t dx, int32_t
 
 /* Takes a line where its gap is at most so long, and none was found before, or when it `competes`
  * a longer one. */
-RLF_KERNEL_PART void offer_line(const rlf_gap_patch *patch, uint8_t line, int32_t dx, int32_t dy,
-                                int32_t most, bool competes, rlf_gaps *restrict best)
+RLF_KERNEL_PART void offer_line(const rlf_gap_patch *restrict patch, uint8_t line, int32_t dx,
+                                int32_t dy, int32_t most, bool competes, rlf_gaps *restrict best)
 {
     uint8_t before[RLF_PATCH], after[RLF_PATCH];
     count_steps(patch, -dx, -dy, most - 1, before);
@@ -76,7 +76,7 @@ RLF_KERNEL_PART void offer_line(const rlf_gap_patch *patch, uint8_t line, int32_
     }
 }
 
-RLF_KERNEL void rlf_kernel_gap_patch(const rlf_gap_patch *patch, rlf_gaps *out)
+RLF_KERNEL void rlf_kernel_gap_patch(const rlf_gap_patch *restrict patch, rlf_gaps *restrict out)
 {
     rlf_gaps best;
     memset(&best, 0, sizeof best);
@@ -91,7 +91,7 @@ RLF_KERNEL void rlf_kernel_gap_patch(const rlf_gap_patch *patch, rlf_gaps *out)
 /* ---- sides of an edge ---- */
 
 /* Votes for the nearer side less those for the farther one. */
-RLF_KERNEL_PART void count_votes(const rlf_patch *depth, const float *restrict middle,
+RLF_KERNEL_PART void count_votes(const rlf_patch *restrict depth, const float *restrict middle,
                                  float *restrict balance)
 {
     for (int32_t i = 0; i < RLF_PATCH; i++) {
@@ -117,6 +117,14 @@ typedef struct side {
     float xx[RLF_PATCH], xy[RLF_PATCH], yy[RLF_PATCH];
     float z[RLF_PATCH], xz[RLF_PATCH], yz[RLF_PATCH];
 } side;
+
+RLF_KERNEL_PART void clear_side(side *restrict s)
+{
+    for (int32_t i = 0; i < RLF_PATCH; i++) {
+        s->n[i] = s->x[i] = s->y[i] = s->xx[i] = s->xy[i] = s->yy[i] = 0.0f;
+        s->z[i] = s->xz[i] = s->yz[i] = 0.0f;
+    }
+}
 
 /* Sums over a row of the pixels from `least` to below `most`. */
 RLF_KERNEL_PART void add_side_row(const float *restrict row, float y, const float *restrict least,
@@ -149,7 +157,7 @@ RLF_KERNEL_PART void add_side_row(const float *restrict row, float y, const floa
 
 /* The side's plane at the pixel itself, above its end. The ridge keeps it level across a direction
  * in which the side has hardly an extent. */
-RLF_KERNEL_PART float continue_side(const side *s, int32_t i, float end)
+RLF_KERNEL_PART float continue_side(const side *restrict s, int32_t i, float end)
 {
     const float ridge = 0.5f;
     float n = s->n[i], inv = n > 0.0f ? 1.0f / (n > 0.0f ? n : 1.0f) : 0.0f;
@@ -171,8 +179,8 @@ typedef struct choice {
     int32_t is_far[RLF_PATCH];
 } choice;
 
-RLF_KERNEL_PART void choose_sides(const rlf_patch *depth, const rlf_gaps *gaps,
-                                  const rlf_gap_ends *ends, choice *restrict out)
+RLF_KERNEL_PART void choose_sides(const rlf_patch *restrict depth, const rlf_gaps *restrict gaps,
+                                  const rlf_gap_ends *restrict ends, choice *restrict out)
 {
     float middle[RLF_PATCH], balance[RLF_PATCH];
     for (int32_t i = 0; i < RLF_PATCH; i++) {
@@ -195,13 +203,14 @@ RLF_KERNEL_PART void choose_sides(const rlf_patch *depth, const rlf_gaps *gaps,
     }
 }
 
-RLF_KERNEL void rlf_kernel_fill_patch(const rlf_patch *depth, const rlf_gaps *gaps,
-                                      const rlf_gap_ends *ends, float out[RLF_PATCH],
-                                      uint8_t kind[RLF_PATCH])
+RLF_KERNEL void rlf_kernel_fill_patch(const rlf_patch *restrict depth,
+                                      const rlf_gaps *restrict gaps,
+                                      const rlf_gap_ends *restrict ends, float *restrict out,
+                                      uint8_t *restrict kind)
 {
     choice chosen;
     side s;
-    memset(&s, 0, sizeof s);
+    clear_side(&s);
     choose_sides(depth, gaps, ends, &chosen);
     for (int32_t k = 0; k < RLF_PATCH_HEIGHT; k++) {
         add_side_row(depth->at[k], (float)(k - RLF_PATCH_ABOUT), chosen.least, chosen.most,

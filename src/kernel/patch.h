@@ -32,7 +32,7 @@ static inline void rlf_patch_copy(const void *row, int32_t size, int32_t first, 
 
 /* The patch whose first pixel is (x, y), of a plane of that many pixels. */
 static inline void rlf_patch_read(const float *plane, int32_t width, int32_t height, int32_t x,
-                                  int32_t y, rlf_patch *out)
+                                  int32_t y, rlf_patch *restrict out)
 {
     enum { ABOUT = RLF_PATCH_ABOUT, SIZE = sizeof(float) };
     bool inside = x >= ABOUT && x + RLF_PATCH + ABOUT <= width;
@@ -51,7 +51,7 @@ static inline void rlf_patch_read(const float *plane, int32_t width, int32_t hei
 }
 
 static inline void rlf_byte_patch_read(const uint8_t *plane, int32_t width, int32_t height,
-                                       int32_t x, int32_t y, rlf_byte_patch *out)
+                                       int32_t x, int32_t y, rlf_byte_patch *restrict out)
 {
     enum { ABOUT = RLF_PATCH_ABOUT };
     bool inside = x >= ABOUT && x + RLF_PATCH + ABOUT <= width;
@@ -76,8 +76,8 @@ enum { RLF_ABOUT_MOVED = 1, RLF_ABOUT_CONTINUED = 2 };
 
 /* `change` is of RLF_CHANGE_; depth counts where it is not UNSEEN. `inverse` is what is remembered.
  */
-void rlf_kernel_recall_patch(const rlf_patch *depth, const rlf_byte_patch *change,
-                             const float inverse[RLF_PATCH], uint8_t out[RLF_PATCH]);
+void rlf_kernel_recall_patch(const rlf_patch *restrict depth, const rlf_byte_patch *restrict change,
+                             const float *restrict inverse, uint8_t *restrict out);
 
 /* ---- fill_patch.c: depth of holes ---- */
 
@@ -92,7 +92,7 @@ typedef struct rlf_gap_patch {
 
 void rlf_kernel_has_row(const float *restrict depth, int32_t count, uint8_t *restrict has);
 void rlf_gap_patch_read(const uint8_t *plane, int32_t width, int32_t height, int32_t x, int32_t y,
-                        rlf_gap_patch *out);
+                        rlf_gap_patch *restrict out);
 
 /* Lines through a pixel, and the step along each of them. */
 enum { RLF_LINE_ROW, RLF_LINE_COLUMN, RLF_LINE_DOWN, RLF_LINE_UP, RLF_LINE_NONE };
@@ -104,7 +104,7 @@ typedef struct rlf_gaps {
     uint8_t to_before[RLF_PATCH], to_after[RLF_PATCH]; /* steps, > 0 unless NONE */
 } rlf_gaps;
 
-void rlf_kernel_gap_patch(const rlf_gap_patch *patch, rlf_gaps *out);
+void rlf_kernel_gap_patch(const rlf_gap_patch *restrict patch, rlf_gaps *restrict out);
 
 /* Depths at the ends of the pixels' gaps; 0 = it has none. */
 typedef struct rlf_gap_ends {
@@ -115,7 +115,8 @@ typedef struct rlf_gap_ends {
  * edge. */
 enum { RLF_FILL_BETWEEN, RLF_FILL_NEAR, RLF_FILL_FAR };
 
-void rlf_kernel_fill_patch(const rlf_patch *depth, const rlf_gaps *gaps, const rlf_gap_ends *ends,
-                           float out[RLF_PATCH], uint8_t kind[RLF_PATCH]);
+void rlf_kernel_fill_patch(const rlf_patch *restrict depth, const rlf_gaps *restrict gaps,
+                           const rlf_gap_ends *restrict ends, float *restrict out,
+                           uint8_t *restrict kind);
 
 #endif

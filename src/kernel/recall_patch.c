@@ -12,7 +12,7 @@ RLF_KERNEL_PART int32_t distance(int32_t dx, int32_t dy)
     return x > y ? x : y;
 }
 
-RLF_KERNEL_PART void look_for_motion(const rlf_byte_patch *change, uint8_t *restrict moved)
+RLF_KERNEL_PART void look_for_motion(const rlf_byte_patch *restrict change, uint8_t *restrict moved)
 {
     for (int32_t i = 0; i < RLF_PATCH; i++) {
         moved[i] = 0;
@@ -29,7 +29,7 @@ RLF_KERNEL_PART void look_for_motion(const rlf_byte_patch *change, uint8_t *rest
     }
 }
 
-RLF_KERNEL_PART void look_for_more(const rlf_patch *seen, const float *restrict inverse,
+RLF_KERNEL_PART void look_for_more(const rlf_patch *restrict seen, const float *restrict inverse,
                                    int32_t *restrict continued)
 {
     for (int32_t i = 0; i < RLF_PATCH; i++) {
@@ -49,8 +49,9 @@ RLF_KERNEL_PART void look_for_more(const rlf_patch *seen, const float *restrict 
     }
 }
 
-RLF_KERNEL void rlf_kernel_recall_patch(const rlf_patch *depth, const rlf_byte_patch *change,
-                                        const float inverse[RLF_PATCH], uint8_t out[RLF_PATCH])
+RLF_KERNEL void rlf_kernel_recall_patch(const rlf_patch *restrict depth,
+                                        const rlf_byte_patch *restrict change,
+                                        const float *restrict inverse, uint8_t *restrict out)
 {
     rlf_patch seen; /* 0 continues nothing */
     for (int32_t k = 0; k < RLF_PATCH_HEIGHT; k++) {

@@ -1,0 +1,43 @@
+/* Normals of pixels at the outlines of things, sixteen at a time: see surface/normals_outline.c. */
+#ifndef RLF_KERNEL_OUTLINE_H
+#define RLF_KERNEL_OUTLINE_H
+
+#include "kernel/patch.h"
+
+#define RLF_OUTLINE_JUMP 0.04f /* share of the depth, of what is behind an outline */
+#define RLF_OUTLINE_STEPS 5    /* on the way in */
+
+/* Where the outline is, seen from each pixel in front of it. */
+typedef struct rlf_outlines {
+    float x[RLF_PATCH], y[RLF_PATCH]; /* unit, outwards */
+    float distance[RLF_PATCH];        /* pixels; 0 = nothing is behind the pixel */
+} rlf_outlines;
+
+typedef struct rlf_normals {
+    float x[RLF_PATCH], y[RLF_PATCH], z[RLF_PATCH];
+} rlf_normals;
+
+void rlf_kernel_outline_patch(const rlf_patch *restrict depth, rlf_outlines *restrict out);
+
+/* What is known on the way in from an outline, step by step. */
+typedef struct rlf_way_in {
+    float ray_x[RLF_PATCH], ray_y[RLF_PATCH]; /* of the pixels themselves */
+    float s[RLF_OUTLINE_STEPS][RLF_PATCH];    /* pixels from the outline */
+    rlf_normals normal[RLF_OUTLINE_STEPS];    /* 0 = none */
+} rlf_way_in;
+
+/* Normals of what turns steadily outwards, as something rounded does: 0 where it does not. `aside`
+ * is the direction that is square to the ray and points outwards. */
+void rlf_kernel_outline_round(const rlf_outlines *restrict at, const rlf_way_in *restrict in,
+                              rlf_normals *restrict out, rlf_normals *restrict aside);
+
+/* The known normals within RLF_PATCH_ABOUT pixels, row by row; 0 = none at the pixel's own depth.
+ */
+#define RLF_OUTLINE_WINDOW (RLF_PATCH_HEIGHT * RLF_PATCH_HEIGHT)
+
+/* Where they are those of several faces and the outermost of them is turned outwards: that one,
+ * otherwise 0. */
+void rlf_kernel_outline_face(const rlf_outlines *restrict at, const rlf_normals *restrict aside,
+                             const rlf_normals *restrict window, rlf_normals *restrict out);
+
+#endif

@@ -1,0 +1,81 @@
+/* Outlines beside pixels: see surface/normals_outline.c. */
+#include "kernel/outline.h"
+
+#include <math.h>
+
+/* Share of the depth between a pixel and what is behind its outline. */
+static const float least_jump = RLF_OUTLINE_JUMP;
+
+/* Offsets of what is behind each pixel and of what is not, summed. */
+typedef struct sides {
+    float far_x[RLF_PATCH], far_y[RLF_PATCH], far_n[RLF_PATCH];
+    float near_x[RLF_PATCH], near_y[RLF_PATCH], near_n[RLF_PATCH];
+    float nearest[RLF_PATCH]; /* squared distance of what is behind */
+} sides;
+
+RLF_KERNEL_PART void add_row(const float *restrict row, float dy, const float *restrict before,
+                             const float *restrict behind, sides *restrict s)
+{
+    for (int32_t i = 0; i < RLF_PATCH; i++) {
+        float far_n = 0.0f, far_x = 0.0f, near_n = 0.0f, near_x = 0.0f, nearest = s->nearest[i];
+        for (int32_t k = 0; k < RLF_PATCH_HEIGHT; k++) {
+            float z = row[i + k], dx = (float)(k - RLF_PATCH_ABOUT), square = dx * dx + dy * dy;
+            bool is_far = z > behind[i];
+            float far = is_far ? 1.0f : 0.0f, near = (z > before[i]) & !is_far ? 1.0f : 0.0f;
+            float to_far = is_far ? square : nearest;
+            far_n += far;
+            far_x += far * dx;
+            near_n += near;
+            near_x += near * dx;
+            nearest = to_far < nearest ? to_far : nearest;
+        }
+        s->far_n[i] += far_n;
+        s->far_x[i] += far_x;
+        s->far_y[i] += far_n * dy;
+        s->near_n[i] += near_n;
+        s->near_x[i] += near_x;
+        s->near_y[i] += near_n * dy;
+        s->nearest[i] = nearest;
+    }
+}
+
+RLF_KERNEL_PART float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+RLF_KERNEL void rlf_kernel_outline_patch(const rlf_patch *restrict depth,
+                                         rlf_outlines *restrict out)
+{
+    enum { ABOUT = RLF_PATCH_ABOUT };
+    const float *restrict at = depth->at[ABOUT] + ABOUT;
+    const float *restrict above = depth->at[0] + ABOUT;
+    const float *restrict below = depth->at[2 * ABOUT] + ABOUT;
+    float before[RLF_PATCH], behind[RLF_PATCH];
+    sides s;
+    for (int32_t i = 0; i < RLF_PATCH; i++) {
+        behind[i] = at[i] * (1.0f + least_jump);
+        before[i] = at[i] * (1.0f - least_jump);
+        s.far_x[i] = s.far_y[i] = s.far_n[i] = s.near_x[i] = s.near_y[i] = s.near_n[i] = 0.0f;
+        s.nearest[i] = 99.0f;
+    }
+    for (int32_t k = 0; k < RLF_PATCH_HEIGHT; k++) {
+        add_row(depth->at[k], (float)(k - ABOUT), before, behind, &s);
+    }
+    for (int32_t i = 0; i < RLF_PATCH; i++) {
+        float aside = larger(at[i - ABOUT], at[i + ABOUT]);
+        float farthest = larger(aside, larger(above[i], below[i]));
+        float far_n = larger(s.far_n[i], 1.0f), near_n = larger(s.near_n[i], 1.0f);
+        float gx = s.far_x[i] / far_n - s.near_x[i] / near_n;
+        float gy = s.far_y[i] / far_n - s.near_y[i] / near_n;
+        float length = sqrtf(gx * gx + gy * gy);
+        float distance = sqrtf(s.nearest[i]) - 0.5f;
+        distance = farthest > behind[i] ? distance : 0.0f;
+        distance = s.far_n[i] > 1.5f ? distance : 0.0f;
+        bool is_sure = length >= 0.5f;
+        float whole = is_sure ? length : 1.0f;
+        out->x[i] = gx / whole;
+        out->y[i] = gy / whole;
+        out->distance[i] = is_sure ? distance : 0.0f;
+    }
+}

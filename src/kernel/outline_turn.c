@@ -1,0 +1,177 @@
+/* Normals at outlines: of what is rounded, and of what has faces. */
+#include "kernel/outline.h"
+
+#include <math.h>
+
+static const float least_turn = 0.12f; /* share of the rounded surface's turn that must be seen */
+static const float most_bend = 0.1f;   /* RMS of the samples about a steady turn: a crease bends */
+static const float most_aside = 0.98f; /* sine of the steepest normal that is given */
+static const float crease = 0.95f;     /* cosine between two faces */
+
+typedef struct vector {
+    float x, y, z;
+} vector;
+
+RLF_KERNEL_PART float dot(vector a, vector b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+RLF_KERNEL_PART vector scaled(vector a, float s)
+{
+    return (vector){a.x * s, a.y * s, a.z * s};
+}
+
+RLF_KERNEL_PART vector add(vector a, vector b)
+{
+    return (vector){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+RLF_KERNEL_PART vector unit(vector a)
+{
+    return scaled(a, 1.0f / sqrtf(dot(a, a)));
+}
+
+RLF_KERNEL_PART vector get(const rlf_normals *restrict n, int32_t i)
+{
+    return (vector){n->x[i], n->y[i], n->z[i]};
+}
+
+RLF_KERNEL_PART void set(rlf_normals *restrict n, int32_t i, vector v)
+{
+    n->x[i] = v.x;
+    n->y[i] = v.y;
+    n->z[i] = v.z;
+}
+
+/* ---- rounded ---- */
+
+/* Axes at a pixel: along its ray, outwards across the outline, and along it. */
+typedef struct axes {
+    vector ray, out, along;
+} axes;
+
+RLF_KERNEL_PART axes make_axes(float ray_x, float ray_y, float x, float y)
+{
+    axes a;
+    a.ray = unit((vector){ray_x, ray_y, 1.0f});
+    vector out = {x, y, 0.0f};
+    a.out = unit(add(out, scaled(a.ray, -dot(out, a.ray))));
+    a.along = (vector){a.ray.y * a.out.z - a.ray.z * a.out.y, a.ray.z * a.out.x - a.ray.x * a.out.z,
+                       a.ray.x * a.out.y - a.ray.y * a.out.x};
+    return a;
+}
+
+/* Sums over the samples on the way in; s = pixels from the outline, out = outward component. */
+typedef struct way_sum {
+    float n, s, ss, out, oo, s_out, along;
+} way_sum;
+
+RLF_KERNEL_PART way_sum sum_way(const rlf_way_in *restrict in, int32_t i, const axes *restrict a)
+{
+    way_sum sum = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    for (int32_t k = 0; k < RLF_OUTLINE_STEPS; k++) {
+        vector n = get(&in->normal[k], i);
+        float has = dot(n, n) > 0.0f ? 1.0f : 0.0f, s = in->s[k][i], out = dot(n, a->out);
+        sum.n += has;
+        sum.s += has * s;
+        sum.ss += has * s * s;
+        sum.out += has * out;
+        sum.oo += has * out * out;
+        sum.s_out += has * s * out;
+        sum.along += has * dot(n, a->along);
+    }
+    return sum;
+}
+
+/* 1 when the samples turn steadily outwards, else 0. */
+RLF_KERNEL_PART float is_rounded(const way_sum *restrict in, float n, float distance)
+{
+    float s = in->s / n, out = in->out / n;
+    float spread = in->ss - in->s * s, turn = in->out * s - in->s_out;
+    float bend = (in->oo - in->out * out) * spread - turn * turn;
+    float steady = bend <= n * most_bend * most_bend * spread ? 1.0f : 0.0f;
+    float turns = turn * s > least_turn * spread * (1.0f - out) ? steady : 0.0f;
+    float inwards = s > distance ? turns : 0.0f;
+    float outwards = out >= 0.0f ? inwards : 0.0f;
+    return in->n < 1.5f ? 0.0f : outwards;
+}
+
+RLF_KERNEL_PART vector rounded_normal(const way_sum *restrict in, float n, float distance,
+                                      const axes *restrict a)
+{
+    float t = distance * n / in->s; /* 0 at the outline, 1 at the samples' mean */
+    float out = 1.0f - t * (1.0f - in->out / n), along = t * in->along / n;
+    float aside = sqrtf(out * out + along * along);
+    float scale = aside > most_aside ? most_aside / aside : 1.0f;
+    aside *= scale;
+    vector normal = add(scaled(a->out, out * scale), scaled(a->along, along * scale));
+    return add(normal, scaled(a->ray, -sqrtf(1.0f - aside * aside)));
+}
+
+RLF_KERNEL void rlf_kernel_outline_round(const rlf_outlines *restrict at,
+                                         const rlf_way_in *restrict in, rlf_normals *restrict out,
+                                         rlf_normals *restrict aside)
+{
+    for (int32_t i = 0; i < RLF_PATCH; i++) {
+        axes a = make_axes(in->ray_x[i], in->ray_y[i], at->x[i], at->y[i]);
+        way_sum sum = sum_way(in, i, &a);
+        float count = sum.n > 1.0f ? sum.n : 1.0f, distance = at->distance[i];
+        bool rounded = is_rounded(&sum, count, distance) > 0.0f;
+        vector n = rounded_normal(&sum, count, distance, &a);
+        vector result = {rounded ? n.x : 0.0f, rounded ? n.y : 0.0f, rounded ? n.z : 0.0f};
+        set(out, i, result);
+        set(aside, i, a.out);
+    }
+}
+
+/* ---- faces ---- */
+
+/* Of the normals so far: their mean, weighted by nearness, and the outermost. */
+typedef struct face_sum {
+    rlf_normals mean, last;
+    float best[RLF_PATCH];
+} face_sum;
+
+RLF_KERNEL_PART void offer(const rlf_outlines *restrict at, const rlf_normals *restrict normal,
+                           float dx, float dy, face_sum *restrict sum)
+{
+    float square = dx * dx + dy * dy, weight = square > 0.0f ? 1.0f / square : 0.0f;
+    for (int32_t i = 0; i < RLF_PATCH; i++) {
+        vector n = get(normal, i), mean = get(&sum->mean, i), last = get(&sum->last, i);
+        float out = at->x[i] * dx + at->y[i] * dy;
+        float along = rlf_kernel_abs(at->x[i] * dy - at->y[i] * dx);
+        float place = dot(n, n) > 0.0f ? out - 0.2f * along : -1e9f, best = sum->best[i];
+        bool better = place > best;
+        set(&sum->mean, i, add(mean, scaled(n, weight)));
+        sum->last.x[i] = better ? n.x : last.x;
+        sum->last.y[i] = better ? n.y : last.y;
+        sum->last.z[i] = better ? n.z : last.z;
+        sum->best[i] = better ? place : best;
+    }
+}
+
+RLF_KERNEL void rlf_kernel_outline_face(const rlf_outlines *restrict at,
+                                        const rlf_normals *restrict aside,
+                                        const rlf_normals *restrict window,
+                                        rlf_normals *restrict out)
+{
+    face_sum sum;
+    for (int32_t i = 0; i < RLF_PATCH; i++) {
+        set(&sum.mean, i, (vector){0.0f, 0.0f, 0.0f});
+        set(&sum.last, i, (vector){0.0f, 0.0f, 0.0f});
+        sum.best[i] = -1e9f;
+    }
+    for (int32_t k = 0; k < RLF_OUTLINE_WINDOW; k++) {
+        offer(at, &window[k], (float)(k % RLF_PATCH_HEIGHT - RLF_PATCH_ABOUT),
+              (float)(k / RLF_PATCH_HEIGHT - RLF_PATCH_ABOUT), &sum);
+    }
+    for (int32_t i = 0; i < RLF_PATCH; i++) {
+        vector mean = get(&sum.mean, i), last = get(&sum.last, i), outwards = get(aside, i);
+        float length = sqrtf(dot(mean, mean));
+        float creased = dot(last, mean) < crease * length ? 1.0f : 0.0f;
+        bool turned = dot(last, outwards) * length > dot(mean, outwards);
+        float taken = turned ? creased : 0.0f;
+        set(out, i, (vector){taken * last.x, taken * last.y, taken * last.z});
+    }
+}
