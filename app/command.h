@@ -28,6 +28,9 @@ int command_stopped(const char *command);
 
 /* Whole-string numbers; false when the text is not one or is out of [low, high]. */
 bool command_parse_int(const char *text, int64_t low, int64_t high, int64_t *out);
+/* "A,B,...": at most `capacity` numbers, each within [low, high]. */
+bool command_parse_list(const char *text, int64_t low, int64_t high, int capacity, int64_t *out,
+                        int *out_count);
 /* "A:B", "A:", ":B" or "N" (= ":N"): frames A <= i < B. */
 bool command_parse_range(const char *text, int64_t *out_begin, int64_t *out_end);
 

@@ -79,6 +79,30 @@ bool command_parse_int(const char *text, int64_t low, int64_t high, int64_t *out
     return true;
 }
 
+bool command_parse_list(const char *text, int64_t low, int64_t high, int capacity, int64_t *out,
+                        int *out_count)
+{
+    *out_count = 0;
+    for (const char *rest = text; *out_count < capacity;) {
+        char number[24];
+        size_t length = strcspn(rest, ",");
+        if (length >= sizeof(number)) {
+            return false;
+        }
+        memcpy(number, rest, length);
+        number[length] = '\0';
+        if (!command_parse_int(number, low, high, &out[*out_count])) {
+            return false;
+        }
+        ++*out_count;
+        if (rest[length] == '\0') {
+            return true;
+        }
+        rest += length + 1;
+    }
+    return false;
+}
+
 bool command_parse_range(const char *text, int64_t *out_begin, int64_t *out_end)
 {
     const int64_t limit = INT64_C(1000000000);

@@ -37,6 +37,7 @@ static void print_help(void)
            "  --video FILE          .mp4, .y4m, or - for Y4M on standard output\n"
            "  --pictures DIR        PNG pictures NNNNNN.png, one every --picture-every frames\n"
            "  --picture-every N     default 30\n"
+           "  --picture-at LIST     instead: these frames alone, e.g. 60,92\n"
            "  --log DIR             frames.csv, bodies.csv, contacts.csv\n"
            "  --view NAME           camera (default), depth, normals, mesh, regions, foreground,\n"
            "                        background, velocity, thickness, reason\n"
@@ -65,6 +66,14 @@ static bool take_view(const char *text, void *out)
     return rlf_view_parse(text, out);
 }
 
+/* "60,92" into the run_output_options. */
+static bool take_picture_frames(const char *text, void *out)
+{
+    run_output_options *o = out;
+    return command_parse_list(text, 0, INT64_C(1000000000), RUN_PICTURES_MAX, o->picture_at,
+                              &o->picture_count);
+}
+
 static int read_options(int argc, char **argv, run_options *o)
 {
     session_options *s = &o->session;
@@ -90,6 +99,11 @@ static int read_options(int argc, char **argv, run_options *o)
          .out = &out->picture_every,
          .low = 1,
          .high = 1000000},
+        {.name = "picture-at",
+         .kind = OPTION_CHOICE,
+         .out = out,
+         .take = take_picture_frames,
+         .choices = "use up to 16 frame numbers"},
         {.name = "log", .kind = OPTION_TEXT, .out = &out->log_folder},
         {.name = "view",
          .kind = OPTION_CHOICE,

@@ -84,6 +84,15 @@ static void print_progress(run_output *out)
     }
 }
 
+static bool is_wanted(const run_output_options *o, int64_t frame)
+{
+    bool is_listed = false;
+    for (int i = 0; i < o->picture_count; i++) {
+        is_listed = is_listed || o->picture_at[i] == frame;
+    }
+    return o->picture_count > 0 ? is_listed : frame % o->picture_every == 0;
+}
+
 rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame)
 {
     const rlf_stage_times *t = &frame->times;
@@ -98,7 +107,7 @@ rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame)
         result = write_video(out, &frame->render.image);
     }
     if (result == RLF_OK && out->options.picture_folder != NULL &&
-        frame->frame_index % out->options.picture_every == 0) {
+        is_wanted(&out->options, frame->frame_index)) {
         result = write_picture(out, frame);
     }
     return result;

@@ -5,13 +5,17 @@
 #include "relief/io.h"
 #include "timing.h"
 
+#define RUN_PICTURES_MAX 16
+
 typedef struct run_output_options {
-    const char *video_path;     /* NULL = none */
-    const char *picture_folder; /* NULL = none */
-    int64_t picture_every;      /* frames between pictures, >= 1 */
-    const char *log_folder;     /* NULL = none */
-    bool is_quiet;              /* no progress, no summary */
-    bool print_hash;            /* print the hash of all body states at the end */
+    const char *video_path;               /* NULL = none */
+    const char *picture_folder;           /* NULL = none */
+    int64_t picture_every;                /* frames between pictures, >= 1 */
+    int64_t picture_at[RUN_PICTURES_MAX]; /* instead: the pictures of these frames alone */
+    int picture_count;                    /* of them; 0 = every picture_every-th */
+    const char *log_folder;               /* NULL = none */
+    bool is_quiet;                        /* no progress, no summary */
+    bool print_hash;                      /* print the hash of all body states at the end */
 } run_output_options;
 
 typedef struct run_output {

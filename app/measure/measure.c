@@ -47,26 +47,14 @@ static void print_help(void)
 static bool take_scales(const char *text, void *out)
 {
     measure_options *o = out;
-    o->scale_count = 0;
-    for (const char *rest = text; o->scale_count < MEASURE_SCALES_MAX;) {
-        char number[8];
-        size_t length = strcspn(rest, ",");
-        int64_t scale;
-        if (length == 0 || length >= sizeof(number)) {
-            return false;
-        }
-        memcpy(number, rest, length);
-        number[length] = '\0';
-        if (!command_parse_int(number, 1, 64, &scale)) {
-            return false;
-        }
-        o->scales[o->scale_count++] = (int32_t)scale;
-        if (rest[length] == '\0') {
-            return true;
-        }
-        rest += length + 1;
+    int64_t scales[MEASURE_SCALES_MAX];
+    int count = 0;
+    bool is_good = command_parse_list(text, 1, 64, MEASURE_SCALES_MAX, scales, &count);
+    for (int i = 0; i < count; i++) {
+        o->scales[i] = (int32_t)scales[i];
     }
-    return false;
+    o->scale_count = count;
+    return is_good;
 }
 
 static int parse(int argc, char **argv, measure_options *o)
