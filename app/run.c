@@ -38,6 +38,7 @@ static void print_help(void)
            "  --pictures DIR        PNG pictures NNNNNN.png, one every --picture-every frames\n"
            "  --picture-every N     default 30\n"
            "  --picture-at LIST     instead: these frames alone, e.g. 60,92\n"
+           "  --picture-shrink N    average N x N pixels of a picture into one\n"
            "  --log DIR             frames.csv, bodies.csv, contacts.csv\n"
            "  --view NAME           camera (default), depth, normals, mesh, regions, foreground,\n"
            "                        background, velocity, thickness, reason\n"
@@ -104,6 +105,11 @@ static int read_options(int argc, char **argv, run_options *o)
          .out = out,
          .take = take_picture_frames,
          .choices = "use up to 16 frame numbers"},
+        {.name = "picture-shrink",
+         .kind = OPTION_INT32,
+         .out = &out->picture_shrink,
+         .low = 1,
+         .high = 64},
         {.name = "log", .kind = OPTION_TEXT, .out = &out->log_folder},
         {.name = "view",
          .kind = OPTION_CHOICE,
@@ -126,6 +132,7 @@ static int parse(int argc, char **argv, run_options *o)
     o->session = session_options_default();
     o->session.use_default_scene = true;
     o->output.picture_every = 30;
+    o->output.picture_shrink = 1;
     o->frame_count = -1;
     int status = read_options(argc, argv, o);
     if (status >= 0) {

@@ -2,6 +2,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "run_output.h"
 
+#include "picture_file.h"
+
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -50,7 +52,7 @@ static rlf_result write_picture(run_output *out, const rlf_pipeline_output *fram
         return rlf_fail(RLF_ERROR_IO, "%s: the path is too long", out->options.picture_folder);
     }
     out->pictures++;
-    return rlf_png_write_rgba(path, &frame->render.image);
+    return picture_file_write(path, &frame->render.image, out->options.picture_shrink);
 }
 
 rlf_result run_output_save(run_output *out, const rlf_image_rgba8 *image, char *out_message,

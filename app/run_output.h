@@ -12,6 +12,7 @@ typedef struct run_output_options {
     const char *picture_folder;           /* NULL = none */
     int64_t picture_every;                /* frames between pictures, >= 1 */
     int64_t picture_at[RUN_PICTURES_MAX]; /* instead: the pictures of these frames alone */
+    int32_t picture_shrink;               /* pixels averaged into one, each way; >= 1 */
     int picture_count;                    /* of them; 0 = every picture_every-th */
     const char *log_folder;               /* NULL = none */
     bool is_quiet;                        /* no progress, no summary */

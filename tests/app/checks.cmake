@@ -28,5 +28,5 @@ if(TARGET relief_app AND Python3_FOUND AND CMAKE_BUILD_TYPE STREQUAL Release)
   add_test(NAME app.report
            COMMAND sh ${PROJECT_SOURCE_DIR}/tests/app/test_report.sh $<TARGET_FILE:relief_app>
                    ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/app_report)
-  set_tests_properties(app.report PROPERTIES LABELS app TIMEOUT 300)
+  set_tests_properties(app.report PROPERTIES LABELS app TIMEOUT 900)
 endif()
