@@ -1,7 +1,8 @@
 /* Velocity of the front sheet from the change of depth.
  *
  * A surface that moves with velocity v meets the frame before, taken back by v dt: along the normal
- * n the two must not differ. Over a region that moves as one rigid thing this gives all six
+ * n the two must not differ. What moves along itself shows that at its outline only
+ * (velocity_outline.c). Over a region that moves as one rigid thing this gives all six
  * unknowns of its twist (least squares with a weak prior). A region that is not rigid is fitted
  * cell by cell (velocity_cells.c). What is not significant against the sensor's noise is exactly 0.
  */
@@ -14,6 +15,14 @@ enum { STRIDE = 2, PASSES = 4, LEAST_REGION_SAMPLES = 30, MOST_SAMPLES = 400 };
 static const double longest_gap_s = 0.2;
 /* Squared sum of 6 normal variables that chance exceeds once in 400 times. */
 static const float significant_6 = 20.1f;
+/* How well a window's pixels place an outline, pixels; of two in a row with the same errors. */
+static const double rim_sigma_px = 0.4;
+static const double rim_weight = 0.5;
+/* Of squares in units of that sigma: a straight edge along the pixels is off by up to half a pixel,
+ * now and before. */
+static const double rim_excess = 1.5;
+/* Of the mean diagonal: depth alone shall make up little, the outline little knows. */
+static const double depth_ridge = 0.01, rim_ridge = 0.002;
 
 /* The published planes hold only what was written into the slot three frames ago. */
 static void clear_velocity(const rlf_grid *grid, rlf_slot *slot)
@@ -93,58 +102,113 @@ static double tolerated(const rlf_flow *job, ptrdiff_t i, double facing, double 
     return 3.0 * 1.41421356 * sigma * facing + 0.05 * speed;
 }
 
-/* One step of Gauss and Newton over the pixels that agree with the motion so far; `slack` widens
- * what agrees while it is still far off. */
-static void fit_pass(const rlf_flow *job, const rlf_region *region, double slack, rlf_twist *t)
+static int32_t agreeing(const rlf_twist *t)
 {
-    double a[6][6] = {{0.0}}, b[6] = {0.0}, row[6], x[6];
-    const rlf_grid *grid = &job->stage->grid;
-    double speed = sqrt(t->x[0] * t->x[0] + t->x[1] * t->x[1] + t->x[2] * t->x[2]);
-    t->samples = t->inliers = 0;
-    t->noise = t->explained = 0.0;
+    return t->inliers + t->rim_inliers;
+}
+
+/* Normal equations of a step of Gauss and Newton. */
+typedef struct twist_sum {
+    const rlf_flow *job;
+    const rlf_region *region;
+    const rlf_rims *rims;
+    double slack;      /* widens what agrees while the motion is still far off */
+    double rim_weight; /* 0: the outline only says how far off it is */
+    double speed;      /* of the motion so far */
+    double a[6][6], b[6];
+} twist_sum;
+
+/* One seen speed `off` beyond the motion along the unit vector n at p; `sigma` is its noise. */
+static void add_row(twist_sum *sum, rlf_twist *t, rlf_vec3 p, rlf_vec3 n, double off, double sigma,
+                    double weight)
+{
+    double row[6], along = rlf_dot(n, rlf_twist_velocity(t, p));
+    t->noise += sigma * sigma;
+    t->explained += along * along;
+    twist_row(t, p, n, row);
+    for (int r = 0; r < 6; r++) {
+        sum->b[r] += weight * row[r] * off;
+        for (int c = 0; c <= r; c++) {
+            sum->a[r][c] += weight * row[r] * row[c];
+        }
+    }
+}
+
+static void add_pixel(twist_sum *sum, rlf_twist *t, ptrdiff_t i)
+{
+    const rlf_flow *job = sum->job;
+    t->samples++;
+    rlf_vec3 p = rlf_flow_point(&job->stage->grid, job->now->depth, i);
+    rlf_vec3 n = rlf_flow_normal(job->now, i);
+    double facing = -rlf_dot(n, p) / p.z, off;
+    if (!(facing > 0.0) || !speed_beyond(job, i, p, n, rlf_twist_velocity(t, p), &off)) {
+        return;
+    }
+    double bound = sum->slack + tolerated(job, i, facing, sum->speed);
+    if (off <= bound && off >= -bound) {
+        double sigma = rlf_kernel_sigma(job->noise, job->now->depth[i]) / job->dt;
+        t->inliers++;
+        add_row(sum, t, p, n, off, 1.41421356 * sigma * facing, 1.0);
+    }
+}
+
+static void add_rim(twist_sum *sum, rlf_twist *t, const rlf_rim *rim)
+{
+    const rlf_flow *job = sum->job;
+    rlf_vec3 p = rlf_flow_point(&job->stage->grid, job->now->depth, rim->i), n;
+    double off;
+    t->rim_samples++;
+    if (!rlf_rim_beyond(job, sum->region->label, rim, p, rlf_twist_velocity(t, p), &n, &off)) {
+        return;
+    }
+    double depth_sigma = rlf_kernel_sigma(job->noise, job->now->depth[rim->i]);
+    double sigma = rim_sigma_px * p.z / job->stage->grid.camera.fx;
+    double weight = sum->rim_weight * depth_sigma * depth_sigma / (sigma * sigma);
+    t->rim_excess += rlf_min(off * off * job->dt * job->dt / (sigma * sigma), 9.0);
+    sigma *= 1.41421356 / job->dt;
+    double bound = sum->slack + 3.0 * sigma + 0.05 * sum->speed;
+    if (off <= bound && off >= -bound) {
+        t->rim_inliers++;
+        if (weight > 0.0) {
+            add_row(sum, t, p, n, off, sigma, weight);
+        }
+    }
+}
+
+/* One step of Gauss and Newton over the pixels and rims that agree with the motion so far. */
+static void fit_pass(const twist_sum *start, double slack, rlf_twist *t)
+{
+    twist_sum sum = *start;
+    const rlf_flow *job = sum.job;
+    const rlf_region *region = sum.region;
+    const rlf_rims *rims = sum.rims;
+    sum.slack = slack;
+    sum.speed = sqrt(t->x[0] * t->x[0] + t->x[1] * t->x[1] + t->x[2] * t->x[2]);
+    t->samples = t->inliers = t->rim_samples = t->rim_inliers = 0;
+    t->noise = t->explained = t->rim_excess = 0.0;
     for (int32_t v = region->y0; v < region->y1; v += t->stride) {
         for (int32_t u = region->x0; u < region->x1; u += t->stride) {
-            ptrdiff_t i = (ptrdiff_t)v * grid->width + u;
-            if (job->now->label[i] != region->label || job->now->reason[i] != RLF_REASON_OK) {
-                continue;
-            }
-            t->samples++;
-            rlf_vec3 p = rlf_flow_point(grid, job->now->depth, i), n = rlf_flow_normal(job->now, i);
-            double facing = -rlf_dot(n, p) / p.z, off;
-            rlf_vec3 motion = rlf_twist_velocity(t, p);
-            if (!(facing > 0.0) || !speed_beyond(job, i, p, n, motion, &off)) {
-                continue;
-            }
-            double bound = slack + tolerated(job, i, facing, speed);
-            if (off > bound || off < -bound) {
-                continue;
-            }
-            t->inliers++;
-            double sigma = rlf_kernel_sigma(job->noise, job->now->depth[i]) / job->dt;
-            double along = rlf_dot(n, motion);
-            t->noise += 2.0 * sigma * sigma * facing * facing;
-            t->explained += along * along;
-            twist_row(t, p, n, row);
-            for (int r = 0; r < 6; r++) {
-                b[r] += row[r] * off;
-                for (int c = 0; c <= r; c++) {
-                    a[r][c] += row[r] * row[c];
-                }
+            ptrdiff_t i = (ptrdiff_t)v * job->stage->grid.width + u;
+            if (job->now->label[i] == region->label && job->now->reason[i] == RLF_REASON_OK) {
+                add_pixel(&sum, t, i);
             }
         }
     }
-    for (int k = 0; k < 6; k++) {
-        a[k][k] += 0.01 * (t->inliers + 1);
+    for (int32_t k = 0; k < rims->count; k++) {
+        add_rim(&sum, t, &rims->rim[k]);
     }
-    solve_six(a, b, x);
+    double x[6], ridge = sum.rim_weight > 0.0 ? rim_ridge : depth_ridge;
+    for (int k = 0; k < 6; k++) {
+        sum.a[k][k] += ridge * (agreeing(t) + 1);
+    }
+    solve_six(sum.a, sum.b, x);
     for (int k = 0; k < 6; k++) {
         t->x[k] += x[k];
     }
 }
 
-static rlf_twist fit_from(const rlf_flow *job, const rlf_region *region, rlf_vec3 velocity)
+static rlf_twist start_from(const rlf_region *region, rlf_vec3 velocity)
 {
-    const double slack[PASSES] = {1.0, 0.3, 0.1, 0.0};
     rlf_vec3 size = rlf_sub(region->box.max, region->box.min);
     rlf_twist t = {.centre = region->centroid, .x = {velocity.x, velocity.y, velocity.z}};
     t.length = rlf_max(0.25 * rlf_length(size), 0.01);
@@ -152,10 +216,23 @@ static rlf_twist fit_from(const rlf_flow *job, const rlf_region *region, rlf_vec
     while (region->point_count > MOST_SAMPLES * t.stride * t.stride) {
         t.stride++;
     }
+    return t;
+}
+
+static rlf_twist fit_from(const twist_sum *start, rlf_vec3 velocity)
+{
+    const double slack[PASSES] = {1.0, 0.3, 0.1, 0.0};
+    rlf_twist t = start_from(start->region, velocity);
     for (int pass = 0; pass < PASSES; pass++) {
-        fit_pass(job, region, slack[pass], &t);
+        fit_pass(start, slack[pass], &t);
     }
     return t;
+}
+
+/* Whether the outline is farther off than the width of its pixels explains. */
+static bool is_outline_off(const rlf_twist *t)
+{
+    return t->rim_samples > 0 && t->rim_excess > rim_excess * t->rim_samples;
 }
 
 /* More than chance, and more than half of one pixel's noise: small errors that pixels share, from
@@ -163,20 +240,19 @@ static rlf_twist fit_from(const rlf_flow *job, const rlf_region *region, rlf_vec
 static bool is_significant(const rlf_twist *t)
 {
     const double least = 0.25;
+    int32_t count = agreeing(t);
     return t->inliers >= LEAST_REGION_SAMPLES && t->explained > least * t->noise &&
-           t->explained > significant_6 * t->noise / t->inliers * rlf_flow_correlated;
+           t->explained > significant_6 * t->noise / count * rlf_flow_correlated;
 }
 
 /* Someone who stands and moves his arms turns a little as a whole, says the twist; but that he
  * rests explains as much of him. */
-static bool is_rest_as_likely(const rlf_flow *job, const rlf_region *region, const rlf_twist *t)
+static bool is_rest_as_likely(const rlf_twist *rest, const rlf_twist *t)
 {
-    rlf_twist rest = *t;
-    for (int k = 0; k < 6; k++) {
-        rest.x[k] = 0.0;
-    }
-    fit_pass(job, region, 0.0, &rest);
-    return 10 * rest.inliers >= 9 * t->inliers;
+    bool depth_rests = 10 * rest->inliers >= 9 * t->inliers;
+    bool outline_rests = 10 * rest->rim_inliers >= 9 * t->rim_inliers &&
+                         !(is_outline_off(rest) && 2.0 * t->rim_excess < rest->rim_excess);
+    return (depth_rests && outline_rests) || 9 * agreeing(rest) > 10 * agreeing(t);
 }
 
 /* The centroid moves when pieces join or leave a region, too: then its step says nothing. */
@@ -202,17 +278,38 @@ static rlf_vec3 centroid_velocity(const rlf_flow *job, const rlf_region *region)
     return rlf_vec3_make(0, 0, 0);
 }
 
-/* Tried from rest and from the centroid's motion; what more pixels agree with is right. */
+/* Whether the region moves as one. Tried from rest and from the centroid's motion; what more pixels
+ * agree with is right. */
+static bool is_moving(const rlf_flow *job, const rlf_region *region, rlf_vec3 seen, rlf_twist *out)
+{
+    rlf_rims rims;
+    rlf_rims_find(job, region, &rims);
+    twist_sum sum = {.job = job, .region = region, .rims = &rims};
+    const rlf_vec3 none = {0, 0, 0};
+    rlf_twist rest = start_from(region, none);
+    fit_pass(&sum, 0.0, &rest);
+    const rlf_twist all = {.inliers = rest.samples, .rim_inliers = rest.rim_samples};
+    if (is_rest_as_likely(&rest, &all)) {
+        return false; /* whatever the motion */
+    }
+    *out = fit_from(&sum, none);
+    if (is_outline_off(out)) {
+        sum.rim_weight = rim_weight;
+        *out = fit_from(&sum, none);
+    }
+    if (rlf_length(seen) > 0.0 && 5 * agreeing(out) < 4 * agreeing(&all)) {
+        rlf_twist other = fit_from(&sum, seen);
+        *out = agreeing(&other) > agreeing(out) ? other : *out;
+    }
+    return is_significant(out) && 3 * agreeing(out) >= agreeing(&all) &&
+           !is_rest_as_likely(&rest, out);
+}
+
 static bool region_motion(const rlf_flow *job, rlf_region *region, rlf_twist *out)
 {
     rlf_vec3 seen = centroid_velocity(job, region);
-    *out = fit_from(job, region, rlf_vec3_make(0, 0, 0));
-    if (rlf_length(seen) > 0.0 && 5 * out->inliers < 4 * out->samples) {
-        rlf_twist other = fit_from(job, region, seen);
-        *out = other.inliers > out->inliers ? other : *out;
-    }
-    if (!is_significant(out) || 3 * out->inliers < out->samples ||
-        is_rest_as_likely(job, region, out)) {
+    *out = start_from(region, rlf_vec3_make(0, 0, 0));
+    if (!is_moving(job, region, seen, out)) {
         region->linear_velocity = seen;
         for (int k = 0; k < 6; k++) {
             out->x[k] = 0.0;

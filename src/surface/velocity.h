@@ -22,6 +22,8 @@ typedef struct rlf_twist {
     double explained, noise; /* squared speeds */
     int32_t stride;          /* every stride-th pixel of every stride-th row is looked at */
     int32_t samples, inliers;
+    int32_t rim_samples, rim_inliers; /* of the outline */
+    double rim_excess;                /* sum of squares in units of their sigma */
 } rlf_twist;
 
 rlf_vec3 rlf_twist_velocity(const rlf_twist *t, rlf_vec3 p);
@@ -37,6 +39,28 @@ size_t rlf_cell_capacity(const rlf_grid *grid);
 /* Velocity of a region's pixels; `twist` is its motion as a whole, 0 unless it `moves`. */
 void rlf_velocity_cells(const rlf_flow *job, const rlf_region *region, const rlf_twist *twist,
                         bool moves);
+
+/* A pixel at a region's outline before a background that is farther: see velocity_outline.c. */
+typedef struct rlf_rim {
+    ptrdiff_t i;
+    int32_t count;      /* of the region's pixels in a window about it */
+    float out_x, out_y; /* unit, in the image, out of the region */
+    float per_pixel;    /* change of count for a pixel's step outwards */
+} rlf_rim;
+
+enum { RLF_RIMS_MAX = 128 };
+
+typedef struct rlf_rims {
+    rlf_rim rim[RLF_RIMS_MAX];
+    int32_t count;
+} rlf_rims;
+
+/* Some of the region's outline, evenly. */
+void rlf_rims_find(const rlf_flow *job, const rlf_region *region, rlf_rims *out);
+/* Speed of the outline at p, the rim's point, beyond v along *direction, which is unit, square to
+ * the outline and to the ray. False out of view. */
+bool rlf_rim_beyond(const rlf_flow *job, int32_t label, const rlf_rim *rim, rlf_vec3 p, rlf_vec3 v,
+                    rlf_vec3 *direction, double *out);
 
 static const float rlf_flow_fastest = 5.0f; /* m/s */
 /* Within a window: farther pixels are another limb. */

@@ -143,14 +143,19 @@ static bool residual(const cell_grid *g, const sample *s, const float v[3], floa
     return rlf_kernel_abs(dz) < rlf_flow_limb_m;
 }
 
-/* Sum of squared residuals, each limited: what does not fit at all counts like what fits badly. */
+/* Sum of squared residuals, each limited: what does not fit at all counts like what fits badly. But
+ * the sensor drops a pixel now and then: a few that were not seen count like noise. */
 static float cost_of(const cell_grid *g, const samples *all, const float v[3])
 {
     float cost = 0.0f;
+    int32_t lost = 0;
     for (int32_t k = 0; k < all->count; k++) {
         float e;
-        bool seen = residual(g, &all->s[k], v, &e);
-        cost += seen && e * e < all->limit ? e * e : all->limit;
+        if (residual(g, &all->s[k], v, &e)) {
+            cost += e * e < all->limit ? e * e : all->limit;
+        } else {
+            cost += 5 * ++lost > all->count ? all->limit : all->variance;
+        }
     }
     return cost;
 }
@@ -249,6 +254,7 @@ static float fit_guesses(const cell_grid *g, const samples *all, float guess[][3
                          float v[3])
 {
     float least = all->limit * (float)(all->count + 1);
+    copy(guess[0], v);
     for (int32_t k = 0; k < count; k++) {
         float cost = cost_of(g, all, guess[k]);
         if (cost < least) {
@@ -289,6 +295,21 @@ static void decide(const cell_grid *g, const samples *all, const cell_fit *fit,
     copy(cell->state == CELL_WHOLE ? motion : fit->velocity, cell->velocity);
 }
 
+/* What a piece cannot tell of its motion, a limb along its own axis, stays from frame to frame
+ * however wrong it is. It is the region's when the nearest motion to that fits as well. */
+static void lean_on(const cell_grid *g, const samples *all, const float motion[3], float cost,
+                    rlf_cell *cell)
+{
+    float v[3];
+    copy(motion, v);
+    for (int pass = 0; pass < PASSES; pass++) {
+        (void)improve(g, all, pass == 0 ? 9.0f * all->limit : all->limit, v);
+    }
+    if (cost_of(g, all, v) - cost <= significant_3 * rlf_flow_correlated * all->variance) {
+        copy(v, cell->velocity);
+    }
+}
+
 static void fit_cell(const cell_grid *g, const samples *all, const rlf_cell *left, rlf_cell *cell)
 {
     static const float rest[3] = {0.0f, 0.0f, 0.0f};
@@ -304,6 +325,9 @@ static void fit_cell(const cell_grid *g, const samples *all, const rlf_cell *lef
     cell_fit fit = {.cost_still = cost_of(g, all, rest), .cost_whole = cost_of(g, all, whole)};
     fit.cost = fit_guesses(g, all, guess, count, fit.velocity);
     decide(g, all, &fit, whole, cell);
+    if (cell->state == CELL_MOVES) {
+        lean_on(g, all, whole, fit.cost, cell);
+    }
 }
 
 /* Mean velocity of the moving neighbours with the same limb; false when there are fewer than two.

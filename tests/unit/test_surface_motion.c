@@ -54,7 +54,18 @@ static double plate(double x, double y, double time)
 {
     rlf_vec3 centre = rlf_mad(rlf_vec3_make(0, 0, 2.0), plate_normal, 0.5 * (time - 0.4));
     double z = plane_depth(plate_normal, rlf_dot(plate_normal, centre), x, y);
-    return rlf_max(x * z, -x * z) < 0.25 && rlf_max(y * z, -y * z) < 0.25 ? z : 0.0;
+    double across = x * z - centre.x;
+    return rlf_max(across, -across) < 0.25 && rlf_max(y * z, -y * z) < 0.25 ? z : 0.0;
+}
+
+static const rlf_vec3 disc_velocity = {0.3, -0.2, 0.0};
+
+/* A disc that faces the camera and moves in its own plane: its depth tells nothing of that. */
+static double disc(double x, double y, double time)
+{
+    const double z = 2.0, radius = 0.2;
+    rlf_vec3 p = rlf_mad(rlf_vec3_make(x * z, y * z, 0), disc_velocity, 0.4 - time);
+    return rlf_dot(p, p) < radius * radius ? z : 0.0;
 }
 
 static double still_plate(double x, double y, double time)
@@ -143,6 +154,31 @@ static void rigid_things_have_their_whole_velocity(void **state)
     assert_int_equal(region->layer, RLF_LAYER_FOREGROUND);
     assert_true(rlf_length(rlf_sub(region->linear_velocity, rlf_vec3_make(0.5, 0, 0))) < 0.025);
     assert_true(rlf_length(region->angular_velocity) < 0.15);
+    rlf_reconstruct_destroy(&s.stage);
+}
+
+static void flat_things_move_as_their_outline_does(void **state)
+{
+    (void)state;
+    scene s = start();
+    for (int k = 0; k < 8; k++) {
+        step(&s, NULL);
+    }
+    double worst = 0.0;
+    for (int k = 0; k < 12; k++) {
+        const rlf_surface *f = step(&s, disc);
+        const rlf_region *region = &f->regions[f->region_count - 1];
+        double error = rlf_length(rlf_sub(region->linear_velocity, disc_velocity));
+        worst = k > 0 && error > worst ? error : worst;
+        int as_seen = 0;
+        for (int i = 0; i < COUNT; i++) {
+            rlf_vec3 v = {f->velocity_x[i], f->velocity_y[i], f->velocity_z[i]};
+            as_seen += f->foreground[i] && rlf_length(rlf_sub(v, disc_velocity)) < 0.15;
+        }
+        assert_true(k == 0 || 10 * as_seen > 8 * f->foreground_count);
+    }
+    print_message("a disc in its own plane: speed off by %.3f of 0.361 m/s at most\n", worst);
+    assert_true(worst < 0.05);
     rlf_reconstruct_destroy(&s.stage);
 }
 
@@ -245,6 +281,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(moving_plate_has_its_velocity),
         cmocka_unit_test(rigid_things_have_their_whole_velocity),
+        cmocka_unit_test(flat_things_move_as_their_outline_does),
         cmocka_unit_test(still_things_have_exactly_no_velocity),
         cmocka_unit_test(ball_is_as_thick_as_it_is),
         cmocka_unit_test(plates_are_thin),
