@@ -97,10 +97,22 @@ RLF_KERNEL_PART float rlf_kernel_abs(float x)
 /* The first index from `i` on at which a byte of the row is not 0, or `count`: marks are rare. */
 RLF_KERNEL_PART int32_t rlf_kernel_next_mark(const uint8_t *row, int32_t i, int32_t count)
 {
-    uint64_t eight = 0;
-    while (i + 8 <= count && eight == 0) {
-        memcpy(&eight, row + i, sizeof eight);
-        i += eight == 0 ? 8 : 0;
+    uint64_t eight[4] = {0, 0, 0, 0};
+    for (; i + 32 <= count; i += 32) {
+        memcpy(eight, row + i, sizeof eight);
+        if ((eight[0] | eight[1] | eight[2] | eight[3]) != 0) {
+            break;
+        }
+    }
+    for (; i + 8 <= count; i += 8) {
+        memcpy(eight, row + i, sizeof eight[0]);
+        if (eight[0] != 0) {
+            int32_t first = 7;
+            for (int32_t k = 6; k >= 0; k--) { /* without a branch: it is not to be foreseen */
+                first = row[i + k] != 0 ? k : first;
+            }
+            return i + first;
+        }
     }
     while (i < count && row[i] == 0) {
         i++;

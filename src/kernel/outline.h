@@ -2,27 +2,27 @@
 #ifndef RLF_KERNEL_OUTLINE_H
 #define RLF_KERNEL_OUTLINE_H
 
-#include "kernel/patch.h"
+#include "kernel/batch.h"
 
 #define RLF_OUTLINE_JUMP 0.04f /* share of the depth, of what is behind an outline */
 #define RLF_OUTLINE_STEPS 5    /* on the way in */
 
 /* Where the outline is, seen from each pixel in front of it. */
 typedef struct rlf_outlines {
-    float x[RLF_PATCH], y[RLF_PATCH]; /* unit, outwards */
-    float distance[RLF_PATCH];        /* pixels; 0 = nothing is behind the pixel */
+    float x[RLF_BATCH], y[RLF_BATCH]; /* unit, outwards */
+    float distance[RLF_BATCH];        /* pixels; 0 = nothing is behind the pixel */
 } rlf_outlines;
 
 typedef struct rlf_normals {
-    float x[RLF_PATCH], y[RLF_PATCH], z[RLF_PATCH];
+    float x[RLF_BATCH], y[RLF_BATCH], z[RLF_BATCH];
 } rlf_normals;
 
-void rlf_kernel_outline_patch(const rlf_patch *restrict depth, rlf_outlines *restrict out);
+void rlf_kernel_outline_find(const rlf_windows *restrict depth, rlf_outlines *restrict out);
 
 /* What is known on the way in from an outline, step by step. */
 typedef struct rlf_way_in {
-    float ray_x[RLF_PATCH], ray_y[RLF_PATCH]; /* of the pixels themselves */
-    float s[RLF_OUTLINE_STEPS][RLF_PATCH];    /* pixels from the outline */
+    float ray_x[RLF_BATCH], ray_y[RLF_BATCH]; /* of the pixels themselves */
+    float s[RLF_OUTLINE_STEPS][RLF_BATCH];    /* pixels from the outline */
     rlf_normals normal[RLF_OUTLINE_STEPS];    /* 0 = none */
 } rlf_way_in;
 
@@ -31,10 +31,8 @@ typedef struct rlf_way_in {
 void rlf_kernel_outline_round(const rlf_outlines *restrict at, const rlf_way_in *restrict in,
                               rlf_normals *restrict out, rlf_normals *restrict aside);
 
-/* The known normals within RLF_PATCH_ABOUT pixels, row by row; 0 = none at the pixel's own depth.
+/* The known normals within RLF_WINDOW_ABOUT pixels, row by row; 0 = none at the pixel's own depth.
  */
-#define RLF_OUTLINE_WINDOW (RLF_PATCH_HEIGHT * RLF_PATCH_HEIGHT)
-
 /* Where they are those of several faces and the outermost of them is turned outwards: that one,
  * otherwise 0. */
 void rlf_kernel_outline_face(const rlf_outlines *restrict at, const rlf_normals *restrict aside,

@@ -113,7 +113,7 @@ RLF_KERNEL void rlf_kernel_outline_round(const rlf_outlines *restrict at,
                                          const rlf_way_in *restrict in, rlf_normals *restrict out,
                                          rlf_normals *restrict aside)
 {
-    for (int32_t i = 0; i < RLF_PATCH; i++) {
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
         axes a = make_axes(in->ray_x[i], in->ray_y[i], at->x[i], at->y[i]);
         way_sum sum = sum_way(in, i, &a);
         float count = sum.n > 1.0f ? sum.n : 1.0f, distance = at->distance[i];
@@ -130,14 +130,14 @@ RLF_KERNEL void rlf_kernel_outline_round(const rlf_outlines *restrict at,
 /* Of the normals so far: their mean, weighted by nearness, and the outermost. */
 typedef struct face_sum {
     rlf_normals mean, last;
-    float best[RLF_PATCH];
+    float best[RLF_BATCH];
 } face_sum;
 
 RLF_KERNEL_PART void offer(const rlf_outlines *restrict at, const rlf_normals *restrict normal,
                            float dx, float dy, face_sum *restrict sum)
 {
     float square = dx * dx + dy * dy, weight = square > 0.0f ? 1.0f / square : 0.0f;
-    for (int32_t i = 0; i < RLF_PATCH; i++) {
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
         vector n = get(normal, i), mean = get(&sum->mean, i), last = get(&sum->last, i);
         float out = at->x[i] * dx + at->y[i] * dy;
         float along = rlf_kernel_abs(at->x[i] * dy - at->y[i] * dx);
@@ -157,16 +157,16 @@ RLF_KERNEL void rlf_kernel_outline_face(const rlf_outlines *restrict at,
                                         rlf_normals *restrict out)
 {
     face_sum sum;
-    for (int32_t i = 0; i < RLF_PATCH; i++) {
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
         set(&sum.mean, i, (vector){0.0f, 0.0f, 0.0f});
         set(&sum.last, i, (vector){0.0f, 0.0f, 0.0f});
         sum.best[i] = -1e9f;
     }
-    for (int32_t k = 0; k < RLF_OUTLINE_WINDOW; k++) {
-        offer(at, &window[k], (float)(k % RLF_PATCH_HEIGHT - RLF_PATCH_ABOUT),
-              (float)(k / RLF_PATCH_HEIGHT - RLF_PATCH_ABOUT), &sum);
+    for (int32_t k = 0; k < RLF_WINDOW_SIZE; k++) {
+        offer(at, &window[k], (float)(k % RLF_WINDOW_SIDE - RLF_WINDOW_ABOUT),
+              (float)(k / RLF_WINDOW_SIDE - RLF_WINDOW_ABOUT), &sum);
     }
-    for (int32_t i = 0; i < RLF_PATCH; i++) {
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
         vector mean = get(&sum.mean, i), last = get(&sum.last, i), outwards = get(aside, i);
         float length = sqrtf(dot(mean, mean));
         float creased = dot(last, mean) < crease * length ? 1.0f : 0.0f;

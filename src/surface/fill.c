@@ -11,11 +11,9 @@
 #include "surface/steps.h"
 #include "surface/window.h"
 
-#include "kernel/patch.h"
+#include "kernel/batch.h"
 
 #include <string.h>
-
-enum { EDGE_WIDTH = 2 };
 
 /* Share of the depth, from a side's end to a hole pixel. */
 static const float MOST_CHANGE = 0.05f;
@@ -64,11 +62,11 @@ static float show_behind(const fill_job *job, int32_t x, int32_t y)
 
 /* Between two near ends that are far enough apart for a slit: what a driver takes away beside each
  * edge does not reach its middle. */
-static bool is_slit(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps,
-                    const rlf_gap_ends *ends, int32_t k)
+static bool is_slit(const fill_job *job, int32_t x, int32_t y, const rlf_gap_ends *ends, int32_t k)
 {
+    const float edge_width = 2.0f;
     float farthest = ends->before[k] > ends->after[k] ? ends->before[k] : ends->after[k];
-    bool wide = gaps->to_before[k] > EDGE_WIDTH && gaps->to_after[k] > EDGE_WIDTH;
+    bool wide = ends->to_before[k] > edge_width && ends->to_after[k] > edge_width;
     return wide && depth_behind(job, x, y) > (1.0f + MOST_CHANGE) * farthest;
 }
 
@@ -77,55 +75,66 @@ static bool may_fill(uint8_t reason)
     return reason == RLF_REASON_NO_RETURN || reason == RLF_REASON_FLYING;
 }
 
-/* Depths at the ends of the patch's gaps, of the pixels that may be filled; returns how many. */
-static int32_t read_ends(const fill_job *job, int32_t x, int32_t y, rlf_gaps *gaps,
-                         rlf_gap_ends *out)
+/* Hole pixels with an end on both sides, that wait until there are enough of them for a kernel. */
+typedef struct fill_queue {
+    int32_t count;
+    int32_t x[RLF_BATCH], y[RLF_BATCH];
+    rlf_gap_ends ends;
+    rlf_windows depth;
+} fill_queue;
+
+static void fill_batch(const fill_job *job, fill_queue *q)
 {
-    const rlf_grid *grid = &job->stage->grid;
-    const ptrdiff_t steps[RLF_LINE_NONE] = {1, grid->width, grid->width + 1, grid->width - 1};
-    int32_t count = 0;
-    memset(out, 0, sizeof *out);
-    for (int32_t k = 0; k < rlf_least(RLF_PATCH, grid->width - x); k++) {
-        ptrdiff_t i = (ptrdiff_t)y * grid->width + x + k;
-        if (gaps->line[k] != RLF_LINE_NONE && may_fill(job->reason[i])) {
-            ptrdiff_t step = steps[gaps->line[k]];
-            out->before[k] = job->depth[i - gaps->to_before[k] * step];
-            out->after[k] = job->depth[i + gaps->to_after[k] * step];
-            count++;
-        }
+    float filled[RLF_BATCH];
+    uint8_t kind[RLF_BATCH];
+    rlf_kernel_fill_batch(&q->depth, &q->ends, filled, kind);
+    for (int32_t k = 0; k < q->count; k++) {
+        int32_t x = q->x[k], y = q->y[k];
+        ptrdiff_t i = (ptrdiff_t)y * job->stage->grid.width + x;
+        float z = filled[k];
+        bool behind = is_slit(job, x, y, &q->ends, k) ||
+                      (kind[k] == RLF_FILL_FAR &&
+                       rlf_kernel_abs(depth_behind(job, x, y) - z) < MOST_CHANGE * z);
+        job->out[i] = behind ? show_behind(job, x, y) : z;
+        job->reason[i] = RLF_REASON_FILLED;
     }
-    return count;
+    q->count = 0;
 }
 
-/* What of a patch may be filled and has an end on both sides. All others have depth or must not
- * have one. */
-static void fill_patch(const fill_job *job, int32_t x, int32_t y)
+static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps, int32_t k,
+                 fill_queue *q)
 {
     const rlf_grid *grid = &job->stage->grid;
-    rlf_gap_patch near;
-    rlf_gaps gaps;
-    rlf_gap_ends ends;
-    rlf_patch depth;
-    float filled[RLF_PATCH];
-    uint8_t kind[RLF_PATCH];
-    rlf_gap_patch_read(job->has, grid->width, grid->height, x, y, &near);
-    rlf_kernel_gap_patch(&near, &gaps);
-    if (read_ends(job, x, y, &gaps, &ends) == 0) {
-        return;
+    const int32_t steps[RLF_LINE_NONE] = {1, grid->width, grid->width + 1, grid->width - 1};
+    const float *at = job->depth + (ptrdiff_t)y * grid->width + x;
+    ptrdiff_t step = steps[gaps->line[k]];
+    int32_t lane = q->count++;
+    q->x[lane] = x;
+    q->y[lane] = y;
+    q->ends.before[lane] = at[-(ptrdiff_t)gaps->to_before[k] * step];
+    q->ends.after[lane] = at[(ptrdiff_t)gaps->to_after[k] * step];
+    q->ends.to_before[lane] = (float)gaps->to_before[k];
+    q->ends.to_after[lane] = (float)gaps->to_after[k];
+    rlf_windows_read(job->depth, grid->width, grid->height, x, y, lane, &q->depth);
+    if (q->count == RLF_BATCH) {
+        fill_batch(job, q);
     }
-    rlf_patch_read(job->depth, grid->width, grid->height, x, y, &depth);
-    rlf_kernel_fill_patch(&depth, &gaps, &ends, filled, kind);
-    for (int32_t k = 0; k < RLF_PATCH; k++) {
-        if (!(ends.before[k] > 0.0f)) {
-            continue;
+}
+
+/* Of sixteen pixels those that may be filled and have an end on both sides. All others have depth
+ * or must not have one. */
+static void find_gaps(const fill_job *job, int32_t x, int32_t y, fill_queue *q)
+{
+    const rlf_grid *grid = &job->stage->grid;
+    const uint8_t *reason = job->reason + (ptrdiff_t)y * grid->width + x;
+    rlf_gap_patch patch;
+    rlf_gaps gaps;
+    rlf_gap_patch_read(job->has, grid->width, grid->height, x, y, &patch);
+    rlf_kernel_gap_patch(&patch, &gaps);
+    for (int32_t k = 0; k < rlf_least(RLF_BATCH, grid->width - x); k++) {
+        if (gaps.line[k] != RLF_LINE_NONE && may_fill(reason[k])) {
+            push(job, x + k, y, &gaps, k, q);
         }
-        ptrdiff_t i = (ptrdiff_t)y * grid->width + x + k;
-        float z = filled[k];
-        bool behind = is_slit(job, x + k, y, &gaps, &ends, k) ||
-                      (kind[k] == RLF_FILL_FAR &&
-                       rlf_kernel_abs(depth_behind(job, x + k, y) - z) < MOST_CHANGE * z);
-        job->out[i] = behind ? show_behind(job, x + k, y) : z;
-        job->reason[i] = RLF_REASON_FILLED;
     }
 }
 
@@ -143,15 +152,17 @@ static void fill_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     (void)worker;
     const fill_job *job = context;
     int32_t width = job->stage->grid.width;
+    fill_queue queue = {0};
     for (int32_t y = begin; y < end; y++) {
         const uint8_t *reason = job->reason + (ptrdiff_t)y * width; /* 0 = OK */
         for (int32_t x = 0; (x = rlf_kernel_next_mark(reason, x, width)) < width; x++) {
             if (may_fill(reason[x])) {
-                fill_patch(job, x, y);
-                x += RLF_PATCH - 1;
+                find_gaps(job, x, y, &queue);
+                x += RLF_BATCH - 1;
             }
         }
     }
+    fill_batch(job, &queue);
 }
 
 void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, rlf_slot *slot)

@@ -7,7 +7,7 @@
 #include "surface/steps.h"
 #include "surface/window.h"
 
-#include "kernel/patch.h"
+#include "kernel/batch.h"
 
 enum {
     BLOCK = RLF_HOLD_BLOCK,
@@ -79,36 +79,69 @@ static bool is_calm(const hold_job *job, int32_t x, int32_t y)
     return calm;
 }
 
-static void recall_pixel(const hold_job *job, ptrdiff_t i, bool calm, uint8_t about)
+/* Lost pixels about which nothing moves, that wait until there are enough of them for a kernel. */
+typedef struct hold_queue {
+    int32_t count;
+    ptrdiff_t pixel[RLF_BATCH];
+    float inverse[RLF_BATCH];
+    rlf_windows seen;
+} hold_queue;
+
+/* What is seen next is new. */
+static void forget(const hold_job *job, ptrdiff_t i)
 {
-    const rlf_steady *steady = &job->stage->steady;
-    if (!calm || (about & RLF_ABOUT_MOVED) != 0) {
-        steady->frames[i] = -steady->frames[i]; /* still proves that what is seen next is new */
-    } else if (about != 0 && steady->frames[i] >= LEAST_FRAMES) {
-        job->depth[i] = 1.0f / steady->mean[i];
-        job->reason[i] = RLF_REASON_FILLED;
+    job->stage->steady.frames[i] = -job->stage->steady.frames[i];
+}
+
+static void recall_batch(const hold_job *job, hold_queue *q)
+{
+    uint8_t about[RLF_BATCH];
+    rlf_kernel_recall_batch(&q->seen, q->inverse, about);
+    for (int32_t k = 0; k < q->count; k++) {
+        ptrdiff_t i = q->pixel[k];
+        if ((about[k] & RLF_ABOUT_MOVED) != 0) {
+            forget(job, i);
+        } else if (about[k] != 0 && job->stage->steady.frames[i] >= LEAST_FRAMES) {
+            job->depth[i] = 1.0f / q->inverse[k];
+            job->reason[i] = RLF_REASON_FILLED;
+        }
+    }
+    q->count = 0;
+}
+
+/* Depth about a pixel as it was seen in this frame, negative where that moved. */
+static void read_seen(const hold_job *job, int32_t x, int32_t y, int32_t lane,
+                      rlf_windows *restrict out)
+{
+    static const float sign[3] = {
+        [RLF_CHANGE_UNSEEN] = 0.0f, [RLF_CHANGE_STILL] = 1.0f, [RLF_CHANGE_MOVED] = -1.0f};
+    const rlf_grid *grid = &job->stage->grid;
+    ptrdiff_t middle = (ptrdiff_t)y * grid->width + x;
+    const float *depth = job->depth + middle;
+    const uint8_t *change = job->change + middle;
+    rlf_window_places p = rlf_window_places_make(grid->width, grid->height, x, y);
+    for (int32_t r = 0; r < RLF_WINDOW_SIDE; r++) {
+        for (int32_t c = 0; c < RLF_WINDOW_SIDE; c++) {
+            ptrdiff_t i = p.row[r] + p.column[c];
+            float inside = p.row_inside[r] * p.column_inside[c];
+            out->at[r * RLF_WINDOW_SIDE + c][lane] = inside * sign[change[i]] * depth[i];
+        }
     }
 }
 
-/* The lost pixels of a patch. */
-static void recall_patch(const hold_job *job, int32_t x, int32_t y)
+static void recall_pixel(const hold_job *job, int32_t x, int32_t y, hold_queue *q)
 {
-    const rlf_grid *grid = &job->stage->grid;
-    ptrdiff_t row = (ptrdiff_t)y * grid->width;
-    int32_t size = (int32_t)sizeof(float);
-    rlf_patch depth;
-    rlf_byte_patch change;
-    float inverse[RLF_PATCH];
-    uint8_t about[RLF_PATCH];
-    rlf_patch_read(job->depth, grid->width, grid->height, x, y, &depth);
-    rlf_byte_patch_read(job->change, grid->width, grid->height, x, y, &change);
-    rlf_patch_copy(job->stage->steady.mean + row, grid->width * size, x * size, RLF_PATCH * size,
-                   inverse);
-    rlf_kernel_recall_patch(&depth, &change, inverse, about);
-    for (int32_t k = 0; k < rlf_least(RLF_PATCH, grid->width - x); k++) {
-        if (is_lost(job, row + x + k)) {
-            recall_pixel(job, row + x + k, is_calm(job, x + k, y), about[k]);
-        }
+    ptrdiff_t i = (ptrdiff_t)y * job->stage->grid.width + x;
+    if (!is_calm(job, x, y)) {
+        forget(job, i);
+        return;
+    }
+    int32_t lane = q->count++;
+    q->pixel[lane] = i;
+    q->inverse[lane] = job->stage->steady.mean[i];
+    read_seen(job, x, y, lane, &q->seen);
+    if (q->count == RLF_BATCH) {
+        recall_batch(job, q);
     }
 }
 
@@ -117,16 +150,17 @@ static void recall_rows(void *context, int32_t begin, int32_t end, int32_t worke
     (void)worker;
     const hold_job *job = context;
     int32_t width = job->stage->grid.width;
+    hold_queue queue = {0};
     for (int32_t y = begin; y < end; y++) {
         ptrdiff_t row = (ptrdiff_t)y * width;
         const uint8_t *reason = job->reason + row; /* 0 = OK */
         for (int32_t x = 0; (x = rlf_kernel_next_mark(reason, x, width)) < width; x++) {
             if (is_lost(job, row + x)) {
-                recall_patch(job, x, y);
-                x += RLF_PATCH - 1;
+                recall_pixel(job, x, y, &queue);
             }
         }
     }
+    recall_batch(job, &queue);
 }
 
 void rlf_hold_recall(const rlf_reconstruct *stage, float *depth, uint8_t *reason)

@@ -19,7 +19,7 @@ static const float MOST_APART = 0.05f; /* share of the depth, of samples of one 
 typedef struct outline_job {
     int32_t width, height;
     const float *ray_x, *ray_y, *depth;
-    const float *known; /* depth that was not filled: pixels whose normals are read, not written */
+    const uint8_t *known; /* 1 where depth was not filled: normals are read, not written */
     const uint8_t *reason;
     float *const *normal;
 } outline_job;
@@ -27,14 +27,15 @@ typedef struct outline_job {
 /* Pixels that wait until there are enough of them for a kernel. */
 typedef struct outline_queue {
     int32_t count;
-    int32_t x[RLF_PATCH], y[RLF_PATCH];
+    int32_t x[RLF_BATCH], y[RLF_BATCH];
     rlf_outlines outline;
     rlf_normals aside;
 } outline_queue;
 
-/* Those that have an outline, and of them those that are not rounded. */
+/* Filled pixels, those of them that have an outline, and of these those that are not rounded. */
 typedef struct outline_queues {
-    outline_queue found, faces;
+    outline_queue filled, found, faces;
+    rlf_windows depth; /* about the filled */
 } outline_queues;
 
 static void push(outline_queue *q, int32_t x, int32_t y, const rlf_outlines *outline, int32_t k)
@@ -65,7 +66,8 @@ static void write_normal(const outline_job *job, ptrdiff_t i, const rlf_normals 
 static void walk_in(const outline_job *job, const outline_queue *q, int32_t k,
                     rlf_way_in *restrict in)
 {
-    const float *depth = job->depth, *known = job->known;
+    const float *depth = job->depth;
+    const uint8_t *known = job->known;
     const float *nx = job->normal[0], *ny = job->normal[1], *nz = job->normal[2];
     int32_t x = q->x[k], y = q->y[k], width = job->width, height = job->height;
     ptrdiff_t start = (ptrdiff_t)y * width + x;
@@ -78,7 +80,7 @@ static void walk_in(const outline_job *job, const outline_queue *q, int32_t k,
         bool inside = (sx >= 0) & (sy >= 0) & (sx < width) & (sy < height);
         ptrdiff_t i = inside ? (ptrdiff_t)sy * width + sx : start;
         goes_on = inside & (rlf_kernel_abs(depth[i] - z) <= MOST_APART * z) ? goes_on : 0.0f;
-        float weight = known[i] > 0.0f ? goes_on : 0.0f;
+        float weight = known[i] != 0 ? goes_on : 0.0f;
         in->s[step][k] = q->outline.distance[k] + (float)(x - sx) * out_x + (float)(y - sy) * out_y;
         in->normal[step].x[k] = weight * nx[i];
         in->normal[step].y[k] = weight * ny[i];
@@ -90,41 +92,23 @@ static void walk_in(const outline_job *job, const outline_queue *q, int32_t k,
 
 /* ---- faces ---- */
 
-/* Offsets of the window's rows or columns from the pixel, `stride` apart, and whether they are
- * inside the image: 1 or 0. */
-typedef struct window_side {
-    ptrdiff_t offset[RLF_PATCH_HEIGHT];
-    float inside[RLF_PATCH_HEIGHT];
-} window_side;
-
-static window_side make_side(int32_t at, int32_t size, ptrdiff_t stride)
-{
-    window_side s;
-    for (int32_t k = 0; k < RLF_PATCH_HEIGHT; k++) {
-        int32_t off = k - RLF_PATCH_ABOUT;
-        bool inside = at + off >= 0 && at + off < size;
-        s.offset[k] = inside ? off * stride : 0;
-        s.inside[k] = inside ? 1.0f : 0.0f;
-    }
-    return s;
-}
-
 static void read_window(const outline_job *job, int32_t x, int32_t y, int32_t k,
                         rlf_normals *restrict window)
 {
     ptrdiff_t middle = (ptrdiff_t)y * job->width + x;
-    const float *depth = job->depth + middle, *known = job->known + middle;
+    const float *depth = job->depth + middle;
+    const uint8_t *known = job->known + middle;
     const float *nx = job->normal[0] + middle, *ny = job->normal[1] + middle,
                 *nz = job->normal[2] + middle;
-    window_side columns = make_side(x, job->width, 1), rows = make_side(y, job->height, job->width);
+    rlf_window_places p = rlf_window_places_make(job->width, job->height, x, y);
     float z = depth[0], most = RLF_OUTLINE_JUMP * z;
-    for (int32_t r = 0; r < RLF_PATCH_HEIGHT; r++) {
-        for (int32_t c = 0; c < RLF_PATCH_HEIGHT; c++) {
-            ptrdiff_t i = rows.offset[r] + columns.offset[c];
-            float inside = rows.inside[r] * columns.inside[c];
+    for (int32_t r = 0; r < RLF_WINDOW_SIDE; r++) {
+        for (int32_t c = 0; c < RLF_WINDOW_SIDE; c++) {
+            ptrdiff_t i = p.row[r] + p.column[c];
+            float inside = p.row_inside[r] * p.column_inside[c];
             float near = rlf_kernel_abs(depth[i] - z) < most ? inside : 0.0f;
-            float weight = known[i] > 0.0f ? near : 0.0f;
-            rlf_normals *to = &window[r * RLF_PATCH_HEIGHT + c];
+            float weight = known[i] != 0 ? near : 0.0f;
+            rlf_normals *to = &window[r * RLF_WINDOW_SIDE + c];
             to->x[k] = weight * nx[i];
             to->y[k] = weight * ny[i];
             to->z[k] = weight * nz[i];
@@ -134,7 +118,7 @@ static void read_window(const outline_job *job, int32_t x, int32_t y, int32_t k,
 
 static void turn_faces(const outline_job *job, outline_queue *q)
 {
-    rlf_normals window[RLF_OUTLINE_WINDOW], normals;
+    rlf_normals window[RLF_WINDOW_SIZE], normals;
     for (int32_t k = 0; k < q->count; k++) {
         read_window(job, q->x[k], q->y[k], k, window);
     }
@@ -165,7 +149,7 @@ static void turn_found(const outline_job *job, outline_queues *queues)
         faces->aside.y[faces->count] = q->aside.y[k];
         faces->aside.z[faces->count] = q->aside.z[k];
         push(faces, q->x[k], q->y[k], &q->outline, k);
-        if (faces->count == RLF_PATCH) {
+        if (faces->count == RLF_BATCH) {
             turn_faces(job, faces);
         }
     }
@@ -174,22 +158,33 @@ static void turn_found(const outline_job *job, outline_queues *queues)
 
 static bool is_filled(const outline_job *job, ptrdiff_t i)
 {
-    return job->reason[i] == RLF_REASON_FILLED && !(job->known[i] > 0.0f);
+    return job->reason[i] == RLF_REASON_FILLED && job->known[i] == 0;
 }
 
-static void find_outlines(const outline_job *job, int32_t x, int32_t y, outline_queues *queues)
+static void find_outlines(const outline_job *job, outline_queues *queues)
 {
-    rlf_patch depth;
-    rlf_outlines found;
-    rlf_patch_read(job->depth, job->width, job->height, x, y, &depth);
-    rlf_kernel_outline_patch(&depth, &found);
-    for (int32_t k = 0; k < rlf_least(RLF_PATCH, job->width - x); k++) {
-        if (found.distance[k] > 0.0f && is_filled(job, (ptrdiff_t)y * job->width + x + k)) {
-            push(&queues->found, x + k, y, &found, k);
-            if (queues->found.count == RLF_PATCH) {
+    outline_queue *q = &queues->filled;
+    rlf_kernel_outline_find(&queues->depth, &q->outline);
+    for (int32_t k = 0; k < q->count; k++) {
+        if (q->outline.distance[k] > 0.0f) {
+            push(&queues->found, q->x[k], q->y[k], &q->outline, k);
+            if (queues->found.count == RLF_BATCH) {
                 turn_found(job, queues);
             }
         }
+    }
+    q->count = 0;
+}
+
+static void take_filled(const outline_job *job, int32_t x, int32_t y, outline_queues *queues)
+{
+    outline_queue *q = &queues->filled;
+    int32_t lane = q->count++;
+    q->x[lane] = x;
+    q->y[lane] = y;
+    rlf_windows_read(job->depth, job->width, job->height, x, y, lane, &queues->depth);
+    if (q->count == RLF_BATCH) {
+        find_outlines(job, queues);
     }
 }
 
@@ -197,26 +192,25 @@ static void outline_rows(void *context, int32_t begin, int32_t end, int32_t work
 {
     (void)worker;
     const outline_job *job = context;
-    outline_queues queues;
-    queues.found.count = queues.faces.count = 0;
+    outline_queues queues = {0};
     for (int32_t y = begin; y < end; y++) {
         ptrdiff_t row = (ptrdiff_t)y * job->width;
         const uint8_t *reason = job->reason + row; /* 0 = OK */
         for (int32_t x = 0; (x = rlf_kernel_next_mark(reason, x, job->width)) < job->width; x++) {
             if (is_filled(job, row + x)) {
-                find_outlines(job, x, y, &queues);
-                x += RLF_PATCH - 1;
+                take_filled(job, x, y, &queues);
             }
         }
     }
+    find_outlines(job, &queues);
     turn_found(job, &queues);
     turn_faces(job, &queues.faces);
 }
 
-void rlf_normals_outline(const rlf_reconstruct *stage, const float *known, rlf_slot *slot)
+void rlf_normals_outline(const rlf_reconstruct *stage, const rlf_slot *slot)
 {
     const rlf_grid *grid = &stage->grid;
-    outline_job job = {grid->width, grid->height, grid->ray_x,  grid->ray_y,
-                       slot->depth, known,        slot->reason, slot->normal};
+    outline_job job = {grid->width, grid->height,        grid->ray_x,  grid->ray_y,
+                       slot->depth, stage->work.mask[0], slot->reason, slot->normal};
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, outline_rows, &job);
 }

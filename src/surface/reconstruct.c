@@ -101,12 +101,11 @@ static void make_planes(rlf_reconstruct *stage, const float *depth, float *smoot
     rlf_normals_plane_fit(&job);
 }
 
-/* Normals of what no plane explains and of what was filled; `known` is the depth before that, NULL
- * when nothing was. */
-static void complete_planes(rlf_reconstruct *stage, const float *known, rlf_slot *slot)
+/* Normals of what no plane explains and of what was filled. */
+static void complete_planes(rlf_reconstruct *stage, rlf_slot *slot)
 {
-    if (known != NULL && stage->def.enable_edge_normals) {
-        rlf_normals_outline(stage, known, slot);
+    if (stage->def.enable_fill && stage->def.enable_edge_normals) {
+        rlf_normals_outline(stage, slot);
     }
     rlf_normals_job job = rlf_normals_job_make(stage, slot->depth, slot->normal);
     rlf_normals_plane_complete(&job);
@@ -143,7 +142,7 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
         rlf_stage_add_time(stage, RLF_SURFACE_FILL);
     }
     if (smooth) {
-        complete_planes(stage, fill ? stage->work.depth[1] : NULL, slot);
+        complete_planes(stage, slot);
     }
     if (stage->def.enable_steadying) {
         rlf_steady_update(stage, slot);

@@ -3,7 +3,7 @@
 #ifndef RLF_SURFACE_STEPS_H
 #define RLF_SURFACE_STEPS_H
 
-#include "kernel/patch.h"
+#include "kernel/batch.h"
 #include "surface/stage.h"
 
 /* ---- points.c: eq. 4.1 ---- */
@@ -15,7 +15,8 @@ void rlf_points_read(const rlf_reconstruct *stage, const rlf_frame *frame, float
 void rlf_flying_remove(const rlf_reconstruct *stage, const float *raw, float *depth,
                        uint8_t *reason);
 /* Fills gaps of at most RLF_FILL_GAP pixels between valid ones of `depth`, into the slot. What
- * shows the background takes its normal too, where planes have been fitted to the others. */
+ * shows the background takes its normal too, where planes have been fitted to the others. Leaves
+ * work.mask[0]: 1 where `depth` has one. */
 void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, rlf_slot *slot);
 
 /* ---- hold.c: dropped pixels from memory; `depth` holds what was seen ---- */
@@ -54,8 +55,8 @@ void rlf_normals_plane_complete(const rlf_normals_job *job);
 /* Exact inverse-depth normal of one pixel, for those that no plane explains. */
 void rlf_normals_slope_pixel(const rlf_normals_job *job, int32_t x, int32_t y);
 
-/* Normals of filled pixels at the outlines of things; `known` is the depth before filling. */
-void rlf_normals_outline(const rlf_reconstruct *stage, const float *known, rlf_slot *slot);
+/* Normals of filled pixels at the outlines of things; after rlf_fill_holes. */
+void rlf_normals_outline(const rlf_reconstruct *stage, const rlf_slot *slot);
 
 /* Normals of seen pixels at creases, from the faces that meet there. */
 void rlf_normals_crease(const rlf_reconstruct *stage, const rlf_slot *slot);

@@ -8,18 +8,19 @@ static const float least_jump = RLF_OUTLINE_JUMP;
 
 /* Offsets of what is behind each pixel and of what is not, summed. */
 typedef struct sides {
-    float far_x[RLF_PATCH], far_y[RLF_PATCH], far_n[RLF_PATCH];
-    float near_x[RLF_PATCH], near_y[RLF_PATCH], near_n[RLF_PATCH];
-    float nearest[RLF_PATCH]; /* squared distance of what is behind */
+    float far_x[RLF_BATCH], far_y[RLF_BATCH], far_n[RLF_BATCH];
+    float near_x[RLF_BATCH], near_y[RLF_BATCH], near_n[RLF_BATCH];
+    float nearest[RLF_BATCH]; /* squared distance of what is behind */
 } sides;
 
-RLF_KERNEL_PART void add_row(const float *restrict row, float dy, const float *restrict before,
-                             const float *restrict behind, sides *restrict s)
+RLF_KERNEL_PART void add_row(const float (*restrict row)[RLF_BATCH], float dy,
+                             const float *restrict before, const float *restrict behind,
+                             sides *restrict s)
 {
-    for (int32_t i = 0; i < RLF_PATCH; i++) {
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
         float far_n = 0.0f, far_x = 0.0f, near_n = 0.0f, near_x = 0.0f, nearest = s->nearest[i];
-        for (int32_t k = 0; k < RLF_PATCH_HEIGHT; k++) {
-            float z = row[i + k], dx = (float)(k - RLF_PATCH_ABOUT), square = dx * dx + dy * dy;
+        for (int32_t k = 0; k < RLF_WINDOW_SIDE; k++) {
+            float z = row[k][i], dx = (float)(k - RLF_WINDOW_ABOUT), square = dx * dx + dy * dy;
             bool is_far = z > behind[i];
             float far = is_far ? 1.0f : 0.0f, near = (z > before[i]) & !is_far ? 1.0f : 0.0f;
             float to_far = is_far ? square : nearest;
@@ -44,26 +45,29 @@ RLF_KERNEL_PART float larger(float a, float b)
     return a > b ? a : b;
 }
 
-RLF_KERNEL void rlf_kernel_outline_patch(const rlf_patch *restrict depth,
-                                         rlf_outlines *restrict out)
+RLF_KERNEL void rlf_kernel_outline_find(const rlf_windows *restrict depth,
+                                        rlf_outlines *restrict out)
 {
-    enum { ABOUT = RLF_PATCH_ABOUT };
-    const float *restrict at = depth->at[ABOUT] + ABOUT;
-    const float *restrict above = depth->at[0] + ABOUT;
-    const float *restrict below = depth->at[2 * ABOUT] + ABOUT;
-    float before[RLF_PATCH], behind[RLF_PATCH];
+    enum { ABOUT = RLF_WINDOW_ABOUT };
+    const float(*restrict at)[RLF_BATCH] = depth->at;
+    const float *restrict own = at[ABOUT * RLF_WINDOW_SIDE + ABOUT];
+    const float *restrict left = at[ABOUT * RLF_WINDOW_SIDE];
+    const float *restrict right = at[ABOUT * RLF_WINDOW_SIDE + 2 * ABOUT];
+    const float *restrict above = at[ABOUT];
+    const float *restrict below = at[2 * ABOUT * RLF_WINDOW_SIDE + ABOUT];
+    float before[RLF_BATCH], behind[RLF_BATCH];
     sides s;
-    for (int32_t i = 0; i < RLF_PATCH; i++) {
-        behind[i] = at[i] * (1.0f + least_jump);
-        before[i] = at[i] * (1.0f - least_jump);
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        behind[i] = own[i] * (1.0f + least_jump);
+        before[i] = own[i] * (1.0f - least_jump);
         s.far_x[i] = s.far_y[i] = s.far_n[i] = s.near_x[i] = s.near_y[i] = s.near_n[i] = 0.0f;
         s.nearest[i] = 99.0f;
     }
-    for (int32_t k = 0; k < RLF_PATCH_HEIGHT; k++) {
-        add_row(depth->at[k], (float)(k - ABOUT), before, behind, &s);
+    for (int32_t k = 0; k < RLF_WINDOW_SIDE; k++) {
+        add_row(&depth->at[k * RLF_WINDOW_SIDE], (float)(k - ABOUT), before, behind, &s);
     }
-    for (int32_t i = 0; i < RLF_PATCH; i++) {
-        float aside = larger(at[i - ABOUT], at[i + ABOUT]);
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        float aside = larger(left[i], right[i]);
         float farthest = larger(aside, larger(above[i], below[i]));
         float far_n = larger(s.far_n[i], 1.0f), near_n = larger(s.near_n[i], 1.0f);
         float gx = s.far_x[i] / far_n - s.near_x[i] / near_n;
