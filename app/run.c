@@ -21,7 +21,9 @@ typedef struct run_options {
     bool use_gl;
     bool is_renderer_set;
     int64_t frame_count; /* -1 = all */
-    rlf_view view;
+    rlf_view views[RLF_PIPELINE_VIEWS];
+    int32_t view_count;
+    rlf_orbit orbit;
 } run_options;
 
 static void print_help(void)
@@ -40,8 +42,12 @@ static void print_help(void)
            "  --picture-at LIST     instead: these frames alone, e.g. 60,92\n"
            "  --picture-shrink N    average N x N pixels of a picture into one\n"
            "  --log DIR             frames.csv, bodies.csv, contacts.csv\n"
-           "  --view NAME           camera (default), depth, normals, mesh, regions, foreground,\n"
-           "                        background, velocity, thickness, reason\n"
+           "  --view NAME[,NAME...] camera (default), depth, normals, mesh, regions, foreground,\n"
+           "                        background, velocity, thickness, reason, points, contacts;\n"
+           "                        up to four of them side by side\n"
+           "  --orbit YAW,PITCH[,ZOOM]   where points are seen from: degrees to the right and\n"
+           "                        up, and the distance, 1 being the camera's\n"
+           "  --occlusion NAME      soft (live's), hard, thesis (thesis's) or off\n"
            "  --scale N             keep every N-th depth pixel (live 1, thesis 8)\n"
            "  --set NAME=VALUE      a setting of the surface (see `relief settings`); any number\n"
            "  --threads N           default: one per processor; results do not depend on it\n"
@@ -62,9 +68,55 @@ static bool take_renderer(const char *text, void *out)
     return o->use_gl || strcmp(text, "soft") == 0;
 }
 
-static bool take_view(const char *text, void *out)
+/* Names with commas between. */
+static bool take_views(const char *text, void *out)
 {
-    return rlf_view_parse(text, out);
+    run_options *o = out;
+    o->view_count = 0;
+    while (o->view_count < RLF_PIPELINE_VIEWS) {
+        char name[32];
+        size_t length = strcspn(text, ",");
+        if (length >= sizeof(name)) {
+            return false;
+        }
+        memcpy(name, text, length);
+        name[length] = '\0';
+        if (!rlf_view_parse(name, &o->views[o->view_count++])) {
+            return false;
+        }
+        if (text[length] == '\0') {
+            return true;
+        }
+        text += length + 1;
+    }
+    return false;
+}
+
+static bool take_orbit(const char *text, void *out)
+{
+    rlf_orbit *orbit = out;
+    double yaw_deg, pitch_deg;
+    double zoom = 1.0;
+    char rest;
+    int count = sscanf(text, "%lf,%lf,%lf%c", &yaw_deg, &pitch_deg, &zoom, &rest);
+    bool is_good = (count == 2 || count == 3) && yaw_deg >= -360.0 && yaw_deg <= 360.0 &&
+                   pitch_deg >= -85.0 && pitch_deg <= 85.0 && zoom >= 0.1 && zoom <= 10.0;
+    *orbit = (rlf_orbit){yaw_deg * RLF_PI / 180.0, pitch_deg * RLF_PI / 180.0, zoom};
+    return is_good && (count == 3 || strchr(strchr(text, ',') + 1, ',') == NULL);
+}
+
+static bool take_occlusion(const char *text, void *out)
+{
+    static const char *const names[4] = {"hard", "thesis", "off", "soft"};
+    session_options *s = out;
+    for (int i = 0; i < 4; i++) {
+        if (strcmp(text, names[i]) == 0) {
+            s->occlusion = (rlf_occlusion)i;
+            s->is_occlusion_set = true;
+            return true;
+        }
+    }
+    return false;
 }
 
 /* "60,92" into the run_output_options. */
@@ -113,9 +165,19 @@ static int read_options(int argc, char **argv, run_options *o)
         {.name = "log", .kind = OPTION_TEXT, .out = &out->log_folder},
         {.name = "view",
          .kind = OPTION_CHOICE,
-         .out = &o->view,
-         .take = take_view,
-         .choices = "is not a view"},
+         .out = o,
+         .take = take_views,
+         .choices = "is not a list of up to four views"},
+        {.name = "orbit",
+         .kind = OPTION_CHOICE,
+         .out = &o->orbit,
+         .take = take_orbit,
+         .choices = "use YAW,PITCH or YAW,PITCH,ZOOM: within 360, 85 degrees, 0.1 to 10"},
+        {.name = "occlusion",
+         .kind = OPTION_CHOICE,
+         .out = s,
+         .take = take_occlusion,
+         .choices = "use soft, hard, thesis or off"},
         {.name = "scale", .kind = OPTION_INT32, .out = &s->scale_factor, .low = 1, .high = 64},
         {.name = "threads", .kind = OPTION_INT32, .out = &s->thread_count, .low = 1, .high = 64},
         {.name = "hash", .kind = OPTION_FLAG, .out = &out->print_hash},
@@ -134,6 +196,7 @@ static int parse(int argc, char **argv, run_options *o)
     o->output.picture_every = 30;
     o->output.picture_shrink = 1;
     o->frame_count = -1;
+    o->view_count = 1;
     int status = read_options(argc, argv, o);
     if (status >= 0) {
         return status;
@@ -214,7 +277,9 @@ static rlf_result run_window(const run_options *o, session *s, run_output *outpu
     viewer.frame_count = o->frame_count;
     viewer.use_gl = o->use_gl || !o->is_renderer_set;
     viewer.avoid_software_gl = !o->is_renderer_set;
-    viewer.view = o->view;
+    memcpy(viewer.views, o->views, sizeof(viewer.views));
+    viewer.view_count = o->view_count;
+    viewer.orbit = o->orbit;
     viewer.show_help = o->output.video_path == NULL;
     viewer.on_frame = on_frame;
     viewer.on_picture = on_picture;
@@ -234,7 +299,11 @@ static rlf_result run_window(const run_options *o, session *s, run_output *outpu
 
 static rlf_result run_frames(run_options *o, session *s, run_output *output)
 {
-    rlf_pipeline_set_view(s->pipeline, o->view);
+    rlf_pipeline_set_orbit(s->pipeline, &o->orbit);
+    rlf_result result = rlf_pipeline_set_views(s->pipeline, o->views, o->view_count);
+    if (result != RLF_OK) {
+        return result;
+    }
     if (o->is_headless) {
         choose_headless_renderer(o, s);
         return run_headless(o, s, output);

@@ -66,6 +66,9 @@ static rlf_result open_all(const session_options *options, session *s)
     }
     settings_apply(&options->settings, &def.reconstruct);
     def.enable_render = options->enable_render;
+    if (options->is_occlusion_set) {
+        def.compositor.occlusion = options->occlusion;
+    }
     def.compositor.enable_overlay = options->enable_overlay;
     return rlf_pipeline_create(&def, &s->pipeline);
 }

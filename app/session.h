@@ -14,6 +14,8 @@ typedef struct session_options {
     int32_t scale_factor;  /* 0 = the profile's */
     setting_list settings; /* in place of the profile's */
     int32_t thread_count;  /* 0 = all processors */
+    bool is_occlusion_set; /* else the profile's */
+    rlf_occlusion occlusion;
     bool enable_render;
     bool enable_overlay;
 } session_options;

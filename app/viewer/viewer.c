@@ -27,6 +27,8 @@ typedef struct viewer {
     bool has_frame, is_paused, is_at_end, shows_help;
     bool is_step_due, is_redraw_due, is_present_due;
     rlf_view view;
+    bool is_beside; /* the camera's picture is beside the view */
+    rlf_orbit orbit;
     int64_t frames_done;
     int32_t thrown_count;
     int64_t due_ns;       /* of the next frame */
@@ -40,7 +42,8 @@ typedef struct viewer {
 
 static const char *const help_lines[] = {
     "Space pause   N or . one frame   R restart", "1 camera 2 depth 3 normals 4 mesh 5 regions",
-    "6 foreground 7 background 8 velocity",       "9 thickness 0 reason   V next view",
+    "6 foreground 7 background 8 velocity",       "9 thickness 0 reason O points C contacts",
+    "V next view   B beside the camera",          "right drag turns points, wheel zooms",
     "click or T: throw a cube, drag for speed",   "P picture   F full screen   H keys   Q quit",
 };
 
@@ -52,6 +55,7 @@ viewer_options viewer_options_default(void)
     options.frame_count = -1;
     options.use_gl = true;
     options.show_help = true;
+    options.view_count = 1;
     options.T_world_camera = rlf_pose_identity();
     return options;
 }
@@ -82,8 +86,9 @@ static void update_overlay(viewer *v)
                    v->has_frame ? v->frame.time_s : 0.0, (int)bodies,
                    bodies == 1 ? "body" : "bodies");
     (void)snprintf(v->lines[count++], OVERLAY_LINE_SIZE,
-                   "ms: capture %.1f surface %.1f physics %.1f render %.1f", t->capture_ms,
-                   t->surface_ms, t->physics_ms, t->render_ms);
+                   "ms: capture %.1f surface %.1f physics %.1f render %.1f  latency %.1f",
+                   t->capture_ms, t->surface_ms, t->physics_ms, t->render_ms,
+                   t->surface_ms + t->physics_ms + t->render_ms);
     double drag = viewer_window_get_drag(&v->window);
     if (drag >= 0.0) {
         (void)snprintf(v->lines[count++], OVERLAY_LINE_SIZE, "throw %.1f m/s",
@@ -201,8 +206,28 @@ static void present(viewer *v)
 
 static void set_view(viewer *v, rlf_view view)
 {
+    const rlf_view views[2] = {v->is_beside ? RLF_VIEW_CAMERA : view, view};
     v->view = view;
-    rlf_pipeline_set_view(v->pipeline, view);
+    if (rlf_pipeline_set_views(v->pipeline, views, v->is_beside ? 2 : 1) != RLF_OK) {
+        show_message(v, rlf_error_text());
+    }
+    v->is_redraw_due = true;
+}
+
+/* Half a turn for the window's height. */
+static void turn(viewer *v, const viewer_wishes *wishes)
+{
+    double zoom = v->orbit.zoom > 0.0 ? v->orbit.zoom : 1.0;
+    for (double step = wishes->zoom; step >= 0.5; step -= 1.0) {
+        zoom *= 0.9;
+    }
+    for (double step = wishes->zoom; step <= -0.5; step += 1.0) {
+        zoom /= 0.9;
+    }
+    v->orbit.yaw -= RLF_PI * wishes->turn_x;
+    v->orbit.pitch = rlf_clamp(v->orbit.pitch + RLF_PI * wishes->turn_y, -1.5, 1.5);
+    v->orbit.zoom = rlf_clamp(zoom, 0.1, 10.0);
+    rlf_pipeline_set_orbit(v->pipeline, &v->orbit);
     v->is_redraw_due = true;
 }
 
@@ -220,6 +245,15 @@ static void throw_body(viewer *v, const viewer_wishes *wishes)
         return;
     }
     rlf_compositor_def def = rlf_pipeline_get_compositor_def(v->pipeline);
+    if (v->view == RLF_VIEW_POINTS && !v->is_beside) {
+        show_message(v, "no throws in this view: B puts the camera beside it");
+        return;
+    }
+    const rlf_camera *camera = def.rig.has_color ? &def.rig.color : &def.rig.depth;
+    const int32_t one_width = def.width > 0 ? def.width : camera->width;
+    const int32_t one_height = def.height > 0 ? def.height : camera->height;
+    pixel_u -= pixel_u > one_width - 0.5 ? one_width : 0; /* the next of several views */
+    pixel_v -= pixel_v > one_height - 0.5 ? one_height : 0;
     viewer_ray ray = viewer_ray_make(&def, &v->options->T_world_camera, pixel_u, pixel_v);
     double speed = viewer_throw_speed(wishes->throw_drag_fraction);
     rlf_body_def body = viewer_throw_body(&ray, speed, v->thrown_count);
@@ -279,6 +313,13 @@ static void fulfil_wishes(viewer *v)
     }
     if (wishes.next_view) {
         set_view(v, (rlf_view)((v->view + 1) % RLF_VIEW_COUNT));
+    }
+    if (wishes.toggle_beside) {
+        v->is_beside = !v->is_beside;
+        set_view(v, v->view);
+    }
+    if (wishes.turn_x != 0.0 || wishes.turn_y != 0.0 || wishes.zoom != 0.0) {
+        turn(v, &wishes);
     }
     if (wishes.throw_body) {
         throw_body(v, &wishes);
@@ -364,7 +405,9 @@ rlf_result viewer_run(rlf_pipeline *pipeline, const viewer_options *options)
     v.pipeline = pipeline;
     v.options = options;
     v.shows_help = options->show_help;
-    v.view = options->view;
+    v.view = options->views[options->view_count > 1 ? options->view_count - 1 : 0];
+    v.is_beside = options->view_count == 2 && options->views[0] == RLF_VIEW_CAMERA;
+    v.orbit = options->orbit;
     rlf_compositor_def def = rlf_pipeline_get_compositor_def(pipeline);
     const rlf_camera *camera = def.rig.has_color ? &def.rig.color : &def.rig.depth;
     int32_t width = def.width > 0 ? def.width : camera->width;
@@ -380,7 +423,7 @@ rlf_result viewer_run(rlf_pipeline *pipeline, const viewer_options *options)
     result = rlf_gl_presenter_create(&v.presenter);
     if (result == RLF_OK) {
         choose_renderer(&v);
-        rlf_pipeline_set_view(pipeline, v.view);
+        rlf_pipeline_set_plot(pipeline, true);
         v.due_ns = rlf_clock_ns();
         result = run_loop(&v);
         /* The GL renderer lives in the window's context and must go before it. */

@@ -20,9 +20,11 @@ typedef struct viewer_options {
     bool use_gl;              /* draw with OpenGL; the soft renderer otherwise */
     bool avoid_software_gl;   /* not if OpenGL is a program on the CPU, which soft outruns; false */
     bool show_help;           /* list the keys at first; default true */
-    rlf_view view;            /* to start with */
-    rlf_pose T_world_camera;  /* as the pipeline's */
-    viewer_frame_fn on_frame; /* NULL = none */
+    rlf_view views[RLF_PIPELINE_VIEWS]; /* to start with */
+    int32_t view_count;
+    rlf_orbit orbit;                          /* likewise */
+    rlf_pose T_world_camera;                  /* as the pipeline's */
+    viewer_frame_fn on_frame;                 /* NULL = none */
     viewer_picture_fn on_picture;             /* NULL = pictures cannot be saved */
     void *context;                            /* of both */
     const volatile sig_atomic_t *interrupted; /* not 0 = stop, e.g. by Ctrl-C; NULL = none */

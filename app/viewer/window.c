@@ -63,6 +63,9 @@ static void take_key(viewer_window *window, int key)
     case GLFW_KEY_Q:
     case GLFW_KEY_ESCAPE: glfwSetWindowShouldClose(window->handle, GLFW_TRUE); break;
     case GLFW_KEY_0: wishes->view = 9; break;
+    case GLFW_KEY_O: wishes->view = 10; break;
+    case GLFW_KEY_C: wishes->view = 11; break;
+    case GLFW_KEY_B: wishes->toggle_beside = true; break;
     default:
         if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) {
             wishes->view = key - GLFW_KEY_1;
@@ -86,6 +89,10 @@ static void on_button(GLFWwindow *handle, int button, int action, int modifiers)
 {
     (void)modifiers;
     viewer_window *window = glfwGetWindowUserPointer(handle);
+    if (button == GLFW_MOUSE_BUTTON_RIGHT) {
+        window->is_turning = action == GLFW_PRESS;
+        glfwGetCursorPos(handle, &window->turned_x, &window->turned_y);
+    }
     if (button != GLFW_MOUSE_BUTTON_LEFT) {
         return;
     }
@@ -96,6 +103,27 @@ static void on_button(GLFWwindow *handle, int button, int action, int modifiers)
         wish_throw(window, window->press_x, window->press_y, viewer_window_get_drag(window));
         window->is_dragging = false;
     }
+}
+
+static void on_cursor(GLFWwindow *handle, double x, double y)
+{
+    viewer_window *window = glfwGetWindowUserPointer(handle);
+    int width = 0;
+    int height = 0;
+    glfwGetWindowSize(handle, &width, &height);
+    if (window->is_turning && height > 0) {
+        window->wishes.turn_x += (x - window->turned_x) / height;
+        window->wishes.turn_y += (y - window->turned_y) / height;
+        window->turned_x = x;
+        window->turned_y = y;
+    }
+}
+
+static void on_scroll(GLFWwindow *handle, double x, double y)
+{
+    (void)x;
+    viewer_window *window = glfwGetWindowUserPointer(handle);
+    window->wishes.zoom += y;
 }
 
 static void on_refresh(GLFWwindow *handle)
@@ -153,6 +181,8 @@ static void set_callbacks(viewer_window *window)
     glfwSetWindowUserPointer(window->handle, window);
     glfwSetKeyCallback(window->handle, on_key);
     glfwSetMouseButtonCallback(window->handle, on_button);
+    glfwSetCursorPosCallback(window->handle, on_cursor);
+    glfwSetScrollCallback(window->handle, on_scroll);
     glfwSetWindowRefreshCallback(window->handle, on_refresh);
     glfwSetFramebufferSizeCallback(window->handle, on_framebuffer_size);
 }

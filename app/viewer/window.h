@@ -13,6 +13,9 @@ typedef struct viewer_wishes {
     int32_t view;               /* -1 = none */
     double throw_x, throw_y;    /* window position */
     double throw_drag_fraction; /* of the window's height */
+    double turn_x, turn_y;      /* dragged with the right button, of the window's height */
+    double zoom;                /* steps of the wheel, > 0: nearer */
+    bool toggle_beside;         /* the camera's picture beside the view */
 } viewer_wishes;
 
 typedef struct viewer_window {
@@ -20,7 +23,9 @@ typedef struct viewer_window {
     viewer_wishes wishes;
     bool is_dragging;
     double press_x, press_y;
-    int32_t windowed[4]; /* x, y, width, height before full screen */
+    bool is_turning;
+    double turned_x, turned_y; /* the mouse's last position while turning */
+    int32_t windowed[4];       /* x, y, width, height before full screen */
 } viewer_window;
 
 /* Opens a window and makes its context current: OpenGL 3.3, else ES 3.0. `out` must stay where it

@@ -21,14 +21,33 @@ typedef enum rlf_view {
     RLF_VIEW_BACKGROUND = 6, /* the background model's depth */
     RLF_VIEW_VELOCITY = 7,
     RLF_VIEW_THICKNESS = 8,
-    RLF_VIEW_REASON = 9, /* reason codes, one colour each */
-    RLF_VIEW_COUNT = 10
+    RLF_VIEW_REASON = 9,  /* reason codes, one colour each */
+    RLF_VIEW_POINTS = 10, /* the surface's points, in colour, and the bodies from anywhere: orbit */
+    RLF_VIEW_CONTACTS = 11, /* camera, with an arrow along each contact's normal, longer the larger
+                               its impulse */
+    RLF_VIEW_COUNT = 12
 } rlf_view;
 
 /* Name as in `--view`, e.g. "normals"; NULL outside the range. */
 RLF_API const char *rlf_view_name(rlf_view view);
 /* False when no view has that name. */
 RLF_API bool rlf_view_parse(const char *name, rlf_view *out);
+
+/* Where RLF_VIEW_POINTS is seen from: the camera turned about a point in front of it, in the middle
+ * of the sensor's range. All zero = from where the camera is. */
+typedef struct rlf_orbit {
+    double yaw;   /* radians; > 0: from further right */
+    double pitch; /* radians, within +-1.5; > 0: from further up */
+    double zoom;  /* distance to that point over the camera's, 0.1 to 10; 0 = 1 */
+} rlf_orbit;
+
+/* A small plot under the overlay's lines: for each frame a stacked bar. */
+typedef struct rlf_plot {
+    const char *const *names; /* series_count of them */
+    const float *values;      /* [count][series_count], the oldest first */
+    int32_t series_count, count;
+    float line; /* a value to mark, > 0; the plot ends at twice as much */
+} rlf_plot;
 
 typedef enum rlf_occlusion {
     RLF_OCCLUSION_DEPTH = 0, /* hard: every pixel's depth against the registered real depth */
@@ -62,8 +81,10 @@ typedef struct rlf_render_input {
     const rlf_snapshot *snapshot; /* NULL = no bodies */
     rlf_pose T_world_camera;      /* depth camera in the world */
     rlf_view view;
+    rlf_orbit orbit;            /* of RLF_VIEW_POINTS */
     const char *const *overlay; /* text lines, top left; used with enable_overlay */
     int32_t overlay_count;
+    const rlf_plot *plot; /* bottom left; used with enable_overlay; NULL = none */
 } rlf_render_input;
 
 typedef struct rlf_render_output {

@@ -66,6 +66,17 @@ RLF_API rlf_result rlf_pipeline_set_compositor(rlf_pipeline *pipeline, rlf_compo
 /* What a compositor for this pipeline must be made with. */
 RLF_API rlf_compositor_def rlf_pipeline_get_compositor_def(const rlf_pipeline *pipeline);
 
+/* One to four views side by side in the next pictures, each as large as the picture by itself: two
+ * in a row, more in two rows. There is no matte of more than one. May allocate. */
+#define RLF_PIPELINE_VIEWS 4
+RLF_API rlf_result rlf_pipeline_set_views(rlf_pipeline *pipeline, const rlf_view *views,
+                                          int32_t count);
+/* Where RLF_VIEW_POINTS is seen from in the next pictures. */
+RLF_API void rlf_pipeline_set_orbit(rlf_pipeline *pipeline, const rlf_orbit *orbit);
+/* True: a plot of the milliseconds per stage of the last frames, with overlay lines. default false
+ */
+RLF_API void rlf_pipeline_set_plot(rlf_pipeline *pipeline, bool is_shown);
+
 /* View and overlay lines of the next pictures (lines are copied, at most 32 of 127 bytes). */
 RLF_API void rlf_pipeline_set_view(rlf_pipeline *pipeline, rlf_view view);
 RLF_API void rlf_pipeline_set_overlay(rlf_pipeline *pipeline, const char *const *lines,

@@ -43,7 +43,11 @@ expect_done --version
 expect_error 2 "no command 'fly'" fly
 expect_error 2 "needs a SOURCE" run
 expect_error 2 "live or thesis" run synthetic:room --profile both
-expect_error 2 "not a view" run synthetic:room --headless --view smell
+expect_error 2 "not a list of up to four views" run synthetic:room --headless --view smell
+expect_error 2 "not a list of up to four views" run synthetic:room --view camera,depth,mesh,depth,camera
+expect_error 2 "YAW,PITCH" run synthetic:room --headless --view points --orbit 30
+expect_error 2 "YAW,PITCH" run synthetic:room --headless --view points --orbit 30,99
+expect_error 2 "soft, hard, thesis or off" run synthetic:room --headless --occlusion maybe
 expect_error 2 "frames" run synthetic:room --headless --frames 0
 expect_error 2 "frames" run synthetic:room --headless --frames ten
 expect_error 2 "relief settings" run synthetic:room --set smell=on

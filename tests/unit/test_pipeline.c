@@ -210,6 +210,35 @@ static void redraw_shows_the_last_frame_in_another_view(void **state)
     rlf_source_destroy(&source);
 }
 
+/* Every view of a sheet is the same picture as by itself, in its place. */
+static void views_lie_side_by_side(void **state)
+{
+    (void)state;
+    static const rlf_view views[3] = {RLF_VIEW_CAMERA, RLF_VIEW_NORMALS, RLF_VIEW_DEPTH};
+    rlf_source *source = open_plane(3, 33333333);
+    rlf_pipeline *pipeline = open_pipeline(source, RLF_PROFILE_LIVE, NULL);
+    rlf_pipeline_output out;
+    assert_int_equal(rlf_pipeline_set_views(pipeline, views, 3), RLF_OK);
+    while (rlf_pipeline_step(pipeline, &out) == RLF_OK) {
+    }
+    const rlf_image_rgba8 sheet = out.render.image;
+    assert_null(out.render.matte.data);
+    for (int32_t i = 0; i < 3; i++) {
+        rlf_pipeline_set_view(pipeline, views[i]);
+        assert_int_equal(rlf_pipeline_redraw(pipeline, &out), RLF_OK);
+        const rlf_image_rgba8 *one = &out.render.image;
+        assert_int_equal(sheet.width, 2 * one->width);
+        assert_int_equal(sheet.height, 2 * one->height);
+        for (int32_t y = 0; y < one->height; y++) {
+            const uint8_t *row = rlf_rgba8_row(&sheet, i / 2 * one->height + y);
+            assert_memory_equal(row + 4 * (i % 2) * one->width, rlf_rgba8_row(one, y),
+                                4 * (size_t)one->width);
+        }
+    }
+    rlf_pipeline_destroy(&pipeline);
+    rlf_source_destroy(&source);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -219,6 +248,7 @@ int main(void)
         cmocka_unit_test(restart_repeats_the_run_exactly),
         cmocka_unit_test(frames_with_the_same_time_do_not_advance_physics),
         cmocka_unit_test(redraw_shows_the_last_frame_in_another_view),
+        cmocka_unit_test(views_lie_side_by_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

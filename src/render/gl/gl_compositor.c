@@ -424,18 +424,6 @@ static void split_matte(gl_compositor *c)
     }
 }
 
-/* Lines of text, as the soft renderer places them. */
-static void draw_overlay(gl_compositor *c, const rlf_render_input *input)
-{
-    int32_t scale = soft_text_scale(c->image.height);
-    for (int32_t i = 0; i < input->overlay_count && input->overlay != NULL; i++) {
-        soft_text style = {4 * scale, (4 + 10 * i) * scale, scale, soft_rgb(245, 245, 235), true};
-        if (input->overlay[i] != NULL && style.y < c->image.height) {
-            soft_draw_text(&c->image, &style, input->overlay[i]);
-        }
-    }
-}
-
 static rlf_result render(void *self, const rlf_render_input *input, rlf_render_output *out)
 {
     gl_compositor *c = self;
@@ -461,7 +449,7 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
     }
     split_matte(c);
     if (c->def.enable_overlay) {
-        draw_overlay(c, input);
+        soft_draw_overlay(&c->image, input);
     }
     out->image = c->image;
     out->matte = c->matte;

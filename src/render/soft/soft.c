@@ -220,6 +220,11 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
     rlf_result result = RLF_OK;
     if (input->view == RLF_VIEW_CAMERA) {
         result = draw_camera(s, input);
+    } else if (input->view == RLF_VIEW_CONTACTS) {
+        result = draw_camera(s, input);
+        soft_draw_contacts(s, input);
+    } else if (input->view == RLF_VIEW_POINTS) {
+        result = soft_draw_points(s, input);
     } else if (input->view == RLF_VIEW_MESH) {
         draw_mesh(s, input);
     } else {
@@ -229,7 +234,7 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
         return result;
     }
     if (s->def.enable_overlay) {
-        soft_draw_overlay(s, input);
+        soft_draw_overlay(&s->image, input);
     }
     out->image = s->image;
     out->matte = s->matte;
@@ -269,20 +274,27 @@ static rlf_result make_textures(soft *s)
     return RLF_OK;
 }
 
-static rlf_result prepare(soft *s)
+void soft_set_viewpoint(soft *s, const rlf_camera *camera, const rlf_pose *T_picture_depth)
 {
-    s->camera = real_depth_picture_camera(&s->def);
-    s->T_picture_depth = real_depth_picture_pose(&s->def);
-    s->def.light_direction = rlf_normalize(s->def.light_direction);
-    s->to_light = rlf_neg(rlf_rotate(s->T_picture_depth.q, s->def.light_direction));
+    s->camera = *camera;
+    s->T_picture_depth = *T_picture_depth;
+    s->to_light = rlf_neg(rlf_rotate(T_picture_depth->q, s->def.light_direction));
     s->light[0] = (float)s->to_light.x;
     s->light[1] = (float)s->to_light.y;
     s->light[2] = (float)s->to_light.z;
-    s->shade_px = s->camera.fx > FINE_FOCAL_PX ? 8 : 4;
-    s->ray_x0 = (float)(-s->camera.cx / s->camera.fx);
-    s->ray_y0 = (float)(-s->camera.cy / s->camera.fy);
-    s->ray_step_x = (float)(1.0 / s->camera.fx);
-    s->ray_step_y = (float)(1.0 / s->camera.fy);
+    s->shade_px = camera->fx > FINE_FOCAL_PX ? 8 : 4;
+    s->ray_x0 = (float)(-camera->cx / camera->fx);
+    s->ray_y0 = (float)(-camera->cy / camera->fy);
+    s->ray_step_x = (float)(1.0 / camera->fx);
+    s->ray_step_y = (float)(1.0 / camera->fy);
+}
+
+static rlf_result prepare(soft *s)
+{
+    s->def.light_direction = rlf_normalize(s->def.light_direction);
+    const rlf_camera camera = real_depth_picture_camera(&s->def);
+    const rlf_pose T_picture_depth = real_depth_picture_pose(&s->def);
+    soft_set_viewpoint(s, &camera, &T_picture_depth);
     shape_mesh_set_build(&s->meshes);
     shape_mesh_set_build_coarse(&s->coarse_meshes);
     rlf_result result = make_textures(s);

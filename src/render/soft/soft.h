@@ -175,6 +175,9 @@ typedef struct soft {
     rlf_image_rgba8 grid_image; /* views are drawn here, then enlarged into the picture */
 } soft;
 
+/* soft.c: what the picture is seen from. */
+void soft_set_viewpoint(soft *s, const rlf_camera *camera, const rlf_pose *T_picture_depth);
+
 /* background.c: the colour picture, or registered depth in grey; real depth must be up to date for
  * the latter. */
 void soft_draw_background(soft *s, const rlf_render_input *input);
@@ -256,7 +259,10 @@ typedef struct soft_text {
 int32_t soft_text_scale(int32_t picture_height);
 int32_t soft_text_width(const char *line, int32_t scale);
 void soft_draw_text(const rlf_image_rgba8 *image, const soft_text *style, const char *line);
-void soft_draw_overlay(soft *s, const rlf_render_input *input);
+/* Lines and plot of an input; shared with the GL renderer. */
+void soft_draw_overlay(const rlf_image_rgba8 *image, const rlf_render_input *input);
+/* plot.c: at the bottom left. */
+void soft_draw_plot(const rlf_image_rgba8 *image, const rlf_plot *plot);
 extern const uint8_t soft_font[95][7]; /* font.c: ' ' to '~', rows from the top, bit 4 is left */
 
 /* views.c: everything but camera and mesh, in the grid's own image. */
@@ -271,6 +277,14 @@ void soft_draw_region_marks(soft *s, const rlf_surface *surface, const soft_fit 
 void soft_draw_velocity_marks(soft *s, const rlf_surface *surface, const soft_fit *fit);
 void soft_draw_reason_legend(soft *s);
 soft_color soft_color_reason(rlf_reason reason);
+void soft_draw_arrow(const rlf_image_rgba8 *image, soft_point from, soft_point to,
+                     soft_color color);
+/* Colour of the camera's picture where grid point i lies at depth z; grey depth without one. */
+soft_color soft_grid_color(const soft *s, const rlf_render_input *input, int32_t i, float z);
+/* view_points.c */
+rlf_result soft_draw_points(soft *s, const rlf_render_input *input);
+/* view_contacts.c: over the camera's picture. */
+void soft_draw_contacts(soft *s, const rlf_render_input *input);
 /* view_mesh.c */
 void soft_draw_mesh(soft *s, const rlf_surface *surface);
 

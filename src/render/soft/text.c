@@ -55,14 +55,17 @@ void soft_draw_text(const rlf_image_rgba8 *image, const soft_text *style, const 
     }
 }
 
-void soft_draw_overlay(soft *s, const rlf_render_input *input)
+void soft_draw_overlay(const rlf_image_rgba8 *image, const rlf_render_input *input)
 {
-    int32_t scale = soft_text_scale(s->image.height);
+    int32_t scale = soft_text_scale(image->height);
     for (int32_t i = 0; i < input->overlay_count && input->overlay != NULL; i++) {
         soft_text style = {(MARGIN + 2) * scale, (MARGIN + 2 + i * LINE) * scale, scale,
                            soft_rgb(245, 245, 235), true};
-        if (input->overlay[i] != NULL && style.y < s->image.height) {
-            soft_draw_text(&s->image, &style, input->overlay[i]);
+        if (input->overlay[i] != NULL && style.y < image->height) {
+            soft_draw_text(image, &style, input->overlay[i]);
         }
+    }
+    if (input->plot != NULL) {
+        soft_draw_plot(image, input->plot);
     }
 }

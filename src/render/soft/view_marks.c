@@ -76,19 +76,18 @@ void soft_draw_region_marks(soft *s, const rlf_surface *surface, const soft_fit 
     }
 }
 
-static void draw_arrow(const rlf_image_rgba8 *image, soft_point from, soft_point to)
+void soft_draw_arrow(const rlf_image_rgba8 *image, soft_point from, soft_point to, soft_color color)
 {
-    soft_color white = soft_rgb(255, 255, 255);
     double dx = to.x - from.x;
     double dy = to.y - from.y;
     if (dx * dx + dy * dy < 4.0) {
         return;
     }
-    soft_draw_line(image, from, to, white);
+    soft_draw_line(image, from, to, color);
     for (int side = -1; side <= 1; side += 2) {
         soft_point barb = {to.x - 0.25 * (dx + 0.6 * side * dy),
                            to.y - 0.25 * (dy - 0.6 * side * dx)};
-        soft_draw_line(image, to, barb, white);
+        soft_draw_line(image, to, barb, color);
     }
 }
 
@@ -107,7 +106,7 @@ void soft_draw_velocity_marks(soft *s, const rlf_surface *surface, const soft_fi
             }
             rlf_vec3 p = rlf_surface_point(surface, i);
             if (place(s, fit, p, &from) && place(s, fit, rlf_mad(p, v, ARROW_SECONDS), &to)) {
-                draw_arrow(&part, from, to);
+                soft_draw_arrow(&part, from, to, soft_rgb(255, 255, 255));
             }
         }
     }

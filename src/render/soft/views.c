@@ -13,6 +13,16 @@ typedef struct grid_view {
     void (*draw_pixel)(const struct grid_view *view, int32_t i, uint8_t *out);
 } grid_view;
 
+static grid_view range_of(const soft *s, const rlf_render_input *input)
+{
+    grid_view view = {s, input, s->def.rig.depth_min_m, s->def.rig.depth_max_m, NULL};
+    if (!(view.far_z > view.near_z)) {
+        view.near_z = 0.5;
+        view.far_z = 4.5;
+    }
+    return view;
+}
+
 static soft_color depth_color(const grid_view *view, float z)
 {
     if (!(z > 0.0f)) {
@@ -28,29 +38,34 @@ static soft_color dim_depth(const grid_view *view, float z)
     return soft_rgb(grey, grey, grey);
 }
 
-/* Colour of the camera's picture where the grid point i lies; grey depth without one. */
+soft_color soft_grid_color(const soft *s, const rlf_render_input *input, int32_t i, float z)
+{
+    const rlf_surface *surface = input->surface;
+    const rlf_image_rgba8 *image = &input->frame->color;
+    const grid_view range = range_of(s, input);
+    if (image->data == NULL || !(z > 0.0f)) {
+        return dim_depth(&range, z);
+    }
+    rlf_vec3 p = rlf_vec3_make(z * surface->ray_x[i], z * surface->ray_y[i], z);
+    double u, v;
+    p = rlf_transform(&s->def.rig.T_color_depth, p);
+    if (!rlf_camera_project(s->def.rig.has_color ? &s->def.rig.color : &s->def.rig.depth, p, &u,
+                            &v) ||
+        !(u > -0.5 && v > -0.5 && u < image->width - 0.5 && v < image->height - 0.5)) {
+        return dim_depth(&range, z);
+    }
+    const uint8_t *pixel = rlf_rgba8_row(image, (int32_t)(v + 0.5)) + 4 * (ptrdiff_t)(u + 0.5);
+    return soft_rgb(pixel[0], pixel[1], pixel[2]);
+}
+
 static soft_color camera_color(const grid_view *view, int32_t i)
 {
     const rlf_surface *surface = view->input->surface;
-    const rlf_image_rgba8 *image = &view->input->frame->color;
     float z = surface->depth[i];
     if (!(z > 0.0f) && surface->background_depth != NULL) {
         z = surface->background_depth[i];
     }
-    if (image->data == NULL || !(z > 0.0f)) {
-        return dim_depth(view, z);
-    }
-    const soft *s = view->s;
-    rlf_vec3 p = rlf_vec3_make(z * surface->ray_x[i], z * surface->ray_y[i], z);
-    double u, v;
-    p = rlf_transform(&s->T_picture_depth, p);
-    if (!rlf_camera_project(s->def.rig.has_color ? &s->def.rig.color : &s->def.rig.depth, p, &u,
-                            &v) ||
-        !(u > -0.5 && v > -0.5 && u < image->width - 0.5 && v < image->height - 0.5)) {
-        return dim_depth(view, z);
-    }
-    const uint8_t *pixel = rlf_rgba8_row(image, (int32_t)(v + 0.5)) + 4 * (ptrdiff_t)(u + 0.5);
-    return soft_rgb(pixel[0], pixel[1], pixel[2]);
+    return soft_grid_color(view->s, view->input, i, z);
 }
 
 static void draw_depth(const grid_view *view, int32_t i, uint8_t *out)
@@ -188,11 +203,7 @@ static void enlarge(soft *s, const soft_fit *fit)
 
 void soft_draw_view(soft *s, const rlf_render_input *input)
 {
-    grid_view view = {s, input, s->def.rig.depth_min_m, s->def.rig.depth_max_m, NULL};
-    if (!(view.far_z > view.near_z)) {
-        view.near_z = 0.5;
-        view.far_z = 4.5;
-    }
+    grid_view view = range_of(s, input);
     switch (input->view) {
     case RLF_VIEW_NORMALS: view.draw_pixel = draw_normal; break;
     case RLF_VIEW_REGIONS: view.draw_pixel = draw_region; break;
