@@ -185,23 +185,28 @@ void rlf_kernel_plane_tile(const rlf_kernel_tile *tile);
 /* ---- steady_row.c: gated mean over time
  * --------------------------------------------------------- */
 
-typedef struct rlf_kernel_steady {
-    rlf_kernel_noise noise;
-    float sigmas; /* the gate, of a frontal surface's noise */
-    float most;   /* frames that a mean may stand for */
-} rlf_kernel_steady;
+typedef struct rlf_kernel_lag_in {
+    const float *normal[3], *ray_x, *ray_y; /* missing normals are 0: not slanted */
+    const float *depth, *mean, *frames;     /* as of rlf_kernel_steady_row */
+} rlf_kernel_lag_in;
+
+/* How far inverse depth is from its mean, in eighths of the noise's sigma, at most 32; 0 where
+ * either is missing. */
+void rlf_kernel_lag_row(rlf_kernel_noise noise, const rlf_kernel_lag_in *in, int32_t count,
+                        int8_t *restrict lag);
 
 typedef struct rlf_kernel_steady_in {
-    const float *normal[3], *ray_x, *ray_y;
+    const int8_t *lag[3];  /* of the row above, the row itself, the one below; outside: zeros */
     const uint8_t *reason; /* only pixels that are OK take part */
+    float most;            /* frames that a mean may stand for */
     int32_t count;
 } rlf_kernel_steady_in;
 
-/* Takes a row's depth into its means and gives it the means. Where they differ by more than the
- * gate the mean starts anew. mean is in inverse depth; frames = 0 where there is none, negative
- * where it may no longer be true. */
-void rlf_kernel_steady_row(const rlf_kernel_steady *params, const rlf_kernel_steady_in *in,
-                           float *restrict depth, float *restrict mean, float *restrict frames);
+/* Takes a row's depth into its means and gives it the means. Where it has moved, the mean starts
+ * anew. mean is in inverse depth; frames = 0 where there is none, negative where it may no longer
+ * be true. */
+void rlf_kernel_steady_row(const rlf_kernel_steady_in *in, float *restrict depth,
+                           float *restrict mean, float *restrict frames);
 
 /* ---- change_row.c: what became of what was seen
  * ------------------------------------------------- */

@@ -3,7 +3,8 @@
  * A window across a crease blends two faces. Each of them is known well a few pixels away, and two
  * planes decide which of them a ray meets: on a convex edge the one that it meets last, in a
  * concave corner the one that it meets first. So the crease lies where the planes meet, to a small
- * part of a pixel, whatever the noise of the pixels on it. */
+ * part of a pixel, whatever the noise of the pixels on it. Unless that is small: a narrow face is
+ * known less well than a pixel that has been averaged for a while, which then decides. */
 #include "surface/steps.h"
 
 #include "kernel/kernel.h"
@@ -15,11 +16,15 @@ static const float MOST_SLOPE = 0.04f; /* share of the depth per pixel: no edge 
 static const float MOST_SIGMAS = 8.0f; /* of the pixel's depth from the face; grazing is noisier */
 static const float LEAST_FACING = 0.02f; /* a face may be seen edge-on, not from behind */
 static const float LEAST_APART = 2.0f;   /* sigmas of depth from one face to the other */
+/* Frames in a pixel's mean, sigmas from face to face, and share of that from the face that the
+ * planes choose, by which a pixel's own depth speaks for the other. */
+static const float OWN_FRAMES = 8.0f, OWN_APART = 0.5f, OWN_SHARE = 0.75f;
 
 typedef struct crease_job {
     int32_t width, height;
     const float *ray_x, *ray_y, *depth;
     const uint8_t *reason;
+    const float *mean, *frames; /* of inverse depth over time; NULL = not kept */
     float *const *normal;
     uint8_t *bent; /* plane of RLF_BEND_; pixels where it is 0 are only read */
     rlf_kernel_noise noise;
@@ -102,6 +107,18 @@ static bool is_apart(const crease_job *job, ptrdiff_t a, float b_at_a)
            rlf_kernel_abs(b_at_a - z) >= LEAST_APART * rlf_kernel_sigma(job->noise, z);
 }
 
+/* What has been seen of pixel i over time is at the depth `other`, not where it would be by the
+ * planes alone. */
+static bool is_elsewhere(const crease_job *job, ptrdiff_t i, float z, float other)
+{
+    if (job->frames == NULL || job->frames[i] < OWN_FRAMES) {
+        return false;
+    }
+    float own = 1.0f / job->mean[i], apart = other - z;
+    bool matters = rlf_kernel_abs(apart) > OWN_APART * rlf_kernel_sigma(job->noise, own);
+    return matters && (own - z) * apart > OWN_SHARE * apart * apart;
+}
+
 /* Which of two faces pixel i is on; -1 when they do not meet in a crease, or not there. */
 static ptrdiff_t choose_face(const crease_job *job, ptrdiff_t i, ptrdiff_t a, ptrdiff_t b)
 {
@@ -115,6 +132,7 @@ static ptrdiff_t choose_face(const crease_job *job, ptrdiff_t i, ptrdiff_t a, pt
         return -1;
     }
     bool first = convex ? za > zb : za < zb;
+    first = first != is_elsewhere(job, i, first ? za : zb, first ? zb : za);
     float z = first ? za : zb;
     float most = MOST_SIGMAS * rlf_kernel_sigma(job->noise, z);
     return rlf_kernel_abs(z - job->depth[i]) <= most ? (first ? a : b) : -1;
@@ -172,10 +190,17 @@ static void sharpen_rows(void *context, int32_t begin, int32_t end, int32_t work
 void rlf_normals_crease(const rlf_reconstruct *stage, const rlf_slot *slot)
 {
     const rlf_grid *grid = &stage->grid;
-    crease_job job = {
-        grid->width,  grid->height,        grid->ray_x,
-        grid->ray_y,  slot->depth,         slot->reason,
-        slot->normal, stage->work.mask[0], rlf_kernel_noise_make(&stage->def.rig.noise)};
+    crease_job job = {.width = grid->width,
+                      .height = grid->height,
+                      .ray_x = grid->ray_x,
+                      .ray_y = grid->ray_y,
+                      .depth = slot->depth,
+                      .reason = slot->reason,
+                      .mean = stage->steady.mean,
+                      .frames = stage->steady.frames,
+                      .normal = slot->normal,
+                      .bent = stage->work.mask[0],
+                      .noise = rlf_kernel_noise_make(&stage->def.rig.noise)};
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, mark_rows, &job);
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, sharpen_rows, &job);
 }

@@ -112,8 +112,8 @@ static void complete_planes(rlf_reconstruct *stage, rlf_slot *slot)
     rlf_stage_add_time(stage, RLF_SURFACE_COMPLETE);
 }
 
-/* Depth of the slot: read, mixed pixels off, dropped pixels recalled, noise averaged within planes,
- * small holes filled, noise averaged over time; each step may be switched off. */
+/* Depth of the slot: read, mixed pixels off, dropped pixels recalled, noise averaged over time and
+ * within planes, small holes filled; each step may be switched off. */
 static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot)
 {
     bool flying = stage->def.enable_flying_removal;
@@ -129,6 +129,9 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
     }
     if (stage->def.enable_hold && stage->def.enable_steadying) {
         rlf_hold_recall(stage, kept, slot->reason);
+    }
+    if (stage->def.enable_steadying) {
+        rlf_steady_update(stage, kept, slot->reason);
         rlf_stage_add_time(stage, RLF_SURFACE_STEADY);
     }
     if (smooth) {
@@ -143,10 +146,6 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
     }
     if (smooth) {
         complete_planes(stage, slot);
-    }
-    if (stage->def.enable_steadying) {
-        rlf_steady_update(stage, slot);
-        rlf_stage_add_time(stage, RLF_SURFACE_STEADY);
     }
     if (smooth && stage->def.enable_edge_normals) {
         rlf_normals_crease(stage, slot);

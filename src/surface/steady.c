@@ -5,44 +5,62 @@
 
 #include <string.h>
 
-/* Noise that is left after the planes' averaging is well within 1.25 sigma; without it within 3. */
-static const float smoothed_gate = 1.25f, raw_gate = 3.0f;
 static const float most_frames = 16.0f;
 
 typedef struct steady_job {
     const rlf_reconstruct *stage;
-    rlf_slot *slot;
-    rlf_kernel_steady params;
-    bool has_normals;
+    float *depth;
+    const uint8_t *reason;
+    int8_t *lag; /* plane */
 } steady_job;
+
+static void lag_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const steady_job *job = context;
+    const rlf_reconstruct *stage = job->stage;
+    const rlf_grid *grid = &stage->grid;
+    rlf_kernel_noise noise = rlf_kernel_noise_make(&stage->def.rig.noise);
+    for (int32_t y = begin; y < end; y++) {
+        ptrdiff_t row = (ptrdiff_t)y * grid->width;
+        rlf_kernel_lag_in in = {{0},
+                                grid->ray_x + row,
+                                grid->ray_y + row,
+                                job->depth + row,
+                                stage->steady.mean + row,
+                                stage->steady.frames + row};
+        for (int k = 0; k < 3; k++) {
+            in.normal[k] =
+                (stage->previous != NULL ? stage->previous->normal[k] : stage->work.zero_plane) +
+                row;
+        }
+        rlf_kernel_lag_row(noise, &in, grid->width, job->lag + row);
+    }
+}
 
 static void steady_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
     const steady_job *job = context;
     const rlf_grid *grid = &job->stage->grid;
+    const int8_t *outside = (const int8_t *)job->stage->work.zeros;
     for (int32_t y = begin; y < end; y++) {
         ptrdiff_t row = (ptrdiff_t)y * grid->width;
-        const rlf_slot *slot = job->slot;
-        rlf_kernel_steady_in in = {
-            {0}, grid->ray_x + row, grid->ray_y + row, slot->reason + row, grid->width};
-        for (int k = 0; k < 3; k++) {
-            const float *normal = job->has_normals ? slot->normal[k] : job->stage->work.zero_plane;
-            in.normal[k] = normal + row;
-        }
-        rlf_kernel_steady_row(&job->params, &in, slot->depth + row, job->stage->steady.mean + row,
+        const int8_t *lag = job->lag + row;
+        rlf_kernel_steady_in in = {{y > 0 ? lag - grid->width : outside, lag,
+                                    y + 1 < grid->height ? lag + grid->width : outside},
+                                   job->reason + row,
+                                   most_frames,
+                                   grid->width};
+        rlf_kernel_steady_row(&in, job->depth + row, job->stage->steady.mean + row,
                               job->stage->steady.frames + row);
     }
 }
 
-void rlf_steady_update(const rlf_reconstruct *stage, rlf_slot *slot)
+void rlf_steady_update(const rlf_reconstruct *stage, float *depth, const uint8_t *reason)
 {
-    bool smooth = stage->def.enable_smoothing;
-    steady_job job = {stage,
-                      slot,
-                      {rlf_kernel_noise_make(&stage->def.rig.noise),
-                       smooth ? smoothed_gate : raw_gate, most_frames},
-                      smooth};
+    steady_job job = {stage, depth, reason, (int8_t *)stage->work.mask[1]};
+    rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, lag_rows, &job);
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, steady_rows, &job);
 }
 

@@ -22,8 +22,8 @@ void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, rlf_slot *
 /* ---- hold.c: dropped pixels from memory; `depth` holds what was seen ---- */
 void rlf_hold_recall(const rlf_reconstruct *stage, float *depth, uint8_t *reason);
 
-/* ---- steady.c: depth that does not change is averaged over time; needs the slot's normals ---- */
-void rlf_steady_update(const rlf_reconstruct *stage, rlf_slot *slot);
+/* ---- steady.c: depth that does not change is averaged over time ---- */
+void rlf_steady_update(const rlf_reconstruct *stage, float *depth, const uint8_t *reason);
 void rlf_steady_reset(rlf_steady *steady, int32_t count);
 
 /* ---- normals ---- */

@@ -119,6 +119,7 @@ static void what_stands_still_becomes_steady(void **state)
 {
     fixture *f = *state;
     set_room(f, 1.6);
+    const double most[2] = {0.3, 0.7}; /* planes leave a little at the crease, in every frame */
     for (int smoothing = 0; smoothing < 2; smoothing++) {
         rlf_reconstruct *stage = make_stage(f, smoothing, true);
         const rlf_surface *s = process(f, stage, 0);
@@ -126,7 +127,7 @@ static void what_stands_still_becomes_steady(void **state)
         for (int t = 1; t < 30; t++) {
             s = process(f, stage, t);
         }
-        assert_true(rms(s->depth, f->truth) < 0.6 * first);
+        assert_true(rms(s->depth, f->truth) < most[smoothing] * first);
         rlf_reconstruct_reset(stage);
         s = process(f, stage, 30);
         assert_true(rms(s->depth, f->truth) > 0.8 * first);
@@ -135,7 +136,8 @@ static void what_stands_still_becomes_steady(void **state)
 }
 
 /* A board that comes 5 mm nearer per frame and then jumps: the steadied depth is at most the gate
- * away from what the frame alone gives, and exactly that after the jump. */
+ * away from what the frame alone gives, and after the jump that: but for rounding, since the wall
+ * beside it, which is steady, is the origin of the sums. */
 static void nothing_that_moved_stays(void **state)
 {
     fixture *f = *state;
@@ -151,7 +153,7 @@ static void nothing_that_moved_stays(void **state)
             double sigma = rlf_depth_noise_sigma(&f->rig.noise, a->depth[i]);
             assert_true(fabs(a->depth[i] - b->depth[i]) <= 12.0 * sigma);
             bool jumped = t == 20 && i % WIDTH < WIDTH / 2 - 1;
-            assert_true(!jumped || fabs(a->depth[i] - b->depth[i]) < 1e-6);
+            assert_true(!jumped || fabs(a->depth[i] - b->depth[i]) < 1e-4);
         }
     }
     rlf_reconstruct_destroy(&plain);
