@@ -85,9 +85,9 @@ def accuracy(data):
         Text(f"Mean over {data.seeds()} seeds ± 95 % confidence interval. Both profiles see the same frames, of which "
              "the truth is known. Reported or measured elsewhere: what the thesis says of itself, or what its "
              "formulas gave in another simulation; what other systems gave there. The test suite fails beyond the "
-             "bound; a bound looser than the goal is told as such."),
-        Table(["figure", "goal", "ours (live)", "goal reached?", "thesis's method, same frames",
-               "thesis elsewhere", "other systems", "bound"], rows),
+             "bound; a bound looser than the goal is told as such. A dash: nothing was measured there."),
+        Table(["figure", "goal", "ours (live)", Cell("goal reached?", "text"), "thesis's method, same frames",
+               Cell("thesis elsewhere", "text"), Cell("other systems", "text"), "bound"], rows),
         Command(f"relief eval --seeds {data.seeds()}")])
 
 
@@ -259,7 +259,7 @@ def table_5_1(data):
              "several seeds it stands under simulator in the accuracy table. The room was furnished to match, so that "
              "the agreement shows what the simulator can reproduce, not that it must. The thesis estimates the "
              "share of wrong normals in d at 8.67 %; the last column counts them."),
-        Table(["case", "grid", "points", "missing", "thesis", "off", "missing %", "estimated wrong normals, %",
+        Table(["case", "grid", "points", "missing", "thesis", Cell("off", "text"), "missing %", "estimated wrong normals, %",
                "counted, %"], rows),
         Command("relief measure synthetic:thesis")])
 

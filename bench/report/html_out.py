@@ -24,19 +24,15 @@ def _row(row, width):
     return f"<tr{css}>" + "".join(_cell(c) for c in row.cells) + "</tr>"
 
 
-def _image(png, alt, style=""):
+def _image(png, alt):
     content = base64.b64encode(png).decode("ascii")
-    return f'<img alt="{_escape(alt)}"{style} src="data:image/png;base64,{content}">'
-
-
-# The middle of the picture, where things happen.
-_CUT = ' style="aspect-ratio: 320/210; width: 100%; object-fit: none; object-position: 40% 75%"'
+    return f'<img alt="{_escape(alt)}" src="data:image/png;base64,{content}">'
 
 
 def _strip(strip):
     rows = []
     for label, pictures in strip.rows:
-        images = "".join(_image(png, f"{strip.title}, {label}", _CUT) for png in pictures)
+        images = "".join(f'<div class="cut">{_image(png, f"{strip.title}, {label}")}</div>' for png in pictures)
         rows.append(f'<div class="strip"><span>{_escape(label)}</span>{images}</div>')
     return f"<h3>{_escape(strip.title)}</h3>" + "".join(rows)
 
@@ -48,7 +44,7 @@ def _block(block):
     if isinstance(block, Command):
         return f'<p class="note">Repeat it: <code>{_escape(block.text)}</code></p>'
     if isinstance(block, Table):
-        head = "".join(f"<th>{_escape(h)}</th>" for h in block.head)
+        head = "".join(_cell(h, "th") for h in block.head)
         body = "".join(_row(row, len(block.head)) for row in block.rows)
         return f'<div class="scroll"><table><tr>{head}</tr>{body}</table></div>'
     if isinstance(block, Charts):

@@ -20,7 +20,7 @@ def spread(side):
     mean = number(side["mean"])
     if mean == "never":
         return mean
-    return mean + (" (one run)" if side.get("ci95") is None else f" ± {number(side['ci95'], 2)}")
+    return mean + (" (one run)" if side.get("ci95") is None else f"\u00a0±\u00a0{number(side['ci95'], 2)}")
 
 
 def reach(row):
@@ -53,9 +53,12 @@ def status(row):
     return Cell("; ".join(parts), css + " text")
 
 
-def status_of(relation, goal, value):
-    """The same for a plain value."""
-    if value is None:
+def status_of(relation, goal, median, p95=None):
+    """The same for a time or rate: by its median, and whether its 95th percentile keeps the goal too."""
+    if median is None:
         return Cell("not measured", "text")
-    met = holds(relation, goal, value)
-    return Cell("reached" if met else "SHORT of the goal", ("met" if met else "short") + " text")
+    if not holds(relation, goal, median):
+        return Cell("SHORT of the goal", "short text")
+    if p95 is not None and not holds(relation, goal, p95):
+        return Cell("reached by the median, not at the 95th percentile", "near text")
+    return Cell("reached", "met text")

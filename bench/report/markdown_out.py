@@ -8,7 +8,7 @@ def _text(cell):
 
 
 def _table(table):
-    lines = ["| " + " | ".join(table.head) + " |", "| " + " | ".join("---" for _ in table.head) + " |"]
+    lines = ["| " + " | ".join(_text(h) for h in table.head) + " |", "| " + " | ".join("---" for _ in table.head) + " |"]
     for row in table.rows:
         cells = [f"**{_text(row.cells[0])}**"] if row.is_heading else [_text(c) for c in row.cells]
         lines.append("| " + " | ".join(cells + [""] * (len(table.head) - len(cells))) + " |")
