@@ -21,7 +21,7 @@ static rlf_result add_static_throws(eval_table *table, rlf_profile profile, uint
     if (result == RLF_OK) {
         ADD("throw_tunnelled", "THROW: tunnelled, of 200 throws into the still room",
             (double)o.tunnelled);
-        ADD("throw_not_finite", "  not finite", (double)o.not_finite);
+        ADD("throw_not_finite", "THROW: not finite", (double)o.not_finite);
     }
     return result;
 }
@@ -44,7 +44,7 @@ static rlf_result add_lost_frames(eval_table *table, rlf_profile profile, uint64
         fastest = rlf_max(fastest, o.fastest);
     }
     ADD("drop_tunnelled", "DROP-FRAMES, 1 to 10 lost: tunnelled, of 160", tunnelled);
-    ADD("drop_fastest", "  fastest body, m/s (thrown at up to 10)", fastest);
+    ADD("drop_fastest", "DROP-FRAMES: fastest body, m/s (thrown at up to 10)", fastest);
     return RLF_OK;
 }
 
@@ -85,8 +85,8 @@ static rlf_result add_realism(eval_table *table, rlf_profile profile, uint64_t s
             percent(o.right_nearby, o.bounces));
         ADD("realism_exact_percent", "  of the true one of that very throw, %",
             percent(o.right, o.bounces));
-        ADD("realism_phantom_percent", "  off nothing, %", percent(o.phantom, o.bounces));
-        ADD("realism_missed_percent", "  none where truth has one, %",
+        ADD("realism_phantom_percent", "REALISM: off nothing, %", percent(o.phantom, o.bounces));
+        ADD("realism_missed_percent", "REALISM: none where truth has one, %",
             percent(o.missed, o.bounces));
         ADD("realism_hidden_percent", "  off what the camera cannot see: within 10 deg, %",
             percent(o.hidden_right, o.hidden));
@@ -113,7 +113,7 @@ static rlf_result add_pushes(eval_table *table, rlf_profile profile)
         worst = rlf_max(worst, error);
     }
     ADD("lift_count", "LIFT: carried by a tray and thrown, of 12", lifted);
-    ADD("lift_error_percent", "  leaving speed, worst error, %", 100.0 * worst);
+    ADD("lift_error_percent", "LIFT: leaving speed, worst error, %", 100.0 * worst);
     ADD("swipe_count", "SWIPE: pushed by a board, none passed, of 12", swept);
     return result;
 }
@@ -128,8 +128,8 @@ static rlf_result add_rest(eval_table *table, rlf_profile profile)
     result = result == RLF_OK ? eval_sensed_rest(profile, 60.0, &rest) : result;
     if (result == RLF_OK) {
         ADD("noise_jitter_mm", "NOISE: cube on a table for 60 s, RMS, mm", rest.jitter_mm);
-        ADD("noise_asleep_s", "  asleep after, s", rest.asleep_s);
-        ADD("noise_wakes", "  wakes", rest.wakes);
+        ADD("noise_asleep_s", "NOISE: asleep after, s", rest.asleep_s);
+        ADD("noise_wakes", "NOISE: wakes", rest.wakes);
         result = eval_sensed_chair(profile, &frames);
     }
     if (result == RLF_OK) {

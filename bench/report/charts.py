@@ -31,6 +31,9 @@ def log_ticks(low, high):
 
 
 def label(value):
+    for size, suffix in ((1e6, "M"), (1e4, "k")):
+        if abs(value) >= size:
+            return f"{value / (size if suffix == 'M' else 1e3):g}{suffix}"
     return f"{value:g}"
 
 
@@ -94,6 +97,7 @@ def line_chart(series, x_title, y_title, log=False, only_up=False):
     """series: [(name, [(x, y) or (x, y, half width), ...]), ...]; y may be None. Names stand at the lines' ends."""
     series = [(name, [(*p, None)[:3] for p in points if p[1] is not None and (not log or (p[0] > 0 and p[1] > 0))])
               for name, points in series]
+    colors = [index for index, (_, points) in enumerate(series) if points]  # a name keeps its colour
     series = [(name, points) for name, points in series if points]
     if not series:
         return "<p>no data</p>"
@@ -101,7 +105,7 @@ def line_chart(series, x_title, y_title, log=False, only_up=False):
     y_axis = Axis([p[1] + (p[2] or 0.0) for _, points in series for p in points]
                   + [p[1] for _, points in series for p in points], (HEIGHT - BOTTOM, TOP), log)
     parts = frame(x_axis, y_axis, x_title, y_title)
-    for index, (name, points) in enumerate(series):
+    for index, (name, points) in zip(colors, series):
         path = " ".join(f"{x_axis.at(x):.1f},{y_axis.at(y):.1f}" for x, y, _ in points)
         parts.append(f'<polyline points="{path}" class="line c{index}"/>')
         for x, y, half in points:
@@ -117,7 +121,7 @@ def line_chart(series, x_title, y_title, log=False, only_up=False):
     for y, index in ends:  # from the top down, each below the one before
         lowest = max(y, lowest + 14)
         x = x_axis.at(series[index][1][-1][0])
-        parts.append(text(x + 8, lowest + 4, series[index][0], f"name c{index}"))
+        parts.append(text(x + 8, lowest + 4, series[index][0], f"name c{colors[index]}"))
     return svg(parts, f"{y_title} against {x_title}")
 
 

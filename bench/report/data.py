@@ -82,4 +82,6 @@ def percentile(values, percent):
 def number(value, digits=4):
     if value is None:
         return "-"
-    return "never" if value >= NEVER else f"{value:.{digits}g}"
+    if value >= NEVER:
+        return "never"
+    return f"{value:.0f}" if abs(value) >= 1e4 else f"{value:.{digits}g}"
