@@ -4,6 +4,8 @@
 
 #include "kernel/kernel.h"
 
+#include <string.h>
+
 static void plane_bands(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
@@ -32,46 +34,48 @@ static void plane_bands(void *context, int32_t begin, int32_t end, int32_t worke
     }
 }
 
-typedef struct normal_sum {
-    float x, y, z;
-} normal_sum;
+/* The pixels about one at the image's border, 0 outside. */
+typedef struct near_copy {
+    float depth[5][RLF_NEAR_LANES], normal[3][5][RLF_NEAR_LANES];
+} near_copy;
 
-/* Sum of the normals at the same depth, weighted by inverse squared distance. Missing ones are 0.
- * Inlined, so that the whole window's bounds and weights are constants. */
-static inline normal_sum add_window(const rlf_normals_job *job, ptrdiff_t i, int32_t x0, int32_t x1,
-                                    int32_t y0, int32_t y1)
+static void copy_near(const rlf_normals_job *job, int32_t x, int32_t y, near_copy *out)
 {
-    static const float nearness[9] = {0.0f, 1.0f, 0.5f, 0.0f, 0.25f, 0.2f, 0.0f, 0.0f, 0.125f};
-    normal_sum sum = {0.0f, 0.0f, 0.0f};
-    float z = job->filled[i];
-    float most = 0.02f * z;
-    for (int32_t dy = y0; dy <= y1; dy++) {
-        ptrdiff_t row = i + (ptrdiff_t)dy * job->width;
-        for (int32_t dx = x0; dx <= x1; dx++) {
-            bool same = rlf_kernel_abs(job->filled[row + dx] - z) <= most;
-            float weight = same ? nearness[dx * dx + dy * dy] : 0.0f;
-            sum.x += weight * job->out[0][row + dx];
-            sum.y += weight * job->out[1][row + dx];
-            sum.z += weight * job->out[2][row + dx];
+    memset(out, 0, sizeof *out);
+    for (int32_t k = 0; k < 25; k++) {
+        int32_t u = x + k % 5 - 2, v = y + k / 5 - 2;
+        if (u < 0 || v < 0 || u >= job->width || v >= job->height) {
+            continue;
+        }
+        ptrdiff_t i = (ptrdiff_t)v * job->width + u;
+        out->depth[k / 5][k % 5] = job->filled[i];
+        for (int32_t n = 0; n < 3; n++) {
+            out->normal[n][k / 5][k % 5] = job->out[n][i];
         }
     }
-    return sum;
-}
-
-static normal_sum add_cut_window(const rlf_normals_job *job, ptrdiff_t i, int32_t x, int32_t y)
-{
-    int32_t right = job->width - 1 - x, down = job->height - 1 - y;
-    return add_window(job, i, x < 2 ? -x : -2, right < 2 ? right : 2, y < 2 ? -y : -2,
-                      down < 2 ? down : 2);
 }
 
 /* Mean of the normals within two pixels at the same depth. */
 static bool from_neighbours(const rlf_normals_job *job, int32_t x, int32_t y)
 {
-    ptrdiff_t i = (ptrdiff_t)y * job->width + x;
-    bool whole = x >= 2 && y >= 2 && x + 2 < job->width && y + 2 < job->height;
-    normal_sum sum = whole ? add_window(job, i, -2, 2, -2, 2) : add_cut_window(job, i, x, y);
-    rlf_vec3 mean = rlf_normalize(rlf_vec3_make(sum.x, sum.y, sum.z));
+    ptrdiff_t i = (ptrdiff_t)y * job->width + x, corner = i - 2 * (ptrdiff_t)job->width - 2;
+    bool inside = x >= 2 && y >= 2 && x - 2 + RLF_NEAR_LANES <= job->width && y + 2 < job->height;
+    rlf_kernel_near about;
+    near_copy copy;
+    float sum[3];
+    if (inside) {
+        about =
+            (rlf_kernel_near){job->filled + corner,
+                              {job->out[0] + corner, job->out[1] + corner, job->out[2] + corner},
+                              job->width};
+    } else {
+        copy_near(job, x, y, &copy);
+        about = (rlf_kernel_near){copy.depth[0],
+                                  {copy.normal[0][0], copy.normal[1][0], copy.normal[2][0]},
+                                  RLF_NEAR_LANES};
+    }
+    rlf_kernel_near_normal(&about, sum);
+    rlf_vec3 mean = rlf_normalize(rlf_vec3_make(sum[0], sum[1], sum[2]));
     rlf_vec3 ray = {job->ray_x[i], job->ray_y[i], 1.0};
     if (!(rlf_dot(mean, ray) < 0.0)) {
         return false;
@@ -82,35 +86,24 @@ static bool from_neighbours(const rlf_normals_job *job, int32_t x, int32_t y)
     return true;
 }
 
-static int32_t is_without(const rlf_normals_job *job, ptrdiff_t i)
+static bool is_without(const rlf_normals_job *job, ptrdiff_t i)
 {
-    int32_t none = (job->out[0][i] == 0.0f) & (job->out[1][i] == 0.0f) & (job->out[2][i] == 0.0f);
-    return none & (job->filled[i] > 0.0f);
+    return job->out[0][i] == 0.0f && job->out[1][i] == 0.0f && job->out[2][i] == 0.0f;
 }
 
-static void complete_span(const rlf_normals_job *job, int32_t y, int32_t begin, int32_t end)
-{
-    for (int32_t x = begin; x < end; x++) {
-        bool missing = is_without(job, (ptrdiff_t)y * job->width + x);
-        if (missing && !from_neighbours(job, x, y)) {
-            rlf_normals_slope_pixel(job, x, y);
-        }
-    }
-}
-
-/* Most spans have nothing to do, which is found without a branch. */
 static void complete_row(const rlf_normals_job *job, int32_t y)
 {
-    enum { SPAN = 32 };
+    enum { SPAN = 512 };
     ptrdiff_t row = (ptrdiff_t)y * job->width;
     for (int32_t begin = 0; begin < job->width; begin += SPAN) {
-        int32_t end = begin + SPAN < job->width ? begin + SPAN : job->width;
-        int32_t missing = 0;
-        for (int32_t x = begin; x < end; x++) {
-            missing += is_without(job, row + x);
-        }
-        if (missing > 0) {
-            complete_span(job, y, begin, end);
+        uint8_t bare[SPAN];
+        int32_t count = begin + SPAN < job->width ? SPAN : job->width - begin;
+        rlf_kernel_bare_row(job->filled + row + begin, job->out[2] + row + begin, count, bare);
+        for (int32_t k = 0; (k = rlf_kernel_next_mark(bare, k, count)) < count; k++) {
+            int32_t x = begin + k;
+            if (is_without(job, row + x) && !from_neighbours(job, x, y)) {
+                rlf_normals_slope_pixel(job, x, y);
+            }
         }
     }
 }

@@ -241,6 +241,36 @@ static void body_mean_row_is_its_definition(void **state)
     }
 }
 
+static void near_normal_is_its_definition(void **state)
+{
+    (void)state;
+    static const double nearness[9] = {0, 1, 0.5, 0, 0.25, 0.2, 0, 0, 0.125};
+    analytic_random r = {12};
+    for (int t = 0; t < 200; t++) {
+        float depth[5][RLF_NEAR_LANES], normal[3][5][RLF_NEAR_LANES], out[3];
+        for (int32_t k = 0; k < 5 * RLF_NEAR_LANES; k++) {
+            double u = random_uniform(&r);
+            depth[k / RLF_NEAR_LANES][k % RLF_NEAR_LANES] = (float)(u < 0.6 ? 2.0 + 0.01 * u : 3.0);
+            for (int n = 0; n < 3; n++) {
+                normal[n][k / RLF_NEAR_LANES][k % RLF_NEAR_LANES] =
+                    (float)(random_uniform(&r) - 0.5);
+            }
+        }
+        const rlf_kernel_near about = {
+            depth[0], {normal[0][0], normal[1][0], normal[2][0]}, RLF_NEAR_LANES};
+        rlf_kernel_near_normal(&about, out);
+        for (int n = 0; n < 3; n++) {
+            double sum = 0.0;
+            for (int k = 0; k < 25; k++) {
+                int dx = k % 5 - 2, dy = k / 5 - 2;
+                bool same = near_enough(depth[k / 5][k % 5], depth[2][2], 0.02f * depth[2][2]);
+                sum += same ? nearness[dx * dx + dy * dy] * (double)normal[n][k / 5][k % 5] : 0.0;
+            }
+            assert_true(rlf_max(out[n] - sum, sum - out[n]) < 1e-6);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -250,6 +280,7 @@ int main(void)
         cmocka_unit_test(background_row_follows_the_evidence),
         cmocka_unit_test(plane_tile_stays_in_its_tile),
         cmocka_unit_test(body_mean_row_is_its_definition),
+        cmocka_unit_test(near_normal_is_its_definition),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
