@@ -10,12 +10,18 @@
 #define EVENTS_PER_GROUP 4
 /* Gap at which a contact of the same group takes part in an impact, metres. */
 #define TOGETHER 2e-4
+/* Passes over the contacts of a group, until no speed changes by more than a share of the blow's.
+ */
+#define PASSES 12
+#define SETTLED 1e-7
 
 /* The groups of an island that have an event, by their keys: pairs, then bodies' surfaces. */
 typedef struct event_list {
     rlf_world *world;
     double h;
-    int32_t *keys; /* a part of world->pending */
+    const phys_group *groups; /* of the island, those that may touch: pairs first */
+    int32_t pair_begin;       /* of the island */
+    int32_t *keys;            /* a part of world->pending */
     int32_t count;
 } event_list;
 
@@ -57,7 +63,7 @@ static void sides_store(const phys_sides *s, const phys_group *g)
 }
 
 /* Velocity of a's point as b or the surface sees it. */
-static rlf_vec3 relative_velocity(const phys_contact *c, const phys_sides *s, bool has_b)
+static inline rlf_vec3 relative_velocity(const phys_contact *c, const phys_sides *s, bool has_b)
 {
     rlf_vec3 of_a = rlf_add(s->v_a, rlf_cross(s->w_a, c->r_a));
     return rlf_sub(of_a, has_b ? rlf_add(s->v_b, rlf_cross(s->w_b, c->r_b)) : c->surface_velocity);
@@ -212,7 +218,8 @@ static impact_row row_make(const phys_contact *c, const phys_group *g, const phy
     return row;
 }
 
-static void row_push(impact_row *row, phys_sides *s, double impulse)
+/* Returns by how much the point's speed along the row changed, m/s. */
+static inline double row_push(impact_row *row, phys_sides *s, double impulse)
 {
     double change = impulse - row->impulse;
     s->v_a = rlf_mad(s->v_a, row->direction, change * s->mobility_a);
@@ -220,6 +227,7 @@ static void row_push(impact_row *row, phys_sides *s, double impulse)
     s->v_b = rlf_mad(s->v_b, row->direction, -change * s->mobility_b);
     s->w_b = rlf_mad(s->w_b, row->spin_b, -change);
     row->impulse = impulse;
+    return (change < 0.0 ? -change : change) / row->mass;
 }
 
 /* A contact that takes part in an impact. */
@@ -229,19 +237,21 @@ typedef struct impact_point {
     impact_row rows[3];
 } impact_point;
 
-/* One pass: the normal's row, then friction within the cone that its impulse allows. */
-static void solve_point(impact_point *p, phys_sides *s, bool has_b)
+/* One pass: the normal's row, then friction within the cone that its impulse allows. Returns the
+ * largest change of speed, m/s. */
+static double solve_point(impact_point *p, phys_sides *s, bool has_b)
 {
     impact_row *rows = p->rows;
     double v = rlf_dot(rows[0].direction, relative_velocity(p->contact, s, has_b));
-    row_push(&rows[0], s, rlf_max(0.0, rows[0].impulse + rows[0].mass * (p->target - v)));
+    double blow = rlf_max(0.0, rows[0].impulse + rows[0].mass * (p->target - v));
+    double most = row_push(&rows[0], s, blow);
     rlf_vec3 slip = relative_velocity(p->contact, s, has_b);
     double j0 = rows[1].impulse - rows[1].mass * rlf_dot(rows[1].direction, slip);
     double j1 = rows[2].impulse - rows[2].mass * rlf_dot(rows[2].direction, slip);
     double limit = p->contact->friction * rows[0].impulse, length2 = j0 * j0 + j1 * j1;
     double scale = length2 > limit * limit ? limit / sqrt(length2) : 1.0;
-    row_push(&rows[1], s, j0 * scale);
-    row_push(&rows[2], s, j1 * scale);
+    most = rlf_max(most, row_push(&rows[1], s, j0 * scale));
+    return rlf_max(most, row_push(&rows[2], s, j1 * scale));
 }
 
 /* Those of the group's contacts that close at time t. */
@@ -267,6 +277,20 @@ static int32_t list_points(const phys_group *g, const phys_sides *s, double t, i
     return count;
 }
 
+static void solve_points(impact_point *points, int32_t count, phys_sides *s, bool has_b)
+{
+    double fastest = 0.0, change = 1e30;
+    for (int32_t i = 0; i < count; i++) {
+        fastest = rlf_max(fastest, points[i].approach);
+    }
+    for (int32_t pass = 0; pass < PASSES && change > SETTLED * fastest; pass++) {
+        change = 0.0;
+        for (int32_t i = 0; i < count; i++) {
+            change = rlf_max(change, solve_point(&points[i], s, has_b));
+        }
+    }
+}
+
 /* All contacts that close at time t answer together: the normal velocities after are those before
  * times -restitution, found by sequential impulses within the group. */
 static void answer(phys_group *g, double t)
@@ -275,9 +299,7 @@ static void answer(phys_group *g, double t)
     phys_sides s = sides_load(g);
     const phys_sides before = s;
     int32_t count = list_points(g, &s, t, points);
-    for (int32_t i = 0; i < 12 * count; i++) {
-        solve_point(&points[i % count], &s, g->b != NULL);
-    }
+    solve_points(points, count, &s, g->b != NULL);
     limit_energy(g, &before, &s, t);
     sides_store(&s, g);
     for (int32_t i = 0; i < count; i++) {
@@ -325,24 +347,24 @@ static void carry_gaps(const phys_group *g)
     }
 }
 
-static void link_pair(rlf_world *world, int32_t body, int32_t link)
+static void link_pair(rlf_world *world, const phys_body *body, int32_t link)
 {
-    if (phys_body_is_moving(&world->bodies[body])) {
-        world->pair_next[link] = world->pair_head[body];
-        world->pair_head[body] = link;
+    if (phys_body_is_moving(body)) {
+        int32_t index = (int32_t)(body - world->bodies);
+        world->pair_next[link] = world->pair_head[index];
+        world->pair_head[index] = link;
     }
 }
 
-/* Lists of the pairs of each body, so that a bounce asks only its neighbours again. */
-static void link_pairs(rlf_world *world, const phys_island *island)
+/* Lists of the pairs of each body that may touch, so that a bounce asks only its neighbours. */
+static void link_pairs(const event_list *list, const phys_island *island, int32_t count)
 {
     for (int32_t i = island->body_begin; i < island->body_end; i++) {
-        world->pair_head[world->island_bodies[i]] = -1;
+        list->world->pair_head[list->world->island_bodies[i]] = -1;
     }
-    for (int32_t k = island->pair_begin; k < island->pair_end; k++) {
-        int32_t index = world->island_pairs[k];
-        link_pair(world, world->pairs[index].a, 2 * index);
-        link_pair(world, world->pairs[index].b, 2 * index + 1);
+    for (int32_t k = 0; k < count && list->groups[k].b != NULL; k++) {
+        link_pair(list->world, list->groups[k].a, 2 * (list->pair_begin + k));
+        link_pair(list->world, list->groups[k].b, 2 * (list->pair_begin + k) + 1);
     }
 }
 
@@ -369,8 +391,7 @@ static void look_at_body(event_list *list, const phys_body *body)
     phys_group g = phys_group_of_body(world, index);
     look_at_group(list, &g);
     for (int32_t k = world->pair_head[index]; k >= 0; k = world->pair_next[k]) {
-        g = phys_group_of_pair(world, k / 2);
-        look_at_group(list, &g);
+        look_at_group(list, &list->groups[k / 2 - list->pair_begin]);
     }
 }
 
@@ -396,7 +417,8 @@ static int32_t take_first(event_list *list)
 void phys_solve_impacts(rlf_world *world, const phys_island *island, const phys_group *groups,
                         int32_t count, double h)
 {
-    event_list list = {world, h, world->pending + island->pair_begin + island->body_begin, 0};
+    int32_t *keys = world->pending + island->pair_begin + island->body_begin;
+    event_list list = {world, h, groups, island->pair_begin, keys, 0};
     for (int32_t k = 0; k < count; k++) {
         world->event_counts[groups[k].key] = 0;
         world->event_times[groups[k].key] = NO_EVENT;
@@ -405,7 +427,7 @@ void phys_solve_impacts(rlf_world *world, const phys_island *island, const phys_
     if (list.count == 0) {
         return;
     }
-    link_pairs(world, island);
+    link_pairs(&list, island, count);
     for (int32_t first = take_first(&list); first >= 0; first = take_first(&list)) {
         phys_group hit = group_at(&list, first);
         world->event_counts[first]++;

@@ -91,7 +91,8 @@ struct rlf_world {
     int32_t *event_counts; /* of this substep */
     int32_t *pending;      /* groups that have an event; island by island */
     int32_t *pair_head;    /* first link of each body's list of pairs, -1 = none */
-    int32_t *pair_next;    /* link 2 k is pair k as seen from its a, 2 k + 1 from its b */
+    int32_t *pair_next;    /* link 2 k is an island's k-th group as its a sees it, 2 k + 1: its b;
+                              counted from the island's pair_begin */
 
     phys_touch *touches, *old_touches; /* of this advance and the one before, sorted by key */
     int32_t touch_count, old_touch_count;
