@@ -198,18 +198,20 @@ static rlf_result read_motion(const io_json_object *body, rlf_body_def *def)
 
 static rlf_result read_material(const io_json_object *body, rlf_body_def *def)
 {
-    static const io_json_field fields[5] = {
+    static const io_json_field fields[6] = {
         {"mass", "a number of kg, > 0 and at most 1e6", IO_POSITIVE, 1e6, false},
         {"restitution", "a number from 0 to 1", 0, 1, false},
         {"friction", "a number >= 0 and at most 1000", 0, 1000, false},
+        {"rolling_resistance", "a number >= 0 and at most 1000", 0, 1000, false},
         {"gravity_scale", "a number from -1000 to 1000", -1000, 1000, false},
         {"release_time", "a number of seconds, >= 0 and at most 1e6", 0, 1e6, false}};
     static const io_json_field collides = {"collides_with_bodies", "true or false", 0, 0, false};
     static const io_json_field color = {"color", "three numbers from 0 to 1 (red, green, blue)", 0,
                                         1, false};
-    double *const targets[5] = {&def->mass, &def->restitution, &def->friction, &def->gravity_scale,
-                                &def->release_time};
-    for (int i = 0; i < 5; i++) {
+    double *const targets[6] = {&def->mass,          &def->restitution,
+                                &def->friction,      &def->rolling_resistance,
+                                &def->gravity_scale, &def->release_time};
+    for (int i = 0; i < 6; i++) {
         rlf_result result = io_json_get_number(body, &fields[i], targets[i]);
         if (result != RLF_OK) {
             return result;
@@ -241,6 +243,7 @@ static rlf_result read_body(const io_json_object *body, const char *folder, rlf_
                                         "angular_velocity",
                                         "restitution",
                                         "friction",
+                                        "rolling_resistance",
                                         "gravity_scale",
                                         "release_time",
                                         "collides_with_bodies",

@@ -35,16 +35,17 @@ static void empty_scene_has_default_gravity(void **state)
 static void every_key_is_read(void **state)
 {
     (void)state;
-    test_write_text("scene.json",
-                    "{\"gravity\":[1,2,3],\"bodies\":["
-                    "{\"name\":\"crate, \\\"big\\\"\",\"shape\":\"box\",\"size\":[0.1,0.2,0.3],"
-                    "\"mass\":2,\"position\":[4,5,6],\"orientation\":[0,0,0.7071,0.7071],"
-                    "\"velocity\":[7,8,9],\"angular_velocity\":[10,11,12],\"restitution\":0.25,"
-                    "\"friction\":0.75,\"gravity_scale\":-1,\"release_time\":1.5,"
-                    "\"collides_with_bodies\":false,\"color\":[0,0.5,1]},"
-                    "{\"shape\":\"sphere\",\"radius\":0.05},"
-                    "{\"shape\":\"capsule\",\"radius\":0.06,\"height\":0.3},"
-                    "{\"shape\":\"cylinder\",\"radius\":0.07,\"height\":0.4},{}]}");
+    test_write_text(
+        "scene.json",
+        "{\"gravity\":[1,2,3],\"bodies\":["
+        "{\"name\":\"crate, \\\"big\\\"\",\"shape\":\"box\",\"size\":[0.1,0.2,0.3],"
+        "\"mass\":2,\"position\":[4,5,6],\"orientation\":[0,0,0.7071,0.7071],"
+        "\"velocity\":[7,8,9],\"angular_velocity\":[10,11,12],\"restitution\":0.25,"
+        "\"friction\":0.75,\"rolling_resistance\":0.02,\"gravity_scale\":-1,\"release_time\":1.5,"
+        "\"collides_with_bodies\":false,\"color\":[0,0.5,1]},"
+        "{\"shape\":\"sphere\",\"radius\":0.05},"
+        "{\"shape\":\"capsule\",\"radius\":0.06,\"height\":0.3},"
+        "{\"shape\":\"cylinder\",\"radius\":0.07,\"height\":0.4},{}]}");
     rlf_scene scene;
     assert_int_equal(rlf_scene_load(test_path("scene.json"), &scene), RLF_OK);
     assert_int_equal(scene.body_count, 5);
@@ -56,6 +57,7 @@ static void every_key_is_read(void **state)
     assert_true(b[0].mass == 2 && b[0].position.y == 5 && b[0].velocity.z == 9);
     assert_true(b[0].angular_velocity.x == 10 && b[0].restitution == 0.25);
     assert_true(b[0].friction == 0.75 && b[0].gravity_scale == -1 && b[0].release_time == 1.5);
+    assert_true(b[0].rolling_resistance == 0.02);
     assert_false(b[0].collides_with_bodies);
     assert_true(b[0].color[0] == 0.0F && b[0].color[1] == 0.5F && b[0].color[2] == 1.0F);
     double norm = b[0].orientation.z * b[0].orientation.z + b[0].orientation.w * b[0].orientation.w;
@@ -99,6 +101,8 @@ static const struct {
      "bodies[1].orientation has the length 0", "unit length"},
     {BODY("{\"restitution\":1.1}"), RLF_ERROR_INVALID, "bodies[1].restitution is 1.1", "0 to 1"},
     {BODY("{\"friction\":-0.1}"), RLF_ERROR_INVALID, "bodies[1].friction is -0.1", ">= 0"},
+    {BODY("{\"rolling_resistance\":-1}"), RLF_ERROR_INVALID, "bodies[1].rolling_resistance is -1",
+     ">= 0"},
     {BODY("{\"release_time\":-1}"), RLF_ERROR_INVALID, "bodies[1].release_time is -1", ">= 0"},
     {BODY("{\"color\":[0,0,255]}"), RLF_ERROR_INVALID, "bodies[1].color is 255", "0 to 1"},
     {BODY("{\"collides_with_bodies\":1}"), RLF_ERROR_INVALID,
