@@ -89,21 +89,24 @@ static void print_rows(const shower *showers, const options *o, const room *r)
 {
     printf("synthetic room, %dx%d, %.0f s, %d worker(s); ms per 1/60 s\n", (int)r->grid.width,
            (int)r->grid.height, o->seconds, (int)o->workers);
-    printf("%7s %8s %8s %8s %8s | %7s %7s %7s %7s %7s %7s %7s | %6s %5s %6s\n", "cubes", "median",
-           "p95", "worst", "busiest", "wake", "surface", "pairs", "impact", "solve", "move", "rest",
-           "asleep", "lost", "allocs");
+    printf("%7s %8s %8s %8s %8s | %7s %7s %7s %7s %7s %7s %7s | %6s %5s %6s %6s\n", "cubes",
+           "median", "p95", "worst", "busiest", "wake", "surface", "pairs", "impact", "solve",
+           "move", "rest", "asleep", "lost", "hidden", "allocs");
     for (int32_t i = 0; i < o->count_count; i++) {
         const shower *s = &showers[i];
         const rlf_world_times *t = &s->times;
         double n = s->step_count;
         printf("%7d %8.3f %8.3f %8.3f %8.3f | %7.3f %7.3f %7.3f %7.3f %7.3f %7.3f %7.3f | %6d %5d "
-               "%6d\n",
+               "%6d %6d\n",
                (int)s->count, shower_percentile(s, 50), shower_percentile(s, 95),
                shower_percentile(s, 100), shower_busiest_second(s), t->wake_ms / n,
                t->surface_ms / n, t->pairs_ms / n, t->impacts_ms / n, t->solve_ms / n,
                t->move_ms / n, (t->sleep_ms + t->publish_ms) / n, (int)s->asleep_count,
-               (int)s->lost_count, (int)s->alloc_count);
+               (int)s->lost_count, (int)s->hidden_count, (int)s->alloc_count);
     }
+    printf(
+        "lost: 0.3 s or more inside floor, walls or furniture, or gone; hidden: those of them that "
+        "are where no picture shows it\n");
     printf("median, p95, worst: of all steps; busiest: mean of the costliest second; the parts are "
            "means\n");
 }
@@ -122,10 +125,11 @@ static int write_json(const shower *showers, const options *o)
         fprintf(
             file,
             "%s\n    {\"cubes\": %d, \"median_ms\": %.4f, \"p95_ms\": %.4f, \"worst_ms\": %.4f, "
-            "\"busiest_ms\": %.4f, \"asleep\": %d, \"lost\": %d, \"allocs\": %d}",
+            "\"busiest_ms\": %.4f, \"asleep\": %d, \"lost\": %d, \"hidden\": %d, "
+            "\"allocs\": %d}",
             i > 0 ? "," : "", (int)s->count, shower_percentile(s, 50), shower_percentile(s, 95),
             shower_percentile(s, 100), shower_busiest_second(s), (int)s->asleep_count,
-            (int)s->lost_count, (int)s->alloc_count);
+            (int)s->lost_count, (int)s->hidden_count, (int)s->alloc_count);
     }
     fprintf(file, "\n  ]\n}\n");
     return fclose(file) == 0 ? 0 : 1;

@@ -30,7 +30,8 @@ typedef struct shower {
     bool is_alone;         /* one worker */
     rlf_world_times times; /* sums */
     int32_t asleep_count, lost_count, alloc_count;
-    int32_t *inside; /* per body: frames inside something that stays */
+    int32_t hidden_count; /* of the lost: in what no picture shows */
+    int32_t *inside;      /* per body: frames inside something that stays */
 } shower;
 
 bool shower_open(shower *s, int32_t count, double seconds, rlf_pool *pool);

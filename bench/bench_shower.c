@@ -130,6 +130,25 @@ static void advance(shower *s, const rlf_grid *grid)
     s->times.publish_ms += t.publish_ms;
 }
 
+/* Whether the picture shows p to be in the solid of what stays: from its front to the depth that is
+ * taken for its back. What else is solid there in truth, something hides. */
+static bool is_seen_solid(const rlf_grid *grid, rlf_vec3 p)
+{
+    const rlf_grid_sheet *sheet = &grid->background;
+    double u, v;
+    if (!grid->project(grid->project_context, p, &u, &v)) {
+        return false;
+    }
+    int32_t x = (int32_t)(u + 0.5), y = (int32_t)(v + 0.5);
+    if (x < 0 || y < 0 || x >= grid->width || y >= grid->height) {
+        return false;
+    }
+    int32_t i = y * grid->width + x;
+    double back = sheet->thickness != NULL ? (double)sheet->thickness[i] : sheet->default_thickness;
+    double front = (double)sheet->depth[i];
+    return front > 0.0 && p.z > front && p.z < front + back;
+}
+
 static void report_loss(const shower *s, const rlf_body_state *body, int32_t label, double distance)
 {
     rlf_vec3 p = body->T_world_body.p;
@@ -157,6 +176,7 @@ static void count_losses(shower *s, room *r)
         *inside = is_inside || *inside >= LOST_FRAMES ? *inside + 1 : 0;
         s->lost_count += *inside >= LOST_FRAMES;
         if (*inside == LOST_FRAMES) {
+            s->hidden_count += !is_seen_solid(&r->grid, body->T_world_body.p);
             report_loss(s, body, label, distance);
         }
         s->asleep_count += body->is_asleep;
