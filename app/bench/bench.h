@@ -30,7 +30,7 @@ void bench_add_series(bench_table *table, const char *group, const char *name,
 /* NULL when there is none. */
 const bench_row *bench_find(const bench_table *table, const char *group, const char *name);
 
-/* ---- bench_floor.c -------------------------------------------------------------------------- */
+/* ---- floor.c ------------------------------------------------------------------------------- */
 
 /* Bytes per pixel that the floor reads (the 16-bit depth) and writes (what a surface tells about a
  * frame: depth, normal, velocity, thickness, label, reason, foreground). */
@@ -52,14 +52,14 @@ void bench_floor_close(bench_floor *f);
 /* One repeat. */
 void bench_floor_run(bench_floor *f);
 
-/* ---- bench_memory.c ------------------------------------------------------------------------- */
+/* ---- memory.c ------------------------------------------------------------------------------ */
 
 /* From now on all memory of the library is counted. Before anything is allocated. */
 void bench_memory_start(void);
 /* Bytes that are allocated now. */
 int64_t bench_memory_now(void);
 
-/* ---- bench_source.c: an analytic room of any size -------------------------------------------- */
+/* ---- source.c: an analytic room of any size ------------------------------------------------- */
 
 typedef struct bench_room {
     int32_t width, height;
@@ -83,16 +83,16 @@ typedef struct bench_options {
     bool is_quick;          /* no sweeps */
 } bench_options;
 
-/* bench_cases.c: every stage of both profiles at scale factors 1 and 8, beside the floor; the steps
+/* cases.c: every stage of both profiles at scale factors 1 and 8, beside the floor; the steps
  * of the surface stage; memory. */
 rlf_result bench_cases_run(const bench_options *o, bench_table *table);
 void bench_cases_print(const bench_options *o, const bench_table *table);
 
-/* bench_sweep.c: cost against resolution, regions, people and bodies. */
+/* sweep.c: cost against resolution, regions, people and bodies. */
 rlf_result bench_sweeps_run(const bench_options *o, bench_table *table);
 void bench_sweeps_print(const bench_table *table);
 
-/* bench_json.c: the rows, and `peers` (taken over; NULL = none were asked for). */
+/* json.c: the rows, and `peers` (taken over; NULL = none were asked for). */
 rlf_result bench_write_json(const bench_options *o, const bench_table *table, json_t *peers);
 /* Whether a file is one that can be compared with. */
 rlf_result bench_compare_check(const char *path);

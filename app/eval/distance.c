@@ -7,7 +7,7 @@
 
 #define FIRST_M 0.5f
 #define PER_METRE 2.0f
-#define GROSS_M 0.04 /* the other side of an edge, as in eval_depth.c */
+#define GROSS_M 0.04 /* the other side of an edge, as in depth.c */
 
 typedef struct distance_name {
     const char *key, *title;

@@ -1,4 +1,4 @@
-/* The experiments of eval_physics.c, by what they need. */
+/* The experiments of physics.c, by what they need. */
 #ifndef RELIEF_APP_EVAL_PHYSICS_H
 #define RELIEF_APP_EVAL_PHYSICS_H
 

@@ -15,7 +15,7 @@ int eval_picture_main(int64_t frame_count, int64_t seed_count, const char *json_
  * live, the thesis's layers for profile thesis. */
 rlf_result eval_picture_run(eval_table *table, int64_t seed, int profile_mask);
 
-/* ---- eval_picture_truth.c: what the colour camera ought to see ------------------------------- */
+/* ---- picture_truth.c: what the colour camera ought to see ------------------------------------ */
 
 /* Pixels that bodies cover whole, and what hides them. */
 typedef struct picture_truth {
@@ -41,7 +41,7 @@ void picture_truth_finish(picture_truth *t);
 /* The truth of the source's last frame. */
 rlf_result picture_truth_update(picture_truth *t, rlf_source *source);
 
-/* ---- eval_picture_edges.c: how far a matte is off -------------------------------------------- */
+/* ---- picture_edges.c: how far a matte is off ------------------------------------------------- */
 
 /* Distances between edges, in bins of 1/40 pixel. */
 typedef struct picture_distances {

@@ -1,14 +1,10 @@
 /* The rows of section "sensed". */
+#include "eval/eval.h"
 #include "eval/sensed.h"
 
 #define THROWS 200 /* per seed and row: 5 seeds make 1000 */
 
 #define ADD(key, title, value) eval_table_add(table, "sensed", key, title, profile, value)
-
-static double percent(int64_t part, int64_t whole)
-{
-    return whole > 0 ? 100.0 * (double)part / (double)whole : 0.0;
-}
 
 static rlf_result add_static_throws(eval_table *table, rlf_profile profile, uint64_t seed)
 {
@@ -60,12 +56,12 @@ static rlf_result add_aimed(eval_table *table, rlf_profile profile, uint64_t see
     rlf_result result = eval_sensed_throw(&def, &o);
     if (result == RLF_OK && is_edge) {
         ADD("edge_bounced_percent", "EDGE: bounced off a book's edge, %",
-            percent(o.bounced, o.thrown));
-        ADD("edge_passed_percent", "  went through, %", percent(o.passed, o.thrown));
+            eval_percent(o.bounced, o.thrown));
+        ADD("edge_passed_percent", "  went through, %", eval_percent(o.passed, o.thrown));
     } else if (result == RLF_OK) {
         ADD("behind_bounced_percent", "BEHIND: bounced off a person's back, %",
-            percent(o.bounced, o.thrown));
-        ADD("behind_passed_percent", "  went through, %", percent(o.passed, o.thrown));
+            eval_percent(o.bounced, o.thrown));
+        ADD("behind_passed_percent", "  went through, %", eval_percent(o.passed, o.thrown));
     }
     return result;
 }
@@ -82,14 +78,14 @@ static rlf_result add_realism(eval_table *table, rlf_profile profile, uint64_t s
     rlf_result result = eval_sensed_throw(&def, &o);
     if (result == RLF_OK) {
         ADD("realism_percent", "REALISM: bounces within 10 deg of a true one, %",
-            percent(o.right_nearby, o.bounces));
+            eval_percent(o.right_nearby, o.bounces));
         ADD("realism_exact_percent", "  of the true one of that very throw, %",
-            percent(o.right, o.bounces));
-        ADD("realism_phantom_percent", "REALISM: off nothing, %", percent(o.phantom, o.bounces));
+            eval_percent(o.right, o.bounces));
+        ADD("realism_phantom_percent", "REALISM: off nothing, %", eval_percent(o.phantom, o.bounces));
         ADD("realism_missed_percent", "REALISM: none where truth has one, %",
-            percent(o.missed, o.bounces));
+            eval_percent(o.missed, o.bounces));
         ADD("realism_hidden_percent", "  off what the camera cannot see: within 10 deg, %",
-            percent(o.hidden_right, o.hidden));
+            eval_percent(o.hidden_right, o.hidden));
     }
     return result;
 }

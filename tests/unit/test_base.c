@@ -90,10 +90,21 @@ static void parallel_for_covers_the_range_once(void **state)
     assert_int_equal(rlf_pool_create(-1, &pool), RLF_ERROR_INVALID);
 }
 
+static void instruction_set_has_a_name(void **state)
+{
+    (void)state;
+    const char *name = rlf_isa_name();
+    bool is_known = strcmp(name, "AVX-512 (x86-64-v4)") == 0 || strcmp(name, "AVX2") == 0 ||
+                    strcmp(name, "portable") == 0;
+    assert_true(is_known);
+    assert_ptr_equal(rlf_isa_name(), name);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(error_line_is_one_line),
+        cmocka_unit_test(instruction_set_has_a_name),
         cmocka_unit_test(allocations_are_aligned_zeroed_and_counted),
         cmocka_unit_test(failed_assertion_is_a_safe_no_op),
         cmocka_unit_test(parallel_for_covers_the_range_once),

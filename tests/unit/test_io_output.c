@@ -315,6 +315,30 @@ static void folders_are_made_with_their_parents(void **state)
     test_expect_error(rlf_make_folder(""), RLF_ERROR_INVALID, "\"\"", "not a usable", "give");
 }
 
+/* A file is there whole or as it was; a check changes nothing. */
+static void bytes_are_written_whole(void **state)
+{
+    (void)state;
+    assert_int_equal(rlf_file_check(test_path("bytes")), RLF_OK);
+    assert_false(test_exists(test_path("bytes")));
+    assert_false(test_exists(test_path("bytes.part")));
+    assert_int_equal(rlf_file_write(test_path("bytes"), "old", 3), RLF_OK);
+    assert_int_equal(rlf_file_check(test_path("bytes")), RLF_OK);
+    size_t size;
+    char *text = test_read(test_path("bytes"), &size);
+    assert_int_equal(size, 3);
+    assert_memory_equal(text, "old", 3);
+    free(text);
+    assert_int_equal(rlf_file_write(test_path("bytes"), "", 0), RLF_OK);
+    test_expect_error(rlf_file_check(test_path("no/bytes")), RLF_ERROR_IO, "no/bytes",
+                      "cannot be created", "choose a folder");
+    test_expect_error(rlf_file_write(test_path("no/bytes"), "x", 1), RLF_ERROR_IO, "no/bytes",
+                      "cannot be created", "choose a folder");
+    assert_int_equal(rlf_file_check("/dev/null"), RLF_OK);
+    assert_int_equal(rlf_file_write("/dev/null", "x", 1), RLF_OK);
+    assert_false(test_exists("/dev/null.part"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -328,6 +352,7 @@ int main(void)
         cmocka_unit_test(full_disk_fails_the_log),
         cmocka_unit_test(unwritable_places_are_named),
         cmocka_unit_test(folders_are_made_with_their_parents),
+        cmocka_unit_test(bytes_are_written_whole),
     };
     return cmocka_run_group_tests(tests, test_folder_make, test_folder_remove);
 }
