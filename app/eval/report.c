@@ -58,15 +58,17 @@ static void print_row(const eval_row *row, const eval_bound *bound, bool is_whol
     const char *mark = "";
     if (bound != NULL && row->count[RLF_PROFILE_LIVE] > 0) {
         eval_verdict verdict = judge(row, bound);
+        bool is_short = verdict == EVAL_WITHIN_BOUND && !isnan(bound->goal);
         mark = is_outside(verdict, is_whole) ? eval_verdict_name(EVAL_OUTSIDE)
+               : is_short                    ? "SHORT of the goal"
                                              : eval_verdict_name(verdict);
     }
-    printf("  %-46s %10s  %-18s %-18s %10s %s\n", row->title, goal, live, thesis, limit, mark);
+    printf("  %-54s %10s  %-18s %-18s %10s %s\n", row->title, goal, live, thesis, limit, mark);
 }
 
 static void print_table(const eval_table *table, const eval_report_options *o)
 {
-    printf("%-48s %10s  %-18s %-18s %10s\n", "figure: mean over seeds +- 95 % confidence", "goal",
+    printf("%-56s %10s  %-18s %-18s %10s\n", "figure: mean over seeds +- 95 % confidence", "goal",
            "live", "thesis", "bound");
     const char *scene = "";
     for (int32_t i = 0; i < table->count; i++) {

@@ -81,7 +81,8 @@ static rlf_result add_realism(eval_table *table, rlf_profile profile, uint64_t s
             eval_percent(o.right_nearby, o.bounces));
         ADD("realism_exact_percent", "  of the true one of that very throw, %",
             eval_percent(o.right, o.bounces));
-        ADD("realism_phantom_percent", "REALISM: off nothing, %", eval_percent(o.phantom, o.bounces));
+        ADD("realism_phantom_percent", "REALISM: off nothing, %",
+            eval_percent(o.phantom, o.bounces));
         ADD("realism_missed_percent", "REALISM: none where truth has one, %",
             eval_percent(o.missed, o.bounces));
         ADD("realism_hidden_percent", "  off what the camera cannot see: within 10 deg, %",
