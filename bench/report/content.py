@@ -192,6 +192,8 @@ def timing(data):
     blocks = [Text("Goals first. Thesis: 10 frames a second at 64x53 with two cubes, 3.4 GHz Xeon, capture and drawing "
                    "included. Other systems: measured or published elsewhere, at 512x424 and one thread unless "
                    "said; those measured here stand above, where results were given."), speed.table(data)]
+    if data.physics:
+        blocks.append(Text(f"The cubes of bench_physics fall for {data.physics['seconds']:g} s.", True))
     if data.bench:
         stages = [r for r in data.bench_rows("live_1") if r["name"] in ("capture", "surface", "physics", "render")]
         steps = [r for r in data.bench_rows("live_1") if r["name"].startswith("surface/")]
