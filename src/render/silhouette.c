@@ -8,6 +8,7 @@
 
 #define STEADY_SHARE 4 /* a still pixel moves by a quarter of the way to its new cover */
 #define BESIDE 2       /* lines */
+#define MARGIN_M 0.1f  /* bodies so near to an edge's sides fade there, or the sides slope */
 #define STEADY_LIGHT 5 /* steps of the mean colour that noise may change */
 
 /* ---- create --------------------------------------------------------------------------------- */
@@ -167,19 +168,33 @@ RLF_KERNEL static bool has_jump(const float *a, const float *b, int32_t count)
     return any != 0;
 }
 
+/* A jump that matters to bodies: they are not all before, nor all behind both of its sides. */
+RLF_KERNEL_PART int32_t matters(float a, float b, float near_z, float far_z)
+{
+    float nearer = a < b ? a : b;
+    float farther = a < b ? b : a;
+    /* Without depth there is nothing: as far as can be. */
+    farther = nearer > 0.0f ? farther : SILHOUETTE_FAR;
+    nearer = nearer > 0.0f ? nearer : (a < b ? b : a);
+    return (silhouette_jumps(a, b) ? 1 : 0) & (nearer < far_z ? 1 : 0) & (farther > near_z ? 1 : 0);
+}
+
 /* Marks the tiles in which depth jumps between a row's pixels and the next ones, or those below.
  * `whole` tiles have a pixel beyond their last. */
 RLF_KERNEL static void mark_jumps(const float *restrict row, const float *restrict below,
-                                  int32_t whole, uint8_t *restrict marks)
+                                  const silhouette_tile *restrict tiles, int32_t whole,
+                                  uint8_t *restrict marks)
 {
     for (int32_t k = 0; k < whole; k++) {
         const float *here = row + k * SILHOUETTE_TILE;
         const float *under = below + k * SILHOUETTE_TILE;
+        const float near_z = tiles[k].near_z - MARGIN_M;
+        const float far_z = tiles[k].far_z + MARGIN_M;
         int32_t any = 0;
         RLF_KERNEL_WHOLE
         for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
-            any |= silhouette_jumps(here[i], here[i + 1]) ? 1 : 0;
-            any |= silhouette_jumps(here[i], under[i]) ? 1 : 0;
+            any |= matters(here[i], here[i + 1], near_z, far_z);
+            any |= matters(here[i], under[i], near_z, far_z);
         }
         marks[k] |= (uint8_t)any;
     }
@@ -213,8 +228,8 @@ static void find_jumps(void *context, int32_t begin, int32_t end, int32_t worker
             while (x + run < whole && is_used(&s->tiles[first + x + run])) {
                 run++;
             }
-            mark_jumps(row + x * SILHOUETTE_TILE, below + x * SILHOUETTE_TILE, run,
-                       s->marks + first + x);
+            mark_jumps(row + x * SILHOUETTE_TILE, below + x * SILHOUETTE_TILE, s->tiles + first + x,
+                       run, s->marks + first + x);
             x += run + 1;
         }
         const int32_t at = whole * SILHOUETTE_TILE;

@@ -21,11 +21,12 @@ typedef struct silhouette_tile {
 
 /* What a tile is. Where no edge reaches a pixel shows all of the registered depth. */
 enum {
-    SILHOUETTE_JUMPS = 1, /* depth jumps between its pixels, or to the next ones */
-    SILHOUETTE_EDGE = 2,  /* it, or a tile beside it, jumps: look at near_z, far_z and cover */
+    SILHOUETTE_JUMPS =
+        1,               /* depth jumps, where bodies are, between its pixels or to the next ones */
+    SILHOUETTE_EDGE = 2, /* it, or a tile beside it, jumps: look at near_z, far_z and cover */
     SILHOUETTE_FILLED = 4 /* near_z, far_z and cover are set: in and around those with an edge */
 };
-#define SILHOUETTE_AROUND 3 /* tiles to the left and right of an edge's that are filled too */
+#define SILHOUETTE_AROUND 1 /* tiles to the left and right of an edge's that are filled too */
 
 typedef struct silhouette {
     /* The real world in the filled tiles: a pixel shows `cover` of near_z, the rest of far_z.

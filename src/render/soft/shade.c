@@ -3,8 +3,10 @@
 #include "kernel/kernel.h"
 #include "render/soft/soft.h"
 
-#define NODE_PX 4 /* pixels from one node of light to the next */
-#define CHUNK 48  /* pixels that SOFT_LANES nodes serve: they reach beyond */
+/* Light is taken at nodes 4 or 8 pixels apart (soft.shade_px): of a row so many, or half. */
+#define ROW_NODES SOFT_LANES
+#define CHUNK_NODES 12 /* pixels of so many nodes are drawn at a time: the last block needs more   \
+                        */
 
 /* Values of some pixels in a row, between steps. */
 typedef struct lanes {
@@ -14,12 +16,11 @@ typedef struct lanes {
     uint32_t texels[SOFT_LANES];
 } lanes;
 
-#define NODES (2 * SOFT_LANES) /* of two rows */
-
-/* What other bodies leave of the light around and of the directed light: every NODE_PX pixels of
- * one row, then of another. */
+/* What other bodies leave of the light around and of the directed light: `per_row` nodes of one
+ * row, then of another. */
 typedef struct light_nodes {
-    float ambient[NODES], direct[NODES];
+    int32_t per_row;
+    float ambient[2 * ROW_NODES], direct[2 * ROW_NODES];
 } light_nodes;
 
 RLF_KERNEL_PART float clamp(float x, float low, float high)
@@ -240,19 +241,22 @@ RLF_KERNEL_PART void add(const float *restrict values, float scale, float *restr
 
 /* ---- what takes light from a body ----------------------------------------------------------- */
 
-/* Light between the nodes: linear. */
+/* Light between nodes `px` pixels apart, a multiple of 4: linear. */
 RLF_KERNEL_PART void apply_light(const float *restrict ambient, const float *restrict direct,
-                                 float *restrict light)
+                                 int32_t px, float *restrict light)
 {
     const float base = (float)BODY_LIGHT_AMBIENT;
+    const float per_px = 1.0f / (float)px;
     RLF_KERNEL_WHOLE
-    for (int32_t k = 0; k < SOFT_LANES / NODE_PX; k++) {
-        const float ambient_step = (ambient[k + 1] - ambient[k]) * (1.0f / NODE_PX);
-        const float direct_step = (direct[k + 1] - direct[k]) * (1.0f / NODE_PX);
-        float *restrict cell = light + NODE_PX * k;
-        for (int32_t i = 0; i < NODE_PX; i++) {
-            float ambient_left = ambient[k] + ambient_step * (float)i;
-            float direct_left = direct[k] + direct_step * (float)i;
+    for (int32_t k = 0; k < SOFT_LANES; k += 4) {
+        const int32_t node = k / px;
+        const float ambient_step = (ambient[node + 1] - ambient[node]) * per_px;
+        const float direct_step = (direct[node + 1] - direct[node]) * per_px;
+        float *restrict cell = light + k;
+        for (int32_t i = 0; i < 4; i++) {
+            const float from = (float)(k - node * px + i);
+            float ambient_left = ambient[node] + ambient_step * from;
+            float direct_left = direct[node] + direct_step * from;
             cell[i] = base * ambient_left + (cell[i] - base) * direct_left;
         }
     }
@@ -287,9 +291,9 @@ RLF_KERNEL_PART void place_nodes(const soft *s, const soft_face *f, int32_t x, i
 {
     const run r = run_of(f, &s->scene.bodies[f->body], (float)x, (float)y);
     const float first = s->ray_x0 + s->ray_step_x * (float)x;
-    const float step = s->ray_step_x * NODE_PX;
+    const float step = s->ray_step_x * (float)s->shade_px;
     const float down = s->ray_y0 + s->ray_step_y * (float)y;
-    interpolate_z(&r, 0, NODE_PX, z);
+    interpolate_z(&r, 0, s->shade_px, z);
     RLF_KERNEL_WHOLE
     for (int32_t i = 0; i < SOFT_LANES; i++) {
         ray_x[i] = first + step * (float)i;
@@ -304,23 +308,25 @@ RLF_KERNEL_PART bool fill_nodes(const soft *s, const soft_face *f, const int32_t
                                 int32_t count, light_nodes *out)
 {
     const soft_body *body = &s->scene.bodies[f->body];
-    float ray_x[NODES];
-    float ray_y[NODES];
-    float z[NODES];
+    float ray_x[2 * ROW_NODES];
+    float ray_y[2 * ROW_NODES];
+    float z[2 * ROW_NODES];
+    const int32_t last = (count + s->shade_px - 1) / s->shade_px;
+    const int32_t per_row = last < ROW_NODES / 2 ? ROW_NODES / 2 : ROW_NODES;
     for (int32_t i = 0; i < 2; i++) {
-        const int32_t first = i * SOFT_LANES;
+        const int32_t first = i * per_row;
         place_nodes(s, f, x, y[i], ray_x + first, ray_y + first, z + first);
     }
-    const caster_points points = {ray_x, ray_y, z, NODES};
-    const int32_t last = (count + NODE_PX - 1) / NODE_PX;
-    const int32_t corner[4] = {0, last, SOFT_LANES, SOFT_LANES + last};
+    const caster_points points = {ray_x, ray_y, z, 2 * per_row};
+    const int32_t corner[4] = {0, last, per_row, per_row + last};
+    out->per_row = per_row;
     float middle[3];
     float radius = ball_of(&points, corner, middle);
     bool is_shaded = false;
     for (int32_t i = 0; i < body->shader_count; i++) {
         const caster *c = &s->scene.casters[body->shaders[i]];
         int32_t takes = caster_may_take(c, s->light, middle, radius);
-        for (int32_t k = 0; takes != CASTER_TAKES_NOTHING && !is_shaded && k < NODES; k++) {
+        for (int32_t k = 0; takes != CASTER_TAKES_NOTHING && !is_shaded && k < 2 * ROW_NODES; k++) {
             out->ambient[k] = out->direct[k] = 1.0f;
         }
         is_shaded = is_shaded || takes != CASTER_TAKES_NOTHING;
@@ -334,15 +340,16 @@ RLF_KERNEL_PART bool fill_nodes(const soft *s, const soft_face *f, const int32_t
     return is_shaded;
 }
 
-/* Nodes of a row at `share` of the way from the first to the other one, into `out`'s first row. */
+/* Nodes of a row at `share` of the way from the first to the other one, into `out`'s first row.
+ * Those beyond per_row are of no use, but numbers. */
 RLF_KERNEL_PART void mix_nodes(const light_nodes *nodes, float share, light_nodes *out)
 {
     RLF_KERNEL_WHOLE
     for (int32_t i = 0; i < SOFT_LANES; i++) {
         float ambient = nodes->ambient[i];
         float direct = nodes->direct[i];
-        out->ambient[i] = ambient + (nodes->ambient[SOFT_LANES + i] - ambient) * share;
-        out->direct[i] = direct + (nodes->direct[SOFT_LANES + i] - direct) * share;
+        out->ambient[i] = ambient + (nodes->ambient[nodes->per_row + i] - ambient) * share;
+        out->direct[i] = direct + (nodes->direct[nodes->per_row + i] - direct) * share;
     }
 }
 
@@ -350,12 +357,14 @@ RLF_KERNEL_PART void mix_nodes(const light_nodes *nodes, float share, light_node
 
 /* SOFT_LANES pixels of a row; nodes NULL = no light is taken. */
 RLF_KERNEL_PART void shade_block(const soft_body *body, const run *r, int32_t first,
-                                 const light_nodes *nodes, int32_t first_node, lanes *v)
+                                 const light_nodes *nodes, int32_t node, int32_t px, lanes *v)
 {
     interpolate_z(r, first, 1, v->z);
     interpolate_light(r, first, v->z, v->light);
-    if (nodes != NULL) {
-        apply_light(nodes->ambient + first_node, nodes->direct + first_node, v->light);
+    if (nodes != NULL && px == 4) {
+        apply_light(nodes->ambient + node, nodes->direct + node, 4, v->light);
+    } else if (nodes != NULL) {
+        apply_light(nodes->ambient + node, nodes->direct + node, 8, v->light);
     }
     interpolate_uv(r, first, v->z, v->weight_x, v->weight_y, v->index);
     look_up(body->texture, v->index, v->texels);
@@ -371,12 +380,12 @@ RLF_KERNEL_PART void shade_run(const soft *s, const soft_ends *ends, const soft_
     const soft_body *body = &s->scene.bodies[f->body];
     const soft_real_row *real = &row->real;
     const run r = run_of(f, body, (float)x, (float)row->y);
-    const bool is_plain = real->marks != NULL && !has_edge(real->marks, x, x + used);
     lanes v;
     for (int32_t i = 0; i < used; i += SOFT_LANES) {
         const int32_t at = x + i;
-        shade_block(body, &r, i, nodes, first_node + i / NODE_PX, &v);
-        if (is_plain) {
+        shade_block(body, &r, i, nodes, first_node + i / s->shade_px, s->shade_px, &v);
+        const int32_t end = at + (used - i < SOFT_LANES ? used - i : SOFT_LANES);
+        if (real->marks != NULL && !has_edge(real->marks, at, end)) {
             share_plain(real->row + at, real->noise, v.z, v.share);
         } else if (real->marks != NULL) {
             share_soft(real->near_z + at, real->far_z + at, real->cover + at, real->noise, v.z,
@@ -419,15 +428,16 @@ RLF_KERNEL_PART void shade_chunk(const soft *s, const soft_ends *ends, const sof
     light_nodes mixed;
     bool is_shaded =
         s->scene.bodies[f->body].shader_count > 0 && fill_nodes(s, f, y, x, count, &nodes);
+    const int32_t align = is_shaded ? s->shade_px : 1;
     for (int32_t i = 0; i <= last; i++) {
-        int32_t x0 = spans[i].x0 > x ? (spans[i].x0 - x) / NODE_PX * NODE_PX + x : x;
+        int32_t x0 = spans[i].x0 > x ? (spans[i].x0 - x) / align * align + x : x;
         int32_t x1 = spans[i].x1 < x + count ? spans[i].x1 : x + count;
         if (x0 < x1) {
             if (is_shaded) {
                 mix_nodes(&nodes, last > 0 ? (float)i / (float)last : 0.0f, &mixed);
             }
             shade_run(s, ends, group, &group->rows[i], x0, x1 - x0, is_shaded ? &mixed : NULL,
-                      (x0 - x) / NODE_PX);
+                      (x0 - x) / s->shade_px);
         }
     }
 }
@@ -441,7 +451,8 @@ RLF_KERNEL void soft_shade_face(const soft *s, const soft_ends *ends, const soft
         all.x0 = spans[i].x0 < all.x0 ? spans[i].x0 : all.x0;
         all.x1 = spans[i].x1 > all.x1 ? spans[i].x1 : all.x1;
     }
-    for (int32_t x = all.x0; x < all.x1; x += CHUNK) {
-        shade_chunk(s, ends, group, spans, x, all.x1 - x < CHUNK ? all.x1 - x : CHUNK);
+    const int32_t chunk = CHUNK_NODES * s->shade_px;
+    for (int32_t x = all.x0; x < all.x1; x += chunk) {
+        shade_chunk(s, ends, group, spans, x, all.x1 - x < chunk ? all.x1 - x : chunk);
     }
 }
