@@ -47,6 +47,8 @@ static void print_help(void)
            "                        up to four of them side by side\n"
            "  --orbit YAW,PITCH[,ZOOM]   where points are seen from: degrees to the right and\n"
            "                        up, and the distance, 1 being the camera's\n"
+           "  --light X,Y,Z         where the light shines to: right, down, forward\n"
+           "  --match-light         bodies as dark and as tinted as the camera's picture\n"
            "  --occlusion NAME      soft (live's), hard, thesis (thesis's) or off\n"
            "  --scale N             keep every N-th depth pixel (live 1, thesis 8)\n"
            "  --set NAME=VALUE      a setting of the surface (see `relief settings`); any number\n"
@@ -103,6 +105,18 @@ static bool take_orbit(const char *text, void *out)
                    pitch_deg >= -85.0 && pitch_deg <= 85.0 && zoom >= 0.1 && zoom <= 10.0;
     *orbit = (rlf_orbit){yaw_deg * RLF_PI / 180.0, pitch_deg * RLF_PI / 180.0, zoom};
     return is_good && (count == 3 || strchr(strchr(text, ',') + 1, ',') == NULL);
+}
+
+static bool take_light(const char *text, void *out)
+{
+    session_options *s = out;
+    rlf_vec3 *l = &s->light_direction;
+    char rest;
+    bool is_good = sscanf(text, "%lf,%lf,%lf%c", &l->x, &l->y, &l->z, &rest) == 3 &&
+                   rlf_vec3_is_finite(*l) && rlf_length(*l) > 1e-6 && rlf_length(*l) < 1e6;
+    *l = is_good ? rlf_normalize(*l) : *l;
+    s->is_light_set = is_good;
+    return is_good;
 }
 
 static bool take_occlusion(const char *text, void *out)
@@ -173,6 +187,12 @@ static int read_options(int argc, char **argv, run_options *o)
          .out = &o->orbit,
          .take = take_orbit,
          .choices = "use YAW,PITCH or YAW,PITCH,ZOOM: within 360, 85 degrees, 0.1 to 10"},
+        {.name = "light",
+         .kind = OPTION_CHOICE,
+         .out = s,
+         .take = take_light,
+         .choices = "use X,Y,Z, not all zero"},
+        {.name = "match-light", .kind = OPTION_FLAG, .out = &s->matches_light},
         {.name = "occlusion",
          .kind = OPTION_CHOICE,
          .out = s,

@@ -69,6 +69,10 @@ static rlf_result open_all(const session_options *options, session *s)
     if (options->is_occlusion_set) {
         def.compositor.occlusion = options->occlusion;
     }
+    if (options->is_light_set) {
+        def.compositor.light_direction = options->light_direction;
+    }
+    def.compositor.estimates_light = options->matches_light;
     def.compositor.enable_overlay = options->enable_overlay;
     return rlf_pipeline_create(&def, &s->pipeline);
 }

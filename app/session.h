@@ -16,6 +16,9 @@ typedef struct session_options {
     int32_t thread_count;  /* 0 = all processors */
     bool is_occlusion_set; /* else the profile's */
     rlf_occlusion occlusion;
+    bool is_light_set; /* else the compositor's */
+    rlf_vec3 light_direction;
+    bool matches_light;
     bool enable_render;
     bool enable_overlay;
 } session_options;

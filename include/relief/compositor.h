@@ -68,6 +68,9 @@ typedef struct rlf_compositor_def {
     rlf_occlusion occlusion;    /* default DEPTH */
     rlf_vec3 light_direction;   /* from the light into the scene, camera frame; unit. default
                                    (0.3, 0.8, 0.5) normalised */
+    float light_color[3];       /* shares of the bodies' colours that it shows, 0..1; default 1 */
+    bool estimates_light;       /* bodies get darker and tinted as the camera's picture is, over
+                                   about a second; default false */
     bool enable_overlay;        /* text lines over the picture; default false */
     rlf_pool *pool;             /* borrowed; NULL = one thread */
 } rlf_compositor_def;

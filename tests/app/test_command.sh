@@ -47,6 +47,7 @@ expect_error 2 "not a list of up to four views" run synthetic:room --headless --
 expect_error 2 "not a list of up to four views" run synthetic:room --view camera,depth,mesh,depth,camera
 expect_error 2 "YAW,PITCH" run synthetic:room --headless --view points --orbit 30
 expect_error 2 "YAW,PITCH" run synthetic:room --headless --view points --orbit 30,99
+expect_error 2 "X,Y,Z" run synthetic:room --headless --light 0,0,0
 expect_error 2 "soft, hard, thesis or off" run synthetic:room --headless --occlusion maybe
 expect_error 2 "frames" run synthetic:room --headless --frames 0
 expect_error 2 "frames" run synthetic:room --headless --frames ten

@@ -148,6 +148,21 @@ static void test_soft_occlusion(void **state)
     check_alike(&def, CONTEXT_API_ANY, "soft, resized");
 }
 
+/* Light from elsewhere, of another colour, in a dark room. */
+static void test_light(void **state)
+{
+    (void)state;
+    make_scene();
+    for (int32_t i = 0; i < 4 * SCENE_WIDTH * SCENE_HEIGHT; i++) {
+        scene.color[i] = (uint8_t)(scene.color[i] / 3);
+    }
+    rlf_compositor_def def = gl_scene_def(&scene, RLF_OCCLUSION_DEPTH);
+    def.light_direction = rlf_normalize(rlf_vec3_make(-0.7, 0.4, 0.6));
+    def.light_color[2] = 0.7f;
+    def.estimates_light = true;
+    check_alike(&def, CONTEXT_API_ANY, "light");
+}
+
 static void test_thesis_occlusion(void **state)
 {
     (void)state;
@@ -328,6 +343,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_depth_occlusion),
         cmocka_unit_test(test_soft_occlusion),
+        cmocka_unit_test(test_light),
         cmocka_unit_test(test_thesis_occlusion),
         cmocka_unit_test(test_no_occlusion),
         cmocka_unit_test(test_rig_and_mount),

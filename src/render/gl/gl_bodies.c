@@ -276,7 +276,9 @@ static void set_body(const gl_bodies *bodies, const gl_bodies_pass *pass,
     gl_view_set_matrix(bodies->uniforms.picture_body, &view_model);
     glUniformMatrix3fv(bodies->uniforms.camera_body, 1, GL_FALSE, columns);
     glUniform1f(bodies->uniforms.shift, (GLfloat)(scale.half_height / scale.scale.y));
-    glUniform3f(bodies->uniforms.color, body->color[0], body->color[1], body->color[2]);
+    const float *shown = pass->light_color;
+    glUniform3f(bodies->uniforms.color, body->color[0] * shown[0], body->color[1] * shown[1],
+                body->color[2] * shown[2]);
     glUniform1f(bodies->uniforms.layer, (GLfloat)body_texture_kind_of(body->shape.type));
     glUniform1f(bodies->uniforms.level,
                 (GLfloat)body_texture_level_of(&body->shape, T_picture_body.p.z, focal));

@@ -33,6 +33,7 @@ typedef struct gl_soft_real {
 /* What all bodies of a picture share. */
 typedef struct gl_bodies_pass {
     const gl_view *view;
+    const float *light_color;     /* three shares of the bodies' colours */
     rlf_vec3 light_direction;     /* depth camera frame, from the light into the scene */
     const gl_texture *backdrop;   /* shows through where the real world hides a part of a pixel */
     const gl_texture *real_depth; /* z in the picture's camera per pixel; NULL = none */

@@ -13,6 +13,7 @@
 
 #include "base/cookie.h"
 #include "render/real_depth.h"
+#include "render/room_light.h"
 #include "render/silhouette.h"
 #include "render/soft/soft.h"
 
@@ -21,6 +22,7 @@ typedef struct gl_compositor {
     gl_view view; /* of the picture */
     rlf_compositor *soft;
     real_depth real;
+    room_light lamp;
     silhouette silhouette; /* RLF_OCCLUSION_SOFT only */
     caster *casters;       /* as the snapshot's bodies */
     int32_t caster_capacity;
@@ -331,6 +333,7 @@ static void draw_bodies(gl_compositor *c, const rlf_snapshot *snapshot)
     gl_soft_real soft_real = {&c->near_texture, &c->far_texture, &c->cover_texture,
                               &c->def.rig.noise};
     gl_bodies_pass pass = {&c->view,
+                           c->lamp.color,
                            c->def.light_direction,
                            &c->backdrop.texture,
                            occlusion == RLF_OCCLUSION_DEPTH ? &c->depth_texture : NULL,
@@ -395,6 +398,7 @@ static rlf_result draw(gl_compositor *c, const rlf_render_input *input)
 {
     rlf_result result = RLF_OK;
     gl_view_place(&c->view, &input->T_world_camera);
+    room_light_update(&c->lamp, &c->def, input->frame);
     reset_state();
     result = draw_backdrop(c, input);
     if (result != RLF_OK) {

@@ -111,7 +111,7 @@ static void add_hull(soft *s, const body_transform *T, const rlf_shape *shape, i
 static void choose_look(soft *s, const rlf_body_state *state, soft_body *body)
 {
     for (int i = 0; i < 3; i++) {
-        body->color[i] = (float)(255.0 * rlf_clamp(state->color[i], 0.0, 1.0));
+        body->color[i] = (float)(255.0 * rlf_clamp(state->color[i], 0.0, 1.0)) * s->lamp.color[i];
     }
     double focal = 0.5 * (s->camera.fx + s->camera.fy);
     int32_t level = body_texture_level_of(&state->shape, body->center.z, focal);

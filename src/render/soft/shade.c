@@ -5,8 +5,9 @@
 
 /* Light is taken at nodes 4 or 8 pixels apart (soft.shade_px): of a row so many, or half. */
 #define ROW_NODES SOFT_LANES
-#define CHUNK_NODES 12 /* pixels of so many nodes are drawn at a time: the last block needs more   \
-                        */
+#define CHUNK_NODES                                                                                \
+    12 /* pixels of so many nodes are drawn at a time: the last block needs more                   \
+        */
 
 /* Values of some pixels in a row, between steps. */
 typedef struct lanes {

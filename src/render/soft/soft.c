@@ -155,6 +155,11 @@ static rlf_result check_def(const rlf_compositor_def *def)
     if (!(length > 0.5) || !(length < 2.0)) {
         return rlf_fail(RLF_ERROR_INVALID, "compositor: light_direction is no unit vector");
     }
+    for (int k = 0; k < 3; k++) {
+        if (!(def->light_color[k] >= 0.0f && def->light_color[k] <= 1.0f)) {
+            return rlf_fail(RLF_ERROR_INVALID, "compositor: light_color is not within 0 to 1");
+        }
+    }
     if ((int)def->occlusion < 0 || def->occlusion > RLF_OCCLUSION_SOFT) {
         return rlf_fail(RLF_ERROR_INVALID, "compositor: unknown occlusion %d", (int)def->occlusion);
     }
@@ -217,6 +222,7 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
                         (int)s->def.grid.width, (int)s->def.grid.height);
     }
     clear_matte(s);
+    room_light_update(&s->lamp, &s->def, input->frame);
     rlf_result result = RLF_OK;
     if (input->view == RLF_VIEW_CAMERA) {
         result = draw_camera(s, input);

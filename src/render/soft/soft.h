@@ -13,6 +13,7 @@
 #include "kernel/kernel.h"
 #include "render/body_texture.h"
 #include "render/caster.h"
+#include "render/room_light.h"
 #include "render/real_depth.h"
 #include "render/shape_mesh.h"
 #include "render/silhouette.h"
@@ -164,6 +165,7 @@ typedef struct soft {
     soft_group *workers;
     soft_shade_tile **shade_tiles; /* a band's, per worker */
     int32_t worker_count;
+    room_light lamp;
     rlf_vec3 to_light; /* unit, picture camera frame */
     float light[3];    /* the same */
     int32_t shade_px;  /* pixels from one sample of shadows to the next where depth is smooth */

@@ -1,0 +1,18 @@
+/* How bright the bodies are beside the camera's picture. Shared by both renderers. */
+#ifndef RLF_RENDER_ROOM_LIGHT_H
+#define RLF_RENDER_ROOM_LIGHT_H
+
+#include "relief/compositor.h"
+
+typedef struct room_light {
+    float level[3];    /* mean of the picture over that of a well lit room, per channel; smoothed */
+    uint64_t sequence; /* of the last frame taken in */
+    bool is_known;
+    float color[3]; /* of the bodies: def.light_color, and the level when it is estimated */
+} room_light;
+
+/* Takes a frame in, and sets color. Frames without colour, and one that was taken in already,
+ * change no level. */
+void room_light_update(room_light *l, const rlf_compositor_def *def, const rlf_frame *frame);
+
+#endif
