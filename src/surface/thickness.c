@@ -3,8 +3,8 @@
  * Every pixel lies on four chords, one in each direction (thickness.h). Each chord's conic says
  * where the back is; the short ones and those that explain their front count most. Where a body
  * behind, whose chord goes on behind the pixel, begins before the pixel's own body ends, they are
- * one solid. What is flat up to noise is a thin plate. Nothing reaches into the background behind
- * it. */
+ * one solid. What is flat up to
+ * noise is a thin plate. Nothing reaches into the background behind it. */
 #include "surface/thickness.h"
 
 #include "surface/steps.h"
@@ -159,6 +159,9 @@ static void estimate_block(rlf_chord_job *job)
         int32_t count = rlf_line_count(job);
         rlf_parallel_for(pool, count, RLF_ROW_GRAIN, cut_lines, job);
         rlf_chords_pool(job, count);
+        if (job->dy == 0) {
+            rlf_chords_align(job, count);
+        }
         rlf_parallel_for(pool, count, RLF_ROW_GRAIN, paint_lines, job);
     }
     rlf_parallel_for(pool, job->height, RLF_ROW_GRAIN, resolve_rows, job);

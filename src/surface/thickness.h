@@ -26,6 +26,11 @@ typedef struct rlf_chord_moments {
     float ss, hh, sh, sy, hy;
 } rlf_chord_moments;
 
+/* Depth of a body's middle, metres, and how well it is known, 1/m^2; 0 = not at all. */
+typedef struct rlf_chord_middle {
+    float depth, weight;
+} rlf_chord_middle;
+
 typedef struct rlf_chord {
     float begin, end; /* of the body, in steps; part of it may be hidden */
     float blur[2];    /* how well these are known, steps */
@@ -37,6 +42,8 @@ typedef struct rlf_chord {
     rlf_chord_part part[RLF_CHORD_PARTS];
     float weight, s, h, y, yy; /* sum of weights, means, variance sum of y */
     rlf_chord_moments own, pooled, running;
+    rlf_chord_middle seen, told; /* by the chord alone; with all lines before it */
+    rlf_chord_middle beside;     /* by the lines on both sides, without its own */
 } rlf_chord;
 
 /* y = middle + slope s - ratio h, in metres about the reference depth. */
@@ -74,15 +81,20 @@ typedef struct rlf_line {
     int32_t x, y, dx, dy;
     ptrdiff_t base, stride;
     int32_t count;
-    float angle;  /* metres per step at a depth of 1 m */
-    float origin; /* steps from the block's corner along the lines to the first pixel */
+    float angle; /* metres per step at a depth of 1 m */
 } rlf_line;
 
 /* ---- thickness_cut.c ---- */
 int32_t rlf_line_count(const rlf_chord_job *job);
 rlf_line rlf_line_at(const rlf_chord_job *job, int32_t index);
+/* Steps from the block's corner along the lines to the line's first pixel. */
+float rlf_line_origin(const rlf_chord_job *job, int32_t index);
 /* Finds the chords of the line and measures them. Returns their number. */
 int32_t rlf_chords_cut(const rlf_chord_job *job, const rlf_line *line, rlf_chord *out);
+
+/* ---- thickness_axis.c ---- */
+/* Tells each chord where the rows above and below have the middle of its body. */
+void rlf_chords_align(const rlf_chord_job *job, int32_t row_count);
 
 /* Half the thickness at k of a chord's solid whose ratio is 1, in steps. A conic: the power of the
  * point; a wedge: two lines from the ends to its edge. */
@@ -102,6 +114,8 @@ bool rlf_chord_measure(const rlf_chord_job *job, const rlf_line *line, rlf_chord
 /* Adds to each chord what its neighbours on the lines beside it say about its shape. */
 void rlf_chords_pool(const rlf_chord_job *job, int32_t line_count);
 rlf_conic rlf_chord_solve(const rlf_chord *chord, const rlf_chord_moments *moments);
+/* What the pooled sums of the chord say about its middle. */
+rlf_chord_middle rlf_chord_middle_seen(const rlf_chord *chord);
 /* Adds the solid of the conic to the pixels of the chord. */
 void rlf_chord_paint(const rlf_chord_job *job, const rlf_line *line, const rlf_chord *chord);
 

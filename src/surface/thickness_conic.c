@@ -12,6 +12,10 @@ static const float pooled_share = 0.6f; /* of the next line's sums */
 static const float alike = 0.7f;        /* overlap of chords of one body on neighbouring lines */
 static const float straight_trust = 0.1f;
 static const float trusted_rest_m = 0.003f; /* what a conic may leave and still be trusted */
+/* A wide thing that is no conic, and no plate either, is seldom flatter than a trunk. */
+static const float usual_ratio = 0.7f, plate_ratio = 0.15f;
+static const float wide_m = 0.12f, unlike_conic_m = 0.005f;
+static const float middle_error_m = 0.006f; /* of a conic that leaves nothing */
 
 /* What a ball at the ray (x, y, 1) would show along the line: its middle is a plane square to the
  * ray r, and with t the line's direction and R its radius it is R / |r| deep along z, and R |r| /
@@ -80,6 +84,7 @@ bool rlf_chord_measure(const rlf_chord_job *job, const rlf_line *line, rlf_chord
     expect_ball(job, line, reference, c);
     c->inverse = 1.0f / z;
     c->metres = z * line->angle;
+    c->beside = (rlf_chord_middle){0.0f, 0.0f};
     sums t = sum_samples(job, line, c, z);
     if (!(t.n > 0.0f)) {
         return false;
@@ -94,25 +99,68 @@ bool rlf_chord_measure(const rlf_chord_job *job, const rlf_line *line, rlf_chord
     return true;
 }
 
-rlf_conic rlf_chord_solve(const rlf_chord *c, const rlf_chord_moments *m)
+/* The normal equations: the samples, what bodies are usually like, and the middle that the lines
+ * beside have, which is one more sample. */
+static rlf_chord_moments equations(const rlf_chord *c, const rlf_chord_moments *m)
 {
     const float slope_prior = correlated_samples / (slope_deviation * slope_deviation);
     const float ratio_prior = correlated_samples / (ratio_deviation * ratio_deviation);
-    float ss = m->ss + slope_prior, hh = m->hh + ratio_prior;
-    float hy = m->hy - ratio_prior * c->expected_ratio;
-    float sy = m->sy + slope_prior * c->expected_slope;
-    float det = ss * hh - m->sh * m->sh;
-    rlf_conic f;
-    f.slope = (sy * hh - hy * m->sh) / det;
-    f.ratio = (sy * m->sh - hy * ss) / det;
-    f.ratio = f.ratio > 0.0f ? f.ratio : 0.0f;
-    f.middle = c->y - f.slope * c->s + f.ratio * c->h;
+    float weight = correlated_samples * c->beside.weight;
+    float ws = weight * c->s, wh = weight * c->h;
+    float y = c->y + 1.0f / c->inverse - c->beside.depth;
+    return (rlf_chord_moments){m->ss + slope_prior + ws * c->s, m->hh + ratio_prior + wh * c->h,
+                               m->sh + ws * c->h, m->sy + slope_prior * c->expected_slope + ws * y,
+                               m->hy - ratio_prior * c->expected_ratio + wh * y};
+}
+
+/* Variance of what the conic leaves of the chord's own samples. */
+static float left_over(const rlf_chord *c, const rlf_conic *f)
+{
     const rlf_chord_moments *o = &c->own;
-    float rest = c->yy - 2.0f * f.slope * o->sy + 2.0f * f.ratio * o->hy +
-                 f.slope * f.slope * o->ss + f.ratio * f.ratio * o->hh -
-                 2.0f * f.slope * f.ratio * o->sh;
-    f.variance = rest > 0.0f ? rest / c->weight : 0.0f;
+    float rest = c->yy - 2.0f * f->slope * o->sy + 2.0f * f->ratio * o->hy +
+                 f->slope * f->slope * o->ss + f->ratio * f->ratio * o->hh -
+                 2.0f * f->slope * f->ratio * o->sh;
+    return rest > 0.0f ? rest / c->weight : 0.0f;
+}
+
+/* The worse a conic fits, the more counts what bodies are usually like. */
+static void fatten(const rlf_chord *c, rlf_conic *f)
+{
+    bool is_wide = c->apex < c->begin && (c->end - c->begin) * c->metres > wide_m;
+    if (is_wide && f->ratio > plate_ratio && f->ratio < usual_ratio) {
+        float share = f->variance / (f->variance + unlike_conic_m * unlike_conic_m);
+        f->ratio += share * (usual_ratio - f->ratio);
+        f->variance = left_over(c, f);
+    }
+}
+
+/* Solves the equations. */
+static rlf_conic solve(const rlf_chord *c, const rlf_chord_moments *e)
+{
+    float det = e->ss * e->hh - e->sh * e->sh;
+    rlf_conic f = {.slope = (e->sy * e->hh - e->hy * e->sh) / det,
+                   .ratio = (e->sy * e->sh - e->hy * e->ss) / det};
+    f.ratio = f.ratio > 0.0f ? f.ratio : 0.0f;
+    f.variance = left_over(c, &f);
+    fatten(c, &f);
+    f.middle = c->y - f.slope * c->s + f.ratio * c->h;
     return f;
+}
+
+rlf_conic rlf_chord_solve(const rlf_chord *c, const rlf_chord_moments *m)
+{
+    rlf_chord_moments e = equations(c, m);
+    return solve(c, &e);
+}
+
+rlf_chord_middle rlf_chord_middle_seen(const rlf_chord *c)
+{
+    rlf_chord_moments e = equations(c, &c->pooled);
+    rlf_conic f = solve(c, &e);
+    float spread = (c->h * c->h * e.ss + c->s * c->s * e.hh) / (e.ss * e.hh - e.sh * e.sh);
+    float variance = correlated_samples * (1.0f / c->weight + spread) +
+                     middle_error_m * middle_error_m + f.variance;
+    return (rlf_chord_middle){1.0f / c->inverse + f.middle, 1.0f / variance};
 }
 
 /* The chord of the neighbouring line that is most like this one. */
@@ -151,7 +199,7 @@ static void sweep(const rlf_chord_job *job, int32_t from, int32_t to, int32_t st
         int32_t before = line - step;
         float shift = 0.0f;
         if (line != from) {
-            shift = rlf_line_at(job, before).origin - rlf_line_at(job, line).origin;
+            shift = rlf_line_origin(job, before) - rlf_line_origin(job, line);
         }
         for (int32_t i = 0; i < job->counts[line]; i++) {
             rlf_chord *c = &chords[i];
@@ -197,13 +245,17 @@ void rlf_chord_paint(const rlf_chord_job *job, const rlf_line *line, const rlf_c
     float w2 = c->inverse * c->inverse;
     float slope = -w2 * f.slope * c->metres, half = w2 * f.ratio * c->metres;
     float middle = c->inverse - w2 * f.middle - slope * 0.5f * (c->begin + c->end);
+    bool is_wedge = c->apex >= c->begin;
     int32_t part = 0;
     for (int32_t k = c->part[0].begin; k < c->part[c->part_count - 1].end; k++) {
         ptrdiff_t i = line->base + k * line->stride;
         part += k >= c->part[part].end ? 1 : 0;
-        float weight = share / (((float)k - c->begin) * (c->end - (float)k));
-        float m = weight * (middle + slope * (float)k),
-              h = weight * half * rlf_chord_profile(c, c->begin + c->end - (float)k);
+        float inverse = 1.0f / sqrtf(((float)k - c->begin) * (c->end - (float)k));
+        float weight = share * inverse * inverse;
+        float m = weight * (middle + slope * (float)k), h = share * half * inverse;
+        if (is_wedge) {
+            h = weight * half * rlf_chord_profile(c, c->begin + c->end - (float)k);
+        }
         rlf_solid *to = &job->solid[i];
         if (k >= c->part[part].begin) {
             to->weight += weight;

@@ -53,22 +53,37 @@ int32_t rlf_line_count(const rlf_chord_job *job)
     return job->dy == 0 ? job->height : (job->dx == 0 ? job->width : job->width + job->height - 1);
 }
 
-/* Line `index` of the block; lines of consecutive indices lie side by side. */
+/* First pixel of line `index`, from the block's corner. Lines of consecutive indices lie side by
+ * side. */
+static void first_pixel(const rlf_chord_job *job, int32_t index, int32_t *x, int32_t *y)
+{
+    int32_t last = job->height - 1;
+    *x = job->dx == 0 ? index : 0;
+    *y = job->dx == 0 ? 0 : index;
+    if (job->dx != 0 && job->dy != 0) {
+        int32_t off = index - last;
+        *x = off > 0 ? off : 0;
+        *y = off < 0 ? -off : 0;
+        *y = job->dy < 0 ? last - *y : *y;
+    }
+}
+
+float rlf_line_origin(const rlf_chord_job *job, int32_t index)
+{
+    int32_t x, y;
+    first_pixel(job, index, &x, &y);
+    return (float)(x * job->dx + y * job->dy) / (float)(job->dx * job->dx + job->dy * job->dy);
+}
+
 rlf_line rlf_line_at(const rlf_chord_job *job, int32_t index)
 {
     const rlf_grid *grid = &job->stage->grid;
-    int32_t last = job->height - 1;
-    int32_t x = 0, y = index, count = job->width;
-    if (job->dx == 0) {
-        x = index;
-        y = 0;
-        count = job->height;
-    } else if (job->dy != 0) {
-        int32_t off = index - last;
-        x = off > 0 ? off : 0;
-        y = off < 0 ? -off : 0;
-        count = job->width - x < job->height - y ? job->width - x : job->height - y;
-        y = job->dy < 0 ? last - y : y;
+    int32_t x, y;
+    first_pixel(job, index, &x, &y);
+    int32_t down = job->dy < 0 ? y + 1 : job->height - y;
+    int32_t count = job->dx == 0 ? job->height : job->width - x;
+    if (job->dx != 0 && job->dy != 0) {
+        count = count < down ? count : down;
     }
     float ax = (float)job->dx / (float)grid->camera.fx,
           ay = (float)job->dy / (float)grid->camera.fy;
@@ -77,8 +92,6 @@ rlf_line rlf_line_at(const rlf_chord_job *job, int32_t index)
     line.stride = (ptrdiff_t)job->dy * grid->width + job->dx;
     line.count = count;
     line.angle = sqrtf(ax * ax + ay * ay);
-    line.origin =
-        (float)(x * job->dx + y * job->dy) / (float)(job->dx * job->dx + job->dy * job->dy);
     return line;
 }
 

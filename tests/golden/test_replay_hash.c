@@ -23,7 +23,7 @@ typedef struct golden {
 } golden;
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0xb8d24e7e5bbed41bu, 0xa393f7c37cc0858cu, 0x95225753eae74c96u},
+    {RLF_PROFILE_LIVE, 0x98ba4f2e8e7a49dfu, 0xa393f7c37cc0858cu, 0x95225753eae74c96u},
     {RLF_PROFILE_THESIS, 0x661dc320eb5b2361u, 0xd84652fb54683851u, 0xf068ba3d9f6846e3u},
 };
 

@@ -224,6 +224,20 @@ static void a_limb_on_a_trunk(void **state)
     assert_true(trunk.mean < 0.02 && limb.mean < 0.03 && limb.close > 0.85);
 }
 
+/* Rows that show little of their own depth take it from those above and below: a trunk with flat
+ * faces on a part of it. */
+static void rows_share_an_axis(void **state)
+{
+    (void)state;
+    static const body bodies[] = {
+        {.centre = {0.0, 0.0, 2.5}, .half = {0.16, ENDLESS, 0.14}, .top = -0.4},
+        {.is_box = true, .centre = {0.0, 0.1, 2.5}, .half = {0.1, 0.05, 0.14}, .top = -9},
+    };
+    errors trunk = measure(2, bodies, 0);
+    errors flat = measure(2, bodies, 1);
+    assert_true(trunk.mean < 0.021 && flat.mean < 0.035 && flat.close > 0.7);
+}
+
 /* No background between two legs: the crease between them parts them. */
 static void legs_that_touch(void **state)
 {
@@ -334,6 +348,7 @@ int main(void)
         cmocka_unit_test(boxes_show_what_they_can),
         cmocka_unit_test(a_limb_before_a_trunk),
         cmocka_unit_test(a_limb_on_a_trunk),
+        cmocka_unit_test(rows_share_an_axis),
         cmocka_unit_test(legs_that_touch),
         cmocka_unit_test(bodies_that_leave_the_image),
         cmocka_unit_test(backs_face_the_right_way),
