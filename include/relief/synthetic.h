@@ -22,8 +22,9 @@ typedef enum rlf_synthetic_scene {
     RLF_SYNTHETIC_BOOK = 4,   /* the person holds a book edge-on, then turns it to the camera */
     RLF_SYNTHETIC_HAND = 5,   /* a hand moves close to the camera (0.6-1.2 m) */
     RLF_SYNTHETIC_LIFT = 6, /* a tray comes in, rises 0.4 m at `speed` from t = 3 s on, and stops */
-    RLF_SYNTHETIC_SWIPE = 7, /* an upright board moves 1.1 m along the floor from t = 3 s on */
-    RLF_SYNTHETIC_CARRY = 8  /* a tray comes in and moves along a circle from t = 3 s on */
+    RLF_SYNTHETIC_SWIPE = 7,   /* an upright board moves 1.1 m along the floor from t = 3 s on */
+    RLF_SYNTHETIC_CARRY = 8,   /* a tray comes in and moves along a circle from t = 3 s on */
+    RLF_SYNTHETIC_CROSSING = 9 /* bare room; two people walk past each other, 0.8 m apart */
 } rlf_synthetic_scene;
 
 /* Values of rlf_truth.label. The first four are the room's shell: endlessly thick, thickness 0. */
@@ -42,7 +43,8 @@ typedef enum rlf_synthetic_label {
     RLF_SYNTHETIC_LABEL_PERSON = 12, /* from here on: foreground */
     RLF_SYNTHETIC_LABEL_BOOK = 13,
     RLF_SYNTHETIC_LABEL_HAND = 14,
-    RLF_SYNTHETIC_LABEL_TRAY = 15
+    RLF_SYNTHETIC_LABEL_TRAY = 15,
+    RLF_SYNTHETIC_LABEL_SECOND_PERSON = 16
 } rlf_synthetic_label;
 
 typedef struct rlf_synthetic_def {
@@ -68,9 +70,9 @@ RLF_API rlf_synthetic_def rlf_synthetic_def_default(void);
 RLF_API rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source **out);
 
 /* Reads "synthetic:NAME[?key=value[&key=value...]]" into *def: NAME one of room, empty, thesis,
- * chair, book, hand, lift, swipe, carry; keys seed, frames, fps, speed, noise (0|1|steps),
- * edge_filter (0|1), color (WxH or 0). RLF_ERROR_INVALID names the part that is wrong and what is
- * allowed. */
+ * chair, book, hand, lift, swipe, carry, crossing; keys seed, frames, fps, speed, noise
+ * (0|1|steps), edge_filter (0|1), color (WxH or 0). RLF_ERROR_INVALID names the part that is wrong
+ * and what is allowed. */
 RLF_API rlf_result rlf_synthetic_parse(const char *source, rlf_synthetic_def *def);
 
 /* True surface point nearest along the true scene at this instant of a source made by

@@ -131,6 +131,14 @@ static void take_work(rlf_reconstruct *stage)
     }
 }
 
+static void take_family(rlf_reconstruct *stage)
+{
+    rlf_family *family = &stage->family;
+    family->capacity = 2 * stage->def.region_capacity;
+    family->kin = take(stage, (size_t)family->capacity, sizeof *family->kin);
+    family->origin = take(stage, (size_t)stage->def.region_capacity, sizeof *family->origin);
+}
+
 static void take_steady(rlf_reconstruct *stage)
 {
     if (stage->def.enable_steadying) {
@@ -148,6 +156,7 @@ bool rlf_stage_allocate(rlf_reconstruct *stage)
     }
     take_background(stage);
     take_steady(stage);
+    take_family(stage);
     take_work(stage);
     return !stage->out_of_memory;
 }

@@ -58,6 +58,7 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
     }
     rlf_background_reset(&stage->background, &stage->grid);
     rlf_steady_reset(&stage->steady, stage->grid.count);
+    stage->family.count = 0;
     stage->previous = NULL;
 }
 

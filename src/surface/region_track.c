@@ -111,7 +111,7 @@ static void find_heirs(rlf_reconstruct *stage, const rlf_layer_in *in, const lab
     }
 }
 
-static int32_t fresh_label(rlf_reconstruct *stage)
+int32_t rlf_region_fresh_label(rlf_reconstruct *stage)
 {
     stage->next_label = stage->next_label < LABEL_LIMIT ? stage->next_label + 1 : 1;
     return stage->next_label;
@@ -134,8 +134,12 @@ void rlf_region_track(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_
             }
         }
     }
+    if (in->layer == RLF_LAYER_FOREGROUND) {
+        rlf_region_name(stage, in, out);
+        return;
+    }
     for (int32_t r = 0; r < out->region_count; r++) {
         rlf_region *region = &out->regions[r];
-        region->label = region->label != 0 ? region->label : fresh_label(stage);
+        region->label = region->label != 0 ? region->label : rlf_region_fresh_label(stage);
     }
 }

@@ -110,6 +110,23 @@ typedef struct rlf_runs {
     int32_t *first; /* height + 1 */
 } rlf_runs;
 
+/* A label that is in the picture or was until lately. */
+typedef struct rlf_kin {
+    int32_t label;
+    int32_t origin; /* label of what it came out of lately; 0 = of nothing */
+    rlf_aabb box;   /* where it is expected: as large as when it was last seen whole */
+    rlf_vec3 velocity;
+    double depth;              /* of its centroid */
+    double points;             /* of it then, a little less each frame */
+    int64_t age_ns, hidden_ns; /* how long it was followed; how long it has not been seen */
+} rlf_kin;
+
+typedef struct rlf_family {
+    rlf_kin *kin;
+    int32_t *origin; /* per region that is being named */
+    int32_t count, capacity;
+} rlf_family;
+
 /* Memory that is free between steps. */
 typedef struct rlf_work {
     float *depth[2];    /* planes */
@@ -147,6 +164,7 @@ struct rlf_reconstruct {
     int32_t next_label;
     rlf_background background;
     rlf_steady steady;
+    rlf_family family; /* of the foreground */
     rlf_work work;
     bool has_color;      /* work.color holds the frame's */
     bool has_components; /* work.runs holds the front sheet's, so many: */

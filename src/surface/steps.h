@@ -131,6 +131,12 @@ void rlf_region_write_labels(const rlf_reconstruct *stage, const rlf_layer_out *
 /* Gives each region the label it had, by largest overlap, or a new one. */
 void rlf_region_track(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out);
 
+int32_t rlf_region_fresh_label(rlf_reconstruct *stage);
+
+/* ---- region_family.c ---- */
+/* Labels for the regions that have none: that of what they are the visible part of, or new ones. */
+void rlf_region_name(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out);
+
 /* ---- region_stats.c ---- */
 typedef struct rlf_region_sum {
     double s[3], ss[6]; /* of points; xx xy xz yy yz zz */

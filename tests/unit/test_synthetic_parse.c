@@ -40,8 +40,8 @@ static void every_scene_has_its_name(void **state)
 {
     (void)state;
     static const char *const names[] = {"room", "empty", "thesis", "chair", "book",
-                                        "hand", "lift",  "swipe",  "carry"};
-    for (int i = 0; i < 9; i++) {
+                                        "hand", "lift",  "swipe",  "carry", "crossing"};
+    for (int i = 0; i < 10; i++) {
         char text[64] = "synthetic:";
         strcat(text, names[i]);
         rlf_synthetic_def def = rlf_synthetic_def_default();

@@ -37,6 +37,8 @@ typedef struct synth_flesh {
 
 /* Bones of the person (and the book he holds) at time t, in the camera frame. */
 void synth_person_bones(const synth_scene *scene, double t, rlf_pose bones[SYNTH_BONE_COUNT]);
+/* Bones of the second person of scene "crossing". */
+void synth_second_bones(const synth_scene *scene, double t, rlf_pose bones[SYNTH_BONE_COUNT]);
 /* Bones of the arm in front of the camera at time t. */
 void synth_hand_bones(const synth_scene *scene, double t, rlf_pose bones[SYNTH_BONE_COUNT]);
 

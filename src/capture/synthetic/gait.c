@@ -19,7 +19,8 @@ typedef struct act {
 
 typedef struct script {
     double period;
-    double z; /* of the path */
+    double z;       /* of the path */
+    double heading; /* at first */
     double reach_begin, reach_end;
     const act *acts;
     int act_count;
@@ -42,15 +43,21 @@ static const act book_acts[] = {
     {true, 9.8, 12.6, -0.2, -3.3},
 };
 
-static const script room_script = {10.0, 2.95, 3.9, 6.6, room_acts, 4};
-static const script thesis_script = {10.0, 2.3, 0.0, 0.0, thesis_acts, 5};
-static const script book_script = {13.0, 2.95, 0.0, 0.0, book_acts, 4};
+static const act crossing_acts[] = {{true, 0.3, 5.3, 2.3, -2.3}};
+static const act second_acts[] = {{true, 0.3, 5.3, -2.7, 2.7}};
+
+static const script room_script = {10.0, 2.95, WEST, 3.9, 6.6, room_acts, 4};
+static const script thesis_script = {10.0, 2.3, WEST, 0.0, 0.0, thesis_acts, 5};
+static const script book_script = {13.0, 2.95, WEST, 0.0, 0.0, book_acts, 4};
+static const script crossing_script = {6.0, 2.2, WEST, 0.0, 0.0, crossing_acts, 1};
+static const script second_script = {6.0, 3.0, EAST, 0.0, 0.0, second_acts, 1};
 
 static const script *script_of(rlf_synthetic_scene kind)
 {
     switch (kind) {
     case RLF_SYNTHETIC_THESIS: return &thesis_script;
     case RLF_SYNTHETIC_BOOK: return &book_script;
+    case RLF_SYNTHETIC_CROSSING: return &crossing_script;
     default: return &room_script;
     }
 }
@@ -153,11 +160,10 @@ static void stand(synth_gait *gait)
     }
 }
 
-synth_gait synth_gait_at(rlf_synthetic_scene kind, double t)
+static synth_gait follow(const script *s, double t)
 {
-    const script *s = script_of(kind);
     double now = t - s->period * (double)(int64_t)(t / s->period);
-    synth_gait gait = {.position = {s->acts[0].from, 0.0, s->z}, .heading = WEST};
+    synth_gait gait = {.position = {s->acts[0].from, 0.0, s->z}, .heading = s->heading};
     stand(&gait);
     for (int i = 0; i < s->act_count && now >= s->acts[i].begin; i++) {
         const act *a = &s->acts[i];
@@ -178,4 +184,14 @@ synth_gait synth_gait_at(rlf_synthetic_scene kind, double t)
             synth_smooth((now - s->reach_begin) / 0.8) * synth_smooth((s->reach_end - now) / 0.7);
     }
     return gait;
+}
+
+synth_gait synth_gait_at(rlf_synthetic_scene kind, double t)
+{
+    return follow(script_of(kind), t);
+}
+
+synth_gait synth_second_gait_at(double t)
+{
+    return follow(&second_script, t);
 }

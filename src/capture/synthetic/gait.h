@@ -27,6 +27,9 @@ typedef struct synth_gait {
 /* t in seconds since the first frame; the script of each scene repeats for ever. */
 synth_gait synth_gait_at(rlf_synthetic_scene kind, double t);
 
+/* The second person of scene "crossing". */
+synth_gait synth_second_gait_at(double t);
+
 /* Seconds after which the scene's script starts again. */
 double synth_gait_period(rlf_synthetic_scene kind);
 

@@ -48,14 +48,39 @@ rlf_vec3 synth_part_velocity(const synth_part *part, rlf_vec3 p)
     return rlf_add(part->velocity, rlf_cross(part->angular_velocity, arm));
 }
 
-static void move_tray(synth_scene *scene, double t)
+static motion motion_at(const synth_scene *scene, bones_fn bones, double t)
 {
     motion m;
-    synth_tray_bones(scene, t - DIFFERENCE_S, m.before);
-    synth_tray_bones(scene, t, m.now);
-    synth_tray_bones(scene, t + DIFFERENCE_S, m.after);
+    bones(scene, t - DIFFERENCE_S, m.before);
+    bones(scene, t, m.now);
+    bones(scene, t + DIFFERENCE_S, m.after);
+    return m;
+}
+
+static void move_tray(synth_scene *scene, double t)
+{
+    motion m = motion_at(scene, synth_tray_bones, t);
     put_flesh(scene, &synth_tray_flesh[0], RLF_SYNTHETIC_LABEL_TRAY, &m);
     put_flesh(scene, &synth_tray_flesh[1], RLF_SYNTHETIC_LABEL_HAND, &m);
+}
+
+static void move_hand(synth_scene *scene, double t)
+{
+    motion m = motion_at(scene, synth_hand_bones, t);
+    for (int32_t i = 0; i < synth_hand_flesh_count; i++) {
+        put_flesh(scene, &synth_hand_flesh[i], RLF_SYNTHETIC_LABEL_HAND, &m);
+    }
+}
+
+static void move_person(synth_scene *scene, bones_fn bones, int32_t label, double t)
+{
+    motion m = motion_at(scene, bones, t);
+    for (int32_t i = 0; i < synth_person_flesh_count; i++) {
+        put_flesh(scene, &synth_person_flesh[i], label, &m);
+    }
+    if (scene->kind == RLF_SYNTHETIC_BOOK) {
+        put_flesh(scene, &synth_book_flesh, RLF_SYNTHETIC_LABEL_BOOK, &m);
+    }
 }
 
 void synth_scene_move(synth_scene *scene, double t)
@@ -66,21 +91,12 @@ void synth_scene_move(synth_scene *scene, double t)
     }
     if (synth_has_tray(scene->kind)) {
         move_tray(scene, t);
-        return;
+    } else if (scene->kind == RLF_SYNTHETIC_HAND) {
+        move_hand(scene, t);
+    } else {
+        move_person(scene, synth_person_bones, RLF_SYNTHETIC_LABEL_PERSON, t);
     }
-    bool is_hand = scene->kind == RLF_SYNTHETIC_HAND;
-    bones_fn bones = is_hand ? synth_hand_bones : synth_person_bones;
-    motion m;
-    bones(scene, t - DIFFERENCE_S, m.before);
-    bones(scene, t, m.now);
-    bones(scene, t + DIFFERENCE_S, m.after);
-    const synth_flesh *flesh = is_hand ? synth_hand_flesh : synth_person_flesh;
-    int32_t count = is_hand ? synth_hand_flesh_count : synth_person_flesh_count;
-    int32_t label = is_hand ? RLF_SYNTHETIC_LABEL_HAND : RLF_SYNTHETIC_LABEL_PERSON;
-    for (int32_t i = 0; i < count; i++) {
-        put_flesh(scene, &flesh[i], label, &m);
-    }
-    if (scene->kind == RLF_SYNTHETIC_BOOK) {
-        put_flesh(scene, &synth_book_flesh, RLF_SYNTHETIC_LABEL_BOOK, &m);
+    if (scene->kind == RLF_SYNTHETIC_CROSSING) {
+        move_person(scene, synth_second_bones, RLF_SYNTHETIC_LABEL_SECOND_PERSON, t);
     }
 }

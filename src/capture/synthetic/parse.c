@@ -4,11 +4,11 @@
 #include <string.h>
 
 #define PREFIX "synthetic:"
-#define SCENES "room, empty, thesis, chair, book, hand, lift, swipe, carry"
+#define SCENES "room, empty, thesis, chair, book, hand, lift, swipe, carry, crossing"
 #define KEYS "seed, frames, fps, speed, noise, edge_filter, color"
 
 static const char *const scene_names[] = {"room", "empty", "thesis", "chair", "book",
-                                          "hand", "lift",  "swipe",  "carry"};
+                                          "hand", "lift",  "swipe",  "carry", "crossing"};
 #define SCENE_COUNT ((int)(sizeof(scene_names) / sizeof(scene_names[0])))
 
 /* A piece of the source string. */

@@ -159,15 +159,26 @@ static void set_book(double t, rlf_pose *bones)
         rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), 0.5 * RLF_PI * (1.0 + turned));
 }
 
+static void set_bones(const synth_scene *scene, const synth_gait *gait, rlf_pose *bones)
+{
+    rlf_pose body = body_pose(scene, gait);
+    set_trunk(&body, gait, bones);
+    for (int side = 0; side < 2; side++) {
+        set_leg(&body, gait, side, bones);
+        set_arm(scene, &body, gait, side, bones);
+    }
+}
+
+void synth_second_bones(const synth_scene *scene, double t, rlf_pose bones[SYNTH_BONE_COUNT])
+{
+    synth_gait gait = synth_second_gait_at(t);
+    set_bones(scene, &gait, bones);
+}
+
 void synth_person_bones(const synth_scene *scene, double t, rlf_pose bones[SYNTH_BONE_COUNT])
 {
     synth_gait gait = synth_gait_at(scene->kind, t);
-    rlf_pose body = body_pose(scene, &gait);
-    set_trunk(&body, &gait, bones);
-    for (int side = 0; side < 2; side++) {
-        set_leg(&body, &gait, side, bones);
-        set_arm(scene, &body, &gait, side, bones);
-    }
+    set_bones(scene, &gait, bones);
     if (scene->kind == RLF_SYNTHETIC_BOOK) {
         set_book(t, bones);
     }

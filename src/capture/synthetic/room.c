@@ -144,7 +144,7 @@ void synth_scene_build(synth_scene *scene, rlf_synthetic_scene kind)
     *scene = (synth_scene){.kind = kind, .speed = 0.5};
     if (kind == RLF_SYNTHETIC_THESIS) {
         build_thesis(scene);
-    } else if (synth_has_tray(kind)) {
+    } else if (synth_has_tray(kind) || kind == RLF_SYNTHETIC_CROSSING) {
         build_bare(scene);
     } else {
         build_room(scene);
