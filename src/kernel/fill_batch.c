@@ -56,7 +56,8 @@ RLF_KERNEL_PART void add_side_row(const float (*restrict row)[RLF_BATCH], float 
         float row_n = 0.0f, row_x = 0.0f, row_z = 0.0f, row_xz = 0.0f, xx = s->xx[i];
         for (int32_t dx = -RLF_WINDOW_ABOUT; dx <= RLF_WINDOW_ABOUT; dx++) {
             float x = (float)dx, at = row[dx + RLF_WINDOW_ABOUT][i];
-            float has = (at > 0.0f) & (at >= least[i]) & (at < most[i]) ? 1.0f : 0.0f;
+            bool is_inside = (at > 0.0f) & (at >= least[i]) & (at < most[i]);
+            float has = is_inside ? 1.0f : 0.0f;
             float z = has * (at - end[i]);
             row_n += has;
             row_x += has * x;

@@ -94,19 +94,24 @@ RLF_KERNEL_PART float rlf_kernel_abs(float x)
     return fabsf(x); /* a mask; a comparison and a choice are three times as dear */
 }
 
+RLF_KERNEL_PART uint64_t rlf_kernel_eight(const uint8_t *bytes)
+{
+    uint64_t eight;
+    memcpy(&eight, bytes, sizeof eight);
+    return eight;
+}
+
 /* The first index from `i` on at which a byte of the row is not 0, or `count`: marks are rare. */
 RLF_KERNEL_PART int32_t rlf_kernel_next_mark(const uint8_t *row, int32_t i, int32_t count)
 {
-    uint64_t eight[4] = {0, 0, 0, 0};
     for (; i + 32 <= count; i += 32) {
-        memcpy(eight, row + i, sizeof eight);
-        if ((eight[0] | eight[1] | eight[2] | eight[3]) != 0) {
+        if ((rlf_kernel_eight(row + i) | rlf_kernel_eight(row + i + 8) |
+             rlf_kernel_eight(row + i + 16) | rlf_kernel_eight(row + i + 24)) != 0) {
             break;
         }
     }
     for (; i + 8 <= count; i += 8) {
-        memcpy(eight, row + i, sizeof eight[0]);
-        if (eight[0] != 0) {
+        if (rlf_kernel_eight(row + i) != 0) {
             int32_t first = 7;
             for (int32_t k = 6; k >= 0; k--) { /* without a branch: it is not to be foreseen */
                 first = row[i + k] != 0 ? k : first;

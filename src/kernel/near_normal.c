@@ -50,6 +50,7 @@ RLF_KERNEL void rlf_kernel_bare_row(const float *restrict depth, const float *re
 {
     for (int32_t i = 0; i < count; i++) {
         float z = depth[i], n = normal_z[i];
-        bare[i] = (z > 0.0f) & (n == 0.0f) ? 1 : 0;
+        bool is_bare = (z > 0.0f) & (n == 0.0f);
+        bare[i] = is_bare ? 1 : 0;
     }
 }

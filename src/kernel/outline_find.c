@@ -22,7 +22,8 @@ RLF_KERNEL_PART void add_row(const float (*restrict row)[RLF_BATCH], float dy,
         for (int32_t k = 0; k < RLF_WINDOW_SIDE; k++) {
             float z = row[k][i], dx = (float)(k - RLF_WINDOW_ABOUT), square = dx * dx + dy * dy;
             bool is_far = z > behind[i];
-            float far = is_far ? 1.0f : 0.0f, near = (z > before[i]) & !is_far ? 1.0f : 0.0f;
+            bool is_near = (z > before[i]) & !is_far;
+            float far = is_far ? 1.0f : 0.0f, near = is_near ? 1.0f : 0.0f;
             float to_far = is_far ? square : nearest;
             far_n += far;
             far_x += far * dx;

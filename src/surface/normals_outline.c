@@ -79,7 +79,8 @@ static void walk_in(const outline_job *job, const outline_queue *q, int32_t k,
         int32_t sy = (int32_t)((float)y - steps * out_y + 0.5f);
         bool inside = (sx >= 0) & (sy >= 0) & (sx < width) & (sy < height);
         ptrdiff_t i = inside ? (ptrdiff_t)sy * width + sx : start;
-        goes_on = inside & (rlf_kernel_abs(depth[i] - z) <= MOST_APART * z) ? goes_on : 0.0f;
+        bool near = rlf_kernel_abs(depth[i] - z) <= MOST_APART * z;
+        goes_on = (inside & near) ? goes_on : 0.0f;
         float weight = known[i] != 0 ? goes_on : 0.0f;
         in->s[step][k] = q->outline.distance[k] + (float)(x - sx) * out_x + (float)(y - sy) * out_y;
         in->normal[step].x[k] = weight * nx[i];
