@@ -12,7 +12,7 @@ const peer_group peer_groups[PEER_GROUPS] = {
      "read+flying+smooth+fill+complete",
      STEP(READ) | STEP(FLYING) | STEP(SMOOTH) | STEP(FILL) | STEP(COMPLETE) | STEP(NORMALS),
      {{"interior_normals_pct", "inner%"},
-      {"interior_err_deg_median", "median"},
+      {"interior_err_deg_median", "median deg"},
       {"interior_wrong_over30deg_pct", ">30%"},
       {"edge_normals_pct", "edge%"},
       {"edge_wrong_over30deg_pct", "edge>30%"},

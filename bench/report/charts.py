@@ -148,14 +148,14 @@ def bar_chart(bars, unit):
     bars = [bar for bar in bars if bar[1] is not None]
     if not bars:
         return "<p>no data</p>"
-    begin, end, row = 240, WIDTH - 90, 24
+    begin, end, row = 250, WIDTH - 80, 24
     largest = max(max(value, whisker_end or 0.0) for _, value, whisker_end, _ in bars) or 1.0
     parts = []
     for index, (name, value, whisker_end, is_ours) in enumerate(bars):
         y = 6 + index * row
         width = max(1.0, (end - begin) * value / largest)
         far = begin + max(width, (end - begin) * (whisker_end or 0.0) / largest)
-        short = name if len(name) < 36 else name[:34] + "…"
+        short = name if len(name) < 35 else name[:33] + "…"
         parts.append(text(begin - 8, y + 13, short, "c1" if is_ours else "tick", "end"))
         parts.append(f'<rect x="{begin}" y="{y}" width="{width:.1f}" height="{row - 8}" rx="3" '
                      f'class="{"dot c1" if is_ours else "bar"}"/>')

@@ -155,9 +155,11 @@ def peers(data):
             "times and errors beside ours here.")])
     blocks = [Text("Other libraries on the very same clip of the synthetic room, one after the other on one thread. "
                    "Shares in percent: inner and edge, of pixels farther and nearer than 3 pixels from an edge; "
-                   "inner% and edge% have a normal; >30% and edge>30% of those are more than 30 degrees off; median is "
-                   "their error in degrees; lost, spoilt (> 10 degrees) and invented are of a plane with 1 % of its "
-                   "pixels missing; edge>40mm% of the pixels at an edge are more than 4 cm off.")]
+                   "inner% and edge% have a normal; >30% and edge>30% of those are more than 30 degrees off; median deg is "
+                   "their error; lost, spoilt (> 10 degrees) and invented are of a plane with 1 % of its "
+                   "pixels missing; edge>40mm% of the pixels at an edge are more than 4 cm off. "
+                   "A stage called floor, none or only is a part of the work, for scale. The charts have the least "
+                   "times, which a busy machine disturbs less than medians taken at different moments.")]
     for group in groups:
         blocks += _peer_group(group)
     blocks.append(Command("script/bench --peers DIR"))
