@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PICTURE "picture" /* by itself it has a table of its own, with every method */
+#define PICTURE "picture" /* by itself with every method, on every frame */
 #define PICTURE_FRAMES 100
 
 typedef struct eval_options {
@@ -145,6 +145,10 @@ static rlf_result run_task(const eval_task *task)
         return eval_scene_run(task->table, scene, task->seed, frames, o->profile_mask,
                               &o->settings);
     }
+    if (o->section != NULL && strcmp(o->section, PICTURE) == 0) {
+        return eval_picture_run_whole(task->table, task->seed,
+                                      o->frames > 0 ? o->frames : PICTURE_FRAMES, o->profile_mask);
+    }
     return find_section(task->section)->run(task->table, task->seed, o->profile_mask);
 }
 
@@ -225,10 +229,6 @@ int eval_main(int argc, char **argv)
     }
     if (options.json_path != NULL && rlf_file_check(options.json_path) != RLF_OK) {
         return command_failed();
-    }
-    if (options.section != NULL && strcmp(options.section, PICTURE) == 0) {
-        return eval_picture_main(options.frames > 0 ? options.frames : PICTURE_FRAMES,
-                                 options.seeds, options.json_path);
     }
     eval_table *table = rlf_alloc(sizeof(*table));
     if (table == NULL) {

@@ -9,11 +9,12 @@
 #define PICTURE_SAMPLES 16 /* per pixel, on a grid of 4 x 4 */
 #define PICTURE_BINS 640   /* of displacement, 1/40 pixel each: to 16 pixels */
 
-/* `relief eval --scene picture`. Returns the exit status. */
-int eval_picture_main(int64_t frame_count, int64_t seed_count, const char *json_path);
-/* The same as rows of `relief eval`, on a few pictures of one seed: soft occlusion for profile
- * live, the thesis's layers for profile thesis. */
+/* A few pictures of one seed: soft occlusion for profile live, the thesis's layers for profile
+ * thesis. */
 rlf_result eval_picture_run(eval_table *table, int64_t seed, int profile_mask);
+/* Every picture of that many frames, and hard occlusion too. */
+rlf_result eval_picture_run_whole(eval_table *table, int64_t seed, int64_t frames,
+                                  int profile_mask);
 
 /* ---- picture_truth.c: what the colour camera ought to see ------------------------------------ */
 
@@ -58,7 +59,6 @@ typedef struct picture_errors {
     int64_t pixels, order, order_far; /* wrong though depths differ by 5 cm; beyond 3 pixels */
     double flicker_sum;
     int64_t flicker_count;
-    double ms; /* least time of a picture */
 } picture_errors;
 
 /* Adds one picture. `alpha` and `before` (may be NULL: the picture before, for flicker) have a
