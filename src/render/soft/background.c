@@ -3,19 +3,12 @@
 
 #include <string.h>
 
-typedef struct background_job {
-    soft *s;
-    const rlf_image_rgba8 *color;
-    double near_z, far_z;
-} background_job;
-
-static void copy_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+static void copy_rows(const soft *s, int32_t begin, int32_t end)
 {
-    (void)worker;
-    const background_job *job = context;
-    const rlf_image_rgba8 *image = &job->s->image;
+    const rlf_image_rgba8 *image = &s->image;
+    const rlf_image_rgba8 *color = &s->background;
     for (int32_t y = begin; y < end; y++) {
-        memcpy(rlf_rgba8_row(image, y), rlf_rgba8_row(job->color, y), 4 * (size_t)image->width);
+        memcpy(rlf_rgba8_row(image, y), rlf_rgba8_row(color, y), 4 * (size_t)image->width);
     }
 }
 
@@ -31,12 +24,9 @@ static int32_t source_of(int32_t i, int32_t from, int32_t to, int32_t *out_weigh
     return first;
 }
 
-static void resize_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+static void resize_rows(const soft *s, int32_t begin, int32_t end)
 {
-    (void)worker;
-    const background_job *job = context;
-    const soft *s = job->s;
-    const rlf_image_rgba8 *color = job->color;
+    const rlf_image_rgba8 *color = &s->background;
     ptrdiff_t next = color->width > 1 ? 4 : 0;
     for (int32_t y = begin; y < end; y++) {
         int32_t wy;
@@ -57,13 +47,14 @@ static void resize_rows(void *context, int32_t begin, int32_t end, int32_t worke
 }
 
 /* Near is light, far is dark, unknown is black. */
-static void grey_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+static void grey_rows(const soft *s, int32_t begin, int32_t end)
 {
-    (void)worker;
-    const background_job *job = context;
-    const soft *s = job->s;
-    float near_z = (float)job->near_z;
-    float scale = (float)(200.0 / (job->far_z - job->near_z));
+    const rlf_rig *rig = &s->def.rig;
+    const bool has_range = rig->depth_max_m > rig->depth_min_m;
+    const double near = has_range ? rig->depth_min_m : 0.5;
+    const double far = has_range ? rig->depth_max_m : 4.5;
+    float near_z = (float)near;
+    float scale = (float)(200.0 / (far - near));
     for (int32_t y = begin; y < end; y++) {
         const float *z = rlf_f32_row(&s->real.z, y);
         uint8_t *out = rlf_rgba8_row(&s->image, y);
@@ -76,23 +67,24 @@ static void grey_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     }
 }
 
-void soft_draw_background(soft *s, const rlf_render_input *input)
+void soft_set_background(soft *s, const rlf_image_rgba8 *color)
 {
-    const rlf_image_rgba8 *color = &input->frame->color;
-    background_job job = {s, color, s->def.rig.depth_min_m, s->def.rig.depth_max_m};
-    rlf_range_fn fn = grey_rows;
-    if (color->data == NULL) {
-        if (!(job.far_z > job.near_z)) {
-            job.near_z = 0.5;
-            job.far_z = 4.5;
-        }
-    } else if (color->width == s->image.width && color->height == s->image.height) {
-        fn = copy_rows;
-    } else {
-        for (int32_t x = 0; x < s->image.width; x++) {
-            s->column_left[x] = source_of(x, color->width, s->image.width, &s->column_weight[x]);
-        }
-        fn = resize_rows;
+    s->background = *color;
+    bool is_resized = color->width != s->image.width || color->height != s->image.height;
+    for (int32_t x = 0; color->data != NULL && is_resized && x < s->image.width; x++) {
+        s->column_left[x] = source_of(x, color->width, s->image.width, &s->column_weight[x]);
     }
-    rlf_parallel_for(s->def.pool, s->image.height, SOFT_BAND_ROWS, fn, &job);
+}
+
+void soft_draw_background(const soft *s, int32_t begin, int32_t end)
+{
+    const rlf_image_rgba8 *color = &s->background;
+    if (color->data == NULL) {
+        grey_rows(s, begin, end);
+    } else if (color->width == s->image.width && color->height == s->image.height) {
+        copy_rows(s, begin, end);
+    } else {
+        resize_rows(s, begin, end);
+    }
+    memset(rlf_u8_row(&s->matte, begin), 0, (size_t)(end - begin) * (size_t)s->matte.width);
 }

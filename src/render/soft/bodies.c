@@ -161,6 +161,11 @@ static void draw_layers(const soft *s, int32_t face_count, soft_group *group)
     }
 }
 
+typedef struct draw_job {
+    const soft *s;
+    bool with_background;
+} draw_job;
+
 /* What may hide a body in row y. */
 static soft_real_row real_row(const soft *s, int32_t y)
 {
@@ -184,7 +189,11 @@ static soft_real_row real_row(const soft *s, int32_t y)
 
 static void draw_band(void *context, int32_t begin, int32_t end, int32_t worker)
 {
-    const soft *s = context;
+    const draw_job *job = context;
+    const soft *s = job->s;
+    if (job->with_background) {
+        soft_draw_background(s, begin, end);
+    }
     soft_draw_shadows(s, s->shade_tiles[worker], begin, end);
     bool is_layered = s->def.occlusion == RLF_OCCLUSION_THESIS;
     soft_group *group = &s->workers[worker];
@@ -205,7 +214,8 @@ static void draw_band(void *context, int32_t begin, int32_t end, int32_t worker)
     }
 }
 
-void soft_draw_bodies(soft *s)
+void soft_draw_bodies(soft *s, bool with_background)
 {
-    rlf_parallel_for(s->def.pool, s->camera.height, SOFT_BAND_ROWS, draw_band, s);
+    draw_job job = {s, with_background};
+    rlf_parallel_for(s->def.pool, s->camera.height, SOFT_BAND_ROWS, draw_band, &job);
 }

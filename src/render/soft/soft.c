@@ -182,22 +182,30 @@ static void update_silhouette(soft *s, const rlf_render_input *input)
     silhouette_update(&s->silhouette, &s->real.z, input->frame);
 }
 
+static void draw_background_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    soft_draw_background(context, begin, end);
+}
+
 static rlf_result draw_camera(soft *s, const rlf_render_input *input)
 {
     rlf_result result = soft_scene_build(s, input);
     if (result != RLF_OK) {
         return result;
     }
-    bool has_color = input->frame->color.data != NULL;
-    if (!has_color || s->scene.body_count > 0) {
+    bool has_bodies = s->scene.body_count > 0;
+    if (input->frame->color.data == NULL || has_bodies) {
         real_depth_update(&s->real, input->frame, input->surface);
     }
-    soft_draw_background(s, input);
-    if (s->scene.body_count > 0 && s->def.occlusion == RLF_OCCLUSION_SOFT) {
+    soft_set_background(s, &input->frame->color);
+    if (has_bodies && s->def.occlusion == RLF_OCCLUSION_SOFT) {
         update_silhouette(s, input);
     }
-    if (s->scene.body_count > 0) {
-        soft_draw_bodies(s);
+    if (has_bodies) {
+        soft_draw_bodies(s, true);
+    } else {
+        rlf_parallel_for(s->def.pool, s->image.height, SOFT_BAND_ROWS, draw_background_rows, s);
     }
     return RLF_OK;
 }
@@ -207,7 +215,8 @@ static void draw_mesh(soft *s, const rlf_render_input *input)
     if (input->frame->color.data == NULL) {
         real_depth_update(&s->real, input->frame, input->surface);
     }
-    soft_draw_background(s, input);
+    soft_set_background(s, &input->frame->color);
+    rlf_parallel_for(s->def.pool, s->image.height, SOFT_BAND_ROWS, draw_background_rows, s);
     soft_draw_mesh(s, input->surface);
 }
 
@@ -221,7 +230,6 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
                         (int)input->surface->width, (int)input->surface->height,
                         (int)s->def.grid.width, (int)s->def.grid.height);
     }
-    clear_matte(s);
     room_light_update(&s->lamp, &s->def, input->frame);
     rlf_result result = RLF_OK;
     if (input->view == RLF_VIEW_CAMERA) {
@@ -230,10 +238,12 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
         result = draw_camera(s, input);
         soft_draw_contacts(s, input);
     } else if (input->view == RLF_VIEW_POINTS) {
+        clear_matte(s);
         result = soft_draw_points(s, input);
     } else if (input->view == RLF_VIEW_MESH) {
         draw_mesh(s, input);
     } else {
+        clear_matte(s);
         soft_draw_view(s, input);
     }
     if (result != RLF_OK) {

@@ -172,6 +172,7 @@ typedef struct soft {
     float ray_x0, ray_step_x; /* x / z of pixel column i, without the lens: ray_x0 + i ray_step_x */
     float ray_y0, ray_step_y;
 
+    rlf_image_rgba8 background; /* borrowed for a picture */
     int32_t *column_left; /* bilinear resize, per x: left column, weight of the next one (0..256) */
     int32_t *column_weight;
     rlf_image_rgba8 grid_image; /* views are drawn here, then enlarged into the picture */
@@ -180,9 +181,11 @@ typedef struct soft {
 /* soft.c: what the picture is seen from. */
 void soft_set_viewpoint(soft *s, const rlf_camera *camera, const rlf_pose *T_picture_depth);
 
-/* background.c: the colour picture, or registered depth in grey; real depth must be up to date for
- * the latter. */
-void soft_draw_background(soft *s, const rlf_render_input *input);
+/* background.c: the colour picture, or, when it has no data, registered depth in grey. */
+void soft_set_background(soft *s, const rlf_image_rgba8 *color);
+/* Rows [begin, end) of it; the matte there becomes 0. Real depth must be up to date if it is grey.
+ */
+void soft_draw_background(const soft *s, int32_t begin, int32_t end);
 
 /* scene.c: all bodies in the picture as faces. */
 rlf_result soft_scene_build(soft *s, const rlf_render_input *input);
@@ -204,8 +207,9 @@ void soft_shade_face(const soft *s, const soft_ends *ends, const soft_group *gro
 void soft_compose_row(float *const sum[4], int32_t count, uint8_t *restrict pixels,
                       uint8_t *restrict matte);
 
-/* bodies.c: draws the scene over the image and writes the matte. */
-void soft_draw_bodies(soft *s);
+/* bodies.c: draws the scene over the image and writes the matte; with_background: first the
+ * background, in the same go through memory. */
+void soft_draw_bodies(soft *s, bool with_background);
 
 /* shadow.c: darkens the real surfaces of rows [begin, end) that the bodies keep the light from. */
 void soft_draw_shadows(const soft *s, soft_shade_tile *tiles, int32_t begin, int32_t end);

@@ -136,7 +136,7 @@ rlf_result soft_draw_points(soft *s, const rlf_render_input *input)
     draw_all_points(s, input);
     rlf_result result = soft_scene_build(s, input);
     if (result == RLF_OK && s->scene.body_count > 0) {
-        soft_draw_bodies(s);
+        soft_draw_bodies(s, false);
     }
     draw_frustum(s);
     s->def.occlusion = occlusion;
