@@ -7,7 +7,8 @@
  * near ones more, for the side that it belongs to: that averages the raggedness along the edge. The
  * depth is that side's plane, least squares in depth, which is straight enough within two pixels,
  * or the background's own where that goes on there. A gap between two near ends that is wider than
- * a driver's band shows the background in its middle. */
+ * a driver's band shows the background in its middle. The outermost pixels, which drivers' filters
+ * leave empty, go on as the two inside of them. */
 #include "surface/steps.h"
 #include "surface/window.h"
 
@@ -165,6 +166,36 @@ static void fill_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     fill_batch(job, &queue);
 }
 
+/* Pixel i of the border from the one inside of it, `step` away, and the next. */
+static void go_on(const fill_job *job, ptrdiff_t i, ptrdiff_t step)
+{
+    float z = job->out[i + step], next = job->out[i + 2 * step];
+    if (job->out[i] > 0.0f || !(z > 0.0f) || !may_fill(job->reason[i])) {
+        return;
+    }
+    bool one_surface = next > 0.0f && rlf_kernel_abs(next - z) < MOST_CHANGE * z;
+    job->out[i] = one_surface ? z * next / (2.0f * next - z) : z; /* inverse depth is linear */
+    job->reason[i] = RLF_REASON_FILLED;
+}
+
+/* Rows first; the corners then have theirs. */
+static void fill_border(const fill_job *job)
+{
+    const rlf_grid *grid = &job->stage->grid;
+    ptrdiff_t width = grid->width, last = (ptrdiff_t)(grid->height - 1) * width;
+    if (grid->width < 3 || grid->height < 3) {
+        return;
+    }
+    for (int32_t y = 0; y < grid->height; y++) {
+        go_on(job, y * width, 1);
+        go_on(job, y * width + width - 1, -1);
+    }
+    for (int32_t x = 0; x < grid->width; x++) {
+        go_on(job, x, width);
+        go_on(job, last + x, -width);
+    }
+}
+
 void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, rlf_slot *slot)
 {
     fill_job job = {.stage = stage,
@@ -176,4 +207,5 @@ void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, rlf_slot *
                     .reason = slot->reason};
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, copy_rows, &job);
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, fill_rows, &job);
+    fill_border(&job);
 }

@@ -23,7 +23,7 @@ typedef struct golden {
 } golden;
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0x87dc4082632e2560u, 0xa393f7c37cc0858cu, 0x95225753eae74c96u},
+    {RLF_PROFILE_LIVE, 0xd58c2be76f078aa7u, 0xf026876a3f4ee805u, 0xcc2ccc2074322014u},
     {RLF_PROFILE_THESIS, 0xa393eb06e579d241u, 0xd84652fb54683851u, 0xf068ba3d9f6846e3u},
 };
 

@@ -160,6 +160,36 @@ static void nothing_that_moved_stays(void **state)
     rlf_reconstruct_destroy(&steady);
 }
 
+/* Drivers leave the border of the image empty: it goes on as what is inside of it. */
+static void the_border_goes_on(void **state)
+{
+    fixture *f = *state;
+    set_room(f, 1.6);
+    for (int i = 0; i < COUNT; i++) {
+        int x = i % WIDTH, y = i / WIDTH;
+        bool border = x == 0 || y == 0 || x == WIDTH - 1 || y == HEIGHT - 1;
+        f->noisy[i] = border ? 0.0f : f->truth[i];
+    }
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
+    def.background_method = RLF_BACKGROUND_OFF;
+    rlf_reconstruct *stage = NULL;
+    const rlf_surface *s = NULL;
+    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    rlf_frame frame = analytic_frame(&f->rig, f->noisy, 0);
+    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    for (int i = 0; i < COUNT; i++) {
+        int x = i % WIDTH;
+        bool is_edge = x > WIDTH / 2 - 4 && x < WIDTH / 2 + 4;
+        bool is_floor = x >= WIDTH / 2 && f->truth[i] < 2.999f; /* too steep here for pixels */
+        if (f->noisy[i] > 0.0f || is_edge || is_floor) {
+            continue;
+        }
+        assert_int_equal(s->reason[i], RLF_REASON_FILLED);
+        assert_true(fabsf(s->depth[i] - f->truth[i]) < 0.005f);
+    }
+    rlf_reconstruct_destroy(&stage);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -167,6 +197,7 @@ int main(void)
         cmocka_unit_test(without_filters_depth_is_the_frames),
         cmocka_unit_test(what_stands_still_becomes_steady),
         cmocka_unit_test(nothing_that_moved_stays),
+        cmocka_unit_test(the_border_goes_on),
     };
     return cmocka_run_group_tests(tests, make_fixture, free_fixture);
 }
