@@ -8,6 +8,10 @@
 
 #define ROOM_HZ 30
 #define ROOM_REGIONS_MAX 256
+#define SHOWER_LAYER 140 /* cubes dropped together */
+#define SHOWER_LAYER_FRAMES                                                                        \
+    6                 /* from layer to layer, so that nothing is dropped into the last one */
+#define SHOWER_LOST 9 /* frames, 0.3 s, inside what stays: lost */
 
 /* The synthetic room, reconstructed frame by frame. */
 typedef struct room {
@@ -33,6 +37,9 @@ typedef struct shower {
     int32_t hidden_count; /* of the lost: in what no picture shows */
     int32_t *inside;      /* per body: frames inside something that stays */
 } shower;
+
+/* The index-th cube: one of a layer under the ceiling, each turned in its own way. */
+rlf_body_def shower_cube(int32_t index);
 
 bool shower_open(shower *s, int32_t count, double seconds, rlf_pool *pool);
 /* Drops cubes and advances by one frame in two steps of 1/60 s. */

@@ -10,10 +10,7 @@
 #include <time.h>
 
 #define EMPTY_FRAMES 8   /* the background needs five */
-#define LAYER_COLUMNS 14 /* cubes dropped together, side by side ... */
-#define LAYER_ROWS 10    /* ... and one behind the other */
-#define LAYER_FRAMES 6   /* from layer to layer, so that nothing is dropped into the last one */
-#define LOST_FRAMES 9    /* 0.3 s inside is lost */
+#define LAYER_COLUMNS 14 /* cubes of a layer side by side */
 
 bool room_open(room *r, uint64_t seed, int32_t scale_factor)
 {
@@ -78,11 +75,10 @@ void shower_close(shower *s)
     free(s->inside);
 }
 
-/* One cube of a layer under the ceiling, each turned in its own way. */
-static rlf_body_def cube(int32_t index)
+rlf_body_def shower_cube(int32_t index)
 {
     rlf_body_def def = rlf_body_def_default();
-    int32_t place = index % (LAYER_COLUMNS * LAYER_ROWS);
+    int32_t place = index % SHOWER_LAYER;
     int32_t column = place % LAYER_COLUMNS, row = place / LAYER_COLUMNS;
     def.position =
         rlf_vec3_make(0.18 * (column - 0.5 * (LAYER_COLUMNS - 1)), -0.4, 1.5 + 0.18 * row);
@@ -94,9 +90,8 @@ static rlf_body_def cube(int32_t index)
 
 static bool drop_layer(shower *s)
 {
-    int32_t layer = LAYER_COLUMNS * LAYER_ROWS;
-    for (int32_t k = 0; k < layer && s->added < s->count; k++, s->added++) {
-        rlf_body_def def = cube(s->added);
+    for (int32_t k = 0; k < SHOWER_LAYER && s->added < s->count; k++, s->added++) {
+        rlf_body_def def = shower_cube(s->added);
         if (rlf_world_add_body(s->world, &def, NULL) != RLF_OK) {
             return false;
         }
@@ -173,9 +168,9 @@ static void count_losses(shower *s, room *r)
         int32_t label = 0;
         rlf_synthetic_distance(r->source, body->T_world_body.p, &distance, &normal, &label);
         bool is_inside = distance < 0.0 && label < RLF_SYNTHETIC_LABEL_PERSON;
-        *inside = is_inside || *inside >= LOST_FRAMES ? *inside + 1 : 0;
-        s->lost_count += *inside >= LOST_FRAMES;
-        if (*inside == LOST_FRAMES) {
+        *inside = is_inside || *inside >= SHOWER_LOST ? *inside + 1 : 0;
+        s->lost_count += *inside >= SHOWER_LOST;
+        if (*inside == SHOWER_LOST) {
             s->hidden_count += !is_seen_solid(&r->grid, body->T_world_body.p);
             report_loss(s, body, label, distance);
         }
@@ -186,7 +181,7 @@ static void count_losses(shower *s, room *r)
 bool shower_step(shower *s, room *r)
 {
     int32_t frame = s->step_count / 2;
-    if (frame % LAYER_FRAMES == 0 && !drop_layer(s)) {
+    if (frame % SHOWER_LAYER_FRAMES == 0 && !drop_layer(s)) {
         return false;
     }
     advance(s, &r->grid);

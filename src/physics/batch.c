@@ -13,7 +13,7 @@
 #define SOFT_A2 (SOFT_OMEGA_H * SOFT_A1)
 /* Overlaps are pushed apart no faster than this, m/s. */
 #define PUSH_SPEED_MAX 3.0
-/* Overlap left alone, as a share of the body's radius, so that contacts persist. */
+/* Overlap left alone, as a share of the smaller body's radius, so that contacts persist. */
 #define SLOP_SHARE 0.002
 
 enum {
@@ -112,7 +112,8 @@ static void set_targets(rlf_lane_point *p, int32_t lane, const phys_contact *c, 
 
 static void add_points(phys_batch *batch, const phys_group *g, int32_t lane, double h)
 {
-    double slop = SLOP_SHARE * g->a->shape.radius;
+    double radius = g->a->shape.radius;
+    double slop = SLOP_SHARE * (g->b != NULL ? rlf_min(radius, g->b->shape.radius) : radius);
     rlf_lane_point *p = batch->lanes.points;
     for (int32_t i = 0; i < g->count; i++) {
         const phys_contact *c = &g->contacts[i];

@@ -7,6 +7,7 @@
 #include "physics/solver.h"
 
 #define NO_EVENT 1e30
+#define SLOW 0.02 /* m/s: no bounce */
 #define EVENTS_PER_GROUP 4
 /* Gap at which a contact of the same group takes part in an impact, metres. */
 #define TOGETHER 2e-4
@@ -127,7 +128,7 @@ static double event_time(const phys_group *g, double h)
         double v = rlf_dot(c->normal, relative_velocity(c, &s, g->b != NULL));
         double a = normal_acceleration(c, g);
         /* Gravity alone gives |a| h per substep: a bounce slower than a few of these is rest. */
-        double slow = 0.02 + 3.0 * (a < 0.0 ? -a : a) * h;
+        double slow = SLOW + 3.0 * (a < 0.0 ? -a : a) * h;
         if (v + rlf_min(a * h, 0.0) >= -slow) {
             continue;
         }
@@ -422,7 +423,9 @@ void phys_solve_impacts(rlf_world *world, const phys_island *island, const phys_
     for (int32_t k = 0; k < count; k++) {
         world->event_counts[groups[k].key] = 0;
         world->event_times[groups[k].key] = NO_EVENT;
-        look_at_group(&list, &groups[k]);
+        if (groups[k].b == NULL || groups[k].speed > SLOW) {
+            look_at_group(&list, &groups[k]);
+        }
     }
     if (list.count == 0) {
         return;

@@ -35,7 +35,8 @@ bool phys_group_prepare(const rlf_world *world, phys_group *g, double h)
     if (g->count == 0) {
         return false;
     }
-    double way = (FAR_SPEED + FAR_FACTOR * (speed_of(g->a) + speed_of(g->b))) * h;
+    g->speed = speed_of(g->a) + speed_of(g->b);
+    double way = (FAR_SPEED + FAR_FACTOR * g->speed) * h;
     for (int32_t i = 0; i < g->count; i++) {
         phys_contact *c = &g->contacts[i];
         measure_gap(world, c, g);

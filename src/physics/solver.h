@@ -13,6 +13,7 @@ static inline phys_group phys_group_of_pair(rlf_world *world, int32_t pair_index
                     &pair->stance,
                     pair->contact_count,
                     pair_index,
+                    0,
                     0};
     return g;
 }
@@ -21,7 +22,7 @@ static inline phys_group phys_group_of_body(rlf_world *world, int32_t body_index
 {
     phys_body *body = &world->bodies[body_index];
     int32_t key = world->pair_capacity + body_index;
-    phys_group g = {body->surface, body, NULL, &body->stance, body->surface_count, key, 0};
+    phys_group g = {body->surface, body, NULL, &body->stance, body->surface_count, key, 0, 0};
     return g;
 }
 

@@ -18,6 +18,7 @@ typedef struct phys_group {
     int32_t count;
     int32_t key;        /* index of the pair, or of the body behind all pairs */
     int32_t near_count; /* contacts that may touch in this substep */
+    double speed;       /* no point of the two bodies moves faster past the other, m/s */
 } phys_group;
 
 /* Groups that are solved side by side; see batch.c. */

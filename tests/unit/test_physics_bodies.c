@@ -15,7 +15,7 @@ static rlf_world *make_world(double gravity)
 {
     rlf_world_def def = rlf_world_def_default();
     def.gravity = rlf_vec3_make(0, gravity, 0);
-    def.body_capacity = 16;
+    def.body_capacity = 128;
     def.contact_capacity = 512;
     rlf_world *world = NULL;
     assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
@@ -166,6 +166,61 @@ static void stack_of_ten(void **state)
     grid_fixture_destroy(&f);
 }
 
+/* What may overlap is a share of the smaller body: a wide ground swallows nothing. */
+static void a_wide_ground_holds(void **state)
+{
+    (void)state;
+    rlf_world *world = make_world(9.81);
+    rlf_body_def def = rlf_body_def_default();
+    def.shape.size = rlf_vec3_make(10, 1, 10);
+    def.position = rlf_vec3_make(0, 0.5, 0);
+    def.is_kinematic = true;
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    def = rlf_body_def_default();
+    def.position = rlf_vec3_make(0, -0.05, 0);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    for (int k = 0; k < 60; k++) {
+        rlf_world_advance(world, NULL, 1.0 / 30);
+    }
+    double depth = body(world, 1)->T_world_body.p.y + 0.05;
+    print_message("cube on a wide ground: %.4f mm deep\n", 1e3 * depth);
+    assert_true(depth < 0.5e-3);
+    rlf_world_destroy(&world);
+}
+
+/* More pairs at one body than the solver has colours for: 81 cubes on a plate, which stands on a
+ * grid. */
+static void a_plate_carries_many(void **state)
+{
+    (void)state;
+    grid_fixture *f = grid_fixture_create();
+    grid_plane room[2] = {grid_floor(1.0), grid_wall(4)};
+    grid_fixture_set_room(f, room, 2);
+    rlf_world *world = make_world(9.81);
+    rlf_body_def def = rlf_body_def_default();
+    def.shape.size = rlf_vec3_make(1.2, 0.06, 1.2);
+    def.mass = 20.0;
+    def.position = rlf_vec3_make(0.0, 0.97, 2.8);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    def = rlf_body_def_default();
+    def.restitution = 0.0;
+    for (int i = 0; i < 81; i++) {
+        def.position = rlf_vec3_make(0.13 * (i % 9 - 4), 0.88, 2.8 + 0.13 * (i / 9 - 4));
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    }
+    for (int k = 0; k < 90; k++) {
+        f->grid.time_ns = k;
+        rlf_world_advance(world, &f->grid, 1.0 / 30);
+    }
+    for (int i = 1; i <= 81; i++) {
+        rlf_vec3 p = body(world, i)->T_world_body.p;
+        assert_float_equal(p.y, 0.89, 2e-3);
+        assert_float_equal(p.x, 0.13 * ((i - 1) % 9 - 4), 5e-3);
+    }
+    rlf_world_destroy(&world);
+    grid_fixture_destroy(&f);
+}
+
 static void bodies_may_ignore_bodies(void **state)
 {
     (void)state;
@@ -194,6 +249,8 @@ int main(void)
         cmocka_unit_test(chain_of_balls),
         cmocka_unit_test(momentum_is_conserved),
         cmocka_unit_test(stack_of_ten),
+        cmocka_unit_test(a_wide_ground_holds),
+        cmocka_unit_test(a_plate_carries_many),
         cmocka_unit_test(bodies_may_ignore_bodies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
