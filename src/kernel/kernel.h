@@ -386,6 +386,35 @@ void rlf_kernel_seen_row(const float *restrict z, int32_t count, uint8_t *restri
 /* Keeps the smaller value of each. */
 void rlf_kernel_nearer_row(const float *restrict line, int32_t count, float *restrict out);
 
+/* ---- chord_row.c: chords of the foreground, see surface/thickness.h
+ * --------------------------------------------------- */
+
+#define RLF_CHORD_RUN 64 /* most pixels at a time */
+
+/* Ends in steps along its line; a conic, or a wedge whose edge is at the apex. */
+typedef struct rlf_kernel_chord {
+    float begin, end, apex;
+    bool is_wedge;
+} rlf_kernel_chord;
+
+/* Variance of depth: of a sample, and by how far the ends are known; the depth z and its inverse
+ * that samples are relative to. */
+typedef struct rlf_kernel_chord_noise {
+    float noise, blur[2];
+    float metres, inverse, z;
+} rlf_kernel_chord_noise;
+
+/* Weighted sums of s (metres along the chord), h (its profile) and y (depth). */
+typedef struct rlf_kernel_chord_sums {
+    float n, s, h, y, ss, hh, sh, sy, hy, yy;
+} rlf_kernel_chord_sums;
+
+/* Adds the samples of the pixels first .. first + count - 1, at most RLF_CHORD_RUN of them, in
+ * their order; `seen` is inverse depth, 0 = none. */
+void rlf_kernel_chord_sum(const rlf_kernel_chord *chord, const rlf_kernel_chord_noise *noise,
+                          const float *restrict seen, int32_t first, int32_t count,
+                          rlf_kernel_chord_sums *restrict sums);
+
 /* ---- body_mean_row.c ---------------------------------------------------------------------------
  */
 

@@ -32,48 +32,32 @@ static void expect_ball(const rlf_chord_job *job, const rlf_line *line, ptrdiff_
 }
 
 /* Plain sums over the samples of a chord. */
-typedef struct sums {
-    float n, s, h, y, ss, hh, sh, sy, hy, yy;
-} sums;
-
-static inline void add_sample(sums *t, float weight, float s, float h, float y)
-{
-    float ws = weight * s, wh = weight * h, wy = weight * y;
-    t->n += weight;
-    t->s += ws;
-    t->h += wh;
-    t->y += wy;
-    t->ss += ws * s;
-    t->hh += wh * h;
-    t->sh += ws * h;
-    t->sy += ws * y;
-    t->hy += wh * y;
-    t->yy += wy * y;
-}
-
-static sums sum_samples(const rlf_chord_job *job, const rlf_line *line, const rlf_chord *c, float z)
+static rlf_kernel_chord_sums sum_samples(const rlf_chord_job *job, const rlf_line *line,
+                                         const rlf_chord *c, float z)
 {
     float sigma = rlf_kernel_sigma(job->noise, z);
-    float noise = sigma * sigma + shape_error_m * shape_error_m;
     /* d sqrt(l r) / dl = sqrt(r / l) / 2: what an end that is not sharp is worth in depth */
     float v0 = 0.5f * c->blur[0] * c->metres, v1 = 0.5f * c->blur[1] * c->metres;
-    v0 *= v0;
-    v1 *= v1;
-    float centre = 0.5f * (c->begin + c->end);
-    sums t = {0};
+    const rlf_kernel_chord ends = {c->begin, c->end, c->apex, c->apex >= c->begin};
+    const rlf_kernel_chord_noise noise = {sigma * sigma + shape_error_m * shape_error_m,
+                                          {v0 * v0, v1 * v1},
+                                          c->metres,
+                                          c->inverse,
+                                          z};
+    rlf_kernel_chord_sums sums = {0};
     for (int32_t i = 0; i < c->part_count; i++) {
-        for (int32_t k = c->part[i].begin; k < c->part[i].end; k++) {
-            float w = job->inverse[line->base + k * line->stride];
-            if (w <= 0.0f) {
-                continue;
+        int32_t end = c->part[i].end;
+        for (int32_t first = c->part[i].begin; first < end; first += RLF_CHORD_RUN) {
+            float seen[RLF_CHORD_RUN];
+            const float *from = job->inverse + line->base + first * line->stride;
+            int32_t count = end - first < RLF_CHORD_RUN ? end - first : RLF_CHORD_RUN;
+            for (int32_t k = 0; k < count; k++) {
+                seen[k] = from[k * line->stride];
             }
-            float l = (float)k - c->begin, r = c->end - (float)k, lr = l * r;
-            float weight = lr / (noise * lr + v0 * r * r + v1 * l * l);
-            add_sample(&t, weight, ((float)k - centre) * c->metres,
-                       rlf_chord_profile(c, (float)k) * c->metres, (c->inverse - w) * z * z);
+            rlf_kernel_chord_sum(&ends, &noise, seen, first, count, &sums);
         }
     }
-    return t;
+    return sums;
 }
 
 bool rlf_chord_measure(const rlf_chord_job *job, const rlf_line *line, rlf_chord *c)
@@ -85,7 +69,7 @@ bool rlf_chord_measure(const rlf_chord_job *job, const rlf_line *line, rlf_chord
     c->inverse = 1.0f / z;
     c->metres = z * line->angle;
     c->beside = (rlf_chord_middle){0.0f, 0.0f};
-    sums t = sum_samples(job, line, c, z);
+    rlf_kernel_chord_sums t = sum_samples(job, line, c, z);
     if (!(t.n > 0.0f)) {
         return false;
     }

@@ -9,6 +9,8 @@
 #include "analytic.h"
 #include "kernel/kernel.h"
 
+#include <math.h>
+
 enum { LONGEST = 70 };
 
 /* Depth with holes and jumps. */
@@ -271,6 +273,35 @@ static void near_normal_is_its_definition(void **state)
     }
 }
 
+static void chord_sums_are_their_definition(void **state)
+{
+    (void)state;
+    analytic_random r = {13};
+    const rlf_kernel_chord_noise noise = {1e-5f, {2e-5f, 3e-5f}, 0.006f, 0.5f, 2.0f};
+    for (int32_t count = 1; count <= RLF_CHORD_RUN; count++) {
+        const float apex = 5.5f + 0.4f * (float)count;
+        const rlf_kernel_chord chord = {4.5f, 5.5f + (float)count, apex, count % 3 == 0};
+        float seen[RLF_CHORD_RUN];
+        double n = 0.0, hy = 0.0;
+        for (int32_t i = 0; i < count; i++) {
+            seen[i] = random_uniform(&r) < 0.2 ? 0.0f : (float)(0.5 + 0.02 * random_uniform(&r));
+            double k = 5 + i, left = k - chord.begin, right = chord.end - k;
+            double side = k < apex ? left / (apex - chord.begin) : right / (chord.end - apex);
+            double wedge = 0.5 * side * (chord.end - chord.begin);
+            double h = noise.metres * (chord.is_wedge ? wedge : sqrt(left * right));
+            double below = noise.noise * left * right + noise.blur[0] * right * right +
+                           noise.blur[1] * left * left;
+            double weight = seen[i] > 0.0f ? left * right / below : 0.0;
+            n += weight;
+            hy += weight * h * (0.5 - (double)seen[i]) * 4.0;
+        }
+        rlf_kernel_chord_sums sums = {0};
+        rlf_kernel_chord_sum(&chord, &noise, seen, 5, count, &sums);
+        assert_true(rlf_max(sums.n - n, n - sums.n) <= 1e-5 * n);
+        assert_true(rlf_max(sums.hy - hy, hy - sums.hy) <= 1e-4 * rlf_max(-hy, 1e-3));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -281,6 +312,7 @@ int main(void)
         cmocka_unit_test(plane_tile_stays_in_its_tile),
         cmocka_unit_test(body_mean_row_is_its_definition),
         cmocka_unit_test(near_normal_is_its_definition),
+        cmocka_unit_test(chord_sums_are_their_definition),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
