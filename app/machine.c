@@ -14,7 +14,7 @@
 #define TEXT 160
 
 typedef struct machine {
-    char cpu[TEXT], cores[16], system[TEXT], compiler[TEXT], version[32], date[16];
+    char cpu[TEXT], cores[16], system[TEXT], compiler[TEXT], version[32], date[16], load[TEXT];
 } machine;
 
 /* Value of the first line "KEY<separators>VALUE" of a file; out stays as it is when there is none.
@@ -41,6 +41,9 @@ static machine describe(void)
     machine m = {.cpu = "unknown"};
     read_value("/proc/cpuinfo", "model name", " \t:", m.cpu);
     snprintf(m.cores, sizeof(m.cores), "%ld", sysconf(_SC_NPROCESSORS_ONLN));
+    snprintf(m.load, sizeof(m.load), "unknown");
+    read_value("/proc/loadavg", "", "", m.load);
+    m.load[strcspn(m.load, " ")] = '\0';
     struct utsname name;
     char distribution[TEXT] = "";
     read_value("/etc/os-release", "PRETTY_NAME", "=\"", distribution);
@@ -68,16 +71,16 @@ static machine describe(void)
 void machine_print(void)
 {
     machine m = describe();
-    printf("%s, %s cores, %s; %s; %s, %s build; Relief %s, commit %s, %s\n", m.cpu, m.cores,
-           rlf_isa_name(), m.system, m.compiler, RELIEF_BUILD_TYPE, m.version, RELIEF_COMMIT,
-           m.date);
+    printf("%s, %s cores, %s; %s; %s, %s build; Relief %s, commit %s, %s; load %s\n", m.cpu,
+           m.cores, rlf_isa_name(), m.system, m.compiler, RELIEF_BUILD_TYPE, m.version,
+           RELIEF_COMMIT, m.date, m.load);
 }
 
 json_t *machine_json(void)
 {
     machine m = describe();
-    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:s, s:s, s:s, s:s}", "cpu", m.cpu, "cores",
+    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:s, s:s, s:s, s:s, s:s}", "cpu", m.cpu, "cores",
                      m.cores, "isa", rlf_isa_name(), "system", m.system, "compiler", m.compiler,
                      "build", RELIEF_BUILD_TYPE, "version", m.version, "commit", RELIEF_COMMIT,
-                     "date", m.date);
+                     "date", m.date, "load", m.load);
 }

@@ -281,14 +281,15 @@ def noise(data):
     for n in data.noise:
         for r in n["noise"]:
             r["per_square"] = r["step_1_mm"] and r["step_1_mm"] / r["distance_m"] ** 2
+    seen = [[r for r in n["noise"] if r["pixels_percent"] >= 0.1] for n in data.noise]  # fewer pixels are no curve
     keys = [("step_1_mm", "neighbours"), ("step_4_mm", "4 pixels apart"), ("temporal_mm", "from frame to frame")]
     drawn, rows = [], []
     for key, title in keys:
-        series = [(name, [(r["distance_m"], r[key]) for r in n["noise"]]) for name, n in zip(names, data.noise)]
-        series.append(("assumed", [(r["distance_m"], r["assumed_mm"]) for r in data.noise[0]["noise"]]))
+        series = [(name, [(r["distance_m"], r[key]) for r in rows_of]) for name, rows_of in zip(names, seen)]
+        series.append(("assumed for " + names[0], [(r["distance_m"], r["assumed_mm"]) for r in seen[0]]))
         drawn.append((charts.line_chart(series, "distance, m", "standard deviation of depth, mm"), title))
     drawn.append((charts.line_chart(
-        [(name, [(r["distance_m"], r["per_square"]) for r in n["noise"]]) for name, n in zip(names, data.noise)],
+        [(name, [(r["distance_m"], r["per_square"]) for r in rows_of]) for name, rows_of in zip(names, seen)],
         "distance, m", "mm per square metre"), "neighbours, over the square of the distance: what can be compared "
         "where the distances differ"))
     for name, n in zip(names, data.noise):
