@@ -199,7 +199,8 @@ typedef struct rlf_kernel_near {
     ptrdiff_t stride;
 } rlf_kernel_near;
 
-/* Sum of the normals at the same depth, weighted by inverse squared distance. */
+/* Sum of the normals at the same depth, weighted by the inverse fourth power
+ * of distance. */
 void rlf_kernel_near_normal(const rlf_kernel_near *restrict about, float *restrict out);
 /* 1 where there is a depth but, as far as z can tell, no normal, else 0. */
 void rlf_kernel_bare_row(const float *restrict depth, const float *restrict normal_z, int32_t count,

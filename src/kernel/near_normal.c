@@ -5,12 +5,13 @@ enum { SIDE = 5, LANES = RLF_NEAR_LANES };
 
 static const float most_apart = 0.02f; /* share of the depth, of pixels of one surface */
 
-/* Inverse squared distance; 0 beyond the window. */
-static const float nearness[SIDE][LANES] = {{0.125f, 0.2f, 0.25f, 0.2f, 0.125f},
-                                            {0.2f, 0.5f, 1.0f, 0.5f, 0.2f},
-                                            {0.25f, 1.0f, 0.0f, 1.0f, 0.25f},
-                                            {0.2f, 0.5f, 1.0f, 0.5f, 0.2f},
-                                            {0.125f, 0.2f, 0.25f, 0.2f, 0.125f}};
+/* Inverse fourth power of the distance: beside a crease the nearest pixels are most likely of the
+ * same face. 0 beyond the window. */
+static const float nearness[SIDE][LANES] = {{0.015625f, 0.04f, 0.0625f, 0.04f, 0.015625f},
+                                            {0.04f, 0.25f, 1.0f, 0.25f, 0.04f},
+                                            {0.0625f, 1.0f, 0.0f, 1.0f, 0.0625f},
+                                            {0.04f, 0.25f, 1.0f, 0.25f, 0.04f},
+                                            {0.015625f, 0.04f, 0.0625f, 0.04f, 0.015625f}};
 
 RLF_KERNEL_PART float sum_lanes(const float *lanes)
 {
