@@ -118,7 +118,7 @@ const eval_bound eval_bounds[] = {
     {"sensed", "drop_fastest", '<', 15, 15, "", ""},
     {"sensed", "behind_bounced_percent", '>', 99, 85, "0", ""},
     {"sensed", "edge_bounced_percent", '>', 99, 82, "0", ""},
-    {"sensed", "realism_percent", '>', 99.5, 86, "9 of 10 at best", ""},
+    {"sensed", "realism_percent", '>', 99.5, 88, "9 of 10 at best", ""},
     {"sensed", "realism_phantom_percent", '<', NAN, 2, "", ""},
     {"sensed", "realism_missed_percent", '<', NAN, 1, "", ""},
     {"android", "normals_mean_deg", '<', 0.81, 0.81, "", "D2NT v3 1.240"},

@@ -7,8 +7,9 @@
  * the contact points from the edge to the centre. */
 #include "physics/grid_ball.h"
 #include "physics/grid_edge.h"
+#include "physics/grid_patch.h"
 
-#define PATCH_PX 6         /* a patch has at most 2 x 6 + 1 samples a side */
+#define EDGE_MOVES 2
 #define MOVES 4            /* of the patch to the pixel that is touched first */
 #define BEHIND (-0.2)      /* cosine; a face is touched from its own side, up to noise */
 #define SAME_DIRECTION 0.9 /* cosine of two touches that are one */
@@ -30,28 +31,26 @@ static bool time_of_touch(const grid_job *job, rlf_vec3 p, rlf_vec3 velocity, do
     rlf_vec3 w = rlf_sub(job->v, velocity);
     double distance2 = rlf_dot(to, to);
     double near = radius + GRID_MARGIN;
-    if (distance2 < near * near) {
-        *out = rlf_min(0.0, sqrt(distance2) - radius);
-        return true;
-    }
     double a = rlf_dot(w, w), b = rlf_dot(to, w), c = distance2 - radius * radius;
     double square = b * b - a * c;
-    if (b <= 0.0 || square < 0.0) {
-        return false;
+    bool is_coming = b > 0.0 && c > 0.0 && square >= 0.0;
+    double time = is_coming ? c / (b + sqrt(square)) : job->horizon + 1.0;
+    if (time > job->horizon && distance2 < near * near) {
+        time = rlf_min(0.0, sqrt(distance2) - radius);
     }
-    *out = c / (b + sqrt(square));
-    return *out <= job->horizon;
+    *out = time;
+    return time <= job->horizon;
 }
 
 /* Between two pixels a face may come this much nearer to the ball than both, metres: pixels are far
- * apart on a face seen at a low angle. */
+ * apart on a face seen at a low angle. It may go on for half a pixel beyond the last one, too. */
 static double sag_between(const grid_job *job, const field_cell *cell)
 {
     double radius = job->body->shape.shape.radius;
     double cosine = -rlf_dot(cell->normal, cell->point) / rlf_length(cell->point);
     double pitch = job->stride * cell->point.z * job->query->grid->pixel_angle;
     double half = 0.7 * pitch / rlf_max(cosine, 0.1); /* of the diagonal */
-    return rlf_min(0.5 * half * half / radius, 0.5 * radius);
+    return rlf_min(0.5 * half * half / radius + 0.7 * half, 0.5 * radius);
 }
 
 /* Of touches in like directions only the earliest is kept. */
@@ -174,33 +173,19 @@ void grid_ball_look_outline(grid_job *job, const field_cell *cell, rlf_vec3 shif
     }
 }
 
-/* A pixel of the patch: its point on the touched face when the ball is there, its distance. */
-typedef struct patch_sample {
-    field_cell cell;
-    rlf_vec3 point;
-    double distance; /* of the point to the ball's surface */
-} patch_sample;
-
-typedef struct patch {
-    const grid_job *job;
-    grid_face face;
-    int32_t x, y, step;
-    double time;
-    rlf_vec3 centre; /* the ball's, at that time */
-    patch_sample samples[(2 * PATCH_PX + 1) * (2 * PATCH_PX + 1)];
-    int32_t count, nearest;
-} patch;
-
-static void read_patch(patch *p)
+static void read_patch(grid_patch *p)
 {
     const grid_job *job = p->job;
     double tau = job->query->tau + rlf_max(0.0, p->time);
     p->centre = centre_at(job, p->time);
     p->count = 0;
+    int32_t *index = p->index;
     p->nearest = -1;
     for (int32_t dy = -PATCH_PX; dy <= PATCH_PX; dy++) {
         for (int32_t dx = -PATCH_PX; dx <= PATCH_PX; dx++) {
             patch_sample *s = &p->samples[p->count];
+            *index = 0;
+            index++;
             if (!grid_cell_read(job->query->grid, job->sheet, p->x + dx * p->step,
                                 p->y + dy * p->step, &s->cell)) {
                 continue;
@@ -215,6 +200,7 @@ static void read_patch(patch *p)
                 p->nearest = p->count;
             }
             p->count++;
+            index[-1] = p->count;
         }
     }
 }
@@ -227,7 +213,7 @@ static int32_t patch_step(const grid_job *job, double z)
 }
 
 /* Moves the patch to the pixel that the ball reaches first. False when it has none. */
-static bool settle(patch *p, const grid_meeting *touch)
+static bool settle(grid_patch *p, const grid_meeting *touch)
 {
     const grid_job *job = p->job;
     p->face = touch->face;
@@ -255,13 +241,6 @@ static bool settle(patch *p, const grid_meeting *touch)
     return true;
 }
 
-/* What the weighted pixels of a patch say. */
-typedef struct patch_mean {
-    rlf_vec3 point, normal, velocity;
-    double curvature; /* 1/m, above 0 for a bulge; 0 for a plane and a hollow */
-    double spread2;   /* mean square distance from the mean point, m^2 */
-} patch_mean;
-
 /* As much surface as the pixel shows, in pixels seen head-on at 1 m. */
 static double area_of(const field_cell *cell)
 {
@@ -271,17 +250,18 @@ static double area_of(const field_cell *cell)
 
 /* Weighted means over the pixels near the ball, and the slope of the normals over the points (least
  * squares for n - n_mean = curvature (p - p_mean)). */
-static patch_mean mean_of(const patch *p)
+static patch_mean mean_of(const grid_patch *p)
 {
     double least = p->samples[p->nearest].distance;
     double band = band_at(p->samples[p->nearest].cell.point.z);
     rlf_vec3 points = {0, 0, 0}, normals = {0, 0, 0}, velocities = {0, 0, 0};
+    rlf_vec3 face = p->samples[p->nearest].cell.normal;
     double total = 0.0, square = 0.0, product = 0.0;
     rlf_vec3 origin = p->samples[p->nearest].point; /* small differences, few digits lost */
     for (int32_t i = 0; i < p->count; i++) {
         const patch_sample *s = &p->samples[i];
         double share = 1.0 - (s->distance - least) / band;
-        if (share <= 0.0) {
+        if (share <= 0.0 || !patch_is_of_face(s->cell.normal, face)) {
             continue;
         }
         double weight = share * share * area_of(&s->cell);
@@ -307,7 +287,7 @@ static patch_mean mean_of(const patch *p)
 /* A patch that lies off the touching point by d has a normal that is off by curvature d one way,
  * and a direction to the ball's centre that is off by d / radius the other way: together they are
  * right. The touching point stands above the mean of a bulge. */
-static void correct_bulge(const patch *p, patch_mean *mean)
+static void correct_bulge(const grid_patch *p, patch_mean *mean)
 {
     double radius = p->job->body->shape.shape.radius;
     rlf_vec3 direction = rlf_normalize(rlf_sub(p->centre, mean->point));
@@ -315,15 +295,9 @@ static void correct_bulge(const patch *p, patch_mean *mean)
     mean->point = rlf_mad(mean->point, mean->normal, 0.5 * mean->curvature * mean->spread2);
 }
 
-/* The point of the face under the ball's centre. */
-static rlf_vec3 foot_on(const patch *p, const patch_mean *mean)
-{
-    double height = rlf_dot(mean->normal, rlf_sub(p->centre, mean->point));
-    return rlf_mad(p->centre, mean->normal, -height);
-}
-
 /* How far p's pixel lies off the face, metres; false when that is not known. */
-static bool height_at(const patch *p, const patch_mean *mean, rlf_vec3 q, double *out)
+static bool height_at(const grid_patch *p, const patch_mean *mean, rlf_vec3 q, double *out,
+                      rlf_vec3 *normal)
 {
     const rlf_grid *grid = p->job->query->grid;
     const rlf_grid_sheet *sheet = p->job->sheet;
@@ -338,6 +312,7 @@ static bool height_at(const patch *p, const patch_mean *mean, rlf_vec3 q, double
     field_cell cell;
     if (sheet->mask != NULL && sheet->mask[y * grid->width + x] == 0) {
         *out = -1.0; /* free */
+        *normal = mean->normal;
         return true;
     }
     if (!grid_cell_read(grid, sheet, x, y, &cell)) {
@@ -345,48 +320,24 @@ static bool height_at(const patch *p, const patch_mean *mean, rlf_vec3 q, double
     }
     rlf_vec3 moved = rlf_mad(cell.point, cell.velocity, tau);
     *out = rlf_dot(mean->normal, rlf_sub(moved, mean->point));
+    *normal = cell.normal;
     return true;
 }
 
 /* Whether the face goes on under the ball's centre. Where something else hides that, or it is not
  * seen, it does for as far as a patch is wide. */
-static bool is_supported(const patch *p, const patch_mean *mean)
+static bool is_supported(const grid_patch *p, const patch_mean *mean)
 {
-    const double OFF = 0.015;
+    const double OFF = 0.015, SLIGHT = 0.003;
     double height;
-    rlf_vec3 foot = foot_on(p, mean);
-    if (height_at(p, mean, foot, &height) && height < OFF) {
-        return height > -OFF;
+    rlf_vec3 normal;
+    rlf_vec3 foot = patch_foot(p, mean);
+    if (height_at(p, mean, foot, &height, &normal) && height < OFF) {
+        return height > -SLIGHT || (height > -OFF && patch_is_of_face(normal, mean->normal));
     }
     double wide2 = 4.0 * p->job->body->shape.shape.radius * band_at(foot.z);
     rlf_vec3 d = rlf_sub(foot, p->samples[p->nearest].point);
     return rlf_dot(d, d) < wide2;
-}
-
-/* The edge's point nearest to the centre: that of the patch's pixels, brought onto the face, and by
- * half a pixel on to where the face ends. */
-static rlf_vec3 edge_point(const patch *p, const patch_mean *mean)
-{
-    rlf_vec3 foot = foot_on(p, mean);
-    rlf_vec3 best = mean->point;
-    double best2 = 1e30;
-    for (int32_t i = 0; i < p->count; i++) {
-        const patch_sample *s = &p->samples[i];
-        double off = rlf_dot(mean->normal, rlf_sub(s->point, mean->point));
-        rlf_vec3 on_face = rlf_mad(s->point, mean->normal, -off);
-        rlf_vec3 d = rlf_sub(foot, on_face);
-        double d2 = rlf_dot(d, d);
-        if (off < 0.01 && off > -0.01 && d2 < best2) {
-            best2 = d2;
-            best = on_face;
-        }
-    }
-    double way = sqrt(best2);
-    double half = 0.5 * p->step * best.z * p->job->query->grid->pixel_angle;
-    if (!(way > 1e-6) || best2 >= 1e30) {
-        return best;
-    }
-    return rlf_mad(best, rlf_sub(foot, best), rlf_min(1.0, half / way));
 }
 
 /* Adds the plane that was found unless the ball does not come to it before the next query. */
@@ -404,9 +355,28 @@ static void add_hit(grid_job *job, double time, const patch_mean *touched, int32
     }
 }
 
+/* The edge stands out beyond the pixels that show the face, so that the ball comes to it before
+ * them, at another place. Returns where it is then. */
+static rlf_vec3 meet_edge(grid_patch *p, const patch_mean *face)
+{
+    const rlf_vec3 v = face->velocity;
+    double start = rlf_max(0.0, p->time);
+    rlf_vec3 now = rlf_mad(patch_edge(p, face), v, -start);
+    for (int32_t i = 0; i < EDGE_MOVES; i++) {
+        double time;
+        if (!time_of_touch(p->job, now, v, 0.0, &time)) {
+            break;
+        }
+        p->time = time;
+        p->centre = centre_at(p->job, time);
+        now = rlf_mad(patch_edge(p, face), v, -rlf_max(0.0, time));
+    }
+    return rlf_mad(now, v, rlf_max(0.0, p->time));
+}
+
 static bool touch_face(const grid_job *job, grid_meeting *touch, patch_mean *out, int32_t *label)
 {
-    patch p = {.job = job};
+    grid_patch p = {.job = job};
     if (!settle(&p, touch)) {
         return false;
     }
@@ -419,7 +389,8 @@ static bool touch_face(const grid_job *job, grid_meeting *touch, patch_mean *out
     } else if (is_supported(&p, out)) {
         correct_bulge(&p, out);
     } else {
-        rlf_vec3 edge = edge_point(&p, out);
+        rlf_vec3 edge = meet_edge(&p, out);
+        touch->time = p.time;
         rlf_vec3 direction = rlf_normalize(rlf_sub(p.centre, edge));
         if (rlf_dot(direction, out->normal) < BEHIND) {
             return false;
