@@ -147,9 +147,9 @@ void rlf_kernel_lens_row(const uint8_t *restrict has_ray, int32_t count, float *
 /* ---- flying_row.c: mixed pixels at depth edges
  * --------------------------------------------------- */
 
-/* rows[0..4] are two rows above, the row itself and two below (a missing one: a row of zeros).
+/* rows[0..2] are the rows above, at and below (a missing row repeats none: pass a row of zeros).
  * Writes the kept depth and RLF_REASON_FLYING for the rest. */
-void rlf_kernel_flying_row(const float *const rows[5], int32_t count, float *restrict depth,
+void rlf_kernel_flying_row(const float *const rows[3], int32_t count, float *restrict depth,
                            uint8_t *restrict reason);
 
 /* ---- slope_row.c: exact normals of clean depth

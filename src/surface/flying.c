@@ -16,12 +16,10 @@ static void flying_rows(void *context, int32_t begin, int32_t end, int32_t worke
     const flying_job *job = context;
     const rlf_grid *grid = &job->stage->grid;
     for (int32_t y = begin; y < end; y++) {
-        const float *rows[5];
-        for (int32_t k = 0; k < 5; k++) {
-            int32_t row = y - 2 + k;
-            bool inside = row >= 0 && row < grid->height;
-            rows[k] = inside ? job->raw + (ptrdiff_t)row * grid->width : job->stage->work.zeros;
-        }
+        const float *at = job->raw + (ptrdiff_t)y * grid->width;
+        const float *const rows[3] = {y > 0 ? at - grid->width : job->stage->work.zeros, at,
+                                      y + 1 < grid->height ? at + grid->width
+                                                           : job->stage->work.zeros};
         ptrdiff_t offset = (ptrdiff_t)y * grid->width;
         rlf_kernel_flying_row(rows, grid->width, job->depth + offset, job->reason + offset);
     }

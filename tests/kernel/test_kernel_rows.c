@@ -57,35 +57,9 @@ static int near_enough(float a, float b, float tolerance)
     return (a > b ? a - b : b - a) <= tolerance;
 }
 
-enum { FLYING_AT = 2 }; /* the row and column of five, with two around */
-
-static float size_of(float a)
+static bool kept_by_definition(float rows[3][LONGEST + 2], int32_t i)
 {
-    return a < 0.0f ? -a : a;
-}
-
-/* Both steps from the middle one of five are long, in one direction, alike, and twice those beyond.
- */
-static bool half_way_by_definition(const float five[5])
-{
-    float down = five[1] - five[2], up = five[2] - five[3];
-    float least = size_of(down) < size_of(up) ? size_of(down) : size_of(up);
-    bool level =
-        2.0f * size_of(five[0] - five[1]) < least && 2.0f * size_of(five[4] - five[3]) < least;
-    bool alike = size_of(down) + size_of(up) < 6.0f * least;
-    return down * up > 0.0f && least > 0.0025f * five[2] * five[2] + 0.003f && alike && level;
-}
-
-static bool kept_by_definition(float rows[5][LONGEST + 4], int32_t count, int32_t i)
-{
-    int32_t c = i + FLYING_AT;
-    float z = rows[FLYING_AT][c];
-    const float across[5] = {rows[2][c - 2], rows[2][c - 1], z, rows[2][c + 1], rows[2][c + 2]};
-    const float along[5] = {rows[0][c], rows[1][c], z, rows[3][c], rows[4][c]};
-    bool inside = i >= 2 && i < count - 2;
-    if (inside && (half_way_by_definition(across) || half_way_by_definition(along))) {
-        return false;
-    }
+    float z = rows[1][i + 1];
     float tolerance = 0.012f * z + 0.004f;
     int close = 0, pairs = 0;
     for (int dy = -1; dy <= 1; dy++) {
@@ -93,7 +67,7 @@ static bool kept_by_definition(float rows[5][LONGEST + 4], int32_t count, int32_
             if (dx == 0 && dy == 0) {
                 continue;
             }
-            float a = rows[FLYING_AT + dy][c + dx], b = rows[FLYING_AT - dy][c - dx];
+            float a = rows[1 + dy][i + 1 + dx], b = rows[1 - dy][i + 1 - dx];
             close += near_enough(a, z, tolerance);
             bool first = dy < 0 || (dy == 0 && dx < 0);
             pairs +=
@@ -109,19 +83,18 @@ static void flying_row_is_its_definition(void **state)
     analytic_random r = {2};
     int removed = 0, kept = 0;
     for (int32_t count = 1; count <= LONGEST; count++) {
-        float rows[5][LONGEST + 4];
+        float rows[3][LONGEST + 2];
         float depth[LONGEST];
         uint8_t reason[LONGEST] = {0};
         memset(rows, 0, sizeof rows);
-        const float *in[5];
-        for (int k = 0; k < 5; k++) {
-            random_depth(&r, rows[k] + FLYING_AT, count);
-            in[k] = rows[k] + FLYING_AT;
+        for (int k = 0; k < 3; k++) {
+            random_depth(&r, rows[k] + 1, count);
         }
+        const float *const in[3] = {rows[0] + 1, rows[1] + 1, rows[2] + 1};
         rlf_kernel_flying_row(in, count, depth, reason);
         for (int32_t i = 0; i < count; i++) {
-            float z = rows[FLYING_AT][i + FLYING_AT];
-            bool keep = kept_by_definition(rows, count, i);
+            float z = rows[1][i + 1];
+            bool keep = kept_by_definition(rows, i);
             assert_true(depth[i] == (keep ? z : 0.0f));
             assert_int_equal(reason[i], z > 0.0f && !keep ? RLF_REASON_FLYING : RLF_REASON_OK);
             removed += z > 0.0f && !keep;
@@ -129,27 +102,6 @@ static void flying_row_is_its_definition(void **state)
         }
     }
     assert_true(removed > 50 && kept > 50);
-}
-
-/* A column of mixed pixels between two levels goes; a plane as steep as its steps stays. */
-static void a_column_half_way_is_flying(void **state)
-{
-    (void)state;
-    const float edge[7] = {2.8f, 2.8f, 2.8f, 2.75f, 2.7f, 2.7f, 2.7f};
-    const float steep[7] = {2.9f, 2.85f, 2.8f, 2.75f, 2.7f, 2.65f, 2.6f};
-    const float *const edges[5] = {edge, edge, edge, edge, edge};
-    const float *const slope[5] = {steep, steep, steep, steep, steep};
-    float depth[7];
-    uint8_t reason[7] = {0};
-    rlf_kernel_flying_row(edges, 7, depth, reason);
-    for (int i = 0; i < 7; i++) {
-        assert_int_equal(reason[i], i == 3 ? RLF_REASON_FLYING : RLF_REASON_OK);
-    }
-    memset(reason, 0, sizeof reason);
-    rlf_kernel_flying_row(slope, 7, depth, reason);
-    for (int i = 1; i < 6; i++) {
-        assert_int_equal(reason[i], RLF_REASON_OK);
-    }
 }
 
 static void majority_row_is_its_definition(void **state)
@@ -355,7 +307,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(depth_row_is_units_and_reasons),
         cmocka_unit_test(flying_row_is_its_definition),
-        cmocka_unit_test(a_column_half_way_is_flying),
         cmocka_unit_test(majority_row_is_its_definition),
         cmocka_unit_test(background_row_follows_the_evidence),
         cmocka_unit_test(plane_tile_stays_in_its_tile),
