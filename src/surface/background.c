@@ -29,6 +29,12 @@ void rlf_background_reset(rlf_background *background, const rlf_grid *grid)
     background->other_frames = 0;
 }
 
+float rlf_background_gate(const rlf_reconstruct_def *def, float z)
+{
+    float scaled = (float)(def->foreground_sigmas * rlf_depth_noise_sigma(&def->rig.noise, z));
+    return scaled > (float)def->foreground_min_m ? scaled : (float)def->foreground_min_m;
+}
+
 rlf_span rlf_background_span(const uint8_t *foreground, int32_t width)
 {
     rlf_span span = {0, width};

@@ -7,12 +7,6 @@
 
 enum { STILL_WEIGHT = 8, LONGEST_STEP_MS = 200 };
 
-static float gate_at(const rlf_reconstruct_def *def, float z)
-{
-    float scaled = (float)(def->foreground_sigmas * rlf_depth_noise_sigma(&def->rig.noise, z));
-    return scaled > (float)def->foreground_min_m ? scaled : (float)def->foreground_min_m;
-}
-
 static int32_t step_ms(const rlf_reconstruct *stage, const rlf_slot *slot)
 {
     if (stage->previous == NULL) {
@@ -63,7 +57,7 @@ static rlf_span absorb_row(rlf_reconstruct *stage, const rlf_slot *slot, int32_t
         float z = slot->depth[i], beneath = background->beneath[i];
         if (!slot->foreground[i]) {
             background->still_ms[i] = z > 0.0f ? 0 : background->still_ms[i];
-        } else if (is_still(background, i, z, gate_at(def, z), limit_ms, passed_ms)) {
+        } else if (is_still(background, i, z, rlf_background_gate(def, z), limit_ms, passed_ms)) {
             background->beneath[i] = beneath > 0.0f ? beneath : background->mean[i];
             background->hides[y] = 1;
             replace(stage, i, background->still[i]);
@@ -100,7 +94,7 @@ static bool restore_row(rlf_reconstruct *stage, const rlf_slot *slot, int32_t y)
         if (!(beneath > 0.0f) || slot->foreground[i] || !(z > background->mean[i])) {
             continue;
         }
-        float gate = gate_at(&stage->def, z);
+        float gate = rlf_background_gate(&stage->def, z);
         if (z - background->mean[i] > gate && rlf_kernel_abs(z - beneath) <= gate) {
             replace(stage, i, beneath);
             background->beneath[i] = 0.0f;

@@ -6,8 +6,6 @@
  * nearly everywhere, from one frame to the next and from then on. */
 #include "surface/steps.h"
 
-#include "kernel/kernel.h"
-
 enum {
     SAMPLES = 32,      /* so many pixels of a row are looked at, as far apart in both directions */
     FRAMES = 3,        /* in a row */
@@ -23,7 +21,6 @@ static tally count(const rlf_reconstruct *stage, const float *depth)
 {
     const rlf_grid *grid = &stage->grid;
     const float *mean = stage->background.mean;
-    const rlf_reconstruct_def *def = &stage->def;
     tally sum = {0, 0, 0};
     int32_t step = grid->width > SAMPLES ? grid->width / SAMPLES : 1;
     for (int32_t y = step / 2; y < grid->height; y += step) {
@@ -32,8 +29,7 @@ static tally count(const rlf_reconstruct *stage, const float *depth)
             if (!(depth[i] > 0.0f) || !(mean[i] > 0.0f)) {
                 continue;
             }
-            double sigma = rlf_depth_noise_sigma(&def->rig.noise, depth[i]);
-            float gate = (float)rlf_max(def->foreground_sigmas * sigma, def->foreground_min_m);
+            float gate = rlf_background_gate(&stage->def, depth[i]);
             sum.known++;
             sum.nearer += depth[i] < mean[i] - gate ? 1 : 0;
             sum.farther += depth[i] > mean[i] + gate ? 1 : 0;

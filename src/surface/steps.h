@@ -155,6 +155,8 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot);
 void rlf_background_absorb(rlf_reconstruct *stage, const rlf_slot *slot);
 /* Takes it back out where what it hides is seen again. */
 void rlf_background_restore(rlf_reconstruct *stage, const rlf_slot *slot);
+/* How far from z counts as another depth, metres. */
+float rlf_background_gate(const rlf_reconstruct_def *def, float z);
 /* Where the first and the last foreground pixel of a row are. */
 rlf_span rlf_background_span(const uint8_t *foreground, int32_t width);
 void rlf_background_reset(rlf_background *background, const rlf_grid *grid);
