@@ -49,6 +49,7 @@ static void print_help(void)
            "                        up, and the distance, 1 being the camera's\n"
            "  --light X,Y,Z         where the light shines to: right, down, forward\n"
            "  --match-light         bodies as dark and as tinted as the camera's picture\n"
+           "  --no-real-shade       real things keep no light from bodies\n"
            "  --occlusion NAME      soft (live's), hard, thesis (thesis's) or off\n"
            "  --scale N             keep every N-th depth pixel (live 1, thesis 8)\n"
            "  --set NAME=VALUE      a setting of the surface (see `relief settings`); any number\n"
@@ -193,6 +194,7 @@ static int read_options(int argc, char **argv, run_options *o)
          .take = take_light,
          .choices = "use X,Y,Z, not all zero"},
         {.name = "match-light", .kind = OPTION_FLAG, .out = &s->matches_light},
+        {.name = "no-real-shade", .kind = OPTION_FLAG, .out = &s->no_real_shade},
         {.name = "occlusion",
          .kind = OPTION_CHOICE,
          .out = s,

@@ -73,6 +73,7 @@ static rlf_result open_all(const session_options *options, session *s)
         def.compositor.light_direction = options->light_direction;
     }
     def.compositor.estimates_light = options->matches_light;
+    def.compositor.enable_real_shade = !options->no_real_shade;
     def.compositor.enable_overlay = options->enable_overlay;
     return rlf_pipeline_create(&def, &s->pipeline);
 }

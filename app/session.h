@@ -18,7 +18,7 @@ typedef struct session_options {
     rlf_occlusion occlusion;
     bool is_light_set; /* else the compositor's */
     rlf_vec3 light_direction;
-    bool matches_light;
+    bool matches_light, no_real_shade;
     bool enable_render;
     bool enable_overlay;
 } session_options;

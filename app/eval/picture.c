@@ -2,6 +2,7 @@
  * the same frames of the synthetic room, with a walking person and with nobody. */
 #include "eval/picture.h"
 #include "command.h"
+#include "eval/picture_light.h"
 
 #include "relief/synthetic.h"
 
@@ -261,6 +262,9 @@ static rlf_result run_methods(eval_table *table, int64_t seed, int profile_mask,
         }
     }
     rlf_free(errors);
+    if (result == RLF_OK && (profile_mask & (1 << RLF_PROFILE_LIVE))) {
+        result = picture_light_run(table, seed);
+    }
     return result;
 }
 

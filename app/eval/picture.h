@@ -36,6 +36,15 @@ typedef struct picture_truth {
 /* Boxes and balls all over the room that touch nothing that stands there now. */
 rlf_result picture_place_bodies(uint64_t seed, rlf_source *source,
                                 rlf_body_state bodies[PICTURE_BODIES], int32_t *out_count);
+/* Somewhere in the room; advances *random. */
+rlf_body_state picture_random_body(uint64_t *random);
+/* True when it touches neither what stands there now nor one of the bodies. */
+rlf_result picture_is_free(rlf_source *source, const rlf_body_state *bodies, int32_t count,
+                           const rlf_body_state *body, bool *out);
+/* t > 0 at which the ray origin + t d enters such a body; 0 = it does not. */
+double picture_enter_body(const rlf_body_state *body, rlf_vec3 origin, rlf_vec3 d);
+/* Unit, outward, at a point on its surface. */
+rlf_vec3 picture_normal_of_body(const rlf_body_state *body, rlf_vec3 p);
 rlf_result picture_truth_init(picture_truth *t, const rlf_rig *rig, const rlf_body_state *bodies,
                               int32_t body_count);
 void picture_truth_finish(picture_truth *t);

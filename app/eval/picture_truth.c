@@ -20,7 +20,7 @@ static double next_random(uint64_t *state, double low, double high)
     return low + (high - low) * (double)(*state >> 33) / 2147483648.0;
 }
 
-static rlf_body_state random_body(uint64_t *random)
+rlf_body_state picture_random_body(uint64_t *random)
 {
     rlf_body_state body = {.mass = 1.0, .is_held = true};
     double z = next_random(random, 1.1, 3.3);
@@ -42,24 +42,31 @@ static rlf_body_state random_body(uint64_t *random)
     return body;
 }
 
+rlf_result picture_is_free(rlf_source *source, const rlf_body_state *bodies, int32_t count,
+                           const rlf_body_state *body, bool *out)
+{
+    double radius = rlf_shape_radius(&body->shape);
+    double distance = 0.0;
+    rlf_result result = rlf_synthetic_distance(source, body->T_world_body.p, &distance, NULL, NULL);
+    *out = distance > radius + 0.03;
+    for (int32_t k = 0; k < count && *out; k++) {
+        rlf_vec3 step = rlf_sub(bodies[k].T_world_body.p, body->T_world_body.p);
+        *out = rlf_length(step) > radius + rlf_shape_radius(&bodies[k].shape);
+    }
+    return result;
+}
+
 rlf_result picture_place_bodies(uint64_t seed, rlf_source *source,
                                 rlf_body_state bodies[PICTURE_BODIES], int32_t *out_count)
 {
     uint64_t random = seed * 977 + 5;
     int32_t count = 0;
     for (int i = 0; i < TRIES && count < PICTURE_BODIES; i++) {
-        rlf_body_state body = random_body(&random);
-        double radius = rlf_shape_radius(&body.shape);
-        double distance;
-        rlf_result result =
-            rlf_synthetic_distance(source, body.T_world_body.p, &distance, NULL, NULL);
+        rlf_body_state body = picture_random_body(&random);
+        bool is_free = false;
+        rlf_result result = picture_is_free(source, bodies, count, &body, &is_free);
         if (result != RLF_OK) {
             return result;
-        }
-        bool is_free = distance > radius + 0.03;
-        for (int32_t k = 0; k < count && is_free; k++) {
-            rlf_vec3 step = rlf_sub(bodies[k].T_world_body.p, body.T_world_body.p);
-            is_free = rlf_length(step) > radius + rlf_shape_radius(&bodies[k].shape);
         }
         if (is_free) {
             bodies[count++] = body;
@@ -69,8 +76,7 @@ rlf_result picture_place_bodies(uint64_t seed, rlf_source *source,
     return RLF_OK;
 }
 
-/* t at which the ray origin + t d enters the body; 0 = it does not. */
-static double enter_body(const rlf_body_state *body, rlf_vec3 origin, rlf_vec3 d)
+double picture_enter_body(const rlf_body_state *body, rlf_vec3 origin, rlf_vec3 d)
 {
     rlf_vec3 o = rlf_transform_inverse(&body->T_world_body, origin);
     rlf_vec3 v = rlf_rotate(rlf_quat_conjugate(body->T_world_body.q), d);
@@ -92,6 +98,20 @@ static double enter_body(const rlf_body_state *body, rlf_vec3 origin, rlf_vec3 d
         leave = rlf_min(leave, rlf_max(p, q));
     }
     return enter < leave ? enter : 0.0;
+}
+
+rlf_vec3 picture_normal_of_body(const rlf_body_state *body, rlf_vec3 p)
+{
+    rlf_vec3 v = rlf_transform_inverse(&body->T_world_body, p);
+    if (body->shape.type == RLF_SHAPE_SPHERE) {
+        return rlf_rotate(body->T_world_body.q, rlf_normalize(v));
+    }
+    double x = v.x * v.x;
+    double y = v.y * v.y;
+    double z = v.z * v.z;
+    rlf_vec3 face = {x >= y && x >= z ? v.x : 0.0, y > x && y >= z ? v.y : 0.0,
+                     z > x && z > y ? v.z : 0.0};
+    return rlf_rotate(body->T_world_body.q, rlf_normalize(face));
 }
 
 /* ---- samples -------------------------------------------------------------------------------- */
@@ -118,7 +138,7 @@ static void cast_bodies(picture_truth *t, const rlf_body_state *bodies, int32_t 
             rlf_vec3 d = sample_ray(t, i, PICTURE_SAMPLES);
             rlf_vec3 aside = rlf_mad(c, d, -rlf_dot(c, d) / rlf_dot(d, d));
             for (int32_t k = 0; rlf_length(aside) < radius + 0.01 && k < CHANNELS; k++) {
-                float z = (float)enter_body(body, t->origin, sample_ray(t, i, k));
+                float z = (float)picture_enter_body(body, t->origin, sample_ray(t, i, k));
                 float *at = &t->body_z[(size_t)i * CHANNELS + (size_t)k];
                 *at = z > 0.0f && (!(*at > 0.0f) || z < *at) ? z : *at;
             }

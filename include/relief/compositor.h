@@ -71,6 +71,8 @@ typedef struct rlf_compositor_def {
     float light_color[3];       /* shares of the bodies' colours that it shows, 0..1; default 1 */
     bool estimates_light;       /* bodies get darker and tinted as the camera's picture is, over
                                    about a second; default false */
+    bool enable_real_shade;     /* with occlusion DEPTH and SOFT real things keep the light from
+                                   bodies, too; default true */
     bool enable_overlay;        /* text lines over the picture; default false */
     rlf_pool *pool;             /* borrowed; NULL = one thread */
 } rlf_compositor_def;

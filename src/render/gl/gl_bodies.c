@@ -15,7 +15,8 @@ enum {
     UNIT_TEXTURES = 2,
     UNIT_NEAR = 3,
     UNIT_FAR = 4,
-    UNIT_COVER = 5
+    UNIT_COVER = 5,
+    UNIT_SHADE = 6
 };
 
 /* Values of u_occlusion. */
@@ -72,6 +73,7 @@ static const char body_fragment[] =
     "    for (int i = 0; i < u_shader_count; i++) {\n"
     "        left *= 1.0 - u_body_shares * light_lost(u_shaders[i], ray, z);\n"
     "    }\n"
+    "    left.y *= 1.0 - u_body_shares.y * (1.0 - real_left(z * vec3(ray, 1.0)));\n"
     "    float light = dot(u_ambient_diffuse * vec2(1.0, facing), left);\n"
     "    vec3 uv_layer = vec3(clamp(v_uv, 0.0, 1.0), u_layer);\n"
     "    vec3 color = u_color * light * textureLod(u_textures, uv_layer, u_level).rgb;\n"
@@ -104,6 +106,7 @@ static void create_program_uniforms(gl_bodies *bodies)
                              ']', 0};
         bodies->uniforms.shaders[i] = gl_caster_find_uniforms(p, name);
     }
+    bodies->uniforms.shade = gl_shade_find_uniforms(p);
     bodies->view_uniforms = gl_view_find_uniforms(p);
     glUseProgram(p);
     glUniform1i(glGetUniformLocation(p, "u_backdrop"), UNIT_BACKDROP);
@@ -112,6 +115,7 @@ static void create_program_uniforms(gl_bodies *bodies)
     glUniform1i(glGetUniformLocation(p, "u_near_z"), UNIT_NEAR);
     glUniform1i(glGetUniformLocation(p, "u_far_z"), UNIT_FAR);
     glUniform1i(glGetUniformLocation(p, "u_cover"), UNIT_COVER);
+    glUniform1i(glGetUniformLocation(p, "u_shade_maps"), UNIT_SHADE);
     glUniform2f(glGetUniformLocation(p, "u_body_shares"), (GLfloat)BODY_AMBIENT_SHARE,
                 (GLfloat)BODY_DIRECT_SHARE);
     glUniform2f(glGetUniformLocation(p, "u_ambient_diffuse"), (GLfloat)BODY_LIGHT_AMBIENT,
@@ -200,10 +204,11 @@ static rlf_result create_textures(gl_bodies *bodies)
 rlf_result gl_bodies_create(bool is_es, gl_bodies *out)
 {
     *out = (gl_bodies){0};
-    const gl_program_source source = {
-        "body",
-        {gl_view_glsl, body_vertex},
-        {gl_caster_glsl, GL_OCCLUSION_GLSL GL_SOFT_OCCLUSION_GLSL, body_fragment}};
+    const gl_program_source source = {"body",
+                                      {gl_view_glsl, body_vertex},
+                                      {gl_caster_glsl,
+                                       GL_OCCLUSION_GLSL GL_SOFT_OCCLUSION_GLSL GL_REAL_SHADE_GLSL,
+                                       body_fragment}};
     out->program = gl_program_build(is_es, &source);
     if (out->program == 0) {
         return RLF_ERROR_DEVICE;
@@ -253,6 +258,9 @@ void gl_bodies_begin(const gl_bodies *bodies, const gl_bodies_pass *pass)
         gl_texture_bind(pass->soft->near_z, UNIT_NEAR);
         gl_texture_bind(pass->soft->far_z, UNIT_FAR);
         gl_texture_bind(pass->soft->cover, UNIT_COVER);
+    }
+    if (pass->shade != NULL) {
+        gl_texture_bind(&pass->shade->texture, UNIT_SHADE);
     }
     glActiveTexture(GL_TEXTURE0 + UNIT_TEXTURES);
     glBindTexture(GL_TEXTURE_2D_ARRAY, bodies->textures);
@@ -335,6 +343,7 @@ void gl_bodies_draw(const gl_bodies *bodies, const gl_bodies_pass *pass,
     const rlf_body_state *body = &snapshot->bodies[index];
     set_body(bodies, pass, body);
     set_shaders(bodies, pass, snapshot->body_count, index);
+    gl_shade_set(&bodies->uniforms.shade, pass->shade, index);
     if (body->shape.type == RLF_SHAPE_HULL) {
         draw_hull(bodies, &body->shape);
         return;

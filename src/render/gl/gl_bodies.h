@@ -3,6 +3,7 @@
 #define RLF_RENDER_GL_BODIES_H
 
 #include "gl_caster.h"
+#include "gl_shade.h"
 #include "gl_texture.h"
 #include "gl_view.h"
 
@@ -15,6 +16,7 @@ typedef struct gl_bodies {
         GLint picture_body, camera_body, shift, color, light, layer, level, occlusion, noise,
             intrinsics, shader_count;
         gl_caster_uniforms shaders[CASTER_BODIES];
+        gl_shade_uniforms shade;
     } uniforms;
     gl_view_uniforms view_uniforms;
     GLuint vertex_array, vertex_buffer, index_buffer; /* unit meshes */
@@ -39,6 +41,7 @@ typedef struct gl_bodies_pass {
     const gl_texture *real_depth; /* z in the picture's camera per pixel; NULL = none */
     const gl_soft_real *soft; /* instead of real_depth; NULL = none. Without both nothing hides */
     const caster *casters;    /* as the snapshot's bodies; NULL = no shadows */
+    const gl_shade *shade;    /* NULL = real things take no light */
 } gl_bodies_pass;
 
 rlf_result gl_bodies_create(bool is_es, gl_bodies *out);

@@ -26,6 +26,7 @@ typedef struct gl_compositor {
     silhouette silhouette; /* RLF_OCCLUSION_SOFT only */
     caster *casters;       /* as the snapshot's bodies */
     int32_t caster_capacity;
+    gl_shade shade;        /* of what real things take */
     rlf_image_rgba8 image; /* read back */
     rlf_plane_u8 matte;
 
@@ -53,6 +54,7 @@ static void destroy_gl(gl_compositor *c)
     gl_texture_destroy(&c->near_texture);
     gl_texture_destroy(&c->far_texture);
     gl_texture_destroy(&c->cover_texture);
+    gl_shade_destroy(&c->shade);
     gl_thesis_destroy(&c->thesis);
     gl_layers_destroy(&c->layers);
     gl_bodies_destroy(&c->bodies);
@@ -148,6 +150,7 @@ static rlf_result create_gl(gl_compositor *c)
     c->near_texture = gl_texture_create(GL_NEAREST);
     c->far_texture = gl_texture_create(GL_NEAREST);
     c->cover_texture = gl_texture_create(GL_NEAREST);
+    c->shade = gl_shade_create();
     return check_errors();
 }
 
@@ -287,6 +290,19 @@ static bool has_shadows(const gl_compositor *c)
     return c->def.occlusion == RLF_OCCLUSION_DEPTH || c->def.occlusion == RLF_OCCLUSION_SOFT;
 }
 
+static bool has_real_shade(const gl_compositor *c)
+{
+    return c->def.enable_real_shade && has_shadows(c);
+}
+
+static rlf_result update_shade(gl_compositor *c, const rlf_render_input *input, rlf_vec3 to_light)
+{
+    const rlf_camera *k = &c->view.camera;
+    const real_shade_world world = {input->surface, rlf_pose_invert(&c->view.T_picture_camera),
+                                    to_light, 0.5 * (k->fx + k->fy)};
+    return gl_shade_update(&c->shade, &world, c->casters, input->snapshot->body_count);
+}
+
 /* The colour image, or depth in grey when the frame has none, and the bodies' shadows. */
 static rlf_result draw_backdrop(gl_compositor *c, const rlf_render_input *input)
 {
@@ -316,6 +332,9 @@ static rlf_result draw_backdrop(gl_compositor *c, const rlf_render_input *input)
         if (result == RLF_OK) {
             gl_backdrop_draw_shadows(&c->backdrop, &shadows);
         }
+        if (result == RLF_OK && has_real_shade(c)) {
+            result = update_shade(c, input, shadows.to_light);
+        }
     }
     return result;
 }
@@ -338,7 +357,8 @@ static void draw_bodies(gl_compositor *c, const rlf_snapshot *snapshot)
                            &c->backdrop.texture,
                            occlusion == RLF_OCCLUSION_DEPTH ? &c->depth_texture : NULL,
                            occlusion == RLF_OCCLUSION_SOFT ? &soft_real : NULL,
-                           has_shadows(c) ? c->casters : NULL};
+                           has_shadows(c) ? c->casters : NULL,
+                           has_real_shade(c) ? &c->shade : NULL};
     gl_layer_images images = {&c->backdrop.texture, &c->depth_texture, NULL};
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);

@@ -1,6 +1,8 @@
 /* Bodies of a snapshot as faces in the picture, nearest body first. */
 #include "render/soft/soft.h"
 
+#define BODIES_AT_ONCE 8 /* per worker */
+
 /* What one body's vertices go through. */
 typedef struct body_transform {
     rlf_mat3 R; /* T_picture_body */
@@ -21,10 +23,12 @@ static rlf_result reserve_bodies(soft_scene *scene, int32_t count)
     rlf_free(scene->bodies);
     rlf_free(scene->casters);
     rlf_free(scene->reach);
+    rlf_free(scene->real_shades);
     scene->bodies = bodies;
     scene->casters = rlf_alloc_array((size_t)count * 2, sizeof(*scene->casters));
     scene->reach = rlf_alloc_array((size_t)count * 2, sizeof(*scene->reach));
-    bool has_all = scene->casters != NULL && scene->reach != NULL;
+    scene->real_shades = rlf_alloc_array((size_t)count * 2, sizeof(*scene->real_shades));
+    bool has_all = scene->casters != NULL && scene->reach != NULL && scene->real_shades != NULL;
     scene->body_capacity = has_all ? count * 2 : 0;
     return has_all ? RLF_OK : RLF_ERROR_MEMORY;
 }
@@ -214,6 +218,36 @@ static void place_casters(soft *s, const rlf_snapshot *snapshot, const rlf_pose 
     }
 }
 
+typedef struct shade_bodies_job {
+    soft *s;
+    real_shade_world world;
+} shade_bodies_job;
+
+static void shade_bodies(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    const shade_bodies_job *job = context;
+    soft_scene *scene = &job->s->scene;
+    (void)worker;
+    for (int32_t i = begin; i < end; i++) {
+        real_shade *shade = &scene->real_shades[i];
+        real_shade_make(&job->world, &scene->casters[scene->bodies[i].index], shade);
+        scene->bodies[i].real_shade = shade->takes ? shade : NULL;
+    }
+}
+
+/* What real things take from the bodies in the picture. */
+static void place_real_shades(soft *s, const rlf_surface *surface)
+{
+    shade_bodies_job job = {s,
+                            {.surface = surface,
+                             .T_depth_picture = rlf_pose_invert(&s->T_picture_depth),
+                             .to_light = s->to_light,
+                             .focal_px = 0.5 * (s->camera.fx + s->camera.fy)}};
+    if (s->def.enable_real_shade && s->scene.caster_count > 0) {
+        rlf_parallel_for(s->def.pool, s->scene.body_count, BODIES_AT_ONCE, shade_bodies, &job);
+    }
+}
+
 rlf_result soft_scene_build(soft *s, const rlf_render_input *input)
 {
     const rlf_snapshot *snapshot = input->snapshot;
@@ -232,6 +266,7 @@ rlf_result soft_scene_build(soft *s, const rlf_render_input *input)
     if (result == RLF_OK) {
         sort_bodies(&s->scene);
         place_casters(s, snapshot, &T_picture_world);
+        place_real_shades(s, input->surface);
     }
     return result;
 }

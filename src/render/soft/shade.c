@@ -302,9 +302,17 @@ RLF_KERNEL_PART void place_nodes(const soft *s, const soft_face *f, int32_t x, i
     }
 }
 
+RLF_KERNEL_PART void clear_nodes(light_nodes *out)
+{
+    RLF_KERNEL_WHOLE
+    for (int32_t k = 0; k < 2 * ROW_NODES; k++) {
+        out->ambient[k] = out->direct[k] = 1.0f;
+    }
+}
+
 /* Other bodies' contact darkening takes the light around, their shadows the directed light: at
- * nodes of rows y0 and y1 from x on, of which `count` pixels will be drawn. False when no body
- * takes any. */
+ * nodes of rows y0 and y1 from x on, of which `count` pixels will be drawn. So do real things.
+ * False when nothing takes any. */
 RLF_KERNEL_PART bool fill_nodes(const soft *s, const soft_face *f, const int32_t y[2], int32_t x,
                                 int32_t count, light_nodes *out)
 {
@@ -323,12 +331,16 @@ RLF_KERNEL_PART bool fill_nodes(const soft *s, const soft_face *f, const int32_t
     out->per_row = per_row;
     float middle[3];
     float radius = ball_of(&points, corner, middle);
-    bool is_shaded = false;
+    bool is_shaded = body->real_shade != NULL;
+    if (is_shaded) {
+        clear_nodes(out);
+        real_shade_take(body->real_shade, &points, (float)BODY_DIRECT_SHARE, out->direct);
+    }
     for (int32_t i = 0; i < body->shader_count; i++) {
         const caster *c = &s->scene.casters[body->shaders[i]];
         int32_t takes = caster_may_take(c, s->light, middle, radius);
-        for (int32_t k = 0; takes != CASTER_TAKES_NOTHING && !is_shaded && k < 2 * ROW_NODES; k++) {
-            out->ambient[k] = out->direct[k] = 1.0f;
+        if (takes != CASTER_TAKES_NOTHING && !is_shaded) {
+            clear_nodes(out);
         }
         is_shaded = is_shaded || takes != CASTER_TAKES_NOTHING;
         if ((takes & CASTER_TAKES_AMBIENT) != 0) {
@@ -427,8 +439,9 @@ RLF_KERNEL_PART void shade_chunk(const soft *s, const soft_ends *ends, const sof
     const int32_t y[2] = {group->rows[0].y, group->rows[last].y};
     light_nodes nodes;
     light_nodes mixed;
-    bool is_shaded =
-        s->scene.bodies[f->body].shader_count > 0 && fill_nodes(s, f, y, x, count, &nodes);
+    const soft_body *body = &s->scene.bodies[f->body];
+    bool is_shaded = (body->shader_count > 0 || body->real_shade != NULL) &&
+                     fill_nodes(s, f, y, x, count, &nodes);
     const int32_t align = is_shaded ? s->shade_px : 1;
     for (int32_t i = 0; i <= last; i++) {
         int32_t x0 = spans[i].x0 > x ? (spans[i].x0 - x) / align * align + x : x;

@@ -15,6 +15,7 @@
 #include "render/caster.h"
 #include "render/room_light.h"
 #include "render/real_depth.h"
+#include "render/real_shade.h"
 #include "render/shape_mesh.h"
 #include "render/silhouette.h"
 
@@ -69,6 +70,7 @@ typedef struct soft_body {
     int32_t index;           /* in the snapshot */
     int32_t shaders[CASTER_BODIES]; /* casters that may take light from it */
     int32_t shader_count;
+    const real_shade *real_shade; /* NULL = real things take no light from it */
 } soft_body;
 
 typedef struct soft_scene {
@@ -79,7 +81,8 @@ typedef struct soft_scene {
     caster *casters; /* as the snapshot's bodies; none without shadows */
     caster_rect *reach;
     int32_t caster_count;
-    int32_t body_capacity; /* of the three */
+    real_shade *real_shades; /* as bodies */
+    int32_t body_capacity;   /* of the four */
 } soft_scene;
 
 /* ---- the renderer --------------------------------------------------------------------------- */
