@@ -14,6 +14,7 @@ typedef struct subcommand {
 
 static const subcommand subcommands[] = {
     {"run", run_main, "run a source with virtual bodies, in a window or headless"},
+    {"place", place_main, "put models of real things where the things are"},
     {"export", export_main, "write arrays of every frame: depth, normals, labels, truth, ..."},
     {"info", info_main, "tell what a source is"},
     {"sources", sources_main, "list the kinds of source that this build can open"},

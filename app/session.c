@@ -58,7 +58,7 @@ static rlf_result open_all(const session_options *options, session *s)
         return result;
     }
     rlf_pipeline_def def = rlf_pipeline_def_default(options->profile, s->source, s->pool);
-    if (s->scene.bodies != NULL) {
+    if (s->scene.bodies != NULL || s->scene.known != NULL) {
         def.scene = &s->scene;
     }
     if (options->scale_factor > 0) {

@@ -33,6 +33,11 @@ RLF_API rlf_result rlf_rig_load(const char *path, rlf_rig *out, double *out_unit
 /* Reads scene.json (see docs/formats.md); unknown keys, wrong types and values that the world would
  * refuse are errors that name them. Destroy with rlf_scene_destroy. */
 RLF_API rlf_result rlf_scene_load(const char *path, rlf_scene *out);
+/* Writes a copy of a scene file in which the `known` objects, found by name, have the poses given
+ * here in place of theirs or of their points; those without a pose stay as they are. Both paths may
+ * be the same. */
+RLF_API rlf_result rlf_scene_save_known(const char *scene_path, const rlf_known_def *known,
+                                        int32_t count, const char *out_path);
 
 /* ---- pictures
  * --------------------------------------------------------------------------------------- */

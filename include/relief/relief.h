@@ -8,6 +8,7 @@
 #include "relief/compositor.h"
 #include "relief/frame.h"
 #include "relief/image.h"
+#include "relief/known.h"
 #include "relief/math.h"
 #include "relief/pipeline.h"
 #include "relief/query.h"

@@ -47,6 +47,15 @@ typedef struct rlf_shape {
 
 /* Largest distance from the shape's origin to its surface, metres. */
 RLF_API double rlf_shape_radius(const rlf_shape *shape);
+/* Signed distance of p (the shape's frame, metres) to the shape's surface, negative inside, and the
+ * unit direction in which it grows. Exact but for a hull outside near an edge, where it is the
+ * distance to the farthest face's plane, a lower bound; a hull costs its triangles. */
+RLF_API double rlf_shape_distance(const rlf_shape *shape, rlf_vec3 p, rlf_vec3 *out_gradient);
+/* Where origin + t direction (the shape's frame; the direction need not be of unit length) enters
+ * and leaves the shape, a hull being convex. False when the line misses it. *out_enter is negative
+ * where the ray starts inside or beyond. */
+RLF_API bool rlf_shape_cast(const rlf_shape *shape, rlf_vec3 origin, rlf_vec3 direction,
+                            double *out_enter, double *out_leave);
 
 typedef struct rlf_body_state {
     rlf_body_id id;
@@ -94,8 +103,10 @@ typedef struct rlf_snapshot {
     int64_t time_ns;  /* world time, starts at 0 */
     uint64_t frame;   /* rlf_world_advance calls so far */
     rlf_vec3 gravity; /* m/s^2 */
-    const rlf_body_state *bodies;
+    const rlf_body_state *bodies; /* the virtual ones */
     int32_t body_count;
+    const rlf_body_state *known; /* models of real things: not drawn, they hide and collide */
+    int32_t known_count;
     const rlf_contact *contacts; /* of the last advance */
     int32_t contact_count;
     const rlf_contact_event *events; /* of the last advance, by body; ends and begins mixed */

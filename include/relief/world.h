@@ -106,6 +106,9 @@ typedef struct rlf_body_def {
     double angular_damping;    /* live: the same for the angular velocity */
     bool is_kinematic;         /* live: moves by its velocities alone (rlf_world_set_body changes
                                   them), pushes others, is pushed by nothing; default false */
+    bool is_real;              /* live: a model of a real thing, kinematic: in rlf_snapshot.known in
+                                  place of bodies; models do not collide with each other. default
+                                  false */
     float color[3];            /* sRGB 0..1, default orange */
 } rlf_body_def;
 

@@ -190,6 +190,11 @@ static const char *name_of(const rlf_snapshot *snapshot, rlf_body_id id)
             return snapshot->bodies[i].name;
         }
     }
+    for (int32_t i = 0; i < snapshot->known_count; i++) {
+        if (has_id(&snapshot->known[i], id)) {
+            return snapshot->known[i].name;
+        }
+    }
     return "removed"; /* it left the world's bounds in this very frame */
 }
 

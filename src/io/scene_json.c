@@ -1,7 +1,6 @@
 /* scene.json: gravity and the bodies to start with. */
 #include "relief/io.h"
 #include "io/hull_obj.h"
-#include "io/json.h"
 #include "io/scene_json.h"
 
 #include <string.h>
@@ -10,7 +9,8 @@
 #define FINITE_MAX 1e6 /* metres, m/s, rad/s: far beyond any scene, and squares stay finite */
 #define SIZE_MAX_M 100.0
 
-static rlf_result read_vec3(const io_json_object *object, const io_json_field *field, rlf_vec3 *out)
+rlf_result io_scene_read_vec3(const io_json_object *object, const io_json_field *field,
+                              rlf_vec3 *out)
 {
     double v[3] = {out->x, out->y, out->z};
     rlf_result result = io_json_get_numbers(object, field, v, 3);
@@ -23,7 +23,7 @@ static bool is_control(char c)
     return (unsigned char)c < 0x20 || c == 0x7f;
 }
 
-static rlf_result read_name(const io_json_object *body, rlf_body_def *def)
+rlf_result io_scene_read_name(const io_json_object *body, char out[RLF_NAME_MAX])
 {
     static const io_json_field field = {"name", "a text of 1 to 63 bytes", 0, 0, false};
     const char *name = NULL;
@@ -46,7 +46,7 @@ static rlf_result read_name(const io_json_object *body, rlf_body_def *def)
                             "another",
                             name);
     }
-    memcpy(def->name, name, length + 1);
+    memcpy(out, name, length + 1);
     return RLF_OK;
 }
 
@@ -123,7 +123,7 @@ static rlf_result read_model(const io_json_object *body, const char *folder, rlf
     return RLF_OK;
 }
 
-static rlf_result read_shape(const io_json_object *body, const char *folder, rlf_shape *out)
+rlf_result io_scene_read_shape(const io_json_object *body, const char *folder, rlf_shape *out)
 {
     static const io_json_field size = {"size",
                                        "three full extents in metres, each > 0 and at most 100",
@@ -142,7 +142,7 @@ static rlf_result read_shape(const io_json_object *body, const char *folder, rlf
     }
     out->type = shape->type;
     if (shape->has_size) {
-        result = read_vec3(body, &size, &out->size);
+        result = io_scene_read_vec3(body, &size, &out->size);
     }
     if (result == RLF_OK && shape->has_radius) {
         result = io_json_get_number(body, &radius, &out->radius);
@@ -156,7 +156,7 @@ static rlf_result read_shape(const io_json_object *body, const char *folder, rlf
     return result;
 }
 
-static rlf_result read_orientation(const io_json_object *body, rlf_quat *out)
+rlf_result io_scene_read_orientation(const io_json_object *body, rlf_quat *out)
 {
     static const io_json_field field = {
         "orientation", "a quaternion [x, y, z, w] of about unit length", -1e3, 1e3, false};
@@ -183,15 +183,15 @@ static rlf_result read_motion(const io_json_object *body, rlf_body_def *def)
                                            FINITE_MAX, false};
     static const io_json_field spin = {"angular_velocity", "three numbers of rad/s", -FINITE_MAX,
                                        FINITE_MAX, false};
-    rlf_result result = read_vec3(body, &position, &def->position);
+    rlf_result result = io_scene_read_vec3(body, &position, &def->position);
     if (result == RLF_OK) {
-        result = read_orientation(body, &def->orientation);
+        result = io_scene_read_orientation(body, &def->orientation);
     }
     if (result == RLF_OK) {
-        result = read_vec3(body, &velocity, &def->velocity);
+        result = io_scene_read_vec3(body, &velocity, &def->velocity);
     }
     if (result == RLF_OK) {
-        result = read_vec3(body, &spin, &def->angular_velocity);
+        result = io_scene_read_vec3(body, &spin, &def->angular_velocity);
     }
     return result;
 }
@@ -252,14 +252,14 @@ static rlf_result read_body(const io_json_object *body, const char *folder, rlf_
     if (unknown != NULL) {
         return io_json_fail(body, unknown, "is not a known key: see the list in docs/formats.md");
     }
-    rlf_result result = read_name(body, def);
+    rlf_result result = io_scene_read_name(body, def->name);
     if (result == RLF_OK) {
         result = read_motion(body, def);
     }
     if (result == RLF_OK) {
         result = read_material(body, def);
     }
-    return result == RLF_OK ? read_shape(body, folder, &def->shape) : result;
+    return result == RLF_OK ? io_scene_read_shape(body, folder, &def->shape) : result;
 }
 
 /* Logs tell bodies apart by their names. */
@@ -329,20 +329,24 @@ static rlf_result read_border(const io_json_object *top, rlf_border *out)
 
 static rlf_result read_scene(const io_json_object *top, const char *folder, rlf_scene *scene)
 {
-    static const char *const known[] = {"gravity", "border", "bodies"};
+    static const char *const known[] = {"gravity", "border", "bodies", "known_objects"};
     static const io_json_field gravity = {
         "gravity", "three numbers of m/s^2, each from -1000 to 1000", -1000, 1000, false};
-    const char *unknown = io_json_unknown_key(top, known, 3);
+    const char *unknown = io_json_unknown_key(top, known, 4);
     if (unknown != NULL) {
-        return io_json_fail(
-            top, unknown, "is not a known key: a scene has \"gravity\", \"border\" and \"bodies\"");
+        return io_json_fail(top, unknown,
+                            "is not a known key: a scene has \"gravity\", \"border\", \"bodies\" "
+                            "and \"known_objects\"");
     }
     scene->gravity = rlf_world_def_default().gravity;
-    rlf_result result = read_vec3(top, &gravity, &scene->gravity);
+    rlf_result result = io_scene_read_vec3(top, &gravity, &scene->gravity);
     if (result == RLF_OK) {
         result = read_border(top, &scene->border);
     }
-    return result == RLF_OK ? read_bodies(top, folder, scene) : result;
+    if (result == RLF_OK) {
+        result = read_bodies(top, folder, scene);
+    }
+    return result == RLF_OK ? io_known_read(top, folder, scene) : result;
 }
 
 rlf_result io_scene_parse(const io_bytes *file, const char *folder, rlf_scene *out)

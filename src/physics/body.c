@@ -119,7 +119,8 @@ static void fill_body(phys_body *body, const rlf_body_def *def, int32_t index)
     body->release_time = def->release_time;
     body->linear_damping = def->linear_damping;
     body->angular_damping = def->angular_damping;
-    body->is_kinematic = def->is_kinematic;
+    body->is_kinematic = def->is_kinematic || def->is_real;
+    body->is_real = def->is_real;
     body->collides_with_bodies = def->collides_with_bodies;
     body->x = def->position;
     body->throw_v = def->velocity;
@@ -138,8 +139,10 @@ rlf_result rlf_world_add_body(rlf_world *world, const rlf_body_def *def, rlf_bod
     if (result != RLF_OK) {
         return result;
     }
-    if (def->is_kinematic && world->def.method == RLF_PHYSICS_THESIS) {
-        return rlf_fail(RLF_ERROR_INVALID, "body def: is_kinematic: the thesis's method has none");
+    if ((def->is_kinematic || def->is_real) && world->def.method == RLF_PHYSICS_THESIS) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "body def: %s: the thesis's method has no such bodies, use profile live",
+                        def->is_real ? "is_real" : "is_kinematic");
     }
     int32_t index = world->has_free_slot ? 0 : world->body_top;
     while (index < world->body_top && world->bodies[index].is_alive) {
@@ -172,7 +175,7 @@ rlf_result rlf_world_add_body(rlf_world *world, const rlf_body_def *def, rlf_bod
     if (out_id != NULL) {
         *out_id = phys_body_id(world, index);
     }
-    if (index == world->body_top - 1) {
+    if (index == world->body_top - 1 && !def->is_real && world->snapshot.known_count == 0) {
         phys_world_publish_last(world);
     } else {
         phys_world_publish(world);

@@ -19,6 +19,7 @@ typedef struct phys_body {
     double impact_time;                 /* of its last bounce in this substep, s */
     bool is_alive, is_held, is_asleep, collides_with_bodies;
     bool is_kinematic; /* not held: moves by v and w, and nothing changes them */
+    bool is_real;      /* a model of a real thing */
     bool is_isotropic; /* inertia is a multiple of 1 */
     bool is_pressed;   /* a contact held it in this substep */
     bool is_restless;  /* a bounce turned its way: its contacts are to be searched again */

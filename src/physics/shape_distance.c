@@ -56,9 +56,26 @@ static double hull_distance(const phys_shape *s, rlf_vec3 p, rlf_vec3 *gradient)
     return best;
 }
 
-double phys_shape_distance(const phys_shape *shape, rlf_vec3 p, rlf_vec3 *out_gradient)
+/* As hull_distance, without planes that were made before. */
+static double triangles_distance(const rlf_hull *hull, rlf_vec3 p, rlf_vec3 *gradient)
 {
-    const rlf_shape *s = &shape->shape;
+    double best = -1e30;
+    for (int32_t i = 0; i < hull->triangle_count; i++) {
+        const int32_t *corner = hull->triangles + 3 * (ptrdiff_t)i;
+        rlf_vec3 a = hull->vertices[corner[0]];
+        rlf_vec3 n = rlf_normalize(rlf_cross(rlf_sub(hull->vertices[corner[1]], a),
+                                             rlf_sub(hull->vertices[corner[2]], a)));
+        double d = rlf_dot(n, rlf_sub(p, a));
+        if (rlf_dot(n, n) > 0.5 && d > best) {
+            best = d;
+            *gradient = n;
+        }
+    }
+    return best;
+}
+
+double rlf_shape_distance(const rlf_shape *s, rlf_vec3 p, rlf_vec3 *out_gradient)
+{
     switch (s->type) {
     case RLF_SHAPE_BOX: return box_distance(rlf_scale(s->size, 0.5), p, out_gradient);
     case RLF_SHAPE_SPHERE: return ball_distance(s->radius, p, out_gradient);
@@ -68,9 +85,15 @@ double phys_shape_distance(const phys_shape *shape, rlf_vec3 p, rlf_vec3 *out_gr
         return ball_distance(s->radius, to_axis, out_gradient);
     }
     case RLF_SHAPE_CYLINDER: return cylinder_distance(s, p, out_gradient);
-    case RLF_SHAPE_HULL: return hull_distance(shape, p, out_gradient);
+    case RLF_SHAPE_HULL: return triangles_distance(s->hull, p, out_gradient);
     }
     return 0.0;
+}
+
+double phys_shape_distance(const phys_shape *shape, rlf_vec3 p, rlf_vec3 *out_gradient)
+{
+    return shape->shape.type == RLF_SHAPE_HULL ? hull_distance(shape, p, out_gradient)
+                                               : rlf_shape_distance(&shape->shape, p, out_gradient);
 }
 
 int32_t phys_shape_support(const phys_shape *shape, rlf_vec3 direction, rlf_vec3 out[2],

@@ -23,19 +23,29 @@ void phys_world_publish_last(rlf_world *world)
     write_state(world, world->body_top - 1, &world->states[world->snapshot.body_count++]);
 }
 
-void phys_world_publish(rlf_world *world)
+/* Writes the states of the virtual bodies, or of the models, from index `count` on; returns the
+ * index after the last. */
+static int32_t publish_kind(rlf_world *world, bool is_real, int32_t count)
 {
-    int32_t count = 0;
     for (int32_t i = 0; i < world->body_top; i++) {
-        if (world->bodies[i].is_alive) {
+        if (world->bodies[i].is_alive && world->bodies[i].is_real == is_real) {
             write_state(world, i, &world->states[count++]);
         }
     }
+    return count;
+}
+
+void phys_world_publish(rlf_world *world)
+{
+    int32_t count = publish_kind(world, false, 0);
+    int32_t total = publish_kind(world, true, count);
     world->snapshot.time_ns = (int64_t)(world->time * 1e9 + 0.5);
     world->snapshot.frame = world->frame;
     world->snapshot.gravity = world->def.gravity;
     world->snapshot.bodies = world->states;
     world->snapshot.body_count = count;
+    world->snapshot.known = world->states + count;
+    world->snapshot.known_count = total - count;
     world->snapshot.contacts = world->log;
     world->snapshot.contact_count = world->log_count;
     world->snapshot.events = world->events;

@@ -3,6 +3,7 @@
 
 #include "base/cookie.h"
 #include "pipeline/grid.h"
+#include "pipeline/known.h"
 
 #include <string.h>
 
@@ -18,6 +19,7 @@ struct rlf_pipeline {
     rlf_scene scene; /* copy; hulls stay the caller's */
     rlf_reconstruct *reconstruct;
     rlf_world *world;
+    known_models known;
     rlf_compositor *compositor;
     rlf_compositor_def compositor_def;
     float *ray_x, *ray_y; /* rays of the grid, for the compositor */
@@ -96,7 +98,7 @@ static rlf_result add_bodies(rlf_pipeline *p)
             return result;
         }
     }
-    return RLF_OK;
+    return known_models_start(&p->known, p->world);
 }
 
 /* Rays of the decimated grid for the compositor; the surface's own are not known before the first
@@ -164,6 +166,9 @@ rlf_result rlf_pipeline_create(const rlf_pipeline_def *def, rlf_pipeline **out)
     p->def = *def;
     rlf_result result = copy_scene(p, def->scene);
     if (result == RLF_OK) {
+        result = known_models_create(def->scene, &p->known);
+    }
+    if (result == RLF_OK) {
         result = create_stages(p);
     }
     if (result == RLF_OK) {
@@ -190,6 +195,7 @@ void rlf_pipeline_destroy(rlf_pipeline **pipeline)
     *pipeline = NULL;
     rlf_compositor_destroy(&p->compositor);
     rlf_world_destroy(&p->world);
+    known_models_destroy(&p->known);
     rlf_reconstruct_destroy(&p->reconstruct);
     rlf_free(p->sheet.data);
     rlf_free(p->regions);
@@ -288,12 +294,26 @@ static double elapsed_ms(int64_t *since_ns)
     return ms;
 }
 
-static void advance_world(rlf_pipeline *p)
+static rlf_known_view known_view(const rlf_pipeline *p)
+{
+    const rlf_known_view view = {p->last.surface, p->last.frame.rig, p->def.T_world_camera};
+    return view;
+}
+
+static rlf_result advance_world(rlf_pipeline *p)
 {
     rlf_pipeline_output *out = &p->last;
     rlf_grid grid;
     grid_from_surface(out->surface, &p->def.T_world_camera, p->regions, p->region_capacity, &grid);
     bool is_first = p->frame_index == 0;
+    const rlf_known_view view = known_view(p);
+    rlf_result result =
+        is_first ? known_models_solve(&p->known, &view, p->world)
+                 : known_models_clear_grid(&p->known, out->surface,
+                                           rlf_world_get_snapshot(p->world), &grid);
+    if (result != RLF_OK) {
+        return result;
+    }
     double dt = is_first ? 0.0 : (double)(out->frame.time_ns - p->last_time_ns) * 1e-9;
     if (dt > 0.0) {
         rlf_world_advance(p->world, &grid, rlf_min(dt, ADVANCE_MAX_S));
@@ -304,6 +324,7 @@ static void advance_world(rlf_pipeline *p)
     p->last_time_ns = out->frame.time_ns;
     out->time_s = (double)(out->frame.time_ns - p->first_time_ns) * 1e-9;
     out->snapshot = rlf_world_get_snapshot(p->world);
+    return RLF_OK;
 }
 
 static void note_times(rlf_pipeline *p)
@@ -411,7 +432,10 @@ rlf_result rlf_pipeline_step(rlf_pipeline *p, rlf_pipeline_output *out)
         return result;
     }
     last->times.surface_ms = elapsed_ms(&clock);
-    advance_world(p);
+    result = advance_world(p);
+    if (result != RLF_OK) {
+        return result;
+    }
     last->times.physics_ms = elapsed_ms(&clock);
     result = render(p);
     if (result != RLF_OK) {
@@ -451,6 +475,36 @@ rlf_result rlf_pipeline_restart(rlf_pipeline *p)
     rlf_world_reset(p->world);
     p->frame_index = 0;
     return add_bodies(p);
+}
+
+rlf_result rlf_pipeline_set_known(rlf_pipeline *p, const rlf_known_def *def, rlf_known_fit *out_fit)
+{
+    if (!RLF_ASSERT(p != NULL && def != NULL && def->cookie == RLF_DEF_COOKIE)) {
+        return RLF_ERROR_INVALID;
+    }
+    if (p->frame_index == 0 && def->point_count > 0) {
+        return RLF_NO_FRAME;
+    }
+    const rlf_known_view view = known_view(p);
+    rlf_known_def solved = *def;
+    rlf_known_fit fit;
+    rlf_result result = rlf_known_solve(def, def->point_count > 0 ? &view : NULL, &fit);
+    if (result == RLF_OK) {
+        solved.T_world_model = fit.T_world_model;
+        solved.has_pose = true;
+        solved.point_count = 0;
+        result = known_models_put(&p->known, &solved, p->world);
+    }
+    if (result == RLF_OK && out_fit != NULL) {
+        *out_fit = fit;
+    }
+    return result;
+}
+
+const rlf_known_def *rlf_pipeline_get_known(const rlf_pipeline *p, int32_t *out_count)
+{
+    *out_count = p->known.count;
+    return p->known.defs;
 }
 
 rlf_world *rlf_pipeline_get_world(rlf_pipeline *p)

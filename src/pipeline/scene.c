@@ -44,6 +44,10 @@ void rlf_scene_destroy(rlf_scene *scene)
     for (int32_t i = 0; i < scene->body_count; i++) {
         rlf_free((void *)(uintptr_t)scene->bodies[i].shape.hull);
     }
+    for (int32_t i = 0; i < scene->known_count; i++) {
+        rlf_free((void *)(uintptr_t)scene->known[i].shape.hull);
+    }
     rlf_free(scene->bodies);
+    rlf_free(scene->known);
     memset(scene, 0, sizeof(*scene));
 }

@@ -68,9 +68,13 @@ rlf_result real_depth_create(const rlf_compositor_def *def, const rlf_camera *ca
     }
     if (result == RLF_OK) {
         rlf_pose T = real_depth_picture_pose(def);
+        out->T_picture_depth = T;
         result = rlf_registration_create(depth, out->uses_frame ? out->ray_x : def->ray_x,
                                          out->uses_frame ? out->ray_y : def->ray_y, camera, &T,
                                          &out->registration);
+    }
+    if (result == RLF_OK) {
+        result = known_layer_create(camera, depth, &def->rig.noise, &out->known);
     }
     if (result != RLF_OK) {
         real_depth_destroy(out);
@@ -81,6 +85,7 @@ rlf_result real_depth_create(const rlf_compositor_def *def, const rlf_camera *ca
 void real_depth_destroy(real_depth *real)
 {
     rlf_registration_destroy(&real->registration);
+    known_layer_destroy(&real->known);
     void *parts[6] = {real->input, real->z.data, real->state.data,
                       real->ray_x, real->ray_y,  real->is_in_lens};
     for (int i = 0; i < 6; i++) {
@@ -127,12 +132,17 @@ static void read_surface(real_depth *real, const rlf_surface *surface)
     }
 }
 
-void real_depth_update(real_depth *real, const rlf_frame *frame, const rlf_surface *surface)
+rlf_result real_depth_update(real_depth *real, const rlf_render_input *input)
 {
     if (real->uses_frame) {
-        read_frame(real, frame);
+        read_frame(real, input->frame);
     } else {
-        read_surface(real, surface);
+        read_surface(real, input->surface);
     }
     rlf_registration_apply(real->registration, real->input, &real->z, &real->state);
+    rlf_pose T_camera_world = rlf_pose_invert(&input->T_world_camera);
+    rlf_pose T_picture_world = rlf_pose_mul(&real->T_picture_depth, &T_camera_world);
+    rlf_result result = known_layer_place(&real->known, input->snapshot, &T_picture_world);
+    known_layer_cover(&real->known, real->z.data);
+    return result;
 }

@@ -2,6 +2,7 @@
 #ifndef RLF_RENDER_REAL_DEPTH_H
 #define RLF_RENDER_REAL_DEPTH_H
 
+#include "known/layer.h"
 #include "relief/compositor.h"
 
 typedef struct real_depth {
@@ -16,6 +17,9 @@ typedef struct real_depth {
     int32_t width, height; /* of input */
     float *ray_x, *ray_y;  /* uses_frame only */
     uint8_t *is_in_lens;   /* uses_frame only */
+
+    known_layer known; /* models of real things: they are put into z */
+    rlf_pose T_picture_depth;
 } real_depth;
 
 /* Camera that a def's picture is drawn with, and its pose: the colour camera's or, without one, the
@@ -27,7 +31,8 @@ rlf_pose real_depth_picture_pose(const rlf_compositor_def *def); /* T_picture_de
 rlf_result real_depth_create(const rlf_compositor_def *def, const rlf_camera *camera,
                              real_depth *out);
 void real_depth_destroy(real_depth *real);
-/* Fills z and state. Pixels without depth take the background's, when the surface knows it. */
-void real_depth_update(real_depth *real, const rlf_frame *frame, const rlf_surface *surface);
+/* Fills z and state. Pixels without depth take the background's, when the surface knows it; models
+ * of real things take their place. RLF_ERROR_MEMORY as known_layer_place. */
+rlf_result real_depth_update(real_depth *real, const rlf_render_input *input);
 
 #endif

@@ -14,10 +14,11 @@ set(public_kernel base math image camera frame surface) # of the values: noise a
 set(public_capture base math image camera frame source synthetic)
 set(public_surface base math image camera frame surface reconstruct)
 set(public_physics base math snapshot world query)
+set(public_known base math image camera frame surface snapshot known)
 set(public_render base math image camera frame surface snapshot compositor)
 set(public_render_gl ${public_render} gl)
 set(public_pipeline base math image camera frame surface snapshot source synthetic reconstruct world query
-    compositor pipeline relief)
+    compositor known pipeline relief)
 set(public_io ${public_pipeline} io)
 
 set(internal_base "")
@@ -28,9 +29,10 @@ set(internal_kernel base math)
 set(internal_capture base math camera kernel)
 set(internal_surface base math camera kernel)
 set(internal_physics base math kernel)
-set(internal_render base math camera kernel)
-set(internal_render_gl base math camera render)
-set(internal_pipeline base math camera)
+set(internal_known base math camera)
+set(internal_render base math camera kernel known)
+set(internal_render_gl base math camera known render)
+set(internal_pipeline base math camera known)
 set(internal_io base math camera)
 
 # What a public header may build on: the same layers, seen from outside.
@@ -47,10 +49,11 @@ set(header_reconstruct surface)
 set(header_world snapshot)
 set(header_query world)
 set(header_compositor snapshot surface)
-set(header_pipeline compositor reconstruct source world)
+set(header_known snapshot surface)
+set(header_pipeline compositor known reconstruct source world)
 set(header_io pipeline synthetic)
 set(header_gl compositor)
-set(header_relief base camera compositor frame image math pipeline query reconstruct snapshot source
+set(header_relief base camera compositor frame image known math pipeline query reconstruct snapshot source
     surface synthetic world)
 
 # The module that implements a public header; values belong to no module.
@@ -60,7 +63,7 @@ set(owner_reconstruct surface)
 set(owner_world physics)
 set(owner_query physics)
 set(owner_compositor render)
-foreach(module base math image camera pipeline io)
+foreach(module base math image camera known pipeline io)
   set(owner_${module} ${module})
 endforeach()
 set(owner_gl render_gl)
@@ -68,7 +71,7 @@ set(owner_gl render_gl)
 # The core library knows the C library and POSIX threads, nothing else.
 set(system_core assert errno float inttypes limits math pthread signal stdalign stdarg stdatomic
     stdbool stddef stdint stdio stdlib string time unistd)
-set(core_modules base math image camera kernel capture surface physics render pipeline)
+set(core_modules base math image camera kernel known capture surface physics render pipeline)
 
 set(problems "")
 set(edges "")

@@ -248,10 +248,11 @@ static bool has_bodies(const rlf_render_input *input)
            input->snapshot->body_count > 0;
 }
 
-static void update_real_depth(gl_compositor *c, const rlf_render_input *input)
+static rlf_result update_real_depth(gl_compositor *c, const rlf_render_input *input)
 {
-    real_depth_update(&c->real, input->frame, input->surface);
+    rlf_result result = real_depth_update(&c->real, input);
     gl_texture_upload_f32(&c->depth_texture, c->real.z.data, c->real.z.width, c->real.z.height);
+    return result;
 }
 
 /* What the real world is like where the bodies are, as the soft renderer works it out. */
@@ -310,7 +311,10 @@ static rlf_result draw_backdrop(gl_compositor *c, const rlf_render_input *input)
     const rlf_rig *rig = &c->def.rig;
     bool has_color = input->frame->color.data != NULL;
     if (!has_color || has_bodies(input)) {
-        update_real_depth(c, input);
+        result = update_real_depth(c, input);
+    }
+    if (result != RLF_OK) {
+        return result;
     }
     if (has_color) {
         gl_texture_upload_rgba8(&c->color_texture, &input->frame->color);

@@ -198,7 +198,10 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
     }
     bool has_bodies = s->scene.body_count > 0;
     if (input->frame->color.data == NULL || has_bodies) {
-        real_depth_update(&s->real, input->frame, input->surface);
+        result = real_depth_update(&s->real, input);
+    }
+    if (result != RLF_OK) {
+        return result;
     }
     soft_set_background(s, &input->frame->color);
     if (has_bodies && s->def.occlusion == RLF_OCCLUSION_SOFT) {
@@ -212,14 +215,18 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
     return RLF_OK;
 }
 
-static void draw_mesh(soft *s, const rlf_render_input *input)
+static rlf_result draw_mesh(soft *s, const rlf_render_input *input)
 {
     if (input->frame->color.data == NULL) {
-        real_depth_update(&s->real, input->frame, input->surface);
+        rlf_result result = real_depth_update(&s->real, input);
+        if (result != RLF_OK) {
+            return result;
+        }
     }
     soft_set_background(s, &input->frame->color);
     rlf_parallel_for(s->def.pool, s->image.height, SOFT_BAND_ROWS, draw_background_rows, s);
     soft_draw_mesh(s, input->surface);
+    return RLF_OK;
 }
 
 static rlf_result render(void *self, const rlf_render_input *input, rlf_render_output *out)
@@ -239,11 +246,14 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
     } else if (input->view == RLF_VIEW_CONTACTS) {
         result = draw_camera(s, input);
         soft_draw_contacts(s, input);
+    } else if (input->view == RLF_VIEW_KNOWN) {
+        result = draw_camera(s, input);
+        soft_draw_known(s, input);
     } else if (input->view == RLF_VIEW_POINTS) {
         clear_matte(s);
         result = soft_draw_points(s, input);
     } else if (input->view == RLF_VIEW_MESH) {
-        draw_mesh(s, input);
+        result = draw_mesh(s, input);
     } else {
         clear_matte(s);
         soft_draw_view(s, input);

@@ -294,6 +294,8 @@ soft_color soft_grid_color(const soft *s, const rlf_render_input *input, int32_t
 rlf_result soft_draw_points(soft *s, const rlf_render_input *input);
 /* view_contacts.c: over the camera's picture. */
 void soft_draw_contacts(soft *s, const rlf_render_input *input);
+/* view_known.c: alike. */
+void soft_draw_known(soft *s, const rlf_render_input *input);
 /* view_mesh.c */
 void soft_draw_mesh(soft *s, const rlf_surface *surface);
 

@@ -1,0 +1,28 @@
+/* Picked points as the camera saw them. */
+#ifndef RLF_KNOWN_PICKS_H
+#define RLF_KNOWN_PICKS_H
+
+#include "relief/known.h"
+
+typedef struct known_pick {
+    rlf_vec3 model;
+    bool has_pixel; /* ray is set */
+    bool has_depth; /* world is set; with a pixel z too */
+    rlf_vec3 ray;   /* (x, y, 1), picture camera frame */
+    double z;       /* metres in that frame */
+    rlf_vec3 world;
+} known_pick;
+
+/* The picture that pixels are of. */
+typedef struct known_sight {
+    rlf_camera picture;
+    rlf_pose T_picture_world;
+    rlf_depth_noise noise;
+} known_sight;
+
+/* Rays and depths of a def's points. Depth at a pixel is that of the nearest thing around it: who
+ * picks a corner misses it by a pixel or two. `view` may be NULL without pixels. Allocates. */
+rlf_result known_look_up(const rlf_known_def *def, const rlf_known_view *view,
+                         known_pick picks[RLF_KNOWN_POINTS_MAX], known_sight *out_sight);
+
+#endif

@@ -1,0 +1,158 @@
+/* A pose moved onto the surface near it: point-to-plane (Chen and Medioni 1992), the model's own
+ * distance field in place of a search for the nearest point. */
+#include "known/align.h"
+
+#define ROUNDS 12
+#define GATE_FIRST_M 0.04 /* distance from the model of the points that count, first and last */
+#define GATE_LAST_M 0.015
+#define SAME_NORMAL 0.75 /* cosine */
+#define POINTS_MIN 30
+/* Neighbouring pixels err alike, and sensors are off by some millimetres: so many points of so much
+ * noise are all that a surface is worth. */
+#define WORTH_POINTS 200.0
+#define WORTH_SIGMA_M 0.004
+/* Of a pose that nobody picked. */
+#define START_SIGMA_M 0.02
+#define START_SIGMA_RAD 0.05
+
+typedef struct search {
+    const rlf_shape *shape;
+    const rlf_surface *surface;
+    rlf_pose T_world_camera;
+} search;
+
+/* Grid pixels that the model may cover, with a margin. */
+static void bound(const search *s, const rlf_pose *T_world_model, int32_t out[4])
+{
+    const rlf_camera *camera = &s->surface->camera;
+    rlf_vec3 c = rlf_transform_inverse(&s->T_world_camera, T_world_model->p);
+    double radius = rlf_shape_radius(s->shape) + GATE_FIRST_M;
+    double u, v;
+    out[0] = out[1] = 0;
+    out[2] = camera->width;
+    out[3] = camera->height;
+    if (c.z > 1.5 * radius && rlf_camera_project(camera, c, &u, &v)) {
+        double half = 1.3 * camera->fx * radius / (c.z - radius) + 2.0;
+        out[0] = (int32_t)rlf_clamp(u - half, 0, camera->width);
+        out[1] = (int32_t)rlf_clamp(v - half, 0, camera->height);
+        out[2] = (int32_t)rlf_clamp(u + half, 0, camera->width);
+        out[3] = (int32_t)rlf_clamp(v + half, 0, camera->height);
+    }
+}
+
+/* What the points within `gate` of the model say. */
+typedef struct findings {
+    known_normal sums;
+    double weight, square_sum;
+    int32_t count;
+} findings;
+
+static void add_point(const search *s, const rlf_pose *T, int32_t i, double gate, findings *f)
+{
+    const rlf_surface *surface = s->surface;
+    rlf_vec3 normal = rlf_vec3_make(surface->normal_x[i], surface->normal_y[i],
+                                    surface->normal_z[i]);
+    rlf_vec3 p = rlf_transform(&s->T_world_camera, rlf_surface_point(surface, i));
+    rlf_vec3 gradient;
+    double d = rlf_shape_distance(s->shape, rlf_transform_inverse(T, p), &gradient);
+    if (!(d < gate && d > -gate)) {
+        return;
+    }
+    gradient = rlf_rotate(T->q, gradient);
+    normal = rlf_rotate(s->T_world_camera.q, normal);
+    if (!(rlf_dot(normal, gradient) > SAME_NORMAL)) {
+        return;
+    }
+    double share = d / gate;
+    double weight = (1.0 - share * share) * (1.0 - share * share); /* Tukey's biweight */
+    /* The model moves, the point stays: d shrinks by gradient . (turn x arm + shift). */
+    rlf_vec3 turn = rlf_cross(rlf_sub(p, T->p), gradient);
+    const double jacobian[6] = {-turn.x,     -turn.y,     -turn.z,
+                                -gradient.x, -gradient.y, -gradient.z};
+    known_normal_add(&f->sums, jacobian, d, weight);
+    f->weight += weight;
+    f->square_sum += d * d;
+    f->count++;
+}
+
+static findings look(const search *s, const rlf_pose *T, double gate)
+{
+    findings f = {.count = 0};
+    int32_t r[4];
+    bound(s, T, r);
+    for (int32_t y = r[1]; y < r[3]; y++) {
+        for (int32_t x = r[0]; x < r[2]; x++) {
+            int32_t i = y * s->surface->width + x;
+            if (s->surface->depth[i] > 0.0f && s->surface->reason[i] == RLF_REASON_OK) {
+                add_point(s, T, i, gate, &f);
+            }
+        }
+    }
+    return f;
+}
+
+/* Pulls the pose back to where it started, as firmly as the prior says. */
+static void add_prior(known_normal *n, const known_normal *prior, const rlf_pose *from,
+                      const rlf_pose *T)
+{
+    rlf_quat turned = rlf_quat_mul(T->q, rlf_quat_conjugate(from->q));
+    double sign = turned.w < 0.0 ? -2.0 : 2.0;
+    rlf_vec3 p = rlf_sub(T->p, from->p);
+    const double d[6] = {sign * turned.x, sign * turned.y, sign * turned.z, p.x, p.y, p.z};
+    for (int32_t i = 0; i < 6; i++) {
+        for (int32_t k = 0; k < 6; k++) {
+            double a = i >= k ? prior->a[i][k] : prior->a[k][i];
+            n->b[i] -= a * d[k];
+            n->a[i][k] += i >= k ? a : 0.0;
+        }
+    }
+}
+
+static void scale(known_normal *n, double by)
+{
+    for (int32_t i = 0; i < 6; i++) {
+        for (int32_t k = 0; k < 6; k++) {
+            n->a[i][k] *= by;
+        }
+        n->b[i] *= by;
+    }
+}
+
+void known_refine(const rlf_shape *shape, const rlf_known_view *view, const known_normal *prior,
+                  rlf_known_fit *fit)
+{
+    const search s = {shape, view->surface, view->T_world_camera};
+    rlf_pose T = fit->T_world_model;
+    double gate = GATE_FIRST_M;
+    for (int32_t i = 0; i < ROUNDS; i++) {
+        findings f = look(&s, &T, gate);
+        if (f.count < POINTS_MIN) {
+            return;
+        }
+        double worth = rlf_min(f.weight, WORTH_POINTS) / f.weight;
+        scale(&f.sums, worth / (WORTH_SIGMA_M * WORTH_SIGMA_M));
+        add_prior(&f.sums, prior, &fit->T_world_model, &T);
+        if (!known_normal_apply(&f.sums, &T)) {
+            return;
+        }
+        gate = rlf_max(GATE_LAST_M, 0.8 * gate);
+    }
+    findings f = look(&s, &T, gate);
+    fit->T_world_model = T;
+    fit->surface_count = f.count;
+    fit->surface_rms = f.count > 0 ? sqrt(f.square_sum / f.count) : 0.0;
+}
+
+void rlf_known_refine(const rlf_shape *shape, const rlf_known_view *view, rlf_known_fit *fit)
+{
+    if (!RLF_ASSERT(shape != NULL && view != NULL && view->surface != NULL && fit != NULL)) {
+        return;
+    }
+    known_normal prior = {{{0}}, {0}};
+    for (int32_t i = 0; i < 6; i++) {
+        double sigma = i < 3 ? START_SIGMA_RAD : START_SIGMA_M;
+        prior.a[i][i] = 1.0 / (sigma * sigma);
+    }
+    fit->surface_count = 0;
+    known_refine(shape, view, &prior, fit);
+}
