@@ -21,25 +21,26 @@ typedef struct place_options {
 
 static void print_help(void)
 {
-    printf("usage: relief place SOURCE --scene FILE [OPTIONS]\n\n"
-           "Finds where the known objects of a scene are: models of real things, which then hide\n"
-           "and collide in their place. Poses come from 3 to 6 points, those of the scene or picks.\n"
-           "\n"
-           "  --scene FILE          with \"known_objects\" (docs/formats.md); required\n"
-           "  --object NAME         place this one alone\n"
-           "  --pick POINT@U,V      its POINT is seen at the picture's pixel U,V; 3 to 6 times\n"
-           "  --pick POINT=X,Y,Z    or it is there in the world, metres\n"
-           "                        POINT: three letters, l c r, t c b, n c f, as ltn for the left\n"
-           "                        top near corner; of a hull v and a vertex; or x,y,z\n"
-           "  --no-refine           keep what the picks give, do not fit the surface\n"
-           "  --frames N            frames to look at before, default 15\n"
-           "  --out FILE            the scene with the poses; may be the same file\n"
-           "  --picture FILE        PNG of the last frame with the models as wireframes\n"
-           "  --threads N           default: one per processor\n\n"
-           "examples:\n"
-           "  relief place synthetic:room --scene scenes/known.json\n"
-           "  relief place clip --scene s.json --object crate --pick ltn@412,300 \\\n"
-           "      --pick rtn@520,302 --pick lbn@415,371 --out placed.json\n");
+    printf(
+        "usage: relief place SOURCE --scene FILE [OPTIONS]\n\n"
+        "Finds where the known objects of a scene are: models of real things, which then hide\n"
+        "and collide in their place. Poses come from 3 to 6 points, those of the scene or picks.\n"
+        "\n"
+        "  --scene FILE          with \"known_objects\" (docs/formats.md); required\n"
+        "  --object NAME         place this one alone\n"
+        "  --pick POINT@U,V      its POINT is seen at the picture's pixel U,V; 3 to 6 times\n"
+        "  --pick POINT=X,Y,Z    or it is there in the world, metres\n"
+        "                        POINT: three letters, l c r, t c b, n c f, as ltn for the left\n"
+        "                        top near corner; of a hull v and a vertex; or x,y,z\n"
+        "  --no-refine           keep what the picks give, do not fit the surface\n"
+        "  --frames N            frames to look at before, default 15\n"
+        "  --out FILE            the scene with the poses; may be the same file\n"
+        "  --picture FILE        PNG of the last frame with the models as wireframes\n"
+        "  --threads N           default: one per processor\n\n"
+        "examples:\n"
+        "  relief place synthetic:room --scene scenes/known.json\n"
+        "  relief place clip --scene s.json --object crate --pick ltn@412,300 \\\n"
+        "      --pick rtn@520,302 --pick lbn@415,371 --out placed.json\n");
 }
 
 static bool take_pick(const char *text, void *out)
@@ -85,8 +86,9 @@ static int parse(int argc, char **argv, place_options *o)
         return command_usage("place", "--pick needs --object NAME");
     }
     if (o->has_too_many || (o->pick_count > 0 && o->pick_count < RLF_KNOWN_POINTS_MIN)) {
-        return command_usage("place", "%s%d picks: give %d to %d", o->has_too_many ? "more than " : "",
-                             (int)o->pick_count, RLF_KNOWN_POINTS_MIN, RLF_KNOWN_POINTS_MAX);
+        return command_usage("place", "%s%d picks: give %d to %d",
+                             o->has_too_many ? "more than " : "", (int)o->pick_count,
+                             RLF_KNOWN_POINTS_MIN, RLF_KNOWN_POINTS_MAX);
     }
     o->session.source = argv[optind];
     return -1;
@@ -192,8 +194,8 @@ static rlf_result save(const place_options *o, const rlf_scene *models, rlf_pipe
     if (o->picture_path != NULL) {
         rlf_pipeline_set_view(pipeline, RLF_VIEW_KNOWN);
         result = rlf_pipeline_redraw(pipeline, &frame);
-        result = result == RLF_OK ? rlf_png_write_rgba(o->picture_path, &frame.render.image)
-                                  : result;
+        result =
+            result == RLF_OK ? rlf_png_write_rgba(o->picture_path, &frame.render.image) : result;
     }
     if (result == RLF_OK && o->out_path != NULL) {
         result = rlf_scene_save_known(o->session.scene_path, models->known, models->known_count,
@@ -253,8 +255,8 @@ int place_main(int argc, char **argv)
     }
     rlf_result result = choose(&options, &models);
     if (result == RLF_OK && models.known_count == 0) {
-        result = rlf_fail(RLF_ERROR_INVALID, "%s: has no \"known_objects\"",
-                          options.session.scene_path);
+        result =
+            rlf_fail(RLF_ERROR_INVALID, "%s: has no \"known_objects\"", options.session.scene_path);
     }
     if (result == RLF_OK) {
         result = run(&options, &models);

@@ -25,7 +25,7 @@ typedef enum rlf_view {
     RLF_VIEW_POINTS = 10, /* the surface's points, in colour, and the bodies from anywhere: orbit */
     RLF_VIEW_CONTACTS = 11, /* camera, with an arrow along each contact's normal, longer the larger
                                its impulse */
-    RLF_VIEW_KNOWN = 12, /* camera, with the models of real things as wireframes */
+    RLF_VIEW_KNOWN = 12,    /* camera, with the models of real things as wireframes */
     RLF_VIEW_COUNT = 13
 } rlf_view;
 

@@ -29,22 +29,22 @@ typedef struct rlf_known_point {
 typedef struct rlf_known_def {
     uint32_t cookie;
     char name[RLF_NAME_MAX];
-    rlf_shape shape;           /* default box 0.1 m */
-    rlf_pose T_world_model;    /* default identity; used when there are no points */
-    bool has_pose;             /* false: it waits to be placed; points count instead. default true */
+    rlf_shape shape;        /* default box 0.1 m */
+    rlf_pose T_world_model; /* default identity; used when there are no points */
+    bool has_pose;          /* false: it waits to be placed; points count instead. default true */
     rlf_known_point points[RLF_KNOWN_POINTS_MAX];
-    int32_t point_count;       /* 0, or RLF_KNOWN_POINTS_MIN to RLF_KNOWN_POINTS_MAX */
-    bool refine;               /* on the surface, after the points; default true */
-    double restitution;        /* 0..1, default 0: that of what meets it */
-    double friction;           /* >= 0, default 0.5 */
+    int32_t point_count; /* 0, or RLF_KNOWN_POINTS_MIN to RLF_KNOWN_POINTS_MAX */
+    bool refine;         /* on the surface, after the points; default true */
+    double restitution;  /* 0..1, default 0: that of what meets it */
+    double friction;     /* >= 0, default 0.5 */
 } rlf_known_def;
 
 RLF_API rlf_known_def rlf_known_def_default(void);
 
 /* A point of a shape by name: three letters for left, centre or right (l, c, r), top, centre or
- * bottom (t, c, b), near, centre or far (n, c, f) of the box around it, -x, -y and -z being left, top
- * and near: "ltn" is a box's first corner, "ctc" the middle of its top. Of a hull "v" and the number
- * of a vertex, from 0. False when the shape has no such point. */
+ * bottom (t, c, b), near, centre or far (n, c, f) of the box around it, -x, -y and -z being left,
+ * top and near: "ltn" is a box's first corner, "ctc" the middle of its top. Of a hull "v" and the
+ * number of a vertex, from 0. False when the shape has no such point. */
 RLF_API bool rlf_known_name_point(const rlf_shape *shape, const char *name, rlf_vec3 *out);
 
 /* The rigid motion that maps `model` points onto `world` points with the least sum of squares
@@ -64,11 +64,11 @@ typedef struct rlf_known_view {
 /* A pose and how well it fits. */
 typedef struct rlf_known_fit {
     rlf_pose T_world_model;
-    int32_t depth_count;    /* picks with depth */
-    double pick_rms;        /* metres: between the points with depth and the model's */
-    double pick_rms_px;     /* pixels: between the picked pixels and the model's; 0 without pixels */
-    int32_t surface_count;  /* surface points on the model; 0 = not refined */
-    double surface_rms;     /* metres: their distance to it */
+    int32_t depth_count;   /* picks with depth */
+    double pick_rms;       /* metres: between the points with depth and the model's */
+    double pick_rms_px;    /* pixels: between the picked pixels and the model's; 0 without pixels */
+    int32_t surface_count; /* surface points on the model; 0 = not refined */
+    double surface_rms;    /* metres: their distance to it */
 } rlf_known_fit;
 
 /* Pose of a def: from its points when it has some, refined on the surface when it asks for that.

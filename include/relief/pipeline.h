@@ -18,7 +18,7 @@ typedef struct rlf_scene {
     rlf_vec3 gravity;
     rlf_body_def *bodies; /* owned when made by rlf_scene_create or rlf_scene_load */
     int32_t body_count;
-    rlf_border border; /* what is beyond the camera's view; default open */
+    rlf_border border;    /* what is beyond the camera's view; default open */
     rlf_known_def *known; /* models of real things; owned as the bodies are */
     int32_t known_count;  /* at most RLF_KNOWN_MAX */
 } rlf_scene;
@@ -96,9 +96,10 @@ RLF_API rlf_result rlf_pipeline_redraw(rlf_pipeline *pipeline, rlf_pipeline_outp
 RLF_API void rlf_pipeline_set_surface_times(rlf_pipeline *pipeline, rlf_surface_times *times);
 /* First frame, empty background, the scene's bodies again. */
 RLF_API rlf_result rlf_pipeline_restart(rlf_pipeline *pipeline);
-/* Adds a model of a real thing, or moves the one of that name, from the next frame on. Picked pixels
- * are looked up in the last frame: rlf_known_solve has the errors, and out_fit (may be NULL) how
- * well it fits. RLF_NO_FRAME before the first frame when there are points. The live profile only. */
+/* Adds a model of a real thing, or moves the one of that name, from the next frame on. Picked
+ * pixels are looked up in the last frame: rlf_known_solve has the errors, and out_fit (may be NULL)
+ * how well it fits. RLF_NO_FRAME before the first frame when there are points. The live profile
+ * only. */
 RLF_API rlf_result rlf_pipeline_set_known(rlf_pipeline *pipeline, const rlf_known_def *def,
                                           rlf_known_fit *out_fit);
 /* The models with their poses; those with points wait for the first frame, those without pose and

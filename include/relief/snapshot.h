@@ -100,9 +100,9 @@ typedef struct rlf_contact_event {
 } rlf_contact_event;
 
 typedef struct rlf_snapshot {
-    int64_t time_ns;  /* world time, starts at 0 */
-    uint64_t frame;   /* rlf_world_advance calls so far */
-    rlf_vec3 gravity; /* m/s^2 */
+    int64_t time_ns;              /* world time, starts at 0 */
+    uint64_t frame;               /* rlf_world_advance calls so far */
+    rlf_vec3 gravity;             /* m/s^2 */
     const rlf_body_state *bodies; /* the virtual ones */
     int32_t body_count;
     const rlf_body_state *known; /* models of real things: not drawn, they hide and collide */

@@ -29,8 +29,9 @@ static rlf_result read_point(const io_json_object *point, const rlf_shape *shape
                              rlf_known_point *out)
 {
     static const char *const keys[] = {"model", "pixel", "world"};
-    static const io_json_field pixel = {"pixel", "two numbers: right and down from the middle of "
-                                                 "the picture's first pixel",
+    static const io_json_field pixel = {"pixel",
+                                        "two numbers: right and down from the middle of "
+                                        "the picture's first pixel",
                                         -POSITION_MAX_M, POSITION_MAX_M, true};
     static const io_json_field world = {"world", "three numbers of metres", -POSITION_MAX_M,
                                         POSITION_MAX_M, true};
@@ -100,17 +101,16 @@ static rlf_result read_place(const io_json_object *object, rlf_known_def *def)
 
 static rlf_result read_known(const io_json_object *object, const char *folder, rlf_known_def *def)
 {
-    static const char *const keys[] = {"name",  "shape",    "size",        "radius",
-                                       "height", "model",    "position",    "orientation",
-                                       "points", "refine",   "restitution", "friction"};
+    static const char *const keys[] = {"name",   "shape",  "size",        "radius",
+                                       "height", "model",  "position",    "orientation",
+                                       "points", "refine", "restitution", "friction"};
     static const io_json_field refine = {"refine", "true or false", 0, 0, false};
     static const io_json_field restitution = {"restitution", "a number from 0 to 1", 0, 1, false};
     static const io_json_field friction = {"friction", "a number >= 0 and at most 1000", 0, 1000,
                                            false};
     const char *unknown = io_json_unknown_key(object, keys, sizeof(keys) / sizeof(keys[0]));
     if (unknown != NULL) {
-        return io_json_fail(object, unknown,
-                            "is not a known key: see the list in docs/formats.md");
+        return io_json_fail(object, unknown, "is not a known key: see the list in docs/formats.md");
     }
     rlf_result result = io_scene_read_name(object, def->name);
     if (result == RLF_OK && def->name[0] == '\0') {

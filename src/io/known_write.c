@@ -50,8 +50,7 @@ static void set_pose(json_t *object, const rlf_pose *T)
 {
     json_object_del(object, "points");
     json_object_set_new(object, "position", json_pack("[fff]", T->p.x, T->p.y, T->p.z));
-    json_object_set_new(object, "orientation",
-                        json_pack("[ffff]", T->q.x, T->q.y, T->q.z, T->q.w));
+    json_object_set_new(object, "orientation", json_pack("[ffff]", T->q.x, T->q.y, T->q.z, T->q.w));
 }
 
 static rlf_result set_poses(json_t *document, const rlf_known_def *known, int32_t count)
@@ -101,8 +100,8 @@ rlf_result rlf_scene_save_known(const char *scene_path, const rlf_known_def *kno
     io_buffer buffer = {0};
     io_bytes file;
     json_t *document = NULL;
-    rlf_result result = io_file_read(scene_path, IO_JSON_FILE_MAX, "check the name of the scene",
-                                     &buffer, &file);
+    rlf_result result =
+        io_file_read(scene_path, IO_JSON_FILE_MAX, "check the name of the scene", &buffer, &file);
     if (result == RLF_OK) {
         result = io_json_parse(&file, &document);
     }

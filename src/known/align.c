@@ -1,5 +1,5 @@
-/* Absolute orientation in closed form (Horn 1987: Closed-form solution of absolute orientation using
- * unit quaternions). */
+/* Absolute orientation in closed form (Horn 1987: Closed-form solution of absolute orientation
+ * using unit quaternions). */
 #include "known/align.h"
 
 #define SWEEPS 30

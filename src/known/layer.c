@@ -39,8 +39,8 @@ typedef struct rect {
     int32_t x0, y0, x1, y1;
 } rect;
 
-/* The array with room for `more` further entries: it may move. NULL when there is no memory; the old
- * one is then still there. */
+/* The array with room for `more` further entries: it may move. NULL when there is no memory; the
+ * old one is then still there. */
 static void *reserve(void *array, int32_t count, int32_t more, int32_t *capacity, size_t size)
 {
     if (count + more <= *capacity && array != NULL) {
@@ -179,8 +179,8 @@ static bool add_rims(known_layer *layer, rect r, const known_pixel *first)
                 p = p[half].index <= covered ? p + half : p;
                 count -= half;
             }
-            layer->rims[layer->rim_count++] = (known_rim){
-                y * w + x, (int32_t)by * w + (int32_t)bx, p->near, p->near - p->front};
+            layer->rims[layer->rim_count++] =
+                (known_rim){y * w + x, (int32_t)by * w + (int32_t)bx, p->near, p->near - p->front};
         }
     }
     return true;

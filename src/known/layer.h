@@ -29,11 +29,11 @@ typedef struct known_layer {
 
     rlf_camera camera;
     rlf_depth_noise noise;
-    int32_t reach;         /* pixels that a sensor may be off at an edge */
-    uint8_t *mask;         /* width * height, 0 between calls; one model at a time */
-    rlf_body_state *made;  /* the models it shows */
+    int32_t reach;        /* pixels that a sensor may be off at an edge */
+    uint8_t *mask;        /* width * height, 0 between calls; one model at a time */
+    rlf_body_state *made; /* the models it shows */
     int32_t made_count, made_capacity;
-    rlf_pose made_T;       /* T_camera_world */
+    rlf_pose made_T; /* T_camera_world */
 } known_layer;
 
 /* `depth` is the camera that senses, `camera` the one whose pixels are covered. */

@@ -1,9 +1,9 @@
 /* Depth and ray of a picked pixel. */
 #include "known/picks.h"
 
-#define WINDOW_PX 3.0   /* of the depth camera's pixels, to each side */
+#define WINDOW_PX 3.0 /* of the depth camera's pixels, to each side */
 #define SAMPLES_MAX 1024
-#define SHARE_MIN 0.12  /* of the samples are a thing; fewer are mixed pixels */
+#define SHARE_MIN 0.12   /* of the samples are a thing; fewer are mixed pixels */
 #define JUMP_MIN_M 0.025 /* between two things, and 1 % of the depth */
 
 /* The surface's depth in the picture camera. */
@@ -26,8 +26,8 @@ static rlf_result sense(const rlf_known_view *view, const rlf_camera *picture, s
     rlf_registration *registration = NULL;
     rlf_result result = out->z.data != NULL && out->state.data != NULL ? RLF_OK : RLF_ERROR_MEMORY;
     if (result == RLF_OK) {
-        result = rlf_registration_create(&s->camera, s->ray_x, s->ray_y, picture, &T,
-                                         &registration);
+        result =
+            rlf_registration_create(&s->camera, s->ray_x, s->ray_y, picture, &T, &registration);
     }
     if (result == RLF_OK) {
         rlf_registration_apply(registration, s->depth, &out->z, &out->state);
@@ -133,9 +133,8 @@ rlf_result known_look_up(const rlf_known_def *def, const rlf_known_view *view,
     const rlf_rig *rig = view->rig;
     rlf_pose T_camera_world = rlf_pose_invert(&view->T_world_camera);
     out_sight->picture = rig->has_color ? rig->color : rig->depth;
-    out_sight->T_picture_world = rig->has_color
-                                     ? rlf_pose_mul(&rig->T_color_depth, &T_camera_world)
-                                     : T_camera_world;
+    out_sight->T_picture_world =
+        rig->has_color ? rlf_pose_mul(&rig->T_color_depth, &T_camera_world) : T_camera_world;
     out_sight->noise = rig->noise;
     sensed seen;
     rlf_result result = sense(view, &out_sight->picture, &seen);

@@ -50,8 +50,8 @@ typedef struct findings {
 static void add_point(const search *s, const rlf_pose *T, int32_t i, double gate, findings *f)
 {
     const rlf_surface *surface = s->surface;
-    rlf_vec3 normal = rlf_vec3_make(surface->normal_x[i], surface->normal_y[i],
-                                    surface->normal_z[i]);
+    rlf_vec3 normal =
+        rlf_vec3_make(surface->normal_x[i], surface->normal_y[i], surface->normal_z[i]);
     rlf_vec3 p = rlf_transform(&s->T_world_camera, rlf_surface_point(surface, i));
     rlf_vec3 gradient;
     double d = rlf_shape_distance(s->shape, rlf_transform_inverse(T, p), &gradient);
@@ -67,8 +67,7 @@ static void add_point(const search *s, const rlf_pose *T, int32_t i, double gate
     double weight = (1.0 - share * share) * (1.0 - share * share); /* Tukey's biweight */
     /* The model moves, the point stays: d shrinks by gradient . (turn x arm + shift). */
     rlf_vec3 turn = rlf_cross(rlf_sub(p, T->p), gradient);
-    const double jacobian[6] = {-turn.x,     -turn.y,     -turn.z,
-                                -gradient.x, -gradient.y, -gradient.z};
+    const double jacobian[6] = {-turn.x, -turn.y, -turn.z, -gradient.x, -gradient.y, -gradient.z};
     known_normal_add(&f->sums, jacobian, d, weight);
     f->weight += weight;
     f->square_sum += d * d;

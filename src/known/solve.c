@@ -5,7 +5,7 @@
 #include "base/cookie.h"
 
 #define ROUNDS 12
-#define PICK_SIGMA_PX 1.5  /* of a hand that picks */
+#define PICK_SIGMA_PX 1.5   /* of a hand that picks */
 #define DEPTH_SIGMA_M 0.012 /* of depth at a corner, beside the sensor's noise */
 #define WORLD_SIGMA_M 0.01
 /* Picks that are farther off than this, or this share of the model's size, are no picks of it. */
@@ -149,8 +149,8 @@ static rlf_result check(const rlf_known_def *def, const rlf_known_view *view)
     for (int32_t i = 0; i < def->point_count; i++) {
         is_pixel = is_pixel || def->points[i].has_pixel;
     }
-    if (def->point_count != 0 && (def->point_count < RLF_KNOWN_POINTS_MIN ||
-                                  def->point_count > RLF_KNOWN_POINTS_MAX)) {
+    if (def->point_count != 0 &&
+        (def->point_count < RLF_KNOWN_POINTS_MIN || def->point_count > RLF_KNOWN_POINTS_MAX)) {
         return rlf_fail(RLF_ERROR_INVALID, "%d points: give %d to %d", (int)def->point_count,
                         RLF_KNOWN_POINTS_MIN, RLF_KNOWN_POINTS_MAX);
     }

@@ -80,8 +80,8 @@ static span hull_span(const rlf_hull *hull, rlf_vec3 o, rlf_vec3 d)
     for (int32_t i = 0; i < hull->triangle_count && s.enter <= s.leave; i++) {
         const int32_t *corner = hull->triangles + 3 * (ptrdiff_t)i;
         rlf_vec3 a = hull->vertices[corner[0]];
-        rlf_vec3 n = rlf_cross(rlf_sub(hull->vertices[corner[1]], a),
-                               rlf_sub(hull->vertices[corner[2]], a));
+        rlf_vec3 n =
+            rlf_cross(rlf_sub(hull->vertices[corner[1]], a), rlf_sub(hull->vertices[corner[2]], a));
         double height = rlf_dot(n, rlf_sub(o, a)), slope = rlf_dot(n, d);
         if (slope < 0.0) {
             s.enter = rlf_max(s.enter, -height / slope);

@@ -53,9 +53,9 @@ static rlf_result add_body(known_models *models, int32_t index, rlf_world *world
     body.restitution = def->restitution;
     body.friction = def->friction;
     rlf_result result = rlf_world_add_body(world, &body, &models->ids[index]);
-    return result == RLF_OK ? result
-                            : rlf_fail(result, "known object \"%s\": %s", body.name,
-                                       rlf_error_text());
+    return result == RLF_OK
+               ? result
+               : rlf_fail(result, "known object \"%s\": %s", body.name, rlf_error_text());
 }
 
 rlf_result known_models_start(known_models *models, rlf_world *world)

@@ -1,5 +1,5 @@
-/* Models of real things in the frame loop: their poses, their bodies, and the grid without what they
- * stand for. */
+/* Models of real things in the frame loop: their poses, their bodies, and the grid without what
+ * they stand for. */
 #ifndef RLF_PIPELINE_KNOWN_H
 #define RLF_PIPELINE_KNOWN_H
 
@@ -7,7 +7,7 @@
 #include "relief/pipeline.h"
 
 typedef struct known_models {
-    rlf_known_def *defs; /* RLF_KNOWN_MAX of them */
+    rlf_known_def *defs;            /* RLF_KNOWN_MAX of them */
     rlf_body_id ids[RLF_KNOWN_MAX]; /* null while it waits for its pose */
     int32_t count;
     known_layer layer; /* at the grid's camera */

@@ -296,7 +296,8 @@ static double elapsed_ms(int64_t *since_ns)
 
 static rlf_known_view known_view(const rlf_pipeline *p)
 {
-    const rlf_known_view view = {p->last.surface, p->last.frame.rig, p->def.T_world_camera};
+    const rlf_rig *rig = &rlf_source_get_info(p->def.source)->rig;
+    const rlf_known_view view = {p->last.surface, rig, p->def.T_world_camera};
     return view;
 }
 
@@ -307,10 +308,9 @@ static rlf_result advance_world(rlf_pipeline *p)
     grid_from_surface(out->surface, &p->def.T_world_camera, p->regions, p->region_capacity, &grid);
     bool is_first = p->frame_index == 0;
     const rlf_known_view view = known_view(p);
-    rlf_result result =
-        is_first ? known_models_solve(&p->known, &view, p->world)
-                 : known_models_clear_grid(&p->known, out->surface,
-                                           rlf_world_get_snapshot(p->world), &grid);
+    rlf_result result = is_first ? known_models_solve(&p->known, &view, p->world)
+                                 : known_models_clear_grid(&p->known, out->surface,
+                                                           rlf_world_get_snapshot(p->world), &grid);
     if (result != RLF_OK) {
         return result;
     }

@@ -34,7 +34,7 @@ expect_done()
 }
 
 # ---- help and usage ---------------------------------------------------------------------------------
-for command in "" run export info sources settings eval measure bench; do
+for command in "" run place export info sources settings eval measure bench; do
     # shellcheck disable=SC2086 # the empty one must vanish
     "$relief" $command --help >stdout.txt 2>stderr.txt || fail "$command --help: status $?"
     grep -q "usage: relief" stdout.txt || fail "$command --help: no usage"
@@ -59,6 +59,10 @@ expect_error 2 "a number" eval --set depth_max_m=far
 expect_error 1 "depth_min_m is nan" run synthetic:room --headless --frames 1 --set depth_min_m=nan
 expect_done settings synthetic:thesis
 grep -q "^steadying  *on  *off" stdout.txt || fail "settings: not listed"
+expect_error 2 "needs a SOURCE" place --scene s.json
+expect_error 2 "needs --scene" place synthetic:room
+expect_error 2 "needs --object" place synthetic:room --scene s.json --pick ltn@1,2
+expect_error 2 "2 picks" place synthetic:room --scene s.json --object a --pick ltn@1,2 --pick rtn@3,4
 expect_error 2 "not an array" export synthetic:room --out o --what smell
 expect_error 2 "needs --out" export synthetic:room
 expect_error 2 "needs --scene" export synthetic:room --out o --what matte
@@ -76,6 +80,23 @@ expect_error 1 "nan.json" run synthetic:room --headless --scene nan.json
 printf '{"bodies": [{"shape": "box", "colour": [1, 0, 0]}]}' >unknown.json
 expect_error 1 "colour" run synthetic:room --headless --scene unknown.json
 : >file
+echo '{"known_objects":[{"name":"crate","shape":"box","size":[0.34,0.22,0.26]}]}' >known.json
+room=synthetic:empty
+expect_error 1 "crte" place $room --scene known.json --object crte
+expect_error 1 "no points" place $room --scene known.json --object crate
+expect_error 1 "do not fit" place $room --scene known.json --object crate \
+    --pick ltn@730,349 --pick rtn@821,354 --pick lbn@821,407
+expect_error 1 "on a line" place $room --scene known.json --object crate \
+    --pick ltn@730,349 --pick ctn@776,351 --pick rtn@821,354
+expect_error 1 "outside the picture" place $room --scene known.json --object crate \
+    --pick ltn@7300,349 --pick rtn@821,354 --pick lbn@730,400
+expect_error 1 "a point that" place $room --scene known.json --object crate \
+    --pick top@730,349 --pick rtn@821,354 --pick lbn@730,400
+expect_done place $room --scene known.json --object crate --out placed.json --picture placed.png \
+    --pick ltn@730,349 --pick rtn@821,354 --pick lbn@730,400 --pick rbn@821,407
+grep -q "position     1.3[34]" stdout.txt || fail "place: the crate is elsewhere"
+expect_done run $room --scene placed.json --headless --frames 3 --view known --quiet
+expect_error 1 "profile live" run $room --scene placed.json --headless --frames 3 --profile thesis
 expect_error 1 "file" run synthetic:room --headless --frames 3 --log file/log
 expect_error 1 "file" run synthetic:room --headless --frames 3 --video file/video.y4m
 expect_error 1 "file" export synthetic:room --frames 0:2 --out file/out --what depth

@@ -10,7 +10,11 @@ static const char *const seeds[] = {
     "\"mass\":1,\"position\":[0,0,1],\"orientation\":[0,0,0,1],\"velocity\":[1,2,3],"
     "\"restitution\":0.5,\"color\":[1,0,0]},{\"shape\":\"sphere\",\"radius\":0.1}]}",
     "{\"bodies\":[{\"shape\":\"capsule\",\"radius\":0.1,\"height\":0.2,\"release_time\":1},"
-    "{\"shape\":\"hull\",\"model\":\"none.obj\"}]}"};
+    "{\"shape\":\"hull\",\"model\":\"none.obj\"}]}",
+    "{\"known_objects\":[{\"name\":\"a\",\"size\":[0.1,0.2,0.3],\"position\":[1,2,3],"
+    "\"orientation\":[0,0,0,1],\"friction\":1},{\"name\":\"b\",\"points\":[{\"model\":\"ltn\","
+    "\"pixel\":[10,20]},{\"model\":[0,0,0.1],\"world\":[1,2,3]},{\"model\":\"rbf\",\"pixel\":"
+    "[1.5,2e1]}],\"refine\":false},{\"name\":\"c\",\"shape\":\"sphere\",\"radius\":0.1}]}"};
 
 size_t fuzz_seed(int index, uint8_t *out, size_t capacity)
 {
@@ -28,6 +32,18 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     for (int32_t i = 0; i < scene.body_count; i++) {
         const rlf_body_def *b = &scene.bodies[i];
         if (!(b->mass > 0.0) || !rlf_vec3_is_finite(b->position) || b->name[RLF_NAME_MAX - 1]) {
+            abort();
+        }
+    }
+    for (int32_t i = 0; i < scene.known_count; i++) {
+        const rlf_known_def *k = &scene.known[i];
+        rlf_known_fit fit;
+        bool has_place = k->has_pose || k->point_count >= RLF_KNOWN_POINTS_MIN;
+        if (k->name[0] == 0 || k->name[RLF_NAME_MAX - 1] || (!has_place && k->point_count > 0) ||
+            !rlf_vec3_is_finite(k->T_world_model.p)) {
+            abort();
+        }
+        if (rlf_known_solve(k, NULL, &fit) == RLF_OK && !rlf_vec3_is_finite(fit.T_world_model.p)) {
             abort();
         }
     }

@@ -26,9 +26,9 @@ static void draw_edge(const wire *w, rlf_vec3 from, rlf_vec3 to)
 static void draw_box(const wire *w, rlf_vec3 half)
 {
     for (int i = 0; i < 8; i++) {
-        rlf_vec3 corner = rlf_vec3_make((i & 1) != 0 ? half.x : -half.x,
-                                        (i & 2) != 0 ? half.y : -half.y,
-                                        (i & 4) != 0 ? half.z : -half.z);
+        rlf_vec3 corner =
+            rlf_vec3_make((i & 1) != 0 ? half.x : -half.x, (i & 2) != 0 ? half.y : -half.y,
+                          (i & 4) != 0 ? half.z : -half.z);
         if ((i & 1) == 0) {
             draw_edge(w, corner, rlf_vec3_make(half.x, corner.y, corner.z));
         }

@@ -1,0 +1,121 @@
+/* scene.json's known objects: read, refused, and written back with poses. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "relief/io.h"
+#include "io/scene_json.h"
+#include "io_support.h"
+
+static rlf_result parse(const char *text, rlf_scene *scene)
+{
+    io_bytes file = {"scene.json", (const uint8_t *)text, strlen(text)};
+    return io_scene_parse(&file, test_folder, scene);
+}
+
+static const char *const whole =
+    "{\"known_objects\":["
+    "{\"name\":\"posed\",\"shape\":\"box\",\"size\":[0.1,0.2,0.3],\"position\":[1,2,3],"
+    "\"orientation\":[0,0,0.7071,0.7071],\"friction\":0.7,\"restitution\":0.2},"
+    "{\"name\":\"picked\",\"shape\":\"cylinder\",\"radius\":0.1,\"height\":0.4,\"refine\":false,"
+    "\"points\":[{\"model\":\"ctc\",\"pixel\":[10,20.5]},{\"model\":[0.1,0,0],\"world\":[4,5,6]},"
+    "{\"model\":\"cbc\",\"pixel\":[1,2]}]},"
+    "{\"name\":\"waiting\"}]}";
+
+static void every_way_to_place_is_read(void **state)
+{
+    (void)state;
+    rlf_scene scene;
+    assert_int_equal(parse(whole, &scene), RLF_OK);
+    assert_int_equal(scene.known_count, 3);
+    const rlf_known_def *k = scene.known;
+    assert_string_equal(k[0].name, "posed");
+    assert_true(k[0].has_pose && k[0].point_count == 0 && k[0].T_world_model.p.z == 3);
+    assert_true(k[0].friction == 0.7 && k[0].restitution == 0.2 && k[0].shape.size.z == 0.3);
+    assert_true(!k[1].has_pose && k[1].point_count == 3 && !k[1].refine);
+    assert_true(k[1].points[0].has_pixel && k[1].points[0].pixel[1] == 20.5);
+    assert_true(k[1].points[0].model.y == -0.2 && k[1].points[2].model.y == 0.2);
+    assert_true(!k[1].points[1].has_pixel && k[1].points[1].world.y == 5);
+    assert_true(!k[2].has_pose && k[2].point_count == 0 && k[2].refine);
+    rlf_scene_destroy(&scene);
+}
+
+static void bad_known_objects_are_named(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *expected;
+    } cases[] = {
+        {"{\"known_objects\":{}}", "known_objects"},
+        {"{\"known_objects\":[1]}", "known_objects[0]"},
+        {"{\"known_objects\":[{}]}", "name"},
+        {"{\"known_objects\":[{\"name\":\"a\",\"mass\":1}]}", "mass"},
+        {"{\"known_objects\":[{\"name\":\"a\"},{\"name\":\"a\"}]}", "known_objects[1].name"},
+        {"{\"bodies\":[{\"name\":\"a\"}],\"known_objects\":[{\"name\":\"a\"}]}", "name"},
+        {"{\"known_objects\":[{\"name\":\"a\",\"orientation\":[0,0,0,1]}]}", "orientation"},
+        {"{\"known_objects\":[{\"name\":\"a\",\"position\":[0,0,1],\"points\":[]}]}", "points"},
+        {"{\"known_objects\":[{\"name\":\"a\",\"points\":[{\"model\":\"ltn\",\"pixel\":[1,2]}]}]}",
+         "3 to 6"},
+        {"{\"known_objects\":[{\"name\":\"a\",\"points\":[1,2,3]}]}", "points[0]"},
+        {"{\"known_objects\":[{\"name\":\"a\",\"points\":[{\"model\":\"xyz\",\"pixel\":[1,2]},{},{}"
+         "]}]}",
+         "ltn"},
+        {"{\"known_objects\":[{\"name\":\"a\",\"points\":[{\"model\":\"ltn\",\"pixel\":[1,2],"
+         "\"world\":[1,2,3]},{},{}]}]}",
+         "either"},
+        {"{\"known_objects\":[{\"name\":\"a\",\"points\":[{\"model\":\"ltn\",\"pixl\":[1,2]},{},{}]"
+         "}]}",
+         "pixl"},
+        {"{\"known_objects\":[{\"name\":\"a\",\"shape\":\"hull\",\"model\":\"none.obj\"}]}",
+         "none.obj"},
+    };
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        rlf_scene scene;
+        assert_true(parse(cases[i].text, &scene) < RLF_OK);
+        if (strstr(rlf_error_text(), cases[i].expected) == NULL) {
+            fail_msg("case %zu: %s", i, rlf_error_text());
+        }
+    }
+    test_write_text("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"); /* no triangle */
+    rlf_scene scene;
+    assert_true(parse("{\"known_objects\":[{\"name\":\"a\",\"shape\":\"hull\",\"model\":"
+                      "\"flat.obj\"}]}",
+                      &scene) < RLF_OK);
+    assert_non_null(strstr(rlf_error_text(), "flat.obj"));
+}
+
+static void poses_are_saved_in_a_copy(void **state)
+{
+    (void)state;
+    char in[512], out[512];
+    test_write_text("known.json", whole);
+    snprintf(in, sizeof(in), "%s", test_path("known.json"));
+    snprintf(out, sizeof(out), "%s", test_path("placed.json"));
+    rlf_known_def def = rlf_known_def_default();
+    strcpy(def.name, "picked");
+    def.T_world_model.p = rlf_vec3_make(0.125, -0.25, 2);
+    assert_int_equal(rlf_scene_save_known(in, &def, 1, out), RLF_OK);
+    rlf_scene scene;
+    assert_int_equal(rlf_scene_load(out, &scene), RLF_OK);
+    assert_int_equal(scene.known_count, 3);
+    assert_true(scene.known[1].has_pose && scene.known[1].point_count == 0);
+    assert_true(scene.known[1].T_world_model.p.x == 0.125);
+    assert_true(scene.known[0].T_world_model.p.z == 3 && !scene.known[2].has_pose);
+    rlf_scene_destroy(&scene);
+    strcpy(def.name, "nobody");
+    assert_int_equal(rlf_scene_save_known(in, &def, 1, out), RLF_ERROR_INVALID);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_way_to_place_is_read),
+        cmocka_unit_test(bad_known_objects_are_named),
+        cmocka_unit_test(poses_are_saved_in_a_copy),
+    };
+    return cmocka_run_group_tests(tests, test_folder_make, test_folder_remove);
+}

@@ -1,0 +1,394 @@
+/* Models of real things: rays and distances of shapes, poses from points, depth in their place. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "known/layer.h"
+#include "relief/known.h"
+#include "relief/pipeline.h"
+#include "relief/synthetic.h"
+#include "render_scene.h"
+
+#include <math.h>
+#include <string.h>
+
+static double uniform(uint64_t *state, double low, double high)
+{
+    *state = *state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return low + (high - low) * (double)(*state >> 33) / 2147483648.0;
+}
+
+static rlf_vec3 random_vec3(uint64_t *state, double size)
+{
+    double x = uniform(state, -size, size), y = uniform(state, -size, size);
+    return rlf_vec3_make(x, y, uniform(state, -size, size));
+}
+
+static const rlf_vec3 octahedron[6] = {{0.2, 0, 0},  {-0.2, 0, 0}, {0, 0.3, 0},
+                                       {0, -0.3, 0}, {0, 0, 0.25}, {0, 0, -0.25}};
+static const int32_t faces[24] = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4,
+                                  2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
+static const rlf_hull hull = {octahedron, 6, faces, 8};
+
+static const rlf_shape shapes[5] = {{.type = RLF_SHAPE_BOX, .size = {0.3, 0.4, 0.5}},
+                                    {.type = RLF_SHAPE_SPHERE, .radius = 0.3},
+                                    {.type = RLF_SHAPE_CAPSULE, .radius = 0.15, .height = 0.4},
+                                    {.type = RLF_SHAPE_CYLINDER, .radius = 0.2, .height = 0.5},
+                                    {.type = RLF_SHAPE_HULL, .hull = &hull}};
+
+/* Where a ray enters and leaves the distance is 0, between it is negative; a ray that is said to
+ * miss stays outside. */
+static void rays_agree_with_distances(void **state)
+{
+    (void)state;
+    uint64_t random = 7;
+    for (int s = 0; s < 5; s++) {
+        int hits = 0;
+        for (int i = 0; i < 2000; i++) {
+            rlf_vec3 from = random_vec3(&random, 1.0);
+            rlf_vec3 d = rlf_sub(random_vec3(&random, 0.4), from), gradient;
+            double enter, leave;
+            if (rlf_shape_cast(&shapes[s], from, d, &enter, &leave)) {
+                hits++;
+                rlf_vec3 p = rlf_mad(from, d, enter), q = rlf_mad(from, d, leave);
+                assert_true(fabs(rlf_shape_distance(&shapes[s], p, &gradient)) < 1e-9);
+                assert_true(fabs(rlf_shape_distance(&shapes[s], q, &gradient)) < 1e-9);
+                rlf_vec3 middle = rlf_scale(rlf_add(p, q), 0.5);
+                assert_true(rlf_shape_distance(&shapes[s], middle, &gradient) < 1e-9);
+            } else {
+                for (int k = 0; k <= 20; k++) {
+                    rlf_vec3 p = rlf_mad(from, d, 0.1 * k);
+                    assert_true(rlf_shape_distance(&shapes[s], p, &gradient) > -1e-9);
+                }
+            }
+        }
+        assert_true(hits > 200);
+    }
+}
+
+static rlf_pose random_pose(uint64_t *random)
+{
+    rlf_pose T = {random_vec3(random, 2.0), {0, 0, 0, 1}};
+    T.q = rlf_quat_from_rotation_vector(random_vec3(random, 1.8));
+    return T;
+}
+
+static void points_give_the_pose_back(void **state)
+{
+    (void)state;
+    uint64_t random = 3;
+    for (int i = 0; i < 500; i++) {
+        int32_t count = 3 + i % 4;
+        rlf_vec3 model[6], world[6];
+        rlf_pose T = random_pose(&random), found;
+        for (int32_t k = 0; k < count; k++) {
+            model[k] = random_vec3(&random, 0.5);
+            world[k] = rlf_transform(&T, model[k]);
+        }
+        double rms;
+        rlf_result result = rlf_align_points(model, world, count, &found, &rms);
+        if (result != RLF_OK) { /* three that happen to lie on a line */
+            assert_true(count == 3);
+            continue;
+        }
+        assert_true(rms < 1e-7);
+        assert_true(rlf_length(rlf_sub(found.p, T.p)) < 1e-6);
+        double cosine =
+            found.q.x * T.q.x + found.q.y * T.q.y + found.q.z * T.q.z + found.q.w * T.q.w;
+        assert_true(fabs(cosine) > 1.0 - 1e-9);
+    }
+}
+
+/* No rotation nearby leaves less: the closed form is the least. */
+static void noisy_points_give_the_least_squares(void **state)
+{
+    (void)state;
+    uint64_t random = 5;
+    for (int i = 0; i < 50; i++) {
+        rlf_vec3 model[5], world[5];
+        rlf_pose T = random_pose(&random), found;
+        for (int k = 0; k < 5; k++) {
+            model[k] = random_vec3(&random, 0.5);
+            world[k] = rlf_add(rlf_transform(&T, model[k]), random_vec3(&random, 0.02));
+        }
+        double rms;
+        assert_int_equal(rlf_align_points(model, world, 5, &found, &rms), RLF_OK);
+        for (int n = 0; n < 20; n++) {
+            rlf_pose other = found;
+            rlf_quat turn = rlf_quat_from_rotation_vector(random_vec3(&random, 0.01));
+            other.q = rlf_quat_mul(turn, found.q);
+            other.p = rlf_add(found.p, random_vec3(&random, 0.005));
+            double sum = 0.0;
+            for (int k = 0; k < 5; k++) {
+                rlf_vec3 d = rlf_sub(rlf_transform(&other, model[k]), world[k]);
+                sum += rlf_dot(d, d);
+            }
+            assert_true(sqrt(sum / 5) >= rms - 1e-12);
+        }
+    }
+}
+
+static void poor_points_are_refused(void **state)
+{
+    (void)state;
+    const rlf_vec3 line[3] = {{0, 0, 0}, {1, 1, 0}, {2, 2, 0}};
+    const rlf_vec3 good[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    const rlf_vec3 wild[3] = {{0, 0, 0}, {NAN, 0, 0}, {0, 1, 0}};
+    rlf_pose T;
+    assert_int_equal(rlf_align_points(good, good, 2, &T, NULL), RLF_ERROR_INVALID);
+    assert_int_equal(rlf_align_points(line, good, 3, &T, NULL), RLF_ERROR_INVALID);
+    assert_int_equal(rlf_align_points(good, line, 3, &T, NULL), RLF_ERROR_INVALID);
+    assert_int_equal(rlf_align_points(good, wild, 3, &T, NULL), RLF_ERROR_INVALID);
+    assert_int_equal(rlf_align_points(good, good, 3, &T, NULL), RLF_OK);
+}
+
+static void points_have_names(void **state)
+{
+    (void)state;
+    rlf_vec3 p;
+    assert_true(rlf_known_name_point(&shapes[0], "ltn", &p));
+    assert_true(p.x == -0.15 && p.y == -0.2 && p.z == -0.25);
+    assert_true(rlf_known_name_point(&shapes[0], "ccf", &p));
+    assert_true(p.x == 0 && p.y == 0 && p.z == 0.25);
+    assert_true(rlf_known_name_point(&shapes[2], "ctc", &p));
+    assert_true(fabs(p.y + 0.35) < 1e-12);
+    assert_true(rlf_known_name_point(&shapes[4], "v5", &p));
+    assert_true(p.z == -0.25);
+    const char *const bad[5] = {"", "lt", "ltnn", "xtn", "v1"};
+    for (int i = 0; i < 5; i++) {
+        assert_false(rlf_known_name_point(&shapes[0], bad[i], &p));
+    }
+    assert_false(rlf_known_name_point(&shapes[4], "v6", &p));
+    assert_false(rlf_known_name_point(&shapes[4], "ltn", &p));
+}
+
+/* ---- depth in a thing's place --------------------------------------------------------------- */
+
+static const rlf_camera camera = {
+    .width = 160, .height = 120, .fx = 120, .fy = 120, .cx = 79.5, .cy = 59.5};
+
+static int32_t pixel_at(int32_t x, int32_t y)
+{
+    return y * camera.width + x;
+}
+
+/* A box half a metre wide, 1.75 to 2.25 m away, on the axis: 120 * 0.25 / 1.75 = 17 pixels to each
+ * side. */
+static void model_takes_the_things_place(void **state)
+{
+    (void)state;
+    const rlf_depth_noise noise = {0.001, 0, 0};
+    rlf_body_state model = {.shape = scene_box(0.5), .T_world_body = {{0, 0, 2}, {0, 0, 0, 1}}};
+    const rlf_snapshot snapshot = {.known = &model, .known_count = 1};
+    const rlf_pose T = rlf_pose_identity();
+    known_layer layer;
+    assert_int_equal(known_layer_create(&camera, &camera, &noise, &layer), RLF_OK);
+    assert_int_equal(known_layer_place(&layer, &snapshot, &T), RLF_OK);
+    static float z[160 * 120], copy[160 * 120];
+    static uint8_t mask[160 * 120];
+    for (int32_t i = 0; i < 160 * 120; i++) {
+        z[i] = 3.0f;
+        mask[i] = 1;
+    }
+    z[pixel_at(80, 60)] = 0.0f;  /* a hole */
+    z[pixel_at(81, 60)] = 1.76f; /* the thing */
+    z[pixel_at(82, 60)] = 1.2f;  /* somebody before it */
+    z[pixel_at(98, 60)] = 1.75f; /* the sensor widens the thing */
+    memcpy(copy, z, sizeof(z));
+    known_layer_clear(&layer, z, copy, mask);
+    assert_true(copy[pixel_at(81, 60)] == 0.0f && mask[pixel_at(81, 60)] == 0);
+    assert_true(copy[pixel_at(82, 60)] == 1.2f && mask[pixel_at(82, 60)] == 1);
+    assert_true(copy[pixel_at(83, 60)] == 3.0f && copy[pixel_at(98, 60)] == 0.0f);
+    known_layer_cover(&layer, z);
+    assert_true(fabs(z[pixel_at(80, 60)] - 1.75) < 1e-6 && fabs(z[pixel_at(81, 60)] - 1.75) < 1e-6);
+    assert_true(z[pixel_at(82, 60)] == 1.2f && fabs(z[pixel_at(83, 60)] - 1.75) < 1e-6);
+    assert_true(z[pixel_at(98, 60)] == 3.0f);
+    int32_t covered = 0;
+    for (int32_t i = 0; i < 160 * 120; i++) {
+        covered += z[i] < 2.9f;
+    }
+    assert_int_equal(covered, 34 * 34);
+    const rlf_snapshot none = {.known_count = 0};
+    assert_int_equal(known_layer_place(&layer, &none, &T), RLF_OK);
+    assert_int_equal(layer.count, 0);
+    known_layer_destroy(&layer);
+}
+
+/* A body behind a known box that the sensor does not see at all: hidden where the box is. */
+static void unseen_model_hides_a_body(void **state)
+{
+    (void)state;
+    render_scene *s = scene_make(3.0);
+    scene_add_body(s, scene_box(0.3), rlf_vec3_make(0.15, 0, 2.4));
+    rlf_body_state model = {.shape = scene_box(0.3), .T_world_body = {{0, 0, 1.5}, {0, 0, 0, 1}}};
+    for (int occlusion = RLF_OCCLUSION_DEPTH; occlusion <= RLF_OCCLUSION_SOFT; occlusion += 3) {
+        rlf_compositor_def def = scene_def(s);
+        def.occlusion = (rlf_occlusion)occlusion;
+        rlf_compositor *compositor = NULL;
+        assert_int_equal(rlf_compositor_create_soft(&def, &compositor), RLF_OK);
+        int64_t shown[2] = {0, 0};
+        for (int k = 0; k < 2; k++) {
+            s->snapshot.known = &model;
+            s->snapshot.known_count = k;
+            rlf_render_output out;
+            assert_int_equal(rlf_compositor_render(compositor, &s->input, &out), RLF_OK);
+            for (int32_t i = 0; i < out.matte.width * out.matte.height; i++) {
+                shown[k] += out.matte.data[i] > 127;
+            }
+        }
+        /* 540 px * 0.3 / 2.25 = 72 wide, of which all left of x = 0.15 / 1.35 * 540 is hidden */
+        assert_true(shown[1] > shown[0] / 10 && shown[1] < shown[0] / 2);
+        rlf_compositor_destroy(&compositor);
+    }
+    scene_free(s);
+}
+
+/* ---- poses on what the sensor shows --------------------------------------------------------- */
+
+static rlf_known_def crate(void)
+{
+    /* where the synthetic room's large box is */
+    rlf_known_def def = rlf_known_def_default();
+    strcpy(def.name, "crate");
+    def.shape.size = rlf_vec3_make(0.34, 0.22, 0.26);
+    def.T_world_model.p = rlf_vec3_make(1.34, 0.455, 2.40);
+    def.T_world_model.q = rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), 0.35);
+    return def;
+}
+
+static void pick(rlf_known_def *def, const rlf_rig *rig, const char *name, double du, double dv)
+{
+    rlf_known_point *point = &def->points[def->point_count++];
+    point->has_pixel = true;
+    assert_true(rlf_known_name_point(&def->shape, name, &point->model));
+    rlf_vec3 p = rlf_transform(&def->T_world_model, point->model);
+    assert_true(rlf_camera_project(&rig->color, rlf_transform(&rig->T_color_depth, p),
+                                   &point->pixel[0], &point->pixel[1]));
+    point->pixel[0] += du;
+    point->pixel[1] += dv;
+}
+
+static void picks_on_the_room_give_the_crates_pose(void **state)
+{
+    (void)state;
+    rlf_synthetic_def synthetic = rlf_synthetic_def_default();
+    synthetic.scene = RLF_SYNTHETIC_EMPTY;
+    rlf_source *source = NULL;
+    assert_int_equal(rlf_synthetic_create(&synthetic, &source), RLF_OK);
+    rlf_pipeline_def pipeline_def = rlf_pipeline_def_default(RLF_PROFILE_LIVE, source, NULL);
+    pipeline_def.enable_render = false;
+    rlf_pipeline *pipeline = NULL;
+    assert_int_equal(rlf_pipeline_create(&pipeline_def, &pipeline), RLF_OK);
+    const rlf_rig *rig = &rlf_source_get_info(source)->rig;
+    rlf_known_def def = crate();
+    const rlf_pose truth = def.T_world_model;
+    pick(&def, rig, "ltn", 1.5, -1);
+    pick(&def, rig, "rtn", -1, 1.5);
+    pick(&def, rig, "rbn", 1, -1);
+    pick(&def, rig, "lbn", -1, 1);
+    rlf_known_fit fit;
+    assert_int_equal(rlf_pipeline_set_known(pipeline, &def, &fit), RLF_NO_FRAME);
+    rlf_pipeline_output frame;
+    for (int i = 0; i < 8; i++) {
+        assert_int_equal(rlf_pipeline_step(pipeline, &frame), RLF_OK);
+    }
+    assert_int_equal(rlf_pipeline_set_known(pipeline, &def, &fit), RLF_OK);
+    assert_int_equal(fit.depth_count, 4);
+    assert_true(fit.surface_count > 500 && fit.surface_rms < 0.003);
+    assert_true(rlf_length(rlf_sub(fit.T_world_model.p, truth.p)) < 0.005);
+    assert_int_equal(rlf_pipeline_step(pipeline, &frame), RLF_OK);
+    assert_int_equal(frame.snapshot->body_count, 0);
+    assert_int_equal(frame.snapshot->known_count, 1);
+    assert_string_equal(frame.snapshot->known[0].name, "crate");
+    /* once more: moved, not added */
+    assert_int_equal(rlf_pipeline_set_known(pipeline, &def, NULL), RLF_OK);
+    int32_t count;
+    assert_true(rlf_pipeline_get_known(pipeline, &count)[0].point_count == 0);
+    assert_int_equal(count, 1);
+    assert_int_equal(rlf_world_get_snapshot(rlf_pipeline_get_world(pipeline))->known_count, 1);
+    def.points[2].pixel[0] = 5000; /* outside */
+    assert_int_equal(rlf_pipeline_set_known(pipeline, &def, NULL), RLF_ERROR_INVALID);
+    assert_non_null(strstr(rlf_error_text(), "point 3"));
+    rlf_pipeline_destroy(&pipeline);
+    rlf_source_destroy(&source);
+}
+
+/* Picks where nothing is sensed: one line says how many have depth. */
+static void picks_without_depth_are_refused(void **state)
+{
+    (void)state;
+    render_scene *s = scene_make(0.0);
+    rlf_known_def def = crate();
+    pick(&def, &s->rig, "ltn", 0, 0);
+    pick(&def, &s->rig, "rtn", 0, 0);
+    pick(&def, &s->rig, "rbn", 0, 0);
+    const rlf_known_view view = {&s->surface, &s->rig, rlf_pose_identity()};
+    rlf_known_fit fit;
+    assert_int_equal(rlf_known_solve(&def, &view, &fit), RLF_ERROR_INVALID);
+    assert_non_null(strstr(rlf_error_text(), "crate"));
+    assert_non_null(strstr(rlf_error_text(), "0 of 3"));
+    def.point_count = 0;
+    def.T_world_model.p.x = NAN;
+    assert_int_equal(rlf_known_solve(&def, &view, &fit), RLF_ERROR_INVALID);
+    scene_free(s);
+}
+
+/* ---- bodies --------------------------------------------------------------------------------- */
+
+static void bodies_rest_on_a_model(void **state)
+{
+    (void)state;
+    rlf_world_def world_def = rlf_world_def_default();
+    rlf_world *world = NULL;
+    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+    rlf_body_def def = rlf_body_def_default();
+    rlf_body_id id;
+    def.is_real = true;
+    def.shape.size = rlf_vec3_make(1, 0.2, 1);
+    def.position = rlf_vec3_make(0, 1, 2);
+    def.restitution = 0;
+    assert_int_equal(rlf_world_add_body(world, &def, &id), RLF_OK);
+    def = rlf_body_def_default();
+    def.position = rlf_vec3_make(0, 0.6, 2);
+    def.restitution = 0.1;
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    const rlf_snapshot *snapshot = rlf_world_get_snapshot(world);
+    assert_int_equal(snapshot->body_count, 1);
+    assert_int_equal(snapshot->known_count, 1);
+    for (int i = 0; i < 120; i++) {
+        rlf_world_advance(world, NULL, 1.0 / 60);
+    }
+    assert_true(fabs(snapshot->bodies[0].T_world_body.p.y - 0.85) < 0.003);
+    assert_true(snapshot->known[0].T_world_body.p.y == 1.0);
+    rlf_world_remove_body(world, id); /* taken away: the body falls */
+    assert_int_equal(snapshot->known_count, 0);
+    for (int i = 0; i < 30; i++) {
+        rlf_world_advance(world, NULL, 1.0 / 60);
+    }
+    assert_true(snapshot->bodies[0].T_world_body.p.y > 1.5);
+    rlf_world_destroy(&world);
+    world_def.method = RLF_PHYSICS_THESIS;
+    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+    def.is_real = true;
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_ERROR_INVALID);
+    rlf_world_destroy(&world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rays_agree_with_distances),
+        cmocka_unit_test(points_give_the_pose_back),
+        cmocka_unit_test(noisy_points_give_the_least_squares),
+        cmocka_unit_test(poor_points_are_refused),
+        cmocka_unit_test(points_have_names),
+        cmocka_unit_test(model_takes_the_things_place),
+        cmocka_unit_test(unseen_model_hides_a_body),
+        cmocka_unit_test(picks_on_the_room_give_the_crates_pose),
+        cmocka_unit_test(picks_without_depth_are_refused),
+        cmocka_unit_test(bodies_rest_on_a_model),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
