@@ -6,6 +6,7 @@
 #ifndef RELIEF_IO_H
 #define RELIEF_IO_H
 
+#include "relief/model.h"
 #include "relief/pipeline.h"
 #include "relief/synthetic.h"
 
@@ -38,6 +39,23 @@ RLF_API rlf_result rlf_scene_load(const char *path, rlf_scene *out);
  * be the same. */
 RLF_API rlf_result rlf_scene_save_known(const char *scene_path, const rlf_known_def *known,
                                         int32_t count, const char *out_path);
+
+/* ---- models
+ * ----------------------------------------------------------------------------------------- */
+
+/* Reads a model from .gltf, .glb (glTF 2.0) or .obj, with the files that it names: geometry, base
+ * colours and base colour textures (PNG, JPEG). A texture that cannot be had is left out with one
+ * warning. glTF, which is y up, is turned half round x, so that it stands upright here and faces
+ * the camera; OBJ is taken as it is. Needs libassimp: RLF_ERROR_UNSUPPORTED without. Destroy with
+ * rlf_model_destroy. Thread-safety: safe, one at a time. */
+RLF_API rlf_result rlf_model_load(const char *path, rlf_model **out);
+
+/* The convex hull of a point cloud (metres) as a solid about its centre of mass, which goes to
+ * *out_centre; NULL is allowed. At most `vertex_limit` (>= 4) vertices are kept, those that stand
+ * out most. RLF_ERROR_INVALID: fewer than 4 points, or all in a plane. Needs libqhull:
+ * RLF_ERROR_UNSUPPORTED without. rlf_free it. Thread-safety: safe. */
+RLF_API rlf_result rlf_hull_create(const rlf_vec3 *points, int32_t point_count,
+                                   int32_t vertex_limit, rlf_hull **out, rlf_vec3 *out_centre);
 
 /* ---- pictures
  * --------------------------------------------------------------------------------------- */

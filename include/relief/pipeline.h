@@ -18,9 +18,11 @@ typedef struct rlf_scene {
     rlf_vec3 gravity;
     rlf_body_def *bodies; /* owned when made by rlf_scene_create or rlf_scene_load */
     int32_t body_count;
-    rlf_border border;    /* what is beyond the camera's view; default open */
-    rlf_known_def *known; /* models of real things; owned as the bodies are */
-    int32_t known_count;  /* at most RLF_KNOWN_MAX */
+    rlf_border border;         /* what is beyond the camera's view; default open */
+    rlf_known_def *known;      /* models of real things; owned as the bodies are */
+    int32_t known_count;       /* at most RLF_KNOWN_MAX */
+    struct rlf_model **models; /* what the bodies' looks borrow; owned as the bodies are */
+    int32_t model_count;
 } rlf_scene;
 
 #define RLF_KNOWN_MAX 64

@@ -10,6 +10,7 @@
 #include "relief/image.h"
 #include "relief/known.h"
 #include "relief/math.h"
+#include "relief/model.h"
 #include "relief/pipeline.h"
 #include "relief/query.h"
 #include "relief/reconstruct.h"

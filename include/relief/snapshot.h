@@ -45,6 +45,13 @@ typedef struct rlf_shape {
     const rlf_hull *hull; /* hull only */
 } rlf_shape;
 
+/* How a body is drawn, if not as its shape: p_body = scale * p_model + offset. */
+typedef struct rlf_look {
+    const struct rlf_model *model; /* model.h; borrowed for the body's life. NULL = the shape */
+    double scale;                  /* > 0 */
+    rlf_vec3 offset;               /* body frame, metres */
+} rlf_look;
+
 /* Largest distance from the shape's origin to its surface, metres. */
 RLF_API double rlf_shape_radius(const rlf_shape *shape);
 /* Signed distance of p (the shape's frame, metres) to the shape's surface, negative inside, and the
@@ -61,11 +68,12 @@ typedef struct rlf_body_state {
     rlf_body_id id;
     char name[RLF_NAME_MAX];
     rlf_shape shape;
+    rlf_look look;
     rlf_pose T_world_body;
     rlf_vec3 velocity;         /* m/s, of the centre of mass */
     rlf_vec3 angular_velocity; /* rad/s, world frame */
     double mass;               /* kg */
-    float color[3];            /* linear-free sRGB 0..1 */
+    float color[3];            /* linear-free sRGB 0..1; multiplies a model's own */
     bool is_held;              /* waiting for its release time */
     bool is_asleep;
 } rlf_body_state;

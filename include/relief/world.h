@@ -89,7 +89,8 @@ RLF_API rlf_world_def rlf_world_def_default(void);
 typedef struct rlf_body_def {
     uint32_t cookie;
     char name[RLF_NAME_MAX];   /* default "" = "body-N" */
-    rlf_shape shape;           /* default box 0.1 m */
+    rlf_shape shape;           /* default box 0.1 m; what it collides as */
+    rlf_look look;             /* what it is drawn as; default its shape */
     double mass;               /* kg, > 0; default 0.1 */
     rlf_vec3 position;         /* world, metres; default (0, 0, 1) */
     rlf_quat orientation;      /* default identity */
@@ -109,7 +110,7 @@ typedef struct rlf_body_def {
     bool is_real;              /* live: a model of a real thing, kinematic: in rlf_snapshot.known in
                                   place of bodies; models do not collide with each other. default
                                   false */
-    float color[3];            /* sRGB 0..1, default orange */
+    float color[3];            /* sRGB 0..1, default orange; multiplies a model's own colours */
 } rlf_body_def;
 
 RLF_API rlf_body_def rlf_body_def_default(void);

@@ -113,20 +113,62 @@ static rlf_result check_convex(const char *name, const io_mesh *mesh, double sig
 }
 
 /* One block: the hull, then its vertices, then its triangles. */
+static rlf_hull *allocate(int32_t vertex_count, int32_t triangle_count)
+{
+    size_t head = (sizeof(rlf_hull) + 63) / 64 * 64;
+    size_t vertices_size = (size_t)vertex_count * sizeof(rlf_vec3);
+    size_t triangles_size = (size_t)triangle_count * 3 * sizeof(int32_t);
+    char *block = rlf_alloc(head + vertices_size + triangles_size);
+    rlf_hull *hull = (rlf_hull *)(void *)block;
+    if (hull != NULL) {
+        *hull = (rlf_hull){(rlf_vec3 *)(void *)(block + head), vertex_count,
+                           (int32_t *)(void *)(block + head + vertices_size), triangle_count};
+    }
+    return hull;
+}
+
+/* The hull's own arrays, which it shows as read only. */
+static rlf_vec3 *vertices_of(rlf_hull *hull)
+{
+    return (rlf_vec3 *)(uintptr_t)hull->vertices;
+}
+
+static int32_t *triangles_of(rlf_hull *hull)
+{
+    return (int32_t *)(uintptr_t)hull->triangles;
+}
+
+void io_hull_scale(rlf_hull *hull, double scale)
+{
+    rlf_vec3 *vertices = vertices_of(hull);
+    for (int32_t i = 0; i < hull->vertex_count; i++) {
+        vertices[i] = rlf_scale(vertices[i], scale);
+    }
+}
+
+rlf_hull *io_hull_copy(const rlf_hull *hull)
+{
+    rlf_hull *copy = allocate(hull->vertex_count, hull->triangle_count);
+    if (copy != NULL) {
+        memcpy(vertices_of(copy), hull->vertices,
+               (size_t)hull->vertex_count * sizeof(*hull->vertices));
+        memcpy(triangles_of(copy), hull->triangles,
+               3 * (size_t)hull->triangle_count * sizeof(*hull->triangles));
+    }
+    return copy;
+}
+
 static rlf_hull *pack(const io_mesh *mesh, rlf_vec3 centre, bool is_inside_out)
 {
     int32_t *renamed = rlf_alloc_array((size_t)mesh->vertex_count, sizeof(renamed[0]));
-    size_t head = (sizeof(rlf_hull) + 63) / 64 * 64;
-    size_t vertices_size = (size_t)mesh->vertex_count * sizeof(rlf_vec3);
-    size_t triangles_size = (size_t)mesh->triangle_count * 3 * sizeof(int32_t);
-    char *block = rlf_alloc(head + vertices_size + triangles_size);
-    if (renamed == NULL || block == NULL) {
+    rlf_hull *hull = allocate(mesh->vertex_count, mesh->triangle_count);
+    if (renamed == NULL || hull == NULL) {
         rlf_free(renamed);
-        rlf_free(block);
+        rlf_free(hull);
         return NULL;
     }
-    rlf_vec3 *vertices = (rlf_vec3 *)(void *)(block + head);
-    int32_t *triangles = (int32_t *)(void *)(block + head + vertices_size);
+    rlf_vec3 *vertices = vertices_of(hull);
+    int32_t *triangles = triangles_of(hull);
     int32_t vertex_count = 0;
     for (int32_t i = 0; i < mesh->triangle_count * 3; i++) {
         int32_t old = mesh->triangles[i];
@@ -138,12 +180,12 @@ static rlf_hull *pack(const io_mesh *mesh, rlf_vec3 centre, bool is_inside_out)
         triangles[slot] = renamed[old] - 1;
     }
     rlf_free(renamed);
-    rlf_hull *hull = (rlf_hull *)(void *)block;
-    *hull = (rlf_hull){vertices, vertex_count, triangles, mesh->triangle_count};
+    hull->vertex_count = vertex_count;
     return hull;
 }
 
-rlf_result io_hull_from_mesh(const char *name, const io_mesh *mesh, rlf_hull **out)
+rlf_result io_hull_from_mesh(const char *name, const io_mesh *mesh, rlf_hull **out,
+                             rlf_vec3 *out_centre)
 {
     *out = NULL;
     if (mesh->triangle_count < 4) {
@@ -166,5 +208,8 @@ rlf_result io_hull_from_mesh(const char *name, const io_mesh *mesh, rlf_hull **o
         return result;
     }
     *out = pack(mesh, centre, volume < 0.0);
+    if (out_centre != NULL) {
+        *out_centre = centre;
+    }
     return *out != NULL ? RLF_OK : RLF_ERROR_MEMORY;
 }

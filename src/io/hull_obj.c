@@ -158,21 +158,39 @@ void io_mesh_free(io_mesh *mesh)
     memset(mesh, 0, sizeof(*mesh));
 }
 
-rlf_result io_hull_load(const char *path, rlf_hull **out)
+/* A line that begins with the word mtllib. */
+static bool has_materials(const io_bytes *file)
+{
+    static const char word[] = "mtllib";
+    const size_t length = sizeof(word) - 1;
+    for (size_t i = 0; i + length < file->size; i++) {
+        if ((i == 0 || file->data[i - 1] == '\n') && memcmp(file->data + i, word, length) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+rlf_result io_hull_load(const char *path, rlf_hull **out, io_obj_facts *out_facts)
 {
     *out = NULL;
+    io_obj_facts facts = {{0, 0, 0}, false};
     io_buffer buffer = {0};
     io_bytes file;
     io_mesh mesh;
     rlf_result result =
         io_file_read(path, IO_OBJ_FILE_MAX, "check the name of the model", &buffer, &file);
     if (result == RLF_OK) {
+        facts.has_materials = has_materials(&file);
         result = io_obj_parse(&file, &mesh);
         if (result == RLF_OK) {
-            result = io_hull_from_mesh(path, &mesh, out);
+            result = io_hull_from_mesh(path, &mesh, out, &facts.centre);
             io_mesh_free(&mesh);
         }
     }
     io_buffer_free(&buffer);
+    if (out_facts != NULL) {
+        *out_facts = facts;
+    }
     return result;
 }

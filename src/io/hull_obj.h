@@ -22,12 +22,24 @@ typedef struct io_mesh {
 rlf_result io_obj_parse(const io_bytes *file, io_mesh *out);
 void io_mesh_free(io_mesh *mesh);
 
-/* Turns a closed convex mesh into a hull with its origin at the centre of mass and triangles
- * counter-clockwise seen from outside. The hull and its arrays are one rlf_alloc block. Vertices
- * that no triangle uses are left out. RLF_ERROR_FORMAT when it is open or not convex. */
-rlf_result io_hull_from_mesh(const char *name, const io_mesh *mesh, rlf_hull **out);
+/* Turns a closed convex mesh into a hull with its origin at the centre of mass, which goes to
+ * *out_centre (NULL is allowed), and triangles counter-clockwise seen from outside. The hull and
+ * its arrays are one rlf_alloc block. Vertices that no triangle uses are left out. RLF_ERROR_FORMAT
+ * when it is open or not convex. */
+rlf_result io_hull_from_mesh(const char *name, const io_mesh *mesh, rlf_hull **out,
+                             rlf_vec3 *out_centre);
 
-/* Both steps for a file. */
-rlf_result io_hull_load(const char *path, rlf_hull **out);
+/* What a file says beside its mesh. */
+typedef struct io_obj_facts {
+    rlf_vec3 centre;    /* of mass, in the file's frame */
+    bool has_materials; /* names a library of materials */
+} io_obj_facts;
+
+/* Both steps for a file; out_facts may be NULL. */
+rlf_result io_hull_load(const char *path, rlf_hull **out, io_obj_facts *out_facts);
+/* Grows a hull that io_hull_from_mesh made, about its centre. */
+void io_hull_scale(rlf_hull *hull, double scale);
+/* A copy in one rlf_alloc block; NULL when memory is short. */
+rlf_hull *io_hull_copy(const rlf_hull *hull);
 
 #endif

@@ -99,7 +99,8 @@ static rlf_result read_place(const io_json_object *object, rlf_known_def *def)
     return result == RLF_OK ? read_points(object, def) : result;
 }
 
-static rlf_result read_known(const io_json_object *object, const char *folder, rlf_known_def *def)
+static rlf_result read_known(const io_json_object *object, const io_scene_reader *reader,
+                             rlf_known_def *def)
 {
     static const char *const keys[] = {"name",   "shape",  "size",        "radius",
                                        "height", "model",  "position",    "orientation",
@@ -126,7 +127,7 @@ static rlf_result read_known(const io_json_object *object, const char *folder, r
         result = io_json_get_number(object, &friction, &def->friction);
     }
     if (result == RLF_OK) {
-        result = io_scene_read_shape(object, folder, &def->shape);
+        result = io_scene_read_shape(object, reader, &def->shape, NULL);
     }
     return result == RLF_OK ? read_place(object, def) : result;
 }
@@ -170,7 +171,8 @@ rlf_result io_known_read(const io_json_object *top, const char *folder, rlf_scen
         }
         rlf_known_def *def = &scene->known[i];
         *def = rlf_known_def_default();
-        rlf_result result = read_known(&object, folder, def);
+        const io_scene_reader reader = {folder, NULL, scene};
+        rlf_result result = read_known(&object, &reader, def);
         if (result == RLF_OK) {
             result = check_name_is_new(&object, scene, def->name);
         }

@@ -7,9 +7,10 @@
 rlf_result io_picture_prepare(const io_bytes *file, io_picture *picture, int64_t width,
                               int64_t height, int64_t pixels_per_byte, size_t pixel_size)
 {
-    if (width < 1 || height < 1 || width > RLF_IMAGE_SIZE_MAX || height > RLF_IMAGE_SIZE_MAX) {
+    const int32_t most = picture->size_max > 0 ? picture->size_max : RLF_IMAGE_SIZE_MAX;
+    if (width < 1 || height < 1 || width > most || height > most) {
         return rlf_fail(RLF_ERROR_FORMAT, "%s: the picture is %lld x %lld: use sizes of 1 to %d",
-                        file->name, (long long)width, (long long)height, RLF_IMAGE_SIZE_MAX);
+                        file->name, (long long)width, (long long)height, (int)most);
     }
     bool is_wanted = (picture->width == 0 || picture->width == width) &&
                      (picture->height == 0 || picture->height == height);

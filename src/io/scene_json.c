@@ -1,13 +1,11 @@
 /* scene.json: gravity and the bodies to start with. */
 #include "relief/io.h"
-#include "io/hull_obj.h"
 #include "io/scene_json.h"
 
 #include <string.h>
 
 #define BODIES_MAX 65536
 #define FINITE_MAX 1e6 /* metres, m/s, rad/s: far beyond any scene, and squares stay finite */
-#define SIZE_MAX_M 100.0
 
 rlf_result io_scene_read_vec3(const io_json_object *object, const io_json_field *field,
                               rlf_vec3 *out)
@@ -48,112 +46,6 @@ rlf_result io_scene_read_name(const io_json_object *body, char out[RLF_NAME_MAX]
     }
     memcpy(out, name, length + 1);
     return RLF_OK;
-}
-
-/* Name and keys of a shape; which of size, radius, height and model it takes. */
-typedef struct shape_keys {
-    const char *name;
-    rlf_shape_type type;
-    bool has_size, has_radius, has_height, has_model;
-} shape_keys;
-
-static const shape_keys shapes[] = {{"box", RLF_SHAPE_BOX, true, false, false, false},
-                                    {"sphere", RLF_SHAPE_SPHERE, false, true, false, false},
-                                    {"capsule", RLF_SHAPE_CAPSULE, false, true, true, false},
-                                    {"cylinder", RLF_SHAPE_CYLINDER, false, true, true, false},
-                                    {"hull", RLF_SHAPE_HULL, false, false, false, true}};
-
-static rlf_result find_shape(const io_json_object *body, const shape_keys **out)
-{
-    static const io_json_field field = {
-        "shape", "\"box\", \"sphere\", \"capsule\", \"cylinder\" or \"hull\"", 0, 0, false};
-    const char *name = "box";
-    rlf_result result = io_json_get_text(body, &field, &name);
-    if (result != RLF_OK) {
-        return result;
-    }
-    for (size_t i = 0; i < sizeof(shapes) / sizeof(shapes[0]); i++) {
-        if (strcmp(name, shapes[i].name) == 0) {
-            *out = &shapes[i];
-            return RLF_OK;
-        }
-    }
-    char printable[64];
-    io_json_printable(name, printable, sizeof(printable));
-    return io_json_fail(body, "shape", "is \"%s\": it must be %s", printable, field.meaning);
-}
-
-/* A key that belongs to another shape would be ignored silently. */
-static rlf_result check_shape_keys(const io_json_object *body, const shape_keys *shape)
-{
-    const struct {
-        const char *key;
-        bool is_used;
-    } keys[4] = {{"size", shape->has_size},
-                 {"radius", shape->has_radius},
-                 {"height", shape->has_height},
-                 {"model", shape->has_model}};
-    for (int i = 0; i < 4; i++) {
-        if (!keys[i].is_used && json_object_get(body->value, keys[i].key) != NULL) {
-            return io_json_fail(body, keys[i].key,
-                                "does not belong to the shape \"%s\": take it out", shape->name);
-        }
-    }
-    return RLF_OK;
-}
-
-static rlf_result read_model(const io_json_object *body, const char *folder, rlf_shape *out)
-{
-    static const io_json_field field = {"model", "the name of an OBJ file", 0, 0, true};
-    const char *name = NULL;
-    rlf_result result = io_json_get_text(body, &field, &name);
-    if (result != RLF_OK) {
-        return result;
-    }
-    char path[IO_PATH_MAX];
-    rlf_hull *hull = NULL;
-    result = io_path_join(folder, name, path);
-    if (result == RLF_OK) {
-        result = io_hull_load(path, &hull);
-    }
-    if (result != RLF_OK) {
-        return rlf_fail(result, "%s: %s.model: %s", body->file, body->path, rlf_error_text());
-    }
-    out->hull = hull;
-    return RLF_OK;
-}
-
-rlf_result io_scene_read_shape(const io_json_object *body, const char *folder, rlf_shape *out)
-{
-    static const io_json_field size = {"size",
-                                       "three full extents in metres, each > 0 and at most 100",
-                                       IO_POSITIVE, SIZE_MAX_M, false};
-    static const io_json_field radius = {"radius", "a number of metres, > 0 and at most 100",
-                                         IO_POSITIVE, SIZE_MAX_M, true};
-    static const io_json_field height = {"height", "a number of metres, > 0 and at most 100",
-                                         IO_POSITIVE, SIZE_MAX_M, true};
-    const shape_keys *shape = NULL;
-    rlf_result result = find_shape(body, &shape);
-    if (result == RLF_OK) {
-        result = check_shape_keys(body, shape);
-    }
-    if (result != RLF_OK) {
-        return result;
-    }
-    out->type = shape->type;
-    if (shape->has_size) {
-        result = io_scene_read_vec3(body, &size, &out->size);
-    }
-    if (result == RLF_OK && shape->has_radius) {
-        result = io_json_get_number(body, &radius, &out->radius);
-    }
-    if (result == RLF_OK && shape->has_height) {
-        result = io_json_get_number(body, &height, &out->height);
-    }
-    if (result == RLF_OK && shape->has_model) {
-        result = read_model(body, folder, out);
-    }
-    return result;
 }
 
 rlf_result io_scene_read_orientation(const io_json_object *body, rlf_quat *out)
@@ -228,25 +120,15 @@ static rlf_result read_material(const io_json_object *body, rlf_body_def *def)
     return result;
 }
 
-static rlf_result read_body(const io_json_object *body, const char *folder, rlf_body_def *def)
+static rlf_result read_body(const io_json_object *body, const io_scene_reader *reader)
 {
-    static const char *const known[] = {"name",
-                                        "shape",
-                                        "size",
-                                        "radius",
-                                        "height",
-                                        "model",
-                                        "mass",
-                                        "position",
-                                        "orientation",
-                                        "velocity",
-                                        "angular_velocity",
-                                        "restitution",
-                                        "friction",
-                                        "rolling_resistance",
-                                        "gravity_scale",
-                                        "release_time",
-                                        "collides_with_bodies",
+    rlf_body_def *def = &reader->scene->bodies[reader->scene->body_count];
+    static const char *const known[] = {"name",          "shape",        "size",
+                                        "radius",        "height",       "model",
+                                        "vertices",      "mass",         "position",
+                                        "orientation",   "velocity",     "angular_velocity",
+                                        "restitution",   "friction",     "rolling_resistance",
+                                        "gravity_scale", "release_time", "collides_with_bodies",
                                         "color"};
     const char *unknown = io_json_unknown_key(body, known, sizeof(known) / sizeof(known[0]));
     if (unknown != NULL) {
@@ -259,7 +141,14 @@ static rlf_result read_body(const io_json_object *body, const char *folder, rlf_
     if (result == RLF_OK) {
         result = read_material(body, def);
     }
-    return result == RLF_OK ? io_scene_read_shape(body, folder, &def->shape) : result;
+    if (result == RLF_OK) {
+        result = io_scene_read_shape(body, reader, &def->shape, &def->look);
+    }
+    /* A model has colours of its own: a body's colour tints it only when it is given. */
+    if (def->look.model != NULL && json_object_get(body->value, "color") == NULL) {
+        def->color[0] = def->color[1] = def->color[2] = 1.0f;
+    }
+    return result;
 }
 
 /* Logs tell bodies apart by their names. */
@@ -289,6 +178,7 @@ static rlf_result read_bodies(const io_json_object *top, const char *folder, rlf
     if (scene->bodies == NULL) {
         return RLF_ERROR_MEMORY;
     }
+    const io_scene_reader reader = {folder, bodies, scene};
     for (size_t i = 0; i < count; i++) {
         io_json_object body = {.file = top->file, .value = json_array_get(bodies, i)};
         snprintf(body.path, sizeof(body.path), "bodies[%zu]", i);
@@ -297,7 +187,7 @@ static rlf_result read_bodies(const io_json_object *top, const char *folder, rlf
         }
         rlf_body_def *def = &scene->bodies[i];
         *def = rlf_body_def_default();
-        rlf_result result = read_body(&body, folder, def);
+        rlf_result result = read_body(&body, &reader);
         if (result == RLF_OK) {
             result = check_name_is_new(&body, scene, def->name);
         }

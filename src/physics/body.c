@@ -11,6 +11,7 @@ rlf_body_def rlf_body_def_default(void)
     rlf_body_def def = {
         .cookie = RLF_DEF_COOKIE,
         .shape = {.type = RLF_SHAPE_BOX, .size = {0.1, 0.1, 0.1}},
+        .look = {.scale = 1},
         .mass = 0.1,
         .position = {0, 0, 1},
         .orientation = {0, 0, 0, 1},
@@ -36,6 +37,9 @@ static rlf_result check_vectors(const rlf_body_def *def)
         field = "velocity";
     } else if (!rlf_vec3_is_finite(def->angular_velocity)) {
         field = "angular_velocity";
+    } else if (!rlf_vec3_is_finite(def->look.offset) || !rlf_is_finite(def->look.scale) ||
+               !(def->look.scale > 0)) {
+        field = "look";
     } else if (!rlf_is_finite(def->color[0] + def->color[1] + def->color[2])) {
         field = "color";
     }
@@ -111,6 +115,7 @@ static void fill_body(phys_body *body, const rlf_body_def *def, int32_t index)
         snprintf(body->name, sizeof(body->name), "body-%d", (int)index + 1);
     }
     memcpy(body->color, def->color, sizeof(body->color));
+    body->look = def->look;
     body->mass = def->mass;
     body->restitution = def->restitution;
     body->friction = def->friction;

@@ -54,6 +54,7 @@ typedef struct phys_body {
 
     char name[RLF_NAME_MAX];
     float color[3];
+    rlf_look look;
 } phys_body;
 
 /* Recomputes R and the world inertia from q. */

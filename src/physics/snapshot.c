@@ -9,6 +9,7 @@ static void write_state(const rlf_world *world, int32_t index, rlf_body_state *s
     state->id = phys_body_id(world, index);
     memcpy(state->name, body->name, sizeof(state->name));
     state->shape = body->shape.shape;
+    state->look = body->look;
     state->T_world_body = phys_body_pose(body);
     state->velocity = body->v;
     state->angular_velocity = body->w;

@@ -1,4 +1,5 @@
 /* Scenes: the bodies to start with. */
+#include "relief/model.h"
 #include "relief/pipeline.h"
 
 #include <string.h>
@@ -47,6 +48,10 @@ void rlf_scene_destroy(rlf_scene *scene)
     for (int32_t i = 0; i < scene->known_count; i++) {
         rlf_free((void *)(uintptr_t)scene->known[i].shape.hull);
     }
+    for (int32_t i = 0; i < scene->model_count; i++) {
+        rlf_model_destroy(&scene->models[i]);
+    }
+    rlf_free(scene->models);
     rlf_free(scene->bodies);
     rlf_free(scene->known);
     memset(scene, 0, sizeof(*scene));

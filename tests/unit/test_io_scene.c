@@ -209,8 +209,8 @@ static void broken_hulls_are_refused(void **state)
     for (size_t i = 0; i < sizeof(models) / sizeof(models[0]); i++) {
         test_write_text("box.obj", models[i].text);
         rlf_hull *hull = NULL;
-        test_expect_error(io_hull_load(test_path("box.obj"), &hull), RLF_ERROR_FORMAT, "box.obj",
-                          models[i].part, NULL);
+        test_expect_error(io_hull_load(test_path("box.obj"), &hull, NULL), RLF_ERROR_FORMAT,
+                          "box.obj", models[i].part, NULL);
         assert_null(hull);
     }
 }

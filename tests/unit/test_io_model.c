@@ -1,0 +1,366 @@
+/* Models from files: what is read, and what is wrong with a file in one line. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+
+#include "relief/io.h"
+#include "io/scene_json.h"
+#include "io_support.h"
+#include "model_file.h"
+
+#ifdef RLF_HAVE_ASSIMP
+
+static model_text text;
+static char warning[1024];
+static int warning_count;
+
+static void keep_warning(void *context, rlf_log_level level, const char *line)
+{
+    (void)context;
+    if (level == RLF_LOG_WARNING) {
+        warning_count++;
+        snprintf(warning, sizeof(warning), "%s", line);
+    }
+}
+
+static int set_up(void **state)
+{
+    warning_count = 0;
+    rlf_set_log(keep_warning, NULL);
+    return test_folder_make(state);
+}
+
+static rlf_model *load(const model_options *options)
+{
+    rlf_model *model = NULL;
+    model_write(&text, options);
+    test_write("box.gltf", text.text, text.length);
+    if (rlf_model_load(test_path("box.gltf"), &model) != RLF_OK) {
+        fail_msg("%s", rlf_error_text());
+    }
+    return model;
+}
+
+static void fail_load(const char *name, rlf_result code, const char *piece)
+{
+    rlf_model *model = NULL;
+    test_expect_error(rlf_model_load(test_path(name), &model), code, name, piece, NULL);
+    assert_null(model);
+}
+
+static bool is_near(double a, double b)
+{
+    return a - b < 1e-9 && b - a < 1e-9;
+}
+
+static void write_paint(int32_t width, int32_t height)
+{
+    uint8_t *pixels = calloc((size_t)width * (size_t)height, 4);
+    for (int32_t i = 0; i < width * height; i++) {
+        pixels[4 * i] = (uint8_t)(i % width * 255 / width);
+        pixels[4 * i + 1] = 200;
+        pixels[4 * i + 3] = 255;
+    }
+    rlf_image_rgba8 image = {pixels, width, height, 4 * (ptrdiff_t)width};
+    assert_int_equal(rlf_png_write_rgba(test_path("paint.png"), &image), RLF_OK);
+    free(pixels);
+}
+
+/* y up becomes y down, by half a turn about x. */
+static void gltf_stands_upright(void **state)
+{
+    (void)state;
+    rlf_model *model = load(&model_plain);
+    assert_int_equal(model->triangle_count, 12);
+    assert_int_equal(model->part_count, 1);
+    assert_int_equal(model->parts[0].texture, -1);
+    assert_true(model->box.min.x == -0.5 && model->box.max.x == 0.5);
+    assert_true(model->box.min.y == -1.0 && model->box.max.y == 1.0);
+    assert_true(model->box.min.z == -3.0 && model->box.max.z == 0.0);
+    double volume = 0.0;
+    for (int32_t i = 0; i < 3 * model->triangle_count; i += 3) {
+        rlf_vec3 p[3];
+        for (int k = 0; k < 3; k++) {
+            const rlf_model_vertex *v = &model->vertices[model->triangles[i + k]];
+            p[k] = rlf_vec3_make((double)v->position[0], (double)v->position[1],
+                                 (double)v->position[2]);
+            rlf_vec3 n =
+                rlf_vec3_make((double)v->normal[0], (double)v->normal[1], (double)v->normal[2]);
+            rlf_vec3 middle = rlf_vec3_make(0, 0, -1.5);
+            assert_true(rlf_dot(n, n) > 0.999 && rlf_dot(n, n) < 1.001);
+            assert_true(rlf_dot(n, rlf_sub(p[k], middle)) > 0.0);
+        }
+        volume += rlf_dot(p[0], rlf_cross(p[1], p[2])) / 6.0;
+    }
+    assert_true(volume > 5.999 && volume < 6.001);
+    rlf_model_destroy(&model);
+    assert_null(model);
+    assert_int_equal(warning_count, 0);
+}
+
+/* A mirrored node turns triangles round; scale and place are taken. */
+static void nodes_place_meshes(void **state)
+{
+    (void)state;
+    model_options o = model_plain;
+    o.node = ",\"scale\":[-2,1,1],\"translation\":[10,0,0]";
+    rlf_model *model = load(&o);
+    assert_true(model->box.min.x == 9.0 && model->box.max.x == 11.0);
+    rlf_vec3 middle = rlf_vec3_make(10, 0, -1.5);
+    for (int32_t i = 0; i < 3 * model->triangle_count; i += 3) {
+        rlf_vec3 p[3];
+        for (int k = 0; k < 3; k++) {
+            const float *v = model->vertices[model->triangles[i + k]].position;
+            p[k] = rlf_sub(rlf_vec3_make((double)v[0], (double)v[1], (double)v[2]), middle);
+        }
+        assert_true(rlf_dot(p[0], rlf_cross(p[1], p[2])) > 0.0);
+    }
+    rlf_model_destroy(&model);
+}
+
+static void texture_and_color_are_read(void **state)
+{
+    (void)state;
+    write_paint(100, 20); /* becomes 128 x 16 */
+    rlf_model *model = load(&model_textured);
+    assert_int_equal(warning_count, 0);
+    assert_int_equal(model->texture_count, 1);
+    const rlf_model_texture *t = &model->textures[0];
+    assert_int_equal(t->width, 128);
+    assert_int_equal(t->height, 16);
+    assert_int_equal(t->level_count, 8);
+    assert_int_equal(t->texels[1], 200);
+    assert_true(t->texels[4 * 127] > 245 && t->texels[0] < 8);
+    int32_t w, h;
+    size_t last = rlf_model_texture_level(t, 7, &w, &h);
+    assert_true(w == 1 && h == 1 && t->texels[last + 1] == 200);
+    const rlf_model_part *part = &model->parts[0];
+    assert_int_equal(part->texture, 0);
+    assert_true(part->color[0] == 1.0f && part->color[2] == 0.0f);
+    assert_true(part->color[1] > 0.734f && part->color[1] < 0.736f); /* sRGB of 0.5 */
+    rlf_model_destroy(&model);
+}
+
+static void two_sided_faces_are_there_twice(void **state)
+{
+    (void)state;
+    model_options o = model_plain;
+    o.material = "{\"doubleSided\":true}";
+    rlf_model *model = load(&o);
+    assert_int_equal(model->triangle_count, 24);
+    rlf_model_destroy(&model);
+}
+
+static void obj_is_taken_as_it_is(void **state)
+{
+    (void)state;
+    write_paint(8, 8);
+    test_write_text("flag.mtl", "newmtl cloth\nKd 1 0.5 0.25\nmap_Kd paint.png\n");
+    test_write_text("flag.obj", "mtllib flag.mtl\nusemtl cloth\nv 0 0 0\nv 1 0 0\nv 1 2 0\n"
+                                "v 0 2 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+    rlf_model *model = NULL;
+    assert_int_equal(rlf_model_load(test_path("flag.obj"), &model), RLF_OK);
+    assert_int_equal(model->triangle_count, 2);
+    assert_true(model->box.max.y == 2.0 && model->box.max.z == 0.0);
+    assert_int_equal(model->parts[0].texture, 0);
+    assert_true(model->parts[0].color[1] == 0.5f);
+    for (int32_t i = 0; i < model->vertex_count; i++) {
+        const rlf_model_vertex *v = &model->vertices[i];
+        assert_true(v->normal[2] == 1.0f);
+        assert_true(v->uv[1] == 1.0f - 0.5f * v->position[1]); /* rows go down */
+    }
+    rlf_model_destroy(&model);
+}
+
+static void missing_texture_is_one_warning(void **state)
+{
+    (void)state;
+    rlf_model *model = load(&model_textured);
+    assert_int_equal(warning_count, 1);
+    assert_non_null(strstr(warning, "box.gltf"));
+    assert_non_null(strstr(warning, "paint.png"));
+    assert_int_equal(model->parts[0].texture, -1);
+    assert_int_equal(model->texture_count, 0);
+    assert_true(model->parts[0].color[1] < 0.736f);
+    rlf_model_destroy(&model);
+}
+
+static void huge_or_broken_texture_is_one_warning(void **state)
+{
+    (void)state;
+    write_paint(RLF_MODEL_IMAGE_MAX + 1, 1);
+    rlf_model *model = load(&model_textured);
+    assert_int_equal(warning_count, 1);
+    assert_non_null(strstr(warning, "8193 x 1"));
+    rlf_model_destroy(&model);
+    test_write_text("paint.png", "no picture");
+    model = load(&model_textured);
+    assert_int_equal(warning_count, 2);
+    assert_int_equal(model->texture_count, 0);
+    rlf_model_destroy(&model);
+}
+
+static void bad_files_fail_in_one_line(void **state)
+{
+    (void)state;
+    fail_load("none.gltf", RLF_ERROR_IO, "check the name");
+    test_write_text("model.fbx", "x");
+    fail_load("model.fbx", RLF_ERROR_UNSUPPORTED, ".gltf, .glb or .obj");
+    test_write_text("empty.glb", "");
+    fail_load("empty.glb", RLF_ERROR_FORMAT, "is empty");
+    model_options points = model_plain;
+    points.mode = 0;
+    model_write(&text, &points);
+    test_write("points.gltf", text.text, text.length);
+    fail_load("points.gltf", RLF_ERROR_INVALID, "no triangles");
+    test_write_text("no.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+    fail_load("no.obj", RLF_ERROR_FORMAT, "");
+    test_write_text("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    fail_load("nan.obj", RLF_ERROR_FORMAT, "vertex");
+}
+
+static void bad_numbers_name_the_vertex(void **state)
+{
+    (void)state;
+    model_options o = model_plain;
+    o.first_x = NAN;
+    model_write(&text, &o);
+    test_write("nan.gltf", text.text, text.length);
+    fail_load("nan.gltf", RLF_ERROR_FORMAT, "vertex");
+    o.first_x = INFINITY;
+    model_write(&text, &o);
+    test_write("inf.gltf", text.text, text.length);
+    fail_load("inf.gltf", RLF_ERROR_FORMAT, "vertex");
+}
+
+/* Cut anywhere it is an error or, where only blanks are missing, the model. */
+static void truncated_gltf_fails(void **state)
+{
+    (void)state;
+    model_write(&text, &model_plain);
+    size_t whole = text.length;
+    for (size_t size = 1; size + 2 < whole; size += 41) {
+        test_write("cut.gltf", text.text, size);
+        fail_load("cut.gltf", RLF_ERROR_FORMAT, "export it again");
+    }
+}
+
+/* More triangles than are drawn, and a file that need not be read to know. */
+static void too_many_triangles_fail(void **state)
+{
+    (void)state;
+    FILE *file = fopen(test_path("many.obj"), "wb");
+    assert_non_null(file);
+    fputs("v 0 0 0\nv 1 0 0\nv 0 1 0\n", file);
+    for (int i = 0; i <= RLF_MODEL_TRIANGLES_MAX; i++) {
+        fputs("f 1 2 3\n", file);
+    }
+    fclose(file);
+    fail_load("many.obj", RLF_ERROR_FORMAT, "200001 faces, at most 200000");
+    assert_int_equal(truncate(test_path("many.obj"), 8L * 10000000), 0);
+    fail_load("many.obj", RLF_ERROR_FORMAT, "");
+}
+
+/* The same file gives the same model, and another file another id. */
+static void id_tells_models_apart(void **state)
+{
+    (void)state;
+    rlf_model *a = load(&model_plain);
+    rlf_model *b = load(&model_plain);
+    model_options o = model_plain;
+    o.node = ",\"scale\":[2,1,1]";
+    rlf_model *c = load(&o);
+    assert_true(a->id == b->id && a->id != c->id);
+    rlf_model_destroy(&a);
+    rlf_model_destroy(&b);
+    rlf_model_destroy(&c);
+}
+
+static rlf_result parse(const char *json, rlf_scene *scene)
+{
+    io_bytes file = {"scene.json", (const uint8_t *)json, strlen(json)};
+    return io_scene_parse(&file, test_folder, scene);
+}
+
+/* Proportions kept, in the middle of the shape; read once for both. */
+static void a_shape_wears_a_model(void **state)
+{
+    (void)state;
+    model_write(&text, &model_plain);
+    test_write("box.gltf", text.text, text.length);
+    rlf_scene scene;
+    assert_int_equal(parse("{\"bodies\":[{\"size\":[1,1,1],\"model\":\"box.gltf\"},"
+                           "{\"shape\":\"cylinder\",\"radius\":2,\"height\":1,\"color\":[1,0,0],"
+                           "\"model\":\"box.gltf\"}]}",
+                           &scene),
+                     RLF_OK);
+    assert_int_equal(scene.model_count, 1);
+    const rlf_body_def *b = scene.bodies;
+    assert_true(b[0].look.model == scene.models[0] && b[1].look.model == scene.models[0]);
+    assert_true(is_near(b[0].look.scale, 1.0 / 3.0));
+    assert_true(is_near(b[0].look.offset.z, 0.5));
+    assert_true(is_near(b[1].look.scale, 0.5));
+    assert_true(b[0].color[0] == 1.0f && b[0].color[2] == 1.0f);
+    assert_true(b[1].color[0] == 1.0f && b[1].color[2] == 0.0f);
+    rlf_scene_destroy(&scene);
+}
+
+static void scene_errors_name_the_body(void **state)
+{
+    (void)state;
+    rlf_scene scene;
+    test_expect_error(parse("{\"bodies\":[{\"model\":\"none.glb\"}]}", &scene), RLF_ERROR_IO,
+                      "scene.json", "bodies[0].model", NULL);
+    test_expect_error(parse("{\"bodies\":[{\"shape\":\"hull\"}]}", &scene), RLF_ERROR_INVALID,
+                      "scene.json", "bodies[0].model", NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(gltf_stands_upright, set_up, test_folder_remove),
+        cmocka_unit_test_setup_teardown(nodes_place_meshes, set_up, test_folder_remove),
+        cmocka_unit_test_setup_teardown(texture_and_color_are_read, set_up, test_folder_remove),
+        cmocka_unit_test_setup_teardown(two_sided_faces_are_there_twice, set_up,
+                                        test_folder_remove),
+        cmocka_unit_test_setup_teardown(obj_is_taken_as_it_is, set_up, test_folder_remove),
+        cmocka_unit_test_setup_teardown(missing_texture_is_one_warning, set_up, test_folder_remove),
+        cmocka_unit_test_setup_teardown(huge_or_broken_texture_is_one_warning, set_up,
+                                        test_folder_remove),
+        cmocka_unit_test_setup_teardown(bad_files_fail_in_one_line, set_up, test_folder_remove),
+        cmocka_unit_test_setup_teardown(bad_numbers_name_the_vertex, set_up, test_folder_remove),
+        cmocka_unit_test_setup_teardown(truncated_gltf_fails, set_up, test_folder_remove),
+        cmocka_unit_test_setup_teardown(too_many_triangles_fail, set_up, test_folder_remove),
+        cmocka_unit_test_setup_teardown(id_tells_models_apart, set_up, test_folder_remove),
+        cmocka_unit_test_setup_teardown(a_shape_wears_a_model, set_up, test_folder_remove),
+        cmocka_unit_test_setup_teardown(scene_errors_name_the_body, set_up, test_folder_remove),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+#else
+
+/* Without assimp a model is one clear line. */
+static void models_are_refused(void **state)
+{
+    (void)state;
+    rlf_model *model = NULL;
+    test_write_text("box.gltf", "{}");
+    test_expect_error(rlf_model_load(test_path("box.gltf"), &model), RLF_ERROR_UNSUPPORTED,
+                      "box.gltf", "RELIEF_WITH_MODELS", NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(models_are_refused, test_folder_make, test_folder_remove)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+#endif
