@@ -22,6 +22,7 @@ typedef struct phys_body {
     bool is_real;      /* a model of a real thing */
     bool is_isotropic; /* inertia is a multiple of 1 */
     bool is_pressed;   /* a contact held it in this substep */
+    bool was_pressed;  /* ... in the last one */
     bool is_restless;  /* a bounce turned its way: its contacts are to be searched again */
 
     uint32_t generation; /* of the handle; counts up when a body goes */

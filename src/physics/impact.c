@@ -90,6 +90,24 @@ static double normal_acceleration(const phys_contact *c, const phys_group *g)
     return rlf_dot(c->normal, a);
 }
 
+/* The most that a body which rests on something is kept from falling by, m/s^2. */
+static double held_acceleration(const phys_body *body)
+{
+    bool is_held = phys_body_is_moving(body) && body->was_pressed;
+    return is_held ? rlf_length(body->acceleration) : 0.0;
+}
+
+/* No bounce is slower, m/s. What falls alone or is held up by others gains and loses |a| h per
+ * substep: a bounce slower than a few of these is rest. */
+static double slow_speed(const phys_group *g, double h)
+{
+    double a = held_acceleration(g->a);
+    if (g->b != NULL) {
+        a = rlf_max(a, held_acceleration(g->b));
+    }
+    return SLOW + 3.0 * a * h;
+}
+
 static double time_of(const phys_body *body)
 {
     return phys_body_is_moving(body) ? body->impact_time : 0.0;
@@ -117,7 +135,7 @@ static double closing_time(double s, double v, double a, double from)
 
 static double event_time(const phys_group *g, double h)
 {
-    double from = start_time(g);
+    double from = start_time(g), resting = slow_speed(g, h);
     double best = NO_EVENT;
     phys_sides s = sides_load(g);
     for (int32_t i = 0; i < g->count; i++) {
@@ -128,7 +146,7 @@ static double event_time(const phys_group *g, double h)
         double v = rlf_dot(c->normal, relative_velocity(c, &s, g->b != NULL));
         double a = normal_acceleration(c, g);
         /* Gravity alone gives |a| h per substep: a bounce slower than a few of these is rest. */
-        double slow = SLOW + 3.0 * (a < 0.0 ? -a : a) * h;
+        double slow = rlf_max(resting, SLOW + 3.0 * (a < 0.0 ? -a : a) * h);
         if (v + rlf_min(a * h, 0.0) >= -slow) {
             continue;
         }

@@ -145,6 +145,7 @@ static void start_body(const rlf_world *world, phys_body *body)
     rlf_vec3 zero = {0, 0, 0};
     body->impact_shift = body->impact_turn = zero;
     body->impact_time = 0.0;
+    body->was_pressed = body->is_pressed;
     body->is_pressed = false;
     rlf_vec3 gravity = rlf_scale(world->def.gravity, body->gravity_scale);
     body->acceleration = rlf_mad(gravity, body->force, body->inverse_mass);
