@@ -43,7 +43,11 @@ static double measure(rlf_world *world, double horizon)
         phys_proxy *proxy = &world->proxies[i];
         proxy->cell = NONE;
         if (collides(&world->bodies[i])) {
-            proxy->half = half_of(&world->bodies[i], horizon);
+            const phys_body *body = &world->bodies[i];
+            proxy->centre = body->x;
+            proxy->half = half_of(body, horizon);
+            proxy->is_idle = phys_body_is_idle(body);
+            proxy->is_fixed = phys_body_is_fixed(body);
             double size = longest(proxy->half);
             proxy->cell = 0;
             sum += size;
@@ -81,7 +85,7 @@ static void fill_buckets(rlf_world *world, double cell)
     }
     for (int32_t i = 0; i < world->body_top; i++) {
         phys_proxy *proxy = &world->proxies[i];
-        rlf_vec3 x = world->bodies[i].x;
+        rlf_vec3 x = proxy->centre;
         if (proxy->cell == NONE) {
             continue;
         }
@@ -118,11 +122,10 @@ static void add_near(rlf_world *world, int32_t i, int32_t k)
 
 static void test(rlf_world *world, int32_t i, int32_t k)
 {
-    const phys_body *a = &world->bodies[i], *b = &world->bodies[k];
-    rlf_vec3 d = rlf_sub(a->x, b->x);
-    rlf_vec3 half = rlf_add(world->proxies[i].half, world->proxies[k].half);
+    const phys_proxy *a = &world->proxies[i], *b = &world->proxies[k];
+    rlf_vec3 d = rlf_sub(a->centre, b->centre), half = rlf_add(a->half, b->half);
     if (d.x <= half.x && d.x >= -half.x && d.y <= half.y && d.y >= -half.y && d.z <= half.z &&
-        d.z >= -half.z && !(phys_body_is_fixed(a) && phys_body_is_fixed(b))) {
+        d.z >= -half.z && !(a->is_fixed && b->is_fixed)) {
         add_near(world, i, k);
     }
 }
@@ -130,7 +133,7 @@ static void test(rlf_world *world, int32_t i, int32_t k)
 /* Body i, which moves, against those of its own and the 26 cells around. */
 static void ask_cells(rlf_world *world, int32_t i, double cell)
 {
-    rlf_vec3 x = world->bodies[i].x;
+    rlf_vec3 x = world->proxies[i].centre;
     int32_t at[3] = {cell_index(x.x, cell), cell_index(x.y, cell), cell_index(x.z, cell)};
     for (int32_t n = 0; n < 27; n++) {
         int64_t key = cell_at(at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1);
@@ -138,8 +141,7 @@ static void ask_cells(rlf_world *world, int32_t i, double cell)
         int32_t end = world->buckets[bucket + 2];
         for (int32_t p = world->buckets[bucket + 1]; p < end; p++) {
             int32_t k = world->bucket_items[p];
-            if (world->proxies[k].cell == key && k != i &&
-                (k > i || phys_body_is_idle(&world->bodies[k]))) {
+            if (world->proxies[k].cell == key && k != i && (k > i || world->proxies[k].is_idle)) {
                 test(world, i, k);
             }
         }
@@ -149,11 +151,11 @@ static void ask_cells(rlf_world *world, int32_t i, double cell)
 /* A large body against everybody. */
 static void ask_all(rlf_world *world, int32_t i)
 {
-    bool is_idle = phys_body_is_idle(&world->bodies[i]);
+    bool is_idle = world->proxies[i].is_idle;
     for (int32_t k = 0; k < world->body_top; k++) {
         int64_t cell = world->proxies[k].cell;
         bool is_other = cell >= 0 || (cell == LARGE && k > i);
-        if (is_other && !(is_idle && phys_body_is_idle(&world->bodies[k]))) {
+        if (is_other && !(is_idle && world->proxies[k].is_idle)) {
             test(world, i, k);
         }
     }
@@ -195,7 +197,7 @@ void phys_find_near(rlf_world *world, double horizon)
     for (int32_t i = 0; i < world->body_top; i++) {
         if (world->proxies[i].cell == LARGE) {
             ask_all(world, i);
-        } else if (world->proxies[i].cell >= 0 && !phys_body_is_idle(&world->bodies[i])) {
+        } else if (world->proxies[i].cell >= 0 && !world->proxies[i].is_idle) {
             ask_cells(world, i, cell);
         }
     }

@@ -29,7 +29,7 @@ static void unite(rlf_world *world)
         world->parent[i] = i;
     }
     for (int32_t k = 0; k < world->pair_count; k++) {
-        const phys_pair *pair = &world->pairs[world->order[k]];
+        const phys_pair *pair = &world->pairs[k];
         if (links(pair) && phys_body_is_moving(&world->bodies[pair->a]) &&
             phys_body_is_moving(&world->bodies[pair->b])) {
             int32_t a = root_of(world, pair->a), b = root_of(world, pair->b);
@@ -68,7 +68,7 @@ static void count_islands(rlf_world *world)
         world->islands[world->island_of[i]].body_end++;
     }
     for (int32_t k = 0; k < world->pair_count; k++) {
-        int32_t island = island_of_pair(world, &world->pairs[world->order[k]]);
+        int32_t island = island_of_pair(world, &world->pairs[k]);
         if (island >= 0) {
             world->islands[island].pair_end++;
         }
@@ -133,9 +133,9 @@ void phys_find_islands(rlf_world *world)
         }
     }
     for (int32_t k = 0; k < world->pair_count; k++) {
-        int32_t island = island_of_pair(world, &world->pairs[world->order[k]]);
+        int32_t island = island_of_pair(world, &world->pairs[k]);
         if (island >= 0) {
-            world->island_pairs[world->islands[island].pair_end++] = world->order[k];
+            world->island_pairs[world->islands[island].pair_end++] = k;
         }
     }
 }

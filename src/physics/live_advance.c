@@ -187,7 +187,7 @@ static void forget_log(rlf_world *world)
         }
     }
     for (int32_t i = 0; i < world->pair_count; i++) {
-        phys_pair *pair = &world->pairs[world->order[i]];
+        phys_pair *pair = &world->pairs[i];
         for (int32_t k = 0; k < pair->contact_count; k++) {
             pair->contacts[k].log = -1;
         }
@@ -197,7 +197,7 @@ static void forget_log(rlf_world *world)
 static void fill_log(rlf_world *world)
 {
     for (int32_t i = 0; i < world->pair_count; i++) {
-        phys_pair *pair = &world->pairs[world->order[i]];
+        phys_pair *pair = &world->pairs[i];
         phys_log_contacts(world, pair->contacts, pair->contact_count);
     }
     for (int32_t i = 0; i < world->body_top; i++) {

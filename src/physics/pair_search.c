@@ -3,6 +3,8 @@
 #include "physics/broad_phase.h"
 #include "physics/pair_collide.h"
 
+#include <stddef.h>
+
 /* Bodies that moved less than this share of their radius keep their contacts. */
 #define STILL_SHARE 0.002
 /* Fast bodies are searched again when they moved by this share of the largest ball in them. */
@@ -111,7 +113,7 @@ static void collide_range(void *context, int32_t begin, int32_t end, int32_t wor
     pair_job *job = context;
     (void)worker;
     for (int32_t i = begin; i < end; i++) {
-        phys_pair *pair = &job->world->pairs[job->world->order[i]];
+        phys_pair *pair = &job->world->pairs[i];
         if (pair->is_due) {
             collide_pair(job->world, pair, job->h);
         }
@@ -122,7 +124,7 @@ static void search_due(rlf_world *world, double h)
 {
     int32_t due = 0;
     for (int32_t i = 0; i < world->pair_count; i++) {
-        phys_pair *pair = &world->pairs[world->order[i]];
+        phys_pair *pair = &world->pairs[i];
         if (pair->is_due) {
             phys_log_contacts(world, pair->contacts, pair->contact_count);
             due++;
@@ -138,61 +140,56 @@ static void search_due(rlf_world *world, double h)
 static void add_pair(rlf_world *world, phys_near key)
 {
     if (world->free_count > 0) {
-        int32_t index = world->free_pairs[--world->free_count];
-        phys_pair *pair = &world->pairs[index];
-        pair->a = key.a;
-        pair->b = key.b;
-        pair->contact_count = 0;
-        pair->gap = -1.0;
-        pair->stance.is_set = false;
-        world->order[world->pair_count++] = index;
+        int32_t slot = world->free_slots[--world->free_count];
+        phys_pair *pair = &world->pairs[world->pair_count++];
+        *pair = (phys_pair){.a = key.a, .b = key.b, .gap = -1.0};
+        pair->contacts = &world->pair_contacts[slot * PHYS_PAIR_CONTACTS];
     }
 }
 
-static bool is_before(int32_t a, int32_t b, phys_near key)
+static void free_pair(rlf_world *world, phys_pair *pair)
 {
-    return a < key.a || (a == key.a && b < key.b);
+    phys_log_contacts(world, pair->contacts, pair->contact_count);
+    ptrdiff_t slot = (pair->contacts - world->pair_contacts) / PHYS_PAIR_CONTACTS;
+    world->free_slots[world->free_count++] = (int32_t)slot;
+}
+
+static bool is_before(const phys_pair *pair, phys_near key)
+{
+    return pair->a < key.a || (pair->a == key.a && pair->b < key.b);
 }
 
 /* An old pair that is not near any more: kept while both bodies sleep. */
-static void keep_or_free(rlf_world *world, int32_t index)
+static void keep_or_free(rlf_world *world, phys_pair *pair)
 {
-    phys_pair *pair = &world->pairs[index];
     const phys_body *a = &world->bodies[pair->a], *b = &world->bodies[pair->b];
     if (phys_body_is_idle(a) && phys_body_is_idle(b) && pair->contact_count > 0) {
-        world->order[world->pair_count++] = index;
-        return;
+        world->pairs[world->pair_count++] = *pair;
+    } else {
+        free_pair(world, pair);
     }
-    phys_log_contacts(world, pair->contacts, pair->contact_count);
-    world->free_pairs[world->free_count++] = index;
 }
 
 /* Both lists are sorted. */
 static void merge(rlf_world *world)
 {
-    int32_t *swap = world->old_order;
-    int32_t old_count = world->pair_count, at = 0;
-    world->old_order = world->order;
-    world->order = swap;
+    phys_pair *old = world->pairs, *old_end = old + world->pair_count;
+    world->pairs = world->old_pairs;
+    world->old_pairs = old;
     world->pair_count = 0;
     for (int32_t k = 0; k < world->near_count; k++) {
         phys_near key = world->near_sorted[k];
-        for (; at < old_count; at++) {
-            const phys_pair *old = &world->pairs[world->old_order[at]];
-            if (!is_before(old->a, old->b, key)) {
-                break;
-            }
-            keep_or_free(world, world->old_order[at]);
+        while (old < old_end && is_before(old, key)) {
+            keep_or_free(world, old++);
         }
-        const phys_pair *old = at < old_count ? &world->pairs[world->old_order[at]] : NULL;
-        if (old != NULL && old->a == key.a && old->b == key.b) {
-            world->order[world->pair_count++] = world->old_order[at++];
+        if (old < old_end && old->a == key.a && old->b == key.b) {
+            world->pairs[world->pair_count++] = *old++;
         } else {
             add_pair(world, key);
         }
     }
-    for (; at < old_count; at++) {
-        keep_or_free(world, world->old_order[at]);
+    while (old < old_end) {
+        keep_or_free(world, old++);
     }
 }
 
@@ -201,7 +198,7 @@ void phys_find_pairs(rlf_world *world, double h)
     phys_find_near(world, (PHYS_PERIOD_MAX + 1) * h);
     merge(world);
     for (int32_t i = 0; i < world->pair_count; i++) {
-        phys_pair *pair = &world->pairs[world->order[i]];
+        phys_pair *pair = &world->pairs[i];
         bool is_idle = phys_body_is_idle(&world->bodies[pair->a]) &&
                        phys_body_is_idle(&world->bodies[pair->b]);
         pair->is_due = !is_idle && !is_settled(world, pair, h);
@@ -217,7 +214,7 @@ void phys_refresh_pairs(rlf_world *world, double h)
 {
     bool is_any_due = false;
     for (int32_t i = 0; i < world->pair_count; i++) {
-        phys_pair *pair = &world->pairs[world->order[i]];
+        phys_pair *pair = &world->pairs[i];
         pair->is_due = ++pair->age >= pair->period;
         is_any_due = is_any_due || pair->is_due;
     }
@@ -230,13 +227,11 @@ void phys_drop_pairs(rlf_world *world, int32_t body)
 {
     int32_t kept = 0;
     for (int32_t i = 0; i < world->pair_count; i++) {
-        int32_t index = world->order[i];
-        phys_pair *pair = &world->pairs[index];
+        phys_pair *pair = &world->pairs[i];
         if (pair->a == body || pair->b == body) {
-            phys_log_contacts(world, pair->contacts, pair->contact_count);
-            world->free_pairs[world->free_count++] = index;
+            free_pair(world, pair);
         } else {
-            world->order[kept++] = index;
+            world->pairs[kept++] = *pair;
         }
     }
     world->pair_count = kept;

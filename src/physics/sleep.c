@@ -126,7 +126,7 @@ static bool is_restless(const phys_body *body)
 void phys_wake_by_touch(rlf_world *world, double horizon)
 {
     for (int32_t i = 0; i < world->pair_count; i++) {
-        const phys_pair *pair = &world->pairs[world->order[i]];
+        const phys_pair *pair = &world->pairs[i];
         phys_body *a = &world->bodies[pair->a], *b = &world->bodies[pair->b];
         if (a->is_asleep == b->is_asleep) {
             continue;
@@ -145,7 +145,7 @@ void phys_wake_by_touch(rlf_world *world, double horizon)
 static void disturb_neighbours(rlf_world *world)
 {
     for (int32_t i = 0; i < world->pair_count; i++) {
-        const phys_pair *pair = &world->pairs[world->order[i]];
+        const phys_pair *pair = &world->pairs[i];
         phys_body *a = &world->bodies[pair->a], *b = &world->bodies[pair->b];
         if (!touches(pair, 0.0)) {
             continue;

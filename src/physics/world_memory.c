@@ -24,9 +24,9 @@ static int32_t plan_memory(rlf_world *w, memory_plan plans[PLANS_MAX])
         PLAN(points, bodies * PHYS_POINTS_MAX),
         PLAN(surface, bodies * PHYS_SURFACE_CONTACTS),
         PLAN(pairs, pairs),
-        PLAN(order, pairs),
-        PLAN(old_order, pairs),
-        PLAN(free_pairs, pairs),
+        PLAN(old_pairs, pairs),
+        PLAN(pair_contacts, pairs * PHYS_PAIR_CONTACTS),
+        PLAN(free_slots, pairs),
         PLAN(proxies, bodies),
         PLAN(buckets, (size_t)w->bucket_count + 2),
         PLAN(bucket_items, bodies),
@@ -89,7 +89,7 @@ bool phys_world_allocate(rlf_world *world)
     }
     world->free_count = world->pair_capacity;
     for (int32_t i = 0; i < world->free_count; i++) { /* the first ones are taken first */
-        world->free_pairs[i] = world->pair_capacity - 1 - i;
+        world->free_slots[i] = world->pair_capacity - 1 - i;
     }
     return true;
 }

@@ -34,10 +34,11 @@ typedef struct phys_near {
     int32_t a, b; /* a < b */
 } phys_near;
 
-/* A body in the broad phase: the cell of its centre and half the size of its box. */
+/* A body in the broad phase: its box, and the cell of its centre. */
 typedef struct phys_proxy {
+    rlf_vec3 centre, half;
     int64_t cell;
-    rlf_vec3 half;
+    bool is_idle, is_fixed;
 } phys_proxy;
 
 /* Bodies that touch each other, directly or through others, and some more of the kind until there
@@ -62,10 +63,11 @@ struct rlf_world {
     rlf_vec3 *points;      /* of the bodies' shapes */
     phys_contact *surface; /* of the bodies */
 
-    phys_pair *pairs;           /* stay in their place while they live */
-    int32_t *order, *old_order; /* those that live, sorted by (a, b) */
-    int32_t *free_pairs;        /* those that do not */
-    int32_t pair_count, free_count, pair_capacity;
+    phys_pair *pairs, *old_pairs; /* sorted by (a, b); and the list before it */
+    int32_t pair_count, pair_capacity;
+    phys_contact *pair_contacts; /* of the pairs */
+    int32_t *free_slots;         /* places in it that no pair has, / PHYS_PAIR_CONTACTS */
+    int32_t free_count;
     phys_proxy *proxies; /* see broad_phase.c */
     int32_t *buckets, *bucket_items;
     int32_t bucket_count; /* a power of two */
