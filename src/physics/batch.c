@@ -57,9 +57,9 @@ static int32_t choose_colour(rlf_world *world, const phys_group *g)
 static int32_t key_of(rlf_world *world, const phys_group *g)
 {
     if (g->b == NULL) {
-        return SURFACE_KEY + PHYS_SURFACE_CONTACTS - g->near_count;
+        return SURFACE_KEY + PHYS_SURFACE_CONTACTS - g->point_count;
     }
-    return choose_colour(world, g) * PHYS_PAIR_CONTACTS + PHYS_PAIR_CONTACTS - g->near_count;
+    return choose_colour(world, g) * PHYS_PAIR_CONTACTS + PHYS_PAIR_CONTACTS - g->point_count;
 }
 
 /* A number that is the same for the groups that may share a batch; -1: for none. */
@@ -98,8 +98,7 @@ static void set_vec(rlf_lane_vec *of, int32_t lane, rlf_vec3 v)
     of->z[lane] = v.z;
 }
 
-static void set_targets(rlf_lane_point *p, int32_t lane, const phys_contact *c, double slop,
-                        double h)
+static void set_targets(rlf_lane_point *p, int32_t lane, const phys_point *c, double slop, double h)
 {
     if (c->separation > 0.0) { /* may close the gap, not more */
         p->target[0][lane] = p->target[1][lane] = -c->separation / h;
@@ -114,22 +113,19 @@ static void add_points(phys_batch *batch, const phys_group *g, int32_t lane, dou
 {
     double radius = g->a->shape.radius;
     double slop = SLOP_SHARE * (g->b != NULL ? rlf_min(radius, g->b->shape.radius) : radius);
-    rlf_lane_point *p = batch->lanes.points;
-    for (int32_t i = 0; i < g->count; i++) {
-        const phys_contact *c = &g->contacts[i];
-        if (c->is_far) {
-            continue;
+    for (int32_t i = 0; i < g->point_count; i++) {
+        rlf_lane_point *p = &batch->lanes.points[i];
+        const phys_point *near = &g->points[i];
+        const double *impulses = near->contact->impulses;
+        set_vec(&p->normal, lane, near->normal);
+        set_vec(&p->tangent, lane, rlf_perpendicular(near->normal));
+        set_vec(&p->r_a, lane, near->r_a);
+        set_vec(&p->r_b, lane, near->r_b);
+        set_targets(p, lane, near, slop, h);
+        p->friction[lane] = near->friction;
+        for (int32_t row = 0; row < 3 && impulses[0] > 0.0; row++) {
+            p->impulse[row][lane] = impulses[row];
         }
-        set_vec(&p->normal, lane, c->normal);
-        set_vec(&p->tangent, lane, rlf_perpendicular(c->normal));
-        set_vec(&p->r_a, lane, c->r_a);
-        set_vec(&p->r_b, lane, g->b != NULL ? c->r_b : c->surface_velocity);
-        set_targets(p, lane, c, slop, h);
-        p->friction[lane] = c->friction;
-        for (int32_t row = 0; row < 3 && c->impulses[0] > 0.0; row++) {
-            p->impulse[row][lane] = c->impulses[row];
-        }
-        p++;
     }
 }
 
@@ -167,9 +163,9 @@ static void add_group(const rlf_world *world, phys_batch *batch, const phys_grou
 /* A batch for a first group; the next ones have no more points. */
 static void start_batch(phys_batch *batch, rlf_lane_point *points, const phys_group *first)
 {
-    *batch = (phys_batch){.lanes = {.points = points, .point_count = first->near_count}};
+    *batch = (phys_batch){.lanes = {.points = points, .point_count = first->point_count}};
     batch->lanes.has_b = first->b != NULL;
-    for (int32_t i = 0; i < first->near_count; i++) {
+    for (int32_t i = 0; i < first->point_count; i++) {
         points[i] = (rlf_lane_point){.ease = {0}};
     }
 }
@@ -198,7 +194,7 @@ int32_t phys_batches_make(rlf_world *world, const phys_island *island, const phy
         int32_t own = colour_of_key(keys[order[k]]);
         if (made == 0 || own < 0 || own != colour || batches[made - 1].count == RLF_LANES) {
             start_batch(&batches[made++], points, g);
-            points += g->near_count;
+            points += g->point_count;
             colour = own;
         }
         add_group(world, &batches[made - 1], g, h);
@@ -213,17 +209,12 @@ void phys_batch_finish(const phys_batch *batch)
 {
     for (int32_t lane = 0; lane < batch->count; lane++) {
         const phys_group *g = batch->groups[lane];
-        const rlf_lane_point *p = batch->lanes.points;
-        for (int32_t i = 0; i < g->count; i++) {
-            phys_contact *c = &g->contacts[i];
-            if (c->is_far) {
-                continue;
-            }
+        for (int32_t i = 0; i < g->point_count; i++) {
+            phys_contact *c = g->points[i].contact;
             for (int32_t row = 0; row < 3; row++) {
-                c->impulses[row] = p->impulse[row][lane];
+                c->impulses[row] = batch->lanes.points[i].impulse[row][lane];
             }
             c->impulse_sum += c->impulses[0];
-            p++;
         }
     }
 }

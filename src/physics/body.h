@@ -14,6 +14,7 @@ typedef struct phys_body {
     rlf_quat q;
     rlf_mat3 R;    /* of q; the thesis method integrates R itself */
     double turned; /* radians, all turns added up */
+    double speed;  /* no point of it was faster at the start of the substep, m/s */
     rlf_vec3 acceleration, angular_acceleration;
     rlf_vec3 impact_shift, impact_turn; /* x and orientation jump so that x(t) = x + shift + v t */
     double impact_time;                 /* of its last bounce in this substep, s */
@@ -110,6 +111,18 @@ static inline rlf_pose phys_body_pose(const phys_body *body)
 static inline rlf_vec3 phys_body_velocity_at(const phys_body *body, rlf_vec3 r)
 {
     return rlf_add(body->v, rlf_cross(body->w, r));
+}
+
+/* No point of it is faster, m/s. */
+static inline double phys_body_speed(const phys_body *body)
+{
+    return rlf_length(body->v) + rlf_length(body->w) * body->shape.radius;
+}
+
+/* From the centre of the contact's body a to the touching point, world. */
+static inline rlf_vec3 phys_contact_arm(const phys_contact *c, const phys_body *a)
+{
+    return rlf_mad(rlf_mat3_mul_vec(&a->R, c->anchor_a), c->normal, -c->rounding_a);
 }
 
 /* eq. 4.14 and 4.15 */

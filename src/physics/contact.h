@@ -7,27 +7,25 @@
 #define PHYS_SURFACE_CONTACTS 12 /* of one body with the real surface */
 #define PHYS_PAIR_CONTACTS 4     /* of two bodies */
 
-/* One touching point. The normal points from b (or the surface) to a. */
+/* One touching point. The normal points from b (or the surface) to a. What every substep reads
+ * comes first. */
 typedef struct phys_contact {
-    rlf_vec3 anchor_a;         /* in a's frame, metres */
-    rlf_vec3 anchor_b;         /* in b's frame; of a surface: world, at surface_time */
-    double rounding_a;         /* the touching point of a is this far from anchor_a along -normal */
-    double rounding_b;         /* ... of b from anchor_b along the normal: round shapes roll */
-    rlf_vec3 normal;           /* world, unit */
+    rlf_vec3 anchor_a;  /* in a's frame, metres */
+    rlf_vec3 anchor_b;  /* in b's frame; of a surface: world, at surface_time */
+    rlf_vec3 normal;    /* world, unit */
+    double separation;  /* metres at the start of the substep */
+    double rounding_a;  /* the touching point of a is this far from anchor_a along -normal */
+    double rounding_b;  /* ... of b from anchor_b along the normal: round shapes roll */
+    double impulses[3]; /* along the normal and two tangents in the last substep, N s */
+    double impulse_sum; /* N s along the normal that the frame's list does not hold yet ... */
+    double friction, restitution;
     rlf_vec3 surface_velocity; /* world, m/s; 0 between bodies */
     double surface_time;       /* world time of anchor_b, s */
-    double impulses[3];        /* along the normal and two tangents in the last substep, N s */
-    rlf_vec3 r_a, r_b;         /* from the centres to the touching points, world */
-    double separation;         /* metres at the start of the substep */
-    double friction, restitution;
-    bool is_impacted; /* bounced in this substep */
-    bool is_far;      /* cannot touch in this substep */
+    double approach;           /* ... and the highest speed at which they met, m/s */
     rlf_contact_other other;
-    int32_t a, b;       /* body indices; b < 0: the surface */
-    int32_t label;      /* region label of the surface, 0 else */
-    int32_t log;        /* entry in the frame's contact list, -1 = none yet */
-    double impulse_sum; /* N s along the normal that the list does not hold yet ... */
-    double approach;    /* ... and the highest speed at which they met, m/s */
+    int32_t a, b;  /* body indices; b < 0: the surface */
+    int32_t label; /* region label of the surface, 0 else */
+    int32_t log;   /* entry in the frame's contact list, -1 = none yet */
 } phys_contact;
 
 /* What lives on of a contact that is searched again. */

@@ -16,21 +16,17 @@
 #define PASSES 12
 #define SETTLED 1e-7
 
-/* The groups of an island that have an event, by their keys: pairs, then bodies' surfaces. */
+/* The groups of an island that have an event. */
 typedef struct event_list {
     rlf_world *world;
     double h;
-    const phys_group *groups; /* of the island, those that may touch: pairs first */
-    int32_t pair_begin;       /* of the island */
-    int32_t *keys;            /* a part of world->pending */
-    int32_t count;
+    const phys_group *groups; /* of the island, those that may touch */
+    double *times;            /* of their next events, NO_EVENT = none */
+    int32_t *counts;          /* of those that were answered */
+    int32_t *next_link;       /* see world_state.h */
+    int32_t *pending;
+    int32_t pending_count;
 } event_list;
-
-static phys_group group_at(const event_list *list, int32_t key)
-{
-    int32_t body = key - list->world->pair_capacity;
-    return body < 0 ? phys_group_of_pair(list->world, key) : phys_group_of_body(list->world, body);
-}
 
 /* The speeds of a group's bodies; a body that does not move has mobility 0. */
 typedef struct phys_sides {
@@ -64,30 +60,30 @@ static void sides_store(const phys_sides *s, const phys_group *g)
 }
 
 /* Velocity of a's point as b or the surface sees it. */
-static inline rlf_vec3 relative_velocity(const phys_contact *c, const phys_sides *s, bool has_b)
+static inline rlf_vec3 relative_velocity(const phys_point *p, const phys_sides *s, bool has_b)
 {
-    rlf_vec3 of_a = rlf_add(s->v_a, rlf_cross(s->w_a, c->r_a));
-    return rlf_sub(of_a, has_b ? rlf_add(s->v_b, rlf_cross(s->w_b, c->r_b)) : c->surface_velocity);
+    rlf_vec3 of_a = rlf_add(s->v_a, rlf_cross(s->w_a, p->r_a));
+    return rlf_sub(of_a, has_b ? rlf_add(s->v_b, rlf_cross(s->w_b, p->r_b)) : p->r_b);
 }
 
 /* Gap of the contact extrapolated back to the start of the substep. */
-static double virtual_gap(const phys_contact *c, const phys_group *g)
+static double virtual_gap(const phys_point *p, const phys_group *g)
 {
-    rlf_vec3 shift = rlf_add(g->a->impact_shift, rlf_cross(g->a->impact_turn, c->r_a));
+    rlf_vec3 shift = rlf_add(g->a->impact_shift, rlf_cross(g->a->impact_turn, p->r_a));
     if (g->b != NULL) {
         shift = rlf_sub(shift, g->b->impact_shift);
-        shift = rlf_sub(shift, rlf_cross(g->b->impact_turn, c->r_b));
+        shift = rlf_sub(shift, rlf_cross(g->b->impact_turn, p->r_b));
     }
-    return c->separation + rlf_dot(c->normal, shift);
+    return p->separation + rlf_dot(p->normal, shift);
 }
 
-static double normal_acceleration(const phys_contact *c, const phys_group *g)
+static double normal_acceleration(const phys_point *p, const phys_group *g)
 {
     rlf_vec3 a = phys_body_is_moving(g->a) ? g->a->acceleration : rlf_vec3_make(0, 0, 0);
     if (g->b != NULL && phys_body_is_moving(g->b)) {
         a = rlf_sub(a, g->b->acceleration);
     }
-    return rlf_dot(c->normal, a);
+    return rlf_dot(p->normal, a);
 }
 
 /* The most that a body which rests on something is kept from falling by, m/s^2. */
@@ -138,19 +134,19 @@ static double event_time(const phys_group *g, double h)
     double from = start_time(g), resting = slow_speed(g, h);
     double best = NO_EVENT;
     phys_sides s = sides_load(g);
-    for (int32_t i = 0; i < g->count; i++) {
-        const phys_contact *c = &g->contacts[i];
-        if (c->is_far || c->restitution <= 0.0) {
+    for (int32_t i = 0; i < g->point_count; i++) {
+        const phys_point *p = &g->points[i];
+        if (p->restitution <= 0.0) {
             continue;
         }
-        double v = rlf_dot(c->normal, relative_velocity(c, &s, g->b != NULL));
-        double a = normal_acceleration(c, g);
+        double v = rlf_dot(p->normal, relative_velocity(p, &s, g->b != NULL));
+        double a = normal_acceleration(p, g);
         /* Gravity alone gives |a| h per substep: a bounce slower than a few of these is rest. */
         double slow = rlf_max(resting, SLOW + 3.0 * (a < 0.0 ? -a : a) * h);
         if (v + rlf_min(a * h, 0.0) >= -slow) {
             continue;
         }
-        double t = closing_time(virtual_gap(c, g), v, a, from);
+        double t = closing_time(virtual_gap(p, g), v, a, from);
         if (t <= h && v + a * t < -slow) {
             best = rlf_min(best, t);
         }
@@ -178,8 +174,8 @@ static void add_gain(const phys_body *body, rlf_vec3 v, rlf_vec3 dv, rlf_vec3 w,
 static bool is_driven(const phys_group *g)
 {
     bool is_surface_moving = false;
-    for (int32_t i = 0; i < g->count; i++) {
-        rlf_vec3 v = g->contacts[i].surface_velocity;
+    for (int32_t i = 0; i < g->point_count && g->b == NULL; i++) {
+        rlf_vec3 v = g->points[i].r_b;
         is_surface_moving = is_surface_moving || rlf_dot(v, v) > 0.0;
     }
     return is_surface_moving || phys_body_is_driven(g->a) ||
@@ -218,18 +214,18 @@ typedef struct impact_row {
     double impulse; /* N s */
 } impact_row;
 
-static impact_row row_make(const phys_contact *c, const phys_group *g, const phys_sides *s,
+static impact_row row_make(const phys_point *p, const phys_group *g, const phys_sides *s,
                            rlf_vec3 direction)
 {
     impact_row row = {.direction = direction};
     double mobility = 0.0;
     if (s->mobility_a > 0.0) {
-        rlf_vec3 turn = rlf_cross(c->r_a, direction);
+        rlf_vec3 turn = rlf_cross(p->r_a, direction);
         row.spin_a = rlf_mat3_mul_vec(&g->a->inverse_inertia_world, turn);
         mobility += s->mobility_a + rlf_dot(turn, row.spin_a);
     }
     if (s->mobility_b > 0.0) {
-        rlf_vec3 turn = rlf_cross(c->r_b, direction);
+        rlf_vec3 turn = rlf_cross(p->r_b, direction);
         row.spin_b = rlf_mat3_mul_vec(&g->b->inverse_inertia_world, turn);
         mobility += s->mobility_b + rlf_dot(turn, row.spin_b);
     }
@@ -251,7 +247,7 @@ static inline double row_push(impact_row *row, phys_sides *s, double impulse)
 
 /* A contact that takes part in an impact. */
 typedef struct impact_point {
-    phys_contact *contact;
+    phys_point *near;
     double target, approach; /* m/s along the normal */
     impact_row rows[3];
 } impact_point;
@@ -261,13 +257,13 @@ typedef struct impact_point {
 static double solve_point(impact_point *p, phys_sides *s, bool has_b)
 {
     impact_row *rows = p->rows;
-    double v = rlf_dot(rows[0].direction, relative_velocity(p->contact, s, has_b));
+    double v = rlf_dot(rows[0].direction, relative_velocity(p->near, s, has_b));
     double blow = rlf_max(0.0, rows[0].impulse + rows[0].mass * (p->target - v));
     double most = row_push(&rows[0], s, blow);
-    rlf_vec3 slip = relative_velocity(p->contact, s, has_b);
+    rlf_vec3 slip = relative_velocity(p->near, s, has_b);
     double j0 = rows[1].impulse - rows[1].mass * rlf_dot(rows[1].direction, slip);
     double j1 = rows[2].impulse - rows[2].mass * rlf_dot(rows[2].direction, slip);
-    double limit = p->contact->friction * rows[0].impulse, length2 = j0 * j0 + j1 * j1;
+    double limit = p->near->friction * rows[0].impulse, length2 = j0 * j0 + j1 * j1;
     double scale = length2 > limit * limit ? limit / sqrt(length2) : 1.0;
     most = rlf_max(most, row_push(&rows[1], s, j0 * scale));
     return rlf_max(most, row_push(&rows[2], s, j1 * scale));
@@ -277,21 +273,21 @@ static double solve_point(impact_point *p, phys_sides *s, bool has_b)
 static int32_t list_points(const phys_group *g, const phys_sides *s, double t, impact_point *points)
 {
     int32_t count = 0;
-    for (int32_t i = 0; i < g->count; i++) {
-        phys_contact *c = &g->contacts[i];
-        double fall = normal_acceleration(c, g) * t;
-        double v = rlf_dot(c->normal, relative_velocity(c, s, g->b != NULL));
-        if (c->is_far || virtual_gap(c, g) + (v + 0.5 * fall) * t > TOGETHER) {
+    for (int32_t i = 0; i < g->point_count; i++) {
+        phys_point *near = &g->points[i];
+        double fall = normal_acceleration(near, g) * t;
+        double v = rlf_dot(near->normal, relative_velocity(near, s, g->b != NULL));
+        if (virtual_gap(near, g) + (v + 0.5 * fall) * t > TOGETHER) {
             continue;
         }
         impact_point *p = &points[count++];
-        rlf_vec3 tangent = rlf_perpendicular(c->normal);
-        p->contact = c;
+        rlf_vec3 tangent = rlf_perpendicular(near->normal);
+        p->near = near;
         p->approach = rlf_max(0.0, -(v + fall));
-        p->target = c->restitution * p->approach - fall;
-        p->rows[0] = row_make(c, g, s, c->normal);
-        p->rows[1] = row_make(c, g, s, tangent);
-        p->rows[2] = row_make(c, g, s, rlf_cross(c->normal, tangent));
+        p->target = near->restitution * p->approach - fall;
+        p->rows[0] = row_make(near, g, s, near->normal);
+        p->rows[1] = row_make(near, g, s, tangent);
+        p->rows[2] = row_make(near, g, s, rlf_cross(near->normal, tangent));
     }
     return count;
 }
@@ -312,7 +308,7 @@ static void solve_points(impact_point *points, int32_t count, phys_sides *s, boo
 
 /* All contacts that close at time t answer together: the normal velocities after are those before
  * times -restitution, found by sequential impulses within the group. */
-static void answer(phys_group *g, double t)
+static void answer(const phys_group *g, double t)
 {
     impact_point points[PHYS_SURFACE_CONTACTS];
     phys_sides s = sides_load(g);
@@ -322,9 +318,9 @@ static void answer(phys_group *g, double t)
     limit_energy(g, &before, &s, t);
     sides_store(&s, g);
     for (int32_t i = 0; i < count; i++) {
-        phys_contact *c = points[i].contact;
+        phys_contact *c = points[i].near->contact;
         if (points[i].rows[0].impulse > 0.0) {
-            c->is_impacted = true;
+            points[i].near->is_impacted = true;
             c->impulse_sum += points[i].rows[0].impulse;
             c->approach = rlf_max(c->approach, points[i].approach);
         }
@@ -342,7 +338,7 @@ static void shift_back(phys_body *body, rlf_vec3 v, rlf_vec3 w, double t)
     }
 }
 
-static void bounce(phys_group *g, double t)
+static void bounce(const phys_group *g, double t)
 {
     rlf_vec3 v_a = g->a->v, w_a = g->a->w;
     rlf_vec3 v_b = g->b != NULL ? g->b->v : v_a;
@@ -359,102 +355,102 @@ static void carry_gaps(const phys_group *g)
     if (start_time(g) == 0.0) {
         return;
     }
-    for (int32_t k = 0; k < g->count; k++) {
-        phys_contact *c = &g->contacts[k];
-        double gap = virtual_gap(c, g);
-        c->separation = gap > 0.0 ? gap : rlf_min(c->separation, 0.0);
+    for (int32_t k = 0; k < g->point_count; k++) {
+        phys_point *p = &g->points[k];
+        double gap = virtual_gap(p, g);
+        p->separation = gap > 0.0 ? gap : rlf_min(p->separation, 0.0);
     }
 }
 
-static void link_pair(rlf_world *world, const phys_body *body, int32_t link)
+static void add_link(event_list *list, const phys_body *body, int32_t link)
 {
     if (phys_body_is_moving(body)) {
-        int32_t index = (int32_t)(body - world->bodies);
-        world->pair_next[link] = world->pair_head[index];
-        world->pair_head[index] = link;
+        int32_t *first = &list->world->first_link[body - list->world->bodies];
+        list->next_link[link] = *first;
+        *first = link;
     }
 }
 
-/* Lists of the pairs of each body that may touch, so that a bounce asks only its neighbours. */
-static void link_pairs(const event_list *list, const phys_island *island, int32_t count)
+/* Lists of the groups of each body, so that a bounce asks only its neighbours. */
+static void link_groups(event_list *list, const phys_island *island, int32_t count)
 {
     for (int32_t i = island->body_begin; i < island->body_end; i++) {
-        list->world->pair_head[list->world->island_bodies[i]] = -1;
+        list->world->first_link[list->world->island_bodies[i]] = -1;
     }
-    for (int32_t k = 0; k < count && list->groups[k].b != NULL; k++) {
-        link_pair(list->world, list->groups[k].a, 2 * (list->pair_begin + k));
-        link_pair(list->world, list->groups[k].b, 2 * (list->pair_begin + k) + 1);
+    for (int32_t k = 0; k < count; k++) {
+        add_link(list, list->groups[k].a, 2 * k);
+        if (list->groups[k].b != NULL) {
+            add_link(list, list->groups[k].b, 2 * k + 1);
+        }
     }
 }
 
 /* Sets a group's next event and lists it. */
-static void look_at_group(event_list *list, const phys_group *g)
+static void look_at_group(event_list *list, int32_t k)
 {
-    rlf_world *world = list->world;
-    int32_t key = g->key;
-    bool was_pending = world->event_times[key] <= list->h;
-    bool is_done = world->event_counts[key] >= EVENTS_PER_GROUP;
-    world->event_times[key] = is_done ? NO_EVENT : event_time(g, list->h);
-    if (!was_pending && world->event_times[key] <= list->h) {
-        list->keys[list->count++] = key;
+    bool was_pending = list->times[k] <= list->h;
+    bool is_done = list->counts[k] >= EVENTS_PER_GROUP;
+    list->times[k] = is_done ? NO_EVENT : event_time(&list->groups[k], list->h);
+    if (!was_pending && list->times[k] <= list->h) {
+        list->pending[list->pending_count++] = k;
     }
 }
 
 static void look_at_body(event_list *list, const phys_body *body)
 {
-    rlf_world *world = list->world;
     if (body == NULL || !phys_body_is_moving(body)) {
         return;
     }
-    int32_t index = (int32_t)(body - world->bodies);
-    phys_group g = phys_group_of_body(world, index);
-    look_at_group(list, &g);
-    for (int32_t k = world->pair_head[index]; k >= 0; k = world->pair_next[k]) {
-        look_at_group(list, &list->groups[k / 2 - list->pair_begin]);
+    int32_t link = list->world->first_link[body - list->world->bodies];
+    for (; link >= 0; link = list->next_link[link]) {
+        look_at_group(list, link / 2);
     }
 }
 
-/* Earliest pending group, the lower key first among equals; drops those without an event. */
+/* Earliest pending group, the first among equals; drops those without an event. */
 static int32_t take_first(event_list *list)
 {
-    const double *times = list->world->event_times;
+    const double *times = list->times;
     int32_t first = -1, kept = 0;
-    for (int32_t i = 0; i < list->count; i++) {
-        int32_t key = list->keys[i];
-        if (times[key] > list->h) {
+    for (int32_t i = 0; i < list->pending_count; i++) {
+        int32_t k = list->pending[i];
+        if (times[k] > list->h) {
             continue;
         }
-        list->keys[kept++] = key;
-        if (first < 0 || times[key] < times[first] || (times[key] == times[first] && key < first)) {
-            first = key;
+        list->pending[kept++] = k;
+        if (first < 0 || times[k] < times[first] || (times[k] == times[first] && k < first)) {
+            first = k;
         }
     }
-    list->count = kept;
+    list->pending_count = kept;
     return first;
 }
 
 void phys_solve_impacts(rlf_world *world, const phys_island *island, const phys_group *groups,
                         int32_t count, double h)
 {
-    int32_t *keys = world->pending + island->pair_begin + island->body_begin;
-    event_list list = {world, h, groups, island->pair_begin, keys, 0};
+    int32_t place = island->pair_begin + island->body_begin;
+    event_list list = {.world = world, .h = h, .groups = groups};
+    list.times = world->event_times + place;
+    list.counts = world->event_counts + place;
+    list.next_link = world->next_link + 2 * place;
+    list.pending = world->pending + place;
     for (int32_t k = 0; k < count; k++) {
-        world->event_counts[groups[k].key] = 0;
-        world->event_times[groups[k].key] = NO_EVENT;
+        list.counts[k] = 0;
+        list.times[k] = NO_EVENT;
         if (groups[k].b == NULL || groups[k].speed > SLOW) {
-            look_at_group(&list, &groups[k]);
+            look_at_group(&list, k);
         }
     }
-    if (list.count == 0) {
+    if (list.pending_count == 0) {
         return;
     }
-    link_pairs(&list, island, count);
-    for (int32_t first = take_first(&list); first >= 0; first = take_first(&list)) {
-        phys_group hit = group_at(&list, first);
-        world->event_counts[first]++;
-        bounce(&hit, world->event_times[first]);
-        look_at_body(&list, hit.a);
-        look_at_body(&list, hit.b);
+    link_groups(&list, island, count);
+    for (int32_t k = take_first(&list); k >= 0; k = take_first(&list)) {
+        list.counts[k]++;
+        bounce(&groups[k], list.times[k]);
+        look_at_body(&list, groups[k].a);
+        look_at_body(&list, groups[k].b);
     }
     for (int32_t k = 0; k < count; k++) {
         carry_gaps(&groups[k]);

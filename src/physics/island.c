@@ -130,6 +130,7 @@ void phys_find_islands(rlf_world *world)
             world->island_bodies[world->islands[world->island_of[i]].body_end++] = i;
         } else {
             load_speed(world, i); /* that of what pushes others stays until the next search */
+            world->bodies[i].speed = phys_body_speed(&world->bodies[i]);
         }
     }
     for (int32_t k = 0; k < world->pair_count; k++) {
@@ -145,6 +146,7 @@ static void start_body(const rlf_world *world, phys_body *body)
     rlf_vec3 zero = {0, 0, 0};
     body->impact_shift = body->impact_turn = zero;
     body->impact_time = 0.0;
+    body->speed = phys_body_speed(body);
     body->was_pressed = body->is_pressed;
     body->is_pressed = false;
     rlf_vec3 gravity = rlf_scale(world->def.gravity, body->gravity_scale);
@@ -188,19 +190,23 @@ static void move_body(const rlf_world *world, phys_body *body, const grid_query 
     }
 }
 
-/* Prepares the island's groups and lists those that may touch in this substep: its pairs first. The
- * real surface comes last: nothing gives way less. Returns their number. */
+/* Lists the island's groups that may touch in this substep: its pairs first. The real surface comes
+ * last: nothing gives way less. Returns their number. */
 static int32_t list_groups(rlf_world *world, const phys_island *island, phys_group *groups,
                            double h)
 {
+    phys_point *points = world->near_points + island->pair_begin * PHYS_PAIR_CONTACTS +
+                         island->body_begin * PHYS_SURFACE_CONTACTS;
     int32_t count = 0;
     for (int32_t k = island->pair_begin; k < island->pair_end; k++) {
-        groups[count] = phys_group_of_pair(world, world->island_pairs[k]);
-        count += phys_group_prepare(world, &groups[count], h);
+        if (phys_group_of_pair(world, world->island_pairs[k], h, points, &groups[count])) {
+            points += groups[count++].point_count;
+        }
     }
     for (int32_t i = island->body_begin; i < island->body_end; i++) {
-        groups[count] = phys_group_of_body(world, world->island_bodies[i]);
-        count += phys_group_prepare(world, &groups[count], h);
+        if (phys_group_of_body(world, world->island_bodies[i], h, points, &groups[count])) {
+            points += groups[count++].point_count;
+        }
     }
     return count;
 }

@@ -15,17 +15,12 @@
 /* How far a surface may wander under a sleeper: several sigma of a depth camera at 2 m. */
 #define WANDER 0.006
 
-static double speed_of(const phys_body *body)
-{
-    return rlf_length(body->v) + rlf_length(body->w) * body->shape.radius;
-}
-
 static bool has_left_its_place(const phys_body *body)
 {
     rlf_quat turn = rlf_quat_mul(body->q, rlf_quat_conjugate(body->still_q));
     double angle = 2.0 * rlf_length(rlf_vec3_make(turn.x, turn.y, turn.z)); /* for small angles */
     double moved = rlf_length(rlf_sub(body->x, body->still_x)) + angle * body->shape.radius;
-    return moved > EXCURSION_MAX || speed_of(body) > STILL_SPEED;
+    return moved > EXCURSION_MAX || phys_body_speed(body) > STILL_SPEED;
 }
 
 static void start_rest(phys_body *body)
@@ -73,7 +68,7 @@ static double least_separation(const phys_body *body)
 
 static double gap_now(const phys_body *body, const phys_contact *c)
 {
-    rlf_vec3 r = rlf_mad(rlf_mat3_mul_vec(&body->R, c->anchor_a), c->normal, -c->rounding_a);
+    rlf_vec3 r = phys_contact_arm(c, body);
     return rlf_dot(c->normal, rlf_sub(rlf_add(body->x, r), c->anchor_b));
 }
 
@@ -132,7 +127,7 @@ void phys_wake_by_touch(rlf_world *world, double horizon)
             continue;
         }
         const phys_body *awake = a->is_asleep ? b : a;
-        double speed = speed_of(awake);
+        double speed = phys_body_speed(awake);
         bool is_hit = speed > TOUCH_SPEED && touches(pair, speed * horizon);
         bool is_left = awake->has_left && touches(pair, EXCURSION_MAX); /* however slowly */
         if (is_hit || is_left) {

@@ -58,7 +58,8 @@ const rlf_snapshot *rlf_world_get_snapshot(const rlf_world *world)
     return RLF_ASSERT(world != NULL) ? &world->snapshot : NULL;
 }
 
-void phys_log_impulse(rlf_world *world, phys_contact *contact, double impulse, double approach)
+void phys_log_impulse(rlf_world *world, phys_contact *contact, rlf_vec3 point, double impulse,
+                      double approach)
 {
     bool is_new = contact->log < 0;
     if (is_new) {
@@ -71,14 +72,13 @@ void phys_log_impulse(rlf_world *world, phys_contact *contact, double impulse, d
     if (is_new) {
         memset(entry, 0, sizeof(*entry));
     }
-    const phys_body *body = &world->bodies[contact->a];
     entry->body = phys_body_id(world, contact->a);
     entry->other = contact->other;
     if (contact->b >= 0) {
         entry->other_body = phys_body_id(world, contact->b);
     }
     entry->region_label = contact->label;
-    entry->point = rlf_add(body->x, contact->r_a);
+    entry->point = point;
     entry->normal = contact->normal;
     entry->separation = contact->separation;
     entry->impulse += impulse;
@@ -91,7 +91,10 @@ void phys_log_contacts(rlf_world *world, phys_contact *contacts, int32_t count)
     for (int32_t i = 0; i < count; i++) {
         phys_contact *contact = &contacts[i];
         if (contact->impulse_sum > 0.0) {
-            phys_log_impulse(world, contact, contact->impulse_sum, contact->approach);
+            const phys_body *body = &world->bodies[contact->a];
+            rlf_vec3 r = phys_contact_arm(contact, body);
+            phys_log_impulse(world, contact, rlf_add(body->x, r), contact->impulse_sum,
+                             contact->approach);
         }
         contact->impulse_sum = contact->approach = 0.0;
     }

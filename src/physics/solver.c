@@ -9,48 +9,83 @@
 #define FAR_FACTOR 2.0
 #define FAR_SPEED 0.2
 
-static void measure_gap(const rlf_world *world, phys_contact *c, const phys_group *g)
+/* Fills in `p` but for b's side. Returns a's touching point. */
+static rlf_vec3 point_of(phys_contact *c, const phys_body *a, phys_point *p)
 {
-    rlf_vec3 n = c->normal;
-    c->r_a = rlf_mad(rlf_mat3_mul_vec(&g->a->R, c->anchor_a), n, -c->rounding_a);
-    rlf_vec3 on_a = rlf_add(g->a->x, c->r_a), on_b;
-    if (g->b != NULL) {
-        c->r_b = rlf_mad(rlf_mat3_mul_vec(&g->b->R, c->anchor_b), n, c->rounding_b);
-        on_b = rlf_add(g->b->x, c->r_b);
+    p->normal = c->normal;
+    p->r_a = phys_contact_arm(c, a);
+    p->friction = c->friction;
+    p->restitution = c->restitution;
+    p->contact = c;
+    p->is_impacted = false;
+    return rlf_add(a->x, p->r_a);
+}
+
+/* Keeps the point when it is near enough. */
+static void take_point(phys_contact *c, double gap, double way, phys_group *g)
+{
+    c->separation = g->points[g->point_count].separation = gap;
+    if (gap > way) {
+        c->impulses[0] = c->impulses[1] = c->impulses[2] = 0.0;
     } else {
-        on_b = rlf_mad(c->anchor_b, c->surface_velocity, world->time - c->surface_time);
+        g->point_count++;
     }
-    c->separation = rlf_dot(n, rlf_sub(on_a, on_b));
-    c->is_impacted = false;
 }
 
-static double speed_of(const phys_body *body)
+/* How far a contact's two sides may come towards each other. */
+static double way_of(const phys_group *g, double h)
 {
-    return body == NULL ? 0.0 : rlf_length(body->v) + rlf_length(body->w) * body->shape.radius;
+    return (FAR_SPEED + FAR_FACTOR * g->speed) * h;
 }
 
-bool phys_group_prepare(const rlf_world *world, phys_group *g, double h)
+static bool finish_group(phys_group *g)
 {
-    g->near_count = 0;
-    if (g->count == 0) {
-        return false;
-    }
-    g->speed = speed_of(g->a) + speed_of(g->b);
-    double way = (FAR_SPEED + FAR_FACTOR * g->speed) * h;
-    for (int32_t i = 0; i < g->count; i++) {
-        phys_contact *c = &g->contacts[i];
-        measure_gap(world, c, g);
-        c->is_far = c->separation > way + rlf_length(c->surface_velocity) * h;
-        if (c->is_far) {
-            c->impulses[0] = c->impulses[1] = c->impulses[2] = 0.0;
-        }
-        g->near_count += c->is_far ? 0 : 1;
-    }
-    if (!g->stance->is_set || g->near_count == 0) {
+    bool is_any = g->point_count > 0;
+    if (!g->stance->is_set || !is_any) {
         g->stance->rolling = rlf_vec3_make(0, 0, 0);
     }
-    g->stance->is_set = g->stance->is_set || g->near_count > 0;
-    return g->near_count > 0;
+    g->stance->is_set = g->stance->is_set || is_any;
+    return is_any;
+}
+
+bool phys_group_of_pair(rlf_world *world, int32_t pair_index, double h, phys_point *points,
+                        phys_group *out)
+{
+    phys_pair *pair = &world->pairs[pair_index];
+    phys_body *a = &world->bodies[pair->a], *b = &world->bodies[pair->b];
+    if (pair->contact_count == 0) {
+        return false;
+    }
+    *out = (phys_group){points, a, b, &pair->stance, 0, a->speed + b->speed};
+    for (int32_t i = 0; i < pair->contact_count; i++) {
+        phys_contact *c = &pair->contacts[i];
+        phys_point *p = &points[out->point_count];
+        rlf_vec3 on_a = point_of(c, a, p);
+        p->r_b = rlf_mad(rlf_mat3_mul_vec(&b->R, c->anchor_b), c->normal, c->rounding_b);
+        rlf_vec3 on_b = rlf_add(b->x, p->r_b);
+        take_point(c, rlf_dot(c->normal, rlf_sub(on_a, on_b)), way_of(out, h), out);
+    }
+    return finish_group(out);
+}
+
+bool phys_group_of_body(rlf_world *world, int32_t body_index, double h, phys_point *points,
+                        phys_group *out)
+{
+    phys_body *a = &world->bodies[body_index];
+    if (a->surface_count == 0) {
+        return false;
+    }
+    *out = (phys_group){points, a, NULL, &a->stance, 0, a->speed};
+    for (int32_t i = 0; i < a->surface_count; i++) {
+        phys_contact *c = &a->surface[i];
+        phys_point *p = &points[out->point_count];
+        rlf_vec3 on_a = point_of(c, a, p);
+        p->r_b = c->surface_velocity;
+        rlf_vec3 on_b = rlf_mad(c->anchor_b, c->surface_velocity, world->time - c->surface_time);
+        double way = way_of(out, h) + rlf_length(c->surface_velocity) * h;
+        take_point(c, rlf_dot(c->normal, rlf_sub(on_a, on_b)), way, out);
+    }
+    return finish_group(out);
 }
 
 static rlf_vec3 spin_of(const rlf_lane_speed *speed)

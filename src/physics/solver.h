@@ -4,31 +4,12 @@
 
 #include "physics/world_state.h"
 
-static inline phys_group phys_group_of_pair(rlf_world *world, int32_t pair_index)
-{
-    phys_pair *pair = &world->pairs[pair_index];
-    phys_group g = {pair->contacts,
-                    &world->bodies[pair->a],
-                    &world->bodies[pair->b],
-                    &pair->stance,
-                    pair->contact_count,
-                    pair_index,
-                    0,
-                    0};
-    return g;
-}
-
-static inline phys_group phys_group_of_body(rlf_world *world, int32_t body_index)
-{
-    phys_body *body = &world->bodies[body_index];
-    int32_t key = world->pair_capacity + body_index;
-    phys_group g = {body->surface, body, NULL, &body->stance, body->surface_count, key, 0, 0};
-    return g;
-}
-
-/* Sets the gaps of the group's contacts for a substep of h seconds. Returns whether any may touch
- * in it. */
-bool phys_group_prepare(const rlf_world *world, phys_group *g, double h);
+/* Lists those contacts that may touch in a substep of h seconds, and sets the gaps of all.
+ * Returns whether there are any. `points` has room for all of them. */
+bool phys_group_of_pair(rlf_world *world, int32_t pair_index, double h, phys_point *points,
+                        phys_group *out);
+bool phys_group_of_body(rlf_world *world, int32_t body_index, double h, phys_point *points,
+                        phys_group *out);
 
 /* Sorts the island's groups into batches whose lanes share no body that moves: the pairs' first.
  * Returns their number; they begin at phys_batches_of. */
@@ -51,7 +32,8 @@ void phys_batches_warm_start(rlf_world *world, const phys_batch *batches, int32_
 void phys_batches_solve(rlf_world *world, const phys_batch *batches, int32_t count, bool push,
                         int32_t passes);
 
-/* Bounces of this substep: restitution at the time of impact, in the order in which they happen. */
+/* Bounces of this substep: restitution at the time of impact, in the order in which they happen.
+ * Of the groups, those of pairs come first. */
 void phys_solve_impacts(rlf_world *world, const phys_island *island, const phys_group *groups,
                         int32_t count, double h);
 

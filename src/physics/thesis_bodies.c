@@ -25,9 +25,8 @@ static void vertices_against(rlf_world *world, int32_t a_index, int32_t b_index)
         double j = thesis_impulse(a, b, p, n, restitution);
         if (j > 0.0) {
             phys_contact contact = {.a = a_index, .b = b_index, .log = -1, .normal = n};
-            contact.r_a = r_a;
             contact.separation = distance;
-            phys_log_impulse(world, &contact, j, approach);
+            phys_log_impulse(world, &contact, p, j, approach);
         }
     }
 }
@@ -46,9 +45,8 @@ static bool collide_balls(rlf_world *world, int32_t a_index, int32_t b_index)
     double j = thesis_impulse(a, b, p, n, rlf_max(a->restitution, b->restitution));
     if (j > 0.0) {
         phys_contact contact = {.a = a_index, .b = b_index, .log = -1, .normal = n};
-        contact.r_a = rlf_sub(p, a->x);
         contact.separation = rlf_length(rlf_sub(a->x, b->x)) - a->shape.radius - b->shape.radius;
-        phys_log_impulse(world, &contact, j, approach);
+        phys_log_impulse(world, &contact, p, j, approach);
     }
     return true;
 }

@@ -59,9 +59,8 @@ static void touch_point(const narrow_job *job, int32_t i)
         contact.other =
             job->region->is_foreground ? RLF_CONTACT_FOREGROUND : RLF_CONTACT_BACKGROUND;
         contact.label = job->region->label;
-        contact.r_a = rlf_sub(p, body->x);
         contact.separation = distance;
-        phys_log_impulse(job->world, &contact, j, approach);
+        phys_log_impulse(job->world, &contact, p, j, approach);
     }
 }
 

@@ -10,15 +10,24 @@
 /* Substeps between searches for pairs. */
 #define PHYS_PERIOD_MAX 4
 
-/* The contacts of a pair, or of a body with the surface. */
+/* A contact that may touch in a substep, as the bounces and the solver see it. */
+typedef struct phys_point {
+    rlf_vec3 normal;
+    rlf_vec3 r_a, r_b; /* from the centres to the touching points, world; of a surface r_b is its
+                          velocity, m/s */
+    double separation; /* metres at the start of the substep */
+    double friction, restitution;
+    phys_contact *contact;
+    bool is_impacted; /* bounced in this substep */
+} phys_point;
+
+/* The contacts of a pair, or of a body with the surface, in a substep. */
 typedef struct phys_group {
-    phys_contact *contacts;
+    phys_point *points;
     phys_body *a, *b; /* b NULL: surface */
     phys_stance *stance;
-    int32_t count;
-    int32_t key;        /* index of the pair, or of the body behind all pairs */
-    int32_t near_count; /* contacts that may touch in this substep */
-    double speed;       /* no point of the two bodies moves faster past the other, m/s */
+    int32_t point_count;
+    double speed; /* no point of the two bodies moves faster past the other, m/s */
 } phys_group;
 
 /* Groups that are solved side by side; see batch.c. */
@@ -81,7 +90,8 @@ struct rlf_world {
     int32_t island_count;
     int32_t *island_bodies, *island_pairs;
 
-    phys_group *groups; /* of each island, those that have contacts */
+    phys_group *groups; /* of each island, those that may touch */
+    phys_point *near_points;
 
     phys_batch *batches; /* of each island; see batch.c */
     rlf_lane_point *batch_points;
@@ -90,12 +100,11 @@ struct rlf_world {
     rlf_lane_speed *speeds;            /* per body: its velocities while they are solved for */
     int32_t *busy_pass;                /* per body: the pass in which it is to be solved again */
 
-    double *event_times;   /* see impact.c; of the pairs, then of the bodies' surfaces */
+    double *event_times;   /* see impact.c; of the groups, island by island */
     int32_t *event_counts; /* of this substep */
     int32_t *pending;      /* groups that have an event; island by island */
-    int32_t *pair_head;    /* first link of each body's list of pairs, -1 = none */
-    int32_t *pair_next;    /* link 2 k is an island's k-th group as its a sees it, 2 k + 1: its b;
-                              counted from the island's pair_begin */
+    int32_t *first_link;   /* first link of each body's list of groups, -1 = none */
+    int32_t *next_link;    /* link 2 k is an island's k-th group as its a sees it, 2 k + 1: its b */
 
     phys_touch *touches, *old_touches; /* of this advance and the one before, sorted by key */
     int32_t touch_count, old_touch_count;
@@ -143,8 +152,9 @@ void phys_world_remove_strays(rlf_world *world);
 /* Ends a body's sleep. */
 void phys_body_wake(phys_body *body);
 
-/* Adds `impulse` at `contact` to the frame's contact list. */
-void phys_log_impulse(rlf_world *world, phys_contact *contact, double impulse, double approach);
+/* Adds `impulse` at `contact`, which is at `point` now, to the frame's contact list. */
+void phys_log_impulse(rlf_world *world, phys_contact *contact, rlf_vec3 point, double impulse,
+                      double approach);
 
 /* Moves the impulses that contacts have gathered to the list. */
 void phys_log_contacts(rlf_world *world, phys_contact *contacts, int32_t count);
