@@ -116,7 +116,7 @@ static void add_points(phys_batch *batch, const phys_group *g, int32_t lane, dou
     for (int32_t i = 0; i < g->point_count; i++) {
         rlf_lane_point *p = &batch->lanes.points[i];
         const phys_point *near = &g->points[i];
-        const double *impulses = near->contact->impulses;
+        const double *impulses = near->impulses;
         set_vec(&p->normal, lane, near->normal);
         set_vec(&p->tangent, lane, rlf_perpendicular(near->normal));
         set_vec(&p->r_a, lane, near->r_a);

@@ -16,6 +16,9 @@ static rlf_vec3 point_of(phys_contact *c, const phys_body *a, phys_point *p)
     p->r_a = phys_contact_arm(c, a);
     p->friction = c->friction;
     p->restitution = c->restitution;
+    for (int32_t row = 0; row < 3; row++) {
+        p->impulses[row] = c->impulses[row];
+    }
     p->contact = c;
     p->is_impacted = false;
     return rlf_add(a->x, p->r_a);

@@ -17,6 +17,7 @@ typedef struct phys_point {
                           velocity, m/s */
     double separation; /* metres at the start of the substep */
     double friction, restitution;
+    double impulses[3]; /* of the last substep, as the contact's */
     phys_contact *contact;
     bool is_impacted; /* bounced in this substep */
 } phys_point;
