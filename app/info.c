@@ -75,9 +75,11 @@ int sources_main(int argc, char **argv)
         printf("usage: relief sources\n\nLists the kinds of source that this build can open.\n");
         return optind > 1 && argc == optind ? EXIT_DONE : EXIT_USAGE;
     }
-    printf("synthetic:NAME[?key=value&...]  a simulated room with ground truth\n"
-           "    NAME: room, empty, thesis, chair, book, hand, lift, swipe, carry, crossing\n"
-           "    keys: seed, frames, fps, noise (0|1|steps), edge_filter (0|1), color (WxH or 0)\n"
-           "FOLDER                          a clip: depth.txt, rgb.txt, PNG/JPEG, camera.json\n");
+    printf(
+        "synthetic:NAME[?key=value&...]  a simulated room with ground truth\n"
+        "    NAME: room, empty, thesis, chair, book, hand, lift, swipe, carry, crossing\n"
+        "    keys: seed, frames, fps, speed, lamp (X,Y,Z), noise (0|1|steps), edge_filter (0|1),\n"
+        "    color (WxH or 0)\n"
+        "FOLDER                          a clip: depth.txt, rgb.txt, PNG/JPEG, camera.json\n");
     return EXIT_DONE;
 }

@@ -49,7 +49,9 @@ static void print_help(void)
            "  --orbit YAW,PITCH[,ZOOM]   where points are seen from: degrees to the right and\n"
            "                        up, and the distance, 1 being the camera's\n"
            "  --light X,Y,Z         where the light shines to: right, down, forward\n"
-           "  --match-light         bodies as dark and as tinted as the camera's picture\n"
+           "  --match-light         bodies as dark and as tinted as the camera's picture, and\n"
+           "                        lit from where its shading says; live's default for clips\n"
+           "  --no-match-light      not so\n"
            "  --no-real-shade       real things keep no light from bodies\n"
            "  --occlusion NAME      soft (live's), hard, thesis (thesis's) or off\n"
            "  --scale N             keep every N-th depth pixel (live 1, thesis 8)\n"
@@ -195,6 +197,7 @@ static int read_options(int argc, char **argv, run_options *o)
          .take = take_light,
          .choices = "use X,Y,Z, not all zero"},
         {.name = "match-light", .kind = OPTION_FLAG, .out = &s->matches_light},
+        {.name = "no-match-light", .kind = OPTION_FLAG, .out = &s->keeps_light},
         {.name = "no-real-shade", .kind = OPTION_FLAG, .out = &s->no_real_shade},
         {.name = "occlusion",
          .kind = OPTION_CHOICE,

@@ -100,6 +100,8 @@ rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame)
     const rlf_stage_times *t = &frame->times;
     timing_add_frame(&out->times, t, t->capture_ms + t->surface_ms + t->physics_ms + t->render_ms);
     out->frames++;
+    out->light = frame->render.light_direction;
+    out->is_light_estimated = frame->render.is_light_estimated;
     print_progress(out);
     rlf_result result = RLF_OK;
     if (out->log != NULL) {
@@ -152,6 +154,11 @@ void run_output_print_summary(const run_output *out, const char *how)
     print_stage(file, "loop", &t->frame);
     fprintf(file, "  %.1f frames per second (median of the loop, without writing files)\n",
             median > 0.0 ? 1000.0 / median : 0.0);
+    if (rlf_length(out->light) > 0.0) {
+        fprintf(file, "light:    to %.2f, %.2f, %.2f (right, down, forward), %s\n", out->light.x,
+                out->light.y, out->light.z,
+                out->is_light_estimated ? "found in the picture" : "given");
+    }
     if (o->video_path != NULL && file == stdout) {
         fprintf(file, "video:    %s\n", o->video_path);
     }

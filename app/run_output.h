@@ -27,6 +27,8 @@ typedef struct run_output {
     rlf_csv_log *log;
     int64_t frames, pictures;
     int64_t start_ns, last_frame_ns, last_progress_ns;
+    rlf_vec3 light; /* of the last picture: where it shines to; 0 = no picture */
+    bool is_light_estimated;
     timing times;
 } run_output;
 

@@ -43,6 +43,13 @@ void session_set_scale(rlf_reconstruct_def *def, int32_t factor)
     def->scale_factor = factor;
 }
 
+static bool matches_light(const session_options *options)
+{
+    bool is_real = strncmp(options->source, "synthetic:", strlen("synthetic:")) != 0;
+    bool is_wanted = options->profile == RLF_PROFILE_LIVE && is_real && !options->keeps_light;
+    return options->matches_light || is_wanted;
+}
+
 static rlf_result open_all(const session_options *options, session *s)
 {
     rlf_result result = rlf_pool_create(options->thread_count, &s->pool);
@@ -72,7 +79,9 @@ static rlf_result open_all(const session_options *options, session *s)
     if (options->is_light_set) {
         def.compositor.light_direction = options->light_direction;
     }
-    def.compositor.estimates_light = options->matches_light;
+    const bool matches = matches_light(options);
+    def.compositor.estimates_light = matches;
+    def.compositor.estimates_light_direction = matches && !options->is_light_set;
     def.compositor.enable_real_shade = !options->no_real_shade;
     def.compositor.enable_overlay = options->enable_overlay;
     return rlf_pipeline_create(&def, &s->pipeline);

@@ -18,7 +18,10 @@ typedef struct session_options {
     rlf_occlusion occlusion;
     bool is_light_set; /* else the compositor's */
     rlf_vec3 light_direction;
-    bool matches_light, no_real_shade;
+    /* Bodies lit as the camera's picture is: always, never, or (both false) by profile live and all
+     * sources but the synthetic room, whose light is the default one. */
+    bool matches_light, keeps_light;
+    bool no_real_shade;
     bool enable_render;
     bool enable_overlay;
 } session_options;

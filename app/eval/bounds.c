@@ -81,6 +81,7 @@ const eval_bound eval_bounds[] = {
     {"picture", "order_percent", '<', 0.1, 0.1, "", ""},
     {"picture", "real_shade_right_percent", '>', 97, 96, "none", ""},
     {"picture", "real_shade_iou", '>', NAN, 0.6, "none", ""},
+    {"picture", "light_off_deg", '<', 15, 15, "none", ""},
     {"simulator", "table_a_off_percent", '<', 5, 5, "165.5 missing of 3392", ""},
     {"simulator", "table_b_off_percent", '<', 5, 5, "15.5 of 2632", ""},
     {"simulator", "table_c_off_percent", '<', 15, 15, "188.6 of 3392", ""},

@@ -47,20 +47,27 @@ static void close_run(light_run *run)
     rlf_source_destroy(&run->source);
 }
 
-static rlf_result open_run(light_run *run, int64_t seed)
+/* lamp NULL = the room's own. */
+static rlf_result open_source(light_run *run, int64_t seed, const rlf_vec3 *lamp)
 {
     char name[96];
     (void)snprintf(name, sizeof(name), "synthetic:room?seed=%lld&frames=-1", (long long)seed);
     rlf_synthetic_def synthetic = rlf_synthetic_def_default();
     rlf_result result = rlf_synthetic_parse(name, &synthetic);
     synthetic.enable_truth = false;
+    synthetic.lamp = lamp != NULL ? *lamp : synthetic.lamp;
     result = result == RLF_OK ? rlf_synthetic_create(&synthetic, &run->source) : result;
     if (result != RLF_OK) {
         return result;
     }
     rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_LIVE, run->source, NULL);
     def.enable_render = false;
-    result = rlf_pipeline_create(&def, &run->pipeline);
+    return rlf_pipeline_create(&def, &run->pipeline);
+}
+
+static rlf_result open_run(light_run *run, int64_t seed)
+{
+    rlf_result result = open_source(run, seed, NULL);
     for (int i = 0; i < 2 * LIGHT_COUNT && result == RLF_OK; i++) {
         rlf_compositor_def compositor = rlf_pipeline_get_compositor_def(run->pipeline);
         compositor.light_direction = rlf_normalize(lights[i / 2]);
@@ -218,6 +225,72 @@ static rlf_result measure(light_run *run, int64_t seed, shade_counts *counts)
     return result;
 }
 
+/* ---- where the light is ---------------------------------------------------------------------- */
+
+#define FOUND_AFTER 12 /* frames */
+
+/* Right before the room, left of it, above it, and the room's own lamp. */
+static const rlf_vec3 lamps[] = {
+    {3.0, -2.2, -1.0}, {-3.0, -0.5, 1.0}, {0.5, -6.0, 2.0}, {-0.7, -1.85, 1.5}};
+#define LAMP_COUNT ((int)(sizeof(lamps) / sizeof(lamps[0])))
+
+/* From the lamp to the middle of what is seen. */
+static rlf_vec3 true_direction(const rlf_surface *s, rlf_vec3 lamp)
+{
+    rlf_vec3 sum = {0, 0, 0};
+    double count = 0.0;
+    for (int32_t i = 0; i < s->width * s->height; i++) {
+        if (s->depth[i] > 0.0f) {
+            sum = rlf_add(sum, rlf_surface_point(s, i));
+            count += 1.0;
+        }
+    }
+    return rlf_normalize(rlf_sub(rlf_scale(sum, 1.0 / count), lamp));
+}
+
+/* Cosine of the angle between the light that is found and the true one. */
+static rlf_result find_light(light_run *run, int64_t seed, rlf_vec3 lamp, double *out_cosine)
+{
+    rlf_result result = open_source(run, seed, &lamp);
+    if (result == RLF_OK) {
+        rlf_compositor_def compositor = rlf_pipeline_get_compositor_def(run->pipeline);
+        compositor.estimates_light_direction = true;
+        result = rlf_compositor_create_soft(&compositor, &run->compositors[0][0]);
+    }
+    for (int i = 0; result == RLF_OK && i < FOUND_AFTER; i++) {
+        rlf_pipeline_output frame;
+        rlf_render_output out;
+        result = rlf_pipeline_step(run->pipeline, &frame);
+        rlf_render_input input = {
+            .frame = &frame.frame, .surface = frame.surface, .T_world_camera = rlf_pose_identity()};
+        if (result == RLF_OK) {
+            result = rlf_compositor_render(run->compositors[0][0], &input, &out);
+        }
+        if (result == RLF_OK) {
+            *out_cosine = rlf_dot(out.light_direction, true_direction(frame.surface, lamp));
+        }
+    }
+    return result;
+}
+
+static rlf_result add_direction(eval_table *table, int64_t seed)
+{
+    double sum = 0.0;
+    for (int i = 0; i < LAMP_COUNT; i++) {
+        light_run run = {0};
+        double cosine = 1.0;
+        rlf_result result = find_light(&run, seed, lamps[i], &cosine);
+        close_run(&run);
+        if (result != RLF_OK) {
+            return result;
+        }
+        sum += acos(rlf_clamp(cosine, -1.0, 1.0)) * 180.0 / RLF_PI;
+    }
+    eval_table_add(table, "picture", "light_off_deg", "direction of the light: off by, degrees",
+                   RLF_PROFILE_LIVE, sum / LAMP_COUNT);
+    return RLF_OK;
+}
+
 rlf_result picture_light_run(eval_table *table, int64_t seed)
 {
     light_run run = {0};
@@ -235,5 +308,5 @@ rlf_result picture_light_run(eval_table *table, int64_t seed)
                    RLF_PROFILE_LIVE, 100.0 * (1.0 - (double)counts.wrong / all));
     eval_table_add(table, "picture", "real_shade_iou", "  shadowed pixels: IoU", RLF_PROFILE_LIVE,
                    (double)counts.both / either);
-    return RLF_OK;
+    return add_direction(table, seed);
 }

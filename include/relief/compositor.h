@@ -72,10 +72,12 @@ typedef struct rlf_compositor_def {
     float light_color[3];       /* shares of the bodies' colours that it shows, 0..1; default 1 */
     bool estimates_light;       /* bodies get darker and tinted as the camera's picture is, over
                                    about a second; default false */
-    bool enable_real_shade;     /* with occlusion DEPTH and SOFT real things keep the light from
-                                   bodies, too; default true */
-    bool enable_overlay;        /* text lines over the picture; default false */
-    rlf_pool *pool;             /* borrowed; NULL = one thread */
+    bool estimates_light_direction; /* by the shading of what is seen; where that does not tell, it
+                                       is light_direction; default false */
+    bool enable_real_shade;         /* with occlusion DEPTH and SOFT real things keep the light from
+                                       bodies, too; default true */
+    bool enable_overlay;            /* text lines over the picture; default false */
+    rlf_pool *pool;                 /* borrowed; NULL = one thread */
 } rlf_compositor_def;
 
 RLF_API rlf_compositor_def rlf_compositor_def_default(void);
@@ -97,6 +99,8 @@ typedef struct rlf_render_output {
     rlf_image_rgba8
         image;          /* the composite (or the view); the compositor's, valid until next render */
     rlf_plane_u8 matte; /* alpha of everything virtual after occlusion, 0..255; same size */
+    rlf_vec3 light_direction; /* that the bodies are lit from: unit, into the scene, camera frame */
+    bool is_light_estimated;  /* by the picture; else light_direction of the def */
 } rlf_render_output;
 
 typedef struct rlf_compositor rlf_compositor;

@@ -54,6 +54,8 @@ typedef struct rlf_synthetic_def {
     double frames_per_second;  /* default 30 */
     int64_t frame_count;       /* default 300 (10 s); -1 = endless */
     double speed;              /* of the tray or board, m/s, above 0, at most 10; default 0.5 */
+    rlf_vec3 lamp;             /* a wide lamp's middle, metres, camera frame, at most 20 m away;
+                                  default (-0.7, -1.85, 1.5): under the ceiling, left */
     bool enable_noise;         /* default true: axial noise, dropout, flying pixels, edge filter */
     bool enable_structured_light; /* default false; true: depth in steps, noise that is alike in
                                      neighbouring pixels, as a Kinect v1's; needs enable_noise */
@@ -70,9 +72,9 @@ RLF_API rlf_synthetic_def rlf_synthetic_def_default(void);
 RLF_API rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source **out);
 
 /* Reads "synthetic:NAME[?key=value[&key=value...]]" into *def: NAME one of room, empty, thesis,
- * chair, book, hand, lift, swipe, carry, crossing; keys seed, frames, fps, speed, noise
- * (0|1|steps), edge_filter (0|1), color (WxH or 0). RLF_ERROR_INVALID names the part that is wrong
- * and what is allowed. */
+ * chair, book, hand, lift, swipe, carry, crossing; keys seed, frames, fps, speed, lamp (X,Y,Z),
+ * noise (0|1|steps), edge_filter (0|1), color (WxH or 0). RLF_ERROR_INVALID names the part that is
+ * wrong and what is allowed. */
 RLF_API rlf_result rlf_synthetic_parse(const char *source, rlf_synthetic_def *def);
 
 /* True surface point nearest along the true scene at this instant of a source made by

@@ -387,7 +387,8 @@ static rlf_result render_views(rlf_pipeline *p, rlf_render_input *input)
         }
     }
     if (result == RLF_OK && p->view_count > 1) {
-        *out = (rlf_render_output){.image = p->sheet};
+        out->image = p->sheet;
+        out->matte = (rlf_plane_u8){0};
     }
     return result;
 }

@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "render/light_direction.h"
 #include "render/room_light.h"
 
 #include <math.h>
@@ -108,12 +109,127 @@ static void wrong_light_is_refused(void **state)
     scene_free(s);
 }
 
+/* Normal of a wall of balls, 30 cm apart, at (x, y). */
+static rlf_vec3 bump_at(double x, double y)
+{
+    const double radius = 0.17;
+    double u = x - 0.3 * floor(x / 0.3) - 0.15;
+    double v = y - 0.3 * floor(y / 0.3) - 0.15;
+    double square = rlf_min(u * u + v * v, 0.9 * radius * radius);
+    double shrink = sqrt(square / (u * u + v * v + 1e-12));
+    return rlf_vec3_make(u * shrink / radius, v * shrink / radius,
+                         -sqrt(1.0 - square / (radius * radius)));
+}
+
+static uint8_t encode(double light)
+{
+    return (uint8_t)(255.0 * pow(light, 1.0 / 2.2) + 0.5);
+}
+
+/* The wall at 3 m, with its colours under a light that is all around, but more from one side. */
+static void light_bumps(render_scene *s, rlf_vec3 direction, double directed)
+{
+    for (int32_t i = 0; i < s->grid.width * s->grid.height; i++) {
+        rlf_vec3 n = bump_at(3.0 * (double)s->ray_x[i], 3.0 * (double)s->ray_y[i]);
+        s->planes[PLANE_NORMAL][i] = (float)n.x;
+        s->planes[PLANE_NORMAL + 1][i] = (float)n.y;
+        s->planes[PLANE_NORMAL + 2][i] = (float)n.z;
+    }
+    const rlf_camera *k = &s->rig.color;
+    for (int32_t i = 0; i < k->width * k->height; i++) {
+        double x = 3.0 * (i % k->width - k->cx) / k->fx + 0.052;
+        double y = 3.0 * (i / k->width - k->cy) / k->fy;
+        double light = 0.5 * (1.0 - directed * rlf_dot(bump_at(x, y), direction));
+        s->color[4 * (size_t)i] = encode(light);
+        s->color[4 * (size_t)i + 1] = encode(0.7 * light);
+        s->color[4 * (size_t)i + 2] = encode(0.5 * light);
+    }
+}
+
+static void shading_tells_where_the_light_is(void **state)
+{
+    (void)state;
+    const rlf_vec3 lights[4] = {
+        {0.3, 0.8, 0.5}, {-0.8, 0.3, 0.5}, {0.1, -0.4, 0.9}, {0.7, 0.6, -0.1}};
+    render_scene *s = scene_make(3.0);
+    rlf_compositor_def def = scene_def(s);
+    def.estimates_light_direction = true;
+    for (int i = 0; i < 4; i++) {
+        rlf_vec3 direction = rlf_normalize(lights[i]);
+        light_direction l;
+        light_bumps(s, direction, 0.6);
+        assert_int_equal(light_direction_create(&def, &l), RLF_OK);
+        light_direction_update(&l, &def, &s->frame, &s->surface);
+        assert_true(l.is_known);
+        assert_true(rlf_dot(l.now, direction) > 0.99); /* 8 degrees */
+        light_direction_destroy(&l);
+        //        assert_true(rlf_dot(l.now, direction) > 0.985); /* 10 degrees */
+    }
+    scene_free(s);
+}
+
+static void given_light_stays_where_nothing_tells(void **state)
+{
+    (void)state;
+    render_scene *s = scene_make(3.0);
+    rlf_compositor_def def = scene_def(s);
+    light_direction l;
+    assert_int_equal(light_direction_create(&def, &l), RLF_OK);
+    light_direction_update(&l, &def, &s->frame, &s->surface);
+    assert_false(l.has_sums); /* not asked for */
+    def.estimates_light_direction = true;
+    assert_int_equal(light_direction_create(&def, &l), RLF_OK);
+    light_direction_update(&l, &def, &s->frame, &s->surface);
+    assert_false(l.is_known); /* a flat wall */
+    light_direction_destroy(&l);
+    light_bumps(s, def.light_direction, 0.0);
+    assert_int_equal(light_direction_create(&def, &l), RLF_OK);
+    light_direction_update(&l, &def, &s->frame, &s->surface);
+    assert_false(l.is_known); /* light from everywhere */
+    assert_true(rlf_dot(l.now, def.light_direction) > 0.999999);
+    light_direction_destroy(&l);
+    s->frame.color.data = NULL;
+    assert_int_equal(light_direction_create(&def, &l), RLF_OK);
+    light_direction_update(&l, &def, &s->frame, &s->surface);
+    assert_false(l.has_sums);
+    light_direction_destroy(&l);
+    scene_free(s);
+}
+
+/* The direction follows a light that moves without a jump. */
+static void direction_changes_slowly(void **state)
+{
+    (void)state;
+    render_scene *s = scene_make(3.0);
+    rlf_compositor_def def = scene_def(s);
+    def.estimates_light_direction = true;
+    light_direction l;
+    rlf_vec3 right = rlf_normalize(rlf_vec3_make(0.7, 0.3, 0.5));
+    light_bumps(s, rlf_normalize(rlf_vec3_make(-0.7, 0.3, 0.5)), 0.6);
+    assert_int_equal(light_direction_create(&def, &l), RLF_OK);
+    light_direction_update(&l, &def, &s->frame, &s->surface);
+    light_bumps(s, right, 0.6);
+    rlf_vec3 last = l.now;
+    for (uint64_t i = 1; i < 120; i++) {
+        s->frame.sequence = i;
+        light_direction_update(&l, &def, &s->frame, &s->surface);
+        assert_true(rlf_dot(l.now, last) > 0.9);
+        last = l.now;
+    }
+    assert_true(rlf_dot(last, right) > 0.95);
+    light_direction_destroy(&l);
+    scene_free(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bodies_are_as_dark_as_the_picture),
         cmocka_unit_test(tint_is_limited_and_change_is_slow),
         cmocka_unit_test(wrong_light_is_refused),
+        cmocka_unit_test(shading_tells_where_the_light_is),
+        cmocka_unit_test(given_light_stays_where_nothing_tells),
+        cmocka_unit_test(direction_changes_slowly),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

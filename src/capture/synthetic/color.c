@@ -46,7 +46,7 @@ static void paint_row(synth_color *color, int32_t y)
             synth_stamp_touch(&canvas->stamps[id], &color->view, x, y, canvas->z[i]);
         synth_site site = {{touch.p[0], touch.p[1], touch.p[2]},
                            {touch.normal[0], touch.normal[1], touch.normal[2]}};
-        rlf_vec3 light = synth_light(&site, 1.0, sky_on_mover(color, &site));
+        rlf_vec3 light = synth_light(color->scene->lamp, &site, 1.0, sky_on_mover(color, &site));
         rlf_vec3 albedo =
             synth_albedo(part, rlf_vec3_make(touch.local[0], touch.local[1], touch.local[2]));
         synth_encode(color->gamma, (float)(light.x * albedo.x), (float)(light.y * albedo.y),

@@ -29,8 +29,8 @@ static lit light_at(const job *j, const synth_site *site)
 {
     double lamp = synth_lamp_share(j->scene, j->static_count, site);
     double sky = synth_sky_share(j->scene, j->static_count, site);
-    lit result = {synth_light(site, lamp, sky), 0.0};
-    result.lamp_share = 1.0 - synth_light(site, 0.0, sky).y / result.light.y;
+    lit result = {synth_light(j->scene->lamp, site, lamp, sky), 0.0};
+    result.lamp_share = 1.0 - synth_light(j->scene->lamp, site, 0.0, sky).y / result.light.y;
     return result;
 }
 

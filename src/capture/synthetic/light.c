@@ -4,14 +4,9 @@
 
 #define LAMP_HALF 0.16 /* metres */
 
-rlf_vec3 synth_lamp(void)
+rlf_vec3 synth_light(rlf_vec3 lamp_at, const synth_site *site, double lamp, double sky)
 {
-    return rlf_vec3_make(-0.70, -1.85, 1.5);
-}
-
-rlf_vec3 synth_light(const synth_site *site, double lamp, double sky)
-{
-    rlf_vec3 to_lamp = rlf_sub(synth_lamp(), site->p);
+    rlf_vec3 to_lamp = rlf_sub(lamp_at, site->p);
     double distance2 = rlf_dot(to_lamp, to_lamp);
     double cosine = rlf_dot(site->normal, to_lamp) / sqrt(distance2);
     double direct = lamp * rlf_max(0.0, cosine) * 10.5 / (4.5 + distance2);
@@ -52,7 +47,7 @@ static int count_blocked(const synth_scene *scene, int32_t count, const synth_si
     for (int i = 0; i < n * n; i++) {
         double x = (2.0 * (i % n) + 1.0) / n - 1.0;
         double z = (2.0 * (i / n) + 1.0) / n - 1.0;
-        rlf_vec3 target = rlf_add(synth_lamp(), rlf_vec3_make(LAMP_HALF * x, 0, LAMP_HALF * z));
+        rlf_vec3 target = rlf_add(scene->lamp, rlf_vec3_make(LAMP_HALF * x, 0, LAMP_HALF * z));
         ray.direction = rlf_sub(target, ray.origin);
         blocked += is_blocked(scene, count, &ray) ? 1 : 0;
     }
@@ -61,7 +56,7 @@ static int count_blocked(const synth_scene *scene, int32_t count, const synth_si
 
 double synth_lamp_share(const synth_scene *scene, int32_t count, const synth_site *site)
 {
-    if (rlf_dot(site->normal, rlf_sub(synth_lamp(), site->p)) <= 0.0) {
+    if (rlf_dot(site->normal, rlf_sub(scene->lamp, site->p)) <= 0.0) {
         return 0.0;
     }
     int coarse = count_blocked(scene, count, site, 2);

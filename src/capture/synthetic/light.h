@@ -9,12 +9,9 @@ typedef struct synth_site {
     rlf_vec3 p, normal;
 } synth_site;
 
-/* Middle of the lamp, camera frame. */
-rlf_vec3 synth_lamp(void);
-
-/* Light that falls on the site: rgb, 1 = white paper looks white. `lamp` is the visible share of
- * the lamp (1 = no shadow) and `sky` that of the room's own light. */
-rlf_vec3 synth_light(const synth_site *site, double lamp, double sky);
+/* Light that falls on the site from a lamp at lamp_at: rgb, 1 = white paper looks white. `lamp` is
+ * the visible share of the lamp (1 = no shadow) and `sky` that of the room's own light. */
+rlf_vec3 synth_light(rlf_vec3 lamp_at, const synth_site *site, double lamp, double sky);
 
 /* Share of the lamp that the static parts leave visible: 0, 1 or between (penumbra). */
 double synth_lamp_share(const synth_scene *scene, int32_t count, const synth_site *site);

@@ -5,7 +5,7 @@
 
 #define PREFIX "synthetic:"
 #define SCENES "room, empty, thesis, chair, book, hand, lift, swipe, carry, crossing"
-#define KEYS "seed, frames, fps, speed, noise, edge_filter, color"
+#define KEYS "seed, frames, fps, speed, lamp, noise, edge_filter, color"
 
 static const char *const scene_names[] = {"room", "empty", "thesis", "chair", "book",
                                           "hand", "lift",  "swipe",  "carry", "crossing"};
@@ -75,6 +75,35 @@ static bool read_decimal(piece p, double *out)
     return is_number;
 }
 
+/* As read_decimal, but it may be negative. */
+static bool read_signed(piece p, double *out)
+{
+    bool is_negative = p.length > 0 && p.text[0] == '-';
+    piece digits = {p.text + (is_negative ? 1 : 0), p.length - (is_negative ? 1 : 0)};
+    bool is_number = read_decimal(digits, out);
+    *out = is_negative ? -*out : *out;
+    return is_number;
+}
+
+/* Three numbers with commas between. */
+static bool read_point(piece p, rlf_vec3 *out)
+{
+    double *parts[3] = {&out->x, &out->y, &out->z};
+    for (int i = 0; i < 3; i++) {
+        const char *comma = i < 2 ? memchr(p.text, ',', p.length) : p.text + p.length;
+        if (comma == NULL) {
+            return false;
+        }
+        piece number = {p.text, (size_t)(comma - p.text)};
+        if (!read_signed(number, parts[i])) {
+            return false;
+        }
+        p.length -= number.length + (i < 2 ? 1 : 0);
+        p.text = i < 2 ? comma + 1 : comma;
+    }
+    return true;
+}
+
 static bool read_size(piece p, rlf_synthetic_def *def)
 {
     if (is_word(p, "0")) {
@@ -128,6 +157,10 @@ static const char *set_value(piece key, piece value, rlf_synthetic_def *def, boo
     if (is_word(key, "speed")) {
         *is_good = read_decimal(value, &def->speed) && def->speed > 0.0 && def->speed <= 10.0;
         return "metres per second above 0, at most 10";
+    }
+    if (is_word(key, "lamp")) {
+        *is_good = read_point(value, &def->lamp) && rlf_length(def->lamp) <= 20.0;
+        return "X,Y,Z in metres, at most 20 away";
     }
     if (is_word(key, "noise")) {
         def->enable_structured_light = is_word(value, "steps");

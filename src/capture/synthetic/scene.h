@@ -44,6 +44,7 @@ typedef struct synth_scene {
     rlf_synthetic_scene kind;
     double floor_y;      /* height of the camera above the floor, metres */
     double speed;        /* of the tray, m/s */
+    rlf_vec3 lamp;       /* middle of the lamp, camera frame */
     double removal_time; /* s; when the last parts of the room are taken away; 0 = never */
     synth_part statics[SYNTH_PART_MAX];
     int32_t static_count;  /* at start */

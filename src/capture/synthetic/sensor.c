@@ -12,6 +12,7 @@
 #define COLOR_SIZE_MAX 4096
 #define FPS_MAX 1000.0
 #define SPEED_MAX 10.0
+#define LAMP_MAX 20.0              /* metres from the camera */
 #define FRAME_COUNT_MAX 4294967295 /* the noise is keyed by a 32-bit frame number */
 
 rlf_synthetic_def rlf_synthetic_def_default(void)
@@ -22,6 +23,7 @@ rlf_synthetic_def rlf_synthetic_def_default(void)
                              .frames_per_second = 30.0,
                              .frame_count = 300,
                              .speed = 0.5,
+                             .lamp = {-0.70, -1.85, 1.5},
                              .enable_noise = true,
                              .enable_edge_filter = true,
                              .enable_color = true,
@@ -51,6 +53,9 @@ static rlf_result check_def(const rlf_synthetic_def *def)
         return rlf_fail(RLF_ERROR_INVALID,
                         "synthetic: speed is %g; use a number above 0, at most %g", def->speed,
                         SPEED_MAX);
+    }
+    if (!rlf_vec3_is_finite(def->lamp) || rlf_length(def->lamp) > LAMP_MAX) {
+        return rlf_fail(RLF_ERROR_INVALID, "synthetic: lamp is not a point within %g m", LAMP_MAX);
     }
     bool is_size = def->color_width >= 1 && def->color_width <= COLOR_SIZE_MAX &&
                    def->color_height >= 1 && def->color_height <= COLOR_SIZE_MAX;
@@ -189,6 +194,7 @@ static rlf_result sensor_create(const rlf_synthetic_def *def, const rlf_rig *rig
     sensor->def = *def;
     synth_scene_build(&sensor->scene, def->scene);
     sensor->scene.speed = def->speed;
+    sensor->scene.lamp = def->lamp;
     sensor->asked = sensor->scene;
     sensor->depth.view.camera = rig->depth;
     sensor->depth.pool = def->pool;

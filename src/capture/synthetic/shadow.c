@@ -9,9 +9,10 @@
 
 /* Shadow of the ball about c: projected from the lamp to the floor; softer and weaker with height.
  */
-static void add_blob(synth_shadow *shadow, rlf_vec3 c, double radius, double floor_y)
+static void add_blob(synth_shadow *shadow, const synth_scene *scene, rlf_vec3 c, double radius)
 {
-    rlf_vec3 lamp = synth_lamp();
+    const rlf_vec3 lamp = scene->lamp;
+    const double floor_y = scene->floor_y;
     rlf_vec3 ray = rlf_sub(c, lamp);
     if (!(ray.y > 0.1) || shadow->blob_count >= SYNTH_BLOB_MAX) {
         return;
@@ -45,11 +46,11 @@ static void add_contact(synth_shadow *shadow, rlf_vec3 c, double radius, double 
         (synth_blob){(float)c.x, (float)c.z, 1.0f, 0.0f, reach, reach, strength};
 }
 
-static void add_part(synth_shadow *shadow, const synth_shape *shape, double floor_y)
+static void add_part(synth_shadow *shadow, const synth_scene *scene, const synth_shape *shape)
 {
     if (shape->type != SYNTH_CONE) {
         double radius = 0.5 * (shape->size.x + rlf_min(shape->size.y, shape->size.z));
-        add_blob(shadow, shape->T_camera_shape.p, radius, floor_y);
+        add_blob(shadow, scene, shape->T_camera_shape.p, radius);
         return;
     }
     for (int i = 0; i < 3; i++) {
@@ -57,8 +58,8 @@ static void add_part(synth_shadow *shadow, const synth_shape *shape, double floo
         rlf_vec3 p =
             rlf_transform(&shape->T_camera_shape, rlf_vec3_make(0, share * shape->length, 0));
         double radius = shape->radius_a + (shape->radius_b - shape->radius_a) * share;
-        add_blob(shadow, p, radius, floor_y);
-        add_contact(shadow, p, radius, floor_y);
+        add_blob(shadow, scene, p, radius);
+        add_contact(shadow, p, radius, scene->floor_y);
     }
 }
 
@@ -87,7 +88,7 @@ void synth_shadow_place(synth_shadow *shadow, const synth_scene *scene, const sy
     shadow->blob_count = 0;
     shadow->rect = (synth_rect){0, 0, 0, 0};
     for (int32_t i = 0; i < scene->mover_count; i++) {
-        add_part(shadow, &scene->movers[i].shape, scene->floor_y);
+        add_part(shadow, scene, &scene->movers[i].shape);
     }
     for (int32_t i = 0; i < shadow->blob_count; i++) {
         widen_rect(&shadow->rect, &shadow->blobs[i], view, scene->floor_y);

@@ -12,6 +12,7 @@
 #include "gl_wireframe.h"
 
 #include "base/cookie.h"
+#include "render/light_direction.h"
 #include "render/real_depth.h"
 #include "render/room_light.h"
 #include "render/silhouette.h"
@@ -23,6 +24,7 @@ typedef struct gl_compositor {
     rlf_compositor *soft;
     real_depth real;
     room_light lamp;
+    light_direction direction;
     silhouette silhouette; /* RLF_OCCLUSION_SOFT only */
     caster *casters;       /* as the snapshot's bodies */
     int32_t caster_capacity;
@@ -65,6 +67,7 @@ static void destroy_gl(gl_compositor *c)
 static void free_planes(gl_compositor *c)
 {
     real_depth_destroy(&c->real);
+    light_direction_destroy(&c->direction);
     silhouette_destroy(&c->silhouette);
     rlf_compositor_destroy(&c->soft);
     rlf_free(c->casters);
@@ -106,7 +109,8 @@ static rlf_result create_planes(gl_compositor *c)
         }
         c->silhouette.fills_all = true;
     }
-    return real_depth_create(&c->def, &picture, &c->real);
+    rlf_result result = light_direction_create(&c->def, &c->direction);
+    return result == RLF_OK ? real_depth_create(&c->def, &picture, &c->real) : result;
 }
 
 static rlf_result check_errors(void)
@@ -172,7 +176,6 @@ static rlf_result prepare(const rlf_compositor_def *def, gl_compositor **out)
         return RLF_ERROR_MEMORY;
     }
     c->def = *def;
-    c->def.light_direction = rlf_normalize(def->light_direction);
     c->soft = inner;
     result = create_planes(c);
     if (result != RLF_OK) {
@@ -328,7 +331,7 @@ static rlf_result draw_backdrop(gl_compositor *c, const rlf_render_input *input)
         update_silhouette(c, input);
     }
     if (has_bodies(input) && has_shadows(c)) {
-        rlf_vec3 light = rlf_rotate(c->view.T_picture_camera.q, c->def.light_direction);
+        rlf_vec3 light = rlf_rotate(c->view.T_picture_camera.q, c->direction.now);
         gl_backdrop_shadows shadows = {&c->view, &c->depth_texture, rlf_neg(light), NULL,
                                        input->snapshot->body_count};
         result = place_casters(c, input->snapshot, shadows.to_light);
@@ -357,7 +360,7 @@ static void draw_bodies(gl_compositor *c, const rlf_snapshot *snapshot)
                               &c->def.rig.noise};
     gl_bodies_pass pass = {&c->view,
                            c->lamp.color,
-                           c->def.light_direction,
+                           c->direction.now,
                            &c->backdrop.texture,
                            occlusion == RLF_OCCLUSION_DEPTH ? &c->depth_texture : NULL,
                            occlusion == RLF_OCCLUSION_SOFT ? &soft_real : NULL,
@@ -423,6 +426,7 @@ static rlf_result draw(gl_compositor *c, const rlf_render_input *input)
     rlf_result result = RLF_OK;
     gl_view_place(&c->view, &input->T_world_camera);
     room_light_update(&c->lamp, &c->def, input->frame);
+    light_direction_update(&c->direction, &c->def, input->frame, input->surface);
     reset_state();
     result = draw_backdrop(c, input);
     if (result != RLF_OK) {
@@ -481,5 +485,7 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
     }
     out->image = c->image;
     out->matte = c->matte;
+    out->light_direction = c->direction.now;
+    out->is_light_estimated = c->direction.is_known;
     return RLF_OK;
 }

@@ -13,6 +13,7 @@ static void destroy(void *self)
 {
     soft *s = self;
     real_depth_destroy(&s->real);
+    light_direction_destroy(&s->direction);
     silhouette_destroy(&s->silhouette);
     for (int32_t i = 0; s->workers != NULL && i < s->worker_count; i++) {
         soft_group *group = &s->workers[i];
@@ -240,6 +241,8 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
                         (int)s->def.grid.width, (int)s->def.grid.height);
     }
     room_light_update(&s->lamp, &s->def, input->frame);
+    light_direction_update(&s->direction, &s->def, input->frame, input->surface);
+    soft_set_viewpoint(s, &s->camera, &s->T_picture_depth);
     rlf_result result = RLF_OK;
     if (input->view == RLF_VIEW_CAMERA) {
         result = draw_camera(s, input);
@@ -266,6 +269,8 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
     }
     out->image = s->image;
     out->matte = s->matte;
+    out->light_direction = s->direction.now;
+    out->is_light_estimated = s->direction.is_known;
     return RLF_OK;
 }
 
@@ -306,7 +311,7 @@ void soft_set_viewpoint(soft *s, const rlf_camera *camera, const rlf_pose *T_pic
 {
     s->camera = *camera;
     s->T_picture_depth = *T_picture_depth;
-    s->to_light = rlf_neg(rlf_rotate(T_picture_depth->q, s->def.light_direction));
+    s->to_light = rlf_neg(rlf_rotate(T_picture_depth->q, s->direction.now));
     s->light[0] = (float)s->to_light.x;
     s->light[1] = (float)s->to_light.y;
     s->light[2] = (float)s->to_light.z;
@@ -319,13 +324,16 @@ void soft_set_viewpoint(soft *s, const rlf_camera *camera, const rlf_pose *T_pic
 
 static rlf_result prepare(soft *s)
 {
-    s->def.light_direction = rlf_normalize(s->def.light_direction);
+    rlf_result result = light_direction_create(&s->def, &s->direction);
+    if (result != RLF_OK) {
+        return result;
+    }
     const rlf_camera camera = real_depth_picture_camera(&s->def);
     const rlf_pose T_picture_depth = real_depth_picture_pose(&s->def);
     soft_set_viewpoint(s, &camera, &T_picture_depth);
     shape_mesh_set_build(&s->meshes);
     shape_mesh_set_build_coarse(&s->coarse_meshes);
-    rlf_result result = make_textures(s);
+    result = make_textures(s);
     if (result == RLF_OK) {
         result = allocate(s);
     }

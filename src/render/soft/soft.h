@@ -13,6 +13,7 @@
 #include "kernel/kernel.h"
 #include "render/body_texture.h"
 #include "render/caster.h"
+#include "render/light_direction.h"
 #include "render/room_light.h"
 #include "render/real_depth.h"
 #include "render/real_shade.h"
@@ -169,6 +170,7 @@ typedef struct soft {
     soft_shade_tile **shade_tiles; /* a band's, per worker */
     int32_t worker_count;
     room_light lamp;
+    light_direction direction;
     rlf_vec3 to_light; /* unit, picture camera frame */
     float light[3];    /* the same */
     int32_t shade_px;  /* pixels from one sample of shadows to the next where depth is smooth */
