@@ -16,3 +16,17 @@ void rlf_kernel_body_mean_row(const float *const depth[3], const float *const va
         out[x] = sum / members;
     }
 }
+
+RLF_KERNEL void rlf_kernel_thickness_row(const rlf_kernel_thickness *limits,
+                                         const float *restrict depth, const float *restrict behind,
+                                         int32_t count, float *restrict thickness)
+{
+    float least = limits->least, most = limits->most;
+    for (int32_t i = 0; i < count; i++) {
+        float t = thickness[i] < least ? least : thickness[i];
+        t = t < most ? t : most;
+        float room = behind[i] > depth[i] ? behind[i] - depth[i] : 0.0f;
+        float limited = t > room ? room : t;
+        thickness[i] = behind[i] > 0.0f ? limited : t;
+    }
+}

@@ -1,4 +1,4 @@
-/* Sums over the front of a chord: see surface/thickness_conic.c. */
+/* Sums over the front of a chord, and its solid: see surface/thickness_conic.c. */
 #include "kernel/kernel.h"
 
 #include <math.h>
@@ -86,4 +86,25 @@ RLF_KERNEL void rlf_kernel_chord_sum(const rlf_kernel_chord *chord,
         t.yy += all.yy[i];
     }
     *sums = t;
+}
+
+RLF_KERNEL void rlf_kernel_chord_solid_run(const rlf_kernel_chord *chord,
+                                           const rlf_kernel_chord_solid *solid, int32_t first,
+                                           int32_t count, float *restrict weight,
+                                           float *restrict middle, float *restrict half)
+{
+    const rlf_kernel_chord c = *chord;
+    const rlf_kernel_chord_solid s = *solid;
+    float both = s.share * s.half;
+    for (int32_t i = 0; i < count; i++) {
+        float k = (float)(first + i);
+        float inverse = 1.0f / sqrtf((k - c.begin) * (c.end - k));
+        float w = s.share * inverse * inverse;
+        weight[i] = w;
+        middle[i] = w * (s.middle + s.slope * k);
+        half[i] = both * inverse;
+    }
+    for (int32_t i = 0; c.is_wedge && i < count; i++) { /* its back is the front turned about */
+        half[i] = weight[i] * s.half * wedge_profile(c, c.begin + c.end - (float)(first + i));
+    }
 }

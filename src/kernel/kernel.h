@@ -416,8 +416,30 @@ void rlf_kernel_chord_sum(const rlf_kernel_chord *chord, const rlf_kernel_chord_
                           const float *restrict seen, int32_t first, int32_t count,
                           rlf_kernel_chord_sums *restrict sums);
 
+/* What a chord's shape says of a pixel's solid: middle + slope k +- half profile(k) in inverse
+ * depth, with weights share / (l r), l and r being the steps to its ends. */
+typedef struct rlf_kernel_chord_solid {
+    float share, middle, slope, half;
+} rlf_kernel_chord_solid;
+
+/* Weights of the pixels first .. first + count - 1, at most RLF_CHORD_RUN of them, and weighted
+ * middles and halves. */
+void rlf_kernel_chord_solid_run(const rlf_kernel_chord *chord, const rlf_kernel_chord_solid *solid,
+                                int32_t first, int32_t count, float *restrict weight,
+                                float *restrict middle, float *restrict half);
+
 /* ---- body_mean_row.c ---------------------------------------------------------------------------
  */
+
+/* Least and most, metres. */
+typedef struct rlf_kernel_thickness {
+    float least, most;
+} rlf_kernel_thickness;
+
+/* Keeps thickness within its limits, and before the background `behind`, 0 = unknown. */
+void rlf_kernel_thickness_row(const rlf_kernel_thickness *limits, const float *restrict depth,
+                              const float *restrict behind, int32_t count,
+                              float *restrict thickness);
 
 /* 3x3 mean of a value over the pixels whose depth is within `jump` of the centre's. rows[0..2] are
  * the rows above, at and below; out[1 .. count - 2] are written. */

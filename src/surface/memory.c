@@ -93,9 +93,10 @@ static void take_work(rlf_reconstruct *stage)
 {
     rlf_work *work = &stage->work;
     size_t n = (size_t)stage->grid.count;
+    size_t padded = n + (size_t)stage->grid.height * RLF_CHORD_PAD;
     for (int k = 0; k < 2; k++) {
-        work->depth[k] = take(stage, n, sizeof(float));
-        work->sum[k] = take(stage, n, sizeof(float));
+        work->depth[k] = take(stage, padded, sizeof(float));
+        work->sum[k] = take(stage, padded, sizeof(float));
         work->mask[k] = take(stage, n, 1);
         work->vote[k] = take(stage, n + 1, sizeof(int32_t));
     }
@@ -104,7 +105,7 @@ static void take_work(rlf_reconstruct *stage)
     }
     work->color = take(stage, n, sizeof(uint32_t));
     work->links = take(stage, n, 1);
-    work->component = take(stage, n, sizeof(int32_t));
+    work->component = take(stage, padded, sizeof(int32_t));
     work->front = take(stage, (size_t)stage->grid.height, sizeof(rlf_span));
     work->runs.run = take(stage, n, sizeof(rlf_run));
     work->runs.first = take(stage, (size_t)stage->grid.height + 1, sizeof(int32_t));
@@ -126,7 +127,9 @@ static void take_work(rlf_reconstruct *stage)
     if (stage->def.enable_thickness) {
         size_t lines = (size_t)(stage->grid.width + stage->grid.height);
         work->blocks = take(stage, (size_t)stage->def.region_capacity, sizeof(rlf_block));
-        work->solid = take(stage, n, sizeof(rlf_solid));
+        for (int k = 0; k < 6; k++) {
+            work->solid[k] = take(stage, padded, sizeof(float));
+        }
         work->chords = take(stage, lines * RLF_CHORDS_PER_LINE, sizeof(rlf_chord));
     }
 }

@@ -129,7 +129,7 @@ typedef struct rlf_family {
 
 /* Memory that is free between steps. */
 typedef struct rlf_work {
-    float *depth[2];    /* planes */
+    float *depth[2];    /* planes; these, sum and component have room for RLF_CHORD_PAD */
     float *sum[2];      /* planes: velocity sums, thickness */
     uint8_t *mask[2];   /* planes */
     uint32_t *color;    /* plane: of the frame, see segment_color.c */
@@ -151,7 +151,7 @@ typedef struct rlf_work {
     float *crop[6];                     /* of background_sheet.c */
     struct rlf_cell *cells;             /* of velocity_cells.c */
     struct rlf_block *blocks;           /* region_capacity */
-    struct rlf_solid *solid;            /* plane */
+    float *solid[6];                    /* padded planes: own and hidden, see thickness.h */
     struct rlf_chord *chords;           /* of the lines in one direction */
 } rlf_work;
 

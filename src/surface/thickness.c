@@ -20,17 +20,21 @@ static void prepare_rows(void *context, int32_t begin, int32_t end, int32_t work
     (void)worker;
     const rlf_chord_job *job = context;
     const rlf_reconstruct *stage = job->stage;
+    const rlf_slot *slot = job->slot;
     bool kept = stage->def.enable_fill || stage->def.enable_smoothing;
-    const float *raw = kept ? stage->work.depth[1] : job->slot->depth;
-    float *front = stage->work.depth[0], *inverse = stage->work.sum[0];
+    const float *raw = kept ? stage->work.depth[1] : slot->depth;
     for (int32_t y = job->y0 + begin; y < job->y0 + end; y++) {
-        ptrdiff_t row = (ptrdiff_t)y * stage->grid.width;
-        for (ptrdiff_t i = row + job->x0; i < row + job->x0 + job->width; i++) {
-            bool member = job->slot->foreground[i] && job->slot->label[i] > 0;
-            front[i] = member ? job->slot->depth[i] : 0.0f;
-            inverse[i] = member && raw[i] > 0.0f ? 1.0f / raw[i] : 0.0f;
+        ptrdiff_t from = (ptrdiff_t)y * stage->grid.width + job->x0, to = y * job->pitch + job->x0;
+        for (int32_t x = 0; x < job->width; x++) {
+            ptrdiff_t i = from + x;
+            bool member = slot->foreground[i] && slot->label[i] > 0;
+            job->front[to + x] = member ? slot->depth[i] : 0.0f;
+            job->inverse[to + x] = member && raw[i] > 0.0f ? 1.0f / raw[i] : 0.0f;
+            job->label[to + x] = slot->label[i];
         }
-        memset(&job->solid[row + job->x0], 0, (size_t)job->width * sizeof *job->solid);
+        for (int k = 0; k < 6; k++) {
+            memset(stage->work.solid[k] + to, 0, (size_t)job->width * sizeof(float));
+        }
     }
 }
 
@@ -60,16 +64,16 @@ static void paint_lines(void *context, int32_t begin, int32_t end, int32_t worke
 /* Depth of the back at pixel i. */
 static float back_of(const rlf_chord_job *job, ptrdiff_t i)
 {
-    const rlf_solid *s = &job->solid[i];
+    const rlf_solid *own = &job->own, *behind = &job->hidden;
     float back = job->front[i];
-    if (s->weight > 0.0f) {
-        float w = (s->middle - s->half) / s->weight;
-        float own = 1.0f / (w > farthest_w ? w : farthest_w);
-        back = own > back ? own : back;
+    if (own->weight[i] > 0.0f) {
+        float w = (own->middle[i] - own->half[i]) / own->weight[i];
+        float seen = 1.0f / (w > farthest_w ? w : farthest_w);
+        back = seen > back ? seen : back;
     }
-    if (s->hidden_weight > 0.0f) {
-        float middle = s->hidden_middle / s->hidden_weight,
-              half = s->hidden_half / s->hidden_weight;
+    if (behind->weight[i] > 0.0f) {
+        float middle = behind->middle[i] / behind->weight[i];
+        float half = behind->half[i] / behind->weight[i];
         float w = middle - half;
         float hidden = 1.0f / (w > farthest_w ? w : farthest_w);
         bool touching = back * (middle + half) > 1.0f;
@@ -82,68 +86,60 @@ static void resolve_rows(void *context, int32_t begin, int32_t end, int32_t work
 {
     (void)worker;
     const rlf_chord_job *job = context;
-    float *thickness = job->stage->work.sum[1];
     for (int32_t y = job->y0 + begin; y < job->y0 + end; y++) {
-        ptrdiff_t row = (ptrdiff_t)y * job->stage->grid.width;
-        for (ptrdiff_t i = row + job->x0; i < row + job->x0 + job->width; i++) {
-            thickness[i] = job->front[i] > 0.0f ? back_of(job, i) - job->front[i] : 0.0f;
+        ptrdiff_t from = y * job->pitch + job->x0;
+        float *thickness = job->stage->work.sum[1] + from;
+        for (int32_t x = 0; x < job->width; x++) {
+            float front = job->front[from + x];
+            thickness[x] = front > 0.0f ? back_of(job, from + x) - front : 0.0f;
         }
     }
 }
 
-static bool is_plate(const rlf_chord_job *job, int32_t label)
+static bool is_plate(const rlf_chord_job *job, const rlf_region *region)
 {
-    const rlf_slot *slot = job->slot;
-    for (int32_t r = 0; r < slot->foreground_region_count; r++) {
-        const rlf_region *region = &slot->regions[slot->foreground_region_first + r];
-        if (region->label == label) {
-            double sigma = rlf_depth_noise_sigma(&job->stage->def.rig.noise, region->centroid.z);
-            return region->plane_residual >= 0.0 && region->plane_residual <= 2.0 * sigma;
-        }
-    }
-    return false;
+    double sigma = rlf_depth_noise_sigma(&job->stage->def.rig.noise, region->centroid.z);
+    return region->plane_residual >= 0.0 && region->plane_residual <= 2.0 * sigma;
 }
 
 /* Chords side by side disagree a little: the mean over the pixels around is better. The block has a
  * pixel around its regions but at the image's border. */
 static void smooth_row(const rlf_chord_job *job, int32_t y)
 {
-    ptrdiff_t width = job->stage->grid.width, first = y * width + job->x0;
+    ptrdiff_t pitch = job->pitch, first = y * pitch + job->x0;
     const float *raw = job->stage->work.sum[1] + first, *front = job->front + first;
-    float *out = job->slot->thickness + first;
+    float *out = job->slot->thickness + (ptrdiff_t)y * job->stage->grid.width + job->x0;
     memcpy(out, raw, (size_t)job->width * sizeof *out);
     if (y > job->y0 && y + 1 < job->y0 + job->height) {
-        const float *const depths[3] = {front - width, front, front + width};
-        const float *const values[3] = {raw - width, raw, raw + width};
+        const float *const depths[3] = {front - pitch, front, front + pitch};
+        const float *const values[3] = {raw - pitch, raw, raw + pitch};
         rlf_kernel_body_mean_row(depths, values, job->width, body_jump_m, out);
     }
 }
 
 /* Between a plate's thickness and the room behind. */
+static void limit_run(const rlf_chord_job *job, const rlf_run *run, int32_t y)
+{
+    const rlf_slot *slot = job->slot;
+    const rlf_region *region = &slot->regions[slot->foreground_region_first + run->component - 1];
+    ptrdiff_t first = (ptrdiff_t)y * job->stage->grid.width + run->x0;
+    const rlf_kernel_thickness limits = {plate_m, is_plate(job, region) ? plate_m : thickest_m};
+    rlf_kernel_thickness_row(&limits, slot->depth + first, job->stage->background.mean + first,
+                             run->x1 - run->x0, slot->thickness + first);
+}
+
 static void write_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
     const rlf_chord_job *job = context;
-    const rlf_slot *slot = job->slot;
-    int32_t label = 0;
-    bool plate = false;
+    const rlf_runs *runs = &job->stage->work.runs;
     for (int32_t y = job->y0 + begin; y < job->y0 + end; y++) {
         smooth_row(job, y);
-        ptrdiff_t row = (ptrdiff_t)y * job->stage->grid.width;
-        for (ptrdiff_t i = row + job->x0; i < row + job->x0 + job->width; i++) {
-            if (job->front[i] <= 0.0f) {
-                slot->thickness[i] = 0.0f;
-                continue;
+        for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
+            const rlf_run *run = &runs->run[r];
+            if (run->component > 0 && run->x0 >= job->x0 && run->x0 < job->x0 + job->width) {
+                limit_run(job, run, y);
             }
-            if (slot->label[i] != label) {
-                label = slot->label[i];
-                plate = is_plate(job, label);
-            }
-            float thickness = plate || slot->thickness[i] < plate_m ? plate_m : slot->thickness[i];
-            thickness = thickness < thickest_m ? thickness : thickest_m;
-            float behind = job->stage->background.mean[i];
-            float room = behind > slot->depth[i] ? behind - slot->depth[i] : 0.0f;
-            slot->thickness[i] = behind > 0.0f && thickness > room ? room : thickness;
         }
     }
 }
@@ -197,11 +193,15 @@ static int32_t find_blocks(const rlf_reconstruct *stage, const rlf_slot *slot, r
 void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot)
 {
     memset(slot->thickness, 0, (size_t)stage->grid.count * sizeof *slot->thickness);
+    float *const *solid = stage->work.solid;
     rlf_chord_job job = {.stage = stage,
                          .slot = slot,
+                         .pitch = (ptrdiff_t)stage->grid.width + RLF_CHORD_PAD,
                          .front = stage->work.depth[0],
                          .inverse = stage->work.sum[0],
-                         .solid = stage->work.solid,
+                         .label = stage->work.component,
+                         .own = {solid[0], solid[1], solid[2]},
+                         .hidden = {solid[3], solid[4], solid[5]},
                          .chords = stage->work.chords,
                          .counts = stage->work.size,
                          .noise = rlf_kernel_noise_make(&stage->def.rig.noise)};

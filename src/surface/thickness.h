@@ -52,10 +52,14 @@ typedef struct rlf_conic {
     float variance; /* of what is left of y, m^2 */
 } rlf_conic;
 
-/* What the chords through a pixel say, weighted: its own body, and one that it hides. */
+/* Rows of the planes below are this much longer than the grid's: pixels below each other, a power
+ * of two apart, would push each other out of the cache. */
+enum { RLF_CHORD_PAD = 16 };
+
+/* Planes of sums over the chords through each pixel: weights, weighted middles and half thicknesses
+ * in inverse depth. */
 typedef struct rlf_solid {
-    float weight, middle, half; /* sums; middle and half thickness in inverse depth */
-    float hidden_weight, hidden_middle, hidden_half;
+    float *weight, *middle, *half;
 } rlf_solid;
 
 /* Pixels x0 <= x < x1, y0 <= y < y1. */
@@ -66,11 +70,13 @@ typedef struct rlf_block {
 typedef struct rlf_chord_job {
     const rlf_reconstruct *stage;
     const rlf_slot *slot;
-    const float *front;   /* depth of the foreground's pixels, 0 elsewhere */
-    const float *inverse; /* 1 / depth as the sensor gave it, 0 = none */
-    rlf_solid *solid;
-    rlf_chord *chords; /* RLF_CHORDS_PER_LINE per line */
-    int32_t *counts;   /* chords of each line */
+    ptrdiff_t pitch;       /* of the planes: the grid's width and RLF_CHORD_PAD */
+    float *front;          /* depth of the foreground's pixels, 0 elsewhere */
+    float *inverse;        /* 1 / depth as the sensor gave it, 0 = none */
+    int32_t *label;        /* of the foreground's pixels */
+    rlf_solid own, hidden; /* the pixel's own body, and one that it hides */
+    rlf_chord *chords;     /* RLF_CHORDS_PER_LINE per line */
+    int32_t *counts;       /* chords of each line */
     rlf_kernel_noise noise;
     int32_t x0, y0, width, height; /* the block of pixels */
     int32_t dx, dy;                /* step of the lines; dx >= 0 */
@@ -95,18 +101,6 @@ int32_t rlf_chords_cut(const rlf_chord_job *job, const rlf_line *line, rlf_chord
 /* ---- thickness_axis.c ---- */
 /* Tells each chord where the rows above and below have the middle of its body. */
 void rlf_chords_align(const rlf_chord_job *job, int32_t row_count);
-
-/* Half the thickness at k of a chord's solid whose ratio is 1, in steps. A conic: the power of the
- * point; a wedge: two lines from the ends to its edge. */
-static inline float rlf_chord_profile(const rlf_chord *c, float k)
-{
-    float l = k - c->begin, r = c->end - k;
-    if (c->apex < c->begin) {
-        return sqrtf(l * r);
-    }
-    float slope = k < c->apex ? l / (c->apex - c->begin) : r / (c->end - c->apex);
-    return 0.5f * slope * (c->end - c->begin);
-}
 
 /* ---- thickness_conic.c ---- */
 /* Fills the sums of a chord whose ends and parts are known; false when it shows nothing. */

@@ -63,9 +63,9 @@ static rlf_kernel_chord_sums sum_samples(const rlf_chord_job *job, const rlf_lin
 bool rlf_chord_measure(const rlf_chord_job *job, const rlf_line *line, rlf_chord *c)
 {
     int32_t middle = (c->part[0].begin + c->part[0].end) / 2;
-    ptrdiff_t reference = line->base + middle * line->stride;
-    float z = job->front[reference];
-    expect_ball(job, line, reference, c);
+    float z = job->front[line->base + middle * line->stride];
+    int32_t x = line->x + middle * line->dx, y = line->y + middle * line->dy;
+    expect_ball(job, line, (ptrdiff_t)y * job->stage->grid.width + x, c);
     c->inverse = 1.0f / z;
     c->metres = z * line->angle;
     c->beside = (rlf_chord_middle){0.0f, 0.0f};
@@ -221,34 +221,52 @@ static float trust(const rlf_conic *f)
     return (bent * bent + straight_trust) / (rest * rest);
 }
 
+/* A chord whose solid is being painted. */
+typedef struct painting {
+    const rlf_chord_job *job;
+    const rlf_line *line;
+    rlf_kernel_chord chord;
+    rlf_kernel_chord_solid solid;
+} painting;
+
+/* Adds to the pixels begin <= k < end; of what it hides, to those of the foreground. */
+static void paint_run(const painting *p, const rlf_solid *to, bool is_hidden, int32_t begin,
+                      int32_t end)
+{
+    ptrdiff_t stride = p->line->stride;
+    for (int32_t first = begin; first < end; first += RLF_CHORD_RUN) {
+        float weight[RLF_CHORD_RUN], middle[RLF_CHORD_RUN], half[RLF_CHORD_RUN];
+        int32_t count = end - first < RLF_CHORD_RUN ? end - first : RLF_CHORD_RUN;
+        rlf_kernel_chord_solid_run(&p->chord, &p->solid, first, count, weight, middle, half);
+        ptrdiff_t i = p->line->base + first * stride;
+        for (int32_t k = 0; k < count; k++, i += stride) {
+            if (!is_hidden || p->job->front[i] > 0.0f) {
+                to->weight[i] += weight[k];
+                to->middle[i] += middle[k];
+                to->half[i] += half[k];
+            }
+        }
+    }
+}
+
 /* Short chords know best: weights are 1 / (l r). */
 void rlf_chord_paint(const rlf_chord_job *job, const rlf_line *line, const rlf_chord *c)
 {
     rlf_conic f = rlf_chord_solve(c, &c->pooled);
-    float share = trust(&f) / (c->metres * c->metres);
     float w2 = c->inverse * c->inverse;
-    float slope = -w2 * f.slope * c->metres, half = w2 * f.ratio * c->metres;
-    float middle = c->inverse - w2 * f.middle - slope * 0.5f * (c->begin + c->end);
-    bool is_wedge = c->apex >= c->begin;
-    int32_t part = 0;
-    for (int32_t k = c->part[0].begin; k < c->part[c->part_count - 1].end; k++) {
-        ptrdiff_t i = line->base + k * line->stride;
-        part += k >= c->part[part].end ? 1 : 0;
-        float inverse = 1.0f / sqrtf(((float)k - c->begin) * (c->end - (float)k));
-        float weight = share * inverse * inverse;
-        float m = weight * (middle + slope * (float)k), h = share * half * inverse;
-        if (is_wedge) {
-            h = weight * half * rlf_chord_profile(c, c->begin + c->end - (float)k);
-        }
-        rlf_solid *to = &job->solid[i];
-        if (k >= c->part[part].begin) {
-            to->weight += weight;
-            to->middle += m;
-            to->half += h;
-        } else if (job->front[i] > 0.0f) {
-            to->hidden_weight += weight;
-            to->hidden_middle += m;
-            to->hidden_half += h;
+    float slope = -w2 * f.slope * c->metres;
+    const painting p = {
+        .job = job,
+        .line = line,
+        .chord = {c->begin, c->end, c->apex, c->apex >= c->begin},
+        .solid = {.share = trust(&f) / (c->metres * c->metres),
+                  .middle = c->inverse - w2 * f.middle - slope * 0.5f * (c->begin + c->end),
+                  .slope = slope,
+                  .half = w2 * f.ratio * c->metres}};
+    for (int32_t i = 0; i < c->part_count; i++) {
+        paint_run(&p, &job->own, false, c->part[i].begin, c->part[i].end);
+        if (i + 1 < c->part_count) {
+            paint_run(&p, &job->hidden, true, c->part[i].end, c->part[i + 1].begin);
         }
     }
 }

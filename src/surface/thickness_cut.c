@@ -88,8 +88,8 @@ rlf_line rlf_line_at(const rlf_chord_job *job, int32_t index)
     float ax = (float)job->dx / (float)grid->camera.fx,
           ay = (float)job->dy / (float)grid->camera.fy;
     rlf_line line = {.x = job->x0 + x, .y = job->y0 + y, .dx = job->dx, .dy = job->dy};
-    line.base = (ptrdiff_t)line.y * grid->width + line.x;
-    line.stride = (ptrdiff_t)job->dy * grid->width + job->dx;
+    line.base = line.y * job->pitch + line.x;
+    line.stride = job->dy * job->pitch + job->dx;
     line.count = count;
     line.angle = sqrtf(ax * ax + ay * ay);
     return line;
@@ -318,12 +318,12 @@ static int32_t finish(pieces *p, rlf_chord *out, int32_t out_count)
 static int32_t piece_end_from(const rlf_chord_job *job, const rlf_line *line, int32_t k)
 {
     ptrdiff_t i = pixel(line, k);
-    int32_t label = job->slot->label[i];
+    int32_t label = job->label[i];
     float z = job->front[i];
     for (k++; k < line->count; k++) {
         i += line->stride;
         float next = job->front[i];
-        if (rlf_kernel_abs(next - z) > body_jump_m || job->slot->label[i] != label) {
+        if (rlf_kernel_abs(next - z) > body_jump_m || job->label[i] != label) {
             break;
         }
         z = next;
@@ -354,7 +354,7 @@ int32_t rlf_chords_cut(const rlf_chord_job *job, const rlf_line *line, rlf_chord
         }
         piece *s = &p.item[p.count++];
         s->linked = s->measured = false;
-        s->label = job->slot->label[pixel(line, k)];
+        s->label = job->label[pixel(line, k)];
         s->begin = k;
         s->end = k = piece_end_from(job, line, k);
         look_beside(&p, s, 0);

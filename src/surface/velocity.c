@@ -39,8 +39,7 @@ static void clear_velocity(const rlf_grid *grid, rlf_slot *slot)
 
 rlf_vec3 rlf_twist_velocity(const rlf_twist *t, rlf_vec3 p)
 {
-    rlf_vec3 w = rlf_scale(rlf_vec3_make(t->x[3], t->x[4], t->x[5]), 1.0 / t->length);
-    return rlf_add(rlf_vec3_make(t->x[0], t->x[1], t->x[2]), rlf_cross(w, rlf_sub(p, t->centre)));
+    return rlf_twist_at(t, rlf_twist_spin(t), p);
 }
 
 /* Speed along the normal beyond v, from where v says that the point was; false when the region was

@@ -28,6 +28,18 @@ typedef struct rlf_twist {
 
 rlf_vec3 rlf_twist_velocity(const rlf_twist *t, rlf_vec3 p);
 
+/* Angular velocity, and with it the velocity at p. */
+static inline rlf_vec3 rlf_twist_spin(const rlf_twist *t)
+{
+    return rlf_scale(rlf_vec3_make(t->x[3], t->x[4], t->x[5]), 1.0 / t->length);
+}
+
+static inline rlf_vec3 rlf_twist_at(const rlf_twist *t, rlf_vec3 spin, rlf_vec3 p)
+{
+    return rlf_add(rlf_vec3_make(t->x[0], t->x[1], t->x[2]),
+                   rlf_cross(spin, rlf_sub(p, t->centre)));
+}
+
 /* A square of the image in one region: see velocity_cells.c. */
 typedef struct rlf_cell {
     float velocity[3];
@@ -35,10 +47,28 @@ typedef struct rlf_cell {
     int32_t state;
 } rlf_cell;
 
+/* What is known of a cell: nothing of the region, nothing that fits, it rests, it moves with the
+ * region, it moves by itself. */
+enum { RLF_CELL_EMPTY = 0, RLF_CELL_UNKNOWN, RLF_CELL_STILL, RLF_CELL_WHOLE, RLF_CELL_MOVES };
+
+/* The cells of one region. */
+typedef struct rlf_cell_grid {
+    const rlf_flow *job;
+    const rlf_region *region;
+    const rlf_twist *twist;
+    bool moves; /* the twist is not 0 */
+    rlf_cell *cells;
+    int32_t size, columns, rows;
+    int32_t number; /* of the region, in the runs */
+} rlf_cell_grid;
+
 size_t rlf_cell_capacity(const rlf_grid *grid);
 /* Velocity of a region's pixels; `twist` is its motion as a whole, 0 unless it `moves`. */
 void rlf_velocity_cells(const rlf_flow *job, const rlf_region *region, const rlf_twist *twist,
                         bool moves);
+
+/* velocity_write.c: writes the velocity of the region's pixels. */
+void rlf_cells_write(rlf_cell_grid *g);
 
 /* A pixel at a region's outline before a background that is farther: see velocity_outline.c. */
 typedef struct rlf_rim {

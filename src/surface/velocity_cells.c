@@ -3,8 +3,7 @@
  * The region is cut into square cells of a limb's width. Each has one velocity: several guesses
  * (the region's motion, the frame before's, the neighbour's, none) are tried against the frame
  * before, and the best is improved by Gauss and Newton. A guess matters because a limb that crosses
- * the picture moves by as much as its own width from frame to frame. Pixels take the mean of the
- * cells around them, weighted by nearness, of those with the same limb. */
+ * the picture moves by as much as its own width from frame to frame. */
 #include "surface/velocity.h"
 
 #include <math.h>
@@ -18,25 +17,11 @@ enum {
     GUESSES = 9
 };
 
-/* What is known of a cell: nothing of the region, nothing that fits, it rests, it moves with the
- * region, it moves by itself. */
-enum { CELL_EMPTY = 0, CELL_UNKNOWN, CELL_STILL, CELL_WHOLE, CELL_MOVES };
-
 static const float cell_m = 0.09f;  /* of a limb */
 static const float reach_m = 0.01f; /* beyond the noise: from here on a residual is all wrong */
 /* Squared sum of 3 normal variables that chance exceeds once in 400 times. */
 static const float significant_3 = 14.2f;
 static const float prior_share = 0.01f; /* ridge, of the mean diagonal */
-
-/* The cells of one region. */
-typedef struct cell_grid {
-    const rlf_flow *job;
-    const rlf_region *region;
-    const rlf_twist *twist;
-    bool moves; /* the twist is not 0 */
-    rlf_cell *cells;
-    int32_t size, columns, rows;
-} cell_grid;
 
 typedef struct sample {
     ptrdiff_t i;
@@ -61,7 +46,7 @@ size_t rlf_cell_capacity(const rlf_grid *grid)
     return ((size_t)grid->width / LEAST_SIZE + 1) * ((size_t)grid->height / LEAST_SIZE + 1);
 }
 
-static float depth_of(const cell_grid *g, int32_t x, int32_t y)
+static float depth_of(const rlf_cell_grid *g, int32_t x, int32_t y)
 {
     ptrdiff_t i = (ptrdiff_t)y * g->job->stage->grid.width + x;
     bool own = g->job->now->label[i] == g->region->label;
@@ -69,7 +54,7 @@ static float depth_of(const cell_grid *g, int32_t x, int32_t y)
 }
 
 /* Median of what a few pixels of the cell show: the limb that fills most of it. */
-static float limb_depth(const cell_grid *g, int32_t x0, int32_t y0, int32_t x1, int32_t y1)
+static float limb_depth(const rlf_cell_grid *g, int32_t x0, int32_t y0, int32_t x1, int32_t y1)
 {
     enum { SIDE = 4 };
     float found[SIDE * SIDE];
@@ -90,7 +75,7 @@ static float limb_depth(const cell_grid *g, int32_t x0, int32_t y0, int32_t x1, 
     return count > 0 ? found[count / 2] : 0.0f;
 }
 
-static void add_sample(const cell_grid *g, ptrdiff_t i, samples *out)
+static void add_sample(const rlf_cell_grid *g, ptrdiff_t i, samples *out)
 {
     const rlf_grid *grid = &g->job->stage->grid;
     const rlf_slot *now = g->job->now;
@@ -107,7 +92,7 @@ static void add_sample(const cell_grid *g, ptrdiff_t i, samples *out)
     out->s[out->count++] = s;
 }
 
-static void take_samples(const cell_grid *g, int32_t x0, int32_t y0, float depth, samples *out)
+static void take_samples(const rlf_cell_grid *g, int32_t x0, int32_t y0, float depth, samples *out)
 {
     const rlf_region *region = g->region;
     int32_t step = (g->size + SIDE_SAMPLES - 1) / SIDE_SAMPLES;
@@ -128,7 +113,7 @@ static void take_samples(const cell_grid *g, int32_t x0, int32_t y0, float depth
 
 /* Distance along the normal between a sample taken back by v dt and what was seen there; false when
  * it was something else. */
-static bool residual(const cell_grid *g, const sample *s, const float v[3], float *out)
+static bool residual(const rlf_cell_grid *g, const sample *s, const float v[3], float *out)
 {
     const rlf_flow *job = g->job;
     const rlf_grid *grid = &job->stage->grid;
@@ -145,7 +130,7 @@ static bool residual(const cell_grid *g, const sample *s, const float v[3], floa
 
 /* Sum of squared residuals, each limited: what does not fit at all counts like what fits badly. But
  * the sensor drops a pixel now and then: a few that were not seen count like noise. */
-static float cost_of(const cell_grid *g, const samples *all, const float v[3])
+static float cost_of(const rlf_cell_grid *g, const samples *all, const float v[3])
 {
     float cost = 0.0f;
     int32_t lost = 0;
@@ -180,7 +165,7 @@ static void solve(const normal_equations *e, float v[3])
 }
 
 /* One step of Gauss and Newton; returns how many samples agree. */
-static int32_t improve(const cell_grid *g, const samples *all, float limit, float v[3])
+static int32_t improve(const rlf_cell_grid *g, const samples *all, float limit, float v[3])
 {
     normal_equations a = {0};
     for (int32_t k = 0; k < all->count; k++) {
@@ -218,7 +203,7 @@ static void copy(const float from[3], float to[3])
     }
 }
 
-static void whole_velocity(const cell_grid *g, const float p[3], float out[3])
+static void whole_velocity(const rlf_cell_grid *g, const float p[3], float out[3])
 {
     rlf_vec3 v = rlf_twist_velocity(g->twist, rlf_vec3_make(p[0], p[1], p[2]));
     out[0] = (float)v.x;
@@ -228,7 +213,7 @@ static void whole_velocity(const cell_grid *g, const float p[3], float out[3])
 
 /* Guesses for a cell beside the region's motion and rest: what was published a frame ago here and a
  * cell or two around, from where a limb may have come. Returns their number. */
-static int32_t make_guesses(const cell_grid *g, ptrdiff_t middle, float guess[GUESSES][3])
+static int32_t make_guesses(const rlf_cell_grid *g, ptrdiff_t middle, float guess[GUESSES][3])
 {
     const rlf_grid *grid = &g->job->stage->grid;
     const rlf_slot *before = g->job->before;
@@ -250,8 +235,8 @@ static int32_t make_guesses(const cell_grid *g, ptrdiff_t middle, float guess[GU
 }
 
 /* Velocity and cost of the best of some guesses, improved. */
-static float fit_guesses(const cell_grid *g, const samples *all, float guess[][3], int32_t count,
-                         float v[3])
+static float fit_guesses(const rlf_cell_grid *g, const samples *all, float guess[][3],
+                         int32_t count, float v[3])
 {
     float least = all->limit * (float)(all->count + 1);
     copy(guess[0], v);
@@ -278,7 +263,7 @@ static float fit_guesses(const cell_grid *g, const samples *all, float guess[][3
 
 /* Rest and the region's motion are true until the noise cannot explain what they leave. Where both
  * are, a piece that is flat cannot tell, and moves with the region. */
-static void decide(const cell_grid *g, const samples *all, const cell_fit *fit,
+static void decide(const rlf_cell_grid *g, const samples *all, const cell_fit *fit,
                    const float motion[3], rlf_cell *cell)
 {
     float tolerance = significant_3 * rlf_flow_correlated * all->variance;
@@ -286,18 +271,18 @@ static void decide(const cell_grid *g, const samples *all, const cell_fit *fit,
     bool still = fit->cost_still - fit->cost <= tolerance;
     bool whole = fit->cost_whole - fit->cost <= tolerance;
     if (!fits) {
-        cell->state = CELL_UNKNOWN;
+        cell->state = RLF_CELL_UNKNOWN;
     } else if (whole) {
-        cell->state = g->moves ? CELL_WHOLE : CELL_STILL;
+        cell->state = g->moves ? RLF_CELL_WHOLE : RLF_CELL_STILL;
     } else {
-        cell->state = still ? CELL_STILL : CELL_MOVES;
+        cell->state = still ? RLF_CELL_STILL : RLF_CELL_MOVES;
     }
-    copy(cell->state == CELL_WHOLE ? motion : fit->velocity, cell->velocity);
+    copy(cell->state == RLF_CELL_WHOLE ? motion : fit->velocity, cell->velocity);
 }
 
 /* What a piece cannot tell of its motion, a limb along its own axis, stays from frame to frame
  * however wrong it is. It is the region's when the nearest motion to that fits as well. */
-static void lean_on(const cell_grid *g, const samples *all, const float motion[3], float cost,
+static void lean_on(const rlf_cell_grid *g, const samples *all, const float motion[3], float cost,
                     rlf_cell *cell)
 {
     float v[3];
@@ -310,7 +295,8 @@ static void lean_on(const cell_grid *g, const samples *all, const float motion[3
     }
 }
 
-static void fit_cell(const cell_grid *g, const samples *all, const rlf_cell *left, rlf_cell *cell)
+static void fit_cell(const rlf_cell_grid *g, const samples *all, const rlf_cell *left,
+                     rlf_cell *cell)
 {
     static const float rest[3] = {0.0f, 0.0f, 0.0f};
     float guess[GUESSES + 3][3], whole[3];
@@ -319,20 +305,20 @@ static void fit_cell(const cell_grid *g, const samples *all, const rlf_cell *lef
     int32_t count = make_guesses(g, middle->i, guess);
     copy(whole, guess[count++]);
     copy(rest, guess[count++]);
-    if (left != NULL && left->state == CELL_MOVES) {
+    if (left != NULL && left->state == RLF_CELL_MOVES) {
         copy(left->velocity, guess[count++]);
     }
     cell_fit fit = {.cost_still = cost_of(g, all, rest), .cost_whole = cost_of(g, all, whole)};
     fit.cost = fit_guesses(g, all, guess, count, fit.velocity);
     decide(g, all, &fit, whole, cell);
-    if (cell->state == CELL_MOVES) {
+    if (cell->state == RLF_CELL_MOVES) {
         lean_on(g, all, whole, fit.cost, cell);
     }
 }
 
 /* Mean velocity of the moving neighbours with the same limb; false when there are fewer than two.
  */
-static bool neighbour_mean(const cell_grid *g, int32_t row, int32_t column, float out[3])
+static bool neighbour_mean(const rlf_cell_grid *g, int32_t row, int32_t column, float out[3])
 {
     const int32_t side[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     const rlf_cell *cell = &g->cells[row * g->columns + column];
@@ -344,7 +330,7 @@ static bool neighbour_mean(const cell_grid *g, int32_t row, int32_t column, floa
             continue;
         }
         const rlf_cell *next = &g->cells[r * g->columns + c];
-        if (next->state < CELL_WHOLE ||
+        if (next->state < RLF_CELL_WHOLE ||
             rlf_kernel_abs(next->depth - cell->depth) > 2.0f * rlf_flow_limb_m) {
             continue;
         }
@@ -361,11 +347,11 @@ static bool neighbour_mean(const cell_grid *g, int32_t row, int32_t column, floa
 
 /* What a piece cannot tell, its neighbours can: a cell that moves by itself starts again from their
  * mean, and keeps what comes of it if it fits as well. */
-static void relax_cell(const cell_grid *g, int32_t row, int32_t column, samples *all)
+static void relax_cell(const rlf_cell_grid *g, int32_t row, int32_t column, samples *all)
 {
     rlf_cell *cell = &g->cells[row * g->columns + column];
     float guess[1][3], v[3];
-    if ((cell->state != CELL_MOVES && cell->state != CELL_UNKNOWN) ||
+    if ((cell->state != RLF_CELL_MOVES && cell->state != RLF_CELL_UNKNOWN) ||
         !neighbour_mean(g, row, column, guess[0])) {
         return;
     }
@@ -377,11 +363,11 @@ static void relax_cell(const cell_grid *g, int32_t row, int32_t column, samples 
     bool fits = 4.0f * cost <= 3.0f * all->limit * (float)all->count;
     if (all->count >= LEAST_SAMPLES && fits && cost <= own + tolerance) {
         copy(v, cell->velocity);
-        cell->state = CELL_MOVES;
+        cell->state = RLF_CELL_MOVES;
     }
 }
 
-static void relax(const cell_grid *g)
+static void relax(const rlf_cell_grid *g)
 {
     samples all;
     for (int32_t row = g->rows - 1; row >= 0; row--) {
@@ -394,7 +380,7 @@ static void relax(const cell_grid *g)
 static void fit_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
-    const cell_grid *g = context;
+    const rlf_cell_grid *g = context;
     const rlf_region *region = g->region;
     samples all;
     for (int32_t row = begin; row < end; row++) {
@@ -404,69 +390,15 @@ static void fit_rows(void *context, int32_t begin, int32_t end, int32_t worker)
             int32_t x0 = region->x0 + column * g->size;
             int32_t x1 = x0 + g->size < region->x1 ? x0 + g->size : region->x1;
             rlf_cell *cell = &g->cells[row * g->columns + column];
-            *cell = (rlf_cell){{0.0f, 0.0f, 0.0f}, limb_depth(g, x0, y0, x1, y1), CELL_EMPTY};
+            *cell = (rlf_cell){{0.0f, 0.0f, 0.0f}, limb_depth(g, x0, y0, x1, y1), RLF_CELL_EMPTY};
             if (!(cell->depth > 0.0f)) {
                 continue;
             }
-            cell->state = CELL_UNKNOWN;
+            cell->state = RLF_CELL_UNKNOWN;
             take_samples(g, x0, y0, cell->depth, &all);
             if (all.count >= LEAST_SAMPLES) {
                 fit_cell(g, &all, column > 0 ? cell - 1 : NULL, cell);
             }
-        }
-    }
-}
-
-/* Mean of the four cells around a pixel that show the same limb and move, by nearness; the region's
- * motion where there is none. */
-static void blend(const cell_grid *g, int32_t x, int32_t y, float depth, const float whole[3],
-                  float out[3])
-{
-    float inverse = 1.0f / (float)g->size;
-    float column = ((float)(x - g->region->x0) + 0.5f) * inverse - 0.5f;
-    float row = ((float)(y - g->region->y0) + 0.5f) * inverse - 0.5f;
-    int32_t c0 = (int32_t)(column + 1.0f) - 1, r0 = (int32_t)(row + 1.0f) - 1;
-    float part_x = column - (float)c0, part_y = row - (float)r0, sum = 0.0f;
-    out[0] = out[1] = out[2] = 0.0f;
-    for (int k = 0; k < 4; k++) {
-        int32_t c = c0 + k % 2, r = r0 + k / 2;
-        if (c < 0 || r < 0 || c >= g->columns || r >= g->rows) {
-            continue;
-        }
-        const rlf_cell *cell = &g->cells[r * g->columns + c];
-        if (cell->state < CELL_WHOLE ||
-            rlf_kernel_abs(cell->depth - depth) > 2.0f * rlf_flow_limb_m) {
-            continue;
-        }
-        float weight = (k % 2 ? part_x : 1.0f - part_x) * (k / 2 ? part_y : 1.0f - part_y) + 1e-4f;
-        sum += weight;
-        for (int d = 0; d < 3; d++) {
-            out[d] += weight * (cell->state == CELL_MOVES ? cell->velocity[d] : whole[d]);
-        }
-    }
-    for (int d = 0; d < 3; d++) {
-        out[d] = sum > 0.0f ? out[d] / sum : whole[d];
-    }
-}
-
-static void write_rows(void *context, int32_t begin, int32_t end, int32_t worker)
-{
-    (void)worker;
-    const cell_grid *g = context;
-    const rlf_grid *grid = &g->job->stage->grid;
-    for (int32_t y = g->region->y0 + begin; y < g->region->y0 + end; y++) {
-        const rlf_cell *row = g->cells + (y - g->region->y0) / g->size * g->columns;
-        for (int32_t x = g->region->x0; x < g->region->x1; x++) {
-            ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-            if (g->job->now->label[i] != g->region->label ||
-                row[(x - g->region->x0) / g->size].state == CELL_STILL) {
-                continue;
-            }
-            float z = g->job->now->depth[i], whole[3], v[3];
-            const float p[3] = {z * grid->ray_x[i], z * grid->ray_y[i], z};
-            whole_velocity(g, p, whole);
-            blend(g, x, y, z, whole, v);
-            rlf_flow_write(g->job, i, v);
         }
     }
 }
@@ -476,15 +408,16 @@ void rlf_velocity_cells(const rlf_flow *job, const rlf_region *region, const rlf
 {
     const rlf_grid *grid = &job->stage->grid;
     double size = (double)cell_m * grid->camera.fx / rlf_max(region->centroid.z, 0.1);
-    cell_grid g = {.job = job,
-                   .region = region,
-                   .twist = twist,
-                   .moves = moves,
-                   .cells = job->stage->work.cells};
+    rlf_cell_grid g = {.job = job,
+                       .region = region,
+                       .twist = twist,
+                       .moves = moves,
+                       .cells = job->stage->work.cells};
+    g.number = (int32_t)(region - &job->now->regions[job->now->foreground_region_first]) + 1;
     g.size = (int32_t)rlf_clamp(size, LEAST_SIZE, 1024.0);
     g.columns = (region->x1 - region->x0 + g.size - 1) / g.size;
     g.rows = (region->y1 - region->y0 + g.size - 1) / g.size;
     rlf_parallel_for(job->stage->def.pool, g.rows, 1, fit_rows, &g);
     relax(&g);
-    rlf_parallel_for(job->stage->def.pool, region->y1 - region->y0, RLF_ROW_GRAIN, write_rows, &g);
+    rlf_cells_write(&g);
 }

@@ -302,6 +302,44 @@ static void chord_sums_are_their_definition(void **state)
     }
 }
 
+static void chord_solid_is_its_definition(void **state)
+{
+    (void)state;
+    const rlf_kernel_chord_solid solid = {0.7f, 0.5f, 0.001f, 0.02f};
+    for (int32_t count = 1; count <= RLF_CHORD_RUN; count++) {
+        const float apex = 5.5f + 0.4f * (float)count;
+        const rlf_kernel_chord chord = {4.5f, 5.5f + (float)count, apex, count % 3 == 0};
+        float weight[RLF_CHORD_RUN], middle[RLF_CHORD_RUN], half[RLF_CHORD_RUN];
+        rlf_kernel_chord_solid_run(&chord, &solid, 5, count, weight, middle, half);
+        for (int32_t i = 0; i < count; i++) {
+            double k = 5 + i, left = k - chord.begin, right = chord.end - k;
+            double side = right < apex - chord.begin ? right / (apex - chord.begin)
+                                                     : left / (chord.end - apex);
+            double wedge = 0.5 * side * (chord.end - chord.begin);
+            double w = solid.share / (left * right);
+            double h = w * solid.half * (chord.is_wedge ? wedge : sqrt(left * right));
+            double m = w * (solid.middle + solid.slope * k);
+            assert_true(rlf_max(weight[i] - w, w - weight[i]) <= 1e-5 * w);
+            assert_true(rlf_max(middle[i] - m, m - middle[i]) <= 1e-5 * m);
+            assert_true(rlf_max(half[i] - h, h - half[i]) <= 1e-5 * h);
+        }
+    }
+}
+
+static void thickness_ends_at_the_background(void **state)
+{
+    (void)state;
+    const rlf_kernel_thickness limits = {0.02f, 0.5f};
+    const float depth[5] = {2.0f, 2.0f, 2.0f, 2.0f, 2.0f};
+    const float behind[5] = {0.0f, 3.0f, 2.125f, 1.9f, 3.0f};
+    float thickness[5] = {0.7f, 0.01f, 0.3f, 0.3f, 0.3f};
+    const float expected[5] = {0.5f, 0.02f, 0.125f, 0.0f, 0.3f};
+    rlf_kernel_thickness_row(&limits, depth, behind, 5, thickness);
+    for (int i = 0; i < 5; i++) {
+        assert_true(thickness[i] == expected[i]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -313,6 +351,8 @@ int main(void)
         cmocka_unit_test(body_mean_row_is_its_definition),
         cmocka_unit_test(near_normal_is_its_definition),
         cmocka_unit_test(chord_sums_are_their_definition),
+        cmocka_unit_test(chord_solid_is_its_definition),
+        cmocka_unit_test(thickness_ends_at_the_background),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
