@@ -293,6 +293,14 @@ static rlf_result on_picture(void *context, const rlf_image_rgba8 *image, char *
     return run_output_save(context, image, out_message, message_size);
 }
 
+/* Beside the pictures, so that the scene itself stays as it was written. */
+static rlf_result on_scene(void *context, const rlf_known_def *known, int32_t count,
+                           char *out_message, size_t message_size)
+{
+    const run_output *output = context;
+    return run_output_save_scene(output, known, count, out_message, message_size);
+}
+
 static rlf_result run_window(const run_options *o, session *s, run_output *output)
 {
     const rlf_source_info *info = rlf_source_get_info(s->source);
@@ -309,6 +317,7 @@ static rlf_result run_window(const run_options *o, session *s, run_output *outpu
     viewer.show_help = o->output.video_path == NULL;
     viewer.on_frame = on_frame;
     viewer.on_picture = on_picture;
+    viewer.on_scene = o->session.scene_path != NULL ? on_scene : NULL;
     viewer.context = output;
     viewer.interrupted = &command_interrupted;
     return viewer_run(s->pipeline, &viewer);
@@ -373,6 +382,7 @@ int run_main(int argc, char **argv)
         return status;
     }
     options.session.enable_overlay = !options.is_headless;
+    options.output.scene_path = options.session.scene_path;
     session s;
     if (session_open(&options.session, &s) != RLF_OK) {
         return command_failed();

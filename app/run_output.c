@@ -69,6 +69,19 @@ rlf_result run_output_save(run_output *out, const rlf_image_rgba8 *image, char *
     return rlf_png_write_rgba(path, image);
 }
 
+rlf_result run_output_save_scene(const run_output *out, const rlf_known_def *known, int32_t count,
+                                 char *out_message, size_t message_size)
+{
+    const char *folder = out->options.picture_folder != NULL ? out->options.picture_folder : ".";
+    char path[PATH_SIZE];
+    int length = snprintf(path, sizeof(path), "%s/placed.json", folder);
+    if (length < 0 || length >= PATH_SIZE) {
+        return rlf_fail(RLF_ERROR_IO, "%s: the path is too long", folder);
+    }
+    snprintf(out_message, message_size, "saved %s", path);
+    return rlf_scene_save_known(out->options.scene_path, known, count, path);
+}
+
 static void print_progress(run_output *out)
 {
     int64_t now = rlf_clock_ns();

@@ -16,6 +16,7 @@ typedef struct run_output_options {
     int picture_count;                    /* of them; 0 = every picture_every-th */
     const char *log_folder;               /* NULL = none */
     bool is_quiet;                        /* no progress, no summary */
+    const char *scene_path;               /* of the run; NULL = none */
     bool print_hash;                      /* print the hash of all body states at the end */
 } run_output_options;
 
@@ -40,6 +41,10 @@ rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame);
 /* Saves one picture as relief-NNNNNN.png in the picture folder (or here) and says where. */
 rlf_result run_output_save(run_output *out, const rlf_image_rgba8 *image, char *out_message,
                            size_t message_size);
+/* Saves the run's scene with the known objects' poses as placed.json in the picture folder (or
+ * here) and says where. */
+rlf_result run_output_save_scene(const run_output *out, const rlf_known_def *known, int32_t count,
+                                 char *out_message, size_t message_size);
 /* Finishes all files, also after an error or Ctrl-C. */
 rlf_result run_output_close(run_output *out);
 /* Where things were written, and the median times; `how` says how frames were shown. */

@@ -51,6 +51,7 @@ static const section sections[] = {
     {"planes", eval_planes_run, "planes without noise, and one with holes"},
     {"plate", eval_plate_run, "a moving plate before a still wall"},
     {"physics", eval_physics_run, "bodies in free flight, at rest, pushed and thrown"},
+    {"known", eval_known_run, "models of known things: poses, what they hide, what hits them"},
     {"sensed", eval_sensed_run, "the same on what the sensor shows, against the true scene"},
 };
 #define SECTION_COUNT ((int)(sizeof(sections) / sizeof(sections[0])))

@@ -1,6 +1,7 @@
 /* The window's loop: frames at the source's pace, the user's wishes, lines of text over it. */
 #include "viewer/viewer.h"
 
+#include "viewer/place.h"
 #include "viewer/throw.h"
 #include "viewer/window.h"
 
@@ -13,7 +14,7 @@
 #define IDLE_WAIT_S 0.05     /* longest sleep, so that Ctrl-C is noticed */
 #define MESSAGE_S 3.0        /* how long a message stays */
 #define WINDOW_WIDTH_MIN 640 /* smaller pictures start enlarged */
-#define OVERLAY_LINES_MAX 16 /* of text over the picture */
+#define OVERLAY_LINES_MAX 20 /* of text over the picture */
 #define OVERLAY_LINE_SIZE 128
 #define SMOOTHING 0.1 /* of figures on screen: weight of the newest frame */
 
@@ -31,6 +32,7 @@ typedef struct viewer {
     rlf_orbit orbit;
     int64_t frames_done;
     int32_t thrown_count;
+    viewer_place place;
     int64_t due_ns;       /* of the next frame */
     int64_t last_step_ns; /* when the last one was done; 0 = none */
     double fps;
@@ -41,10 +43,20 @@ typedef struct viewer {
 } viewer;
 
 static const char *const help_lines[] = {
-    "Space pause   N or . one frame   R restart", "1 camera 2 depth 3 normals 4 mesh 5 regions",
-    "6 foreground 7 background 8 velocity",       "9 thickness 0 reason O points C contacts",
-    "V next view   B beside the camera",          "right drag turns points, wheel zooms",
-    "click or T: throw a cube, drag for speed",   "P picture   F full screen   H keys   Q quit",
+    "Space pause   N or . one frame   R restart",
+    "1 camera 2 depth 3 normals 4 mesh 5 regions",
+    "6 foreground 7 background 8 velocity",
+    "9 thickness 0 reason O points C contacts",
+    "V next view   B beside the camera",
+    "right drag turns points, wheel zooms",
+    "click or T: throw a cube, drag for speed",
+    "P picture   F full screen   H keys   Q quit",
+    "K place models of real things",
+};
+
+static const char *const place_lines[] = {
+    "X cannot see that point   Backspace begin again   Enter 3 are enough",
+    "arrows Page [ ] move it, shift finely   Tab next one   S save   K done",
 };
 
 viewer_options viewer_options_default(void)
@@ -97,7 +109,13 @@ static void update_overlay(viewer *v)
     if (v->message[0] != '\0') {
         (void)snprintf(v->lines[count++], OVERLAY_LINE_SIZE, "%s", v->message);
     }
-    int32_t help_count = v->shows_help ? (int32_t)(sizeof help_lines / sizeof help_lines[0]) : 0;
+    if (v->place.is_on) {
+        viewer_place_hint(&v->place, v->lines[count++]);
+        (void)snprintf(v->lines[count++], OVERLAY_LINE_SIZE, "%s", place_lines[0]);
+        (void)snprintf(v->lines[count++], OVERLAY_LINE_SIZE, "%s", place_lines[1]);
+    }
+    int32_t help_count =
+        v->shows_help && !v->place.is_on ? (int32_t)(sizeof help_lines / sizeof help_lines[0]) : 0;
     for (int32_t i = 0; i < help_count; i++) {
         (void)snprintf(v->lines[count++], OVERLAY_LINE_SIZE, "%s", help_lines[i]);
     }
@@ -197,6 +215,7 @@ static void present(viewer *v)
     viewer_window_get_framebuffer_size(&v->window, &width, &height);
     v->is_present_due = false;
     if (width > 0 && height > 0 && v->frame.render.image.data != NULL) {
+        viewer_place_draw(&v->place, &v->frame.render.image);
         rlf_gl_presenter_draw(v->presenter, &v->frame.render.image, width, height);
         viewer_window_swap(&v->window);
     }
@@ -231,31 +250,35 @@ static void turn(viewer *v, const viewer_wishes *wishes)
     v->is_redraw_due = true;
 }
 
-static void throw_body(viewer *v, const viewer_wishes *wishes)
+/* Picture pixel of a window position; false beside the picture. */
+static bool pixel_at(const viewer *v, double x, double y, double *out_u, double *out_v)
 {
     int32_t width;
     int32_t height;
     viewer_window_get_size(&v->window, &width, &height);
     const rlf_image_rgba8 *image = &v->frame.render.image;
     viewer_fit fit = {width, height, image->width, image->height};
-    double pixel_u;
-    double pixel_v;
-    if (!v->has_frame || width < 1 || height < 1 ||
-        !viewer_fit_pick(&fit, wishes->throw_x, wishes->throw_y, &pixel_u, &pixel_v)) {
-        return;
+    if (!v->has_frame || width < 1 || height < 1 || !viewer_fit_pick(&fit, x, y, out_u, out_v)) {
+        return false;
     }
+    rlf_compositor_def def = rlf_pipeline_get_compositor_def(v->pipeline);
+    const rlf_camera *camera = def.rig.has_color ? &def.rig.color : &def.rig.depth;
+    const int32_t one_width = def.width > 0 ? def.width : camera->width;
+    const int32_t one_height = def.height > 0 ? def.height : camera->height;
+    *out_u -= *out_u > one_width - 0.5 ? one_width : 0; /* the next of several views */
+    *out_v -= *out_v > one_height - 0.5 ? one_height : 0;
+    return true;
+}
+
+static void throw_body(viewer *v, double pixel_u, double pixel_v, double drag_fraction)
+{
     rlf_compositor_def def = rlf_pipeline_get_compositor_def(v->pipeline);
     if (v->view == RLF_VIEW_POINTS && !v->is_beside) {
         show_message(v, "no throws in this view: B puts the camera beside it");
         return;
     }
-    const rlf_camera *camera = def.rig.has_color ? &def.rig.color : &def.rig.depth;
-    const int32_t one_width = def.width > 0 ? def.width : camera->width;
-    const int32_t one_height = def.height > 0 ? def.height : camera->height;
-    pixel_u -= pixel_u > one_width - 0.5 ? one_width : 0; /* the next of several views */
-    pixel_v -= pixel_v > one_height - 0.5 ? one_height : 0;
     viewer_ray ray = viewer_ray_make(&def, &v->options->T_world_camera, pixel_u, pixel_v);
-    double speed = viewer_throw_speed(wishes->throw_drag_fraction);
+    double speed = viewer_throw_speed(drag_fraction);
     rlf_body_def body = viewer_throw_body(&ray, speed, v->thrown_count);
     rlf_body_id id;
     if (rlf_world_add_body(rlf_pipeline_get_world(v->pipeline), &body, &id) != RLF_OK) {
@@ -264,6 +287,81 @@ static void throw_body(viewer *v, const viewer_wishes *wishes)
     }
     v->thrown_count++;
     v->is_redraw_due = true;
+}
+
+/* A click throws a cube, or picks a point of the model that is being placed. */
+static void click(viewer *v, const viewer_wishes *wishes)
+{
+    double u, w;
+    char text[VIEWER_PLACE_TEXT];
+    if (!pixel_at(v, wishes->throw_x, wishes->throw_y, &u, &w)) {
+        return;
+    }
+    if (!v->place.is_on) {
+        throw_body(v, u, w, wishes->throw_drag_fraction);
+        return;
+    }
+    viewer_place_pick(&v->place, v->pipeline, u, w, text);
+    show_message(v, text);
+}
+
+static void save_scene(viewer *v)
+{
+    char text[OVERLAY_LINE_SIZE] = "";
+    int32_t count;
+    const rlf_known_def *known = rlf_pipeline_get_known(v->pipeline, &count);
+    if (v->options->on_scene == NULL) {
+        show_message(v, "no scene file to save: start with --scene");
+        return;
+    }
+    rlf_result result = v->options->on_scene(v->options->context, known, count, text, sizeof text);
+    show_message(v, result == RLF_OK ? text : rlf_error_text());
+}
+
+/* Moves a model by a centimetre and a degree, or a tenth of that. */
+static void nudge(viewer *v, const viewer_wishes *wishes)
+{
+    char text[VIEWER_PLACE_TEXT];
+    double step = wishes->is_fine ? 0.1 : 1.0;
+    rlf_vec3 shift = {wishes->nudge_x, wishes->nudge_y, wishes->nudge_z};
+    viewer_place_nudge(&v->place, v->pipeline, &v->options->T_world_camera,
+                       rlf_scale(shift, 0.01 * step), wishes->nudge_turn * step * RLF_PI / 180.0,
+                       text);
+    if (text[0] != '\0') {
+        show_message(v, text);
+    }
+    v->is_redraw_due = true;
+}
+
+static void fulfil_place_wishes(viewer *v, const viewer_wishes *wishes)
+{
+    const struct {
+        bool is_due;
+        viewer_place_action action;
+    } acts[4] = {{wishes->next_object, VIEWER_PLACE_NEXT_OBJECT},
+                 {wishes->skip_point, VIEWER_PLACE_SKIP},
+                 {wishes->undo_points, VIEWER_PLACE_UNDO},
+                 {wishes->solve_points, VIEWER_PLACE_SOLVE}};
+    char text[VIEWER_PLACE_TEXT];
+    if (wishes->toggle_place) {
+        if (viewer_place_toggle(&v->place, v->pipeline, text)) {
+            set_view(v, v->place.is_on ? RLF_VIEW_KNOWN : RLF_VIEW_CAMERA);
+        }
+        show_message(v, text);
+    }
+    for (int i = 0; i < 4 && v->place.is_on; i++) {
+        if (acts[i].is_due) {
+            viewer_place_act(&v->place, v->pipeline, acts[i].action, text);
+            show_message(v, text);
+        }
+    }
+    if (wishes->nudge_x != 0 || wishes->nudge_y != 0 || wishes->nudge_z != 0 ||
+        wishes->nudge_turn != 0) {
+        nudge(v, wishes);
+    }
+    if (wishes->save_scene && v->place.is_on) {
+        save_scene(v);
+    }
 }
 
 /* The picture without the lines of text. */
@@ -321,8 +419,9 @@ static void fulfil_wishes(viewer *v)
     if (wishes.turn_x != 0.0 || wishes.turn_y != 0.0 || wishes.zoom != 0.0) {
         turn(v, &wishes);
     }
+    fulfil_place_wishes(v, &wishes);
     if (wishes.throw_body) {
-        throw_body(v, &wishes);
+        click(v, &wishes);
     }
     if (wishes.save_picture) {
         save_picture(v);

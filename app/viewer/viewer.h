@@ -12,6 +12,10 @@ typedef rlf_result (*viewer_frame_fn)(void *context, const rlf_pipeline_output *
 typedef rlf_result (*viewer_picture_fn)(void *context, const rlf_image_rgba8 *image,
                                         char *out_message, size_t message_size);
 
+/* Saves the scene with the known objects' poses and writes where to, for the screen. */
+typedef rlf_result (*viewer_scene_fn)(void *context, const rlf_known_def *known, int32_t count,
+                                      char *out_message, size_t message_size);
+
 typedef struct viewer_options {
     const char *title;        /* of the window; required */
     const char *source_name;  /* shown on screen; required */
@@ -26,7 +30,8 @@ typedef struct viewer_options {
     rlf_pose T_world_camera;                  /* as the pipeline's */
     viewer_frame_fn on_frame;                 /* NULL = none */
     viewer_picture_fn on_picture;             /* NULL = pictures cannot be saved */
-    void *context;                            /* of both */
+    viewer_scene_fn on_scene;                 /* NULL = scenes cannot be saved */
+    void *context;                            /* of all three */
     const volatile sig_atomic_t *interrupted; /* not 0 = stop, e.g. by Ctrl-C; NULL = none */
 } viewer_options;
 

@@ -42,6 +42,34 @@ static void wish_throw(viewer_window *window, double x, double y, double drag_fr
     window->wishes.throw_drag_fraction = drag_fraction;
 }
 
+static void take_place_key(viewer_wishes *wishes, int key)
+{
+    switch (key) {
+    case GLFW_KEY_TAB: wishes->next_object = true; break;
+    case GLFW_KEY_X: wishes->skip_point = true; break;
+    case GLFW_KEY_BACKSPACE: wishes->undo_points = true; break;
+    case GLFW_KEY_ENTER: wishes->solve_points = true; break;
+    case GLFW_KEY_S: wishes->save_scene = true; break;
+    case GLFW_KEY_LEFT: wishes->nudge_x--; break;
+    case GLFW_KEY_RIGHT: wishes->nudge_x++; break;
+    case GLFW_KEY_UP: wishes->nudge_y--; break;
+    case GLFW_KEY_DOWN: wishes->nudge_y++; break;
+    case GLFW_KEY_PAGE_UP: wishes->nudge_z++; break;
+    case GLFW_KEY_PAGE_DOWN: wishes->nudge_z--; break;
+    case GLFW_KEY_LEFT_BRACKET: wishes->nudge_turn--; break;
+    case GLFW_KEY_RIGHT_BRACKET: wishes->nudge_turn++; break;
+    default: break;
+    }
+}
+
+/* Steps and moves repeat while their key is held. */
+static bool repeats(int key)
+{
+    return key == GLFW_KEY_N || key == GLFW_KEY_PERIOD ||
+           (key >= GLFW_KEY_RIGHT && key <= GLFW_KEY_PAGE_DOWN) || key == GLFW_KEY_LEFT_BRACKET ||
+           key == GLFW_KEY_RIGHT_BRACKET;
+}
+
 static void take_key(viewer_window *window, int key)
 {
     viewer_wishes *wishes = &window->wishes;
@@ -66,7 +94,9 @@ static void take_key(viewer_window *window, int key)
     case GLFW_KEY_O: wishes->view = 10; break;
     case GLFW_KEY_C: wishes->view = 11; break;
     case GLFW_KEY_B: wishes->toggle_beside = true; break;
+    case GLFW_KEY_K: wishes->toggle_place = true; break;
     default:
+        take_place_key(wishes, key);
         if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) {
             wishes->view = key - GLFW_KEY_1;
         }
@@ -78,9 +108,9 @@ static void on_key(GLFWwindow *handle, int key, int scancode, int action, int mo
 {
     (void)scancode;
     viewer_window *window = glfwGetWindowUserPointer(handle);
-    bool is_step = key == GLFW_KEY_N || key == GLFW_KEY_PERIOD;
     bool is_other_command = (modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0;
-    if (!is_other_command && (action == GLFW_PRESS || (action == GLFW_REPEAT && is_step))) {
+    if (!is_other_command && (action == GLFW_PRESS || (action == GLFW_REPEAT && repeats(key)))) {
+        window->wishes.is_fine = (modifiers & GLFW_MOD_SHIFT) != 0;
         take_key(window, key);
     }
 }

@@ -16,6 +16,10 @@ typedef struct viewer_wishes {
     double turn_x, turn_y;      /* dragged with the right button, of the window's height */
     double zoom;                /* steps of the wheel, > 0: nearer */
     bool toggle_beside;         /* the camera's picture beside the view */
+    bool toggle_place;          /* placing models; the rest is for that */
+    bool next_object, skip_point, undo_points, solve_points, save_scene;
+    int32_t nudge_x, nudge_y, nudge_z, nudge_turn; /* steps; y down, z away */
+    bool is_fine;                                  /* with shift: small steps */
 } viewer_wishes;
 
 typedef struct viewer_window {

@@ -48,23 +48,27 @@ static void sort(float *values, int32_t count)
     }
 }
 
-/* Median of the nearest depths that belong together; 0 = none. */
-static double nearest_thing(const float *sorted, int32_t count)
+/* The nearest depths that belong together, without their last twentieths; false = none. */
+static bool nearest_thing(const float *sorted, int32_t count, known_pick *out)
 {
     int32_t begin = 0;
     for (int32_t i = 1; i <= count; i++) {
         double z = sorted[i - 1];
         if (i == count || sorted[i] - z > JUMP_MIN_M + 0.01 * z) {
             if (i - begin >= SHARE_MIN * count) {
-                return sorted[(begin + i) / 2];
+                int32_t end = (i - begin) / 20;
+                double low = sorted[begin + end], high = sorted[i - 1 - end];
+                out->z = 0.5 * (low + high);
+                out->z_half = 0.5 * (high - low);
+                return true;
             }
             begin = i;
         }
     }
-    return 0.0;
+    return false;
 }
 
-static double depth_at(const sensed *seen, int32_t x, int32_t y)
+static bool find_depth(const sensed *seen, int32_t x, int32_t y, known_pick *out)
 {
     float samples[SAMPLES_MAX];
     int32_t count = 0, window = seen->window;
@@ -81,7 +85,7 @@ static double depth_at(const sensed *seen, int32_t x, int32_t y)
         }
     }
     sort(samples, count);
-    return nearest_thing(samples, count);
+    return nearest_thing(samples, count, out);
 }
 
 static rlf_result look_up_pixel(const rlf_known_point *point, const sensed *seen,
@@ -99,8 +103,7 @@ static rlf_result look_up_pixel(const rlf_known_point *point, const sensed *seen
                         (int)number, u, v);
     }
     out->has_pixel = true;
-    out->z = depth_at(seen, (int32_t)(u + 0.5), (int32_t)(v + 0.5));
-    out->has_depth = out->z > 0.0;
+    out->has_depth = find_depth(seen, (int32_t)(u + 0.5), (int32_t)(v + 0.5), out);
     rlf_vec3 p = rlf_scale(out->ray, out->z);
     out->world = rlf_transform_inverse(&sight->T_picture_world, p);
     return RLF_OK;

@@ -9,7 +9,8 @@ typedef struct known_pick {
     bool has_pixel; /* ray is set */
     bool has_depth; /* world is set; with a pixel z too */
     rlf_vec3 ray;   /* (x, y, 1), picture camera frame */
-    double z;       /* metres in that frame */
+    double z;       /* metres in that frame: the middle of what is sensed around it, */
+    double z_half;  /* which goes on by this to both sides */
     rlf_vec3 world;
 } known_pick;
 

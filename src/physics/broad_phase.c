@@ -6,9 +6,16 @@
 #define LARGE (-1) /* cell of a body that is larger than a cell */
 #define NONE (-2)  /* ... of one that is not there */
 
-static bool collides(const phys_body *body)
+/* Models of real things are met by those too that meet no other bodies. */
+static bool collides(const rlf_world *world, const phys_body *body)
 {
-    return body->is_alive && body->collides_with_bodies;
+    return body->is_alive && (body->collides_with_bodies || world->snapshot.known_count > 0);
+}
+
+static bool may_meet(const phys_body *a, const phys_body *b)
+{
+    bool is_virtual = !a->is_real && !b->is_real;
+    return !is_virtual || (a->collides_with_bodies && b->collides_with_bodies);
 }
 
 /* Half the size of the box about a body on its way. */
@@ -42,7 +49,7 @@ static double measure(rlf_world *world, double horizon)
     for (int32_t i = 0; i < world->body_top; i++) {
         phys_proxy *proxy = &world->proxies[i];
         proxy->cell = NONE;
-        if (collides(&world->bodies[i])) {
+        if (collides(world, &world->bodies[i])) {
             const phys_body *body = &world->bodies[i];
             proxy->centre = body->x;
             proxy->half = half_of(body, horizon);
@@ -125,7 +132,8 @@ static void test(rlf_world *world, int32_t i, int32_t k)
     const phys_proxy *a = &world->proxies[i], *b = &world->proxies[k];
     rlf_vec3 d = rlf_sub(a->centre, b->centre), half = rlf_add(a->half, b->half);
     if (d.x <= half.x && d.x >= -half.x && d.y <= half.y && d.y >= -half.y && d.z <= half.z &&
-        d.z >= -half.z && !(a->is_fixed && b->is_fixed)) {
+        d.z >= -half.z && !(a->is_fixed && b->is_fixed) &&
+        may_meet(&world->bodies[i], &world->bodies[k])) {
         add_near(world, i, k);
     }
 }

@@ -9,6 +9,7 @@
 #include "relief/gl.h"
 #include "relief/synthetic.h"
 #include "viewer/viewer.h"
+#include "viewer/place.h"
 #include "viewer/throw.h"
 
 #include <epoxy/gl.h>
@@ -74,6 +75,77 @@ static void test_throw(void **state)
     rlf_body_def body = viewer_throw_body(&ray, 3.0, 7);
     assert_float_equal(body.velocity.z, 3.0, 1e-12);
     assert_true(body.position.z > 0.2 && body.position.z < 0.6);
+}
+
+/* ---- placing -------------------------------------------------------------------------------- */
+
+static rlf_known_def crate(void)
+{
+    rlf_known_def def = rlf_known_def_default(); /* the large box of the synthetic room */
+    (void)snprintf(def.name, sizeof(def.name), "crate");
+    def.shape.size = rlf_vec3_make(0.34, 0.22, 0.26);
+    def.has_pose = false;
+    return def;
+}
+
+/* Where its first four points, and the fifth, are in the picture of 960 x 540. */
+static const double corners[5][2] = {
+    {730.2, 349.3}, {821.2, 353.5}, {821.2, 407.1}, {730.2, 400.2}, {725.2, 341.8}};
+
+static void test_place(void **state)
+{
+    (void)state;
+    rlf_synthetic_def synthetic = rlf_synthetic_def_default();
+    rlf_source *source = NULL;
+    rlf_pipeline *pipeline = NULL;
+    rlf_pipeline_output frame;
+    char text[VIEWER_PLACE_TEXT];
+    rlf_known_def def = crate();
+    const rlf_scene scene = {.known = &def, .known_count = 1};
+    assert_int_equal(rlf_synthetic_create(&synthetic, &source), RLF_OK);
+    rlf_pipeline_def pipeline_def = rlf_pipeline_def_default(RLF_PROFILE_LIVE, source, NULL);
+    pipeline_def.enable_render = false;
+    pipeline_def.scene = &scene;
+    assert_int_equal(rlf_pipeline_create(&pipeline_def, &pipeline), RLF_OK);
+    for (int i = 0; i < 5; i++) {
+        assert_int_equal(rlf_pipeline_step(pipeline, &frame), RLF_OK);
+    }
+    viewer_place place = {.is_on = false};
+    assert_true(viewer_place_toggle(&place, pipeline, text));
+    viewer_place_hint(&place, text);
+    assert_non_null(strstr(text, "crate"));
+    assert_non_null(strstr(text, "left top near"));
+    viewer_place_pick(&place, pipeline, corners[0][0], corners[0][1], text);
+    viewer_place_act(&place, pipeline, VIEWER_PLACE_SOLVE, text);
+    assert_non_null(strstr(text, "3 points"));
+    viewer_place_act(&place, pipeline, VIEWER_PLACE_UNDO, text);
+    assert_int_equal(place.def.point_count, 0);
+    for (int i = 0; i < 4; i++) {
+        viewer_place_pick(&place, pipeline, corners[i][0], corners[i][1], text);
+    }
+    viewer_place_hint(&place, text);
+    assert_non_null(strstr(text, "left top far"));
+    viewer_place_act(&place, pipeline, VIEWER_PLACE_SOLVE, text);
+    assert_non_null(strstr(text, "placed"));
+    int32_t count;
+    const rlf_known_def *list = rlf_pipeline_get_known(pipeline, &count);
+    rlf_vec3 p = list[0].T_world_model.p;
+    assert_int_equal(count, 1);
+    assert_true(rlf_length(rlf_sub(p, rlf_vec3_make(1.34, 0.455, 2.40))) < 0.005);
+    const rlf_pose T = rlf_pose_identity();
+    viewer_place_nudge(&place, pipeline, &T, rlf_vec3_make(0.01, 0, -0.02), 0.0, text);
+    list = rlf_pipeline_get_known(pipeline, &count);
+    rlf_vec3 moved = rlf_sub(list[0].T_world_model.p, p);
+    assert_true(rlf_length(rlf_sub(moved, rlf_vec3_make(0.01, 0, -0.02))) < 1e-9);
+    for (int i = 0; i < 3; i++) { /* all at one place: refused, and it stays where it is */
+        viewer_place_pick(&place, pipeline, 100, 100, text);
+    }
+    viewer_place_act(&place, pipeline, VIEWER_PLACE_SOLVE, text);
+    assert_non_null(strstr(text, "line"));
+    list = rlf_pipeline_get_known(pipeline, &count);
+    assert_true(list[0].has_pose && list[0].point_count == 0);
+    rlf_pipeline_destroy(&pipeline);
+    rlf_source_destroy(&source);
 }
 
 /* ---- window --------------------------------------------------------------------------------- */
@@ -305,13 +377,10 @@ static void test_presenter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pick),
-        cmocka_unit_test(test_ray),
-        cmocka_unit_test(test_throw),
-        cmocka_unit_test(test_window_with_gl),
-        cmocka_unit_test(test_window_with_soft),
-        cmocka_unit_test(test_quit),
-        cmocka_unit_test(test_no_display),
+        cmocka_unit_test(test_pick),           cmocka_unit_test(test_ray),
+        cmocka_unit_test(test_throw),          cmocka_unit_test(test_place),
+        cmocka_unit_test(test_window_with_gl), cmocka_unit_test(test_window_with_soft),
+        cmocka_unit_test(test_quit),           cmocka_unit_test(test_no_display),
         cmocka_unit_test(test_presenter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
