@@ -2,6 +2,7 @@
 #include "silhouette.h"
 
 #include "kernel/kernel.h"
+#include "render/body_look.h"
 #include "render/caster.h"
 
 #include <string.h>
@@ -96,7 +97,7 @@ void silhouette_place(silhouette *s, const rlf_camera *camera, const rlf_pose *T
     for (int32_t i = 0; snapshot != NULL && i < snapshot->body_count; i++) {
         const rlf_body_state *state = &snapshot->bodies[i];
         rlf_vec3 center = rlf_transform(T_picture_world, state->T_world_body.p);
-        double radius = rlf_shape_radius(&state->shape);
+        double radius = body_look_radius(state);
         const silhouette_tile range = {(float)(center.z - radius), (float)(center.z + radius)};
         caster_rect rect;
         if (caster_rect_of_ball(camera, center, radius, &rect)) {

@@ -16,7 +16,8 @@ enum {
     UNIT_NEAR = 3,
     UNIT_FAR = 4,
     UNIT_COVER = 5,
-    UNIT_SHADE = 6
+    UNIT_SHADE = 6,
+    UNIT_SKIN = 7
 };
 
 /* Values of u_occlusion. */
@@ -63,6 +64,8 @@ static const char body_fragment[] =
     "uniform vec2 u_ambient_diffuse;\n"
     "uniform float u_layer;\n"
     "uniform float u_level;\n"
+    "uniform sampler2D u_skin;\n"
+    "uniform bool u_has_skin;\n"
     "out vec4 o_color;\n"
     "void main()\n"
     "{\n"
@@ -76,7 +79,9 @@ static const char body_fragment[] =
     "    left.y *= 1.0 - u_body_shares.y * (1.0 - real_left(z * vec3(ray, 1.0)));\n"
     "    float light = dot(u_ambient_diffuse * vec2(1.0, facing), left);\n"
     "    vec3 uv_layer = vec3(clamp(v_uv, 0.0, 1.0), u_layer);\n"
-    "    vec3 color = u_color * light * textureLod(u_textures, uv_layer, u_level).rgb;\n"
+    "    vec3 pattern = u_has_skin ? texture(u_skin, v_uv).rgb\n"
+    "                              : textureLod(u_textures, uv_layer, u_level).rgb;\n"
+    "    vec3 color = u_color * light * pattern;\n"
     "    float shown = 1.0;\n"
     "    if (u_occlusion == 1) {\n"
     "        shown = share_in_front(u_real_depth, z);\n"
@@ -97,6 +102,7 @@ static void create_program_uniforms(gl_bodies *bodies)
     bodies->uniforms.light = glGetUniformLocation(p, "u_light");
     bodies->uniforms.layer = glGetUniformLocation(p, "u_layer");
     bodies->uniforms.level = glGetUniformLocation(p, "u_level");
+    bodies->uniforms.has_skin = glGetUniformLocation(p, "u_has_skin");
     bodies->uniforms.occlusion = glGetUniformLocation(p, "u_occlusion");
     bodies->uniforms.noise = glGetUniformLocation(p, "u_noise");
     bodies->uniforms.intrinsics = glGetUniformLocation(p, "u_intrinsics");
@@ -116,6 +122,7 @@ static void create_program_uniforms(gl_bodies *bodies)
     glUniform1i(glGetUniformLocation(p, "u_far_z"), UNIT_FAR);
     glUniform1i(glGetUniformLocation(p, "u_cover"), UNIT_COVER);
     glUniform1i(glGetUniformLocation(p, "u_shade_maps"), UNIT_SHADE);
+    glUniform1i(glGetUniformLocation(p, "u_skin"), UNIT_SKIN);
     glUniform2f(glGetUniformLocation(p, "u_body_shares"), (GLfloat)BODY_AMBIENT_SHARE,
                 (GLfloat)BODY_DIRECT_SHARE);
     glUniform2f(glGetUniformLocation(p, "u_ambient_diffuse"), (GLfloat)BODY_LIGHT_AMBIENT,
@@ -218,6 +225,9 @@ rlf_result gl_bodies_create(bool is_es, gl_bodies *out)
     if (result == RLF_OK) {
         result = create_textures(out);
     }
+    if (result == RLF_OK) {
+        result = gl_models_create(&out->models);
+    }
     if (result != RLF_OK) {
         gl_bodies_destroy(out);
     }
@@ -232,6 +242,7 @@ void gl_bodies_destroy(gl_bodies *bodies)
     glDeleteVertexArrays(2, arrays);
     glDeleteBuffers(3, buffers);
     glDeleteTextures(1, &bodies->textures);
+    gl_models_destroy(&bodies->models);
     rlf_free(bodies->hull_vertices);
     *bodies = (gl_bodies){0};
 }
@@ -266,30 +277,62 @@ void gl_bodies_begin(const gl_bodies *bodies, const gl_bodies_pass *pass)
     glBindTexture(GL_TEXTURE_2D_ARRAY, bodies->textures);
 }
 
-/* Uniforms of one body. */
-static void set_body(const gl_bodies *bodies, const gl_bodies_pass *pass,
-                     const rlf_body_state *body)
+static void set_color(const gl_bodies *bodies, const gl_bodies_pass *pass,
+                      const rlf_body_state *body, const float own[3])
 {
-    const gl_view *view = pass->view;
-    shape_mesh_scale scale = shape_mesh_scale_of(&body->shape);
+    const float *shown = pass->light_color;
+    glUniform3f(bodies->uniforms.color, body->color[0] * shown[0] * own[0],
+                body->color[1] * shown[1] * own[1], body->color[2] * shown[2] * own[2]);
+}
+
+/* Where a unit mesh, hull or model (whose `offset` is in the body's frame) is. */
+static void set_place(const gl_bodies *bodies, const gl_view *view, const rlf_body_state *body,
+                      rlf_vec3 scale, rlf_vec3 offset)
+{
     rlf_pose T_camera_body = rlf_pose_mul(&view->T_camera_world, &body->T_world_body);
     rlf_pose T_picture_body = rlf_pose_mul(&view->T_picture_world, &body->T_world_body);
-    rlf_mat4 view_model = rlf_mat4_model(&T_picture_body, scale.scale);
+    T_picture_body.p = rlf_transform(&T_picture_body, offset);
+    rlf_mat4 view_model = rlf_mat4_model(&T_picture_body, scale);
     rlf_mat3 rotation = rlf_quat_to_mat3(T_camera_body.q);
     GLfloat columns[9];
     for (int i = 0; i < 9; i++) {
         columns[i] = (GLfloat)rotation.m[i % 3][i / 3];
     }
-    double focal = 0.5 * (view->camera.fx + view->camera.fy);
     gl_view_set_matrix(bodies->uniforms.picture_body, &view_model);
     glUniformMatrix3fv(bodies->uniforms.camera_body, 1, GL_FALSE, columns);
+}
+
+/* Uniforms of a body that is drawn as its shape. */
+static void set_shape(const gl_bodies *bodies, const gl_bodies_pass *pass,
+                      const rlf_body_state *body)
+{
+    static const float white[3] = {1.0f, 1.0f, 1.0f};
+    const gl_view *view = pass->view;
+    shape_mesh_scale scale = shape_mesh_scale_of(&body->shape);
+    double focal = 0.5 * (view->camera.fx + view->camera.fy);
+    double z = rlf_transform(&view->T_picture_world, body->T_world_body.p).z;
+    set_place(bodies, view, body, scale.scale, rlf_vec3_make(0, 0, 0));
+    set_color(bodies, pass, body, white);
+    glUniform1i(bodies->uniforms.has_skin, 0);
     glUniform1f(bodies->uniforms.shift, (GLfloat)(scale.half_height / scale.scale.y));
-    const float *shown = pass->light_color;
-    glUniform3f(bodies->uniforms.color, body->color[0] * shown[0], body->color[1] * shown[1],
-                body->color[2] * shown[2]);
     glUniform1f(bodies->uniforms.layer, (GLfloat)body_texture_kind_of(body->shape.type));
-    glUniform1f(bodies->uniforms.level,
-                (GLfloat)body_texture_level_of(&body->shape, T_picture_body.p.z, focal));
+    glUniform1f(bodies->uniforms.level, (GLfloat)body_texture_level_of(&body->shape, z, focal));
+}
+
+static void draw_model(const gl_bodies *bodies, const gl_bodies_pass *pass,
+                       const rlf_body_state *body)
+{
+    const rlf_look *look = &body->look;
+    const double s = look->scale;
+    set_place(bodies, pass->view, body, rlf_vec3_make(s, s, s), look->offset);
+    glUniform1i(bodies->uniforms.has_skin, 1);
+    glUniform1f(bodies->uniforms.shift, 0.0f);
+    const gl_model *item = gl_models_bind(bodies->models, look->model);
+    for (int32_t i = 0; i < look->model->part_count; i++) {
+        const rlf_model_part *part = &look->model->parts[i];
+        set_color(bodies, pass, body, part->color);
+        gl_models_draw_part(bodies->models, item, part, UNIT_SKIN);
+    }
 }
 
 /* The bodies that may take light from this one. */
@@ -341,9 +384,13 @@ void gl_bodies_draw(const gl_bodies *bodies, const gl_bodies_pass *pass,
                     const rlf_snapshot *snapshot, int32_t index)
 {
     const rlf_body_state *body = &snapshot->bodies[index];
-    set_body(bodies, pass, body);
     set_shaders(bodies, pass, snapshot->body_count, index);
     gl_shade_set(&bodies->uniforms.shade, pass->shade, index);
+    if (body->look.model != NULL) {
+        draw_model(bodies, pass, body);
+        return;
+    }
+    set_shape(bodies, pass, body);
     if (body->shape.type == RLF_SHAPE_HULL) {
         draw_hull(bodies, &body->shape);
         return;

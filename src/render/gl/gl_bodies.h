@@ -3,6 +3,7 @@
 #define RLF_RENDER_GL_BODIES_H
 
 #include "gl_caster.h"
+#include "gl_models.h"
 #include "gl_shade.h"
 #include "gl_texture.h"
 #include "gl_view.h"
@@ -13,8 +14,8 @@
 typedef struct gl_bodies {
     GLuint program;
     struct {
-        GLint picture_body, camera_body, shift, color, light, layer, level, occlusion, noise,
-            intrinsics, shader_count;
+        GLint picture_body, camera_body, shift, color, light, layer, level, has_skin, occlusion,
+            noise, intrinsics, shader_count;
         gl_caster_uniforms shaders[CASTER_BODIES];
         gl_shade_uniforms shade;
     } uniforms;
@@ -22,6 +23,7 @@ typedef struct gl_bodies {
     GLuint vertex_array, vertex_buffer, index_buffer; /* unit meshes */
     GLuint hull_array, hull_buffer;                   /* a hull's triangles, streamed */
     GLuint textures;                                  /* array: one layer per texture kind */
+    gl_models *models;
     shape_mesh_range range[SHAPE_MESH_UNIT_COUNT];
     shape_vertex *hull_vertices; /* a batch on its way to hull_buffer */
 } gl_bodies;

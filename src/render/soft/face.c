@@ -193,6 +193,7 @@ static void add_screen_face(soft *s, const screen_corner *c, int count, int32_t 
     f->y_begin = first_cell(top, s->camera.height);
     f->y_end = end_cell(bottom, s->camera.height);
     f->body = body_index;
+    f->skin = 0;
     soft_body *body = &s->scene.bodies[body_index];
     body->y0 = f->y_begin < body->y0 ? f->y_begin : body->y0;
     body->y1 = f->y_end > body->y1 ? f->y_end : body->y1;

@@ -1,4 +1,5 @@
 /* Bodies of a snapshot as faces in the picture, nearest body first. */
+#include "render/body_look.h"
 #include "render/soft/soft.h"
 
 #define BODIES_AT_ONCE 8 /* per worker */
@@ -112,6 +113,19 @@ static void add_hull(soft *s, const body_transform *T, const rlf_shape *shape, i
     }
 }
 
+static void add_shape(soft *s, const rlf_shape *shape, const rlf_pose *T_picture_body, int32_t body)
+{
+    rlf_quat q = rlf_quat_normalize(T_picture_body->q);
+    body_transform transform = {rlf_quat_to_mat3(q), T_picture_body->p,
+                                rlf_rotate(rlf_quat_conjugate(q), s->to_light),
+                                shape_mesh_scale_of(shape)};
+    if (shape->type == RLF_SHAPE_HULL) {
+        add_hull(s, &transform, shape, body);
+    } else {
+        add_unit_mesh(s, &transform, shape->type, body);
+    }
+}
+
 static void choose_look(soft *s, const rlf_body_state *state, soft_body *body)
 {
     for (int i = 0; i < 3; i++) {
@@ -131,7 +145,7 @@ static rlf_result add_body(soft *s, const rlf_body_state *state, const rlf_pose 
     soft_scene *scene = &s->scene;
     const rlf_shape *shape = &state->shape;
     rlf_pose T = rlf_pose_mul(T_picture_world, &state->T_world_body);
-    double radius = rlf_shape_radius(shape);
+    double radius = body_look_radius(state);
     if (!may_be_seen(s, T.p, radius)) {
         return RLF_OK;
     }
@@ -153,18 +167,14 @@ static rlf_result add_body(soft *s, const rlf_body_state *state, const rlf_pose 
                         .radius = radius,
                         .index = index};
     choose_look(s, state, body);
-    rlf_quat q = rlf_quat_normalize(T.q);
-    body_transform transform = {rlf_quat_to_mat3(q), T.p,
-                                rlf_rotate(rlf_quat_conjugate(q), s->to_light),
-                                shape_mesh_scale_of(shape)};
-    if (is_hull) {
-        add_hull(s, &transform, shape, scene->body_count);
+    if (state->look.model != NULL) {
+        result = soft_scene_add_model(s, &state->look, &T, scene->body_count);
     } else {
-        add_unit_mesh(s, &transform, shape->type, scene->body_count);
+        add_shape(s, shape, &T, scene->body_count);
     }
     body->end = scene->face_count;
     scene->body_count += body->end > body->first ? 1 : 0;
-    return RLF_OK;
+    return result;
 }
 
 static bool is_before(const soft_body *a, const soft_body *b)
@@ -253,6 +263,7 @@ rlf_result soft_scene_build(soft *s, const rlf_render_input *input)
     const rlf_snapshot *snapshot = input->snapshot;
     s->scene.face_count = 1;
     s->scene.body_count = 0;
+    s->scene.skin_count = 1;
     s->scene.caster_count = 0;
     if (snapshot == NULL || snapshot->body_count <= 0) {
         return RLF_OK;

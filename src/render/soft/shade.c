@@ -369,7 +369,7 @@ RLF_KERNEL_PART void mix_nodes(const light_nodes *nodes, float share, light_node
 /* ---- runs ----------------------------------------------------------------------------------- */
 
 /* SOFT_LANES pixels of a row; nodes NULL = no light is taken. */
-RLF_KERNEL_PART void shade_block(const soft_body *body, const run *r, int32_t first,
+RLF_KERNEL_PART void shade_block(const soft_body *body, bool has_skin, const run *r, int32_t first,
                                  const light_nodes *nodes, int32_t node, int32_t px, lanes *v)
 {
     interpolate_z(r, first, 1, v->z);
@@ -379,9 +379,37 @@ RLF_KERNEL_PART void shade_block(const soft_body *body, const run *r, int32_t fi
     } else if (nodes != NULL) {
         apply_light(nodes->ambient + node, nodes->direct + node, 8, v->light);
     }
-    interpolate_uv(r, first, v->z, v->weight_x, v->weight_y, v->index);
-    look_up(body->texture, v->index, v->texels);
-    filter(v->texels, v->weight_x, v->weight_y, v->light);
+    if (!has_skin) {
+        interpolate_uv(r, first, v->z, v->weight_x, v->weight_y, v->index);
+        look_up(body->texture, v->index, v->texels);
+        filter(v->texels, v->weight_x, v->weight_y, v->light);
+    }
+}
+
+RLF_KERNEL_PART void multiply(const float *restrict values, float *restrict by)
+{
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
+        by[i] *= values[i];
+    }
+}
+
+/* Adds light of a model's face, as its skin shows it, to the row's sums. */
+RLF_KERNEL_PART void add_skin(const soft_skin *skin, const soft_face *f, soft_lanes_at at,
+                              const lanes *v, const soft_row *row)
+{
+    float rgb[3][SOFT_LANES];
+    if (skin->texture == NULL) {
+        for (int k = 0; k < 3; k++) {
+            add(v->light, skin->color[k], row->sum[k] + at.x);
+        }
+        return;
+    }
+    soft_skin_colors(skin, f, at, v->z, rgb);
+    for (int k = 0; k < 3; k++) {
+        multiply(v->light, rgb[k]);
+        add(rgb[k], skin->color[k], row->sum[k] + at.x);
+    }
 }
 
 /* Adds `used` pixels of a row from x on. */
@@ -396,7 +424,7 @@ RLF_KERNEL_PART void shade_run(const soft *s, const soft_ends *ends, const soft_
     lanes v;
     for (int32_t i = 0; i < used; i += SOFT_LANES) {
         const int32_t at = x + i;
-        shade_block(body, &r, i, nodes, first_node + i / s->shade_px, s->shade_px, &v);
+        shade_block(body, f->skin > 0, &r, i, nodes, first_node + i / s->shade_px, s->shade_px, &v);
         const int32_t end = at + (used - i < SOFT_LANES ? used - i : SOFT_LANES);
         if (real->marks != NULL && !has_edge(real->marks, at, end)) {
             share_plain(real->row + at, real->noise, v.z, v.share);
@@ -410,8 +438,13 @@ RLF_KERNEL_PART void shade_run(const soft *s, const soft_ends *ends, const soft_
         }
         cover(row->face + at, group->stride, ends->face, used - i, v.coverage);
         take_share(v.coverage, v.share, v.light);
-        for (int k = 0; k < 3; k++) {
-            add(v.light, body->color[k], row->sum[k] + at);
+        if (f->skin > 0) {
+            const soft_lanes_at lanes_at = {at, row->y, end - at};
+            add_skin(&s->scene.skins[f->skin], f, lanes_at, &v, row);
+        } else {
+            for (int k = 0; k < 3; k++) {
+                add(v.light, body->color[k], row->sum[k] + at);
+            }
         }
         add(v.share, 1.0f, row->sum[3] + at);
         add(v.coverage, 1.0f, row->sum[4] + at);

@@ -29,11 +29,11 @@ static void destroy(void *self)
     for (int32_t i = 0; s->shade_tiles != NULL && i < s->worker_count; i++) {
         rlf_free(s->shade_tiles[i]);
     }
-    void *parts[13] = {s->workers,          s->image.data,  s->matte.data,    s->scene.faces,
-                       s->scene.bodies,     s->corners,     s->column_left,   s->column_weight,
-                       s->grid_image.data,  s->shade_tiles, s->scene.casters, s->scene.reach,
-                       s->scene.real_shades};
-    for (int i = 0; i < 13; i++) {
+    void *parts[14] = {s->workers,           s->image.data,  s->matte.data,    s->scene.faces,
+                       s->scene.bodies,      s->corners,     s->column_left,   s->column_weight,
+                       s->grid_image.data,   s->shade_tiles, s->scene.casters, s->scene.reach,
+                       s->scene.real_shades, s->scene.skins};
+    for (int i = 0; i < 14; i++) {
         rlf_free(parts[i]);
     }
     rlf_free(s);
@@ -126,6 +126,7 @@ static rlf_result allocate(soft *s)
     s->scene.reach = rlf_alloc_array(BODIES_AT_START, sizeof(*s->scene.reach));
     s->scene.real_shades = rlf_alloc_array(BODIES_AT_START, sizeof(*s->scene.real_shades));
     s->corners = rlf_alloc_array(SHAPE_MESH_VERTEX_MAX, sizeof(*s->corners));
+    s->corner_capacity = SHAPE_MESH_VERTEX_MAX;
     s->column_left = rlf_alloc_array((size_t)width, sizeof(*s->column_left));
     s->column_weight = rlf_alloc_array((size_t)width, sizeof(*s->column_weight));
     if (result != RLF_OK || s->matte.data == NULL || s->scene.bodies == NULL ||

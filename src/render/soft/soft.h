@@ -11,6 +11,7 @@
 #define RLF_RENDER_SOFT_H
 
 #include "kernel/kernel.h"
+#include "relief/model.h"
 #include "render/body_texture.h"
 #include "render/caster.h"
 #include "render/light_direction.h"
@@ -57,7 +58,15 @@ typedef struct soft_face {
     soft_plane attribute[SOFT_ATTRIBUTES]; /* divided by z: linear in the picture */
     int32_t y_begin, y_end;                /* rows it may touch */
     int32_t body;                          /* into soft_scene.bodies */
+    int32_t skin;                          /* into soft_scene.skins; 0 = as the body */
 } soft_face;
+
+/* What a model's face takes its colours from. */
+typedef struct soft_skin {
+    const rlf_model_texture *texture; /* NULL = none */
+    float color[3];                   /* of the part and the body, times 255 */
+    float low[2], high[2];            /* texture coordinates of the face */
+} soft_skin;
 
 typedef struct soft_body {
     int32_t first, end;      /* faces */
@@ -82,6 +91,8 @@ typedef struct soft_scene {
     caster *casters; /* as the snapshot's bodies; none without shadows */
     caster_rect *reach;
     int32_t caster_count;
+    soft_skin *skins; /* entry 0 is not used */
+    int32_t skin_count, skin_capacity;
     real_shade *real_shades; /* as bodies */
     int32_t body_capacity;   /* of the four */
 } soft_scene;
@@ -166,6 +177,7 @@ typedef struct soft {
     uint32_t textures[BODY_TEXTURE_KINDS][BODY_TEXTURE_BYTES / 4];
     soft_scene scene;
     soft_corner *corners; /* work memory: one mesh's vertices */
+    int32_t corner_capacity;
     soft_group *workers;
     soft_shade_tile **shade_tiles; /* a band's, per worker */
     int32_t worker_count;
@@ -201,6 +213,10 @@ rlf_result soft_scene_reserve(soft *s, int32_t face_count);
  * in one plane. */
 void soft_scene_add_face(soft *s, const soft_corner *corners, int32_t corner_count, int32_t body);
 
+/* scene_model.c: the faces of a body that is drawn as a model; its colour is that of the body. */
+rlf_result soft_scene_add_model(soft *s, const rlf_look *look, const rlf_pose *T_picture_body,
+                                int32_t body);
+
 /* raster.c: where the face begins and ends in the group's rows. */
 void soft_find_ends(const soft_face *face, const soft_group *group, soft_ends *out);
 /* Lets the face win the samples of the group's rows where it is nearest so far. */
@@ -208,6 +224,13 @@ void soft_raster_face(const soft_face *face, const soft_ends *ends, soft_group *
 
 /* shade.c: adds what the samples see of the face to the sums of the group's rows. */
 void soft_shade_face(const soft *s, const soft_ends *ends, const soft_group *group);
+/* skin.c: shares of red, green and blue that the skin's texture shows in SOFT_LANES pixels of row y
+ * from x on, of which `count` count; z are their depths. */
+typedef struct soft_lanes_at {
+    int32_t x, y, count;
+} soft_lanes_at;
+void soft_skin_colors(const soft_skin *skin, const soft_face *face, soft_lanes_at at,
+                      const float *z, float rgb[3][SOFT_LANES]);
 /* compose.c: puts sums (red, green, blue, shown) over `count` pixels. */
 void soft_compose_row(float *const sum[4], int32_t count, uint8_t *restrict pixels,
                       uint8_t *restrict matte);
