@@ -6,6 +6,7 @@
 #include <cmocka.h>
 
 #include "gl_scene.h"
+#include "model_sample.h"
 
 static gl_scene scene;
 
@@ -117,6 +118,42 @@ static void make_scene(void)
     gl_scene_init(&scene);
     add_room();
     add_shapes();
+}
+
+/* Models with and without a texture, near and far, drawn again from what the GPU has kept. */
+static void test_models(void **state)
+{
+    (void)state;
+    gl_scene_init(&scene);
+    add_room();
+    rlf_model *board = sample_ball(8);
+    rlf_model *plain = sample_ball(0);
+    rlf_quat q = rlf_quat_from_rotation_vector(rlf_vec3_make(0.6, 0.8, -0.3));
+    const rlf_vec3 places[5] = {
+        {-0.4, -0.2, 1.3}, {0.2, -0.2, 1.0}, {0.5, 0.1, 1.9}, {-0.3, 0.3, 1.5}, {0.35, 0.25, 1.0}};
+    for (int i = 0; i < 5; i++) {
+        const double radius = 0.1 + 0.03 * i;
+        rlf_shape ball = {.type = RLF_SHAPE_SPHERE, .radius = radius};
+        rlf_body_state *body = gl_scene_add(&scene, ball, places[i], q);
+        body->look = (rlf_look){i % 2 == 0 ? board : plain, radius, {0.01, 0.02, 0}};
+    }
+    gl_scene_add(&scene, gl_scene_box(0.3, 0.3, 0.3), rlf_vec3_make(-0.1, 0.1, 1.7), q);
+    for (int i = 0; i < 4; i++) {
+        static const rlf_occlusion occlusions[4] = {RLF_OCCLUSION_DEPTH, RLF_OCCLUSION_THESIS,
+                                                    RLF_OCCLUSION_OFF, RLF_OCCLUSION_SOFT};
+        scene.rig.noise = (rlf_depth_noise){0.0015, -0.0005, 0.0003};
+        rlf_compositor_def def = gl_scene_def(&scene, occlusions[i]);
+        /* Shadows on the room are worked out more coarsely by the soft renderer. */
+        bool has_shadows = i % 3 == 0;
+        for (int k = 0; k < 2; k++) {
+            gl_api api = k == 0 ? CONTEXT_API_CORE_33 : CONTEXT_API_ES_30;
+            difference d = render_both(&def, api, k == 0 ? "models, OpenGL 3.3" : "models, ES 3.0");
+            assert_true(d.inside > 1500 && d.mean <= mean_limit && d.iou >= iou_limit);
+            assert_true(d.elsewhere <= (has_shadows ? 12.0 : 3.0));
+        }
+    }
+    rlf_model_destroy(&board);
+    rlf_model_destroy(&plain);
 }
 
 static void test_depth_occlusion(void **state)
@@ -341,6 +378,7 @@ int main(void)
         return 77;
     }
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_models),
         cmocka_unit_test(test_depth_occlusion),
         cmocka_unit_test(test_soft_occlusion),
         cmocka_unit_test(test_light),

@@ -226,7 +226,7 @@ rlf_result gl_bodies_create(bool is_es, gl_bodies *out)
         result = create_textures(out);
     }
     if (result == RLF_OK) {
-        result = gl_models_create(&out->models);
+        result = gl_models_create(UNIT_SKIN, &out->models);
     }
     if (result != RLF_OK) {
         gl_bodies_destroy(out);
@@ -331,7 +331,7 @@ static void draw_model(const gl_bodies *bodies, const gl_bodies_pass *pass,
     for (int32_t i = 0; i < look->model->part_count; i++) {
         const rlf_model_part *part = &look->model->parts[i];
         set_color(bodies, pass, body, part->color);
-        gl_models_draw_part(bodies->models, item, part, UNIT_SKIN);
+        gl_models_draw_part(bodies->models, item, part);
     }
 }
 

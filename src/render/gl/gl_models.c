@@ -3,11 +3,13 @@
 
 #include <stddef.h>
 
-static GLuint create_texture(const rlf_model_texture *texture)
+/* Leaves it bound to `unit`, which must be the skin's own: uploads happen while bodies are drawn.
+ */
+static GLuint create_texture(const rlf_model_texture *texture, int unit)
 {
     GLuint name;
     glGenTextures(1, &name);
-    glActiveTexture(GL_TEXTURE0);
+    glActiveTexture(GL_TEXTURE0 + (GLenum)unit);
     glBindTexture(GL_TEXTURE_2D, name);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -36,7 +38,7 @@ static void describe_vertices(void)
     }
 }
 
-static void upload(const rlf_model *model, gl_model *out)
+static void upload(const rlf_model *model, int unit, gl_model *out)
 {
     glGenVertexArrays(1, &out->vertex_array);
     glGenBuffers(1, &out->vertex_buffer);
@@ -50,7 +52,7 @@ static void upload(const rlf_model *model, gl_model *out)
                  model->triangles, GL_STATIC_DRAW);
     describe_vertices();
     for (int32_t i = 0; i < model->texture_count; i++) {
-        out->textures[i] = create_texture(&model->textures[i]);
+        out->textures[i] = create_texture(&model->textures[i], unit);
     }
     out->texture_count = model->texture_count;
     out->id = model->id;
@@ -65,7 +67,7 @@ static void discard(gl_model *item)
     *item = (gl_model){0};
 }
 
-rlf_result gl_models_create(gl_models **out)
+rlf_result gl_models_create(int unit, gl_models **out)
 {
     static const uint8_t white[4] = {255, 255, 255, 255};
     const rlf_model_texture texture = {white, 1, 1, 1};
@@ -73,7 +75,8 @@ rlf_result gl_models_create(gl_models **out)
     if (*out == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    (*out)->white = create_texture(&texture);
+    (*out)->unit = unit;
+    (*out)->white = create_texture(&texture, unit);
     return RLF_OK;
 }
 
@@ -102,7 +105,7 @@ const gl_model *gl_models_bind(gl_models *models, const rlf_model *model)
     }
     if (found == NULL) {
         discard(oldest);
-        upload(model, oldest);
+        upload(model, models->unit, oldest);
         found = oldest;
     }
     found->last_use = ++models->uses;
@@ -110,11 +113,10 @@ const gl_model *gl_models_bind(gl_models *models, const rlf_model *model)
     return found;
 }
 
-void gl_models_draw_part(const gl_models *models, const gl_model *item, const rlf_model_part *part,
-                         int unit)
+void gl_models_draw_part(const gl_models *models, const gl_model *item, const rlf_model_part *part)
 {
     const uintptr_t first = 3 * sizeof(int32_t) * (uintptr_t)part->first_triangle;
-    glActiveTexture(GL_TEXTURE0 + (GLenum)unit);
+    glActiveTexture(GL_TEXTURE0 + (GLenum)models->unit);
     glBindTexture(GL_TEXTURE_2D,
                   part->texture >= 0 ? item->textures[part->texture] : models->white);
     glDrawElements(GL_TRIANGLES, 3 * part->triangle_count, GL_UNSIGNED_INT, (const void *)first);
