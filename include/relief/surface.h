@@ -87,6 +87,8 @@ typedef struct rlf_surface {
     const float *background_depth;
     const float *background_normal_x, *background_normal_y, *background_normal_z;
     const int32_t *background_label;
+    /* While it and background_depth stay the same, so do the planes above; 0 = not known. */
+    int64_t background_version;
     rlf_background_state background_state;
 
     /* Regions of both layers; region_points lists pixel indices region by region when kept. */

@@ -32,6 +32,7 @@ typedef struct rlf_grid_sheet {
     const int32_t *label;     /* region label; may be NULL */
     const uint8_t *mask;      /* only pixels with mask != 0 belong to the sheet; NULL = all */
     rlf_border border;        /* beyond the view; the world's def may ask for more */
+    int64_t version; /* while it and `depth` stay the same, so do all planes; 0 = not known */
 } rlf_grid_sheet;
 
 /* A region with its points, for the thesis's broad and narrow phase. */

@@ -43,11 +43,13 @@ typedef struct phys_body {
     rlf_vec3 block_sum, block_mean; /* of x - still_x, over blocks of time; see sleep.c */
     double block_time;
     bool has_block;
-    bool has_left;     /* it left the place where it rested, in the last look */
-    bool is_disturbed; /* it touches something restless */
+    int64_t rest_version; /* of the surface that its contacts of this sleep are with; 0 = none */
+    bool has_left;        /* it left the place where it rested, in the last look */
+    bool is_disturbed;    /* it touches something restless */
 
     int32_t surface_age, surface_period; /* substeps since, and between, surface queries */
     double surface_time;                 /* world time of the last one, s */
+    rlf_vec3 surface_v, surface_w;       /* v and w then */
     rlf_vec3 surface_flow;               /* velocity of the foreground near it, grid frame */
     uint8_t home[2]; /* field_state: which side of foreground and background it belongs to */
     phys_stance stance;

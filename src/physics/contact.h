@@ -25,7 +25,7 @@ typedef struct phys_contact {
     rlf_contact_other other;
     int32_t a, b;  /* body indices; b < 0: the surface */
     int32_t label; /* region label of the surface, 0 else */
-    int32_t log;   /* entry in the frame's contact list, -1 = none yet */
+    int64_t log;   /* entry in the list of all contacts there were, -1 = none; see world_state.h */
 } phys_contact;
 
 /* What lives on of a contact that is searched again. */
@@ -33,7 +33,7 @@ typedef struct phys_trace {
     rlf_vec3 anchor_a, normal;
     rlf_contact_other other;
     double impulses[3];
-    int32_t log;
+    int64_t log;
 } phys_trace;
 
 static inline phys_trace phys_trace_of(const phys_contact *c)

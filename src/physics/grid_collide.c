@@ -260,15 +260,16 @@ static void set_period(grid_job *job, phys_body *body, double most)
     job->reach = reach_of(job->query, body, body->surface_period);
 }
 
-void grid_collide_prepare(const grid_query *query, const phys_body *body)
+bool grid_collide_prepare(const grid_query *query, const phys_body *body)
 {
     int32_t rect[4], stride;
     double reach = reach_of(query, body, query_period(body, query->step, PERIOD_AT_REST));
     rlf_vec3 centre = rlf_transform(&query->T_grid_world, body->x);
-    if (grid_footprint(query->grid, centre, reach, rect, &stride)) {
-        grid_tiles_make(query->foreground, query->grid, rect);
-        grid_tiles_make(query->background, query->grid, rect);
+    if (!grid_footprint(query->grid, centre, reach, rect, &stride)) {
+        return false;
     }
+    grid_tiles_make(query->background, query->grid, rect);
+    return grid_tiles_make(query->foreground, query->grid, rect);
 }
 
 void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)

@@ -19,8 +19,9 @@ typedef struct grid_query {
     const grid_shell *shell; /* NULL: there is nothing where the camera does not look */
 } grid_query;
 
-/* Makes the tiles that grid_collide will read for this body. */
-void grid_collide_prepare(const grid_query *query, const phys_body *body);
+/* Makes the tiles that grid_collide will read for this body. Returns whether any of them has
+ * foreground. */
+bool grid_collide_prepare(const grid_query *query, const phys_body *body);
 
 /* Replaces body->surface by fresh contacts and sets how long they may be used; impulses of contacts
  * that live on are kept. */

@@ -58,6 +58,17 @@ static void measure(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet 
     tile->box.max = rlf_vec3_make(high[0], high[1], high[2]);
 }
 
+static bool is_masked_out(const rlf_grid *grid, const uint8_t *mask, const int32_t rect[4])
+{
+    uint8_t any = 0;
+    for (int32_t y = rect[1]; y < rect[3]; y++) {
+        for (int32_t x = rect[0]; x < rect[2]; x++) {
+            any |= mask[y * grid->width + x];
+        }
+    }
+    return any == 0;
+}
+
 /* Mean plane and velocity of a few of its pixels; false when they have no normals. */
 static bool fit(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet *sheet,
                 const int32_t rect[4])
@@ -120,8 +131,12 @@ static void make_tile(grid_tile *tile, const grid_tiles *tiles, const rlf_grid *
     const int32_t wide[4] = {x < RIM_PX ? 0 : x - RIM_PX, y < RIM_PX ? 0 : y - RIM_PX,
                              least(own[2] + RIM_PX, grid->width),
                              least(own[3] + RIM_PX, grid->height)};
+    const uint8_t *mask = tiles->sheet->mask;
     tile->stamp = tiles->stamp;
-    measure(tile, grid, tiles->sheet, own);
+    tile->count = 0;
+    if (mask == NULL || !is_masked_out(grid, mask, own)) {
+        measure(tile, grid, tiles->sheet, own);
+    }
     if (tile->count == 0) {
         tile->kind = TILE_EMPTY;
     } else {
@@ -131,10 +146,11 @@ static void make_tile(grid_tile *tile, const grid_tiles *tiles, const rlf_grid *
     }
 }
 
-void grid_tiles_make(grid_tiles *tiles, const rlf_grid *grid, const int32_t rect[4])
+bool grid_tiles_make(grid_tiles *tiles, const rlf_grid *grid, const int32_t rect[4])
 {
+    bool is_any = false;
     if (tiles->sheet->depth == NULL || tiles->sheet->normal_x == NULL) {
-        return;
+        return false;
     }
     for (int32_t row = rect[1] / tiles->size; row * tiles->size < rect[3]; row++) {
         for (int32_t column = rect[0] / tiles->size; column * tiles->size < rect[2]; column++) {
@@ -143,6 +159,8 @@ void grid_tiles_make(grid_tiles *tiles, const rlf_grid *grid, const int32_t rect
             if (tile->stamp != tiles->stamp) {
                 make_tile(tile, tiles, grid, at);
             }
+            is_any = is_any || tile->kind != TILE_EMPTY;
         }
     }
+    return is_any;
 }

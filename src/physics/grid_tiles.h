@@ -36,7 +36,8 @@ typedef struct grid_tiles {
 void grid_tiles_start(grid_tiles *tiles, const rlf_grid *grid, const rlf_grid_sheet *sheet,
                       bool is_new);
 
-/* Makes the tiles under the rectangle of pixels x0, y0, x1, y1 (ends excluded). */
-void grid_tiles_make(grid_tiles *tiles, const rlf_grid *grid, const int32_t rect[4]);
+/* Makes the tiles under the rectangle of pixels x0, y0, x1, y1 (ends excluded). Returns whether any
+ * of them has a surface. */
+bool grid_tiles_make(grid_tiles *tiles, const rlf_grid *grid, const int32_t rect[4]);
 
 #endif

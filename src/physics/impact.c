@@ -4,6 +4,7 @@
  * changes v by dv and shift by -dv t, so that the path is continuous at t. Restitution therefore
  * acts at the speed and the place of the impact (no height is lost to the step), and a row of
  * touching balls passes a blow on ball by ball. Slow contacts are left to the solver. */
+#include "physics/grid_scan.h"
 #include "physics/solver.h"
 
 #define NO_EVENT 1e30
@@ -327,25 +328,34 @@ static void answer(const phys_group *g, double t)
     }
 }
 
+/* Whether a body goes another way than the one for which its contacts with the surface were
+ * searched: its points may come nearer than the search looked. */
+static bool has_turned(const phys_body *body, double h)
+{
+    double change = rlf_length(rlf_sub(body->v, body->surface_v)) +
+                    rlf_length(rlf_sub(body->w, body->surface_w)) * body->shape.radius;
+    return change * (body->surface_period + 1) * h > 0.5 * GRID_MARGIN;
+}
+
 /* Keeps x(t) continuous at the time of the impact. */
-static void shift_back(phys_body *body, rlf_vec3 v, rlf_vec3 w, double t)
+static void shift_back(phys_body *body, rlf_vec3 v, rlf_vec3 w, double t, double h)
 {
     if (body != NULL && phys_body_is_moving(body)) {
         body->impact_shift = rlf_mad(body->impact_shift, rlf_sub(body->v, v), -t);
         body->impact_turn = rlf_mad(body->impact_turn, rlf_sub(body->w, w), -t);
         body->impact_time = t;
-        body->is_restless = true; /* its way is a new one: look again */
+        body->is_restless = body->is_restless || has_turned(body, h);
     }
 }
 
-static void bounce(const phys_group *g, double t)
+static void bounce(const phys_group *g, double t, double h)
 {
     rlf_vec3 v_a = g->a->v, w_a = g->a->w;
     rlf_vec3 v_b = g->b != NULL ? g->b->v : v_a;
     rlf_vec3 w_b = g->b != NULL ? g->b->w : w_a;
     answer(g, t);
-    shift_back(g->a, v_a, w_a, t);
-    shift_back(g->b, v_b, w_b, t);
+    shift_back(g->a, v_a, w_a, t, h);
+    shift_back(g->b, v_b, w_b, t, h);
 }
 
 /* Gaps seen by the solver are those of the new paths; a contact that bounced must only not close
@@ -448,7 +458,7 @@ void phys_solve_impacts(rlf_world *world, const phys_island *island, const phys_
     link_groups(&list, island, count);
     for (int32_t k = take_first(&list); k >= 0; k = take_first(&list)) {
         list.counts[k]++;
-        bounce(&groups[k], list.times[k]);
+        bounce(&groups[k], list.times[k], h);
         look_at_body(&list, groups[k].a);
         look_at_body(&list, groups[k].b);
     }

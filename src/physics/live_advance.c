@@ -24,7 +24,22 @@ static void find_shell(rlf_world *world, const rlf_grid *grid)
     }
     world->shell_pose = grid->T_world_grid;
     world->shell_time = world->time;
+    world->rest_version++;
     grid_shell_update(&world->shell, grid);
+}
+
+/* Whether what stays is that of the last grid. */
+static bool is_same_background(rlf_world *world, const rlf_grid *grid)
+{
+    const rlf_grid_sheet *sheet = &grid->background;
+    bool is_same = world->has_grid && sheet->version != 0 &&
+                   sheet->version == world->background_version &&
+                   sheet->depth == world->background_depth &&
+                   memcmp(&world->grid_pose, &grid->T_world_grid, sizeof(rlf_pose)) == 0;
+    world->background_version = sheet->version;
+    world->background_depth = sheet->depth;
+    world->grid_pose = grid->T_world_grid;
+    return is_same;
 }
 
 /* A new grid shows the surface at the end of the advance that brings it; the same one again is
@@ -40,8 +55,10 @@ static bool start_surface(rlf_world *world, const rlf_grid *grid, double dt)
         world->grid_gap = world->has_grid ? rlf_max(world->grid_tau - EXTRAPOLATION_MAX, 0.0) : 0.0;
         world->grid_tau = -dt;
     }
+    bool has_changed = is_new && !is_same_background(world, grid);
+    world->rest_version += has_changed;
     grid_tiles_start(&world->foreground_tiles, grid, &grid->foreground, is_new);
-    grid_tiles_start(&world->background_tiles, grid, &grid->background, is_new);
+    grid_tiles_start(&world->background_tiles, grid, &grid->background, has_changed);
     if (is_new && phys_world_has_shell(world, grid)) {
         find_shell(world, grid);
     }
@@ -82,6 +99,8 @@ static void collide_range(void *context, int32_t begin, int32_t end, int32_t wor
         phys_body *body = &job->world->bodies[i];
         if (is_due(body)) {
             grid_collide(job->query, body, i);
+            body->surface_v = body->v;
+            body->surface_w = body->w;
         }
     }
 }
@@ -178,22 +197,6 @@ static void leap(rlf_world *world, const rlf_grid *grid, int32_t count, double h
     phys_clock(&clock, &world->times.sleep_ms);
 }
 
-/* The contact list begins anew. */
-static void forget_log(rlf_world *world)
-{
-    for (int32_t i = 0; i < world->body_top; i++) {
-        for (int32_t k = 0; k < world->bodies[i].surface_count; k++) {
-            world->bodies[i].surface[k].log = -1;
-        }
-    }
-    for (int32_t i = 0; i < world->pair_count; i++) {
-        phys_pair *pair = &world->pairs[i];
-        for (int32_t k = 0; k < pair->contact_count; k++) {
-            pair->contacts[k].log = -1;
-        }
-    }
-}
-
 static void fill_log(rlf_world *world)
 {
     for (int32_t i = 0; i < world->pair_count; i++) {
@@ -227,7 +230,6 @@ void phys_live_advance(rlf_world *world, const rlf_grid *grid, double dt)
     double h = dt / count;
     double start = world->time;
     int64_t clock = rlf_clock_ns();
-    forget_log(world);
     if (start_surface(world, grid, dt)) {
         greet_surface(world, grid, h);
     }

@@ -72,6 +72,22 @@ static double gap_now(const phys_body *body, const phys_contact *c)
     return rlf_dot(c->normal, rlf_sub(rlf_add(body->x, r), c->anchor_b));
 }
 
+/* Asks the surface under a sleeper once more; whether it moves, came closer or went away. */
+static bool has_moved(const grid_query *query, phys_body *body, int32_t index)
+{
+    double before = least_separation(body);
+    bool is_moved = false;
+    grid_collide(query, body, index);
+    for (int32_t k = 0; k < body->surface_count; k++) {
+        phys_contact *c = &body->surface[k];
+        c->separation = gap_now(body, c);
+        is_moved =
+            is_moved || (c->separation < TOUCHING && rlf_length(c->surface_velocity) > TOUCH_SPEED);
+    }
+    double change = least_separation(body) - before;
+    return is_moved || change > WANDER || change < -WANDER;
+}
+
 void phys_wake_by_surface(rlf_world *world, const grid_query *query)
 {
     for (int32_t i = 0; i < world->body_top; i++) {
@@ -79,23 +95,20 @@ void phys_wake_by_surface(rlf_world *world, const grid_query *query)
         if (!body->is_alive || !body->is_asleep) {
             continue;
         }
-        double before = least_separation(body);
-        bool is_moved = false;
         if (query == NULL) {
-            is_moved = body->surface_count > 0;
+            bool was_held = body->surface_count > 0;
             body->surface_count = 0;
-        } else {
-            grid_collide_prepare(query, body);
-            grid_collide(query, body, i);
+            if (was_held) {
+                phys_body_wake(body);
+            }
+            continue;
         }
-        for (int32_t k = 0; k < body->surface_count; k++) {
-            phys_contact *c = &body->surface[k];
-            c->separation = gap_now(body, c);
-            is_moved = is_moved ||
-                       (c->separation < TOUCHING && rlf_length(c->surface_velocity) > TOUCH_SPEED);
+        bool is_alone = !grid_collide_prepare(query, body);
+        if (is_alone && body->rest_version == world->rest_version) {
+            continue;
         }
-        double change = least_separation(body) - before;
-        if (is_moved || change > WANDER || change < -WANDER) {
+        body->rest_version = is_alone ? world->rest_version : 0;
+        if (has_moved(query, body, i)) {
             phys_body_wake(body);
         }
     }
@@ -173,6 +186,7 @@ void phys_fall_asleep(rlf_world *world, double h)
         phys_body *body = &world->bodies[i];
         if (phys_body_is_moving(body) && body->still_time > STILL_TIME && !body->is_disturbed) {
             body->is_asleep = true;
+            body->rest_version = 0;
             body->v = body->w = rlf_vec3_make(0, 0, 0);
             body->impact_shift = body->impact_turn = body->v;
         }

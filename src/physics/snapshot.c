@@ -61,14 +61,14 @@ const rlf_snapshot *rlf_world_get_snapshot(const rlf_world *world)
 void phys_log_impulse(rlf_world *world, phys_contact *contact, rlf_vec3 point, double impulse,
                       double approach)
 {
-    bool is_new = contact->log < 0;
+    bool is_new = contact->log < world->log_begin;
     if (is_new) {
         if (world->log_count == world->def.contact_capacity) {
             return;
         }
-        contact->log = world->log_count++;
+        contact->log = world->log_begin + world->log_count++;
     }
-    rlf_contact *entry = &world->log[contact->log];
+    rlf_contact *entry = &world->log[contact->log - world->log_begin];
     if (is_new) {
         memset(entry, 0, sizeof(*entry));
     }
@@ -95,8 +95,8 @@ void phys_log_contacts(rlf_world *world, phys_contact *contacts, int32_t count)
             rlf_vec3 r = phys_contact_arm(contact, body);
             phys_log_impulse(world, contact, rlf_add(body->x, r), contact->impulse_sum,
                              contact->approach);
+            contact->impulse_sum = contact->approach = 0.0;
         }
-        contact->impulse_sum = contact->approach = 0.0;
     }
 }
 

@@ -232,6 +232,7 @@ void rlf_world_reset(rlf_world *world)
             remove_body(world, i);
         }
     }
+    world->log_begin += world->log_count;
     world->log_count = 0;
     world->touch_count = world->event_count = 0;
     world->time = 0.0;
@@ -246,6 +247,7 @@ void rlf_world_advance(rlf_world *world, const rlf_grid *grid, double dt)
     if (!RLF_ASSERT(world != NULL) || !(dt > 0.0 && dt <= 1.0)) {
         return;
     }
+    world->log_begin += world->log_count;
     world->log_count = 0;
     memset(&world->times, 0, sizeof(world->times));
     if (world->def.method == RLF_PHYSICS_THESIS) {

@@ -114,6 +114,7 @@ struct rlf_world {
 
     rlf_contact *log; /* contacts of this frame; capacity def.contact_capacity */
     int32_t log_count;
+    int64_t log_begin; /* contacts that earlier frames listed: theirs are not in this list */
     rlf_body_state *states;
     rlf_snapshot snapshot;
 
@@ -128,6 +129,10 @@ struct rlf_world {
     double grid_gap; /* s of the last one's way that was not extrapolated before this one came */
     double grid_tau; /* s from when the grid was seen to now, negative before */
     grid_tiles foreground_tiles, background_tiles;
+    const float *background_depth; /* of the last grid, and its version */
+    int64_t background_version;
+    rlf_pose grid_pose;
+    int64_t rest_version; /* while it is the same, what stays does not change under a sleeper */
     grid_shell shell;
     rlf_pose shell_pose; /* of the grid in the world when the shell was found */
     double shell_time;   /* ... and the world's time */

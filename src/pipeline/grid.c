@@ -36,6 +36,7 @@ static rlf_grid_sheet background_sheet(const rlf_surface *s)
         .normal_y = s->background_normal_y,
         .normal_z = s->background_normal_z,
         .label = s->background_label,
+        .version = s->background_version,
     };
     return sheet;
 }

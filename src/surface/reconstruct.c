@@ -353,6 +353,7 @@ static void publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *sl
     s->background_normal_y = sheet == NULL ? none : sheet->normal[1];
     s->background_normal_z = sheet == NULL ? none : sheet->normal[2];
     s->background_label = sheet == NULL ? stage->work.zero_labels : sheet->label;
+    s->background_version = sheet == NULL ? 0 : sheet->version;
     s->background_state = stage->background.state;
     s->regions = slot->regions;
     s->region_count = slot->foreground_region_first + slot->foreground_region_count;
