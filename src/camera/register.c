@@ -61,7 +61,8 @@ static void mark_rows(rlf_registration *r)
             double near_z = NEAREST_M * r->c[i] + r->pinhole.tc;
             double near_v = (NEAREST_M * r->b[i] + r->pinhole.tb) / near_z;
             double far_v = (double)r->b[i] / r->c[i];
-            double half = r->pinhole.half_y * rlf_max(1.0 / r->c[i], NEAREST_M / near_z);
+            double size = r->size != NULL ? r->size[i] : 1.0;
+            double half = size * r->pinhole.half_y * rlf_max(1.0 / r->c[i], NEAREST_M / near_z);
             bool is_known = r->c[i] > 0.1f && near_z > 0.1 * NEAREST_M;
             is_above = is_above && is_known && rlf_max(near_v, far_v) + half < top;
             is_below = is_below && is_known && rlf_min(near_v, far_v) - half > bottom;
@@ -131,6 +132,11 @@ rlf_result rlf_registration_create(const rlf_camera *depth, const float *ray_x, 
     }
     fill_tables(r, ray_x, ray_y, &T);
     measure(r, depth, &T);
+    result = registration_make_sizes(r);
+    if (result != RLF_OK) {
+        rlf_registration_destroy(&r);
+        return result;
+    }
     mark_rows(r);
     *out = r;
     return RLF_OK;
@@ -142,10 +148,11 @@ void rlf_registration_destroy(rlf_registration **registration)
         return;
     }
     rlf_registration *r = *registration;
-    void *parts[15] = {r->a,        r->b,        r->c,        r->has_row,      r->line,
+    void *parts[16] = {r->a,        r->b,        r->c,        r->has_row,      r->line,
                        r->points.u, r->points.v, r->points.z, r->points.scale, r->row.x0,
-                       r->row.x1,   r->row.y,    r->row.y0,   r->lens.du,      r->lens.dv};
-    for (int i = 0; i < 15; i++) {
+                       r->row.x1,   r->row.y,    r->row.y0,   r->lens.du,      r->lens.dv,
+                       r->size};
+    for (int i = 0; i < 16; i++) {
         rlf_free(parts[i]);
     }
     rlf_free(r);

@@ -11,6 +11,7 @@ struct rlf_registration {
     float *a, *b, *c; /* see rlf_kernel_pinhole */
     rlf_kernel_pinhole pinhole;
     rlf_kernel_lens lens; /* du NULL = no distortion */
+    float *size;          /* of each rectangle, over pinhole's; NULL = 1, lenses stretch nothing */
     uint8_t *has_row;     /* per depth row: 0 = nothing of it can land in the picture */
     float shadow_px_m;    /* parallax along a fill line: pixels of shift times metres of depth */
     int32_t gap_px;       /* holes up to this are gaps between rectangles */
@@ -23,6 +24,9 @@ struct rlf_registration {
 
 /* register_lens.c: the distortion of r->color as a table. */
 rlf_result registration_make_lens(rlf_registration *r);
+
+/* register_size.c: r->size. Tables and rectangles must be there. */
+rlf_result registration_make_sizes(rlf_registration *r);
 
 /* register_warp.c: colour pixels of row y of the depth grid, into r->points. */
 void registration_project(rlf_registration *r, const float *depth, int32_t y);

@@ -1,7 +1,8 @@
 /* Depth seen from the colour camera: forward warp with a z-buffer.
  *
  * Each depth pixel is a small rectangle in the colour image, as wide as the ratio of the focal
- * lengths, so that a smooth surface leaves no gaps; the nearest one wins. Neighbours in a row of
+ * lengths and the lenses there make it, so that a smooth surface leaves no gaps; the nearest one
+ * wins. Neighbours in a row of
  * the grid mostly share their rows of the picture: they are drawn into one line, which then goes
  * into all of those rows at once. */
 #include "camera/register.h"
@@ -64,6 +65,9 @@ void registration_project(rlf_registration *r, const float *depth, int32_t y)
     rlf_kernel_project_row(&r->pinhole, &rays, depth + first, r->width, &r->points);
     if (r->lens.du != NULL) {
         rlf_kernel_distort_row(&r->lens, r->width, &r->points);
+    }
+    if (r->size != NULL) {
+        rlf_kernel_stretch_row(r->size + first, r->width, r->points.scale);
     }
 }
 

@@ -375,6 +375,8 @@ void rlf_kernel_project_row(const rlf_kernel_pinhole *params, const rlf_kernel_r
 /* Moves pinhole pixels to where the lens puts them; outside the table nothing lands. */
 void rlf_kernel_distort_row(const rlf_kernel_lens *lens, int32_t count,
                             const rlf_kernel_points *points);
+/* Rectangles' scale times their size. */
+void rlf_kernel_stretch_row(const float *restrict size, int32_t count, float *restrict scale);
 void rlf_kernel_splat_row(const rlf_kernel_pinhole *params, const rlf_kernel_points *points,
                           int32_t count, const rlf_kernel_splat *out);
 /* Least x0 and largest x1 of rectangles [begin, end), without those that have no pixels. */

@@ -108,6 +108,14 @@ RLF_KERNEL void rlf_kernel_distort_row(const rlf_kernel_lens *lens, int32_t coun
     }
 }
 
+RLF_KERNEL void rlf_kernel_stretch_row(const float *restrict size, int32_t count,
+                                       float *restrict scale)
+{
+    for (int32_t i = 0; i < count; i++) {
+        scale[i] *= size[i];
+    }
+}
+
 /* First and last pixel centre inside [centre - half, centre + half] and inside 0..size-1; last <
  * first when there is none. */
 RLF_KERNEL_PART void cut_to_pixels(const float *restrict centre, const float *restrict scale,

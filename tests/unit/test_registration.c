@@ -156,6 +156,21 @@ static void distorted_colour_camera_sees_the_same_plane(void **state)
     free_rig(&g);
 }
 
+/* A lens that draws the border together, as Azure Kinect's: there the rectangles are wider. */
+static void distorted_depth_camera_leaves_no_gaps(void **state)
+{
+    (void)state;
+    rlf_camera depth = depth_camera();
+    depth.distortion_model = RLF_DISTORTION_RATIONAL_POLYNOMIAL;
+    const double k[8] = {0.548, -0.021, 0.0, 0.0, -0.0027, 0.89, 0.086, -0.0139};
+    memcpy(depth.distortion, k, sizeof(k));
+    rlf_pose T = translation(-0.032, 0, 0.004);
+    rig g = make_rig(depth, color_camera(), T);
+    check_plane(&g, &T, rlf_vec3_make(0, 0, 1), 0.5, 1e-4);
+    check_plane(&g, &T, rlf_normalize(rlf_vec3_make(-0.3, 0.2, 1)), 1.5, 0.004);
+    free_rig(&g);
+}
+
 /* A near strip before a far wall; returns the shadow's pixels in the middle row. */
 static void two_planes(rig *g, int32_t first, int32_t last, double z_near, double z_far)
 {
@@ -353,6 +368,7 @@ int main(void)
         cmocka_unit_test(same_camera_is_a_copy),
         cmocka_unit_test(planes_keep_their_depth),
         cmocka_unit_test(distorted_colour_camera_sees_the_same_plane),
+        cmocka_unit_test(distorted_depth_camera_leaves_no_gaps),
         cmocka_unit_test(shadow_has_its_side_width_and_depth),
         cmocka_unit_test(both_maps_know_what_is_hidden),
         cmocka_unit_test(vertical_baseline_fills_columns),
