@@ -9,12 +9,21 @@
 #define SOFT_M 0.02       /* from where a thing begins to where it is opaque */
 #define CROSSING 0.4f /* of the step between two taps that is left when it was halved so often */
 #define HALVINGS 3
+#define BEFORE 1.00001f /* depth over that of the ray: more is before it, whatever the rounding */
 #define TAP_PX 3.0f
 #define TAPS_MAX 40
 #define STEPS_TO_BODY 8
 #define MIDDLE (0.5f * (REAL_SHADE_SIDE - 1))
 
-enum { COARSE = 4, UNKNOWN = -1 };
+#define LARGE_PX 40.0 /* radius: a body to be looked at closely, */
+#define SMALL_PX 12.0 /* and one of which less will do */
+
+enum {
+    LANES = 16, /* taps at once */
+    COARSE = 4,
+    UNKNOWN = -1,
+    ENOUGH = 4 /* cells that agree, for the whole body */
+};
 
 /* ---- one ray -------------------------------------------------------------------------------- */
 
@@ -140,11 +149,42 @@ static bool crosses(const rlf_surface *surface, const image_ray *r, const tap *f
     return rest < CROSSING * gap + 2.0f * end->clear;
 }
 
+/* False when every tap is before all that is known there: no light is lost. */
+RLF_KERNEL static bool passes_behind(const rlf_surface *surface, const image_ray *ray)
+{
+    const image_ray r = *ray;
+    const float step = 1.0f / r.taps;
+    const int32_t width = surface->width;
+    const float *restrict depth = surface->depth;
+    const float *restrict back =
+        surface->background_depth != NULL ? surface->background_depth : depth;
+    int32_t any[LANES] = {0};
+    for (float first = 0.0f; first <= r.taps; first += LANES) {
+        RLF_KERNEL_WHOLE
+        for (int32_t i = 0; i < LANES; i++) {
+            float k = first + (float)i;
+            float s = (k < r.taps ? k : r.taps) * step;
+            int32_t x = (int32_t)(r.u + s * r.du);
+            int32_t y = (int32_t)(r.v + s * r.dv);
+            float inverse_z = r.inverse_z + s * r.dinverse_z;
+            float front = depth[y * width + x];
+            float behind = back[y * width + x];
+            int32_t is_behind_front = (front > 0.0f) & (front * inverse_z < BEFORE);
+            any[i] |= is_behind_front | ((behind > 0.0f) & (behind * inverse_z < BEFORE));
+        }
+    }
+    int32_t sum = 0;
+    for (int32_t i = 0; i < LANES; i++) {
+        sum |= any[i];
+    }
+    return sum != 0;
+}
+
 /* Share of the light that is lost between p and the light, both in the depth camera's frame. */
 static float lost_along(const rlf_surface *surface, const float p[3], const float to_light[3])
 {
     image_ray r;
-    if (!project_ray(&surface->camera, p, to_light, &r)) {
+    if (!project_ray(&surface->camera, p, to_light, &r) || !passes_behind(surface, &r)) {
         return 0.0f;
     }
     const float step = 1.0f / r.taps;
@@ -194,6 +234,9 @@ static bool find_lit(const shade_job *j, int32_t column, int32_t row, float out[
     float v[3];
     for (int i = 0; i < 3; i++) {
         v[i] = x * j->across[i] + y * j->down[i] + j->body->radius * j->to_light[i];
+    }
+    if (x * x + y * y > j->body->radius * j->body->radius) {
+        return false;
     }
     float gap = distance_to(j, v);
     for (int k = 0; k < STEPS_TO_BODY && gap > 0.0f; k++) {
@@ -259,7 +302,9 @@ static void spread(int32_t step, real_shade *out)
 /* Cells that pass by the body take the mean of their neighbours' light, ring by ring. */
 static void fill_outside(int32_t step, real_shade *out)
 {
-    for (int32_t ring = 0; ring < REAL_SHADE_SIDE / step; ring++) {
+    bool has_unknown = true;
+    for (int32_t ring = 0; has_unknown && ring < REAL_SHADE_SIDE / step; ring++) {
+        has_unknown = false;
         float next[REAL_SHADE_CELLS];
         for (int32_t i = 0; i < REAL_SHADE_CELLS; i++) {
             next[i] = out->left[i];
@@ -279,12 +324,31 @@ static void fill_outside(int32_t step, real_shade *out)
                 count += value >= 0.0f ? 1.0f : 0.0f;
             }
             next[i] = count > 0.0f ? sum / count : UNKNOWN;
+            has_unknown = true;
         }
         memcpy(out->left, next, sizeof(next));
     }
     for (int32_t i = 0; i < REAL_SHADE_CELLS; i++) {
         out->left[i] = out->left[i] >= 0.0f ? out->left[i] : 1.0f;
     }
+}
+
+/* True when the cells `step` apart that meet the body all have the same light, *out. */
+static bool agree(const real_shade *shade, int32_t step, float *out)
+{
+    int32_t count = 0;
+    *out = 1.0f;
+    for (int32_t y = 0; y < REAL_SHADE_SIDE; y += step) {
+        for (int32_t x = 0; x < REAL_SHADE_SIDE; x += step) {
+            const float left = shade->left[y * REAL_SHADE_SIDE + x];
+            if (left >= 0.0f && count > 0 && left != *out) {
+                return false;
+            }
+            *out = left >= 0.0f ? left : *out;
+            count += left >= 0.0f ? 1 : 0;
+        }
+    }
+    return count >= ENOUGH;
 }
 
 static void to_floats(rlf_vec3 v, float out[3])
@@ -331,20 +395,25 @@ void real_shade_make(const real_shade_world *world, const caster *body, real_sha
     shade_job job;
     place_map(world, body, &job, out);
     double radius_px = world->focal_px * (double)body->radius / (double)body->center[2];
-    int32_t finest = radius_px > 40.0 ? 1 : (radius_px > 12.0 ? 2 : 4);
+    const int32_t finest = radius_px > LARGE_PX ? 1 : (radius_px > SMALL_PX ? 2 : COARSE);
+    const int32_t sure = radius_px > LARGE_PX ? COARSE / 2 : COARSE;
     for (int32_t y = 0; y < REAL_SHADE_SIDE; y += COARSE) {
         for (int32_t x = 0; x < REAL_SHADE_SIDE; x += COARSE) {
             out->left[y * REAL_SHADE_SIDE + x] = follow(&job, x, y);
         }
     }
-    for (int32_t step = COARSE / 2; step >= finest; step /= 2) {
+    float same = 1.0f;
+    int32_t step = COARSE;
+    while (step > finest && !(step <= sure && agree(out, step, &same))) {
+        step /= 2;
         refine(&job, step, out);
     }
-    fill_outside(finest, out);
-    spread(finest, out);
-    for (int32_t i = 0; i < REAL_SHADE_CELLS; i++) {
-        out->takes = out->takes || out->left[i] < 1.0f;
+    if (step <= sure && agree(out, step, &same) && same == 1.0f) {
+        return;
     }
+    fill_outside(step, out);
+    spread(step, out);
+    out->takes = true;
 }
 
 /* ---- light ---------------------------------------------------------------------------------- */
