@@ -71,14 +71,14 @@ static bool next_run(const soft_row *row, int32_t width, int32_t *part, soft_spa
     return out->x0 < out->x1;
 }
 
-static void clear_run(const soft_row *row, ptrdiff_t stride, soft_span t)
+static void clear_run(const soft_row *row, ptrdiff_t stride, int32_t sums, soft_span t)
 {
     size_t count = (size_t)(t.x1 - t.x0);
     for (int k = 0; k < SOFT_SAMPLES; k++) {
         memset(row->inverse_z + k * stride + t.x0, 0, count * sizeof(float));
         memset(row->face + k * stride + t.x0, 0, count * sizeof(int32_t));
     }
-    for (int k = 0; k < SOFT_SUMS; k++) {
+    for (int k = 0; k < sums; k++) {
         memset(row->sum[k] + t.x0, 0, count * sizeof(float));
     }
 }
@@ -99,7 +99,7 @@ static void draw_together(const soft *s, int32_t face_count, soft_group *group)
         const soft_row *row = &group->rows[i];
         for (int32_t part = 0; next_run(row, group->width, &part, &run);) {
             compose(s, row->sum, row->y, run);
-            clear_run(row, group->stride, run);
+            clear_run(row, group->stride, SOFT_COVERED, run);
         }
         memset(row->touched, 0, (size_t)row->part_count);
     }
@@ -112,7 +112,7 @@ static void add_layer(const soft_row *row, soft_span t)
     for (int k = 0; k < 4; k++) {
         float *layer = row->layer[k];
         for (int32_t x = t.x0; x < t.x1; x++) {
-            layer[x] = layer[x] * (1.0f - row->sum[4][x]) + row->sum[k][x];
+            layer[x] = layer[x] * (1.0f - row->sum[SOFT_COVERED][x]) + row->sum[k][x];
         }
     }
 }
@@ -125,7 +125,7 @@ static void add_layers(const soft_group *group, soft_span all[SOFT_GROUP_ROWS])
         const soft_row *row = &group->rows[i];
         for (int32_t part = 0; next_run(row, group->width, &part, &run);) {
             add_layer(row, run);
-            clear_run(row, group->stride, run);
+            clear_run(row, group->stride, SOFT_SUMS, run);
             all[i].x0 = run.x0 < all[i].x0 ? run.x0 : all[i].x0;
             all[i].x1 = run.x1 > all[i].x1 ? run.x1 : all[i].x1;
         }

@@ -220,6 +220,16 @@ RLF_KERNEL_PART void cover(const int32_t *restrict face, ptrdiff_t stride, int32
     }
 }
 
+RLF_KERNEL_PART bool is_any(const float *restrict coverage)
+{
+    float sum = 0.0f;
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
+        sum += coverage[i];
+    }
+    return sum > 0.0f;
+}
+
 /* `share` of the light shown, with what the real world leaves of it. */
 RLF_KERNEL_PART void take_share(const float *restrict coverage, float *restrict share,
                                 float *restrict light)
@@ -424,6 +434,10 @@ RLF_KERNEL_PART void shade_run(const soft *s, const soft_ends *ends, const soft_
     lanes v;
     for (int32_t i = 0; i < used; i += SOFT_LANES) {
         const int32_t at = x + i;
+        cover(row->face + at, group->stride, ends->face, used - i, v.coverage);
+        if (!is_any(v.coverage)) {
+            continue; /* other faces are before it */
+        }
         shade_block(body, f->skin > 0, &r, i, nodes, first_node + i / s->shade_px, s->shade_px, &v);
         const int32_t end = at + (used - i < SOFT_LANES ? used - i : SOFT_LANES);
         if (real->marks != NULL && !has_edge(real->marks, at, end)) {
@@ -436,7 +450,6 @@ RLF_KERNEL_PART void shade_run(const soft *s, const soft_ends *ends, const soft_
         } else {
             share_all(v.share);
         }
-        cover(row->face + at, group->stride, ends->face, used - i, v.coverage);
         take_share(v.coverage, v.share, v.light);
         if (f->skin > 0) {
             const soft_lanes_at lanes_at = {at, row->y, end - at};
@@ -447,7 +460,9 @@ RLF_KERNEL_PART void shade_run(const soft *s, const soft_ends *ends, const soft_
             }
         }
         add(v.share, 1.0f, row->sum[3] + at);
-        add(v.coverage, 1.0f, row->sum[4] + at);
+        if (s->def.occlusion == RLF_OCCLUSION_THESIS) {
+            add(v.coverage, 1.0f, row->sum[SOFT_COVERED] + at);
+        }
     }
 }
 

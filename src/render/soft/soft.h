@@ -100,7 +100,7 @@ typedef struct soft_scene {
 /* ---- the renderer --------------------------------------------------------------------------- */
 
 #define SOFT_LANES 16 /* pixels worked on at once; rows have room for so many beyond their end */
-enum { SOFT_SUMS = 5 };
+enum { SOFT_COVERED = 4, SOFT_SUMS = 5 };
 
 #define SOFT_GROUP_ROWS 4 /* rows whose ends of a face are found at once */
 #define SOFT_GROUP_LINES (SOFT_GROUP_ROWS * SOFT_SAMPLES)
@@ -135,7 +135,8 @@ typedef struct soft_row {
     soft_real_row real;
     float *inverse_z;      /* [sample][x]; 0 = nothing */
     int32_t *face;         /* [sample][x]; 0 = nothing */
-    float *sum[SOFT_SUMS]; /* red, green, blue (0..255, times shown), shown, covered */
+    float *sum[SOFT_SUMS]; /* red, green, blue (0..255, times shown), shown, and
+                              with RLF_OCCLUSION_THESIS covered */
     float *layer[4];       /* RLF_OCCLUSION_THESIS: bodies so far, as the sums */
     uint8_t *touched;      /* 1 for every SOFT_PART pixels that a face touches */
     int32_t part_count;    /* of those */
