@@ -23,6 +23,7 @@ typedef struct track {
     double restitution, friction, gravity_scale;
     eval_ball twins[TWINS]; /* while a bounce is pending */
     bool has_sensed;
+    rlf_vec3 sensed_point; /* of the sensed bounce */
 } track;
 
 typedef struct throwing {
@@ -130,13 +131,13 @@ static void end_throw(throwing *run, track *t)
     }
 }
 
-/* Whether the camera sees that place of the true scene, whose normal is n. */
-static bool is_seen(const throwing *run, rlf_vec3 p, rlf_vec3 n)
+/* Whether nothing of the true scene hides that place from the camera. */
+static bool is_in_sight(const throwing *run, rlf_vec3 p)
 {
     const rlf_truth *truth = rlf_source_get_truth(run->stage.truth);
     const rlf_camera *camera = &rlf_source_get_info(run->stage.truth)->rig.depth;
     double u, v, deepest = 0.0;
-    if (rlf_dot(n, p) > 0.0 || !rlf_camera_project(camera, p, &u, &v)) {
+    if (!rlf_camera_project(camera, p, &u, &v)) {
         return false;
     }
     for (int32_t i = 0; i < 9; i++) {
@@ -146,6 +147,12 @@ static bool is_seen(const throwing *run, rlf_vec3 p, rlf_vec3 n)
         }
     }
     return p.z < deepest + 0.02;
+}
+
+/* Whether the camera sees that place of the true scene, whose normal is n. */
+static bool is_seen(const throwing *run, rlf_vec3 p, rlf_vec3 n)
+{
+    return rlf_dot(n, p) <= 0.0 && is_in_sight(run, p);
 }
 
 /* The centre got into something true that the camera sees, or is a part of the room's shell: at the
@@ -170,7 +177,8 @@ static void look_for_tunnel(throwing *run, track *t, const rlf_body_state *body,
 }
 
 /* On which side of the target an aimed body is when it leaves it: the far one means it went
- * through.
+ * through. Where the sensed back is deeper than the true one a body turns back within the true
+ * solid: then it has not left it yet, and one that never does has not come back.
  */
 static void look_for_pass(const throwing *run, track *t, const rlf_body_state *body,
                           bool has_contact, double now)
@@ -178,10 +186,11 @@ static void look_for_pass(const throwing *run, track *t, const rlf_body_state *b
     if (!is_aimed(run) || t->has_left || !t->has_touched || has_contact) {
         return;
     }
-    t->has_left = true;
     rlf_synthetic_hit hit = nearest(run, now, body->T_world_body.p);
-    t->has_passed = is_target(run->def->aim, hit.label) &&
-                    (hit.distance < 0.0 || rlf_dot(hit.normal, t->way) > 0.3);
+    bool is_at_target = is_target(run->def->aim, hit.label);
+    bool is_inside = is_at_target && hit.distance < 0.0;
+    t->has_left = !is_inside;
+    t->has_passed = is_inside || (is_at_target && rlf_dot(hit.normal, t->way) > 0.3);
 }
 
 /* The throw itself, and displaced by a pixel across the view and two sigma along it. */
@@ -212,6 +221,17 @@ static bool has_bounced(const eval_ball *ball)
     return ball->bounces > 0 && ball->first_approach > EVAL_HARD_SPEED;
 }
 
+/* Whether the camera could not know: the true bounce is at a place that it does not see, or there
+ * is none and the sensed one is behind what it sees. */
+static bool is_hidden(const throwing *run, const track *t, int32_t true_bounces)
+{
+    const eval_ball *twin = &t->twins[0];
+    if (has_bounced(twin)) {
+        return !is_seen(run, twin->first_point, twin->first.normal);
+    }
+    return true_bounces == 0 && t->has_sensed && !is_in_sight(run, t->sensed_point);
+}
+
 /* Ours against truth's, once both had time to bounce. */
 static void judge(throwing *run, track *t, const rlf_body_state *body)
 {
@@ -225,8 +245,7 @@ static void judge(throwing *run, track *t, const rlf_body_state *body)
         best = rlf_min(best, eval_angle_between(body->velocity, t->twins[i].v));
         bounced += has_bounced(&t->twins[i]);
     }
-    if (has_bounced(&t->twins[0]) &&
-        !is_seen(run, t->twins[0].first_point, t->twins[0].first.normal)) {
+    if (is_hidden(run, t, bounced)) {
         out->hidden++;
         out->hidden_right += best <= RIGHT_DEG;
         return;
@@ -244,6 +263,7 @@ static void look_for_bounce(throwing *run, track *t, const rlf_body_state *body,
                             const rlf_contact *contact, double begin, double end)
 {
     bool is_sensed = contact != NULL && contact->approach_speed > EVAL_HARD_SPEED;
+    t->sensed_point = is_sensed ? contact->point : t->sensed_point;
     if (t->is_pending) {
         t->is_pending = false;
         t->has_sensed = t->has_sensed || is_sensed;

@@ -374,6 +374,20 @@ static rlf_vec3 meet_edge(grid_patch *p, const patch_mean *face)
     return rlf_mad(now, v, rlf_max(0.0, p->time));
 }
 
+/* Which way a back faces is known from a guess's slope: where that is far from the way from the
+ * touched point to the ball's centre, the point is no part of such a plane. */
+static void face_back(const grid_patch *p, patch_mean *touched)
+{
+    const double LIKELY = 0.7; /* cosine */
+    const patch_sample *nearest = &p->samples[p->nearest];
+    rlf_vec3 direction = rlf_normalize(rlf_sub(p->centre, nearest->point));
+    touched->normal = grid_back_normal(p->job->query->grid, p->job->sheet, &nearest->cell);
+    if (rlf_dot(touched->normal, direction) < LIKELY) {
+        touched->normal = direction;
+        touched->point = nearest->point;
+    }
+}
+
 static bool touch_face(const grid_job *job, grid_meeting *touch, patch_mean *out, int32_t *label)
 {
     grid_patch p = {.job = job};
@@ -385,7 +399,7 @@ static bool touch_face(const grid_job *job, grid_meeting *touch, patch_mean *out
     *label = nearest->cell.label;
     *out = mean_of(&p);
     if (p.face == GRID_TOUCH_BACK) {
-        out->normal = grid_back_normal(job->query->grid, job->sheet, &nearest->cell);
+        face_back(&p, out);
     } else if (is_supported(&p, out)) {
         correct_bulge(&p, out);
     } else {

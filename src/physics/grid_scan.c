@@ -7,6 +7,7 @@
 #include "physics/grid_edge.h"
 
 #define SAMPLES_PER_SIDE 20
+#define FLAT_ON_WALL 0.9 /* cosine between a body's face and the side wall on which it lies */
 
 static rlf_vec3 to_body(const grid_job *job, rlf_vec3 p)
 {
@@ -106,39 +107,78 @@ rlf_vec3 grid_wall_normal(const field_cell *cell, rlf_vec3 side, rlf_vec3 normal
     return rlf_normalize(rlf_mad(rlf_scale(ray, along), side, rlf_max(out, 0.0)));
 }
 
+/* A line of a side wall: the ray of an outline's pixel between two depths, now. */
+typedef struct wall_line {
+    const field_cell *cell;
+    rlf_vec3 shift; /* since it was seen */
+    double z, end;
+    bool has_side;
+    rlf_vec3 side; /* the wall's face */
+} wall_line;
+
+static rlf_vec3 line_point(const wall_line *line, double depth)
+{
+    return rlf_mad(line->shift, line->cell->point, depth / line->z);
+}
+
+/* Depth at which the line comes nearest to the body, whose distance is convex along a line. */
+static double nearest_depth(const grid_job *job, const wall_line *line)
+{
+    const int32_t HALVINGS = 6;
+    rlf_vec3 along = rlf_mat3_mul_vec(&job->R_body_grid, line->cell->point);
+    double low = line->z, high = line->end, depth = rlf_clamp(job->centre.z, low, high);
+    for (int32_t i = 0; i < HALVINGS; i++) {
+        rlf_vec3 gradient;
+        phys_shape_distance(&job->body->shape, to_body(job, line_point(line, depth)), &gradient);
+        bool is_beyond = rlf_dot(gradient, along) > 0.0;
+        if (is_beyond ? depth <= line->z : depth >= line->end) {
+            return depth;
+        }
+        low = is_beyond ? low : depth;
+        high = is_beyond ? depth : high;
+        bool is_first = i == 0; /* it may well be an end */
+        depth = is_first ? (is_beyond ? low : high) : 0.5 * (low + high);
+    }
+    return depth;
+}
+
+/* Adds the line's point at `depth` when the body touches it in a direction that is the wall's own
+ * up to an angle of cosine `agreement`. */
+static void touch_line(grid_job *job, const wall_line *line, double depth, double agreement)
+{
+    rlf_vec3 p = line_point(line, depth), gradient;
+    rlf_vec3 local = to_body(job, p);
+    double distance = phys_shape_distance(&job->body->shape, local, &gradient);
+    rlf_vec3 normal = rlf_neg(rlf_mat3_mul_vec(&job->R_grid_body, gradient));
+    double approach = approach_at(job, p, normal, line->cell->velocity);
+    if (job->hit_count >= GRID_HITS_MAX / 2 ||
+        distance > GRID_MARGIN + rlf_max(0.0, approach) * job->horizon) {
+        return;
+    }
+    grid_hit hit = {.point = p, .velocity = line->cell->velocity, .label = line->cell->label};
+    hit.anchor = rlf_mad(local, gradient, -distance);
+    hit.normal = normal;
+    hit.separation = distance;
+    if (line->has_side) {
+        int32_t edge = depth <= line->z ? -1 : depth >= line->end ? 1 : 0;
+        hit.normal = grid_wall_normal(line->cell, line->side, normal, edge);
+        rlf_vec3 anchor = rlf_mat3_mul_vec(&job->R_grid_body, hit.anchor);
+        hit.separation = rlf_dot(hit.normal, rlf_sub(rlf_add(job->centre, anchor), p));
+    }
+    if (rlf_dot(hit.normal, normal) > agreement) {
+        job->hits[job->hit_count++] = hit;
+    }
+}
+
 static void look_at_outline(grid_job *job, const field_cell *cell, rlf_vec3 shift, double end)
 {
-    double z = cell->point.z;
-    double middle = rlf_clamp(job->centre.z, z, end);
+    wall_line line = {.cell = cell, .shift = shift, .z = cell->point.z, .end = end};
+    line.has_side = grid_edge_normal(job->query->grid, job->sheet, cell, &line.side);
+    double depth = nearest_depth(job, &line);
     double inner = 0.5 * job->body->shape.inner_radius;
-    double depths[3] = {middle, rlf_clamp(middle - inner, z, end),
-                        rlf_clamp(middle + inner, z, end)};
-    rlf_vec3 side;
-    bool has_side = grid_edge_normal(job->query->grid, job->sheet, cell, &side);
-    for (int32_t k = 0; k < 3 && job->hit_count < GRID_HITS_MAX / 2; k++) {
-        rlf_vec3 p = rlf_add(rlf_scale(cell->point, depths[k] / z), shift);
-        rlf_vec3 gradient;
-        rlf_vec3 local = to_body(job, p);
-        double distance = phys_shape_distance(&job->body->shape, local, &gradient);
-        rlf_vec3 normal = rlf_neg(rlf_mat3_mul_vec(&job->R_grid_body, gradient));
-        double approach = approach_at(job, p, normal, cell->velocity);
-        if (distance > GRID_MARGIN + rlf_max(0.0, approach) * job->horizon) {
-            continue;
-        }
-        grid_hit hit = {.point = p, .velocity = cell->velocity, .label = cell->label};
-        hit.anchor = rlf_mad(local, gradient, -distance);
-        hit.normal = normal;
-        hit.separation = distance;
-        if (has_side) {
-            int32_t edge = depths[k] <= z ? -1 : depths[k] >= end ? 1 : 0;
-            hit.normal = grid_wall_normal(cell, side, normal, edge);
-            rlf_vec3 anchor = rlf_mat3_mul_vec(&job->R_grid_body, hit.anchor);
-            hit.separation = rlf_dot(hit.normal, rlf_sub(rlf_add(job->centre, anchor), p));
-        }
-        if (rlf_dot(hit.normal, normal) > 0.3) {
-            job->hits[job->hit_count++] = hit;
-        }
-    }
+    touch_line(job, &line, depth, 0.3);
+    touch_line(job, &line, rlf_max(depth - inner, line.z), FLAT_ON_WALL);
+    touch_line(job, &line, rlf_min(depth + inner, line.end), FLAT_ON_WALL);
 }
 
 bool grid_footprint(const rlf_grid *grid, rlf_vec3 centre, double reach, int32_t rect[4],
@@ -176,17 +216,12 @@ static void look_at_pixel(grid_job *job, int32_t x, int32_t y, int32_t stride, f
         return;
     }
     rlf_vec3 shift = rlf_scale(cell.velocity, job->query->tau);
-    rlf_vec3 p = rlf_add(cell.point, shift);
-    rlf_vec3 d = rlf_sub(p, job->centre);
-    double reach2 = job->reach * job->reach;
-    if (rlf_dot(d, d) < reach2) {
-        flow->velocity = rlf_add(flow->velocity, cell.velocity);
-        flow->count += 1.0;
-        look_at_interior(job, &cell, p);
-    }
     double level = rlf_clamp(job->centre.z, z, z + cell.thickness);
     rlf_vec3 beside = rlf_sub(rlf_mad(shift, cell.point, level / z), job->centre);
-    if (rlf_dot(beside, beside) < reach2) {
+    if (rlf_dot(beside, beside) < job->reach * job->reach) {
+        flow->velocity = rlf_add(flow->velocity, cell.velocity);
+        flow->count += 1.0;
+        look_at_interior(job, &cell, rlf_add(cell.point, shift));
         job->is_near = true;
         job->is_flat = false;
         double end = outline_end(job, &cell, stride);

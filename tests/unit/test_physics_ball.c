@@ -118,12 +118,56 @@ static void bounces_off_a_floor_seen_at_a_low_angle(void **state)
     }
 }
 
+/* The foreground becomes what the camera sees of a solid ball, as thick as that is. */
+static void set_thick(rlf_vec3 centre, double radius)
+{
+    grid_fixture_set_slab(fixture, grid_wall(2), rlf_vec3_make(0, 0, 2), rlf_vec3_make(9, 9, 0),
+                          0.3, rlf_vec3_make(0, 0, 0));
+    for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
+        rlf_vec3 m = rlf_vec3_make(fixture->planes[0][i], fixture->planes[1][i], 1.0);
+        double a = rlf_dot(m, m), b = rlf_dot(m, centre);
+        double square = b * b - a * (rlf_dot(centre, centre) - radius * radius);
+        fixture->mask[i] = square > 0.0;
+        double root = sqrt(fmax(square, 0.0)), z = (b - root) / a;
+        rlf_vec3 n = rlf_scale(rlf_sub(rlf_scale(m, z), centre), 1.0 / radius);
+        fixture->planes[6][i] = (float)z;
+        fixture->planes[7][i] = (float)n.x;
+        fixture->planes[8][i] = (float)n.y;
+        fixture->planes[9][i] = (float)n.z;
+        fixture->planes[13][i] = (float)(2.0 * root / a);
+    }
+}
+
+/* From behind, where the front is out of the ball's reach. */
+static void bounces_off_the_back_of_something_thick(void **state)
+{
+    (void)state;
+    const rlf_vec3 CENTRE = {0, 0, 2.4};
+    const double BULGE = 0.25;
+    grid_plane wall = grid_wall(4);
+    grid_fixture_set_room(fixture, &wall, 1);
+    set_thick(CENTRE, BULGE);
+    double worst = 0.0;
+    for (int i = 0; i < 8; i++) {
+        rlf_vec3 v = {0, 0, -0.5 - 0.5 * i};
+        double off = 0.02 * i - 0.07, sum = BULGE + RADIUS;
+        rlf_vec3 n = {off / sum, 0, sqrt(1.0 - off * off / (sum * sum))};
+        rlf_vec3 from = rlf_mad(rlf_mad(CENTRE, n, sum), v, -0.2);
+        rlf_vec3 expected = rlf_mad(v, n, -1.8 * rlf_dot(n, v));
+        worst = fmax(worst, degrees_between(thrown(from, v), expected));
+    }
+    print_message("back: direction off by %.1f deg at most\n", worst);
+    assert_true(worst < 10.0);
+    memset(fixture->mask, 0, (size_t)GRID_W * GRID_H);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(bounces_off_a_bulge_as_off_a_ball, set_up, tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_a_rim_where_it_is, set_up, tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_a_floor_seen_at_a_low_angle, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(bounces_off_the_back_of_something_thick, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
