@@ -36,7 +36,7 @@ rlf_result eval_collisions_scene(uint64_t seed, int32_t body_count, rlf_scene *o
 {
     memset(out, 0, sizeof(*out));
     out->gravity = rlf_vec3_make(0, 9.81, 0);
-    out->border = RLF_BORDER_EXTEND; /* as every scene that is not told otherwise */
+    out->border = RLF_BORDER_EXTEND; /* an open one asks for no floor behind what hides it */
     out->bodies = rlf_alloc_array((size_t)body_count, sizeof(*out->bodies));
     if (out->bodies == NULL) {
         return RLF_ERROR_MEMORY;
