@@ -68,7 +68,8 @@ typedef struct rlf_pipeline rlf_pipeline;
 RLF_API rlf_result rlf_pipeline_create(const rlf_pipeline_def *def, rlf_pipeline **out);
 RLF_API void rlf_pipeline_destroy(rlf_pipeline **pipeline);
 
-/* Replaces the renderer (takes ownership). NULL goes back to the soft one. */
+/* Replaces the renderer (takes ownership). NULL goes back to the soft one, and so does the pipeline
+ * itself, with a warning, when a renderer fails with RLF_ERROR_DEVICE. */
 RLF_API rlf_result rlf_pipeline_set_compositor(rlf_pipeline *pipeline, rlf_compositor *compositor);
 /* What a compositor for this pipeline must be made with. */
 RLF_API rlf_compositor_def rlf_pipeline_get_compositor_def(const rlf_pipeline *pipeline);

@@ -365,6 +365,19 @@ static void place_view(rlf_pipeline *p, int32_t i, const rlf_image_rgba8 *image)
     }
 }
 
+/* A renderer whose device fails, e.g. an OpenGL driver that lost its context, gives way to the soft
+ * one. */
+static rlf_result render_one(rlf_pipeline *p, const rlf_render_input *input, rlf_render_output *out)
+{
+    rlf_result result = rlf_compositor_render(p->compositor, input, out);
+    if (result != RLF_ERROR_DEVICE) {
+        return result;
+    }
+    rlf_log(RLF_LOG_WARNING, "%s; going on with the soft renderer", rlf_error_text());
+    result = rlf_pipeline_set_compositor(p, NULL);
+    return result == RLF_OK ? rlf_compositor_render(p->compositor, input, out) : result;
+}
+
 /* The views one after the other; all but the first have their name as overlay. */
 static rlf_result render_views(rlf_pipeline *p, rlf_render_input *input)
 {
@@ -378,7 +391,7 @@ static rlf_result render_views(rlf_pipeline *p, rlf_render_input *input)
             input->overlay_count = 1;
             input->plot = NULL;
         }
-        result = rlf_compositor_render(p->compositor, input, out);
+        result = render_one(p, input, out);
         if (result == RLF_OK && p->view_count > 1) {
             result = reserve_sheet(p, &out->image);
         }

@@ -365,8 +365,9 @@ static void test_presenter(void **state)
     check_pixel(20, 60, (const uint8_t[3]){250, 200, 90});
     check_pixel(180, 60, (const uint8_t[3]){30, 200, 90});
     check_pixel(20, 140, (const uint8_t[3]){250, 10, 90});
-    rlf_gl_presenter_draw(presenter, &image, 1, 1); /* a window of one pixel */
-    rlf_gl_presenter_draw(presenter, &image, 0, 0); /* minimised */
+    rlf_gl_presenter_draw(presenter, &image, 1, 1);       /* a window of one pixel */
+    rlf_gl_presenter_draw(presenter, &image, 7680, 4320); /* and one of 8K */
+    rlf_gl_presenter_draw(presenter, &image, 0, 0);       /* minimised */
     assert_int_equal(glGetError(), GL_NO_ERROR);
     rlf_gl_presenter_destroy(&presenter);
     assert_null(presenter);

@@ -210,6 +210,48 @@ static void redraw_shows_the_last_frame_in_another_view(void **state)
     rlf_source_destroy(&source);
 }
 
+/* A renderer that loses its device with its third picture. */
+static rlf_result render_until_lost(void *self, const rlf_render_input *input,
+                                    rlf_render_output *out)
+{
+    static uint8_t pixel[4];
+    (void)input;
+    *out = (rlf_render_output){.image = {pixel, 1, 1, 4}};
+    return ++*(int *)self < 3 ? RLF_OK : rlf_fail(RLF_ERROR_DEVICE, "test: the context is lost");
+}
+
+static int warnings;
+
+static void count_warnings(void *context, rlf_log_level level, const char *text)
+{
+    (void)context;
+    warnings += level == RLF_LOG_WARNING && strstr(text, "context is lost; going on") != NULL;
+}
+
+static void a_lost_device_gives_way_to_the_soft_renderer(void **state)
+{
+    (void)state;
+    static const rlf_compositor_methods methods = {render_until_lost, NULL, "frail"};
+    rlf_source *source = open_plane(6, 33333333);
+    rlf_pipeline *pipeline = open_pipeline(source, RLF_PROFILE_LIVE, NULL);
+    rlf_compositor *frail = NULL;
+    rlf_pipeline_output out;
+    int pictures = 0;
+    assert_int_equal(rlf_compositor_create_custom(&methods, &pictures, &frail), RLF_OK);
+    assert_int_equal(rlf_pipeline_set_compositor(pipeline, frail), RLF_OK);
+    warnings = 0;
+    rlf_set_log(count_warnings, NULL);
+    for (int i = 0; i < 6; i++) {
+        assert_int_equal(rlf_pipeline_step(pipeline, &out), RLF_OK);
+        assert_int_equal(out.render.image.width, i < 2 ? 1 : WIDTH);
+    }
+    rlf_set_log(NULL, NULL);
+    assert_int_equal(pictures, 3);
+    assert_int_equal(warnings, 1);
+    rlf_pipeline_destroy(&pipeline);
+    rlf_source_destroy(&source);
+}
+
 /* Every view of a sheet is the same picture as by itself, in its place. */
 static void views_lie_side_by_side(void **state)
 {
@@ -248,6 +290,7 @@ int main(void)
         cmocka_unit_test(restart_repeats_the_run_exactly),
         cmocka_unit_test(frames_with_the_same_time_do_not_advance_physics),
         cmocka_unit_test(redraw_shows_the_last_frame_in_another_view),
+        cmocka_unit_test(a_lost_device_gives_way_to_the_soft_renderer),
         cmocka_unit_test(views_lie_side_by_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

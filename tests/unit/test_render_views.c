@@ -295,6 +295,25 @@ static void color_of_another_size_is_resized(void **state)
     scene_free(s);
 }
 
+static void a_picture_may_be_8k(void **state)
+{
+    (void)state;
+    render_scene *s = scene_make(2.5);
+    scene_add_body(s, scene_box(0.8), rlf_vec3_make(0.03, 0, 1.5));
+    rlf_compositor_def def = scene_def(s);
+    def.width = 7680;
+    def.height = 4320;
+    def.estimates_light = def.estimates_light_direction = true;
+    rlf_compositor *compositor = create(&def);
+    rlf_render_output out = show(compositor, s, RLF_VIEW_CAMERA);
+    assert_int_equal(out.image.width, 7680);
+    assert_int_equal(out.image.height, 4320);
+    assert_int_equal(rlf_u8_row(&out.matte, 2160)[3840], 255);
+    assert_int_equal(rlf_u8_row(&out.matte, 0)[0], 0);
+    rlf_compositor_destroy(&compositor);
+    scene_free(s);
+}
+
 static void overlay_draws_its_letters_only_when_enabled(void **state)
 {
     (void)state;
@@ -375,6 +394,7 @@ int main(void)
         cmocka_unit_test(picture_without_bodies_is_the_camera_s),
         cmocka_unit_test(frame_without_color_is_grey_depth),
         cmocka_unit_test(color_of_another_size_is_resized),
+        cmocka_unit_test(a_picture_may_be_8k),
         cmocka_unit_test(overlay_draws_its_letters_only_when_enabled),
         cmocka_unit_test(letters_differ),
         cmocka_unit_test(wrong_defs_are_refused),
