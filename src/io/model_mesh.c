@@ -1,7 +1,7 @@
 /* The meshes of an imported file as one list of triangles, by material. */
 #include "io/model_assimp.h"
 
-#define NODES_MAX 65536
+#define MESHES_MAX 65536
 #define DEPTH_MAX 256
 
 static io_affine multiply(const io_affine *a, const struct aiMatrix4x4 *b)
@@ -21,6 +21,16 @@ static io_affine multiply(const io_affine *a, const struct aiMatrix4x4 *b)
     return out;
 }
 
+/* Meshes of the node and its children; those deeper than DEPTH_MAX do not count. */
+static int64_t count_meshes(const struct aiNode *node, int depth)
+{
+    int64_t count = node->mNumMeshes;
+    for (unsigned i = 0; i < node->mNumChildren && depth < DEPTH_MAX; i++) {
+        count += count_meshes(node->mChildren[i], depth + 1);
+    }
+    return count;
+}
+
 /* Adds the node's meshes and its children's. */
 static rlf_result add_node(io_model_draft *d, const struct aiNode *node, const io_affine *parent,
                            int depth)
@@ -31,10 +41,8 @@ static rlf_result add_node(io_model_draft *d, const struct aiNode *node, const i
     }
     const io_affine here = multiply(parent, &node->mTransformation);
     for (unsigned i = 0; i < node->mNumMeshes; i++) {
-        if (node->mMeshes[i] >= d->scene->mNumMeshes || d->instance_count == NODES_MAX) {
-            return rlf_fail(RLF_ERROR_FORMAT,
-                            "%s: has more than %d meshes, or names one that it has not", d->name,
-                            NODES_MAX);
+        if (node->mMeshes[i] >= d->scene->mNumMeshes) {
+            return rlf_fail(RLF_ERROR_FORMAT, "%s: names a mesh that it has not", d->name);
         }
         io_model_instance *instance = &d->instances[d->instance_count++];
         instance->mesh = d->scene->mMeshes[node->mMeshes[i]];
@@ -187,7 +195,12 @@ rlf_result io_model_collect(io_model_draft *d)
      * about x lets a model stand upright and face the camera. */
     double flip = d->format == IO_MODEL_OBJ ? 1.0 : -1.0;
     const io_affine root = {{{1, 0, 0, 0}, {0, flip, 0, 0}, {0, 0, flip, 0}}};
-    d->instances = rlf_alloc_array(NODES_MAX, sizeof(*d->instances));
+    const int64_t count = count_meshes(d->scene->mRootNode, 0);
+    if (count > MESHES_MAX) {
+        return rlf_fail(RLF_ERROR_FORMAT, "%s: has %lld meshes, at most %d: join some", d->name,
+                        (long long)count, MESHES_MAX);
+    }
+    d->instances = rlf_alloc_array((size_t)count, sizeof(*d->instances));
     if (d->instances == NULL) {
         return RLF_ERROR_MEMORY;
     }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the models of scenes/models that are ours: duck.gltf and mug.obj with mug.mtl and mug.png.
 
-usage: script/models [FOLDER]     (default: scenes/models)
+usage: scenes/models/make.py [FOLDER]     (default: its own)
 
 The duck is a smooth union of ellipsoids, meshed by surface nets (Gibson 1998); its texture is
 painted as seen from the side. The mug is a turned profile with a bent handle. Only Python's
@@ -201,7 +201,7 @@ def write_duck(path):
     high = [max(p[i] for p in points) for i in range(3)]
     single = struct.Struct('<3f')
     document = {
-        'asset': {'version': '2.0', 'generator': 'script/models'},
+        'asset': {'version': '2.0', 'generator': 'scenes/models/make.py'},
         'scene': 0, 'scenes': [{'nodes': [0]}], 'nodes': [{'mesh': 0, 'name': 'duck'}],
         'meshes': [{'primitives': [{'attributes': {'POSITION': 0, 'NORMAL': 1, 'TEXCOORD_0': 2},
                                     'indices': 3, 'material': 0}]}],
@@ -246,7 +246,7 @@ def mug_texel(x, y):
 
 
 def write_mug(folder):
-    lines = ['# Made by script/models: a mug, y down, metres.', 'mtllib mug.mtl', 'usemtl glaze']
+    lines = ['# Made by scenes/models/make.py: a mug, y down, metres.', 'mtllib mug.mtl', 'usemtl glaze']
     vertices, texels, faces = [], [], []
     for radius, height, v in PROFILE:
         for i in range(SLICES + 1):
@@ -282,7 +282,7 @@ def write_mug(folder):
     with open(os.path.join(folder, 'mug.obj'), 'w', encoding='utf-8') as out:
         out.write('\n'.join(lines) + '\n')
     with open(os.path.join(folder, 'mug.mtl'), 'w', encoding='utf-8') as out:
-        out.write('# Made by script/models.\nnewmtl glaze\nKd 1 1 1\nmap_Kd mug.png\n')
+        out.write('# Made by scenes/models/make.py.\nnewmtl glaze\nKd 1 1 1\nmap_Kd mug.png\n')
     with open(os.path.join(folder, 'mug.png'), 'wb') as out:
         out.write(png((512, 256), mug_texel))
     return sum(len(face) - 2 for face in faces)
@@ -292,8 +292,8 @@ def main():
     if len(sys.argv) > 2 or any(a.startswith('-') for a in sys.argv[1:]):
         print(__doc__.strip(), file=sys.stdout if '--help' in sys.argv else sys.stderr)
         return 0 if '--help' in sys.argv else 2
-    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-    folder = sys.argv[1] if len(sys.argv) == 2 else os.path.join(root, 'scenes', 'models')
+    own = os.path.dirname(os.path.abspath(__file__))
+    folder = sys.argv[1] if len(sys.argv) == 2 else own
     print('duck.gltf: %d triangles' % write_duck(os.path.join(folder, 'duck.gltf')))
     print('mug.obj: %d triangles' % write_mug(folder))
     return 0
