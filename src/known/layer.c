@@ -20,7 +20,8 @@ rlf_result known_layer_create(const rlf_camera *camera, const rlf_camera *depth,
     /* Sensors mix or widen by up to two depth pixels at an edge. */
     out->reach = (int32_t)(2.0 * rlf_max(camera->fx / depth->fx, camera->fy / depth->fy) + 1.0);
     out->mask = rlf_alloc_array((size_t)camera->width, (size_t)camera->height);
-    return out->mask != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+    out->shown = rlf_alloc_array((size_t)camera->width, (size_t)camera->height);
+    return out->mask != NULL && out->shown != NULL ? RLF_OK : RLF_ERROR_MEMORY;
 }
 
 void known_layer_destroy(known_layer *layer)
@@ -28,6 +29,7 @@ void known_layer_destroy(known_layer *layer)
     rlf_free(layer->pixels);
     rlf_free(layer->rims);
     rlf_free(layer->mask);
+    rlf_free(layer->shown);
     rlf_free(layer->made);
     memset(layer, 0, sizeof(*layer));
 }
@@ -234,6 +236,7 @@ rlf_result known_layer_place(known_layer *layer, const rlf_snapshot *snapshot,
     }
     int32_t count = snapshot != NULL ? snapshot->known_count : 0;
     layer->count = layer->rim_count = layer->made_count = 0;
+    memset(layer->shown, 0, (size_t)layer->camera.width * (size_t)layer->camera.height);
     if (count > 0 && !reserve_models(layer, count)) {
         return RLF_ERROR_MEMORY;
     }
@@ -258,7 +261,7 @@ static bool is_widened(const known_rim *rim, const float *z)
     return at > 0.0f && off < rim->tolerance && beyond > at + RIM_JUMP;
 }
 
-void known_layer_cover(const known_layer *layer, float *z)
+void known_layer_cover(known_layer *layer, float *z)
 {
     for (int32_t i = 0; i < layer->rim_count; i++) {
         const known_rim *rim = &layer->rims[i];
@@ -269,6 +272,7 @@ void known_layer_cover(const known_layer *layer, float *z)
         float seen = z[p->index];
         bool is_before = seen > 0.0f && seen < p->front;
         z[p->index] = is_before ? seen : p->near;
+        layer->shown[p->index] = is_before ? 0 : 1;
     }
 }
 

@@ -30,6 +30,7 @@ typedef struct known_layer {
     rlf_camera camera;
     rlf_depth_noise noise;
     int32_t reach;        /* pixels that a sensor may be off at an edge */
+    uint8_t *shown;       /* width * height, 1 where the last cover left a model's own depth */
     uint8_t *mask;        /* width * height, 0 between calls; one model at a time */
     rlf_body_state *made; /* the models it shows */
     int32_t made_count, made_capacity;
@@ -47,8 +48,8 @@ rlf_result known_layer_place(known_layer *layer, const rlf_snapshot *snapshot,
                              const rlf_pose *T_camera_world);
 
 /* Puts the models into a depth image of the camera, metres, 0 = missing: in place of what is sensed
- * on them, behind them, or not at all; not of what is sensed in front. */
-void known_layer_cover(const known_layer *layer, float *z);
+ * on them, behind them, or not at all; not of what is sensed in front. Sets `shown`. */
+void known_layer_cover(known_layer *layer, float *z);
 
 /* Clears pixels of a depth image (to 0), and of `mask` when not NULL, that show a model. The two
  * depths may be the same; `seen` is the one that is looked at. */

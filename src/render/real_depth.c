@@ -132,6 +132,11 @@ static void read_surface(real_depth *real, const rlf_surface *surface)
     }
 }
 
+const uint8_t *real_depth_exact(const real_depth *real)
+{
+    return real->known.count > 0 ? real->known.shown : NULL;
+}
+
 rlf_result real_depth_update(real_depth *real, const rlf_render_input *input)
 {
     if (real->uses_frame) {

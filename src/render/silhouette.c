@@ -131,6 +131,7 @@ static bool is_used(const silhouette_tile *tile)
 typedef struct pass {
     silhouette *s;
     const rlf_plane_f32 *z;
+    const uint8_t *exact;
     const uint8_t *color;
     bool is_new; /* a new frame: cover may move on */
 } pass;
@@ -291,6 +292,7 @@ static void settle_rows(void *context, int32_t begin, int32_t end, int32_t worke
         const silhouette_tile *tiles = &s->tiles[y / SILHOUETTE_TILE * s->columns];
         const uint8_t *marks = &s->marks[y / SILHOUETTE_TILE * s->columns];
         silhouette_line line = {.z = rlf_f32_row(p->z, y),
+                                .exact = p->exact != NULL ? p->exact + (ptrdiff_t)y * width : NULL,
                                 .color_offset = s->offset_x,
                                 .near_z = rlf_f32_row(&s->near_z, y),
                                 .far_z = rlf_f32_row(&s->far_z, y),
@@ -339,6 +341,7 @@ static void settle_columns(void *context, int32_t begin, int32_t end, int32_t wo
             }
             for (int32_t x = x0; x < x0 + count; x++) {
                 silhouette_line line = {.z = p->z->data + x,
+                                        .exact = p->exact != NULL ? p->exact + x : NULL,
                                         .color_offset = s->offset_y,
                                         .near_z = s->near_z.data + x,
                                         .far_z = s->far_z.data + x,
@@ -502,9 +505,11 @@ static void fill_offsets(silhouette *s, const rlf_image_rgba8 *color)
     }
 }
 
-void silhouette_update(silhouette *s, const rlf_plane_f32 *z, const rlf_frame *frame)
+void silhouette_update(silhouette *s, const rlf_plane_f32 *z, const uint8_t *exact,
+                       const rlf_frame *frame)
 {
-    pass p = {s, z, frame->color.data, s->picture == 0 || frame->sequence != s->last_sequence};
+    pass p = {s, z, exact, frame->color.data,
+              s->picture == 0 || frame->sequence != s->last_sequence};
     if (p.color != NULL) {
         fill_offsets(s, &frame->color);
     }

@@ -242,11 +242,18 @@ static void write_pixel(const silhouette_line *line, const edge *e, int32_t u, i
     line->distance[i] = (uint8_t)distance;
 }
 
+/* The nearer of the pixels i and i + 1 has the depth of a model, whose edge is known. */
+static bool is_exact(const silhouette_line *line, int32_t i)
+{
+    int32_t nearer = depth_at(line, i) < depth_at(line, i + 1) ? i : i + 1;
+    return line->exact != NULL && line->exact[nearer * line->step] != 0;
+}
+
 void silhouette_settle(const silhouette_line *line, int32_t i, const silhouette_tile *tile,
                        int32_t reach)
 {
     float step = step_at(line, i);
-    if (!(step > 0.0f) || !is_main_step(line, i, step)) {
+    if (!(step > 0.0f) || is_exact(line, i) || !is_main_step(line, i, step)) {
         return;
     }
     edge e = edge_at(line, i, reach < REACH_MAX ? reach : REACH_MAX);

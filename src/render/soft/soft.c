@@ -183,7 +183,7 @@ static void update_silhouette(soft *s, const rlf_render_input *input)
     rlf_pose T_camera_world = rlf_pose_invert(&input->T_world_camera);
     rlf_pose T_picture_world = rlf_pose_mul(&s->T_picture_depth, &T_camera_world);
     silhouette_place(&s->silhouette, &s->camera, &T_picture_world, input->snapshot);
-    silhouette_update(&s->silhouette, &s->real.z, input->frame);
+    silhouette_update(&s->silhouette, &s->real.z, real_depth_exact(&s->real), input->frame);
 }
 
 static void draw_background_rows(void *context, int32_t begin, int32_t end, int32_t worker)
