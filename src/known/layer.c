@@ -10,6 +10,8 @@
 #define NEAREST_Z 0.02 /* metres */
 /* Depth jumps by more than this between a thing and what is behind its rim, metres. */
 #define RIM_JUMP 0.05f
+#define SLACK_M                                                                                    \
+    0.2 /* a grazing ray meets what is near a model so far from where it meets the model */
 
 rlf_result known_layer_create(const rlf_camera *camera, const rlf_camera *depth,
                               const rlf_depth_noise *noise, known_layer *out)
@@ -130,7 +132,8 @@ static bool add_pixels(known_layer *layer, const rlf_shape *shape, const rlf_pos
                 int32_t index = y * layer->camera.width + x;
                 double front = enter - tolerance_at(layer, enter);
                 layer->pixels[layer->count++] =
-                    (known_pixel){index, (float)enter, (float)leave, (float)front};
+                    (known_pixel){index,        layer->made_count, (float)ray.x, (float)ray.y,
+                                  (float)enter, (float)leave,      (float)front, index};
                 layer->mask[index] = 1;
             }
         }
@@ -181,8 +184,16 @@ static bool add_rims(known_layer *layer, rect r, const known_pixel *first)
                 p = p[half].index <= covered ? p + half : p;
                 count -= half;
             }
-            layer->rims[layer->rim_count++] =
-                (known_rim){y * w + x, (int32_t)by * w + (int32_t)bx, p->near, p->near - p->front};
+            known_pixel *rim = &layer->rims[layer->rim_count];
+            rlf_vec3 ray;
+            if (rlf_camera_unproject(&layer->camera, x, y, &ray)) {
+                *rim = *p;
+                rim->index = y * w + x;
+                rim->ray_x = (float)ray.x;
+                rim->ray_y = (float)ray.y;
+                rim->beyond = (int32_t)by * w + (int32_t)bx;
+                layer->rim_count++;
+            }
         }
     }
     return true;
@@ -254,17 +265,17 @@ rlf_result known_layer_place(known_layer *layer, const rlf_snapshot *snapshot,
 /* ---- use ------------------------------------------------------------------------------------ */
 
 /* The sensor shows the model beside its silhouette, before something farther. */
-static bool is_widened(const known_rim *rim, const float *z)
+static bool is_widened(const known_pixel *rim, const float *z)
 {
     float at = z[rim->index], beyond = z[rim->beyond];
     float off = at > rim->near ? at - rim->near : rim->near - at;
-    return at > 0.0f && off < rim->tolerance && beyond > at + RIM_JUMP;
+    return at > 0.0f && off < rim->near - rim->front && beyond > at + RIM_JUMP;
 }
 
 void known_layer_cover(known_layer *layer, float *z)
 {
     for (int32_t i = 0; i < layer->rim_count; i++) {
-        const known_rim *rim = &layer->rims[i];
+        const known_pixel *rim = &layer->rims[i];
         z[rim->index] = is_widened(rim, z) ? z[rim->beyond] : z[rim->index];
     }
     for (int32_t i = 0; i < layer->count; i++) {
@@ -276,25 +287,68 @@ void known_layer_cover(known_layer *layer, float *z)
     }
 }
 
-void known_layer_clear(const known_layer *layer, const float *seen, float *depth, uint8_t *mask)
+static double absolute(double x)
+{
+    return x < 0.0 ? -x : x;
+}
+
+/* How far a shape reaches along the unit direction n from its centre. */
+static double reach_along(const rlf_shape *s, rlf_vec3 n)
+{
+    double most = 0.0;
+    switch (s->type) {
+    case RLF_SHAPE_BOX:
+        return 0.5 *
+               (s->size.x * absolute(n.x) + s->size.y * absolute(n.y) + s->size.z * absolute(n.z));
+    case RLF_SHAPE_SPHERE: return s->radius;
+    case RLF_SHAPE_CAPSULE: return s->radius + 0.5 * s->height * absolute(n.y);
+    case RLF_SHAPE_CYLINDER:
+        return s->radius * sqrt(n.x * n.x + n.z * n.z) + 0.5 * s->height * absolute(n.y);
+    case RLF_SHAPE_HULL: break;
+    }
+    for (int32_t i = 0; i < s->hull->vertex_count; i++) {
+        most = rlf_max(most, rlf_dot(s->hull->vertices[i], n));
+    }
+    return most;
+}
+
+/* A sensed point near the model, of a face as far out as the model reaches that way. On a slant
+ * depth is off along the ray, but mixed pixels are off across it, and have any of its normals; the
+ * floor beside it faces up, far below its top. */
+static bool is_beside(const known_layer *layer, const known_pixel *p, const known_seen *seen)
+{
+    const rlf_body_state *model = &layer->made[p->model];
+    double z = seen->depth[p->index], tolerance = p->near - p->front;
+    if (!(z > p->near - SLACK_M && z < p->far + SLACK_M) || seen->normal_x == NULL) {
+        return false;
+    }
+    rlf_pose T = rlf_pose_mul(&layer->made_T, &model->T_world_body);
+    rlf_vec3 point = rlf_vec3_make(z * p->ray_x, z * p->ray_y, z), gradient;
+    rlf_vec3 local = rlf_transform_inverse(&T, point);
+    rlf_vec3 normal =
+        rlf_vec3_make(seen->normal_x[p->index], seen->normal_y[p->index], seen->normal_z[p->index]);
+    normal = rlf_rotate(rlf_quat_conjugate(T.q), normal);
+    return rlf_shape_distance(&model->shape, local, &gradient) < tolerance &&
+           rlf_dot(normal, local) > reach_along(&model->shape, normal) - tolerance;
+}
+
+void known_layer_clear(const known_layer *layer, const known_seen *seen, float *depth,
+                       uint8_t *mask)
 {
     for (int32_t i = 0; i < layer->count + layer->rim_count; i++) {
-        int32_t index;
-        bool is_model;
-        if (i < layer->count) {
-            const known_pixel *p = &layer->pixels[i];
-            index = p->index;
-            is_model = seen[index] >= p->front && seen[index] <= p->far + (p->near - p->front);
-        } else {
-            const known_rim *rim = &layer->rims[i - layer->count];
-            index = rim->index;
-            is_model = is_widened(rim, seen);
+        bool is_rim = i >= layer->count;
+        const known_pixel *p = is_rim ? &layer->rims[i - layer->count] : &layer->pixels[i];
+        float z = seen->depth[p->index];
+        bool is_on = is_rim ? is_widened(p, seen->depth)
+                            : z >= p->front && z <= p->far + (p->near - p->front);
+        if (!is_on && !is_beside(layer, p, seen)) {
+            continue;
         }
-        if (is_model && mask != NULL) {
-            mask[index] = 0;
+        if (mask != NULL) {
+            mask[p->index] = 0;
         }
-        if (is_model && depth != NULL) {
-            depth[index] = 0.0f;
+        if (depth != NULL) {
+            depth[p->index] = 0.0f;
         }
     }
 }

@@ -7,24 +7,26 @@
 #include "relief/frame.h"
 #include "relief/snapshot.h"
 
-/* A pixel that a model covers, metres along the camera's z. */
+/* A pixel that a model covers, or that is just outside its silhouette, where sensors still show it.
+ * Metres along the camera's z. */
 typedef struct known_pixel {
-    int32_t index;
-    float near, far; /* where its ray enters and leaves */
+    int32_t index, model;
+    float ray_x, ray_y;
+    float near, far; /* where its ray enters and leaves, at a rim that of the nearest covered one */
     float front;     /* what is sensed nearer than this stands before the model */
+    int32_t beyond;  /* of a rim: farther out, where sensors no longer show the model */
 } known_pixel;
 
-/* A pixel just outside a model's silhouette, where sensors still show the model. */
-typedef struct known_rim {
-    int32_t index, beyond; /* beyond: farther out, where they no longer do */
-    float near;            /* of the model, at its nearest pixel */
-    float tolerance;
-} known_rim;
+/* What is sensed at the camera's pixels; the normals may be NULL. */
+typedef struct known_seen {
+    const float *depth;
+    const float *normal_x, *normal_y, *normal_z;
+} known_seen;
 
 typedef struct known_layer {
     known_pixel *pixels;
     int32_t count, capacity;
-    known_rim *rims;
+    known_pixel *rims;
     int32_t rim_count, rim_capacity;
 
     rlf_camera camera;
@@ -51,8 +53,10 @@ rlf_result known_layer_place(known_layer *layer, const rlf_snapshot *snapshot,
  * on them, behind them, or not at all; not of what is sensed in front. Sets `shown`. */
 void known_layer_cover(known_layer *layer, float *z);
 
-/* Clears pixels of a depth image (to 0), and of `mask` when not NULL, that show a model. The two
- * depths may be the same; `seen` is the one that is looked at. */
-void known_layer_clear(const known_layer *layer, const float *seen, float *depth, uint8_t *mask);
+/* Clears pixels of a depth image (to 0), and of `mask`, that show a model in `seen`; either may be
+ * NULL. A sensed point shows a model when it lies on or in it, or near one of its faces and facing
+ * the same way: the floor beside it stays. */
+void known_layer_clear(const known_layer *layer, const known_seen *seen, float *depth,
+                       uint8_t *mask);
 
 #endif

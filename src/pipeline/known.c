@@ -128,6 +128,12 @@ static rlf_result create_layer(known_models *models, const rlf_surface *surface)
     return known_layer_create(&surface->camera, &surface->camera, &surface->noise, &models->layer);
 }
 
+static known_seen seen_of(const rlf_grid_sheet *sheet)
+{
+    const known_seen seen = {sheet->depth, sheet->normal_x, sheet->normal_y, sheet->normal_z};
+    return seen;
+}
+
 rlf_result known_models_clear_grid(known_models *models, const rlf_surface *surface,
                                    const rlf_snapshot *snapshot, rlf_grid *grid)
 {
@@ -144,11 +150,12 @@ rlf_result known_models_clear_grid(known_models *models, const rlf_surface *surf
     }
     size_t count = (size_t)grid->width * (size_t)grid->height;
     memcpy(models->depth, grid->background.depth, count * sizeof(float));
-    known_layer_clear(&models->layer, grid->background.depth, models->depth, NULL);
+    const known_seen back = seen_of(&grid->background), front = seen_of(&grid->foreground);
+    known_layer_clear(&models->layer, &back, models->depth, NULL);
     grid->background.depth = models->depth;
     if (grid->foreground.depth != NULL && grid->foreground.mask != NULL) {
         memcpy(models->mask, grid->foreground.mask, count);
-        known_layer_clear(&models->layer, grid->foreground.depth, NULL, models->mask);
+        known_layer_clear(&models->layer, &front, NULL, models->mask);
         grid->foreground.mask = models->mask;
     }
     return RLF_OK;

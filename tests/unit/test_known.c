@@ -197,7 +197,8 @@ static void model_takes_the_things_place(void **state)
     z[pixel_at(82, 60)] = 1.2f;  /* somebody before it */
     z[pixel_at(98, 60)] = 1.75f; /* the sensor widens the thing */
     memcpy(copy, z, sizeof(z));
-    known_layer_clear(&layer, z, copy, mask);
+    const known_seen seen = {.depth = z};
+    known_layer_clear(&layer, &seen, copy, mask);
     assert_true(copy[pixel_at(81, 60)] == 0.0f && mask[pixel_at(81, 60)] == 0);
     assert_true(copy[pixel_at(82, 60)] == 1.2f && mask[pixel_at(82, 60)] == 1);
     assert_true(copy[pixel_at(83, 60)] == 3.0f && copy[pixel_at(98, 60)] == 0.0f);
