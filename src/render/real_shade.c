@@ -189,14 +189,17 @@ static float lost_along(const rlf_surface *surface, const float p[3], const floa
     }
     const float step = 1.0f / r.taps;
     tap last = {0};
-    bool is_inside = false; /* the background: it cannot be between here and a lamp in the room */
+    /* Gone into the background: a thing, if the ray comes out again; the room's wall, behind which
+     * no lamp is, if it does not. */
+    bool is_inside = false;
     float most = 0.0f;
     for (float k = 0.0f; k <= r.taps && most < 1.0f; k += 1.0f) {
         tap now = tap_at(surface, &r, k * step);
         bool is_through = crosses(surface, &r, &last, &now);
         bool enters = is_through && now.behind > 0.0f && !now.is_foreground;
-        is_inside = enters || (is_inside && now.behind > 0.0f);
-        float hidden = is_through && !enters ? 1.0f : now.hidden;
+        bool leaves = is_inside && now.is_known && now.behind < 0.0f;
+        is_inside = enters || (is_inside && !leaves);
+        float hidden = leaves || (is_through && !enters) ? 1.0f : now.hidden;
         most = hidden > most && !is_inside ? hidden : most;
         last = now.is_known ? now : last;
     }

@@ -98,6 +98,23 @@ static void a_person_is_no_endless_slab(void **state)
     scene_free(s);
 }
 
+/* Light from behind a cupboard that is background: the ray goes in at its front and comes out at
+ * its side. Through the wall behind it no light comes. */
+static void a_cupboard_shades_what_is_before_it(void **state)
+{
+    (void)state;
+    render_scene *s = scene_make(4.0);
+    for (int32_t i = 0; i < s->grid.width * s->grid.height; i++) {
+        bool is_cupboard = i % s->grid.width >= 220 && i % s->grid.width < 300;
+        s->planes[PLANE_DEPTH][i] = is_cupboard ? 2.0f : 4.0f;
+        s->planes[PLANE_BACK][i] = s->planes[PLANE_DEPTH][i];
+    }
+    check_shadowed(s, rlf_vec3_make(-0.2, 0.0, 1.8), rlf_vec3_make(0.8, 0.0, 0.6));
+    check_lit(s, rlf_vec3_make(0.4, 0.0, 1.8), rlf_vec3_make(0.8, 0.0, 0.6));
+    check_lit(s, rlf_vec3_make(1.2, 0.0, 3.7), rlf_vec3_make(0.3, 0.0, 0.9));
+    scene_free(s);
+}
+
 static void nothing_known_shades_nothing(void **state)
 {
     (void)state;
@@ -153,6 +170,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_table_shades_what_is_under_it),
         cmocka_unit_test(a_person_is_no_endless_slab),
+        cmocka_unit_test(a_cupboard_shades_what_is_before_it),
         cmocka_unit_test(nothing_known_shades_nothing),
         cmocka_unit_test(a_ball_under_a_table_is_dark),
     };
