@@ -1,0 +1,48 @@
+/* Inside a pipeline: what the frame loop and its picture share. */
+#ifndef RLF_PIPELINE_STATE_H
+#define RLF_PIPELINE_STATE_H
+
+#include "relief/pipeline.h"
+
+#include "pipeline/known.h"
+
+#define OVERLAY_LINES_MAX 32
+#define OVERLAY_LINE_SIZE 128
+#define PLOT_FRAMES 120
+#define PLOT_STAGES 4
+#define PLOT_LINE_MS 33.3f /* a camera's frame */
+
+struct rlf_pipeline {
+    rlf_pipeline_def def;
+    rlf_scene scene; /* copy; hulls stay the caller's */
+    rlf_reconstruct *reconstruct;
+    rlf_world *world;
+    known_models known;
+    rlf_compositor *compositor;
+    rlf_compositor_def compositor_def;
+    float *ray_x, *ray_y; /* rays of the grid, for the compositor */
+    rlf_grid_region *regions;
+    int32_t region_capacity;
+
+    rlf_view views[RLF_PIPELINE_VIEWS];
+    int32_t view_count;
+    rlf_image_rgba8 sheet; /* several views side by side */
+    rlf_orbit orbit;
+    bool shows_plot;
+    float plot_values[PLOT_FRAMES * PLOT_STAGES]; /* ms, the oldest first */
+    int32_t plot_count;                           /* frames */
+    char overlay[OVERLAY_LINES_MAX][OVERLAY_LINE_SIZE];
+    const char *overlay_lines[OVERLAY_LINES_MAX];
+    int32_t overlay_count;
+
+    int64_t frame_index; /* of the next frame */
+    int64_t first_time_ns, last_time_ns;
+    rlf_pipeline_output last;
+};
+
+/* picture.c: p->last.render from the rest of p->last; nothing when the pipeline draws nothing. */
+rlf_result pipeline_draw(rlf_pipeline *p);
+/* One more frame in the plot, from p->last.times. */
+void pipeline_note_times(rlf_pipeline *p);
+
+#endif
