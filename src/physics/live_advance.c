@@ -208,19 +208,20 @@ static void fill_log(rlf_world *world)
     }
 }
 
-/* When the surface is a new one everyone is asked at once, sleepers too. */
-static void greet_surface(rlf_world *world, const rlf_grid *grid, double h)
+/* When the surface is a new one everyone is asked at once, sleepers too, and these for all of the
+ * advance: they are not asked again in it. */
+static void greet_surface(rlf_world *world, const rlf_grid *grid, double dt)
 {
     for (int32_t i = 0; i < world->body_top; i++) {
         phys_body *body = &world->bodies[i];
         body->surface_age = body->surface_period;
     }
     if (grid == NULL) {
-        phys_wake_by_surface(world, NULL);
+        phys_wake_by_surface(world, NULL, dt);
         return;
     }
-    grid_query query = query_now(world, grid, h);
-    phys_wake_by_surface(world, &query);
+    grid_query query = query_now(world, grid, dt);
+    phys_wake_by_surface(world, &query, dt);
 }
 
 void phys_live_advance(rlf_world *world, const rlf_grid *grid, double dt)
@@ -231,7 +232,7 @@ void phys_live_advance(rlf_world *world, const rlf_grid *grid, double dt)
     double start = world->time;
     int64_t clock = rlf_clock_ns();
     if (start_surface(world, grid, dt)) {
-        greet_surface(world, grid, h);
+        greet_surface(world, grid, dt);
     }
     phys_clock(&clock, &world->times.wake_ms);
     for (int32_t done = 0; done < count; done += PHYS_PERIOD_MAX) {

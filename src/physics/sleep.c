@@ -72,8 +72,16 @@ static double gap_now(const phys_body *body, const phys_contact *c)
     return rlf_dot(c->normal, rlf_sub(rlf_add(body->x, r), c->anchor_b));
 }
 
+/* Whether the surface moves and touches there, or will within `horizon` seconds. */
+static bool is_reached(const phys_contact *c, double horizon)
+{
+    double coming = rlf_max(0.0, rlf_dot(c->normal, c->surface_velocity));
+    return c->separation < TOUCHING + coming * horizon &&
+           rlf_length(c->surface_velocity) > TOUCH_SPEED;
+}
+
 /* Asks the surface under a sleeper once more; whether it moves, came closer or went away. */
-static bool has_moved(const grid_query *query, phys_body *body, int32_t index)
+static bool has_moved(const grid_query *query, phys_body *body, int32_t index, double horizon)
 {
     double before = least_separation(body);
     bool is_moved = false;
@@ -81,14 +89,13 @@ static bool has_moved(const grid_query *query, phys_body *body, int32_t index)
     for (int32_t k = 0; k < body->surface_count; k++) {
         phys_contact *c = &body->surface[k];
         c->separation = gap_now(body, c);
-        is_moved =
-            is_moved || (c->separation < TOUCHING && rlf_length(c->surface_velocity) > TOUCH_SPEED);
+        is_moved = is_moved || is_reached(c, horizon);
     }
     double change = least_separation(body) - before;
     return is_moved || change > WANDER || change < -WANDER;
 }
 
-void phys_wake_by_surface(rlf_world *world, const grid_query *query)
+void phys_wake_by_surface(rlf_world *world, const grid_query *query, double horizon)
 {
     for (int32_t i = 0; i < world->body_top; i++) {
         phys_body *body = &world->bodies[i];
@@ -108,7 +115,7 @@ void phys_wake_by_surface(rlf_world *world, const grid_query *query)
             continue;
         }
         body->rest_version = is_alone ? world->rest_version : 0;
-        if (has_moved(query, body, i)) {
+        if (has_moved(query, body, i, horizon)) {
             phys_body_wake(body);
         }
     }

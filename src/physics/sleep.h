@@ -5,8 +5,9 @@
 #include "physics/grid_collide.h"
 #include "physics/world_state.h"
 
-/* Ends the sleep of bodies whose surface moved, came closer or went away. */
-void phys_wake_by_surface(rlf_world *world, const grid_query *query);
+/* Ends the sleep of bodies whose surface moved, came closer or went away, or
+ * will come to them within `horizon` seconds. */
+void phys_wake_by_surface(rlf_world *world, const grid_query *query, double horizon);
 
 /* Ends the sleep of bodies that a moving one touches, or will within `horizon` seconds. */
 void phys_wake_by_touch(rlf_world *world, double horizon);

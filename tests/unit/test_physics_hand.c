@@ -70,6 +70,43 @@ static void hand_carries_a_stack(void **state)
     grid_fixture_destroy(&fixture);
 }
 
+/* A board comes to a sleeping cube at 2.5 m/s, 8 cm a frame, whatever part of its way is left when
+ * the frame begins in which it touches: it never passes. */
+static void board_wakes_a_sleeper_in_time(void **state)
+{
+    (void)state;
+    const double SPEED = 2.5, THICKNESS = 0.04;
+    grid_fixture *fixture = grid_fixture_create();
+    grid_plane room[2] = {grid_floor(1.2), grid_wall(5)};
+    grid_fixture_set_room(fixture, room, 2);
+    for (int phase = 0; phase < 8; phase++) {
+        rlf_world *world = make_world();
+        rlf_body_def def = rlf_body_def_default();
+        def.position = rlf_vec3_make(0, 1.149, 2.8);
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        memset(fixture->mask, 0, (size_t)GRID_W * GRID_H);
+        for (int frame = 0; frame < 45; frame++) {
+            fixture->grid.time_ns++;
+            rlf_world_advance(world, &fixture->grid, FRAME);
+        }
+        const rlf_body_state *cube = &rlf_world_get_snapshot(world)->bodies[0];
+        assert_true(cube->is_asleep);
+        double ahead = 1.0;
+        for (double z = 2.4 + 0.01 * phase; z < 3.2; z += SPEED * FRAME) {
+            grid_fixture_set_slab(fixture, grid_wall(z), rlf_vec3_make(0, 1.08, z),
+                                  rlf_vec3_make(0.3, 0.1, 0), THICKNESS,
+                                  rlf_vec3_make(0, 0, SPEED));
+            fixture->grid.time_ns++;
+            rlf_world_advance(world, &fixture->grid, FRAME);
+            cube = &rlf_world_get_snapshot(world)->bodies[0];
+            ahead = rlf_min(ahead, cube->T_world_body.p.z - z - THICKNESS);
+        }
+        assert_true(ahead > 0.045);
+        rlf_world_destroy(&world);
+    }
+    grid_fixture_destroy(&fixture);
+}
+
 /* Floor, back wall and two side walls, all within the view. */
 static const grid_plane ROOM[4] = {
     {{0, -1, 0}, -1.0}, {{0, 0, -1}, -4.5}, {{1, 0, 0}, -1.6}, {{-1, 0, 0}, -1.6}};
@@ -146,6 +183,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hand_carries_a_stack),
+        cmocka_unit_test(board_wakes_a_sleeper_in_time),
         cmocka_unit_test(crowd_survives_a_walker),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
