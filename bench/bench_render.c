@@ -1,6 +1,7 @@
 /* Milliseconds of registration and of whole composites by the CPU renderer, on one thread: least,
  * median and 95th percentile of many pictures of a wall with a strip before it. Prints one row
  * each; with --json FILE writes them too. */
+#include "model_sample.h"
 #include "render_scene.h"
 
 #include <stdio.h>
@@ -129,6 +130,26 @@ static void measure_counts(report *r, render_scene *s, rlf_body_state *bodies)
     measure_composite(r, s, RLF_OCCLUSION_SOFT, "balls of 12 cm");
 }
 
+/* The same balls as textured models. */
+static void measure_models(report *r, render_scene *s, rlf_body_state *bodies)
+{
+    rlf_model *model = sample_ball(8);
+    if (model == NULL) {
+        return;
+    }
+    s->snapshot.body_count = 20;
+    for (int i = 0; i < s->snapshot.body_count; i++) {
+        bodies[i].look = (rlf_look){model, 0.06, {0, 0, 0}};
+    }
+    char what[64];
+    snprintf(what, sizeof(what), "balls as models of %d triangles", (int)model->triangle_count);
+    measure_composite(r, s, RLF_OCCLUSION_SOFT, what);
+    for (int i = 0; i < s->snapshot.body_count; i++) {
+        bodies[i].look.model = NULL;
+    }
+    rlf_model_destroy(&model);
+}
+
 static int write_json(const report *r, const char *path)
 {
     FILE *file = fopen(path, "w");
@@ -165,6 +186,7 @@ int main(int argc, char **argv)
     measure_registration(&r, s, "registration to 960x540, distorted colour");
     s->rig.color = scene_rig().color;
     measure_counts(&r, s, bodies);
+    measure_models(&r, s, bodies);
     if (enlarge(s)) {
         measure_registration(&r, s, "registration to 1920x1080");
         measure_counts(&r, s, bodies);
