@@ -59,6 +59,13 @@ typedef struct phys_stance {
     rlf_vec3 rolling; /* angular impulse against rolling of the last substep, N m s */
 } phys_stance;
 
+/* The side of a box that gives a pair's contacts their normal, which turns with it. */
+typedef struct phys_side {
+    enum { PHYS_SIDE_NONE = 0, PHYS_SIDE_OF_A, PHYS_SIDE_OF_B } of;
+    int32_t axis; /* 0, 1, 2: the box's */
+    double sign;  /* the normal is sign times the axis */
+} phys_side;
+
 /* Two bodies that are near each other. */
 typedef struct phys_pair {
     int32_t a, b;        /* a < b */
@@ -70,6 +77,7 @@ typedef struct phys_pair {
     double turned_a, turned_b;
     double gap;    /* m between them then, or less; < 0 when they touch or it is not known */
     double margin; /* m within which contacts were searched */
+    phys_side side;
     phys_stance stance;
 } phys_pair;
 

@@ -132,8 +132,7 @@ static double closing_time(double s, double v, double a, double from)
 
 static double event_time(const phys_group *g, double h)
 {
-    double from = start_time(g), resting = slow_speed(g, h);
-    double best = NO_EVENT;
+    double resting = slow_speed(g, h), best = NO_EVENT;
     phys_sides s = sides_load(g);
     for (int32_t i = 0; i < g->point_count; i++) {
         const phys_point *p = &g->points[i];
@@ -147,7 +146,7 @@ static double event_time(const phys_group *g, double h)
         if (v + rlf_min(a * h, 0.0) >= -slow) {
             continue;
         }
-        double t = closing_time(virtual_gap(p, g), v, a, from);
+        double t = closing_time(virtual_gap(p, g), v, a, start_time(g));
         if (t <= h && v + a * t < -slow) {
             best = rlf_min(best, t);
         }

@@ -225,12 +225,24 @@ static int32_t face_contacts(const box *ref, const box *other, rlf_vec3 n, int32
     return kept;
 }
 
+static phys_side side_of(const sat_result *sat, const box *a, const box *b)
+{
+    if (sat->code >= 6) {
+        return (phys_side){.of = PHYS_SIDE_NONE};
+    }
+    bool is_of_a = sat->code < 3;
+    int32_t axis = sat->code % 3;
+    double along = rlf_dot(sat->normal, (is_of_a ? a : b)->axis[axis]);
+    return (phys_side){is_of_a ? PHYS_SIDE_OF_A : PHYS_SIDE_OF_B, axis, along < 0.0 ? -1.0 : 1.0};
+}
+
 int32_t pair_collide_boxes(const phys_body *body_a, const phys_body *body_b, double margin,
-                           pair_point *out, double *out_gap)
+                           pair_point *out, double *out_gap, phys_side *out_side)
 {
     box a = box_of(body_a), b = box_of(body_b);
     sat_result sat = separate(&a, &b, margin);
     *out_gap = sat.separation;
+    *out_side = side_of(&sat, &a, &b);
     if (sat.separation > margin) {
         return 0;
     }

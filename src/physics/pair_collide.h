@@ -16,9 +16,9 @@ typedef struct pair_point {
 #define PAIR_POINTS_MAX 192
 
 /* Points closer than margin; returns their number (box-box: at most 16). Boxes set *out_gap to a
- * bound below their distance, negative when they overlap. */
+ * bound below their distance, negative when they overlap, and *out_side. */
 int32_t pair_collide_boxes(const phys_body *a, const phys_body *b, double margin, pair_point *out,
-                           double *out_gap);
+                           double *out_gap, phys_side *out_side);
 int32_t pair_collide_shapes(const phys_body *a, const phys_body *b, double margin, pair_point *out);
 
 /* Chooses up to PHYS_PAIR_CONTACTS of them that give the widest support; returns their number. */

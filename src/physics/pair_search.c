@@ -5,8 +5,10 @@
 
 #include <stddef.h>
 
-/* Bodies that moved less than this share of their radius keep their contacts. */
+/* Bodies that moved less than this share of their radius past each other keep their contacts: their
+ * points move with the bodies, and a normal with the side of a box. */
 #define STILL_SHARE 0.002
+#define STILL_SHARE_OF_SIDE 0.01
 /* Fast bodies are searched again when they moved by this share of the largest ball in them. */
 #define TRAVEL_SHARE 0.2
 
@@ -82,8 +84,10 @@ static void collide_pair(rlf_world *world, phys_pair *pair, double h)
     pair->stance.is_set = false;
     bool are_boxes = a->shape.shape.type == RLF_SHAPE_BOX && b->shape.shape.type == RLF_SHAPE_BOX;
     pair->gap = -1.0;
-    int32_t count = are_boxes ? pair_collide_boxes(a, b, pair->margin, points, &pair->gap)
-                              : pair_collide_shapes(a, b, pair->margin, points);
+    pair->side.of = PHYS_SIDE_NONE;
+    int32_t count = are_boxes
+                        ? pair_collide_boxes(a, b, pair->margin, points, &pair->gap, &pair->side)
+                        : pair_collide_shapes(a, b, pair->margin, points);
     count = count > 0
                 ? pair_reduce(points, count, rlf_min(a->shape.radius, b->shape.radius), chosen)
                 : 0;
@@ -99,8 +103,9 @@ static bool is_settled(const rlf_world *world, const phys_pair *pair, double h)
     if (pair->contact_count == 0) {
         return pair->gap - moved > margin;
     }
+    double share = pair->side.of == PHYS_SIDE_NONE ? STILL_SHARE : STILL_SHARE_OF_SIDE;
     return margin <= pair->margin + PHYS_PAIR_MARGIN &&
-           moved < STILL_SHARE * rlf_min(a->shape.radius, b->shape.radius);
+           moved < share * rlf_min(a->shape.radius, b->shape.radius);
 }
 
 typedef struct pair_job {

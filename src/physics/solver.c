@@ -51,6 +51,24 @@ static bool finish_group(phys_group *g)
     return is_any;
 }
 
+/* The normal of a side as the box stands now. */
+static rlf_vec3 normal_of(const phys_side *side, const phys_body *box)
+{
+    const rlf_mat3 *R = &box->R;
+    rlf_vec3 axis = {R->m[0][side->axis], R->m[1][side->axis], R->m[2][side->axis]};
+    return rlf_scale(axis, side->sign);
+}
+
+static void turn_normals(phys_pair *pair, const phys_body *a, const phys_body *b)
+{
+    if (pair->side.of != PHYS_SIDE_NONE) {
+        rlf_vec3 normal = normal_of(&pair->side, pair->side.of == PHYS_SIDE_OF_A ? a : b);
+        for (int32_t i = 0; i < pair->contact_count; i++) {
+            pair->contacts[i].normal = normal;
+        }
+    }
+}
+
 bool phys_group_of_pair(rlf_world *world, int32_t pair_index, double h, phys_point *points,
                         phys_group *out)
 {
@@ -60,6 +78,7 @@ bool phys_group_of_pair(rlf_world *world, int32_t pair_index, double h, phys_poi
         return false;
     }
     *out = (phys_group){points, a, b, &pair->stance, 0, a->speed + b->speed};
+    turn_normals(pair, a, b);
     for (int32_t i = 0; i < pair->contact_count; i++) {
         phys_contact *c = &pair->contacts[i];
         phys_point *p = &points[out->point_count];
