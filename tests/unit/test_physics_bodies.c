@@ -90,6 +90,57 @@ static void chain_of_balls(void **state)
 }
 
 /* Any off-centre collision keeps momentum, and energy does not grow. */
+/* Balls in free space swap their speeds, however slow they are. */
+static void slow_balls_swap(void **state)
+{
+    (void)state;
+    rlf_world *world = make_world(0);
+    rlf_body_def def = body_of(RLF_SHAPE_SPHERE);
+    def.position = rlf_vec3_make(-0.06, 0, 1);
+    def.velocity = rlf_vec3_make(0.1, 0, 0);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    def.position.x = 0.06;
+    def.velocity.x = 0;
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    for (int k = 0; k < 30; k++) {
+        rlf_world_advance(world, NULL, 1.0 / 30);
+    }
+    assert_true(fabs(body(world, 0)->velocity.x) < 1e-3);
+    assert_true(fabs(body(world, 1)->velocity.x - 0.1) < 1e-3);
+    rlf_world_destroy(&world);
+}
+
+/* A cube that lies on another rests however bouncy it is: what meets there is no faster than what
+ * gravity gives in a few substeps. */
+static void slow_cube_rests(void **state)
+{
+    (void)state;
+    rlf_world *world = make_world(9.81);
+    rlf_body_def def = body_of(RLF_SHAPE_BOX);
+    def.shape.size = rlf_vec3_make(2, 0.1, 2);
+    def.is_kinematic = true;
+    def.position = rlf_vec3_make(0, 1, 0);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    def = body_of(RLF_SHAPE_BOX);
+    def.position = rlf_vec3_make(0, 0.9, 0);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    for (int k = 0; k < 10; k++) {
+        rlf_world_advance(world, NULL, 1.0 / 60);
+    }
+    def.position.y = 0.7995;
+    def.velocity = rlf_vec3_make(0, 0.03, 0);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    double rise = 0;
+    for (int k = 0; k < 240; k++) {
+        rlf_world_advance(world, NULL, 1.0 / 240);
+        double height = 0.8 - body(world, 2)->T_world_body.p.y;
+        rise = k >= 24 ? rlf_max(rise, height) : 0.0; /* it started above */
+    }
+    print_message("slow blow on a lying cube: rises %.3f mm\n", 1e3 * rise);
+    assert_true(rise < 2e-4);
+    rlf_world_destroy(&world);
+}
+
 static void momentum_is_conserved(void **state)
 {
     (void)state;
@@ -247,6 +298,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(head_on_swaps),
         cmocka_unit_test(chain_of_balls),
+        cmocka_unit_test(slow_balls_swap),
+        cmocka_unit_test(slow_cube_rests),
         cmocka_unit_test(momentum_is_conserved),
         cmocka_unit_test(stack_of_ten),
         cmocka_unit_test(a_wide_ground_holds),

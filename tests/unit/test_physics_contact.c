@@ -177,6 +177,37 @@ static void falls_when_support_goes(void **state)
     rlf_world_destroy(&world);
 }
 
+/* What stays has a number: a sleeper over the same one stays asleep where it is, and falls when a
+ * new one has no floor under it. */
+static void numbered_floor_goes(void **state)
+{
+    (void)state;
+    set_floor(1);
+    rlf_world *world = make_world(rlf_vec3_make(0, 9.81, 0));
+    rlf_body_def def = rlf_body_def_default();
+    def.position = rlf_vec3_make(0.1, 0.949, 2.5);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    rlf_vec3 slept = {0, 0, 0};
+    for (int k = 0; k < 90; k++) {
+        fixture->grid.background.version = 7;
+        fixture->grid.time_ns++;
+        rlf_world_advance(world, &fixture->grid, 1.0 / 30);
+        slept = k == 60 ? first(world)->T_world_body.p : slept;
+    }
+    rlf_vec3 p = first(world)->T_world_body.p;
+    assert_true(first(world)->is_asleep);
+    assert_true(p.x == slept.x && p.y == slept.y && p.z == slept.z);
+    set_floor(1.4);
+    fixture->grid.background.version = 8;
+    for (int k = 0; k < 4; k++) {
+        fixture->grid.time_ns++;
+        rlf_world_advance(world, &fixture->grid, 1.0 / 30);
+    }
+    assert_true(first(world)->T_world_body.p.y > p.y + 0.05);
+    fixture->grid.background.version = 0;
+    rlf_world_destroy(&world);
+}
+
 /* Holes smaller than a body do not swallow or stop it; a missing region is free space. */
 static void missing_pixels(void **state)
 {
@@ -320,6 +351,7 @@ int main(void)
         cmocka_unit_test(sticking_cube_does_not_creep),
         cmocka_unit_test(rests_without_drift_and_sleeps),
         cmocka_unit_test(falls_when_support_goes),
+        cmocka_unit_test(numbered_floor_goes),
         cmocka_unit_test(missing_pixels),
         cmocka_unit_test(rests_on_a_noisy_floor),
         cmocka_unit_test(rests_under_a_tilted_camera),
