@@ -172,7 +172,8 @@ static rlf_result place_all(const place_options *o, rlf_scene *models, rlf_pipel
         rlf_known_def *def = &models->known[i];
         bool is_chosen = o->object == NULL || strcmp(def->name, o->object) == 0;
         if (!def->has_pose && (def->point_count == 0 || !is_chosen)) {
-            printf("%s\n  no pose yet: use --object and --pick\n", def->name);
+            printf("%s\n  %s\n", def->name,
+                   def->point_count > 0 ? "left as it is" : "no pose yet: use --object and --pick");
             continue;
         }
         rlf_known_fit fit;
