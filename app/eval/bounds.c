@@ -11,7 +11,7 @@ const eval_bound eval_bounds[] = {
     {"room", "depth_still_flying_percent", '<', 0.002, 0.002, "none: raw depth",
      "bilateral filter 0.70"},
     {"room", "depth_moving_rmse_mm", '<', 2.7, 2.7, "none: raw depth", "bilateral filter 2.65"},
-    {"room", "depth_moving_flying_percent", '<', 0.002, 0.0044, "", ""},
+    {"room", "depth_moving_flying_percent", '<', 0.002, 0.0022, "", ""},
     {"room", "normals_interior_mean_deg", '<', 1.4, 1.4, "23.2", ""},
     {"room", "normals_interior_over_30_percent", '<', 0.4, 0.4, "14.2",
      "FALS 15.3, SRI 8.5, PCL 5.7, bilateral + SRI 0.39"},

@@ -152,6 +152,15 @@ void rlf_kernel_lens_row(const uint8_t *restrict has_ray, int32_t count, float *
 void rlf_kernel_flying_row(const float *const rows[3], int32_t count, float *restrict depth,
                            uint8_t *restrict reason);
 
+/* ---- half_way_row.c: lines of mixed pixels between two levels
+ * --------------------------------------------------- */
+
+/* rows[0..4] are two rows above, the row itself and two below (a missing one: a row of zeros), as
+ * seen. Takes depth from the pixels begin <= i < end that hang half way between their neighbours;
+ * two pixels on both sides must be there. */
+void rlf_kernel_half_way_row(const float *const rows[5], int32_t begin, int32_t end,
+                             float *restrict depth, uint8_t *restrict reason);
+
 /* ---- slope_row.c: exact normals of clean depth
  * --------------------------------------------------- */
 

@@ -65,18 +65,26 @@ static bool is_lost(const hold_job *job, ptrdiff_t i)
     return dropped && job->stage->steady.frames[i] > 0.0f;
 }
 
-static bool is_calm(const hold_job *job, int32_t x, int32_t y)
+static bool is_calm(const rlf_reconstruct *stage, int32_t x, int32_t y)
 {
+    int32_t blocks_x = (stage->grid.width + BLOCK - 1) / BLOCK;
+    int32_t blocks_y = (stage->grid.height + BLOCK - 1) / BLOCK;
     int32_t bx = x / BLOCK, by = y / BLOCK;
-    int32_t x0 = bx > 0 ? bx - 1 : 0, x1 = rlf_least(bx + 1, job->blocks_x - 1);
-    int32_t y0 = by > 0 ? by - 1 : 0, y1 = rlf_least(by + 1, job->blocks_y - 1);
+    int32_t x0 = bx > 0 ? bx - 1 : 0, x1 = rlf_least(bx + 1, blocks_x - 1);
+    int32_t y0 = by > 0 ? by - 1 : 0, y1 = rlf_least(by + 1, blocks_y - 1);
     bool calm = true;
     for (by = y0; by <= y1; by++) {
         for (bx = x0; bx <= x1; bx++) {
-            calm = calm && job->stage->steady.calm[by * job->blocks_x + bx] >= LEAST_CALM;
+            calm = calm && stage->steady.calm[by * blocks_x + bx] >= LEAST_CALM;
         }
     }
     return calm;
+}
+
+bool rlf_hold_may_move(const rlf_reconstruct *stage, int32_t x, int32_t y)
+{
+    bool unknown = stage->steady.calm == NULL;
+    return unknown || (stage->steady.age >= LEAST_CALM && !is_calm(stage, x, y));
 }
 
 /* Lost pixels about which nothing moves, that wait until there are enough of them for a kernel. */
@@ -132,7 +140,7 @@ static void read_seen(const hold_job *job, int32_t x, int32_t y, int32_t lane,
 static void recall_pixel(const hold_job *job, int32_t x, int32_t y, hold_queue *q)
 {
     ptrdiff_t i = (ptrdiff_t)y * job->stage->grid.width + x;
-    if (!is_calm(job, x, y)) {
+    if (!is_calm(job->stage, x, y)) {
         forget(job, i);
         return;
     }

@@ -133,6 +133,7 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
     }
     if (stage->def.enable_steadying) {
         rlf_steady_update(stage, kept, slot->reason);
+        stage->steady.age += stage->steady.age < 255 ? 1 : 0;
         rlf_stage_add_time(stage, RLF_SURFACE_STEADY);
     }
     if (smooth) {

@@ -92,8 +92,8 @@ typedef struct rlf_background {
 /* Means of inverse depth over time; NULL planes when they are not wanted. */
 typedef struct rlf_steady {
     float *mean, *frames;
-    uint8_t
-        *calm; /* hold: per block of RLF_HOLD_BLOCK pixels, frames since something moved there */
+    uint8_t *calm; /* per block of RLF_HOLD_BLOCK pixels, frames since something moved there */
+    int32_t age;   /* frames that were averaged, up to 255 */
 } rlf_steady;
 
 enum { RLF_HOLD_BLOCK = 8 };

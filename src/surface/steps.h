@@ -20,6 +20,9 @@ void rlf_flying_remove(const rlf_reconstruct *stage, const float *raw, float *de
 void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, rlf_slot *slot);
 
 /* ---- hold.c: dropped pixels from memory; `depth` holds what was seen ---- */
+/* Something has moved about pixel (x, y) lately, up to the frame before; false in the first frames,
+ * which cannot tell, and always true without averaging over time. */
+bool rlf_hold_may_move(const rlf_reconstruct *stage, int32_t x, int32_t y);
 void rlf_hold_recall(const rlf_reconstruct *stage, float *depth, uint8_t *reason);
 
 /* ---- steady.c: depth that does not change is averaged over time ---- */

@@ -104,6 +104,82 @@ static void flying_row_is_its_definition(void **state)
     assert_true(removed > 50 && kept > 50);
 }
 
+static float size_of(float a)
+{
+    return a < 0.0f ? -a : a;
+}
+
+/* Both steps from the middle one of five are long, in one direction, alike, and twice those beyond.
+ */
+static bool half_way_by_definition(const float five[5])
+{
+    float down = five[1] - five[2], up = five[2] - five[3];
+    float least = size_of(down) < size_of(up) ? size_of(down) : size_of(up);
+    bool level =
+        2.0f * size_of(five[0] - five[1]) < least && 2.0f * size_of(five[4] - five[3]) < least;
+    bool alike = size_of(down) + size_of(up) < 6.0f * least;
+    return down * up > 0.0f && least > 0.0025f * five[2] * five[2] + 0.003f && alike && level;
+}
+
+/* Rows of random depths, with two pixels and two rows around. */
+static void half_way_row_is_its_definition(void **state)
+{
+    (void)state;
+    enum { AT = 2 };
+    analytic_random r = {21};
+    int removed = 0, kept = 0;
+    for (int32_t count = 1; count <= LONGEST; count++) {
+        float rows[5][LONGEST + 2 * AT], depth[LONGEST + 2 * AT];
+        uint8_t reason[LONGEST + 2 * AT] = {0};
+        const float *in[5];
+        for (int k = 0; k < 5; k++) {
+            int32_t edge = (int32_t)(random_uniform(&r) * (count + 2 * AT));
+            for (int32_t i = 0; i < count + 2 * AT; i++) { /* noise about two levels and between */
+                double level = i < edge ? 2.0 : i > edge ? 2.1 : 2.05;
+                rows[k][i] = (float)(level + 0.01 * random_uniform(&r));
+            }
+            in[k] = rows[k];
+        }
+        memcpy(depth, rows[AT], sizeof depth);
+        rlf_kernel_half_way_row(in, AT, count + AT, depth, reason);
+        for (int32_t i = AT; i < count + AT; i++) {
+            const float *at = rows[AT] + i;
+            const float across[5] = {at[-2], at[-1], at[0], at[1], at[2]};
+            const float along[5] = {rows[0][i], rows[1][i], at[0], rows[3][i], rows[4][i]};
+            bool half_way = half_way_by_definition(across) || half_way_by_definition(along);
+            assert_true(depth[i] == (half_way ? 0.0f : at[0]));
+            assert_int_equal(reason[i], half_way ? RLF_REASON_FLYING : RLF_REASON_OK);
+            removed += half_way;
+            kept += !half_way;
+        }
+    }
+    assert_true(removed > 50 && kept > 50);
+}
+
+/* A column of mixed pixels between two levels goes; a plane as steep as its steps stays. */
+static void a_column_half_way_is_flying(void **state)
+{
+    (void)state;
+    const float edge[7] = {2.8f, 2.8f, 2.8f, 2.75f, 2.7f, 2.7f, 2.7f};
+    const float steep[7] = {2.9f, 2.85f, 2.8f, 2.75f, 2.7f, 2.65f, 2.6f};
+    const float *const edges[5] = {edge, edge, edge, edge, edge};
+    const float *const slope[5] = {steep, steep, steep, steep, steep};
+    float depth[7];
+    uint8_t reason[7] = {0};
+    memcpy(depth, edge, sizeof depth);
+    rlf_kernel_half_way_row(edges, 2, 5, depth, reason);
+    for (int i = 0; i < 7; i++) {
+        assert_int_equal(reason[i], i == 3 ? RLF_REASON_FLYING : RLF_REASON_OK);
+        assert_true(depth[i] == (i == 3 ? 0.0f : edge[i]));
+    }
+    memset(reason, 0, sizeof reason);
+    memcpy(depth, steep, sizeof depth);
+    rlf_kernel_half_way_row(slope, 2, 5, depth, reason);
+    for (int i = 0; i < 7; i++) {
+        assert_int_equal(reason[i], RLF_REASON_OK);
+    }
+}
+
 static void majority_row_is_its_definition(void **state)
 {
     (void)state;
@@ -345,6 +421,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(depth_row_is_units_and_reasons),
         cmocka_unit_test(flying_row_is_its_definition),
+        cmocka_unit_test(half_way_row_is_its_definition),
+        cmocka_unit_test(a_column_half_way_is_flying),
         cmocka_unit_test(majority_row_is_its_definition),
         cmocka_unit_test(background_row_follows_the_evidence),
         cmocka_unit_test(plane_tile_stays_in_its_tile),
