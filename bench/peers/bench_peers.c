@@ -178,61 +178,140 @@ static double slope_error(const peer *p)
     return fabs(low - atan(FRICTION) / DEGREE);
 }
 
-static void print_answers(const peer *p)
+enum { ANSWERS = 6, CROWDS = 2 };
+
+static const int32_t COUNTS[CROWDS] = {100, 1000};
+
+/* What one engine did. */
+typedef struct result {
+    double answers[ANSWERS]; /* fall, tumble, chain, drift, depth, slope; NAN: it has none */
+    peer_cost crowds[CROWDS];
+} result;
+
+static void ask(const peer *p, result *out)
 {
     double drift = NAN, depth = NAN, slope = NAN;
     if (p->plays_bodies) {
         stack(p, &drift, &depth);
         slope = slope_error(p);
     }
-    printf("%-8s %12.3g %12.3g %12.3g %12.3g %12.3g %12.3g\n", p->name, free_fall(p), tumble(p),
-           chain(p), drift, depth, slope);
+    const double all[ANSWERS] = {free_fall(p), tumble(p), chain(p), drift, depth, slope};
+    printf("%-8s", p->name);
+    for (int32_t i = 0; i < ANSWERS; i++) {
+        out->answers[i] = all[i];
+        printf(" %12.3g", all[i]);
+    }
+    printf("\n");
     fflush(stdout);
 }
 
-static bool print_crowds(const int32_t *counts, int32_t count_count, double seconds, uint64_t seed)
+static bool ask_crowds(result results[PEERS], double seconds, uint64_t seed)
 {
-    bool is_good = true;
     printf("\ncrowd on the live surface, 512x424, %g s; ms per 1/60 s\n", seconds);
     printf("%-8s %6s %10s %10s %6s\n", "", "cubes", "median", "p95", "lost, in view");
-    for (int32_t i = 0; i < count_count; i++) {
-        for (int32_t k = 0; k < PEERS && is_good; k++) {
-            is_good = !peers[k]->plays_bodies || peer_crowd(peers[k], counts[i], seconds, seed);
+    for (int32_t i = 0; i < CROWDS; i++) {
+        for (int32_t k = 0; k < PEERS; k++) {
+            peer_cost *cost = &results[k].crowds[i];
+            if (!peers[k]->plays_bodies) {
+                continue;
+            }
+            if (!peer_crowd(peers[k], COUNTS[i], seconds, seed, cost)) {
+                return false;
+            }
+            printf("%-8s %6d %10.2f %10.2f %6d\n", peers[k]->name, (int)COUNTS[i], cost->median_ms,
+                   cost->p95_ms, (int)cost->lost);
+            fflush(stdout);
         }
     }
-    return is_good;
+    return true;
+}
+
+static void write_engine(FILE *file, const peer *p, const result *r, bool has_crowds)
+{
+    static const char *const NAMES[ANSWERS] = {"fall_mm",  "tumble",  "chain_percent",
+                                               "drift_mm", "deep_mm", "slope_deg"};
+    fprintf(file, "    {\"name\": \"%s\"", p->name);
+    for (int32_t i = 0; i < ANSWERS; i++) {
+        if (isfinite(r->answers[i])) {
+            fprintf(file, ", \"%s\": %.6g", NAMES[i], r->answers[i]);
+        }
+    }
+    fprintf(file, ", \"crowds\": [");
+    for (int32_t i = 0; i < CROWDS && has_crowds && p->plays_bodies; i++) {
+        fprintf(file, "%s{\"cubes\": %d, \"median_ms\": %.4f, \"p95_ms\": %.4f, \"lost\": %d}",
+                i > 0 ? ", " : "", (int)COUNTS[i], r->crowds[i].median_ms, r->crowds[i].p95_ms,
+                (int)r->crowds[i].lost);
+    }
+    fprintf(file, "]}");
+}
+
+static int write_json(const char *path, const result results[PEERS], double seconds)
+{
+    FILE *file = fopen(path, "w");
+    if (file == NULL) {
+        fprintf(stderr, "bench_peers: %s: cannot be written\n", path);
+        return 1;
+    }
+    fprintf(file, "{\n  \"seconds\": %g, \"engines\": [\n", seconds);
+    for (int32_t k = 0; k < PEERS; k++) {
+        write_engine(file, peers[k], &results[k], seconds > 0.0);
+        fprintf(file, "%s\n", k + 1 < PEERS ? "," : "");
+    }
+    fprintf(file, "  ]\n}\n");
+    return fclose(file) == 0 ? 0 : 1;
+}
+
+typedef struct options {
+    double seconds;
+    uint64_t seed;
+    const char *json_path;
+} options;
+
+/* -1: go on; else the exit status. */
+static int parse(int argc, char **argv, options *o)
+{
+    static const struct option LONG[] = {{"seconds", required_argument, NULL, 't'},
+                                         {"seed", required_argument, NULL, 's'},
+                                         {"json", required_argument, NULL, 'j'},
+                                         {"help", no_argument, NULL, 'h'},
+                                         {0}};
+    int option;
+    while ((option = getopt_long(argc, argv, "h", LONG, NULL)) != -1) {
+        switch (option) {
+        case 't': o->seconds = atof(optarg); break;
+        case 's': o->seed = (uint64_t)atoll(optarg); break;
+        case 'j': o->json_path = optarg; break;
+        default:
+            printf("usage: bench_peers [--seconds S] [--seed N] [--json FILE]\n"
+                   "Relief beside the physics engines that were there when it was built.\n"
+                   "  --seconds S  of the crowds, default 10; 0 leaves them out\n"
+                   "  --seed N     of the sensor's noise, default 1\n"
+                   "  --json FILE  write the figures as JSON too\n");
+            return option == 'h' ? 0 : 2;
+        }
+    }
+    if (!(o->seconds >= 0.0 && o->seconds <= 3600.0) || optind != argc) {
+        fprintf(stderr, "bench_peers: --seconds: give 0 to 3600, and no other arguments\n");
+        return 2;
+    }
+    return -1;
 }
 
 int main(int argc, char **argv)
 {
-    static const struct option LONG[] = {{"seconds", required_argument, NULL, 't'},
-                                         {"seed", required_argument, NULL, 's'},
-                                         {"help", no_argument, NULL, 'h'},
-                                         {0}};
-    const int32_t counts[2] = {100, 1000};
-    double seconds = 10.0;
-    uint64_t seed = 1;
-    int option;
-    while ((option = getopt_long(argc, argv, "h", LONG, NULL)) != -1) {
-        switch (option) {
-        case 't': seconds = atof(optarg); break;
-        case 's': seed = (uint64_t)atoll(optarg); break;
-        default:
-            printf("usage: bench_peers [--seconds S] [--seed N]\n"
-                   "Relief beside the physics engines that were there when it was built.\n"
-                   "  --seconds S  of the crowds, default 10; 0 leaves them out\n"
-                   "  --seed N     of the sensor's noise, default 1\n");
-            return option == 'h' ? 0 : 2;
-        }
+    options o = {.seconds = 10.0, .seed = 1};
+    int status = parse(argc, argv, &o);
+    if (status >= 0) {
+        return status;
     }
-    if (!(seconds >= 0.0 && seconds <= 3600.0) || optind != argc) {
-        fprintf(stderr, "bench_peers: --seconds: give 0 to 3600, and no other arguments\n");
-        return 2;
-    }
+    result results[PEERS] = {0};
     printf("%-8s %12s %12s %12s %12s %12s %12s\n", "", "fall, mm", "tumble", "chain, %",
            "stack, mm", "deep, mm", "slope, deg");
     for (int32_t k = 0; k < PEERS; k++) {
-        print_answers(peers[k]);
+        ask(peers[k], &results[k]);
     }
-    return seconds == 0.0 || print_crowds(counts, 2, seconds, seed) ? 0 : 1;
+    if (o.seconds > 0.0 && !ask_crowds(results, o.seconds, o.seed)) {
+        return 1;
+    }
+    return o.json_path != NULL ? write_json(o.json_path, results, o.seconds) : 0;
 }

@@ -45,8 +45,14 @@ extern const peer peer_live, peer_thesis, peer_ode, peer_bullet;
 
 #define PEER_STEP (1.0 / 60.0)
 
-/* Cubes fall on the room while a person walks through it; prints a row. */
-bool peer_crowd(const peer *p, int32_t count, double seconds, uint64_t seed);
+/* What a crowd cost, ms per 1/60 s, and how many of its cubes were lost in view. */
+typedef struct peer_cost {
+    double median_ms, p95_ms;
+    int32_t lost;
+} peer_cost;
+
+/* Cubes fall on the room while a person walks through it. */
+bool peer_crowd(const peer *p, int32_t count, double seconds, uint64_t seed, peer_cost *out);
 
 #ifdef __cplusplus
 }

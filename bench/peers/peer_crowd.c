@@ -138,7 +138,7 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-bool peer_crowd(const peer *p, int32_t count, double seconds, uint64_t seed)
+bool peer_crowd(const peer *p, int32_t count, double seconds, uint64_t seed, peer_cost *out)
 {
     int32_t frames = (int32_t)(seconds * ROOM_HZ);
     crowd c = {.p = p, .count = count};
@@ -156,9 +156,7 @@ bool peer_crowd(const peer *p, int32_t count, double seconds, uint64_t seed)
     }
     if (is_good) {
         qsort(c.step_ms, (size_t)c.step_count, sizeof(*c.step_ms), compare);
-        printf("%-8s %6d %10.2f %10.2f %6d\n", p->name, (int)count, c.step_ms[c.step_count / 2],
-               c.step_ms[c.step_count * 95 / 100], (int)c.lost);
-        fflush(stdout);
+        *out = (peer_cost){c.step_ms[c.step_count / 2], c.step_ms[c.step_count * 95 / 100], c.lost};
     }
     if (c.engine != NULL) {
         p->close(c.engine);

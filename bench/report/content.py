@@ -166,6 +166,27 @@ def peers(data):
     return Section("Beside other libraries", blocks)
 
 
+def engines(data):
+    if not data.engines:
+        return Section("Beside other physics engines", [Text(
+            "ABSENT: bench_peers is built where pkg-config finds ode or bullet (docs/dependencies.md).")])
+    keys = ("fall_mm", "tumble", "chain_percent", "drift_mm", "deep_mm", "slope_deg")
+    heads = ["free fall of 1 s, mm off", "tumbling, 100 s: energy drift", "row of 5 balls, worst, %",
+             "ten cubes, 20 s: mm aside", "mm deep", "slope, degrees off"]
+    counts = sorted({c["cubes"] for e in data.engines["engines"] for c in e["crowds"]})
+    rows = []
+    for engine in data.engines["engines"]:
+        cells = [number(engine.get(k), 3) for k in keys]
+        crowds = {c["cubes"]: c for c in engine["crowds"]}
+        cells += [f"{crowds[n]['median_ms']:.3g} ms, {crowds[n]['lost']} lost" if n in crowds else "-" for n in counts]
+        rows.append(Row([engine["name"]] + cells))
+    heads += [f"{n} cubes" for n in counts]
+    return Section("Beside other physics engines", [
+        Text("The same scenes, 60 steps a second, one thread; crowds fall on the live surface, which the others get as "
+             "two meshes, one of them new every frame. Lost: in view only. (one run)"),
+        Table([""] + heads, rows), Command("build/release/bench/bench_peers")])
+
+
 def _bench_bars(rows, strip=""):
     return [(r["name"].removeprefix(strip), r["median"], r["p95"], False) for r in rows]
 
@@ -313,5 +334,5 @@ def noise(data):
 
 
 def sections(data):
-    return [part(data) for part in (summary, views, strips, accuracy, distance, peers, timing, growth, table_5_1,
+    return [part(data) for part in (summary, views, strips, accuracy, distance, peers, engines, timing, growth, table_5_1,
                                     noise)]
