@@ -106,6 +106,6 @@ onload = () => { for (const frame of document.querySelectorAll("iframe")) {
 END
 browse --allow-file-access-from-files --virtual-time-budget=5000 --dump-dom "file://$scratch/frames.html" >dom.html
 for width in narrow wide; do
-    has "$width fits 9 pictures whole 10 sections" dom.html
+    has "$width fits 9 pictures whole 11 sections" dom.html
 done
 echo "test_report: shown by $browser"
