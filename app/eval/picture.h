@@ -33,7 +33,8 @@ typedef struct picture_truth {
     uint8_t *inner; /* [pixel] 1 = no pixel within 8 is unmeasured */
 } picture_truth;
 
-/* Boxes and balls all over the room that touch nothing that stands there now. */
+/* Boxes and balls all over the room that touch nothing that stands there now, every second one
+ * partly hidden by it. */
 rlf_result picture_place_bodies(uint64_t seed, rlf_source *source,
                                 rlf_body_state bodies[PICTURE_BODIES], int32_t *out_count);
 /* Somewhere in the room; advances *random. */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define TRIES 4000
+#define PROBES 12 /* rays across a body */
 #define TILE 16
 #define CHANNELS (PICTURE_SAMPLES + 1)
 #define BAND 9
@@ -56,6 +57,33 @@ rlf_result picture_is_free(rlf_source *source, const rlf_body_state *bodies, int
     return result;
 }
 
+/* True when something real hides a tenth of the body at least, and shows a tenth. */
+static rlf_result is_partly_hidden(rlf_source *source, const rlf_body_state *body, bool *out)
+{
+    const double reach = rlf_shape_radius(&body->shape);
+    rlf_vec3 origin = rlf_neg(rlf_source_get_info(source)->rig.T_color_depth.p);
+    rlf_vec3 to_body = rlf_sub(body->T_world_body.p, origin);
+    rlf_vec3 rays[PROBES * PROBES];
+    double enter[PROBES * PROBES];
+    float z[PROBES * PROBES];
+    int32_t count = 0;
+    for (int32_t k = 0; k < PROBES * PROBES; k++) {
+        rlf_vec3 at = to_body;
+        at.x += reach * (2.0 * (k % PROBES) / (PROBES - 1) - 1.0);
+        at.y += reach * (2.0 * (k / PROBES) / (PROBES - 1) - 1.0);
+        rays[count] = rlf_scale(at, 1.0 / at.z);
+        enter[count] = picture_enter_body(body, origin, rays[count]);
+        count += enter[count] > 0.0;
+    }
+    rlf_result result = rlf_synthetic_cast(source, origin, rays, count, z, NULL);
+    int32_t hidden = 0;
+    for (int32_t k = 0; k < count; k++) {
+        hidden += z[k] > 0.0f && z[k] < enter[k];
+    }
+    *out = 10 * hidden >= count && 10 * hidden <= 9 * count;
+    return result;
+}
+
 rlf_result picture_place_bodies(uint64_t seed, rlf_source *source,
                                 rlf_body_state bodies[PICTURE_BODIES], int32_t *out_count)
 {
@@ -64,11 +92,15 @@ rlf_result picture_place_bodies(uint64_t seed, rlf_source *source,
     for (int i = 0; i < TRIES && count < PICTURE_BODIES; i++) {
         rlf_body_state body = picture_random_body(&random);
         bool is_free = false;
+        bool is_hidden = false;
         rlf_result result = picture_is_free(source, bodies, count, &body, &is_free);
+        if (result == RLF_OK && is_free) {
+            result = is_partly_hidden(source, &body, &is_hidden);
+        }
         if (result != RLF_OK) {
             return result;
         }
-        if (is_free) {
+        if (is_free && (is_hidden || count % 2 == 0)) {
             bodies[count++] = body;
         }
     }

@@ -8,7 +8,8 @@ enum {
 };
 
 #define COLOR_VARIANCE 36.0f /* per channel, of noise and texture at least; sRGB steps squared */
-#define MOST_EVIDENCE 2.0f   /* of one pixel, nats */
+#define MOST_EVIDENCE 1.0f   /* of one pixel, nats: its neighbours say much the same */
+#define SURE 40.0f           /* contrast, in variances, from which colours have their full say */
 #define CLEAR 6.0f           /* contrast, in variances, from which mixtures can be told */
 
 /* An edge in coordinates along its line: pixel u = 0 is the first of the far side. */
@@ -268,7 +269,7 @@ void silhouette_settle(const silhouette_line *line, int32_t i, const silhouette_
         s = sides_of(line, &e);
     }
     /* Sides that can hardly be told apart have little to say. */
-    float contrast = s.square / (CLEAR * s.variance);
+    float contrast = s.square / (SURE * s.variance);
     float scale = (contrast < 1.0f ? contrast : 1.0f) / s.variance;
     near_sum[0] = 0.0f;
     for (int32_t u = -e.near_band; u < e.far_band; u++) {
@@ -279,7 +280,7 @@ void silhouette_settle(const silhouette_line *line, int32_t i, const silhouette_
             s.square > 0.0f ? clamp01(0.5f + own_nearness(line, &e, &s, u) / s.square) : 0.5f;
         near_sum[u + e.near_band + 1] = near_sum[u + e.near_band] + evidence;
     }
-    int32_t split = find_split(&e, near_sum, (float)reach / 3.0f);
+    int32_t split = find_split(&e, near_sum, (float)reach / 3.5f);
     bool is_clear = s.square > CLEAR * s.variance;
     for (int32_t u = -e.near_band; u < e.far_band; u++) {
         float cover = u < split ? 1.0f : 0.0f;
