@@ -160,7 +160,8 @@ static bool nearest_covered(const known_layer *layer, int32_t x, int32_t y, int3
     return best <= layer->reach * layer->reach;
 }
 
-/* The pixels around the mask; near is set to the index of the covered pixel for now. */
+/* The pixels around the mask, each with the depths of the covered pixel next to it, and the pixel
+ * as far outside as `reach` and two more. `first`: the model's first covered pixel. */
 static bool add_rims(known_layer *layer, rect r, const known_pixel *first)
 {
     int32_t w = layer->camera.width, h = layer->camera.height, reach = layer->reach;
