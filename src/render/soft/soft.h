@@ -159,7 +159,7 @@ typedef struct soft_shade_tile {
     float x[SOFT_SHADE_SAMPLES], y[SOFT_SHADE_SAMPLES], z[SOFT_SHADE_SAMPLES]; /* caster_points */
     float light[SOFT_SHADE_SAMPLES]; /* share that is left */
     int32_t step;                    /* pixels from one sample to the next */
-    int32_t columns, count;          /* of samples */
+    int32_t columns, rows, count;    /* of samples; count: in whole lanes */
     float center[3], radius;         /* of a ball about all of it, picture camera frame */
     bool has_depth, is_known, is_shaded;
 } soft_shade_tile;
@@ -235,6 +235,30 @@ void soft_skin_colors(const soft_skin *skin, const soft_face *face, soft_lanes_a
 /* compose.c: puts sums (red, green, blue, shown) over `count` pixels. */
 void soft_compose_row(float *const sum[4], int32_t count, uint8_t *restrict pixels,
                       uint8_t *restrict matte);
+
+/* The lowest byte of a pixel is red, whatever the machine's order. */
+RLF_KERNEL_PART void soft_load_pixels(const uint8_t *bytes, int32_t count, uint32_t *out)
+{
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    memcpy(out, bytes, 4 * (size_t)count);
+#else
+    for (int32_t i = 0; i < count; i++) {
+        const uint8_t *p = bytes + 4 * (ptrdiff_t)i;
+        out[i] = (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+    }
+#endif
+}
+
+RLF_KERNEL_PART void soft_store_pixels(const uint32_t *pixels, int32_t count, uint8_t *out)
+{
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    memcpy(out, pixels, 4 * (size_t)count);
+#else
+    for (int32_t i = 0; i < 4 * count; i++) {
+        out[i] = (uint8_t)(pixels[i / 4] >> 8 * (i % 4));
+    }
+#endif
+}
 
 /* bodies.c: draws the scene over the image and writes the matte; with_background: first the
  * background, in the same go through memory. */
