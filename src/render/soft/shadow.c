@@ -131,15 +131,14 @@ static soft_shade_tile *tile_at(const shade_band *b, int32_t column)
 
 static void shade_by(const shade_band *b, const caster *c, const caster_rect *r)
 {
-    const soft *s = b->s;
     if (r->y0 >= b->end || r->y1 <= b->begin) {
         return;
     }
     for (int32_t column = r->x0 / WIDTH; column * WIDTH < r->x1; column++) {
         soft_shade_tile *tile = tile_at(b, column);
         const caster_points points = {tile->x, tile->y, tile->z, tile->count};
-        int32_t takes = tile->has_depth ? caster_may_take(c, s->light, tile->center, tile->radius)
-                                        : CASTER_TAKES_NOTHING;
+        int32_t takes =
+            tile->has_depth ? caster_may_take(c, tile->center, tile->radius) : CASTER_TAKES_NOTHING;
         if ((takes & CASTER_TAKES_AMBIENT) != 0) {
             caster_take_ambient(c, &points, (float)CASTER_AMBIENT_SHARE, tile->light);
         }
