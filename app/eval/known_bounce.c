@@ -11,16 +11,18 @@
 #define START_M 0.45
 #define RELEASE_S 0.5
 #define FRAMES 45
+#define FRAME_S (1.0 / 30.0)
 #define RADIUS 0.04
 #define INSIDE_M 0.02 /* so far in it is not on the surface */
 #define AIR_M 0.035   /* so far out it bounced off air; a cube's corner is that far from its ball */
 
 typedef struct bounce {
     int32_t model;
-    rlf_vec3 direction; /* of its flight */
-    double deepest;     /* metres below the true surface */
-    bool is_back;       /* from behind */
-    bool is_returned;   /* it flew back */
+    rlf_vec3 direction;          /* of its flight */
+    rlf_vec3 position, velocity; /* in the frame before */
+    double deepest;              /* metres below the true surface */
+    bool is_back;                /* from behind */
+    bool is_returned;            /* it flew back */
 } bounce;
 
 typedef struct bounce_case {
@@ -66,17 +68,43 @@ static rlf_body_def aim(int32_t model, bool is_back, int32_t number, eval_random
     body.release_time = RELEASE_S;
     body.velocity = rlf_scale(axis, SPEED);
     body.position = rlf_mad(target, axis, -START_M);
-    *out = (bounce){.model = model, .direction = axis, .deepest = -1.0, .is_back = is_back};
+    *out = (bounce){.model = model,
+                    .direction = axis,
+                    .position = body.position,
+                    .deepest = -1.0,
+                    .is_back = is_back};
     return body;
+}
+
+/* Metres below the true surface of a body there. */
+static double depth_of(const bounce *b, rlf_vec3 position)
+{
+    const rlf_known_def def = known_true_model(b->model);
+    rlf_vec3 gradient;
+    rlf_vec3 p = rlf_transform_inverse(&def.T_world_model, position);
+    return RADIUS - rlf_shape_distance(&def.shape, p, &gradient);
+}
+
+/* Where a body turned back since the last frame: it flew straight to there and from there. */
+static rlf_vec3 turning_point(const bounce *b, const rlf_body_state *body)
+{
+    double before = rlf_dot(b->velocity, b->direction);
+    double after = rlf_dot(body->velocity, b->direction);
+    double way = rlf_dot(rlf_sub(body->T_world_body.p, b->position), b->direction);
+    double time = rlf_clamp((way - after * FRAME_S) / (before - after), 0.0, FRAME_S);
+    return rlf_mad(b->position, b->velocity, time);
 }
 
 static void follow(bounce *b, const rlf_body_state *body)
 {
-    const rlf_known_def def = known_true_model(b->model);
-    rlf_vec3 gradient;
-    rlf_vec3 p = rlf_transform_inverse(&def.T_world_model, body->T_world_body.p);
-    b->deepest = rlf_max(b->deepest, RADIUS - rlf_shape_distance(&def.shape, p, &gradient));
-    b->is_returned = b->is_returned || rlf_dot(body->velocity, b->direction) < -0.02 * SPEED;
+    bool is_back = rlf_dot(body->velocity, b->direction) < -0.02 * SPEED;
+    if (is_back && !b->is_returned) {
+        b->deepest = rlf_max(b->deepest, depth_of(b, turning_point(b, body)));
+    }
+    b->deepest = rlf_max(b->deepest, depth_of(b, body->T_world_body.p));
+    b->is_returned = b->is_returned || is_back;
+    b->position = body->T_world_body.p;
+    b->velocity = body->velocity;
 }
 
 /* What came of the throws at all boxes. */

@@ -29,12 +29,14 @@ typedef struct rlf_known_point {
 typedef struct rlf_known_def {
     uint32_t cookie;
     char name[RLF_NAME_MAX];
-    rlf_shape shape;        /* default box 0.1 m */
+    rlf_shape shape;        /* what it collides as; default box 0.1 m */
+    rlf_look look;          /* a model in the shape's frame: its triangles hide; NULL = the shape */
     rlf_pose T_world_model; /* default identity; used when there are no points */
     bool has_pose;          /* false: it waits to be placed; points count instead. default true */
     rlf_known_point points[RLF_KNOWN_POINTS_MAX];
     int32_t point_count; /* 0, or RLF_KNOWN_POINTS_MIN to RLF_KNOWN_POINTS_MAX */
     bool refine;         /* on the surface, after the points; default true */
+    bool collides;       /* false: it hides, and others collide for it; default true */
     double restitution;  /* 0..1, default 0: that of what meets it */
     double friction;     /* >= 0, default 0.5 */
 } rlf_known_def;

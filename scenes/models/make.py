@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Makes the models of scenes/models that are ours: duck.gltf and mug.obj with mug.mtl and mug.png.
+"""Makes the models of scenes/models that are ours: duck.gltf, mug.obj with mug.mtl and mug.png, and
+chair.obj.
 
 usage: scenes/models/make.py [FOLDER]     (default: its own)
 
 The duck is a smooth union of ellipsoids, meshed by surface nets (Gibson 1998); its texture is
-painted as seen from the side. The mug is a turned profile with a bent handle. Only Python's
+painted as seen from the side. The mug is a turned profile with a bent handle. The chair is the
+synthetic room's (src/capture/synthetic/room.c). Only Python's
 standard library is used, and the same files come out every time.
 """
 import base64
@@ -288,6 +290,36 @@ def write_mug(folder):
     return sum(len(face) - 2 for face in faces)
 
 
+# ---- the chair: y down, about the middle of its box ----------------------------------------------
+CHAIR_HEIGHT = 0.915
+
+
+def chair_boxes():
+    """(x, base, z, width, height, depth): base above the floor, x and z of the middle."""
+    side, seat, base = 0.045, 0.42, 0.43
+    out = [(0.0, base, 0.0, seat, 0.035, seat)]
+    leg = 0.5 * (seat - 1.6 * side)
+    out += [(x, 0.0, z, side, base, side) for z in (-leg, leg) for x in (-leg, leg)]
+    out += [(x, 0.465, leg, side, 0.45, side) for x in (-leg, leg)]
+    return out + [(0.0, height, leg, 0.35, 0.11, 0.02) for height in (0.6, 0.8)]
+
+
+def write_chair(path):
+    lines = ['# Made by scenes/models/make.py: the chair of the synthetic room, y down, metres.']
+    faces = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+    for x, base, z, width, height, depth in chair_boxes():
+        for i in range(8):
+            lines.append('v %.5f %.5f %.5f' % (
+                x + (0.5 if i & 1 else -0.5) * width,
+                0.5 * CHAIR_HEIGHT - base - (0.0 if i & 2 else height),
+                z + (0.5 if i & 4 else -0.5) * depth))
+    for k in range(len(chair_boxes())):
+        lines += ['f %d %d %d %d' % tuple(8 * k + i + 1 for i in face) for face in faces]
+    with open(path, 'w', encoding='utf-8') as out:
+        out.write('\n'.join(lines) + '\n')
+    return 12 * len(chair_boxes())
+
+
 def main():
     if len(sys.argv) > 2 or any(a.startswith('-') for a in sys.argv[1:]):
         print(__doc__.strip(), file=sys.stdout if '--help' in sys.argv else sys.stderr)
@@ -296,6 +328,7 @@ def main():
     folder = sys.argv[1] if len(sys.argv) == 2 else own
     print('duck.gltf: %d triangles' % write_duck(os.path.join(folder, 'duck.gltf')))
     print('mug.obj: %d triangles' % write_mug(folder))
+    print('chair.obj: %d triangles' % write_chair(os.path.join(folder, 'chair.obj')))
     return 0
 
 

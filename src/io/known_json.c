@@ -102,10 +102,11 @@ static rlf_result read_place(const io_json_object *object, rlf_known_def *def)
 static rlf_result read_known(const io_json_object *object, const io_scene_reader *reader,
                              rlf_known_def *def)
 {
-    static const char *const keys[] = {"name",   "shape",  "size",        "radius",
-                                       "height", "model",  "position",    "orientation",
-                                       "points", "refine", "restitution", "friction"};
+    static const char *const keys[] = {"name",     "shape",       "size",        "radius", "height",
+                                       "model",    "position",    "orientation", "points", "refine",
+                                       "collides", "restitution", "friction"};
     static const io_json_field refine = {"refine", "true or false", 0, 0, false};
+    static const io_json_field collides = {"collides", "true or false", 0, 0, false};
     static const io_json_field restitution = {"restitution", "a number from 0 to 1", 0, 1, false};
     static const io_json_field friction = {"friction", "a number >= 0 and at most 1000", 0, 1000,
                                            false};
@@ -121,13 +122,16 @@ static rlf_result read_known(const io_json_object *object, const io_scene_reader
         result = io_json_get_bool(object, &refine, &def->refine);
     }
     if (result == RLF_OK) {
+        result = io_json_get_bool(object, &collides, &def->collides);
+    }
+    if (result == RLF_OK) {
         result = io_json_get_number(object, &restitution, &def->restitution);
     }
     if (result == RLF_OK) {
         result = io_json_get_number(object, &friction, &def->friction);
     }
     if (result == RLF_OK) {
-        result = io_scene_read_shape(object, reader, &def->shape, NULL);
+        result = io_scene_read_shape(object, reader, &def->shape, &def->look);
     }
     return result == RLF_OK ? read_place(object, def) : result;
 }

@@ -22,7 +22,7 @@ typedef struct io_scene_reader {
     rlf_scene *scene;
 } io_scene_reader;
 
-/* scene_shape.c: the look comes with the key "model"; NULL = only a hull may have that key. */
+/* scene_shape.c: the look comes with the key "model". */
 rlf_result io_scene_read_shape(const io_json_object *object, const io_scene_reader *reader,
                                rlf_shape *out, rlf_look *out_look);
 /* scene_model.c: keys "model" and "vertices" of a hull whose extents shall be `size` (0 = as

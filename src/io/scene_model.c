@@ -272,8 +272,6 @@ rlf_result io_scene_read_hull(const io_json_object *body, const io_scene_reader 
         result = make_hull(body, reader, name, size, &made);
     }
     out->hull = made.hull; /* the scene's also when its look failed */
-    if (out_look != NULL) {
-        *out_look = made.look;
-    }
+    *out_look = made.look;
     return result;
 }

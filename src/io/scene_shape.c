@@ -39,18 +39,16 @@ static rlf_result find_shape(const io_json_object *body, const shape_keys **out)
 }
 
 /* A key that belongs to another shape would be ignored silently. */
-static rlf_result check_shape_keys(const io_json_object *body, const shape_keys *shape,
-                                   bool has_look)
+static rlf_result check_shape_keys(const io_json_object *body, const shape_keys *shape)
 {
     const struct {
         const char *key;
         bool is_used;
-    } keys[5] = {{"size", shape->has_size},
+    } keys[4] = {{"size", shape->has_size},
                  {"radius", shape->has_radius},
                  {"height", shape->has_height},
-                 {"model", has_look || shape->type == RLF_SHAPE_HULL},
                  {"vertices", shape->type == RLF_SHAPE_HULL}};
-    for (int i = 0; i < 5; i++) {
+    for (int i = 0; i < 4; i++) {
         if (!keys[i].is_used && json_object_get(body->value, keys[i].key) != NULL) {
             return io_json_fail(body, keys[i].key,
                                 "does not belong to the shape \"%s\": take it out", shape->name);
@@ -72,7 +70,7 @@ rlf_result io_scene_read_shape(const io_json_object *body, const io_scene_reader
     const shape_keys *shape = NULL;
     rlf_result result = find_shape(body, &shape);
     if (result == RLF_OK) {
-        result = check_shape_keys(body, shape, out_look != NULL);
+        result = check_shape_keys(body, shape);
     }
     if (result != RLF_OK) {
         return result;
@@ -92,6 +90,5 @@ rlf_result io_scene_read_shape(const io_json_object *body, const io_scene_reader
         return io_scene_read_hull(body, reader, extents, out, out_look);
     }
     out->size = extents;
-    bool has_look = result == RLF_OK && out_look != NULL;
-    return has_look ? io_scene_read_look(body, reader, out, out_look) : result;
+    return result == RLF_OK ? io_scene_read_look(body, reader, out, out_look) : result;
 }

@@ -3,19 +3,34 @@
 #ifndef RLF_KNOWN_LAYER_H
 #define RLF_KNOWN_LAYER_H
 
+#include "known/mesh.h"
 #include "relief/camera.h"
 #include "relief/frame.h"
 #include "relief/snapshot.h"
 
-/* A pixel that a model covers, or that is just outside its silhouette, where sensors still show it.
- * Metres along the camera's z. */
+/* A pixel that a model covers. Metres along the camera's z. */
 typedef struct known_pixel {
     int32_t index, model;
     float ray_x, ray_y;
-    float near, far; /* where its ray enters and leaves, at a rim that of the nearest covered one */
+    float near, far; /* where its ray enters and leaves */
     float front;     /* what is sensed nearer than this stands before the model */
-    int32_t beyond;  /* of a rim: farther out, where sensors no longer show the model */
+    float tolerance; /* what is sensed so near to the model is the model */
 } known_pixel;
+
+/* A pixel just outside a model's silhouette, where sensors still show it, or its last one. */
+typedef struct known_rim {
+    known_pixel pixel;       /* depths are those of the nearest covered one */
+    int32_t beyond, farther; /* pixels farther out, where sensors no longer show the model */
+    float steps;             /* from beyond back to it, of those from farther to beyond */
+} known_rim;
+
+/* A pixel that a model's silhouette cuts. */
+typedef struct known_edge {
+    int32_t index;
+    int32_t outside;   /* itself or one next to it, whose middle the model does not cover */
+    float near, front; /* as a pixel's */
+    uint8_t share;     /* that the model covers, 255 = all */
+} known_edge;
 
 /* What is sensed at the camera's pixels; the normals may be NULL. */
 typedef struct known_seen {
@@ -26,17 +41,23 @@ typedef struct known_seen {
 typedef struct known_layer {
     known_pixel *pixels;
     int32_t count, capacity;
-    known_pixel *rims;
+    known_rim *rims;
     int32_t rim_count, rim_capacity;
+    known_edge *edges;
+    int32_t edge_count, edge_capacity;
 
     rlf_camera camera;
     rlf_depth_noise noise;
-    int32_t reach;        /* pixels that a sensor may be off at an edge */
-    uint8_t *shown;       /* width * height, 1 where the last cover left a model's own depth */
-    uint8_t *mask;        /* width * height, 0 between calls; one model at a time */
+    int32_t reach;       /* pixels that a sensor may be off at an edge */
+    uint8_t *shown;      /* width * height, 1 where the last cover left a model's own depth */
+    int32_t *at;         /* width * height, 0 between calls: one model's pixels, counted from 1 */
+    float *nearest;      /* width * height, metres: the nearest model's front, 0 = none */
+    known_mesh **meshes; /* of all models that it ever showed, by their ids */
+    int32_t mesh_count, mesh_capacity;
     rlf_body_state *made; /* the models it shows */
     int32_t made_count, made_capacity;
     rlf_pose made_T; /* T_camera_world */
+    int64_t version; /* counts up when it is made anew */
 } known_layer;
 
 /* `depth` is the camera that senses, `camera` the one whose pixels are covered. */
@@ -52,6 +73,9 @@ rlf_result known_layer_place(known_layer *layer, const rlf_snapshot *snapshot,
 /* Puts the models into a depth image of the camera, metres, 0 = missing: in place of what is sensed
  * on them, behind them, or not at all; not of what is sensed in front. Sets `shown`. */
 void known_layer_cover(known_layer *layer, float *z);
+
+/* Puts the models into a depth image where nothing is sensed. */
+void known_layer_fill(const known_layer *layer, float *z);
 
 /* Clears pixels of a depth image (to 0), and of `mask`, that show a model in `seen`; either may be
  * NULL. A sensed point shows a model when it lies on or in it, or near one of its faces and facing

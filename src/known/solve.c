@@ -24,9 +24,11 @@ rlf_known_def rlf_known_def_default(void)
     rlf_known_def def = {
         .cookie = RLF_DEF_COOKIE,
         .shape = {.type = RLF_SHAPE_BOX, .size = {0.1, 0.1, 0.1}},
+        .look = {.scale = 1},
         .T_world_model = {{0, 0, 0}, {0, 0, 0, 1}},
         .has_pose = true,
         .refine = true,
+        .collides = true,
         .friction = 0.5,
     };
     return def;

@@ -14,8 +14,8 @@ static bool collides(const rlf_world *world, const phys_body *body)
 
 static bool may_meet(const phys_body *a, const phys_body *b)
 {
-    bool is_virtual = !a->is_real && !b->is_real;
-    return !is_virtual || (a->collides_with_bodies && b->collides_with_bodies);
+    return (a->collides_with_bodies || (!a->is_real && b->is_real)) &&
+           (b->collides_with_bodies || (!b->is_real && a->is_real));
 }
 
 /* Half the size of the box about a body on its way. */

@@ -48,8 +48,10 @@ static rlf_result add_body(known_models *models, int32_t index, rlf_world *world
     }
     body.is_real = true;
     body.shape = def->shape;
+    body.look = def->look;
     body.position = def->T_world_model.p;
     body.orientation = def->T_world_model.q;
+    body.collides_with_bodies = def->collides;
     body.restitution = def->restitution;
     body.friction = def->friction;
     rlf_result result = rlf_world_add_body(world, &body, &models->ids[index]);
@@ -142,6 +144,7 @@ rlf_result known_models_clear_grid(known_models *models, const rlf_surface *surf
     }
     rlf_pose T_grid_world = rlf_pose_invert(&grid->T_world_grid);
     rlf_result result = models->has_layer ? RLF_OK : create_layer(models, surface);
+    const int64_t version = models->layer.version;
     if (result == RLF_OK) {
         result = known_layer_place(&models->layer, snapshot, &T_grid_world);
     }
@@ -153,6 +156,9 @@ rlf_result known_models_clear_grid(known_models *models, const rlf_surface *surf
     const known_seen back = seen_of(&grid->background), front = seen_of(&grid->foreground);
     known_layer_clear(&models->layer, &back, models->depth, NULL);
     grid->background.depth = models->depth;
+    if (models->layer.version != version) {
+        grid->background.version = 0; /* as surveyed, but not as cleared before */
+    }
     if (grid->foreground.depth != NULL && grid->foreground.mask != NULL) {
         memcpy(models->mask, grid->foreground.mask, count);
         known_layer_clear(&models->layer, &front, NULL, models->mask);

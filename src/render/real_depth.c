@@ -76,6 +76,9 @@ rlf_result real_depth_create(const rlf_compositor_def *def, const rlf_camera *ca
     if (result == RLF_OK) {
         result = known_layer_create(camera, depth, &def->rig.noise, &out->known);
     }
+    if (result == RLF_OK) {
+        result = known_layer_create(depth, depth, &def->rig.noise, &out->sensed);
+    }
     if (result != RLF_OK) {
         real_depth_destroy(out);
     }
@@ -86,6 +89,7 @@ void real_depth_destroy(real_depth *real)
 {
     rlf_registration_destroy(&real->registration);
     known_layer_destroy(&real->known);
+    known_layer_destroy(&real->sensed);
     void *parts[6] = {real->input, real->z.data, real->state.data,
                       real->ray_x, real->ray_y,  real->is_in_lens};
     for (int i = 0; i < 6; i++) {
@@ -132,9 +136,9 @@ static void read_surface(real_depth *real, const rlf_surface *surface)
     }
 }
 
-const uint8_t *real_depth_exact(const real_depth *real)
+const known_layer *real_depth_known(const real_depth *real)
 {
-    return real->known.count > 0 ? real->known.shown : NULL;
+    return real->known.count > 0 ? &real->known : NULL;
 }
 
 rlf_result real_depth_update(real_depth *real, const rlf_render_input *input)
@@ -144,10 +148,14 @@ rlf_result real_depth_update(real_depth *real, const rlf_render_input *input)
     } else {
         read_surface(real, input->surface);
     }
-    rlf_registration_apply(real->registration, real->input, &real->z, &real->state);
     rlf_pose T_camera_world = rlf_pose_invert(&input->T_world_camera);
     rlf_pose T_picture_world = rlf_pose_mul(&real->T_picture_depth, &T_camera_world);
-    rlf_result result = known_layer_place(&real->known, input->snapshot, &T_picture_world);
+    rlf_result result = known_layer_place(&real->sensed, input->snapshot, &T_camera_world);
+    known_layer_fill(&real->sensed, real->input);
+    rlf_registration_apply(real->registration, real->input, &real->z, &real->state);
+    if (result == RLF_OK) {
+        result = known_layer_place(&real->known, input->snapshot, &T_picture_world);
+    }
     known_layer_cover(&real->known, real->z.data);
     return result;
 }

@@ -18,7 +18,8 @@ typedef struct real_depth {
     float *ray_x, *ray_y;  /* uses_frame only */
     uint8_t *is_in_lens;   /* uses_frame only */
 
-    known_layer known; /* models of real things: they are put into z */
+    known_layer known;  /* models of real things: they are put into z, */
+    known_layer sensed; /* and into input where nothing is sensed */
     rlf_pose T_picture_depth;
 } real_depth;
 
@@ -30,8 +31,8 @@ rlf_pose real_depth_picture_pose(const rlf_compositor_def *def); /* T_picture_de
 /* `camera` is the picture's. Allocates everything. */
 rlf_result real_depth_create(const rlf_compositor_def *def, const rlf_camera *camera,
                              real_depth *out);
-/* As silhouette_update's `exact`. */
-const uint8_t *real_depth_exact(const real_depth *real);
+/* As silhouette_update's `known`. */
+const known_layer *real_depth_known(const real_depth *real);
 void real_depth_destroy(real_depth *real);
 /* Fills z and state. Pixels without depth take the background's, when the surface knows it; models
  * of real things take their place. RLF_ERROR_MEMORY as known_layer_place. */

@@ -131,7 +131,8 @@ static bool is_used(const silhouette_tile *tile)
 typedef struct pass {
     silhouette *s;
     const rlf_plane_f32 *z;
-    const uint8_t *exact;
+    const known_layer *known; /* NULL = no models */
+    const uint8_t *exact;     /* its `shown` */
     const uint8_t *color;
     bool is_new; /* a new frame: cover may move on */
 } pass;
@@ -491,6 +492,29 @@ static void steady_rows(void *context, int32_t begin, int32_t end, int32_t worke
     }
 }
 
+/* ---- models --------------------------------------------------------------------------------- */
+
+/* The silhouettes of models are known, to parts of a pixel, where nothing stands before them. */
+static void put_edges(const pass *p)
+{
+    silhouette *s = p->s;
+    for (int32_t i = 0; p->known != NULL && i < p->known->edge_count; i++) {
+        const known_edge *e = &p->known->edges[i];
+        const int32_t tile = e->index / p->z->width / SILHOUETTE_TILE * s->columns +
+                             e->index % p->z->width / SILHOUETTE_TILE;
+        const float seen = p->z->data[e->index];
+        const float outside = p->z->data[e->outside];
+        const float far_z = outside > 0.0f ? outside : SILHOUETTE_FAR;
+        if ((s->marks[tile] & SILHOUETTE_FILLED) == 0 || (seen > 0.0f && seen < e->front) ||
+            s->near_z.data[e->index] < e->front || far_z <= e->near) {
+            continue;
+        }
+        s->near_z.data[e->index] = e->near;
+        s->far_z.data[e->index] = far_z;
+        s->cover.data[e->index] = e->share;
+    }
+}
+
 /* ---- update --------------------------------------------------------------------------------- */
 
 static void fill_offsets(silhouette *s, const rlf_image_rgba8 *color)
@@ -505,10 +529,14 @@ static void fill_offsets(silhouette *s, const rlf_image_rgba8 *color)
     }
 }
 
-void silhouette_update(silhouette *s, const rlf_plane_f32 *z, const uint8_t *exact,
+void silhouette_update(silhouette *s, const rlf_plane_f32 *z, const known_layer *known,
                        const rlf_frame *frame)
 {
-    pass p = {s, z, exact, frame->color.data,
+    pass p = {s,
+              z,
+              known,
+              known != NULL ? known->shown : NULL,
+              frame->color.data,
               s->picture == 0 || frame->sequence != s->last_sequence};
     if (p.color != NULL) {
         fill_offsets(s, &frame->color);
@@ -523,4 +551,5 @@ void silhouette_update(silhouette *s, const rlf_plane_f32 *z, const uint8_t *exa
     rlf_parallel_for(s->pool, s->rows, 1, settle_rows, &p);
     rlf_parallel_for(s->pool, s->columns, 1, settle_columns, &p);
     rlf_parallel_for(s->pool, s->rows, 1, steady_rows, &p);
+    put_edges(&p);
 }

@@ -8,6 +8,7 @@
 #ifndef RLF_RENDER_SILHOUETTE_H
 #define RLF_RENDER_SILHOUETTE_H
 
+#include "known/layer.h"
 #include "relief/compositor.h"
 
 #define SILHOUETTE_FAR 1e9f /* depth of what hides nothing */
@@ -61,16 +62,15 @@ void silhouette_destroy(silhouette *s);
 void silhouette_place(silhouette *s, const rlf_camera *camera, const rlf_pose *T_picture_world,
                       const rlf_snapshot *snapshot);
 /* Fills near_z, far_z and cover where a body may meet an edge. z is the registered depth; the
- * frame's colour may be missing. `exact` has 1 per pixel whose depth is a model's, as large and as
- * packed as z: where such a pixel is the near side of an edge the depth's own edge stays. NULL =
- * none. */
-void silhouette_update(silhouette *s, const rlf_plane_f32 *z, const uint8_t *exact,
+ * frame's colour may be missing. `known`, of the picture's camera, has covered z: its models' edges
+ * are exact. NULL = none. */
+void silhouette_update(silhouette *s, const rlf_plane_f32 *z, const known_layer *known,
                        const rlf_frame *frame);
 
 /* silhouette_line.c: a row or a column of the picture; all steps are to the next pixel of it. */
 typedef struct silhouette_line {
     const float *z;
-    const uint8_t *exact;          /* as silhouette_update's; NULL = none */
+    const uint8_t *exact;          /* 1 = the depth is a model's; NULL = none */
     const uint8_t *color;          /* of the line; NULL = none */
     const uint8_t *beside[2];      /* of lines near it, whose edges are much the same */
     const ptrdiff_t *color_offset; /* bytes, per pixel of the line */

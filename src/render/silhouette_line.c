@@ -237,6 +237,10 @@ static void write_pixel(const silhouette_line *line, const edge *e, int32_t u, i
         return;
     }
     float z = line->z[i] > 0.0f ? line->z[i] : SILHOUETTE_FAR;
+    if (line->exact != NULL && line->exact[i] != 0 &&
+        !(e->near_z < z && silhouette_jumps(e->near_z, z))) {
+        return; /* a model that nothing stands before */
+    }
     line->near_z[i] = u < 0 && z < e->near_z ? z : e->near_z;
     line->far_z[i] = u >= 0 && z > e->far_z ? z : e->far_z;
     line->cover[i] = (uint8_t)(255.0f * cover + 0.5f);

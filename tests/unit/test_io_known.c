@@ -20,7 +20,7 @@ static rlf_result parse(const char *text, rlf_scene *scene)
 static const char *const whole =
     "{\"known_objects\":["
     "{\"name\":\"posed\",\"shape\":\"box\",\"size\":[0.1,0.2,0.3],\"position\":[1,2,3],"
-    "\"orientation\":[0,0,0.7071,0.7071],\"friction\":0.7,\"restitution\":0.2},"
+    "\"orientation\":[0,0,0.7071,0.7071],\"friction\":0.7,\"restitution\":0.2,\"collides\":false},"
     "{\"name\":\"picked\",\"shape\":\"cylinder\",\"radius\":0.1,\"height\":0.4,\"refine\":false,"
     "\"points\":[{\"model\":\"ctc\",\"pixel\":[10,20.5]},{\"model\":[0.1,0,0],\"world\":[4,5,6]},"
     "{\"model\":\"cbc\",\"pixel\":[1,2]}]},"
@@ -36,6 +36,7 @@ static void every_way_to_place_is_read(void **state)
     assert_string_equal(k[0].name, "posed");
     assert_true(k[0].has_pose && k[0].point_count == 0 && k[0].T_world_model.p.z == 3);
     assert_true(k[0].friction == 0.7 && k[0].restitution == 0.2 && k[0].shape.size.z == 0.3);
+    assert_true(!k[0].collides && k[1].collides && k[0].look.model == NULL);
     assert_true(!k[1].has_pose && k[1].point_count == 3 && !k[1].refine);
     assert_true(k[1].points[0].has_pixel && k[1].points[0].pixel[1] == 20.5);
     assert_true(k[1].points[0].model.y == -0.2 && k[1].points[2].model.y == 0.2);
@@ -88,6 +89,23 @@ static void bad_known_objects_are_named(void **state)
     assert_non_null(strstr(rlf_error_text(), "flat.obj"));
 }
 
+#ifdef RLF_HAVE_ASSIMP
+/* A chair of nine boxes, in the box that it is scaled into. */
+static void models_are_read(void **state)
+{
+    (void)state;
+    rlf_scene scene;
+    assert_int_equal(rlf_scene_load(RLF_TEST_ROOT "/scenes/known_chair.json", &scene), RLF_OK);
+    const rlf_known_def *chair = &scene.known[0];
+    assert_string_equal(chair->name, "chair");
+    assert_true(chair->look.model != NULL && !chair->collides);
+    assert_int_equal(chair->look.model->triangle_count, 9 * 12);
+    assert_true(chair->look.scale > 0.999 && chair->look.scale < 1.001);
+    assert_true(scene.known[1].look.model == NULL && scene.known[1].collides);
+    rlf_scene_destroy(&scene);
+}
+#endif
+
 static void poses_are_saved_in_a_copy(void **state)
 {
     (void)state;
@@ -115,6 +133,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_way_to_place_is_read),
         cmocka_unit_test(bad_known_objects_are_named),
+#ifdef RLF_HAVE_ASSIMP
+        cmocka_unit_test(models_are_read),
+#endif
         cmocka_unit_test(poses_are_saved_in_a_copy),
     };
     return cmocka_run_group_tests(tests, test_folder_make, test_folder_remove);

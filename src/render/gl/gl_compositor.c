@@ -265,7 +265,7 @@ static void update_silhouette(gl_compositor *c, const rlf_render_input *input)
     int32_t width = s->cover.width;
     int32_t height = s->cover.height;
     silhouette_place(s, &c->view.camera, &c->view.T_picture_world, input->snapshot);
-    silhouette_update(s, &c->real.z, real_depth_exact(&c->real), input->frame);
+    silhouette_update(s, &c->real.z, real_depth_known(&c->real), input->frame);
     gl_texture_upload_f32(&c->near_texture, s->near_z.data, width, height);
     gl_texture_upload_f32(&c->far_texture, s->far_z.data, width, height);
     gl_texture_upload_u8(&c->cover_texture, s->cover.data, width, height);

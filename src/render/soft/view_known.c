@@ -1,4 +1,5 @@
 /* Models of real things as wireframes over the camera's picture. */
+#include "render/body_look.h"
 #include "render/soft/soft.h"
 
 #define CIRCLE 32 /* corners */
@@ -81,7 +82,21 @@ static void draw_hull(const wire *w, const rlf_hull *hull)
     }
 }
 
-static void draw_model(const wire *w, const rlf_shape *shape)
+static void draw_triangles(const wire *w, const rlf_look *look)
+{
+    for (int32_t i = 0; i < look->model->triangle_count; i++) {
+        const int32_t *corner = look->model->triangles + 3 * (ptrdiff_t)i;
+        rlf_vec3 p[3];
+        for (int k = 0; k < 3; k++) {
+            p[k] = body_look_point(look, &look->model->vertices[corner[k]]);
+        }
+        for (int k = 0; k < 3; k++) {
+            draw_edge(w, p[k], p[(k + 1) % 3]);
+        }
+    }
+}
+
+static void draw_shape(const wire *w, const rlf_shape *shape)
 {
     switch (shape->type) {
     case RLF_SHAPE_BOX: draw_box(w, rlf_scale(shape->size, 0.5)); break;
@@ -99,6 +114,10 @@ void soft_draw_known(soft *s, const rlf_render_input *input)
     for (int32_t i = 0; input->snapshot != NULL && i < input->snapshot->known_count; i++) {
         const rlf_body_state *model = &input->snapshot->known[i];
         wire w = {s, rlf_pose_mul(&T_picture_world, &model->T_world_body), soft_rgb(90, 255, 160)};
-        draw_model(&w, &model->shape);
+        if (model->look.model != NULL) {
+            draw_triangles(&w, &model->look);
+        } else {
+            draw_shape(&w, &model->shape);
+        }
     }
 }
