@@ -9,7 +9,9 @@ enum {
 
 #define COLOR_VARIANCE 36.0f /* per channel, of noise and texture at least; sRGB steps squared */
 #define MOST_EVIDENCE 1.0f   /* of one pixel, nats: its neighbours say much the same */
-#define SURE 40.0f           /* contrast, in variances, from which colours have their full say */
+#define SURE 80.0f           /* contrast, in variances, from which colours have their full say */
+#define MOST_COST 0.9f       /* of a pixel farther from the depth's edge, nats */
+#define STRANGE 50.0f        /* squared distance from both sides, in variances, that halves it */
 #define CLEAR 6.0f           /* contrast, in variances, from which mixtures can be told */
 
 /* An edge in coordinates along its line: pixel u = 0 is the first of the far side. */
@@ -23,9 +25,10 @@ typedef struct edge {
 
 /* Mean colours of both sides, and how well they can be told apart. */
 typedef struct sides {
-    float middle[3], difference[3]; /* (near + far) / 2, near - far */
-    float square;                   /* of the difference */
-    float variance;                 /* of a pixel along the difference, with the floor */
+    float near_mean[3], far_mean[3];
+    float square;   /* of their difference */
+    float variance; /* of a pixel along the difference, with the floor */
+    float weight;   /* of what they say; 0 = alike */
 } sides;
 
 static float depth_at(const silhouette_line *line, int32_t i)
@@ -161,60 +164,78 @@ static void add_side(const silhouette_line *line, const edge *e, int32_t begin, 
     *variance += squares > 0.0f ? 0.5f * squares / (3.0f * count) : 0.0f;
 }
 
-static sides sides_of(const silhouette_line *line, const edge *e)
-{
-    float near_mean[3];
-    float far_mean[3];
-    sides s = {.variance = COLOR_VARIANCE};
-    int32_t near_from = e->near_band < e->near_end ? e->near_band : e->near_end - 1;
-    int32_t far_from = e->far_band < e->far_end ? e->far_band : e->far_end - 1;
-    add_side(line, e, -e->near_end, -near_from, near_mean, &s.variance);
-    add_side(line, e, far_from, e->far_end, far_mean, &s.variance);
-    for (int k = 0; k < 3; k++) {
-        s.middle[k] = 0.5f * (near_mean[k] + far_mean[k]);
-        s.difference[k] = near_mean[k] - far_mean[k];
-        s.square += s.difference[k] * s.difference[k];
-    }
-    return s;
-}
-
-/* (c - middle) . difference: half the square for the near side's colour, minus that for the far
- * side's. */
-static float nearness(const sides *s, const float c[3])
+static float square_distance(const float a[3], const float b[3])
 {
     float sum = 0.0f;
     for (int k = 0; k < 3; k++) {
-        sum += (c[k] - s->middle[k]) * s->difference[k];
+        sum += (a[k] - b[k]) * (a[k] - b[k]);
     }
     return sum;
 }
 
-/* Of the pixel itself, and of the mean with its neighbours beside. */
-static float own_nearness(const silhouette_line *line, const edge *e, const sides *s, int32_t u)
+static sides sides_of(const silhouette_line *line, const edge *e)
 {
-    const uint8_t *c = line->color + line->color_offset[e->far_pixel + e->direction * u];
-    const float own[3] = {(float)c[0], (float)c[1], (float)c[2]};
-    return nearness(s, own);
+    sides s = {.variance = COLOR_VARIANCE};
+    if (line->color == NULL) {
+        return s;
+    }
+    int32_t near_from = e->near_band < e->near_end ? e->near_band : e->near_end - 1;
+    int32_t far_from = e->far_band < e->far_end ? e->far_band : e->far_end - 1;
+    add_side(line, e, -e->near_end, -near_from, s.near_mean, &s.variance);
+    add_side(line, e, far_from, e->far_end, s.far_mean, &s.variance);
+    s.square = square_distance(s.near_mean, s.far_mean);
+    /* Sides that can hardly be told apart have little to say. */
+    float contrast = s.square / (SURE * s.variance);
+    s.weight = contrast < 1.0f ? contrast : 1.0f;
+    return s;
 }
 
-static float mean_nearness(const silhouette_line *line, const edge *e, const sides *s, int32_t u)
+/* Nats for near rather than far, of a pixel and of its neighbours beside: two normal distributions
+ * of the same variance, clipped. What looks like neither side says little. */
+static float evidence_at(const silhouette_line *line, const edge *e, const sides *s, int32_t u)
 {
     float c[3] = {0, 0, 0};
     add_colors(line, e, u, c);
     for (int k = 0; k < 3; k++) {
         c[k] *= 1.0f / 3.0f;
     }
-    return nearness(s, c);
+    float from_near = square_distance(c, s->near_mean) / s->variance;
+    float from_far = square_distance(c, s->far_mean) / s->variance;
+    float strange = (from_near < from_far ? from_near : from_far) / STRANGE;
+    float evidence = 0.5f * s->weight * (from_far - from_near);
+    evidence = evidence < MOST_EVIDENCE ? evidence : MOST_EVIDENCE;
+    evidence = evidence > -MOST_EVIDENCE ? evidence : -MOST_EVIDENCE;
+    return evidence / (1.0f + strange * strange);
 }
 
-/* The split that explains the colours best: pixels u < split are near. Two normal distributions of
- * the same variance, clipped; the depth's own edge is uncertain by `doubt` pixels. */
+/* Share of the near side in the pixel's own colour. */
+static float mixture_at(const silhouette_line *line, const edge *e, const sides *s, int32_t u)
+{
+    const uint8_t *c = line->color + line->color_offset[e->far_pixel + e->direction * u];
+    const float own[3] = {(float)c[0], (float)c[1], (float)c[2]};
+    float from_near = square_distance(own, s->near_mean);
+    float from_far = square_distance(own, s->far_mean);
+    return 0.5f + 0.5f * (from_far - from_near) / s->square;
+}
+
+/* Nats that a split k pixels from the depth's own edge costs, which is uncertain by `doubt` pixels.
+ * Far away, where now and then a sensor is wrong, less than the evidence of clear colours (Huber
+ * 1964). */
+static float distance_cost(int32_t k, float doubt)
+{
+    float distance = (float)(k < 0 ? -k : k);
+    float bend = MOST_COST * doubt * doubt;
+    return distance < bend ? distance * distance / (2.0f * doubt * doubt)
+                           : MOST_COST * (distance - 0.5f * bend);
+}
+
+/* The split that explains the colours best: pixels u < split are near. */
 static int32_t find_split(const edge *e, const float near_sum[], float doubt)
 {
     float best = -1e30f;
     int32_t split = 0;
     for (int32_t k = -e->near_band; k <= e->far_band; k++) {
-        float score = near_sum[k + e->near_band] - (float)(k * k) / (2.0f * doubt * doubt);
+        float score = near_sum[k + e->near_band] - distance_cost(k, doubt);
         if (score > best) {
             best = score;
             split = k;
@@ -223,9 +244,22 @@ static int32_t find_split(const edge *e, const float near_sum[], float doubt)
     return split;
 }
 
-static float clamp01(float x)
+static float clamp(float x, float low, float high)
 {
-    return x < 0.0f ? 0.0f : (x > 1.0f ? 1.0f : x);
+    return x < low ? low : (x > high ? high : x);
+}
+
+/* Only the two pixels beside the split are mixed, and neither of them mostly of the other side:
+ * farther away another colour is a pattern or a shade of the surface. */
+static float cover_at(const silhouette_line *line, const edge *e, const sides *s, int32_t u,
+                      int32_t split)
+{
+    if (u < split - 1 || u > split) {
+        return u < split ? 1.0f : 0.0f;
+    }
+    bool is_clear = s->square > CLEAR * s->variance;
+    float cover = is_clear ? mixture_at(line, e, s, u) : (u < split ? 0.75f : 0.25f);
+    return u < split ? clamp(cover, 0.5f, 1.0f) : clamp(cover, 0.0f, 0.49f);
 }
 
 static void write_pixel(const silhouette_line *line, const edge *e, int32_t u, int32_t split,
@@ -266,33 +300,13 @@ void silhouette_settle(const silhouette_line *line, int32_t i, const silhouette_
         !owns_edge(line, &e)) {
         return;
     }
-    float mixture[2 * REACH_MAX];
-    float near_sum[2 * REACH_MAX + 1];
-    sides s = {.square = 0.0f, .variance = 1.0f};
-    if (line->color != NULL) {
-        s = sides_of(line, &e);
+    const sides s = sides_of(line, &e);
+    float near_sum[2 * REACH_MAX + 1] = {0.0f};
+    for (int32_t u = -e.near_band; u < e.far_band && s.weight > 0.0f; u++) {
+        near_sum[u + e.near_band + 1] = near_sum[u + e.near_band] + evidence_at(line, &e, &s, u);
     }
-    /* Sides that can hardly be told apart have little to say. */
-    float contrast = s.square / (SURE * s.variance);
-    float scale = (contrast < 1.0f ? contrast : 1.0f) / s.variance;
-    near_sum[0] = 0.0f;
+    int32_t split = find_split(&e, near_sum, (float)reach / 4.5f);
     for (int32_t u = -e.near_band; u < e.far_band; u++) {
-        float evidence = s.square > 0.0f ? scale * mean_nearness(line, &e, &s, u) : 0.0f;
-        evidence = evidence > MOST_EVIDENCE ? MOST_EVIDENCE : evidence;
-        evidence = evidence < -MOST_EVIDENCE ? -MOST_EVIDENCE : evidence;
-        mixture[u + e.near_band] =
-            s.square > 0.0f ? clamp01(0.5f + own_nearness(line, &e, &s, u) / s.square) : 0.5f;
-        near_sum[u + e.near_band + 1] = near_sum[u + e.near_band] + evidence;
-    }
-    int32_t split = find_split(&e, near_sum, (float)reach / 3.5f);
-    bool is_clear = s.square > CLEAR * s.variance;
-    for (int32_t u = -e.near_band; u < e.far_band; u++) {
-        float cover = u < split ? 1.0f : 0.0f;
-        if (u >= split - 2 && u < split + 2 && is_clear) {
-            cover = mixture[u + e.near_band];
-        } else if (u == split - 1 || u == split) {
-            cover = u < split ? 0.75f : 0.25f;
-        }
-        write_pixel(line, &e, u, split, cover);
+        write_pixel(line, &e, u, split, cover_at(line, &e, &s, u, split));
     }
 }
