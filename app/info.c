@@ -78,8 +78,8 @@ int sources_main(int argc, char **argv)
     printf(
         "synthetic:NAME[?key=value&...]  a simulated room with ground truth\n"
         "    NAME: room, empty, thesis, chair, book, hand, lift, swipe, carry, crossing\n"
-        "    keys: seed, frames, fps, speed, lamp (X,Y,Z), noise (0|1|steps), edge_filter (0|1),\n"
-        "    color (WxH or 0)\n"
+        "    keys: seed, person (who it is; 1 = 1.75 m tall), frames, fps, speed, lamp (X,Y,Z),\n"
+        "    noise (0|1|steps), edge_filter (0|1), color (WxH or 0)\n"
         "FOLDER                          a clip: depth.txt, rgb.txt, PNG/JPEG, camera.json\n");
     return EXIT_DONE;
 }

@@ -11,13 +11,15 @@
 #define THROWN_BODIES 60
 
 const eval_scene eval_scenes[] = {
-    {"room", "a person walks in and reaches out", 210, "room", ""},
-    {"empty", "nobody", 60, "empty", ""},
-    {"thesis", "a walking person before wall and column", 150, "thesis", ""},
-    {"chair", "the chair is taken away after 4 s", 165, "chair", ""},
-    {"book", "a book held edge-on, then turned", 230, "book", ""},
-    {"hand", "a hand close up", 120, "hand", ""},
-    {"steps", "room, by structured light: correlated noise in steps", 120, "room", "&noise=steps"},
+    {"room", "a person walks in and reaches out", 210, "room", "", false},
+    {"empty", "nobody", 60, "empty", "", false},
+    {"thesis", "a walking person before wall and column", 150, "thesis", "", false},
+    {"chair", "the chair is taken away after 4 s", 165, "chair", "", false},
+    {"book", "a book held edge-on, then turned", 230, "book", "", false},
+    {"hand", "a hand close up", 120, "hand", "", false},
+    {"steps", "room, by structured light: correlated noise in steps", 120, "room", "&noise=steps",
+     false},
+    {"people", "room, with another person for every seed", 210, "room", "", true},
 };
 const int32_t eval_scene_count = (int32_t)(sizeof(eval_scenes) / sizeof(eval_scenes[0]));
 
@@ -179,8 +181,9 @@ rlf_result eval_scene_run(eval_table *table, const eval_scene *scene, int64_t se
                           int profile_mask, const setting_list *settings)
 {
     char name[128];
-    snprintf(name, sizeof(name), "synthetic:%s?seed=%lld&frames=%lld&color=0%s", scene->source,
-             (long long)seed, (long long)frames, scene->options);
+    snprintf(name, sizeof(name), "synthetic:%s?seed=%lld&frames=%lld&color=0&person=%lld%s",
+             scene->source, (long long)seed, (long long)frames,
+             (long long)(scene->has_others ? seed + 1 : 1), scene->options);
     run *r = rlf_alloc(sizeof(*r)); /* large: histograms */
     if (r == NULL) {
         return RLF_ERROR_MEMORY;

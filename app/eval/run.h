@@ -12,6 +12,7 @@ typedef struct eval_scene {
     int32_t frames;      /* default number, 30 a second */
     const char *source;  /* synthetic scene */
     const char *options; /* of it, each with a leading & */
+    bool has_others;     /* another person with every seed; else always the same */
 } eval_scene;
 
 extern const eval_scene eval_scenes[];

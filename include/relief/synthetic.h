@@ -51,6 +51,8 @@ typedef struct rlf_synthetic_def {
     uint32_t cookie;
     rlf_synthetic_scene scene; /* default room */
     uint64_t seed;             /* of noise and dropout; default 1 */
+    uint64_t person;           /* who it is; default 1: an adult of 1.75 m. Every other number is
+                                  someone else in size, build, clothes and pace */
     double frames_per_second;  /* default 30 */
     int64_t frame_count;       /* default 300 (10 s); -1 = endless */
     double speed;              /* of the tray or board, m/s, above 0, at most 10; default 0.5 */
@@ -72,9 +74,9 @@ RLF_API rlf_synthetic_def rlf_synthetic_def_default(void);
 RLF_API rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source **out);
 
 /* Reads "synthetic:NAME[?key=value[&key=value...]]" into *def: NAME one of room, empty, thesis,
- * chair, book, hand, lift, swipe, carry, crossing; keys seed, frames, fps, speed, lamp (X,Y,Z),
- * noise (0|1|steps), edge_filter (0|1), color (WxH or 0). RLF_ERROR_INVALID names the part that is
- * wrong and what is allowed. */
+ * chair, book, hand, lift, swipe, carry, crossing; keys seed, person, frames, fps, speed,
+ * lamp (X,Y,Z), noise (0|1|steps), edge_filter (0|1), color (WxH or 0). RLF_ERROR_INVALID names the
+ * part that is wrong and what is allowed. */
 RLF_API rlf_result rlf_synthetic_parse(const char *source, rlf_synthetic_def *def);
 
 /* True surface point nearest along the true scene at this instant of a source made by

@@ -241,11 +241,11 @@ static void the_chair_is_taken_away(void **state)
 
 /* Limbs do not slide or sink: at every moment one foot is on the floor, none is below it, and a
  * foot on the floor is at rest. */
-static void feet_carry_the_person(void **state)
+static void check_feet(uint64_t person)
 {
-    (void)state;
     static synth_scene scene;
     synth_scene_build(&scene, RLF_SYNTHETIC_ROOM);
+    synth_scene_set_people(&scene, person);
     for (int k = 0; k < 1000; k++) {
         synth_scene_move(&scene, 0.01 * k);
         double lowest = 1.0;
@@ -265,6 +265,41 @@ static void feet_carry_the_person(void **state)
         }
         assert_true(lowest < 0.012);
     }
+}
+
+static void feet_carry_the_person(void **state)
+{
+    (void)state;
+    for (uint64_t person = 1; person <= 8; person++) {
+        check_feet(person);
+    }
+}
+
+/* Person 1 is the adult that the table describes; the others are as tall and as broad as people
+ * are, no two alike. */
+static void people_differ(void **state)
+{
+    (void)state;
+    enum { PEOPLE = 400 };
+    synth_figure figure, second;
+    synth_figure_make(&figure, 1, false);
+    assert_memory_equal(figure.flesh, synth_person_flesh, sizeof(figure.flesh));
+    double sum = 0.0, square = 0.0;
+    for (uint64_t person = 2; person < 2 + PEOPLE; person++) {
+        synth_figure_make(&figure, person, false);
+        synth_figure_make(&second, person, true);
+        double stature = 1.75 * (0.925 * figure.leg + 0.58 * figure.trunk) / (0.925 + 0.58);
+        double waist = 2.0 * figure.flesh[1].size.x / stature;
+        assert_true(stature > 1.499 && stature < 1.951);
+        assert_true(waist > 0.13 && waist < 0.26);
+        assert_true(figure.pace > 0.7 && figure.pace < 1.3);
+        assert_memory_not_equal(figure.flesh, second.flesh, sizeof(figure.flesh));
+        sum += stature;
+        square += stature * stature;
+    }
+    double mean = sum / PEOPLE, deviation = sqrt(square / PEOPLE - mean * mean);
+    assert_true(mean > 1.67 && mean < 1.71);
+    assert_true(deviation > 0.07 && deviation < 0.10);
 }
 
 static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size)
@@ -394,6 +429,7 @@ int main(void)
         cmocka_unit_test(the_room_is_empty_at_first),
         cmocka_unit_test(the_chair_is_taken_away),
         cmocka_unit_test(feet_carry_the_person),
+        cmocka_unit_test(people_differ),
         cmocka_unit_test(same_def_gives_the_same_bits),
         cmocka_unit_test(time_and_end_follow_the_def),
         cmocka_unit_test(colour_restores_what_the_person_covered),

@@ -35,11 +35,13 @@ static void every_key_is_read(void **state)
     assert_int_equal(rlf_synthetic_parse("synthetic:room?noise=steps", &def), RLF_OK);
     assert_true(def.enable_noise && def.enable_structured_light);
     assert_float_equal(def.lamp.y, -1.85, 0.0);
-    assert_int_equal(rlf_synthetic_parse("synthetic:room?lamp=-1.5,0.25,-3&seed=7", &def), RLF_OK);
+    assert_int_equal(rlf_synthetic_parse("synthetic:room?lamp=-1.5,0.25,-3&seed=7&person=3", &def),
+                     RLF_OK);
     assert_float_equal(def.lamp.x, -1.5, 0.0);
     assert_float_equal(def.lamp.y, 0.25, 0.0);
     assert_float_equal(def.lamp.z, -3.0, 0.0);
     assert_int_equal(def.seed, 7);
+    assert_int_equal(def.person, 3);
 }
 
 static void every_scene_has_its_name(void **state)

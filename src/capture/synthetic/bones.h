@@ -23,18 +23,6 @@ typedef enum synth_bone {
     SYNTH_BONE_COUNT
 } synth_bone;
 
-/* A solid fixed to a bone; numbers in metres, bone frame. */
-typedef struct synth_flesh {
-    const char *name;
-    int bone;
-    synth_material material;
-    synth_shape_type type;
-    rlf_vec3 offset;
-    char axis; /* of the bone that the cone's axis runs along: 'x', 'y' or 'z' */
-    rlf_vec3 size;
-    double length, radius_a, radius_b;
-} synth_flesh;
-
 /* Bones of the person (and the book he holds) at time t, in the camera frame. */
 void synth_person_bones(const synth_scene *scene, double t, rlf_pose bones[SYNTH_BONE_COUNT]);
 /* Bones of the second person of scene "crossing". */
@@ -48,8 +36,6 @@ void synth_tray_bones(const synth_scene *scene, double t, rlf_pose bones[SYNTH_B
 /* Pose at `origin` with y along `direction` and z as near to `forward` as possible. */
 rlf_pose synth_bone_pose(rlf_vec3 origin, rlf_vec3 direction, rlf_vec3 forward);
 
-extern const synth_flesh synth_person_flesh[];
-extern const int32_t synth_person_flesh_count;
 extern const synth_flesh synth_hand_flesh[];
 extern const int32_t synth_hand_flesh_count;
 extern const synth_flesh synth_book_flesh;

@@ -19,7 +19,7 @@
     }
 
 /* In a bone frame y points down the limb; the trunk's frames are upright with y down. */
-const synth_flesh synth_person_flesh[] = {
+const synth_flesh synth_person_flesh[SYNTH_PERSON_FLESH] = {
     ELLIPSOID("pelvis", SYNTH_PELVIS, SYNTH_TROUSERS, 0, -0.02, -0.005, 0.162, 0.125, 0.118),
     ELLIPSOID("belly", SYNTH_CHEST, SYNTH_SHIRT, 0, -0.17, 0.0, 0.150, 0.185, 0.112),
     ELLIPSOID("chest", SYNTH_CHEST, SYNTH_SHIRT, 0, -0.36, 0.0, 0.172, 0.205, 0.122),
@@ -45,8 +45,6 @@ const synth_flesh synth_person_flesh[] = {
     CONE("thumb l", SYNTH_PALM, SYNTH_SKIN, 0.036, 0.035, -0.016, 0.055, 0.015, 0.011),
     CONE("thumb r", SYNTH_PALM + 1, SYNTH_SKIN, -0.036, 0.035, -0.016, 0.055, 0.015, 0.011),
 };
-const int32_t synth_person_flesh_count =
-    (int32_t)(sizeof(synth_person_flesh) / sizeof(synth_person_flesh[0]));
 
 /* A book of 17 x 24 x 2.5 cm that stands on the grip: its frame's y points down. */
 const synth_flesh synth_book_flesh = {

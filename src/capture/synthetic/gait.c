@@ -2,7 +2,6 @@
  * carry do not slide: footfalls are planned per walk, and a foot moves only during its swing. */
 #include "capture/synthetic/gait.h"
 
-#define STEP_LENGTH 0.60 /* metres between footfalls of opposite feet */
 #define RAMP 0.2         /* share of a walk's time in which it speeds up, and slows down */
 #define STEP_HEIGHT 0.05 /* metres that a swinging foot is lifted */
 
@@ -110,17 +109,17 @@ static double absolute(double x)
     return x < 0.0 ? -x : x;
 }
 
-static rlf_vec3 beside(rlf_vec3 p, double heading, int side)
+static rlf_vec3 beside(const synth_gait *gait, rlf_vec3 p, double heading, int side)
 {
-    double offset = side == 0 ? -SYNTH_FOOT_OFFSET : SYNTH_FOOT_OFFSET;
+    double offset = side == 0 ? -gait->foot_offset : gait->foot_offset;
     return rlf_add(p, rlf_vec3_make(offset * rlf_cos(heading), 0, -offset * rlf_sin(heading)));
 }
 
-static void walk(synth_gait *gait, const act *a, double t)
+static void walk(synth_gait *gait, const act *a, double step, double t)
 {
     double x = (t - a->begin) / (a->end - a->begin);
     double distance = a->to - a->from;
-    int steps = (int)(absolute(distance) / STEP_LENGTH + 0.5);
+    int steps = (int)(absolute(distance) / step + 0.5);
     double place[2];
     gait->stride = way(x) * steps;
     gait->walking = pace(x);
@@ -130,7 +129,7 @@ static void walk(synth_gait *gait, const act *a, double t)
         place[side] = foot_place(side, gait->stride, steps, &lift);
         rlf_vec3 p = gait->position;
         p.x = a->from + distance * place[side] / steps;
-        p = beside(p, gait->heading, side);
+        p = beside(gait, p, gait->heading, side);
         p.y = lift;
         gait->foot[side].position = p;
     }
@@ -145,7 +144,7 @@ static void turn(synth_gait *gait, const act *a, double t)
     for (int side = 0; side < 2; side++) {
         double w = rlf_clamp((x - 0.4 * side) / 0.6, 0.0, 1.0);
         double heading = a->from + (a->to - a->from) * synth_smooth(w);
-        rlf_vec3 p = beside(gait->position, heading, side);
+        rlf_vec3 p = beside(gait, gait->position, heading, side);
         p.y = STEP_HEIGHT * 0.7 * 16.0 * w * w * (1.0 - w) * (1.0 - w);
         gait->foot[side].position = p;
         gait->foot[side].heading = heading;
@@ -155,26 +154,40 @@ static void turn(synth_gait *gait, const act *a, double t)
 static void stand(synth_gait *gait)
 {
     for (int side = 0; side < 2; side++) {
-        gait->foot[side].position = beside(gait->position, gait->heading, side);
+        gait->foot[side].position = beside(gait, gait->position, gait->heading, side);
         gait->foot[side].heading = gait->heading;
     }
 }
 
-static synth_gait follow(const script *s, double t)
+/* Act i at the figure's own pace: who walks slower comes from less far, and goes less far away. */
+static act act_of(const script *s, const synth_figure *figure, int i)
+{
+    act a = s->acts[i];
+    if (i == 0) {
+        a.from = a.to + (a.from - a.to) * figure->pace;
+    } else if (i == s->act_count - 1) {
+        a.to = a.from + (a.to - a.from) * figure->pace;
+    }
+    return a;
+}
+
+static synth_gait follow(const script *s, const synth_figure *figure, double t)
 {
     double now = t - s->period * (double)(int64_t)(t / s->period);
-    synth_gait gait = {.position = {s->acts[0].from, 0.0, s->z}, .heading = s->heading};
+    synth_gait gait = {.position = {act_of(s, figure, 0).from, 0.0, s->z},
+                       .heading = s->heading,
+                       .foot_offset = figure->hip};
     stand(&gait);
     for (int i = 0; i < s->act_count && now >= s->acts[i].begin; i++) {
-        const act *a = &s->acts[i];
-        bool is_over = now >= a->end;
-        if (!is_over && a->is_walk) {
-            walk(&gait, a, now);
+        act a = act_of(s, figure, i);
+        bool is_over = now >= a.end;
+        if (!is_over && a.is_walk) {
+            walk(&gait, &a, figure->step, now);
         } else if (!is_over) {
-            turn(&gait, a, now);
+            turn(&gait, &a, now);
         } else {
-            gait.position.x = a->is_walk ? a->to : gait.position.x;
-            gait.heading = a->is_walk ? gait.heading : a->to;
+            gait.position.x = a.is_walk ? a.to : gait.position.x;
+            gait.heading = a.is_walk ? gait.heading : a.to;
             stand(&gait);
         }
     }
@@ -186,12 +199,12 @@ static synth_gait follow(const script *s, double t)
     return gait;
 }
 
-synth_gait synth_gait_at(rlf_synthetic_scene kind, double t)
+synth_gait synth_gait_at(rlf_synthetic_scene kind, const synth_figure *figure, double t)
 {
-    return follow(script_of(kind), t);
+    return follow(script_of(kind), figure, t);
 }
 
-synth_gait synth_second_gait_at(double t)
+synth_gait synth_second_gait_at(const synth_figure *figure, double t)
 {
-    return follow(&second_script, t);
+    return follow(&second_script, figure, t);
 }

@@ -2,10 +2,8 @@
 #ifndef RLF_CAPTURE_SYNTHETIC_GAIT_H
 #define RLF_CAPTURE_SYNTHETIC_GAIT_H
 
+#include "capture/synthetic/figure.h"
 #include "relief/synthetic.h"
-
-/* Distance of each foot from the middle plane of the body, metres. */
-#define SYNTH_FOOT_OFFSET 0.085
 
 /* Index of a side: 0 left, 1 right. */
 typedef struct synth_footing {
@@ -20,15 +18,16 @@ typedef struct synth_gait {
     double stride;  /* steps since the walk began: whole at mid-stance */
     double swing;   /* left foot's lead over the right one, in steps */
     synth_footing foot[2];
+    double foot_offset;  /* of each foot from the middle plane of the body, metres */
     double reach;        /* 0..1: how far the right arm follows its gesture */
     double gesture_time; /* s since the gesture began */
 } synth_gait;
 
 /* t in seconds since the first frame; the script of each scene repeats for ever. */
-synth_gait synth_gait_at(rlf_synthetic_scene kind, double t);
+synth_gait synth_gait_at(rlf_synthetic_scene kind, const synth_figure *figure, double t);
 
 /* The second person of scene "crossing". */
-synth_gait synth_second_gait_at(double t);
+synth_gait synth_second_gait_at(const synth_figure *figure, double t);
 
 /* Seconds after which the scene's script starts again. */
 double synth_gait_period(rlf_synthetic_scene kind);

@@ -72,11 +72,12 @@ static void move_hand(synth_scene *scene, double t)
     }
 }
 
-static void move_person(synth_scene *scene, bones_fn bones, int32_t label, double t)
+static void move_person(synth_scene *scene, const synth_figure *figure, bones_fn bones,
+                        int32_t label, double t)
 {
     motion m = motion_at(scene, bones, t);
-    for (int32_t i = 0; i < synth_person_flesh_count; i++) {
-        put_flesh(scene, &synth_person_flesh[i], label, &m);
+    for (int32_t i = 0; i < SYNTH_PERSON_FLESH; i++) {
+        put_flesh(scene, &figure->flesh[i], label, &m);
     }
     if (scene->kind == RLF_SYNTHETIC_BOOK) {
         put_flesh(scene, &synth_book_flesh, RLF_SYNTHETIC_LABEL_BOOK, &m);
@@ -94,9 +95,10 @@ void synth_scene_move(synth_scene *scene, double t)
     } else if (scene->kind == RLF_SYNTHETIC_HAND) {
         move_hand(scene, t);
     } else {
-        move_person(scene, synth_person_bones, RLF_SYNTHETIC_LABEL_PERSON, t);
+        move_person(scene, &scene->person, synth_person_bones, RLF_SYNTHETIC_LABEL_PERSON, t);
     }
     if (scene->kind == RLF_SYNTHETIC_CROSSING) {
-        move_person(scene, synth_second_bones, RLF_SYNTHETIC_LABEL_SECOND_PERSON, t);
+        move_person(scene, &scene->second, synth_second_bones, RLF_SYNTHETIC_LABEL_SECOND_PERSON,
+                    t);
     }
 }

@@ -5,7 +5,7 @@
 
 #define PREFIX "synthetic:"
 #define SCENES "room, empty, thesis, chair, book, hand, lift, swipe, carry, crossing"
-#define KEYS "seed, frames, fps, speed, lamp, noise, edge_filter, color"
+#define KEYS "seed, person, frames, fps, speed, lamp, noise, edge_filter, color"
 
 static const char *const scene_names[] = {"room", "empty", "thesis", "chair", "book",
                                           "hand", "lift",  "swipe",  "carry", "crossing"};
@@ -141,6 +141,10 @@ static const char *set_value(piece key, piece value, rlf_synthetic_def *def, boo
     uint64_t number = 0;
     if (is_word(key, "seed")) {
         *is_good = read_integer(value, UINT64_MAX, &def->seed);
+        return "a whole number";
+    }
+    if (is_word(key, "person")) {
+        *is_good = read_integer(value, UINT64_MAX, &def->person);
         return "a whole number";
     }
     if (is_word(key, "frames")) {

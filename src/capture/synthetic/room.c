@@ -150,6 +150,13 @@ void synth_scene_build(synth_scene *scene, rlf_synthetic_scene kind)
         build_room(scene);
     }
     scene->removal_time = kind == RLF_SYNTHETIC_CHAIR ? 4.0 : 0.0;
+    synth_scene_set_people(scene, 1);
+}
+
+void synth_scene_set_people(synth_scene *scene, uint64_t seed)
+{
+    synth_figure_make(&scene->person, seed, false);
+    synth_figure_make(&scene->second, seed, true);
     synth_scene_move(scene, 0.0);
 }
 

@@ -2,34 +2,11 @@
 #ifndef RLF_CAPTURE_SYNTHETIC_SCENE_H
 #define RLF_CAPTURE_SYNTHETIC_SCENE_H
 
+#include "capture/synthetic/figure.h"
 #include "capture/synthetic/shape.h"
 #include "relief/synthetic.h"
 
 #define SYNTH_PART_MAX 48 /* of the room, and of the movers */
-
-typedef enum synth_material {
-    SYNTH_WALL = 0,
-    SYNTH_FLOOR,
-    SYNTH_TILES,
-    SYNTH_RUBBER,
-    SYNTH_CEILING,
-    SYNTH_COLUMN,
-    SYNTH_CUPBOARD,
-    SYNTH_TABLE,
-    SYNTH_CARDBOARD,
-    SYNTH_BOX_RED,
-    SYNTH_BOX_TEAL,
-    SYNTH_BALL,
-    SYNTH_CHAIR,
-    SYNTH_SKIN,
-    SYNTH_FACE,
-    SYNTH_HAIR,
-    SYNTH_SHIRT,
-    SYNTH_TROUSERS,
-    SYNTH_SHOE,
-    SYNTH_BOOK,
-    SYNTH_MATERIAL_COUNT
-} synth_material;
 
 typedef struct synth_part {
     synth_shape shape;
@@ -51,6 +28,7 @@ typedef struct synth_scene {
     int32_t removed_count; /* so many of the last statics go at removal_time */
     synth_part movers[SYNTH_PART_MAX];
     int32_t mover_count;
+    synth_figure person, second; /* the second is in scene "crossing" */
 } synth_scene;
 
 /* A scene with a tray, see tray.c. */
@@ -64,8 +42,12 @@ static inline bool synth_is_shell(int32_t label)
     return label >= RLF_SYNTHETIC_LABEL_WALL && label <= RLF_SYNTHETIC_LABEL_COLUMN;
 }
 
-/* Builds the room and names the movers; their poses are those of time 0. */
+/* Builds the room and names the movers; their poses are those of time 0. The person is that of seed
+ * 1. */
 void synth_scene_build(synth_scene *scene, rlf_synthetic_scene kind);
+
+/* Gives the people the figures of a seed, see figure.h, at time 0. */
+void synth_scene_set_people(synth_scene *scene, uint64_t seed);
 
 /* Number of static parts that are there at time t (the first ones). */
 int32_t synth_scene_static_count(const synth_scene *scene, double t);

@@ -20,6 +20,7 @@ rlf_synthetic_def rlf_synthetic_def_default(void)
     rlf_synthetic_def def = {.cookie = RLF_DEF_COOKIE,
                              .scene = RLF_SYNTHETIC_ROOM,
                              .seed = 1,
+                             .person = 1,
                              .frames_per_second = 30.0,
                              .frame_count = 300,
                              .speed = 0.5,
@@ -193,6 +194,7 @@ static rlf_result sensor_create(const rlf_synthetic_def *def, const rlf_rig *rig
     }
     sensor->def = *def;
     synth_scene_build(&sensor->scene, def->scene);
+    synth_scene_set_people(&sensor->scene, def->person);
     sensor->scene.speed = def->speed;
     sensor->scene.lamp = def->lamp;
     sensor->asked = sensor->scene;
