@@ -263,9 +263,11 @@ typedef struct rlf_kernel_bend_in {
     const float *normal[3], *depth;
 } rlf_kernel_bend_in;
 
-/* rows: the row SPAN above, the row itself and the one SPAN below; outside the image pass the row
- * itself. Missing normals are 0 and count as turned. */
-void rlf_kernel_bend_row(const rlf_kernel_bend_in rows[3], int32_t count, uint8_t *restrict bend);
+/* rows: from SPAN above to SPAN below the row; outside the image pass the row itself. Missing
+ * normals are 0: where one of the two sides is, the pixels next to the middle are compared, and the
+ * middle stands for one of those that is missing. Nothing but missing ones count as turned. */
+void rlf_kernel_bend_row(const rlf_kernel_bend_in rows[1 + 2 * RLF_KERNEL_BEND_SPAN], int32_t count,
+                         uint8_t *restrict bend);
 
 /* ---- background_row.c
  * ---------------------------------------------------------------------------- */

@@ -23,12 +23,17 @@ static const float OWN_FRAMES = 8.0f, OWN_APART = 0.5f, OWN_SHARE = 0.75f;
 typedef struct crease_job {
     int32_t width, height;
     const float *ray_x, *ray_y, *depth;
-    const uint8_t *reason;
+    const uint8_t *known;       /* 1 where depth was not filled; NULL = nowhere was it */
     const float *mean, *frames; /* of inverse depth over time; NULL = not kept */
     float *const *normal;
     uint8_t *bent; /* plane of RLF_BEND_; pixels where it is 0 are only read */
     rlf_kernel_noise noise;
 } crease_job;
+
+static bool is_known(const crease_job *job, ptrdiff_t i)
+{
+    return job->known == NULL || job->known[i] != 0;
+}
 
 static float cosine(const crease_job *job, ptrdiff_t a, ptrdiff_t b)
 {
@@ -48,11 +53,13 @@ static void mark_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     (void)worker;
     const crease_job *job = context;
     for (int32_t y = begin; y < end; y++) {
-        int32_t up = y >= RLF_KERNEL_BEND_SPAN ? y - RLF_KERNEL_BEND_SPAN : y;
-        int32_t down = y + RLF_KERNEL_BEND_SPAN < job->height ? y + RLF_KERNEL_BEND_SPAN : y;
         ptrdiff_t width = job->width;
-        const rlf_kernel_bend_in rows[3] = {row_at(job, up * width), row_at(job, y * width),
-                                            row_at(job, down * width)};
+        rlf_kernel_bend_in rows[1 + 2 * RLF_KERNEL_BEND_SPAN];
+        for (int32_t k = 0; k <= 2 * RLF_KERNEL_BEND_SPAN; k++) {
+            int32_t row = y + k - RLF_KERNEL_BEND_SPAN;
+            bool inside = row >= 0 && row < job->height;
+            rows[k] = row_at(job, (inside ? row : y) * width);
+        }
         rlf_kernel_bend_row(rows, job->width, job->bent + y * width);
     }
 }
@@ -79,7 +86,7 @@ static ptrdiff_t find_face(const crease_job *job, ptrdiff_t i, ptrdiff_t step, i
         }
         z = job->depth[i];
         if (!job->bent[i]) {
-            bool usable = job->reason[i] == RLF_REASON_OK && cosine(job, i, i) > 0.5f;
+            bool usable = is_known(job, i) && cosine(job, i, i) > 0.5f;
             return usable ? i : -1;
         }
     }
@@ -180,7 +187,7 @@ static void sharpen_rows(void *context, int32_t begin, int32_t end, int32_t work
         ptrdiff_t row = (ptrdiff_t)y * job->width;
         const uint8_t *bent = job->bent + row;
         for (int32_t x = 0; (x = rlf_kernel_next_mark(bent, x, job->width)) < job->width; x++) {
-            if (job->reason[row + x] == RLF_REASON_OK) {
+            if (is_known(job, row + x)) {
                 sharpen_pixel(job, x, y);
             }
         }
@@ -195,11 +202,11 @@ void rlf_normals_crease(const rlf_reconstruct *stage, const rlf_slot *slot)
                       .ray_x = grid->ray_x,
                       .ray_y = grid->ray_y,
                       .depth = slot->depth,
-                      .reason = slot->reason,
+                      .known = stage->def.enable_fill ? stage->work.mask[0] : NULL,
                       .mean = stage->steady.mean,
                       .frames = stage->steady.frames,
                       .normal = slot->normal,
-                      .bent = stage->work.mask[0],
+                      .bent = stage->work.mask[1],
                       .noise = rlf_kernel_noise_make(&stage->def.rig.noise)};
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, mark_rows, &job);
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, sharpen_rows, &job);

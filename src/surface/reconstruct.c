@@ -102,9 +102,13 @@ static void make_planes(rlf_reconstruct *stage, const float *depth, float *smoot
     rlf_normals_plane_fit(&job);
 }
 
-/* Normals of what no plane explains and of what was filled. */
+/* Normals at creases, of what no plane explains and of what was filled: outlines and what is beside
+ * them go on from sharp creases, not from blended ones. */
 static void complete_planes(rlf_reconstruct *stage, rlf_slot *slot)
 {
+    if (stage->def.enable_edge_normals) {
+        rlf_normals_crease(stage, slot);
+    }
     if (stage->def.enable_fill && stage->def.enable_edge_normals) {
         rlf_normals_outline(stage, slot);
     }
@@ -148,10 +152,6 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
     }
     if (smooth) {
         complete_planes(stage, slot);
-    }
-    if (smooth && stage->def.enable_edge_normals) {
-        rlf_normals_crease(stage, slot);
-        rlf_stage_add_time(stage, RLF_SURFACE_COMPLETE);
     }
 }
 

@@ -61,7 +61,8 @@ void rlf_normals_slope_pixel(const rlf_normals_job *job, int32_t x, int32_t y);
 /* Normals of filled pixels at the outlines of things; after rlf_fill_holes. */
 void rlf_normals_outline(const rlf_reconstruct *stage, const rlf_slot *slot);
 
-/* Normals of seen pixels at creases, from the faces that meet there. */
+/* Normals of seen and recalled pixels at creases, from the faces that meet there; after
+ * rlf_fill_holes. */
 void rlf_normals_crease(const rlf_reconstruct *stage, const rlf_slot *slot);
 
 /* ---- components.c ---- */

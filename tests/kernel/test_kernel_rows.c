@@ -416,6 +416,47 @@ static void thickness_ends_at_the_background(void **state)
     }
 }
 
+/* A row that faces the camera and from `crease` on to the right; no normal from `end` on. Rows
+ * above and below are the same. */
+static void bend_of_faces(int32_t crease, int32_t end, uint8_t bend[16])
+{
+    float nx[16], ny[16] = {0}, nz[16], depth[16];
+    for (int32_t i = 0; i < 16; i++) {
+        nx[i] = i >= crease && i < end ? 1.0f : 0.0f;
+        nz[i] = i < crease ? -1.0f : 0.0f;
+        depth[i] = 2.0f;
+    }
+    const rlf_kernel_bend_in row = {{nx, ny, nz}, depth};
+    const rlf_kernel_bend_in rows[5] = {row, row, row, row, row};
+    rlf_kernel_bend_row(rows, 16, bend);
+}
+
+static void normals_bend_within_two_pixels_of_a_crease(void **state)
+{
+    (void)state;
+    uint8_t bend[16];
+    bend_of_faces(8, 16, bend);
+    for (int32_t i = 0; i < 16; i++) {
+        assert_int_equal(bend[i], i >= 6 && i < 10 ? RLF_BEND_ACROSS : 0);
+    }
+}
+
+static void a_face_of_two_pixels_is_not_all_crease(void **state)
+{
+    (void)state;
+    uint8_t bend[16];
+    bend_of_faces(8, 10, bend);
+    assert_int_equal(bend[7], RLF_BEND_ACROSS);
+    assert_int_equal(bend[8], RLF_BEND_ACROSS);
+    assert_int_equal(bend[9], 0);
+    bend_of_faces(8, 9, bend);
+    assert_int_equal(bend[8], RLF_BEND_ACROSS);
+    bend_of_faces(8, 8, bend);
+    for (int32_t i = 0; i < 8; i++) {
+        assert_int_equal(bend[i], 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -431,6 +472,8 @@ int main(void)
         cmocka_unit_test(chord_sums_are_their_definition),
         cmocka_unit_test(chord_solid_is_its_definition),
         cmocka_unit_test(thickness_ends_at_the_background),
+        cmocka_unit_test(normals_bend_within_two_pixels_of_a_crease),
+        cmocka_unit_test(a_face_of_two_pixels_is_not_all_crease),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
