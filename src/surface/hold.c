@@ -3,7 +3,9 @@
  * Near depth edges a driver drops most pixels, others at random in each frame; where nothing moves,
  * what was seen there is still there. The memory is the steadied depth (steady.c). It is recalled
  * where a pixel seen now, within two pixels, continues it, and it is forgotten for good when
- * something moves about it: so nothing that has left can stay, and nothing hangs in the air. */
+ * something moves about it: so nothing that has left can stay, and nothing hangs in the air. A
+ * pixel that was taken for a mixed one for want of neighbours, in a slit between two things, is
+ * believed where the memory has it at the same depth. */
 #include "surface/steps.h"
 #include "surface/window.h"
 
@@ -17,11 +19,14 @@ enum {
     MOST_CALM = 255
 };
 
+static const float MOST_SIGMAS = 3.0f; /* from the memory to what confirms it */
+
 typedef struct hold_job {
     const rlf_reconstruct *stage;
     rlf_kernel_noise noise;
     uint8_t *change; /* plane of RLF_CHANGE_ */
     int32_t blocks_x, blocks_y;
+    const float *raw; /* as it came; NULL = as `depth` */
     float *depth;
     uint8_t *reason;
 } hold_job;
@@ -137,11 +142,24 @@ static void read_seen(const hold_job *job, int32_t x, int32_t y, int32_t lane,
     }
 }
 
+/* What was taken for a mixed pixel is where it was before. */
+static bool is_confirmed(const hold_job *job, ptrdiff_t i)
+{
+    float z = job->raw != NULL && job->reason[i] == RLF_REASON_FLYING ? job->raw[i] : 0.0f;
+    float off = z * job->stage->steady.mean[i] - 1.0f; /* share of the depth */
+    return z > 0.0f && rlf_kernel_abs(off) * z < MOST_SIGMAS * rlf_kernel_sigma(job->noise, z);
+}
+
 static void recall_pixel(const hold_job *job, int32_t x, int32_t y, hold_queue *q)
 {
     ptrdiff_t i = (ptrdiff_t)y * job->stage->grid.width + x;
     if (!is_calm(job->stage, x, y)) {
         forget(job, i);
+        return;
+    }
+    if (is_confirmed(job, i)) {
+        job->depth[i] = job->raw[i];
+        job->reason[i] = RLF_REASON_OK;
         return;
     }
     int32_t lane = q->count++;
@@ -171,7 +189,7 @@ static void recall_rows(void *context, int32_t begin, int32_t end, int32_t worke
     recall_batch(job, &queue);
 }
 
-void rlf_hold_recall(const rlf_reconstruct *stage, float *depth, uint8_t *reason)
+void rlf_hold_recall(const rlf_reconstruct *stage, const float *raw, float *depth, uint8_t *reason)
 {
     const rlf_grid *grid = &stage->grid;
     hold_job job = {.stage = stage,
@@ -179,6 +197,7 @@ void rlf_hold_recall(const rlf_reconstruct *stage, float *depth, uint8_t *reason
                     .change = stage->work.mask[0],
                     .blocks_x = (grid->width + BLOCK - 1) / BLOCK,
                     .blocks_y = (grid->height + BLOCK - 1) / BLOCK,
+                    .raw = raw,
                     .depth = depth,
                     .reason = reason};
     rlf_parallel_for(stage->def.pool, job.blocks_y, RLF_ROW_GRAIN / BLOCK, mark_blocks, &job);

@@ -74,6 +74,11 @@ static int32_t room_for(const crease_job *job, int32_t x, int32_t y, int32_t dx,
     return along < room ? along : room;
 }
 
+static bool is_averaged(const crease_job *job, ptrdiff_t i)
+{
+    return job->frames != NULL && job->frames[i] >= OWN_FRAMES;
+}
+
 /* The nearest pixel from pixel i in a direction that lies on a face, not on its crease; -1 = none.
  */
 static ptrdiff_t find_face(const crease_job *job, ptrdiff_t i, ptrdiff_t step, int32_t room)
@@ -87,7 +92,8 @@ static ptrdiff_t find_face(const crease_job *job, ptrdiff_t i, ptrdiff_t step, i
         z = job->depth[i];
         if (!job->bent[i]) {
             bool usable = is_known(job, i) && cosine(job, i, i) > 0.5f;
-            return usable ? i : -1;
+            bool is_wide = k + 2 > room || cosine(job, i + 2 * step, i + 2 * step) > 0.5f;
+            return usable && (is_wide || is_averaged(job, i)) ? i : -1;
         }
     }
     return -1;
@@ -118,7 +124,7 @@ static bool is_apart(const crease_job *job, ptrdiff_t a, float b_at_a)
  * planes alone. */
 static bool is_elsewhere(const crease_job *job, ptrdiff_t i, float z, float other)
 {
-    if (job->frames == NULL || job->frames[i] < OWN_FRAMES) {
+    if (!is_averaged(job, i)) {
         return false;
     }
     float own = 1.0f / job->mean[i], apart = other - z;

@@ -13,6 +13,9 @@
 #include "surface/window.h"
 
 #include "kernel/outline.h"
+#include "surface/side.h"
+
+#include <string.h>
 
 static const float MOST_APART = 0.05f; /* share of the depth, of samples of one surface */
 
@@ -22,6 +25,7 @@ typedef struct outline_job {
     const uint8_t *known; /* 1 where depth was not filled: normals are read, not written */
     const uint8_t *reason;
     float *const *normal;
+    const rlf_side_job *side;
 } outline_job;
 
 /* Pixels that wait until there are enough of them for a kernel. */
@@ -167,7 +171,9 @@ static void find_outlines(const outline_job *job, outline_queues *queues)
     outline_queue *q = &queues->filled;
     rlf_kernel_outline_find(&queues->depth, &q->outline);
     for (int32_t k = 0; k < q->count; k++) {
-        if (q->outline.distance[k] > 0.0f) {
+        bool has_outline = q->outline.distance[k] > 0.0f;
+        if (has_outline &&
+            !rlf_side_find(job->side, q->x[k], q->y[k], q->outline.x[k], q->outline.y[k])) {
             push(&queues->found, q->x[k], q->y[k], &q->outline, k);
             if (queues->found.count == RLF_BATCH) {
                 turn_found(job, queues);
@@ -197,6 +203,7 @@ static void outline_rows(void *context, int32_t begin, int32_t end, int32_t work
     for (int32_t y = begin; y < end; y++) {
         ptrdiff_t row = (ptrdiff_t)y * job->width;
         const uint8_t *reason = job->reason + row; /* 0 = OK */
+        memset(job->side->mark + row, 0, (size_t)job->width);
         for (int32_t x = 0; (x = rlf_kernel_next_mark(reason, x, job->width)) < job->width; x++) {
             if (is_filled(job, row + x)) {
                 take_filled(job, x, y, &queues);
@@ -211,7 +218,9 @@ static void outline_rows(void *context, int32_t begin, int32_t end, int32_t work
 void rlf_normals_outline(const rlf_reconstruct *stage, const rlf_slot *slot)
 {
     const rlf_grid *grid = &stage->grid;
-    outline_job job = {grid->width, grid->height,        grid->ray_x,  grid->ray_y,
-                       slot->depth, stage->work.mask[0], slot->reason, slot->normal};
+    rlf_side_job side = rlf_side_job_make(stage, slot);
+    outline_job job = {grid->width, grid->height, grid->ray_x,  grid->ray_y, slot->depth,
+                       side.known,  slot->reason, slot->normal, &side};
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, outline_rows, &job);
+    rlf_side_spread(&side);
 }

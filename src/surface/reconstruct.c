@@ -133,7 +133,7 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
         rlf_stage_add_time(stage, RLF_SURFACE_FLYING);
     }
     if (stage->def.enable_hold && stage->def.enable_steadying) {
-        rlf_hold_recall(stage, kept, slot->reason);
+        rlf_hold_recall(stage, flying ? raw : NULL, kept, slot->reason);
     }
     if (stage->def.enable_steadying) {
         rlf_steady_update(stage, kept, slot->reason);

@@ -1,0 +1,190 @@
+/* Narrow things before a wall, of which the sensor drops the edges: a post's side that is a pixel
+ * or two wide, a plate that has none, the wall in a slit. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "analytic.h"
+
+enum { WIDTH = 256, HEIGHT = 64, COUNT = WIDTH * HEIGHT, FRAMES = 24 };
+
+/* A block from left to right (metres), its front at `near`, its back at `far`. */
+typedef struct block {
+    double left, right, near, far;
+} block;
+
+static const double wall = 3.8;
+
+typedef struct fixture {
+    rlf_rig rig;
+    float *ray_x, *ray_y;
+    float truth[COUNT], seen[COUNT];
+    uint8_t is_side[COUNT];
+    analytic_random random;
+} fixture;
+
+static int make_fixture(void **state)
+{
+    static fixture f;
+    f.rig = analytic_rig(WIDTH, HEIGHT);
+    f.rig.depth.fx = f.rig.depth.fy = 365.5;
+    f.rig.depth.cx = 250.0; /* the left half of a wider picture */
+    f.random = (analytic_random){31};
+    analytic_rays(&f.rig.depth, &f.ray_x, &f.ray_y);
+    *state = &f;
+    return 0;
+}
+
+static int free_fixture(void **state)
+{
+    fixture *f = *state;
+    rlf_free(f->ray_x);
+    rlf_free(f->ray_y);
+    return 0;
+}
+
+static void set_wall(fixture *f)
+{
+    for (int i = 0; i < COUNT; i++) {
+        f->truth[i] = (float)wall;
+        f->is_side[i] = 0;
+    }
+}
+
+/* To the left of the axis: the camera sees its front and its right side. */
+static void add_block(fixture *f, block b)
+{
+    for (int i = 0; i < COUNT; i++) {
+        double x = f->ray_x[i], side = b.right / x;
+        bool front = x * b.near >= b.left && x * b.near <= b.right;
+        bool aside = !front && side > b.near && side <= b.far;
+        f->truth[i] = (float)(front ? b.near : (aside ? side : f->truth[i]));
+        f->is_side[i] = aside;
+    }
+}
+
+/* As a driver delivers it: a pixel at a jump is dropped, one beside it in three frames of five;
+ * noise is that of Fankhauser et al. 2015, here eight times as high on sides. */
+static void take_frame(fixture *f)
+{
+    for (int i = 0; i < COUNT; i++) {
+        const float *z = f->truth + i;
+        bool inside = i % WIDTH >= 3 && i % WIDTH < WIDTH - 3;
+        double jump = 0.04 * *z;
+        bool at = inside && (z[1] - z[0] > jump || z[0] - z[1] > jump || z[-1] - z[0] > jump ||
+                             z[0] - z[-1] > jump);
+        bool beside = inside && (z[2] - z[1] > jump || z[1] - z[2] > jump || z[-2] - z[-1] > jump ||
+                                 z[-1] - z[-2] > jump);
+        bool dropped = at || (beside && random_uniform(&f->random) < 0.6);
+        double sigma = rlf_depth_noise_sigma(&f->rig.noise, *z) * (f->is_side[i] ? 8.0 : 1.0);
+        f->seen[i] = dropped ? 0.0f : (float)(*z + sigma * random_normal(&f->random));
+    }
+}
+
+static const rlf_surface *watch(fixture *f, rlf_reconstruct **stage)
+{
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
+    assert_int_equal(rlf_reconstruct_create(&def, stage), RLF_OK);
+    const rlf_surface *s = NULL;
+    for (int32_t k = 0; k < FRAMES; k++) {
+        take_frame(f);
+        rlf_frame frame = analytic_frame(&f->rig, f->seen, k);
+        assert_int_equal(rlf_reconstruct_process(*stage, &frame, &s), RLF_OK);
+    }
+    return s;
+}
+
+typedef struct score {
+    int side, side_wrong, front, front_wrong;
+} score;
+
+static score judge(fixture *f)
+{
+    rlf_reconstruct *stage = NULL;
+    const rlf_surface *s = watch(f, &stage);
+    score result = {0};
+    for (int i = 12 * WIDTH; i < COUNT - 12 * WIDTH; i++) {
+        bool is_side = f->is_side[i] != 0, is_front = !is_side && f->truth[i] < wall - 0.01;
+        rlf_vec3 n = {s->normal_x[i], s->normal_y[i], s->normal_z[i]};
+        rlf_vec3 truth = {is_side ? 1.0 : 0.0, 0.0, is_side ? 0.0 : -1.0};
+        bool wrong = angle_deg(n, truth) > 30.0;
+        result.side += is_side;
+        result.side_wrong += is_side && wrong;
+        result.front += is_front;
+        result.front_wrong += is_front && wrong;
+    }
+    rlf_reconstruct_destroy(&stage);
+    return result;
+}
+
+/* At eight places between two pixels' columns. */
+static void the_side_of_a_post_is_a_face(void **state)
+{
+    fixture *f = *state;
+    score all = {0};
+    for (int k = 0; k < 8; k++) {
+        double right = -0.95 + 0.0012 * k;
+        set_wall(f);
+        add_block(f, (block){right - 0.05, right, 3.2, 3.26});
+        score s = judge(f);
+        all.side += s.side;
+        all.side_wrong += s.side_wrong;
+        all.front += s.front;
+        all.front_wrong += s.front_wrong;
+    }
+    print_message("side %d of %d wrong, front %d of %d\n", all.side_wrong, all.side,
+                  all.front_wrong, all.front);
+    assert_true(all.side > 8 * (HEIGHT - 24));
+    assert_true(100 * all.side_wrong <= 12 * all.side);
+    assert_true(100 * all.front_wrong <= 2 * all.front);
+}
+
+static void a_plate_has_no_side(void **state)
+{
+    fixture *f = *state;
+    set_wall(f);
+    add_block(f, (block){-1.50, -1.40, 3.2, 3.2});
+    score s = judge(f);
+    print_message("front %d of %d wrong\n", s.front_wrong, s.front);
+    assert_int_equal(s.side, 0);
+    assert_true(50 * s.front_wrong <= s.front);
+}
+
+static bool is_wall(const fixture *f, int i)
+{
+    return f->truth[i] > wall - 0.01;
+}
+
+static void the_wall_shows_in_a_slit(void **state)
+{
+    fixture *f = *state;
+    set_wall(f);
+    add_block(f, (block){-1.50, -1.44, 3.2, 3.2});
+    add_block(f, (block){-1.408, -1.34, 3.2, 3.2});
+    rlf_reconstruct *stage = NULL;
+    const rlf_surface *s = watch(f, &stage);
+    int slit = 0, wrong = 0;
+    for (int i = 12 * WIDTH + 3; i < COUNT - 12 * WIDTH; i++) {
+        bool left = is_wall(f, i) && is_wall(f, i - 1) && !is_wall(f, i - 2) && !is_wall(f, i + 3);
+        bool right = is_wall(f, i) && is_wall(f, i + 1) && !is_wall(f, i + 2) && !is_wall(f, i - 3);
+        bool in_slit = left || right;
+        slit += in_slit;
+        wrong += in_slit && !(s->depth[i] > wall - 0.05 && s->depth[i] < wall + 0.05);
+    }
+    print_message("slit %d of %d wrong\n", wrong, slit);
+    assert_true(slit > 0 && 20 * wrong <= slit);
+    rlf_reconstruct_destroy(&stage);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_side_of_a_post_is_a_face),
+        cmocka_unit_test(a_plate_has_no_side),
+        cmocka_unit_test(the_wall_shows_in_a_slit),
+    };
+    return cmocka_run_group_tests(tests, make_fixture, free_fixture);
+}
