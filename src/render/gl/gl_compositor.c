@@ -113,18 +113,23 @@ static rlf_result create_planes(gl_compositor *c)
     return result == RLF_OK ? real_depth_create(&c->def, &picture, &c->real) : result;
 }
 
-static rlf_result check_errors(void)
+static rlf_result fail_lost(void)
+{
+    return rlf_fail(RLF_ERROR_DEVICE, "OpenGL: the driver lost the context: use --renderer soft");
+}
+
+static rlf_result check_errors(const gl_context *context)
 {
     GLenum error = glGetError();
+    if (error == GL_CONTEXT_LOST || gl_context_is_lost(context)) {
+        return fail_lost();
+    }
     if (error == GL_NO_ERROR) {
         return RLF_OK;
     }
     return rlf_fail(RLF_ERROR_DEVICE,
                     "OpenGL: drawing failed with error 0x%x%s: use --renderer soft",
-                    (unsigned)error,
-                    error == GL_OUT_OF_MEMORY  ? " (out of memory)"
-                    : error == GL_CONTEXT_LOST ? " (the driver lost the context)"
-                                               : "");
+                    (unsigned)error, error == GL_OUT_OF_MEMORY ? " (out of memory)" : "");
 }
 
 /* With the context current. */
@@ -155,7 +160,7 @@ static rlf_result create_gl(gl_compositor *c)
     c->far_texture = gl_texture_create(GL_NEAREST);
     c->cover_texture = gl_texture_create(GL_NEAREST);
     c->shade = gl_shade_create();
-    return check_errors();
+    return check_errors(&c->context);
 }
 
 static rlf_result render(void *self, const rlf_render_input *input, rlf_render_output *out);
@@ -443,7 +448,7 @@ static rlf_result draw(gl_compositor *c, const rlf_render_input *input)
     }
     gl_target_read(&c->target, &c->image);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    return result == RLF_OK ? check_errors() : result;
+    return result == RLF_OK ? check_errors(&c->context) : result;
 }
 
 /* Alpha of the read-back picture is the matte; the picture itself is opaque. */
@@ -471,8 +476,7 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
     }
     gl_context_saved saved;
     if (!gl_context_enter(&c->context, &saved)) {
-        return rlf_fail(RLF_ERROR_DEVICE,
-                        "OpenGL: the driver lost the context: use --renderer soft");
+        return fail_lost();
     }
     rlf_result result = draw(c, input);
     gl_context_leave(&c->context, &saved);

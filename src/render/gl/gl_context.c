@@ -37,18 +37,27 @@ static int32_t find_displays(EGLDisplay out[DEVICE_MAX + 1])
     return count;
 }
 
+/* One that tells when the driver resets it, where that is to be had. */
 static EGLContext create_context(EGLDisplay display, EGLConfig config, bool is_es)
 {
-    const EGLint core[] = {EGL_CONTEXT_MAJOR_VERSION_KHR,
-                           3,
-                           EGL_CONTEXT_MINOR_VERSION_KHR,
-                           3,
-                           EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR,
-                           EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
-                           EGL_NONE};
-    const EGLint es[] = {EGL_CONTEXT_MAJOR_VERSION_KHR, 3, EGL_CONTEXT_MINOR_VERSION_KHR, 0,
-                         EGL_NONE};
-    return eglCreateContext(display, config, EGL_NO_CONTEXT, is_es ? es : core);
+    const EGLint told[] = {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                           EGL_LOSE_CONTEXT_ON_RESET};
+    const EGLint core[] = {
+        EGL_CONTEXT_MAJOR_VERSION_KHR,       3,
+        EGL_CONTEXT_MINOR_VERSION_KHR,       3,
+        EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR};
+    const EGLint es[] = {EGL_CONTEXT_MAJOR_VERSION_KHR, 3, EGL_CONTEXT_MINOR_VERSION_KHR, 0};
+    EGLint attributes[9];
+    const size_t count = is_es ? 4 : 6;
+    memcpy(attributes, is_es ? es : core, count * sizeof(EGLint));
+    memcpy(attributes + count, told, sizeof(told));
+    attributes[count + 2] = EGL_NONE;
+    EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
+    if (context == EGL_NO_CONTEXT) {
+        attributes[count] = EGL_NONE;
+        context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
+    }
+    return context;
 }
 
 static bool check_version(bool is_es)
@@ -56,8 +65,10 @@ static bool check_version(bool is_es)
     return epoxy_gl_version() >= (is_es ? 30 : 33);
 }
 
-static void read_renderer_name(gl_context *context)
+static void read_facts(gl_context *context)
 {
+    context->tells_reset = epoxy_has_gl_extension("GL_KHR_robustness") ||
+                           epoxy_gl_version() >= (context->is_es ? 32 : 45);
     const char *name = (const char *)glGetString(GL_RENDERER);
     (void)snprintf(context->renderer, sizeof context->renderer, "%s", name != NULL ? name : "?");
 }
@@ -73,7 +84,7 @@ static bool open_on_display(EGLDisplay display, bool is_es, gl_context *out)
         !eglChooseConfig(display, attributes, &config, 1, &config_count) || config_count < 1) {
         return false;
     }
-    gl_context made = {display, EGL_NO_CONTEXT, EGL_NO_SURFACE, true, is_es, ""};
+    gl_context made = {.display = display, .is_own = true, .is_es = is_es};
     made.context = create_context(display, config, is_es);
     if (made.context == EGL_NO_CONTEXT) {
         return false;
@@ -86,7 +97,7 @@ static bool open_on_display(EGLDisplay display, bool is_es, gl_context *out)
     bool is_good = gl_context_enter(&made, &saved);
     if (is_good) {
         is_good = check_version(is_es);
-        read_renderer_name(&made);
+        read_facts(&made);
         gl_context_leave(&made, &saved);
     }
     if (!is_good) {
@@ -161,7 +172,7 @@ rlf_result gl_context_open(gl_api api, gl_context *out)
 
 rlf_result gl_context_adopt(gl_context *out)
 {
-    gl_context adopted = {EGL_NO_DISPLAY, EGL_NO_CONTEXT, EGL_NO_SURFACE, false, false, ""};
+    gl_context adopted = {.display = EGL_NO_DISPLAY};
     const char *version = (const char *)glGetString(GL_VERSION);
     if (version == NULL) {
         return rlf_fail(RLF_ERROR_DEVICE, "OpenGL: the calling thread has no current context: make "
@@ -174,7 +185,7 @@ rlf_result gl_context_adopt(gl_context *out)
                         "--renderer soft",
                         version);
     }
-    read_renderer_name(&adopted);
+    read_facts(&adopted);
     *out = adopted;
     return RLF_OK;
 }
@@ -219,4 +230,9 @@ void gl_context_leave(const gl_context *context, const gl_context_saved *saved)
         (void)eglMakeCurrent(context->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     }
     (void)eglBindAPI(saved->api);
+}
+
+bool gl_context_is_lost(const gl_context *context)
+{
+    return context->tells_reset && glGetGraphicsResetStatus() != GL_NO_ERROR;
 }

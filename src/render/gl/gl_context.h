@@ -19,6 +19,7 @@ typedef struct gl_context {
     EGLSurface surface; /* EGL_NO_SURFACE where the context works without one */
     bool is_own;
     bool is_es;
+    bool tells_reset;   /* glGetGraphicsResetStatus is there */
     char renderer[128]; /* GL_RENDERER, for messages */
 } gl_context;
 
@@ -41,5 +42,7 @@ typedef struct gl_context_saved {
 /* Makes an own context current; an adopted one is current already. False when that fails. */
 bool gl_context_enter(const gl_context *context, gl_context_saved *out_saved);
 void gl_context_leave(const gl_context *context, const gl_context_saved *saved);
+/* True when the driver has reset the entered context: what it drew since is lost. */
+bool gl_context_is_lost(const gl_context *context);
 
 #endif
