@@ -126,6 +126,14 @@ for profile in live thesis; do
         fail "$profile: contacts.csv header"
 done
 
+# Without OpenGL, or a build without it, the soft renderer draws the same pictures and one line says so.
+expect_done run "synthetic:room?frames=4" --headless --renderer soft --quiet --pictures soft --picture-every 1
+__EGL_VENDOR_LIBRARY_DIRS=/nonexistent "$relief" run "synthetic:room?frames=4" --headless --renderer gl \
+    --quiet --pictures no_gl --picture-every 1 >stdout.txt 2>stderr.txt || fail "no OpenGL: status $?"
+[ "$(wc -l <stderr.txt)" -eq 1 ] || fail "no OpenGL: not one line: $(cat stderr.txt)"
+grep -q "going on with the soft" stderr.txt || fail "no OpenGL: $(cat stderr.txt)"
+diff -r soft no_gl >stdout.txt || fail "no OpenGL: other pictures: $(cat stdout.txt)"
+
 # Table 5.1 of any source.
 expect_error 2 "--scale" measure synthetic:thesis --scale 8,zero
 expect_error 1 "has no end" measure "synthetic:thesis?frames=-1"

@@ -120,6 +120,46 @@ static void make_scene(void)
     add_shapes();
 }
 
+static int64_t shown_pixels(const rlf_compositor_def *def)
+{
+    rlf_compositor *gl = NULL;
+    rlf_render_output out;
+    int64_t shown = 0;
+    assert_int_equal(gl_compositor_create_offscreen(def, CONTEXT_API_ANY, &gl), RLF_OK);
+    assert_int_equal(rlf_compositor_render(gl, &scene.input, &out), RLF_OK);
+    for (int32_t i = 0; i < out.matte.width * out.matte.height; i++) {
+        shown += out.matte.data[i];
+    }
+    rlf_compositor_destroy(&gl);
+    return shown / 255;
+}
+
+/* A box and the triangles of a ball that the sensor does not show hide bodies, alike in both. */
+static void test_known(void **state)
+{
+    (void)state;
+    make_scene();
+    rlf_model *ball = sample_ball(0);
+    rlf_quat q = rlf_quat_from_rotation_vector(rlf_vec3_make(0.2, 0.5, 0.1));
+    const rlf_shape round = {.type = RLF_SHAPE_SPHERE, .radius = 0.12};
+    rlf_body_state known[2] = {
+        {.shape = gl_scene_box(0.2, 0.3, 0.1), .T_world_body = {{-0.25, -0.15, 0.9}, q}},
+        {.shape = round, .look = {ball, 0.12, {0, 0, 0}}, .T_world_body = {{0.12, 0.2, 0.8}, q}}};
+    scene.rig.noise = (rlf_depth_noise){0.0015, -0.0005, 0.0003};
+    for (int i = 0; i < 2; i++) {
+        rlf_compositor_def def =
+            gl_scene_def(&scene, i == 0 ? RLF_OCCLUSION_DEPTH : RLF_OCCLUSION_SOFT);
+        scene.snapshot.known_count = 0;
+        int64_t shown = shown_pixels(&def);
+        scene.snapshot.known = known;
+        scene.snapshot.known_count = 2;
+        assert_true(shown_pixels(&def) < 3 * shown / 4);
+        check_alike(&def, CONTEXT_API_CORE_33, "known, OpenGL 3.3");
+        check_alike(&def, CONTEXT_API_ES_30, "known, ES 3.0");
+    }
+    rlf_model_destroy(&ball);
+}
+
 /* Models with and without a texture, near and far, drawn again from what the GPU has kept. */
 static void test_models(void **state)
 {
@@ -379,6 +419,7 @@ int main(void)
     }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_models),
+        cmocka_unit_test(test_known),
         cmocka_unit_test(test_depth_occlusion),
         cmocka_unit_test(test_soft_occlusion),
         cmocka_unit_test(test_light),

@@ -288,6 +288,92 @@ static void test_window_with_soft(void **state)
     check_run(false);
 }
 
+/* ---- placing in the window ------------------------------------------------------------------ */
+
+typedef struct placing {
+    int64_t frames;
+    rlf_known_def saved;
+    int32_t saved_count;
+} placing;
+
+/* Clicks on a pixel of the picture. */
+static void click_pixel(const rlf_image_rgba8 *image, const double pixel[2])
+{
+    int width, height;
+    glfwGetWindowSize(window(), &width, &height);
+    double scale = rlf_min((double)width / image->width, (double)height / image->height);
+    double x = 0.5 * width + scale * (pixel[0] + 0.5 - 0.5 * image->width);
+    double y = 0.5 * height + scale * (pixel[1] + 0.5 - 0.5 * image->height);
+    glfwSetCursorPos(window(), x, y);
+    GLFWmousebuttonfun on_button = glfwSetMouseButtonCallback(window(), NULL);
+    glfwSetMouseButtonCallback(window(), on_button);
+    on_button(window(), GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);
+    on_button(window(), GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, 0);
+}
+
+static rlf_result play_placing(void *context, const rlf_pipeline_output *frame)
+{
+    placing *s = context;
+    s->frames++;
+    switch (s->frames) {
+    case 6: press(GLFW_KEY_K); break;
+    case 7:
+    case 8:
+    case 9:
+    case 10: click_pixel(&frame->render.image, corners[s->frames - 7]); break;
+    case 11: press(GLFW_KEY_ENTER); break;
+    case 12: press(GLFW_KEY_S); break;
+    case 13: press(GLFW_KEY_K); break;
+    default: break;
+    }
+    return RLF_OK;
+}
+
+static rlf_result keep_scene(void *context, const rlf_known_def *known, int32_t count, char *out,
+                             size_t size)
+{
+    placing *s = context;
+    s->saved_count = count;
+    s->saved = known[0];
+    (void)snprintf(out, size, "kept");
+    return RLF_OK;
+}
+
+/* K, four clicks on the crate's corners, Enter, S: the crate is where it stands. */
+static void test_place_in_window(void **state)
+{
+    (void)state;
+    if (!has_display()) {
+        skip();
+    }
+    rlf_synthetic_def synthetic = rlf_synthetic_def_default();
+    synthetic.enable_truth = false;
+    rlf_source *source = NULL;
+    rlf_pipeline *pipeline = NULL;
+    assert_int_equal(rlf_synthetic_create(&synthetic, &source), RLF_OK);
+    rlf_known_def def = crate();
+    const rlf_scene scene = {.known = &def, .known_count = 1};
+    rlf_pipeline_def pipeline_def = rlf_pipeline_def_default(RLF_PROFILE_LIVE, source, NULL);
+    pipeline_def.scene = &scene;
+    assert_int_equal(rlf_pipeline_create(&pipeline_def, &pipeline), RLF_OK);
+    placing s = {.frames = 0};
+    viewer_options options = viewer_options_default();
+    options.source_name = "synthetic:room";
+    options.frame_count = 15;
+    options.use_gl = false;
+    options.on_frame = play_placing;
+    options.on_scene = keep_scene;
+    options.context = &s;
+    assert_int_equal(viewer_run(pipeline, &options), RLF_OK);
+    assert_int_equal(s.frames, 15);
+    assert_int_equal(s.saved_count, 1);
+    assert_true(s.saved.has_pose && s.saved.point_count == 0);
+    rlf_vec3 p = s.saved.T_world_model.p;
+    assert_true(rlf_length(rlf_sub(p, rlf_vec3_make(1.34, 0.455, 2.40))) < 0.005);
+    rlf_pipeline_destroy(&pipeline);
+    rlf_source_destroy(&source);
+}
+
 static void test_quit(void **state)
 {
     (void)state;
@@ -378,10 +464,15 @@ static void test_presenter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pick),           cmocka_unit_test(test_ray),
-        cmocka_unit_test(test_throw),          cmocka_unit_test(test_place),
-        cmocka_unit_test(test_window_with_gl), cmocka_unit_test(test_window_with_soft),
-        cmocka_unit_test(test_quit),           cmocka_unit_test(test_no_display),
+        cmocka_unit_test(test_pick),
+        cmocka_unit_test(test_ray),
+        cmocka_unit_test(test_throw),
+        cmocka_unit_test(test_place),
+        cmocka_unit_test(test_window_with_gl),
+        cmocka_unit_test(test_window_with_soft),
+        cmocka_unit_test(test_place_in_window),
+        cmocka_unit_test(test_quit),
+        cmocka_unit_test(test_no_display),
         cmocka_unit_test(test_presenter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
