@@ -5,6 +5,7 @@
 #include "command.h"
 #include "eval/sections.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -15,19 +16,39 @@ typedef struct our_times {
     timing_series groups[PEER_GROUPS]; /* sums of a group's steps, per frame */
 } our_times;
 
-static void add_times(our_times *t, const rlf_surface_times *times)
+/* What peers do in one call each, ours does with less: of one frame, with nothing dropped, recalled
+ * or filled. Only these two stages are another thing then. */
+static const peer_group plain_groups[] = {
+    {.letter = 'B',
+     .ours = "read+smooth+complete, one frame, no holes",
+     .steps = 1u << RLF_SURFACE_READ | 1u << RLF_SURFACE_SMOOTH | 1u << RLF_SURFACE_COMPLETE},
+    {.letter = 'F', .ours = "smooth, one frame, no holes", .steps = 1u << RLF_SURFACE_SMOOTH},
+};
+#define PLAIN_GROUPS ((int)(sizeof(plain_groups) / sizeof(plain_groups[0])))
+
+static rlf_reconstruct_def plain_def(const rlf_rig *rig)
 {
-    for (int g = 0; g < PEER_GROUPS; g++) {
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, rig);
+    def.enable_flying_removal = def.enable_hold = def.enable_steadying = def.enable_fill = false;
+    def.enable_edge_normals = def.enable_velocity = def.enable_thickness = false;
+    return def;
+}
+
+static void add_times(our_times *t, const peer_group *groups, int count,
+                      const rlf_surface_times *times)
+{
+    for (int g = 0; g < count; g++) {
         double sum = 0.0;
         for (int s = 0; s < RLF_SURFACE_STEP_COUNT; s++) {
-            sum += peer_groups[g].steps & (1u << s) ? times->step_ms[s] : 0.0;
+            sum += groups[g].steps & (1u << s) ? times->step_ms[s] : 0.0;
         }
         timing_add(&t->groups[g], sum);
     }
 }
 
-static rlf_result run_clip(const bench_clip *clip, rlf_reconstruct *stage, our_times *t,
-                           bench_quality *quality)
+static rlf_result run_stage(const bench_clip *clip, rlf_reconstruct *stage,
+                            const peer_group *groups, int count, our_times *t,
+                            bench_quality *quality)
 {
     rlf_surface_times times;
     rlf_reconstruct_set_times(stage, &times);
@@ -48,13 +69,24 @@ static rlf_result run_clip(const bench_clip *clip, rlf_reconstruct *stage, our_t
             return result;
         }
         if (index >= FIRST_TIMED) {
-            add_times(t, &times);
+            add_times(t, groups, count, &times);
         }
         if (k == JUDGED_FRAME) {
             bench_quality_measure(clip, index, surface, quality);
         }
     }
     return RLF_OK;
+}
+
+static rlf_result run_clip(const bench_clip *clip, const rlf_reconstruct_def *def,
+                           const peer_group *groups, int count, our_times *t,
+                           bench_quality *quality)
+{
+    rlf_reconstruct *stage = NULL;
+    rlf_result result = rlf_reconstruct_create(def, &stage);
+    result = result == RLF_OK ? run_stage(clip, stage, groups, count, t, quality) : result;
+    rlf_reconstruct_destroy(&stage);
+    return result;
 }
 
 /* The plane with holes, from the section of `relief eval` that draws it. */
@@ -77,8 +109,8 @@ static rlf_result measure_holes(bench_quality *q)
     return result;
 }
 
-/* Our stages, as the first entries of the results. */
-static void add_ours(const our_times *t, const bench_quality *q, peer_results *out)
+/* Figures of a stage in the order of its group's columns. */
+static void set_values(const bench_quality *q, char letter, double out[PEER_VALUES_MAX])
 {
     const double values[PEER_GROUPS][PEER_VALUES_MAX] = {
         {q->interior_normals, q->interior_median_deg, q->interior_wrong, q->edge_normals,
@@ -87,34 +119,59 @@ static void add_ours(const our_times *t, const bench_quality *q, peer_results *o
         {q->recall, q->precision},
         {q->interior_rmse_mm, q->edge_wrong_40_mm, q->holes_filled}};
     for (int g = 0; g < PEER_GROUPS; g++) {
-        char name[64];
-        snprintf(name, sizeof(name), "%c_%s", peer_groups[g].letter, peer_groups[g].ours);
-        peer_stage *s = peer_stage_of(out, "relief", name);
-        s->ms = timing_percentile(&t->groups[g], 50);
-        s->least_ms = timing_percentile(&t->groups[g], 0);
-        memcpy(s->values, values[g], sizeof(s->values));
+        if (peer_groups[g].letter == letter) {
+            memcpy(out, values[g], sizeof(values[g]));
+        }
     }
 }
 
+/* Our stages as entries of the results, behind what is there. */
+static void add_ours(const peer_group *groups, int count, const our_times *t,
+                     const bench_quality *q, peer_results *out)
+{
+    for (int g = 0; g < count; g++) {
+        char name[64];
+        snprintf(name, sizeof(name), "%c_%s", groups[g].letter, groups[g].ours);
+        peer_stage *s = peer_stage_of(out, "relief", name);
+        s->ms = timing_percentile(&t->groups[g], 50);
+        s->least_ms = timing_percentile(&t->groups[g], 0);
+        set_values(q, groups[g].letter, s->values);
+    }
+}
+
+/* Profile live. */
+static rlf_result measure_live(const bench_clip *clip, our_times *times, peer_results *out)
+{
+    bench_quality quality = {.regions = 0};
+    const rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &clip->rig);
+    rlf_result result = run_clip(clip, &def, peer_groups, PEER_GROUPS, times, &quality);
+    result = result == RLF_OK ? measure_holes(&quality) : result;
+    if (result == RLF_OK) {
+        add_ours(peer_groups, PEER_GROUPS, times, &quality, out);
+    }
+    return result;
+}
+
+static rlf_result measure_plain(const bench_clip *clip, our_times *times, peer_results *out)
+{
+    bench_quality quality = {.plane_lost = NAN, .plane_wrong = NAN, .plane_invented = NAN};
+    const rlf_reconstruct_def def = plain_def(&clip->rig);
+    rlf_result result = run_clip(clip, &def, plain_groups, PLAIN_GROUPS, times, &quality);
+    if (result == RLF_OK) {
+        add_ours(plain_groups, PLAIN_GROUPS, times, &quality, out);
+    }
+    return result;
+}
+
+/* Ours are the first entries, one per group, then the plain ones. */
 static rlf_result measure_ours(peer_results *out)
 {
     bench_clip clip;
-    bench_quality quality;
-    memset(&quality, 0, sizeof(quality));
-    our_times *times = rlf_alloc(sizeof(*times));
-    rlf_reconstruct *stage = NULL;
+    our_times *times = rlf_alloc_array(2, sizeof(*times));
     rlf_result result = bench_clip_create(&clip);
     result = times != NULL ? result : RLF_ERROR_MEMORY;
-    if (result == RLF_OK) {
-        rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &clip.rig);
-        result = rlf_reconstruct_create(&def, &stage);
-    }
-    result = result == RLF_OK ? run_clip(&clip, stage, times, &quality) : result;
-    result = result == RLF_OK ? measure_holes(&quality) : result;
-    if (result == RLF_OK) {
-        add_ours(times, &quality, out);
-    }
-    rlf_reconstruct_destroy(&stage);
+    result = result == RLF_OK ? measure_live(&clip, &times[0], out) : result;
+    result = result == RLF_OK ? measure_plain(&clip, &times[1], out) : result;
     rlf_free(times);
     bench_clip_destroy(&clip);
     return result;

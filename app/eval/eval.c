@@ -1,6 +1,7 @@
 /* `relief eval`: every accuracy figure, both profiles side by side, against its goal and its bound.
  */
 #include "command.h"
+#include "eval/oracle.h"
 #include "eval/picture.h"
 #include "eval/report.h"
 #include "eval/run.h"
@@ -15,6 +16,7 @@
 
 #define PICTURE "picture" /* by itself with every method, on every frame */
 #define PICTURE_FRAMES 100
+#define SENSED "sensed" /* with --oracle its throws alone, on a surface that is partly true */
 
 typedef struct eval_options {
     const char *section; /* NULL = all of them */
@@ -23,6 +25,7 @@ typedef struct eval_options {
     int64_t frames; /* 0 = each scene's own */
     int64_t seeds, threads;
     int profile_mask; /* bit of each rlf_profile */
+    int32_t oracle;   /* bits of eval_oracle_part */
     setting_list settings;
 } eval_options;
 
@@ -52,7 +55,7 @@ static const section sections[] = {
     {"plate", eval_plate_run, "a moving plate before a still wall"},
     {"physics", eval_physics_run, "bodies in free flight, at rest, pushed and thrown"},
     {"known", eval_known_run, "models of known things: poses, what they hide, what hits them"},
-    {"sensed", eval_sensed_run, "the same on what the sensor shows, against the true scene"},
+    {SENSED, eval_sensed_run, "the same on what the sensor shows, against the true scene"},
 };
 #define SECTION_COUNT ((int)(sizeof(sections) / sizeof(sections[0])))
 
@@ -88,6 +91,8 @@ static void print_help(void)
         "  --profile NAME    live, thesis or both (default)\n"
         "  --set NAME=VALUE  a setting of the surface (see `relief settings`) in place of the\n"
         "                    profiles', in the scenes (not in the sections)\n"
+        "  --oracle LIST     in section sensed: what of the surface is the truth: velocity,\n"
+        "                    thickness, depth, normals, background, or all\n"
         "  --threads N       default 0 = one per processor\n"
         "  --json FILE       everything: seeds, values, means, intervals, goals, bounds\n\n"
         "examples:\n"
@@ -128,12 +133,21 @@ static int parse(int argc, char **argv, eval_options *o)
          .out = &o->profile_mask,
          .take = take_profiles,
          .choices = "use live, thesis or both"},
+        {.name = "oracle",
+         .kind = OPTION_CHOICE,
+         .out = &o->oracle,
+         .take = eval_oracle_parse,
+         .choices = "list some of velocity,thickness,depth,normals,background, or all"},
         {.name = "threads", .kind = OPTION_INT64, .out = &o->threads, .low = 0, .high = 64},
         {.name = "json", .kind = OPTION_TEXT, .out = &o->json_path},
         {.name = "set", .kind = OPTION_SET, .out = &o->settings},
         {0},
     };
     int status = options_parse("eval", argc, argv, options, print_help);
+    bool is_sensed = o->section != NULL && strcmp(o->section, SENSED) == 0;
+    if (status < 0 && o->oracle != 0 && !is_sensed) {
+        return command_usage("eval", "--oracle is for --scene " SENSED);
+    }
     return status < 0 && argc != optind ? command_usage("eval", "takes no SOURCE") : status;
 }
 
@@ -149,6 +163,9 @@ static rlf_result run_task(const eval_task *task)
     if (o->section != NULL && strcmp(o->section, PICTURE) == 0) {
         return eval_picture_run_whole(task->table, task->seed,
                                       o->frames > 0 ? o->frames : PICTURE_FRAMES, o->profile_mask);
+    }
+    if (o->oracle != 0) {
+        return eval_sensed_run_oracle(task->table, task->seed, o->oracle);
     }
     return find_section(task->section)->run(task->table, task->seed, o->profile_mask);
 }

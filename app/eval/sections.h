@@ -16,6 +16,8 @@ rlf_result eval_public_run(eval_table *table, const char *folder, int profile_ma
 rlf_result eval_physics_run(eval_table *table, int64_t seed, int profile_mask);
 /* Physics on what the synthetic sensor shows, against the true scene. */
 rlf_result eval_sensed_run(eval_table *table, int64_t seed, int profile_mask);
+/* Its throws in profile live, with parts of the surface true: bits of eval_oracle_part. */
+rlf_result eval_sensed_run_oracle(eval_table *table, int64_t seed, int32_t oracle);
 /* Models of known real things in the synthetic room. */
 rlf_result eval_known_run(eval_table *table, int64_t seed, int profile_mask);
 

@@ -6,12 +6,20 @@
 
 #define ADD(key, title, value) eval_table_add(table, "sensed", key, title, profile, value)
 
-static rlf_result add_static_throws(eval_table *table, rlf_profile profile, uint64_t seed)
+typedef struct throw_conditions {
+    rlf_profile profile;
+    int32_t oracle;
+    uint64_t seed;
+} throw_conditions;
+
+static rlf_result add_static_throws(eval_table *table, const throw_conditions *on)
 {
+    const rlf_profile profile = on->profile;
     eval_throw_def def = {.source = "synthetic:empty?color=0&frames=-1",
                           .throws = THROWS,
                           .profile = profile,
-                          .seed = seed};
+                          .oracle = on->oracle,
+                          .seed = on->seed};
     eval_throws o;
     rlf_result result = eval_sensed_throw(&def, &o);
     if (result == RLF_OK) {
@@ -22,15 +30,17 @@ static rlf_result add_static_throws(eval_table *table, rlf_profile profile, uint
     return result;
 }
 
-static rlf_result add_lost_frames(eval_table *table, rlf_profile profile, uint64_t seed)
+static rlf_result add_lost_frames(eval_table *table, const throw_conditions *on)
 {
+    const rlf_profile profile = on->profile;
     double tunnelled = 0.0, fastest = 0.0;
     for (int32_t lost = 1; lost <= 10; lost += 3) {
         eval_throw_def def = {.source = "synthetic:empty?color=0&frames=-1",
                               .throws = 40,
                               .lost = lost,
                               .profile = profile,
-                              .seed = seed};
+                              .oracle = on->oracle,
+                              .seed = on->seed};
         eval_throws o;
         rlf_result result = eval_sensed_throw(&def, &o);
         if (result != RLF_OK) {
@@ -44,14 +54,16 @@ static rlf_result add_lost_frames(eval_table *table, rlf_profile profile, uint64
     return RLF_OK;
 }
 
-static rlf_result add_aimed(eval_table *table, rlf_profile profile, uint64_t seed, bool is_edge)
+static rlf_result add_aimed(eval_table *table, const throw_conditions *on, bool is_edge)
 {
+    const rlf_profile profile = on->profile;
     eval_throw_def def = {.source = is_edge ? "synthetic:book?color=0&frames=-1"
                                             : "synthetic:room?color=0&frames=-1",
                           .aim = is_edge ? EVAL_AIM_EDGE : EVAL_AIM_BEHIND,
                           .throws = THROWS,
                           .profile = profile,
-                          .seed = seed};
+                          .oracle = on->oracle,
+                          .seed = on->seed};
     eval_throws o;
     rlf_result result = eval_sensed_throw(&def, &o);
     if (result == RLF_OK && is_edge) {
@@ -66,14 +78,16 @@ static rlf_result add_aimed(eval_table *table, rlf_profile profile, uint64_t see
     return result;
 }
 
-static rlf_result add_realism(eval_table *table, rlf_profile profile, uint64_t seed)
+static rlf_result add_realism(eval_table *table, const throw_conditions *on)
 {
+    const rlf_profile profile = on->profile;
     eval_throw_def def = {.source = "synthetic:room?color=0&frames=-1",
                           .aim = EVAL_AIM_ANY,
                           .throws = 2 * THROWS,
                           .balls_only = true,
                           .profile = profile,
-                          .seed = seed};
+                          .oracle = on->oracle,
+                          .seed = on->seed};
     eval_throws o;
     rlf_result result = eval_sensed_throw(&def, &o);
     if (result == RLF_OK) {
@@ -135,21 +149,33 @@ static rlf_result add_rest(eval_table *table, rlf_profile profile)
     return result;
 }
 
+static rlf_result add_throws(eval_table *table, const throw_conditions *on)
+{
+    rlf_result result = add_static_throws(table, on);
+    result = result == RLF_OK ? add_lost_frames(table, on) : result;
+    result = result == RLF_OK ? add_aimed(table, on, false) : result;
+    result = result == RLF_OK ? add_aimed(table, on, true) : result;
+    return result == RLF_OK ? add_realism(table, on) : result;
+}
+
 rlf_result eval_sensed_run(eval_table *table, int64_t seed, int profile_mask)
 {
     rlf_result result = RLF_OK;
     for (int i = 0; i < EVAL_PROFILES && result == RLF_OK; i++) {
-        rlf_profile profile = (rlf_profile)i;
+        const throw_conditions on = {.profile = (rlf_profile)i, .seed = (uint64_t)seed};
         if (!(profile_mask & (1 << i))) {
             continue;
         }
-        result = seed == 1 ? add_pushes(table, profile) : RLF_OK;
-        result = result == RLF_OK && seed == 1 ? add_rest(table, profile) : result;
-        result = result == RLF_OK ? add_static_throws(table, profile, (uint64_t)seed) : result;
-        result = result == RLF_OK ? add_lost_frames(table, profile, (uint64_t)seed) : result;
-        result = result == RLF_OK ? add_aimed(table, profile, (uint64_t)seed, false) : result;
-        result = result == RLF_OK ? add_aimed(table, profile, (uint64_t)seed, true) : result;
-        result = result == RLF_OK ? add_realism(table, profile, (uint64_t)seed) : result;
+        result = seed == 1 ? add_pushes(table, on.profile) : RLF_OK;
+        result = result == RLF_OK && seed == 1 ? add_rest(table, on.profile) : result;
+        result = result == RLF_OK ? add_throws(table, &on) : result;
     }
     return result;
+}
+
+rlf_result eval_sensed_run_oracle(eval_table *table, int64_t seed, int32_t oracle)
+{
+    const throw_conditions on = {
+        .profile = RLF_PROFILE_LIVE, .oracle = oracle, .seed = (uint64_t)seed};
+    return add_throws(table, &on);
 }

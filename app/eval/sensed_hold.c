@@ -49,7 +49,7 @@ rlf_result eval_sensed_lift(rlf_profile profile, rlf_shape_type shape, double sp
     char source[96];
     snprintf(source, sizeof(source), "synthetic:lift?color=0&frames=-1&speed=%g", speed);
     eval_room stage;
-    rlf_result result = eval_room_open(source, 0, profile, &stage);
+    rlf_result result = eval_room_open(source, 0, profile, 0, &stage);
     *out_good = false;
     *out_error = 1.0;
     if (result != RLF_OK) {
@@ -80,7 +80,7 @@ rlf_result eval_sensed_swipe(rlf_profile profile, rlf_shape_type shape, double s
     char source[96];
     snprintf(source, sizeof(source), "synthetic:swipe?color=0&frames=-1&speed=%g", speed);
     eval_room stage;
-    rlf_result result = eval_room_open(source, 0, profile, &stage);
+    rlf_result result = eval_room_open(source, 0, profile, 0, &stage);
     *out_good = false;
     if (result != RLF_OK) {
         return result;
@@ -116,7 +116,7 @@ rlf_result eval_sensed_carry(rlf_profile profile, int32_t *out_stayed)
 {
     eval_room stage;
     rlf_result result =
-        eval_room_open("synthetic:carry?color=0&frames=-1&speed=0.5", 0, profile, &stage);
+        eval_room_open("synthetic:carry?color=0&frames=-1&speed=0.5", 0, profile, 0, &stage);
     *out_stayed = 0;
     if (result != RLF_OK) {
         return result;
@@ -166,7 +166,7 @@ static double spread_mm(const rest_sum *sum)
 rlf_result eval_sensed_rest(rlf_profile profile, double seconds, eval_rest *out)
 {
     eval_room stage;
-    rlf_result result = eval_room_open("synthetic:empty?color=0&frames=-1", 0, profile, &stage);
+    rlf_result result = eval_room_open("synthetic:empty?color=0&frames=-1", 0, profile, 0, &stage);
     *out = (eval_rest){.asleep_s = EVAL_NEVER};
     if (result != RLF_OK) {
         return result;
@@ -202,7 +202,7 @@ rlf_result eval_sensed_chair(rlf_profile profile, double *out_frames)
 {
     const double REMOVED = 4.0;
     eval_room stage;
-    rlf_result result = eval_room_open("synthetic:chair?color=0&frames=-1", 0, profile, &stage);
+    rlf_result result = eval_room_open("synthetic:chair?color=0&frames=-1", 0, profile, 0, &stage);
     *out_frames = EVAL_NEVER;
     if (result != RLF_OK) {
         return result;

@@ -14,7 +14,8 @@ static rlf_result next_kept(void *self, rlf_frame *out)
     return result;
 }
 
-rlf_result eval_room_open(const char *source, int32_t lost, rlf_profile profile, eval_room *out)
+rlf_result eval_room_open(const char *source, int32_t lost, rlf_profile profile, int32_t oracle,
+                          eval_room *out)
 {
     static const rlf_source_methods methods = {next_kept, NULL, NULL, NULL};
     memset(out, 0, sizeof(*out));
@@ -24,11 +25,16 @@ rlf_result eval_room_open(const char *source, int32_t lost, rlf_profile profile,
         rlf_source_info info = *rlf_source_get_info(out->truth);
         result = rlf_source_create_custom(&methods, &info, out, &out->source);
     }
+    if (result == RLF_OK && oracle != 0) {
+        result = eval_oracle_create(out->truth, oracle, &out->oracle);
+    }
     if (result == RLF_OK) {
         rlf_source *seen = out->source != NULL ? out->source : out->truth;
         rlf_pipeline_def def = rlf_pipeline_def_default(profile, seen, NULL);
         def.enable_render = false;
         def.world.border = RLF_BORDER_EXTEND;
+        def.replace_surface = oracle != 0 ? eval_oracle_replace : NULL;
+        def.replace_context = out->oracle;
         result = rlf_pipeline_create(&def, &out->pipeline);
     }
     if (result != RLF_OK) {
@@ -42,6 +48,7 @@ rlf_result eval_room_open(const char *source, int32_t lost, rlf_profile profile,
 void eval_room_close(eval_room *stage)
 {
     rlf_pipeline_destroy(&stage->pipeline);
+    eval_oracle_destroy(&stage->oracle);
     rlf_source_destroy(&stage->source);
     rlf_source_destroy(&stage->truth);
 }

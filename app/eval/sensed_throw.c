@@ -368,7 +368,8 @@ rlf_result eval_sensed_throw(const eval_throw_def *def, eval_throws *out)
     run->def = def;
     run->out = out;
     run->random = eval_random_start(def->seed);
-    rlf_result result = eval_room_open(def->source, def->lost, def->profile, &run->stage);
+    rlf_result result =
+        eval_room_open(def->source, def->lost, def->profile, def->oracle, &run->stage);
     double before = 0.0;
     for (int32_t i = 0;
          result == RLF_OK && i < FRAMES_MAX && (out->thrown < def->throws || run->alive > 0); i++) {

@@ -38,7 +38,7 @@ rlf_result eval_simulator_run(eval_table *table, int64_t seed, int profile_mask)
     snprintf(source, sizeof(source), "synthetic:thesis?color=0&seed=%lld", (long long)seed);
     eval_room room;
     measure_points points = {0};
-    rlf_result result = eval_room_open(source, 0, RLF_PROFILE_THESIS, &room);
+    rlf_result result = eval_room_open(source, 0, RLF_PROFILE_THESIS, 0, &room);
     if (result != RLF_OK) {
         return result;
     }

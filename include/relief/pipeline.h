@@ -31,6 +31,11 @@ typedef struct rlf_scene {
 RLF_API rlf_result rlf_scene_create_two_cubes(rlf_scene *out);
 RLF_API void rlf_scene_destroy(rlf_scene *scene);
 
+/* A stage of the caller's own between surface and physics: returns what physics and the picture get
+ * in place of `sensed`; both stay as they are until the next call. NULL = it failed, and the step
+ * with it: RLF_ERROR_INVALID. */
+typedef const rlf_surface *(*rlf_surface_fn)(void *context, const rlf_surface *sensed);
+
 typedef struct rlf_pipeline_def {
     uint32_t cookie;
     rlf_profile profile;
@@ -38,10 +43,12 @@ typedef struct rlf_pipeline_def {
     rlf_reconstruct_def reconstruct; /* set by rlf_pipeline_def_default from profile and source */
     rlf_world_def world;
     rlf_compositor_def compositor;
-    const rlf_scene *scene;  /* copied; NULL = no bodies */
-    bool enable_render;      /* default true; false: no picture is made */
-    rlf_pose T_world_camera; /* mount pose; default identity */
-    rlf_pool *pool;          /* borrowed; NULL = one thread */
+    const rlf_scene *scene;         /* copied; NULL = no bodies */
+    bool enable_render;             /* default true; false: no picture is made */
+    rlf_pose T_world_camera;        /* mount pose; default identity */
+    rlf_surface_fn replace_surface; /* default NULL: physics gets what was sensed */
+    void *replace_context;
+    rlf_pool *pool; /* borrowed; NULL = one thread */
 } rlf_pipeline_def;
 
 /* Settings of a profile for a source. */

@@ -8,6 +8,9 @@
 #include <unistd.h>
 
 #define WORKERS_MAX 64
+/* Looks at a thing that is about to change before sleeping on it: some 10 us. A frame is dozens of
+ * jobs in a row, and waking a sleeping thread costs more than a small one takes. */
+#define LOOKS 20000
 
 typedef struct worker {
     rlf_pool *pool;
@@ -15,59 +18,83 @@ typedef struct worker {
     pthread_t thread;
 } worker;
 
-struct rlf_pool {
-    int32_t worker_count;
-    pthread_mutex_t mutex;
-    pthread_cond_t start; /* a new job, or stop */
-    pthread_cond_t done;  /* the last worker finished the job */
-    uint64_t job;         /* counts jobs; workers compare with the last they did */
-    bool is_stopping;
-    int32_t busy_count;
-
+typedef struct range_job {
     rlf_range_fn fn;
     void *context;
-    int32_t count, grain;
-    atomic_int next_chunk;
+    int32_t count, grain, chunk_count;
+    uint32_t id; /* counts jobs */
+} range_job;
+
+struct rlf_pool {
+    int32_t worker_count;
+    pthread_mutex_t mutex; /* guards job, sleeper_count and is_stopping */
+    pthread_cond_t start;  /* a new job, or stop */
+    pthread_cond_t done;   /* the last chunk is done */
+    range_job job;
+    int32_t sleeper_count;
+    bool is_stopping;
+    _Atomic uint32_t news; /* changes with each job and with stop: what awake workers look at */
+    /* Job id << 32 | next chunk: a worker that comes late takes no chunk of a job it has not read.
+     */
+    _Atomic uint64_t ticket;
+    _Atomic int32_t left; /* chunks of the job that are not done */
 
     worker workers[WORKERS_MAX];
 };
 
-static void take_chunks(rlf_pool *pool, int32_t worker_index)
+/* Next chunk of the job, or -1 when all are taken. */
+static int32_t take_chunk(rlf_pool *pool, const range_job *job)
 {
-    int32_t chunk_count = (pool->count - 1) / pool->grain + 1;
-    for (;;) {
-        int32_t chunk = atomic_fetch_add_explicit(&pool->next_chunk, 1, memory_order_relaxed);
-        if (chunk >= chunk_count) {
-            return;
+    uint64_t ticket = atomic_load(&pool->ticket);
+    do {
+        if ((uint32_t)(ticket >> 32) != job->id || (uint32_t)ticket >= (uint32_t)job->chunk_count) {
+            return -1;
         }
-        int32_t begin = chunk * pool->grain;
-        int32_t end = pool->count - begin < pool->grain ? pool->count : begin + pool->grain;
-        pool->fn(pool->context, begin, end, worker_index);
+    } while (!atomic_compare_exchange_weak(&pool->ticket, &ticket, ticket + 1));
+    return (int32_t)(uint32_t)ticket;
+}
+
+/* The caller waits for chunks, not for workers: one that is still asleep delays nobody. */
+static void do_chunks(rlf_pool *pool, const range_job *job, int32_t worker_index)
+{
+    for (int32_t chunk = take_chunk(pool, job); chunk >= 0; chunk = take_chunk(pool, job)) {
+        int32_t begin = chunk * job->grain;
+        int32_t end = job->count - begin < job->grain ? job->count : begin + job->grain;
+        job->fn(job->context, begin, end, worker_index);
+        if (atomic_fetch_sub(&pool->left, 1) == 1 && worker_index != 0) {
+            pthread_mutex_lock(&pool->mutex);
+            pthread_cond_signal(&pool->done);
+            pthread_mutex_unlock(&pool->mutex);
+        }
     }
+}
+
+/* Waits for a job other than `last` and copies it; false: stop. */
+static bool next_job(rlf_pool *pool, uint32_t last, range_job *job)
+{
+    uint32_t news = last;
+    for (int32_t i = 0; i < LOOKS && news == last; i++) {
+        news = atomic_load(&pool->news);
+    }
+    pthread_mutex_lock(&pool->mutex);
+    while (!pool->is_stopping && pool->job.id == last) {
+        pool->sleeper_count++;
+        pthread_cond_wait(&pool->start, &pool->mutex);
+        pool->sleeper_count--;
+    }
+    *job = pool->job;
+    bool is_stopping = pool->is_stopping;
+    pthread_mutex_unlock(&pool->mutex);
+    return !is_stopping;
 }
 
 static void *worker_main(void *argument)
 {
     worker *self = argument;
-    rlf_pool *pool = self->pool;
-    uint64_t last_job = 0;
-    pthread_mutex_lock(&pool->mutex);
-    for (;;) {
-        while (!pool->is_stopping && pool->job == last_job) {
-            pthread_cond_wait(&pool->start, &pool->mutex);
-        }
-        if (pool->is_stopping) {
-            break;
-        }
-        last_job = pool->job;
-        pthread_mutex_unlock(&pool->mutex);
-        take_chunks(pool, self->index);
-        pthread_mutex_lock(&pool->mutex);
-        if (--pool->busy_count == 0) {
-            pthread_cond_signal(&pool->done);
-        }
+    range_job job = {.id = 0};
+    while (next_job(self->pool, job.id, &job)) {
+        do_chunks(self->pool, &job, self->index);
     }
-    pthread_mutex_unlock(&pool->mutex);
     return NULL;
 }
 
@@ -120,6 +147,7 @@ void rlf_pool_destroy(rlf_pool **pool_pointer)
     *pool_pointer = NULL;
     pthread_mutex_lock(&pool->mutex);
     pool->is_stopping = true;
+    atomic_store(&pool->news, pool->job.id + 1);
     pthread_cond_broadcast(&pool->start);
     pthread_mutex_unlock(&pool->mutex);
     for (int32_t i = 1; i < pool->worker_count; i++) {
@@ -136,6 +164,36 @@ int32_t rlf_pool_worker_count(const rlf_pool *pool)
     return pool != NULL ? pool->worker_count : 1;
 }
 
+static range_job start_job(rlf_pool *pool, int32_t count, int32_t grain, rlf_range_fn fn,
+                           void *context)
+{
+    pthread_mutex_lock(&pool->mutex);
+    pool->job = (range_job){fn, context, count, grain, (count - 1) / grain + 1, pool->job.id + 1};
+    range_job job = pool->job;
+    atomic_store(&pool->left, job.chunk_count);
+    atomic_store(&pool->ticket, (uint64_t)job.id << 32);
+    atomic_store(&pool->news, job.id);
+    if (pool->sleeper_count > 0) {
+        pthread_cond_broadcast(&pool->start);
+    }
+    pthread_mutex_unlock(&pool->mutex);
+    return job;
+}
+
+static void wait_done(rlf_pool *pool)
+{
+    for (int32_t i = 0; i < LOOKS; i++) {
+        if (atomic_load(&pool->left) == 0) {
+            return;
+        }
+    }
+    pthread_mutex_lock(&pool->mutex);
+    while (atomic_load(&pool->left) > 0) {
+        pthread_cond_wait(&pool->done, &pool->mutex);
+    }
+    pthread_mutex_unlock(&pool->mutex);
+}
+
 void rlf_parallel_for(rlf_pool *pool, int32_t count, int32_t grain, rlf_range_fn fn, void *context)
 {
     if (!RLF_ASSERT(fn != NULL && grain >= 1) || count <= 0) {
@@ -149,20 +207,7 @@ void rlf_parallel_for(rlf_pool *pool, int32_t count, int32_t grain, rlf_range_fn
         }
         return;
     }
-    pthread_mutex_lock(&pool->mutex);
-    pool->fn = fn;
-    pool->context = context;
-    pool->count = count;
-    pool->grain = grain;
-    atomic_store(&pool->next_chunk, 0);
-    pool->busy_count = pool->worker_count - 1;
-    pool->job++;
-    pthread_cond_broadcast(&pool->start);
-    pthread_mutex_unlock(&pool->mutex);
-    take_chunks(pool, 0);
-    pthread_mutex_lock(&pool->mutex);
-    while (pool->busy_count > 0) {
-        pthread_cond_wait(&pool->done, &pool->mutex);
-    }
-    pthread_mutex_unlock(&pool->mutex);
+    range_job job = start_job(pool, count, grain, fn, context);
+    do_chunks(pool, &job, 0);
+    wait_done(pool);
 }

@@ -329,26 +329,55 @@ RLF_KERNEL_PART plane_sum offer(plane_sum sum, const pixel_planes *restrict plan
     return next;
 }
 
-/* Adds the planes of one row at distance 0 and two blocks, or 0 and one block, or both. */
-RLF_KERNEL_PART void offer_row(const pixel_planes *restrict planes, bool near, bool far,
-                               int32_t count, blend *restrict at)
+/* A pixel and the one below it, in one row of blocks. */
+typedef struct plane_sums {
+    plane_sum upper, lower;
+} plane_sums;
+
+RLF_KERNEL_PART plane_sums offer_both(plane_sums sums, const pixel_planes *restrict planes,
+                                      int32_t k, const blend *restrict upper,
+                                      const blend *restrict lower, int32_t i)
 {
+    plane_sums next = {offer(sums.upper, planes, k, upper, i),
+                       offer(sums.lower, planes, k, lower, i)};
+    return next;
+}
+
+RLF_KERNEL_PART void store_sum(plane_sum sum, int32_t i, blend *restrict at)
+{
+    at->a[i] = sum.a;
+    at->b[i] = sum.b;
+    at->c[i] = sum.c;
+    at->weight[i] = sum.weight;
+}
+
+/* Blends the planes of five rows of blocks for the two rows of pixels of the middle one, each plane
+ * loaded once for the two: those at distance 0 and two blocks in the outer rows, at 0, one and two
+ * in the middle one, at 0 in the others. */
+RLF_KERNEL_PART void offer_planes(const pixel_planes *const planes[5], int32_t count,
+                                  blend *restrict upper, blend *restrict lower)
+{
+    const pixel_planes *restrict p0 = planes[0], *restrict p1 = planes[1];
+    const pixel_planes *restrict p2 = planes[2], *restrict p3 = planes[3];
+    const pixel_planes *restrict p4 = planes[4];
     for (int32_t i = 0; i < count; i++) {
         int32_t k = i + 2 * REACH;
-        plane_sum sum = {at->a[i], at->b[i], at->c[i], at->weight[i]};
-        sum = offer(sum, planes, k, at, i);
-        if (near) {
-            sum = offer(sum, planes, k - 2, at, i);
-            sum = offer(sum, planes, k + 2, at, i);
-        }
-        if (far) {
-            sum = offer(sum, planes, k - 4, at, i);
-            sum = offer(sum, planes, k + 4, at, i);
-        }
-        at->a[i] = sum.a;
-        at->b[i] = sum.b;
-        at->c[i] = sum.c;
-        at->weight[i] = sum.weight;
+        plane_sums sums = {{0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f, 0.0f}};
+        sums = offer_both(sums, p0, k, upper, lower, i);
+        sums = offer_both(sums, p0, k - 4, upper, lower, i);
+        sums = offer_both(sums, p0, k + 4, upper, lower, i);
+        sums = offer_both(sums, p1, k, upper, lower, i);
+        sums = offer_both(sums, p2, k, upper, lower, i);
+        sums = offer_both(sums, p2, k - 2, upper, lower, i);
+        sums = offer_both(sums, p2, k + 2, upper, lower, i);
+        sums = offer_both(sums, p2, k - 4, upper, lower, i);
+        sums = offer_both(sums, p2, k + 4, upper, lower, i);
+        sums = offer_both(sums, p3, k, upper, lower, i);
+        sums = offer_both(sums, p4, k, upper, lower, i);
+        sums = offer_both(sums, p4, k - 4, upper, lower, i);
+        sums = offer_both(sums, p4, k + 4, upper, lower, i);
+        store_sum(sums.upper, i, upper);
+        store_sum(sums.lower, i, lower);
     }
 }
 
@@ -359,7 +388,6 @@ RLF_KERNEL_PART void begin_blend(const float *restrict x, const float *restrict 
         at->x[i] = x[i];
         at->y[i] = y[i];
         at->w[i] = z[i] > 0.0f ? 1.0f / (z[i] > 0.0f ? z[i] : 1.0f) : -1e9f; /* fits no plane */
-        at->a[i] = at->b[i] = at->c[i] = at->weight[i] = 0.0f;
     }
 }
 
@@ -391,17 +419,17 @@ RLF_KERNEL_PART void make_pixels(const tile_state *state, int32_t row, int32_t y
         planes[k] = &state->pixels[(row + k) % 5];
     }
     int32_t count = t->x1 - t->x0;
-    blend at;
+    int32_t rows = t->y1 - y < 2 ? t->y1 - y : 2;
+    blend at[2];
+    for (int32_t r = 0; r < 2; r++) { /* below the last row: that row again */
+        ptrdiff_t i = (ptrdiff_t)(y + (r < rows ? r : 0)) * t->width + t->x0;
+        begin_blend(t->ray_x + i, t->ray_y + i, t->depth + i, count, &at[r]);
+    }
+    offer_planes(planes, count, &at[0], &at[1]);
     float unwanted[RLF_KERNEL_TILE_WIDTH];
-    for (int32_t last = y + 2 < t->y1 ? y + 2 : t->y1; y < last; y++) {
-        ptrdiff_t i = (ptrdiff_t)y * t->width + t->x0;
-        begin_blend(t->ray_x + i, t->ray_y + i, t->depth + i, count, &at);
-        offer_row(planes[0], false, true, count, &at);
-        offer_row(planes[1], false, false, count, &at);
-        offer_row(planes[2], true, true, count, &at);
-        offer_row(planes[3], false, false, count, &at);
-        offer_row(planes[4], false, true, count, &at);
-        end_blend(&at, t->depth + i, count, t->out_x + i, t->out_y + i, t->out_z + i,
+    for (int32_t r = 0; r < rows; r++) {
+        ptrdiff_t i = (ptrdiff_t)(y + r) * t->width + t->x0;
+        end_blend(&at[r], t->depth + i, count, t->out_x + i, t->out_y + i, t->out_z + i,
                   t->out_depth == NULL ? unwanted : t->out_depth + i);
     }
 }

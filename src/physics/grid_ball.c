@@ -86,9 +86,15 @@ static void limit_thickness(const grid_job *job, field_cell *cell)
     }
 }
 
-static rlf_vec3 back_of(const field_cell *cell, rlf_vec3 p)
+static rlf_vec3 back_of(const grid_job *job, const field_cell *cell, rlf_vec3 p)
 {
-    return rlf_mad(p, cell->point, cell->thickness / cell->point.z);
+    return rlf_mad(p, grid_cell_inward(job->sheet, cell), cell->thickness);
+}
+
+/* Whether the ball's centre is before the cell's front, which is at p now. */
+static bool is_before(const grid_job *job, const field_cell *cell, rlf_vec3 p)
+{
+    return rlf_dot(rlf_sub(job->centre, p), grid_cell_inward(job->sheet, cell)) < 0.0;
 }
 
 void grid_ball_look(grid_job *job, const field_cell *seen, rlf_vec3 p)
@@ -98,13 +104,17 @@ void grid_ball_look(grid_job *job, const field_cell *seen, rlf_vec3 p)
     double sag = sag_between(job, seen);
     for (int32_t side = 0; side < 2; side++) {
         bool is_back = side == 1;
-        if (is_back && (job->centre.z < p.z || cell.thickness >= FIELD_ENDLESS)) {
+        if (is_back && (cell.thickness >= FIELD_ENDLESS || is_before(job, &cell, p))) {
             return;
         }
         if (is_back) {
             limit_thickness(job, &cell);
         }
-        rlf_vec3 point = is_back ? back_of(&cell, p) : p;
+        rlf_vec3 point = is_back ? back_of(job, &cell, p) : p;
+        if (is_back && job->sheet->thickness == NULL &&
+            grid_field_is_seen_through(job->query->grid, job->sheet, point)) {
+            return;
+        }
         if (!time_of_touch(job, point, cell.velocity, sag, &touch.time)) {
             continue;
         }
@@ -148,25 +158,27 @@ void grid_ball_look_tile(grid_job *job, const grid_tile *tile)
     }
 }
 
-void grid_ball_look_outline(grid_job *job, const field_cell *cell, rlf_vec3 shift, double end)
+void grid_ball_look_outline(grid_job *job, const field_cell *cell, rlf_vec3 shift, double deep)
 {
-    double z = cell->point.z;
-    double depth = rlf_clamp(job->centre.z, z, end);
     grid_meeting touch = {.x = cell->x, .y = cell->y, .face = GRID_TOUCH_SIDE};
+    rlf_vec3 front = rlf_add(cell->point, shift), centre = job->centre;
+    rlf_vec3 inward = grid_cell_inward(job->sheet, cell);
+    double share = 0.0;
     for (int32_t i = 0; i < 2; i++) {
-        touch.point = rlf_add(rlf_scale(cell->point, depth / z), shift);
+        share = rlf_dot(rlf_sub(centre, front), inward) / rlf_dot(inward, inward);
+        touch.point = rlf_mad(front, inward, rlf_clamp(share, 0.0, deep));
         if (!time_of_touch(job, touch.point, cell->velocity, 0.0, &touch.time)) {
             return;
         }
-        depth = rlf_clamp(centre_at(job, touch.time).z, z, end);
+        centre = rlf_mad(centre_at(job, touch.time), cell->velocity, -rlf_max(0.0, touch.time));
     }
     rlf_vec3 moved = rlf_mad(touch.point, cell->velocity, rlf_max(0.0, touch.time));
     rlf_vec3 direction = rlf_normalize(rlf_sub(centre_at(job, touch.time), moved));
     rlf_vec3 side;
     touch.direction = direction;
     if (grid_edge_normal(job->query->grid, job->sheet, cell, &side)) {
-        int32_t edge = depth <= z ? -1 : depth >= end ? 1 : 0;
-        touch.direction = grid_wall_normal(cell, side, direction, edge);
+        int32_t edge = share <= 0.0 ? -1 : share >= deep ? 1 : 0;
+        touch.direction = grid_wall_normal(inward, side, direction, edge);
     }
     if (rlf_dot(touch.direction, direction) > 0.3) {
         note(job, &touch);
@@ -193,7 +205,7 @@ static void read_patch(grid_patch *p)
             s->point = rlf_mad(s->cell.point, s->cell.velocity, tau);
             if (p->face == GRID_TOUCH_BACK) {
                 limit_thickness(job, &s->cell);
-                s->point = back_of(&s->cell, s->point);
+                s->point = back_of(job, &s->cell, s->point);
             }
             s->distance = rlf_length(rlf_sub(p->centre, s->point)) - job->body->shape.shape.radius;
             if (p->nearest < 0 || s->distance < p->samples[p->nearest].distance) {

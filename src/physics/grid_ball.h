@@ -10,8 +10,9 @@ void grid_ball_look(grid_job *job, const field_cell *cell, rlf_vec3 p);
 /* The same for the pixel of a flat tile that is nearest to the ball's way. */
 void grid_ball_look_tile(grid_job *job, const grid_tile *tile);
 
-/* The same for the side wall behind an outline's pixel, from its front to z = end. */
-void grid_ball_look_outline(grid_job *job, const field_cell *cell, rlf_vec3 shift, double end);
+/* The same for the side wall behind an outline's pixel, which goes inward by `deep`, metres of
+ * thickness. */
+void grid_ball_look_outline(grid_job *job, const field_cell *cell, rlf_vec3 shift, double deep);
 
 /* Turns what was noted into hits. */
 void grid_ball_add_hits(grid_job *job);

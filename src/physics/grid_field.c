@@ -9,6 +9,8 @@
 #define THICKNESS_MIN 0.01
 /* Missing pixels are bridged from neighbours up to this many pixels away. */
 #define BRIDGE_PX 2
+/* A point this far before what is seen on its ray is in free space: noise and slanted pixels, m. */
+#define SEEN_BEHIND 0.03
 
 bool grid_cell_read(const rlf_grid *grid, const rlf_grid_sheet *sheet, int32_t x, int32_t y,
                     field_cell *out)
@@ -96,6 +98,36 @@ static double plane_depth(const field_cell *cell, rlf_vec3 q)
     return rlf_clamp(on_ray, 0.95 * z, 1.05 * z);
 }
 
+static bool is_guess(const rlf_grid_sheet *sheet, const field_cell *cell)
+{
+    return sheet->thickness == NULL && cell->thickness < FIELD_ENDLESS;
+}
+
+rlf_vec3 grid_cell_inward(const rlf_grid_sheet *sheet, const field_cell *cell)
+{
+    double facing = rlf_dot(cell->normal, cell->point) / cell->point.z;
+    if (!is_guess(sheet, cell) || facing > -0.02) {
+        return rlf_scale(cell->point, 1.0 / cell->point.z);
+    }
+    return rlf_scale(cell->normal, facing);
+}
+
+bool grid_field_is_seen_through(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q)
+{
+    int32_t x, y;
+    field_cell cell;
+    return pixel_of(grid, q, &x, &y) && grid_cell_read(grid, sheet, x, y, &cell) &&
+           plane_depth(&cell, q) > q.z + SEEN_BEHIND;
+}
+
+/* Whether q, behind the cell's plane, is beside what is seen of that face. */
+static bool is_beside(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
+                      rlf_vec3 q)
+{
+    double height = rlf_dot(cell->normal, rlf_sub(q, cell->point));
+    return grid_field_is_seen_through(grid, sheet, rlf_mad(q, cell->normal, -height));
+}
+
 field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
                           field_cell *out)
 {
@@ -108,23 +140,24 @@ field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf
     if (q.z < front) {
         return FIELD_FRONT;
     }
-    if (sheet->thickness == NULL && out->thickness < FIELD_ENDLESS) {
+    if (is_guess(sheet, out)) {
         /* How thick it is was never seen: no thicker than it is wide (a table's leg). */
         out->thickness = grid_edge_width(grid, sheet, out, out->thickness);
         out->thickness = rlf_max(out->thickness, THICKNESS_MIN);
         out->back = front + out->thickness;
+        if (q.z <= out->back && is_beside(grid, sheet, out, q)) {
+            return FIELD_BEHIND;
+        }
     }
     return q.z <= out->back ? FIELD_INSIDE : FIELD_BEHIND;
 }
 
-static rlf_vec3 back_point(const field_cell *cell)
+static rlf_vec3 back_point(const rlf_grid_sheet *sheet, const field_cell *cell)
 {
-    double scale = (cell->point.z + cell->thickness) / cell->point.z;
-    return rlf_scale(cell->point, scale);
+    return rlf_mad(cell->point, grid_cell_inward(sheet, cell), cell->thickness);
 }
 
-/* Back point of the neighbour at (x, y), as thick as the cell where its own thickness is but a
- * guess. False across a step. */
+/* Back point of the neighbour at (x, y). False across a step. */
 static bool read_back(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
                       const int32_t offset[2], rlf_vec3 *out)
 {
@@ -134,10 +167,7 @@ static bool read_back(const rlf_grid *grid, const rlf_grid_sheet *sheet, const f
         grid_edge_end(grid, sheet, &near, cell->x, cell->y) > 0.0) {
         return false;
     }
-    if (sheet->thickness == NULL) {
-        near.thickness = cell->thickness;
-    }
-    *out = back_point(&near);
+    *out = back_point(sheet, &near);
     return true;
 }
 
@@ -145,6 +175,9 @@ rlf_vec3 grid_back_normal(const rlf_grid *grid, const rlf_grid_sheet *sheet, con
 {
     const int32_t OFFSETS[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     rlf_vec3 p[4];
+    if (is_guess(sheet, cell)) {
+        return rlf_neg(cell->normal);
+    }
     for (int32_t k = 0; k < 4; k++) {
         if (!read_back(grid, sheet, cell, OFFSETS[k], &p[k])) {
             return rlf_neg(cell->normal);
@@ -225,7 +258,7 @@ static void hit_front(const rlf_grid *grid, const rlf_grid_sheet *sheet, const f
 static void hit_back(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
                      field_hit *hit)
 {
-    set_hit(hit, cell, back_point(cell), grid_back_normal(grid, sheet, cell));
+    set_hit(hit, cell, back_point(sheet, cell), grid_back_normal(grid, sheet, cell));
 }
 
 /* Through the nearest of front, back and side, or the home's face and side. */

@@ -1,8 +1,8 @@
 /* The solid that one sheet of the organised grid describes, asked point by point.
  *
- * Along a pixel's ray the sheet is solid from its depth to depth + thickness. All coordinates are
- * in the grid's frame. Where a pixel has no depth there is nothing: holes are neither walls nor
- * traps.
+ * Along a pixel's ray the sheet is solid from its depth to depth + thickness; where its thickness
+ * is a guess, only under what is seen of its faces. All coordinates are in the grid's frame. Where
+ * a pixel has no depth there is nothing: holes are neither walls nor traps.
  */
 #ifndef RLF_PHYSICS_GRID_FIELD_H
 #define RLF_PHYSICS_GRID_FIELD_H
@@ -56,6 +56,14 @@ bool grid_field_cast(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3
  */
 bool grid_field_side(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
                      int32_t radius_px, rlf_vec3 *out_normal, double *out_distance);
+
+/* Which way the solid goes from the cell's point, and how far per metre of thickness: along the
+ * ray, on which thickness was found; but where it is a guess, square to the face. What is behind
+ * the far edge of a table's top is no part of the table. */
+rlf_vec3 grid_cell_inward(const rlf_grid_sheet *sheet, const field_cell *cell);
+
+/* Whether the sheet is seen well behind q, so that nothing of it is there. */
+bool grid_field_is_seen_through(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q);
 
 /* Central differences of the back surface, turned away from the camera. */
 rlf_vec3 grid_back_normal(const rlf_grid *grid, const rlf_grid_sheet *sheet,

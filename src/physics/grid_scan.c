@@ -1,7 +1,7 @@
 /* Walks the pixels under a body's footprint, thinned to a bounded number.
  *
  * Interior pixels give the surface's directions and bumps; outline pixels stand for the side wall
- * of the solid behind them, from its front to its back along the ray. */
+ * of the solid behind them, from its front to its back. */
 #include "physics/grid_scan.h"
 #include "physics/grid_ball.h"
 #include "physics/grid_edge.h"
@@ -79,59 +79,73 @@ static void look_at_interior(grid_job *job, const field_cell *cell, rlf_vec3 p)
     note_bump(job, &hit);
 }
 
-/* z at which the side wall at this pixel ends, or 0 when it is no outline. */
-static double outline_end(const grid_job *job, const field_cell *cell, int32_t stride)
+/* How far the side wall at this pixel goes inward, metres of thickness, or 0 when it is no outline.
+ * Where the solid is a guess it ends where the camera sees through it. */
+static double wall_depth(const grid_job *job, const field_cell *cell, int32_t stride)
 {
     const int32_t OFFSETS[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+    const int32_t STEPS = 4;
+    const rlf_grid *grid = job->query->grid;
     const rlf_grid_sheet *sheet = job->sheet;
     double end = 0.0;
     for (int32_t k = 0; k < 4; k++) {
         int32_t x = cell->x + OFFSETS[k][0] * stride;
         int32_t y = cell->y + OFFSETS[k][1] * stride;
-        end = rlf_max(end, grid_edge_end(job->query->grid, sheet, cell, x, y));
+        end = rlf_max(end, grid_edge_end(grid, sheet, cell, x, y));
     }
-    if (end > 0.0 && sheet->thickness == NULL &&
-        cell->thickness < FIELD_ENDLESS) { /* never seen: no deeper than wide */
-        double width = grid_edge_width(job->query->grid, sheet, cell, cell->thickness);
-        end = rlf_min(end, cell->point.z + width);
+    double deep = rlf_max(0.0, end - cell->point.z);
+    if (!(deep > 0.0) || sheet->thickness != NULL || cell->thickness >= FIELD_ENDLESS) {
+        return deep;
     }
-    return end;
+    deep = rlf_min(deep, grid_edge_width(grid, sheet, cell, cell->thickness)); /* nor than wide */
+    rlf_vec3 inward = grid_cell_inward(sheet, cell);
+    for (int32_t k = STEPS; k > 0; k--) {
+        double reach = deep * k / STEPS;
+        if (!grid_field_is_seen_through(grid, sheet, rlf_mad(cell->point, inward, reach))) {
+            return reach;
+        }
+    }
+    return 0.1 * deep; /* an edge still */
 }
 
-rlf_vec3 grid_wall_normal(const field_cell *cell, rlf_vec3 side, rlf_vec3 normal, int32_t edge)
+rlf_vec3 grid_wall_normal(rlf_vec3 inward, rlf_vec3 side, rlf_vec3 normal, int32_t edge)
 {
-    rlf_vec3 ray = rlf_normalize(cell->point);
-    double out = rlf_dot(normal, side);
-    double along = rlf_dot(normal, ray);
+    rlf_vec3 axis = rlf_normalize(inward);
+    rlf_vec3 face = rlf_mad(side, axis, -rlf_dot(side, axis));
+    face = rlf_dot(face, face) > 0.01 ? rlf_normalize(face) : side;
+    double out = rlf_dot(normal, face);
+    double along = rlf_dot(normal, axis);
     along = edge < 0 ? rlf_min(along, 0.0) : edge > 0 ? rlf_max(along, 0.0) : 0.0;
-    return rlf_normalize(rlf_mad(rlf_scale(ray, along), side, rlf_max(out, 0.0)));
+    return rlf_normalize(rlf_mad(rlf_scale(axis, along), face, rlf_max(out, 0.0)));
 }
 
-/* A line of a side wall: the ray of an outline's pixel between two depths, now. */
+/* A line of a side wall: from an outline's pixel inward. */
 typedef struct wall_line {
     const field_cell *cell;
-    rlf_vec3 shift; /* since it was seen */
-    double z, end;
+    rlf_vec3 front, inward; /* now */
+    double deep;
     bool has_side;
-    rlf_vec3 side; /* the wall's face */
+    rlf_vec3 side; /* the outline's direction */
 } wall_line;
 
 static rlf_vec3 line_point(const wall_line *line, double depth)
 {
-    return rlf_mad(line->shift, line->cell->point, depth / line->z);
+    return rlf_mad(line->front, line->inward, depth);
 }
 
 /* Depth at which the line comes nearest to the body, whose distance is convex along a line. */
 static double nearest_depth(const grid_job *job, const wall_line *line)
 {
     const int32_t HALVINGS = 6;
-    rlf_vec3 along = rlf_mat3_mul_vec(&job->R_body_grid, line->cell->point);
-    double low = line->z, high = line->end, depth = rlf_clamp(job->centre.z, low, high);
+    rlf_vec3 along = rlf_mat3_mul_vec(&job->R_body_grid, line->inward);
+    double low = 0.0, high = line->deep, square = rlf_dot(along, along);
+    double depth = rlf_dot(rlf_sub(job->centre, line->front), line->inward) / square;
+    depth = rlf_clamp(depth, low, high);
     for (int32_t i = 0; i < HALVINGS; i++) {
         rlf_vec3 gradient;
         phys_shape_distance(&job->body->shape, to_body(job, line_point(line, depth)), &gradient);
         bool is_beyond = rlf_dot(gradient, along) > 0.0;
-        if (is_beyond ? depth <= line->z : depth >= line->end) {
+        if (is_beyond ? depth <= 0.0 : depth >= line->deep) {
             return depth;
         }
         low = is_beyond ? low : depth;
@@ -160,8 +174,8 @@ static void touch_line(grid_job *job, const wall_line *line, double depth, doubl
     hit.normal = normal;
     hit.separation = distance;
     if (line->has_side) {
-        int32_t edge = depth <= line->z ? -1 : depth >= line->end ? 1 : 0;
-        hit.normal = grid_wall_normal(line->cell, line->side, normal, edge);
+        int32_t edge = depth <= 0.0 ? -1 : depth >= line->deep ? 1 : 0;
+        hit.normal = grid_wall_normal(line->inward, line->side, normal, edge);
         rlf_vec3 anchor = rlf_mat3_mul_vec(&job->R_grid_body, hit.anchor);
         hit.separation = rlf_dot(hit.normal, rlf_sub(rlf_add(job->centre, anchor), p));
     }
@@ -170,15 +184,16 @@ static void touch_line(grid_job *job, const wall_line *line, double depth, doubl
     }
 }
 
-static void look_at_outline(grid_job *job, const field_cell *cell, rlf_vec3 shift, double end)
+static void look_at_outline(grid_job *job, const field_cell *cell, rlf_vec3 shift, double deep)
 {
-    wall_line line = {.cell = cell, .shift = shift, .z = cell->point.z, .end = end};
+    wall_line line = {.cell = cell, .front = rlf_add(cell->point, shift), .deep = deep};
+    line.inward = grid_cell_inward(job->sheet, cell);
     line.has_side = grid_edge_normal(job->query->grid, job->sheet, cell, &line.side);
     double depth = nearest_depth(job, &line);
     double inner = 0.5 * job->body->shape.inner_radius;
     touch_line(job, &line, depth, 0.3);
-    touch_line(job, &line, rlf_max(depth - inner, line.z), FLAT_ON_WALL);
-    touch_line(job, &line, rlf_min(depth + inner, line.end), FLAT_ON_WALL);
+    touch_line(job, &line, rlf_max(depth - inner, 0.0), FLAT_ON_WALL);
+    touch_line(job, &line, rlf_min(depth + inner, line.deep), FLAT_ON_WALL);
 }
 
 bool grid_footprint(const rlf_grid *grid, rlf_vec3 centre, double reach, int32_t rect[4],
@@ -216,19 +231,21 @@ static void look_at_pixel(grid_job *job, int32_t x, int32_t y, int32_t stride, f
         return;
     }
     rlf_vec3 shift = rlf_scale(cell.velocity, job->query->tau);
-    double level = rlf_clamp(job->centre.z, z, z + cell.thickness);
-    rlf_vec3 beside = rlf_sub(rlf_mad(shift, cell.point, level / z), job->centre);
+    rlf_vec3 inward = grid_cell_inward(sheet, &cell), beside = rlf_add(cell.point, shift);
+    double level = rlf_dot(rlf_sub(job->centre, beside), inward) / rlf_dot(inward, inward);
+    beside = rlf_mad(beside, inward, rlf_clamp(level, 0.0, cell.thickness));
+    beside = rlf_sub(beside, job->centre);
     if (rlf_dot(beside, beside) < job->reach * job->reach) {
         flow->velocity = rlf_add(flow->velocity, cell.velocity);
         flow->count += 1.0;
         look_at_interior(job, &cell, rlf_add(cell.point, shift));
         job->is_near = true;
         job->is_flat = false;
-        double end = outline_end(job, &cell, stride);
-        if (end > 0.0 && job->is_ball) {
-            grid_ball_look_outline(job, &cell, shift, end);
-        } else if (end > 0.0) {
-            look_at_outline(job, &cell, shift, end);
+        double deep = wall_depth(job, &cell, stride);
+        if (deep > 0.0 && job->is_ball) {
+            grid_ball_look_outline(job, &cell, shift, deep);
+        } else if (deep > 0.0) {
+            look_at_outline(job, &cell, shift, deep);
         }
     }
 }
@@ -284,10 +301,14 @@ static bool is_out_of_reach(const grid_job *job, const grid_tile *tile)
         !(sheet->default_thickness > 0.0)) {
         return false; /* its pixels have to be asked one by one */
     }
-    double scale = (tile->near_z + sheet->default_thickness) / tile->near_z;
+    double deep = sheet->default_thickness;
+    double scale = (tile->near_z + deep) / tile->near_z;
+    rlf_vec3 wide = rlf_vec3_make(deep, deep, deep);
     rlf_aabb box = tile->box;
     rlf_aabb_extend(&box, rlf_scale(tile->box.min, scale));
     rlf_aabb_extend(&box, rlf_scale(tile->box.max, scale));
+    rlf_aabb_extend(&box, rlf_sub(tile->box.min, wide));
+    rlf_aabb_extend(&box, rlf_add(tile->box.max, wide));
     return rlf_aabb_distance2(&box, job->centre) > job->reach * job->reach;
 }
 

@@ -218,6 +218,18 @@ static rlf_result advance_world(rlf_pipeline *p)
     return RLF_OK;
 }
 
+static rlf_result make_surface(rlf_pipeline *p)
+{
+    const rlf_surface *surface;
+    rlf_result result = rlf_reconstruct_process(p->reconstruct, &p->last.frame, &surface);
+    if (result == RLF_OK && p->def.replace_surface != NULL) {
+        surface = p->def.replace_surface(p->def.replace_context, surface);
+        result = surface != NULL ? RLF_OK : rlf_fail(RLF_ERROR_INVALID, "replace_surface failed");
+    }
+    p->last.surface = result == RLF_OK ? surface : p->last.surface;
+    return result;
+}
+
 rlf_result rlf_pipeline_step(rlf_pipeline *p, rlf_pipeline_output *out)
 {
     if (!RLF_ASSERT(p != NULL && out != NULL)) {
@@ -232,7 +244,7 @@ rlf_result rlf_pipeline_step(rlf_pipeline *p, rlf_pipeline_output *out)
     }
     last->frame = frame;
     last->times.capture_ms = elapsed_ms(&clock);
-    result = rlf_reconstruct_process(p->reconstruct, &last->frame, &last->surface);
+    result = make_surface(p);
     if (result != RLF_OK) {
         return result;
     }

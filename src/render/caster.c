@@ -1,8 +1,9 @@
 /* Contact darkening and shadows of bodies. */
 #include "caster.h"
 
-#define BALL_MARGIN 1.05 /* of a ball's bounds, for what the lens bends between corners */
-#define NEAREST_M 0.1    /* bodies around the camera would darken everything or nothing */
+#define BALL_MARGIN 1.05    /* of a ball's bounds, for what the lens bends between corners */
+#define REACH_MARGIN 1.001f /* rounding */
+#define NEAREST_M 0.1       /* bodies around the camera would darken everything or nothing */
 
 /* ---- bodies --------------------------------------------------------------------------------- */
 
@@ -68,9 +69,13 @@ bool caster_make(const rlf_body_state *body, const rlf_pose *T_picture_world, rl
         for (int k = 0; k < 3; k++) {
             out->axis[i][k] = (float)R.m[k][i];
         }
+        out->light[i] = (float)(i == 0 ? l.x : (i == 1 ? l.y : l.z));
         out->to_light[i] = (float)(R.m[0][i] * l.x + R.m[1][i] * l.y + R.m[2][i] * l.z);
     }
     set_shape(&body->shape, out);
+    const float *half = out->half;
+    float corner = sqrtf(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
+    out->reach = REACH_MARGIN * (corner + out->round);
     bool is_good = rlf_vec3_is_finite(T.p) && out->near_m > 0.0f && out->near_m < 1e6f &&
                    T.p.z >= NEAREST_M && out->radius < 1e6f && out->half[0] - out->half[0] == 0.0f;
     out->near_m = is_good ? out->near_m : 0.0f;
@@ -137,21 +142,19 @@ static float distance2_of_box(const caster *c, const float v[3])
     return sum;
 }
 
-int32_t caster_may_take(const caster *c, const float to_light[3], const float p[3], float radius)
+int32_t caster_may_take(const caster *c, const float p[3], float radius)
 {
     float v[3] = {p[0] - c->center[0], p[1] - c->center[1], p[2] - c->center[2]};
     float square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     float near_reach = c->round + c->near_m + radius;
-    float sphere_reach = c->radius + c->near_m + radius;
-    bool is_near =
+    float sphere_reach = c->reach + c->near_m + radius;
+    bool is_near_it =
         square < sphere_reach * sphere_reach && distance2_of_box(c, v) < near_reach * near_reach;
-    int32_t takes = is_near ? CASTER_TAKES_AMBIENT : CASTER_TAKES_NOTHING;
-    float behind = -(v[0] * to_light[0] + v[1] * to_light[1] + v[2] * to_light[2]);
-    float deepest = behind + radius + c->radius; /* the body's own depth counts too */
-    float edge = 0.5f * c->penumbra;
-    float wide =
-        c->radius + edge + radius + (float)CASTER_SPREAD * (deepest > 0.0f ? deepest : 0.0f);
-    bool is_in_shadow = deepest > 0.0f && behind - radius < c->length_m + c->radius &&
+    int32_t takes = is_near_it ? CASTER_TAKES_AMBIENT : CASTER_TAKES_NOTHING;
+    float behind = -(v[0] * c->light[0] + v[1] * c->light[1] + v[2] * c->light[2]);
+    float deepest = behind + radius + c->reach; /* the body's own depth counts too */
+    float wide = c->reach + radius + 0.5f * (c->penumbra + (float)CASTER_SPREAD * deepest);
+    bool is_in_shadow = deepest > 0.0f && behind - radius < c->length_m + c->reach &&
                         square - behind * behind < wide * wide;
     return takes + (is_in_shadow ? CASTER_TAKES_DIRECT : 0);
 }
@@ -166,7 +169,7 @@ static float distance2(const caster *a, const caster *b)
     return sum;
 }
 
-int32_t caster_choose(const caster *casters, int32_t count, int32_t index, const float to_light[3],
+int32_t caster_choose(const caster *casters, int32_t count, int32_t index,
                       int32_t out[CASTER_BODIES])
 {
     const caster *own = &casters[index];
@@ -175,7 +178,7 @@ int32_t caster_choose(const caster *casters, int32_t count, int32_t index, const
     for (int32_t i = 0; i < count; i++) {
         const caster *other = &casters[i];
         if (i == index || !(other->near_m > 0.0f) ||
-            caster_may_take(other, to_light, own->center, own->radius) == CASTER_TAKES_NOTHING) {
+            caster_may_take(other, own->center, own->radius) == CASTER_TAKES_NOTHING) {
             continue;
         }
         float away = distance2(own, other);
@@ -231,14 +234,54 @@ RLF_KERNEL_PART float facing_of(const site *s, float z)
     return z > 0.0f ? facing : 0.0f;
 }
 
+/* False when no point is within `reach` of the centre. */
+RLF_KERNEL_PART bool is_near(const float center[3], const float *restrict ray_x,
+                             const float *restrict ray_y, const float *restrict z, float reach)
+{
+    const float most = reach * reach;
+    int32_t any = 0;
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < CASTER_LANES; i++) {
+        float x = ray_x[i] * z[i] - center[0];
+        float y = ray_y[i] * z[i] - center[1];
+        float w = z[i] - center[2];
+        any |= (x * x + y * y + w * w < most ? 1 : 0) & (z[i] > 0.0f ? 1 : 0);
+    }
+    return any != 0;
+}
+
+/* False when no point is where the shadow of a ball, of radius `reach` and with the caster's
+ * penumbra, may be. */
+RLF_KERNEL_PART bool is_behind(const caster *c, const float to_light[3],
+                               const float *restrict ray_x, const float *restrict ray_y,
+                               const float *restrict z, float reach)
+{
+    const float near_wide = reach + 0.5f * c->penumbra;
+    const float length = c->length_m + reach;
+    int32_t any = 0;
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < CASTER_LANES; i++) {
+        float x = ray_x[i] * z[i] - c->center[0];
+        float y = ray_y[i] * z[i] - c->center[1];
+        float w = z[i] - c->center[2];
+        float behind = -(x * to_light[0] + y * to_light[1] + w * to_light[2]);
+        float wide = near_wide + 0.5f * (float)CASTER_SPREAD * (behind + reach);
+        float across2 = x * x + y * y + w * w - behind * behind;
+        any |= (behind > -reach ? 1 : 0) & (behind < length ? 1 : 0) &
+               (across2 < wide * wide ? 1 : 0) & (z[i] > 0.0f ? 1 : 0);
+    }
+    return any != 0;
+}
+
 /* The distance to the rounded box darkens what is near. */
 RLF_KERNEL_PART void take_ambient(const caster caster_here, const float *restrict ray_x,
-                                  const float *restrict ray_y, const float *restrict z,
-                                  int32_t count, float share, float *restrict left)
+                                  const float *restrict ray_y, const float *restrict z, float share,
+                                  float *restrict left)
 {
     const caster c = caster_here;
     const float per_near = 1.0f / c.near_m;
-    for (int32_t i = 0; i < count; i++) {
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < CASTER_LANES; i++) {
         site s = site_at(&c, ray_x[i], ray_y[i], z[i]);
         float x = s.q[0] - limit(s.q[0], -c.half[0], c.half[0]);
         float y = s.q[1] - limit(s.q[1], -c.half[1], c.half[1]);
@@ -253,15 +296,16 @@ RLF_KERNEL_PART void take_ambient(const caster caster_here, const float *restric
 /* The ray to the light passes the inner box at a least distance, found by projecting from the one
  * to the other and back: both are convex. */
 RLF_KERNEL_PART void take_direct(const caster caster_here, const float *restrict ray_x,
-                                 const float *restrict ray_y, const float *restrict z,
-                                 int32_t count, float share, float *restrict left)
+                                 const float *restrict ray_y, const float *restrict z, float share,
+                                 float *restrict left)
 {
     const caster c = caster_here;
     const float lx = c.to_light[0];
     const float ly = c.to_light[1];
     const float lz = c.to_light[2];
     const float per_length = 1.0f / c.length_m;
-    for (int32_t i = 0; i < count; i++) {
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < CASTER_LANES; i++) {
         site s = site_at(&c, ray_x[i], ray_y[i], z[i]);
         float t = -(s.q[0] * lx + s.q[1] * ly + s.q[2] * lz);
         t = t > 0.0f ? t : 0.0f;
@@ -289,11 +333,20 @@ RLF_KERNEL_PART void take_direct(const caster caster_here, const float *restrict
 RLF_KERNEL void caster_take_ambient(const caster *c, const caster_points *p, float share,
                                     float *left)
 {
-    take_ambient(*c, p->x, p->y, p->z, p->count, share, left);
+    const float reach = c->reach + c->near_m;
+    for (int32_t i = 0; i < p->count; i += CASTER_LANES) {
+        if (is_near(c->center, p->x + i, p->y + i, p->z + i, reach)) {
+            take_ambient(*c, p->x + i, p->y + i, p->z + i, share, left + i);
+        }
+    }
 }
 
 RLF_KERNEL void caster_take_direct(const caster *c, const caster_points *p, float share,
                                    float *left)
 {
-    take_direct(*c, p->x, p->y, p->z, p->count, share, left);
+    for (int32_t i = 0; i < p->count; i += CASTER_LANES) {
+        if (is_behind(c, c->light, p->x + i, p->y + i, p->z + i, c->reach)) {
+            take_direct(*c, p->x + i, p->y + i, p->z + i, share, left + i);
+        }
+    }
 }

@@ -27,11 +27,13 @@ typedef struct caster {
     float axis[3][3];  /* the body's axes in that frame */
     float half[3];     /* of the inner box */
     float round;       /* what the box is grown by */
-    float to_light[3]; /* unit, body frame */
+    float light[3];    /* to the light: unit, picture camera frame */
+    float to_light[3]; /* the same in the body's frame */
     float penumbra;    /* metres, at the body */
     float near_m;      /* contact darkening ends here, metres from the surface */
     float length_m;    /* the shadow ends here, metres behind the body */
     float radius;      /* of the bounding sphere */
+    float reach;       /* of a ball about the rounded box */
 } caster;
 
 /* Pixels that something may reach. */
@@ -50,13 +52,15 @@ bool caster_rect_of_ball(const rlf_camera *camera, rlf_vec3 center, double radiu
 bool caster_reach(const caster *c, const rlf_camera *camera, rlf_vec3 to_light, caster_rect *out);
 enum { CASTER_TAKES_NOTHING = 0, CASTER_TAKES_AMBIENT = 1, CASTER_TAKES_DIRECT = 2 };
 /* Sum of the above: what light may be taken within `radius` of p (picture camera frame). */
-int32_t caster_may_take(const caster *c, const float to_light[3], const float p[3], float radius);
+int32_t caster_may_take(const caster *c, const float p[3], float radius);
 /* Indices of the nearest bodies that may take light from body `index`, which is within `radius` of
  * its centre; returns how many. A caster with near_m 0 is none. */
-int32_t caster_choose(const caster *casters, int32_t count, int32_t index, const float to_light[3],
+int32_t caster_choose(const caster *casters, int32_t count, int32_t index,
                       int32_t out[CASTER_BODIES]);
 
-/* Points z (x, y, 1) in the picture camera's frame; none where z <= 0. */
+/* Points z (x, y, 1) in the picture camera's frame; none where z <= 0. As many as are worked on at
+ * once, or a multiple of that. */
+enum { CASTER_LANES = 16 };
 typedef struct caster_points {
     const float *x, *y, *z;
     int32_t count;

@@ -25,6 +25,7 @@ static const float prior_share = 0.01f; /* ridge, of the mean diagonal */
 
 typedef struct sample {
     ptrdiff_t i;
+    float column, row; /* of pixel i */
     float p[3], n[3];
 } sample;
 
@@ -40,6 +41,11 @@ typedef struct cell_fit {
     float velocity[3];
     float cost, cost_still, cost_whole;
 } cell_fit;
+
+typedef struct velocity_guess {
+    float v[3];
+    float cost; /* < 0: not yet known */
+} velocity_guess;
 
 size_t rlf_cell_capacity(const rlf_grid *grid)
 {
@@ -75,12 +81,15 @@ static float limb_depth(const rlf_cell_grid *g, int32_t x0, int32_t y0, int32_t 
     return count > 0 ? found[count / 2] : 0.0f;
 }
 
-static void add_sample(const rlf_cell_grid *g, ptrdiff_t i, samples *out)
+static void add_sample(const rlf_cell_grid *g, int32_t x, int32_t y, samples *out)
 {
     const rlf_grid *grid = &g->job->stage->grid;
     const rlf_slot *now = g->job->now;
+    ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
     float z = now->depth[i];
     sample s = {i,
+                (float)x,
+                (float)y,
                 {z * grid->ray_x[i], z * grid->ray_y[i], z},
                 {now->normal[0][i], now->normal[1][i], now->normal[2][i]}};
     float facing = -(s.n[0] * grid->ray_x[i] + s.n[1] * grid->ray_y[i] + s.n[2]);
@@ -102,7 +111,7 @@ static void take_samples(const rlf_cell_grid *g, int32_t x0, int32_t y0, float d
         for (int32_t x = x0; x < x0 + g->size && x < region->x1; x += step) {
             float z = depth_of(g, x, y);
             if (z > 0.0f && rlf_kernel_abs(z - depth) < rlf_flow_limb_m) {
-                add_sample(g, (ptrdiff_t)y * g->job->stage->grid.width + x, out);
+                add_sample(g, x, y, out);
             }
         }
     }
@@ -118,7 +127,7 @@ static bool residual(const rlf_cell_grid *g, const sample *s, const float v[3], 
     const rlf_flow *job = g->job;
     const rlf_grid *grid = &job->stage->grid;
     float x = s->p[0] - v[0] * job->dt, y = s->p[1] - v[1] * job->dt, z = s->p[2] - v[2] * job->dt;
-    ptrdiff_t k = rlf_flow_pixel_before(job, s->i, x, y, z);
+    ptrdiff_t k = rlf_flow_pixel_from(job, s->i, s->column, s->row, x, y, z);
     if (k < 0) {
         return false;
     }
@@ -129,12 +138,13 @@ static bool residual(const rlf_cell_grid *g, const sample *s, const float v[3], 
 }
 
 /* Sum of squared residuals, each limited: what does not fit at all counts like what fits badly. But
- * the sensor drops a pixel now and then: a few that were not seen count like noise. */
-static float cost_of(const rlf_cell_grid *g, const samples *all, const float v[3])
+ * the sensor drops a pixel now and then: a few that were not seen count like noise. Stops where it
+ * is more than `most`: sums only grow. */
+static float cost_of(const rlf_cell_grid *g, const samples *all, const float v[3], float most)
 {
     float cost = 0.0f;
     int32_t lost = 0;
-    for (int32_t k = 0; k < all->count; k++) {
+    for (int32_t k = 0; k < all->count && cost <= most; k++) {
         float e;
         if (residual(g, &all->s[k], v, &e)) {
             cost += e * e < all->limit ? e * e : all->limit;
@@ -203,6 +213,12 @@ static void copy(const float from[3], float to[3])
     }
 }
 
+static velocity_guess guess_of(const float v[3], float cost)
+{
+    velocity_guess guess = {{v[0], v[1], v[2]}, cost};
+    return guess;
+}
+
 static void whole_velocity(const rlf_cell_grid *g, const float p[3], float out[3])
 {
     rlf_vec3 v = rlf_twist_velocity(g->twist, rlf_vec3_make(p[0], p[1], p[2]));
@@ -213,7 +229,7 @@ static void whole_velocity(const rlf_cell_grid *g, const float p[3], float out[3
 
 /* Guesses for a cell beside the region's motion and rest: what was published a frame ago here and a
  * cell or two around, from where a limb may have come. Returns their number. */
-static int32_t make_guesses(const rlf_cell_grid *g, ptrdiff_t middle, float guess[GUESSES][3])
+static int32_t make_guesses(const rlf_cell_grid *g, ptrdiff_t middle, velocity_guess *guess)
 {
     const rlf_grid *grid = &g->job->stage->grid;
     const rlf_slot *before = g->job->before;
@@ -228,23 +244,24 @@ static int32_t make_guesses(const rlf_cell_grid *g, ptrdiff_t middle, float gues
         ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
         const float v[3] = {before->velocity[0][i], before->velocity[1][i], before->velocity[2][i]};
         if (v[0] != 0.0f || v[1] != 0.0f || v[2] != 0.0f) {
-            copy(v, guess[count++]);
+            guess[count++] = guess_of(v, -1.0f);
         }
     }
     return count;
 }
 
 /* Velocity and cost of the best of some guesses, improved. */
-static float fit_guesses(const rlf_cell_grid *g, const samples *all, float guess[][3],
+static float fit_guesses(const rlf_cell_grid *g, const samples *all, const velocity_guess *guess,
                          int32_t count, float v[3])
 {
     float least = all->limit * (float)(all->count + 1);
-    copy(guess[0], v);
+    copy(guess[0].v, v);
     for (int32_t k = 0; k < count; k++) {
-        float cost = cost_of(g, all, guess[k]);
+        float known = guess[k].cost;
+        float cost = known < 0.0f ? cost_of(g, all, guess[k].v, least) : known;
         if (cost < least) {
             least = cost;
-            copy(guess[k], v);
+            copy(guess[k].v, v);
         }
     }
     float better[3];
@@ -253,7 +270,7 @@ static float fit_guesses(const rlf_cell_grid *g, const samples *all, float guess
     for (int pass = 0; pass < PASSES; pass++) {
         agree = improve(g, all, pass == 0 ? 9.0f * all->limit : all->limit, better);
     }
-    float cost = cost_of(g, all, better);
+    float cost = cost_of(g, all, better, least);
     if (agree >= LEAST_SAMPLES && cost < least) {
         copy(better, v);
         least = cost;
@@ -290,7 +307,8 @@ static void lean_on(const rlf_cell_grid *g, const samples *all, const float moti
     for (int pass = 0; pass < PASSES; pass++) {
         (void)improve(g, all, pass == 0 ? 9.0f * all->limit : all->limit, v);
     }
-    if (cost_of(g, all, v) - cost <= significant_3 * rlf_flow_correlated * all->variance) {
+    if (cost_of(g, all, v, INFINITY) - cost <=
+        significant_3 * rlf_flow_correlated * all->variance) {
         copy(v, cell->velocity);
     }
 }
@@ -299,16 +317,18 @@ static void fit_cell(const rlf_cell_grid *g, const samples *all, const rlf_cell 
                      rlf_cell *cell)
 {
     static const float rest[3] = {0.0f, 0.0f, 0.0f};
-    float guess[GUESSES + 3][3], whole[3];
+    velocity_guess guess[GUESSES + 3];
+    float whole[3];
     const sample *middle = &all->s[all->count / 2];
     whole_velocity(g, middle->p, whole);
+    cell_fit fit = {.cost_still = cost_of(g, all, rest, INFINITY)};
+    fit.cost_whole = g->moves ? cost_of(g, all, whole, INFINITY) : fit.cost_still;
     int32_t count = make_guesses(g, middle->i, guess);
-    copy(whole, guess[count++]);
-    copy(rest, guess[count++]);
+    guess[count++] = guess_of(whole, fit.cost_whole);
+    guess[count++] = guess_of(rest, fit.cost_still);
     if (left != NULL && left->state == RLF_CELL_MOVES) {
-        copy(left->velocity, guess[count++]);
+        guess[count++] = guess_of(left->velocity, -1.0f);
     }
-    cell_fit fit = {.cost_still = cost_of(g, all, rest), .cost_whole = cost_of(g, all, whole)};
     fit.cost = fit_guesses(g, all, guess, count, fit.velocity);
     decide(g, all, &fit, whole, cell);
     if (cell->state == RLF_CELL_MOVES) {
@@ -350,16 +370,17 @@ static bool neighbour_mean(const rlf_cell_grid *g, int32_t row, int32_t column, 
 static void relax_cell(const rlf_cell_grid *g, int32_t row, int32_t column, samples *all)
 {
     rlf_cell *cell = &g->cells[row * g->columns + column];
-    float guess[1][3], v[3];
+    velocity_guess guess = {.cost = -1.0f};
+    float v[3];
     if ((cell->state != RLF_CELL_MOVES && cell->state != RLF_CELL_UNKNOWN) ||
-        !neighbour_mean(g, row, column, guess[0])) {
+        !neighbour_mean(g, row, column, guess.v)) {
         return;
     }
     take_samples(g, g->region->x0 + column * g->size, g->region->y0 + row * g->size, cell->depth,
                  all);
     float tolerance = significant_3 * rlf_flow_correlated * all->variance;
-    float cost = fit_guesses(g, all, guess, 1, v);
-    float own = cost_of(g, all, cell->velocity);
+    float cost = fit_guesses(g, all, &guess, 1, v);
+    float own = cost_of(g, all, cell->velocity, INFINITY);
     bool fits = 4.0f * cost <= 3.0f * all->limit * (float)all->count;
     if (all->count >= LEAST_SAMPLES && fits && cost <= own + tolerance) {
         copy(v, cell->velocity);

@@ -90,6 +90,36 @@ static void parallel_for_covers_the_range_once(void **state)
     assert_int_equal(rlf_pool_create(-1, &pool), RLF_ERROR_INVALID);
 }
 
+typedef struct mark {
+    int32_t job; /* what each chunk writes */
+    int32_t written[3];
+} mark;
+
+static void write_job(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)end;
+    (void)worker;
+    mark *m = context;
+    m->written[begin] += m->job;
+}
+
+/* Most of these are over before a sleeping worker wakes: it must not touch the next one's chunks
+ * with this one's function, nor this one's context, which is gone by then. */
+static void tiny_jobs_in_a_row_do_not_mix(void **state)
+{
+    (void)state;
+    rlf_pool *pool = NULL;
+    assert_int_equal(rlf_pool_create(4, &pool), RLF_OK);
+    for (int32_t job = 1; job <= 20000; job++) {
+        mark m = {.job = job};
+        rlf_parallel_for(pool, 3, 1, write_job, &m);
+        for (int i = 0; i < 3; i++) {
+            assert_int_equal(m.written[i], job);
+        }
+    }
+    rlf_pool_destroy(&pool);
+}
+
 static void instruction_set_has_a_name(void **state)
 {
     (void)state;
@@ -108,6 +138,7 @@ int main(void)
         cmocka_unit_test(allocations_are_aligned_zeroed_and_counted),
         cmocka_unit_test(failed_assertion_is_a_safe_no_op),
         cmocka_unit_test(parallel_for_covers_the_range_once),
+        cmocka_unit_test(tiny_jobs_in_a_row_do_not_mix),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

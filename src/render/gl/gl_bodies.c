@@ -342,9 +342,7 @@ static void set_shaders(const gl_bodies *bodies, const gl_bodies_pass *pass, int
     int32_t chosen[CASTER_BODIES];
     int32_t count = 0;
     if (pass->casters != NULL) {
-        rlf_vec3 l = rlf_neg(rlf_rotate(pass->view->T_picture_camera.q, pass->light_direction));
-        const float to_light[3] = {(float)l.x, (float)l.y, (float)l.z};
-        count = caster_choose(pass->casters, body_count, index, to_light, chosen);
+        count = caster_choose(pass->casters, body_count, index, chosen);
     }
     glUniform1i(bodies->uniforms.shader_count, count);
     for (int32_t i = 0; i < count; i++) {

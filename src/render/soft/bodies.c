@@ -52,9 +52,7 @@ static void draw_faces(const soft *s, int32_t first, int32_t end, soft_group *gr
         const soft_ends *ends = &group->ends[i];
         soft_raster_face(&s->scene.faces[ends->face], ends, group);
     }
-    for (int32_t i = first; i < end; i++) {
-        soft_shade_face(s, &group->ends[i], group);
-    }
+    soft_shade_faces(s, group->ends + first, end - first, group);
 }
 
 /* The next run of touched pixels from part `*part` on; false when there is none. */
@@ -167,7 +165,7 @@ typedef struct draw_job {
 } draw_job;
 
 /* What may hide a body in row y. */
-static soft_real_row real_row(const soft *s, int32_t y)
+static soft_real_row real_row(const soft *s, const float *tile_near_z, int32_t y)
 {
     soft_real_row real = {.width = s->camera.width};
     if (s->def.occlusion == RLF_OCCLUSION_OFF) {
@@ -182,9 +180,43 @@ static soft_real_row real_row(const soft *s, int32_t y)
         real.far_z = rlf_f32_row(&s->silhouette.far_z, y);
         real.cover = rlf_u8_row(&s->silhouette.cover, y);
         real.marks = s->silhouette.marks + y / SILHOUETTE_TILE * s->silhouette.columns;
+        real.tile_near_z = tile_near_z;
         real.noise = rlf_kernel_noise_make(&s->def.rig.noise);
     }
     return real;
+}
+
+/* The nearest that may hide a body in each of a row of tiles with bodies; 0 in others. Depth 0 is
+ * as far as can be. */
+RLF_KERNEL static void find_nearest(const soft *s, int32_t begin, int32_t end, float *out)
+{
+    const silhouette *l = &s->silhouette;
+    const int32_t first = begin / SILHOUETTE_TILE * l->columns;
+    for (int32_t k = 0; k < l->columns; k++) {
+        const bool has_edge = (l->marks[first + k] & SILHOUETTE_EDGE) != 0;
+        const rlf_plane_f32 *plane = has_edge ? &l->near_z : &s->real.z;
+        const int32_t x0 = k * SILHOUETTE_TILE;
+        float nearest[SILHOUETTE_TILE];
+        out[k] = 0.0f;
+        if (!(l->own[first + k].far_z >= l->own[first + k].near_z)) {
+            continue;
+        }
+        for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
+            nearest[i] = SILHOUETTE_FAR;
+        }
+        for (int32_t y = begin; y < end; y++) {
+            const float *z = rlf_f32_row(plane, y) + x0;
+            RLF_KERNEL_WHOLE
+            for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
+                const float here = z[i] > 0.0f ? z[i] : SILHOUETTE_FAR;
+                nearest[i] = here < nearest[i] ? here : nearest[i];
+            }
+        }
+        out[k] = nearest[0];
+        for (int32_t i = 1; i < SILHOUETTE_TILE; i++) {
+            out[k] = nearest[i] < out[k] ? nearest[i] : out[k];
+        }
+    }
 }
 
 static void draw_band(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -199,11 +231,14 @@ static void draw_band(void *context, int32_t begin, int32_t end, int32_t worker)
     soft_group *group = &s->workers[worker];
     band_faces list = {group->list, 0};
     list_faces(s, begin, end, is_layered, &list);
+    if (list.count > 0 && s->def.occlusion == RLF_OCCLUSION_SOFT) {
+        find_nearest(s, begin, end, group->tile_near_z);
+    }
     for (int32_t y = begin; list.count > 0 && y < end; y += SOFT_GROUP_ROWS) {
         group->row_count = end - y < SOFT_GROUP_ROWS ? end - y : SOFT_GROUP_ROWS;
         for (int32_t i = 0; i < group->row_count; i++) {
             group->rows[i].y = y + i;
-            group->rows[i].real = real_row(s, y + i);
+            group->rows[i].real = real_row(s, group->tile_near_z, y + i);
         }
         int32_t count = find_ends(s, &list, group);
         if (is_layered) {

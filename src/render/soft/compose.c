@@ -2,33 +2,7 @@
 #include "kernel/kernel.h"
 #include "render/soft/soft.h"
 
-#include <string.h>
-
 #define CHUNK 64 /* pixels between steps */
-
-/* The lowest byte of a pixel is red, whatever the machine's order. */
-RLF_KERNEL_PART void load_pixels(const uint8_t *bytes, int32_t count, uint32_t *out)
-{
-#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-    memcpy(out, bytes, 4 * (size_t)count);
-#else
-    for (int32_t i = 0; i < count; i++) {
-        const uint8_t *p = bytes + 4 * (ptrdiff_t)i;
-        out[i] = (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
-    }
-#endif
-}
-
-RLF_KERNEL_PART void store_pixels(const uint32_t *pixels, int32_t count, uint8_t *out)
-{
-#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-    memcpy(out, pixels, 4 * (size_t)count);
-#else
-    for (int32_t i = 0; i < 4 * count; i++) {
-        out[i] = (uint8_t)(pixels[i / 4] >> 8 * (i % 4));
-    }
-#endif
-}
 
 RLF_KERNEL_PART float over(uint32_t real, float rest, float color)
 {
@@ -71,9 +45,9 @@ RLF_KERNEL void soft_compose_row(float *const sum[4], int32_t count, uint8_t *re
             empty++;
         }
         if (empty < size) {
-            load_pixels(pixels + 4 * (ptrdiff_t)first, size, block);
+            soft_load_pixels(pixels + 4 * (ptrdiff_t)first, size, block);
             blend(sum[0] + first, sum[1] + first, sum[2] + first, shown, size, block);
-            store_pixels(block, size, pixels + 4 * (ptrdiff_t)first);
+            soft_store_pixels(block, size, pixels + 4 * (ptrdiff_t)first);
             to_matte(shown, size, matte + first);
         }
     }

@@ -210,7 +210,6 @@ static void sort_bodies(soft_scene *scene)
 static void place_casters(soft *s, const rlf_snapshot *snapshot, const rlf_pose *T_picture_world)
 {
     soft_scene *scene = &s->scene;
-    const float to_light[3] = {(float)s->to_light.x, (float)s->to_light.y, (float)s->to_light.z};
     bool has_shadows =
         s->def.occlusion == RLF_OCCLUSION_DEPTH || s->def.occlusion == RLF_OCCLUSION_SOFT;
     scene->caster_count = has_shadows ? snapshot->body_count : 0;
@@ -223,8 +222,8 @@ static void place_casters(soft *s, const rlf_snapshot *snapshot, const rlf_pose 
     }
     for (int32_t i = 0; has_shadows && i < scene->body_count; i++) {
         soft_body *body = &scene->bodies[i];
-        body->shader_count = caster_choose(scene->casters, scene->caster_count, body->index,
-                                           to_light, body->shaders);
+        body->shader_count =
+            caster_choose(scene->casters, scene->caster_count, body->index, body->shaders);
     }
 }
 

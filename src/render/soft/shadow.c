@@ -21,49 +21,87 @@ static int32_t at_most(int32_t a, int32_t b)
 }
 
 /* Samples of the tile `step` pixels apart, the last ones `beyond` its last pixels; at the picture's
- * edge they repeat. */
+ * edge they repeat. Whole lanes: those beyond have no depth. */
 static void gather(const shade_band *b, int32_t column, int32_t step, int32_t beyond,
                    soft_shade_tile *tile)
 {
     const soft *s = b->s;
     tile->step = step;
     tile->columns = WIDTH / step + beyond;
-    tile->count = tile->columns * (SOFT_BAND_ROWS / step + beyond);
-    for (int32_t i = 0; i < tile->count; i++) {
-        int32_t x = at_most(column * WIDTH + i % tile->columns * step, s->camera.width - 1);
-        int32_t y = at_most(b->begin + i / tile->columns * step, s->camera.height - 1);
-        tile->x[i] = s->ray_x0 + s->ray_step_x * (float)x;
-        tile->y[i] = s->ray_y0 + s->ray_step_y * (float)y;
-        tile->z[i] = rlf_f32_row(&s->real.z, y)[x];
+    tile->rows = SOFT_BAND_ROWS / step + beyond;
+    int32_t i = 0;
+    for (int32_t row = 0; row < tile->rows; row++) {
+        const int32_t y = at_most(b->begin + row * step, s->camera.height - 1);
+        const float *z = rlf_f32_row(&s->real.z, y);
+        const float ray_y = s->ray_y0 + s->ray_step_y * (float)y;
+        for (int32_t k = 0; k < tile->columns; k++, i++) {
+            const int32_t x = at_most(column * WIDTH + k * step, s->camera.width - 1);
+            tile->x[i] = s->ray_x0 + s->ray_step_x * (float)x;
+            tile->y[i] = ray_y;
+            tile->z[i] = z[x];
+        }
+    }
+    for (; i % SOFT_LANES != 0; i++) {
+        tile->x[i] = tile->y[i] = tile->z[i] = 0.0f;
+    }
+    tile->count = i;
+    for (i = 0; i < tile->count; i++) {
         tile->light[i] = 1.0f;
     }
 }
 
-/* False when depth jumps, or begins, between samples. */
-static bool is_smooth(const soft_shade_tile *tile)
+RLF_KERNEL_PART int32_t count_jumps(const float *restrict a, const float *restrict b, int32_t count)
 {
-    for (int32_t i = 0; i < tile->count; i++) {
-        int32_t right = (i + 1) % tile->columns != 0 ? i + 1 : i;
-        int32_t below = i + tile->columns < tile->count ? i + tile->columns : i;
-        if (silhouette_jumps(tile->z[i], tile->z[right]) ||
-            silhouette_jumps(tile->z[i], tile->z[below])) {
-            return false;
+    int32_t sum = 0;
+    for (int32_t i = 0; i < count; i++) {
+        sum += silhouette_jumps(a[i], b[i]) ? 1 : 0;
+    }
+    return sum;
+}
+
+/* False when depth jumps, or begins, between samples. */
+RLF_KERNEL static bool is_smooth(const float *z, int32_t columns, int32_t rows)
+{
+    int32_t sum = count_jumps(z, z + columns, columns * (rows - 1));
+    for (int32_t row = 0; row < rows; row++) {
+        sum += count_jumps(z + row * columns, z + row * columns + 1, columns - 1);
+    }
+    return sum == 0;
+}
+
+/* Least depth there is, and greatest: 0 when there is none. */
+RLF_KERNEL static void depth_range(const float *restrict z, int32_t count, float out[2])
+{
+    float near_z[SOFT_LANES];
+    float far_z[SOFT_LANES] = {0};
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
+        near_z[i] = 1e9f;
+    }
+    for (int32_t first = 0; first < count; first += SOFT_LANES) {
+        RLF_KERNEL_WHOLE
+        for (int32_t i = 0; i < SOFT_LANES; i++) {
+            const float here = z[first + i];
+            const float seen = here > 0.0f ? here : 1e9f;
+            near_z[i] = seen < near_z[i] ? seen : near_z[i];
+            far_z[i] = here > far_z[i] ? here : far_z[i];
         }
     }
-    return true;
+    out[0] = near_z[0];
+    out[1] = far_z[0];
+    for (int32_t i = 1; i < SOFT_LANES; i++) {
+        out[0] = near_z[i] < out[0] ? near_z[i] : out[0];
+        out[1] = far_z[i] > out[1] ? far_z[i] : out[1];
+    }
 }
 
 /* A ball about all of a tile's samples: about the middle ray, as deep as they are. */
 static void bound(soft_shade_tile *tile)
 {
-    float near_z = 1e9f;
-    float far_z = 0.0f;
-    for (int32_t i = 0; i < tile->count; i++) {
-        float z = tile->z[i];
-        near_z = z > 0.0f && z < near_z ? z : near_z;
-        far_z = z > far_z ? z : far_z;
-    }
-    const int32_t last = tile->count - 1;
+    float range[2];
+    depth_range(tile->z, tile->count, range);
+    const float near_z = range[0];
+    const float far_z = range[1];
+    const int32_t last = tile->columns * tile->rows - 1;
     float x = 0.5f * (tile->x[0] + tile->x[last]);
     float y = 0.5f * (tile->y[0] + tile->y[last]);
     float half_x = 0.5f * (tile->x[last] - tile->x[0]);
@@ -82,7 +120,7 @@ static soft_shade_tile *tile_at(const shade_band *b, int32_t column)
     soft_shade_tile *tile = &b->tiles[column];
     if (!tile->is_known) {
         gather(b, column, b->s->shade_px, 1, tile);
-        if (!is_smooth(tile)) {
+        if (!is_smooth(tile->z, tile->columns, tile->rows)) {
             gather(b, column, CASTER_BLOCK, 0, tile);
         }
         bound(tile);
@@ -93,15 +131,14 @@ static soft_shade_tile *tile_at(const shade_band *b, int32_t column)
 
 static void shade_by(const shade_band *b, const caster *c, const caster_rect *r)
 {
-    const soft *s = b->s;
     if (r->y0 >= b->end || r->y1 <= b->begin) {
         return;
     }
     for (int32_t column = r->x0 / WIDTH; column * WIDTH < r->x1; column++) {
         soft_shade_tile *tile = tile_at(b, column);
         const caster_points points = {tile->x, tile->y, tile->z, tile->count};
-        int32_t takes = tile->has_depth ? caster_may_take(c, s->light, tile->center, tile->radius)
-                                        : CASTER_TAKES_NOTHING;
+        int32_t takes =
+            tile->has_depth ? caster_may_take(c, tile->center, tile->radius) : CASTER_TAKES_NOTHING;
         if ((takes & CASTER_TAKES_AMBIENT) != 0) {
             caster_take_ambient(c, &points, (float)CASTER_AMBIENT_SHARE, tile->light);
         }
@@ -112,64 +149,81 @@ static void shade_by(const shade_band *b, const caster *c, const caster_rect *r)
     }
 }
 
+RLF_KERNEL_PART uint32_t darkened(uint32_t byte, float light)
+{
+    return (uint32_t)(int32_t)((float)(int32_t)(byte & 255u) * light + 0.5f);
+}
+
 RLF_KERNEL static void darken(const float *restrict light, int32_t count, uint8_t *restrict bytes)
 {
+    uint32_t pixels[WIDTH];
+    soft_load_pixels(bytes, count, pixels);
     for (int32_t i = 0; i < count; i++) {
-        bytes[i] = (uint8_t)(int32_t)((float)bytes[i] * light[i] + 0.5f);
+        uint32_t p = pixels[i];
+        pixels[i] = darkened(p, light[i]) | darkened(p >> 8, light[i]) << 8 |
+                    darkened(p >> 16, light[i]) << 16 | (p & 0xff000000u);
+    }
+    soft_store_pixels(pixels, count, bytes);
+}
+
+/* Linear between nodes `step` pixels apart. */
+RLF_KERNEL_PART void spread(const float *restrict node, int32_t step, float *restrict light)
+{
+    const float per_step = 1.0f / (float)step;
+    for (int32_t k = 0; k < WIDTH / step; k++) {
+        const float per_px = (node[k + 1] - node[k]) * per_step;
+        for (int32_t x = 0; x < step; x++) {
+            light[k * step + x] = node[k] + per_px * (float)x;
+        }
     }
 }
 
-static void put_light(float *share, float light)
-{
-    share[0] = light;
-    share[1] = light;
-    share[2] = light;
-}
-
-/* Light of a row of a tile, `row` pixels from its top, for each byte of its pixels. */
-static void spread_light(const soft_shade_tile *tile, int32_t row, float share[4 * WIDTH])
+/* Light of a row of a tile, `row` pixels from its top. */
+RLF_KERNEL static void spread_light(const soft_shade_tile *tile, int32_t row, float *restrict light)
 {
     const int32_t step = tile->step;
-    const float *light = tile->light + row / step * tile->columns;
+    const int32_t columns = tile->columns;
+    const float *above = tile->light + row / step * columns;
+    float node[WIDTH / 4 + 1];
     if (step == CASTER_BLOCK) {
         for (int32_t x = 0; x < WIDTH; x++) {
-            put_light(share + 4 * x, light[x / CASTER_BLOCK]);
+            light[x] = above[x / CASTER_BLOCK];
         }
         return;
     }
     const float down = (float)(row % step) / (float)step;
-    const float per_step = 1.0f / (float)step;
-    float left = light[0] + (light[tile->columns] - light[0]) * down;
-    for (int32_t k = 0; k + 1 < tile->columns; k++) {
-        const float *cell = light + k + 1;
-        float right = cell[0] + (cell[tile->columns] - cell[0]) * down;
-        for (int32_t x = 0; x < step; x++) {
-            put_light(share + 4 * (k * step + x), left + (right - left) * per_step * (float)x);
-        }
-        left = right;
+    for (int32_t k = 0; k < columns; k++) {
+        node[k] = above[k] + (above[columns + k] - above[k]) * down;
     }
+    if (step == 4) {
+        spread(node, 4, light);
+    } else {
+        spread(node, 8, light);
+    }
+}
+
+static float least_of(const float *light, int32_t count)
+{
+    float least = 1.0f;
+    for (int32_t i = 0; i < count; i++) {
+        least = light[i] < least ? light[i] : least;
+    }
+    return least;
 }
 
 static void darken_tile(const shade_band *b, int32_t column)
 {
     const soft *s = b->s;
     const soft_shade_tile *tile = &b->tiles[column];
-    float least = 1.0f;
-    for (int32_t i = 0; i < tile->count; i++) {
-        least = tile->light[i] < least ? tile->light[i] : least;
-    }
-    if (least > HARDLY) {
+    if (least_of(tile->light, tile->count) > HARDLY) {
         return;
     }
     int32_t x0 = column * WIDTH;
     int32_t count = at_most(WIDTH, s->camera.width - x0);
-    float share[4 * WIDTH];
-    for (int32_t x = 0; x < WIDTH; x++) {
-        share[4 * x + 3] = 1.0f;
-    }
+    float light[WIDTH];
     for (int32_t y = b->begin; y < b->end; y++) {
-        spread_light(tile, y - b->begin, share);
-        darken(share, 4 * count, rlf_rgba8_row(&s->image, y) + 4 * (ptrdiff_t)x0);
+        spread_light(tile, y - b->begin, light);
+        darken(light, count, rlf_rgba8_row(&s->image, y) + 4 * (ptrdiff_t)x0);
     }
 }
 

@@ -25,6 +25,7 @@ static void destroy(void *self)
         }
         rlf_free(group->list);
         rlf_free(group->ends);
+        rlf_free(group->tile_near_z);
     }
     for (int32_t i = 0; s->shade_tiles != NULL && i < s->worker_count; i++) {
         rlf_free(s->shade_tiles[i]);
@@ -82,6 +83,8 @@ static rlf_result allocate_workers(soft *s)
         soft_group *group = &s->workers[i];
         group->width = s->camera.width;
         group->stride = (ptrdiff_t)stride;
+        group->tile_near_z = rlf_alloc_array(stride / SILHOUETTE_TILE, sizeof(float));
+        result = group->tile_near_z != NULL ? result : RLF_ERROR_MEMORY;
         for (int k = 0; k < SOFT_GROUP_ROWS && result == RLF_OK; k++) {
             result = allocate_row(&group->rows[k], stride);
         }
@@ -313,9 +316,6 @@ void soft_set_viewpoint(soft *s, const rlf_camera *camera, const rlf_pose *T_pic
     s->camera = *camera;
     s->T_picture_depth = *T_picture_depth;
     s->to_light = rlf_neg(rlf_rotate(T_picture_depth->q, s->direction.now));
-    s->light[0] = (float)s->to_light.x;
-    s->light[1] = (float)s->to_light.y;
-    s->light[2] = (float)s->to_light.z;
     s->shade_px = camera->fx > FINE_FOCAL_PX ? 8 : 4;
     s->ray_x0 = (float)(-camera->cx / camera->fx);
     s->ray_y0 = (float)(-camera->cy / camera->fy);

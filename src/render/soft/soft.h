@@ -117,6 +117,7 @@ typedef struct soft_ends {
 typedef struct soft_real_row {
     const float *near_z, *far_z;
     const uint8_t *cover, *marks; /* of silhouette; marks NULL = hard occlusion */
+    const float *tile_near_z;     /* least of each of silhouette's tiles */
     rlf_kernel_noise noise;
     const float *row, *above, *below;
     int32_t width;
@@ -146,9 +147,10 @@ typedef struct soft_row {
 typedef struct soft_group {
     soft_row rows[SOFT_GROUP_ROWS];
     int32_t row_count, width;
-    ptrdiff_t stride; /* from one line of samples to the next */
-    int32_t *list;    /* faces of a band */
-    soft_ends *ends;  /* of those in the group */
+    ptrdiff_t stride;   /* from one line of samples to the next */
+    int32_t *list;      /* faces of a band */
+    float *tile_near_z; /* of a band, with soft occlusion: the nearest that may hide a body */
+    soft_ends *ends;    /* of those in the group */
 } soft_group;
 
 #define SOFT_SHADE_WIDTH 32 /* pixels of a tile; it is as high as a band */
@@ -159,7 +161,7 @@ typedef struct soft_shade_tile {
     float x[SOFT_SHADE_SAMPLES], y[SOFT_SHADE_SAMPLES], z[SOFT_SHADE_SAMPLES]; /* caster_points */
     float light[SOFT_SHADE_SAMPLES]; /* share that is left */
     int32_t step;                    /* pixels from one sample to the next */
-    int32_t columns, count;          /* of samples */
+    int32_t columns, rows, count;    /* of samples; count: in whole lanes */
     float center[3], radius;         /* of a ball about all of it, picture camera frame */
     bool has_depth, is_known, is_shaded;
 } soft_shade_tile;
@@ -185,7 +187,6 @@ typedef struct soft {
     room_light lamp;
     light_direction direction;
     rlf_vec3 to_light; /* unit, picture camera frame */
-    float light[3];    /* the same */
     int32_t shade_px;  /* pixels from one sample of shadows to the next where depth is smooth */
     float ray_x0, ray_step_x; /* x / z of pixel column i, without the lens: ray_x0 + i ray_step_x */
     float ray_y0, ray_step_y;
@@ -223,8 +224,8 @@ void soft_find_ends(const soft_face *face, const soft_group *group, soft_ends *o
 /* Lets the face win the samples of the group's rows where it is nearest so far. */
 void soft_raster_face(const soft_face *face, const soft_ends *ends, soft_group *group);
 
-/* shade.c: adds what the samples see of the face to the sums of the group's rows. */
-void soft_shade_face(const soft *s, const soft_ends *ends, const soft_group *group);
+/* shade.c: adds what the samples see of the faces to the sums of the group's rows. */
+void soft_shade_faces(const soft *s, const soft_ends *ends, int32_t count, const soft_group *group);
 /* skin.c: shares of red, green and blue that the skin's texture shows in SOFT_LANES pixels of row y
  * from x on, of which `count` count; z are their depths. */
 typedef struct soft_lanes_at {
@@ -235,6 +236,30 @@ void soft_skin_colors(const soft_skin *skin, const soft_face *face, soft_lanes_a
 /* compose.c: puts sums (red, green, blue, shown) over `count` pixels. */
 void soft_compose_row(float *const sum[4], int32_t count, uint8_t *restrict pixels,
                       uint8_t *restrict matte);
+
+/* The lowest byte of a pixel is red, whatever the machine's order. */
+RLF_KERNEL_PART void soft_load_pixels(const uint8_t *bytes, int32_t count, uint32_t *out)
+{
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    memcpy(out, bytes, 4 * (size_t)count);
+#else
+    for (int32_t i = 0; i < count; i++) {
+        const uint8_t *p = bytes + 4 * (ptrdiff_t)i;
+        out[i] = (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+    }
+#endif
+}
+
+RLF_KERNEL_PART void soft_store_pixels(const uint32_t *pixels, int32_t count, uint8_t *out)
+{
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    memcpy(out, pixels, 4 * (size_t)count);
+#else
+    for (int32_t i = 0; i < 4 * count; i++) {
+        out[i] = (uint8_t)(pixels[i / 4] >> 8 * (i % 4));
+    }
+#endif
+}
 
 /* bodies.c: draws the scene over the image and writes the matte; with_background: first the
  * background, in the same go through memory. */

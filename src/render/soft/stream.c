@@ -1,0 +1,263 @@
+/* Colour of waiting pixels: body colour * texture * light, as far as the samples see it and the
+ * real world leaves it. One step for all of them after the other: none waits for the last one's
+ * values to reach memory. */
+#include "kernel/kernel.h"
+#include "render/soft/stream.h"
+
+#include <string.h>
+
+/* Depth and light, as far as other things leave it. */
+RLF_KERNEL_PART void finish_light(int32_t count, float *restrict z, float *restrict light,
+                                  const float *restrict ambient, const float *restrict direct)
+{
+    const float base = (float)BODY_LIGHT_AMBIENT;
+    for (int32_t first = 0; first < count; first += SOFT_LANES) {
+        RLF_KERNEL_WHOLE
+        for (int32_t k = 0; k < SOFT_LANES; k++) {
+            const int32_t i = first + k;
+            float here = 1.0f / z[i];
+            float lit = stream_clamp(light[i] * here, 0.0f, 1.0f);
+            z[i] = here;
+            /* base * ambient + (lit - base) * direct; without loss it is lit itself */
+            light[i] = lit * direct[i] + base * (ambient[i] - direct[i]);
+        }
+    }
+}
+
+/* Texel, and in place of s and t the weights of the next one across and down. */
+RLF_KERNEL_PART void place_texels(int32_t count, int32_t texture_size, const float *restrict z,
+                                  float *restrict s, float *restrict t, int32_t *restrict texel)
+{
+    const int32_t mask = texture_size - 1;
+    const float size = (float)texture_size;
+    for (int32_t first = 0; first < count; first += SOFT_LANES) {
+        RLF_KERNEL_WHOLE
+        for (int32_t k = 0; k < SOFT_LANES; k++) {
+            const int32_t i = first + k;
+            /* one texel more than the sample's, so that it is not negative */
+            float across = stream_clamp(s[i] * z[i], 0.0f, 1.0f) * size + 0.5f;
+            float down = stream_clamp(t[i] * z[i], 0.0f, 1.0f) * size + 0.5f;
+            int32_t column = (int32_t)across;
+            int32_t line = (int32_t)down;
+            s[i] = across - (float)column;
+            t[i] = down - (float)line;
+            texel[i] = ((line - 1) & mask) * texture_size + ((column - 1) & mask);
+        }
+    }
+}
+
+RLF_KERNEL_PART void look_up(int32_t count, const uint32_t *restrict texture,
+                             const int32_t *restrict texel, uint32_t *restrict out)
+{
+    for (int32_t i = 0; i < count; i++) {
+        out[i] = texture[texel[i]];
+    }
+}
+
+/* Bilinear: the four neighbours are the bytes of one texel. */
+RLF_KERNEL_PART void filter(int32_t count, const uint32_t *restrict texels,
+                            const float *restrict weight_x, const float *restrict weight_y,
+                            float *restrict light)
+{
+    for (int32_t first = 0; first < count; first += SOFT_LANES) {
+        RLF_KERNEL_WHOLE
+        for (int32_t k = 0; k < SOFT_LANES; k++) {
+            const int32_t i = first + k;
+            float a = (float)(int32_t)(texels[i] & 255u);
+            float b = (float)(int32_t)(texels[i] >> 8 & 255u);
+            float c = (float)(int32_t)(texels[i] >> 16 & 255u);
+            float d = (float)(int32_t)(texels[i] >> 24);
+            float top = a + (b - a) * weight_x[i];
+            float bottom = c + (d - c) * weight_x[i];
+            light[i] *= (top + (bottom - top) * weight_y[i]) * (1.0f / 255.0f);
+        }
+    }
+}
+
+/* ---- what hides a body ---------------------------------------------------------------------- */
+
+/* Soft: see silhouette.h; a body fades over +- 2 sigma(z) where it meets a surface. */
+RLF_KERNEL_PART void share_soft(const float *restrict near_z, const float *restrict far_z,
+                                const uint8_t *restrict cover, rlf_kernel_noise noise,
+                                const float *restrict z, float *restrict share)
+{
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
+        float fade = 0.25f / rlf_kernel_sigma(noise, z[i]);
+        float near_share = stream_clamp(0.5f + (near_z[i] - z[i]) * fade, 0.0f, 1.0f);
+        float far_share = stream_clamp(0.5f + (far_z[i] - z[i]) * fade, 0.0f, 1.0f);
+        float part = (float)cover[i] * (1.0f / 255.0f);
+        share[i] = far_share + (near_share - far_share) * part;
+    }
+}
+
+/* The same without an edge near. */
+RLF_KERNEL_PART void share_plain(const float *restrict real_z, rlf_kernel_noise noise,
+                                 const float *restrict z, float *restrict share)
+{
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
+        float here = real_z[i] > 0.0f ? real_z[i] : SILHOUETTE_FAR;
+        float fade = 0.25f / rlf_kernel_sigma(noise, z[i]);
+        share[i] = stream_clamp(0.5f + (here - z[i]) * fade, 0.0f, 1.0f);
+    }
+}
+
+/* Hard: the pixel's own depth counts twice, its four neighbours' once, so that edges are not
+ * jagged; depth 0 is unknown and hides nothing. */
+RLF_KERNEL_PART void share_hard(const soft_real_row *real, int32_t x, const float *restrict z,
+                                float *restrict share)
+{
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
+        int32_t at = x + i < real->width ? x + i : real->width - 1;
+        int32_t left = at > 0 ? at - 1 : at;
+        int32_t right = at < real->width - 1 ? at + 1 : at;
+        const float taps[5] = {real->row[at], real->row[left], real->row[right], real->above[at],
+                               real->below[at]};
+        int32_t shown = 6;
+        for (int k = 0; k < 5; k++) {
+            shown -= taps[k] > 0.0f && taps[k] < z[i] ? (k == 0 ? 2 : 1) : 0;
+        }
+        share[i] = (float)shown * (1.0f / 6.0f);
+    }
+}
+
+RLF_KERNEL_PART void take_share(const float *restrict share, int32_t count,
+                                float *restrict coverage)
+{
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
+        coverage[i] = i < count ? share[i] * coverage[i] : coverage[i];
+    }
+}
+
+/* Turns the coverage of a segment into what is shown of it. */
+RLF_KERNEL_PART void hide(const soft_real_row *real, const stream_segment *part,
+                          const float *restrict z, float *restrict coverage)
+{
+    float share[SOFT_LANES];
+    const int32_t x = part->x;
+    if (real->marks == NULL) {
+        share_hard(real, x, z, share);
+    } else {
+        const int32_t first = x / SILHOUETTE_TILE;
+        const int32_t last = (x + part->count - 1) / SILHOUETTE_TILE;
+        const float *nearest = real->tile_near_z;
+        if (nearest[first] >= part->clear_z && nearest[last] >= part->clear_z) {
+            return;
+        }
+        if (((real->marks[first] | real->marks[last]) & SILHOUETTE_EDGE) == 0) {
+            share_plain(real->row + x, real->noise, z, share);
+        } else {
+            share_soft(real->near_z + x, real->far_z + x, real->cover + x, real->noise, z, share);
+        }
+    }
+    take_share(share, part->count, coverage);
+}
+
+/* ---- sums ----------------------------------------------------------------------------------- */
+
+RLF_KERNEL_PART void add(const float *restrict values, float scale, int32_t count,
+                         float *restrict sum)
+{
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
+        sum[i] += i < count ? scale * values[i] : 0.0f;
+    }
+}
+
+RLF_KERNEL_PART void multiply(int32_t count, const float *restrict values, float *restrict by)
+{
+    for (int32_t first = 0; first < count; first += SOFT_LANES) {
+        RLF_KERNEL_WHOLE
+        for (int32_t k = 0; k < SOFT_LANES; k++) {
+            by[first + k] *= values[first + k];
+        }
+    }
+}
+
+/* Adds light of a model's face, as its skin shows it. */
+RLF_KERNEL_PART void add_skin(const soft *s, const soft_stream *stream, const stream_segment *part,
+                              const soft_row *row)
+{
+    const soft_face *face = &s->scene.faces[part->face];
+    const soft_skin *skin = &s->scene.skins[face->skin];
+    const float *light = stream->light + part->at;
+    float rgb[3][SOFT_LANES];
+    if (skin->texture == NULL) {
+        for (int k = 0; k < 3; k++) {
+            add(light, skin->color[k], part->count, row->sum[k] + part->x);
+        }
+        return;
+    }
+    const soft_lanes_at at = {part->x, row->y, part->count};
+    soft_skin_colors(skin, face, at, stream->z + part->at, rgb);
+    for (int k = 0; k < 3; k++) {
+        multiply(SOFT_LANES, light, rgb[k]);
+        add(rgb[k], skin->color[k], part->count, row->sum[k] + part->x);
+    }
+}
+
+RLF_KERNEL_PART void add_segment(const soft *s, const soft_stream *stream,
+                                 const stream_segment *part, const soft_row *row)
+{
+    if (stream->has_skin) {
+        add_skin(s, stream, part, row);
+    } else {
+        for (int k = 0; k < 3; k++) {
+            add(stream->light + part->at, stream->body->color[k], part->count,
+                row->sum[k] + part->x);
+        }
+    }
+    add(stream->coverage + part->at, 1.0f, part->count, row->sum[3] + part->x);
+}
+
+/* ---- all of it ------------------------------------------------------------------------------ */
+
+/* What is beyond the last lane is worked on too. */
+static void end_lanes(soft_stream *v)
+{
+    float *const all[6] = {v->coverage, v->light, v->s, v->t, v->ambient, v->direct};
+    for (int k = 0; k < 6; k++) {
+        memset(all[k] + v->count, 0, SOFT_LANES * sizeof(float));
+    }
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
+        v->z[v->count + i] = 1.0f;
+    }
+}
+
+RLF_KERNEL void soft_stream_flush(const soft *s, const soft_group *group, soft_stream *v)
+{
+    const int32_t count = v->count;
+    const soft_body *body = v->body;
+    if (count == 0) {
+        return;
+    }
+    end_lanes(v);
+    finish_light(count, v->z, v->light, v->ambient, v->direct);
+    if (!v->has_skin) {
+        place_texels(count, body->texture_size, v->z, v->s, v->t, v->texel);
+        look_up(count, body->texture, v->texel, v->texels);
+    }
+    for (int32_t i = 0; i < v->segment_count; i++) {
+        const stream_segment *part = &v->segments[i];
+        const soft_row *row = &group->rows[part->row];
+        if (s->def.occlusion == RLF_OCCLUSION_THESIS) {
+            add(v->coverage + part->at, 1.0f, part->count, row->sum[SOFT_COVERED] + part->x);
+        }
+        if (row->real.row != NULL) {
+            hide(&row->real, part, v->z + part->at, v->coverage + part->at);
+        }
+    }
+    if (!v->has_skin) {
+        filter(count, v->texels, v->s, v->t, v->light);
+    }
+    multiply(count, v->coverage, v->light);
+    for (int32_t i = 0; i < v->segment_count; i++) {
+        const stream_segment *part = &v->segments[i];
+        add_segment(s, v, part, &group->rows[part->row]);
+    }
+    v->count = 0;
+    v->segment_count = 0;
+}

@@ -1,0 +1,71 @@
+/* Inside the CPU renderer: pixels of a body's faces one behind the other, so that all lanes have
+ * work however few pixels a face has in a row. */
+#ifndef RLF_RENDER_SOFT_STREAM_H
+#define RLF_RENDER_SOFT_STREAM_H
+
+#include "render/soft/soft.h"
+
+enum { STREAM_LANES = 256, STREAM_ROOM = STREAM_LANES + SOFT_LANES };
+
+/* Up to SOFT_LANES pixels of a row, from pixel x and lane `at` on. */
+typedef struct stream_segment {
+    int32_t row, x, count, at;
+    int32_t face;
+    float clear_z; /* what is real hides nothing of it from here on */
+} stream_segment;
+
+/* Pixels that wait for their colour. Of each lane: */
+typedef struct soft_stream {
+    const soft_body *body; /* of all faces */
+    bool has_skin;         /* alike; else the body's own pattern */
+    int32_t count;         /* of lanes; the next SOFT_LANES may hold anything */
+    int32_t segment_count;
+    float coverage[STREAM_ROOM]; /* share of the samples that see the face */
+    float z[STREAM_ROOM];        /* first 1/z */
+    float light[STREAM_ROOM];    /* first light/z, s/z, t/z */
+    float s[STREAM_ROOM], t[STREAM_ROOM];
+    float ambient[STREAM_ROOM], direct[STREAM_ROOM]; /* shares of light that are left */
+    int32_t texel[STREAM_ROOM];
+    uint32_t texels[STREAM_ROOM];
+    stream_segment segments[STREAM_LANES];
+} soft_stream;
+
+RLF_KERNEL_PART float stream_clamp(float x, float low, float high)
+{
+    x = x > low ? x : low;
+    return x < high ? x : high;
+}
+
+/* stream.c: adds what is waiting to the sums of the group's rows; then nothing waits. */
+void soft_stream_flush(const soft *s, const soft_group *group, soft_stream *stream);
+
+/* ---- what takes light from a body ----------------------------------------------------------- */
+
+/* Light is taken at nodes 4 or 8 pixels apart (soft.shade_px): of a row so many, or half. */
+#define ROW_NODES SOFT_LANES
+#define CHUNK_NODES 12 /* pixels of so many nodes at a time: the last block needs more */
+
+/* What other bodies leave of the light around and of the directed light: `per_row` nodes of one
+ * row, then of another. */
+typedef struct light_nodes {
+    int32_t per_row;
+    float ambient[2 * ROW_NODES], direct[2 * ROW_NODES];
+} light_nodes;
+
+/* Linear in the picture: at0 + step i. */
+typedef struct ramp {
+    float at0, step;
+} ramp;
+
+RLF_KERNEL_PART ramp ramp_at(const soft_plane *plane, float dx, float dy)
+{
+    ramp r = {plane->at0 + plane->dx * dx + plane->dy * dy, plane->dx};
+    return r;
+}
+
+/* body_light.c: what is left at nodes of rows y0 and y1 from x on, of which `count` pixels will be
+ * drawn. False when nothing takes any. */
+bool soft_fill_nodes(const soft *s, const soft_face *f, const int32_t y[2], int32_t x,
+                     int32_t count, light_nodes *out);
+
+#endif

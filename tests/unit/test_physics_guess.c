@@ -1,0 +1,121 @@
+/* A solid of which only the front is seen is a guess: matter under its faces, not behind them. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "relief/world.h"
+
+#include "grid_fixture.h"
+
+#define FRAME (1.0 / 30)
+#define TOP_Y 0.3
+#define TOP_NEAR 1.6
+#define TOP_FAR 2.2
+#define TOP_SIDE 0.4
+#define RADIUS 0.05
+
+static grid_fixture *fixture;
+
+/* A thin table's top in a room. */
+static int set_up(void **state)
+{
+    (void)state;
+    fixture = grid_fixture_create();
+    grid_plane room[2] = {grid_floor(1.0), grid_wall(4)};
+    grid_fixture_set_room(fixture, room, 2);
+    for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
+        double z = TOP_Y / (double)fixture->planes[1][i], x = z * (double)fixture->planes[0][i];
+        if (z > TOP_NEAR && z < TOP_FAR && x > -TOP_SIDE && x < TOP_SIDE) {
+            fixture->planes[2][i] = (float)z;
+            fixture->planes[3][i] = fixture->planes[5][i] = 0.0f;
+            fixture->planes[4][i] = -1.0f;
+        }
+    }
+    fixture->grid.background.default_thickness = 0.15;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    grid_fixture_destroy(&fixture);
+    return 0;
+}
+
+/* Where a body of 5 cm lies a second after it was let go. */
+static rlf_vec3 drop(rlf_shape shape, rlf_vec3 from)
+{
+    rlf_world_def world_def = rlf_world_def_default();
+    world_def.body_capacity = 1;
+    rlf_world *world = NULL;
+    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+    rlf_body_def def = rlf_body_def_default();
+    def.shape = shape;
+    def.position = from;
+    def.restitution = 0.0;
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    for (int k = 0; k < 30; k++) {
+        fixture->grid.time_ns++;
+        rlf_world_advance(world, &fixture->grid, FRAME);
+    }
+    assert_int_equal(rlf_world_get_snapshot(world)->body_count, 1);
+    rlf_vec3 p = rlf_world_get_snapshot(world)->bodies[0].T_world_body.p;
+    rlf_world_destroy(&world);
+    return p;
+}
+
+static rlf_shape shape_of(int k)
+{
+    const rlf_shape shapes[2] = {
+        {.type = RLF_SHAPE_BOX, .size = {2 * RADIUS, 2 * RADIUS, 2 * RADIUS}},
+        {.type = RLF_SHAPE_SPHERE, .radius = RADIUS}};
+    return shapes[k];
+}
+
+/* On their rays there is matter behind the table's far edge, 15 cm of it. */
+static void body_falls_freely_behind_a_tables_far_edge(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        for (double gap = 0.02; gap < 0.1; gap += 0.02) {
+            rlf_vec3 from = {0.1, -0.1, TOP_FAR + RADIUS + gap};
+            rlf_vec3 p = drop(shape_of(k), from);
+            assert_true(p.y > 1.0 - RADIUS - 0.01);
+            assert_true(p.x - from.x < 1e-3 && from.x - p.x < 1e-3);
+            assert_true(p.z - from.z < 1e-3 && from.z - p.z < 1e-3);
+        }
+    }
+}
+
+static void body_lies_on_the_table(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        for (double z = TOP_NEAR + 0.05; z < TOP_FAR - 0.04; z += 0.08) {
+            rlf_vec3 p = drop(shape_of(k), rlf_vec3_make(0.1, TOP_Y - 0.2, z));
+            assert_true(p.y < TOP_Y - RADIUS + 0.003 && p.y > TOP_Y - RADIUS - 0.003);
+        }
+    }
+}
+
+/* What is under it falls to the floor. */
+static void body_under_the_table_falls(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rlf_vec3 p = drop(shape_of(k), rlf_vec3_make(0.1, TOP_Y + 0.25, 1.9));
+        assert_true(p.y > 1.0 - RADIUS - 0.01);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(body_falls_freely_behind_a_tables_far_edge),
+        cmocka_unit_test(body_lies_on_the_table),
+        cmocka_unit_test(body_under_the_table_falls),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
