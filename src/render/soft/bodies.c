@@ -165,7 +165,7 @@ typedef struct draw_job {
 } draw_job;
 
 /* What may hide a body in row y. */
-static soft_real_row real_row(const soft *s, const float *tile_near_z, int32_t y)
+static soft_real_row real_row(const soft *s, const soft_depth_range *tiles, int32_t y)
 {
     soft_real_row real = {.width = s->camera.width};
     if (s->def.occlusion == RLF_OCCLUSION_OFF) {
@@ -180,41 +180,59 @@ static soft_real_row real_row(const soft *s, const float *tile_near_z, int32_t y
         real.far_z = rlf_f32_row(&s->silhouette.far_z, y);
         real.cover = rlf_u8_row(&s->silhouette.cover, y);
         real.marks = s->silhouette.marks + y / SILHOUETTE_TILE * s->silhouette.columns;
-        real.tile_near_z = tile_near_z;
+        real.tiles = tiles;
         real.noise = rlf_kernel_noise_make(&s->def.rig.noise);
     }
     return real;
 }
 
-/* The nearest that may hide a body in each of a row of tiles with bodies; 0 in others. Depth 0 is
- * as far as can be. */
-RLF_KERNEL static void find_nearest(const soft *s, int32_t begin, int32_t end, float *out)
+RLF_KERNEL_PART float here_or_far(float z)
+{
+    return z > 0.0f ? z : SILHOUETTE_FAR;
+}
+
+/* Depths of pixels [x0, x0 + SILHOUETTE_TILE) of rows [begin, end). */
+RLF_KERNEL_PART soft_depth_range range_of(const rlf_plane_f32 *near_z, const rlf_plane_f32 *far_z,
+                                          int32_t x0, int32_t begin, int32_t end)
+{
+    float nearest[SILHOUETTE_TILE];
+    float farthest[SILHOUETTE_TILE] = {0};
+    soft_depth_range range = {SILHOUETTE_FAR, 0.0f};
+    for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
+        nearest[i] = SILHOUETTE_FAR;
+    }
+    for (int32_t y = begin; y < end; y++) {
+        const float *a = rlf_f32_row(near_z, y) + x0;
+        const float *b = rlf_f32_row(far_z, y) + x0;
+        RLF_KERNEL_WHOLE
+        for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
+            float here = here_or_far(a[i]);
+            float beyond = here_or_far(b[i]);
+            nearest[i] = here < nearest[i] ? here : nearest[i];
+            farthest[i] = beyond > farthest[i] ? beyond : farthest[i];
+        }
+    }
+    for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
+        range.near_z = nearest[i] < range.near_z ? nearest[i] : range.near_z;
+        range.far_z = farthest[i] > range.far_z ? farthest[i] : range.far_z;
+    }
+    return range;
+}
+
+/* Of a row of tiles; where no bodies are, any depth there is. */
+RLF_KERNEL static void find_ranges(const soft *s, int32_t begin, int32_t end, soft_depth_range *out)
 {
     const silhouette *l = &s->silhouette;
     const int32_t first = begin / SILHOUETTE_TILE * l->columns;
     for (int32_t k = 0; k < l->columns; k++) {
-        const bool has_edge = (l->marks[first + k] & SILHOUETTE_EDGE) != 0;
-        const rlf_plane_f32 *plane = has_edge ? &l->near_z : &s->real.z;
+        const silhouette_tile *own = &l->own[first + k];
         const int32_t x0 = k * SILHOUETTE_TILE;
-        float nearest[SILHOUETTE_TILE];
-        out[k] = 0.0f;
-        if (!(l->own[first + k].far_z >= l->own[first + k].near_z)) {
-            continue;
-        }
-        for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
-            nearest[i] = SILHOUETTE_FAR;
-        }
-        for (int32_t y = begin; y < end; y++) {
-            const float *z = rlf_f32_row(plane, y) + x0;
-            RLF_KERNEL_WHOLE
-            for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
-                const float here = z[i] > 0.0f ? z[i] : SILHOUETTE_FAR;
-                nearest[i] = here < nearest[i] ? here : nearest[i];
-            }
-        }
-        out[k] = nearest[0];
-        for (int32_t i = 1; i < SILHOUETTE_TILE; i++) {
-            out[k] = nearest[i] < out[k] ? nearest[i] : out[k];
+        if (own->far_z < own->near_z) {
+            out[k] = (soft_depth_range){0.0f, SILHOUETTE_FAR};
+        } else if ((l->marks[first + k] & SILHOUETTE_EDGE) != 0) {
+            out[k] = range_of(&l->near_z, &l->far_z, x0, begin, end);
+        } else {
+            out[k] = range_of(&s->real.z, &s->real.z, x0, begin, end);
         }
     }
 }
@@ -232,13 +250,13 @@ static void draw_band(void *context, int32_t begin, int32_t end, int32_t worker)
     band_faces list = {group->list, 0};
     list_faces(s, begin, end, is_layered, &list);
     if (list.count > 0 && s->def.occlusion == RLF_OCCLUSION_SOFT) {
-        find_nearest(s, begin, end, group->tile_near_z);
+        find_ranges(s, begin, end, group->tiles);
     }
     for (int32_t y = begin; list.count > 0 && y < end; y += SOFT_GROUP_ROWS) {
         group->row_count = end - y < SOFT_GROUP_ROWS ? end - y : SOFT_GROUP_ROWS;
         for (int32_t i = 0; i < group->row_count; i++) {
             group->rows[i].y = y + i;
-            group->rows[i].real = real_row(s, group->tile_near_z, y + i);
+            group->rows[i].real = real_row(s, group->tiles, y + i);
         }
         int32_t count = find_ends(s, &list, group);
         if (is_layered) {

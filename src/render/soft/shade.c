@@ -103,8 +103,8 @@ typedef struct shading {
     const soft *s;
     const soft_group *group;
     const soft_face *face;
-    int32_t id;    /* of the face */
-    float clear_z; /* of its pixels */
+    int32_t id;              /* of the face */
+    soft_depth_range fading; /* what is real between hides some of it, what is nearer all */
     soft_stream *stream;
 } shading;
 
@@ -129,7 +129,7 @@ RLF_KERNEL_PART void shade_run(const shading *job, int32_t row_index, int32_t x,
             fill_ramp(r.attribute[SOFT_T], i, v->t + at);
             fill_light(nodes, first_node + i / px, px, at, v);
             v->segments[v->segment_count++] =
-                (stream_segment){row_index, x + i, count, at, job->id, job->clear_z};
+                (stream_segment){row_index, x + i, count, at, job->id, job->fading.far_z};
             v->count += count;
         }
     }
@@ -160,6 +160,17 @@ RLF_KERNEL_PART void mix_nodes(const light_nodes *nodes, float share, light_node
     }
 }
 
+/* True when what is real hides all of columns [x, end). */
+RLF_KERNEL_PART bool is_hidden(const shading *job, int32_t x, int32_t end)
+{
+    const soft_real_row *real = &job->group->rows[0].real;
+    int32_t shown = real->tiles == NULL ? 1 : 0;
+    for (int32_t i = x / SILHOUETTE_TILE; shown == 0 && i * SILHOUETTE_TILE < end; i++) {
+        shown |= real->tiles[i].far_z > job->fading.near_z ? 1 : 0;
+    }
+    return shown == 0;
+}
+
 /* Columns x .. x + count of all rows: light is taken at the nodes of the first and the last row. */
 RLF_KERNEL_PART void shade_chunk(const shading *job, const soft_span *spans, int32_t x,
                                  int32_t count)
@@ -170,6 +181,9 @@ RLF_KERNEL_PART void shade_chunk(const shading *job, const soft_span *spans, int
     const int32_t y[2] = {job->group->rows[0].y, job->group->rows[last].y};
     light_nodes nodes;
     light_nodes mixed;
+    if (is_hidden(job, x, x + count)) {
+        return;
+    }
     bool is_shaded = (body->shader_count > 0 || body->real_shade != NULL) &&
                      soft_fill_nodes(s, job->face, y, x, count, &nodes);
     const int32_t align = is_shaded ? s->shade_px : 1;
@@ -200,9 +214,9 @@ RLF_KERNEL_PART void shade_face(const shading *job, const soft_ends *ends)
     }
 }
 
-/* From here on what is real hides nothing: 2 sigma behind the face, the most that sigma may be
- * anywhere on it. */
-RLF_KERNEL_PART float clear_z_of(const soft_face *f, const soft_real_row *real)
+/* Where what is real hides nothing of a face, and where all: 2 sigma behind and before it, the most
+ * that sigma may be anywhere on it. */
+RLF_KERNEL_PART soft_depth_range fading_range(const soft_face *f, const soft_real_row *real)
 {
     const rlf_kernel_noise n = real->noise;
     const float near_z = 1.0f / f->inverse_z_max;
@@ -210,7 +224,9 @@ RLF_KERNEL_PART float clear_z_of(const soft_face *f, const soft_real_row *real)
     const float linear = n.c1 > 0.0f ? n.c1 * far_z : n.c1 * near_z;
     const float square = n.c2 > 0.0f ? n.c2 * far_z * far_z : n.c2 * near_z * near_z;
     const float sigma = n.c0 + linear + square;
-    return 1.0001f * far_z + 2.001f * (sigma > 0.0003f ? sigma : 0.0003f);
+    const float reach = 2.001f * (sigma > 0.0003f ? sigma : 0.0003f);
+    const soft_depth_range range = {0.9999f * near_z - reach, 1.0001f * far_z + reach};
+    return range;
 }
 
 RLF_KERNEL void soft_shade_faces(const soft *s, const soft_ends *ends, int32_t count,
@@ -231,7 +247,7 @@ RLF_KERNEL void soft_shade_faces(const soft *s, const soft_ends *ends, int32_t c
             stream.body = body;
             stream.has_skin = has_skin;
         }
-        const shading job = {s, group, face, id, clear_z_of(face, &group->rows[0].real), &stream};
+        const shading job = {s, group, face, id, fading_range(face, &group->rows[0].real), &stream};
         shade_face(&job, &ends[i]);
     }
     if (stream.count > 0) {

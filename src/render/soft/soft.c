@@ -25,7 +25,7 @@ static void destroy(void *self)
         }
         rlf_free(group->list);
         rlf_free(group->ends);
-        rlf_free(group->tile_near_z);
+        rlf_free(group->tiles);
     }
     for (int32_t i = 0; s->shade_tiles != NULL && i < s->worker_count; i++) {
         rlf_free(s->shade_tiles[i]);
@@ -83,8 +83,8 @@ static rlf_result allocate_workers(soft *s)
         soft_group *group = &s->workers[i];
         group->width = s->camera.width;
         group->stride = (ptrdiff_t)stride;
-        group->tile_near_z = rlf_alloc_array(stride / SILHOUETTE_TILE, sizeof(float));
-        result = group->tile_near_z != NULL ? result : RLF_ERROR_MEMORY;
+        group->tiles = rlf_alloc_array(stride / SILHOUETTE_TILE, sizeof(*group->tiles));
+        result = group->tiles != NULL ? result : RLF_ERROR_MEMORY;
         for (int k = 0; k < SOFT_GROUP_ROWS && result == RLF_OK; k++) {
             result = allocate_row(&group->rows[k], stride);
         }

@@ -112,12 +112,17 @@ typedef struct soft_ends {
     int32_t begin[SOFT_GROUP_LINES], end[SOFT_GROUP_LINES];
 } soft_ends;
 
+/* Depths that what may hide a body has in a tile. */
+typedef struct soft_depth_range {
+    float near_z, far_z;
+} soft_depth_range;
+
 /* What may hide a body in a row: the registered depth, and above and below it, or (all NULL)
  * nothing; with soft occlusion near_z, far_z and cover in the tiles that are marked. */
 typedef struct soft_real_row {
     const float *near_z, *far_z;
-    const uint8_t *cover, *marks; /* of silhouette; marks NULL = hard occlusion */
-    const float *tile_near_z;     /* least of each of silhouette's tiles */
+    const uint8_t *cover, *marks;  /* of silhouette; marks NULL = hard occlusion */
+    const soft_depth_range *tiles; /* of silhouette's tiles */
     rlf_kernel_noise noise;
     const float *row, *above, *below;
     int32_t width;
@@ -147,10 +152,10 @@ typedef struct soft_row {
 typedef struct soft_group {
     soft_row rows[SOFT_GROUP_ROWS];
     int32_t row_count, width;
-    ptrdiff_t stride;   /* from one line of samples to the next */
-    int32_t *list;      /* faces of a band */
-    float *tile_near_z; /* of a band, with soft occlusion: the nearest that may hide a body */
-    soft_ends *ends;    /* of those in the group */
+    ptrdiff_t stride;        /* from one line of samples to the next */
+    int32_t *list;           /* faces of a band */
+    soft_depth_range *tiles; /* of a band, with soft occlusion */
+    soft_ends *ends;         /* of those in the group */
 } soft_group;
 
 #define SOFT_SHADE_WIDTH 32 /* pixels of a tile; it is as high as a band */

@@ -143,8 +143,8 @@ RLF_KERNEL_PART void hide(const soft_real_row *real, const stream_segment *part,
     } else {
         const int32_t first = x / SILHOUETTE_TILE;
         const int32_t last = (x + part->count - 1) / SILHOUETTE_TILE;
-        const float *nearest = real->tile_near_z;
-        if (nearest[first] >= part->clear_z && nearest[last] >= part->clear_z) {
+        const soft_depth_range *tiles = real->tiles;
+        if (tiles[first].near_z >= part->clear_z && tiles[last].near_z >= part->clear_z) {
             return;
         }
         if (((real->marks[first] | real->marks[last]) & SILHOUETTE_EDGE) == 0) {

@@ -11,7 +11,7 @@ enum { STREAM_LANES = 256, STREAM_ROOM = STREAM_LANES + SOFT_LANES };
 typedef struct stream_segment {
     int32_t row, x, count, at;
     int32_t face;
-    float clear_z; /* what is real hides nothing of it from here on */
+    float clear_z; /* what is real hides nothing of the face from here on */
 } stream_segment;
 
 /* Pixels that wait for their colour. Of each lane: */
