@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define STEPS_TO_BODY 8
+#define NEAR_BODY 0.1f /* of its radius: light that comes so close meets the body */
 #define MIDDLE (0.5f * (REAL_SHADE_SIDE - 1))
 
 #define LARGE_PX 40.0 /* radius: a body to be looked at closely, */
@@ -76,7 +77,8 @@ RLF_KERNEL static void find_lit(const shade_job *j, const float *restrict x,
     }
     RLF_KERNEL_WHOLE
     for (int32_t i = 0; i < REAL_SHADE_RAYS; i++) {
-        bool is_met = (x[i] * x[i] + y[i] * y[i] <= radius * radius) & (gap[i] < 0.1f * radius);
+        bool is_met =
+            (x[i] * x[i] + y[i] * y[i] <= radius * radius) & (gap[i] < NEAR_BODY * radius);
         out->is_some[i] = is_met ? 1 : 0;
         for (int k = 0; k < 3; k++) {
             out->p[k][i] += j->center[k];
@@ -267,6 +269,10 @@ void real_shade_make(const real_shade_world *world, const caster *body, real_sha
     }
     shade_job job;
     place_map(world, body, &job, out);
+    const float reach = body->reach + NEAR_BODY * body->radius;
+    if (world->grid != NULL && !real_shade_may_lose(world, job.center, reach, job.to_light)) {
+        return;
+    }
     double radius_px = world->focal_px * (double)body->radius / (double)body->center[2];
     const int32_t finest = radius_px > LARGE_PX ? 1 : (radius_px > SMALL_PX ? 2 : COARSE);
     const int32_t sure = radius_px > LARGE_PX ? COARSE / 2 : COARSE;

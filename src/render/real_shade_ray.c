@@ -3,7 +3,6 @@
 
 #include "kernel/kernel.h"
 
-#define REACH_M 2.5       /* beyond this nothing casts a shadow: lamps are wide */
 #define NEAREST_M 0.1     /* to the camera */
 #define BEFORE 1.00001f   /* depth over that of the ray: more is before it, whatever the rounding */
 #define SHEET_M 0.05      /* solid behind a foreground pixel whose back is not known */
@@ -45,8 +44,8 @@ RLF_KERNEL_PART float clip(float x, float step, float high, float s)
 RLF_KERNEL_PART float length_of(float z, float toward_light)
 {
     float before = (z - (float)NEAREST_M) / -toward_light;
-    float beyond = z + (float)REACH_M * toward_light;
-    return beyond < (float)NEAREST_M ? before : (float)REACH_M;
+    float beyond = z + (float)REAL_SHADE_REACH_M * toward_light;
+    return beyond < (float)NEAREST_M ? before : (float)REAL_SHADE_REACH_M;
 }
 
 /* Where the rays begin, and how far they go in the image: from x by dx in an axis of focal length f

@@ -4,6 +4,8 @@
 
 #include "relief/compositor.h"
 
+#define REAL_SHADE_REACH_M 2.5 /* beyond this nothing casts a shadow: lamps are wide */
+
 enum { REAL_SHADE_RAYS = 16 }; /* at once */
 
 /* Points in the depth camera's frame, metres. */

@@ -307,8 +307,10 @@ static bool has_real_shade(const gl_compositor *c)
 static rlf_result update_shade(gl_compositor *c, const rlf_render_input *input, rlf_vec3 to_light)
 {
     const rlf_camera *k = &c->view.camera;
-    const real_shade_world world = {input->surface, rlf_pose_invert(&c->view.T_picture_camera),
-                                    to_light, 0.5 * (k->fx + k->fy)};
+    const real_shade_world world = {.surface = input->surface,
+                                    .T_depth_picture = rlf_pose_invert(&c->view.T_picture_camera),
+                                    .to_light = to_light,
+                                    .focal_px = 0.5 * (k->fx + k->fy)};
     return gl_shade_update(&c->shade, &world, c->casters, input->snapshot->body_count);
 }
 

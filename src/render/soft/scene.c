@@ -2,7 +2,8 @@
 #include "render/body_look.h"
 #include "render/soft/soft.h"
 
-#define BODIES_AT_ONCE 8 /* per worker */
+#define BODIES_AT_ONCE 8   /* per worker */
+#define BODIES_FOR_GRID 16 /* of fewer each is looked at sooner than the whole surface */
 
 /* What one body's vertices go through. */
 typedef struct body_transform {
@@ -247,12 +248,17 @@ static void shade_bodies(void *context, int32_t begin, int32_t end, int32_t work
 /* What real things take from the bodies in the picture. */
 static void place_real_shades(soft *s, const rlf_surface *surface)
 {
+    bool has_grid = s->scene.body_count >= BODIES_FOR_GRID && surface->depth != NULL;
     shade_bodies_job job = {s,
                             {.surface = surface,
+                             .grid = has_grid ? &s->seen : NULL,
                              .T_depth_picture = rlf_pose_invert(&s->T_picture_depth),
                              .to_light = s->to_light,
                              .focal_px = 0.5 * (s->camera.fx + s->camera.fy)}};
     if (s->def.enable_real_shade && s->scene.caster_count > 0) {
+        if (has_grid) {
+            real_shade_grid_update(&s->seen, surface, s->def.pool);
+        }
         rlf_parallel_for(s->def.pool, s->scene.body_count, BODIES_AT_ONCE, shade_bodies, &job);
     }
 }

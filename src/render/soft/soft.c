@@ -15,6 +15,7 @@ static void destroy(void *self)
     real_depth_destroy(&s->real);
     light_direction_destroy(&s->direction);
     silhouette_destroy(&s->silhouette);
+    real_shade_grid_destroy(&s->seen);
     for (int32_t i = 0; s->workers != NULL && i < s->worker_count; i++) {
         soft_group *group = &s->workers[i];
         for (int k = 0; k < SOFT_GROUP_ROWS; k++) {
@@ -337,6 +338,9 @@ static rlf_result prepare(soft *s)
     result = make_textures(s);
     if (result == RLF_OK) {
         result = allocate(s);
+    }
+    if (result == RLF_OK) {
+        result = real_shade_grid_create(s->def.grid.width, s->def.grid.height, &s->seen);
     }
     if (result == RLF_OK) {
         result = real_depth_create(&s->def, &s->camera, &s->real);

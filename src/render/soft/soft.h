@@ -189,6 +189,7 @@ typedef struct soft {
     soft_group *workers;
     soft_shade_tile **shade_tiles; /* a band's, per worker */
     int32_t worker_count;
+    real_shade_grid seen; /* of the surface */
     room_light lamp;
     light_direction direction;
     rlf_vec3 to_light; /* unit, picture camera frame */
