@@ -1,6 +1,7 @@
 /* Milliseconds of physics per 1/60 s: showers of cubes on the live surface of the synthetic room,
  * in which a person walks. A new surface comes 30 times a second; only rlf_world_advance is timed,
- * which holds all that the collider needs per new surface. Prints one row per count of cubes. */
+ * which holds all that the collider needs per new surface. Prints, for each count of cubes, the
+ * cost of each phase. */
 #include "bench_physics.h"
 
 #include <getopt.h>
@@ -27,7 +28,7 @@ static void print_help(void)
         "Showers of 10 cm cubes on the synthetic room, 512x424, a person walking, a new surface\n"
         "30 times a second. Times each physics step of 1/60 s and counts cubes that get lost.\n\n"
         "  --bodies N,N,...  default 2,100,1000,5000 (at most 8 counts)\n"
-        "  --seconds S       simulated time, default 10\n"
+        "  --seconds S       simulated time with the person, default 12; 2 s without follow\n"
         "  --scale N         keep every N-th pixel of a row and column, default 1\n"
         "  --workers N       default 1\n"
         "  --seed N          of the sensor's noise, default 1\n"
@@ -64,7 +65,7 @@ static bool parse(int argc, char **argv, options *o)
         {"seed", required_argument, NULL, 's'},   {"json", required_argument, NULL, 'j'},
         {"help", no_argument, NULL, 'h'},         {0},
     };
-    *o = (options){.counts = {2, 100, 1000, 5000}, .count_count = 4, .seconds = 10};
+    *o = (options){.counts = {2, 100, 1000, 5000}, .count_count = 4, .seconds = 12};
     double scale = 1, workers = 1, seed = 1;
     bool is_good = true;
     int option;
@@ -85,30 +86,72 @@ static bool parse(int argc, char **argv, options *o)
     return is_good && optind == argc;
 }
 
+static const char *const PHASES[SHOWER_PHASES] = {"poured", "ploughed", "at rest"};
+
+static void print_phases(const shower *s)
+{
+    for (shower_phase phase = 0; phase < SHOWER_PHASES; phase++) {
+        shower_cost cost = shower_cost_of(s, phase);
+        if (cost.step_count > 0) {
+            printf("%7d  %-9s %6.1f %9.3f %9.3f %9.3f\n", (int)s->count, PHASES[phase],
+                   cost.step_count / (2.0 * ROOM_HZ), cost.median_ms, cost.p95_ms, cost.mean_ms);
+        }
+    }
+}
+
+static void print_parts(const shower *s)
+{
+    const rlf_world_times *t = &s->times;
+    double n = s->step_count;
+    printf("%7d %8.3f %8.3f | %7.3f %7.3f %7.3f %7.3f %7.3f %7.3f %7.3f | %6d %5d %6d %6.1f %6d\n",
+           (int)s->count, shower_worst_step(s), shower_busiest_second(s), t->wake_ms / n,
+           t->surface_ms / n, t->pairs_ms / n, t->impacts_ms / n, t->solve_ms / n, t->move_ms / n,
+           (t->sleep_ms + t->publish_ms) / n, (int)s->asleep_count, (int)s->lost_count,
+           (int)s->hidden_count, 2.0 * (double)s->deep_sum / n, (int)s->alloc_count);
+}
+
 static void print_rows(const shower *showers, const options *o, const room *r)
 {
-    printf("synthetic room, %dx%d, %.0f s, %d worker(s); ms per 1/60 s\n", (int)r->grid.width,
-           (int)r->grid.height, o->seconds, (int)o->workers);
-    printf("%7s %8s %8s %8s %8s | %7s %7s %7s %7s %7s %7s %7s | %6s %5s %6s %6s\n", "cubes",
-           "median", "p95", "worst", "busiest", "wake", "surface", "pairs", "impact", "solve",
-           "move", "rest", "asleep", "lost", "hidden", "allocs");
+    printf("synthetic room, %dx%d, %d worker(s); %.0f s with a person and %.0f s without; ms per "
+           "1/60 s\n",
+           (int)r->grid.width, (int)r->grid.height, (int)o->workers, o->seconds, SHOWER_SETTLE);
+    printf("%7s  %-9s %6s %9s %9s %9s\n", "cubes", "phase", "s", "median", "p95", "mean");
     for (int32_t i = 0; i < o->count_count; i++) {
-        const shower *s = &showers[i];
-        const rlf_world_times *t = &s->times;
-        double n = s->step_count;
-        printf("%7d %8.3f %8.3f %8.3f %8.3f | %7.3f %7.3f %7.3f %7.3f %7.3f %7.3f %7.3f | %6d %5d "
-               "%6d %6d\n",
-               (int)s->count, shower_percentile(s, 50), shower_percentile(s, 95),
-               shower_percentile(s, 100), shower_busiest_second(s), t->wake_ms / n,
-               t->surface_ms / n, t->pairs_ms / n, t->impacts_ms / n, t->solve_ms / n,
-               t->move_ms / n, (t->sleep_ms + t->publish_ms) / n, (int)s->asleep_count,
-               (int)s->lost_count, (int)s->hidden_count, (int)s->alloc_count);
+        print_phases(&showers[i]);
     }
-    printf(
-        "lost: 0.3 s or more inside floor, walls or furniture, or gone; hidden: those of them that "
-        "are where no picture shows it\n");
-    printf("median, p95, worst: of all steps; busiest: mean of the costliest second; the parts are "
-           "means\n");
+    printf("\n%7s %8s %8s | %7s %7s %7s %7s %7s %7s %7s | %6s %5s %6s %6s %6s\n", "cubes", "worst",
+           "busiest", "wake", "surface", "pairs", "impact", "solve", "move", "rest", "asleep",
+           "lost", "hidden", "deep", "allocs");
+    for (int32_t i = 0; i < o->count_count; i++) {
+        print_parts(&showers[i]);
+    }
+    printf("poured: until a second after the last cubes are dropped; ploughed: from then on, while "
+           "a person walks; at rest: in the last second\n"
+           "worst: step; busiest: mean of the costliest second; the parts are means of all steps\n"
+           "lost: 0.3 s or more inside floor, walls or furniture, or gone; hidden: those of them "
+           "that are where no picture shows it\n"
+           "deep: pairs that overlap by more than %.0f mm, mean of all frames\n",
+           1e3 * SHOWER_DEEP);
+}
+
+static void write_row(FILE *file, const shower *s)
+{
+    shower_cost worst = shower_worst_cost(s);
+    fprintf(file, "{\"cubes\": %d, \"median_ms\": %.4f, \"p95_ms\": %.4f, ", (int)s->count,
+            worst.median_ms, worst.p95_ms);
+    for (shower_phase phase = 0; phase < SHOWER_PHASES; phase++) {
+        shower_cost cost = shower_cost_of(s, phase);
+        fprintf(file,
+                "\"%s\": {\"steps\": %d, \"median_ms\": %.4f, \"p95_ms\": %.4f, \"mean_ms\": "
+                "%.4f}, ",
+                PHASES[phase], (int)cost.step_count, cost.median_ms, cost.p95_ms, cost.mean_ms);
+    }
+    fprintf(file,
+            "\"worst_ms\": %.4f, \"busiest_ms\": %.4f, \"asleep\": %d, \"lost\": %d, "
+            "\"hidden\": %d, \"deep\": %.2f, \"allocs\": %d}",
+            shower_worst_step(s), shower_busiest_second(s), (int)s->asleep_count,
+            (int)s->lost_count, (int)s->hidden_count, 2.0 * (double)s->deep_sum / s->step_count,
+            (int)s->alloc_count);
 }
 
 static int write_json(const shower *showers, const options *o)
@@ -121,18 +164,21 @@ static int write_json(const shower *showers, const options *o)
     fprintf(file, "{\n  \"seconds\": %g, \"scale\": %d, \"workers\": %d, \"rows\": [", o->seconds,
             (int)o->scale_factor, (int)o->workers);
     for (int32_t i = 0; i < o->count_count; i++) {
-        const shower *s = &showers[i];
-        fprintf(
-            file,
-            "%s\n    {\"cubes\": %d, \"median_ms\": %.4f, \"p95_ms\": %.4f, \"worst_ms\": %.4f, "
-            "\"busiest_ms\": %.4f, \"asleep\": %d, \"lost\": %d, \"hidden\": %d, "
-            "\"allocs\": %d}",
-            i > 0 ? "," : "", (int)s->count, shower_percentile(s, 50), shower_percentile(s, 95),
-            shower_percentile(s, 100), shower_busiest_second(s), (int)s->asleep_count,
-            (int)s->lost_count, (int)s->hidden_count, (int)s->alloc_count);
+        fprintf(file, "%s\n    ", i > 0 ? "," : "");
+        write_row(file, &showers[i]);
     }
     fprintf(file, "\n  ]\n}\n");
     return fclose(file) == 0 ? 0 : 1;
+}
+
+/* One surface, and all showers on it. */
+static bool play_frame(shower *showers, const options *o, room *r, int32_t frame)
+{
+    bool is_good = (frame != (int32_t)(o->seconds * ROOM_HZ) || room_empty(r)) && room_next(r);
+    for (int32_t i = 0; i < o->count_count && is_good; i++) {
+        is_good = shower_step(&showers[i], r);
+    }
+    return is_good;
 }
 
 int main(int argc, char **argv)
@@ -150,12 +196,9 @@ int main(int argc, char **argv)
     for (int32_t i = 0; i < o.count_count && is_good; i++) {
         is_good = shower_open(&showers[i], o.counts[i], o.seconds, pool);
     }
-    int32_t frames = (int32_t)(o.seconds * ROOM_HZ);
+    int32_t frames = (int32_t)((o.seconds + SHOWER_SETTLE) * ROOM_HZ);
     for (int32_t k = 0; k < frames && is_good; k++) {
-        is_good = room_next(&r);
-        for (int32_t i = 0; i < o.count_count && is_good; i++) {
-            is_good = shower_step(&showers[i], &r);
-        }
+        is_good = play_frame(showers, &o, &r, k);
     }
     int status = is_good ? 0 : 1;
     if (is_good) {

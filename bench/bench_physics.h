@@ -10,11 +10,16 @@
 #define ROOM_REGIONS_MAX 256
 #define SHOWER_LAYER 140 /* cubes dropped together */
 #define SHOWER_LAYER_FRAMES                                                                        \
-    6                 /* from layer to layer, so that nothing is dropped into the last one */
-#define SHOWER_LOST 9 /* frames, 0.3 s, inside what stays: lost */
+    6                     /* from layer to layer, so that nothing is dropped into the last one */
+#define SHOWER_LOST 9     /* frames, 0.3 s, inside what stays: lost */
+#define SHOWER_FALL 1.0   /* s in which the last layer falls */
+#define SHOWER_SETTLE 2.0 /* s without a person, and s of these at the end that count as rest */
+#define SHOWER_REST 1.0
+#define SHOWER_DEEP 0.02 /* m of overlap that is told */
 
 /* The synthetic room, reconstructed frame by frame. */
 typedef struct room {
+    uint64_t seed;
     rlf_source *source;
     rlf_reconstruct *reconstruct;
     rlf_grid_region regions[ROOM_REGIONS_MAX];
@@ -24,14 +29,31 @@ typedef struct room {
 /* Opens the room and sees the frames in which it is still empty. */
 bool room_open(room *r, uint64_t seed, int32_t scale_factor);
 bool room_next(room *r);
+/* From the next frame on nobody is there. */
+bool room_empty(room *r);
 void room_close(room *r);
+
+/* What happens to the cubes; see docs/measuring.md. */
+typedef enum shower_phase {
+    SHOWER_POURED,   /* they fall and bounce */
+    SHOWER_PLOUGHED, /* all are there, and a person walks through them */
+    SHOWER_AT_REST,  /* nobody is there */
+    SHOWER_PHASES
+} shower_phase;
+
+typedef struct shower_cost {
+    int32_t step_count;
+    double median_ms, p95_ms, mean_ms;
+} shower_cost;
 
 /* A world into which cubes are dropped until there are `count`. */
 typedef struct shower {
     rlf_world *world;
     int32_t count, added, step_count, step_capacity;
     double *step_ms;
-    bool is_alone;         /* one worker */
+    double empty_time; /* s when the person goes */
+    int64_t deep_sum;  /* over all frames: pairs of cubes that overlap by more than SHOWER_DEEP */
+    bool is_alone;     /* one worker */
     rlf_world_times times; /* sums */
     int32_t asleep_count, lost_count, alloc_count;
     int32_t hidden_count; /* of the lost: in what no picture shows */
@@ -41,12 +63,18 @@ typedef struct shower {
 /* The index-th cube: one of a layer under the ceiling, each turned in its own way. */
 rlf_body_def shower_cube(int32_t index);
 
+/* `seconds` with the person, and SHOWER_SETTLE after them. */
 bool shower_open(shower *s, int32_t count, double seconds, rlf_pool *pool);
 /* Drops cubes and advances by one frame in two steps of 1/60 s. */
 bool shower_step(shower *s, room *r);
 void shower_close(shower *s);
 
-double shower_percentile(const shower *s, double percent);
+/* Of the steps of a phase; all zero when the run was too short for it. */
+shower_cost shower_cost_of(const shower *s, shower_phase phase);
+/* That of the phase with the largest median. */
+shower_cost shower_worst_cost(const shower *s);
+/* Of all steps. */
+double shower_worst_step(const shower *s);
 double shower_busiest_second(const shower *s);
 
 #endif

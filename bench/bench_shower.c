@@ -12,14 +12,22 @@
 #define EMPTY_FRAMES 8   /* the background needs five */
 #define LAYER_COLUMNS 14 /* cubes of a layer side by side */
 
-bool room_open(room *r, uint64_t seed, int32_t scale_factor)
+static rlf_synthetic_def source_def(rlf_synthetic_scene scene, uint64_t seed)
 {
-    memset(r, 0, sizeof(*r));
     rlf_synthetic_def def = rlf_synthetic_def_default();
+    def.scene = scene;
     def.seed = seed;
     def.frame_count = -1;
     def.enable_color = false;
     def.enable_truth = false;
+    return def;
+}
+
+bool room_open(room *r, uint64_t seed, int32_t scale_factor)
+{
+    memset(r, 0, sizeof(*r));
+    r->seed = seed;
+    rlf_synthetic_def def = source_def(RLF_SYNTHETIC_ROOM, seed);
     if (rlf_synthetic_create(&def, &r->source) != RLF_OK) {
         return false;
     }
@@ -46,6 +54,13 @@ bool room_next(room *r)
     return true;
 }
 
+bool room_empty(room *r)
+{
+    rlf_synthetic_def def = source_def(RLF_SYNTHETIC_EMPTY, r->seed);
+    rlf_source_destroy(&r->source);
+    return rlf_synthetic_create(&def, &r->source) == RLF_OK;
+}
+
 void room_close(room *r)
 {
     rlf_reconstruct_destroy(&r->reconstruct);
@@ -62,7 +77,8 @@ bool shower_open(shower *s, int32_t count, double seconds, rlf_pool *pool)
     memset(s, 0, sizeof(*s));
     s->count = count;
     s->is_alone = rlf_pool_worker_count(pool) == 1;
-    s->step_capacity = 2 * (int32_t)(seconds * ROOM_HZ);
+    s->empty_time = seconds;
+    s->step_capacity = 2 * (int32_t)((seconds + SHOWER_SETTLE) * ROOM_HZ);
     s->step_ms = malloc((size_t)s->step_capacity * sizeof(*s->step_ms));
     s->inside = calloc((size_t)count, sizeof(*s->inside));
     return s->step_ms != NULL && s->inside != NULL && rlf_world_create(&def, &s->world) == RLF_OK;
@@ -178,6 +194,21 @@ static void count_losses(shower *s, room *r)
     }
 }
 
+/* Contacts of a pair are listed side by side. */
+static void count_deep(shower *s)
+{
+    const rlf_snapshot *snapshot = rlf_world_get_snapshot(s->world);
+    uint64_t last = 0;
+    for (int32_t i = 0; i < snapshot->contact_count; i++) {
+        const rlf_contact *c = &snapshot->contacts[i];
+        uint64_t pair = (uint64_t)c->body.index1 << 32 | c->other_body.index1;
+        if (c->other == RLF_CONTACT_BODY && c->separation < -SHOWER_DEEP && pair != last) {
+            s->deep_sum++;
+            last = pair;
+        }
+    }
+}
+
 bool shower_step(shower *s, room *r)
 {
     int32_t frame = s->step_count / 2;
@@ -187,6 +218,7 @@ bool shower_step(shower *s, room *r)
     advance(s, &r->grid);
     advance(s, &r->grid);
     count_losses(s, r);
+    count_deep(s);
     return true;
 }
 
@@ -196,18 +228,60 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-double shower_percentile(const shower *s, double percent)
+/* When the last layer has come down, s. */
+static double poured_time(const shower *s)
 {
-    double *sorted = malloc((size_t)s->step_count * sizeof(*sorted));
-    if (sorted == NULL || s->step_count == 0) {
-        free(sorted);
-        return 0.0;
+    int32_t layers = (s->count + SHOWER_LAYER - 1) / SHOWER_LAYER;
+    return (double)(layers - 1) * SHOWER_LAYER_FRAMES / ROOM_HZ + SHOWER_FALL;
+}
+
+static int32_t step_at(const shower *s, double time)
+{
+    return (int32_t)rlf_clamp(time * 2.0 * ROOM_HZ + 0.5, 0.0, s->step_count);
+}
+
+shower_cost shower_cost_of(const shower *s, shower_phase phase)
+{
+    shower_cost cost = {0};
+    double end = s->empty_time + SHOWER_SETTLE;
+    const double times[SHOWER_PHASES][2] = {
+        {0.0, rlf_min(poured_time(s), s->empty_time)},
+        {rlf_min(poured_time(s), s->empty_time), s->empty_time},
+        {end - SHOWER_REST, end},
+    };
+    int32_t begin = step_at(s, times[phase][0]), count = step_at(s, times[phase][1]) - begin;
+    double *sorted = malloc((size_t)(count + 1) * sizeof(*sorted));
+    if (sorted != NULL && count > 0) {
+        memcpy(sorted, s->step_ms + begin, (size_t)count * sizeof(*sorted));
+        qsort(sorted, (size_t)count, sizeof(*sorted), compare);
+        for (int32_t i = 0; i < count; i++) {
+            cost.mean_ms += sorted[i] / count;
+        }
+        cost.step_count = count;
+        cost.median_ms = sorted[(count - 1) / 2];
+        cost.p95_ms = sorted[(int32_t)(0.95 * (count - 1))];
     }
-    memcpy(sorted, s->step_ms, (size_t)s->step_count * sizeof(*sorted));
-    qsort(sorted, (size_t)s->step_count, sizeof(*sorted), compare);
-    double value = sorted[(int32_t)(percent / 100.0 * (s->step_count - 1))];
     free(sorted);
-    return value;
+    return cost;
+}
+
+shower_cost shower_worst_cost(const shower *s)
+{
+    shower_cost worst = {0};
+    for (shower_phase phase = 0; phase < SHOWER_PHASES; phase++) {
+        shower_cost cost = shower_cost_of(s, phase);
+        worst = cost.median_ms > worst.median_ms ? cost : worst;
+    }
+    return worst;
+}
+
+double shower_worst_step(const shower *s)
+{
+    double worst = 0.0;
+    for (int32_t i = 0; i < s->step_count; i++) {
+        worst = rlf_max(worst, s->step_ms[i]);
+    }
+    return worst;
 }
 
 double shower_busiest_second(const shower *s)
