@@ -1,4 +1,4 @@
-/* Sequential impulses in four lanes. */
+/* Sequential impulses in eight lanes. */
 #include "kernel/contact_lanes.h"
 #include "kernel/kernel.h"
 
@@ -6,7 +6,7 @@
 #include <string.h>
 
 typedef struct lane_vec {
-    double x, y, z;
+    float x, y, z;
 } lane_vec;
 
 typedef struct lane_speeds {
@@ -15,7 +15,7 @@ typedef struct lane_speeds {
 
 /* A copy of the batch's, which no pointer reaches: the compiler need not fear for it. */
 typedef struct lane_sides {
-    double mass_a[RLF_LANES], mass_b[RLF_LANES];
+    float mass_a[RLF_LANES], mass_b[RLF_LANES];
     rlf_lane_mat inertia_a, inertia_b;
 } lane_sides;
 
@@ -25,7 +25,7 @@ RLF_KERNEL_PART lane_vec at(const rlf_lane_vec *of, int32_t lane)
     return v;
 }
 
-RLF_KERNEL_PART double dot(lane_vec a, lane_vec b)
+RLF_KERNEL_PART float dot(lane_vec a, lane_vec b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -36,7 +36,7 @@ RLF_KERNEL_PART lane_vec cross(lane_vec a, lane_vec b)
     return v;
 }
 
-RLF_KERNEL_PART lane_vec mad(lane_vec a, lane_vec b, double s)
+RLF_KERNEL_PART lane_vec mad(lane_vec a, lane_vec b, float s)
 {
     lane_vec v = {a.x + b.x * s, a.y + b.y * s, a.z + b.z * s};
     return v;
@@ -50,9 +50,9 @@ RLF_KERNEL_PART lane_vec weighed(const rlf_lane_mat *m, int32_t lane, lane_vec v
     return r;
 }
 
-RLF_KERNEL_PART double magnitude(double x)
+RLF_KERNEL_PART float magnitude(float x)
 {
-    return x < 0.0 ? -x : x;
+    return x < 0.0f ? -x : x;
 }
 
 RLF_KERNEL_PART lane_sides sides_of(const rlf_lane_batch *batch)
@@ -102,10 +102,10 @@ RLF_KERNEL_PART void store(const rlf_lane_batch *batch, const lane_speeds *s, bo
                            rlf_lane_speed *speeds)
 {
     for (int32_t lane = 0; lane < RLF_LANES; lane++) {
-        if (batch->inverse_mass_a[lane] > 0.0) {
+        if (batch->inverse_mass_a[lane] > 0.0f) {
             store_lane(&s->v_a, &s->w_a, lane, &speeds[batch->a[lane]]);
         }
-        if (has_b && batch->inverse_mass_b[lane] > 0.0) {
+        if (has_b && batch->inverse_mass_b[lane] > 0.0f) {
             store_lane(&s->v_b, &s->w_b, lane, &speeds[batch->b[lane]]);
         }
     }
@@ -115,15 +115,15 @@ RLF_KERNEL_PART void store(const rlf_lane_batch *batch, const lane_speeds *s, bo
 RLF_KERNEL_PART lane_vec relative(const rlf_lane_point *p, const lane_speeds *s, bool has_b,
                                   int32_t lane)
 {
-    lane_vec of_a = mad(at(&s->v_a, lane), cross(at(&s->w_a, lane), at(&p->r_a, lane)), 1.0);
+    lane_vec of_a = mad(at(&s->v_a, lane), cross(at(&s->w_a, lane), at(&p->r_a, lane)), 1.0f);
     lane_vec of_b = at(&p->r_b, lane);
     if (has_b) {
-        of_b = mad(at(&s->v_b, lane), cross(at(&s->w_b, lane), of_b), 1.0);
+        of_b = mad(at(&s->v_b, lane), cross(at(&s->w_b, lane), of_b), 1.0f);
     }
-    return mad(of_a, of_b, -1.0);
+    return mad(of_a, of_b, -1.0f);
 }
 
-RLF_KERNEL_PART void add(rlf_lane_vec *sum, int32_t lane, lane_vec v, double scale)
+RLF_KERNEL_PART void add(rlf_lane_vec *sum, int32_t lane, lane_vec v, float scale)
 {
     sum->x[lane] += v.x * scale;
     sum->y[lane] += v.y * scale;
@@ -135,25 +135,25 @@ RLF_KERNEL_PART void push_by(const lane_sides *sides, const rlf_lane_point *p, b
 {
     lane_vec turn = cross(at(&p->r_a, lane), impulse);
     add(&s->v_a, lane, impulse, sides->mass_a[lane]);
-    add(&s->w_a, lane, weighed(&sides->inertia_a, lane, turn), 1.0);
+    add(&s->w_a, lane, weighed(&sides->inertia_a, lane, turn), 1.0f);
     if (has_b) {
         turn = cross(at(&p->r_b, lane), impulse);
         add(&s->v_b, lane, impulse, -sides->mass_b[lane]);
-        add(&s->w_b, lane, weighed(&sides->inertia_b, lane, turn), -1.0);
+        add(&s->w_b, lane, weighed(&sides->inertia_b, lane, turn), -1.0f);
     }
 }
 
-RLF_KERNEL_PART double mass_along(const lane_sides *sides, const rlf_lane_point *p, bool has_b,
-                                  int32_t lane, lane_vec direction)
+RLF_KERNEL_PART float mass_along(const lane_sides *sides, const rlf_lane_point *p, bool has_b,
+                                 int32_t lane, lane_vec direction)
 {
     lane_vec turn = cross(at(&p->r_a, lane), direction);
-    double mobility = sides->mass_a[lane] + dot(turn, weighed(&sides->inertia_a, lane, turn));
+    float mobility = sides->mass_a[lane] + dot(turn, weighed(&sides->inertia_a, lane, turn));
     if (has_b) {
         turn = cross(at(&p->r_b, lane), direction);
         mobility += sides->mass_b[lane] + dot(turn, weighed(&sides->inertia_b, lane, turn));
     }
-    double mass = 1.0 / mobility;
-    return mobility > 0.0 ? mass : 0.0;
+    float mass = 1.0f / mobility;
+    return mobility > 0.0f ? mass : 0.0f;
 }
 
 RLF_KERNEL_PART void weigh(const rlf_lane_batch *batch, bool has_b)
@@ -207,55 +207,55 @@ RLF_KERNEL void rlf_kernel_lanes_push(const rlf_lane_batch *batch, rlf_lane_spee
 }
 
 RLF_KERNEL_PART void solve_normal(const lane_sides *sides, rlf_lane_point *p, bool has_b, bool push,
-                                  double settled, lane_speeds *s, double *excess)
+                                  float settled, lane_speeds *s, float *excess)
 {
     for (int32_t lane = 0; lane < RLF_LANES; lane++) {
         const lane_vec none = {0, 0, 0};
         lane_vec n = at(&p->normal, lane);
-        double before = p->impulse[0][lane], mass = p->mass[0][lane];
-        double ease = push ? p->ease[lane] : 0.0;
-        double speed = dot(n, relative(p, s, has_b, lane));
-        double change = (1.0 - ease) * mass * (p->target[push][lane] - speed) - ease * before;
-        double sum = before + change;
-        sum = sum > 0.0 ? sum : 0.0;
+        float before = p->impulse[0][lane], mass = p->mass[0][lane];
+        float ease = push ? p->ease[lane] : 0.0f;
+        float speed = dot(n, relative(p, s, has_b, lane));
+        float change = (1.0f - ease) * mass * (p->target[push][lane] - speed) - ease * before;
+        float sum = before + change;
+        sum = sum > 0.0f ? sum : 0.0f;
         change = sum - before;
         p->impulse[0][lane] = sum;
         push_by(sides, p, has_b, lane, mad(none, n, change), s);
-        double over = magnitude(change) - settled * mass;
+        float over = magnitude(change) - settled * mass;
         excess[lane] = excess[lane] > over ? excess[lane] : over;
     }
 }
 
 RLF_KERNEL_PART void solve_friction(const lane_sides *sides, rlf_lane_point *p, bool has_b,
-                                    double settled, lane_speeds *s, double *excess)
+                                    float settled, lane_speeds *s, float *excess)
 {
     for (int32_t lane = 0; lane < RLF_LANES; lane++) {
         const lane_vec none = {0, 0, 0};
         lane_vec n = at(&p->normal, lane), t0 = at(&p->tangent, lane), t1 = cross(n, t0);
         lane_vec v = relative(p, s, has_b, lane);
-        double before0 = p->impulse[1][lane], before1 = p->impulse[2][lane];
-        double j0 = before0 - p->mass[1][lane] * dot(t0, v);
-        double j1 = before1 - p->mass[2][lane] * dot(t1, v);
-        double limit = p->friction[lane] * p->impulse[0][lane];
-        double length2 = j0 * j0 + j1 * j1;
-        double scale = limit / sqrt(length2); /* Coulomb's cone */
-        scale = length2 > limit * limit ? scale : 1.0;
+        float before0 = p->impulse[1][lane], before1 = p->impulse[2][lane];
+        float j0 = before0 - p->mass[1][lane] * dot(t0, v);
+        float j1 = before1 - p->mass[2][lane] * dot(t1, v);
+        float limit = p->friction[lane] * p->impulse[0][lane];
+        float length2 = j0 * j0 + j1 * j1;
+        float scale = limit / sqrtf(length2); /* Coulomb's cone */
+        scale = length2 > limit * limit ? scale : 1.0f;
         j0 *= scale;
         j1 *= scale;
         p->impulse[1][lane] = j0;
         p->impulse[2][lane] = j1;
         push_by(sides, p, has_b, lane, mad(mad(none, t0, j0 - before0), t1, j1 - before1), s);
-        double over0 = magnitude(j0 - before0) - settled * p->mass[1][lane];
-        double over1 = magnitude(j1 - before1) - settled * p->mass[2][lane];
-        double over = over0 > over1 ? over0 : over1;
+        float over0 = magnitude(j0 - before0) - settled * p->mass[1][lane];
+        float over1 = magnitude(j1 - before1) - settled * p->mass[2][lane];
+        float over = over0 > over1 ? over0 : over1;
         excess[lane] = excess[lane] > over ? excess[lane] : over;
     }
 }
 
-RLF_KERNEL_PART void solve(const rlf_lane_batch *batch, bool has_b, bool push, double settled,
-                           rlf_lane_speed *speeds, double *excess)
+RLF_KERNEL_PART void solve(const rlf_lane_batch *batch, bool has_b, bool push, float settled,
+                           rlf_lane_speed *speeds, float *excess)
 {
-    double most[RLF_LANES] = {-1.0, -1.0, -1.0, -1.0};
+    float most[RLF_LANES] = {-1, -1, -1, -1, -1, -1, -1, -1};
     const lane_sides sides = sides_of(batch);
     lane_speeds s = load(batch, speeds);
     for (int32_t i = 0; i < batch->point_count; i++) {
@@ -271,7 +271,7 @@ RLF_KERNEL_PART void solve(const rlf_lane_batch *batch, bool has_b, bool push, d
 }
 
 RLF_KERNEL void rlf_kernel_lanes_solve(const rlf_lane_batch *batch, rlf_lane_speed *speeds,
-                                       bool push, double settled, double excess[RLF_LANES])
+                                       bool push, float settled, float excess[RLF_LANES])
 {
     if (batch->has_b && push) {
         solve(batch, true, true, settled, speeds, excess);

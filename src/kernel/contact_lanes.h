@@ -1,7 +1,7 @@
-/* Contacts of four groups at once: what the solver of physics does in its passes.
+/* Contacts of eight groups at once: what the solver of physics does in its passes.
  *
  * A group is what touches between two bodies, or between a body and a surface. The groups in the
- * lanes of a batch share no body that moves, so the lanes do not meet. Values are doubles in SI
+ * lanes of a batch share no body that moves, so the lanes do not meet. Values are floats in SI
  * units; every clone gives the same bits. */
 #ifndef RLF_KERNEL_CONTACT_LANES_H
 #define RLF_KERNEL_CONTACT_LANES_H
@@ -9,35 +9,36 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define RLF_LANES 4
+#define RLF_LANES 8
 
-/* Velocity of a body's centre, then its angular velocity; the world's axes. */
+/* Velocity of a body's centre, then its angular velocity; the world's axes. The last two are not
+ * used: so it is one load. */
 typedef struct rlf_lane_speed {
-    double of[6];
+    float of[8];
 } rlf_lane_speed;
 
 typedef struct rlf_lane_vec {
-    double x[RLF_LANES], y[RLF_LANES], z[RLF_LANES];
+    float x[RLF_LANES], y[RLF_LANES], z[RLF_LANES];
 } rlf_lane_vec;
 
 /* Symmetric matrices. */
 typedef struct rlf_lane_mat {
-    double xx[RLF_LANES], xy[RLF_LANES], xz[RLF_LANES];
-    double yy[RLF_LANES], yz[RLF_LANES], zz[RLF_LANES];
+    float xx[RLF_LANES], xy[RLF_LANES], xz[RLF_LANES];
+    float yy[RLF_LANES], yz[RLF_LANES], zz[RLF_LANES];
 } rlf_lane_mat;
 
 /* One touching point in each lane; all zero where a lane has none. */
 typedef struct rlf_lane_point {
-    rlf_lane_vec normal;         /* unit, from b or the surface to a */
-    rlf_lane_vec tangent;        /* unit; the second tangent is normal x tangent */
-    rlf_lane_vec r_a;            /* from a's centre to the point, m */
-    rlf_lane_vec r_b;            /* from b's centre; of a surface: its velocity there, m/s */
-    double mass[3][RLF_LANES];   /* effective, along the normal and the tangents, kg */
-    double target[2][RLF_LANES]; /* least speed along the normal, m/s: at rest, and with push */
-    double ease[RLF_LANES];      /* with push: 1 / (1 + a2) of a soft contact, 0 of a rigid one */
-    double friction[RLF_LANES];
-    double impulse[3]
-                  [RLF_LANES]; /* along the normal and the tangents, N s; kept from pass to pass */
+    rlf_lane_vec normal;        /* unit, from b or the surface to a */
+    rlf_lane_vec tangent;       /* unit; the second tangent is normal x tangent */
+    rlf_lane_vec r_a;           /* from a's centre to the point, m */
+    rlf_lane_vec r_b;           /* from b's centre; of a surface: its velocity there, m/s */
+    float mass[3][RLF_LANES];   /* effective, along the normal and the tangents, kg */
+    float target[2][RLF_LANES]; /* least speed along the normal, m/s: at rest, and with push */
+    float ease[RLF_LANES];      /* with push: 1 / (1 + a2) of a soft contact, 0 of a rigid one */
+    float friction[RLF_LANES];
+    float impulse[3]
+                 [RLF_LANES]; /* along the normal and the tangents, N s; kept from pass to pass */
 } rlf_lane_point;
 
 typedef struct rlf_lane_batch {
@@ -45,8 +46,8 @@ typedef struct rlf_lane_batch {
     int32_t point_count;
     bool has_b;                         /* false: the groups are of surfaces */
     int32_t a[RLF_LANES], b[RLF_LANES]; /* indices of speeds; any valid one in an empty lane */
-    double inverse_mass_a[RLF_LANES];   /* 1/kg; 0 of what does not move, and in an empty lane */
-    double inverse_mass_b[RLF_LANES];
+    float inverse_mass_a[RLF_LANES];    /* 1/kg; 0 of what does not move, and in an empty lane */
+    float inverse_mass_b[RLF_LANES];
     rlf_lane_mat inverse_inertia_a; /* world; 0 likewise */
     rlf_lane_mat inverse_inertia_b;
 } rlf_lane_batch;
@@ -61,6 +62,6 @@ void rlf_kernel_lanes_push(const rlf_lane_batch *batch, rlf_lane_speed *speeds);
  * `push` the second target counts. excess[lane] is positive where an impulse changed a point's
  * speed by more than `settled`, m/s. */
 void rlf_kernel_lanes_solve(const rlf_lane_batch *batch, rlf_lane_speed *speeds, bool push,
-                            double settled, double excess[RLF_LANES]);
+                            float settled, float excess[RLF_LANES]);
 
 #endif

@@ -1,7 +1,7 @@
 /* Batches: groups of contacts that share no body that moves, side by side in the solver's lanes.
  *
  * Pairs are coloured greedily in their order (each takes the first colour that neither of its
- * bodies has), then a colour's groups fill batches of four, those with many points first, so that
+ * bodies has), then a colour's groups fill batches of eight, those with many points first, so that
  * few lanes are empty. The real surface comes last: nothing gives way less. */
 #include "physics/solver.h"
 
@@ -93,19 +93,19 @@ static void sort_groups(rlf_world *world, const phys_island *island, const phys_
 
 static void set_vec(rlf_lane_vec *of, int32_t lane, rlf_vec3 v)
 {
-    of->x[lane] = v.x;
-    of->y[lane] = v.y;
-    of->z[lane] = v.z;
+    of->x[lane] = (float)v.x;
+    of->y[lane] = (float)v.y;
+    of->z[lane] = (float)v.z;
 }
 
 static void set_targets(rlf_lane_point *p, int32_t lane, const phys_point *c, double slop, double h)
 {
     if (c->separation > 0.0) { /* may close the gap, not more */
-        p->target[0][lane] = p->target[1][lane] = -c->separation / h;
+        p->target[0][lane] = p->target[1][lane] = (float)(-c->separation / h);
     } else if (!c->is_impacted) {
         double overlap = rlf_min(c->separation + slop, 0.0);
-        p->target[1][lane] = rlf_min(-SOFT_OMEGA_H / SOFT_A1 / h * overlap, PUSH_SPEED_MAX);
-        p->ease[lane] = 1.0 / (1.0 + SOFT_A2);
+        p->target[1][lane] = (float)rlf_min(-SOFT_OMEGA_H / SOFT_A1 / h * overlap, PUSH_SPEED_MAX);
+        p->ease[lane] = (float)(1.0 / (1.0 + SOFT_A2));
     }
 }
 
@@ -122,26 +122,26 @@ static void add_points(phys_batch *batch, const phys_group *g, int32_t lane, dou
         set_vec(&p->r_a, lane, near->r_a);
         set_vec(&p->r_b, lane, near->r_b);
         set_targets(p, lane, near, slop, h);
-        p->friction[lane] = near->friction;
+        p->friction[lane] = (float)near->friction;
         for (int32_t row = 0; row < 3 && impulses[0] > 0.0; row++) {
-            p->impulse[row][lane] = impulses[row];
+            p->impulse[row][lane] = (float)impulses[row];
         }
     }
 }
 
-static double set_inertia(rlf_lane_mat *inertia, int32_t lane, const phys_body *body)
+static float set_inertia(rlf_lane_mat *inertia, int32_t lane, const phys_body *body)
 {
     if (!phys_body_is_moving(body)) {
-        return 0.0;
+        return 0.0f;
     }
     const rlf_mat3 *m = &body->inverse_inertia_world;
-    inertia->xx[lane] = m->m[0][0];
-    inertia->xy[lane] = m->m[0][1];
-    inertia->xz[lane] = m->m[0][2];
-    inertia->yy[lane] = m->m[1][1];
-    inertia->yz[lane] = m->m[1][2];
-    inertia->zz[lane] = m->m[2][2];
-    return body->inverse_mass;
+    inertia->xx[lane] = (float)m->m[0][0];
+    inertia->xy[lane] = (float)m->m[0][1];
+    inertia->xz[lane] = (float)m->m[0][2];
+    inertia->yy[lane] = (float)m->m[1][1];
+    inertia->yz[lane] = (float)m->m[1][2];
+    inertia->zz[lane] = (float)m->m[2][2];
+    return (float)body->inverse_mass;
 }
 
 static void add_group(const rlf_world *world, phys_batch *batch, const phys_group *g, double h)
@@ -212,7 +212,7 @@ void phys_batch_finish(const phys_batch *batch)
         for (int32_t i = 0; i < g->point_count; i++) {
             phys_contact *c = g->points[i].contact;
             for (int32_t row = 0; row < 3; row++) {
-                c->impulses[row] = batch->lanes.points[i].impulse[row][lane];
+                c->impulses[row] = (double)batch->lanes.points[i].impulse[row][lane];
             }
             c->impulse_sum += c->impulses[0];
         }

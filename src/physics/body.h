@@ -49,6 +49,9 @@ typedef struct phys_body {
 
     int32_t surface_age, surface_period; /* substeps since, and between, surface queries */
     double surface_time;                 /* world time of the last one, s */
+    rlf_vec3 surface_x;                  /* where it was then */
+    double surface_clear;                /* m that it may move from there before it touches; 0: it
+                                            may touch, or it is not known */
     rlf_vec3 surface_v, surface_w;       /* v and w then */
     rlf_vec3 surface_flow;               /* velocity of the foreground near it, grid frame */
     uint8_t home[2]; /* field_state: which side of foreground and background it belongs to */
@@ -76,6 +79,20 @@ static inline void phys_body_orient(phys_body *body)
     rlf_mat3 half = rlf_mat3_mul(&body->R, &body->inverse_inertia);
     rlf_mat3 transposed = rlf_mat3_transpose(&body->R);
     body->inverse_inertia_world = rlf_mat3_mul(&half, &transposed);
+}
+
+/* Its contacts with the surface are to be searched in the next substep. */
+static inline void phys_body_ask_surface(phys_body *body)
+{
+    body->surface_clear = 0.0;
+    body->surface_age = body->surface_period;
+}
+
+/* Nothing of the surface is where it is now, however it turns. */
+static inline bool phys_body_is_clear(const phys_body *body)
+{
+    rlf_vec3 moved = rlf_sub(body->x, body->surface_x);
+    return rlf_dot(moved, moved) < body->surface_clear * body->surface_clear;
 }
 
 /* The solver moves it. */

@@ -3,7 +3,7 @@
 #include "physics/solver.h"
 
 /* Changes of a contact's speed below this ask for no further pass, m/s. */
-#define SETTLED 5e-4
+#define SETTLED 5e-5f
 /* Contacts that are farther than their bodies can come, even when something makes them so much
  * faster, wait for the next substep: a factor, and m/s. */
 #define FAR_FACTOR 2.0
@@ -118,9 +118,9 @@ static rlf_vec3 spin_of(const rlf_lane_speed *speed)
 static void turn_body(const phys_body *body, rlf_lane_speed *speed, rlf_vec3 impulse)
 {
     rlf_vec3 change = rlf_mat3_mul_vec(&body->inverse_inertia_world, impulse);
-    speed->of[3] += change.x;
-    speed->of[4] += change.y;
-    speed->of[5] += change.z;
+    speed->of[3] += (float)change.x;
+    speed->of[4] += (float)change.y;
+    speed->of[5] += (float)change.z;
 }
 
 /* What does not move is not written: others may be reading it. */
@@ -128,10 +128,10 @@ static void turn_sides(rlf_world *world, const phys_batch *batch, int32_t lane, 
 {
     const phys_group *g = batch->groups[lane];
     const rlf_lane_batch *lanes = &batch->lanes;
-    if (lanes->inverse_mass_a[lane] > 0.0) {
+    if (lanes->inverse_mass_a[lane] > 0.0f) {
         turn_body(g->a, &world->speeds[lanes->a[lane]], impulse);
     }
-    if (g->b != NULL && lanes->inverse_mass_b[lane] > 0.0) {
+    if (g->b != NULL && lanes->inverse_mass_b[lane] > 0.0f) {
         turn_body(g->b, &world->speeds[lanes->b[lane]], rlf_neg(impulse));
     }
 }
@@ -152,10 +152,10 @@ static rlf_mat3 turning_mobility(const phys_batch *batch, int32_t lane)
     const phys_group *g = batch->groups[lane];
     rlf_mat3 sum = rlf_mat3_diagonal(0, 0, 0);
     for (int32_t i = 0; i < 9; i++) {
-        if (batch->lanes.inverse_mass_a[lane] > 0.0) {
+        if (batch->lanes.inverse_mass_a[lane] > 0.0f) {
             sum.m[i / 3][i % 3] += g->a->inverse_inertia_world.m[i / 3][i % 3];
         }
-        if (g->b != NULL && batch->lanes.inverse_mass_b[lane] > 0.0) {
+        if (g->b != NULL && batch->lanes.inverse_mass_b[lane] > 0.0f) {
             sum.m[i / 3][i % 3] += g->b->inverse_inertia_world.m[i / 3][i % 3];
         }
     }
@@ -175,7 +175,7 @@ static bool solve_rolling(rlf_world *world, const phys_batch *batch, int32_t lan
         w = rlf_sub(w, spin_of(&world->speeds[batch->lanes.b[lane]]));
     }
     for (int32_t i = 0; i < batch->lanes.point_count; i++) {
-        pressing += batch->lanes.points[i].impulse[0][lane];
+        pressing += (double)batch->lanes.points[i].impulse[0][lane];
     }
     rlf_mat3 mobility = turning_mobility(batch, lane), mass;
     rlf_vec3 before = g->stance->rolling;
@@ -194,18 +194,18 @@ static bool is_busy_in(const rlf_world *world, const rlf_lane_batch *lanes, int3
 {
     bool is_busy = false;
     for (int32_t lane = 0; lane < RLF_LANES; lane++) {
-        is_busy |= lanes->inverse_mass_a[lane] > 0.0 && world->busy_pass[lanes->a[lane]] >= pass;
-        is_busy |= lanes->inverse_mass_b[lane] > 0.0 && world->busy_pass[lanes->b[lane]] >= pass;
+        is_busy |= lanes->inverse_mass_a[lane] > 0.0f && world->busy_pass[lanes->a[lane]] >= pass;
+        is_busy |= lanes->inverse_mass_b[lane] > 0.0f && world->busy_pass[lanes->b[lane]] >= pass;
     }
     return is_busy;
 }
 
 static void set_busy(rlf_world *world, const rlf_lane_batch *lanes, int32_t lane, int32_t pass)
 {
-    if (lanes->inverse_mass_a[lane] > 0.0) {
+    if (lanes->inverse_mass_a[lane] > 0.0f) {
         world->busy_pass[lanes->a[lane]] = pass;
     }
-    if (lanes->inverse_mass_b[lane] > 0.0) {
+    if (lanes->inverse_mass_b[lane] > 0.0f) {
         world->busy_pass[lanes->b[lane]] = pass;
     }
 }
@@ -213,11 +213,11 @@ static void set_busy(rlf_world *world, const rlf_lane_batch *lanes, int32_t lane
 /* Returns whether an impulse changed by more than rounding: the next pass looks there again. */
 static bool solve_batch(rlf_world *world, const phys_batch *batch, bool push, int32_t pass)
 {
-    double excess[RLF_LANES];
+    float excess[RLF_LANES];
     bool is_any = false;
     rlf_kernel_lanes_solve(&batch->lanes, world->speeds, push, SETTLED, excess);
     for (int32_t lane = 0; lane < batch->count; lane++) {
-        bool is_busy = excess[lane] > 0.0;
+        bool is_busy = excess[lane] > 0.0f;
         if (batch->resists_rolling) {
             is_busy |= solve_rolling(world, batch, lane);
         }

@@ -9,7 +9,7 @@ typedef struct memory_plan {
     size_t count, size;
 } memory_plan;
 
-#define PLANS_MAX 40
+#define PLANS_MAX 48
 #define PLAN(field, number)                                                                        \
     {                                                                                              \
         &w->field, (number), sizeof(*w->field)                                                     \
@@ -46,6 +46,7 @@ static int32_t plan_memory(rlf_world *w, memory_plan plans[PLANS_MAX])
         PLAN(batch_order, bodies + pairs),
         PLAN(colours, bodies),
         PLAN(speeds, bodies),
+        PLAN(old_speeds, bodies),
         PLAN(busy_pass, bodies),
         PLAN(event_times, bodies + pairs),
         PLAN(event_counts, bodies + pairs),

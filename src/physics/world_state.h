@@ -49,6 +49,7 @@ typedef struct phys_proxy {
     rlf_vec3 centre, half;
     int64_t cell;
     bool is_idle, is_fixed;
+    bool is_real, meets_bodies; /* see phys_body */
 } phys_proxy;
 
 /* Bodies that touch each other, directly or through others, and some more of the kind until there
@@ -99,6 +100,7 @@ struct rlf_world {
     int32_t *batch_keys, *batch_order; /* of an island's groups */
     uint64_t *colours;                 /* per body: those of its pairs, as bits */
     rlf_lane_speed *speeds;            /* per body: its velocities while they are solved for */
+    rlf_lane_speed *old_speeds;        /* ... and before */
     int32_t *busy_pass;                /* per body: the pass in which it is to be solved again */
 
     double *event_times;   /* see impact.c; of the groups, island by island */
