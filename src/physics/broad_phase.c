@@ -12,10 +12,10 @@ static bool collides(const rlf_world *world, const phys_body *body)
     return body->is_alive && (body->collides_with_bodies || world->snapshot.known_count > 0);
 }
 
-static bool may_meet(const phys_body *a, const phys_body *b)
+static bool may_meet(const phys_proxy *a, const phys_proxy *b)
 {
-    return (a->collides_with_bodies || (!a->is_real && b->is_real)) &&
-           (b->collides_with_bodies || (!b->is_real && a->is_real));
+    return !(a->is_fixed && b->is_fixed) && (a->meets_bodies || (!a->is_real && b->is_real)) &&
+           (b->meets_bodies || (!b->is_real && a->is_real));
 }
 
 /* Half the size of the box about a body on its way. */
@@ -55,6 +55,8 @@ static double measure(rlf_world *world, double horizon)
             proxy->half = half_of(body, horizon);
             proxy->is_idle = phys_body_is_idle(body);
             proxy->is_fixed = phys_body_is_fixed(body);
+            proxy->is_real = body->is_real;
+            proxy->meets_bodies = body->collides_with_bodies;
             double size = longest(proxy->half);
             proxy->cell = 0;
             sum += size;
@@ -132,25 +134,38 @@ static void test(rlf_world *world, int32_t i, int32_t k)
     const phys_proxy *a = &world->proxies[i], *b = &world->proxies[k];
     rlf_vec3 d = rlf_sub(a->centre, b->centre), half = rlf_add(a->half, b->half);
     if (d.x <= half.x && d.x >= -half.x && d.y <= half.y && d.y >= -half.y && d.z <= half.z &&
-        d.z >= -half.z && !(a->is_fixed && b->is_fixed) &&
-        may_meet(&world->bodies[i], &world->bodies[k])) {
+        d.z >= -half.z && may_meet(a, b)) {
         add_near(world, i, k);
     }
 }
 
-/* Body i, which moves, against those of its own and the 26 cells around. */
+static void ask_cell(rlf_world *world, int32_t i, int64_t key)
+{
+    int32_t bucket = bucket_of(world, key);
+    int32_t end = world->buckets[bucket + 2];
+    for (int32_t p = world->buckets[bucket + 1]; p < end; p++) {
+        int32_t k = world->bucket_items[p];
+        if (world->proxies[k].cell == key && k != i && (k > i || world->proxies[k].is_idle)) {
+            test(world, i, k);
+        }
+    }
+}
+
+/* Body i, which moves, against those of the cells in which the centre of one that is no larger than
+ * a cell can be: two or three of them along each axis. */
 static void ask_cells(rlf_world *world, int32_t i, double cell)
 {
-    rlf_vec3 x = world->proxies[i].centre;
-    int32_t at[3] = {cell_index(x.x, cell), cell_index(x.y, cell), cell_index(x.z, cell)};
-    for (int32_t n = 0; n < 27; n++) {
-        int64_t key = cell_at(at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1);
-        int32_t bucket = bucket_of(world, key);
-        int32_t end = world->buckets[bucket + 2];
-        for (int32_t p = world->buckets[bucket + 1]; p < end; p++) {
-            int32_t k = world->bucket_items[p];
-            if (world->proxies[k].cell == key && k != i && (k > i || world->proxies[k].is_idle)) {
-                test(world, i, k);
+    const phys_proxy *proxy = &world->proxies[i];
+    rlf_vec3 x = proxy->centre;
+    rlf_vec3 way = rlf_add(proxy->half, rlf_vec3_make(0.5 * cell, 0.5 * cell, 0.5 * cell));
+    int32_t low[3] = {cell_index(x.x - way.x, cell), cell_index(x.y - way.y, cell),
+                      cell_index(x.z - way.z, cell)};
+    int32_t high[3] = {cell_index(x.x + way.x, cell), cell_index(x.y + way.y, cell),
+                       cell_index(x.z + way.z, cell)};
+    for (int32_t u = low[0]; u <= high[0]; u++) {
+        for (int32_t v = low[1]; v <= high[1]; v++) {
+            for (int32_t w = low[2]; w <= high[2]; w++) {
+                ask_cell(world, i, cell_at(u, v, w));
             }
         }
     }

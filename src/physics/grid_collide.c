@@ -9,6 +9,10 @@
  * one that lies on something does not fall. */
 #define PERIOD_MAX 4.0
 #define PERIOD_AT_REST 8.0
+/* A surface that moves may come so much nearer until the next query, metres. */
+#define SLIP 0.05
+/* m of free way beyond that to the next query, looked for so that a blow does not ask for one. */
+#define FREE_WAY 0.02
 
 static void set_up(grid_job *job, const grid_query *query, const phys_body *body)
 {
@@ -120,6 +124,8 @@ static void add_bumps(grid_job *job)
 static void clear(grid_job *job)
 {
     job->surface_velocity = rlf_vec3_make(0, 0, 0);
+    job->nearest2 = job->reach * job->reach;
+    job->stride = 0;
     job->is_near = job->is_flat = false;
     job->flat_count = 0;
     job->normal_count = 0;
@@ -132,7 +138,7 @@ static void clear(grid_job *job)
  * the body's contacts were last asked for: frames were lost, or it is fast. */
 static bool is_swept(const grid_job *job, const field_cell *cell, rlf_vec3 seen)
 {
-    double since = job->query->time - job->body->surface_time + job->query->lag;
+    double since = job->query->time - job->asked_before + job->query->lag;
     double height = rlf_dot(cell->normal, rlf_sub(seen, cell->point));
     return height + rlf_dot(cell->normal, cell->velocity) * since > 0.0;
 }
@@ -220,7 +226,9 @@ static void collide_shell(grid_job *job)
     for (int32_t i = 0; shell != NULL && i < shell->count; i++) {
         const shell_plane *plane = &shell->planes[i];
         const phys_shape *shape = &job->body->shape;
-        if (rlf_dot(plane->normal, job->centre) - plane->offset > job->reach) {
+        double height = rlf_dot(plane->normal, job->centre) - plane->offset;
+        job->nearest2 = rlf_min(job->nearest2, rlf_max(height, 0.0) * rlf_max(height, 0.0));
+        if (height > job->reach) {
             continue;
         }
         drop_backs(job, plane);
@@ -249,8 +257,14 @@ static int32_t query_period(const phys_body *body, double step, double most)
 static double reach_of(const grid_query *query, const phys_body *body, int32_t period)
 {
     double speed = rlf_length(body->v) + 0.5 * rlf_length(body->w) * body->shape.radius;
-    double slip = query->grid->foreground.velocity_x != NULL ? 0.05 : 0.0;
+    double slip = query->grid->foreground.velocity_x != NULL ? SLIP : 0.0;
     return body->shape.radius + GRID_MARGIN + speed * (period + 1) * query->step + slip;
+}
+
+/* Where nothing is within this, nothing is asked for again until the most substeps are over. */
+static double wide_reach_of(const grid_query *query, const phys_body *body)
+{
+    return reach_of(query, body, (int32_t)PERIOD_MAX) + FREE_WAY;
 }
 
 static void set_period(grid_job *job, phys_body *body, double most)
@@ -260,16 +274,69 @@ static void set_period(grid_job *job, phys_body *body, double most)
     job->reach = reach_of(job->query, body, body->surface_period);
 }
 
+/* Whether nothing is within `reach`, wherever the camera looks. */
+static bool is_clear(const grid_job *job, double reach)
+{
+    const grid_shell *shell = job->query->shell;
+    for (int32_t i = 0; shell != NULL && i < shell->count; i++) {
+        const shell_plane *plane = &shell->planes[i];
+        if (rlf_dot(plane->normal, job->centre) - plane->offset <= reach) {
+            return false;
+        }
+    }
+    return grid_scan_is_clear(job, job->query->foreground, reach) &&
+           grid_scan_is_clear(job, job->query->background, reach);
+}
+
+/* How far the body may go before it comes to what the last scan saw. */
+static double clearance_of(const grid_job *job)
+{
+    double slip = job->sheet->velocity_x != NULL ? SLIP : 0.0;
+    double gaps = job->stride * job->centre.z * job->query->grid->pixel_angle;
+    double beside = job->body->shape.radius + GRID_MARGIN + slip + gaps;
+    return rlf_max(0.0, sqrt(job->nearest2) - beside);
+}
+
 bool grid_collide_prepare(const grid_query *query, const phys_body *body)
 {
     int32_t rect[4], stride;
     double reach = reach_of(query, body, query_period(body, query->step, PERIOD_AT_REST));
+    reach = rlf_max(reach, wide_reach_of(query, body));
     rlf_vec3 centre = rlf_transform(&query->T_grid_world, body->x);
     if (!grid_footprint(query->grid, centre, reach, rect, &stride)) {
         return false;
     }
     grid_tiles_make(query->background, query->grid, rect);
     return grid_tiles_make(query->foreground, query->grid, rect);
+}
+
+static void start_contacts(const grid_query *query, phys_body *body)
+{
+    body->stance.is_set = false;
+    body->is_restless = false;
+    body->surface_count = 0;
+    body->surface_flow = rlf_vec3_make(0, 0, 0);
+    body->surface_age = 0;
+    body->surface_time = query->time;
+    body->surface_x = body->x;
+}
+
+/* Both sheets, the nearer first. */
+static void collide_sheets(grid_job *job, phys_body *body, int32_t body_index)
+{
+    const grid_query *query = job->query;
+    set_period(job, body, PERIOD_MAX);
+    collide_sheet(job, query->foreground, &body->home[0]);
+    body->surface_flow = job->surface_velocity;
+    body->surface_clear = clearance_of(job);
+    grid_reduce(job, body, body_index, RLF_CONTACT_FOREGROUND);
+    if (!job->is_near && body->is_pressed) {
+        set_period(job, body, PERIOD_AT_REST);
+    }
+    collide_sheet(job, query->background, &body->home[1]);
+    collide_shell(job);
+    body->surface_clear = rlf_min(body->surface_clear, clearance_of(job));
+    grid_reduce(job, body, body_index, RLF_CONTACT_BACKGROUND);
 }
 
 void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
@@ -279,25 +346,21 @@ void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
     for (int32_t i = 0; i < old_count; i++) {
         old[i] = phys_trace_of(&body->surface[i]);
     }
-    body->stance.is_set = false;
-    body->is_restless = false;
-    body->surface_count = 0;
-    body->surface_flow = rlf_vec3_make(0, 0, 0);
-    body->surface_age = 0;
+    double swept_from = body->surface_time;
+    start_contacts(query, body);
     grid_job job;
     set_up(&job, query, body);
-    set_period(&job, body, PERIOD_MAX);
-    collide_sheet(&job, query->foreground, &body->home[0]);
-    body->surface_flow = job.surface_velocity;
-    grid_reduce(&job, body, body_index, RLF_CONTACT_FOREGROUND);
-    if (!job.is_near && body->is_pressed) {
-        set_period(&job, body, PERIOD_AT_REST);
+    double wide = wide_reach_of(query, body);
+    if (is_clear(&job, wide)) {
+        body->home[0] = body->home[1] = FIELD_NONE;
+        body->surface_period = (int32_t)PERIOD_MAX;
+        body->surface_clear = wide - body->shape.radius - GRID_MARGIN - SLIP;
+        return;
     }
-    collide_sheet(&job, query->background, &body->home[1]);
-    collide_shell(&job);
-    grid_reduce(&job, body, body_index, RLF_CONTACT_BACKGROUND);
+    job.asked_before = swept_from;
+    collide_sheets(&job, body, body_index);
+    body->surface_clear = body->surface_count > 0 ? 0.0 : body->surface_clear;
     grid_keep_impulses(body, old, old_count);
-    body->surface_time = query->time;
 }
 
 void grid_guard_centre(const grid_query *query, phys_body *body, rlf_vec3 before)

@@ -11,6 +11,8 @@
 #define BRIDGE_PX 2
 /* A point this far before what is seen on its ray is in free space: noise and slanted pixels, m. */
 #define SEEN_BEHIND 0.03
+/* Farther behind a back it matters to nobody how far, metres. */
+#define FAR_BEHIND 0.05
 
 bool grid_cell_read(const rlf_grid *grid, const rlf_grid_sheet *sheet, int32_t x, int32_t y,
                     field_cell *out)
@@ -139,6 +141,9 @@ field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf
     out->back = front + out->thickness;
     if (q.z < front) {
         return FIELD_FRONT;
+    }
+    if (q.z > out->back + FAR_BEHIND) {
+        return FIELD_BEHIND; /* whatever its width */
     }
     if (is_guess(sheet, out)) {
         /* How thick it is was never seen: no thicker than it is wide (a table's leg). */

@@ -79,6 +79,19 @@ static void look_at_interior(grid_job *job, const field_cell *cell, rlf_vec3 p)
     note_bump(job, &hit);
 }
 
+/* A neighbour that is neither missing from the mask nor farther is over no step; see
+ * grid_edge_end. */
+static bool may_end(const grid_job *job, double z, int32_t x, int32_t y)
+{
+    const rlf_grid *grid = job->query->grid;
+    const rlf_grid_sheet *sheet = job->sheet;
+    if (x < 0 || y < 0 || x >= grid->width || y >= grid->height) {
+        return false;
+    }
+    int32_t i = y * grid->width + x;
+    return (sheet->mask != NULL && sheet->mask[i] == 0) || (double)sheet->depth[i] > z;
+}
+
 /* How far the side wall at this pixel goes inward, metres of thickness, or 0 when it is no outline.
  * Where the solid is a guess it ends where the camera sees through it. */
 static double wall_depth(const grid_job *job, const field_cell *cell, int32_t stride)
@@ -91,7 +104,9 @@ static double wall_depth(const grid_job *job, const field_cell *cell, int32_t st
     for (int32_t k = 0; k < 4; k++) {
         int32_t x = cell->x + OFFSETS[k][0] * stride;
         int32_t y = cell->y + OFFSETS[k][1] * stride;
-        end = rlf_max(end, grid_edge_end(grid, sheet, cell, x, y));
+        if (may_end(job, cell->point.z, x, y)) {
+            end = rlf_max(end, grid_edge_end(grid, sheet, cell, x, y));
+        }
     }
     double deep = rlf_max(0.0, end - cell->point.z);
     if (!(deep > 0.0) || sheet->thickness != NULL || cell->thickness >= FIELD_ENDLESS) {
@@ -235,7 +250,9 @@ static void look_at_pixel(grid_job *job, int32_t x, int32_t y, int32_t stride, f
     double level = rlf_dot(rlf_sub(job->centre, beside), inward) / rlf_dot(inward, inward);
     beside = rlf_mad(beside, inward, rlf_clamp(level, 0.0, cell.thickness));
     beside = rlf_sub(beside, job->centre);
-    if (rlf_dot(beside, beside) < job->reach * job->reach) {
+    double distance2 = rlf_dot(beside, beside);
+    if (distance2 < job->reach * job->reach) {
+        job->nearest2 = rlf_min(job->nearest2, distance2);
         flow->velocity = rlf_add(flow->velocity, cell.velocity);
         flow->count += 1.0;
         look_at_interior(job, &cell, rlf_add(cell.point, shift));
@@ -260,6 +277,7 @@ static void look_at_flat(grid_job *job, const grid_tile *tile, flow_sum *flow)
         return;
     }
     job->is_near = true;
+    job->nearest2 = height > 0.0 ? rlf_min(job->nearest2, height * height) : 0.0;
     if (job->is_ball) {
         grid_ball_look_tile(job, tile);
     }
@@ -293,23 +311,33 @@ static void look_at_rough(grid_job *job, const int32_t rect[4], int32_t stride,
     }
 }
 
-/* Whether the solid behind a rough tile that stands still is out of reach. */
-static bool is_out_of_reach(const grid_job *job, const grid_tile *tile)
+/* Whether the solid of a tile is farther than `reach` from the body's centre. */
+static bool is_out_of_reach(const grid_job *job, const grid_tile *tile, double reach)
 {
-    const rlf_grid_sheet *sheet = job->sheet;
-    if (sheet->velocity_x != NULL || sheet->thickness != NULL ||
-        !(sheet->default_thickness > 0.0)) {
-        return false; /* its pixels have to be asked one by one */
+    if (tile->is_endless) {
+        return tile->near_z > job->centre.z + reach;
     }
-    double deep = sheet->default_thickness;
-    double scale = (tile->near_z + deep) / tile->near_z;
-    rlf_vec3 wide = rlf_vec3_make(deep, deep, deep);
-    rlf_aabb box = tile->box;
-    rlf_aabb_extend(&box, rlf_scale(tile->box.min, scale));
-    rlf_aabb_extend(&box, rlf_scale(tile->box.max, scale));
-    rlf_aabb_extend(&box, rlf_sub(tile->box.min, wide));
-    rlf_aabb_extend(&box, rlf_add(tile->box.max, wide));
-    return rlf_aabb_distance2(&box, job->centre) > job->reach * job->reach;
+    double tau = job->query->tau < 0.0 ? -job->query->tau : job->query->tau;
+    double wide = reach + tile->speed * tau;
+    return rlf_aabb_distance2(&tile->solid, job->centre) > wide * wide;
+}
+
+bool grid_scan_is_clear(const grid_job *job, const grid_tiles *tiles, double reach)
+{
+    int32_t rect[4], stride;
+    if (tiles->sheet->depth == NULL || tiles->sheet->normal_x == NULL ||
+        !grid_footprint(job->query->grid, job->centre, reach, rect, &stride)) {
+        return true;
+    }
+    for (int32_t y = rect[1] / tiles->size; y * tiles->size < rect[3]; y++) {
+        for (int32_t x = rect[0] / tiles->size; x * tiles->size < rect[2]; x++) {
+            const grid_tile *tile = &tiles->tiles[y * tiles->columns + x];
+            if (tile->kind != TILE_EMPTY && !is_out_of_reach(job, tile, reach)) {
+                return false;
+            }
+        }
+    }
+    return true;
 }
 
 void grid_scan_footprint(grid_job *job)
@@ -331,7 +359,7 @@ void grid_scan_footprint(grid_job *job)
             }
             if (tile->kind == TILE_FLAT) {
                 look_at_flat(job, tile, &flow);
-            } else if (!is_out_of_reach(job, tile)) {
+            } else if (!is_out_of_reach(job, tile, job->reach)) {
                 look_at_rough(job, rect, stride, corner, &flow);
             }
         }

@@ -41,10 +41,12 @@ typedef struct grid_job {
     field_state home;      /* side of the sheet that the body belongs to */
     rlf_vec3 centre, v, w; /* of the body */
     rlf_mat3 R_grid_body, R_body_grid;
-    double horizon; /* s until the next query */
-    double reach;   /* m from the centre within which anything can matter until then */
-    bool is_near;   /* some of the sheet's solid is within reach */
-    bool is_flat;   /* ... and all of that is in the tiles `flats` */
+    double asked_before; /* time of the query before this one, s */
+    double horizon;      /* s until the next query */
+    double reach;        /* m from the centre within which anything can matter until then */
+    double nearest2; /* square of the least distance of what is within reach to the centre, m^2 */
+    bool is_near;    /* some of the sheet's solid is within reach */
+    bool is_flat;    /* ... and all of that is in the tiles `flats` */
     const grid_tile *flats[GRID_FLATS_MAX];
     int32_t flat_count;
     rlf_vec3 surface_velocity;          /* mean under the footprint */
@@ -73,8 +75,12 @@ bool grid_footprint(const rlf_grid *grid, rlf_vec3 centre, double reach, int32_t
  * `normal` brought into them. */
 rlf_vec3 grid_wall_normal(rlf_vec3 inward, rlf_vec3 side, rlf_vec3 normal, int32_t edge);
 
-/* Fills is_near, is_flat, flats, surface_velocity, normals, bumps, and hits with the outline's
- * points. */
+/* Fills nearest2, is_near, is_flat, flats, surface_velocity, normals, bumps, and hits with the
+ * outline's points. */
 void grid_scan_footprint(grid_job *job);
+
+/* Whether nothing of the sheet is within `reach` of the body's centre, by its tiles alone: false
+ * when that is not sure. */
+bool grid_scan_is_clear(const grid_job *job, const grid_tiles *tiles, double reach);
 
 #endif

@@ -58,6 +58,29 @@ static void measure(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet 
     tile->box.max = rlf_vec3_make(high[0], high[1], high[2]);
 }
 
+/* The box about the solid behind the pixels, whichever way it goes, and their highest speed. */
+static void bound(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet *sheet,
+                  const int32_t rect[4])
+{
+    tile->is_endless = false;
+    tile->speed = 0.0;
+    tile->solid = tile->box;
+    for (int32_t y = rect[1]; y < rect[3]; y++) {
+        for (int32_t x = rect[0]; x < rect[2]; x++) {
+            field_cell cell;
+            if (grid_cell_read(grid, sheet, x, y, &cell)) {
+                double along = cell.thickness / cell.point.z;
+                rlf_vec3 inward = grid_cell_inward(sheet, &cell);
+                rlf_aabb_extend(&tile->solid, rlf_mad(cell.point, cell.point, along));
+                rlf_aabb_extend(&tile->solid, rlf_mad(cell.point, inward, cell.thickness));
+                tile->is_endless = tile->is_endless || cell.thickness >= FIELD_ENDLESS;
+                tile->speed = rlf_max(tile->speed, rlf_dot(cell.velocity, cell.velocity));
+            }
+        }
+    }
+    tile->speed = sqrt(tile->speed);
+}
+
 static bool is_masked_out(const rlf_grid *grid, const uint8_t *mask, const int32_t rect[4])
 {
     uint8_t any = 0;
@@ -136,6 +159,7 @@ static void make_tile(grid_tile *tile, const grid_tiles *tiles, const rlf_grid *
     tile->count = 0;
     if (mask == NULL || !is_masked_out(grid, mask, own)) {
         measure(tile, grid, tiles->sheet, own);
+        bound(tile, grid, tiles->sheet, own);
     }
     if (tile->count == 0) {
         tile->kind = TILE_EMPTY;

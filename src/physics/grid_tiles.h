@@ -19,6 +19,9 @@ typedef struct grid_tile {
     tile_kind kind;
     int32_t count;   /* its pixels that have a surface */
     double near_z;   /* least depth, metres */
+    double speed;    /* no pixel is faster, m/s */
+    bool is_endless; /* its solid never ends ... */
+    rlf_aabb solid;  /* ... or the box about that */
     rlf_aabb box;    /* about its points at the time when they were seen */
     rlf_vec3 normal; /* of a flat one: normal.p = offset */
     double offset;

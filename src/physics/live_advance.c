@@ -85,10 +85,22 @@ typedef struct surface_job {
     const grid_query *query;
 } surface_job;
 
-static bool is_due(const phys_body *body)
+/* Whether the body may come to the surface in this substep, or soon after a blow in it. */
+static bool is_coming(const phys_body *body, double h)
 {
-    return phys_body_is_moving(body) &&
-           (body->is_restless || body->surface_age >= body->surface_period);
+    const double BLOW = 2.0; /* m/s */
+    double moved = rlf_length(rlf_sub(body->x, body->surface_x));
+    return moved + (2.0 * rlf_length(body->v) + BLOW) * h > body->surface_clear;
+}
+
+static bool is_due(const phys_body *body, double h)
+{
+    if (!phys_body_is_moving(body)) {
+        return false;
+    }
+    bool is_clear = body->surface_clear > 0.0 && !is_coming(body, h);
+    return body->surface_age >= (is_clear ? PHYS_PERIOD_MAX : body->surface_period) ||
+           (body->is_restless && !is_clear);
 }
 
 static void collide_range(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -97,7 +109,7 @@ static void collide_range(void *context, int32_t begin, int32_t end, int32_t wor
     (void)worker;
     for (int32_t i = begin; i < end; i++) {
         phys_body *body = &job->world->bodies[i];
-        if (is_due(body)) {
+        if (is_due(body, job->query->step)) {
             grid_collide(job->query, body, i);
             body->surface_v = body->v;
             body->surface_w = body->w;
@@ -114,7 +126,7 @@ static void find_surface_contacts(rlf_world *world, const grid_query *query)
             body->surface_count = 0;
         } else if (phys_body_is_moving(body)) {
             body->surface_age++;
-            if (is_due(body)) {
+            if (is_due(body, query->step)) {
                 phys_log_contacts(world, body->surface, body->surface_count);
                 grid_collide_prepare(query, body);
                 due++;
@@ -214,7 +226,7 @@ static void greet_surface(rlf_world *world, const rlf_grid *grid, double dt)
 {
     for (int32_t i = 0; i < world->body_top; i++) {
         phys_body *body = &world->bodies[i];
-        body->surface_age = body->surface_period;
+        phys_body_ask_surface(body);
     }
     if (grid == NULL) {
         phys_wake_by_surface(world, NULL, dt);

@@ -50,12 +50,13 @@ static void set_contacts(phys_pair *pair, const phys_body *a, const phys_body *b
         old[i] = phys_trace_of(&pair->contacts[i]);
     }
     double radius = rlf_min(a->shape.radius, b->shape.radius);
+    rlf_mat3 to_a = rlf_mat3_transpose(&a->R), to_b = rlf_mat3_transpose(&b->R);
     pair->contact_count = count;
     for (int32_t i = 0; i < count; i++) {
         const pair_point *p = &points[chosen[i]];
         phys_contact fresh = {.a = pair->a, .b = pair->b, .other = RLF_CONTACT_BODY, .log = -1};
-        fresh.anchor_a = rlf_rotate(rlf_quat_conjugate(a->q), rlf_sub(p->core_a, a->x));
-        fresh.anchor_b = rlf_rotate(rlf_quat_conjugate(b->q), rlf_sub(p->core_b, b->x));
+        fresh.anchor_a = rlf_mat3_mul_vec(&to_a, rlf_sub(p->core_a, a->x));
+        fresh.anchor_b = rlf_mat3_mul_vec(&to_b, rlf_sub(p->core_b, b->x));
         fresh.rounding_a = p->rounding_a;
         fresh.rounding_b = p->rounding_b;
         fresh.normal = p->normal;
@@ -220,7 +221,8 @@ void phys_refresh_pairs(rlf_world *world, double h)
     bool is_any_due = false;
     for (int32_t i = 0; i < world->pair_count; i++) {
         phys_pair *pair = &world->pairs[i];
-        pair->is_due = ++pair->age >= pair->period;
+        bool is_apart = pair->contact_count == 0 && pair->gap > 0.0;
+        pair->is_due = ++pair->age >= pair->period && !(is_apart && is_settled(world, pair, h));
         is_any_due = is_any_due || pair->is_due;
     }
     if (is_any_due) {

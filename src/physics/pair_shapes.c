@@ -104,11 +104,12 @@ int32_t pair_reduce(const pair_point *points, int32_t count, double radius,
         int32_t best = -1;
         double best_value = -1e30;
         for (int32_t i = 0; i < count; i++) {
-            double nearest = 1e30; /* distance to those already chosen */
-            for (int32_t k = 0; k < kept; k++) {
+            double nearest2 = 1e60; /* square of the distance to those already chosen */
+            for (int32_t k = 0; k < kept && !is_used[i]; k++) {
                 rlf_vec3 d = rlf_sub(points[i].core_a, points[chosen[k]].core_a);
-                nearest = rlf_min(nearest, rlf_length(d));
+                nearest2 = rlf_min(nearest2, rlf_dot(d, d));
             }
+            double nearest = sqrt(nearest2);
             bool is_like = kept == 0 || rlf_dot(points[i].normal, points[chosen[0]].normal) > 0.9;
             if (is_used[i] || !is_like || nearest < 0.02 * radius) {
                 continue;

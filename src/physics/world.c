@@ -118,7 +118,7 @@ void phys_body_wake(phys_body *body)
     body->is_asleep = false;
     body->still_time = 0.0;
     body->has_block = false;
-    body->surface_age = body->surface_period;
+    phys_body_ask_surface(body);
 }
 
 /* What rested on a body that goes or moves must notice. */
