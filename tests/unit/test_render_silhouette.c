@@ -125,6 +125,28 @@ static void edges_of_one_colour_stay_where_depth_has_them(void **state)
     free_stage(&wide);
 }
 
+/* A stripe on the near side, or a slit of light on the far side, is of neither side's colour: the
+ * edge does not go there. */
+static void patterns_beside_an_edge_do_not_move_it(void **state)
+{
+    (void)state;
+    for (int32_t k = 0; k < 2; k++) {
+        stage g = make_stage(0, NULL);
+        double from = k == 0 ? g.left + 1.0 : g.left - 4.0;
+        for (int32_t i = 0; i < 960 * 540; i++) {
+            if (i % 960 > from && i % 960 < from + 3.0) {
+                memcpy(g.scene->color + 4 * (size_t)i, (const uint8_t[3]){20, 160, 250}, 3);
+            }
+        }
+        rlf_render_output out = draw(&g);
+        double begin;
+        double width = hidden_width(&out, 270, &begin);
+        assert_true(fabs(width - (g.right - g.left)) < 0.6);
+        assert_true(fabs(begin - g.left) < 1.0);
+        free_stage(&g);
+    }
+}
+
 static void missing_or_smaller_colour_is_no_trouble(void **state)
 {
     (void)state;
@@ -234,6 +256,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(edges_follow_the_colours),
         cmocka_unit_test(edges_of_one_colour_stay_where_depth_has_them),
+        cmocka_unit_test(patterns_beside_an_edge_do_not_move_it),
         cmocka_unit_test(missing_or_smaller_colour_is_no_trouble),
         cmocka_unit_test(still_pictures_do_not_flicker),
         cmocka_unit_test(contact_with_a_surface_is_soft),
