@@ -208,8 +208,8 @@ typedef struct rlf_kernel_near {
     ptrdiff_t stride;
 } rlf_kernel_near;
 
-/* Sum of the normals at the same depth, weighted by the inverse fourth power
- * of distance. */
+/* Sum of the normals at the same depth, weighted by the inverse fourth power of distance: x, y, z;
+ * and the sum of the squares of their lengths, weighted alike. */
 void rlf_kernel_near_normal(const rlf_kernel_near *restrict about, float *restrict out);
 /* 1 where there is a depth but, as far as z can tell, no normal, else 0. */
 void rlf_kernel_bare_row(const float *restrict depth, const float *restrict normal_z, int32_t count,

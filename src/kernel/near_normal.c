@@ -1,4 +1,4 @@
-/* Sum of the normals about a pixel: see surface/normals_plane.c. */
+/* Sum of the normals about a pixel: see surface/normals_near.c. */
 #include "kernel/kernel.h"
 
 enum { SIDE = 5, LANES = RLF_NEAR_LANES };
@@ -25,10 +25,10 @@ RLF_KERNEL void rlf_kernel_near_normal(const rlf_kernel_near *restrict about, fl
     const float *restrict ny = about->normal[1];
     const float *restrict nz = about->normal[2];
     ptrdiff_t stride = about->stride;
-    float x[LANES], y[LANES], z[LANES];
+    float x[LANES], y[LANES], z[LANES], w[LANES];
     float middle = depth[2 * stride + 2], most = most_apart * middle;
     for (int32_t c = 0; c < LANES; c++) {
-        float sum_x = 0.0f, sum_y = 0.0f, sum_z = 0.0f;
+        float sum_x = 0.0f, sum_y = 0.0f, sum_z = 0.0f, sum_w = 0.0f;
         for (int32_t r = 0; r < SIDE; r++) {
             ptrdiff_t i = r * stride + c;
             float apart = rlf_kernel_abs(depth[i] - middle);
@@ -36,14 +36,17 @@ RLF_KERNEL void rlf_kernel_near_normal(const rlf_kernel_near *restrict about, fl
             sum_x += weight * nx[i];
             sum_y += weight * ny[i];
             sum_z += weight * nz[i];
+            sum_w += weight * (nx[i] * nx[i] + ny[i] * ny[i] + nz[i] * nz[i]);
         }
         x[c] = sum_x;
         y[c] = sum_y;
         z[c] = sum_z;
+        w[c] = sum_w;
     }
     out[0] = sum_lanes(x);
     out[1] = sum_lanes(y);
     out[2] = sum_lanes(z);
+    out[3] = sum_lanes(w);
 }
 
 RLF_KERNEL void rlf_kernel_bare_row(const float *restrict depth, const float *restrict normal_z,

@@ -5,6 +5,7 @@
  * concave corner the one that it meets first. So the crease lies where the planes meet, to a small
  * part of a pixel, whatever the noise of the pixels on it. Unless that is small: a narrow face is
  * known less well than a pixel that has been averaged for a while, which then decides. */
+#include "surface/face.h"
 #include "surface/steps.h"
 
 #include "kernel/kernel.h"
@@ -14,8 +15,7 @@ enum { MOST_STEPS = 6 };
 static const float CREASE = 0.9f;      /* of the normals of two faces that meet in one */
 static const float MOST_SLOPE = 0.04f; /* share of the depth per pixel: no edge between */
 static const float MOST_SIGMAS = 8.0f; /* of the pixel's depth from the face; grazing is noisier */
-static const float LEAST_FACING = 0.02f; /* a face may be seen edge-on, not from behind */
-static const float LEAST_APART = 2.0f;   /* sigmas of depth from one face to the other */
+static const float LEAST_APART = 2.0f; /* sigmas of depth from one face to the other */
 /* Frames in a pixel's mean, sigmas from face to face, and share of that from the face that the
  * planes choose, by which a pixel's own depth speaks for the other. */
 static const float OWN_FRAMES = 8.0f, OWN_APART = 0.5f, OWN_SHARE = 0.75f;
@@ -99,16 +99,6 @@ static ptrdiff_t find_face(const crease_job *job, ptrdiff_t i, ptrdiff_t step, i
     return -1;
 }
 
-/* Depth of the face through pixel `face` on the ray of pixel `at`; 0 where that does not meet it.
- */
-static float face_depth(const crease_job *job, ptrdiff_t face, ptrdiff_t at)
-{
-    float nx = job->normal[0][face], ny = job->normal[1][face], nz = job->normal[2][face];
-    float offset = job->depth[face] * (nx * job->ray_x[face] + ny * job->ray_y[face] + nz);
-    float facing = nx * job->ray_x[at] + ny * job->ray_y[at] + nz;
-    return facing < -LEAST_FACING ? offset / facing : 0.0f;
-}
-
 /* At pixel a, face b lies so far from face a that noise does not explain it, even if that is alike
  * in all pixels of a face: real sensors' is, and structured light measures in steps, so that the
  * many pixels of a window prove less than their number. `b_at_a` is 0 where b does not meet the
@@ -135,12 +125,12 @@ static bool is_elsewhere(const crease_job *job, ptrdiff_t i, float z, float othe
 /* Which of two faces pixel i is on; -1 when they do not meet in a crease, or not there. */
 static ptrdiff_t choose_face(const crease_job *job, ptrdiff_t i, ptrdiff_t a, ptrdiff_t b)
 {
-    float a_at_b = face_depth(job, a, b), b_at_a = face_depth(job, b, a);
-    float at_a = job->depth[a], at_b = job->depth[b];
-    bool convex = b_at_a > 0.0f && a_at_b > 0.0f && at_a > b_at_a && at_b > a_at_b;
-    bool concave = (!(b_at_a > 0.0f) || at_a < b_at_a) && (!(a_at_b > 0.0f) || at_b < a_at_b);
-    float za = face_depth(job, a, i), zb = face_depth(job, b, i);
-    bool meet = (convex || concave) && is_apart(job, a, b_at_a) && is_apart(job, b, a_at_b);
+    const rlf_faces faces = {job->ray_x, job->ray_y, job->depth, job->normal};
+    float a_at_b = rlf_face_depth(&faces, a, b), b_at_a = rlf_face_depth(&faces, b, a);
+    float za = rlf_face_depth(&faces, a, i), zb = rlf_face_depth(&faces, b, i);
+    rlf_meeting meeting = rlf_faces_meet(job->depth[a], b_at_a, job->depth[b], a_at_b);
+    bool convex = meeting == RLF_FACES_CONVEX;
+    bool meet = meeting != RLF_FACES_APART && is_apart(job, a, b_at_a) && is_apart(job, b, a_at_b);
     if (!(za > 0.0f && zb > 0.0f) || !meet) {
         return -1;
     }

@@ -4,8 +4,6 @@
 
 #include "kernel/kernel.h"
 
-#include <string.h>
-
 static void plane_bands(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
@@ -34,58 +32,6 @@ static void plane_bands(void *context, int32_t begin, int32_t end, int32_t worke
     }
 }
 
-/* The pixels about one at the image's border, 0 outside. */
-typedef struct near_copy {
-    float depth[5][RLF_NEAR_LANES], normal[3][5][RLF_NEAR_LANES];
-} near_copy;
-
-static void copy_near(const rlf_normals_job *job, int32_t x, int32_t y, near_copy *out)
-{
-    memset(out, 0, sizeof *out);
-    for (int32_t k = 0; k < 25; k++) {
-        int32_t u = x + k % 5 - 2, v = y + k / 5 - 2;
-        if (u < 0 || v < 0 || u >= job->width || v >= job->height) {
-            continue;
-        }
-        ptrdiff_t i = (ptrdiff_t)v * job->width + u;
-        out->depth[k / 5][k % 5] = job->filled[i];
-        for (int32_t n = 0; n < 3; n++) {
-            out->normal[n][k / 5][k % 5] = job->out[n][i];
-        }
-    }
-}
-
-/* Mean of the normals within two pixels at the same depth. */
-static bool from_neighbours(const rlf_normals_job *job, int32_t x, int32_t y)
-{
-    ptrdiff_t i = (ptrdiff_t)y * job->width + x, corner = i - 2 * (ptrdiff_t)job->width - 2;
-    bool inside = x >= 2 && y >= 2 && x - 2 + RLF_NEAR_LANES <= job->width && y + 2 < job->height;
-    rlf_kernel_near about;
-    near_copy copy;
-    float sum[3];
-    if (inside) {
-        about =
-            (rlf_kernel_near){job->filled + corner,
-                              {job->out[0] + corner, job->out[1] + corner, job->out[2] + corner},
-                              job->width};
-    } else {
-        copy_near(job, x, y, &copy);
-        about = (rlf_kernel_near){copy.depth[0],
-                                  {copy.normal[0][0], copy.normal[1][0], copy.normal[2][0]},
-                                  RLF_NEAR_LANES};
-    }
-    rlf_kernel_near_normal(&about, sum);
-    rlf_vec3 mean = rlf_normalize(rlf_vec3_make(sum[0], sum[1], sum[2]));
-    rlf_vec3 ray = {job->ray_x[i], job->ray_y[i], 1.0};
-    if (!(rlf_dot(mean, ray) < 0.0)) {
-        return false;
-    }
-    job->out[0][i] = (float)mean.x;
-    job->out[1][i] = (float)mean.y;
-    job->out[2][i] = (float)mean.z;
-    return true;
-}
-
 static bool is_without(const rlf_normals_job *job, ptrdiff_t i)
 {
     return job->out[0][i] == 0.0f && job->out[1][i] == 0.0f && job->out[2][i] == 0.0f;
@@ -101,7 +47,7 @@ static void complete_row(const rlf_normals_job *job, int32_t y)
         rlf_kernel_bare_row(job->filled + row + begin, job->out[2] + row + begin, count, bare);
         for (int32_t k = 0; (k = rlf_kernel_next_mark(bare, k, count)) < count; k++) {
             int32_t x = begin + k;
-            if (is_without(job, row + x) && !from_neighbours(job, x, y)) {
+            if (is_without(job, row + x) && !rlf_normals_near_pixel(job, x, y)) {
                 rlf_normals_slope_pixel(job, x, y);
             }
         }

@@ -150,6 +150,36 @@ static void creases_are_sharp(void **state)
     assert_true(150 * all.wrong < all.count);
 }
 
+/* Lines of missing pixels, two wide, cross a crease: what is filled is on one face or the other, as
+ * the planes beside the line say, and not between them. */
+static void creases_go_on_through_holes(void **state)
+{
+    fixture *f = *state;
+    score filled = {0, 0};
+    for (int k = 0; k < 12; k++) {
+        double turn = 0.15 + 0.05 * k, side = k % 2 == 0 ? -1.0 : 1.0;
+        const rlf_vec3 n[2] = {{0.0, side * rlf_sin(turn), -rlf_cos(turn)},
+                               {0.0, -side * rlf_cos(turn), -rlf_sin(turn)}};
+        set_walls(f, n, rlf_vec3_make(0.0, 0.01 * k, 2.5), k % 2 == 0);
+        add_noise(f);
+        for (int i = 0; i < COUNT; i++) {
+            f->seen[i] = i % WIDTH % 12 < 2 ? 0.0f : f->seen[i];
+        }
+        rlf_reconstruct *stage = NULL;
+        const rlf_surface *s = reconstruct(f, true, &stage);
+        for (int i = 0; i < COUNT; i++) {
+            rlf_vec3 found = {s->normal_x[i], s->normal_y[i], s->normal_z[i]};
+            bool counts = f->seen[i] == 0.0f && is_at_crease(f, i);
+            filled.count += counts;
+            filled.wrong += counts && angle_deg(found, f->normal[i]) > 30.0;
+        }
+        rlf_reconstruct_destroy(&stage);
+    }
+    print_message("%d of %d filled pixels wrong\n", filled.wrong, filled.count);
+    assert_true(filled.count > 1000);
+    assert_true(12 * filled.wrong < filled.count);
+}
+
 /* A side face at x = `edge` that meets a wall in a corner and ends nearer, at another wall. */
 static void set_corner(fixture *f, double edge)
 {
@@ -231,6 +261,7 @@ int main(void)
         cmocka_unit_test(time_tells_where_a_corner_is),
         cmocka_unit_test(waves_of_noise_are_no_creases),
         cmocka_unit_test(creases_are_sharp),
+        cmocka_unit_test(creases_go_on_through_holes),
     };
     return cmocka_run_group_tests(tests, make_fixture, free_fixture);
 }
