@@ -3,8 +3,14 @@
 #include "known/align.h"
 
 #define ROUNDS 12
-#define GATE_FIRST_M 0.04 /* distance from the model of the points that count, first and last */
+/* Distance from the model of the points that count, first and last. Picks may be so far off that
+ * hardly any of the surface is within the first gate: a wider one counts when it ends with so many
+ * times more of it. */
+#define GATES 2
+static const double gates_first[GATES] = {0.04, 0.12};
+#define GATE_WIDEST_M 0.12
 #define GATE_LAST_M 0.015
+#define MORE 1.5
 #define SAME_NORMAL 0.75 /* cosine */
 #define POINTS_MIN 30
 /* Neighbouring pixels err alike, and sensors are off by some millimetres: so many points of so much
@@ -26,7 +32,7 @@ static void bound(const search *s, const rlf_pose *T_world_model, int32_t out[4]
 {
     const rlf_camera *camera = &s->surface->camera;
     rlf_vec3 c = rlf_transform_inverse(&s->T_world_camera, T_world_model->p);
-    double radius = rlf_shape_radius(s->shape) + GATE_FIRST_M;
+    double radius = rlf_shape_radius(s->shape) + GATE_WIDEST_M;
     double u, v;
     out[0] = out[1] = 0;
     out[2] = camera->width;
@@ -117,29 +123,43 @@ static void scale(known_normal *n, double by)
     }
 }
 
-void known_refine(const rlf_shape *shape, const rlf_known_view *view, const known_normal *prior,
-                  rlf_known_fit *fit)
+/* Rounds from the fit's pose, with points up to `gate` away at first; false when few are so near or
+ * they leave the pose open. */
+static bool run_rounds(const search *s, const known_normal *prior, double gate, rlf_known_fit *fit)
 {
-    const search s = {shape, view->surface, view->T_world_camera};
     rlf_pose T = fit->T_world_model;
-    double gate = GATE_FIRST_M;
     for (int32_t i = 0; i < ROUNDS; i++) {
-        findings f = look(&s, &T, gate);
+        findings f = look(s, &T, gate);
         if (f.count < POINTS_MIN) {
-            return;
+            return false;
         }
         double worth = rlf_min(f.weight, WORTH_POINTS) / f.weight;
         scale(&f.sums, worth / (WORTH_SIGMA_M * WORTH_SIGMA_M));
         add_prior(&f.sums, prior, &fit->T_world_model, &T);
         if (!known_normal_apply(&f.sums, &T)) {
-            return;
+            return false;
         }
         gate = rlf_max(GATE_LAST_M, 0.8 * gate);
     }
-    findings f = look(&s, &T, gate);
+    findings f = look(s, &T, gate);
     fit->T_world_model = T;
     fit->surface_count = f.count;
     fit->surface_rms = f.count > 0 ? sqrt(f.square_sum / f.count) : 0.0;
+    return true;
+}
+
+void known_refine(const rlf_shape *shape, const rlf_known_view *view, const known_normal *prior,
+                  rlf_known_fit *fit)
+{
+    const search s = {shape, view->surface, view->T_world_camera};
+    const rlf_known_fit start = *fit;
+    for (int32_t i = 0; i < GATES; i++) {
+        rlf_known_fit tried = start;
+        if (run_rounds(&s, prior, gates_first[i], &tried) &&
+            tried.surface_count > MORE * fit->surface_count) {
+            *fit = tried;
+        }
+    }
 }
 
 void rlf_known_refine(const rlf_shape *shape, const rlf_known_view *view, rlf_known_fit *fit)

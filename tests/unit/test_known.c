@@ -493,6 +493,13 @@ static void picks_on_the_room_give_the_crates_pose(void **state)
     assert_int_equal(fit.depth_count, 4);
     assert_true(fit.surface_count > 500 && fit.surface_rms < 0.003);
     assert_true(rlf_length(rlf_sub(fit.T_world_model.p, truth.p)) < 0.005);
+    /* 6 cm too far away, where hardly any of the surface is near */
+    fit.T_world_model.p = rlf_scale(truth.p, 1.0 + 0.06 / rlf_length(truth.p));
+    fit.T_world_model.q = truth.q;
+    const rlf_known_view view = {frame.surface, rig, rlf_pose_identity()};
+    rlf_known_refine(&def.shape, &view, &fit);
+    assert_true(fit.surface_count > 500);
+    assert_true(rlf_length(rlf_sub(fit.T_world_model.p, truth.p)) < 0.005);
     assert_int_equal(rlf_pipeline_step(pipeline, &frame), RLF_OK);
     assert_int_equal(frame.snapshot->body_count, 0);
     assert_int_equal(frame.snapshot->known_count, 1);
