@@ -419,16 +419,15 @@ static void triangles_hide_and_holes_show(void **state)
     s->snapshot.known_count = 1;
     rlf_compositor_def def = scene_def(s);
     def.occlusion = RLF_OCCLUSION_SOFT;
-    rlf_compositor *compositor = NULL;
+    rlf_compositor *compositor;
     rlf_render_output out;
     assert_int_equal(rlf_compositor_create_soft(&def, &compositor), RLF_OK);
     assert_int_equal(rlf_compositor_render(compositor, &s->input, &out), RLF_OK);
     /* the inner edges are 0.2 m, the outer ones 0.3 m from the middle, 1.45 m away */
     const rlf_camera *picture = &def.rig.color;
-    const double left = def.rig.T_color_depth.p.x;
     for (int32_t x = 300; x < 600; x++) {
-        double p = (x - picture->cx) / picture->fx * 1.45 - left;
-        double body = (x - picture->cx) / picture->fx * 2.1 - left;
+        double ray = (x - picture->cx) / picture->fx, left = def.rig.T_color_depth.p.x;
+        double p = 1.45 * ray - left, body = 2.1 * ray - left;
         double off = fabs(fabs(p) - 0.25), pixel = 1.45 / picture->fx;
         bool is_bar = off<0.05 - pixel, is_free = off> 0.07; /* bars' inner sides show */
         uint8_t seen = out.matte.data[(int32_t)picture->cy * out.matte.stride + x];
