@@ -400,6 +400,22 @@ static void face_back(const grid_patch *p, patch_mean *touched)
     }
 }
 
+/* The contact points from the edge to the ball's centre. So does the way from the mean of the
+ * pixels that the ball all but touches, and what is wrong with the one is not with the other. */
+static bool face_edge(grid_patch *p, grid_meeting *touch, patch_mean *touched)
+{
+    rlf_vec3 edge = meet_edge(p, touched);
+    touch->time = p->time;
+    rlf_vec3 way = rlf_sub(p->centre, edge), direction = rlf_normalize(way);
+    if (rlf_dot(direction, touched->normal) < BEHIND) {
+        return false;
+    }
+    rlf_vec3 mean = rlf_normalize(rlf_sub(p->centre, touched->point));
+    touched->normal = rlf_normalize(rlf_add(direction, mean));
+    touched->point = rlf_mad(p->centre, touched->normal, -rlf_length(way));
+    return true;
+}
+
 static bool touch_face(const grid_job *job, grid_meeting *touch, patch_mean *out, int32_t *label)
 {
     grid_patch p = {.job = job};
@@ -415,14 +431,7 @@ static bool touch_face(const grid_job *job, grid_meeting *touch, patch_mean *out
     } else if (is_supported(&p, out)) {
         correct_bulge(&p, out);
     } else {
-        rlf_vec3 edge = meet_edge(&p, out);
-        touch->time = p.time;
-        rlf_vec3 direction = rlf_normalize(rlf_sub(p.centre, edge));
-        if (rlf_dot(direction, out->normal) < BEHIND) {
-            return false;
-        }
-        out->normal = direction;
-        out->point = edge;
+        return face_edge(&p, touch, out);
     }
     return true;
 }

@@ -4,6 +4,7 @@
 #include "physics/grid_ball.h"
 #include "physics/grid_reduce.h"
 #include "physics/grid_scan.h"
+#include "physics/grid_upright.h"
 
 /* Most substeps between two queries: a body that falls from rest must not fall through the margin;
  * one that lies on something does not fall. */
@@ -220,29 +221,47 @@ static void drop_backs(grid_job *job, const shell_plane *plane)
     job->hit_count = kept;
 }
 
-static void collide_shell(grid_job *job)
+static void collide_plane(grid_job *job, const shell_plane *plane)
 {
-    const grid_shell *shell = job->query->shell;
-    for (int32_t i = 0; shell != NULL && i < shell->count; i++) {
-        const shell_plane *plane = &shell->planes[i];
-        const phys_shape *shape = &job->body->shape;
-        double height = rlf_dot(plane->normal, job->centre) - plane->offset;
-        job->nearest2 = rlf_min(job->nearest2, rlf_max(height, 0.0) * rlf_max(height, 0.0));
-        if (height > job->reach) {
-            continue;
-        }
-        drop_backs(job, plane);
-        rlf_vec3 core[2];
-        double rounding;
-        rlf_vec3 down = rlf_mat3_mul_vec(&job->R_body_grid, rlf_neg(plane->normal));
-        int32_t count = phys_shape_support(shape, down, core, &rounding);
-        for (int32_t k = 0; k < count; k++) {
-            touch_shell(job, plane, core[k], rounding);
-        }
-        for (int32_t k = 0; count == 0 && k < shape->vertex_count; k++) {
-            touch_shell(job, plane, shape->points[k], 0.0);
+    const phys_shape *shape = &job->body->shape;
+    rlf_vec3 core[2];
+    double rounding;
+    rlf_vec3 down = rlf_mat3_mul_vec(&job->R_body_grid, rlf_neg(plane->normal));
+    int32_t count = phys_shape_support(shape, down, core, &rounding);
+    drop_backs(job, plane);
+    for (int32_t k = 0; k < count; k++) {
+        touch_shell(job, plane, core[k], rounding);
+    }
+    for (int32_t k = 0; count == 0 && k < shape->vertex_count; k++) {
+        touch_shell(job, plane, shape->points[k], 0.0);
+    }
+}
+
+/* The centre's height over the plane, which the scan's nearest is not beyond. */
+static double come_near(grid_job *job, const shell_plane *plane)
+{
+    double height = rlf_dot(plane->normal, job->centre) - plane->offset;
+    job->nearest2 = rlf_min(job->nearest2, rlf_max(height, 0.0) * rlf_max(height, 0.0));
+    return height;
+}
+
+/* What stands behind what hides it, under or beside the body's centre, within `reach`. */
+static bool find_upright(const grid_job *job, double reach, shell_plane *out)
+{
+    const grid_query *query = job->query;
+    if (query->shell == NULL || !(rlf_dot(query->up, query->up) > 0.0)) {
+        return false;
+    }
+    rlf_vec3 side = rlf_normalize(rlf_cross(query->up, job->centre));
+    for (int32_t k = 0; k < 3; k++) {
+        double shift = (k == 2 ? -1.0 : k) * job->body->shape.radius;
+        rlf_vec3 q = rlf_mad(job->centre, side, shift);
+        if (grid_shell_is_hidden(query->grid, q) &&
+            grid_upright_find(query->grid, q, query->up, reach, out)) {
+            return true;
         }
     }
+    return false;
 }
 
 /* How many substeps this body's contacts stay good: it must not travel far in that time. */
@@ -267,6 +286,23 @@ static double wide_reach_of(const grid_query *query, const phys_body *body)
     return reach_of(query, body, (int32_t)PERIOD_MAX) + FREE_WAY;
 }
 
+/* What the camera does not see. */
+static void collide_hidden(grid_job *job)
+{
+    const grid_query *query = job->query;
+    for (int32_t i = 0; query->shell != NULL && i < query->shell->count; i++) {
+        const shell_plane *plane = &query->shell->planes[i];
+        if (come_near(job, plane) <= job->reach) {
+            collide_plane(job, plane);
+        }
+    }
+    shell_plane upright;
+    if (find_upright(job, wide_reach_of(query, job->body), &upright) &&
+        come_near(job, &upright) <= job->reach) {
+        collide_plane(job, &upright);
+    }
+}
+
 static void set_period(grid_job *job, phys_body *body, double most)
 {
     body->surface_period = query_period(body, job->query->step, most);
@@ -284,8 +320,10 @@ static bool is_clear(const grid_job *job, double reach)
             return false;
         }
     }
+    shell_plane upright;
     return grid_scan_is_clear(job, job->query->foreground, reach) &&
-           grid_scan_is_clear(job, job->query->background, reach);
+           grid_scan_is_clear(job, job->query->background, reach) &&
+           !find_upright(job, reach, &upright);
 }
 
 /* How far the body may go before it comes to what the last scan saw. */
@@ -334,7 +372,7 @@ static void collide_sheets(grid_job *job, phys_body *body, int32_t body_index)
         set_period(job, body, PERIOD_AT_REST);
     }
     collide_sheet(job, query->background, &body->home[1]);
-    collide_shell(job);
+    collide_hidden(job);
     body->surface_clear = rlf_min(body->surface_clear, clearance_of(job));
     grid_reduce(job, body, body_index, RLF_CONTACT_BACKGROUND);
 }

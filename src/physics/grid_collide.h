@@ -17,6 +17,7 @@ typedef struct grid_query {
     double step;    /* s of a substep */
     grid_tiles *foreground, *background;
     const grid_shell *shell; /* NULL: there is nothing where the camera does not look */
+    rlf_vec3 up;             /* unit, against gravity, grid frame; 0 without gravity */
 } grid_query;
 
 /* Makes the tiles that grid_collide will read for this body. Returns whether any of them has

@@ -1,7 +1,8 @@
 /* Where a face ends.
  *
  * Between a pixel on the face and one beside it that is off it, the edge is somewhere, at half way
- * on average. A line through such places is better: an edge that runs slantwise to the pixels is
+ * on average; where the face bends to one that is seen, too, it is above the points of that one.
+ * A line through such places is better: an edge that runs slantwise to the pixels is
  * placed to a part of one. */
 #include "physics/grid_patch.h"
 
@@ -10,6 +11,7 @@
 #define FITS 2       /* the second one is centred on what the first one found */
 #define REACH_PX 5.0 /* about the nearest place, in steps */
 #define OFF 0.01     /* farther below the face is off it, metres */
+#define CREASE 0.03  /* a neighbouring pixel no farther behind is no step, metres per step */
 
 /* The point of the face under the ball's centre. */
 rlf_vec3 patch_foot(const grid_patch *p, const patch_mean *mean)
@@ -50,14 +52,43 @@ static rlf_vec3 on_face(const grid_patch *p, const patch_mean *mean, double u, d
     return rlf_mad(shift, ray, z);
 }
 
-/* Notes the place half way between the sample and its free neighbour. */
-static void add_crack(const grid_patch *p, const patch_mean *mean, const patch_sample *s,
-                      const int32_t step[2], edge_fit *fit)
+/* The sample at column u and row v, or NULL. */
+static const patch_sample *sample_at(const grid_patch *p, int32_t u, int32_t v)
 {
-    double u = s->cell.x + 0.5 * step[0] * p->step, v = s->cell.y + 0.5 * step[1] * p->step;
-    fit->u[fit->count] = u;
-    fit->v[fit->count] = v;
-    fit->point[fit->count++] = on_face(p, mean, u, v);
+    bool is_in = u >= 0 && v >= 0 && u < PATCH_SIDE && v < PATCH_SIDE;
+    int32_t index = is_in ? p->index[v * PATCH_SIDE + u] : 0;
+    return index > 0 ? &p->samples[index - 1] : NULL;
+}
+
+/* Where the face bends away to another one that is seen, too, the first point of that one stands
+ * under the edge: pixels are far apart on a face seen at a low angle, but not along its normal.
+ * False where there is a step. */
+static bool find_crease(const grid_patch *p, const patch_mean *mean, const patch_sample *next,
+                        const patch_sample *s, double out[2])
+{
+    const rlf_grid *grid = p->job->query->grid;
+    if (next == NULL || next->cell.point.z - s->cell.point.z > CREASE * p->step) {
+        return false;
+    }
+    double tau = p->job->query->tau + rlf_max(0.0, p->time);
+    rlf_vec3 edge = rlf_mad(next->point, mean->normal, -off_face(mean, next->point));
+    edge = rlf_mad(edge, mean->velocity, -tau); /* as it was seen */
+    return edge.z > 0.0 && grid->project(grid->project_context, edge, &out[0], &out[1]);
+}
+
+/* Notes the edge's place between the sample and its free neighbour: half way, if nothing is known.
+ */
+static void add_crack(const grid_patch *p, const patch_mean *mean, const patch_sample *s,
+                      const patch_sample *next, const int32_t step[2], edge_fit *fit)
+{
+    double at[2];
+    if (!find_crease(p, mean, next, s, at)) {
+        at[0] = s->cell.x + 0.5 * step[0] * p->step;
+        at[1] = s->cell.y + 0.5 * step[1] * p->step;
+    }
+    fit->u[fit->count] = at[0];
+    fit->v[fit->count] = at[1];
+    fit->point[fit->count++] = on_face(p, mean, at[0], at[1]);
 }
 
 static bool is_on_face(const patch_mean *mean, const patch_sample *s)
@@ -72,11 +103,10 @@ static bool is_free(const grid_patch *p, const patch_mean *mean, int32_t u, int3
     if (u < 0 || v < 0 || u >= PATCH_SIDE || v >= PATCH_SIDE) {
         return false; /* who knows */
     }
-    int32_t index = p->index[v * PATCH_SIDE + u];
-    if (index == 0) {
+    const patch_sample *s = sample_at(p, u, v);
+    if (s == NULL) {
         return true;
     }
-    const patch_sample *s = &p->samples[index - 1];
     double off = off_face(mean, s->point);
     return off < -OFF || (off < 0.3 * OFF && !patch_is_of_face(s->cell.normal, mean->normal));
 }
@@ -86,12 +116,12 @@ static void find_cracks(const grid_patch *p, const patch_mean *mean, edge_fit *f
     const int32_t STEPS[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
     for (int32_t v = 0; v < PATCH_SIDE; v++) {
         for (int32_t u = 0; u < PATCH_SIDE; u++) {
-            int32_t index = p->index[v * PATCH_SIDE + u];
-            const patch_sample *s = &p->samples[index - (index > 0)];
-            bool is_on = index > 0 && is_on_face(mean, s);
+            const patch_sample *s = sample_at(p, u, v);
+            bool is_on = s != NULL && is_on_face(mean, s);
             for (int32_t k = 0; k < 4 && is_on; k++) {
-                if (is_free(p, mean, u + STEPS[k][0], v + STEPS[k][1])) {
-                    add_crack(p, mean, s, STEPS[k], fit);
+                int32_t x = u + STEPS[k][0], y = v + STEPS[k][1];
+                if (is_free(p, mean, x, y)) {
+                    add_crack(p, mean, s, sample_at(p, x, y), STEPS[k], fit);
                 }
             }
         }

@@ -77,6 +77,7 @@ static grid_query query_now(rlf_world *world, const rlf_grid *grid, double h)
     query.foreground = &world->foreground_tiles;
     query.background = &world->background_tiles;
     query.shell = phys_world_has_shell(world, grid) ? &world->shell : NULL;
+    query.up = rlf_normalize(rlf_neg(rlf_rotate(query.T_grid_world.q, world->def.gravity)));
     return query;
 }
 
