@@ -95,6 +95,10 @@ static rlf_result add_realism(eval_table *table, const throw_conditions *on)
             eval_percent(o.right_nearby, o.bounces));
         ADD("realism_exact_percent", "  of the true one of that very throw, %",
             eval_percent(o.right, o.bounces));
+        ADD("realism_conditioned_percent", "  ... of those that 2 mm do not change by 10 deg, %",
+            eval_percent(o.conditioned_right, o.conditioned));
+        ADD("realism_ill_percent", "  bounces that 2 mm change by more than 10 deg, %",
+            eval_percent(o.bounces - o.conditioned, o.bounces));
         ADD("realism_phantom_percent", "REALISM: off nothing, %",
             eval_percent(o.phantom, o.bounces));
         ADD("realism_missed_percent", "REALISM: none where truth has one, %",

@@ -58,7 +58,9 @@ typedef struct eval_throws {
     int64_t right_nearby; /* ... or of that of a throw displaced by one pixel or two sigma */
     int64_t phantom;      /* sensed where no such throw meets anything */
     int64_t missed;       /* true of all such throws, and not sensed */
-    int64_t hidden, hidden_right; /* apart: at a place that the camera cannot see */
+    int64_t conditioned, conditioned_right; /* of them and of right_nearby: not by more than 10
+                                               degrees another one 2 mm beside it */
+    int64_t hidden, hidden_right;           /* apart: at a place that the camera cannot see */
 } eval_throws;
 
 rlf_result eval_sensed_throw(const eval_throw_def *def, eval_throws *out);

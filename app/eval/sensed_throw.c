@@ -9,7 +9,9 @@
 #define LIFE_S 1.0     /* s in the room */
 #define FLIGHT_S 0.1   /* without a touch before it counts as flying again */
 #define RIGHT_DEG 10.0
-#define TWINS 7 /* the throw itself, and by a pixel or two sigma beside it */
+#define TWINS 7  /* the throw itself, and by a pixel or two sigma beside it */
+#define NUDGES 6 /* throws by NUDGE_M beside it, both ways along each axis */
+#define NUDGE_M 0.002
 #define EDGE_PX 8
 #define FRAMES_MAX 4000
 
@@ -21,7 +23,8 @@ typedef struct track {
     double born_s, last_touch_s;
     rlf_body_state before;
     double restitution, friction, gravity_scale;
-    eval_ball twins[TWINS]; /* while a bounce is pending */
+    eval_ball twins[TWINS];   /* while a bounce is pending */
+    eval_ball nudged[NUDGES]; /* the same */
     bool has_sensed;
     rlf_vec3 sensed_point; /* of the sensed bounce */
 } track;
@@ -207,6 +210,13 @@ static void start_twins(const throwing *run, track *t)
         t->twins[i] = ball_of(t);
         t->twins[i].x = rlf_add(t->twins[i].x, shifts[i]);
     }
+    for (int32_t i = 0; i < NUDGES; i++) {
+        double nudge = i % 2 == 0 ? NUDGE_M : -NUDGE_M;
+        t->nudged[i] = ball_of(t);
+        t->nudged[i].x = rlf_add(t->nudged[i].x,
+                                 rlf_vec3_make(i / 2 == 0 ? nudge : 0.0, i / 2 == 1 ? nudge : 0.0,
+                                               i / 2 == 2 ? nudge : 0.0));
+    }
 }
 
 static void fly_twins(const throwing *run, track *t, double begin, double end)
@@ -214,6 +224,19 @@ static void fly_twins(const throwing *run, track *t, double begin, double end)
     for (int32_t i = 0; i < TWINS; i++) {
         eval_ball_fly(run->stage.truth, &t->twins[i], gravity_of(t), begin, end);
     }
+    for (int32_t i = 0; i < NUDGES; i++) {
+        eval_ball_fly(run->stage.truth, &t->nudged[i], gravity_of(t), begin, end);
+    }
+}
+
+/* Whether the true bounce's direction hangs on a few millimetres: no sensor tells it. */
+static bool is_ill_conditioned(const track *t)
+{
+    bool is_ill = false;
+    for (int32_t i = 0; i < NUDGES; i++) {
+        is_ill = is_ill || eval_angle_between(t->nudged[i].v, t->twins[0].v) > RIGHT_DEG;
+    }
+    return is_ill;
 }
 
 static bool has_bounced(const eval_ball *ball)
@@ -253,6 +276,10 @@ static void judge(throwing *run, track *t, const rlf_body_state *body)
     out->bounces++;
     out->right += exact <= RIGHT_DEG;
     out->right_nearby += best <= RIGHT_DEG;
+    if (!is_ill_conditioned(t)) {
+        out->conditioned++;
+        out->conditioned_right += best <= RIGHT_DEG;
+    }
     out->phantom += t->has_sensed && bounced == 0;
     out->missed += !t->has_sensed && bounced == TWINS;
 }
