@@ -15,14 +15,6 @@ static bool is_upright_face(const field_cell *cell, rlf_vec3 q, rlf_vec3 up, dou
     return slope < UPRIGHT && slope > -UPRIGHT && height > -DEEPEST && height < reach;
 }
 
-/* The sheet at the pixel that shows r; false where there is none. */
-static bool look_at(const rlf_grid *grid, rlf_vec3 r, field_cell *out)
-{
-    double u, v;
-    return r.z > 0.0 && grid->project(grid->project_context, r, &u, &v) &&
-           grid_cell_read(grid, &grid->background, (int32_t)(u + 0.5), (int32_t)(v + 0.5), out);
-}
-
 bool grid_upright_find(const rlf_grid *grid, rlf_vec3 q, rlf_vec3 up, double reach,
                        shell_plane *out)
 {
@@ -31,7 +23,12 @@ bool grid_upright_find(const rlf_grid *grid, rlf_vec3 q, rlf_vec3 up, double rea
     for (double above = 0.0; above < HIGHEST && tries < TRIES; above += pixel) {
         field_cell cell;
         rlf_vec3 r = rlf_mad(q, up, above);
-        if (!look_at(grid, r, &cell)) {
+        double u, v;
+        if (!(r.z > 0.0) || !grid->project(grid->project_context, r, &u, &v)) {
+            return false;
+        }
+        if (!grid_cell_read(grid, &grid->background, (int32_t)(u + 0.5), (int32_t)(v + 0.5),
+                            &cell)) {
             continue;
         }
         if (cell.point.z < r.z - DEEPEST) {
