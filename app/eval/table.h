@@ -5,7 +5,7 @@
 #include "relief/reconstruct.h"
 
 #define EVAL_SEEDS_MAX 64
-#define EVAL_ROWS_MAX 640
+#define EVAL_ROWS_MAX 1024
 #define EVAL_PROFILES 2
 #define EVAL_NEVER 1e9 /* frames or seconds of what did not happen */
 
