@@ -261,6 +261,7 @@ int eval_main(int argc, char **argv)
                                       .seeds = options.seeds};
         result = eval_report(table, &report, &outside);
     }
+    bool is_full = table->is_full;
     rlf_free(table);
     if (command_interrupted) {
         return command_stopped("eval");
@@ -268,5 +269,5 @@ int eval_main(int argc, char **argv)
     if (result != RLF_OK) {
         return command_failed();
     }
-    return outside > 0 ? EXIT_FAILED : EXIT_DONE;
+    return outside > 0 || is_full ? EXIT_FAILED : EXIT_DONE;
 }

@@ -21,6 +21,7 @@ void eval_table_add(eval_table *table, const char *scene, const char *key, const
     const eval_row *found = eval_table_find(table, scene, key);
     int32_t index = found != NULL ? (int32_t)(found - table->rows) : table->count;
     if (!RLF_ASSERT(index < EVAL_ROWS_MAX)) {
+        table->is_full = true;
         return;
     }
     eval_row *row = &table->rows[index];
@@ -37,6 +38,7 @@ void eval_table_add(eval_table *table, const char *scene, const char *key, const
 
 void eval_table_merge(eval_table *table, const eval_table *other)
 {
+    table->is_full = table->is_full || other->is_full;
     for (int32_t i = 0; i < other->count; i++) {
         const eval_row *row = &other->rows[i];
         for (int profile = 0; profile < EVAL_PROFILES; profile++) {

@@ -19,6 +19,7 @@ typedef struct eval_row {
 typedef struct eval_table {
     eval_row rows[EVAL_ROWS_MAX];
     int32_t count;
+    bool is_full; /* a figure had no room: the table is not whole */
 } eval_table;
 
 /* Adds the next seed's value of a profile. A row appears where its first value was added. */
