@@ -422,8 +422,11 @@ void grid_guard_centre(const grid_query *query, phys_body *body, rlf_vec3 before
         rlf_vec3 n = rlf_rotate(grid->T_world_grid.q, hit.normal);
         rlf_vec3 moved = rlf_rotate(grid->T_world_grid.q, rlf_scale(flow, query->step));
         double approach = rlf_dot(n, rlf_mad(body->v, moved, -1.0 / query->step));
+        if (approach >= 0.0) {
+            continue; /* it leaves through that face: held back it would hang there for ever */
+        }
         body->x = rlf_add(before, moved);
-        body->v = approach < 0.0 ? rlf_mad(body->v, n, -approach) : body->v;
+        body->v = rlf_mad(body->v, n, -approach);
         return;
     }
 }
