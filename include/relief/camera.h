@@ -80,9 +80,15 @@ RLF_API void rlf_registration_destroy(rlf_registration **registration);
 
 /* Warps `depth` (width*height floats, metres, 0 = missing) into the colour camera with a z-buffer.
  * out_depth and out_state have the colour camera's size; out_depth is z in the colour camera frame,
- * 0 where out_state is EMPTY. Allocates nothing. */
+ * 0 where out_state is EMPTY. out_state->data NULL = not wanted. Allocates nothing. */
 RLF_API void rlf_registration_apply(rlf_registration *registration, const float *depth,
                                     const rlf_plane_f32 *out_depth, const rlf_plane_u8 *out_state);
+
+/* Only rows begin <= y < end, for pictures in which few rows are looked at: of the others nothing
+ * is known afterwards. */
+RLF_API void rlf_registration_apply_rows(rlf_registration *registration, const float *depth,
+                                         int32_t begin, int32_t end, const rlf_plane_f32 *out_depth,
+                                         const rlf_plane_u8 *out_state);
 
 /* Depth aligned with the colour image, and both images' maps. */
 typedef struct rlf_aligned {

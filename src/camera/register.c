@@ -45,30 +45,36 @@ static void measure(rlf_registration *r, const rlf_camera *depth, const rlf_pose
     r->gap_px = along > 1.0 + 1e-6 ? 2 * (int32_t)(along + 0.999) : 0;
 }
 
-/* Rows of the grid that no depth brings into the picture, e.g. where the depth camera sees more of
- * the floor. v(z) is a ratio of linear functions and so lies between its values at both ends. */
-static void mark_rows(rlf_registration *r)
+/* Rows of the picture that a row of the grid reaches, whatever its depths are. v(z) is a ratio of
+ * linear functions and so lies between its values at both ends. What a lens does to them is not
+ * worked out: beyond it there is nothing, within it may be anywhere. */
+static void mark_row(rlf_registration *r, int32_t y)
 {
     const rlf_kernel_lens *lens = &r->lens;
-    bool has_lens = lens->du != NULL;
-    double top = has_lens ? lens->top : -1.0;
-    double bottom = has_lens ? lens->top + lens->rows / lens->per_pixel_y : r->color.height;
-    for (int32_t y = 0; y < r->height; y++) {
-        bool is_above = true;
-        bool is_below = true;
-        for (int32_t x = 0; x < r->width; x++) {
-            size_t i = (size_t)y * (size_t)r->width + (size_t)x;
-            double near_z = NEAREST_M * r->c[i] + r->pinhole.tc;
-            double near_v = (NEAREST_M * r->b[i] + r->pinhole.tb) / near_z;
-            double far_v = (double)r->b[i] / r->c[i];
-            double size = r->size != NULL ? r->size[i] : 1.0;
-            double half = size * r->pinhole.half_y * rlf_max(1.0 / r->c[i], NEAREST_M / near_z);
-            bool is_known = r->c[i] > 0.1f && near_z > 0.1 * NEAREST_M;
-            is_above = is_above && is_known && rlf_max(near_v, far_v) + half < top;
-            is_below = is_below && is_known && rlf_min(near_v, far_v) - half > bottom;
+    const double far_off = 1e9;
+    double top = far_off;
+    double bottom = -far_off;
+    for (int32_t x = 0; x < r->width; x++) {
+        size_t i = (size_t)y * (size_t)r->width + (size_t)x;
+        double near_z = NEAREST_M * r->c[i] + r->pinhole.tc;
+        double near_v = (NEAREST_M * r->b[i] + r->pinhole.tb) / near_z;
+        double far_v = (double)r->b[i] / r->c[i];
+        double size = r->size != NULL ? r->size[i] : 1.0;
+        double half = size * r->pinhole.half_y * rlf_max(1.0 / r->c[i], NEAREST_M / near_z);
+        bool is_known = r->c[i] > 0.1f && near_z > 0.1 * NEAREST_M;
+        top = is_known ? rlf_min(top, rlf_min(near_v, far_v) - half) : -far_off;
+        bottom = is_known ? rlf_max(bottom, rlf_max(near_v, far_v) + half) : far_off;
+        if (!is_known) {
+            break;
         }
-        r->has_row[y] = !is_above && !is_below;
     }
+    if (lens->du != NULL) {
+        bool is_beyond = bottom < lens->top || top > lens->top + lens->rows / lens->per_pixel_y;
+        top = is_beyond ? far_off : -far_off;
+        bottom = -top;
+    }
+    r->row_top[y] = (float)(top - 1.0);
+    r->row_bottom[y] = (float)(bottom + 1.0);
 }
 
 static rlf_result allocate(rlf_registration *r)
@@ -78,12 +84,13 @@ static rlf_result allocate(rlf_registration *r)
     r->a = rlf_alloc_array(count, sizeof(*r->a));
     r->b = rlf_alloc_array(count, sizeof(*r->b));
     r->c = rlf_alloc_array(count, sizeof(*r->c));
-    r->has_row = rlf_alloc((size_t)r->height);
+    r->row_top = rlf_alloc_array((size_t)r->height, sizeof(*r->row_top));
+    r->row_bottom = rlf_alloc_array((size_t)r->height, sizeof(*r->row_bottom));
     r->line = rlf_alloc_array((size_t)r->color.width, sizeof(*r->line));
     float **floats[4] = {&r->points.u, &r->points.v, &r->points.scale, &r->points.z};
     int32_t **integers[4] = {&r->row.x0, &r->row.x1, &r->row.y, &r->row.y0};
-    bool has_all =
-        r->a != NULL && r->b != NULL && r->c != NULL && r->has_row != NULL && r->line != NULL;
+    bool has_all = r->a != NULL && r->b != NULL && r->c != NULL && r->row_top != NULL &&
+                   r->row_bottom != NULL && r->line != NULL;
     for (int i = 0; i < 4; i++) {
         *floats[i] = rlf_alloc_array(width, sizeof(float));
         *integers[i] = rlf_alloc_array(width, sizeof(int32_t));
@@ -137,7 +144,9 @@ rlf_result rlf_registration_create(const rlf_camera *depth, const float *ray_x, 
         rlf_registration_destroy(&r);
         return result;
     }
-    mark_rows(r);
+    for (int32_t y = 0; y < r->height; y++) {
+        mark_row(r, y);
+    }
     *out = r;
     return RLF_OK;
 }
@@ -148,11 +157,11 @@ void rlf_registration_destroy(rlf_registration **registration)
         return;
     }
     rlf_registration *r = *registration;
-    void *parts[16] = {r->a,        r->b,        r->c,        r->has_row,      r->line,
-                       r->points.u, r->points.v, r->points.z, r->points.scale, r->row.x0,
-                       r->row.x1,   r->row.y,    r->row.y0,   r->lens.du,      r->lens.dv,
-                       r->size};
-    for (int i = 0; i < 16; i++) {
+    void *parts[17] = {r->a,        r->b,         r->c,        r->row_top,      r->line,
+                       r->points.u, r->points.v,  r->points.z, r->points.scale, r->row.x0,
+                       r->row.x1,   r->row.y,     r->row.y0,   r->lens.du,      r->lens.dv,
+                       r->size,     r->row_bottom};
+    for (int i = 0; i < 17; i++) {
         rlf_free(parts[i]);
     }
     rlf_free(r);

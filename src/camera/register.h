@@ -12,10 +12,11 @@ struct rlf_registration {
     rlf_kernel_pinhole pinhole;
     rlf_kernel_lens lens; /* du NULL = no distortion */
     float *size;          /* of each rectangle, over pinhole's; NULL = 1, lenses stretch nothing */
-    uint8_t *has_row;     /* per depth row: 0 = nothing of it can land in the picture */
-    float shadow_px_m;    /* parallax along a fill line: pixels of shift times metres of depth */
-    int32_t gap_px;       /* holes up to this are gaps between rectangles */
-    bool fills_columns;   /* the baseline is more vertical than horizontal */
+    float *row_top, *row_bottom; /* per depth row: nothing of it can land above or below these rows
+                                    of the picture */
+    float shadow_px_m;  /* parallax along a fill line: pixels of shift times metres of depth */
+    int32_t gap_px;     /* holes up to this are gaps between rectangles */
+    bool fills_columns; /* the baseline is more vertical than horizontal */
 
     rlf_kernel_points points; /* work memory: one depth row */
     rlf_kernel_splat row;
@@ -31,8 +32,9 @@ rlf_result registration_make_sizes(rlf_registration *r);
 /* register_warp.c: colour pixels of row y of the depth grid, into r->points. */
 void registration_project(rlf_registration *r, const float *depth, int32_t y);
 
-/* register_fill.c: gaps and parallax shadows, and every pixel's state. */
-void registration_fill_holes(const rlf_registration *r, const rlf_plane_f32 *depth,
-                             const rlf_plane_u8 *state);
+/* register_fill.c: gaps and parallax shadows of rows [begin, end), which are all of them where
+ * r->fills_columns, and their pixels' state. */
+void registration_fill_holes(const rlf_registration *r, int32_t begin, int32_t end,
+                             const rlf_plane_f32 *depth, const rlf_plane_u8 *state);
 
 #endif

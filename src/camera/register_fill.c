@@ -5,12 +5,10 @@
  * takes the far side's depth. */
 #include "camera/register.h"
 
-#include <string.h>
-
 /* A row or a column of the output, as bytes between neighbours. */
 typedef struct fill_line {
     char *depth;
-    uint8_t *state;
+    uint8_t *state; /* NULL = not wanted */
     ptrdiff_t depth_step, state_step;
     int32_t count;
 } fill_line;
@@ -36,18 +34,19 @@ static void fill_hole(const rlf_registration *r, const fill_line *line, int32_t 
     uint8_t state = value > 0.0f ? RLF_REGISTERED_FILLED : RLF_REGISTERED_EMPTY;
     for (int32_t i = begin; i < end; i++) {
         *depth_at(line, i) = value;
-        line->state[i * line->state_step] = state;
+        if (line->state != NULL) {
+            line->state[i * line->state_step] = state;
+        }
     }
 }
 
-/* First pixel from i on whose state is `state`. */
-static int32_t find(const fill_line *line, int32_t i, uint8_t state)
+/* First pixel from i on that has a depth, or has none. */
+static int32_t find(const fill_line *line, int32_t i, bool has_depth)
 {
-    if (line->state_step == 1) { /* rows, the usual case */
-        const uint8_t *at = memchr(line->state + i, state, (size_t)(line->count - i));
-        return at != NULL ? (int32_t)(at - line->state) : line->count;
+    if (line->depth_step == (ptrdiff_t)sizeof(float)) { /* rows, the usual case */
+        return rlf_kernel_find_seen(depth_at(line, 0), i, line->count, has_depth ? 1 : 0);
     }
-    while (i < line->count && line->state[i * line->state_step] != state) {
+    while (i < line->count && (*depth_at(line, i) < RLF_KERNEL_NOTHING) != has_depth) {
         i++;
     }
     return i;
@@ -55,30 +54,48 @@ static int32_t find(const fill_line *line, int32_t i, uint8_t state)
 
 static void fill_line_holes(const rlf_registration *r, const fill_line *line)
 {
-    int32_t begin = find(line, 0, RLF_REGISTERED_EMPTY);
+    int32_t begin = find(line, 0, false);
     while (begin < line->count) {
-        int32_t end = find(line, begin, RLF_REGISTERED_VISIBLE);
+        int32_t end = find(line, begin, true);
         fill_hole(r, line, begin, end);
-        begin = find(line, end, RLF_REGISTERED_EMPTY);
+        begin = find(line, end, false);
     }
 }
 
-void registration_fill_holes(const rlf_registration *r, const rlf_plane_f32 *depth,
-                             const rlf_plane_u8 *state)
+static void fill_row(const rlf_registration *r, int32_t y, const rlf_plane_f32 *depth,
+                     const rlf_plane_u8 *state)
 {
-    bool columns = r->fills_columns;
-    for (int32_t y = 0; y < state->height; y++) {
-        rlf_kernel_seen_row(rlf_f32_row(depth, y), state->width, rlf_u8_row(state, y));
+    const fill_line line = {.depth = (char *)rlf_f32_row(depth, y),
+                            .state = state->data != NULL ? rlf_u8_row(state, y) : NULL,
+                            .depth_step = sizeof(float),
+                            .state_step = 1,
+                            .count = depth->width};
+    fill_line_holes(r, &line);
+}
+
+static void fill_column(const rlf_registration *r, int32_t x, const rlf_plane_f32 *depth,
+                        const rlf_plane_u8 *state)
+{
+    const fill_line line = {.depth = (char *)(depth->data + x),
+                            .state = state->data != NULL ? state->data + x : NULL,
+                            .depth_step = depth->stride,
+                            .state_step = state->stride,
+                            .count = depth->height};
+    fill_line_holes(r, &line);
+}
+
+void registration_fill_holes(const rlf_registration *r, int32_t begin, int32_t end,
+                             const rlf_plane_f32 *depth, const rlf_plane_u8 *state)
+{
+    for (int32_t y = begin; y < end; y++) {
+        if (state->data != NULL) {
+            rlf_kernel_seen_row(rlf_f32_row(depth, y), state->width, rlf_u8_row(state, y));
+        }
+        if (!r->fills_columns) {
+            fill_row(r, y, depth, state);
+        }
     }
-    int32_t lines = columns ? depth->width : depth->height;
-    for (int32_t i = 0; i < lines; i++) {
-        fill_line line = {
-            (char *)depth->data + (columns ? i * (ptrdiff_t)sizeof(float) : i * depth->stride),
-            state->data + (columns ? i : i * state->stride),
-            columns ? depth->stride : (ptrdiff_t)sizeof(float),
-            columns ? state->stride : 1,
-            columns ? depth->height : depth->width,
-        };
-        fill_line_holes(r, &line);
+    for (int32_t x = 0; r->fills_columns && x < depth->width; x++) {
+        fill_column(r, x, depth, state);
     }
 }

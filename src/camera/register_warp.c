@@ -32,9 +32,20 @@ static int32_t draw_run(const rlf_registration *r, int32_t begin, int32_t y)
     return i;
 }
 
-/* `out_cleared` rows of the picture have been cleared so far: just before they are drawn into,
- * while they are in the processor's cache. */
-static void splat(const rlf_registration *r, const rlf_plane_f32 *out, int32_t *out_cleared)
+/* Rows of the picture that are wanted, and how far they have been cleared: just before they are
+ * drawn into, while they are in the processor's cache. */
+typedef struct wanted_rows {
+    int32_t begin, end, cleared;
+} wanted_rows;
+
+static void clear_up_to(wanted_rows *rows, int32_t end, const rlf_plane_f32 *out)
+{
+    for (; rows->cleared < end; rows->cleared++) {
+        rlf_kernel_clear_row(out->width, rlf_f32_row(out, rows->cleared));
+    }
+}
+
+static void splat(const rlf_registration *r, const rlf_plane_f32 *out, wanted_rows *rows)
 {
     const int32_t *row_y = r->row.y;
     for (int32_t i = 0; i < r->width;) {
@@ -47,10 +58,12 @@ static void splat(const rlf_registration *r, const rlf_plane_f32 *out, int32_t *
         int32_t x[2];
         rlf_kernel_splat_bounds(&r->row, i, end, x);
         int32_t count = x[1] - x[0] + 1;
-        for (; *out_cleared <= y % RLF_KERNEL_ROWS; (*out_cleared)++) {
-            rlf_kernel_clear_row(out->width, rlf_f32_row(out, *out_cleared));
-        }
-        for (int32_t line = y / RLF_KERNEL_ROWS; line <= y % RLF_KERNEL_ROWS; line++) {
+        int32_t first = y / RLF_KERNEL_ROWS;
+        int32_t last = y % RLF_KERNEL_ROWS;
+        first = first > rows->begin ? first : rows->begin;
+        last = last < rows->end ? last : rows->end - 1;
+        clear_up_to(rows, last + 1, out);
+        for (int32_t line = first; line <= last; line++) {
             rlf_kernel_nearer_row(r->line + x[0], count, rlf_f32_row(out, line) + x[0]);
         }
         rlf_kernel_clear_row(count, r->line + x[0]);
@@ -71,25 +84,36 @@ void registration_project(rlf_registration *r, const float *depth, int32_t y)
     }
 }
 
-void rlf_registration_apply(rlf_registration *r, const float *depth, const rlf_plane_f32 *out_depth,
-                            const rlf_plane_u8 *out_state)
+void rlf_registration_apply_rows(rlf_registration *r, const float *depth, int32_t begin,
+                                 int32_t end, const rlf_plane_f32 *out_depth,
+                                 const rlf_plane_u8 *out_state)
 {
     if (!RLF_ASSERT(r != NULL && depth != NULL && out_depth != NULL && out_state != NULL) ||
         !RLF_ASSERT(out_depth->width == r->color.width && out_depth->height == r->color.height &&
-                    out_state->width == r->color.width && out_state->height == r->color.height)) {
+                    out_state->width == r->color.width && out_state->height == r->color.height) ||
+        !RLF_ASSERT(begin >= 0 && end <= r->color.height)) {
         return;
     }
-    int32_t cleared = 0;
+    wanted_rows rows = {begin, end, begin};
+    if (r->fills_columns) {
+        rows = (wanted_rows){0, r->color.height, 0};
+    }
     for (int32_t y = 0; y < r->height; y++) {
-        if (!r->has_row[y]) {
+        if (r->row_bottom[y] < (float)rows.begin || r->row_top[y] > (float)rows.end) {
             continue;
         }
         registration_project(r, depth, y);
         rlf_kernel_splat_row(&r->pinhole, &r->points, r->width, &r->row);
-        splat(r, out_depth, &cleared);
+        splat(r, out_depth, &rows);
     }
-    for (; cleared < out_depth->height; cleared++) {
-        rlf_kernel_clear_row(out_depth->width, rlf_f32_row(out_depth, cleared));
+    clear_up_to(&rows, rows.end, out_depth);
+    registration_fill_holes(r, rows.begin, rows.end, out_depth, out_state);
+}
+
+void rlf_registration_apply(rlf_registration *r, const float *depth, const rlf_plane_f32 *out_depth,
+                            const rlf_plane_u8 *out_state)
+{
+    if (RLF_ASSERT(out_depth != NULL)) {
+        rlf_registration_apply_rows(r, depth, 0, out_depth->height, out_depth, out_state);
     }
-    registration_fill_holes(r, out_depth, out_state);
 }

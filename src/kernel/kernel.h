@@ -397,6 +397,8 @@ void rlf_kernel_splat_bounds(const rlf_kernel_splat *splat, int32_t begin, int32
 void rlf_kernel_clear_row(int32_t count, float *restrict out);
 /* 1 where there is a depth, else 0. */
 void rlf_kernel_seen_row(const float *restrict z, int32_t count, uint8_t *restrict out);
+/* First i of begin <= i < count, else count, at which there is a depth (is_seen 1) or none (0). */
+int32_t rlf_kernel_find_seen(const float *z, int32_t begin, int32_t count, int32_t is_seen);
 /* Keeps the smaller value of each. */
 void rlf_kernel_nearer_row(const float *restrict line, int32_t count, float *restrict out);
 

@@ -199,3 +199,27 @@ RLF_KERNEL void rlf_kernel_seen_row(const float *restrict z, int32_t count, uint
         out[i] = z[i] < RLF_KERNEL_NOTHING;
     }
 }
+
+RLF_KERNEL_PART int32_t count_seen(const float *restrict z, int32_t count)
+{
+    int32_t sum = 0;
+    for (int32_t i = 0; i < count; i++) {
+        sum += z[i] < RLF_KERNEL_NOTHING ? 1 : 0;
+    }
+    return sum;
+}
+
+RLF_KERNEL int32_t rlf_kernel_find_seen(const float *z, int32_t begin, int32_t count,
+                                        int32_t is_seen)
+{
+    enum { BLOCK = 64 };
+    const int32_t none = is_seen != 0 ? 0 : BLOCK;
+    int32_t i = begin;
+    while (i + BLOCK <= count && count_seen(z + i, BLOCK) == none) {
+        i += BLOCK;
+    }
+    while (i < count && (z[i] < RLF_KERNEL_NOTHING ? 1 : 0) != is_seen) {
+        i++;
+    }
+    return i;
+}

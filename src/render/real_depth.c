@@ -43,14 +43,12 @@ static rlf_result allocate(real_depth *real, const rlf_camera *picture)
     real->input = rlf_alloc_array((size_t)real->width * (size_t)real->height, sizeof(float));
     /* Readers may look at several pixels at once, beyond the last. */
     real->z.data = rlf_alloc_array(pixels + 16, sizeof(float));
-    real->state.data = rlf_alloc_array(pixels, 1);
-    if (real->input == NULL || real->z.data == NULL || real->state.data == NULL) {
+    if (real->input == NULL || real->z.data == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    real->z.width = real->state.width = picture->width;
-    real->z.height = real->state.height = picture->height;
+    real->z.width = picture->width;
+    real->z.height = picture->height;
     real->z.stride = picture->width * (ptrdiff_t)sizeof(float);
-    real->state.stride = picture->width;
     return RLF_OK;
 }
 
@@ -90,9 +88,8 @@ void real_depth_destroy(real_depth *real)
     rlf_registration_destroy(&real->registration);
     known_layer_destroy(&real->known);
     known_layer_destroy(&real->sensed);
-    void *parts[6] = {real->input, real->z.data, real->state.data,
-                      real->ray_x, real->ray_y,  real->is_in_lens};
-    for (int i = 0; i < 6; i++) {
+    void *parts[5] = {real->input, real->z.data, real->ray_x, real->ray_y, real->is_in_lens};
+    for (int i = 0; i < 5; i++) {
         rlf_free(parts[i]);
     }
     memset(real, 0, sizeof(*real));
@@ -141,7 +138,8 @@ const known_layer *real_depth_known(const real_depth *real)
     return real->known.count > 0 ? &real->known : NULL;
 }
 
-rlf_result real_depth_update(real_depth *real, const rlf_render_input *input)
+rlf_result real_depth_update(real_depth *real, const rlf_render_input *input, int32_t begin,
+                             int32_t end)
 {
     if (real->uses_frame) {
         read_frame(real, input->frame);
@@ -152,7 +150,12 @@ rlf_result real_depth_update(real_depth *real, const rlf_render_input *input)
     rlf_pose T_picture_world = rlf_pose_mul(&real->T_picture_depth, &T_camera_world);
     rlf_result result = known_layer_place(&real->sensed, input->snapshot, &T_camera_world);
     known_layer_fill(&real->sensed, real->input);
-    rlf_registration_apply(real->registration, real->input, &real->z, &real->state);
+    if (real->sensed.count > 0) { /* models may be looked at anywhere */
+        begin = 0;
+        end = real->z.height;
+    }
+    const rlf_plane_u8 no_state = {NULL, real->z.width, real->z.height, real->z.width};
+    rlf_registration_apply_rows(real->registration, real->input, begin, end, &real->z, &no_state);
     if (result == RLF_OK) {
         result = known_layer_place(&real->known, input->snapshot, &T_picture_world);
     }

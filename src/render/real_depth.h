@@ -7,9 +7,8 @@
 
 typedef struct real_depth {
     rlf_registration *registration;
-    float *input;       /* what is registered: the surface's size, or the frame's for coarse ones */
-    rlf_plane_f32 z;    /* metres along the picture camera's z; 0 = unknown */
-    rlf_plane_u8 state; /* rlf_registered */
+    float *input;    /* what is registered: the surface's size, or the frame's for coarse ones */
+    rlf_plane_f32 z; /* metres along the picture camera's z; 0 = unknown */
 
     /* A surface that keeps every n-th pixel is too coarse to cut bodies along a silhouette; then
      * the frame's own depth is registered, as in the thesis (4.2.2). */
@@ -34,8 +33,10 @@ rlf_result real_depth_create(const rlf_compositor_def *def, const rlf_camera *ca
 /* As silhouette_update's `known`. */
 const known_layer *real_depth_known(const real_depth *real);
 void real_depth_destroy(real_depth *real);
-/* Fills z and state. Pixels without depth take the background's, when the surface knows it; models
- * of real things take their place. RLF_ERROR_MEMORY as known_layer_place. */
-rlf_result real_depth_update(real_depth *real, const rlf_render_input *input);
+/* Fills rows [begin, end) of z; of the others nothing is known. Pixels without depth take the
+ * background's, when the surface knows it; models of real things take their place. RLF_ERROR_MEMORY
+ * as known_layer_place. */
+rlf_result real_depth_update(real_depth *real, const rlf_render_input *input, int32_t begin,
+                             int32_t end);
 
 #endif

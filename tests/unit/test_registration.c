@@ -279,6 +279,59 @@ static void vertical_baseline_fills_columns(void **state)
     free_rig(&g);
 }
 
+/* Rows [begin, end) by themselves are those of the whole picture. */
+static void check_rows(rig *g, int32_t begin, int32_t end)
+{
+    const size_t width = (size_t)g->color.width;
+    const size_t pixels = width * (size_t)g->color.height;
+    float *z = malloc(pixels * sizeof(float));
+    uint8_t *seen = malloc(pixels);
+    const rlf_plane_f32 out = {z, g->out.width, g->out.height, g->out.stride};
+    const rlf_plane_u8 seen_plane = {seen, g->state.width, g->state.height, g->state.stride};
+    const rlf_plane_u8 no_state = {NULL, g->state.width, g->state.height, g->state.stride};
+    for (int i = 0; i < 2; i++) {
+        memset(z, 1, pixels * sizeof(float));
+        memset(seen, 77, pixels);
+        rlf_registration_apply_rows(g->registration, g->z, begin, end, &out,
+                                    i == 0 ? &seen_plane : &no_state);
+        const size_t first = (size_t)begin * width;
+        const size_t count = (size_t)(end - begin) * width;
+        assert_memory_equal(z + first, g->out.data + first, count * sizeof(float));
+        if (i == 0) {
+            assert_memory_equal(seen + first, g->state.data + first, count);
+        }
+    }
+    free(z);
+    free(seen);
+}
+
+static void rows_are_those_of_the_picture(void **state)
+{
+    (void)state;
+    const rlf_vec3 baselines[3] = {{-0.052, 0.003, 0.01}, {0.0, -0.05, 0.0}, {0.02, 0.0, -0.1}};
+    srand(4);
+    for (int i = 0; i < 6; i++) {
+        rlf_camera color = color_camera();
+        if (i >= 3) {
+            color.distortion_model = RLF_DISTORTION_PLUMB_BOB;
+            color.distortion[0] = 0.05;
+        }
+        rlf_pose T = {baselines[i % 3], rlf_quat_from_axis_angle(rlf_vec3_make(1, 0, 0), 0.04)};
+        rig g = make_rig(depth_camera(), color, T);
+        for (int32_t k = 0; k < g.depth.width * g.depth.height; k++) {
+            int32_t thing = (k % g.depth.width / 40 + k / g.depth.width / 50) % 3;
+            g.z[k] = rand() % 9 == 0 ? 0.0f : 1.0f + 0.8f * (float)thing;
+        }
+        rlf_registration_apply(g.registration, g.z, &g.out, &g.state);
+        check_rows(&g, 0, g.color.height);
+        check_rows(&g, 0, 100);
+        check_rows(&g, 217, 218);
+        check_rows(&g, 300, g.color.height);
+        check_rows(&g, 40, 40);
+        free_rig(&g);
+    }
+}
+
 static void wide_holes_stay_empty(void **state)
 {
     (void)state;
@@ -372,6 +425,7 @@ int main(void)
         cmocka_unit_test(shadow_has_its_side_width_and_depth),
         cmocka_unit_test(both_maps_know_what_is_hidden),
         cmocka_unit_test(vertical_baseline_fills_columns),
+        cmocka_unit_test(rows_are_those_of_the_picture),
         cmocka_unit_test(wide_holes_stay_empty),
         cmocka_unit_test(coarse_grid_covers_the_picture),
         cmocka_unit_test(bad_depth_and_padding_are_left_alone),

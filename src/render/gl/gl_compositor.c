@@ -258,7 +258,7 @@ static bool has_bodies(const rlf_render_input *input)
 
 static rlf_result update_real_depth(gl_compositor *c, const rlf_render_input *input)
 {
-    rlf_result result = real_depth_update(&c->real, input);
+    rlf_result result = real_depth_update(&c->real, input, 0, c->real.z.height);
     gl_texture_upload_f32(&c->depth_texture, c->real.z.data, c->real.z.width, c->real.z.height);
     return result;
 }

@@ -181,13 +181,11 @@ static void clear_matte(soft *s)
     memset(s->matte.data, 0, (size_t)s->matte.width * (size_t)s->matte.height);
 }
 
-/* What the real world is like where the bodies are. */
-static void update_silhouette(soft *s, const rlf_render_input *input)
+static void place_silhouette(soft *s, const rlf_render_input *input)
 {
     rlf_pose T_camera_world = rlf_pose_invert(&input->T_world_camera);
     rlf_pose T_picture_world = rlf_pose_mul(&s->T_picture_depth, &T_camera_world);
     silhouette_place(&s->silhouette, &s->camera, &T_picture_world, input->snapshot);
-    silhouette_update(&s->silhouette, &s->real.z, real_depth_known(&s->real), input->frame);
 }
 
 static void draw_background_rows(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -203,15 +201,20 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
         return result;
     }
     bool has_bodies = s->scene.body_count > 0;
+    bool has_edges = has_bodies && s->def.occlusion == RLF_OCCLUSION_SOFT;
+    if (has_edges) {
+        place_silhouette(s, input);
+    }
     if (input->frame->color.data == NULL || has_bodies) {
-        result = real_depth_update(&s->real, input);
+        const soft_rows rows = soft_needed_rows(s, input);
+        result = real_depth_update(&s->real, input, rows.begin, rows.end);
     }
     if (result != RLF_OK) {
         return result;
     }
     soft_set_background(s, &input->frame->color);
-    if (has_bodies && s->def.occlusion == RLF_OCCLUSION_SOFT) {
-        update_silhouette(s, input);
+    if (has_edges) {
+        silhouette_update(&s->silhouette, &s->real.z, real_depth_known(&s->real), input->frame);
     }
     if (has_bodies) {
         soft_draw_bodies(s, true);
@@ -224,7 +227,7 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
 static rlf_result draw_mesh(soft *s, const rlf_render_input *input)
 {
     if (input->frame->color.data == NULL) {
-        rlf_result result = real_depth_update(&s->real, input);
+        rlf_result result = real_depth_update(&s->real, input, 0, s->camera.height);
         if (result != RLF_OK) {
             return result;
         }

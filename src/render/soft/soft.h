@@ -206,6 +206,14 @@ typedef struct soft {
 /* soft.c: what the picture is seen from. */
 void soft_set_viewpoint(soft *s, const rlf_camera *camera, const rlf_pose *T_picture_depth);
 
+/* Rows begin <= y < end. */
+typedef struct soft_rows {
+    int32_t begin, end;
+} soft_rows;
+/* needed_rows.c: those of the registered depth that are looked at. Scene and silhouette's bodies
+ * must be in place. */
+soft_rows soft_needed_rows(const soft *s, const rlf_render_input *input);
+
 /* background.c: the colour picture, or, when it has no data, registered depth in grey. */
 void soft_set_background(soft *s, const rlf_image_rgba8 *color);
 /* Rows [begin, end) of it; the matte there becomes 0. Real depth must be up to date if it is grey.
