@@ -74,7 +74,7 @@ RLF_KERNEL bool soft_fill_nodes(const soft *s, const soft_face *f, const int32_t
     out->per_row = per_row;
     float middle[3];
     float radius = ball_of(&points, corner, middle);
-    bool is_shaded = body->real_shade != NULL;
+    bool is_shaded = f->is_lit && body->real_shade != NULL;
     if (is_shaded) {
         clear_nodes(out);
         real_shade_take(body->real_shade, &points, (float)BODY_DIRECT_SHARE, out->direct);
@@ -82,6 +82,7 @@ RLF_KERNEL bool soft_fill_nodes(const soft *s, const soft_face *f, const int32_t
     for (int32_t i = 0; i < body->shader_count; i++) {
         const caster *c = &s->scene.casters[body->shaders[i]];
         int32_t takes = caster_may_take(c, middle, radius);
+        takes &= f->is_lit ? ~0 : ~CASTER_TAKES_DIRECT;
         if (takes != CASTER_TAKES_NOTHING && !is_shaded) {
             clear_nodes(out);
         }

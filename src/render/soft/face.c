@@ -161,6 +161,11 @@ static void set_planes(soft_face *f, const screen_corner *c, int count)
         low = rlf_min(low, c[i].inverse_z);
         high = rlf_max(high, c[i].inverse_z);
     }
+    f->is_lit = false;
+    for (int i = 0; i < count; i++) {
+        double ambient = (BODY_LIGHT_AMBIENT + 1e-4) * c[i].inverse_z;
+        f->is_lit = f->is_lit || c[i].attribute[SOFT_LIGHT] > ambient;
+    }
     f->inverse_z_min = (float)low;
     f->inverse_z_max = (float)high;
     for (int k = 0; k < SOFT_ATTRIBUTES; k++) {

@@ -59,6 +59,7 @@ typedef struct soft_face {
     int32_t y_begin, y_end;                /* rows it may touch */
     int32_t body;                          /* into soft_scene.bodies */
     int32_t skin;                          /* into soft_scene.skins; 0 = as the body */
+    bool is_lit;                           /* by more than the light around */
 } soft_face;
 
 /* What a model's face takes its colours from. */
