@@ -8,7 +8,8 @@
  * depth is that side's plane, least squares in depth, which is straight enough within two pixels,
  * or the background's own where that goes on there. A gap between two near ends that is wider than
  * a driver's band shows the background in its middle. The outermost pixels, which drivers' filters
- * leave empty, go on as the two inside of them. */
+ * leave empty, go on as the two inside of them. A hole about as wide as the widest that is filled
+ * is filled in some rows and not in others: what is left of it then is closed. */
 #include "surface/steps.h"
 #include "surface/window.h"
 
@@ -196,6 +197,50 @@ static void fill_border(const fill_job *job)
     }
 }
 
+/* Closes the one or two empty pixels from i on along `step`, of `room` that there are, when one of
+ * those at their ends was filled and both show one surface. */
+static bool close_gap(const fill_job *job, ptrdiff_t i, ptrdiff_t step, int32_t room)
+{
+    enum { WIDEST = 2 };
+    int32_t wide = 1;
+    while (wide < WIDEST && wide < room && may_fill(job->reason[i + wide * step])) {
+        wide++;
+    }
+    ptrdiff_t end = i + wide * step;
+    if (wide >= room) {
+        return false;
+    }
+    float z = job->out[i - step], next = job->out[end];
+    bool was_filled =
+        job->reason[i - step] == RLF_REASON_FILLED || job->reason[end] == RLF_REASON_FILLED;
+    if (!was_filled || !(z > 0.0f) || !(next > 0.0f) ||
+        !(rlf_kernel_abs(next - z) < MOST_CHANGE * z)) {
+        return false;
+    }
+    for (int32_t k = 0; k < wide; k++) { /* inverse depth is linear */
+        float share = (float)(k + 1) / (float)(wide + 1);
+        job->out[i + k * step] = z * next / (next + share * (z - next));
+        job->reason[i + k * step] = RLF_REASON_FILLED;
+    }
+    return true;
+}
+
+/* In raster order, by one thread: what was closed may be an end of what follows. */
+static void close_gaps(const fill_job *job)
+{
+    const rlf_grid *grid = &job->stage->grid;
+    int32_t width = grid->width;
+    for (int32_t y = 1; y + 1 < grid->height; y++) {
+        ptrdiff_t row = (ptrdiff_t)y * width;
+        for (int32_t x = 0; (x = rlf_kernel_next_mark(job->reason + row, x, width)) < width; x++) {
+            if (x > 0 && x + 1 < width && may_fill(job->reason[row + x]) &&
+                !close_gap(job, row + x, width, grid->height - y)) {
+                close_gap(job, row + x, 1, width - x);
+            }
+        }
+    }
+}
+
 void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, rlf_slot *slot)
 {
     fill_job job = {.stage = stage,
@@ -207,5 +252,6 @@ void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, rlf_slot *
                     .reason = slot->reason};
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, copy_rows, &job);
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, fill_rows, &job);
+    close_gaps(&job);
     fill_border(&job);
 }

@@ -190,6 +190,33 @@ static void the_border_goes_on(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
+/* Of a hole that is as wide as the widest that is filled, and wider by turns, nothing is left. */
+static void a_ragged_hole_is_no_comb(void **state)
+{
+    enum { LEFT = 60, WIDE = 7, TOP = 8, END = 28 }; /* on the wall */
+    fixture *f = *state;
+    set_room(f, 1.6);
+    for (int i = 0; i < COUNT; i++) {
+        int x = i % WIDTH, y = i / WIDTH;
+        bool hole = y >= TOP && y < END && x >= LEFT && x < LEFT + WIDE + (y % 3 == 0 ? 3 : 0);
+        f->noisy[i] = hole ? 0.0f : f->truth[i];
+    }
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
+    def.background_method = RLF_BACKGROUND_OFF;
+    rlf_reconstruct *stage = NULL;
+    const rlf_surface *s = NULL;
+    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    rlf_frame frame = analytic_frame(&f->rig, f->noisy, 0);
+    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    for (int i = 0; i < COUNT; i++) {
+        if (f->noisy[i] == 0.0f) {
+            assert_int_equal(s->reason[i], RLF_REASON_FILLED);
+            assert_true(fabsf(s->depth[i] - f->truth[i]) < 0.001f);
+        }
+    }
+    rlf_reconstruct_destroy(&stage);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -198,6 +225,7 @@ int main(void)
         cmocka_unit_test(what_stands_still_becomes_steady),
         cmocka_unit_test(nothing_that_moved_stays),
         cmocka_unit_test(the_border_goes_on),
+        cmocka_unit_test(a_ragged_hole_is_no_comb),
     };
     return cmocka_run_group_tests(tests, make_fixture, free_fixture);
 }
