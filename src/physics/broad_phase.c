@@ -70,7 +70,7 @@ static double measure(rlf_world *world, double horizon)
 static int32_t cell_index(double x, double cell)
 {
     double at = x / cell + 524288.0; /* bodies are within 20 m or so of the origin */
-    return (int32_t)rlf_clamp(at, 1.0, 1048574.0);
+    return at > 1.0 ? (int32_t)rlf_min(at, 1048574.0) : 1; /* so is what is no number */
 }
 
 /* Three numbers below 2^20 side by side. */
