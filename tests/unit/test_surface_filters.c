@@ -160,6 +160,18 @@ static void nothing_that_moved_stays(void **state)
     rlf_reconstruct_destroy(&steady);
 }
 
+/* The first surface, without a background; it is the stage's, and that the caller's. */
+static const rlf_surface *reconstruct_once(fixture *f, rlf_reconstruct **stage)
+{
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
+    def.background_method = RLF_BACKGROUND_OFF;
+    const rlf_surface *s = NULL;
+    assert_int_equal(rlf_reconstruct_create(&def, stage), RLF_OK);
+    rlf_frame frame = analytic_frame(&f->rig, f->noisy, 0);
+    assert_int_equal(rlf_reconstruct_process(*stage, &frame, &s), RLF_OK);
+    return s;
+}
+
 /* Drivers leave the border of the image empty: it goes on as what is inside of it. */
 static void the_border_goes_on(void **state)
 {
@@ -170,13 +182,8 @@ static void the_border_goes_on(void **state)
         bool border = x == 0 || y == 0 || x == WIDTH - 1 || y == HEIGHT - 1;
         f->noisy[i] = border ? 0.0f : f->truth[i];
     }
-    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
-    def.background_method = RLF_BACKGROUND_OFF;
     rlf_reconstruct *stage = NULL;
-    const rlf_surface *s = NULL;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
-    rlf_frame frame = analytic_frame(&f->rig, f->noisy, 0);
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    const rlf_surface *s = reconstruct_once(f, &stage);
     for (int i = 0; i < COUNT; i++) {
         int x = i % WIDTH;
         bool is_edge = x > WIDTH / 2 - 4 && x < WIDTH / 2 + 4;
@@ -201,13 +208,8 @@ static void a_ragged_hole_is_no_comb(void **state)
         bool hole = y >= TOP && y < END && x >= LEFT && x < LEFT + WIDE + (y % 3 == 0 ? 3 : 0);
         f->noisy[i] = hole ? 0.0f : f->truth[i];
     }
-    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
-    def.background_method = RLF_BACKGROUND_OFF;
     rlf_reconstruct *stage = NULL;
-    const rlf_surface *s = NULL;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
-    rlf_frame frame = analytic_frame(&f->rig, f->noisy, 0);
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    const rlf_surface *s = reconstruct_once(f, &stage);
     for (int i = 0; i < COUNT; i++) {
         if (f->noisy[i] == 0.0f) {
             assert_int_equal(s->reason[i], RLF_REASON_FILLED);
