@@ -46,11 +46,10 @@ static void measure(rlf_registration *r, const rlf_camera *depth, const rlf_pose
 }
 
 /* Rows of the picture that a row of the grid reaches, whatever its depths are. v(z) is a ratio of
- * linear functions and so lies between its values at both ends. What a lens does to them is not
- * worked out: beyond it there is nothing, within it may be anywhere. */
-static void mark_row(rlf_registration *r, int32_t y)
+ * linear functions and so lies between its values at both ends; a lens moves it by shift[0] to
+ * shift[1]. */
+static void mark_row(rlf_registration *r, const double shift[2], int32_t y)
 {
-    const rlf_kernel_lens *lens = &r->lens;
     const double far_off = 1e9;
     double top = far_off;
     double bottom = -far_off;
@@ -68,13 +67,18 @@ static void mark_row(rlf_registration *r, int32_t y)
             break;
         }
     }
-    if (lens->du != NULL) {
-        bool is_beyond = bottom < lens->top || top > lens->top + lens->rows / lens->per_pixel_y;
-        top = is_beyond ? far_off : -far_off;
-        bottom = -top;
+    r->row_top[y] = (float)(top + shift[0] - 1.0);
+    r->row_bottom[y] = (float)(bottom + shift[1] + 1.0);
+}
+
+static void mark_rows(rlf_registration *r, const double shift[2])
+{
+    double next = r->color.height;
+    for (int32_t y = r->height - 1; y >= 0; y--) {
+        mark_row(r, shift, y);
+        r->done[y] = (int32_t)next;
+        next = rlf_clamp((double)r->row_top[y], 0.0, next);
     }
-    r->row_top[y] = (float)(top - 1.0);
-    r->row_bottom[y] = (float)(bottom + 1.0);
 }
 
 static rlf_result allocate(rlf_registration *r)
@@ -86,11 +90,12 @@ static rlf_result allocate(rlf_registration *r)
     r->c = rlf_alloc_array(count, sizeof(*r->c));
     r->row_top = rlf_alloc_array((size_t)r->height, sizeof(*r->row_top));
     r->row_bottom = rlf_alloc_array((size_t)r->height, sizeof(*r->row_bottom));
+    r->done = rlf_alloc_array((size_t)r->height, sizeof(*r->done));
     r->line = rlf_alloc_array((size_t)r->color.width, sizeof(*r->line));
     float **floats[4] = {&r->points.u, &r->points.v, &r->points.scale, &r->points.z};
     int32_t **integers[4] = {&r->row.x0, &r->row.x1, &r->row.y, &r->row.y0};
     bool has_all = r->a != NULL && r->b != NULL && r->c != NULL && r->row_top != NULL &&
-                   r->row_bottom != NULL && r->line != NULL;
+                   r->row_bottom != NULL && r->done != NULL && r->line != NULL;
     for (int i = 0; i < 4; i++) {
         *floats[i] = rlf_alloc_array(width, sizeof(float));
         *integers[i] = rlf_alloc_array(width, sizeof(int32_t));
@@ -129,9 +134,10 @@ rlf_result rlf_registration_create(const rlf_camera *depth, const float *ray_x, 
     r->width = depth->width;
     r->height = depth->height;
     r->color = *color;
+    double shift[2] = {0.0, 0.0};
     result = allocate(r);
     if (result == RLF_OK && color->distortion_model != RLF_DISTORTION_NONE) {
-        result = registration_make_lens(r);
+        result = registration_make_lens(r, shift);
     }
     if (result != RLF_OK) {
         rlf_registration_destroy(&r);
@@ -144,9 +150,7 @@ rlf_result rlf_registration_create(const rlf_camera *depth, const float *ray_x, 
         rlf_registration_destroy(&r);
         return result;
     }
-    for (int32_t y = 0; y < r->height; y++) {
-        mark_row(r, y);
-    }
+    mark_rows(r, shift);
     *out = r;
     return RLF_OK;
 }
@@ -157,11 +161,11 @@ void rlf_registration_destroy(rlf_registration **registration)
         return;
     }
     rlf_registration *r = *registration;
-    void *parts[17] = {r->a,        r->b,         r->c,        r->row_top,      r->line,
-                       r->points.u, r->points.v,  r->points.z, r->points.scale, r->row.x0,
-                       r->row.x1,   r->row.y,     r->row.y0,   r->lens.du,      r->lens.dv,
-                       r->size,     r->row_bottom};
-    for (int i = 0; i < 17; i++) {
+    void *parts[18] = {r->a,        r->b,          r->c,        r->row_top,      r->line,
+                       r->points.u, r->points.v,   r->points.z, r->points.scale, r->row.x0,
+                       r->row.x1,   r->row.y,      r->row.y0,   r->lens.du,      r->lens.dv,
+                       r->size,     r->row_bottom, r->done};
+    for (int i = 0; i < 18; i++) {
         rlf_free(parts[i]);
     }
     rlf_free(r);

@@ -14,6 +14,7 @@ struct rlf_registration {
     float *size;          /* of each rectangle, over pinhole's; NULL = 1, lenses stretch nothing */
     float *row_top, *row_bottom; /* per depth row: nothing of it can land above or below these rows
                                     of the picture */
+    int32_t *done; /* per depth row: rows of the picture before this one change no more after it */
     float shadow_px_m;  /* parallax along a fill line: pixels of shift times metres of depth */
     int32_t gap_px;     /* holes up to this are gaps between rectangles */
     bool fills_columns; /* the baseline is more vertical than horizontal */
@@ -23,8 +24,8 @@ struct rlf_registration {
     float *line; /* work memory: one picture row; RLF_KERNEL_NOTHING between uses */
 };
 
-/* register_lens.c: the distortion of r->color as a table. */
-rlf_result registration_make_lens(rlf_registration *r);
+/* register_lens.c: the distortion of r->color as a table; shift: least and greatest of dv. */
+rlf_result registration_make_lens(rlf_registration *r, double shift[2]);
 
 /* register_size.c: r->size. Tables and rectangles must be there. */
 rlf_result registration_make_sizes(rlf_registration *r);

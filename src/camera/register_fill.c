@@ -5,6 +5,8 @@
  * takes the far side's depth. */
 #include "camera/register.h"
 
+#include <string.h>
+
 /* A row or a column of the output, as bytes between neighbours. */
 typedef struct fill_line {
     char *depth;
@@ -16,6 +18,34 @@ typedef struct fill_line {
 static float *depth_at(const fill_line *line, int32_t i)
 {
     return (float *)(void *)(line->depth + i * line->depth_step);
+}
+
+/* The usual case: pixels one behind the other. */
+static bool is_row(const fill_line *line)
+{
+    return line->depth_step == (ptrdiff_t)sizeof(float);
+}
+
+/* Depth and state of pixels [begin, end). */
+static void set_pixels(const fill_line *line, int32_t begin, int32_t end, float value)
+{
+    const uint8_t state = value > 0.0f ? RLF_REGISTERED_FILLED : RLF_REGISTERED_EMPTY;
+    if (is_row(line)) {
+        float *restrict depth = depth_at(line, 0);
+        for (int32_t i = begin; i < end; i++) {
+            depth[i] = value;
+        }
+        if (line->state != NULL) {
+            memset(line->state + begin, state, (size_t)(end - begin));
+        }
+        return;
+    }
+    for (int32_t i = begin; i < end; i++) {
+        *depth_at(line, i) = value;
+        if (line->state != NULL) {
+            line->state[i * line->state_step] = state;
+        }
+    }
 }
 
 /* The hole [begin, end): a gap between rectangles or a parallax shadow takes the far side's depth;
@@ -31,19 +61,13 @@ static void fill_hole(const rlf_registration *r, const fill_line *line, int32_t 
         float shadow = 1.25f * r->shadow_px_m * (1.0f / z_near - 1.0f / z_far);
         value = (float)(end - begin) <= shadow + (float)r->gap_px ? z_far : 0.0f;
     }
-    uint8_t state = value > 0.0f ? RLF_REGISTERED_FILLED : RLF_REGISTERED_EMPTY;
-    for (int32_t i = begin; i < end; i++) {
-        *depth_at(line, i) = value;
-        if (line->state != NULL) {
-            line->state[i * line->state_step] = state;
-        }
-    }
+    set_pixels(line, begin, end, value);
 }
 
 /* First pixel from i on that has a depth, or has none. */
 static int32_t find(const fill_line *line, int32_t i, bool has_depth)
 {
-    if (line->depth_step == (ptrdiff_t)sizeof(float)) { /* rows, the usual case */
+    if (is_row(line)) {
         return rlf_kernel_find_seen(depth_at(line, 0), i, line->count, has_depth ? 1 : 0);
     }
     while (i < line->count && (*depth_at(line, i) < RLF_KERNEL_NOTHING) != has_depth) {

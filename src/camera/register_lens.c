@@ -24,7 +24,7 @@ static void lens_bounds(const rlf_camera *k, double bounds[4])
     }
 }
 
-rlf_result registration_make_lens(rlf_registration *r)
+rlf_result registration_make_lens(rlf_registration *r, double shift[2])
 {
     const rlf_camera *k = &r->color;
     rlf_kernel_lens *lens = &r->lens;
@@ -52,6 +52,8 @@ rlf_result registration_make_lens(rlf_registration *r)
         bool is_inside = rlf_camera_project(k, ray, &u, &v);
         lens->du[i] = is_inside ? (float)(u - u0) : RLF_KERNEL_NOTHING;
         lens->dv[i] = is_inside ? (float)(v - v0) : RLF_KERNEL_NOTHING;
+        shift[0] = is_inside ? rlf_min(shift[0], (double)lens->dv[i]) : shift[0];
+        shift[1] = is_inside ? rlf_max(shift[1], (double)lens->dv[i]) : shift[1];
     }
     return RLF_OK;
 }

@@ -7,17 +7,17 @@
  * into all of those rows at once. */
 #include "camera/register.h"
 
-/* Draws rectangles from `begin` on into the line, as long as they lie in the rows `y`; returns
- * where they end. Those without pixels draw nothing at the line's start. */
-static int32_t draw_run(const rlf_registration *r, int32_t begin, int32_t y)
+#include <string.h>
+
+/* Draws rectangles [begin, end), all of the same rows, into the line. Those without pixels draw
+ * nothing at the line's start. */
+static void draw_run(const rlf_registration *r, int32_t begin, int32_t end)
 {
-    const float *z = r->points.z;
-    const int32_t *row_x0 = r->row.x0;
-    const int32_t *row_x1 = r->row.x1;
-    const int32_t *row_y = r->row.y;
-    float *line = r->line;
-    int32_t i = begin;
-    for (; i < r->width && (row_y[i] == y || row_y[i] < 0); i++) {
+    const float *restrict z = r->points.z;
+    const int32_t *restrict row_x0 = r->row.x0;
+    const int32_t *restrict row_x1 = r->row.x1;
+    float *restrict line = r->line;
+    for (int32_t i = begin; i < end; i++) {
         int32_t x0 = row_x0[i];
         int32_t x1 = row_x1[i];
         float here = z[i];
@@ -29,44 +29,72 @@ static int32_t draw_run(const rlf_registration *r, int32_t begin, int32_t y)
             line[x] = here < line[x] ? here : line[x];
         }
     }
-    return i;
 }
 
-/* Rows of the picture that are wanted, and how far they have been cleared: just before they are
- * drawn into, while they are in the processor's cache. */
+/* Rows of the picture that are wanted, how many of them are drawn into, and how many are done:
+ * each while it is in the processor's cache. */
 typedef struct wanted_rows {
-    int32_t begin, end, cleared;
+    int32_t begin, end, drawn, done;
+    const rlf_plane_f32 *depth;
+    const rlf_plane_u8 *state;
 } wanted_rows;
 
-static void clear_up_to(wanted_rows *rows, int32_t end, const rlf_plane_f32 *out)
+static void clear_up_to(wanted_rows *rows, int32_t end)
 {
-    for (; rows->cleared < end; rows->cleared++) {
-        rlf_kernel_clear_row(out->width, rlf_f32_row(out, rows->cleared));
+    for (; rows->drawn < end; rows->drawn++) {
+        rlf_kernel_clear_row(rows->depth->width, rlf_f32_row(rows->depth, rows->drawn));
     }
 }
 
-static void splat(const rlf_registration *r, const rlf_plane_f32 *out, wanted_rows *rows)
+/* Rows before `end` change no more. */
+static void finish_up_to(const rlf_registration *r, wanted_rows *rows, int32_t end)
+{
+    end = end < rows->end ? end : rows->end;
+    if (rows->done < end) {
+        clear_up_to(rows, end);
+        registration_fill_holes(r, rows->done, end, rows->depth, rows->state);
+        rows->done = end;
+    }
+}
+
+/* Puts pixels x[0] .. x[1] of the line into row y: the first that is drawn into it. */
+static void put_row(const rlf_registration *r, const int32_t x[2], wanted_rows *rows)
+{
+    float *out = rlf_f32_row(rows->depth, rows->drawn);
+    rlf_kernel_clear_row(x[0], out);
+    memcpy(out + x[0], r->line + x[0], (size_t)(x[1] + 1 - x[0]) * sizeof(*out));
+    rlf_kernel_clear_row(rows->depth->width - x[1] - 1, out + x[1] + 1);
+    rows->drawn++;
+}
+
+static void put_line(const rlf_registration *r, const int32_t x[2], int32_t y, wanted_rows *rows)
+{
+    const int32_t first = y / RLF_KERNEL_ROWS;
+    const int32_t last = y % RLF_KERNEL_ROWS < rows->end ? y % RLF_KERNEL_ROWS : rows->end - 1;
+    const int32_t count = x[1] - x[0] + 1;
+    clear_up_to(rows, first < rows->end ? first : rows->end);
+    for (int32_t row = first > rows->begin ? first : rows->begin; row <= last; row++) {
+        if (row < rows->drawn) {
+            rlf_kernel_nearer_row(r->line + x[0], count, rlf_f32_row(rows->depth, row) + x[0]);
+        } else {
+            put_row(r, x, rows);
+        }
+    }
+    rlf_kernel_clear_row(count, r->line + x[0]);
+}
+
+static void splat(const rlf_registration *r, wanted_rows *rows)
 {
     const int32_t *row_y = r->row.y;
     for (int32_t i = 0; i < r->width;) {
-        int32_t y = row_y[i];
-        if (y < 0) {
+        if (row_y[i] < 0) {
             i++;
             continue;
         }
-        int32_t end = draw_run(r, i, y);
         int32_t x[2];
-        rlf_kernel_splat_bounds(&r->row, i, end, x);
-        int32_t count = x[1] - x[0] + 1;
-        int32_t first = y / RLF_KERNEL_ROWS;
-        int32_t last = y % RLF_KERNEL_ROWS;
-        first = first > rows->begin ? first : rows->begin;
-        last = last < rows->end ? last : rows->end - 1;
-        clear_up_to(rows, last + 1, out);
-        for (int32_t line = first; line <= last; line++) {
-            rlf_kernel_nearer_row(r->line + x[0], count, rlf_f32_row(out, line) + x[0]);
-        }
-        rlf_kernel_clear_row(count, r->line + x[0]);
+        const int32_t end = rlf_kernel_splat_run(&r->row, i, r->width, x);
+        draw_run(r, i, end);
+        put_line(r, x, row_y[i], rows);
         i = end;
     }
 }
@@ -94,9 +122,9 @@ void rlf_registration_apply_rows(rlf_registration *r, const float *depth, int32_
         !RLF_ASSERT(begin >= 0 && end <= r->color.height)) {
         return;
     }
-    wanted_rows rows = {begin, end, begin};
+    wanted_rows rows = {begin, end, begin, begin, out_depth, out_state};
     if (r->fills_columns) {
-        rows = (wanted_rows){0, r->color.height, 0};
+        rows = (wanted_rows){0, r->color.height, 0, 0, out_depth, out_state};
     }
     for (int32_t y = 0; y < r->height; y++) {
         if (r->row_bottom[y] < (float)rows.begin || r->row_top[y] > (float)rows.end) {
@@ -104,10 +132,10 @@ void rlf_registration_apply_rows(rlf_registration *r, const float *depth, int32_
         }
         registration_project(r, depth, y);
         rlf_kernel_splat_row(&r->pinhole, &r->points, r->width, &r->row);
-        splat(r, out_depth, &rows);
+        splat(r, &rows);
+        finish_up_to(r, &rows, r->fills_columns ? 0 : r->done[y]);
     }
-    clear_up_to(&rows, rows.end, out_depth);
-    registration_fill_holes(r, rows.begin, rows.end, out_depth, out_state);
+    finish_up_to(r, &rows, rows.end);
 }
 
 void rlf_registration_apply(rlf_registration *r, const float *depth, const rlf_plane_f32 *out_depth,

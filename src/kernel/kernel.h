@@ -390,8 +390,10 @@ void rlf_kernel_distort_row(const rlf_kernel_lens *lens, int32_t count,
 void rlf_kernel_stretch_row(const float *restrict size, int32_t count, float *restrict scale);
 void rlf_kernel_splat_row(const rlf_kernel_pinhole *params, const rlf_kernel_points *points,
                           int32_t count, const rlf_kernel_splat *out);
-/* Least x0 and largest x1 of rectangles [begin, end), without those that have no pixels. */
-void rlf_kernel_splat_bounds(const rlf_kernel_splat *splat, int32_t begin, int32_t end,
+/* First i of begin < i < count, else count, whose rectangle has pixels and other rows than that at
+ * `begin`; into `out` the least x0 and largest x1 of those before it, without those that have no
+ * pixels. */
+int32_t rlf_kernel_splat_run(const rlf_kernel_splat *splat, int32_t begin, int32_t count,
                              int32_t out[2]);
 /* Fills with RLF_KERNEL_NOTHING. */
 void rlf_kernel_clear_row(int32_t count, float *restrict out);

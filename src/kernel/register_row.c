@@ -168,12 +168,31 @@ RLF_KERNEL void rlf_kernel_nearer_row(const float *restrict line, int32_t count,
     }
 }
 
-RLF_KERNEL void rlf_kernel_splat_bounds(const rlf_kernel_splat *splat, int32_t begin, int32_t end,
+/* Of `count` rectangles in other rows than y, without those that have no pixels: how many. */
+RLF_KERNEL_PART int32_t count_others(const int32_t *restrict rows, int32_t y, int32_t count)
+{
+    int32_t sum = 0;
+    for (int32_t i = 0; i < count; i++) {
+        sum += (rows[i] != y ? 1 : 0) & (rows[i] >= 0 ? 1 : 0);
+    }
+    return sum;
+}
+
+RLF_KERNEL int32_t rlf_kernel_splat_run(const rlf_kernel_splat *splat, int32_t begin, int32_t count,
                                         int32_t out[2])
 {
+    enum { BLOCK = 64 };
     const int32_t *restrict x0 = splat->x0;
     const int32_t *restrict x1 = splat->x1;
     const int32_t *restrict y = splat->y;
+    const int32_t here = y[begin];
+    int32_t end = begin;
+    while (end + BLOCK <= count && count_others(y + end, here, BLOCK) == 0) {
+        end += BLOCK;
+    }
+    while (end < count && (y[end] == here || y[end] < 0)) {
+        end++;
+    }
     int32_t least = INT32_MAX;
     int32_t most = 0;
     for (int32_t i = begin; i < end; i++) {
@@ -184,6 +203,7 @@ RLF_KERNEL void rlf_kernel_splat_bounds(const rlf_kernel_splat *splat, int32_t b
     }
     out[0] = least;
     out[1] = most;
+    return end;
 }
 
 RLF_KERNEL void rlf_kernel_clear_row(int32_t count, float *restrict out)
