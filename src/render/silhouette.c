@@ -28,12 +28,14 @@ static rlf_result allocate(silhouette *s, int32_t width, int32_t height)
     size_t tiles = (size_t)s->columns * (size_t)s->rows;
     s->tiles = rlf_alloc_array(tiles, sizeof(*s->tiles));
     s->own = rlf_alloc_array(tiles, sizeof(*s->own));
+    s->real = rlf_alloc_array(tiles, sizeof(*s->real));
     s->marks = rlf_alloc_array(tiles, 1);
     s->last_seen = rlf_alloc_array(pixels, sizeof(*s->last_seen));
     s->offset_x = rlf_alloc_array((size_t)width, sizeof(*s->offset_x));
     s->offset_y = rlf_alloc_array((size_t)height, sizeof(*s->offset_y));
-    has_all = has_all && s->tiles != NULL && s->own != NULL && s->marks != NULL &&
-              s->last_seen != NULL && s->offset_x != NULL && s->offset_y != NULL;
+    has_all = has_all && s->tiles != NULL && s->own != NULL && s->real != NULL &&
+              s->marks != NULL && s->last_seen != NULL && s->offset_x != NULL &&
+              s->offset_y != NULL;
     return has_all ? RLF_OK : RLF_ERROR_MEMORY;
 }
 
@@ -56,11 +58,11 @@ rlf_result silhouette_create(const rlf_camera *camera, const rlf_camera *depth, 
 
 void silhouette_destroy(silhouette *s)
 {
-    void *parts[13] = {
+    void *parts[14] = {
         s->near_z.data,     s->far_z.data,   s->cover.data, s->distance.data, s->last_cover.data,
         s->last_light.data, s->last_seen,    s->tiles,      s->own,           s->offset_x,
-        s->offset_y,        s->settled.data, s->marks};
-    for (int i = 0; i < 13; i++) {
+        s->offset_y,        s->settled.data, s->marks,      s->real};
+    for (int i = 0; i < 14; i++) {
         rlf_free(parts[i]);
     }
     memset(s, 0, sizeof(*s));

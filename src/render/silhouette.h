@@ -43,9 +43,11 @@ typedef struct silhouette {
     uint64_t last_sequence; /* of the frame */
 
     silhouette_tile *tiles;
-    silhouette_tile *own; /* the same without the neighbours */
-    uint8_t *marks;       /* of the tiles with bodies in or around them; 0 for others */
-    bool fills_all;       /* every tile with bodies is filled; default false */
+    silhouette_tile *own;  /* the same without the neighbours */
+    silhouette_tile *real; /* depths of the real world in those, with the pixels next to them, at
+                              least: from 0 to SILHOUETTE_FAR where some of it is missing */
+    uint8_t *marks;        /* of the tiles with bodies in or around them; 0 for others */
+    bool fills_all;        /* every tile with bodies is filled; default false */
     int32_t columns, rows;
     ptrdiff_t *offset_x, *offset_y; /* bytes of a picture's pixel in the colour image */
     int32_t reach;                  /* pixels on each side of a depth edge that may be wrong */

@@ -77,34 +77,85 @@ RLF_KERNEL_PART int32_t matters(float a, float b, float near_z, float far_z)
     return (silhouette_jumps(a, b) ? 1 : 0) & (nearer < far_z ? 1 : 0) & (farther > near_z ? 1 : 0);
 }
 
-/* Marks the tiles in which depth jumps between a row's pixels and the next ones, or those below.
- * `whole` tiles have a pixel beyond their last. */
-RLF_KERNEL static void mark_jumps(const float *restrict row, const float *restrict below,
-                                  const silhouette_tile *restrict tiles, int32_t whole,
-                                  uint8_t *restrict marks)
+/* Depths of the pixels of a tile, z being its first, and of those beside and below: `rows` rows,
+ * `stride` pixels apart. */
+RLF_KERNEL_PART silhouette_tile range_of(const float *restrict z, ptrdiff_t stride, int32_t rows)
 {
-    for (int32_t k = 0; k < whole; k++) {
-        const float *here = row + k * SILHOUETTE_TILE;
-        const float *under = below + k * SILHOUETTE_TILE;
-        const float near_z = tiles[k].near_z - MARGIN_M;
-        const float far_z = tiles[k].far_z + MARGIN_M;
-        int32_t any = 0;
+    float near_z[SILHOUETTE_TILE];
+    float far_z[SILHOUETTE_TILE];
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
+        near_z[i] = far_z[i] = z[i];
+    }
+    for (int32_t y = 0; y < rows; y++) {
+        const float *restrict row = z + y * stride;
+        RLF_KERNEL_WHOLE
+        for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
+            float nearer = row[i] < row[i + 1] ? row[i] : row[i + 1];
+            float farther = row[i] < row[i + 1] ? row[i + 1] : row[i];
+            near_z[i] = nearer < near_z[i] ? nearer : near_z[i];
+            far_z[i] = farther > far_z[i] ? farther : far_z[i];
+        }
+    }
+    for (int32_t half = SILHOUETTE_TILE / 2; half > 0; half /= 2) {
+        for (int32_t i = 0; i < half; i++) {
+            near_z[i] = near_z[i + half] < near_z[i] ? near_z[i + half] : near_z[i];
+            far_z[i] = far_z[i + half] > far_z[i] ? far_z[i + half] : far_z[i];
+        }
+    }
+    const silhouette_tile range = {near_z[0], near_z[0] > 0.0f ? far_z[0] : SILHOUETTE_FAR};
+    return range;
+}
+
+/* True when depth jumps between a pixel of the tile and the next one, or the one below, in a way
+ * that matters to the tile's bodies; `below`: rows that have one below. */
+RLF_KERNEL_PART bool has_jump(const float *restrict z, ptrdiff_t stride, int32_t rows,
+                              int32_t below, const silhouette_tile *bodies)
+{
+    const float near_z = bodies->near_z - MARGIN_M;
+    const float far_z = bodies->far_z + MARGIN_M;
+    int32_t any = 0;
+    for (int32_t y = 0; y < rows && any == 0; y++) {
+        const float *here = z + y * stride;
+        const float *under = here + (y < below ? stride : 0);
         RLF_KERNEL_WHOLE
         for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
             any |= matters(here[i], here[i + 1], near_z, far_z);
             any |= matters(here[i], under[i], near_z, far_z);
         }
-        marks[k] |= (uint8_t)any;
+    }
+    return any != 0;
+}
+
+/* Ranges of a row of tiles, z being its first pixel, and marks of those where depth jumps. The
+ * first `whole` tiles have a pixel beyond their last. No two depths of a tile differ by more than
+ * the least and the greatest: where these do not jump none do. */
+RLF_KERNEL static void find_jumps(const float *z, ptrdiff_t stride, int32_t rows, int32_t below,
+                                  int32_t whole, const silhouette_tile *restrict tiles,
+                                  silhouette_tile *restrict real, uint8_t *restrict marks)
+{
+    for (int32_t k = 0; k < whole; k++) {
+        const float *first = z + k * SILHOUETTE_TILE;
+        if (is_used(&tiles[k])) {
+            real[k] = range_of(first, stride, rows + (below == rows ? 1 : 0));
+            bool jumps = silhouette_jumps(real[k].near_z, real[k].far_z) &&
+                         has_jump(first, stride, rows, below, &tiles[k]);
+            marks[k] = jumps ? SILHOUETTE_JUMPS : 0;
+        }
     }
 }
 
-/* The same for the last pixels of a row, which end in a tile that may be cut. */
-static bool jumps_at_end(const float *row, const float *below, int32_t count)
+/* The same for the last pixels of rows y0 <= y < y1, which end in a tile that may be cut. */
+static bool jumps_at_end(const rlf_plane_f32 *z, int32_t x0, int32_t y0, int32_t y1)
 {
     bool any = false;
-    for (int32_t i = 0; i < count; i++) {
-        any = any || silhouette_jumps(row[i], below[i]) ||
-              (i + 1 < count && silhouette_jumps(row[i], row[i + 1]));
+    for (int32_t y = y0; y < y1 && !any; y++) {
+        const float *row = rlf_f32_row(z, y);
+        const float *below = rlf_f32_row(z, y + 1 < z->height ? y + 1 : y);
+        for (int32_t x = x0; x < z->width; x++) {
+            any = any || silhouette_jumps(row[x], below[x]) ||
+                  (x + 1 < z->width && silhouette_jumps(row[x], row[x + 1]));
+        }
     }
     return any;
 }
@@ -116,25 +167,19 @@ void silhouette_find_jumps(void *context, int32_t begin, int32_t end, int32_t wo
     (void)worker;
     const rlf_plane_f32 *z = p->z;
     const int32_t whole = (z->width - 1) / SILHOUETTE_TILE;
+    const int32_t at = whole * SILHOUETTE_TILE;
     memset(s->marks + begin * s->columns, 0, (size_t)((end - begin) * s->columns));
-    for (int32_t y = begin * SILHOUETTE_TILE;
-         y < silhouette_at_most(end * SILHOUETTE_TILE, z->height); y++) {
-        const int32_t first = y / SILHOUETTE_TILE * s->columns;
-        const float *row = rlf_f32_row(z, y);
-        const float *below = rlf_f32_row(z, y + 1 < z->height ? y + 1 : y);
-        for (int32_t x = 0; x < whole;) {
-            int32_t run = 0;
-            while (x + run < whole && is_used(&s->tiles[first + x + run])) {
-                run++;
-            }
-            mark_jumps(row + x * SILHOUETTE_TILE, below + x * SILHOUETTE_TILE, s->tiles + first + x,
-                       run, s->marks + first + x);
-            x += run + 1;
-        }
-        const int32_t at = whole * SILHOUETTE_TILE;
-        if (whole < s->columns && is_used(&s->tiles[first + whole]) &&
-            jumps_at_end(row + at, below + at, z->width - at)) {
-            s->marks[first + whole] = SILHOUETTE_JUMPS;
+    for (int32_t tile = begin; tile < end; tile++) {
+        const int32_t y0 = tile * SILHOUETTE_TILE;
+        const int32_t y1 = silhouette_at_most(y0 + SILHOUETTE_TILE, z->height);
+        const int32_t first = tile * s->columns;
+        find_jumps(rlf_f32_row(z, y0), z->width, y1 - y0,
+                   silhouette_at_most(y1, z->height - 1) - y0, whole, s->tiles + first,
+                   s->real + first, s->marks + first);
+        const int32_t last = first + whole;
+        if (whole < s->columns && is_used(&s->tiles[last])) {
+            s->real[last] = (silhouette_tile){0.0f, SILHOUETTE_FAR};
+            s->marks[last] = jumps_at_end(z, at, y0, y1) ? SILHOUETTE_JUMPS : 0;
         }
     }
 }

@@ -232,7 +232,7 @@ RLF_KERNEL static void find_ranges(const soft *s, int32_t begin, int32_t end, so
         } else if ((l->marks[first + k] & SILHOUETTE_EDGE) != 0) {
             out[k] = range_of(&l->near_z, &l->far_z, x0, begin, end);
         } else {
-            out[k] = range_of(&s->real.z, &s->real.z, x0, begin, end);
+            out[k] = (soft_depth_range){l->real[first + k].near_z, l->real[first + k].far_z};
         }
     }
 }
