@@ -111,44 +111,109 @@ static void set_colors(const silhouette_pass *p, const ptrdiff_t *offset, int32_
     line->beside[1] = p->color + offset[i + BESIDE < count ? i + BESIDE : count - 1];
 }
 
+static silhouette_line row_at(const silhouette_pass *p, int32_t y)
+{
+    silhouette *s = p->s;
+    const int32_t width = p->z->width;
+    silhouette_line line = {.z = rlf_f32_row(p->z, y),
+                            .exact = p->exact != NULL ? p->exact + (ptrdiff_t)y * width : NULL,
+                            .color_offset = s->offset_x,
+                            .near_z = rlf_f32_row(&s->near_z, y),
+                            .far_z = rlf_f32_row(&s->far_z, y),
+                            .cover = rlf_u8_row(&s->settled, y),
+                            .distance = rlf_u8_row(&s->distance, y),
+                            .step = 1,
+                            .across = width,
+                            .count = width,
+                            .above = y,
+                            .below = p->z->height - 1 - y};
+    set_colors(p, s->offset_y, y, p->z->height, &line);
+    return line;
+}
+
+static silhouette_line column_at(const silhouette_pass *p, int32_t x)
+{
+    silhouette *s = p->s;
+    const int32_t width = p->z->width;
+    silhouette_line line = {.z = p->z->data + x,
+                            .exact = p->exact != NULL ? p->exact + x : NULL,
+                            .color_offset = s->offset_y,
+                            .near_z = s->near_z.data + x,
+                            .far_z = s->far_z.data + x,
+                            .cover = s->settled.data + x,
+                            .distance = s->distance.data + x,
+                            .step = width,
+                            .across = 1,
+                            .count = p->z->height,
+                            .above = x,
+                            .below = width - 1 - x,
+                            .is_column = true};
+    set_colors(p, s->offset_x, x, width, &line);
+    return line;
+}
+
+/* Rows [y0, y1) of a row of tiles. */
+static void clear_tiles(const silhouette_pass *p, const uint8_t *marks, int32_t y0, int32_t y1)
+{
+    for (int32_t x = 0; x < p->z->width; x += SILHOUETTE_TILE) {
+        const int32_t end = silhouette_at_most(x + SILHOUETTE_TILE, p->z->width);
+        const bool is_filled = (marks[x / SILHOUETTE_TILE] & SILHOUETTE_FILLED) != 0;
+        for (int32_t y = y0; y < y1 && is_filled; y++) {
+            clear_row(p, x, end, y);
+        }
+    }
+}
+
+/* Jumps in row y between pixels [x, last] of a tile. */
+static void settle_row(const silhouette_pass *p, int32_t x, int32_t last, int32_t y,
+                       const silhouette_tile *tile)
+{
+    const float *z = rlf_f32_row(p->z, y);
+    if (!has_jump(z + x, z + x + 1, last - x)) {
+        return;
+    }
+    const silhouette_line line = row_at(p, y);
+    for (int32_t i = x; i < last; i++) {
+        if (silhouette_jumps(z[i], z[i + 1])) {
+            silhouette_settle(&line, i, tile, p->s->reach);
+        }
+    }
+}
+
 static void settle_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     const silhouette_pass *p = context;
-    silhouette *s = p->s;
+    const silhouette *s = p->s;
     (void)worker;
-    int32_t width = p->z->width;
-    int32_t height = p->z->height;
-    for (int32_t y = begin * SILHOUETTE_TILE; y < silhouette_at_most(end * SILHOUETTE_TILE, height);
-         y++) {
-        const silhouette_tile *tiles = &s->tiles[y / SILHOUETTE_TILE * s->columns];
-        const uint8_t *marks = &s->marks[y / SILHOUETTE_TILE * s->columns];
-        silhouette_line line = {.z = rlf_f32_row(p->z, y),
-                                .exact = p->exact != NULL ? p->exact + (ptrdiff_t)y * width : NULL,
-                                .color_offset = s->offset_x,
-                                .near_z = rlf_f32_row(&s->near_z, y),
-                                .far_z = rlf_f32_row(&s->far_z, y),
-                                .cover = rlf_u8_row(&s->settled, y),
-                                .distance = rlf_u8_row(&s->distance, y),
-                                .step = 1,
-                                .across = width,
-                                .count = width,
-                                .above = y,
-                                .below = height - 1 - y};
-        set_colors(p, s->offset_y, y, height, &line);
-        for (int32_t x = 0; x < width; x += SILHOUETTE_TILE) {
-            if ((marks[x / SILHOUETTE_TILE] & SILHOUETTE_FILLED) != 0) {
-                clear_row(p, x, silhouette_at_most(x + SILHOUETTE_TILE, width), y);
+    for (int32_t row = begin; row < end; row++) {
+        const int32_t y0 = row * SILHOUETTE_TILE;
+        const int32_t y1 = silhouette_at_most(y0 + SILHOUETTE_TILE, p->z->height);
+        clear_tiles(p, s->marks + row * s->columns, y0, y1);
+        for (int32_t at = row * s->columns; at < (row + 1) * s->columns; at++) {
+            const int32_t x = (at - row * s->columns) * SILHOUETTE_TILE;
+            const int32_t last = silhouette_at_most(x + SILHOUETTE_TILE, p->z->width - 1);
+            const bool jumps = (s->marks[at] & SILHOUETTE_JUMPS) != 0;
+            for (int32_t y = y0; y < y1 && jumps; y++) {
+                settle_row(p, x, last, y, &s->tiles[at]);
             }
         }
-        for (int32_t x = 0; x < width; x += SILHOUETTE_TILE) {
-            const silhouette_tile *tile = &tiles[x / SILHOUETTE_TILE];
-            int32_t last = silhouette_at_most(x + SILHOUETTE_TILE, width - 1);
-            if ((marks[x / SILHOUETTE_TILE] & SILHOUETTE_JUMPS) != 0 &&
-                has_jump(line.z + x, line.z + x + 1, last - x)) {
-                for (int32_t i = x; i < last; i++) {
-                    silhouette_settle(&line, i, tile, s->reach);
-                }
-            }
+    }
+}
+
+/* Jumps in columns of a tile between row y and the next one. */
+static void settle_below(const silhouette_pass *p, int32_t x0, int32_t y,
+                         const silhouette_tile *tile)
+{
+    const float *row = rlf_f32_row(p->z, y);
+    const float *below = row + p->z->width;
+    const int32_t end = silhouette_at_most(x0 + SILHOUETTE_TILE, p->z->width);
+    if (!has_jump(row + x0, below + x0, end - x0)) {
+        return;
+    }
+    for (int32_t x = x0; x < end; x++) {
+        if (silhouette_jumps(row[x], below[x])) {
+            const silhouette_line line = column_at(p, x);
+            silhouette_settle(&line, y, tile, p->s->reach);
         }
     }
 }
@@ -156,36 +221,16 @@ static void settle_rows(void *context, int32_t begin, int32_t end, int32_t worke
 static void settle_columns(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     const silhouette_pass *p = context;
-    silhouette *s = p->s;
+    const silhouette *s = p->s;
     (void)worker;
-    int32_t width = p->z->width;
-    int32_t height = p->z->height;
-    for (int32_t tile_x = begin; tile_x < end; tile_x++) {
-        int32_t x0 = tile_x * SILHOUETTE_TILE;
-        int32_t count = silhouette_at_most(SILHOUETTE_TILE, width - x0);
-        for (int32_t y = 0; y < height - 1; y++) {
-            const int32_t at = y / SILHOUETTE_TILE * s->columns + tile_x;
-            const silhouette_tile *tile = &s->tiles[at];
-            const float *row = rlf_f32_row(p->z, y) + x0;
-            if ((s->marks[at] & SILHOUETTE_JUMPS) == 0 || !has_jump(row, row + width, count)) {
-                continue;
-            }
-            for (int32_t x = x0; x < x0 + count; x++) {
-                silhouette_line line = {.z = p->z->data + x,
-                                        .exact = p->exact != NULL ? p->exact + x : NULL,
-                                        .color_offset = s->offset_y,
-                                        .near_z = s->near_z.data + x,
-                                        .far_z = s->far_z.data + x,
-                                        .cover = s->settled.data + x,
-                                        .distance = s->distance.data + x,
-                                        .step = width,
-                                        .across = 1,
-                                        .count = height,
-                                        .above = x,
-                                        .below = width - 1 - x,
-                                        .is_column = true};
-                set_colors(p, s->offset_x, x, width, &line);
-                silhouette_settle(&line, y, tile, s->reach);
+    for (int32_t column = begin; column < end; column++) {
+        for (int32_t row = 0; row < s->rows; row++) {
+            const int32_t at = row * s->columns + column;
+            const int32_t y0 = row * SILHOUETTE_TILE;
+            const int32_t last = silhouette_at_most(y0 + SILHOUETTE_TILE, p->z->height - 1);
+            const bool jumps = (s->marks[at] & SILHOUETTE_JUMPS) != 0;
+            for (int32_t y = y0; y < last && jumps; y++) {
+                settle_below(p, column * SILHOUETTE_TILE, y, &s->tiles[at]);
             }
         }
     }

@@ -112,28 +112,35 @@ static bool is_far_from_edges(const uint8_t *distance, int32_t count)
     return all == SILHOUETTE_NONE;
 }
 
+/* Pixels [x0, x1) of a tile in row y. */
+static void steady_row(const silhouette_pass *p, int32_t x0, int32_t x1, int32_t y)
+{
+    const uint8_t *distance = rlf_u8_row(&p->s->distance, y);
+    if (is_far_from_edges(distance + x0, x1 - x0)) {
+        return;
+    }
+    uint8_t settled[SILHOUETTE_TILE];
+    vote_row(p->s, x0, y, settled);
+    for (int32_t x = x0; x < x1; x++) {
+        if (distance[x] != SILHOUETTE_NONE) {
+            steady_pixel(p, x, y, settled[x - x0]);
+        }
+    }
+}
+
 void silhouette_steady_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     const silhouette_pass *p = context;
     const silhouette *s = p->s;
     (void)worker;
-    for (int32_t y = begin * SILHOUETTE_TILE;
-         y < silhouette_at_most(end * SILHOUETTE_TILE, s->cover.height); y++) {
-        const uint8_t *distance = rlf_u8_row(&s->distance, y);
-        for (int32_t x0 = 0; x0 < s->cover.width; x0 += SILHOUETTE_TILE) {
-            int32_t x1 = silhouette_at_most(x0 + SILHOUETTE_TILE, s->cover.width);
-            int32_t tile = y / SILHOUETTE_TILE * s->columns + x0 / SILHOUETTE_TILE;
-            if ((s->marks[tile] & SILHOUETTE_EDGE) == 0 ||
-                is_far_from_edges(distance + x0, x1 - x0)) {
-                continue;
-            }
-            uint8_t settled[SILHOUETTE_TILE];
-            vote_row(s, x0, y, settled);
-            for (int32_t x = x0; x < x1; x++) {
-                if (distance[x] != SILHOUETTE_NONE) {
-                    steady_pixel(p, x, y, settled[x - x0]);
-                }
-            }
+    for (int32_t tile = begin * s->columns; tile < end * s->columns; tile++) {
+        const int32_t x0 = tile % s->columns * SILHOUETTE_TILE;
+        const int32_t x1 = silhouette_at_most(x0 + SILHOUETTE_TILE, s->cover.width);
+        const int32_t y0 = tile / s->columns * SILHOUETTE_TILE;
+        const int32_t y1 = silhouette_at_most(y0 + SILHOUETTE_TILE, s->cover.height);
+        const bool has_edge = (s->marks[tile] & SILHOUETTE_EDGE) != 0;
+        for (int32_t y = y0; y < y1 && has_edge; y++) {
+            steady_row(p, x0, x1, y);
         }
     }
 }

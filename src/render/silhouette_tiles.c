@@ -17,6 +17,11 @@ static void widen(silhouette_tile *tile, const silhouette_tile *by)
     tile->far_z = by->far_z > tile->far_z ? by->far_z : tile->far_z;
 }
 
+static bool is_used(const silhouette_tile *tile)
+{
+    return tile->far_z >= tile->near_z;
+}
+
 static void add_body(silhouette *s, const caster_rect *rect, const silhouette_tile *range)
 {
     for (int32_t y = rect->y0 / SILHOUETTE_TILE; y * SILHOUETTE_TILE < rect->y1; y++) {
@@ -47,21 +52,17 @@ void silhouette_place(silhouette *s, const rlf_camera *camera, const rlf_pose *T
 /* An edge in the next tile may reach into a tile with a body. */
 void silhouette_spread_tiles(silhouette *s)
 {
+    memcpy(s->tiles, s->own, (size_t)(s->columns * s->rows) * sizeof(*s->tiles));
     for (int32_t i = 0; i < s->columns * s->rows; i++) {
-        s->tiles[i] = s->own[i];
-        for (int32_t k = 0; k < 9; k++) {
+        const silhouette_tile *own = &s->own[i];
+        for (int32_t k = 0; k < 9 && is_used(own); k++) {
             int32_t x = i % s->columns + k % 3 - 1;
             int32_t y = i / s->columns + k / 3 - 1;
             if (x >= 0 && y >= 0 && x < s->columns && y < s->rows) {
-                widen(&s->tiles[i], &s->own[y * s->columns + x]);
+                widen(&s->tiles[y * s->columns + x], own);
             }
         }
     }
-}
-
-static bool is_used(const silhouette_tile *tile)
-{
-    return tile->far_z >= tile->near_z;
 }
 
 /* ---- jumps ---------------------------------------------------------------------------------- */
