@@ -53,6 +53,7 @@ static void print_help(void)
            "                        lit from where its shading says; live's default for clips\n"
            "  --no-match-light      not so\n"
            "  --no-real-shade       real things keep no light from bodies\n"
+           "  --no-real-ambient     bodies are not darker where they are close to real surfaces\n"
            "  --occlusion NAME      soft (live's), hard, thesis (thesis's) or off\n"
            "  --scale N             keep every N-th depth pixel (live 1, thesis 8)\n"
            "  --set NAME=VALUE      a setting of the surface (see `relief settings`); any number\n"
@@ -199,6 +200,7 @@ static int read_options(int argc, char **argv, run_options *o)
         {.name = "match-light", .kind = OPTION_FLAG, .out = &s->matches_light},
         {.name = "no-match-light", .kind = OPTION_FLAG, .out = &s->keeps_light},
         {.name = "no-real-shade", .kind = OPTION_FLAG, .out = &s->no_real_shade},
+        {.name = "no-real-ambient", .kind = OPTION_FLAG, .out = &s->no_real_ambient},
         {.name = "occlusion",
          .kind = OPTION_CHOICE,
          .out = s,

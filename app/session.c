@@ -83,6 +83,7 @@ static rlf_result open_all(const session_options *options, session *s)
     def.compositor.estimates_light = matches;
     def.compositor.estimates_light_direction = matches && !options->is_light_set;
     def.compositor.enable_real_shade = !options->no_real_shade;
+    def.compositor.enable_real_ambient = !options->no_real_ambient;
     def.compositor.enable_overlay = options->enable_overlay;
     return rlf_pipeline_create(&def, &s->pipeline);
 }

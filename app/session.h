@@ -21,7 +21,7 @@ typedef struct session_options {
     /* Bodies lit as the camera's picture is: always, never, or (both false) by profile live and all
      * sources but the synthetic room, whose light is the default one. */
     bool matches_light, keeps_light;
-    bool no_real_shade;
+    bool no_real_shade, no_real_ambient;
     bool enable_render;
     bool enable_overlay;
 } session_options;

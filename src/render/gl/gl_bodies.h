@@ -4,6 +4,7 @@
 
 #include "gl_caster.h"
 #include "gl_models.h"
+#include "gl_obscurance.h"
 #include "gl_shade.h"
 #include "gl_texture.h"
 #include "gl_view.h"
@@ -18,6 +19,7 @@ typedef struct gl_bodies {
             noise, intrinsics, shader_count;
         gl_caster_uniforms shaders[CASTER_BODIES];
         gl_shade_uniforms shade;
+        gl_obscurance_uniforms near_by;
     } uniforms;
     gl_view_uniforms view_uniforms;
     GLuint vertex_array, vertex_buffer, index_buffer; /* unit meshes */
@@ -44,6 +46,7 @@ typedef struct gl_bodies_pass {
     const gl_soft_real *soft; /* instead of real_depth; NULL = none. Without both nothing hides */
     const caster *casters;    /* as the snapshot's bodies; NULL = no shadows */
     const gl_shade *shade;    /* NULL = real things take no light */
+    const gl_obscurance *near_by; /* NULL = nor the light around */
 } gl_bodies_pass;
 
 rlf_result gl_bodies_create(bool is_es, gl_bodies *out);

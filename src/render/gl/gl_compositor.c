@@ -29,6 +29,7 @@ typedef struct gl_compositor {
     caster *casters;       /* as the snapshot's bodies */
     int32_t caster_capacity;
     gl_shade shade;        /* of what real things take */
+    gl_obscurance near_by; /* of the light around */
     rlf_image_rgba8 image; /* read back */
     rlf_plane_u8 matte;
 
@@ -70,6 +71,7 @@ static void free_planes(gl_compositor *c)
     light_direction_destroy(&c->direction);
     silhouette_destroy(&c->silhouette);
     rlf_compositor_destroy(&c->soft);
+    gl_obscurance_destroy(&c->near_by);
     rlf_free(c->casters);
     rlf_free(c->image.data);
     rlf_free(c->matte.data);
@@ -314,6 +316,11 @@ static rlf_result update_shade(gl_compositor *c, const rlf_render_input *input, 
     return gl_shade_update(&c->shade, &world, c->casters, input->snapshot->body_count);
 }
 
+static bool has_real_ambient(const gl_compositor *c)
+{
+    return c->def.enable_real_ambient && has_shadows(c);
+}
+
 /* The colour image, or depth in grey when the frame has none, and the bodies' shadows. */
 static rlf_result draw_backdrop(gl_compositor *c, const rlf_render_input *input)
 {
@@ -349,6 +356,11 @@ static rlf_result draw_backdrop(gl_compositor *c, const rlf_render_input *input)
         if (result == RLF_OK && has_real_shade(c)) {
             result = update_shade(c, input, shadows.to_light);
         }
+        if (result == RLF_OK && has_real_ambient(c)) {
+            const rlf_pose T_depth_picture = rlf_pose_invert(&c->view.T_picture_camera);
+            result = gl_obscurance_update(&c->near_by, input->surface, &T_depth_picture, c->casters,
+                                          input->snapshot->body_count);
+        }
     }
     return result;
 }
@@ -372,7 +384,8 @@ static void draw_bodies(gl_compositor *c, const rlf_snapshot *snapshot)
                            occlusion == RLF_OCCLUSION_DEPTH ? &c->depth_texture : NULL,
                            occlusion == RLF_OCCLUSION_SOFT ? &soft_real : NULL,
                            has_shadows(c) ? c->casters : NULL,
-                           has_real_shade(c) ? &c->shade : NULL};
+                           has_real_shade(c) ? &c->shade : NULL,
+                           has_real_ambient(c) ? &c->near_by : NULL};
     gl_layer_images images = {&c->backdrop.texture, &c->depth_texture, NULL};
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);

@@ -79,6 +79,13 @@ RLF_KERNEL bool soft_fill_nodes(const soft *s, const soft_face *f, const int32_t
         clear_nodes(out);
         real_shade_take(body->real_shade, &points, (float)BODY_DIRECT_SHARE, out->direct);
     }
+    if (soft_may_obscure(s, f, middle, radius)) {
+        if (!is_shaded) {
+            clear_nodes(out);
+        }
+        is_shaded = true;
+        soft_obscure_nodes(s, f, &points, out->ambient);
+    }
     for (int32_t i = 0; i < body->shader_count; i++) {
         const caster *c = &s->scene.casters[body->shaders[i]];
         int32_t takes = caster_may_take(c, middle, radius);

@@ -26,11 +26,14 @@ static rlf_result reserve_bodies(soft_scene *scene, int32_t count)
     rlf_free(scene->casters);
     rlf_free(scene->reach);
     rlf_free(scene->real_shades);
+    rlf_free(scene->obscurances);
     scene->bodies = bodies;
     scene->casters = rlf_alloc_array((size_t)count * 2, sizeof(*scene->casters));
     scene->reach = rlf_alloc_array((size_t)count * 2, sizeof(*scene->reach));
     scene->real_shades = rlf_alloc_array((size_t)count * 2, sizeof(*scene->real_shades));
-    bool has_all = scene->casters != NULL && scene->reach != NULL && scene->real_shades != NULL;
+    scene->obscurances = rlf_alloc_array((size_t)count * 2, sizeof(*scene->obscurances));
+    bool has_all = scene->casters != NULL && scene->reach != NULL && scene->real_shades != NULL &&
+                   scene->obscurances != NULL;
     scene->body_capacity = has_all ? count * 2 : 0;
     return has_all ? RLF_OK : RLF_ERROR_MEMORY;
 }
@@ -283,6 +286,7 @@ rlf_result soft_scene_build(soft *s, const rlf_render_input *input)
         sort_bodies(&s->scene);
         place_casters(s, snapshot, &T_picture_world);
         place_real_shades(s, input->surface);
+        soft_place_obscurances(s, input);
     }
     return result;
 }

@@ -184,8 +184,8 @@ RLF_KERNEL_PART void shade_chunk(const shading *job, const soft_span *spans, int
     if (is_hidden(job, x, x + count)) {
         return;
     }
-    bool is_shaded = (body->shader_count > 0 || body->real_shade != NULL) &&
-                     soft_fill_nodes(s, job->face, y, x, count, &nodes);
+    bool may_be = body->shader_count > 0 || body->real_shade != NULL || body->obscurance != NULL;
+    bool is_shaded = may_be && soft_fill_nodes(s, job->face, y, x, count, &nodes);
     const int32_t align = is_shaded ? s->shade_px : 1;
     for (int32_t i = 0; i <= last; i++) {
         int32_t x0 = spans[i].x0 > x ? (spans[i].x0 - x) / align * align + x : x;

@@ -31,11 +31,12 @@ static void destroy(void *self)
     for (int32_t i = 0; s->shade_tiles != NULL && i < s->worker_count; i++) {
         rlf_free(s->shade_tiles[i]);
     }
-    void *parts[14] = {s->workers,           s->image.data,  s->matte.data,    s->scene.faces,
-                       s->scene.bodies,      s->corners,     s->column_left,   s->column_weight,
-                       s->grid_image.data,   s->shade_tiles, s->scene.casters, s->scene.reach,
-                       s->scene.real_shades, s->scene.skins};
-    for (int i = 0; i < 14; i++) {
+    void *parts[15] = {s->workers,           s->image.data,        s->matte.data,
+                       s->scene.faces,       s->scene.bodies,      s->corners,
+                       s->column_left,       s->column_weight,     s->grid_image.data,
+                       s->shade_tiles,       s->scene.casters,     s->scene.reach,
+                       s->scene.real_shades, s->scene.obscurances, s->scene.skins};
+    for (int i = 0; i < 15; i++) {
         rlf_free(parts[i]);
     }
     rlf_free(s);
@@ -129,13 +130,15 @@ static rlf_result allocate(soft *s)
     s->scene.casters = rlf_alloc_array(BODIES_AT_START, sizeof(*s->scene.casters));
     s->scene.reach = rlf_alloc_array(BODIES_AT_START, sizeof(*s->scene.reach));
     s->scene.real_shades = rlf_alloc_array(BODIES_AT_START, sizeof(*s->scene.real_shades));
+    s->scene.obscurances = rlf_alloc_array(BODIES_AT_START, sizeof(*s->scene.obscurances));
     s->corners = rlf_alloc_array(SHAPE_MESH_VERTEX_MAX, sizeof(*s->corners));
     s->corner_capacity = SHAPE_MESH_VERTEX_MAX;
     s->column_left = rlf_alloc_array((size_t)width, sizeof(*s->column_left));
     s->column_weight = rlf_alloc_array((size_t)width, sizeof(*s->column_weight));
     if (result != RLF_OK || s->matte.data == NULL || s->scene.bodies == NULL ||
         s->scene.casters == NULL || s->scene.reach == NULL || s->scene.real_shades == NULL ||
-        s->corners == NULL || s->column_left == NULL || s->column_weight == NULL) {
+        s->scene.obscurances == NULL || s->corners == NULL || s->column_left == NULL ||
+        s->column_weight == NULL) {
         return RLF_ERROR_MEMORY;
     }
     return RLF_OK;

@@ -15,6 +15,7 @@
 #include "render/body_texture.h"
 #include "render/caster.h"
 #include "render/light_direction.h"
+#include "render/obscurance.h"
 #include "render/room_light.h"
 #include "render/real_depth.h"
 #include "render/real_shade.h"
@@ -49,6 +50,9 @@ typedef struct soft_edge {
     double x, y, end, slope;
 } soft_edge;
 
+/* What real surfaces near its body take from a face: nothing, or by these normals. */
+typedef enum soft_nearness { FACE_FAR, FACE_FLAT, FACE_ROUND } soft_nearness;
+
 /* A convex face with three or four corners in one plane. */
 typedef struct soft_face {
     soft_edge edge[SOFT_CORNERS];
@@ -60,6 +64,8 @@ typedef struct soft_face {
     int32_t body;                          /* into soft_scene.bodies */
     int32_t skin;                          /* into soft_scene.skins; 0 = as the body */
     bool is_lit;                           /* by more than the light around */
+    soft_nearness nearness;                /* of bodies near real surfaces that are not round */
+    float normal[3];                       /* alike; unit, picture camera frame */
 } soft_face;
 
 /* What a model's face takes its colours from. */
@@ -82,6 +88,10 @@ typedef struct soft_body {
     int32_t shaders[CASTER_BODIES]; /* casters that may take light from it */
     int32_t shader_count;
     const real_shade *real_shade; /* NULL = real things take no light from it */
+    const obscurance *obscurance; /* NULL = no real surface is near it */
+    bool is_round;                /* all of its faces; else they say */
+    float per_round;              /* of round faces: one over the radius, */
+    float core;                   /* and half the line that they are about */
 } soft_body;
 
 typedef struct soft_scene {
@@ -95,7 +105,8 @@ typedef struct soft_scene {
     soft_skin *skins; /* entry 0 is not used */
     int32_t skin_count, skin_capacity;
     real_shade *real_shades; /* as bodies */
-    int32_t body_capacity;   /* of the four */
+    obscurance *obscurances; /* as bodies */
+    int32_t body_capacity;   /* of the five */
 } soft_scene;
 
 /* ---- the renderer --------------------------------------------------------------------------- */
@@ -223,6 +234,9 @@ void soft_draw_background(const soft *s, int32_t begin, int32_t end);
 
 /* scene.c: all bodies in the picture as faces. */
 rlf_result soft_scene_build(soft *s, const rlf_render_input *input);
+
+/* obscure.c: which real surfaces the bodies of the scene are near. */
+void soft_place_obscurances(soft *s, const rlf_render_input *input);
 
 /* face.c: room for so many faces, here and with every worker. */
 rlf_result soft_scene_reserve(soft *s, int32_t face_count);

@@ -63,6 +63,13 @@ RLF_KERNEL_PART ramp ramp_at(const soft_plane *plane, float dx, float dy)
     return r;
 }
 
+/* obscure.c: real surfaces near a body take the light around. False when they take none within
+ * `radius` of a point of the face. */
+bool soft_may_obscure(const soft *s, const soft_face *f, const float middle[3], float radius);
+/* Multiplies `left`, of points of the face. */
+void soft_obscure_nodes(const soft *s, const soft_face *f, const caster_points *points,
+                        float *left);
+
 /* body_light.c: what is left at nodes of rows y0 and y1 from x on, of which `count` pixels will be
  * drawn. False when nothing takes any. */
 bool soft_fill_nodes(const soft *s, const soft_face *f, const int32_t y[2], int32_t x,
