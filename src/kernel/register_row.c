@@ -232,14 +232,26 @@ RLF_KERNEL_PART int32_t count_seen(const float *restrict z, int32_t count)
 RLF_KERNEL int32_t rlf_kernel_find_seen(const float *z, int32_t begin, int32_t count,
                                         int32_t is_seen)
 {
-    enum { BLOCK = 64 };
-    const int32_t none = is_seen != 0 ? 0 : BLOCK;
+    enum { BLOCK = 64, PART = 16 };
+    const int32_t wanted = is_seen != 0 ? 1 : 0;
     int32_t i = begin;
-    while (i + BLOCK <= count && count_seen(z + i, BLOCK) == none) {
+    while (i + BLOCK <= count && count_seen(z + i, BLOCK) == (1 - wanted) * BLOCK) {
         i += BLOCK;
     }
-    while (i < count && (z[i] < RLF_KERNEL_NOTHING ? 1 : 0) != is_seen) {
+    while (i + PART <= count && count_seen(z + i, PART) == (1 - wanted) * PART) {
+        i += PART;
+    }
+    while (i < count && (z[i] < RLF_KERNEL_NOTHING ? 1 : 0) != wanted) {
         i++;
     }
     return i;
+}
+
+RLF_KERNEL void rlf_kernel_nearest_row(const float *restrict front, const float *restrict back,
+                                       int32_t count, float *restrict out)
+{
+    for (int32_t i = 0; i < count; i++) {
+        float behind = back[i];
+        out[i] = front[i] > 0.0f ? front[i] : behind;
+    }
 }

@@ -1,6 +1,8 @@
 /* Chooses the depth that hides bodies and registers it. */
 #include "real_depth.h"
 
+#include "kernel/kernel.h"
+
 #include <string.h>
 
 rlf_camera real_depth_picture_camera(const rlf_compositor_def *def)
@@ -127,10 +129,7 @@ static void read_surface(real_depth *real, const rlf_surface *surface)
         memcpy(real->input, front, count * sizeof(float));
         return;
     }
-    float *out = real->input;
-    for (size_t i = 0; i < count; i++) {
-        out[i] = front[i] > 0.0f ? front[i] : back[i];
-    }
+    rlf_kernel_nearest_row(front, back, (int32_t)count, real->input);
 }
 
 const known_layer *real_depth_known(const real_depth *real)
