@@ -131,32 +131,68 @@ bool caster_reach(const caster *c, const rlf_camera *camera, rlf_vec3 to_light, 
 }
 
 /* Square of the distance from v (picture camera frame, from the centre) to the inner box. */
-static float distance2_of_box(const caster *c, const float v[3])
+RLF_KERNEL_PART float distance2_of_box(const caster *c, float x, float y, float z)
 {
     float sum = 0.0f;
     for (int k = 0; k < 3; k++) {
-        float q = c->axis[k][0] * v[0] + c->axis[k][1] * v[1] + c->axis[k][2] * v[2];
+        float q = c->axis[k][0] * x + c->axis[k][1] * y + c->axis[k][2] * z;
         float beyond = (q < 0.0f ? -q : q) - c->half[k];
-        sum += beyond > 0.0f ? beyond * beyond : 0.0f;
+        beyond = beyond > 0.0f ? beyond : 0.0f;
+        sum += beyond * beyond;
     }
     return sum;
 }
 
-int32_t caster_may_take(const caster *c, const float p[3], float radius)
+/* True when a ball about a point, from the centre, may be in the shadow; `square` of its distance.
+ */
+RLF_KERNEL_PART int32_t may_be_in_shadow(const caster *c, float x, float y, float z, float square,
+                                         float radius)
 {
-    float v[3] = {p[0] - c->center[0], p[1] - c->center[1], p[2] - c->center[2]};
-    float square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    float near_reach = c->round + c->near_m + radius;
-    float sphere_reach = c->reach + c->near_m + radius;
-    bool is_near_it =
-        square < sphere_reach * sphere_reach && distance2_of_box(c, v) < near_reach * near_reach;
-    int32_t takes = is_near_it ? CASTER_TAKES_AMBIENT : CASTER_TAKES_NOTHING;
-    float behind = -(v[0] * c->light[0] + v[1] * c->light[1] + v[2] * c->light[2]);
+    float behind = -(x * c->light[0] + y * c->light[1] + z * c->light[2]);
     float deepest = behind + radius + c->reach; /* the body's own depth counts too */
     float wide = c->reach + radius + 0.5f * (c->penumbra + (float)CASTER_SPREAD * deepest);
-    bool is_in_shadow = deepest > 0.0f && behind - radius < c->length_m + c->reach &&
-                        square - behind * behind < wide * wide;
-    return takes + (is_in_shadow ? CASTER_TAKES_DIRECT : 0);
+    return (deepest > 0.0f ? 1 : 0) & (behind - radius < c->length_m + c->reach ? 1 : 0) &
+           (square - behind * behind < wide * wide ? 1 : 0);
+}
+
+int32_t caster_may_take(const caster *c, const float p[3], float radius)
+{
+    float x = p[0] - c->center[0];
+    float y = p[1] - c->center[1];
+    float z = p[2] - c->center[2];
+    float square = x * x + y * y + z * z;
+    float near_reach = c->round + c->near_m + radius;
+    float sphere_reach = c->reach + c->near_m + radius;
+    bool is_near_it = square < sphere_reach * sphere_reach &&
+                      distance2_of_box(c, x, y, z) < near_reach * near_reach;
+    return (is_near_it ? CASTER_TAKES_AMBIENT : 0) +
+           may_be_in_shadow(c, x, y, z, square, radius) * CASTER_TAKES_DIRECT;
+}
+
+RLF_KERNEL_PART void take_balls(const caster caster_here, const float *restrict x,
+                                const float *restrict y, const float *restrict z,
+                                const float *restrict radius, int32_t *restrict out)
+{
+    const caster c = caster_here;
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < CASTER_LANES; i++) {
+        float px = x[i] - c.center[0];
+        float py = y[i] - c.center[1];
+        float pz = z[i] - c.center[2];
+        float near_reach = c.round + c.near_m + radius[i];
+        int32_t is_near_it = distance2_of_box(&c, px, py, pz) < near_reach * near_reach ? 1 : 0;
+        int32_t is_in_shadow =
+            may_be_in_shadow(&c, px, py, pz, px * px + py * py + pz * pz, radius[i]);
+        out[i] = is_near_it * CASTER_TAKES_AMBIENT + is_in_shadow * CASTER_TAKES_DIRECT;
+    }
+}
+
+RLF_KERNEL void caster_may_take_balls(const caster *c, const caster_balls *balls, int32_t count,
+                                      int32_t *restrict out)
+{
+    for (int32_t i = 0; i < count; i += CASTER_LANES) {
+        take_balls(*c, balls->x + i, balls->y + i, balls->z + i, balls->radius + i, out + i);
+    }
 }
 
 static float distance2(const caster *a, const caster *b)

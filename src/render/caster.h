@@ -19,7 +19,8 @@
 
 enum {
     CASTER_BODIES = 3, /* most bodies that shade another one */
-    CASTER_BLOCK = 2   /* pixels on a side that share the light of a real surface */
+    CASTER_BLOCK = 2,  /* pixels on a side that share the light of a real surface */
+    CASTER_LANES = 16  /* points that are worked on at once */
 };
 
 typedef struct caster {
@@ -53,14 +54,19 @@ bool caster_reach(const caster *c, const rlf_camera *camera, rlf_vec3 to_light, 
 enum { CASTER_TAKES_NOTHING = 0, CASTER_TAKES_AMBIENT = 1, CASTER_TAKES_DIRECT = 2 };
 /* Sum of the above: what light may be taken within `radius` of p (picture camera frame). */
 int32_t caster_may_take(const caster *c, const float p[3], float radius);
+/* The same for balls: into `out`, for `count` of them in whole CASTER_LANES. */
+typedef struct caster_balls {
+    const float *x, *y, *z, *radius;
+} caster_balls;
+void caster_may_take_balls(const caster *c, const caster_balls *balls, int32_t count,
+                           int32_t *restrict out);
 /* Indices of the nearest bodies that may take light from body `index`, which is within `radius` of
  * its centre; returns how many. A caster with near_m 0 is none. */
 int32_t caster_choose(const caster *casters, int32_t count, int32_t index,
                       int32_t out[CASTER_BODIES]);
 
-/* Points z (x, y, 1) in the picture camera's frame; none where z <= 0. As many as are worked on at
- * once, or a multiple of that. */
-enum { CASTER_LANES = 16 };
+/* Points z (x, y, 1) in the picture camera's frame; none where z <= 0. CASTER_LANES, or a multiple
+ * of that. */
 typedef struct caster_points {
     const float *x, *y, *z;
     int32_t count;

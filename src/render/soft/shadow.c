@@ -8,11 +8,15 @@
 #define WIDTH SOFT_SHADE_WIDTH
 #define HARDLY 0.998f /* light that is left: less than half a step of 8 bits is lost */
 
+#define COLUMNS_MOST ((RLF_IMAGE_SIZE_MAX + WIDTH - 1) / WIDTH + CASTER_LANES) /* of tiles */
+
 /* One band of rows while the bodies take light from it. */
 typedef struct shade_band {
     const soft *s;
     int32_t begin, end; /* rows */
     soft_shade_tile *tiles;
+    /* balls about all of each tile that is known, picture camera frame; else anything */
+    float x[COLUMNS_MOST], y[COLUMNS_MOST], z[COLUMNS_MOST], radius[COLUMNS_MOST];
 } shade_band;
 
 static int32_t at_most(int32_t a, int32_t b)
@@ -26,24 +30,31 @@ static void gather(const shade_band *b, int32_t column, int32_t step, int32_t be
                    soft_shade_tile *tile)
 {
     const soft *s = b->s;
-    tile->step = step;
-    tile->columns = WIDTH / step + beyond;
-    tile->rows = SOFT_BAND_ROWS / step + beyond;
+    int32_t at[WIDTH / CASTER_BLOCK];
+    float ray_x[WIDTH / CASTER_BLOCK];
+    const int32_t columns = WIDTH / step + beyond;
+    const int32_t rows = SOFT_BAND_ROWS / step + beyond;
+    for (int32_t k = 0; k < columns; k++) {
+        at[k] = at_most(column * WIDTH + k * step, s->camera.width - 1);
+        ray_x[k] = s->ray_x0 + s->ray_step_x * (float)at[k];
+    }
     int32_t i = 0;
-    for (int32_t row = 0; row < tile->rows; row++) {
+    for (int32_t row = 0; row < rows; row++) {
         const int32_t y = at_most(b->begin + row * step, s->camera.height - 1);
         const float *z = rlf_f32_row(&s->real.z, y);
         const float ray_y = s->ray_y0 + s->ray_step_y * (float)y;
-        for (int32_t k = 0; k < tile->columns; k++, i++) {
-            const int32_t x = at_most(column * WIDTH + k * step, s->camera.width - 1);
-            tile->x[i] = s->ray_x0 + s->ray_step_x * (float)x;
+        for (int32_t k = 0; k < columns; k++, i++) {
+            tile->x[i] = ray_x[k];
             tile->y[i] = ray_y;
-            tile->z[i] = z[x];
+            tile->z[i] = z[at[k]];
         }
     }
     for (; i % SOFT_LANES != 0; i++) {
         tile->x[i] = tile->y[i] = tile->z[i] = 0.0f;
     }
+    tile->step = step;
+    tile->columns = columns;
+    tile->rows = rows;
     tile->count = i;
     for (i = 0; i < tile->count; i++) {
         tile->light[i] = 1.0f;
@@ -95,8 +106,9 @@ RLF_KERNEL static void depth_range(const float *restrict z, int32_t count, float
 }
 
 /* A ball about all of a tile's samples: about the middle ray, as deep as they are. */
-static void bound(soft_shade_tile *tile)
+static void bound(shade_band *b, int32_t column)
 {
+    soft_shade_tile *tile = &b->tiles[column];
     float range[2];
     depth_range(tile->z, tile->count, range);
     const float near_z = range[0];
@@ -107,45 +119,58 @@ static void bound(soft_shade_tile *tile)
     float half_x = 0.5f * (tile->x[last] - tile->x[0]);
     float half_y = 0.5f * (tile->y[last] - tile->y[0]);
     float middle = 0.5f * (near_z + far_z);
-    tile->center[0] = middle * x;
-    tile->center[1] = middle * y;
-    tile->center[2] = middle;
-    tile->radius = 0.5f * (far_z - near_z) * sqrtf(x * x + y * y + 1.0f) +
-                   far_z * sqrtf(half_x * half_x + half_y * half_y);
+    b->x[column] = middle * x;
+    b->y[column] = middle * y;
+    b->z[column] = middle;
+    b->radius[column] = 0.5f * (far_z - near_z) * sqrtf(x * x + y * y + 1.0f) +
+                        far_z * sqrtf(half_x * half_x + half_y * half_y);
     tile->has_depth = far_z > 0.0f;
 }
 
-static soft_shade_tile *tile_at(const shade_band *b, int32_t column)
+static void know_tile(shade_band *b, int32_t column)
 {
     soft_shade_tile *tile = &b->tiles[column];
-    if (!tile->is_known) {
-        gather(b, column, b->s->shade_px, 1, tile);
-        if (!is_smooth(tile->z, tile->columns, tile->rows)) {
-            gather(b, column, CASTER_BLOCK, 0, tile);
-        }
-        bound(tile);
-        tile->is_known = true;
+    gather(b, column, b->s->shade_px, 1, tile);
+    if (!is_smooth(tile->z, tile->columns, tile->rows)) {
+        gather(b, column, CASTER_BLOCK, 0, tile);
     }
-    return tile;
+    bound(b, column);
+    tile->is_known = true;
 }
 
-static void shade_by(const shade_band *b, const caster *c, const caster_rect *r)
+static void shade_tile(const caster *c, int32_t takes, soft_shade_tile *tile)
 {
+    const caster_points points = {tile->x, tile->y, tile->z, tile->count};
+    if ((takes & CASTER_TAKES_AMBIENT) != 0) {
+        caster_take_ambient(c, &points, (float)CASTER_AMBIENT_SHARE, tile->light);
+    }
+    if ((takes & CASTER_TAKES_DIRECT) != 0) {
+        caster_take_direct(c, &points, (float)CASTER_DIRECT_SHARE, tile->light);
+    }
+    tile->is_shaded = true;
+}
+
+static void shade_by(shade_band *b, const caster *c, const caster_rect *r)
+{
+    int32_t takes[CASTER_LANES];
     if (r->y0 >= b->end || r->y1 <= b->begin) {
         return;
     }
-    for (int32_t column = r->x0 / WIDTH; column * WIDTH < r->x1; column++) {
-        soft_shade_tile *tile = tile_at(b, column);
-        const caster_points points = {tile->x, tile->y, tile->z, tile->count};
-        int32_t takes =
-            tile->has_depth ? caster_may_take(c, tile->center, tile->radius) : CASTER_TAKES_NOTHING;
-        if ((takes & CASTER_TAKES_AMBIENT) != 0) {
-            caster_take_ambient(c, &points, (float)CASTER_AMBIENT_SHARE, tile->light);
+    const int32_t end = (r->x1 + WIDTH - 1) / WIDTH;
+    for (int32_t first = r->x0 / WIDTH; first < end; first += CASTER_LANES) {
+        const int32_t count = at_most(end - first, CASTER_LANES);
+        for (int32_t k = first; k < first + count; k++) {
+            if (!b->tiles[k].is_known) {
+                know_tile(b, k);
+            }
         }
-        if ((takes & CASTER_TAKES_DIRECT) != 0) {
-            caster_take_direct(c, &points, (float)CASTER_DIRECT_SHARE, tile->light);
+        const caster_balls balls = {b->x + first, b->y + first, b->z + first, b->radius + first};
+        caster_may_take_balls(c, &balls, CASTER_LANES, takes);
+        for (int32_t k = 0; k < count; k++) {
+            if (takes[k] != CASTER_TAKES_NOTHING && b->tiles[first + k].has_depth) {
+                shade_tile(c, takes[k], &b->tiles[first + k]);
+            }
         }
-        tile->is_shaded = tile->is_shaded || takes != CASTER_TAKES_NOTHING;
     }
 }
 
@@ -202,20 +227,24 @@ RLF_KERNEL static void spread_light(const soft_shade_tile *tile, int32_t row, fl
     }
 }
 
-static float least_of(const float *light, int32_t count)
+/* True when hardly any light is lost, in whole lanes. */
+RLF_KERNEL static bool is_light(const float *restrict light, int32_t count)
 {
-    float least = 1.0f;
-    for (int32_t i = 0; i < count; i++) {
-        least = light[i] < least ? light[i] : least;
+    int32_t dark = 0;
+    for (int32_t first = 0; first < count; first += SOFT_LANES) {
+        RLF_KERNEL_WHOLE
+        for (int32_t i = 0; i < SOFT_LANES; i++) {
+            dark |= light[first + i] <= HARDLY ? 1 : 0;
+        }
     }
-    return least;
+    return dark == 0;
 }
 
 static void darken_tile(const shade_band *b, int32_t column)
 {
     const soft *s = b->s;
     const soft_shade_tile *tile = &b->tiles[column];
-    if (least_of(tile->light, tile->count) > HARDLY) {
+    if (is_light(tile->light, tile->count)) {
         return;
     }
     int32_t x0 = column * WIDTH;
@@ -232,8 +261,15 @@ void soft_draw_shadows(const soft *s, soft_shade_tile *tiles, int32_t begin, int
     if (s->scene.caster_count == 0) {
         return;
     }
-    shade_band b = {s, begin, end, tiles};
+    shade_band b;
     int32_t columns = (s->camera.width + WIDTH - 1) / WIDTH;
+    b.s = s;
+    b.begin = begin;
+    b.end = end;
+    b.tiles = tiles;
+    for (int32_t column = 0; column < columns + CASTER_LANES; column++) {
+        b.x[column] = b.y[column] = b.z[column] = b.radius[column] = 0.0f;
+    }
     for (int32_t column = 0; column < columns; column++) {
         tiles[column].is_known = false;
         tiles[column].is_shaded = false;

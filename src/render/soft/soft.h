@@ -179,7 +179,6 @@ typedef struct soft_shade_tile {
     float light[SOFT_SHADE_SAMPLES]; /* share that is left */
     int32_t step;                    /* pixels from one sample to the next */
     int32_t columns, rows, count;    /* of samples; count: in whole lanes */
-    float center[3], radius;         /* of a ball about all of it, picture camera frame */
     bool has_depth, is_known, is_shaded;
 } soft_shade_tile;
 
