@@ -9,24 +9,37 @@
 
 #include <string.h>
 
-/* Draws rectangles [begin, end), all of the same rows, into the line. Those without pixels draw
- * nothing at the line's start. */
-static void draw_run(const rlf_registration *r, int32_t begin, int32_t end)
+static inline void draw_pixel(float *line, int32_t x, float here)
+{
+    float before = line[x];
+    line[x] = here < before ? here : before;
+}
+
+/* Draws rectangles [begin, end), all of the same rows and at most `widest` pixels wide, into the
+ * line. Those without pixels draw nothing at the line's start. Few pixels are drawn more than once
+ * rather than counted. */
+static void draw_run(const rlf_registration *r, int32_t begin, int32_t end, int32_t widest)
 {
     const float *restrict z = r->points.z;
     const int32_t *restrict row_x0 = r->row.x0;
     const int32_t *restrict row_x1 = r->row.x1;
     float *restrict line = r->line;
+    if (widest <= 2) {
+        for (int32_t i = begin; i < end; i++) {
+            draw_pixel(line, row_x0[i], z[i]);
+            draw_pixel(line, row_x1[i], z[i]);
+        }
+        return;
+    }
     for (int32_t i = begin; i < end; i++) {
-        int32_t x0 = row_x0[i];
-        int32_t x1 = row_x1[i];
-        float here = z[i];
-        float left = line[x0];
-        float right = line[x1];
-        line[x0] = here < left ? here : left;
-        line[x1] = here < right ? here : right;
-        for (int32_t x = x0 + 1; x < x1; x++) {
-            line[x] = here < line[x] ? here : line[x];
+        const int32_t x0 = row_x0[i];
+        const int32_t x1 = row_x1[i];
+        const int32_t middle = (x0 + x1) / 2;
+        draw_pixel(line, x0, z[i]);
+        draw_pixel(line, middle, z[i]);
+        draw_pixel(line, x1, z[i]);
+        for (int32_t x = x0 + 1; widest > 3 && x < x1; x++) {
+            draw_pixel(line, x, z[i]);
         }
     }
 }
@@ -91,9 +104,9 @@ static void splat(const rlf_registration *r, wanted_rows *rows)
             i++;
             continue;
         }
-        int32_t x[2];
+        int32_t x[3];
         const int32_t end = rlf_kernel_splat_run(&r->row, i, r->width, x);
-        draw_run(r, i, end);
+        draw_run(r, i, end, x[2]);
         put_line(r, x, row_y[i], rows);
         i = end;
     }

@@ -392,9 +392,9 @@ void rlf_kernel_splat_row(const rlf_kernel_pinhole *params, const rlf_kernel_poi
                           int32_t count, const rlf_kernel_splat *out);
 /* First i of begin < i < count, else count, whose rectangle has pixels and other rows than that at
  * `begin`; into `out` the least x0 and largest x1 of those before it, without those that have no
- * pixels. */
+ * pixels, and how wide the widest is, pixels. */
 int32_t rlf_kernel_splat_run(const rlf_kernel_splat *splat, int32_t begin, int32_t count,
-                             int32_t out[2]);
+                             int32_t out[3]);
 /* Fills with RLF_KERNEL_NOTHING. */
 void rlf_kernel_clear_row(int32_t count, float *restrict out);
 /* 1 where there is a depth, else 0. */

@@ -179,7 +179,7 @@ RLF_KERNEL_PART int32_t count_others(const int32_t *restrict rows, int32_t y, in
 }
 
 RLF_KERNEL int32_t rlf_kernel_splat_run(const rlf_kernel_splat *splat, int32_t begin, int32_t count,
-                                        int32_t out[2])
+                                        int32_t out[3])
 {
     enum { BLOCK = 64 };
     const int32_t *restrict x0 = splat->x0;
@@ -195,14 +195,18 @@ RLF_KERNEL int32_t rlf_kernel_splat_run(const rlf_kernel_splat *splat, int32_t b
     }
     int32_t least = INT32_MAX;
     int32_t most = 0;
+    int32_t widest = 0;
     for (int32_t i = begin; i < end; i++) {
         int32_t blank = y[i] < 0 ? INT32_MAX : 0;
         int32_t first = x0[i] | blank;
+        int32_t width = x1[i] - x0[i] + 1;
         least = first < least ? first : least;
         most = x1[i] > most ? x1[i] : most;
+        widest = width > widest ? width : widest;
     }
     out[0] = least;
     out[1] = most;
+    out[2] = widest;
     return end;
 }
 

@@ -2,8 +2,6 @@
 #include "kernel/kernel.h"
 #include "render/soft/soft.h"
 
-#define CHUNK 64 /* pixels between steps */
-
 RLF_KERNEL_PART float over(uint32_t real, float rest, float color)
 {
     float value = (float)(int32_t)(real & 255u) * rest + color + 0.5f;
@@ -11,10 +9,11 @@ RLF_KERNEL_PART float over(uint32_t real, float rest, float color)
 }
 
 RLF_KERNEL_PART void blend(const float *restrict red, const float *restrict green,
-                           const float *restrict blue, const float *restrict shown, int32_t count,
+                           const float *restrict blue, const float *restrict shown,
                            uint32_t *restrict pixels)
 {
-    for (int32_t i = 0; i < count; i++) {
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
         uint32_t real = pixels[i];
         float rest = 1.0f - shown[i];
         uint32_t r = (uint32_t)(int32_t)over(real, rest, red[i]);
@@ -24,31 +23,52 @@ RLF_KERNEL_PART void blend(const float *restrict red, const float *restrict gree
     }
 }
 
-RLF_KERNEL_PART void to_matte(const float *restrict shown, int32_t count, uint8_t *restrict out)
+RLF_KERNEL_PART void to_matte(const float *restrict shown, uint8_t *restrict out)
 {
-    for (int32_t i = 0; i < count; i++) {
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
         float alpha = 255.0f * shown[i] + 0.5f;
         out[i] = (uint8_t)(int32_t)(alpha < 255.0f ? alpha : 255.0f);
     }
 }
 
-/* Picture = real picture * (1 - alpha) + colour, colour being premultiplied. */
+RLF_KERNEL_PART bool is_empty(const float *restrict shown)
+{
+    int32_t any = 0;
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
+        any |= shown[i] > 0.0f ? 1 : 0;
+    }
+    return any == 0;
+}
+
+/* Picture = real picture * (1 - alpha) + colour, colour being premultiplied. The last lanes' sums
+ * may be beyond `count`. */
 RLF_KERNEL void soft_compose_row(float *const sum[4], int32_t count, uint8_t *restrict pixels,
                                  uint8_t *restrict matte)
 {
-    uint32_t block[CHUNK];
-    for (int32_t first = 0; first < count; first += CHUNK) {
-        int32_t size = count - first < CHUNK ? count - first : CHUNK;
+    for (int32_t first = 0; first < count; first += SOFT_LANES) {
+        const int32_t size = count - first < SOFT_LANES ? count - first : SOFT_LANES;
         const float *shown = sum[3] + first;
-        int32_t empty = 0;
-        while (empty < size && !(shown[empty] > 0.0f)) {
-            empty++;
+        uint32_t block[SOFT_LANES] = {0};
+        uint8_t alpha[SOFT_LANES];
+        if (is_empty(shown)) {
+            continue;
         }
-        if (empty < size) {
-            soft_load_pixels(pixels + 4 * (ptrdiff_t)first, size, block);
-            blend(sum[0] + first, sum[1] + first, sum[2] + first, shown, size, block);
-            soft_store_pixels(block, size, pixels + 4 * (ptrdiff_t)first);
-            to_matte(shown, size, matte + first);
+        uint8_t *const at = pixels + 4 * (ptrdiff_t)first;
+        if (size == SOFT_LANES) { /* its own case, for a size that is known */
+            soft_load_pixels(at, SOFT_LANES, block);
+        } else {
+            soft_load_pixels(at, size, block);
+        }
+        blend(sum[0] + first, sum[1] + first, sum[2] + first, shown, block);
+        to_matte(shown, alpha);
+        if (size == SOFT_LANES) {
+            soft_store_pixels(block, SOFT_LANES, at);
+            memcpy(matte + first, alpha, SOFT_LANES);
+        } else {
+            soft_store_pixels(block, size, at);
+            memcpy(matte + first, alpha, (size_t)size);
         }
     }
 }

@@ -86,23 +86,38 @@ RLF_KERNEL_PART void test_run(float *restrict inverse_z, int32_t *restrict face,
     }
 }
 
+/* Parts of a row with pixels between the least begin and the greatest end of its lines. */
+RLF_KERNEL_PART void touch(const int32_t *restrict begin, const int32_t *restrict end,
+                           uint8_t *restrict touched)
+{
+    int32_t x0 = INT32_MAX;
+    int32_t x1 = 0;
+    for (int32_t i = 0; i < SOFT_SAMPLES; i++) {
+        const bool is_some = begin[i] < end[i];
+        x0 = is_some && begin[i] < x0 ? begin[i] : x0;
+        x1 = is_some && end[i] > x1 ? end[i] : x1;
+    }
+    for (int32_t part = x0 / SOFT_PART; part * SOFT_PART < x1; part++) {
+        touched[part] = 1;
+    }
+}
+
 RLF_KERNEL void soft_raster_face(const soft_face *f, const soft_ends *ends, soft_group *group)
 {
     const soft_plane plane = f->inverse_z;
-    for (int32_t i = 0; i < group->row_count * SOFT_SAMPLES; i++) {
-        soft_row *row = &group->rows[i / SOFT_SAMPLES];
-        const int32_t begin = ends->begin[i];
-        const int32_t end = ends->end[i];
-        const int32_t k = i % SOFT_SAMPLES;
-        if (begin < end) {
-            float across = (float)begin + (float)sample_x[k] - f->origin_x;
-            float down = (float)row->y - f->origin_y + (float)sample_y[k];
-            float at0 = plane.at0 + plane.dx * across + plane.dy * down;
-            ptrdiff_t first = k * group->stride + begin;
-            test_run(row->inverse_z + first, row->face + first, end - begin, at0, plane.dx,
-                     ends->face);
-            for (int32_t part = begin / SOFT_PART; part * SOFT_PART < end; part++) {
-                row->touched[part] = 1;
+    for (int32_t r = 0; r < group->row_count; r++) {
+        const soft_row *row = &group->rows[r];
+        const int32_t *begin = ends->begin + r * SOFT_SAMPLES;
+        const int32_t *end = ends->end + r * SOFT_SAMPLES;
+        touch(begin, end, row->touched);
+        for (int32_t k = 0; k < SOFT_SAMPLES; k++) {
+            if (begin[k] < end[k]) {
+                float across = (float)begin[k] + (float)sample_x[k] - f->origin_x;
+                float down = (float)row->y - f->origin_y + (float)sample_y[k];
+                float at0 = plane.at0 + plane.dx * across + plane.dy * down;
+                ptrdiff_t first = k * group->stride + begin[k];
+                test_run(row->inverse_z + first, row->face + first, end[k] - begin[k], at0,
+                         plane.dx, ends->face);
             }
         }
     }

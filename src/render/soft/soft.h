@@ -140,7 +140,7 @@ typedef struct soft_real_row {
     int32_t width;
 } soft_real_row;
 
-#define SOFT_PART 32 /* pixels that are put into the picture and cleared together */
+#define SOFT_PART 16 /* pixels that are put into the picture and cleared together */
 
 /* Pixels x0 <= x < x1 of a row; none when x0 >= x1. */
 typedef struct soft_span {
@@ -261,7 +261,7 @@ typedef struct soft_lanes_at {
 } soft_lanes_at;
 void soft_skin_colors(const soft_skin *skin, const soft_face *face, soft_lanes_at at,
                       const float *z, float rgb[3][SOFT_LANES]);
-/* compose.c: puts sums (red, green, blue, shown) over `count` pixels. */
+/* compose.c: puts sums (red, green, blue, shown; whole lanes) over `count` pixels. */
 void soft_compose_row(float *const sum[4], int32_t count, uint8_t *restrict pixels,
                       uint8_t *restrict matte);
 

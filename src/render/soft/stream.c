@@ -199,18 +199,37 @@ RLF_KERNEL_PART void add_skin(const soft *s, const soft_stream *stream, const st
     }
 }
 
+/* The first `count` values; 0 in the other lanes. */
+RLF_KERNEL_PART void take_lanes(const float *restrict values, int32_t count, float *restrict out)
+{
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
+        out[i] = i < count ? values[i] : 0.0f;
+    }
+}
+
+RLF_KERNEL_PART void add_lanes(const float *restrict lanes, float scale, float *restrict sum)
+{
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
+        sum[i] += scale * lanes[i];
+    }
+}
+
 RLF_KERNEL_PART void add_segment(const soft *s, const soft_stream *stream,
                                  const stream_segment *part, const soft_row *row)
 {
+    float lanes[SOFT_LANES];
     if (stream->has_skin) {
         add_skin(s, stream, part, row);
     } else {
+        take_lanes(stream->light + part->at, part->count, lanes);
         for (int k = 0; k < 3; k++) {
-            add(stream->light + part->at, stream->body->color[k], part->count,
-                row->sum[k] + part->x);
+            add_lanes(lanes, stream->body->color[k], row->sum[k] + part->x);
         }
     }
-    add(stream->coverage + part->at, 1.0f, part->count, row->sum[3] + part->x);
+    take_lanes(stream->coverage + part->at, part->count, lanes);
+    add_lanes(lanes, 1.0f, row->sum[3] + part->x);
 }
 
 /* ---- all of it ------------------------------------------------------------------------------ */
