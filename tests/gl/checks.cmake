@@ -6,8 +6,8 @@ endif()
 pkg_check_modules(glfw3 REQUIRED IMPORTED_TARGET glfw3)
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
 set(app ${PROJECT_SOURCE_DIR}/app)
-add_executable(viewer_test ${CMAKE_CURRENT_LIST_DIR}/viewer_test.c ${app}/viewer/viewer.c ${app}/viewer/place.c
-               ${app}/viewer/throw.c ${app}/viewer/window.c)
+add_executable(viewer_test ${CMAKE_CURRENT_LIST_DIR}/viewer_test.c ${app}/viewer/viewer.c ${app}/viewer/overlay.c
+               ${app}/viewer/place.c ${app}/viewer/throw.c ${app}/viewer/window.c ${app}/viewer/wishes.c)
 relief_settings(viewer_test)
 # setenv is POSIX.
 target_compile_definitions(viewer_test PRIVATE _POSIX_C_SOURCE=200809L)
