@@ -48,6 +48,9 @@ static void print_help(void)
            "                        up to four of them side by side\n"
            "  --orbit YAW,PITCH[,ZOOM]   where points are seen from: degrees to the right and\n"
            "                        up, and the distance, 1 being the camera's\n"
+           "  --gravity X,Y,Z       m/s^2 to the right, down and forward, in place of the\n"
+           "                        scene's; or floor: down is where the first frame's floor,\n"
+           "                        tables and walls say; clips' default if the scene says none\n"
            "  --light X,Y,Z         where the light shines to: right, down, forward\n"
            "  --match-light         bodies as dark and as tinted as the camera's picture, and\n"
            "                        lit from where its shading says; live's default for clips\n"
@@ -124,6 +127,18 @@ static bool take_light(const char *text, void *out)
     return is_good;
 }
 
+static bool take_gravity(const char *text, void *out)
+{
+    session_options *s = out;
+    rlf_vec3 *g = &s->gravity;
+    char rest;
+    s->is_gravity_set = true;
+    s->finds_gravity = strcmp(text, "floor") == 0;
+    *g = rlf_world_def_default().gravity;
+    return s->finds_gravity || (sscanf(text, "%lf,%lf,%lf%c", &g->x, &g->y, &g->z, &rest) == 3 &&
+                                rlf_vec3_is_finite(*g) && rlf_length(*g) <= 1000.0);
+}
+
 static bool take_occlusion(const char *text, void *out)
 {
     static const char *const names[4] = {"hard", "thesis", "off", "soft"};
@@ -192,6 +207,11 @@ static int read_options(int argc, char **argv, run_options *o)
          .out = &o->orbit,
          .take = take_orbit,
          .choices = "use YAW,PITCH or YAW,PITCH,ZOOM: within 360, 85 degrees, 0.1 to 10"},
+        {.name = "gravity",
+         .kind = OPTION_CHOICE,
+         .out = s,
+         .take = take_gravity,
+         .choices = "use floor, or X,Y,Z of up to 1000 m/s^2"},
         {.name = "light",
          .kind = OPTION_CHOICE,
          .out = s,
@@ -389,6 +409,7 @@ int run_main(int argc, char **argv)
     if (session_open(&options.session, &s) != RLF_OK) {
         return command_failed();
     }
+    options.output.finds_gravity = s.scene.finds_gravity;
     status = run_session(&options, &s);
     session_close(&s);
     return status;

@@ -113,6 +113,7 @@ rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame)
     const rlf_stage_times *t = &frame->times;
     timing_add_frame(&out->times, t, t->capture_ms + t->surface_ms + t->physics_ms + t->render_ms);
     out->frames++;
+    out->gravity = frame->snapshot->gravity;
     out->light = frame->render.light_direction;
     out->is_light_estimated = frame->render.is_light_estimated;
     print_progress(out);
@@ -167,6 +168,10 @@ void run_output_print_summary(const run_output *out, const char *how)
     print_stage(file, "loop", &t->frame);
     fprintf(file, "  %.1f frames per second (median of the loop, without writing files)\n",
             median > 0.0 ? 1000.0 / median : 0.0);
+    if (o->finds_gravity) {
+        fprintf(file, "gravity:  %.2f, %.2f, %.2f m/s^2 (right, down, forward)\n", out->gravity.x,
+                out->gravity.y, out->gravity.z);
+    }
     if (rlf_length(out->light) > 0.0) {
         fprintf(file, "light:    to %.2f, %.2f, %.2f (right, down, forward), %s\n", out->light.x,
                 out->light.y, out->light.z,

@@ -17,6 +17,7 @@ typedef struct run_output_options {
     const char *log_folder;               /* NULL = none */
     bool is_quiet;                        /* no progress, no summary */
     const char *scene_path;               /* of the run; NULL = none */
+    bool finds_gravity;                   /* so the summary tells it */
     bool print_hash;                      /* print the hash of all body states at the end */
 } run_output_options;
 
@@ -28,7 +29,8 @@ typedef struct run_output {
     rlf_csv_log *log;
     int64_t frames, pictures;
     int64_t start_ns, last_frame_ns, last_progress_ns;
-    rlf_vec3 light; /* of the last picture: where it shines to; 0 = no picture */
+    rlf_vec3 gravity; /* of the last frame */
+    rlf_vec3 light;   /* of the last picture: where it shines to; 0 = no picture */
     bool is_light_estimated;
     timing times;
 } run_output;

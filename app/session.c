@@ -32,6 +32,7 @@ static rlf_result open_scene(const session_options *options, rlf_scene *out)
     if (options->use_default_scene) {
         return rlf_scene_create_two_cubes(out);
     }
+    out->gravity = rlf_world_def_default().gravity;
     return RLF_OK;
 }
 
@@ -43,11 +44,27 @@ void session_set_scale(rlf_reconstruct_def *def, int32_t factor)
     def->scale_factor = factor;
 }
 
+static bool is_real(const session_options *options)
+{
+    return strncmp(options->source, "synthetic:", strlen("synthetic:")) != 0;
+}
+
 static bool matches_light(const session_options *options)
 {
-    bool is_real = strncmp(options->source, "synthetic:", strlen("synthetic:")) != 0;
-    bool is_wanted = options->profile == RLF_PROFILE_LIVE && is_real && !options->keeps_light;
+    bool is_wanted =
+        options->profile == RLF_PROFILE_LIVE && is_real(options) && !options->keeps_light;
     return options->matches_light || is_wanted;
+}
+
+/* The synthetic room's camera is level; where no one says so of another, its floor tells. */
+static void set_gravity(const session_options *options, rlf_scene *scene)
+{
+    if (options->is_gravity_set) {
+        scene->finds_gravity = options->finds_gravity;
+        scene->gravity = options->gravity;
+    } else if (!scene->is_gravity_given) {
+        scene->finds_gravity = is_real(options);
+    }
 }
 
 static rlf_result open_all(const session_options *options, session *s)
@@ -64,10 +81,9 @@ static rlf_result open_all(const session_options *options, session *s)
     if (result != RLF_OK) {
         return result;
     }
+    set_gravity(options, &s->scene);
     rlf_pipeline_def def = rlf_pipeline_def_default(options->profile, s->source, s->pool);
-    if (s->scene.bodies != NULL || s->scene.known != NULL) {
-        def.scene = &s->scene;
-    }
+    def.scene = &s->scene;
     if (options->scale_factor > 0) {
         session_set_scale(&def.reconstruct, options->scale_factor);
     }

@@ -14,6 +14,10 @@ typedef struct session_options {
     int32_t scale_factor;  /* 0 = the profile's */
     setting_list settings; /* in place of the profile's */
     int32_t thread_count;  /* 0 = all processors */
+    bool is_gravity_set;   /* else the scene's; the default of all sources but the synthetic room is
+                              the floor's */
+    bool finds_gravity;
+    rlf_vec3 gravity;
     bool is_occlusion_set; /* else the profile's */
     rlf_occlusion occlusion;
     bool is_light_set; /* else the compositor's */

@@ -15,7 +15,12 @@ extern "C" {
 
 /* Bodies and gravity to start with; see io.h for reading one from scene.json. */
 typedef struct rlf_scene {
-    rlf_vec3 gravity;
+    rlf_vec3 gravity;      /* m/s^2, world */
+    bool is_gravity_given; /* the scene's file says what gravity is; else it is the default */
+    /* True: gravity is turned away from where the first frame's floors, tables and walls say that
+     * up is (rlf_surface_find_up), and keeps its strength. Where they do not tell it stays as it
+     * is, with a warning. */
+    bool finds_gravity;
     rlf_body_def *bodies; /* owned when made by rlf_scene_create or rlf_scene_load */
     int32_t body_count;
     rlf_border border;         /* what is beyond the camera's view; default open */

@@ -134,6 +134,17 @@ RLF_API size_t rlf_mesh_indices_valid(const rlf_surface *surface, double max_jum
 RLF_API size_t rlf_mesh_indices_region(const rlf_surface *surface, const rlf_region *region,
                                        double max_jump, uint32_t *out);
 
+/* ---- which way is up ----------------------------------------------------------------------------
+ */
+
+/* The direction, in the camera's frame, in which most of the front sheet's normals are along it
+ * (floors and tables) or across it (walls): Gupta, Arbelaez, Malik 2013. Of a room's axes it is
+ * the one nearest to the picture's up that has a floor or table, seen from above, under it: right
+ * for cameras that look down by less than some 60 degrees or up by less than 25. Returns false, and
+ * out_up = (0, -1, 0), where the normals do not tell: hardly any, or of one wall only. Reads every
+ * 4th pixel both ways. */
+RLF_API bool rlf_surface_find_up(const rlf_surface *surface, rlf_vec3 *out_up);
+
 #ifdef __cplusplus
 }
 #endif

@@ -140,6 +140,9 @@ RLF_API bool rlf_world_apply_impulse(rlf_world *world, rlf_body_id id, rlf_vec3 
 RLF_API bool rlf_world_apply_force(rlf_world *world, rlf_body_id id, rlf_vec3 force,
                                    rlf_vec3 point);
 
+/* Gravity, m/s^2, from now on; bodies that sleep wake up. False when it is not finite. */
+RLF_API bool rlf_world_set_gravity(rlf_world *world, rlf_vec3 gravity);
+
 /* Advances time by dt seconds (0 < dt <= 1; else nothing happens) against the surface `grid`, which
  * may be NULL for empty space and is only read during the call. Allocates nothing. Results do not
  * depend on the pool. Thread-safety: one call at a time per world. */

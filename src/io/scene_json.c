@@ -217,19 +217,29 @@ static rlf_result read_border(const io_json_object *top, rlf_border *out)
     return RLF_OK;
 }
 
+/* Three numbers, or "floor". */
+static rlf_result read_gravity(const io_json_object *top, rlf_scene *scene)
+{
+    static const io_json_field field = {
+        "gravity", "three numbers of m/s^2, each from -1000 to 1000, or \"floor\"", -1000, 1000,
+        false};
+    const json_t *value = json_object_get(top->value, "gravity");
+    scene->gravity = rlf_world_def_default().gravity;
+    scene->is_gravity_given = value != NULL;
+    scene->finds_gravity = json_is_string(value) && strcmp(json_string_value(value), "floor") == 0;
+    return scene->finds_gravity ? RLF_OK : io_scene_read_vec3(top, &field, &scene->gravity);
+}
+
 static rlf_result read_scene(const io_json_object *top, const char *folder, rlf_scene *scene)
 {
     static const char *const known[] = {"gravity", "border", "bodies", "known_objects"};
-    static const io_json_field gravity = {
-        "gravity", "three numbers of m/s^2, each from -1000 to 1000", -1000, 1000, false};
     const char *unknown = io_json_unknown_key(top, known, 4);
     if (unknown != NULL) {
         return io_json_fail(top, unknown,
                             "is not a known key: a scene has \"gravity\", \"border\", \"bodies\" "
                             "and \"known_objects\"");
     }
-    scene->gravity = rlf_world_def_default().gravity;
-    rlf_result result = io_scene_read_vec3(top, &gravity, &scene->gravity);
+    rlf_result result = read_gravity(top, scene);
     if (result == RLF_OK) {
         result = read_border(top, &scene->border);
     }

@@ -2,46 +2,10 @@
  * using unit quaternions). */
 #include "known/align.h"
 
-#define SWEEPS 30
+#include "math/eigen.h"
+
 /* Points whose spread across a line is less than this share of that along it are on the line. */
 #define LINE_SHARE 0.03
-
-void known_eigen(double a[4][4], int32_t n, double values[4], double vectors[4][4])
-{
-    for (int32_t i = 0; i < n; i++) {
-        for (int32_t k = 0; k < n; k++) {
-            vectors[i][k] = i == k ? 1.0 : 0.0;
-        }
-    }
-    for (int32_t turn = 0; turn < SWEEPS * n * n; turn++) {
-        int32_t p = turn / n % n, q = turn % n;
-        if (p >= q || a[p][q] == 0.0) {
-            continue;
-        }
-        double theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-        double size = theta < 0.0 ? -theta : theta;
-        double t = (theta < 0.0 ? -1.0 : 1.0) / (size + sqrt(size * size + 1.0));
-        double c = 1.0 / sqrt(t * t + 1.0), s = t * c;
-        for (int32_t k = 0; k < n; k++) { /* columns p and q */
-            double kp = a[k][p], kq = a[k][q];
-            a[k][p] = c * kp - s * kq;
-            a[k][q] = s * kp + c * kq;
-        }
-        for (int32_t k = 0; k < n; k++) { /* rows p and q */
-            double pk = a[p][k], qk = a[q][k];
-            a[p][k] = c * pk - s * qk;
-            a[q][k] = s * pk + c * qk;
-        }
-        for (int32_t k = 0; k < n; k++) {
-            double kp = vectors[k][p], kq = vectors[k][q];
-            vectors[k][p] = c * kp - s * kq;
-            vectors[k][q] = s * kp + c * kq;
-        }
-    }
-    for (int32_t i = 0; i < n; i++) {
-        values[i] = a[i][i];
-    }
-}
 
 static rlf_vec3 centre_of(const rlf_vec3 *points, int32_t count)
 {
@@ -74,7 +38,7 @@ bool known_is_line(const rlf_vec3 *points, int32_t count)
             a[k / 3][k % 3] += d[k / 3] * d[k % 3];
         }
     }
-    known_eigen(a, 3, values, vectors);
+    math_eigen(a, 3, values, vectors);
     double most = rlf_max(values[0], rlf_max(values[1], values[2]));
     double least = rlf_min(values[0], rlf_min(values[1], values[2]));
     double middle = values[0] + values[1] + values[2] - most - least;
@@ -103,7 +67,7 @@ static rlf_quat rotation_of(const rlf_vec3 *model, const rlf_vec3 *world, int32_
         }
     }
     double values[4], vectors[4][4];
-    known_eigen(n, 4, values, vectors);
+    math_eigen(n, 4, values, vectors);
     int32_t best = 0;
     for (int32_t i = 1; i < 4; i++) {
         best = values[i] > values[best] ? i : best;

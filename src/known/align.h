@@ -4,10 +4,6 @@
 
 #include "relief/known.h"
 
-/* Eigenvalues and unit eigenvectors (columns of `vectors`) of the leading n x n part of the
- * symmetric matrix `a`, n <= 4, which is destroyed: Jacobi's rotations, a fixed number of sweeps.
- */
-void known_eigen(double a[4][4], int32_t n, double values[4], double vectors[4][4]);
 /* Root mean square distance of points from their centre, metres. */
 double known_spread(const rlf_vec3 *points, int32_t count);
 /* True when the points lie on a line, or all at one place. */

@@ -222,6 +222,21 @@ bool rlf_world_apply_force(rlf_world *world, rlf_body_id id, rlf_vec3 force, rlf
     return true;
 }
 
+bool rlf_world_set_gravity(rlf_world *world, rlf_vec3 gravity)
+{
+    if (!RLF_ASSERT(world != NULL) || !rlf_vec3_is_finite(gravity)) {
+        return false;
+    }
+    world->def.gravity = gravity;
+    world->snapshot.gravity = gravity;
+    for (int32_t i = 0; i < world->body_top; i++) {
+        if (world->bodies[i].is_alive) {
+            phys_body_wake(&world->bodies[i]);
+        }
+    }
+    return true;
+}
+
 void rlf_world_reset(rlf_world *world)
 {
     if (!RLF_ASSERT(world != NULL)) {

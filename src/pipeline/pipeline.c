@@ -42,6 +42,7 @@ static rlf_result copy_scene(rlf_pipeline *p, const rlf_scene *scene)
         return RLF_OK;
     }
     p->scene.gravity = scene->gravity;
+    p->scene.finds_gravity = scene->finds_gravity;
     p->scene.border = scene->border;
     p->scene.body_count = scene->body_count;
     p->scene.bodies = rlf_alloc_array((size_t)scene->body_count, sizeof(*scene->bodies));
@@ -192,10 +193,27 @@ static rlf_known_view known_view(const rlf_pipeline *p)
     return view;
 }
 
+static void find_gravity(rlf_pipeline *p)
+{
+    rlf_vec3 up;
+    if (!rlf_surface_find_up(p->last.surface, &up)) {
+        const rlf_vec3 *g = &p->scene.gravity;
+        rlf_log(RLF_LOG_WARNING,
+                "gravity: no floor, table or walls tell where it points; it stays %.2f, %.2f, %.2f",
+                g->x, g->y, g->z);
+        return;
+    }
+    rlf_vec3 down = rlf_neg(rlf_rotate(p->def.T_world_camera.q, up));
+    rlf_world_set_gravity(p->world, rlf_scale(down, rlf_length(p->scene.gravity)));
+}
+
 static rlf_result advance_world(rlf_pipeline *p)
 {
     rlf_pipeline_output *out = &p->last;
     rlf_grid grid;
+    if (p->frame_index == 0 && p->scene.finds_gravity) {
+        find_gravity(p);
+    }
     grid_from_surface(out->surface, &p->def.T_world_camera, p->regions, p->region_capacity, &grid);
     bool is_first = p->frame_index == 0;
     const rlf_known_view view = known_view(p);

@@ -21,7 +21,7 @@ static rlf_body_def cube(const char *name, rlf_vec3 position, rlf_vec3 velocity,
 rlf_result rlf_scene_create_two_cubes(rlf_scene *out)
 {
     memset(out, 0, sizeof(*out));
-    out->gravity = rlf_vec3_make(0, 9.81, 0);
+    out->gravity = rlf_world_def_default().gravity;
     out->border = RLF_BORDER_EXTEND;
     out->bodies = rlf_alloc_array(2, sizeof(*out->bodies));
     if (out->bodies == NULL) {

@@ -29,6 +29,11 @@ static void empty_scene_has_default_gravity(void **state)
     rlf_scene_destroy(&scene);
     assert_int_equal(parse("{\"border\":\"extend\"}", &scene), RLF_OK);
     assert_true(scene.border == RLF_BORDER_EXTEND);
+    assert_false(scene.is_gravity_given || scene.finds_gravity);
+    rlf_scene_destroy(&scene);
+    assert_int_equal(parse("{\"gravity\":\"floor\"}", &scene), RLF_OK);
+    assert_true(scene.is_gravity_given && scene.finds_gravity);
+    assert_true(scene.gravity.y == rlf_world_def_default().gravity.y);
     rlf_scene_destroy(&scene);
 }
 
@@ -84,6 +89,7 @@ static const struct {
     {"", RLF_ERROR_FORMAT, "is empty", "docs/formats.md"},
     {"{\"gravity\":[0,9.81,0],}", RLF_ERROR_FORMAT, "scene.json:1:", "correct it"},
     {"{\"gravitiy\":[0,9.81,0]}", RLF_ERROR_INVALID, "gravitiy is not a known key", "gravity"},
+    {"{\"gravity\":\"moon\"}", RLF_ERROR_INVALID, "gravity is a string", "or \"floor\""},
     {"{\"gravity\":9.81}", RLF_ERROR_INVALID, "gravity is a number", "three numbers"},
     {"{\"border\":\"closed\"}", RLF_ERROR_INVALID, "border is \"closed\"", "\"extend\""},
     {"{\"bodies\":{}}", RLF_ERROR_INVALID, "bodies must be an array", "array"},

@@ -281,6 +281,37 @@ static void views_lie_side_by_side(void **state)
     rlf_source_destroy(&source);
 }
 
+/* A table seen from 45 degrees above, by a camera that is mounted level or tilted by 30. */
+static void gravity_is_that_of_the_floor(void **state)
+{
+    (void)state;
+    rlf_source *source = open_plane(2, 33000000);
+    for (int32_t i = 0; i < WIDTH * HEIGHT; i++) {
+        double ray_y = (i / WIDTH - 59.5) / 120.0;
+        plane_memory.depth[i] = (uint16_t)(PLANE_MM / (1.0 + ray_y) + 0.5);
+    }
+    for (int32_t tilt = 0; tilt <= 30; tilt += 30) {
+        rlf_body_def body;
+        rlf_scene scene = drop_scene(&body);
+        scene.gravity = rlf_vec3_make(0, 1.6, 0);
+        scene.finds_gravity = true;
+        rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_LIVE, source, NULL);
+        def.scene = &scene;
+        def.T_world_camera.q =
+            rlf_quat_from_axis_angle(rlf_vec3_make(1, 0, 0), tilt * RLF_PI / 180.0);
+        rlf_pipeline *pipeline = NULL;
+        rlf_pipeline_output out;
+        assert_int_equal(rlf_pipeline_create(&def, &pipeline), RLF_OK);
+        assert_int_equal(rlf_source_restart(source), RLF_OK);
+        assert_int_equal(rlf_pipeline_step(pipeline, &out), RLF_OK);
+        double angle = rlf_atan2(out.snapshot->gravity.z, out.snapshot->gravity.y);
+        assert_true(fabs(rlf_length(out.snapshot->gravity) - 1.6) < 1e-9);
+        assert_true(fabs(angle - (45.0 + tilt) * RLF_PI / 180.0) < 0.01);
+        rlf_pipeline_destroy(&pipeline);
+    }
+    rlf_source_destroy(&source);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -292,6 +323,7 @@ int main(void)
         cmocka_unit_test(redraw_shows_the_last_frame_in_another_view),
         cmocka_unit_test(a_lost_device_gives_way_to_the_soft_renderer),
         cmocka_unit_test(views_lie_side_by_side),
+        cmocka_unit_test(gravity_is_that_of_the_floor),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
