@@ -2,6 +2,7 @@
 #include "command.h"
 #include "measure/noise.h"
 #include "measure/table.h"
+#include "measure/up.h"
 #include "options.h"
 #include "session.h"
 
@@ -18,6 +19,7 @@ typedef struct measure_options {
     setting_list settings;
     const char *csv_path, *json_path;
     bool noise; /* the sensor's noise instead of the table */
+    bool up;    /* which way is up instead */
 } measure_options;
 
 static void print_help(void)
@@ -36,7 +38,9 @@ static void print_help(void)
         "  --set NAME=VALUE  a setting of the surface (see `relief settings`); any number\n"
         "  --csv FILE        the rows as CSV\n"
         "  --json FILE       the rows as JSON\n"
-        "  --noise           instead: the sensor's noise by distance, of a still scene\n\n"
+        "  --noise           instead: the sensor's noise by distance, of a still scene\n"
+        "  --up              instead: where floors, tables and walls say that up is, and how far\n"
+        "                    off that is if the clip has a groundtruth.txt\n\n"
         "examples:\n"
         "  relief measure synthetic:thesis\n"
         "  relief measure path/to/clip --scale 8 --csv table.csv\n"
@@ -72,6 +76,7 @@ static int parse(int argc, char **argv, measure_options *o)
         {.name = "csv", .kind = OPTION_TEXT, .out = &o->csv_path},
         {.name = "json", .kind = OPTION_TEXT, .out = &o->json_path},
         {.name = "noise", .kind = OPTION_FLAG, .out = &o->noise},
+        {.name = "up", .kind = OPTION_FLAG, .out = &o->up},
         {.name = "set", .kind = OPTION_SET, .out = &o->settings},
         {0},
     };
@@ -82,11 +87,14 @@ static int parse(int argc, char **argv, measure_options *o)
     if (argc - optind != 1) {
         return command_usage("measure", "needs one SOURCE");
     }
-    if (!o->noise && o->frames >= 0 && o->frames < 6) {
+    if (!o->noise && !o->up && o->frames >= 0 && o->frames < 6) {
         return command_usage("measure", "--frames %d: use 6 or more", (int)o->frames);
     }
     if (o->noise && o->csv_path != NULL) {
         return command_usage("measure", "--noise writes no CSV; use --json");
+    }
+    if (o->up && (o->noise || o->csv_path != NULL || o->json_path != NULL)) {
+        return command_usage("measure", "--up goes without --noise, --csv and --json");
     }
     o->source = argv[optind];
     return -1;
@@ -175,9 +183,14 @@ int measure_main(int argc, char **argv)
     if (options.csv_path != NULL && rlf_file_check(options.csv_path) != RLF_OK) {
         return command_failed();
     }
-    rlf_result result = options.noise
-                            ? measure_noise_run(options.source, options.frames, options.json_path)
-                            : measure_table(&options);
+    rlf_result result;
+    if (options.up) {
+        result = measure_up_run(options.source, options.frames);
+    } else if (options.noise) {
+        result = measure_noise_run(options.source, options.frames, options.json_path);
+    } else {
+        result = measure_table(&options);
+    }
     if (command_interrupted) {
         return command_stopped("measure");
     }

@@ -48,6 +48,9 @@ expect_error 2 "not a list of up to four views" run synthetic:room --view camera
 expect_error 2 "YAW,PITCH" run synthetic:room --headless --view points --orbit 30
 expect_error 2 "YAW,PITCH" run synthetic:room --headless --view points --orbit 30,99
 expect_error 2 "X,Y,Z" run synthetic:room --headless --light 0,0,0
+expect_error 2 "use floor" run synthetic:room --headless --gravity down
+expect_done run synthetic:room --headless --frames 2 --gravity floor
+grep -q "^gravity:  -\\?0.0[0-9], 9.81, -\\?0.0[0-9]" stdout.txt || fail "run --gravity floor: $(cat stdout.txt)"
 expect_error 2 "soft, hard, thesis or off" run synthetic:room --headless --occlusion maybe
 expect_error 2 "frames" run synthetic:room --headless --frames 0
 expect_error 2 "frames" run synthetic:room --headless --frames ten
@@ -148,6 +151,10 @@ grep -q '"counted_bad_percent"' table.json || fail "measure: table.json"
 grep -q "3392" stdout.txt || fail "measure: no full 64x53 grid"
 grep -q "2632" stdout.txt || fail "measure: no 56x47 centre"
 expect_error 2 "use 6 or more" measure synthetic:thesis --frames 5
+expect_error 2 "goes without" measure synthetic:empty --up --noise
+expect_error 1 "has no frames" measure "synthetic:room?frames=0" --up
+expect_done measure synthetic:empty --up --frames 2
+grep -q "looks down by 0.0 degrees" stdout.txt || fail "measure --up: $(cat stdout.txt)"
 expect_done measure synthetic:empty --noise --frames 2 --json noise.json
 grep -q '"temporal_mm"' noise.json || fail "measure --noise: noise.json"
 
