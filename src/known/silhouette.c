@@ -117,13 +117,34 @@ static int32_t find_beyond(const known_layer *layer, const way_out *way, int32_t
     return -1;
 }
 
+/* In an inner corner the way out leads along another edge: then the shortest way of all. */
+static int32_t find_shortest(const known_layer *layer, const way_out *way, int32_t distance)
+{
+    int32_t best = -1;
+    int32_t shortest = INT32_MAX;
+    for (int32_t i = 0; i < 9; i++) {
+        const way_out other = {way->x, way->y, {i % 3 - 1, i / 3 - 1}, way->distance};
+        int32_t at = 0;
+        int32_t beyond = i != 4 ? find_beyond(layer, &other, distance, &at) : -1;
+        if (beyond >= 0 && at < shortest) {
+            shortest = at;
+            best = beyond;
+        }
+    }
+    return best;
+}
+
 /* Where to look for what is behind a rim. */
 static void find_behind(const known_layer *layer, const way_out *way, known_rim *rim)
 {
     const int32_t out = layer->reach + 2;
     int32_t near_at = out, far_at = 2 * out;
     rim->beyond = find_beyond(layer, way, out, &near_at);
-    rim->farther = find_beyond(layer, way, near_at + out, &far_at);
+    if (rim->beyond < 0) {
+        near_at = far_at = INT32_MAX;
+        rim->beyond = find_shortest(layer, way, out);
+    }
+    rim->farther = near_at == out ? find_beyond(layer, way, near_at + out, &far_at) : -1;
     if (rim->beyond < 0) {
         rim->beyond = rim->pixel.index; /* nowhere: then it is no mixture */
     }
