@@ -277,7 +277,9 @@ RLF_KERNEL void rlf_kernel_lanes_solve(const rlf_lane_batch *batch, rlf_lane_spe
         solve(batch, true, true, settled, speeds, excess);
     } else if (batch->has_b) {
         solve(batch, true, false, settled, speeds, excess);
+    } else if (push) {
+        solve(batch, false, true, settled, speeds, excess);
     } else {
-        solve(batch, false, push, settled, speeds, excess);
+        solve(batch, false, false, settled, speeds, excess);
     }
 }

@@ -49,7 +49,9 @@ typedef struct phys_body {
 
     int32_t surface_age, surface_period; /* substeps since, and between, surface queries */
     double surface_time;                 /* world time of the last one, s */
-    rlf_vec3 surface_x;                  /* where it was then */
+    rlf_vec3 surface_x;                  /* where it was when its contacts were searched ... */
+    double surface_turned;               /* ... how far it had turned ... */
+    int64_t surface_version;             /* ... and what stays then, 0 = something moved near it */
     double surface_clear;                /* m that it may move from there before it touches; 0: it
                                             may touch, or it is not known */
     rlf_vec3 surface_v, surface_w;       /* v and w then */
@@ -93,6 +95,13 @@ static inline bool phys_body_is_clear(const phys_body *body)
 {
     rlf_vec3 moved = rlf_sub(body->x, body->surface_x);
     return rlf_dot(moved, moved) < body->surface_clear * body->surface_clear;
+}
+
+/* The way that it may go in a substep of h seconds, or soon after a blow in it, metres. */
+static inline double phys_body_way(const phys_body *body, double h)
+{
+    const double BLOW = 2.0; /* m/s */
+    return (2.0 * rlf_length(body->v) + BLOW) * h;
 }
 
 /* The solver moves it. */

@@ -71,8 +71,7 @@ typedef struct phys_pair {
     int32_t a, b;        /* a < b */
     int32_t age, period; /* substeps since, and between, searches for contacts */
     int32_t contact_count;
-    bool is_due;            /* contacts are to be searched now */
-    phys_contact *contacts; /* PHYS_PAIR_CONTACTS; they stay in their place while the pair lives */
+    phys_contact *contacts; /* PHYS_PAIR_CONTACTS; they move when pairs are found */
     rlf_vec3 offset;        /* from a to b at the last search */
     double turned_a, turned_b;
     double gap;    /* m between them then, or less; < 0 when they touch or it is not known */

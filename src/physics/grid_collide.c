@@ -12,6 +12,8 @@
 #define PERIOD_AT_REST 8.0
 /* A surface that moves may come so much nearer until the next query, metres. */
 #define SLIP 0.05
+/* A body that moved less than this share of the margin keeps its contacts. */
+#define SETTLED_SHARE 0.5
 /* m of free way beyond that to the next query, looked for so that a blow does not ask for one. */
 #define FREE_WAY 0.02
 
@@ -23,6 +25,8 @@ static void set_up(grid_job *job, const grid_query *query, const phys_body *body
     job->centre = rlf_transform(&query->T_grid_world, body->x);
     job->v = rlf_rotate(query->T_grid_world.q, body->v);
     job->w = rlf_rotate(query->T_grid_world.q, body->w);
+    job->speed = rlf_length(job->v);
+    job->spin = rlf_length(job->w);
     job->R_grid_body = rlf_quat_to_mat3(q_grid_body);
     job->R_body_grid = rlf_mat3_transpose(&job->R_grid_body);
 }
@@ -310,20 +314,32 @@ static void set_period(grid_job *job, phys_body *body, double most)
     job->reach = reach_of(job->query, body, body->surface_period);
 }
 
-/* Whether nothing is within `reach`, wherever the camera looks. */
-static bool is_clear(const grid_job *job, double reach)
+/* How far the body may go before it comes to anything, wherever the camera looks, by tiles and
+ * planes alone. What is not above `least` need not be told apart. */
+static double free_way(const grid_job *job, double least)
 {
-    const grid_shell *shell = job->query->shell;
+    const grid_query *query = job->query;
+    const grid_shell *shell = query->shell;
+    double wide = wide_reach_of(query, job->body);
+    double slip = query->foreground->sheet->velocity_x != NULL ? SLIP : 0.0;
+    double beside = job->body->shape.radius + GRID_MARGIN, way = wide - SLIP - beside;
     for (int32_t i = 0; shell != NULL && i < shell->count; i++) {
         const shell_plane *plane = &shell->planes[i];
-        if (rlf_dot(plane->normal, job->centre) - plane->offset <= reach) {
-            return false;
-        }
+        way = rlf_min(way, rlf_dot(plane->normal, job->centre) - plane->offset - beside);
     }
+    double limit = least + beside;
+    way = rlf_min(way, grid_scan_distance(job, query->background, wide, limit) - beside);
+    if (way <= least) {
+        return way;
+    }
+    double front = grid_scan_distance(job, query->foreground, wide, limit + slip) - slip;
+    way = rlf_min(way, front - beside);
     shell_plane upright;
-    return grid_scan_is_clear(job, job->query->foreground, reach) &&
-           grid_scan_is_clear(job, job->query->background, reach) &&
-           !find_upright(job, reach, &upright);
+    if (way > least && find_upright(job, wide, &upright)) {
+        double height = rlf_dot(upright.normal, job->centre) - upright.offset;
+        way = rlf_min(way, height - beside);
+    }
+    return way;
 }
 
 /* How far the body may go before it comes to what the last scan saw. */
@@ -357,6 +373,37 @@ static void start_contacts(const grid_query *query, phys_body *body)
     body->surface_age = 0;
     body->surface_time = query->time;
     body->surface_x = body->x;
+    body->surface_turned = body->turned;
+    body->surface_version = 0;
+}
+
+/* Whether nothing of the foreground can come near the body before the next query. */
+static bool is_alone(const grid_job *job, double period)
+{
+    double reach = reach_of(job->query, job->body, (int32_t)period);
+    return grid_scan_distance(job, job->query->foreground, reach, 0.99 * reach) >= reach;
+}
+
+/* Whether a search would find what the last one found: what stays is the same, nothing else is
+ * near, and the body has hardly moved. All that was within the margin is known. */
+static bool is_settled(const grid_job *job)
+{
+    const grid_query *query = job->query;
+    const phys_body *body = job->body;
+    double moved = rlf_length(rlf_sub(body->x, body->surface_x)) +
+                   (body->turned - body->surface_turned) * body->shape.radius;
+    double coming = phys_body_speed(body) * (PERIOD_AT_REST + 1.0) * query->step;
+    return body->surface_version != 0 && body->surface_version == query->rest_version &&
+           moved + coming < SETTLED_SHARE * GRID_MARGIN && is_alone(job, PERIOD_AT_REST);
+}
+
+static void keep_contacts(const grid_query *query, phys_body *body)
+{
+    body->is_restless = false;
+    body->surface_age = 0;
+    body->surface_time = query->time;
+    body->surface_period =
+        query_period(body, query->step, body->is_pressed ? PERIOD_AT_REST : PERIOD_MAX);
 }
 
 /* Both sheets, the nearer first. */
@@ -385,19 +432,30 @@ void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
         old[i] = phys_trace_of(&body->surface[i]);
     }
     double swept_from = body->surface_time;
-    start_contacts(query, body);
     grid_job job;
     set_up(&job, query, body);
-    double wide = wide_reach_of(query, body);
-    if (is_clear(&job, wide)) {
+    if (is_settled(&job)) {
+        keep_contacts(query, body);
+        return;
+    }
+    start_contacts(query, body);
+    double least = phys_body_way(body, query->step), way = free_way(&job, least);
+    if (way > least) {
         body->home[0] = body->home[1] = FIELD_NONE;
-        body->surface_period = (int32_t)PERIOD_MAX;
-        body->surface_clear = wide - body->shape.radius - GRID_MARGIN - SLIP;
+        body->surface_period = 1;
+        body->surface_clear = way;
         return;
     }
     job.asked_before = swept_from;
     collide_sheets(&job, body, body_index);
-    body->surface_clear = body->surface_count > 0 ? 0.0 : body->surface_clear;
+    if (query->background->sheet->velocity_x == NULL && is_alone(&job, body->surface_period)) {
+        body->surface_version = query->rest_version;
+    }
+    if (body->surface_count == 0) {
+        body->surface_period++; /* all of the horizon is free */
+    } else {
+        body->surface_clear = 0.0;
+    }
     grid_keep_impulses(body, old, old_count);
 }
 

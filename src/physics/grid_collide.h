@@ -12,9 +12,10 @@ typedef struct grid_query {
     rlf_pose T_grid_world;
     double tau; /* seconds from when the grid was seen to now; the surface moves by velocity tau */
     double lag; /* seconds of the surface's way that no tau covered, as none is trusted so long */
-    bool is_moving; /* false beyond the time that extrapolation is trusted */
-    double time;    /* world time now, s */
-    double step;    /* s of a substep */
+    bool is_moving;       /* false beyond the time that extrapolation is trusted */
+    double time;          /* world time now, s */
+    double step;          /* s of a substep */
+    int64_t rest_version; /* of what stays */
     grid_tiles *foreground, *background;
     const grid_shell *shell; /* NULL: there is nothing where the camera does not look */
     rlf_vec3 up;             /* unit, against gravity, grid frame; 0 without gravity */

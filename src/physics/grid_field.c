@@ -11,6 +11,7 @@
 #define BRIDGE_PX 2
 /* A point this far before what is seen on its ray is in free space: noise and slanted pixels, m. */
 #define SEEN_BEHIND 0.03
+#define NO_HEIGHT 1e9
 /* Farther behind a back it matters to nobody how far, metres. */
 #define FAR_BEHIND 0.05
 
@@ -329,16 +330,37 @@ static bool is_through(const field_cell *cell, field_state before, field_state n
            (before == FIELD_BEHIND && now == FIELD_FRONT && z_before > cell->back);
 }
 
+/* Whether q is before the pixel on its ray, higher than `height` over its plane: most of what is
+ * asked about is, and the pixel's depth and normal tell it. */
+static bool is_well_before(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
+                           double height)
+{
+    int32_t x, y;
+    if (!pixel_of(grid, q, &x, &y)) {
+        return false;
+    }
+    int32_t i = y * grid->width + x;
+    double z = sheet->depth[i];
+    field_cell cell = {.point = {z * grid->ray_x[i], z * grid->ray_y[i], z}};
+    cell.normal = rlf_vec3_make(sheet->normal_x[i], sheet->normal_y[i], sheet->normal_z[i]);
+    double size2 = rlf_dot(cell.normal, cell.normal);
+    return (sheet->mask == NULL || sheet->mask[i] != 0) && z > 0.0 && z < FARTHEST &&
+           size2 > 0.25 && size2 < 4.0 && q.z < plane_depth(&cell, q) &&
+           !(rlf_dot(cell.normal, rlf_sub(q, cell.point)) < height);
+}
+
 bool grid_field_cast(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q, rlf_vec3 path,
                      double margin, field_state home, field_hit *out)
 {
     field_cell cell;
-    field_state state = grid_field_at(grid, sheet, q, &cell);
+    bool is_before = is_well_before(grid, sheet, q, 2.0 * margin);
+    field_state state = is_before ? FIELD_FRONT : grid_field_at(grid, sheet, q, &cell);
     if (state == FIELD_INSIDE || (state == FIELD_BEHIND && home == FIELD_INSIDE)) {
         leave_solid(grid, sheet, q, &cell, home, out);
         return true;
     }
-    if (state == FIELD_FRONT && rlf_dot(cell.normal, rlf_sub(q, cell.point)) < 2.0 * margin) {
+    if (state == FIELD_FRONT && !is_before &&
+        rlf_dot(cell.normal, rlf_sub(q, cell.point)) < 2.0 * margin) {
         hit_front(grid, sheet, &cell, out);
         out->separation = rlf_dot(out->normal, rlf_sub(q, out->point));
         if (out->separation < margin) {
@@ -356,6 +378,10 @@ bool grid_field_cast(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3
     rlf_vec3 step = rlf_scale(path, 1.0 / steps);
     for (int32_t k = 1; k <= steps; k++) {
         rlf_vec3 p = rlf_mad(q, step, k);
+        if (state != FIELD_BEHIND && is_well_before(grid, sheet, p, -NO_HEIGHT)) {
+            state = FIELD_FRONT;
+            continue;
+        }
         field_state next = grid_field_at(grid, sheet, p, &cell);
         if (next == FIELD_INSIDE || is_through(&cell, state, next, p.z - step.z)) {
             enter_solid(grid, sheet, p, step, state, &cell, out);

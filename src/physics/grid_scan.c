@@ -5,8 +5,10 @@
 #include "physics/grid_scan.h"
 #include "physics/grid_ball.h"
 #include "physics/grid_edge.h"
+#include "physics/grid_pixels.h"
 
 #define SAMPLES_PER_SIDE 20
+#define ROUNDING 1e-6    /* m, far more than distances are rounded by */
 #define FLAT_ON_WALL 0.9 /* cosine between a body's face and the side wall on which it lies */
 
 static rlf_vec3 to_body(const grid_job *job, rlf_vec3 p)
@@ -139,8 +141,8 @@ typedef struct wall_line {
     const field_cell *cell;
     rlf_vec3 front, inward; /* now */
     double deep;
-    bool has_side;
-    rlf_vec3 side; /* the outline's direction */
+    bool is_known, has_side; /* whether the next one was looked for, and found */
+    rlf_vec3 side;           /* the outline's direction */
 } wall_line;
 
 static rlf_vec3 line_point(const wall_line *line, double depth)
@@ -171,9 +173,18 @@ static double nearest_depth(const grid_job *job, const wall_line *line)
     return depth;
 }
 
+static bool find_side(const grid_job *job, wall_line *line)
+{
+    if (!line->is_known) {
+        line->is_known = true;
+        line->has_side = grid_edge_normal(job->query->grid, job->sheet, line->cell, &line->side);
+    }
+    return line->has_side;
+}
+
 /* Adds the line's point at `depth` when the body touches it in a direction that is the wall's own
  * up to an angle of cosine `agreement`. */
-static void touch_line(grid_job *job, const wall_line *line, double depth, double agreement)
+static void touch_line(grid_job *job, wall_line *line, double depth, double agreement)
 {
     rlf_vec3 p = line_point(line, depth), gradient;
     rlf_vec3 local = to_body(job, p);
@@ -188,7 +199,7 @@ static void touch_line(grid_job *job, const wall_line *line, double depth, doubl
     hit.anchor = rlf_mad(local, gradient, -distance);
     hit.normal = normal;
     hit.separation = distance;
-    if (line->has_side) {
+    if (find_side(job, line)) {
         int32_t edge = depth <= 0.0 ? -1 : depth >= line->deep ? 1 : 0;
         hit.normal = grid_wall_normal(line->inward, line->side, normal, edge);
         rlf_vec3 anchor = rlf_mat3_mul_vec(&job->R_grid_body, hit.anchor);
@@ -203,7 +214,6 @@ static void look_at_outline(grid_job *job, const field_cell *cell, rlf_vec3 shif
 {
     wall_line line = {.cell = cell, .front = rlf_add(cell->point, shift), .deep = deep};
     line.inward = grid_cell_inward(job->sheet, cell);
-    line.has_side = grid_edge_normal(job->query->grid, job->sheet, cell, &line.side);
     double depth = nearest_depth(job, &line);
     double inner = 0.5 * job->body->shape.inner_radius;
     touch_line(job, &line, depth, 0.3);
@@ -234,6 +244,16 @@ typedef struct flow_sum {
     double count;
 } flow_sum;
 
+/* Whether the body touches nothing that is this far from its centre, or farther, before the next
+ * query, nor comes nearer to it than `margin`. (A hull's distance is that to a plane.) */
+static bool is_too_far(const grid_job *job, const field_cell *cell, double distance, double margin)
+{
+    double turning = job->spin * job->horizon;
+    double coming = (job->speed + rlf_length(cell->velocity)) * job->horizon;
+    return turning < 1.0 && job->body->shape.shape.type != RLF_SHAPE_HULL && !job->is_ball &&
+           distance * (1.0 - turning) > job->body->shape.radius + coming + margin;
+}
+
 static void look_at_pixel(grid_job *job, int32_t x, int32_t y, int32_t stride, flow_sum *flow)
 {
     const rlf_grid *grid = job->query->grid;
@@ -255,9 +275,16 @@ static void look_at_pixel(grid_job *job, int32_t x, int32_t y, int32_t stride, f
         job->nearest2 = rlf_min(job->nearest2, distance2);
         flow->velocity = rlf_add(flow->velocity, cell.velocity);
         flow->count += 1.0;
-        look_at_interior(job, &cell, rlf_add(cell.point, shift));
         job->is_near = true;
         job->is_flat = false;
+        rlf_vec3 front = rlf_add(cell.point, shift);
+        double margin = 0.5 * job->body->shape.radius + ROUNDING;
+        if (!is_too_far(job, &cell, rlf_length(rlf_sub(front, job->centre)), margin)) {
+            look_at_interior(job, &cell, front);
+        }
+        if (is_too_far(job, &cell, sqrt(distance2), GRID_MARGIN + ROUNDING)) {
+            return; /* its side wall, too */
+        }
         double deep = wall_depth(job, &cell, stride);
         if (deep > 0.0 && job->is_ball) {
             grid_ball_look_outline(job, &cell, shift, deep);
@@ -293,22 +320,11 @@ static void look_at_flat(grid_job *job, const grid_tile *tile, flow_sum *flow)
     }
 }
 
-/* The tile's pixels within `rect` that lie on the rectangle's pattern of every stride-th. */
-static void look_at_rough(grid_job *job, const int32_t rect[4], int32_t stride,
-                          const int32_t corner[2], flow_sum *flow)
+/* The reach in which the tile's pixels, as they were seen, can be by now. */
+static double wide_reach(const grid_job *job, const grid_tile *tile, double reach)
 {
-    int32_t size = job->tiles->size;
-    int32_t begin[2], end[2];
-    for (int32_t k = 0; k < 2; k++) {
-        int32_t skipped = corner[k] > rect[k] ? (corner[k] - rect[k] + stride - 1) / stride : 0;
-        begin[k] = rect[k] + skipped * stride;
-        end[k] = corner[k] + size < rect[k + 2] ? corner[k] + size : rect[k + 2];
-    }
-    for (int32_t y = begin[1]; y < end[1]; y += stride) {
-        for (int32_t x = begin[0]; x < end[0]; x += stride) {
-            look_at_pixel(job, x, y, stride, flow);
-        }
-    }
+    double tau = job->query->tau < 0.0 ? -job->query->tau : job->query->tau;
+    return reach + tile->speed * tau;
 }
 
 /* Whether the solid of a tile is farther than `reach` from the body's centre. */
@@ -317,27 +333,89 @@ static bool is_out_of_reach(const grid_job *job, const grid_tile *tile, double r
     if (tile->is_endless) {
         return tile->near_z > job->centre.z + reach;
     }
-    double tau = job->query->tau < 0.0 ? -job->query->tau : job->query->tau;
-    double wide = reach + tile->speed * tau;
+    double wide = wide_reach(job, tile, reach);
     return rlf_aabb_distance2(&tile->solid, job->centre) > wide * wide;
 }
 
-bool grid_scan_is_clear(const grid_job *job, const grid_tiles *tiles, double reach)
+/* Looks at those of the pixels that may be within reach. */
+static void look_at_batch(grid_job *job, const grid_tile *tile, grid_pixels *pixels, int32_t stride,
+                          flow_sum *flow)
+{
+    const double UNKNOWN = -1.0;
+    const rlf_grid_sheet *sheet = job->sheet;
+    bool is_guess = sheet->thickness == NULL && !tile->is_endless;
+    double thickness = is_guess ? sheet->default_thickness : UNKNOWN;
+    grid_pixels_read(pixels, job->query->grid, sheet);
+    if (thickness > 0.0) {
+        grid_pixels_keep_near(pixels, job->centre, thickness, wide_reach(job, tile, job->reach));
+    }
+    for (int32_t k = 0; k < pixels->count; k++) {
+        look_at_pixel(job, pixels->x[k], pixels->y[k], stride, flow);
+    }
+    pixels->count = 0;
+}
+
+/* The tile's pixels within `rect` that lie on the rectangle's pattern of every stride-th, in blocks
+ * that are within reach. */
+static void look_at_rough(grid_job *job, const grid_tile *tile, const int32_t rect[4],
+                          int32_t stride, const int32_t corner[2], flow_sum *flow)
+{
+    int32_t size = job->tiles->size, side = size / TILE_BLOCKS;
+    int32_t begin[2], end[2];
+    grid_pixels pixels;
+    uint32_t near = ~(uint32_t)0;
+    if (!tile->is_endless) {
+        near = grid_tile_blocks_near(tile, job->centre, wide_reach(job, tile, job->reach));
+    }
+    for (int32_t k = 0; k < 2; k++) {
+        int32_t skipped = corner[k] > rect[k] ? (corner[k] - rect[k] + stride - 1) / stride : 0;
+        begin[k] = rect[k] + skipped * stride;
+        end[k] = corner[k] + size < rect[k + 2] ? corner[k] + size : rect[k + 2];
+    }
+    pixels.count = 0;
+    for (int32_t y = begin[1]; y < end[1]; y += stride) {
+        uint32_t row = near >> ((y - corner[1]) / side * TILE_BLOCKS);
+        for (int32_t x = begin[0]; x < end[0]; x += stride) {
+            if ((row >> ((x - corner[0]) / side) & 1u) != 0) {
+                pixels.x[pixels.count] = x;
+                pixels.y[pixels.count++] = y;
+            }
+            if (pixels.count == GRID_PIXELS_MAX) {
+                look_at_batch(job, tile, &pixels, stride, flow);
+            }
+        }
+    }
+    look_at_batch(job, tile, &pixels, stride, flow);
+}
+
+/* The least distance of the tile's blocks at this time, but no more than `reach`. */
+static double tile_distance(const grid_job *job, const grid_tile *tile, double reach)
+{
+    if (tile->kind == TILE_EMPTY || is_out_of_reach(job, tile, reach)) {
+        return reach;
+    }
+    double slip = wide_reach(job, tile, 0.0);
+    return tile->is_endless ? 0.0 : rlf_min(reach, grid_tile_distance(tile, job->centre) - slip);
+}
+
+double grid_scan_distance(const grid_job *job, const grid_tiles *tiles, double reach, double least)
 {
     int32_t rect[4], stride;
     if (tiles->sheet->depth == NULL || tiles->sheet->normal_x == NULL ||
         !grid_footprint(job->query->grid, job->centre, reach, rect, &stride)) {
-        return true;
+        return reach;
     }
+    double nearest = reach;
     for (int32_t y = rect[1] / tiles->size; y * tiles->size < rect[3]; y++) {
         for (int32_t x = rect[0] / tiles->size; x * tiles->size < rect[2]; x++) {
             const grid_tile *tile = &tiles->tiles[y * tiles->columns + x];
-            if (tile->kind != TILE_EMPTY && !is_out_of_reach(job, tile, reach)) {
-                return false;
+            nearest = tile_distance(job, tile, nearest);
+            if (nearest <= least) {
+                return nearest;
             }
         }
     }
-    return true;
+    return nearest;
 }
 
 void grid_scan_footprint(grid_job *job)
@@ -360,7 +438,7 @@ void grid_scan_footprint(grid_job *job)
             if (tile->kind == TILE_FLAT) {
                 look_at_flat(job, tile, &flow);
             } else if (!is_out_of_reach(job, tile, job->reach)) {
-                look_at_rough(job, rect, stride, corner, &flow);
+                look_at_rough(job, tile, rect, stride, corner, &flow);
             }
         }
     }

@@ -40,6 +40,7 @@ typedef struct grid_job {
     const phys_body *body;
     field_state home;      /* side of the sheet that the body belongs to */
     rlf_vec3 centre, v, w; /* of the body */
+    double speed, spin;    /* lengths of v and w */
     rlf_mat3 R_grid_body, R_body_grid;
     double asked_before; /* time of the query before this one, s */
     double horizon;      /* s until the next query */
@@ -79,8 +80,8 @@ rlf_vec3 grid_wall_normal(rlf_vec3 inward, rlf_vec3 side, rlf_vec3 normal, int32
  * outline's points. */
 void grid_scan_footprint(grid_job *job);
 
-/* Whether nothing of the sheet is within `reach` of the body's centre, by its tiles alone: false
- * when that is not sure. */
-bool grid_scan_is_clear(const grid_job *job, const grid_tiles *tiles, double reach);
+/* How far the sheet's solids are from the body's centre, by its tiles alone: no less than this, or
+ * beyond `reach`. What is not beyond `least` need not be told apart. */
+double grid_scan_distance(const grid_job *job, const grid_tiles *tiles, double reach, double least);
 
 #endif

@@ -8,6 +8,10 @@
 #define RIM_PX 2
 /* What stays within this of the plane is noise, m; see add_bumps in grid_collide.c. */
 #define EVEN 0.008
+/* Far more than a float of some metres is rounded by: metres, and a share. */
+#define ROUNDING 1e-5
+#define NOWHERE 1e30
+#define BLOCKS (TILE_BLOCKS * TILE_BLOCKS)
 
 void grid_tiles_start(grid_tiles *tiles, const rlf_grid *grid, const rlf_grid_sheet *sheet,
                       bool is_new)
@@ -58,27 +62,101 @@ static void measure(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet 
     tile->box.max = rlf_vec3_make(high[0], high[1], high[2]);
 }
 
-/* The box about the solid behind the pixels, whichever way it goes, and their highest speed. */
-static void bound(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet *sheet,
-                  const int32_t rect[4])
+/* The box about the solid behind a pixel, whichever way it goes. */
+static void extend(rlf_aabb *solid, const rlf_grid_sheet *sheet, const field_cell *cell)
 {
+    double along = cell->thickness / cell->point.z;
+    rlf_vec3 inward = grid_cell_inward(sheet, cell);
+    rlf_aabb_extend(solid, cell->point);
+    rlf_aabb_extend(solid, rlf_mad(cell->point, cell->point, along));
+    rlf_aabb_extend(solid, rlf_mad(cell->point, inward, cell->thickness));
+}
+
+static void set_block(grid_blocks *blocks, int32_t block, const rlf_aabb *box)
+{
+    const double low[3] = {box->min.x, box->min.y, box->min.z};
+    const double high[3] = {box->max.x, box->max.y, box->max.z};
+    for (int32_t k = 0; k < 3; k++) {
+        double size = rlf_max(low[k] < 0.0 ? -low[k] : low[k], high[k] < 0.0 ? -high[k] : high[k]);
+        double slack = ROUNDING + ROUNDING * rlf_min(size, FIELD_ENDLESS);
+        blocks->low[k][block] = (float)rlf_clamp(low[k] - slack, -NOWHERE, NOWHERE);
+        blocks->high[k][block] = (float)rlf_clamp(high[k] + slack, -NOWHERE, NOWHERE);
+    }
+}
+
+/* The boxes about the solids behind the pixels, and their highest speed. */
+static void bound(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet *sheet,
+                  const int32_t rect[4], int32_t size)
+{
+    const rlf_aabb none = rlf_aabb_empty();
+    rlf_aabb solids[BLOCKS];
+    int32_t side = size / TILE_BLOCKS;
+    for (int32_t block = 0; block < BLOCKS; block++) {
+        solids[block] = none;
+    }
     tile->is_endless = false;
     tile->speed = 0.0;
-    tile->solid = tile->box;
     for (int32_t y = rect[1]; y < rect[3]; y++) {
+        rlf_aabb *row = &solids[(y - rect[1]) / side * TILE_BLOCKS];
         for (int32_t x = rect[0]; x < rect[2]; x++) {
             field_cell cell;
             if (grid_cell_read(grid, sheet, x, y, &cell)) {
-                double along = cell.thickness / cell.point.z;
-                rlf_vec3 inward = grid_cell_inward(sheet, &cell);
-                rlf_aabb_extend(&tile->solid, rlf_mad(cell.point, cell.point, along));
-                rlf_aabb_extend(&tile->solid, rlf_mad(cell.point, inward, cell.thickness));
+                extend(&row[(x - rect[0]) / side], sheet, &cell);
                 tile->is_endless = tile->is_endless || cell.thickness >= FIELD_ENDLESS;
                 tile->speed = rlf_max(tile->speed, rlf_dot(cell.velocity, cell.velocity));
             }
         }
     }
     tile->speed = sqrt(tile->speed);
+    tile->solid = tile->box;
+    for (int32_t block = 0; block < BLOCKS; block++) {
+        if (solids[block].min.x <= solids[block].max.x) {
+            rlf_aabb_extend(&tile->solid, solids[block].min);
+            rlf_aabb_extend(&tile->solid, solids[block].max);
+        }
+        set_block(&tile->blocks, block, &solids[block]);
+    }
+}
+
+/* Squares of the distances from p to the blocks' boxes. */
+static void measure_blocks(const grid_blocks *blocks, rlf_vec3 p, float *distance2)
+{
+    const float at[3] = {(float)p.x, (float)p.y, (float)p.z};
+    for (int32_t block = 0; block < BLOCKS; block++) {
+        distance2[block] = 0.0f;
+    }
+    for (int32_t k = 0; k < 3; k++) {
+        const float *low = blocks->low[k], *high = blocks->high[k];
+        for (int32_t block = 0; block < BLOCKS; block++) {
+            float before = low[block] - at[k], beyond = at[k] - high[block];
+            float off = before > beyond ? before : beyond;
+            off = off > 0.0f ? off : 0.0f;
+            distance2[block] += off * off;
+        }
+    }
+}
+
+uint32_t grid_tile_blocks_near(const grid_tile *tile, rlf_vec3 p, double reach)
+{
+    const float reach2 = (float)(reach * reach * (1.0 + ROUNDING));
+    float distance2[BLOCKS];
+    uint32_t near = 0;
+    measure_blocks(&tile->blocks, p, distance2);
+    for (int32_t block = 0; block < BLOCKS; block++) {
+        near |= (uint32_t)(distance2[block] <= reach2) << block;
+    }
+    return near;
+}
+
+double grid_tile_distance(const grid_tile *tile, rlf_vec3 p)
+{
+    float distance2[BLOCKS];
+    measure_blocks(&tile->blocks, p, distance2);
+    float least = distance2[0];
+    for (int32_t block = 1; block < BLOCKS; block++) {
+        least = distance2[block] < least ? distance2[block] : least;
+    }
+    return sqrt((double)least) * (1.0 - ROUNDING);
 }
 
 static bool is_masked_out(const rlf_grid *grid, const uint8_t *mask, const int32_t rect[4])
@@ -159,7 +237,7 @@ static void make_tile(grid_tile *tile, const grid_tiles *tiles, const rlf_grid *
     tile->count = 0;
     if (mask == NULL || !is_masked_out(grid, mask, own)) {
         measure(tile, grid, tiles->sheet, own);
-        bound(tile, grid, tiles->sheet, own);
+        bound(tile, grid, tiles->sheet, own, tiles->size);
     }
     if (tile->count == 0) {
         tile->kind = TILE_EMPTY;

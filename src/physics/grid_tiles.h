@@ -7,12 +7,19 @@
 #include "relief/world.h"
 
 #define TILES_MAX 4096
+#define TILE_BLOCKS 4 /* a tile has so many blocks of pixels a side */
 
 typedef enum tile_kind {
     TILE_EMPTY = 0, /* no surface */
     TILE_FLAT,      /* one plane, and no outline in it or next to it */
     TILE_ROUGH
 } tile_kind;
+
+/* Boxes about the solids behind a tile's blocks, row by row, grid frame, metres; a little wider
+ * than they are, for floats are rounded. Empty ones are nowhere near. */
+typedef struct grid_blocks {
+    float low[3][TILE_BLOCKS * TILE_BLOCKS], high[3][TILE_BLOCKS * TILE_BLOCKS];
+} grid_blocks;
 
 typedef struct grid_tile {
     uint64_t stamp; /* of the surface it was made for */
@@ -22,6 +29,7 @@ typedef struct grid_tile {
     double speed;    /* no pixel is faster, m/s */
     bool is_endless; /* its solid never ends ... */
     rlf_aabb solid;  /* ... or the box about that */
+    grid_blocks blocks;
     rlf_aabb box;    /* about its points at the time when they were seen */
     rlf_vec3 normal; /* of a flat one: normal.p = offset */
     double offset;
@@ -42,5 +50,11 @@ void grid_tiles_start(grid_tiles *tiles, const rlf_grid *grid, const rlf_grid_sh
 /* Makes the tiles under the rectangle of pixels x0, y0, x1, y1 (ends excluded). Returns whether any
  * of them has a surface. */
 bool grid_tiles_make(grid_tiles *tiles, const rlf_grid *grid, const int32_t rect[4]);
+
+/* The blocks of a tile of which something may be within `reach` of p, as bits: row by row. */
+uint32_t grid_tile_blocks_near(const grid_tile *tile, rlf_vec3 p, double reach);
+
+/* No block of the tile is nearer to p, metres. */
+double grid_tile_distance(const grid_tile *tile, rlf_vec3 p);
 
 #endif

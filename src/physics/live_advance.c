@@ -74,6 +74,7 @@ static grid_query query_now(rlf_world *world, const rlf_grid *grid, double h)
     query.tau = rlf_clamp(world->grid_tau, -EXTRAPOLATION_MAX, EXTRAPOLATION_MAX);
     query.lag = rlf_max(query.tau - world->grid_tau, 0.0) + world->grid_gap;
     query.is_moving = query.tau == world->grid_tau;
+    query.rest_version = world->rest_version;
     query.foreground = &world->foreground_tiles;
     query.background = &world->background_tiles;
     query.shell = phys_world_has_shell(world, grid) ? &world->shell : NULL;
@@ -89,9 +90,8 @@ typedef struct surface_job {
 /* Whether the body may come to the surface in this substep, or soon after a blow in it. */
 static bool is_coming(const phys_body *body, double h)
 {
-    const double BLOW = 2.0; /* m/s */
     double moved = rlf_length(rlf_sub(body->x, body->surface_x));
-    return moved + (2.0 * rlf_length(body->v) + BLOW) * h > body->surface_clear;
+    return moved + phys_body_way(body, h) > body->surface_clear;
 }
 
 static bool is_due(const phys_body *body, double h)

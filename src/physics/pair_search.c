@@ -3,8 +3,6 @@
 #include "physics/broad_phase.h"
 #include "physics/pair_collide.h"
 
-#include <stddef.h>
-
 /* Bodies that moved less than this share of their radius past each other keep their contacts: their
  * points move with the bodies, and a normal with the side of a box. */
 #define STILL_SHARE 0.002
@@ -119,45 +117,44 @@ static void collide_range(void *context, int32_t begin, int32_t end, int32_t wor
     pair_job *job = context;
     (void)worker;
     for (int32_t i = begin; i < end; i++) {
-        phys_pair *pair = &job->world->pairs[i];
-        if (pair->is_due) {
-            collide_pair(job->world, pair, job->h);
-        }
+        collide_pair(job->world, &job->world->pairs[job->world->due_pairs[i]], job->h);
     }
 }
 
-static void search_due(rlf_world *world, double h)
+static void search_due(rlf_world *world, int32_t count, double h)
 {
-    int32_t due = 0;
-    for (int32_t i = 0; i < world->pair_count; i++) {
-        phys_pair *pair = &world->pairs[i];
-        if (pair->is_due) {
-            phys_log_contacts(world, pair->contacts, pair->contact_count);
-            due++;
-        }
+    for (int32_t i = 0; i < count; i++) {
+        phys_pair *pair = &world->pairs[world->due_pairs[i]];
+        phys_log_contacts(world, pair->contacts, pair->contact_count);
     }
-    if (due > 0) {
-        pair_job job = {world, h};
-        rlf_pool *pool = due >= 64 ? world->def.pool : NULL;
-        rlf_parallel_for(pool, world->pair_count, 32, collide_range, &job);
-    }
+    pair_job job = {world, h};
+    rlf_parallel_for(count >= 64 ? world->def.pool : NULL, count, 32, collide_range, &job);
 }
 
 static void add_pair(rlf_world *world, phys_near key)
 {
     if (world->free_count > 0) {
-        int32_t slot = world->free_slots[--world->free_count];
-        phys_pair *pair = &world->pairs[world->pair_count++];
-        *pair = (phys_pair){.a = key.a, .b = key.b, .gap = -1.0};
-        pair->contacts = &world->pair_contacts[slot * PHYS_PAIR_CONTACTS];
+        world->free_count--;
+        int32_t k = world->pair_count++;
+        world->pairs[k] = (phys_pair){.a = key.a, .b = key.b, .gap = -1.0};
+        world->pairs[k].contacts = &world->pair_contacts[k * PHYS_PAIR_CONTACTS];
+    }
+}
+
+static void keep_pair(rlf_world *world, const phys_pair *old)
+{
+    int32_t k = world->pair_count++;
+    world->pairs[k] = *old;
+    world->pairs[k].contacts = &world->pair_contacts[k * PHYS_PAIR_CONTACTS];
+    for (int32_t i = 0; i < old->contact_count; i++) {
+        world->pairs[k].contacts[i] = old->contacts[i];
     }
 }
 
 static void free_pair(rlf_world *world, phys_pair *pair)
 {
     phys_log_contacts(world, pair->contacts, pair->contact_count);
-    ptrdiff_t slot = (pair->contacts - world->pair_contacts) / PHYS_PAIR_CONTACTS;
-    world->free_slots[world->free_count++] = (int32_t)slot;
+    world->free_count++;
 }
 
 static bool is_before(const phys_pair *pair, phys_near key)
@@ -170,7 +167,7 @@ static void keep_or_free(rlf_world *world, phys_pair *pair)
 {
     const phys_body *a = &world->bodies[pair->a], *b = &world->bodies[pair->b];
     if (phys_body_is_idle(a) && phys_body_is_idle(b) && pair->contact_count > 0) {
-        world->pairs[world->pair_count++] = *pair;
+        keep_pair(world, pair);
     } else {
         free_pair(world, pair);
     }
@@ -180,8 +177,11 @@ static void keep_or_free(rlf_world *world, phys_pair *pair)
 static void merge(rlf_world *world)
 {
     phys_pair *old = world->pairs, *old_end = old + world->pair_count;
+    phys_contact *old_contacts = world->pair_contacts;
     world->pairs = world->old_pairs;
     world->old_pairs = old;
+    world->pair_contacts = world->old_pair_contacts;
+    world->old_pair_contacts = old_contacts;
     world->pair_count = 0;
     for (int32_t k = 0; k < world->near_count; k++) {
         phys_near key = world->near_sorted[k];
@@ -189,7 +189,7 @@ static void merge(rlf_world *world)
             keep_or_free(world, old++);
         }
         if (old < old_end && old->a == key.a && old->b == key.b) {
-            world->pairs[world->pair_count++] = *old++;
+            keep_pair(world, old++);
         } else {
             add_pair(world, key);
         }
@@ -201,33 +201,34 @@ static void merge(rlf_world *world)
 
 void phys_find_pairs(rlf_world *world, double h)
 {
+    int32_t due = 0;
     phys_find_near(world, (PHYS_PERIOD_MAX + 1) * h);
     merge(world);
     for (int32_t i = 0; i < world->pair_count; i++) {
         phys_pair *pair = &world->pairs[i];
         bool is_idle = phys_body_is_idle(&world->bodies[pair->a]) &&
                        phys_body_is_idle(&world->bodies[pair->b]);
-        pair->is_due = !is_idle && !is_settled(world, pair, h);
         pair->age = 0;
-        if (!pair->is_due) {
+        if (is_idle || is_settled(world, pair, h)) {
             pair->period = PHYS_PERIOD_MAX;
+        } else {
+            world->due_pairs[due++] = i;
         }
     }
-    search_due(world, h);
+    search_due(world, due, h);
 }
 
 void phys_refresh_pairs(rlf_world *world, double h)
 {
-    bool is_any_due = false;
+    int32_t due = 0;
     for (int32_t i = 0; i < world->pair_count; i++) {
         phys_pair *pair = &world->pairs[i];
         bool is_apart = pair->contact_count == 0 && pair->gap > 0.0;
-        pair->is_due = ++pair->age >= pair->period && !(is_apart && is_settled(world, pair, h));
-        is_any_due = is_any_due || pair->is_due;
+        if (++pair->age >= pair->period && !(is_apart && is_settled(world, pair, h))) {
+            world->due_pairs[due++] = i;
+        }
     }
-    if (is_any_due) {
-        search_due(world, h);
-    }
+    search_due(world, due, h);
 }
 
 void phys_drop_pairs(rlf_world *world, int32_t body)

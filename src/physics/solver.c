@@ -193,9 +193,10 @@ static bool solve_rolling(rlf_world *world, const phys_batch *batch, int32_t lan
 static bool is_busy_in(const rlf_world *world, const rlf_lane_batch *lanes, int32_t pass)
 {
     bool is_busy = false;
-    for (int32_t lane = 0; lane < RLF_LANES; lane++) {
-        is_busy |= lanes->inverse_mass_a[lane] > 0.0f && world->busy_pass[lanes->a[lane]] >= pass;
-        is_busy |= lanes->inverse_mass_b[lane] > 0.0f && world->busy_pass[lanes->b[lane]] >= pass;
+    for (int32_t lane = 0; lane < RLF_LANES && !is_busy; lane++) {
+        is_busy =
+            (lanes->inverse_mass_a[lane] > 0.0f && world->busy_pass[lanes->a[lane]] >= pass) ||
+            (lanes->inverse_mass_b[lane] > 0.0f && world->busy_pass[lanes->b[lane]] >= pass);
     }
     return is_busy;
 }

@@ -26,7 +26,8 @@ static int32_t plan_memory(rlf_world *w, memory_plan plans[PLANS_MAX])
         PLAN(pairs, pairs),
         PLAN(old_pairs, pairs),
         PLAN(pair_contacts, pairs * PHYS_PAIR_CONTACTS),
-        PLAN(free_slots, pairs),
+        PLAN(old_pair_contacts, pairs * PHYS_PAIR_CONTACTS),
+        PLAN(due_pairs, pairs),
         PLAN(proxies, bodies),
         PLAN(buckets, (size_t)w->bucket_count + 2),
         PLAN(bucket_items, bodies),
@@ -90,9 +91,6 @@ bool phys_world_allocate(rlf_world *world)
         }
     }
     world->free_count = world->pair_capacity;
-    for (int32_t i = 0; i < world->free_count; i++) { /* the first ones are taken first */
-        world->free_slots[i] = world->pair_capacity - 1 - i;
-    }
     return true;
 }
 

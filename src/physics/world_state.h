@@ -76,9 +76,10 @@ struct rlf_world {
 
     phys_pair *pairs, *old_pairs; /* sorted by (a, b); and the list before it */
     int32_t pair_count, pair_capacity;
-    phys_contact *pair_contacts; /* of the pairs */
-    int32_t *free_slots;         /* places in it that no pair has, / PHYS_PAIR_CONTACTS */
-    int32_t free_count;
+    /* Of the pairs, in their order: what is read from end to end comes faster from memory. */
+    phys_contact *pair_contacts, *old_pair_contacts;
+    int32_t free_count;  /* so many pairs more can be kept */
+    int32_t *due_pairs;  /* whose contacts are to be searched now */
     phys_proxy *proxies; /* see broad_phase.c */
     int32_t *buckets, *bucket_items;
     int32_t bucket_count; /* a power of two */

@@ -1,0 +1,147 @@
+/* What tiles and pixels tell of distances, against every pixel's solid. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "grid_fixture.h"
+#include "physics/grid_field.h"
+#include "physics/grid_pixels.h"
+#include "physics/grid_tiles.h"
+
+#include <math.h>
+
+#define SIDE 16 /* pixels of a tile */
+#define THICKNESS 0.15
+
+static uint64_t seed = 11;
+
+static double next(double low, double high)
+{
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    return low + (high - low) * ((double)(seed >> 11) / 9007199254740992.0);
+}
+
+/* Two slanting planes with bumps, and before them a block whose outline crosses tiles. */
+static grid_fixture *make_scene(void)
+{
+    grid_fixture *f = grid_fixture_create();
+    rlf_grid_sheet *sheet = &f->grid.background;
+    float *depth = f->planes[2], *normal[3] = {f->planes[3], f->planes[4], f->planes[5]};
+    for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
+        int32_t x = i % GRID_W, y = i / GRID_W;
+        bool is_block = x > 200 && x < 290 && y > 150 && y < 260;
+        rlf_vec3 n = is_block ? rlf_vec3_make(0, 0, -1) : rlf_vec3_make(0.1, y < 240 ? 0 : -1, -1);
+        rlf_vec3 ray = {(x - GRID_CX) / GRID_F, (y - GRID_CY) / GRID_F, 1};
+        n = rlf_normalize(n);
+        depth[i] = (float)((is_block ? -1.6 : -2.0) / rlf_dot(n, ray) + next(-0.01, 0.01));
+        depth[i] = next(0, 1) < 0.02 ? 0.0f : depth[i];
+        normal[0][i] = (float)n.x;
+        normal[1][i] = (float)n.y;
+        normal[2][i] = (float)n.z;
+    }
+    *sheet = (rlf_grid_sheet){.depth = depth, .default_thickness = THICKNESS};
+    sheet->normal_x = normal[0];
+    sheet->normal_y = normal[1];
+    sheet->normal_z = normal[2];
+    return f;
+}
+
+/* Distance from p to the solid behind a pixel; a large one where it has none. */
+static double distance_to(const grid_fixture *f, int32_t x, int32_t y, rlf_vec3 p)
+{
+    field_cell cell;
+    if (!grid_cell_read(&f->grid, &f->grid.background, x, y, &cell)) {
+        return 1e9;
+    }
+    rlf_vec3 inward = grid_cell_inward(&f->grid.background, &cell), d = rlf_sub(p, cell.point);
+    double level = rlf_dot(d, inward) / rlf_dot(inward, inward);
+    return rlf_length(rlf_mad(d, inward, -rlf_clamp(level, 0.0, cell.thickness)));
+}
+
+static rlf_vec3 next_place(void)
+{
+    double z = next(1.0, 3.0);
+    return rlf_vec3_make(next(-0.6, 0.6) * z, next(-0.5, 0.5) * z, z);
+}
+
+/* A tile is never farther than it says, a block within reach is never left out, and what tiles say
+ * is true to the size of a block with its solid. */
+static void tiles_tell_no_longer_distances(void **state)
+{
+    grid_fixture *f = *state;
+    const int32_t all[4] = {0, 0, GRID_W, GRID_H};
+    grid_tiles tiles = {.tiles = calloc(TILES_MAX, sizeof(grid_tile))};
+    grid_tiles_start(&tiles, &f->grid, &f->grid.background, true);
+    assert_int_equal(tiles.size, SIDE);
+    assert_true(grid_tiles_make(&tiles, &f->grid, all));
+    for (int32_t k = 0; k < 400; k++) {
+        int32_t column = (int32_t)next(0, 32), row = (int32_t)next(0, 26);
+        const grid_tile *tile = &tiles.tiles[row * tiles.columns + column];
+        rlf_vec3 p = next_place();
+        double told = grid_tile_distance(tile, p), reach = told + next(0.0, 0.2), least = 1e9;
+        uint32_t near = grid_tile_blocks_near(tile, p, reach);
+        for (int32_t i = 0; i < SIDE * SIDE; i++) {
+            int32_t x = i % SIDE, y = i / SIDE, block = y / 4 * TILE_BLOCKS + x / 4;
+            double distance = distance_to(f, column * SIDE + x, row * SIDE + y, p);
+            least = fmin(least, distance);
+            assert_true(distance > reach || (near >> block & 1u) != 0);
+        }
+        assert_true(told <= least);
+        assert_true(told > least - 2.0 * THICKNESS);
+    }
+    free(tiles.tiles);
+}
+
+/* All that is within reach is kept, and nothing else but for rounding. */
+static void near_pixels_are_kept(void **state)
+{
+    grid_fixture *f = *state;
+    int32_t kept = 0;
+    for (int32_t k = 0; k < 2000; k++) {
+        rlf_vec3 p = next_place();
+        double reach = next(0.05, 0.8);
+        grid_pixels pixels = {.count = GRID_PIXELS_MAX};
+        int32_t x0 = (int32_t)next(0, GRID_W - GRID_PIXELS_MAX), y = (int32_t)next(0, GRID_H);
+        int32_t at = 0;
+        for (int32_t i = 0; i < GRID_PIXELS_MAX; i++) {
+            pixels.x[i] = x0 + i;
+            pixels.y[i] = y;
+        }
+        grid_pixels_read(&pixels, &f->grid, &f->grid.background);
+        grid_pixels_keep_near(&pixels, p, THICKNESS, reach);
+        for (int32_t x = x0; x < x0 + GRID_PIXELS_MAX; x++) {
+            double distance = distance_to(f, x, y, p);
+            bool is_kept = at < pixels.count && pixels.x[at] == x && pixels.y[at] == y;
+            at += is_kept;
+            assert_true(distance > reach || is_kept);
+            assert_true(!is_kept || distance < 1.001 * reach + 2e-3 || distance > 1e8);
+        }
+        assert_int_equal(at, pixels.count);
+        kept += at;
+    }
+    assert_true(kept > 2000);
+}
+
+static int open_scene(void **state)
+{
+    *state = make_scene();
+    return 0;
+}
+
+static int close_scene(void **state)
+{
+    grid_fixture *f = *state;
+    grid_fixture_destroy(&f);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tiles_tell_no_longer_distances),
+        cmocka_unit_test(near_pixels_are_kept),
+    };
+    return cmocka_run_group_tests(tests, open_scene, close_scene);
+}
