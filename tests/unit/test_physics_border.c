@@ -5,35 +5,20 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "relief/world.h"
+#include "grid_room.h"
 
-#include "grid_fixture.h"
-
-#define FRAME (1.0 / 30)
 #define RING 7 /* pixels without depth around the image, as depth cameras have */
-
-static grid_fixture *fixture;
 
 static int set_up(void **state)
 {
     (void)state;
-    fixture = grid_fixture_create();
-    grid_plane room[2] = {grid_floor(1.0), grid_wall(4)};
-    grid_fixture_set_room(fixture, room, 2);
+    grid_room_create();
     for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
         int32_t x = i % GRID_W, y = i / GRID_W;
         if (x < RING || y < RING || x >= GRID_W - RING || y >= GRID_H - RING) {
-            fixture->planes[2][i] = 0.0f;
+            grid_room->planes[2][i] = 0.0f;
         }
     }
-    fixture->grid.background.default_thickness = 0.15;
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    grid_fixture_destroy(&fixture);
     return 0;
 }
 
@@ -49,23 +34,9 @@ static rlf_shape shape_of(int k)
 /* Where the body is after `seconds`; false when it left the world. */
 static bool throw_body(rlf_border border, const rlf_body_def *def, double seconds, rlf_vec3 *out)
 {
-    rlf_world_def world_def = rlf_world_def_default();
-    world_def.border = border;
-    world_def.body_capacity = 1;
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
-    assert_int_equal(rlf_world_add_body(world, def, NULL), RLF_OK);
-    bool is_there = true;
-    for (int k = 0; k < (int)(seconds / FRAME) && is_there; k++) {
-        fixture->grid.time_ns++;
-        rlf_world_advance(world, &fixture->grid, FRAME);
-        is_there = rlf_world_get_snapshot(world)->body_count == 1;
-        if (is_there) {
-            *out = rlf_world_get_snapshot(world)->bodies[0].T_world_body.p;
-        }
-    }
-    rlf_world_destroy(&world);
-    return is_there;
+    const grid_room_way way = grid_room_run(border, def, (int)(seconds / GRID_ROOM_FRAME));
+    *out = way.p;
+    return way.is_there;
 }
 
 /* Slid to the right, the left and towards the camera, out of view: it lies on the floor there. */
@@ -143,5 +114,5 @@ int main(void)
         cmocka_unit_test(ring_is_no_gap),
         cmocka_unit_test(wrong_border_is_refused),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, set_up, grid_room_destroy);
 }

@@ -5,65 +5,38 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "relief/world.h"
+#include "grid_room.h"
 
-#include "grid_fixture.h"
-
-#define FRAME (1.0 / 30)
 #define TOP_Y 0.3
 #define TOP_NEAR 1.6
 #define TOP_FAR 2.2
 #define TOP_SIDE 0.4
 #define RADIUS 0.05
 
-static grid_fixture *fixture;
-
 /* A thin table's top in a room. */
 static int set_up(void **state)
 {
     (void)state;
-    fixture = grid_fixture_create();
-    grid_plane room[2] = {grid_floor(1.0), grid_wall(4)};
-    grid_fixture_set_room(fixture, room, 2);
+    grid_room_create();
     for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
-        double z = TOP_Y / (double)fixture->planes[1][i], x = z * (double)fixture->planes[0][i];
+        double z = TOP_Y / grid_room_ray(i).y, x = z * grid_room_ray(i).x;
         if (z > TOP_NEAR && z < TOP_FAR && x > -TOP_SIDE && x < TOP_SIDE) {
-            fixture->planes[2][i] = (float)z;
-            fixture->planes[3][i] = fixture->planes[5][i] = 0.0f;
-            fixture->planes[4][i] = -1.0f;
+            grid_room_paint(i, z, rlf_vec3_make(0, -1, 0));
         }
     }
-    fixture->grid.background.default_thickness = 0.15;
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    grid_fixture_destroy(&fixture);
     return 0;
 }
 
 /* Where a body of 5 cm lies a second after it was let go. */
 static rlf_vec3 drop(rlf_shape shape, rlf_vec3 from)
 {
-    rlf_world_def world_def = rlf_world_def_default();
-    world_def.body_capacity = 1;
-    rlf_world *world = NULL;
-    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
     rlf_body_def def = rlf_body_def_default();
     def.shape = shape;
     def.position = from;
     def.restitution = 0.0;
-    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
-    for (int k = 0; k < 30; k++) {
-        fixture->grid.time_ns++;
-        rlf_world_advance(world, &fixture->grid, FRAME);
-    }
-    assert_int_equal(rlf_world_get_snapshot(world)->body_count, 1);
-    rlf_vec3 p = rlf_world_get_snapshot(world)->bodies[0].T_world_body.p;
-    rlf_world_destroy(&world);
-    return p;
+    const grid_room_way way = grid_room_run(RLF_BORDER_OPEN, &def, 30);
+    assert_true(way.is_there);
+    return way.p;
 }
 
 static rlf_shape shape_of(int k)
@@ -117,5 +90,5 @@ int main(void)
         cmocka_unit_test(body_lies_on_the_table),
         cmocka_unit_test(body_under_the_table_falls),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, set_up, grid_room_destroy);
 }

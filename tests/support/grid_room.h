@@ -1,0 +1,78 @@
+/* A floor 1 m below the camera and a wall 4 m away as a grid, and one body in them. Included after
+ * cmocka.h. */
+#ifndef RLF_TEST_GRID_ROOM_H
+#define RLF_TEST_GRID_ROOM_H
+
+#include "relief/world.h"
+
+#include "grid_fixture.h"
+
+#define GRID_ROOM_FRAME (1.0 / 30)
+#define GRID_ROOM_FLOOR 1.0
+#define GRID_ROOM_WALL 4
+
+static grid_fixture *grid_room;
+
+/* Of its solid only the front is seen: 15 cm are guessed. */
+static inline void grid_room_create(void)
+{
+    grid_plane planes[2] = {grid_floor(GRID_ROOM_FLOOR), grid_wall(GRID_ROOM_WALL)};
+    grid_room = grid_fixture_create();
+    grid_fixture_set_room(grid_room, planes, 2);
+    grid_room->grid.background.default_thickness = 0.15;
+}
+
+/* A group's tear-down. */
+static inline int grid_room_destroy(void **state)
+{
+    (void)state;
+    grid_fixture_destroy(&grid_room);
+    return 0;
+}
+
+/* Ray of pixel i: x and y at a depth of 1. */
+static inline rlf_vec3 grid_room_ray(int32_t i)
+{
+    return rlf_vec3_make((double)grid_room->planes[0][i], (double)grid_room->planes[1][i], 1.0);
+}
+
+/* Pixel i shows a face at depth z with normal n. */
+static inline void grid_room_paint(int32_t i, double z, rlf_vec3 n)
+{
+    grid_room->planes[2][i] = (float)z;
+    grid_room->planes[3][i] = (float)n.x;
+    grid_room->planes[4][i] = (float)n.y;
+    grid_room->planes[5][i] = (float)n.z;
+}
+
+/* What became of a body. */
+typedef struct grid_room_way {
+    bool is_there;     /* false: it left the world */
+    rlf_vec3 p;        /* where it was last */
+    double farthest_z; /* of all its way */
+} grid_room_way;
+
+/* One body for so many frames, or until it leaves. */
+static inline grid_room_way grid_room_run(rlf_border border, const rlf_body_def *def, int frames)
+{
+    grid_room_way way = {.is_there = true, .farthest_z = 0.0};
+    rlf_world_def world_def = rlf_world_def_default();
+    world_def.border = border;
+    world_def.body_capacity = 1;
+    rlf_world *world = NULL;
+    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+    assert_int_equal(rlf_world_add_body(world, def, NULL), RLF_OK);
+    for (int k = 0; k < frames && way.is_there; k++) {
+        grid_room->grid.time_ns++;
+        rlf_world_advance(world, &grid_room->grid, GRID_ROOM_FRAME);
+        way.is_there = rlf_world_get_snapshot(world)->body_count == 1;
+        if (way.is_there) {
+            way.p = rlf_world_get_snapshot(world)->bodies[0].T_world_body.p;
+            way.farthest_z = rlf_max(way.farthest_z, way.p.z);
+        }
+    }
+    rlf_world_destroy(&world);
+    return way;
+}
+
+#endif
