@@ -6,39 +6,22 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "analytic.h"
+#include "seen_view.h"
 
 #include <math.h>
 
 enum { WIDTH = 96, HEIGHT = 72, COUNT = WIDTH * HEIGHT };
 
-typedef struct fixture {
-    rlf_rig rig;
-    float *ray_x, *ray_y;
-    float truth[COUNT], noisy[COUNT];
-    analytic_random random;
-} fixture;
-
-static int make_fixture(void **state)
+static int set_up(void **state)
 {
-    static fixture f;
-    f.rig = analytic_rig(WIDTH, HEIGHT);
-    f.random = (analytic_random){11};
-    analytic_rays(&f.rig.depth, &f.ray_x, &f.ray_y);
-    *state = &f;
-    return 0;
-}
-
-static int free_fixture(void **state)
-{
-    fixture *f = *state;
-    rlf_free(f->ray_x);
-    rlf_free(f->ray_y);
+    static seen_view view;
+    seen_view_create(&view, analytic_rig(WIDTH, HEIGHT), 11);
+    *state = &view;
     return 0;
 }
 
 /* A slanted board in the left half, a wall behind it, and a floor that meets the wall. */
-static void set_room(fixture *f, double board)
+static void set_room(seen_view *f, double board)
 {
     rlf_vec3 slanted = rlf_normalize(rlf_vec3_make(0.3, 0.2, -1.0));
     for (int i = 0; i < COUNT; i++) {
@@ -50,33 +33,22 @@ static void set_room(fixture *f, double board)
     }
 }
 
-static void add_noise(fixture *f)
-{
-    for (int i = 0; i < COUNT; i++) {
-        double sigma = rlf_depth_noise_sigma(&f->rig.noise, f->truth[i]);
-        f->noisy[i] = f->truth[i] + (float)(sigma * random_normal(&f->random));
-    }
-}
-
-static rlf_reconstruct *make_stage(const fixture *f, bool smoothing, bool steadying)
+static rlf_reconstruct *make_stage(const seen_view *f, bool smoothing, bool steadying)
 {
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
     def.background_method = RLF_BACKGROUND_OFF;
     def.enable_fill = def.enable_flying_removal = false;
     def.enable_smoothing = smoothing;
     def.enable_steadying = steadying;
-    rlf_reconstruct *stage = NULL;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
-    return stage;
+    return seen_view_stage(&def);
 }
 
-static const rlf_surface *process(fixture *f, rlf_reconstruct *stage, int32_t number)
+static const rlf_surface *process(seen_view *f, rlf_reconstruct *stage, int32_t number)
 {
-    add_noise(f);
-    rlf_frame frame = analytic_frame(&f->rig, f->noisy, number);
-    const rlf_surface *s = NULL;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
-    return s;
+    for (int i = 0; i < COUNT; i++) {
+        f->seen[i] = seen_view_noisy(f, f->truth[i]);
+    }
+    return seen_view_process(f, stage, number);
 }
 
 static double rms(const float *depth, const float *truth)
@@ -90,14 +62,14 @@ static double rms(const float *depth, const float *truth)
 
 static void smoothing_takes_noise_and_leaves_edges(void **state)
 {
-    fixture *f = *state;
+    seen_view *f = *state;
     set_room(f, 1.6);
     rlf_reconstruct *stage = make_stage(f, true, false);
     const rlf_surface *s = process(f, stage, 0);
-    assert_true(rms(s->depth, f->truth) < 0.4 * rms(f->noisy, f->truth));
+    assert_true(rms(s->depth, f->truth) < 0.4 * rms(f->seen, f->truth));
     for (int i = 0; i < COUNT; i++) { /* no pixel of the board goes to the wall or comes from it */
         double sigma = rlf_depth_noise_sigma(&f->rig.noise, f->truth[i]);
-        assert_true(fabs(s->depth[i] - f->noisy[i]) < 12.0 * sigma);
+        assert_true(fabs(s->depth[i] - f->seen[i]) < 12.0 * sigma);
         assert_true(fabs(s->depth[i] - f->truth[i]) < 12.0 * sigma);
     }
     rlf_reconstruct_destroy(&stage);
@@ -105,19 +77,19 @@ static void smoothing_takes_noise_and_leaves_edges(void **state)
 
 static void without_filters_depth_is_the_frames(void **state)
 {
-    fixture *f = *state;
+    seen_view *f = *state;
     set_room(f, 1.6);
     rlf_reconstruct *stage = make_stage(f, false, false);
     for (int t = 0; t < 3; t++) {
         const rlf_surface *s = process(f, stage, t);
-        assert_memory_equal(s->depth, f->noisy, sizeof f->noisy);
+        assert_memory_equal(s->depth, f->seen, COUNT * sizeof(float));
     }
     rlf_reconstruct_destroy(&stage);
 }
 
 static void what_stands_still_becomes_steady(void **state)
 {
-    fixture *f = *state;
+    seen_view *f = *state;
     set_room(f, 1.6);
     const double most[2] = {0.3, 0.7}; /* planes leave a little at the crease, in every frame */
     for (int smoothing = 0; smoothing < 2; smoothing++) {
@@ -140,15 +112,13 @@ static void what_stands_still_becomes_steady(void **state)
  * beside it, which is steady, is the origin of the sums. */
 static void nothing_that_moved_stays(void **state)
 {
-    fixture *f = *state;
+    seen_view *f = *state;
     rlf_reconstruct *plain = make_stage(f, true, false);
     rlf_reconstruct *steady = make_stage(f, true, true);
     for (int t = 0; t < 24; t++) {
         set_room(f, t < 20 ? 1.6 - 0.005 * t : 1.2);
         const rlf_surface *a = process(f, plain, t);
-        rlf_frame frame = analytic_frame(&f->rig, f->noisy, t);
-        const rlf_surface *b = NULL;
-        assert_int_equal(rlf_reconstruct_process(steady, &frame, &b), RLF_OK);
+        const rlf_surface *b = seen_view_process(f, steady, t);
         for (int i = 0; i < COUNT; i++) {
             double sigma = rlf_depth_noise_sigma(&f->rig.noise, a->depth[i]);
             assert_true(fabs(a->depth[i] - b->depth[i]) <= 12.0 * sigma);
@@ -161,26 +131,23 @@ static void nothing_that_moved_stays(void **state)
 }
 
 /* The first surface, without a background; it is the stage's, and that the caller's. */
-static const rlf_surface *reconstruct_once(fixture *f, rlf_reconstruct **stage)
+static const rlf_surface *reconstruct_once(seen_view *f, rlf_reconstruct **stage)
 {
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
     def.background_method = RLF_BACKGROUND_OFF;
-    const rlf_surface *s = NULL;
-    assert_int_equal(rlf_reconstruct_create(&def, stage), RLF_OK);
-    rlf_frame frame = analytic_frame(&f->rig, f->noisy, 0);
-    assert_int_equal(rlf_reconstruct_process(*stage, &frame, &s), RLF_OK);
-    return s;
+    *stage = seen_view_stage(&def);
+    return seen_view_process(f, *stage, 0);
 }
 
 /* Drivers leave the border of the image empty: it goes on as what is inside of it. */
 static void the_border_goes_on(void **state)
 {
-    fixture *f = *state;
+    seen_view *f = *state;
     set_room(f, 1.6);
     for (int i = 0; i < COUNT; i++) {
         int x = i % WIDTH, y = i / WIDTH;
         bool border = x == 0 || y == 0 || x == WIDTH - 1 || y == HEIGHT - 1;
-        f->noisy[i] = border ? 0.0f : f->truth[i];
+        f->seen[i] = border ? 0.0f : f->truth[i];
     }
     rlf_reconstruct *stage = NULL;
     const rlf_surface *s = reconstruct_once(f, &stage);
@@ -188,7 +155,7 @@ static void the_border_goes_on(void **state)
         int x = i % WIDTH;
         bool is_edge = x > WIDTH / 2 - 4 && x < WIDTH / 2 + 4;
         bool is_floor = x >= WIDTH / 2 && f->truth[i] < 2.999f; /* too steep here for pixels */
-        if (f->noisy[i] > 0.0f || is_edge || is_floor) {
+        if (f->seen[i] > 0.0f || is_edge || is_floor) {
             continue;
         }
         assert_int_equal(s->reason[i], RLF_REASON_FILLED);
@@ -201,17 +168,17 @@ static void the_border_goes_on(void **state)
 static void a_ragged_hole_is_no_comb(void **state)
 {
     enum { LEFT = 60, WIDE = 7, TOP = 8, END = 28 }; /* on the wall */
-    fixture *f = *state;
+    seen_view *f = *state;
     set_room(f, 1.6);
     for (int i = 0; i < COUNT; i++) {
         int x = i % WIDTH, y = i / WIDTH;
         bool hole = y >= TOP && y < END && x >= LEFT && x < LEFT + WIDE + (y % 3 == 0 ? 3 : 0);
-        f->noisy[i] = hole ? 0.0f : f->truth[i];
+        f->seen[i] = hole ? 0.0f : f->truth[i];
     }
     rlf_reconstruct *stage = NULL;
     const rlf_surface *s = reconstruct_once(f, &stage);
     for (int i = 0; i < COUNT; i++) {
-        if (f->noisy[i] == 0.0f) {
+        if (f->seen[i] == 0.0f) {
             assert_int_equal(s->reason[i], RLF_REASON_FILLED);
             assert_true(fabsf(s->depth[i] - f->truth[i]) < 0.001f);
         }
@@ -229,5 +196,5 @@ int main(void)
         cmocka_unit_test(the_border_goes_on),
         cmocka_unit_test(a_ragged_hole_is_no_comb),
     };
-    return cmocka_run_group_tests(tests, make_fixture, free_fixture);
+    return cmocka_run_group_tests(tests, set_up, seen_view_destroy);
 }

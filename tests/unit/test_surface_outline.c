@@ -6,45 +6,29 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "analytic.h"
+#include "seen_view.h"
 
 #include <math.h>
 
 enum { WIDTH = 192, HEIGHT = 120, COUNT = WIDTH * HEIGHT };
 
-typedef struct fixture {
-    rlf_rig rig;
-    float *ray_x, *ray_y;
-    float truth[COUNT], seen[COUNT];
-    rlf_vec3 normal[COUNT];
-    analytic_random random;
-} fixture;
+static rlf_vec3 normals[COUNT]; /* the true ones */
 
-static int make_fixture(void **state)
+static int set_up(void **state)
 {
-    static fixture f;
-    f.rig = analytic_rig(WIDTH, HEIGHT);
-    f.random = (analytic_random){3};
-    analytic_rays(&f.rig.depth, &f.ray_x, &f.ray_y);
-    *state = &f;
+    static seen_view view;
+    seen_view_create(&view, analytic_rig(WIDTH, HEIGHT), 3);
+    *state = &view;
     return 0;
 }
 
-static int free_fixture(void **state)
-{
-    fixture *f = *state;
-    rlf_free(f->ray_x);
-    rlf_free(f->ray_y);
-    return 0;
-}
-
-static void set_wall(fixture *f, int i)
+static void set_wall(seen_view *f, int i)
 {
     f->truth[i] = 3.0f;
-    f->normal[i] = rlf_vec3_make(0, 0, -1);
+    normals[i] = rlf_vec3_make(0, 0, -1);
 }
 
-static void set_ball(fixture *f, rlf_vec3 centre, double radius)
+static void set_ball(seen_view *f, rlf_vec3 centre, double radius)
 {
     for (int i = 0; i < COUNT; i++) {
         double z = sphere_depth(centre, radius, f->ray_x[i], f->ray_y[i]);
@@ -52,25 +36,25 @@ static void set_ball(fixture *f, rlf_vec3 centre, double radius)
         if (z > 0.0) {
             rlf_vec3 p = {z * f->ray_x[i], z * f->ray_y[i], z};
             f->truth[i] = (float)z;
-            f->normal[i] = rlf_normalize(rlf_sub(p, centre));
+            normals[i] = rlf_normalize(rlf_sub(p, centre));
         }
     }
 }
 
-static void set_board(fixture *f, rlf_vec3 n)
+static void set_board(seen_view *f, rlf_vec3 n)
 {
     for (int i = 0; i < COUNT; i++) {
         int32_t x = i % WIDTH, y = i / WIDTH;
         set_wall(f, i);
         if (x >= 60 && x < 130 && y >= 20 && y < 90 + (x - 60) / 5) {
             f->truth[i] = (float)plane_depth(n, 2.0 * n.z, f->ray_x[i], f->ray_y[i]);
-            f->normal[i] = n;
+            normals[i] = n;
         }
     }
 }
 
 /* As a driver's edge filter does: none of the pixels beside an edge, some of those next to them. */
-static bool is_dropped(fixture *f, int32_t x, int32_t y)
+static bool is_dropped(seen_view *f, int32_t x, int32_t y)
 {
     double kept = 1.0;
     for (int32_t ny = y - 1; ny <= y + 1; ny++) {
@@ -88,17 +72,13 @@ static bool is_dropped(fixture *f, int32_t x, int32_t y)
     return random_uniform(&f->random) >= kept;
 }
 
-static const rlf_surface *process(fixture *f, rlf_reconstruct *stage, int32_t number)
+static const rlf_surface *process(seen_view *f, rlf_reconstruct *stage, int32_t number)
 {
     for (int i = 0; i < COUNT; i++) {
-        double sigma = rlf_depth_noise_sigma(&f->rig.noise, f->truth[i]);
-        float noise = (float)(sigma * random_normal(&f->random));
-        f->seen[i] = is_dropped(f, i % WIDTH, i / WIDTH) ? 0.0f : f->truth[i] + noise;
+        float noisy = seen_view_noisy(f, f->truth[i]);
+        f->seen[i] = is_dropped(f, i % WIDTH, i / WIDTH) ? 0.0f : noisy;
     }
-    rlf_frame frame = analytic_frame(&f->rig, f->seen, number);
-    const rlf_surface *s = NULL;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
-    return s;
+    return seen_view_process(f, stage, number);
 }
 
 /* Of the thing's dropped pixels: filled on its side, with a normal within 30 degrees. */
@@ -107,11 +87,10 @@ typedef struct score {
     double mean_deg;
 } score;
 
-static score judge(fixture *f)
+static score judge(seen_view *f)
 {
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
-    rlf_reconstruct *stage = NULL;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    rlf_reconstruct *stage = seen_view_stage(&def);
     const rlf_surface *s = process(f, stage, 0);
     score result = {0};
     for (int i = 0; i < COUNT; i++) {
@@ -124,7 +103,7 @@ static score judge(fixture *f)
             rlf_vec3 n = {s->normal_x[i], s->normal_y[i], s->normal_z[i]};
             assert_true(fabs(rlf_length(n) - 1.0) < 1e-5);
             assert_true(n.x * f->ray_x[i] + n.y * f->ray_y[i] + n.z < 0.0);
-            double deg = angle_deg(n, f->normal[i]);
+            double deg = angle_deg(n, normals[i]);
             result.filled++;
             result.wrong_normal += deg > 30.0;
             result.mean_deg += deg;
@@ -137,7 +116,7 @@ static score judge(fixture *f)
 
 static void a_ball_turns_away_at_its_outline(void **state)
 {
-    fixture *f = *state;
+    seen_view *f = *state;
     set_ball(f, rlf_vec3_make(0.1, -0.05, 2.0), 0.3);
     score s = judge(f);
     assert_true(s.dropped > 100);
@@ -148,7 +127,7 @@ static void a_ball_turns_away_at_its_outline(void **state)
 
 static void a_board_stays_flat(void **state)
 {
-    fixture *f = *state;
+    seen_view *f = *state;
     const rlf_vec3 tilts[3] = {{0, 0, -1}, {0.5, 0, -1}, {-0.2, 0.6, -1}};
     for (int k = 0; k < 3; k++) {
         set_board(f, rlf_normalize(tilts[k]));
@@ -163,10 +142,9 @@ static void a_board_stays_flat(void **state)
 /* Two boards with a slit of three columns between them, before a wall that was seen alone. */
 static void slits_are_open(void **state)
 {
-    fixture *f = *state;
+    seen_view *f = *state;
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
-    rlf_reconstruct *stage = NULL;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    rlf_reconstruct *stage = seen_view_stage(&def);
     const rlf_vec3 facing = {0, 0, -1};
     enum { SLIT = 90, WIDE = 3 };
     const rlf_surface *s = NULL;
@@ -204,5 +182,5 @@ int main(void)
         cmocka_unit_test(a_board_stays_flat),
         cmocka_unit_test(slits_are_open),
     };
-    return cmocka_run_group_tests(tests, make_fixture, free_fixture);
+    return cmocka_run_group_tests(tests, set_up, seen_view_destroy);
 }

@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "analytic.h"
+#include "seen_view.h"
 
 enum { WIDTH = 256, HEIGHT = 64, COUNT = WIDTH * HEIGHT, FRAMES = 24 };
 
@@ -18,57 +18,42 @@ typedef struct block {
 
 static const double wall = 3.8;
 
-typedef struct fixture {
-    rlf_rig rig;
-    float *ray_x, *ray_y;
-    float truth[COUNT], seen[COUNT];
-    uint8_t is_side[COUNT];
-    analytic_random random;
-} fixture;
+static uint8_t is_side_at[COUNT];
 
-static int make_fixture(void **state)
+static int set_up(void **state)
 {
-    static fixture f;
-    f.rig = analytic_rig(WIDTH, HEIGHT);
-    f.rig.depth.fx = f.rig.depth.fy = 365.5;
-    f.rig.depth.cx = 250.0; /* the left half of a wider picture */
-    f.random = (analytic_random){31};
-    analytic_rays(&f.rig.depth, &f.ray_x, &f.ray_y);
-    *state = &f;
+    static seen_view view;
+    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rig.depth.fx = rig.depth.fy = 365.5;
+    rig.depth.cx = 250.0; /* the left half of a wider picture */
+    seen_view_create(&view, rig, 31);
+    *state = &view;
     return 0;
 }
 
-static int free_fixture(void **state)
-{
-    fixture *f = *state;
-    rlf_free(f->ray_x);
-    rlf_free(f->ray_y);
-    return 0;
-}
-
-static void set_wall(fixture *f)
+static void set_wall(seen_view *f)
 {
     for (int i = 0; i < COUNT; i++) {
         f->truth[i] = (float)wall;
-        f->is_side[i] = 0;
+        is_side_at[i] = 0;
     }
 }
 
 /* To the left of the axis: the camera sees its front and its right side. */
-static void add_block(fixture *f, block b)
+static void add_block(seen_view *f, block b)
 {
     for (int i = 0; i < COUNT; i++) {
         double x = f->ray_x[i], side = b.right / x;
         bool front = x * b.near >= b.left && x * b.near <= b.right;
         bool aside = !front && side > b.near && side <= b.far;
         f->truth[i] = (float)(front ? b.near : (aside ? side : f->truth[i]));
-        f->is_side[i] = aside;
+        is_side_at[i] = aside;
     }
 }
 
 /* As a driver delivers it: a pixel at a jump is dropped, one beside it in three frames of five;
  * noise is that of Fankhauser et al. 2015, here eight times as high on sides. */
-static void take_frame(fixture *f)
+static void take_frame(seen_view *f)
 {
     for (int i = 0; i < COUNT; i++) {
         const float *z = f->truth + i;
@@ -79,20 +64,19 @@ static void take_frame(fixture *f)
         bool beside = inside && (z[2] - z[1] > jump || z[1] - z[2] > jump || z[-2] - z[-1] > jump ||
                                  z[-1] - z[-2] > jump);
         bool dropped = at || (beside && random_uniform(&f->random) < 0.6);
-        double sigma = rlf_depth_noise_sigma(&f->rig.noise, *z) * (f->is_side[i] ? 8.0 : 1.0);
+        double sigma = rlf_depth_noise_sigma(&f->rig.noise, *z) * (is_side_at[i] ? 8.0 : 1.0);
         f->seen[i] = dropped ? 0.0f : (float)(*z + sigma * random_normal(&f->random));
     }
 }
 
-static const rlf_surface *watch(fixture *f, rlf_reconstruct **stage)
+static const rlf_surface *watch(seen_view *f, rlf_reconstruct **stage)
 {
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
-    assert_int_equal(rlf_reconstruct_create(&def, stage), RLF_OK);
+    *stage = seen_view_stage(&def);
     const rlf_surface *s = NULL;
     for (int32_t k = 0; k < FRAMES; k++) {
         take_frame(f);
-        rlf_frame frame = analytic_frame(&f->rig, f->seen, k);
-        assert_int_equal(rlf_reconstruct_process(*stage, &frame, &s), RLF_OK);
+        s = seen_view_process(f, *stage, k);
     }
     return s;
 }
@@ -101,13 +85,13 @@ typedef struct score {
     int side, side_wrong, front, front_wrong;
 } score;
 
-static score judge(fixture *f)
+static score judge(seen_view *f)
 {
     rlf_reconstruct *stage = NULL;
     const rlf_surface *s = watch(f, &stage);
     score result = {0};
     for (int i = 12 * WIDTH; i < COUNT - 12 * WIDTH; i++) {
-        bool is_side = f->is_side[i] != 0, is_front = !is_side && f->truth[i] < wall - 0.01;
+        bool is_side = is_side_at[i] != 0, is_front = !is_side && f->truth[i] < wall - 0.01;
         rlf_vec3 n = {s->normal_x[i], s->normal_y[i], s->normal_z[i]};
         rlf_vec3 truth = {is_side ? 1.0 : 0.0, 0.0, is_side ? 0.0 : -1.0};
         bool wrong = angle_deg(n, truth) > 30.0;
@@ -123,7 +107,7 @@ static score judge(fixture *f)
 /* At eight places between two pixels' columns. */
 static void the_side_of_a_post_is_a_face(void **state)
 {
-    fixture *f = *state;
+    seen_view *f = *state;
     score all = {0};
     for (int k = 0; k < 8; k++) {
         double right = -0.95 + 0.0012 * k;
@@ -144,7 +128,7 @@ static void the_side_of_a_post_is_a_face(void **state)
 
 static void a_plate_has_no_side(void **state)
 {
-    fixture *f = *state;
+    seen_view *f = *state;
     set_wall(f);
     add_block(f, (block){-1.50, -1.40, 3.2, 3.2});
     score s = judge(f);
@@ -153,14 +137,14 @@ static void a_plate_has_no_side(void **state)
     assert_true(50 * s.front_wrong <= s.front);
 }
 
-static bool is_wall(const fixture *f, int i)
+static bool is_wall(const seen_view *f, int i)
 {
     return f->truth[i] > wall - 0.01;
 }
 
 static void the_wall_shows_in_a_slit(void **state)
 {
-    fixture *f = *state;
+    seen_view *f = *state;
     set_wall(f);
     add_block(f, (block){-1.50, -1.44, 3.2, 3.2});
     add_block(f, (block){-1.408, -1.34, 3.2, 3.2});
@@ -186,5 +170,5 @@ int main(void)
         cmocka_unit_test(a_plate_has_no_side),
         cmocka_unit_test(the_wall_shows_in_a_slit),
     };
-    return cmocka_run_group_tests(tests, make_fixture, free_fixture);
+    return cmocka_run_group_tests(tests, set_up, seen_view_destroy);
 }
