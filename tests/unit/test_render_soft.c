@@ -10,7 +10,6 @@
 #include "relief/compositor.h"
 
 #include <math.h>
-#include <stdio.h>
 
 #include "render_scene.h"
 
@@ -195,8 +194,7 @@ static void nearer_body_wins_in_any_order(void **state)
         blue->color[0] = blue->color[1] = 0.0f;
         rlf_compositor_def def = scene_def(s);
         def.occlusion = (rlf_occlusion)mode;
-        rlf_compositor *a = create(&def);
-        rlf_compositor *b = create(&def);
+        rlf_compositor *a = create(&def), *b = create(&def);
         rlf_render_output first = render(a, s);
         rlf_body_state swap = s->bodies[0];
         s->bodies[0] = s->bodies[1];
@@ -215,15 +213,45 @@ static void nearer_body_wins_in_any_order(void **state)
     }
 }
 
+static rlf_shape shape_of(int i)
+{
+    const rlf_shape shapes[4] = {scene_box(0.25),
+                                 {.type = RLF_SHAPE_SPHERE, .radius = 0.15},
+                                 {.type = RLF_SHAPE_CAPSULE, .radius = 0.08, .height = 0.2},
+                                 {.type = RLF_SHAPE_CYLINDER, .radius = 0.1, .height = 0.3}};
+    return shapes[i % 4];
+}
+
 static void add_crowd(render_scene *s)
 {
-    rlf_shape shapes[4] = {scene_box(0.25),
-                           {.type = RLF_SHAPE_SPHERE, .radius = 0.15},
-                           {.type = RLF_SHAPE_CAPSULE, .radius = 0.08, .height = 0.2},
-                           {.type = RLF_SHAPE_CYLINDER, .radius = 0.1, .height = 0.3}};
     for (int i = 0; i < 12; i++) {
-        rlf_vec3 p = {-0.6 + 0.12 * i, 0.25 * (i % 3) - 0.25, 1.3 + 0.17 * (i % 5)};
-        turn(scene_add_body(s, shapes[i % 4], p), 0.3 * i);
+        const rlf_vec3 p = {-0.6 + 0.12 * i, 0.25 * (i % 3) - 0.25, 1.3 + 0.17 * (i % 5)};
+        turn(scene_add_body(s, shape_of(i), p), 0.3 * i);
+    }
+}
+
+/* One body alone is drawn without depths of samples, two in the same columns with them. */
+static void hidden_body_changes_nothing(void **state)
+{
+    (void)state;
+    const rlf_vec3 eye = {0.052, 0, 0};
+    for (int i = 0; i < 32; i++) {
+        const rlf_vec3 p = rlf_vec3_make(0.03 * (i - 16), 0.02 * (i % 7 - 3), 1.1 + 0.05 * i);
+        render_scene *s = scene_make(5.0);
+        turn(scene_add_body(s, shape_of(i), p), 0.37 * i);
+        scene_add_body(s, scene_box(0.01), rlf_mad(p, rlf_sub(p, eye), 0.4));
+        rlf_compositor_def def = scene_def(s);
+        def.occlusion = RLF_OCCLUSION_OFF;
+        rlf_compositor *a = create(&def), *b = create(&def);
+        const rlf_render_output both = render(a, s);
+        s->snapshot.body_count = 1;
+        const rlf_render_output one = render(b, s);
+        assert_non_null(memchr(one.matte.data, 255, 960 * 540));
+        assert_memory_equal(both.image.data, one.image.data, 960 * 540 * 4);
+        assert_memory_equal(both.matte.data, one.matte.data, 960 * 540);
+        rlf_compositor_destroy(&a);
+        rlf_compositor_destroy(&b);
+        scene_free(s);
     }
 }
 
@@ -344,8 +372,7 @@ static void hull_of_a_cube_covers_what_the_cube_does(void **state)
     rlf_body_state *body = scene_add_body(s, scene_box(0.3), rlf_vec3_make(0, 0, 1.4));
     turn(body, 0.8);
     rlf_compositor_def def = scene_def(s);
-    rlf_compositor *a = create(&def);
-    rlf_compositor *b = create(&def);
+    rlf_compositor *a = create(&def), *b = create(&def);
     rlf_render_output box = render(a, s);
     assert_true(check_box_matte(s, &box, 2.0) > 5000);
     body->shape = (rlf_shape){.type = RLF_SHAPE_HULL, .hull = &hull};
@@ -367,8 +394,7 @@ static void sees_bodies_from_a_moved_camera(void **state)
     rlf_body_state *body = scene_add_body(s, scene_box(0.3), rlf_vec3_make(0.1, 0, 1.3));
     turn(body, 0.7);
     rlf_compositor_def def = scene_def(s);
-    rlf_compositor *a = create(&def);
-    rlf_compositor *b = create(&def);
+    rlf_compositor *a = create(&def), *b = create(&def);
     rlf_render_output first = render(a, s);
     rlf_pose T = {{1.0, -0.5, 2.0}, rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), 0.6)};
     s->input.T_world_camera = T;
@@ -556,6 +582,7 @@ int main(void)
         cmocka_unit_test(cube_half_way_in_is_cut_at_the_wall),
         cmocka_unit_test(cube_behind_a_strip_is_hidden_by_it),
         cmocka_unit_test(nearer_body_wins_in_any_order),
+        cmocka_unit_test(hidden_body_changes_nothing),
         cmocka_unit_test(threads_do_not_change_a_bit),
         cmocka_unit_test(thesis_layers_give_the_same_matte),
         cmocka_unit_test(later_pictures_allocate_nothing),

@@ -37,9 +37,9 @@ static int32_t find_ends(const soft *s, const band_faces *list, const soft_group
     for (int32_t i = 0; i < list->count; i++) {
         const soft_face *face = &s->scene.faces[list->faces[i]];
         if (face->y_begin < begin + group->row_count && face->y_end > begin) {
-            soft_ends *ends = &group->ends[count++];
+            soft_ends *ends = &group->ends[count];
             ends->face = list->faces[i];
-            soft_find_ends(face, group, ends);
+            count += soft_find_ends(face, group, ends) ? 1 : 0;
         }
     }
     return count;
@@ -55,24 +55,26 @@ static void draw_faces(const soft *s, int32_t first, int32_t end, soft_group *gr
     soft_shade_faces(s, group->ends + first, end - first, group);
 }
 
-/* The next run of touched pixels from part `*part` on; false when there is none. */
+/* The next run of pixels that are touched alike from part `*part` on; false when there is none. */
 static bool next_run(const soft_row *row, int32_t width, int32_t *part, soft_span *out)
 {
-    while (*part < row->part_count && row->touched[*part] == 0) {
+    while (*part < row->part_count && row->touched[*part] == SOFT_UNTOUCHED) {
         (*part)++;
     }
     out->x0 = *part * SOFT_PART;
-    while (*part < row->part_count && row->touched[*part] != 0) {
+    const int32_t touched = *part < row->part_count ? row->touched[*part] : SOFT_UNTOUCHED;
+    while (*part < row->part_count && row->touched[*part] == touched) {
         (*part)++;
     }
     out->x1 = *part * SOFT_PART < width ? *part * SOFT_PART : width;
-    return out->x0 < out->x1;
+    return touched != SOFT_UNTOUCHED;
 }
 
 static void clear_run(const soft_row *row, ptrdiff_t stride, int32_t sums, soft_span t)
 {
     size_t count = (size_t)(t.x1 - t.x0);
-    for (int k = 0; k < SOFT_SAMPLES; k++) {
+    const bool has_samples = row->touched[t.x0 / SOFT_PART] == SOFT_TOUCHED;
+    for (int k = 0; k < SOFT_SAMPLES && has_samples; k++) {
         memset(row->inverse_z + k * stride + t.x0, 0, count * sizeof(float));
         memset(row->face + k * stride + t.x0, 0, count * sizeof(int32_t));
     }
@@ -259,6 +261,7 @@ static void draw_band(void *context, int32_t begin, int32_t end, int32_t worker)
             group->rows[i].real = real_row(s, group->tiles, y + i);
         }
         int32_t count = find_ends(s, &list, group);
+        soft_find_alone(&s->scene, count, group);
         if (is_layered) {
             draw_layers(s, count, group);
         } else {

@@ -54,7 +54,23 @@ RLF_KERNEL_PART void first_pixels(const double *restrict x, const double *restri
     }
 }
 
-RLF_KERNEL void soft_find_ends(const soft_face *f, const soft_group *group, soft_ends *out)
+/* First pixel and the one after the last of all lines. */
+RLF_KERNEL_PART void bound_lines(int32_t count, soft_ends *ends)
+{
+    int32_t x0 = INT32_MAX;
+    int32_t x1 = 0;
+    for (int32_t i = 0; i < count; i++) {
+        const bool is_some = ends->begin[i] < ends->end[i];
+        const int32_t begin = is_some ? ends->begin[i] : INT32_MAX;
+        const int32_t end = is_some ? ends->end[i] : 0;
+        x0 = begin < x0 ? begin : x0;
+        x1 = end > x1 ? end : x1;
+    }
+    ends->x0 = x0;
+    ends->x1 = x1;
+}
+
+RLF_KERNEL bool soft_find_ends(const soft_face *f, const soft_group *group, soft_ends *out)
 {
     lines l;
     const int32_t y = group->rows[0].y;
@@ -67,6 +83,12 @@ RLF_KERNEL void soft_find_ends(const soft_face *f, const soft_group *group, soft
     }
     first_pixels(l.left, l.x, count, group->width, out->begin);
     first_pixels(l.right, l.x, count, group->width, out->end);
+    if (group->row_count == SOFT_GROUP_ROWS) { /* its own case, for a count that is known */
+        bound_lines(SOFT_GROUP_LINES, out);
+    } else {
+        bound_lines(group->row_count * SOFT_SAMPLES, out);
+    }
+    return out->x0 < out->x1;
 }
 
 /* Keeps the larger 1/z, in whole SOFT_LANES: those beyond the count lose. Without a branch that the
@@ -87,8 +109,8 @@ RLF_KERNEL_PART void test_run(float *restrict inverse_z, int32_t *restrict face,
 }
 
 /* Parts of a row with pixels between the least begin and the greatest end of its lines. */
-RLF_KERNEL_PART void touch(const int32_t *restrict begin, const int32_t *restrict end,
-                           uint8_t *restrict touched)
+RLF_KERNEL_PART void touch_parts(const int32_t *restrict begin, const int32_t *restrict end,
+                                 soft_touch touch, uint8_t *restrict touched)
 {
     int32_t x0 = INT32_MAX;
     int32_t x1 = 0;
@@ -98,7 +120,7 @@ RLF_KERNEL_PART void touch(const int32_t *restrict begin, const int32_t *restric
         x1 = is_some && end[i] > x1 ? end[i] : x1;
     }
     for (int32_t part = x0 / SOFT_PART; part * SOFT_PART < x1; part++) {
-        touched[part] = 1;
+        touched[part] = touched[part] > touch ? touched[part] : (uint8_t)touch;
     }
 }
 
@@ -109,8 +131,8 @@ RLF_KERNEL void soft_raster_face(const soft_face *f, const soft_ends *ends, soft
         const soft_row *row = &group->rows[r];
         const int32_t *begin = ends->begin + r * SOFT_SAMPLES;
         const int32_t *end = ends->end + r * SOFT_SAMPLES;
-        touch(begin, end, row->touched);
-        for (int32_t k = 0; k < SOFT_SAMPLES; k++) {
+        touch_parts(begin, end, ends->is_alone ? SOFT_TOUCHED_ALONE : SOFT_TOUCHED, row->touched);
+        for (int32_t k = 0; k < SOFT_SAMPLES && !ends->is_alone; k++) {
             if (begin[k] < end[k]) {
                 float across = (float)begin[k] + (float)sample_x[k] - f->origin_x;
                 float down = (float)row->y - f->origin_y + (float)sample_y[k];

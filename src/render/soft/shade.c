@@ -21,6 +21,17 @@ RLF_KERNEL_PART run run_of(const soft_face *f, float x, float y)
     return r;
 }
 
+/* What is being drawn. */
+typedef struct shading {
+    const soft *s;
+    const soft_group *group;
+    const soft_face *face;
+    const soft_ends *ends;   /* of it */
+    int32_t id;              /* of the face */
+    soft_depth_range fading; /* what is real between hides some of it, what is nearer all */
+    soft_stream *stream;
+} shading;
+
 /* Share of the samples that see the face, in the first `used` lanes; else 0. False when none does.
  */
 RLF_KERNEL_PART bool cover(const int32_t *restrict face, ptrdiff_t stride, int32_t id, int32_t used,
@@ -39,6 +50,37 @@ RLF_KERNEL_PART bool cover(const int32_t *restrict face, ptrdiff_t stride, int32
         any |= seen;
     }
     return any != 0;
+}
+
+/* The same for a face that is alone, whose lines begin and end here: lanes from pixel x on. */
+RLF_KERNEL_PART bool cover_alone(const int32_t begin[SOFT_SAMPLES], const int32_t end[SOFT_SAMPLES],
+                                 int32_t x, int32_t used, float *restrict coverage)
+{
+    int32_t any = 0;
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
+        const int32_t at = x + i;
+        int32_t seen = (at >= begin[0] ? 1 : 0) & (at < end[0] ? 1 : 0);
+        seen += (at >= begin[1] ? 1 : 0) & (at < end[1] ? 1 : 0);
+        seen += (at >= begin[2] ? 1 : 0) & (at < end[2] ? 1 : 0);
+        seen += (at >= begin[3] ? 1 : 0) & (at < end[3] ? 1 : 0);
+        seen = i < used ? seen : 0;
+        coverage[i] = (float)seen * (1.0f / SOFT_SAMPLES);
+        any |= seen;
+    }
+    return any != 0;
+}
+
+/* Share of the face's samples that it wins in lanes from pixel x of a row on, as above. */
+RLF_KERNEL_PART bool cover_lanes(const shading *job, int32_t row, int32_t x, int32_t used,
+                                 float *restrict coverage)
+{
+    const soft_ends *ends = job->ends;
+    const int32_t first = SOFT_SAMPLES * row;
+    if (ends->is_alone) {
+        return cover_alone(ends->begin + first, ends->end + first, x, used, coverage);
+    }
+    return cover(job->group->rows[row].face + x, job->group->stride, job->id, used, coverage);
 }
 
 /* One that only a corner of the face touches has its centre outside: stay within. */
@@ -98,16 +140,6 @@ RLF_KERNEL_PART void fill_light(const light_nodes *nodes, int32_t node, int32_t 
     }
 }
 
-/* What is being drawn. */
-typedef struct shading {
-    const soft *s;
-    const soft_group *group;
-    const soft_face *face;
-    int32_t id;              /* of the face */
-    soft_depth_range fading; /* what is real between hides some of it, what is nearer all */
-    soft_stream *stream;
-} shading;
-
 /* Adds `used` pixels of a row from x on, but for those that other faces are before. */
 RLF_KERNEL_PART void shade_run(const shading *job, int32_t row_index, int32_t x, int32_t used,
                                const light_nodes *nodes, int32_t first_node)
@@ -122,7 +154,7 @@ RLF_KERNEL_PART void shade_run(const shading *job, int32_t row_index, int32_t x,
             soft_stream_flush(job->s, job->group, v);
         }
         const int32_t at = v->count;
-        if (cover(row->face + x + i, job->group->stride, job->id, count, v->coverage + at)) {
+        if (cover_lanes(job, row_index, x + i, count, v->coverage + at)) {
             fill_inverse_z(&r, i, v->z + at);
             fill_ramp(r.attribute[SOFT_LIGHT], i, v->light + at);
             fill_ramp(r.attribute[SOFT_S], i, v->s + at);
@@ -199,18 +231,16 @@ RLF_KERNEL_PART void shade_chunk(const shading *job, const soft_span *spans, int
     }
 }
 
-RLF_KERNEL_PART void shade_face(const shading *job, const soft_ends *ends)
+RLF_KERNEL_PART void shade_face(const shading *job)
 {
+    const soft_ends *ends = job->ends;
     soft_span spans[SOFT_GROUP_ROWS];
-    soft_span all = {INT32_MAX, 0};
     for (int32_t i = 0; i < job->group->row_count; i++) {
         spans[i] = span_of(ends, i);
-        all.x0 = spans[i].x0 < all.x0 ? spans[i].x0 : all.x0;
-        all.x1 = spans[i].x1 > all.x1 ? spans[i].x1 : all.x1;
     }
     const int32_t chunk = CHUNK_NODES * job->s->shade_px;
-    for (int32_t x = all.x0; x < all.x1; x += chunk) {
-        shade_chunk(job, spans, x, all.x1 - x < chunk ? all.x1 - x : chunk);
+    for (int32_t x = ends->x0; x < ends->x1; x += chunk) {
+        shade_chunk(job, spans, x, ends->x1 - x < chunk ? ends->x1 - x : chunk);
     }
 }
 
@@ -247,8 +277,9 @@ RLF_KERNEL void soft_shade_faces(const soft *s, const soft_ends *ends, int32_t c
             stream.body = body;
             stream.has_skin = has_skin;
         }
-        const shading job = {s, group, face, id, fading_range(face, &group->rows[0].real), &stream};
-        shade_face(&job, &ends[i]);
+        const shading job = {
+            s, group, face, &ends[i], id, fading_range(face, &group->rows[0].real), &stream};
+        shade_face(&job);
     }
     if (stream.count > 0) {
         soft_stream_flush(s, group, &stream);

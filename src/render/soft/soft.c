@@ -26,6 +26,7 @@ static void destroy(void *self)
         }
         rlf_free(group->list);
         rlf_free(group->ends);
+        rlf_free(group->crowd);
         rlf_free(group->tiles);
     }
     for (int32_t i = 0; s->shade_tiles != NULL && i < s->worker_count; i++) {
@@ -86,7 +87,8 @@ static rlf_result allocate_workers(soft *s)
         group->width = s->camera.width;
         group->stride = (ptrdiff_t)stride;
         group->tiles = rlf_alloc_array(stride / SILHOUETTE_TILE, sizeof(*group->tiles));
-        result = group->tiles != NULL ? result : RLF_ERROR_MEMORY;
+        group->crowd = rlf_alloc(stride / SOFT_CROWD_PX);
+        result = group->tiles != NULL && group->crowd != NULL ? result : RLF_ERROR_MEMORY;
         for (int k = 0; k < SOFT_GROUP_ROWS && result == RLF_OK; k++) {
             result = allocate_row(&group->rows[k], stride);
         }

@@ -121,8 +121,12 @@ enum { SOFT_COVERED = 4, SOFT_SUMS = 5 };
  * SOFT_SAMPLES * row + sample. */
 typedef struct soft_ends {
     int32_t face;
+    int32_t x0, x1; /* of all lines */
+    bool is_alone;  /* no other face is near any of its pixels: it wins all of its samples */
     int32_t begin[SOFT_GROUP_LINES], end[SOFT_GROUP_LINES];
 } soft_ends;
+
+#define SOFT_CROWD_PX 4 /* bodies within so many columns may be before each other */
 
 /* Depths that what may hide a body has in a tile. */
 typedef struct soft_depth_range {
@@ -142,6 +146,9 @@ typedef struct soft_real_row {
 
 #define SOFT_PART 16 /* pixels that are put into the picture and cleared together */
 
+/* How faces touch a part of a row: one that is alone leaves its samples as they are. */
+typedef enum soft_touch { SOFT_UNTOUCHED, SOFT_TOUCHED_ALONE, SOFT_TOUCHED } soft_touch;
+
 /* Pixels x0 <= x < x1 of a row; none when x0 >= x1. */
 typedef struct soft_span {
     int32_t x0, x1;
@@ -156,7 +163,7 @@ typedef struct soft_row {
     float *sum[SOFT_SUMS]; /* red, green, blue (0..255, times shown), shown, and
                               with RLF_OCCLUSION_THESIS covered */
     float *layer[4];       /* RLF_OCCLUSION_THESIS: bodies so far, as the sums */
-    uint8_t *touched;      /* 1 for every SOFT_PART pixels that a face touches */
+    uint8_t *touched;      /* soft_touch of every SOFT_PART pixels */
     int32_t part_count;    /* of those */
 } soft_row;
 
@@ -168,6 +175,7 @@ typedef struct soft_group {
     int32_t *list;           /* faces of a band */
     soft_depth_range *tiles; /* of a band, with soft occlusion */
     soft_ends *ends;         /* of those in the group */
+    uint8_t *crowd;          /* work memory: bodies in each SOFT_CROWD_PX columns of a group */
 } soft_group;
 
 #define SOFT_SHADE_WIDTH 32 /* pixels of a tile; it is as high as a band */
@@ -247,9 +255,13 @@ void soft_scene_add_face(soft *s, const soft_corner *corners, int32_t corner_cou
 rlf_result soft_scene_add_model(soft *s, const rlf_look *look, const rlf_pose *T_picture_body,
                                 int32_t body);
 
-/* raster.c: where the face begins and ends in the group's rows. */
-void soft_find_ends(const soft_face *face, const soft_group *group, soft_ends *out);
-/* Lets the face win the samples of the group's rows where it is nearest so far. */
+/* crowd.c: which of the group's first `count` faces are alone. */
+void soft_find_alone(const soft_scene *scene, int32_t count, soft_group *group);
+
+/* raster.c: where the face begins and ends in the group's rows; false when it touches no sample. */
+bool soft_find_ends(const soft_face *face, const soft_group *group, soft_ends *out);
+/* Lets the face win the samples of the group's rows where it is nearest so far, unless it is alone;
+ * marks the parts of rows that it touches. */
 void soft_raster_face(const soft_face *face, const soft_ends *ends, soft_group *group);
 
 /* shade.c: adds what the samples see of the faces to the sums of the group's rows. */
