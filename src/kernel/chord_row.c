@@ -90,14 +90,14 @@ RLF_KERNEL void rlf_kernel_chord_sum(const rlf_kernel_chord *chord,
 
 RLF_KERNEL void rlf_kernel_chord_solid_run(const rlf_kernel_chord *chord,
                                            const rlf_kernel_chord_solid *solid, int32_t first,
-                                           int32_t count, float *restrict weight,
+                                           int32_t step, int32_t count, float *restrict weight,
                                            float *restrict middle, float *restrict half)
 {
     const rlf_kernel_chord c = *chord;
     const rlf_kernel_chord_solid s = *solid;
     float both = s.share * s.half;
     for (int32_t i = 0; i < count; i++) {
-        float k = (float)(first + i);
+        float k = (float)(first + step * i);
         float inverse = 1.0f / sqrtf((k - c.begin) * (c.end - k));
         float w = s.share * inverse * inverse;
         weight[i] = w;
@@ -105,6 +105,7 @@ RLF_KERNEL void rlf_kernel_chord_solid_run(const rlf_kernel_chord *chord,
         half[i] = both * inverse;
     }
     for (int32_t i = 0; c.is_wedge && i < count; i++) { /* its back is the front turned about */
-        half[i] = weight[i] * s.half * wedge_profile(c, c.begin + c.end - (float)(first + i));
+        half[i] =
+            weight[i] * s.half * wedge_profile(c, c.begin + c.end - (float)(first + step * i));
     }
 }

@@ -130,6 +130,7 @@ static void take_work(rlf_reconstruct *stage)
         for (int k = 0; k < 6; k++) {
             work->solid[k] = take(stage, padded, sizeof(float));
         }
+        work->knot = take(stage, padded, sizeof(float));
         work->chords = take(stage, lines * RLF_CHORDS_PER_LINE, sizeof(rlf_chord));
     }
 }

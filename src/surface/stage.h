@@ -151,6 +151,7 @@ typedef struct rlf_work {
     float *crop[6];                     /* of background_sheet.c */
     struct rlf_cell *cells;             /* of velocity_cells.c */
     struct rlf_block *blocks;           /* region_capacity */
+    float *knot;                        /* padded plane, see thickness.h */
     float *solid[6];                    /* padded planes: own and hidden, see thickness.h */
     struct rlf_chord *chords;           /* of the lines in one direction */
 } rlf_work;

@@ -1,10 +1,10 @@
 /* How thick the foreground is.
  *
- * Every pixel lies on four chords, one in each direction (thickness.h). Each chord's conic says
- * where the back is; the short ones and those that explain their front count most. Where a body
- * behind, whose chord goes on behind the pixel, begins before the pixel's own body ends, they are
- * one solid. What is flat up to
- * noise is a thin plate. Nothing reaches into the background behind it. */
+ * Every knot (thickness.h) lies on four chords, one in each direction. Each chord's
+ * conic says where the back is; the short ones and those that explain their front count most. Where
+ * a body behind, whose chord goes on behind the knot, begins before the knot's own body ends,
+ * they are one solid. What is flat up to noise is a thin plate. Nothing reaches into the background
+ * behind it. */
 #include "surface/thickness.h"
 
 #include "surface/steps.h"
@@ -12,31 +12,7 @@
 #include <string.h>
 
 static const float plate_m = 0.02f, thickest_m = 0.50f;
-static const float body_jump_m = 0.04f; /* farther pixels are another body */
-static const float farthest_w = 0.05f;  /* 1/m; keeps what cannot be from infinity */
-
-static void prepare_rows(void *context, int32_t begin, int32_t end, int32_t worker)
-{
-    (void)worker;
-    const rlf_chord_job *job = context;
-    const rlf_reconstruct *stage = job->stage;
-    const rlf_slot *slot = job->slot;
-    bool kept = stage->def.enable_fill || stage->def.enable_smoothing;
-    const float *raw = kept ? stage->work.depth[1] : slot->depth;
-    for (int32_t y = job->y0 + begin; y < job->y0 + end; y++) {
-        ptrdiff_t from = (ptrdiff_t)y * stage->grid.width + job->x0, to = y * job->pitch + job->x0;
-        for (int32_t x = 0; x < job->width; x++) {
-            ptrdiff_t i = from + x;
-            bool member = slot->foreground[i] && slot->label[i] > 0;
-            job->front[to + x] = member ? slot->depth[i] : 0.0f;
-            job->inverse[to + x] = member && raw[i] > 0.0f ? 1.0f / raw[i] : 0.0f;
-            job->label[to + x] = slot->label[i];
-        }
-        for (int k = 0; k < 6; k++) {
-            memset(stage->work.solid[k] + to, 0, (size_t)job->width * sizeof(float));
-        }
-    }
-}
+static const float farthest_w = 0.05f; /* 1/m; keeps what cannot be from infinity */
 
 static void cut_lines(void *context, int32_t begin, int32_t end, int32_t worker)
 {
@@ -61,11 +37,11 @@ static void paint_lines(void *context, int32_t begin, int32_t end, int32_t worke
     }
 }
 
-/* Depth of the back at pixel i. */
+/* Depth of the back at knot i. */
 static float back_of(const rlf_chord_job *job, ptrdiff_t i)
 {
     const rlf_solid *own = &job->own, *behind = &job->hidden;
-    float back = job->front[i];
+    float back = job->knot[i];
     if (own->weight[i] > 0.0f) {
         float w = (own->middle[i] - own->half[i]) / own->weight[i];
         float seen = 1.0f / (w > farthest_w ? w : farthest_w);
@@ -86,44 +62,26 @@ static void resolve_rows(void *context, int32_t begin, int32_t end, int32_t work
 {
     (void)worker;
     const rlf_chord_job *job = context;
-    for (int32_t y = job->y0 + begin; y < job->y0 + end; y++) {
-        ptrdiff_t from = y * job->pitch + job->x0;
-        float *thickness = job->stage->work.sum[1] + from;
-        for (int32_t x = 0; x < job->width; x++) {
-            float front = job->front[from + x];
-            thickness[x] = front > 0.0f ? back_of(job, from + x) - front : 0.0f;
+    int32_t x0 = job->x0 / job->step, x1 = (job->x0 + job->width + job->step - 1) / job->step;
+    for (int32_t y = job->y0 / job->step + begin; y < job->y0 / job->step + end; y++) {
+        ptrdiff_t row = y * job->knot_pitch;
+        for (int32_t x = x0; x < x1; x++) {
+            float front = job->knot[row + x];
+            job->thickness[row + x] = front > 0.0f ? back_of(job, row + x) - front : 0.0f;
         }
     }
 }
 
-static bool is_plate(const rlf_chord_job *job, const rlf_region *region)
-{
-    double sigma = rlf_depth_noise_sigma(&job->stage->def.rig.noise, region->centroid.z);
-    return region->plane_residual >= 0.0 && region->plane_residual <= 2.0 * sigma;
-}
-
-/* Chords side by side disagree a little: the mean over the pixels around is better. The block has a
- * pixel around its regions but at the image's border. */
-static void smooth_row(const rlf_chord_job *job, int32_t y)
-{
-    ptrdiff_t pitch = job->pitch, first = y * pitch + job->x0;
-    const float *raw = job->stage->work.sum[1] + first, *front = job->front + first;
-    float *out = job->slot->thickness + (ptrdiff_t)y * job->stage->grid.width + job->x0;
-    memcpy(out, raw, (size_t)job->width * sizeof *out);
-    if (y > job->y0 && y + 1 < job->y0 + job->height) {
-        const float *const depths[3] = {front - pitch, front, front + pitch};
-        const float *const values[3] = {raw - pitch, raw, raw + pitch};
-        rlf_kernel_body_mean_row(depths, values, job->width, body_jump_m, out);
-    }
-}
-
 /* Between a plate's thickness and the room behind. */
-static void limit_run(const rlf_chord_job *job, const rlf_run *run, int32_t y)
+static void write_run(const rlf_chord_job *job, const rlf_run *run, int32_t y)
 {
     const rlf_slot *slot = job->slot;
-    const rlf_region *region = &slot->regions[slot->foreground_region_first + run->component - 1];
     ptrdiff_t first = (ptrdiff_t)y * job->stage->grid.width + run->x0;
-    const rlf_kernel_thickness limits = {plate_m, is_plate(job, region) ? plate_m : thickest_m};
+    bool is_plate = job->is_plate[run->component] != 0;
+    const rlf_kernel_thickness limits = {plate_m, is_plate ? plate_m : thickest_m};
+    if (!is_plate) {
+        rlf_knots_spread(job, run, y);
+    }
     rlf_kernel_thickness_row(&limits, slot->depth + first, job->stage->background.mean + first,
                              run->x1 - run->x0, slot->thickness + first);
 }
@@ -133,12 +91,10 @@ static void write_rows(void *context, int32_t begin, int32_t end, int32_t worker
     (void)worker;
     const rlf_chord_job *job = context;
     const rlf_runs *runs = &job->stage->work.runs;
-    for (int32_t y = job->y0 + begin; y < job->y0 + end; y++) {
-        smooth_row(job, y);
+    for (int32_t y = begin; y < end; y++) {
         for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
-            const rlf_run *run = &runs->run[r];
-            if (run->component > 0 && run->x0 >= job->x0 && run->x0 < job->x0 + job->width) {
-                limit_run(job, run, y);
+            if (runs->run[r].component > 0) {
+                write_run(job, &runs->run[r], y);
             }
         }
     }
@@ -148,7 +104,7 @@ static void estimate_block(rlf_chord_job *job)
 {
     static const int32_t directions[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
     rlf_pool *pool = job->stage->def.pool;
-    rlf_parallel_for(pool, job->height, RLF_ROW_GRAIN, prepare_rows, job);
+    rlf_chords_prepare(job);
     for (int d = 0; d < 4; d++) {
         job->dx = directions[d][0];
         job->dy = directions[d][1];
@@ -160,20 +116,31 @@ static void estimate_block(rlf_chord_job *job)
         }
         rlf_parallel_for(pool, count, RLF_ROW_GRAIN, paint_lines, job);
     }
-    rlf_parallel_for(pool, job->height, RLF_ROW_GRAIN, resolve_rows, job);
-    rlf_parallel_for(pool, job->height, RLF_ROW_GRAIN, write_rows, job);
+    rlf_parallel_for(pool, (job->height + job->step - 1) / job->step, RLF_ROW_GRAIN, resolve_rows,
+                     job);
 }
 
-/* Rectangles of the foreground's regions with a pixel around, those that overlap as one. */
-static int32_t find_blocks(const rlf_reconstruct *stage, const rlf_slot *slot, rlf_block *blocks)
+/* The region's pixels and the knots around; begins with a knot. */
+static rlf_block block_of(const rlf_grid *grid, const rlf_region *region, int32_t step)
 {
-    const rlf_grid *grid = &stage->grid;
+    int32_t x0 = region->x0 > step ? (region->x0 - 1) / step * step : 0;
+    int32_t y0 = region->y0 > step ? (region->y0 - 1) / step * step : 0;
+    int32_t x1 = region->x1 + step, y1 = region->y1 + step;
+    return (rlf_block){x0, y0, x1 < grid->width ? x1 : grid->width,
+                       y1 < grid->height ? y1 : grid->height};
+}
+
+/* Rectangles of the regions that are no plates, those that overlap as one. */
+static int32_t find_blocks(const rlf_chord_job *job, rlf_block *blocks)
+{
+    const rlf_slot *slot = job->slot;
     int32_t count = 0;
     for (int32_t r = 0; r < slot->foreground_region_count; r++) {
-        const rlf_region *region = &slot->regions[slot->foreground_region_first + r];
-        rlf_block b = {region->x0 > 0 ? region->x0 - 1 : 0, region->y0 > 0 ? region->y0 - 1 : 0,
-                       region->x1 < grid->width ? region->x1 + 1 : grid->width,
-                       region->y1 < grid->height ? region->y1 + 1 : grid->height};
+        if (job->is_plate[r + 1]) {
+            continue;
+        }
+        rlf_block b = block_of(&job->stage->grid, &slot->regions[slot->foreground_region_first + r],
+                               job->step);
         for (int32_t k = 0; k < count;) {
             rlf_block *o = &blocks[k];
             if (o->x0 >= b.x1 || b.x0 >= o->x1 || o->y0 >= b.y1 || b.y0 >= o->y1) {
@@ -190,22 +157,49 @@ static int32_t find_blocks(const rlf_reconstruct *stage, const rlf_slot *slot, r
     return count;
 }
 
+/* Which regions are flat up to noise; all, where nothing is known to be behind. */
+static void find_plates(const rlf_reconstruct *stage, const rlf_slot *slot, int32_t *is_plate)
+{
+    bool is_all_front = stage->def.background_method == RLF_BACKGROUND_OFF;
+    for (int32_t r = 0; r < slot->foreground_region_count; r++) {
+        const rlf_region *region = &slot->regions[slot->foreground_region_first + r];
+        double sigma = rlf_depth_noise_sigma(&stage->def.rig.noise, region->centroid.z);
+        bool is_flat = region->plane_residual >= 0.0 && region->plane_residual <= 2.0 * sigma;
+        is_plate[r + 1] = is_flat || is_all_front;
+    }
+}
+
+static rlf_chord_job make_job(const rlf_reconstruct *stage, const rlf_slot *slot)
+{
+    const rlf_work *work = &stage->work;
+    const rlf_grid *grid = &stage->grid;
+    int32_t step = rlf_knot_step(grid), columns = (grid->width + step - 1) / step;
+    return (rlf_chord_job){.stage = stage,
+                           .slot = slot,
+                           .is_plate = work->map,
+                           .step = step,
+                           .pitch = (ptrdiff_t)grid->width + RLF_CHORD_PAD,
+                           .front = work->depth[0],
+                           .inverse = work->sum[0],
+                           .label = work->component,
+                           .columns = columns,
+                           .rows = (grid->height + step - 1) / step,
+                           .knot_pitch = (ptrdiff_t)columns + RLF_CHORD_PAD,
+                           .knot = work->knot + RLF_CHORD_PAD / 2,
+                           .thickness = work->sum[1] + RLF_CHORD_PAD / 2,
+                           .own = {work->solid[0], work->solid[1], work->solid[2]},
+                           .hidden = {work->solid[3], work->solid[4], work->solid[5]},
+                           .chords = work->chords,
+                           .counts = work->size,
+                           .noise = rlf_kernel_noise_make(&stage->def.rig.noise)};
+}
+
 void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot)
 {
     memset(slot->thickness, 0, (size_t)stage->grid.count * sizeof *slot->thickness);
-    float *const *solid = stage->work.solid;
-    rlf_chord_job job = {.stage = stage,
-                         .slot = slot,
-                         .pitch = (ptrdiff_t)stage->grid.width + RLF_CHORD_PAD,
-                         .front = stage->work.depth[0],
-                         .inverse = stage->work.sum[0],
-                         .label = stage->work.component,
-                         .own = {solid[0], solid[1], solid[2]},
-                         .hidden = {solid[3], solid[4], solid[5]},
-                         .chords = stage->work.chords,
-                         .counts = stage->work.size,
-                         .noise = rlf_kernel_noise_make(&stage->def.rig.noise)};
-    int32_t count = find_blocks(stage, slot, stage->work.blocks);
+    find_plates(stage, slot, stage->work.map);
+    rlf_chord_job job = make_job(stage, slot);
+    int32_t count = find_blocks(&job, stage->work.blocks);
     for (int32_t i = 0; i < count; i++) {
         const rlf_block *b = &stage->work.blocks[i];
         job.x0 = b->x0;
@@ -214,4 +208,5 @@ void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot)
         job.height = b->y1 - b->y0;
         estimate_block(&job);
     }
+    rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, write_rows, &job);
 }

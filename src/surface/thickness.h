@@ -56,7 +56,7 @@ typedef struct rlf_conic {
  * of two apart, would push each other out of the cache. */
 enum { RLF_CHORD_PAD = 16 };
 
-/* Planes of sums over the chords through each pixel: weights, weighted middles and half thicknesses
+/* Planes of sums over the chords through each knot: weights, weighted middles and half thicknesses
  * in inverse depth. */
 typedef struct rlf_solid {
     float *weight, *middle, *half;
@@ -67,28 +67,45 @@ typedef struct rlf_block {
     int32_t x0, y0, x1, y1;
 } rlf_block;
 
+/* Lines lie `step` pixels apart, and cross at knots, the pixels whose column and row are multiples
+ * of it: thickness is smooth, its ends are as sharp as pixels. */
 typedef struct rlf_chord_job {
     const rlf_reconstruct *stage;
     const rlf_slot *slot;
-    ptrdiff_t pitch;       /* of the planes: the grid's width and RLF_CHORD_PAD */
-    float *front;          /* depth of the foreground's pixels, 0 elsewhere */
-    float *inverse;        /* 1 / depth as the sensor gave it, 0 = none */
-    int32_t *label;        /* of the foreground's pixels */
-    rlf_solid own, hidden; /* the pixel's own body, and one that it hides */
-    rlf_chord *chords;     /* RLF_CHORDS_PER_LINE per line */
-    int32_t *counts;       /* chords of each line */
+    const int32_t *is_plate; /* of each region, from 1: it is flat up to noise and has no chords */
+    int32_t step;
+    ptrdiff_t pitch;         /* of the planes of pixels: the grid's width and RLF_CHORD_PAD */
+    float *front;            /* depth of the bodies' pixels, 0 elsewhere */
+    float *inverse;          /* 1 / depth as the sensor gave it, 0 = none; of the bodies' pixels */
+    int32_t *label;          /* of the bodies' pixels */
+    int32_t columns, rows;   /* of knots */
+    ptrdiff_t knot_pitch;    /* of the planes of knots: columns and RLF_CHORD_PAD */
+    float *knot, *thickness; /* at the knots; depth < 0 is of what is no body */
+    rlf_solid own, hidden;   /* the knot's own body, and one that it hides */
+    rlf_chord *chords;       /* RLF_CHORDS_PER_LINE per line */
+    int32_t *counts;         /* chords of each line */
     rlf_kernel_noise noise;
     int32_t x0, y0, width, height; /* the block of pixels */
     int32_t dx, dy;                /* step of the lines; dx >= 0 */
 } rlf_chord_job;
 
-/* Pixels base + k stride, 0 <= k < count. */
+/* Pixels base + k stride, 0 <= k < count; those of `phase` and every step-th one beyond are the
+ * knots knot, knot + knot_stride and so on. */
 typedef struct rlf_line {
     int32_t x, y, dx, dy;
     ptrdiff_t base, stride;
-    int32_t count;
+    ptrdiff_t knot, knot_stride;
+    int32_t count, phase;
     float angle; /* metres per step at a depth of 1 m */
 } rlf_line;
+
+/* ---- thickness_knots.c ---- */
+/* Pixels from knot to knot: one, or two where they are fine. */
+int32_t rlf_knot_step(const rlf_grid *grid);
+/* Fills the planes of the block's pixels. */
+void rlf_chords_prepare(rlf_chord_job *job);
+/* Thickness of the run's pixels from that of the knots around. */
+void rlf_knots_spread(const rlf_chord_job *job, const rlf_run *run, int32_t y);
 
 /* ---- thickness_cut.c ---- */
 int32_t rlf_line_count(const rlf_chord_job *job);
@@ -110,7 +127,7 @@ void rlf_chords_pool(const rlf_chord_job *job, int32_t line_count);
 rlf_conic rlf_chord_solve(const rlf_chord *chord, const rlf_chord_moments *moments);
 /* What the pooled sums of the chord say about its middle. */
 rlf_chord_middle rlf_chord_middle_seen(const rlf_chord *chord);
-/* Adds the solid of the conic to the pixels of the chord. */
+/* Adds the solid of the conic to the knots of the chord. */
 void rlf_chord_paint(const rlf_chord_job *job, const rlf_line *line, const rlf_chord *chord);
 
 #endif

@@ -6,7 +6,7 @@
 #include "surface/thickness.h"
 
 static const float same_body = 0.8f; /* overlap, of the narrower chord */
-static const float drift_m = 0.005f; /* of the axis, from row to row */
+static const float drift_m = 0.005f; /* of the axis, from one row of pixels to the next */
 static const float unlike_m = 0.04f; /* more where chords differ in width */
 
 /* How much alike in width two chords of one body are, 0..1; 0 = they are not of one body. */
@@ -23,8 +23,8 @@ static float likeness(const rlf_chord *a, const rlf_chord *b)
     return a->label == b->label && shared >= same_body * narrow ? narrow / wide : 0.0f;
 }
 
-/* What the row before tells the chord. */
-static rlf_chord_middle hear(const rlf_chord *c, const rlf_chord *of, int32_t count)
+/* What the line before, so many rows away, tells the chord. */
+static rlf_chord_middle hear(const rlf_chord *c, const rlf_chord *of, int32_t count, int32_t rows)
 {
     float best = 0.0f;
     const rlf_chord *teller = NULL;
@@ -39,7 +39,7 @@ static rlf_chord_middle hear(const rlf_chord *c, const rlf_chord *of, int32_t co
         return (rlf_chord_middle){0.0f, 0.0f};
     }
     float unlike = unlike_m * (1.0f - best);
-    float variance = 1.0f / teller->told.weight + drift_m * drift_m + unlike * unlike;
+    float variance = 1.0f / teller->told.weight + (float)rows * drift_m * drift_m + unlike * unlike;
     return (rlf_chord_middle){teller->told.depth, 1.0f / variance};
 }
 
@@ -58,7 +58,7 @@ static void sweep(const rlf_chord_job *job, int32_t from, int32_t to, int32_t st
         rlf_chord *chords = &job->chords[(ptrdiff_t)row * RLF_CHORDS_PER_LINE];
         for (int32_t i = 0; i < job->counts[row]; i++) {
             rlf_chord *c = &chords[i];
-            rlf_chord_middle heard = hear(c, before, count);
+            rlf_chord_middle heard = hear(c, before, count, job->step);
             c->told = unite(c->seen, heard);
             c->beside = unite(c->beside, heard);
         }

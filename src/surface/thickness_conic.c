@@ -8,7 +8,7 @@ static const float correlated_samples = 2.0f;
 static const float shape_error_m = 0.003f; /* real bodies are not quite conics */
 /* Before anything is seen, bodies are taken for balls, give or take. */
 static const float ratio_deviation = 0.6f, slope_deviation = 0.2f;
-static const float pooled_share = 0.6f; /* of the next line's sums */
+static const float pooled_share = 0.6f; /* of the sums of a line a pixel away */
 static const float alike = 0.7f;        /* overlap of chords of one body on neighbouring lines */
 static const float straight_trust = 0.1f;
 static const float trusted_rest_m = 0.003f; /* what a conic may leave and still be trusted */
@@ -39,8 +39,9 @@ static rlf_kernel_chord_sums sum_samples(const rlf_chord_job *job, const rlf_lin
     /* d sqrt(l r) / dl = sqrt(r / l) / 2: what an end that is not sharp is worth in depth */
     float v0 = 0.5f * c->blur[0] * c->metres, v1 = 0.5f * c->blur[1] * c->metres;
     const rlf_kernel_chord ends = {c->begin, c->end, c->apex, c->apex >= c->begin};
-    const rlf_kernel_chord_noise noise = {sigma * sigma + shape_error_m * shape_error_m,
-                                          {v0 * v0, v1 * v1},
+    float lines = 1.0f / (float)job->step; /* a line is worth those between it and the next */
+    const rlf_kernel_chord_noise noise = {lines * (sigma * sigma + shape_error_m * shape_error_m),
+                                          {lines * v0 * v0, lines * v1 * v1},
                                           c->metres,
                                           c->inverse,
                                           z};
@@ -166,18 +167,23 @@ static const rlf_chord *counterpart(const rlf_chord *c, const rlf_chord *of, int
     return best;
 }
 
-static void add_moments(rlf_chord_moments *to, const rlf_chord_moments *m)
+static void add_moments(rlf_chord_moments *to, const rlf_chord_moments *m, float share)
 {
-    to->ss += pooled_share * m->ss;
-    to->hh += pooled_share * m->hh;
-    to->sh += pooled_share * m->sh;
-    to->sy += pooled_share * m->sy;
-    to->hy += pooled_share * m->hy;
+    to->ss += share * m->ss;
+    to->hh += share * m->hh;
+    to->sh += share * m->sh;
+    to->sy += share * m->sy;
+    to->hy += share * m->hy;
 }
 
 /* One pass over the lines, each taking from the one before; forgets exponentially. */
 static void sweep(const rlf_chord_job *job, int32_t from, int32_t to, int32_t step)
 {
+    const float q = pooled_share;
+    bool is_every = job->step == 1;
+    float share = is_every ? q : q * q;
+    /* a line stands for half of those beside it that are left out */
+    float beside = is_every ? q : (0.5f * q + q * q + 0.5f * q * q * q) / (1.0f + q);
     for (int32_t line = from; line != to; line += step) {
         rlf_chord *chords = &job->chords[(ptrdiff_t)line * RLF_CHORDS_PER_LINE];
         int32_t before = line - step;
@@ -193,8 +199,8 @@ static void sweep(const rlf_chord_job *job, int32_t from, int32_t to, int32_t st
                                            job->counts[before], shift);
             c->running = c->own;
             if (other != NULL) {
-                add_moments(&c->running, &other->running);
-                add_moments(&c->pooled, &other->running);
+                add_moments(&c->running, &other->running, share);
+                add_moments(&c->pooled, &other->running, beside);
             }
         }
     }
@@ -229,18 +235,20 @@ typedef struct painting {
     rlf_kernel_chord_solid solid;
 } painting;
 
-/* Adds to the pixels begin <= k < end; of what it hides, to those of the foreground. */
+/* Adds to the knots among begin <= k < end; of what it hides, to those of the bodies. */
 static void paint_run(const painting *p, const rlf_solid *to, bool is_hidden, int32_t begin,
                       int32_t end)
 {
-    ptrdiff_t stride = p->line->stride;
-    for (int32_t first = begin; first < end; first += RLF_CHORD_RUN) {
+    const rlf_line *line = p->line;
+    int32_t step = p->job->step, skipped = (begin - line->phase + step - 1) / step;
+    ptrdiff_t i = line->knot + skipped * line->knot_stride;
+    for (int32_t first = line->phase + skipped * step; first < end; first += RLF_CHORD_RUN * step) {
         float weight[RLF_CHORD_RUN], middle[RLF_CHORD_RUN], half[RLF_CHORD_RUN];
-        int32_t count = end - first < RLF_CHORD_RUN ? end - first : RLF_CHORD_RUN;
-        rlf_kernel_chord_solid_run(&p->chord, &p->solid, first, count, weight, middle, half);
-        ptrdiff_t i = p->line->base + first * stride;
-        for (int32_t k = 0; k < count; k++, i += stride) {
-            if (!is_hidden || p->job->front[i] > 0.0f) {
+        int32_t count = (end - first + step - 1) / step;
+        count = count < RLF_CHORD_RUN ? count : RLF_CHORD_RUN;
+        rlf_kernel_chord_solid_run(&p->chord, &p->solid, first, step, count, weight, middle, half);
+        for (int32_t k = 0; k < count; k++, i += line->knot_stride) {
+            if (!is_hidden || p->job->knot[i] > 0.0f) {
                 to->weight[i] += weight[k];
                 to->middle[i] += middle[k];
                 to->half[i] += half[k];

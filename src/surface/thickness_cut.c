@@ -50,18 +50,20 @@ static float front_at(const pieces *p, int32_t k)
 
 int32_t rlf_line_count(const rlf_chord_job *job)
 {
-    return job->dy == 0 ? job->height : (job->dx == 0 ? job->width : job->width + job->height - 1);
+    int32_t pixels = job->dx == 0 ? job->width : job->height;
+    pixels = job->dx != 0 && job->dy != 0 ? job->width + job->height - 1 : pixels;
+    return (pixels + job->step - 1) / job->step;
 }
 
 /* First pixel of line `index`, from the block's corner. Lines of consecutive indices lie side by
  * side. */
 static void first_pixel(const rlf_chord_job *job, int32_t index, int32_t *x, int32_t *y)
 {
-    int32_t last = job->height - 1;
-    *x = job->dx == 0 ? index : 0;
-    *y = job->dx == 0 ? 0 : index;
+    int32_t last = job->height - 1, at = job->step * index;
+    *x = job->dx == 0 ? at : 0;
+    *y = job->dx == 0 ? 0 : at;
     if (job->dx != 0 && job->dy != 0) {
-        int32_t off = index - last;
+        int32_t off = at + (job->dy > 0 ? last % job->step : 0) - last;
         *x = off > 0 ? off : 0;
         *y = off < 0 ? -off : 0;
         *y = job->dy < 0 ? last - *y : *y;
@@ -91,6 +93,10 @@ rlf_line rlf_line_at(const rlf_chord_job *job, int32_t index)
     line.base = line.y * job->pitch + line.x;
     line.stride = job->dy * job->pitch + job->dx;
     line.count = count;
+    line.phase = line.x % job->step;
+    line.knot_stride = job->dy * job->knot_pitch + job->dx;
+    line.knot = (line.y + line.phase * job->dy) / job->step * job->knot_pitch +
+                (line.x + line.phase * job->dx) / job->step;
     line.angle = sqrtf(ax * ax + ay * ay);
     return line;
 }

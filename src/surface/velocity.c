@@ -321,21 +321,43 @@ static bool region_motion(const rlf_flow *job, rlf_region *region, rlf_twist *ou
     return true;
 }
 
+/* The frame before as the samples of this one look at it. */
+static rlf_kernel_flow_view look_back(const rlf_reconstruct *stage, const rlf_slot *before,
+                                      bool is_all_front)
+{
+    const rlf_grid *grid = &stage->grid;
+    float *seen = stage->work.sum[0];
+    for (int32_t y = 0; y < grid->height; y++) {
+        ptrdiff_t i = (ptrdiff_t)y * grid->width;
+        const uint8_t *front = is_all_front ? stage->work.ones : before->foreground + i;
+        rlf_kernel_front_row(before->depth + i, before->reason + i, front, grid->width, seen + i);
+    }
+    return (rlf_kernel_flow_view){.seen = seen,
+                                  .ray_x = grid->ray_x,
+                                  .ray_y = grid->ray_y,
+                                  .width = grid->width,
+                                  .height = grid->height,
+                                  .fx = (float)grid->camera.fx,
+                                  .fy = (float)grid->camera.fy,
+                                  .limb = rlf_flow_limb_m};
+}
+
 void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot)
 {
     const rlf_slot *before = stage->previous;
     clear_velocity(&stage->grid, slot);
     double dt =
         before == NULL ? 0.0 : 1e-9 * (double)(slot->surface.time_ns - before->surface.time_ns);
-    if (!(dt > 0.0) || dt > longest_gap_s) {
+    if (!(dt > 0.0) || dt > longest_gap_s || slot->foreground_region_count == 0) {
         return;
     }
+    bool is_all_front = stage->def.background_method == RLF_BACKGROUND_OFF;
     const rlf_flow job = {stage,
                           before,
                           slot,
                           (float)dt,
                           rlf_kernel_noise_make(&stage->def.rig.noise),
-                          stage->def.background_method == RLF_BACKGROUND_OFF};
+                          look_back(stage, before, is_all_front)};
     for (int32_t r = 0; r < slot->foreground_region_count; r++) {
         rlf_region *region = &slot->regions[slot->foreground_region_first + r];
         for (int32_t y = region->y0; y < region->y1; y++) {

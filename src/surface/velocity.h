@@ -11,7 +11,7 @@ typedef struct rlf_flow {
     rlf_slot *now;
     float dt;
     rlf_kernel_noise noise;
-    bool is_all_front; /* there is no background: everything may move */
+    rlf_kernel_flow_view view; /* of the frame before */
 } rlf_flow;
 
 /* A rigid motion about a centre; w in units of 1 / length, so that all six unknowns are speeds. */
@@ -112,40 +112,22 @@ static inline rlf_vec3 rlf_flow_normal(const rlf_slot *slot, ptrdiff_t i)
 
 /* Pixel of the frame before that saw point q, near pixel i, < 0 when none did. The step from i is
  * measured with the focal length: what distortion makes of it moves the pixel a little along the
- * surface, where the same normal makes the same of it. Of pixel i in `column` and `row`. */
-static inline ptrdiff_t rlf_flow_pixel_from(const rlf_flow *job, ptrdiff_t i, float column,
-                                            float row, float x, float y, float z)
-{
-    const rlf_grid *grid = &job->stage->grid;
-    if (!(z > 0.01f)) {
-        return -1;
-    }
-    float u = column + (x / z - grid->ray_x[i]) * (float)grid->camera.fx;
-    float v = row + (y / z - grid->ray_y[i]) * (float)grid->camera.fy;
-    if (!(u > -0.5f) || !(v > -0.5f) || !(u < (float)grid->width - 0.5f) ||
-        !(v < (float)grid->height - 0.5f)) {
-        return -1;
-    }
-    ptrdiff_t k = (ptrdiff_t)(int32_t)(v + 0.5f) * grid->width + (int32_t)(u + 0.5f);
-    bool front = job->before->foreground[k] != 0 || job->is_all_front;
-    return front && job->before->reason[k] == RLF_REASON_OK ? k : -1;
-}
-
+ * surface, where the same normal makes the same of it. */
 static inline ptrdiff_t rlf_flow_pixel_before(const rlf_flow *job, ptrdiff_t i, float x, float y,
                                               float z)
 {
-    int32_t width = job->stage->grid.width;
-    return rlf_flow_pixel_from(job, i, (float)(i % width), (float)(i / width), x, y, z);
-}
-
-static inline void rlf_flow_write(const rlf_flow *job, ptrdiff_t i, const float v[3])
-{
-    float square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    bool fast = square > rlf_flow_fastest * rlf_flow_fastest;
-    float scale = fast ? rlf_flow_fastest / (float)sqrt((double)square) : 1.0f;
-    for (int k = 0; k < 3; k++) {
-        job->now->velocity[k][i] = scale * v[k];
+    const rlf_kernel_flow_view *w = &job->view;
+    if (!(z > 0.01f)) {
+        return -1;
     }
+    float u = (float)(i % w->width) + (x / z - w->ray_x[i]) * w->fx;
+    float v = (float)(i / w->width) + (y / z - w->ray_y[i]) * w->fy;
+    if (!(u > -0.5f) || !(v > -0.5f) || !(u < (float)w->width - 0.5f) ||
+        !(v < (float)w->height - 0.5f)) {
+        return -1;
+    }
+    ptrdiff_t k = (ptrdiff_t)(int32_t)(v + 0.5f) * w->width + (int32_t)(u + 0.5f);
+    return w->seen[k] > 0.0f ? k : -1;
 }
 
 #endif

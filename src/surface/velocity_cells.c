@@ -9,10 +9,10 @@
 #include <math.h>
 
 enum {
-    LEAST_SIZE = 8,   /* pixels */
-    SIDE_SAMPLES = 8, /* in a cell */
-    MOST_SAMPLES = SIDE_SAMPLES * SIDE_SAMPLES,
-    LEAST_SAMPLES = 6, /* that must agree */
+    LEAST_SIZE = 8,                /* pixels */
+    SIDE_SAMPLES = 8,              /* in a cell */
+    MOST_SAMPLES = RLF_FLOW_BATCH, /* SIDE_SAMPLES squared */
+    LEAST_SAMPLES = 6,             /* that must agree */
     PASSES = 3,
     GUESSES = 9
 };
@@ -23,19 +23,20 @@ static const float reach_m = 0.01f; /* beyond the noise: from here on a residual
 static const float significant_3 = 14.2f;
 static const float prior_share = 0.01f; /* ridge, of the mean diagonal */
 
-typedef struct sample {
-    ptrdiff_t i;
-    float column, row; /* of pixel i */
-    float p[3], n[3];
-} sample;
-
 /* The pixels of a cell that show its limb. */
 typedef struct samples {
-    sample s[MOST_SAMPLES];
+    rlf_kernel_flow_samples s;
+    int32_t pixel[MOST_SAMPLES];
     int32_t count;
     float limit;    /* of the squared residual, m^2 */
     float variance; /* of a residual by noise, m^2 */
 } samples;
+
+/* What a velocity leaves of the samples. */
+typedef struct residuals {
+    float e[MOST_SAMPLES];
+    int32_t is_seen[MOST_SAMPLES];
+} residuals;
 
 typedef struct cell_fit {
     float velocity[3];
@@ -86,19 +87,26 @@ static void add_sample(const rlf_cell_grid *g, int32_t x, int32_t y, samples *ou
     const rlf_grid *grid = &g->job->stage->grid;
     const rlf_slot *now = g->job->now;
     ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-    float z = now->depth[i];
-    sample s = {i,
-                (float)x,
-                (float)y,
-                {z * grid->ray_x[i], z * grid->ray_y[i], z},
-                {now->normal[0][i], now->normal[1][i], now->normal[2][i]}};
-    float facing = -(s.n[0] * grid->ray_x[i] + s.n[1] * grid->ray_y[i] + s.n[2]);
+    float z = now->depth[i], x_ray = grid->ray_x[i], y_ray = grid->ray_y[i];
+    float n[3] = {now->normal[0][i], now->normal[1][i], now->normal[2][i]};
+    float facing = -(n[0] * x_ray + n[1] * y_ray + n[2]);
     if (!(facing > 0.0f)) {
         return;
     }
     float sigma = rlf_kernel_sigma(g->job->noise, z) * facing;
     out->variance += 2.0f * sigma * sigma;
-    out->s[out->count++] = s;
+    int32_t k = out->count++;
+    out->pixel[k] = (int32_t)i;
+    out->s.column[k] = (float)x;
+    out->s.row[k] = (float)y;
+    out->s.ray_x[k] = x_ray;
+    out->s.ray_y[k] = y_ray;
+    out->s.x[k] = z * x_ray;
+    out->s.y[k] = z * y_ray;
+    out->s.z[k] = z;
+    out->s.nx[k] = n[0];
+    out->s.ny[k] = n[1];
+    out->s.nz[k] = n[2];
 }
 
 static void take_samples(const rlf_cell_grid *g, int32_t x0, int32_t y0, float depth, samples *out)
@@ -120,21 +128,14 @@ static void take_samples(const rlf_cell_grid *g, int32_t x0, int32_t y0, float d
     out->limit = reach * reach;
 }
 
-/* Distance along the normal between a sample taken back by v dt and what was seen there; false when
- * it was something else. */
-static bool residual(const rlf_cell_grid *g, const sample *s, const float v[3], float *out)
+/* Distance along the normal between the samples first <= k < end taken back by v dt and what was
+ * seen there. */
+static void find_residuals(const rlf_cell_grid *g, const samples *all, const float v[3],
+                           int32_t first, int32_t end, residuals *out)
 {
     const rlf_flow *job = g->job;
-    const rlf_grid *grid = &job->stage->grid;
-    float x = s->p[0] - v[0] * job->dt, y = s->p[1] - v[1] * job->dt, z = s->p[2] - v[2] * job->dt;
-    ptrdiff_t k = rlf_flow_pixel_from(job, s->i, s->column, s->row, x, y, z);
-    if (k < 0) {
-        return false;
-    }
-    float far = job->before->depth[k];
-    float dx = x - far * grid->ray_x[k], dy = y - far * grid->ray_y[k], dz = z - far;
-    *out = s->n[0] * dx + s->n[1] * dy + s->n[2] * dz;
-    return rlf_kernel_abs(dz) < rlf_flow_limb_m;
+    const float step[3] = {v[0] * job->dt, v[1] * job->dt, v[2] * job->dt};
+    rlf_kernel_flow_residuals(&job->view, &all->s, step, first, end - first, out->e, out->is_seen);
 }
 
 /* Sum of squared residuals, each limited: what does not fit at all counts like what fits badly. But
@@ -144,9 +145,14 @@ static float cost_of(const rlf_cell_grid *g, const samples *all, const float v[3
 {
     float cost = 0.0f;
     int32_t lost = 0;
+    residuals r;
     for (int32_t k = 0; k < all->count && cost <= most; k++) {
-        float e;
-        if (residual(g, &all->s[k], v, &e)) {
+        if (k % RLF_FLOW_LANES == 0) {
+            int32_t end = k + RLF_FLOW_LANES < all->count ? k + RLF_FLOW_LANES : all->count;
+            find_residuals(g, all, v, k, end, &r);
+        }
+        float e = r.e[k % RLF_FLOW_LANES];
+        if (r.is_seen[k % RLF_FLOW_LANES]) {
             cost += e * e < all->limit ? e * e : all->limit;
         } else {
             cost += 5 * ++lost > all->count ? all->limit : all->variance;
@@ -178,21 +184,23 @@ static void solve(const normal_equations *e, float v[3])
 static int32_t improve(const rlf_cell_grid *g, const samples *all, float limit, float v[3])
 {
     normal_equations a = {0};
+    residuals r;
+    find_residuals(g, all, v, 0, all->count, &r);
     for (int32_t k = 0; k < all->count; k++) {
-        const sample *s = &all->s[k];
-        float e;
-        if (!residual(g, s, v, &e) || e * e > limit) {
+        float e = r.e[k];
+        if (!r.is_seen[k] || e * e > limit) {
             continue;
         }
+        const float n[3] = {all->s.nx[k], all->s.ny[k], all->s.nz[k]};
         float speed = e / g->job->dt;
-        a.xx += s->n[0] * s->n[0];
-        a.xy += s->n[0] * s->n[1];
-        a.xz += s->n[0] * s->n[2];
-        a.yy += s->n[1] * s->n[1];
-        a.yz += s->n[1] * s->n[2];
-        a.zz += s->n[2] * s->n[2];
+        a.xx += n[0] * n[0];
+        a.xy += n[0] * n[1];
+        a.xz += n[0] * n[2];
+        a.yy += n[1] * n[1];
+        a.yz += n[1] * n[2];
+        a.zz += n[2] * n[2];
         for (int c = 0; c < 3; c++) {
-            a.b[c] += s->n[c] * speed;
+            a.b[c] += n[c] * speed;
         }
         a.count++;
     }
@@ -319,11 +327,12 @@ static void fit_cell(const rlf_cell_grid *g, const samples *all, const rlf_cell 
     static const float rest[3] = {0.0f, 0.0f, 0.0f};
     velocity_guess guess[GUESSES + 3];
     float whole[3];
-    const sample *middle = &all->s[all->count / 2];
-    whole_velocity(g, middle->p, whole);
+    int32_t middle = all->count / 2;
+    const float p[3] = {all->s.x[middle], all->s.y[middle], all->s.z[middle]};
+    whole_velocity(g, p, whole);
     cell_fit fit = {.cost_still = cost_of(g, all, rest, INFINITY)};
     fit.cost_whole = g->moves ? cost_of(g, all, whole, INFINITY) : fit.cost_still;
-    int32_t count = make_guesses(g, middle->i, guess);
+    int32_t count = make_guesses(g, all->pixel[middle], guess);
     guess[count++] = guess_of(whole, fit.cost_whole);
     guess[count++] = guess_of(rest, fit.cost_still);
     if (left != NULL && left->state == RLF_CELL_MOVES) {

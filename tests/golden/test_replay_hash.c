@@ -23,7 +23,7 @@ typedef struct golden {
 } golden;
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0x4f82d9e46e19bd59u, 0x1092d53fad2d70b6u, 0x751831945068765eu},
+    {RLF_PROFILE_LIVE, 0x9affd5af940ea923u, 0x1092d53fad2d70b6u, 0x751831945068765eu},
     {RLF_PROFILE_THESIS, 0xa393eb06e579d241u, 0xd84652fb54683851u, 0xf068ba3d9f6846e3u},
 };
 

@@ -388,12 +388,13 @@ static void chord_solid_is_its_definition(void **state)
     (void)state;
     const rlf_kernel_chord_solid solid = {0.7f, 0.5f, 0.001f, 0.02f};
     for (int32_t count = 1; count <= RLF_CHORD_RUN; count++) {
-        const float apex = 5.5f + 0.4f * (float)count;
-        const rlf_kernel_chord chord = {4.5f, 5.5f + (float)count, apex, count % 3 == 0};
+        const int32_t step = 1 + count % 2;
+        const float apex = 5.5f + 0.4f * (float)(step * count);
+        const rlf_kernel_chord chord = {4.5f, 5.5f + (float)(step * count), apex, count % 3 == 0};
         float weight[RLF_CHORD_RUN], middle[RLF_CHORD_RUN], half[RLF_CHORD_RUN];
-        rlf_kernel_chord_solid_run(&chord, &solid, 5, count, weight, middle, half);
+        rlf_kernel_chord_solid_run(&chord, &solid, 5, step, count, weight, middle, half);
         for (int32_t i = 0; i < count; i++) {
-            double k = 5 + i, left = k - chord.begin, right = chord.end - k;
+            double k = 5 + step * i, left = k - chord.begin, right = chord.end - k;
             double side = right < apex - chord.begin ? right / (apex - chord.begin)
                                                      : left / (chord.end - apex);
             double wedge = 0.5 * side * (chord.end - chord.begin);
