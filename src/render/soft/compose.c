@@ -42,6 +42,34 @@ RLF_KERNEL_PART bool is_empty(const float *restrict shown)
     return any == 0;
 }
 
+/* True when nothing is seen of what is real. */
+RLF_KERNEL_PART bool is_full(const float *restrict shown)
+{
+    int32_t all = 1;
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
+        all &= shown[i] == 1.0f ? 1 : 0;
+    }
+    return all != 0;
+}
+
+RLF_KERNEL_PART uint32_t to_byte(float color)
+{
+    float value = color + 0.5f;
+    return (uint32_t)(int32_t)(value < 255.0f ? value : 255.0f);
+}
+
+/* The same as blend where shown is 1. */
+RLF_KERNEL_PART void replace(const float *restrict red, const float *restrict green,
+                             const float *restrict blue, uint32_t *restrict pixels)
+{
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
+        uint32_t color = to_byte(red[i]) | to_byte(green[i]) << 8 | to_byte(blue[i]) << 16;
+        pixels[i] = color | (pixels[i] & 0xff000000u);
+    }
+}
+
 /* Picture = real picture * (1 - alpha) + colour, colour being premultiplied. The last lanes' sums
  * may be beyond `count`. */
 RLF_KERNEL void soft_compose_row(float *const sum[4], int32_t count, uint8_t *restrict pixels,
@@ -61,8 +89,13 @@ RLF_KERNEL void soft_compose_row(float *const sum[4], int32_t count, uint8_t *re
         } else {
             soft_load_pixels(at, size, block);
         }
-        blend(sum[0] + first, sum[1] + first, sum[2] + first, shown, block);
-        to_matte(shown, alpha);
+        if (is_full(shown)) {
+            replace(sum[0] + first, sum[1] + first, sum[2] + first, block);
+            memset(alpha, 255, SOFT_LANES);
+        } else {
+            blend(sum[0] + first, sum[1] + first, sum[2] + first, shown, block);
+            to_matte(shown, alpha);
+        }
         if (size == SOFT_LANES) {
             soft_store_pixels(block, SOFT_LANES, at);
             memcpy(matte + first, alpha, SOFT_LANES);
