@@ -118,6 +118,35 @@ static int32_t pixel_at(const finder *f, float x, float y)
     return is_in ? (int32_t)v * k->width + (int32_t)u : -1;
 }
 
+/* Pixels, and the depths of both sheets there: 0 = none. */
+typedef struct taps {
+    int32_t count;
+    int32_t pixel[FINE * FINE];
+    float z[2][FINE * FINE];
+} taps;
+
+/* All at once: none waits for the last one's to come from memory. */
+static void read_taps(const finder *f, taps *t)
+{
+    const float *front = f->sheets[0].depth;
+    const float *back = f->sheets[1].depth;
+    const uint8_t *foreground = back != NULL ? f->surface->foreground : NULL;
+    for (int32_t i = 0; i < t->count; i++) {
+        t->z[0][i] = front[t->pixel[i]];
+    }
+    for (int32_t i = 0; i < t->count; i++) {
+        t->z[1][i] = foreground != NULL && foreground[t->pixel[i]] != 0 ? back[t->pixel[i]] : 0.0f;
+    }
+}
+
+/* False when what has that depth is surely out of reach. */
+static bool may_reach(const finder *f, float z)
+{
+    const float step = z - f->center[2];
+    const float most = f->body->reach + f->reach;
+    return z > 0.0f && step * step < 2.0f * most * most;
+}
+
 /* Evenly over the body and what is around it. */
 static void gather(finder *f)
 {
@@ -128,14 +157,18 @@ static void gather(finder *f)
     const float step = 2.0f * half / (float)side;
     const float left = f->center[0] * per_z - half + 0.5f * step;
     const float top = f->center[1] * per_z - half + 0.5f * step;
+    taps t = {.count = 0};
     for (int32_t i = 0; i < side * side; i++) {
         const float x = left + step * (float)(i % side);
         const float y = top + step * (float)(i / side);
-        const int32_t pixel = pixel_at(f, x, y);
-        if (pixel >= 0) {
-            add_sample(f, &f->sheets[0], pixel);
-            if (f->surface->foreground != NULL && f->surface->foreground[pixel] != 0) {
-                add_sample(f, &f->sheets[1], pixel);
+        t.pixel[t.count] = pixel_at(f, x, y);
+        t.count += t.pixel[t.count] >= 0 ? 1 : 0;
+    }
+    read_taps(f, &t);
+    for (int32_t i = 0; i < t.count; i++) {
+        for (int n = 0; n < 2; n++) {
+            if (may_reach(f, t.z[n][i])) {
+                add_sample(f, &f->sheets[n], t.pixel[i]);
             }
         }
     }
