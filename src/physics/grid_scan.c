@@ -360,7 +360,7 @@ static void look_at_batch(grid_job *job, const grid_tile *tile, grid_pixels *pix
 static void look_at_rough(grid_job *job, const grid_tile *tile, const int32_t rect[4],
                           int32_t stride, const int32_t corner[2], flow_sum *flow)
 {
-    int32_t size = job->tiles->size, side = size / TILE_BLOCKS;
+    int32_t size = job->tiles->size, shift = job->tiles->block_shift;
     int32_t begin[2], end[2];
     grid_pixels pixels;
     uint32_t near = ~(uint32_t)0;
@@ -374,9 +374,9 @@ static void look_at_rough(grid_job *job, const grid_tile *tile, const int32_t re
     }
     pixels.count = 0;
     for (int32_t y = begin[1]; y < end[1]; y += stride) {
-        uint32_t row = near >> ((y - corner[1]) / side * TILE_BLOCKS);
+        uint32_t row = near >> (((y - corner[1]) >> shift) * TILE_BLOCKS);
         for (int32_t x = begin[0]; x < end[0]; x += stride) {
-            if ((row >> ((x - corner[0]) / side) & 1u) != 0) {
+            if ((row >> ((x - corner[0]) >> shift) & 1u) != 0) {
                 pixels.x[pixels.count] = x;
                 pixels.y[pixels.count++] = y;
             }

@@ -3,6 +3,7 @@
 #include "physics/grid_field.h"
 
 #define SIZE_MIN 16
+#define BLOCK_SHIFT_MIN 2  /* SIZE_MIN / TILE_BLOCKS is 4 */
 #define SAMPLES_PER_SIDE 4 /* pixels of a tile that give its plane */
 /* Beyond the tile's own pixels: an outline is told from the pixel beside it. */
 #define RIM_PX 2
@@ -21,10 +22,12 @@ void grid_tiles_start(grid_tiles *tiles, const rlf_grid *grid, const rlf_grid_sh
     }
     tiles->sheet = sheet;
     tiles->size = SIZE_MIN;
+    tiles->block_shift = BLOCK_SHIFT_MIN - 1;
     do {
         tiles->columns = (grid->width - 1) / tiles->size + 1;
         tiles->rows = (grid->height - 1) / tiles->size + 1;
         tiles->size *= 2;
+        tiles->block_shift++;
     } while (tiles->columns * tiles->rows > TILES_MAX);
     tiles->size /= 2;
 }
@@ -86,22 +89,21 @@ static void set_block(grid_blocks *blocks, int32_t block, const rlf_aabb *box)
 
 /* The boxes about the solids behind the pixels, and their highest speed. */
 static void bound(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet *sheet,
-                  const int32_t rect[4], int32_t size)
+                  const int32_t rect[4], int32_t shift)
 {
     const rlf_aabb none = rlf_aabb_empty();
     rlf_aabb solids[BLOCKS];
-    int32_t side = size / TILE_BLOCKS;
     for (int32_t block = 0; block < BLOCKS; block++) {
         solids[block] = none;
     }
     tile->is_endless = false;
     tile->speed = 0.0;
     for (int32_t y = rect[1]; y < rect[3]; y++) {
-        rlf_aabb *row = &solids[(y - rect[1]) / side * TILE_BLOCKS];
+        rlf_aabb *row = &solids[((y - rect[1]) >> shift) * TILE_BLOCKS];
         for (int32_t x = rect[0]; x < rect[2]; x++) {
             field_cell cell;
             if (grid_cell_read(grid, sheet, x, y, &cell)) {
-                extend(&row[(x - rect[0]) / side], sheet, &cell);
+                extend(&row[(x - rect[0]) >> shift], sheet, &cell);
                 tile->is_endless = tile->is_endless || cell.thickness >= FIELD_ENDLESS;
                 tile->speed = rlf_max(tile->speed, rlf_dot(cell.velocity, cell.velocity));
             }
@@ -237,7 +239,7 @@ static void make_tile(grid_tile *tile, const grid_tiles *tiles, const rlf_grid *
     tile->count = 0;
     if (mask == NULL || !is_masked_out(grid, mask, own)) {
         measure(tile, grid, tiles->sheet, own);
-        bound(tile, grid, tiles->sheet, own, tiles->size);
+        bound(tile, grid, tiles->sheet, own, tiles->block_shift);
     }
     if (tile->count == 0) {
         tile->kind = TILE_EMPTY;

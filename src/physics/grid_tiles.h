@@ -39,6 +39,7 @@ typedef struct grid_tile {
 typedef struct grid_tiles {
     const rlf_grid_sheet *sheet;
     int32_t size, columns, rows; /* size in pixels */
+    int32_t block_shift;         /* a block is 1 << block_shift pixels wide */
     uint64_t stamp;
     grid_tile *tiles; /* TILES_MAX */
 } grid_tiles;

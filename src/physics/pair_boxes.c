@@ -55,12 +55,16 @@ static sat_frame sat_frame_of(const box *a, const box *b)
     return f;
 }
 
-/* Takes the axis when it is better: a face gives a whole patch, so an edge pair must be clearly
- * better, a later face slightly. */
+/* A face gives a whole patch, so an edge pair must be clearly better, a later face slightly. */
+static double preference_of(const sat_frame *f, int32_t code)
+{
+    return code >= 6 ? 0.01 * f->a->half[0] + 1e-4 : (code > 0 ? 1e-6 : 0.0);
+}
+
+/* Takes the axis when it is better. */
 static bool is_better(const sat_frame *f, double separation, int32_t code, sat_result *best)
 {
-    double preference = code >= 6 ? 0.01 * f->a->half[0] + 1e-4 : (code > 0 ? 1e-6 : 0.0);
-    if (separation <= best->separation + preference) {
+    if (separation <= best->separation + preference_of(f, code)) {
         return false;
     }
     best->separation = separation;
@@ -101,8 +105,12 @@ static void try_edges(const sat_frame *f, sat_result *best)
         double along = f->c[i1][k] * f->along_a[i2] - f->c[i2][k] * f->along_a[i1];
         double reach = ha[i1] * f->abs_c[i2][k] + ha[i2] * f->abs_c[i1][k] +
                        hb[k1] * f->abs_c[i][k2] + hb[k2] * f->abs_c[i][k1];
+        double gap = magnitude(along) - reach; /* times the length, which is no more than 1 */
+        if (gap < 0.0 && gap <= best->separation + preference_of(f, 6 + n)) {
+            continue;
+        }
         double scale = 1.0 / sqrt(length2);
-        if (is_better(f, (magnitude(along) - reach) * scale, 6 + n, best)) {
+        if (is_better(f, gap * scale, 6 + n, best)) {
             rlf_vec3 axis = rlf_cross(f->a->axis[i], f->b->axis[k]);
             best->normal = rlf_scale(axis, along < 0.0 ? -scale : scale);
         }
@@ -158,7 +166,7 @@ static int32_t clip(const rlf_vec3 *in, int32_t count, rlf_vec3 n, double d, rlf
 {
     int32_t kept = 0;
     for (int32_t i = 0; i < count; i++) {
-        rlf_vec3 p = in[i], q = in[(i + 1) % count];
+        rlf_vec3 p = in[i], q = in[i + 1 < count ? i + 1 : 0];
         double dp = rlf_dot(n, p) - d, dq = rlf_dot(n, q) - d;
         if (dp <= 0.0) {
             out[kept++] = p;
@@ -196,16 +204,16 @@ static void incident_face(const box *b, rlf_vec3 n, rlf_vec3 out[4])
 static int32_t face_contacts(const box *ref, const box *other, rlf_vec3 n, int32_t face,
                              double margin, bool ref_is_a, pair_point *out)
 {
-    rlf_vec3 polygon[16], clipped[16];
+    rlf_vec3 buffers[2][16], *polygon = buffers[0], *clipped = buffers[1];
     incident_face(other, n, polygon);
     int32_t count = 4;
     for (int32_t side = 0; side < 4; side++) {
         int32_t axis = (face + 1 + side / 2) % 3;
         rlf_vec3 m = side % 2 == 0 ? ref->axis[axis] : rlf_neg(ref->axis[axis]);
         count = clip(polygon, count, m, rlf_dot(m, ref->centre) + ref->half[axis], clipped);
-        for (int32_t i = 0; i < count; i++) {
-            polygon[i] = clipped[i];
-        }
+        rlf_vec3 *swap = polygon;
+        polygon = clipped;
+        clipped = swap;
     }
     double offset = rlf_dot(n, ref->centre) + ref->half[face];
     int32_t kept = 0;
