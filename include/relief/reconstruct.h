@@ -77,7 +77,7 @@ typedef struct rlf_reconstruct_def {
     bool enable_velocity;     /* live: true: normal velocity from depth change along the ray */
     bool enable_thickness;    /* live: true: the back that the front's own curvature shows */
 
-    rlf_pool *pool; /* borrowed; NULL = one thread */
+    rlf_pool *pool; /* borrowed; NULL = one thread; a grid below 8192 pixels has one anyway */
 } rlf_reconstruct_def;
 
 /* Settings of a profile; `rig` is copied and its range becomes the default range. */

@@ -5,6 +5,10 @@
 
 #include <string.h>
 
+/* Pixels: the steps of a smaller frame, some 10 microseconds each, are done before another thread
+ * has woken. */
+enum { LEAST_SHARED = 8192 };
+
 static void set_grid(rlf_reconstruct *stage)
 {
     rlf_grid *grid = &stage->grid;
@@ -32,6 +36,9 @@ rlf_result rlf_reconstruct_create(const rlf_reconstruct_def *def, rlf_reconstruc
     }
     stage->def = *def;
     set_grid(stage);
+    if (stage->grid.count < LEAST_SHARED) {
+        stage->def.pool = NULL;
+    }
     if (!rlf_stage_allocate(stage)) {
         rlf_reconstruct_destroy(&stage);
         return RLF_ERROR_MEMORY;
