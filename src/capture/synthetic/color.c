@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define ROWS_PER_CHUNK 8
+#define COVER_M 0.05f /* what stands so much before a mover covers it */
 
 static size_t index_of(const synth_color *color, int32_t x, int32_t y)
 {
@@ -81,29 +82,90 @@ static bool is_painted(const synth_color *color, int32_t x, int32_t y)
            color->canvas.part[index_of(color, x, y)] >= 0;
 }
 
+/* Nearest mover painted in the 3x3 neighbourhood, metres, and how many pixels are; the sum of their
+ * paint. */
+typedef struct outline {
+    float nearest;
+    uint32_t count, paint[3];
+} outline;
+
+static outline outline_at(const synth_color *color, int32_t x, int32_t y)
+{
+    outline o = {.nearest = 1e9f};
+    for (int32_t k = 0; k < 9; k++) {
+        int32_t at_x = x + k % 3 - 1;
+        int32_t at_y = y + k / 3 - 1;
+        if (is_painted(color, at_x, at_y)) {
+            size_t i = index_of(color, at_x, at_y);
+            o.nearest = color->canvas.z[i] < o.nearest ? color->canvas.z[i] : o.nearest;
+            o.count++;
+            for (int c = 0; c < 3; c++) {
+                o.paint[c] += color->paint[4 * i + (size_t)c];
+            }
+        }
+    }
+    return o;
+}
+
+/* Colour of the room at a pixel without paint, where a mover's outline is blended with it: what
+ * stands before the mover is there by itself, without what is behind both. NULL = the room does not
+ * stand before a mover at that depth. */
+static const uint8_t *cover_at(const synth_color *color, int32_t x, int32_t y, float z)
+{
+    const synth_color_planes *room = &color->room[color->room_index];
+    const rlf_camera *camera = &color->view.camera;
+    if (x < 0 || y < 0 || x >= camera->width || y >= camera->height || is_painted(color, x, y)) {
+        return NULL;
+    }
+    size_t i = index_of(color, x, y);
+    return room->z[i] > 0.0f && room->z[i] + COVER_M < z ? room->front + 4 * i : NULL;
+}
+
+/* Sum of the colours of the 3x3 neighbourhood that are not the mover's, at a pixel of the mover:
+ * of what covers it, and of what its own pixel would show without it. */
+static void add_room(const synth_color *color, int32_t x, int32_t y, uint32_t sum[3])
+{
+    size_t i = index_of(color, x, y);
+    for (int32_t k = 0; k < 9; k++) {
+        int32_t at_x = x + k % 3 - 1;
+        int32_t at_y = y + k / 3 - 1;
+        if (is_painted(color, at_x, at_y)) {
+            continue;
+        }
+        const uint8_t *cover = cover_at(color, at_x, at_y, color->canvas.z[i]);
+        const uint8_t *here = cover != NULL ? cover : color->out + 4 * i;
+        for (int c = 0; c < 3; c++) {
+            sum[c] += here[c];
+        }
+    }
+}
+
 /* Near an outline the share of movers in the 3x3 neighbourhood is the paint's opacity, and a pixel
  * beside the mover takes the mean paint of its neighbours: a lens blurs outlines alike. */
 static void blend_pixel(synth_color *color, int32_t x, int32_t y)
 {
-    uint32_t sum[3] = {0, 0, 0};
-    uint32_t count = 0;
-    for (int32_t dy = -1; dy <= 1; dy++) {
-        for (int32_t dx = -1; dx <= 1; dx++) {
-            if (is_painted(color, x + dx, y + dy)) {
-                const uint8_t *paint = &color->paint[4 * index_of(color, x + dx, y + dy)];
-                for (int c = 0; c < 3; c++) {
-                    sum[c] += paint[c];
-                }
-                count++;
-            }
+    const outline o = outline_at(color, x, y);
+    if (o.count == 0) {
+        return;
+    }
+    const size_t i = 4 * index_of(color, x, y);
+    uint32_t room[3] = {0, 0, 0};
+    uint32_t paint[3];
+    if (is_painted(color, x, y)) {
+        add_room(color, x, y, room);
+        for (int c = 0; c < 3; c++) {
+            paint[c] = color->paint[i + (size_t)c] * o.count;
+        }
+    } else {
+        const uint8_t *cover = cover_at(color, x, y, o.nearest);
+        const uint8_t *here = cover != NULL ? cover : color->out + i;
+        for (int c = 0; c < 3; c++) {
+            room[c] = here[c] * (9 - o.count);
+            paint[c] = o.paint[c] / o.count * o.count;
         }
     }
-    size_t i = 4 * index_of(color, x, y);
-    bool is_own = is_painted(color, x, y);
-    for (int c = 0; c < 3 && count > 0; c++) {
-        uint32_t paint = is_own ? color->paint[i + (size_t)c] : sum[c] / count;
-        uint32_t room = color->out[i + (size_t)c];
-        color->out[i + (size_t)c] = (uint8_t)((paint * count + room * (9 - count) + 4) / 9);
+    for (int c = 0; c < 3; c++) {
+        color->out[i + (size_t)c] = (uint8_t)((paint[c] + room[c] + 4) / 9);
     }
 }
 

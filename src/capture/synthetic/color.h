@@ -10,6 +10,7 @@
 /* One state of the room. */
 typedef struct synth_color_planes {
     uint8_t *rgba;
+    uint8_t *front; /* RGBA of what the pixel's middle sees, without what an edge mixes in */
     float *z;
     uint8_t *lamp; /* floor: share of its light that comes from the lamp, 255 = all; else 0 */
 } synth_color_planes;

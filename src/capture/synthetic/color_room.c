@@ -2,8 +2,6 @@
 #include "capture/synthetic/color.h"
 #include "capture/synthetic/light.h"
 
-#define SAMPLES 4
-
 typedef struct job {
     synth_color *color;
     const synth_scene *scene;
@@ -45,42 +43,86 @@ static rlf_vec3 multiply(rlf_vec3 a, rlf_vec3 b)
     return rlf_vec3_make(a.x * b.x, a.y * b.y, a.z * b.z);
 }
 
-/* Depth and floor light come from the pixel's middle; the colour is the mean of four samples. Where
- * all see the same part they share the light of the middle. */
+static void encode(const job *j, rlf_vec3 sum, int32_t count, uint8_t out[4])
+{
+    sum = rlf_scale(sum, 1.0 / count);
+    synth_encode(j->color->gamma, (float)sum.x, (float)sum.y, (float)sum.z, out);
+}
+
+/* What a pixel's middle sees, and how its samples add up. */
+typedef struct pixel {
+    synth_hit hit;
+    lit light;
+    rlf_vec3 sum, own; /* of all samples; of the middle's part alone, the middle too */
+    int32_t own_count;
+    synth_hit other; /* the last part that was not the middle's, */
+    rlf_vec3 other_light;
+} pixel;
+
+static void add_sample(const job *j, const synth_candidates *candidates, const synth_ray *ray,
+                       pixel *p)
+{
+    const synth_hit sample = synth_cast(j->scene, candidates, ray);
+    if (sample.part < 0) {
+        return;
+    }
+    const synth_part *seen = &j->scene->statics[sample.part];
+    const bool is_own = sample.part == p->hit.part;
+    if (!is_own && sample.part != p->other.part) {
+        const synth_site edge = site_of(seen, ray, sample.t);
+        p->other = sample;
+        p->other_light = light_at(j, &edge).light;
+    }
+    const rlf_vec3 light = is_own ? p->light.light : p->other_light;
+    const rlf_vec3 here = multiply(light, albedo_at(seen, ray, sample.t));
+    p->sum = rlf_add(p->sum, here);
+    p->own = is_own ? rlf_add(p->own, here) : p->own;
+    p->own_count += is_own;
+}
+
+/* A pixel all of whose corners show the part that its middle shows. */
+static bool is_whole(const job *j, const synth_candidates *candidates, int32_t x, int32_t y,
+                     int32_t part)
+{
+    for (int k = 0; k < 4; k++) {
+        const synth_ray corner = synth_view_ray(&j->color->view, x + ((k & 1) != 0 ? 0.5 : -0.5),
+                                                y + ((k & 2) != 0 ? 0.5 : -0.5));
+        if (synth_cast(j->scene, candidates, &corner).part != part) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Depth and floor light come from the pixel's middle; the colour is the mean of 2 x 2 samples, and
+ * of 16 in different rows and columns where an edge runs through. What sees the same part shares
+ * its light. */
 static void cast_pixel(const job *j, const synth_candidates *candidates, int32_t x, int32_t y)
 {
     synth_ray middle = synth_view_ray(&j->color->view, x, y);
-    synth_hit hit = synth_cast(j->scene, candidates, &middle);
+    pixel p = {.hit = synth_cast(j->scene, candidates, &middle), .own_count = 1, .other = {-1, 0}};
     size_t i = (size_t)y * (size_t)j->color->view.camera.width + (size_t)x;
-    if (hit.part < 0) {
-        j->planes->rgba[4 * i + 3] = 255;
+    if (p.hit.part < 0) {
+        j->planes->rgba[4 * i + 3] = j->planes->front[4 * i + 3] = 255;
         return;
     }
-    const synth_part *part = &j->scene->statics[hit.part];
-    synth_site site = site_of(part, &middle, hit.t);
-    lit middle_lit = light_at(j, &site);
-    rlf_vec3 sum = rlf_vec3_make(0, 0, 0);
-    for (int k = 0; k < SAMPLES; k++) {
-        synth_ray ray = synth_view_ray(&j->color->view, x + ((k & 1) != 0 ? 0.25 : -0.25),
-                                       y + ((k & 2) != 0 ? 0.25 : -0.25));
-        synth_hit sample = synth_cast(j->scene, candidates, &ray);
-        if (sample.part < 0) {
-            continue;
-        }
-        const synth_part *seen = &j->scene->statics[sample.part];
-        rlf_vec3 light = middle_lit.light;
-        if (sample.part != hit.part) {
-            synth_site edge = site_of(seen, &ray, sample.t);
-            light = light_at(j, &edge).light;
-        }
-        sum = rlf_add(sum, multiply(light, albedo_at(seen, &ray, sample.t)));
+    const synth_part *part = &j->scene->statics[p.hit.part];
+    synth_site site = site_of(part, &middle, p.hit.t);
+    p.light = light_at(j, &site);
+    p.own = multiply(p.light.light, albedo_at(part, &middle, p.hit.t));
+    const int32_t side = is_whole(j, candidates, x, y, p.hit.part) ? 2 : 4;
+    for (int32_t k = 0; k < side * side; k++) {
+        const double u = (k % side + 0.5) / side - 0.5;
+        const double v = (k / side + 0.5) / side - 0.5;
+        const double turn = side == 4 ? 0.25 : 0.0; /* of the grid, to get 16 rows and columns */
+        synth_ray ray = synth_view_ray(&j->color->view, x + u + turn * v, y + v + turn * u);
+        add_sample(j, candidates, &ray, &p);
     }
-    sum = rlf_scale(sum, 1.0 / SAMPLES);
-    synth_encode(j->color->gamma, (float)sum.x, (float)sum.y, (float)sum.z,
-                 &j->planes->rgba[4 * i]);
-    j->planes->z[i] = (float)hit.t;
+    encode(j, p.sum, side * side, &j->planes->rgba[4 * i]);
+    encode(j, p.own, p.own_count, &j->planes->front[4 * i]);
+    j->planes->z[i] = (float)p.hit.t;
     j->planes->lamp[i] =
-        part->label == RLF_SYNTHETIC_LABEL_FLOOR ? (uint8_t)(255.0 * middle_lit.lamp_share) : 0;
+        part->label == RLF_SYNTHETIC_LABEL_FLOOR ? (uint8_t)(255.0 * p.light.lamp_share) : 0;
 }
 
 static void cast_tiles(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -110,9 +152,11 @@ static rlf_result create_room(synth_color *color, const synth_scene *scene, int3
     size_t pixels = (size_t)camera->width * (size_t)camera->height;
     synth_color_planes *planes = &color->room[state];
     planes->rgba = rlf_alloc_array(pixels, 4);
+    planes->front = rlf_alloc_array(pixels, 4);
     planes->z = rlf_alloc_array(pixels, sizeof(float));
     planes->lamp = rlf_alloc(pixels);
-    if (planes->rgba == NULL || planes->z == NULL || planes->lamp == NULL) {
+    if (planes->rgba == NULL || planes->front == NULL || planes->z == NULL ||
+        planes->lamp == NULL) {
         return RLF_ERROR_MEMORY;
     }
     job j = {color, scene, planes, scene->static_count - (state == 1 ? scene->removed_count : 0)};
@@ -145,6 +189,7 @@ void synth_color_destroy(synth_color *color)
 {
     for (int k = 0; k < 2; k++) {
         rlf_free(color->room[k].rgba);
+        rlf_free(color->room[k].front);
         rlf_free(color->room[k].z);
         rlf_free(color->room[k].lamp);
     }

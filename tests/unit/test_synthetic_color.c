@@ -1,0 +1,111 @@
+/* The colour camera's picture where the room covers a mover. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "relief/synthetic.h"
+
+#include <math.h>
+#include <string.h>
+
+#define WIDTH 960
+#define HEIGHT 540
+#define SIDE 4 /* pixels on either side of an edge that show one thing each */
+
+static float z[WIDTH * HEIGHT];
+static int32_t label[WIDTH * HEIGHT];
+
+static void cast_all(rlf_source *source, const rlf_rig *rig)
+{
+    const rlf_vec3 origin = rlf_neg(rig->T_color_depth.p);
+    for (int32_t y = 0; y < HEIGHT; y++) {
+        rlf_vec3 rays[WIDTH];
+        for (int32_t x = 0; x < WIDTH; x++) {
+            rays[x] = rlf_vec3_make((x - rig->color.cx) / rig->color.fx,
+                                    (y - rig->color.cy) / rig->color.fy, 1.0);
+        }
+        assert_int_equal(
+            rlf_synthetic_cast(source, origin, rays, WIDTH, z + y * WIDTH, label + y * WIDTH),
+            RLF_OK);
+    }
+}
+
+/* The person is seen in the SIDE pixels that end at `i`, and in those beyond, one thing well before
+ * them; the same in the rows above and below. */
+static bool is_covered(int32_t i, int32_t direction)
+{
+    const int32_t thing = label[i + direction];
+    bool is_it = thing != RLF_SYNTHETIC_LABEL_PERSON && thing != RLF_SYNTHETIC_LABEL_FLOOR;
+    for (int32_t row = -1; row <= 1 && is_it; row++) {
+        for (int32_t k = 0; k < SIDE && is_it; k++) {
+            const int32_t person = i + row * WIDTH - k * direction;
+            const int32_t other = i + row * WIDTH + (k + 1) * direction;
+            is_it = label[person] == RLF_SYNTHETIC_LABEL_PERSON && label[other] == thing &&
+                    z[other] + 0.1f < z[person];
+        }
+    }
+    return is_it;
+}
+
+/* Distance of a colour from the mixtures of two, sRGB steps. */
+static double off_mixture(const uint8_t *c, const uint8_t *a, const uint8_t *b)
+{
+    double along = 0.0, length = 0.0, off = 0.0;
+    for (int k = 0; k < 3; k++) {
+        along += (c[k] - a[k]) * (double)(b[k] - a[k]);
+        length += (b[k] - a[k]) * (double)(b[k] - a[k]);
+    }
+    double t = length > 0.0 ? rlf_clamp(along / length, 0.0, 1.0) : 0.0;
+    for (int k = 0; k < 3; k++) {
+        double step = c[k] - (a[k] + t * (b[k] - a[k]));
+        off += step * step;
+    }
+    return sqrt(off);
+}
+
+/* What lies behind both, the wall, has no part in the edge between a leg and what covers it. */
+static void a_covered_outline_is_a_mixture_of_both_sides(void **state)
+{
+    (void)state;
+    rlf_synthetic_def def = rlf_synthetic_def_default();
+    rlf_source *source;
+    rlf_frame frame;
+    double sum = 0.0;
+    int32_t count = 0;
+    def.enable_truth = false;
+    assert_int_equal(rlf_synthetic_create(&def, &source), RLF_OK);
+    for (int32_t n = 0; n < 120; n++) {
+        assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+        if (n % 20 != 0) {
+            continue;
+        }
+        cast_all(source, &rlf_source_get_info(source)->rig);
+        for (int32_t i = WIDTH + SIDE; i < WIDTH * (HEIGHT - 1) - SIDE; i++) {
+            for (int32_t direction = -1; direction <= 1; direction += 2) {
+                if (!is_covered(i, direction)) {
+                    continue;
+                }
+                const uint8_t *c = frame.color.data + 4 * (ptrdiff_t)i;
+                const ptrdiff_t step = 4 * (ptrdiff_t)direction;
+                for (int32_t k = 0; k < 2; k++) {
+                    sum += off_mixture(c + k * step, c - (SIDE - 1) * step, c + SIDE * step);
+                    count++;
+                }
+            }
+        }
+    }
+    assert_true(count > 200);
+    assert_true(sum / count < 10.0); /* 19 with the wall in between; patterns are the rest */
+    rlf_source_destroy(&source);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_covered_outline_is_a_mixture_of_both_sides),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
