@@ -16,7 +16,7 @@
 
 #define PICTURE "picture" /* by itself with every method, on every frame */
 #define PICTURE_FRAMES 100
-#define SENSED "sensed" /* with --oracle its throws alone, on a surface that is partly true */
+#define SENSED "sensed" /* with --oracle its throws alone */
 
 typedef struct eval_options {
     const char *section; /* NULL = all of them */
@@ -91,8 +91,11 @@ static void print_help(void)
         "  --profile NAME    live, thesis or both (default)\n"
         "  --set NAME=VALUE  a setting of the surface (see `relief settings`) in place of the\n"
         "                    profiles', in the scenes (not in the sections)\n"
-        "  --oracle LIST     in section sensed: what of the surface is the truth: velocity,\n"
-        "                    thickness, depth, normals, background, or all\n"
+        "  --oracle LIST     what of the surface is the truth: in section sensed velocity,\n"
+        "                    thickness, depth, normals, background, or all; in section picture\n"
+        "                    depth, background, camera (depth as the colour camera sees it), "
+        "pixels\n"
+        "                    (each a body's or not, as its middle is); only profile live\n"
         "  --threads N       default 0 = one per processor\n"
         "  --json FILE       everything: seeds, values, means, intervals, goals, bounds\n\n"
         "examples:\n"
@@ -116,6 +119,22 @@ static bool take_scene(const char *text, void *out)
     return eval_scene_find(text) != NULL || find_section(text) != NULL;
 }
 
+/* -1, or an exit status when the section asked for has no such oracle. */
+static int check_oracle(const eval_options *o)
+{
+    const char *name = o->section != NULL ? o->section : "";
+    const int32_t of_picture =
+        EVAL_ORACLE_DEPTH | EVAL_ORACLE_BACKGROUND | EVAL_ORACLE_CAMERA | EVAL_ORACLE_PIXELS;
+    const int32_t known = strcmp(name, SENSED) == 0    ? EVAL_ORACLE_SURFACE
+                          : strcmp(name, PICTURE) == 0 ? of_picture
+                                                       : 0;
+    return (o->oracle & ~known) == 0
+               ? -1
+               : command_usage("eval", "--oracle is for --scene " SENSED " (velocity, thickness, "
+                                       "depth, normals, background) and " PICTURE
+                                       " (depth, background, camera, pixels)");
+}
+
 static int parse(int argc, char **argv, eval_options *o)
 {
     *o = (eval_options){.seeds = 3, .profile_mask = 3};
@@ -137,17 +156,15 @@ static int parse(int argc, char **argv, eval_options *o)
          .kind = OPTION_CHOICE,
          .out = &o->oracle,
          .take = eval_oracle_parse,
-         .choices = "list some of velocity,thickness,depth,normals,background, or all"},
+         .choices = "list some of velocity,thickness,depth,normals,background,camera,pixels, or "
+                    "all"},
         {.name = "threads", .kind = OPTION_INT64, .out = &o->threads, .low = 0, .high = 64},
         {.name = "json", .kind = OPTION_TEXT, .out = &o->json_path},
         {.name = "set", .kind = OPTION_SET, .out = &o->settings},
         {0},
     };
     int status = options_parse("eval", argc, argv, options, print_help);
-    bool is_sensed = o->section != NULL && strcmp(o->section, SENSED) == 0;
-    if (status < 0 && o->oracle != 0 && !is_sensed) {
-        return command_usage("eval", "--oracle is for --scene " SENSED);
-    }
+    status = status < 0 ? check_oracle(o) : status;
     return status < 0 && argc != optind ? command_usage("eval", "takes no SOURCE") : status;
 }
 
@@ -162,7 +179,8 @@ static rlf_result run_task(const eval_task *task)
     }
     if (o->section != NULL && strcmp(o->section, PICTURE) == 0) {
         return eval_picture_run_whole(task->table, task->seed,
-                                      o->frames > 0 ? o->frames : PICTURE_FRAMES, o->profile_mask);
+                                      o->frames > 0 ? o->frames : PICTURE_FRAMES, o->oracle,
+                                      o->profile_mask);
     }
     if (o->oracle != 0) {
         return eval_sensed_run_oracle(task->table, task->seed, o->oracle);

@@ -25,12 +25,14 @@ struct eval_oracle {
 
 bool eval_oracle_parse(const char *text, void *out_parts)
 {
-    static const char *const names[] = {"velocity", "thickness", "depth", "normals", "background"};
-    int32_t parts = strcmp(text, "all") == 0 ? 31 : 0;
-    while (parts != 31 && *text != '\0') {
+    static const char *const names[] = {"velocity",   "thickness", "depth", "normals",
+                                        "background", "camera",    "pixels"};
+    const bool is_all = strcmp(text, "all") == 0;
+    int32_t parts = is_all ? EVAL_ORACLE_SURFACE : 0;
+    while (!is_all && *text != '\0') {
         size_t length = strcspn(text, ",");
         int32_t part = 0;
-        for (int32_t i = 0; i < 5; i++) {
+        for (int32_t i = 0; i < 7; i++) {
             bool is_it = strlen(names[i]) == length && strncmp(text, names[i], length) == 0;
             part = is_it ? 1 << i : part;
         }

@@ -3,6 +3,7 @@
 #include "eval/picture.h"
 #include "command.h"
 #include "eval/picture_light.h"
+#include "eval/picture_oracle.h"
 
 #include "relief/synthetic.h"
 
@@ -31,6 +32,7 @@ typedef struct picture_run {
     rlf_pipeline *pipeline;
     rlf_compositor *compositor;
     picture_truth truth;
+    picture_oracle oracle;
     rlf_body_state bodies[PICTURE_BODIES];
     rlf_snapshot snapshot;
     float *alpha[2]; /* of this picture and of the one before */
@@ -43,17 +45,18 @@ static void close_run(picture_run *run)
     rlf_free(run->alpha[1]);
     rlf_compositor_destroy(&run->compositor);
     rlf_pipeline_destroy(&run->pipeline);
+    picture_oracle_destroy(&run->oracle);
     rlf_source_destroy(&run->source);
 }
 
 static rlf_result open_run(picture_run *run, const picture_method *method, const char *scene,
-                           int64_t seed)
+                           int32_t oracle, int64_t seed)
 {
     char name[96];
     (void)snprintf(name, sizeof(name), "synthetic:%s?seed=%lld&frames=-1", scene, (long long)seed);
     rlf_synthetic_def synthetic = rlf_synthetic_def_default();
     rlf_result result = rlf_synthetic_parse(name, &synthetic);
-    synthetic.enable_truth = false;
+    synthetic.enable_truth = (oracle & EVAL_ORACLE_SURFACE) != 0;
     result = result == RLF_OK ? rlf_synthetic_create(&synthetic, &run->source) : result;
     if (result != RLF_OK) {
         return result;
@@ -66,6 +69,11 @@ static rlf_result open_run(picture_run *run, const picture_method *method, const
     }
     rlf_compositor_def compositor = rlf_pipeline_get_compositor_def(run->pipeline);
     compositor.occlusion = method->occlusion;
+    result = picture_oracle_create(run->source, oracle, &run->oracle);
+    if (result != RLF_OK) {
+        return result;
+    }
+    picture_oracle_change_def(&run->oracle, &compositor);
     result = rlf_compositor_create_soft(&compositor, &run->compositor);
     if (result == RLF_OK) {
         run->snapshot.bodies = run->bodies;
@@ -97,7 +105,10 @@ static rlf_result draw_frame(picture_run *run)
                               .snapshot = &run->snapshot,
                               .T_world_camera = rlf_pose_identity()};
     rlf_render_output out;
-    result = rlf_compositor_render(run->compositor, &input, &out);
+    result = picture_oracle_change_input(&run->oracle, &run->truth, &input);
+    if (result == RLF_OK) {
+        result = rlf_compositor_render(run->compositor, &input, &out);
+    }
     float *swap = run->alpha[0];
     run->alpha[0] = run->alpha[1];
     run->alpha[1] = swap;
@@ -125,6 +136,7 @@ static rlf_result run_frames(picture_run *run, const picture_schedule *s, bool i
             result = picture_truth_update(&run->truth, run->source);
         }
         if (result == RLF_OK && is_judged) {
+            picture_oracle_change_alpha(&run->oracle, &run->truth, run->alpha[0]);
             picture_errors_add(e, &run->truth, run->alpha[0],
                                is_still && has_truth ? run->alpha[1] : NULL);
             has_truth = true;
@@ -133,11 +145,19 @@ static rlf_result run_frames(picture_run *run, const picture_schedule *s, bool i
     return result;
 }
 
-static rlf_result measure_seed(const picture_method *method, bool is_still,
-                               const picture_schedule *schedule, int64_t seed, picture_errors *out)
+/* Which pictures are made of which methods. */
+typedef struct picture_plan {
+    picture_schedule schedules[2]; /* with a walking person, then with nobody */
+    int32_t oracle;                /* bits of eval_oracle_part: what is true */
+    bool with_all;                 /* methods that no profile has by itself, too */
+} picture_plan;
+
+static rlf_result measure_seed(const picture_plan *plan, const picture_method *method,
+                               bool is_still, int64_t seed, picture_errors *out)
 {
+    const picture_schedule *schedule = &plan->schedules[is_still];
     picture_run run = {0};
-    rlf_result result = open_run(&run, method, is_still ? "empty" : "room", seed);
+    rlf_result result = open_run(&run, method, is_still ? "empty" : "room", plan->oracle, seed);
     result = result == RLF_OK ? run_frames(&run, schedule, is_still, out) : result;
     close_run(&run);
     return result;
@@ -225,19 +245,18 @@ static const picture_figure figures[] = {
 #define JUDGED_COUNT 5
 #define STILL_PICTURES 12
 
-/* A walking person, then nobody. */
-static const picture_schedule a_few[2] = {
-    {JUDGED_FIRST + JUDGED_EVERY * (JUDGED_COUNT - 1) + 1, JUDGED_FIRST, JUDGED_EVERY},
-    {STILL_PICTURES, 0, 1}};
+static const picture_plan a_few = {
+    .schedules = {
+        {JUDGED_FIRST + JUDGED_EVERY * (JUDGED_COUNT - 1) + 1, JUDGED_FIRST, JUDGED_EVERY},
+        {STILL_PICTURES, 0, 1}}};
 
 /* Rows of methods that no profile has by itself have their own keys and titles. */
-static rlf_result add_rows(eval_table *table, const picture_method *method, int64_t seed,
-                           const picture_schedule schedules[2], picture_errors errors[2])
+static rlf_result add_rows(eval_table *table, const picture_plan *plan,
+                           const picture_method *method, int64_t seed, picture_errors errors[2])
 {
     memset(errors, 0, 2 * sizeof(*errors));
     for (int still = 0; still < 2; still++) {
-        rlf_result result =
-            measure_seed(method, still != 0, &schedules[still], seed, &errors[still]);
+        rlf_result result = measure_seed(plan, method, still != 0, seed, &errors[still]);
         if (result != RLF_OK) {
             return result;
         }
@@ -250,19 +269,19 @@ static rlf_result add_rows(eval_table *table, const picture_method *method, int6
     return RLF_OK;
 }
 
-static rlf_result run_methods(eval_table *table, int64_t seed, int profile_mask, bool with_all,
-                              const picture_schedule schedules[2])
+static rlf_result run_methods(eval_table *table, const picture_plan *plan, int64_t seed,
+                              int profile_mask)
 {
     picture_errors *errors = rlf_alloc_array(2, sizeof(*errors));
     rlf_result result = errors != NULL ? RLF_OK : RLF_ERROR_MEMORY;
     for (int m = 0; m < METHOD_COUNT && result == RLF_OK; m++) {
-        bool is_wanted = with_all || methods[m].is_default;
+        bool is_wanted = plan->with_all || methods[m].is_default;
         if (is_wanted && (profile_mask & (1 << methods[m].profile))) {
-            result = add_rows(table, &methods[m], seed, schedules, errors);
+            result = add_rows(table, plan, &methods[m], seed, errors);
         }
     }
     rlf_free(errors);
-    if (result == RLF_OK && (profile_mask & (1 << RLF_PROFILE_LIVE))) {
+    if (result == RLF_OK && plan->oracle == 0 && (profile_mask & (1 << RLF_PROFILE_LIVE))) {
         result = picture_light_run(table, seed);
     }
     return result;
@@ -270,11 +289,16 @@ static rlf_result run_methods(eval_table *table, int64_t seed, int profile_mask,
 
 rlf_result eval_picture_run(eval_table *table, int64_t seed, int profile_mask)
 {
-    return run_methods(table, seed, profile_mask, false, a_few);
+    return run_methods(table, &a_few, seed, profile_mask);
 }
 
-rlf_result eval_picture_run_whole(eval_table *table, int64_t seed, int64_t frames, int profile_mask)
+rlf_result eval_picture_run_whole(eval_table *table, int64_t seed, int64_t frames, int32_t oracle,
+                                  int profile_mask)
 {
-    const picture_schedule every_frame[2] = {{frames, 0, 1}, {frames, 0, 1}};
-    return run_methods(table, seed, profile_mask, true, every_frame);
+    if (oracle != 0) {
+        profile_mask &= 1 << RLF_PROFILE_LIVE;
+    }
+    const picture_plan plan = {
+        .schedules = {{frames, 0, 1}, {frames, 0, 1}}, .oracle = oracle, .with_all = true};
+    return run_methods(table, &plan, seed, profile_mask);
 }

@@ -6,14 +6,15 @@
 #include "relief/io.h"
 
 #define PICTURE_BODIES 20
-#define PICTURE_SAMPLES 16 /* per pixel, on a grid of 4 x 4 */
+#define PICTURE_SAMPLES 16 /* per pixel, in as many rows and columns */
 #define PICTURE_BINS 640   /* of displacement, 1/40 pixel each: to 16 pixels */
 
 /* A few pictures of one seed: soft occlusion for profile live, the thesis's layers for profile
  * thesis. */
 rlf_result eval_picture_run(eval_table *table, int64_t seed, int profile_mask);
-/* Every picture of that many frames, and hard occlusion too. */
-rlf_result eval_picture_run_whole(eval_table *table, int64_t seed, int64_t frames,
+/* Every picture of that many frames, and hard occlusion too; `oracle` says what is true, bits of
+ * eval_oracle_part. */
+rlf_result eval_picture_run_whole(eval_table *table, int64_t seed, int64_t frames, int32_t oracle,
                                   int profile_mask);
 
 /* ---- picture_truth.c: what the colour camera ought to see ------------------------------------ */
