@@ -33,6 +33,10 @@ rlf_result registration_make_sizes(rlf_registration *r);
 /* register_warp.c: colour pixels of row y of the depth grid, into r->points. */
 void registration_project(rlf_registration *r, const float *depth, int32_t y);
 
+/* Where pixel i of the depth grid is in the picture if it is `z` metres away: (u, v), or a place
+ * far outside when it cannot be seen. */
+void registration_pixel(const rlf_registration *r, int32_t i, float z, float out[2]);
+
 /* register_fill.c: gaps and parallax shadows of rows [begin, end), which are all of them where
  * r->fills_columns, and their pixels' state. */
 void registration_fill_holes(const rlf_registration *r, int32_t begin, int32_t end,

@@ -125,6 +125,19 @@ void registration_project(rlf_registration *r, const float *depth, int32_t y)
     }
 }
 
+void registration_pixel(const rlf_registration *r, int32_t i, float z, float out[2])
+{
+    const rlf_kernel_rays rays = {r->a + i, r->b + i, r->c + i};
+    float scale;
+    float seen;
+    const rlf_kernel_points point = {&out[0], &out[1], &scale, &seen};
+    rlf_kernel_project_row(&r->pinhole, &rays, &z, 1, &point);
+    if (r->lens.du != NULL) {
+        rlf_kernel_distort_row(&r->lens, 1, &point);
+    }
+    out[0] = seen < RLF_KERNEL_NOTHING ? out[0] : -RLF_KERNEL_NOTHING;
+}
+
 void rlf_registration_apply_rows(rlf_registration *r, const float *depth, int32_t begin,
                                  int32_t end, const rlf_plane_f32 *out_depth,
                                  const rlf_plane_u8 *out_state)

@@ -73,6 +73,9 @@ rlf_result real_depth_create(const rlf_compositor_def *def, const rlf_camera *ca
                                          out->uses_frame ? out->ray_y : def->ray_y, camera, &T,
                                          &out->registration);
     }
+    if (result == RLF_OK && !out->uses_frame) {
+        result = clean_plate_create(out->registration, depth, &out->T_picture_depth, &out->plate);
+    }
     if (result == RLF_OK) {
         result = known_layer_create(camera, depth, &def->rig.noise, &out->known);
     }
@@ -88,6 +91,7 @@ rlf_result real_depth_create(const rlf_compositor_def *def, const rlf_camera *ca
 void real_depth_destroy(real_depth *real)
 {
     rlf_registration_destroy(&real->registration);
+    clean_plate_destroy(&real->plate);
     known_layer_destroy(&real->known);
     known_layer_destroy(&real->sensed);
     void *parts[5] = {real->input, real->z.data, real->ray_x, real->ray_y, real->is_in_lens};
@@ -137,13 +141,16 @@ const known_layer *real_depth_known(const real_depth *real)
     return real->known.count > 0 ? &real->known : NULL;
 }
 
-rlf_result real_depth_update(real_depth *real, const rlf_render_input *input, int32_t begin,
-                             int32_t end)
+rlf_result real_depth_update(real_depth *real, const rlf_render_input *input,
+                             const silhouette *bodies, int32_t begin, int32_t end)
 {
     if (real->uses_frame) {
         read_frame(real, input->frame);
     } else {
         read_surface(real, input->surface);
+        if (bodies != NULL) {
+            clean_plate_update(&real->plate, real->registration, input, bodies, real->input);
+        }
     }
     rlf_pose T_camera_world = rlf_pose_invert(&input->T_world_camera);
     rlf_pose T_picture_world = rlf_pose_mul(&real->T_picture_depth, &T_camera_world);

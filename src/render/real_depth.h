@@ -4,6 +4,7 @@
 
 #include "known/layer.h"
 #include "relief/compositor.h"
+#include "render/clean_plate.h"
 
 typedef struct real_depth {
     rlf_registration *registration;
@@ -16,6 +17,8 @@ typedef struct real_depth {
     int32_t width, height; /* of input */
     float *ray_x, *ray_y;  /* uses_frame only */
     uint8_t *is_in_lens;   /* uses_frame only */
+
+    clean_plate plate; /* not uses_frame only */
 
     known_layer known;  /* models of real things: they are put into z, */
     known_layer sensed; /* and into input where nothing is sensed */
@@ -34,9 +37,10 @@ rlf_result real_depth_create(const rlf_compositor_def *def, const rlf_camera *ca
 const known_layer *real_depth_known(const real_depth *real);
 void real_depth_destroy(real_depth *real);
 /* Fills rows [begin, end) of z; of the others nothing is known. Pixels without depth take the
- * background's, when the surface knows it; models of real things take their place. RLF_ERROR_MEMORY
- * as known_layer_place. */
-rlf_result real_depth_update(real_depth *real, const rlf_render_input *input, int32_t begin,
-                             int32_t end);
+ * background's, when the surface knows it; those that may hide `bodies`, as placed for this picture
+ * (NULL = none), are settled by what the picture shows; models of real things take their place.
+ * RLF_ERROR_MEMORY as known_layer_place. */
+rlf_result real_depth_update(real_depth *real, const rlf_render_input *input,
+                             const silhouette *bodies, int32_t begin, int32_t end);
 
 #endif

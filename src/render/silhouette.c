@@ -289,7 +289,6 @@ void silhouette_update(silhouette *s, const rlf_plane_f32 *z, const known_layer 
         s->picture = (uint16_t)(s->picture == UINT16_MAX ? 1 : s->picture + 1);
     }
     s->last_sequence = frame->sequence;
-    silhouette_spread_tiles(s);
     rlf_parallel_for(s->pool, s->rows, 1, silhouette_find_jumps, &p);
     silhouette_mark_tiles(s);
     rlf_parallel_for(s->pool, s->rows, 1, settle_rows, &p);

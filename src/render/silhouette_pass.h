@@ -18,9 +18,8 @@ static inline int32_t silhouette_at_most(int32_t a, int32_t b)
     return a < b ? a : b;
 }
 
-/* silhouette_tiles.c: tiles with bodies and those around; rows of tiles with jumps of depth, for
- * rlf_parallel_for with a pass as context; then marks of the tiles around these. */
-void silhouette_spread_tiles(silhouette *s);
+/* silhouette_tiles.c: rows of tiles with jumps of depth, for rlf_parallel_for with a pass as
+ * context; then marks of the tiles around these. */
 void silhouette_find_jumps(void *context, int32_t begin, int32_t end, int32_t worker);
 void silhouette_mark_tiles(silhouette *s);
 

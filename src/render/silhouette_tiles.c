@@ -31,6 +31,22 @@ static void add_body(silhouette *s, const caster_rect *rect, const silhouette_ti
     }
 }
 
+/* An edge in the next tile may reach into a tile with a body. */
+static void spread_tiles(silhouette *s)
+{
+    memcpy(s->tiles, s->own, (size_t)(s->columns * s->rows) * sizeof(*s->tiles));
+    for (int32_t i = 0; i < s->columns * s->rows; i++) {
+        const silhouette_tile *own = &s->own[i];
+        for (int32_t k = 0; k < 9 && is_used(own); k++) {
+            int32_t x = i % s->columns + k % 3 - 1;
+            int32_t y = i / s->columns + k / 3 - 1;
+            if (x >= 0 && y >= 0 && x < s->columns && y < s->rows) {
+                widen(&s->tiles[y * s->columns + x], own);
+            }
+        }
+    }
+}
+
 void silhouette_place(silhouette *s, const rlf_camera *camera, const rlf_pose *T_picture_world,
                       const rlf_snapshot *snapshot)
 {
@@ -47,22 +63,7 @@ void silhouette_place(silhouette *s, const rlf_camera *camera, const rlf_pose *T
             add_body(s, &rect, &range);
         }
     }
-}
-
-/* An edge in the next tile may reach into a tile with a body. */
-void silhouette_spread_tiles(silhouette *s)
-{
-    memcpy(s->tiles, s->own, (size_t)(s->columns * s->rows) * sizeof(*s->tiles));
-    for (int32_t i = 0; i < s->columns * s->rows; i++) {
-        const silhouette_tile *own = &s->own[i];
-        for (int32_t k = 0; k < 9 && is_used(own); k++) {
-            int32_t x = i % s->columns + k % 3 - 1;
-            int32_t y = i / s->columns + k / 3 - 1;
-            if (x >= 0 && y >= 0 && x < s->columns && y < s->rows) {
-                widen(&s->tiles[y * s->columns + x], own);
-            }
-        }
-    }
+    spread_tiles(s);
 }
 
 /* ---- jumps ---------------------------------------------------------------------------------- */

@@ -258,9 +258,18 @@ static bool has_bodies(const rlf_render_input *input)
            input->snapshot->body_count > 0;
 }
 
+static bool has_edges(const gl_compositor *c, const rlf_render_input *input)
+{
+    return has_bodies(input) && c->def.occlusion == RLF_OCCLUSION_SOFT;
+}
+
 static rlf_result update_real_depth(gl_compositor *c, const rlf_render_input *input)
 {
-    rlf_result result = real_depth_update(&c->real, input, 0, c->real.z.height);
+    silhouette *s = has_edges(c, input) ? &c->silhouette : NULL;
+    if (s != NULL) {
+        silhouette_place(s, &c->view.camera, &c->view.T_picture_world, input->snapshot);
+    }
+    rlf_result result = real_depth_update(&c->real, input, s, 0, c->real.z.height);
     gl_texture_upload_f32(&c->depth_texture, c->real.z.data, c->real.z.width, c->real.z.height);
     return result;
 }
@@ -271,7 +280,6 @@ static void update_silhouette(gl_compositor *c, const rlf_render_input *input)
     silhouette *s = &c->silhouette;
     int32_t width = s->cover.width;
     int32_t height = s->cover.height;
-    silhouette_place(s, &c->view.camera, &c->view.T_picture_world, input->snapshot);
     silhouette_update(s, &c->real.z, real_depth_known(&c->real), input->frame);
     gl_texture_upload_f32(&c->near_texture, s->near_z.data, width, height);
     gl_texture_upload_f32(&c->far_texture, s->far_z.data, width, height);
@@ -341,7 +349,7 @@ static rlf_result draw_backdrop(gl_compositor *c, const rlf_render_input *input)
         gl_backdrop_draw_grey(&c->backdrop, &c->depth_texture, has_range ? rig->depth_min_m : 0.5,
                               has_range ? rig->depth_max_m : 4.5);
     }
-    if (has_bodies(input) && c->def.occlusion == RLF_OCCLUSION_SOFT) {
+    if (has_edges(c, input)) {
         update_silhouette(c, input);
     }
     if (has_bodies(input) && has_shadows(c)) {

@@ -212,7 +212,8 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
     }
     if (input->frame->color.data == NULL || has_bodies) {
         const soft_rows rows = soft_needed_rows(s, input);
-        result = real_depth_update(&s->real, input, rows.begin, rows.end);
+        result = real_depth_update(&s->real, input, has_edges ? &s->silhouette : NULL, rows.begin,
+                                   rows.end);
     }
     if (result != RLF_OK) {
         return result;
@@ -232,7 +233,7 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
 static rlf_result draw_mesh(soft *s, const rlf_render_input *input)
 {
     if (input->frame->color.data == NULL) {
-        rlf_result result = real_depth_update(&s->real, input, 0, s->camera.height);
+        rlf_result result = real_depth_update(&s->real, input, NULL, 0, s->camera.height);
         if (result != RLF_OK) {
             return result;
         }
