@@ -128,33 +128,65 @@ void grid_ball_look(grid_job *job, const field_cell *seen, rlf_vec3 p)
     }
 }
 
-void grid_ball_look_tile(grid_job *job, const grid_tile *tile)
+/* The tile's pixel that shows p; the nearest one where p is beside the tile. */
+static void pixel_in_tile(const grid_job *job, const grid_tile *tile, rlf_vec3 p, int32_t at[2])
 {
     const rlf_grid *grid = job->query->grid;
     int32_t size = job->tiles->size, index = (int32_t)(tile - job->tiles->tiles);
     int32_t x0 = index % job->tiles->columns * size, y0 = index / job->tiles->columns * size;
-    rlf_vec3 seen = rlf_mad(job->centre, tile->velocity, -job->query->tau);
-    double closing = -rlf_dot(tile->normal, rlf_sub(job->v, tile->velocity));
-    double height = rlf_dot(tile->normal, seen) - tile->offset;
-    double gap = height - job->body->shape.shape.radius;
-    double time = gap > 0.0 && closing > 0.0 ? rlf_min(gap / closing, job->horizon) : 0.0;
-    rlf_vec3 foot = rlf_mad(seen, rlf_sub(job->v, tile->velocity), time);
-    foot = rlf_mad(foot, tile->normal, tile->offset - rlf_dot(tile->normal, foot));
     double u, v;
-    if (!(foot.z > 0.0) || !grid->project(grid->project_context, foot, &u, &v)) {
+    if (!(p.z > 0.0) || !grid->project(grid->project_context, p, &u, &v)) {
         u = x0 + 0.5 * size;
         v = y0 + 0.5 * size;
     }
-    int32_t x = (int32_t)rlf_clamp(u + 0.5, x0, rlf_min(x0 + size, grid->width) - 1.0);
-    int32_t y = (int32_t)rlf_clamp(v + 0.5, y0, rlf_min(y0 + size, grid->height) - 1.0);
-    field_cell cell;
-    for (int32_t k = 0; k < 4; k++) { /* or a neighbour towards the tile's middle */
-        if (grid_cell_read(grid, job->sheet, x, y, &cell)) {
-            grid_ball_look(job, &cell, rlf_mad(cell.point, cell.velocity, job->query->tau));
-            return;
+    at[0] = (int32_t)rlf_clamp(u + 0.5, x0, rlf_min(x0 + size, grid->width) - 1.0);
+    at[1] = (int32_t)rlf_clamp(v + 0.5, y0, rlf_min(y0 + size, grid->height) - 1.0);
+}
+
+/* The pixel that shows p or, where it has no depth, a neighbour towards the tile's middle. */
+static bool read_in_tile(const grid_job *job, const grid_tile *tile, rlf_vec3 p, field_cell *out)
+{
+    int32_t half = job->tiles->size / 2, at[2];
+    pixel_in_tile(job, tile, p, at);
+    for (int32_t k = 0; k < 4; k++) {
+        if (grid_cell_read(job->query->grid, job->sheet, at[0], at[1], out)) {
+            return true;
         }
-        x += x < x0 + size / 2 ? 1 : -1;
-        y += y < y0 + size / 2 ? 1 : -1;
+        at[0] += at[0] % (2 * half) < half ? 1 : -1;
+        at[1] += at[1] % (2 * half) < half ? 1 : -1;
+    }
+    return false;
+}
+
+/* The place under the ball's centre, as the sheet sees it, on the plane through p at the time when
+ * the ball comes to it; `outward` points to the ball. */
+static rlf_vec3 foot_on(const grid_job *job, const grid_tile *tile, rlf_vec3 outward, rlf_vec3 p)
+{
+    rlf_vec3 seen = rlf_mad(job->centre, tile->velocity, -job->query->tau);
+    rlf_vec3 v = rlf_sub(job->v, tile->velocity);
+    double closing = -rlf_dot(outward, v);
+    double gap = rlf_dot(outward, rlf_sub(seen, p)) - job->body->shape.shape.radius;
+    double time = gap > 0.0 && closing > 0.0 ? rlf_min(gap / closing, job->horizon) : 0.0;
+    rlf_vec3 foot = rlf_mad(seen, v, time);
+    return rlf_mad(foot, outward, -rlf_dot(outward, rlf_sub(foot, p)));
+}
+
+void grid_ball_look_tile(grid_job *job, const grid_tile *tile)
+{
+    rlf_vec3 front = rlf_scale(tile->normal, tile->offset), n = tile->normal;
+    rlf_vec3 seen = rlf_mad(job->centre, tile->velocity, -job->query->tau);
+    field_cell cell;
+    if (read_in_tile(job, tile, foot_on(job, tile, n, front), &cell)) {
+        grid_ball_look(job, &cell, rlf_mad(cell.point, cell.velocity, job->query->tau));
+    }
+    if (rlf_dot(n, seen) > tile->offset || !read_in_tile(job, tile, seen, &cell) ||
+        cell.thickness >= FIELD_ENDLESS) {
+        return;
+    }
+    /* another pixel shows the face before the place where the ball comes to the back */
+    rlf_vec3 back = foot_on(job, tile, rlf_neg(n), back_of(job, &cell, cell.point));
+    if (read_in_tile(job, tile, back, &cell)) {
+        grid_ball_look(job, &cell, rlf_mad(cell.point, cell.velocity, job->query->tau));
     }
 }
 

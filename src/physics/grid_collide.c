@@ -43,7 +43,7 @@ static void cast_point(grid_job *job, rlf_vec3 anchor, double rounding, rlf_vec3
     field_hit found;
     if (job->hit_count == GRID_HITS_MAX ||
         !grid_field_cast(query->grid, job->sheet, rlf_sub(q, shift), rlf_scale(v, job->horizon),
-                         GRID_MARGIN, job->home, &found)) {
+                         GRID_MARGIN, &job->home, &found)) {
         return;
     }
     grid_hit *hit = &job->hits[job->hit_count++];
@@ -163,8 +163,8 @@ static bool find_home(grid_job *job, uint8_t *home)
     } else if (state != FIELD_INSIDE && !(state == FIELD_BEHIND && *home == FIELD_INSIDE)) {
         *home = (uint8_t)state;
     }
-    job->home = (field_state)*home;
-    return state == FIELD_INSIDE || job->home == FIELD_INSIDE;
+    job->home = (field_home){(field_state)*home, seen, true};
+    return state == FIELD_INSIDE || *home == FIELD_INSIDE;
 }
 
 static void collide_sheet(grid_job *job, const grid_tiles *tiles, uint8_t *home)
@@ -457,34 +457,4 @@ void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
         body->surface_clear = 0.0;
     }
     grid_keep_impulses(body, old, old_count);
-}
-
-void grid_guard_centre(const grid_query *query, phys_body *body, rlf_vec3 before)
-{
-    const rlf_grid *grid = query->grid;
-    const rlf_grid_sheet *sheets[2] = {&grid->foreground, &grid->background};
-    rlf_vec3 from = rlf_transform(&query->T_grid_world, before);
-    rlf_vec3 to = rlf_transform(&query->T_grid_world, body->x);
-    rlf_vec3 flow = query->is_moving ? body->surface_flow : rlf_vec3_make(0, 0, 0);
-    for (int32_t i = 0; i < 2; i++, flow = rlf_vec3_make(0, 0, 0)) {
-        field_cell cell;
-        field_hit hit;
-        /* the way as the moving sheet sees it */
-        rlf_vec3 start = rlf_mad(from, flow, -query->tau);
-        rlf_vec3 path = rlf_mad(rlf_sub(to, from), flow, -query->step);
-        if (sheets[i]->depth == NULL || sheets[i]->normal_x == NULL ||
-            grid_field_at(grid, sheets[i], start, &cell) == FIELD_INSIDE ||
-            !grid_field_cast(grid, sheets[i], start, path, 0.0, FIELD_NONE, &hit)) {
-            continue;
-        }
-        rlf_vec3 n = rlf_rotate(grid->T_world_grid.q, hit.normal);
-        rlf_vec3 moved = rlf_rotate(grid->T_world_grid.q, rlf_scale(flow, query->step));
-        double approach = rlf_dot(n, rlf_mad(body->v, moved, -1.0 / query->step));
-        if (approach >= 0.0) {
-            continue; /* it leaves through that face: held back it would hang there for ever */
-        }
-        body->x = rlf_add(before, moved);
-        body->v = rlf_mad(body->v, n, -approach);
-        return;
-    }
 }

@@ -29,9 +29,4 @@ bool grid_collide_prepare(const grid_query *query, const phys_body *body);
  * that live on are kept. */
 void grid_collide(const grid_query *query, phys_body *body, int32_t body_index);
 
-/* Keeps the centre out of the surface: if the way from `before` enters a sheet through a face that
- * the body moves into, it goes back, along with the sheet, and loses the speed into it. The last
- * defence against tunnelling. */
-void grid_guard_centre(const grid_query *query, phys_body *body, rlf_vec3 before);
-
 #endif

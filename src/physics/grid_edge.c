@@ -3,8 +3,7 @@
 
 #define WINDOW_PX 3
 
-/* Two pixels side by side differ by more than this only across an outline, metres. */
-static double step_at(double z)
+double grid_edge_step(double z)
 {
     return 0.03 + 0.02 * z;
 }
@@ -24,7 +23,7 @@ double grid_edge_end(const rlf_grid *grid, const rlf_grid_sheet *sheet, const fi
     rlf_vec3 ray = rlf_vec3_make(grid->ray_x[i], grid->ray_y[i], 1.0);
     double slope = rlf_dot(cell->normal, ray);
     double expected = slope < -0.02 ? rlf_dot(cell->normal, cell->point) / slope : z;
-    if (other > rlf_max(z, expected) + step_at(z)) {
+    if (other > rlf_max(z, expected) + grid_edge_step(z)) {
         return rlf_min(other, z + cell->thickness);
     }
     return 0.0;
@@ -66,10 +65,10 @@ static int32_t run_length(const rlf_grid *grid, const rlf_grid_sheet *sheet, con
         }
         int32_t i = y * grid->width + x;
         double other = sheet->depth[i];
-        if ((sheet->mask != NULL && sheet->mask[i] == 0) || other > z + step_at(z)) {
+        if ((sheet->mask != NULL && sheet->mask[i] == 0) || other > z + grid_edge_step(z)) {
             return k;
         }
-        if (other > 0.0 && other < z - step_at(z)) {
+        if (other > 0.0 && other < z - grid_edge_step(z)) {
             return limit; /* something stands in front: it goes on behind */
         }
         z = other > 0.0 ? other : z;

@@ -5,6 +5,9 @@
 
 #include "physics/grid_field.h"
 
+/* Two pixels side by side differ by more than this only across an outline, metres. */
+double grid_edge_step(double z);
+
 /* z at which the side wall between `cell` and the pixel at (x, y) ends: that pixel is off the sheet
  * or farther than the cell's own plane explains. 0 when there is no wall. */
 double grid_edge_end(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,

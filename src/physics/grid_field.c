@@ -45,7 +45,8 @@ bool grid_cell_read(const rlf_grid *grid, const rlf_grid_sheet *sheet, int32_t x
     }
     double thickness = sheet->thickness != NULL ? sheet->thickness[i] : sheet->default_thickness;
     bool is_endless = sheet->thickness == NULL && !(thickness > 0.0);
-    out->thickness = is_endless ? FIELD_ENDLESS : rlf_max(thickness, THICKNESS_MIN);
+    bool is_measured = thickness > THICKNESS_MIN && thickness < FARTHEST;
+    out->thickness = is_endless ? FIELD_ENDLESS : is_measured ? thickness : THICKNESS_MIN;
     return true;
 }
 
@@ -196,8 +197,33 @@ rlf_vec3 grid_back_normal(const rlf_grid *grid, const rlf_grid_sheet *sheet, con
     return rlf_dot(n, cell->point) < 0.0 ? rlf_neg(n) : n;
 }
 
+/* A point more than half way into a thin solid is no nearer to its own side than to the other. */
+static bool looks_home(const field_home *home, rlf_vec3 q, rlf_vec3 direction)
+{
+    return home->side != FIELD_NONE || !home->has_centre ||
+           rlf_dot(direction, rlf_sub(home->centre, q)) > 0.0;
+}
+
+/* How far from q the solid ends between `inside` and `outside`, metres along `direction`: to a
+ * fraction of a pixel. */
+static double end_between(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
+                          rlf_vec3 direction, double inside, double outside)
+{
+    const int32_t HALVINGS = 4;
+    for (int32_t i = 0; i < HALVINGS; i++) {
+        field_cell cell;
+        double middle = 0.5 * (inside + outside);
+        bool is_in =
+            grid_field_at(grid, sheet, rlf_mad(q, direction, middle), &cell) == FIELD_INSIDE;
+        inside = is_in ? middle : inside;
+        outside = is_in ? outside : middle;
+    }
+    return 0.5 * (inside + outside);
+}
+
 bool grid_field_side(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
-                     int32_t radius_px, rlf_vec3 *out_normal, double *out_distance)
+                     const field_home *home, int32_t radius_px, rlf_vec3 *out_normal,
+                     double *out_distance)
 {
     double pixel = q.z * grid->pixel_angle;
     double best = (radius_px + 0.5) * pixel;
@@ -207,19 +233,23 @@ bool grid_field_side(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3
         double angle = k * (RLF_PI / 4.0);
         rlf_vec3 direction = rlf_vec3_make(rlf_cos(angle), rlf_sin(angle), 0.0);
         field_cell inside = {0};
-        for (int32_t r = 0; r <= radius_px && r * pixel < best; r++) {
+        bool is_sought = looks_home(home, q, direction);
+        for (int32_t r = 0; is_sought && r <= radius_px && (r - 1) * pixel < best; r++) {
             field_cell cell;
             field_state state = grid_field_at(grid, sheet, rlf_mad(q, direction, r * pixel), &cell);
-            if (state == FIELD_INSIDE) {
-                inside = cell;
-            } else if (r > 0) {
-                best = r * pixel;
+            is_sought = r == 0 || state == FIELD_INSIDE;
+            inside = state == FIELD_INSIDE ? cell : inside;
+            double end = best;
+            if (!is_sought) {
+                end = end_between(grid, sheet, q, direction, (r - 1) * pixel, r * pixel);
+            }
+            if (end < best) {
+                best = end;
                 last = inside;
                 rlf_vec3 ray = rlf_normalize(q);
                 *out_normal = rlf_normalize(rlf_mad(direction, ray, -rlf_dot(direction, ray)));
                 *out_distance = best;
                 is_found = true;
-                break;
             }
         }
     }
@@ -269,25 +299,26 @@ static void hit_back(const rlf_grid *grid, const rlf_grid_sheet *sheet, const fi
 
 /* Through the nearest of front, back and side, or the home's face and side. */
 static void leave_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
-                        const field_cell *cell, field_state home, field_hit *hit)
+                        const field_cell *cell, const field_home *home, field_hit *hit)
 {
     hit_front(grid, sheet, cell, hit);
     hit->separation = rlf_dot(hit->normal, rlf_sub(q, hit->point));
-    if (cell->thickness < FIELD_ENDLESS && home != FIELD_FRONT && home != FIELD_INSIDE) {
+    if (cell->thickness < FIELD_ENDLESS && home->side != FIELD_FRONT &&
+        home->side != FIELD_INSIDE) {
         field_hit back;
         hit_back(grid, sheet, cell, &back);
         back.separation = rlf_dot(back.normal, rlf_sub(q, back.point));
-        if (home == FIELD_BEHIND || back.separation > hit->separation) {
+        if (home->side == FIELD_BEHIND || back.separation > hit->separation) {
             *hit = back;
         }
     }
     const double SHALLOW = 0.01;
-    if (hit->separation < -SHALLOW && home != FIELD_INSIDE) {
+    if (hit->separation < -SHALLOW && home->side != FIELD_INSIDE) {
         double pixel = q.z * grid->pixel_angle;
         int32_t radius = (int32_t)rlf_min(-hit->separation / pixel, 24.0);
         rlf_vec3 normal;
         double distance;
-        if (grid_field_side(grid, sheet, q, radius, &normal, &distance)) {
+        if (grid_field_side(grid, sheet, q, home, radius, &normal, &distance)) {
             set_hit(hit, cell, rlf_mad(q, normal, distance), normal);
             hit->separation = -distance;
         }
@@ -296,7 +327,8 @@ static void leave_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_v
 
 /* The path entered the solid at p: through which face? `step` is the last stretch. */
 static void enter_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 p,
-                        rlf_vec3 step, field_state from, const field_cell *cell, field_hit *hit)
+                        rlf_vec3 step, field_state from, const field_cell *cell,
+                        const field_home *home, field_hit *hit)
 {
     const double SLACK = 0.01;
     field_hit back = {0};
@@ -315,7 +347,7 @@ static void enter_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_v
     }
     rlf_vec3 normal;
     double distance;
-    if (grid_field_side(grid, sheet, p, 4, &normal, &distance)) {
+    if (grid_field_side(grid, sheet, p, home, 4, &normal, &distance)) {
         set_hit(hit, cell, rlf_mad(p, normal, distance), normal);
     }
 }
@@ -350,12 +382,12 @@ static bool is_well_before(const rlf_grid *grid, const rlf_grid_sheet *sheet, rl
 }
 
 bool grid_field_cast(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q, rlf_vec3 path,
-                     double margin, field_state home, field_hit *out)
+                     double margin, const field_home *home, field_hit *out)
 {
     field_cell cell;
     bool is_before = is_well_before(grid, sheet, q, 2.0 * margin);
     field_state state = is_before ? FIELD_FRONT : grid_field_at(grid, sheet, q, &cell);
-    if (state == FIELD_INSIDE || (state == FIELD_BEHIND && home == FIELD_INSIDE)) {
+    if (state == FIELD_INSIDE || (state == FIELD_BEHIND && home->side == FIELD_INSIDE)) {
         leave_solid(grid, sheet, q, &cell, home, out);
         return true;
     }
@@ -384,7 +416,7 @@ bool grid_field_cast(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3
         }
         field_state next = grid_field_at(grid, sheet, p, &cell);
         if (next == FIELD_INSIDE || is_through(&cell, state, next, p.z - step.z)) {
-            enter_solid(grid, sheet, p, step, state, &cell, out);
+            enter_solid(grid, sheet, p, step, state, &cell, home, out);
             out->separation = rlf_dot(out->normal, rlf_sub(q, out->point));
             return true;
         }

@@ -35,6 +35,13 @@ typedef struct field_hit {
     int32_t label;
 } field_hit;
 
+/* Where the body is that a point is of. */
+typedef struct field_home {
+    field_state side; /* of the sheet that it belongs to; FIELD_INSIDE: the solid swept over it */
+    rlf_vec3 centre;  /* while side is FIELD_NONE and has_centre: there is nothing on its ray */
+    bool has_centre;
+} field_home;
+
 /* Reads pixel (x, y); false when the sheet has no surface there. */
 bool grid_cell_read(const rlf_grid *grid, const rlf_grid_sheet *sheet, int32_t x, int32_t y,
                     field_cell *out);
@@ -45,17 +52,18 @@ field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf
 
 /* First contact of a point that moves from q by `path`: within `margin` of the surface at q, inside
  * the solid, or entering it on the way. The separation is that of q. False when it stays free.
- * `home` is the side that the point's body belongs to: a point inside a solid leaves it there, not
- * through its other face; FIELD_NONE: by the shortest way; FIELD_INSIDE: the solid swept over it,
- * so that it leaves through the front even from behind. */
+ * A point inside a solid leaves it towards its body's home, not through the other face: on the
+ * home's side; from FIELD_NONE by the shortest way, of the sides of a thin solid by one that looks
+ * to the body's centre; from FIELD_INSIDE through the front even from behind. */
 bool grid_field_cast(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q, rlf_vec3 path,
-                     double margin, field_state home, field_hit *out);
+                     double margin, const field_home *home, field_hit *out);
 
-/* Outline of the solid around q, as seen in the image: unit direction out of the solid, square to
- * the view ray, and the distance to the free side, metres. False when none is within `radius_px`.
- */
+/* Outline of the solid around q, as seen in the image, on the sides that look to the home's centre
+ * if it has one: unit direction out of the solid, square to the view ray, and the distance to the
+ * free side, metres. False when none is within `radius_px`. */
 bool grid_field_side(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
-                     int32_t radius_px, rlf_vec3 *out_normal, double *out_distance);
+                     const field_home *home, int32_t radius_px, rlf_vec3 *out_normal,
+                     double *out_distance);
 
 /* Which way the solid goes from the cell's point, and how far per metre of thickness: along the
  * ray, on which thickness was found; but where it is a guess, square to the face. What is behind

@@ -9,6 +9,7 @@
 
 #define SAMPLES_PER_SIDE 20
 #define ROUNDING 1e-6    /* m, far more than distances are rounded by */
+#define ASIDE 0.3        /* cosine between a side of the body and a face that it pushes */
 #define FLAT_ON_WALL 0.9 /* cosine between a body's face and the side wall on which it lies */
 
 static rlf_vec3 to_body(const grid_job *job, rlf_vec3 p)
@@ -70,10 +71,17 @@ static void look_at_interior(grid_job *job, const field_cell *cell, rlf_vec3 p)
     if (distance > near) {
         return;
     }
-    grid_hit hit = {.point = p, .velocity = cell->velocity, .label = cell->label};
-    /* A feature that pokes into a side of the body pushes that side, but never into the solid. */
     double agreement = rlf_dot(outward, cell->normal);
-    hit.normal = agreement > 0.0 && agreement < 0.3 ? outward : cell->normal;
+    if (distance > 0.0 && agreement < -ASIDE) {
+        return; /* it is beside the face, below its plane */
+    }
+    grid_hit hit = {.point = p, .velocity = cell->velocity, .label = cell->label};
+    hit.normal = cell->normal;
+    if (agreement > -ASIDE && agreement < ASIDE) {
+        /* A feature that pokes into a side of the body pushes that side, never into the solid. */
+        rlf_vec3 aside = rlf_mad(outward, cell->normal, rlf_max(0.0, -agreement));
+        hit.normal = rlf_normalize(aside);
+    }
     hit.facing = cell->normal;
     hit.anchor = rlf_mad(local, gradient, -distance);
     rlf_vec3 anchor = rlf_mat3_mul_vec(&job->R_grid_body, hit.anchor);
@@ -94,18 +102,19 @@ static bool may_end(const grid_job *job, double z, int32_t x, int32_t y)
     return (sheet->mask != NULL && sheet->mask[i] == 0) || (double)sheet->depth[i] > z;
 }
 
+static const int32_t NEIGHBOURS[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+
 /* How far the side wall at this pixel goes inward, metres of thickness, or 0 when it is no outline.
  * Where the solid is a guess it ends where the camera sees through it. */
-static double wall_depth(const grid_job *job, const field_cell *cell, int32_t stride)
+static double wall_depth(const grid_job *job, const field_cell *cell)
 {
-    const int32_t OFFSETS[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
     const int32_t STEPS = 4;
     const rlf_grid *grid = job->query->grid;
     const rlf_grid_sheet *sheet = job->sheet;
     double end = 0.0;
     for (int32_t k = 0; k < 4; k++) {
-        int32_t x = cell->x + OFFSETS[k][0] * stride;
-        int32_t y = cell->y + OFFSETS[k][1] * stride;
+        int32_t x = cell->x + NEIGHBOURS[k][0];
+        int32_t y = cell->y + NEIGHBOURS[k][1];
         if (may_end(job, cell->point.z, x, y)) {
             end = rlf_max(end, grid_edge_end(grid, sheet, cell, x, y));
         }
@@ -221,6 +230,52 @@ static void look_at_outline(grid_job *job, const field_cell *cell, rlf_vec3 shif
     touch_line(job, &line, rlf_min(depth + inner, line.deep), FLAT_ON_WALL);
 }
 
+/* The sheet's last pixel from `cell` to the one `stride` on in a direction, beyond which it ends:
+ * the wall stands there, not at the pixel that happens to be looked at. False when it goes on. */
+static bool find_outline(const grid_job *job, const field_cell *cell, const int32_t direction[2],
+                         int32_t stride, field_cell *out)
+{
+    const rlf_grid *grid = job->query->grid;
+    int32_t x = cell->x + direction[0] * stride, y = cell->y + direction[1] * stride;
+    *out = *cell;
+    if (!may_end(job, cell->point.z, x, y)) {
+        return false;
+    }
+    for (int32_t i = 1; i <= stride; i++) {
+        x = cell->x + direction[0] * i;
+        y = cell->y + direction[1] * i;
+        field_cell next;
+        if (grid_edge_end(grid, job->sheet, out, x, y) > 0.0) {
+            return true;
+        }
+        if (grid_cell_read(grid, job->sheet, x, y, &next)) {
+            *out = next;
+        }
+    }
+    return false;
+}
+
+/* The outline's pixels between this one and the next ones that are looked at. */
+static void look_around(grid_job *job, const field_cell *cell, int32_t stride)
+{
+    bool is_done = false; /* with the pixel itself */
+    for (int32_t k = 0; k < 4; k++) {
+        field_cell end;
+        if (!find_outline(job, cell, NEIGHBOURS[k], stride, &end)) {
+            continue;
+        }
+        bool is_own = end.x == cell->x && end.y == cell->y;
+        double deep = is_own && is_done ? 0.0 : wall_depth(job, &end);
+        rlf_vec3 shift = rlf_scale(end.velocity, job->query->tau);
+        if (deep > 0.0 && job->is_ball) {
+            grid_ball_look_outline(job, &end, shift, deep);
+        } else if (deep > 0.0) {
+            look_at_outline(job, &end, shift, deep);
+        }
+        is_done = is_done || is_own;
+    }
+}
+
 bool grid_footprint(const rlf_grid *grid, rlf_vec3 centre, double reach, int32_t rect[4],
                     int32_t *stride)
 {
@@ -282,14 +337,9 @@ static void look_at_pixel(grid_job *job, int32_t x, int32_t y, int32_t stride, f
         if (!is_too_far(job, &cell, rlf_length(rlf_sub(front, job->centre)), margin)) {
             look_at_interior(job, &cell, front);
         }
-        if (is_too_far(job, &cell, sqrt(distance2), GRID_MARGIN + ROUNDING)) {
-            return; /* its side wall, too */
-        }
-        double deep = wall_depth(job, &cell, stride);
-        if (deep > 0.0 && job->is_ball) {
-            grid_ball_look_outline(job, &cell, shift, deep);
-        } else if (deep > 0.0) {
-            look_at_outline(job, &cell, shift, deep);
+        double gap = (stride - 1) * cell.point.z * grid->pixel_angle; /* to the outline */
+        if (!is_too_far(job, &cell, sqrt(distance2), 2.0 * gap + GRID_MARGIN + ROUNDING)) {
+            look_around(job, &cell, stride);
         }
     }
 }
@@ -355,12 +405,13 @@ static void look_at_batch(grid_job *job, const grid_tile *tile, grid_pixels *pix
     pixels->count = 0;
 }
 
-/* The tile's pixels within `rect` that lie on the rectangle's pattern of every stride-th, in blocks
- * that are within reach. */
+/* The tile's pixels within `rect` that lie on the rectangle's pattern of every stride-th, or a
+ * finer one, so that nothing narrow is between them, in blocks that are within reach. */
 static void look_at_rough(grid_job *job, const grid_tile *tile, const int32_t rect[4],
-                          int32_t stride, const int32_t corner[2], flow_sum *flow)
+                          const int32_t corner[2], flow_sum *flow)
 {
     int32_t size = job->tiles->size, shift = job->tiles->block_shift;
+    int32_t stride = tile->narrow < job->stride ? tile->narrow : job->stride;
     int32_t begin[2], end[2];
     grid_pixels pixels;
     uint32_t near = ~(uint32_t)0;
@@ -438,7 +489,7 @@ void grid_scan_footprint(grid_job *job)
             if (tile->kind == TILE_FLAT) {
                 look_at_flat(job, tile, &flow);
             } else if (!is_out_of_reach(job, tile, job->reach)) {
-                look_at_rough(job, tile, rect, stride, corner, &flow);
+                look_at_rough(job, tile, rect, corner, &flow);
             }
         }
     }

@@ -38,7 +38,7 @@ typedef struct grid_job {
     const rlf_grid_sheet *sheet;
     const grid_tiles *tiles; /* of the sheet */
     const phys_body *body;
-    field_state home;      /* side of the sheet that the body belongs to */
+    field_home home;       /* its centre as the sheet sees it */
     rlf_vec3 centre, v, w; /* of the body */
     double speed, spin;    /* lengths of v and w */
     rlf_mat3 R_grid_body, R_body_grid;

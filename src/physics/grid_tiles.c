@@ -1,5 +1,6 @@
 /* Making tiles. */
 #include "physics/grid_tiles.h"
+#include "physics/grid_edge.h"
 #include "physics/grid_field.h"
 
 #define SIZE_MIN 16
@@ -7,6 +8,8 @@
 #define SAMPLES_PER_SIDE 4 /* pixels of a tile that give its plane */
 /* Beyond the tile's own pixels: an outline is told from the pixel beside it. */
 #define RIM_PX 2
+/* Beyond the tile's own pixels, too: so far the width of what is narrow is followed. */
+#define NARROW_PX 8
 /* What stays within this of the plane is noise, m; see add_bumps in grid_collide.c. */
 #define EVEN 0.008
 /* Far more than a float of some metres is rounded by: metres, and a share. */
@@ -35,6 +38,11 @@ void grid_tiles_start(grid_tiles *tiles, const rlf_grid *grid, const rlf_grid_sh
 static int32_t least(int32_t a, int32_t b)
 {
     return a < b ? a : b;
+}
+
+static int32_t most(int32_t a, int32_t b)
+{
+    return a > b ? a : b;
 }
 
 /* Counts the pixels that have a surface and finds the box about them. */
@@ -225,13 +233,56 @@ static bool is_even(const grid_tile *tile, const rlf_grid *grid, const rlf_grid_
     return true;
 }
 
+/* Whether the sheet's surface at pixel i ends towards pixel `next`: at its rim or a step. */
+static bool ends_towards(const rlf_grid_sheet *sheet, int32_t i, int32_t next)
+{
+    double z = sheet->depth[i];
+    return (sheet->mask != NULL && sheet->mask[next] == 0) ||
+           (double)sheet->depth[next] > z + grid_edge_step(z);
+}
+
+/* Length of the shortest run of pixels with an end on both sides, of those on a line of `count`
+ * pixels from `begin`, `step` apart; `shortest` when there is no shorter one. A single pixel is
+ * noise. */
+static int32_t shortest_run(const rlf_grid_sheet *sheet, int32_t begin, int32_t step, int32_t count,
+                            int32_t shortest)
+{
+    int32_t length = 0; /* 0: not after an end */
+    for (int32_t k = 1; k + 1 < count; k++) {
+        int32_t i = begin + k * step;
+        bool is_there = sheet->depth[i] > 0.0f && (sheet->mask == NULL || sheet->mask[i] != 0);
+        bool is_begun = is_there && (length > 0 || ends_towards(sheet, i, i - step));
+        length = is_begun ? length + 1 : 0;
+        if (length > 0 && ends_towards(sheet, i, i + step)) {
+            shortest = length > 1 && length < shortest ? length : shortest;
+            length = 0;
+        }
+    }
+    return shortest;
+}
+
+/* Pixels across the narrowest thing in the tile, along rows or columns. */
+static int32_t narrowest(const rlf_grid *grid, const rlf_grid_sheet *sheet, const int32_t own[4])
+{
+    int32_t x0 = most(own[0] - NARROW_PX, 0), x1 = least(own[2] + NARROW_PX, grid->width);
+    int32_t y0 = most(own[1] - NARROW_PX, 0), y1 = least(own[3] + NARROW_PX, grid->height);
+    int32_t shortest = most(x1 - x0, y1 - y0);
+    for (int32_t y = own[1]; y < own[3]; y++) {
+        shortest = shortest_run(sheet, y * grid->width + x0, 1, x1 - x0, shortest);
+    }
+    for (int32_t x = own[0]; x < own[2]; x++) {
+        shortest = shortest_run(sheet, y0 * grid->width + x, grid->width, y1 - y0, shortest);
+    }
+    return shortest;
+}
+
 static void make_tile(grid_tile *tile, const grid_tiles *tiles, const rlf_grid *grid,
                       const int32_t at[2])
 {
     int32_t x = at[0] * tiles->size, y = at[1] * tiles->size;
     const int32_t own[4] = {x, y, least(x + tiles->size, grid->width),
                             least(y + tiles->size, grid->height)};
-    const int32_t wide[4] = {x < RIM_PX ? 0 : x - RIM_PX, y < RIM_PX ? 0 : y - RIM_PX,
+    const int32_t wide[4] = {most(x - RIM_PX, 0), most(y - RIM_PX, 0),
                              least(own[2] + RIM_PX, grid->width),
                              least(own[3] + RIM_PX, grid->height)};
     const uint8_t *mask = tiles->sheet->mask;
@@ -247,6 +298,7 @@ static void make_tile(grid_tile *tile, const grid_tiles *tiles, const rlf_grid *
         bool is_flat =
             fit(tile, grid, tiles->sheet, own) && is_even(tile, grid, tiles->sheet, wide);
         tile->kind = is_flat ? TILE_FLAT : TILE_ROUGH;
+        tile->narrow = is_flat ? tiles->size : narrowest(grid, tiles->sheet, own);
     }
 }
 

@@ -24,9 +24,10 @@ typedef struct grid_blocks {
 typedef struct grid_tile {
     uint64_t stamp; /* of the surface it was made for */
     tile_kind kind;
-    int32_t count;   /* its pixels that have a surface */
-    double near_z;   /* least depth, metres */
-    double speed;    /* no pixel is faster, m/s */
+    int32_t count;  /* its pixels that have a surface */
+    double near_z;  /* least depth, metres */
+    int32_t narrow; /* pixels across what is narrowest in a rough one, as far as it is seen in it */
+    double speed;   /* no pixel is faster, m/s */
     bool is_endless; /* its solid never ends ... */
     rlf_aabb solid;  /* ... or the box about that */
     grid_blocks blocks;

@@ -1,6 +1,6 @@
 /* Islands, and what happens to one in a substep. No two islands share a body that moves, so they
  * may be worked on in any order. */
-#include "physics/grid_collide.h"
+#include "physics/grid_guard.h"
 #include "physics/integrate.h"
 #include "physics/solver.h"
 
@@ -194,7 +194,7 @@ static void move_body(const rlf_world *world, phys_body *body, const grid_query 
     rlf_vec3 moved = rlf_sub(body->x, before);
     if (query != NULL && rlf_length(moved) > 0.1 * body->shape.inner_radius &&
         !phys_body_is_clear(body)) {
-        grid_guard_centre(query, body, before);
+        grid_guard_centre(query, body, (int32_t)(body - world->bodies), before);
     }
 }
 

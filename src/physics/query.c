@@ -65,13 +65,14 @@ static void cast_at_sheet(const rlf_grid *grid, rlf_contact_other other, const r
         set_surface_hit(grid, other, &inside, 0.0, hit);
         return;
     }
+    const field_home nowhere = {.side = FIELD_NONE};
     double t = 0.0;
     for (int32_t i = 0; i < PIECES_MAX && t < hit->distance; i++) {
         rlf_vec3 q = rlf_mad(ray[0], ray[1], t);
         double piece = rlf_max(rlf_max(q.z, 0.1) * grid->pixel_angle * PIECE_PX, 0.001);
         piece = rlf_min(piece, hit->distance - t);
         field_hit found;
-        if (grid_field_cast(grid, sheet, q, rlf_scale(ray[1], piece), 0.0, FIELD_NONE, &found)) {
+        if (grid_field_cast(grid, sheet, q, rlf_scale(ray[1], piece), 0.0, &nowhere, &found)) {
             double slope = rlf_dot(found.normal, ray[1]);
             double into = slope < -1e-6 ? -found.separation / slope : 0.0;
             t += rlf_clamp(into, 0.0, piece);

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "relief/world.h"
+#include "physics/grid_field.h"
 
 #include "grid_shared.h"
 
@@ -183,6 +183,27 @@ static void bad_numbers_in_the_surface(void **state)
     }
 }
 
+/* An endless way along an axis that it does not go would be no number. */
+static void bad_thickness_is_as_thin_as_can_be(void **state)
+{
+    (void)state;
+    const float bad[5] = {NAN, INFINITY, -INFINITY, 1e30f, -1.0f};
+    grid_fixture_set_slab(fixture, grid_wall(2), rlf_vec3_make(0, 0, 2), rlf_vec3_make(0.4, 0.4, 0),
+                          0.05, rlf_vec3_make(0, 0, 0));
+    const field_home nowhere = {.side = FIELD_NONE};
+    for (int k = 0; k < 5; k++) {
+        for (int i = 0; i < GRID_W * GRID_H; i++) {
+            fixture->planes[13][i] = bad[k];
+        }
+        field_hit hit;
+        rlf_vec3 from = {0.01, 0.02, 2.1}, path = {0, 0, -0.2};
+        assert_true(grid_field_cast(&fixture->grid, &fixture->grid.foreground, from, path, 0.0,
+                                    &nowhere, &hit));
+        assert_true(rlf_vec3_is_finite(hit.point) && rlf_vec3_is_finite(hit.normal));
+        assert_true(fabs(hit.point.z - 2.01) < 1e-6 && hit.normal.z > 0.999);
+    }
+}
+
 /* A hand rises at 0.5 m/s and only every n-th frame arrives; its speed is what two of them show.
  * The cube stays on it. */
 static void hand_lifts_through_lost_frames(void **state)
@@ -260,6 +281,7 @@ int main(void)
         cmocka_unit_test(stack_added_from_above),
         cmocka_unit_test(surface_jumps_a_metre),
         cmocka_unit_test(bad_numbers_in_the_surface),
+        cmocka_unit_test(bad_thickness_is_as_thin_as_can_be),
         cmocka_unit_test(hand_lifts_through_lost_frames),
         cmocka_unit_test(rolling_resistance_slows_a_ball),
     };
