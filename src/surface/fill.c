@@ -7,9 +7,11 @@
  * near ones more, for the side that it belongs to: that averages the raggedness along the edge. The
  * depth is that side's plane, least squares in depth, which is straight enough within two pixels,
  * or the background's own where that goes on there. A gap between two near ends that is wider than
- * a driver's band shows the background in its middle. The outermost pixels, which drivers' filters
- * leave empty, go on as the two inside of them. A hole about as wide as the widest that is filled
- * is filled in some rows and not in others: what is left of it then is closed. */
+ * a driver's band shows the background in its middle; one between two far ends may hide a thin
+ * thing that is expected there (past_lost.c). The outermost pixels, which drivers' filters leave
+ * empty, go on as the two inside of them. A hole about as wide as the widest that is filled is
+ * filled in some rows and not in others: what is left of it then is closed. */
+#include "surface/past.h"
 #include "surface/steps.h"
 #include "surface/window.h"
 
@@ -82,6 +84,7 @@ typedef struct fill_queue {
     int32_t count;
     int32_t x[RLF_BATCH], y[RLF_BATCH];
     rlf_gap_ends ends;
+    float lost[RLF_BATCH]; /* depth of a thing that the gap hides, 0 = none */
     rlf_windows depth;
 } fill_queue;
 
@@ -97,7 +100,8 @@ static void fill_batch(const fill_job *job, fill_queue *q)
         bool behind = is_slit(job, x, y, &q->ends, k) ||
                       (kind[k] == RLF_FILL_FAR &&
                        rlf_kernel_abs(depth_behind(job, x, y) - z) < MOST_CHANGE * z);
-        job->out[i] = behind ? show_behind(job, x, y) : z;
+        bool lost = q->lost[k] > 0.0f;
+        job->out[i] = lost ? q->lost[k] : behind ? show_behind(job, x, y) : z;
         job->reason[i] = RLF_REASON_FILLED;
     }
     q->count = 0;
@@ -117,6 +121,10 @@ static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps
     q->ends.after[lane] = at[(ptrdiff_t)gaps->to_after[k] * step];
     q->ends.to_before[lane] = (float)gaps->to_before[k];
     q->ends.to_after[lane] = (float)gaps->to_after[k];
+    const int32_t to_ends[2] = {gaps->to_before[k], gaps->to_after[k]};
+    float before = q->ends.before[lane], after = q->ends.after[lane];
+    q->lost[lane] = rlf_past_find_lost(job->stage, at - job->depth, step, to_ends,
+                                       before < after ? before : after);
     rlf_windows_read(job->depth, grid->width, grid->height, x, y, lane, &q->depth);
     if (q->count == RLF_BATCH) {
         fill_batch(job, q);

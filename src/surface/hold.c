@@ -153,7 +153,9 @@ static bool is_confirmed(const hold_job *job, ptrdiff_t i)
 static void recall_pixel(const hold_job *job, int32_t x, int32_t y, hold_queue *q)
 {
     ptrdiff_t i = (ptrdiff_t)y * job->stage->grid.width + x;
-    if (!is_calm(job->stage, x, y)) {
+    const rlf_past *past = &job->stage->past;
+    bool is_expected = past->ahead_count > 0 && past->ahead[i] > 0.0f;
+    if (is_expected || !is_calm(job->stage, x, y)) {
         forget(job, i);
         return;
     }

@@ -1,6 +1,7 @@
 /* Everything the stage will ever need, allocated once. */
 #include "surface/stage.h"
 
+#include "surface/past.h"
 #include "surface/steps.h"
 #include "surface/thickness.h"
 #include "surface/velocity.h"
@@ -143,6 +144,23 @@ static void take_family(rlf_reconstruct *stage)
     family->origin = take(stage, (size_t)stage->def.region_capacity, sizeof *family->origin);
 }
 
+static void take_past(rlf_reconstruct *stage)
+{
+    if (stage->def.enable_coast && stage->def.enable_thickness && stage->def.enable_velocity) {
+        rlf_past *past = &stage->past;
+        past->capacity = (int32_t)rlf_past_capacity(&stage->grid);
+        past->points = take(stage, (size_t)past->capacity, sizeof *past->points);
+        size_t n = (size_t)stage->grid.count;
+        past->behind = take(stage, n, sizeof *past->behind);
+        past->ahead = take(stage, n, sizeof *past->ahead);
+        past->ahead_ticks = take(stage, n, 1);
+        past->ahead_pixel = take(stage, n, sizeof *past->ahead_pixel);
+        past->ahead_from = take(stage, n, sizeof *past->ahead_from);
+        past->lost_ticks = take(stage, n, 1);
+        past->lost_from = take(stage, n, sizeof *past->lost_from);
+    }
+}
+
 static void take_steady(rlf_reconstruct *stage)
 {
     if (stage->def.enable_steadying) {
@@ -161,6 +179,7 @@ bool rlf_stage_allocate(rlf_reconstruct *stage)
     take_background(stage);
     take_steady(stage);
     take_family(stage);
+    take_past(stage);
     take_work(stage);
     return !stage->out_of_memory;
 }

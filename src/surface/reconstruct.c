@@ -1,4 +1,5 @@
 /* The surface stage: one frame through all steps into the next slot of the ring. */
+#include "surface/past.h"
 #include "surface/steps.h"
 
 #include "base/cookie.h"
@@ -66,6 +67,7 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
     rlf_background_reset(&stage->background, &stage->grid);
     rlf_steady_reset(&stage->steady, stage->grid.count);
     stage->family.count = 0;
+    rlf_past_reset(&stage->past, &stage->grid);
     stage->previous = NULL;
 }
 
@@ -138,6 +140,9 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
     if (flying) {
         rlf_flying_remove(stage, raw, kept, slot->reason);
         rlf_stage_add_time(stage, RLF_SURFACE_FLYING);
+    }
+    if (stage->past.points != NULL) {
+        rlf_past_predict(stage, slot, kept);
     }
     if (stage->def.enable_hold && stage->def.enable_steadying) {
         rlf_hold_recall(stage, flying ? raw : NULL, kept, slot->reason);
@@ -395,10 +400,16 @@ rlf_result rlf_reconstruct_process(rlf_reconstruct *stage, const rlf_frame *fram
     rlf_stage_add_time(stage, RLF_SURFACE_SEGMENT);
     if (stage->def.enable_velocity) {
         rlf_velocity_estimate(stage, slot);
+        if (stage->past.points != NULL) {
+            rlf_past_keep_velocity(stage, slot);
+        }
         rlf_stage_add_time(stage, RLF_SURFACE_VELOCITY);
     }
     if (stage->def.enable_thickness) {
         rlf_thickness_estimate(stage, slot);
+        if (stage->past.points != NULL) {
+            rlf_past_thicken(stage, slot);
+        }
         rlf_stage_add_time(stage, RLF_SURFACE_THICKNESS);
     }
     publish(stage, frame, slot);

@@ -127,6 +127,20 @@ typedef struct rlf_family {
     int32_t count, capacity;
 } rlf_family;
 
+/* What was seen and is hidden now: see past.h. */
+typedef struct rlf_past {
+    struct rlf_past_point *points;
+    int32_t count, capacity;
+    uint32_t *behind;     /* plane: a bit per bin of depth behind the front where a point is */
+    float *ahead;         /* plane: depth of what is expected where nothing is seen, or 0 ... */
+    uint8_t *ahead_ticks; /* ... and how long it was not seen */
+    int32_t *ahead_from;  /* ... and its pixel in the frame before */
+    int32_t *ahead_pixel; /* where ahead is not 0 */
+    int32_t ahead_count;
+    uint8_t *lost_ticks; /* plane: how long what a gap was filled with was not seen, 1/100 s */
+    int32_t *lost_from;  /* plane: its pixel in the frame before */
+} rlf_past;
+
 /* Memory that is free between steps. */
 typedef struct rlf_work {
     float *depth[2];    /* planes; these, sum and component have room for RLF_CHORD_PAD */
@@ -166,6 +180,7 @@ struct rlf_reconstruct {
     rlf_background background;
     rlf_steady steady;
     rlf_family family; /* of the foreground */
+    rlf_past past;     /* of the foreground */
     rlf_work work;
     bool has_color;      /* work.color holds the frame's */
     bool has_components; /* work.runs holds the front sheet's, so many: */

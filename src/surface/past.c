@@ -1,0 +1,253 @@
+/* What was seen of a thin thing, and is hidden by its own front now, is still there.
+ *
+ * A face that turns away from the camera is seen at a lower and lower angle, and then not at all:
+ * a book that is held edge-on. Its points go on with the front that hides them. Where they are
+ * behind it without a gap, the thing is at least that thick. A point that the camera would see, or
+ * sees past, is forgotten at once, others when nothing bounds any more how far off they are. What
+ * is as wide as an arm shows by its shape how thick it is (thickness.c). */
+#include "surface/past.h"
+
+#include <string.h>
+
+static const float low_angle = 0.35f; /* cosine between a face's normal and the ray */
+static const float widest_m = 0.08f;  /* of a thin thing */
+static const float bin_m = 0.02f;     /* of depth behind the front */
+static const float longest_s = 2.0f;  /* a point is remembered */
+static const float most_doubt_m = 0.05f;
+static const float snap_doubt = 0.6f;   /* of the way to the front that hides a point after all */
+static const float follow_share = 0.5f; /* of a change of velocity: one frame's may be off */
+static const float other_speed = 1.2f;  /* m/s between a point and what moves with it */
+enum { BINS = 24, GAP_BINS = 3, PIXELS_PER_POINT = 8, SNAP_PX = 3 };
+
+size_t rlf_past_capacity(const rlf_grid *grid)
+{
+    return (size_t)grid->count / PIXELS_PER_POINT + 1;
+}
+
+void rlf_past_reset(rlf_past *past, const rlf_grid *grid)
+{
+    past->count = past->ahead_count = 0;
+    if (past->points != NULL) {
+        memset(past->behind, 0, (size_t)grid->count * sizeof *past->behind);
+        memset(past->ahead, 0, (size_t)grid->count * sizeof *past->ahead);
+        memset(past->lost_ticks, 0, (size_t)grid->count);
+    }
+}
+
+/* Narrower than an arm. */
+static bool is_thin(const rlf_grid *grid, const rlf_slot *slot, ptrdiff_t k)
+{
+    return rlf_past_is_narrow(grid, slot, k,
+                              (int32_t)(widest_m * (float)grid->camera.fx / slot->depth[k]));
+}
+
+static bool hides(const rlf_slot *slot, ptrdiff_t k, const rlf_past_point *p)
+{
+    float behind = p->z - slot->depth[k];
+    return rlf_past_is_front(slot, k) && behind > bin_m && behind < BINS * bin_m;
+}
+
+/* The pixel that hides the point: its own or, as velocity is not exact and outlines flicker, the
+ * nearest in its row or those beside; -1 = none. */
+static ptrdiff_t find_front(const rlf_grid *grid, const rlf_slot *slot, ptrdiff_t k,
+                            const rlf_past_point *p)
+{
+    if (hides(slot, k, p)) {
+        return k;
+    }
+    int32_t x0 = (int32_t)(k % grid->width), y0 = (int32_t)(k / grid->width);
+    ptrdiff_t best = -1;
+    float least = 0.0f;
+    for (int32_t y = y0 - 1; y <= y0 + 1; y++) {
+        for (int32_t x = x0 - SNAP_PX; x <= x0 + SNAP_PX; x++) {
+            float du = (float)x - p->u, dv = (float)y - p->v, far2 = du * du + dv * dv;
+            ptrdiff_t n = (ptrdiff_t)y * grid->width + x;
+            bool inside = x >= 0 && y >= 0 && x < grid->width && y < grid->height;
+            if (inside && (best < 0 || far2 < least) && hides(slot, n, p)) {
+                least = far2;
+                best = n;
+            }
+        }
+    }
+    return best;
+}
+
+static void put_at(const rlf_grid *grid, ptrdiff_t k, rlf_past_point *p)
+{
+    float dx = p->z * grid->ray_x[k] - p->x, dy = p->z * grid->ray_y[k] - p->y;
+    p->doubt += snap_doubt * (float)sqrt((double)(dx * dx + dy * dy));
+    p->x += dx;
+    p->y += dy;
+    p->u = (float)(k % grid->width);
+    p->v = (float)(k / grid->width);
+}
+
+/* The point goes on with the front at pixel k, unless that is another thing's. */
+static void follow(rlf_past *past, const rlf_slot *slot, ptrdiff_t k, float dt, rlf_past_point *p)
+{
+    float square = 0.0f;
+    for (int c = 0; c < 3; c++) {
+        float off = slot->velocity[c][k] - p->velocity[c];
+        square += off * off;
+    }
+    if (square > other_speed * other_speed) {
+        p->doubt += (float)sqrt((double)square) * dt;
+        return;
+    }
+    for (int c = 0; c < 3; c++) {
+        p->velocity[c] += follow_share * (slot->velocity[c][k] - p->velocity[c]);
+    }
+    past->behind[k] |= 1u << (int32_t)((p->z - slot->depth[k]) / bin_m);
+}
+
+/* Follows what hides the point and marks it there; false when it is forgotten. */
+static bool look(rlf_reconstruct *stage, const rlf_slot *slot, float dt, rlf_past_point *p)
+{
+    const rlf_grid *grid = &stage->grid;
+    ptrdiff_t k = rlf_past_pixel_of(grid, p);
+    if (k < 0 || p->age > longest_s || p->doubt > most_doubt_m) {
+        return false;
+    }
+    ptrdiff_t front = find_front(grid, slot, k, p);
+    if (front < 0) { /* nothing seen there, or something else before it: it may well be there */
+        bool is_seen = slot->depth[k] > 0.0f && slot->reason[k] == RLF_REASON_OK;
+        return !is_seen || (slot->foreground[k] == 0 && slot->depth[k] < p->z);
+    }
+    if (front != k) {
+        put_at(grid, front, p);
+    }
+    follow(&stage->past, slot, front, dt, p);
+    return true;
+}
+
+static void look_at_old(rlf_reconstruct *stage, const rlf_slot *slot, float dt)
+{
+    rlf_past *past = &stage->past;
+    int32_t kept = 0;
+    for (int32_t i = 0; i < past->count; i++) {
+        rlf_past_point p = past->points[i];
+        rlf_past_advance(&stage->grid, dt, &p);
+        if (look(stage, slot, dt, &p)) {
+            past->points[kept++] = p;
+        }
+    }
+    past->count = kept;
+}
+
+/* Whether the face at pixel i is seen at a low angle. */
+static bool turns_away(const rlf_grid *grid, const rlf_slot *slot, ptrdiff_t i)
+{
+    float rx = grid->ray_x[i], ry = grid->ray_y[i];
+    float along = slot->normal[0][i] * rx + slot->normal[1][i] * ry + slot->normal[2][i];
+    return along * along < low_angle * low_angle * (rx * rx + ry * ry + 1.0f);
+}
+
+/* Adds the pixel of the frame before if a thin front hides it now. */
+static void look_at_pixel(rlf_reconstruct *stage, const rlf_slot *slot, ptrdiff_t i, float dt)
+{
+    const rlf_grid *grid = &stage->grid;
+    const rlf_slot *before = stage->previous;
+    rlf_past *past = &stage->past;
+    rlf_past_point p;
+    if (!rlf_past_is_front(before, i) || !turns_away(grid, before, i) ||
+        past->count == past->capacity || !rlf_past_move_pixel(grid, before, i, dt, &p)) {
+        return;
+    }
+    ptrdiff_t k = rlf_past_pixel_of(grid, &p);
+    ptrdiff_t front = k >= 0 ? find_front(grid, slot, k, &p) : -1;
+    if (front >= 0 && is_thin(grid, slot, front) && look(stage, slot, dt, &p)) {
+        past->points[past->count++] = p;
+    }
+}
+
+static void look_at_new(rlf_reconstruct *stage, const rlf_slot *slot, float dt)
+{
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        const rlf_span *moved = &stage->previous->moved[y];
+        for (int32_t x = moved->x0; x < moved->x1; x++) {
+            look_at_pixel(stage, slot, (ptrdiff_t)y * stage->grid.width + x, dt);
+        }
+    }
+}
+
+/* The marks of pixel k as they are behind the front at depth z. */
+static uint32_t bins_from(const rlf_past *past, const rlf_slot *slot, ptrdiff_t k, float z)
+{
+    uint32_t bins = past->behind[k];
+    float step = (slot->depth[k] - z) / bin_m;
+    int32_t shift = (int32_t)(step + (step < 0.0f ? -0.5f : 0.5f));
+    if (bins == 0 || shift <= -BINS || shift >= BINS) {
+        return 0;
+    }
+    return shift < 0 ? bins >> -shift : (bins << shift) & ((1u << BINS) - 1u);
+}
+
+/* How far the solid goes on behind the front without a gap. */
+static float reach_of(uint32_t bins, float thickness)
+{
+    float reach = thickness;
+    int32_t gap = 0;
+    for (int32_t bin = (int32_t)(thickness / bin_m); bin < BINS && gap < GAP_BINS; bin++) {
+        bool has = (bins >> bin & 1u) != 0;
+        float middle = bin_m * ((float)bin + 0.5f);
+        gap = has ? 0 : gap + 1;
+        reach = has && middle > reach ? middle : reach;
+    }
+    return reach;
+}
+
+static void thicken_pixel(const rlf_reconstruct *stage, rlf_slot *slot, int32_t x, int32_t y)
+{
+    const rlf_grid *grid = &stage->grid;
+    ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+    uint32_t bins = 0;
+    if (!rlf_past_is_front(slot, i) || slot->label[i] == 0 || !is_thin(grid, slot, i)) {
+        return;
+    }
+    for (int32_t v = y - 1; v <= y + 1; v++) {
+        for (int32_t u = x - 1; u <= x + 1; u++) {
+            if (u >= 0 && v >= 0 && u < grid->width && v < grid->height) {
+                ptrdiff_t k = (ptrdiff_t)v * grid->width + u;
+                bins |= bins_from(&stage->past, slot, k, slot->depth[i]);
+            }
+        }
+    }
+    float reach = reach_of(bins, slot->thickness[i]), behind = stage->background.mean[i];
+    float room = behind > slot->depth[i] ? behind - slot->depth[i] : 0.0f;
+    slot->thickness[i] = behind > 0.0f && reach > room ? room : reach;
+}
+
+/* Pixels about the points, those about several of them again with the same result. */
+static void thicken_about(const rlf_reconstruct *stage, rlf_slot *slot, ptrdiff_t k)
+{
+    const rlf_grid *grid = &stage->grid;
+    int32_t x0 = (int32_t)(k % grid->width), y0 = (int32_t)(k / grid->width);
+    for (int32_t y = y0 - 1; y <= y0 + 1; y++) {
+        for (int32_t x = x0 - 1; x <= x0 + 1; x++) {
+            if (x >= 0 && y >= 0 && x < grid->width && y < grid->height) {
+                thicken_pixel(stage, slot, x, y);
+            }
+        }
+    }
+}
+
+void rlf_past_thicken(rlf_reconstruct *stage, rlf_slot *slot)
+{
+    rlf_past *past = &stage->past;
+    float dt = rlf_past_elapsed(stage, slot);
+    if (dt == 0.0f) {
+        past->count = 0;
+        return;
+    }
+    look_at_old(stage, slot, dt);
+    look_at_new(stage, slot, dt);
+    for (int32_t i = 0; i < past->count; i++) {
+        ptrdiff_t k = rlf_past_pixel_of(&stage->grid, &past->points[i]);
+        if (past->behind[k] != 0) {
+            thicken_about(stage, slot, k);
+        }
+    }
+    for (int32_t i = 0; i < past->count; i++) {
+        past->behind[rlf_past_pixel_of(&stage->grid, &past->points[i])] = 0;
+    }
+}

@@ -1,0 +1,53 @@
+/* What was seen of the moving foreground and is not seen now. */
+#ifndef RLF_SURFACE_PAST_H
+#define RLF_SURFACE_PAST_H
+
+#include "surface/stage.h"
+
+/* A point of a surface that was seen, where it is now. */
+typedef struct rlf_past_point {
+    float x, y, z; /* metres */
+    float u, v;    /* its pixel */
+    float velocity[3];
+    float age;   /* s since it was seen */
+    float doubt; /* how far off it may be by now, metres */
+} rlf_past_point;
+
+size_t rlf_past_capacity(const rlf_grid *grid);
+void rlf_past_reset(rlf_past *past, const rlf_grid *grid);
+
+/* Where what moved in the frame before is expected now though `depth` has nothing there: sets
+ * past.ahead, 0 elsewhere. */
+void rlf_past_predict(rlf_reconstruct *stage, const rlf_slot *slot, const float *depth);
+
+/* Depth of the thing that is lost in a gap about pixel i, 0 = none. The gap goes along `step` from
+ * one valid pixel, so many steps before i, to another one so many after it; both show what is
+ * behind the thing, the nearer one at depth `nearest`. */
+float rlf_past_find_lost(const rlf_reconstruct *stage, ptrdiff_t i, ptrdiff_t step,
+                         const int32_t to_ends[2], float nearest);
+
+/* What is lost shows no motion: where none was found it goes on as before. */
+void rlf_past_keep_velocity(const rlf_reconstruct *stage, rlf_slot *slot);
+
+/* Makes thin things as thick as what was seen of them and is behind their front now. */
+void rlf_past_thicken(rlf_reconstruct *stage, rlf_slot *slot);
+
+/* past_move.c: the foreground's pixel i of a slot after dt; false when it rests. */
+bool rlf_past_move_pixel(const rlf_grid *grid, const rlf_slot *slot, ptrdiff_t i, float dt,
+                         rlf_past_point *out);
+/* The point after dt by its own velocity. */
+void rlf_past_advance(const rlf_grid *grid, float dt, rlf_past_point *p);
+/* Pixel of the point, < 0 out of view. */
+ptrdiff_t rlf_past_pixel_of(const rlf_grid *grid, const rlf_past_point *p);
+/* Whether the body that pixel k of the foreground shows is at most so many pixels wide there, along
+ * its row or its column. */
+bool rlf_past_is_narrow(const rlf_grid *grid, const rlf_slot *slot, ptrdiff_t k, int32_t most);
+/* s since the frame before; 0 when there is none, or it is too long ago to follow anything. */
+float rlf_past_elapsed(const rlf_reconstruct *stage, const rlf_slot *slot);
+
+static inline bool rlf_past_is_front(const rlf_slot *slot, ptrdiff_t k)
+{
+    return slot->foreground[k] != 0 && slot->depth[k] > 0.0f;
+}
+
+#endif

@@ -1,0 +1,127 @@
+/* A thing a few pixels wide that moves may be lost for some frames: drivers take a band away on
+ * both sides of an edge, and the bands of its two edges meet. Then the gap shows what is behind on
+ * both sides, and would be filled with that. Where something was seen that must be there now, it
+ * is that, in the middle of the gap: what is seen beyond it ends it at once. */
+#include "surface/past.h"
+
+#include "kernel/batch.h"
+#include <string.h>
+
+enum {
+    TICKS_PER_S = 100,
+    LONGEST_TICKS = 30, /* without a pixel of it that is seen */
+    WIDEST_PX = RLF_FILL_GAP - 2,
+    EDGE_PX = 2, /* what is taken away beside an edge, on its far side */
+    REACH_PX = 2 /* velocity is off by this much */
+};
+static const float body_jump_m = 0.04f;
+static const float step_behind = 0.05f; /* share of the depth: a nearer end is no background */
+
+/* Notes the pixel's depth where nothing is seen, the nearest. */
+static void expect(rlf_past *past, ptrdiff_t k, float z, ptrdiff_t from, int32_t ticks)
+{
+    bool is_first = !(past->ahead[k] > 0.0f);
+    if (ticks > LONGEST_TICKS || (!is_first && past->ahead[k] <= z)) {
+        return;
+    }
+    past->ahead[k] = z;
+    past->ahead_ticks[k] = (uint8_t)ticks;
+    past->ahead_from[k] = (int32_t)from;
+    if (is_first) {
+        past->ahead_pixel[past->ahead_count++] = (int32_t)k;
+    }
+}
+
+/* Whether pixel i, or one of its body beside it, was seen itself: a band beside an edge was not. */
+static bool was_seen(const rlf_grid *grid, const rlf_slot *before, int32_t x, int32_t y)
+{
+    const int32_t steps[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+    ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+    bool is_seen = before->reason[i] == RLF_REASON_OK;
+    for (int32_t k = 0; k < 4 * EDGE_PX && !is_seen; k++) {
+        int32_t u = x + steps[k % 4][0] * (1 + k / 4), v = y + steps[k % 4][1] * (1 + k / 4);
+        ptrdiff_t n = (ptrdiff_t)v * grid->width + u;
+        bool is_inside = u >= 0 && v >= 0 && u < grid->width && v < grid->height;
+        if (is_inside && rlf_past_is_front(before, n) && before->reason[n] == RLF_REASON_OK) {
+            float step = before->depth[n] - before->depth[i];
+            is_seen = step < body_jump_m && step > -body_jump_m;
+        }
+    }
+    return is_seen;
+}
+
+void rlf_past_predict(rlf_reconstruct *stage, const rlf_slot *slot, const float *depth)
+{
+    const rlf_grid *grid = &stage->grid;
+    const rlf_slot *before = stage->previous;
+    rlf_past *past = &stage->past;
+    float dt = rlf_past_elapsed(stage, slot);
+    for (int32_t i = 0; i < past->ahead_count; i++) {
+        past->ahead[past->ahead_pixel[i]] = 0.0f;
+    }
+    past->ahead_count = 0;
+    for (int32_t y = 0; y < grid->height && dt > 0.0f; y++) {
+        for (int32_t x = before->moved[y].x0; x < before->moved[y].x1; x++) {
+            ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+            rlf_past_point p;
+            if (before->foreground[i] == 0 || !rlf_past_move_pixel(grid, before, i, dt, &p)) {
+                continue;
+            }
+            ptrdiff_t k = rlf_past_pixel_of(grid, &p);
+            if (k < 0 || depth[k] > 0.0f || !rlf_past_is_narrow(grid, before, i, WIDEST_PX)) {
+                continue;
+            }
+            bool is_seen = was_seen(grid, before, x, y);
+            if (is_seen || past->lost_ticks[i] > 0) {
+                int32_t age = is_seen ? 0 : past->lost_ticks[i];
+                expect(past, k, p.z, i, age + (int32_t)(dt * TICKS_PER_S + 0.5f));
+            }
+        }
+    }
+    memset(past->lost_ticks, 0, (size_t)grid->count);
+}
+
+float rlf_past_find_lost(const rlf_reconstruct *stage, ptrdiff_t i, ptrdiff_t step,
+                         const int32_t to_ends[2], float nearest)
+{
+    static const int32_t offsets[2 * REACH_PX + 1] = {0, 1, -1, 2, -2};
+    const rlf_past *past = &stage->past;
+    bool is_narrow = to_ends[0] + to_ends[1] <= 2 * EDGE_PX;
+    bool is_edge = to_ends[0] < EDGE_PX || to_ends[1] < EDGE_PX;
+    int32_t count = is_narrow ? 1 : is_edge ? 0 : 2 * REACH_PX + 1;
+    if (past->ahead_count == 0) {
+        return 0.0f;
+    }
+    for (int32_t k = 0; k < count; k++) {
+        if (offsets[k] >= to_ends[1] || -offsets[k] >= to_ends[0]) {
+            continue;
+        }
+        ptrdiff_t at = i + offsets[k] * step;
+        float z = past->ahead[at];
+        if (z > 0.0f && z < (1.0f - step_behind) * nearest) {
+            past->lost_ticks[i] = past->ahead_ticks[at];
+            past->lost_from[i] = past->ahead_from[at];
+            return z;
+        }
+    }
+    return 0.0f;
+}
+
+void rlf_past_keep_velocity(const rlf_reconstruct *stage, rlf_slot *slot)
+{
+    const rlf_past *past = &stage->past;
+    int32_t width = stage->grid.width;
+    for (int32_t y = 0; y < stage->grid.height && past->ahead_count > 0; y++) {
+        const uint8_t *lost = past->lost_ticks + (ptrdiff_t)y * width;
+        for (int32_t x = 0; (x = rlf_kernel_next_mark(lost, x, width)) < width; x++) {
+            ptrdiff_t i = (ptrdiff_t)y * width + x;
+            float square = 0.0f;
+            for (int c = 0; c < 3; c++) {
+                square += slot->velocity[c][i] * slot->velocity[c][i];
+            }
+            for (int c = 0; c < 3 && !(square > 0.0f) && slot->foreground[i] != 0; c++) {
+                slot->velocity[c][i] = stage->previous->velocity[c][past->lost_from[i]];
+            }
+        }
+    }
+}
