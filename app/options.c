@@ -45,8 +45,8 @@ static int take(const char *command, const option_def *o)
     return -1;
 }
 
-/* getopt's view of the table; an option's value is its place. */
-static void list_options(const option_def *options, struct option *out)
+/* getopt's view of the table; an option's value is its place. False when the table is too long. */
+static bool list_options(const option_def *options, struct option *out)
 {
     int count = 0;
     for (; options[count].name != NULL && count < OPTIONS_MAX; count++) {
@@ -55,6 +55,7 @@ static void list_options(const option_def *options, struct option *out)
                                      has_value ? required_argument : no_argument, NULL, count};
     }
     out[count] = (struct option){"help", no_argument, NULL, 'h'};
+    return options[count].name == NULL;
 }
 
 int options_parse(const char *command, int argc, char **argv, const option_def *options,
@@ -62,7 +63,9 @@ int options_parse(const char *command, int argc, char **argv, const option_def *
 {
     struct option list[OPTIONS_MAX + 2];
     memset(list, 0, sizeof(list));
-    list_options(options, list);
+    if (!list_options(options, list)) {
+        return command_usage(command, "has more than %d options: OPTIONS_MAX", OPTIONS_MAX);
+    }
     opterr = 0; /* the messages below instead */
     int option;
     while ((option = getopt_long(argc, argv, ":h", list, NULL)) != -1) {
