@@ -6,6 +6,7 @@
  * something moves about it: so nothing that has left can stay, and nothing hangs in the air. A
  * pixel that was taken for a mixed one for want of neighbours, in a slit between two things, is
  * believed where the memory has it at the same depth. */
+#include "surface/past.h"
 #include "surface/steps.h"
 #include "surface/window.h"
 
@@ -154,7 +155,7 @@ static void recall_pixel(const hold_job *job, int32_t x, int32_t y, hold_queue *
 {
     ptrdiff_t i = (ptrdiff_t)y * job->stage->grid.width + x;
     const rlf_past *past = &job->stage->past;
-    bool is_expected = past->ahead_count > 0 && past->ahead[i] > 0.0f;
+    bool is_expected = past->ahead_count > 0 && rlf_past_is_ahead(past, i);
     if (is_expected || !is_calm(job->stage, x, y)) {
         forget(job, i);
         return;

@@ -17,6 +17,8 @@ static const float most_doubt_m = 0.05f;
 static const float snap_doubt = 0.6f;   /* of the way to the front that hides a point after all */
 static const float follow_share = 0.5f; /* of a change of velocity: one frame's may be off */
 static const float other_speed = 1.2f;  /* m/s between a point and what moves with it */
+#define ALL_BINS 0xffffffu              /* of past.behind */
+#define THICKENED 0x1000000u            /* in past.behind: this pixel has been */
 enum { BINS = 24, GAP_BINS = 3, PIXELS_PER_POINT = 8, SNAP_PX = 3 };
 
 size_t rlf_past_capacity(const rlf_grid *grid)
@@ -29,7 +31,7 @@ void rlf_past_reset(rlf_past *past, const rlf_grid *grid)
     past->count = past->ahead_count = 0;
     if (past->points != NULL) {
         memset(past->behind, 0, (size_t)grid->count * sizeof *past->behind);
-        memset(past->ahead, 0, (size_t)grid->count * sizeof *past->ahead);
+        memset(past->is_ahead, 0, (size_t)grid->count / 8 + 1);
         memset(past->lost_ticks, 0, (size_t)grid->count);
     }
 }
@@ -143,14 +145,16 @@ static bool turns_away(const rlf_grid *grid, const rlf_slot *slot, ptrdiff_t i)
 }
 
 /* Adds the pixel of the frame before if a thin front hides it now. */
-static void look_at_pixel(rlf_reconstruct *stage, const rlf_slot *slot, ptrdiff_t i, float dt)
+static void look_at_pixel(rlf_reconstruct *stage, const rlf_slot *slot, int32_t x, int32_t y,
+                          float dt)
 {
     const rlf_grid *grid = &stage->grid;
+    ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
     const rlf_slot *before = stage->previous;
     rlf_past *past = &stage->past;
     rlf_past_point p;
     if (!rlf_past_is_front(before, i) || !turns_away(grid, before, i) ||
-        past->count == past->capacity || !rlf_past_move_pixel(grid, before, i, dt, &p)) {
+        past->count == past->capacity || !rlf_past_move_pixel(grid, before, x, y, dt, &p)) {
         return;
     }
     ptrdiff_t k = rlf_past_pixel_of(grid, &p);
@@ -165,7 +169,7 @@ static void look_at_new(rlf_reconstruct *stage, const rlf_slot *slot, float dt)
     for (int32_t y = 0; y < stage->grid.height; y++) {
         const rlf_span *moved = &stage->previous->moved[y];
         for (int32_t x = moved->x0; x < moved->x1; x++) {
-            look_at_pixel(stage, slot, (ptrdiff_t)y * stage->grid.width + x, dt);
+            look_at_pixel(stage, slot, x, y, dt);
         }
     }
 }
@@ -173,13 +177,13 @@ static void look_at_new(rlf_reconstruct *stage, const rlf_slot *slot, float dt)
 /* The marks of pixel k as they are behind the front at depth z. */
 static uint32_t bins_from(const rlf_past *past, const rlf_slot *slot, ptrdiff_t k, float z)
 {
-    uint32_t bins = past->behind[k];
+    uint32_t bins = past->behind[k] & ALL_BINS;
     float step = (slot->depth[k] - z) / bin_m;
     int32_t shift = (int32_t)(step + (step < 0.0f ? -0.5f : 0.5f));
     if (bins == 0 || shift <= -BINS || shift >= BINS) {
         return 0;
     }
-    return shift < 0 ? bins >> -shift : (bins << shift) & ((1u << BINS) - 1u);
+    return shift < 0 ? bins >> -shift : (bins << shift) & ALL_BINS;
 }
 
 /* How far the solid goes on behind the front without a gap. */
@@ -217,7 +221,7 @@ static void thicken_pixel(const rlf_reconstruct *stage, rlf_slot *slot, int32_t 
     slot->thickness[i] = behind > 0.0f && reach > room ? room : reach;
 }
 
-/* Pixels about the points, those about several of them again with the same result. */
+/* Each pixel about the points once. */
 static void thicken_about(const rlf_reconstruct *stage, rlf_slot *slot, ptrdiff_t k)
 {
     const rlf_grid *grid = &stage->grid;
@@ -225,8 +229,25 @@ static void thicken_about(const rlf_reconstruct *stage, rlf_slot *slot, ptrdiff_
     for (int32_t y = y0 - 1; y <= y0 + 1; y++) {
         for (int32_t x = x0 - 1; x <= x0 + 1; x++) {
             if (x >= 0 && y >= 0 && x < grid->width && y < grid->height) {
-                thicken_pixel(stage, slot, x, y);
+                uint32_t *behind = &stage->past.behind[(ptrdiff_t)y * grid->width + x];
+                if ((*behind & THICKENED) == 0) {
+                    *behind |= THICKENED;
+                    thicken_pixel(stage, slot, x, y);
+                }
             }
+        }
+    }
+}
+
+static void clear_about(const rlf_reconstruct *stage, ptrdiff_t k)
+{
+    const rlf_grid *grid = &stage->grid;
+    int32_t x0 = (int32_t)(k % grid->width), y0 = (int32_t)(k / grid->width);
+    int32_t left = x0 > 0 ? x0 - 1 : 0, right = x0 + 1 < grid->width ? x0 + 1 : x0;
+    for (int32_t y = y0 - 1; y <= y0 + 1; y++) {
+        if (y >= 0 && y < grid->height) {
+            uint32_t *row = stage->past.behind + (ptrdiff_t)y * grid->width;
+            memset(row + left, 0, (size_t)(right - left + 1) * sizeof *row);
         }
     }
 }
@@ -243,11 +264,11 @@ void rlf_past_thicken(rlf_reconstruct *stage, rlf_slot *slot)
     look_at_new(stage, slot, dt);
     for (int32_t i = 0; i < past->count; i++) {
         ptrdiff_t k = rlf_past_pixel_of(&stage->grid, &past->points[i]);
-        if (past->behind[k] != 0) {
+        if ((past->behind[k] & ALL_BINS) != 0) {
             thicken_about(stage, slot, k);
         }
     }
     for (int32_t i = 0; i < past->count; i++) {
-        past->behind[rlf_past_pixel_of(&stage->grid, &past->points[i])] = 0;
+        clear_about(stage, rlf_past_pixel_of(&stage->grid, &past->points[i]));
     }
 }

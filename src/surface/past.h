@@ -17,7 +17,7 @@ size_t rlf_past_capacity(const rlf_grid *grid);
 void rlf_past_reset(rlf_past *past, const rlf_grid *grid);
 
 /* Where what moved in the frame before is expected now though `depth` has nothing there: sets
- * past.ahead, 0 elsewhere. */
+ * past.is_ahead and past.ahead. */
 void rlf_past_predict(rlf_reconstruct *stage, const rlf_slot *slot, const float *depth);
 
 /* Depth of the thing that is lost in a gap about pixel i, 0 = none. The gap goes along `step` from
@@ -32,8 +32,8 @@ void rlf_past_keep_velocity(const rlf_reconstruct *stage, rlf_slot *slot);
 /* Makes thin things as thick as what was seen of them and is behind their front now. */
 void rlf_past_thicken(rlf_reconstruct *stage, rlf_slot *slot);
 
-/* past_move.c: the foreground's pixel i of a slot after dt; false when it rests. */
-bool rlf_past_move_pixel(const rlf_grid *grid, const rlf_slot *slot, ptrdiff_t i, float dt,
+/* past_move.c: the foreground's pixel x, y of a slot after dt; false when it rests. */
+bool rlf_past_move_pixel(const rlf_grid *grid, const rlf_slot *slot, int32_t x, int32_t y, float dt,
                          rlf_past_point *out);
 /* The point after dt by its own velocity. */
 void rlf_past_advance(const rlf_grid *grid, float dt, rlf_past_point *p);
@@ -44,6 +44,12 @@ ptrdiff_t rlf_past_pixel_of(const rlf_grid *grid, const rlf_past_point *p);
 bool rlf_past_is_narrow(const rlf_grid *grid, const rlf_slot *slot, ptrdiff_t k, int32_t most);
 /* s since the frame before; 0 when there is none, or it is too long ago to follow anything. */
 float rlf_past_elapsed(const rlf_reconstruct *stage, const rlf_slot *slot);
+
+/* Whether something is expected at pixel k. */
+static inline bool rlf_past_is_ahead(const rlf_past *past, ptrdiff_t k)
+{
+    return (past->is_ahead[k >> 3] >> (k & 7) & 1) != 0;
+}
 
 static inline bool rlf_past_is_front(const rlf_slot *slot, ptrdiff_t k)
 {

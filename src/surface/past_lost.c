@@ -20,10 +20,11 @@ static const float step_behind = 0.05f; /* share of the depth: a nearer end is n
 /* Notes the pixel's depth where nothing is seen, the nearest. */
 static void expect(rlf_past *past, ptrdiff_t k, float z, ptrdiff_t from, int32_t ticks)
 {
-    bool is_first = !(past->ahead[k] > 0.0f);
+    bool is_first = !rlf_past_is_ahead(past, k);
     if (ticks > LONGEST_TICKS || (!is_first && past->ahead[k] <= z)) {
         return;
     }
+    past->is_ahead[k >> 3] |= (uint8_t)(1 << (k & 7));
     past->ahead[k] = z;
     past->ahead_ticks[k] = (uint8_t)ticks;
     past->ahead_from[k] = (int32_t)from;
@@ -57,14 +58,14 @@ void rlf_past_predict(rlf_reconstruct *stage, const rlf_slot *slot, const float 
     rlf_past *past = &stage->past;
     float dt = rlf_past_elapsed(stage, slot);
     for (int32_t i = 0; i < past->ahead_count; i++) {
-        past->ahead[past->ahead_pixel[i]] = 0.0f;
+        past->is_ahead[past->ahead_pixel[i] >> 3] = 0;
     }
     past->ahead_count = 0;
     for (int32_t y = 0; y < grid->height && dt > 0.0f; y++) {
         for (int32_t x = before->moved[y].x0; x < before->moved[y].x1; x++) {
             ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
             rlf_past_point p;
-            if (before->foreground[i] == 0 || !rlf_past_move_pixel(grid, before, i, dt, &p)) {
+            if (before->foreground[i] == 0 || !rlf_past_move_pixel(grid, before, x, y, dt, &p)) {
                 continue;
             }
             ptrdiff_t k = rlf_past_pixel_of(grid, &p);
@@ -97,11 +98,10 @@ float rlf_past_find_lost(const rlf_reconstruct *stage, ptrdiff_t i, ptrdiff_t st
             continue;
         }
         ptrdiff_t at = i + offsets[k] * step;
-        float z = past->ahead[at];
-        if (z > 0.0f && z < (1.0f - step_behind) * nearest) {
+        if (rlf_past_is_ahead(past, at) && past->ahead[at] < (1.0f - step_behind) * nearest) {
             past->lost_ticks[i] = past->ahead_ticks[at];
             past->lost_from[i] = past->ahead_from[at];
-            return z;
+            return past->ahead[at];
         }
     }
     return 0.0f;

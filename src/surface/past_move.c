@@ -30,13 +30,11 @@ void rlf_past_advance(const rlf_grid *grid, float dt, rlf_past_point *p)
     p->doubt += drift * dt * speed;
 }
 
-bool rlf_past_move_pixel(const rlf_grid *grid, const rlf_slot *slot, ptrdiff_t i, float dt,
+bool rlf_past_move_pixel(const rlf_grid *grid, const rlf_slot *slot, int32_t x, int32_t y, float dt,
                          rlf_past_point *out)
 {
+    ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
     float z = slot->depth[i], square = 0.0f;
-    *out = (rlf_past_point){.x = z * grid->ray_x[i], .y = z * grid->ray_y[i], .z = z};
-    out->u = (float)(i % grid->width);
-    out->v = (float)(i / grid->width);
     for (int k = 0; k < 3; k++) {
         out->velocity[k] = slot->velocity[k][i];
         square += out->velocity[k] * out->velocity[k];
@@ -44,6 +42,12 @@ bool rlf_past_move_pixel(const rlf_grid *grid, const rlf_slot *slot, ptrdiff_t i
     if (!(square > 0.0f) || !(z > least_z)) {
         return false;
     }
+    out->x = z * grid->ray_x[i];
+    out->y = z * grid->ray_y[i];
+    out->z = z;
+    out->u = (float)x;
+    out->v = (float)y;
+    out->age = out->doubt = 0.0f;
     rlf_past_advance(grid, dt, out);
     return true;
 }

@@ -132,10 +132,11 @@ typedef struct rlf_past {
     struct rlf_past_point *points;
     int32_t count, capacity;
     uint32_t *behind;     /* plane: a bit per bin of depth behind the front where a point is */
-    float *ahead;         /* plane: depth of what is expected where nothing is seen, or 0 ... */
+    uint8_t *is_ahead;    /* a bit per pixel: whether something is expected where nothing is seen */
+    float *ahead;         /* plane: its depth ... */
     uint8_t *ahead_ticks; /* ... and how long it was not seen */
     int32_t *ahead_from;  /* ... and its pixel in the frame before */
-    int32_t *ahead_pixel; /* where ahead is not 0 */
+    int32_t *ahead_pixel; /* where that is */
     int32_t ahead_count;
     uint8_t *lost_ticks; /* plane: how long what a gap was filled with was not seen, 1/100 s */
     int32_t *lost_from;  /* plane: its pixel in the frame before */
