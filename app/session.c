@@ -56,14 +56,16 @@ static bool matches_light(const session_options *options)
     return options->matches_light || is_wanted;
 }
 
-/* The synthetic room's camera is level; where no one says so of another, its floor tells. */
+/* The synthetic room's camera is level; where no one says so of another, its floor tells. Not for
+ * those who only look: nothing falls there. */
 static void set_gravity(const session_options *options, rlf_scene *scene)
 {
     if (options->is_gravity_set) {
         scene->finds_gravity = options->finds_gravity;
         scene->gravity = options->gravity;
     } else if (!scene->is_gravity_given) {
-        scene->finds_gravity = is_real(options);
+        bool has_bodies = options->scene_path != NULL || options->use_default_scene;
+        scene->finds_gravity = is_real(options) && has_bodies && options->scene == NULL;
     }
 }
 

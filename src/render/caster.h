@@ -77,4 +77,17 @@ typedef struct caster_points {
 void caster_take_ambient(const caster *c, const caster_points *points, float share, float *left);
 void caster_take_direct(const caster *c, const caster_points *points, float share, float *left);
 
+/* Between vectors and what shaders and kernels take. */
+static inline void caster_to_floats(rlf_vec3 v, float out[3])
+{
+    out[0] = (float)v.x;
+    out[1] = (float)v.y;
+    out[2] = (float)v.z;
+}
+
+static inline rlf_vec3 caster_from_floats(const float v[3])
+{
+    return rlf_vec3_make((double)v[0], (double)v[1], (double)v[2]);
+}
+
 #endif

@@ -282,18 +282,6 @@ static void find_planes(finder *f)
 
 /* ---- all of it ------------------------------------------------------------------------------ */
 
-static void to_floats(rlf_vec3 v, float out[3])
-{
-    out[0] = (float)v.x;
-    out[1] = (float)v.y;
-    out[2] = (float)v.z;
-}
-
-static rlf_vec3 from_floats(const float v[3])
-{
-    return rlf_vec3_make((double)v[0], (double)v[1], (double)v[2]);
-}
-
 static void start(const rlf_surface *s, const rlf_pose *T_depth_picture, const caster *body,
                   finder *f)
 {
@@ -302,9 +290,10 @@ static void start(const rlf_surface *s, const rlf_pose *T_depth_picture, const c
     f->sheets[1] = (sheet){s->background_depth, s->background_normal_x, s->background_normal_y,
                            s->background_normal_z};
     f->body = body;
-    to_floats(rlf_transform(T_depth_picture, from_floats(body->center)), f->center);
+    caster_to_floats(rlf_transform(T_depth_picture, caster_from_floats(body->center)), f->center);
     for (int i = 0; i < 3; i++) {
-        to_floats(rlf_rotate(T_depth_picture->q, from_floats(body->axis[i])), f->axis[i]);
+        caster_to_floats(rlf_rotate(T_depth_picture->q, caster_from_floats(body->axis[i])),
+                         f->axis[i]);
     }
     f->reach =
         2.0f * ((body->half[0] + body->half[1] + body->half[2]) * (1.0f / 3.0f) + body->round);
@@ -329,10 +318,10 @@ void obscurance_find(const rlf_surface *surface, const rlf_pose *T_depth_picture
         const plane *from = &f.planes[i];
         if (from->presence > 0.0f) {
             const rlf_pose *T = T_depth_picture;
-            const rlf_vec3 n = from_floats(from->normal);
-            const rlf_vec3 p = rlf_transform_inverse(T, from_floats(from->p));
+            const rlf_vec3 n = caster_from_floats(from->normal);
+            const rlf_vec3 p = rlf_transform_inverse(T, caster_from_floats(from->p));
             const rlf_vec3 turned = rlf_rotate(rlf_quat_conjugate(T->q), n);
-            to_floats(turned, out->normal[out->count]);
+            caster_to_floats(turned, out->normal[out->count]);
             out->offset[out->count] = (float)-rlf_dot(turned, p);
             out->presence[out->count++] = from->presence;
         }

@@ -226,18 +226,6 @@ static bool agree(const real_shade *shade, int32_t step, float *out)
     return count >= ENOUGH;
 }
 
-static void to_floats(rlf_vec3 v, float out[3])
-{
-    out[0] = (float)v.x;
-    out[1] = (float)v.y;
-    out[2] = (float)v.z;
-}
-
-static rlf_vec3 from_floats(const float v[3])
-{
-    return rlf_vec3_make((double)v[0], (double)v[1], (double)v[2]);
-}
-
 /* Two directions across the light, any will do. */
 static void place_map(const real_shade_world *world, const caster *body, shade_job *j,
                       real_shade *out)
@@ -248,17 +236,18 @@ static void place_map(const real_shade_world *world, const caster *body, shade_j
     rlf_quat q = world->T_depth_picture.q;
     *j = (shade_job){.surface = world->surface, .body = body};
     j->spacing = body->radius / MIDDLE;
-    to_floats(rlf_transform(&world->T_depth_picture, from_floats(body->center)), j->center);
+    caster_to_floats(rlf_transform(&world->T_depth_picture, caster_from_floats(body->center)),
+                     j->center);
     for (int i = 0; i < 3; i++) {
-        to_floats(rlf_rotate(q, from_floats(body->axis[i])), j->axis[i]);
+        caster_to_floats(rlf_rotate(q, caster_from_floats(body->axis[i])), j->axis[i]);
         out->center[i] = body->center[i];
     }
-    to_floats(rlf_rotate(q, l), j->to_light);
-    to_floats(rlf_rotate(q, across), j->across);
-    to_floats(rlf_rotate(q, down), j->down);
+    caster_to_floats(rlf_rotate(q, l), j->to_light);
+    caster_to_floats(rlf_rotate(q, across), j->across);
+    caster_to_floats(rlf_rotate(q, down), j->down);
     const double per_cell = 1.0 / (double)j->spacing;
-    to_floats(rlf_scale(across, per_cell), out->across);
-    to_floats(rlf_scale(down, per_cell), out->down);
+    caster_to_floats(rlf_scale(across, per_cell), out->across);
+    caster_to_floats(rlf_scale(down, per_cell), out->down);
 }
 
 void real_shade_make(const real_shade_world *world, const caster *body, real_shade *out)
