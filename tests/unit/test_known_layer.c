@@ -20,18 +20,25 @@ static int32_t pixel_at(int32_t x, int32_t y)
     return y * camera.width + x;
 }
 
+/* A layer before the camera with one model. */
+static known_layer open_layer(const rlf_body_state *model)
+{
+    const rlf_depth_noise noise = {0.001, 0, 0};
+    const rlf_snapshot snapshot = {.known = model, .known_count = 1};
+    const rlf_pose T = rlf_pose_identity();
+    known_layer layer;
+    assert_int_equal(known_layer_create(&camera, &camera, &noise, &layer), RLF_OK);
+    assert_int_equal(known_layer_place(&layer, &snapshot, &T), RLF_OK);
+    return layer;
+}
+
 /* A box half a metre wide, 1.75 to 2.25 m away, on the axis: 120 * 0.25 / 1.75 = 17 pixels to each
  * side. */
 static void model_takes_the_things_place(void **state)
 {
     (void)state;
-    const rlf_depth_noise noise = {0.001, 0, 0};
     rlf_body_state model = {.shape = scene_box(0.5), .T_world_body = {{0, 0, 2}, {0, 0, 0, 1}}};
-    const rlf_snapshot snapshot = {.known = &model, .known_count = 1};
-    const rlf_pose T = rlf_pose_identity();
-    known_layer layer;
-    assert_int_equal(known_layer_create(&camera, &camera, &noise, &layer), RLF_OK);
-    assert_int_equal(known_layer_place(&layer, &snapshot, &T), RLF_OK);
+    known_layer layer = open_layer(&model);
     static float z[160 * 120], copy[160 * 120];
     static uint8_t mask[160 * 120];
     for (int32_t i = 0; i < 160 * 120; i++) {
@@ -58,6 +65,7 @@ static void model_takes_the_things_place(void **state)
     }
     assert_int_equal(covered, 34 * 34);
     const rlf_snapshot none = {.known_count = 0};
+    const rlf_pose T = rlf_pose_identity();
     assert_int_equal(known_layer_place(&layer, &none, &T), RLF_OK);
     assert_int_equal(layer.count, 0);
     known_layer_destroy(&layer);
@@ -67,13 +75,8 @@ static void model_takes_the_things_place(void **state)
 static void mixed_pixels_are_the_models(void **state)
 {
     (void)state;
-    const rlf_depth_noise noise = {0.001, 0, 0};
     rlf_body_state model = {.shape = scene_box(0.5), .T_world_body = {{0, 0, 2}, {0, 0, 0, 1}}};
-    const rlf_snapshot snapshot = {.known = &model, .known_count = 1};
-    const rlf_pose T = rlf_pose_identity();
-    known_layer layer;
-    assert_int_equal(known_layer_create(&camera, &camera, &noise, &layer), RLF_OK);
-    assert_int_equal(known_layer_place(&layer, &snapshot, &T), RLF_OK);
+    known_layer layer = open_layer(&model);
     static float z[160 * 120], copy[160 * 120];
     for (int32_t i = 0; i < 160 * 120; i++) {
         int32_t x = i % camera.width;
@@ -104,16 +107,11 @@ static void inner_corners_are_mixed_too(void **state)
     (void)state;
     static const rlf_vec3 at[2] = {{0, -0.2, 0}, {0.25, 0.1, 0}};
     static const rlf_vec3 size[2] = {{0.6, 0.1, 0.05}, {0.1, 0.6, 0.05}};
-    const rlf_depth_noise noise = {0.001, 0, 0};
     rlf_model *bars = model_of_boxes(at, size, 2);
     rlf_body_state model = {.shape = {.type = RLF_SHAPE_BOX, .size = {0.6, 0.8, 0.1}},
                             .look = {bars, 1.0, {0, 0, 0}},
                             .T_world_body = {{0, 0, 2}, {0, 0, 0, 1}}};
-    const rlf_snapshot snapshot = {.known = &model, .known_count = 1};
-    const rlf_pose T = rlf_pose_identity();
-    known_layer layer;
-    assert_int_equal(known_layer_create(&camera, &camera, &noise, &layer), RLF_OK);
-    assert_int_equal(known_layer_place(&layer, &snapshot, &T), RLF_OK);
+    known_layer layer = open_layer(&model);
     static float z[160 * 120];
     for (int32_t i = 0; i < 160 * 120; i++) {
         z[i] = 3.0f;
@@ -135,14 +133,9 @@ static void inner_corners_are_mixed_too(void **state)
 static void slants_are_not_before_the_model(void **state)
 {
     (void)state;
-    const rlf_depth_noise noise = {0.001, 0, 0};
     rlf_body_state model = {.shape = {.type = RLF_SHAPE_BOX, .size = {1, 0.2, 2}},
                             .T_world_body = {{0, 0.5, 3}, {0, 0, 0, 1}}};
-    const rlf_snapshot snapshot = {.known = &model, .known_count = 1};
-    const rlf_pose T = rlf_pose_identity();
-    known_layer layer;
-    assert_int_equal(known_layer_create(&camera, &camera, &noise, &layer), RLF_OK);
-    assert_int_equal(known_layer_place(&layer, &snapshot, &T), RLF_OK);
+    known_layer layer = open_layer(&model);
     static float z[160 * 120];
     /* its top, 0.4 m below the camera: z = 48 / (y - 59.5), at y = 75 3.1 m, in the next row 2.9 */
     z[pixel_at(80, 75)] = 48.0f / 16.5f;
