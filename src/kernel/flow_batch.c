@@ -1,5 +1,5 @@
 /* Where samples of a surface were a frame ago: see surface/velocity_cells.c. */
-#include "kernel/kernel.h"
+#include "kernel/flow.h"
 
 #include "relief/surface.h"
 

@@ -1,5 +1,5 @@
 /* Velocity of pixels from that of the cells around: see surface/velocity_write.c. */
-#include "kernel/kernel.h"
+#include "kernel/flow.h"
 
 #include <math.h>
 

@@ -45,7 +45,7 @@ static bool is_thin(const rlf_grid *grid, const rlf_slot *slot, ptrdiff_t k)
 
 static bool hides(const rlf_slot *slot, ptrdiff_t k, const rlf_past_point *p)
 {
-    float behind = p->z - slot->depth[k];
+    float behind = p->at.z - slot->depth[k];
     return rlf_past_is_front(slot, k) && behind > bin_m && behind < BINS * bin_m;
 }
 
@@ -62,7 +62,7 @@ static ptrdiff_t find_front(const rlf_grid *grid, const rlf_slot *slot, ptrdiff_
     float least = 0.0f;
     for (int32_t y = y0 - 1; y <= y0 + 1; y++) {
         for (int32_t x = x0 - SNAP_PX; x <= x0 + SNAP_PX; x++) {
-            float du = (float)x - p->u, dv = (float)y - p->v, far2 = du * du + dv * dv;
+            float du = (float)x - p->at.u, dv = (float)y - p->at.v, far2 = du * du + dv * dv;
             ptrdiff_t n = (ptrdiff_t)y * grid->width + x;
             bool inside = x >= 0 && y >= 0 && x < grid->width && y < grid->height;
             if (inside && (best < 0 || far2 < least) && hides(slot, n, p)) {
@@ -76,12 +76,12 @@ static ptrdiff_t find_front(const rlf_grid *grid, const rlf_slot *slot, ptrdiff_
 
 static void put_at(const rlf_grid *grid, ptrdiff_t k, rlf_past_point *p)
 {
-    float dx = p->z * grid->ray_x[k] - p->x, dy = p->z * grid->ray_y[k] - p->y;
+    float dx = p->at.z * grid->ray_x[k] - p->at.x, dy = p->at.z * grid->ray_y[k] - p->at.y;
     p->doubt += snap_doubt * (float)sqrt((double)(dx * dx + dy * dy));
-    p->x += dx;
-    p->y += dy;
-    p->u = (float)(k % grid->width);
-    p->v = (float)(k / grid->width);
+    p->at.x += dx;
+    p->at.y += dy;
+    p->at.u = (float)(k % grid->width);
+    p->at.v = (float)(k / grid->width);
 }
 
 /* The point goes on with the front at pixel k, unless that is another thing's. */
@@ -99,77 +99,80 @@ static void follow(rlf_past *past, const rlf_slot *slot, ptrdiff_t k, float dt, 
     for (int c = 0; c < 3; c++) {
         p->velocity[c] += follow_share * (slot->velocity[c][k] - p->velocity[c]);
     }
-    past->behind[k] |= 1u << (int32_t)((p->z - slot->depth[k]) / bin_m);
+    past->behind[k] |= 1u << (int32_t)((p->at.z - slot->depth[k]) / bin_m);
 }
 
 /* Follows what hides the point and marks it there; false when it is forgotten. */
-static bool look(rlf_reconstruct *stage, const rlf_slot *slot, float dt, rlf_past_point *p)
+static bool look(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_kernel_motion *motion,
+                 rlf_past_point *p)
 {
     const rlf_grid *grid = &stage->grid;
-    ptrdiff_t k = rlf_past_pixel_of(grid, p);
+    ptrdiff_t k = rlf_kernel_pixel_of(motion, &p->at);
     if (k < 0 || p->age > longest_s || p->doubt > most_doubt_m) {
         return false;
     }
     ptrdiff_t front = find_front(grid, slot, k, p);
     if (front < 0) { /* nothing seen there, or something else before it: it may well be there */
         bool is_seen = slot->depth[k] > 0.0f && slot->reason[k] == RLF_REASON_OK;
-        return !is_seen || (slot->foreground[k] == 0 && slot->depth[k] < p->z);
+        return !is_seen || (slot->foreground[k] == 0 && slot->depth[k] < p->at.z);
     }
     if (front != k) {
         put_at(grid, front, p);
     }
-    follow(&stage->past, slot, front, dt, p);
+    follow(&stage->past, slot, front, motion->dt, p);
     return true;
 }
 
-static void look_at_old(rlf_reconstruct *stage, const rlf_slot *slot, float dt)
+static void look_at_old(rlf_reconstruct *stage, const rlf_slot *slot,
+                        const rlf_kernel_motion *motion)
 {
     rlf_past *past = &stage->past;
     int32_t kept = 0;
     for (int32_t i = 0; i < past->count; i++) {
         rlf_past_point p = past->points[i];
-        rlf_past_advance(&stage->grid, dt, &p);
-        if (look(stage, slot, dt, &p)) {
+        rlf_past_advance(motion, &p);
+        if (look(stage, slot, motion, &p)) {
             past->points[kept++] = p;
         }
     }
     past->count = kept;
 }
 
-/* Whether the face at pixel i is seen at a low angle. */
-static bool turns_away(const rlf_grid *grid, const rlf_slot *slot, ptrdiff_t i)
-{
-    float rx = grid->ray_x[i], ry = grid->ray_y[i];
-    float along = slot->normal[0][i] * rx + slot->normal[1][i] * ry + slot->normal[2][i];
-    return along * along < low_angle * low_angle * (rx * rx + ry * ry + 1.0f);
-}
-
-/* Adds the pixel of the frame before if a thin front hides it now. */
+/* Adds the pixel of the frame before, whose face is seen at a low angle, if a thin front hides it
+ * now. */
 static void look_at_pixel(rlf_reconstruct *stage, const rlf_slot *slot, int32_t x, int32_t y,
-                          float dt)
+                          const rlf_kernel_motion *motion)
 {
     const rlf_grid *grid = &stage->grid;
-    ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-    const rlf_slot *before = stage->previous;
     rlf_past *past = &stage->past;
     rlf_past_point p;
-    if (!rlf_past_is_front(before, i) || !turns_away(grid, before, i) ||
-        past->count == past->capacity || !rlf_past_move_pixel(grid, before, x, y, dt, &p)) {
+    if (past->count == past->capacity ||
+        !rlf_past_move_pixel(grid, stage->previous, x, y, motion, &p)) {
         return;
     }
-    ptrdiff_t k = rlf_past_pixel_of(grid, &p);
+    ptrdiff_t k = rlf_kernel_pixel_of(motion, &p.at);
     ptrdiff_t front = k >= 0 ? find_front(grid, slot, k, &p) : -1;
-    if (front >= 0 && is_thin(grid, slot, front) && look(stage, slot, dt, &p)) {
+    if (front >= 0 && is_thin(grid, slot, front) && look(stage, slot, motion, &p)) {
         past->points[past->count++] = p;
     }
 }
 
-static void look_at_new(rlf_reconstruct *stage, const rlf_slot *slot, float dt)
+static void look_at_row(rlf_reconstruct *stage, const rlf_slot *slot, int32_t y,
+                        const rlf_kernel_motion *motion)
 {
-    for (int32_t y = 0; y < stage->grid.height; y++) {
-        const rlf_span *moved = &stage->previous->moved[y];
-        for (int32_t x = moved->x0; x < moved->x1; x++) {
-            look_at_pixel(stage, slot, x, y, dt);
+    const rlf_grid *grid = &stage->grid;
+    const rlf_slot *before = stage->previous;
+    const rlf_span moved = before->moved[y];
+    uint8_t away[RLF_PAST_PIXELS];
+    for (int32_t x = moved.x0; x < moved.x1; x += RLF_PAST_PIXELS) {
+        int32_t count = moved.x1 - x < RLF_PAST_PIXELS ? moved.x1 - x : RLF_PAST_PIXELS;
+        const rlf_kernel_moving_row row = rlf_past_row(grid, before, x, y, count);
+        ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+        const float *const normal[3] = {before->normal[0] + i, before->normal[1] + i,
+                                        before->normal[2] + i};
+        rlf_kernel_away_row(&row, normal, low_angle, away);
+        for (int32_t k = 0; (k = rlf_kernel_next_mark(away, k, count)) < count; k++) {
+            look_at_pixel(stage, slot, x + k, y, motion);
         }
     }
 }
@@ -260,15 +263,18 @@ void rlf_past_thicken(rlf_reconstruct *stage, rlf_slot *slot)
         past->count = 0;
         return;
     }
-    look_at_old(stage, slot, dt);
-    look_at_new(stage, slot, dt);
+    const rlf_kernel_motion motion = rlf_past_motion(&stage->grid, dt);
+    look_at_old(stage, slot, &motion);
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        look_at_row(stage, slot, y, &motion);
+    }
     for (int32_t i = 0; i < past->count; i++) {
-        ptrdiff_t k = rlf_past_pixel_of(&stage->grid, &past->points[i]);
+        ptrdiff_t k = rlf_kernel_pixel_of(&motion, &past->points[i].at);
         if ((past->behind[k] & ALL_BINS) != 0) {
             thicken_about(stage, slot, k);
         }
     }
     for (int32_t i = 0; i < past->count; i++) {
-        clear_about(stage, rlf_past_pixel_of(&stage->grid, &past->points[i]));
+        clear_about(stage, rlf_kernel_pixel_of(&motion, &past->points[i].at));
     }
 }

@@ -51,32 +51,46 @@ static bool was_seen(const rlf_grid *grid, const rlf_slot *before, int32_t x, in
     return is_seen;
 }
 
+/* Some pixels of a row of the frame before, at most RLF_PAST_PIXELS. */
+static void predict_pixels(rlf_reconstruct *stage, const rlf_kernel_moving_row *row,
+                           const rlf_kernel_motion *motion, const float *depth)
+{
+    const rlf_grid *grid = &stage->grid;
+    const rlf_slot *before = stage->previous;
+    rlf_past *past = &stage->past;
+    int32_t ticks = (int32_t)(motion->dt * TICKS_PER_S + 0.5f);
+    float z[RLF_PAST_PIXELS];
+    int32_t to[RLF_PAST_PIXELS];
+    rlf_kernel_move_row(motion, row, depth, z, to);
+    for (int32_t k = 0; k < row->count; k++) {
+        int32_t x = row->x + k;
+        ptrdiff_t i = (ptrdiff_t)row->y * grid->width + x;
+        if (to[k] < 0 || !rlf_past_is_narrow(grid, before, i, WIDEST_PX)) {
+            continue;
+        }
+        bool is_seen = was_seen(grid, before, x, row->y);
+        if (is_seen || past->lost_ticks[i] > 0) {
+            expect(past, to[k], z[k], i, (is_seen ? 0 : past->lost_ticks[i]) + ticks);
+        }
+    }
+}
+
 void rlf_past_predict(rlf_reconstruct *stage, const rlf_slot *slot, const float *depth)
 {
     const rlf_grid *grid = &stage->grid;
     const rlf_slot *before = stage->previous;
     rlf_past *past = &stage->past;
-    float dt = rlf_past_elapsed(stage, slot);
+    const rlf_kernel_motion motion = rlf_past_motion(grid, rlf_past_elapsed(stage, slot));
     for (int32_t i = 0; i < past->ahead_count; i++) {
         past->is_ahead[past->ahead_pixel[i] >> 3] = 0;
     }
     past->ahead_count = 0;
-    for (int32_t y = 0; y < grid->height && dt > 0.0f; y++) {
-        for (int32_t x = before->moved[y].x0; x < before->moved[y].x1; x++) {
-            ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-            rlf_past_point p;
-            if (before->foreground[i] == 0 || !rlf_past_move_pixel(grid, before, x, y, dt, &p)) {
-                continue;
-            }
-            ptrdiff_t k = rlf_past_pixel_of(grid, &p);
-            if (k < 0 || depth[k] > 0.0f || !rlf_past_is_narrow(grid, before, i, WIDEST_PX)) {
-                continue;
-            }
-            bool is_seen = was_seen(grid, before, x, y);
-            if (is_seen || past->lost_ticks[i] > 0) {
-                int32_t age = is_seen ? 0 : past->lost_ticks[i];
-                expect(past, k, p.z, i, age + (int32_t)(dt * TICKS_PER_S + 0.5f));
-            }
+    for (int32_t y = 0; y < grid->height && motion.dt > 0.0f; y++) {
+        for (int32_t x = before->moved[y].x0; x < before->moved[y].x1; x += RLF_PAST_PIXELS) {
+            int32_t rest = before->moved[y].x1 - x;
+            rlf_kernel_moving_row row =
+                rlf_past_row(grid, before, x, y, rest < RLF_PAST_PIXELS ? rest : RLF_PAST_PIXELS);
+            predict_pixels(stage, &row, &motion, depth);
         }
     }
     memset(past->lost_ticks, 0, (size_t)grid->count);

@@ -14,51 +14,55 @@ float rlf_past_elapsed(const rlf_reconstruct *stage, const rlf_slot *slot)
     return dt > 0.0 && dt <= longest_gap_s ? (float)dt : 0.0f;
 }
 
-/* The step in the image is measured with the focal length, as in velocity.h. */
-void rlf_past_advance(const rlf_grid *grid, float dt, rlf_past_point *p)
+rlf_kernel_motion rlf_past_motion(const rlf_grid *grid, float dt)
 {
-    const float *v = p->velocity;
-    float x = p->x / p->z, y = p->y / p->z;
-    float speed = (float)sqrt((double)(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
-    p->x += v[0] * dt;
-    p->y += v[1] * dt;
-    p->z += v[2] * dt;
-    p->z = p->z > least_z ? p->z : least_z;
-    p->u += (p->x / p->z - x) * (float)grid->camera.fx;
-    p->v += (p->y / p->z - y) * (float)grid->camera.fy;
-    p->age += dt;
-    p->doubt += drift * dt * speed;
+    return (rlf_kernel_motion){.dt = dt,
+                               .fx = (float)grid->camera.fx,
+                               .fy = (float)grid->camera.fy,
+                               .least_z = least_z,
+                               .width = grid->width,
+                               .height = grid->height};
 }
 
-bool rlf_past_move_pixel(const rlf_grid *grid, const rlf_slot *slot, int32_t x, int32_t y, float dt,
-                         rlf_past_point *out)
+rlf_kernel_moving_row rlf_past_row(const rlf_grid *grid, const rlf_slot *slot, int32_t x, int32_t y,
+                                   int32_t count)
 {
     ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-    float z = slot->depth[i], square = 0.0f;
-    for (int k = 0; k < 3; k++) {
-        out->velocity[k] = slot->velocity[k][i];
-        square += out->velocity[k] * out->velocity[k];
-    }
-    if (!(square > 0.0f) || !(z > least_z)) {
-        return false;
-    }
-    out->x = z * grid->ray_x[i];
-    out->y = z * grid->ray_y[i];
-    out->z = z;
-    out->u = (float)x;
-    out->v = (float)y;
-    out->age = out->doubt = 0.0f;
-    rlf_past_advance(grid, dt, out);
-    return true;
+    return (rlf_kernel_moving_row){
+        .foreground = slot->foreground + i,
+        .depth = slot->depth + i,
+        .ray_x = grid->ray_x + i,
+        .ray_y = grid->ray_y + i,
+        .velocity = {slot->velocity[0] + i, slot->velocity[1] + i, slot->velocity[2] + i},
+        .x = x,
+        .y = y,
+        .count = count};
 }
 
-ptrdiff_t rlf_past_pixel_of(const rlf_grid *grid, const rlf_past_point *p)
+void rlf_past_advance(const rlf_kernel_motion *motion, rlf_past_point *p)
 {
-    if (!(p->u > -0.5f) || !(p->v > -0.5f) || !(p->u < (float)grid->width - 0.5f) ||
-        !(p->v < (float)grid->height - 0.5f)) {
-        return -1;
+    const float *v = p->velocity;
+    float speed = (float)sqrt((double)(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+    p->at = rlf_kernel_move(motion, p->at, v[0], v[1], v[2]);
+    p->age += motion->dt;
+    p->doubt += drift * motion->dt * speed;
+}
+
+bool rlf_past_move_pixel(const rlf_grid *grid, const rlf_slot *slot, int32_t x, int32_t y,
+                         const rlf_kernel_motion *motion, rlf_past_point *out)
+{
+    ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+    float z = slot->depth[i];
+    if (!(z > least_z)) {
+        return false;
     }
-    return (ptrdiff_t)(int32_t)(p->v + 0.5f) * grid->width + (int32_t)(p->u + 0.5f);
+    for (int k = 0; k < 3; k++) {
+        out->velocity[k] = slot->velocity[k][i];
+    }
+    out->at = (rlf_kernel_point){z * grid->ray_x[i], z * grid->ray_y[i], z, (float)x, (float)y};
+    out->age = out->doubt = 0.0f;
+    rlf_past_advance(motion, out);
+    return true;
 }
 
 /* Pixels of the same body from k on along `step`, up to `limit`. */

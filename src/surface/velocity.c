@@ -113,6 +113,7 @@ typedef struct twist_sum {
     const rlf_rims *rims;
     double slack;      /* widens what agrees while the motion is still far off */
     double rim_weight; /* 0: the outline only says how far off it is */
+    bool only_counts;  /* what agrees, and nothing is improved */
     double speed;      /* of the motion so far */
     double a[6][6], b[6];
 } twist_sum;
@@ -147,7 +148,9 @@ static void add_pixel(twist_sum *sum, rlf_twist *t, ptrdiff_t i)
     if (off <= bound && off >= -bound) {
         double sigma = rlf_kernel_sigma(job->noise, job->now->depth[i]) / job->dt;
         t->inliers++;
-        add_row(sum, t, p, n, off, 1.41421356 * sigma * facing, 1.0);
+        if (!sum->only_counts) {
+            add_row(sum, t, p, n, off, 1.41421356 * sigma * facing, 1.0);
+        }
     }
 }
 
@@ -174,6 +177,18 @@ static void add_rim(twist_sum *sum, rlf_twist *t, const rlf_rim *rim)
     }
 }
 
+static void step(twist_sum *sum, rlf_twist *t)
+{
+    double x[6], ridge = sum->rim_weight > 0.0 ? rim_ridge : depth_ridge;
+    for (int k = 0; k < 6; k++) {
+        sum->a[k][k] += ridge * (agreeing(t) + 1);
+    }
+    solve_six(sum->a, sum->b, x);
+    for (int k = 0; k < 6; k++) {
+        t->x[k] += x[k];
+    }
+}
+
 /* One step of Gauss and Newton over the pixels and rims that agree with the motion so far. */
 static void fit_pass(const twist_sum *start, double slack, rlf_twist *t)
 {
@@ -196,16 +211,10 @@ static void fit_pass(const twist_sum *start, double slack, rlf_twist *t)
     for (int32_t k = 0; k < rims->count; k++) {
         add_rim(&sum, t, &rims->rim[k]);
     }
-    double x[6], ridge = sum.rim_weight > 0.0 ? rim_ridge : depth_ridge;
-    for (int k = 0; k < 6; k++) {
-        sum.a[k][k] += ridge * (agreeing(t) + 1);
-    }
-    solve_six(sum.a, sum.b, x);
-    for (int k = 0; k < 6; k++) {
-        t->x[k] += x[k];
+    if (!sum.only_counts) {
+        step(&sum, t);
     }
 }
-
 static rlf_twist start_from(const rlf_region *region, rlf_vec3 velocity)
 {
     rlf_vec3 size = rlf_sub(region->box.max, region->box.min);
@@ -283,10 +292,11 @@ static bool is_moving(const rlf_flow *job, const rlf_region *region, rlf_vec3 se
 {
     rlf_rims rims;
     rlf_rims_find(job, region, &rims);
-    twist_sum sum = {.job = job, .region = region, .rims = &rims};
+    twist_sum sum = {.job = job, .region = region, .rims = &rims, .only_counts = true};
     const rlf_vec3 none = {0, 0, 0};
     rlf_twist rest = start_from(region, none);
     fit_pass(&sum, 0.0, &rest);
+    sum.only_counts = false;
     const rlf_twist all = {.inliers = rest.samples, .rim_inliers = rest.rim_samples};
     if (is_rest_as_likely(&rest, &all)) {
         return false; /* whatever the motion */

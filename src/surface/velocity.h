@@ -2,6 +2,7 @@
 #ifndef RLF_SURFACE_VELOCITY_H
 #define RLF_SURFACE_VELOCITY_H
 
+#include "kernel/flow.h"
 #include "surface/steps.h"
 
 /* Two frames. */
@@ -83,6 +84,7 @@ enum { RLF_RIMS_MAX = 128 };
 typedef struct rlf_rims {
     rlf_rim rim[RLF_RIMS_MAX];
     int32_t count;
+    int32_t seen, step; /* pixels of the outline; every step-th is taken */
 } rlf_rims;
 
 /* Some of the region's outline, evenly. */

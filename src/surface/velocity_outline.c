@@ -13,92 +13,72 @@
 
 #include <math.h>
 
-enum { RADIUS = 3, SIDE = 2 * RADIUS + 1 };
+enum { RADIUS = RLF_RIM_RADIUS, SIDE = RLF_RIM_SIDE, RUN = 128 };
 
 static const float least_step_m = 0.05f; /* to the background: else the outline is but a guess */
 static const float least_pull = 0.5f;    /* of a straight outline's: else it is a corner */
-
-static bool is_own(const rlf_flow *job, int32_t label, ptrdiff_t i)
-{
-    return job->now->label[i] == label;
-}
-
-/* Whether pixel k shows what is behind the region's pixel i. */
-static bool is_behind(const rlf_flow *job, ptrdiff_t i, ptrdiff_t k)
-{
-    const rlf_slot *now = job->now;
-    return now->foreground[k] == 0 && now->depth[k] > now->depth[i] + least_step_m;
-}
-
-static bool is_outline(const rlf_flow *job, int32_t label, ptrdiff_t i)
-{
-    const ptrdiff_t width = job->stage->grid.width;
-    return is_own(job, label, i) && (is_behind(job, i, i - 1) || is_behind(job, i, i + 1) ||
-                                     is_behind(job, i, i - width) || is_behind(job, i, i + width));
-}
-
-/* The region's pixels in the window about (x, y), and their first moments. */
-static int32_t count_window(const rlf_grid *grid, const int32_t *label, int32_t own, int32_t x,
-                            int32_t y, int32_t moment[2])
-{
-    int32_t count = 0, sum_x = 0, sum_y = 0;
-    for (int32_t dy = -RADIUS; dy <= RADIUS; dy++) {
-        const int32_t *row = label + (ptrdiff_t)(y + dy) * grid->width + x;
-        int32_t in_row = 0;
-        for (int32_t dx = -RADIUS; dx <= RADIUS; dx++) {
-            int32_t is = row[dx] == own;
-            in_row += is;
-            sum_x += is * dx;
-        }
-        count += in_row;
-        sum_y += in_row * dy;
-    }
-    moment[0] = sum_x;
-    moment[1] = sum_y;
-    return count;
-}
 
 /* Of a straight outline through the middle of a window: pixels that come in per pixel of motion,
  * and how strongly they pull to one side. */
 static bool measure(const rlf_flow *job, int32_t label, int32_t x, int32_t y, rlf_rim *out)
 {
-    int32_t moment[2];
-    out->i = (ptrdiff_t)y * job->stage->grid.width + x;
-    out->count = count_window(&job->stage->grid, job->now->label, label, x, y, moment);
-    float length = (float)sqrt((double)(moment[0] * moment[0] + moment[1] * moment[1]));
+    int32_t window[3], width = job->stage->grid.width;
+    rlf_kernel_rim_window(job->now->label, width, label, x, y, window);
+    out->i = (ptrdiff_t)y * width + x;
+    out->count = window[0];
+    float length = (float)sqrt((double)(window[1] * window[1] + window[2] * window[2]));
     if (length < least_pull * (float)(SIDE * SIDE * (RADIUS + 1)) / 4.0f) {
         return false;
     }
-    out->out_x = -(float)moment[0] / length;
-    out->out_y = -(float)moment[1] / length;
+    out->out_x = -(float)window[1] / length;
+    out->out_y = -(float)window[2] / length;
     float ax = rlf_kernel_abs(out->out_x), ay = rlf_kernel_abs(out->out_y);
     out->per_pixel = (float)SIDE / (ax > ay ? ax : ay);
     return true;
 }
 
+/* Takes every step-th of the region's outline; twice that step where they become too many. */
+static void add_rim(const rlf_flow *job, int32_t label, int32_t x, int32_t y, rlf_rims *out)
+{
+    if (out->seen++ % out->step != 0) {
+        return;
+    }
+    if (out->count == RLF_RIMS_MAX) { /* every second one is enough */
+        for (int32_t k = 0; k < RLF_RIMS_MAX / 2; k++) {
+            out->rim[k] = out->rim[2 * k];
+        }
+        out->count = RLF_RIMS_MAX / 2;
+        out->step *= 2;
+    }
+    out->count += measure(job, label, x, y, &out->rim[out->count]);
+}
+
 void rlf_rims_find(const rlf_flow *job, const rlf_region *region, rlf_rims *out)
 {
     const rlf_grid *grid = &job->stage->grid;
-    int32_t step = 1, seen = 0;
     int32_t x0 = region->x0 > RADIUS ? region->x0 : RADIUS;
     int32_t y0 = region->y0 > RADIUS ? region->y0 : RADIUS;
     int32_t x1 = region->x1 < grid->width - RADIUS ? region->x1 : grid->width - RADIUS;
     int32_t y1 = region->y1 < grid->height - RADIUS ? region->y1 : grid->height - RADIUS;
-    out->count = 0;
+    uint8_t is_rim[RUN];
+    out->count = out->seen = 0;
+    out->step = 1;
+    if (grid->width <= SIDE) {
+        return; /* too narrow for a window */
+    }
     for (int32_t y = y0; y < y1; y++) {
-        for (int32_t x = x0; x < x1; x++) {
+        for (int32_t x = x0; x < x1; x += RUN) {
             ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-            if (!is_outline(job, region->label, i) || seen++ % step != 0) {
-                continue;
+            const rlf_kernel_rim_in row = {.label = job->now->label + i,
+                                           .foreground = job->now->foreground + i,
+                                           .depth = job->now->depth + i,
+                                           .width = grid->width,
+                                           .least = least_step_m};
+            int32_t count = x1 - x < RUN ? x1 - x : RUN;
+            rlf_kernel_rim_row(&row, region->label, count, is_rim);
+            for (int32_t k = 0; (k = rlf_kernel_next_mark(is_rim, k, count)) < count; k++) {
+                add_rim(job, region->label, x + k, y, out);
             }
-            if (out->count == RLF_RIMS_MAX) { /* every second one is enough */
-                for (int32_t k = 0; k < RLF_RIMS_MAX / 2; k++) {
-                    out->rim[k] = out->rim[2 * k];
-                }
-                out->count = RLF_RIMS_MAX / 2;
-                step *= 2;
-            }
-            out->count += measure(job, region->label, x, y, &out->rim[out->count]);
         }
     }
 }
@@ -118,10 +98,10 @@ bool rlf_rim_beyond(const rlf_flow *job, int32_t label, const rlf_rim *rim, rlf_
         !(w < grid->height - RADIUS - 1)) {
         return false;
     }
-    int32_t x = (int32_t)(u + 0.5), y = (int32_t)(w + 0.5), moment[2];
-    int32_t before = count_window(grid, job->before->label, label, x, y, moment);
+    int32_t x = (int32_t)(u + 0.5), y = (int32_t)(w + 0.5), before[3];
+    rlf_kernel_rim_window(job->before->label, grid->width, label, x, y, before);
     double part = (u - x) * (double)rim->out_x + (w - y) * (double)rim->out_y;
-    double pixels = part - (double)(before - rim->count) / (double)rim->per_pixel;
+    double pixels = part - (double)(before[0] - rim->count) / (double)rim->per_pixel;
     rlf_vec3 ray = rlf_normalize(p);
     rlf_vec3 m = rlf_vec3_make(rim->out_x, rim->out_y, 0.0);
     *direction = rlf_normalize(rlf_mad(m, ray, -rlf_dot(m, ray)));

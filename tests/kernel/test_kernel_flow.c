@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "analytic.h"
-#include "kernel/kernel.h"
+#include "kernel/flow.h"
 
 #include <math.h>
 
@@ -162,11 +162,102 @@ static void flow_residuals_are_distances(void **state)
     }
 }
 
+/* A foreground of points, some of them at rest, not seen or on their way out of view. */
+static void move_row_is_its_definition(void **state)
+{
+    (void)state;
+    enum { WIDTH = 80, HEIGHT = 20 };
+    analytic_random r = {11};
+    static float seen[WIDTH * HEIGHT];
+    for (int32_t i = 0; i < WIDTH * HEIGHT; i++) {
+        seen[i] = random_uniform(&r) < 0.5 ? 0.0f : 2.0f;
+    }
+    const rlf_kernel_motion motion = {0.1f, 100.0f, 90.0f, 0.1f, WIDTH, HEIGHT};
+    for (int32_t count = 1; count <= LONGEST; count++) {
+        float value[9][LONGEST], z[LONGEST]; /* depth, rays, velocity, normal */
+        uint8_t foreground[LONGEST], away[LONGEST];
+        int32_t to[LONGEST];
+        for (int32_t i = 0; i < count; i++) {
+            for (int k = 0; k < 9; k++) {
+                value[k][i] = (float)(2.0 * random_uniform(&r) - 1.0);
+            }
+            bool rests = i % 5 == 0;
+            value[0][i] = i % 7 == 0 ? 0.0f : 1.0f + value[0][i] * value[0][i];
+            value[3][i] = rests ? 0.0f : value[3][i];
+            value[4][i] = rests ? 0.0f : value[4][i];
+            value[5][i] = rests ? 0.0f : value[5][i];
+            foreground[i] = i % 3 != 0;
+        }
+        const rlf_kernel_moving_row in = {
+            foreground, value[0], value[1], value[2], {value[3], value[4], value[5]}, 6, 9, count};
+        const float *const normal[3] = {value[6], value[7], value[8]};
+        rlf_kernel_move_row(&motion, &in, seen, z, to);
+        rlf_kernel_away_row(&in, normal, 0.5f, away);
+        for (int32_t i = 0; i < count; i++) {
+            bool moves = i % 5 != 0 && i % 7 != 0 && i % 3 != 0;
+            double depth = value[0][i], rx = value[1][i], ry = value[2][i];
+            double after = depth + 0.1 * value[5][i];
+            double u = 6 + i + 100.0 * ((depth * rx + 0.1 * value[3][i]) / after - rx) + 0.5;
+            double v = 9 + 90.0 * ((depth * ry + 0.1 * value[4][i]) / after - ry) + 0.5;
+            bool is_in = u > 0.0 && v > 0.0 && u < WIDTH && v < HEIGHT;
+            int32_t pixel = is_in ? (int32_t)v * WIDTH + (int32_t)u : -1;
+            assert_int_equal(to[i], moves && is_in && !(seen[pixel] > 0.0f) ? pixel : -1);
+            assert_true(to[i] < 0 || near_enough(z[i], (float)after, 1e-5f));
+            double along = value[6][i] * rx + value[7][i] * ry + value[8][i];
+            assert_int_equal(away[i], moves && along * along < 0.25 * (rx * rx + ry * ry + 1.0));
+        }
+    }
+}
+
+/* Windows at every place of an image of a few regions, also where a row of eight would end beyond
+ * it, and outlines before a background. */
+static void rims_are_their_definition(void **state)
+{
+    (void)state;
+    enum { WIDTH = 19, HEIGHT = 15, R = RLF_RIM_RADIUS, OWN = 3 };
+    int32_t label[WIDTH * HEIGHT];
+    uint8_t foreground[WIDTH * HEIGHT], is_rim[WIDTH];
+    float depth[WIDTH * HEIGHT];
+    analytic_random r = {5};
+    for (int32_t i = 0; i < WIDTH * HEIGHT; i++) {
+        label[i] = 1 + (int32_t)(4.0 * random_uniform(&r));
+        foreground[i] = random_uniform(&r) < 0.7;
+        depth[i] = random_uniform(&r) < 0.3 ? 0.0f : 2.0f + (float)random_uniform(&r);
+    }
+    for (int32_t y = R; y < HEIGHT - R; y++) {
+        ptrdiff_t row = (ptrdiff_t)y * WIDTH;
+        const rlf_kernel_rim_in in = {label + row + R, foreground + row + R, depth + row + R, WIDTH,
+                                      0.3f};
+        rlf_kernel_rim_row(&in, OWN, WIDTH - 2 * R, is_rim);
+        for (int32_t x = R; x < WIDTH - R; x++) {
+            int32_t expected[3] = {0, 0, 0}, found[3];
+            for (int32_t k = 0; k < RLF_RIM_SIDE * RLF_RIM_SIDE; k++) {
+                int32_t dx = k % RLF_RIM_SIDE - R, dy = k / RLF_RIM_SIDE - R;
+                int32_t is = label[row + x + dy * WIDTH + dx] == OWN;
+                expected[0] += is;
+                expected[1] += is * dx;
+                expected[2] += is * dy;
+            }
+            rlf_kernel_rim_window(label, WIDTH, OWN, x, y, found);
+            assert_memory_equal(found, expected, sizeof found);
+            const ptrdiff_t step[4] = {-1, 1, -WIDTH, WIDTH};
+            bool is_beside = false;
+            for (int k = 0; k < 4; k++) {
+                ptrdiff_t n = row + x + step[k];
+                is_beside |= foreground[n] == 0 && depth[n] > depth[row + x] + 0.3f;
+            }
+            assert_int_equal(is_rim[x - R], label[row + x] == OWN && is_beside);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(spread_row_is_its_definition),
         cmocka_unit_test(flow_row_is_its_definition),
+        cmocka_unit_test(move_row_is_its_definition),
+        cmocka_unit_test(rims_are_their_definition),
         cmocka_unit_test(flow_residuals_are_distances),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
