@@ -91,11 +91,14 @@ static rlf_result allocate(rlf_registration *r)
     r->row_top = rlf_alloc_array((size_t)r->height, sizeof(*r->row_top));
     r->row_bottom = rlf_alloc_array((size_t)r->height, sizeof(*r->row_bottom));
     r->done = rlf_alloc_array((size_t)r->height, sizeof(*r->done));
+    r->column_low = rlf_alloc_array(width, sizeof(*r->column_low));
+    r->column_high = rlf_alloc_array(width, sizeof(*r->column_high));
     r->line = rlf_alloc_array((size_t)r->color.width, sizeof(*r->line));
     float **floats[4] = {&r->points.u, &r->points.v, &r->points.scale, &r->points.z};
     int32_t **integers[4] = {&r->row.x0, &r->row.x1, &r->row.y, &r->row.y0};
     bool has_all = r->a != NULL && r->b != NULL && r->c != NULL && r->row_top != NULL &&
-                   r->row_bottom != NULL && r->done != NULL && r->line != NULL;
+                   r->row_bottom != NULL && r->done != NULL && r->column_low != NULL &&
+                   r->column_high != NULL && r->line != NULL;
     for (int i = 0; i < 4; i++) {
         *floats[i] = rlf_alloc_array(width, sizeof(float));
         *integers[i] = rlf_alloc_array(width, sizeof(int32_t));
@@ -134,10 +137,10 @@ rlf_result rlf_registration_create(const rlf_camera *depth, const float *ray_x, 
     r->width = depth->width;
     r->height = depth->height;
     r->color = *color;
-    double shift[2] = {0.0, 0.0};
+    registration_shift shift = {{0.0, 0.0}, {0.0, 0.0}};
     result = allocate(r);
     if (result == RLF_OK && color->distortion_model != RLF_DISTORTION_NONE) {
-        result = registration_make_lens(r, shift);
+        result = registration_make_lens(r, &shift);
     }
     if (result != RLF_OK) {
         rlf_registration_destroy(&r);
@@ -150,7 +153,8 @@ rlf_result rlf_registration_create(const rlf_camera *depth, const float *ray_x, 
         rlf_registration_destroy(&r);
         return result;
     }
-    mark_rows(r, shift);
+    mark_rows(r, shift.v);
+    registration_make_columns(r, &shift);
     *out = r;
     return RLF_OK;
 }
@@ -161,11 +165,11 @@ void rlf_registration_destroy(rlf_registration **registration)
         return;
     }
     rlf_registration *r = *registration;
-    void *parts[18] = {r->a,        r->b,          r->c,        r->row_top,      r->line,
+    void *parts[20] = {r->a,        r->b,          r->c,        r->row_top,      r->line,
                        r->points.u, r->points.v,   r->points.z, r->points.scale, r->row.x0,
                        r->row.x1,   r->row.y,      r->row.y0,   r->lens.du,      r->lens.dv,
-                       r->size,     r->row_bottom, r->done};
-    for (int i = 0; i < 18; i++) {
+                       r->size,     r->row_bottom, r->done,     r->column_low,   r->column_high};
+    for (int i = 0; i < 20; i++) {
         rlf_free(parts[i]);
     }
     rlf_free(r);

@@ -12,7 +12,7 @@ typedef struct fill_line {
     char *depth;
     uint8_t *state; /* NULL = not wanted */
     ptrdiff_t depth_step, state_step;
-    int32_t count;
+    int32_t first, count; /* pixels first <= i < count */
 } fill_line;
 
 static float *depth_at(const fill_line *line, int32_t i)
@@ -53,12 +53,12 @@ static void set_pixels(const fill_line *line, int32_t begin, int32_t end, float 
 static void fill_hole(const rlf_registration *r, const fill_line *line, int32_t begin, int32_t end)
 {
     float value = 0.0f;
-    if (begin > 0 && end < line->count) {
+    if (begin > line->first && end < line->count) {
         float left = *depth_at(line, begin - 1);
         float right = *depth_at(line, end);
         float z_near = left < right ? left : right;
         float z_far = left < right ? right : left;
-        float shadow = 1.25f * r->shadow_px_m * (1.0f / z_near - 1.0f / z_far);
+        float shadow = REGISTRATION_SHADOW * r->shadow_px_m * (1.0f / z_near - 1.0f / z_far);
         value = (float)(end - begin) <= shadow + (float)r->gap_px ? z_far : 0.0f;
     }
     set_pixels(line, begin, end, value);
@@ -78,7 +78,7 @@ static int32_t find(const fill_line *line, int32_t i, bool has_depth)
 
 static void fill_line_holes(const rlf_registration *r, const fill_line *line)
 {
-    int32_t begin = find(line, 0, false);
+    int32_t begin = find(line, line->first, false);
     while (begin < line->count) {
         int32_t end = find(line, begin, true);
         fill_hole(r, line, begin, end);
@@ -86,14 +86,15 @@ static void fill_line_holes(const rlf_registration *r, const fill_line *line)
     }
 }
 
-static void fill_row(const rlf_registration *r, int32_t y, const rlf_plane_f32 *depth,
-                     const rlf_plane_u8 *state)
+static void fill_row(const rlf_registration *r, int32_t y, const registration_window *window,
+                     const rlf_plane_f32 *depth, const rlf_plane_u8 *state)
 {
     const fill_line line = {.depth = (char *)rlf_f32_row(depth, y),
                             .state = state->data != NULL ? rlf_u8_row(state, y) : NULL,
                             .depth_step = sizeof(float),
                             .state_step = 1,
-                            .count = depth->width};
+                            .first = window->x0,
+                            .count = window->x1};
     fill_line_holes(r, &line);
 }
 
@@ -108,15 +109,17 @@ static void fill_column(const rlf_registration *r, int32_t x, const rlf_plane_f3
     fill_line_holes(r, &line);
 }
 
-void registration_fill_holes(const rlf_registration *r, int32_t begin, int32_t end,
+void registration_fill_holes(const rlf_registration *r, const registration_window *window,
                              const rlf_plane_f32 *depth, const rlf_plane_u8 *state)
 {
-    for (int32_t y = begin; y < end; y++) {
+    const int32_t x0 = window->x0;
+    for (int32_t y = window->y0; y < window->y1; y++) {
         if (state->data != NULL) {
-            rlf_kernel_seen_row(rlf_f32_row(depth, y), state->width, rlf_u8_row(state, y));
+            rlf_kernel_seen_row(rlf_f32_row(depth, y) + x0, window->x1 - x0,
+                                rlf_u8_row(state, y) + x0);
         }
         if (!r->fills_columns) {
-            fill_row(r, y, depth, state);
+            fill_row(r, y, window, depth, state);
         }
     }
     for (int32_t x = 0; r->fills_columns && x < depth->width; x++) {

@@ -24,7 +24,13 @@ static void lens_bounds(const rlf_camera *k, double bounds[4])
     }
 }
 
-rlf_result registration_make_lens(rlf_registration *r, double shift[2])
+static void widen(double range[2], double by)
+{
+    range[0] = rlf_min(range[0], by);
+    range[1] = rlf_max(range[1], by);
+}
+
+rlf_result registration_make_lens(rlf_registration *r, registration_shift *shift)
 {
     const rlf_camera *k = &r->color;
     rlf_kernel_lens *lens = &r->lens;
@@ -52,8 +58,10 @@ rlf_result registration_make_lens(rlf_registration *r, double shift[2])
         bool is_inside = rlf_camera_project(k, ray, &u, &v);
         lens->du[i] = is_inside ? (float)(u - u0) : RLF_KERNEL_NOTHING;
         lens->dv[i] = is_inside ? (float)(v - v0) : RLF_KERNEL_NOTHING;
-        shift[0] = is_inside ? rlf_min(shift[0], (double)lens->dv[i]) : shift[0];
-        shift[1] = is_inside ? rlf_max(shift[1], (double)lens->dv[i]) : shift[1];
+        if (is_inside) {
+            widen(shift->u, lens->du[i]);
+            widen(shift->v, lens->dv[i]);
+        }
     }
     return RLF_OK;
 }

@@ -36,7 +36,7 @@ void rlf_registration_align(rlf_registration *r, const float *depth, const rlf_a
     rlf_registration_apply(r, depth, &out->depth, &out->state);
     for (int32_t y = 0; out->seen != NULL && y < r->height; y++) {
         size_t first = (size_t)y * (size_t)r->width;
-        registration_project(r, depth, y);
+        registration_project(r, depth, y, 0, r->width);
         map_row(r, &out->depth, out->seen + first);
     }
 }

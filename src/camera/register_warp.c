@@ -44,10 +44,11 @@ static void draw_run(const rlf_registration *r, int32_t begin, int32_t end, int3
     }
 }
 
-/* Rows of the picture that are wanted, how many of them are drawn into, and how many are done:
- * each while it is in the processor's cache. */
+/* Pixels of the picture that are wanted, how many rows are drawn into, and how many are done: each
+ * while it is in the processor's cache. */
 typedef struct wanted_rows {
-    int32_t begin, end, drawn, done;
+    registration_window window;
+    int32_t drawn, done;
     const rlf_plane_f32 *depth;
     const rlf_plane_u8 *state;
 } wanted_rows;
@@ -55,73 +56,92 @@ typedef struct wanted_rows {
 static void clear_up_to(wanted_rows *rows, int32_t end)
 {
     for (; rows->drawn < end; rows->drawn++) {
-        rlf_kernel_clear_row(rows->depth->width, rlf_f32_row(rows->depth, rows->drawn));
+        rlf_kernel_clear_row(rows->window.x1 - rows->window.x0,
+                             rlf_f32_row(rows->depth, rows->drawn) + rows->window.x0);
     }
 }
 
 /* Rows before `end` change no more. */
 static void finish_up_to(const rlf_registration *r, wanted_rows *rows, int32_t end)
 {
-    end = end < rows->end ? end : rows->end;
+    end = end < rows->window.y1 ? end : rows->window.y1;
     if (rows->done < end) {
         clear_up_to(rows, end);
-        registration_fill_holes(r, rows->done, end, rows->depth, rows->state);
+        const registration_window done = {rows->window.x0, rows->done, rows->window.x1, end};
+        registration_fill_holes(r, &done, rows->depth, rows->state);
         rows->done = end;
     }
 }
 
-/* Puts pixels x[0] .. x[1] of the line into row y: the first that is drawn into it. */
-static void put_row(const rlf_registration *r, const int32_t x[2], wanted_rows *rows)
+/* Puts pixels x0 <= x < x1 of the line into the next row: the first that is drawn into it. */
+static void put_row(const rlf_registration *r, int32_t x0, int32_t x1, wanted_rows *rows)
 {
     float *out = rlf_f32_row(rows->depth, rows->drawn);
-    rlf_kernel_clear_row(x[0], out);
-    memcpy(out + x[0], r->line + x[0], (size_t)(x[1] + 1 - x[0]) * sizeof(*out));
-    rlf_kernel_clear_row(rows->depth->width - x[1] - 1, out + x[1] + 1);
+    const registration_window *window = &rows->window;
+    rlf_kernel_clear_row(x0 - window->x0, out + window->x0);
+    memcpy(out + x0, r->line + x0, (size_t)(x1 - x0) * sizeof(*out));
+    rlf_kernel_clear_row(window->x1 - x1, out + x1);
     rows->drawn++;
+}
+
+static int32_t clamp(int32_t x, int32_t low, int32_t high)
+{
+    return x < low ? low : (x > high ? high : x);
 }
 
 static void put_line(const rlf_registration *r, const int32_t x[2], int32_t y, wanted_rows *rows)
 {
+    const registration_window *window = &rows->window;
     const int32_t first = y / RLF_KERNEL_ROWS;
-    const int32_t last = y % RLF_KERNEL_ROWS < rows->end ? y % RLF_KERNEL_ROWS : rows->end - 1;
-    const int32_t count = x[1] - x[0] + 1;
-    clear_up_to(rows, first < rows->end ? first : rows->end);
-    for (int32_t row = first > rows->begin ? first : rows->begin; row <= last; row++) {
+    const int32_t last = y % RLF_KERNEL_ROWS < window->y1 ? y % RLF_KERNEL_ROWS : window->y1 - 1;
+    const int32_t x0 = clamp(x[0], window->x0, window->x1);
+    const int32_t x1 = clamp(x[1] + 1, x0, window->x1);
+    clear_up_to(rows, first < window->y1 ? first : window->y1);
+    for (int32_t row = first > window->y0 ? first : window->y0; row <= last; row++) {
         if (row < rows->drawn) {
-            rlf_kernel_nearer_row(r->line + x[0], count, rlf_f32_row(rows->depth, row) + x[0]);
+            rlf_kernel_nearer_row(r->line + x0, x1 - x0, rlf_f32_row(rows->depth, row) + x0);
         } else {
-            put_row(r, x, rows);
+            put_row(r, x0, x1, rows);
         }
     }
-    rlf_kernel_clear_row(count, r->line + x[0]);
+    rlf_kernel_clear_row(x[1] + 1 - x[0], r->line + x[0]);
 }
 
-static void splat(const rlf_registration *r, wanted_rows *rows)
+/* Draws columns [first, count) of a depth row. */
+static void splat(const rlf_registration *r, int32_t first, int32_t count, wanted_rows *rows)
 {
     const int32_t *row_y = r->row.y;
-    for (int32_t i = 0; i < r->width;) {
+    for (int32_t i = first; i < count;) {
         if (row_y[i] < 0) {
             i++;
             continue;
         }
         int32_t x[3];
-        const int32_t end = rlf_kernel_splat_run(&r->row, i, r->width, x);
+        const int32_t end = rlf_kernel_splat_run(&r->row, i, count, x);
         draw_run(r, i, end, x[2]);
         put_line(r, x, row_y[i], rows);
         i = end;
     }
 }
 
-void registration_project(rlf_registration *r, const float *depth, int32_t y)
+static rlf_kernel_points points_at(const rlf_registration *r, int32_t x)
 {
-    size_t first = (size_t)y * (size_t)r->width;
-    rlf_kernel_rays rays = {r->a + first, r->b + first, r->c + first};
-    rlf_kernel_project_row(&r->pinhole, &rays, depth + first, r->width, &r->points);
+    const rlf_kernel_points *p = &r->points;
+    return (rlf_kernel_points){p->u + x, p->v + x, p->scale + x, p->z + x};
+}
+
+void registration_project(rlf_registration *r, const float *depth, int32_t y, int32_t x0,
+                          int32_t x1)
+{
+    const size_t first = (size_t)y * (size_t)r->width + (size_t)x0;
+    const rlf_kernel_rays rays = {r->a + first, r->b + first, r->c + first};
+    const rlf_kernel_points points = points_at(r, x0);
+    rlf_kernel_project_row(&r->pinhole, &rays, depth + first, x1 - x0, &points);
     if (r->lens.du != NULL) {
-        rlf_kernel_distort_row(&r->lens, r->width, &r->points);
+        rlf_kernel_distort_row(&r->lens, x1 - x0, &points);
     }
     if (r->size != NULL) {
-        rlf_kernel_stretch_row(r->size + first, r->width, r->points.scale);
+        rlf_kernel_stretch_row(r->size + first, x1 - x0, points.scale);
     }
 }
 
@@ -138,6 +158,39 @@ void registration_pixel(const rlf_registration *r, int32_t i, float z, float out
     out[0] = seen < RLF_KERNEL_NOTHING ? out[0] : -RLF_KERNEL_NOTHING;
 }
 
+/* Row y of the depth grid, columns [x[0], x[1]). */
+static void draw_row(rlf_registration *r, const float *depth, int32_t y, const int32_t x[2],
+                     wanted_rows *rows)
+{
+    const rlf_kernel_points points = points_at(r, x[0]);
+    const rlf_kernel_splat *row = &r->row;
+    const rlf_kernel_splat part = {row->x0 + x[0], row->x1 + x[0], row->y + x[0], row->y0 + x[0]};
+    registration_project(r, depth, y, x[0], x[1]);
+    rlf_kernel_splat_row(&r->pinhole, &points, x[1] - x[0], &part);
+    splat(r, x[0], x[1], rows);
+}
+
+void registration_apply_window(rlf_registration *r, const float *depth,
+                               const registration_window *wanted, double nearest,
+                               const rlf_plane_f32 *out_depth, const rlf_plane_u8 *out_state)
+{
+    wanted_rows rows = {registration_widen(r, wanted, nearest), wanted->y0, wanted->y0, out_depth,
+                        out_state};
+    int32_t x[2];
+    registration_columns(r, rows.window.x0, rows.window.x1, nearest, x);
+    rows.drawn = rows.done = rows.window.y0;
+    for (int32_t y = 0; y < r->height; y++) {
+        if (r->row_bottom[y] < (float)rows.window.y0 || r->row_top[y] > (float)rows.window.y1) {
+            continue;
+        }
+        if (x[0] < x[1]) {
+            draw_row(r, depth, y, x, &rows);
+        }
+        finish_up_to(r, &rows, r->fills_columns ? 0 : r->done[y]);
+    }
+    finish_up_to(r, &rows, rows.window.y1);
+}
+
 void rlf_registration_apply_rows(rlf_registration *r, const float *depth, int32_t begin,
                                  int32_t end, const rlf_plane_f32 *out_depth,
                                  const rlf_plane_u8 *out_state)
@@ -148,20 +201,8 @@ void rlf_registration_apply_rows(rlf_registration *r, const float *depth, int32_
         !RLF_ASSERT(begin >= 0 && end <= r->color.height)) {
         return;
     }
-    wanted_rows rows = {begin, end, begin, begin, out_depth, out_state};
-    if (r->fills_columns) {
-        rows = (wanted_rows){0, r->color.height, 0, 0, out_depth, out_state};
-    }
-    for (int32_t y = 0; y < r->height; y++) {
-        if (r->row_bottom[y] < (float)rows.begin || r->row_top[y] > (float)rows.end) {
-            continue;
-        }
-        registration_project(r, depth, y);
-        rlf_kernel_splat_row(&r->pinhole, &r->points, r->width, &r->row);
-        splat(r, &rows);
-        finish_up_to(r, &rows, r->fills_columns ? 0 : r->done[y]);
-    }
-    finish_up_to(r, &rows, rows.end);
+    const registration_window rows = {0, begin, r->color.width, end};
+    registration_apply_window(r, depth, &rows, 0.0, out_depth, out_state);
 }
 
 void rlf_registration_apply(rlf_registration *r, const float *depth, const rlf_plane_f32 *out_depth,

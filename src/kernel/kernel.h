@@ -401,9 +401,6 @@ void rlf_kernel_clear_row(int32_t count, float *restrict out);
 void rlf_kernel_seen_row(const float *restrict z, int32_t count, uint8_t *restrict out);
 /* First i of begin <= i < count, else count, at which there is a depth (is_seen 1) or none (0). */
 int32_t rlf_kernel_find_seen(const float *z, int32_t begin, int32_t count, int32_t is_seen);
-/* What is in front where there is any, else what is behind. */
-void rlf_kernel_nearest_row(const float *restrict front, const float *restrict back, int32_t count,
-                            float *restrict out);
 /* Keeps the smaller value of each. */
 void rlf_kernel_nearer_row(const float *restrict line, int32_t count, float *restrict out);
 

@@ -250,12 +250,3 @@ RLF_KERNEL int32_t rlf_kernel_find_seen(const float *z, int32_t begin, int32_t c
     }
     return i;
 }
-
-RLF_KERNEL void rlf_kernel_nearest_row(const float *restrict front, const float *restrict back,
-                                       int32_t count, float *restrict out)
-{
-    for (int32_t i = 0; i < count; i++) {
-        float behind = back[i];
-        out[i] = front[i] > 0.0f ? front[i] : behind;
-    }
-}

@@ -136,18 +136,26 @@ static void mark_around(clean_plate *plate, int32_t column, int32_t row, int32_t
     }
 }
 
+/* Cells of a row of them with foreground in its pixels. */
+static void mark_foreground(clean_plate *plate, const rlf_surface *surface, int32_t row)
+{
+    const int32_t width = plate->width;
+    const int32_t end = (row + 1) * CELL < plate->height ? (row + 1) * CELL : plate->height;
+    for (int32_t y = row * CELL; y < end; y++) {
+        const uint8_t *foreground = surface->foreground + (ptrdiff_t)y * width;
+        int32_t x = rlf_kernel_next_mark(foreground, 0, width);
+        while (x < width) {
+            plate->cells[row * plate->columns + x / CELL] |= HAS_FOREGROUND;
+            x = rlf_kernel_next_mark(foreground, (x / CELL + 1) * CELL, width);
+        }
+    }
+}
+
 static void mark_cells(clean_plate *plate, const rlf_surface *surface)
 {
     memset(plate->cells, 0, (size_t)plate->columns * (size_t)plate->rows);
-    for (int32_t y = 0; y < plate->height; y++) {
-        const uint8_t *foreground = surface->foreground + (ptrdiff_t)y * plate->width;
-        uint8_t *cells = plate->cells + y / CELL * plate->columns;
-        for (int32_t x = 0; x < plate->width; x += CELL) {
-            uint64_t any = 0;
-            memcpy(&any, foreground + x,
-                   (size_t)(x + CELL < plate->width ? CELL : plate->width - x));
-            cells[x / CELL] |= any != 0 ? HAS_FOREGROUND : 0;
-        }
+    for (int32_t row = 0; row < plate->rows; row++) {
+        mark_foreground(plate, surface, row);
     }
     for (int32_t i = 0; i < plate->columns * plate->rows; i++) {
         if ((plate->cells[i] & HAS_FOREGROUND) != 0) {
@@ -195,7 +203,7 @@ static void learn_row(clean_plate *plate, rlf_registration *registration,
     uint8_t *known = plate->colors + 4 * (ptrdiff_t)y * plate->width;
     plate->next_row = y + 1 < plate->height ? y + 1 : 0;
     plate->is_whole = plate->is_whole || plate->next_row == 0;
-    registration_project(registration, surface->background_depth, y);
+    registration_project(registration, surface->background_depth, y, 0, plate->width);
     for (int32_t x = 0; x < plate->width; x++) {
         const bool is_seen = (cells[x / CELL] & NOT_CLEAR) == 0 && p->scale[x] > 0.0f &&
                              p->z[x] < RLF_KERNEL_NOTHING;
@@ -335,15 +343,22 @@ static void settle(const pass *p, int32_t x, int32_t y)
     }
 }
 
-static void settle_row(const pass *p, int32_t y)
+/* Lost pixels of a row of cells, in the cells near foreground. */
+static void settle_cells(const pass *p, int32_t row)
 {
     const clean_plate *plate = p->plate;
-    const uint8_t *cells = plate->cells + y / CELL * plate->columns;
-    const uint8_t *reason = p->surface->reason + (ptrdiff_t)y * plate->width;
-    for (int32_t x0 = 0; x0 < plate->width; x0 += CELL) {
-        const int32_t x1 = x0 + CELL < plate->width ? x0 + CELL : plate->width;
-        for (int32_t x = x0; x < x1 && (cells[x0 / CELL] & NEAR_FOREGROUND) != 0; x++) {
-            if (reason[x] != RLF_REASON_OK) {
+    const uint8_t *cells = plate->cells + row * plate->columns;
+    const int32_t end = (row + 1) * CELL < plate->height ? (row + 1) * CELL : plate->height;
+    for (int32_t column = 0; column < plate->columns; column++) {
+        const int32_t first = column * CELL;
+        while (column < plate->columns && (cells[column] & NEAR_FOREGROUND) != 0) {
+            column++;
+        }
+        const int32_t last = column * CELL < plate->width ? column * CELL : plate->width;
+        for (int32_t y = row * CELL; y < end && first < last; y++) {
+            const uint8_t *reason = p->surface->reason + (ptrdiff_t)y * plate->width;
+            int32_t x = rlf_kernel_next_mark(reason, first, last);
+            for (; x < last; x = rlf_kernel_next_mark(reason, x + 1, last)) {
                 settle(p, x, y);
             }
         }
@@ -368,7 +383,7 @@ void clean_plate_update(clean_plate *plate, rlf_registration *registration,
         plate->has_sequence = true;
     }
     const pass p = {plate, registration, &frame->color, surface, bodies, depth};
-    for (int32_t y = 0; y < plate->height; y++) {
-        settle_row(&p, y);
+    for (int32_t row = 0; row < plate->rows; row++) {
+        settle_cells(&p, row);
     }
 }

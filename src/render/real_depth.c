@@ -60,6 +60,7 @@ rlf_result real_depth_create(const rlf_compositor_def *def, const rlf_camera *ca
     memset(out, 0, sizeof(*out));
     out->uses_frame = def->grid.width < def->rig.depth.width;
     const rlf_camera *depth = out->uses_frame ? &def->rig.depth : &def->grid;
+    out->pool = def->pool;
     out->width = depth->width;
     out->height = depth->height;
     rlf_result result = allocate(out, camera);
@@ -77,6 +78,9 @@ rlf_result real_depth_create(const rlf_compositor_def *def, const rlf_camera *ca
         result = clean_plate_create(out->registration, depth, &out->T_picture_depth, &out->plate);
     }
     if (result == RLF_OK) {
+        result = real_shade_grid_create(def->grid.width, def->grid.height, &out->seen);
+    }
+    if (result == RLF_OK) {
         result = known_layer_create(camera, depth, &def->rig.noise, &out->known);
     }
     if (result == RLF_OK) {
@@ -92,6 +96,7 @@ void real_depth_destroy(real_depth *real)
 {
     rlf_registration_destroy(&real->registration);
     clean_plate_destroy(&real->plate);
+    real_shade_grid_destroy(&real->seen);
     known_layer_destroy(&real->known);
     known_layer_destroy(&real->sensed);
     void *parts[5] = {real->input, real->z.data, real->ray_x, real->ray_y, real->is_in_lens};
@@ -124,16 +129,18 @@ static void read_frame(real_depth *real, const rlf_frame *frame)
     }
 }
 
-static void read_surface(real_depth *real, const rlf_surface *surface)
+void real_depth_read(real_depth *real, const rlf_render_input *input)
 {
-    size_t count = (size_t)real->width * (size_t)real->height;
-    const float *front = surface->depth;
-    const float *back = surface->background_depth;
-    if (back == NULL) {
-        memcpy(real->input, front, count * sizeof(float));
-        return;
+    const rlf_surface *surface = input->surface;
+    real->nearest = 0.0f;
+    if (real->uses_frame) {
+        read_frame(real, input->frame);
     }
-    rlf_kernel_nearest_row(front, back, (int32_t)count, real->input);
+    if (surface->depth != NULL) {
+        real_shade_grid_update(&real->seen, surface, real->pool,
+                               real->uses_frame ? NULL : real->input);
+        real->nearest = real->uses_frame ? 0.0f : real->seen.least;
+    }
 }
 
 const known_layer *real_depth_known(const real_depth *real)
@@ -142,26 +149,23 @@ const known_layer *real_depth_known(const real_depth *real)
 }
 
 rlf_result real_depth_update(real_depth *real, const rlf_render_input *input,
-                             const silhouette *bodies, int32_t begin, int32_t end)
+                             const silhouette *bodies, const registration_window *needed)
 {
-    if (real->uses_frame) {
-        read_frame(real, input->frame);
-    } else {
-        read_surface(real, input->surface);
-        if (bodies != NULL) {
-            clean_plate_update(&real->plate, real->registration, input, bodies, real->input);
-        }
+    registration_window window = *needed;
+    if (!real->uses_frame && bodies != NULL) {
+        clean_plate_update(&real->plate, real->registration, input, bodies, real->input);
     }
     rlf_pose T_camera_world = rlf_pose_invert(&input->T_world_camera);
     rlf_pose T_picture_world = rlf_pose_mul(&real->T_picture_depth, &T_camera_world);
     rlf_result result = known_layer_place(&real->sensed, input->snapshot, &T_camera_world);
     known_layer_fill(&real->sensed, real->input);
-    if (real->sensed.count > 0) { /* models may be looked at anywhere */
-        begin = 0;
-        end = real->z.height;
+    if (real->sensed.count > 0) { /* models may be anywhere, and looked at anywhere */
+        real->nearest = 0.0f;
+        window = (registration_window){0, 0, real->z.width, real->z.height};
     }
     const rlf_plane_u8 no_state = {NULL, real->z.width, real->z.height, real->z.width};
-    rlf_registration_apply_rows(real->registration, real->input, begin, end, &real->z, &no_state);
+    registration_apply_window(real->registration, real->input, &window, (double)real->nearest,
+                              &real->z, &no_state);
     if (result == RLF_OK) {
         result = known_layer_place(&real->known, input->snapshot, &T_picture_world);
     }

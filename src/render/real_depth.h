@@ -5,10 +5,12 @@
 #include "known/layer.h"
 #include "relief/compositor.h"
 #include "render/clean_plate.h"
+#include "render/real_shade.h"
 
 typedef struct real_depth {
     rlf_registration *registration;
     float *input;    /* what is registered: the surface's size, or the frame's for coarse ones */
+    float nearest;   /* no depth of it is nearer, metres; 0 = not known */
     rlf_plane_f32 z; /* metres along the picture camera's z; 0 = unknown */
 
     /* A surface that keeps every n-th pixel is too coarse to cut bodies along a silhouette; then
@@ -18,7 +20,9 @@ typedef struct real_depth {
     float *ray_x, *ray_y;  /* uses_frame only */
     uint8_t *is_in_lens;   /* uses_frame only */
 
-    clean_plate plate; /* not uses_frame only */
+    real_shade_grid seen; /* of the surface, as it was last read */
+    clean_plate plate;    /* not uses_frame only */
+    rlf_pool *pool;
 
     known_layer known;  /* models of real things: they are put into z, */
     known_layer sensed; /* and into input where nothing is sensed */
@@ -36,11 +40,13 @@ rlf_result real_depth_create(const rlf_compositor_def *def, const rlf_camera *ca
 /* As silhouette_update's `known`. */
 const known_layer *real_depth_known(const real_depth *real);
 void real_depth_destroy(real_depth *real);
-/* Fills rows [begin, end) of z; of the others nothing is known. Pixels without depth take the
- * background's, when the surface knows it; those that may hide `bodies`, as placed for this picture
- * (NULL = none), are settled by what the picture shows; models of real things take their place.
- * RLF_ERROR_MEMORY as known_layer_place. */
+/* Reads the depth that is to be registered, and fills `seen`. */
+void real_depth_read(real_depth *real, const rlf_render_input *input);
+/* Fills a window of z with what was read last; of other pixels nothing is known. Pixels without
+ * depth take the background's, when the surface knows it; those that may hide `bodies`, as placed
+ * for this picture (NULL = none), are settled by what the picture shows; models of real things take
+ * their place. RLF_ERROR_MEMORY as known_layer_place. */
 rlf_result real_depth_update(real_depth *real, const rlf_render_input *input,
-                             const silhouette *bodies, int32_t begin, int32_t end);
+                             const silhouette *bodies, const registration_window *needed);
 
 #endif

@@ -22,12 +22,16 @@ enum { REAL_SHADE_TILE = 8 }; /* pixels of the surface */
  * nothing is before on their way to the light are known at once. */
 typedef struct real_shade_grid {
     float *nearest;
+    float least; /* of all; 0 = nothing is seen */
     int32_t columns, rows;
 } real_shade_grid;
 
 rlf_result real_shade_grid_create(int32_t width, int32_t height, real_shade_grid *out);
 void real_shade_grid_destroy(real_shade_grid *grid);
-void real_shade_grid_update(real_shade_grid *grid, const rlf_surface *surface, rlf_pool *pool);
+/* `front`, of the surface's size, takes what is seen, else what is known behind; NULL = not wanted.
+ */
+void real_shade_grid_update(real_shade_grid *grid, const rlf_surface *surface, rlf_pool *pool,
+                            float *front);
 
 /* What the maps of a picture are made from. */
 typedef struct real_shade_world {

@@ -25,11 +25,26 @@ RLF_KERNEL_PART void take_nearer(const float *restrict depth, const float *restr
     }
 }
 
-/* Nearest of a row of tiles: `lines` rows of pixels from the two pointers on. */
-RLF_KERNEL static void find_nearest(const float *depth, const float *back, int32_t width,
-                                    int32_t lines, float *restrict out)
+RLF_KERNEL_PART void take_front(const float *restrict depth, const float *restrict back,
+                                int32_t count, float *restrict out)
 {
-    enum { BLOCK = 16 * TILE };
+    for (int32_t i = 0; i < count; i++) {
+        float behind = back[i];
+        out[i] = depth[i] > 0.0f ? depth[i] : behind;
+    }
+}
+
+/* Rows of pixels from these on; front NULL = not wanted. */
+typedef struct sheets {
+    const float *depth, *back;
+    float *front;
+} sheets;
+
+/* Nearest of a row of tiles: `lines` rows of pixels. */
+RLF_KERNEL static void find_nearest(const sheets *from, int32_t width, int32_t lines,
+                                    float *restrict out)
+{
+    enum { BLOCK = 64 * TILE };
     for (int32_t x0 = 0; x0 < width; x0 += BLOCK) {
         const int32_t count = width - x0 < BLOCK ? width - x0 : BLOCK;
         float nearest[BLOCK];
@@ -38,7 +53,10 @@ RLF_KERNEL static void find_nearest(const float *depth, const float *back, int32
         }
         for (int32_t y = 0; y < lines; y++) {
             const ptrdiff_t first = (ptrdiff_t)y * width + x0;
-            take_nearer(depth + first, back + first, count, nearest);
+            take_nearer(from->depth + first, from->back + first, count, nearest);
+            if (from->front != NULL) {
+                take_front(from->depth + first, from->back + first, count, from->front + first);
+            }
         }
         for (int32_t i = 0; i < count; i += TILE) {
             float least = nearest[i];
@@ -67,6 +85,7 @@ void real_shade_grid_destroy(real_shade_grid *grid)
 typedef struct grid_job {
     const rlf_surface *surface;
     real_shade_grid *grid;
+    float *front;
 } grid_job;
 
 static void update_rows(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -80,15 +99,23 @@ static void update_rows(void *context, int32_t begin, int32_t end, int32_t worke
         const int32_t y = row * TILE;
         const int32_t left = surface->height - y;
         const ptrdiff_t first = (ptrdiff_t)y * surface->width;
-        find_nearest(surface->depth + first, back + first, surface->width,
-                     left < TILE ? left : TILE, job->grid->nearest + row * job->grid->columns);
+        const sheets from = {surface->depth + first, back + first,
+                             job->front != NULL ? job->front + first : NULL};
+        find_nearest(&from, surface->width, left < TILE ? left : TILE,
+                     job->grid->nearest + row * job->grid->columns);
     }
 }
 
-void real_shade_grid_update(real_shade_grid *grid, const rlf_surface *surface, rlf_pool *pool)
+void real_shade_grid_update(real_shade_grid *grid, const rlf_surface *surface, rlf_pool *pool,
+                            float *front)
 {
-    grid_job job = {surface, grid};
+    grid_job job = {surface, grid, front};
     rlf_parallel_for(pool, grid->rows, 8, update_rows, &job);
+    float nearest = NOTHING;
+    for (int32_t i = 0; i < grid->columns * grid->rows; i++) {
+        nearest = grid->nearest[i] < nearest ? grid->nearest[i] : nearest;
+    }
+    grid->least = nearest < NOTHING ? nearest : 0.0f;
 }
 
 /* ---- the way -------------------------------------------------------------------------------- */

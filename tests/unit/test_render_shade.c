@@ -123,7 +123,7 @@ static void what_the_grid_leaves_out_is_lit(void **state)
     scene_add_strip(s, 220, 280, 1.4);
     real_shade_grid grid;
     assert_int_equal(real_shade_grid_create(s->grid.width, s->grid.height, &grid), RLF_OK);
-    real_shade_grid_update(&grid, &s->surface, NULL);
+    real_shade_grid_update(&grid, &s->surface, NULL, NULL);
     srand(5);
     int32_t free_count = 0;
     for (int i = 0; i < 2000; i++) {

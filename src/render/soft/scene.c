@@ -254,14 +254,11 @@ static void place_real_shades(soft *s, const rlf_surface *surface)
     bool has_grid = s->scene.body_count >= BODIES_FOR_GRID && surface->depth != NULL;
     shade_bodies_job job = {s,
                             {.surface = surface,
-                             .grid = has_grid ? &s->seen : NULL,
+                             .grid = has_grid ? &s->real.seen : NULL,
                              .T_depth_picture = rlf_pose_invert(&s->T_picture_depth),
                              .to_light = s->to_light,
                              .focal_px = 0.5 * (s->camera.fx + s->camera.fy)}};
     if (s->def.enable_real_shade && s->scene.caster_count > 0) {
-        if (has_grid) {
-            real_shade_grid_update(&s->seen, surface, s->def.pool);
-        }
         rlf_parallel_for(s->def.pool, s->scene.body_count, BODIES_AT_ONCE, shade_bodies, &job);
     }
 }
@@ -285,8 +282,14 @@ rlf_result soft_scene_build(soft *s, const rlf_render_input *input)
     if (result == RLF_OK) {
         sort_bodies(&s->scene);
         place_casters(s, snapshot, &T_picture_world);
+    }
+    return result;
+}
+
+void soft_scene_light(soft *s, const rlf_render_input *input)
+{
+    if (s->scene.body_count > 0) {
         place_real_shades(s, input->surface);
         soft_place_obscurances(s, input);
     }
-    return result;
 }

@@ -15,7 +15,6 @@ static void destroy(void *self)
     real_depth_destroy(&s->real);
     light_direction_destroy(&s->direction);
     silhouette_destroy(&s->silhouette);
-    real_shade_grid_destroy(&s->seen);
     for (int32_t i = 0; s->workers != NULL && i < s->worker_count; i++) {
         soft_group *group = &s->workers[i];
         for (int k = 0; k < SOFT_GROUP_ROWS; k++) {
@@ -211,9 +210,10 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
         place_silhouette(s, input);
     }
     if (input->frame->color.data == NULL || has_bodies) {
-        const soft_rows rows = soft_needed_rows(s, input);
-        result = real_depth_update(&s->real, input, has_edges ? &s->silhouette : NULL, rows.begin,
-                                   rows.end);
+        const registration_window needed = soft_needed_depth(s, input);
+        real_depth_read(&s->real, input);
+        soft_scene_light(s, input);
+        result = real_depth_update(&s->real, input, has_edges ? &s->silhouette : NULL, &needed);
     }
     if (result != RLF_OK) {
         return result;
@@ -233,7 +233,9 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
 static rlf_result draw_mesh(soft *s, const rlf_render_input *input)
 {
     if (input->frame->color.data == NULL) {
-        rlf_result result = real_depth_update(&s->real, input, NULL, 0, s->camera.height);
+        const registration_window all = {0, 0, s->camera.width, s->camera.height};
+        real_depth_read(&s->real, input);
+        rlf_result result = real_depth_update(&s->real, input, NULL, &all);
         if (result != RLF_OK) {
             return result;
         }
@@ -347,9 +349,6 @@ static rlf_result prepare(soft *s)
     result = make_textures(s);
     if (result == RLF_OK) {
         result = allocate(s);
-    }
-    if (result == RLF_OK) {
-        result = real_shade_grid_create(s->def.grid.width, s->def.grid.height, &s->seen);
     }
     if (result == RLF_OK) {
         result = real_depth_create(&s->def, &s->camera, &s->real);

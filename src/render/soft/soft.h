@@ -208,7 +208,6 @@ typedef struct soft {
     soft_group *workers;
     soft_shade_tile **shade_tiles; /* a band's, per worker */
     int32_t worker_count;
-    real_shade_grid seen; /* of the surface */
     room_light lamp;
     light_direction direction;
     rlf_vec3 to_light; /* unit, picture camera frame */
@@ -225,13 +224,9 @@ typedef struct soft {
 /* soft.c: what the picture is seen from. */
 void soft_set_viewpoint(soft *s, const rlf_camera *camera, const rlf_pose *T_picture_depth);
 
-/* Rows begin <= y < end. */
-typedef struct soft_rows {
-    int32_t begin, end;
-} soft_rows;
-/* needed_rows.c: those of the registered depth that are looked at. Scene and silhouette's bodies
- * must be in place. */
-soft_rows soft_needed_rows(const soft *s, const rlf_render_input *input);
+/* needed.c: what is looked at of the registered depth. Scene and silhouette's bodies must be in
+ * place. */
+registration_window soft_needed_depth(const soft *s, const rlf_render_input *input);
 
 /* background.c: the colour picture, or, when it has no data, registered depth in grey. */
 void soft_set_background(soft *s, const rlf_image_rgba8 *color);
@@ -239,8 +234,10 @@ void soft_set_background(soft *s, const rlf_image_rgba8 *color);
  */
 void soft_draw_background(const soft *s, int32_t begin, int32_t end);
 
-/* scene.c: all bodies in the picture as faces. */
+/* scene.c: all bodies in the picture as faces; then, with what is real read, what takes light from
+ * them. */
 rlf_result soft_scene_build(soft *s, const rlf_render_input *input);
+void soft_scene_light(soft *s, const rlf_render_input *input);
 
 /* obscure.c: which real surfaces the bodies of the scene are near. */
 void soft_place_obscurances(soft *s, const rlf_render_input *input);
