@@ -230,6 +230,29 @@ static void look_at_outline(grid_job *job, const field_cell *cell, rlf_vec3 shif
     touch_line(job, &line, rlf_min(depth + inner, line.deep), FLAT_ON_WALL);
 }
 
+/* Whether the sheet may end on the way from `cell` to the pixel `stride` on, by depths alone: the
+ * pixel before an end is no nearer than the nearest so far. */
+static bool may_cross_end(const grid_job *job, const field_cell *cell, const int32_t direction[2],
+                          int32_t stride)
+{
+    const rlf_grid *grid = job->query->grid;
+    const rlf_grid_sheet *sheet = job->sheet;
+    int32_t first = cell->y * grid->width + cell->x, step = direction[1] * grid->width;
+    double nearest = cell->point.z, limit = nearest + grid_edge_step(nearest);
+    for (int32_t k = 1; k <= stride; k++) {
+        int32_t i = first + k * (step + direction[0]);
+        double z = sheet->depth[i];
+        if ((sheet->mask != NULL && sheet->mask[i] == 0) || z > limit) {
+            return true;
+        }
+        if (z > 0.0 && z < nearest) {
+            nearest = z;
+            limit = nearest + grid_edge_step(nearest);
+        }
+    }
+    return false;
+}
+
 /* The sheet's last pixel from `cell` to the one `stride` on in a direction, beyond which it ends:
  * the wall stands there, not at the pixel that happens to be looked at. False when it goes on. */
 static bool find_outline(const grid_job *job, const field_cell *cell, const int32_t direction[2],
@@ -237,10 +260,10 @@ static bool find_outline(const grid_job *job, const field_cell *cell, const int3
 {
     const rlf_grid *grid = job->query->grid;
     int32_t x = cell->x + direction[0] * stride, y = cell->y + direction[1] * stride;
-    *out = *cell;
-    if (!may_end(job, cell->point.z, x, y)) {
+    if (!may_end(job, cell->point.z, x, y) || !may_cross_end(job, cell, direction, stride)) {
         return false;
     }
+    *out = *cell;
     for (int32_t i = 1; i <= stride; i++) {
         x = cell->x + direction[0] * i;
         y = cell->y + direction[1] * i;
