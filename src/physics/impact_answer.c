@@ -78,6 +78,7 @@ static void limit_energy(const phys_group *g, const phys_sides *before, phys_sid
 typedef struct impact_row {
     rlf_vec3 direction, spin_a, spin_b;
     double mass;    /* effective, kg */
+    double mobility; /* 1 / mass, or 0 */
     double impulse; /* N s */
 } impact_row;
 
@@ -96,6 +97,7 @@ static impact_row row_make(const phys_point *p, const phys_group *g, const phys_
         row.spin_b = rlf_mat3_mul_vec(&g->b->inverse_inertia_world, turn);
         mobility += s->mobility_b + rlf_dot(turn, row.spin_b);
     }
+    row.mobility = mobility;
     row.mass = mobility > 0.0 ? 1.0 / mobility : 0.0;
     return row;
 }
@@ -109,7 +111,7 @@ static inline double row_push(impact_row *row, phys_sides *s, double impulse)
     s->v_b = rlf_mad(s->v_b, row->direction, -change * s->mobility_b);
     s->w_b = rlf_mad(s->w_b, row->spin_b, -change);
     row->impulse = impulse;
-    return (change < 0.0 ? -change : change) / row->mass;
+    return (change < 0.0 ? -change : change) * row->mobility;
 }
 
 /* A contact that takes part in an impact. */
