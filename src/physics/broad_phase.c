@@ -1,10 +1,13 @@
-/* Broad phase: bodies in the cells of a grid, found through a hash table (Teschner et al. 2003).
- * Cells are as large as the boxes of most bodies; the few that are larger ask everybody. */
+/* Broad phase: sweep and prune (Ericson 2005, 7.5). Bodies are sorted by where their boxes begin
+ * along one axis, and each that moves is held against those that may reach into its box, in lanes.
+ */
 #include "physics/broad_phase.h"
+#include "kernel/box_lanes.h"
 #include "physics/pair_search.h"
 
-#define LARGE (-1) /* cell of a body that is larger than a cell */
-#define NONE (-2)  /* ... of one that is not there */
+/* Far more than a float of some metres is rounded by: metres, and a share. */
+#define ROUNDING 1e-6
+#define NOWHERE 1e30
 
 /* Models of real things are met by those too that meet no other bodies. */
 static bool collides(const rlf_world *world, const phys_body *body)
@@ -37,88 +40,113 @@ static rlf_vec3 half_of(const phys_body *body, double horizon)
     return rlf_add(half, rlf_vec3_make(margin, margin, margin));
 }
 
-static double longest(rlf_vec3 half)
+/* Fills the boxes of those that meet others; returns their number. */
+static int32_t measure(rlf_world *world, double horizon)
 {
-    return rlf_max(half.x, rlf_max(half.y, half.z));
-}
-
-/* Fills the boxes; returns the size of a cell. */
-static double measure(rlf_world *world, double horizon)
-{
-    double sum = 0.0, most = 0.0, count = 0.0;
+    int32_t count = 0;
     for (int32_t i = 0; i < world->body_top; i++) {
+        const phys_body *body = &world->bodies[i];
         phys_proxy *proxy = &world->proxies[i];
-        proxy->cell = NONE;
-        if (collides(world, &world->bodies[i])) {
-            const phys_body *body = &world->bodies[i];
+        proxy->is_there = collides(world, body) && rlf_vec3_is_finite(body->x);
+        if (proxy->is_there) {
             proxy->centre = body->x;
             proxy->half = half_of(body, horizon);
             proxy->is_idle = phys_body_is_idle(body);
             proxy->is_fixed = phys_body_is_fixed(body);
             proxy->is_real = body->is_real;
             proxy->meets_bodies = body->collides_with_bodies;
-            double size = longest(proxy->half);
-            proxy->cell = 0;
-            sum += size;
-            most = rlf_max(most, size);
-            count += 1.0;
+            count++;
         }
     }
-    return count > 0.0 ? 2.0 * rlf_min(most, 2.0 * sum / count) : 1.0;
+    return count;
 }
 
-static int32_t cell_index(double x, double cell)
+/* Places along an axis, in bins. */
+typedef struct bins {
+    int32_t axis, count;
+    float from, per_metre;
+} bins;
+
+static double along(rlf_vec3 v, int32_t axis)
 {
-    double at = x / cell + 524288.0; /* bodies are within 20 m or so of the origin */
-    return at > 1.0 ? (int32_t)rlf_min(at, 1048574.0) : 1; /* so is what is no number */
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-/* Three numbers below 2^20 side by side. */
-static int64_t cell_at(int32_t x, int32_t y, int32_t z)
+/* Bins along the axis on which the centres spread most, two standard deviations to each side. */
+static bins choose_bins(const rlf_world *world, int32_t count)
 {
-    return (int64_t)x << 40 | (int64_t)y << 20 | (int64_t)z;
+    double sum[3] = {0, 0, 0}, square[3] = {0, 0, 0}, mean[3], variance[3];
+    int32_t axis = 0;
+    for (int32_t i = 0; i < world->body_top; i++) {
+        for (int32_t k = 0; k < 3 && world->proxies[i].is_there; k++) {
+            double x = rlf_clamp(along(world->proxies[i].centre, k), -1e6, 1e6);
+            sum[k] += x;
+            square[k] += x * x;
+        }
+    }
+    for (int32_t k = 0; k < 3; k++) {
+        mean[k] = sum[k] / rlf_max(count, 1.0);
+        variance[k] = rlf_max(square[k] / rlf_max(count, 1.0) - mean[k] * mean[k], 1e-6);
+        axis = variance[k] > variance[axis] ? k : axis;
+    }
+    double half = 2.0 * sqrt(variance[axis]);
+    return (bins){axis, world->bin_count, (float)(mean[axis] - half),
+                  (float)(0.5 * world->bin_count / half)};
 }
 
-static int32_t bucket_of(const rlf_world *world, int64_t cell)
+/* Those beyond the first and the last bin are in these. */
+static int32_t bin_of(const bins *b, float x)
 {
-    uint64_t mixed = (uint64_t)cell * 0x9e3779b97f4a7c15u; /* Fibonacci hashing, Knuth 6.4 */
-    return (int32_t)((mixed >> 32) & (uint64_t)(world->bucket_count - 1));
+    float at = (x - b->from) * b->per_metre;
+    float last = (float)(b->count - 1);
+    return at > 0.0f ? (int32_t)(at < last ? at : last) : 0; /* so is what is no number */
 }
 
-/* Sorts the bodies by bucket; those of a bucket stay in their order. */
-static void fill_buckets(rlf_world *world, double cell)
+/* The six ends of a body's box, a little outside it. */
+static void ends_of(const phys_proxy *proxy, float ends[6])
 {
-    int32_t kept = 0;
-    for (int32_t i = 0; i < world->bucket_count + 2; i++) {
-        world->buckets[i] = 0;
+    for (int32_t k = 0; k < 3; k++) {
+        double centre = along(proxy->centre, k), half = along(proxy->half, k);
+        double slack = ROUNDING + ROUNDING * (half + (centre < 0.0 ? -centre : centre));
+        ends[k] = (float)rlf_clamp(centre - half - slack, -NOWHERE, NOWHERE);
+        ends[k + 3] = (float)rlf_clamp(centre + half + slack, -NOWHERE, NOWHERE);
+    }
+}
+
+/* Lists the bodies by the bins in which their boxes begin, those of a bin in their order. Returns
+ * the longest box along the axis of those that are idle. */
+static float sort_boxes(rlf_world *world, const bins *b)
+{
+    int32_t *begin = world->bins, stride = phys_box_stride(world);
+    float longest = 0.0f;
+    for (int32_t i = 0; i <= b->count; i++) {
+        begin[i] = 0;
     }
     for (int32_t i = 0; i < world->body_top; i++) {
         phys_proxy *proxy = &world->proxies[i];
-        rlf_vec3 x = proxy->centre;
-        if (proxy->cell == NONE) {
-            continue;
-        }
-        proxy->cell =
-            longest(proxy->half) > 0.5 * cell
-                ? LARGE
-                : cell_at(cell_index(x.x, cell), cell_index(x.y, cell), cell_index(x.z, cell));
-        if (proxy->cell != LARGE) {
-            world->buckets[bucket_of(world, proxy->cell) + 1]++;
-            kept++;
+        if (proxy->is_there) {
+            ends_of(proxy, proxy->ends);
+            proxy->bin = bin_of(b, proxy->ends[b->axis]);
+            begin[proxy->bin]++;
+            float length = proxy->ends[b->axis + 3] - proxy->ends[b->axis];
+            longest = proxy->is_idle && length > longest ? length : longest;
         }
     }
-    for (int32_t i = 0; i < world->bucket_count; i++) {
-        world->buckets[i + 1] += world->buckets[i];
+    for (int32_t i = 0; i < b->count; i++) {
+        begin[i + 1] += begin[i];
     }
-    /* Placed from the last on, each bucket's end moves down to its beginning; buckets[i + 1] then
-     * holds where bucket i begins. */
+    /* Placed from the last on, each bin's end moves down to its beginning. */
     for (int32_t i = world->body_top - 1; i >= 0; i--) {
-        if (world->proxies[i].cell >= 0) {
-            int32_t place = --world->buckets[bucket_of(world, world->proxies[i].cell) + 1];
-            world->bucket_items[place] = i;
+        phys_proxy *proxy = &world->proxies[i];
+        if (proxy->is_there) {
+            proxy->place = --begin[proxy->bin];
+            world->box_bodies[proxy->place] = i;
+            for (int32_t k = 0; k < 6; k++) {
+                world->box_ends[k * stride + proxy->place] = proxy->ends[k];
+            }
         }
     }
-    world->buckets[world->bucket_count + 1] = kept;
+    return longest;
 }
 
 static void add_near(rlf_world *world, int32_t i, int32_t k)
@@ -139,46 +167,18 @@ static void test(rlf_world *world, int32_t i, int32_t k)
     }
 }
 
-static void ask_cell(rlf_world *world, int32_t i, int64_t key)
-{
-    int32_t bucket = bucket_of(world, key);
-    int32_t end = world->buckets[bucket + 2];
-    for (int32_t p = world->buckets[bucket + 1]; p < end; p++) {
-        int32_t k = world->bucket_items[p];
-        if (world->proxies[k].cell == key && k != i && (k > i || world->proxies[k].is_idle)) {
-            test(world, i, k);
-        }
-    }
-}
-
-/* Body i, which moves, against those of the cells in which the centre of one that is no larger than
- * a cell can be: two or three of them along each axis. */
-static void ask_cells(rlf_world *world, int32_t i, double cell)
+/* Body i, which moves, against those after it, and the idle ones before it, which ask nobody. */
+static void sweep(rlf_world *world, int32_t i, const bins *b, float longest)
 {
     const phys_proxy *proxy = &world->proxies[i];
-    rlf_vec3 x = proxy->centre;
-    rlf_vec3 way = rlf_add(proxy->half, rlf_vec3_make(0.5 * cell, 0.5 * cell, 0.5 * cell));
-    int32_t low[3] = {cell_index(x.x - way.x, cell), cell_index(x.y - way.y, cell),
-                      cell_index(x.z - way.z, cell)};
-    int32_t high[3] = {cell_index(x.x + way.x, cell), cell_index(x.y + way.y, cell),
-                       cell_index(x.z + way.z, cell)};
-    for (int32_t u = low[0]; u <= high[0]; u++) {
-        for (int32_t v = low[1]; v <= high[1]; v++) {
-            for (int32_t w = low[2]; w <= high[2]; w++) {
-                ask_cell(world, i, cell_at(u, v, w));
-            }
-        }
-    }
-}
-
-/* A large body against everybody. */
-static void ask_all(rlf_world *world, int32_t i)
-{
-    bool is_idle = world->proxies[i].is_idle;
-    for (int32_t k = 0; k < world->body_top; k++) {
-        int64_t cell = world->proxies[k].cell;
-        bool is_other = cell >= 0 || (cell == LARGE && k > i);
-        if (is_other && !(is_idle && world->proxies[k].is_idle)) {
+    float first = proxy->ends[b->axis] - 1.001f * longest - 0.001f;
+    int32_t begin = longest > 0.0f ? world->bins[bin_of(b, first)] : proxy->place + 1;
+    int32_t end = world->bins[bin_of(b, proxy->ends[b->axis + 3]) + 1];
+    int32_t count = rlf_kernel_boxes_meet(world->box_ends, phys_box_stride(world), begin, end,
+                                          proxy->ends, world->box_found);
+    for (int32_t n = 0; n < count; n++) {
+        int32_t place = world->box_found[n], k = world->box_bodies[place];
+        if (k != i && (place > proxy->place || world->proxies[k].is_idle)) {
             test(world, i, k);
         }
     }
@@ -215,13 +215,11 @@ static void sort_near(rlf_world *world)
 void phys_find_near(rlf_world *world, double horizon)
 {
     world->near_count = 0;
-    double cell = measure(world, horizon);
-    fill_buckets(world, cell);
+    bins b = choose_bins(world, measure(world, horizon));
+    float longest = sort_boxes(world, &b);
     for (int32_t i = 0; i < world->body_top; i++) {
-        if (world->proxies[i].cell == LARGE) {
-            ask_all(world, i);
-        } else if (world->proxies[i].cell >= 0 && !world->proxies[i].is_idle) {
-            ask_cells(world, i, cell);
+        if (world->proxies[i].is_there && !world->proxies[i].is_idle) {
+            sweep(world, i, &b, longest);
         }
     }
     sort_near(world);

@@ -29,8 +29,10 @@ static int32_t plan_memory(rlf_world *w, memory_plan plans[PLANS_MAX])
         PLAN(old_pair_contacts, pairs * PHYS_PAIR_CONTACTS),
         PLAN(due_pairs, pairs),
         PLAN(proxies, bodies),
-        PLAN(buckets, (size_t)w->bucket_count + 2),
-        PLAN(bucket_items, bodies),
+        PLAN(bins, (size_t)w->bin_count + 1),
+        PLAN(box_ends, 6 * (size_t)phys_box_stride(w)),
+        PLAN(box_bodies, bodies),
+        PLAN(box_found, bodies + 1),
         PLAN(near, pairs),
         PLAN(near_sorted, pairs),
         PLAN(near_begin, bodies + 1),
@@ -72,10 +74,7 @@ static void choose_sizes(rlf_world *world)
     int32_t listed = (world->def.contact_capacity - 1) / PHYS_PAIR_CONTACTS + 1;
     int32_t crowd = 6 * world->def.body_capacity;
     world->pair_capacity = listed > crowd ? listed : crowd;
-    world->bucket_count = 16;
-    while (world->bucket_count < 2 * world->def.body_capacity) {
-        world->bucket_count *= 2;
-    }
+    world->bin_count = world->def.body_capacity;
 }
 
 bool phys_world_allocate(rlf_world *world)

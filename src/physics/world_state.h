@@ -2,6 +2,7 @@
 #ifndef RLF_PHYSICS_WORLD_STATE_H
 #define RLF_PHYSICS_WORLD_STATE_H
 
+#include "kernel/box_lanes.h"
 #include "kernel/contact_lanes.h"
 #include "physics/body.h"
 #include "physics/grid_shell.h"
@@ -44,11 +45,12 @@ typedef struct phys_near {
     int32_t a, b; /* a < b */
 } phys_near;
 
-/* A body in the broad phase: its box, and the cell of its centre. */
+/* A body in the broad phase. */
 typedef struct phys_proxy {
     rlf_vec3 centre, half;
-    int64_t cell;
-    bool is_idle, is_fixed;
+    float ends[6];      /* of its box, see box_lanes.h */
+    int32_t bin, place; /* see broad_phase.c */
+    bool is_there, is_idle, is_fixed;
     bool is_real, meets_bodies; /* see phys_body */
 } phys_proxy;
 
@@ -81,8 +83,11 @@ struct rlf_world {
     int32_t free_count;  /* so many pairs more can be kept */
     int32_t *due_pairs;  /* whose contacts are to be searched now */
     phys_proxy *proxies; /* see broad_phase.c */
-    int32_t *buckets, *bucket_items;
-    int32_t bucket_count; /* a power of two */
+    int32_t *bins;        /* where each of bin_count begins in the list of boxes; and its end */
+    int32_t bin_count;
+    float *box_ends;       /* of the boxes in that list; see box_lanes.h */
+    int32_t *box_bodies;   /* whose they are */
+    int32_t *box_found;
     phys_near *near, *near_sorted;
     int32_t near_count;
     int32_t *near_begin; /* per body, and one more */
@@ -145,6 +150,12 @@ struct rlf_world {
  */
 bool phys_world_allocate(rlf_world *world);
 void phys_world_free(rlf_world *world);
+
+/* Of box_ends. */
+static inline int32_t phys_box_stride(const rlf_world *world)
+{
+    return world->def.body_capacity + RLF_BOX_LANES;
+}
 
 /* Writes the snapshot from the bodies and the contact log. */
 void phys_world_publish(rlf_world *world);
