@@ -76,16 +76,22 @@ static int32_t run_length(const rlf_grid *grid, const rlf_grid_sheet *sheet, con
     return limit;
 }
 
+/* Pixels of the row (axis 0) or column through the cell that belong to its solid; when there are
+ * more than `most`, some such number. */
+static int32_t line_length(const rlf_grid *grid, const rlf_grid_sheet *sheet,
+                           const field_cell *cell, int32_t axis, int32_t most)
+{
+    const int32_t BACK[2][2] = {{-1, 0}, {0, -1}}, ON[2][2] = {{1, 0}, {0, 1}};
+    int32_t back = run_length(grid, sheet, cell, BACK[axis], most);
+    return back + 1 + (back < most ? run_length(grid, sheet, cell, ON[axis], most) : 0);
+}
+
 double grid_edge_width(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
                        double limit)
 {
-    const int32_t DIRECTIONS[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     double pixel = cell->point.z * grid->pixel_angle;
     int32_t most = (int32_t)rlf_min(limit / pixel + 1.0, 256.0);
-    int32_t runs[4];
-    for (int32_t k = 0; k < 4; k++) {
-        runs[k] = run_length(grid, sheet, cell, DIRECTIONS[k], most);
-    }
-    int32_t row = runs[0] + runs[1] + 1, column = runs[2] + runs[3] + 1;
+    int32_t row = line_length(grid, sheet, cell, 0, most);
+    int32_t column = line_length(grid, sheet, cell, 1, row < most ? row : most);
     return rlf_min((row < column ? row : column) * pixel, limit);
 }

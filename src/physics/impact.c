@@ -28,7 +28,7 @@ typedef struct event_list {
 static double held_acceleration(const phys_body *body)
 {
     bool is_held = phys_body_is_moving(body) && body->was_pressed;
-    return is_held ? rlf_length(body->acceleration) : 0.0;
+    return is_held ? body->pull : 0.0;
 }
 
 /* No bounce is slower, m/s. What falls alone or is held up by others gains and loses |a| h per
@@ -67,13 +67,24 @@ static double closing_time(double s, double v, double a, double from)
     return t >= from ? t : NO_EVENT;
 }
 
-static double event_time(const phys_group *g, double h)
+/* How near a point without a velocity of its own must be to touch in this substep, while nothing
+ * has bounced; a little more. */
+static double first_reach(const phys_group *g, double h)
+{
+    double pull = phys_body_is_moving(g->a) ? g->a->pull : 0.0;
+    pull += g->b != NULL && phys_body_is_moving(g->b) ? g->b->pull : 0.0;
+    return 1.001 * (g->speed + pull * h) * h;
+}
+
+/* Points whose gap is beyond `reach` cannot touch. */
+static double event_time(const phys_group *g, double reach, double h)
 {
     double resting = slow_speed(g, h), best = NO_EVENT;
     phys_sides s = sides_load(g);
     for (int32_t i = 0; i < g->point_count; i++) {
         const phys_point *p = &g->points[i];
-        if (p->restitution <= 0.0) {
+        double flow2 = g->b == NULL ? rlf_dot(p->r_b, p->r_b) : 0.0;
+        if (p->restitution <= 0.0 || (p->separation > reach && flow2 == 0.0)) {
             continue;
         }
         double v = rlf_dot(p->normal, relative_velocity(p, &s, g->b != NULL));
@@ -159,11 +170,11 @@ static void link_groups(event_list *list, const phys_island *island, int32_t cou
 }
 
 /* Sets a group's next event and lists it. */
-static void look_at_group(event_list *list, int32_t k)
+static void look_at_group(event_list *list, int32_t k, double reach)
 {
     bool was_pending = list->times[k] <= list->h;
     bool is_done = list->counts[k] >= EVENTS_PER_GROUP;
-    list->times[k] = is_done ? NO_EVENT : event_time(&list->groups[k], list->h);
+    list->times[k] = is_done ? NO_EVENT : event_time(&list->groups[k], reach, list->h);
     if (!was_pending && list->times[k] <= list->h) {
         list->pending[list->pending_count++] = k;
     }
@@ -176,7 +187,7 @@ static void look_at_body(event_list *list, const phys_body *body)
     }
     int32_t link = list->world->first_link[body - list->world->bodies];
     for (; link >= 0; link = list->next_link[link]) {
-        look_at_group(list, link / 2);
+        look_at_group(list, link / 2, NO_EVENT);
     }
 }
 
@@ -212,7 +223,7 @@ void phys_solve_impacts(rlf_world *world, const phys_island *island, const phys_
         list.counts[k] = 0;
         list.times[k] = NO_EVENT;
         if (groups[k].b == NULL || groups[k].speed > SLOW) {
-            look_at_group(&list, k);
+            look_at_group(&list, k, first_reach(&groups[k], h));
         }
     }
     if (list.pending_count == 0) {

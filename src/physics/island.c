@@ -158,6 +158,7 @@ static void start_body(const rlf_world *world, phys_body *body)
     body->is_pressed = false;
     rlf_vec3 gravity = rlf_scale(world->def.gravity, body->gravity_scale);
     body->acceleration = rlf_mad(gravity, body->force, body->inverse_mass);
+    body->pull = rlf_length(body->acceleration);
     body->angular_acceleration = rlf_mat3_mul_vec(&body->inverse_inertia_world, body->torque);
 }
 
