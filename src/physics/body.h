@@ -16,7 +16,7 @@ typedef struct phys_body {
     double turned; /* radians, all turns added up */
     double speed;  /* no point of it was faster at the start of the substep, m/s */
     rlf_vec3 acceleration, angular_acceleration;
-    double pull; /* length of the acceleration, m/s^2 */
+    double pull;                        /* length of the acceleration, m/s^2 */
     rlf_vec3 impact_shift, impact_turn; /* x and orientation jump so that x(t) = x + shift + v t */
     double impact_time;                 /* of its last bounce in this substep, s */
     bool is_alive, is_held, is_asleep, collides_with_bodies;

@@ -77,9 +77,9 @@ static void limit_energy(const phys_group *g, const phys_sides *before, phys_sid
 /* A direction in which a contact acts, and what a unit impulse along it does. */
 typedef struct impact_row {
     rlf_vec3 direction, spin_a, spin_b;
-    double mass;    /* effective, kg */
+    double mass;     /* effective, kg */
     double mobility; /* 1 / mass, or 0 */
-    double impulse; /* N s */
+    double impulse;  /* N s */
 } impact_row;
 
 static impact_row row_make(const phys_point *p, const phys_group *g, const phys_sides *s,

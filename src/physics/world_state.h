@@ -83,10 +83,10 @@ struct rlf_world {
     int32_t free_count;  /* so many pairs more can be kept */
     int32_t *due_pairs;  /* whose contacts are to be searched now */
     phys_proxy *proxies; /* see broad_phase.c */
-    int32_t *bins;        /* where each of bin_count begins in the list of boxes; and its end */
+    int32_t *bins;       /* where each of bin_count begins in the list of boxes; and its end */
     int32_t bin_count;
-    float *box_ends;       /* of the boxes in that list; see box_lanes.h */
-    int32_t *box_bodies;   /* whose they are */
+    float *box_ends;     /* of the boxes in that list; see box_lanes.h */
+    int32_t *box_bodies; /* whose they are */
     int32_t *box_found;
     phys_near *near, *near_sorted;
     int32_t near_count;

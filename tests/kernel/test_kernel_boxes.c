@@ -1,0 +1,71 @@
+/* Boxes in lanes against boxes one by one. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "analytic.h"
+#include "kernel/box_lanes.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+enum { BOXES = 70, STRIDE = BOXES + RLF_BOX_LANES };
+
+static float uniform(analytic_random *r, double size)
+{
+    return (float)(size * random_uniform(r));
+}
+
+static bool meets(const float *ends, int32_t k, const float box[6])
+{
+    bool does = true;
+    for (int32_t axis = 0; axis < 3; axis++) {
+        does = does && ends[axis * STRIDE + k] <= box[axis + 3] &&
+               ends[(axis + 3) * STRIDE + k] >= box[axis];
+    }
+    return does;
+}
+
+/* Any range of them, with boxes that touch and one that is no number. */
+static void boxes_are_found_as_one_by_one(void **state)
+{
+    (void)state;
+    analytic_random r = {5};
+    int32_t sum = 0;
+    for (int32_t run = 0; run < 400; run++) {
+        float ends[6 * STRIDE] = {0}, box[6];
+        for (int32_t axis = 0; axis < 3; axis++) {
+            for (int32_t k = 0; k < STRIDE; k++) {
+                ends[axis * STRIDE + k] = (float)(int32_t)uniform(&r, 8.0);
+                ends[(axis + 3) * STRIDE + k] =
+                    ends[axis * STRIDE + k] + (float)(int32_t)uniform(&r, 4.0);
+            }
+            box[axis] = (float)(int32_t)uniform(&r, 8.0);
+            box[axis + 3] = box[axis] + 1.0f;
+        }
+        ends[(run % 6) * STRIDE + run % BOXES] = NAN;
+        int32_t begin = run % 20, end = begin + run % (BOXES - 19), count = 0;
+        int32_t found[BOXES + 1];
+        int32_t found_count = rlf_kernel_boxes_meet(ends, STRIDE, begin, end, box, found);
+        for (int32_t k = begin; k < end; k++) {
+            if (meets(ends, k, box)) {
+                assert_true(count < found_count);
+                assert_int_equal(found[count++], k);
+            }
+        }
+        assert_int_equal(count, found_count);
+        sum += count;
+    }
+    assert_true(sum > 400);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(boxes_are_found_as_one_by_one),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
