@@ -75,10 +75,11 @@ RLF_KERNEL_PART int8_t vote(uint8_t seen)
     return (int8_t)(front - (seen == RLF_SEEN_MISSING ? 0 : 1));
 }
 
+/* A pixel at the background's depth stays there: no neighbour can tell its depth in front of it. */
 RLF_KERNEL_PART uint8_t decide(uint8_t own, int8_t votes)
 {
     uint8_t side = votes > 0 ? RLF_SEEN_FOREGROUND : RLF_SEEN_BACKGROUND;
-    uint8_t kept = own == RLF_SEEN_UNKNOWN ? (uint8_t)RLF_SEEN_UNKNOWN : side;
+    uint8_t kept = own == RLF_SEEN_FOREGROUND ? side : own;
     return own == RLF_SEEN_MISSING ? (uint8_t)RLF_SEEN_BACKGROUND : kept;
 }
 

@@ -298,8 +298,9 @@ typedef struct rlf_kernel_model {
 int32_t rlf_kernel_background_row(const rlf_kernel_background *params, const float *restrict depth,
                                   int32_t count, const rlf_kernel_model *model,
                                   uint8_t *restrict seen);
-/* 3x3 majority of FOREGROUND among the pixels that are not MISSING, from the rows above, at and
- * below (outside the image: a row of MISSING); out is BACKGROUND, FOREGROUND or UNKNOWN. */
+/* What is FOREGROUND stays so where it is the 3x3 majority of the pixels that are not MISSING, from
+ * the rows above, at and below (outside the image: a row of MISSING); out is BACKGROUND, FOREGROUND
+ * or UNKNOWN. */
 void rlf_kernel_majority_row(const uint8_t *const rows[3], int32_t count, uint8_t *restrict out);
 
 /* ---- segment_row.c: which neighbours belong together

@@ -1,6 +1,6 @@
 /* The background by observation: per pixel one-sided and noise-scaled (kernel/background_row.c),
- * then what the neighbourhood says: a 3x3 majority, and a decision about pixels that have depth for
- * the first time. */
+ * then what the neighbourhood says: foreground must be a 3x3 majority, and pixels that have depth
+ * for the first time are decided about. */
 #include "surface/steps.h"
 
 #include "kernel/kernel.h"

@@ -203,10 +203,10 @@ static void majority_row_is_its_definition(void **state)
                     valid += inside && seen[k][x] != RLF_SEEN_MISSING;
                 }
             }
-            int expected = seen[1][i] == RLF_SEEN_MISSING   ? RLF_SEEN_BACKGROUND
-                           : seen[1][i] == RLF_SEEN_UNKNOWN ? RLF_SEEN_UNKNOWN
-                           : 2 * votes > valid              ? RLF_SEEN_FOREGROUND
-                                                            : RLF_SEEN_BACKGROUND;
+            int expected = seen[1][i] == RLF_SEEN_UNKNOWN ? RLF_SEEN_UNKNOWN
+                           : seen[1][i] == RLF_SEEN_FOREGROUND && 2 * votes > valid
+                               ? RLF_SEEN_FOREGROUND
+                               : RLF_SEEN_BACKGROUND;
             assert_int_equal(out[i], expected);
         }
     }
