@@ -340,6 +340,31 @@ int32_t rlf_kernel_label_row(const float *restrict depth, const uint8_t *restric
                              const int32_t *restrict background, int32_t count,
                              int32_t *restrict label);
 
+/* ---- region_row.c: points of a region's pixels, see surface/region_stats.c
+ * --------------------------------------------------- */
+
+#define RLF_REGION_LANES 4 /* the k-th of four pixels goes into the k-th sum */
+
+/* Sums of x, y, z and of xx, xy, xz, yy, yz, zz; least and most along three axes; metres. */
+typedef struct rlf_region_lanes {
+    double sum[3][RLF_REGION_LANES], square[6][RLF_REGION_LANES];
+    double least[3][RLF_REGION_LANES], most[3][RLF_REGION_LANES];
+} rlf_region_lanes;
+
+/* Unit vectors, and the point from which is measured along them. */
+typedef struct rlf_region_axes {
+    double axis[3][3], origin[3];
+} rlf_region_axes;
+
+/* Adds `count` pixels with depth to the sums, and to the extents along x, y and z. */
+void rlf_kernel_region_row(const float *restrict depth, const float *restrict ray_x,
+                           const float *restrict ray_y, int32_t count,
+                           rlf_region_lanes *restrict lanes);
+/* Adds them to the extents along the axes. */
+void rlf_kernel_extent_row(const rlf_region_axes *axes, const float *restrict depth,
+                           const float *restrict ray_x, const float *restrict ray_y, int32_t count,
+                           rlf_region_lanes *restrict lanes);
+
 /* ---- register_row.c: depth seen from a colour camera --------------------------------------------
  */
 

@@ -1,6 +1,14 @@
 /* What is known of each region: rectangle, boxes, centroid, flatness, points. */
 #include "surface/steps.h"
 
+static void clear_extents(rlf_region_lanes *lanes)
+{
+    for (int32_t k = 0; k < 3 * RLF_REGION_LANES; k++) {
+        lanes->least[k / RLF_REGION_LANES][k % RLF_REGION_LANES] = INFINITY;
+        lanes->most[k / RLF_REGION_LANES][k % RLF_REGION_LANES] = -INFINITY;
+    }
+}
+
 static void clear_region(rlf_region *region, rlf_region_sum *sum, const rlf_layer_in *in,
                          const rlf_grid *grid)
 {
@@ -9,38 +17,41 @@ static void clear_region(rlf_region *region, rlf_region_sum *sum, const rlf_laye
     region->first_point = -1;
     region->x0 = grid->width;
     region->y0 = grid->height;
-    region->box = rlf_aabb_empty();
     region->plane_residual = -1.0;
     region->oriented_pose = rlf_pose_identity();
     *sum = (rlf_region_sum){0};
+    clear_extents(&sum->points);
 }
 
 static void add_run(rlf_region *region, rlf_region_sum *sum, const rlf_grid *grid,
                     const float *depth, const rlf_run *run, int32_t y)
 {
-    region->point_count += run->x1 - run->x0;
+    int32_t count = run->x1 - run->x0;
+    ptrdiff_t i = (ptrdiff_t)y * grid->width + run->x0;
+    region->point_count += count;
     region->x0 = run->x0 < region->x0 ? run->x0 : region->x0;
     region->x1 = run->x1 > region->x1 ? run->x1 : region->x1;
     region->y0 = y < region->y0 ? y : region->y0;
     region->y1 = y + 1;
-    rlf_aabb box = region->box;
-    rlf_region_sum t = *sum;
-    ptrdiff_t row = (ptrdiff_t)y * grid->width;
-    for (ptrdiff_t i = row + run->x0; i < row + run->x1; i++) {
-        double z = depth[i], x_m = z * grid->ray_x[i], y_m = z * grid->ray_y[i];
-        rlf_aabb_extend(&box, rlf_vec3_make(x_m, y_m, z));
-        t.s[0] += x_m;
-        t.s[1] += y_m;
-        t.s[2] += z;
-        t.ss[0] += x_m * x_m;
-        t.ss[1] += x_m * y_m;
-        t.ss[2] += x_m * z;
-        t.ss[3] += y_m * y_m;
-        t.ss[4] += y_m * z;
-        t.ss[5] += z * z;
+    rlf_kernel_region_row(depth + i, grid->ray_x + i, grid->ray_y + i, count, &sum->points);
+}
+
+static double total(const double lanes[RLF_REGION_LANES])
+{
+    return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+}
+
+static rlf_aabb box_of(const rlf_region_lanes *lanes)
+{
+    rlf_aabb box = rlf_aabb_empty();
+    for (int32_t k = 0; k < RLF_REGION_LANES; k++) {
+        const double *low = &lanes->least[0][k], *high = &lanes->most[0][k];
+        rlf_vec3 least = {low[0], low[RLF_REGION_LANES], low[2 * RLF_REGION_LANES]};
+        rlf_vec3 most = {high[0], high[RLF_REGION_LANES], high[2 * RLF_REGION_LANES]};
+        box.min = rlf_vec3_min(box.min, least);
+        box.max = rlf_vec3_max(box.max, most);
     }
-    region->box = box;
-    *sum = t;
+    return box;
 }
 
 /* Eigenvalues on the diagonal of a and eigenvectors in the columns of v: cyclic Jacobi rotations
@@ -90,52 +101,48 @@ static rlf_quat principal_axes(double v[3][3], const double value[3])
 static void finish_region(rlf_region *region, rlf_region_sum *sum)
 {
     double inv = 1.0 / region->point_count;
-    double m[3];
+    double m[3], ss[6];
     for (int k = 0; k < 3; k++) {
-        m[k] = sum->s[k] * inv;
+        m[k] = total(sum->points.sum[k]) * inv;
     }
+    for (int k = 0; k < 6; k++) {
+        ss[k] = total(sum->points.square[k]) * inv;
+    }
+    region->box = box_of(&sum->points);
     region->centroid = rlf_vec3_make(m[0], m[1], m[2]);
-    double xy = sum->ss[1] * inv - m[0] * m[1], xz = sum->ss[2] * inv - m[0] * m[2];
-    double yz = sum->ss[4] * inv - m[1] * m[2];
-    double a[3][3] = {{sum->ss[0] * inv - m[0] * m[0], xy, xz},
-                      {xy, sum->ss[3] * inv - m[1] * m[1], yz},
-                      {xz, yz, sum->ss[5] * inv - m[2] * m[2]}};
+    double xy = ss[1] - m[0] * m[1], xz = ss[2] - m[0] * m[2], yz = ss[4] - m[1] * m[2];
+    double a[3][3] = {{ss[0] - m[0] * m[0], xy, xz},
+                      {xy, ss[3] - m[1] * m[1], yz},
+                      {xz, yz, ss[5] - m[2] * m[2]}};
     double v[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     diagonalize(a, v);
     const double value[3] = {a[0][0], a[1][1], a[2][2]};
     double least = rlf_min(value[0], rlf_min(value[1], value[2]));
     region->plane_residual = sqrt(rlf_max(least, 0.0));
     region->oriented_pose.q = principal_axes(v, value);
-    sum->axis[0] = rlf_rotate(region->oriented_pose.q, rlf_vec3_make(1, 0, 0));
-    sum->axis[1] = rlf_rotate(region->oriented_pose.q, rlf_vec3_make(0, 1, 0));
-    sum->axis[2] = rlf_rotate(region->oriented_pose.q, rlf_vec3_make(0, 0, 1));
-}
-
-/* Extents along the principal axes; until finish_box, oriented_pose.p holds their least and
- * oriented_half their largest values, from the centroid. */
-static void add_extents(rlf_region *region, const rlf_region_sum *sum, const rlf_grid *grid,
-                        const float *depth, const rlf_run *run, int32_t y)
-{
-    rlf_vec3 low = region->oriented_pose.p, high = region->oriented_half;
-    const rlf_vec3 axis[3] = {sum->axis[0], sum->axis[1], sum->axis[2]}, origin = region->centroid;
-    ptrdiff_t row = (ptrdiff_t)y * grid->width;
-    for (ptrdiff_t i = row + run->x0; i < row + run->x1; i++) {
-        double z = depth[i];
-        rlf_vec3 p = {z * grid->ray_x[i], z * grid->ray_y[i], z};
-        p = rlf_sub(p, origin);
-        p = rlf_vec3_make(rlf_dot(axis[0], p), rlf_dot(axis[1], p), rlf_dot(axis[2], p));
-        low = rlf_vec3_min(low, p);
-        high = rlf_vec3_max(high, p);
+    for (int k = 0; k < 3; k++) {
+        rlf_vec3 axis = rlf_rotate(region->oriented_pose.q, rlf_vec3_make(k == 0, k == 1, k == 2));
+        sum->axes.axis[k][0] = axis.x;
+        sum->axes.axis[k][1] = axis.y;
+        sum->axes.axis[k][2] = axis.z;
+        sum->axes.origin[k] = m[k];
     }
-    region->oriented_pose.p = low;
-    region->oriented_half = high;
+    clear_extents(&sum->points);
 }
 
-static void finish_box(rlf_region *region)
+static void add_extents(rlf_region_sum *sum, const rlf_grid *grid, const float *depth,
+                        const rlf_run *run, int32_t y)
 {
-    rlf_vec3 low = region->oriented_pose.p, high = region->oriented_half;
-    rlf_vec3 middle = rlf_scale(rlf_add(low, high), 0.5);
-    region->oriented_half = rlf_scale(rlf_sub(high, low), 0.5);
+    ptrdiff_t i = (ptrdiff_t)y * grid->width + run->x0;
+    rlf_kernel_extent_row(&sum->axes, depth + i, grid->ray_x + i, grid->ray_y + i,
+                          run->x1 - run->x0, &sum->points);
+}
+
+static void finish_box(rlf_region *region, const rlf_region_sum *sum)
+{
+    rlf_aabb along = box_of(&sum->points);
+    rlf_vec3 middle = rlf_scale(rlf_add(along.min, along.max), 0.5);
+    region->oriented_half = rlf_scale(rlf_sub(along.max, along.min), 0.5);
     region->oriented_pose.p =
         rlf_add(region->centroid, rlf_rotate(region->oriented_pose.q, middle));
 }
@@ -175,8 +182,8 @@ static void sum_run(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_ou
 static void extend_run(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out,
                        const rlf_run *run, int32_t y)
 {
-    add_extents(&out->regions[run->component - 1], &stage->work.region_sums[run->component - 1],
-                &stage->grid, in->depth, run, y);
+    (void)out;
+    add_extents(&stage->work.region_sums[run->component - 1], &stage->grid, in->depth, run, y);
 }
 
 static void for_runs(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out,
@@ -204,7 +211,7 @@ void rlf_region_measure(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_laye
     }
     for_runs(stage, in, out, extend_run);
     for (int32_t r = 0; r < out->region_count; r++) {
-        finish_box(&out->regions[r]);
+        finish_box(&out->regions[r], &sums[r]);
     }
     out->point_count = 0;
     if (out->points != NULL) {

@@ -148,8 +148,8 @@ void rlf_region_name(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_o
 
 /* ---- region_stats.c ---- */
 typedef struct rlf_region_sum {
-    double s[3], ss[6]; /* of points; xx xy xz yy yz zz */
-    rlf_vec3 axis[3];
+    rlf_region_lanes points;
+    rlf_region_axes axes; /* from the longest to the shortest, from the centroid */
 } rlf_region_sum;
 /* Rectangle, boxes, centroid, plane residual and point list of the regions in work.runs. Its cost
  * is that of their pixels, whatever the number of regions. */

@@ -13,7 +13,12 @@
 
 #include <math.h>
 
-enum { RADIUS = RLF_RIM_RADIUS, SIDE = RLF_RIM_SIDE, RUN = 128 };
+enum {
+    RADIUS = RLF_RIM_RADIUS,
+    SIDE = RLF_RIM_SIDE,
+    RUN = 128,
+    FIRST_STEP = 2 /* along the outline: the windows of two neighbours are almost the same */
+};
 
 static const float least_step_m = 0.05f; /* to the background: else the outline is but a guess */
 static const float least_pull = 0.5f;    /* of a straight outline's: else it is a corner */
@@ -62,7 +67,7 @@ void rlf_rims_find(const rlf_flow *job, const rlf_region *region, rlf_rims *out)
     int32_t y1 = region->y1 < grid->height - RADIUS ? region->y1 : grid->height - RADIUS;
     uint8_t is_rim[RUN];
     out->count = out->seen = 0;
-    out->step = 1;
+    out->step = FIRST_STEP;
     if (grid->width <= SIDE) {
         return; /* too narrow for a window */
     }

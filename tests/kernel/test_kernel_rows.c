@@ -463,6 +463,63 @@ static void a_face_of_two_pixels_is_not_all_crease(void **state)
     }
 }
 
+/* In two runs, as a region's rows are. */
+static void region_rows_are_sums_and_extents(void **state)
+{
+    (void)state;
+    enum { SUMS = 9 };
+    analytic_random r = {2};
+    for (int32_t count = 1; count <= LONGEST; count++) {
+        float depth[LONGEST], ray[2][LONGEST];
+        rlf_region_lanes lanes = {0}, turned;
+        double sums[SUMS] = {0}, least[2] = {INFINITY, INFINITY}, most[2] = {-INFINITY, -INFINITY};
+        const rlf_region_axes axes = {{{0.6, 0.0, 0.8}, {0, 1, 0}, {0.8, 0.0, -0.6}},
+                                      {0.1, 0.2, 2}};
+        for (int32_t k = 0; k < 3 * RLF_REGION_LANES; k++) {
+            lanes.least[k / RLF_REGION_LANES][k % RLF_REGION_LANES] = INFINITY;
+            lanes.most[k / RLF_REGION_LANES][k % RLF_REGION_LANES] = -INFINITY;
+        }
+        turned = lanes;
+        for (int32_t i = 0; i < count; i++) {
+            depth[i] = 1.0f + (float)random_uniform(&r);
+            ray[0][i] = (float)random_uniform(&r) - 0.5f;
+            ray[1][i] = (float)random_uniform(&r) - 0.5f;
+            double z = depth[i], x = z * ray[0][i], y = z * ray[1][i];
+            double along = 0.6 * (x - 0.1) + 0.8 * (z - 2.0);
+            const double of[SUMS] = {x, y, z, x * x, x * y, x * z, y * y, y * z, z * z};
+            for (int k = 0; k < SUMS; k++) {
+                sums[k] += of[k];
+            }
+            least[0] = fmin(least[0], y);
+            most[0] = fmax(most[0], y);
+            least[1] = fmin(least[1], along);
+            most[1] = fmax(most[1], along);
+        }
+        int32_t part = count / 3;
+        rlf_kernel_region_row(depth, ray[0], ray[1], part, &lanes);
+        rlf_kernel_region_row(depth + part, ray[0] + part, ray[1] + part, count - part, &lanes);
+        rlf_kernel_extent_row(&axes, depth, ray[0], ray[1], part, &turned);
+        rlf_kernel_extent_row(&axes, depth + part, ray[0] + part, ray[1] + part, count - part,
+                              &turned);
+        double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+        for (int32_t k = 0; k < RLF_REGION_LANES; k++) {
+            for (int j = 0; j < SUMS; j++) {
+                sums[j] -= j < 3 ? lanes.sum[j][k] : lanes.square[j - 3][k];
+            }
+            low[0] = fmin(low[0], lanes.least[1][k]);
+            high[0] = fmax(high[0], lanes.most[1][k]);
+            low[1] = fmin(low[1], turned.least[0][k]);
+            high[1] = fmax(high[1], turned.most[0][k]);
+        }
+        for (int j = 0; j < SUMS; j++) {
+            assert_true(fabs(sums[j]) < 1e-10);
+        }
+        for (int j = 0; j < 2; j++) {
+            assert_true(fabs(low[j] - least[j]) < 1e-12 && fabs(high[j] - most[j]) < 1e-12);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -480,6 +537,7 @@ int main(void)
         cmocka_unit_test(thickness_ends_at_the_background),
         cmocka_unit_test(normals_bend_within_two_pixels_of_a_crease),
         cmocka_unit_test(a_face_of_two_pixels_is_not_all_crease),
+        cmocka_unit_test(region_rows_are_sums_and_extents),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
