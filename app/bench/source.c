@@ -10,6 +10,10 @@
 #define PLATE_FILL 0.7   /* ... and take this share of its width and of its height */
 #define PERSON_RADIUS_M 0.18
 #define PERSON_TOP_M (-0.6)
+#define ROW_M 2.2         /* people side by side share this breadth ... */
+#define ROW_Z_M 2.0       /* ... so far away ... */
+#define ROW_PEOPLE_M 1.44 /* ... and fill so much of it ... */
+#define ROW_SWAY_M 0.25   /* ... all swaying alike */
 #define NOISE_COUNT 65536
 
 typedef struct room_source {
@@ -22,11 +26,11 @@ typedef struct room_source {
 
 /* Depth at which a ray meets a standing capsule's trunk; 0 where it does not. Its cylinder is
  * enough: cost does not ask for round shoulders. */
-static double hit_person(rlf_vec3 ray, double x, double z)
+static double hit_person(rlf_vec3 ray, double x, double z, double radius)
 {
     double a = ray.x * ray.x + 1.0;
     double b = ray.x * x + z;
-    double root = b * b - a * (x * x + z * z - PERSON_RADIUS_M * PERSON_RADIUS_M);
+    double root = b * b - a * (x * x + z * z - radius * radius);
     if (root < 0.0) {
         return 0.0;
     }
@@ -56,10 +60,17 @@ static bool is_on_plate(rlf_vec3 ray, int32_t plates, int32_t columns)
     return row * columns + column < plates && x - column < PLATE_FILL && y - row < PLATE_FILL;
 }
 
-static double person_x(const room_source *s, int32_t k)
+/* Depth at which a ray meets person k; 0 where it does not. */
+static double hit_one(const room_source *s, rlf_vec3 ray, int32_t k)
 {
-    double phase = (double)s->frame / 45.0 + 1.7 * k;
-    return 1.1 * rlf_sin(phase);
+    double phase = (double)s->frame / 45.0;
+    if (s->room.side_by_side) {
+        double pitch = ROW_M / s->room.people, radius = 0.5 * ROW_PEOPLE_M / s->room.people;
+        double x = pitch * (k + 0.5) - 0.5 * ROW_M + ROW_SWAY_M * rlf_sin(3.0 * phase);
+        return hit_person(ray, x, ROW_Z_M, radius);
+    }
+    double x = 1.1 * rlf_sin(phase + 1.7 * k);
+    return hit_person(ray, x, 1.6 + 0.12 * (k % 8), PERSON_RADIUS_M);
 }
 
 static double cast(const room_source *s, rlf_vec3 ray, int32_t columns)
@@ -72,7 +83,7 @@ static double cast(const room_source *s, rlf_vec3 ray, int32_t columns)
         z = rlf_min(z, PLATE_M);
     }
     for (int32_t k = 0; k < s->room.people; k++) {
-        double person = hit_person(ray, person_x(s, k), 1.6 + 0.12 * (k % 8));
+        double person = hit_one(s, ray, k);
         z = person > 0.0 ? rlf_min(z, person) : z;
     }
     return z;

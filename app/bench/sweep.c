@@ -13,6 +13,7 @@ static const int32_t sizes[][2] = {{160, 120}, {320, 240},  {512, 424},  {640, 4
                                    {960, 540}, {1280, 720}, {1920, 1080}};
 static const int32_t region_counts[] = {1, 4, 16, 64, 225};
 static const int32_t people_counts[] = {0, 1, 2, 4, 8};
+static const int32_t row_counts[] = {2, 4, 8};
 static const int32_t body_counts[] = {2, 100, 1000};
 #define COUNT(array) ((int)(sizeof(array) / sizeof((array)[0])))
 
@@ -53,7 +54,7 @@ static rlf_result sweep_sizes(rlf_pool *pool, timing_series *series, bench_table
     int32_t first = table->count;
     double reference = NAN;
     for (int i = 0; i < COUNT(sizes); i++) {
-        bench_room room = {sizes[i][0], sizes[i][1], 1, 16};
+        bench_room room = {sizes[i][0], sizes[i][1], 1, 16, false};
         char name[BENCH_NAME];
         int32_t regions = 0;
         rlf_result result = time_room(&room, pool, series, &regions);
@@ -71,26 +72,33 @@ static rlf_result sweep_sizes(rlf_pool *pool, timing_series *series, bench_table
     return RLF_OK;
 }
 
+enum room_sweep { SWEEP_REGIONS, SWEEP_PEOPLE, SWEEP_ROW };
+
 /* Ratio: beside the sweep's first row. */
-static rlf_result sweep_room(const char *group, const int32_t *counts, int count, bool is_people,
-                             rlf_pool *pool, timing_series *series, bench_table *table)
+static rlf_result sweep_room(enum room_sweep kind, const int32_t *counts, int count, rlf_pool *pool,
+                             timing_series *series, bench_table *table)
 {
+    static const char *const groups[] = {"regions", "people", "people of the same pixels"};
     double reference = NAN;
     for (int i = 0; i < count; i++) {
-        bench_room room = {512, 424, is_people ? counts[i] : 0, is_people ? 4 : counts[i]};
+        bench_room room = {512, 424, counts[i], kind == SWEEP_ROW ? 0 : 4, kind == SWEEP_ROW};
         char name[BENCH_NAME];
         int32_t regions = 0;
+        if (kind == SWEEP_REGIONS) {
+            room.people = 0;
+            room.plates = counts[i];
+        }
         rlf_result result = time_room(&room, pool, series, &regions);
         if (result != RLF_OK) {
             return result;
         }
         double ms = timing_percentile(series, 50);
         reference = i == 0 ? ms : reference;
-        snprintf(name, sizeof(name), "%d (%d found)", (int)counts[i], (int)regions);
-        if (is_people) {
-            snprintf(name, sizeof(name), "%d", (int)counts[i]);
+        snprintf(name, sizeof(name), "%d", (int)counts[i]);
+        if (kind == SWEEP_REGIONS) {
+            snprintf(name, sizeof(name), "%d (%d found)", (int)counts[i], (int)regions);
         }
-        bench_add_series(table, group, name, series, ms / reference);
+        bench_add_series(table, groups[kind], name, series, ms / reference);
     }
     return RLF_OK;
 }
@@ -171,11 +179,13 @@ static rlf_result run_all(const bench_options *o, rlf_pool *pool, timing_series 
     rlf_result result = sweep_sizes(pool, series, table);
     if (result == RLF_OK) {
         result =
-            sweep_room("regions", region_counts, COUNT(region_counts), false, pool, series, table);
+            sweep_room(SWEEP_REGIONS, region_counts, COUNT(region_counts), pool, series, table);
     }
     if (result == RLF_OK) {
-        result =
-            sweep_room("people", people_counts, COUNT(people_counts), true, pool, series, table);
+        result = sweep_room(SWEEP_PEOPLE, people_counts, COUNT(people_counts), pool, series, table);
+    }
+    if (result == RLF_OK) {
+        result = sweep_room(SWEEP_ROW, row_counts, COUNT(row_counts), pool, series, table);
     }
     return result == RLF_OK ? sweep_bodies(o, series, table) : result;
 }
@@ -212,5 +222,7 @@ void bench_sweeps_print(const bench_table *table)
     print_sweep(table, "resolution", "surface, pixels; ratio: per pixel beside 512x424");
     print_sweep(table, "regions", "surface, regions at 512x424; ratio: beside the first");
     print_sweep(table, "people", "surface, people at 512x424; ratio: beside the first");
+    print_sweep(table, "people of the same pixels",
+                "surface, people who fill the same pixels together; ratio: beside the first");
     print_sweep(table, "bodies", "physics, bodies at 512x424; ratio: per body beside 100");
 }

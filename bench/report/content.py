@@ -267,7 +267,7 @@ def _sweep(data, group):
 
 def growth(data):
     plots = [("resolution", "pixels", True), ("bodies", "bodies", True), ("regions", "regions", False),
-             ("people", "people", False)]
+             ("people", "people", False), ("people of the same pixels", "people of the same pixels", False)]
     rows = [Row([f"{group}: {r['name']}", number(r["median"], 3), number(r["p95"], 3), number(r["ratio"], 3),
                  status_of("<=", GROWTH, r["ratio"])]) for group, _, _ in plots for r in data.bench_rows(group)]
     if not rows:
@@ -278,6 +278,8 @@ def growth(data):
         Text("Profile live, one thread; the surface stage, and physics for bodies. Goal: in proportion to the pixels "
              "and bodies, flat in regions and people. Bars reach to the 95th percentile. The ratio of pixels and "
              "bodies is the cost of one beside that at 512x424 or of 100; of regions and people, beside the first row. "
+             "Regions fill the same pixels together, and so do people of the same pixels, who stand side by side; "
+             "those of the row before walk, and each adds moving pixels until they hide one another. "
              f"Up to {GROWTH:g} counts as reached."),
         Charts(drawn), Table(["against", "median ms", "p95", "ratio", Cell("goal reached?", "text")], rows), Command("relief bench")])
 

@@ -25,7 +25,7 @@ static const rlf_surface *surface_after(rlf_source *source, rlf_reconstruct *sta
 
 static int32_t found_regions(int32_t width, int32_t height, int32_t people, int32_t plates)
 {
-    const bench_room room = {width, height, people, plates};
+    const bench_room room = {width, height, people, plates, false};
     rlf_source *source = NULL;
     rlf_reconstruct *stage = NULL;
     assert_int_equal(bench_source_create(&room, &source), RLF_OK);
@@ -52,11 +52,38 @@ static void rooms_have_the_regions_they_were_asked_for(void **state)
     assert_int_equal(found_regions(320, 240, 0, 9), 9);
 }
 
+/* Pixels of people side by side, in the first frame that shows them. */
+static int32_t people_pixels(int32_t people)
+{
+    const bench_room room = {320, 240, people, 0, true};
+    rlf_source *source = NULL;
+    rlf_frame frame;
+    int32_t count = 0;
+    assert_int_equal(bench_source_create(&room, &source), RLF_OK);
+    for (int k = 0; k <= BENCH_EMPTY_FRAMES; k++) {
+        assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    }
+    for (int i = 0; i < 120 * 320; i++) { /* rows before the floor comes as near */
+        count += frame.depth_u16[i] < 2300;
+    }
+    rlf_source_destroy(&source);
+    return count;
+}
+
+static void people_side_by_side_fill_as_many_pixels(void **state)
+{
+    (void)state;
+    int32_t two = people_pixels(2), four = people_pixels(4), eight = people_pixels(8);
+    assert_true(two > 8000);
+    assert_in_range(100 * four / two, 85, 105); /* a broad one is seen under a wider angle */
+    assert_in_range(100 * eight / two, 85, 105);
+}
+
 /* The middle ray meets wall, then plate; the noise is the rig's. */
 static void rooms_are_where_they_should_be(void **state)
 {
     (void)state;
-    const bench_room room = {101, 83, 0, 1};
+    const bench_room room = {101, 83, 0, 1, false};
     rlf_source *source = NULL;
     rlf_frame frame;
     assert_int_equal(bench_source_create(&room, &source), RLF_OK);
@@ -136,6 +163,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rooms_have_the_regions_they_were_asked_for),
+        cmocka_unit_test(people_side_by_side_fill_as_many_pixels),
         cmocka_unit_test(rooms_are_where_they_should_be),
         cmocka_unit_test(floor_goes_round_more_memory_than_a_cache_holds),
         cmocka_unit_test(table_finds_rows_and_files_compare),
