@@ -34,6 +34,11 @@ if(NOT RELIEF_SANITIZE)
               -DCC=${CMAKE_C_COMPILER} -DGENERATOR=${CMAKE_GENERATOR} -DCONFIG=$<CONFIG>
               -DWITH_IO=$<TARGET_EXISTS:relief_io> -DWITH_GL=$<TARGET_EXISTS:relief_gl>
               -DWITH_APP=$<TARGET_EXISTS:relief_app> -P ${house}/install.cmake)
+  house_check(shared ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}
+              -DWORK=${CMAKE_CURRENT_BINARY_DIR}/shared -DCONSUMER=${house}/consumer
+              -DCC=${CMAKE_C_COMPILER} -DGENERATOR=${CMAKE_GENERATOR}
+              -DWITH_IO=$<TARGET_EXISTS:relief_io> -DWITH_GL=$<TARGET_EXISTS:relief_gl>
+              -DWITH_APP=$<TARGET_EXISTS:relief_app> -P ${house}/shared.cmake)
 endif()
 
 # The core needs a C compiler and nothing else: built without pkg-config and with every option off.

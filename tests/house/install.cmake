@@ -66,6 +66,8 @@ run(${pkg_config} --cflags --libs ${packages})
 string(STRIP "${run_output}" flags)
 separate_arguments(flags UNIX_COMMAND "${flags}")
 run(${CC} ${definitions} ${CONSUMER}/consumer.c -o "${WORK}/with_pkg_config" ${flags})
+get_filename_component(library_folder "${pc_folder}" DIRECTORY)
+set(ENV{LD_LIBRARY_PATH} "${library_folder}") # of shared ones, outside the system's folders
 run("${WORK}/with_pkg_config")
 message("install: pkg-config: ${run_output}")
 file(REMOVE_RECURSE "${WORK}")
