@@ -14,28 +14,25 @@ static rlf_result allocate(silhouette *s, int32_t width, int32_t height)
     /* Readers may look at several pixels at once, beyond the last. */
     size_t pixels = (size_t)width * (size_t)height + SILHOUETTE_TILE;
     rlf_plane_f32 *depths[2] = {&s->near_z, &s->far_z};
-    rlf_plane_u8 *bytes[5] = {&s->cover, &s->settled, &s->distance, &s->last_cover, &s->last_light};
     bool has_all = true;
     for (int i = 0; i < 2; i++) {
         *depths[i] = (rlf_plane_f32){rlf_alloc_array(pixels, sizeof(float)), width, height,
                                      width * (ptrdiff_t)sizeof(float)};
         has_all = has_all && depths[i]->data != NULL;
     }
-    for (int i = 0; i < 5; i++) {
-        *bytes[i] = (rlf_plane_u8){rlf_alloc(pixels), width, height, width};
-        has_all = has_all && bytes[i]->data != NULL;
-    }
+    s->cover = (rlf_plane_u8){rlf_alloc(pixels), width, height, width};
     size_t tiles = (size_t)s->columns * (size_t)s->rows;
     s->tiles = rlf_alloc_array(tiles, sizeof(*s->tiles));
     s->own = rlf_alloc_array(tiles, sizeof(*s->own));
     s->real = rlf_alloc_array(tiles, sizeof(*s->real));
     s->marks = rlf_alloc_array(tiles, 1);
-    s->last_seen = rlf_alloc_array(pixels, sizeof(*s->last_seen));
+    s->settled = rlf_alloc_array(pixels, sizeof(*s->settled));
+    s->last = rlf_alloc_array(pixels, sizeof(*s->last));
     s->offset_x = rlf_alloc_array((size_t)width, sizeof(*s->offset_x));
     s->offset_y = rlf_alloc_array((size_t)height, sizeof(*s->offset_y));
-    has_all = has_all && s->tiles != NULL && s->own != NULL && s->real != NULL &&
-              s->marks != NULL && s->last_seen != NULL && s->offset_x != NULL &&
-              s->offset_y != NULL;
+    has_all = has_all && s->cover.data != NULL && s->tiles != NULL && s->own != NULL &&
+              s->real != NULL && s->marks != NULL && s->settled != NULL && s->last != NULL &&
+              s->offset_x != NULL && s->offset_y != NULL;
     return has_all ? RLF_OK : RLF_ERROR_MEMORY;
 }
 
@@ -58,11 +55,9 @@ rlf_result silhouette_create(const rlf_camera *camera, const rlf_camera *depth, 
 
 void silhouette_destroy(silhouette *s)
 {
-    void *parts[14] = {
-        s->near_z.data,     s->far_z.data,   s->cover.data, s->distance.data, s->last_cover.data,
-        s->last_light.data, s->last_seen,    s->tiles,      s->own,           s->offset_x,
-        s->offset_y,        s->settled.data, s->marks,      s->real};
-    for (int i = 0; i < 14; i++) {
+    void *parts[11] = {s->near_z.data, s->far_z.data, s->cover.data, s->settled, s->last, s->tiles,
+                       s->own,         s->offset_x,   s->offset_y,   s->marks,   s->real};
+    for (int i = 0; i < 11; i++) {
         rlf_free(parts[i]);
     }
     memset(s, 0, sizeof(*s));
@@ -86,7 +81,8 @@ static void clear_row(const silhouette_pass *p, int32_t x0, int32_t x1, int32_t 
     copy_depth(rlf_f32_row(p->z, y) + x0, x1 - x0, rlf_f32_row(&p->s->near_z, y) + x0,
                rlf_f32_row(&p->s->far_z, y) + x0);
     memset(rlf_u8_row(&p->s->cover, y) + x0, 255, (size_t)(x1 - x0));
-    memset(rlf_u8_row(&p->s->distance, y) + x0, SILHOUETTE_NONE, (size_t)(x1 - x0));
+    memset(p->s->settled + (ptrdiff_t)y * p->z->width + x0, SILHOUETTE_NONE,
+           (size_t)(x1 - x0) * sizeof(*p->s->settled));
 }
 
 /* True when depth jumps between any of a[i] and b[i]. */
@@ -120,8 +116,7 @@ static silhouette_line row_at(const silhouette_pass *p, int32_t y)
                             .color_offset = s->offset_x,
                             .near_z = rlf_f32_row(&s->near_z, y),
                             .far_z = rlf_f32_row(&s->far_z, y),
-                            .cover = rlf_u8_row(&s->settled, y),
-                            .distance = rlf_u8_row(&s->distance, y),
+                            .settled = s->settled + (ptrdiff_t)y * width,
                             .step = 1,
                             .across = width,
                             .count = width,
@@ -140,8 +135,7 @@ static silhouette_line column_at(const silhouette_pass *p, int32_t x)
                             .color_offset = s->offset_y,
                             .near_z = s->near_z.data + x,
                             .far_z = s->far_z.data + x,
-                            .cover = s->settled.data + x,
-                            .distance = s->distance.data + x,
+                            .settled = s->settled + x,
                             .step = width,
                             .across = 1,
                             .count = p->z->height,
@@ -155,12 +149,17 @@ static silhouette_line column_at(const silhouette_pass *p, int32_t x)
 /* Rows [y0, y1) of a row of tiles. */
 static void clear_tiles(const silhouette_pass *p, const uint8_t *marks, int32_t y0, int32_t y1)
 {
-    for (int32_t x = 0; x < p->z->width; x += SILHOUETTE_TILE) {
-        const int32_t end = silhouette_at_most(x + SILHOUETTE_TILE, p->z->width);
-        const bool is_filled = (marks[x / SILHOUETTE_TILE] & SILHOUETTE_FILLED) != 0;
-        for (int32_t y = y0; y < y1 && is_filled; y++) {
-            clear_row(p, x, end, y);
+    const int32_t columns = p->s->columns;
+    for (int32_t first = 0; first < columns; first++) {
+        int32_t end = first;
+        while (end < columns && (marks[end] & SILHOUETTE_FILLED) != 0) {
+            end++;
         }
+        const int32_t x1 = silhouette_at_most(end * SILHOUETTE_TILE, p->z->width);
+        for (int32_t y = y0; y < y1 && first < end; y++) {
+            clear_row(p, first * SILHOUETTE_TILE, x1, y);
+        }
+        first = end;
     }
 }
 
@@ -281,6 +280,7 @@ void silhouette_update(silhouette *s, const rlf_plane_f32 *z, const known_layer 
                          known,
                          known != NULL ? known->shown : NULL,
                          frame->color.data,
+                         frame->color.width == z->width,
                          s->picture == 0 || frame->sequence != s->last_sequence};
     if (p.color != NULL) {
         fill_offsets(s, &frame->color);

@@ -35,10 +35,11 @@ typedef struct silhouette {
     rlf_plane_f32 near_z, far_z;
     rlf_plane_u8 cover; /* 255 = all */
 
-    rlf_plane_u8 settled;  /* cover as the lines have it, one by one */
-    rlf_plane_u8 distance; /* pixels to the edge that set a pixel, or SILHOUETTE_NONE */
-    rlf_plane_u8 last_cover, last_light;
-    uint16_t *last_seen;    /* number of the picture that set the two */
+    /* Per pixel, what is looked at together. settled: pixels to the edge that set the pixel, or
+     * SILHOUETTE_NONE, times 256 + cover as the lines have it, one by one. last: number of the
+     * picture that set it times 65536 + light times 256 + cover. */
+    uint16_t *settled;
+    uint32_t *last;
     uint16_t picture;       /* counts up, never 0 */
     uint64_t last_sequence; /* of the frame */
 
@@ -77,7 +78,7 @@ typedef struct silhouette_line {
     const uint8_t *beside[2];      /* of lines near it, whose edges are much the same */
     const ptrdiff_t *color_offset; /* bytes, per pixel of the line */
     float *near_z, *far_z;
-    uint8_t *cover, *distance;
+    uint16_t *settled;
     ptrdiff_t step;   /* in pixels, of all planes but the colour's */
     ptrdiff_t across; /* to the same pixel of the next line */
     int32_t count;

@@ -267,7 +267,7 @@ static void write_pixel(const silhouette_line *line, const edge *e, int32_t u, i
 {
     ptrdiff_t i = (e->far_pixel + e->direction * u) * line->step;
     int32_t distance = u < split ? split - 1 - u : u - split;
-    if (distance >= line->distance[i]) {
+    if (distance >= line->settled[i] >> 8) {
         return;
     }
     float z = line->z[i] > 0.0f ? line->z[i] : SILHOUETTE_FAR;
@@ -277,8 +277,7 @@ static void write_pixel(const silhouette_line *line, const edge *e, int32_t u, i
     }
     line->near_z[i] = u < 0 && z < e->near_z ? z : e->near_z;
     line->far_z[i] = u >= 0 && z > e->far_z ? z : e->far_z;
-    line->cover[i] = (uint8_t)(255.0f * cover + 0.5f);
-    line->distance[i] = (uint8_t)distance;
+    line->settled[i] = (uint16_t)(distance << 8 | (int32_t)(255.0f * cover + 0.5f));
 }
 
 /* The nearer of the pixels i and i + 1 has the depth of a model, whose edge is known. */

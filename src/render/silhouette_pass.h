@@ -10,7 +10,8 @@ typedef struct silhouette_pass {
     const known_layer *known; /* NULL = no models */
     const uint8_t *exact;     /* its `shown` */
     const uint8_t *color;
-    bool is_new; /* a new frame: cover may move on */
+    bool has_own_colors; /* the colours' pixels are the picture's, one beside the other */
+    bool is_new;         /* a new frame: cover may move on */
 } silhouette_pass;
 
 static inline int32_t silhouette_at_most(int32_t a, int32_t b)
