@@ -1,10 +1,14 @@
 /* One line of pixels across a depth edge: where does the near side end? */
 #include "silhouette.h"
 
+#include "kernel/kernel.h"
+
 enum {
-    CLUSTER = 2,   /* pixels: steps this close are one edge, with mixed pixels between */
-    WINDOW = 6,    /* pixels beyond the doubtful ones that tell a side's colour */
-    REACH_MAX = 24 /* pixels */
+    CLUSTER = 2,    /* pixels: steps this close are one edge, with mixed pixels between */
+    WINDOW = 6,     /* pixels beyond the doubtful ones that tell a side's colour */
+    REACH_MAX = 24, /* pixels */
+    LANES = 16,     /* pixels worked on at once */
+    LANES_MAX = 64  /* at least 2 (REACH_MAX + WINDOW), in whole LANES */
 };
 
 #define COLOR_VARIANCE 36.0f /* per channel, of noise and texture at least; sRGB steps squared */
@@ -31,7 +35,7 @@ typedef struct sides {
     float weight;   /* of what they say; 0 = alike */
 } sides;
 
-static float depth_at(const silhouette_line *line, int32_t i)
+RLF_KERNEL_PART float depth_at(const silhouette_line *line, int32_t i)
 {
     float z = line->z[i * line->step];
     return z > 0.0f ? z : SILHOUETTE_FAR;
@@ -129,30 +133,49 @@ static bool owns_edge(const silhouette_line *line, const edge *e)
     return line->is_column ? along > across : along >= across;
 }
 
-/* Sum of the colours of a pixel and of its neighbours in the lines beside. */
-static void add_colors(const silhouette_line *line, const edge *e, int32_t u, float sum[3])
+/* Colours of pixels -near_end <= u < far_end, each the mean of its own and of its neighbours' in
+ * the lines beside: index u + near_end. */
+typedef struct line_colors {
+    float channel[3][LANES_MAX];
+} line_colors;
+
+RLF_KERNEL_PART void read_colors(const silhouette_line *line, const edge *e, line_colors *out)
 {
-    ptrdiff_t offset = line->color_offset[e->far_pixel + e->direction * u];
-    const uint8_t *own = line->color + offset;
-    const uint8_t *first = line->beside[0] + offset;
-    const uint8_t *second = line->beside[1] + offset;
-    for (int k = 0; k < 3; k++) {
-        sum[k] += (float)(own[k] + first[k] + second[k]);
+    const int32_t count = e->near_end + e->far_end;
+    int32_t sum[3][LANES_MAX];
+    for (int32_t i = 0; i < count; i++) {
+        const ptrdiff_t offset =
+            line->color_offset[e->far_pixel + e->direction * (i - e->near_end)];
+        const uint8_t *own = line->color + offset;
+        const uint8_t *first = line->beside[0] + offset;
+        const uint8_t *second = line->beside[1] + offset;
+        for (int k = 0; k < 3; k++) {
+            sum[k][i] = own[k] + first[k] + second[k];
+        }
+    }
+    for (int32_t i = count; i % LANES != 0; i++) {
+        sum[0][i] = sum[1][i] = sum[2][i] = 0;
+    }
+    for (int32_t at = 0; at < count; at += LANES) {
+        for (int k = 0; k < 3; k++) {
+            RLF_KERNEL_WHOLE
+            for (int32_t i = 0; i < LANES; i++) {
+                out->channel[k][at + i] = (float)sum[k][at + i] * (1.0f / 3.0f);
+            }
+        }
     }
 }
 
-/* Mean and summed variance of the colours of pixels [begin, end), in this line and those beside. */
-static void add_side(const silhouette_line *line, const edge *e, int32_t begin, int32_t end,
-                     float mean[3], float *variance)
+/* Mean and summed variance of the colours of pixels [begin, end). */
+RLF_KERNEL_PART void add_side(const line_colors *colors, const edge *e, int32_t begin, int32_t end,
+                              float mean[3], float *variance)
 {
     float sum[3] = {0, 0, 0};
     float squares = 0.0f;
     float count = (float)(end - begin);
-    for (int32_t u = begin; u < end; u++) {
-        float here[3] = {0, 0, 0};
-        add_colors(line, e, u, here);
+    for (int32_t i = begin + e->near_end; i < end + e->near_end; i++) {
         for (int k = 0; k < 3; k++) {
-            float c = here[k] * (1.0f / 3.0f);
+            float c = colors->channel[k][i];
             sum[k] += c;
             squares += c * c;
         }
@@ -164,7 +187,7 @@ static void add_side(const silhouette_line *line, const edge *e, int32_t begin, 
     *variance += squares > 0.0f ? 0.5f * squares / (3.0f * count) : 0.0f;
 }
 
-static float square_distance(const float a[3], const float b[3])
+RLF_KERNEL_PART float square_distance(const float a[3], const float b[3])
 {
     float sum = 0.0f;
     for (int k = 0; k < 3; k++) {
@@ -173,16 +196,13 @@ static float square_distance(const float a[3], const float b[3])
     return sum;
 }
 
-static sides sides_of(const silhouette_line *line, const edge *e)
+RLF_KERNEL_PART sides sides_of(const line_colors *colors, const edge *e)
 {
     sides s = {.variance = COLOR_VARIANCE};
-    if (line->color == NULL) {
-        return s;
-    }
     int32_t near_from = e->near_band < e->near_end ? e->near_band : e->near_end - 1;
     int32_t far_from = e->far_band < e->far_end ? e->far_band : e->far_end - 1;
-    add_side(line, e, -e->near_end, -near_from, s.near_mean, &s.variance);
-    add_side(line, e, far_from, e->far_end, s.far_mean, &s.variance);
+    add_side(colors, e, -e->near_end, -near_from, s.near_mean, &s.variance);
+    add_side(colors, e, far_from, e->far_end, s.far_mean, &s.variance);
     s.square = square_distance(s.near_mean, s.far_mean);
     /* Sides that can hardly be told apart have little to say. */
     float contrast = s.square / (SURE * s.variance);
@@ -190,26 +210,33 @@ static sides sides_of(const silhouette_line *line, const edge *e)
     return s;
 }
 
-/* Nats for near rather than far, of a pixel and of its neighbours beside: two normal distributions
- * of the same variance, clipped. What looks like neither side says little. */
-static float evidence_at(const silhouette_line *line, const edge *e, const sides *s, int32_t u)
+/* Nats for near rather than far, of each pixel and of its neighbours beside: two normal
+ * distributions of the same variance, clipped. What looks like neither side says little. */
+RLF_KERNEL_PART void find_evidence(const line_colors *colors, const sides sides_here, int32_t count,
+                                   float *restrict out)
 {
-    float c[3] = {0, 0, 0};
-    add_colors(line, e, u, c);
-    for (int k = 0; k < 3; k++) {
-        c[k] *= 1.0f / 3.0f;
+    const sides s = sides_here;
+    for (int32_t at = 0; at < count; at += LANES) {
+        const float *restrict red = colors->channel[0] + at;
+        const float *restrict green = colors->channel[1] + at;
+        const float *restrict blue = colors->channel[2] + at;
+        RLF_KERNEL_WHOLE
+        for (int32_t i = 0; i < LANES; i++) {
+            const float c[3] = {red[i], green[i], blue[i]};
+            float from_near = square_distance(c, s.near_mean) / s.variance;
+            float from_far = square_distance(c, s.far_mean) / s.variance;
+            float strange = (from_near < from_far ? from_near : from_far) / STRANGE;
+            float evidence = 0.5f * s.weight * (from_far - from_near);
+            evidence = evidence < MOST_EVIDENCE ? evidence : MOST_EVIDENCE;
+            evidence = evidence > -MOST_EVIDENCE ? evidence : -MOST_EVIDENCE;
+            out[at + i] = evidence / (1.0f + strange * strange);
+        }
     }
-    float from_near = square_distance(c, s->near_mean) / s->variance;
-    float from_far = square_distance(c, s->far_mean) / s->variance;
-    float strange = (from_near < from_far ? from_near : from_far) / STRANGE;
-    float evidence = 0.5f * s->weight * (from_far - from_near);
-    evidence = evidence < MOST_EVIDENCE ? evidence : MOST_EVIDENCE;
-    evidence = evidence > -MOST_EVIDENCE ? evidence : -MOST_EVIDENCE;
-    return evidence / (1.0f + strange * strange);
 }
 
 /* Share of the near side in the pixel's own colour. */
-static float mixture_at(const silhouette_line *line, const edge *e, const sides *s, int32_t u)
+RLF_KERNEL_PART float mixture_at(const silhouette_line *line, const edge *e, const sides *s,
+                                 int32_t u)
 {
     const uint8_t *c = line->color + line->color_offset[e->far_pixel + e->direction * u];
     const float own[3] = {(float)c[0], (float)c[1], (float)c[2]};
@@ -221,7 +248,7 @@ static float mixture_at(const silhouette_line *line, const edge *e, const sides 
 /* Nats that a split k pixels from the depth's own edge costs, which is uncertain by `doubt` pixels.
  * Far away, where now and then a sensor is wrong, less than the evidence of clear colours (Huber
  * 1964). */
-static float distance_cost(int32_t k, float doubt)
+RLF_KERNEL_PART float distance_cost(int32_t k, float doubt)
 {
     float distance = (float)(k < 0 ? -k : k);
     float bend = MOST_COST * doubt * doubt;
@@ -230,7 +257,7 @@ static float distance_cost(int32_t k, float doubt)
 }
 
 /* The split that explains the colours best: pixels u < split are near. */
-static int32_t find_split(const edge *e, const float near_sum[], float doubt)
+RLF_KERNEL_PART int32_t find_split(const edge *e, const float near_sum[], float doubt)
 {
     float best = -1e30f;
     int32_t split = 0;
@@ -244,15 +271,15 @@ static int32_t find_split(const edge *e, const float near_sum[], float doubt)
     return split;
 }
 
-static float clamp(float x, float low, float high)
+RLF_KERNEL_PART float clamp(float x, float low, float high)
 {
     return x < low ? low : (x > high ? high : x);
 }
 
 /* Only the two pixels beside the split are mixed, and neither of them mostly of the other side:
  * farther away another colour is a pattern or a shade of the surface. */
-static float cover_at(const silhouette_line *line, const edge *e, const sides *s, int32_t u,
-                      int32_t split)
+RLF_KERNEL_PART float cover_at(const silhouette_line *line, const edge *e, const sides *s,
+                               int32_t u, int32_t split)
 {
     if (u < split - 1 || u > split) {
         return u < split ? 1.0f : 0.0f;
@@ -262,8 +289,8 @@ static float cover_at(const silhouette_line *line, const edge *e, const sides *s
     return u < split ? clamp(cover, 0.5f, 1.0f) : clamp(cover, 0.0f, 0.49f);
 }
 
-static void write_pixel(const silhouette_line *line, const edge *e, int32_t u, int32_t split,
-                        float cover)
+RLF_KERNEL_PART void write_pixel(const silhouette_line *line, const edge *e, int32_t u,
+                                 int32_t split, float cover)
 {
     ptrdiff_t i = (e->far_pixel + e->direction * u) * line->step;
     int32_t distance = u < split ? split - 1 - u : u - split;
@@ -287,6 +314,30 @@ static bool is_exact(const silhouette_line *line, int32_t i)
     return line->exact != NULL && line->exact[nearer * line->step] != 0;
 }
 
+/* Splits the edge's pixels; `doubt`: pixels that the depth's own edge may be off. */
+RLF_KERNEL static void settle_edge(const silhouette_line *line, const edge *at, float doubt)
+{
+    const edge e = *at;
+    sides s = {.variance = COLOR_VARIANCE};
+    line_colors colors;
+    float evidence[LANES_MAX];
+    float near_sum[2 * REACH_MAX + 1] = {0.0f};
+    if (line->color != NULL) {
+        read_colors(line, &e, &colors);
+        s = sides_of(&colors, &e);
+    }
+    if (s.weight > 0.0f) {
+        find_evidence(&colors, s, e.near_end + e.far_end, evidence);
+        for (int32_t u = -e.near_band; u < e.far_band; u++) {
+            near_sum[u + e.near_band + 1] = near_sum[u + e.near_band] + evidence[u + e.near_end];
+        }
+    }
+    const int32_t split = find_split(&e, near_sum, doubt);
+    for (int32_t u = -e.near_band; u < e.far_band; u++) {
+        write_pixel(line, &e, u, split, cover_at(line, &e, &s, u, split));
+    }
+}
+
 void silhouette_settle(const silhouette_line *line, int32_t i, const silhouette_tile *tile,
                        int32_t reach)
 {
@@ -299,13 +350,5 @@ void silhouette_settle(const silhouette_line *line, int32_t i, const silhouette_
         !owns_edge(line, &e)) {
         return;
     }
-    const sides s = sides_of(line, &e);
-    float near_sum[2 * REACH_MAX + 1] = {0.0f};
-    for (int32_t u = -e.near_band; u < e.far_band && s.weight > 0.0f; u++) {
-        near_sum[u + e.near_band + 1] = near_sum[u + e.near_band] + evidence_at(line, &e, &s, u);
-    }
-    int32_t split = find_split(&e, near_sum, (float)reach / 4.5f);
-    for (int32_t u = -e.near_band; u < e.far_band; u++) {
-        write_pixel(line, &e, u, split, cover_at(line, &e, &s, u, split));
-    }
+    settle_edge(line, &e, (float)reach / 4.5f);
 }
