@@ -52,6 +52,13 @@
 #define RLF_KERNEL_WHOLE
 #endif
 
+/* What is read soon: brought near while other work is done. */
+#if defined(__GNUC__)
+#define RLF_KERNEL_SOON(address) __builtin_prefetch(address)
+#else
+#define RLF_KERNEL_SOON(address) ((void)(address))
+#endif
+
 /* sigma(z) = max(c0 + c1 z + c2 z^2, 0.3 mm) in single precision. */
 typedef struct rlf_kernel_noise {
     float c0, c1, c2;

@@ -105,6 +105,7 @@ static void set_colors(const silhouette_pass *p, const ptrdiff_t *offset, int32_
     line->color = p->color + offset[i];
     line->beside[0] = p->color + offset[i >= BESIDE ? i - BESIDE : 0];
     line->beside[1] = p->color + offset[i + BESIDE < count ? i + BESIDE : count - 1];
+    line->ahead = p->color + offset[i + BESIDE + 4 < count ? i + BESIDE + 4 : count - 1];
 }
 
 static silhouette_line row_at(const silhouette_pass *p, int32_t y)

@@ -76,6 +76,7 @@ typedef struct silhouette_line {
     const uint8_t *exact;          /* 1 = the depth is a model's; NULL = none */
     const uint8_t *color;          /* of the line; NULL = none */
     const uint8_t *beside[2];      /* of lines near it, whose edges are much the same */
+    const uint8_t *ahead;          /* of one that comes soon */
     const ptrdiff_t *color_offset; /* bytes, per pixel of the line */
     float *near_z, *far_z;
     uint16_t *settled;

@@ -143,6 +143,11 @@ RLF_KERNEL_PART void read_colors(const silhouette_line *line, const edge *e, lin
 {
     const int32_t count = e->near_end + e->far_end;
     int32_t sum[3][LANES_MAX];
+    if (!line->is_column) {
+        for (int32_t u = -e->near_end; u < e->far_end; u += LANES) {
+            RLF_KERNEL_SOON(line->ahead + line->color_offset[e->far_pixel + e->direction * u]);
+        }
+    }
     for (int32_t i = 0; i < count; i++) {
         const ptrdiff_t offset =
             line->color_offset[e->far_pixel + e->direction * (i - e->near_end)];

@@ -170,6 +170,10 @@ void silhouette_steady_rows(void *context, int32_t begin, int32_t end, int32_t w
         const int32_t y1 = silhouette_at_most(y0 + SILHOUETTE_TILE, s->cover.height);
         const bool has_edge = (s->marks[tile] & SILHOUETTE_EDGE) != 0;
         for (int32_t y = y0; y < y1 && has_edge; y++) {
+            if (p->color != NULL && y + 4 < y1) {
+                RLF_KERNEL_SOON(p->color + s->offset_y[y + 4] + s->offset_x[x0]);
+                RLF_KERNEL_SOON(s->last + (ptrdiff_t)(y + 4) * s->cover.width + x0);
+            }
             if (has_doubtful(s->settled + (ptrdiff_t)y * s->cover.width + x0, x1 - x0)) {
                 steady_row(p, known, x0, y, x1 - x0);
             }
