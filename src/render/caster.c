@@ -205,32 +205,84 @@ static float distance2(const caster *a, const caster *b)
     return sum;
 }
 
+/* Caster i, `away2` from the body, if it is among the nearest so far. */
+static void add_choice(int32_t i, float away2, caster_choice *c)
+{
+    int32_t place = c->count < CASTER_BODIES ? c->count++ : CASTER_BODIES;
+    for (; place > 0 && away2 < c->away2[place - 1]; place--) {
+        if (place < CASTER_BODIES) {
+            c->away2[place] = c->away2[place - 1];
+            c->chosen[place] = c->chosen[place - 1];
+        }
+    }
+    if (place < CASTER_BODIES) {
+        c->away2[place] = away2;
+        c->chosen[place] = i;
+    }
+}
+
 int32_t caster_choose(const caster *casters, int32_t count, int32_t index,
                       int32_t out[CASTER_BODIES])
 {
     const caster *own = &casters[index];
-    float best[CASTER_BODIES];
-    int32_t chosen = 0;
+    caster_choice choice = {.count = 0};
     for (int32_t i = 0; i < count; i++) {
         const caster *other = &casters[i];
-        if (i == index || !(other->near_m > 0.0f) ||
-            caster_may_take(other, own->center, own->radius) == CASTER_TAKES_NOTHING) {
-            continue;
-        }
-        float away = distance2(own, other);
-        int32_t place = chosen < CASTER_BODIES ? chosen++ : CASTER_BODIES;
-        for (; place > 0 && away < best[place - 1]; place--) {
-            if (place < CASTER_BODIES) {
-                best[place] = best[place - 1];
-                out[place] = out[place - 1];
-            }
-        }
-        if (place < CASTER_BODIES) {
-            best[place] = away;
-            out[place] = i;
+        if (i != index && other->near_m > 0.0f &&
+            caster_may_take(other, own->center, own->radius) != CASTER_TAKES_NOTHING) {
+            add_choice(i, distance2(own, other), &choice);
         }
     }
-    return chosen;
+    for (int32_t i = 0; i < choice.count; i++) {
+        out[i] = choice.chosen[i];
+    }
+    return choice.count;
+}
+
+static bool takes_any(const int32_t takes[CASTER_LANES])
+{
+    int32_t any = 0;
+    for (int32_t i = 0; i < CASTER_LANES; i++) {
+        any |= takes[i];
+    }
+    return any != CASTER_TAKES_NOTHING;
+}
+
+/* Up to CASTER_LANES bodies. */
+static void choose_lanes(const caster *casters, int32_t count, const int32_t *index, int32_t bodies,
+                         caster_choice *out)
+{
+    float ball[4][CASTER_LANES] = {{0}};
+    const caster_balls balls = {ball[0], ball[1], ball[2], ball[3]};
+    for (int32_t k = 0; k < bodies; k++) {
+        const caster *own = &casters[index[k]];
+        for (int i = 0; i < 3; i++) {
+            ball[i][k] = own->center[i];
+        }
+        ball[3][k] = own->radius;
+        out[k].count = 0;
+    }
+    for (int32_t i = 0; i < count; i++) {
+        int32_t takes[CASTER_LANES] = {0};
+        if (casters[i].near_m > 0.0f) {
+            caster_may_take_balls(&casters[i], &balls, CASTER_LANES, takes);
+        }
+        for (int32_t k = 0; takes_any(takes) && k < bodies; k++) {
+            if (takes[k] != CASTER_TAKES_NOTHING && index[k] != i) {
+                add_choice(i, distance2(&casters[index[k]], &casters[i]), &out[k]);
+            }
+        }
+    }
+}
+
+void caster_choose_many(const caster *casters, int32_t count, const int32_t *index, int32_t bodies,
+                        caster_choice *out)
+{
+    for (int32_t first = 0; first < bodies; first += CASTER_LANES) {
+        const int32_t left = bodies - first;
+        choose_lanes(casters, count, index + first, left < CASTER_LANES ? left : CASTER_LANES,
+                     out + first);
+    }
 }
 
 /* ---- light ---------------------------------------------------------------------------------- */

@@ -65,6 +65,14 @@ void caster_may_take_balls(const caster *c, const caster_balls *balls, int32_t c
 int32_t caster_choose(const caster *casters, int32_t count, int32_t index,
                       int32_t out[CASTER_BODIES]);
 
+/* The same for `bodies` many at once, of these indices, into out[i]. */
+typedef struct caster_choice {
+    int32_t count, chosen[CASTER_BODIES];
+    float away2[CASTER_BODIES]; /* squared distances of their centres, rising */
+} caster_choice;
+void caster_choose_many(const caster *casters, int32_t count, const int32_t *index, int32_t bodies,
+                        caster_choice *out);
+
 /* Points z (x, y, 1) in the picture camera's frame; none where z <= 0. CASTER_LANES, or a multiple
  * of that. */
 typedef struct caster_points {

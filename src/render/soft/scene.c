@@ -2,6 +2,8 @@
 #include "render/body_look.h"
 #include "render/soft/soft.h"
 
+#include <string.h>
+
 #define BODIES_AT_ONCE 8   /* per worker */
 #define BODIES_FOR_GRID 16 /* of fewer each is looked at sooner than the whole surface */
 
@@ -209,6 +211,24 @@ static void sort_bodies(soft_scene *scene)
     }
 }
 
+/* Who takes light from CASTER_LANES bodies, or as many as there are from the first on. */
+static void choose_shaders(soft_scene *scene, int32_t first)
+{
+    const int32_t left = scene->body_count - first;
+    const int32_t count = left < CASTER_LANES ? left : CASTER_LANES;
+    int32_t index[CASTER_LANES];
+    caster_choice choices[CASTER_LANES];
+    for (int32_t i = 0; i < count; i++) {
+        index[i] = scene->bodies[first + i].index;
+    }
+    caster_choose_many(scene->casters, scene->caster_count, index, count, choices);
+    for (int32_t i = 0; i < count; i++) {
+        soft_body *body = &scene->bodies[first + i];
+        body->shader_count = choices[i].count;
+        memcpy(body->shaders, choices[i].chosen, sizeof(body->shaders));
+    }
+}
+
 /* Who takes light from whom. The thesis has no shadows, and plain augmented reality does not know
  * the real world. */
 static void place_casters(soft *s, const rlf_snapshot *snapshot, const rlf_pose *T_picture_world)
@@ -224,10 +244,8 @@ static void place_casters(soft *s, const rlf_snapshot *snapshot, const rlf_pose 
             scene->reach[i] = (caster_rect){0, 0, 0, 0};
         }
     }
-    for (int32_t i = 0; has_shadows && i < scene->body_count; i++) {
-        soft_body *body = &scene->bodies[i];
-        body->shader_count =
-            caster_choose(scene->casters, scene->caster_count, body->index, body->shaders);
+    for (int32_t i = 0; has_shadows && i < scene->body_count; i += CASTER_LANES) {
+        choose_shaders(scene, i);
     }
 }
 
