@@ -7,6 +7,11 @@ static void copy_rows(const soft *s, int32_t begin, int32_t end)
 {
     const rlf_image_rgba8 *image = &s->image;
     const rlf_image_rgba8 *color = &s->background;
+    if (color->stride == image->stride) { /* many rows at once are sooner copied */
+        memcpy(rlf_rgba8_row(image, begin), rlf_rgba8_row(color, begin),
+               (size_t)(end - begin) * (size_t)image->stride);
+        return;
+    }
     for (int32_t y = begin; y < end; y++) {
         memcpy(rlf_rgba8_row(image, y), rlf_rgba8_row(color, y), 4 * (size_t)image->width);
     }
