@@ -1,6 +1,8 @@
 /* Depth seen from the colour camera: what is worked out once for a pair of cameras. */
 #include "camera/register.h"
 
+#include <string.h>
+
 #define SPLAT_MAX 48.0 /* pixels: half the widest rectangle */
 #define NEAREST_M 0.02 /* rows are left out for what they show from here on */
 
@@ -26,6 +28,18 @@ static void fill_tables(rlf_registration *r, const float *ray_x, const float *ra
     r->pinhole.tc = (float)T->p.z;
     r->pinhole.width = (float)k->width;
     r->pinhole.height = (float)k->height;
+}
+
+/* From a row of a table to the next: 0 where all are the first to the bit. */
+static ptrdiff_t step_of_rows(const rlf_registration *r, const float *table)
+{
+    const size_t bytes = (size_t)r->width * sizeof(*table);
+    for (int32_t y = 1; y < r->height; y++) {
+        if (memcmp(table, table + (ptrdiff_t)y * r->width, bytes) != 0) {
+            return r->width;
+        }
+    }
+    return 0;
 }
 
 /* Size of the rectangles and how wide a hole may be to be filled. */
@@ -147,6 +161,8 @@ rlf_result rlf_registration_create(const rlf_camera *depth, const float *ray_x, 
         return result;
     }
     fill_tables(r, ray_x, ray_y, &T);
+    r->row_a = step_of_rows(r, r->a);
+    r->row_c = step_of_rows(r, r->c);
     measure(r, depth, &T);
     result = registration_make_sizes(r);
     if (result != RLF_OK) {

@@ -10,7 +10,9 @@
 struct rlf_registration {
     int32_t width, height; /* of the depth grid */
     rlf_camera color;
-    float *a, *b, *c; /* see rlf_kernel_pinhole */
+    float *a, *b, *c;       /* see rlf_kernel_pinhole */
+    ptrdiff_t row_a, row_c; /* from a row of a and of c to the next: 0 where all are alike, as with
+                               cameras that look the same way; few tables are sooner read */
     rlf_kernel_pinhole pinhole;
     rlf_kernel_lens lens; /* du NULL = no distortion */
     float *size;          /* of each rectangle, over pinhole's; NULL = 1, lenses stretch nothing */

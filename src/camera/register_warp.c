@@ -134,7 +134,7 @@ void registration_project(rlf_registration *r, const float *depth, int32_t y, in
                           int32_t x1)
 {
     const size_t first = (size_t)y * (size_t)r->width + (size_t)x0;
-    const rlf_kernel_rays rays = {r->a + first, r->b + first, r->c + first};
+    const rlf_kernel_rays rays = {r->a + y * r->row_a + x0, r->b + first, r->c + y * r->row_c + x0};
     const rlf_kernel_points points = points_at(r, x0);
     rlf_kernel_project_row(&r->pinhole, &rays, depth + first, x1 - x0, &points);
     if (r->lens.du != NULL) {

@@ -12,26 +12,34 @@
 static const double sample_x[SOFT_SAMPLES] = {-0.125, 0.375, -0.375, 0.125};
 static const double sample_y[SOFT_SAMPLES] = {-0.375, -0.125, 0.125, 0.375};
 
-/* Lines of samples of a few rows: line SOFT_SAMPLES * row + sample. */
+/* The same on each line of samples of a group, below the centres of its first row. */
+static const double line_x[SOFT_GROUP_LINES] = {-0.125, 0.375, -0.375, 0.125, -0.125, 0.375,
+                                                -0.375, 0.125, -0.125, 0.375, -0.375, 0.125,
+                                                -0.125, 0.375, -0.375, 0.125};
+static const double line_y[SOFT_GROUP_LINES] = {-0.375, -0.125, 0.125, 0.375, 0.625, 0.875,
+                                                1.125,  1.375,  1.625, 1.875, 2.125, 2.375,
+                                                2.625,  2.875,  3.125, 3.375};
+
+/* Where a face begins and ends on the lines. */
 typedef struct lines {
-    double x[SOFT_GROUP_LINES], y[SOFT_GROUP_LINES]; /* offset of its samples, and where it is */
-    double left[SOFT_GROUP_LINES], right[SOFT_GROUP_LINES];
+    double y[SOFT_GROUP_LINES], left[SOFT_GROUP_LINES], right[SOFT_GROUP_LINES];
 } lines;
 
-RLF_KERNEL_PART void place_lines(int32_t y, int32_t count, lines *out)
+RLF_KERNEL_PART void place_lines(double y, lines *out)
 {
-    for (int32_t i = 0; i < count; i++) {
-        out->x[i] = sample_x[i % SOFT_SAMPLES];
-        out->y[i] = y + i / SOFT_SAMPLES + sample_y[i % SOFT_SAMPLES];
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_GROUP_LINES; i++) {
+        out->y[i] = y + line_y[i];
         out->left[i] = NOWHERE;
         out->right[i] = -NOWHERE;
     }
 }
 
-RLF_KERNEL_PART void meet_edge(const soft_edge edge, int32_t count, const double *restrict y,
+RLF_KERNEL_PART void meet_edge(const soft_edge edge, const double *restrict y,
                                double *restrict left, double *restrict right)
 {
-    for (int32_t i = 0; i < count; i++) {
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_GROUP_LINES; i++) {
         double at = edge.x + edge.slope * (y[i] - edge.y);
         bool meets = (y[i] >= edge.y) & (y[i] < edge.end);
         double low = meets ? at : NOWHERE;
@@ -42,11 +50,11 @@ RLF_KERNEL_PART void meet_edge(const soft_edge edge, int32_t count, const double
 }
 
 /* First pixels whose sample is at or beyond x, within 0..width. */
-RLF_KERNEL_PART void first_pixels(const double *restrict x, const double *restrict sample,
-                                  int32_t count, double width, int32_t *restrict out)
+RLF_KERNEL_PART void first_pixels(const double *restrict x, double width, int32_t *restrict out)
 {
-    for (int32_t i = 0; i < count; i++) {
-        double at = x[i] - sample[i];
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_GROUP_LINES; i++) {
+        double at = x[i] - line_x[i];
         at = at > 0.0 ? at : 0.0;
         at = at < width ? at : width;
         int32_t cell = (int32_t)at;
@@ -74,15 +82,14 @@ RLF_KERNEL bool soft_find_ends(const soft_face *f, const soft_group *group, soft
 {
     lines l;
     const int32_t y = group->rows[0].y;
-    const int32_t count = (group->row_count * SOFT_SAMPLES + 7) / 8 * 8;
-    place_lines(y, count, &l);
+    place_lines(y, &l);
     for (int e = 0; e < SOFT_CORNERS; e++) {
         if (f->edge[e].end >= y - 1.0 && f->edge[e].y <= y + group->row_count) {
-            meet_edge(f->edge[e], count, l.y, l.left, l.right);
+            meet_edge(f->edge[e], l.y, l.left, l.right);
         }
     }
-    first_pixels(l.left, l.x, count, group->width, out->begin);
-    first_pixels(l.right, l.x, count, group->width, out->end);
+    first_pixels(l.left, group->width, out->begin);
+    first_pixels(l.right, group->width, out->end);
     if (group->row_count == SOFT_GROUP_ROWS) { /* its own case, for a count that is known */
         bound_lines(SOFT_GROUP_LINES, out);
     } else {

@@ -53,10 +53,9 @@ RLF_KERNEL_PART bool cover(const int32_t *restrict face, ptrdiff_t stride, int32
 }
 
 /* The same for a face that is alone, whose lines begin and end here: lanes from pixel x on. */
-RLF_KERNEL_PART bool cover_alone(const int32_t begin[SOFT_SAMPLES], const int32_t end[SOFT_SAMPLES],
+RLF_KERNEL_PART void cover_alone(const int32_t begin[SOFT_SAMPLES], const int32_t end[SOFT_SAMPLES],
                                  int32_t x, int32_t used, float *restrict coverage)
 {
-    int32_t any = 0;
     RLF_KERNEL_WHOLE
     for (int32_t i = 0; i < SOFT_LANES; i++) {
         const int32_t at = x + i;
@@ -66,9 +65,7 @@ RLF_KERNEL_PART bool cover_alone(const int32_t begin[SOFT_SAMPLES], const int32_
         seen += (at >= begin[3] ? 1 : 0) & (at < end[3] ? 1 : 0);
         seen = i < used ? seen : 0;
         coverage[i] = (float)seen * (1.0f / SOFT_SAMPLES);
-        any |= seen;
     }
-    return any != 0;
 }
 
 /* Share of the face's samples that it wins in lanes from pixel x of a row on, as above. */
@@ -78,7 +75,8 @@ RLF_KERNEL_PART bool cover_lanes(const shading *job, int32_t row, int32_t x, int
     const soft_ends *ends = job->ends;
     const int32_t first = SOFT_SAMPLES * row;
     if (ends->is_alone) {
-        return cover_alone(ends->begin + first, ends->end + first, x, used, coverage);
+        cover_alone(ends->begin + first, ends->end + first, x, used, coverage);
+        return true;
     }
     return cover(job->group->rows[row].face + x, job->group->stride, job->id, used, coverage);
 }
