@@ -1,6 +1,7 @@
 /* Milliseconds of registration and of whole composites by the CPU renderer, on one thread: least,
- * median and 95th percentile of many pictures of a wall with a strip before it. Prints one row
- * each; with --json FILE writes them too. */
+ * median and 95th percentile of many pictures of a wall with a strip before it, and of a floor; and
+ * how long the bytes take that any renderer must move. Prints one row each; with --json FILE writes
+ * them too. */
 #include "model_sample.h"
 #include "render_scene.h"
 
@@ -8,6 +9,7 @@
 
 #define REPEATS 61
 #define BODY_COUNT 100
+#define FLOOR_M 0.9 /* below the camera */
 #define ROW_MAX 32
 
 typedef struct row {
@@ -150,6 +152,79 @@ static void measure_models(report *r, render_scene *s, rlf_body_state *bodies)
     rlf_model_destroy(&model);
 }
 
+/* Boxes that stand on a floor before a wall, each turned another way. */
+static void fill_floor(render_scene *s, rlf_body_state bodies[BODY_COUNT])
+{
+    for (int32_t i = 0; i < s->grid.width * s->grid.height; i++) {
+        const double z = s->ray_y[i] > 0.0f ? FLOOR_M / (double)s->ray_y[i] : 1e9;
+        if (z < (double)s->planes[PLANE_BACK][i]) {
+            s->planes[PLANE_DEPTH][i] = s->planes[PLANE_BACK][i] = (float)z;
+            s->planes[PLANE_NORMAL + 1][i] = -1.0f;
+            s->planes[PLANE_NORMAL + 2][i] = 0.0f;
+        }
+    }
+    for (int i = 0; i < BODY_COUNT; i++) {
+        bodies[i] =
+            (rlf_body_state){.shape = scene_box(0.12), .mass = 1, .color = {0.9f, 0.5f, 0.2f}};
+        bodies[i].T_world_body.p =
+            rlf_vec3_make((i % 10 - 4.5) * 0.22, FLOOR_M - 0.06, 2.0 + 0.19 * (i / 10));
+        bodies[i].T_world_body.q = rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), i);
+    }
+}
+
+static void measure_floor(report *r, rlf_body_state *bodies)
+{
+    render_scene *s = scene_make(4.0);
+    fill_floor(s, bodies);
+    scene_add_strip(s, 220, 280, 2.0);
+    s->rig.noise = (rlf_depth_noise){0.0015, -0.0005, 0.0003};
+    s->snapshot.bodies = bodies;
+    s->snapshot.body_count = BODY_COUNT;
+    measure_composite(r, s, RLF_OCCLUSION_SOFT, "boxes of 12 cm on a floor");
+    if (enlarge(s)) {
+        measure_composite(r, s, RLF_OCCLUSION_SOFT, "boxes of 12 cm on a floor");
+    }
+    scene_free(s);
+}
+
+/* What every composite must read and write: the camera's picture into the composite, the matte, and
+ * both sheets of the depth grid. A copy of as many bytes, and how many of them a picture takes. */
+static void measure_moved(report *r, int32_t width, int32_t height)
+{
+    const size_t pixels = (size_t)width * (size_t)height;
+    const size_t grid = (size_t)512 * 424 * 2 * sizeof(float);
+    uint8_t *color = calloc(pixels, 4);
+    uint8_t *picture = calloc(pixels, 4);
+    uint8_t *matte = calloc(pixels, 1);
+    uint8_t *sheets = calloc(grid, 2);
+    double times[REPEATS] = {0};
+    const bool has_all = color != NULL && picture != NULL && matte != NULL && sheets != NULL;
+    for (int i = 0; i < REPEATS && has_all; i++) {
+        int64_t start = rlf_clock_ns();
+        memcpy(picture, color, 4 * pixels);
+        memset(matte, i, pixels);
+        memcpy(sheets + grid, sheets, grid);
+        times[i] = (double)(rlf_clock_ns() - start) * 1e-6;
+        color[i] = picture[pixels + (size_t)i] ^ matte[i] ^ sheets[grid + (size_t)i];
+    }
+    char name[64];
+    snprintf(name, sizeof(name), "%dx%d what must be moved", (int)width, (int)height);
+    add_row(r, name, times);
+    const double copy = r->rows[r->count - 1].least;
+    snprintf(name, sizeof(name), "%dx%d soft, %d boxes of 12 cm", (int)width, (int)height,
+             BODY_COUNT);
+    for (int i = 0; i < r->count; i++) {
+        if (strcmp(r->rows[i].name, name) == 0 && copy > 0.0) {
+            printf("  the picture of %d boxes takes %.1f times as long\n", BODY_COUNT,
+                   r->rows[i].least / copy);
+        }
+    }
+    free(color);
+    free(picture);
+    free(matte);
+    free(sheets);
+}
+
 static int write_json(const report *r, const char *path)
 {
     FILE *file = fopen(path, "w");
@@ -192,5 +267,8 @@ int main(int argc, char **argv)
         measure_counts(&r, s, bodies);
     }
     scene_free(s);
+    measure_floor(&r, bodies);
+    measure_moved(&r, 960, 540);
+    measure_moved(&r, 1920, 1080);
     return argc == 3 ? write_json(&r, argv[2]) : 0;
 }
