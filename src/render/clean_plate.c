@@ -7,7 +7,7 @@
 #define LATER_ROWS 4    /* and then */
 #define GATE 16         /* steps of a channel that still are the same colour */
 #define TIMES_MAX 4     /* a colour seen so often gives way after as many others */
-#define SEARCH 6        /* pixels to the nearest foreground with a depth, at most; < a cell */
+#define SEARCH 12       /* pixels to the nearest foreground with a depth, at most */
 #define CELL 8          /* pixels */
 #define CLEAR 2         /* cells around foreground that are not learnt: shadows, parallax */
 #define MARGIN_M 0.1f   /* bodies so near to a pixel's depths may be hidden by either */

@@ -287,7 +287,7 @@ void silhouette_update(silhouette *s, const rlf_plane_f32 *z, const known_layer 
         fill_offsets(s, &frame->color);
     }
     if (p.is_new) {
-        s->picture = (uint16_t)(s->picture == UINT16_MAX ? 1 : s->picture + 1);
+        s->picture = (uint16_t)(s->picture == SILHOUETTE_PICTURES ? 1 : s->picture + 1);
     }
     s->last_sequence = frame->sequence;
     rlf_parallel_for(s->pool, s->rows, 1, silhouette_find_jumps, &p);

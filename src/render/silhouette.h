@@ -11,9 +11,10 @@
 #include "known/layer.h"
 #include "relief/compositor.h"
 
-#define SILHOUETTE_FAR 1e9f /* depth of what hides nothing */
-#define SILHOUETTE_TILE 16  /* pixels */
-#define SILHOUETTE_NONE 255 /* distance: no edge near */
+#define SILHOUETTE_FAR 1e9f      /* depth of what hides nothing */
+#define SILHOUETTE_TILE 16       /* pixels */
+#define SILHOUETTE_NONE 255      /* distance: no edge near */
+#define SILHOUETTE_PICTURES 1023 /* are told apart by their numbers */
 
 /* Depths of the bodies in and around a tile; far_z < near_z when there are none. */
 typedef struct silhouette_tile {
@@ -37,7 +38,7 @@ typedef struct silhouette {
 
     /* Per pixel, what is looked at together. settled: pixels to the edge that set the pixel, or
      * SILHOUETTE_NONE, times 256 + cover as the lines have it, one by one. last: number of the
-     * picture that set it times 65536 + light times 256 + cover. */
+     * picture that set it times 2^22 + light (14 bits) times 256 + cover. */
     uint16_t *settled;
     uint32_t *last;
     uint16_t picture;       /* counts up, never 0 */

@@ -1,7 +1,7 @@
 /* One line of pixels across a depth edge: where does the near side end? */
 #include "silhouette.h"
 
-#include "kernel/kernel.h"
+#include "silhouette_mixture.h"
 
 enum {
     CLUSTER = 2,    /* pixels: steps this close are one edge, with mixed pixels between */
@@ -16,7 +16,6 @@ enum {
 #define SURE 80.0f           /* contrast, in variances, from which colours have their full say */
 #define MOST_COST 0.9f       /* of a pixel farther from the depth's edge, nats */
 #define STRANGE 50.0f        /* squared distance from both sides, in variances, that halves it */
-#define CLEAR 6.0f           /* contrast, in variances, from which mixtures can be told */
 
 /* An edge in coordinates along its line: pixel u = 0 is the first of the far side. */
 typedef struct edge {
@@ -239,17 +238,6 @@ RLF_KERNEL_PART void find_evidence(const line_colors *colors, const sides sides_
     }
 }
 
-/* Share of the near side in the pixel's own colour. */
-RLF_KERNEL_PART float mixture_at(const silhouette_line *line, const edge *e, const sides *s,
-                                 int32_t u)
-{
-    const uint8_t *c = line->color + line->color_offset[e->far_pixel + e->direction * u];
-    const float own[3] = {(float)c[0], (float)c[1], (float)c[2]};
-    float from_near = square_distance(own, s->near_mean);
-    float from_far = square_distance(own, s->far_mean);
-    return 0.5f + 0.5f * (from_far - from_near) / s->square;
-}
-
 /* Nats that a split k pixels from the depth's own edge costs, which is uncertain by `doubt` pixels.
  * Far away, where now and then a sensor is wrong, less than the evidence of clear colours (Huber
  * 1964). */
@@ -276,22 +264,37 @@ RLF_KERNEL_PART int32_t find_split(const edge *e, const float near_sum[], float 
     return split;
 }
 
-RLF_KERNEL_PART float clamp(float x, float low, float high)
+/* Colour of pixel u, or of the last one before the next edge. */
+RLF_KERNEL_PART const uint8_t *color_of(const silhouette_line *line, const edge *e, int32_t u)
 {
-    return x < low ? low : (x > high ? high : x);
+    u = u < -e->near_end ? -e->near_end : (u >= e->far_end ? e->far_end - 1 : u);
+    return line->color + line->color_offset[e->far_pixel + e->direction * u];
 }
 
-/* Only the two pixels beside the split are mixed, and neither of them mostly of the other side:
- * farther away another colour is a pattern or a shade of the surface. */
-RLF_KERNEL_PART float cover_at(const silhouette_line *line, const edge *e, const sides *s,
-                               int32_t u, int32_t split)
+/* Shares of the near side in the two pixels beside a split: only these are mixed, and as far as
+ * colours do not tell how, each by a quarter of the other side. */
+RLF_KERNEL_PART void find_shares(const silhouette_line *line, const edge *e, int32_t split,
+                                 float share[2])
+{
+    share[0] = 0.75f;
+    share[1] = 0.25f;
+    if (line->color == NULL) {
+        return;
+    }
+    const uint8_t *near_side[2] = {color_of(line, e, split - 2), color_of(line, e, split - 3)};
+    const uint8_t *far_side[2] = {color_of(line, e, split + 1), color_of(line, e, split + 2)};
+    const silhouette_mixture m = silhouette_mix(near_side, far_side);
+    share[0] = silhouette_share(&m, color_of(line, e, split - 1), share[0]);
+    share[1] = silhouette_share(&m, color_of(line, e, split), share[1]);
+}
+
+/* Share of the near side in pixel u. */
+RLF_KERNEL_PART float cover_at(const float share[2], int32_t u, int32_t split)
 {
     if (u < split - 1 || u > split) {
         return u < split ? 1.0f : 0.0f;
     }
-    bool is_clear = s->square > CLEAR * s->variance;
-    float cover = is_clear ? mixture_at(line, e, s, u) : (u < split ? 0.75f : 0.25f);
-    return u < split ? clamp(cover, 0.5f, 1.0f) : clamp(cover, 0.0f, 0.49f);
+    return share[u - split + 1];
 }
 
 RLF_KERNEL_PART void write_pixel(const silhouette_line *line, const edge *e, int32_t u,
@@ -338,8 +341,10 @@ RLF_KERNEL static void settle_edge(const silhouette_line *line, const edge *at, 
         }
     }
     const int32_t split = find_split(&e, near_sum, doubt);
+    float share[2];
+    find_shares(line, &e, split, share);
     for (int32_t u = -e.near_band; u < e.far_band; u++) {
-        write_pixel(line, &e, u, split, cover_at(line, &e, &s, u, split));
+        write_pixel(line, &e, u, split, cover_at(share, u, split));
     }
 }
 

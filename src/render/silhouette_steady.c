@@ -6,7 +6,7 @@
 #include <string.h>
 
 #define STEADY_SHARE 4 /* a still pixel moves by a quarter of the way to its new cover */
-#define STEADY_LIGHT 5 /* steps of the mean colour that noise may change */
+#define STEADY_LIGHT 2 /* steps of a light that noise may change */
 
 #define NOT_DOUBTFUL (SILHOUETTE_NONE << 8) /* settled from here on: no line set it */
 #define VOTERS (2 * SILHOUETTE_TILE) /* of a row: one before the tile's pixels, and beyond them */
@@ -72,7 +72,14 @@ RLF_KERNEL_PART void read_voters(const silhouette *s, int32_t x0, int32_t y,
     }
 }
 
-/* Light of `count` pixels from (x0, y) on: their mean colour. */
+/* By what a pixel is known to show the same as before: half of the mean colour times 128, and a
+ * quarter of red minus blue, about 63. */
+RLF_KERNEL_PART int32_t light_of(const uint8_t *c)
+{
+    return (c[0] + 2 * c[1] + c[2]) / 8 * 128 + (255 + c[0] - c[2]) / 4;
+}
+
+/* Light of `count` pixels from (x0, y) on. */
 RLF_KERNEL_PART void find_light(const silhouette_pass *p, int32_t x0, int32_t y, int32_t count,
                                 int32_t *restrict out)
 {
@@ -82,13 +89,12 @@ RLF_KERNEL_PART void find_light(const silhouette_pass *p, int32_t x0, int32_t y,
     if (p->has_own_colors && count == SILHOUETTE_TILE) {
         RLF_KERNEL_WHOLE
         for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
-            out[i] = (first[4 * i] + 2 * first[4 * i + 1] + first[4 * i + 2]) / 4;
+            out[i] = light_of(first + 4 * i);
         }
         return;
     }
     for (int32_t i = 0; i < count; i++) {
-        const uint8_t *c = row + offset[i];
-        out[i] = (c[0] + 2 * c[1] + c[2]) / 4;
+        out[i] = light_of(row + offset[i]);
     }
 }
 
@@ -105,12 +111,14 @@ RLF_KERNEL_PART void steady_pixels(const silhouette_pass *p, uint32_t known,
     for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
         const uint32_t before = last[i];
         const int32_t old = (int32_t)(before & 255u);
-        const int32_t change = light[i] - (int32_t)(before >> 8 & 255u);
-        const int32_t is_still = (change <= STEADY_LIGHT ? 1 : 0) & (change >= -STEADY_LIGHT);
-        const int32_t is_kept = is_still & (before >> 16 == known ? 1 : 0);
+        const int32_t mean = (light[i] >> 7) - (int32_t)(before >> 15 & 127u);
+        const int32_t tint = (light[i] & 127) - (int32_t)(before >> 8 & 127u);
+        const int32_t is_still = (mean <= STEADY_LIGHT ? 1 : 0) & (mean >= -STEADY_LIGHT) &
+                                 (tint <= STEADY_LIGHT) & (tint >= -STEADY_LIGHT);
+        const int32_t is_kept = is_still & (before >> 22 == known ? 1 : 0);
         const int32_t slow = old + moves * ((voted[i] - old) / STEADY_SHARE);
         const int32_t next = is_kept != 0 ? slow : voted[i];
-        const uint32_t now = picture << 16 | (uint32_t)light[i] << 8 | (uint32_t)next;
+        const uint32_t now = picture << 22 | (uint32_t)light[i] << 8 | (uint32_t)next;
         const bool is_doubtful = settled[i] < NOT_DOUBTFUL;
         last[i] = is_doubtful ? now : before;
         cover[i] = is_doubtful ? (uint8_t)next : cover[i];
@@ -160,7 +168,7 @@ void silhouette_steady_rows(void *context, int32_t begin, int32_t end, int32_t w
 {
     const silhouette_pass *p = context;
     const silhouette *s = p->s;
-    const uint32_t before = s->picture == 1 ? UINT16_MAX : s->picture - 1u;
+    const uint32_t before = s->picture == 1 ? SILHOUETTE_PICTURES : s->picture - 1u;
     const uint32_t known = p->is_new ? before : s->picture;
     (void)worker;
     for (int32_t tile = begin * s->columns; tile < end * s->columns; tile++) {

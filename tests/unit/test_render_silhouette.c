@@ -23,9 +23,18 @@ typedef struct stage {
     double left, right; /* true edges of the strip in the picture, pixels */
 } stage;
 
+static double to_light(double code)
+{
+    double c = code / 255.0;
+    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
+}
+
+/* sRGB code of a pixel that gets a share of its light from the near side. */
 static uint8_t mix(double share, int near_value, int far_value)
 {
-    return (uint8_t)(far_value + share * (near_value - far_value) + 0.5);
+    double light = to_light(far_value) + share * (to_light(near_value) - to_light(far_value));
+    double c = light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1.0 / 2.4) - 0.055;
+    return (uint8_t)(255.0 * c + 0.5);
 }
 
 /* Colours of a strip between two edges, each edge pixel mixed by area. */
@@ -103,6 +112,44 @@ static void edges_follow_the_colours(void **state)
         }
         free_stage(&g);
     }
+}
+
+/* To a part of a pixel, whichever side is brighter, and however little. */
+static void mixed_pixels_show_by_their_share_of_light(void **state)
+{
+    (void)state;
+    const int values[4][2] = {{200, 60}, {60, 200}, {30, 250}, {120, 160}};
+    for (int k = 0; k < 32; k++) {
+        stage g = make_stage(0, NULL);
+        g.left = 432.0 + 0.125 * (k / 4);
+        g.right = 477.0 + 0.125 * (k / 4);
+        paint_strip(&g, values[k % 4][0], values[k % 4][1]);
+        const rlf_render_output out = draw(&g);
+        double begin;
+        const double width = hidden_width(&out, 270, &begin);
+        assert_true(fabs(width - 45.0) < 0.1);
+        assert_true(fabs(begin - g.left) < 0.6);
+        free_stage(&g);
+    }
+}
+
+/* A rim of another shade than the rest of the near side is what its edge is mixed of. */
+static void a_rim_has_its_own_colour(void **state)
+{
+    (void)state;
+    stage g = make_stage(0, NULL);
+    paint_strip(&g, 200, 60);
+    for (int32_t i = 0; i < 960 * 540; i++) {
+        double x = i % 960;
+        if (x > g.left + 4.0 && x < g.right - 4.0) {
+            memset(g.scene->color + 4 * (size_t)i, 130, 3);
+        }
+    }
+    rlf_render_output out = draw(&g);
+    double begin;
+    double width = hidden_width(&out, 270, &begin);
+    assert_true(fabs(width - (g.right - g.left)) < 0.1);
+    free_stage(&g);
 }
 
 /* Far side and near side of one colour: only the depth knows. */
@@ -206,6 +253,35 @@ static void still_pictures_do_not_flicker(void **state)
     free_stage(&g);
 }
 
+/* A thing of the room's brightness, but of another tint, comes by: it hides at once. */
+static void what_moves_is_told_by_its_tint(void **state)
+{
+    (void)state;
+    stage g = make_stage(0, NULL);
+    for (int picture = 0; picture < 4; picture++) {
+        const double by = picture < 3 ? 40.0 : 0.0;
+        const int32_t pixels = (int32_t)(by / (540.5 / 365.5));
+        for (int32_t i = 0; i < 512 * 424; i++) {
+            const int32_t x = i % 512 - pixels;
+            g.scene->planes[PLANE_DEPTH][i] = (float)(x >= 240 && x < 271 ? NEAR_Z : FAR_Z);
+        }
+        for (int32_t i = 0; i < 960 * 540; i++) {
+            const double x = i % 960 - by;
+            const bool is_near = x > g.left && x < g.right;
+            const uint8_t color[2][3] = {{140, 140, 140}, {180, 140, 100}};
+            memcpy(g.scene->color + 4 * (size_t)i, color[is_near], 3);
+        }
+        const rlf_render_output out = draw(&g);
+        for (int32_t u = 390; u < 510 && picture == 3; u++) {
+            const bool is_inside = u > g.left + 1.5 && u < g.right - 1.5;
+            const bool is_outside = u < g.left - 1.5 || u > g.right + 1.5;
+            assert_true(!is_inside || rlf_u8_row(&out.matte, 270)[u] < 32);
+            assert_true(!is_outside || rlf_u8_row(&out.matte, 270)[u] > 223);
+        }
+    }
+    free_stage(&g);
+}
+
 /* A body that meets a wall fades over the sensor's noise, +- 2 sigma. */
 static void contact_with_a_surface_is_soft(void **state)
 {
@@ -255,10 +331,13 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(edges_follow_the_colours),
+        cmocka_unit_test(mixed_pixels_show_by_their_share_of_light),
+        cmocka_unit_test(a_rim_has_its_own_colour),
         cmocka_unit_test(edges_of_one_colour_stay_where_depth_has_them),
         cmocka_unit_test(patterns_beside_an_edge_do_not_move_it),
         cmocka_unit_test(missing_or_smaller_colour_is_no_trouble),
         cmocka_unit_test(still_pictures_do_not_flicker),
+        cmocka_unit_test(what_moves_is_told_by_its_tint),
         cmocka_unit_test(contact_with_a_surface_is_soft),
         cmocka_unit_test(threads_and_redraws_change_nothing),
     };
