@@ -122,7 +122,7 @@ static void add_points(phys_batch *batch, const phys_group *g, int32_t lane, dou
         set_vec(&p->r_a, lane, near->r_a);
         set_vec(&p->r_b, lane, near->r_b);
         set_targets(p, lane, near, slop, h);
-        p->friction[lane] = (float)near->friction;
+        p->friction[lane] = (float)g->friction;
         for (int32_t row = 0; row < 3 && impulses[0] > 0.0; row++) {
             p->impulse[row][lane] = (float)impulses[row];
         }

@@ -18,7 +18,6 @@ typedef struct phys_contact {
     double rounding_b;  /* ... of b from anchor_b along the normal: round shapes roll */
     double impulses[3]; /* along the normal and two tangents in the last substep, N s */
     double impulse_sum; /* N s along the normal that the frame's list does not hold yet ... */
-    double friction, restitution;
     rlf_vec3 surface_velocity; /* world, m/s; 0 between bodies */
     double surface_time;       /* world time of anchor_b, s */
     double approach;           /* ... and the highest speed at which they met, m/s */
@@ -76,6 +75,7 @@ typedef struct phys_pair {
     double turned_a, turned_b;
     double gap;    /* m between them then, or less; < 0 when they touch or it is not known */
     double margin; /* m within which contacts were searched */
+    double friction, restitution;
     phys_side side;
     phys_stance stance;
 } phys_pair;

@@ -25,8 +25,6 @@ static void note_blow(phys_body *body, int32_t body_index, const guard_wall *wal
         c->anchor_b = wall->point;
         c->surface_velocity = wall->velocity;
         c->surface_time = time;
-        c->friction = body->friction;
-        c->restitution = body->restitution;
     }
     c->impulse_sum += impulse;
     c->approach = rlf_max(c->approach, approach);

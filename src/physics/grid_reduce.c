@@ -96,8 +96,6 @@ void grid_reduce(grid_job *job, phys_body *body, int32_t body_index, rlf_contact
     bool is_used[GRID_HITS_MAX] = {false};
     phys_contact prototype = {.a = body_index, .b = -1, .other = other, .log = -1};
     prototype.surface_time = job->query->time;
-    prototype.friction = body->friction;
-    prototype.restitution = body->restitution;
     for (int32_t cluster = 0; cluster < 3; cluster++) {
         int32_t chosen[4];
         int32_t count = choose_cluster(job, is_used, chosen);

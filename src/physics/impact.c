@@ -84,7 +84,7 @@ static double event_time(const phys_group *g, double reach, double h)
     for (int32_t i = 0; i < g->point_count; i++) {
         const phys_point *p = &g->points[i];
         double flow2 = g->b == NULL ? rlf_dot(p->r_b, p->r_b) : 0.0;
-        if (p->restitution <= 0.0 || (p->separation > reach && flow2 == 0.0)) {
+        if (p->separation > reach && flow2 == 0.0) {
             continue;
         }
         double v = rlf_dot(p->normal, relative_velocity(p, &s, g->b != NULL));
@@ -173,8 +173,9 @@ static void link_groups(event_list *list, const phys_island *island, int32_t cou
 static void look_at_group(event_list *list, int32_t k, double reach)
 {
     bool was_pending = list->times[k] <= list->h;
-    bool is_done = list->counts[k] >= EVENTS_PER_GROUP;
-    list->times[k] = is_done ? NO_EVENT : event_time(&list->groups[k], reach, list->h);
+    const phys_group *g = &list->groups[k];
+    bool is_done = list->counts[k] >= EVENTS_PER_GROUP || g->restitution <= 0.0;
+    list->times[k] = is_done ? NO_EVENT : event_time(g, reach, list->h);
     if (!was_pending && list->times[k] <= list->h) {
         list->pending[list->pending_count++] = k;
     }

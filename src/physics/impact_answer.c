@@ -123,7 +123,7 @@ typedef struct impact_point {
 
 /* One pass: the normal's row, then friction within the cone that its impulse allows. Returns the
  * largest change of speed, m/s. */
-static double solve_point(impact_point *p, phys_sides *s, bool has_b)
+static double solve_point(impact_point *p, double friction, phys_sides *s, bool has_b)
 {
     impact_row *rows = p->rows;
     double v = rlf_dot(rows[0].direction, relative_velocity(p->near, s, has_b));
@@ -132,7 +132,7 @@ static double solve_point(impact_point *p, phys_sides *s, bool has_b)
     rlf_vec3 slip = relative_velocity(p->near, s, has_b);
     double j0 = rows[1].impulse - rows[1].mass * rlf_dot(rows[1].direction, slip);
     double j1 = rows[2].impulse - rows[2].mass * rlf_dot(rows[2].direction, slip);
-    double limit = p->near->friction * rows[0].impulse, length2 = j0 * j0 + j1 * j1;
+    double limit = friction * rows[0].impulse, length2 = j0 * j0 + j1 * j1;
     double scale = length2 > limit * limit ? limit / sqrt(length2) : 1.0;
     most = rlf_max(most, row_push(&rows[1], s, j0 * scale));
     return rlf_max(most, row_push(&rows[2], s, j1 * scale));
@@ -153,7 +153,7 @@ static int32_t list_points(const phys_group *g, const phys_sides *s, double t, i
         rlf_vec3 tangent = rlf_perpendicular(near->normal);
         p->near = near;
         p->approach = rlf_max(0.0, -(v + fall));
-        p->target = near->restitution * p->approach - fall;
+        p->target = g->restitution * p->approach - fall;
         p->rows[0] = row_make(near, g, s, near->normal);
         p->rows[1] = row_make(near, g, s, tangent);
         p->rows[2] = row_make(near, g, s, rlf_cross(near->normal, tangent));
@@ -161,7 +161,7 @@ static int32_t list_points(const phys_group *g, const phys_sides *s, double t, i
     return count;
 }
 
-static void solve_points(impact_point *points, int32_t count, phys_sides *s, bool has_b)
+static void solve_points(const phys_group *g, impact_point *points, int32_t count, phys_sides *s)
 {
     double fastest = 0.0, change = 1e30;
     for (int32_t i = 0; i < count; i++) {
@@ -170,7 +170,7 @@ static void solve_points(impact_point *points, int32_t count, phys_sides *s, boo
     for (int32_t pass = 0; pass < PASSES && change > SETTLED * fastest; pass++) {
         change = 0.0;
         for (int32_t i = 0; i < count; i++) {
-            change = rlf_max(change, solve_point(&points[i], s, has_b));
+            change = rlf_max(change, solve_point(&points[i], g->friction, s, g->b != NULL));
         }
     }
 }
@@ -181,7 +181,7 @@ void phys_impact_answer(const phys_group *g, double t)
     phys_sides s = sides_load(g);
     const phys_sides before = s;
     int32_t count = list_points(g, &s, t, points);
-    solve_points(points, count, &s, g->b != NULL);
+    solve_points(g, points, count, &s);
     limit_energy(g, &before, &s, t);
     sides_store(&s, g);
     for (int32_t i = 0; i < count; i++) {

@@ -59,8 +59,6 @@ static void set_contacts(phys_pair *pair, const phys_body *a, const phys_body *b
         fresh.rounding_b = p->rounding_b;
         fresh.normal = p->normal;
         fresh.separation = p->separation;
-        fresh.friction = sqrt(a->friction * b->friction);
-        fresh.restitution = rlf_max(a->restitution, b->restitution);
         keep_impulse(&fresh, old, old_count, 0.2 * radius);
         pair->contacts[i] = fresh;
     }
@@ -136,8 +134,12 @@ static void add_pair(rlf_world *world, phys_near key)
     if (world->free_count > 0) {
         world->free_count--;
         int32_t k = world->pair_count++;
-        world->pairs[k] = (phys_pair){.a = key.a, .b = key.b, .gap = -1.0};
-        world->pairs[k].contacts = &world->pair_contacts[k * PHYS_PAIR_CONTACTS];
+        const phys_body *a = &world->bodies[key.a], *b = &world->bodies[key.b];
+        phys_pair *pair = &world->pairs[k];
+        *pair = (phys_pair){.a = key.a, .b = key.b, .gap = -1.0};
+        pair->contacts = &world->pair_contacts[k * PHYS_PAIR_CONTACTS];
+        pair->friction = sqrt(a->friction * b->friction);
+        pair->restitution = rlf_max(a->restitution, b->restitution);
     }
 }
 

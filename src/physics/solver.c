@@ -14,8 +14,6 @@ static rlf_vec3 point_of(phys_contact *c, const phys_body *a, phys_point *p)
 {
     p->normal = c->normal;
     p->r_a = phys_contact_arm(c, a);
-    p->friction = c->friction;
-    p->restitution = c->restitution;
     for (int32_t row = 0; row < 3; row++) {
         p->impulses[row] = c->impulses[row];
     }
@@ -77,7 +75,10 @@ bool phys_group_of_pair(rlf_world *world, int32_t pair_index, double h, phys_poi
     if (pair->contact_count == 0) {
         return false;
     }
-    *out = (phys_group){points, a, b, &pair->stance, 0, a->speed + b->speed};
+    *out = (phys_group){.points = points, .a = a, .b = b, .stance = &pair->stance};
+    out->speed = a->speed + b->speed;
+    out->friction = pair->friction;
+    out->restitution = pair->restitution;
     turn_normals(pair, a, b);
     for (int32_t i = 0; i < pair->contact_count; i++) {
         phys_contact *c = &pair->contacts[i];
@@ -97,7 +98,9 @@ bool phys_group_of_body(rlf_world *world, int32_t body_index, double h, phys_poi
     if (a->surface_count == 0) {
         return false;
     }
-    *out = (phys_group){points, a, NULL, &a->stance, 0, a->speed};
+    *out = (phys_group){.points = points, .a = a, .stance = &a->stance, .speed = a->speed};
+    out->friction = a->friction;
+    out->restitution = a->restitution;
     for (int32_t i = 0; i < a->surface_count; i++) {
         phys_contact *c = &a->surface[i];
         phys_point *p = &points[out->point_count];

@@ -14,10 +14,9 @@
 /* A contact that may touch in a substep, as the bounces and the solver see it. */
 typedef struct phys_point {
     rlf_vec3 normal;
-    rlf_vec3 r_a, r_b; /* from the centres to the touching points, world; of a surface r_b is its
-                          velocity, m/s */
-    double separation; /* metres at the start of the substep */
-    double friction, restitution;
+    rlf_vec3 r_a, r_b;  /* from the centres to the touching points, world; of a surface r_b is its
+                           velocity, m/s */
+    double separation;  /* metres at the start of the substep */
     double impulses[3]; /* of the last substep, as the contact's */
     phys_contact *contact;
     bool is_impacted; /* bounced in this substep */
@@ -29,6 +28,7 @@ typedef struct phys_group {
     phys_body *a, *b; /* b NULL: surface */
     phys_stance *stance;
     int32_t point_count;
+    double friction, restitution;
     double speed; /* no point of the two bodies moves faster past the other, m/s */
 } phys_group;
 
