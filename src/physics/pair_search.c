@@ -8,7 +8,7 @@
 #define STILL_SHARE 0.002
 #define STILL_SHARE_OF_SIDE 0.01
 /* Fast bodies are searched again when they moved by this share of the largest ball in them. */
-#define TRAVEL_SHARE 0.2
+#define TRAVEL_SHARE 0.3
 
 static double travel_of(const phys_body *a, const phys_body *b)
 {
