@@ -27,106 +27,62 @@ static box box_of(const phys_body *body)
     return b;
 }
 
-/* The boxes' axes in each other's: c[i][k] = a_i.b_k, and the way between the centres along each.
- */
-typedef struct sat_frame {
-    const box *a, *b;
-    rlf_vec3 way; /* from b to a */
-    double c[3][3], abs_c[3][3];
-    double along_a[3], along_b[3];
-} sat_frame;
-
-static double magnitude(double x)
+/* A face gives a whole patch, so an edge pair must be clearly better. */
+static double edge_gain(double half)
 {
-    return x < 0.0 ? -x : x;
+    return 0.01 * half + 1e-4;
 }
 
-static sat_frame sat_frame_of(const box *a, const box *b)
+void pair_boxes_load(const phys_body *a, const phys_body *b, double margin, int32_t lane,
+                     rlf_sat_pairs *out)
 {
-    sat_frame f = {.a = a, .b = b, .way = rlf_sub(a->centre, b->centre)};
+    const rlf_vec3 size_a = a->shape.shape.size, size_b = b->shape.shape.size;
+    const double half_a[3] = {0.5 * size_a.x, 0.5 * size_a.y, 0.5 * size_a.z};
+    const double half_b[3] = {0.5 * size_b.x, 0.5 * size_b.y, 0.5 * size_b.z};
+    rlf_vec3 way = rlf_sub(a->x, b->x);
     for (int32_t i = 0; i < 3; i++) {
-        f.along_a[i] = rlf_dot(f.way, a->axis[i]);
-        f.along_b[i] = rlf_dot(f.way, b->axis[i]);
         for (int32_t k = 0; k < 3; k++) {
-            f.c[i][k] = rlf_dot(a->axis[i], b->axis[k]);
-            f.abs_c[i][k] = magnitude(f.c[i][k]);
+            out->axis_a[i][k][lane] = a->R.m[k][i];
+            out->axis_b[i][k][lane] = b->R.m[k][i];
         }
+        out->half_a[i][lane] = half_a[i];
+        out->half_b[i][lane] = half_b[i];
     }
-    return f;
+    out->way[0][lane] = way.x;
+    out->way[1][lane] = way.y;
+    out->way[2][lane] = way.z;
+    out->margin[lane] = margin;
+    out->edge_gain[lane] = edge_gain(half_a[0]);
 }
 
-/* A face gives a whole patch, so an edge pair must be clearly better, a later face slightly. */
-static double preference_of(const sat_frame *f, int32_t code)
+static sat_result best_face(const box *a, const box *b, const rlf_sat_axes *axes, int32_t lane)
 {
-    return code >= 6 ? 0.01 * f->a->half[0] + 1e-4 : (code > 0 ? 1e-6 : 0.0);
-}
-
-/* Takes the axis when it is better. */
-static bool is_better(const sat_frame *f, double separation, int32_t code, sat_result *best)
-{
-    if (separation <= best->separation + preference_of(f, code)) {
-        return false;
-    }
-    best->separation = separation;
-    best->code = code;
-    return true;
-}
-
-static void try_faces(const sat_frame *f, sat_result *best)
-{
-    const double *ha = f->a->half, *hb = f->b->half;
-    for (int32_t i = 0; i < 3; i++) {
-        double reach =
-            ha[i] + hb[0] * f->abs_c[i][0] + hb[1] * f->abs_c[i][1] + hb[2] * f->abs_c[i][2];
-        if (is_better(f, magnitude(f->along_a[i]) - reach, i, best)) {
-            best->normal = f->along_a[i] < 0.0 ? rlf_neg(f->a->axis[i]) : f->a->axis[i];
-        }
-    }
-    for (int32_t k = 0; k < 3; k++) {
-        double reach =
-            hb[k] + ha[0] * f->abs_c[0][k] + ha[1] * f->abs_c[1][k] + ha[2] * f->abs_c[2][k];
-        if (is_better(f, magnitude(f->along_b[k]) - reach, 3 + k, best)) {
-            best->normal = f->along_b[k] < 0.0 ? rlf_neg(f->b->axis[k]) : f->b->axis[k];
-        }
-    }
-}
-
-/* a_i x b_k = c[i1][k] a_i2 - c[i2][k] a_i1, of length sqrt(1 - c[i][k]^2). */
-static void try_edges(const sat_frame *f, sat_result *best)
-{
-    const double *ha = f->a->half, *hb = f->b->half;
-    for (int32_t n = 0; n < 9; n++) {
-        int32_t i = n / 3, k = n % 3;
-        int32_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-        double length2 = 1.0 - f->c[i][k] * f->c[i][k];
-        if (length2 < 1e-6) {
-            continue;
-        }
-        double along = f->c[i1][k] * f->along_a[i2] - f->c[i2][k] * f->along_a[i1];
-        double reach = ha[i1] * f->abs_c[i2][k] + ha[i2] * f->abs_c[i1][k] +
-                       hb[k1] * f->abs_c[i][k2] + hb[k2] * f->abs_c[i][k1];
-        double gap = magnitude(along) - reach; /* times the length, which is no more than 1 */
-        if (gap < 0.0 && gap <= best->separation + preference_of(f, 6 + n)) {
-            continue;
-        }
-        double scale = 1.0 / sqrt(length2);
-        if (is_better(f, gap * scale, 6 + n, best)) {
-            rlf_vec3 axis = rlf_cross(f->a->axis[i], f->b->axis[k]);
-            best->normal = rlf_scale(axis, along < 0.0 ? -scale : scale);
-        }
-    }
-}
-
-/* Stops at the first kind of axis that shows a gap above `margin`. */
-static sat_result separate(const box *a, const box *b, double margin)
-{
-    sat_result best = {.separation = -1e30};
-    sat_frame f = sat_frame_of(a, b);
-    try_faces(&f, &best);
-    if (best.separation <= margin) {
-        try_edges(&f, &best);
-    }
+    sat_result best = {.separation = axes->gap[lane], .code = (int32_t)axes->code[lane]};
+    best.normal = best.code < 3 ? a->axis[best.code] : b->axis[best.code - 3];
+    best.normal = axes->sign[lane] < 0.0 ? rlf_neg(best.normal) : best.normal;
     return best;
+}
+
+/* Looks at the edges that may be better than the best face: a_i x b_k is of length
+ * sqrt(1 - (a_i.b_k)^2). */
+static void try_edges(const box *a, const box *b, const rlf_sat_axes *axes, int32_t lane,
+                      sat_result *best)
+{
+    double gain = edge_gain(a->half[0]);
+    int32_t edges = (int32_t)axes->edges[lane];
+    for (int32_t n = 0; n < 9; n++) {
+        double cosine = axes->cosine[n][lane], length2 = 1.0 - cosine * cosine;
+        if ((edges >> n & 1) == 0 || length2 < 1e-6) {
+            continue;
+        }
+        double scale = 1.0 / sqrt(length2), separation = axes->edge_gap[n][lane] * scale;
+        if (!(separation <= best->separation + gain)) {
+            best->separation = separation;
+            best->code = 6 + n;
+            rlf_vec3 axis = rlf_cross(a->axis[n / 3], b->axis[n % 3]);
+            best->normal = rlf_scale(axis, axes->edge_along[n][lane] < 0.0 ? -scale : scale);
+        }
+    }
 }
 
 /* Corner of b farthest along n, but for its axis `skip`, which is left at the middle. */
@@ -245,15 +201,21 @@ static phys_side side_of(const sat_result *sat, const box *a, const box *b)
 }
 
 int32_t pair_collide_boxes(const phys_body *body_a, const phys_body *body_b, double margin,
-                           pair_point *out, double *out_gap, phys_side *out_side)
+                           const rlf_sat_axes *axes, int32_t lane, pair_point *out, double *out_gap,
+                           phys_side *out_side)
 {
+    *out_gap = axes->gap[lane];
+    if (*out_gap > margin) {
+        return 0;
+    }
     box a = box_of(body_a), b = box_of(body_b);
-    sat_result sat = separate(&a, &b, margin);
+    sat_result sat = best_face(&a, &b, axes, lane);
+    try_edges(&a, &b, axes, lane, &sat);
     *out_gap = sat.separation;
-    *out_side = side_of(&sat, &a, &b);
     if (sat.separation > margin) {
         return 0;
     }
+    *out_side = side_of(&sat, &a, &b);
     if (sat.code >= 6) {
         return edge_contact(&a, &b, &sat, out);
     }

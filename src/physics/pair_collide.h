@@ -2,6 +2,7 @@
 #ifndef RLF_PHYSICS_PAIR_COLLIDE_H
 #define RLF_PHYSICS_PAIR_COLLIDE_H
 
+#include "kernel/sat_lanes.h"
 #include "physics/body.h"
 
 /* A touching point in the making: world frame, normal from b to a. */
@@ -15,10 +16,17 @@ typedef struct pair_point {
 
 #define PAIR_POINTS_MAX 192
 
-/* Points closer than margin; returns their number (box-box: at most 16). Boxes set *out_gap to a
- * bound below their distance, negative when they overlap, and *out_side. */
-int32_t pair_collide_boxes(const phys_body *a, const phys_body *b, double margin, pair_point *out,
-                           double *out_gap, phys_side *out_side);
+/* Puts a pair into a lane, where its separating axes are looked for. Of other shapes than boxes
+ * what is found means nothing. */
+void pair_boxes_load(const phys_body *a, const phys_body *b, double margin, int32_t lane,
+                     rlf_sat_pairs *out);
+
+/* Points closer than margin; returns their number (box-box: at most 16). Boxes, whose axes are
+ * those of a lane, set *out_gap to a bound below their distance, negative when they overlap, and
+ * *out_side where there are points. */
+int32_t pair_collide_boxes(const phys_body *a, const phys_body *b, double margin,
+                           const rlf_sat_axes *axes, int32_t lane, pair_point *out, double *out_gap,
+                           phys_side *out_side);
 int32_t pair_collide_shapes(const phys_body *a, const phys_body *b, double margin, pair_point *out);
 
 /* Chooses up to PHYS_PAIR_CONTACTS of them that give the widest support; returns their number. */

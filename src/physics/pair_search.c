@@ -64,10 +64,10 @@ static void set_contacts(phys_pair *pair, const phys_body *a, const phys_body *b
     }
 }
 
-static void collide_pair(rlf_world *world, phys_pair *pair, double h)
+/* Begins a search, whose axes are found in lane `lane` of `pairs`. */
+static void start_search(const rlf_world *world, phys_pair *pair, double h, int32_t lane,
+                         rlf_sat_pairs *pairs)
 {
-    pair_point points[PAIR_POINTS_MAX];
-    int32_t chosen[PHYS_PAIR_CONTACTS];
     const phys_body *a = &world->bodies[pair->a], *b = &world->bodies[pair->b];
     double travel = travel_of(a, b) * h;
     double inner = rlf_min(a->shape.inner_radius, b->shape.inner_radius);
@@ -79,15 +79,26 @@ static void collide_pair(rlf_world *world, phys_pair *pair, double h)
     pair->turned_a = a->turned;
     pair->turned_b = b->turned;
     pair->stance.is_set = false;
-    bool are_boxes = a->shape.shape.type == RLF_SHAPE_BOX && b->shape.shape.type == RLF_SHAPE_BOX;
     pair->gap = -1.0;
     pair->side.of = PHYS_SIDE_NONE;
-    int32_t count = are_boxes
-                        ? pair_collide_boxes(a, b, pair->margin, points, &pair->gap, &pair->side)
-                        : pair_collide_shapes(a, b, pair->margin, points);
-    count = count > 0
-                ? pair_reduce(points, count, rlf_min(a->shape.radius, b->shape.radius), chosen)
-                : 0;
+    pair_boxes_load(a, b, pair->margin, lane, pairs);
+}
+
+static void collide_pair(const rlf_world *world, phys_pair *pair, const rlf_sat_axes *axes,
+                         int32_t lane)
+{
+    pair_point points[PAIR_POINTS_MAX];
+    int32_t chosen[PHYS_PAIR_CONTACTS];
+    const phys_body *a = &world->bodies[pair->a], *b = &world->bodies[pair->b];
+    bool are_boxes = a->shape.shape.type == RLF_SHAPE_BOX && b->shape.shape.type == RLF_SHAPE_BOX;
+    int32_t count = are_boxes ? pair_collide_boxes(a, b, pair->margin, axes, lane, points,
+                                                   &pair->gap, &pair->side)
+                              : pair_collide_shapes(a, b, pair->margin, points);
+    if (count == 0) {
+        pair->contact_count = 0;
+        return;
+    }
+    count = pair_reduce(points, count, rlf_min(a->shape.radius, b->shape.radius), chosen);
     set_contacts(pair, a, b, points, chosen, count);
 }
 
@@ -113,9 +124,20 @@ typedef struct pair_job {
 static void collide_range(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     pair_job *job = context;
+    rlf_world *world = job->world;
     (void)worker;
-    for (int32_t i = begin; i < end; i++) {
-        collide_pair(job->world, &job->world->pairs[job->world->due_pairs[i]], job->h);
+    rlf_sat_pairs lanes;
+    rlf_sat_axes axes;
+    for (int32_t first = begin; first < end; first += RLF_SAT_LANES) {
+        int32_t count = end - first < RLF_SAT_LANES ? end - first : RLF_SAT_LANES;
+        for (int32_t lane = 0; lane < RLF_SAT_LANES; lane++) { /* the last one fills what is left */
+            int32_t i = first + (lane < count ? lane : count - 1);
+            start_search(world, &world->pairs[world->due_pairs[i]], job->h, lane, &lanes);
+        }
+        rlf_kernel_sat_find(&lanes, &axes);
+        for (int32_t lane = 0; lane < count; lane++) {
+            collide_pair(world, &world->pairs[world->due_pairs[first + lane]], &axes, lane);
+        }
     }
 }
 
