@@ -39,6 +39,15 @@ static void keep_impulse(phys_contact *contact, const phys_trace *old, int32_t o
     }
 }
 
+/* What is `offset` from the body's centre, in its frame. */
+static rlf_vec3 to_body(const phys_body *body, rlf_vec3 offset)
+{
+    const rlf_mat3 *R = &body->R;
+    return rlf_vec3_make(R->m[0][0] * offset.x + R->m[1][0] * offset.y + R->m[2][0] * offset.z,
+                         R->m[0][1] * offset.x + R->m[1][1] * offset.y + R->m[2][1] * offset.z,
+                         R->m[0][2] * offset.x + R->m[1][2] * offset.y + R->m[2][2] * offset.z);
+}
+
 static void set_contacts(phys_pair *pair, const phys_body *a, const phys_body *b,
                          const pair_point *points, const int32_t *chosen, int32_t count)
 {
@@ -48,19 +57,18 @@ static void set_contacts(phys_pair *pair, const phys_body *a, const phys_body *b
         old[i] = phys_trace_of(&pair->contacts[i]);
     }
     double radius = rlf_min(a->shape.radius, b->shape.radius);
-    rlf_mat3 to_a = rlf_mat3_transpose(&a->R), to_b = rlf_mat3_transpose(&b->R);
     pair->contact_count = count;
     for (int32_t i = 0; i < count; i++) {
         const pair_point *p = &points[chosen[i]];
-        phys_contact fresh = {.a = pair->a, .b = pair->b, .other = RLF_CONTACT_BODY, .log = -1};
-        fresh.anchor_a = rlf_mat3_mul_vec(&to_a, rlf_sub(p->core_a, a->x));
-        fresh.anchor_b = rlf_mat3_mul_vec(&to_b, rlf_sub(p->core_b, b->x));
-        fresh.rounding_a = p->rounding_a;
-        fresh.rounding_b = p->rounding_b;
-        fresh.normal = p->normal;
-        fresh.separation = p->separation;
-        keep_impulse(&fresh, old, old_count, 0.2 * radius);
-        pair->contacts[i] = fresh;
+        phys_contact *fresh = &pair->contacts[i];
+        *fresh = (phys_contact){.a = pair->a, .b = pair->b, .other = RLF_CONTACT_BODY, .log = -1};
+        fresh->anchor_a = to_body(a, rlf_sub(p->core_a, a->x));
+        fresh->anchor_b = to_body(b, rlf_sub(p->core_b, b->x));
+        fresh->rounding_a = p->rounding_a;
+        fresh->rounding_b = p->rounding_b;
+        fresh->normal = p->normal;
+        fresh->separation = p->separation;
+        keep_impulse(fresh, old, old_count, 0.2 * radius);
     }
 }
 
