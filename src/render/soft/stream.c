@@ -81,12 +81,17 @@ RLF_KERNEL_PART void share_soft(const float *restrict near_z, const float *restr
                                 const uint8_t *restrict cover, rlf_kernel_noise noise,
                                 const float *restrict z, float *restrict share)
 {
+    int32_t parts[SOFT_LANES]; /* by themselves: bytes among floats are not vectorised */
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SOFT_LANES; i++) {
+        parts[i] = cover[i];
+    }
     RLF_KERNEL_WHOLE
     for (int32_t i = 0; i < SOFT_LANES; i++) {
         float fade = 0.25f / rlf_kernel_sigma(noise, z[i]);
         float near_share = stream_clamp(0.5f + (near_z[i] - z[i]) * fade, 0.0f, 1.0f);
         float far_share = stream_clamp(0.5f + (far_z[i] - z[i]) * fade, 0.0f, 1.0f);
-        float part = (float)cover[i] * (1.0f / 255.0f);
+        float part = (float)parts[i] * (1.0f / 255.0f);
         share[i] = far_share + (near_share - far_share) * part;
     }
 }
