@@ -17,15 +17,23 @@ typedef struct votes {
     int32_t count[VOTERS], near_count[VOTERS], sum[VOTERS];
 } votes;
 
-RLF_KERNEL_PART void add_votes(const uint16_t *restrict settled, votes *v)
+RLF_KERNEL_PART void count_votes(const uint16_t rows[3][VOTERS], votes *v)
 {
     RLF_KERNEL_WHOLE
     for (int32_t i = 0; i < VOTERS; i++) {
-        int32_t cover = settled[i] & 255;
-        int32_t is_doubtful = settled[i] < NOT_DOUBTFUL ? 1 : 0;
-        v->count[i] += is_doubtful;
-        v->near_count[i] += is_doubtful & (cover > 127 ? 1 : 0);
-        v->sum[i] += is_doubtful * cover;
+        int32_t count = 0;
+        int32_t near_count = 0;
+        int32_t sum = 0;
+        for (int k = 0; k < 3; k++) {
+            int32_t cover = rows[k][i] & 255;
+            int32_t is_doubtful = rows[k][i] < NOT_DOUBTFUL ? 1 : 0;
+            count += is_doubtful;
+            near_count += is_doubtful & (cover > 127 ? 1 : 0);
+            sum += is_doubtful * cover;
+        }
+        v->count[i] = count;
+        v->near_count[i] = near_count;
+        v->sum[i] = sum;
     }
 }
 
@@ -33,10 +41,8 @@ RLF_KERNEL_PART void add_votes(const uint16_t *restrict settled, votes *v)
  * their mean. */
 RLF_KERNEL_PART void vote(const uint16_t rows[3][VOTERS], int32_t *restrict out)
 {
-    votes v = {{0}, {0}, {0}};
-    for (int k = 0; k < 3; k++) {
-        add_votes(rows[k], &v);
-    }
+    votes v;
+    count_votes(rows, &v);
     RLF_KERNEL_WHOLE
     for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
         int32_t own = rows[1][i + 1] & 255;
