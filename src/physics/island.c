@@ -1,5 +1,6 @@
 /* Islands, and what happens to one in a substep. No two islands share a body that moves, so they
  * may be worked on in any order. */
+#include "kernel/kernel.h"
 #include "physics/grid_guard.h"
 #include "physics/integrate.h"
 #include "physics/solver.h"
@@ -199,6 +200,20 @@ static void move_body(const rlf_world *world, phys_body *body, const grid_query 
     }
 }
 
+/* Fetches what a pair's group will be read from, which is spread over memory. */
+static void fetch_pair(const rlf_world *world, const phys_pair *pair)
+{
+    enum { LINE = 64, CONTACT_LINES = sizeof(phys_contact) / LINE, BODY_LINES = 7 };
+    const char *contacts = (const char *)pair->contacts;
+    const char *body = (const char *)&world->bodies[pair->b]; /* a's is that of the pair before */
+    for (int32_t i = 0; i < pair->contact_count * CONTACT_LINES; i++) {
+        RLF_KERNEL_SOON(contacts + (size_t)i * LINE);
+    }
+    for (int32_t i = 0; i < BODY_LINES; i++) {
+        RLF_KERNEL_SOON(body + (size_t)i * LINE);
+    }
+}
+
 /* Lists the island's groups that may touch in this substep: its pairs first. The real surface comes
  * last: nothing gives way less. Returns their number. */
 static int32_t list_groups(rlf_world *world, const phys_island *island, phys_group *groups,
@@ -206,8 +221,12 @@ static int32_t list_groups(rlf_world *world, const phys_island *island, phys_gro
 {
     phys_point *points = world->near_points + island->pair_begin * PHYS_PAIR_CONTACTS +
                          island->body_begin * PHYS_SURFACE_CONTACTS;
+    const int32_t AHEAD = 3;
     int32_t count = 0;
     for (int32_t k = island->pair_begin; k < island->pair_end; k++) {
+        if (k + AHEAD < island->pair_end) {
+            fetch_pair(world, &world->pairs[world->island_pairs[k + AHEAD]]);
+        }
         if (phys_group_of_pair(world, world->island_pairs[k], h, points, &groups[count])) {
             points += groups[count++].point_count;
         }
