@@ -15,6 +15,7 @@ static const float trusted_rest_m = 0.003f; /* what a conic may leave and still 
 /* A wide thing that is no conic, and no plate either, is seldom flatter than a trunk. */
 static const float usual_ratio = 0.7f, plate_ratio = 0.15f;
 static const float wide_m = 0.12f, unlike_conic_m = 0.005f;
+static const float covered_m = 0.085f;      /* half of an arm, and of its clothes */
 static const float middle_error_m = 0.006f; /* of a conic that leaves nothing */
 
 /* What a ball at the ray (x, y, 1) would show along the line: its middle is a plane square to the
@@ -257,6 +258,17 @@ static void paint_run(const painting *p, const rlf_solid *to, bool is_hidden, in
     }
 }
 
+/* Steps from an end of which something nearer has hidden a part, in which the body is taken to go
+ * on: no more than are seen of it, and no more than an arm hides of the trunk beside it. */
+static int32_t steps_behind(const rlf_chord *c, int32_t side)
+{
+    float steps = c->covered[side], seen = 0.0f;
+    for (int32_t i = 0; i < c->part_count; i++) {
+        seen += (float)(c->part[i].end - c->part[i].begin);
+    }
+    return steps < seen && steps * c->metres < covered_m ? (int32_t)steps : 0;
+}
+
 /* Short chords know best: weights are 1 / (l r). */
 void rlf_chord_paint(const rlf_chord_job *job, const rlf_line *line, const rlf_chord *c)
 {
@@ -271,10 +283,14 @@ void rlf_chord_paint(const rlf_chord_job *job, const rlf_line *line, const rlf_c
                   .middle = c->inverse - w2 * f.middle - slope * 0.5f * (c->begin + c->end),
                   .slope = slope,
                   .half = w2 * f.ratio * c->metres}};
+    int32_t from = c->part[0].begin - steps_behind(c, 0);
+    int32_t to = c->part[c->part_count - 1].end + steps_behind(c, 1);
+    from = from > 0 ? from : 0;
+    to = to < line->count ? to : line->count;
     for (int32_t i = 0; i < c->part_count; i++) {
+        paint_run(&p, &job->hidden, true, from, c->part[i].begin);
         paint_run(&p, &job->own, false, c->part[i].begin, c->part[i].end);
-        if (i + 1 < c->part_count) {
-            paint_run(&p, &job->hidden, true, c->part[i].end, c->part[i + 1].begin);
-        }
+        from = c->part[i].end;
     }
+    paint_run(&p, &job->hidden, true, from, to);
 }

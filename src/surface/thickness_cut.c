@@ -129,6 +129,7 @@ static void set_ends(const piece *s, int32_t side, rlf_chord *chord)
     const float pixel_blur = 1.0f, uniform_blur = 0.29f;
     float hidden = s->ends[side] == HIDDEN ? (float)s->reach[side] : 0.0f;
     chord->blur[side] = pixel_blur + uniform_blur * hidden;
+    chord->covered[side] = 0.5f * hidden;
     if (side == 0) {
         chord->begin = (float)s->begin - 0.5f - 0.5f * hidden;
     } else {
