@@ -224,6 +224,19 @@ static void a_limb_on_a_trunk(void **state)
     assert_true(trunk.mean < 0.02 && limb.mean < 0.03 && limb.close > 0.85);
 }
 
+/* A limb hides the side of the trunk that it lies on: the trunk goes on behind it. */
+static void a_limb_on_the_side_of_a_trunk(void **state)
+{
+    (void)state;
+    static const body bodies[] = {
+        {.centre = {0.0, 0.0, 2.6}, .half = {0.15, 0.3, 0.17}, .top = -9},
+        {.centre = {-0.10, 0.0, 2.45}, .half = {0.05, ENDLESS, 0.05}, .top = -0.2},
+    };
+    errors trunk = measure(2, bodies, 0);
+    errors limb = measure(2, bodies, 1);
+    assert_true(trunk.mean < 0.026 && limb.mean < 0.027 && limb.close > 0.8);
+}
+
 /* Rows that show little of their own depth take it from those above and below: a trunk with flat
  * faces on a part of it. */
 static void rows_share_an_axis(void **state)
@@ -348,6 +361,7 @@ int main(void)
         cmocka_unit_test(boxes_show_what_they_can),
         cmocka_unit_test(a_limb_before_a_trunk),
         cmocka_unit_test(a_limb_on_a_trunk),
+        cmocka_unit_test(a_limb_on_the_side_of_a_trunk),
         cmocka_unit_test(rows_share_an_axis),
         cmocka_unit_test(legs_that_touch),
         cmocka_unit_test(bodies_that_leave_the_image),
