@@ -5,7 +5,7 @@
 
 enum {
     CLUSTER = 2,    /* pixels: steps this close are one edge, with mixed pixels between */
-    WINDOW = 6,     /* pixels beyond the doubtful ones that tell a side's colour */
+    WINDOW = 4,     /* pixels beyond the doubtful ones that tell a side's colour */
     REACH_MAX = 24, /* pixels */
     LANES = 16,     /* pixels worked on at once */
     LANES_MAX = 64  /* at least 2 (REACH_MAX + WINDOW), in whole LANES */
