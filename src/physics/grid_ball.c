@@ -7,18 +7,12 @@
  * the contact points from the edge to the centre. */
 #include "physics/grid_ball.h"
 #include "physics/grid_edge.h"
-#include "physics/grid_patch.h"
+#include "physics/grid_end.h"
 
-#define EDGE_MOVES 2
+#define EDGE_MOVES 6
 #define MOVES 4            /* of the patch to the pixel that is touched first */
 #define BEHIND (-0.2)      /* cosine; a face is touched from its own side, up to noise */
 #define SAME_DIRECTION 0.9 /* cosine of two touches that are one */
-
-/* Distance beyond the nearest pixel's at which a pixel's weight has fallen to 0: some sigma. */
-static double band_at(double z)
-{
-    return 0.003 + 0.0005 * z * z;
-}
 
 /* Seconds until the ball, `wider` than it is, reaches p, which moves with `velocity`; below 0 for a
  * point that is inside already, the deeper the less. False when that is not before the next query.
@@ -73,24 +67,6 @@ static void note(grid_job *job, const grid_meeting *touch)
     }
 }
 
-static rlf_vec3 centre_at(const grid_job *job, double time)
-{
-    return rlf_mad(job->centre, job->v, rlf_max(0.0, time));
-}
-
-/* How thick a background is was never seen: no thicker than wide (a table's leg). */
-static void limit_thickness(const grid_job *job, field_cell *cell)
-{
-    if (job->sheet->thickness == NULL) {
-        cell->thickness = grid_edge_width(job->query->grid, job->sheet, cell, cell->thickness);
-    }
-}
-
-static rlf_vec3 back_of(const grid_job *job, const field_cell *cell, rlf_vec3 p)
-{
-    return rlf_mad(p, grid_cell_inward(job->sheet, cell), cell->thickness);
-}
-
 /* Whether the ball's centre is before the cell's front, which is at p now. */
 static bool is_before(const grid_job *job, const field_cell *cell, rlf_vec3 p)
 {
@@ -108,9 +84,9 @@ void grid_ball_look(grid_job *job, const field_cell *seen, rlf_vec3 p)
             return;
         }
         if (is_back) {
-            limit_thickness(job, &cell);
+            patch_limit_thickness(job, &cell);
         }
-        rlf_vec3 point = is_back ? back_of(job, &cell, p) : p;
+        rlf_vec3 point = is_back ? patch_back_of(job, &cell, p) : p;
         if (is_back && job->sheet->thickness == NULL &&
             grid_field_is_seen_through(job->query->grid, job->sheet, point)) {
             return;
@@ -119,7 +95,7 @@ void grid_ball_look(grid_job *job, const field_cell *seen, rlf_vec3 p)
             continue;
         }
         rlf_vec3 moved = rlf_mad(point, cell.velocity, rlf_max(0.0, touch.time));
-        touch.direction = rlf_normalize(rlf_sub(centre_at(job, touch.time), moved));
+        touch.direction = rlf_normalize(rlf_sub(patch_centre_at(job, touch.time), moved));
         touch.face = is_back ? GRID_TOUCH_BACK : GRID_TOUCH_FRONT;
         double facing = rlf_dot(touch.direction, cell.normal);
         if ((is_back ? -facing : facing) > BEHIND) {
@@ -184,7 +160,7 @@ void grid_ball_look_tile(grid_job *job, const grid_tile *tile)
         return;
     }
     /* another pixel shows the face before the place where the ball comes to the back */
-    rlf_vec3 back = foot_on(job, tile, rlf_neg(n), back_of(job, &cell, cell.point));
+    rlf_vec3 back = foot_on(job, tile, rlf_neg(n), patch_back_of(job, &cell, cell.point));
     if (read_in_tile(job, tile, back, &cell)) {
         grid_ball_look(job, &cell, rlf_mad(cell.point, cell.velocity, job->query->tau));
     }
@@ -202,10 +178,11 @@ void grid_ball_look_outline(grid_job *job, const field_cell *cell, rlf_vec3 shif
         if (!time_of_touch(job, touch.point, cell->velocity, 0.0, &touch.time)) {
             return;
         }
-        centre = rlf_mad(centre_at(job, touch.time), cell->velocity, -rlf_max(0.0, touch.time));
+        centre =
+            rlf_mad(patch_centre_at(job, touch.time), cell->velocity, -rlf_max(0.0, touch.time));
     }
     rlf_vec3 moved = rlf_mad(touch.point, cell->velocity, rlf_max(0.0, touch.time));
-    rlf_vec3 direction = rlf_normalize(rlf_sub(centre_at(job, touch.time), moved));
+    rlf_vec3 direction = rlf_normalize(rlf_sub(patch_centre_at(job, touch.time), moved));
     rlf_vec3 side;
     touch.direction = direction;
     if (grid_edge_normal(job->query->grid, job->sheet, cell, &side)) {
@@ -217,42 +194,10 @@ void grid_ball_look_outline(grid_job *job, const field_cell *cell, rlf_vec3 shif
     }
 }
 
-static void read_patch(grid_patch *p)
-{
-    const grid_job *job = p->job;
-    double tau = job->query->tau + rlf_max(0.0, p->time);
-    p->centre = centre_at(job, p->time);
-    p->count = 0;
-    int32_t *index = p->index;
-    p->nearest = -1;
-    for (int32_t dy = -PATCH_PX; dy <= PATCH_PX; dy++) {
-        for (int32_t dx = -PATCH_PX; dx <= PATCH_PX; dx++) {
-            patch_sample *s = &p->samples[p->count];
-            *index = 0;
-            index++;
-            if (!grid_cell_read(job->query->grid, job->sheet, p->x + dx * p->step,
-                                p->y + dy * p->step, &s->cell)) {
-                continue;
-            }
-            s->point = rlf_mad(s->cell.point, s->cell.velocity, tau);
-            if (p->face == GRID_TOUCH_BACK) {
-                limit_thickness(job, &s->cell);
-                s->point = back_of(job, &s->cell, s->point);
-            }
-            s->distance = rlf_length(rlf_sub(p->centre, s->point)) - job->body->shape.shape.radius;
-            if (p->nearest < 0 || s->distance < p->samples[p->nearest].distance) {
-                p->nearest = p->count;
-            }
-            p->count++;
-            index[-1] = p->count;
-        }
-    }
-}
-
 /* Pixels this far apart span the patch that a ball all but touches: radius sqrt(2 r band). */
 static int32_t patch_step(const grid_job *job, double z)
 {
-    double radius = sqrt(2.0 * job->body->shape.shape.radius * band_at(z));
+    double radius = sqrt(2.0 * job->body->shape.shape.radius * patch_band(z));
     return 1 + (int32_t)(radius / (z * job->query->grid->pixel_angle * PATCH_PX));
 }
 
@@ -264,9 +209,9 @@ static bool settle(grid_patch *p, const grid_meeting *touch)
     p->x = touch->x;
     p->y = touch->y;
     p->time = touch->time;
-    p->step = patch_step(job, rlf_max(0.1, centre_at(job, touch->time).z));
+    p->step = patch_step(job, rlf_max(0.1, patch_centre_at(job, touch->time).z));
     for (int32_t i = 0; i < MOVES; i++) {
-        read_patch(p);
+        patch_read(p);
         if (p->nearest < 0) {
             return false;
         }
@@ -283,60 +228,6 @@ static bool settle(grid_patch *p, const grid_meeting *touch)
         }
     }
     return true;
-}
-
-/* As much surface as the pixel shows, in pixels seen head-on at 1 m. */
-static double area_of(const field_cell *cell)
-{
-    double cosine = -rlf_dot(cell->normal, cell->point) / rlf_length(cell->point);
-    return cell->point.z * cell->point.z / rlf_max(cosine, 0.15);
-}
-
-/* Weighted means over the pixels near the ball, and the slope of the normals over the points (least
- * squares for n - n_mean = curvature (p - p_mean)). */
-static patch_mean mean_of(const grid_patch *p)
-{
-    double least = p->samples[p->nearest].distance;
-    double band = band_at(p->samples[p->nearest].cell.point.z);
-    rlf_vec3 points = {0, 0, 0}, normals = {0, 0, 0}, velocities = {0, 0, 0};
-    rlf_vec3 face = p->samples[p->nearest].cell.normal;
-    double total = 0.0, square = 0.0, product = 0.0;
-    rlf_vec3 origin = p->samples[p->nearest].point; /* small differences, few digits lost */
-    for (int32_t i = 0; i < p->count; i++) {
-        const patch_sample *s = &p->samples[i];
-        double share = 1.0 - (s->distance - least) / band;
-        if (share <= 0.0 || !patch_is_of_face(s->cell.normal, face)) {
-            continue;
-        }
-        double weight = share * share * area_of(&s->cell);
-        rlf_vec3 d = rlf_sub(s->point, origin);
-        points = rlf_mad(points, d, weight);
-        normals = rlf_mad(normals, s->cell.normal, weight);
-        velocities = rlf_mad(velocities, s->cell.velocity, weight);
-        square += weight * rlf_dot(d, d);
-        product += weight * rlf_dot(d, s->cell.normal);
-        total += weight;
-    }
-    rlf_vec3 d = rlf_scale(points, 1.0 / total);
-    rlf_vec3 n = rlf_scale(normals, 1.0 / total);
-    patch_mean mean = {.point = rlf_add(origin, d), .normal = rlf_normalize(n)};
-    mean.velocity = rlf_scale(velocities, 1.0 / total);
-    mean.spread2 = rlf_max(0.0, square / total - rlf_dot(d, d));
-    if (mean.spread2 > 1e-7) {
-        mean.curvature = rlf_max(0.0, (product / total - rlf_dot(d, n)) / mean.spread2);
-    }
-    return mean;
-}
-
-/* A patch that lies off the touching point by d has a normal that is off by curvature d one way,
- * and a direction to the ball's centre that is off by d / radius the other way: together they are
- * right. The touching point stands above the mean of a bulge. */
-static void correct_bulge(const grid_patch *p, patch_mean *mean)
-{
-    double radius = p->job->body->shape.shape.radius;
-    rlf_vec3 direction = rlf_normalize(rlf_sub(p->centre, mean->point));
-    mean->normal = rlf_normalize(rlf_mad(mean->normal, direction, radius * mean->curvature));
-    mean->point = rlf_mad(mean->point, mean->normal, 0.5 * mean->curvature * mean->spread2);
 }
 
 /* How far p's pixel lies off the face, metres; false when that is not known. */
@@ -379,7 +270,7 @@ static bool is_supported(const grid_patch *p, const patch_mean *mean)
     if (height_at(p, mean, foot, &height, &normal) && height < OFF) {
         return height > -SLIGHT || (height > -OFF && patch_is_of_face(normal, mean->normal));
     }
-    double wide2 = 4.0 * p->job->body->shape.shape.radius * band_at(foot.z);
+    double wide2 = 4.0 * p->job->body->shape.shape.radius * patch_band(foot.z);
     rlf_vec3 d = rlf_sub(foot, p->samples[p->nearest].point);
     return rlf_dot(d, d) < wide2;
 }
@@ -399,23 +290,38 @@ static void add_hit(grid_job *job, double time, const patch_mean *touched, int32
     }
 }
 
-/* The edge stands out beyond the pixels that show the face, so that the ball comes to it before
- * them, at another place. Returns where it is then. */
-static rlf_vec3 meet_edge(grid_patch *p, const patch_mean *face)
+/* When the ball comes to the end of the face, which stands out beyond the pixels that show it, and
+ * where on it. */
+static rlf_vec3 meet_end(const grid_patch *p, const patch_end *end, const patch_mean *face,
+                         double *time)
 {
-    const rlf_vec3 v = face->velocity;
     double start = rlf_max(0.0, p->time);
-    rlf_vec3 now = rlf_mad(patch_edge(p, face), v, -start);
+    rlf_vec3 v = face->velocity, edge = end->point;
     for (int32_t i = 0; i < EDGE_MOVES; i++) {
-        double time;
-        if (!time_of_touch(p->job, now, v, 0.0, &time)) {
+        double later = rlf_max(0.0, *time) - start;
+        rlf_vec3 centre = rlf_mad(patch_centre_at(p->job, *time), v, -later);
+        edge = patch_end_nearest(end, centre);
+        double next;
+        if (!time_of_touch(p->job, rlf_mad(edge, v, -start), v, 0.0, &next)) {
             break;
         }
-        p->time = time;
-        p->centre = centre_at(p->job, time);
-        now = rlf_mad(patch_edge(p, face), v, -rlf_max(0.0, time));
+        *time = next;
     }
-    return rlf_mad(now, v, rlf_max(0.0, p->time));
+    return rlf_mad(edge, v, rlf_max(0.0, *time) - start);
+}
+
+/* Reads all pixels about the nearest one. */
+static void look_closer(grid_patch *p, const patch_mean *face)
+{
+    const rlf_grid *grid = p->job->query->grid;
+    double tau = p->job->query->tau + rlf_max(0.0, p->time), u, v;
+    rlf_vec3 seen = rlf_mad(p->samples[p->nearest].point, face->velocity, -tau);
+    if (seen.z > 0.0 && grid->project(grid->project_context, seen, &u, &v)) {
+        p->x = (int32_t)rlf_clamp(u + 0.5, 0.0, grid->width - 1.0);
+        p->y = (int32_t)rlf_clamp(v + 0.5, 0.0, grid->height - 1.0);
+        p->step = 1;
+        patch_read(p);
+    }
 }
 
 /* Which way a back faces is known from a guess's slope: where that is far from the way from the
@@ -432,19 +338,30 @@ static void face_back(const grid_patch *p, patch_mean *touched)
     }
 }
 
-/* The contact points from the edge to the ball's centre. So does the way from the mean of the
- * pixels that the ball all but touches, and what is wrong with the one is not with the other. */
+/* The contact points from the edge to the ball's centre. */
 static bool face_edge(grid_patch *p, grid_meeting *touch, patch_mean *touched)
 {
-    rlf_vec3 edge = meet_edge(p, touched);
-    touch->time = p->time;
-    rlf_vec3 way = rlf_sub(p->centre, edge), direction = rlf_normalize(way);
+    patch_end end;
+    look_closer(p, touched);
+    if (p->nearest < 0) {
+        return false;
+    }
+    bool is_averaged = p->job->sheet->velocity_x == NULL;
+    if (is_averaged) {
+        patch_find_face(p, touched);
+    }
+    patch_find_end(p, touched, &end);
+    double time = p->time;
+    rlf_vec3 edge = meet_end(p, &end, touched, &time);
+    touch->time = time;
+    rlf_vec3 centre = patch_centre_at(p->job, time), way = rlf_sub(centre, edge);
+    rlf_vec3 direction = rlf_normalize(way);
     if (rlf_dot(direction, touched->normal) < BEHIND) {
         return false;
     }
-    rlf_vec3 mean = rlf_normalize(rlf_sub(p->centre, touched->point));
-    touched->normal = rlf_normalize(rlf_add(direction, mean));
-    touched->point = rlf_mad(p->centre, touched->normal, -rlf_length(way));
+    rlf_vec3 mean = rlf_normalize(rlf_sub(centre, touched->point));
+    touched->normal = is_averaged ? direction : rlf_normalize(rlf_add(direction, mean));
+    touched->point = rlf_mad(centre, touched->normal, -rlf_length(way));
     return true;
 }
 
@@ -457,11 +374,11 @@ static bool touch_face(const grid_job *job, grid_meeting *touch, patch_mean *out
     const patch_sample *nearest = &p.samples[p.nearest];
     touch->time = p.time;
     *label = nearest->cell.label;
-    *out = mean_of(&p);
+    *out = patch_mean_of(&p);
     if (p.face == GRID_TOUCH_BACK) {
         face_back(&p, out);
     } else if (is_supported(&p, out)) {
-        correct_bulge(&p, out);
+        patch_correct_bulge(&p, out);
     } else {
         return face_edge(&p, touch, out);
     }
@@ -487,7 +404,7 @@ static bool touch_wall(const grid_job *job, const grid_meeting *touch, patch_mea
 static bool is_met(const grid_job *job, const patch_mean *touched, double time, double first)
 {
     rlf_vec3 point = rlf_mad(touched->point, touched->velocity, first - time);
-    double height = rlf_dot(touched->normal, rlf_sub(centre_at(job, first), point));
+    double height = rlf_dot(touched->normal, rlf_sub(patch_centre_at(job, first), point));
     return height - job->body->shape.shape.radius > -0.002;
 }
 

@@ -37,10 +37,31 @@ static inline bool patch_is_of_face(rlf_vec3 normal, rlf_vec3 face)
     return rlf_dot(normal, face) > 0.8;
 }
 
+/* Distance beyond the nearest pixel's at which a pixel's weight has fallen to 0: some sigma. */
+double patch_band(double z);
+
+/* The ball's centre, `time` from now; now, if that is below 0. */
+rlf_vec3 patch_centre_at(const grid_job *job, double time);
+
+/* How thick a background is was never seen: no thicker than wide (a table's leg). */
+void patch_limit_thickness(const grid_job *job, field_cell *cell);
+
+/* The back behind p, a point of the cell's front. */
+rlf_vec3 patch_back_of(const grid_job *job, const field_cell *cell, rlf_vec3 p);
+
+/* Fills centre, index, samples, count and nearest (-1: no sample) for the other members. */
+void patch_read(grid_patch *p);
+
+/* Weighted means over the pixels near the ball, and the slope of the normals over the points (least
+ * squares for n - n_mean = curvature (p - p_mean)). */
+patch_mean patch_mean_of(const grid_patch *p);
+
+/* A patch that lies off the touching point by d has a normal that is off by curvature d one way,
+ * and a direction to the ball's centre that is off by d / radius the other way: together they are
+ * right. The touching point stands above the mean of a bulge. */
+void patch_correct_bulge(const grid_patch *p, patch_mean *mean);
+
 /* The point of the face under the ball's centre. */
 rlf_vec3 patch_foot(const grid_patch *p, const patch_mean *mean);
-
-/* The point nearest to the foot on the line where the face ends, of a face that ends before it. */
-rlf_vec3 patch_edge(const grid_patch *p, const patch_mean *mean);
 
 #endif

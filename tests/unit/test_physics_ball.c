@@ -85,6 +85,87 @@ static void bounces_off_a_bulge_as_off_a_ball(void **state)
     }
 }
 
+/* Normals as a sensor's are: means over the pixels around, so that they are round at edges. */
+static void blur_normals(void)
+{
+    const int32_t R = 2;
+    static float sharp[3][GRID_W * GRID_H];
+    for (int k = 0; k < 3; k++) {
+        memcpy(sharp[k], fixture->planes[3 + k], sizeof(sharp[k]));
+    }
+    for (int32_t y = R; y < GRID_H - R; y++) {
+        for (int32_t x = R; x < GRID_W - R; x++) {
+            rlf_vec3 sum = {0, 0, 0};
+            for (int32_t i = 0; i < 25; i++) {
+                int32_t k = (y + i / 5 - R) * GRID_W + x + i % 5 - R;
+                sum = rlf_add(sum, rlf_vec3_make(sharp[0][k], sharp[1][k], sharp[2][k]));
+            }
+            sum = rlf_normalize(sum);
+            fixture->planes[3][y * GRID_W + x] = (float)sum.x;
+            fixture->planes[4][y * GRID_W + x] = (float)sum.y;
+            fixture->planes[5][y * GRID_W + x] = (float)sum.z;
+        }
+    }
+}
+
+/* The upright edge at `edge` of a big box of the background, of which two faces are seen. */
+static void set_box_edge(rlf_vec3 edge, const rlf_vec3 normals[2])
+{
+    grid_plane wall = grid_wall(4);
+    grid_fixture_set_room(fixture, &wall, 1);
+    for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
+        rlf_vec3 m = rlf_vec3_make(fixture->planes[0][i], fixture->planes[1][i], 1.0);
+        double z[2];
+        for (int k = 0; k < 2; k++) {
+            double slope = rlf_dot(normals[k], m);
+            z[k] = slope < 0.0 ? rlf_dot(normals[k], edge) / slope : 1e9;
+        }
+        int face = z[0] > z[1] ? 0 : 1;
+        if (z[face] < 3.9) {
+            fixture->planes[2][i] = (float)z[face];
+            fixture->planes[3][i] = (float)normals[face].x;
+            fixture->planes[4][i] = (float)normals[face].y;
+            fixture->planes[5][i] = (float)normals[face].z;
+        }
+    }
+    fixture->grid.background.default_thickness = 0.3;
+}
+
+/* Worst errors of 30 balls that meet the edge: of the direction, degrees, and of its share along
+ * the edge. */
+static void throw_at_edge(rlf_vec3 edge, const rlf_vec3 faces[2], double worst[2])
+{
+    worst[0] = worst[1] = 0.0;
+    for (int i = 0; i < 30; i++) {
+        double share = 0.15 + 0.14 * (i % 6);
+        rlf_vec3 n =
+            rlf_normalize(rlf_add(rlf_scale(faces[0], share), rlf_scale(faces[1], 1.0 - share)));
+        rlf_vec3 v = rlf_add(rlf_scale(n, -3.0), rlf_vec3_make(0, i % 2 == 0 ? 1.0 : -1.5, 0));
+        rlf_vec3 at = rlf_mad(rlf_vec3_make(edge.x, 0.03 * (i / 6 - 2), edge.z), n, RADIUS);
+        rlf_vec3 expected = rlf_mad(v, n, -1.8 * rlf_dot(n, v));
+        rlf_vec3 out = thrown(rlf_mad(at, v, -0.2), v);
+        worst[0] = fmax(worst[0], degrees_between(out, expected));
+        worst[1] = fmax(worst[1], fabs(rlf_normalize(out).y - rlf_normalize(expected).y));
+    }
+}
+
+static void bounces_squarely_off_an_edge_between_two_faces(void **state)
+{
+    (void)state;
+    const rlf_vec3 edge = {0.011, 0, 2};
+    const rlf_vec3 faces[2] = {{-0.8, 0, -0.6}, {0.6, 0, -0.8}};
+    double sharp[2], blurred[2];
+    set_box_edge(edge, faces);
+    throw_at_edge(edge, faces, sharp);
+    blur_normals();
+    throw_at_edge(edge, faces, blurred);
+    print_message("edge of a box: off by %.1f deg at most, along it %.4f\n", sharp[0], sharp[1]);
+    print_message("... with blurred normals %.1f deg, along it %.4f\n", blurred[0], blurred[1]);
+    assert_true(sharp[0] < 1.0);
+    assert_true(sharp[1] < 0.001);
+    assert_true(blurred[1] < 0.02);
+}
+
 /* The rim of a board that faces the camera: from 20 to 70 % of the radius beyond it. */
 static void bounces_off_a_rim_where_it_is(void **state)
 {
@@ -165,6 +246,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(bounces_off_a_bulge_as_off_a_ball, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(bounces_squarely_off_an_edge_between_two_faces, set_up,
+                                        tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_a_rim_where_it_is, set_up, tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_a_floor_seen_at_a_low_angle, set_up, tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_the_back_of_something_thick, set_up, tear_down),
