@@ -15,7 +15,6 @@
 enum {
     BLOCK = RLF_HOLD_BLOCK,
     LEAST_MOVED = 2,  /* pixels of a block that make a movement: single ones may be mixed */
-    LEAST_CALM = 8,   /* frames without one */
     LEAST_FRAMES = 2, /* that have seen what is recalled */
     MOST_CALM = 255
 };
@@ -81,7 +80,7 @@ static bool is_calm(const rlf_reconstruct *stage, int32_t x, int32_t y)
     bool calm = true;
     for (by = y0; by <= y1; by++) {
         for (bx = x0; bx <= x1; bx++) {
-            calm = calm && stage->steady.calm[by * blocks_x + bx] >= LEAST_CALM;
+            calm = calm && stage->steady.calm[by * blocks_x + bx] >= RLF_HOLD_CALM;
         }
     }
     return calm;
@@ -90,7 +89,7 @@ static bool is_calm(const rlf_reconstruct *stage, int32_t x, int32_t y)
 bool rlf_hold_may_move(const rlf_reconstruct *stage, int32_t x, int32_t y)
 {
     bool unknown = stage->steady.calm == NULL;
-    return unknown || (stage->steady.age >= LEAST_CALM && !is_calm(stage, x, y));
+    return unknown || (stage->steady.age >= RLF_HOLD_CALM && !is_calm(stage, x, y));
 }
 
 /* Lost pixels about which nothing moves, that wait until there are enough of them for a kernel. */

@@ -1,6 +1,7 @@
 /* Normals of pixels that no plane explains, or that were filled, from those about them: their mean,
  * weighted by nearness. Where they are of two faces a mean of both is neither, and the planes of
- * the faces decide which of them the pixel's ray meets, as at a crease that is seen. */
+ * the faces decide which of them the pixel's ray meets, as at a crease that is seen; where they do
+ * not meet there, the one at the pixel's depth. */
 #include "surface/face.h"
 #include "surface/steps.h"
 #include "surface/window.h"
@@ -99,7 +100,8 @@ static ptrdiff_t find_face(const rlf_normals_job *job, int32_t x, int32_t y)
     float za = rlf_face_depth(&faces, a, i), zb = rlf_face_depth(&faces, b, i);
     rlf_meeting meeting = rlf_faces_meet(job->filled[a], b_at_a, job->filled[b], a_at_b);
     if (meeting == RLF_FACES_APART || !(za > 0.0f) || !(zb > 0.0f)) {
-        return -1;
+        float z = job->filled[i];
+        return rlf_kernel_abs(za - z) <= rlf_kernel_abs(zb - z) ? a : b;
     }
     return (meeting == RLF_FACES_CONVEX ? za > zb : za < zb) ? a : b;
 }

@@ -6,7 +6,11 @@
  * where nothing moves, the pixels along the outline are held against the front's plane: either its
  * noise explains what they are off by, or they are on another face. That face's slope cannot be
  * measured; it is taken to be at a right angle to the front, as the sides of made things are, if
- * such a face can be seen from here at all. */
+ * such a face can be seen from here at all.
+ *
+ * Of a side that is one pixel wide nothing is ever seen. A thing that is no wider than a leg or a
+ * pole is then taken to be as deep as it is wide: if its side would reach the outermost pixel's
+ * ray, that pixel is on it. */
 #include "surface/side.h"
 
 static const float MOST_STEP = 0.03f;    /* share of the depth from pixel to pixel of one thing */
@@ -18,6 +22,11 @@ static const float MOST_APART = 0.04f; /* share of the depth: what is farther of
 static const float MOST_SIGMAS = 5.0f, PRICE = 2.0f;
 static const float PLANE_SIGMAS = 0.6f; /* error of the front's plane where it is continued */
 static const float MOST_BEFORE = 2.0f; /* sigmas, mean: a side does not lie in front of its front */
+
+/* Metres. A leg or a pole is as deep as it is wide; what is wider may be a board. */
+static const double MOST_POLE = 0.06;
+/* Pixels: what is narrower is not met by a pixel's ray, what is wider has been seen. */
+static const double LEAST_SIDE = 0.5, MOST_SIDE = 2.0;
 
 enum { MOST_DROPPED = 3, TO_FRONT = 2, ALONG = 2, LEAST_PIXELS = 2, BORDER = 8 };
 
@@ -127,6 +136,40 @@ static bool is_off_front(const rlf_side_job *job, const place *at, const front *
     return count >= LEAST_PIXELS && evidence > 0.0f && before < MOST_BEFORE * (float)count;
 }
 
+/* Pixels across what ends behind the place, on the way in; 0 when it does not, within BORDER. */
+static int32_t count_across(const rlf_side_job *job, const place *at)
+{
+    float last = job->depth[at->pixel];
+    for (int32_t k = 1; k <= BORDER; k++) {
+        float z = job->depth[move(job, at, -(float)k, 0.0f)];
+        if (z > (1.0f + MOST_APART) * last) {
+            return k;
+        }
+        if (!(rlf_kernel_abs(z - last) < MOST_STEP * last)) {
+            return 0;
+        }
+        last = z;
+    }
+    return 0;
+}
+
+/* The place is the outermost pixel of a pole that shows its side: of a square one, it would be
+ * so wide that the ray meets it, and not so wide that it would have been seen by now. */
+static bool is_pole(const rlf_side_job *job, const place *at, const front *f, rlf_vec3 side)
+{
+    float z = job->depth[at->pixel];
+    bool is_last = job->depth[move(job, at, 1.0f, 0.0f)] > (1.0f + MOST_APART) * z;
+    int32_t across = is_last ? count_across(job, at) : 0;
+    if (across == 0) {
+        return false;
+    }
+    rlf_vec3 ray = ray_at(job, at->pixel), other = ray_at(job, move(job, at, -(float)across, 0.0f));
+    double slant = rlf_dot(side, ray) / rlf_dot(f->normal, ray); /* side to front, in the image */
+    double before = across / (1.0 + slant), wide = rlf_length(rlf_sub(ray, other)) * z;
+    double beside = before * slant;
+    return wide * before < MOST_POLE * across && beside > LEAST_SIDE && beside < MOST_SIDE;
+}
+
 static uint8_t mark_of(const rlf_side_job *job, const place *at)
 {
     ptrdiff_t i = move(job, at, -(float)at->steps, 0.0f);
@@ -145,13 +188,17 @@ bool rlf_side_find(const rlf_side_job *job, int32_t x, int32_t y, float out_x, f
     front f;
     rlf_vec3 side;
     if (at.steps == 0 || !find_front(job, &at, &f) || !find_side(job, &at, &f, &side) ||
-        !is_off_front(job, &at, &f) || rlf_hold_may_move(job->stage, x, y)) {
+        rlf_hold_may_move(job->stage, x, y)) {
+        return false;
+    }
+    bool is_off = is_off_front(job, &at, &f);
+    if (!is_off && !is_pole(job, &at, &f, side)) {
         return false;
     }
     job->normal[0][at.pixel] = (float)side.x;
     job->normal[1][at.pixel] = (float)side.y;
     job->normal[2][at.pixel] = (float)side.z;
-    job->mark[at.pixel] = mark_of(job, &at);
+    job->mark[at.pixel] = is_off ? mark_of(job, &at) : 0;
     return true;
 }
 

@@ -96,7 +96,8 @@ typedef struct rlf_steady {
     int32_t age;   /* frames that were averaged, up to 255 */
 } rlf_steady;
 
-enum { RLF_HOLD_BLOCK = 8 };
+/* Side of a block in pixels, and the frames without motion after which one is calm. */
+enum { RLF_HOLD_BLOCK = 8, RLF_HOLD_CALM = 8 };
 
 /* A run of linked pixels of one row, the unit of segmentation. */
 typedef struct rlf_run {

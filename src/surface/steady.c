@@ -69,7 +69,7 @@ void rlf_steady_reset(rlf_steady *steady, int32_t count)
     if (steady->frames != NULL) {
         memset(steady->frames, 0, (size_t)count * sizeof *steady->frames);
         memset(steady->mean, 0, (size_t)count * sizeof *steady->mean);
-        memset(steady->calm, 0, (size_t)count);
+        memset(steady->calm, RLF_HOLD_CALM, (size_t)count); /* until something moves */
         steady->age = 0;
     }
 }

@@ -93,6 +93,25 @@ static void what_stands_is_recalled(void **state)
     assert_true(missing < dropped / 50);
 }
 
+static void what_stands_from_the_first_frame_on_is_recalled_at_once(void **state)
+{
+    fixture *f = *state;
+    rlf_reconstruct_reset(f->stage);
+    set_board(f, 30);
+    const rlf_surface *s = NULL;
+    for (int t = 0; t < 4; t++) {
+        s = process(f, t, 0.1);
+    }
+    int dropped = 0, missing = 0;
+    for (int i = 0; i < COUNT; i++) {
+        bool inside = !is_beside_edge(f, i);
+        dropped += inside && f->seen[i] <= 0.0f;
+        missing += inside && s->reason[i] == RLF_REASON_NO_RETURN;
+    }
+    assert_true(dropped > COUNT / 12);
+    assert_true(missing < dropped / 10);
+}
+
 /* The board is gone from one frame to the next, and half of the pixels with it. */
 static void what_left_is_forgotten(void **state)
 {
@@ -154,6 +173,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_stands_is_recalled),
+        cmocka_unit_test(what_stands_from_the_first_frame_on_is_recalled_at_once),
         cmocka_unit_test(what_left_is_forgotten),
         cmocka_unit_test(what_moves_is_not_recalled),
         cmocka_unit_test(switched_off_it_recalls_nothing),

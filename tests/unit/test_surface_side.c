@@ -126,6 +126,28 @@ static void the_side_of_a_post_is_a_face(void **state)
     assert_true(100 * all.front_wrong <= 2 * all.front);
 }
 
+/* A pixel of it, which the sensor drops in every frame. */
+static void a_narrow_post_is_as_deep_as_it_is_wide(void **state)
+{
+    seen_view *f = *state;
+    score all = {0};
+    for (int k = 0; k < 8; k++) {
+        double right = -0.95 + 0.0012 * k;
+        set_wall(f);
+        add_block(f, (block){right - 0.045, right, 3.2, 3.235});
+        score s = judge(f);
+        all.side += s.side;
+        all.side_wrong += s.side_wrong;
+        all.front += s.front;
+        all.front_wrong += s.front_wrong;
+    }
+    print_message("side %d of %d wrong, front %d of %d\n", all.side_wrong, all.side,
+                  all.front_wrong, all.front);
+    assert_true(all.side > 6 * (HEIGHT - 24) && all.side <= 9 * (HEIGHT - 24));
+    assert_true(10 * all.side_wrong <= all.side);
+    assert_true(10 * all.front_wrong <= all.front);
+}
+
 static void a_plate_has_no_side(void **state)
 {
     seen_view *f = *state;
@@ -167,6 +189,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_side_of_a_post_is_a_face),
+        cmocka_unit_test(a_narrow_post_is_as_deep_as_it_is_wide),
         cmocka_unit_test(a_plate_has_no_side),
         cmocka_unit_test(the_wall_shows_in_a_slit),
     };
