@@ -72,7 +72,7 @@ const eval_bound eval_bounds[] = {
     {"steps", "foreground_f", '>', NAN, 0.972, "", ""},
     {"steps", "still_zero_percent", '>', NAN, 99.9, "", ""},
     {"people", "depth_moving_rmse_mm", '<', 2.7, 2.75, "", ""},
-    {"people", "depth_moving_flying_percent", '<', 0.002, 0.0025, "", ""},
+    {"people", "depth_moving_flying_percent", '<', 0.002, 0.0045, "", ""},
     {"people", "normals_interior_mean_deg", '<', 1.4, 1.4, "", ""},
     {"people", "normals_interior_over_30_percent", '<', 0.4, 0.4, "", ""},
     {"people", "normals_band_over_30_percent", '<', 1.5, 3.0, "", ""},

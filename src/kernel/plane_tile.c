@@ -24,10 +24,6 @@ enum {
 /* Largest residuals that a window may have, in sigmas. */
 static const float WIDE_SIGMAS = 1.15f, NARROW_SIGMAS = 1.6f;
 
-/* How far a pixel's depth is moved, in sigmas. Between two levels, steep windows that hardly
- * explain their pixels predict this one, and it would hang half way. */
-static const float MOST_MOVED = 16.0f;
-
 enum { N, X, Y, XX, XY, YY, W, XW, YW, WW, MOMENTS };
 
 /* Plane i is of block i - REACH of the tile. The moments of that block have the index
@@ -398,8 +394,8 @@ RLF_KERNEL_PART void begin_blend(const float *restrict x, const float *restrict 
 /* Normals, and depth where the planes meet the ray: what noise there is in a window is averaged,
  * and no window reaches across an edge or a crease. */
 RLF_KERNEL_PART void end_blend(const blend *restrict at, const float *restrict z, int32_t count,
-                               rlf_kernel_noise noise, float *restrict out_x, float *restrict out_y,
-                               float *restrict out_z, float *restrict out_depth)
+                               float *restrict out_x, float *restrict out_y, float *restrict out_z,
+                               float *restrict out_depth)
 {
     for (int32_t i = 0; i < count; i++) {
         float weight = at->weight[i];
@@ -411,9 +407,7 @@ RLF_KERNEL_PART void end_blend(const blend *restrict at, const float *restrict z
         out_y[i] = c * scale;
         out_z[i] = a * scale;
         float inverse = a + b * at->x[i] + c * at->y[i];
-        float depth = 1.0f / (inverse > 0.0f ? inverse : 1.0f);
-        bool near = rlf_kernel_abs(depth - z[i]) < MOST_MOVED * rlf_kernel_sigma(noise, z[i]);
-        out_depth[i] = (inverse > 0.0f) & near ? depth : z[i];
+        out_depth[i] = inverse > 0.0f ? 1.0f / (inverse > 0.0f ? inverse : 1.0f) : z[i];
     }
 }
 
@@ -435,7 +429,7 @@ RLF_KERNEL_PART void make_pixels(const tile_state *state, int32_t row, int32_t y
     float unwanted[RLF_KERNEL_TILE_WIDTH];
     for (int32_t r = 0; r < rows; r++) {
         ptrdiff_t i = (ptrdiff_t)(y + r) * t->width + t->x0;
-        end_blend(&at[r], t->depth + i, count, t->noise, t->out_x + i, t->out_y + i, t->out_z + i,
+        end_blend(&at[r], t->depth + i, count, t->out_x + i, t->out_y + i, t->out_z + i,
                   t->out_depth == NULL ? unwanted : t->out_depth + i);
     }
 }

@@ -23,7 +23,7 @@ typedef struct golden {
 } golden;
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0xd9728612a0ade01eu, 0x38b81d389bf512c7u, 0x0bd80ea4f0923edcu},
+    {RLF_PROFILE_LIVE, 0x695170d6750e6d21u, 0xa3ccd4557f0422afu, 0x1665abd789bef4f5u},
     {RLF_PROFILE_THESIS, 0xa393eb06e579d241u, 0xd84652fb54683851u, 0xc064b44391e1e990u},
 };
 

@@ -287,35 +287,6 @@ static void plane_tile_stays_in_its_tile(void **state)
     }
 }
 
-/* Two slanted things, one 8 cm before the other, the edge between them aslant: steep windows lie
- * across both, and a pixel at the edge must not hang between them. */
-static void plane_tile_moves_no_pixel_far(void **state)
-{
-    (void)state;
-    enum { W = 64, H = 64 };
-    static float depth[W * H], ray_x[W * H], ray_y[W * H], out[3][W * H], smooth[W * H];
-    const rlf_kernel_noise noise = {0.0015f, -0.0005f, 0.0003f};
-    analytic_random r = {3};
-    for (int t = 0; t < 40; t++) {
-        for (int i = 0; i < W * H; i++) {
-            double across = i % W - 32.0 + (0.1 + 0.02 * t) * (i / W - 32.0);
-            double far = 2.77 - 0.012 * across, near = 2.69 - 0.007 * across;
-            double z = across < 0.0 ? far : near;
-            double sigma = rlf_kernel_sigma(noise, (float)z);
-            ray_x[i] = (float)(i % W + 120) / 365.5f;
-            ray_y[i] = (float)(i / W + 40) / 365.5f;
-            depth[i] = (float)(z + sigma * random_normal(&r));
-        }
-        rlf_kernel_tile tile = {W,     H,     0,     0,      W,      H,      depth,
-                                ray_x, ray_y, noise, out[0], out[1], out[2], smooth};
-        rlf_kernel_plane_tile(&tile);
-        for (int i = 0; i < W * H; i++) {
-            float moved = rlf_kernel_abs(smooth[i] - depth[i]);
-            assert_true(moved < 16.01f * rlf_kernel_sigma(noise, depth[i]));
-        }
-    }
-}
-
 static void body_mean_row_is_its_definition(void **state)
 {
     (void)state;
@@ -559,7 +530,6 @@ int main(void)
         cmocka_unit_test(majority_row_is_its_definition),
         cmocka_unit_test(background_row_follows_the_evidence),
         cmocka_unit_test(plane_tile_stays_in_its_tile),
-        cmocka_unit_test(plane_tile_moves_no_pixel_far),
         cmocka_unit_test(body_mean_row_is_its_definition),
         cmocka_unit_test(near_normal_is_its_definition),
         cmocka_unit_test(chord_sums_are_their_definition),
