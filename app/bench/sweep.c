@@ -8,6 +8,7 @@
 
 #define WARM_UP 10 /* frames, of them BENCH_EMPTY_FRAMES empty */
 #define FRAMES 16
+#define LOOP_BODIES 100
 
 static const int32_t sizes[][2] = {{160, 120}, {320, 240},  {512, 424},  {640, 480},
                                    {960, 540}, {1280, 720}, {1920, 1080}};
@@ -121,7 +122,9 @@ static rlf_result make_bodies(int32_t count, rlf_scene *out)
     return RLF_OK;
 }
 
-static rlf_result time_bodies(const bench_options *o, int32_t count, timing_series *out)
+/* Physics by itself, or the whole loop with its picture. */
+static rlf_result time_bodies(const bench_options *o, int32_t count, bool is_loop,
+                              timing_series *out)
 {
     rlf_scene scene;
     rlf_result result = make_bodies(count, &scene);
@@ -129,10 +132,10 @@ static rlf_result time_bodies(const bench_options *o, int32_t count, timing_seri
         return result;
     }
     session_options options = session_options_default();
-    options.source = "synthetic:room?color=0";
+    options.source = is_loop ? "synthetic:room" : "synthetic:room?color=0";
     options.scene = &scene;
     options.thread_count = o->threads;
-    options.enable_render = false;
+    options.enable_render = is_loop;
     session s;
     result = session_open(&options, &s);
     rlf_scene_destroy(&scene);
@@ -144,7 +147,9 @@ static rlf_result time_bodies(const bench_options *o, int32_t count, timing_seri
         rlf_pipeline_output frame;
         result = rlf_pipeline_step(s.pipeline, &frame);
         if (result == RLF_OK && i >= WARM_UP) {
-            timing_add(out, frame.times.physics_ms);
+            const rlf_stage_times *ms = &frame.times;
+            double others = ms->capture_ms + ms->surface_ms + ms->render_ms;
+            timing_add(out, ms->physics_ms + (is_loop ? others : 0.0));
         }
     }
     session_close(&s);
@@ -158,7 +163,7 @@ static rlf_result sweep_bodies(const bench_options *o, timing_series *series, be
     double reference = NAN;
     for (int i = 0; i < COUNT(body_counts); i++) {
         char name[BENCH_NAME];
-        rlf_result result = time_bodies(o, body_counts[i], series);
+        rlf_result result = time_bodies(o, body_counts[i], false, series);
         if (result != RLF_OK) {
             return result;
         }
@@ -171,6 +176,17 @@ static rlf_result sweep_bodies(const bench_options *o, timing_series *series, be
         table->rows[i].ratio /= reference;
     }
     return RLF_OK;
+}
+
+/* Ratio: frames per second. */
+static rlf_result time_loop(const bench_options *o, timing_series *series, bench_table *table)
+{
+    rlf_result result = time_bodies(o, LOOP_BODIES, true, series);
+    if (result == RLF_OK) {
+        double ms = timing_percentile(series, 50);
+        bench_add_series(table, "loop", "100 bodies", series, ms > 0.0 ? 1000.0 / ms : NAN);
+    }
+    return result;
 }
 
 static rlf_result run_all(const bench_options *o, rlf_pool *pool, timing_series *series,
@@ -187,7 +203,8 @@ static rlf_result run_all(const bench_options *o, rlf_pool *pool, timing_series 
     if (result == RLF_OK) {
         result = sweep_room(SWEEP_ROW, row_counts, COUNT(row_counts), pool, series, table);
     }
-    return result == RLF_OK ? sweep_bodies(o, series, table) : result;
+    result = result == RLF_OK ? sweep_bodies(o, series, table) : result;
+    return result == RLF_OK ? time_loop(o, series, table) : result;
 }
 
 rlf_result bench_sweeps_run(const bench_options *o, bench_table *table)
@@ -225,4 +242,6 @@ void bench_sweeps_print(const bench_table *table)
     print_sweep(table, "people of the same pixels",
                 "surface, people who fill the same pixels together; ratio: beside the first");
     print_sweep(table, "bodies", "physics, bodies at 512x424; ratio: per body beside 100");
+    print_sweep(table, "loop",
+                "whole loop, pictures of 960x540; instead of a ratio: frames per second");
 }
