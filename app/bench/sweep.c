@@ -9,6 +9,8 @@
 #define WARM_UP 10 /* frames, of them BENCH_EMPTY_FRAMES empty */
 #define FRAMES 16
 #define LOOP_BODIES 100
+#define LOOP_FROM 60 /* frames: a person walks about the room from then on */
+#define LOOP_TO 124
 
 static const int32_t sizes[][2] = {{160, 120}, {320, 240},  {512, 424},  {640, 480},
                                    {960, 540}, {1280, 720}, {1920, 1080}};
@@ -143,10 +145,11 @@ static rlf_result time_bodies(const bench_options *o, int32_t count, bool is_loo
         return result;
     }
     memset(out, 0, sizeof(*out));
-    for (int i = 0; i < 2 * (WARM_UP + FRAMES) && result == RLF_OK && !command_interrupted; i++) {
+    int first = is_loop ? LOOP_FROM : WARM_UP, end = is_loop ? LOOP_TO : 2 * (WARM_UP + FRAMES);
+    for (int i = 0; i < end && result == RLF_OK && !command_interrupted; i++) {
         rlf_pipeline_output frame;
         result = rlf_pipeline_step(s.pipeline, &frame);
-        if (result == RLF_OK && i >= WARM_UP) {
+        if (result == RLF_OK && i >= first) {
             const rlf_stage_times *ms = &frame.times;
             double others = ms->capture_ms + ms->surface_ms + ms->render_ms;
             timing_add(out, ms->physics_ms + (is_loop ? others : 0.0));
