@@ -8,6 +8,7 @@
  * residual (Cauchy). A light's direction is known only when the pairs tell something about every
  * axis; what was given counts as a few of them. */
 #include "light_direction.h"
+#include "render/srgb.h"
 
 #define STEP 4            /* pixels between points, both ways */
 #define SPANS 3           /* pairs are so many times STEP 1, 2, 4, .. apart */
@@ -39,13 +40,6 @@ typedef struct picture {
     rlf_pose T_color_depth;
 } picture;
 
-/* sRGB's curve as a polynomial, 0..1. */
-static float to_linear(uint8_t code)
-{
-    float c = (float)code * (1.0f / 255.0f);
-    return c * (c * (c * 0.305306011f + 0.682171111f) + 0.012522878f);
-}
-
 /* Sets light to 0 where there is no normal or no colour to trust. */
 static void read_point(const picture *p, int32_t x, int32_t y, point *out)
 {
@@ -68,11 +62,11 @@ static void read_point(const picture *p, int32_t x, int32_t y, point *out)
         if (color[k] < DARKEST || color[k] > BRIGHTEST) {
             return;
         }
-        sum += to_linear(color[k]);
+        sum += srgb_to_linear(color[k]);
     }
     out->light = sum * (1.0f / 3.0f);
-    out->red = to_linear(color[0]) / sum;
-    out->green = to_linear(color[1]) / sum;
+    out->red = srgb_to_linear(color[0]) / sum;
+    out->green = srgb_to_linear(color[1]) / sum;
 }
 
 static float magnitude(float x)

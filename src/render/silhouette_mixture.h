@@ -4,9 +4,7 @@
 #ifndef RLF_RENDER_SILHOUETTE_MIXTURE_H
 #define RLF_RENDER_SILHOUETTE_MIXTURE_H
 
-#include "kernel/kernel.h"
-
-#include <stdint.h>
+#include "render/srgb.h"
 
 #define MIXTURE_NOISE 36.0f /* variance of a channel, sRGB steps squared */
 #define MIXTURE_OFF_LINE                                                                           \
@@ -19,13 +17,6 @@ typedef struct silhouette_mixture {
     float weight;                      /* of what the colours say, 0..1 */
 } silhouette_mixture;
 
-/* sRGB's curve as a polynomial, 0..1. */
-RLF_KERNEL_PART float silhouette_to_linear(uint8_t code)
-{
-    float c = (float)code * (1.0f / 255.0f);
-    return c * (c * (c * 0.305306011f + 0.682171111f) + 0.012522878f);
-}
-
 /* Of the RGB of two unmixed pixels on each side, the nearer to the edge first. */
 RLF_KERNEL_PART silhouette_mixture silhouette_mix(const uint8_t *const near_side[2],
                                                   const uint8_t *const far_side[2])
@@ -33,10 +24,10 @@ RLF_KERNEL_PART silhouette_mixture silhouette_mix(const uint8_t *const near_side
     silhouette_mixture m = {.weight = 0.0f};
     float codes = 0.0f;
     for (int k = 0; k < 3; k++) {
-        float near_light = 0.75f * silhouette_to_linear(near_side[0][k]) +
-                           0.25f * silhouette_to_linear(near_side[1][k]);
-        m.far_light[k] = 0.75f * silhouette_to_linear(far_side[0][k]) +
-                         0.25f * silhouette_to_linear(far_side[1][k]);
+        float near_light =
+            0.75f * srgb_to_linear(near_side[0][k]) + 0.25f * srgb_to_linear(near_side[1][k]);
+        m.far_light[k] =
+            0.75f * srgb_to_linear(far_side[0][k]) + 0.25f * srgb_to_linear(far_side[1][k]);
         m.difference[k] = near_light - m.far_light[k];
         m.square += m.difference[k] * m.difference[k];
         float off = (float)(near_side[0][k] - far_side[0][k]);
@@ -56,7 +47,7 @@ RLF_KERNEL_PART float silhouette_share(const silhouette_mixture *m, const uint8_
     float along = 0.0f;
     float length = 0.0f;
     for (int k = 0; k < 3; k++) {
-        float from_far = silhouette_to_linear(c[k]) - m->far_light[k];
+        float from_far = srgb_to_linear(c[k]) - m->far_light[k];
         along += from_far * m->difference[k];
         length += from_far * from_far;
     }

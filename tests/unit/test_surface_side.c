@@ -104,15 +104,14 @@ static score judge(seen_view *f)
     return result;
 }
 
-/* At eight places between two pixels' columns. */
-static void the_side_of_a_post_is_a_face(void **state)
+/* A post before the wall, at eight places between two pixels' columns. */
+static score judge_posts(seen_view *f, double width, double far)
 {
-    seen_view *f = *state;
     score all = {0};
     for (int k = 0; k < 8; k++) {
         double right = -0.95 + 0.0012 * k;
         set_wall(f);
-        add_block(f, (block){right - 0.05, right, 3.2, 3.26});
+        add_block(f, (block){right - width, right, 3.2, far});
         score s = judge(f);
         all.side += s.side;
         all.side_wrong += s.side_wrong;
@@ -121,6 +120,12 @@ static void the_side_of_a_post_is_a_face(void **state)
     }
     print_message("side %d of %d wrong, front %d of %d\n", all.side_wrong, all.side,
                   all.front_wrong, all.front);
+    return all;
+}
+
+static void the_side_of_a_post_is_a_face(void **state)
+{
+    score all = judge_posts(*state, 0.05, 3.26);
     assert_true(all.side > 8 * (HEIGHT - 24));
     assert_true(100 * all.side_wrong <= 12 * all.side);
     assert_true(100 * all.front_wrong <= 2 * all.front);
@@ -129,20 +134,7 @@ static void the_side_of_a_post_is_a_face(void **state)
 /* A pixel of it, which the sensor drops in every frame. */
 static void a_narrow_post_is_as_deep_as_it_is_wide(void **state)
 {
-    seen_view *f = *state;
-    score all = {0};
-    for (int k = 0; k < 8; k++) {
-        double right = -0.95 + 0.0012 * k;
-        set_wall(f);
-        add_block(f, (block){right - 0.045, right, 3.2, 3.235});
-        score s = judge(f);
-        all.side += s.side;
-        all.side_wrong += s.side_wrong;
-        all.front += s.front;
-        all.front_wrong += s.front_wrong;
-    }
-    print_message("side %d of %d wrong, front %d of %d\n", all.side_wrong, all.side,
-                  all.front_wrong, all.front);
+    score all = judge_posts(*state, 0.045, 3.235);
     assert_true(all.side > 6 * (HEIGHT - 24) && all.side <= 9 * (HEIGHT - 24));
     assert_true(10 * all.side_wrong <= all.side);
     assert_true(10 * all.front_wrong <= all.front);
