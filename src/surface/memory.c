@@ -169,6 +169,11 @@ static void take_steady(rlf_reconstruct *stage)
         stage->steady.frames = take(stage, (size_t)stage->grid.count, sizeof(float));
         stage->steady.calm = take(stage, (size_t)stage->grid.count, 1);
     }
+    if (rlf_settle_is_wanted(&stage->def)) {
+        stage->steady.settled = take(stage, (size_t)stage->grid.count, sizeof(rlf_settled));
+        stage->steady.mark = take(stage, (size_t)stage->grid.count, 1);
+        stage->steady.overruled = take(stage, (size_t)stage->grid.count, 1);
+    }
 }
 
 bool rlf_stage_allocate(rlf_reconstruct *stage)

@@ -27,6 +27,7 @@ typedef struct crease_job {
     const float *mean, *frames; /* of inverse depth over time; NULL = not kept */
     float *const *normal;
     uint8_t *bent; /* plane of RLF_BEND_; pixels where it is 0 are only read */
+    const rlf_reconstruct *stage;
     rlf_kernel_noise noise;
 } crease_job;
 
@@ -61,6 +62,9 @@ static void mark_rows(void *context, int32_t begin, int32_t end, int32_t worker)
             rows[k] = row_at(job, (inside ? row : y) * width);
         }
         rlf_kernel_bend_row(rows, job->width, job->bent + y * width);
+        if (job->stage->steady.settled != NULL) {
+            rlf_settle_watch(job->stage, y * width, job->bent + y * width, job->width);
+        }
     }
 }
 
@@ -203,6 +207,7 @@ void rlf_normals_crease(const rlf_reconstruct *stage, const rlf_slot *slot)
                       .frames = stage->steady.frames,
                       .normal = slot->normal,
                       .bent = stage->work.mask[1],
+                      .stage = stage,
                       .noise = rlf_kernel_noise_make(&stage->def.rig.noise)};
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, mark_rows, &job);
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, sharpen_rows, &job);

@@ -192,7 +192,10 @@ static void make_normals(rlf_reconstruct *stage, rlf_slot *slot)
     rlf_normals_job job = rlf_normals_job_make(stage, slot->depth, slot->normal);
     bool exact = stage->def.normal_method == RLF_NORMALS_INVERSE_DEPTH;
     if (exact && stage->def.enable_smoothing && job.face_camera) {
-        return; /* made with the depth */
+        if (stage->steady.settled != NULL) {
+            rlf_settle_normals(stage, slot);
+        }
+        return; /* the rest was made with the depth */
     }
     if (stage->def.enable_fill &&
         exact) { /* what was filled must not shape the normals of what was seen */

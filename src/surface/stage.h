@@ -89,9 +89,19 @@ typedef struct rlf_background {
     int32_t other_frames; /* ADAPTIVE: frames in a row that showed another room */
 } rlf_background;
 
+/* The normal that most frames agree on at a pixel that is watched: see settle.c. */
+typedef struct rlf_settled {
+    float normal[3], depth;
+    float own[3];  /* what the newest frame found where it was overruled */
+    int32_t votes; /* 0 = no normal yet */
+} rlf_settled;
+
 /* Means of inverse depth over time; NULL planes when they are not wanted. */
 typedef struct rlf_steady {
     float *mean, *frames;
+    rlf_settled *settled; /* plane; NULL when normals at edges are not wanted */
+    uint8_t *mark;        /* plane: not 0 where one is watched, see settle.c */
+    uint8_t *overruled;   /* plane: 1 where the newest frame's normal is another */
     uint8_t *calm; /* per block of RLF_HOLD_BLOCK pixels, frames since something moved there */
     int32_t age;   /* frames that were averaged, up to 255 */
 } rlf_steady;

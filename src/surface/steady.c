@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-static const float most_frames = 32.0f;
+static const float most_frames = 16.0f;
 
 typedef struct steady_job {
     const rlf_reconstruct *stage;
@@ -35,6 +35,9 @@ static void lag_rows(void *context, int32_t begin, int32_t end, int32_t worker)
                 row;
         }
         rlf_kernel_lag_row(noise, &in, grid->width, job->lag + row);
+        if (stage->steady.settled != NULL) {
+            rlf_settle_lags(stage, row, &in, job->lag + row);
+        }
     }
 }
 
@@ -71,5 +74,10 @@ void rlf_steady_reset(rlf_steady *steady, int32_t count)
         memset(steady->mean, 0, (size_t)count * sizeof *steady->mean);
         memset(steady->calm, RLF_HOLD_CALM, (size_t)count); /* until something moves */
         steady->age = 0;
+    }
+    if (steady->settled != NULL) {
+        memset(steady->settled, 0, (size_t)count * sizeof *steady->settled);
+        memset(steady->mark, 0, (size_t)count);
+        memset(steady->overruled, 0, (size_t)count);
     }
 }

@@ -31,6 +31,18 @@ void rlf_hold_recall(const rlf_reconstruct *stage, const float *raw, float *dept
 void rlf_steady_update(const rlf_reconstruct *stage, float *depth, const uint8_t *reason);
 void rlf_steady_reset(rlf_steady *steady, int32_t count);
 
+/* ---- settle.c; what follows is not called when steady.settled is NULL ---- */
+bool rlf_settle_is_wanted(const rlf_reconstruct_def *def);
+/* Normals of the background's watched pixels become those that most frames agree on. After
+ * rlf_background_update. */
+void rlf_settle_normals(const rlf_reconstruct *stage, const rlf_slot *slot);
+/* Watches the pixels from `first` on whose mark is not 0. */
+void rlf_settle_watch(const rlf_reconstruct *stage, ptrdiff_t first, const uint8_t *marks,
+                      int32_t count);
+/* Lags of a row by the normals that the frame before found itself, where they were overruled. */
+void rlf_settle_lags(const rlf_reconstruct *stage, ptrdiff_t row, const rlf_kernel_lag_in *in,
+                     int8_t *lag);
+
 /* ---- normals ---- */
 typedef struct rlf_normals_job {
     rlf_normal_method method;

@@ -1,0 +1,164 @@
+/* Normals at the creases of what stands still, over time: noise no longer turns them, what has
+ * changed is believed within a second, and what stands in front is never taken for what was there.
+ */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "seen_view.h"
+
+enum { WIDTH = 192, HEIGHT = 96, COUNT = WIDTH * HEIGHT, SETTLED = 48, SECOND = 40 };
+
+static rlf_vec3 normal[COUNT];
+static uint8_t face[COUNT];
+
+static int set_up(void **state)
+{
+    static seen_view view;
+    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rig.depth.fx = rig.depth.fy = 365.5;
+    seen_view_create(&view, rig, 23);
+    *state = &view;
+    return 0;
+}
+
+/* A side face at x = `edge` that meets a wall in a corner and ends nearer, at another wall. */
+static void set_corner(seen_view *v, double edge)
+{
+    for (int i = 0; i < COUNT; i++) {
+        double at_side = edge / rlf_max(v->ray_x[i], 0.01);
+        face[i] = at_side < 3.9 && at_side > 3.6;
+        v->truth[i] = (float)rlf_max(rlf_min(at_side, 3.9), 3.6);
+        normal[i] = face[i] ? rlf_vec3_make(-1, 0, 0) : rlf_vec3_make(0, 0, -1);
+    }
+}
+
+static const rlf_surface *take_frame(seen_view *v, rlf_reconstruct *stage, int32_t number)
+{
+    for (int i = 0; i < COUNT; i++) {
+        v->seen[i] = seen_view_noisy(v, v->truth[i]);
+    }
+    return seen_view_process(v, stage, number);
+}
+
+static bool is_at_crease(int i)
+{
+    int32_t x = i % WIDTH, y = i / WIDTH;
+    bool inside = x >= 8 && y >= 8 && x < WIDTH - 8 && y < HEIGHT - 8;
+    return inside && (face[i] != face[i - 2] || face[i] != face[i + 2]);
+}
+
+static rlf_vec3 normal_at(const rlf_surface *s, int i)
+{
+    return rlf_vec3_make(s->normal_x[i], s->normal_y[i], s->normal_z[i]);
+}
+
+typedef struct score {
+    int count, wrong, turned; /* turned: by more than 30 degrees since the frame before */
+} score;
+
+static void judge(const rlf_surface *s, rlf_vec3 before[COUNT], score *to)
+{
+    for (int i = 0; i < COUNT; i++) {
+        rlf_vec3 n = normal_at(s, i);
+        if (is_at_crease(i)) {
+            to->count++;
+            to->wrong += angle_deg(n, normal[i]) > 30.0;
+            to->turned += angle_deg(n, before[i]) > 30.0;
+        }
+        before[i] = n;
+    }
+}
+
+static score watch(seen_view *v, rlf_reconstruct *stage, int32_t first)
+{
+    static rlf_vec3 before[COUNT];
+    score ignored = {0, 0, 0}, result = {0, 0, 0};
+    judge(take_frame(v, stage, first), before, &ignored);
+    for (int32_t k = 1; k < 16; k++) {
+        judge(take_frame(v, stage, first + k), before, &result);
+    }
+    return result;
+}
+
+static rlf_reconstruct *settle(seen_view *v)
+{
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &v->rig);
+    rlf_reconstruct *stage = seen_view_stage(&def);
+    for (int32_t k = 0; k < SETTLED; k++) {
+        (void)take_frame(v, stage, k);
+    }
+    return stage;
+}
+
+static void noise_does_not_turn_normals(void **state)
+{
+    seen_view *v = *state;
+    score all = {0, 0, 0};
+    for (int k = 0; k < 6; k++) {
+        set_corner(v, 0.8 + 0.002 * k);
+        rlf_reconstruct *stage = settle(v);
+        score s = watch(v, stage, SETTLED);
+        all.count += s.count;
+        all.wrong += s.wrong;
+        all.turned += s.turned;
+        rlf_reconstruct_destroy(&stage);
+    }
+    print_message("%d of %d wrong, %d turned\n", all.wrong, all.count, all.turned);
+    assert_true(all.count > 10000);
+    assert_true(30 * all.wrong < all.count);
+    assert_true(1000 * all.turned < all.count);
+}
+
+/* A corner is three pixels off its place, nearer than a jump of depth: soon it is as right as one
+ * that was there from the start. */
+static void what_has_changed_is_believed(void **state)
+{
+    seen_view *v = *state;
+    set_corner(v, 0.83);
+    rlf_reconstruct *fresh = settle(v);
+    score there = watch(v, fresh, SETTLED);
+    rlf_reconstruct_destroy(&fresh);
+    set_corner(v, 0.8);
+    rlf_reconstruct *stage = settle(v);
+    set_corner(v, 0.83);
+    for (int32_t k = 0; k < SECOND; k++) {
+        (void)take_frame(v, stage, SETTLED + k);
+    }
+    score moved = watch(v, stage, SETTLED + SECOND);
+    rlf_reconstruct_destroy(&stage);
+    print_message("%d of %d wrong, %d where it was there before\n", moved.wrong, moved.count,
+                  there.wrong);
+    assert_true(50 * moved.wrong < 50 * there.wrong + moved.count);
+}
+
+static void what_stands_in_front_has_its_own(void **state)
+{
+    seen_view *v = *state;
+    set_corner(v, 0.8);
+    rlf_reconstruct *stage = settle(v);
+    const rlf_vec3 board = rlf_normalize(rlf_vec3_make(0.0, 0.4, -1.0));
+    for (int i = 24 * WIDTH; i < 72 * WIDTH; i++) { /* from side to side, leaning */
+        v->truth[i] = (float)plane_depth(board, 2.5 * board.z, v->ray_x[i], v->ray_y[i]);
+    }
+    const rlf_surface *s = take_frame(v, stage, SETTLED);
+    int wrong = 0;
+    for (int i = 30 * WIDTH; i < 66 * WIDTH; i++) {
+        wrong += angle_deg(normal_at(s, i), board) > 15.0;
+    }
+    assert_int_equal(wrong, 0);
+    rlf_reconstruct_destroy(&stage);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(noise_does_not_turn_normals),
+        cmocka_unit_test(what_has_changed_is_believed),
+        cmocka_unit_test(what_stands_in_front_has_its_own),
+    };
+    return cmocka_run_group_tests(tests, set_up, seen_view_destroy);
+}
