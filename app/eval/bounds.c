@@ -57,7 +57,7 @@ const eval_bound eval_bounds[] = {
     {"chair", "entries", '<', 0, 2, "", ""},
     {"book", "foreground_f", '>', 0.985, 0.985, "", ""},
     {"book", "exit_mean_cm", '<', 1.5, 2.2, "", ""},
-    {"book", "book_exit_mean_cm", '<', 1.5, 3.9, "", ""},
+    {"book", "book_exit_mean_cm", '<', 1.5, 1.5, "", ""},
     {"book", "entries", '<', 0, 2, "", ""},
     {"hand", "foreground_f", '>', 0.985, 0.985, "", ""},
     {"hand", "exit_mean_cm", '<', 1.5, 1.5, "", ""},

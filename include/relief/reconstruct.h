@@ -79,7 +79,8 @@ typedef struct rlf_reconstruct_def {
     bool enable_velocity;     /* live: true: normal velocity from depth change along the ray */
     bool enable_thickness;    /* live: true: the back that the front's own curvature shows */
     bool enable_coast; /* live: true, needs velocity, thickness: thin things go on for 0.3 s where a
-                          gap hides them, and keep the depth that was seen before they turned */
+                          gap hides them, and keep the depth that was seen before they turned; flat
+                          ones, a book in a hand, are followed as boxes (Harris 1990) */
 
     rlf_pool *pool; /* borrowed; NULL = one thread; a grid below 8192 pixels has one anyway */
 } rlf_reconstruct_def;

@@ -1,5 +1,6 @@
 /* The surface stage: one frame through all steps into the next slot of the ring. */
 #include "surface/past.h"
+#include "surface/plate.h"
 #include "surface/steps.h"
 
 #include "base/cookie.h"
@@ -68,6 +69,7 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
     rlf_steady_reset(&stage->steady, stage->grid.count);
     stage->family.count = 0;
     rlf_past_reset(&stage->past, &stage->grid);
+    stage->plates = (rlf_plates){.count = 0};
     stage->previous = NULL;
 }
 
@@ -142,6 +144,7 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
         rlf_stage_add_time(stage, RLF_SURFACE_FLYING);
     }
     if (stage->past.points != NULL) {
+        rlf_plates_follow(stage, slot, kept);
         rlf_past_predict(stage, slot, kept);
     }
     if (stage->def.enable_hold && stage->def.enable_steadying) {
@@ -412,6 +415,8 @@ rlf_result rlf_reconstruct_process(rlf_reconstruct *stage, const rlf_frame *fram
         rlf_thickness_estimate(stage, slot);
         if (stage->past.points != NULL) {
             rlf_past_thicken(stage, slot);
+            rlf_plates_find(stage, slot);
+            rlf_plates_thicken(stage, slot);
         }
         rlf_stage_add_time(stage, RLF_SURFACE_THICKNESS);
     }

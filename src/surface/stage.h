@@ -153,6 +153,24 @@ typedef struct rlf_past {
     int32_t *lost_from;  /* plane: its pixel in the frame before */
 } rlf_past;
 
+/* A thin flat thing that moves, as a box: see plate.h. */
+typedef struct rlf_plate {
+    rlf_pose pose;                  /* T_camera_plate; its face is square to z */
+    double half[3];                 /* half its extents, metres */
+    rlf_vec3 speed, spin;           /* m/s, rad/s */
+    double doubt[9][9];             /* covariance of the pose's place and rotation and of `half` */
+    double age_s, lost_s, passed_s; /* since it was found; since it was seen; how
+                                       long the camera has seen past it */
+} rlf_plate;
+
+enum { RLF_PLATES = 4 };
+
+typedef struct rlf_plates {
+    rlf_plate item[RLF_PLATES];
+    int32_t count;
+    int32_t frame; /* of some, see plate_find.c */
+} rlf_plates;
+
 /* Memory that is free between steps. */
 typedef struct rlf_work {
     float *depth[2];    /* planes; these, sum and component have room for RLF_CHORD_PAD */
@@ -193,6 +211,7 @@ struct rlf_reconstruct {
     rlf_steady steady;
     rlf_family family; /* of the foreground */
     rlf_past past;     /* of the foreground */
+    rlf_plates plates; /* of the foreground */
     rlf_work work;
     bool has_color;      /* work.color holds the frame's */
     bool has_components; /* work.runs holds the front sheet's, so many: */

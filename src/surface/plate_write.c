@@ -1,0 +1,52 @@
+/* How thick plates are where they are seen. */
+#include "surface/plate.h"
+
+static const double thing_m = 0.03;
+static const double least_m = 0.02; /* as of all else: thickness.c */
+
+/* The cut of the pixel's ray, or of the nearest one about it that meets the plate. */
+static bool cut_near(const rlf_grid *grid, const rlf_plate_view *view, int32_t x, int32_t y,
+                     rlf_plate_cut *out)
+{
+    static const int32_t about[9][2] = {{0, 0}, {1, 0},   {-1, 0}, {0, 1}, {0, -1},
+                                        {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
+    for (int32_t k = 0; k < 9; k++) {
+        int32_t u = x + about[k][0], v = y + about[k][1];
+        ptrdiff_t i = (ptrdiff_t)v * grid->width + u;
+        bool is_inside = u >= 0 && v >= 0 && u < grid->width && v < grid->height;
+        if (is_inside && rlf_plate_cut_ray(view, grid->ray_x[i], grid->ray_y[i], out)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void thicken_pixel(const rlf_reconstruct *stage, const rlf_plate_view *view, int32_t x,
+                          int32_t y, rlf_slot *slot)
+{
+    const rlf_grid *grid = &stage->grid;
+    ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+    double z = slot->depth[i], behind = stage->background.mean[i];
+    rlf_plate_cut cut;
+    rlf_vec3 p = rlf_vec3_make(z * grid->ray_x[i], z * grid->ray_y[i], z);
+    if (slot->foreground[i] == 0 || !(z > 0.0) || rlf_plate_distance(view, p) > thing_m ||
+        !cut_near(grid, view, x, y, &cut)) {
+        return;
+    }
+    double thickness = rlf_max(cut.leave - z, least_m);
+    slot->thickness[i] =
+        (float)(behind > 0.0 && z + thickness > behind ? rlf_max(behind - z, 0.0) : thickness);
+}
+
+void rlf_plates_thicken(const rlf_reconstruct *stage, rlf_slot *slot)
+{
+    for (int32_t k = 0; k < stage->plates.count; k++) {
+        const rlf_plate_view view = rlf_plate_look(&stage->plates.item[k]);
+        rlf_plate_window w = rlf_plate_window_of(&stage->grid, &view, 1);
+        for (int32_t y = w.y0; y < w.y1; y++) {
+            for (int32_t x = w.x0; x < w.x1; x++) {
+                thicken_pixel(stage, &view, x, y, slot);
+            }
+        }
+    }
+}

@@ -1,0 +1,196 @@
+/* Plates of three sizes on a stick, carried past the camera as they turn edge-on, beyond, and back:
+ * what their faces showed says where a ray leaves them when only the edge is seen. And a barrel,
+ * which is no plate. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "analytic.h"
+
+#include <math.h>
+
+enum { WIDTH = 512, HEIGHT = 200, COUNT = WIDTH * HEIGHT, BAND = 2, EMPTY_FRAMES = 8 };
+
+static const double wall_z = 4.0, middle_z = 2.6, stick_m = 0.02;
+
+typedef struct fixture {
+    rlf_rig rig;
+    float truth[COUNT], back[COUNT], seen[COUNT]; /* back: where the ray leaves the plate, or 0 */
+    analytic_random random;
+    rlf_reconstruct *stage;
+} fixture;
+
+static int make_fixture(void **state)
+{
+    static fixture f;
+    f.rig = analytic_rig(WIDTH, HEIGHT);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f.rig);
+    *state = &f;
+    return rlf_reconstruct_create(&def, &f.stage) == RLF_OK ? 0 : -1;
+}
+
+static int free_fixture(void **state)
+{
+    rlf_reconstruct_destroy(&((fixture *)*state)->stage);
+    return 0;
+}
+
+/* Half extents along the view, down and across when it is edge-on, and where it is. */
+typedef struct plate {
+    double half[3];
+    double x, turn; /* metres, radians from edge-on */
+} plate;
+
+/* Where the ray (u, v, 1) enters and leaves it; false when it misses. */
+static bool cut(const plate *p, double u, double v, double out[2])
+{
+    double c = rlf_cos(p->turn), s = rlf_sin(p->turn);
+    const double from[3] = {-p->x * s - middle_z * c, 0.0, -p->x * c + middle_z * s};
+    const double way[3] = {u * s + c, v, u * c - s};
+    out[0] = 0.0;
+    out[1] = 1e9;
+    for (int k = 0; k < 3; k++) {
+        double slope = fabs(way[k]) < 1e-9 ? 1e-9 : way[k];
+        double a = (-p->half[k] - from[k]) / slope, b = (p->half[k] - from[k]) / slope;
+        out[0] = fmax(out[0], fmin(a, b));
+        out[1] = fmin(out[1], fmax(a, b));
+    }
+    return out[0] < out[1];
+}
+
+/* A wall, the stick under the plate, and the plate, if any. */
+static void draw(fixture *f, const plate *p)
+{
+    const rlf_camera *c = &f->rig.depth;
+    for (int32_t i = 0; i < COUNT; i++) {
+        double u = (i % WIDTH - c->cx) / c->fx, v = (i / WIDTH - c->cy) / c->fy, z[2];
+        bool is_plate = p != NULL && cut(p, u, v, z);
+        f->truth[i] = (float)(is_plate ? z[0] : wall_z);
+        f->back[i] = (float)(is_plate ? z[1] : 0.0);
+        if (p != NULL && v * middle_z >= p->half[1] && fabs(u * middle_z - p->x) < stick_m) {
+            f->truth[i] = (float)middle_z;
+        }
+    }
+}
+
+static bool is_at_step(const fixture *f, int32_t i)
+{
+    int32_t x = i % WIDTH, y = i / WIDTH;
+    for (int32_t dy = -BAND; dy <= BAND; dy++) {
+        for (int32_t dx = -BAND; dx <= BAND; dx++) {
+            bool is_inside = x + dx >= 0 && x + dx < WIDTH && y + dy >= 0 && y + dy < HEIGHT;
+            if (is_inside && fabsf(f->truth[i + dy * WIDTH + dx] - f->truth[i]) > 0.2f) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/* As the sensor shows it: noise, and no depth beside steps. */
+static const rlf_surface *process(fixture *f, int32_t number)
+{
+    for (int32_t i = 0; i < COUNT; i++) {
+        double sigma = rlf_depth_noise_sigma(&f->rig.noise, f->truth[i]);
+        float noisy = f->truth[i] + (float)(sigma * random_normal(&f->random));
+        f->seen[i] = is_at_step(f, i) ? 0.0f : noisy;
+    }
+    rlf_frame frame = analytic_frame(&f->rig, f->seen, number);
+    const rlf_surface *s = NULL;
+    assert_int_equal(rlf_reconstruct_process(f->stage, &frame, &s), RLF_OK);
+    return s;
+}
+
+static void start(fixture *f)
+{
+    f->random = (analytic_random){7};
+    rlf_reconstruct_reset(f->stage);
+    draw(f, NULL);
+    for (int32_t t = 0; t < EMPTY_FRAMES; t++) {
+        process(f, t);
+    }
+}
+
+/* Metres, mean over the pixels of the plate that are known. */
+static double back_error(const fixture *f, const rlf_surface *s, int32_t *count)
+{
+    double sum = 0.0;
+    for (int32_t i = 0; i < COUNT; i++) {
+        if (f->back[i] > 0.0f && s->foreground[i] != 0 && s->depth[i] < 3.5f) {
+            sum += fabs((double)(s->depth[i] + s->thickness[i] - f->back[i]));
+            (*count)++;
+        }
+    }
+    return sum;
+}
+
+/* It turns from `from` to -from degrees and back while it is carried along. */
+static double error_edge_on(fixture *f, const double half[3], double from_deg)
+{
+    const int32_t FRAMES = 90;
+    const double edge_on = 12.0 * RLF_PI / 180.0;
+    double sum = 0.0;
+    int32_t count = 0;
+    start(f);
+    for (int32_t t = 0; t < FRAMES; t++) {
+        double phase = 2.0 * RLF_PI * t / FRAMES;
+        plate p = {.half = {half[0], half[1], half[2]}, .x = 0.15 * rlf_sin(phase)};
+        double sight = rlf_atan2(p.x, middle_z); /* of its own */
+        p.turn = from_deg * RLF_PI / 180.0 * rlf_cos(phase);
+        draw(f, &p);
+        const rlf_surface *s = process(f, EMPTY_FRAMES + t);
+        if (t > FRAMES / 8 && fabs(p.turn - sight) < edge_on) {
+            sum += back_error(f, s, &count);
+        }
+    }
+    assert_true(count > 500);
+    return sum / count;
+}
+
+static void a_plate_edge_on_is_as_deep_as_its_face_was_wide(void **state)
+{
+    static const double halves[3][3] = {
+        {0.085, 0.120, 0.0125}, {0.150, 0.100, 0.006}, {0.060, 0.080, 0.015}};
+    for (int k = 0; k < 3; k++) {
+        double error = error_edge_on(*state, halves[k], k == 1 ? 40.0 : 50.0);
+        print_message("plate %d: %.1f cm\n", k, 100.0 * error);
+        assert_true(error < 0.25 * halves[k][0]);
+    }
+}
+
+/* An upright barrel has a front as wide as a book and no outline of its own there. */
+static void a_barrel_is_no_plate(void **state)
+{
+    const double radius = 0.16, half_height = 0.2;
+    fixture *f = *state;
+    const rlf_camera *c = &f->rig.depth;
+    double sum = 0.0;
+    int32_t count = 0;
+    start(f);
+    for (int32_t t = 0; t < 30; t++) {
+        double x = 0.3 - 0.02 * t;
+        for (int32_t i = 0; i < COUNT; i++) {
+            double u = (i % WIDTH - c->cx) / c->fx, v = (i / WIDTH - c->cy) / c->fy;
+            double b = u * x + middle_z, a = u * u + 1.0;
+            double root = b * b - a * (x * x + middle_z * middle_z - radius * radius);
+            bool is_barrel = root > 0.0 && fabs(v) * middle_z < half_height;
+            f->truth[i] = (float)(is_barrel ? (b - sqrt(root)) / a : wall_z);
+            f->back[i] = (float)(is_barrel ? (b + sqrt(root)) / a : 0.0);
+        }
+        sum += back_error(f, process(f, EMPTY_FRAMES + t), &count);
+    }
+    print_message("barrel: %.1f cm\n", 100.0 * sum / count);
+    assert_true(sum / count < 0.08); /* a plate would be 20 off */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_plate_edge_on_is_as_deep_as_its_face_was_wide),
+        cmocka_unit_test(a_barrel_is_no_plate),
+    };
+    return cmocka_run_group_tests(tests, make_fixture, free_fixture);
+}
