@@ -10,7 +10,7 @@ NEVER = 1e7  # a mean beyond it is of something that did not happen
 class Data:
     def __init__(self, folder):
         self.folder = folder
-        for name in ("eval", "bench", "table", "render", "physics", "engines"):
+        for name in ("eval", "bench", "table", "render", "physics", "crowd", "engines"):
             setattr(self, name, self._json(name + ".json"))
         self.noise = [self._json(name) for name in sorted(os.listdir(folder))
                       if name.startswith("noise") and name.endswith(".json")]

@@ -119,13 +119,59 @@ typedef struct impact_point {
     phys_point *near;
     double target, approach; /* m/s along the normal */
     impact_row rows[3];
+    rlf_mat3 mass; /* the impulses along the rows that change the speeds along them by 1 each */
+    bool has_mass;
 } impact_point;
 
-/* One pass: the normal's row, then friction within the cone that its impulse allows. Returns the
- * largest change of speed, m/s. */
+/* How much the point's velocity changes by a unit impulse along the row. */
+static rlf_vec3 answer_of(const impact_row *row, const phys_point *p, const phys_sides *s)
+{
+    rlf_vec3 v = rlf_scale(row->direction, s->mobility_a + s->mobility_b);
+    v = rlf_add(v, rlf_cross(row->spin_a, p->r_a));
+    return s->mobility_b > 0.0 ? rlf_add(v, rlf_cross(row->spin_b, p->r_b)) : v;
+}
+
+static void find_mass(impact_point *p, const phys_sides *s)
+{
+    rlf_mat3 mobility;
+    for (int32_t k = 0; k < 3; k++) {
+        rlf_vec3 v = answer_of(&p->rows[k], p->near, s);
+        for (int32_t i = 0; i < 3; i++) {
+            mobility.m[i][k] = rlf_dot(p->rows[i].direction, v);
+        }
+    }
+    p->has_mass = rlf_mat3_invert(&mobility, &p->mass);
+}
+
+/* The impulses that stop the point in all three directions at once, where friction holds it.
+ * Returns whether it does, and then the largest change of speed, m/s. */
+static bool hold_point(impact_point *p, double friction, phys_sides *s, bool has_b, double *change)
+{
+    impact_row *rows = p->rows;
+    rlf_vec3 v = relative_velocity(p->near, s, has_b);
+    rlf_vec3 lack = {p->target - rlf_dot(rows[0].direction, v), -rlf_dot(rows[1].direction, v),
+                     -rlf_dot(rows[2].direction, v)};
+    rlf_vec3 j = rlf_mat3_mul_vec(&p->mass, lack);
+    j = rlf_add(j, rlf_vec3_make(rows[0].impulse, rows[1].impulse, rows[2].impulse));
+    double limit = friction * j.x;
+    if (!p->has_mass || !(j.x >= 0.0) || j.y * j.y + j.z * j.z > limit * limit) {
+        return false;
+    }
+    *change = row_push(&rows[0], s, j.x);
+    *change = rlf_max(*change, row_push(&rows[1], s, j.y));
+    *change = rlf_max(*change, row_push(&rows[2], s, j.z));
+    return true;
+}
+
+/* One pass: where friction does not hold it the normal's row, then friction within the cone that
+ * its impulse allows. Returns the largest change of speed, m/s. */
 static double solve_point(impact_point *p, double friction, phys_sides *s, bool has_b)
 {
     impact_row *rows = p->rows;
+    double held;
+    if (hold_point(p, friction, s, has_b, &held)) {
+        return held;
+    }
     double v = rlf_dot(rows[0].direction, relative_velocity(p->near, s, has_b));
     double blow = rlf_max(0.0, rows[0].impulse + rows[0].mass * (p->target - v));
     double most = row_push(&rows[0], s, blow);
@@ -157,6 +203,7 @@ static int32_t list_points(const phys_group *g, const phys_sides *s, double t, i
         p->rows[0] = row_make(near, g, s, near->normal);
         p->rows[1] = row_make(near, g, s, tangent);
         p->rows[2] = row_make(near, g, s, rlf_cross(near->normal, tangent));
+        find_mass(p, s);
     }
     return count;
 }
