@@ -12,9 +12,12 @@ static const float pooled_share = 0.6f; /* of the sums of a line a pixel away */
 static const float alike = 0.7f;        /* overlap of chords of one body on neighbouring lines */
 static const float straight_trust = 0.1f;
 static const float trusted_rest_m = 0.003f; /* what a conic may leave and still be trusted */
-/* A wide thing that is no conic, and no plate either, is seldom flatter than a trunk. */
-static const float usual_ratio = 0.7f, plate_ratio = 0.15f;
-static const float wide_m = 0.12f, unlike_conic_m = 0.005f;
+/* A wide thing that is no conic, and no plate either, is seldom flatter than a trunk, and what is
+ * as wide as trunk and arms together is as deep as a trunk is: chest, waist and buttocks are 23 to
+ * 25 cm deep on average, by both sexes' means in ANSUR II (Gordon et al. 2014, Natick/TR-15/007).
+ */
+static const float usual_ratio = 0.7f, plate_ratio = 0.15f, trunk_depth_m = 0.25f;
+static const float wide_m = 0.12f, trunk_and_arms_m = 0.3f, unlike_conic_m = 0.003f;
 static const float covered_m = 0.085f;      /* half of an arm, and of its clothes */
 static const float middle_error_m = 0.006f; /* of a conic that leaves nothing */
 
@@ -112,10 +115,13 @@ static float left_over(const rlf_chord *c, const rlf_conic *f)
 /* The worse a conic fits, the more counts what bodies are usually like. */
 static void fatten(const rlf_chord *c, rlf_conic *f)
 {
-    bool is_wide = c->apex < c->begin && (c->end - c->begin) * c->metres > wide_m;
-    if (is_wide && f->ratio > plate_ratio && f->ratio < usual_ratio) {
+    float width = (c->end - c->begin) * c->metres;
+    bool is_broad = width > trunk_and_arms_m;
+    float usual = is_broad ? trunk_depth_m / width : usual_ratio;
+    bool is_conic = c->apex < c->begin && width > wide_m && f->ratio > plate_ratio;
+    if (is_conic && (f->ratio < usual || is_broad)) {
         float share = f->variance / (f->variance + unlike_conic_m * unlike_conic_m);
-        f->ratio += share * (usual_ratio - f->ratio);
+        f->ratio += share * (usual - f->ratio);
         f->variance = left_over(c, f);
     }
 }
