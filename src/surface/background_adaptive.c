@@ -178,7 +178,7 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot)
         rlf_parallel_for(def->pool, stage->grid.height, RLF_ROW_GRAIN, majority_rows, &job);
         rlf_background_restore(stage, slot);
     }
-    rlf_sheet_advance(stage);
+    rlf_sheet_advance(stage, slot);
     if (!learning) {
         find_front(stage, slot);
         rlf_background_absorb(stage, slot);

@@ -37,7 +37,7 @@ void rlf_background_average_update(rlf_reconstruct *stage, rlf_slot *slot)
         if (background->frames == stage->def.background_frames) {
             divide(background, count);
             background->state = RLF_BACKGROUND_READY;
-            rlf_sheet_publish(stage);
+            rlf_sheet_publish(stage, NULL);
         }
         return;
     }

@@ -6,6 +6,8 @@
  * means of what is new in it have got better. */
 #include "surface/steps.h"
 
+#include "kernel/kernel.h"
+
 #include <string.h>
 
 enum {
@@ -19,6 +21,9 @@ enum {
     FRAMES_LONG = 30,     /* after this many any change does */
     REFINED_FRAMES = 40   /* so many make a mean much better than the first few */
 };
+
+/* Cosine: the angle to another normal that is no noise. */
+static const float SHARP = 0.99f;
 
 typedef struct rectangle {
     int32_t x0, y0, x1, y1;
@@ -85,10 +90,55 @@ static void tile_is_made(rlf_background *background, int32_t tile, bool is_new)
         is_new ? REFINED_FRAMES : (is_waiting ? background->refresh[tile] : 0);
 }
 
+/* The sheet's depth of pixel i, as far as it is the model's still. */
+static bool is_of_model(const rlf_reconstruct *stage, const float *depth, int32_t i)
+{
+    float z = stage->background.mean[i];
+    float gate = rlf_background_gate(&stage->def, z);
+    return z > 0.0f && depth[i] > 0.0f && rlf_kernel_abs(depth[i] - z) <= gate;
+}
+
+/* Normal i of `from`, where it is known and another one than that of `to`. */
+static void take_normal(float *const from[3], int32_t i, float *const to[3])
+{
+    float cosine = 0.0f, size = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        cosine += from[k][i] * to[k][i];
+        size += from[k][i] * from[k][i];
+    }
+    for (int k = 0; k < 3 && size > 0.5f && cosine < SHARP; k++) {
+        to[k][i] = from[k][i];
+    }
+}
+
+/* What a frame knows of edges, the model's depth alone does not tell: creases are sharp there, and
+ * sides that nothing was seen of have their normals. A pixel whose normal there is another one
+ * takes it; one that something hides keeps what it had. */
+static void sharpen(const rlf_reconstruct *stage, const rlf_slot *slot, const rlf_sheet *old,
+                    rlf_sheet *sheet, rectangle r)
+{
+    const rlf_reconstruct_def *def = &stage->def;
+    if (slot == NULL || !def->enable_smoothing || !def->enable_edge_normals ||
+        def->normal_method != RLF_NORMALS_INVERSE_DEPTH || !def->normals_face_camera) {
+        return; /* the frame has no such normals, or not yet */
+    }
+    for (int32_t y = r.y0; y < r.y1; y++) {
+        for (int32_t x = r.x0; x < r.x1; x++) {
+            int32_t i = y * stage->grid.width + x;
+            bool is_seen = slot->foreground[i] == 0 && is_of_model(stage, slot->depth, i);
+            if (is_seen) {
+                take_normal(slot->normal, i, sheet->normal);
+            } else if (old != NULL && is_of_model(stage, old->depth, i)) {
+                take_normal(old->normal, i, sheet->normal);
+            }
+        }
+    }
+}
+
 /* A tile from the model; its normals are those of a part of the image that holds all they depend
  * on.
  */
-static void make_tile(rlf_reconstruct *stage, rlf_sheet *sheet, int32_t tile)
+static void make_tile(rlf_reconstruct *stage, const rlf_slot *slot, rlf_sheet *sheet, int32_t tile)
 {
     const rlf_grid *grid = &stage->grid;
     const rectangle r = tile_at(grid, tile), wide = widen(grid, r);
@@ -109,6 +159,7 @@ static void make_tile(rlf_reconstruct *stage, rlf_sheet *sheet, int32_t tile)
     for (int k = 0; k < 3; k++) {
         copy_part(r, crop[3 + k], wide.x0, wide.y0, width, sheet->normal[k], 0, 0, grid->width);
     }
+    sharpen(stage, slot, &stage->background.sheets[stage->background.newest], sheet, r);
     tile_is_made(&stage->background, tile, stage->background.changes[tile] >= CHANGES);
 }
 
@@ -150,13 +201,15 @@ static int32_t next_tile(const rlf_background *background, int32_t tiles)
     return best;
 }
 
-static void make_all(rlf_reconstruct *stage, rlf_sheet *sheet)
+static void make_all(rlf_reconstruct *stage, const rlf_slot *slot, rlf_sheet *sheet)
 {
     rlf_background *background = &stage->background;
     int32_t tiles = rlf_sheet_tiles(&stage->grid);
     memcpy(sheet->depth, background->mean, (size_t)stage->grid.count * sizeof *sheet->depth);
     rlf_normals_job normals = rlf_normals_job_make(stage, sheet->depth, sheet->normal);
     rlf_normals_compute(&normals);
+    const rectangle all = {0, 0, stage->grid.width, stage->grid.height};
+    sharpen(stage, slot, NULL, sheet, all);
     for (int32_t tile = 0; tile < tiles; tile++) {
         tile_is_made(background, tile, true);
     }
@@ -198,10 +251,10 @@ const rlf_sheet *rlf_sheet_newest(const rlf_reconstruct *stage)
     return none ? NULL : &background->sheets[background->newest];
 }
 
-void rlf_sheet_publish(rlf_reconstruct *stage)
+void rlf_sheet_publish(rlf_reconstruct *stage, const rlf_slot *slot)
 {
     rlf_background *background = &stage->background;
-    make_all(stage, &background->sheets[(background->newest + 1) % RLF_SHEETS]);
+    make_all(stage, slot, &background->sheets[(background->newest + 1) % RLF_SHEETS]);
     finish(stage);
 }
 
@@ -218,12 +271,12 @@ static bool is_due(rlf_background *background, int32_t tiles)
            (background->changed > 0 && background->sheet_age >= FRAMES_LONG);
 }
 
-void rlf_sheet_advance(rlf_reconstruct *stage)
+void rlf_sheet_advance(rlf_reconstruct *stage, const rlf_slot *slot)
 {
     rlf_background *background = &stage->background;
     int32_t tiles = rlf_sheet_tiles(&stage->grid);
     if (rlf_sheet_newest(stage) == NULL) {
-        rlf_sheet_publish(stage);
+        rlf_sheet_publish(stage, slot);
         return;
     }
     bool due = is_due(background, tiles);
@@ -238,7 +291,7 @@ void rlf_sheet_advance(rlf_reconstruct *stage)
     int32_t most = 1 + tiles / (urgent ? PARTS_URGENT : PARTS);
     int32_t tile = next_tile(background, tiles);
     for (int32_t made = 0; made < most && tile >= 0; made++) {
-        make_tile(stage, draft, tile);
+        make_tile(stage, slot, draft, tile);
         tile = next_tile(background, tiles);
     }
     if (urgent || tile < 0) {

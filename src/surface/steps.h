@@ -193,9 +193,10 @@ void rlf_sheet_changed(rlf_background *background, const rlf_grid *grid, int32_t
 /* The sheet that surfaces refer to; NULL while the background is being learnt. */
 const rlf_sheet *rlf_sheet_newest(const rlf_reconstruct *stage);
 /* Makes a new sheet from the model: depth, normals, regions; at once, or when it is due a part of
- * it per frame. */
-void rlf_sheet_publish(rlf_reconstruct *stage);
-void rlf_sheet_advance(rlf_reconstruct *stage);
+ * it per frame. Where `slot`, which may be NULL, shows the background, edges are as sharp as there.
+ */
+void rlf_sheet_publish(rlf_reconstruct *stage, const rlf_slot *slot);
+void rlf_sheet_advance(rlf_reconstruct *stage, const rlf_slot *slot);
 
 /* ---- velocity.c, thickness.c ---- */
 void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot);

@@ -23,7 +23,7 @@ typedef struct golden {
 } golden;
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0x1cb2ab87e5c13787u, 0xaa977d4e214c4e3eu, 0x71543c0905a822d8u},
+    {RLF_PROFILE_LIVE, 0x37550a82e1b9cbfeu, 0x36446d9ae9e2614bu, 0xafae33c1288df1afu},
     {RLF_PROFILE_THESIS, 0xa393eb06e579d241u, 0xd84652fb54683851u, 0xc064b44391e1e990u},
 };
 

@@ -140,6 +140,34 @@ static void a_narrow_post_is_as_deep_as_it_is_wide(void **state)
     assert_true(10 * all.front_wrong <= all.front);
 }
 
+/* The background takes over what many frames have told, when its tiles are made once more. */
+static void the_background_has_the_side(void **state)
+{
+    enum { LONG = 96 };
+    seen_view *f = *state;
+    set_wall(f);
+    add_block(f, (block){-1.00, -0.95, 3.2, 3.26});
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
+    rlf_reconstruct *stage = seen_view_stage(&def);
+    const rlf_surface *s = NULL;
+    for (int32_t k = 0; k < LONG; k++) {
+        take_frame(f);
+        s = seen_view_process(f, stage, k);
+    }
+    int side = 0, wrong = 0;
+    const rlf_vec3 truth = {1.0, 0.0, 0.0};
+    for (int i = 12 * WIDTH; i < COUNT - 12 * WIDTH; i++) {
+        rlf_vec3 n = {s->background_normal_x[i], s->background_normal_y[i],
+                      s->background_normal_z[i]};
+        side += is_side_at[i];
+        wrong += is_side_at[i] && angle_deg(n, truth) > 30.0;
+    }
+    print_message("side of the background: %d of %d wrong\n", wrong, side);
+    assert_true(side >= HEIGHT - 24);
+    assert_true(100 * wrong <= 12 * side);
+    rlf_reconstruct_destroy(&stage);
+}
+
 static void a_plate_has_no_side(void **state)
 {
     seen_view *f = *state;
@@ -182,6 +210,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_side_of_a_post_is_a_face),
         cmocka_unit_test(a_narrow_post_is_as_deep_as_it_is_wide),
+        cmocka_unit_test(the_background_has_the_side),
         cmocka_unit_test(a_plate_has_no_side),
         cmocka_unit_test(the_wall_shows_in_a_slit),
     };
