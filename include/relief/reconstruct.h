@@ -68,7 +68,7 @@ typedef struct rlf_reconstruct_def {
     bool enable_fill;           /* live: true: fill small holes (reason FILLED) */
     bool enable_smoothing; /* live: true: averages depth within planes, as far as the sensor's noise
                               explains what it takes away; never across an edge or a crease */
-    bool enable_steadying; /* live: true: averages depth that does not change over 16 frames; what
+    bool enable_steadying; /* live: true: averages depth that does not change over 32 frames; what
                               changes by more than the noise starts anew */
     bool enable_hold;      /* live: true, needs steadying: a dropped pixel keeps what was seen there
                               (reason FILLED) while nothing moves beside it */

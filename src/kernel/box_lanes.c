@@ -25,3 +25,34 @@ RLF_KERNEL int32_t rlf_kernel_boxes_meet(const float *restrict ends, int32_t str
     }
     return count;
 }
+
+/* How far x is outside low to high. */
+RLF_KERNEL_PART float outside(float x, float low, float high)
+{
+    float off = low - x > x - high ? low - x : x - high;
+    return off > 0.0f ? off : 0.0f;
+}
+
+RLF_KERNEL void rlf_kernel_boxes_distance2(const float (*boxes)[6], int32_t count, const float *x,
+                                           const float *y, const float *z,
+                                           float *restrict distance2)
+{
+    float least[RLF_BOX_LANES];
+    for (int32_t k = 0; k < RLF_BOX_LANES; k++) {
+        least[k] = 1e30f;
+    }
+    for (int32_t i = 0; i < count; i++) {
+        const float *box = boxes[i];
+        RLF_KERNEL_WHOLE
+        for (int32_t k = 0; k < RLF_BOX_LANES; k++) {
+            float dx = outside(x[k], box[0], box[3]);
+            float dy = outside(y[k], box[1], box[4]);
+            float dz = outside(z[k], box[2], box[5]);
+            float square = dx * dx + dy * dy + dz * dz;
+            least[k] = square < least[k] ? square : least[k];
+        }
+    }
+    for (int32_t k = 0; k < RLF_BOX_LANES; k++) {
+        distance2[k] = least[k];
+    }
+}

@@ -13,4 +13,9 @@
 int32_t rlf_kernel_boxes_meet(const float *restrict ends, int32_t stride, int32_t begin,
                               int32_t end, const float box[6], int32_t *restrict found);
 
+/* Squares of the distances of sixteen points to the nearest of `count` boxes, m^2: 1e30 when there
+ * are none. A box is low x, y, z and high x, y, z. */
+void rlf_kernel_boxes_distance2(const float (*boxes)[6], int32_t count, const float *x,
+                                const float *y, const float *z, float *restrict distance2);
+
 #endif

@@ -1,7 +1,8 @@
 /* Mean of a pixel's inverse depth over time, gated by the sensor's noise: what lies farther from
  * the mean than the gate is motion, and the mean starts anew with it; so does one whose neighbours
- * all lie off to the same side, by less than the gate. So a result is never farther from the
- * current frame than the gate: nothing that has left can stay. */
+ * all lie off to the same side, by less than the gate. Noise alone passes the gate of one pixel in
+ * 400: a pixel that is alone in it has a wider one. So a result is never farther from the current
+ * frame than that: nothing that has left can stay. */
 #include "kernel/kernel.h"
 
 #include "relief/surface.h"
@@ -13,6 +14,7 @@ enum {
     PER_SIGMA = 8,            /* steps of a lag */
     MOST_LAG = 4 * PER_SIGMA, /* one mixed pixel is not the motion of those about it */
     GATE = 3 * PER_SIGMA,     /* of a pixel */
+    CALM = 5 * PER_SIGMA / 2, /* all eight about one that may be off by MOST_LAG */
     SUM_GATE = 13 * PER_SIGMA /* of the 3x3 pixels about it */
 };
 
@@ -52,6 +54,26 @@ RLF_KERNEL void rlf_kernel_lag_row(rlf_kernel_noise noise, const rlf_kernel_lag_
     }
 }
 
+RLF_KERNEL_PART int8_t larger(int8_t a, int8_t b)
+{
+    return a > b ? a : b;
+}
+
+RLF_KERNEL_PART int8_t smaller(int8_t a, int8_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Whether the eight about a pixel are where they were. */
+RLF_KERNEL_PART bool is_calm(const int8_t *up, const int8_t *at, const int8_t *down)
+{
+    int8_t most = larger(larger(larger(up[-1], up[0]), larger(up[1], at[-1])),
+                         larger(larger(at[1], down[-1]), larger(down[0], down[1])));
+    int8_t least = smaller(smaller(smaller(up[-1], up[0]), smaller(up[1], at[-1])),
+                           smaller(smaller(at[1], down[-1]), smaller(down[0], down[1])));
+    return (most <= CALM) & (least >= -CALM);
+}
+
 /* Pixels first .. end - 1: 1 where one has moved. Those at the sides of the image by themselves. */
 RLF_KERNEL_PART void find_moved(const rlf_kernel_steady_in *in, int32_t first, int32_t end,
                                 uint8_t *restrict moved)
@@ -64,7 +86,8 @@ RLF_KERNEL_PART void find_moved(const rlf_kernel_steady_in *in, int32_t first, i
         int16_t right = (int16_t)(up[i + 1] + at[i + 1] + down[i + 1]);
         int16_t sum = (int16_t)(left + middle + right), own = at[i];
         int16_t off = (int16_t)(sum < 0 ? -sum : sum), alone = (int16_t)(own < 0 ? -own : own);
-        moved[i - first] = (uint8_t)((off > SUM_GATE) | (alone > GATE));
+        int16_t gate = is_calm(up + i, at + i, down + i) ? MOST_LAG - 1 : GATE;
+        moved[i - first] = (uint8_t)((off > SUM_GATE) | (alone > gate));
     }
     if (first == 0) {
         moved[0] = at[0] > GATE || at[0] < -GATE;

@@ -2,6 +2,7 @@
  * outlines and bumps against it. Costs per body, not per pixel; nothing is built per frame. */
 #include "physics/grid_collide.h"
 #include "physics/grid_ball.h"
+#include "physics/grid_near.h"
 #include "physics/grid_reduce.h"
 #include "physics/grid_scan.h"
 #include "physics/grid_upright.h"
@@ -29,6 +30,20 @@ static void set_up(grid_job *job, const grid_query *query, const phys_body *body
     job->spin = rlf_length(job->w);
     job->R_grid_body = rlf_quat_to_mat3(q_grid_body);
     job->R_body_grid = rlf_mat3_transpose(&job->R_grid_body);
+}
+
+/* How far a sheet may come by itself until the next query, metres. */
+static double slip_of(const grid_tiles *tiles)
+{
+    return tiles->sheet->velocity_x != NULL ? SLIP : 0.0;
+}
+
+/* How far from the body's centre anything that stays can matter until its contacts are asked for
+ * again. */
+static double reach_of(const grid_query *query, const phys_body *body, int32_t period)
+{
+    double speed = rlf_length(body->v) + 0.5 * rlf_length(body->w) * body->shape.radius;
+    return body->shape.radius + GRID_MARGIN + speed * (period + 1) * query->step;
 }
 
 /* One surface point of the body along its way through the sheet's own moving frame. */
@@ -60,25 +75,6 @@ static void cast_point(grid_job *job, rlf_vec3 anchor, double rounding, rlf_vec3
     }
 }
 
-/* Whether the point at `anchor` can come to one of the flat tiles. */
-static bool is_over_flat(const grid_job *job, rlf_vec3 anchor)
-{
-    const double BAND = 0.02; /* a tile's plane is that of its pixels up to noise and relief */
-    rlf_vec3 r = rlf_mat3_mul_vec(&job->R_grid_body, anchor);
-    rlf_vec3 v = rlf_add(job->v, rlf_cross(job->w, r));
-    rlf_vec3 q = rlf_add(job->centre, r);
-    for (int32_t i = 0; i < job->flat_count; i++) {
-        const grid_tile *tile = job->flats[i];
-        double approach = rlf_dot(tile->normal, rlf_sub(tile->velocity, v));
-        rlf_vec3 seen = rlf_mad(q, tile->velocity, -job->query->tau);
-        double height = rlf_dot(tile->normal, seen) - tile->offset;
-        if (height < BAND + rlf_max(0.0, approach) * job->horizon) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /* On a plane a convex body stands on vertices, a round one on the points that its shape names. */
 static void cast_points(grid_job *job)
 {
@@ -100,9 +96,13 @@ static void cast_points(grid_job *job)
         return;
     }
     int32_t count = job->is_flat ? shape->vertex_count : shape->point_count;
-    for (int32_t i = 0; i < count; i++) {
-        if (!job->is_flat || is_over_flat(job, shape->points[i])) {
-            cast_point(job, shape->points[i], 0.0, none);
+    for (int32_t begin = 0; begin < count; begin += GRID_NEAR_MAX) {
+        int32_t some = count - begin < GRID_NEAR_MAX ? count - begin : GRID_NEAR_MAX;
+        uint32_t near = grid_points_near(job, shape->points + begin, some);
+        for (int32_t i = 0; i < some; i++) {
+            if ((near >> i & 1u) != 0) {
+                cast_point(job, shape->points[begin + i], 0.0, none);
+            }
         }
     }
 }
@@ -137,6 +137,8 @@ static void clear(grid_job *job)
     job->bump_count = 0;
     job->meeting_count = 0;
     job->hit_count = 0;
+    job->solid_count = 0;
+    job->is_listed = true;
 }
 
 /* Whether the surface's plane had not yet passed the body's centre, which is behind it now, when
@@ -169,9 +171,10 @@ static bool find_home(grid_job *job, uint8_t *home)
 
 static void collide_sheet(grid_job *job, const grid_tiles *tiles, uint8_t *home)
 {
-    clear(job);
     job->tiles = tiles;
     job->sheet = tiles->sheet;
+    job->reach = reach_of(job->query, job->body, job->body->surface_period) + slip_of(tiles);
+    clear(job);
     if (job->sheet->depth == NULL || job->sheet->normal_x == NULL) {
         return;
     }
@@ -276,14 +279,6 @@ static int32_t query_period(const phys_body *body, double step, double most)
     return (int32_t)rlf_clamp(period, 1.0, most);
 }
 
-/* How far from the body's centre anything can matter until its contacts are asked for again. */
-static double reach_of(const grid_query *query, const phys_body *body, int32_t period)
-{
-    double speed = rlf_length(body->v) + 0.5 * rlf_length(body->w) * body->shape.radius;
-    double slip = query->grid->foreground.velocity_x != NULL ? SLIP : 0.0;
-    return body->shape.radius + GRID_MARGIN + speed * (period + 1) * query->step + slip;
-}
-
 /* Where nothing is within this, nothing is asked for again until the most substeps are over. */
 static double wide_reach_of(const grid_query *query, const phys_body *body)
 {
@@ -311,7 +306,6 @@ static void set_period(grid_job *job, phys_body *body, double most)
 {
     body->surface_period = query_period(body, job->query->step, most);
     job->horizon = (body->surface_period + 1) * job->query->step;
-    job->reach = reach_of(job->query, body, body->surface_period);
 }
 
 /* How far the body may go before it comes to anything, wherever the camera looks, by tiles and
@@ -321,8 +315,8 @@ static double free_way(const grid_job *job, double least)
     const grid_query *query = job->query;
     const grid_shell *shell = query->shell;
     double wide = wide_reach_of(query, job->body);
-    double slip = query->foreground->sheet->velocity_x != NULL ? SLIP : 0.0;
-    double beside = job->body->shape.radius + GRID_MARGIN, way = wide - SLIP - beside;
+    double slip = slip_of(query->foreground);
+    double beside = job->body->shape.radius + GRID_MARGIN, way = wide - beside;
     for (int32_t i = 0; shell != NULL && i < shell->count; i++) {
         const shell_plane *plane = &shell->planes[i];
         way = rlf_min(way, rlf_dot(plane->normal, job->centre) - plane->offset - beside);
@@ -332,7 +326,7 @@ static double free_way(const grid_job *job, double least)
     if (way <= least) {
         return way;
     }
-    double front = grid_scan_distance(job, query->foreground, wide, limit + slip) - slip;
+    double front = grid_scan_distance(job, query->foreground, wide + slip, limit + slip) - slip;
     way = rlf_min(way, front - beside);
     shell_plane upright;
     if (way > least && find_upright(job, wide, &upright)) {
@@ -345,7 +339,7 @@ static double free_way(const grid_job *job, double least)
 /* How far the body may go before it comes to what the last scan saw. */
 static double clearance_of(const grid_job *job)
 {
-    double slip = job->sheet->velocity_x != NULL ? SLIP : 0.0;
+    double slip = slip_of(job->tiles);
     double gaps = job->stride * job->centre.z * job->query->grid->pixel_angle;
     double beside = job->body->shape.radius + GRID_MARGIN + slip + gaps;
     return rlf_max(0.0, sqrt(job->nearest2) - beside);
@@ -355,7 +349,7 @@ bool grid_collide_prepare(const grid_query *query, const phys_body *body)
 {
     int32_t rect[4], stride;
     double reach = reach_of(query, body, query_period(body, query->step, PERIOD_AT_REST));
-    reach = rlf_max(reach, wide_reach_of(query, body));
+    reach = rlf_max(reach, wide_reach_of(query, body)) + slip_of(query->foreground);
     rlf_vec3 centre = rlf_transform(&query->T_grid_world, body->x);
     if (!grid_footprint(query->grid, centre, reach, rect, &stride)) {
         return false;
@@ -381,6 +375,7 @@ static void start_contacts(const grid_query *query, phys_body *body)
 static bool is_alone(const grid_job *job, double period)
 {
     double reach = reach_of(job->query, job->body, (int32_t)period);
+    reach += slip_of(job->query->foreground);
     return grid_scan_distance(job, job->query->foreground, reach, 0.99 * reach) >= reach;
 }
 

@@ -12,6 +12,8 @@
 /* A point this far before what is seen on its ray is in free space: noise and slanted pixels, m. */
 #define SEEN_BEHIND 0.03
 #define NO_HEIGHT 1e9
+/* The plane of a pixel is taken to be nowhere nearer than this share of its depth. */
+#define NEAREST_SHARE 0.95
 /* Farther behind a back it matters to nobody how far, metres. */
 #define FAR_BEHIND 0.05
 
@@ -99,7 +101,7 @@ static double plane_depth(const field_cell *cell, rlf_vec3 q)
         return z;
     }
     double on_ray = rlf_dot(cell->normal, cell->point) / slope;
-    return rlf_clamp(on_ray, 0.95 * z, 1.05 * z);
+    return rlf_clamp(on_ray, NEAREST_SHARE * z, 1.05 * z);
 }
 
 static bool is_guess(const rlf_grid_sheet *sheet, const field_cell *cell)
@@ -114,6 +116,16 @@ rlf_vec3 grid_cell_inward(const rlf_grid_sheet *sheet, const field_cell *cell)
         return rlf_scale(cell->point, 1.0 / cell->point.z);
     }
     return rlf_scale(cell->normal, facing);
+}
+
+bool grid_field_is_open(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q)
+{
+    int32_t x, y;
+    if (!pixel_of(grid, q, &x, &y) || is_masked_out(grid, sheet, x, y)) {
+        return false;
+    }
+    double z = sheet->depth[y * grid->width + x];
+    return z < FARTHEST && q.z < NEAREST_SHARE * z;
 }
 
 bool grid_field_is_seen_through(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q)

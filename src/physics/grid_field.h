@@ -70,6 +70,10 @@ bool grid_field_side(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3
  * the far edge of a table's top is no part of the table. */
 rlf_vec3 grid_cell_inward(const rlf_grid_sheet *sheet, const field_cell *cell);
 
+/* Whether q is before all that may be on its ray by the depth of its pixel alone: false says
+ * nothing. */
+bool grid_field_is_open(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q);
+
 /* Whether the sheet is seen well behind q, so that nothing of it is there. */
 bool grid_field_is_seen_through(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q);
 

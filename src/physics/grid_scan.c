@@ -382,7 +382,7 @@ static void look_at_flat(grid_job *job, const grid_tile *tile, flow_sum *flow)
         grid_ball_look_tile(job, tile);
     }
     if (height < -job->body->shape.radius || job->flat_count == GRID_FLATS_MAX) {
-        job->is_flat = false; /* it comes from behind */
+        job->is_flat = job->is_listed = false; /* it comes from behind */
     } else {
         job->flats[job->flat_count++] = tile;
     }
@@ -428,6 +428,28 @@ static void look_at_batch(grid_job *job, const grid_tile *tile, grid_pixels *pix
     pixels->count = 0;
 }
 
+/* Lists the boxes of those blocks of a tile. */
+static void list_solids(grid_job *job, const grid_tile *tile, uint32_t blocks)
+{
+    if (tile->is_endless) {
+        job->is_listed = false;
+    }
+    for (int32_t block = 0; blocks >> block != 0 && job->is_listed; block++) {
+        if ((blocks >> block & 1u) == 0) {
+            continue;
+        }
+        if (job->solid_count == GRID_SOLIDS_MAX) {
+            job->is_listed = false;
+            return;
+        }
+        float *box = job->solids[job->solid_count++];
+        for (int32_t k = 0; k < 3; k++) {
+            box[k] = tile->blocks.low[k][block];
+            box[k + 3] = tile->blocks.high[k][block];
+        }
+    }
+}
+
 /* The tile's pixels within `rect` that lie on the rectangle's pattern of every stride-th, or a
  * finer one, so that nothing narrow is between them, in blocks that are within reach. */
 static void look_at_rough(grid_job *job, const grid_tile *tile, const int32_t rect[4],
@@ -441,6 +463,7 @@ static void look_at_rough(grid_job *job, const grid_tile *tile, const int32_t re
     if (!tile->is_endless) {
         near = grid_tile_blocks_near(tile, job->centre, wide_reach(job, tile, job->reach));
     }
+    list_solids(job, tile, near);
     for (int32_t k = 0; k < 2; k++) {
         int32_t skipped = corner[k] > rect[k] ? (corner[k] - rect[k] + stride - 1) / stride : 0;
         begin[k] = rect[k] + skipped * stride;

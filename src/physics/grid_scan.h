@@ -10,6 +10,7 @@
 #define GRID_BUMPS_MAX 8
 #define GRID_FLATS_MAX 16
 #define GRID_MEETINGS_MAX 8
+#define GRID_SOLIDS_MAX 256
 
 typedef enum grid_face { GRID_TOUCH_FRONT = 0, GRID_TOUCH_BACK, GRID_TOUCH_SIDE } grid_face;
 
@@ -55,6 +56,9 @@ typedef struct grid_job {
     int32_t normal_count;
     grid_hit bumps[GRID_BUMPS_MAX]; /* surface points that poke into the body */
     int32_t bump_count;
+    float solids[GRID_SOLIDS_MAX][6]; /* boxes about what else is within reach: low x, y, z, high */
+    int32_t solid_count;
+    bool is_listed; /* all of it is in `flats` and `solids` */
     int32_t stride; /* pixels between those of the footprint that are looked at */
     bool is_ball;   /* touches are noted instead of normals and bumps */
     grid_meeting meetings[GRID_MEETINGS_MAX];

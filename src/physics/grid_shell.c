@@ -146,6 +146,9 @@ void grid_shell_update(grid_shell *shell, const rlf_grid *grid)
 bool grid_shell_is_hidden(const rlf_grid *grid, rlf_vec3 q)
 {
     field_cell cell;
+    if (grid_field_is_open(grid, &grid->background, q)) {
+        return false;
+    }
     field_state state = grid_field_at(grid, &grid->background, q, &cell);
     return state == FIELD_NONE || state == FIELD_BEHIND;
 }

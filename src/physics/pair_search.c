@@ -124,6 +124,15 @@ static bool is_settled(const rlf_world *world, const phys_pair *pair, double h)
            moved < share * rlf_min(a->shape.radius, b->shape.radius);
 }
 
+/* Whether the gap that is left is more than they come nearer until it is looked at again, in the
+ * next substep. */
+static bool is_apart(const rlf_world *world, const phys_pair *pair, double h)
+{
+    const phys_body *a = &world->bodies[pair->a], *b = &world->bodies[pair->b];
+    return pair->contact_count == 0 && pair->gap > 0.0 &&
+           pair->gap - moved_since(pair, a, b) > PHYS_PAIR_MARGIN + 2.0 * travel_of(a, b) * h;
+}
+
 typedef struct pair_job {
     rlf_world *world;
     double h;
@@ -166,10 +175,14 @@ static void add_pair(rlf_world *world, phys_near key)
         int32_t k = world->pair_count++;
         const phys_body *a = &world->bodies[key.a], *b = &world->bodies[key.b];
         phys_pair *pair = &world->pairs[k];
-        *pair = (phys_pair){.a = key.a, .b = key.b, .gap = -1.0};
+        *pair = (phys_pair){.a = key.a, .b = key.b};
         pair->contacts = &world->pair_contacts[k * PHYS_PAIR_CONTACTS];
         pair->friction = sqrt(a->friction * b->friction);
         pair->restitution = rlf_max(a->restitution, b->restitution);
+        pair->offset = rlf_sub(b->x, a->x);
+        pair->turned_a = a->turned;
+        pair->turned_b = b->turned;
+        pair->gap = rlf_length(pair->offset) - a->shape.radius - b->shape.radius;
     }
 }
 
@@ -243,6 +256,8 @@ void phys_find_pairs(rlf_world *world, double h)
         pair->age = 0;
         if (is_idle || is_settled(world, pair, h)) {
             pair->period = PHYS_PERIOD_MAX;
+        } else if (is_apart(world, pair, h)) {
+            pair->period = 1;
         } else {
             world->due_pairs[due++] = i;
         }
@@ -255,8 +270,7 @@ void phys_refresh_pairs(rlf_world *world, double h)
     int32_t due = 0;
     for (int32_t i = 0; i < world->pair_count; i++) {
         phys_pair *pair = &world->pairs[i];
-        bool is_apart = pair->contact_count == 0 && pair->gap > 0.0;
-        if (++pair->age >= pair->period && !(is_apart && is_settled(world, pair, h))) {
+        if (++pair->age >= pair->period && !is_apart(world, pair, h)) {
             world->due_pairs[due++] = i;
         }
     }

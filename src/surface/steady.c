@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-static const float most_frames = 16.0f;
+static const float most_frames = 32.0f;
 
 typedef struct steady_job {
     const rlf_reconstruct *stage;

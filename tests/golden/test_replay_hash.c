@@ -23,7 +23,7 @@ typedef struct golden {
 } golden;
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0x37550a82e1b9cbfeu, 0x36446d9ae9e2614bu, 0xafae33c1288df1afu},
+    {RLF_PROFILE_LIVE, 0x5bc476075080a36bu, 0xf7dee2a65f452edeu, 0x632d593b8b8126d0u},
     {RLF_PROFILE_THESIS, 0xa393eb06e579d241u, 0xd84652fb54683851u, 0xc064b44391e1e990u},
 };
 

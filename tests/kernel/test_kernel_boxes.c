@@ -62,10 +62,51 @@ static void boxes_are_found_as_one_by_one(void **state)
     assert_true(sum > 400);
 }
 
+static float square_distance(const float box[6], const float p[3])
+{
+    float square = 0.0f;
+    for (int32_t axis = 0; axis < 3; axis++) {
+        float off = p[axis] < box[axis]
+                        ? box[axis] - p[axis]
+                        : (p[axis] > box[axis + 3] ? p[axis] - box[axis + 3] : 0.0f);
+        square += off * off;
+    }
+    return square;
+}
+
+/* Points inside, beside and at corners of boxes; none at all is far. */
+static void points_are_as_far_from_boxes_as_one_by_one(void **state)
+{
+    (void)state;
+    analytic_random r = {7};
+    for (int32_t run = 0; run < 400; run++) {
+        float boxes[BOXES][6], at[3][RLF_BOX_LANES], distance2[RLF_BOX_LANES];
+        int32_t count = run % BOXES;
+        for (int32_t i = 0; i < BOXES * 3; i++) {
+            boxes[i / 3][i % 3] = uniform(&r, 4.0);
+            boxes[i / 3][i % 3 + 3] = boxes[i / 3][i % 3] + uniform(&r, 1.0);
+        }
+        for (int32_t i = 0; i < 3 * RLF_BOX_LANES; i++) {
+            at[i / RLF_BOX_LANES][i % RLF_BOX_LANES] = uniform(&r, 5.0);
+        }
+        rlf_kernel_boxes_distance2((const float(*)[6])boxes, count, at[0], at[1], at[2], distance2);
+        for (int32_t k = 0; k < RLF_BOX_LANES; k++) {
+            const float p[3] = {at[0][k], at[1][k], at[2][k]};
+            float least = 1e30f;
+            for (int32_t i = 0; i < count; i++) {
+                float square = square_distance(boxes[i], p);
+                least = square < least ? square : least;
+            }
+            assert_true(distance2[k] == least);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(boxes_are_found_as_one_by_one),
+        cmocka_unit_test(points_are_as_far_from_boxes_as_one_by_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

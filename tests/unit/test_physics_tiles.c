@@ -7,6 +7,7 @@
 
 #include "grid_fixture.h"
 #include "physics/grid_field.h"
+#include "physics/grid_near.h"
 #include "physics/grid_pixels.h"
 #include "physics/grid_tiles.h"
 
@@ -124,6 +125,66 @@ static void near_pixels_are_kept(void **state)
     assert_true(kept > 2000);
 }
 
+/* A cube of 10 cm that flies and spins somewhere near the scene; its footprint is scanned. */
+static void throw_cube(grid_job *job, const grid_query *query, phys_body *body)
+{
+    const rlf_vec3 turn = {next(-3, 3), next(-3, 3), next(-3, 3)};
+    memset(job, 0, sizeof(*job));
+    job->query = query;
+    job->sheet = query->background->sheet;
+    job->tiles = query->background;
+    job->body = body;
+    job->centre = next_place();
+    job->centre.z = next(1.4, 2.3);
+    job->v = rlf_vec3_make(next(-2, 2), next(-2, 2), next(-2, 2));
+    job->w = rlf_vec3_make(next(-4, 4), next(-4, 4), next(-4, 4));
+    job->speed = rlf_length(job->v);
+    job->spin = rlf_length(job->w);
+    job->R_grid_body = rlf_quat_to_mat3(rlf_quat_from_rotation_vector(turn));
+    job->R_body_grid = rlf_mat3_transpose(&job->R_grid_body);
+    job->horizon = 2.0 * query->step;
+    job->reach = body->shape.radius + GRID_MARGIN + job->horizon * job->speed;
+    job->home = (field_home){FIELD_NONE, job->centre, true};
+    job->is_listed = true;
+    grid_scan_footprint(job);
+}
+
+/* Whatever point of a cube touches, it is one of those that were told to be near. */
+static void what_touches_is_told_to_be_near(void **state)
+{
+    grid_fixture *f = *state;
+    const int32_t all[4] = {0, 0, GRID_W, GRID_H};
+    grid_tiles tiles = {.tiles = calloc(TILES_MAX, sizeof(grid_tile))};
+    const grid_query query = {.grid = &f->grid, .step = 1.0 / 240.0, .background = &tiles};
+    rlf_vec3 points[PHYS_POINTS_MAX];
+    phys_body body = {0};
+    const rlf_shape cube = {.type = RLF_SHAPE_BOX, .size = {0.1, 0.1, 0.1}};
+    assert_int_equal(phys_shape_init(&body.shape, &cube, points), RLF_OK);
+    grid_tiles_start(&tiles, &f->grid, &f->grid.background, true);
+    assert_true(grid_tiles_make(&tiles, &f->grid, all));
+    int32_t touches = 0, told = 0, asked = 0;
+    for (int32_t k = 0; k < 3000; k++) {
+        grid_job job;
+        throw_cube(&job, &query, &body);
+        for (int32_t i = 0; i < body.shape.point_count && job.is_near; i++) {
+            field_hit hit;
+            rlf_vec3 r = rlf_mat3_mul_vec(&job.R_grid_body, points[i]);
+            rlf_vec3 way = rlf_scale(rlf_add(job.v, rlf_cross(job.w, r)), job.horizon);
+            bool is_near = (grid_points_near(&job, &points[i], 1) & 1u) != 0;
+            bool does = grid_field_cast(&f->grid, job.sheet, rlf_add(job.centre, r), way,
+                                        GRID_MARGIN, &job.home, &hit);
+            assert_true(!does || is_near);
+            touches += does;
+            told += is_near;
+            asked++;
+        }
+    }
+    print_message("%d points: %d may touch, %d do\n", asked, told, touches);
+    assert_true(touches > 3000 && told < asked * 3 / 4);
+    phys_shape_finish(&body.shape);
+    free(tiles.tiles);
+}
+
 static int open_scene(void **state)
 {
     *state = make_scene();
@@ -142,6 +203,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tiles_tell_no_longer_distances),
         cmocka_unit_test(near_pixels_are_kept),
+        cmocka_unit_test(what_touches_is_told_to_be_near),
     };
     return cmocka_run_group_tests(tests, open_scene, close_scene);
 }

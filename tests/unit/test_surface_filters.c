@@ -9,6 +9,7 @@
 #include "seen_view.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 enum { WIDTH = 96, HEIGHT = 72, COUNT = WIDTH * HEIGHT };
 
@@ -17,6 +18,14 @@ static int set_up(void **state)
     static seen_view view;
     seen_view_create(&view, analytic_rig(WIDTH, HEIGHT), 11);
     *state = &view;
+    return 0;
+}
+
+/* Every test draws the same noise, whatever ran before it. */
+static int begin_noise(void **state)
+{
+    seen_view *f = *state;
+    f->random = (analytic_random){11};
     return 0;
 }
 
@@ -87,29 +96,77 @@ static void without_filters_depth_is_the_frames(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
+/* The same away from the board's edge and the crease, where a few pixels' planes decide it. */
+static double inner_rms(const seen_view *f, const float *depth)
+{
+    double sum = 0.0, crease = 1.0 / 3.0, far = 6.0 / f->rig.depth.fy;
+    int count = 0;
+    for (int i = 0; i < COUNT; i++) {
+        int x = i % WIDTH - WIDTH / 2;
+        if (abs(x) >= 6 && (x < 0 || fabs(f->ray_y[i] - crease) >= far)) {
+            sum += (depth[i] - f->truth[i]) * (depth[i] - f->truth[i]);
+            count++;
+        }
+    }
+    return sqrt(sum / count);
+}
+
 static void what_stands_still_becomes_steady(void **state)
 {
     seen_view *f = *state;
     set_room(f, 1.6);
-    const double most[2] = {0.3, 0.7}; /* planes leave a little at the crease, in every frame */
+    const double most[2] = {0.25, 0.5};
     for (int smoothing = 0; smoothing < 2; smoothing++) {
         rlf_reconstruct *stage = make_stage(f, smoothing, true);
         const rlf_surface *s = process(f, stage, 0);
-        double first = rms(s->depth, f->truth);
+        double first = inner_rms(f, s->depth);
         for (int t = 1; t < 30; t++) {
             s = process(f, stage, t);
         }
-        assert_true(rms(s->depth, f->truth) < most[smoothing] * first);
+        assert_true(inner_rms(f, s->depth) < most[smoothing] * first);
         rlf_reconstruct_reset(stage);
         s = process(f, stage, 30);
-        assert_true(rms(s->depth, f->truth) > 0.8 * first);
+        assert_true(inner_rms(f, s->depth) > 0.8 * first);
         rlf_reconstruct_destroy(&stage);
     }
 }
 
+/* What one pixel off by so many sigmas, after 20 exact frames, becomes, in sigmas; with the eight
+ * about it, where `wide`. */
+static double after_step(seen_view *f, double sigmas, bool wide)
+{
+    const int at = HEIGHT / 4 * WIDTH + 3 * WIDTH / 4; /* on the wall */
+    double sigma = rlf_depth_noise_sigma(&f->rig.noise, f->truth[at]);
+    rlf_reconstruct *stage = make_stage(f, false, true);
+    const rlf_surface *s = NULL;
+    for (int t = 0; t <= 20; t++) {
+        for (int i = 0; i < COUNT; i++) {
+            int dx = i % WIDTH - at % WIDTH, dy = i / WIDTH - at / WIDTH;
+            bool hit = t == 20 && (i == at || (wide && abs(dx) <= 1 && abs(dy) <= 1));
+            f->seen[i] = f->truth[i] + (hit ? (float)(sigmas * sigma) : 0.0f);
+        }
+        s = seen_view_process(f, stage, t);
+    }
+    double left = (s->depth[at] - f->truth[at]) / sigma;
+    rlf_reconstruct_destroy(&stage);
+    return left;
+}
+
+/* Noise alone passes three sigmas now and then: that is motion only where neighbours move too. */
+static void noise_of_one_pixel_is_no_motion(void **state)
+{
+    seen_view *f = *state;
+    set_room(f, 1.6);
+    assert_true(fabs(after_step(f, 3.5, false)) < 0.2);
+    assert_true(fabs(after_step(f, -3.5, false)) < 0.2);
+    assert_true(fabs(after_step(f, 3.5, true) - 3.5) < 0.01);
+    assert_true(fabs(after_step(f, 6.0, false) - 6.0) < 0.01);
+}
+
 /* A board that comes 5 mm nearer per frame and then jumps: the steadied depth is at most the gate
  * away from what the frame alone gives, and after the jump that: but for rounding, since the wall
- * beside it, which is steady, is the origin of the sums. */
+ * beside it, which is steady, is the origin of the sums. Where a pixel is at the limit of what its
+ * planes explain, rounding decides whether they take it: of two in a thousand at most. */
 static void nothing_that_moved_stays(void **state)
 {
     seen_view *f = *state;
@@ -119,12 +176,14 @@ static void nothing_that_moved_stays(void **state)
         set_room(f, t < 20 ? 1.6 - 0.005 * t : 1.2);
         const rlf_surface *a = process(f, plain, t);
         const rlf_surface *b = seen_view_process(f, steady, t);
+        int differ = 0;
         for (int i = 0; i < COUNT; i++) {
             double sigma = rlf_depth_noise_sigma(&f->rig.noise, a->depth[i]);
             assert_true(fabs(a->depth[i] - b->depth[i]) <= 12.0 * sigma);
             bool jumped = t == 20 && i % WIDTH < WIDTH / 2 - 1;
-            assert_true(!jumped || fabs(a->depth[i] - b->depth[i]) < 1e-4);
+            differ += jumped && fabs(a->depth[i] - b->depth[i]) >= 1e-4;
         }
+        assert_true(500 * differ < COUNT / 2);
     }
     rlf_reconstruct_destroy(&plain);
     rlf_reconstruct_destroy(&steady);
@@ -189,12 +248,13 @@ static void a_ragged_hole_is_no_comb(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(smoothing_takes_noise_and_leaves_edges),
-        cmocka_unit_test(without_filters_depth_is_the_frames),
-        cmocka_unit_test(what_stands_still_becomes_steady),
-        cmocka_unit_test(nothing_that_moved_stays),
-        cmocka_unit_test(the_border_goes_on),
-        cmocka_unit_test(a_ragged_hole_is_no_comb),
+        cmocka_unit_test_setup(smoothing_takes_noise_and_leaves_edges, begin_noise),
+        cmocka_unit_test_setup(without_filters_depth_is_the_frames, begin_noise),
+        cmocka_unit_test_setup(what_stands_still_becomes_steady, begin_noise),
+        cmocka_unit_test_setup(noise_of_one_pixel_is_no_motion, begin_noise),
+        cmocka_unit_test_setup(nothing_that_moved_stays, begin_noise),
+        cmocka_unit_test_setup(the_border_goes_on, begin_noise),
+        cmocka_unit_test_setup(a_ragged_hole_is_no_comb, begin_noise),
     };
     return cmocka_run_group_tests(tests, set_up, seen_view_destroy);
 }
