@@ -13,12 +13,14 @@
 #define NUDGES 6 /* throws by NUDGE_M beside it, both ways along each axis */
 #define NUDGE_M 0.002
 #define EDGE_PX 8
+#define PIERCED 0.5 /* share of its inner radius by which a body that went through came nearer */
 #define FRAMES_MAX 4000
 
 typedef struct track {
     bool is_alive, is_pending;
     bool has_touched, has_tunnelled, has_left, has_passed;
-    rlf_vec3 way; /* of an aimed throw: its direction at birth */
+    rlf_vec3 way;   /* of an aimed throw: its direction at birth */
+    double nearest; /* the same: least distance of its target to its centre so far, m */
     rlf_body_id id;
     double born_s, last_touch_s;
     rlf_body_state before;
@@ -112,6 +114,7 @@ static void add_throws(throwing *run, int32_t count)
         t->before.velocity = body.velocity;
         t->before.angular_velocity = body.angular_velocity;
         t->way = rlf_normalize(body.velocity);
+        t->nearest = rlf_length(body.velocity) * LIFE_S;
         if (is_aimed(run) && !flies_at_target(run, t, now)) {
             continue;
         }
@@ -179,21 +182,43 @@ static void look_for_tunnel(throwing *run, track *t, const rlf_body_state *body,
     }
 }
 
+/* How near to its target the body came on its way through the frame. */
+static void note_nearest(const throwing *run, track *t, const rlf_body_state *body, double begin,
+                         double end)
+{
+    const int32_t STEPS = 8;
+    rlf_vec3 way = rlf_sub(body->T_world_body.p, t->before.T_world_body.p);
+    for (int32_t i = 1; i <= STEPS; i++) {
+        double share = (double)i / STEPS;
+        rlf_vec3 p = rlf_mad(t->before.T_world_body.p, way, share);
+        rlf_synthetic_hit hit = nearest(run, begin + (end - begin) * share, p);
+        if (is_target(run->def->aim, hit.label)) {
+            t->nearest = rlf_min(t->nearest, hit.distance);
+        }
+    }
+}
+
 /* On which side of the target an aimed body is when it leaves it: the far one means it went
- * through. Where the sensed back is deeper than the true one a body turns back within the true
- * solid: then it has not left it yet, and one that never does has not come back.
+ * through, if it also went into it. (A limb that turns it aside has it on its far side, too.)
+ * Where the sensed back is deeper than the true one a body turns back within the true solid: then
+ * it has not left it yet, and one that never does has not come back.
  */
 static void look_for_pass(const throwing *run, track *t, const rlf_body_state *body,
-                          bool has_contact, double now)
+                          bool has_contact, double begin, double end)
 {
-    if (!is_aimed(run) || t->has_left || !t->has_touched || has_contact) {
+    if (!is_aimed(run) || t->has_left) {
         return;
     }
-    rlf_synthetic_hit hit = nearest(run, now, body->T_world_body.p);
+    note_nearest(run, t, body, begin, end);
+    if (!t->has_touched || has_contact) {
+        return;
+    }
+    rlf_synthetic_hit hit = nearest(run, end, body->T_world_body.p);
     bool is_at_target = is_target(run->def->aim, hit.label);
     bool is_inside = is_at_target && hit.distance < 0.0;
+    bool is_pierced = t->nearest < PIERCED * eval_inner_radius(&t->before.shape);
     t->has_left = !is_inside;
-    t->has_passed = is_inside || (is_at_target && rlf_dot(hit.normal, t->way) > 0.3);
+    t->has_passed = is_inside || (is_at_target && is_pierced && rlf_dot(hit.normal, t->way) > 0.3);
 }
 
 /* The throw itself, and displaced by a pixel across the view and two sigma along it. */
@@ -353,7 +378,7 @@ static void follow(throwing *run, track *t, const rlf_body_state *body, double b
     }
     t->has_touched =
         t->has_touched || (contact != NULL && contact->other == RLF_CONTACT_FOREGROUND);
-    look_for_pass(run, t, body, contact != NULL, end);
+    look_for_pass(run, t, body, contact != NULL, begin, end);
     if (contact != NULL && !t->is_pending) {
         t->last_touch_s = end;
     }

@@ -110,6 +110,10 @@ static rlf_result create_stages(rlf_pipeline *p)
     }
     p->compositor_def = p->def.compositor;
     result = make_rays(p, &p->def.reconstruct.rig.depth);
+    if (result == RLF_OK) {
+        const rlf_camera *seen = &p->compositor_def.grid;
+        result = far_side_create(seen->width, seen->height, &p->far);
+    }
     if (result != RLF_OK || !p->def.enable_render) {
         return result;
     }
@@ -164,6 +168,7 @@ void rlf_pipeline_destroy(rlf_pipeline **pipeline)
     known_models_destroy(&p->known);
     rlf_reconstruct_destroy(&p->reconstruct);
     rlf_free(p->sheet.data);
+    far_side_destroy(&p->far);
     rlf_free(p->regions);
     rlf_free(p->ray_x);
     rlf_free(p->ray_y);
@@ -207,6 +212,18 @@ static void find_gravity(rlf_pipeline *p)
     rlf_world_set_gravity(p->world, rlf_scale(down, rlf_length(p->scene.gravity)));
 }
 
+/* The real surface for physics, with what its people hide. */
+static void make_grid(rlf_pipeline *p, rlf_grid *out)
+{
+    const rlf_surface *s = p->last.surface;
+    grid_from_surface(s, &p->def.T_world_camera, p->regions, p->region_capacity, out);
+    if (p->def.world.method == RLF_PHYSICS_LIVE && out->foreground.thickness != NULL) {
+        rlf_vec3 gravity = rlf_world_get_snapshot(p->world)->gravity;
+        rlf_vec3 down = rlf_rotate(rlf_quat_conjugate(p->def.T_world_camera.q), gravity);
+        out->foreground.thickness = far_side_thicken(&p->far, s, down);
+    }
+}
+
 static rlf_result advance_world(rlf_pipeline *p)
 {
     rlf_pipeline_output *out = &p->last;
@@ -214,7 +231,7 @@ static rlf_result advance_world(rlf_pipeline *p)
     if (p->frame_index == 0 && p->scene.finds_gravity) {
         find_gravity(p);
     }
-    grid_from_surface(out->surface, &p->def.T_world_camera, p->regions, p->region_capacity, &grid);
+    make_grid(p, &grid);
     bool is_first = p->frame_index == 0;
     const rlf_known_view view = known_view(p);
     rlf_result result = is_first ? known_models_solve(&p->known, &view, p->world)

@@ -4,6 +4,7 @@
 
 #include "relief/pipeline.h"
 
+#include "pipeline/far_side.h"
 #include "pipeline/known.h"
 
 #define OVERLAY_LINES_MAX 32
@@ -23,6 +24,7 @@ struct rlf_pipeline {
     float *ray_x, *ray_y; /* rays of the grid, for the compositor */
     rlf_grid_region *regions;
     int32_t region_capacity;
+    far_side far;
 
     rlf_view views[RLF_PIPELINE_VIEWS];
     int32_t view_count;

@@ -82,7 +82,7 @@ static void backs_and_book_edges_turn_most_back(void **state)
     eval_throws o;
     assert_int_equal(eval_sensed_throw(&behind, &o), RLF_OK);
     print_message("behind: %d of 120 bounced, %d passed\n", (int)o.bounced, (int)o.passed);
-    assert_true(o.bounced >= 102);
+    assert_true(o.bounced >= 114);
     assert_int_equal(eval_sensed_throw(&edge, &o), RLF_OK);
     print_message("edge: %d of 120 bounced, %d passed\n", (int)o.bounced, (int)o.passed);
     assert_true(o.bounced >= 104);
