@@ -110,27 +110,31 @@ static void collide_pair(const rlf_world *world, phys_pair *pair, const rlf_sat_
     set_contacts(pair, a, b, points, chosen, count);
 }
 
-/* Whether a search would find what the last one found. */
+/* Whether a search of a pair that touches would find what the last one found. */
 static bool is_settled(const rlf_world *world, const phys_pair *pair, double h)
 {
+    if (pair->contact_count == 0) {
+        return false;
+    }
     const phys_body *a = &world->bodies[pair->a], *b = &world->bodies[pair->b];
     double moved = moved_since(pair, a, b);
     double margin = PHYS_PAIR_MARGIN + (PHYS_PERIOD_MAX + 1) * travel_of(a, b) * h;
-    if (pair->contact_count == 0) {
-        return pair->gap - moved > margin;
-    }
     double share = pair->side.of == PHYS_SIDE_NONE ? STILL_SHARE : STILL_SHARE_OF_SIDE;
     return margin <= pair->margin + PHYS_PAIR_MARGIN &&
            moved < share * rlf_min(a->shape.radius, b->shape.radius);
 }
 
-/* Whether the gap that is left is more than they come nearer until it is looked at again, in the
- * next substep. */
-static bool is_apart(const rlf_world *world, const phys_pair *pair, double h)
+/* Substeps, up to PHYS_PERIOD_MAX, after which the gap that is left will still be more than they
+ * come nearer in one more; 0: they may touch. */
+static int32_t apart_for(const rlf_world *world, const phys_pair *pair, double h)
 {
+    if (pair->contact_count > 0 || !(pair->gap > 0.0)) {
+        return 0;
+    }
     const phys_body *a = &world->bodies[pair->a], *b = &world->bodies[pair->b];
-    return pair->contact_count == 0 && pair->gap > 0.0 &&
-           pair->gap - moved_since(pair, a, b) > PHYS_PAIR_MARGIN + 2.0 * travel_of(a, b) * h;
+    double left = pair->gap - moved_since(pair, a, b) - PHYS_PAIR_MARGIN;
+    double steps = left / rlf_max(travel_of(a, b) * h, 1e-9) - 1.0;
+    return (int32_t)rlf_clamp(steps, 0.0, PHYS_PERIOD_MAX);
 }
 
 typedef struct pair_job {
@@ -254,11 +258,9 @@ void phys_find_pairs(rlf_world *world, double h)
         bool is_idle = phys_body_is_idle(&world->bodies[pair->a]) &&
                        phys_body_is_idle(&world->bodies[pair->b]);
         pair->age = 0;
-        if (is_idle || is_settled(world, pair, h)) {
-            pair->period = PHYS_PERIOD_MAX;
-        } else if (is_apart(world, pair, h)) {
-            pair->period = 1;
-        } else {
+        bool is_kept = is_idle || is_settled(world, pair, h);
+        pair->period = is_kept ? PHYS_PERIOD_MAX : apart_for(world, pair, h);
+        if (pair->period == 0) {
             world->due_pairs[due++] = i;
         }
     }
@@ -270,7 +272,7 @@ void phys_refresh_pairs(rlf_world *world, double h)
     int32_t due = 0;
     for (int32_t i = 0; i < world->pair_count; i++) {
         phys_pair *pair = &world->pairs[i];
-        if (++pair->age >= pair->period && !is_apart(world, pair, h)) {
+        if (++pair->age >= pair->period && apart_for(world, pair, h) == 0) {
             world->due_pairs[due++] = i;
         }
     }
