@@ -113,6 +113,7 @@ static void estimate_block(rlf_chord_job *job)
         rlf_chords_pool(job, count);
         if (job->dy == 0) {
             rlf_chords_align(job, count);
+            rlf_chords_head(job, count);
         }
         rlf_parallel_for(pool, count, RLF_ROW_GRAIN, paint_lines, job);
     }

@@ -45,6 +45,7 @@ typedef struct rlf_chord {
     rlf_chord_moments own, pooled, running;
     rlf_chord_middle seen, told; /* by the chord alone; with all lines before it */
     rlf_chord_middle beside;     /* by the lines on both sides, without its own */
+    float share;                 /* how much more it counts than by what it shows */
 } rlf_chord;
 
 /* y = middle + slope s - ratio h, in metres about the reference depth. */
@@ -119,6 +120,10 @@ int32_t rlf_chords_cut(const rlf_chord_job *job, const rlf_line *line, rlf_chord
 /* ---- thickness_axis.c ---- */
 /* Tells each chord where the rows above and below have the middle of its body. */
 void rlf_chords_align(const rlf_chord_job *job, int32_t row_count);
+
+/* ---- thickness_head.c ---- */
+/* Tells the rows of trunks where the middle of the head above them is. */
+void rlf_chords_head(const rlf_chord_job *job, int32_t row_count);
 
 /* ---- thickness_conic.c ---- */
 /* Fills the sums of a chord whose ends and parts are known; false when it shows nothing. */

@@ -9,7 +9,7 @@
 
 #include "analytic.h"
 
-enum { WIDTH = 512, HEIGHT = 424, COUNT = WIDTH * HEIGHT, BODIES = 3 };
+enum { WIDTH = 512, HEIGHT = 424, COUNT = WIDTH * HEIGHT, BODIES = 4 };
 
 static const double wall_z = 3.6, room_for_noise_m = 0.01;
 
@@ -237,6 +237,21 @@ static void a_limb_on_the_side_of_a_trunk(void **state)
     assert_true(trunk.mean < 0.026 && limb.mean < 0.027 && limb.close > 0.8);
 }
 
+/* A trunk seen from the side, an arm before it: the head above tells where its middle is. */
+static void a_head_tells_the_middle_of_a_trunk(void **state)
+{
+    (void)state;
+    static const body bodies[] = {
+        {.centre = {0.0, 0.15, 2.5}, .half = {0.12, 0.35, 0.19}, .top = -9},
+        {.centre = {-0.03, 0.0, 2.24}, .half = {0.045, 0.4, 0.045}, .lean = 0.2, .top = -9},
+        {.centre = {0.0, -0.38, 2.5}, .half = {0.095, 0.12, 0.08}, .top = -9},
+        {.centre = {0.0, -0.22, 2.5}, .half = {0.055, 0.12, 0.055}, .top = -9},
+    };
+    errors alone = measure(2, bodies, 0);
+    errors with_head = measure(4, bodies, 0);
+    assert_true(with_head.mean < 0.8 * alone.mean && with_head.mean < 0.025);
+}
+
 /* Rows that show little of their own depth take it from those above and below: a trunk with flat
  * faces on a part of it. */
 static void rows_share_an_axis(void **state)
@@ -362,6 +377,7 @@ int main(void)
         cmocka_unit_test(a_limb_before_a_trunk),
         cmocka_unit_test(a_limb_on_a_trunk),
         cmocka_unit_test(a_limb_on_the_side_of_a_trunk),
+        cmocka_unit_test(a_head_tells_the_middle_of_a_trunk),
         cmocka_unit_test(rows_share_an_axis),
         cmocka_unit_test(legs_that_touch),
         cmocka_unit_test(bodies_that_leave_the_image),
