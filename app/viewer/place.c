@@ -6,6 +6,7 @@
 
 #define CROSS_PX 6
 #define VERTICES_MAX 12 /* of a hull that are asked for */
+#define NAME 16         /* characters of a point, "v12", and its end */
 
 /* ---- points --------------------------------------------------------------------------------- */
 
@@ -26,14 +27,14 @@ static int32_t point_count(const rlf_shape *shape)
     return vertices < VERTICES_MAX ? vertices : VERTICES_MAX;
 }
 
-static void point_name(const rlf_shape *shape, int32_t index, char out[8])
+static void point_name(const rlf_shape *shape, int32_t index, char out[NAME])
 {
     switch (shape->type) {
-    case RLF_SHAPE_BOX: (void)snprintf(out, 8, "%s", box_points[index]); break;
-    case RLF_SHAPE_SPHERE: (void)snprintf(out, 8, "%s", ball_points[index]); break;
+    case RLF_SHAPE_BOX: (void)snprintf(out, NAME, "%s", box_points[index]); break;
+    case RLF_SHAPE_SPHERE: (void)snprintf(out, NAME, "%s", ball_points[index]); break;
     case RLF_SHAPE_CAPSULE:
-    case RLF_SHAPE_CYLINDER: (void)snprintf(out, 8, "%s", round_points[index]); break;
-    case RLF_SHAPE_HULL: (void)snprintf(out, 8, "v%d", (int)index); break;
+    case RLF_SHAPE_CYLINDER: (void)snprintf(out, NAME, "%s", round_points[index]); break;
+    case RLF_SHAPE_HULL: (void)snprintf(out, NAME, "v%d", (int)index); break;
     }
 }
 
@@ -42,7 +43,7 @@ static void point_words(const rlf_shape *shape, int32_t index, char out[64])
 {
     static const char letters[] = "lrtbnf";
     static const char *const words[] = {"left ", "right ", "top ", "bottom ", "near ", "far "};
-    char name[8];
+    char name[NAME];
     point_name(shape, index, name);
     if (shape->type == RLF_SHAPE_HULL) {
         rlf_vec3 p = shape->hull->vertices[index];
@@ -111,7 +112,7 @@ static void solve(viewer_place *place, rlf_pipeline *pipeline, char text[VIEWER_
 void viewer_place_pick(viewer_place *place, rlf_pipeline *pipeline, double u, double v,
                        char text[VIEWER_PLACE_TEXT])
 {
-    char name[8];
+    char name[NAME];
     rlf_known_def *def = &place->def;
     text[0] = '\0';
     if (!place->is_on || place->next >= point_count(&def->shape)) {

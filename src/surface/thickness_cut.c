@@ -184,6 +184,7 @@ static int32_t find_crease(const pieces *p, const piece *s, bool rim[2])
 {
     float best = crease_least, slope[2] = {0.0f, 0.0f};
     int32_t at = -1;
+    rim[0] = rim[1] = false;
     for (int32_t k = s->begin + CREASE_ARM; k < s->end - CREASE_ARM; k++) {
         float sharp = crease_at(p, k, slope);
         if (sharp > best && (slope[0] > rim_slope || slope[1] > rim_slope)) {
