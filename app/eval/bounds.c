@@ -150,7 +150,7 @@ const eval_bound eval_bounds[] = {
     {"sensed", "drop_tunnelled", '<', 0, 0, "", ""},
     {"sensed", "drop_fastest", '<', 15, 15, "", ""},
     {"sensed", "behind_bounced_percent", '>', 99, 97, "0", ""},
-    {"sensed", "edge_bounced_percent", '>', 99, 92, "0", ""},
+    {"sensed", "edge_bounced_percent", '>', 99, 98.5, "0", ""},
     {"sensed", "realism_percent", '>', 99.5, 90, "9 of 10 at best", ""},
     {"sensed", "realism_phantom_percent", '<', NAN, 1, "", ""},
     {"sensed", "realism_missed_percent", '<', NAN, 1, "", ""},

@@ -28,6 +28,9 @@ void rlf_past_predict(rlf_reconstruct *stage, const rlf_slot *slot, const float 
 float rlf_past_find_lost(const rlf_reconstruct *stage, ptrdiff_t i, ptrdiff_t step,
                          const int32_t to_ends[2], float nearest);
 
+/* Something is known to be at pixel k of this frame, at depth z, if nothing is seen there. */
+void rlf_past_know(rlf_past *past, ptrdiff_t k, float z);
+
 /* What is lost shows no motion: where none was found it goes on as before. */
 void rlf_past_keep_velocity(const rlf_reconstruct *stage, rlf_slot *slot);
 

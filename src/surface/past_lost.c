@@ -10,12 +10,14 @@
 enum {
     TICKS_PER_S = 100,
     LONGEST_TICKS = 30, /* without a pixel of it that is seen */
+    KNOWN_TICKS = 255,  /* it is followed otherwise */
     WIDEST_PX = RLF_FILL_GAP - 2,
     EDGE_PX = 2, /* what is taken away beside an edge, on its far side */
     REACH_PX = 2 /* velocity is off by this much */
 };
 static const float body_jump_m = 0.04f;
-static const float step_behind = 0.05f; /* share of the depth: a nearer end is no background */
+static const float known_before_m = 0.03f; /* nothing seen beside it is nearer than this */
+static const float step_behind = 0.05f;    /* share of the depth: a nearer end is no background */
 
 /* Notes the pixel's depth where nothing is seen, the nearest. */
 static void expect(rlf_past *past, ptrdiff_t k, float z, ptrdiff_t from, int32_t ticks)
@@ -31,6 +33,17 @@ static void expect(rlf_past *past, ptrdiff_t k, float z, ptrdiff_t from, int32_t
     if (is_first) {
         past->ahead_pixel[past->ahead_count++] = (int32_t)k;
     }
+}
+
+void rlf_past_know(rlf_past *past, ptrdiff_t k, float z)
+{
+    if (!rlf_past_is_ahead(past, k)) {
+        past->is_ahead[k >> 3] |= (uint8_t)(1 << (k & 7));
+        past->ahead_pixel[past->ahead_count++] = (int32_t)k;
+    }
+    past->ahead[k] = z;
+    past->ahead_ticks[k] = KNOWN_TICKS;
+    past->ahead_from[k] = (int32_t)k;
 }
 
 /* Whether pixel i, or one of its body beside it, was seen itself: a band beside an edge was not. */
@@ -107,12 +120,19 @@ float rlf_past_find_lost(const rlf_reconstruct *stage, ptrdiff_t i, ptrdiff_t st
     if (past->ahead_count == 0) {
         return 0.0f;
     }
+    if (rlf_past_is_ahead(past, i) && past->ahead_ticks[i] == KNOWN_TICKS) {
+        bool is_before = past->ahead[i] < nearest + known_before_m;
+        past->lost_ticks[i] = is_before ? KNOWN_TICKS : 0;
+        past->lost_from[i] = past->ahead_from[i];
+        return is_before ? past->ahead[i] : 0.0f;
+    }
     for (int32_t k = 0; k < count; k++) {
         if (offsets[k] >= to_ends[1] || -offsets[k] >= to_ends[0]) {
             continue;
         }
         ptrdiff_t at = i + offsets[k] * step;
-        if (rlf_past_is_ahead(past, at) && past->ahead[at] < (1.0f - step_behind) * nearest) {
+        if (rlf_past_is_ahead(past, at) && past->ahead_ticks[at] != KNOWN_TICKS &&
+            past->ahead[at] < (1.0f - step_behind) * nearest) {
             past->lost_ticks[i] = past->ahead_ticks[at];
             past->lost_from[i] = past->ahead_from[at];
             return past->ahead[at];

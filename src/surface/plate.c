@@ -54,8 +54,7 @@ static void follow_motion(const rlf_pose *before, const double expected[3], doub
     plate->speed.x += share[0] * (moved.x - plate->speed.x);
     plate->speed.y += share[1] * (moved.y - plate->speed.y);
     plate->speed.z += share[2] * (moved.z - plate->speed.z);
-    plate->spin =
-        rlf_scale(rlf_mad(plate->spin, rlf_sub(turned, plate->spin), follow_share), spin_left);
+    plate->spin = rlf_mad(plate->spin, rlf_sub(turned, plate->spin), follow_share);
 }
 
 /* Whether the camera sees through most of it. */
@@ -103,6 +102,7 @@ static bool follow(const rlf_reconstruct *stage, const float *depth, double dt, 
     plate->passed_s = is_passed(stage, depth, plate) ? plate->passed_s + dt : 0.0;
     if (!is_lost) {
         follow_motion(&before, expected, dt, plate);
+        plate->spin = rlf_scale(plate->spin, spin_left);
     }
     return is_plate(plate);
 }

@@ -61,7 +61,9 @@ void rlf_plates_follow(rlf_reconstruct *stage, const rlf_slot *slot, const float
 void rlf_plates_find(rlf_reconstruct *stage, const rlf_slot *slot);
 
 /* ---- plate_write.c ---- */
-/* Makes the pixels of the plates as thick as these are there. */
-void rlf_plates_thicken(const rlf_reconstruct *stage, rlf_slot *slot);
+/* Tells past.h where a plate must be though `depth` has nothing there. */
+void rlf_plates_expect(rlf_reconstruct *stage, const float *depth);
+/* Makes the pixels of the plates as thick as these are there and, edge-on, as fast. */
+void rlf_plates_write(const rlf_reconstruct *stage, rlf_slot *slot);
 
 #endif

@@ -136,28 +136,30 @@ static int32_t kind_of(const equations *sum, double u, double v, double z, doubl
     return *seen > z + step_m ? BEYOND : BEFORE;
 }
 
-/* Pixels from (u, v), outwards along `out`, to where depth steps; false when it does not, as where
- * something else begins that goes on behind. */
+/* Pixels from (u, v), outwards along `out`, to where depth steps for the last time; false when it
+ * does not, as where something else begins that goes on behind. What is beyond a narrow plate is
+ * seen on its other side, too. */
 static bool find_step(const equations *sum, const double at[2], const double out[2], double z,
                       double *offset, double *sigma)
 {
-    int32_t last = -REACH_PX - 1;
+    const int32_t NONE = -REACH_PX;
+    int32_t last = NONE - 1, step = NONE;
     double last_seen = z, seen;
-    for (int32_t k = -REACH_PX; k <= REACH_PX; k++) {
+    for (int32_t k = -REACH_PX; k <= REACH_PX && (k <= 0 || step == NONE); k++) {
         int32_t kind = kind_of(sum, at[0] + k * out[0], at[1] + k * out[1], z, &seen);
+        if (kind == BEFORE || (kind == BEYOND && seen < last_seen + step_m)) {
+            return false;
+        }
         if (kind == THING) {
             last = k;
             last_seen = seen;
-        } else if (kind == BEYOND && k > -REACH_PX && seen > last_seen + step_m) {
-            bool is_seen = last >= -REACH_PX;
-            *offset = is_seen ? 0.5 * (k + last) : k - band_px;
-            *sigma = is_seen ? outline_px : beyond_px;
-            return true;
-        } else if (kind != NOTHING) {
-            return false;
         }
+        step = kind != BEYOND ? NONE : step == NONE ? k : step;
     }
-    return false;
+    bool is_seen = last >= -REACH_PX;
+    *offset = is_seen ? 0.5 * (step + last) : step - band_px;
+    *sigma = is_seen ? outline_px : beyond_px;
+    return step != NONE;
 }
 
 /* A place on an edge of the outline: depth steps `offset` pixels farther out. */

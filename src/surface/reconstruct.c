@@ -146,6 +146,7 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
     if (stage->past.points != NULL) {
         rlf_plates_follow(stage, slot, kept);
         rlf_past_predict(stage, slot, kept);
+        rlf_plates_expect(stage, kept);
     }
     if (stage->def.enable_hold && stage->def.enable_steadying) {
         rlf_hold_recall(stage, flying ? raw : NULL, kept, slot->reason);
@@ -416,7 +417,7 @@ rlf_result rlf_reconstruct_process(rlf_reconstruct *stage, const rlf_frame *fram
         if (stage->past.points != NULL) {
             rlf_past_thicken(stage, slot);
             rlf_plates_find(stage, slot);
-            rlf_plates_thicken(stage, slot);
+            rlf_plates_write(stage, slot);
         }
         rlf_stage_add_time(stage, RLF_SURFACE_THICKNESS);
     }

@@ -85,7 +85,7 @@ static void backs_and_book_edges_turn_most_back(void **state)
     assert_true(o.bounced >= 114);
     assert_int_equal(eval_sensed_throw(&edge, &o), RLF_OK);
     print_message("edge: %d of 120 bounced, %d passed\n", (int)o.bounced, (int)o.passed);
-    assert_true(o.bounced >= 104);
+    assert_true(o.bounced >= 116);
     edge.profile = RLF_PROFILE_THESIS;
     assert_int_equal(eval_sensed_throw(&edge, &o), RLF_OK);
     assert_true(o.bounced < 30);
