@@ -14,7 +14,7 @@ static const double longest_lost_s = 0.6, longest_passed_s = 0.1;
 static const double behind_m = 0.04;
 static const double least_half_m = 0.038, most_half_m = 0.6, thickest_half_m = 0.04;
 static const double young_s = 0.25; /* it is a plate if it is not lost before */
-enum { LEAST_FACES = 4, LEAST_SHARE = 4 };
+enum { LEAST_FACES = 4, LEAST_SHARE = 4, MOST_PIXELS = 2048 };
 
 static void predict(rlf_plate *plate, double dt)
 {
@@ -63,9 +63,9 @@ static bool is_passed(const rlf_reconstruct *stage, const float *depth, const rl
     const rlf_grid *grid = &stage->grid;
     const rlf_plate_view view = rlf_plate_look(plate);
     rlf_plate_window w = rlf_plate_window_of(grid, &view, 0);
-    int32_t seen = 0, beyond = 0;
-    for (int32_t y = w.y0; y < w.y1; y++) {
-        for (int32_t x = w.x0; x < w.x1; x++) {
+    int32_t seen = 0, beyond = 0, stride = rlf_plate_stride(&w, MOST_PIXELS);
+    for (int32_t y = w.y0; y < w.y1; y += stride) {
+        for (int32_t x = w.x0; x < w.x1; x += stride) {
             ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
             rlf_plate_cut cut;
             if (depth[i] > 0.0f && rlf_plate_cut_ray(&view, grid->ray_x[i], grid->ray_y[i], &cut)) {

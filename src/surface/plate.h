@@ -42,6 +42,8 @@ double rlf_plate_distance(const rlf_plate_view *view, rlf_vec3 p);
  * camera. */
 rlf_plate_window rlf_plate_window_of(const rlf_grid *grid, const rlf_plate_view *view,
                                      int32_t margin);
+/* Of at most so many of its pixels, those of every stride-th row and column are looked at. */
+int32_t rlf_plate_stride(const rlf_plate_window *window, int32_t most);
 
 /* ---- plate_fit.c ---- */
 typedef struct rlf_plate_fit {

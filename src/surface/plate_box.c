@@ -83,3 +83,12 @@ rlf_plate_window rlf_plate_window_of(const rlf_grid *grid, const rlf_plate_view 
     double y1 = rlf_clamp(high[1] + margin + 1.0, 0.0, grid->height);
     return (rlf_plate_window){(int32_t)x0, (int32_t)y0, (int32_t)x1, (int32_t)y1};
 }
+
+int32_t rlf_plate_stride(const rlf_plate_window *window, int32_t most)
+{
+    int32_t area = (window->x1 - window->x0) * (window->y1 - window->y0), stride = 1;
+    while (area > most * stride * stride) {
+        stride++;
+    }
+    return stride;
+}

@@ -16,6 +16,8 @@ enum {
     STEP_PX = 2, /* patches are grown over every second pixel of every second row */
     LEAST = 24,  /* pixels of a patch, of those */
     MOST = 4096,
+    MOST_LOOKED_AT = 2048, /* of a frame; the next one begins where that was reached */
+    A_PATCH = 64,          /* its planes cost as much as so many pixels */
     FIRST_FIT = 12,
     TURNS = 15,
     EDGE_PX = 3 /* a step so near the patch is its own */
@@ -142,7 +144,9 @@ static void grow(patch *p, uint8_t *visited, int32_t x, int32_t y)
             fit(p);
         }
     }
-    fit(p);
+    if (p->count >= LEAST) {
+        fit(p);
+    }
 }
 
 static double depth_of_plane(const patch *p, ptrdiff_t i)
@@ -305,14 +309,14 @@ static rlf_vec3 speed_of(const patch *p)
     return rlf_scale(rlf_vec3_make(sum[0], sum[1], sum[2]), 1.0 / p->count);
 }
 
-/* What the plates explain is no seed. */
+/* What the plates explain is no seed. Patches lie on every second row. */
 static void mark_known(const rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *visited)
 {
     const rlf_grid *grid = &stage->grid;
     for (int32_t k = 0; k < stage->plates.count; k++) {
         const rlf_plate_view view = rlf_plate_look(&stage->plates.item[k]);
         rlf_plate_window w = rlf_plate_window_of(grid, &view, EDGE_PX);
-        for (int32_t y = w.y0; y < w.y1; y++) {
+        for (int32_t y = w.y0 + w.y0 % STEP_PX; y < w.y1; y += STEP_PX) {
             for (int32_t x = w.x0; x < w.x1; x++) {
                 ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
                 bool is_near = rlf_plate_distance(&view, point_at(stage, slot, i)) < side_m;
@@ -322,11 +326,12 @@ static void mark_known(const rlf_reconstruct *stage, const rlf_slot *slot, uint8
     }
 }
 
-static void find_in(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_region *region,
-                    uint8_t *visited)
+/* Returns the pixels that it has looked at. */
+static int32_t find_in(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_region *region,
+                       uint8_t *visited)
 {
     rlf_plates *plates = &stage->plates;
-    int32_t first = (region->y0 / SEED_PX + 1) * SEED_PX;
+    int32_t first = (region->y0 / SEED_PX + 1) * SEED_PX, looked_at = 0;
     for (int32_t y = first; y < region->y1; y += SEED_PX) {
         if ((y / SEED_PX + plates->frame) % FRAMES != 0) {
             continue;
@@ -339,6 +344,7 @@ static void find_in(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_regi
             patch p = {
                 .stage = stage, .slot = slot, .label = region->label, .pixel = stage->work.vote[0]};
             grow(&p, visited, x, y);
+            looked_at += p.count + A_PATCH;
             rlf_plate *next = &plates->item[plates->count];
             if (take(&p, visited, next)) {
                 next->speed = speed_of(&p);
@@ -346,6 +352,7 @@ static void find_in(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_regi
             }
         }
     }
+    return looked_at;
 }
 
 void rlf_plates_find(rlf_reconstruct *stage, const rlf_slot *slot)
@@ -357,7 +364,11 @@ void rlf_plates_find(rlf_reconstruct *stage, const rlf_slot *slot)
     }
     memset(visited, 0, (size_t)stage->grid.count);
     mark_known(stage, slot, visited);
-    for (int32_t r = 0; r < slot->foreground_region_count; r++) {
-        find_in(stage, slot, &slot->regions[slot->foreground_region_first + r], visited);
+    int32_t count = slot->foreground_region_count, begin = stage->plates.region % count;
+    for (int32_t k = 0, looked_at = 0; k < count && looked_at < MOST_LOOKED_AT; k++) {
+        int32_t r = (begin + k) % count;
+        looked_at +=
+            find_in(stage, slot, &slot->regions[slot->foreground_region_first + r], visited);
+        stage->plates.region = (r + 1) % count;
     }
 }

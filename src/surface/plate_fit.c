@@ -3,7 +3,14 @@
 
 #include <string.h>
 
-enum { N = RLF_PLATE_UNKNOWNS, PASSES = 5, REACH_PX = 6, MARGIN_PX = 3, MOST_PLACES = 48 };
+enum {
+    N = RLF_PLATE_UNKNOWNS,
+    PASSES = 5,
+    REACH_PX = 6,
+    MARGIN_PX = 3,
+    MOST_PLACES = 48,
+    MOST_PIXELS = 640 /* of its window: of a larger one every second of every second row ... */
+};
 
 static const double thing_m = 0.025;   /* what is seen so near the box is it */
 static const double outline_m = 0.015; /* the same, where its outline is looked for */
@@ -27,6 +34,7 @@ typedef struct equations {
     double a[N][N], b[N];
     rlf_plate_fit fit;
     double loose_px; /* scale of Geman and McClure's weight */
+    int32_t stride;  /* of the pixels that are looked at */
 } equations;
 
 static void add_row(equations *sum, const double row[N], double error, double weight)
@@ -110,10 +118,12 @@ static void add_pixel(equations *sum, ptrdiff_t i)
                    beside_px * z / grid->camera.fx * sqrt(rlf_max(1.0 - facing * facing, 0.0)) +
                    least_sigma_m;
     double robust = 1.0 / (1.0 + face.error * face.error / (robust_m * robust_m));
+    int32_t others = sum->stride * sum->stride; /* for which it stands */
+    double weight = rlf_min(shared * others, 1.0) * robust * robust;
     set_row(row, n, rlf_sub(p, sum->view.centre));
     row[6 + face.axis] = 1.0;
-    add_row(sum, row, face.error, shared * robust * robust / (sigma * sigma));
-    sum->fit.faces += face.error < robust_m && face.error > -robust_m;
+    add_row(sum, row, face.error, weight / (sigma * sigma));
+    sum->fit.faces += face.error < robust_m && face.error > -robust_m ? others : 0;
 }
 
 enum { NOTHING, THING, BEYOND, BEFORE };
@@ -308,8 +318,9 @@ static void measure(equations *sum)
 {
     const rlf_grid *grid = &sum->stage->grid;
     rlf_plate_window w = rlf_plate_window_of(grid, &sum->view, MARGIN_PX);
-    for (int32_t y = w.y0; y < w.y1; y++) {
-        for (int32_t x = w.x0; x < w.x1; x++) {
+    sum->stride = rlf_plate_stride(&w, MOST_PIXELS);
+    for (int32_t y = w.y0; y < w.y1; y += sum->stride) {
+        for (int32_t x = w.x0; x < w.x1; x += sum->stride) {
             add_pixel(sum, (ptrdiff_t)y * grid->width + x);
         }
     }

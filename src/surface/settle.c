@@ -24,8 +24,9 @@ static const float MOST_APART = 0.03f; /* share of the depth, of one surface */
 enum {
     MOST_VOTES = 32, /* a second: as long may what was stay */
     /* A pixel's mark is how many frames it is still watched for. */
-    MOST_IDLE = 32, /* frames in a row that gave no reason to */
-    DUE = 128       /* the newest frame gives one */
+    MOST_IDLE = 8, /* frames in a row that gave no reason to */
+    DUE = 128,     /* the newest frame gives one */
+    TOGETHER = 64  /* pixels */
 };
 
 typedef struct settle_job {
@@ -88,27 +89,47 @@ static bool is_asked(const settle_job *job, ptrdiff_t i)
     return job->mark[i] != 0 && job->depth[i] > 0.0f;
 }
 
-static void vote(const settle_job *job, ptrdiff_t i)
+/* What a watched pixel has now. */
+typedef struct ballot {
+    float normal[3], depth;
+    int32_t votes; /* of the normal so far */
+} ballot;
+
+static void vote(const settle_job *job, ptrdiff_t i, const ballot *now)
 {
-    const float normal[3] = {job->normal[0][i], job->normal[1][i], job->normal[2][i]};
-    float z = job->depth[i], cosine = 0.0f, square = 0.0f;
+    float z = now->depth, cosine = 0.0f, square = 0.0f;
     rlf_settled *s = &job->settled[i];
     for (int32_t k = 0; k < 3; k++) {
-        cosine += normal[k] * s->normal[k];
-        square += normal[k] * normal[k];
+        cosine += now->normal[k] * s->normal[k];
+        square += now->normal[k] * now->normal[k];
     }
     bool is_near = rlf_kernel_abs(z - s->depth) < MOST_APART * z;
     if (!(square > 0.5f)) {
         return;
     }
-    if (s->votes == 0) {
-        propose(s, normal, z);
+    if (now->votes == 0) {
+        propose(s, now->normal, z);
     } else if (is_near && cosine > AGREED) {
-        agree(s, normal, z);
+        agree(s, now->normal, z);
     } else if (--s->votes == 0) {
-        propose(s, normal, z);
+        propose(s, now->normal, z);
     } else if (is_near) {
-        overrule(job, i, normal);
+        overrule(job, i, now->normal);
+    }
+}
+
+/* What pixels have is far apart in memory: fetched together it is waited for once. */
+static void vote_all(const settle_job *job, ptrdiff_t row, const int32_t *asked, int32_t count)
+{
+    ballot now[TOGETHER];
+    for (int32_t k = 0; k < count; k++) {
+        ptrdiff_t i = row + asked[k];
+        now[k] = (ballot){{job->normal[0][i], job->normal[1][i], job->normal[2][i]},
+                          job->depth[i],
+                          job->settled[i].votes};
+    }
+    for (int32_t k = 0; k < count; k++) {
+        vote(job, row + asked[k], &now[k]);
     }
 }
 
@@ -124,13 +145,18 @@ static void settle_rows(void *context, int32_t begin, int32_t end, int32_t worke
         for (int32_t x = 0; (x = rlf_kernel_next_mark(reason, x, job->width)) < job->width; x++) {
             mark[x] |= reason[x] == RLF_REASON_FILLED ? DUE : 0;
         }
+        int32_t asked[TOGETHER], count = 0;
         for (int32_t x = 0; (x = rlf_kernel_next_mark(mark, x, job->width)) < job->width;) {
             for (; x < job->width && mark[x] != 0; x++) {
-                if (is_asked(job, row + x)) {
-                    vote(job, row + x);
+                asked[count] = x;
+                count += is_asked(job, row + x);
+                if (count == TOGETHER) {
+                    vote_all(job, row, asked, count);
+                    count = 0;
                 }
             }
         }
+        vote_all(job, row, asked, count);
     }
 }
 

@@ -168,7 +168,8 @@ enum { RLF_PLATES = 4 };
 typedef struct rlf_plates {
     rlf_plate item[RLF_PLATES];
     int32_t count;
-    int32_t frame; /* of some, see plate_find.c */
+    int32_t frame;  /* of some, see plate_find.c */
+    int32_t region; /* of the foreground at which the next search begins */
 } rlf_plates;
 
 /* Memory that is free between steps. */

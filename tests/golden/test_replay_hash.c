@@ -23,7 +23,7 @@ typedef struct golden {
 } golden;
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0xd2d6130e6c4a5b48u, 0xf7dee2a65f452edeu, 0x632d593b8b8126d0u},
+    {RLF_PROFILE_LIVE, 0x4a78ba5a02182c34u, 0xf7dee2a65f452edeu, 0x632d593b8b8126d0u},
     {RLF_PROFILE_THESIS, 0xa393eb06e579d241u, 0xd84652fb54683851u, 0xc064b44391e1e990u},
 };
 
