@@ -72,7 +72,7 @@ static int which[COUNT]; /* body seen; -1 = wall */
 /* First solid along the ray: bodies that touch there are one. */
 static void see(double x, double y, int i)
 {
-    span spans[BODIES];
+    span spans[BODIES] = {{0.0, 0.0}};
     double near = 1e9;
     which[i] = -1;
     for (int k = 0; k < shown_count; k++) {
