@@ -9,7 +9,7 @@
 #define KNOWN_MODELS 3 /* the large box, the one on top of it, the small one */
 #define KNOWN_CHAIR_BODIES 4
 
-/* The model over a box of the room, in its true pose. */
+/* known_room.c: the model over a box of the room, in its true pose. */
 rlf_known_def known_true_model(int32_t index);
 
 /* The empty room; is_lost: the sensor has no depth on the boxes, as on glass or black plastic.

@@ -1,4 +1,4 @@
-/* Bodies from their defs, and their release from being held. */
+/* Bodies: made from their defs, found, woken, released from being held. */
 #include "physics/world_state.h"
 
 #include "base/cookie.h"
@@ -197,4 +197,27 @@ void phys_world_release(rlf_world *world)
             phys_body_wake(body);
         }
     }
+}
+
+void phys_body_wake(phys_body *body)
+{
+    body->is_asleep = false;
+    body->still_time = 0.0;
+    body->has_block = false;
+    phys_body_ask_surface(body);
+}
+
+int32_t phys_find_body(const rlf_world *world, rlf_body_id id)
+{
+    int32_t index = (int32_t)id.index1 - 1;
+    if (world == NULL || index < 0 || index >= world->body_top) {
+        return -1;
+    }
+    const phys_body *body = &world->bodies[index];
+    return body->is_alive && body->generation == id.generation ? index : -1;
+}
+
+bool rlf_world_has_body(const rlf_world *world, rlf_body_id id)
+{
+    return phys_find_body(world, id) >= 0;
 }

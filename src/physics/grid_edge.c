@@ -95,3 +95,14 @@ double grid_edge_width(const rlf_grid *grid, const rlf_grid_sheet *sheet, const 
     int32_t column = line_length(grid, sheet, cell, 1, row < most ? row : most);
     return rlf_min((row < column ? row : column) * pixel, limit);
 }
+
+rlf_vec3 grid_wall_normal(rlf_vec3 inward, rlf_vec3 side, rlf_vec3 normal, int32_t edge)
+{
+    rlf_vec3 axis = rlf_normalize(inward);
+    rlf_vec3 face = rlf_mad(side, axis, -rlf_dot(side, axis));
+    face = rlf_dot(face, face) > 0.01 ? rlf_normalize(face) : side;
+    double out = rlf_dot(normal, face);
+    double along = rlf_dot(normal, axis);
+    along = edge < 0 ? rlf_min(along, 0.0) : edge > 0 ? rlf_max(along, 0.0) : 0.0;
+    return rlf_normalize(rlf_mad(rlf_scale(axis, along), face, rlf_max(out, 0.0)));
+}

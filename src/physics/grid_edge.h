@@ -23,4 +23,9 @@ bool grid_edge_normal(const rlf_grid *grid, const rlf_grid_sheet *sheet, const f
 double grid_edge_width(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
                        double limit);
 
+/* A side wall's direction at an outline's pixel: its face, which is `side` turned so that the wall
+ * goes `inward`, and at its front (edge < 0) and back edge (> 0) all between that face and inward.
+ * `normal` brought into them. */
+rlf_vec3 grid_wall_normal(rlf_vec3 inward, rlf_vec3 side, rlf_vec3 normal, int32_t edge);
+
 #endif

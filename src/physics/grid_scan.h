@@ -75,11 +75,6 @@ typedef struct grid_job {
 bool grid_footprint(const rlf_grid *grid, rlf_vec3 centre, double reach, int32_t rect[4],
                     int32_t *stride);
 
-/* A side wall's direction at an outline's pixel: its face, which is `side` turned so that the wall
- * goes `inward`, and at its front (edge < 0) and back edge (> 0) all between that face and inward.
- * `normal` brought into them. */
-rlf_vec3 grid_wall_normal(rlf_vec3 inward, rlf_vec3 side, rlf_vec3 normal, int32_t edge);
-
 /* Fills nearest2, is_near, is_flat, flats, surface_velocity, normals, bumps, and hits with the
  * outline's points. */
 void grid_scan_footprint(grid_job *job);

@@ -98,29 +98,6 @@ void rlf_world_destroy(rlf_world **world)
     *world = NULL;
 }
 
-static int32_t find_body(const rlf_world *world, rlf_body_id id)
-{
-    int32_t index = (int32_t)id.index1 - 1;
-    if (world == NULL || index < 0 || index >= world->body_top) {
-        return -1;
-    }
-    const phys_body *body = &world->bodies[index];
-    return body->is_alive && body->generation == id.generation ? index : -1;
-}
-
-bool rlf_world_has_body(const rlf_world *world, rlf_body_id id)
-{
-    return find_body(world, id) >= 0;
-}
-
-void phys_body_wake(phys_body *body)
-{
-    body->is_asleep = false;
-    body->still_time = 0.0;
-    body->has_block = false;
-    phys_body_ask_surface(body);
-}
-
 /* What rested on a body that goes or moves must notice. */
 static void wake_near(rlf_world *world, const phys_body *body)
 {
@@ -148,7 +125,7 @@ static void remove_body(rlf_world *world, int32_t index)
 
 void rlf_world_remove_body(rlf_world *world, rlf_body_id id)
 {
-    int32_t index = find_body(world, id);
+    int32_t index = phys_find_body(world, id);
     if (index >= 0) {
         remove_body(world, index);
         phys_world_publish(world);
@@ -168,7 +145,7 @@ void phys_world_remove_strays(rlf_world *world)
 bool rlf_world_set_body(rlf_world *world, rlf_body_id id, const rlf_pose *T_world_body,
                         rlf_vec3 velocity, rlf_vec3 angular_velocity)
 {
-    int32_t index = find_body(world, id);
+    int32_t index = phys_find_body(world, id);
     if (index < 0 || !RLF_ASSERT(T_world_body != NULL)) {
         return false;
     }
@@ -198,7 +175,7 @@ bool rlf_world_set_body(rlf_world *world, rlf_body_id id, const rlf_pose *T_worl
 
 bool rlf_world_apply_impulse(rlf_world *world, rlf_body_id id, rlf_vec3 impulse, rlf_vec3 point)
 {
-    int32_t index = find_body(world, id);
+    int32_t index = phys_find_body(world, id);
     if (index < 0 || !rlf_vec3_is_finite(impulse) || !rlf_vec3_is_finite(point)) {
         return false;
     }
@@ -211,7 +188,7 @@ bool rlf_world_apply_impulse(rlf_world *world, rlf_body_id id, rlf_vec3 impulse,
 
 bool rlf_world_apply_force(rlf_world *world, rlf_body_id id, rlf_vec3 force, rlf_vec3 point)
 {
-    int32_t index = find_body(world, id);
+    int32_t index = phys_find_body(world, id);
     if (index < 0 || !rlf_vec3_is_finite(force) || !rlf_vec3_is_finite(point)) {
         return false;
     }

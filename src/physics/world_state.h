@@ -169,6 +169,8 @@ void phys_world_release(rlf_world *world);
 /* Removes bodies whose centre left the scene (Algorithm 1: "while x(t) is within the scene"). */
 void phys_world_remove_strays(rlf_world *world);
 
+/* Index of the body with that id; -1 when it is gone. */
+int32_t phys_find_body(const rlf_world *world, rlf_body_id id);
 /* Ends a body's sleep. */
 void phys_body_wake(phys_body *body);
 

@@ -34,11 +34,6 @@ static int32_t tile_columns(const rlf_grid *grid)
     return (grid->width + RLF_SHEET_TILE - 1) / RLF_SHEET_TILE;
 }
 
-int32_t rlf_sheet_tiles(const rlf_grid *grid)
-{
-    return tile_columns(grid) * ((grid->height + RLF_SHEET_TILE - 1) / RLF_SHEET_TILE);
-}
-
 size_t rlf_sheet_crop_size(void)
 {
     return (size_t)CROP * CROP;

@@ -7,6 +7,8 @@
 
 #include <math.h>
 
+enum { LABEL_LIMIT = 1 << 30 };
+
 /* Metres from what a part belongs to: aside of its rectangle, and in depth. */
 static const double MOST_ASIDE = 0.25, MOST_BEHIND = 0.4;
 static const double WHOLE = 0.75, FADING = 0.98; /* share of the points, per frame */
@@ -153,4 +155,10 @@ void rlf_region_name(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_o
         region->label = region->label != 0 ? region->label : rlf_region_fresh_label(stage);
     }
     note(family, out);
+}
+
+int32_t rlf_region_fresh_label(rlf_reconstruct *stage)
+{
+    stage->next_label = stage->next_label < LABEL_LIMIT ? stage->next_label + 1 : 1;
+    return stage->next_label;
 }

@@ -6,8 +6,6 @@
 
 #include <string.h>
 
-enum { LABEL_LIMIT = 1 << 30 };
-
 /* Which of the previous regions has a label: open addressing, at most half full. Entries are
  * indices + 1, 0 = free. */
 typedef struct label_table {
@@ -109,12 +107,6 @@ static void find_heirs(rlf_reconstruct *stage, const rlf_layer_in *in, const lab
             heir[k] == 0 || out->regions[r].point_count > out->regions[heir[k] - 1].point_count;
         heir[k] = larger ? r + 1 : heir[k];
     }
-}
-
-int32_t rlf_region_fresh_label(rlf_reconstruct *stage)
-{
-    stage->next_label = stage->next_label < LABEL_LIMIT ? stage->next_label + 1 : 1;
-    return stage->next_label;
 }
 
 void rlf_region_track(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out)

@@ -185,7 +185,12 @@ void rlf_background_reset(rlf_background *background, const rlf_grid *grid);
 bool rlf_background_is_cut(rlf_reconstruct *stage, const float *depth);
 
 /* ---- background_sheet.c ---- */
-int32_t rlf_sheet_tiles(const rlf_grid *grid);
+/* Tiles of a grid, the last of a row or column cut short. */
+static inline int32_t rlf_sheet_tiles(const rlf_grid *grid)
+{
+    return ((grid->width + RLF_SHEET_TILE - 1) / RLF_SHEET_TILE) *
+           ((grid->height + RLF_SHEET_TILE - 1) / RLF_SHEET_TILE);
+}
 size_t rlf_sheet_crop_size(void);
 /* Pixels of the tile at (x, y) were replaced. */
 void rlf_sheet_changed(rlf_background *background, const rlf_grid *grid, int32_t x, int32_t y,

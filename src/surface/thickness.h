@@ -109,11 +109,13 @@ void rlf_chords_prepare(rlf_chord_job *job);
 /* Thickness of the run's pixels from that of the knots around. */
 void rlf_knots_spread(const rlf_chord_job *job, const rlf_run *run, int32_t y);
 
-/* ---- thickness_cut.c ---- */
+/* ---- thickness_lines.c ---- */
 int32_t rlf_line_count(const rlf_chord_job *job);
 rlf_line rlf_line_at(const rlf_chord_job *job, int32_t index);
 /* Steps from the block's corner along the lines to the line's first pixel. */
 float rlf_line_origin(const rlf_chord_job *job, int32_t index);
+
+/* ---- thickness_cut.c ---- */
 /* Finds the chords of the line and measures them. Returns their number. */
 int32_t rlf_chords_cut(const rlf_chord_job *job, const rlf_line *line, rlf_chord *out);
 

@@ -37,11 +37,6 @@ static void clear_velocity(const rlf_grid *grid, rlf_slot *slot)
     memset(slot->moved, 0, (size_t)grid->height * sizeof *slot->moved);
 }
 
-rlf_vec3 rlf_twist_velocity(const rlf_twist *t, rlf_vec3 p)
-{
-    return rlf_twist_at(t, rlf_twist_spin(t), p);
-}
-
 /* Speed along the normal beyond v, from where v says that the point was; false when the region was
  * not seen there. */
 static bool speed_beyond(const rlf_flow *job, ptrdiff_t i, rlf_vec3 p, rlf_vec3 n, rlf_vec3 v,

@@ -27,8 +27,6 @@ typedef struct rlf_twist {
     double rim_excess;                /* sum of squares in units of their sigma */
 } rlf_twist;
 
-rlf_vec3 rlf_twist_velocity(const rlf_twist *t, rlf_vec3 p);
-
 /* Angular velocity, and with it the velocity at p. */
 static inline rlf_vec3 rlf_twist_spin(const rlf_twist *t)
 {
@@ -39,6 +37,11 @@ static inline rlf_vec3 rlf_twist_at(const rlf_twist *t, rlf_vec3 spin, rlf_vec3 
 {
     return rlf_add(rlf_vec3_make(t->x[0], t->x[1], t->x[2]),
                    rlf_cross(spin, rlf_sub(p, t->centre)));
+}
+
+static inline rlf_vec3 rlf_twist_velocity(const rlf_twist *t, rlf_vec3 p)
+{
+    return rlf_twist_at(t, rlf_twist_spin(t), p);
 }
 
 /* A square of the image in one region: see velocity_cells.c. */

@@ -27,6 +27,20 @@ if(relief_type STREQUAL "STATIC_LIBRARY" AND NOT RELIEF_SANITIZE)
               -DNM=${CMAKE_NM} -P ${house}/symbols_rejects.cmake)
 endif()
 
+if(NOT RELIEF_SANITIZE)
+  set(objects $<TARGET_OBJECTS:relief>)
+  foreach(part IN ITEMS relief_io relief_gl relief_measures relief_app)
+    if(TARGET ${part})
+      list(APPEND objects $<TARGET_OBJECTS:${part}>)
+    endif()
+  endforeach()
+  add_test(NAME house.circles COMMAND ${house}/circles.sh ${CMAKE_NM} ${objects}
+           COMMAND_EXPAND_LISTS)
+  set_tests_properties(house.circles PROPERTIES LABELS house TIMEOUT 300)
+  house_check(circles_rejects ${house}/circles_rejects.sh ${house}/circles.sh
+              ${CMAKE_CURRENT_BINARY_DIR}/circles ${CMAKE_C_COMPILER} ${CMAKE_NM})
+endif()
+
 # A sanitized library would ask the stranger's program for the same sanitizers.
 if(NOT RELIEF_SANITIZE)
   house_check(install ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR}

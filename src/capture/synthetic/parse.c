@@ -7,20 +7,11 @@
 #define SCENES "room, empty, thesis, chair, book, hand, lift, swipe, carry, crossing"
 #define KEYS "seed, person, frames, fps, speed, lamp, noise, edge_filter, color"
 
-static const char *const scene_names[] = {"room", "empty", "thesis", "chair", "book",
-                                          "hand", "lift",  "swipe",  "carry", "crossing"};
-#define SCENE_COUNT ((int)(sizeof(scene_names) / sizeof(scene_names[0])))
-
 /* A piece of the source string. */
 typedef struct piece {
     const char *text;
     size_t length;
 } piece;
-
-const char *synth_scene_name(rlf_synthetic_scene scene)
-{
-    return (int)scene >= 0 && (int)scene < SCENE_COUNT ? scene_names[scene] : NULL;
-}
 
 static bool is_word(piece p, const char *word)
 {
@@ -214,15 +205,15 @@ rlf_result rlf_synthetic_parse(const char *source, rlf_synthetic_def *def)
     rlf_synthetic_def parsed = rlf_synthetic_def_default();
     parsed.pool = def->cookie == parsed.cookie ? def->pool : NULL;
     piece name = until(source + strlen(PREFIX), "?");
-    int scene = 0;
-    while (scene < SCENE_COUNT && !is_word(name, scene_names[scene])) {
-        scene++;
+    rlf_synthetic_scene scene = (rlf_synthetic_scene)0;
+    while (synth_scene_name(scene) != NULL && !is_word(name, synth_scene_name(scene))) {
+        scene = (rlf_synthetic_scene)(scene + 1);
     }
-    if (scene == SCENE_COUNT) {
+    if (synth_scene_name(scene) == NULL) {
         return rlf_fail(RLF_ERROR_INVALID, "%s: unknown scene '%.*s'; use " SCENES, source,
                         (int)name.length, name.text);
     }
-    parsed.scene = (rlf_synthetic_scene)scene;
+    parsed.scene = scene;
     const char *next = name.text + name.length;
     while (*next != '\0') {
         piece option = until(next + 1, "&");

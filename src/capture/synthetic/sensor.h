@@ -19,6 +19,10 @@ typedef struct synth_sensor {
     rlf_truth_pose poses[SYNTH_PART_MAX];
 } synth_sensor;
 
+#define SYNTH_FRAME_COUNT_MAX 4294967295 /* the noise is keyed by a 32-bit frame number */
+
+/* Whether the settings can be used; an error line when not. */
+rlf_result synth_def_check(const rlf_synthetic_def *def);
 /* Name of a scene as in "synthetic:NAME"; NULL outside the range. */
 const char *synth_scene_name(rlf_synthetic_scene scene);
 

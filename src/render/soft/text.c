@@ -1,4 +1,4 @@
-/* Text over the picture. */
+/* Letters of a fixed font. */
 #include "render/soft/soft.h"
 
 #include <string.h>
@@ -6,7 +6,6 @@
 #define ADVANCE 6 /* dots from letter to letter */
 #define LETTER 5
 #define HEIGHT 7
-#define LINE 10 /* dots from line to line */
 #define MARGIN 2
 #define LINE_MAX_BYTES 512
 
@@ -52,20 +51,5 @@ void soft_draw_text(const rlf_image_rgba8 *image, const soft_text *style, const 
     for (int32_t i = 0; line[i] != '\0' && i < LINE_MAX_BYTES && x < image->width; i++) {
         draw_letter(image, style, x, line[i]);
         x += ADVANCE * scale;
-    }
-}
-
-void soft_draw_overlay(const rlf_image_rgba8 *image, const rlf_render_input *input)
-{
-    int32_t scale = soft_text_scale(image->height);
-    for (int32_t i = 0; i < input->overlay_count && input->overlay != NULL; i++) {
-        soft_text style = {(MARGIN + 2) * scale, (MARGIN + 2 + i * LINE) * scale, scale,
-                           soft_rgb(245, 245, 235), true};
-        if (input->overlay[i] != NULL && style.y < image->height) {
-            soft_draw_text(image, &style, input->overlay[i]);
-        }
-    }
-    if (input->plot != NULL) {
-        soft_draw_plot(image, input->plot);
     }
 }

@@ -1,0 +1,70 @@
+/* Settings of the synthetic source. */
+#include "capture/synthetic/sensor.h"
+
+#include "base/cookie.h"
+
+#define COLOR_SIZE_MAX 4096
+#define FPS_MAX 1000.0
+#define SPEED_MAX 10.0
+#define LAMP_MAX 20.0 /* metres from the camera */
+
+static const char *const scene_names[] = {"room", "empty", "thesis", "chair", "book",
+                                          "hand", "lift",  "swipe",  "carry", "crossing"};
+#define SCENE_COUNT ((int)(sizeof(scene_names) / sizeof(scene_names[0])))
+
+const char *synth_scene_name(rlf_synthetic_scene scene)
+{
+    return (int)scene >= 0 && (int)scene < SCENE_COUNT ? scene_names[scene] : NULL;
+}
+
+rlf_synthetic_def rlf_synthetic_def_default(void)
+{
+    rlf_synthetic_def def = {.cookie = RLF_DEF_COOKIE,
+                             .scene = RLF_SYNTHETIC_ROOM,
+                             .seed = 1,
+                             .person = 1,
+                             .frames_per_second = 30.0,
+                             .frame_count = 300,
+                             .speed = 0.5,
+                             .lamp = {-0.70, -1.85, 1.5},
+                             .enable_noise = true,
+                             .enable_edge_filter = true,
+                             .enable_color = true,
+                             .enable_truth = true,
+                             .color_width = 960,
+                             .color_height = 540};
+    return def;
+}
+
+rlf_result synth_def_check(const rlf_synthetic_def *def)
+{
+    if (synth_scene_name(def->scene) == NULL) {
+        return rlf_fail(RLF_ERROR_INVALID, "synthetic: scene is %d; use an rlf_synthetic_scene",
+                        (int)def->scene);
+    }
+    if (!(def->frames_per_second > 0.0 && def->frames_per_second <= FPS_MAX)) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "synthetic: frames_per_second is %g; use a number above 0, at most %g",
+                        def->frames_per_second, FPS_MAX);
+    }
+    if (def->frame_count < -1 || def->frame_count > SYNTH_FRAME_COUNT_MAX) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "synthetic: frame_count is %lld; use -1 (endless) or 0 to %lld",
+                        (long long)def->frame_count, (long long)SYNTH_FRAME_COUNT_MAX);
+    }
+    if (!(def->speed > 0.0 && def->speed <= SPEED_MAX)) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "synthetic: speed is %g; use a number above 0, at most %g", def->speed,
+                        SPEED_MAX);
+    }
+    if (!rlf_vec3_is_finite(def->lamp) || rlf_length(def->lamp) > LAMP_MAX) {
+        return rlf_fail(RLF_ERROR_INVALID, "synthetic: lamp is not a point within %g m", LAMP_MAX);
+    }
+    bool is_size = def->color_width >= 1 && def->color_width <= COLOR_SIZE_MAX &&
+                   def->color_height >= 1 && def->color_height <= COLOR_SIZE_MAX;
+    if (def->enable_color && !is_size) {
+        return rlf_fail(RLF_ERROR_INVALID, "synthetic: color size is %d x %d; use 1 to %d each",
+                        (int)def->color_width, (int)def->color_height, COLOR_SIZE_MAX);
+    }
+    return RLF_OK;
+}
