@@ -11,14 +11,20 @@
  * beyond the sensor's noise. */
 #include "kernel/kernel.h"
 
-enum { MEMORY = 32, PROOF = 3, PROOF_MIXED = 12 };
+enum { MEMORY = 32, PROOF = 3, PROOF_MIXED = 12, CHUNK = 128 };
 
 static const float sigmas_per_deviation = 1.2533141f; /* sqrt(pi / 2), normal distribution */
 static const float learning_gates = 3.0f;             /* before the deviation is known */
 
-RLF_KERNEL int32_t rlf_kernel_background_row(const rlf_kernel_background *params,
-                                             const float *restrict depth, int32_t count,
-                                             const rlf_kernel_model *model, uint8_t *restrict seen)
+/* Bytes of some pixels as integers: beside bytes, vectors of floats would be as long as theirs, and
+ * most of a short row would be left to single values. */
+typedef struct counts {
+    int32_t weight[CHUNK], beyond[CHUNK], seen[CHUNK];
+} counts;
+
+RLF_KERNEL_PART int32_t update(const rlf_kernel_background *params, const float *restrict depth,
+                               int32_t count, float *restrict mean, float *restrict deviation,
+                               counts *restrict at)
 {
     rlf_kernel_noise noise = params->noise;
     float sigmas = params->sigmas, own_sigmas = params->sigmas * sigmas_per_deviation;
@@ -26,14 +32,10 @@ RLF_KERNEL int32_t rlf_kernel_background_row(const rlf_kernel_background *params
     float widen = params->learning ? learning_gates : 1.0f;
     int32_t proof = params->learning ? 1 : PROOF;
     int32_t learning = params->learning ? 1 : 0;
-    float *restrict mean = model->mean;
-    float *restrict deviation = model->deviation;
-    uint8_t *restrict weight = model->weight;
-    uint8_t *restrict beyond = model->beyond;
     int32_t changed = 0;
     for (int32_t i = 0; i < count; i++) {
         float z = depth[i], m = mean[i], old = deviation[i];
-        int32_t had = weight[i], past_before = beyond[i];
+        int32_t had = at->weight[i], past_before = at->beyond[i];
         float sigma = rlf_kernel_sigma(noise, z), off = z - m, distance = rlf_kernel_abs(off);
         float scaled = sigmas * sigma, own = own_sigmas * old;
         float gate = scaled > least ? scaled : least;
@@ -59,11 +61,36 @@ RLF_KERNEL int32_t rlf_kernel_background_row(const rlf_kernel_background *params
         next = same != 0 ? next : m;
         deviation[i] = restart != 0 ? 0.0f : spread;
         mean[i] = restart != 0 ? z : next;
-        weight[i] = (uint8_t)samples;
-        beyond[i] = (uint8_t)(count_beyond * (1 - replaced));
-        seen[i] = (uint8_t)(nearer * RLF_SEEN_FOREGROUND + (fresh & ~learning) * RLF_SEEN_UNKNOWN +
-                            (1 - valid) * RLF_SEEN_MISSING);
+        at->weight[i] = samples;
+        at->beyond[i] = count_beyond * (1 - replaced);
+        at->seen[i] = nearer * RLF_SEEN_FOREGROUND + (fresh & ~learning) * RLF_SEEN_UNKNOWN +
+                      (1 - valid) * RLF_SEEN_MISSING;
         changed += restart;
+    }
+    return changed;
+}
+
+RLF_KERNEL int32_t rlf_kernel_background_row(const rlf_kernel_background *params,
+                                             const float *restrict depth, int32_t count,
+                                             const rlf_kernel_model *model, uint8_t *restrict seen)
+{
+    uint8_t *restrict weight = model->weight;
+    uint8_t *restrict beyond = model->beyond;
+    int32_t changed = 0;
+    for (int32_t first = 0; first < count; first += CHUNK) {
+        int32_t size = count - first < CHUNK ? count - first : CHUNK;
+        counts at;
+        for (int32_t i = 0; i < size; i++) {
+            at.weight[i] = weight[first + i];
+            at.beyond[i] = beyond[first + i];
+        }
+        changed +=
+            update(params, depth + first, size, model->mean + first, model->deviation + first, &at);
+        for (int32_t i = 0; i < size; i++) {
+            weight[first + i] = (uint8_t)at.weight[i];
+            beyond[first + i] = (uint8_t)at.beyond[i];
+            seen[first + i] = (uint8_t)at.seen[i];
+        }
     }
     return changed;
 }

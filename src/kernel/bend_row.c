@@ -1,6 +1,10 @@
 /* Where normals turn from one side of a pixel to the other, as they do about a crease. */
 #include "kernel/kernel.h"
 
+#include <string.h>
+
+enum { SPAN = RLF_KERNEL_BEND_SPAN, CHUNK = 16 };
+
 static const float least_bend = 0.9f;  /* cosine between the sides */
 static const float most_slope = 0.16f; /* share of the depth from side to side: no edge between */
 
@@ -36,19 +40,78 @@ RLF_KERNEL_PART int32_t turns(const side at[5])
     return (cosine < least_bend ? 1 : 0) & (apart < most_slope * a.depth ? 1 : 0);
 }
 
-RLF_KERNEL void rlf_kernel_bend_row(const rlf_kernel_bend_in rows[5], int32_t count,
-                                    uint8_t *restrict bend)
+/* 1 where the far sides have normals that are alike: nothing turns there, whatever is between. */
+RLF_KERNEL_PART int32_t is_straight(const rlf_kernel_bend_in *a, const rlf_kernel_bend_in *b,
+                                    int32_t i, int32_t k)
 {
-    enum { SPAN = RLF_KERNEL_BEND_SPAN };
-    for (int32_t i = 0; i < count; i++) {
+    float cosine = a->normal[0][i] * b->normal[0][k] + a->normal[1][i] * b->normal[1][k] +
+                   a->normal[2][i] * b->normal[2][k];
+    return cosine >= least_bend ? 1 : 0;
+}
+
+/* Whether nothing turns about pixels i .. i + CHUNK - 1, most of which are on wide faces. */
+RLF_KERNEL_PART bool is_flat(const rlf_kernel_bend_in rows[5], int32_t i)
+{
+    int32_t straight = 1;
+    RLF_KERNEL_WHOLE
+    for (int32_t k = 0; k < CHUNK; k++) {
+        straight &= is_straight(&rows[0], &rows[4], i + k, i + k) &
+                    is_straight(&rows[2], &rows[2], i + k - SPAN, i + k + SPAN);
+    }
+    return straight != 0;
+}
+
+/* Pixels i .. i + CHUNK - 1, none of them at the sides of the image. */
+RLF_KERNEL_PART void bend_chunk(const rlf_kernel_bend_in rows[5], int32_t i, uint8_t *restrict bend)
+{
+    int32_t found[CHUNK];
+    RLF_KERNEL_WHOLE
+    for (int32_t k = 0; k < CHUNK; k++) {
+        const side at[5] = {side_at(&rows[0], i + k), side_at(&rows[1], i + k),
+                            side_at(&rows[2], i + k), side_at(&rows[3], i + k),
+                            side_at(&rows[4], i + k)};
+        found[k] = RLF_BEND_DOWN * turns(at);
+    }
+    RLF_KERNEL_WHOLE
+    for (int32_t k = 0; k < CHUNK; k++) {
+        const rlf_kernel_bend_in *row = &rows[2];
+        const side at[5] = {side_at(row, i + k - 2), side_at(row, i + k - 1), side_at(row, i + k),
+                            side_at(row, i + k + 1), side_at(row, i + k + 2)};
+        found[k] += RLF_BEND_ACROSS * turns(at);
+    }
+    for (int32_t k = 0; k < CHUNK; k++) {
+        bend[i + k] = (uint8_t)found[k];
+    }
+}
+
+RLF_KERNEL_PART void bend_pixels(const rlf_kernel_bend_in rows[5], int32_t begin, int32_t end,
+                                 int32_t count, uint8_t *restrict bend)
+{
+    for (int32_t i = begin; i < end; i++) {
         const side at[5] = {side_at(&rows[0], i), side_at(&rows[1], i), side_at(&rows[2], i),
                             side_at(&rows[3], i), side_at(&rows[4], i)};
         bend[i] = (uint8_t)(RLF_BEND_DOWN * turns(at));
     }
-    for (int32_t i = SPAN; i < count - SPAN; i++) {
+    int32_t first = begin > SPAN ? begin : SPAN, last = end < count - SPAN ? end : count - SPAN;
+    for (int32_t i = first; i < last; i++) {
         const rlf_kernel_bend_in *row = &rows[2];
         const side at[5] = {side_at(row, i - 2), side_at(row, i - 1), side_at(row, i),
                             side_at(row, i + 1), side_at(row, i + 2)};
         bend[i] = (uint8_t)(bend[i] + RLF_BEND_ACROSS * turns(at));
+    }
+}
+
+RLF_KERNEL void rlf_kernel_bend_row(const rlf_kernel_bend_in rows[5], int32_t count,
+                                    uint8_t *restrict bend)
+{
+    for (int32_t i = 0; i < count; i += CHUNK) {
+        bool is_inside = i >= SPAN && i + CHUNK + SPAN <= count;
+        if (is_inside && is_flat(rows, i)) {
+            memset(bend + i, 0, CHUNK);
+        } else if (is_inside) {
+            bend_chunk(rows, i, bend);
+        } else {
+            bend_pixels(rows, i, i + CHUNK < count ? i + CHUNK : count, count, bend);
+        }
     }
 }

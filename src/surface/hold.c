@@ -12,6 +12,8 @@
 
 #include "kernel/batch.h"
 
+#include <string.h>
+
 enum {
     BLOCK = RLF_HOLD_BLOCK,
     LEAST_MOVED = 2,  /* pixels of a block that make a movement: single ones may be mixed */
@@ -70,20 +72,29 @@ static bool is_lost(const hold_job *job, ptrdiff_t i)
     return dropped && job->stage->steady.frames[i] > 0.0f;
 }
 
+/* Marks the blocks about those that are not calm, and these. */
+static void mark_restless(const hold_job *job)
+{
+    const rlf_steady *steady = &job->stage->steady;
+    memset(steady->restless, 0, (size_t)job->blocks_x * (size_t)job->blocks_y);
+    for (int32_t by = 0; by < job->blocks_y; by++) {
+        int32_t y0 = by > 0 ? by - 1 : 0, y1 = rlf_least(by + 1, job->blocks_y - 1);
+        for (int32_t bx = 0; bx < job->blocks_x; bx++) {
+            if (steady->calm[by * job->blocks_x + bx] >= RLF_HOLD_CALM) {
+                continue;
+            }
+            int32_t x0 = bx > 0 ? bx - 1 : 0, x1 = rlf_least(bx + 1, job->blocks_x - 1);
+            for (int32_t y = y0; y <= y1; y++) {
+                memset(steady->restless + y * job->blocks_x + x0, 1, (size_t)(x1 - x0 + 1));
+            }
+        }
+    }
+}
+
 static bool is_calm(const rlf_reconstruct *stage, int32_t x, int32_t y)
 {
     int32_t blocks_x = (stage->grid.width + BLOCK - 1) / BLOCK;
-    int32_t blocks_y = (stage->grid.height + BLOCK - 1) / BLOCK;
-    int32_t bx = x / BLOCK, by = y / BLOCK;
-    int32_t x0 = bx > 0 ? bx - 1 : 0, x1 = rlf_least(bx + 1, blocks_x - 1);
-    int32_t y0 = by > 0 ? by - 1 : 0, y1 = rlf_least(by + 1, blocks_y - 1);
-    bool calm = true;
-    for (by = y0; by <= y1; by++) {
-        for (bx = x0; bx <= x1; bx++) {
-            calm = calm && stage->steady.calm[by * blocks_x + bx] >= RLF_HOLD_CALM;
-        }
-    }
-    return calm;
+    return stage->steady.restless[y / BLOCK * blocks_x + x / BLOCK] == 0;
 }
 
 bool rlf_hold_may_move(const rlf_reconstruct *stage, int32_t x, int32_t y)
@@ -203,5 +214,6 @@ void rlf_hold_recall(const rlf_reconstruct *stage, const float *raw, float *dept
                     .depth = depth,
                     .reason = reason};
     rlf_parallel_for(stage->def.pool, job.blocks_y, RLF_ROW_GRAIN / BLOCK, mark_blocks, &job);
+    mark_restless(&job);
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, recall_rows, &job);
 }

@@ -168,6 +168,7 @@ static void take_steady(rlf_reconstruct *stage)
         stage->steady.mean = take(stage, (size_t)stage->grid.count, sizeof(float));
         stage->steady.frames = take(stage, (size_t)stage->grid.count, sizeof(float));
         stage->steady.calm = take(stage, (size_t)stage->grid.count, 1);
+        stage->steady.restless = take(stage, (size_t)stage->grid.count, 1);
     }
     if (rlf_settle_is_wanted(&stage->def)) {
         stage->steady.settled = take(stage, (size_t)stage->grid.count, sizeof(rlf_settled));

@@ -26,8 +26,11 @@ enum {
     /* A pixel's mark is how many frames it is still watched for. */
     MOST_IDLE = 8, /* frames in a row that gave no reason to */
     DUE = 128,     /* the newest frame gives one */
-    TOGETHER = 64  /* pixels */
+    TOGETHER = 64, /* pixels */
+    SPAN = 512
 };
+
+enum { ASKED = 1, ENDED };
 
 typedef struct settle_job {
     int32_t width;
@@ -73,64 +76,104 @@ static void overrule(const settle_job *job, ptrdiff_t i, const float normal[3])
     job->overruled[i] = 1;
 }
 
-/* False when the frame has nothing to say about the pixel. What is only in front of the background
- * gives no reason to watch it. */
-static bool is_asked(const settle_job *job, ptrdiff_t i)
-{
-    uint8_t mark = job->mark[i];
-    if (job->foreground[i] != 0) {
-        job->mark[i] = mark & (DUE - 1);
-        return false;
-    }
-    job->mark[i] = (uint8_t)(mark >= DUE ? MOST_IDLE : mark - 1);
-    if (job->mark[i] == 0) {
-        job->settled[i].votes = 0;
-    }
-    return job->mark[i] != 0 && job->depth[i] > 0.0f;
-}
-
-/* What a watched pixel has now. */
+/* What a watched pixel has now, and how that is to what was settled. */
 typedef struct ballot {
-    float normal[3], depth;
-    int32_t votes; /* of the normal so far */
+    float normal[3], depth, cosine;
+    bool is_near;
 } ballot;
 
 static void vote(const settle_job *job, ptrdiff_t i, const ballot *now)
 {
-    float z = now->depth, cosine = 0.0f, square = 0.0f;
     rlf_settled *s = &job->settled[i];
-    for (int32_t k = 0; k < 3; k++) {
-        cosine += now->normal[k] * s->normal[k];
-        square += now->normal[k] * now->normal[k];
-    }
-    bool is_near = rlf_kernel_abs(z - s->depth) < MOST_APART * z;
-    if (!(square > 0.5f)) {
-        return;
-    }
-    if (now->votes == 0) {
-        propose(s, now->normal, z);
-    } else if (is_near && cosine > AGREED) {
-        agree(s, now->normal, z);
+    if (s->votes == 0) {
+        propose(s, now->normal, now->depth);
+    } else if (now->is_near && now->cosine > AGREED) {
+        agree(s, now->normal, now->depth);
     } else if (--s->votes == 0) {
-        propose(s, now->normal, z);
-    } else if (is_near) {
+        propose(s, now->normal, now->depth);
+    } else if (now->is_near) {
         overrule(job, i, now->normal);
     }
 }
 
-/* What pixels have is far apart in memory: fetched together it is waited for once. */
+/* Returns whether the vote matters: it does not where there is no normal, or one that all votes are
+ * for already. */
+static bool compare(const settle_job *job, ptrdiff_t i, ballot *now)
+{
+    const rlf_settled *s = &job->settled[i];
+    float z = job->depth[i], square = 0.0f;
+    *now = (ballot){{job->normal[0][i], job->normal[1][i], job->normal[2][i]}, z, 0.0f, false};
+    for (int32_t k = 0; k < 3; k++) {
+        now->cosine += now->normal[k] * s->normal[k];
+        square += now->normal[k] * now->normal[k];
+    }
+    now->is_near = rlf_kernel_abs(z - s->depth) < MOST_APART * z;
+    bool is_settled = (s->votes == MOST_VOTES) & now->is_near & (now->cosine > AGREED);
+    return (square > 0.5f) & !is_settled;
+}
+
+/* What pixels have is far apart in memory: looked at together, without a branch, it is waited for
+ * once. */
 static void vote_all(const settle_job *job, ptrdiff_t row, const int32_t *asked, int32_t count)
 {
-    ballot now[TOGETHER];
+    ballot now[TOGETHER + 1];
+    int32_t voting[TOGETHER + 1], votes = 0;
     for (int32_t k = 0; k < count; k++) {
-        ptrdiff_t i = row + asked[k];
-        now[k] = (ballot){{job->normal[0][i], job->normal[1][i], job->normal[2][i]},
-                          job->depth[i],
-                          job->settled[i].votes};
+        voting[votes] = asked[k];
+        votes += compare(job, row + asked[k], &now[votes]);
     }
-    for (int32_t k = 0; k < count; k++) {
-        vote(job, row + asked[k], &now[k]);
+    for (int32_t k = 0; k < votes; k++) {
+        vote(job, row + voting[k], &now[k]);
     }
+}
+
+/* Without a branch: whole rows are looked at. */
+static uint8_t choose(bool first, uint8_t a, uint8_t b)
+{
+    uint8_t mask = (uint8_t) - (int32_t)first;
+    return (uint8_t)((a & mask) | (b & ~mask));
+}
+
+/* Counts the marks on, and says which pixels are asked and which are no longer watched. What is
+ * only in front of the background gives no reason to watch it. */
+static void count_marks(const uint8_t *restrict reason, const uint8_t *restrict foreground,
+                        int32_t count, uint8_t *restrict mark, uint8_t *restrict now)
+{
+    for (int32_t x = 0; x < count; x++) {
+        bool is_front = foreground[x] != 0;
+        uint8_t old = (uint8_t)(mark[x] | choose(reason[x] == RLF_REASON_FILLED, DUE, 0));
+        uint8_t next = choose(old >= DUE, MOST_IDLE, (uint8_t)(old - (old != 0)));
+        mark[x] = choose(is_front, old & (DUE - 1), next);
+        now[x] = choose(is_front, 0, choose(next != 0, ASKED, choose(old != 0, ENDED, 0)));
+    }
+}
+
+static void fetch(const settle_job *job, ptrdiff_t i)
+{
+    RLF_KERNEL_SOON(&job->settled[i]);
+    for (int32_t k = 0; k < 3; k++) {
+        RLF_KERNEL_SOON(&job->normal[k][i]);
+    }
+}
+
+static void settle_pixels(const settle_job *job, ptrdiff_t first, int32_t count)
+{
+    uint8_t now[SPAN];
+    int32_t asked[TOGETHER], waiting = 0;
+    count_marks(job->reason + first, job->foreground + first, count, job->mark + first, now);
+    for (int32_t x = 0; (x = rlf_kernel_next_mark(now, x, count)) < count; x++) {
+        if (now[x] == ENDED) {
+            job->settled[first + x].votes = 0;
+        } else if (job->depth[first + x] > 0.0f) {
+            fetch(job, first + x);
+            asked[waiting++] = x;
+        }
+        if (waiting == TOGETHER) {
+            vote_all(job, first, asked, waiting);
+            waiting = 0;
+        }
+    }
+    vote_all(job, first, asked, waiting);
 }
 
 static void settle_rows(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -139,24 +182,10 @@ static void settle_rows(void *context, int32_t begin, int32_t end, int32_t worke
     const settle_job *job = context;
     for (int32_t y = begin; y < end; y++) {
         ptrdiff_t row = (ptrdiff_t)y * job->width;
-        const uint8_t *reason = job->reason + row; /* 0 = OK */
-        uint8_t *mark = job->mark + row;
         memset(job->overruled + row, 0, (size_t)job->width);
-        for (int32_t x = 0; (x = rlf_kernel_next_mark(reason, x, job->width)) < job->width; x++) {
-            mark[x] |= reason[x] == RLF_REASON_FILLED ? DUE : 0;
+        for (int32_t x = 0; x < job->width; x += SPAN) {
+            settle_pixels(job, row + x, job->width - x < SPAN ? job->width - x : SPAN);
         }
-        int32_t asked[TOGETHER], count = 0;
-        for (int32_t x = 0; (x = rlf_kernel_next_mark(mark, x, job->width)) < job->width;) {
-            for (; x < job->width && mark[x] != 0; x++) {
-                asked[count] = x;
-                count += is_asked(job, row + x);
-                if (count == TOGETHER) {
-                    vote_all(job, row, asked, count);
-                    count = 0;
-                }
-            }
-        }
-        vote_all(job, row, asked, count);
     }
 }
 
@@ -184,8 +213,9 @@ void rlf_settle_normals(const rlf_reconstruct *stage, const rlf_slot *slot)
 void rlf_settle_watch(const rlf_reconstruct *stage, ptrdiff_t first, const uint8_t *marks,
                       int32_t count)
 {
+    uint8_t *restrict mark = stage->steady.mark + first; /* no byte of the marks that are given */
     for (int32_t k = 0; k < count; k++) {
-        stage->steady.mark[first + k] |= marks[k] != 0 ? DUE : 0;
+        mark[k] = (uint8_t)(mark[k] | (marks[k] != 0 ? DUE : 0));
     }
 }
 

@@ -102,8 +102,9 @@ typedef struct rlf_steady {
     rlf_settled *settled; /* plane; NULL when normals at edges are not wanted */
     uint8_t *mark;        /* plane: not 0 where one is watched, see settle.c */
     uint8_t *overruled;   /* plane: 1 where the newest frame's normal is another */
-    uint8_t *calm; /* per block of RLF_HOLD_BLOCK pixels, frames since something moved there */
-    int32_t age;   /* frames that were averaged, up to 255 */
+    uint8_t *calm;     /* per block of RLF_HOLD_BLOCK pixels, frames since something moved there */
+    uint8_t *restless; /* per block: 1 where it, or one beside it, is not calm */
+    int32_t age;       /* frames that were averaged, up to 255 */
 } rlf_steady;
 
 /* Side of a block in pixels, and the frames without motion after which one is calm. */

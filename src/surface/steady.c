@@ -73,6 +73,7 @@ void rlf_steady_reset(rlf_steady *steady, int32_t count)
         memset(steady->frames, 0, (size_t)count * sizeof *steady->frames);
         memset(steady->mean, 0, (size_t)count * sizeof *steady->mean);
         memset(steady->calm, RLF_HOLD_CALM, (size_t)count); /* until something moves */
+        memset(steady->restless, 0, (size_t)count);
         steady->age = 0;
     }
     if (steady->settled != NULL) {
