@@ -18,7 +18,8 @@ void rlf_background_reset(rlf_background *background, const rlf_grid *grid)
     memset(background->hides, 0, (size_t)grid->height);
     background->frames = 0;
     memset(background->changes, 0, (size_t)rlf_sheet_tiles(grid) * sizeof *background->changes);
-    memset(background->refresh, 0, (size_t)rlf_sheet_tiles(grid));
+    memset(background->age, 0, (size_t)rlf_sheet_tiles(grid));
+    memset(background->is_better, 0, (size_t)rlf_sheet_tiles(grid));
     background->changed = 0;
     background->sheet_age = 0;
     background->is_drafting = false;

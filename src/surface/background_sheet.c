@@ -2,8 +2,8 @@
  *
  * A draft is the oldest sheet, which no valid surface refers to. Tiles whose pixels were replaced
  * are made anew from the model, the most changed first, so many per frame that no frame costs much
- * more than another; a thing that leaves is published at once. A tile is made once more when the
- * means of what is new in it have got better. */
+ * more than another; a thing that leaves is published at once. A tile is made once more whenever
+ * the means of what is new in it have got much better. */
 #include "surface/steps.h"
 
 #include "kernel/kernel.h"
@@ -18,9 +18,12 @@ enum {
     CHANGES = 30,         /* replaced pixels that make a new sheet ... */
     FRAMES = 10,          /* ... after at least this many frames */
     CHANGES_URGENT = 400, /* replaced pixels that make one at once: a thing has left */
-    FRAMES_LONG = 30,     /* after this many any change does */
-    REFINED_FRAMES = 40   /* so many make a mean much better than the first few */
+    FRAMES_LONG = 30      /* after this many any change does */
 };
+
+/* Frames since a tile was made of new pixels, at which its means are much better than before. */
+static const uint8_t refined_at[] = {6, 20, 45};
+enum { REFINEMENTS = sizeof refined_at / sizeof *refined_at };
 
 /* Cosine: the angle to another normal that is no noise. */
 static const float SHARP = 0.99f;
@@ -80,9 +83,8 @@ static void tile_is_made(rlf_background *background, int32_t tile, bool is_new)
     background->version[tile] = background->next_version;
     background->changed -= background->changes[tile];
     background->changes[tile] = 0;
-    bool is_waiting = background->refresh[tile] > 1;
-    background->refresh[tile] =
-        is_new ? REFINED_FRAMES : (is_waiting ? background->refresh[tile] : 0);
+    background->is_better[tile] = 0;
+    background->age[tile] = is_new ? 0 : background->age[tile];
 }
 
 /* The sheet's depth of pixel i, as far as it is the model's still. */
@@ -178,10 +180,12 @@ static void begin_draft(rlf_reconstruct *stage)
     background->is_drafting = true;
 }
 
-/* How much a tile needs to be made: its replaced pixels, or that its means are better. */
+/* How much a tile needs to be made: its replaced pixels, or that its means are better. Once for
+ * each sheet: where somebody walks about there is no end of changes. */
 static int32_t need_of(const rlf_background *background, int32_t tile)
 {
-    return 2 * background->changes[tile] + (background->refresh[tile] == 1 ? 1 : 0);
+    bool is_made = background->version[tile] == background->next_version;
+    return is_made ? 0 : 2 * background->changes[tile] + background->is_better[tile];
 }
 
 /* The tile that needs it most; -1 = none. */
@@ -258,8 +262,11 @@ static bool is_due(rlf_background *background, int32_t tiles)
 {
     bool better = false;
     for (int32_t tile = 0; tile < tiles; tile++) {
-        background->refresh[tile] -= background->refresh[tile] > 1 ? 1 : 0;
-        better = better || background->refresh[tile] == 1;
+        background->age[tile] += background->age[tile] < UINT8_MAX ? 1 : 0;
+        for (int32_t k = 0; k < REFINEMENTS; k++) {
+            background->is_better[tile] |= background->age[tile] == refined_at[k];
+        }
+        better = better || background->is_better[tile] != 0;
     }
     background->sheet_age++;
     return better || (background->changed >= CHANGES && background->sheet_age >= FRAMES) ||

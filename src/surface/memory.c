@@ -74,7 +74,8 @@ static void take_background(rlf_reconstruct *stage)
     size_t tiles = (size_t)rlf_sheet_tiles(&stage->grid);
     background->row_changes = take(stage, tiles * RLF_SHEET_TILE, sizeof(int32_t));
     background->changes = take(stage, tiles, sizeof(int32_t));
-    background->refresh = take(stage, tiles, 1);
+    background->age = take(stage, tiles, 1);
+    background->is_better = take(stage, tiles, 1);
     background->version = take(stage, tiles, sizeof(int32_t));
     for (int i = 0; i < RLF_SHEETS; i++) {
         rlf_sheet *sheet = &background->sheets[i];

@@ -77,7 +77,8 @@ typedef struct rlf_background {
     int32_t *row_changes; /* ADAPTIVE: pixels replaced in this frame, per row and tile column */
     int32_t *changes;     /* per tile: pixels replaced since it was made */
     int32_t changed;      /* their sum */
-    uint8_t *refresh;     /* per tile: frames + 1 until its means are better; 0 = they are */
+    uint8_t *age;         /* per tile: frames since it was made of new pixels */
+    uint8_t *is_better;   /* per tile: 1 when its means are better than when it was made */
     int32_t *version;     /* per tile: of the sheet that it was made for */
     int32_t next_version; /* of the next sheet */
     int32_t sheet_age;    /* frames since the newest sheet was finished */

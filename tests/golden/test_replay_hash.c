@@ -23,7 +23,7 @@ typedef struct golden {
 } golden;
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0x4a78ba5a02182c34u, 0xf7dee2a65f452edeu, 0x632d593b8b8126d0u},
+    {RLF_PROFILE_LIVE, 0xa6e0b657bf463a2cu, 0x3d9b749e80ca05ffu, 0x2541ea38fad39910u},
     {RLF_PROFILE_THESIS, 0xa393eb06e579d241u, 0xd84652fb54683851u, 0xc064b44391e1e990u},
 };
 

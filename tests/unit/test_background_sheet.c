@@ -192,6 +192,33 @@ static void one_tile_changes_alone(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
+/* In each frame one of three small patches steps back: that must not keep the others waiting. */
+static void a_sheet_is_finished_while_something_changes(void **state)
+{
+    (void)state;
+    enum { SIDE = 6 };
+    rlf_reconstruct *stage = make_stage();
+    const rlf_rig *rig = &stage->def.rig;
+    analytic_random random = {10};
+    int32_t sheets = 0;
+    for (int t = 0; t < 60; t++) {
+        for (int i = 0; i < COUNT; i++) {
+            int x = i % WIDTH - 40, y = i / WIDTH - 40, patch = x / RLF_SHEET_TILE;
+            bool is_patch = x >= 0 && y >= 0 && y < SIDE && patch < 3 && x % RLF_SHEET_TILE < SIDE;
+            double z = 1.5 + (is_patch && t > 8 ? 0.1 * ((t + patch) / 3) : 0.0);
+            depth[i] = (float)(z + rlf_depth_noise_sigma(&rig->noise, z) * random_normal(&random));
+        }
+        rlf_frame frame = analytic_frame(rig, depth, t);
+        frame.rig = NULL;
+        int32_t newest = stage->background.newest;
+        const rlf_surface *s = NULL;
+        assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+        sheets += stage->background.newest != newest;
+    }
+    assert_true(sheets >= 4); /* one of five frames, and better ones */
+    rlf_reconstruct_destroy(&stage);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -200,6 +227,7 @@ int main(void)
         cmocka_unit_test(no_frame_makes_more_than_its_share),
         cmocka_unit_test(valid_surfaces_keep_their_background),
         cmocka_unit_test(one_tile_changes_alone),
+        cmocka_unit_test(a_sheet_is_finished_while_something_changes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
