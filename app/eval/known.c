@@ -3,11 +3,7 @@
 #include "eval/analytic.h"
 #include "eval/sections.h"
 
-#include "relief/synthetic.h"
-
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #define PICK_SIGMA_PX 1.5
 #define TRIES 10  /* of picks, per box */

@@ -6,7 +6,6 @@
  * nearer are one chord when their depths agree. */
 #include "surface/thickness.h"
 
-#include <math.h>
 #include <string.h>
 
 enum { PIECES = 48, CREASE_ARM = 3, LEAST_SPLIT = 8, MOST_SPLITS = 8, MOST_HIDDEN = 200 };
