@@ -74,20 +74,26 @@ void eval_collisions_finish(eval_collisions *e)
     e->last_touch_s = NULL;
 }
 
+static double degrees_between(rlf_vec3 a, rlf_vec3 b)
+{
+    return rlf_acos(rlf_dot(a, b)) * 180.0 / RLF_PI;
+}
+
 /* At an edge of the scene all directions between its faces are right: there the true distance grows
- * along the contact normal itself. 5 cm on, a corner misplaced by 2 cm still shows. */
-static bool is_at_edge(const rlf_contact *contact, rlf_source *source)
+ * along the contact normal itself. How far from that way it grows, 5 cm on, where a corner
+ * misplaced by 9 mm shows as 10 degrees. */
+static double degrees_ahead(const rlf_contact *contact, rlf_source *source)
 {
     const double AHEAD = 0.05;
     double distance;
     rlf_vec3 normal;
     int32_t label;
     rlf_vec3 p = rlf_mad(contact->point, contact->normal, AHEAD);
-    return rlf_synthetic_distance(source, p, &distance, &normal, &label) == RLF_OK &&
-           rlf_acos(rlf_dot(contact->normal, normal)) * 180.0 / RLF_PI <= 30.0;
+    bool is_known = rlf_synthetic_distance(source, p, &distance, &normal, &label) == RLF_OK;
+    return is_known ? degrees_between(contact->normal, normal) : 180.0;
 }
 
-static void add_bounce(eval_collisions *e, const rlf_contact *contact, rlf_source *source)
+void eval_collisions_judge(eval_collisions *e, const rlf_contact *contact, rlf_source *source)
 {
     double distance;
     rlf_vec3 normal;
@@ -100,10 +106,12 @@ static void add_bounce(eval_collisions *e, const rlf_contact *contact, rlf_sourc
         e->phantom++;
         return;
     }
-    double degrees = rlf_acos(rlf_dot(contact->normal, normal)) * 180.0 / RLF_PI;
+    double degrees = degrees_between(contact->normal, normal);
+    double least = rlf_min(degrees, degrees_ahead(contact, source));
     eval_add_angle(&e->angles, degrees);
+    e->right += least <= 10.0;
     e->wrong += degrees > 30.0;
-    e->unexplained += degrees > 30.0 && !is_at_edge(contact, source);
+    e->unexplained += least > 30.0;
 }
 
 /* Outside the view nothing is known of the room, so bodies leave it there. */
@@ -128,7 +136,7 @@ static void note_bounces(eval_collisions *e, const rlf_snapshot *snapshot, rlf_s
         bool was_flying = now_s - e->last_touch_s[index] >= FLIGHT_S;
         e->last_touch_s[index] = now_s;
         if (was_flying && contact->approach_speed > BOUNCE_SPEED) {
-            add_bounce(e, contact, source);
+            eval_collisions_judge(e, contact, source);
         }
     }
 }

@@ -53,6 +53,7 @@ typedef enum figure_index {
     BOUNCES,
     BOUNCES_PHANTOM,
     BOUNCES_MEAN,
+    BOUNCES_RIGHT,
     BOUNCES_CLOSE,
     BOUNCES_WRONG,
     BOUNCES_UNEXPLAINED,
@@ -117,7 +118,8 @@ static const figure_name names[FIGURE_COUNT] = {
     [BOUNCES] = {"bounces", "bounces on the real scene"},
     [BOUNCES_PHANTOM] = {"bounces_phantom_percent", "bounces where nothing real is, %"},
     [BOUNCES_MEAN] = {"bounces_mean_deg", "bounces: mean error of the normal, deg"},
-    [BOUNCES_CLOSE] = {"bounces_within_10_percent", "bounces within 10 deg of the truth, %"},
+    [BOUNCES_RIGHT] = {"bounces_right_percent", "bounces within 10 deg of a true direction, %"},
+    [BOUNCES_CLOSE] = {"bounces_within_10_percent", "  of that of the nearest true face, %"},
     [BOUNCES_WRONG] = {"bounces_over_30_percent", "bounces > 30 deg off, %"},
     [BOUNCES_UNEXPLAINED] = {"bounces_unexplained_percent",
                              "bounces > 30 deg off, not at an edge, %"},
@@ -180,6 +182,7 @@ static void get_collisions(const eval_collisions *c, double *v)
     v[BOUNCES] = (double)c->bounces;
     v[BOUNCES_PHANTOM] = eval_percent(c->phantom, c->bounces);
     v[BOUNCES_MEAN] = eval_mean_deg(&c->angles);
+    v[BOUNCES_RIGHT] = eval_percent(c->right, c->angles.count);
     v[BOUNCES_CLOSE] = eval_within_percent(&c->angles, 10.0);
     v[BOUNCES_WRONG] = eval_wrong_percent(&c->angles);
     v[BOUNCES_UNEXPLAINED] = eval_percent(c->unexplained, c->angles.count);

@@ -9,6 +9,8 @@
 #include "eval/eval.h"
 #include "measure/points.h"
 
+#include "relief/synthetic.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -223,6 +225,40 @@ static void collision_scene_is_the_same_for_a_seed(void **state)
     rlf_scene_destroy(&c);
 }
 
+/* What the eval says of a bounce at (x, y, 2.57) with the normal (nx, ny, 0): 2 right, 1 within 30
+ * degrees, 0 unexplained. */
+static int judged(rlf_source *source, double x, double y, double nx, double ny)
+{
+    eval_collisions e = {0};
+    rlf_contact contact = {.point = {x, y, 2.57}, .normal = rlf_normalize((rlf_vec3){nx, ny, 0})};
+    eval_collisions_judge(&e, &contact, source);
+    assert_int_equal(e.bounces, 1);
+    assert_int_equal(e.phantom, 0);
+    return e.right > 0 ? 2 : e.unexplained > 0 ? 0 : 1;
+}
+
+static void every_direction_between_the_faces_of_an_edge_is_right(void **state)
+{
+    (void)state;
+    const double LEFT = 0.59, TOP = 0.565; /* of the table's top */
+    rlf_source *source = NULL;
+    rlf_frame frame;
+    rlf_synthetic_def def = rlf_synthetic_def_default();
+    def.scene = RLF_SYNTHETIC_EMPTY;
+    assert_int_equal(rlf_synthetic_create(&def, &source), RLF_OK);
+    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    assert_int_equal(judged(source, LEFT, TOP, -1, -1), 2);
+    assert_int_equal(judged(source, LEFT, TOP, -1, -3), 2);
+    assert_int_equal(judged(source, LEFT, TOP, 0, -1), 2);
+    assert_int_equal(judged(source, LEFT, TOP, 1, -1), 0); /* of no face there */
+    assert_int_equal(judged(source, LEFT + 0.005, TOP, -1, -1), 2);
+    assert_int_equal(judged(source, LEFT + 0.02, TOP, -1, -1), 1);
+    assert_int_equal(judged(source, LEFT + 0.10, TOP, -1, -1), 0);
+    assert_int_equal(judged(source, LEFT + 0.10, TOP, -0.15, -1), 2); /* 8.5 degrees */
+    assert_int_equal(judged(source, LEFT + 0.10, TOP, -0.2, -1), 1);  /* 11.3 */
+    rlf_source_destroy(&source);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -233,6 +269,7 @@ int main(void)
         cmocka_unit_test(foreground_counts_hits_and_misses),
         cmocka_unit_test(missing_points_fall_into_the_four_cases),
         cmocka_unit_test(collision_scene_is_the_same_for_a_seed),
+        cmocka_unit_test(every_direction_between_the_faces_of_an_edge_is_right),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
