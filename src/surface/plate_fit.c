@@ -1,6 +1,8 @@
 /* The box that explains a frame: its faces where they are seen, its outline where depth steps. */
 #include "surface/plate.h"
 
+#include "math/inverse.h"
+
 #include <string.h>
 
 enum {
@@ -336,39 +338,6 @@ static void measure(equations *sum)
     }
 }
 
-/* Inverse of the symmetric positive definite matrix, by Cholesky's factor, in place. */
-static void invert(double a[N][N])
-{
-    double l[N][N] = {{0.0}}, inverse[N][N] = {{0.0}};
-    for (int i = 0; i < N; i++) {
-        for (int j = 0; j <= i; j++) {
-            double s = a[i][j];
-            for (int k = 0; k < j; k++) {
-                s -= l[i][k] * l[j][k];
-            }
-            l[i][j] = i == j ? sqrt(rlf_max(s, 1e-12)) : s / l[j][j];
-        }
-    }
-    for (int c = 0; c < N; c++) {
-        for (int i = c; i < N; i++) {
-            double s = i == c ? 1.0 : 0.0;
-            for (int k = c; k < i; k++) {
-                s -= l[i][k] * inverse[k][c];
-            }
-            inverse[i][c] = s / l[i][i];
-        }
-    }
-    for (int r = 0; r < N; r++) {
-        for (int c = 0; c < N; c++) {
-            double s = 0.0;
-            for (int k = r > c ? r : c; k < N; k++) {
-                s += inverse[k][r] * inverse[k][c];
-            }
-            a[r][c] = s;
-        }
-    }
-}
-
 static void apply(const double x[N], rlf_plate *plate)
 {
     plate->pose.p = rlf_add(plate->pose.p, rlf_vec3_make(x[0], x[1], x[2]));
@@ -384,7 +353,7 @@ rlf_plate_fit rlf_plate_improve(const rlf_reconstruct *stage, const float *depth
     double prior[N][N], gone[N] = {0.0};
     equations sum;
     memcpy(prior, plate->doubt, sizeof prior);
-    invert(prior);
+    math_invert(&prior[0][0], N);
     for (int pass = 0; pass < PASSES; pass++) {
         sum = (equations){.stage = stage,
                           .depth = depth,
@@ -397,7 +366,7 @@ rlf_plate_fit rlf_plate_improve(const rlf_reconstruct *stage, const float *depth
                 sum.b[r] -= prior[r][c] * gone[c];
             }
         }
-        invert(sum.a);
+        math_invert(&sum.a[0][0], N);
         double x[N];
         for (int r = 0; r < N; r++) {
             x[r] = 0.0;

@@ -70,6 +70,7 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
     stage->family.count = 0;
     rlf_past_reset(&stage->past, &stage->grid);
     stage->plates = (rlf_plates){.count = 0};
+    stage->torsos.count = 0;
     stage->previous = NULL;
 }
 

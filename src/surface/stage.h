@@ -174,6 +174,27 @@ typedef struct rlf_plates {
     int32_t region; /* of the foreground at which the next search begins */
 } rlf_plates;
 
+/* The trunk of a person, as a solid under the head: see torso.h. */
+enum { RLF_TORSO_UNKNOWNS = 11, RLF_TORSOS = 16 };
+
+typedef struct rlf_torso {
+    int32_t label;         /* of its region */
+    bool is_seen;          /* in the frame that is being made */
+    rlf_vec3 head;         /* its middle, but y is of its top; camera frame */
+    double side_x, side_z; /* level unit vector from the trunk's axis to one of the shoulders */
+    double spin;           /* of it, rad/s */
+    double unknown[RLF_TORSO_UNKNOWNS];
+    double doubt[RLF_TORSO_UNKNOWNS][RLF_TORSO_UNKNOWNS]; /* covariance of them */
+    double misfit;                                        /* of what is seen, 0..1 */
+    double area_m2;                                       /* of what is seen and fits */
+    double age_s, unseen_s;
+} rlf_torso;
+
+typedef struct rlf_torsos {
+    rlf_torso item[RLF_TORSOS];
+    int32_t count;
+} rlf_torsos;
+
 /* Memory that is free between steps. */
 typedef struct rlf_work {
     float *depth[2];    /* planes; these, sum and component have room for RLF_CHORD_PAD */
@@ -215,6 +236,7 @@ struct rlf_reconstruct {
     rlf_family family; /* of the foreground */
     rlf_past past;     /* of the foreground */
     rlf_plates plates; /* of the foreground */
+    rlf_torsos torsos; /* of the foreground */
     rlf_work work;
     bool has_color;      /* work.color holds the frame's */
     bool has_components; /* work.runs holds the front sheet's, so many: */

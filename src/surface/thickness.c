@@ -7,7 +7,9 @@
  * behind it. */
 #include "surface/thickness.h"
 
+#include "surface/past.h"
 #include "surface/steps.h"
+#include "surface/torso.h"
 
 #include <string.h>
 
@@ -69,6 +71,7 @@ static void resolve_rows(void *context, int32_t begin, int32_t end, int32_t work
             float front = job->knot[row + x];
             job->thickness[row + x] = front > 0.0f ? back_of(job, row + x) - front : 0.0f;
         }
+        rlf_torsos_thicken(job, y);
     }
 }
 
@@ -170,7 +173,7 @@ static void find_plates(const rlf_reconstruct *stage, const rlf_slot *slot, int3
     }
 }
 
-static rlf_chord_job make_job(const rlf_reconstruct *stage, const rlf_slot *slot)
+static rlf_chord_job make_job(rlf_reconstruct *stage, const rlf_slot *slot)
 {
     const rlf_work *work = &stage->work;
     const rlf_grid *grid = &stage->grid;
@@ -178,6 +181,7 @@ static rlf_chord_job make_job(const rlf_reconstruct *stage, const rlf_slot *slot
     return (rlf_chord_job){.stage = stage,
                            .slot = slot,
                            .is_plate = work->map,
+                           .torsos = &stage->torsos,
                            .step = step,
                            .pitch = (ptrdiff_t)grid->width + RLF_CHORD_PAD,
                            .front = work->depth[0],
@@ -201,6 +205,7 @@ void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot)
     find_plates(stage, slot, stage->work.map);
     rlf_chord_job job = make_job(stage, slot);
     int32_t count = find_blocks(&job, stage->work.blocks);
+    rlf_torsos_expect(&stage->torsos, rlf_past_elapsed(stage, slot));
     for (int32_t i = 0; i < count; i++) {
         const rlf_block *b = &stage->work.blocks[i];
         job.x0 = b->x0;

@@ -74,6 +74,7 @@ typedef struct rlf_block {
 typedef struct rlf_chord_job {
     const rlf_reconstruct *stage;
     const rlf_slot *slot;
+    rlf_torsos *torsos;      /* followed below the heads that are found */
     const int32_t *is_plate; /* of each region, from 1: it is flat up to noise and has no chords */
     int32_t step;
     ptrdiff_t pitch;         /* of the planes of pixels: the grid's width and RLF_CHORD_PAD */

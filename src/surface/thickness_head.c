@@ -1,4 +1,4 @@
-/* The middle of a trunk, told by the head above it.
+/* Heads: they tell where the middle of the trunk below is.
  *
  * A trunk seen from the side shows one flank, which says little about how far away the other one
  * is, and an arm hides a part of it. But bodies are mirror images of themselves: the middle of the
@@ -6,6 +6,7 @@
  * region begins with at its top, as wide as heads are, above a neck that is narrower. Rows are
  * taken for level: under a camera that is tilted aside nothing is a head. */
 #include "surface/thickness.h"
+#include "surface/torso.h"
 
 enum { HEADS = 16 };
 
@@ -25,7 +26,9 @@ static const float told_share = 8.0f; /* lines that cross a trunk otherwise are 
 typedef struct neck {
     int32_t label, line;
     float x, height; /* metres; height is along the image's columns, downwards */
-    float depth;     /* of the head's middle */
+    float top;       /* height of the head's top */
+    float depth;     /* of the head's middle ... */
+    float ray_x;     /* ... and its ray */
 } neck;
 
 static float width_of(const rlf_chord *c)
@@ -70,7 +73,8 @@ static bool find_neck(const rlf_chord_job *job, int32_t row, int32_t rows, const
 {
     float top = height_of(job, row, c), head = 0.0f, least = widest_head;
     rlf_chord_middle middle = {0.0f, 0.0f};
-    *out = (neck){.label = c->label, .line = -1};
+    float rays = 0.0f, rows_of_head = 0.0f;
+    *out = (neck){.label = c->label, .line = -1, .top = top};
     for (; c != NULL; row++) {
         float width = width_of(c), height = height_of(job, row, c) - top;
         if (height > neck_to) {
@@ -86,12 +90,16 @@ static bool find_neck(const rlf_chord_job *job, int32_t row, int32_t rows, const
         if (height > head_from && height < head_to) {
             middle.depth += c->seen.weight * c->seen.depth;
             middle.weight += c->seen.weight;
+            rays += middle_of(job, c) * c->inverse;
+            rows_of_head += 1.0f;
         }
         const rlf_chord *next = below(job, row, rows, c);
         bool is_hidden = height > neck_from && next != NULL &&
                          next->end - next->begin < shoulder_share * (c->end - c->begin);
         c = is_hidden ? NULL : next;
     }
+    const rlf_camera *camera = &job->stage->grid.camera;
+    out->ray_x = rays / rows_of_head - (float)(camera->cx / camera->fx);
     out->depth = middle.weight > 0.0f ? middle.depth / middle.weight : 0.0f;
     return out->line >= 0 && middle.weight > 0.0f && head > narrowest_head && head < widest_head &&
            least > narrowest_neck && least < neck_share * head;
@@ -136,6 +144,9 @@ void rlf_chords_head(const rlf_chord_job *job, int32_t rows)
             neck found;
             if (find_neck(job, row, rows, c, &found)) {
                 tell_trunk(job, &found, rows);
+                const rlf_vec3 head = {(double)found.ray_x * (double)found.depth, (double)found.top,
+                                       (double)found.depth};
+                rlf_torso_follow(job, found.label, head);
             }
         }
     }

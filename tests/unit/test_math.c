@@ -8,6 +8,8 @@
 
 #include "relief/math.h"
 
+#include "math/inverse.h"
+
 #include <math.h>
 
 static void elementary_functions_agree_with_libm(void **state)
@@ -65,6 +67,29 @@ static void inverse_of_a_matrix(void **state)
     assert_false(rlf_mat3_invert(&singular, &inverse));
 }
 
+static void inverse_of_a_covariance(void **state)
+{
+    (void)state;
+    enum { N = 7 };
+    double a[N][N], inverse[N][N];
+    for (int r = 0; r < N; r++) {
+        for (int c = 0; c < N; c++) {
+            a[r][c] = 1.0 / (r + c + 1) + (r == c ? 0.01 * (r + 1) : 0.0); /* Hilbert's, and more */
+            inverse[r][c] = a[r][c];
+        }
+    }
+    math_invert(&inverse[0][0], N);
+    for (int r = 0; r < N; r++) {
+        for (int c = 0; c < N; c++) {
+            double sum = 0.0;
+            for (int k = 0; k < N; k++) {
+                sum += a[r][k] * inverse[k][c];
+            }
+            assert_true(fabs(sum - (r == c)) < 1e-11);
+        }
+    }
+}
+
 static void model_matrix_scales_then_rotates_then_translates(void **state)
 {
     (void)state;
@@ -82,6 +107,7 @@ int main(void)
         cmocka_unit_test(elementary_functions_agree_with_libm),
         cmocka_unit_test(poses_compose_and_invert),
         cmocka_unit_test(inverse_of_a_matrix),
+        cmocka_unit_test(inverse_of_a_covariance),
         cmocka_unit_test(model_matrix_scales_then_rotates_then_translates),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,216 @@
+/* The solid of a torso against itself, and the filter that fits it against a torso that is known:
+ * seen from the side with an arm before it, and while it turns. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "surface/torso.h"
+
+static rlf_torso usual(double angle)
+{
+    double variance[RLF_TORSO_UNKNOWNS];
+    rlf_torso t = {.label = 1, .head = {0.2, -0.5, 2.6}};
+    t.side_x = rlf_cos(angle);
+    t.side_z = rlf_sin(angle);
+    rlf_torso_usual(t.unknown, variance);
+    for (int k = 0; k < RLF_TORSO_UNKNOWNS; k++) {
+        t.doubt[k][k] = variance[k];
+    }
+    return t;
+}
+
+/* One whose every unknown is off the usual by about a deviation. */
+static rlf_torso other(double angle)
+{
+    rlf_torso t = usual(angle);
+    for (int k = 0; k < RLF_TORSO_UNKNOWNS; k++) {
+        t.unknown[k] += (k % 2 == 0 ? 0.8 : -0.6) * sqrt(t.doubt[k][k]);
+    }
+    t.unknown[RLF_TORSO_TURN] = 0.0;
+    return t;
+}
+
+/* First of its parts on the ray; false when it misses both. */
+static bool hit(const rlf_torso *t, double x, double y, double *enter, double *leave)
+{
+    rlf_torso_cut cut[2];
+    rlf_torso_cut_ray(t, x, y, cut);
+    bool has[2] = {cut[0].enter < cut[0].leave, cut[1].enter < cut[1].leave};
+    int k = has[1] && (!has[0] || cut[1].enter < cut[0].enter) ? 1 : 0;
+    *enter = cut[k].enter;
+    *leave = cut[k].leave;
+    return has[k];
+}
+
+static void rays_end_on_the_surface(void **state)
+{
+    (void)state;
+    int hits = 0;
+    for (int turn = 0; turn < 12; turn++) {
+        const rlf_torso t = other(0.26 * turn);
+        for (double y = -0.1; y < 0.1; y += 0.01) {
+            for (double x = -0.05; x < 0.2; x += 0.01) {
+                double enter, leave;
+                rlf_torso_touch touch;
+                if (!hit(&t, x, y, &enter, &leave) ||
+                    !rlf_torso_touch_at(&t, rlf_vec3_make(enter * x, enter * y, enter), &touch)) {
+                    continue;
+                }
+                hits++;
+                assert_true(leave - enter < 0.55);
+                /* below the shoulders' middle points are rather of an arm than of their underside
+                 */
+                double below = enter * y - t.head.y - t.unknown[RLF_TORSO_DROP];
+                bool is_underside = below > 0.38 && below < 0.415;
+                assert_true(touch.distance > -0.03 &&
+                            touch.distance < (is_underside ? 0.09 : 0.012));
+            }
+        }
+    }
+    assert_true(hits > 1000);
+}
+
+/* Near the surface every slope is what the distance does when that unknown changes a little. (The
+ * trunk's fall with height, which is gentle, is left out; farther away points do not count.) */
+static void slopes_are_derivatives(void **state)
+{
+    (void)state;
+    const double step = 1e-6;
+    int near = 0;
+    for (int i = 0; i < 400; i++) {
+        rlf_torso t = other(0.37 * i);
+        rlf_vec3 p = {t.head.x + (0.13 + 0.0001 * i) * rlf_cos(1.3 * i),
+                      t.head.y + 0.3 + 0.0014 * i,
+                      t.head.z + (0.13 + 0.0001 * i) * rlf_sin(1.3 * i)};
+        rlf_torso_touch here, there;
+        if (!rlf_torso_touch_at(&t, p, &here) || fabs(here.distance) > 0.03) {
+            continue;
+        }
+        near++;
+        for (int k = 0; k < RLF_TORSO_UNKNOWNS; k++) {
+            rlf_torso moved = t;
+            moved.unknown[k] += k == RLF_TORSO_TURN ? 0.0 : step;
+            if (k == RLF_TORSO_TURN) {
+                moved.side_x -= step * t.side_z;
+                moved.side_z += step * t.side_x;
+            }
+            assert_true(rlf_torso_touch_at(&moved, p, &there));
+            double found = (there.distance - here.distance) / step;
+            assert_true(k == RLF_TORSO_DROP ||
+                        fabs(found - here.slope[k]) < 0.05 + 15.0 * fabs(here.distance));
+        }
+    }
+    assert_true(near > 100);
+}
+
+enum { MOST = 600 };
+
+/* What the camera sees of the torso, every 3 cm, and of an arm that hangs before it. */
+static int32_t see(const rlf_torso *t, bool has_arm, rlf_vec3 out[MOST])
+{
+    const double arm_x = t->head.x, arm_z = t->head.z - 0.22, arm_r = 0.05;
+    int32_t count = 0;
+    for (double y = t->head.y + 0.27; y < t->head.y + 0.9 && count < MOST; y += 0.03) {
+        for (double x = t->head.x - 0.3; x < t->head.x + 0.3 && count < MOST; x += 0.03) {
+            double z = t->head.z, enter, leave;
+            bool is_hit = hit(t, x / z, y / z, &enter, &leave);
+            bool is_arm = has_arm && fabs(x - arm_x) < arm_r && y > t->head.y + 0.36;
+            double before = arm_z - sqrt(fabs(arm_r * arm_r - (x - arm_x) * (x - arm_x)));
+            z = is_hit ? enter : 0.0;
+            z = is_arm && (z == 0.0 || before < z) ? before : z;
+            if (z > 0.0) {
+                out[count++] = rlf_vec3_make(z * x / t->head.z, z * y / t->head.z, z);
+            }
+        }
+    }
+    return count;
+}
+
+static double turned_from(const rlf_torso *a, const rlf_torso *b)
+{
+    return fabs(a->side_x * b->side_z - a->side_z * b->side_x);
+}
+
+/* Mean difference of where rays leave the two torsos. */
+static double backs_differ(const rlf_torso *a, const rlf_torso *b)
+{
+    double sum = 0.0;
+    int count = 0;
+    for (double y = -0.07; y < 0.12; y += 0.01) {
+        for (double x = 0.0; x < 0.16; x += 0.01) {
+            double enter, la, lb;
+            if (hit(a, x, y, &enter, &la) && hit(b, x, y, &enter, &lb)) {
+                sum += fabs(la - lb);
+                count++;
+            }
+        }
+    }
+    assert_true(count > 50);
+    return sum / count;
+}
+
+/* Seen from the side, the far half never seen. */
+static void the_far_side_is_found(void **state)
+{
+    (void)state;
+    rlf_vec3 seen[MOST];
+    for (int arm = 0; arm < 2; arm++) {
+        const rlf_torso truth = other(1.45);
+        rlf_torso found = usual(1.6);
+        const double before = backs_differ(&truth, &found);
+        const rlf_torso_points points = {seen, see(&truth, arm != 0, seen), 0.0009};
+        for (int frame = 0; frame < 10; frame++) {
+            rlf_torso_improve(&found, &points, 2);
+        }
+        double after = backs_differ(&truth, &found);
+        assert_true(turned_from(&truth, &found) < (arm != 0 ? 0.1 : 0.05));
+        assert_true(after < 0.02 && after < 0.7 * before);
+    }
+}
+
+/* A person turns by a right angle in 0.7 s. */
+static void a_turn_is_followed(void **state)
+{
+    (void)state;
+    rlf_vec3 seen[MOST];
+    rlf_torso found = usual(1.5);
+    for (int frame = 0; frame < 30; frame++) {
+        const rlf_torso truth = other(1.5 - 0.075 * (frame < 20 ? frame : 20));
+        const rlf_torso_points points = {seen, see(&truth, true, seen), 0.0009};
+        found.doubt[RLF_TORSO_TURN][RLF_TORSO_TURN] += 0.0064;
+        rlf_torso_improve(&found, &points, 2);
+        assert_true(turned_from(&truth, &found) < 0.3);
+    }
+    assert_true(found.misfit < 0.5 && found.area_m2 > 0.1);
+}
+
+/* Few points leave a torso as it was, and say so. */
+static void nothing_is_made_of_nothing(void **state)
+{
+    (void)state;
+    rlf_torso found = usual(0.3);
+    const rlf_torso before = found;
+    const rlf_torso_points none = {NULL, 0, 0.001};
+    rlf_torso_improve(&found, &none, 3);
+    assert_true(found.misfit == 1.0 && found.area_m2 == 0.0);
+    assert_true(turned_from(&before, &found) < 1e-12);
+    for (int k = 0; k < RLF_TORSO_UNKNOWNS; k++) {
+        assert_true(fabs(found.unknown[k] - before.unknown[k]) < 1e-12);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rays_end_on_the_surface),    cmocka_unit_test(slopes_are_derivatives),
+        cmocka_unit_test(the_far_side_is_found),      cmocka_unit_test(a_turn_is_followed),
+        cmocka_unit_test(nothing_is_made_of_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
