@@ -16,9 +16,12 @@ static const float CREASE = 0.9f;      /* of the normals of two faces that meet 
 static const float MOST_SLOPE = 0.04f; /* share of the depth per pixel: no edge between */
 static const float MOST_SIGMAS = 8.0f; /* of the pixel's depth from the face; grazing is noisier */
 static const float LEAST_APART = 2.0f; /* sigmas of depth from one face to the other */
-/* Frames in a pixel's mean, sigmas from face to face, and share of that from the face that the
- * planes choose, by which a pixel's own depth speaks for the other. */
-static const float OWN_FRAMES = 8.0f, OWN_APART = 0.5f, OWN_SHARE = 0.75f;
+/* A pixel's own depth speaks for the other face than the planes choose when it is the mean of at
+ * least so many frames, it lies at this share of the way or beyond, and the way is longer than so
+ * many sigmas of what is left of the noise: of the mean's, and of the planes' in sigmas of one
+ * frame.
+ */
+static const float OWN_FRAMES = 3.0f, OWN_SHARE = 0.75f, OWN_SIGMAS = 2.0f, PLANE_SIGMAS = 0.2f;
 
 typedef struct crease_job {
     int32_t width, height;
@@ -122,7 +125,9 @@ static bool is_elsewhere(const crease_job *job, ptrdiff_t i, float z, float othe
         return false;
     }
     float own = 1.0f / job->mean[i], apart = other - z;
-    bool matters = rlf_kernel_abs(apart) > OWN_APART * rlf_kernel_sigma(job->noise, own);
+    float sigma = OWN_SIGMAS * rlf_kernel_sigma(job->noise, own);
+    float left = 1.0f / job->frames[i] + PLANE_SIGMAS * PLANE_SIGMAS;
+    bool matters = apart * apart > sigma * sigma * left;
     return matters && (own - z) * apart > OWN_SHARE * apart * apart;
 }
 

@@ -13,7 +13,7 @@
 
 enum { REACH = 2 };
 
-static const double AGREED = 0.9;      /* length of a mean of normals of one face */
+static const double AGREED = 0.84;     /* length of a mean of normals of one face */
 static const float TURNED = 0.85f;     /* cosine between the normals of two faces */
 static const float MOST_APART = 0.03f; /* share of the depth, of what is about the pixel */
 
@@ -106,7 +106,7 @@ static ptrdiff_t find_face(const rlf_normals_job *job, int32_t x, int32_t y)
     return (meeting == RLF_FACES_CONVEX ? za > zb : za < zb) ? a : b;
 }
 
-bool rlf_normals_near_pixel(const rlf_normals_job *job, int32_t x, int32_t y)
+bool rlf_normals_near_pixel(const rlf_normals_job *job, int32_t x, int32_t y, float out[3])
 {
     ptrdiff_t i = (ptrdiff_t)y * job->width + x;
     float sum[4];
@@ -118,8 +118,8 @@ bool rlf_normals_near_pixel(const rlf_normals_job *job, int32_t x, int32_t y)
     }
     bool agreed = rlf_length(whole) >= AGREED * (double)sum[3];
     ptrdiff_t face = agreed ? -1 : find_face(job, x, y);
-    job->out[0][i] = face < 0 ? (float)mean.x : job->out[0][face];
-    job->out[1][i] = face < 0 ? (float)mean.y : job->out[1][face];
-    job->out[2][i] = face < 0 ? (float)mean.z : job->out[2][face];
+    out[0] = face < 0 ? (float)mean.x : job->out[0][face];
+    out[1] = face < 0 ? (float)mean.y : job->out[1][face];
+    out[2] = face < 0 ? (float)mean.z : job->out[2][face];
     return true;
 }

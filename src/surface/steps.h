@@ -72,8 +72,8 @@ void rlf_normals_plane_complete(const rlf_normals_job *job);
 /* Exact inverse-depth normal of one pixel, for those that no plane explains. */
 void rlf_normals_slope_pixel(const rlf_normals_job *job, int32_t x, int32_t y);
 
-/* Normal of one pixel from those about it; false when they have none for it. */
-bool rlf_normals_near_pixel(const rlf_normals_job *job, int32_t x, int32_t y);
+/* The normal that those about a pixel have for it; false, and nothing is written, when none. */
+bool rlf_normals_near_pixel(const rlf_normals_job *job, int32_t x, int32_t y, float out[3]);
 
 /* Normals of filled pixels at the outlines of things; after rlf_fill_holes. */
 void rlf_normals_outline(const rlf_reconstruct *stage, const rlf_slot *slot);
