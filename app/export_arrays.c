@@ -105,6 +105,11 @@ static rlf_result write_background_depth(const export_frame *f, const char *path
     return surface_f32(f, path, surface_of(f)->background_depth);
 }
 
+static rlf_result write_background_thickness(const export_frame *f, const char *path)
+{
+    return surface_f32(f, path, surface_of(f)->background_thickness);
+}
+
 static rlf_result write_background_normals(const export_frame *f, const char *path)
 {
     const rlf_surface *s = surface_of(f);
@@ -221,6 +226,8 @@ const export_kind export_kinds[] = {
     {"background_depth", EXPORT_NEEDS_SURFACE, "float32 (H,W) metres, 0 = unknown",
      write_background_depth},
     {"background_normals", EXPORT_NEEDS_SURFACE, "float32 (H,W,3)", write_background_normals},
+    {"background_thickness", EXPORT_NEEDS_SURFACE, "float32 (H,W) metres, 0 = unknown",
+     write_background_thickness},
     {"color", EXPORT_NEEDS_SURFACE, "uint8 (H,W,3) the colour picture", write_color},
     {"composite", EXPORT_NEEDS_RENDER, "uint8 (H,W,3) with the bodies", write_composite},
     {"matte", EXPORT_NEEDS_RENDER, "uint8 (H,W) alpha of everything virtual", write_matte},

@@ -26,6 +26,8 @@ const eval_bound eval_bounds[] = {
     {"room", "foreground_f_valid", '>', 0.993, 0.993, "0.9545", ""},
     {"room", "exit_mean_cm", '<', 1.5, 1.68, "none: 15.5", "constant 20 cm: 9"},
     {"room", "exit_within_5_cm_percent", '>', 95, 94.3, "", ""},
+    {"room", "standing_exit_mean_cm", '<', NAN, 5.5, "", "a guess of 15 cm: 16"},
+    {"room", "standing_within_5_cm_percent", '>', NAN, 62, "", ""},
     {"room", "speed_median_percent", '<', NAN, 12, "none", "nobody measures it"},
     {"room", "still_zero_percent", '>', NAN, 99.85, "", ""},
     {"room", "bounces_phantom_percent", '<', NAN, 3, "", ""},

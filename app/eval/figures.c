@@ -44,6 +44,9 @@ typedef enum figure_index {
     EXIT_MEAN,
     EXIT_CLOSE,
     BOOK_EXIT_MEAN,
+    STANDING_EXIT_MEAN,
+    STANDING_EXIT_CLOSE,
+    STANDING_KNOWN,
     SPEED_MEDIAN,
     SPEED_MEAN,
     VELOCITY_MEDIAN,
@@ -109,6 +112,10 @@ static const figure_name names[FIGURE_COUNT] = {
     [EXIT_MEAN] = {"exit_mean_cm", "thickness of people: exit error, cm"},
     [EXIT_CLOSE] = {"exit_within_5_cm_percent", "thickness of people: within 5 cm, %"},
     [BOOK_EXIT_MEAN] = {"book_exit_mean_cm", "thickness of a held book: exit error, cm"},
+    [STANDING_EXIT_MEAN] = {"standing_exit_mean_cm", "thickness of what stands: exit error, cm"},
+    [STANDING_EXIT_CLOSE] = {"standing_within_5_cm_percent",
+                             "thickness of what stands: within 5 cm, %"},
+    [STANDING_KNOWN] = {"standing_known_percent", "thickness of what stands: known, %"},
     [SPEED_MEDIAN] = {"speed_median_percent", "speed along the normal: median error, %"},
     [SPEED_MEAN] = {"speed_mean_percent", "speed along the normal: mean error, %"},
     [VELOCITY_MEDIAN] = {"velocity_median_percent", "velocity, whole vector: median error, %"},
@@ -169,6 +176,9 @@ static void get_solid(const eval_solid *s, double *v)
     v[EXIT_MEAN] = eval_exit_mean_cm(&s->body);
     v[EXIT_CLOSE] = eval_exit_close_percent(&s->body);
     v[BOOK_EXIT_MEAN] = eval_exit_mean_cm(&s->book);
+    v[STANDING_EXIT_MEAN] = eval_exit_mean_cm(&s->standing);
+    v[STANDING_EXIT_CLOSE] = eval_exit_close_percent(&s->standing);
+    v[STANDING_KNOWN] = eval_standing_known_percent(s);
     v[SPEED_MEDIAN] = eval_speed_median_percent(&s->normal);
     v[SPEED_MEAN] = eval_speed_mean_percent(&s->normal);
     v[VELOCITY_MEDIAN] = eval_speed_median_percent(&s->full);

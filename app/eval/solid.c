@@ -95,6 +95,26 @@ static void add_phantom(eval_phantoms *p, const rlf_surface *s, int32_t i, const
     }
 }
 
+static bool is_furniture(int32_t label)
+{
+    return label > RLF_SYNTHETIC_LABEL_COLUMN && label < RLF_SYNTHETIC_LABEL_PERSON;
+}
+
+/* Where the background shows a thing: what bodies take for its back. */
+static void add_standing(eval_solid *e, const rlf_surface *s, int32_t i, const rlf_truth *truth,
+                         int32_t t)
+{
+    double front = s->background_depth[i], thickness = s->background_thickness[i];
+    double off = front - truth->depth[t];
+    if (s->background_state != RLF_BACKGROUND_READY || truth->foreground[t] ||
+        !is_furniture(truth->label[t]) || off > CLOSE_M || off < -CLOSE_M) {
+        return;
+    }
+    double guess = thickness > 0.0 ? thickness : RLF_BACKGROUND_GUESS_M;
+    add_exit(&e->standing, front + guess - (truth->depth[t] + truth->thickness[t]));
+    e->standing_known += thickness > 0.0;
+}
+
 void eval_solid_add(eval_solid *e, const rlf_surface *s, const rlf_truth *truth, const rlf_rig *rig)
 {
     for (int32_t y = 0; y < s->height; y++) {
@@ -103,6 +123,7 @@ void eval_solid_add(eval_solid *e, const rlf_surface *s, const rlf_truth *truth,
             int32_t t = y * s->scale_factor * rig->depth.width + x * s->scale_factor;
             add_phantom(&e->phantoms, s, i, truth, t);
             add_velocity(e, s, i, truth, t);
+            add_standing(e, s, i, truth, t);
             if (truth->foreground[t] && s->foreground[i] && s->depth[i] > 0.0f) {
                 bool book = truth->label[t] == RLF_SYNTHETIC_LABEL_BOOK;
                 add_exit(book ? &e->book : &e->body,
@@ -116,6 +137,12 @@ void eval_solid_add(eval_solid *e, const rlf_surface *s, const rlf_truth *truth,
 double eval_exit_mean_cm(const eval_exit *e)
 {
     return e->count > 0 ? 100.0 * e->sum_m / (double)e->count : NAN;
+}
+
+double eval_standing_known_percent(const eval_solid *e)
+{
+    return e->standing.count > 0 ? 100.0 * (double)e->standing_known / (double)e->standing.count
+                                 : NAN;
 }
 
 double eval_exit_close_percent(const eval_exit *e)

@@ -30,9 +30,11 @@ typedef struct eval_phantoms {
 } eval_phantoms;
 
 typedef struct eval_solid {
-    eval_exit body, book; /* people and hands; the held book */
-    eval_speed normal;    /* along the true normal */
-    eval_speed full;      /* of the whole vector */
+    eval_exit body, book;   /* people and hands; the held book */
+    eval_exit standing;     /* furniture that stands */
+    int64_t standing_known; /* of its pixels those whose thickness is no guess */
+    eval_speed normal;      /* along the true normal */
+    eval_speed full;        /* of the whole vector */
     int64_t still, still_zero;
     eval_phantoms phantoms;
 } eval_solid;
@@ -46,6 +48,7 @@ void eval_solid_add(eval_solid *e, const rlf_surface *surface, const rlf_truth *
 /* NAN when there is no sample. */
 double eval_exit_mean_cm(const eval_exit *e);
 double eval_exit_close_percent(const eval_exit *e);
+double eval_standing_known_percent(const eval_solid *e);
 double eval_speed_median_percent(const eval_speed *e);
 double eval_speed_mean_percent(const eval_speed *e);
 

@@ -27,8 +27,9 @@ typedef struct rlf_grid_sheet {
     const float *depth;                          /* z, metres; 0 = none. NULL = no such sheet */
     const float *normal_x, *normal_y, *normal_z; /* unit towards the camera, or 0 */
     const float *velocity_x, *velocity_y, *velocity_z; /* m/s; NULL = still */
-    const float *thickness;   /* solid behind depth along z, metres; NULL = default_thickness */
-    double default_thickness; /* metres; 0 = endlessly thick */
+    const float *thickness;   /* solid behind depth along z, metres; 0 or NULL = not known */
+    double default_thickness; /* a guess where it is not known, metres square to the face; 0 =
+                                 endlessly thick where `thickness` is NULL, a sheet elsewhere */
     const int32_t *label;     /* region label; may be NULL */
     const uint8_t *mask;      /* only pixels with mask != 0 belong to the sheet; NULL = all */
     rlf_border border;        /* beyond the view; the world's def may ask for more */

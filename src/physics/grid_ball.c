@@ -70,7 +70,7 @@ static void note(grid_job *job, const grid_meeting *touch)
 /* Whether the ball's centre is before the cell's front, which is at p now. */
 static bool is_before(const grid_job *job, const field_cell *cell, rlf_vec3 p)
 {
-    return rlf_dot(rlf_sub(job->centre, p), grid_cell_inward(job->sheet, cell)) < 0.0;
+    return rlf_dot(rlf_sub(job->centre, p), grid_cell_inward(cell)) < 0.0;
 }
 
 void grid_ball_look(grid_job *job, const field_cell *seen, rlf_vec3 p)
@@ -86,8 +86,8 @@ void grid_ball_look(grid_job *job, const field_cell *seen, rlf_vec3 p)
         if (is_back) {
             patch_limit_thickness(job, &cell);
         }
-        rlf_vec3 point = is_back ? patch_back_of(job, &cell, p) : p;
-        if (is_back && job->sheet->thickness == NULL &&
+        rlf_vec3 point = is_back ? patch_back_of(&cell, p) : p;
+        if (is_back && cell.is_guess &&
             grid_field_is_seen_through(job->query->grid, job->sheet, point)) {
             return;
         }
@@ -160,7 +160,7 @@ void grid_ball_look_tile(grid_job *job, const grid_tile *tile)
         return;
     }
     /* another pixel shows the face before the place where the ball comes to the back */
-    rlf_vec3 back = foot_on(job, tile, rlf_neg(n), patch_back_of(job, &cell, cell.point));
+    rlf_vec3 back = foot_on(job, tile, rlf_neg(n), patch_back_of(&cell, cell.point));
     if (read_in_tile(job, tile, back, &cell)) {
         grid_ball_look(job, &cell, rlf_mad(cell.point, cell.velocity, job->query->tau));
     }
@@ -170,7 +170,7 @@ void grid_ball_look_outline(grid_job *job, const field_cell *cell, rlf_vec3 shif
 {
     grid_meeting touch = {.x = cell->x, .y = cell->y, .face = GRID_TOUCH_SIDE};
     rlf_vec3 front = rlf_add(cell->point, shift), centre = job->centre;
-    rlf_vec3 inward = grid_cell_inward(job->sheet, cell);
+    rlf_vec3 inward = grid_cell_inward(cell);
     double share = 0.0;
     for (int32_t i = 0; i < 2; i++) {
         share = rlf_dot(rlf_sub(centre, front), inward) / rlf_dot(inward, inward);

@@ -45,10 +45,12 @@ bool grid_cell_read(const rlf_grid *grid, const rlf_grid_sheet *sheet, int32_t x
             out->velocity = rlf_vec3_make(0, 0, 0);
         }
     }
-    double thickness = sheet->thickness != NULL ? sheet->thickness[i] : sheet->default_thickness;
+    double known = sheet->thickness != NULL ? sheet->thickness[i] : 0.0;
+    double thickness = known > 0.0 ? known : sheet->default_thickness;
     bool is_endless = sheet->thickness == NULL && !(thickness > 0.0);
-    bool is_measured = thickness > THICKNESS_MIN && thickness < FARTHEST;
-    out->thickness = is_endless ? FIELD_ENDLESS : is_measured ? thickness : THICKNESS_MIN;
+    bool is_thick = thickness > THICKNESS_MIN && thickness < FARTHEST;
+    out->thickness = is_endless ? FIELD_ENDLESS : is_thick ? thickness : THICKNESS_MIN;
+    out->is_guess = !(known > 0.0) && thickness > 0.0;
     return true;
 }
 
@@ -104,15 +106,10 @@ static double plane_depth(const field_cell *cell, rlf_vec3 q)
     return rlf_clamp(on_ray, NEAREST_SHARE * z, 1.05 * z);
 }
 
-static bool is_guess(const rlf_grid_sheet *sheet, const field_cell *cell)
-{
-    return sheet->thickness == NULL && cell->thickness < FIELD_ENDLESS;
-}
-
-rlf_vec3 grid_cell_inward(const rlf_grid_sheet *sheet, const field_cell *cell)
+rlf_vec3 grid_cell_inward(const field_cell *cell)
 {
     double facing = rlf_dot(cell->normal, cell->point) / cell->point.z;
-    if (!is_guess(sheet, cell) || facing > -0.02) {
+    if (!cell->is_guess || facing > -0.02) {
         return rlf_scale(cell->point, 1.0 / cell->point.z);
     }
     return rlf_scale(cell->normal, facing);
@@ -159,7 +156,7 @@ field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf
     if (q.z > out->back + FAR_BEHIND) {
         return FIELD_BEHIND; /* whatever its width */
     }
-    if (is_guess(sheet, out)) {
+    if (out->is_guess) {
         /* How thick it is was never seen: no thicker than it is wide (a table's leg). */
         out->thickness = grid_edge_width(grid, sheet, out, out->thickness);
         out->thickness = rlf_max(out->thickness, THICKNESS_MIN);
@@ -171,9 +168,9 @@ field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf
     return q.z <= out->back ? FIELD_INSIDE : FIELD_BEHIND;
 }
 
-static rlf_vec3 back_point(const rlf_grid_sheet *sheet, const field_cell *cell)
+static rlf_vec3 back_point(const field_cell *cell)
 {
-    return rlf_mad(cell->point, grid_cell_inward(sheet, cell), cell->thickness);
+    return rlf_mad(cell->point, grid_cell_inward(cell), cell->thickness);
 }
 
 /* Back point of the neighbour at (x, y). False across a step. */
@@ -186,7 +183,7 @@ static bool read_back(const rlf_grid *grid, const rlf_grid_sheet *sheet, const f
         grid_edge_end(grid, sheet, &near, cell->x, cell->y) > 0.0) {
         return false;
     }
-    *out = back_point(sheet, &near);
+    *out = back_point(&near);
     return true;
 }
 
@@ -194,7 +191,7 @@ rlf_vec3 grid_back_normal(const rlf_grid *grid, const rlf_grid_sheet *sheet, con
 {
     const int32_t OFFSETS[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     rlf_vec3 p[4];
-    if (is_guess(sheet, cell)) {
+    if (cell->is_guess) {
         return rlf_neg(cell->normal);
     }
     for (int32_t k = 0; k < 4; k++) {
@@ -306,7 +303,7 @@ static void hit_front(const rlf_grid *grid, const rlf_grid_sheet *sheet, const f
 static void hit_back(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
                      field_hit *hit)
 {
-    set_hit(hit, cell, back_point(sheet, cell), grid_back_normal(grid, sheet, cell));
+    set_hit(hit, cell, back_point(cell), grid_back_normal(grid, sheet, cell));
 }
 
 /* Through the nearest of front, back and side, or the home's face and side. */

@@ -24,7 +24,8 @@ typedef struct field_cell {
     int32_t x, y;
     int32_t label;
     rlf_vec3 point, normal, velocity;
-    double thickness; /* metres along z, or FIELD_ENDLESS */
+    double thickness; /* metres along z, or FIELD_ENDLESS; of a guess square to the face */
+    bool is_guess;    /* nobody has measured how thick it is */
     double back;      /* z of the back on the query's ray */
 } field_cell;
 
@@ -68,7 +69,7 @@ bool grid_field_side(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3
 /* Which way the solid goes from the cell's point, and how far per metre of thickness: along the
  * ray, on which thickness was found; but where it is a guess, square to the face. What is behind
  * the far edge of a table's top is no part of the table. */
-rlf_vec3 grid_cell_inward(const rlf_grid_sheet *sheet, const field_cell *cell);
+rlf_vec3 grid_cell_inward(const field_cell *cell);
 
 /* Whether q is before all that may be on its ray by the depth of its pixel alone: false says
  * nothing. */

@@ -14,14 +14,14 @@ rlf_vec3 patch_centre_at(const grid_job *job, double time)
 
 void patch_limit_thickness(const grid_job *job, field_cell *cell)
 {
-    if (job->sheet->thickness == NULL) {
+    if (cell->is_guess) {
         cell->thickness = grid_edge_width(job->query->grid, job->sheet, cell, cell->thickness);
     }
 }
 
-rlf_vec3 patch_back_of(const grid_job *job, const field_cell *cell, rlf_vec3 p)
+rlf_vec3 patch_back_of(const field_cell *cell, rlf_vec3 p)
 {
-    return rlf_mad(p, grid_cell_inward(job->sheet, cell), cell->thickness);
+    return rlf_mad(p, grid_cell_inward(cell), cell->thickness);
 }
 
 void patch_read(grid_patch *p)
@@ -44,7 +44,7 @@ void patch_read(grid_patch *p)
             s->point = rlf_mad(s->cell.point, s->cell.velocity, tau);
             if (p->face == GRID_TOUCH_BACK) {
                 patch_limit_thickness(job, &s->cell);
-                s->point = patch_back_of(job, &s->cell, s->point);
+                s->point = patch_back_of(&s->cell, s->point);
             }
             s->distance = rlf_length(rlf_sub(p->centre, s->point)) - job->body->shape.shape.radius;
             if (p->nearest < 0 || s->distance < p->samples[p->nearest].distance) {

@@ -47,7 +47,7 @@ rlf_vec3 patch_centre_at(const grid_job *job, double time);
 void patch_limit_thickness(const grid_job *job, field_cell *cell);
 
 /* The back behind p, a point of the cell's front. */
-rlf_vec3 patch_back_of(const grid_job *job, const field_cell *cell, rlf_vec3 p);
+rlf_vec3 patch_back_of(const field_cell *cell, rlf_vec3 p);
 
 /* Fills centre, index, samples, count and nearest (-1: no sample) for the other members. */
 void patch_read(grid_patch *p);

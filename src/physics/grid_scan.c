@@ -120,11 +120,11 @@ static double wall_depth(const grid_job *job, const field_cell *cell)
         }
     }
     double deep = rlf_max(0.0, end - cell->point.z);
-    if (!(deep > 0.0) || sheet->thickness != NULL || cell->thickness >= FIELD_ENDLESS) {
+    if (!(deep > 0.0) || !cell->is_guess) {
         return deep;
     }
     deep = rlf_min(deep, grid_edge_width(grid, sheet, cell, cell->thickness)); /* nor than wide */
-    rlf_vec3 inward = grid_cell_inward(sheet, cell);
+    rlf_vec3 inward = grid_cell_inward(cell);
     for (int32_t k = STEPS; k > 0; k--) {
         double reach = deep * k / STEPS;
         if (!grid_field_is_seen_through(grid, sheet, rlf_mad(cell->point, inward, reach))) {
@@ -211,7 +211,7 @@ static void touch_line(grid_job *job, wall_line *line, double depth, double agre
 static void look_at_outline(grid_job *job, const field_cell *cell, rlf_vec3 shift, double deep)
 {
     wall_line line = {.cell = cell, .front = rlf_add(cell->point, shift), .deep = deep};
-    line.inward = grid_cell_inward(job->sheet, cell);
+    line.inward = grid_cell_inward(cell);
     double depth = nearest_depth(job, &line);
     double inner = 0.5 * job->body->shape.inner_radius;
     touch_line(job, &line, depth, 0.3);
@@ -333,7 +333,7 @@ static void look_at_pixel(grid_job *job, int32_t x, int32_t y, int32_t stride, f
         return;
     }
     rlf_vec3 shift = rlf_scale(cell.velocity, job->query->tau);
-    rlf_vec3 inward = grid_cell_inward(sheet, &cell), beside = rlf_add(cell.point, shift);
+    rlf_vec3 inward = grid_cell_inward(&cell), beside = rlf_add(cell.point, shift);
     double level = rlf_dot(rlf_sub(job->centre, beside), inward) / rlf_dot(inward, inward);
     beside = rlf_mad(beside, inward, rlf_clamp(level, 0.0, cell.thickness));
     beside = rlf_sub(beside, job->centre);
@@ -361,8 +361,7 @@ static void look_at_flat(grid_job *job, const grid_tile *tile, flow_sum *flow)
 {
     rlf_vec3 centre = rlf_mad(job->centre, tile->velocity, -job->query->tau);
     double height = rlf_dot(tile->normal, centre) - tile->offset;
-    double depth = job->sheet->thickness == NULL ? job->sheet->default_thickness : 0.0;
-    if (height > job->reach || (depth > 0.0 && height < -depth - job->reach)) {
+    if (height > job->reach || height < -tile->deepest - job->reach) {
         return;
     }
     job->is_near = true;
@@ -405,8 +404,7 @@ static void look_at_batch(grid_job *job, const grid_tile *tile, grid_pixels *pix
 {
     const double UNKNOWN = -1.0;
     const rlf_grid_sheet *sheet = job->sheet;
-    bool is_guess = sheet->thickness == NULL && !tile->is_endless;
-    double thickness = is_guess ? sheet->default_thickness : UNKNOWN;
+    double thickness = tile->is_guess ? sheet->default_thickness : UNKNOWN;
     grid_pixels_read(pixels, job->query->grid, sheet);
     if (thickness > 0.0) {
         grid_pixels_keep_near(pixels, job->centre, thickness, wide_reach(job, tile, job->reach));

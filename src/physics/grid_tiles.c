@@ -74,13 +74,19 @@ static void measure(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet 
 }
 
 /* The box about the solid behind a pixel, whichever way it goes. */
-static void extend(rlf_aabb *solid, const rlf_grid_sheet *sheet, const field_cell *cell)
+static void extend(rlf_aabb *solid, const field_cell *cell)
 {
     double along = cell->thickness / cell->point.z;
-    rlf_vec3 inward = grid_cell_inward(sheet, cell);
+    rlf_vec3 inward = grid_cell_inward(cell);
     rlf_aabb_extend(solid, cell->point);
     rlf_aabb_extend(solid, rlf_mad(cell->point, cell->point, along));
     rlf_aabb_extend(solid, rlf_mad(cell->point, inward, cell->thickness));
+}
+
+/* No part of the solid behind a pixel is farther below its face, metres. */
+static double depth_of(const field_cell *cell)
+{
+    return cell->thickness * (cell->is_guess ? 1.0 : rlf_length(cell->point) / cell->point.z);
 }
 
 static void set_block(grid_blocks *blocks, int32_t block, const rlf_aabb *box)
@@ -105,14 +111,17 @@ static void bound(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet *s
         solids[block] = none;
     }
     tile->is_endless = false;
-    tile->speed = 0.0;
+    tile->is_guess = true;
+    tile->speed = tile->deepest = 0.0;
     for (int32_t y = rect[1]; y < rect[3]; y++) {
         rlf_aabb *row = &solids[((y - rect[1]) >> shift) * TILE_BLOCKS];
         for (int32_t x = rect[0]; x < rect[2]; x++) {
             field_cell cell;
             if (grid_cell_read(grid, sheet, x, y, &cell)) {
-                extend(&row[(x - rect[0]) >> shift], sheet, &cell);
+                extend(&row[(x - rect[0]) >> shift], &cell);
                 tile->is_endless = tile->is_endless || cell.thickness >= FIELD_ENDLESS;
+                tile->is_guess = tile->is_guess && cell.is_guess;
+                tile->deepest = rlf_max(tile->deepest, depth_of(&cell));
                 tile->speed = rlf_max(tile->speed, rlf_dot(cell.velocity, cell.velocity));
             }
         }

@@ -30,6 +30,8 @@ typedef struct grid_tile {
     double speed;   /* no pixel is faster, m/s */
     bool is_endless; /* its solid never ends ... */
     rlf_aabb solid;  /* ... or the box about that */
+    bool is_guess;   /* so is the thickness of all its pixels */
+    double deepest;  /* no solid of its pixels goes farther below its face, metres */
     grid_blocks blocks;
     rlf_aabb box;    /* about its points at the time when they were seen */
     rlf_vec3 normal; /* of a flat one: normal.p = offset */

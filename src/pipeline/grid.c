@@ -1,11 +1,6 @@
 /* Views of a surface for physics. */
 #include "pipeline/grid.h"
 
-/* Nobody has seen what is behind the background's front. Endless matter would fill the space behind
- * a table or a box, and bodies would bounce in mid-air; this much holds any body at a wall (it
- * moves 4 cm in a 240 Hz step at 10 m/s), and leaves the air behind furniture free. */
-#define BACKGROUND_THICKNESS_M 0.15
-
 static bool project_to_grid(const void *context, rlf_vec3 p, double *out_u, double *out_v)
 {
     const rlf_camera *camera = context;
@@ -36,6 +31,7 @@ static rlf_grid_sheet background_sheet(const rlf_surface *s)
         .normal_y = s->background_normal_y,
         .normal_z = s->background_normal_z,
         .label = s->background_label,
+        .thickness = s->background_thickness,
         .version = s->background_version,
     };
     return sheet;
@@ -76,7 +72,7 @@ void grid_from_surface(const rlf_surface *surface, const rlf_pose *T_world_camer
     };
     if (surface->background_state == RLF_BACKGROUND_READY) {
         out->background = background_sheet(surface);
-        out->background.default_thickness = BACKGROUND_THICKNESS_M;
+        out->background.default_thickness = RLF_BACKGROUND_GUESS_M;
         out->foreground = front_sheet(surface);
         out->foreground.thickness = surface->thickness;
         out->foreground.mask = surface->foreground;

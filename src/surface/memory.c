@@ -91,6 +91,22 @@ static void take_background(rlf_reconstruct *stage)
     }
 }
 
+static void take_standing(rlf_reconstruct *stage)
+{
+    rlf_standing *standing = &stage->background.thick;
+    size_t n = (size_t)stage->grid.count;
+    if (stage->def.enable_thickness && stage->def.background_method != RLF_BACKGROUND_OFF) {
+        standing->depth = take(stage, n, sizeof(float));
+        standing->thickness = take(stage, n, sizeof(float));
+        standing->done_depth = take(stage, n, sizeof(float));
+        standing->done = take(stage, n, sizeof(float));
+        standing->piece = take(stage, n, 1);
+        for (int k = 0; k < RLF_SHEETS; k++) {
+            standing->published[k] = take(stage, n, sizeof(float));
+        }
+    }
+}
+
 static void take_work(rlf_reconstruct *stage)
 {
     rlf_work *work = &stage->work;
@@ -185,6 +201,7 @@ bool rlf_stage_allocate(rlf_reconstruct *stage)
         take_slot(stage, &stage->ring[i]);
     }
     take_background(stage);
+    take_standing(stage);
     take_steady(stage);
     take_family(stage);
     take_past(stage);

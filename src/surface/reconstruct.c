@@ -1,6 +1,7 @@
 /* The surface stage: one frame through all steps into the next slot of the ring. */
 #include "surface/past.h"
 #include "surface/plate.h"
+#include "surface/standing.h"
 #include "surface/steps.h"
 
 #include "base/cookie.h"
@@ -66,6 +67,7 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
         return;
     }
     rlf_background_reset(&stage->background, &stage->grid);
+    rlf_standing_reset(&stage->background.thick);
     rlf_steady_reset(&stage->steady, stage->grid.count);
     stage->family.count = 0;
     rlf_past_reset(&stage->past, &stage->grid);
@@ -374,7 +376,10 @@ static void publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *sl
     s->background_normal_y = sheet == NULL ? none : sheet->normal[1];
     s->background_normal_z = sheet == NULL ? none : sheet->normal[2];
     s->background_label = sheet == NULL ? stage->work.zero_labels : sheet->label;
-    s->background_version = sheet == NULL ? 0 : sheet->version;
+    const float *thickness = rlf_standing_newest(stage);
+    int32_t publications = stage->background.thick.publications;
+    s->background_thickness = thickness == NULL ? none : thickness;
+    s->background_version = sheet == NULL ? 0 : (int64_t)sheet->version + publications;
     s->background_state = stage->background.state;
     s->regions = slot->regions;
     s->region_count = slot->foreground_region_first + slot->foreground_region_count;
@@ -420,6 +425,7 @@ rlf_result rlf_reconstruct_process(rlf_reconstruct *stage, const rlf_frame *fram
             rlf_plates_find(stage, slot);
             rlf_plates_write(stage, slot);
         }
+        rlf_standing_advance(stage);
         rlf_stage_add_time(stage, RLF_SURFACE_THICKNESS);
     }
     publish(stage, frame, slot);

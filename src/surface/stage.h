@@ -60,6 +60,31 @@ enum { RLF_SHEETS = RLF_RECONSTRUCT_SURFACES + 1, RLF_STAGE_BLOCKS = 160 };
 /* A sheet is made in tiles of so many pixels on a side. */
 enum { RLF_SHEET_TILE = 104 };
 
+/* Pixels x0 <= x < x1, y0 <= y < y1. */
+typedef struct rlf_rect {
+    int32_t x0, y0, x1, y1;
+} rlf_rect;
+
+/* At most so many pieces of the background are looked at. */
+enum { RLF_PIECES = 255 };
+
+/* The thickness of what stands: see standing.h; NULL planes when it is not wanted. */
+typedef struct rlf_standing {
+    float *depth, *thickness;        /* planes: what was fitted in this round, and found */
+    float *done_depth, *done;        /* the same of the last round that came to its end */
+    float *published[RLF_SHEETS];    /* planes: `done` where the newest sheet has that depth */
+    uint8_t *piece;                  /* plane: of which piece; 0 = of none */
+    rlf_rect window[RLF_PIECES + 1]; /* of each piece, from 1; empty = it is not looked at */
+    int32_t piece_count, next_piece; /* next_piece 0: they are still being found ... */
+    int32_t step;                    /* ... in this step */
+    bool is_round, is_settled;       /* a round goes on; the last one began with good means */
+    int32_t newest;                  /* of `published`; -1 = none */
+    int32_t publications;            /* so far; never less than before */
+    int32_t sheet_version;           /* of the sheet that it was published for */
+    int32_t changed;                 /* pixels of that sheet that are not as they were fitted */
+    int32_t age, round_age;          /* frames since there is a sheet; since the round began */
+} rlf_standing;
+
 /* The background model. AVERAGE: mean holds sums until it is ready. */
 typedef struct rlf_background {
     float *mean;
@@ -88,6 +113,7 @@ typedef struct rlf_background {
     int32_t newest;       /* sheet; -1 = none */
     bool is_stale;        /* the newest sheet shows a room that is gone */
     int32_t other_frames; /* ADAPTIVE: frames in a row that showed another room */
+    rlf_standing thick;
 } rlf_background;
 
 /* The normal that most frames agree on at a pixel that is watched: see settle.c. */

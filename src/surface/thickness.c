@@ -71,7 +71,9 @@ static void resolve_rows(void *context, int32_t begin, int32_t end, int32_t work
             float front = job->knot[row + x];
             job->thickness[row + x] = front > 0.0f ? back_of(job, row + x) - front : 0.0f;
         }
-        rlf_torsos_thicken(job, y);
+        if (job->is_of_people) {
+            rlf_torsos_thicken(job, y);
+        }
     }
 }
 
@@ -85,8 +87,9 @@ static void write_run(const rlf_chord_job *job, const rlf_run *run, int32_t y)
     if (!is_plate) {
         rlf_knots_spread(job, run, y);
     }
-    rlf_kernel_thickness_row(&limits, slot->depth + first, job->stage->background.mean + first,
-                             run->x1 - run->x0, slot->thickness + first);
+    const float *behind = job->behind != NULL ? job->behind + first : job->stage->work.zeros;
+    rlf_kernel_thickness_row(&limits, slot->depth + first, behind, run->x1 - run->x0,
+                             slot->thickness + first);
 }
 
 static void write_rows(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -103,9 +106,13 @@ static void write_rows(void *context, int32_t begin, int32_t end, int32_t worker
     }
 }
 
-static void estimate_block(rlf_chord_job *job)
+void rlf_thickness_fit(rlf_chord_job *job, const rlf_block *block)
 {
     static const int32_t directions[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+    job->x0 = block->x0;
+    job->y0 = block->y0;
+    job->width = block->x1 - block->x0;
+    job->height = block->y1 - block->y0;
     rlf_pool *pool = job->stage->def.pool;
     rlf_chords_prepare(job);
     for (int d = 0; d < 4; d++) {
@@ -114,7 +121,7 @@ static void estimate_block(rlf_chord_job *job)
         int32_t count = rlf_line_count(job);
         rlf_parallel_for(pool, count, RLF_ROW_GRAIN, cut_lines, job);
         rlf_chords_pool(job, count);
-        if (job->dy == 0) {
+        if (job->dy == 0 && job->is_of_people) {
             rlf_chords_align(job, count);
             rlf_chords_head(job, count);
         }
@@ -122,6 +129,13 @@ static void estimate_block(rlf_chord_job *job)
     }
     rlf_parallel_for(pool, (job->height + job->step - 1) / job->step, RLF_ROW_GRAIN, resolve_rows,
                      job);
+}
+
+void rlf_thickness_write(const rlf_chord_job *job)
+{
+    rlf_chord_job copy = *job; /* a parallel loop's context is not const */
+    rlf_parallel_for(job->stage->def.pool, job->stage->grid.height, RLF_ROW_GRAIN, write_rows,
+                     &copy);
 }
 
 /* The region's pixels and the knots around; begins with a knot. */
@@ -173,13 +187,17 @@ static void find_plates(const rlf_reconstruct *stage, const rlf_slot *slot, int3
     }
 }
 
-static rlf_chord_job make_job(rlf_reconstruct *stage, const rlf_slot *slot)
+rlf_chord_job rlf_chord_job_make(rlf_reconstruct *stage, const rlf_slot *slot)
 {
     const rlf_work *work = &stage->work;
     const rlf_grid *grid = &stage->grid;
     int32_t step = rlf_knot_step(grid), columns = (grid->width + step - 1) / step;
+    bool kept = stage->def.enable_fill || stage->def.enable_smoothing;
     return (rlf_chord_job){.stage = stage,
                            .slot = slot,
+                           .is_of_people = true,
+                           .raw = kept ? work->depth[1] : slot->depth,
+                           .behind = stage->background.mean,
                            .is_plate = work->map,
                            .torsos = &stage->torsos,
                            .step = step,
@@ -203,16 +221,11 @@ void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot)
 {
     memset(slot->thickness, 0, (size_t)stage->grid.count * sizeof *slot->thickness);
     find_plates(stage, slot, stage->work.map);
-    rlf_chord_job job = make_job(stage, slot);
+    rlf_chord_job job = rlf_chord_job_make(stage, slot);
     int32_t count = find_blocks(&job, stage->work.blocks);
     rlf_torsos_expect(&stage->torsos, rlf_past_elapsed(stage, slot));
     for (int32_t i = 0; i < count; i++) {
-        const rlf_block *b = &stage->work.blocks[i];
-        job.x0 = b->x0;
-        job.y0 = b->y0;
-        job.width = b->x1 - b->x0;
-        job.height = b->y1 - b->y0;
-        estimate_block(&job);
+        rlf_thickness_fit(&job, &stage->work.blocks[i]);
     }
-    rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, write_rows, &job);
+    rlf_thickness_write(&job);
 }

@@ -40,6 +40,7 @@ typedef struct rlf_chord {
     float inverse;    /* of the reference depth */
     float expected_slope, expected_ratio;
     int32_t label, part_count;
+    bool is_of_people;
     rlf_chord_part part[RLF_CHORD_PARTS];
     float weight, s, h, y, yy; /* sum of weights, means, variance sum of y */
     rlf_chord_moments own, pooled, running;
@@ -75,6 +76,9 @@ typedef struct rlf_chord_job {
     const rlf_reconstruct *stage;
     const rlf_slot *slot;
     rlf_torsos *torsos;      /* followed below the heads that are found */
+    bool is_of_people;       /* what bodies are usually like counts: else things */
+    const float *raw;        /* depth that is fitted: as the sensor gave it */
+    const float *behind;     /* nothing reaches farther; NULL = nothing is known to be there */
     const int32_t *is_plate; /* of each region, from 1: it is flat up to noise and has no chords */
     int32_t step;
     ptrdiff_t pitch;         /* of the planes of pixels: the grid's width and RLF_CHORD_PAD */
@@ -101,6 +105,14 @@ typedef struct rlf_line {
     int32_t count, phase;
     float angle; /* metres per step at a depth of 1 m */
 } rlf_line;
+
+/* ---- thickness.c ---- */
+/* For the regions of the slot's foreground that are in work.runs; work.map says which are plates.
+ */
+rlf_chord_job rlf_chord_job_make(rlf_reconstruct *stage, const rlf_slot *slot);
+/* Fits what is in the block, and writes the thickness of all runs. */
+void rlf_thickness_fit(rlf_chord_job *job, const rlf_block *block);
+void rlf_thickness_write(const rlf_chord_job *job);
 
 /* ---- thickness_knots.c ---- */
 /* Pixels from knot to knot: one, or two where they are fine. */

@@ -75,6 +75,7 @@ bool rlf_chord_measure(const rlf_chord_job *job, const rlf_line *line, rlf_chord
     c->metres = z * line->angle;
     c->beside = (rlf_chord_middle){0.0f, 0.0f};
     c->share = 1.0f;
+    c->is_of_people = job->is_of_people;
     rlf_kernel_chord_sums t = sum_samples(job, line, c, z);
     if (!(t.n > 0.0f)) {
         return false;
@@ -119,7 +120,8 @@ static void fatten(const rlf_chord *c, rlf_conic *f)
     float width = (c->end - c->begin) * c->metres;
     bool is_broad = width > trunk_and_arms_m;
     float usual = is_broad ? trunk_depth_m / width : usual_ratio;
-    bool is_conic = c->apex < c->begin && width > wide_m && f->ratio > plate_ratio;
+    bool is_conic =
+        c->is_of_people && c->apex < c->begin && width > wide_m && f->ratio > plate_ratio;
     if (is_conic && (f->ratio < usual || is_broad)) {
         float share = f->variance / (f->variance + unlike_conic_m * unlike_conic_m);
         f->ratio += share * (usual - f->ratio);

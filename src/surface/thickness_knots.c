@@ -16,13 +16,13 @@ int32_t rlf_knot_step(const rlf_grid *grid)
     return grid->camera.fx * fine_pixel_rad >= 1.0 ? 2 : 1;
 }
 
-static void prepare_run(const rlf_chord_job *job, const float *raw, const rlf_run *run, int32_t y)
+static void prepare_run(const rlf_chord_job *job, const rlf_run *run, int32_t y)
 {
     const rlf_slot *slot = job->slot;
     const rlf_region *region = &slot->regions[slot->foreground_region_first + run->component - 1];
     ptrdiff_t from = (ptrdiff_t)y * job->stage->grid.width, to = y * job->pitch;
     for (int32_t x = run->x0; x < run->x1; x++) {
-        float z = raw[from + x];
+        float z = job->raw[from + x];
         job->front[to + x] = slot->depth[from + x];
         job->inverse[to + x] = z > 0.0f ? 1.0f / z : 0.0f;
         job->label[to + x] = region->label;
@@ -52,15 +52,13 @@ static void prepare_rows(void *context, int32_t begin, int32_t end, int32_t work
     const rlf_chord_job *job = context;
     const rlf_reconstruct *stage = job->stage;
     const rlf_runs *runs = &stage->work.runs;
-    bool kept = stage->def.enable_fill || stage->def.enable_smoothing;
-    const float *raw = kept ? stage->work.depth[1] : job->slot->depth;
     for (int32_t y = job->y0 + begin; y < job->y0 + end; y++) {
         memset(job->front + y * job->pitch + job->x0, 0, (size_t)job->width * sizeof(float));
         for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
             const rlf_run *run = &runs->run[r];
             bool is_inside = run->x0 >= job->x0 && run->x0 < job->x0 + job->width;
             if (is_inside && run->component > 0 && !job->is_plate[run->component]) {
-                prepare_run(job, raw, run, y);
+                prepare_run(job, run, y);
             }
         }
         if (y % job->step == 0) {

@@ -336,6 +336,34 @@ static void post_is_no_deeper_than_wide(void **state)
     fixture->grid.background.default_thickness = 0.0;
 }
 
+/* Where a post's thickness is known it counts, along the rays; where the plane has 0, the guess. */
+static void known_thickness_counts_before_a_guess(void **state)
+{
+    (void)state;
+    static float thickness[GRID_W * GRID_H];
+    set_post(2);
+    fixture->grid.background.default_thickness = 0.15;
+    fixture->grid.background.thickness = thickness;
+    for (int k = 0; k < 2; k++) {
+        for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
+            thickness[i] = k == 1 && fixture->planes[2][i] == 2.0f ? 0.3f : 0.0f;
+        }
+        rlf_world *world = make_world(RLF_PHYSICS_LIVE, 0);
+        rlf_body_def def = rlf_body_def_default();
+        def.shape = (rlf_shape){.type = RLF_SHAPE_SPHERE, .radius = 0.05};
+        def.position = rlf_vec3_make(-0.5, 0, 2.2);
+        def.velocity = rlf_vec3_make(2, 0, 0);
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        for (int frame = 0; frame < 15; frame++) {
+            rlf_world_advance(world, &fixture->grid, FRAME);
+        }
+        assert_true(k == 0 ? first(world)->velocity.x == 2.0 : first(world)->velocity.x < -0.5);
+        rlf_world_destroy(&world);
+    }
+    fixture->grid.background.default_thickness = 0.0;
+    fixture->grid.background.thickness = NULL;
+}
+
 /* A cube that comes edge first at a straight side wall meets that wall's own normal, whatever the
  * cube's turn. */
 static void side_wall_has_its_own_normal(void **state)
@@ -398,6 +426,7 @@ int main(void)
         cmocka_unit_test(solid_from_the_side),
         cmocka_unit_test(air_behind_a_post_is_free),
         cmocka_unit_test(survives_lost_frames),
+        cmocka_unit_test(known_thickness_counts_before_a_guess),
         cmocka_unit_test(post_is_no_deeper_than_wide),
         cmocka_unit_test(side_wall_has_its_own_normal),
     };

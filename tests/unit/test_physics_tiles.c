@@ -56,7 +56,7 @@ static double distance_to(const grid_fixture *f, int32_t x, int32_t y, rlf_vec3 
     if (!grid_cell_read(&f->grid, &f->grid.background, x, y, &cell)) {
         return 1e9;
     }
-    rlf_vec3 inward = grid_cell_inward(&f->grid.background, &cell), d = rlf_sub(p, cell.point);
+    rlf_vec3 inward = grid_cell_inward(&cell), d = rlf_sub(p, cell.point);
     double level = rlf_dot(d, inward) / rlf_dot(inward, inward);
     return rlf_length(rlf_mad(d, inward, -rlf_clamp(level, 0.0, cell.thickness)));
 }

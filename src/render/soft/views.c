@@ -138,7 +138,8 @@ static void draw_velocity(const grid_view *view, int32_t i, uint8_t *out)
 static void draw_thickness(const grid_view *view, int32_t i, uint8_t *out)
 {
     const rlf_surface *s = view->input->surface;
-    float thickness = s->thickness[i];
+    bool stands = s->background_thickness != NULL && s->foreground[i] == 0;
+    float thickness = stands ? s->background_thickness[i] : s->thickness[i];
     if (thickness > 0.0f) {
         soft_put(out, soft_color_near_far(1.0 - thickness / THICKNESS_FULL_M));
     } else {
