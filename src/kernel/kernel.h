@@ -259,6 +259,11 @@ void rlf_kernel_change_row(rlf_kernel_noise noise, const float *restrict depth,
                            const float *restrict mean, const float *restrict frames, int32_t count,
                            uint8_t *restrict change);
 
+/* 1 where `from` has a depth and `to` is off it by more than that share of it and `least` metres.
+ */
+void rlf_kernel_moved_row(const float *restrict from, const float *restrict to, float share,
+                          float least, int32_t count, uint8_t *restrict moved);
+
 /* ---- bend_row.c: where normals turn
  * ------------------------------------------------------------- */
 

@@ -162,6 +162,7 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
     if (smooth) {
         float *out = fill ? stage->work.depth[0] : slot->depth;
         make_planes(stage, kept, out, slot);
+        rlf_bridge_undo(stage, kept, out, slot->normal);
         rlf_stage_add_time(stage, RLF_SURFACE_SMOOTH);
         kept = out;
     }

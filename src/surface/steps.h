@@ -31,6 +31,12 @@ void rlf_hold_recall(const rlf_reconstruct *stage, const float *raw, float *dept
 void rlf_steady_update(const rlf_reconstruct *stage, float *depth, const uint8_t *reason);
 void rlf_steady_reset(rlf_steady *steady, int32_t count);
 
+/* ---- bridge.c ---- */
+/* Takes back where a plane has put pixels of `smooth` away from what was `seen` there and about
+ * them, and their normals: in blocks that may move. */
+void rlf_bridge_undo(const rlf_reconstruct *stage, const float *seen, float *smooth,
+                     float *const normal[3]);
+
 /* ---- settle.c; what follows is not called when steady.settled is NULL ---- */
 bool rlf_settle_is_wanted(const rlf_reconstruct_def *def);
 /* Normals of the background's watched pixels become those that most frames agree on. After
