@@ -3,7 +3,6 @@
 
 #include <math.h>
 
-static const float least_turn = 0.12f; /* share of the rounded surface's turn that must be seen */
 static const float most_bend = 0.1f;   /* RMS of the samples about a steady turn: a crease bends */
 static const float most_aside = 0.98f; /* sine of the steepest normal that is given */
 static const float crease = 0.95f;     /* cosine between two faces */
@@ -85,7 +84,8 @@ RLF_KERNEL_PART way_sum sum_way(const rlf_way_in *restrict in, int32_t i, const 
 }
 
 /* 1 when the samples turn steadily outwards, else 0. */
-RLF_KERNEL_PART float is_rounded(const way_sum *restrict in, float n, float distance)
+RLF_KERNEL_PART float is_rounded(const way_sum *restrict in, float n, float distance,
+                                 float least_turn)
 {
     float s = in->s / n, out = in->out / n;
     float spread = in->ss - in->s * s, turn = in->out * s - in->s_out;
@@ -117,7 +117,7 @@ RLF_KERNEL void rlf_kernel_outline_round(const rlf_outlines *restrict at,
         axes a = make_axes(in->ray_x[i], in->ray_y[i], at->x[i], at->y[i]);
         way_sum sum = sum_way(in, i, &a);
         float count = sum.n > 1.0f ? sum.n : 1.0f, distance = at->distance[i];
-        bool rounded = is_rounded(&sum, count, distance) > 0.0f;
+        bool rounded = is_rounded(&sum, count, distance, in->least_turn[i]) > 0.0f;
         vector n = rounded_normal(&sum, count, distance, &a);
         vector result = {rounded ? n.x : 0.0f, rounded ? n.y : 0.0f, rounded ? n.z : 0.0f};
         set(out, i, result);

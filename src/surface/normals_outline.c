@@ -19,6 +19,11 @@
 
 static const float MOST_APART = 0.05f; /* share of the depth, of samples of one surface */
 
+/* Share of a rounded surface's turn that must be seen: people and what else moves are rounded, what
+ * stands in a room mostly has faces, and a crease beside an outline looks like a little of a turn.
+ */
+static const float LEAST_TURN_STILL = 0.3f, LEAST_TURN_FRONT = 0.04f;
+
 typedef struct outline_job {
     int32_t width, height;
     const float *ray_x, *ray_y, *depth;
@@ -66,6 +71,16 @@ static void write_normal(const outline_job *job, ptrdiff_t i, const rlf_normals 
 
 /* ---- rounded ---- */
 
+/* Pixel (x, y), or `inner`, what is seen of its surface, was not the background in the frame
+ * before, or something moves about it. */
+static bool may_be_front(const rlf_reconstruct *stage, int32_t x, int32_t y, ptrdiff_t inner)
+{
+    const rlf_slot *before = stage->previous;
+    ptrdiff_t i = (ptrdiff_t)y * stage->grid.width + x;
+    return before != NULL && (before->foreground[i] != 0 || before->foreground[inner] != 0 ||
+                              rlf_hold_may_move(stage, x, y));
+}
+
 /* Samples from pixel k of the queue inwards, as far as its surface goes on. */
 static void walk_in(const outline_job *job, const outline_queue *q, int32_t k,
                     rlf_way_in *restrict in)
@@ -77,6 +92,7 @@ static void walk_in(const outline_job *job, const outline_queue *q, int32_t k,
     ptrdiff_t start = (ptrdiff_t)y * width + x;
     float z = depth[start], out_x = q->outline.x[k], out_y = q->outline.y[k];
     float goes_on = 1.0f;
+    ptrdiff_t inner = start;
     for (int32_t step = 0; step < RLF_OUTLINE_STEPS; step++) {
         float steps = (float)(step + 1);
         int32_t sx = (int32_t)((float)x - steps * out_x + 0.5f);
@@ -85,12 +101,15 @@ static void walk_in(const outline_job *job, const outline_queue *q, int32_t k,
         ptrdiff_t i = inside ? (ptrdiff_t)sy * width + sx : start;
         bool near = rlf_kernel_abs(depth[i] - z) <= MOST_APART * z;
         goes_on = (inside & near) ? goes_on : 0.0f;
+        inner = goes_on > 0.0f ? i : inner;
         float weight = known[i] != 0 ? goes_on : 0.0f;
         in->s[step][k] = q->outline.distance[k] + (float)(x - sx) * out_x + (float)(y - sy) * out_y;
         in->normal[step].x[k] = weight * nx[i];
         in->normal[step].y[k] = weight * ny[i];
         in->normal[step].z[k] = weight * nz[i];
     }
+    bool is_front = may_be_front(job->side->stage, x, y, inner);
+    in->least_turn[k] = is_front ? LEAST_TURN_FRONT : LEAST_TURN_STILL;
     in->ray_x[k] = job->ray_x[start];
     in->ray_y[k] = job->ray_y[start];
 }
