@@ -18,12 +18,9 @@ enum {
     CHANGES = 30,         /* replaced pixels that make a new sheet ... */
     FRAMES = 10,          /* ... after at least this many frames */
     CHANGES_URGENT = 400, /* replaced pixels that make one at once: a thing has left */
-    FRAMES_LONG = 30      /* after this many any change does */
+    FRAMES_LONG = 30,     /* after this many any change does */
+    REFINED_FRAMES = 40   /* so many make a mean much better than the first few */
 };
-
-/* Frames since a tile was made of new pixels, at which its means are much better than before. */
-static const uint8_t refined_at[] = {6, 20, 45};
-enum { REFINEMENTS = sizeof refined_at / sizeof *refined_at };
 
 /* Cosine: the angle to another normal that is no noise. */
 static const float SHARP = 0.99f;
@@ -263,9 +260,7 @@ static bool is_due(rlf_background *background, int32_t tiles)
     bool better = false;
     for (int32_t tile = 0; tile < tiles; tile++) {
         background->age[tile] += background->age[tile] < UINT8_MAX ? 1 : 0;
-        for (int32_t k = 0; k < REFINEMENTS; k++) {
-            background->is_better[tile] |= background->age[tile] == refined_at[k];
-        }
+        background->is_better[tile] |= background->age[tile] == REFINED_FRAMES;
         better = better || background->is_better[tile] != 0;
     }
     background->sheet_age++;

@@ -23,7 +23,7 @@ typedef struct golden {
 } golden;
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0x78765bf565bcd54eu, 0xa29d07026c69d043u, 0xc0ef4a0d9c2414a6u},
+    {RLF_PROFILE_LIVE, 0x5f81f167721bb9d2u, 0xc27d0382c8fdc520u, 0xa5cd508abb10098du},
     {RLF_PROFILE_THESIS, 0xa393eb06e579d241u, 0xd84652fb54683851u, 0xc064b44391e1e990u},
 };
 

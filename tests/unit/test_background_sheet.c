@@ -201,7 +201,7 @@ static void a_sheet_is_finished_while_something_changes(void **state)
     const rlf_rig *rig = &stage->def.rig;
     analytic_random random = {10};
     int32_t sheets = 0;
-    for (int t = 0; t < 60; t++) {
+    for (int t = 0; t < 80; t++) {
         for (int i = 0; i < COUNT; i++) {
             int x = i % WIDTH - 40, y = i / WIDTH - 40, patch = x / RLF_SHEET_TILE;
             bool is_patch = x >= 0 && y >= 0 && y < SIDE && patch < 3 && x % RLF_SHEET_TILE < SIDE;
