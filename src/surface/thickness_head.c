@@ -19,6 +19,7 @@ static const float shoulder_share = 0.75f; /* of the row above: a shoulder hides
 /* Of the trunk: rows below the neck, width, middle from that of the neck, flank from the head's. */
 static const float trunk_from = 0.05f, trunk_to = 0.6f;
 static const float narrowest_trunk = 0.15f, widest_trunk = 0.32f, aside_m = 0.12f;
+static const float least_trunk = 0.1f; /* so much of its height is as wide as that */
 static const float least_half = 0.04f, most_half = 0.22f;
 static const float told_error_m = 0.02f;
 static const float told_share = 8.0f; /* lines that cross a trunk otherwise are not told */
@@ -114,6 +115,24 @@ static bool is_trunk(const rlf_chord_job *job, const neck *n, int32_t row, const
            half > least_half && half < most_half;
 }
 
+/* Whether what hangs below the neck is as wide as a trunk: below a hand's wrist comes an arm. */
+static bool has_trunk(const rlf_chord_job *job, const neck *n, int32_t rows)
+{
+    float height = 0.0f;
+    for (int32_t row = n->line; row < rows && height < least_trunk; row++) {
+        for (int32_t i = 0; i < job->counts[row]; i++) {
+            const rlf_chord *c = &job->chords[(ptrdiff_t)row * RLF_CHORDS_PER_LINE + i];
+            float aside = middle_of(job, c) - n->x;
+            if (c->label == n->label && width_of(c) > narrowest_trunk && aside < aside_m &&
+                aside > -aside_m) {
+                height += (float)job->step * c->metres;
+                break;
+            }
+        }
+    }
+    return height >= least_trunk;
+}
+
 static void tell_trunk(const rlf_chord_job *job, const neck *n, int32_t rows)
 {
     for (int32_t row = n->line; row < rows; row++) {
@@ -142,7 +161,7 @@ void rlf_chords_head(const rlf_chord_job *job, int32_t rows)
             }
             labels[count++] = c->label;
             neck found;
-            if (find_neck(job, row, rows, c, &found)) {
+            if (find_neck(job, row, rows, c, &found) && has_trunk(job, &found, rows)) {
                 tell_trunk(job, &found, rows);
                 const rlf_vec3 head = {(double)found.ray_x * (double)found.depth, (double)found.top,
                                        (double)found.depth};

@@ -252,6 +252,20 @@ static void a_head_tells_the_middle_of_a_trunk(void **state)
     assert_true(with_head.mean < 0.8 * alone.mean && with_head.mean < 0.025);
 }
 
+/* A hand held up above its wrist is no head, and the arm below no trunk. */
+static void an_arm_below_a_hand_is_no_trunk(void **state)
+{
+    (void)state;
+    static const body bodies[] = {
+        {.centre = {0.0, 0.25, 1.6}, .half = {0.045, 0.4, 0.045}, .top = -9},
+        {.centre = {0.0, -0.24, 1.6}, .half = {0.065, 0.1, 0.03}, .top = -9},
+        {.centre = {0.0, -0.12, 1.6}, .half = {0.033, 0.12, 0.03}, .top = -9},
+    };
+    errors alone = measure(1, bodies, 0);
+    errors with_hand = measure(3, bodies, 0);
+    assert_true(with_hand.mean < 1.2 * alone.mean && with_hand.mean < 0.012);
+}
+
 /* Rows that show little of their own depth take it from those above and below: a trunk with flat
  * faces on a part of it. */
 static void rows_share_an_axis(void **state)
@@ -378,6 +392,7 @@ int main(void)
         cmocka_unit_test(a_limb_on_a_trunk),
         cmocka_unit_test(a_limb_on_the_side_of_a_trunk),
         cmocka_unit_test(a_head_tells_the_middle_of_a_trunk),
+        cmocka_unit_test(an_arm_below_a_hand_is_no_trunk),
         cmocka_unit_test(rows_share_an_axis),
         cmocka_unit_test(legs_that_touch),
         cmocka_unit_test(bodies_that_leave_the_image),
