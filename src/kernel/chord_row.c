@@ -1,4 +1,4 @@
-/* Sums over the front of a chord, and its solid: see surface/thickness_conic.c. */
+/* Sums over the front of a chord, and its solid: see surface/thickness/conic.c. */
 #include "kernel/kernel.h"
 
 #include <math.h>

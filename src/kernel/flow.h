@@ -58,7 +58,7 @@ void rlf_kernel_move_row(const rlf_kernel_motion *motion, const rlf_kernel_movin
 void rlf_kernel_away_row(const rlf_kernel_moving_row *in, const float *const normal[3],
                          float cosine, uint8_t *restrict away);
 
-/* ---- flow_batch.c: samples of a surface, a frame ago, see surface/velocity_cells.c
+/* ---- flow_batch.c: samples of a surface, a frame ago, see surface/velocity/cells.c
  * --------------------------------------------------- */
 
 #define RLF_FLOW_BATCH 64 /* most samples */
@@ -91,7 +91,7 @@ void rlf_kernel_flow_residuals(const rlf_kernel_flow_view *view,
                                int32_t first, int32_t count, float *restrict out,
                                int32_t *restrict is_seen);
 
-/* ---- flow_row.c: velocity of pixels, see surface/velocity_write.c
+/* ---- flow_row.c: velocity of pixels, see surface/velocity/write.c
  * --------------------------------------------------- */
 
 /* A rigid motion: m/s at the centre (metres), radians per second. */
@@ -121,7 +121,7 @@ void rlf_kernel_flow_row(const rlf_kernel_flow *flow, const float *restrict dept
                          const float *restrict ray_x, const float *restrict ray_y, int32_t count,
                          float *const velocity[3]);
 
-/* ---- rim_window.c: outlines of regions, see surface/velocity_outline.c
+/* ---- rim_window.c: outlines of regions, see surface/velocity/outline.c
  * --------------------------------------------------- */
 
 #define RLF_RIM_RADIUS 3 /* of a window, pixels */

@@ -1,4 +1,4 @@
-/* Where samples of a surface were a frame ago: see surface/velocity_cells.c. */
+/* Where samples of a surface were a frame ago: see surface/velocity/cells.c. */
 #include "kernel/flow.h"
 
 #include "relief/surface.h"

@@ -352,7 +352,7 @@ int32_t rlf_kernel_label_row(const float *restrict depth, const uint8_t *restric
                              const int32_t *restrict background, int32_t count,
                              int32_t *restrict label);
 
-/* ---- region_row.c: points of a region's pixels, see surface/region_stats.c
+/* ---- region_row.c: points of a region's pixels, see surface/segment/region_stats.c
  * --------------------------------------------------- */
 
 #define RLF_REGION_LANES 4 /* the k-th of four pixels goes into the k-th sum */
@@ -442,7 +442,7 @@ int32_t rlf_kernel_find_seen(const float *z, int32_t begin, int32_t count, int32
 /* Keeps the smaller value of each. */
 void rlf_kernel_nearer_row(const float *restrict line, int32_t count, float *restrict out);
 
-/* ---- spread_row.c: from every second pixel to all, see surface/thickness_knots.c
+/* ---- spread_row.c: from every second pixel to all, see surface/thickness/knots.c
  * --------------------------------------------------- */
 
 /* Three rows of knots: depth (of the bodies' knots; of others it is negative, 0 = unknown), a value
@@ -460,7 +460,7 @@ void rlf_kernel_spread_row(const rlf_kernel_knots *in, int32_t count, float jump
                            const float *restrict at, const float *restrict right,
                            float *restrict out_at, float *restrict out_right);
 
-/* ---- chord_row.c: chords of the foreground, see surface/thickness.h
+/* ---- chord_row.c: chords of the foreground, see surface/thickness/thickness.h
  * --------------------------------------------------- */
 
 #define RLF_CHORD_RUN 64 /* most pixels at a time */

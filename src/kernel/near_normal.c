@@ -1,4 +1,4 @@
-/* Sum of the normals about a pixel: see surface/normals_near.c. */
+/* Sum of the normals about a pixel: see surface/normals/near.c. */
 #include "kernel/kernel.h"
 
 enum { SIDE = 5, LANES = RLF_NEAR_LANES };

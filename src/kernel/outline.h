@@ -1,4 +1,4 @@
-/* Normals of pixels at the outlines of things, sixteen at a time: see surface/normals_outline.c. */
+/* Normals of pixels at the outlines of things, sixteen at a time: see surface/normals/outline.c. */
 #ifndef RLF_KERNEL_OUTLINE_H
 #define RLF_KERNEL_OUTLINE_H
 

@@ -1,4 +1,4 @@
-/* Outlines beside pixels: see surface/normals_outline.c. */
+/* Outlines beside pixels: see surface/normals/outline.c. */
 #include "kernel/outline.h"
 
 #include <math.h>

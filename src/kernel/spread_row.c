@@ -1,4 +1,4 @@
-/* From the knots at every second pixel to all pixels: see surface/thickness_knots.c. */
+/* From the knots at every second pixel to all pixels: see surface/thickness/knots.c. */
 #include "kernel/kernel.h"
 
 #include <math.h>

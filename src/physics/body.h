@@ -3,7 +3,7 @@
 #define RLF_PHYSICS_BODY_H
 
 #include "physics/contact.h"
-#include "physics/shape.h"
+#include "physics/shape/shape.h"
 
 typedef struct phys_body {
     /* what a substep reads, side by side */

@@ -1,8 +1,8 @@
 /* One frame by the live method: equal substeps of at most 1 / step_hz, in groups of up to
  * PHYS_PERIOD_MAX between searches for pairs and islands. */
-#include "physics/grid_collide.h"
+#include "physics/grid/collide.h"
 #include "physics/integrate.h"
-#include "physics/pair_search.h"
+#include "physics/pair/search.h"
 #include "physics/sleep.h"
 #include "physics/solver.h"
 

@@ -1,7 +1,7 @@
 /* Ray casts and overlaps against bodies and the sheets of the grid. */
 #include "relief/query.h"
 
-#include "physics/grid_field.h"
+#include "physics/grid/field.h"
 #include "physics/world_state.h"
 
 #define PIECE_PX 32.0 /* the sheet is walked in pieces of about so many pixels */

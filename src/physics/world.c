@@ -1,5 +1,5 @@
 /* The world's life: making it, adding, finding and changing bodies. */
-#include "physics/pair_search.h"
+#include "physics/pair/search.h"
 #include "physics/world_state.h"
 
 #include "base/cookie.h"

@@ -5,8 +5,8 @@
 #include "kernel/box_lanes.h"
 #include "kernel/contact_lanes.h"
 #include "physics/body.h"
-#include "physics/grid_shell.h"
-#include "physics/grid_tiles.h"
+#include "physics/grid/shell.h"
+#include "physics/grid/tiles.h"
 
 /* Substeps between searches for pairs. */
 #define PHYS_PERIOD_MAX 4
@@ -49,7 +49,7 @@ typedef struct phys_near {
 typedef struct phys_proxy {
     rlf_vec3 centre, half;
     float ends[6];      /* of its box, see box_lanes.h */
-    int32_t bin, place; /* see broad_phase.c */
+    int32_t bin, place; /* see pair/broad_phase.c */
     bool is_there, is_idle, is_fixed;
     bool is_real, meets_bodies; /* see phys_body */
 } phys_proxy;
@@ -82,7 +82,7 @@ struct rlf_world {
     phys_contact *pair_contacts, *old_pair_contacts;
     int32_t free_count;  /* so many pairs more can be kept */
     int32_t *due_pairs;  /* whose contacts are to be searched now */
-    phys_proxy *proxies; /* see broad_phase.c */
+    phys_proxy *proxies; /* see pair/broad_phase.c */
     int32_t *bins;       /* where each of bin_count begins in the list of boxes; and its end */
     int32_t bin_count;
     float *box_ends;     /* of the boxes in that list; see box_lanes.h */
@@ -109,7 +109,7 @@ struct rlf_world {
     rlf_lane_speed *old_speeds;        /* ... and before */
     int32_t *busy_pass;                /* per body: the pass in which it is to be solved again */
 
-    double *event_times;   /* see impact.c; of the groups, island by island */
+    double *event_times;   /* see impact/impact.c; of the groups, island by island */
     int32_t *event_counts; /* of this substep */
     int32_t *pending;      /* groups that have an event; island by island */
     int32_t *first_link;   /* first link of each body's list of groups, -1 = none */

@@ -8,10 +8,10 @@
  * depth is that side's plane, least squares in depth, which is straight enough within two pixels,
  * or the background's own where that goes on there. A gap between two near ends that is wider than
  * a driver's band shows the background in its middle; one between two far ends may hide a thin
- * thing that is expected there (past_lost.c). The outermost pixels, which drivers' filters leave
+ * thing that is expected there (past/lost.c). The outermost pixels, which drivers' filters leave
  * empty, go on as the two inside of them. A hole about as wide as the widest that is filled is
  * filled in some rows and not in others: what is left of it then is closed. */
-#include "surface/past.h"
+#include "surface/past/past.h"
 #include "surface/steps.h"
 #include "surface/window.h"
 

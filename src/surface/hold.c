@@ -6,7 +6,7 @@
  * something moves about it: so nothing that has left can stay, and nothing hangs in the air. A
  * pixel that was taken for a mixed one for want of neighbours, in a slit between two things, is
  * believed where the memory has it at the same depth. */
-#include "surface/past.h"
+#include "surface/past/past.h"
 #include "surface/steps.h"
 #include "surface/window.h"
 

@@ -1,10 +1,10 @@
 /* Everything the stage will ever need, allocated once. */
 #include "surface/stage.h"
 
-#include "surface/past.h"
+#include "surface/past/past.h"
 #include "surface/steps.h"
-#include "surface/thickness.h"
-#include "surface/velocity.h"
+#include "surface/thickness/thickness.h"
+#include "surface/velocity/velocity.h"
 
 #include <string.h>
 

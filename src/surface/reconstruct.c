@@ -1,7 +1,7 @@
 /* The surface stage: one frame through all steps into the next slot of the ring. */
-#include "surface/past.h"
-#include "surface/plate.h"
-#include "surface/standing.h"
+#include "surface/past/past.h"
+#include "surface/plate/plate.h"
+#include "surface/standing/standing.h"
 #include "surface/steps.h"
 
 #include "base/cookie.h"

@@ -96,7 +96,7 @@ typedef struct rlf_background {
     uint16_t *still_ms;   /* ADAPTIVE: how long it has not moved */
     float *beneath;       /* ADAPTIVE: the background that an absorbed thing hides; 0 = none */
     rlf_span *standing;   /* ADAPTIVE: per row, where still_ms is not 0 */
-    uint32_t *color;      /* see segment_color.c; 0 = not seen */
+    uint32_t *color;      /* see segment/color.c; 0 = not seen */
     uint8_t *hides;       /* ADAPTIVE: per row, whether there is anything beneath */
     int32_t frames;
     int32_t *row_changes; /* ADAPTIVE: pixels replaced in this frame, per row and tile column */
@@ -116,7 +116,7 @@ typedef struct rlf_background {
     rlf_standing thick;
 } rlf_background;
 
-/* The normal that most frames agree on at a pixel that is watched: see settle.c. */
+/* The normal that most frames agree on at a pixel that is watched: see normals/settle.c. */
 typedef struct rlf_settled {
     float normal[3], depth;
     float own[3];  /* what the newest frame found where it was overruled */
@@ -127,7 +127,7 @@ typedef struct rlf_settled {
 typedef struct rlf_steady {
     float *mean, *frames;
     rlf_settled *settled; /* plane; NULL when normals at edges are not wanted */
-    uint8_t *mark;        /* plane: not 0 where one is watched, see settle.c */
+    uint8_t *mark;        /* plane: not 0 where one is watched, see normals/settle.c */
     uint8_t *overruled;   /* plane: 1 where the newest frame's normal is another */
     uint8_t *calm;     /* per block of RLF_HOLD_BLOCK pixels, frames since something moved there */
     uint8_t *restless; /* per block: 1 where it, or one beside it, is not calm */
@@ -196,7 +196,7 @@ enum { RLF_PLATES = 4 };
 typedef struct rlf_plates {
     rlf_plate item[RLF_PLATES];
     int32_t count;
-    int32_t frame;  /* of some, see plate_find.c */
+    int32_t frame;  /* of some, see plate/find.c */
     int32_t region; /* of the foreground at which the next search begins */
 } rlf_plates;
 
@@ -226,7 +226,7 @@ typedef struct rlf_work {
     float *depth[2];    /* planes; these, sum and component have room for RLF_CHORD_PAD */
     float *sum[2];      /* planes: velocity sums, thickness */
     uint8_t *mask[2];   /* planes */
-    uint32_t *color;    /* plane: of the frame, see segment_color.c */
+    uint32_t *color;    /* plane: of the frame, see segment/color.c */
     uint8_t *links;     /* plane of RLF_LINK_ bits */
     int32_t *component; /* plane */
     rlf_span *front;    /* per row: where the foreground may be; finished with the background */
@@ -241,9 +241,9 @@ typedef struct rlf_work {
     float *zero_plane;  /* published where there is no background */
     int32_t *zero_labels;
     struct rlf_region_sum *region_sums; /* region_capacity */
-    int32_t *heirs;                     /* label table of region_track.c */
-    float *crop[6];                     /* of background_sheet.c */
-    struct rlf_cell *cells;             /* of velocity_cells.c */
+    int32_t *heirs;                     /* label table of segment/region_track.c */
+    float *crop[6];                     /* of background/sheet.c */
+    struct rlf_cell *cells;             /* of velocity/cells.c */
     struct rlf_block *blocks;           /* region_capacity */
     float *knot;                        /* padded plane, see thickness.h */
     float *solid[6];                    /* padded planes: own and hidden, see thickness.h */

@@ -37,7 +37,7 @@ void rlf_steady_reset(rlf_steady *steady, int32_t count);
 void rlf_bridge_undo(const rlf_reconstruct *stage, const float *seen, float *smooth,
                      float *const normal[3]);
 
-/* ---- settle.c; what follows is not called when steady.settled is NULL ---- */
+/* ---- normals/settle.c; what follows is not called when steady.settled is NULL ---- */
 bool rlf_settle_is_wanted(const rlf_reconstruct_def *def);
 /* Normals of the background's watched pixels become those that most frames agree on. After
  * rlf_background_update. */
@@ -88,13 +88,13 @@ void rlf_normals_outline(const rlf_reconstruct *stage, const rlf_slot *slot);
  * rlf_fill_holes. */
 void rlf_normals_crease(const rlf_reconstruct *stage, const rlf_slot *slot);
 
-/* ---- components.c ---- */
+/* ---- segment/components.c ---- */
 /* Connected components of the members of work.links, over their links, into work.runs; numbered
  * from 1 in raster order. work.size holds their pixel counts. `spans`: where the members of each
  * row are; NULL = anywhere. Returns their number. */
 int32_t rlf_components_find(const rlf_reconstruct *stage, const rlf_span *spans);
 
-/* ---- segment.c ---- */
+/* ---- segment/segment.c ---- */
 /* Writes work.links from depth and (when not NULL) the members' mask, within the spans. */
 void rlf_segment_links(const rlf_reconstruct *stage, rlf_segment_method method, const float *depth,
                        const uint8_t *mask, const rlf_span *spans);
@@ -102,7 +102,7 @@ void rlf_segment_links(const rlf_reconstruct *stage, rlf_segment_method method, 
  * asked of the two lower diagonal ones. */
 void rlf_segment_thesis_bits(const rlf_grid *grid, double tau, bool diagonals, const float *depth,
                              const uint8_t *mask, uint8_t *bits);
-/* ---- segment_color.c ---- */
+/* ---- segment/color.c ---- */
 /* Writes work.color, when colour is wanted and the frame has it. */
 void rlf_color_sample(rlf_reconstruct *stage, const rlf_frame *frame, const float *depth);
 /* Takes the colours of the background where it is seen. */
@@ -113,12 +113,12 @@ bool rlf_color_is_near(uint32_t a, uint32_t b, double tau);
 void rlf_color_cut_links(const rlf_reconstruct *stage, const uint32_t *color,
                          const rlf_span *spans);
 
-/* ---- segment.c ---- */
+/* ---- segment/segment.c ---- */
 /* Fig. 4.12: grows labels to the left and top over valid members without a label. */
 void rlf_segment_dilate(const rlf_grid *grid, double tau, const float *depth, const uint8_t *mask,
                         int32_t *label);
 
-/* ---- region.c ---- */
+/* ---- segment/region.c ---- */
 typedef struct rlf_layer_in {
     rlf_layer layer;
     rlf_segment_method method;
@@ -154,17 +154,17 @@ void rlf_region_adopt(rlf_reconstruct *stage, const float *depth, rlf_layer_out 
 void rlf_region_write_labels(const rlf_reconstruct *stage, const rlf_layer_out *out,
                              int32_t *label);
 
-/* ---- region_track.c ---- */
+/* ---- segment/region_track.c ---- */
 /* Gives each region the label it had, by largest overlap, or a new one. */
 void rlf_region_track(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out);
 
 int32_t rlf_region_fresh_label(rlf_reconstruct *stage);
 
-/* ---- region_family.c ---- */
+/* ---- segment/region_family.c ---- */
 /* Labels for the regions that have none: that of what they are the visible part of, or new ones. */
 void rlf_region_name(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out);
 
-/* ---- region_stats.c ---- */
+/* ---- segment/region_stats.c ---- */
 typedef struct rlf_region_sum {
     rlf_region_lanes points;
     rlf_region_axes axes; /* from the longest to the shortest, from the centroid */
@@ -173,7 +173,7 @@ typedef struct rlf_region_sum {
  * is that of their pixels, whatever the number of regions. */
 void rlf_region_measure(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out);
 
-/* ---- background.c, background_average.c, background_adaptive.c ---- */
+/* ---- background/background.c, background/average.c, background/adaptive.c ---- */
 /* Updates the model with slot->depth and writes slot->foreground. */
 void rlf_background_update(rlf_reconstruct *stage, rlf_slot *slot);
 void rlf_background_average_update(rlf_reconstruct *stage, rlf_slot *slot);
@@ -187,10 +187,10 @@ float rlf_background_gate(const rlf_reconstruct_def *def, float z);
 /* Where the first and the last foreground pixel of a row are. */
 rlf_span rlf_background_span(const uint8_t *foreground, int32_t width);
 void rlf_background_reset(rlf_background *background, const rlf_grid *grid);
-/* background_cut.c: depth and those of the frames before it show another room than the model. */
+/* background/cut.c: depth and those of the frames before it show another room than the model. */
 bool rlf_background_is_cut(rlf_reconstruct *stage, const float *depth);
 
-/* ---- background_sheet.c ---- */
+/* ---- background/sheet.c ---- */
 /* Tiles of a grid, the last of a row or column cut short. */
 static inline int32_t rlf_sheet_tiles(const rlf_grid *grid)
 {
@@ -209,7 +209,7 @@ const rlf_sheet *rlf_sheet_newest(const rlf_reconstruct *stage);
 void rlf_sheet_publish(rlf_reconstruct *stage, const rlf_slot *slot);
 void rlf_sheet_advance(rlf_reconstruct *stage, const rlf_slot *slot);
 
-/* ---- velocity.c, thickness.c ---- */
+/* ---- velocity/velocity.c, thickness/thickness.c ---- */
 void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot);
 void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot);
 

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "physics/grid_field.h"
+#include "physics/grid/field.h"
 
 #include "grid_shared.h"
 

@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "physics/shape.h"
+#include "physics/shape/shape.h"
 #include "relief/query.h"
 
 #include <math.h>

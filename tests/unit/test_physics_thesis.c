@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "physics/thesis.h"
+#include "physics/thesis/thesis.h"
 
 #include "grid_fixture.h"
 

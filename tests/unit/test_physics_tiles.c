@@ -6,10 +6,10 @@
 #include <cmocka.h>
 
 #include "grid_fixture.h"
-#include "physics/grid_field.h"
-#include "physics/grid_near.h"
-#include "physics/grid_pixels.h"
-#include "physics/grid_tiles.h"
+#include "physics/grid/field.h"
+#include "physics/grid/near.h"
+#include "physics/grid/pixels.h"
+#include "physics/grid/tiles.h"
 
 #include <math.h>
 

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "surface/torso.h"
+#include "surface/thickness/torso.h"
 
 static rlf_torso usual(double angle)
 {

@@ -1,0 +1,455 @@
+/* Contacts of one body with the grid: its own surface points against the sheets, and the sheets'
+ * outlines and bumps against it. Costs per body, not per pixel; nothing is built per frame. */
+#include "physics/grid/collide.h"
+#include "physics/grid/ball.h"
+#include "physics/grid/near.h"
+#include "physics/grid/reduce.h"
+#include "physics/grid/scan.h"
+#include "physics/grid/upright.h"
+
+/* Most substeps between two queries: a body that falls from rest must not fall through the margin;
+ * one that lies on something does not fall. */
+#define PERIOD_MAX 4.0
+#define PERIOD_AT_REST 8.0
+/* A surface that moves may come so much nearer until the next query, metres. */
+#define SLIP 0.05
+/* A body that moved less than this share of the margin keeps its contacts. */
+#define SETTLED_SHARE 0.5
+/* m of free way beyond that to the next query, looked for so that a blow does not ask for one. */
+#define FREE_WAY 0.02
+
+static void set_up(grid_job *job, const grid_query *query, const phys_body *body)
+{
+    rlf_quat q_grid_body = rlf_quat_mul(query->T_grid_world.q, body->q);
+    job->query = query;
+    job->body = body;
+    job->centre = rlf_transform(&query->T_grid_world, body->x);
+    job->v = rlf_rotate(query->T_grid_world.q, body->v);
+    job->w = rlf_rotate(query->T_grid_world.q, body->w);
+    job->speed = rlf_length(job->v);
+    job->spin = rlf_length(job->w);
+    job->R_grid_body = rlf_quat_to_mat3(q_grid_body);
+    job->R_body_grid = rlf_mat3_transpose(&job->R_grid_body);
+}
+
+/* How far a sheet may come by itself until the next query, metres. */
+static double slip_of(const grid_tiles *tiles)
+{
+    return tiles->sheet->velocity_x != NULL ? SLIP : 0.0;
+}
+
+/* How far from the body's centre anything that stays can matter until its contacts are asked for
+ * again. */
+static double reach_of(const grid_query *query, const phys_body *body, int32_t period)
+{
+    double speed = rlf_length(body->v) + 0.5 * rlf_length(body->w) * body->shape.radius;
+    return body->shape.radius + GRID_MARGIN + speed * (period + 1) * query->step;
+}
+
+/* One surface point of the body along its way through the sheet's own moving frame. */
+static void cast_point(grid_job *job, rlf_vec3 anchor, double rounding, rlf_vec3 normal)
+{
+    const grid_query *query = job->query;
+    rlf_vec3 r = rlf_mat3_mul_vec(&job->R_grid_body, anchor);
+    r = rlf_mad(r, normal, -rounding);
+    rlf_vec3 q = rlf_add(job->centre, r);
+    rlf_vec3 shift = rlf_scale(job->surface_velocity, query->tau);
+    rlf_vec3 v = rlf_sub(rlf_add(job->v, rlf_cross(job->w, r)), job->surface_velocity);
+    field_hit found;
+    if (job->hit_count == GRID_HITS_MAX ||
+        !grid_field_cast(query->grid, job->sheet, rlf_sub(q, shift), rlf_scale(v, job->horizon),
+                         GRID_MARGIN, &job->home, &found)) {
+        return;
+    }
+    grid_hit *hit = &job->hits[job->hit_count++];
+    hit->point = rlf_add(found.point, shift);
+    hit->normal = found.normal;
+    hit->velocity = found.velocity;
+    hit->anchor = anchor;
+    hit->rounding = rounding;
+    hit->separation = found.separation;
+    hit->label = found.label;
+    if (rounding > 0.0) { /* the touching point of a round body follows the plane that was found */
+        rlf_vec3 core = rlf_mad(q, normal, rounding);
+        hit->separation = rlf_dot(hit->normal, rlf_sub(core, hit->point)) - rounding;
+    }
+}
+
+/* On a plane a convex body stands on vertices, a round one on the points that its shape names. */
+static void cast_points(grid_job *job)
+{
+    const phys_shape *shape = &job->body->shape;
+    rlf_vec3 none = {0, 0, 0};
+    int32_t named = 0;
+    for (int32_t i = 0; i < job->normal_count; i++) {
+        rlf_vec3 core[2];
+        double rounding;
+        rlf_vec3 down = rlf_mat3_mul_vec(&job->R_body_grid, rlf_neg(job->normals[i]));
+        int32_t count = phys_shape_support(shape, down, core, &rounding);
+        for (int32_t k = 0; k < count; k++) {
+            cast_point(job, core[k], rounding, job->normals[i]);
+        }
+        named += count;
+    }
+    bool is_round = shape->shape.type == RLF_SHAPE_SPHERE || shape->shape.type == RLF_SHAPE_CAPSULE;
+    if (job->is_flat && is_round && named > 0) {
+        return;
+    }
+    int32_t count = job->is_flat ? shape->vertex_count : shape->point_count;
+    for (int32_t begin = 0; begin < count; begin += GRID_NEAR_MAX) {
+        int32_t some = count - begin < GRID_NEAR_MAX ? count - begin : GRID_NEAR_MAX;
+        uint32_t near = grid_points_near(job, shape->points + begin, some);
+        for (int32_t i = 0; i < some; i++) {
+            if ((near >> i & 1u) != 0) {
+                cast_point(job, shape->points[begin + i], 0.0, none);
+            }
+        }
+    }
+}
+
+/* A bump counts only where no contact plane explains it: noise on a flat surface is no bump. */
+static void add_bumps(grid_job *job)
+{
+    const double NOISE = 0.01;
+    int32_t plane_count = job->hit_count;
+    for (int32_t i = 0; i < job->bump_count && job->hit_count < GRID_HITS_MAX; i++) {
+        const grid_hit *bump = &job->bumps[i];
+        bool is_explained = false;
+        for (int32_t k = 0; k < plane_count && !is_explained; k++) {
+            const grid_hit *hit = &job->hits[k];
+            double off = rlf_dot(hit->normal, rlf_sub(bump->point, hit->point));
+            is_explained = rlf_dot(hit->normal, bump->facing) > 0.7 && off < NOISE;
+        }
+        if (!is_explained) {
+            job->hits[job->hit_count++] = *bump;
+        }
+    }
+}
+
+static void clear(grid_job *job)
+{
+    job->surface_velocity = rlf_vec3_make(0, 0, 0);
+    job->nearest2 = job->reach * job->reach;
+    job->stride = 0;
+    job->is_near = job->is_flat = false;
+    job->flat_count = 0;
+    job->normal_count = 0;
+    job->bump_count = 0;
+    job->meeting_count = 0;
+    job->hit_count = 0;
+    job->solid_count = 0;
+    job->is_listed = true;
+}
+
+/* Whether the surface's plane had not yet passed the body's centre, which is behind it now, when
+ * the body's contacts were last asked for: frames were lost, or it is fast. */
+static bool is_swept(const grid_job *job, const field_cell *cell, rlf_vec3 seen)
+{
+    double since = job->query->time - job->asked_before + job->query->lag;
+    double height = rlf_dot(cell->normal, rlf_sub(seen, cell->point));
+    return height + rlf_dot(cell->normal, cell->velocity) * since > 0.0;
+}
+
+/* Inside a solid a body still belongs to the side from which it came. True when it is inside, or
+ * the solid swept over it. */
+static bool find_home(grid_job *job, uint8_t *home)
+{
+    field_cell cell;
+    rlf_vec3 seen = rlf_mad(job->centre, job->surface_velocity, -job->query->tau);
+    field_state state = FIELD_NONE;
+    if (job->is_near) {
+        state = grid_field_at(job->query->grid, job->sheet, seen, &cell);
+    }
+    if (state == FIELD_BEHIND && *home == FIELD_FRONT && is_swept(job, &cell, seen)) {
+        *home = FIELD_INSIDE;
+    } else if (state != FIELD_INSIDE && !(state == FIELD_BEHIND && *home == FIELD_INSIDE)) {
+        *home = (uint8_t)state;
+    }
+    job->home = (field_home){(field_state)*home, seen, true};
+    return state == FIELD_INSIDE || *home == FIELD_INSIDE;
+}
+
+static void collide_sheet(grid_job *job, const grid_tiles *tiles, uint8_t *home)
+{
+    job->tiles = tiles;
+    job->sheet = tiles->sheet;
+    job->reach = reach_of(job->query, job->body, job->body->surface_period) + slip_of(tiles);
+    clear(job);
+    if (job->sheet->depth == NULL || job->sheet->normal_x == NULL) {
+        return;
+    }
+    job->is_ball = job->body->shape.shape.type == RLF_SHAPE_SPHERE;
+    grid_scan_footprint(job);
+    bool is_inside = find_home(job, home);
+    if (job->is_ball && is_inside) { /* no touch, but a way out: by the points of its surface */
+        clear(job);
+        job->is_ball = false;
+        grid_scan_footprint(job);
+    }
+    if (job->is_ball) {
+        grid_ball_add_hits(job);
+    } else if (job->is_near) {
+        cast_points(job);
+        add_bumps(job);
+    }
+}
+
+/* The body's point against one plane of the shell, where the camera does not see. */
+static void touch_shell(grid_job *job, const shell_plane *plane, rlf_vec3 anchor, double rounding)
+{
+    rlf_vec3 r = rlf_mat3_mul_vec(&job->R_grid_body, anchor);
+    r = rlf_mad(r, plane->normal, -rounding);
+    rlf_vec3 q = rlf_add(job->centre, r);
+    double approach = -rlf_dot(plane->normal, rlf_add(job->v, rlf_cross(job->w, r)));
+    double separation = rlf_dot(plane->normal, q) - plane->offset;
+    if (separation < GRID_MARGIN + rlf_max(0.0, approach) * job->horizon &&
+        job->hit_count < GRID_HITS_MAX && grid_shell_is_hidden(job->query->grid, q)) {
+        grid_hit hit = {.point = rlf_mad(q, plane->normal, -separation), .normal = plane->normal};
+        hit.anchor = anchor;
+        hit.rounding = rounding;
+        hit.separation = separation;
+        job->hits[job->hit_count++] = hit;
+    }
+}
+
+/* The shell has no back: what a thin wall would push out behind it stays in the room. */
+static void drop_backs(grid_job *job, const shell_plane *plane)
+{
+    const double NEAR = 0.05;
+    int32_t kept = 0;
+    for (int32_t i = 0; i < job->hit_count; i++) {
+        const grid_hit *hit = &job->hits[i];
+        bool is_back = rlf_dot(hit->normal, plane->normal) < -0.3 &&
+                       rlf_dot(plane->normal, hit->point) - plane->offset < NEAR;
+        if (!is_back) {
+            job->hits[kept++] = *hit;
+        }
+    }
+    job->hit_count = kept;
+}
+
+static void collide_plane(grid_job *job, const shell_plane *plane)
+{
+    const phys_shape *shape = &job->body->shape;
+    rlf_vec3 core[2];
+    double rounding;
+    rlf_vec3 down = rlf_mat3_mul_vec(&job->R_body_grid, rlf_neg(plane->normal));
+    int32_t count = phys_shape_support(shape, down, core, &rounding);
+    drop_backs(job, plane);
+    for (int32_t k = 0; k < count; k++) {
+        touch_shell(job, plane, core[k], rounding);
+    }
+    for (int32_t k = 0; count == 0 && k < shape->vertex_count; k++) {
+        touch_shell(job, plane, shape->points[k], 0.0);
+    }
+}
+
+/* The centre's height over the plane, which the scan's nearest is not beyond. */
+static double come_near(grid_job *job, const shell_plane *plane)
+{
+    double height = rlf_dot(plane->normal, job->centre) - plane->offset;
+    job->nearest2 = rlf_min(job->nearest2, rlf_max(height, 0.0) * rlf_max(height, 0.0));
+    return height;
+}
+
+/* What stands behind what hides it, under or beside the body's centre, within `reach`. */
+static bool find_upright(const grid_job *job, double reach, shell_plane *out)
+{
+    const grid_query *query = job->query;
+    if (query->shell == NULL || !(rlf_dot(query->up, query->up) > 0.0)) {
+        return false;
+    }
+    rlf_vec3 side = rlf_normalize(rlf_cross(query->up, job->centre));
+    for (int32_t k = 0; k < 3; k++) {
+        double shift = (k == 2 ? -1.0 : k) * job->body->shape.radius;
+        rlf_vec3 q = rlf_mad(job->centre, side, shift);
+        if (grid_shell_is_hidden(query->grid, q) &&
+            grid_upright_find(query->grid, q, query->up, reach, out)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* How many substeps this body's contacts stay good: it must not travel far in that time. */
+static int32_t query_period(const phys_body *body, double step, double most)
+{
+    double travel = (rlf_length(body->v) + rlf_length(body->w) * body->shape.radius) * step;
+    double period = 0.2 * body->shape.inner_radius / rlf_max(travel, 1e-9);
+    return (int32_t)rlf_clamp(period, 1.0, most);
+}
+
+/* Where nothing is within this, nothing is asked for again until the most substeps are over. */
+static double wide_reach_of(const grid_query *query, const phys_body *body)
+{
+    return reach_of(query, body, (int32_t)PERIOD_MAX) + FREE_WAY;
+}
+
+/* What the camera does not see. */
+static void collide_hidden(grid_job *job)
+{
+    const grid_query *query = job->query;
+    for (int32_t i = 0; query->shell != NULL && i < query->shell->count; i++) {
+        const shell_plane *plane = &query->shell->planes[i];
+        if (come_near(job, plane) <= job->reach) {
+            collide_plane(job, plane);
+        }
+    }
+    shell_plane upright;
+    if (find_upright(job, wide_reach_of(query, job->body), &upright) &&
+        come_near(job, &upright) <= job->reach) {
+        collide_plane(job, &upright);
+    }
+}
+
+static void set_period(grid_job *job, phys_body *body, double most)
+{
+    body->surface_period = query_period(body, job->query->step, most);
+    job->horizon = (body->surface_period + 1) * job->query->step;
+}
+
+/* How far the body may go before it comes to anything, wherever the camera looks, by tiles and
+ * planes alone. What is not above `least` need not be told apart. */
+static double free_way(const grid_job *job, double least)
+{
+    const grid_query *query = job->query;
+    const grid_shell *shell = query->shell;
+    double wide = wide_reach_of(query, job->body);
+    double slip = slip_of(query->foreground);
+    double beside = job->body->shape.radius + GRID_MARGIN, way = wide - beside;
+    for (int32_t i = 0; shell != NULL && i < shell->count; i++) {
+        const shell_plane *plane = &shell->planes[i];
+        way = rlf_min(way, rlf_dot(plane->normal, job->centre) - plane->offset - beside);
+    }
+    double limit = least + beside;
+    way = rlf_min(way, grid_scan_distance(job, query->background, wide, limit) - beside);
+    if (way <= least) {
+        return way;
+    }
+    double front = grid_scan_distance(job, query->foreground, wide + slip, limit + slip) - slip;
+    way = rlf_min(way, front - beside);
+    shell_plane upright;
+    if (way > least && find_upright(job, wide, &upright)) {
+        double height = rlf_dot(upright.normal, job->centre) - upright.offset;
+        way = rlf_min(way, height - beside);
+    }
+    return way;
+}
+
+/* How far the body may go before it comes to what the last scan saw. */
+static double clearance_of(const grid_job *job)
+{
+    double slip = slip_of(job->tiles);
+    double gaps = job->stride * job->centre.z * job->query->grid->pixel_angle;
+    double beside = job->body->shape.radius + GRID_MARGIN + slip + gaps;
+    return rlf_max(0.0, sqrt(job->nearest2) - beside);
+}
+
+bool grid_collide_prepare(const grid_query *query, const phys_body *body)
+{
+    int32_t rect[4], stride;
+    double reach = reach_of(query, body, query_period(body, query->step, PERIOD_AT_REST));
+    reach = rlf_max(reach, wide_reach_of(query, body)) + slip_of(query->foreground);
+    rlf_vec3 centre = rlf_transform(&query->T_grid_world, body->x);
+    if (!grid_footprint(query->grid, centre, reach, rect, &stride)) {
+        return false;
+    }
+    grid_tiles_make(query->background, query->grid, rect);
+    return grid_tiles_make(query->foreground, query->grid, rect);
+}
+
+static void start_contacts(const grid_query *query, phys_body *body)
+{
+    body->stance.is_set = false;
+    body->is_restless = false;
+    body->surface_count = 0;
+    body->surface_flow = rlf_vec3_make(0, 0, 0);
+    body->surface_age = 0;
+    body->surface_time = query->time;
+    body->surface_x = body->x;
+    body->surface_turned = body->turned;
+    body->surface_version = 0;
+}
+
+/* Whether nothing of the foreground can come near the body before the next query. */
+static bool is_alone(const grid_job *job, double period)
+{
+    double reach = reach_of(job->query, job->body, (int32_t)period);
+    reach += slip_of(job->query->foreground);
+    return grid_scan_distance(job, job->query->foreground, reach, 0.99 * reach) >= reach;
+}
+
+/* Whether a search would find what the last one found: what stays is the same, nothing else is
+ * near, and the body has hardly moved. All that was within the margin is known. */
+static bool is_settled(const grid_job *job)
+{
+    const grid_query *query = job->query;
+    const phys_body *body = job->body;
+    double moved = rlf_length(rlf_sub(body->x, body->surface_x)) +
+                   (body->turned - body->surface_turned) * body->shape.radius;
+    double coming = phys_body_speed(body) * (PERIOD_AT_REST + 1.0) * query->step;
+    return body->surface_version != 0 && body->surface_version == query->rest_version &&
+           moved + coming < SETTLED_SHARE * GRID_MARGIN && is_alone(job, PERIOD_AT_REST);
+}
+
+static void keep_contacts(const grid_query *query, phys_body *body)
+{
+    body->is_restless = false;
+    body->surface_age = 0;
+    body->surface_time = query->time;
+    body->surface_period =
+        query_period(body, query->step, body->is_pressed ? PERIOD_AT_REST : PERIOD_MAX);
+}
+
+/* Both sheets, the nearer first. */
+static void collide_sheets(grid_job *job, phys_body *body, int32_t body_index)
+{
+    const grid_query *query = job->query;
+    set_period(job, body, PERIOD_MAX);
+    collide_sheet(job, query->foreground, &body->home[0]);
+    body->surface_flow = job->surface_velocity;
+    body->surface_clear = clearance_of(job);
+    grid_reduce(job, body, body_index, RLF_CONTACT_FOREGROUND);
+    if (!job->is_near && body->is_pressed) {
+        set_period(job, body, PERIOD_AT_REST);
+    }
+    collide_sheet(job, query->background, &body->home[1]);
+    collide_hidden(job);
+    body->surface_clear = rlf_min(body->surface_clear, clearance_of(job));
+    grid_reduce(job, body, body_index, RLF_CONTACT_BACKGROUND);
+}
+
+void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
+{
+    phys_trace old[PHYS_SURFACE_CONTACTS];
+    int32_t old_count = body->surface_count;
+    for (int32_t i = 0; i < old_count; i++) {
+        old[i] = phys_trace_of(&body->surface[i]);
+    }
+    double swept_from = body->surface_time;
+    grid_job job;
+    set_up(&job, query, body);
+    if (is_settled(&job)) {
+        keep_contacts(query, body);
+        return;
+    }
+    start_contacts(query, body);
+    double least = phys_body_way(body, query->step), way = free_way(&job, least);
+    if (way > least) {
+        body->home[0] = body->home[1] = FIELD_NONE;
+        body->surface_period = 1;
+        body->surface_clear = way;
+        return;
+    }
+    job.asked_before = swept_from;
+    collide_sheets(&job, body, body_index);
+    if (query->background->sheet->velocity_x == NULL && is_alone(&job, body->surface_period)) {
+        body->surface_version = query->rest_version;
+    }
+    if (body->surface_count == 0) {
+        body->surface_period++; /* all of the horizon is free */
+    } else {
+        body->surface_clear = 0.0;
+    }
+    grid_keep_impulses(body, old, old_count);
+}

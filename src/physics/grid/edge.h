@@ -1,0 +1,31 @@
+/* The outline of a sheet's solid in the image: where it ends, which way it faces, how wide it is.
+ */
+#ifndef RLF_PHYSICS_GRID_EDGE_H
+#define RLF_PHYSICS_GRID_EDGE_H
+
+#include "physics/grid/field.h"
+
+/* Two pixels side by side differ by more than this only across an outline, metres. */
+double grid_edge_step(double z);
+
+/* z at which the side wall between `cell` and the pixel at (x, y) ends: that pixel is off the sheet
+ * or farther than the cell's own plane explains. 0 when there is no wall. */
+double grid_edge_end(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
+                     int32_t x, int32_t y);
+
+/* Which way the outline near `cell` faces: the mean direction to the free pixels of a window around
+ * it, square to the view ray, unit, out of the solid. False where no outline is near. */
+bool grid_edge_normal(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
+                      rlf_vec3 *out);
+
+/* How wide the solid is at the cell as the image shows it, up to `limit` metres: the shorter of its
+ * row's and its column's run between steps in depth. */
+double grid_edge_width(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
+                       double limit);
+
+/* A side wall's direction at an outline's pixel: its face, which is `side` turned so that the wall
+ * goes `inward`, and at its front (edge < 0) and back edge (> 0) all between that face and inward.
+ * `normal` brought into them. */
+rlf_vec3 grid_wall_normal(rlf_vec3 inward, rlf_vec3 side, rlf_vec3 normal, int32_t edge);
+
+#endif

@@ -1,0 +1,166 @@
+/* The line where a face ends, and the corners where the line does.
+ *
+ * Where another face begins there, the two planes meet on it: that is known to a fraction of a
+ * pixel. Else the line is that of the outline in the image. */
+#include "physics/grid/end.h"
+#include "physics/grid/crack.h"
+#include "physics/grid/plane.h"
+
+/* A line at which the face ends, and the face beyond. */
+typedef struct face_line {
+    patch_end end;
+    rlf_vec3 normals[2]; /* of the face itself and, if there is one, of the other */
+    int32_t count;
+} face_line;
+
+void patch_find_face(const grid_patch *p, patch_mean *mean)
+{
+    const rlf_vec3 none = {0, 0, 0};
+    patch_plane plane;
+    if (plane_find(p, p->samples[p->nearest].point, NULL, 0, none, &plane)) {
+        mean->normal = plane.normal;
+        mean->point = plane.point;
+    }
+}
+
+/* Whether another face begins on the line at most of its places. */
+static bool is_crease(const grid_patch *p, const edge_cracks *fit, const edge_crack *centre,
+                      const image_line *line)
+{
+    double all = 0.0, bent = 0.0;
+    for (int32_t i = 0; i < fit->count; i++) {
+        const edge_crack *c = &fit->cracks[i];
+        double weight = crack_weight(p, c, centre, line);
+        all += weight;
+        bent += c->next != NULL ? weight : 0.0;
+    }
+    return bent > 0.5 * all;
+}
+
+/* Puts the edge where the two faces meet, unless they hardly bend. */
+static void intersect(const patch_mean *mean, const patch_plane *other, patch_end *end)
+{
+    rlf_vec3 along = rlf_cross(mean->normal, other->normal);
+    double sine2 = rlf_dot(along, along);
+    if (sine2 < 0.04) {
+        return;
+    }
+    /* from the edge's place on the face, square to the edge, to the other face */
+    rlf_vec3 across = rlf_cross(along, mean->normal);
+    double way =
+        rlf_dot(other->normal, rlf_sub(other->point, end->point)) / rlf_dot(other->normal, across);
+    end->point = rlf_mad(end->point, across, way);
+    along = rlf_scale(along, 1.0 / sqrt(sine2));
+    end->along = rlf_dot(along, end->along) < 0.0 ? rlf_neg(along) : along;
+}
+
+/* Forgets the cracks on the line. */
+static void drop_line(const grid_patch *p, edge_cracks *fit, const edge_crack *centre,
+                      const image_line *line)
+{
+    int32_t left = 0;
+    for (int32_t i = 0; i < fit->count; i++) {
+        if (!(crack_weight(p, &fit->cracks[i], centre, line) > 0.0)) {
+            fit->cracks[left++] = fit->cracks[i];
+        }
+    }
+    fit->count = left;
+}
+
+/* The image's line on the face, about the point that is nearest to q. */
+static patch_end end_on_face(const grid_patch *p, const patch_mean *mean, const image_line *line,
+                             rlf_vec3 q)
+{
+    rlf_vec3 from =
+        crack_on_face(p, mean, line->u + line->begin * line->du, line->v + line->begin * line->dv);
+    rlf_vec3 to =
+        crack_on_face(p, mean, line->u + line->end * line->du, line->v + line->end * line->dv);
+    rlf_vec3 way = rlf_sub(to, from);
+    double length = rlf_length(way);
+    rlf_vec3 along = rlf_scale(way, 1.0 / rlf_max(length, 1e-9));
+    double t = rlf_clamp(rlf_dot(rlf_sub(q, from), along), 0.0, length);
+    return (patch_end){rlf_mad(from, along, t), along, -t, length - t};
+}
+
+/* Fits the line about the crack nearest to q, and takes its cracks away. */
+static bool find_line(const grid_patch *p, const patch_mean *mean, edge_cracks *fit, rlf_vec3 q,
+                      face_line *out)
+{
+    int32_t nearest = crack_nearest(fit, q);
+    if (nearest < 0) {
+        return false;
+    }
+    const edge_crack centre = fit->cracks[nearest];
+    image_line line = {0};
+    *out = (face_line){.end = {.point = centre.point}, .normals = {mean->normal}, .count = 1};
+    if (!crack_fit_line(p, fit, &centre, &line)) {
+        return false;
+    }
+    out->end = end_on_face(p, mean, &line, q);
+    patch_plane other;
+    if (is_crease(p, fit, &centre, &line) &&
+        plane_find(p, out->end.point, out->normals, 1, out->end.along, &other)) {
+        intersect(mean, &other, &out->end);
+        out->normals[out->count++] = other.normal;
+    }
+    drop_line(p, fit, &centre, &line);
+    return true;
+}
+
+/* The line ends where it leaves through the plane. */
+static void cut(patch_end *end, rlf_vec3 normal, rlf_vec3 point)
+{
+    double slope = rlf_dot(normal, end->along);
+    double t = rlf_dot(normal, rlf_sub(point, end->point)) / slope;
+    if (slope > 0.2) {
+        end->end = t;
+        end->begin = rlf_min(end->begin, t);
+    } else if (slope < -0.2) {
+        end->begin = t;
+        end->end = rlf_max(end->end, t);
+    }
+}
+
+/* The corner: the line ends at the nearest third face that is seen or, for want of one, at the
+ * nearest other line at which the face ends. */
+static void find_corner(const grid_patch *p, const patch_mean *mean, edge_cracks *fit,
+                        rlf_vec3 foot, face_line *line)
+{
+    const rlf_vec3 any = {0, 0, 0};
+    rlf_vec3 near = patch_end_nearest(&line->end, foot);
+    int32_t nearest = crack_nearest(fit, near);
+    patch_plane third;
+    face_line next;
+    if (nearest >= 0 && fit->cracks[nearest].next != NULL &&
+        plane_find(p, fit->cracks[nearest].point, line->normals, line->count, any, &third)) {
+        cut(&line->end, third.normal, third.point);
+    } else if (find_line(p, mean, fit, near, &next)) {
+        rlf_vec3 out = rlf_cross(next.end.along, mean->normal); /* of the face, in its plane */
+        bool is_inward = rlf_dot(out, rlf_sub(mean->point, next.end.point)) > 0.0;
+        cut(&line->end, is_inward ? rlf_neg(out) : out, next.end.point);
+    }
+}
+
+void patch_find_end(const grid_patch *p, const patch_mean *mean, patch_end *out)
+{
+    edge_cracks fit;
+    face_line line;
+    rlf_vec3 foot = patch_foot(p, mean), sample = p->samples[p->nearest].point;
+    crack_find(p, mean, &fit);
+    if (!find_line(p, mean, &fit, foot, &line)) {
+        *out = fit.count > 0 ? line.end : (patch_end){.point = sample};
+        return;
+    }
+    find_corner(p, mean, &fit, foot, &line);
+    *out = line.end;
+    /* where the face is seen its edge goes on */
+    double seen = rlf_dot(rlf_sub(sample, out->point), out->along);
+    out->begin = rlf_min(out->begin, seen);
+    out->end = rlf_max(out->end, seen);
+}
+
+rlf_vec3 patch_end_nearest(const patch_end *end, rlf_vec3 centre)
+{
+    double t = rlf_dot(rlf_sub(centre, end->point), end->along);
+    return rlf_mad(end->point, end->along, rlf_clamp(t, end->begin, end->end));
+}

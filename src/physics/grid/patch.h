@@ -1,0 +1,67 @@
+/* The pixels about the place where a ball touches a sheet. */
+#ifndef RLF_PHYSICS_GRID_PATCH_H
+#define RLF_PHYSICS_GRID_PATCH_H
+
+#include "physics/grid/scan.h"
+
+#define PATCH_PX 6 /* a patch has at most 2 x 6 + 1 samples a side */
+
+/* A pixel of the patch: its point on the touched face when the ball is there, its distance. */
+typedef struct patch_sample {
+    field_cell cell;
+    rlf_vec3 point;
+    double distance; /* of the point to the ball's surface */
+} patch_sample;
+
+typedef struct grid_patch {
+    const grid_job *job;
+    grid_face face;
+    int32_t x, y, step;
+    double time;
+    rlf_vec3 centre;                                        /* the ball's, at that time */
+    int32_t index[(2 * PATCH_PX + 1) * (2 * PATCH_PX + 1)]; /* row by row: sample + 1, 0 = none */
+    patch_sample samples[(2 * PATCH_PX + 1) * (2 * PATCH_PX + 1)];
+    int32_t count, nearest;
+} grid_patch;
+
+/* What the weighted pixels of a patch say. */
+typedef struct patch_mean {
+    rlf_vec3 point, normal, velocity;
+    double curvature; /* 1/m, above 0 for a bulge; 0 for a plane and a hollow */
+    double spread2;   /* mean square distance from the mean point, m^2 */
+} patch_mean;
+
+/* Whether a pixel's normal is that of the face, up to noise and its curvature. */
+static inline bool patch_is_of_face(rlf_vec3 normal, rlf_vec3 face)
+{
+    return rlf_dot(normal, face) > 0.8;
+}
+
+/* Distance beyond the nearest pixel's at which a pixel's weight has fallen to 0: some sigma. */
+double patch_band(double z);
+
+/* The ball's centre, `time` from now; now, if that is below 0. */
+rlf_vec3 patch_centre_at(const grid_job *job, double time);
+
+/* How thick a background is was never seen: no thicker than wide (a table's leg). */
+void patch_limit_thickness(const grid_job *job, field_cell *cell);
+
+/* The back behind p, a point of the cell's front. */
+rlf_vec3 patch_back_of(const field_cell *cell, rlf_vec3 p);
+
+/* Fills centre, index, samples, count and nearest (-1: no sample) for the other members. */
+void patch_read(grid_patch *p);
+
+/* Weighted means over the pixels near the ball, and the slope of the normals over the points (least
+ * squares for n - n_mean = curvature (p - p_mean)). */
+patch_mean patch_mean_of(const grid_patch *p);
+
+/* A patch that lies off the touching point by d has a normal that is off by curvature d one way,
+ * and a direction to the ball's centre that is off by d / radius the other way: together they are
+ * right. The touching point stands above the mean of a bulge. */
+void patch_correct_bulge(const grid_patch *p, patch_mean *mean);
+
+/* The point of the face under the ball's centre. */
+rlf_vec3 patch_foot(const grid_patch *p, const patch_mean *mean);
+
+#endif

@@ -1,0 +1,532 @@
+/* Walks the pixels under a body's footprint, thinned to a bounded number.
+ *
+ * Interior pixels give the surface's directions and bumps; outline pixels stand for the side wall
+ * of the solid behind them, from its front to its back. */
+#include "physics/grid/scan.h"
+#include "physics/grid/ball.h"
+#include "physics/grid/edge.h"
+#include "physics/grid/pixels.h"
+
+#define SAMPLES_PER_SIDE 20
+#define ROUNDING 1e-6    /* m, far more than distances are rounded by */
+#define ASIDE 0.3        /* cosine between a side of the body and a face that it pushes */
+#define FLAT_ON_WALL 0.9 /* cosine between a body's face and the side wall on which it lies */
+
+static rlf_vec3 to_body(const grid_job *job, rlf_vec3 p)
+{
+    return rlf_mat3_mul_vec(&job->R_body_grid, rlf_sub(p, job->centre));
+}
+
+/* Speed at which surface and body approach at p along the normal. */
+static double approach_at(const grid_job *job, rlf_vec3 p, rlf_vec3 normal, rlf_vec3 velocity)
+{
+    rlf_vec3 v = rlf_add(job->v, rlf_cross(job->w, rlf_sub(p, job->centre)));
+    return rlf_dot(normal, rlf_sub(velocity, v));
+}
+
+static void note_normal(grid_job *job, rlf_vec3 normal)
+{
+    for (int32_t i = 0; i < job->normal_count; i++) {
+        if (rlf_dot(job->normals[i], normal) > 0.97) {
+            return;
+        }
+    }
+    if (job->normal_count < GRID_NORMALS_MAX) {
+        job->normals[job->normal_count++] = normal;
+    }
+}
+
+static void note_bump(grid_job *job, const grid_hit *hit)
+{
+    int32_t slot = job->bump_count;
+    if (slot == GRID_BUMPS_MAX) {
+        slot = 0;
+        for (int32_t i = 1; i < GRID_BUMPS_MAX; i++) {
+            slot = job->bumps[i].separation > job->bumps[slot].separation ? i : slot;
+        }
+        if (hit->separation >= job->bumps[slot].separation) {
+            return;
+        }
+    } else {
+        job->bump_count++;
+    }
+    job->bumps[slot] = *hit;
+}
+
+static void look_at_interior(grid_job *job, const field_cell *cell, rlf_vec3 p)
+{
+    if (job->is_ball) {
+        grid_ball_look(job, cell, p);
+        return;
+    }
+    rlf_vec3 gradient;
+    rlf_vec3 local = to_body(job, p);
+    double distance = phys_shape_distance(&job->body->shape, local, &gradient);
+    rlf_vec3 outward = rlf_neg(rlf_mat3_mul_vec(&job->R_grid_body, gradient));
+    double approach = approach_at(job, p, outward, cell->velocity);
+    double near = rlf_max(0.0, approach) * job->horizon;
+    if (distance < near + 0.5 * job->body->shape.radius) {
+        note_normal(job, cell->normal);
+    }
+    if (distance > near) {
+        return;
+    }
+    double agreement = rlf_dot(outward, cell->normal);
+    if (distance > 0.0 && agreement < -ASIDE) {
+        return; /* it is beside the face, below its plane */
+    }
+    grid_hit hit = {.point = p, .velocity = cell->velocity, .label = cell->label};
+    hit.normal = cell->normal;
+    if (agreement > -ASIDE && agreement < ASIDE) {
+        /* A feature that pokes into a side of the body pushes that side, never into the solid. */
+        rlf_vec3 aside = rlf_mad(outward, cell->normal, rlf_max(0.0, -agreement));
+        hit.normal = rlf_normalize(aside);
+    }
+    hit.facing = cell->normal;
+    hit.anchor = rlf_mad(local, gradient, -distance);
+    rlf_vec3 anchor = rlf_mat3_mul_vec(&job->R_grid_body, hit.anchor);
+    hit.separation = rlf_dot(hit.normal, rlf_sub(rlf_add(job->centre, anchor), p));
+    note_bump(job, &hit);
+}
+
+/* A neighbour that is neither missing from the mask nor farther is over no step; see
+ * grid_edge_end. */
+static bool may_end(const grid_job *job, double z, int32_t x, int32_t y)
+{
+    const rlf_grid *grid = job->query->grid;
+    const rlf_grid_sheet *sheet = job->sheet;
+    if (x < 0 || y < 0 || x >= grid->width || y >= grid->height) {
+        return false;
+    }
+    int32_t i = y * grid->width + x;
+    return (sheet->mask != NULL && sheet->mask[i] == 0) || (double)sheet->depth[i] > z;
+}
+
+static const int32_t NEIGHBOURS[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+
+/* How far the side wall at this pixel goes inward, metres of thickness, or 0 when it is no outline.
+ * Where the solid is a guess it ends where the camera sees through it. */
+static double wall_depth(const grid_job *job, const field_cell *cell)
+{
+    const int32_t STEPS = 4;
+    const rlf_grid *grid = job->query->grid;
+    const rlf_grid_sheet *sheet = job->sheet;
+    double end = 0.0;
+    for (int32_t k = 0; k < 4; k++) {
+        int32_t x = cell->x + NEIGHBOURS[k][0];
+        int32_t y = cell->y + NEIGHBOURS[k][1];
+        if (may_end(job, cell->point.z, x, y)) {
+            end = rlf_max(end, grid_edge_end(grid, sheet, cell, x, y));
+        }
+    }
+    double deep = rlf_max(0.0, end - cell->point.z);
+    if (!(deep > 0.0) || !cell->is_guess) {
+        return deep;
+    }
+    deep = rlf_min(deep, grid_edge_width(grid, sheet, cell, cell->thickness)); /* nor than wide */
+    rlf_vec3 inward = grid_cell_inward(cell);
+    for (int32_t k = STEPS; k > 0; k--) {
+        double reach = deep * k / STEPS;
+        if (!grid_field_is_seen_through(grid, sheet, rlf_mad(cell->point, inward, reach))) {
+            return reach;
+        }
+    }
+    return 0.1 * deep; /* an edge still */
+}
+
+/* A line of a side wall: from an outline's pixel inward. */
+typedef struct wall_line {
+    const field_cell *cell;
+    rlf_vec3 front, inward; /* now */
+    double deep;
+    bool is_known, has_side; /* whether the next one was looked for, and found */
+    rlf_vec3 side;           /* the outline's direction */
+} wall_line;
+
+static rlf_vec3 line_point(const wall_line *line, double depth)
+{
+    return rlf_mad(line->front, line->inward, depth);
+}
+
+/* Depth at which the line comes nearest to the body, whose distance is convex along a line. */
+static double nearest_depth(const grid_job *job, const wall_line *line)
+{
+    const int32_t HALVINGS = 6;
+    rlf_vec3 along = rlf_mat3_mul_vec(&job->R_body_grid, line->inward);
+    double low = 0.0, high = line->deep, square = rlf_dot(along, along);
+    double depth = rlf_dot(rlf_sub(job->centre, line->front), line->inward) / square;
+    depth = rlf_clamp(depth, low, high);
+    for (int32_t i = 0; i < HALVINGS; i++) {
+        rlf_vec3 gradient;
+        phys_shape_distance(&job->body->shape, to_body(job, line_point(line, depth)), &gradient);
+        bool is_beyond = rlf_dot(gradient, along) > 0.0;
+        if (is_beyond ? depth <= 0.0 : depth >= line->deep) {
+            return depth;
+        }
+        low = is_beyond ? low : depth;
+        high = is_beyond ? depth : high;
+        bool is_first = i == 0; /* it may well be an end */
+        depth = is_first ? (is_beyond ? low : high) : 0.5 * (low + high);
+    }
+    return depth;
+}
+
+static bool find_side(const grid_job *job, wall_line *line)
+{
+    if (!line->is_known) {
+        line->is_known = true;
+        line->has_side = grid_edge_normal(job->query->grid, job->sheet, line->cell, &line->side);
+    }
+    return line->has_side;
+}
+
+/* Adds the line's point at `depth` when the body touches it in a direction that is the wall's own
+ * up to an angle of cosine `agreement`. */
+static void touch_line(grid_job *job, wall_line *line, double depth, double agreement)
+{
+    rlf_vec3 p = line_point(line, depth), gradient;
+    rlf_vec3 local = to_body(job, p);
+    double distance = phys_shape_distance(&job->body->shape, local, &gradient);
+    rlf_vec3 normal = rlf_neg(rlf_mat3_mul_vec(&job->R_grid_body, gradient));
+    double approach = approach_at(job, p, normal, line->cell->velocity);
+    if (job->hit_count >= GRID_HITS_MAX / 2 ||
+        distance > GRID_MARGIN + rlf_max(0.0, approach) * job->horizon) {
+        return;
+    }
+    grid_hit hit = {.point = p, .velocity = line->cell->velocity, .label = line->cell->label};
+    hit.anchor = rlf_mad(local, gradient, -distance);
+    hit.normal = normal;
+    hit.separation = distance;
+    if (find_side(job, line)) {
+        int32_t edge = depth <= 0.0 ? -1 : depth >= line->deep ? 1 : 0;
+        hit.normal = grid_wall_normal(line->inward, line->side, normal, edge);
+        rlf_vec3 anchor = rlf_mat3_mul_vec(&job->R_grid_body, hit.anchor);
+        hit.separation = rlf_dot(hit.normal, rlf_sub(rlf_add(job->centre, anchor), p));
+    }
+    if (rlf_dot(hit.normal, normal) > agreement) {
+        job->hits[job->hit_count++] = hit;
+    }
+}
+
+static void look_at_outline(grid_job *job, const field_cell *cell, rlf_vec3 shift, double deep)
+{
+    wall_line line = {.cell = cell, .front = rlf_add(cell->point, shift), .deep = deep};
+    line.inward = grid_cell_inward(cell);
+    double depth = nearest_depth(job, &line);
+    double inner = 0.5 * job->body->shape.inner_radius;
+    touch_line(job, &line, depth, 0.3);
+    touch_line(job, &line, rlf_max(depth - inner, 0.0), FLAT_ON_WALL);
+    touch_line(job, &line, rlf_min(depth + inner, line.deep), FLAT_ON_WALL);
+}
+
+/* Whether the sheet may end on the way from `cell` to the pixel `stride` on, by depths alone: the
+ * pixel before an end is no nearer than the nearest so far. */
+static bool may_cross_end(const grid_job *job, const field_cell *cell, const int32_t direction[2],
+                          int32_t stride)
+{
+    const rlf_grid *grid = job->query->grid;
+    const rlf_grid_sheet *sheet = job->sheet;
+    int32_t first = cell->y * grid->width + cell->x, step = direction[1] * grid->width;
+    double nearest = cell->point.z, limit = nearest + grid_edge_step(nearest);
+    for (int32_t k = 1; k <= stride; k++) {
+        int32_t i = first + k * (step + direction[0]);
+        double z = sheet->depth[i];
+        if ((sheet->mask != NULL && sheet->mask[i] == 0) || z > limit) {
+            return true;
+        }
+        if (z > 0.0 && z < nearest) {
+            nearest = z;
+            limit = nearest + grid_edge_step(nearest);
+        }
+    }
+    return false;
+}
+
+/* The sheet's last pixel from `cell` to the one `stride` on in a direction, beyond which it ends:
+ * the wall stands there, not at the pixel that happens to be looked at. False when it goes on. */
+static bool find_outline(const grid_job *job, const field_cell *cell, const int32_t direction[2],
+                         int32_t stride, field_cell *out)
+{
+    const rlf_grid *grid = job->query->grid;
+    int32_t x = cell->x + direction[0] * stride, y = cell->y + direction[1] * stride;
+    if (!may_end(job, cell->point.z, x, y) || !may_cross_end(job, cell, direction, stride)) {
+        return false;
+    }
+    *out = *cell;
+    for (int32_t i = 1; i <= stride; i++) {
+        x = cell->x + direction[0] * i;
+        y = cell->y + direction[1] * i;
+        field_cell next;
+        if (grid_edge_end(grid, job->sheet, out, x, y) > 0.0) {
+            return true;
+        }
+        if (grid_cell_read(grid, job->sheet, x, y, &next)) {
+            *out = next;
+        }
+    }
+    return false;
+}
+
+/* The outline's pixels between this one and the next ones that are looked at. */
+static void look_around(grid_job *job, const field_cell *cell, int32_t stride)
+{
+    bool is_done = false; /* with the pixel itself */
+    for (int32_t k = 0; k < 4; k++) {
+        field_cell end;
+        if (!find_outline(job, cell, NEIGHBOURS[k], stride, &end)) {
+            continue;
+        }
+        bool is_own = end.x == cell->x && end.y == cell->y;
+        double deep = is_own && is_done ? 0.0 : wall_depth(job, &end);
+        rlf_vec3 shift = rlf_scale(end.velocity, job->query->tau);
+        if (deep > 0.0 && job->is_ball) {
+            grid_ball_look_outline(job, &end, shift, deep);
+        } else if (deep > 0.0) {
+            look_at_outline(job, &end, shift, deep);
+        }
+        is_done = is_done || is_own;
+    }
+}
+
+bool grid_footprint(const rlf_grid *grid, rlf_vec3 centre, double reach, int32_t rect[4],
+                    int32_t *stride)
+{
+    double u, v;
+    if (!(centre.z > 0.0) || !grid->project(grid->project_context, centre, &u, &v)) {
+        return false;
+    }
+    double near = rlf_max(centre.z - reach, 0.1);
+    double half = rlf_min(reach / (near * grid->pixel_angle) + 1.0, 4096.0);
+    rect[0] = (int32_t)rlf_clamp(u - half, 0, grid->width);
+    rect[1] = (int32_t)rlf_clamp(v - half, 0, grid->height);
+    rect[2] = (int32_t)rlf_clamp(u + half + 1, 0, grid->width);
+    rect[3] = (int32_t)rlf_clamp(v + half + 1, 0, grid->height);
+    *stride = 1 + (int32_t)(2.0 * half / SAMPLES_PER_SIDE);
+    return rect[0] < rect[2] && rect[1] < rect[3];
+}
+
+/* Sum of the velocities of what is within reach. */
+typedef struct flow_sum {
+    rlf_vec3 velocity;
+    double count;
+} flow_sum;
+
+/* Whether the body touches nothing that is this far from its centre, or farther, before the next
+ * query, nor comes nearer to it than `margin`. (A hull's distance is that to a plane.) */
+static bool is_too_far(const grid_job *job, const field_cell *cell, double distance, double margin)
+{
+    double turning = job->spin * job->horizon;
+    double coming = (job->speed + rlf_length(cell->velocity)) * job->horizon;
+    return turning < 1.0 && job->body->shape.shape.type != RLF_SHAPE_HULL && !job->is_ball &&
+           distance * (1.0 - turning) > job->body->shape.radius + coming + margin;
+}
+
+static void look_at_pixel(grid_job *job, int32_t x, int32_t y, int32_t stride, flow_sum *flow)
+{
+    const rlf_grid *grid = job->query->grid;
+    const rlf_grid_sheet *sheet = job->sheet;
+    int32_t i = y * grid->width + x;
+    field_cell cell;
+    double z = sheet->depth[i]; /* a cheap look first */
+    if (!(z > 0.0) || z > job->centre.z + job->reach ||
+        (sheet->mask != NULL && sheet->mask[i] == 0) || !grid_cell_read(grid, sheet, x, y, &cell)) {
+        return;
+    }
+    rlf_vec3 shift = rlf_scale(cell.velocity, job->query->tau);
+    rlf_vec3 inward = grid_cell_inward(&cell), beside = rlf_add(cell.point, shift);
+    double level = rlf_dot(rlf_sub(job->centre, beside), inward) / rlf_dot(inward, inward);
+    beside = rlf_mad(beside, inward, rlf_clamp(level, 0.0, cell.thickness));
+    beside = rlf_sub(beside, job->centre);
+    double distance2 = rlf_dot(beside, beside);
+    if (distance2 < job->reach * job->reach) {
+        job->nearest2 = rlf_min(job->nearest2, distance2);
+        flow->velocity = rlf_add(flow->velocity, cell.velocity);
+        flow->count += 1.0;
+        job->is_near = true;
+        job->is_flat = false;
+        rlf_vec3 front = rlf_add(cell.point, shift);
+        double margin = 0.5 * job->body->shape.radius + ROUNDING;
+        if (!is_too_far(job, &cell, rlf_length(rlf_sub(front, job->centre)), margin)) {
+            look_at_interior(job, &cell, front);
+        }
+        double gap = (stride - 1) * cell.point.z * grid->pixel_angle; /* to the outline */
+        if (!is_too_far(job, &cell, sqrt(distance2), 2.0 * gap + GRID_MARGIN + ROUNDING)) {
+            look_around(job, &cell, stride);
+        }
+    }
+}
+
+/* A plane with nothing on it needs no look at its pixels. */
+static void look_at_flat(grid_job *job, const grid_tile *tile, flow_sum *flow)
+{
+    rlf_vec3 centre = rlf_mad(job->centre, tile->velocity, -job->query->tau);
+    double height = rlf_dot(tile->normal, centre) - tile->offset;
+    if (height > job->reach || height < -tile->deepest - job->reach) {
+        return;
+    }
+    job->is_near = true;
+    job->nearest2 = height > 0.0 ? rlf_min(job->nearest2, height * height) : 0.0;
+    if (job->is_ball) {
+        grid_ball_look_tile(job, tile);
+    }
+    if (height < -job->body->shape.radius || job->flat_count == GRID_FLATS_MAX) {
+        job->is_flat = job->is_listed = false; /* it comes from behind */
+    } else {
+        job->flats[job->flat_count++] = tile;
+    }
+    if (height > -job->reach) {
+        note_normal(job, tile->normal);
+        flow->velocity = rlf_mad(flow->velocity, tile->velocity, tile->count);
+        flow->count += tile->count;
+    }
+}
+
+/* The reach in which the tile's pixels, as they were seen, can be by now. */
+static double wide_reach(const grid_job *job, const grid_tile *tile, double reach)
+{
+    double tau = job->query->tau < 0.0 ? -job->query->tau : job->query->tau;
+    return reach + tile->speed * tau;
+}
+
+/* Whether the solid of a tile is farther than `reach` from the body's centre. */
+static bool is_out_of_reach(const grid_job *job, const grid_tile *tile, double reach)
+{
+    if (tile->is_endless) {
+        return tile->near_z > job->centre.z + reach;
+    }
+    double wide = wide_reach(job, tile, reach);
+    return rlf_aabb_distance2(&tile->solid, job->centre) > wide * wide;
+}
+
+/* Looks at those of the pixels that may be within reach. */
+static void look_at_batch(grid_job *job, const grid_tile *tile, grid_pixels *pixels, int32_t stride,
+                          flow_sum *flow)
+{
+    const double UNKNOWN = -1.0;
+    const rlf_grid_sheet *sheet = job->sheet;
+    double thickness = tile->is_guess ? sheet->default_thickness : UNKNOWN;
+    grid_pixels_read(pixels, job->query->grid, sheet);
+    if (thickness > 0.0) {
+        grid_pixels_keep_near(pixels, job->centre, thickness, wide_reach(job, tile, job->reach));
+    }
+    for (int32_t k = 0; k < pixels->count; k++) {
+        look_at_pixel(job, pixels->x[k], pixels->y[k], stride, flow);
+    }
+    pixels->count = 0;
+}
+
+/* Lists the boxes of those blocks of a tile. */
+static void list_solids(grid_job *job, const grid_tile *tile, uint32_t blocks)
+{
+    if (tile->is_endless) {
+        job->is_listed = false;
+    }
+    for (int32_t block = 0; blocks >> block != 0 && job->is_listed; block++) {
+        if ((blocks >> block & 1u) == 0) {
+            continue;
+        }
+        if (job->solid_count == GRID_SOLIDS_MAX) {
+            job->is_listed = false;
+            return;
+        }
+        float *box = job->solids[job->solid_count++];
+        for (int32_t k = 0; k < 3; k++) {
+            box[k] = tile->blocks.low[k][block];
+            box[k + 3] = tile->blocks.high[k][block];
+        }
+    }
+}
+
+/* The tile's pixels within `rect` that lie on the rectangle's pattern of every stride-th, or a
+ * finer one, so that nothing narrow is between them, in blocks that are within reach. */
+static void look_at_rough(grid_job *job, const grid_tile *tile, const int32_t rect[4],
+                          const int32_t corner[2], flow_sum *flow)
+{
+    int32_t size = job->tiles->size, shift = job->tiles->block_shift;
+    int32_t stride = tile->narrow < job->stride ? tile->narrow : job->stride;
+    int32_t begin[2], end[2];
+    grid_pixels pixels;
+    uint32_t near = ~(uint32_t)0;
+    if (!tile->is_endless) {
+        near = grid_tile_blocks_near(tile, job->centre, wide_reach(job, tile, job->reach));
+    }
+    list_solids(job, tile, near);
+    for (int32_t k = 0; k < 2; k++) {
+        int32_t skipped = corner[k] > rect[k] ? (corner[k] - rect[k] + stride - 1) / stride : 0;
+        begin[k] = rect[k] + skipped * stride;
+        end[k] = corner[k] + size < rect[k + 2] ? corner[k] + size : rect[k + 2];
+    }
+    pixels.count = 0;
+    for (int32_t y = begin[1]; y < end[1]; y += stride) {
+        uint32_t row = near >> (((y - corner[1]) >> shift) * TILE_BLOCKS);
+        for (int32_t x = begin[0]; x < end[0]; x += stride) {
+            if ((row >> ((x - corner[0]) >> shift) & 1u) != 0) {
+                pixels.x[pixels.count] = x;
+                pixels.y[pixels.count++] = y;
+            }
+            if (pixels.count == GRID_PIXELS_MAX) {
+                look_at_batch(job, tile, &pixels, stride, flow);
+            }
+        }
+    }
+    look_at_batch(job, tile, &pixels, stride, flow);
+}
+
+/* The least distance of the tile's blocks at this time, but no more than `reach`. */
+static double tile_distance(const grid_job *job, const grid_tile *tile, double reach)
+{
+    if (tile->kind == TILE_EMPTY || is_out_of_reach(job, tile, reach)) {
+        return reach;
+    }
+    double slip = wide_reach(job, tile, 0.0);
+    return tile->is_endless ? 0.0 : rlf_min(reach, grid_tile_distance(tile, job->centre) - slip);
+}
+
+double grid_scan_distance(const grid_job *job, const grid_tiles *tiles, double reach, double least)
+{
+    int32_t rect[4], stride;
+    if (tiles->sheet->depth == NULL || tiles->sheet->normal_x == NULL ||
+        !grid_footprint(job->query->grid, job->centre, reach, rect, &stride)) {
+        return reach;
+    }
+    double nearest = reach;
+    for (int32_t y = rect[1] / tiles->size; y * tiles->size < rect[3]; y++) {
+        for (int32_t x = rect[0] / tiles->size; x * tiles->size < rect[2]; x++) {
+            const grid_tile *tile = &tiles->tiles[y * tiles->columns + x];
+            nearest = tile_distance(job, tile, nearest);
+            if (nearest <= least) {
+                return nearest;
+            }
+        }
+    }
+    return nearest;
+}
+
+void grid_scan_footprint(grid_job *job)
+{
+    const grid_tiles *tiles = job->tiles;
+    int32_t rect[4], stride;
+    flow_sum flow = {{0, 0, 0}, 0.0};
+    if (!grid_footprint(job->query->grid, job->centre, job->reach, rect, &stride)) {
+        return;
+    }
+    job->is_flat = true;
+    job->stride = stride;
+    for (int32_t y = rect[1] / tiles->size; y * tiles->size < rect[3]; y++) {
+        for (int32_t x = rect[0] / tiles->size; x * tiles->size < rect[2]; x++) {
+            const grid_tile *tile = &tiles->tiles[y * tiles->columns + x];
+            const int32_t corner[2] = {x * tiles->size, y * tiles->size};
+            if (tile->kind == TILE_EMPTY || tile->near_z > job->centre.z + job->reach) {
+                continue;
+            }
+            if (tile->kind == TILE_FLAT) {
+                look_at_flat(job, tile, &flow);
+            } else if (!is_out_of_reach(job, tile, job->reach)) {
+                look_at_rough(job, tile, rect, corner, &flow);
+            }
+        }
+    }
+    if (flow.count > 0.0) {
+        job->surface_velocity = rlf_scale(flow.velocity, 1.0 / flow.count);
+    }
+}

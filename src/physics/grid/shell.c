@@ -1,0 +1,154 @@
+/* Finding the room's shell. */
+#include "physics/grid/shell.h"
+#include "physics/grid/field.h"
+
+#define SAMPLES_PER_ROW 32
+#define SAMPLES_MAX (SAMPLES_PER_ROW * SAMPLES_PER_ROW)
+#define SAMPLES_MIN 64
+#define REFINEMENTS 3
+#define TRIES_FIRST 96 /* pixels to begin at, in the first search and in each later one */
+#define TRIES 12
+#define SHARE_MIN 0.03   /* of the samples lie on a plane of the shell ... */
+#define BEYOND_MAX 0.01  /* ... and at most so many beyond it; more than twice that ends it */
+#define SAME_NORMAL 0.97 /* cosine */
+#define SAME_OFFSET 0.1  /* m */
+#define AGREEMENT 0.95   /* cosine between a plane and the normals of its samples */
+
+typedef struct shell_sample {
+    rlf_vec3 point, normal;
+} shell_sample;
+
+typedef struct shell_search {
+    shell_sample samples[SAMPLES_MAX];
+    int32_t count;
+} shell_search;
+
+typedef struct shell_support {
+    int32_t on, beyond;
+    shell_plane refined;
+} shell_support;
+
+static void take_samples(shell_search *search, const rlf_grid *grid)
+{
+    int32_t longest = grid->width > grid->height ? grid->width : grid->height;
+    int32_t step = (longest - 1) / SAMPLES_PER_ROW + 1;
+    search->count = 0;
+    for (int32_t y = step / 2; y < grid->height; y += step) {
+        for (int32_t x = step / 2; x < grid->width; x += step) {
+            field_cell cell;
+            if (grid_cell_read(grid, &grid->background, x, y, &cell)) {
+                shell_sample *sample = &search->samples[search->count++];
+                sample->point = cell.point;
+                sample->normal = cell.normal;
+            }
+        }
+    }
+}
+
+/* How far points of a plane may lie off it: walls are not quite even, depth noise grows with z. */
+static double tolerance_at(double z)
+{
+    return 0.03 + 0.01 * z;
+}
+
+static double height_over(const shell_plane *plane, rlf_vec3 p)
+{
+    return rlf_dot(plane->normal, p) - plane->offset;
+}
+
+/* Counts the samples on and beyond the plane, and fits it to those on it. */
+static shell_support look_at_plane(const shell_search *search, const shell_plane *plane)
+{
+    shell_support support = {0};
+    rlf_vec3 normals = {0, 0, 0}, points = {0, 0, 0};
+    for (int32_t i = 0; i < search->count; i++) {
+        const shell_sample *sample = &search->samples[i];
+        double height = height_over(plane, sample->point);
+        double tolerance = tolerance_at(sample->point.z);
+        support.beyond += height < -tolerance;
+        if (height <= tolerance && height >= -tolerance &&
+            rlf_dot(sample->normal, plane->normal) > AGREEMENT) {
+            support.on++;
+            normals = rlf_add(normals, sample->normal);
+            points = rlf_add(points, sample->point);
+        }
+    }
+    support.refined = *plane;
+    if (support.on > 0) {
+        support.refined.normal = rlf_normalize(normals);
+        support.refined.offset = rlf_dot(support.refined.normal, points) / support.on;
+    }
+    return support;
+}
+
+static bool is_known(const grid_shell *shell, const shell_plane *plane)
+{
+    for (int32_t i = 0; i < shell->count; i++) {
+        const shell_plane *known = &shell->planes[i];
+        double off = known->offset - plane->offset;
+        if (rlf_dot(known->normal, plane->normal) > SAME_NORMAL && off < SAME_OFFSET &&
+            off > -SAME_OFFSET) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void keep_known(grid_shell *shell, const shell_search *search)
+{
+    int32_t kept = 0;
+    for (int32_t i = 0; i < shell->count; i++) {
+        shell_support support = look_at_plane(search, &shell->planes[i]);
+        if (support.beyond <= 2.0 * BEYOND_MAX * search->count) {
+            bool is_seen = support.on >= SHARE_MIN * search->count;
+            shell->planes[kept++] = is_seen ? support.refined : shell->planes[i];
+        }
+    }
+    shell->count = kept;
+}
+
+static void find_new(grid_shell *shell, const shell_search *search)
+{
+    int32_t tries = shell->turn == 0 ? TRIES_FIRST : TRIES;
+    int32_t stride = search->count / tries + 1;
+    for (int32_t i = (int32_t)(shell->turn % (uint32_t)stride);
+         i < search->count && shell->count < SHELL_PLANES_MAX; i += stride) {
+        const shell_sample *sample = &search->samples[i];
+        shell_plane plane = {sample->normal, rlf_dot(sample->normal, sample->point)};
+        shell_support support = {0};
+        for (int32_t k = 0; k <= REFINEMENTS && !is_known(shell, &plane); k++) {
+            support = look_at_plane(search, &plane);
+            if (k == REFINEMENTS && support.on >= SHARE_MIN * search->count &&
+                support.beyond <= BEYOND_MAX * search->count) {
+                shell->planes[shell->count++] = plane;
+                break;
+            }
+            plane = support.refined;
+        }
+    }
+}
+
+void grid_shell_update(grid_shell *shell, const rlf_grid *grid)
+{
+    shell_search search;
+    if (grid->background.depth == NULL || grid->background.normal_x == NULL) {
+        return;
+    }
+    take_samples(&search, grid);
+    if (search.count < SAMPLES_MIN) {
+        return; /* the camera is covered: the room is still there */
+    }
+    keep_known(shell, &search);
+    find_new(shell, &search);
+    shell->turn++;
+}
+
+bool grid_shell_is_hidden(const rlf_grid *grid, rlf_vec3 q)
+{
+    field_cell cell;
+    if (grid_field_is_open(grid, &grid->background, q)) {
+        return false;
+    }
+    field_state state = grid_field_at(grid, &grid->background, q, &cell);
+    return state == FIELD_NONE || state == FIELD_BEHIND;
+}

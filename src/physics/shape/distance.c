@@ -1,0 +1,126 @@
+/* Signed distance to a shape's surface, and its farthest points. */
+#include "physics/shape/shape.h"
+
+static double box_distance(rlf_vec3 half, rlf_vec3 p, rlf_vec3 *gradient)
+{
+    double s[3] = {p.x < 0 ? -1.0 : 1.0, p.y < 0 ? -1.0 : 1.0, p.z < 0 ? -1.0 : 1.0};
+    double d[3] = {s[0] * p.x - half.x, s[1] * p.y - half.y, s[2] * p.z - half.z};
+    int32_t axis = d[0] > d[1] ? 0 : 1;
+    axis = d[axis] > d[2] ? axis : 2;
+    if (d[axis] <= 0.0) { /* inside: the nearest face */
+        *gradient =
+            rlf_vec3_make(axis == 0 ? s[0] : 0.0, axis == 1 ? s[1] : 0.0, axis == 2 ? s[2] : 0.0);
+        return d[axis];
+    }
+    rlf_vec3 out =
+        rlf_vec3_make(s[0] * rlf_max(d[0], 0), s[1] * rlf_max(d[1], 0), s[2] * rlf_max(d[2], 0));
+    double length = rlf_length(out);
+    *gradient = rlf_scale(out, 1.0 / length);
+    return length;
+}
+
+static double ball_distance(double radius, rlf_vec3 p, rlf_vec3 *gradient)
+{
+    double length = rlf_length(p);
+    *gradient = length > 0.0 ? rlf_scale(p, 1.0 / length) : rlf_vec3_make(0, -1, 0);
+    return length - radius;
+}
+
+/* A rectangle in the half plane of (distance from the axis, y). */
+static double cylinder_distance(const rlf_shape *s, rlf_vec3 p, rlf_vec3 *gradient)
+{
+    double r = sqrt(p.x * p.x + p.z * p.z);
+    rlf_vec3 out = r > 0.0 ? rlf_vec3_make(p.x / r, 0, p.z / r) : rlf_vec3_make(1, 0, 0);
+    double sign = p.y < 0 ? -1.0 : 1.0;
+    double dr = r - s->radius;
+    double dy = sign * p.y - 0.5 * s->height;
+    if (dr <= 0.0 || dy <= 0.0) {
+        *gradient = dr > dy ? out : rlf_vec3_make(0, sign, 0);
+        return rlf_max(dr, dy);
+    }
+    double length = sqrt(dr * dr + dy * dy);
+    *gradient = rlf_add(rlf_scale(out, dr / length), rlf_vec3_make(0, sign * dy / length, 0));
+    return length;
+}
+
+static double hull_distance(const phys_shape *s, rlf_vec3 p, rlf_vec3 *gradient)
+{
+    double best = -1e30;
+    for (int32_t i = 0; i < s->plane_count; i++) {
+        double d = rlf_dot(s->planes[i].normal, p) - s->planes[i].offset;
+        if (d > best) {
+            best = d;
+            *gradient = s->planes[i].normal;
+        }
+    }
+    return best;
+}
+
+/* As hull_distance, without planes that were made before. */
+static double triangles_distance(const rlf_hull *hull, rlf_vec3 p, rlf_vec3 *gradient)
+{
+    double best = -1e30;
+    for (int32_t i = 0; i < hull->triangle_count; i++) {
+        const int32_t *corner = hull->triangles + 3 * (ptrdiff_t)i;
+        rlf_vec3 a = hull->vertices[corner[0]];
+        rlf_vec3 n = rlf_normalize(rlf_cross(rlf_sub(hull->vertices[corner[1]], a),
+                                             rlf_sub(hull->vertices[corner[2]], a)));
+        double d = rlf_dot(n, rlf_sub(p, a));
+        if (rlf_dot(n, n) > 0.5 && d > best) {
+            best = d;
+            *gradient = n;
+        }
+    }
+    return best;
+}
+
+double rlf_shape_distance(const rlf_shape *s, rlf_vec3 p, rlf_vec3 *out_gradient)
+{
+    switch (s->type) {
+    case RLF_SHAPE_BOX: return box_distance(rlf_scale(s->size, 0.5), p, out_gradient);
+    case RLF_SHAPE_SPHERE: return ball_distance(s->radius, p, out_gradient);
+    case RLF_SHAPE_CAPSULE: {
+        double half = 0.5 * s->height;
+        rlf_vec3 to_axis = rlf_vec3_make(p.x, p.y - rlf_clamp(p.y, -half, half), p.z);
+        return ball_distance(s->radius, to_axis, out_gradient);
+    }
+    case RLF_SHAPE_CYLINDER: return cylinder_distance(s, p, out_gradient);
+    case RLF_SHAPE_HULL: return triangles_distance(s->hull, p, out_gradient);
+    }
+    return 0.0;
+}
+
+double phys_shape_distance(const phys_shape *shape, rlf_vec3 p, rlf_vec3 *out_gradient)
+{
+    return shape->shape.type == RLF_SHAPE_HULL ? hull_distance(shape, p, out_gradient)
+                                               : rlf_shape_distance(&shape->shape, p, out_gradient);
+}
+
+int32_t phys_shape_support(const phys_shape *shape, rlf_vec3 direction, rlf_vec3 out[2],
+                           double *out_rounding)
+{
+    const rlf_shape *s = &shape->shape;
+    double half = 0.5 * s->height;
+    *out_rounding = s->radius;
+    switch (s->type) {
+    case RLF_SHAPE_SPHERE: out[0] = rlf_vec3_make(0, 0, 0); return 1;
+    case RLF_SHAPE_CAPSULE:
+        out[0] = rlf_vec3_make(0, half, 0);
+        out[1] = rlf_vec3_make(0, -half, 0);
+        return 2;
+    case RLF_SHAPE_CYLINDER: {
+        *out_rounding = 0.0;
+        rlf_vec3 flat = rlf_vec3_make(direction.x, 0, direction.z);
+        if (rlf_dot(flat, flat) < 1e-6) {
+            return 0; /* standing on its cap: the fixed rim points serve */
+        }
+        rlf_vec3 rim = rlf_scale(rlf_normalize(flat), s->radius);
+        out[0] = rlf_add(rim, rlf_vec3_make(0, half, 0));
+        out[1] = rlf_add(rim, rlf_vec3_make(0, -half, 0));
+        return 2;
+    }
+    case RLF_SHAPE_BOX:
+    case RLF_SHAPE_HULL: break;
+    }
+    return 0;
+}

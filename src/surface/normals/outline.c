@@ -1,0 +1,245 @@
+/* Normals of filled pixels at the outlines of things.
+ *
+ * Where a smooth surface turns out of sight its normal is perpendicular to the ray and, in the
+ * image, points across the outline (Koenderink 1984). The sensor drops just these pixels, and the
+ * windows that fit next to them know only the part that faces the camera. Along the way out, the
+ * outward component of a circle's or a ball's unit normal grows linearly with the position in the
+ * image, up to 1 at the outline. So a filled pixel's normal lies between the mean of those that are
+ * known further in and the outline's, if these already turn outwards.
+ *
+ * Things with faces turn at a crease. What is left of a narrow last face is a pixel here and there:
+ * the outermost known normal stands for it. */
+#include "surface/steps.h"
+#include "surface/window.h"
+
+#include "kernel/outline.h"
+#include "surface/normals/side.h"
+
+#include <string.h>
+
+static const float MOST_APART = 0.05f; /* share of the depth, of samples of one surface */
+
+/* Share of a rounded surface's turn that must be seen: people and what else moves are rounded, what
+ * stands in a room mostly has faces, and a crease beside an outline looks like a little of a turn.
+ */
+static const float LEAST_TURN_STILL = 0.3f, LEAST_TURN_FRONT = 0.04f;
+
+typedef struct outline_job {
+    int32_t width, height;
+    const float *ray_x, *ray_y, *depth;
+    const uint8_t *known; /* 1 where depth was not filled: normals are read, not written */
+    const uint8_t *reason;
+    float *const *normal;
+    const rlf_side_job *side;
+} outline_job;
+
+/* Pixels that wait until there are enough of them for a kernel. */
+typedef struct outline_queue {
+    int32_t count;
+    int32_t x[RLF_BATCH], y[RLF_BATCH];
+    rlf_outlines outline;
+    rlf_normals aside;
+} outline_queue;
+
+/* Filled pixels, those of them that have an outline, and of these those that are not rounded. */
+typedef struct outline_queues {
+    outline_queue filled, found, faces;
+    rlf_windows depth; /* about the filled */
+} outline_queues;
+
+static void push(outline_queue *q, int32_t x, int32_t y, const rlf_outlines *outline, int32_t k)
+{
+    int32_t i = q->count++;
+    q->x[i] = x;
+    q->y[i] = y;
+    q->outline.x[i] = outline->x[k];
+    q->outline.y[i] = outline->y[k];
+    q->outline.distance[i] = outline->distance[k];
+}
+
+static bool is_set(const rlf_normals *n, int32_t k)
+{
+    return n->x[k] != 0.0f || n->y[k] != 0.0f || n->z[k] != 0.0f;
+}
+
+static void write_normal(const outline_job *job, ptrdiff_t i, const rlf_normals *n, int32_t k)
+{
+    job->normal[0][i] = n->x[k];
+    job->normal[1][i] = n->y[k];
+    job->normal[2][i] = n->z[k];
+}
+
+/* ---- rounded ---- */
+
+/* Pixel (x, y), or `inner`, what is seen of its surface, was not the background in the frame
+ * before, or something moves about it. */
+static bool may_be_front(const rlf_reconstruct *stage, int32_t x, int32_t y, ptrdiff_t inner)
+{
+    const rlf_slot *before = stage->previous;
+    ptrdiff_t i = (ptrdiff_t)y * stage->grid.width + x;
+    return before != NULL && (before->foreground[i] != 0 || before->foreground[inner] != 0 ||
+                              rlf_hold_may_move(stage, x, y));
+}
+
+/* Samples from pixel k of the queue inwards, as far as its surface goes on. */
+static void walk_in(const outline_job *job, const outline_queue *q, int32_t k,
+                    rlf_way_in *restrict in)
+{
+    const float *depth = job->depth;
+    const uint8_t *known = job->known;
+    const float *nx = job->normal[0], *ny = job->normal[1], *nz = job->normal[2];
+    int32_t x = q->x[k], y = q->y[k], width = job->width, height = job->height;
+    ptrdiff_t start = (ptrdiff_t)y * width + x;
+    float z = depth[start], out_x = q->outline.x[k], out_y = q->outline.y[k];
+    float goes_on = 1.0f;
+    ptrdiff_t inner = start;
+    for (int32_t step = 0; step < RLF_OUTLINE_STEPS; step++) {
+        float steps = (float)(step + 1);
+        int32_t sx = (int32_t)((float)x - steps * out_x + 0.5f);
+        int32_t sy = (int32_t)((float)y - steps * out_y + 0.5f);
+        bool inside = (sx >= 0) & (sy >= 0) & (sx < width) & (sy < height);
+        ptrdiff_t i = inside ? (ptrdiff_t)sy * width + sx : start;
+        bool near = rlf_kernel_abs(depth[i] - z) <= MOST_APART * z;
+        goes_on = (inside & near) ? goes_on : 0.0f;
+        inner = goes_on > 0.0f ? i : inner;
+        float weight = known[i] != 0 ? goes_on : 0.0f;
+        in->s[step][k] = q->outline.distance[k] + (float)(x - sx) * out_x + (float)(y - sy) * out_y;
+        in->normal[step].x[k] = weight * nx[i];
+        in->normal[step].y[k] = weight * ny[i];
+        in->normal[step].z[k] = weight * nz[i];
+    }
+    bool is_front = may_be_front(job->side->stage, x, y, inner);
+    in->least_turn[k] = is_front ? LEAST_TURN_FRONT : LEAST_TURN_STILL;
+    in->ray_x[k] = job->ray_x[start];
+    in->ray_y[k] = job->ray_y[start];
+}
+
+/* ---- faces ---- */
+
+static void read_window(const outline_job *job, int32_t x, int32_t y, int32_t k,
+                        rlf_normals *restrict window)
+{
+    ptrdiff_t middle = (ptrdiff_t)y * job->width + x;
+    const float *depth = job->depth + middle;
+    const uint8_t *known = job->known + middle;
+    const float *nx = job->normal[0] + middle, *ny = job->normal[1] + middle,
+                *nz = job->normal[2] + middle;
+    rlf_window_places p = rlf_window_places_make(job->width, job->height, x, y);
+    float z = depth[0], most = RLF_OUTLINE_JUMP * z;
+    for (int32_t r = 0; r < RLF_WINDOW_SIDE; r++) {
+        for (int32_t c = 0; c < RLF_WINDOW_SIDE; c++) {
+            ptrdiff_t i = p.row[r] + p.column[c];
+            float inside = p.row_inside[r] * p.column_inside[c];
+            float near = rlf_kernel_abs(depth[i] - z) < most ? inside : 0.0f;
+            float weight = known[i] != 0 ? near : 0.0f;
+            rlf_normals *to = &window[r * RLF_WINDOW_SIDE + c];
+            to->x[k] = weight * nx[i];
+            to->y[k] = weight * ny[i];
+            to->z[k] = weight * nz[i];
+        }
+    }
+}
+
+static void turn_faces(const outline_job *job, outline_queue *q)
+{
+    rlf_normals window[RLF_WINDOW_SIZE], normals;
+    for (int32_t k = 0; k < q->count; k++) {
+        read_window(job, q->x[k], q->y[k], k, window);
+    }
+    rlf_kernel_outline_face(&q->outline, &q->aside, window, &normals);
+    for (int32_t k = 0; k < q->count; k++) {
+        if (is_set(&normals, k)) {
+            write_normal(job, (ptrdiff_t)q->y[k] * job->width + q->x[k], &normals, k);
+        }
+    }
+    q->count = 0;
+}
+
+static void turn_found(const outline_job *job, outline_queues *queues)
+{
+    outline_queue *q = &queues->found, *faces = &queues->faces;
+    rlf_way_in in;
+    rlf_normals normals;
+    for (int32_t k = 0; k < q->count; k++) {
+        walk_in(job, q, k, &in);
+    }
+    rlf_kernel_outline_round(&q->outline, &in, &normals, &q->aside);
+    for (int32_t k = 0; k < q->count; k++) {
+        if (is_set(&normals, k)) {
+            write_normal(job, (ptrdiff_t)q->y[k] * job->width + q->x[k], &normals, k);
+            continue;
+        }
+        faces->aside.x[faces->count] = q->aside.x[k];
+        faces->aside.y[faces->count] = q->aside.y[k];
+        faces->aside.z[faces->count] = q->aside.z[k];
+        push(faces, q->x[k], q->y[k], &q->outline, k);
+        if (faces->count == RLF_BATCH) {
+            turn_faces(job, faces);
+        }
+    }
+    q->count = 0;
+}
+
+static bool is_filled(const outline_job *job, ptrdiff_t i)
+{
+    return job->reason[i] == RLF_REASON_FILLED && job->known[i] == 0;
+}
+
+static void find_outlines(const outline_job *job, outline_queues *queues)
+{
+    outline_queue *q = &queues->filled;
+    rlf_kernel_outline_find(&queues->depth, &q->outline);
+    for (int32_t k = 0; k < q->count; k++) {
+        bool has_outline = q->outline.distance[k] > 0.0f;
+        if (has_outline &&
+            !rlf_side_find(job->side, q->x[k], q->y[k], q->outline.x[k], q->outline.y[k])) {
+            push(&queues->found, q->x[k], q->y[k], &q->outline, k);
+            if (queues->found.count == RLF_BATCH) {
+                turn_found(job, queues);
+            }
+        }
+    }
+    q->count = 0;
+}
+
+static void take_filled(const outline_job *job, int32_t x, int32_t y, outline_queues *queues)
+{
+    outline_queue *q = &queues->filled;
+    int32_t lane = q->count++;
+    q->x[lane] = x;
+    q->y[lane] = y;
+    rlf_windows_read(job->depth, job->width, job->height, x, y, lane, &queues->depth);
+    if (q->count == RLF_BATCH) {
+        find_outlines(job, queues);
+    }
+}
+
+static void outline_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const outline_job *job = context;
+    outline_queues queues = {0};
+    for (int32_t y = begin; y < end; y++) {
+        ptrdiff_t row = (ptrdiff_t)y * job->width;
+        const uint8_t *reason = job->reason + row; /* 0 = OK */
+        memset(job->side->mark + row, 0, (size_t)job->width);
+        for (int32_t x = 0; (x = rlf_kernel_next_mark(reason, x, job->width)) < job->width; x++) {
+            if (is_filled(job, row + x)) {
+                take_filled(job, x, y, &queues);
+            }
+        }
+    }
+    find_outlines(job, &queues);
+    turn_found(job, &queues);
+    turn_faces(job, &queues.faces);
+}
+
+void rlf_normals_outline(const rlf_reconstruct *stage, const rlf_slot *slot)
+{
+    const rlf_grid *grid = &stage->grid;
+    rlf_side_job side = rlf_side_job_make(stage, slot);
+    outline_job job = {grid->width, grid->height, grid->ray_x,  grid->ray_y, slot->depth,
+                       side.known,  slot->reason, slot->normal, &side};
+    rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, outline_rows, &job);
+    rlf_side_spread(&side);
+}

@@ -1,0 +1,95 @@
+/* Where a point that was seen is a little later. */
+#include "surface/past/past.h"
+
+static const double longest_gap_s = 0.2;
+static const float least_z = 0.1f;
+static const float body_jump_m = 0.04f;
+static const float drift = 0.05f; /* share of the way that velocity is off */
+
+float rlf_past_elapsed(const rlf_reconstruct *stage, const rlf_slot *slot)
+{
+    const rlf_slot *before = stage->previous;
+    double dt =
+        before == NULL ? 0.0 : 1e-9 * (double)(slot->surface.time_ns - before->surface.time_ns);
+    return dt > 0.0 && dt <= longest_gap_s ? (float)dt : 0.0f;
+}
+
+rlf_kernel_motion rlf_past_motion(const rlf_grid *grid, float dt)
+{
+    return (rlf_kernel_motion){.dt = dt,
+                               .fx = (float)grid->camera.fx,
+                               .fy = (float)grid->camera.fy,
+                               .least_z = least_z,
+                               .width = grid->width,
+                               .height = grid->height};
+}
+
+rlf_kernel_moving_row rlf_past_row(const rlf_grid *grid, const rlf_slot *slot, int32_t x, int32_t y,
+                                   int32_t count)
+{
+    ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+    return (rlf_kernel_moving_row){
+        .foreground = slot->foreground + i,
+        .depth = slot->depth + i,
+        .ray_x = grid->ray_x + i,
+        .ray_y = grid->ray_y + i,
+        .velocity = {slot->velocity[0] + i, slot->velocity[1] + i, slot->velocity[2] + i},
+        .x = x,
+        .y = y,
+        .count = count};
+}
+
+void rlf_past_advance(const rlf_kernel_motion *motion, rlf_past_point *p)
+{
+    const float *v = p->velocity;
+    float speed = (float)sqrt((double)(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+    p->at = rlf_kernel_move(motion, p->at, v[0], v[1], v[2]);
+    p->age += motion->dt;
+    p->doubt += drift * motion->dt * speed;
+}
+
+bool rlf_past_move_pixel(const rlf_grid *grid, const rlf_slot *slot, int32_t x, int32_t y,
+                         const rlf_kernel_motion *motion, rlf_past_point *out)
+{
+    ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+    float z = slot->depth[i];
+    if (!(z > least_z)) {
+        return false;
+    }
+    for (int k = 0; k < 3; k++) {
+        out->velocity[k] = slot->velocity[k][i];
+    }
+    out->at = (rlf_kernel_point){z * grid->ray_x[i], z * grid->ray_y[i], z, (float)x, (float)y};
+    out->age = out->doubt = 0.0f;
+    rlf_past_advance(motion, out);
+    return true;
+}
+
+/* Pixels of the same body from k on along `step`, up to `limit`. */
+static int32_t run_length(const rlf_slot *slot, ptrdiff_t k, ptrdiff_t step, int32_t limit)
+{
+    int32_t n = 0;
+    while (n < limit && rlf_past_is_front(slot, k + (n + 1) * step)) {
+        float jump = slot->depth[k + (n + 1) * step] - slot->depth[k + n * step];
+        if (jump > body_jump_m || jump < -body_jump_m) {
+            break;
+        }
+        n++;
+    }
+    return n;
+}
+
+static int32_t least_of(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+bool rlf_past_is_narrow(const rlf_grid *grid, const rlf_slot *slot, ptrdiff_t k, int32_t most)
+{
+    int32_t x = (int32_t)(k % grid->width), y = (int32_t)(k / grid->width);
+    int32_t row = run_length(slot, k, 1, least_of(most, grid->width - 1 - x)) +
+                  run_length(slot, k, -1, least_of(most, x));
+    int32_t column = run_length(slot, k, grid->width, least_of(most, grid->height - 1 - y)) +
+                     run_length(slot, k, -(ptrdiff_t)grid->width, least_of(most, y));
+    return least_of(row, column) < most;
+}

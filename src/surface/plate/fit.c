@@ -1,0 +1,382 @@
+/* The box that explains a frame: its faces where they are seen, its outline where depth steps. */
+#include "surface/plate/plate.h"
+
+#include "math/inverse.h"
+
+#include <string.h>
+
+enum {
+    N = RLF_PLATE_UNKNOWNS,
+    PASSES = 5,
+    REACH_PX = 6,
+    MARGIN_PX = 3,
+    MOST_PLACES = 48,
+    MOST_PIXELS = 640 /* of its window: of a larger one every second of every second row ... */
+};
+
+static const double thing_m = 0.025;   /* what is seen so near the box is it */
+static const double outline_m = 0.015; /* the same, where its outline is looked for */
+static const double step_m = 0.04;     /* what is seen so far behind it is something else */
+static const double robust_m = 0.010;  /* scale of Geman and McClure's weight */
+static const double shared = 0.15;     /* weight of one measurement: neighbours have one error */
+static const double outline_px = 0.7;  /* how well a step places the outline */
+static const double beyond_px = 1.2;   /* the same, by what is seen beyond it alone */
+static const double band_px = 1.8;     /* beside an edge are not seen */
+static const double beside_px = 0.4;   /* a pixel shows what is so far beside its middle, too */
+static const double least_sigma_m = 0.0005;
+static const double beside_m = 0.008; /* a point so far beside a face may be on it */
+static const double spacing_px = 1.5;
+static const double most_ragged_px = 1.5; /* of a straight edge */
+
+/* Normal equations of the correction x: J x = e. */
+typedef struct equations {
+    const rlf_reconstruct *stage;
+    const float *depth;
+    rlf_plate_view view;
+    double a[N][N], b[N];
+    rlf_plate_fit fit;
+    double loose_px; /* scale of Geman and McClure's weight */
+    int32_t stride;  /* of the pixels that are looked at */
+} equations;
+
+static void add_row(equations *sum, const double row[N], double error, double weight)
+{
+    for (int r = 0; r < N; r++) {
+        sum->b[r] += weight * row[r] * error;
+        for (int c = 0; c <= r; c++) {
+            sum->a[r][c] += weight * row[r] * row[c];
+        }
+    }
+}
+
+/* How fast a point of the box, at `arm` from its centre, goes along `way` with each unknown. */
+static void set_row(double row[N], rlf_vec3 way, rlf_vec3 arm)
+{
+    rlf_vec3 turn = rlf_cross(arm, way);
+    const double part[N] = {way.x, way.y, way.z, turn.x, turn.y, turn.z, 0.0, 0.0, 0.0};
+    memcpy(row, part, sizeof part);
+}
+
+/* The face that a point is on. */
+typedef struct on_face {
+    int32_t axis;
+    double sign, error; /* metres out of the box */
+    double off;         /* metres from the face, squared */
+} on_face;
+
+/* The nearest among those that the camera sees at an angle whose sine is between the bounds. */
+static on_face nearest_face(const rlf_plate_view *view, rlf_vec3 p, double least, double most)
+{
+    rlf_vec3 local = rlf_plate_local(view, p), way = rlf_normalize(p);
+    const double q[3] = {local.x, local.y, local.z};
+    double beyond[3];
+    on_face best = {.axis = -1, .off = 1e9};
+    for (int k = 0; k < 3; k++) {
+        beyond[k] = rlf_max((q[k] < 0.0 ? -q[k] : q[k]) - view->half[k], 0.0);
+    }
+    for (int side = 0; side < 6; side++) {
+        int32_t k = side / 2;
+        double sign = side % 2 == 0 ? -1.0 : 1.0, error = sign * q[k] - view->half[k];
+        double facing = -sign * rlf_dot(view->axis[k], way), off = error * error;
+        for (int o = 0; o < 3; o++) {
+            off += o == k ? 0.0 : beyond[o] * beyond[o];
+        }
+        if (facing > least && facing <= most && off < best.off) {
+            best = (on_face){k, sign, error, off};
+        }
+    }
+    return best;
+}
+
+/* Noise puts points of the other faces on a face that is seen at a low angle, or is about to come
+ * into view: those that are far behind these are on it. */
+static on_face face_of(const rlf_plate_view *view, rlf_vec3 p)
+{
+    const double low = 0.15, hidden = -0.2, far_m = 0.02;
+    on_face face = nearest_face(view, p, low, 1.0);
+    if (face.axis < 0 || face.off > far_m * far_m) {
+        on_face other = nearest_face(view, p, hidden, low);
+        bool is_inside = other.axis == 2 && other.off <= other.error * other.error;
+        face = is_inside && other.off < robust_m * robust_m ? other : face;
+    }
+    return face;
+}
+
+static void add_pixel(equations *sum, ptrdiff_t i)
+{
+    const rlf_grid *grid = &sum->stage->grid;
+    double z = sum->depth[i], x = grid->ray_x[i], y = grid->ray_y[i], row[N];
+    rlf_vec3 p = rlf_vec3_make(z * x, z * y, z);
+    if (!(z > 0.0) || rlf_plate_distance(&sum->view, p) > thing_m) {
+        return;
+    }
+    on_face face = face_of(&sum->view, p);
+    if (face.axis < 0 || face.off > face.error * face.error + beside_m * beside_m) {
+        return;
+    }
+    rlf_vec3 n = rlf_scale(sum->view.axis[face.axis], face.sign);
+    double facing = -rlf_dot(n, rlf_normalize(p));
+    double sigma = rlf_depth_noise_sigma(&sum->stage->def.rig.noise, z) * rlf_max(facing, 0.0) +
+                   beside_px * z / grid->camera.fx * sqrt(rlf_max(1.0 - facing * facing, 0.0)) +
+                   least_sigma_m;
+    double robust = 1.0 / (1.0 + face.error * face.error / (robust_m * robust_m));
+    int32_t others = sum->stride * sum->stride; /* for which it stands */
+    double weight = rlf_min(shared * others, 1.0) * robust * robust;
+    set_row(row, n, rlf_sub(p, sum->view.centre));
+    row[6 + face.axis] = 1.0;
+    add_row(sum, row, face.error, weight / (sigma * sigma));
+    sum->fit.faces += face.error < robust_m && face.error > -robust_m ? others : 0;
+}
+
+enum { NOTHING, THING, BEYOND, BEFORE };
+
+static int32_t kind_of(const equations *sum, double u, double v, double z, double *seen)
+{
+    const rlf_grid *grid = &sum->stage->grid;
+    if (!(u > -0.5) || !(v > -0.5) || !(u < grid->width - 0.5) || !(v < grid->height - 0.5)) {
+        return BEFORE;
+    }
+    ptrdiff_t i = (ptrdiff_t)(int32_t)(v + 0.5) * grid->width + (int32_t)(u + 0.5);
+    *seen = sum->depth[i];
+    if (!(*seen > 0.0)) {
+        return NOTHING;
+    }
+    rlf_vec3 p = rlf_vec3_make(*seen * grid->ray_x[i], *seen * grid->ray_y[i], *seen);
+    if (rlf_plate_distance(&sum->view, p) < outline_m) {
+        return THING;
+    }
+    return *seen > z + step_m ? BEYOND : BEFORE;
+}
+
+/* Pixels from (u, v), outwards along `out`, to where depth steps for the last time; false when it
+ * does not, as where something else begins that goes on behind. What is beyond a narrow plate is
+ * seen on its other side, too. */
+static bool find_step(const equations *sum, const double at[2], const double out[2], double z,
+                      double *offset, double *sigma)
+{
+    const int32_t NONE = -REACH_PX;
+    int32_t last = NONE - 1, step = NONE;
+    double last_seen = z, seen;
+    for (int32_t k = -REACH_PX; k <= REACH_PX && (k <= 0 || step == NONE); k++) {
+        int32_t kind = kind_of(sum, at[0] + k * out[0], at[1] + k * out[1], z, &seen);
+        if (kind == BEFORE || (kind == BEYOND && seen < last_seen + step_m)) {
+            return false;
+        }
+        if (kind == THING) {
+            last = k;
+            last_seen = seen;
+        }
+        step = kind != BEYOND ? NONE : step == NONE ? k : step;
+    }
+    bool is_seen = last >= -REACH_PX;
+    *offset = is_seen ? 0.5 * (step + last) : step - band_px;
+    *sigma = is_seen ? outline_px : beyond_px;
+    return step != NONE;
+}
+
+/* A place on an edge of the outline: depth steps `offset` pixels farther out. */
+typedef struct place {
+    double row[N], offset, sigma;
+    double along; /* where it is on the edge */
+} place;
+
+/* On the edge between the faces `sign` of the axes other than `axis`; false where nothing shows it.
+ */
+static bool look_at_place(const equations *sum, rlf_vec3 p, int32_t axis, const double sign[3],
+                          place *found)
+{
+    const rlf_camera *camera = &sum->stage->grid.camera;
+    const double fx = camera->fx, fy = camera->fy;
+    const rlf_vec3 along = sum->view.axis[axis];
+    double at[2];
+    if (!rlf_camera_project(camera, p, &at[0], &at[1])) {
+        return false;
+    }
+    double du = fx * (along.x - along.z * p.x / p.z), dv = fy * (along.y - along.z * p.y / p.z);
+    double length = sqrt(du * du + dv * dv);
+    if (!(length > 0.0)) {
+        return false;
+    }
+    double out[2] = {dv / length, -du / length};
+    rlf_vec3 way = rlf_scale(
+        rlf_vec3_make(fx * out[0], fy * out[1], -(fx * out[0] * p.x + fy * out[1] * p.y) / p.z),
+        1.0 / p.z);
+    rlf_vec3 arm = rlf_sub(p, sum->view.centre);
+    if (rlf_dot(way, arm) < 0.0) {
+        out[0] = -out[0];
+        out[1] = -out[1];
+        way = rlf_neg(way);
+    }
+    set_row(found->row, way, arm);
+    for (int k = 0; k < 3; k++) {
+        found->row[6 + k] = k == axis ? 0.0 : sign[k] * rlf_dot(way, sum->view.axis[k]);
+    }
+    return find_step(sum, at, out, p.z, &found->offset, &found->sigma);
+}
+
+static double median(double *values, int32_t count)
+{
+    for (int32_t n = 1; n < count; n++) {
+        double value = values[n];
+        int32_t k = n;
+        for (; k > 0 && values[k - 1] > value; k--) {
+            values[k] = values[k - 1];
+        }
+        values[k] = value;
+    }
+    return count > 0 ? values[count / 2] : 0.0;
+}
+
+/* Places within most_ragged_px of the line slope * along + *middle, whose middle is their median.
+ */
+static int32_t count_on_line(const place *places, int32_t count, double slope, double *middle)
+{
+    double values[MOST_PLACES];
+    int32_t on = 0;
+    for (int32_t n = 0; n < count; n++) {
+        values[n] = places[n].offset - slope * places[n].along;
+    }
+    *middle = median(values, count);
+    for (int32_t n = 0; n < count; n++) {
+        double off = values[n] - *middle;
+        on += off < most_ragged_px && off > -most_ragged_px;
+    }
+    return on;
+}
+
+/* A straight edge steps along the line on which most of its places are: others show what holds the
+ * plate. */
+static void add_places(equations *sum, const place *places, int32_t count)
+{
+    static const double slopes[] = {0.0, 1.5, -1.5, 3.0, -3.0, 4.5, -4.5};
+    int32_t most = 0;
+    double slope = 0.0, middle = 0.0, share = rlf_max(shared, count > 0 ? 1.0 / count : 0.0);
+    for (int32_t k = 0; k < 7; k++) {
+        double at;
+        int32_t on = count_on_line(places, count, slopes[k], &at);
+        if (on > most) {
+            most = on;
+            slope = slopes[k];
+            middle = at;
+        }
+    }
+    for (int32_t n = 0; n < count; n++) {
+        const place *p = &places[n];
+        double off = p->offset - slope * p->along - middle, loose = p->offset / sum->loose_px;
+        if (off < most_ragged_px && off > -most_ragged_px) {
+            double robust = 1.0 / (1.0 + loose * loose);
+            add_row(sum, p->row, p->offset, share * robust * robust / (p->sigma * p->sigma));
+            sum->fit.outline++;
+        }
+    }
+}
+
+/* Edges of the outline lie between a face that the camera sees and one that it does not. */
+static bool is_outline(const rlf_plate_view *view, int32_t axis, const double sign[3])
+{
+    int32_t seen = 0;
+    for (int k = 0; k < 3; k++) {
+        if (k != axis) {
+            double from = sign[k] * rlf_dot(view->centre, view->axis[k]);
+            seen += from + view->half[k] < 0.0;
+        }
+    }
+    return seen == 1;
+}
+
+/* Pixels from a to b; 0 where either is not to be seen. */
+static double length_in_pixels(const rlf_camera *camera, rlf_vec3 a, rlf_vec3 b)
+{
+    double from[2], to[2];
+    if (!rlf_camera_project(camera, a, &from[0], &from[1]) ||
+        !rlf_camera_project(camera, b, &to[0], &to[1])) {
+        return 0.0;
+    }
+    double du = to[0] - from[0], dv = to[1] - from[1];
+    return sqrt(du * du + dv * dv);
+}
+
+static void add_edge(equations *sum, int32_t axis, const double sign[3])
+{
+    const rlf_plate_view *view = &sum->view;
+    rlf_vec3 middle = view->centre, half = rlf_scale(view->axis[axis], view->half[axis]);
+    for (int k = 0; k < 3; k++) {
+        middle = k == axis ? middle : rlf_mad(middle, view->axis[k], sign[k] * view->half[k]);
+    }
+    double pixels =
+        length_in_pixels(&sum->stage->grid.camera, rlf_sub(middle, half), rlf_add(middle, half));
+    int32_t count = (int32_t)rlf_min(pixels / spacing_px + 0.5, MOST_PLACES), found = 0;
+    place places[MOST_PLACES];
+    for (int32_t k = 0; k < count; k++) {
+        places[found].along = (k + 0.5) / count - 0.5;
+        rlf_vec3 p = rlf_mad(middle, half, 2.0 * places[found].along);
+        found += look_at_place(sum, p, axis, sign, &places[found]);
+    }
+    sum->fit.places += count;
+    add_places(sum, places, found);
+}
+
+static void measure(equations *sum)
+{
+    const rlf_grid *grid = &sum->stage->grid;
+    rlf_plate_window w = rlf_plate_window_of(grid, &sum->view, MARGIN_PX);
+    sum->stride = rlf_plate_stride(&w, MOST_PIXELS);
+    for (int32_t y = w.y0; y < w.y1; y += sum->stride) {
+        for (int32_t x = w.x0; x < w.x1; x += sum->stride) {
+            add_pixel(sum, (ptrdiff_t)y * grid->width + x);
+        }
+    }
+    for (int32_t axis = 0; axis < 3; axis++) {
+        for (int32_t corner = 0; corner < 4; corner++) {
+            double sign[3] = {0.0, 0.0, 0.0};
+            sign[(axis + 1) % 3] = (corner & 1) != 0 ? 1.0 : -1.0;
+            sign[(axis + 2) % 3] = (corner & 2) != 0 ? 1.0 : -1.0;
+            if (w.x1 > w.x0 && is_outline(&sum->view, axis, sign)) {
+                add_edge(sum, axis, sign);
+            }
+        }
+    }
+}
+
+static void apply(const double x[N], rlf_plate *plate)
+{
+    plate->pose.p = rlf_add(plate->pose.p, rlf_vec3_make(x[0], x[1], x[2]));
+    rlf_quat turn = rlf_quat_from_rotation_vector(rlf_vec3_make(x[3], x[4], x[5]));
+    plate->pose.q = rlf_quat_normalize(rlf_quat_mul(turn, plate->pose.q));
+    for (int k = 0; k < 3; k++) {
+        plate->half[k] = rlf_max(plate->half[k] + x[6 + k], 0.002);
+    }
+}
+
+rlf_plate_fit rlf_plate_improve(const rlf_reconstruct *stage, const float *depth, rlf_plate *plate)
+{
+    double prior[N][N], gone[N] = {0.0};
+    equations sum;
+    memcpy(prior, plate->doubt, sizeof prior);
+    math_invert(&prior[0][0], N);
+    for (int pass = 0; pass < PASSES; pass++) {
+        sum = (equations){.stage = stage,
+                          .depth = depth,
+                          .view = rlf_plate_look(plate),
+                          .loose_px = pass < 3 ? 4.0 : 1.2};
+        measure(&sum);
+        for (int r = 0; r < N; r++) {
+            for (int c = 0; c < N; c++) {
+                sum.a[r][c] = prior[r][c] + (c <= r ? sum.a[r][c] : sum.a[c][r]);
+                sum.b[r] -= prior[r][c] * gone[c];
+            }
+        }
+        math_invert(&sum.a[0][0], N);
+        double x[N];
+        for (int r = 0; r < N; r++) {
+            x[r] = 0.0;
+            for (int c = 0; c < N; c++) {
+                x[r] += sum.a[r][c] * sum.b[c];
+            }
+            gone[r] += x[r];
+        }
+        apply(x, plate);
+    }
+    memcpy(plate->doubt, sum.a, sizeof plate->doubt);
+    return sum.fit;
+}

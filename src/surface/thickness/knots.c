@@ -1,0 +1,139 @@
+/* From pixels to the planes in which chords are cut, and from knots back to pixels. */
+#include "surface/thickness/thickness.h"
+
+#include "surface/steps.h"
+
+#include <string.h>
+
+static const float body_jump_m = 0.04f; /* farther pixels are another body */
+/* Limbs are wide beside a pixel as narrow as this: at 2 m, 8 mm. */
+static const double fine_pixel_rad = 0.004;
+
+enum { CHUNK = 64 };
+
+int32_t rlf_knot_step(const rlf_grid *grid)
+{
+    return grid->camera.fx * fine_pixel_rad >= 1.0 ? 2 : 1;
+}
+
+static void prepare_run(const rlf_chord_job *job, const rlf_run *run, int32_t y)
+{
+    const rlf_slot *slot = job->slot;
+    const rlf_region *region = &slot->regions[slot->foreground_region_first + run->component - 1];
+    ptrdiff_t from = (ptrdiff_t)y * job->stage->grid.width, to = y * job->pitch;
+    for (int32_t x = run->x0; x < run->x1; x++) {
+        float z = job->raw[from + x];
+        job->front[to + x] = slot->depth[from + x];
+        job->inverse[to + x] = z > 0.0f ? 1.0f / z : 0.0f;
+        job->label[to + x] = region->label;
+    }
+}
+
+/* The row's knots, those beside the image unknown. */
+static void prepare_knots(const rlf_chord_job *job, int32_t y)
+{
+    const float *depth = job->slot->depth + (ptrdiff_t)y * job->stage->grid.width;
+    ptrdiff_t from = y * job->pitch, to = y / job->step * job->knot_pitch;
+    int32_t x0 = job->x0 / job->step, x1 = (job->x0 + job->width + job->step - 1) / job->step;
+    for (int32_t x = x0; x < x1; x++) {
+        float front = job->front[from + (ptrdiff_t)job->step * x];
+        job->knot[to + x] = front > 0.0f ? front : -depth[job->step * x];
+    }
+    for (int k = 0; k < 6; k++) {
+        memset(job->stage->work.solid[k] + to + x0, 0, (size_t)(x1 - x0) * sizeof(float));
+    }
+    job->knot[to - 1] = job->knot[to + job->columns] = 0.0f;
+    job->thickness[to - 1] = job->thickness[to + job->columns] = 0.0f;
+}
+
+static void prepare_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const rlf_chord_job *job = context;
+    const rlf_reconstruct *stage = job->stage;
+    const rlf_runs *runs = &stage->work.runs;
+    for (int32_t y = job->y0 + begin; y < job->y0 + end; y++) {
+        memset(job->front + y * job->pitch + job->x0, 0, (size_t)job->width * sizeof(float));
+        for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
+            const rlf_run *run = &runs->run[r];
+            bool is_inside = run->x0 >= job->x0 && run->x0 < job->x0 + job->width;
+            if (is_inside && run->component > 0 && !job->is_plate[run->component]) {
+                prepare_run(job, run, y);
+            }
+        }
+        if (y % job->step == 0) {
+            prepare_knots(job, y);
+        }
+    }
+}
+
+void rlf_chords_prepare(rlf_chord_job *job)
+{
+    rlf_parallel_for(job->stage->def.pool, job->height, RLF_ROW_GRAIN, prepare_rows, job);
+}
+
+/* Mean over the pixels around, every one a knot; the image's first and last row stay as they are.
+ */
+static void spread_pixels(const rlf_chord_job *job, const rlf_run *run, int32_t y, float *out)
+{
+    ptrdiff_t pitch = job->knot_pitch, first = y * pitch + run->x0 - 1;
+    const float *value = job->thickness + first, *front = job->knot + first;
+    int32_t count = run->x1 - run->x0;
+    if (y > 0 && y + 1 < job->rows) {
+        const float *const depths[3] = {front - pitch, front, front + pitch};
+        const float *const values[3] = {value - pitch, value, value + pitch};
+        rlf_kernel_body_mean_row(depths, values, count + 2, body_jump_m, out - 1);
+    } else {
+        memcpy(out, value + 1, (size_t)count * sizeof *out);
+    }
+}
+
+/* The rows of knots around row y, from column x on. */
+static rlf_kernel_knots knots_around(const rlf_chord_job *job, int32_t x, int32_t y)
+{
+    const float at_knot[3] = {1.0f, 4.0f, 1.0f}, between[3] = {0.0f, 3.0f, 3.0f};
+    rlf_kernel_knots out;
+    for (int32_t k = 0; k < 3; k++) {
+        int32_t row = y / 2 + k - 1;
+        bool is_in = row >= 0 && row < job->rows;
+        float weight = y % 2 == 0 ? at_knot[k] : between[k];
+        ptrdiff_t i = (is_in && weight > 0.0f ? row : y / 2) * job->knot_pitch + x;
+        out.weight[k] = is_in ? weight : 0.0f;
+        out.depth[k] = job->knot + i;
+        out.value[k] = job->thickness + i;
+    }
+    return out;
+}
+
+/* The pixels of the run between knot x and the count-th from there. */
+static void spread_part(const rlf_chord_job *job, const rlf_run *run, int32_t y, int32_t x,
+                        int32_t count)
+{
+    const rlf_slot *slot = job->slot;
+    ptrdiff_t row = (ptrdiff_t)y * job->stage->grid.width;
+    float side[2][CHUNK], out[2][CHUNK];
+    int32_t x0 = 2 * x > run->x0 ? 2 * x : run->x0;
+    int32_t x1 = 2 * (x + count) < run->x1 ? 2 * (x + count) : run->x1;
+    const rlf_kernel_knots knots = knots_around(job, x, y);
+    side[0][0] = side[1][count - 1] = 0.0f; /* perhaps not of the run */
+    for (int32_t k = x0; k < x1; k++) {
+        side[k % 2][k / 2 - x] = slot->depth[row + k];
+    }
+    rlf_kernel_spread_row(&knots, count, body_jump_m, side[0], side[1], out[0], out[1]);
+    for (int32_t k = x0; k < x1; k++) {
+        slot->thickness[row + k] = out[k % 2][k / 2 - x];
+    }
+}
+
+void rlf_knots_spread(const rlf_chord_job *job, const rlf_run *run, int32_t y)
+{
+    if (job->step == 1) {
+        ptrdiff_t first = (ptrdiff_t)y * job->stage->grid.width + run->x0;
+        spread_pixels(job, run, y, job->slot->thickness + first);
+        return;
+    }
+    int32_t end = (run->x1 + 1) / 2;
+    for (int32_t x = run->x0 / 2; x < end; x += CHUNK) {
+        spread_part(job, run, y, x, end - x < CHUNK ? end - x : CHUNK);
+    }
+}

@@ -1,0 +1,231 @@
+/* How thick the foreground is.
+ *
+ * Every knot (thickness.h) lies on four chords, one in each direction. Each chord's
+ * conic says where the back is; the short ones and those that explain their front count most. Where
+ * a body behind, whose chord goes on behind the knot, begins before the knot's own body ends,
+ * they are one solid. What is flat up to noise is a thin plate. Nothing reaches into the background
+ * behind it. */
+#include "surface/thickness/thickness.h"
+
+#include "surface/past/past.h"
+#include "surface/steps.h"
+#include "surface/thickness/torso.h"
+
+#include <string.h>
+
+static const float plate_m = 0.02f, thickest_m = 0.50f;
+static const float farthest_w = 0.05f; /* 1/m; keeps what cannot be from infinity */
+
+static void cut_lines(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const rlf_chord_job *job = context;
+    for (int32_t q = begin; q < end; q++) {
+        rlf_line line = rlf_line_at(job, q);
+        job->counts[q] =
+            rlf_chords_cut(job, &line, &job->chords[(ptrdiff_t)q * RLF_CHORDS_PER_LINE]);
+    }
+}
+
+static void paint_lines(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const rlf_chord_job *job = context;
+    for (int32_t q = begin; q < end; q++) {
+        rlf_line line = rlf_line_at(job, q);
+        for (int32_t i = 0; i < job->counts[q]; i++) {
+            rlf_chord_paint(job, &line, &job->chords[(ptrdiff_t)q * RLF_CHORDS_PER_LINE + i]);
+        }
+    }
+}
+
+/* Depth of the back at knot i. */
+static float back_of(const rlf_chord_job *job, ptrdiff_t i)
+{
+    const rlf_solid *own = &job->own, *behind = &job->hidden;
+    float back = job->knot[i];
+    if (own->weight[i] > 0.0f) {
+        float w = (own->middle[i] - own->half[i]) / own->weight[i];
+        float seen = 1.0f / (w > farthest_w ? w : farthest_w);
+        back = seen > back ? seen : back;
+    }
+    if (behind->weight[i] > 0.0f) {
+        float middle = behind->middle[i] / behind->weight[i];
+        float half = behind->half[i] / behind->weight[i];
+        float w = middle - half;
+        float hidden = 1.0f / (w > farthest_w ? w : farthest_w);
+        bool touching = back * (middle + half) > 1.0f;
+        back = touching && hidden > back ? hidden : back;
+    }
+    return back;
+}
+
+static void resolve_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const rlf_chord_job *job = context;
+    int32_t x0 = job->x0 / job->step, x1 = (job->x0 + job->width + job->step - 1) / job->step;
+    for (int32_t y = job->y0 / job->step + begin; y < job->y0 / job->step + end; y++) {
+        ptrdiff_t row = y * job->knot_pitch;
+        for (int32_t x = x0; x < x1; x++) {
+            float front = job->knot[row + x];
+            job->thickness[row + x] = front > 0.0f ? back_of(job, row + x) - front : 0.0f;
+        }
+        if (job->is_of_people) {
+            rlf_torsos_thicken(job, y);
+        }
+    }
+}
+
+/* Between a plate's thickness and the room behind. */
+static void write_run(const rlf_chord_job *job, const rlf_run *run, int32_t y)
+{
+    const rlf_slot *slot = job->slot;
+    ptrdiff_t first = (ptrdiff_t)y * job->stage->grid.width + run->x0;
+    bool is_plate = job->is_plate[run->component] != 0;
+    const rlf_kernel_thickness limits = {plate_m, is_plate ? plate_m : thickest_m};
+    if (!is_plate) {
+        rlf_knots_spread(job, run, y);
+    }
+    const float *behind = job->behind != NULL ? job->behind + first : job->stage->work.zeros;
+    rlf_kernel_thickness_row(&limits, slot->depth + first, behind, run->x1 - run->x0,
+                             slot->thickness + first);
+}
+
+static void write_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const rlf_chord_job *job = context;
+    const rlf_runs *runs = &job->stage->work.runs;
+    for (int32_t y = begin; y < end; y++) {
+        for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
+            if (runs->run[r].component > 0) {
+                write_run(job, &runs->run[r], y);
+            }
+        }
+    }
+}
+
+void rlf_thickness_fit(rlf_chord_job *job, const rlf_block *block)
+{
+    static const int32_t directions[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+    job->x0 = block->x0;
+    job->y0 = block->y0;
+    job->width = block->x1 - block->x0;
+    job->height = block->y1 - block->y0;
+    rlf_pool *pool = job->stage->def.pool;
+    rlf_chords_prepare(job);
+    for (int d = 0; d < 4; d++) {
+        job->dx = directions[d][0];
+        job->dy = directions[d][1];
+        int32_t count = rlf_line_count(job);
+        rlf_parallel_for(pool, count, RLF_ROW_GRAIN, cut_lines, job);
+        rlf_chords_pool(job, count);
+        if (job->dy == 0 && job->is_of_people) {
+            rlf_chords_align(job, count);
+            rlf_chords_head(job, count);
+        }
+        rlf_parallel_for(pool, count, RLF_ROW_GRAIN, paint_lines, job);
+    }
+    rlf_parallel_for(pool, (job->height + job->step - 1) / job->step, RLF_ROW_GRAIN, resolve_rows,
+                     job);
+}
+
+void rlf_thickness_write(const rlf_chord_job *job)
+{
+    rlf_chord_job copy = *job; /* a parallel loop's context is not const */
+    rlf_parallel_for(job->stage->def.pool, job->stage->grid.height, RLF_ROW_GRAIN, write_rows,
+                     &copy);
+}
+
+/* The region's pixels and the knots around; begins with a knot. */
+static rlf_block block_of(const rlf_grid *grid, const rlf_region *region, int32_t step)
+{
+    int32_t x0 = region->x0 > step ? (region->x0 - 1) / step * step : 0;
+    int32_t y0 = region->y0 > step ? (region->y0 - 1) / step * step : 0;
+    int32_t x1 = region->x1 + step, y1 = region->y1 + step;
+    return (rlf_block){x0, y0, x1 < grid->width ? x1 : grid->width,
+                       y1 < grid->height ? y1 : grid->height};
+}
+
+/* Rectangles of the regions that are no plates, those that overlap as one. */
+static int32_t find_blocks(const rlf_chord_job *job, rlf_block *blocks)
+{
+    const rlf_slot *slot = job->slot;
+    int32_t count = 0;
+    for (int32_t r = 0; r < slot->foreground_region_count; r++) {
+        if (job->is_plate[r + 1]) {
+            continue;
+        }
+        rlf_block b = block_of(&job->stage->grid, &slot->regions[slot->foreground_region_first + r],
+                               job->step);
+        for (int32_t k = 0; k < count;) {
+            rlf_block *o = &blocks[k];
+            if (o->x0 >= b.x1 || b.x0 >= o->x1 || o->y0 >= b.y1 || b.y0 >= o->y1) {
+                k++;
+                continue;
+            }
+            b = (rlf_block){o->x0 < b.x0 ? o->x0 : b.x0, o->y0 < b.y0 ? o->y0 : b.y0,
+                            o->x1 > b.x1 ? o->x1 : b.x1, o->y1 > b.y1 ? o->y1 : b.y1};
+            *o = blocks[--count];
+            k = 0; /* it has grown */
+        }
+        blocks[count++] = b;
+    }
+    return count;
+}
+
+/* Which regions are flat up to noise; all, where nothing is known to be behind. */
+static void find_plates(const rlf_reconstruct *stage, const rlf_slot *slot, int32_t *is_plate)
+{
+    bool is_all_front = stage->def.background_method == RLF_BACKGROUND_OFF;
+    for (int32_t r = 0; r < slot->foreground_region_count; r++) {
+        const rlf_region *region = &slot->regions[slot->foreground_region_first + r];
+        double sigma = rlf_depth_noise_sigma(&stage->def.rig.noise, region->centroid.z);
+        bool is_flat = region->plane_residual >= 0.0 && region->plane_residual <= 2.0 * sigma;
+        is_plate[r + 1] = is_flat || is_all_front;
+    }
+}
+
+rlf_chord_job rlf_chord_job_make(rlf_reconstruct *stage, const rlf_slot *slot)
+{
+    const rlf_work *work = &stage->work;
+    const rlf_grid *grid = &stage->grid;
+    int32_t step = rlf_knot_step(grid), columns = (grid->width + step - 1) / step;
+    bool kept = stage->def.enable_fill || stage->def.enable_smoothing;
+    return (rlf_chord_job){.stage = stage,
+                           .slot = slot,
+                           .is_of_people = true,
+                           .raw = kept ? work->depth[1] : slot->depth,
+                           .behind = stage->background.mean,
+                           .is_plate = work->map,
+                           .torsos = &stage->torsos,
+                           .step = step,
+                           .pitch = (ptrdiff_t)grid->width + RLF_CHORD_PAD,
+                           .front = work->depth[0],
+                           .inverse = work->sum[0],
+                           .label = work->component,
+                           .columns = columns,
+                           .rows = (grid->height + step - 1) / step,
+                           .knot_pitch = (ptrdiff_t)columns + RLF_CHORD_PAD,
+                           .knot = work->knot + RLF_CHORD_PAD / 2,
+                           .thickness = work->sum[1] + RLF_CHORD_PAD / 2,
+                           .own = {work->solid[0], work->solid[1], work->solid[2]},
+                           .hidden = {work->solid[3], work->solid[4], work->solid[5]},
+                           .chords = work->chords,
+                           .counts = work->size,
+                           .noise = rlf_kernel_noise_make(&stage->def.rig.noise)};
+}
+
+void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot)
+{
+    memset(slot->thickness, 0, (size_t)stage->grid.count * sizeof *slot->thickness);
+    find_plates(stage, slot, stage->work.map);
+    rlf_chord_job job = rlf_chord_job_make(stage, slot);
+    int32_t count = find_blocks(&job, stage->work.blocks);
+    rlf_torsos_expect(&stage->torsos, rlf_past_elapsed(stage, slot));
+    for (int32_t i = 0; i < count; i++) {
+        rlf_thickness_fit(&job, &stage->work.blocks[i]);
+    }
+    rlf_thickness_write(&job);
+}

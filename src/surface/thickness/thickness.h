@@ -1,0 +1,154 @@
+/* Chords: straight cuts through the bodies of the foreground along lines of the image, and the
+ * conic whose front each of them shows.
+ *
+ * A plane through the camera cuts a quadric (ball, ellipsoid, cylinder, cone) in a conic, and
+ * inverse depth w keeps it one: at a point of the chord, l and r steps from its two ends, w =
+ * middle + slope s +- ratio sqrt(l r),
+ * + for the front, - for the back. The front is seen, so the three unknowns are a linear least
+ * squares, and the back follows. */
+#ifndef RLF_SURFACE_THICKNESS_THICKNESS_H
+#define RLF_SURFACE_THICKNESS_THICKNESS_H
+
+#include "kernel/kernel.h"
+#include "surface/stage.h"
+
+#include <math.h>
+
+enum { RLF_CHORD_PARTS = 6, RLF_CHORDS_PER_LINE = 16 };
+
+/* Visible pixels begin <= k < end of a chord, in steps along its line. */
+typedef struct rlf_chord_part {
+    int32_t begin, end;
+} rlf_chord_part;
+
+/* Weighted sums over the front of a chord, about its means. */
+typedef struct rlf_chord_moments {
+    float ss, hh, sh, sy, hy;
+} rlf_chord_moments;
+
+/* Depth of a body's middle, metres, and how well it is known, 1/m^2; 0 = not at all. */
+typedef struct rlf_chord_middle {
+    float depth, weight;
+} rlf_chord_middle;
+
+typedef struct rlf_chord {
+    float begin, end; /* of the body, in steps; part of it may be hidden */
+    float blur[2];    /* how well these are known, steps */
+    float covered[2]; /* steps at these that something nearer hides, by guess */
+    float apex;       /* of a wedge, steps; < begin: it is a conic */
+    float metres;     /* per step, at the reference depth */
+    float inverse;    /* of the reference depth */
+    float expected_slope, expected_ratio;
+    int32_t label, part_count;
+    bool is_of_people;
+    rlf_chord_part part[RLF_CHORD_PARTS];
+    float weight, s, h, y, yy; /* sum of weights, means, variance sum of y */
+    rlf_chord_moments own, pooled, running;
+    rlf_chord_middle seen, told; /* by the chord alone; with all lines before it */
+    rlf_chord_middle beside;     /* by the lines on both sides, without its own */
+    float share;                 /* how much more it counts than by what it shows */
+} rlf_chord;
+
+/* y = middle + slope s - ratio h, in metres about the reference depth. */
+typedef struct rlf_conic {
+    float middle, slope, ratio;
+    float variance; /* of what is left of y, m^2 */
+} rlf_conic;
+
+/* Rows of the planes below are this much longer than the grid's: pixels below each other, a power
+ * of two apart, would push each other out of the cache. */
+enum { RLF_CHORD_PAD = 16 };
+
+/* Planes of sums over the chords through each knot: weights, weighted middles and half thicknesses
+ * in inverse depth. */
+typedef struct rlf_solid {
+    float *weight, *middle, *half;
+} rlf_solid;
+
+/* Pixels x0 <= x < x1, y0 <= y < y1. */
+typedef struct rlf_block {
+    int32_t x0, y0, x1, y1;
+} rlf_block;
+
+/* Lines lie `step` pixels apart, and cross at knots, the pixels whose column and row are multiples
+ * of it: thickness is smooth, its ends are as sharp as pixels. */
+typedef struct rlf_chord_job {
+    const rlf_reconstruct *stage;
+    const rlf_slot *slot;
+    rlf_torsos *torsos;      /* followed below the heads that are found */
+    bool is_of_people;       /* what bodies are usually like counts: else things */
+    const float *raw;        /* depth that is fitted: as the sensor gave it */
+    const float *behind;     /* nothing reaches farther; NULL = nothing is known to be there */
+    const int32_t *is_plate; /* of each region, from 1: it is flat up to noise and has no chords */
+    int32_t step;
+    ptrdiff_t pitch;         /* of the planes of pixels: the grid's width and RLF_CHORD_PAD */
+    float *front;            /* depth of the bodies' pixels, 0 elsewhere */
+    float *inverse;          /* 1 / depth as the sensor gave it, 0 = none; of the bodies' pixels */
+    int32_t *label;          /* of the bodies' pixels */
+    int32_t columns, rows;   /* of knots */
+    ptrdiff_t knot_pitch;    /* of the planes of knots: columns and RLF_CHORD_PAD */
+    float *knot, *thickness; /* at the knots; depth < 0 is of what is no body */
+    rlf_solid own, hidden;   /* the knot's own body, and one that it hides */
+    rlf_chord *chords;       /* RLF_CHORDS_PER_LINE per line */
+    int32_t *counts;         /* chords of each line */
+    rlf_kernel_noise noise;
+    int32_t x0, y0, width, height; /* the block of pixels */
+    int32_t dx, dy;                /* step of the lines; dx >= 0 */
+} rlf_chord_job;
+
+/* Pixels base + k stride, 0 <= k < count; those of `phase` and every step-th one beyond are the
+ * knots knot, knot + knot_stride and so on. */
+typedef struct rlf_line {
+    int32_t x, y, dx, dy;
+    ptrdiff_t base, stride;
+    ptrdiff_t knot, knot_stride;
+    int32_t count, phase;
+    float angle; /* metres per step at a depth of 1 m */
+} rlf_line;
+
+/* ---- thickness/thickness.c ---- */
+/* For the regions of the slot's foreground that are in work.runs; work.map says which are plates.
+ */
+rlf_chord_job rlf_chord_job_make(rlf_reconstruct *stage, const rlf_slot *slot);
+/* Fits what is in the block, and writes the thickness of all runs. */
+void rlf_thickness_fit(rlf_chord_job *job, const rlf_block *block);
+void rlf_thickness_write(const rlf_chord_job *job);
+
+/* ---- thickness/knots.c ---- */
+/* Pixels from knot to knot: one, or two where they are fine. */
+int32_t rlf_knot_step(const rlf_grid *grid);
+/* Fills the planes of the block's pixels. */
+void rlf_chords_prepare(rlf_chord_job *job);
+/* Thickness of the run's pixels from that of the knots around. */
+void rlf_knots_spread(const rlf_chord_job *job, const rlf_run *run, int32_t y);
+
+/* ---- thickness/lines.c ---- */
+int32_t rlf_line_count(const rlf_chord_job *job);
+rlf_line rlf_line_at(const rlf_chord_job *job, int32_t index);
+/* Steps from the block's corner along the lines to the line's first pixel. */
+float rlf_line_origin(const rlf_chord_job *job, int32_t index);
+
+/* ---- thickness/cut.c ---- */
+/* Finds the chords of the line and measures them. Returns their number. */
+int32_t rlf_chords_cut(const rlf_chord_job *job, const rlf_line *line, rlf_chord *out);
+
+/* ---- thickness/axis.c ---- */
+/* Tells each chord where the rows above and below have the middle of its body. */
+void rlf_chords_align(const rlf_chord_job *job, int32_t row_count);
+
+/* ---- thickness/head.c ---- */
+/* Tells the rows of trunks where the middle of the head above them is. */
+void rlf_chords_head(const rlf_chord_job *job, int32_t row_count);
+
+/* ---- thickness/conic.c ---- */
+/* Fills the sums of a chord whose ends and parts are known; false when it shows nothing. */
+bool rlf_chord_measure(const rlf_chord_job *job, const rlf_line *line, rlf_chord *chord);
+/* Adds to each chord what its neighbours on the lines beside it say about its shape. */
+void rlf_chords_pool(const rlf_chord_job *job, int32_t line_count);
+rlf_conic rlf_chord_solve(const rlf_chord *chord, const rlf_chord_moments *moments);
+/* What the pooled sums of the chord say about its middle. */
+rlf_chord_middle rlf_chord_middle_seen(const rlf_chord *chord);
+/* Adds the solid of the conic to the knots of the chord. */
+void rlf_chord_paint(const rlf_chord_job *job, const rlf_line *line, const rlf_chord *chord);
+
+#endif

@@ -1,0 +1,184 @@
+/* Which torsos there are, and where each is expected in the next frame. */
+#include "surface/thickness/torso.h"
+
+#include <math.h>
+
+enum { MOST_POINTS = 400, DIRECTIONS = 8, FIRST_PASSES = 5, PASSES = 2 };
+
+static const double beside_m = 0.3; /* from below the head: points of the trunk lie nearer */
+static const double longest_unseen_s = 0.5;
+static const double least_age_s = 0.25, most_misfit = 0.6; /* then it is looked for anew */
+static const double odd_share = 0.01; /* misfit of a torso that is one deviation off the usual */
+/* How unknowns wander, per square root of a second: how people turn, and how little their measures
+ * seem to change as other parts of them are seen. */
+static const double turn_wander = 0.44, drop_wander = 0.016, way_wander = 0.002,
+                    measure_wander = 0.001;
+static const double remind_s = 2.0; /* measures are drawn to the usual ones, once in so long */
+static const double spin_gain = 0.5, spin_s = 0.3; /* it dies down in so many seconds */
+
+void rlf_torsos_expect(rlf_torsos *torsos, double dt)
+{
+    int32_t kept = 0;
+    for (int32_t k = 0; k < torsos->count; k++) {
+        rlf_torso *torso = &torsos->item[k];
+        torso->is_seen = false;
+        torso->unseen_s += dt;
+        torso->age_s += dt;
+        if (dt > 0.0 && torso->unseen_s <= longest_unseen_s) {
+            torsos->item[kept++] = *torso;
+        }
+    }
+    torsos->count = kept;
+}
+
+static double wander_of(int unknown)
+{
+    switch (unknown) {
+    case RLF_TORSO_TURN: return turn_wander;
+    case RLF_TORSO_DROP: return drop_wander;
+    case RLF_TORSO_AHEAD:
+    case RLF_TORSO_LEAN: return way_wander;
+    default: return measure_wander;
+    }
+}
+
+/* Where point `way` metres from the image's middle is, at depth z, in pixels lo..hi. */
+static int32_t pixel_at(double way, double z, double focal, double centre, int32_t lo, int32_t hi)
+{
+    return (int32_t)rlf_clamp(centre + focal * way / z, lo, hi);
+}
+
+/* The person's pixels where the trunk may be, at most MOST_POINTS of them. */
+static void find_points(const rlf_chord_job *job, int32_t label, rlf_vec3 head,
+                        rlf_torso_points *out)
+{
+    const rlf_grid *grid = &job->stage->grid;
+    const rlf_camera *c = &grid->camera;
+    int32_t right = job->x0 + job->width, bottom = job->y0 + job->height;
+    int32_t x0 = pixel_at(head.x - beside_m, head.z, c->fx, c->cx, job->x0, right);
+    int32_t x1 = pixel_at(head.x + beside_m, head.z, c->fx, c->cx, job->x0, right);
+    int32_t y0 = pixel_at(head.y + rlf_torso_first, head.z, c->fy, c->cy, job->y0, bottom);
+    int32_t y1 = pixel_at(head.y + rlf_torso_last, head.z, c->fy, c->cy, job->y0, bottom);
+    int32_t step = 1;
+    while (((x1 - x0) / step + 1) * ((y1 - y0) / step + 1) > MOST_POINTS) {
+        step++;
+    }
+    out->count = 0;
+    out->area_m2 = step * step * head.z * head.z / (c->fx * c->fy);
+    for (int32_t y = y0; y < y1; y += step) {
+        for (int32_t x = x0; x < x1; x += step) {
+            double z = job->front[y * job->pitch + x];
+            ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+            if (z > 0.0 && job->label[y * job->pitch + x] == label) {
+                out->p[out->count++] =
+                    rlf_vec3_make(z * (double)grid->ray_x[i], z * (double)grid->ray_y[i], z);
+            }
+        }
+    }
+}
+
+/* How well a torso fits, and how usual it is. */
+static double oddness(const rlf_torso *torso)
+{
+    double unknown[RLF_TORSO_UNKNOWNS], variance[RLF_TORSO_UNKNOWNS], sum = torso->misfit;
+    rlf_torso_usual(unknown, variance);
+    for (int k = 0; k < RLF_TORSO_UNKNOWNS; k++) {
+        double off = k == RLF_TORSO_TURN ? 0.0 : torso->unknown[k] - unknown[k];
+        sum += odd_share * off * off / variance[k];
+    }
+    return sum;
+}
+
+/* The usual torso, turned in each of several ways, fitted; and the best of these. */
+static void begin(rlf_torso *torso, const rlf_torso_points *points)
+{
+    static const double cosine[DIRECTIONS] = {1.0, 0.92388,  0.70711,  0.38268,
+                                              0.0, -0.38268, -0.70711, -0.92388};
+    rlf_torso best = {.misfit = 1.0};
+    double least = INFINITY, variance[RLF_TORSO_UNKNOWNS];
+    for (int q = 0; q < DIRECTIONS; q++) {
+        rlf_torso one = {.label = torso->label, .head = torso->head, .side_x = cosine[q]};
+        one.side_z = sqrt(1.0 - cosine[q] * cosine[q]);
+        rlf_torso_usual(one.unknown, variance);
+        for (int k = 0; k < RLF_TORSO_UNKNOWNS; k++) {
+            one.doubt[k][k] = variance[k];
+        }
+        rlf_torso_improve(&one, points, FIRST_PASSES);
+        double odd = oddness(&one);
+        if (odd < least) {
+            least = odd;
+            best = one;
+        }
+    }
+    *torso = best;
+}
+
+/* Says again what people are usually like: what is seen of one has errors that do not average out.
+ */
+static void remind(rlf_torso *torso, double dt)
+{
+    double usual[RLF_TORSO_UNKNOWNS], variance[RLF_TORSO_UNKNOWNS];
+    rlf_torso_usual(usual, variance);
+    for (int k = 0; k < RLF_TORSO_UNKNOWNS; k++) {
+        double gain[RLF_TORSO_UNKNOWNS], off = usual[k] - torso->unknown[k];
+        double sum = torso->doubt[k][k] + variance[k] * remind_s / dt;
+        for (int r = 0; r < RLF_TORSO_UNKNOWNS; r++) {
+            gain[r] = torso->doubt[r][k] / sum;
+        }
+        for (int r = 0; k != RLF_TORSO_TURN && r < RLF_TORSO_UNKNOWNS; r++) {
+            torso->unknown[r] += gain[r] * off;
+            for (int c = 0; c < RLF_TORSO_UNKNOWNS; c++) {
+                torso->doubt[r][c] -= gain[r] * gain[c] * sum;
+            }
+        }
+    }
+}
+
+static void go_on(rlf_torso *torso, const rlf_torso_points *points, double dt)
+{
+    for (int k = 0; k < RLF_TORSO_UNKNOWNS; k++) {
+        double wander = wander_of(k);
+        torso->doubt[k][k] += wander * wander * dt;
+    }
+    remind(torso, dt);
+    torso->unknown[RLF_TORSO_TURN] = torso->spin * dt;
+    rlf_torso_improve(torso, points, PASSES);
+    torso->spin += spin_gain * torso->unknown[RLF_TORSO_TURN] / dt;
+    torso->spin *= spin_s / (spin_s + dt);
+}
+
+/* The torso of that label, or a new one; NULL when there is no room. */
+static rlf_torso *find_torso(rlf_torsos *torsos, int32_t label, bool *is_new)
+{
+    int32_t k = 0;
+    while (k < torsos->count && torsos->item[k].label != label) {
+        k++;
+    }
+    *is_new = k == torsos->count;
+    if (*is_new && k < RLF_TORSOS) {
+        torsos->item[k] = (rlf_torso){.label = label};
+        torsos->count++;
+    }
+    return k < RLF_TORSOS ? &torsos->item[k] : NULL;
+}
+
+void rlf_torso_follow(const rlf_chord_job *job, int32_t label, rlf_vec3 head)
+{
+    rlf_vec3 seen[MOST_POINTS];
+    rlf_torso_points points = {.p = seen};
+    bool is_new;
+    rlf_torso *torso = find_torso(job->torsos, label, &is_new);
+    if (torso == NULL || torso->is_seen) {
+        return;
+    }
+    double dt = torso->unseen_s;
+    torso->head = head;
+    find_points(job, label, head, &points);
+    if (is_new || (torso->misfit > most_misfit && torso->age_s > least_age_s)) {
+        begin(torso, &points);
+    } else {
+        go_on(torso, &points, dt);
+    }
+    torso->unseen_s = 0.0;
+    torso->is_seen = true;
+}

@@ -1,0 +1,74 @@
+/* The trunks of people, each a solid that is followed from frame to frame.
+ *
+ * Of a person seen from the side the near arm hides the trunk, and the trunk the far shoulder, so
+ * that no ray there shows where it leaves the body. But a trunk has a plane of symmetry, which the
+ * head above tells, and a shape that it keeps: what is hidden now was seen a little earlier, when
+ * the arm had swung aside or the person stood turned otherwise. So a trunk and the bar of its
+ * shoulders (thickness/torso_solid.c) hang below each head that thickness/head.c finds, and how it
+ * is turned, how far it leans and its measures are fitted to every frame's points
+ * (thickness/torso_fit.c): an extended Kalman filter, which begins with the means of ANSUR II.
+ * Where a ray goes on from what it sees into this solid without a gap, it leaves the body where it
+ * leaves the solid (thickness/torso_back.c). */
+#ifndef RLF_SURFACE_THICKNESS_TORSO_H
+#define RLF_SURFACE_THICKNESS_TORSO_H
+
+#include "surface/thickness/thickness.h"
+
+/* What is unknown of a torso, metres and radians. `side` is the level unit vector from its axis to
+ * a shoulder, `ahead` the one at a right angle to it. */
+enum {
+    RLF_TORSO_AHEAD,    /* of the head's middle: where the axis is at the shoulders */
+    RLF_TORSO_TURN,     /* about the upright axis, from `side` */
+    RLF_TORSO_LEAN,     /* ahead, per metre further down */
+    RLF_TORSO_SHOULDER, /* from the axis to the middle of a shoulder's round end */
+    RLF_TORSO_DROP,     /* how much lower than usual the trunk hangs below the head's top */
+    RLF_TORSO_BREADTH,  /* half of it at chest, waist and buttocks */
+    RLF_TORSO_DEPTH = RLF_TORSO_BREADTH + 3, /* the same */
+};
+
+/* How far a point is from the surface, metres, less than 0 within; and how that changes with each
+ * unknown. */
+typedef struct rlf_torso_touch {
+    double distance, slope[RLF_TORSO_UNKNOWNS];
+} rlf_torso_touch;
+
+/* Depths between which a ray is in one part of a solid. */
+typedef struct rlf_torso_cut {
+    double enter, leave;
+} rlf_torso_cut;
+
+/* Heights below the head's top between which there is any of a usual torso, metres. */
+extern const double rlf_torso_first, rlf_torso_last;
+
+/* ---- thickness/torso_solid.c ---- */
+/* A torso as people are on average, and the variance of each unknown among them. */
+void rlf_torso_usual(double unknown[RLF_TORSO_UNKNOWNS], double variance[RLF_TORSO_UNKNOWNS]);
+/* False when the point is at the height of the head or of the legs. */
+bool rlf_torso_touch_at(const rlf_torso *torso, rlf_vec3 p, rlf_torso_touch *out);
+/* Cuts the trunk (out[0]) and the shoulders (out[1]) by the ray (x, y, 1); enter > leave where it
+ * misses. */
+void rlf_torso_cut_ray(const rlf_torso *torso, double x, double y, rlf_torso_cut out[2]);
+
+/* ---- thickness/torso_fit.c ---- */
+/* Points of a person around the place of the torso. */
+typedef struct rlf_torso_points {
+    rlf_vec3 *p;
+    int32_t count;
+    double area_m2; /* that one stands for */
+} rlf_torso_points;
+
+/* Improves the torso, whose `unknown` and `doubt` are expected, by the points, in so many passes.
+ */
+void rlf_torso_improve(rlf_torso *torso, const rlf_torso_points *points, int32_t passes);
+
+/* ---- thickness/torso.c ---- */
+/* Before the heads of a frame are found, dt s after the last one; 0 = there was none lately. */
+void rlf_torsos_expect(rlf_torsos *torsos, double dt);
+/* Follows the torso of the region `label` below its head: x and z of its middle, y of its top. */
+void rlf_torso_follow(const rlf_chord_job *job, int32_t label, rlf_vec3 head);
+
+/* ---- thickness/torso_back.c ---- */
+/* Thickens the block's knots of a row by the torsos seen. */
+void rlf_torsos_thicken(const rlf_chord_job *job, int32_t knot_row);
+
+#endif

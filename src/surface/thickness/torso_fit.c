@@ -1,0 +1,121 @@
+/* The torso that explains a frame's points.
+ *
+ * Whatever is seen is on the torso or before it: a point within it is an error of the torso, one
+ * outside may be on an arm, and counts the less the farther it is (Geman and McClure's weight, of
+ * two scales). */
+#include "surface/thickness/torso.h"
+
+#include "math/inverse.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { N = RLF_TORSO_UNKNOWNS, LEAST_POINTS = 40 };
+
+static const double outside_m = 0.015, inside_m = 0.05; /* scales of the weight */
+/* Patches of 10 cm2 are right to 6 cm together: they share the errors of the solid. */
+static const double weight_m4 = 1.0 / (0.06 * 0.06 * 0.001);
+static const double most_turn = 0.3; /* rad, in one pass */
+
+/* Normal equations of the correction x: J x = -distance. */
+typedef struct equations {
+    double a[N][N], b[N];
+    double weight; /* of a point that fits, 1/m^2 */
+    double misfit;
+    int32_t count, fitting;
+} equations;
+
+static void add_point(const rlf_torso *torso, rlf_vec3 p, equations *sum)
+{
+    rlf_torso_touch touch;
+    if (!rlf_torso_touch_at(torso, p, &touch)) {
+        return;
+    }
+    double scale = touch.distance > 0.0 ? outside_m : inside_m, off = touch.distance / scale;
+    double share = 1.0 / (1.0 + off * off);
+    double weight = sum->weight * share * share;
+    sum->misfit += 1.0 - share;
+    sum->count++;
+    sum->fitting += share > 0.5;
+    for (int r = 0; r < N; r++) {
+        double part = weight * touch.slope[r];
+        sum->b[r] -= part * touch.distance;
+        for (int c = 0; c <= r; c++) {
+            sum->a[r][c] += part * touch.slope[c];
+        }
+    }
+}
+
+/* Turns the torso about the upright axis. */
+static void turn(rlf_torso *torso, double angle)
+{
+    double x = torso->side_x - angle * torso->side_z, z = torso->side_z + angle * torso->side_x;
+    double length = sqrt(x * x + z * z);
+    torso->side_x = x / length;
+    torso->side_z = z / length;
+}
+
+static void correct(rlf_torso *torso, const equations *sum)
+{
+    double x[N];
+    for (int r = 0; r < N; r++) {
+        x[r] = 0.0;
+        for (int c = 0; c < N; c++) {
+            x[r] += sum->a[r][c] * sum->b[c];
+        }
+    }
+    x[RLF_TORSO_TURN] = rlf_clamp(x[RLF_TORSO_TURN], -most_turn, most_turn);
+    turn(torso, x[RLF_TORSO_TURN]);
+    for (int r = 0; r < N; r++) {
+        torso->unknown[r] += x[r];
+    }
+}
+
+static void add_points(const rlf_torso *torso, const rlf_torso_points *points, equations *sum)
+{
+    *sum = (equations){.weight = weight_m4 * points->area_m2};
+    for (int32_t i = 0; i < points->count; i++) {
+        add_point(torso, points->p[i], sum);
+    }
+}
+
+/* Turns it towards the points, its measures kept. */
+static void find_turn(rlf_torso *torso, const rlf_torso_points *points, double expected)
+{
+    const int k = RLF_TORSO_TURN;
+    equations sum;
+    add_points(torso, points, &sum);
+    double information = 1.0 / torso->doubt[k][k];
+    double by =
+        (sum.b[k] + information * (expected - torso->unknown[k])) / (sum.a[k][k] + information);
+    by = rlf_clamp(by, -most_turn, most_turn);
+    turn(torso, by);
+    torso->unknown[k] += by;
+}
+
+void rlf_torso_improve(rlf_torso *torso, const rlf_torso_points *points, int32_t passes)
+{
+    double information[N][N], expected[N];
+    equations sum = {.count = 0};
+    turn(torso, torso->unknown[RLF_TORSO_TURN]);
+    torso->unknown[RLF_TORSO_TURN] = 0.0;
+    memcpy(expected, torso->unknown, sizeof expected);
+    memcpy(information, torso->doubt, sizeof information);
+    math_invert(&information[0][0], N);
+    for (int32_t pass = 0; pass < passes; pass++) {
+        find_turn(torso, points, expected[RLF_TORSO_TURN]);
+        add_points(torso, points, &sum);
+        for (int r = 0; r < N; r++) {
+            for (int c = 0; c < N; c++) {
+                sum.a[r][c] = information[r][c] + (c <= r ? sum.a[r][c] : sum.a[c][r]);
+                double off = expected[c] - torso->unknown[c];
+                sum.b[r] += c == RLF_TORSO_TURN ? 0.0 : information[r][c] * off;
+            }
+        }
+        math_invert(&sum.a[0][0], N);
+        correct(torso, &sum);
+    }
+    memcpy(torso->doubt, sum.a, sizeof torso->doubt);
+    torso->misfit = sum.count >= LEAST_POINTS ? sum.misfit / sum.count : 1.0;
+    torso->area_m2 = sum.fitting * points->area_m2;
+}

@@ -1,0 +1,453 @@
+/* Velocity of what is not rigid, limb by limb: a person.
+ *
+ * The region is cut into square cells of a limb's width. Each has one velocity: several guesses
+ * (the region's motion, the frame before's, the neighbour's, none) are tried against the frame
+ * before, and the best is improved by Gauss and Newton. A guess matters because a limb that crosses
+ * the picture moves by as much as its own width from frame to frame. */
+#include "surface/velocity/velocity.h"
+
+#include <math.h>
+
+enum {
+    LEAST_SIZE = 8,                /* pixels */
+    SIDE_SAMPLES = 8,              /* in a cell */
+    MOST_SAMPLES = RLF_FLOW_BATCH, /* SIDE_SAMPLES squared */
+    LEAST_SAMPLES = 6,             /* that must agree */
+    PASSES = 3,
+    GUESSES = 9
+};
+
+static const float cell_m = 0.09f;  /* of a limb */
+static const float reach_m = 0.01f; /* beyond the noise: from here on a residual is all wrong */
+/* Squared sum of 3 normal variables that chance exceeds once in 400 times. */
+static const float significant_3 = 14.2f;
+static const float prior_share = 0.01f; /* ridge, of the mean diagonal */
+
+/* The pixels of a cell that show its limb. */
+typedef struct samples {
+    rlf_kernel_flow_samples s;
+    int32_t pixel[MOST_SAMPLES];
+    int32_t count;
+    float limit;    /* of the squared residual, m^2 */
+    float variance; /* of a residual by noise, m^2 */
+} samples;
+
+/* What a velocity leaves of the samples. */
+typedef struct residuals {
+    float e[MOST_SAMPLES];
+    int32_t is_seen[MOST_SAMPLES];
+} residuals;
+
+typedef struct cell_fit {
+    float velocity[3];
+    float cost, cost_still, cost_whole;
+} cell_fit;
+
+typedef struct velocity_guess {
+    float v[3];
+    float cost; /* < 0: not yet known */
+} velocity_guess;
+
+size_t rlf_cell_capacity(const rlf_grid *grid)
+{
+    return ((size_t)grid->width / LEAST_SIZE + 1) * ((size_t)grid->height / LEAST_SIZE + 1);
+}
+
+static float depth_of(const rlf_cell_grid *g, int32_t x, int32_t y)
+{
+    ptrdiff_t i = (ptrdiff_t)y * g->job->stage->grid.width + x;
+    bool own = g->job->now->label[i] == g->region->label;
+    return own && g->job->now->reason[i] == RLF_REASON_OK ? g->job->now->depth[i] : 0.0f;
+}
+
+/* Median of what a few pixels of the cell show: the limb that fills most of it. */
+static float limb_depth(const rlf_cell_grid *g, int32_t x0, int32_t y0, int32_t x1, int32_t y1)
+{
+    enum { SIDE = 4 };
+    float found[SIDE * SIDE];
+    int32_t count = 0;
+    for (int32_t k = 0; k < SIDE * SIDE; k++) {
+        int32_t x = x0 + (2 * (k % SIDE) + 1) * (x1 - x0) / (2 * SIDE);
+        int32_t y = y0 + (2 * (k / SIDE) + 1) * (y1 - y0) / (2 * SIDE);
+        float z = depth_of(g, x, y);
+        if (!(z > 0.0f)) {
+            continue;
+        }
+        int32_t at = count++;
+        for (; at > 0 && found[at - 1] > z; at--) {
+            found[at] = found[at - 1];
+        }
+        found[at] = z;
+    }
+    return count > 0 ? found[count / 2] : 0.0f;
+}
+
+static void add_sample(const rlf_cell_grid *g, int32_t x, int32_t y, samples *out)
+{
+    const rlf_grid *grid = &g->job->stage->grid;
+    const rlf_slot *now = g->job->now;
+    ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+    float z = now->depth[i], x_ray = grid->ray_x[i], y_ray = grid->ray_y[i];
+    float n[3] = {now->normal[0][i], now->normal[1][i], now->normal[2][i]};
+    float facing = -(n[0] * x_ray + n[1] * y_ray + n[2]);
+    if (!(facing > 0.0f)) {
+        return;
+    }
+    float sigma = rlf_kernel_sigma(g->job->noise, z) * facing;
+    out->variance += 2.0f * sigma * sigma;
+    int32_t k = out->count++;
+    out->pixel[k] = (int32_t)i;
+    out->s.column[k] = (float)x;
+    out->s.row[k] = (float)y;
+    out->s.ray_x[k] = x_ray;
+    out->s.ray_y[k] = y_ray;
+    out->s.x[k] = z * x_ray;
+    out->s.y[k] = z * y_ray;
+    out->s.z[k] = z;
+    out->s.nx[k] = n[0];
+    out->s.ny[k] = n[1];
+    out->s.nz[k] = n[2];
+}
+
+static void take_samples(const rlf_cell_grid *g, int32_t x0, int32_t y0, float depth, samples *out)
+{
+    const rlf_region *region = g->region;
+    int32_t step = (g->size + SIDE_SAMPLES - 1) / SIDE_SAMPLES;
+    out->count = 0;
+    out->variance = 0.0f;
+    for (int32_t y = y0; y < y0 + g->size && y < region->y1; y += step) {
+        for (int32_t x = x0; x < x0 + g->size && x < region->x1; x += step) {
+            float z = depth_of(g, x, y);
+            if (z > 0.0f && rlf_kernel_abs(z - depth) < rlf_flow_limb_m) {
+                add_sample(g, x, y, out);
+            }
+        }
+    }
+    out->variance /= (float)(out->count > 0 ? out->count : 1);
+    float reach = reach_m + 3.0f * sqrtf(out->variance);
+    out->limit = reach * reach;
+}
+
+/* Distance along the normal between the samples first <= k < end taken back by v dt and what was
+ * seen there. */
+static void find_residuals(const rlf_cell_grid *g, const samples *all, const float v[3],
+                           int32_t first, int32_t end, residuals *out)
+{
+    const rlf_flow *job = g->job;
+    const float step[3] = {v[0] * job->dt, v[1] * job->dt, v[2] * job->dt};
+    rlf_kernel_flow_residuals(&job->view, &all->s, step, first, end - first, out->e, out->is_seen);
+}
+
+/* Sum of squared residuals, each limited: what does not fit at all counts like what fits badly. But
+ * the sensor drops a pixel now and then: a few that were not seen count like noise. Stops where it
+ * is more than `most`: sums only grow. */
+static float cost_of(const rlf_cell_grid *g, const samples *all, const float v[3], float most)
+{
+    float cost = 0.0f;
+    int32_t lost = 0;
+    residuals r;
+    for (int32_t k = 0; k < all->count && cost <= most; k++) {
+        if (k % RLF_FLOW_LANES == 0) {
+            int32_t end = k + RLF_FLOW_LANES < all->count ? k + RLF_FLOW_LANES : all->count;
+            find_residuals(g, all, v, k, end, &r);
+        }
+        float e = r.e[k % RLF_FLOW_LANES];
+        if (r.is_seen[k % RLF_FLOW_LANES]) {
+            cost += e * e < all->limit ? e * e : all->limit;
+        } else {
+            cost += 5 * ++lost > all->count ? all->limit : all->variance;
+        }
+    }
+    return cost;
+}
+
+typedef struct normal_equations {
+    float xx, xy, xz, yy, yz, zz, b[3];
+    int32_t count;
+} normal_equations;
+
+/* (A + ridge) v = b by Cramer's rule. */
+static void solve(const normal_equations *e, float v[3])
+{
+    float ridge = prior_share * (float)e->count;
+    float xx = e->xx + ridge, yy = e->yy + ridge, zz = e->zz + ridge;
+    float cxx = yy * zz - e->yz * e->yz, cxy = e->xz * e->yz - e->xy * zz;
+    float cxz = e->xy * e->yz - e->xz * yy, cyy = xx * zz - e->xz * e->xz;
+    float cyz = e->xy * e->xz - xx * e->yz, czz = xx * yy - e->xy * e->xy;
+    float inverse = 1.0f / (xx * cxx + e->xy * cxy + e->xz * cxz);
+    v[0] = (cxx * e->b[0] + cxy * e->b[1] + cxz * e->b[2]) * inverse;
+    v[1] = (cxy * e->b[0] + cyy * e->b[1] + cyz * e->b[2]) * inverse;
+    v[2] = (cxz * e->b[0] + cyz * e->b[1] + czz * e->b[2]) * inverse;
+}
+
+/* One step of Gauss and Newton; returns how many samples agree. */
+static int32_t improve(const rlf_cell_grid *g, const samples *all, float limit, float v[3])
+{
+    normal_equations a = {0};
+    residuals r;
+    find_residuals(g, all, v, 0, all->count, &r);
+    for (int32_t k = 0; k < all->count; k++) {
+        float e = r.e[k];
+        if (!r.is_seen[k] || e * e > limit) {
+            continue;
+        }
+        const float n[3] = {all->s.nx[k], all->s.ny[k], all->s.nz[k]};
+        float speed = e / g->job->dt;
+        a.xx += n[0] * n[0];
+        a.xy += n[0] * n[1];
+        a.xz += n[0] * n[2];
+        a.yy += n[1] * n[1];
+        a.yz += n[1] * n[2];
+        a.zz += n[2] * n[2];
+        for (int c = 0; c < 3; c++) {
+            a.b[c] += n[c] * speed;
+        }
+        a.count++;
+    }
+    if (a.count >= LEAST_SAMPLES) {
+        float more[3];
+        solve(&a, more);
+        for (int c = 0; c < 3; c++) {
+            v[c] += more[c];
+        }
+    }
+    return a.count;
+}
+
+static void copy(const float from[3], float to[3])
+{
+    for (int k = 0; k < 3; k++) {
+        to[k] = from[k];
+    }
+}
+
+static velocity_guess guess_of(const float v[3], float cost)
+{
+    velocity_guess guess = {{v[0], v[1], v[2]}, cost};
+    return guess;
+}
+
+static void whole_velocity(const rlf_cell_grid *g, const float p[3], float out[3])
+{
+    rlf_vec3 v = rlf_twist_velocity(g->twist, rlf_vec3_make(p[0], p[1], p[2]));
+    out[0] = (float)v.x;
+    out[1] = (float)v.y;
+    out[2] = (float)v.z;
+}
+
+/* Guesses for a cell beside the region's motion and rest: what was published a frame ago here and a
+ * cell or two around, from where a limb may have come. Returns their number. */
+static int32_t make_guesses(const rlf_cell_grid *g, ptrdiff_t middle, velocity_guess *guess)
+{
+    const rlf_grid *grid = &g->job->stage->grid;
+    const rlf_slot *before = g->job->before;
+    const int32_t around[7][2] = {{0, 0}, {-1, 0}, {1, 0}, {-2, 0}, {2, 0}, {0, -1}, {0, 1}};
+    int32_t x0 = (int32_t)(middle % grid->width), y0 = (int32_t)(middle / grid->width);
+    int32_t count = 0;
+    for (int k = 0; k < 7; k++) {
+        int32_t x = x0 + around[k][0] * g->size, y = y0 + around[k][1] * g->size;
+        if (x < 0 || y < 0 || x >= grid->width || y >= grid->height) {
+            continue;
+        }
+        ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+        const float v[3] = {before->velocity[0][i], before->velocity[1][i], before->velocity[2][i]};
+        if (v[0] != 0.0f || v[1] != 0.0f || v[2] != 0.0f) {
+            guess[count++] = guess_of(v, -1.0f);
+        }
+    }
+    return count;
+}
+
+/* Velocity and cost of the best of some guesses, improved. */
+static float fit_guesses(const rlf_cell_grid *g, const samples *all, const velocity_guess *guess,
+                         int32_t count, float v[3])
+{
+    float least = all->limit * (float)(all->count + 1);
+    copy(guess[0].v, v);
+    for (int32_t k = 0; k < count; k++) {
+        float known = guess[k].cost;
+        float cost = known < 0.0f ? cost_of(g, all, guess[k].v, least) : known;
+        if (cost < least) {
+            least = cost;
+            copy(guess[k].v, v);
+        }
+    }
+    float better[3];
+    copy(v, better);
+    int32_t agree = 0;
+    for (int pass = 0; pass < PASSES; pass++) {
+        agree = improve(g, all, pass == 0 ? 9.0f * all->limit : all->limit, better);
+    }
+    float cost = cost_of(g, all, better, least);
+    if (agree >= LEAST_SAMPLES && cost < least) {
+        copy(better, v);
+        least = cost;
+    }
+    return least;
+}
+
+/* Rest and the region's motion are true until the noise cannot explain what they leave. Where both
+ * are, a piece that is flat cannot tell, and moves with the region. */
+static void decide(const rlf_cell_grid *g, const samples *all, const cell_fit *fit,
+                   const float motion[3], rlf_cell *cell)
+{
+    float tolerance = significant_3 * rlf_flow_correlated * all->variance;
+    bool fits = 4.0f * fit->cost <= 3.0f * all->limit * (float)all->count;
+    bool still = fit->cost_still - fit->cost <= tolerance;
+    bool whole = fit->cost_whole - fit->cost <= tolerance;
+    if (!fits) {
+        cell->state = RLF_CELL_UNKNOWN;
+    } else if (whole) {
+        cell->state = g->moves ? RLF_CELL_WHOLE : RLF_CELL_STILL;
+    } else {
+        cell->state = still ? RLF_CELL_STILL : RLF_CELL_MOVES;
+    }
+    copy(cell->state == RLF_CELL_WHOLE ? motion : fit->velocity, cell->velocity);
+}
+
+/* What a piece cannot tell of its motion, a limb along its own axis, stays from frame to frame
+ * however wrong it is. It is the region's when the nearest motion to that fits as well. */
+static void lean_on(const rlf_cell_grid *g, const samples *all, const float motion[3], float cost,
+                    rlf_cell *cell)
+{
+    float v[3];
+    copy(motion, v);
+    for (int pass = 0; pass < PASSES; pass++) {
+        (void)improve(g, all, pass == 0 ? 9.0f * all->limit : all->limit, v);
+    }
+    if (cost_of(g, all, v, INFINITY) - cost <=
+        significant_3 * rlf_flow_correlated * all->variance) {
+        copy(v, cell->velocity);
+    }
+}
+
+static void fit_cell(const rlf_cell_grid *g, const samples *all, const rlf_cell *left,
+                     rlf_cell *cell)
+{
+    static const float rest[3] = {0.0f, 0.0f, 0.0f};
+    velocity_guess guess[GUESSES + 3];
+    float whole[3];
+    int32_t middle = all->count / 2;
+    const float p[3] = {all->s.x[middle], all->s.y[middle], all->s.z[middle]};
+    whole_velocity(g, p, whole);
+    cell_fit fit = {.cost_still = cost_of(g, all, rest, INFINITY)};
+    fit.cost_whole = g->moves ? cost_of(g, all, whole, INFINITY) : fit.cost_still;
+    int32_t count = make_guesses(g, all->pixel[middle], guess);
+    guess[count++] = guess_of(whole, fit.cost_whole);
+    guess[count++] = guess_of(rest, fit.cost_still);
+    if (left != NULL && left->state == RLF_CELL_MOVES) {
+        guess[count++] = guess_of(left->velocity, -1.0f);
+    }
+    fit.cost = fit_guesses(g, all, guess, count, fit.velocity);
+    decide(g, all, &fit, whole, cell);
+    if (cell->state == RLF_CELL_MOVES) {
+        lean_on(g, all, whole, fit.cost, cell);
+    }
+}
+
+/* Mean velocity of the moving neighbours with the same limb; false when there are fewer than two.
+ */
+static bool neighbour_mean(const rlf_cell_grid *g, int32_t row, int32_t column, float out[3])
+{
+    const int32_t side[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    const rlf_cell *cell = &g->cells[row * g->columns + column];
+    float count = 0.0f;
+    out[0] = out[1] = out[2] = 0.0f;
+    for (int k = 0; k < 4; k++) {
+        int32_t r = row + side[k][1], c = column + side[k][0];
+        if (r < 0 || c < 0 || r >= g->rows || c >= g->columns) {
+            continue;
+        }
+        const rlf_cell *next = &g->cells[r * g->columns + c];
+        if (next->state < RLF_CELL_WHOLE ||
+            rlf_kernel_abs(next->depth - cell->depth) > 2.0f * rlf_flow_limb_m) {
+            continue;
+        }
+        count += 1.0f;
+        for (int d = 0; d < 3; d++) {
+            out[d] += next->velocity[d];
+        }
+    }
+    for (int d = 0; d < 3 && count > 1.0f; d++) {
+        out[d] /= count;
+    }
+    return count > 1.0f;
+}
+
+/* What a piece cannot tell, its neighbours can: a cell that moves by itself starts again from their
+ * mean, and keeps what comes of it if it fits as well. */
+static void relax_cell(const rlf_cell_grid *g, int32_t row, int32_t column, samples *all)
+{
+    rlf_cell *cell = &g->cells[row * g->columns + column];
+    velocity_guess guess = {.cost = -1.0f};
+    float v[3];
+    if ((cell->state != RLF_CELL_MOVES && cell->state != RLF_CELL_UNKNOWN) ||
+        !neighbour_mean(g, row, column, guess.v)) {
+        return;
+    }
+    take_samples(g, g->region->x0 + column * g->size, g->region->y0 + row * g->size, cell->depth,
+                 all);
+    float tolerance = significant_3 * rlf_flow_correlated * all->variance;
+    float cost = fit_guesses(g, all, &guess, 1, v);
+    float own = cost_of(g, all, cell->velocity, INFINITY);
+    bool fits = 4.0f * cost <= 3.0f * all->limit * (float)all->count;
+    if (all->count >= LEAST_SAMPLES && fits && cost <= own + tolerance) {
+        copy(v, cell->velocity);
+        cell->state = RLF_CELL_MOVES;
+    }
+}
+
+static void relax(const rlf_cell_grid *g)
+{
+    samples all;
+    for (int32_t row = g->rows - 1; row >= 0; row--) {
+        for (int32_t column = g->columns - 1; column >= 0; column--) {
+            relax_cell(g, row, column, &all);
+        }
+    }
+}
+
+static void fit_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const rlf_cell_grid *g = context;
+    const rlf_region *region = g->region;
+    samples all;
+    for (int32_t row = begin; row < end; row++) {
+        int32_t y0 = region->y0 + row * g->size;
+        int32_t y1 = y0 + g->size < region->y1 ? y0 + g->size : region->y1;
+        for (int32_t column = 0; column < g->columns; column++) {
+            int32_t x0 = region->x0 + column * g->size;
+            int32_t x1 = x0 + g->size < region->x1 ? x0 + g->size : region->x1;
+            rlf_cell *cell = &g->cells[row * g->columns + column];
+            *cell = (rlf_cell){{0.0f, 0.0f, 0.0f}, limb_depth(g, x0, y0, x1, y1), RLF_CELL_EMPTY};
+            if (!(cell->depth > 0.0f)) {
+                continue;
+            }
+            cell->state = RLF_CELL_UNKNOWN;
+            take_samples(g, x0, y0, cell->depth, &all);
+            if (all.count >= LEAST_SAMPLES) {
+                fit_cell(g, &all, column > 0 ? cell - 1 : NULL, cell);
+            }
+        }
+    }
+}
+
+void rlf_velocity_cells(const rlf_flow *job, const rlf_region *region, const rlf_twist *twist,
+                        bool moves)
+{
+    const rlf_grid *grid = &job->stage->grid;
+    double size = (double)cell_m * grid->camera.fx / rlf_max(region->centroid.z, 0.1);
+    rlf_cell_grid g = {.job = job,
+                       .region = region,
+                       .twist = twist,
+                       .moves = moves,
+                       .cells = job->stage->work.cells};
+    g.number = (int32_t)(region - &job->now->regions[job->now->foreground_region_first]) + 1;
+    g.size = (int32_t)rlf_clamp(size, LEAST_SIZE, 1024.0);
+    g.columns = (region->x1 - region->x0 + g.size - 1) / g.size;
+    g.rows = (region->y1 - region->y0 + g.size - 1) / g.size;
+    rlf_parallel_for(job->stage->def.pool, g.rows, 1, fit_rows, &g);
+    relax(&g);
+    rlf_cells_write(&g);
+}

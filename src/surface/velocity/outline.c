@@ -1,0 +1,115 @@
+/* What a region's outline in the image says of its motion.
+ *
+ * Depth shows motion along the normal only: a level tray that slides to the side looks the same.
+ * Its outline does not. Where a thing ends before a background that is farther, the outline moves
+ * in the image as the thing does, square to itself: the plane through the eye and the outline's
+ * tangent touches the thing, and m.v of that plane's normal m is seen. This holds for edges and for
+ * the rims of round things alike (Cipolla and Giblin 2000, Visual Motion of Curves and Surfaces).
+ *
+ * How far it moved is read from the number of the region's pixels in a window about it, now and in
+ * the frame before: along an outline that runs slantwise to the pixels these are parts of a pixel.
+ */
+#include "surface/velocity/velocity.h"
+
+#include <math.h>
+
+enum {
+    RADIUS = RLF_RIM_RADIUS,
+    SIDE = RLF_RIM_SIDE,
+    RUN = 128,
+    FIRST_STEP = 2 /* along the outline: the windows of two neighbours are almost the same */
+};
+
+static const float least_step_m = 0.05f; /* to the background: else the outline is but a guess */
+static const float least_pull = 0.5f;    /* of a straight outline's: else it is a corner */
+
+/* Of a straight outline through the middle of a window: pixels that come in per pixel of motion,
+ * and how strongly they pull to one side. */
+static bool measure(const rlf_flow *job, int32_t label, int32_t x, int32_t y, rlf_rim *out)
+{
+    int32_t window[3], width = job->stage->grid.width;
+    rlf_kernel_rim_window(job->now->label, width, label, x, y, window);
+    out->i = (ptrdiff_t)y * width + x;
+    out->count = window[0];
+    float length = (float)sqrt((double)(window[1] * window[1] + window[2] * window[2]));
+    if (length < least_pull * (float)(SIDE * SIDE * (RADIUS + 1)) / 4.0f) {
+        return false;
+    }
+    out->out_x = -(float)window[1] / length;
+    out->out_y = -(float)window[2] / length;
+    float ax = rlf_kernel_abs(out->out_x), ay = rlf_kernel_abs(out->out_y);
+    out->per_pixel = (float)SIDE / (ax > ay ? ax : ay);
+    return true;
+}
+
+/* Takes every step-th of the region's outline; twice that step where they become too many. */
+static void add_rim(const rlf_flow *job, int32_t label, int32_t x, int32_t y, rlf_rims *out)
+{
+    if (out->seen++ % out->step != 0) {
+        return;
+    }
+    if (out->count == RLF_RIMS_MAX) { /* every second one is enough */
+        for (int32_t k = 0; k < RLF_RIMS_MAX / 2; k++) {
+            out->rim[k] = out->rim[2 * k];
+        }
+        out->count = RLF_RIMS_MAX / 2;
+        out->step *= 2;
+    }
+    out->count += measure(job, label, x, y, &out->rim[out->count]);
+}
+
+void rlf_rims_find(const rlf_flow *job, const rlf_region *region, rlf_rims *out)
+{
+    const rlf_grid *grid = &job->stage->grid;
+    int32_t x0 = region->x0 > RADIUS ? region->x0 : RADIUS;
+    int32_t y0 = region->y0 > RADIUS ? region->y0 : RADIUS;
+    int32_t x1 = region->x1 < grid->width - RADIUS ? region->x1 : grid->width - RADIUS;
+    int32_t y1 = region->y1 < grid->height - RADIUS ? region->y1 : grid->height - RADIUS;
+    uint8_t is_rim[RUN];
+    out->count = out->seen = 0;
+    out->step = FIRST_STEP;
+    if (grid->width <= SIDE) {
+        return; /* too narrow for a window */
+    }
+    for (int32_t y = y0; y < y1; y++) {
+        for (int32_t x = x0; x < x1; x += RUN) {
+            ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+            const rlf_kernel_rim_in row = {.label = job->now->label + i,
+                                           .foreground = job->now->foreground + i,
+                                           .depth = job->now->depth + i,
+                                           .width = grid->width,
+                                           .least = least_step_m};
+            int32_t count = x1 - x < RUN ? x1 - x : RUN;
+            rlf_kernel_rim_row(&row, region->label, count, is_rim);
+            for (int32_t k = 0; (k = rlf_kernel_next_mark(is_rim, k, count)) < count; k++) {
+                add_rim(job, region->label, x + k, y, out);
+            }
+        }
+    }
+}
+
+bool rlf_rim_beyond(const rlf_flow *job, int32_t label, const rlf_rim *rim, rlf_vec3 p, rlf_vec3 v,
+                    rlf_vec3 *direction, double *out)
+{
+    const rlf_grid *grid = &job->stage->grid;
+    rlf_vec3 q = rlf_mad(p, v, -(double)job->dt);
+    if (!(q.z > 0.01)) {
+        return false;
+    }
+    double du = (q.x / q.z - grid->ray_x[rim->i]) * grid->camera.fx;
+    double dv = (q.y / q.z - grid->ray_y[rim->i]) * grid->camera.fy;
+    double u = (double)(rim->i % grid->width) + du, w = (double)(rim->i / grid->width) + dv;
+    if (!(u >= RADIUS) || !(w >= RADIUS) || !(u < grid->width - RADIUS - 1) ||
+        !(w < grid->height - RADIUS - 1)) {
+        return false;
+    }
+    int32_t x = (int32_t)(u + 0.5), y = (int32_t)(w + 0.5), before[3];
+    rlf_kernel_rim_window(job->before->label, grid->width, label, x, y, before);
+    double part = (u - x) * (double)rim->out_x + (w - y) * (double)rim->out_y;
+    double pixels = part - (double)(before[0] - rim->count) / (double)rim->per_pixel;
+    rlf_vec3 ray = rlf_normalize(p);
+    rlf_vec3 m = rlf_vec3_make(rim->out_x, rim->out_y, 0.0);
+    *direction = rlf_normalize(rlf_mad(m, ray, -rlf_dot(m, ray)));
+    *out = pixels * p.z / (grid->camera.fx * (double)job->dt);
+    return true;
+}

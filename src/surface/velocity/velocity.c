@@ -1,0 +1,375 @@
+/* Velocity of the front sheet from the change of depth.
+ *
+ * A surface that moves with velocity v meets the frame before, taken back by v dt: along the normal
+ * n the two must not differ. What moves along itself shows that at its outline only
+ * (velocity/outline.c). Over a region that moves as one rigid thing this gives all six
+ * unknowns of its twist (least squares with a weak prior). A region that is not rigid is fitted
+ * cell by cell (velocity/cells.c). What is not significant against the sensor's noise is exactly 0.
+ */
+#include "surface/velocity/velocity.h"
+
+#include <string.h>
+
+enum { STRIDE = 2, PASSES = 4, LEAST_REGION_SAMPLES = 30, MOST_SAMPLES = 400 };
+
+static const double longest_gap_s = 0.2;
+/* Squared sum of 6 normal variables that chance exceeds once in 400 times. */
+static const float significant_6 = 20.1f;
+/* How well a window's pixels place an outline, pixels; of two in a row with the same errors. */
+static const double rim_sigma_px = 0.4;
+static const double rim_weight = 0.5;
+/* Of squares in units of that sigma: a straight edge along the pixels is off by up to half a pixel,
+ * now and before. */
+static const double rim_excess = 1.5;
+/* Of the mean diagonal: depth alone shall make up little, the outline little knows. */
+static const double depth_ridge = 0.01, rim_ridge = 0.002;
+
+/* The published planes hold only what was written into the slot three frames ago. */
+static void clear_velocity(const rlf_grid *grid, rlf_slot *slot)
+{
+    for (int32_t y = 0; y < grid->height; y++) {
+        const rlf_span *span = &slot->moved[y];
+        for (int k = 0; k < 3; k++) {
+            memset(slot->velocity[k] + (ptrdiff_t)y * grid->width + span->x0, 0,
+                   (size_t)(span->x1 - span->x0) * sizeof(float));
+        }
+    }
+    memset(slot->moved, 0, (size_t)grid->height * sizeof *slot->moved);
+}
+
+/* Speed along the normal beyond v, from where v says that the point was; false when the region was
+ * not seen there. */
+static bool speed_beyond(const rlf_flow *job, ptrdiff_t i, rlf_vec3 p, rlf_vec3 n, rlf_vec3 v,
+                         double *out)
+{
+    const rlf_grid *grid = &job->stage->grid;
+    rlf_vec3 q = rlf_mad(p, v, -(double)job->dt);
+    ptrdiff_t k = rlf_flow_pixel_before(job, i, (float)q.x, (float)q.y, (float)q.z);
+    if (k < 0) {
+        return false;
+    }
+    rlf_vec3 step = rlf_sub(q, rlf_flow_point(grid, job->before->depth, k));
+    *out = rlf_dot(n, step) / (double)job->dt;
+    return rlf_dot(step, step) < 4.0 * (double)(rlf_flow_limb_m * rlf_flow_limb_m);
+}
+
+static void twist_row(const rlf_twist *t, rlf_vec3 p, rlf_vec3 n, double row[6])
+{
+    rlf_vec3 turn = rlf_cross(rlf_sub(p, t->centre), n);
+    row[0] = n.x;
+    row[1] = n.y;
+    row[2] = n.z;
+    row[3] = turn.x / t->length;
+    row[4] = turn.y / t->length;
+    row[5] = turn.z / t->length;
+}
+
+/* Symmetric positive definite: Cholesky's L L^T, in place. */
+static void solve_six(double a[6][6], const double b[6], double x[6])
+{
+    for (int i = 0; i < 6; i++) {
+        double sum = b[i];
+        for (int j = 0; j <= i; j++) {
+            double s = a[i][j];
+            for (int k = 0; k < j; k++) {
+                s -= a[i][k] * a[j][k];
+            }
+            a[i][j] = i == j ? sqrt(rlf_max(s, 1e-12)) : s / a[j][j];
+        }
+        for (int k = 0; k < i; k++) {
+            sum -= a[i][k] * x[k];
+        }
+        x[i] = sum / a[i][i];
+    }
+    for (int i = 5; i >= 0; i--) {
+        for (int k = i + 1; k < 6; k++) {
+            x[i] -= a[k][i] * x[k];
+        }
+        x[i] /= a[i][i];
+    }
+}
+
+/* What the sensor's noise makes of a speed, and the normal's error: 5 % of the motion. */
+static double tolerated(const rlf_flow *job, ptrdiff_t i, double facing, double speed)
+{
+    double sigma = rlf_kernel_sigma(job->noise, job->now->depth[i]) / job->dt;
+    return 3.0 * 1.41421356 * sigma * facing + 0.05 * speed;
+}
+
+static int32_t agreeing(const rlf_twist *t)
+{
+    return t->inliers + t->rim_inliers;
+}
+
+/* Normal equations of a step of Gauss and Newton. */
+typedef struct twist_sum {
+    const rlf_flow *job;
+    const rlf_region *region;
+    const rlf_rims *rims;
+    double slack;      /* widens what agrees while the motion is still far off */
+    double rim_weight; /* 0: the outline only says how far off it is */
+    bool only_counts;  /* what agrees, and nothing is improved */
+    double speed;      /* of the motion so far */
+    double a[6][6], b[6];
+} twist_sum;
+
+/* One seen speed `off` beyond the motion along the unit vector n at p; `sigma` is its noise. */
+static void add_row(twist_sum *sum, rlf_twist *t, rlf_vec3 p, rlf_vec3 n, double off, double sigma,
+                    double weight)
+{
+    double row[6], along = rlf_dot(n, rlf_twist_velocity(t, p));
+    t->noise += sigma * sigma;
+    t->explained += along * along;
+    twist_row(t, p, n, row);
+    for (int r = 0; r < 6; r++) {
+        sum->b[r] += weight * row[r] * off;
+        for (int c = 0; c <= r; c++) {
+            sum->a[r][c] += weight * row[r] * row[c];
+        }
+    }
+}
+
+static void add_pixel(twist_sum *sum, rlf_twist *t, ptrdiff_t i)
+{
+    const rlf_flow *job = sum->job;
+    t->samples++;
+    rlf_vec3 p = rlf_flow_point(&job->stage->grid, job->now->depth, i);
+    rlf_vec3 n = rlf_flow_normal(job->now, i);
+    double facing = -rlf_dot(n, p) / p.z, off;
+    if (!(facing > 0.0) || !speed_beyond(job, i, p, n, rlf_twist_velocity(t, p), &off)) {
+        return;
+    }
+    double bound = sum->slack + tolerated(job, i, facing, sum->speed);
+    if (off <= bound && off >= -bound) {
+        double sigma = rlf_kernel_sigma(job->noise, job->now->depth[i]) / job->dt;
+        t->inliers++;
+        if (!sum->only_counts) {
+            add_row(sum, t, p, n, off, 1.41421356 * sigma * facing, 1.0);
+        }
+    }
+}
+
+static void add_rim(twist_sum *sum, rlf_twist *t, const rlf_rim *rim)
+{
+    const rlf_flow *job = sum->job;
+    rlf_vec3 p = rlf_flow_point(&job->stage->grid, job->now->depth, rim->i), n;
+    double off;
+    t->rim_samples++;
+    if (!rlf_rim_beyond(job, sum->region->label, rim, p, rlf_twist_velocity(t, p), &n, &off)) {
+        return;
+    }
+    double depth_sigma = rlf_kernel_sigma(job->noise, job->now->depth[rim->i]);
+    double sigma = rim_sigma_px * p.z / job->stage->grid.camera.fx;
+    double weight = sum->rim_weight * depth_sigma * depth_sigma / (sigma * sigma);
+    t->rim_excess += rlf_min(off * off * job->dt * job->dt / (sigma * sigma), 9.0);
+    sigma *= 1.41421356 / job->dt;
+    double bound = sum->slack + 3.0 * sigma + 0.05 * sum->speed;
+    if (off <= bound && off >= -bound) {
+        t->rim_inliers++;
+        if (weight > 0.0) {
+            add_row(sum, t, p, n, off, sigma, weight);
+        }
+    }
+}
+
+static void step(twist_sum *sum, rlf_twist *t)
+{
+    double x[6], ridge = sum->rim_weight > 0.0 ? rim_ridge : depth_ridge;
+    for (int k = 0; k < 6; k++) {
+        sum->a[k][k] += ridge * (agreeing(t) + 1);
+    }
+    solve_six(sum->a, sum->b, x);
+    for (int k = 0; k < 6; k++) {
+        t->x[k] += x[k];
+    }
+}
+
+/* One step of Gauss and Newton over the pixels and rims that agree with the motion so far. */
+static void fit_pass(const twist_sum *start, double slack, rlf_twist *t)
+{
+    twist_sum sum = *start;
+    const rlf_flow *job = sum.job;
+    const rlf_region *region = sum.region;
+    const rlf_rims *rims = sum.rims;
+    sum.slack = slack;
+    sum.speed = sqrt(t->x[0] * t->x[0] + t->x[1] * t->x[1] + t->x[2] * t->x[2]);
+    t->samples = t->inliers = t->rim_samples = t->rim_inliers = 0;
+    t->noise = t->explained = t->rim_excess = 0.0;
+    for (int32_t v = region->y0; v < region->y1; v += t->stride) {
+        for (int32_t u = region->x0; u < region->x1; u += t->stride) {
+            ptrdiff_t i = (ptrdiff_t)v * job->stage->grid.width + u;
+            if (job->now->label[i] == region->label && job->now->reason[i] == RLF_REASON_OK) {
+                add_pixel(&sum, t, i);
+            }
+        }
+    }
+    for (int32_t k = 0; k < rims->count; k++) {
+        add_rim(&sum, t, &rims->rim[k]);
+    }
+    if (!sum.only_counts) {
+        step(&sum, t);
+    }
+}
+static rlf_twist start_from(const rlf_region *region, rlf_vec3 velocity)
+{
+    rlf_vec3 size = rlf_sub(region->box.max, region->box.min);
+    rlf_twist t = {.centre = region->centroid, .x = {velocity.x, velocity.y, velocity.z}};
+    t.length = rlf_max(0.25 * rlf_length(size), 0.01);
+    t.stride = STRIDE;
+    while (region->point_count > MOST_SAMPLES * t.stride * t.stride) {
+        t.stride++;
+    }
+    return t;
+}
+
+static rlf_twist fit_from(const twist_sum *start, rlf_vec3 velocity)
+{
+    const double slack[PASSES] = {1.0, 0.3, 0.1, 0.0};
+    rlf_twist t = start_from(start->region, velocity);
+    for (int pass = 0; pass < PASSES; pass++) {
+        fit_pass(start, slack[pass], &t);
+    }
+    return t;
+}
+
+/* Whether the outline is farther off than the width of its pixels explains. */
+static bool is_outline_off(const rlf_twist *t)
+{
+    return t->rim_samples > 0 && t->rim_excess > rim_excess * t->rim_samples;
+}
+
+/* More than chance, and more than half of one pixel's noise: small errors that pixels share, from
+ * limbs that move by themselves, do not average out. */
+static bool is_significant(const rlf_twist *t)
+{
+    const double least = 0.25;
+    int32_t count = agreeing(t);
+    return t->inliers >= LEAST_REGION_SAMPLES && t->explained > least * t->noise &&
+           t->explained > significant_6 * t->noise / count * rlf_flow_correlated;
+}
+
+/* Someone who stands and moves his arms turns a little as a whole, says the twist; but that he
+ * rests explains as much of him. */
+static bool is_rest_as_likely(const rlf_twist *rest, const rlf_twist *t)
+{
+    bool depth_rests = 10 * rest->inliers >= 9 * t->inliers;
+    bool outline_rests = 10 * rest->rim_inliers >= 9 * t->rim_inliers &&
+                         !(is_outline_off(rest) && 2.0 * t->rim_excess < rest->rim_excess);
+    return (depth_rests && outline_rests) || 9 * agreeing(rest) > 10 * agreeing(t);
+}
+
+/* The centroid moves when pieces join or leave a region, too: then its step says nothing. */
+static bool is_same_shape(const rlf_region *a, const rlf_region *b)
+{
+    return 5 * a->point_count >= 4 * b->point_count && 5 * b->point_count >= 4 * a->point_count;
+}
+
+/* Velocity of the visible part's centroid. A silhouette that flickers moves the centroid a little,
+ * so small steps do not count. */
+static rlf_vec3 centroid_velocity(const rlf_flow *job, const rlf_region *region)
+{
+    const double least_step_m = 0.005;
+    const rlf_slot *before = job->before;
+    for (int32_t k = 0; k < before->foreground_region_count; k++) {
+        const rlf_region *old = &before->regions[before->foreground_region_first + k];
+        rlf_vec3 step = rlf_sub(region->centroid, old->centroid);
+        bool same = old->label == region->label && is_same_shape(old, region);
+        if (same && rlf_length(step) > least_step_m) {
+            return rlf_scale(step, 1.0 / (double)job->dt);
+        }
+    }
+    return rlf_vec3_make(0, 0, 0);
+}
+
+/* Whether the region moves as one. Tried from rest and from the centroid's motion; what more pixels
+ * agree with is right. */
+static bool is_moving(const rlf_flow *job, const rlf_region *region, rlf_vec3 seen, rlf_twist *out)
+{
+    rlf_rims rims;
+    rlf_rims_find(job, region, &rims);
+    twist_sum sum = {.job = job, .region = region, .rims = &rims, .only_counts = true};
+    const rlf_vec3 none = {0, 0, 0};
+    rlf_twist rest = start_from(region, none);
+    fit_pass(&sum, 0.0, &rest);
+    sum.only_counts = false;
+    const rlf_twist all = {.inliers = rest.samples, .rim_inliers = rest.rim_samples};
+    if (is_rest_as_likely(&rest, &all)) {
+        return false; /* whatever the motion */
+    }
+    *out = fit_from(&sum, none);
+    if (is_outline_off(out)) {
+        sum.rim_weight = rim_weight;
+        *out = fit_from(&sum, none);
+    }
+    if (rlf_length(seen) > 0.0 && 5 * agreeing(out) < 4 * agreeing(&all)) {
+        rlf_twist other = fit_from(&sum, seen);
+        *out = agreeing(&other) > agreeing(out) ? other : *out;
+    }
+    return is_significant(out) && 3 * agreeing(out) >= agreeing(&all) &&
+           !is_rest_as_likely(&rest, out);
+}
+
+static bool region_motion(const rlf_flow *job, rlf_region *region, rlf_twist *out)
+{
+    rlf_vec3 seen = centroid_velocity(job, region);
+    *out = start_from(region, rlf_vec3_make(0, 0, 0));
+    if (!is_moving(job, region, seen, out)) {
+        region->linear_velocity = seen;
+        for (int k = 0; k < 6; k++) {
+            out->x[k] = 0.0;
+        }
+        return false;
+    }
+    region->linear_velocity = rlf_vec3_make(out->x[0], out->x[1], out->x[2]);
+    region->angular_velocity =
+        rlf_scale(rlf_vec3_make(out->x[3], out->x[4], out->x[5]), 1.0 / out->length);
+    return true;
+}
+
+/* The frame before as the samples of this one look at it. */
+static rlf_kernel_flow_view look_back(const rlf_reconstruct *stage, const rlf_slot *before,
+                                      bool is_all_front)
+{
+    const rlf_grid *grid = &stage->grid;
+    float *seen = stage->work.sum[0];
+    for (int32_t y = 0; y < grid->height; y++) {
+        ptrdiff_t i = (ptrdiff_t)y * grid->width;
+        const uint8_t *front = is_all_front ? stage->work.ones : before->foreground + i;
+        rlf_kernel_front_row(before->depth + i, before->reason + i, front, grid->width, seen + i);
+    }
+    return (rlf_kernel_flow_view){.seen = seen,
+                                  .ray_x = grid->ray_x,
+                                  .ray_y = grid->ray_y,
+                                  .width = grid->width,
+                                  .height = grid->height,
+                                  .fx = (float)grid->camera.fx,
+                                  .fy = (float)grid->camera.fy,
+                                  .limb = rlf_flow_limb_m};
+}
+
+void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot)
+{
+    const rlf_slot *before = stage->previous;
+    clear_velocity(&stage->grid, slot);
+    double dt =
+        before == NULL ? 0.0 : 1e-9 * (double)(slot->surface.time_ns - before->surface.time_ns);
+    if (!(dt > 0.0) || dt > longest_gap_s || slot->foreground_region_count == 0) {
+        return;
+    }
+    bool is_all_front = stage->def.background_method == RLF_BACKGROUND_OFF;
+    const rlf_flow job = {stage,
+                          before,
+                          slot,
+                          (float)dt,
+                          rlf_kernel_noise_make(&stage->def.rig.noise),
+                          look_back(stage, before, is_all_front)};
+    for (int32_t r = 0; r < slot->foreground_region_count; r++) {
+        rlf_region *region = &slot->regions[slot->foreground_region_first + r];
+        for (int32_t y = region->y0; y < region->y1; y++) {
+            slot->moved[y] = rlf_span_unite(slot->moved[y], (rlf_span){region->x0, region->x1});
+        }
+        rlf_twist twist;
+        bool moves = region_motion(&job, region, &twist);
+        rlf_velocity_cells(&job, region, &twist, moves);
+    }
+}

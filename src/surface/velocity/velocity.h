@@ -1,0 +1,138 @@
+/* What the two ways to find velocity share. */
+#ifndef RLF_SURFACE_VELOCITY_VELOCITY_H
+#define RLF_SURFACE_VELOCITY_VELOCITY_H
+
+#include "kernel/flow.h"
+#include "surface/steps.h"
+
+/* Two frames. */
+typedef struct rlf_flow {
+    const rlf_reconstruct *stage;
+    const rlf_slot *before;
+    rlf_slot *now;
+    float dt;
+    rlf_kernel_noise noise;
+    rlf_kernel_flow_view view; /* of the frame before */
+} rlf_flow;
+
+/* A rigid motion about a centre; w in units of 1 / length, so that all six unknowns are speeds. */
+typedef struct rlf_twist {
+    rlf_vec3 centre;
+    double length;
+    double x[6];
+    double explained, noise; /* squared speeds */
+    int32_t stride;          /* every stride-th pixel of every stride-th row is looked at */
+    int32_t samples, inliers;
+    int32_t rim_samples, rim_inliers; /* of the outline */
+    double rim_excess;                /* sum of squares in units of their sigma */
+} rlf_twist;
+
+/* Angular velocity, and with it the velocity at p. */
+static inline rlf_vec3 rlf_twist_spin(const rlf_twist *t)
+{
+    return rlf_scale(rlf_vec3_make(t->x[3], t->x[4], t->x[5]), 1.0 / t->length);
+}
+
+static inline rlf_vec3 rlf_twist_at(const rlf_twist *t, rlf_vec3 spin, rlf_vec3 p)
+{
+    return rlf_add(rlf_vec3_make(t->x[0], t->x[1], t->x[2]),
+                   rlf_cross(spin, rlf_sub(p, t->centre)));
+}
+
+static inline rlf_vec3 rlf_twist_velocity(const rlf_twist *t, rlf_vec3 p)
+{
+    return rlf_twist_at(t, rlf_twist_spin(t), p);
+}
+
+/* A square of the image in one region: see velocity/cells.c. */
+typedef struct rlf_cell {
+    float velocity[3];
+    float depth; /* of the limb that it holds, metres; 0 = none of the region */
+    int32_t state;
+} rlf_cell;
+
+/* What is known of a cell: nothing of the region, nothing that fits, it rests, it moves with the
+ * region, it moves by itself. */
+enum { RLF_CELL_EMPTY = 0, RLF_CELL_UNKNOWN, RLF_CELL_STILL, RLF_CELL_WHOLE, RLF_CELL_MOVES };
+
+/* The cells of one region. */
+typedef struct rlf_cell_grid {
+    const rlf_flow *job;
+    const rlf_region *region;
+    const rlf_twist *twist;
+    bool moves; /* the twist is not 0 */
+    rlf_cell *cells;
+    int32_t size, columns, rows;
+    int32_t number; /* of the region, in the runs */
+} rlf_cell_grid;
+
+size_t rlf_cell_capacity(const rlf_grid *grid);
+/* Velocity of a region's pixels; `twist` is its motion as a whole, 0 unless it `moves`. */
+void rlf_velocity_cells(const rlf_flow *job, const rlf_region *region, const rlf_twist *twist,
+                        bool moves);
+
+/* velocity/write.c: writes the velocity of the region's pixels. */
+void rlf_cells_write(rlf_cell_grid *g);
+
+/* A pixel at a region's outline before a background that is farther: see velocity/outline.c. */
+typedef struct rlf_rim {
+    ptrdiff_t i;
+    int32_t count;      /* of the region's pixels in a window about it */
+    float out_x, out_y; /* unit, in the image, out of the region */
+    float per_pixel;    /* change of count for a pixel's step outwards */
+} rlf_rim;
+
+enum { RLF_RIMS_MAX = 128 };
+
+typedef struct rlf_rims {
+    rlf_rim rim[RLF_RIMS_MAX];
+    int32_t count;
+    int32_t seen, step; /* pixels of the outline; every step-th is taken */
+} rlf_rims;
+
+/* Some of the region's outline, evenly. */
+void rlf_rims_find(const rlf_flow *job, const rlf_region *region, rlf_rims *out);
+/* Speed of the outline at p, the rim's point, beyond v along *direction, which is unit, square to
+ * the outline and to the ray. False out of view. */
+bool rlf_rim_beyond(const rlf_flow *job, int32_t label, const rlf_rim *rim, rlf_vec3 p, rlf_vec3 v,
+                    rlf_vec3 *direction, double *out);
+
+static const float rlf_flow_fastest = 5.0f; /* m/s */
+/* Within a window: farther pixels are another limb. */
+static const float rlf_flow_limb_m = 0.05f;
+/* Noise of neighbouring pixels is correlated by the drivers' 3x3 filters: 2 of every second pixel
+ * count as one. */
+static const float rlf_flow_correlated = 2.0f;
+
+static inline rlf_vec3 rlf_flow_point(const rlf_grid *grid, const float *depth, ptrdiff_t i)
+{
+    double z = depth[i];
+    return rlf_vec3_make(z * grid->ray_x[i], z * grid->ray_y[i], z);
+}
+
+static inline rlf_vec3 rlf_flow_normal(const rlf_slot *slot, ptrdiff_t i)
+{
+    return rlf_vec3_make(slot->normal[0][i], slot->normal[1][i], slot->normal[2][i]);
+}
+
+/* Pixel of the frame before that saw point q, near pixel i, < 0 when none did. The step from i is
+ * measured with the focal length: what distortion makes of it moves the pixel a little along the
+ * surface, where the same normal makes the same of it. */
+static inline ptrdiff_t rlf_flow_pixel_before(const rlf_flow *job, ptrdiff_t i, float x, float y,
+                                              float z)
+{
+    const rlf_kernel_flow_view *w = &job->view;
+    if (!(z > 0.01f)) {
+        return -1;
+    }
+    float u = (float)(i % w->width) + (x / z - w->ray_x[i]) * w->fx;
+    float v = (float)(i / w->width) + (y / z - w->ray_y[i]) * w->fy;
+    if (!(u > -0.5f) || !(v > -0.5f) || !(u < (float)w->width - 0.5f) ||
+        !(v < (float)w->height - 0.5f)) {
+        return -1;
+    }
+    ptrdiff_t k = (ptrdiff_t)(int32_t)(v + 0.5f) * w->width + (int32_t)(u + 0.5f);
+    return w->seen[k] > 0.0f ? k : -1;
+}
+
+#endif
