@@ -22,7 +22,7 @@ typedef struct eval_distance {
 void eval_distance_add(eval_distance *e, const rlf_surface *surface, const rlf_frame *frame,
                        const rlf_truth *truth, const uint8_t *band);
 
-/* Three figures per bin; as those of eval_figures.h. */
+/* Three figures per bin; as those of figures.h. */
 int32_t eval_distance_count(void);
 const char *eval_distance_key(int32_t index);
 const char *eval_distance_title(int32_t index);

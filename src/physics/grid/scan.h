@@ -14,7 +14,7 @@
 
 typedef enum grid_face { GRID_TOUCH_FRONT = 0, GRID_TOUCH_BACK, GRID_TOUCH_SIDE } grid_face;
 
-/* A place that a ball comes to before the next query; see grid_ball.h. */
+/* A place that a ball comes to before the next query; see ball.h. */
 typedef struct grid_meeting {
     grid_face face;
     int32_t x, y;       /* pixel */
