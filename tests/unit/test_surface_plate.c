@@ -9,8 +9,10 @@
 #include <cmocka.h>
 
 #include "analytic.h"
+#include "surface/plate/plate.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { WIDTH = 512, HEIGHT = 200, COUNT = WIDTH * HEIGHT, BAND = 2, EMPTY_FRAMES = 8 };
 
@@ -186,11 +188,39 @@ static void a_barrel_is_no_plate(void **state)
     assert_true(sum / count < 0.08); /* a plate would be 20 off */
 }
 
+/* A box that is a little off comes to where its outline is seen, with edges along rows and columns,
+ * too, and the same frame does not move it on: where it began has no say but by its doubt. */
+static void a_frame_places_a_plate_and_does_not_move_it_again(void **state)
+{
+    fixture *f = *state;
+    const plate seen = {.half = {0.01, 0.12, 0.09}, .x = 0.05};
+    const double pixel_m = middle_z / f->rig.depth.fx;
+    start(f);
+    draw(f, &seen);
+    for (int k = 0; k < 20; k++) {
+        rlf_plate box = {.half = {0.122, 0.092, 0.011}};
+        box.pose.p = rlf_vec3_make(0.05 + 0.0007 * k, 0.004, middle_z - 0.003);
+        box.pose.q = rlf_quat_from_rotation_vector(rlf_vec3_make(0.0, 0.0, RLF_PI / 2.0));
+        for (int u = 0; u < RLF_PLATE_UNKNOWNS; u++) {
+            box.doubt[u][u] = 0.02 * 0.02;
+        }
+        rlf_plate_improve(f->stage, f->truth, &box);
+        assert_true(fabs(box.pose.p.x - seen.x) < pixel_m);
+        assert_true(fabs(box.pose.p.y) < pixel_m);
+        assert_true(fabs(box.half[0] - seen.half[1]) < pixel_m);
+        assert_true(fabs(box.half[1] - seen.half[2]) < pixel_m);
+        const rlf_plate before = box;
+        rlf_plate_improve(f->stage, f->truth, &box);
+        assert_true(rlf_length(rlf_sub(box.pose.p, before.pose.p)) < 0.0005);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_plate_edge_on_is_as_deep_as_its_face_was_wide),
         cmocka_unit_test(a_barrel_is_no_plate),
+        cmocka_unit_test(a_frame_places_a_plate_and_does_not_move_it_again),
     };
     return cmocka_run_group_tests(tests, make_fixture, free_fixture);
 }

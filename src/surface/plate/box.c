@@ -46,16 +46,16 @@ bool rlf_plate_cut_ray(const rlf_plate_view *view, double x, double y, rlf_plate
     return out->face >= 0 && out->enter < out->leave;
 }
 
-double rlf_plate_distance(const rlf_plate_view *view, rlf_vec3 p)
+bool rlf_plate_is_near(const rlf_plate_view *view, rlf_vec3 p, double metres)
 {
     rlf_vec3 local = rlf_plate_local(view, p);
     const double q[3] = {local.x, local.y, local.z};
     double square = 0.0;
     for (int k = 0; k < 3; k++) {
-        double beyond = (q[k] < 0.0 ? -q[k] : q[k]) - view->half[k];
-        square += beyond > 0.0 ? beyond * beyond : 0.0;
+        double beyond = rlf_max((q[k] < 0.0 ? -q[k] : q[k]) - view->half[k], 0.0);
+        square += beyond * beyond;
     }
-    return sqrt(square);
+    return square < metres * metres;
 }
 
 rlf_plate_window rlf_plate_window_of(const rlf_grid *grid, const rlf_plate_view *view,

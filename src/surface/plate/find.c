@@ -319,7 +319,7 @@ static void mark_known(const rlf_reconstruct *stage, const rlf_slot *slot, uint8
         for (int32_t y = w.y0 + w.y0 % STEP_PX; y < w.y1; y += STEP_PX) {
             for (int32_t x = w.x0; x < w.x1; x++) {
                 ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-                bool is_near = rlf_plate_distance(&view, point_at(stage, slot, i)) < side_m;
+                bool is_near = rlf_plate_is_near(&view, point_at(stage, slot, i), side_m);
                 visited[i] = is_near ? 1 : visited[i];
             }
         }
@@ -359,7 +359,7 @@ void rlf_plates_find(rlf_reconstruct *stage, const rlf_slot *slot)
 {
     uint8_t *visited = stage->work.mask[0];
     stage->plates.frame = (stage->plates.frame + 1) % FRAMES;
-    if (slot->foreground_region_count == 0) {
+    if (slot->foreground_region_count == 0 || stage->plates.count == RLF_PLATES) {
         return;
     }
     memset(visited, 0, (size_t)stage->grid.count);

@@ -7,7 +7,8 @@
 
 enum {
     N = RLF_PLATE_UNKNOWNS,
-    PASSES = 5,
+    PASSES = 5,       /* at most; */
+    LOOSE_PASSES = 3, /* of these with a wide scale for places of the outline */
     REACH_PX = 6,
     MARGIN_PX = 3,
     MOST_PLACES = 48,
@@ -27,6 +28,7 @@ static const double least_sigma_m = 0.0005;
 static const double beside_m = 0.008; /* a point so far beside a face may be on it */
 static const double spacing_px = 1.5;
 static const double most_ragged_px = 1.5; /* of a straight edge */
+static const double settled = 0.5; /* of its sigma moves no unknown: a sixth of that is left */
 
 /* Normal equations of the correction x: J x = e. */
 typedef struct equations {
@@ -64,25 +66,46 @@ typedef struct on_face {
     double off;         /* metres from the face, squared */
 } on_face;
 
-/* The nearest among those that the camera sees at an angle whose sine is between the bounds. */
-static on_face nearest_face(const rlf_plate_view *view, rlf_vec3 p, double least, double most)
+/* A point as the box has it. */
+typedef struct in_box {
+    double q[3];      /* in its own axes, metres */
+    double beyond[3]; /* of its extents, metres */
+    double facing[3]; /* cosines of the view's direction and the axes */
+    double square;    /* of the distance to it */
+} in_box;
+
+static in_box look_from_box(const rlf_plate_view *view, rlf_vec3 p)
 {
-    rlf_vec3 local = rlf_plate_local(view, p), way = rlf_normalize(p);
-    const double q[3] = {local.x, local.y, local.z};
-    double beyond[3];
+    const rlf_vec3 local = rlf_plate_local(view, p);
+    in_box at = {.q = {local.x, local.y, local.z}};
+    for (int k = 0; k < 3; k++) {
+        at.beyond[k] = rlf_max((at.q[k] < 0.0 ? -at.q[k] : at.q[k]) - view->half[k], 0.0);
+        at.square += at.beyond[k] * at.beyond[k];
+    }
+    return at;
+}
+
+static void look_along_view(const rlf_plate_view *view, rlf_vec3 p, in_box *at)
+{
+    const rlf_vec3 way = rlf_normalize(p);
+    for (int k = 0; k < 3; k++) {
+        at->facing[k] = rlf_dot(view->axis[k], way);
+    }
+}
+
+/* The nearest among those that the camera sees at an angle whose sine is between the bounds. */
+static on_face nearest_face(const rlf_plate_view *view, const in_box *at, double least, double most)
+{
     on_face best = {.axis = -1, .off = 1e9};
     for (int k = 0; k < 3; k++) {
-        beyond[k] = rlf_max((q[k] < 0.0 ? -q[k] : q[k]) - view->half[k], 0.0);
-    }
-    for (int side = 0; side < 6; side++) {
-        int32_t k = side / 2;
-        double sign = side % 2 == 0 ? -1.0 : 1.0, error = sign * q[k] - view->half[k];
-        double facing = -sign * rlf_dot(view->axis[k], way), off = error * error;
-        for (int o = 0; o < 3; o++) {
-            off += o == k ? 0.0 : beyond[o] * beyond[o];
-        }
-        if (facing > least && facing <= most && off < best.off) {
-            best = (on_face){k, sign, error, off};
+        const int o = (k + 1) % 3, m = (k + 2) % 3;
+        const double beside = at->beyond[o] * at->beyond[o] + at->beyond[m] * at->beyond[m];
+        for (double sign = -1.0; sign <= 1.0; sign += 2.0) {
+            double error = sign * at->q[k] - view->half[k], facing = -sign * at->facing[k];
+            double off = error * error + beside;
+            if (facing > least && facing <= most && off < best.off) {
+                best = (on_face){k, sign, error, off};
+            }
         }
     }
     return best;
@@ -90,12 +113,12 @@ static on_face nearest_face(const rlf_plate_view *view, rlf_vec3 p, double least
 
 /* Noise puts points of the other faces on a face that is seen at a low angle, or is about to come
  * into view: those that are far behind these are on it. */
-static on_face face_of(const rlf_plate_view *view, rlf_vec3 p)
+static on_face face_of(const rlf_plate_view *view, const in_box *at)
 {
     const double low = 0.15, hidden = -0.2, far_m = 0.02;
-    on_face face = nearest_face(view, p, low, 1.0);
+    on_face face = nearest_face(view, at, low, 1.0);
     if (face.axis < 0 || face.off > far_m * far_m) {
-        on_face other = nearest_face(view, p, hidden, low);
+        on_face other = nearest_face(view, at, hidden, low);
         bool is_inside = other.axis == 2 && other.off <= other.error * other.error;
         face = is_inside && other.off < robust_m * robust_m ? other : face;
     }
@@ -107,15 +130,17 @@ static void add_pixel(equations *sum, ptrdiff_t i)
     const rlf_grid *grid = &sum->stage->grid;
     double z = sum->depth[i], x = grid->ray_x[i], y = grid->ray_y[i], row[N];
     rlf_vec3 p = rlf_vec3_make(z * x, z * y, z);
-    if (!(z > 0.0) || rlf_plate_distance(&sum->view, p) > thing_m) {
+    in_box at = look_from_box(&sum->view, p);
+    if (!(z > 0.0) || at.square > thing_m * thing_m) {
         return;
     }
-    on_face face = face_of(&sum->view, p);
+    look_along_view(&sum->view, p, &at);
+    on_face face = face_of(&sum->view, &at);
     if (face.axis < 0 || face.off > face.error * face.error + beside_m * beside_m) {
         return;
     }
     rlf_vec3 n = rlf_scale(sum->view.axis[face.axis], face.sign);
-    double facing = -rlf_dot(n, rlf_normalize(p));
+    double facing = -face.sign * at.facing[face.axis];
     double sigma = rlf_depth_noise_sigma(&sum->stage->def.rig.noise, z) * rlf_max(facing, 0.0) +
                    beside_px * z / grid->camera.fx * sqrt(rlf_max(1.0 - facing * facing, 0.0)) +
                    least_sigma_m;
@@ -130,48 +155,56 @@ static void add_pixel(equations *sum, ptrdiff_t i)
 
 enum { NOTHING, THING, BEYOND, BEFORE };
 
-static int32_t kind_of(const equations *sum, double u, double v, double z, double *seen)
+/* What the pixel nearest to `at` + `k` `out` shows. */
+typedef struct sight {
+    int32_t kind;
+    double seen;   /* depth, m */
+    double offset; /* of the pixel's middle from `at`, along `out` */
+} sight;
+
+static sight look_at(const equations *sum, const double at[2], const double out[2], int32_t k,
+                     double z)
 {
     const rlf_grid *grid = &sum->stage->grid;
+    const double u = at[0] + k * out[0], v = at[1] + k * out[1];
+    sight s = {.kind = BEFORE};
     if (!(u > -0.5) || !(v > -0.5) || !(u < grid->width - 0.5) || !(v < grid->height - 0.5)) {
-        return BEFORE;
+        return s;
     }
-    ptrdiff_t i = (ptrdiff_t)(int32_t)(v + 0.5) * grid->width + (int32_t)(u + 0.5);
-    *seen = sum->depth[i];
-    if (!(*seen > 0.0)) {
-        return NOTHING;
+    int32_t x = (int32_t)(u + 0.5), y = (int32_t)(v + 0.5);
+    ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+    s.seen = sum->depth[i];
+    s.offset = (x - at[0]) * out[0] + (y - at[1]) * out[1];
+    rlf_vec3 p = rlf_vec3_make(s.seen * grid->ray_x[i], s.seen * grid->ray_y[i], s.seen);
+    if (!(s.seen > 0.0)) {
+        s.kind = NOTHING;
+    } else if (rlf_plate_is_near(&sum->view, p, outline_m)) {
+        s.kind = THING;
+    } else {
+        s.kind = s.seen > z + step_m ? BEYOND : BEFORE;
     }
-    rlf_vec3 p = rlf_vec3_make(*seen * grid->ray_x[i], *seen * grid->ray_y[i], *seen);
-    if (rlf_plate_distance(&sum->view, p) < outline_m) {
-        return THING;
-    }
-    return *seen > z + step_m ? BEYOND : BEFORE;
+    return s;
 }
 
-/* Pixels from (u, v), outwards along `out`, to where depth steps for the last time; false when it
+/* Pixels from `at`, outwards along `out`, to where depth steps for the last time; false when it
  * does not, as where something else begins that goes on behind. What is beyond a narrow plate is
  * seen on its other side, too. */
 static bool find_step(const equations *sum, const double at[2], const double out[2], double z,
                       double *offset, double *sigma)
 {
-    const int32_t NONE = -REACH_PX;
-    int32_t last = NONE - 1, step = NONE;
-    double last_seen = z, seen;
-    for (int32_t k = -REACH_PX; k <= REACH_PX && (k <= 0 || step == NONE); k++) {
-        int32_t kind = kind_of(sum, at[0] + k * out[0], at[1] + k * out[1], z, &seen);
-        if (kind == BEFORE || (kind == BEYOND && seen < last_seen + step_m)) {
+    sight last = {.kind = NOTHING, .seen = z}, step = {.kind = NOTHING};
+    for (int32_t k = -REACH_PX; k <= REACH_PX && (k <= 0 || step.kind == NOTHING); k++) {
+        sight s = look_at(sum, at, out, k, z);
+        if (s.kind == BEFORE || (s.kind == BEYOND && s.seen < last.seen + step_m)) {
             return false;
         }
-        if (kind == THING) {
-            last = k;
-            last_seen = seen;
-        }
-        step = kind != BEYOND ? NONE : step == NONE ? k : step;
+        last = s.kind == THING ? s : last;
+        step = s.kind == BEYOND && step.kind == NOTHING ? s : s.kind == BEYOND ? step : (sight){0};
     }
-    bool is_seen = last >= -REACH_PX;
-    *offset = is_seen ? 0.5 * (step + last) : step - band_px;
+    bool is_seen = last.kind == THING;
+    *offset = is_seen ? 0.5 * (step.offset + last.offset) : step.offset - band_px;
     *sigma = is_seen ? outline_px : beyond_px;
-    return step != NONE;
+    return step.kind == BEYOND;
 }
 
 /* A place on an edge of the outline: depth steps `offset` pixels farther out. */
@@ -348,9 +381,34 @@ static void apply(const double x[N], rlf_plate *plate)
     }
 }
 
+/* The correction x that the equations and what was known before, less what is `gone` of it, give;
+ * their inverse is the covariance. True when no unknown moves by more than a share of its sigma. */
+static bool solve(double prior[N][N], double gone[N], equations *sum, double x[N])
+{
+    bool is_settled = true;
+    for (int r = 0; r < N; r++) {
+        for (int c = 0; c < N; c++) {
+            sum->a[r][c] = prior[r][c] + (c <= r ? sum->a[r][c] : sum->a[c][r]);
+            sum->b[r] -= prior[r][c] * gone[c];
+        }
+    }
+    math_invert(&sum->a[0][0], N);
+    for (int r = 0; r < N; r++) {
+        x[r] = 0.0;
+        for (int c = 0; c < N; c++) {
+            x[r] += sum->a[r][c] * sum->b[c];
+        }
+        is_settled = is_settled && x[r] * x[r] <= settled * settled * sum->a[r][r];
+    }
+    for (int r = 0; r < N; r++) {
+        gone[r] += x[r];
+    }
+    return is_settled;
+}
+
 rlf_plate_fit rlf_plate_improve(const rlf_reconstruct *stage, const float *depth, rlf_plate *plate)
 {
-    double prior[N][N], gone[N] = {0.0};
+    double prior[N][N], gone[N] = {0.0}, x[N];
     equations sum;
     memcpy(prior, plate->doubt, sizeof prior);
     math_invert(&prior[0][0], N);
@@ -358,24 +416,13 @@ rlf_plate_fit rlf_plate_improve(const rlf_reconstruct *stage, const float *depth
         sum = (equations){.stage = stage,
                           .depth = depth,
                           .view = rlf_plate_look(plate),
-                          .loose_px = pass < 3 ? 4.0 : 1.2};
+                          .loose_px = pass < LOOSE_PASSES ? 4.0 : 1.2};
         measure(&sum);
-        for (int r = 0; r < N; r++) {
-            for (int c = 0; c < N; c++) {
-                sum.a[r][c] = prior[r][c] + (c <= r ? sum.a[r][c] : sum.a[c][r]);
-                sum.b[r] -= prior[r][c] * gone[c];
-            }
-        }
-        math_invert(&sum.a[0][0], N);
-        double x[N];
-        for (int r = 0; r < N; r++) {
-            x[r] = 0.0;
-            for (int c = 0; c < N; c++) {
-                x[r] += sum.a[r][c] * sum.b[c];
-            }
-            gone[r] += x[r];
-        }
+        bool is_settled = solve(prior, gone, &sum, x);
         apply(x, plate);
+        if (is_settled) {
+            pass = pass < LOOSE_PASSES ? LOOSE_PASSES - 1 : PASSES;
+        }
     }
     memcpy(plate->doubt, sum.a, sizeof plate->doubt);
     return sum.fit;

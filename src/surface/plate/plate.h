@@ -36,8 +36,8 @@ rlf_plate_view rlf_plate_look(const rlf_plate *plate);
 bool rlf_plate_cut_ray(const rlf_plate_view *view, double x, double y, rlf_plate_cut *out);
 /* Where p is in the box's own axes. */
 rlf_vec3 rlf_plate_local(const rlf_plate_view *view, rlf_vec3 p);
-/* Metres from p to the box, 0 within. */
-double rlf_plate_distance(const rlf_plate_view *view, rlf_vec3 p);
+/* Whether p is in the box or less than so many metres from it. */
+bool rlf_plate_is_near(const rlf_plate_view *view, rlf_vec3 p, double metres);
 /* The pixels that it covers and `margin` around; none when part of it is beside or behind the
  * camera. */
 rlf_plate_window rlf_plate_window_of(const rlf_grid *grid, const rlf_plate_view *view,

@@ -1,19 +1,22 @@
 /* How thick plates are where they are seen, how they move, and where they are when they are not. */
+#include "kernel/plate.h"
 #include "surface/past/past.h"
 #include "surface/plate/plate.h"
 
-static const double thing_m = 0.03;
+#include <string.h>
+
+static const float thing_m = 0.03f;
 static const double edge_on = 0.2;  /* sine of the angle between the face and the view */
 static const double slowest = 0.08; /* m/s: what is slower may rest */
-static const double least_m = 0.02; /* as of all else: thickness/thickness.c */
+static const float least_m = 0.02f; /* as of all else: thickness/thickness.c */
 
-/* The cut of the pixel's ray, or of the nearest one about it that meets the plate. */
-static bool cut_near(const rlf_grid *grid, const rlf_plate_view *view, int32_t x, int32_t y,
-                     rlf_plate_cut *out)
+/* The cut of the nearest ray about the pixel's that meets the plate. */
+static bool cut_beside(const rlf_grid *grid, const rlf_plate_view *view, int32_t x, int32_t y,
+                       rlf_plate_cut *out)
 {
-    static const int32_t about[9][2] = {{0, 0}, {1, 0},   {-1, 0}, {0, 1}, {0, -1},
+    static const int32_t about[8][2] = {{1, 0}, {-1, 0},  {0, 1},  {0, -1},
                                         {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
-    for (int32_t k = 0; k < 9; k++) {
+    for (int32_t k = 0; k < 8; k++) {
         int32_t u = x + about[k][0], v = y + about[k][1];
         ptrdiff_t i = (ptrdiff_t)v * grid->width + u;
         bool is_inside = u >= 0 && v >= 0 && u < grid->width && v < grid->height;
@@ -24,51 +27,93 @@ static bool cut_near(const rlf_grid *grid, const rlf_plate_view *view, int32_t x
     return false;
 }
 
-/* An edge shows little of its motion: what was filled of it has the plate's. */
-static void move_pixel(const rlf_plate *plate, rlf_vec3 p, int32_t x, int32_t y, ptrdiff_t i,
-                       rlf_slot *slot)
+/* One plate and the frame that it is written to. */
+typedef struct writer {
+    const rlf_reconstruct *stage;
+    const rlf_plate *plate;
+    rlf_plate_view view;
+    rlf_kernel_plate box; /* the same for rows of pixels */
+    bool is_edge_on;
+    rlf_slot *slot;
+} writer;
+
+static writer begin(const rlf_reconstruct *stage, const rlf_plate *plate, rlf_slot *slot)
 {
-    rlf_vec3 arm = rlf_sub(p, plate->pose.p);
-    rlf_vec3 v = rlf_add(plate->speed, rlf_cross(plate->spin, arm));
+    writer w = {.stage = stage, .plate = plate, .view = rlf_plate_look(plate), .slot = slot};
+    for (int k = 0; k < 3; k++) {
+        const rlf_vec3 axis = w.view.axis[k];
+        const float part[3] = {(float)axis.x, (float)axis.y, (float)axis.z};
+        memcpy(w.box.axis[k], part, sizeof part);
+        w.box.from[k] = (float)rlf_dot(w.view.centre, axis);
+        w.box.half[k] = (float)w.view.half[k];
+    }
+    double facing = rlf_dot(w.view.axis[2], rlf_normalize(w.view.centre));
+    w.is_edge_on = facing < edge_on && facing > -edge_on;
+    return w;
+}
+
+/* An edge shows little of its motion: what was filled of it has the plate's. */
+static void move_pixel(const writer *w, int32_t x, int32_t y)
+{
+    const rlf_grid *grid = &w->stage->grid;
+    const ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+    const double z = w->slot->depth[i];
+    rlf_vec3 p = rlf_vec3_make(z * grid->ray_x[i], z * grid->ray_y[i], z);
+    rlf_vec3 arm = rlf_sub(p, w->plate->pose.p);
+    rlf_vec3 v = rlf_add(w->plate->speed, rlf_cross(w->plate->spin, arm));
     if (rlf_length(v) > slowest) {
         const rlf_span here = {x, x + 1};
-        slot->moved[y] = rlf_span_unite(slot->moved[y], here);
-        slot->velocity[0][i] = (float)v.x;
-        slot->velocity[1][i] = (float)v.y;
-        slot->velocity[2][i] = (float)v.z;
+        w->slot->moved[y] = rlf_span_unite(w->slot->moved[y], here);
+        w->slot->velocity[0][i] = (float)v.x;
+        w->slot->velocity[1][i] = (float)v.y;
+        w->slot->velocity[2][i] = (float)v.z;
     }
 }
 
-static void write_pixel(const rlf_reconstruct *stage, const rlf_plate *plate,
-                        const rlf_plate_view *view, int32_t x, int32_t y, rlf_slot *slot)
+/* Of a pixel whose ray leaves the plate at depth `leave`. */
+static void write_pixel(const writer *w, float leave, int32_t x, int32_t y)
 {
-    const rlf_grid *grid = &stage->grid;
-    ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-    double z = slot->depth[i], behind = stage->background.mean[i];
-    rlf_plate_cut cut;
-    rlf_vec3 p = rlf_vec3_make(z * grid->ray_x[i], z * grid->ray_y[i], z);
-    if (slot->foreground[i] == 0 || !(z > 0.0) || rlf_plate_distance(view, p) > thing_m ||
-        !cut_near(grid, view, x, y, &cut)) {
-        return;
+    const ptrdiff_t i = (ptrdiff_t)y * w->stage->grid.width + x;
+    const float z = w->slot->depth[i], behind = w->stage->background.mean[i];
+    const float thickness = leave - z > least_m ? leave - z : least_m;
+    const bool is_cut = behind > 0.0f && z + thickness > behind;
+    w->slot->thickness[i] = !is_cut ? thickness : behind > z ? behind - z : 0.0f;
+    if (w->is_edge_on && w->slot->reason[i] != RLF_REASON_OK) {
+        move_pixel(w, x, y);
     }
-    double thickness = rlf_max(cut.leave - z, least_m);
-    slot->thickness[i] =
-        (float)(behind > 0.0 && z + thickness > behind ? rlf_max(behind - z, 0.0) : thickness);
-    double facing = rlf_dot(view->axis[2], rlf_normalize(view->centre));
-    if (slot->reason[i] != RLF_REASON_OK && facing < edge_on && facing > -edge_on) {
-        move_pixel(plate, p, x, y, i, slot);
+}
+
+static void write_row(const writer *w, rlf_span span, int32_t y)
+{
+    enum { CHUNK = 128 };
+    const rlf_grid *grid = &w->stage->grid;
+    for (int32_t first = span.x0; first < span.x1; first += CHUNK) {
+        const int32_t count = span.x1 - first < CHUNK ? span.x1 - first : CHUNK;
+        const ptrdiff_t at = (ptrdiff_t)y * grid->width + first;
+        float leave[CHUNK];
+        int32_t is_near[CHUNK];
+        rlf_kernel_plate_row(&w->box, thing_m, grid->ray_x + at, grid->ray_y + at,
+                             w->slot->depth + at, count, leave, is_near);
+        for (int32_t k = 0; k < count; k++) {
+            if (is_near[k] != 0 && w->slot->foreground[at + k] != 0) {
+                rlf_plate_cut beside;
+                if (leave[k] > 0.0f) {
+                    write_pixel(w, leave[k], first + k, y);
+                } else if (cut_beside(grid, &w->view, first + k, y, &beside)) {
+                    write_pixel(w, (float)beside.leave, first + k, y);
+                }
+            }
+        }
     }
 }
 
 void rlf_plates_write(const rlf_reconstruct *stage, rlf_slot *slot)
 {
     for (int32_t k = 0; k < stage->plates.count; k++) {
-        const rlf_plate_view view = rlf_plate_look(&stage->plates.item[k]);
-        rlf_plate_window w = rlf_plate_window_of(&stage->grid, &view, 1);
-        for (int32_t y = w.y0; y < w.y1; y++) {
-            for (int32_t x = w.x0; x < w.x1; x++) {
-                write_pixel(stage, &stage->plates.item[k], &view, x, y, slot);
-            }
+        const writer w = begin(stage, &stage->plates.item[k], slot);
+        const rlf_plate_window window = rlf_plate_window_of(&stage->grid, &w.view, 1);
+        for (int32_t y = window.y0; y < window.y1; y++) {
+            write_row(&w, (rlf_span){window.x0, window.x1}, y);
         }
     }
 }
