@@ -332,6 +332,11 @@ static void fit_cell(const rlf_cell_grid *g, const samples *all, const rlf_cell 
     whole_velocity(g, p, whole);
     cell_fit fit = {.cost_still = cost_of(g, all, rest, INFINITY)};
     fit.cost_whole = g->moves ? cost_of(g, all, whole, INFINITY) : fit.cost_still;
+    if (fit.cost_whole <= all->variance * (float)all->count) { /* no more than the noise */
+        cell->state = g->moves ? RLF_CELL_WHOLE : RLF_CELL_STILL;
+        copy(whole, cell->velocity);
+        return;
+    }
     int32_t count = make_guesses(g, all->pixel[middle], guess);
     guess[count++] = guess_of(whole, fit.cost_whole);
     guess[count++] = guess_of(rest, fit.cost_still);

@@ -108,7 +108,7 @@ typedef struct twist_sum {
     const rlf_rims *rims;
     double slack;      /* widens what agrees while the motion is still far off */
     double rim_weight; /* 0: the outline only says how far off it is */
-    bool only_counts;  /* what agrees, and nothing is improved */
+    bool only_counts;  /* what agrees with rest, and nothing is improved */
     double speed;      /* of the motion so far */
     double a[6][6], b[6];
 } twist_sum;
@@ -129,6 +129,21 @@ static void add_row(twist_sum *sum, rlf_twist *t, rlf_vec3 p, rlf_vec3 n, double
     }
 }
 
+/* Whether a pixel is where it was: what rests stays on its ray, and its slope has no say. */
+static void count_pixel(const twist_sum *sum, rlf_twist *t, ptrdiff_t i)
+{
+    const rlf_flow *job = sum->job;
+    const rlf_grid *grid = &job->stage->grid;
+    const rlf_slot *now = job->now;
+    const float x = grid->ray_x[i], y = grid->ray_y[i], before = job->view.seen[i];
+    const float step = now->depth[i] - before, reach = 2.0f * rlf_flow_limb_m;
+    const float facing = -(now->normal[0][i] * x + now->normal[1][i] * y + now->normal[2][i]);
+    const float bound = 3.0f * 1.41421356f * rlf_kernel_sigma(job->noise, now->depth[i]);
+    t->samples++;
+    t->inliers += facing > 0.0f && before > 0.0f && step <= bound && step >= -bound &&
+                  step * step * (x * x + y * y + 1.0f) < reach * reach;
+}
+
 static void add_pixel(twist_sum *sum, rlf_twist *t, ptrdiff_t i)
 {
     const rlf_flow *job = sum->job;
@@ -143,9 +158,7 @@ static void add_pixel(twist_sum *sum, rlf_twist *t, ptrdiff_t i)
     if (off <= bound && off >= -bound) {
         double sigma = rlf_kernel_sigma(job->noise, job->now->depth[i]) / job->dt;
         t->inliers++;
-        if (!sum->only_counts) {
-            add_row(sum, t, p, n, off, 1.41421356 * sigma * facing, 1.0);
-        }
+        add_row(sum, t, p, n, off, 1.41421356 * sigma * facing, 1.0);
     }
 }
 
@@ -199,7 +212,11 @@ static void fit_pass(const twist_sum *start, double slack, rlf_twist *t)
         for (int32_t u = region->x0; u < region->x1; u += t->stride) {
             ptrdiff_t i = (ptrdiff_t)v * job->stage->grid.width + u;
             if (job->now->label[i] == region->label && job->now->reason[i] == RLF_REASON_OK) {
-                add_pixel(&sum, t, i);
+                if (sum.only_counts) {
+                    count_pixel(&sum, t, i);
+                } else {
+                    add_pixel(&sum, t, i);
+                }
             }
         }
     }
