@@ -13,12 +13,20 @@
 #define EXTRAPOLATION_MAX 0.05
 #define SHELL_PERIOD 0.25 /* s between searches for the room's shell */
 
+/* Unit, against gravity, grid frame; 0 without gravity. */
+static rlf_vec3 up_in_grid(const rlf_world *world, const rlf_grid *grid)
+{
+    rlf_quat q_grid_world = rlf_quat_conjugate(grid->T_world_grid.q);
+    return rlf_normalize(rlf_neg(rlf_rotate(q_grid_world, world->def.gravity)));
+}
+
 /* The shell is a part of the room: it is looked for now and then, and anew for a moved camera. */
 static void find_shell(rlf_world *world, const rlf_grid *grid)
 {
     bool is_same_pose = memcmp(&world->shell_pose, &grid->T_world_grid, sizeof(rlf_pose)) == 0;
     if (!is_same_pose) {
         memset(&world->shell, 0, sizeof(world->shell));
+        memset(&world->levels, 0, sizeof(world->levels));
     } else if (world->shell.turn > 0 && world->time < world->shell_time + SHELL_PERIOD) {
         return;
     }
@@ -26,6 +34,7 @@ static void find_shell(rlf_world *world, const rlf_grid *grid)
     world->shell_time = world->time;
     world->rest_version++;
     grid_shell_update(&world->shell, grid);
+    grid_levels_update(&world->levels, &world->shell, grid, up_in_grid(world, grid));
 }
 
 /* Whether what stays is that of the last grid. */
@@ -78,7 +87,8 @@ static grid_query query_now(rlf_world *world, const rlf_grid *grid, double h)
     query.foreground = &world->foreground_tiles;
     query.background = &world->background_tiles;
     query.shell = phys_world_has_shell(world, grid) ? &world->shell : NULL;
-    query.up = rlf_normalize(rlf_neg(rlf_rotate(query.T_grid_world.q, world->def.gravity)));
+    query.levels = &world->levels;
+    query.up = up_in_grid(world, grid);
     return query;
 }
 

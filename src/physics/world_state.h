@@ -5,6 +5,7 @@
 #include "kernel/box_lanes.h"
 #include "kernel/contact_lanes.h"
 #include "physics/body.h"
+#include "physics/grid/level.h"
 #include "physics/grid/shell.h"
 #include "physics/grid/tiles.h"
 
@@ -142,6 +143,7 @@ struct rlf_world {
     rlf_pose grid_pose;
     int64_t rest_version; /* while it is the same, what stays does not change under a sleeper */
     grid_shell shell;
+    grid_levels levels;
     rlf_pose shell_pose; /* of the grid in the world when the shell was found */
     double shell_time;   /* ... and the world's time */
 };

@@ -2,10 +2,11 @@
  * outlines and bumps against it. Costs per body, not per pixel; nothing is built per frame. */
 #include "physics/grid/collide.h"
 #include "physics/grid/ball.h"
+#include "physics/grid/below.h"
+#include "physics/grid/hidden.h"
 #include "physics/grid/near.h"
 #include "physics/grid/reduce.h"
 #include "physics/grid/scan.h"
-#include "physics/grid/upright.h"
 
 /* Most substeps between two queries: a body that falls from rest must not fall through the margin;
  * one that lies on something does not fall. */
@@ -17,6 +18,8 @@
 #define SETTLED_SHARE 0.5
 /* m of free way beyond that to the next query, looked for so that a blow does not ask for one. */
 #define FREE_WAY 0.02
+/* Touches with what goes on below the picture. */
+#define BELOW_MAX 16
 
 static void set_up(grid_job *job, const grid_query *query, const phys_body *body)
 {
@@ -194,81 +197,43 @@ static void collide_sheet(grid_job *job, const grid_tiles *tiles, uint8_t *home)
     }
 }
 
-/* The body's point against one plane of the shell, where the camera does not see. */
-static void touch_shell(grid_job *job, const shell_plane *plane, rlf_vec3 anchor, double rounding)
-{
-    rlf_vec3 r = rlf_mat3_mul_vec(&job->R_grid_body, anchor);
-    r = rlf_mad(r, plane->normal, -rounding);
-    rlf_vec3 q = rlf_add(job->centre, r);
-    double approach = -rlf_dot(plane->normal, rlf_add(job->v, rlf_cross(job->w, r)));
-    double separation = rlf_dot(plane->normal, q) - plane->offset;
-    if (separation < GRID_MARGIN + rlf_max(0.0, approach) * job->horizon &&
-        job->hit_count < GRID_HITS_MAX && grid_shell_is_hidden(job->query->grid, q)) {
-        grid_hit hit = {.point = rlf_mad(q, plane->normal, -separation), .normal = plane->normal};
-        hit.anchor = anchor;
-        hit.rounding = rounding;
-        hit.separation = separation;
-        job->hits[job->hit_count++] = hit;
-    }
-}
+/* Touches of the body with what goes on below the picture, from a look at it lifted into view. */
+typedef struct below_hits {
+    grid_hit hits[BELOW_MAX];
+    int32_t count;
+    double nearest2;
+} below_hits;
 
-/* The shell has no back: what a thin wall would push out behind it stays in the room. */
-static void drop_backs(grid_job *job, const shell_plane *plane)
-{
-    const double NEAR = 0.05;
-    int32_t kept = 0;
-    for (int32_t i = 0; i < job->hit_count; i++) {
-        const grid_hit *hit = &job->hits[i];
-        bool is_back = rlf_dot(hit->normal, plane->normal) < -0.3 &&
-                       rlf_dot(plane->normal, hit->point) - plane->offset < NEAR;
-        if (!is_back) {
-            job->hits[kept++] = *hit;
-        }
-    }
-    job->hit_count = kept;
-}
-
-static void collide_plane(grid_job *job, const shell_plane *plane)
-{
-    const phys_shape *shape = &job->body->shape;
-    rlf_vec3 core[2];
-    double rounding;
-    rlf_vec3 down = rlf_mat3_mul_vec(&job->R_body_grid, rlf_neg(plane->normal));
-    int32_t count = phys_shape_support(shape, down, core, &rounding);
-    drop_backs(job, plane);
-    for (int32_t k = 0; k < count; k++) {
-        touch_shell(job, plane, core[k], rounding);
-    }
-    for (int32_t k = 0; count == 0 && k < shape->vertex_count; k++) {
-        touch_shell(job, plane, shape->points[k], 0.0);
-    }
-}
-
-/* The centre's height over the plane, which the scan's nearest is not beyond. */
-static double come_near(grid_job *job, const shell_plane *plane)
-{
-    double height = rlf_dot(plane->normal, job->centre) - plane->offset;
-    job->nearest2 = rlf_min(job->nearest2, rlf_max(height, 0.0) * rlf_max(height, 0.0));
-    return height;
-}
-
-/* What stands behind what hides it, under or beside the body's centre, within `reach`. */
-static bool find_upright(const grid_job *job, double reach, shell_plane *out)
+static void collide_below(grid_job *job, below_hits *below)
 {
     const grid_query *query = job->query;
-    if (query->shell == NULL || !(rlf_dot(query->up, query->up) > 0.0)) {
-        return false;
+    double rise = grid_below_rise(query, job->centre, job->body->shape.radius);
+    below->count = 0;
+    below->nearest2 = 1e18;
+    if (!(rise > 0.0)) {
+        return;
     }
-    rlf_vec3 side = rlf_normalize(rlf_cross(query->up, job->centre));
-    for (int32_t k = 0; k < 3; k++) {
-        double shift = (k == 2 ? -1.0 : k) * job->body->shape.radius;
-        rlf_vec3 q = rlf_mad(job->centre, side, shift);
-        if (grid_shell_is_hidden(query->grid, q) &&
-            grid_upright_find(query->grid, q, query->up, reach, out)) {
-            return true;
+    rlf_vec3 centre = job->centre;
+    uint8_t home = FIELD_NONE;
+    job->centre = rlf_mad(centre, query->up, rise);
+    collide_sheet(job, query->background, &home);
+    job->centre = centre;
+    below->nearest2 = job->nearest2;
+    for (int32_t i = 0; i < job->hit_count && below->count < BELOW_MAX; i++) {
+        if (grid_below_stands(query, &job->hits[i])) {
+            grid_hit *hit = &below->hits[below->count++];
+            *hit = job->hits[i];
+            hit->point = rlf_mad(hit->point, query->up, -rise);
         }
     }
-    return false;
+}
+
+static void add_below(grid_job *job, const below_hits *below)
+{
+    job->nearest2 = rlf_min(job->nearest2, below->nearest2);
+    for (int32_t i = 0; i < below->count && job->hit_count < GRID_HITS_MAX; i++) {
+        job->hits[job->hit_count++] = below->hits[i];
+    }
 }
 
 /* How many substeps this body's contacts stay good: it must not travel far in that time. */
@@ -285,42 +250,36 @@ static double wide_reach_of(const grid_query *query, const phys_body *body)
     return reach_of(query, body, (int32_t)PERIOD_MAX) + FREE_WAY;
 }
 
-/* What the camera does not see. */
-static void collide_hidden(grid_job *job)
-{
-    const grid_query *query = job->query;
-    for (int32_t i = 0; query->shell != NULL && i < query->shell->count; i++) {
-        const shell_plane *plane = &query->shell->planes[i];
-        if (come_near(job, plane) <= job->reach) {
-            collide_plane(job, plane);
-        }
-    }
-    shell_plane upright;
-    if (find_upright(job, wide_reach_of(query, job->body), &upright) &&
-        come_near(job, &upright) <= job->reach) {
-        collide_plane(job, &upright);
-    }
-}
-
 static void set_period(grid_job *job, phys_body *body, double most)
 {
     body->surface_period = query_period(body, job->query->step, most);
     job->horizon = (body->surface_period + 1) * job->query->step;
 }
 
-/* How far the body may go before it comes to anything, wherever the camera looks, by tiles and
- * planes alone. What is not above `least` need not be told apart. */
-static double free_way(const grid_job *job, double least)
+/* How far from the centre anything that goes on below the picture is, no less than this. */
+static double free_below(grid_job *job, double reach, double least)
 {
     const grid_query *query = job->query;
-    const grid_shell *shell = query->shell;
+    double rise = grid_below_rise(query, job->centre, job->body->shape.radius);
+    if (!(rise > 0.0)) {
+        return reach;
+    }
+    rlf_vec3 centre = job->centre;
+    job->centre = rlf_mad(centre, query->up, rise);
+    double distance = grid_scan_distance(job, query->background, reach, least);
+    job->centre = centre;
+    return distance;
+}
+
+/* How far the body may go before it comes to anything, wherever the camera looks, by tiles and
+ * planes alone. What is not above `least` need not be told apart. */
+static double free_way(grid_job *job, double least)
+{
+    const grid_query *query = job->query;
     double wide = wide_reach_of(query, job->body);
     double slip = slip_of(query->foreground);
-    double beside = job->body->shape.radius + GRID_MARGIN, way = wide - beside;
-    for (int32_t i = 0; shell != NULL && i < shell->count; i++) {
-        const shell_plane *plane = &shell->planes[i];
-        way = rlf_min(way, rlf_dot(plane->normal, job->centre) - plane->offset - beside);
-    }
+    double beside = job->body->shape.radius + GRID_MARGIN;
+    double way = grid_hidden_shell_height(job, wide) - beside;
     double limit = least + beside;
     way = rlf_min(way, grid_scan_distance(job, query->background, wide, limit) - beside);
     if (way <= least) {
@@ -328,12 +287,10 @@ static double free_way(const grid_job *job, double least)
     }
     double front = grid_scan_distance(job, query->foreground, wide + slip, limit + slip) - slip;
     way = rlf_min(way, front - beside);
-    shell_plane upright;
-    if (way > least && find_upright(job, wide, &upright)) {
-        double height = rlf_dot(upright.normal, job->centre) - upright.offset;
-        way = rlf_min(way, height - beside);
+    if (way > least) {
+        way = rlf_min(way, grid_hidden_face_height(job, wide) - beside);
     }
-    return way;
+    return way > least ? rlf_min(way, free_below(job, wide, limit) - beside) : way;
 }
 
 /* How far the body may go before it comes to what the last scan saw. */
@@ -351,6 +308,11 @@ bool grid_collide_prepare(const grid_query *query, const phys_body *body)
     double reach = reach_of(query, body, query_period(body, query->step, PERIOD_AT_REST));
     reach = rlf_max(reach, wide_reach_of(query, body)) + slip_of(query->foreground);
     rlf_vec3 centre = rlf_transform(&query->T_grid_world, body->x);
+    double rise = grid_below_rise(query, centre, body->shape.radius);
+    rlf_vec3 lifted = rlf_mad(centre, query->up, rise);
+    if (rise > 0.0 && grid_footprint(query->grid, lifted, reach, rect, &stride)) {
+        grid_tiles_make(query->background, query->grid, rect);
+    }
     if (!grid_footprint(query->grid, centre, reach, rect, &stride)) {
         return false;
     }
@@ -413,8 +375,11 @@ static void collide_sheets(grid_job *job, phys_body *body, int32_t body_index)
     if (!job->is_near && body->is_pressed) {
         set_period(job, body, PERIOD_AT_REST);
     }
+    below_hits below;
+    collide_below(job, &below);
     collide_sheet(job, query->background, &body->home[1]);
-    collide_hidden(job);
+    add_below(job, &below);
+    grid_hidden_collide(job, wide_reach_of(job->query, job->body));
     body->surface_clear = rlf_min(body->surface_clear, clearance_of(job));
     grid_reduce(job, body, body_index, RLF_CONTACT_BACKGROUND);
 }

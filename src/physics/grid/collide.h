@@ -3,6 +3,7 @@
 #define RLF_PHYSICS_GRID_COLLIDE_H
 
 #include "physics/body.h"
+#include "physics/grid/level.h"
 #include "physics/grid/shell.h"
 #include "physics/grid/tiles.h"
 
@@ -17,8 +18,9 @@ typedef struct grid_query {
     double step;          /* s of a substep */
     int64_t rest_version; /* of what stays */
     grid_tiles *foreground, *background;
-    const grid_shell *shell; /* NULL: there is nothing where the camera does not look */
-    rlf_vec3 up;             /* unit, against gravity, grid frame; 0 without gravity */
+    const grid_shell *shell;   /* NULL: there is nothing where the camera does not look */
+    const grid_levels *levels; /* with the shell */
+    rlf_vec3 up;               /* unit, against gravity, grid frame; 0 without gravity */
 } grid_query;
 
 /* Makes the tiles that grid_collide will read for this body. Returns whether any of them has
