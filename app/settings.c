@@ -39,6 +39,8 @@ static const setting table[] = {
     {"velocity", KIND_SWITCH, AT(enable_velocity), switch_words, "velocity per pixel and region"},
     {"thickness", KIND_SWITCH, AT(enable_thickness), switch_words, "thickness per pixel"},
     {"coast", KIND_SWITCH, AT(enable_coast), switch_words, "thin things go on where they are lost"},
+    {"color_sides", KIND_SWITCH, AT(enable_color_sides), switch_words,
+     "colour tells the sides of edges"},
     {"dilation", KIND_SWITCH, AT(enable_dilation), switch_words, "regions grow as in fig. 4.12"},
     {"normal_method", KIND_WORD, AT(normal_method), normal_words, "without smoothing"},
     {"normals_face_camera", KIND_SWITCH, AT(normals_face_camera), switch_words,

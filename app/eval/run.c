@@ -181,9 +181,9 @@ rlf_result eval_scene_run(eval_table *table, const eval_scene *scene, int64_t se
                           int profile_mask, const setting_list *settings)
 {
     char name[128];
-    snprintf(name, sizeof(name), "synthetic:%s?seed=%lld&frames=%lld&color=0&person=%lld%s",
-             scene->source, (long long)seed, (long long)frames,
-             (long long)(scene->has_others ? seed + 1 : 1), scene->options);
+    snprintf(name, sizeof(name), "synthetic:%s?seed=%lld&frames=%lld&person=%lld%s", scene->source,
+             (long long)seed, (long long)frames, (long long)(scene->has_others ? seed + 1 : 1),
+             scene->options);
     run *r = rlf_alloc(sizeof(*r)); /* large: histograms */
     if (r == NULL) {
         return RLF_ERROR_MEMORY;

@@ -116,7 +116,24 @@ typedef struct rlf_gap_ends {
  * edge. */
 enum { RLF_FILL_BETWEEN, RLF_FILL_NEAR, RLF_FILL_FAR };
 
+/* Inverse depth half way between the two sides. */
+static inline float rlf_gap_middle(float before, float after)
+{
+    return 2.0f / (1.0f / before + 1.0f / after);
+}
+
+/* `span`: steps from one to the other. */
+static inline bool rlf_gap_is_edge(float before, float after, float span)
+{
+    float nearest = before < after ? before : after;
+    return rlf_kernel_abs(before - after) > (0.01f * span + 0.01f) * nearest;
+}
+
+/* Votes of the pixels about each for the nearer side of its gap, less those for the farther one. */
+void rlf_kernel_fill_votes(const rlf_windows *restrict depth, const rlf_gap_ends *restrict ends,
+                           float *restrict votes);
 void rlf_kernel_fill_batch(const rlf_windows *restrict depth, const rlf_gap_ends *restrict ends,
-                           float *restrict out, uint8_t *restrict kind);
+                           const float *restrict votes, float *restrict out,
+                           uint8_t *restrict kind);
 
 #endif

@@ -11,7 +11,6 @@ static const float votes_at[RLF_WINDOW_SIDE][RLF_WINDOW_SIDE] = {{0.2f, 0.3f, 0.
 /* Share of the depth, from a side's end to a hole pixel. */
 static const float most_change = 0.05f;
 
-/* Votes for the nearer side less those for the farther one. */
 RLF_KERNEL_PART void count_votes(const rlf_windows *restrict depth, const float *restrict middle,
                                  float *restrict balance)
 {
@@ -30,6 +29,16 @@ RLF_KERNEL_PART void count_votes(const rlf_windows *restrict depth, const float 
             balance[i] = sum;
         }
     }
+}
+
+RLF_KERNEL void rlf_kernel_fill_votes(const rlf_windows *restrict depth,
+                                      const rlf_gap_ends *restrict ends, float *restrict votes)
+{
+    float middle[RLF_BATCH];
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        middle[i] = rlf_gap_middle(ends->before[i], ends->after[i]);
+    }
+    count_votes(depth, middle, votes);
 }
 
 /* Sums over the pixels of one side, depth relative to its end. */
@@ -101,37 +110,34 @@ typedef struct choice {
     int32_t is_far[RLF_BATCH];
 } choice;
 
-RLF_KERNEL_PART void choose_sides(const rlf_windows *restrict depth,
-                                  const rlf_gap_ends *restrict ends, choice *restrict out)
+RLF_KERNEL_PART void choose_sides(const rlf_gap_ends *restrict ends, const float *restrict votes,
+                                  choice *restrict out)
 {
-    float middle[RLF_BATCH], balance[RLF_BATCH];
-    for (int32_t i = 0; i < RLF_BATCH; i++) {
-        middle[i] = 2.0f / (1.0f / ends->before[i] + 1.0f / ends->after[i]);
-    }
-    count_votes(depth, middle, balance);
     for (int32_t i = 0; i < RLF_BATCH; i++) {
         float before = ends->before[i], after = ends->after[i];
+        float middle = rlf_gap_middle(before, after);
         int32_t before_is_near = before < after ? 1 : 0;
-        int32_t tie = rlf_kernel_abs(balance[i]) < 0.05f; /* half of the least votes' difference */
+        int32_t tie = rlf_kernel_abs(votes[i]) < 0.05f; /* half of the least votes' difference */
         int32_t by_steps = ends->to_before[i] <= ends->to_after[i] ? 1 : 0;
-        int32_t by_votes = (balance[i] > 0.0f ? 1 : 0) ^ before_is_near ^ 1;
+        int32_t by_votes = (votes[i] > 0.0f ? 1 : 0) ^ before_is_near ^ 1;
         int32_t first = tie != 0 ? by_steps : by_votes;
         int32_t is_far = first ^ before_is_near;
         out->end[i] = first != 0 ? before : after;
-        out->least[i] = is_far != 0 ? middle[i] : 0.0f;
-        out->most[i] = is_far != 0 ? RLF_KERNEL_NOTHING : middle[i];
+        out->least[i] = is_far != 0 ? middle : 0.0f;
+        out->most[i] = is_far != 0 ? RLF_KERNEL_NOTHING : middle;
         out->is_far[i] = is_far;
     }
 }
 
 RLF_KERNEL void rlf_kernel_fill_batch(const rlf_windows *restrict depth,
-                                      const rlf_gap_ends *restrict ends, float *restrict out,
+                                      const rlf_gap_ends *restrict ends,
+                                      const float *restrict votes, float *restrict out,
                                       uint8_t *restrict kind)
 {
     choice chosen;
     side s;
     clear_side(&s);
-    choose_sides(depth, ends, &chosen);
+    choose_sides(ends, votes, &chosen);
     for (int32_t k = 0; k < RLF_WINDOW_SIDE; k++) {
         add_side_row(&depth->at[k * RLF_WINDOW_SIDE], (float)(k - RLF_WINDOW_ABOUT), chosen.least,
                      chosen.most, chosen.end, &s);
@@ -140,8 +146,7 @@ RLF_KERNEL void rlf_kernel_fill_batch(const rlf_windows *restrict depth,
     for (int32_t i = 0; i < RLF_BATCH; i++) {
         float before = ends->before[i], after = ends->after[i];
         float to_before = ends->to_before[i], span = to_before + ends->to_after[i];
-        float nearest = before < after ? before : after;
-        bool is_edge = rlf_kernel_abs(before - after) > (0.01f * span + 0.01f) * nearest;
+        bool is_edge = rlf_gap_is_edge(before, after, span);
         float t = to_before / span, between = 1.0f / ((1.0f - t) / before + t / after);
         float beside = continue_side(&s, i, chosen.end[i]);
         int32_t side_kind = chosen.is_far[i] != 0 ? RLF_FILL_FAR : RLF_FILL_NEAR;

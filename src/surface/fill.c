@@ -11,6 +11,7 @@
  * thing that is expected there (past/lost.c). The outermost pixels, which drivers' filters leave
  * empty, go on as the two inside of them. A hole about as wide as the widest that is filled is
  * filled in some rows and not in others: what is left of it then is closed. */
+#include "surface/color_side.h"
 #include "surface/past/past.h"
 #include "surface/steps.h"
 #include "surface/window.h"
@@ -82,17 +83,64 @@ static bool may_fill(uint8_t reason)
 /* Hole pixels with an end on both sides, that wait until there are enough of them for a kernel. */
 typedef struct fill_queue {
     int32_t count;
-    int32_t x[RLF_BATCH], y[RLF_BATCH];
+    int32_t x[RLF_BATCH], y[RLF_BATCH], line[RLF_BATCH];
     rlf_gap_ends ends;
     float lost[RLF_BATCH]; /* depth of a thing that the gap hides, 0 = none */
     rlf_windows depth;
+    rlf_color_sum *sum; /* of the rows that are being filled */
 } fill_queue;
+
+/* The nearer side stands before the background, and something moves there: of what stands still
+ * the pixels that were seen are recalled. */
+static bool may_ask(const fill_job *job, const fill_queue *q, int32_t k)
+{
+    const float least_before = 1.02f;
+    const rlf_gap_ends *ends = &q->ends;
+    const int32_t *line = rlf_line_step[q->line[k]];
+    float before = ends->before[k], after = ends->after[k];
+    float near_end = before < after ? before : after;
+    int32_t steps = (int32_t)(before < after ? -ends->to_before[k] : ends->to_after[k]);
+    if (!rlf_gap_is_edge(before, after, ends->to_before[k] + ends->to_after[k]) ||
+        !rlf_hold_may_move(job->stage, q->x[k], q->y[k])) {
+        return false;
+    }
+    float behind = depth_behind(job, q->x[k] + steps * line[0], q->y[k] + steps * line[1]);
+    return !(behind > 0.0f) || behind > least_before * near_end;
+}
+
+/* Adds what the colour picture says. */
+static void ask_picture(const fill_job *job, fill_queue *q, float votes[RLF_BATCH])
+{
+    const rlf_gap_ends *ends = &q->ends;
+    for (int32_t k = 0; k < q->count; k++) {
+        if (!may_ask(job, q, k)) {
+            continue;
+        }
+        float before = ends->before[k], after = ends->after[k];
+        const rlf_side_case c = {.x = q->x[k],
+                                 .y = q->y[k],
+                                 .line = q->line[k],
+                                 .to_before = (int32_t)ends->to_before[k],
+                                 .to_after = (int32_t)ends->to_after[k],
+                                 .before = before,
+                                 .after = after,
+                                 .middle = rlf_gap_middle(before, after),
+                                 .votes = votes[k],
+                                 .depth = &q->depth,
+                                 .lane = k};
+        votes[k] += rlf_color_side_vote(job->stage, &c, q->sum);
+    }
+}
 
 static void fill_batch(const fill_job *job, fill_queue *q)
 {
-    float filled[RLF_BATCH];
+    float filled[RLF_BATCH], votes[RLF_BATCH];
     uint8_t kind[RLF_BATCH];
-    rlf_kernel_fill_batch(&q->depth, &q->ends, filled, kind);
+    rlf_kernel_fill_votes(&q->depth, &q->ends, votes);
+    if (job->stage->side.image.data != NULL) {
+        ask_picture(job, q, votes);
+    }
+    rlf_kernel_fill_batch(&q->depth, &q->ends, votes, filled, kind);
     for (int32_t k = 0; k < q->count; k++) {
         int32_t x = q->x[k], y = q->y[k];
         ptrdiff_t i = (ptrdiff_t)y * job->stage->grid.width + x;
@@ -111,10 +159,11 @@ static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps
                  fill_queue *q)
 {
     const rlf_grid *grid = &job->stage->grid;
-    const int32_t steps[RLF_LINE_NONE] = {1, grid->width, grid->width + 1, grid->width - 1};
     const float *at = job->depth + (ptrdiff_t)y * grid->width + x;
-    ptrdiff_t step = steps[gaps->line[k]];
+    const int32_t *line = rlf_line_step[gaps->line[k]];
+    ptrdiff_t step = line[0] + (ptrdiff_t)line[1] * grid->width;
     int32_t lane = q->count++;
+    q->line[lane] = gaps->line[k];
     q->x[lane] = x;
     q->y[lane] = y;
     q->ends.before[lane] = at[-(ptrdiff_t)gaps->to_before[k] * step];
@@ -162,7 +211,8 @@ static void fill_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     (void)worker;
     const fill_job *job = context;
     int32_t width = job->stage->grid.width;
-    fill_queue queue = {0};
+    const rlf_color_side *side = &job->stage->side;
+    fill_queue queue = {.sum = side->part != NULL ? side->part + begin / RLF_ROW_GRAIN : NULL};
     for (int32_t y = begin; y < end; y++) {
         const uint8_t *reason = job->reason + (ptrdiff_t)y * width; /* 0 = OK */
         for (int32_t x = 0; (x = rlf_kernel_next_mark(reason, x, width)) < width; x++) {

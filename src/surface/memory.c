@@ -194,6 +194,15 @@ static void take_steady(rlf_reconstruct *stage)
     }
 }
 
+static void take_color_side(rlf_reconstruct *stage)
+{
+    const rlf_reconstruct_def *def = &stage->def;
+    if (def->enable_color_sides && def->enable_fill && def->rig.has_color) {
+        stage->side.parts = (stage->grid.height + RLF_ROW_GRAIN - 1) / RLF_ROW_GRAIN;
+        stage->side.part = take(stage, (size_t)stage->side.parts, sizeof *stage->side.part);
+    }
+}
+
 bool rlf_stage_allocate(rlf_reconstruct *stage)
 {
     take_grid(stage);
@@ -205,6 +214,7 @@ bool rlf_stage_allocate(rlf_reconstruct *stage)
     take_steady(stage);
     take_family(stage);
     take_past(stage);
+    take_color_side(stage);
     take_work(stage);
     return !stage->out_of_memory;
 }

@@ -1,4 +1,5 @@
 /* The surface stage: one frame through all steps into the next slot of the ring. */
+#include "surface/color_side.h"
 #include "surface/past/past.h"
 #include "surface/plate/plate.h"
 #include "surface/standing/standing.h"
@@ -73,6 +74,7 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
     rlf_past_reset(&stage->past, &stage->grid);
     stage->plates = (rlf_plates){.count = 0};
     stage->torsos.count = 0;
+    rlf_color_side_reset(stage);
     stage->previous = NULL;
 }
 
@@ -167,7 +169,9 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
         kept = out;
     }
     if (fill) {
+        rlf_color_side_start(stage, frame);
         rlf_fill_holes(stage, kept, slot);
+        rlf_color_side_learn(stage);
         rlf_stage_add_time(stage, RLF_SURFACE_FILL);
     }
     if (smooth) {

@@ -221,6 +221,24 @@ typedef struct rlf_torsos {
     int32_t count;
 } rlf_torsos;
 
+/* How the colour picture lies beside depth at edges: see color_side.c. */
+typedef struct rlf_color_sum {
+    double square[9], value[3]; /* normal equations of the offset */
+    double agree, asked;        /* pixels */
+} rlf_color_sum;
+
+typedef struct rlf_color_side {
+    rlf_image_rgba8 image; /* of the frame that is being made; data NULL = is not asked */
+    bool can_tell;         /* the rig has a picture that shows what depth shows */
+    float step[2][2];      /* colour pixels, of u and of v, per column and row of the grid */
+    float reach;           /* colour pixels that are read about one */
+    float offset[3];       /* pixels of the grid: columns, rows, and towards the nearer side */
+    float trust;           /* 0..1 */
+    rlf_color_sum sum;     /* of the frames before, older ones counting less */
+    rlf_color_sum *part;   /* of this frame, per chunk of rows; NULL = colour is not wanted */
+    int32_t parts;
+} rlf_color_side;
+
 /* Memory that is free between steps. */
 typedef struct rlf_work {
     float *depth[2];    /* planes; these, sum and component have room for RLF_CHORD_PAD */
@@ -263,6 +281,7 @@ struct rlf_reconstruct {
     rlf_past past;     /* of the foreground */
     rlf_plates plates; /* of the foreground */
     rlf_torsos torsos; /* of the foreground */
+    rlf_color_side side;
     rlf_work work;
     bool has_color;      /* work.color holds the frame's */
     bool has_components; /* work.runs holds the front sheet's, so many: */

@@ -127,6 +127,7 @@ static void fill_column(float right, float out[RLF_BATCH], uint8_t kind[RLF_BATC
 {
     rlf_windows depth;
     rlf_gap_ends ends;
+    float votes[RLF_BATCH];
     for (int32_t i = 0; i < RLF_BATCH; i++) {
         for (int32_t k = 0; k < RLF_WINDOW_SIZE; k++) {
             depth.at[k][i] = k % 5 < 2 ? 3.0f : right;
@@ -136,7 +137,8 @@ static void fill_column(float right, float out[RLF_BATCH], uint8_t kind[RLF_BATC
         ends.after[i] = right;
         ends.to_before[i] = ends.to_after[i] = 1.0f;
     }
-    rlf_kernel_fill_batch(&depth, &ends, out, kind);
+    rlf_kernel_fill_votes(&depth, &ends, votes);
+    rlf_kernel_fill_batch(&depth, &ends, votes, out, kind);
 }
 
 static void fill_batch_continues_the_side_with_more_votes(void **state)
