@@ -203,6 +203,16 @@ typedef struct rlf_plates {
 /* The trunk of a person, as a solid under the head: see torso.h. */
 enum { RLF_TORSO_UNKNOWNS = 11, RLF_TORSOS = 16 };
 
+/* A leg of a person, as a chain of solids below the torso: see legs.h. */
+enum { RLF_LEG_UNKNOWNS = 8 };
+
+typedef struct rlf_leg {
+    double unknown[RLF_LEG_UNKNOWNS];
+    double doubt[RLF_LEG_UNKNOWNS][RLF_LEG_UNKNOWNS]; /* covariance of them */
+    double speed[RLF_LEG_UNKNOWNS];                   /* of them, 1/s */
+    double area_m2;                                   /* of what is seen and fits */
+} rlf_leg;
+
 typedef struct rlf_torso {
     int32_t label;         /* of its region */
     bool is_seen;          /* in the frame that is being made */
@@ -214,6 +224,9 @@ typedef struct rlf_torso {
     double misfit;                                        /* of what is seen, 0..1 */
     double area_m2;                                       /* of what is seen and fits */
     double age_s, unseen_s;
+    rlf_leg leg[2];
+    double facing; /* < 0: the toes point against `ahead`; seen, forgotten slowly */
+    bool has_legs;
 } rlf_torso;
 
 typedef struct rlf_torsos {

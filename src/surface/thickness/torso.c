@@ -1,11 +1,12 @@
 /* Which torsos there are, and where each is expected in the next frame. */
-#include "surface/thickness/torso.h"
+#include "surface/thickness/legs.h"
 
 #include <math.h>
 
-enum { MOST_POINTS = 400, DIRECTIONS = 8, FIRST_PASSES = 5, PASSES = 2 };
+enum { MOST_POINTS = 400, MOST_PLACES = 900, DIRECTIONS = 8, FIRST_PASSES = 5, PASSES = 2 };
 
 static const double beside_m = 0.3; /* from below the head: points of the trunk lie nearer */
+static const double beside_legs_m = 0.55, legs_begin = 0.86, legs_end = 1.9; /* the same */
 static const double longest_unseen_s = 0.5;
 static const double least_age_s = 0.25, most_misfit = 0.6; /* then it is looked for anew */
 static const double odd_share = 0.01; /* misfit of a torso that is one deviation off the usual */
@@ -39,41 +40,6 @@ static double wander_of(int unknown)
     case RLF_TORSO_AHEAD:
     case RLF_TORSO_LEAN: return way_wander;
     default: return measure_wander;
-    }
-}
-
-/* Where point `way` metres from the image's middle is, at depth z, in pixels lo..hi. */
-static int32_t pixel_at(double way, double z, double focal, double centre, int32_t lo, int32_t hi)
-{
-    return (int32_t)rlf_clamp(centre + focal * way / z, lo, hi);
-}
-
-/* The person's pixels where the trunk may be, at most MOST_POINTS of them. */
-static void find_points(const rlf_chord_job *job, int32_t label, rlf_vec3 head,
-                        rlf_torso_points *out)
-{
-    const rlf_grid *grid = &job->stage->grid;
-    const rlf_camera *c = &grid->camera;
-    int32_t right = job->x0 + job->width, bottom = job->y0 + job->height;
-    int32_t x0 = pixel_at(head.x - beside_m, head.z, c->fx, c->cx, job->x0, right);
-    int32_t x1 = pixel_at(head.x + beside_m, head.z, c->fx, c->cx, job->x0, right);
-    int32_t y0 = pixel_at(head.y + rlf_torso_first, head.z, c->fy, c->cy, job->y0, bottom);
-    int32_t y1 = pixel_at(head.y + rlf_torso_last, head.z, c->fy, c->cy, job->y0, bottom);
-    int32_t step = 1;
-    while (((x1 - x0) / step + 1) * ((y1 - y0) / step + 1) > MOST_POINTS) {
-        step++;
-    }
-    out->count = 0;
-    out->area_m2 = step * step * head.z * head.z / (c->fx * c->fy);
-    for (int32_t y = y0; y < y1; y += step) {
-        for (int32_t x = x0; x < x1; x += step) {
-            double z = job->front[y * job->pitch + x];
-            ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-            if (z > 0.0 && job->label[y * job->pitch + x] == label) {
-                out->p[out->count++] =
-                    rlf_vec3_make(z * (double)grid->ray_x[i], z * (double)grid->ray_y[i], z);
-            }
-        }
     }
 }
 
@@ -162,6 +128,18 @@ static rlf_torso *find_torso(rlf_torsos *torsos, int32_t label, bool *is_new)
     return k < RLF_TORSOS ? &torsos->item[k] : NULL;
 }
 
+static void follow_legs(const rlf_chord_job *job, rlf_torso *torso, double dt)
+{
+    rlf_vec3 seen[MOST_PLACES];
+    rlf_torso_points points = {.p = seen};
+    const rlf_torso_window window = {beside_legs_m, legs_begin, legs_end, MOST_PLACES};
+    rlf_torso_find_points(job, torso, &window, &points);
+    for (int32_t i = 0; i < points.count; i++) {
+        seen[i] = rlf_torso_place(torso, seen[i]);
+    }
+    rlf_legs_follow(torso, &points, dt);
+}
+
 void rlf_torso_follow(const rlf_chord_job *job, int32_t label, rlf_vec3 head)
 {
     rlf_vec3 seen[MOST_POINTS];
@@ -173,7 +151,8 @@ void rlf_torso_follow(const rlf_chord_job *job, int32_t label, rlf_vec3 head)
     }
     double dt = torso->unseen_s;
     torso->head = head;
-    find_points(job, label, head, &points);
+    const rlf_torso_window window = {beside_m, rlf_torso_first, rlf_torso_last, MOST_POINTS};
+    rlf_torso_find_points(job, torso, &window, &points);
     if (is_new || (torso->misfit > most_misfit && torso->age_s > least_age_s)) {
         begin(torso, &points);
     } else {
@@ -181,4 +160,5 @@ void rlf_torso_follow(const rlf_chord_job *job, int32_t label, rlf_vec3 head)
     }
     torso->unseen_s = 0.0;
     torso->is_seen = true;
+    follow_legs(job, torso, dt);
 }

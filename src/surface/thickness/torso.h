@@ -39,17 +39,24 @@ typedef struct rlf_torso_cut {
 
 /* Heights below the head's top between which there is any of a usual torso, metres. */
 extern const double rlf_torso_first, rlf_torso_last;
+/* Below the shoulders' middle: there a trunk's rays end, and legs begin. */
+extern const double rlf_torso_crotch;
 
 /* ---- thickness/torso_solid.c ---- */
 /* A torso as people are on average, and the variance of each unknown among them. */
 void rlf_torso_usual(double unknown[RLF_TORSO_UNKNOWNS], double variance[RLF_TORSO_UNKNOWNS]);
+/* The point in the torso's own axes: to the side and ahead (x, z) of the head's middle, and
+ * downwards (y) from the shoulders' middle. */
+rlf_vec3 rlf_torso_place(const rlf_torso *torso, rlf_vec3 p);
+/* The point at a place: the other way round. */
+rlf_vec3 rlf_torso_point(const rlf_torso *torso, rlf_vec3 place);
 /* False when the point is at the height of the head or of the legs. */
 bool rlf_torso_touch_at(const rlf_torso *torso, rlf_vec3 p, rlf_torso_touch *out);
-/* Cuts the trunk (out[0]) and the shoulders (out[1]) by the ray (x, y, 1); enter > leave where it
- * misses. */
+/* Cuts the trunk (out[0]), down to the crotch, and the shoulders (out[1]) by the ray (x, y, 1);
+ * enter > leave where it misses. */
 void rlf_torso_cut_ray(const rlf_torso *torso, double x, double y, rlf_torso_cut out[2]);
 
-/* ---- thickness/torso_fit.c ---- */
+/* ---- thickness/torso_points.c ---- */
 /* Points of a person around the place of the torso. */
 typedef struct rlf_torso_points {
     rlf_vec3 *p;
@@ -57,6 +64,18 @@ typedef struct rlf_torso_points {
     double area_m2; /* that one stands for */
 } rlf_torso_points;
 
+/* Where points are looked for: how far from the head to the side, from how far below its top to
+ * how far, metres; and the most there may be. */
+typedef struct rlf_torso_window {
+    double beside, top, bottom;
+    int32_t most;
+} rlf_torso_window;
+
+/* Finds points of the torso's region, evenly in the image; out->p has room for window->most. */
+void rlf_torso_find_points(const rlf_chord_job *job, const rlf_torso *torso,
+                           const rlf_torso_window *window, rlf_torso_points *out);
+
+/* ---- thickness/torso_fit.c ---- */
 /* Improves the torso, whose `unknown` and `doubt` are expected, by the points, in so many passes.
  */
 void rlf_torso_improve(rlf_torso *torso, const rlf_torso_points *points, int32_t passes);

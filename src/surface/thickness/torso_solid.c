@@ -33,6 +33,7 @@ static const double deepest_in_m = 0.04;                       /* within counts 
 static const double shoulders_up_m = 0.12, arms_down_m = 0.03; /* where points may be theirs */
 
 const double rlf_torso_first = 0.27, rlf_torso_last = 0.9;
+const double rlf_torso_crotch = 0.878 - 0.355; /* of the same survey */
 
 void rlf_torso_usual(double unknown[RLF_TORSO_UNKNOWNS], double variance[RLF_TORSO_UNKNOWNS])
 {
@@ -99,6 +100,19 @@ static own_place find_place(const rlf_torso *torso, rlf_vec3 p)
     double x = p.x - torso->head.x, z = p.z - torso->head.z;
     return (own_place){x * torso->side_x + z * torso->side_z, z * torso->side_x - x * torso->side_z,
                        p.y - shoulder_height(torso)};
+}
+
+rlf_vec3 rlf_torso_place(const rlf_torso *torso, rlf_vec3 p)
+{
+    own_place at = find_place(torso, p);
+    return rlf_vec3_make(at.side, at.down, at.ahead);
+}
+
+rlf_vec3 rlf_torso_point(const rlf_torso *torso, rlf_vec3 place)
+{
+    return rlf_vec3_make(torso->head.x + place.x * torso->side_x - place.z * torso->side_z,
+                         place.y + shoulder_height(torso),
+                         torso->head.z + place.x * torso->side_z + place.z * torso->side_x);
 }
 
 /* Sampson's distance from the section's ellipse. */
@@ -177,7 +191,7 @@ typedef struct own_ray {
 static bool cut_section(const rlf_torso *torso, const own_ray *ray, double down, rlf_torso_cut *out)
 {
     section s;
-    if (!find_section(torso, down, &s)) {
+    if (down > rlf_torso_crotch || !find_section(torso, down, &s)) {
         return false;
     }
     double u1 = ray->way.side / s.breadth, u0 = -ray->from.side / s.breadth;

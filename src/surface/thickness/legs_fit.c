@@ -1,0 +1,230 @@
+/* The legs that explain a frame's points.
+ *
+ * Each point is of the leg that it is nearest to, and counts the less the farther it is (Geman and
+ * McClure's weight): it may be of a hand, or of a coat. */
+#include "surface/thickness/legs.h"
+
+#include "math/inverse.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { N = RLF_LEG_UNKNOWNS, FIRST_PASSES = 6, PASSES = 2 };
+
+static const double scale_m = 0.02; /* of the weight, in the last pass */
+static const double widest_m = 0.1; /* in the first of a leg that is looked for */
+/* Patches of 10 cm2 are right to 3 cm together: they share the errors of the solid. */
+static const double weight_m4 = 1.0 / (0.03 * 0.03 * 0.001);
+/* How unknowns wander, per square root of a second. */
+static const double joint_wander = 0.25, toes_wander = 0.5, girth_wander = 0.01;
+static const double speed_gain = 0.4, speed_s = 0.25; /* it dies down in so many seconds */
+static const double most_speed = 5.0;
+static const double remind_s = 1.0;        /* a leg is drawn to one that stands, once in so long */
+static const double least_explained = 0.6; /* of the points: else legs are looked for anew, */
+static const double better_by = 0.1;       /* and taken if they explain so much more */
+static const double foot_scale_m = 0.05, foot_top = 0.1; /* above an ankle, metres */
+static const double facing_gain = 20.0;                  /* 1/m^2: how much what is seen says */
+
+/* Normal equations of the correction x: J x = -distance. */
+typedef struct equations {
+    double a[N][N], b[N];
+    double area_m2;
+} equations;
+
+static void add_touch(equations *sum, const rlf_leg_touch *touch, double weight)
+{
+    for (int r = 0; r < N; r++) {
+        double part = weight * touch->slope[r];
+        sum->b[r] -= part * touch->distance;
+        for (int c = 0; c <= r; c++) {
+            sum->a[r][c] += part * touch->slope[c];
+        }
+    }
+}
+
+static void add_points(const rlf_torso *torso, const rlf_torso_points *points, double scale,
+                       equations sum[2])
+{
+    const rlf_leg_shape shape[2] = {rlf_leg_shape_of(torso, 0), rlf_leg_shape_of(torso, 1)};
+    rlf_vec3 camera = rlf_torso_place(torso, rlf_vec3_make(0.0, 0.0, 0.0));
+    double weight = weight_m4 * points->area_m2;
+    memset(sum, 0, 2 * sizeof *sum);
+    for (int32_t i = 0; i < points->count; i++) {
+        int part[2];
+        double d0 = rlf_leg_distance(&shape[0], points->p[i], &part[0]);
+        double d1 = rlf_leg_distance(&shape[1], points->p[i], &part[1]);
+        int leg = d1 < d0;
+        rlf_leg_touch touch = rlf_leg_touch_at(&shape[leg], torso->leg[leg].unknown[RLF_LEG_GIRTH],
+                                               part[leg], points->p[i], camera);
+        double off = touch.distance / scale, share = 1.0 / (1.0 + off * off);
+        add_touch(&sum[leg], &touch, weight * share * share);
+        sum[leg].area_m2 += share > 0.5 ? points->area_m2 : 0.0;
+    }
+    for (int leg = 0; leg < 2; leg++) {
+        for (int part = RLF_THIGH; part <= RLF_SHIN; part++) {
+            rlf_leg_touch stretch = rlf_leg_stretch(&shape[leg], part);
+            add_touch(&sum[leg], &stretch, 1.0);
+        }
+    }
+}
+
+static void correct(rlf_leg *leg, equations *sum, double information[N][N],
+                    const double expected[N])
+{
+    for (int r = 0; r < N; r++) {
+        for (int c = 0; c < N; c++) {
+            sum->a[r][c] = information[r][c] + (c <= r ? sum->a[r][c] : sum->a[c][r]);
+            sum->b[r] += information[r][c] * (expected[c] - leg->unknown[c]);
+        }
+    }
+    math_invert(&sum->a[0][0], N);
+    for (int r = 0; r < N; r++) {
+        for (int c = 0; c < N; c++) {
+            leg->unknown[r] += sum->a[r][c] * sum->b[c];
+        }
+    }
+    leg->unknown[RLF_LEG_TOES] = rlf_clamp(leg->unknown[RLF_LEG_TOES], -1.0, 1.0);
+    leg->unknown[RLF_LEG_GIRTH] = rlf_clamp(leg->unknown[RLF_LEG_GIRTH], 0.6, 1.5);
+}
+
+/* In passes, the weight's scale shrinking from `scale`. */
+static void improve(rlf_torso *torso, const rlf_torso_points *points, double scale, int32_t passes)
+{
+    double information[2][N][N], expected[2][N];
+    equations sum[2];
+    for (int leg = 0; leg < 2; leg++) {
+        memcpy(expected[leg], torso->leg[leg].unknown, sizeof expected[leg]);
+        memcpy(information[leg], torso->leg[leg].doubt, sizeof information[leg]);
+        math_invert(&information[leg][0][0], N);
+    }
+    for (int32_t pass = 0; pass < passes; pass++) {
+        add_points(torso, points, scale, sum);
+        for (int leg = 0; leg < 2; leg++) {
+            correct(&torso->leg[leg], &sum[leg], information[leg], expected[leg]);
+        }
+        scale = rlf_max(0.6 * scale, scale_m);
+    }
+    for (int leg = 0; leg < 2; leg++) {
+        memcpy(torso->leg[leg].doubt, sum[leg].a, sizeof sum[leg].a);
+        torso->leg[leg].area_m2 = sum[leg].area_m2;
+    }
+}
+
+static void begin(rlf_torso *torso, const rlf_torso_points *points)
+{
+    for (int k = 0; k < 2; k++) {
+        double variance[N];
+        torso->leg[k] = (rlf_leg){.area_m2 = 0.0};
+        rlf_leg_usual(torso, k == 0 ? -1.0 : 1.0, torso->leg[k].unknown, variance);
+        for (int r = 0; r < N; r++) {
+            torso->leg[k].doubt[r][r] = variance[r];
+        }
+    }
+    improve(torso, points, widest_m, FIRST_PASSES);
+}
+
+static void expect(const rlf_torso *torso, rlf_leg *leg, double side, double dt)
+{
+    double usual[N], variance[N];
+    rlf_leg_usual(torso, side, usual, variance);
+    for (int k = 0; k < N; k++) {
+        double wander = k < RLF_LEG_TOES    ? joint_wander
+                        : k == RLF_LEG_TOES ? toes_wander
+                                            : girth_wander;
+        leg->unknown[k] += leg->speed[k] * dt;
+        leg->doubt[k][k] += wander * wander * dt;
+    }
+    for (int k = 0; k < N; k++) {
+        double gain[N], off = usual[k] - leg->unknown[k];
+        double sum = leg->doubt[k][k] + variance[k] * remind_s / dt;
+        for (int r = 0; r < N; r++) {
+            gain[r] = leg->doubt[r][k] / sum;
+        }
+        for (int r = 0; r < N; r++) {
+            leg->unknown[r] += gain[r] * off;
+            for (int c = 0; c < N; c++) {
+                leg->doubt[r][c] -= gain[r] * gain[c] * sum;
+            }
+        }
+    }
+}
+
+static double explained(const rlf_torso *torso, const rlf_torso_points *points)
+{
+    double seen = points->area_m2 * points->count;
+    return seen > 0.0 ? (torso->leg[0].area_m2 + torso->leg[1].area_m2) / seen : 1.0;
+}
+
+static void go_on(rlf_torso *torso, const rlf_torso_points *points, double dt)
+{
+    double before[2][N];
+    for (int k = 0; k < 2; k++) {
+        memcpy(before[k], torso->leg[k].unknown, sizeof before[k]);
+        expect(torso, &torso->leg[k], k == 0 ? -1.0 : 1.0, dt);
+    }
+    improve(torso, points, 2.0 * scale_m, PASSES);
+    for (int k = 0; k < 2; k++) {
+        rlf_leg *leg = &torso->leg[k];
+        for (int r = 0; r < RLF_LEG_TOES; r++) {
+            double moved = (leg->unknown[r] - before[k][r]) / dt;
+            leg->speed[r] += speed_gain * (moved - leg->speed[r]);
+            leg->speed[r] *= speed_s / (speed_s + dt);
+            leg->speed[r] = rlf_clamp(leg->speed[r], -most_speed, most_speed);
+        }
+    }
+}
+
+/* How badly the legs explain what is seen of feet, m^2. */
+static double misfit_of_feet(const rlf_torso *torso, const rlf_torso_points *points)
+{
+    const rlf_leg_shape shape[2] = {rlf_leg_shape_of(torso, 0), rlf_leg_shape_of(torso, 1)};
+    double top = rlf_min(torso->leg[0].unknown[RLF_LEG_ANKLE + 1],
+                         torso->leg[1].unknown[RLF_LEG_ANKLE + 1]) -
+                 foot_top;
+    double sum = 0.0;
+    for (int32_t i = 0; i < points->count; i++) {
+        if (points->p[i].y > top) {
+            int part;
+            double off = rlf_min(rlf_leg_distance(&shape[0], points->p[i], &part),
+                                 rlf_leg_distance(&shape[1], points->p[i], &part)) /
+                         foot_scale_m;
+            sum += points->area_m2 * off * off / (1.0 + off * off);
+        }
+    }
+    return sum;
+}
+
+/* Whether toes are ahead of the ankles or behind. */
+static void look_at_feet(rlf_torso *torso, const rlf_torso_points *points)
+{
+    double sign = torso->facing < 0.0 ? -1.0 : 1.0, belief = torso->facing;
+    belief -= sign * facing_gain * misfit_of_feet(torso, points);
+    torso->facing = -sign;
+    belief += sign * facing_gain * misfit_of_feet(torso, points);
+    torso->facing = rlf_clamp(belief, -1.0, 1.0);
+}
+
+/* Looks for the legs anew if they explain little now. */
+static void look_again(rlf_torso *torso, const rlf_torso_points *points)
+{
+    double now = explained(torso, points);
+    if (now < least_explained) {
+        rlf_torso anew = *torso;
+        begin(&anew, points);
+        if (explained(&anew, points) > now + better_by) {
+            *torso = anew;
+        }
+    }
+}
+
+void rlf_legs_follow(rlf_torso *torso, const rlf_torso_points *points, double dt)
+{
+    if (torso->has_legs) {
+        go_on(torso, points, dt);
+        look_again(torso, points);
+    } else {
+        begin(torso, points);
+    }
+    torso->has_legs = true;
+    look_at_feet(torso, points);
+}

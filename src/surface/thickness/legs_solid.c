@@ -1,0 +1,210 @@
+/* The solid of a leg: thigh, shin and foot. */
+#include "surface/thickness/legs.h"
+
+#include "relief/math.h"
+
+#include <math.h>
+
+/* Metres, of both sexes' means in ANSUR II (Gordon et al. 2014, Natick/TR-15/007) at their mean
+ * stature, 1.69 m. Trochanter below the shoulders' middle, ... */
+static const double hip_down = 0.465, hip_aside = 0.085;
+/* ... from there to the knee's epicondyle and on to the malleolus, ... */
+static const double usual_length[2] = {0.395, 0.41};
+/* ... radii of the girths of thigh (below the buttocks' fold), lower thigh, calf and ankle, with
+ * 5 mm of clothes: the leg is taken to taper evenly, */
+static const double hip_radius = 0.1, knee_radius = 0.07, ankle_radius = 0.048;
+/* and the foot from the ankle: back to the middle of the heel, ahead to the ball, and down. */
+static const double heel_back = 0.03, toes_ahead = 0.16, foot_down = 0.045, foot_radius = 0.04;
+
+static const double length_spread = 0.05, girth_spread = 0.1, toes_spread = 0.25;
+static const double stand_spread[3] = {0.06, 0.06, 0.2}; /* x, y, z of a knee; of an ankle twice */
+
+static rlf_vec3 hip_of(const rlf_torso *torso, double side)
+{
+    return rlf_vec3_make(side * hip_aside, hip_down,
+                         torso->unknown[RLF_TORSO_AHEAD] +
+                             torso->unknown[RLF_TORSO_LEAN] * hip_down);
+}
+
+static rlf_vec3 joint_of(const rlf_leg *leg, int first)
+{
+    return rlf_vec3_make(leg->unknown[first], leg->unknown[first + 1], leg->unknown[first + 2]);
+}
+
+void rlf_leg_usual(const rlf_torso *torso, double side, double unknown[RLF_LEG_UNKNOWNS],
+                   double variance[RLF_LEG_UNKNOWNS])
+{
+    rlf_vec3 hip = hip_of(torso, side);
+    double down = hip.y;
+    for (int joint = 0; joint < 2; joint++) {
+        down += usual_length[joint];
+        const double place[3] = {hip.x, down, hip.z};
+        for (int k = 0; k < 3; k++) {
+            double spread = (1.0 + joint) * stand_spread[k];
+            unknown[3 * joint + k] = place[k];
+            variance[3 * joint + k] = spread * spread;
+        }
+    }
+    unknown[RLF_LEG_TOES] = 0.0;
+    variance[RLF_LEG_TOES] = toes_spread * toes_spread;
+    unknown[RLF_LEG_GIRTH] = 1.0;
+    variance[RLF_LEG_GIRTH] = girth_spread * girth_spread;
+}
+
+static rlf_leg_part part_of(const rlf_torso *torso, int leg, int part)
+{
+    const rlf_leg *l = &torso->leg[leg];
+    double girth = l->unknown[RLF_LEG_GIRTH];
+    rlf_vec3 knee = joint_of(l, RLF_LEG_KNEE), ankle = joint_of(l, RLF_LEG_ANKLE);
+    if (part == RLF_THIGH) {
+        return (rlf_leg_part){
+            hip_of(torso, leg == 0 ? -1.0 : 1.0), knee, {girth * hip_radius, girth * knee_radius}};
+    }
+    if (part == RLF_SHIN) {
+        return (rlf_leg_part){knee, ankle, {girth * knee_radius, girth * ankle_radius}};
+    }
+    double facing = torso->facing < 0.0 ? -1.0 : 1.0, turn = l->unknown[RLF_LEG_TOES];
+    rlf_vec3 ahead = rlf_vec3_make(facing * rlf_sin(turn), 0.0, facing * rlf_cos(turn));
+    rlf_vec3 sole = rlf_vec3_make(ankle.x, ankle.y + foot_down, ankle.z);
+    return (rlf_leg_part){rlf_mad(sole, ahead, -heel_back),
+                          rlf_mad(sole, ahead, toes_ahead),
+                          {foot_radius, foot_radius}};
+}
+
+rlf_leg_shape rlf_leg_shape_of(const rlf_torso *torso, int leg)
+{
+    rlf_leg_shape out;
+    for (int part = 0; part < RLF_LEG_PARTS; part++) {
+        out.part[part] = part_of(torso, leg, part);
+    }
+    return out;
+}
+
+/* Where along the part's axis p is nearest to it, 0..1, and its distance from the part. */
+static double distance_to(const rlf_leg_part *s, rlf_vec3 p, double *t)
+{
+    rlf_vec3 along = rlf_sub(s->end, s->begin), off = rlf_sub(p, s->begin);
+    *t = rlf_clamp(rlf_dot(off, along) / (rlf_dot(along, along) + 1e-9), 0.0, 1.0);
+    return rlf_length(rlf_mad(off, along, -*t)) - s->radius[0] - *t * (s->radius[1] - s->radius[0]);
+}
+
+double rlf_leg_distance(const rlf_leg_shape *shape, rlf_vec3 p, int *part)
+{
+    double t, least = distance_to(&shape->part[0], p, &t);
+    *part = 0;
+    for (int k = 1; k < RLF_LEG_PARTS; k++) {
+        double one = distance_to(&shape->part[k], p, &t);
+        if (one < least) {
+            least = one;
+            *part = k;
+        }
+    }
+    return least;
+}
+
+rlf_leg_touch rlf_leg_touch_at(const rlf_leg_shape *shape, double girth, int part, rlf_vec3 p,
+                               rlf_vec3 camera)
+{
+    const rlf_leg_part s = shape->part[part];
+    rlf_vec3 along = rlf_sub(s.end, s.begin), off = rlf_sub(p, s.begin);
+    double t = rlf_clamp(rlf_dot(off, along) / (rlf_dot(along, along) + 1e-9), 0.0, 1.0);
+    rlf_vec3 n = rlf_mad(off, along, -t);
+    double length = rlf_length(n) + 1e-9;
+    double radius = s.radius[0] + t * (s.radius[1] - s.radius[0]);
+    n = rlf_scale(n, 1.0 / length);
+    if (rlf_dot(n, rlf_sub(p, camera)) > 0.0) {
+        n = rlf_scale(n, -1.0);
+        length = -length;
+    }
+    rlf_leg_touch out = {.distance = length - radius};
+    double of_knee = part == RLF_THIGH ? t : part == RLF_SHIN ? 1.0 - t : 0.0;
+    double of_ankle = part == RLF_THIGH ? 0.0 : part == RLF_SHIN ? t : 1.0;
+    const double by[3] = {n.x, n.y, n.z};
+    for (int k = 0; k < 3; k++) {
+        out.slope[RLF_LEG_KNEE + k] = -of_knee * by[k];
+        out.slope[RLF_LEG_ANKLE + k] = -of_ankle * by[k];
+    }
+    if (part == RLF_FOOT) { /* turned, the axis moves square to itself */
+        double ahead = t * (heel_back + toes_ahead) - heel_back;
+        double share = ahead / (heel_back + toes_ahead);
+        out.slope[RLF_LEG_TOES] = -share * (n.x * along.z - n.z * along.x);
+    } else {
+        out.slope[RLF_LEG_GIRTH] = -radius / girth;
+    }
+    return out;
+}
+
+rlf_leg_touch rlf_leg_stretch(const rlf_leg_shape *shape, int part)
+{
+    const rlf_leg_part s = shape->part[part];
+    rlf_vec3 along = rlf_sub(s.end, s.begin);
+    double length = rlf_length(along) + 1e-9;
+    rlf_leg_touch out = {.distance = (length - usual_length[part]) / length_spread};
+    const double by[3] = {along.x, along.y, along.z};
+    for (int k = 0; k < 3; k++) {
+        double slope = by[k] / (length * length_spread);
+        out.slope[part == RLF_THIGH ? RLF_LEG_KNEE + k : RLF_LEG_ANKLE + k] = slope;
+        if (part == RLF_SHIN) {
+            out.slope[RLF_LEG_KNEE + k] = -slope;
+        }
+    }
+    return out;
+}
+
+/* Takes into `out` the depths at which a z^2 - 2 b z + c = 0 where `along`, at that depth, is
+ * between 0 and length. */
+typedef struct quadratic {
+    double a, b, c;
+} quadratic;
+
+static bool find_roots(const quadratic *q, double root[2])
+{
+    double d = q->b * q->b - q->a * q->c;
+    if (!(q->a > 1e-9 && d > 0.0)) {
+        return false;
+    }
+    d = sqrt(d);
+    root[0] = (q->b - d) / q->a;
+    root[1] = (q->b + d) / q->a;
+    return true;
+}
+
+static void cut_ball(rlf_vec3 middle, double radius, rlf_vec3 from, rlf_vec3 way,
+                     rlf_torso_cut *out)
+{
+    rlf_vec3 off = rlf_sub(middle, from);
+    double root[2];
+    const quadratic q = {rlf_dot(way, way), rlf_dot(off, way), rlf_dot(off, off) - radius * radius};
+    if (find_roots(&q, root)) {
+        out->enter = rlf_min(out->enter, root[0]);
+        out->leave = rlf_max(out->leave, root[1]);
+    }
+}
+
+rlf_torso_cut rlf_leg_cut_ray(const rlf_leg_part *part, rlf_vec3 from, rlf_vec3 way)
+{
+    rlf_torso_cut out = {1e9, -1e9};
+    rlf_vec3 along = rlf_sub(part->end, part->begin), off = rlf_sub(part->begin, from);
+    double length = rlf_length(along) + 1e-9, root[2];
+    along = rlf_scale(along, 1.0 / length);
+    double way_along = rlf_dot(way, along), off_along = rlf_dot(off, along);
+    quadratic q = {rlf_dot(way, way) - way_along * way_along,
+                   rlf_dot(off, way) - off_along * way_along,
+                   rlf_dot(off, off) - off_along * off_along};
+    double nearest = q.a > 1e-9 ? q.b / q.a : 0.0;
+    double t = rlf_clamp((nearest * way_along - off_along) / length, 0.0, 1.0);
+    double radius = part->radius[0] + t * (part->radius[1] - part->radius[0]);
+    q.c -= radius * radius;
+    if (find_roots(&q, root)) {
+        for (int k = 0; k < 2; k++) {
+            double at = root[k] * way_along - off_along;
+            if (at >= 0.0 && at <= length) {
+                out.enter = rlf_min(out.enter, root[k]);
+                out.leave = rlf_max(out.leave, root[k]);
+            }
+        }
+    }
+    cut_ball(part->begin, part->radius[0], from, way, &out);
+    cut_ball(part->end, part->radius[1], from, way, &out);
+    return out;
+}
