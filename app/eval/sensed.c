@@ -58,7 +58,7 @@ static rlf_result add_aimed(eval_table *table, const throw_conditions *on, bool 
 {
     const rlf_profile profile = on->profile;
     eval_throw_def def = {.source = is_edge ? "synthetic:book?color=0&frames=-1"
-                                            : "synthetic:room?color=0&frames=-1",
+                                            : "synthetic:room?frames=-1",
                           .aim = is_edge ? EVAL_AIM_EDGE : EVAL_AIM_BEHIND,
                           .throws = THROWS,
                           .profile = profile,
@@ -81,7 +81,7 @@ static rlf_result add_aimed(eval_table *table, const throw_conditions *on, bool 
 static rlf_result add_realism(eval_table *table, const throw_conditions *on)
 {
     const rlf_profile profile = on->profile;
-    eval_throw_def def = {.source = "synthetic:room?color=0&frames=-1",
+    eval_throw_def def = {.source = "synthetic:room?frames=-1",
                           .aim = EVAL_AIM_ANY,
                           .throws = 2 * THROWS,
                           .balls_only = true,
