@@ -87,6 +87,16 @@ static void correct(rlf_leg *leg, equations *sum, double information[N][N],
     leg->unknown[RLF_LEG_GIRTH] = rlf_clamp(leg->unknown[RLF_LEG_GIRTH], 0.6, 1.5);
 }
 
+/* A person's legs are alike: both are as thick as they are on average, as far as it is known. */
+static void share_girth(rlf_torso *torso)
+{
+    const int k = RLF_LEG_GIRTH;
+    rlf_leg *a = &torso->leg[0], *b = &torso->leg[1];
+    double share = b->doubt[k][k] / (a->doubt[k][k] + b->doubt[k][k]);
+    a->unknown[k] = share * a->unknown[k] + (1.0 - share) * b->unknown[k];
+    b->unknown[k] = a->unknown[k];
+}
+
 /* In passes, the weight's scale shrinking from `scale`. */
 static void improve(rlf_torso *torso, const rlf_torso_points *points, double scale, int32_t passes)
 {
@@ -108,6 +118,7 @@ static void improve(rlf_torso *torso, const rlf_torso_points *points, double sca
         memcpy(torso->leg[leg].doubt, sum[leg].a, sizeof sum[leg].a);
         torso->leg[leg].area_m2 = sum[leg].area_m2;
     }
+    share_girth(torso);
 }
 
 static void begin(rlf_torso *torso, const rlf_torso_points *points)

@@ -6,14 +6,16 @@
 #include <math.h>
 
 /* Metres, of both sexes' means in ANSUR II (Gordon et al. 2014, Natick/TR-15/007) at their mean
- * stature, 1.69 m. Trochanter below the shoulders' middle, ... */
-static const double hip_down = 0.465, hip_aside = 0.085;
+ * stature, 1.69 m: trochanter below the shoulders' middle (the hips' joints are 17 cm apart), ...
+ */
+static const double hip_down = 0.463, hip_aside = 0.085;
 /* ... from there to the knee's epicondyle and on to the malleolus, ... */
-static const double usual_length[2] = {0.395, 0.41};
-/* ... radii of the girths of thigh (below the buttocks' fold), lower thigh, calf and ankle, with
- * 5 mm of clothes: the leg is taken to taper evenly, */
+static const double usual_length[2] = {0.394, 0.411};
+/* ... radii by the girths below the buttocks (0.099), above the knee (0.065), of calf (0.061) and
+ * ankle (0.035), with 5 mm of clothes, made to taper evenly, */
 static const double hip_radius = 0.1, knee_radius = 0.07, ankle_radius = 0.048;
-/* and the foot from the ankle: back to the middle of the heel, ahead to the ball, and down. */
+/* and a foot 26 cm long and its shoe; from the ankle back to the middle of the heel's round end,
+ * ahead to that of the toes', and down. */
 static const double heel_back = 0.03, toes_ahead = 0.16, foot_down = 0.045, foot_radius = 0.04;
 
 static const double length_spread = 0.05, girth_spread = 0.1, toes_spread = 0.25;

@@ -9,16 +9,16 @@
 enum { SECTIONS = 3 };
 
 /* Metres, of both sexes' means in ANSUR II (Gordon et al. 2014, Natick/TR-15/007) at their mean
- * stature, 1.69 m: nipple, waist and buttocks below the head's top, ... */
-static const double section_at[SECTIONS] = {0.47, 0.67, 0.82};
+ * stature, 1.69 m: chest, waist (omphalion) and buttocks below the head's top, ... */
+static const double section_at[SECTIONS] = {0.461, 0.674, 0.832};
 /* ... the shoulders' middle, between acromion and armpit, and half of what is between these (with
  * 5 mm of clothes, as all that follows), */
-static const double shoulder_at = 0.355, shoulder_round = 0.055;
+static const double shoulder_at = 0.356, shoulder_round = 0.057;
 /* half the bideltoid breadth less that, */
-static const double usual_shoulder = 0.185;
+static const double usual_shoulder = 0.188;
 /* and half the breadths and depths of chest, waist, hip and buttocks. */
-static const double usual_breadth[SECTIONS] = {0.146, 0.162, 0.181};
-static const double usual_depth[SECTIONS] = {0.131, 0.119, 0.126};
+static const double usual_breadth[SECTIONS] = {0.145, 0.162, 0.18};
+static const double usual_depth[SECTIONS] = {0.13, 0.118, 0.125};
 
 /* Standard deviations of people about that (8 to 12 % with both sexes together), and of the way
  * they carry their heads and backs. */
@@ -33,7 +33,7 @@ static const double deepest_in_m = 0.04;                       /* within counts 
 static const double shoulders_up_m = 0.12, arms_down_m = 0.03; /* where points may be theirs */
 
 const double rlf_torso_first = 0.27, rlf_torso_last = 0.9;
-const double rlf_torso_crotch = 0.878 - 0.355; /* of the same survey */
+const double rlf_torso_crotch = 0.878 - 0.356; /* of the same survey */
 
 void rlf_torso_usual(double unknown[RLF_TORSO_UNKNOWNS], double variance[RLF_TORSO_UNKNOWNS])
 {
