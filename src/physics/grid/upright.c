@@ -15,6 +15,18 @@ static bool is_upright_face(const field_cell *cell, rlf_vec3 q, rlf_vec3 up, dou
     return slope < UPRIGHT && slope > -UPRIGHT && height > -DEEPEST && height < reach;
 }
 
+/* Whether the camera sees past the face's plane at r's foot on it: the face ends before that, as
+ * the side of a column does, and a wall does not. */
+static bool is_past_end(const rlf_grid *grid, const field_cell *face, rlf_vec3 r)
+{
+    const double SLANT = 0.1; /* m of error of the plane per metre along it */
+    rlf_vec3 way = rlf_sub(r, face->point);
+    rlf_vec3 foot = rlf_mad(r, face->normal, -rlf_dot(face->normal, way));
+    double off = SLANT * rlf_length(rlf_sub(foot, face->point));
+    foot = rlf_scale(foot, 1.0 + off / foot.z);
+    return grid_field_is_seen_through(grid, &grid->background, foot);
+}
+
 bool grid_upright_find(const rlf_grid *grid, rlf_vec3 q, rlf_vec3 up, double reach,
                        shell_plane *out)
 {
@@ -34,7 +46,8 @@ bool grid_upright_find(const rlf_grid *grid, rlf_vec3 q, rlf_vec3 up, double rea
         if (cell.point.z < r.z - DEEPEST) {
             hidden_by = cell.point.z;
             tries = 0;
-        } else if (cell.point.z > hidden_by + STEP && is_upright_face(&cell, q, up, reach)) {
+        } else if (cell.point.z > hidden_by + STEP && is_upright_face(&cell, q, up, reach) &&
+                   !is_past_end(grid, &cell, r)) {
             *out = (shell_plane){cell.normal, rlf_dot(cell.normal, cell.point)};
             return true;
         } else {
