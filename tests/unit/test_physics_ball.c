@@ -13,14 +13,14 @@
 #define RADIUS 0.06
 
 /* Direction in which a ball without friction and with restitution 0.8 flies 0.5 s after. */
-static rlf_vec3 thrown(rlf_vec3 from, rlf_vec3 velocity)
+static rlf_vec3 thrown(rlf_vec3 from, rlf_vec3 velocity, double radius)
 {
     rlf_world_def world_def = rlf_world_def_default();
     world_def.gravity = rlf_vec3_make(0, 0, 0);
     rlf_world *world = NULL;
     assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
     rlf_body_def def = rlf_body_def_default();
-    def.shape = (rlf_shape){.type = RLF_SHAPE_SPHERE, .radius = RADIUS};
+    def.shape = (rlf_shape){.type = RLF_SHAPE_SPHERE, .radius = radius};
     def.position = from;
     def.velocity = velocity;
     def.restitution = 0.8;
@@ -78,7 +78,7 @@ static void bounces_off_a_bulge_as_off_a_ball(void **state)
             double depth = sqrt((radius + RADIUS) * (radius + RADIUS) - rlf_dot(off, off));
             rlf_vec3 n = rlf_normalize(rlf_vec3_make(off.x, off.y, -depth));
             rlf_vec3 expected = rlf_mad(v, n, -1.8 * rlf_dot(n, v));
-            worst = fmax(worst, degrees_between(thrown(from, v), expected));
+            worst = fmax(worst, degrees_between(thrown(from, v, RADIUS), expected));
         }
         print_message("bulge of %.2f m: direction off by %.2f deg at most\n", radius, worst);
         assert_true(worst < (k == 0 ? 2.0 : 4.0));
@@ -143,7 +143,7 @@ static void throw_at_edge(rlf_vec3 edge, const rlf_vec3 faces[2], double worst[2
         rlf_vec3 v = rlf_add(rlf_scale(n, -3.0), rlf_vec3_make(0, i % 2 == 0 ? 1.0 : -1.5, 0));
         rlf_vec3 at = rlf_mad(rlf_vec3_make(edge.x, 0.03 * (i / 6 - 2), edge.z), n, RADIUS);
         rlf_vec3 expected = rlf_mad(v, n, -1.8 * rlf_dot(n, v));
-        rlf_vec3 out = thrown(rlf_mad(at, v, -0.2), v);
+        rlf_vec3 out = thrown(rlf_mad(at, v, -0.2), v, RADIUS);
         worst[0] = fmax(worst[0], degrees_between(out, expected));
         worst[1] = fmax(worst[1], fabs(rlf_normalize(out).y - rlf_normalize(expected).y));
     }
@@ -166,6 +166,99 @@ static void bounces_squarely_off_an_edge_between_two_faces(void **state)
     assert_true(blurred[1] < 0.02);
 }
 
+/* A cube of the background, turned about the vertical, of which the top and two sides are seen. */
+typedef struct turned_cube {
+    rlf_vec3 centre, axes[3]; /* to the right, down and away, before the turn */
+    double half;
+} turned_cube;
+
+static turned_cube make_cube(double yaw)
+{
+    return (turned_cube){.centre = {0.3, 0.5, 2.3},
+                         .axes = {{cos(yaw), 0, sin(yaw)}, {0, 1, 0}, {-sin(yaw), 0, cos(yaw)}},
+                         .half = 0.08};
+}
+
+/* Before a wall at 4 m. */
+static void set_cube(const turned_cube *cube)
+{
+    grid_plane wall = grid_wall(4);
+    grid_fixture_set_room(fixture, &wall, 1);
+    for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
+        rlf_vec3 m = rlf_vec3_make(fixture->planes[0][i], fixture->planes[1][i], 1.0), n = m;
+        double in = 0.0, out = 9.0;
+        for (int k = 0; k < 3; k++) {
+            double slope = rlf_dot(cube->axes[k], m), side = slope > 0.0 ? -1.0 : 1.0;
+            double middle = rlf_dot(cube->axes[k], cube->centre) / slope;
+            double reach = cube->half / fabs(slope);
+            n = middle - reach > in ? rlf_scale(cube->axes[k], side) : n;
+            in = fmax(in, middle - reach);
+            out = fmin(out, middle + reach);
+        }
+        if (in < out) {
+            fixture->planes[2][i] = (float)in;
+            fixture->planes[3][i] = (float)n.x;
+            fixture->planes[4][i] = (float)n.y;
+            fixture->planes[5][i] = (float)n.z;
+        }
+    }
+    fixture->grid.background.default_thickness = 0.16;
+}
+
+/* Distance of a place outside the cube, and its direction from there. */
+static double distance_to(const turned_cube *cube, rlf_vec3 p, rlf_vec3 *normal)
+{
+    rlf_vec3 d = rlf_sub(p, cube->centre), nearest = cube->centre;
+    for (int k = 0; k < 3; k++) {
+        double t = rlf_clamp(rlf_dot(d, cube->axes[k]), -cube->half, cube->half);
+        nearest = rlf_mad(nearest, cube->axes[k], t);
+    }
+    *normal = rlf_normalize(rlf_sub(p, nearest));
+    return rlf_length(rlf_sub(p, nearest));
+}
+
+/* Which way the cube's surface turns a ball that flies at it. */
+static rlf_vec3 turned_back(const turned_cube *cube, rlf_vec3 p, rlf_vec3 v, double radius)
+{
+    rlf_vec3 n = {0, 0, 0};
+    for (double gap = 1.0; gap > 1e-6;) {
+        gap = distance_to(cube, p, &n) - radius;
+        p = rlf_mad(p, v, rlf_max(gap, 0.0) / rlf_length(v));
+    }
+    return rlf_mad(v, n, -1.8 * rlf_dot(n, v));
+}
+
+/* At a corner of the top, or at up to 5 cm from it, whose sides along two axes have these signs. */
+static double miss_at_corner(const turned_cube *cube, const double sign[2], int i)
+{
+    const rlf_vec3 from = {-0.25 + 0.1 * (i % 5), 0.1 + 0.06 * (i % 3), 1.6};
+    rlf_vec3 at = rlf_mad(cube->centre, cube->axes[1], -cube->half);
+    at = rlf_mad(at, cube->axes[0], sign[0] * (cube->half - 0.0125 * (i % 4)));
+    at = rlf_mad(at, cube->axes[2], sign[1] * (cube->half - 0.0125 * (i / 2 % 4)));
+    rlf_vec3 v = rlf_scale(rlf_normalize(rlf_sub(at, from)), 4.0);
+    double radius = 0.05 + 0.02 * (i % 5);
+    return degrees_between(thrown(from, v, radius), turned_back(cube, from, v, radius));
+}
+
+static void bounces_off_a_cubes_corners_where_they_are(void **state)
+{
+    (void)state;
+    const turned_cube cube = make_cube(0.5);
+    const double signs[3][2] = {{-1, -1}, {-1, 1}, {1, -1}}; /* in front, on the left, the right */
+    double sum = 0.0;
+    int wrong = 0;
+    set_cube(&cube);
+    for (int i = 0; i < 90; i++) {
+        double miss = miss_at_corner(&cube, signs[i % 3], i / 3);
+        sum += miss;
+        wrong += miss > 10.0;
+    }
+    print_message("corners of a cube: off by %.1f deg, %d of 90 by more than 10\n", sum / 90,
+                  wrong);
+    assert_true(sum / 90 < 5.0);
+    assert_true(wrong < 5);
+}
+
 /* The rim of a board that faces the camera: from 20 to 70 % of the radius beyond it. */
 static void bounces_off_a_rim_where_it_is(void **state)
 {
@@ -179,7 +272,8 @@ static void bounces_off_a_rim_where_it_is(void **state)
         rlf_vec3 v = {0, 0, 3};
         rlf_vec3 n = {beyond / RADIUS, 0, -sqrt(1.0 - beyond * beyond / (RADIUS * RADIUS))};
         rlf_vec3 expected = rlf_mad(v, n, -1.8 * rlf_dot(n, v));
-        double error = degrees_between(thrown(rlf_vec3_make(0.2 + beyond, 0.02, 1.5), v), expected);
+        double error =
+            degrees_between(thrown(rlf_vec3_make(0.2 + beyond, 0.02, 1.5), v, RADIUS), expected);
         print_message("rim, %.0f mm beyond it: off by %.1f deg\n", 1e3 * beyond, error);
         assert_true(error < 10.0); /* half a pixel is 2.7 mm: 3 to 4 deg of normal */
     }
@@ -194,7 +288,7 @@ static void bounces_off_a_floor_seen_at_a_low_angle(void **state)
     grid_fixture_set_room(fixture, room, 2);
     for (int i = 0; i < 40; i++) {
         rlf_vec3 v = {0.5, 2, 0.3};
-        rlf_vec3 out = thrown(rlf_vec3_make(-0.4 + 0.02 * i, 0.0, 3.2 + 0.031 * i), v);
+        rlf_vec3 out = thrown(rlf_vec3_make(-0.4 + 0.02 * i, 0.0, 3.2 + 0.031 * i), v, RADIUS);
         assert_true(degrees_between(out, rlf_vec3_make(0.5, -1.6, 0.3)) < 0.1);
     }
 }
@@ -235,7 +329,7 @@ static void bounces_off_the_back_of_something_thick(void **state)
         rlf_vec3 n = {off / sum, 0, sqrt(1.0 - off * off / (sum * sum))};
         rlf_vec3 from = rlf_mad(rlf_mad(CENTRE, n, sum), v, -0.2);
         rlf_vec3 expected = rlf_mad(v, n, -1.8 * rlf_dot(n, v));
-        worst = fmax(worst, degrees_between(thrown(from, v), expected));
+        worst = fmax(worst, degrees_between(thrown(from, v, RADIUS), expected));
     }
     print_message("back: direction off by %.1f deg at most\n", worst);
     assert_true(worst < 10.0);
@@ -247,6 +341,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(bounces_off_a_bulge_as_off_a_ball, set_up, tear_down),
         cmocka_unit_test_setup_teardown(bounces_squarely_off_an_edge_between_two_faces, set_up,
+                                        tear_down),
+        cmocka_unit_test_setup_teardown(bounces_off_a_cubes_corners_where_they_are, set_up,
                                         tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_a_rim_where_it_is, set_up, tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_a_floor_seen_at_a_low_angle, set_up, tear_down),

@@ -166,6 +166,45 @@ void grid_ball_look_tile(grid_job *job, const grid_tile *tile)
     }
 }
 
+/* How far the next pixel of an outline is that is looked at, half way, metres along it. */
+static double half_way_on(const grid_job *job, const field_cell *cell, rlf_vec3 along)
+{
+    const double HALF = 0.75; /* ... and a part of one: pixels are where they are */
+    rlf_vec3 ray = rlf_scale(cell->point, 1.0 / cell->point.z);
+    double across = rlf_length(rlf_mad(along, ray, -along.z)); /* of the view */
+    return HALF * job->stride * cell->point.z * job->query->grid->pixel_angle /
+           rlf_max(across, 0.1);
+}
+
+/* From a touched point to the ball's centre, both at the time of the touch. */
+static rlf_vec3 way_of(const grid_job *job, const grid_meeting *touch, rlf_vec3 velocity)
+{
+    rlf_vec3 moved = rlf_mad(touch->point, velocity, rlf_max(0.0, touch->time));
+    return rlf_sub(patch_centre_at(job, touch->time), moved);
+}
+
+/* Which way the side wall at the outline's pixel pushes the ball. The wall goes on along the
+ * outline to where another pixel would be touched first; where none was, it ends, and the ball
+ * meets its end. */
+static void face_wall(const grid_job *job, const field_cell *cell, rlf_vec3 side, int32_t edge,
+                      grid_meeting *touch)
+{
+    rlf_vec3 inward = grid_cell_inward(cell), along = grid_wall_along(inward, side);
+    rlf_vec3 way = way_of(job, touch, cell->velocity);
+    double limit = half_way_on(job, cell, along), aside = rlf_dot(way, along), beyond = 0.0;
+    double shift = rlf_clamp(aside, -limit, limit);
+    touch->point = rlf_mad(touch->point, along, shift);
+    way = rlf_mad(way, along, -shift);
+    grid_meeting end = *touch; /* its time stays the pixel's: pixels are compared by it */
+    if (shift != aside && time_of_touch(job, end.point, cell->velocity, 0.0, &end.time)) {
+        way = way_of(job, &end, cell->velocity);
+        beyond = rlf_dot(rlf_normalize(way), along);
+    }
+    rlf_vec3 square = grid_wall_normal(inward, side, rlf_normalize(way), edge);
+    touch->direction =
+        rlf_mad(rlf_scale(along, beyond), square, sqrt(rlf_max(0.0, 1.0 - beyond * beyond)));
+}
+
 void grid_ball_look_outline(grid_job *job, const field_cell *cell, rlf_vec3 shift, double deep)
 {
     grid_meeting touch = {.x = cell->x, .y = cell->y, .face = GRID_TOUCH_SIDE};
@@ -181,13 +220,11 @@ void grid_ball_look_outline(grid_job *job, const field_cell *cell, rlf_vec3 shif
         centre =
             rlf_mad(patch_centre_at(job, touch.time), cell->velocity, -rlf_max(0.0, touch.time));
     }
-    rlf_vec3 moved = rlf_mad(touch.point, cell->velocity, rlf_max(0.0, touch.time));
-    rlf_vec3 direction = rlf_normalize(rlf_sub(patch_centre_at(job, touch.time), moved));
-    rlf_vec3 side;
+    rlf_vec3 direction = rlf_normalize(way_of(job, &touch, cell->velocity)), side;
     touch.direction = direction;
     if (grid_edge_normal(job->query->grid, job->sheet, cell, &side)) {
         int32_t edge = share <= 0.0 ? -1 : share >= deep ? 1 : 0;
-        touch.direction = grid_wall_normal(inward, side, direction, edge);
+        face_wall(job, cell, side, edge, &touch);
     }
     if (rlf_dot(touch.direction, direction) > 0.3) {
         note(job, &touch);
@@ -275,6 +312,17 @@ static bool is_supported(const grid_patch *p, const patch_mean *mean)
     return rlf_dot(d, d) < wide2;
 }
 
+/* Whether a touch before that one acts in a like direction: a ball has but one contact in each. */
+static bool is_known(const grid_job *job, rlf_vec3 normal)
+{
+    for (int32_t i = 0; i < job->hit_count; i++) {
+        if (rlf_dot(job->hits[i].normal, normal) > SAME_DIRECTION) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Adds the plane that was found unless the ball does not come to it before the next query. */
 static void add_hit(grid_job *job, double time, const patch_mean *touched, int32_t label)
 {
@@ -350,7 +398,7 @@ static bool face_edge(grid_patch *p, grid_meeting *touch, patch_mean *touched)
     if (is_averaged) {
         patch_find_face(p, touched);
     }
-    patch_find_end(p, touched, &end);
+    patch_find_end(p, touched, is_averaged, &end);
     double time = p->time;
     rlf_vec3 edge = meet_end(p, &end, touched, &time);
     touch->time = time;
@@ -426,7 +474,8 @@ void grid_ball_add_hits(grid_job *job)
         bool is_found = touch.face == GRID_TOUCH_SIDE ? touch_wall(job, &touch, &touched, &label)
                                                       : touch_face(job, &touch, &touched, &label);
         double time = rlf_max(0.0, touch.time);
-        if (is_found && (first < 0.0 || is_met(job, &touched, time, first))) {
+        if (is_found && (first < 0.0 ||
+                         (is_met(job, &touched, time, first) && !is_known(job, touched.normal)))) {
             add_hit(job, time, &touched, label);
             first = first < 0.0 ? time : first;
         }

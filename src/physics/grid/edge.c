@@ -96,11 +96,22 @@ double grid_edge_width(const rlf_grid *grid, const rlf_grid_sheet *sheet, const 
     return rlf_min((row < column ? row : column) * pixel, limit);
 }
 
-rlf_vec3 grid_wall_normal(rlf_vec3 inward, rlf_vec3 side, rlf_vec3 normal, int32_t edge)
+/* The side wall's face, square to the unit axis along which it goes inward. */
+static rlf_vec3 wall_face(rlf_vec3 axis, rlf_vec3 side)
+{
+    rlf_vec3 face = rlf_mad(side, axis, -rlf_dot(side, axis));
+    return rlf_dot(face, face) > 0.01 ? rlf_normalize(face) : side;
+}
+
+rlf_vec3 grid_wall_along(rlf_vec3 inward, rlf_vec3 side)
 {
     rlf_vec3 axis = rlf_normalize(inward);
-    rlf_vec3 face = rlf_mad(side, axis, -rlf_dot(side, axis));
-    face = rlf_dot(face, face) > 0.01 ? rlf_normalize(face) : side;
+    return rlf_normalize(rlf_cross(axis, wall_face(axis, side)));
+}
+
+rlf_vec3 grid_wall_normal(rlf_vec3 inward, rlf_vec3 side, rlf_vec3 normal, int32_t edge)
+{
+    rlf_vec3 axis = rlf_normalize(inward), face = wall_face(axis, side);
     double out = rlf_dot(normal, face);
     double along = rlf_dot(normal, axis);
     along = edge < 0 ? rlf_min(along, 0.0) : edge > 0 ? rlf_max(along, 0.0) : 0.0;

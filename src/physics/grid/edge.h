@@ -23,6 +23,9 @@ bool grid_edge_normal(const rlf_grid *grid, const rlf_grid_sheet *sheet, const f
 double grid_edge_width(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
                        double limit);
 
+/* The direction of a side wall's outline, unit, square to its face and to where it goes inward. */
+rlf_vec3 grid_wall_along(rlf_vec3 inward, rlf_vec3 side);
+
 /* A side wall's direction at an outline's pixel: its face, which is `side` turned so that the wall
  * goes `inward`, and at its front (edge < 0) and back edge (> 0) all between that face and inward.
  * `normal` brought into them. */

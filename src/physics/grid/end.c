@@ -17,7 +17,7 @@ void patch_find_face(const grid_patch *p, patch_mean *mean)
 {
     const rlf_vec3 none = {0, 0, 0};
     patch_plane plane;
-    if (plane_find(p, p->samples[p->nearest].point, NULL, 0, none, &plane)) {
+    if (plane_find(p, p->samples[p->nearest].point, PLANE_NEAR, NULL, 0, none, &plane)) {
         mean->normal = plane.normal;
         mean->point = plane.point;
     }
@@ -79,7 +79,8 @@ static patch_end end_on_face(const grid_patch *p, const patch_mean *mean, const 
     double length = rlf_length(way);
     rlf_vec3 along = rlf_scale(way, 1.0 / rlf_max(length, 1e-9));
     double t = rlf_clamp(rlf_dot(rlf_sub(q, from), along), 0.0, length);
-    return (patch_end){rlf_mad(from, along, t), along, -t, length - t};
+    return (patch_end){
+        .point = rlf_mad(from, along, t), .along = along, .begin = -t, .end = length - t};
 }
 
 /* Fits the line about the crack nearest to q, and takes its cracks away. */
@@ -99,7 +100,7 @@ static bool find_line(const grid_patch *p, const patch_mean *mean, edge_cracks *
     out->end = end_on_face(p, mean, &line, q);
     patch_plane other;
     if (is_crease(p, fit, &centre, &line) &&
-        plane_find(p, out->end.point, out->normals, 1, out->end.along, &other)) {
+        plane_find(p, out->end.point, PLANE_NEAR, out->normals, 1, out->end.along, &other)) {
         intersect(mean, &other, &out->end);
         out->normals[out->count++] = other.normal;
     }
@@ -132,7 +133,8 @@ static void find_corner(const grid_patch *p, const patch_mean *mean, edge_cracks
     patch_plane third;
     face_line next;
     if (nearest >= 0 && fit->cracks[nearest].next != NULL &&
-        plane_find(p, fit->cracks[nearest].point, line->normals, line->count, any, &third)) {
+        plane_find(p, fit->cracks[nearest].point, PLANE_NEAR, line->normals, line->count, any,
+                   &third)) {
         cut(&line->end, third.normal, third.point);
     } else if (find_line(p, mean, fit, near, &next)) {
         rlf_vec3 out = rlf_cross(next.end.along, mean->normal); /* of the face, in its plane */
@@ -141,7 +143,8 @@ static void find_corner(const grid_patch *p, const patch_mean *mean, edge_cracks
     }
 }
 
-void patch_find_end(const grid_patch *p, const patch_mean *mean, patch_end *out)
+/* By the image's lines. */
+static void find_by_lines(const grid_patch *p, const patch_mean *mean, patch_end *out)
 {
     edge_cracks fit;
     face_line line;
@@ -159,8 +162,18 @@ void patch_find_end(const grid_patch *p, const patch_mean *mean, patch_end *out)
     out->end = rlf_max(out->end, seen);
 }
 
+void patch_find_end(const grid_patch *p, const patch_mean *mean, bool is_averaged, patch_end *out)
+{
+    if (!is_averaged || !corner_find(p, mean, &out->corner)) {
+        find_by_lines(p, mean, out);
+    }
+}
+
 rlf_vec3 patch_end_nearest(const patch_end *end, rlf_vec3 centre)
 {
+    if (end->corner.count > 1) {
+        return corner_nearest(&end->corner, centre);
+    }
     double t = rlf_dot(rlf_sub(centre, end->point), end->along);
     return rlf_mad(end->point, end->along, rlf_clamp(t, end->begin, end->end));
 }

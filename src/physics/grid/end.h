@@ -2,10 +2,12 @@
 #ifndef RLF_PHYSICS_GRID_END_H
 #define RLF_PHYSICS_GRID_END_H
 
-#include "physics/grid/patch.h"
+#include "physics/grid/corner.h"
 
-/* On a line from `begin` to `end` about its point under the ball's centre. */
+/* On a line from `begin` to `end` about its point under the ball's centre; where faces meet, the
+ * corner instead. */
 typedef struct patch_end {
+    patch_corner corner;   /* of one face or none: the line */
     rlf_vec3 point, along; /* unit */
     double begin, end;     /* metres along; both 0: a point */
 } patch_end;
@@ -14,8 +16,8 @@ typedef struct patch_end {
 void patch_find_face(const grid_patch *p, patch_mean *mean);
 
 /* The end of a face that ends before its point under the ball's centre; the nearest sample where it
- * is on no line. */
-void patch_find_end(const grid_patch *p, const patch_mean *mean, patch_end *out);
+ * is on no line. Pixels that are no averages over time are not asked for their planes' corner. */
+void patch_find_end(const grid_patch *p, const patch_mean *mean, bool is_averaged, patch_end *out);
 
 /* The end's point that is nearest to the ball's centre. */
 rlf_vec3 patch_end_nearest(const patch_end *end, rlf_vec3 centre);

@@ -69,27 +69,32 @@ static void refine_plane(const grid_patch *p, patch_plane *plane)
 }
 
 /* Whether the plane may be the one that is sought: near q, along `along`, and none of `others`. */
-static bool is_sought(const patch_plane *plane, rlf_vec3 q, const rlf_vec3 *others, int32_t count,
-                      rlf_vec3 along)
+static bool is_sought(const patch_plane *plane, rlf_vec3 q, double near, const rlf_vec3 *others,
+                      int32_t count, rlf_vec3 along)
 {
-    const double NEAR = 0.008, BENT = 0.9, ASLANT = 0.4; /* metres, cosines */
+    const double BENT = 0.9, ASLANT = 0.4; /* cosines */
     double off = rlf_dot(plane->normal, rlf_sub(q, plane->point));
     double slope = rlf_dot(plane->normal, along);
-    bool is_good = off < NEAR && off > -NEAR && slope < ASLANT && slope > -ASLANT;
+    bool is_good = off < near && off > -near && slope < ASLANT && slope > -ASLANT;
     for (int32_t i = 0; i < count; i++) {
         is_good = is_good && rlf_dot(plane->normal, others[i]) < BENT;
     }
     return is_good;
 }
 
-bool plane_find(const grid_patch *p, rlf_vec3 q, const rlf_vec3 *others, int32_t count,
+bool plane_holds(const patch_plane *plane, const patch_sample *s)
+{
+    return is_on_plane(plane, s, slack_at(plane->point.z));
+}
+
+bool plane_find(const grid_patch *p, rlf_vec3 q, double near, const rlf_vec3 *others, int32_t count,
                 rlf_vec3 along, patch_plane *out)
 {
     *out = (patch_plane){.support = 0.0};
     for (int32_t i = 0; i < p->count; i += 2) { /* every second one is tried */
         const patch_sample *s = &p->samples[i];
         patch_plane plane = {s->cell.normal, s->point, 0.0};
-        if (!is_sought(&plane, q, others, count, along)) {
+        if (!is_sought(&plane, q, near, others, count, along)) {
             continue;
         }
         double slack = slack_at(s->point.z);
