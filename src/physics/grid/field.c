@@ -230,11 +230,13 @@ static double end_between(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf
     return 0.5 * (inside + outside);
 }
 
-/* Whether a pixel of a guessed solid goes on with the face of the last one inside it. */
-static bool is_one_face(const field_cell *cell, const field_cell *inside)
+/* Whether a pixel of a guessed solid goes on with the face of the last one inside it, which is seen
+ * at a low angle: there the guess, along the ray, is thin. */
+static bool is_one_slanted_face(const field_cell *cell, const field_cell *inside, rlf_vec3 q)
 {
-    const double SAME = 0.95;
-    return cell->is_guess && rlf_dot(cell->normal, inside->normal) > SAME;
+    const double SAME = 0.95, LOW = 0.5; /* cosines */
+    return cell->is_guess && rlf_dot(cell->normal, inside->normal) > SAME &&
+           -rlf_dot(cell->normal, rlf_normalize(q)) < LOW;
 }
 
 bool grid_field_side(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
@@ -254,7 +256,8 @@ bool grid_field_side(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3
             field_cell cell;
             field_state state = grid_field_at(grid, sheet, rlf_mad(q, direction, r * pixel), &cell);
             is_sought = r == 0 || state == FIELD_INSIDE;
-            if (state == FIELD_BEHIND && home->side == FIELD_FRONT && is_one_face(&cell, &inside)) {
+            if (state == FIELD_BEHIND && home->side == FIELD_FRONT &&
+                is_one_slanted_face(&cell, &inside, q)) {
                 break; /* the guess ends there, but not the face */
             }
             inside = state == FIELD_INSIDE ? cell : inside;
