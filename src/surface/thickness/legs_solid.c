@@ -153,8 +153,7 @@ rlf_leg_touch rlf_leg_stretch(const rlf_leg_shape *shape, int part)
     return out;
 }
 
-/* Takes into `out` the depths at which a z^2 - 2 b z + c = 0 where `along`, at that depth, is
- * between 0 and length. */
+/* a z^2 - 2 b z + c, negative at depths z where a ray is inside a round solid. */
 typedef struct quadratic {
     double a, b, c;
 } quadratic;
@@ -183,6 +182,7 @@ static void cut_ball(rlf_vec3 middle, double radius, rlf_vec3 from, rlf_vec3 way
     }
 }
 
+/* A ball at each end, and between them the cylinder of the radius at which the ray is nearest. */
 rlf_torso_cut rlf_leg_cut_ray(const rlf_leg_part *part, rlf_vec3 from, rlf_vec3 way)
 {
     rlf_torso_cut out = {1e9, -1e9};
