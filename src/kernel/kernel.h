@@ -108,22 +108,33 @@ RLF_KERNEL_PART uint64_t rlf_kernel_eight(const uint8_t *bytes)
     return eight;
 }
 
-/* The first index from `i` on at which a byte of the row is not 0, or `count`: marks are rare. */
+/* Of eight bytes that are not all 0, the place of the first one that is not. */
+RLF_KERNEL_PART int32_t rlf_kernel_first_of_eight(const uint8_t *bytes)
+{
+#if defined(__GNUC__) && defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    return __builtin_ctzll(rlf_kernel_eight(bytes)) / 8;
+#else
+    int32_t first = 7;
+    for (int32_t k = 6; k >= 0; k--) { /* without a branch: it is not to be foreseen */
+        first = bytes[k] != 0 ? k : first;
+    }
+    return first;
+#endif
+}
+
+/* The first index from `i` on at which a byte of the row is not 0, or `count`: marks are rare, or
+ * side by side. */
 RLF_KERNEL_PART int32_t rlf_kernel_next_mark(const uint8_t *row, int32_t i, int32_t count)
 {
-    for (; i + 32 <= count; i += 32) {
-        if ((rlf_kernel_eight(row + i) | rlf_kernel_eight(row + i + 8) |
-             rlf_kernel_eight(row + i + 16) | rlf_kernel_eight(row + i + 24)) != 0) {
-            break;
-        }
-    }
-    for (; i + 8 <= count; i += 8) {
+    while (i + 8 <= count) {
         if (rlf_kernel_eight(row + i) != 0) {
-            int32_t first = 7;
-            for (int32_t k = 6; k >= 0; k--) { /* without a branch: it is not to be foreseen */
-                first = row[i + k] != 0 ? k : first;
-            }
-            return i + first;
+            return i + rlf_kernel_first_of_eight(row + i);
+        }
+        i += 8;
+        while (i + 32 <= count &&
+               (rlf_kernel_eight(row + i) | rlf_kernel_eight(row + i + 8) |
+                rlf_kernel_eight(row + i + 16) | rlf_kernel_eight(row + i + 24)) == 0) {
+            i += 32;
         }
     }
     while (i < count && row[i] == 0) {

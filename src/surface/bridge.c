@@ -10,7 +10,7 @@
 
 #include "kernel/kernel.h"
 
-enum { BLOCK = RLF_HOLD_BLOCK, SPAN = 16 * BLOCK, LEAST_BESIDE = 2 };
+enum { SPAN = 128, LEAST_BESIDE = 2 };
 
 /* Of the depth: off its surface, as flying_row.c has it; at the same depth. */
 static const float far_share = 0.012f, far_m = 0.004f;
@@ -67,15 +67,12 @@ static void look_at_rows(void *context, int32_t begin, int32_t end, int32_t work
     int32_t first = begin > 1 ? begin : 1, last = rlf_least(end, grid->height - 1);
     for (int32_t y = first; y < last; y++) {
         for (int32_t x = 0; x < grid->width;) {
-            int32_t to = x;
-            while (to < grid->width && to - x < SPAN && rlf_hold_may_move(job->stage, to, y)) {
-                to += BLOCK;
+            rlf_span moving = rlf_hold_next_moving(job->stage, x, y);
+            int32_t x0 = moving.x0 > 1 ? moving.x0 : 1, x1 = rlf_least(moving.x1, grid->width - 1);
+            for (; x0 < x1; x0 += SPAN) {
+                look_at_run(job, x0, y, x1 - x0 < SPAN ? x1 - x0 : SPAN);
             }
-            int32_t x0 = x > 1 ? x : 1, x1 = rlf_least(to, grid->width - 1);
-            if (x0 < x1) {
-                look_at_run(job, x0, y, x1 - x0);
-            }
-            x = to > x ? to : x + BLOCK;
+            x = moving.x1;
         }
     }
 }

@@ -31,15 +31,12 @@ static void drop_half_way(const flying_job *job, int32_t y)
     ptrdiff_t offset = (ptrdiff_t)y * stage->grid.width;
     int32_t first = 2, last = stage->grid.width - 2;
     for (int32_t x = 0; x < last;) {
-        int32_t to = x;
-        while (to < last && rlf_hold_may_move(stage, to, y)) {
-            to += RLF_HOLD_BLOCK;
-        }
-        int32_t begin = x > first ? x : first, end = rlf_least(to, last);
+        rlf_span moving = rlf_hold_next_moving(stage, x, y);
+        int32_t begin = moving.x0 > first ? moving.x0 : first, end = rlf_least(moving.x1, last);
         if (begin < end) {
             rlf_kernel_half_way_row(rows, begin, end, job->depth + offset, job->reason + offset);
         }
-        x = to + RLF_HOLD_BLOCK; /* the block where it ended need not move */
+        x = moving.x1;
     }
 }
 

@@ -33,17 +33,30 @@ typedef struct hold_job {
     uint8_t *reason;
 } hold_job;
 
-static void update_calm(const hold_job *job, int32_t bx, int32_t by)
+/* The pixels of a block that have moved: eight bytes of a row together, where it is whole. */
+static int32_t count_moved(const hold_job *job, int32_t bx, int32_t by)
 {
+    const uint64_t ones = UINT64_C(0x0101010101010101);
     const rlf_grid *grid = &job->stage->grid;
-    uint8_t *calm = &job->stage->steady.calm[by * job->blocks_x + bx];
-    int32_t moved = 0;
+    int32_t moved = 0, x0 = bx * BLOCK, x1 = rlf_least(x0 + BLOCK, grid->width);
+    uint64_t columns = 0;
     for (int32_t y = by * BLOCK; y < rlf_least((by + 1) * BLOCK, grid->height); y++) {
         const uint8_t *row = job->change + (ptrdiff_t)y * grid->width;
-        for (int32_t x = bx * BLOCK; x < rlf_least((bx + 1) * BLOCK, grid->width); x++) {
+        if (x1 - x0 == BLOCK) {
+            columns += (rlf_kernel_eight(row + x0) >> 1) & ones; /* RLF_CHANGE_MOVED is 2 */
+            continue;
+        }
+        for (int32_t x = x0; x < x1; x++) {
             moved += row[x] == RLF_CHANGE_MOVED;
         }
     }
+    return moved + (int32_t)((columns * ones) >> 56);
+}
+
+static void update_calm(const hold_job *job, int32_t bx, int32_t by)
+{
+    uint8_t *calm = &job->stage->steady.calm[by * job->blocks_x + bx];
+    int32_t moved = count_moved(job, bx, by);
     *calm = (uint8_t)(moved >= LEAST_MOVED ? 0 : rlf_least(*calm + 1, MOST_CALM));
 }
 
@@ -103,6 +116,20 @@ bool rlf_hold_may_move(const rlf_reconstruct *stage, int32_t x, int32_t y)
     return unknown || (stage->steady.age >= RLF_HOLD_CALM && !is_calm(stage, x, y));
 }
 
+rlf_span rlf_hold_next_moving(const rlf_reconstruct *stage, int32_t x, int32_t y)
+{
+    int32_t width = stage->grid.width, blocks_x = (width + BLOCK - 1) / BLOCK;
+    if (stage->steady.calm == NULL || stage->steady.age < RLF_HOLD_CALM) {
+        return (rlf_span){stage->steady.calm == NULL ? x : width, width};
+    }
+    const uint8_t *restless = stage->steady.restless + y / BLOCK * blocks_x;
+    int32_t first = rlf_kernel_next_mark(restless, (x + BLOCK - 1) / BLOCK, blocks_x), end = first;
+    while (end < blocks_x && restless[end] != 0) {
+        end++;
+    }
+    return (rlf_span){rlf_least(first * BLOCK, width), rlf_least(end * BLOCK, width)};
+}
+
 /* Lost pixels about which nothing moves, that wait until there are enough of them for a kernel. */
 typedef struct hold_queue {
     int32_t count;
@@ -137,18 +164,26 @@ static void recall_batch(const hold_job *job, hold_queue *q)
 static void read_seen(const hold_job *job, int32_t x, int32_t y, int32_t lane,
                       rlf_windows *restrict out)
 {
+    enum { ABOUT = RLF_WINDOW_ABOUT, SIDE = RLF_WINDOW_SIDE };
     static const float sign[3] = {
         [RLF_CHANGE_UNSEEN] = 0.0f, [RLF_CHANGE_STILL] = 1.0f, [RLF_CHANGE_MOVED] = -1.0f};
     const rlf_grid *grid = &job->stage->grid;
     ptrdiff_t middle = (ptrdiff_t)y * grid->width + x;
     const float *depth = job->depth + middle;
     const uint8_t *change = job->change + middle;
+    if (x >= ABOUT && y >= ABOUT && x + ABOUT < grid->width && y + ABOUT < grid->height) {
+        for (int32_t k = 0; k < RLF_WINDOW_SIZE; k++) {
+            ptrdiff_t i = (ptrdiff_t)(k / SIDE - ABOUT) * grid->width + k % SIDE - ABOUT;
+            out->at[k][lane] = sign[change[i]] * depth[i];
+        }
+        return;
+    }
     rlf_window_places p = rlf_window_places_make(grid->width, grid->height, x, y);
-    for (int32_t r = 0; r < RLF_WINDOW_SIDE; r++) {
-        for (int32_t c = 0; c < RLF_WINDOW_SIDE; c++) {
+    for (int32_t r = 0; r < SIDE; r++) {
+        for (int32_t c = 0; c < SIDE; c++) {
             ptrdiff_t i = p.row[r] + p.column[c];
             float inside = p.row_inside[r] * p.column_inside[c];
-            out->at[r * RLF_WINDOW_SIDE + c][lane] = inside * sign[change[i]] * depth[i];
+            out->at[r * SIDE + c][lane] = inside * sign[change[i]] * depth[i];
         }
     }
 }

@@ -14,56 +14,70 @@ typedef struct steady_job {
     int8_t *lag; /* plane */
 } steady_job;
 
-static void lag_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+static void lag_row(const steady_job *job, int32_t y)
 {
-    (void)worker;
-    const steady_job *job = context;
     const rlf_reconstruct *stage = job->stage;
     const rlf_grid *grid = &stage->grid;
-    rlf_kernel_noise noise = rlf_kernel_noise_make(&stage->def.rig.noise);
-    for (int32_t y = begin; y < end; y++) {
-        ptrdiff_t row = (ptrdiff_t)y * grid->width;
-        rlf_kernel_lag_in in = {{0},
-                                grid->ray_x + row,
-                                grid->ray_y + row,
-                                job->depth + row,
-                                stage->steady.mean + row,
-                                stage->steady.frames + row};
-        for (int k = 0; k < 3; k++) {
-            in.normal[k] =
-                (stage->previous != NULL ? stage->previous->normal[k] : stage->work.zero_plane) +
-                row;
-        }
-        rlf_kernel_lag_row(noise, &in, grid->width, job->lag + row);
-        if (stage->steady.settled != NULL) {
-            rlf_settle_lags(stage, row, &in, job->lag + row);
-        }
+    ptrdiff_t row = (ptrdiff_t)y * grid->width;
+    rlf_kernel_lag_in in = {{0},
+                            grid->ray_x + row,
+                            grid->ray_y + row,
+                            job->depth + row,
+                            stage->steady.mean + row,
+                            stage->steady.frames + row};
+    for (int k = 0; k < 3; k++) {
+        in.normal[k] =
+            (stage->previous != NULL ? stage->previous->normal[k] : stage->work.zero_plane) + row;
+    }
+    rlf_kernel_lag_row(rlf_kernel_noise_make(&stage->def.rig.noise), &in, grid->width,
+                       job->lag + row);
+    if (stage->steady.settled != NULL) {
+        rlf_settle_lags(stage, row, &in, job->lag + row);
     }
 }
 
+static void steady_row(const steady_job *job, int32_t y)
+{
+    const rlf_grid *grid = &job->stage->grid;
+    const int8_t *outside = (const int8_t *)job->stage->work.zeros;
+    ptrdiff_t row = (ptrdiff_t)y * grid->width;
+    const int8_t *lag = job->lag + row;
+    rlf_kernel_steady_in in = {{y > 0 ? lag - grid->width : outside, lag,
+                                y + 1 < grid->height ? lag + grid->width : outside},
+                               job->reason + row,
+                               most_frames,
+                               grid->width};
+    rlf_kernel_steady_row(&in, job->depth + row, job->stage->steady.mean + row,
+                          job->stage->steady.frames + row);
+}
+
+/* Lags of the rows that the chunks beside these rows need as well, while no depth is another yet.
+ */
+static void lag_outer_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    lag_row(context, begin);
+    if (end - 1 > begin) {
+        lag_row(context, end - 1);
+    }
+}
+
+/* What a row's lags were found from is near at hand when it is averaged. */
 static void steady_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
-    const steady_job *job = context;
-    const rlf_grid *grid = &job->stage->grid;
-    const int8_t *outside = (const int8_t *)job->stage->work.zeros;
     for (int32_t y = begin; y < end; y++) {
-        ptrdiff_t row = (ptrdiff_t)y * grid->width;
-        const int8_t *lag = job->lag + row;
-        rlf_kernel_steady_in in = {{y > 0 ? lag - grid->width : outside, lag,
-                                    y + 1 < grid->height ? lag + grid->width : outside},
-                                   job->reason + row,
-                                   most_frames,
-                                   grid->width};
-        rlf_kernel_steady_row(&in, job->depth + row, job->stage->steady.mean + row,
-                              job->stage->steady.frames + row);
+        if (y + 1 < end - 1) {
+            lag_row(context, y + 1);
+        }
+        steady_row(context, y);
     }
 }
 
 void rlf_steady_update(const rlf_reconstruct *stage, float *depth, const uint8_t *reason)
 {
     steady_job job = {stage, depth, reason, (int8_t *)stage->work.mask[1]};
-    rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, lag_rows, &job);
+    rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, lag_outer_rows, &job);
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, steady_rows, &job);
 }
 

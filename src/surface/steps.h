@@ -23,6 +23,8 @@ void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, rlf_slot *
 /* Something has moved about pixel (x, y) lately, up to the frame before; false in the first frames,
  * which cannot tell, and always true without averaging over time. */
 bool rlf_hold_may_move(const rlf_reconstruct *stage, int32_t x, int32_t y);
+/* The next pixels of row y, from x on, of which that is true; x0 = x1 when there are none. */
+rlf_span rlf_hold_next_moving(const rlf_reconstruct *stage, int32_t x, int32_t y);
 /* `raw`: the depth as it came; NULL = nothing was taken from it. Pixels that are not recalled but
  * believed after all are OK again. */
 void rlf_hold_recall(const rlf_reconstruct *stage, const float *raw, float *depth, uint8_t *reason);

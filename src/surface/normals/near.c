@@ -24,28 +24,35 @@ typedef struct near_copy {
 
 static void copy_near(const rlf_normals_job *job, int32_t x, int32_t y, near_copy *out)
 {
+    rlf_window w = rlf_window_at(job->width, job->height, x, y, REACH);
     memset(out, 0, sizeof *out);
-    for (int32_t k = 0; k < 25; k++) {
-        int32_t u = x + k % 5 - 2, v = y + k / 5 - 2;
-        if (u < 0 || v < 0 || u >= job->width || v >= job->height) {
-            continue;
-        }
-        ptrdiff_t i = (ptrdiff_t)v * job->width + u;
-        out->depth[k / 5][k % 5] = job->filled[i];
-        for (int32_t n = 0; n < 3; n++) {
-            out->normal[n][k / 5][k % 5] = job->out[n][i];
+    for (int32_t dy = w.y0; dy <= w.y1; dy++) {
+        ptrdiff_t row = (ptrdiff_t)(y + dy) * job->width + x;
+        for (int32_t dx = w.x0; dx <= w.x1; dx++) {
+            int32_t v = dy + REACH, u = dx + REACH;
+            out->depth[v][u] = job->filled[row + dx];
+            out->normal[0][v][u] = job->out[0][row + dx];
+            out->normal[1][v][u] = job->out[1][row + dx];
+            out->normal[2][v][u] = job->out[2][row + dx];
         }
     }
+}
+
+/* The kernel reads RLF_NEAR_LANES pixels of each row: at its end those of the next one. */
+static bool is_inside(const rlf_normals_job *job, int32_t x, int32_t y)
+{
+    rlf_window w = rlf_window_at(job->width, job->height, x, y, REACH);
+    int32_t room = job->width - (x - REACH) - RLF_NEAR_LANES;
+    return rlf_window_is_whole(w, REACH) && (room >= 0 || y + REACH + 1 < job->height);
 }
 
 /* Of the normals within two pixels at the same depth: x, y, z and how many, weighted. */
 static void sum_near(const rlf_normals_job *job, int32_t x, int32_t y, float sum[4])
 {
     ptrdiff_t corner = (ptrdiff_t)(y - 2) * job->width + x - 2;
-    bool inside = x >= 2 && y >= 2 && x - 2 + RLF_NEAR_LANES <= job->width && y + 2 < job->height;
     rlf_kernel_near about;
     near_copy copy;
-    if (inside) {
+    if (is_inside(job, x, y)) {
         about =
             (rlf_kernel_near){job->filled + corner,
                               {job->out[0] + corner, job->out[1] + corner, job->out[2] + corner},

@@ -87,9 +87,12 @@ static int32_t least_of(int32_t a, int32_t b)
 bool rlf_past_is_narrow(const rlf_grid *grid, const rlf_slot *slot, ptrdiff_t k, int32_t most)
 {
     int32_t x = (int32_t)(k % grid->width), y = (int32_t)(k / grid->width);
-    int32_t row = run_length(slot, k, 1, least_of(most, grid->width - 1 - x)) +
-                  run_length(slot, k, -1, least_of(most, x));
-    int32_t column = run_length(slot, k, grid->width, least_of(most, grid->height - 1 - y)) +
-                     run_length(slot, k, -(ptrdiff_t)grid->width, least_of(most, y));
-    return least_of(row, column) < most;
+    int32_t wide = run_length(slot, k, 1, least_of(most, grid->width - 1 - x));
+    wide += run_length(slot, k, -1, least_of(most - wide, x));
+    if (wide < most) {
+        return true;
+    }
+    int32_t high = run_length(slot, k, grid->width, least_of(most, grid->height - 1 - y));
+    high += run_length(slot, k, -(ptrdiff_t)grid->width, least_of(most - high, y));
+    return high < most;
 }

@@ -352,7 +352,13 @@ static rlf_kernel_flow_view look_back(const rlf_reconstruct *stage, const rlf_sl
     for (int32_t y = 0; y < grid->height; y++) {
         ptrdiff_t i = (ptrdiff_t)y * grid->width;
         const uint8_t *front = is_all_front ? stage->work.ones : before->foreground + i;
-        rlf_kernel_front_row(before->depth + i, before->reason + i, front, grid->width, seen + i);
+        rlf_span span = rlf_background_span(front, grid->width);
+        memset(seen + i, 0, (size_t)grid->width * sizeof *seen);
+        if (span.x0 < span.x1) {
+            i += span.x0;
+            rlf_kernel_front_row(before->depth + i, before->reason + i, front + span.x0,
+                                 span.x1 - span.x0, seen + i);
+        }
     }
     return (rlf_kernel_flow_view){.seen = seen,
                                   .ray_x = grid->ray_x,
