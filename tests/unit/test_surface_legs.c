@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include <math.h>
+#include <string.h>
 
 #include "surface/thickness/legs.h"
 
@@ -119,13 +120,12 @@ static void slopes_are_derivatives(void **state)
         rlf_vec3 toward = rlf_normalize(rlf_sub(camera_of(&t), middle));
         rlf_vec3 p = rlf_mad(middle, toward, 0.08);
         p.x += 0.03;
-        rlf_leg_touch here = rlf_leg_touch_at(&shape, 1.0, i % RLF_LEG_PARTS, p, camera_of(&t));
+        rlf_leg_touch here = rlf_leg_touch_at(&shape, i % RLF_LEG_PARTS, p, camera_of(&t));
         for (int k = 0; k < RLF_LEG_UNKNOWNS; k++) {
             rlf_torso moved = t;
             moved.leg[0].unknown[k] += step;
             shape = rlf_leg_shape_of(&moved, 0);
-            rlf_leg_touch there = rlf_leg_touch_at(&shape, moved.leg[0].unknown[RLF_LEG_GIRTH],
-                                                   i % RLF_LEG_PARTS, p, camera_of(&t));
+            rlf_leg_touch there = rlf_leg_touch_at(&shape, i % RLF_LEG_PARTS, p, camera_of(&t));
             double found = (there.distance - here.distance) / step;
             /* the radius changes along a part: little, and not in the slopes */
             assert_true(fabs(found - here.slope[k]) < 0.07);
@@ -211,6 +211,48 @@ static void toes_tell_the_heels(void **state)
     }
 }
 
+/* Where rows of the picture enter and leave the legs below the crotch, to a millimetre. */
+static void add_rim(const rlf_torso *t, rlf_vec3 out[MOST], rlf_torso_points *points)
+{
+    points->rim = out;
+    for (double y = 0.55; y < 1.3; y += 0.02) {
+        double before = 0.0;
+        for (double x = -0.3; x < 0.5; x += 0.001) {
+            int leg = 0;
+            double rx = x / t->head.z, ry = y / t->head.z, z = meet(t, rx, ry, &leg);
+            if ((z > 0.0) != (before > 0.0)) {
+                double at = z > 0.0 ? z : before;
+                out[points->rim_count++] = rlf_torso_place(t, rlf_vec3_make(at * rx, at * ry, at));
+            }
+            before = z;
+        }
+    }
+}
+
+/* Slender legs and stout ones, of whose sides little is seen. */
+static void outlines_tell_how_thick_legs_are(void **state)
+{
+    (void)state;
+    static const double radius[2][3] = {{0.08, 0.055, 0.042}, {0.115, 0.085, 0.056}};
+    static rlf_vec3 seen[MOST], rim[MOST];
+    for (int build = 0; build < 2; build++) {
+        rlf_torso real = usual(0.0), found = usual(0.0);
+        for (int leg = 0; leg < 2; leg++) {
+            memcpy(&real.leg[leg].unknown[RLF_LEG_RADIUS], radius[build], sizeof radius[build]);
+            put(&real, leg, 0.05, 0.1);
+        }
+        rlf_torso_points points = see(&real, -1, seen);
+        add_rim(&real, rim, &points);
+        for (int i = 0; i < 30; i++) {
+            rlf_legs_follow(&found, &points, i == 0 ? 0.0 : frame_s);
+        }
+        for (int joint = 0; joint < 3; joint++) {
+            double off = found.leg[0].unknown[RLF_LEG_RADIUS + joint] - radius[build][joint];
+            assert_true(fabs(off) < 0.004);
+        }
+    }
+}
+
 /* A leg of which nothing is seen for long may be anywhere. */
 static void what_is_not_seen_is_not_known(void **state)
 {
@@ -231,9 +273,13 @@ static void what_is_not_seen_is_not_known(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(places_are_points),      cmocka_unit_test(rays_end_on_the_surface),
-        cmocka_unit_test(slopes_are_derivatives), cmocka_unit_test(a_hidden_leg_is_where_it_went),
-        cmocka_unit_test(toes_tell_the_heels),    cmocka_unit_test(what_is_not_seen_is_not_known),
+        cmocka_unit_test(places_are_points),
+        cmocka_unit_test(rays_end_on_the_surface),
+        cmocka_unit_test(slopes_are_derivatives),
+        cmocka_unit_test(a_hidden_leg_is_where_it_went),
+        cmocka_unit_test(toes_tell_the_heels),
+        cmocka_unit_test(what_is_not_seen_is_not_known),
+        cmocka_unit_test(outlines_tell_how_thick_legs_are),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -164,7 +164,8 @@ static void the_far_side_is_found(void **state)
         const rlf_torso truth = other(1.45);
         rlf_torso found = usual(1.6);
         const double before = backs_differ(&truth, &found);
-        const rlf_torso_points points = {seen, see(&truth, arm != 0, seen), 0.0009};
+        const rlf_torso_points points = {
+            .p = seen, .count = see(&truth, arm != 0, seen), .area_m2 = 0.0009};
         for (int frame = 0; frame < 10; frame++) {
             rlf_torso_improve(&found, &points, 2);
         }
@@ -182,7 +183,8 @@ static void a_turn_is_followed(void **state)
     rlf_torso found = usual(1.5);
     for (int frame = 0; frame < 30; frame++) {
         const rlf_torso truth = other(1.5 - 0.075 * (frame < 20 ? frame : 20));
-        const rlf_torso_points points = {seen, see(&truth, true, seen), 0.0009};
+        const rlf_torso_points points = {
+            .p = seen, .count = see(&truth, true, seen), .area_m2 = 0.0009};
         found.doubt[RLF_TORSO_TURN][RLF_TORSO_TURN] += 0.0064;
         rlf_torso_improve(&found, &points, 2);
         assert_true(turned_from(&truth, &found) < 0.3);
@@ -196,7 +198,7 @@ static void nothing_is_made_of_nothing(void **state)
     (void)state;
     rlf_torso found = usual(0.3);
     const rlf_torso before = found;
-    const rlf_torso_points none = {NULL, 0, 0.001};
+    const rlf_torso_points none = {.area_m2 = 0.001};
     rlf_torso_improve(&found, &none, 3);
     assert_true(found.misfit == 1.0 && found.area_m2 == 0.0);
     assert_true(turned_from(&before, &found) < 1e-12);

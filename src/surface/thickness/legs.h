@@ -14,8 +14,8 @@
 #include "surface/thickness/torso.h"
 
 /* What is unknown of a leg: places of its joints, metres; how far the foot is turned from ahead,
- * radians; and how thick it is, of the usual. */
-enum { RLF_LEG_KNEE = 0, RLF_LEG_ANKLE = 3, RLF_LEG_TOES = 6, RLF_LEG_GIRTH = 7 };
+ * radians; and its radii at hip, knee and ankle, metres. */
+enum { RLF_LEG_KNEE = 0, RLF_LEG_ANKLE = 3, RLF_LEG_TOES = 6, RLF_LEG_RADIUS = 7 };
 
 enum { RLF_THIGH, RLF_SHIN, RLF_FOOT, RLF_LEG_PARTS };
 
@@ -41,9 +41,11 @@ void rlf_leg_usual(const rlf_torso *torso, double side, double unknown[RLF_LEG_U
 rlf_leg_shape rlf_leg_shape_of(const rlf_torso *torso, int leg);
 /* From a place to the shape, metres, less than 0 within; and which part is nearest. */
 double rlf_leg_distance(const rlf_leg_shape *shape, rlf_vec3 p, int *part);
-/* The same of one part; girth is the leg's. */
-rlf_leg_touch rlf_leg_touch_at(const rlf_leg_shape *shape, double girth, int part, rlf_vec3 p,
-                               rlf_vec3 camera);
+/* The same of one part. */
+rlf_leg_touch rlf_leg_touch_at(const rlf_leg_shape *shape, int part, rlf_vec3 p, rlf_vec3 camera);
+/* The place on the camera's ray through p that is nearest to the part's axis; p where the camera
+ * looks along that. */
+rlf_vec3 rlf_leg_beside(const rlf_leg_part *part, rlf_vec3 p, rlf_vec3 camera);
 /* How much longer thigh or shin is than usual, of the spread among people. */
 rlf_leg_touch rlf_leg_stretch(const rlf_leg_shape *shape, int part);
 

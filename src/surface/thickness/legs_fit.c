@@ -5,6 +5,7 @@
 #include "surface/thickness/legs.h"
 
 #include "math/inverse.h"
+#include "math/observe.h"
 
 #include <math.h>
 #include <string.h>
@@ -16,7 +17,9 @@ static const double widest_m = 0.1; /* in the first of a leg that is looked for 
 /* Patches of 10 cm2 are right to 3 cm together: they share the errors of the solid. */
 static const double weight_m4 = 1.0 / (0.03 * 0.03 * 0.001);
 /* How unknowns wander, per square root of a second. */
-static const double joint_wander = 0.25, toes_wander = 0.5, girth_wander = 0.01;
+static const double joint_wander = 0.25, toes_wander = 0.5, radius_wander = 0.0007;
+static const double least_radius_m = 0.03;
+static const double rim_worth = 2.0;                  /* points that a place on the rim is worth */
 static const double speed_gain = 0.4, speed_s = 0.25; /* it dies down in so many seconds */
 static const double most_speed = 5.0;
 static const double remind_s = 1.0;        /* a leg is drawn to one that stands, once in so long */
@@ -35,10 +38,43 @@ static void add_touch(equations *sum, const rlf_leg_touch *touch, double weight)
 {
     for (int r = 0; r < N; r++) {
         double part = weight * touch->slope[r];
+        if (part == 0.0) { /* what a part does not hang on */
+            continue;
+        }
         sum->b[r] -= part * touch->distance;
         for (int c = 0; c <= r; c++) {
             sum->a[r][c] += part * touch->slope[c];
         }
+    }
+}
+
+/* Which leg a point is nearest to, and which part of it. */
+static int nearest_leg(const rlf_leg_shape shape[2], rlf_vec3 p, int *part)
+{
+    int other;
+    double first = rlf_leg_distance(&shape[0], p, part);
+    if (!(rlf_leg_distance(&shape[1], p, &other) < first)) {
+        return 0;
+    }
+    *part = other;
+    return 1;
+}
+
+/* On a leg's outline the camera's ray touches it: the place on the ray that is nearest to the axis
+ * is on the surface, which tells how thick the leg is. */
+static void add_rim(const rlf_leg_shape shape[2], const rlf_torso_points *points, rlf_vec3 camera,
+                    double scale, equations sum[2])
+{
+    double weight = rim_worth * weight_m4 * points->area_m2;
+    for (int32_t i = 0; i < points->rim_count; i++) {
+        int part, leg = nearest_leg(shape, points->rim[i], &part);
+        if (part == RLF_FOOT) { /* not seen from beside */
+            continue;
+        }
+        rlf_vec3 p = rlf_leg_beside(&shape[leg].part[part], points->rim[i], camera);
+        rlf_leg_touch touch = rlf_leg_touch_at(&shape[leg], part, p, camera);
+        double off = touch.distance / scale, share = 1.0 / (1.0 + off * off);
+        add_touch(&sum[leg], &touch, weight * share * share);
     }
 }
 
@@ -50,16 +86,13 @@ static void add_points(const rlf_torso *torso, const rlf_torso_points *points, d
     double weight = weight_m4 * points->area_m2;
     memset(sum, 0, 2 * sizeof *sum);
     for (int32_t i = 0; i < points->count; i++) {
-        int part[2];
-        double d0 = rlf_leg_distance(&shape[0], points->p[i], &part[0]);
-        double d1 = rlf_leg_distance(&shape[1], points->p[i], &part[1]);
-        int leg = d1 < d0;
-        rlf_leg_touch touch = rlf_leg_touch_at(&shape[leg], torso->leg[leg].unknown[RLF_LEG_GIRTH],
-                                               part[leg], points->p[i], camera);
+        int part, leg = nearest_leg(shape, points->p[i], &part);
+        rlf_leg_touch touch = rlf_leg_touch_at(&shape[leg], part, points->p[i], camera);
         double off = touch.distance / scale, share = 1.0 / (1.0 + off * off);
         add_touch(&sum[leg], &touch, weight * share * share);
         sum[leg].area_m2 += share > 0.5 ? points->area_m2 : 0.0;
     }
+    add_rim(shape, points, camera, scale, sum);
     for (int leg = 0; leg < 2; leg++) {
         for (int part = RLF_THIGH; part <= RLF_SHIN; part++) {
             rlf_leg_touch stretch = rlf_leg_stretch(&shape[leg], part);
@@ -84,17 +117,20 @@ static void correct(rlf_leg *leg, equations *sum, double information[N][N],
         }
     }
     leg->unknown[RLF_LEG_TOES] = rlf_clamp(leg->unknown[RLF_LEG_TOES], -1.0, 1.0);
-    leg->unknown[RLF_LEG_GIRTH] = rlf_clamp(leg->unknown[RLF_LEG_GIRTH], 0.6, 1.5);
+    for (int r = RLF_LEG_RADIUS; r < N; r++) {
+        leg->unknown[r] = rlf_max(leg->unknown[r], least_radius_m);
+    }
 }
 
 /* A person's legs are alike: both are as thick as they are on average, as far as it is known. */
-static void share_girth(rlf_torso *torso)
+static void share_radii(rlf_torso *torso)
 {
-    const int k = RLF_LEG_GIRTH;
     rlf_leg *a = &torso->leg[0], *b = &torso->leg[1];
-    double share = b->doubt[k][k] / (a->doubt[k][k] + b->doubt[k][k]);
-    a->unknown[k] = share * a->unknown[k] + (1.0 - share) * b->unknown[k];
-    b->unknown[k] = a->unknown[k];
+    for (int k = RLF_LEG_RADIUS; k < N; k++) {
+        double share = b->doubt[k][k] / (a->doubt[k][k] + b->doubt[k][k]);
+        a->unknown[k] = share * a->unknown[k] + (1.0 - share) * b->unknown[k];
+        b->unknown[k] = a->unknown[k];
+    }
 }
 
 /* In passes, the weight's scale shrinking from `scale`. */
@@ -118,7 +154,7 @@ static void improve(rlf_torso *torso, const rlf_torso_points *points, double sca
         memcpy(torso->leg[leg].doubt, sum[leg].a, sizeof sum[leg].a);
         torso->leg[leg].area_m2 = sum[leg].area_m2;
     }
-    share_girth(torso);
+    share_radii(torso);
 }
 
 static void begin(rlf_torso *torso, const rlf_torso_points *points)
@@ -141,22 +177,13 @@ static void expect(const rlf_torso *torso, rlf_leg *leg, double side, double dt)
     for (int k = 0; k < N; k++) {
         double wander = k < RLF_LEG_TOES    ? joint_wander
                         : k == RLF_LEG_TOES ? toes_wander
-                                            : girth_wander;
+                                            : radius_wander;
         leg->unknown[k] += leg->speed[k] * dt;
         leg->doubt[k][k] += wander * wander * dt;
     }
     for (int k = 0; k < N; k++) {
-        double gain[N], off = usual[k] - leg->unknown[k];
-        double sum = leg->doubt[k][k] + variance[k] * remind_s / dt;
-        for (int r = 0; r < N; r++) {
-            gain[r] = leg->doubt[r][k] / sum;
-        }
-        for (int r = 0; r < N; r++) {
-            leg->unknown[r] += gain[r] * off;
-            for (int c = 0; c < N; c++) {
-                leg->doubt[r][c] -= gain[r] * gain[c] * sum;
-            }
-        }
+        const math_observation reminder = {k, usual[k], variance[k] * remind_s / dt};
+        math_observe(leg->unknown, &leg->doubt[0][0], N, &reminder);
     }
 }
 

@@ -13,13 +13,16 @@ static const double hip_down = 0.463, hip_aside = 0.085;
 static const double usual_length[2] = {0.394, 0.411};
 /* ... radii by the girths below the buttocks (0.099), above the knee (0.065), of calf (0.061) and
  * ankle (0.035), with 5 mm of clothes, made to taper evenly, */
-static const double hip_radius = 0.1, knee_radius = 0.07, ankle_radius = 0.048;
+static const double usual_radius[3] = {0.1, 0.07, 0.048};
 /* and a foot 26 cm long and its shoe; from the ankle back to the middle of the heel's round end,
  * ahead to that of the toes', and down. */
 static const double heel_back = 0.03, toes_ahead = 0.16, foot_down = 0.045, foot_radius = 0.04;
 
 static const double length_spread = 0.05, girth_spread = 0.1, toes_spread = 0.25;
 static const double stand_spread[3] = {0.06, 0.06, 0.2}; /* x, y, z of a knee; of an ankle twice */
+
+static const double least_aslant = 0.1; /* squared sine between an axis and a ray beside it */
+static const double behind_share = 0.2; /* cosine beyond which a side is turned from the camera */
 
 static rlf_vec3 hip_of(const rlf_torso *torso, double side)
 {
@@ -49,21 +52,23 @@ void rlf_leg_usual(const rlf_torso *torso, double side, double unknown[RLF_LEG_U
     }
     unknown[RLF_LEG_TOES] = 0.0;
     variance[RLF_LEG_TOES] = toes_spread * toes_spread;
-    unknown[RLF_LEG_GIRTH] = 1.0;
-    variance[RLF_LEG_GIRTH] = girth_spread * girth_spread;
+    for (int joint = 0; joint < 3; joint++) {
+        double spread = girth_spread * usual_radius[joint];
+        unknown[RLF_LEG_RADIUS + joint] = usual_radius[joint];
+        variance[RLF_LEG_RADIUS + joint] = spread * spread;
+    }
 }
 
 static rlf_leg_part part_of(const rlf_torso *torso, int leg, int part)
 {
     const rlf_leg *l = &torso->leg[leg];
-    double girth = l->unknown[RLF_LEG_GIRTH];
+    const double *radius = &l->unknown[RLF_LEG_RADIUS];
     rlf_vec3 knee = joint_of(l, RLF_LEG_KNEE), ankle = joint_of(l, RLF_LEG_ANKLE);
     if (part == RLF_THIGH) {
-        return (rlf_leg_part){
-            hip_of(torso, leg == 0 ? -1.0 : 1.0), knee, {girth * hip_radius, girth * knee_radius}};
+        return (rlf_leg_part){hip_of(torso, leg == 0 ? -1.0 : 1.0), knee, {radius[0], radius[1]}};
     }
     if (part == RLF_SHIN) {
-        return (rlf_leg_part){knee, ankle, {girth * knee_radius, girth * ankle_radius}};
+        return (rlf_leg_part){knee, ankle, {radius[1], radius[2]}};
     }
     double facing = torso->facing < 0.0 ? -1.0 : 1.0, turn = l->unknown[RLF_LEG_TOES];
     rlf_vec3 ahead = rlf_vec3_make(facing * rlf_sin(turn), 0.0, facing * rlf_cos(turn));
@@ -82,20 +87,32 @@ rlf_leg_shape rlf_leg_shape_of(const rlf_torso *torso, int leg)
     return out;
 }
 
-/* Where along the part's axis p is nearest to it, 0..1, and its distance from the part. */
-static double distance_to(const rlf_leg_part *s, rlf_vec3 p, double *t)
+/* The place of a part's axis that is nearest to a point. */
+typedef struct foot_point {
+    rlf_vec3 off;     /* from there to the point */
+    double t, radius; /* share of the axis, 0..1; of the part */
+} foot_point;
+
+static foot_point foot_of(const rlf_leg_part *s, rlf_vec3 p)
 {
     rlf_vec3 along = rlf_sub(s->end, s->begin), off = rlf_sub(p, s->begin);
-    *t = rlf_clamp(rlf_dot(off, along) / (rlf_dot(along, along) + 1e-9), 0.0, 1.0);
-    return rlf_length(rlf_mad(off, along, -*t)) - s->radius[0] - *t * (s->radius[1] - s->radius[0]);
+    double t = rlf_clamp(rlf_dot(off, along) / (rlf_dot(along, along) + 1e-9), 0.0, 1.0);
+    return (foot_point){rlf_mad(off, along, -t), t,
+                        s->radius[0] + t * (s->radius[1] - s->radius[0])};
+}
+
+static double distance_to(const rlf_leg_part *s, rlf_vec3 p)
+{
+    foot_point foot = foot_of(s, p);
+    return rlf_length(foot.off) - foot.radius;
 }
 
 double rlf_leg_distance(const rlf_leg_shape *shape, rlf_vec3 p, int *part)
 {
-    double t, least = distance_to(&shape->part[0], p, &t);
+    double least = distance_to(&shape->part[0], p);
     *part = 0;
     for (int k = 1; k < RLF_LEG_PARTS; k++) {
-        double one = distance_to(&shape->part[k], p, &t);
+        double one = distance_to(&shape->part[k], p);
         if (one < least) {
             least = one;
             *part = k;
@@ -104,21 +121,17 @@ double rlf_leg_distance(const rlf_leg_shape *shape, rlf_vec3 p, int *part)
     return least;
 }
 
-rlf_leg_touch rlf_leg_touch_at(const rlf_leg_shape *shape, double girth, int part, rlf_vec3 p,
-                               rlf_vec3 camera)
+rlf_leg_touch rlf_leg_touch_at(const rlf_leg_shape *shape, int part, rlf_vec3 p, rlf_vec3 camera)
 {
     const rlf_leg_part s = shape->part[part];
-    rlf_vec3 along = rlf_sub(s.end, s.begin), off = rlf_sub(p, s.begin);
-    double t = rlf_clamp(rlf_dot(off, along) / (rlf_dot(along, along) + 1e-9), 0.0, 1.0);
-    rlf_vec3 n = rlf_mad(off, along, -t);
-    double length = rlf_length(n) + 1e-9;
-    double radius = s.radius[0] + t * (s.radius[1] - s.radius[0]);
-    n = rlf_scale(n, 1.0 / length);
-    if (rlf_dot(n, rlf_sub(p, camera)) > 0.0) {
+    const foot_point foot = foot_of(&s, p);
+    double length = rlf_length(foot.off) + 1e-9, t = foot.t;
+    rlf_vec3 n = rlf_scale(foot.off, 1.0 / length);
+    if (rlf_dot(n, rlf_sub(p, camera)) > behind_share * rlf_length(rlf_sub(p, camera))) {
         n = rlf_scale(n, -1.0);
         length = -length;
     }
-    rlf_leg_touch out = {.distance = length - radius};
+    rlf_leg_touch out = {.distance = length - foot.radius};
     double of_knee = part == RLF_THIGH ? t : part == RLF_SHIN ? 1.0 - t : 0.0;
     double of_ankle = part == RLF_THIGH ? 0.0 : part == RLF_SHIN ? t : 1.0;
     const double by[3] = {n.x, n.y, n.z};
@@ -129,11 +142,25 @@ rlf_leg_touch rlf_leg_touch_at(const rlf_leg_shape *shape, double girth, int par
     if (part == RLF_FOOT) { /* turned, the axis moves square to itself */
         double ahead = t * (heel_back + toes_ahead) - heel_back;
         double share = ahead / (heel_back + toes_ahead);
+        rlf_vec3 along = rlf_sub(s.end, s.begin);
         out.slope[RLF_LEG_TOES] = -share * (n.x * along.z - n.z * along.x);
     } else {
-        out.slope[RLF_LEG_GIRTH] = -radius / girth;
+        out.slope[RLF_LEG_RADIUS + part] = t - 1.0;
+        out.slope[RLF_LEG_RADIUS + part + 1] = -t;
     }
     return out;
+}
+
+rlf_vec3 rlf_leg_beside(const rlf_leg_part *s, rlf_vec3 p, rlf_vec3 camera)
+{
+    rlf_vec3 along = rlf_normalize(rlf_sub(s->end, s->begin)),
+             way = rlf_normalize(rlf_sub(p, camera));
+    rlf_vec3 off = rlf_sub(s->begin, p);
+    double cosine = rlf_dot(along, way), square = 1.0 - cosine * cosine;
+    if (square < least_aslant) {
+        return p;
+    }
+    return rlf_mad(p, way, (rlf_dot(off, way) - cosine * rlf_dot(off, along)) / square);
 }
 
 rlf_leg_touch rlf_leg_stretch(const rlf_leg_shape *shape, int part)

@@ -1,9 +1,18 @@
 /* Which torsos there are, and where each is expected in the next frame. */
 #include "surface/thickness/legs.h"
 
+#include "math/observe.h"
+
 #include <math.h>
 
-enum { MOST_POINTS = 400, MOST_PLACES = 900, DIRECTIONS = 8, FIRST_PASSES = 5, PASSES = 2 };
+enum {
+    MOST_POINTS = 400,
+    MOST_PLACES = 900,
+    MOST_RIM = 400,
+    DIRECTIONS = 8,
+    FIRST_PASSES = 5,
+    PASSES = 2
+};
 
 static const double beside_m = 0.3; /* from below the head: points of the trunk lie nearer */
 static const double beside_legs_m = 0.55, legs_begin = 0.86, legs_end = 1.9; /* the same */
@@ -86,16 +95,9 @@ static void remind(rlf_torso *torso, double dt)
     double usual[RLF_TORSO_UNKNOWNS], variance[RLF_TORSO_UNKNOWNS];
     rlf_torso_usual(usual, variance);
     for (int k = 0; k < RLF_TORSO_UNKNOWNS; k++) {
-        double gain[RLF_TORSO_UNKNOWNS], off = usual[k] - torso->unknown[k];
-        double sum = torso->doubt[k][k] + variance[k] * remind_s / dt;
-        for (int r = 0; r < RLF_TORSO_UNKNOWNS; r++) {
-            gain[r] = torso->doubt[r][k] / sum;
-        }
-        for (int r = 0; k != RLF_TORSO_TURN && r < RLF_TORSO_UNKNOWNS; r++) {
-            torso->unknown[r] += gain[r] * off;
-            for (int c = 0; c < RLF_TORSO_UNKNOWNS; c++) {
-                torso->doubt[r][c] -= gain[r] * gain[c] * sum;
-            }
+        const math_observation reminder = {k, usual[k], variance[k] * remind_s / dt};
+        if (k != RLF_TORSO_TURN) {
+            math_observe(torso->unknown, &torso->doubt[0][0], RLF_TORSO_UNKNOWNS, &reminder);
         }
     }
 }
@@ -131,11 +133,15 @@ static rlf_torso *find_torso(rlf_torsos *torsos, int32_t label, bool *is_new)
 static void follow_legs(const rlf_chord_job *job, rlf_torso *torso, double dt)
 {
     rlf_vec3 seen[MOST_PLACES];
-    rlf_torso_points points = {.p = seen};
-    const rlf_torso_window window = {beside_legs_m, legs_begin, legs_end, MOST_PLACES};
+    rlf_vec3 rim[MOST_RIM];
+    rlf_torso_points points = {.p = seen, .rim = rim};
+    const rlf_torso_window window = {beside_legs_m, legs_begin, legs_end, MOST_PLACES, MOST_RIM};
     rlf_torso_find_points(job, torso, &window, &points);
     for (int32_t i = 0; i < points.count; i++) {
         seen[i] = rlf_torso_place(torso, seen[i]);
+    }
+    for (int32_t i = 0; i < points.rim_count; i++) {
+        rim[i] = rlf_torso_place(torso, rim[i]);
     }
     rlf_legs_follow(torso, &points, dt);
 }
@@ -151,7 +157,7 @@ void rlf_torso_follow(const rlf_chord_job *job, int32_t label, rlf_vec3 head)
     }
     double dt = torso->unseen_s;
     torso->head = head;
-    const rlf_torso_window window = {beside_m, rlf_torso_first, rlf_torso_last, MOST_POINTS};
+    const rlf_torso_window window = {beside_m, rlf_torso_first, rlf_torso_last, MOST_POINTS, 0};
     rlf_torso_find_points(job, torso, &window, &points);
     if (is_new || (torso->misfit > most_misfit && torso->age_s > least_age_s)) {
         begin(torso, &points);

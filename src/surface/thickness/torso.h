@@ -62,16 +62,19 @@ typedef struct rlf_torso_points {
     rlf_vec3 *p;
     int32_t count;
     double area_m2; /* that one stands for */
+    rlf_vec3 *rim;  /* places on its outline, where it ends before something farther */
+    int32_t rim_count;
 } rlf_torso_points;
 
 /* Where points are looked for: how far from the head to the side, from how far below its top to
- * how far, metres; and the most there may be. */
+ * how far, metres; and the most there may be, of them and of the rim. */
 typedef struct rlf_torso_window {
     double beside, top, bottom;
-    int32_t most;
+    int32_t most, most_rim;
 } rlf_torso_window;
 
-/* Finds points of the torso's region, evenly in the image; out->p has room for window->most. */
+/* Finds points of the torso's region, evenly in the image, and those of its rim in the same rows;
+ * out->p and out->rim have room for window->most and most_rim. */
 void rlf_torso_find_points(const rlf_chord_job *job, const rlf_torso *torso,
                            const rlf_torso_window *window, rlf_torso_points *out);
 
