@@ -7,6 +7,8 @@
 
 #include "relief/surface.h"
 
+enum { CHUNK = 16 };
+
 RLF_KERNEL_PART int32_t is_close(float a, float z, float tolerance)
 {
     return rlf_kernel_abs(a - z) <= tolerance ? 1 : 0;
@@ -20,18 +22,27 @@ RLF_KERNEL_PART int32_t is_collinear(float a, float b, float z, float tolerance)
     return straight & gentle;
 }
 
-RLF_KERNEL_PART int32_t is_kept(const float n[8], float z)
+RLF_KERNEL_PART float tolerance_at(float z)
 {
-    float tolerance = 0.012f * z + 0.004f;
+    return 0.012f * z + 0.004f;
+}
+
+RLF_KERNEL_PART int32_t is_beside_many(const float n[8], float z)
+{
     int32_t close = 0;
     for (int k = 0; k < 8; k++) {
-        close += is_close(n[k], z, tolerance);
+        close += is_close(n[k], z, tolerance_at(z));
     }
+    return close >= 3 ? 1 : 0;
+}
+
+RLF_KERNEL_PART int32_t is_kept(const float n[8], float z)
+{
     int32_t pairs = 0;
     for (int k = 0; k < 4; k++) {
-        pairs += is_collinear(n[k], n[7 - k], z, tolerance);
+        pairs += is_collinear(n[k], n[7 - k], z, tolerance_at(z));
     }
-    return (close >= 3) | (pairs >= 2);
+    return is_beside_many(n, z) | (pairs >= 2);
 }
 
 RLF_KERNEL_PART int32_t is_kept_at_border(const float *const rows[3], int32_t count, int32_t i)
@@ -56,24 +67,66 @@ RLF_KERNEL_PART float kept_depth(float z, int32_t kept)
     return kept != 0 ? z : 0.0f;
 }
 
-RLF_KERNEL void rlf_kernel_flying_row(const float *const rows[3], int32_t count,
-                                      float *restrict depth, uint8_t *restrict reason)
+RLF_KERNEL_PART void mark_flying(const float *restrict at, int32_t begin, int32_t end,
+                                 const float *restrict depth, uint8_t *restrict reason)
 {
-    const float *restrict up = rows[0];
-    const float *restrict at = rows[1];
-    const float *restrict down = rows[2];
-    depth[0] = kept_depth(at[0], is_kept_at_border(rows, count, 0));
-    for (int32_t i = 1; i < count - 1; i++) {
-        const float n[8] = {up[i - 1], up[i],       up[i + 1], at[i - 1],
-                            at[i + 1], down[i - 1], down[i],   down[i + 1]};
-        depth[i] = kept_depth(at[i], is_kept(n, at[i]));
-    }
-    if (count > 1) {
-        depth[count - 1] = kept_depth(at[count - 1], is_kept_at_border(rows, count, count - 1));
-    }
-    for (int32_t i = 0; i < count; i++) { /* apart, because bytes would make longer vectors */
+    for (int32_t i = begin; i < end; i++) { /* apart, because bytes would make longer vectors */
         uint8_t why = reason[i];
         int32_t is_flying = (at[i] > 0.0f) & !(depth[i] > 0.0f);
         reason[i] = is_flying != 0 ? (uint8_t)RLF_REASON_FLYING : why;
+    }
+}
+
+/* The eight about pixel i of the middle row. */
+RLF_KERNEL_PART void read_about(const float *const rows[3], int32_t i, float n[8])
+{
+    const float *up = rows[0], *at = rows[1], *down = rows[2];
+    n[0] = up[i - 1], n[1] = up[i], n[2] = up[i + 1], n[3] = at[i - 1];
+    n[4] = at[i + 1], n[5] = down[i - 1], n[6] = down[i], n[7] = down[i + 1];
+}
+
+/* Whether pixels i .. i + CHUNK - 1 are all empty or kept for their neighbours' sake, as most are.
+ */
+RLF_KERNEL_PART bool are_many(const float *const rows[3], int32_t i)
+{
+    int32_t many = 1;
+    RLF_KERNEL_WHOLE
+    for (int32_t k = i; k < i + CHUNK; k++) {
+        float n[8], z = rows[1][k];
+        read_about(rows, k, n);
+        many &= is_beside_many(n, z) | (z > 0.0f ? 0 : 1);
+    }
+    return many != 0;
+}
+
+RLF_KERNEL_PART void drop_flying(const float *const rows[3], int32_t begin, int32_t end,
+                                 float *restrict depth, uint8_t *restrict reason)
+{
+    for (int32_t i = begin; i < end; i++) {
+        float n[8];
+        read_about(rows, i, n);
+        depth[i] = kept_depth(rows[1][i], is_kept(n, rows[1][i]));
+    }
+    mark_flying(rows[1], begin, end, depth, reason);
+}
+
+RLF_KERNEL void rlf_kernel_flying_row(const float *const rows[3], int32_t count,
+                                      float *restrict depth, uint8_t *restrict reason)
+{
+    const float *at = rows[1];
+    int32_t last = count - 1;
+    for (int32_t i = 1; i < last; i += CHUNK) {
+        int32_t end = i + CHUNK < last ? i + CHUNK : last;
+        if (end == i + CHUNK && are_many(rows, i)) {
+            memcpy(depth + i, at + i, CHUNK * sizeof *depth);
+        } else {
+            drop_flying(rows, i, end, depth, reason);
+        }
+    }
+    depth[0] = kept_depth(at[0], is_kept_at_border(rows, count, 0));
+    mark_flying(at, 0, 1, depth, reason);
+    if (count > 1) {
+        depth[last] = kept_depth(at[last], is_kept_at_border(rows, count, last));
+        mark_flying(at, last, count, depth, reason);
     }
 }

@@ -172,9 +172,11 @@ static void read_seen(const hold_job *job, int32_t x, int32_t y, int32_t lane,
     const float *depth = job->depth + middle;
     const uint8_t *change = job->change + middle;
     if (x >= ABOUT && y >= ABOUT && x + ABOUT < grid->width && y + ABOUT < grid->height) {
-        for (int32_t k = 0; k < RLF_WINDOW_SIZE; k++) {
-            ptrdiff_t i = (ptrdiff_t)(k / SIDE - ABOUT) * grid->width + k % SIDE - ABOUT;
-            out->at[k][lane] = sign[change[i]] * depth[i];
+        for (int32_t r = 0; r < SIDE; r++) {
+            ptrdiff_t row = (ptrdiff_t)(r - ABOUT) * grid->width - ABOUT;
+            for (int32_t c = 0; c < SIDE; c++) {
+                out->at[r * SIDE + c][lane] = sign[change[row + c]] * depth[row + c];
+            }
         }
         return;
     }

@@ -99,8 +99,10 @@ static ptrdiff_t find_face(const crease_job *job, ptrdiff_t i, ptrdiff_t step, i
         z = job->depth[i];
         if (!job->bent[i]) {
             bool usable = is_known(job, i) && cosine(job, i, i) > 0.5f;
-            bool is_wide = k + 2 > room || cosine(job, i + 2 * step, i + 2 * step) > 0.5f;
-            return usable && (is_wide || is_averaged(job, i)) ? i : -1;
+            ptrdiff_t next = i + 2 * step;
+            return usable && (k + 2 > room || is_averaged(job, i) || cosine(job, next, next) > 0.5f)
+                       ? i
+                       : -1;
         }
     }
     return -1;
@@ -136,11 +138,13 @@ static ptrdiff_t choose_face(const crease_job *job, ptrdiff_t i, ptrdiff_t a, pt
 {
     const rlf_faces faces = {job->ray_x, job->ray_y, job->depth, job->normal};
     float a_at_b = rlf_face_depth(&faces, a, b), b_at_a = rlf_face_depth(&faces, b, a);
-    float za = rlf_face_depth(&faces, a, i), zb = rlf_face_depth(&faces, b, i);
     rlf_meeting meeting = rlf_faces_meet(job->depth[a], b_at_a, job->depth[b], a_at_b);
     bool convex = meeting == RLF_FACES_CONVEX;
-    bool meet = meeting != RLF_FACES_APART && is_apart(job, a, b_at_a) && is_apart(job, b, a_at_b);
-    if (!(za > 0.0f && zb > 0.0f) || !meet) {
+    if (meeting == RLF_FACES_APART || !is_apart(job, a, b_at_a) || !is_apart(job, b, a_at_b)) {
+        return -1;
+    }
+    float za = rlf_face_depth(&faces, a, i), zb = rlf_face_depth(&faces, b, i);
+    if (!(za > 0.0f && zb > 0.0f)) {
         return -1;
     }
     bool first = convex ? za > zb : za < zb;
