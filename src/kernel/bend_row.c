@@ -61,33 +61,6 @@ RLF_KERNEL_PART bool is_flat(const rlf_kernel_bend_in rows[5], int32_t i)
     return straight != 0;
 }
 
-/* 1 where what `turns` compares is alike, as far as the near sides stand for missing far ones. */
-RLF_KERNEL_PART int32_t is_alike(side far_a, side a, side b, side far_b)
-{
-    bool whole = has_normal(far_a) & has_normal(far_b);
-    float far = far_a.x * far_b.x + far_a.y * far_b.y + far_a.z * far_b.z;
-    float near = a.x * b.x + a.y * b.y + a.z * b.z;
-    return (whole ? far : near) >= least_bend ? 1 : 0;
-}
-
-/* The same as is_flat where single pixels have no normal. */
-RLF_KERNEL_PART bool is_flat_with_holes(const rlf_kernel_bend_in rows[5], int32_t i)
-{
-    const rlf_kernel_bend_in *row = &rows[2];
-    int32_t straight = 1;
-    RLF_KERNEL_WHOLE
-    for (int32_t k = i; k < i + CHUNK; k++) {
-        straight &= is_alike(side_at(&rows[0], k), side_at(&rows[1], k), side_at(&rows[3], k),
-                             side_at(&rows[4], k));
-    }
-    RLF_KERNEL_WHOLE
-    for (int32_t k = i; k < i + CHUNK; k++) {
-        straight &= is_alike(side_at(row, k - 2), side_at(row, k - 1), side_at(row, k + 1),
-                             side_at(row, k + 2));
-    }
-    return straight != 0;
-}
-
 /* Pixels i .. i + CHUNK - 1, none of them at the sides of the image. */
 RLF_KERNEL_PART void bend_chunk(const rlf_kernel_bend_in rows[5], int32_t i, uint8_t *restrict bend)
 {
@@ -128,17 +101,23 @@ RLF_KERNEL_PART void bend_pixels(const rlf_kernel_bend_in rows[5], int32_t begin
     }
 }
 
+/* The last chunk overlaps the one before it. */
 RLF_KERNEL void rlf_kernel_bend_row(const rlf_kernel_bend_in rows[5], int32_t count,
                                     uint8_t *restrict bend)
 {
-    for (int32_t i = 0; i < count; i += CHUNK) {
-        bool is_inside = i >= SPAN && i + CHUNK + SPAN <= count;
-        if (is_inside && (is_flat(rows, i) || is_flat_with_holes(rows, i))) {
-            memset(bend + i, 0, CHUNK);
-        } else if (is_inside) {
-            bend_chunk(rows, i, bend);
+    int32_t last = count - SPAN - CHUNK;
+    if (last < SPAN) {
+        bend_pixels(rows, 0, count, count, bend);
+        return;
+    }
+    bend_pixels(rows, 0, SPAN, count, bend);
+    bend_pixels(rows, count - SPAN, count, count, bend);
+    for (int32_t i = SPAN; i < count - SPAN; i += CHUNK) {
+        int32_t at = i < last ? i : last;
+        if (is_flat(rows, at)) {
+            memset(bend + at, 0, CHUNK);
         } else {
-            bend_pixels(rows, i, i + CHUNK < count ? i + CHUNK : count, count, bend);
+            bend_chunk(rows, at, bend);
         }
     }
 }

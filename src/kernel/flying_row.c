@@ -117,10 +117,11 @@ RLF_KERNEL void rlf_kernel_flying_row(const float *const rows[3], int32_t count,
     int32_t last = count - 1;
     for (int32_t i = 1; i < last; i += CHUNK) {
         int32_t end = i + CHUNK < last ? i + CHUNK : last;
-        if (end == i + CHUNK && are_many(rows, i)) {
-            memcpy(depth + i, at + i, CHUNK * sizeof *depth);
+        int32_t begin = end - CHUNK > 0 ? end - CHUNK : i; /* the last overlaps the one before it */
+        if (end == begin + CHUNK && are_many(rows, begin)) {
+            memcpy(depth + begin, at + begin, CHUNK * sizeof *depth);
         } else {
-            drop_flying(rows, i, end, depth, reason);
+            drop_flying(rows, begin, end, depth, reason);
         }
     }
     depth[0] = kept_depth(at[0], is_kept_at_border(rows, count, 0));
