@@ -65,7 +65,8 @@ typedef struct bench_room {
     int32_t width, height;
     int32_t people;    /* walking about */
     int32_t plates;    /* squares before the wall, one region each; their area together is fixed */
-    bool side_by_side; /* the people's breadth together is fixed, and none hides another */
+    bool side_by_side; /* the farther off the more there are, and none hides another: the same
+                          pixels together */
 } bench_room;
 
 /* The first BENCH_EMPTY_FRAMES show the empty room. Endless, 30 frames a second. */
