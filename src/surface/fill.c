@@ -18,8 +18,6 @@
 
 #include "kernel/batch.h"
 
-#include <string.h>
-
 /* Share of the depth, from a side's end to a hole pixel. */
 static const float MOST_CHANGE = 0.05f;
 
@@ -27,9 +25,9 @@ typedef struct fill_job {
     const rlf_reconstruct *stage;
     const rlf_sheet *behind; /* the background; NULL = unknown */
     float *const *normal;    /* NULL = not wanted */
-    const float *depth;
-    uint8_t *has; /* plane: 1 where `depth` has one */
-    float *out;
+    float *depth;
+    uint8_t *has; /* plane: 1 where `depth` has one that was not filled here */
+    float *found; /* plane: depths for each chunk of rows, in the order of its pixels */
     uint8_t *reason;
 } fill_job;
 
@@ -88,6 +86,7 @@ typedef struct fill_queue {
     float lost[RLF_BATCH]; /* depth of a thing that the gap hides, 0 = none */
     rlf_windows depth;
     rlf_color_sum *sum; /* of the rows that are being filled */
+    float *found;       /* what comes next goes there */
 } fill_queue;
 
 /* The nearer side stands before the background, and something moves there: of what stands still
@@ -149,7 +148,7 @@ static void fill_batch(const fill_job *job, fill_queue *q)
                       (kind[k] == RLF_FILL_FAR &&
                        rlf_kernel_abs(depth_behind(job, x, y) - z) < MOST_CHANGE * z);
         bool lost = q->lost[k] > 0.0f;
-        job->out[i] = lost ? q->lost[k] : behind ? show_behind(job, x, y) : z;
+        *q->found++ = lost ? q->lost[k] : behind ? show_behind(job, x, y) : z;
         job->reason[i] = RLF_REASON_FILLED;
     }
     q->count = 0;
@@ -197,13 +196,12 @@ static void find_gaps(const fill_job *job, int32_t x, int32_t y, fill_queue *q)
     }
 }
 
-static void copy_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+static void find_holes(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
     const fill_job *job = context;
-    ptrdiff_t width = job->stage->grid.width, first = begin * width, count = (end - begin) * width;
-    memcpy(job->out + first, job->depth + first, (size_t)count * sizeof *job->out);
-    rlf_kernel_has_row(job->depth + first, (int32_t)count, job->has + first);
+    ptrdiff_t width = job->stage->grid.width, first = begin * width;
+    rlf_kernel_has_row(job->depth + first, (int32_t)((end - begin) * width), job->has + first);
 }
 
 static void fill_rows(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -212,7 +210,8 @@ static void fill_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     const fill_job *job = context;
     int32_t width = job->stage->grid.width;
     const rlf_color_side *side = &job->stage->side;
-    fill_queue queue = {.sum = side->part != NULL ? side->part + begin / RLF_ROW_GRAIN : NULL};
+    fill_queue queue = {.sum = side->part != NULL ? side->part + begin / RLF_ROW_GRAIN : NULL,
+                        .found = job->found + (ptrdiff_t)begin * width};
     for (int32_t y = begin; y < end; y++) {
         const uint8_t *reason = job->reason + (ptrdiff_t)y * width; /* 0 = OK */
         for (int32_t x = 0; (x = rlf_kernel_next_mark(reason, x, width)) < width; x++) {
@@ -225,15 +224,33 @@ static void fill_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     fill_batch(job, &queue);
 }
 
+/* Puts in what was found, now that no window is read any more. */
+static void put_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const fill_job *job = context;
+    int32_t width = job->stage->grid.width;
+    const float *found = job->found + (ptrdiff_t)begin * width;
+    for (int32_t y = begin; y < end; y++) {
+        ptrdiff_t row = (ptrdiff_t)y * width;
+        const uint8_t *reason = job->reason + row; /* 0 = OK */
+        for (int32_t x = 0; (x = rlf_kernel_next_mark(reason, x, width)) < width; x++) {
+            if (reason[x] == RLF_REASON_FILLED && job->has[row + x] == 0) {
+                job->depth[row + x] = *found++;
+            }
+        }
+    }
+}
+
 /* Pixel i of the border from the one inside of it, `step` away, and the next. */
 static void go_on(const fill_job *job, ptrdiff_t i, ptrdiff_t step)
 {
-    float z = job->out[i + step], next = job->out[i + 2 * step];
-    if (job->out[i] > 0.0f || !(z > 0.0f) || !may_fill(job->reason[i])) {
+    float z = job->depth[i + step], next = job->depth[i + 2 * step];
+    if (job->depth[i] > 0.0f || !(z > 0.0f) || !may_fill(job->reason[i])) {
         return;
     }
     bool one_surface = next > 0.0f && rlf_kernel_abs(next - z) < MOST_CHANGE * z;
-    job->out[i] = one_surface ? z * next / (2.0f * next - z) : z; /* inverse depth is linear */
+    job->depth[i] = one_surface ? z * next / (2.0f * next - z) : z; /* inverse depth is linear */
     job->reason[i] = RLF_REASON_FILLED;
 }
 
@@ -268,7 +285,7 @@ static bool close_gap(const fill_job *job, ptrdiff_t i, ptrdiff_t step, int32_t 
     if (wide >= room) {
         return false;
     }
-    float z = job->out[i - step], next = job->out[end];
+    float z = job->depth[i - step], next = job->depth[end];
     bool was_filled =
         job->reason[i - step] == RLF_REASON_FILLED || job->reason[end] == RLF_REASON_FILLED;
     if (!was_filled || !(z > 0.0f) || !(next > 0.0f) ||
@@ -277,7 +294,7 @@ static bool close_gap(const fill_job *job, ptrdiff_t i, ptrdiff_t step, int32_t 
     }
     for (int32_t k = 0; k < wide; k++) { /* inverse depth is linear */
         float share = (float)(k + 1) / (float)(wide + 1);
-        job->out[i + k * step] = z * next / (next + share * (z - next));
+        job->depth[i + k * step] = z * next / (next + share * (z - next));
         job->reason[i + k * step] = RLF_REASON_FILLED;
     }
     return true;
@@ -299,17 +316,20 @@ static void close_gaps(const fill_job *job)
     }
 }
 
-void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, rlf_slot *slot)
+void rlf_fill_holes(const rlf_reconstruct *stage, rlf_slot *slot)
 {
+    rlf_pool *pool = stage->def.pool;
+    int32_t height = stage->grid.height;
     fill_job job = {.stage = stage,
                     .behind = rlf_sheet_newest(stage),
                     .normal = stage->def.enable_smoothing ? slot->normal : NULL,
-                    .depth = depth,
+                    .depth = slot->depth,
                     .has = stage->work.mask[0],
-                    .out = slot->depth,
+                    .found = stage->work.depth[0],
                     .reason = slot->reason};
-    rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, copy_rows, &job);
-    rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, fill_rows, &job);
+    rlf_parallel_for(pool, height, RLF_ROW_GRAIN, find_holes, &job);
+    rlf_parallel_for(pool, height, RLF_ROW_GRAIN, fill_rows, &job);
+    rlf_parallel_for(pool, height, RLF_ROW_GRAIN, put_rows, &job);
     close_gaps(&job);
     fill_border(&job);
 }

@@ -162,15 +162,15 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
         rlf_stage_add_time(stage, RLF_SURFACE_STEADY);
     }
     if (smooth) {
-        float *out = fill ? stage->work.depth[0] : slot->depth;
-        make_planes(stage, kept, out, slot);
-        rlf_bridge_undo(stage, kept, out, slot->normal);
+        make_planes(stage, kept, slot->depth, slot);
+        rlf_bridge_undo(stage, kept, slot->depth, slot->normal);
         rlf_stage_add_time(stage, RLF_SURFACE_SMOOTH);
-        kept = out;
+    } else if (fill) {
+        memcpy(slot->depth, kept, (size_t)stage->grid.count * sizeof *kept);
     }
     if (fill) {
         rlf_color_side_start(stage, frame);
-        rlf_fill_holes(stage, kept, slot);
+        rlf_fill_holes(stage, slot);
         rlf_color_side_learn(stage);
         rlf_stage_add_time(stage, RLF_SURFACE_FILL);
     }

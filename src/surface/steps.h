@@ -14,10 +14,10 @@ void rlf_points_read(const rlf_reconstruct *stage, const rlf_frame *frame, float
 /* ---- flying.c, fill.c ---- */
 void rlf_flying_remove(const rlf_reconstruct *stage, const float *raw, float *depth,
                        uint8_t *reason);
-/* Fills gaps of at most RLF_FILL_GAP pixels between valid ones of `depth`, into the slot. What
- * shows the background takes its normal too, where planes have been fitted to the others. Leaves
- * work.mask[0]: 1 where `depth` has one. */
-void rlf_fill_holes(const rlf_reconstruct *stage, const float *depth, rlf_slot *slot);
+/* Fills gaps of at most RLF_FILL_GAP pixels between valid ones of the slot's depth. What shows the
+ * background takes its normal too, where planes have been fitted to the others. Leaves
+ * work.mask[0]: 1 where there was a depth before. */
+void rlf_fill_holes(const rlf_reconstruct *stage, rlf_slot *slot);
 
 /* ---- hold.c: dropped pixels from memory; `depth` holds what was seen ---- */
 /* Something has moved about pixel (x, y) lately, up to the frame before; false in the first frames,
