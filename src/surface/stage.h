@@ -204,7 +204,7 @@ typedef struct rlf_plates {
 enum { RLF_TORSO_UNKNOWNS = 11, RLF_TORSOS = 16 };
 
 /* A leg of a person, as a chain of solids below the torso: see legs.h. */
-enum { RLF_LEG_UNKNOWNS = 10 };
+enum { RLF_LEG_UNKNOWNS = 11 };
 
 typedef struct rlf_leg {
     double unknown[RLF_LEG_UNKNOWNS];

@@ -229,7 +229,7 @@ static void add_rim(const rlf_torso *t, rlf_vec3 out[MOST], rlf_torso_points *po
     }
 }
 
-/* Slender legs and stout ones, of whose sides little is seen. */
+/* Slender legs and stout ones, that hang ahead of the trunk or behind it. */
 static void outlines_tell_how_thick_legs_are(void **state)
 {
     (void)state;
@@ -239,6 +239,7 @@ static void outlines_tell_how_thick_legs_are(void **state)
         rlf_torso real = usual(0.0), found = usual(0.0);
         for (int leg = 0; leg < 2; leg++) {
             memcpy(&real.leg[leg].unknown[RLF_LEG_RADIUS], radius[build], sizeof radius[build]);
+            real.leg[leg].unknown[RLF_LEG_HIP] = build == 0 ? 0.03 : -0.03;
             put(&real, leg, 0.05, 0.1);
         }
         rlf_torso_points points = see(&real, -1, seen);
@@ -250,6 +251,8 @@ static void outlines_tell_how_thick_legs_are(void **state)
             double off = found.leg[0].unknown[RLF_LEG_RADIUS + joint] - radius[build][joint];
             assert_true(fabs(off) < 0.004);
         }
+        double ahead = real.leg[0].unknown[RLF_LEG_HIP] - found.leg[0].unknown[RLF_LEG_HIP];
+        assert_true(fabs(ahead) < 0.01);
     }
 }
 

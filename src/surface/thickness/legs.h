@@ -14,8 +14,15 @@
 #include "surface/thickness/torso.h"
 
 /* What is unknown of a leg: places of its joints, metres; how far the foot is turned from ahead,
- * radians; and its radii at hip, knee and ankle, metres. */
-enum { RLF_LEG_KNEE = 0, RLF_LEG_ANKLE = 3, RLF_LEG_TOES = 6, RLF_LEG_RADIUS = 7 };
+ * radians; its radii at hip, knee and ankle, and how far the hip is ahead of the trunk's axis,
+ * metres. */
+enum {
+    RLF_LEG_KNEE = 0,
+    RLF_LEG_ANKLE = 3,
+    RLF_LEG_TOES = 6,
+    RLF_LEG_RADIUS = 7,
+    RLF_LEG_HIP = 10
+};
 
 enum { RLF_THIGH, RLF_SHIN, RLF_FOOT, RLF_LEG_PARTS };
 

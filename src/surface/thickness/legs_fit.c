@@ -17,7 +17,8 @@ static const double widest_m = 0.1; /* in the first of a leg that is looked for 
 /* Patches of 10 cm2 are right to 3 cm together: they share the errors of the solid. */
 static const double weight_m4 = 1.0 / (0.03 * 0.03 * 0.001);
 /* How unknowns wander, per square root of a second. */
-static const double joint_wander = 0.25, toes_wander = 0.5, radius_wander = 0.0007;
+static const double joint_wander = 0.25, toes_wander = 0.5, radius_wander = 0.0007,
+                    hip_wander = 0.02;
 static const double least_radius_m = 0.03;
 static const double rim_worth = 2.0;                  /* points that a place on the rim is worth */
 static const double speed_gain = 0.4, speed_s = 0.25; /* it dies down in so many seconds */
@@ -117,13 +118,14 @@ static void correct(rlf_leg *leg, equations *sum, double information[N][N],
         }
     }
     leg->unknown[RLF_LEG_TOES] = rlf_clamp(leg->unknown[RLF_LEG_TOES], -1.0, 1.0);
-    for (int r = RLF_LEG_RADIUS; r < N; r++) {
+    for (int r = RLF_LEG_RADIUS; r < RLF_LEG_HIP; r++) {
         leg->unknown[r] = rlf_max(leg->unknown[r], least_radius_m);
     }
 }
 
-/* A person's legs are alike: both are as thick as they are on average, as far as it is known. */
-static void share_radii(rlf_torso *torso)
+/* A person's legs are alike: both are as thick as they are on average, and hang as far ahead, as
+ * far as it is known. */
+static void make_alike(rlf_torso *torso)
 {
     rlf_leg *a = &torso->leg[0], *b = &torso->leg[1];
     for (int k = RLF_LEG_RADIUS; k < N; k++) {
@@ -154,7 +156,7 @@ static void improve(rlf_torso *torso, const rlf_torso_points *points, double sca
         memcpy(torso->leg[leg].doubt, sum[leg].a, sizeof sum[leg].a);
         torso->leg[leg].area_m2 = sum[leg].area_m2;
     }
-    share_radii(torso);
+    make_alike(torso);
 }
 
 static void begin(rlf_torso *torso, const rlf_torso_points *points)
@@ -170,14 +172,21 @@ static void begin(rlf_torso *torso, const rlf_torso_points *points)
     improve(torso, points, widest_m, FIRST_PASSES);
 }
 
+static double wander_of(int unknown)
+{
+    switch (unknown) {
+    case RLF_LEG_TOES: return toes_wander;
+    case RLF_LEG_HIP: return hip_wander;
+    default: return unknown < RLF_LEG_TOES ? joint_wander : radius_wander;
+    }
+}
+
 static void expect(const rlf_torso *torso, rlf_leg *leg, double side, double dt)
 {
     double usual[N], variance[N];
     rlf_leg_usual(torso, side, usual, variance);
     for (int k = 0; k < N; k++) {
-        double wander = k < RLF_LEG_TOES    ? joint_wander
-                        : k == RLF_LEG_TOES ? toes_wander
-                                            : radius_wander;
+        double wander = wander_of(k);
         leg->unknown[k] += leg->speed[k] * dt;
         leg->doubt[k][k] += wander * wander * dt;
     }

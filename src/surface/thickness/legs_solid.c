@@ -18,7 +18,7 @@ static const double usual_radius[3] = {0.1, 0.07, 0.048};
  * ahead to that of the toes', and down. */
 static const double heel_back = 0.03, toes_ahead = 0.16, foot_down = 0.045, foot_radius = 0.04;
 
-static const double length_spread = 0.05, girth_spread = 0.1, toes_spread = 0.25;
+static const double length_spread = 0.05, girth_spread = 0.1, hip_spread = 0.03, toes_spread = 0.25;
 static const double stand_spread[3] = {0.06, 0.06, 0.2}; /* x, y, z of a knee; of an ankle twice */
 
 static const double least_aslant = 0.1; /* squared sine between an axis and a ray beside it */
@@ -52,6 +52,8 @@ void rlf_leg_usual(const rlf_torso *torso, double side, double unknown[RLF_LEG_U
     }
     unknown[RLF_LEG_TOES] = 0.0;
     variance[RLF_LEG_TOES] = toes_spread * toes_spread;
+    unknown[RLF_LEG_HIP] = 0.0;
+    variance[RLF_LEG_HIP] = hip_spread * hip_spread;
     for (int joint = 0; joint < 3; joint++) {
         double spread = girth_spread * usual_radius[joint];
         unknown[RLF_LEG_RADIUS + joint] = usual_radius[joint];
@@ -65,7 +67,9 @@ static rlf_leg_part part_of(const rlf_torso *torso, int leg, int part)
     const double *radius = &l->unknown[RLF_LEG_RADIUS];
     rlf_vec3 knee = joint_of(l, RLF_LEG_KNEE), ankle = joint_of(l, RLF_LEG_ANKLE);
     if (part == RLF_THIGH) {
-        return (rlf_leg_part){hip_of(torso, leg == 0 ? -1.0 : 1.0), knee, {radius[0], radius[1]}};
+        rlf_vec3 hip = hip_of(torso, leg == 0 ? -1.0 : 1.0);
+        hip.z += l->unknown[RLF_LEG_HIP];
+        return (rlf_leg_part){hip, knee, {radius[0], radius[1]}};
     }
     if (part == RLF_SHIN) {
         return (rlf_leg_part){knee, ankle, {radius[1], radius[2]}};
@@ -139,6 +143,7 @@ rlf_leg_touch rlf_leg_touch_at(const rlf_leg_shape *shape, int part, rlf_vec3 p,
         out.slope[RLF_LEG_KNEE + k] = -of_knee * by[k];
         out.slope[RLF_LEG_ANKLE + k] = -of_ankle * by[k];
     }
+    out.slope[RLF_LEG_HIP] = part == RLF_THIGH ? (t - 1.0) * n.z : 0.0;
     if (part == RLF_FOOT) { /* turned, the axis moves square to itself */
         double ahead = t * (heel_back + toes_ahead) - heel_back;
         double share = ahead / (heel_back + toes_ahead);
@@ -176,6 +181,9 @@ rlf_leg_touch rlf_leg_stretch(const rlf_leg_shape *shape, int part)
         if (part == RLF_SHIN) {
             out.slope[RLF_LEG_KNEE + k] = -slope;
         }
+    }
+    if (part == RLF_THIGH) {
+        out.slope[RLF_LEG_HIP] = -by[2] / (length * length_spread);
     }
     return out;
 }

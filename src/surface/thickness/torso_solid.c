@@ -1,6 +1,6 @@
 /* The solid: a trunk whose level sections are ellipses, given at chest, waist and buttocks, closed
- * above the chest by half an ellipsoid; and a level capsule through the shoulders, from one upper
- * arm's head to the other. */
+ * above the chest and below the buttocks by half an ellipsoid; and a level capsule through the
+ * shoulders, from one upper arm's head to the other. */
 #include "surface/thickness/torso.h"
 
 #include <math.h>
@@ -27,7 +27,8 @@ static const double breadth_spread[SECTIONS] = {0.02, 0.015, 0.02};
 static const double depth_spread[SECTIONS] = {0.015, 0.02, 0.015};
 static const double ahead_spread = 0.03, lean_spread = 0.06, turn_spread = 0.3;
 
-static const double dome_m = 0.2; /* from the chest up to where the trunk would close */
+static const double dome_m = 0.2;  /* from the chest up to where the trunk would close */
+static const double fold_m = 0.09; /* and from the buttocks down to their fold */
 static const double least_dome = 0.2;
 static const double deepest_in_m = 0.04;                       /* within counts no more */
 static const double shoulders_up_m = 0.12, arms_down_m = 0.03; /* where points may be theirs */
@@ -57,6 +58,12 @@ typedef struct section {
     double share[SECTIONS], breadth, depth;
 } section;
 
+/* What is left of the last section on the way to where the trunk would close. */
+static double dome_share(double way)
+{
+    return rlf_max(sqrt(rlf_max(1.0 - way * way, 0.0)), least_dome);
+}
+
 /* At a height below the shoulders' middle, downwards; false above and below the trunk. */
 static bool find_section(const rlf_torso *torso, double down, section *out)
 {
@@ -66,11 +73,9 @@ static bool find_section(const rlf_torso *torso, double down, section *out)
     }
     *out = (section){.breadth = 0.0};
     if (below < section_at[0]) {
-        double up = (section_at[0] - below) / dome_m;
-        double share = sqrt(rlf_max(1.0 - up * up, 0.0));
-        out->share[0] = share > least_dome ? share : least_dome;
+        out->share[0] = dome_share((section_at[0] - below) / dome_m);
     } else if (below > section_at[2]) {
-        out->share[2] = 1.0;
+        out->share[2] = dome_share((below - section_at[2]) / fold_m);
     } else {
         int k = below > section_at[1] ? 1 : 0;
         double q = (below - section_at[k]) / (section_at[k + 1] - section_at[k]);
