@@ -32,6 +32,27 @@ typedef struct rlf_way_in {
 void rlf_kernel_outline_round(const rlf_outlines *restrict at, const rlf_way_in *restrict in,
                               rlf_normals *restrict out, rlf_normals *restrict aside);
 
+/* ---- near_edge_row.c ---- */
+
+enum {
+    RLF_NEAR_EDGE_APART = 4,
+    RLF_NEAR_EDGE_ASLANT = 3
+}; /* pixels; rows and columns, diagonals */
+
+/* Of planes of that width, from the beginning of a row on; what is asked for is at least APART
+ * pixels inside of them. Writes 1 where a pixel was seen or recalled (`known`) and something was in
+ * front of the background there or APART pixels aside a frame ago, else 0. */
+void rlf_kernel_was_front_row(const uint8_t *front, const uint8_t *known, ptrdiff_t width,
+                              int32_t begin, int32_t end, uint8_t *restrict out);
+/* Takes away marks (0 or 1) of pixels that nothing is behind so many pixels aside. */
+void rlf_kernel_near_edge_row(const float *depth, ptrdiff_t width, int32_t begin, int32_t end,
+                              uint8_t *restrict mark);
+
+/* Normals of pixels near an outline that were seen, the first sample being the pixel itself: 0
+ * where what is about them does not turn steadily outwards. */
+void rlf_kernel_outline_near(const rlf_outlines *restrict at, const rlf_way_in *restrict in,
+                             rlf_normals *restrict out);
+
 /* The known normals within RLF_WINDOW_ABOUT pixels, row by row; 0 = none at the pixel's own depth.
  */
 /* Where they are those of several faces and the outermost of them is turned outwards: that one,

@@ -5,7 +5,10 @@
 
 static const float most_bend = 0.1f;   /* RMS of the samples about a steady turn: a crease bends */
 static const float most_aside = 0.98f; /* sine of the steepest normal that is given */
-static const float crease = 0.95f;     /* cosine between two faces */
+/* Pixels: the middle of what a plane window sees lies so much farther in than a pixel near an
+ * outline. Windows are ten pixels wide or six, and the sensor drops the outermost two. */
+static const float window_inside = 1.2f;
+static const float crease = 0.95f; /* cosine between two faces */
 
 typedef struct vector {
     float x, y, z;
@@ -97,16 +100,21 @@ RLF_KERNEL_PART float is_rounded(const way_sum *restrict in, float n, float dist
     return in->n < 1.5f ? 0.0f : outwards;
 }
 
-RLF_KERNEL_PART vector rounded_normal(const way_sum *restrict in, float n, float distance,
-                                      const axes *restrict a)
+/* The normal with these components outwards and along the outline. */
+RLF_KERNEL_PART vector turned_normal(float out, float along, const axes *restrict a)
 {
-    float t = distance * n / in->s; /* 0 at the outline, 1 at the samples' mean */
-    float out = 1.0f - t * (1.0f - in->out / n), along = t * in->along / n;
     float aside = sqrtf(out * out + along * along);
     float scale = aside > most_aside ? most_aside / aside : 1.0f;
     aside *= scale;
     vector normal = add(scaled(a->out, out * scale), scaled(a->along, along * scale));
     return add(normal, scaled(a->ray, -sqrtf(1.0f - aside * aside)));
+}
+
+RLF_KERNEL_PART vector rounded_normal(const way_sum *restrict in, float n, float distance,
+                                      const axes *restrict a)
+{
+    float t = distance * n / in->s; /* 0 at the outline, 1 at the samples' mean */
+    return turned_normal(1.0f - t * (1.0f - in->out / n), t * in->along / n, a);
 }
 
 RLF_KERNEL void rlf_kernel_outline_round(const rlf_outlines *restrict at,
@@ -122,6 +130,25 @@ RLF_KERNEL void rlf_kernel_outline_round(const rlf_outlines *restrict at,
         vector result = {rounded ? n.x : 0.0f, rounded ? n.y : 0.0f, rounded ? n.z : 0.0f};
         set(out, i, result);
         set(aside, i, a.out);
+    }
+}
+
+/* ---- seen near the outline ---- */
+
+RLF_KERNEL void rlf_kernel_outline_near(const rlf_outlines *restrict at,
+                                        const rlf_way_in *restrict in, rlf_normals *restrict out)
+{
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        axes a = make_axes(in->ray_x[i], in->ray_y[i], at->x[i], at->y[i]);
+        way_sum sum = sum_way(in, i, &a);
+        float count = sum.n > 1.0f ? sum.n : 1.0f, distance = at->distance[i];
+        bool rounded = is_rounded(&sum, count, distance, in->least_turn[i]) > 0.0f;
+        rounded = (sum.n > 2.5f) & rounded;
+        vector own = get(&in->normal[0], i);
+        float share = distance / (distance + window_inside); /* of the way from outline to window */
+        vector n = turned_normal(1.0f - share * (1.0f - dot(own, a.out)), dot(own, a.along), &a);
+        vector result = {rounded ? n.x : 0.0f, rounded ? n.y : 0.0f, rounded ? n.z : 0.0f};
+        set(out, i, result);
     }
 }
 

@@ -126,6 +126,7 @@ static void complete_planes(rlf_reconstruct *stage, rlf_slot *slot)
         rlf_normals_crease(stage, slot);
     }
     if (stage->def.enable_fill && stage->def.enable_edge_normals) {
+        rlf_normals_turn(stage, slot);
         rlf_normals_outline(stage, slot);
     }
     rlf_normals_job job = rlf_normals_job_make(stage, slot->depth, slot->normal);

@@ -83,6 +83,9 @@ void rlf_normals_slope_pixel(const rlf_normals_job *job, int32_t x, int32_t y);
 /* The normal that those about a pixel have for it; false, and nothing is written, when none. */
 bool rlf_normals_near_pixel(const rlf_normals_job *job, int32_t x, int32_t y, float out[3]);
 
+/* Normals of seen pixels near the outlines of what moves; after rlf_fill_holes. */
+void rlf_normals_turn(const rlf_reconstruct *stage, const rlf_slot *slot);
+
 /* Normals of filled pixels at the outlines of things; after rlf_fill_holes. */
 void rlf_normals_outline(const rlf_reconstruct *stage, const rlf_slot *slot);
 

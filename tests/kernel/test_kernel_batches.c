@@ -184,6 +184,61 @@ static void outlines_point_to_what_is_behind(void **state)
     }
 }
 
+/* On a ball or a cylinder the sine of the angle to the ray falls linearly from 1 at the outline;
+ * windows find it 1.2 pixels farther in. A flat face has no outline that it turns to. */
+static void windows_near_an_outline_are_moved_out(void **state)
+{
+    (void)state;
+    const double radius = 20.0, inside = 1.2;
+    rlf_outlines at;
+    rlf_way_in in;
+    memset(&in, 0, sizeof in);
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        at.x[i] = 1.0f;
+        at.y[i] = 0.0f;
+        at.distance[i] = 0.5f + 0.25f * (float)i;
+        in.least_turn[i] = 0.04f;
+        for (int32_t k = 0; k < RLF_OUTLINE_STEPS; k++) {
+            in.s[k][i] = at.distance[i] + (float)k;
+            double out = i % 2 != 0 ? 0.5 : 1.0 - (in.s[k][i] + inside) / radius;
+            in.normal[k].x[i] = (float)out;
+            in.normal[k].z[i] = (float)-sqrt(1.0 - out * out);
+        }
+    }
+    rlf_normals found;
+    rlf_kernel_outline_near(&at, &in, &found);
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        double out = 1.0 - at.distance[i] / radius, z = -sqrt(1.0 - out * out);
+        bool turns = i % 2 == 0;
+        assert_true(fabs(found.x[i] - (turns ? out : 0.0)) < 1e-5);
+        assert_true(fabs(found.z[i] - (turns ? z : 0.0)) < 1e-5);
+    }
+}
+
+/* A thing of 12 columns before a wall: those within four of the wall, where something was in
+ * front before. */
+static void near_edge_row_marks_what_is_seen_beside_a_jump(void **state)
+{
+    (void)state;
+    enum { ACROSS = 32, DOWN = 9, FIRST = 10, COLUMNS = 12 };
+    float depth[ACROSS * DOWN];
+    uint8_t known[ACROSS * DOWN], front[ACROSS * DOWN], mark[ACROSS];
+    for (int32_t i = 0; i < ACROSS * DOWN; i++) {
+        int32_t x = i % ACROSS;
+        depth[i] = x >= FIRST && x < FIRST + COLUMNS ? 2.0f : 3.0f;
+        known[i] = x != FIRST;
+        front[i] = x >= FIRST && x < FIRST + 4;
+    }
+    ptrdiff_t row = 4 * ACROSS;
+    rlf_kernel_was_front_row(front + row, known + row, ACROSS, 4, ACROSS - 4, mark);
+    rlf_kernel_near_edge_row(depth + row, ACROSS, 4, ACROSS - 4, mark);
+    for (int32_t x = 4; x < ACROSS - 4; x++) {
+        bool beside = (x > FIRST && x < FIRST + 4) || (x >= FIRST + 8 && x < FIRST + COLUMNS);
+        bool was_front = x < FIRST + 8;
+        assert_int_equal(mark[x], beside && was_front);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -192,6 +247,8 @@ int main(void)
         cmocka_unit_test(gap_patch_finds_the_shortest_gap),
         cmocka_unit_test(fill_batch_continues_the_side_with_more_votes),
         cmocka_unit_test(outlines_point_to_what_is_behind),
+        cmocka_unit_test(windows_near_an_outline_are_moved_out),
+        cmocka_unit_test(near_edge_row_marks_what_is_seen_beside_a_jump),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

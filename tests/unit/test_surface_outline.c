@@ -175,12 +175,75 @@ static void slits_are_open(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
+static bool is_near_outline(const seen_view *f, int32_t i)
+{
+    bool is_near = false;
+    for (int32_t y = -3; y <= 3; y++) {
+        for (int32_t x = -3; x <= 3; x++) {
+            is_near = is_near || f->truth[i + y * WIDTH + x] > 2.9f;
+        }
+    }
+    return is_near && f->truth[i] < 2.9f && f->seen[i] > 0.0f;
+}
+
+/* Mean error in degrees of what is seen within three pixels of the outline of a ball or a board
+ * that crosses a wall which was seen alone. */
+static double moving_error_deg(seen_view *f, bool is_ball, bool has_edge_normals)
+{
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
+    def.enable_edge_normals = has_edge_normals;
+    rlf_reconstruct *stage = seen_view_stage(&def);
+    const rlf_surface *s = NULL;
+    for (int32_t t = 0; t < 12; t++) {
+        if (t < 7) {
+            for (int i = 0; i < COUNT; i++) {
+                set_wall(f, i);
+            }
+        } else if (is_ball) {
+            set_ball(f, rlf_vec3_make(0.01 * t, -0.05, 2.0), 0.25);
+        } else {
+            set_board(f, rlf_normalize(rlf_vec3_make(0.01 * t, 0.3, -1)));
+        }
+        s = process(f, stage, t);
+    }
+    double sum = 0.0;
+    int32_t count = 0;
+    for (int i = 4 * WIDTH; i < COUNT - 4 * WIDTH; i++) {
+        if (is_near_outline(f, i)) {
+            sum += angle_deg(rlf_vec3_make(s->normal_x[i], s->normal_y[i], s->normal_z[i]),
+                             normals[i]);
+            count++;
+        }
+    }
+    rlf_reconstruct_destroy(&stage);
+    assert_true(count > 30);
+    print_message("%s %s edge normals: %.2f deg in %d pixels\n", is_ball ? "ball" : "board",
+                  has_edge_normals ? "with" : "without", sum / count, count);
+    return sum / count;
+}
+
+/* Windows lie inside of the outline: what they find is moved out to the pixel. */
+static void what_is_seen_of_a_moving_ball_turns_away_too(void **state)
+{
+    seen_view *f = *state;
+    double without = moving_error_deg(f, true, false), with = moving_error_deg(f, true, true);
+    assert_true(with < 0.75 * without);
+}
+
+static void what_is_seen_of_a_moving_board_stays_flat(void **state)
+{
+    seen_view *f = *state;
+    assert_true(moving_error_deg(f, false, true) < moving_error_deg(f, false, false) + 0.5);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_ball_turns_away_at_its_outline),
         cmocka_unit_test(a_board_stays_flat),
         cmocka_unit_test(slits_are_open),
+        cmocka_unit_test(what_is_seen_of_a_moving_ball_turns_away_too),
+        cmocka_unit_test(what_is_seen_of_a_moving_board_stays_flat),
     };
     return cmocka_run_group_tests(tests, set_up, seen_view_destroy);
 }

@@ -12,12 +12,10 @@
 #include "surface/steps.h"
 #include "surface/window.h"
 
-#include "kernel/outline.h"
 #include "surface/normals/side.h"
+#include "surface/normals/way.h"
 
 #include <string.h>
-
-static const float MOST_APART = 0.05f; /* share of the depth, of samples of one surface */
 
 /* Share of a rounded surface's turn that must be seen: people and what else moves are rounded, what
  * stands in a room mostly has faces, and a crease beside an outline looks like a little of a turn.
@@ -25,11 +23,8 @@ static const float MOST_APART = 0.05f; /* share of the depth, of samples of one 
 static const float LEAST_TURN_STILL = 0.3f, LEAST_TURN_FRONT = 0.04f;
 
 typedef struct outline_job {
-    int32_t width, height;
-    const float *ray_x, *ray_y, *depth;
-    const uint8_t *known; /* 1 where depth was not filled: normals are read, not written */
+    rlf_way way; /* normals of what is known are read, those of what was filled are written */
     const uint8_t *reason;
-    float *const *normal;
     const rlf_side_job *side;
 } outline_job;
 
@@ -64,9 +59,9 @@ static bool is_set(const rlf_normals *n, int32_t k)
 
 static void write_normal(const outline_job *job, ptrdiff_t i, const rlf_normals *n, int32_t k)
 {
-    job->normal[0][i] = n->x[k];
-    job->normal[1][i] = n->y[k];
-    job->normal[2][i] = n->z[k];
+    job->way.normal[0][i] = n->x[k];
+    job->way.normal[1][i] = n->y[k];
+    job->way.normal[2][i] = n->z[k];
 }
 
 /* ---- rounded ---- */
@@ -81,37 +76,13 @@ static bool may_be_front(const rlf_reconstruct *stage, int32_t x, int32_t y, ptr
                               rlf_hold_may_move(stage, x, y));
 }
 
-/* Samples from pixel k of the queue inwards, as far as its surface goes on. */
 static void walk_in(const outline_job *job, const outline_queue *q, int32_t k,
                     rlf_way_in *restrict in)
 {
-    const float *depth = job->depth;
-    const uint8_t *known = job->known;
-    const float *nx = job->normal[0], *ny = job->normal[1], *nz = job->normal[2];
-    int32_t x = q->x[k], y = q->y[k], width = job->width, height = job->height;
-    ptrdiff_t start = (ptrdiff_t)y * width + x;
-    float z = depth[start], out_x = q->outline.x[k], out_y = q->outline.y[k];
-    float goes_on = 1.0f;
-    ptrdiff_t inner = start;
-    for (int32_t step = 0; step < RLF_OUTLINE_STEPS; step++) {
-        float steps = (float)(step + 1);
-        int32_t sx = (int32_t)((float)x - steps * out_x + 0.5f);
-        int32_t sy = (int32_t)((float)y - steps * out_y + 0.5f);
-        bool inside = (sx >= 0) & (sy >= 0) & (sx < width) & (sy < height);
-        ptrdiff_t i = inside ? (ptrdiff_t)sy * width + sx : start;
-        bool near = rlf_kernel_abs(depth[i] - z) <= MOST_APART * z;
-        goes_on = (inside & near) ? goes_on : 0.0f;
-        inner = goes_on > 0.0f ? i : inner;
-        float weight = known[i] != 0 ? goes_on : 0.0f;
-        in->s[step][k] = q->outline.distance[k] + (float)(x - sx) * out_x + (float)(y - sy) * out_y;
-        in->normal[step].x[k] = weight * nx[i];
-        in->normal[step].y[k] = weight * ny[i];
-        in->normal[step].z[k] = weight * nz[i];
-    }
+    int32_t x = q->x[k], y = q->y[k];
+    ptrdiff_t inner = rlf_way_read(&job->way, x, y, &q->outline, k, 1, in);
     bool is_front = may_be_front(job->side->stage, x, y, inner);
     in->least_turn[k] = is_front ? LEAST_TURN_FRONT : LEAST_TURN_STILL;
-    in->ray_x[k] = job->ray_x[start];
-    in->ray_y[k] = job->ray_y[start];
 }
 
 /* ---- faces ---- */
@@ -119,12 +90,12 @@ static void walk_in(const outline_job *job, const outline_queue *q, int32_t k,
 static void read_window(const outline_job *job, int32_t x, int32_t y, int32_t k,
                         rlf_normals *restrict window)
 {
-    ptrdiff_t middle = (ptrdiff_t)y * job->width + x;
-    const float *depth = job->depth + middle;
-    const uint8_t *known = job->known + middle;
-    const float *nx = job->normal[0] + middle, *ny = job->normal[1] + middle,
-                *nz = job->normal[2] + middle;
-    rlf_window_places p = rlf_window_places_make(job->width, job->height, x, y);
+    ptrdiff_t middle = (ptrdiff_t)y * job->way.width + x;
+    const float *depth = job->way.depth + middle;
+    const uint8_t *known = job->way.known + middle;
+    const float *nx = job->way.normal[0] + middle, *ny = job->way.normal[1] + middle,
+                *nz = job->way.normal[2] + middle;
+    rlf_window_places p = rlf_window_places_make(job->way.width, job->way.height, x, y);
     float z = depth[0], most = RLF_OUTLINE_JUMP * z;
     for (int32_t r = 0; r < RLF_WINDOW_SIDE; r++) {
         for (int32_t c = 0; c < RLF_WINDOW_SIDE; c++) {
@@ -149,7 +120,7 @@ static void turn_faces(const outline_job *job, outline_queue *q)
     rlf_kernel_outline_face(&q->outline, &q->aside, window, &normals);
     for (int32_t k = 0; k < q->count; k++) {
         if (is_set(&normals, k)) {
-            write_normal(job, (ptrdiff_t)q->y[k] * job->width + q->x[k], &normals, k);
+            write_normal(job, (ptrdiff_t)q->y[k] * job->way.width + q->x[k], &normals, k);
         }
     }
     q->count = 0;
@@ -166,7 +137,7 @@ static void turn_found(const outline_job *job, outline_queues *queues)
     rlf_kernel_outline_round(&q->outline, &in, &normals, &q->aside);
     for (int32_t k = 0; k < q->count; k++) {
         if (is_set(&normals, k)) {
-            write_normal(job, (ptrdiff_t)q->y[k] * job->width + q->x[k], &normals, k);
+            write_normal(job, (ptrdiff_t)q->y[k] * job->way.width + q->x[k], &normals, k);
             continue;
         }
         faces->aside.x[faces->count] = q->aside.x[k];
@@ -182,7 +153,7 @@ static void turn_found(const outline_job *job, outline_queues *queues)
 
 static bool is_filled(const outline_job *job, ptrdiff_t i)
 {
-    return job->reason[i] == RLF_REASON_FILLED && job->known[i] == 0;
+    return job->reason[i] == RLF_REASON_FILLED && job->way.known[i] == 0;
 }
 
 static void find_outlines(const outline_job *job, outline_queues *queues)
@@ -208,7 +179,7 @@ static void take_filled(const outline_job *job, int32_t x, int32_t y, outline_qu
     int32_t lane = q->count++;
     q->x[lane] = x;
     q->y[lane] = y;
-    rlf_windows_read(job->depth, job->width, job->height, x, y, lane, &queues->depth);
+    rlf_windows_read(job->way.depth, job->way.width, job->way.height, x, y, lane, &queues->depth);
     if (q->count == RLF_BATCH) {
         find_outlines(job, queues);
     }
@@ -220,10 +191,11 @@ static void outline_rows(void *context, int32_t begin, int32_t end, int32_t work
     const outline_job *job = context;
     outline_queues queues = {0};
     for (int32_t y = begin; y < end; y++) {
-        ptrdiff_t row = (ptrdiff_t)y * job->width;
+        ptrdiff_t row = (ptrdiff_t)y * job->way.width;
         const uint8_t *reason = job->reason + row; /* 0 = OK */
-        memset(job->side->mark + row, 0, (size_t)job->width);
-        for (int32_t x = 0; (x = rlf_kernel_next_mark(reason, x, job->width)) < job->width; x++) {
+        memset(job->side->mark + row, 0, (size_t)job->way.width);
+        for (int32_t x = 0; (x = rlf_kernel_next_mark(reason, x, job->way.width)) < job->way.width;
+             x++) {
             if (is_filled(job, row + x)) {
                 take_filled(job, x, y, &queues);
             }
@@ -238,8 +210,9 @@ void rlf_normals_outline(const rlf_reconstruct *stage, const rlf_slot *slot)
 {
     const rlf_grid *grid = &stage->grid;
     rlf_side_job side = rlf_side_job_make(stage, slot);
-    outline_job job = {grid->width, grid->height, grid->ray_x,  grid->ray_y, slot->depth,
-                       side.known,  slot->reason, slot->normal, &side};
+    const rlf_way way = {grid->width, grid->height, grid->ray_x, grid->ray_y,
+                         slot->depth, side.known,   slot->normal};
+    outline_job job = {way, slot->reason, &side};
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, outline_rows, &job);
     rlf_side_spread(&side);
 }

@@ -1,0 +1,203 @@
+/* Normals of what was seen near the outlines of things that move.
+ *
+ * A plane window that may not reach across an outline lies inside of it: its plane is that of a
+ * place farther in, where a rounded surface faces the camera more than at the pixel, by 10 to 20
+ * degrees on a limb. As in outline.c the outward component grows linearly up to 1 at the outline,
+ * so what the window found is moved out to the pixel.
+ *
+ * Where the outline runs is seen from the depth within two pixels. Beyond these, a surface turns
+ * away in the direction that its normal leans to. What stands still has faces, not limbs, and is
+ * left alone. */
+#include "surface/normals/way.h"
+#include "surface/steps.h"
+#include "surface/window.h"
+
+#include "kernel/kernel.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MOST_STEPS = 4, ABOUT = RLF_NEAR_EDGE_APART };
+
+static const float MOST_STEP = 0.04f;  /* share of the depth from pixel to pixel of one surface */
+static const float LEAST_LEAN = 0.1f;  /* sine between ray and normal that has a direction */
+static const float LEAST_TURN = 0.04f; /* as in outline.c, of what moves */
+
+enum { TURNED = 2 }; /* the mark of pixels that get another normal; 1: near an outline */
+
+typedef struct turn_job {
+    rlf_way way;
+    const uint8_t *front; /* a frame ago */
+    float *turned[3];     /* planes: normals at the marks TURNED */
+    uint8_t *mark;
+} turn_job;
+
+/* Pixels that wait until there are enough of them for a kernel. */
+typedef struct turn_queue {
+    int32_t count;
+    int32_t x[RLF_BATCH], y[RLF_BATCH];
+    rlf_outlines outline;
+} turn_queue;
+
+typedef struct turn_queues {
+    turn_queue near, found;
+    rlf_windows depth; /* about the near */
+} turn_queues;
+
+/* Pixels from (x, y) to the outline that the surface ends at in a direction; 0 = none is near. */
+static float steps_out(const rlf_way *way, int32_t x, int32_t y, float out_x, float out_y)
+{
+    float last = way->depth[(ptrdiff_t)y * way->width + x];
+    for (int32_t k = 1; k <= MOST_STEPS; k++) {
+        int32_t sx = (int32_t)((float)x + (float)k * out_x + 0.5f);
+        int32_t sy = (int32_t)((float)y + (float)k * out_y + 0.5f);
+        float z = way->depth[(ptrdiff_t)sy * way->width + sx];
+        if (z > (1.0f + RLF_OUTLINE_JUMP) * last) {
+            return (float)(sx - x) * out_x + (float)(sy - y) * out_y - 0.5f;
+        }
+        if (!(rlf_kernel_abs(z - last) <= MOST_STEP * last)) {
+            return 0.0f;
+        }
+        last = z;
+    }
+    return 0.0f;
+}
+
+/* The outline in the direction that the pixel's normal leans to. */
+static bool find_by_normal(const rlf_way *way, const turn_queue *q, int32_t k, rlf_outlines *out)
+{
+    ptrdiff_t i = (ptrdiff_t)q->y[k] * way->width + q->x[k];
+    float nx = way->normal[0][i], ny = way->normal[1][i], nz = way->normal[2][i];
+    float rx = way->ray_x[i], ry = way->ray_y[i], square = 1.0f + rx * rx + ry * ry;
+    float along = (nx * rx + ny * ry + nz) / square;
+    float lean_x = nx - along * rx, lean_y = ny - along * ry;
+    float lean = sqrtf(lean_x * lean_x + lean_y * lean_y);
+    if (!(lean > LEAST_LEAN)) {
+        return false;
+    }
+    out->x[k] = lean_x / lean;
+    out->y[k] = lean_y / lean;
+    out->distance[k] = steps_out(way, q->x[k], q->y[k], out->x[k], out->y[k]);
+    return out->distance[k] > 0.0f;
+}
+
+static void turn_found(const turn_job *job, turn_queue *q)
+{
+    rlf_way_in in;
+    rlf_normals normals;
+    for (int32_t k = 0; k < q->count; k++) {
+        rlf_way_read(&job->way, q->x[k], q->y[k], &q->outline, k, 0, &in);
+        in.least_turn[k] = LEAST_TURN;
+    }
+    rlf_kernel_outline_near(&q->outline, &in, &normals);
+    for (int32_t k = 0; k < q->count; k++) {
+        ptrdiff_t i = (ptrdiff_t)q->y[k] * job->way.width + q->x[k];
+        if (normals.z[k] != 0.0f) {
+            job->turned[0][i] = normals.x[k];
+            job->turned[1][i] = normals.y[k];
+            job->turned[2][i] = normals.z[k];
+            job->mark[i] = TURNED;
+        }
+    }
+    q->count = 0;
+}
+
+static void find_outlines(const turn_job *job, turn_queues *queues)
+{
+    turn_queue *q = &queues->near, *found = &queues->found;
+    rlf_kernel_outline_find(&queues->depth, &q->outline);
+    for (int32_t k = 0; k < q->count; k++) {
+        bool is_found = q->outline.distance[k] > 0.0f;
+        if (!is_found && !find_by_normal(&job->way, q, k, &q->outline)) {
+            continue;
+        }
+        int32_t lane = found->count++;
+        found->x[lane] = q->x[k];
+        found->y[lane] = q->y[k];
+        found->outline.x[lane] = q->outline.x[k];
+        found->outline.y[lane] = q->outline.y[k];
+        found->outline.distance[lane] = q->outline.distance[k];
+        if (found->count == RLF_BATCH) {
+            turn_found(job, found);
+        }
+    }
+    q->count = 0;
+}
+
+/* Marks what was seen of row y near outlines of what is in front. */
+static void mark_row(const turn_job *job, int32_t y, uint8_t *mark)
+{
+    enum { SPAN = 64 };
+    ptrdiff_t width = job->way.width, row = y * width;
+    int32_t end = job->way.width - ABOUT;
+    rlf_kernel_was_front_row(job->front + row, job->way.known + row, width, ABOUT, end, mark);
+    for (int32_t x = ABOUT; (x = rlf_kernel_next_mark(mark, x, end)) < end; x += SPAN) {
+        rlf_kernel_near_edge_row(job->way.depth + row, width, x, rlf_least(x + SPAN, end), mark);
+    }
+}
+
+static void turn_row(const turn_job *job, int32_t y, turn_queues *queues)
+{
+    const rlf_way *way = &job->way;
+    uint8_t *mark = job->mark + (ptrdiff_t)y * way->width;
+    mark_row(job, y, mark);
+    turn_queue *q = &queues->near;
+    int32_t end = way->width - ABOUT;
+    for (int32_t x = ABOUT; (x = rlf_kernel_next_mark(mark, x, end)) < end; x++) {
+        int32_t lane = q->count++;
+        q->x[lane] = x;
+        q->y[lane] = y;
+        rlf_windows_read(way->depth, way->width, way->height, x, y, lane, &queues->depth);
+        if (q->count == RLF_BATCH) {
+            find_outlines(job, queues);
+        }
+    }
+}
+
+static void turn_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const turn_job *job = context;
+    turn_queues queues;
+    memset(&queues, 0, sizeof queues);
+    for (int32_t y = begin; y < end; y++) {
+        memset(job->mark + (ptrdiff_t)y * job->way.width, 0, (size_t)job->way.width);
+        bool inside = y >= ABOUT && y + ABOUT < job->way.height && job->way.width > 2 * ABOUT;
+        if (inside) {
+            turn_row(job, y, &queues);
+        }
+    }
+    find_outlines(job, &queues);
+    turn_found(job, &queues.found);
+}
+
+/* Afterwards, so that no pixel reads what another was given. */
+static void write_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const turn_job *job = context;
+    ptrdiff_t first = (ptrdiff_t)begin * job->way.width;
+    const uint8_t *mark = job->mark + first;
+    int32_t count = (end - begin) * job->way.width;
+    for (int32_t i = 0; (i = rlf_kernel_next_mark(mark, i, count)) < count; i++) {
+        for (int32_t k = 0; k < 3 && mark[i] == TURNED; k++) {
+            job->way.normal[k][first + i] = job->turned[k][first + i];
+        }
+    }
+}
+
+void rlf_normals_turn(const rlf_reconstruct *stage, const rlf_slot *slot)
+{
+    const rlf_grid *grid = &stage->grid;
+    if (stage->previous == NULL) {
+        return;
+    }
+    const rlf_work *work = &stage->work;
+    turn_job job = {{grid->width, grid->height, grid->ray_x, grid->ray_y, slot->depth,
+                     work->mask[0], slot->normal},
+                    stage->previous->foreground,
+                    {work->depth[0], work->sum[0], work->sum[1]},
+                    work->mask[1]};
+    rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, turn_rows, &job);
+    rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, write_rows, &job);
+}
