@@ -23,8 +23,8 @@ void rlf_kernel_outline_find(const rlf_windows *restrict depth, rlf_outlines *re
 typedef struct rlf_way_in {
     float ray_x[RLF_BATCH], ray_y[RLF_BATCH]; /* of the pixels themselves */
     float s[RLF_OUTLINE_STEPS][RLF_BATCH];    /* pixels from the outline */
-    float least_turn[RLF_BATCH]; /* share of the rounded surface's turn that must be seen */
-    rlf_normals normal[RLF_OUTLINE_STEPS]; /* 0 = none */
+    float moves[RLF_BATCH];                   /* 1 where something moves, else 0 */
+    rlf_normals normal[RLF_OUTLINE_STEPS];    /* 0 = none */
 } rlf_way_in;
 
 /* Normals of what turns steadily outwards, as something rounded does: 0 where it does not. `aside`

@@ -3,7 +3,13 @@
 
 #include <math.h>
 
-static const float most_bend = 0.1f;   /* RMS of the samples about a steady turn: a crease bends */
+/* Share of a rounded surface's turn that must be seen, and RMS of the samples about a steady turn
+ * (a crease bends): people and what else moves are rounded, what stands in a room mostly has faces,
+ * and a crease beside an outline looks like a little of a turn. What moves may be so thin that most
+ * of the samples are beyond its middle, where it turns to the other side. */
+static const float least_turn_still = 0.3f, least_turn_moving = 0.04f;
+static const float most_bend_still = 0.1f, most_bend_moving = 0.15f;
+static const float least_out_still = 0.0f, least_out_moving = -1.0f;
 static const float most_aside = 0.98f; /* sine of the steepest normal that is given */
 /* Pixels: the middle of what a plane window sees lies so much farther in than a pixel near an
  * outline. Windows are ten pixels wide or six, and the sensor drops the outermost two. */
@@ -87,16 +93,18 @@ RLF_KERNEL_PART way_sum sum_way(const rlf_way_in *restrict in, int32_t i, const 
 }
 
 /* 1 when the samples turn steadily outwards, else 0. */
-RLF_KERNEL_PART float is_rounded(const way_sum *restrict in, float n, float distance,
-                                 float least_turn)
+RLF_KERNEL_PART float is_rounded(const way_sum *restrict in, float n, float distance, bool moves)
 {
+    float least_turn = moves ? least_turn_moving : least_turn_still;
+    float most_bend = moves ? most_bend_moving : most_bend_still;
+    float least_out = moves ? least_out_moving : least_out_still;
     float s = in->s / n, out = in->out / n;
     float spread = in->ss - in->s * s, turn = in->out * s - in->s_out;
     float bend = (in->oo - in->out * out) * spread - turn * turn;
     float steady = bend <= n * most_bend * most_bend * spread ? 1.0f : 0.0f;
     float turns = turn * s > least_turn * spread * (1.0f - out) ? steady : 0.0f;
     float inwards = s > distance ? turns : 0.0f;
-    float outwards = out >= 0.0f ? inwards : 0.0f;
+    float outwards = out >= least_out ? inwards : 0.0f;
     return in->n < 1.5f ? 0.0f : outwards;
 }
 
@@ -125,7 +133,7 @@ RLF_KERNEL void rlf_kernel_outline_round(const rlf_outlines *restrict at,
         axes a = make_axes(in->ray_x[i], in->ray_y[i], at->x[i], at->y[i]);
         way_sum sum = sum_way(in, i, &a);
         float count = sum.n > 1.0f ? sum.n : 1.0f, distance = at->distance[i];
-        bool rounded = is_rounded(&sum, count, distance, in->least_turn[i]) > 0.0f;
+        bool rounded = is_rounded(&sum, count, distance, in->moves[i] > 0.5f) > 0.0f;
         vector n = rounded_normal(&sum, count, distance, &a);
         vector result = {rounded ? n.x : 0.0f, rounded ? n.y : 0.0f, rounded ? n.z : 0.0f};
         set(out, i, result);
@@ -142,7 +150,7 @@ RLF_KERNEL void rlf_kernel_outline_near(const rlf_outlines *restrict at,
         axes a = make_axes(in->ray_x[i], in->ray_y[i], at->x[i], at->y[i]);
         way_sum sum = sum_way(in, i, &a);
         float count = sum.n > 1.0f ? sum.n : 1.0f, distance = at->distance[i];
-        bool rounded = is_rounded(&sum, count, distance, in->least_turn[i]) > 0.0f;
+        bool rounded = is_rounded(&sum, count, distance, in->moves[i] > 0.5f) > 0.0f;
         rounded = (sum.n > 2.5f) & rounded;
         vector own = get(&in->normal[0], i);
         float share = distance / (distance + window_inside); /* of the way from outline to window */

@@ -197,7 +197,7 @@ static void windows_near_an_outline_are_moved_out(void **state)
         at.x[i] = 1.0f;
         at.y[i] = 0.0f;
         at.distance[i] = 0.5f + 0.25f * (float)i;
-        in.least_turn[i] = 0.04f;
+        in.moves[i] = 1.0f;
         for (int32_t k = 0; k < RLF_OUTLINE_STEPS; k++) {
             in.s[k][i] = at.distance[i] + (float)k;
             double out = i % 2 != 0 ? 0.5 : 1.0 - (in.s[k][i] + inside) / radius;

@@ -17,11 +17,6 @@
 
 #include <string.h>
 
-/* Share of a rounded surface's turn that must be seen: people and what else moves are rounded, what
- * stands in a room mostly has faces, and a crease beside an outline looks like a little of a turn.
- */
-static const float LEAST_TURN_STILL = 0.3f, LEAST_TURN_FRONT = 0.04f;
-
 typedef struct outline_job {
     rlf_way way; /* normals of what is known are read, those of what was filled are written */
     const uint8_t *reason;
@@ -82,7 +77,7 @@ static void walk_in(const outline_job *job, const outline_queue *q, int32_t k,
     int32_t x = q->x[k], y = q->y[k];
     ptrdiff_t inner = rlf_way_read(&job->way, x, y, &q->outline, k, 1, in);
     bool is_front = may_be_front(job->side->stage, x, y, inner);
-    in->least_turn[k] = is_front ? LEAST_TURN_FRONT : LEAST_TURN_STILL;
+    in->moves[k] = is_front ? 1.0f : 0.0f;
 }
 
 /* ---- faces ---- */

@@ -19,16 +19,16 @@
 
 enum { MOST_STEPS = 4, ABOUT = RLF_NEAR_EDGE_APART };
 
-static const float MOST_STEP = 0.04f;  /* share of the depth from pixel to pixel of one surface */
-static const float LEAST_LEAN = 0.1f;  /* sine between ray and normal that has a direction */
-static const float LEAST_TURN = 0.04f; /* as in outline.c, of what moves */
+static const float MOST_STEP = 0.04f; /* share of the depth from pixel to pixel of one surface */
+static const float LEAST_LEAN = 0.1f; /* sine between ray and normal that has a direction */
 
 enum { TURNED = 2 }; /* the mark of pixels that get another normal; 1: near an outline */
 
 typedef struct turn_job {
     rlf_way way;
-    const uint8_t *front; /* a frame ago */
-    float *turned[3];     /* planes: normals at the marks TURNED */
+    const uint8_t *front;  /* a frame ago */
+    const rlf_span *spans; /* per row, where it may be set */
+    float *turned[3];      /* planes: normals at the marks TURNED */
     uint8_t *mark;
 } turn_job;
 
@@ -87,7 +87,7 @@ static void turn_found(const turn_job *job, turn_queue *q)
     rlf_normals normals;
     for (int32_t k = 0; k < q->count; k++) {
         rlf_way_read(&job->way, q->x[k], q->y[k], &q->outline, k, 0, &in);
-        in.least_turn[k] = LEAST_TURN;
+        in.moves[k] = 1.0f;
     }
     rlf_kernel_outline_near(&q->outline, &in, &normals);
     for (int32_t k = 0; k < q->count; k++) {
@@ -124,15 +124,29 @@ static void find_outlines(const turn_job *job, turn_queues *queues)
     q->count = 0;
 }
 
-/* Marks what was seen of row y near outlines of what is in front. */
-static void mark_row(const turn_job *job, int32_t y, uint8_t *mark)
+/* Pixels of row y that something in front may have been about. */
+static rlf_span span_about(const turn_job *job, int32_t y)
 {
-    enum { SPAN = 64 };
+    rlf_span span = rlf_span_unite(job->spans[y - ABOUT], job->spans[y + ABOUT]);
+    span = rlf_span_unite(span, job->spans[y]);
+    if (span.x0 < span.x1) {
+        span.x0 = span.x0 > 2 * ABOUT ? span.x0 - ABOUT : ABOUT;
+        span.x1 = rlf_least(span.x1 + ABOUT, job->way.width - ABOUT);
+    }
+    return span;
+}
+
+/* Marks what was seen of row y near outlines of what is in front. */
+static void mark_row(const turn_job *job, int32_t y, rlf_span span, uint8_t *mark)
+{
+    enum { TOGETHER = 64 };
     ptrdiff_t width = job->way.width, row = y * width;
-    int32_t end = job->way.width - ABOUT;
-    rlf_kernel_was_front_row(job->front + row, job->way.known + row, width, ABOUT, end, mark);
-    for (int32_t x = ABOUT; (x = rlf_kernel_next_mark(mark, x, end)) < end; x += SPAN) {
-        rlf_kernel_near_edge_row(job->way.depth + row, width, x, rlf_least(x + SPAN, end), mark);
+    const uint8_t *front = job->front + row, *known = job->way.known + row;
+    rlf_kernel_was_front_row(front, known, width, span.x0, span.x1, mark);
+    for (int32_t x = span.x0; (x = rlf_kernel_next_mark(mark, x, span.x1)) < span.x1;
+         x += TOGETHER) {
+        int32_t end = rlf_least(x + TOGETHER, span.x1);
+        rlf_kernel_near_edge_row(job->way.depth + row, width, x, end, mark);
     }
 }
 
@@ -140,10 +154,10 @@ static void turn_row(const turn_job *job, int32_t y, turn_queues *queues)
 {
     const rlf_way *way = &job->way;
     uint8_t *mark = job->mark + (ptrdiff_t)y * way->width;
-    mark_row(job, y, mark);
     turn_queue *q = &queues->near;
-    int32_t end = way->width - ABOUT;
-    for (int32_t x = ABOUT; (x = rlf_kernel_next_mark(mark, x, end)) < end; x++) {
+    rlf_span span = span_about(job, y);
+    mark_row(job, y, span, mark);
+    for (int32_t x = span.x0; (x = rlf_kernel_next_mark(mark, x, span.x1)) < span.x1; x++) {
         int32_t lane = q->count++;
         q->x[lane] = x;
         q->y[lane] = y;
@@ -196,6 +210,7 @@ void rlf_normals_turn(const rlf_reconstruct *stage, const rlf_slot *slot)
     turn_job job = {{grid->width, grid->height, grid->ray_x, grid->ray_y, slot->depth,
                      work->mask[0], slot->normal},
                     stage->previous->foreground,
+                    work->front,
                     {work->depth[0], work->sum[0], work->sum[1]},
                     work->mask[1]};
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, turn_rows, &job);

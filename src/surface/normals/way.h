@@ -15,7 +15,7 @@ typedef struct rlf_way {
 } rlf_way;
 
 /* Writes samples of lane k from pixel (x, y) inwards, the first so many steps in, as far as the
- * surface goes on; not the least turn. Returns the last pixel that is still of the surface. */
+ * surface goes on; not whether it moves. Returns the last pixel that is still of the surface. */
 static inline ptrdiff_t rlf_way_read(const rlf_way *way, int32_t x, int32_t y,
                                      const rlf_outlines *at, int32_t k, int32_t first,
                                      rlf_way_in *restrict in)
