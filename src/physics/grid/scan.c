@@ -5,6 +5,7 @@
 #include "physics/grid/scan.h"
 #include "physics/grid/ball.h"
 #include "physics/grid/edge.h"
+#include "physics/grid/line.h"
 #include "physics/grid/pixels.h"
 
 #define SAMPLES_PER_SIDE 20
@@ -148,29 +149,6 @@ static rlf_vec3 line_point(const wall_line *line, double depth)
     return rlf_mad(line->front, line->inward, depth);
 }
 
-/* Depth at which the line comes nearest to the body, whose distance is convex along a line. */
-static double nearest_depth(const grid_job *job, const wall_line *line)
-{
-    const int32_t HALVINGS = 6;
-    rlf_vec3 along = rlf_mat3_mul_vec(&job->R_body_grid, line->inward);
-    double low = 0.0, high = line->deep, square = rlf_dot(along, along);
-    double depth = rlf_dot(rlf_sub(job->centre, line->front), line->inward) / square;
-    depth = rlf_clamp(depth, low, high);
-    for (int32_t i = 0; i < HALVINGS; i++) {
-        rlf_vec3 gradient;
-        phys_shape_distance(&job->body->shape, to_body(job, line_point(line, depth)), &gradient);
-        bool is_beyond = rlf_dot(gradient, along) > 0.0;
-        if (is_beyond ? depth <= 0.0 : depth >= line->deep) {
-            return depth;
-        }
-        low = is_beyond ? low : depth;
-        high = is_beyond ? depth : high;
-        bool is_first = i == 0; /* it may well be an end */
-        depth = is_first ? (is_beyond ? low : high) : 0.5 * (low + high);
-    }
-    return depth;
-}
-
 static bool find_side(const grid_job *job, wall_line *line)
 {
     if (!line->is_known) {
@@ -212,7 +190,7 @@ static void look_at_outline(grid_job *job, const field_cell *cell, rlf_vec3 shif
 {
     wall_line line = {.cell = cell, .front = rlf_add(cell->point, shift), .deep = deep};
     line.inward = grid_cell_inward(cell);
-    double depth = nearest_depth(job, &line);
+    double depth = grid_line_nearest(job, line.front, line.inward, deep);
     double inner = 0.5 * job->body->shape.inner_radius;
     touch_line(job, &line, depth, 0.3);
     touch_line(job, &line, rlf_max(depth - inner, 0.0), FLAT_ON_WALL);
