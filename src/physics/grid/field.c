@@ -230,12 +230,12 @@ static double end_between(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf
     return 0.5 * (inside + outside);
 }
 
-/* Whether a pixel of a guessed solid goes on with the face of the last one inside it, which is seen
- * at a low angle: there the guess, along the ray, is thin. */
+/* Whether a pixel goes on with the face of the last one inside it, which is seen at a low angle:
+ * there its solid, along the ray, is thin. */
 static bool is_one_slanted_face(const field_cell *cell, const field_cell *inside, rlf_vec3 q)
 {
     const double SAME = 0.95, LOW = 0.5; /* cosines */
-    return cell->is_guess && rlf_dot(cell->normal, inside->normal) > SAME &&
+    return rlf_dot(cell->normal, inside->normal) > SAME &&
            -rlf_dot(cell->normal, rlf_normalize(q)) < LOW;
 }
 
@@ -258,7 +258,7 @@ bool grid_field_side(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3
             is_sought = r == 0 || state == FIELD_INSIDE;
             if (state == FIELD_BEHIND && home->side == FIELD_FRONT &&
                 is_one_slanted_face(&cell, &inside, q)) {
-                break; /* the guess ends there, but not the face */
+                break; /* the solid ends there, but not the face */
             }
             inside = state == FIELD_INSIDE ? cell : inside;
             double end = best;
@@ -347,6 +347,27 @@ static void leave_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_v
     }
 }
 
+/* Whether the solid is between q, behind this face, and the body's centre, before it: the body has
+ * sunk into something thin, and belongs before it. */
+static bool is_pierced(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
+                       const field_cell *cell, const field_home *home)
+{
+    const double DEPTH = 0.005, SAME = 0.9; /* m below the face; cosine */
+    if (home->side != FIELD_FRONT || !home->has_centre) {
+        return false;
+    }
+    double above = rlf_dot(cell->normal, rlf_sub(home->centre, cell->point));
+    double below = -rlf_dot(cell->normal, rlf_sub(q, cell->point));
+    if (above <= 0.0 || below <= DEPTH) {
+        return false;
+    }
+    double share = (above + DEPTH) / (above + below);
+    rlf_vec3 between = rlf_mad(home->centre, rlf_sub(q, home->centre), share);
+    field_cell there;
+    return grid_field_at(grid, sheet, between, &there) == FIELD_INSIDE &&
+           rlf_dot(there.normal, cell->normal) > SAME;
+}
+
 /* The path entered the solid at p: through which face? `step` is the last stretch. */
 static void enter_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 p,
                         rlf_vec3 step, field_state from, const field_cell *cell,
@@ -420,6 +441,10 @@ bool grid_field_cast(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3
         if (out->separation < margin) {
             return true;
         }
+    } else if (state == FIELD_BEHIND && is_pierced(grid, sheet, q, &cell, home)) {
+        hit_front(grid, sheet, &cell, out);
+        out->separation = rlf_dot(out->normal, rlf_sub(q, out->point));
+        return true;
     } else if (state == FIELD_BEHIND && q.z - cell.back < 4.0 * margin) {
         hit_back(grid, sheet, &cell, out);
         out->separation = rlf_dot(out->normal, rlf_sub(q, out->point));
