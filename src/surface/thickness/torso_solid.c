@@ -28,7 +28,7 @@ static const double depth_spread[SECTIONS] = {0.015, 0.02, 0.015};
 static const double ahead_spread = 0.03, lean_spread = 0.06, turn_spread = 0.3;
 
 static const double dome_m = 0.2;  /* from the chest up to where the trunk would close */
-static const double fold_m = 0.09; /* and from the buttocks down to their fold */
+static const double fold_m = 0.09; /* and from the buttocks down to their fold, about: no survey */
 static const double least_dome = 0.2;
 static const double deepest_in_m = 0.04;                       /* within counts no more */
 static const double shoulders_up_m = 0.12, arms_down_m = 0.03; /* where points may be theirs */
