@@ -86,6 +86,13 @@ static bool is_averaged(const crease_job *job, ptrdiff_t i)
     return job->frames != NULL && job->frames[i] >= OWN_FRAMES;
 }
 
+/* A face goes on at pixel i. Where it bends, another thread may just be writing the normal, so that
+ * it is not read. */
+static bool is_wide(const crease_job *job, ptrdiff_t i)
+{
+    return job->bent[i] != 0 || cosine(job, i, i) > 0.5f;
+}
+
 /* The nearest pixel from pixel i in a direction that lies on a face, not on its crease; -1 = none.
  */
 static ptrdiff_t find_face(const crease_job *job, ptrdiff_t i, ptrdiff_t step, int32_t room)
@@ -99,8 +106,7 @@ static ptrdiff_t find_face(const crease_job *job, ptrdiff_t i, ptrdiff_t step, i
         z = job->depth[i];
         if (!job->bent[i]) {
             bool usable = is_known(job, i) && cosine(job, i, i) > 0.5f;
-            ptrdiff_t next = i + 2 * step;
-            return usable && (k + 2 > room || is_averaged(job, i) || cosine(job, next, next) > 0.5f)
+            return usable && (k + 2 > room || is_averaged(job, i) || is_wide(job, i + 2 * step))
                        ? i
                        : -1;
         }
