@@ -23,7 +23,7 @@ typedef struct golden {
 } golden;
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0x096cad14fca10022u, 0x0c3ee45732a67b2eu, 0xa5cd508abb10098du},
+    {RLF_PROFILE_LIVE, 0x296c56dd1680b7d4u, 0x9d6ffdd8cdda26edu, 0xa5cd508abb10098du},
     {RLF_PROFILE_THESIS, 0xa393eb06e579d241u, 0xd84652fb54683851u, 0xc064b44391e1e990u},
 };
 
