@@ -19,6 +19,22 @@ typedef struct rlf_normals {
 
 void rlf_kernel_outline_find(const rlf_windows *restrict depth, rlf_outlines *restrict out);
 
+/* ---- way_in.c ---- */
+
+/* Planes that are read on the way. */
+typedef struct rlf_way {
+    int32_t width, height;
+    const float *ray_x, *ray_y, *depth;
+    const uint8_t *known; /* 1 where depth was not filled */
+    float *const *normal;
+} rlf_way;
+
+/* Pixels and what they see of their outlines. */
+typedef struct rlf_way_from {
+    int32_t x[RLF_BATCH], y[RLF_BATCH];
+    rlf_outlines outline;
+} rlf_way_from;
+
 /* What is known on the way in from an outline, step by step. */
 typedef struct rlf_way_in {
     float ray_x[RLF_BATCH], ray_y[RLF_BATCH]; /* of the pixels themselves */
@@ -26,6 +42,13 @@ typedef struct rlf_way_in {
     float moves[RLF_BATCH];                   /* 1 where something moves, else 0 */
     rlf_normals normal[RLF_OUTLINE_STEPS];    /* 0 = none */
 } rlf_way_in;
+
+/* Writes samples from the pixels inwards, the first so many steps in, as far as the surface goes
+ * on, and the last pixel that is still of it; not whether it moves. */
+void rlf_kernel_way_in(const rlf_way *way, const rlf_way_from *restrict from, int32_t first_step,
+                       rlf_way_in *restrict in, int32_t *restrict inner);
+
+/* ---- outline_turn.c ---- */
 
 /* Normals of what turns steadily outwards, as something rounded does: 0 where it does not. `aside`
  * is the direction that is square to the ray and points outwards. */

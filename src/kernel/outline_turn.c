@@ -146,17 +146,21 @@ RLF_KERNEL void rlf_kernel_outline_round(const rlf_outlines *restrict at,
 RLF_KERNEL void rlf_kernel_outline_near(const rlf_outlines *restrict at,
                                         const rlf_way_in *restrict in, rlf_normals *restrict out)
 {
+    float turns[RLF_BATCH];
     for (int32_t i = 0; i < RLF_BATCH; i++) {
         axes a = make_axes(in->ray_x[i], in->ray_y[i], at->x[i], at->y[i]);
         way_sum sum = sum_way(in, i, &a);
         float count = sum.n > 1.0f ? sum.n : 1.0f, distance = at->distance[i];
-        bool rounded = is_rounded(&sum, count, distance, in->moves[i] > 0.5f) > 0.0f;
-        rounded = (sum.n > 2.5f) & rounded;
+        float rounded = is_rounded(&sum, count, distance, in->moves[i] > 0.5f);
+        turns[i] = sum.n > 2.5f ? rounded : 0.0f;
         vector own = get(&in->normal[0], i);
         float share = distance / (distance + window_inside); /* of the way from outline to window */
-        vector n = turned_normal(1.0f - share * (1.0f - dot(own, a.out)), dot(own, a.along), &a);
-        vector result = {rounded ? n.x : 0.0f, rounded ? n.y : 0.0f, rounded ? n.z : 0.0f};
-        set(out, i, result);
+        set(out, i, turned_normal(1.0f - share * (1.0f - dot(own, a.out)), dot(own, a.along), &a));
+    }
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        vector n = get(out, i);
+        bool is_kept = turns[i] > 0.0f;
+        set(out, i, (vector){is_kept ? n.x : 0.0f, is_kept ? n.y : 0.0f, is_kept ? n.z : 0.0f});
     }
 }
 

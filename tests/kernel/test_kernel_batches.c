@@ -215,6 +215,51 @@ static void windows_near_an_outline_are_moved_out(void **state)
     }
 }
 
+/* A surface of ten columns, one of them filled, before a wall: the ways go from its right side
+ * inwards and end with it, or with the image. */
+static void ways_end_with_their_surface(void **state)
+{
+    (void)state;
+    enum { ACROSS = 24, DOWN = 6, FIRST = 8, FILLED = 15, LAST = 17, STEPS = RLF_OUTLINE_STEPS };
+    float depth[ACROSS * DOWN], ray[ACROSS * DOWN], nx[ACROSS * DOWN], nz[ACROSS * DOWN];
+    uint8_t known[ACROSS * DOWN];
+    for (int32_t i = 0; i < ACROSS * DOWN; i++) {
+        int32_t x = i % ACROSS;
+        depth[i] = x >= FIRST && x <= LAST ? 2.0f : 3.0f;
+        known[i] = x != FILLED;
+        ray[i] = (float)i;
+        nx[i] = 0.01f * (float)x;
+        nz[i] = -1.0f;
+    }
+    float *const normal[3] = {nx, nx, nz};
+    const rlf_way way = {ACROSS, DOWN, ray, ray, depth, known, normal};
+    rlf_way_from from;
+    rlf_way_in in;
+    int32_t inner[RLF_BATCH];
+    for (int32_t k = 0; k < RLF_BATCH; k++) {
+        bool to_left = k < 10; /* the other ways are on the wall and run out of the image */
+        from.x[k] = to_left ? LAST - k : ACROSS - 3;
+        from.y[k] = k % DOWN;
+        from.outline.x[k] = to_left ? 1.0f : -1.0f;
+        from.outline.y[k] = 0.0f;
+        from.outline.distance[k] = 0.5f;
+    }
+    rlf_kernel_way_in(&way, &from, 0, &in, inner);
+    for (int32_t k = 0; k < RLF_BATCH; k++) {
+        int32_t x = from.x[k], row = from.y[k] * ACROSS, way_x = k < 10 ? -1 : 1;
+        int32_t most = k < 10 ? x - FIRST : 2, last = most < STEPS ? most : STEPS - 1;
+        assert_int_equal(inner[k], row + x + way_x * last);
+        assert_true(in.ray_x[k] == (float)(row + x));
+        for (int32_t step = 0; step < STEPS; step++) {
+            int32_t at = x + way_x * step;
+            float has = step <= last && at != FILLED ? 1.0f : 0.0f;
+            assert_true(in.s[step][k] == 0.5f + (float)step);
+            assert_true(in.normal[step].x[k] == (has > 0.0f ? nx[at] : 0.0f));
+            assert_true(in.normal[step].z[k] == -has);
+        }
+    }
+}
+
 /* A thing of 12 columns before a wall: those within four of the wall, where something was in
  * front before. */
 static void near_edge_row_marks_what_is_seen_beside_a_jump(void **state)
@@ -248,6 +293,7 @@ int main(void)
         cmocka_unit_test(fill_batch_continues_the_side_with_more_votes),
         cmocka_unit_test(outlines_point_to_what_is_behind),
         cmocka_unit_test(windows_near_an_outline_are_moved_out),
+        cmocka_unit_test(ways_end_with_their_surface),
         cmocka_unit_test(near_edge_row_marks_what_is_seen_beside_a_jump),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -12,8 +12,8 @@
 #include "surface/steps.h"
 #include "surface/window.h"
 
+#include "kernel/outline.h"
 #include "surface/normals/side.h"
-#include "surface/normals/way.h"
 
 #include <string.h>
 
@@ -26,8 +26,7 @@ typedef struct outline_job {
 /* Pixels that wait until there are enough of them for a kernel. */
 typedef struct outline_queue {
     int32_t count;
-    int32_t x[RLF_BATCH], y[RLF_BATCH];
-    rlf_outlines outline;
+    rlf_way_from at;
     rlf_normals aside;
 } outline_queue;
 
@@ -40,11 +39,11 @@ typedef struct outline_queues {
 static void push(outline_queue *q, int32_t x, int32_t y, const rlf_outlines *outline, int32_t k)
 {
     int32_t i = q->count++;
-    q->x[i] = x;
-    q->y[i] = y;
-    q->outline.x[i] = outline->x[k];
-    q->outline.y[i] = outline->y[k];
-    q->outline.distance[i] = outline->distance[k];
+    q->at.x[i] = x;
+    q->at.y[i] = y;
+    q->at.outline.x[i] = outline->x[k];
+    q->at.outline.y[i] = outline->y[k];
+    q->at.outline.distance[i] = outline->distance[k];
 }
 
 static bool is_set(const rlf_normals *n, int32_t k)
@@ -71,13 +70,14 @@ static bool may_be_front(const rlf_reconstruct *stage, int32_t x, int32_t y, ptr
                               rlf_hold_may_move(stage, x, y));
 }
 
-static void walk_in(const outline_job *job, const outline_queue *q, int32_t k,
-                    rlf_way_in *restrict in)
+static void walk_in(const outline_job *job, const outline_queue *q, rlf_way_in *restrict in)
 {
-    int32_t x = q->x[k], y = q->y[k];
-    ptrdiff_t inner = rlf_way_read(&job->way, x, y, &q->outline, k, 1, in);
-    bool is_front = may_be_front(job->side->stage, x, y, inner);
-    in->moves[k] = is_front ? 1.0f : 0.0f;
+    int32_t inner[RLF_BATCH];
+    rlf_kernel_way_in(&job->way, &q->at, 1, in, inner);
+    for (int32_t k = 0; k < q->count; k++) {
+        bool is_front = may_be_front(job->side->stage, q->at.x[k], q->at.y[k], inner[k]);
+        in->moves[k] = is_front ? 1.0f : 0.0f;
+    }
 }
 
 /* ---- faces ---- */
@@ -110,12 +110,12 @@ static void turn_faces(const outline_job *job, outline_queue *q)
 {
     rlf_normals window[RLF_WINDOW_SIZE], normals;
     for (int32_t k = 0; k < q->count; k++) {
-        read_window(job, q->x[k], q->y[k], k, window);
+        read_window(job, q->at.x[k], q->at.y[k], k, window);
     }
-    rlf_kernel_outline_face(&q->outline, &q->aside, window, &normals);
+    rlf_kernel_outline_face(&q->at.outline, &q->aside, window, &normals);
     for (int32_t k = 0; k < q->count; k++) {
         if (is_set(&normals, k)) {
-            write_normal(job, (ptrdiff_t)q->y[k] * job->way.width + q->x[k], &normals, k);
+            write_normal(job, (ptrdiff_t)q->at.y[k] * job->way.width + q->at.x[k], &normals, k);
         }
     }
     q->count = 0;
@@ -126,19 +126,17 @@ static void turn_found(const outline_job *job, outline_queues *queues)
     outline_queue *q = &queues->found, *faces = &queues->faces;
     rlf_way_in in;
     rlf_normals normals;
-    for (int32_t k = 0; k < q->count; k++) {
-        walk_in(job, q, k, &in);
-    }
-    rlf_kernel_outline_round(&q->outline, &in, &normals, &q->aside);
+    walk_in(job, q, &in);
+    rlf_kernel_outline_round(&q->at.outline, &in, &normals, &q->aside);
     for (int32_t k = 0; k < q->count; k++) {
         if (is_set(&normals, k)) {
-            write_normal(job, (ptrdiff_t)q->y[k] * job->way.width + q->x[k], &normals, k);
+            write_normal(job, (ptrdiff_t)q->at.y[k] * job->way.width + q->at.x[k], &normals, k);
             continue;
         }
         faces->aside.x[faces->count] = q->aside.x[k];
         faces->aside.y[faces->count] = q->aside.y[k];
         faces->aside.z[faces->count] = q->aside.z[k];
-        push(faces, q->x[k], q->y[k], &q->outline, k);
+        push(faces, q->at.x[k], q->at.y[k], &q->at.outline, k);
         if (faces->count == RLF_BATCH) {
             turn_faces(job, faces);
         }
@@ -154,12 +152,12 @@ static bool is_filled(const outline_job *job, ptrdiff_t i)
 static void find_outlines(const outline_job *job, outline_queues *queues)
 {
     outline_queue *q = &queues->filled;
-    rlf_kernel_outline_find(&queues->depth, &q->outline);
+    rlf_kernel_outline_find(&queues->depth, &q->at.outline);
     for (int32_t k = 0; k < q->count; k++) {
-        bool has_outline = q->outline.distance[k] > 0.0f;
-        if (has_outline &&
-            !rlf_side_find(job->side, q->x[k], q->y[k], q->outline.x[k], q->outline.y[k])) {
-            push(&queues->found, q->x[k], q->y[k], &q->outline, k);
+        bool has_outline = q->at.outline.distance[k] > 0.0f;
+        if (has_outline && !rlf_side_find(job->side, q->at.x[k], q->at.y[k], q->at.outline.x[k],
+                                          q->at.outline.y[k])) {
+            push(&queues->found, q->at.x[k], q->at.y[k], &q->at.outline, k);
             if (queues->found.count == RLF_BATCH) {
                 turn_found(job, queues);
             }
@@ -172,8 +170,8 @@ static void take_filled(const outline_job *job, int32_t x, int32_t y, outline_qu
 {
     outline_queue *q = &queues->filled;
     int32_t lane = q->count++;
-    q->x[lane] = x;
-    q->y[lane] = y;
+    q->at.x[lane] = x;
+    q->at.y[lane] = y;
     rlf_windows_read(job->way.depth, job->way.width, job->way.height, x, y, lane, &queues->depth);
     if (q->count == RLF_BATCH) {
         find_outlines(job, queues);

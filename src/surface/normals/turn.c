@@ -8,11 +8,10 @@
  * Where the outline runs is seen from the depth within two pixels. Beyond these, a surface turns
  * away in the direction that its normal leans to. What stands still has faces, not limbs, and is
  * left alone. */
-#include "surface/normals/way.h"
 #include "surface/steps.h"
 #include "surface/window.h"
 
-#include "kernel/kernel.h"
+#include "kernel/outline.h"
 
 #include <math.h>
 #include <string.h>
@@ -35,8 +34,7 @@ typedef struct turn_job {
 /* Pixels that wait until there are enough of them for a kernel. */
 typedef struct turn_queue {
     int32_t count;
-    int32_t x[RLF_BATCH], y[RLF_BATCH];
-    rlf_outlines outline;
+    rlf_way_from at;
 } turn_queue;
 
 typedef struct turn_queues {
@@ -63,35 +61,18 @@ static float steps_out(const rlf_way *way, int32_t x, int32_t y, float out_x, fl
     return 0.0f;
 }
 
-/* The outline in the direction that the pixel's normal leans to. */
-static bool find_by_normal(const rlf_way *way, const turn_queue *q, int32_t k, rlf_outlines *out)
-{
-    ptrdiff_t i = (ptrdiff_t)q->y[k] * way->width + q->x[k];
-    float nx = way->normal[0][i], ny = way->normal[1][i], nz = way->normal[2][i];
-    float rx = way->ray_x[i], ry = way->ray_y[i], square = 1.0f + rx * rx + ry * ry;
-    float along = (nx * rx + ny * ry + nz) / square;
-    float lean_x = nx - along * rx, lean_y = ny - along * ry;
-    float lean = sqrtf(lean_x * lean_x + lean_y * lean_y);
-    if (!(lean > LEAST_LEAN)) {
-        return false;
-    }
-    out->x[k] = lean_x / lean;
-    out->y[k] = lean_y / lean;
-    out->distance[k] = steps_out(way, q->x[k], q->y[k], out->x[k], out->y[k]);
-    return out->distance[k] > 0.0f;
-}
-
 static void turn_found(const turn_job *job, turn_queue *q)
 {
     rlf_way_in in;
     rlf_normals normals;
-    for (int32_t k = 0; k < q->count; k++) {
-        rlf_way_read(&job->way, q->x[k], q->y[k], &q->outline, k, 0, &in);
+    int32_t inner[RLF_BATCH];
+    rlf_kernel_way_in(&job->way, &q->at, 0, &in, inner);
+    for (int32_t k = 0; k < RLF_BATCH; k++) {
         in.moves[k] = 1.0f;
     }
-    rlf_kernel_outline_near(&q->outline, &in, &normals);
+    rlf_kernel_outline_near(&q->at.outline, &in, &normals);
     for (int32_t k = 0; k < q->count; k++) {
-        ptrdiff_t i = (ptrdiff_t)q->y[k] * job->way.width + q->x[k];
+        ptrdiff_t i = (ptrdiff_t)q->at.y[k] * job->way.width + q->at.x[k];
         if (normals.z[k] != 0.0f) {
             job->turned[0][i] = normals.x[k];
             job->turned[1][i] = normals.y[k];
@@ -102,26 +83,65 @@ static void turn_found(const turn_job *job, turn_queue *q)
     q->count = 0;
 }
 
+/* Pixel (x, y), whose outline is `distance` pixels off in a direction. */
+static void push_found(const turn_job *job, turn_queue *found, int32_t x, int32_t y, float out_x,
+                       float out_y, float distance)
+{
+    int32_t lane = found->count++;
+    found->at.x[lane] = x;
+    found->at.y[lane] = y;
+    found->at.outline.x[lane] = out_x;
+    found->at.outline.y[lane] = out_y;
+    found->at.outline.distance[lane] = distance;
+    if (found->count == RLF_BATCH) {
+        turn_found(job, found);
+    }
+}
+
+/* The outline in the direction that the pixel's normal leans to. */
+static void find_by_normal(const turn_job *job, int32_t x, int32_t y, turn_queue *found)
+{
+    const rlf_way *way = &job->way;
+    ptrdiff_t i = (ptrdiff_t)y * way->width + x;
+    float nx = way->normal[0][i], ny = way->normal[1][i], nz = way->normal[2][i];
+    float rx = way->ray_x[i], ry = way->ray_y[i], square = 1.0f + rx * rx + ry * ry;
+    float along = (nx * rx + ny * ry + nz) / square;
+    float lean_x = nx - along * rx, lean_y = ny - along * ry;
+    float lean = sqrtf(lean_x * lean_x + lean_y * lean_y);
+    if (!(lean > LEAST_LEAN)) {
+        return;
+    }
+    float out_x = lean_x / lean, out_y = lean_y / lean;
+    float distance = steps_out(way, x, y, out_x, out_y);
+    if (distance > 0.0f) {
+        push_found(job, found, x, y, out_x, out_y, distance);
+    }
+}
+
 static void find_outlines(const turn_job *job, turn_queues *queues)
 {
-    turn_queue *q = &queues->near, *found = &queues->found;
-    rlf_kernel_outline_find(&queues->depth, &q->outline);
+    turn_queue *q = &queues->near;
+    const rlf_outlines *outline = &q->at.outline;
+    rlf_kernel_outline_find(&queues->depth, &q->at.outline);
     for (int32_t k = 0; k < q->count; k++) {
-        bool is_found = q->outline.distance[k] > 0.0f;
-        if (!is_found && !find_by_normal(&job->way, q, k, &q->outline)) {
-            continue;
-        }
-        int32_t lane = found->count++;
-        found->x[lane] = q->x[k];
-        found->y[lane] = q->y[k];
-        found->outline.x[lane] = q->outline.x[k];
-        found->outline.y[lane] = q->outline.y[k];
-        found->outline.distance[lane] = q->outline.distance[k];
-        if (found->count == RLF_BATCH) {
-            turn_found(job, found);
+        if (outline->distance[k] > 0.0f) {
+            push_found(job, &queues->found, q->at.x[k], q->at.y[k], outline->x[k], outline->y[k],
+                       outline->distance[k]);
+        } else {
+            find_by_normal(job, q->at.x[k], q->at.y[k], &queues->found);
         }
     }
     q->count = 0;
+}
+
+/* Whether something is behind pixel i at the ends of its window, without which no outline is found
+ * there. */
+static bool ends_in_window(const rlf_way *way, ptrdiff_t i)
+{
+    const float *z = way->depth + i;
+    const ptrdiff_t across = RLF_WINDOW_ABOUT, down = across * way->width;
+    float behind = z[0] * (1.0f + RLF_OUTLINE_JUMP);
+    return (z[-across] > behind) | (z[across] > behind) | (z[-down] > behind) | (z[down] > behind);
 }
 
 /* Pixels of row y that something in front may have been about. */
@@ -153,14 +173,19 @@ static void mark_row(const turn_job *job, int32_t y, rlf_span span, uint8_t *mar
 static void turn_row(const turn_job *job, int32_t y, turn_queues *queues)
 {
     const rlf_way *way = &job->way;
-    uint8_t *mark = job->mark + (ptrdiff_t)y * way->width;
+    ptrdiff_t row = (ptrdiff_t)y * way->width;
+    uint8_t *mark = job->mark + row;
     turn_queue *q = &queues->near;
     rlf_span span = span_about(job, y);
     mark_row(job, y, span, mark);
     for (int32_t x = span.x0; (x = rlf_kernel_next_mark(mark, x, span.x1)) < span.x1; x++) {
+        if (!ends_in_window(way, row + x)) {
+            find_by_normal(job, x, y, &queues->found);
+            continue;
+        }
         int32_t lane = q->count++;
-        q->x[lane] = x;
-        q->y[lane] = y;
+        q->at.x[lane] = x;
+        q->at.y[lane] = y;
         rlf_windows_read(way->depth, way->width, way->height, x, y, lane, &queues->depth);
         if (q->count == RLF_BATCH) {
             find_outlines(job, queues);
