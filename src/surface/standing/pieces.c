@@ -15,7 +15,7 @@ enum {
 
 static const float bent_sine = 0.2f;    /* 12 degrees: more is a crease ... */
 static const float even_m = 0.003f;     /* ... unless it is noise */
-static const float step_m = 0.04f;      /* of depth between neighbours: one hides the other */
+static const float step_m = 0.04f;      /* more than the neighbour's plane: one hides the other */
 static const float beside_m = 0.02f;    /* off the plane of the neighbour */
 static const float flat_length = 0.95f; /* of the mean of unit normals: more is one face */
 
@@ -137,6 +137,19 @@ static float off_plane(const rlf_grid *grid, const float *depth, float *const no
     return rlf_kernel_abs(off);
 }
 
+/* Whether pixel i is as deep as its neighbour j, or as that one's plane, which may be seen at a low
+ * angle. */
+static bool goes_on(const rlf_grid *grid, const float *depth, float *const normal[3], ptrdiff_t i,
+                    ptrdiff_t j)
+{
+    const float least_slope = 0.05f;
+    float facing = -(normal[0][j] * grid->ray_x[i] + normal[1][j] * grid->ray_y[i] + normal[2][j]);
+    float own = -(normal[0][j] * grid->ray_x[j] + normal[1][j] * grid->ray_y[j] + normal[2][j]);
+    float plane = facing > least_slope ? depth[j] * own / facing : depth[j];
+    return rlf_kernel_abs(depth[j] - depth[i]) <= step_m ||
+           rlf_kernel_abs(plane - depth[i]) <= step_m;
+}
+
 /* The piece, of those beside a pixel at a crease, whose plane it is nearest to. */
 static uint8_t piece_beside(const rlf_grid *grid, const float *depth, float *const normal[3],
                             const uint8_t *piece, int32_t x, int32_t y)
@@ -148,7 +161,7 @@ static uint8_t piece_beside(const rlf_grid *grid, const float *depth, float *con
     for (int k = 0; k < 4; k++) {
         int32_t u = x + ways[k][0], v = y + ways[k][1];
         ptrdiff_t j = (ptrdiff_t)v * grid->width + u;
-        if (!is_in(grid, u, v) || piece[j] == 0 || rlf_kernel_abs(depth[j] - depth[i]) > step_m) {
+        if (!is_in(grid, u, v) || piece[j] == 0 || !goes_on(grid, depth, normal, i, j)) {
             continue;
         }
         float off = off_plane(grid, depth, normal, i, j);
