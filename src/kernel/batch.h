@@ -106,10 +106,12 @@ void rlf_kernel_gap_patch(const rlf_gap_patch *restrict patch, rlf_gaps *restric
 
 /* ---- fill_batch.c: depth of holes ---- */
 
-/* The two ends of each pixel's gap: their depths, and the steps to them. */
+/* The two ends of each pixel's gap: their depths, the steps to them, and the share of its depth by
+ * which what is about the pixel may differ from an end to be of its side. */
 typedef struct rlf_gap_ends {
     float before[RLF_BATCH], after[RLF_BATCH];
     float to_before[RLF_BATCH], to_after[RLF_BATCH];
+    float most_apart[RLF_BATCH];
 } rlf_gap_ends;
 
 /* What a depth is: between two ends of one surface, or that of the nearer or the farther side of an

@@ -104,7 +104,8 @@ RLF_KERNEL_PART float continue_side(const side *restrict s, int32_t i, float end
     return end + (z < -limit ? -limit : z);
 }
 
-/* The side of the pixels that each hole pixel is on, and the range of their depths. */
+/* The side of the pixels that each hole pixel is on, and the range of their depths: a third
+ * surface, as at corners, is of no side. */
 typedef struct choice {
     float end[RLF_BATCH], least[RLF_BATCH], most[RLF_BATCH];
     int32_t is_far[RLF_BATCH];
@@ -122,9 +123,11 @@ RLF_KERNEL_PART void choose_sides(const rlf_gap_ends *restrict ends, const float
         int32_t by_votes = (votes[i] > 0.0f ? 1 : 0) ^ before_is_near ^ 1;
         int32_t first = tie != 0 ? by_steps : by_votes;
         int32_t is_far = first ^ before_is_near;
-        out->end[i] = first != 0 ? before : after;
-        out->least[i] = is_far != 0 ? middle : 0.0f;
-        out->most[i] = is_far != 0 ? RLF_KERNEL_NOTHING : middle;
+        float end = first != 0 ? before : after;
+        float apart = ends->most_apart[i] * end, least = end - apart, most = end + apart;
+        out->end[i] = end;
+        out->least[i] = is_far != 0 && least < middle ? middle : least;
+        out->most[i] = is_far == 0 && most > middle ? middle : most;
         out->is_far[i] = is_far;
     }
 }

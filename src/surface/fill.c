@@ -5,10 +5,11 @@
  * planes) is interpolated. When there is an edge between them, drivers have taken a band away whose
  * middle is the edge, ragged by a pixel on both sides. The valid pixels about the hole pixel vote,
  * near ones more, for the side that it belongs to: that averages the raggedness along the edge. The
- * depth is that side's plane, least squares in depth, which is straight enough within two pixels,
- * or the background's own where that goes on there. A gap between two near ends that is wider than
- * a driver's band shows the background in its middle; one between two far ends may hide a thin
- * thing that is expected there (past/lost.c). The outermost pixels, which drivers' filters leave
+ * depth is that side's plane, least squares in depth, which is straight enough within two pixels
+ * (where nothing moves without a third surface, as there is at corners), or the background's own
+ * where that goes on there. A gap between two near ends that is wider than a driver's band shows
+ * the background in its middle; one between two far ends may hide a thin thing that is expected
+ * there (past/lost.c). The outermost pixels, which drivers' filters leave
  * empty, go on as the two inside of them. A hole about as wide as the widest that is filled is
  * filled in some rows and not in others: what is left of it then is closed. */
 #include "surface/color_side.h"
@@ -20,6 +21,9 @@
 
 /* Share of the depth, from a side's end to a hole pixel. */
 static const float MOST_CHANGE = 0.05f;
+
+/* The same for what moves: all that is on its side of the middle. Arms and trunks are round. */
+static const float MOVING_CHANGE = 1e6f;
 
 typedef struct fill_job {
     const rlf_reconstruct *stage;
@@ -169,6 +173,7 @@ static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps
     q->ends.after[lane] = at[(ptrdiff_t)gaps->to_after[k] * step];
     q->ends.to_before[lane] = (float)gaps->to_before[k];
     q->ends.to_after[lane] = (float)gaps->to_after[k];
+    q->ends.most_apart[lane] = rlf_hold_may_move(job->stage, x, y) ? MOVING_CHANGE : MOST_CHANGE;
     const int32_t to_ends[2] = {gaps->to_before[k], gaps->to_after[k]};
     float before = q->ends.before[lane], after = q->ends.after[lane];
     q->lost[lane] = rlf_past_find_lost(job->stage, at - job->depth, step, to_ends,

@@ -39,8 +39,11 @@ void rlf_steady_reset(rlf_steady *steady, int32_t count);
 void rlf_bridge_undo(const rlf_reconstruct *stage, const float *seen, float *smooth,
                      float *const normal[3]);
 
-/* ---- normals/settle.c; what follows is not called when steady.settled is NULL ---- */
+/* ---- normals/settle.c ---- */
 bool rlf_settle_is_wanted(const rlf_reconstruct_def *def);
+/* What frames agree on at pixel i; NULL = nothing. */
+const rlf_settled *rlf_settle_at(const rlf_reconstruct *stage, ptrdiff_t i);
+/* What follows is not called when steady.settled is NULL. */
 /* Normals of the background's watched pixels become those that most frames agree on. After
  * rlf_background_update. */
 void rlf_settle_normals(const rlf_reconstruct *stage, const rlf_slot *slot);

@@ -136,6 +136,7 @@ static void fill_column(float right, float out[RLF_BATCH], uint8_t kind[RLF_BATC
         ends.before[i] = 3.0f;
         ends.after[i] = right;
         ends.to_before[i] = ends.to_after[i] = 1.0f;
+        ends.most_apart[i] = 0.05f;
     }
     rlf_kernel_fill_votes(&depth, &ends, votes);
     rlf_kernel_fill_batch(&depth, &ends, votes, out, kind);
@@ -156,6 +157,34 @@ static void fill_batch_continues_the_side_with_more_votes(void **state)
     assert_int_equal(kind[8], RLF_FILL_BETWEEN);
     double off = out[8] - 2.0 / (1.0 / 3.0 + 1.0 / 3.03);
     assert_true(off < 1e-6 && off > -1e-6);
+}
+
+/* A box's front at 2 m before a wall at 4 m, and another one's, at 2.5 m or 1.6 m, in the rows
+ * above that the hole is in: the front goes on as it is. */
+static void fill_batch_leaves_a_third_surface_out(void **state)
+{
+    (void)state;
+    rlf_windows depth;
+    rlf_gap_ends ends;
+    float votes[RLF_BATCH], out[RLF_BATCH];
+    uint8_t kind[RLF_BATCH];
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        for (int32_t k = 0; k < RLF_WINDOW_SIZE; k++) {
+            float third = i % 2 == 0 ? 2.5f : 1.6f;
+            depth.at[k][i] = k < 5 ? third : k % 5 < 3 ? 2.0f : 4.0f;
+        }
+        depth.at[12][i] = 0.0f;
+        ends.before[i] = 2.0f;
+        ends.after[i] = 4.0f;
+        ends.to_before[i] = ends.to_after[i] = 1.0f;
+        ends.most_apart[i] = 0.05f;
+    }
+    rlf_kernel_fill_votes(&depth, &ends, votes);
+    rlf_kernel_fill_batch(&depth, &ends, votes, out, kind);
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        assert_int_equal(kind[i], RLF_FILL_NEAR);
+        assert_true(out[i] == 2.0f);
+    }
 }
 
 /* Half of what is about the pixels lies a metre behind: the outline is at its border. */
@@ -291,6 +320,7 @@ int main(void)
         cmocka_unit_test(recall_batch_is_its_definition),
         cmocka_unit_test(gap_patch_finds_the_shortest_gap),
         cmocka_unit_test(fill_batch_continues_the_side_with_more_votes),
+        cmocka_unit_test(fill_batch_leaves_a_third_surface_out),
         cmocka_unit_test(outlines_point_to_what_is_behind),
         cmocka_unit_test(windows_near_an_outline_are_moved_out),
         cmocka_unit_test(ways_end_with_their_surface),

@@ -113,6 +113,35 @@ static void noise_does_not_turn_normals(void **state)
     assert_true(1000 * all.turned < all.count);
 }
 
+/* A board before a wall, whose outermost column showed the wall while the background was learnt,
+ * and is dropped in two frames of three from then on. */
+static void the_background_has_the_side_that_is_settled(void **state)
+{
+    enum { EDGE = 96, LEARNT = 5, LAST = 2 * SETTLED };
+    seen_view *v = *state;
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &v->rig);
+    rlf_reconstruct *stage = seen_view_stage(&def);
+    const rlf_surface *s = NULL;
+    for (int32_t t = 0; t < LAST; t++) {
+        for (int i = 0; i < COUNT; i++) {
+            bool is_last = i % WIDTH == EDGE, is_board = i % WIDTH < EDGE + (t >= LEARNT);
+            bool is_dropped = is_last && t >= LEARNT && t % 3 != 0;
+            v->seen[i] = is_dropped ? 0.0f : seen_view_noisy(v, is_board ? 2.0f : 3.0f);
+        }
+        s = seen_view_process(v, stage, t);
+    }
+    int wrong = 0;
+    for (int32_t y = 8; y < HEIGHT - 8; y++) {
+        for (int32_t x = EDGE - 2; x < EDGE + 4; x++) {
+            float off = s->background_depth[y * WIDTH + x] - (x > EDGE ? 3.0f : 2.0f);
+            wrong += off > 0.1f || off < -0.1f;
+        }
+    }
+    print_message("%d on the wrong side\n", wrong);
+    assert_true(wrong < HEIGHT / 10);
+    rlf_reconstruct_destroy(&stage);
+}
+
 /* A corner is three pixels off its place, nearer than a jump of depth: soon it is as right as one
  * that was there from the start. */
 static void what_has_changed_is_believed(void **state)
@@ -157,6 +186,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(noise_does_not_turn_normals),
+        cmocka_unit_test(the_background_has_the_side_that_is_settled),
         cmocka_unit_test(what_has_changed_is_believed),
         cmocka_unit_test(what_stands_in_front_has_its_own),
     };

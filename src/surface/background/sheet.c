@@ -25,6 +25,9 @@ enum {
 /* Cosine: the angle to another normal that is no noise. */
 static const float SHARP = 0.99f;
 
+/* Share of the depth, from one side of an outline to the other. */
+static const float SIDE = 0.04f;
+
 typedef struct rectangle {
     int32_t x0, y0, x1, y1;
 } rectangle;
@@ -92,22 +95,53 @@ static bool is_of_model(const rlf_reconstruct *stage, const float *depth, int32_
     return z > 0.0f && depth[i] > 0.0f && rlf_kernel_abs(depth[i] - z) <= gate;
 }
 
-/* Normal i of `from`, where it is known and another one than that of `to`. */
-static void take_normal(float *const from[3], int32_t i, float *const to[3])
+/* A normal, where it is known and another one than that of pixel i of `to`. */
+static void take_normal(const float normal[3], int32_t i, float *const to[3])
 {
     float cosine = 0.0f, size = 0.0f;
     for (int k = 0; k < 3; k++) {
-        cosine += from[k][i] * to[k][i];
-        size += from[k][i] * from[k][i];
+        cosine += normal[k] * to[k][i];
+        size += normal[k] * normal[k];
     }
     for (int k = 0; k < 3 && size > 0.5f && cosine < SHARP; k++) {
-        to[k][i] = from[k][i];
+        to[k][i] = normal[k];
+    }
+}
+
+static void take_normal_of(float *const from[3], int32_t i, float *const to[3])
+{
+    const float normal[3] = {from[0][i], from[1][i], from[2][i]};
+    take_normal(normal, i, to);
+}
+
+static bool is_near(float depth, float other)
+{
+    return rlf_kernel_abs(depth - other) < SIDE * other;
+}
+
+/* The model's mean does not tell on which side of an outline a pixel is: it is of whatever was seen
+ * first. What frames agree on does, where this frame agrees, too, or something hides it. */
+static void take_sides(const rlf_reconstruct *stage, const rlf_slot *slot, const rlf_sheet *old,
+                       rlf_sheet *sheet, rectangle r)
+{
+    for (int32_t y = r.y0; y < r.y1 && slot != NULL; y++) {
+        for (int32_t x = r.x0; x < r.x1; x++) {
+            int32_t i = y * stage->grid.width + x;
+            const rlf_settled *settled = rlf_settle_at(stage, i);
+            if (settled == NULL || !(sheet->depth[i] > 0.0f) ||
+                is_near(sheet->depth[i], settled->depth)) {
+                continue;
+            }
+            bool is_hidden = slot->foreground[i] != 0;
+            const float *told = !is_hidden ? slot->depth : old != NULL ? old->depth : sheet->depth;
+            sheet->depth[i] = is_near(told[i], settled->depth) ? settled->depth : sheet->depth[i];
+        }
     }
 }
 
 /* What a frame knows of edges, the model's depth alone does not tell: creases are sharp there, and
- * sides that nothing was seen of have their normals. A pixel whose normal there is another one
- * takes it; one that something hides keeps what it had. */
+ * sides that nothing was seen of have their normals. A pixel whose normal there, or the one that
+ * frames agree on, is another one takes it; one that something hides keeps what it had. */
 static void sharpen(const rlf_reconstruct *stage, const rlf_slot *slot, const rlf_sheet *old,
                     rlf_sheet *sheet, rectangle r)
 {
@@ -120,10 +154,13 @@ static void sharpen(const rlf_reconstruct *stage, const rlf_slot *slot, const rl
         for (int32_t x = r.x0; x < r.x1; x++) {
             int32_t i = y * stage->grid.width + x;
             bool is_seen = slot->foreground[i] == 0 && is_of_model(stage, slot->depth, i);
-            if (is_seen) {
-                take_normal(slot->normal, i, sheet->normal);
+            const rlf_settled *settled = rlf_settle_at(stage, i);
+            if (settled != NULL && is_near(sheet->depth[i], settled->depth)) {
+                take_normal(settled->normal, i, sheet->normal);
+            } else if (is_seen) {
+                take_normal_of(slot->normal, i, sheet->normal);
             } else if (old != NULL && is_of_model(stage, old->depth, i)) {
-                take_normal(old->normal, i, sheet->normal);
+                take_normal_of(old->normal, i, sheet->normal);
             }
         }
     }
@@ -153,7 +190,9 @@ static void make_tile(rlf_reconstruct *stage, const rlf_slot *slot, rlf_sheet *s
     for (int k = 0; k < 3; k++) {
         copy_part(r, crop[3 + k], wide.x0, wide.y0, width, sheet->normal[k], 0, 0, grid->width);
     }
-    sharpen(stage, slot, &stage->background.sheets[stage->background.newest], sheet, r);
+    const rlf_sheet *newest = &stage->background.sheets[stage->background.newest];
+    take_sides(stage, slot, newest, sheet, r);
+    sharpen(stage, slot, newest, sheet, r);
     tile_is_made(&stage->background, tile, stage->background.changes[tile] >= CHANGES);
 }
 
@@ -205,6 +244,7 @@ static void make_all(rlf_reconstruct *stage, const rlf_slot *slot, rlf_sheet *sh
     rlf_normals_job normals = rlf_normals_job_make(stage, sheet->depth, sheet->normal);
     rlf_normals_compute(&normals);
     const rectangle all = {0, 0, stage->grid.width, stage->grid.height};
+    take_sides(stage, slot, NULL, sheet, all);
     sharpen(stage, slot, NULL, sheet, all);
     for (int32_t tile = 0; tile < tiles; tile++) {
         tile_is_made(background, tile, true);

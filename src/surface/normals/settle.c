@@ -23,6 +23,7 @@ static const float MOST_APART = 0.03f; /* share of the depth, of one surface */
 
 enum {
     MOST_VOTES = 32, /* a second: as long may what was stay */
+    LEAST_VOTES = 3, /* for the published background */
     /* A pixel's mark is how many frames it is still watched for. */
     MOST_IDLE = 8, /* frames in a row that gave no reason to */
     DUE = 128,     /* the newest frame gives one */
@@ -208,6 +209,14 @@ void rlf_settle_normals(const rlf_reconstruct *stage, const rlf_slot *slot)
                       .mark = stage->steady.mark,
                       .overruled = stage->steady.overruled};
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, settle_rows, &job);
+}
+
+const rlf_settled *rlf_settle_at(const rlf_reconstruct *stage, ptrdiff_t i)
+{
+    const rlf_steady *steady = &stage->steady;
+    bool any =
+        steady->settled != NULL && steady->mark[i] != 0 && steady->settled[i].votes >= LEAST_VOTES;
+    return any ? &steady->settled[i] : NULL;
 }
 
 void rlf_settle_watch(const rlf_reconstruct *stage, ptrdiff_t first, const uint8_t *marks,
