@@ -145,17 +145,61 @@ static bool agrees(const shape_search *search, const face faces[2], const rlf_st
     return before <= before_share * search->count && on >= box_share * search->count;
 }
 
-/* Where a pixel of the piece is along the box's axes; false for pixels of others. */
-static bool read_along(const rlf_reconstruct *stage, int32_t piece, ptrdiff_t i,
-                       const rlf_standing_solid *box, double at[3])
+/* Least and most of what one pixel covers, along the box's axes. */
+typedef struct pixel_span {
+    double low[3], high[3];
+} pixel_span;
+
+/* The face that p is on. */
+static const face *face_at(const face faces[2], rlf_vec3 p)
 {
-    const rlf_grid *grid = &stage->grid;
-    double z = stage->background.thick.depth[i];
-    rlf_vec3 p = {z * grid->ray_x[i], z * grid->ray_y[i], z};
-    for (int k = 0; k < 3; k++) {
-        at[k] = rlf_dot(box->axis[k], p);
+    double off[2];
+    for (int k = 0; k < 2; k++) {
+        off[k] = rlf_dot(faces[k].normal, p) - faces[k].offset;
+        off[k] = off[k] < 0.0 ? -off[k] : off[k];
     }
-    return stage->background.thick.piece[i] == piece;
+    return &faces[off[1] < off[0]];
+}
+
+/* Whether another piece, or the image's border, is beside pixel (x, y). */
+static bool is_rim(const rlf_reconstruct *stage, int32_t x, int32_t y)
+{
+    ptrdiff_t width = stage->grid.width;
+    const uint8_t *piece = stage->background.thick.piece + y * width + x;
+    return x == 0 || y == 0 || x + 1 == width || y + 1 == stage->grid.height ||
+           piece[-1] != piece[0] || piece[1] != piece[0] || piece[-width] != piece[0] ||
+           piece[width] != piece[0];
+}
+
+/* What pixel (x, y) covers of its face, at a rim: of one seen at a low angle centimetres. */
+static pixel_span span_of(const rlf_reconstruct *stage, int32_t x, int32_t y, const face faces[2],
+                          const rlf_standing_solid *box)
+{
+    const double least_slope = 0.05;
+    const rlf_grid *grid = &stage->grid;
+    ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+    double z = stage->background.thick.depth[i];
+    rlf_vec3 ray = {grid->ray_x[i], grid->ray_y[i], 1.0}, p = rlf_scale(ray, z);
+    pixel_span span;
+    for (int k = 0; k < 3; k++) {
+        span.low[k] = span.high[k] = rlf_dot(box->axis[k], p);
+    }
+    if (!is_rim(stage, x, y)) {
+        return span;
+    }
+    const face *on = face_at(faces, p);
+    for (int corner = 0; corner < 4; corner++) {
+        rlf_vec3 r = {ray.x + (corner % 2 - 0.5) / grid->camera.fx,
+                      ray.y + (corner / 2 - 0.5) / grid->camera.fy, 1.0};
+        double slope = -rlf_dot(on->normal, r);
+        double far = slope > least_slope ? -rlf_dot(on->normal, p) / slope : z;
+        for (int k = 0; k < 3; k++) {
+            double at = far * rlf_dot(box->axis[k], r);
+            span.low[k] = rlf_min(span.low[k], at);
+            span.high[k] = rlf_max(span.high[k], at);
+        }
+    }
+    return span;
 }
 
 /* The bin that holds the few-th from the begin of `bins`, or from their end. */
@@ -169,26 +213,32 @@ static int32_t bin_of(const int32_t bins[BINS], int32_t few, bool from_end)
     return from_end ? BINS - 1 - k : k;
 }
 
+static int32_t bin_at(double at, double low, double high)
+{
+    return (int32_t)rlf_clamp((at - low) / rlf_max(high - low, 1e-6) * BINS, 0.0, BINS - 1.0);
+}
+
 /* Ends of the piece's pixels along the axes, but for a few outliers. */
-static void find_ends(const rlf_reconstruct *stage, int32_t piece, rlf_standing_solid *box)
+static void find_ends(const rlf_reconstruct *stage, int32_t piece, const face faces[2],
+                      rlf_standing_solid *box)
 {
     const rlf_rect *w = &stage->background.thick.window[piece];
-    int32_t bins[3][BINS] = {{0}}, count = 0;
-    double at[3], low[3] = {1e9, 1e9, 1e9}, high[3] = {-1e9, -1e9, -1e9};
+    int32_t bins[2][3][BINS] = {{{0}}}, count = 0;
+    double low[3] = {1e9, 1e9, 1e9}, high[3] = {-1e9, -1e9, -1e9};
     for (int pass = 0; pass < 2; pass++) {
         for (int32_t y = w->y0; y < w->y1; y++) {
             for (int32_t x = w->x0; x < w->x1; x++) {
-                ptrdiff_t i = (ptrdiff_t)y * stage->grid.width + x;
-                if (!read_along(stage, piece, i, box, at)) {
+                if (stage->background.thick.piece[(ptrdiff_t)y * stage->grid.width + x] != piece) {
                     continue;
                 }
+                const pixel_span at = span_of(stage, x, y, faces, box);
                 for (int k = 0; k < 3 && pass == 0; k++) {
-                    low[k] = rlf_min(low[k], at[k]);
-                    high[k] = rlf_max(high[k], at[k]);
+                    low[k] = rlf_min(low[k], at.low[k]);
+                    high[k] = rlf_max(high[k], at.high[k]);
                 }
                 for (int k = 0; k < 3 && pass == 1; k++) {
-                    double share = (at[k] - low[k]) / rlf_max(high[k] - low[k], 1e-6);
-                    bins[k][(int32_t)rlf_clamp(share * BINS, 0.0, BINS - 1.0)]++;
+                    bins[0][k][bin_at(at.low[k], low[k], high[k])]++;
+                    bins[1][k][bin_at(at.high[k], low[k], high[k])]++;
                 }
                 count += pass;
             }
@@ -197,8 +247,8 @@ static void find_ends(const rlf_reconstruct *stage, int32_t piece, rlf_standing_
     for (int k = 0; k < 3; k++) {
         double size = (high[k] - low[k]) / BINS;
         int32_t few = (int32_t)(end_share * count);
-        box->low[k] = low[k] + size * bin_of(bins[k], few, false);
-        box->high[k] = low[k] + size * (bin_of(bins[k], few, true) + 1);
+        box->low[k] = low[k] + size * bin_of(bins[0][k], few, false);
+        box->high[k] = low[k] + size * (bin_of(bins[1][k], few, true) + 1);
     }
 }
 
@@ -288,7 +338,7 @@ static bool find_box(const rlf_reconstruct *stage, int32_t piece, const shape_se
     out->axis[0] = faces[0].normal;
     out->axis[2] = rlf_normalize(rlf_cross(faces[0].normal, faces[1].normal));
     out->axis[1] = rlf_cross(out->axis[2], out->axis[0]);
-    find_ends(stage, piece, out);
+    find_ends(stage, piece, faces, out);
     out->is_open = search->is_cut;
     return agrees(search, faces, out) && !is_seen_through(stage, piece, out);
 }
