@@ -17,11 +17,11 @@ static const double frame_s = 1.0 / 30.0;
 /* Its right shoulder is to the camera's right when the angle is 0. */
 static rlf_torso usual(double angle)
 {
-    double variance[RLF_TORSO_UNKNOWNS], of_leg[RLF_LEG_UNKNOWNS];
+    double of_leg[RLF_LEG_UNKNOWNS];
     rlf_torso t = {.label = 1, .head = {0.1, -0.4, 2.8}};
     t.side_x = rlf_cos(angle);
     t.side_z = rlf_sin(angle);
-    rlf_torso_usual(t.unknown, variance);
+    rlf_torso_usual(t.unknown, t.doubt);
     for (int leg = 0; leg < 2; leg++) {
         rlf_leg_usual(&t, leg == 0 ? -1.0 : 1.0, t.leg[leg].unknown, of_leg);
     }

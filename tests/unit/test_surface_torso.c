@@ -14,14 +14,10 @@
 
 static rlf_torso usual(double angle)
 {
-    double variance[RLF_TORSO_UNKNOWNS];
     rlf_torso t = {.label = 1, .head = {0.2, -0.5, 2.6}};
     t.side_x = rlf_cos(angle);
     t.side_z = rlf_sin(angle);
-    rlf_torso_usual(t.unknown, variance);
-    for (int k = 0; k < RLF_TORSO_UNKNOWNS; k++) {
-        t.doubt[k][k] = variance[k];
-    }
+    rlf_torso_usual(t.unknown, t.doubt);
     return t;
 }
 
@@ -109,6 +105,64 @@ static void slopes_are_derivatives(void **state)
     assert_true(near > 100);
 }
 
+/* The place where a row of rays at slope y leaves the trunk's picture, towards -1 or 1; false when
+ * it misses the trunk. */
+static bool find_outline(const rlf_torso *t, double y, double towards, rlf_vec3 *out)
+{
+    rlf_torso_cut cut[2];
+    double inside = t->head.x / t->head.z, outside = inside + 0.15 * towards, z = 0.0;
+    rlf_torso_cut_ray(t, inside, y, cut);
+    if (!(cut[0].enter < cut[0].leave)) {
+        return false;
+    }
+    for (int i = 0; i < 40; i++) {
+        double x = 0.5 * (inside + outside);
+        rlf_torso_cut_ray(t, x, y, cut);
+        bool is_hit = cut[0].enter < cut[0].leave;
+        inside = is_hit ? x : inside;
+        outside = is_hit ? outside : x;
+        z = is_hit ? cut[0].enter : z;
+    }
+    *out = rlf_vec3_make(z * inside, z * y, z);
+    return true;
+}
+
+/* A place on the trunk's outline is on its surface, even where it was seen too near; and every
+ * slope is what the distance does. */
+static void outlines_are_on_the_surface(void **state)
+{
+    (void)state;
+    const double step = 1e-6;
+    int found = 0;
+    for (int i = 0; i < 200; i++) {
+        rlf_torso t = other(0.37 * i);
+        rlf_vec3 p;
+        rlf_torso_touch here, there;
+        double moved_m;
+        if (!find_outline(&t, -0.03 + 0.0007 * i, i % 2 == 0 ? 1.0 : -1.0, &p)) {
+            continue;
+        }
+        p = rlf_scale(p, 0.99);
+        if (!rlf_torso_touch_rim(&t, p, &here, &moved_m)) {
+            continue;
+        }
+        found++;
+        assert_true(fabs(here.distance) < 0.001 && fabs(moved_m - 0.01 * p.z) < 0.02);
+        for (int k = 0; k < RLF_TORSO_UNKNOWNS; k++) {
+            rlf_torso moved = t;
+            moved.unknown[k] += k == RLF_TORSO_TURN ? 0.0 : step;
+            if (k == RLF_TORSO_TURN) {
+                moved.side_x -= step * t.side_z;
+                moved.side_z += step * t.side_x;
+            }
+            assert_true(rlf_torso_touch_rim(&moved, p, &there, &moved_m));
+            double slope = (there.distance - here.distance) / step;
+            assert_true(k == RLF_TORSO_DROP || fabs(slope - here.slope[k]) < 0.05);
+        }
+    }
+    assert_true(found > 100);
+}
+
 enum { MOST = 600 };
 
 /* What the camera sees of the torso, every 3 cm, and of an arm that hangs before it. */
@@ -192,6 +246,32 @@ static void a_turn_is_followed(void **state)
     assert_true(found.misfit < 0.5 && found.area_m2 > 0.1);
 }
 
+/* Of a trunk seen from the side, an arm before it, outlines tell how deep it is. */
+static void outlines_tell_the_depth(void **state)
+{
+    (void)state;
+    rlf_vec3 seen[MOST], rim[MOST];
+    rlf_torso truth = usual(1.5708), found = truth;
+    rlf_torso_points points = {.p = seen, .rim = rim, .area_m2 = 0.0009};
+    for (int k = 0; k < 3; k++) {
+        truth.unknown[RLF_TORSO_DEPTH + k] += 0.02;
+    }
+    points.count = see(&truth, true, seen);
+    for (double y = -0.2; y < 0.15; y += 0.01) {
+        for (int side = 0; side < 2; side++) {
+            points.rim_count +=
+                find_outline(&truth, y, side == 0 ? -1.0 : 1.0, &rim[points.rim_count]) ? 1 : 0;
+        }
+    }
+    for (int frame = 0; frame < 10; frame++) {
+        rlf_torso_improve(&found, &points, 2);
+    }
+    for (int k = 0; k < 3; k++) {
+        assert_true(fabs(found.unknown[RLF_TORSO_DEPTH + k] - truth.unknown[RLF_TORSO_DEPTH + k]) <
+                    0.005);
+    }
+}
+
 /* Few points leave a torso as it was, and say so. */
 static void nothing_is_made_of_nothing(void **state)
 {
@@ -212,7 +292,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rays_end_on_the_surface),    cmocka_unit_test(slopes_are_derivatives),
         cmocka_unit_test(the_far_side_is_found),      cmocka_unit_test(a_turn_is_followed),
-        cmocka_unit_test(nothing_is_made_of_nothing),
+        cmocka_unit_test(nothing_is_made_of_nothing), cmocka_unit_test(outlines_are_on_the_surface),
+        cmocka_unit_test(outlines_tell_the_depth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,14 +1,16 @@
 /* Which torsos there are, and where each is expected in the next frame. */
 #include "surface/thickness/legs.h"
 
-#include "math/observe.h"
+#include "math/inverse.h"
 
 #include <math.h>
 
 enum {
+    N = RLF_TORSO_UNKNOWNS,
     MOST_POINTS = 400,
     MOST_PLACES = 900,
     MOST_RIM = 400,
+    MOST_TRUNK_RIM = 200,
     DIRECTIONS = 8,
     FIRST_PASSES = 5,
     PASSES = 2
@@ -23,7 +25,7 @@ static const double odd_share = 0.01; /* misfit of a torso that is one deviation
  * seem to change as other parts of them are seen. */
 static const double turn_wander = 0.44, drop_wander = 0.016, way_wander = 0.002,
                     measure_wander = 0.001;
-static const double remind_s = 2.0; /* measures are drawn to the usual ones, once in so long */
+static const double remind_s = 4.0; /* measures are drawn to the usual ones, once in so long */
 static const double spin_gain = 0.5, spin_s = 0.3; /* it dies down in so many seconds */
 
 void rlf_torsos_expect(rlf_torsos *torsos, double dt)
@@ -55,11 +57,11 @@ static double wander_of(int unknown)
 /* How well a torso fits, and how usual it is. */
 static double oddness(const rlf_torso *torso)
 {
-    double unknown[RLF_TORSO_UNKNOWNS], variance[RLF_TORSO_UNKNOWNS], sum = torso->misfit;
-    rlf_torso_usual(unknown, variance);
-    for (int k = 0; k < RLF_TORSO_UNKNOWNS; k++) {
+    double unknown[N], covariance[N][N], sum = torso->misfit;
+    rlf_torso_usual(unknown, covariance);
+    for (int k = 0; k < N; k++) {
         double off = k == RLF_TORSO_TURN ? 0.0 : torso->unknown[k] - unknown[k];
-        sum += odd_share * off * off / variance[k];
+        sum += odd_share * off * off / covariance[k][k];
     }
     return sum;
 }
@@ -70,14 +72,11 @@ static void begin(rlf_torso *torso, const rlf_torso_points *points)
     static const double cosine[DIRECTIONS] = {1.0, 0.92388,  0.70711,  0.38268,
                                               0.0, -0.38268, -0.70711, -0.92388};
     rlf_torso best = {.misfit = 1.0};
-    double least = INFINITY, variance[RLF_TORSO_UNKNOWNS];
+    double least = INFINITY;
     for (int q = 0; q < DIRECTIONS; q++) {
         rlf_torso one = {.label = torso->label, .head = torso->head, .side_x = cosine[q]};
         one.side_z = sqrt(1.0 - cosine[q] * cosine[q]);
-        rlf_torso_usual(one.unknown, variance);
-        for (int k = 0; k < RLF_TORSO_UNKNOWNS; k++) {
-            one.doubt[k][k] = variance[k];
-        }
+        rlf_torso_usual(one.unknown, one.doubt);
         rlf_torso_improve(&one, points, FIRST_PASSES);
         double odd = oddness(&one);
         if (odd < least) {
@@ -89,15 +88,26 @@ static void begin(rlf_torso *torso, const rlf_torso_points *points)
 }
 
 /* Says again what people are usually like: what is seen of one has errors that do not average out.
- */
+ * The doubts' inverses add up. */
 static void remind(rlf_torso *torso, double dt)
 {
-    double usual[RLF_TORSO_UNKNOWNS], variance[RLF_TORSO_UNKNOWNS];
-    rlf_torso_usual(usual, variance);
-    for (int k = 0; k < RLF_TORSO_UNKNOWNS; k++) {
-        const math_observation reminder = {k, usual[k], variance[k] * remind_s / dt};
-        if (k != RLF_TORSO_TURN) {
-            math_observe(torso->unknown, &torso->doubt[0][0], RLF_TORSO_UNKNOWNS, &reminder);
+    double usual[N], reminder[N][N], off[N];
+    rlf_torso_usual(usual, reminder);
+    math_invert(&reminder[0][0], N);
+    math_invert(&torso->doubt[0][0], N);
+    reminder[RLF_TORSO_TURN][RLF_TORSO_TURN] = 0.0; /* nobody is turned in a usual way */
+    for (int r = 0; r < N; r++) {
+        off[r] = 0.0;
+        for (int c = 0; c < N; c++) {
+            reminder[r][c] *= dt / remind_s;
+            torso->doubt[r][c] += reminder[r][c];
+            off[r] += reminder[r][c] * (usual[c] - torso->unknown[c]);
+        }
+    }
+    math_invert(&torso->doubt[0][0], N);
+    for (int r = 0; r < N; r++) {
+        for (int c = 0; c < N; c++) {
+            torso->unknown[r] += torso->doubt[r][c] * off[c];
         }
     }
 }
@@ -149,7 +159,8 @@ static void follow_legs(const rlf_chord_job *job, rlf_torso *torso, double dt)
 void rlf_torso_follow(const rlf_chord_job *job, int32_t label, rlf_vec3 head)
 {
     rlf_vec3 seen[MOST_POINTS];
-    rlf_torso_points points = {.p = seen};
+    rlf_vec3 rim[MOST_TRUNK_RIM];
+    rlf_torso_points points = {.p = seen, .rim = rim};
     bool is_new;
     rlf_torso *torso = find_torso(job->torsos, label, &is_new);
     if (torso == NULL || torso->is_seen) {
@@ -157,7 +168,8 @@ void rlf_torso_follow(const rlf_chord_job *job, int32_t label, rlf_vec3 head)
     }
     double dt = torso->unseen_s;
     torso->head = head;
-    const rlf_torso_window window = {beside_m, rlf_torso_first, rlf_torso_last, MOST_POINTS, 0};
+    const rlf_torso_window window = {beside_m, rlf_torso_first, rlf_torso_last, MOST_POINTS,
+                                     MOST_TRUNK_RIM};
     rlf_torso_find_points(job, torso, &window, &points);
     if (is_new || (torso->misfit > most_misfit && torso->age_s > least_age_s)) {
         begin(torso, &points);

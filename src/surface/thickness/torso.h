@@ -43,8 +43,9 @@ extern const double rlf_torso_first, rlf_torso_last;
 extern const double rlf_torso_crotch;
 
 /* ---- thickness/torso_solid.c ---- */
-/* A torso as people are on average, and the variance of each unknown among them. */
-void rlf_torso_usual(double unknown[RLF_TORSO_UNKNOWNS], double variance[RLF_TORSO_UNKNOWNS]);
+/* A torso as people are on average, and the covariance of the unknowns among them. */
+void rlf_torso_usual(double unknown[RLF_TORSO_UNKNOWNS],
+                     double covariance[RLF_TORSO_UNKNOWNS][RLF_TORSO_UNKNOWNS]);
 /* The point in the torso's own axes: to the side and ahead (x, z) of the head's middle, and
  * downwards (y) from the shoulders' middle. */
 rlf_vec3 rlf_torso_place(const rlf_torso *torso, rlf_vec3 p);
@@ -52,6 +53,9 @@ rlf_vec3 rlf_torso_place(const rlf_torso *torso, rlf_vec3 p);
 rlf_vec3 rlf_torso_point(const rlf_torso *torso, rlf_vec3 place);
 /* False when the point is at the height of the head or of the legs. */
 bool rlf_torso_touch_at(const rlf_torso *torso, rlf_vec3 p, rlf_torso_touch *out);
+/* The same of a place on the trunk's outline, where the camera's ray touches it: how far the ray is
+ * from the surface, and how much farther than p its place there is. False at other heights. */
+bool rlf_torso_touch_rim(const rlf_torso *torso, rlf_vec3 p, rlf_torso_touch *out, double *moved_m);
 /* Cuts the trunk (out[0]), down to the crotch, and the shoulders (out[1]) by the ray (x, y, 1);
  * enter > leave where it misses. */
 void rlf_torso_cut_ray(const rlf_torso *torso, double x, double y, rlf_torso_cut out[2]);

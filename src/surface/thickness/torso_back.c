@@ -8,7 +8,8 @@ typedef enum limb { TRUNK, SHOULDERS, LEG, FOOT = LEG + 2 } limb;
 
 static const double most_misfit = 0.9, least_area_m2 = 0.03;
 static const double surface_m = 0.04, leg_surface_m = 0.03; /* what is so near the front is it */
-static const double own_share = 0.65;   /* of a part's back; the rest is what its front shows */
+/* Of a part's back; the rest is what its front shows. */
+static const double own_share = 0.85, own_leg_share = 0.72;
 static const double margin_m = 0.2;     /* by which a ray may rise or fall within a body */
 static const double most_doubt_m = 0.1; /* of a part's lower end: else it is anywhere */
 static const double fold_m = 0.02;      /* by which legs begin above the crotch */
@@ -144,7 +145,8 @@ static double leave_of(const cuts *c, double front, double back)
     double end = back;
     int32_t own = find_own(c, front);
     if (own >= 0) {
-        end += own_share * (c->item[own].leave - end);
+        double share = c->limb[own] == TRUNK ? own_share : own_leg_share;
+        end += share * (c->item[own].leave - end);
     }
     bool is_longer = true;
     while (is_longer) { /* each part goes on from another, perhaps */

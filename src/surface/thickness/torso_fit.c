@@ -15,7 +15,10 @@ enum { N = RLF_TORSO_UNKNOWNS, LEAST_POINTS = 40 };
 static const double outside_m = 0.015, inside_m = 0.05; /* scales of the weight */
 /* Patches of 10 cm2 are right to 6 cm together: they share the errors of the solid. */
 static const double weight_m4 = 1.0 / (0.06 * 0.06 * 0.001);
-static const double most_turn = 0.3; /* rad, in one pass */
+/* Points that a place on the rim is worth: it is right to a pixel, whatever the solid's shape. */
+static const double rim_worth = 12.0;
+static const double rim_apart_m = 0.04; /* in depth: what is as far off counts half */
+static const double most_turn = 0.3;    /* rad, in one pass */
 
 /* Normal equations of the correction x: J x = -distance. */
 typedef struct equations {
@@ -25,24 +28,45 @@ typedef struct equations {
     int32_t count, fitting;
 } equations;
 
+static void add_touch(const rlf_torso_touch *touch, double weight, equations *sum)
+{
+    for (int r = 0; r < N; r++) {
+        double part = weight * touch->slope[r];
+        sum->b[r] -= part * touch->distance;
+        for (int c = 0; c <= r; c++) {
+            sum->a[r][c] += part * touch->slope[c];
+        }
+    }
+}
+
+/* How much something counts that is so far off the surface. */
+static double share_at(double distance)
+{
+    double scale = distance > 0.0 ? outside_m : inside_m, off = distance / scale;
+    return 1.0 / (1.0 + off * off);
+}
+
 static void add_point(const rlf_torso *torso, rlf_vec3 p, equations *sum)
 {
     rlf_torso_touch touch;
     if (!rlf_torso_touch_at(torso, p, &touch)) {
         return;
     }
-    double scale = touch.distance > 0.0 ? outside_m : inside_m, off = touch.distance / scale;
-    double share = 1.0 / (1.0 + off * off);
-    double weight = sum->weight * share * share;
+    double share = share_at(touch.distance);
     sum->misfit += 1.0 - share;
     sum->count++;
     sum->fitting += share > 0.5;
-    for (int r = 0; r < N; r++) {
-        double part = weight * touch.slope[r];
-        sum->b[r] -= part * touch.distance;
-        for (int c = 0; c <= r; c++) {
-            sum->a[r][c] += part * touch.slope[c];
-        }
+    add_touch(&touch, sum->weight * share * share, sum);
+}
+
+/* An outline that lies elsewhere in depth than the trunk's is an arm's. */
+static void add_rim(const rlf_torso *torso, rlf_vec3 p, equations *sum)
+{
+    rlf_torso_touch touch;
+    double moved;
+    if (rlf_torso_touch_rim(torso, p, &touch, &moved)) {
+        double off = moved / rim_apart_m, share = share_at(touch.distance) / (1.0 + off * off);
+        add_touch(&touch, rim_worth * sum->weight * share * share, sum);
     }
 }
 
@@ -76,6 +100,9 @@ static void add_points(const rlf_torso *torso, const rlf_torso_points *points, e
     *sum = (equations){.weight = weight_m4 * points->area_m2};
     for (int32_t i = 0; i < points->count; i++) {
         add_point(torso, points->p[i], sum);
+    }
+    for (int32_t i = 0; i < points->rim_count; i++) {
+        add_rim(torso, points->rim[i], sum);
     }
 }
 

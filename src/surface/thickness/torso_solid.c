@@ -20,15 +20,27 @@ static const double usual_shoulder = 0.188;
 static const double usual_breadth[SECTIONS] = {0.145, 0.162, 0.18};
 static const double usual_depth[SECTIONS] = {0.13, 0.118, 0.125};
 
-/* Standard deviations of people about that (8 to 12 % with both sexes together), and of the way
- * they carry their heads and backs. */
-static const double shoulder_spread = 0.015, drop_spread = 0.02;
-static const double breadth_spread[SECTIONS] = {0.02, 0.015, 0.02};
-static const double depth_spread[SECTIONS] = {0.015, 0.02, 0.015};
+/* Standard deviations of people about that, of both sexes together in that survey, ... */
+enum { MEASURES = 2 + 2 * SECTIONS };
+static const double spread[MEASURES] = {0.018, 0.022, 0.0105, 0.018, 0.013, 0.0135, 0.018, 0.013};
+/* ... and how these go together: half the bideltoid breadth, the height of the shoulders below the
+ * head's top, half the breadths of chest, waist and hip, half the depths of chest, waist and
+ * buttocks. */
+static const double alike[MEASURES][MEASURES] = {{1.00},
+                                                 {0.49, 1.00},
+                                                 {0.75, 0.43, 1.00},
+                                                 {0.70, 0.30, 0.73, 1.00},
+                                                 {0.36, 0.03, 0.44, 0.69, 1.00},
+                                                 {0.58, 0.10, 0.60, 0.78, 0.64, 1.00},
+                                                 {0.68, 0.22, 0.65, 0.87, 0.57, 0.78, 1.00},
+                                                 {0.66, 0.19, 0.60, 0.80, 0.68, 0.75, 0.84, 1.00}};
+/* Of the way they carry their heads and backs. */
 static const double ahead_spread = 0.03, lean_spread = 0.06, turn_spread = 0.3;
 
-static const double dome_m = 0.2;  /* from the chest up to where the trunk would close */
-static const double fold_m = 0.09; /* and from the buttocks down to their fold, about: no survey */
+/* From the chest up to where the trunk would close, at the neck's root (cervicale); and from the
+ * buttocks down, so that at the crotch, 47 mm below, it is as deep as a thigh is there (0.198 of
+ * the buttocks' 0.239). */
+static const double dome_m = 0.225, fold_m = 0.083;
 static const double least_dome = 0.2;
 static const double deepest_in_m = 0.04;                       /* within counts no more */
 static const double shoulders_up_m = 0.12, arms_down_m = 0.03; /* where points may be theirs */
@@ -36,20 +48,25 @@ static const double shoulders_up_m = 0.12, arms_down_m = 0.03; /* where points m
 const double rlf_torso_first = 0.27, rlf_torso_last = 0.9;
 const double rlf_torso_crotch = 0.878 - 0.356; /* of the same survey */
 
-void rlf_torso_usual(double unknown[RLF_TORSO_UNKNOWNS], double variance[RLF_TORSO_UNKNOWNS])
+void rlf_torso_usual(double unknown[RLF_TORSO_UNKNOWNS],
+                     double covariance[RLF_TORSO_UNKNOWNS][RLF_TORSO_UNKNOWNS])
 {
     memset(unknown, 0, RLF_TORSO_UNKNOWNS * sizeof *unknown);
+    memset(covariance, 0, RLF_TORSO_UNKNOWNS * sizeof *covariance);
     unknown[RLF_TORSO_SHOULDER] = usual_shoulder;
-    variance[RLF_TORSO_AHEAD] = ahead_spread * ahead_spread;
-    variance[RLF_TORSO_TURN] = turn_spread * turn_spread;
-    variance[RLF_TORSO_LEAN] = lean_spread * lean_spread;
-    variance[RLF_TORSO_SHOULDER] = shoulder_spread * shoulder_spread;
-    variance[RLF_TORSO_DROP] = drop_spread * drop_spread;
     for (int k = 0; k < SECTIONS; k++) {
         unknown[RLF_TORSO_BREADTH + k] = usual_breadth[k];
         unknown[RLF_TORSO_DEPTH + k] = usual_depth[k];
-        variance[RLF_TORSO_BREADTH + k] = breadth_spread[k] * breadth_spread[k];
-        variance[RLF_TORSO_DEPTH + k] = depth_spread[k] * depth_spread[k];
+    }
+    covariance[RLF_TORSO_AHEAD][RLF_TORSO_AHEAD] = ahead_spread * ahead_spread;
+    covariance[RLF_TORSO_TURN][RLF_TORSO_TURN] = turn_spread * turn_spread;
+    covariance[RLF_TORSO_LEAN][RLF_TORSO_LEAN] = lean_spread * lean_spread;
+    for (int r = 0; r < MEASURES; r++) {
+        for (int c = 0; c <= r; c++) {
+            double both = alike[r][c] * spread[r] * spread[c];
+            covariance[RLF_TORSO_SHOULDER + r][RLF_TORSO_SHOULDER + c] = both;
+            covariance[RLF_TORSO_SHOULDER + c][RLF_TORSO_SHOULDER + r] = both;
+        }
     }
 }
 
@@ -160,6 +177,26 @@ static bool touch_shoulders(const rlf_torso *torso, const own_place *at, rlf_tor
     out->slope[RLF_TORSO_SHOULDER] = (u < 0.0 ? u : -u) / r;
     out->slope[RLF_TORSO_DROP] = -at->down / r;
     return true;
+}
+
+/* At the place on the ray that is nearest to the middle of the section, in axes in which that is a
+ * circle. */
+bool rlf_torso_touch_rim(const rlf_torso *torso, rlf_vec3 p, rlf_torso_touch *out, double *moved_m)
+{
+    const rlf_vec3 origin = {0.0, 0.0, 0.0};
+    own_place at = find_place(torso, p), from = find_place(torso, origin);
+    own_place way = {at.side - from.side, at.ahead - from.ahead, at.down - from.down};
+    section s;
+    if (at.down < arms_down_m || !find_section(torso, at.down, &s)) {
+        return false;
+    }
+    double axis = torso->unknown[RLF_TORSO_AHEAD] + torso->unknown[RLF_TORSO_LEAN] * at.down;
+    double u = at.side / s.breadth, v = (at.ahead - axis) / s.depth;
+    double du = way.side / s.breadth, dv = way.ahead / s.depth;
+    double by = -(u * du + v * dv) / (du * du + dv * dv);
+    at = (own_place){at.side + by * way.side, at.ahead + by * way.ahead, at.down + by * way.down};
+    *moved_m = by * p.z;
+    return touch_trunk(torso, &at, out);
 }
 
 bool rlf_torso_touch_at(const rlf_torso *torso, rlf_vec3 p, rlf_torso_touch *out)
