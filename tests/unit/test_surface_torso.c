@@ -147,7 +147,7 @@ static void outlines_are_on_the_surface(void **state)
             continue;
         }
         found++;
-        assert_true(fabs(here.distance) < 0.001 && fabs(moved_m - 0.01 * p.z) < 0.02);
+        assert_true(fabs(here.distance) < 0.002 && fabs(moved_m - 0.01 * p.z) < 0.03);
         for (int k = 0; k < RLF_TORSO_UNKNOWNS; k++) {
             rlf_torso moved = t;
             moved.unknown[k] += k == RLF_TORSO_TURN ? 0.0 : step;

@@ -9,7 +9,7 @@ typedef enum limb { TRUNK, SHOULDERS, LEG, FOOT = LEG + 2 } limb;
 static const double most_misfit = 0.9, least_area_m2 = 0.03;
 static const double surface_m = 0.04, leg_surface_m = 0.03; /* what is so near the front is it */
 /* Of a part's back; the rest is what its front shows. */
-static const double own_share = 0.85, own_leg_share = 0.72;
+static const double own_share = 0.7, own_leg_share = 0.65;
 static const double margin_m = 0.2;     /* by which a ray may rise or fall within a body */
 static const double most_doubt_m = 0.1; /* of a part's lower end: else it is anywhere */
 static const double fold_m = 0.02;      /* by which legs begin above the crotch */

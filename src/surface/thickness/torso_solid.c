@@ -34,6 +34,7 @@ static const double alike[MEASURES][MEASURES] = {{1.00},
                                                  {0.58, 0.10, 0.60, 0.78, 0.64, 1.00},
                                                  {0.68, 0.22, 0.65, 0.87, 0.57, 0.78, 1.00},
                                                  {0.66, 0.19, 0.60, 0.80, 0.68, 0.75, 0.84, 1.00}};
+static const double own_m2 = 0.01 * 0.01; /* of each by itself: clothes, and the solid's shape */
 /* Of the way they carry their heads and backs. */
 static const double ahead_spread = 0.03, lean_spread = 0.06, turn_spread = 0.3;
 
@@ -63,7 +64,7 @@ void rlf_torso_usual(double unknown[RLF_TORSO_UNKNOWNS],
     covariance[RLF_TORSO_LEAN][RLF_TORSO_LEAN] = lean_spread * lean_spread;
     for (int r = 0; r < MEASURES; r++) {
         for (int c = 0; c <= r; c++) {
-            double both = alike[r][c] * spread[r] * spread[c];
+            double both = alike[r][c] * spread[r] * spread[c] + (r == c ? own_m2 : 0.0);
             covariance[RLF_TORSO_SHOULDER + r][RLF_TORSO_SHOULDER + c] = both;
             covariance[RLF_TORSO_SHOULDER + c][RLF_TORSO_SHOULDER + r] = both;
         }
