@@ -49,7 +49,7 @@ static void gather(const shade_band *b, int32_t column, int32_t step, int32_t be
             tile->z[i] = z[at[k]];
         }
     }
-    for (; i % SOFT_LANES != 0; i++) {
+    for (; i < SOFT_SHADE_SAMPLES && i % SOFT_LANES != 0; i++) {
         tile->x[i] = tile->y[i] = tile->z[i] = 0.0f;
     }
     tile->step = step;
