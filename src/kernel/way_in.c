@@ -35,9 +35,11 @@ RLF_KERNEL_PART void read_step(const rlf_way *way, const int32_t *restrict first
         int32_t i = place[k] >= 0 ? place[k] : first[k];
         out->depth[k] = depth[i];
         out->known[k] = known[i] != 0 ? 1.0f : 0.0f;
-        normal->x[k] = nx[i];
-        normal->y[k] = ny[i];
-        normal->z[k] = nz[i];
+        /* What is not known counts nothing, and is not read: another worker may be making it. */
+        int32_t n = known[i] != 0 ? i : first[k];
+        normal->x[k] = nx[n];
+        normal->y[k] = ny[n];
+        normal->z[k] = nz[n];
     }
 }
 

@@ -160,7 +160,8 @@ static void recall_batch(const hold_job *job, hold_queue *q)
     q->count = 0;
 }
 
-/* Depth about a pixel as it was seen in this frame, negative where that moved. */
+/* Depth about a pixel as it was seen in this frame, negative where that moved. What was not seen is
+ * not read: another worker may be recalling it. */
 static void read_seen(const hold_job *job, int32_t x, int32_t y, int32_t lane,
                       rlf_windows *restrict out)
 {
@@ -175,7 +176,8 @@ static void read_seen(const hold_job *job, int32_t x, int32_t y, int32_t lane,
         for (int32_t r = 0; r < SIDE; r++) {
             ptrdiff_t row = (ptrdiff_t)(r - ABOUT) * grid->width - ABOUT;
             for (int32_t c = 0; c < SIDE; c++) {
-                out->at[r * SIDE + c][lane] = sign[change[row + c]] * depth[row + c];
+                ptrdiff_t i = change[row + c] != RLF_CHANGE_UNSEEN ? row + c : 0;
+                out->at[r * SIDE + c][lane] = sign[change[row + c]] * depth[i];
             }
         }
         return;
@@ -185,7 +187,8 @@ static void read_seen(const hold_job *job, int32_t x, int32_t y, int32_t lane,
         for (int32_t c = 0; c < SIDE; c++) {
             ptrdiff_t i = p.row[r] + p.column[c];
             float inside = p.row_inside[r] * p.column_inside[c];
-            out->at[r * SIDE + c][lane] = inside * sign[change[i]] * depth[i];
+            ptrdiff_t from = change[i] != RLF_CHANGE_UNSEEN ? i : 0;
+            out->at[r * SIDE + c][lane] = inside * sign[change[i]] * depth[from];
         }
     }
 }

@@ -82,6 +82,7 @@ static void walk_in(const outline_job *job, const outline_queue *q, rlf_way_in *
 
 /* ---- faces ---- */
 
+/* Normals of what was seen of the pixel's surface. Others are not read: they may be written. */
 static void read_window(const outline_job *job, int32_t x, int32_t y, int32_t k,
                         rlf_normals *restrict window)
 {
@@ -98,10 +99,11 @@ static void read_window(const outline_job *job, int32_t x, int32_t y, int32_t k,
             float inside = p.row_inside[r] * p.column_inside[c];
             float near = rlf_kernel_abs(depth[i] - z) < most ? inside : 0.0f;
             float weight = known[i] != 0 ? near : 0.0f;
+            ptrdiff_t from = known[i] != 0 ? i : 0;
             rlf_normals *to = &window[r * RLF_WINDOW_SIDE + c];
-            to->x[k] = weight * nx[i];
-            to->y[k] = weight * ny[i];
-            to->z[k] = weight * nz[i];
+            to->x[k] = weight * nx[from];
+            to->y[k] = weight * ny[from];
+            to->z[k] = weight * nz[from];
         }
     }
 }
