@@ -72,6 +72,19 @@ static void rays_end_on_the_surface(void **state)
     assert_true(hits > 1000);
 }
 
+/* The torso with one of its unknowns so much greater. */
+static rlf_torso other_by(const rlf_torso *t, int unknown, double step)
+{
+    rlf_torso moved = *t;
+    if (unknown == RLF_TORSO_TURN) {
+        moved.side_x -= step * t->side_z;
+        moved.side_z += step * t->side_x;
+    } else {
+        moved.unknown[unknown] += step;
+    }
+    return moved;
+}
+
 /* Near the surface every slope is what the distance does when that unknown changes a little. (The
  * trunk's fall with height, which is gentle, is left out; farther away points do not count.) */
 static void slopes_are_derivatives(void **state)
@@ -90,12 +103,7 @@ static void slopes_are_derivatives(void **state)
         }
         near++;
         for (int k = 0; k < RLF_TORSO_UNKNOWNS; k++) {
-            rlf_torso moved = t;
-            moved.unknown[k] += k == RLF_TORSO_TURN ? 0.0 : step;
-            if (k == RLF_TORSO_TURN) {
-                moved.side_x -= step * t.side_z;
-                moved.side_z += step * t.side_x;
-            }
+            rlf_torso moved = other_by(&t, k, step);
             assert_true(rlf_torso_touch_at(&moved, p, &there));
             double found = (there.distance - here.distance) / step;
             assert_true(k == RLF_TORSO_DROP ||
@@ -149,12 +157,7 @@ static void outlines_are_on_the_surface(void **state)
         found++;
         assert_true(fabs(here.distance) < 0.002 && fabs(moved_m - 0.01 * p.z) < 0.03);
         for (int k = 0; k < RLF_TORSO_UNKNOWNS; k++) {
-            rlf_torso moved = t;
-            moved.unknown[k] += k == RLF_TORSO_TURN ? 0.0 : step;
-            if (k == RLF_TORSO_TURN) {
-                moved.side_x -= step * t.side_z;
-                moved.side_z += step * t.side_x;
-            }
+            rlf_torso moved = other_by(&t, k, step);
             assert_true(rlf_torso_touch_rim(&moved, p, &there, &moved_m));
             double slope = (there.distance - here.distance) / step;
             assert_true(k == RLF_TORSO_DROP || fabs(slope - here.slope[k]) < 0.05);
