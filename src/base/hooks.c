@@ -1,4 +1,5 @@
 /* Log, assert and allocator hooks: the only global state of the library. */
+#define _DEFAULT_SOURCE
 #include "relief/base.h"
 
 #include <stdarg.h>
@@ -6,8 +7,16 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
 
 #define ALIGNMENT 64
+
+/* Blocks that fill some of them ask for pages of this size: with pages of 4 KiB a frame's planes
+ * need more entries of address translation than a processor holds. */
+#define LARGE_PAGE ((size_t)2 << 20)
+#define LARGE_BLOCK (4 * LARGE_PAGE)
 
 static void log_to_stderr(void *context, rlf_log_level level, const char *line)
 {
@@ -31,6 +40,16 @@ static bool assert_default(void *context, const char *condition, const char *fil
 static void *alloc_default(void *context, size_t size)
 {
     (void)context;
+#ifdef MADV_HUGEPAGE
+    if (size >= LARGE_BLOCK) {
+        size_t rounded = (size + LARGE_PAGE - 1) / LARGE_PAGE * LARGE_PAGE;
+        void *memory = rounded >= size ? aligned_alloc(LARGE_PAGE, rounded) : NULL;
+        if (memory != NULL) {
+            madvise(memory, rounded, MADV_HUGEPAGE); /* a wish: refused, it is memory as any */
+        }
+        return memory;
+    }
+#endif
     return aligned_alloc(ALIGNMENT, size);
 }
 

@@ -1,6 +1,7 @@
-/* Everything the stage will ever need, allocated once. */
+/* Everything the stage will ever need, allocated once and as one: large enough for large pages. */
 #include "surface/stage.h"
 
+#include "base/guard.h"
 #include "surface/past/past.h"
 #include "surface/steps.h"
 #include "surface/thickness/thickness.h"
@@ -8,15 +9,29 @@
 
 #include <string.h>
 
+/* Blocks begin on pages of their own, each some lines of cache further into its page than the one
+ * before: planes are read side by side, and the same place of all of them must not meet the same
+ * few sets of the first cache. */
+#define PAGE 4096
+#define LINE 64
+#define LINES_APART 5
+
+/* Without memory yet, only counts what will be needed and returns NULL. What lies between two
+ * blocks is guarded. */
 static void *take(rlf_reconstruct *stage, size_t count, size_t size)
 {
-    void *memory = stage->block_count < RLF_STAGE_BLOCKS ? rlf_alloc_array(count, size) : NULL;
-    if (memory == NULL) {
-        stage->out_of_memory = true;
+    rlf_arena *arena = &stage->arena;
+    size_t begin = (arena->used + PAGE - 1) / PAGE * PAGE +
+                   (size_t)(arena->blocks++ * LINES_APART) % (PAGE / LINE) * LINE;
+    size_t end = begin + (count * size + LINE - 1) / LINE * LINE;
+    size_t before = arena->used;
+    arena->used = end + LINE;
+    if (arena->memory == NULL) {
         return NULL;
     }
-    stage->blocks[stage->block_count++] = memory;
-    return memory;
+    rlf_guard(arena->memory + before, begin - before);
+    rlf_guard(arena->memory + end, LINE);
+    return arena->memory + begin;
 }
 
 static void take_grid(rlf_reconstruct *stage)
@@ -26,7 +41,7 @@ static void take_grid(rlf_reconstruct *stage)
     float *ray_x = take(stage, n, sizeof(float));
     float *ray_y = take(stage, n, sizeof(float));
     uint8_t *has_ray = take(stage, n, 1);
-    if (!stage->out_of_memory) {
+    if (has_ray != NULL) {
         rlf_grid_fill_rays(grid, ray_x, ray_y, has_ray);
     }
     grid->ray_x = ray_x;
@@ -45,9 +60,6 @@ static void take_slot(rlf_reconstruct *stage, rlf_slot *slot)
     }
     slot->label = take(stage, n, sizeof(int32_t));
     slot->moved = take(stage, (size_t)stage->grid.height, sizeof(rlf_span));
-    if (slot->moved != NULL) {
-        memset(slot->moved, 0, (size_t)stage->grid.height * sizeof *slot->moved);
-    }
     slot->reason = take(stage, n, 1);
     slot->foreground = take(stage, n, 1);
     slot->regions = take(stage, 2 * (size_t)stage->def.region_capacity, sizeof(rlf_region));
@@ -138,7 +150,7 @@ static void take_work(rlf_reconstruct *stage)
     work->cells = take(stage, rlf_cell_capacity(&stage->grid), sizeof(rlf_cell));
     work->ones = take(stage, (size_t)stage->grid.width, 1);
     work->missing = take(stage, (size_t)stage->grid.width, 1);
-    if (!stage->out_of_memory) {
+    if (work->missing != NULL) {
         memset(work->ones, 1, (size_t)stage->grid.width);
         memset(work->missing, RLF_SEEN_MISSING, (size_t)stage->grid.width);
     }
@@ -203,8 +215,10 @@ static void take_color_side(rlf_reconstruct *stage)
     }
 }
 
-bool rlf_stage_allocate(rlf_reconstruct *stage)
+static void take_all(rlf_reconstruct *stage)
 {
+    stage->arena.used = 0;
+    stage->arena.blocks = 0;
     take_grid(stage);
     for (int i = 0; i < RLF_RECONSTRUCT_SURFACES; i++) {
         take_slot(stage, &stage->ring[i]);
@@ -216,13 +230,23 @@ bool rlf_stage_allocate(rlf_reconstruct *stage)
     take_past(stage);
     take_color_side(stage);
     take_work(stage);
-    return !stage->out_of_memory;
+}
+
+bool rlf_stage_allocate(rlf_reconstruct *stage)
+{
+    take_all(stage);
+    stage->arena.memory = rlf_alloc(stage->arena.used);
+    if (stage->arena.memory != NULL) {
+        take_all(stage);
+    }
+    return stage->arena.memory != NULL;
 }
 
 void rlf_stage_release(rlf_reconstruct *stage)
 {
-    for (int32_t i = 0; i < stage->block_count; i++) {
-        rlf_free(stage->blocks[i]);
+    if (stage->arena.memory != NULL) {
+        rlf_unguard(stage->arena.memory, stage->arena.used);
     }
-    stage->block_count = 0;
+    rlf_free(stage->arena.memory);
+    stage->arena.memory = NULL;
 }

@@ -55,7 +55,7 @@ typedef struct rlf_sheet {
 } rlf_sheet;
 
 /* Surfaces refer to at most RLF_RECONSTRUCT_SURFACES sheets while the next one is made. */
-enum { RLF_SHEETS = RLF_RECONSTRUCT_SURFACES + 1, RLF_STAGE_BLOCKS = 160 };
+enum { RLF_SHEETS = RLF_RECONSTRUCT_SURFACES + 1 };
 
 /* A sheet is made in tiles of so many pixels on a side. */
 enum { RLF_SHEET_TILE = 104 };
@@ -136,6 +136,13 @@ typedef struct rlf_steady {
 
 /* Side of a block in pixels, and the frames without motion after which one is calm. */
 enum { RLF_HOLD_BLOCK = 8, RLF_HOLD_CALM = 8 };
+
+/* All memory of a stage. */
+typedef struct rlf_arena {
+    unsigned char *memory;
+    size_t used;    /* bytes */
+    int32_t blocks; /* handed out so far */
+} rlf_arena;
 
 /* A run of linked pixels of one row, the unit of segmentation. */
 typedef struct rlf_run {
@@ -299,11 +306,9 @@ struct rlf_reconstruct {
     bool has_color;      /* work.color holds the frame's */
     bool has_components; /* work.runs holds the front sheet's, so many: */
     int32_t component_count;
-    rlf_surface_times *times;       /* borrowed; NULL = not measured */
-    int64_t clock_ns;               /* end of the last step that was timed */
-    void *blocks[RLF_STAGE_BLOCKS]; /* everything allocated */
-    int32_t block_count;
-    bool out_of_memory;
+    rlf_surface_times *times; /* borrowed; NULL = not measured */
+    int64_t clock_ns;         /* end of the last step that was timed */
+    rlf_arena arena;
 };
 
 /* def.c */
