@@ -5,7 +5,7 @@
 
 #include "relief/pipeline.h"
 
-#define VIEWER_PLACE_TEXT 128
+#define VIEWER_PLACE_TEXT 160
 
 typedef struct viewer_place {
     bool is_on;

@@ -16,7 +16,7 @@
 /* Blocks that fill some of them ask for pages of this size: with pages of 4 KiB a frame's planes
  * need more entries of address translation than a processor holds. */
 #define LARGE_PAGE ((size_t)2 << 20)
-#define LARGE_BLOCK (4 * LARGE_PAGE)
+#define LARGE_BLOCK (2 * LARGE_PAGE)
 
 static void log_to_stderr(void *context, rlf_log_level level, const char *line)
 {
