@@ -30,6 +30,7 @@ expect("io must not include relief/gl.h" src/io/a.c "#include \"relief/gl.h\"")
 expect("render must not include relief/gl.h" src/render/soft/a.c "#include \"relief/gl.h\"")
 expect("" src/render/gl/a.c "#include \"relief/gl.h\"")
 expect("write it from src/" src/surface/a.c "#include \"../physics/a.h\"")
+expect("core must not include <sys/mman.h>" src/surface/a.c "#include <sys/mman.h>")
 expect("core must not include <png.h>" src/capture/a.c "#include <png.h>")
 expect("module 'audio' has no line" src/audio/a.c "#include \"relief/base.h\"")
 expect("frame.h: must not include" src/base/a.c "int a;" include/relief/frame.h
