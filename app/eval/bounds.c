@@ -80,7 +80,7 @@ const eval_bound eval_bounds[] = {
     {"people", "normals_interior_over_30_percent", '<', 0.4, 0.4, "", ""},
     {"people", "normals_band_over_30_percent", '<', 1.5, 2.15, "", ""},
     {"people", "foreground_f", '>', 0.985, 0.985, "", ""},
-    {"people", "exit_mean_cm", '<', 1.5, 1.65, "", ""},
+    {"people", "exit_mean_cm", '<', 1.5, 1.6, "", ""},
     {"people", "exit_within_5_cm_percent", '>', 95, 94.4, "", ""},
     {"people", "speed_median_percent", '<', NAN, 12, "", ""},
     {"people", "bounces_right_percent", '>', 99.5, 90, "", ""},

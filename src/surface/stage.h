@@ -220,6 +220,16 @@ typedef struct rlf_leg {
     double area_m2;                                   /* of what is seen and fits */
 } rlf_leg;
 
+/* The head of a person, an ellipsoid: see skull.c. */
+typedef struct rlf_skull {
+    double measure[2], doubt[2][2]; /* half its breadth and length; covariance of them */
+    double way_x, way_z;            /* level unit vector from the camera to its middle */
+    double far, down;               /* of the middle, metres along that and downwards */
+    double half_width, half_depth;  /* of it as it is seen */
+    double face; /* how much of what is seen is its face, 0..1; the rest is its side */
+    bool is_seen;
+} rlf_skull;
+
 typedef struct rlf_torso {
     int32_t label;         /* of its region */
     bool is_seen;          /* in the frame that is being made */
@@ -231,6 +241,7 @@ typedef struct rlf_torso {
     double misfit;                                        /* of what is seen, 0..1 */
     double area_m2;                                       /* of what is seen and fits */
     double age_s, unseen_s;
+    rlf_skull skull;
     rlf_leg leg[2];
     double facing; /* < 0: the toes point against `ahead`; seen, forgotten slowly */
     bool has_legs;

@@ -252,6 +252,20 @@ static void a_head_tells_the_middle_of_a_trunk(void **state)
     assert_true(with_head.mean < 0.8 * alone.mean && with_head.mean < 0.025);
 }
 
+/* A head seen from the front is widest behind its middle: no mirror image of its face. */
+static void a_face_is_not_mirrored(void **state)
+{
+    (void)state;
+    static const body bodies[] = {
+        {.centre = {0.0, -0.40, 2.495}, .half = {0.068, 0.12, 0.095}, .top = -9},
+        {.centre = {0.0, -0.41, 2.515}, .half = {0.08, 0.11, 0.085}, .top = -9},
+        {.centre = {0.0, -0.22, 2.52}, .half = {0.055, 0.12, 0.055}, .top = -9},
+        {.centre = {0.0, 0.15, 2.5}, .half = {0.19, 0.35, 0.12}, .top = -9},
+    };
+    errors of_face = measure(4, bodies, 0);
+    assert_true(of_face.mean < 0.022);
+}
+
 /* A hand held up above its wrist is no head, and the arm below no trunk. */
 static void an_arm_below_a_hand_is_no_trunk(void **state)
 {
@@ -392,6 +406,7 @@ int main(void)
         cmocka_unit_test(a_limb_on_a_trunk),
         cmocka_unit_test(a_limb_on_the_side_of_a_trunk),
         cmocka_unit_test(a_head_tells_the_middle_of_a_trunk),
+        cmocka_unit_test(a_face_is_not_mirrored),
         cmocka_unit_test(an_arm_below_a_hand_is_no_trunk),
         cmocka_unit_test(rows_share_an_axis),
         cmocka_unit_test(legs_that_touch),

@@ -14,6 +14,8 @@ enum { HEADS = 16 };
  * neck is narrowest. */
 static const float head_from = 0.06f, head_to = 0.2f, neck_from = 0.13f, neck_to = 0.25f;
 static const float narrowest_head = 0.11f, widest_head = 0.28f, narrowest_neck = 0.06f;
+/* Where it is broadest and longest, with no nose. */
+static const float brow_from = 0.07f, brow_to = 0.12f;
 static const float neck_share = 0.85f;     /* of the head's width, at most */
 static const float shoulder_share = 0.75f; /* of the row above: a shoulder hides the neck */
 /* Of the trunk: rows below the neck, width, middle from that of the neck, flank from the head's. */
@@ -28,6 +30,7 @@ typedef struct neck {
     int32_t label, line;
     float x, height; /* metres; height is along the image's columns, downwards */
     float top;       /* height of the head's top */
+    float brow;      /* how wide the head is there, as a ray's x; 0 = not seen */
     float depth;     /* of the head's middle ... */
     float ray_x;     /* ... and its ray */
 } neck;
@@ -74,7 +77,7 @@ static bool find_neck(const rlf_chord_job *job, int32_t row, int32_t rows, const
 {
     float top = height_of(job, row, c), head = 0.0f, least = widest_head;
     rlf_chord_middle middle = {0.0f, 0.0f};
-    float rays = 0.0f, rows_of_head = 0.0f;
+    float rays = 0.0f, rows_of_head = 0.0f, brow = 0.0f, rows_of_brow = 0.0f;
     *out = (neck){.label = c->label, .line = -1, .top = top};
     for (; c != NULL; row++) {
         float width = width_of(c), height = height_of(job, row, c) - top;
@@ -94,6 +97,10 @@ static bool find_neck(const rlf_chord_job *job, int32_t row, int32_t rows, const
             rays += middle_of(job, c) * c->inverse;
             rows_of_head += 1.0f;
         }
+        if (height > brow_from && height < brow_to) {
+            brow += width * c->inverse;
+            rows_of_brow += 1.0f;
+        }
         const rlf_chord *next = below(job, row, rows, c);
         bool is_hidden = height > neck_from && next != NULL &&
                          next->end - next->begin < shoulder_share * (c->end - c->begin);
@@ -101,6 +108,7 @@ static bool find_neck(const rlf_chord_job *job, int32_t row, int32_t rows, const
     }
     const rlf_camera *camera = &job->stage->grid.camera;
     out->ray_x = rays / rows_of_head - (float)(camera->cx / camera->fx);
+    out->brow = rows_of_brow > 0.0f ? brow / rows_of_brow : 0.0f;
     out->depth = middle.weight > 0.0f ? middle.depth / middle.weight : 0.0f;
     return out->line >= 0 && middle.weight > 0.0f && head > narrowest_head && head < widest_head &&
            least > narrowest_neck && least < neck_share * head;
@@ -165,7 +173,7 @@ void rlf_chords_head(const rlf_chord_job *job, int32_t rows)
                 tell_trunk(job, &found, rows);
                 const rlf_vec3 head = {(double)found.ray_x * (double)found.depth, (double)found.top,
                                        (double)found.depth};
-                rlf_torso_follow(job, found.label, head);
+                rlf_torso_follow(job, found.label, head, (double)found.brow);
             }
         }
     }

@@ -156,7 +156,7 @@ static void follow_legs(const rlf_chord_job *job, rlf_torso *torso, double dt)
     rlf_legs_follow(torso, &points, dt);
 }
 
-void rlf_torso_follow(const rlf_chord_job *job, int32_t label, rlf_vec3 head)
+void rlf_torso_follow(const rlf_chord_job *job, int32_t label, rlf_vec3 head, double brow)
 {
     rlf_vec3 seen[MOST_POINTS];
     rlf_vec3 rim[MOST_TRUNK_RIM];
@@ -178,5 +178,6 @@ void rlf_torso_follow(const rlf_chord_job *job, int32_t label, rlf_vec3 head)
     }
     torso->unseen_s = 0.0;
     torso->is_seen = true;
+    rlf_skull_follow(job, torso, brow, dt);
     follow_legs(job, torso, dt);
 }

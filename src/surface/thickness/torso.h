@@ -90,8 +90,16 @@ void rlf_torso_improve(rlf_torso *torso, const rlf_torso_points *points, int32_t
 /* ---- thickness/torso.c ---- */
 /* Before the heads of a frame are found, dt s after the last one; 0 = there was none lately. */
 void rlf_torsos_expect(rlf_torsos *torsos, double dt);
-/* Follows the torso of the region `label` below its head: x and z of its middle, y of its top. */
-void rlf_torso_follow(const rlf_chord_job *job, int32_t label, rlf_vec3 head);
+/* Follows the torso of the region `label` below its head: x and z of its middle, y of its top; and
+ * how wide it is at its brow, as a ray's x, 0 = not seen. */
+void rlf_torso_follow(const rlf_chord_job *job, int32_t label, rlf_vec3 head, double brow);
+
+/* ---- thickness/skull.c ---- */
+/* Follows the head above the torso, which is so wide at its brow, as a ray's x, dt s after the last
+ * frame. */
+void rlf_skull_follow(const rlf_chord_job *job, rlf_torso *torso, double brow, double dt);
+/* Cuts it by the ray (x, y, 1); enter > leave where it misses. */
+rlf_torso_cut rlf_skull_cut_ray(const rlf_skull *skull, double x, double y);
 
 /* ---- thickness/torso_back.c ---- */
 /* Thickens the block's knots of a row by the torsos seen. */

@@ -1,15 +1,14 @@
 /* Where rays leave the bodies of people by what their torsos and legs say. */
 #include "surface/thickness/legs.h"
 
-enum { MOST_CUTS = 2 + 2 * RLF_LEG_PARTS };
+enum { MOST_CUTS = 3 + 2 * RLF_LEG_PARTS };
 
 /* A thigh and its shin are one: what is seen of either shows both. */
-typedef enum limb { TRUNK, SHOULDERS, LEG, FOOT = LEG + 2 } limb;
+typedef enum limb { HEAD, TRUNK, SHOULDERS, LEG, FOOT = LEG + 2 } limb;
 
 static const double most_misfit = 0.9, least_area_m2 = 0.03;
 static const double surface_m = 0.04, leg_surface_m = 0.03; /* what is so near the front is it */
-/* Of a part's back; the rest is what its front shows. */
-static const double own_share = 0.7, own_leg_share = 0.65;
+static const double own_share = 0.7, own_limb_share = 0.65;
 static const double margin_m = 0.2;     /* by which a ray may rise or fall within a body */
 static const double most_doubt_m = 0.1; /* of a part's lower end: else it is anywhere */
 static const double fold_m = 0.02;      /* by which legs begin above the crotch */
@@ -26,7 +25,7 @@ typedef struct row_part {
 typedef struct row_sight {
     const rlf_torso *torso;
     rlf_vec3 camera; /* in the torso's axes */
-    bool has_trunk;
+    bool has_head, has_trunk;
     row_part part[2 * RLF_LEG_PARTS];
     int32_t count;
 } row_sight;
@@ -36,13 +35,14 @@ typedef struct cuts {
     rlf_torso_cut item[MOST_CUTS];
     limb limb[MOST_CUTS];
     int32_t count;
+    double face; /* how much of what is seen of the head is that */
 } cuts;
 
 /* Whether a ray at that slope goes by above the torso or below the feet. */
 static bool is_beside(const rlf_torso *torso, double y)
 {
     double below = y * torso->head.z - torso->head.y;
-    return below < rlf_torso_first - margin_m || below > lowest_m;
+    return below < 0.0 || below > lowest_m;
 }
 
 static bool is_sure(const rlf_leg *leg, int part)
@@ -76,6 +76,7 @@ static row_sight look(const rlf_torso *torso, double y)
     row_sight out = {.torso = torso};
     out.camera = rlf_torso_place(torso, rlf_vec3_make(0.0, 0.0, 0.0));
     double down = out.camera.y + y * torso->head.z;
+    out.has_head = y * torso->head.z - torso->head.y < rlf_torso_first;
     out.has_trunk = down < rlf_torso_crotch + margin_m;
     if (down < rlf_torso_crotch - fold_m) {
         return out;
@@ -107,6 +108,11 @@ static void find_cuts(const row_sight *row, double x, double y, cuts *out)
     const rlf_torso *torso = row->torso;
     rlf_torso_cut cut[2];
     out->count = 0;
+    out->face = torso->skull.face;
+    if (torso->skull.is_seen && row->has_head) {
+        cut[0] = rlf_skull_cut_ray(&torso->skull, x, y);
+        add_cut(out, &cut[0], HEAD);
+    }
     if (row->has_trunk) {
         rlf_torso_cut_ray(torso, x, y, cut);
         add_cut(out, &cut[0], TRUNK);
@@ -139,13 +145,24 @@ static int32_t find_own(const cuts *c, double front)
     return own;
 }
 
+/* How much a part tells of its back; the rest is what its front shows, for a head all of its side.
+ */
+static double share_of(const cuts *c, int32_t own)
+{
+    switch (c->limb[own]) {
+    case TRUNK: return own_share;
+    case HEAD: return own_limb_share * c->face;
+    default: return own_limb_share;
+    }
+}
+
 /* Where the ray of a knot leaves the body, of which it is known from depth `front` to `back`. */
 static double leave_of(const cuts *c, double front, double back)
 {
     double end = back;
     int32_t own = find_own(c, front);
     if (own >= 0) {
-        double share = c->limb[own] == TRUNK ? own_share : own_leg_share;
+        double share = share_of(c, own);
         end += share * (c->item[own].leave - end);
     }
     bool is_longer = true;
