@@ -1,7 +1,7 @@
 /* Contacts of one body with the grid: its own surface points against the sheets, and the sheets'
  * outlines and bumps against it. Costs per body, not per pixel; nothing is built per frame. */
 #include "physics/grid/collide.h"
-#include "physics/grid/ball.h"
+#include "physics/grid/ball_hit.h"
 #include "physics/grid/below.h"
 #include "physics/grid/hidden.h"
 #include "physics/grid/near.h"
