@@ -180,6 +180,8 @@ typedef struct rlf_region_sum {
 /* Rectangle, boxes, centroid, plane residual and point list of the regions in work.runs. Its cost
  * is that of their pixels, whatever the number of regions. */
 void rlf_region_measure(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out);
+/* Whether it is a plane up to noise. */
+bool rlf_region_is_flat(const rlf_reconstruct *stage, const rlf_region *region);
 
 /* ---- background/background.c, background/average.c, background/adaptive.c ---- */
 /* Updates the model with slot->depth and writes slot->foreground. */

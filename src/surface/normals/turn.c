@@ -6,8 +6,8 @@
  * so what the window found is moved out to the pixel.
  *
  * Where the outline runs is seen from the depth within two pixels. Beyond these, a surface turns
- * away in the direction that its normal leans to. What stands still has faces, not limbs, and is
- * left alone. */
+ * away in the direction that its normal leans to. What stands still or is flat has faces, not
+ * limbs, and is left alone. */
 #include "surface/steps.h"
 #include "surface/window.h"
 
@@ -21,14 +21,12 @@ enum { MOST_STEPS = 4, ABOUT = RLF_NEAR_EDGE_APART };
 static const float MOST_STEP = 0.04f; /* share of the depth from pixel to pixel of one surface */
 static const float LEAST_LEAN = 0.1f; /* sine between ray and normal that has a direction */
 
-enum { TURNED = 2 }; /* the mark of pixels that get another normal; 1: near an outline */
-
 typedef struct turn_job {
     rlf_way way;
-    const uint8_t *front;  /* a frame ago */
+    const uint8_t *front;  /* not flat, a frame ago */
     const rlf_span *spans; /* per row, where it may be set */
-    float *turned[3];      /* planes: normals at the marks TURNED */
-    uint8_t *mark;
+    float *turned[3];      /* planes: normals at the marks */
+    uint8_t *mark;         /* pixels that may need another normal; at last, those that have one */
 } turn_job;
 
 /* Pixels that wait until there are enough of them for a kernel. */
@@ -77,7 +75,7 @@ static void turn_found(const turn_job *job, turn_queue *q)
             job->turned[0][i] = normals.x[k];
             job->turned[1][i] = normals.y[k];
             job->turned[2][i] = normals.z[k];
-            job->mark[i] = TURNED;
+            job->mark[i] = 1;
         }
     }
     q->count = 0;
@@ -179,6 +177,7 @@ static void turn_row(const turn_job *job, int32_t y, turn_queues *queues)
     rlf_span span = span_about(job, y);
     mark_row(job, y, span, mark);
     for (int32_t x = span.x0; (x = rlf_kernel_next_mark(mark, x, span.x1)) < span.x1; x++) {
+        mark[x] = 0;
         if (!ends_in_window(way, row + x)) {
             find_by_normal(job, x, y, &queues->found);
             continue;
@@ -219,10 +218,41 @@ static void write_rows(void *context, int32_t begin, int32_t end, int32_t worker
     const uint8_t *mark = job->mark + first;
     int32_t count = (end - begin) * job->way.width;
     for (int32_t i = 0; (i = rlf_kernel_next_mark(mark, i, count)) < count; i++) {
-        for (int32_t k = 0; k < 3 && mark[i] == TURNED; k++) {
+        for (int32_t k = 0; k < 3; k++) {
             job->way.normal[k][first + i] = job->turned[k][first + i];
         }
     }
+}
+
+/* Takes away the region's pixels. */
+static void leave_out(const rlf_slot *slot, const rlf_region *region, int32_t width, uint8_t *front)
+{
+    for (int32_t y = region->y0; y < region->y1; y++) {
+        const int32_t *label = slot->label + (ptrdiff_t)y * width;
+        uint8_t *row = front + (ptrdiff_t)y * width;
+        for (int32_t x = region->x0; x < region->x1; x++) {
+            row[x] = label[x] == region->label ? 0 : row[x];
+        }
+    }
+}
+
+/* Where something that is not flat was in front a frame ago. */
+static const uint8_t *find_front(const rlf_reconstruct *stage)
+{
+    const rlf_slot *before = stage->previous;
+    const uint8_t *front = before->foreground;
+    uint8_t *rounded = stage->work.links;
+    for (int32_t r = 0; r < before->foreground_region_count; r++) {
+        const rlf_region *region = &before->regions[before->foreground_region_first + r];
+        if (rlf_region_is_flat(stage, region)) {
+            if (front != rounded) {
+                memcpy(rounded, front, (size_t)stage->grid.count);
+                front = rounded;
+            }
+            leave_out(before, region, stage->grid.width, rounded);
+        }
+    }
+    return front;
 }
 
 void rlf_normals_turn(const rlf_reconstruct *stage, const rlf_slot *slot)
@@ -234,7 +264,7 @@ void rlf_normals_turn(const rlf_reconstruct *stage, const rlf_slot *slot)
     const rlf_work *work = &stage->work;
     turn_job job = {{grid->width, grid->height, grid->ray_x, grid->ray_y, slot->depth,
                      work->mask[0], slot->normal},
-                    stage->previous->foreground,
+                    find_front(stage),
                     work->front,
                     {work->depth[0], work->sum[0], work->sum[1]},
                     work->mask[1]};

@@ -218,3 +218,9 @@ void rlf_region_measure(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_laye
         list_points(stage, out);
     }
 }
+
+bool rlf_region_is_flat(const rlf_reconstruct *stage, const rlf_region *region)
+{
+    double sigma = rlf_depth_noise_sigma(&stage->def.rig.noise, region->centroid.z);
+    return region->plane_residual >= 0.0 && region->plane_residual <= 2.0 * sigma;
+}

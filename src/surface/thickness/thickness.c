@@ -181,9 +181,7 @@ static void find_plates(const rlf_reconstruct *stage, const rlf_slot *slot, int3
     bool is_all_front = stage->def.background_method == RLF_BACKGROUND_OFF;
     for (int32_t r = 0; r < slot->foreground_region_count; r++) {
         const rlf_region *region = &slot->regions[slot->foreground_region_first + r];
-        double sigma = rlf_depth_noise_sigma(&stage->def.rig.noise, region->centroid.z);
-        bool is_flat = region->plane_residual >= 0.0 && region->plane_residual <= 2.0 * sigma;
-        is_plate[r + 1] = is_flat || is_all_front;
+        is_plate[r + 1] = is_all_front || rlf_region_is_flat(stage, region);
     }
 }
 
