@@ -343,6 +343,48 @@ static void set_thick(rlf_vec3 centre, double radius)
     }
 }
 
+/* Pixels of what moves are of one frame: 4 mm and 6 degrees of noise, alike in blocks of 3 x 3. */
+static void add_noise(void)
+{
+    uint32_t seed = 12345;
+    for (int32_t y = 0; y + 3 <= GRID_H; y += 3) {
+        for (int32_t x = 0; x + 3 <= GRID_W; x += 3) {
+            double noise[3];
+            for (int32_t k = 0; k < 3; k++) {
+                seed = seed * 1664525u + 1013904223u;
+                noise[k] = (double)(seed >> 8) / (1 << 23) - 1.0; /* -1 to 1 */
+            }
+            for (int32_t k = 0; k < 9; k++) {
+                int32_t i = (y + k / 3) * GRID_W + x + k % 3;
+                fixture->planes[6][i] += (float)(0.007 * noise[0]);
+                fixture->planes[7][i] += (float)(0.17 * noise[1]);
+                fixture->planes[8][i] += (float)(0.17 * noise[2]);
+            }
+        }
+    }
+}
+
+/* A limb of 15 cm at 2.7 m from before. */
+static void bounces_off_a_noisy_bulge_that_moves(void **state)
+{
+    (void)state;
+    const rlf_vec3 centre = {0, 0, 2.7};
+    const double LIMB = 0.15;
+    set_thick(centre, LIMB);
+    add_noise();
+    double sum = 0.0;
+    for (int i = 0; i < 49; i++) {
+        rlf_vec3 n = rlf_vec3_make(0.08 * (i % 7 - 3), 0.08 * (i / 7 - 3), 0.0);
+        n.z = -sqrt(1.0 - n.x * n.x - n.y * n.y);
+        rlf_vec3 v = {0, 0, 2}, at = rlf_mad(centre, n, LIMB + RADIUS);
+        rlf_vec3 out = thrown(rlf_mad(at, v, -0.1), v, RADIUS);
+        sum += degrees_between(out, rlf_mad(v, n, -1.8 * rlf_dot(n, v)));
+    }
+    print_message("noisy bulge: direction off by %.1f deg on average\n", sum / 49);
+    assert_true(sum / 49 < 4.5);
+    memset(fixture->mask, 0, (size_t)GRID_W * GRID_H);
+}
+
 /* From behind, where the front is out of the ball's reach. */
 static void bounces_off_the_back_of_something_thick(void **state)
 {
@@ -378,6 +420,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(bounces_off_a_front_beside_a_slanted_side, set_up,
                                         tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_a_floor_seen_at_a_low_angle, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(bounces_off_a_noisy_bulge_that_moves, set_up, tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_the_back_of_something_thick, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -2,6 +2,8 @@
 #include "physics/grid/patch.h"
 #include "physics/grid/edge.h"
 
+#define RAW 3.0 /* noise of one frame beside that of a mean over ten */
+
 double patch_band(double z)
 {
     return 0.003 + 0.0005 * z * z;
@@ -68,7 +70,8 @@ static double area_of(const field_cell *cell)
 patch_mean patch_mean_of(const grid_patch *p)
 {
     double least = p->samples[p->nearest].distance;
-    double band = patch_band(p->samples[p->nearest].cell.point.z);
+    bool is_of_one_frame = p->job->sheet->velocity_x != NULL;
+    double band = patch_band(p->samples[p->nearest].cell.point.z) * (is_of_one_frame ? RAW : 1.0);
     rlf_vec3 points = {0, 0, 0}, normals = {0, 0, 0}, velocities = {0, 0, 0};
     rlf_vec3 face = p->samples[p->nearest].cell.normal;
     double total = 0.0, square = 0.0, product = 0.0;
