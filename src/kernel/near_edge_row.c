@@ -22,7 +22,7 @@ RLF_KERNEL void rlf_kernel_near_edge_row(const float *depth, ptrdiff_t width, in
     const float *restrict up = z - APART * width, *restrict down = z + APART * width;
     const float *restrict upper = z - ASLANT * width, *restrict lower = z + ASLANT * width;
     for (int32_t i = begin; i < end; i++) {
-        float behind = z[i] * (1.0f + RLF_OUTLINE_JUMP);
+        float behind = z[i] * (1.0f + RLF_OUTLINE_JUMP_SEEN);
         int32_t across = (z[i - APART] > behind) | (z[i + APART] > behind);
         int32_t along = (up[i] > behind) | (down[i] > behind);
         int32_t rising = (upper[i - ASLANT] > behind) | (lower[i + ASLANT] > behind);

@@ -4,8 +4,11 @@
 
 #include "kernel/batch.h"
 
-#define RLF_OUTLINE_JUMP 0.04f /* share of the depth, of what is behind an outline */
-#define RLF_OUTLINE_STEPS 5    /* on the way in */
+/* Share of the depth from a pixel to what is behind its outline: an arm lies no farther before a
+ * trunk. What was filled is less sure of its depth than what was seen. */
+#define RLF_OUTLINE_JUMP 0.03f
+#define RLF_OUTLINE_JUMP_SEEN 0.02f
+#define RLF_OUTLINE_STEPS 5 /* on the way in */
 
 /* Where the outline is, seen from each pixel in front of it. */
 typedef struct rlf_outlines {

@@ -17,6 +17,8 @@
 
 #include <string.h>
 
+static const float MOST_APART = 0.04f; /* share of the depth, of pixels of one surface */
+
 typedef struct outline_job {
     rlf_way way; /* normals of what is known are read, those of what was filled are written */
     const uint8_t *reason;
@@ -92,7 +94,7 @@ static void read_window(const outline_job *job, int32_t x, int32_t y, int32_t k,
     const float *nx = job->way.normal[0] + middle, *ny = job->way.normal[1] + middle,
                 *nz = job->way.normal[2] + middle;
     rlf_window_places p = rlf_window_places_make(job->way.width, job->way.height, x, y);
-    float z = depth[0], most = RLF_OUTLINE_JUMP * z;
+    float z = depth[0], most = MOST_APART * z;
     for (int32_t r = 0; r < RLF_WINDOW_SIDE; r++) {
         for (int32_t c = 0; c < RLF_WINDOW_SIDE; c++) {
             ptrdiff_t i = p.row[r] + p.column[c];

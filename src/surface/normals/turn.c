@@ -48,7 +48,7 @@ static float steps_out(const rlf_way *way, int32_t x, int32_t y, float out_x, fl
         int32_t sx = (int32_t)((float)x + (float)k * out_x + 0.5f);
         int32_t sy = (int32_t)((float)y + (float)k * out_y + 0.5f);
         float z = way->depth[(ptrdiff_t)sy * way->width + sx];
-        if (z > (1.0f + RLF_OUTLINE_JUMP) * last) {
+        if (z > (1.0f + RLF_OUTLINE_JUMP_SEEN) * last) {
             return (float)(sx - x) * out_x + (float)(sy - y) * out_y - 0.5f;
         }
         if (!(rlf_kernel_abs(z - last) <= MOST_STEP * last)) {
@@ -138,7 +138,7 @@ static bool ends_in_window(const rlf_way *way, ptrdiff_t i)
 {
     const float *z = way->depth + i;
     const ptrdiff_t across = RLF_WINDOW_ABOUT, down = across * way->width;
-    float behind = z[0] * (1.0f + RLF_OUTLINE_JUMP);
+    float behind = z[0] * (1.0f + RLF_OUTLINE_JUMP_SEEN);
     return (z[-across] > behind) | (z[across] > behind) | (z[-down] > behind) | (z[down] > behind);
 }
 
