@@ -23,7 +23,7 @@ typedef struct golden {
 } golden;
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0xfde1ec2f761423d9u, 0x4a7c6cc0e31032f1u, 0x1f554769169d89e1u},
+    {RLF_PROFILE_LIVE, 0xd6175f4dfde2c133u, 0x235163184af752beu, 0xc0730400f41dd404u},
     {RLF_PROFILE_THESIS, 0xa393eb06e579d241u, 0xd84652fb54683851u, 0xc064b44391e1e990u},
 };
 
