@@ -89,7 +89,8 @@ RLF_API bool rlf_assert_failed(const char *condition, const char *file, int line
     ((condition) ? true : rlf_assert_failed(#condition, __FILE__, __LINE__))
 
 /* Memory functions; `alloc` gets the size in bytes and returns memory aligned to at least 64
- * bytes, or NULL. Both may be called from any thread. */
+ * bytes, or NULL. Both may be called from any thread. NULL functions bring back the default, which
+ * on Linux asks for pages of 2 MiB for blocks of 4 MiB and more. */
 typedef void *(*rlf_alloc_fn)(void *context, size_t size);
 typedef void (*rlf_free_fn)(void *context, void *memory);
 RLF_API void rlf_set_allocator(rlf_alloc_fn alloc, rlf_free_fn release, void *context);
