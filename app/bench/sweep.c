@@ -18,56 +18,99 @@ static const int32_t region_counts[] = {1, 4, 16, 64, 225};
 static const int32_t people_counts[] = {0, 1, 2, 4, 8};
 static const int32_t row_counts[] = {2, 4, 8};
 static const int32_t body_counts[] = {2, 100, 1000};
+#define MOST_ROOMS 5 /* of a sweep */
 #define COUNT(array) ((int)(sizeof(array) / sizeof((array)[0])))
 
-/* Times the surface stage of profile live on an analytic room. */
-static rlf_result time_room(const bench_room *room, rlf_pool *pool, timing_series *out,
-                            int32_t *out_regions)
+/* The surface stage of profile live on an analytic room. */
+typedef struct lane {
+    rlf_source *source;
+    rlf_reconstruct *stage;
+    int32_t regions;
+    timing_series ms, ratio; /* the latter beside the first lane's same frame */
+} lane;
+
+static rlf_result open_lane(const bench_room *room, rlf_pool *pool, lane *out)
 {
-    rlf_source *source = NULL;
-    rlf_reconstruct *stage = NULL;
-    rlf_result result = bench_source_create(room, &source);
+    rlf_result result = bench_source_create(room, &out->source);
     if (result == RLF_OK) {
-        const rlf_rig *rig = &rlf_source_get_info(source)->rig;
+        const rlf_rig *rig = &rlf_source_get_info(out->source)->rig;
         rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, rig);
         def.pool = pool;
-        result = rlf_reconstruct_create(&def, &stage);
+        result = rlf_reconstruct_create(&def, &out->stage);
     }
-    memset(out, 0, sizeof(*out));
-    for (int i = 0; i < WARM_UP + FRAMES && result == RLF_OK && !command_interrupted; i++) {
-        rlf_frame frame;
-        const rlf_surface *surface = NULL;
-        result = rlf_source_next(source, &frame);
-        int64_t start = rlf_clock_ns();
-        result = result == RLF_OK ? rlf_reconstruct_process(stage, &frame, &surface) : result;
-        double ms = (double)(rlf_clock_ns() - start) * 1e-6;
-        if (result == RLF_OK && i >= WARM_UP) {
-            timing_add(out, ms);
-            *out_regions = surface->region_count;
+    return result;
+}
+
+static rlf_result step_lane(lane *l, double *out_ms)
+{
+    rlf_frame frame;
+    const rlf_surface *surface = NULL;
+    rlf_result result = rlf_source_next(l->source, &frame);
+    int64_t start = rlf_clock_ns();
+    result = result == RLF_OK ? rlf_reconstruct_process(l->stage, &frame, &surface) : result;
+    *out_ms = (double)(rlf_clock_ns() - start) * 1e-6;
+    l->regions = result == RLF_OK ? surface->region_count : 0;
+    return result;
+}
+
+/* One frame of each lane after the other, so that all meet the same machine. */
+static rlf_result run_lanes(lane *lanes, int count)
+{
+    rlf_result result = RLF_OK;
+    for (int f = 0; f < WARM_UP + FRAMES && result == RLF_OK && !command_interrupted; f++) {
+        double first = NAN;
+        for (int i = 0; i < count && result == RLF_OK; i++) {
+            double ms;
+            result = step_lane(&lanes[i], &ms);
+            first = i == 0 ? ms : first;
+            if (f >= WARM_UP) {
+                timing_add(&lanes[i].ms, ms);
+                timing_add(&lanes[i].ratio, ms / first);
+            }
         }
     }
-    rlf_reconstruct_destroy(&stage);
-    rlf_source_destroy(&source);
+    return result;
+}
+
+/* Gives lanes that have run, to be given back with rlf_free; NULL where they could not. */
+static rlf_result time_rooms(const bench_room *rooms, int count, rlf_pool *pool, lane **out)
+{
+    lane *lanes = rlf_alloc_array((size_t)count, sizeof(*lanes));
+    rlf_result result = lanes != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+    for (int i = 0; i < count && result == RLF_OK; i++) {
+        result = open_lane(&rooms[i], pool, &lanes[i]);
+    }
+    result = result == RLF_OK ? run_lanes(lanes, count) : result;
+    for (int i = 0; i < count && lanes != NULL; i++) {
+        rlf_reconstruct_destroy(&lanes[i].stage);
+        rlf_source_destroy(&lanes[i].source);
+    }
+    if (result != RLF_OK) {
+        rlf_free(lanes);
+        lanes = NULL;
+    }
+    *out = lanes;
     return result;
 }
 
 /* Ratio: nanoseconds per pixel beside those of 512x424 (rows before it are set afterwards). */
-static rlf_result sweep_sizes(rlf_pool *pool, timing_series *series, bench_table *table)
+static rlf_result sweep_sizes(rlf_pool *pool, bench_table *table)
 {
     int32_t first = table->count;
     double reference = NAN;
     for (int i = 0; i < COUNT(sizes); i++) {
         bench_room room = {sizes[i][0], sizes[i][1], 1, 16, false};
         char name[BENCH_NAME];
-        int32_t regions = 0;
-        rlf_result result = time_room(&room, pool, series, &regions);
+        lane *timed;
+        rlf_result result = time_rooms(&room, 1, pool, &timed);
         if (result != RLF_OK) {
             return result;
         }
         snprintf(name, sizeof(name), "%dx%d", (int)room.width, (int)room.height);
-        double per_pixel = timing_percentile(series, 50) / ((double)room.width * room.height);
+        double per_pixel = timing_percentile(&timed->ms, 50) / ((double)room.width * room.height);
         reference = room.width == 512 ? per_pixel : reference;
-        bench_add_series(table, "resolution", name, series, per_pixel);
+        bench_add_series(table, "resolution", name, &timed->ms, per_pixel);
+        rlf_free(timed);
     }
     for (int32_t i = first; i < table->count; i++) {
         table->rows[i].ratio /= reference;
@@ -77,33 +120,32 @@ static rlf_result sweep_sizes(rlf_pool *pool, timing_series *series, bench_table
 
 enum room_sweep { SWEEP_REGIONS, SWEEP_PEOPLE, SWEEP_ROW };
 
-/* Ratio: beside the sweep's first row. */
+/* Ratio: beside the same frames of the sweep's first row. */
 static rlf_result sweep_room(enum room_sweep kind, const int32_t *counts, int count, rlf_pool *pool,
-                             timing_series *series, bench_table *table)
+                             bench_table *table)
 {
     static const char *const groups[] = {"regions", "people", "people of the same pixels"};
-    double reference = NAN;
+    bench_room rooms[MOST_ROOMS];
     for (int i = 0; i < count; i++) {
-        bench_room room = {512, 424, counts[i], kind == SWEEP_ROW ? 0 : 4, kind == SWEEP_ROW};
-        char name[BENCH_NAME];
-        int32_t regions = 0;
+        rooms[i] = (bench_room){512, 424, counts[i], kind == SWEEP_ROW ? 0 : 4, kind == SWEEP_ROW};
         if (kind == SWEEP_REGIONS) {
-            room.people = 0;
-            room.plates = counts[i];
+            rooms[i].people = 0;
+            rooms[i].plates = counts[i];
         }
-        rlf_result result = time_room(&room, pool, series, &regions);
-        if (result != RLF_OK) {
-            return result;
-        }
-        double ms = timing_percentile(series, 50);
-        reference = i == 0 ? ms : reference;
+    }
+    lane *timed;
+    rlf_result result = time_rooms(rooms, count, pool, &timed);
+    for (int i = 0; i < count && result == RLF_OK; i++) {
+        char name[BENCH_NAME];
         snprintf(name, sizeof(name), "%d", (int)counts[i]);
         if (kind == SWEEP_REGIONS) {
-            snprintf(name, sizeof(name), "%d (%d found)", (int)counts[i], (int)regions);
+            snprintf(name, sizeof(name), "%d (%d found)", (int)counts[i], (int)timed[i].regions);
         }
-        bench_add_series(table, groups[kind], name, series, ms / reference);
+        bench_add_series(table, groups[kind], name, &timed[i].ms,
+                         timing_percentile(&timed[i].ratio, 50));
     }
-    return RLF_OK;
+    rlf_free(timed);
+    return result;
 }
 
 /* Cubes of 10 cm in a block above floor and table, all falling at once. */
@@ -195,16 +237,15 @@ static rlf_result time_loop(const bench_options *o, timing_series *series, bench
 static rlf_result run_all(const bench_options *o, rlf_pool *pool, timing_series *series,
                           bench_table *table)
 {
-    rlf_result result = sweep_sizes(pool, series, table);
+    rlf_result result = sweep_sizes(pool, table);
     if (result == RLF_OK) {
-        result =
-            sweep_room(SWEEP_REGIONS, region_counts, COUNT(region_counts), pool, series, table);
+        result = sweep_room(SWEEP_REGIONS, region_counts, COUNT(region_counts), pool, table);
     }
     if (result == RLF_OK) {
-        result = sweep_room(SWEEP_PEOPLE, people_counts, COUNT(people_counts), pool, series, table);
+        result = sweep_room(SWEEP_PEOPLE, people_counts, COUNT(people_counts), pool, table);
     }
     if (result == RLF_OK) {
-        result = sweep_room(SWEEP_ROW, row_counts, COUNT(row_counts), pool, series, table);
+        result = sweep_room(SWEEP_ROW, row_counts, COUNT(row_counts), pool, table);
     }
     result = result == RLF_OK ? sweep_bodies(o, series, table) : result;
     return result == RLF_OK ? time_loop(o, series, table) : result;
