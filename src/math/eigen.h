@@ -6,7 +6,7 @@
 
 /* Eigenvalues and unit eigenvectors (columns of `vectors`) of the leading n x n part of the
  * symmetric matrix `a`, n <= 4, which is destroyed: Jacobi's rotations (Golub and Van Loan,
- * algorithm 8.5.1), a fixed number of sweeps. The values are in no order. */
+ * algorithm 8.5.1), until nothing mixes. The values are in no order. */
 void math_eigen(double a[4][4], int32_t n, double values[4], double vectors[4][4]);
 
 #endif

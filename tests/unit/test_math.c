@@ -8,6 +8,7 @@
 
 #include "relief/math.h"
 
+#include "math/eigen.h"
 #include "math/inverse.h"
 #include "math/observe.h"
 
@@ -114,6 +115,33 @@ static void an_observation_corrects_all(void **state)
     assert_true(fabs(covariance[1] - 1.0) < 1e-12 && fabs(covariance[2] - 1.0) < 1e-12);
 }
 
+/* A v = value v, and the vectors are square to each other: of a plate seen aslant, of a needle, of
+ * one whose values are the same, and of nothing. */
+static void eigenvectors_are_only_scaled(void **state)
+{
+    (void)state;
+    static const double all[4][6] = {{2e-2, 1e-3, -4e-3, 1e-2, 3e-3, 1e-3}, /* xx xy xz yy yz zz */
+                                     {4.0, 6.0, 2.0, 9.0, 3.0, 1.0},
+                                     {1.0, 1e-25, 0.0, 1.0, 0.0, 1.0},
+                                     {0.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
+    for (int m = 0; m < 4; m++) {
+        const double *s = all[m];
+        const double a[3][3] = {{s[0], s[1], s[2]}, {s[1], s[3], s[4]}, {s[2], s[4], s[5]}};
+        double work[4][4] = {{0.0}}, values[4], v[4][4];
+        for (int k = 0; k < 9; k++) {
+            work[k / 3][k % 3] = a[k / 3][k % 3];
+        }
+        math_eigen(work, 3, values, v);
+        for (int k = 0; k < 9; k++) {
+            int r = k / 3, c = k % 3;
+            double turned = a[r][0] * v[0][c] + a[r][1] * v[1][c] + a[r][2] * v[2][c];
+            assert_true(fabs(turned - values[c] * v[r][c]) <= 1e-14 * (s[0] + s[3] + s[5]));
+            double dot = v[0][r] * v[0][c] + v[1][r] * v[1][c] + v[2][r] * v[2][c];
+            assert_true(fabs(dot - (r == c)) < 1e-14);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -121,6 +149,7 @@ int main(void)
         cmocka_unit_test(poses_compose_and_invert),
         cmocka_unit_test(inverse_of_a_matrix),
         cmocka_unit_test(an_observation_corrects_all),
+        cmocka_unit_test(eigenvectors_are_only_scaled),
         cmocka_unit_test(inverse_of_a_covariance),
         cmocka_unit_test(model_matrix_scales_then_rotates_then_translates),
     };
