@@ -1,8 +1,7 @@
-/* An allocator that counts bytes. */
+/* An allocator that counts bytes, and is the default one beside that. */
 #include "bench/bench.h"
 
 #include <stdatomic.h>
-#include <stdlib.h>
 
 #define HEADER 64 /* keeps the alignment that rlf_alloc_fn asks for */
 
@@ -12,7 +11,7 @@ static void *counted_alloc(void *context, size_t size)
 {
     (void)context;
     size_t whole = (size + HEADER - 1) / HEADER * HEADER + HEADER;
-    unsigned char *memory = aligned_alloc(HEADER, whole);
+    unsigned char *memory = rlf_default_alloc(NULL, whole);
     if (memory == NULL) {
         return NULL;
     }
@@ -26,7 +25,7 @@ static void counted_free(void *context, void *memory)
     (void)context;
     unsigned char *start = (unsigned char *)memory - HEADER;
     atomic_fetch_sub(&bytes_now, (long long)*(size_t *)(void *)start);
-    free(start);
+    rlf_default_free(NULL, start);
 }
 
 void bench_memory_start(void)

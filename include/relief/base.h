@@ -94,6 +94,10 @@ RLF_API bool rlf_assert_failed(const char *condition, const char *file, int line
 typedef void *(*rlf_alloc_fn)(void *context, size_t size);
 typedef void (*rlf_free_fn)(void *context, void *memory);
 RLF_API void rlf_set_allocator(rlf_alloc_fn alloc, rlf_free_fn release, void *context);
+/* The default functions, for those that do something beside them, as counting; `context` is not
+ * used. */
+RLF_API void *rlf_default_alloc(void *context, size_t size);
+RLF_API void rlf_default_free(void *context, void *memory);
 
 /* Zeroed memory aligned to 64 bytes, or NULL (then the error line is set). `size` 0 gives 64. */
 RLF_API void *rlf_alloc(size_t size);

@@ -37,7 +37,7 @@ static bool assert_default(void *context, const char *condition, const char *fil
 #endif
 }
 
-static void *alloc_default(void *context, size_t size)
+void *rlf_default_alloc(void *context, size_t size)
 {
     (void)context;
 #ifdef MADV_HUGEPAGE
@@ -53,7 +53,7 @@ static void *alloc_default(void *context, size_t size)
     return aligned_alloc(ALIGNMENT, size);
 }
 
-static void free_default(void *context, void *memory)
+void rlf_default_free(void *context, void *memory)
 {
     (void)context;
     free(memory);
@@ -63,8 +63,8 @@ static rlf_log_fn log_fn = log_to_stderr;
 static void *log_context;
 static rlf_assert_fn assert_fn = assert_default;
 static void *assert_context;
-static rlf_alloc_fn alloc_fn = alloc_default;
-static rlf_free_fn free_fn = free_default;
+static rlf_alloc_fn alloc_fn = rlf_default_alloc;
+static rlf_free_fn free_fn = rlf_default_free;
 static void *alloc_context;
 static atomic_uint_fast64_t alloc_calls;
 
@@ -104,8 +104,8 @@ bool rlf_assert_failed(const char *condition, const char *file, int line)
 void rlf_set_allocator(rlf_alloc_fn alloc, rlf_free_fn release, void *context)
 {
     bool is_complete = alloc != NULL && release != NULL;
-    alloc_fn = is_complete ? alloc : alloc_default;
-    free_fn = is_complete ? release : free_default;
+    alloc_fn = is_complete ? alloc : rlf_default_alloc;
+    free_fn = is_complete ? release : rlf_default_free;
     alloc_context = context;
 }
 
