@@ -53,9 +53,16 @@ static rlf_vec3 camera_of(const rlf_torso *t)
     return rlf_torso_place(t, rlf_vec3_make(0.0, 0.0, 0.0));
 }
 
-static rlf_vec3 way_of(const rlf_torso *t, double x, double y)
+static rlf_torso_cut cut_by_ray(const rlf_torso *t, const rlf_leg_part *part, double x, double y)
 {
-    return rlf_sub(rlf_torso_place(t, rlf_vec3_make(x, y, 1.0)), camera_of(t));
+    const rlf_kernel_limb limb = rlf_leg_limb(part, camera_of(t));
+    rlf_kernel_ray_lanes rays;
+    rlf_kernel_cuts cuts;
+    rlf_torso_begin_rays(t, &rays);
+    rlf_torso_add_ray(t, x, y, &rays);
+    rlf_torso_close_rays(&rays);
+    rlf_kernel_cut_limb(&limb, &rays, 0, rays.count, &cuts);
+    return (rlf_torso_cut){cuts.enter[0], cuts.leave[0]};
 }
 
 /* Depth at which the ray meets the legs first; 0 = nowhere. */
@@ -65,7 +72,7 @@ static double meet(const rlf_torso *t, double x, double y, int *leg)
     for (int k = 0; k < 2; k++) {
         rlf_leg_shape shape = rlf_leg_shape_of(t, k);
         for (int part = 0; part < RLF_LEG_PARTS; part++) {
-            rlf_torso_cut cut = rlf_leg_cut_ray(&shape.part[part], camera_of(t), way_of(t, x, y));
+            rlf_torso_cut cut = cut_by_ray(t, &shape.part[part], x, y);
             if (cut.enter < cut.leave && cut.enter < first) {
                 first = cut.enter;
                 *leg = k;
@@ -92,13 +99,17 @@ static void rays_end_on_the_surface(void **state)
         walk(&t, 0.1 * i);
         for (double y = 0.17; y < 0.5; y += 0.01) {
             for (double x = -0.2; x < 0.3; x += 0.005) {
-                int leg = 0, part;
+                int leg = 0;
                 double z = meet(&t, x, y, &leg);
                 if (z > 0.0) {
-                    rlf_leg_shape shape = rlf_leg_shape_of(&t, leg);
+                    rlf_kernel_nearest nearest;
+                    const rlf_leg_shape shape[2] = {rlf_leg_shape_of(&t, 0),
+                                                    rlf_leg_shape_of(&t, 1)};
                     rlf_vec3 p = rlf_torso_place(&t, rlf_vec3_make(z * x, z * y, z));
                     hits++;
-                    assert_true(fabs(rlf_leg_distance(&shape, p, &part)) < 0.006);
+                    rlf_legs_nearest(shape, &p, 1, &nearest);
+                    assert_true(fabs(nearest.distance[0]) < 0.006);
+                    assert_true((int)nearest.axis[0] / RLF_LEG_PARTS == leg);
                 }
             }
         }

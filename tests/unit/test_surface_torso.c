@@ -32,11 +32,27 @@ static rlf_torso other(double angle)
     return t;
 }
 
+/* Of the trunk, and of the shoulders; enter > leave where it misses. */
+static void cut_by_ray(const rlf_torso *t, double x, double y, rlf_torso_cut out[2])
+{
+    rlf_kernel_ray_lanes rays;
+    rlf_kernel_cuts cuts[2];
+    rlf_torso_begin_rays(t, &rays);
+    rlf_torso_add_ray(t, x, y, &rays);
+    rlf_torso_close_rays(&rays);
+    rlf_torso_cut_rays(t, &rays, &cuts[0]);
+    out[0] = (rlf_torso_cut){cuts[0].enter[0], cuts[0].leave[0]};
+    out[1] = (rlf_torso_cut){1.0, 0.0};
+    if (rlf_torso_cut_shoulders(t, &rays, &cuts[1])) {
+        out[1] = (rlf_torso_cut){cuts[1].enter[0], cuts[1].leave[0]};
+    }
+}
+
 /* First of its parts on the ray; false when it misses both. */
 static bool hit(const rlf_torso *t, double x, double y, double *enter, double *leave)
 {
     rlf_torso_cut cut[2];
-    rlf_torso_cut_ray(t, x, y, cut);
+    cut_by_ray(t, x, y, cut);
     bool has[2] = {cut[0].enter < cut[0].leave, cut[1].enter < cut[1].leave};
     int k = has[1] && (!has[0] || cut[1].enter < cut[0].enter) ? 1 : 0;
     *enter = cut[k].enter;
@@ -119,13 +135,13 @@ static bool find_outline(const rlf_torso *t, double y, double towards, rlf_vec3 
 {
     rlf_torso_cut cut[2];
     double inside = t->head.x / t->head.z, outside = inside + 0.15 * towards, z = 0.0;
-    rlf_torso_cut_ray(t, inside, y, cut);
+    cut_by_ray(t, inside, y, cut);
     if (!(cut[0].enter < cut[0].leave)) {
         return false;
     }
     for (int i = 0; i < 40; i++) {
         double x = 0.5 * (inside + outside);
-        rlf_torso_cut_ray(t, x, y, cut);
+        cut_by_ray(t, x, y, cut);
         bool is_hit = cut[0].enter < cut[0].leave;
         inside = is_hit ? x : inside;
         outside = is_hit ? outside : x;

@@ -46,9 +46,11 @@ typedef struct rlf_leg_touch {
 void rlf_leg_usual(const rlf_torso *torso, double side, double unknown[RLF_LEG_UNKNOWNS],
                    double variance[RLF_LEG_UNKNOWNS]);
 rlf_leg_shape rlf_leg_shape_of(const rlf_torso *torso, int leg);
-/* From a place to the shape, metres, less than 0 within; and which part is nearest. */
-double rlf_leg_distance(const rlf_leg_shape *shape, rlf_vec3 p, int *part);
-/* The same of one part. */
+/* From up to RLF_KERNEL_RAYS places to the nearest of the parts of both legs; out->axis counts
+ * them: part, and RLF_LEG_PARTS more for the second leg's. */
+void rlf_legs_nearest(const rlf_leg_shape shape[2], const rlf_vec3 *p, int32_t count,
+                      rlf_kernel_nearest *out);
+/* From a place to one part, metres, less than 0 within. */
 rlf_leg_touch rlf_leg_touch_at(const rlf_leg_shape *shape, int part, rlf_vec3 p, rlf_vec3 camera);
 /* The place on the camera's ray through p that is nearest to the part's axis; p where the camera
  * looks along that. */
@@ -56,8 +58,8 @@ rlf_vec3 rlf_leg_beside(const rlf_leg_part *part, rlf_vec3 p, rlf_vec3 camera);
 /* How much longer thigh or shin is than usual, of the spread among people. */
 rlf_leg_touch rlf_leg_stretch(const rlf_leg_shape *shape, int part);
 
-/* Cuts a part by the ray that is at depth z at from + z way; enter > leave where it misses. */
-rlf_torso_cut rlf_leg_cut_ray(const rlf_leg_part *part, rlf_vec3 from, rlf_vec3 way);
+/* The part, as rays from the camera cut it. */
+rlf_kernel_limb rlf_leg_limb(const rlf_leg_part *part, rlf_vec3 camera);
 
 /* ---- thickness/legs_fit.c ---- */
 /* Follows both legs below a torso, dt s after the last frame, or looks for them. Points are places

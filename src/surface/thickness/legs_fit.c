@@ -49,54 +49,67 @@ static void add_touch(equations *sum, const rlf_leg_touch *touch, double weight)
     }
 }
 
-/* Which leg a point is nearest to, and which part of it. */
-static int nearest_leg(const rlf_leg_shape shape[2], rlf_vec3 p, int *part)
-{
-    int other;
-    double first = rlf_leg_distance(&shape[0], p, part);
-    if (!(rlf_leg_distance(&shape[1], p, &other) < first)) {
-        return 0;
-    }
-    *part = other;
-    return 1;
-}
+/* What places say about both legs. */
+typedef struct reading {
+    rlf_leg_shape shape[2];
+    rlf_vec3 camera;
+    double scale;  /* of the weight */
+    double weight; /* of a place that fits */
+    double area_m2;
+} reading;
 
 /* On a leg's outline the camera's ray touches it: the place on the ray that is nearest to the axis
  * is on the surface, which tells how thick the leg is. */
-static void add_rim(const rlf_leg_shape shape[2], const rlf_torso_points *points, rlf_vec3 camera,
-                    double scale, equations sum[2])
+static void add_rim(const reading *r, rlf_vec3 rim, int leg, int part, equations sum[2])
 {
-    double weight = rim_worth * weight_m4 * points->area_m2;
-    for (int32_t i = 0; i < points->rim_count; i++) {
-        int part, leg = nearest_leg(shape, points->rim[i], &part);
-        if (part == RLF_FOOT) { /* not seen from beside */
-            continue;
+    if (part == RLF_FOOT) { /* not seen from beside */
+        return;
+    }
+    rlf_vec3 p = rlf_leg_beside(&r->shape[leg].part[part], rim, r->camera);
+    rlf_leg_touch touch = rlf_leg_touch_at(&r->shape[leg], part, p, r->camera);
+    double off = touch.distance / r->scale, share = 1.0 / (1.0 + off * off);
+    add_touch(&sum[leg], &touch, rim_worth * r->weight * share * share);
+}
+
+static void add_point(const reading *r, rlf_vec3 p, int leg, int part, equations sum[2])
+{
+    rlf_leg_touch touch = rlf_leg_touch_at(&r->shape[leg], part, p, r->camera);
+    double off = touch.distance / r->scale, share = 1.0 / (1.0 + off * off);
+    add_touch(&sum[leg], &touch, r->weight * share * share);
+    sum[leg].area_m2 += share > 0.5 ? r->area_m2 : 0.0;
+}
+
+typedef void add_place(const reading *r, rlf_vec3 p, int leg, int part, equations sum[2]);
+
+/* Adds each of the places to the leg that it is nearest to. */
+static void add_places(const reading *r, const rlf_vec3 *p, int32_t count, add_place *add,
+                       equations sum[2])
+{
+    rlf_kernel_nearest nearest;
+    for (int32_t first = 0; first < count; first += RLF_KERNEL_RAYS) {
+        int32_t some = count - first < RLF_KERNEL_RAYS ? count - first : RLF_KERNEL_RAYS;
+        rlf_legs_nearest(r->shape, p + first, some, &nearest);
+        for (int32_t i = 0; i < some; i++) {
+            int axis = (int)nearest.axis[i];
+            add(r, p[first + i], axis / RLF_LEG_PARTS, axis % RLF_LEG_PARTS, sum);
         }
-        rlf_vec3 p = rlf_leg_beside(&shape[leg].part[part], points->rim[i], camera);
-        rlf_leg_touch touch = rlf_leg_touch_at(&shape[leg], part, p, camera);
-        double off = touch.distance / scale, share = 1.0 / (1.0 + off * off);
-        add_touch(&sum[leg], &touch, weight * share * share);
     }
 }
 
 static void add_points(const rlf_torso *torso, const rlf_torso_points *points, double scale,
                        equations sum[2])
 {
-    const rlf_leg_shape shape[2] = {rlf_leg_shape_of(torso, 0), rlf_leg_shape_of(torso, 1)};
-    rlf_vec3 camera = rlf_torso_place(torso, rlf_vec3_make(0.0, 0.0, 0.0));
-    double weight = weight_m4 * points->area_m2;
+    const reading r = {.shape = {rlf_leg_shape_of(torso, 0), rlf_leg_shape_of(torso, 1)},
+                       .camera = rlf_torso_place(torso, rlf_vec3_make(0.0, 0.0, 0.0)),
+                       .scale = scale,
+                       .weight = weight_m4 * points->area_m2,
+                       .area_m2 = points->area_m2};
     memset(sum, 0, 2 * sizeof *sum);
-    for (int32_t i = 0; i < points->count; i++) {
-        int part, leg = nearest_leg(shape, points->p[i], &part);
-        rlf_leg_touch touch = rlf_leg_touch_at(&shape[leg], part, points->p[i], camera);
-        double off = touch.distance / scale, share = 1.0 / (1.0 + off * off);
-        add_touch(&sum[leg], &touch, weight * share * share);
-        sum[leg].area_m2 += share > 0.5 ? points->area_m2 : 0.0;
-    }
-    add_rim(shape, points, camera, scale, sum);
+    add_places(&r, points->p, points->count, add_point, sum);
+    add_places(&r, points->rim, points->rim_count, add_rim, sum);
     for (int leg = 0; leg < 2; leg++) {
         for (int part = RLF_THIGH; part <= RLF_SHIN; part++) {
-            rlf_leg_touch stretch = rlf_leg_stretch(&shape[leg], part);
+            rlf_leg_touch stretch = rlf_leg_stretch(&r.shape[leg], part);
             add_touch(&sum[leg], &stretch, 1.0);
         }
     }
@@ -229,12 +242,18 @@ static double misfit_of_feet(const rlf_torso *torso, const rlf_torso_points *poi
                          torso->leg[1].unknown[RLF_LEG_ANKLE + 1]) -
                  foot_top;
     double sum = 0.0;
-    for (int32_t i = 0; i < points->count; i++) {
-        if (points->p[i].y > top) {
-            int part;
-            double off = rlf_min(rlf_leg_distance(&shape[0], points->p[i], &part),
-                                 rlf_leg_distance(&shape[1], points->p[i], &part)) /
-                         foot_scale_m;
+    for (int32_t i = 0; i < points->count;) {
+        rlf_vec3 feet[RLF_KERNEL_RAYS];
+        rlf_kernel_nearest nearest;
+        int32_t count = 0;
+        for (; i < points->count && count < RLF_KERNEL_RAYS; i++) {
+            if (points->p[i].y > top) {
+                feet[count++] = points->p[i];
+            }
+        }
+        rlf_legs_nearest(shape, feet, count, &nearest);
+        for (int32_t k = 0; k < count; k++) {
+            double off = nearest.distance[k] / foot_scale_m;
             sum += points->area_m2 * off * off / (1.0 + off * off);
         }
     }

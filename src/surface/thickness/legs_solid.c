@@ -105,24 +105,39 @@ static foot_point foot_of(const rlf_leg_part *s, rlf_vec3 p)
                         s->radius[0] + t * (s->radius[1] - s->radius[0])};
 }
 
-static double distance_to(const rlf_leg_part *s, rlf_vec3 p)
+static void put(rlf_vec3 v, double out[3])
 {
-    foot_point foot = foot_of(s, p);
-    return rlf_length(foot.off) - foot.radius;
+    out[0] = v.x;
+    out[1] = v.y;
+    out[2] = v.z;
 }
 
-double rlf_leg_distance(const rlf_leg_shape *shape, rlf_vec3 p, int *part)
+static rlf_kernel_axis axis_of(const rlf_leg_part *part)
 {
-    double least = distance_to(&shape->part[0], p);
-    *part = 0;
-    for (int k = 1; k < RLF_LEG_PARTS; k++) {
-        double one = distance_to(&shape->part[k], p);
-        if (one < least) {
-            least = one;
-            *part = k;
-        }
+    rlf_kernel_axis out = {.radius = {part->radius[0], part->radius[1]}};
+    rlf_vec3 along = rlf_sub(part->end, part->begin);
+    put(part->begin, out.begin);
+    put(along, out.along);
+    out.square = rlf_dot(along, along) + 1e-9;
+    return out;
+}
+
+void rlf_legs_nearest(const rlf_leg_shape shape[2], const rlf_vec3 *p, int32_t count,
+                      rlf_kernel_nearest *out)
+{
+    rlf_kernel_axis axes[2 * RLF_LEG_PARTS];
+    rlf_kernel_places places = {.count = 0};
+    for (int k = 0; k < 2 * RLF_LEG_PARTS; k++) {
+        axes[k] = axis_of(&shape[k / RLF_LEG_PARTS].part[k % RLF_LEG_PARTS]);
     }
-    return least;
+    while (places.count < count || places.count % RLF_KERNEL_RAY_LANES != 0) {
+        int32_t i = places.count++;
+        const rlf_vec3 *at = &p[i < count ? i : count - 1];
+        places.side[i] = at->x;
+        places.down[i] = at->y;
+        places.ahead[i] = at->z;
+    }
+    rlf_kernel_find_nearest(axes, 2 * RLF_LEG_PARTS, &places, out);
 }
 
 rlf_leg_touch rlf_leg_touch_at(const rlf_leg_shape *shape, int part, rlf_vec3 p, rlf_vec3 camera)
@@ -188,60 +203,13 @@ rlf_leg_touch rlf_leg_stretch(const rlf_leg_shape *shape, int part)
     return out;
 }
 
-/* a z^2 - 2 b z + c, negative at depths z where a ray is inside a round solid. */
-typedef struct quadratic {
-    double a, b, c;
-} quadratic;
-
-static bool find_roots(const quadratic *q, double root[2])
+rlf_kernel_limb rlf_leg_limb(const rlf_leg_part *part, rlf_vec3 camera)
 {
-    double d = q->b * q->b - q->a * q->c;
-    if (!(q->a > 1e-9 && d > 0.0)) {
-        return false;
-    }
-    d = sqrt(d);
-    root[0] = (q->b - d) / q->a;
-    root[1] = (q->b + d) / q->a;
-    return true;
-}
-
-static void cut_ball(rlf_vec3 middle, double radius, rlf_vec3 from, rlf_vec3 way,
-                     rlf_torso_cut *out)
-{
-    rlf_vec3 off = rlf_sub(middle, from);
-    double root[2];
-    const quadratic q = {rlf_dot(way, way), rlf_dot(off, way), rlf_dot(off, off) - radius * radius};
-    if (find_roots(&q, root)) {
-        out->enter = rlf_min(out->enter, root[0]);
-        out->leave = rlf_max(out->leave, root[1]);
-    }
-}
-
-/* A ball at each end, and between them the cylinder of the radius at which the ray is nearest. */
-rlf_torso_cut rlf_leg_cut_ray(const rlf_leg_part *part, rlf_vec3 from, rlf_vec3 way)
-{
-    rlf_torso_cut out = {1e9, -1e9};
-    rlf_vec3 along = rlf_sub(part->end, part->begin), off = rlf_sub(part->begin, from);
-    double length = rlf_length(along) + 1e-9, root[2];
-    along = rlf_scale(along, 1.0 / length);
-    double way_along = rlf_dot(way, along), off_along = rlf_dot(off, along);
-    quadratic q = {rlf_dot(way, way) - way_along * way_along,
-                   rlf_dot(off, way) - off_along * way_along,
-                   rlf_dot(off, off) - off_along * off_along};
-    double nearest = q.a > 1e-9 ? q.b / q.a : 0.0;
-    double t = rlf_clamp((nearest * way_along - off_along) / length, 0.0, 1.0);
-    double radius = part->radius[0] + t * (part->radius[1] - part->radius[0]);
-    q.c -= radius * radius;
-    if (find_roots(&q, root)) {
-        for (int k = 0; k < 2; k++) {
-            double at = root[k] * way_along - off_along;
-            if (at >= 0.0 && at <= length) {
-                out.enter = rlf_min(out.enter, root[k]);
-                out.leave = rlf_max(out.leave, root[k]);
-            }
-        }
-    }
-    cut_ball(part->begin, part->radius[0], from, way, &out);
-    cut_ball(part->end, part->radius[1], from, way, &out);
+    rlf_kernel_limb out = {.radius = {part->radius[0], part->radius[1]}};
+    rlf_vec3 along = rlf_sub(part->end, part->begin);
+    out.length = rlf_length(along) + 1e-9;
+    put(rlf_scale(along, 1.0 / out.length), out.along);
+    put(rlf_sub(part->begin, camera), out.off[0]);
+    put(rlf_sub(part->end, camera), out.off[1]);
     return out;
 }

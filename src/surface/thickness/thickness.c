@@ -65,15 +65,16 @@ static void resolve_rows(void *context, int32_t begin, int32_t end, int32_t work
     (void)worker;
     const rlf_chord_job *job = context;
     int32_t x0 = job->x0 / job->step, x1 = (job->x0 + job->width + job->step - 1) / job->step;
-    for (int32_t y = job->y0 / job->step + begin; y < job->y0 / job->step + end; y++) {
+    int32_t y0 = job->y0 / job->step + begin, y1 = job->y0 / job->step + end;
+    for (int32_t y = y0; y < y1; y++) {
         ptrdiff_t row = y * job->knot_pitch;
         for (int32_t x = x0; x < x1; x++) {
             float front = job->knot[row + x];
             job->thickness[row + x] = front > 0.0f ? back_of(job, row + x) - front : 0.0f;
         }
-        if (job->is_of_people) {
-            rlf_torsos_thicken(job, y);
-        }
+    }
+    if (job->is_of_people) {
+        rlf_torsos_thicken(job, y0, y1);
     }
 }
 

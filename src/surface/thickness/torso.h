@@ -12,6 +12,7 @@
 #ifndef RLF_SURFACE_THICKNESS_TORSO_H
 #define RLF_SURFACE_THICKNESS_TORSO_H
 
+#include "kernel/solid.h"
 #include "surface/thickness/thickness.h"
 
 /* What is unknown of a torso, metres and radians. `side` is the level unit vector from its axis to
@@ -56,9 +57,16 @@ bool rlf_torso_touch_at(const rlf_torso *torso, rlf_vec3 p, rlf_torso_touch *out
 /* The same of a place on the trunk's outline, where the camera's ray touches it: how far the ray is
  * from the surface, and how much farther than p its place there is. False at other heights. */
 bool rlf_torso_touch_rim(const rlf_torso *torso, rlf_vec3 p, rlf_torso_touch *out, double *moved_m);
-/* Cuts the trunk (out[0]), down to the crotch, and the shoulders (out[1]) by the ray (x, y, 1);
- * enter > leave where it misses. */
-void rlf_torso_cut_ray(const rlf_torso *torso, double x, double y, rlf_torso_cut out[2]);
+/* Rays in the torso's own axes: none; one more, (x, y, 1); as many as kernels want. */
+void rlf_torso_begin_rays(const rlf_torso *torso, rlf_kernel_ray_lanes *out);
+void rlf_torso_add_ray(const rlf_torso *torso, double x, double y, rlf_kernel_ray_lanes *rays);
+void rlf_torso_close_rays(rlf_kernel_ray_lanes *rays);
+/* Cuts the trunk, down to the crotch. */
+void rlf_torso_cut_rays(const rlf_torso *torso, const rlf_kernel_ray_lanes *rays,
+                        rlf_kernel_cuts *out);
+/* Cuts the shoulders; false when no ray is near them. */
+bool rlf_torso_cut_shoulders(const rlf_torso *torso, const rlf_kernel_ray_lanes *rays,
+                             rlf_kernel_cuts *out);
 
 /* ---- thickness/torso_points.c ---- */
 /* Points of a person around the place of the torso. */
@@ -102,7 +110,7 @@ void rlf_skull_follow(const rlf_chord_job *job, rlf_torso *torso, double brow, d
 rlf_torso_cut rlf_skull_cut_ray(const rlf_skull *skull, double x, double y);
 
 /* ---- thickness/torso_back.c ---- */
-/* Thickens the block's knots of a row by the torsos seen. */
-void rlf_torsos_thicken(const rlf_chord_job *job, int32_t knot_row);
+/* Thickens the block's knots of the rows begin <= y < end by the torsos seen. */
+void rlf_torsos_thicken(const rlf_chord_job *job, int32_t begin, int32_t end);
 
 #endif

@@ -14,28 +14,36 @@ static const double most_doubt_m = 0.1; /* of a part's lower end: else it is any
 static const double fold_m = 0.02;      /* by which legs begin above the crotch */
 static const double lowest_m = 2.0;     /* below a head's top there are no feet */
 
-/* A part of a leg that a row of knots may meet, from ray_x x0 to x1. */
-typedef struct row_part {
-    rlf_leg_part part;
-    limb limb;
-    double x0, x1;
-} row_part;
+/* A part of a leg; only rays at slopes ray_y from y0 to y1 and ray_x from x0 to x1 meet it. */
+typedef struct leg_part {
+    rlf_kernel_limb limb;
+    limb kind;
+    double x0, x1, y0, y1;
+} leg_part;
 
-/* What one row of knots may meet of a person. */
-typedef struct row_sight {
+/* A person, as rays see one. */
+typedef struct sight {
     const rlf_torso *torso;
-    rlf_vec3 camera; /* in the torso's axes */
-    bool has_head, has_trunk;
-    row_part part[2 * RLF_LEG_PARTS];
+    rlf_span columns, rows; /* pixels of the region in the block */
+    rlf_vec3 camera;        /* in the torso's axes */
+    leg_part part[2 * RLF_LEG_PARTS];
     int32_t count;
-} row_sight;
+} sight;
+
+/* Knots of a row that are of the person, and their rays. */
+typedef struct knots {
+    int32_t count;
+    ptrdiff_t knot[RLF_KERNEL_RAYS];
+    double x[RLF_KERNEL_RAYS], y[RLF_KERNEL_RAYS];
+    double row_y; /* slope of the first in the row */
+    rlf_kernel_ray_lanes rays;
+} knots;
 
 /* The parts that a ray meets. */
 typedef struct cuts {
     rlf_torso_cut item[MOST_CUTS];
     limb limb[MOST_CUTS];
     int32_t count;
-    double face; /* how much of what is seen of the head is that */
 } cuts;
 
 /* Whether a ray at that slope goes by above the torso or below the feet. */
@@ -51,80 +59,111 @@ static bool is_sure(const rlf_leg *leg, int part)
     return leg->doubt[end][end] + leg->doubt[end + 2][end + 2] < most_doubt_m * most_doubt_m;
 }
 
-/* Columns, as ray_x, between which a row at that slope may meet the part; false when it does not.
- */
-static bool find_columns(const rlf_torso *torso, const rlf_leg_part *part, double y, row_part *out)
+/* Slopes of the rays that may meet the part. */
+static void find_window(const rlf_torso *torso, const rlf_leg_part *part, leg_part *out)
 {
     const double wider = 1.1; /* than a ball's radius over its depth: it is seen aslant */
     const rlf_vec3 ends[2] = {rlf_torso_point(torso, part->begin),
                               rlf_torso_point(torso, part->end)};
-    double top = 1e9, bottom = -1e9;
-    out->x0 = 1e9;
-    out->x1 = -1e9;
+    out->x0 = out->y0 = 1e9;
+    out->x1 = out->y1 = -1e9;
     for (int k = 0; k < 2; k++) {
         double r = wider * part->radius[k], z = rlf_max(ends[k].z, 0.1);
-        top = rlf_min(top, (ends[k].y - r) / z);
-        bottom = rlf_max(bottom, (ends[k].y + r) / z);
+        out->y0 = rlf_min(out->y0, (ends[k].y - r) / z);
+        out->y1 = rlf_max(out->y1, (ends[k].y + r) / z);
         out->x0 = rlf_min(out->x0, (ends[k].x - r) / z);
         out->x1 = rlf_max(out->x1, (ends[k].x + r) / z);
     }
-    return y >= top && y <= bottom;
 }
 
-static row_sight look(const rlf_torso *torso, double y)
+static sight look(const rlf_chord_job *job, const rlf_torso *torso)
 {
-    row_sight out = {.torso = torso};
-    out.camera = rlf_torso_place(torso, rlf_vec3_make(0.0, 0.0, 0.0));
-    double down = out.camera.y + y * torso->head.z;
-    out.has_head = y * torso->head.z - torso->head.y < rlf_torso_first;
-    out.has_trunk = down < rlf_torso_crotch + margin_m;
-    if (down < rlf_torso_crotch - fold_m) {
-        return out;
+    sight out = {.torso = torso};
+    const rlf_slot *slot = job->slot;
+    for (int32_t r = 0; r < slot->foreground_region_count; r++) {
+        const rlf_region *region = &slot->regions[slot->foreground_region_first + r];
+        if (region->label == torso->label) {
+            int32_t end = job->x0 + job->width;
+            out.columns.x0 = region->x0 > job->x0 ? region->x0 : job->x0;
+            out.columns.x1 = region->x1 < end ? region->x1 : end;
+            out.rows = (rlf_span){region->y0, region->y1};
+        }
     }
+    out.camera = rlf_torso_place(torso, rlf_vec3_make(0.0, 0.0, 0.0));
     for (int leg = 0; leg < 2; leg++) {
         rlf_leg_shape shape = rlf_leg_shape_of(torso, leg);
         for (int part = 0; part < RLF_LEG_PARTS; part++) {
-            row_part *p = &out.part[out.count];
-            if (is_sure(&torso->leg[leg], part) && find_columns(torso, &shape.part[part], y, p)) {
-                p->part = shape.part[part];
-                p->limb = (part == RLF_FOOT ? FOOT : LEG) + leg;
-                out.count++;
+            if (is_sure(&torso->leg[leg], part)) {
+                leg_part *p = &out.part[out.count++];
+                find_window(torso, &shape.part[part], p);
+                p->limb = rlf_leg_limb(&shape.part[part], out.camera);
+                p->kind = (part == RLF_FOOT ? FOOT : LEG) + leg;
             }
         }
     }
     return out;
 }
 
-static void add_cut(cuts *c, const rlf_torso_cut *cut, limb of)
+static void add_cut(cuts *c, double enter, double leave, limb of)
 {
-    if (cut->enter < cut->leave) {
-        c->item[c->count] = *cut;
+    if (enter < leave) {
+        c->item[c->count] = (rlf_torso_cut){enter, leave};
         c->limb[c->count++] = of;
     }
 }
 
-static void find_cuts(const row_sight *row, double x, double y, cuts *out)
+static void add_cuts(const rlf_kernel_cuts *cut, int32_t begin, int32_t end, limb of, cuts *met)
 {
-    const rlf_torso *torso = row->torso;
-    rlf_torso_cut cut[2];
-    out->count = 0;
-    out->face = torso->skull.face;
-    if (torso->skull.is_seen && row->has_head) {
-        cut[0] = rlf_skull_cut_ray(&torso->skull, x, y);
-        add_cut(out, &cut[0], HEAD);
+    for (int32_t i = begin; i < end; i++) {
+        add_cut(&met[i], cut->enter[i], cut->leave[i], of);
     }
-    if (row->has_trunk) {
-        rlf_torso_cut_ray(torso, x, y, cut);
-        add_cut(out, &cut[0], TRUNK);
-        add_cut(out, &cut[1], SHOULDERS);
-    }
-    const rlf_vec3 way =
-        rlf_vec3_make(x * torso->side_x + torso->side_z, y, torso->side_x - x * torso->side_z);
-    for (int32_t k = 0; k < row->count; k++) {
-        if (x >= row->part[k].x0 && x <= row->part[k].x1) {
-            cut[0] = rlf_leg_cut_ray(&row->part[k].part, row->camera, way);
-            add_cut(out, &cut[0], row->part[k].limb);
+}
+
+static void cut_legs(const sight *s, const knots *k, cuts *met)
+{
+    const int32_t lanes = RLF_KERNEL_RAY_LANES;
+    for (int32_t p = 0; p < s->count; p++) {
+        const leg_part *part = &s->part[p];
+        if (!(k->row_y >= part->y0 && k->row_y <= part->y1)) {
+            continue;
         }
+        int32_t begin = 0, end = k->count;
+        while (begin < end && !(k->x[begin] >= part->x0 && k->x[begin] <= part->x1)) {
+            begin++;
+        }
+        while (end > begin && !(k->x[end - 1] >= part->x0 && k->x[end - 1] <= part->x1)) {
+            end--;
+        }
+        rlf_kernel_cuts cut;
+        rlf_kernel_cut_limb(&part->limb, &k->rays, begin / lanes * lanes,
+                            (end + lanes - 1) / lanes * lanes, &cut);
+        add_cuts(&cut, begin, end, part->kind, met);
+    }
+}
+
+/* What each ray meets. */
+static void find_cuts(const sight *s, const knots *k, cuts *met)
+{
+    const rlf_torso *torso = s->torso;
+    double below_top = k->row_y * torso->head.z - torso->head.y;
+    double down = s->camera.y + k->row_y * torso->head.z;
+    for (int32_t i = 0; i < k->count; i++) {
+        met[i].count = 0;
+        if (torso->skull.is_seen && below_top < rlf_torso_first) {
+            rlf_torso_cut cut = rlf_skull_cut_ray(&torso->skull, k->x[i], k->y[i]);
+            add_cut(&met[i], cut.enter, cut.leave, HEAD);
+        }
+    }
+    if (down < rlf_torso_crotch + margin_m) {
+        rlf_kernel_cuts trunk, shoulders;
+        rlf_torso_cut_rays(torso, &k->rays, &trunk);
+        add_cuts(&trunk, 0, k->count, TRUNK, met);
+        if (rlf_torso_cut_shoulders(torso, &k->rays, &shoulders)) {
+            add_cuts(&shoulders, 0, k->count, SHOULDERS, met);
+        }
+    }
+    if (!(down < rlf_torso_crotch - fold_m)) {
+        cut_legs(s, k, met);
     }
 }
 
@@ -147,22 +186,22 @@ static int32_t find_own(const cuts *c, double front)
 
 /* How much a part tells of its back; the rest is what its front shows, for a head all of its side.
  */
-static double share_of(const cuts *c, int32_t own)
+static double share_of(const rlf_torso *torso, limb own)
 {
-    switch (c->limb[own]) {
+    switch (own) {
     case TRUNK: return own_share;
-    case HEAD: return own_limb_share * c->face;
+    case HEAD: return own_limb_share * torso->skull.face;
     default: return own_limb_share;
     }
 }
 
 /* Where the ray of a knot leaves the body, of which it is known from depth `front` to `back`. */
-static double leave_of(const cuts *c, double front, double back)
+static double leave_of(const rlf_torso *torso, const cuts *c, double front, double back)
 {
     double end = back;
     int32_t own = find_own(c, front);
     if (own >= 0) {
-        double share = share_of(c, own);
+        double share = share_of(torso, c->limb[own]);
         end += share * (c->item[own].leave - end);
     }
     bool is_longer = true;
@@ -179,35 +218,62 @@ static double leave_of(const cuts *c, double front, double back)
     return end;
 }
 
-static void thicken(const rlf_chord_job *job, const rlf_torso *torso, int32_t knot_row)
+static void thicken(const rlf_chord_job *job, const sight *s, knots *k)
+{
+    cuts met[RLF_KERNEL_RAYS];
+    if (k->count == 0) {
+        return;
+    }
+    rlf_torso_close_rays(&k->rays);
+    find_cuts(s, k, met);
+    for (int32_t i = 0; i < k->count; i++) {
+        float *thickness = &job->thickness[k->knot[i]];
+        double front = job->knot[k->knot[i]];
+        double leave = leave_of(s->torso, &met[i], front, front + (double)*thickness);
+        *thickness = (float)rlf_max(leave - front, 0.0);
+    }
+    k->count = k->rays.count = 0;
+}
+
+static void thicken_row(const rlf_chord_job *job, const sight *s, int32_t knot_row)
 {
     const rlf_grid *grid = &job->stage->grid;
     int32_t step = job->step, y = knot_row * step;
     ptrdiff_t row = (ptrdiff_t)y * grid->width;
-    row_sight sight = {.torso = NULL};
-    for (int32_t x = job->x0 / step * step; x < job->x0 + job->width; x += step) {
+    knots k = {.count = 0};
+    bool is_first = true;
+    rlf_torso_begin_rays(s->torso, &k.rays);
+    for (int32_t x = (s->columns.x0 + step - 1) / step * step; x < s->columns.x1; x += step) {
         ptrdiff_t knot = knot_row * job->knot_pitch + x / step;
-        double front = job->knot[knot], ray_y = grid->ray_y[row + x];
-        if (front > 0.0 && job->label[y * job->pitch + x] == torso->label &&
-            !is_beside(torso, ray_y)) {
-            if (sight.torso == NULL) {
-                sight = look(torso, ray_y);
+        double ray_x = grid->ray_x[row + x], ray_y = grid->ray_y[row + x];
+        if (job->knot[knot] > 0.0f && job->label[y * job->pitch + x] == s->torso->label &&
+            !is_beside(s->torso, ray_y)) {
+            k.row_y = is_first ? ray_y : k.row_y;
+            is_first = false;
+            k.knot[k.count] = knot;
+            k.x[k.count] = ray_x;
+            k.y[k.count++] = ray_y;
+            rlf_torso_add_ray(s->torso, ray_x, ray_y, &k.rays);
+            if (k.count == RLF_KERNEL_RAYS) {
+                thicken(job, s, &k);
             }
-            cuts met;
-            find_cuts(&sight, grid->ray_x[row + x], ray_y, &met);
-            double leave = leave_of(&met, front, front + (double)job->thickness[knot]);
-            job->thickness[knot] = (float)rlf_max(leave - front, 0.0);
         }
     }
+    thicken(job, s, &k);
 }
 
-void rlf_torsos_thicken(const rlf_chord_job *job, int32_t knot_row)
+void rlf_torsos_thicken(const rlf_chord_job *job, int32_t begin, int32_t end)
 {
     const rlf_torsos *torsos = job->torsos;
     for (int32_t k = 0; k < torsos->count; k++) {
         const rlf_torso *torso = &torsos->item[k];
         if (torso->is_seen && torso->misfit <= most_misfit && torso->area_m2 >= least_area_m2) {
-            thicken(job, torso, knot_row);
+            const sight s = look(job, torso);
+            for (int32_t row = begin; row < end; row++) {
+                if (row * job->step >= s.rows.x0 && row * job->step < s.rows.x1) {
+                    thicken_row(job, &s, row);
+                }
+            }
         }
     }
 }

@@ -23,17 +23,21 @@ static const double most_turn = 0.3;    /* rad, in one pass */
 /* Normal equations of the correction x: J x = -distance. */
 typedef struct equations {
     double a[N][N], b[N];
-    double weight; /* of a point that fits, 1/m^2 */
+    int first, end; /* of the unknowns that are asked for */
+    double weight;  /* of a point that fits, 1/m^2 */
     double misfit;
     int32_t count, fitting;
 } equations;
 
 static void add_touch(const rlf_torso_touch *touch, double weight, equations *sum)
 {
-    for (int r = 0; r < N; r++) {
+    for (int r = sum->first; r < sum->end; r++) {
         double part = weight * touch->slope[r];
+        if (part == 0.0) { /* what this part of the torso does not hang on */
+            continue;
+        }
         sum->b[r] -= part * touch->distance;
-        for (int c = 0; c <= r; c++) {
+        for (int c = sum->first; c <= r; c++) {
             sum->a[r][c] += part * touch->slope[c];
         }
     }
@@ -95,9 +99,10 @@ static void correct(rlf_torso *torso, const equations *sum)
     }
 }
 
-static void add_points(const rlf_torso *torso, const rlf_torso_points *points, equations *sum)
+static void add_points(const rlf_torso *torso, const rlf_torso_points *points, int first, int end,
+                       equations *sum)
 {
-    *sum = (equations){.weight = weight_m4 * points->area_m2};
+    *sum = (equations){.first = first, .end = end, .weight = weight_m4 * points->area_m2};
     for (int32_t i = 0; i < points->count; i++) {
         add_point(torso, points->p[i], sum);
     }
@@ -111,7 +116,7 @@ static void find_turn(rlf_torso *torso, const rlf_torso_points *points, double e
 {
     const int k = RLF_TORSO_TURN;
     equations sum;
-    add_points(torso, points, &sum);
+    add_points(torso, points, k, k + 1, &sum);
     double information = 1.0 / torso->doubt[k][k];
     double by =
         (sum.b[k] + information * (expected - torso->unknown[k])) / (sum.a[k][k] + information);
@@ -131,7 +136,7 @@ void rlf_torso_improve(rlf_torso *torso, const rlf_torso_points *points, int32_t
     math_invert(&information[0][0], N);
     for (int32_t pass = 0; pass < passes; pass++) {
         find_turn(torso, points, expected[RLF_TORSO_TURN]);
-        add_points(torso, points, &sum);
+        add_points(torso, points, 0, N, &sum);
         for (int r = 0; r < N; r++) {
             for (int c = 0; c < N; c++) {
                 sum.a[r][c] = information[r][c] + (c <= r ? sum.a[r][c] : sum.a[c][r]);

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { SECTIONS = 3 };
+enum { SECTIONS = RLF_KERNEL_SECTIONS };
 
 /* Metres, of both sexes' means in ANSUR II (Gordon et al. 2014, Natick/TR-15/007) at their mean
  * stature, 1.69 m: chest, waist (omphalion) and buttocks below the head's top, ... */
@@ -71,40 +71,30 @@ void rlf_torso_usual(double unknown[RLF_TORSO_UNKNOWNS],
     }
 }
 
-/* A level section: its half axes, and how much of each of the three they are. */
-typedef struct section {
-    double share[SECTIONS], breadth, depth;
-} section;
-
-/* What is left of the last section on the way to where the trunk would close. */
-static double dome_share(double way)
+static rlf_kernel_trunk trunk_of(const rlf_torso *torso)
 {
-    return rlf_max(sqrt(rlf_max(1.0 - way * way, 0.0)), least_dome);
+    rlf_kernel_trunk t = {.above = shoulder_at,
+                          .first = rlf_torso_first,
+                          .last = rlf_torso_last,
+                          .dome = dome_m,
+                          .fold = fold_m,
+                          .least = least_dome,
+                          .lowest = rlf_torso_crotch,
+                          .ahead = torso->unknown[RLF_TORSO_AHEAD],
+                          .lean = torso->unknown[RLF_TORSO_LEAN],
+                          .middle = torso->head.z};
+    memcpy(t.at, section_at, sizeof t.at);
+    memcpy(t.breadth, &torso->unknown[RLF_TORSO_BREADTH], sizeof t.breadth);
+    memcpy(t.depth, &torso->unknown[RLF_TORSO_DEPTH], sizeof t.depth);
+    return t;
 }
 
 /* At a height below the shoulders' middle, downwards; false above and below the trunk. */
-static bool find_section(const rlf_torso *torso, double down, section *out)
+static bool find_section(const rlf_torso *torso, double down, rlf_kernel_section *out)
 {
-    double below = down + shoulder_at;
-    if (!(below > rlf_torso_first && below < rlf_torso_last)) {
-        return false;
-    }
-    *out = (section){.breadth = 0.0};
-    if (below < section_at[0]) {
-        out->share[0] = dome_share((section_at[0] - below) / dome_m);
-    } else if (below > section_at[2]) {
-        out->share[2] = dome_share((below - section_at[2]) / fold_m);
-    } else {
-        int k = below > section_at[1] ? 1 : 0;
-        double q = (below - section_at[k]) / (section_at[k + 1] - section_at[k]);
-        out->share[k] = 1.0 - q;
-        out->share[k + 1] = q;
-    }
-    for (int k = 0; k < SECTIONS; k++) {
-        out->breadth += out->share[k] * torso->unknown[RLF_TORSO_BREADTH + k];
-        out->depth += out->share[k] * torso->unknown[RLF_TORSO_DEPTH + k];
-    }
-    return true;
+    const rlf_kernel_trunk trunk = trunk_of(torso);
+    *out = rlf_kernel_section_at(trunk, down);
+    return down + shoulder_at > rlf_torso_first && down + shoulder_at < rlf_torso_last;
 }
 
 /* A point in the torso's own axes: to the side and ahead of the head's middle, and downwards from
@@ -141,7 +131,7 @@ rlf_vec3 rlf_torso_point(const rlf_torso *torso, rlf_vec3 place)
 /* Sampson's distance from the section's ellipse. */
 static bool touch_trunk(const rlf_torso *torso, const own_place *at, rlf_torso_touch *out)
 {
-    section s;
+    rlf_kernel_section s;
     if (!find_section(torso, at->down, &s)) {
         return false;
     }
@@ -187,7 +177,7 @@ bool rlf_torso_touch_rim(const rlf_torso *torso, rlf_vec3 p, rlf_torso_touch *ou
     const rlf_vec3 origin = {0.0, 0.0, 0.0};
     own_place at = find_place(torso, p), from = find_place(torso, origin);
     own_place way = {at.side - from.side, at.ahead - from.ahead, at.down - from.down};
-    section s;
+    rlf_kernel_section s;
     if (at.down < arms_down_m || !find_section(torso, at.down, &s)) {
         return false;
     }
@@ -213,93 +203,54 @@ bool rlf_torso_touch_at(const rlf_torso *torso, rlf_vec3 p, rlf_torso_touch *out
     return has_trunk;
 }
 
-/* Smaller and larger root of a z^2 - 2 b z + c = 0, as near and far; false when there is none. */
-static bool find_roots(double a, double b, double c, rlf_torso_cut *out)
-{
-    double q = b * b - a * c;
-    if (!(a > 1e-6 && q > 0.0)) {
-        return false;
-    }
-    q = sqrt(q);
-    *out = (rlf_torso_cut){(b - q) / a, (b + q) / a};
-    return true;
-}
-
-/* The ray in the torso's own axes: at depth z it is at z times `way` from `from`. */
-typedef struct own_ray {
-    own_place way, from;
-} own_ray;
-
-/* Cuts the upright cylinder over the section at a height. */
-static bool cut_section(const rlf_torso *torso, const own_ray *ray, double down, rlf_torso_cut *out)
-{
-    section s;
-    if (down > rlf_torso_crotch || !find_section(torso, down, &s)) {
-        return false;
-    }
-    double u1 = ray->way.side / s.breadth, u0 = -ray->from.side / s.breadth;
-    double ahead = torso->unknown[RLF_TORSO_AHEAD] + torso->unknown[RLF_TORSO_LEAN] * down;
-    double v1 = ray->way.ahead / s.depth, v0 = (ahead - ray->from.ahead) / s.depth;
-    return find_roots(u1 * u1 + v1 * v1, u1 * u0 + v1 * v0, u0 * u0 + v0 * v0 - 1.0, out);
-}
-
-/* By the sections at the heights where the ray would enter and leave that of its middle. */
-static void cut_trunk(const rlf_torso *torso, const own_ray *ray, rlf_torso_cut *out)
-{
-    rlf_torso_cut middle, end;
-    *out = (rlf_torso_cut){1.0, 0.0};
-    if (!cut_section(torso, ray, ray->from.down + ray->way.down * torso->head.z, &middle)) {
-        return;
-    }
-    *out = middle;
-    if (cut_section(torso, ray, ray->from.down + ray->way.down * middle.enter, &end)) {
-        out->enter = end.enter;
-    }
-    if (cut_section(torso, ray, ray->from.down + ray->way.down * middle.leave, &end)) {
-        out->leave = end.leave;
-    }
-}
-
-/* Takes into `out` the ball at one end of the shoulders' axis. */
-static void cut_end(const own_ray *ray, double side, double ahead, rlf_torso_cut *out)
-{
-    const own_place *w = &ray->way, *f = &ray->from;
-    double s = side - f->side, a = ahead - f->ahead, d = -f->down;
-    rlf_torso_cut cut;
-    if (find_roots(w->side * w->side + w->ahead * w->ahead + w->down * w->down,
-                   w->side * s + w->ahead * a + w->down * d,
-                   s * s + a * a + d * d - shoulder_round * shoulder_round, &cut)) {
-        out->enter = rlf_min(out->enter, cut.enter);
-        out->leave = rlf_max(out->leave, cut.leave);
-    }
-}
-
-static void cut_shoulders(const rlf_torso *torso, const own_ray *ray, rlf_torso_cut *out)
-{
-    const own_place *w = &ray->way, *f = &ray->from;
-    double ahead = torso->unknown[RLF_TORSO_AHEAD], reach = torso->unknown[RLF_TORSO_SHOULDER];
-    double a = ahead - f->ahead, d = -f->down;
-    *out = (rlf_torso_cut){1e9, -1e9};
-    cut_end(ray, reach, ahead, out);
-    cut_end(ray, -reach, ahead, out);
-    rlf_torso_cut tube;
-    if (find_roots(w->ahead * w->ahead + w->down * w->down, w->ahead * a + w->down * d,
-                   a * a + d * d - shoulder_round * shoulder_round, &tube)) {
-        double enter = f->side + w->side * tube.enter, leave = f->side + w->side * tube.leave;
-        if (enter >= -reach && enter <= reach) {
-            out->enter = rlf_min(out->enter, tube.enter);
-        }
-        if (leave >= -reach && leave <= reach) {
-            out->leave = rlf_max(out->leave, tube.leave);
-        }
-    }
-}
-
-void rlf_torso_cut_ray(const rlf_torso *torso, double x, double y, rlf_torso_cut out[2])
+void rlf_torso_begin_rays(const rlf_torso *torso, rlf_kernel_ray_lanes *out)
 {
     const rlf_vec3 origin = {0.0, 0.0, 0.0};
-    const own_ray ray = {{x * torso->side_x + torso->side_z, torso->side_x - x * torso->side_z, y},
-                         find_place(torso, origin)};
-    cut_trunk(torso, &ray, &out[0]);
-    cut_shoulders(torso, &ray, &out[1]);
+    own_place from = find_place(torso, origin);
+    out->count = 0;
+    out->camera[0] = from.side;
+    out->camera[1] = from.down;
+    out->camera[2] = from.ahead;
+}
+
+void rlf_torso_add_ray(const rlf_torso *torso, double x, double y, rlf_kernel_ray_lanes *rays)
+{
+    rays->side[rays->count] = x * torso->side_x + torso->side_z;
+    rays->down[rays->count] = y;
+    rays->ahead[rays->count++] = torso->side_x - x * torso->side_z;
+}
+
+void rlf_torso_close_rays(rlf_kernel_ray_lanes *rays)
+{
+    for (; rays->count % RLF_KERNEL_RAY_LANES != 0; rays->count++) {
+        rays->side[rays->count] = rays->side[rays->count - 1];
+        rays->down[rays->count] = rays->down[rays->count - 1];
+        rays->ahead[rays->count] = rays->ahead[rays->count - 1];
+    }
+}
+
+void rlf_torso_cut_rays(const rlf_torso *torso, const rlf_kernel_ray_lanes *rays,
+                        rlf_kernel_cuts *out)
+{
+    const rlf_kernel_trunk trunk = trunk_of(torso);
+    rlf_kernel_cut_trunk(&trunk, rays, out);
+}
+
+bool rlf_torso_cut_shoulders(const rlf_torso *torso, const rlf_kernel_ray_lanes *rays,
+                             rlf_kernel_cuts *out)
+{
+    const rlf_kernel_bar bar = {torso->unknown[RLF_TORSO_SHOULDER], torso->unknown[RLF_TORSO_AHEAD],
+                                shoulder_round};
+    double far = torso->head.z + bar.reach + rlf_max(bar.ahead, -bar.ahead) + shoulder_round;
+    double near = 2.0 * torso->head.z - far, top = 1e9, bottom = -1e9;
+    for (int32_t i = 0; i < rays->count; i++) {
+        top = rlf_min(top, rays->down[i] * (rays->down[i] > 0.0 ? near : far));
+        bottom = rlf_max(bottom, rays->down[i] * (rays->down[i] > 0.0 ? far : near));
+    }
+    double apart = 2.0 * shoulder_round; /* more than enough: a ray does not end there */
+    if (top + rays->camera[1] > apart || bottom + rays->camera[1] < -apart) {
+        return false;
+    }
+    rlf_kernel_cut_bar(&bar, rays, out);
+    return true;
 }
