@@ -15,58 +15,23 @@
  * when the picture is late or of something else, it is not asked: trust falls to 0. */
 #include "surface/color_side.h"
 
+#include "kernel/color.h"
 #include "math/inverse.h"
 
 #include <string.h>
 
-enum { OFFSETS = 3, PX = RLF_WINDOW_ABOUT, REACH = RLF_FILL_GAP + 1, WIDEST_LEARNT = 5 };
+enum { OFFSETS = 3, REACH = RLF_FILL_GAP + 1, NEAR_ROWS = 3 };
 
 const int32_t rlf_line_step[RLF_LINE_NONE][2] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
 
-enum { ABOUT = 12 }; /* pixels whose colours are read, besides the ends */
-
-/* Their columns and rows from the pixel, and what each counts: exp(-d^2 / 1.6 px^2). */
-static const int32_t about[ABOUT][2] = {{0, -2}, {-1, -1}, {0, -1}, {1, -1}, {-2, 0}, {-1, 0},
-                                        {1, 0},  {2, 0},   {-1, 1}, {0, 1},  {1, 1},  {0, 2}};
-static const float weight_at[ABOUT] = {0.082f, 0.287f, 0.535f, 0.287f, 0.082f, 0.535f,
-                                       0.535f, 0.082f, 0.287f, 0.535f, 0.287f, 0.082f};
-static const float end_weight = 0.2f;      /* that of an end */
-static const float noise = 36.0f;          /* variance of a colour, sRGB steps squared */
-static const float within_weight = 1.333f; /* of the variance within the sides beside it */
-static const float off_line = 0.6f;        /* see silhouette_mixture.h */
-static const float most_votes = 5.0f;      /* more against it need not be asked about */
+static const float most_votes = 5.0f; /* more against it need not be asked about */
 
 static const double kept = 0.95, kept_trust = 0.9; /* of the sums, from frame to frame */
 static const double ridge = 50.0;                  /* pixels; a frame has some hundreds */
+static const float widest_learnt = 5.0f;           /* pixels without depth */
 static const float least_vote = 0.05f, sure_votes = 3.0f, sure_share = 0.2f, sure_weight = 0.5f;
 static const double least_sure = 50.0;                     /* pixels */
 static const double good_differ = 0.03, bad_differ = 0.05; /* share of them */
-
-/* Colours of one side, and their fourth channel, which nobody asks for. */
-typedef struct palette {
-    float weight, sum[4], square[4];
-} palette;
-
-typedef struct place {
-    float u, v;   /* in the picture */
-    float dx, dy; /* pixels along the line, towards the nearer end */
-} place;
-
-/* The colour of the pixel that is so many columns and rows on. */
-static void add_color(palette *p, const rlf_color_side *side, const place *at, const int32_t to[2],
-                      float weight)
-{
-    float x = (float)to[0], y = (float)to[1];
-    float u = at->u + side->step[0][0] * x + side->step[0][1] * y + 0.5f;
-    float v = at->v + side->step[1][0] * x + side->step[1][1] * y + 0.5f;
-    const uint8_t *c = rlf_rgba8_row(&side->image, (int32_t)v) + 4 * (ptrdiff_t)(int32_t)u;
-    p->weight += weight;
-    for (int32_t k = 0; k < 4; k++) {
-        float value = (float)c[k], part = weight * value;
-        p->sum[k] += part;
-        p->square[k] += part * value;
-    }
-}
 
 static void read_between(const rlf_image_rgba8 *image, float u, float v, float out[3])
 {
@@ -81,88 +46,83 @@ static void read_between(const rlf_image_rgba8 *image, float u, float v, float o
     }
 }
 
+/* Pixels along the line, towards the nearer end. */
+typedef struct towards {
+    float x, y;
+} towards;
+
+static towards towards_near(const rlf_side_cases *c, int32_t k)
+{
+    const int32_t *line = rlf_line_step[c->line[k]];
+    float sign = c->ends->before[k] < c->ends->after[k] ? -1.0f : 1.0f;
+    return (towards){sign * (float)line[0], sign * (float)line[1]};
+}
+
 /* Where the picture shows the pixel if it is at the nearer end's depth. False where it does not, or
  * not all about it. */
-static bool find_place(const rlf_reconstruct *stage, const rlf_side_case *c, place *out)
+static bool find_place(const rlf_reconstruct *stage, const rlf_side_cases *c, int32_t k,
+                       rlf_color_places *out)
 {
     const rlf_color_side *side = &stage->side;
     const rlf_rig *rig = &stage->def.rig;
-    ptrdiff_t i = (ptrdiff_t)c->y * stage->grid.width + c->x;
-    float towards = c->before < c->after ? -1.0f : 1.0f;
-    double z = c->before < c->after ? c->before : c->after, u, v;
+    ptrdiff_t i = (ptrdiff_t)c->y[k] * stage->grid.width + c->x[k];
+    float before = c->ends->before[k], after = c->ends->after[k];
+    double z = before < after ? before : after, u, v;
     rlf_vec3 p = {z * stage->grid.ray_x[i], z * stage->grid.ray_y[i], z};
     if (!rlf_camera_project(&rig->color, rlf_transform(&rig->T_color_depth, p), &u, &v)) {
         return false;
     }
-    out->dx = towards * (float)rlf_line_step[c->line][0];
-    out->dy = towards * (float)rlf_line_step[c->line][1];
-    float x = side->offset[0] + side->offset[2] * out->dx;
-    float y = side->offset[1] + side->offset[2] * out->dy;
-    out->u = (float)u + side->step[0][0] * x + side->step[0][1] * y;
-    out->v = (float)v + side->step[1][0] * x + side->step[1][1] * y;
+    towards near_end = towards_near(c, k);
+    float x = side->offset[0] + side->offset[2] * near_end.x;
+    float y = side->offset[1] + side->offset[2] * near_end.y;
+    float at_u = (float)u + side->step[0][0] * x + side->step[0][1] * y;
+    float at_v = (float)v + side->step[1][0] * x + side->step[1][1] * y;
     float reach = side->reach;
-    return out->u >= reach && out->v >= reach && out->u < (float)rig->color.width - 1.0f - reach &&
-           out->v < (float)rig->color.height - 1.0f - reach;
+    if (!(at_u >= reach && at_v >= reach && at_u < (float)rig->color.width - 1.0f - reach &&
+          at_v < (float)rig->color.height - 1.0f - reach)) {
+        return false;
+    }
+    for (int32_t r = -NEAR_ROWS; r <= NEAR_ROWS; r++) {
+        RLF_KERNEL_SOON(rlf_rgba8_row(&side->image, (int32_t)at_v + r) + 4 * (ptrdiff_t)at_u);
+    }
+    out->u[k] = at_u;
+    out->v[k] = at_v;
+    out->line[0][k] = (float)rlf_line_step[c->line[k]][0];
+    out->line[1][k] = (float)rlf_line_step[c->line[k]][1];
+    return true;
 }
 
-/* [1] = of the nearer side. */
-static void gather(const rlf_color_side *side, const rlf_side_case *c, const place *at,
-                   palette out[2])
+/* Reads the picture for those that are asked. */
+static void read_samples(const rlf_color_side *side, const rlf_side_cases *c, const bool *is_asked,
+                         const rlf_color_places *places, rlf_color_samples *out)
 {
-    const int32_t to_ends[2] = {-c->to_before, c->to_after};
-    const float ends[2] = {c->before, c->after};
-    memset(out, 0, 2 * sizeof *out);
-    for (int32_t k = 0; k < ABOUT; k++) {
-        float z = c->depth->at[(about[k][1] + PX) * RLF_WINDOW_SIDE + about[k][0] + PX][c->lane];
-        if (z > 0.0f) {
-            add_color(&out[z < c->middle ? 1 : 0], side, at, about[k], weight_at[k]);
+    int32_t offset[RLF_COLOR_SAMPLES][RLF_BATCH];
+    rlf_kernel_color_offsets(places, c->ends, offset);
+    memset(out, 0, sizeof *out);
+    for (int32_t k = 0; k < c->count; k++) {
+        if (!is_asked[k]) {
+            continue;
+        }
+        for (int32_t s = 0; s < RLF_COLOR_SAMPLES; s++) {
+            const uint8_t *p = side->image.data + offset[s][k];
+            out->sample[s][k] = (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16;
+        }
+        float color[3];
+        read_between(&side->image, places->u[k], places->v[k], color);
+        for (int32_t n = 0; n < 3; n++) {
+            out->color[n][k] = color[n];
         }
     }
-    for (int32_t k = 0; k < 2; k++) {
-        const int32_t to[2] = {to_ends[k] * rlf_line_step[c->line][0],
-                               to_ends[k] * rlf_line_step[c->line][1]};
-        add_color(&out[ends[k] < c->middle ? 1 : 0], side, at, to, end_weight);
-    }
-}
-
-/* Share of the nearer side in a colour, 0..1, and what that is worth, 0..1. */
-static float find_share(const palette sides[2], const float color[3], float *worth)
-{
-    float apart = 0.0f, along = 0.0f, from_far = 0.0f, within = 0.0f;
-    float inverse[2] = {1.0f / sides[0].weight, 1.0f / sides[1].weight};
-    for (int32_t k = 0; k < 3; k++) {
-        float far_mean = sides[0].sum[k] * inverse[0], near_mean = sides[1].sum[k] * inverse[1];
-        float step = near_mean - far_mean, off = color[k] - far_mean;
-        within += sides[0].square[k] * inverse[0] - far_mean * far_mean;
-        within += sides[1].square[k] * inverse[1] - near_mean * near_mean;
-        apart += step * step;
-        along += step * off;
-        from_far += off * off;
-    }
-    within = within > 0.0f ? within : 0.0f;
-    *worth = apart / (apart + within_weight * within + noise);
-    if (!(apart > 1.0f)) {
-        *worth = 0.0f;
-        return 0.5f;
-    }
-    float share = along / apart, strange = (from_far - share * along) / (off_line * apart);
-    strange = strange > 0.0f ? strange : 0.0f;
-    *worth /= 1.0f + strange * strange;
-    return share < 0.0f ? 0.0f : (share > 1.0f ? 1.0f : share);
 }
 
 /* Unit vector towards the nearer side of what is about the pixel, times `along` the line; false
  * where that is no direction across the line's edge. */
-static bool find_across(const rlf_side_case *c, const place *at, double out[OFFSETS])
+static bool find_across(const rlf_side_cases *c, int32_t k, const rlf_color_shares *shares,
+                        double out[OFFSETS])
 {
-    float x = 0.0f, y = 0.0f;
-    for (int32_t k = 0; k < RLF_WINDOW_SIZE; k++) {
-        float z = c->depth->at[k][c->lane];
-        float sign = z > 0.0f ? (z < c->middle ? 1.0f : -1.0f) : 0.0f;
-        x += sign * (float)(k % RLF_WINDOW_SIDE - PX);
-        y += sign * (float)(k / RLF_WINDOW_SIDE - PX);
-    }
-    float along = x * at->dx + y * at->dy;
+    towards near_end = towards_near(c, k);
+    float x = shares->way[0][k], y = shares->way[1][k];
+    float along = x * near_end.x + y * near_end.y;
     if (!(along > 0.0f) || along * along < 0.25f * (x * x + y * y)) {
         return false;
     }
@@ -174,47 +134,63 @@ static bool find_across(const rlf_side_case *c, const place *at, double out[OFFS
 
 /* A line across an edge has as many pixels more of the nearer side, by the picture than by depth,
  * as the outline is off along it. */
-static void note(const rlf_color_side *side, const rlf_side_case *c, const place *at, float share,
-                 float worth, rlf_color_sum *sum)
+static void note(const rlf_color_side *side, const rlf_side_cases *c, int32_t k,
+                 const rlf_color_shares *shares, rlf_color_sum *sum)
 {
     double across[OFFSETS];
-    int32_t wide = c->to_before + c->to_after - 1;
-    float vote = c->votes > 0.0f ? 1.0f : 0.0f;
-    if (rlf_kernel_abs(c->votes) > sure_votes && rlf_kernel_abs(share - 0.5f) > sure_share &&
+    float share = shares->share[k], worth = shares->worth[k], votes = c->votes[k];
+    float wide = c->ends->to_before[k] + c->ends->to_after[k] - 1.0f;
+    float vote = votes > 0.0f ? 1.0f : 0.0f;
+    if (rlf_kernel_abs(votes) > sure_votes && rlf_kernel_abs(share - 0.5f) > sure_share &&
         worth > sure_weight) {
         sum->agree += (share > 0.5f) == (vote > 0.5f) ? 1.0 : 0.0;
         sum->asked += 1.0;
     }
-    if (wide > WIDEST_LEARNT || rlf_kernel_abs(c->votes) < least_vote ||
-        !find_across(c, at, across)) {
+    if (wide > widest_learnt || rlf_kernel_abs(votes) < least_vote ||
+        !find_across(c, k, shares, across)) {
         return;
     }
-    double now = -(double)((float)wide * (share - vote)), weight = worth / (float)wide;
-    for (int32_t k = 0; k < OFFSETS; k++) {
-        now += across[k] * (double)side->offset[k];
+    double now = -(double)(wide * (share - vote)), weight = worth / wide;
+    for (int32_t r = 0; r < OFFSETS; r++) {
+        now += across[r] * (double)side->offset[r];
     }
-    for (int32_t k = 0; k < OFFSETS; k++) {
+    for (int32_t r = 0; r < OFFSETS; r++) {
         for (int32_t m = 0; m < OFFSETS; m++) {
-            sum->square[k * OFFSETS + m] += weight * across[k] * across[m];
+            sum->square[r * OFFSETS + m] += weight * across[r] * across[m];
         }
-        sum->value[k] += weight * across[k] * now;
+        sum->value[r] += weight * across[r] * now;
     }
 }
 
-float rlf_color_side_vote(const rlf_reconstruct *stage, const rlf_side_case *c, rlf_color_sum *sum)
+void rlf_color_side_vote(const rlf_reconstruct *stage, const rlf_side_cases *c,
+                         const bool may_ask[RLF_BATCH], rlf_color_sum *sum)
 {
     const rlf_color_side *side = &stage->side;
-    place at;
-    palette sides[2];
-    float color[3], worth;
-    if (rlf_kernel_abs(c->votes) > most_votes || !find_place(stage, c, &at)) {
-        return 0.0f;
+    rlf_color_places places;
+    rlf_color_samples samples;
+    rlf_color_shares shares;
+    bool is_asked[RLF_BATCH];
+    int32_t asked = 0;
+    memset(&places, 0, sizeof places);
+    memcpy(places.step, side->step, sizeof places.step);
+    places.stride = (int32_t)side->image.stride;
+    for (int32_t k = 0; k < c->count; k++) {
+        is_asked[k] = may_ask[k] && rlf_kernel_abs(c->votes[k]) <= most_votes &&
+                      find_place(stage, c, k, &places);
+        asked += is_asked[k] ? 1 : 0;
     }
-    gather(side, c, &at, sides);
-    read_between(&side->image, at.u, at.v, color);
-    float share = find_share(sides, color, &worth);
-    note(side, c, &at, share, worth, sum);
-    return side->trust * worth * (2.0f * share - 1.0f) * most_votes;
+    if (asked == 0) {
+        return;
+    }
+    read_samples(side, c, is_asked, &places, &samples);
+    rlf_kernel_color_shares(c->depth, c->ends, &samples, &shares);
+    for (int32_t k = 0; k < c->count; k++) {
+        if (is_asked[k]) {
+            note(side, c, k, &shares, sum);
+            c->votes[k] +=
+                side->trust * shares.worth[k] * (2.0f * shares.share[k] - 1.0f) * most_votes;
+        }
+    }
 }
 
 /* Colour pixels from one pixel of the grid to the next, where both cameras look. */

@@ -10,23 +10,21 @@
 extern const int32_t rlf_line_step[RLF_LINE_NONE][2];
 
 /* A dropped pixel between the two sides of an edge. */
-typedef struct rlf_side_case {
-    int32_t x, y;
-    int32_t line; /* RLF_LINE_, through the pixel and both ends of its gap */
-    int32_t to_before, to_after;
-    float before, after;      /* depths of these ends */
-    float middle;             /* depth between the two sides */
-    float votes;              /* for the nearer side, less those for the farther one */
-    const rlf_windows *depth; /* about it, in this place: */
-    int32_t lane;
-} rlf_side_case;
+typedef struct rlf_side_cases {
+    int32_t count;
+    const int32_t *x, *y;
+    const int32_t *line; /* RLF_LINE_, through the pixel and both ends of its gap */
+    const rlf_gap_ends *ends;
+    const rlf_windows *depth; /* about them */
+    float *votes;             /* for the nearer side, less those for the farther one */
+} rlf_side_cases;
 
 /* Takes the frame's picture; what follows does nothing without one. */
 void rlf_color_side_start(rlf_reconstruct *stage, const rlf_frame *frame);
-/* Votes of the picture for the nearer side; negative for the farther one, 0 where it does not tell.
- * What it shows beside the votes of depth is added to *sum: one of the stage's for each chunk of
- * rows. */
-float rlf_color_side_vote(const rlf_reconstruct *stage, const rlf_side_case *c, rlf_color_sum *sum);
+/* Adds the votes of the picture to those of depth, where it may be asked and tells. What it shows
+ * beside these is added to *sum: one of the stage's for each chunk of rows. */
+void rlf_color_side_vote(const rlf_reconstruct *stage, const rlf_side_cases *c,
+                         const bool may_ask[RLF_BATCH], rlf_color_sum *sum);
 /* Learns from the chunks' sums how the picture is to be read from the next frame on. */
 void rlf_color_side_learn(rlf_reconstruct *stage);
 void rlf_color_side_reset(rlf_reconstruct *stage);

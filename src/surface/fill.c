@@ -114,25 +114,18 @@ static bool may_ask(const fill_job *job, const fill_queue *q, int32_t k)
 /* Adds what the colour picture says. */
 static void ask_picture(const fill_job *job, fill_queue *q, float votes[RLF_BATCH])
 {
-    const rlf_gap_ends *ends = &q->ends;
+    bool may[RLF_BATCH];
     for (int32_t k = 0; k < q->count; k++) {
-        if (!may_ask(job, q, k)) {
-            continue;
-        }
-        float before = ends->before[k], after = ends->after[k];
-        const rlf_side_case c = {.x = q->x[k],
-                                 .y = q->y[k],
-                                 .line = q->line[k],
-                                 .to_before = (int32_t)ends->to_before[k],
-                                 .to_after = (int32_t)ends->to_after[k],
-                                 .before = before,
-                                 .after = after,
-                                 .middle = rlf_gap_middle(before, after),
-                                 .votes = votes[k],
-                                 .depth = &q->depth,
-                                 .lane = k};
-        votes[k] += rlf_color_side_vote(job->stage, &c, q->sum);
+        may[k] = may_ask(job, q, k);
     }
+    const rlf_side_cases cases = {.count = q->count,
+                                  .x = q->x,
+                                  .y = q->y,
+                                  .line = q->line,
+                                  .ends = &q->ends,
+                                  .depth = &q->depth,
+                                  .votes = votes};
+    rlf_color_side_vote(job->stage, &cases, may, q->sum);
 }
 
 static void fill_batch(const fill_job *job, fill_queue *q)
@@ -166,6 +159,11 @@ static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps
     const int32_t *line = rlf_line_step[gaps->line[k]];
     ptrdiff_t step = line[0] + (ptrdiff_t)line[1] * grid->width;
     int32_t lane = q->count++;
+    RLF_KERNEL_SOON(&grid->ray_x[at - job->depth]);
+    RLF_KERNEL_SOON(&grid->ray_y[at - job->depth]);
+    if (job->behind != NULL) {
+        RLF_KERNEL_SOON(&job->behind->depth[at - job->depth]);
+    }
     q->line[lane] = gaps->line[k];
     q->x[lane] = x;
     q->y[lane] = y;

@@ -70,13 +70,16 @@ bool rlf_chord_measure(const rlf_chord_job *job, const rlf_line *line, rlf_chord
     int32_t middle = (c->part[0].begin + c->part[0].end) / 2;
     float z = job->front[line->base + middle * line->stride];
     int32_t x = line->x + middle * line->dx, y = line->y + middle * line->dy;
-    expect_ball(job, line, (ptrdiff_t)y * job->stage->grid.width + x, c);
+    ptrdiff_t i = (ptrdiff_t)y * job->stage->grid.width + x;
+    RLF_KERNEL_SOON(&job->stage->grid.ray_x[i]);
+    RLF_KERNEL_SOON(&job->stage->grid.ray_y[i]);
     c->inverse = 1.0f / z;
     c->metres = z * line->angle;
     c->beside = (rlf_chord_middle){0.0f, 0.0f};
     c->share = 1.0f;
     c->is_of_people = job->is_of_people;
     rlf_kernel_chord_sums t = sum_samples(job, line, c, z);
+    expect_ball(job, line, i, c);
     if (!(t.n > 0.0f)) {
         return false;
     }

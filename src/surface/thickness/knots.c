@@ -9,7 +9,7 @@ static const float body_jump_m = 0.04f; /* farther pixels are another body */
 /* Limbs are wide beside a pixel as narrow as this: at 2 m, 8 mm. */
 static const double fine_pixel_rad = 0.004;
 
-enum { CHUNK = 64 };
+enum { CHUNK = 64, LINE = 16 /* of the cache, in floats */ };
 
 int32_t rlf_knot_step(const rlf_grid *grid)
 {
@@ -20,7 +20,11 @@ static void prepare_run(const rlf_chord_job *job, const rlf_run *run, int32_t y)
 {
     const rlf_slot *slot = job->slot;
     const rlf_region *region = &slot->regions[slot->foreground_region_first + run->component - 1];
-    ptrdiff_t from = (ptrdiff_t)y * job->stage->grid.width, to = y * job->pitch;
+    ptrdiff_t width = job->stage->grid.width, from = y * width, to = y * job->pitch;
+    for (int32_t x = run->x0; x < run->x1 && y + 1 < job->stage->grid.height; x += LINE) {
+        RLF_KERNEL_SOON(&job->raw[from + width + x]); /* of the row below */
+        RLF_KERNEL_SOON(&slot->depth[from + width + x]);
+    }
     for (int32_t x = run->x0; x < run->x1; x++) {
         float z = job->raw[from + x];
         job->front[to + x] = slot->depth[from + x];

@@ -76,32 +76,33 @@ static void find_window(const rlf_torso *torso, const rlf_leg_part *part, leg_pa
     }
 }
 
-static sight look(const rlf_chord_job *job, const rlf_torso *torso)
+static void look(const rlf_chord_job *job, const rlf_torso *torso, sight *out)
 {
-    sight out = {.torso = torso};
     const rlf_slot *slot = job->slot;
+    out->torso = torso;
+    out->count = 0;
+    out->columns = out->rows = (rlf_span){0, 0};
     for (int32_t r = 0; r < slot->foreground_region_count; r++) {
         const rlf_region *region = &slot->regions[slot->foreground_region_first + r];
         if (region->label == torso->label) {
             int32_t end = job->x0 + job->width;
-            out.columns.x0 = region->x0 > job->x0 ? region->x0 : job->x0;
-            out.columns.x1 = region->x1 < end ? region->x1 : end;
-            out.rows = (rlf_span){region->y0, region->y1};
+            out->columns.x0 = region->x0 > job->x0 ? region->x0 : job->x0;
+            out->columns.x1 = region->x1 < end ? region->x1 : end;
+            out->rows = (rlf_span){region->y0, region->y1};
         }
     }
-    out.camera = rlf_torso_place(torso, rlf_vec3_make(0.0, 0.0, 0.0));
+    out->camera = rlf_torso_place(torso, rlf_vec3_make(0.0, 0.0, 0.0));
     for (int leg = 0; leg < 2; leg++) {
         rlf_leg_shape shape = rlf_leg_shape_of(torso, leg);
         for (int part = 0; part < RLF_LEG_PARTS; part++) {
             if (is_sure(&torso->leg[leg], part)) {
-                leg_part *p = &out.part[out.count++];
+                leg_part *p = &out->part[out->count++];
                 find_window(torso, &shape.part[part], p);
-                p->limb = rlf_leg_limb(&shape.part[part], out.camera);
+                p->limb = rlf_leg_limb(&shape.part[part], out->camera);
                 p->kind = (part == RLF_FOOT ? FOOT : LEG) + leg;
             }
         }
     }
-    return out;
 }
 
 static void add_cut(cuts *c, double enter, double leave, limb of)
@@ -240,8 +241,9 @@ static void thicken_row(const rlf_chord_job *job, const sight *s, int32_t knot_r
     const rlf_grid *grid = &job->stage->grid;
     int32_t step = job->step, y = knot_row * step;
     ptrdiff_t row = (ptrdiff_t)y * grid->width;
-    knots k = {.count = 0};
+    knots k;
     bool is_first = true;
+    k.count = 0;
     rlf_torso_begin_rays(s->torso, &k.rays);
     for (int32_t x = (s->columns.x0 + step - 1) / step * step; x < s->columns.x1; x += step) {
         ptrdiff_t knot = knot_row * job->knot_pitch + x / step;
@@ -268,7 +270,8 @@ void rlf_torsos_thicken(const rlf_chord_job *job, int32_t begin, int32_t end)
     for (int32_t k = 0; k < torsos->count; k++) {
         const rlf_torso *torso = &torsos->item[k];
         if (torso->is_seen && torso->misfit <= most_misfit && torso->area_m2 >= least_area_m2) {
-            const sight s = look(job, torso);
+            sight s;
+            look(job, torso, &s);
             for (int32_t row = begin; row < end; row++) {
                 if (row * job->step >= s.rows.x0 && row * job->step < s.rows.x1) {
                     thicken_row(job, &s, row);
