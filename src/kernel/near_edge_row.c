@@ -14,6 +14,13 @@ RLF_KERNEL void rlf_kernel_was_front_row(const uint8_t *front, const uint8_t *kn
     }
 }
 
+/* 1 where one of two pixels on opposite sides is behind the one between them, else 0. */
+RLF_KERNEL_PART int32_t is_behind(float z, float one, float other)
+{
+    float far = one > other ? one : other, near = one > other ? other : one;
+    return far > rlf_outline_behind(z, RLF_OUTLINE_STEP_SEEN, z - near);
+}
+
 RLF_KERNEL void rlf_kernel_near_edge_row(const float *depth, ptrdiff_t width, int32_t begin,
                                          int32_t end, uint8_t *restrict mark)
 {
@@ -22,11 +29,10 @@ RLF_KERNEL void rlf_kernel_near_edge_row(const float *depth, ptrdiff_t width, in
     const float *restrict up = z - APART * width, *restrict down = z + APART * width;
     const float *restrict upper = z - ASLANT * width, *restrict lower = z + ASLANT * width;
     for (int32_t i = begin; i < end; i++) {
-        float behind = z[i] * (1.0f + RLF_OUTLINE_JUMP_SEEN);
-        int32_t across = (z[i - APART] > behind) | (z[i + APART] > behind);
-        int32_t along = (up[i] > behind) | (down[i] > behind);
-        int32_t rising = (upper[i - ASLANT] > behind) | (lower[i + ASLANT] > behind);
-        int32_t falling = (upper[i + ASLANT] > behind) | (lower[i - ASLANT] > behind);
+        int32_t across = is_behind(z[i], z[i - APART], z[i + APART]);
+        int32_t along = is_behind(z[i], up[i], down[i]);
+        int32_t rising = is_behind(z[i], upper[i - ASLANT], lower[i + ASLANT]);
+        int32_t falling = is_behind(z[i], upper[i + ASLANT], lower[i - ASLANT]);
         int32_t is_near = (z[i] > 0.0f) & (across | along | rising | falling);
         mark[i] = (uint8_t)(mark[i] & is_near);
     }

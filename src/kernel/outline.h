@@ -4,11 +4,21 @@
 
 #include "kernel/batch.h"
 
-/* Share of the depth from a pixel to what is behind its outline: an arm lies no farther before a
- * trunk. What was filled is less sure of its depth than what was seen. */
+/* What is behind a pixel's outline lies farther by this share of the depth, or by a step of the
+ * smaller share (an arm before a trunk) and what the pixel's own surface rises on the other side:
+ * a slope goes on. What was filled is less sure of its depth than what was seen. */
 #define RLF_OUTLINE_JUMP 0.03f
-#define RLF_OUTLINE_JUMP_SEEN 0.02f
+#define RLF_OUTLINE_STEP_SEEN 0.01f
+#define RLF_OUTLINE_STEP_FILLED 0.02f
 #define RLF_OUTLINE_STEPS 5 /* on the way in */
+
+/* What lies farther than that is behind the outline of a pixel at that depth, and `rise` behind
+ * what is on its other side. */
+RLF_KERNEL_PART float rlf_outline_behind(float depth, float step, float rise)
+{
+    float sloped = step * depth + (rise > 0.0f ? rise : 0.0f), most = RLF_OUTLINE_JUMP * depth;
+    return depth + (sloped < most ? sloped : most);
+}
 
 /* Where the outline is, seen from each pixel in front of it. */
 typedef struct rlf_outlines {
@@ -20,7 +30,9 @@ typedef struct rlf_normals {
     float x[RLF_BATCH], y[RLF_BATCH], z[RLF_BATCH];
 } rlf_normals;
 
-void rlf_kernel_outline_find(const rlf_windows *restrict depth, rlf_outlines *restrict out);
+/* `step`: RLF_OUTLINE_STEP_SEEN or _FILLED. */
+void rlf_kernel_outline_find(const rlf_windows *restrict depth, float step,
+                             rlf_outlines *restrict out);
 
 /* ---- way_in.c ---- */
 

@@ -3,9 +3,6 @@
 
 #include <math.h>
 
-/* Share of the depth between a pixel and what is behind its outline. */
-static const float least_jump = RLF_OUTLINE_JUMP;
-
 /* Offsets of what is behind each pixel and of what is not, summed. */
 typedef struct sides {
     float far_x[RLF_BATCH], far_y[RLF_BATCH], far_n[RLF_BATCH];
@@ -46,7 +43,23 @@ RLF_KERNEL_PART float larger(float a, float b)
     return a > b ? a : b;
 }
 
-RLF_KERNEL void rlf_kernel_outline_find(const rlf_windows *restrict depth,
+/* The nearest depths in the windows that are of the pixels' own surfaces. */
+RLF_KERNEL_PART void find_nearest(const rlf_windows *restrict depth, const float *restrict own,
+                                  float *restrict nearest)
+{
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        nearest[i] = own[i];
+    }
+    for (int32_t k = 0; k < RLF_WINDOW_SIZE; k++) {
+        for (int32_t i = 0; i < RLF_BATCH; i++) {
+            float z = depth->at[k][i];
+            float of_own = z > own[i] * (1.0f - RLF_OUTLINE_JUMP) ? z : own[i];
+            nearest[i] = of_own < nearest[i] ? of_own : nearest[i];
+        }
+    }
+}
+
+RLF_KERNEL void rlf_kernel_outline_find(const rlf_windows *restrict depth, float step,
                                         rlf_outlines *restrict out)
 {
     enum { ABOUT = RLF_WINDOW_ABOUT };
@@ -56,11 +69,12 @@ RLF_KERNEL void rlf_kernel_outline_find(const rlf_windows *restrict depth,
     const float *restrict right = at[ABOUT * RLF_WINDOW_SIDE + 2 * ABOUT];
     const float *restrict above = at[ABOUT];
     const float *restrict below = at[2 * ABOUT * RLF_WINDOW_SIDE + ABOUT];
-    float before[RLF_BATCH], behind[RLF_BATCH];
+    float before[RLF_BATCH], behind[RLF_BATCH], nearest[RLF_BATCH];
     sides s;
+    find_nearest(depth, own, nearest);
     for (int32_t i = 0; i < RLF_BATCH; i++) {
-        behind[i] = own[i] * (1.0f + least_jump);
-        before[i] = own[i] * (1.0f - least_jump);
+        behind[i] = rlf_outline_behind(own[i], step, own[i] - nearest[i]);
+        before[i] = own[i] * (1.0f - step);
         s.far_x[i] = s.far_y[i] = s.far_n[i] = s.near_x[i] = s.near_y[i] = s.near_n[i] = 0.0f;
         s.nearest[i] = 99.0f;
     }

@@ -200,7 +200,7 @@ static void outlines_point_to_what_is_behind(void **state)
             bool behind = x * (at % 5 - 2) + y * (at / 5 - 2) > 0.9;
             depth.at[at][k % RLF_BATCH] = behind && k % 2 == 0 ? 3.0f : 2.0f;
         }
-        rlf_kernel_outline_find(&depth, &found);
+        rlf_kernel_outline_find(&depth, RLF_OUTLINE_STEP_FILLED, &found);
         for (int32_t i = 0; i < RLF_BATCH; i++) {
             if (i % 2 != 0) {
                 assert_true(found.distance[i] == 0.0f);
@@ -210,6 +210,28 @@ static void outlines_point_to_what_is_behind(void **state)
             double nearest = t % 2 == 0 ? 1.0 : sqrt(2.0);
             assert_true(fabs(found.distance[i] + 0.5 - nearest) < 1e-6);
         }
+    }
+}
+
+/* A face, or a slope of 0.4 percent of the depth a pixel, and what lies 1.5, 2.5 or 4.5 percent
+ * farther behind it: an outline where that is more than the step asked for, on both alike. */
+static void slopes_have_no_outlines(void **state)
+{
+    (void)state;
+    const float slopes[2] = {0.0f, 0.004f}, steps[4] = {0.0f, 0.015f, 0.025f, 0.045f};
+    rlf_windows depth;
+    rlf_outlines seen, filled;
+    for (int32_t k = 0; k < RLF_WINDOW_SIZE * RLF_BATCH; k++) {
+        int32_t x = k / RLF_BATCH % RLF_WINDOW_SIDE - RLF_WINDOW_ABOUT, i = k % RLF_BATCH;
+        float z = 2.0f + 2.0f * slopes[i / 4 % 2] * (float)x;
+        depth.at[k / RLF_BATCH][i] = x == RLF_WINDOW_ABOUT ? z + 2.0f * steps[i % 4] : z;
+    }
+    rlf_kernel_outline_find(&depth, RLF_OUTLINE_STEP_SEEN, &seen);
+    rlf_kernel_outline_find(&depth, RLF_OUTLINE_STEP_FILLED, &filled);
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        assert_true((seen.distance[i] > 0.0f) == (i % 4 >= 1));
+        assert_true((filled.distance[i] > 0.0f) == (i % 4 >= 2));
+        assert_true(seen.distance[i] == 0.0f || seen.x[i] > 0.99f);
     }
 }
 
@@ -322,6 +344,7 @@ int main(void)
         cmocka_unit_test(fill_batch_continues_the_side_with_more_votes),
         cmocka_unit_test(fill_batch_leaves_a_third_surface_out),
         cmocka_unit_test(outlines_point_to_what_is_behind),
+        cmocka_unit_test(slopes_have_no_outlines),
         cmocka_unit_test(windows_near_an_outline_are_moved_out),
         cmocka_unit_test(ways_end_with_their_surface),
         cmocka_unit_test(near_edge_row_marks_what_is_seen_beside_a_jump),

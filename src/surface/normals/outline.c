@@ -156,7 +156,7 @@ static bool is_filled(const outline_job *job, ptrdiff_t i)
 static void find_outlines(const outline_job *job, outline_queues *queues)
 {
     outline_queue *q = &queues->filled;
-    rlf_kernel_outline_find(&queues->depth, &q->at.outline);
+    rlf_kernel_outline_find(&queues->depth, RLF_OUTLINE_STEP_FILLED, &q->at.outline);
     for (int32_t k = 0; k < q->count; k++) {
         bool has_outline = q->at.outline.distance[k] > 0.0f;
         if (has_outline && !rlf_side_find(job->side, q->at.x[k], q->at.y[k], q->at.outline.x[k],

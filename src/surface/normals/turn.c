@@ -43,17 +43,21 @@ typedef struct turn_queues {
 /* Pixels from (x, y) to the outline that the surface ends at in a direction; 0 = none is near. */
 static float steps_out(const rlf_way *way, int32_t x, int32_t y, float out_x, float out_y)
 {
+    int32_t inner_x = (int32_t)((float)x - out_x + 0.5f);
+    int32_t inner_y = (int32_t)((float)y - out_y + 0.5f);
     float last = way->depth[(ptrdiff_t)y * way->width + x];
+    float rise = last - way->depth[(ptrdiff_t)inner_y * way->width + inner_x];
     for (int32_t k = 1; k <= MOST_STEPS; k++) {
         int32_t sx = (int32_t)((float)x + (float)k * out_x + 0.5f);
         int32_t sy = (int32_t)((float)y + (float)k * out_y + 0.5f);
         float z = way->depth[(ptrdiff_t)sy * way->width + sx];
-        if (z > (1.0f + RLF_OUTLINE_JUMP_SEEN) * last) {
+        if (z > rlf_outline_behind(last, RLF_OUTLINE_STEP_SEEN, rise)) {
             return (float)(sx - x) * out_x + (float)(sy - y) * out_y - 0.5f;
         }
         if (!(rlf_kernel_abs(z - last) <= MOST_STEP * last)) {
             return 0.0f;
         }
+        rise = z - last;
         last = z;
     }
     return 0.0f;
@@ -120,7 +124,7 @@ static void find_outlines(const turn_job *job, turn_queues *queues)
 {
     turn_queue *q = &queues->near;
     const rlf_outlines *outline = &q->at.outline;
-    rlf_kernel_outline_find(&queues->depth, &q->at.outline);
+    rlf_kernel_outline_find(&queues->depth, RLF_OUTLINE_STEP_SEEN, &q->at.outline);
     for (int32_t k = 0; k < q->count; k++) {
         if (outline->distance[k] > 0.0f) {
             push_found(job, &queues->found, q->at.x[k], q->at.y[k], outline->x[k], outline->y[k],
@@ -138,7 +142,7 @@ static bool ends_in_window(const rlf_way *way, ptrdiff_t i)
 {
     const float *z = way->depth + i;
     const ptrdiff_t across = RLF_WINDOW_ABOUT, down = across * way->width;
-    float behind = z[0] * (1.0f + RLF_OUTLINE_JUMP_SEEN);
+    float behind = z[0] * (1.0f + RLF_OUTLINE_STEP_SEEN);
     return (z[-across] > behind) | (z[across] > behind) | (z[-down] > behind) | (z[down] > behind);
 }
 
