@@ -151,6 +151,20 @@ static void fill_batch(const fill_job *job, fill_queue *q)
     q->count = 0;
 }
 
+/* What a batch will read of the pixel is brought near. */
+static void look_ahead(const fill_job *job, ptrdiff_t i)
+{
+    const rlf_grid *grid = &job->stage->grid;
+    RLF_KERNEL_SOON(&grid->ray_x[i]);
+    RLF_KERNEL_SOON(&grid->ray_y[i]);
+    if (job->behind != NULL) {
+        RLF_KERNEL_SOON(&job->behind->depth[i]);
+        for (int k = 0; k < 3; k++) {
+            RLF_KERNEL_SOON(&job->behind->normal[k][i]);
+        }
+    }
+}
+
 static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps, int32_t k,
                  fill_queue *q)
 {
@@ -159,11 +173,7 @@ static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps
     const int32_t *line = rlf_line_step[gaps->line[k]];
     ptrdiff_t step = line[0] + (ptrdiff_t)line[1] * grid->width;
     int32_t lane = q->count++;
-    RLF_KERNEL_SOON(&grid->ray_x[at - job->depth]);
-    RLF_KERNEL_SOON(&grid->ray_y[at - job->depth]);
-    if (job->behind != NULL) {
-        RLF_KERNEL_SOON(&job->behind->depth[at - job->depth]);
-    }
+    look_ahead(job, at - job->depth);
     q->line[lane] = gaps->line[k];
     q->x[lane] = x;
     q->y[lane] = y;

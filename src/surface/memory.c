@@ -162,6 +162,9 @@ static void take_work(rlf_reconstruct *stage)
         }
         work->knot = take(stage, padded, sizeof(float));
         work->chords = take(stage, lines * RLF_CHORDS_PER_LINE, sizeof(rlf_chord));
+        size_t columns = (size_t)stage->grid.width / RLF_CHORD_SQUARE + 1;
+        work->squares =
+            take(stage, columns * ((size_t)stage->grid.height / RLF_CHORD_SQUARE + 1), 1);
     }
 }
 

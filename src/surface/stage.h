@@ -297,6 +297,7 @@ typedef struct rlf_work {
     float *knot;                        /* padded plane, see thickness.h */
     float *solid[6];                    /* padded planes: own and hidden, see thickness.h */
     struct rlf_chord *chords;           /* of the lines in one direction */
+    uint8_t *squares;                   /* of pixels, see thickness.h */
 } rlf_work;
 
 struct rlf_reconstruct {

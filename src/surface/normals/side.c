@@ -181,14 +181,13 @@ bool rlf_side_find(const rlf_side_job *job, int32_t x, int32_t y, float out_x, f
 {
     place at = {x, y, out_x, out_y, (ptrdiff_t)y * job->width + x, 0};
     bool inside = x >= BORDER && y >= BORDER && x + BORDER < job->width && y + BORDER < job->height;
-    if (job->mean == NULL || !inside) {
+    if (job->mean == NULL || !inside || rlf_hold_may_move(job->stage, x, y)) {
         return false;
     }
     at.steps = steps_to_known(job, &at);
     front f;
     rlf_vec3 side;
-    if (at.steps == 0 || !find_front(job, &at, &f) || !find_side(job, &at, &f, &side) ||
-        rlf_hold_may_move(job->stage, x, y)) {
+    if (at.steps == 0 || !find_front(job, &at, &f) || !find_side(job, &at, &f, &side)) {
         return false;
     }
     bool is_off = is_off_front(job, &at, &f);

@@ -285,14 +285,29 @@ static int32_t piece_end_from(const rlf_chord_job *job, const rlf_line *line, in
     return k;
 }
 
+/* Steps from pixel (x, y) of the block, whose square nothing is in, to the next square. */
+static int32_t steps_out(const rlf_line *line, int32_t x, int32_t y)
+{
+    const int32_t side = RLF_CHORD_SQUARE;
+    int32_t across = line->dx > 0 ? side - x % side : side;
+    int32_t along = line->dy > 0 ? side - y % side : (line->dy < 0 ? y % side + 1 : side);
+    return across < along ? across : along;
+}
+
 static int32_t skip_empty(const rlf_chord_job *job, const rlf_line *line, int32_t k)
 {
-    const float *front = job->front + pixel(line, k);
-    while (k < line->count && *front <= 0.0f) {
-        front += line->stride;
-        k++;
+    while (k < line->count) {
+        int32_t x = line->x + k * line->dx - job->x0, y = line->y + k * line->dy - job->y0;
+        ptrdiff_t row = (ptrdiff_t)(y / RLF_CHORD_SQUARE) * job->square_pitch;
+        if (job->squares[row + x / RLF_CHORD_SQUARE] == 0) {
+            k += steps_out(line, x, y);
+        } else if (job->front[pixel(line, k)] > 0.0f) {
+            return k;
+        } else {
+            k++;
+        }
     }
-    return k;
+    return line->count;
 }
 
 int32_t rlf_chords_cut(const rlf_chord_job *job, const rlf_line *line, rlf_chord *out)

@@ -50,12 +50,24 @@ static void prepare_knots(const rlf_chord_job *job, int32_t y)
     job->thickness[to - 1] = job->thickness[to + job->columns] = 0.0f;
 }
 
+/* Marks the squares that row y of the block, from its first pixel x0 to x1, is in. */
+static void mark_squares(const rlf_chord_job *job, int32_t y, int32_t x0, int32_t x1)
+{
+    uint8_t *row = job->squares + (ptrdiff_t)(y / RLF_CHORD_SQUARE) * job->square_pitch;
+    int32_t first = x0 / RLF_CHORD_SQUARE, last = (x1 - 1) / RLF_CHORD_SQUARE;
+    memset(row + first, 1, (size_t)(last - first + 1));
+}
+
 static void prepare_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
     const rlf_chord_job *job = context;
     const rlf_reconstruct *stage = job->stage;
     const rlf_runs *runs = &stage->work.runs;
+    for (int32_t y = begin; y < end; y += RLF_CHORD_SQUARE) {
+        memset(job->squares + (ptrdiff_t)(y / RLF_CHORD_SQUARE) * job->square_pitch, 0,
+               (size_t)job->square_pitch);
+    }
     for (int32_t y = job->y0 + begin; y < job->y0 + end; y++) {
         memset(job->front + y * job->pitch + job->x0, 0, (size_t)job->width * sizeof(float));
         for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
@@ -63,6 +75,7 @@ static void prepare_rows(void *context, int32_t begin, int32_t end, int32_t work
             bool is_inside = run->x0 >= job->x0 && run->x0 < job->x0 + job->width;
             if (is_inside && run->component > 0 && !job->is_plate[run->component]) {
                 prepare_run(job, run, y);
+                mark_squares(job, y - job->y0, run->x0 - job->x0, run->x1 - job->x0);
             }
         }
         if (y % job->step == 0) {

@@ -204,6 +204,8 @@ rlf_chord_job rlf_chord_job_make(rlf_reconstruct *stage, const rlf_slot *slot)
                            .front = work->depth[0],
                            .inverse = work->sum[0],
                            .label = work->component,
+                           .squares = work->squares,
+                           .square_pitch = grid->width / RLF_CHORD_SQUARE + 1,
                            .columns = columns,
                            .rows = (grid->height + step - 1) / step,
                            .knot_pitch = (ptrdiff_t)columns + RLF_CHORD_PAD,

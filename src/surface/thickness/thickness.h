@@ -59,6 +59,10 @@ typedef struct rlf_conic {
  * of two apart, would push each other out of the cache. */
 enum { RLF_CHORD_PAD = 16 };
 
+/* Side of the squares of pixels, from a block's corner, of which it is known whether any body is in
+ * them: lines pass through the others in one step. */
+enum { RLF_CHORD_SQUARE = 8 };
+
 /* Planes of sums over the chords through each knot: weights, weighted middles and half thicknesses
  * in inverse depth. */
 typedef struct rlf_solid {
@@ -85,6 +89,8 @@ typedef struct rlf_chord_job {
     float *front;            /* depth of the bodies' pixels, 0 elsewhere */
     float *inverse;          /* 1 / depth as the sensor gave it, 0 = none; of the bodies' pixels */
     int32_t *label;          /* of the bodies' pixels */
+    uint8_t *squares;        /* of the block: 1 = a body is in it; rows of */
+    int32_t square_pitch;    /* so many */
     int32_t columns, rows;   /* of knots */
     ptrdiff_t knot_pitch;    /* of the planes of knots: columns and RLF_CHORD_PAD */
     float *knot, *thickness; /* at the knots; depth < 0 is of what is no body */
