@@ -326,6 +326,25 @@ int32_t rlf_kernel_background_row(const rlf_kernel_background *params, const flo
  * or UNKNOWN. */
 void rlf_kernel_majority_row(const uint8_t *const rows[3], int32_t count, uint8_t *restrict out);
 
+/* ---- still_row.c: what stands before the background
+ * ----------------------------------------------------------- */
+
+#define RLF_STILL_WEIGHT 8 /* of the mean of what is still, frames */
+
+/* Depth may be off the mean by `sigmas` of the noise, and by `least` metres. */
+typedef struct rlf_kernel_still {
+    rlf_depth_noise noise;
+    double sigmas;
+    float least;
+    int32_t limit_ms, passed_ms; /* until it is due; since the last frame */
+} rlf_kernel_still;
+
+/* Follows the depth of the foreground's pixels: its mean, and for how long it has been still, 0
+ * where something farther is seen. 1 in is_due where that is the limit. */
+void rlf_kernel_still_row(const rlf_kernel_still *p, const uint8_t *restrict front,
+                          const float *restrict depth, int32_t count, float *restrict still,
+                          uint16_t *restrict still_ms, uint8_t *restrict is_due);
+
 /* ---- segment_row.c: which neighbours belong together
  * ----------------------------------------------------------- */
 

@@ -354,6 +354,36 @@ static void near_normal_is_its_definition(void **state)
     }
 }
 
+/* One pixel by itself: what is off the mean by more than the gate begins again, what is not seen in
+ * front any more is forgotten as soon as something farther is seen. */
+static void still_row_is_its_definition(void **state)
+{
+    (void)state;
+    enum { COUNT = 200 };
+    analytic_random r = {17};
+    const rlf_kernel_still p = {{0.0015, -0.0005, 0.0003}, 3.0, 0.01f, 5000, 33};
+    float depth[COUNT], still[COUNT], was[COUNT];
+    uint16_t ms[COUNT], was_ms[COUNT];
+    uint8_t front[COUNT], is_due[COUNT];
+    for (int32_t i = 0; i < COUNT; i++) {
+        front[i] = random_uniform(&r) < 0.7 ? 1 : 0;
+        was[i] = still[i] = (float)(1.0 + 2.0 * random_uniform(&r));
+        depth[i] = random_uniform(&r) < 0.2 ? 0.0f : still[i] + (float)(0.03 * random_uniform(&r));
+        double ages = random_uniform(&r);
+        was_ms[i] = ms[i] = ages < 0.2 ? 0 : ages < 0.4 ? 4990 : (uint16_t)(4000.0 * ages);
+    }
+    rlf_kernel_still_row(&p, front, depth, COUNT, still, ms, is_due);
+    for (int32_t i = 0; i < COUNT; i++) {
+        double gate = rlf_max(3.0 * rlf_depth_noise_sigma(&p.noise, depth[i]), (double)p.least);
+        float off = depth[i] - was[i], mean = was[i] + off / 8.0f;
+        bool is_new = was_ms[i] == 0 || rlf_max(off, -off) > (double)(float)gate;
+        int32_t age = was_ms[i] + 33, ms_front = is_new ? 1 : age > 5000 ? 5000 : age;
+        assert_true(still[i] == (!front[i] ? was[i] : is_new ? depth[i] : mean));
+        assert_int_equal(ms[i], front[i] ? ms_front : depth[i] > 0.0f ? 0 : was_ms[i]);
+        assert_int_equal(is_due[i], front[i] && !is_new && age >= 5000);
+    }
+}
+
 static void chord_sums_are_their_definition(void **state)
 {
     (void)state;
@@ -529,6 +559,7 @@ int main(void)
         cmocka_unit_test(a_column_half_way_is_flying),
         cmocka_unit_test(majority_row_is_its_definition),
         cmocka_unit_test(background_row_follows_the_evidence),
+        cmocka_unit_test(still_row_is_its_definition),
         cmocka_unit_test(plane_tile_stays_in_its_tile),
         cmocka_unit_test(body_mean_row_is_its_definition),
         cmocka_unit_test(near_normal_is_its_definition),

@@ -2,10 +2,11 @@
  * becomes background. What it hides is kept beneath it, and comes back at once when it is seen
  * again. */
 #include "surface/steps.h"
+#include "surface/window.h"
 
 #include "kernel/kernel.h"
 
-enum { STILL_WEIGHT = 8, LONGEST_STEP_MS = 200 };
+enum { LONGEST_STEP_MS = 200, CHUNK = 128 };
 
 static int32_t step_ms(const rlf_reconstruct *stage, const rlf_slot *slot)
 {
@@ -22,52 +23,57 @@ static void replace(rlf_reconstruct *stage, int32_t i, float z)
     rlf_background *background = &stage->background;
     background->mean[i] = z;
     background->deviation[i] = 0.0f;
-    background->weight[i] = STILL_WEIGHT;
+    background->weight[i] = RLF_STILL_WEIGHT;
     background->beyond[i] = 0;
     background->still_ms[i] = 0;
     rlf_sheet_changed(background, &stage->grid, i % stage->grid.width, i / stage->grid.width, 1);
 }
 
-/* Follows the depth of one foreground pixel; true when it has been still for `limit_ms`. */
-static bool is_still(rlf_background *background, int32_t i, float z, float gate, int32_t limit_ms,
-                     int32_t passed_ms)
-{
-    float off = z - background->still[i];
-    if (background->still_ms[i] == 0 || rlf_kernel_abs(off) > gate) {
-        background->still[i] = z;
-        background->still_ms[i] = 1;
-        return false;
-    }
-    background->still[i] += off / (float)STILL_WEIGHT;
-    int32_t age = background->still_ms[i] + passed_ms;
-    background->still_ms[i] = (uint16_t)(age > limit_ms ? limit_ms : age);
-    return age >= limit_ms;
-}
-
-/* Pixels of a row that are foreground or were; returns where pixels that stand still are left. */
-static rlf_span absorb_row(rlf_reconstruct *stage, const rlf_slot *slot, int32_t y, rlf_span span,
-                           int32_t passed_ms)
+static rlf_kernel_still still_of(const rlf_reconstruct *stage, const rlf_slot *slot)
 {
     const rlf_reconstruct_def *def = &stage->def;
+    return (rlf_kernel_still){.noise = def->rig.noise,
+                              .sigmas = def->foreground_sigmas,
+                              .least = (float)def->foreground_min_m,
+                              .limit_ms = (int32_t)(1000.0 * def->absorb_after_s),
+                              .passed_ms = step_ms(stage, slot)};
+}
+
+static void absorb_pixel(rlf_reconstruct *stage, int32_t i)
+{
     rlf_background *background = &stage->background;
-    int32_t limit_ms = (int32_t)(1000.0 * def->absorb_after_s);
-    rlf_span left = {stage->grid.width, 0};
-    for (int32_t x = span.x0; x < span.x1; x++) {
-        int32_t i = y * stage->grid.width + x;
-        float z = slot->depth[i], beneath = background->beneath[i];
-        if (!slot->foreground[i]) {
-            background->still_ms[i] = z > 0.0f ? 0 : background->still_ms[i];
-        } else if (is_still(background, i, z, rlf_background_gate(def, z), limit_ms, passed_ms)) {
-            background->beneath[i] = beneath > 0.0f ? beneath : background->mean[i];
-            background->hides[y] = 1;
-            replace(stage, i, background->still[i]);
-        }
-        if (background->still_ms[i] != 0) {
-            left.x0 = x < left.x0 ? x : left.x0;
-            left.x1 = x + 1;
+    float beneath = background->beneath[i];
+    background->beneath[i] = beneath > 0.0f ? beneath : background->mean[i];
+    background->hides[i / stage->grid.width] = 1;
+    replace(stage, i, background->still[i]);
+}
+
+/* Where pixels that stand still are left in row y, of those that are foreground or were. */
+static rlf_span find_left(const rlf_reconstruct *stage, int32_t y, rlf_span span)
+{
+    const uint16_t *still_ms = stage->background.still_ms + (ptrdiff_t)y * stage->grid.width;
+    while (span.x0 < span.x1 && still_ms[span.x0] == 0) {
+        span.x0++;
+    }
+    while (span.x1 > span.x0 && still_ms[span.x1 - 1] == 0) {
+        span.x1--;
+    }
+    return span;
+}
+
+static void absorb_row(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_kernel_still *p,
+                       int32_t y, rlf_span span)
+{
+    rlf_background *background = &stage->background;
+    for (int32_t x = span.x0; x < span.x1; x += CHUNK) {
+        uint8_t is_due[CHUNK];
+        int32_t i = y * stage->grid.width + x, count = rlf_least(CHUNK, span.x1 - x);
+        rlf_kernel_still_row(p, slot->foreground + i, slot->depth + i, count, background->still + i,
+                             background->still_ms + i, is_due);
+        for (int32_t k = 0; (k = rlf_kernel_next_mark(is_due, k, count)) < count; k++) {
+            absorb_pixel(stage, i + k);
         }
     }
-    return left;
 }
 
 void rlf_background_absorb(rlf_reconstruct *stage, const rlf_slot *slot)
@@ -75,11 +81,12 @@ void rlf_background_absorb(rlf_reconstruct *stage, const rlf_slot *slot)
     if (!(stage->def.absorb_after_s > 0.0)) {
         return;
     }
-    int32_t passed_ms = step_ms(stage, slot);
+    const rlf_kernel_still still = still_of(stage, slot);
     for (int32_t y = 0; y < stage->grid.height; y++) {
-        rlf_span *still = &stage->background.standing[y];
-        *still =
-            absorb_row(stage, slot, y, rlf_span_unite(*still, stage->work.front[y]), passed_ms);
+        rlf_span *left = &stage->background.standing[y];
+        rlf_span span = rlf_span_unite(*left, stage->work.front[y]);
+        absorb_row(stage, slot, &still, y, span);
+        *left = find_left(stage, y, span);
     }
 }
 

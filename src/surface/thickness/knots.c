@@ -25,11 +25,15 @@ static void prepare_run(const rlf_chord_job *job, const rlf_run *run, int32_t y)
         RLF_KERNEL_SOON(&job->raw[from + width + x]); /* of the row below */
         RLF_KERNEL_SOON(&slot->depth[from + width + x]);
     }
+    const float *restrict raw = job->raw + from, *restrict depth = slot->depth + from;
+    float *restrict front = job->front + to, *restrict inverse = job->inverse + to;
+    int32_t *restrict label = job->label + to;
     for (int32_t x = run->x0; x < run->x1; x++) {
-        float z = job->raw[from + x];
-        job->front[to + x] = slot->depth[from + x];
-        job->inverse[to + x] = z > 0.0f ? 1.0f / z : 0.0f;
-        job->label[to + x] = region->label;
+        bool is_seen = raw[x] > 0.0f;
+        float one = 1.0f / (is_seen ? raw[x] : 1.0f);
+        front[x] = depth[x];
+        inverse[x] = is_seen ? one : 0.0f;
+        label[x] = region->label;
     }
 }
 
