@@ -1,7 +1,7 @@
 /* Ray casts and overlaps against bodies and the sheets of the grid. */
 #include "relief/query.h"
 
-#include "physics/grid/field.h"
+#include "physics/grid/cast.h"
 #include "physics/world_state.h"
 
 #define PIECE_PX 32.0 /* the sheet is walked in pieces of about so many pixels */
@@ -72,7 +72,7 @@ static void cast_at_sheet(const rlf_grid *grid, rlf_contact_other other, const r
         double piece = rlf_max(rlf_max(q.z, 0.1) * grid->pixel_angle * PIECE_PX, 0.001);
         piece = rlf_min(piece, hit->distance - t);
         field_hit found;
-        if (grid_field_cast(grid, sheet, q, rlf_scale(ray[1], piece), 0.0, &nowhere, &found)) {
+        if (grid_cast(grid, sheet, q, rlf_scale(ray[1], piece), 0.0, &nowhere, &found)) {
             double slope = rlf_dot(found.normal, ray[1]);
             double into = slope < -1e-6 ? -found.separation / slope : 0.0;
             t += rlf_clamp(into, 0.0, piece);

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "physics/grid/field.h"
+#include "physics/grid/cast.h"
 
 #include "grid_shared.h"
 
@@ -197,8 +197,8 @@ static void bad_thickness_is_as_thin_as_can_be(void **state)
         }
         field_hit hit;
         rlf_vec3 from = {0.01, 0.02, 2.1}, path = {0, 0, -0.2};
-        assert_true(grid_field_cast(&fixture->grid, &fixture->grid.foreground, from, path, 0.0,
-                                    &nowhere, &hit));
+        assert_true(
+            grid_cast(&fixture->grid, &fixture->grid.foreground, from, path, 0.0, &nowhere, &hit));
         assert_true(rlf_vec3_is_finite(hit.point) && rlf_vec3_is_finite(hit.normal));
         assert_true(fabs(hit.point.z - 2.01) < 1e-6 && hit.normal.z > 0.999);
     }

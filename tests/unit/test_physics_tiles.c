@@ -6,7 +6,7 @@
 #include <cmocka.h>
 
 #include "grid_fixture.h"
-#include "physics/grid/field.h"
+#include "physics/grid/cast.h"
 #include "physics/grid/near.h"
 #include "physics/grid/pixels.h"
 #include "physics/grid/tiles.h"
@@ -171,8 +171,8 @@ static void what_touches_is_told_to_be_near(void **state)
             rlf_vec3 r = rlf_mat3_mul_vec(&job.R_grid_body, points[i]);
             rlf_vec3 way = rlf_scale(rlf_add(job.v, rlf_cross(job.w, r)), job.horizon);
             bool is_near = (grid_points_near(&job, &points[i], 1) & 1u) != 0;
-            bool does = grid_field_cast(&f->grid, job.sheet, rlf_add(job.centre, r), way,
-                                        GRID_MARGIN, &job.home, &hit);
+            bool does = grid_cast(&f->grid, job.sheet, rlf_add(job.centre, r), way, GRID_MARGIN,
+                                  &job.home, &hit);
             assert_true(!does || is_near);
             touches += does;
             told += is_near;

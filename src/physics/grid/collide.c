@@ -60,8 +60,8 @@ static void cast_point(grid_job *job, rlf_vec3 anchor, double rounding, rlf_vec3
     rlf_vec3 v = rlf_sub(rlf_add(job->v, rlf_cross(job->w, r)), job->surface_velocity);
     field_hit found;
     if (job->hit_count == GRID_HITS_MAX ||
-        !grid_field_cast(query->grid, job->sheet, rlf_sub(q, shift), rlf_scale(v, job->horizon),
-                         GRID_MARGIN, &job->home, &found)) {
+        !grid_cast(query->grid, job->sheet, rlf_sub(q, shift), rlf_scale(v, job->horizon),
+                   GRID_MARGIN, &job->home, &found)) {
         return;
     }
     grid_hit *hit = &job->hits[job->hit_count++];

@@ -29,20 +29,6 @@ typedef struct field_cell {
     double back;      /* z of the back on the query's ray */
 } field_cell;
 
-/* A place to touch: `normal` points out of the solid, separation = normal.(query - point). */
-typedef struct field_hit {
-    rlf_vec3 point, normal, velocity;
-    double separation;
-    int32_t label;
-} field_hit;
-
-/* Where the body is that a point is of. */
-typedef struct field_home {
-    field_state side; /* of the sheet that it belongs to; FIELD_INSIDE: the solid swept over it */
-    rlf_vec3 centre;  /* while side is FIELD_NONE and has_centre: there is nothing on its ray */
-    bool has_centre;
-} field_home;
-
 /* Reads pixel (x, y); false when the sheet has no surface there. */
 bool grid_cell_read(const rlf_grid *grid, const rlf_grid_sheet *sheet, int32_t x, int32_t y,
                     field_cell *out);
@@ -50,21 +36,6 @@ bool grid_cell_read(const rlf_grid *grid, const rlf_grid_sheet *sheet, int32_t x
 /* Where q stands to the sheet; *out is set unless FIELD_NONE. */
 field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
                           field_cell *out);
-
-/* First contact of a point that moves from q by `path`: within `margin` of the surface at q, inside
- * the solid, or entering it on the way. The separation is that of q. False when it stays free.
- * A point inside a solid leaves it towards its body's home, not through the other face: on the
- * home's side; from FIELD_NONE by the shortest way, of the sides of a thin solid by one that looks
- * to the body's centre; from FIELD_INSIDE through the front even from behind. */
-bool grid_field_cast(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q, rlf_vec3 path,
-                     double margin, const field_home *home, field_hit *out);
-
-/* Outline of the solid around q, as seen in the image, on the sides that look to the home's centre
- * if it has one: unit direction out of the solid, square to the view ray, and the distance to the
- * free side, metres. False when none is within `radius_px`. */
-bool grid_field_side(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
-                     const field_home *home, int32_t radius_px, rlf_vec3 *out_normal,
-                     double *out_distance);
 
 /* Which way the solid goes from the cell's point, and how far per metre of thickness: along the
  * ray, on which thickness was found; but where it is a guess, square to the face. What is behind
@@ -75,8 +46,16 @@ rlf_vec3 grid_cell_inward(const field_cell *cell);
  * nothing. */
 bool grid_field_is_open(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q);
 
+/* Whether q is before the pixel on its ray, higher than `height` over its plane: most of what is
+ * asked about is, and the pixel's depth and normal tell it. */
+bool grid_field_is_well_before(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
+                               double height);
+
 /* Whether the sheet is seen well behind q, so that nothing of it is there. */
 bool grid_field_is_seen_through(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q);
+
+/* Where the cell's ray leaves the solid. */
+rlf_vec3 grid_back_point(const field_cell *cell);
 
 /* Central differences of the back surface, turned away from the camera. */
 rlf_vec3 grid_back_normal(const rlf_grid *grid, const rlf_grid_sheet *sheet,

@@ -1,6 +1,6 @@
 /* A body whose centre would enter the surface unseen by its contacts bounces there. */
 #include "physics/grid/guard.h"
-#include "physics/grid/field.h"
+#include "physics/grid/cast.h"
 
 /* What stands in the way, world. */
 typedef struct guard_wall {
@@ -57,7 +57,7 @@ static bool enters(const grid_query *query, const rlf_grid_sheet *sheet, rlf_vec
     field_cell cell;
     return sheet->depth != NULL && sheet->normal_x != NULL &&
            grid_field_at(query->grid, sheet, start, &cell) != FIELD_INSIDE &&
-           grid_field_cast(query->grid, sheet, start, path, 0.0, &outside, hit);
+           grid_cast(query->grid, sheet, start, path, 0.0, &outside, hit);
 }
 
 void grid_guard_centre(const grid_query *query, phys_body *body, int32_t body_index,

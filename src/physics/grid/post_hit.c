@@ -22,7 +22,7 @@ static rlf_vec3 way_out(const grid_job *job, rlf_vec3 p, rlf_vec3 normal)
 static void touch_post(grid_job *job, const grid_post *post, double height)
 {
     rlf_vec3 p = rlf_mad(post->foot, job->query->up, height), gradient;
-    rlf_vec3 local = rlf_mat3_mul_vec(&job->R_body_grid, rlf_sub(p, job->centre));
+    rlf_vec3 local = grid_to_body(job, p);
     double distance = phys_shape_distance(&job->body->shape, local, &gradient);
     rlf_vec3 normal = rlf_neg(rlf_mat3_mul_vec(&job->R_grid_body, gradient));
     grid_hit hit = {.anchor = rlf_mad(local, gradient, -distance)};

@@ -2,8 +2,8 @@
 #ifndef RLF_PHYSICS_GRID_SCAN_H
 #define RLF_PHYSICS_GRID_SCAN_H
 
+#include "physics/grid/cast.h"
 #include "physics/grid/collide.h"
-#include "physics/grid/field.h"
 
 #define GRID_HITS_MAX 128
 #define GRID_NORMALS_MAX 4
@@ -74,6 +74,20 @@ typedef struct grid_job {
  * out of view. *stride thins it to a bounded number of samples. */
 bool grid_footprint(const rlf_grid *grid, rlf_vec3 centre, double reach, int32_t rect[4],
                     int32_t *stride);
+
+/* The point p of the grid's frame in the body's. */
+static inline rlf_vec3 grid_to_body(const grid_job *job, rlf_vec3 p)
+{
+    return rlf_mat3_mul_vec(&job->R_body_grid, rlf_sub(p, job->centre));
+}
+
+/* Speed at which a surface of this velocity and the body approach at p along the normal, m/s. */
+static inline double grid_approach_at(const grid_job *job, rlf_vec3 p, rlf_vec3 normal,
+                                      rlf_vec3 velocity)
+{
+    rlf_vec3 v = rlf_add(job->v, rlf_cross(job->w, rlf_sub(p, job->centre)));
+    return rlf_dot(normal, rlf_sub(velocity, v));
+}
 
 /* Fills nearest2, is_near, is_flat, flats, surface_velocity, normals, bumps, and hits with the
  * outline's points. */
