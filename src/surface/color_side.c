@@ -17,6 +17,7 @@
 
 #include "kernel/color.h"
 #include "math/inverse.h"
+#include "surface/window.h"
 
 #include <string.h>
 
@@ -82,7 +83,8 @@ static bool find_place(const rlf_reconstruct *stage, const rlf_side_cases *c, in
           at_v < (float)rig->color.height - 1.0f - reach)) {
         return false;
     }
-    for (int32_t r = -NEAR_ROWS; r <= NEAR_ROWS; r++) {
+    int32_t near = rlf_least(NEAR_ROWS, (int32_t)reach); /* of the rows that are read, most */
+    for (int32_t r = -near; r <= near; r++) {
         RLF_KERNEL_SOON(rlf_rgba8_row(&side->image, (int32_t)at_v + r) + 4 * (ptrdiff_t)at_u);
     }
     out->u[k] = at_u;
