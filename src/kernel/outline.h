@@ -93,9 +93,10 @@ void rlf_kernel_outline_near(const rlf_outlines *restrict at, const rlf_way_in *
 
 /* The known normals within RLF_WINDOW_ABOUT pixels, row by row; 0 = none at the pixel's own depth.
  */
-/* Where they are those of several faces and the outermost of them is turned outwards: that one,
- * otherwise 0. */
+/* Where they are those of several faces and the outermost of them is turned outwards: that one.
+ * Otherwise, of what is rounded (1, else 0), their mean turned a little outwards, or 0. */
 void rlf_kernel_outline_face(const rlf_outlines *restrict at, const rlf_normals *restrict aside,
-                             const rlf_normals *restrict window, rlf_normals *restrict out);
+                             const rlf_normals *restrict window, const float *restrict rounded,
+                             rlf_normals *restrict out);
 
 #endif

@@ -15,6 +15,9 @@ static const float most_aside = 0.98f; /* sine of the steepest normal that is gi
  * outline. Windows are ten pixels wide or six, and the sensor drops the outermost two. */
 static const float window_inside = 1.2f;
 static const float crease = 0.95f; /* cosine between two faces */
+/* Tangent, at most: what is known lies one or two pixels farther in than what was filled, on limbs
+ * of some eight pixels in radius. */
+static const float lean_out = 0.5f;
 
 typedef struct vector {
     float x, y, z;
@@ -193,7 +196,7 @@ RLF_KERNEL_PART void offer(const rlf_outlines *restrict at, const rlf_normals *r
 RLF_KERNEL void rlf_kernel_outline_face(const rlf_outlines *restrict at,
                                         const rlf_normals *restrict aside,
                                         const rlf_normals *restrict window,
-                                        rlf_normals *restrict out)
+                                        const float *restrict rounded, rlf_normals *restrict out)
 {
     face_sum sum;
     for (int32_t i = 0; i < RLF_BATCH; i++) {
@@ -211,6 +214,9 @@ RLF_KERNEL void rlf_kernel_outline_face(const rlf_outlines *restrict at,
         float creased = dot(last, mean) < crease * length ? 1.0f : 0.0f;
         bool turned = dot(last, outwards) * length > dot(mean, outwards);
         float taken = turned ? creased : 0.0f;
-        set(out, i, (vector){taken * last.x, taken * last.y, taken * last.z});
+        float seen = length > 0.0f ? 1.0f : 0.0f, leans = (1.0f - taken) * seen * rounded[i];
+        vector lean =
+            unit(add(scaled(mean, seen / (length + 1.0f - seen)), scaled(outwards, lean_out)));
+        set(out, i, add(scaled(last, taken), scaled(lean, leans)));
     }
 }

@@ -126,8 +126,9 @@ static void complete_planes(rlf_reconstruct *stage, rlf_slot *slot)
         rlf_normals_crease(stage, slot);
     }
     if (stage->def.enable_fill && stage->def.enable_edge_normals) {
-        rlf_normals_turn(stage, slot);
-        rlf_normals_outline(stage, slot);
+        const uint8_t *rounded = rlf_normals_rounded_front(stage);
+        rlf_normals_turn(stage, slot, rounded);
+        rlf_normals_outline(stage, slot, rounded);
     }
     rlf_normals_job job = rlf_normals_job_make(stage, slot->depth, slot->normal);
     rlf_normals_plane_complete(&job);

@@ -86,11 +86,16 @@ void rlf_normals_slope_pixel(const rlf_normals_job *job, int32_t x, int32_t y);
 /* The normal that those about a pixel have for it; false, and nothing is written, when none. */
 bool rlf_normals_near_pixel(const rlf_normals_job *job, int32_t x, int32_t y, float out[3]);
 
+/* Plane: where something that is not flat was in front a frame ago; NULL = there was no frame.
+ * Holds until links are made. */
+const uint8_t *rlf_normals_rounded_front(const rlf_reconstruct *stage);
+
 /* Normals of seen pixels near the outlines of what moves; after rlf_fill_holes. */
-void rlf_normals_turn(const rlf_reconstruct *stage, const rlf_slot *slot);
+void rlf_normals_turn(const rlf_reconstruct *stage, const rlf_slot *slot, const uint8_t *rounded);
 
 /* Normals of filled pixels at the outlines of things; after rlf_fill_holes. */
-void rlf_normals_outline(const rlf_reconstruct *stage, const rlf_slot *slot);
+void rlf_normals_outline(const rlf_reconstruct *stage, const rlf_slot *slot,
+                         const uint8_t *rounded);
 
 /* Normals of seen and recalled pixels at creases, from the faces that meet there; after
  * rlf_fill_holes. */

@@ -266,6 +266,32 @@ static void windows_near_an_outline_are_moved_out(void **state)
     }
 }
 
+/* What is known of one face leans by 0.3: something rounded leans out more beside it, as a face it
+ * has no other normal; nor has anything about which nothing is known. */
+static void what_is_rounded_leans_out_beside_its_outline(void **state)
+{
+    (void)state;
+    const double known = 0.3, lean = 0.5, length = sqrt(1.0 + 2.0 * known * lean + lean * lean);
+    rlf_outlines at = {.x = {0}};
+    rlf_normals aside = {.x = {0}}, window[RLF_WINDOW_SIZE] = {{.x = {0}}}, found;
+    float rounded[RLF_BATCH];
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        at.x[i] = aside.x[i] = 1.0f;
+        rounded[i] = i % 2 == 0 ? 1.0f : 0.0f;
+        for (int32_t k = 0; k < RLF_WINDOW_SIZE && i < 12; k++) {
+            bool is_known = k % RLF_WINDOW_SIDE < RLF_WINDOW_ABOUT;
+            window[k].x[i] = is_known ? (float)known : 0.0f;
+            window[k].z[i] = is_known ? (float)-sqrt(1.0 - known * known) : 0.0f;
+        }
+    }
+    rlf_kernel_outline_face(&at, &aside, window, rounded, &found);
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        double out = i % 2 == 0 && i < 12 ? (known + lean) / length : 0.0;
+        assert_true(fabs(found.x[i] - out) < 1e-5);
+        assert_true(found.y[i] == 0.0f && (found.z[i] < 0.0f) == (out > 0.0));
+    }
+}
+
 /* A surface of ten columns, one of them filled, before a wall: the ways go from its right side
  * inwards and end with it, or with the image. */
 static void ways_end_with_their_surface(void **state)
@@ -346,6 +372,7 @@ int main(void)
         cmocka_unit_test(outlines_point_to_what_is_behind),
         cmocka_unit_test(slopes_have_no_outlines),
         cmocka_unit_test(windows_near_an_outline_are_moved_out),
+        cmocka_unit_test(what_is_rounded_leans_out_beside_its_outline),
         cmocka_unit_test(ways_end_with_their_surface),
         cmocka_unit_test(near_edge_row_marks_what_is_seen_beside_a_jump),
     };

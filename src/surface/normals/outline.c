@@ -8,7 +8,8 @@
  * known further in and the outline's, if these already turn outwards.
  *
  * Things with faces turn at a crease. What is left of a narrow last face is a pixel here and there:
- * the outermost known normal stands for it. */
+ * the outermost known normal stands for it. Of what moves and is neither flat nor seen to turn, as
+ * where two limbs meet, it is the mean of what is known, which lies farther in, turned outwards. */
 #include "surface/steps.h"
 #include "surface/window.h"
 
@@ -23,6 +24,7 @@ typedef struct outline_job {
     rlf_way way; /* normals of what is known are read, those of what was filled are written */
     const uint8_t *reason;
     const rlf_side_job *side;
+    const uint8_t *front; /* that is not flat, a frame ago; NULL = nothing is known to be */
 } outline_job;
 
 /* Pixels that wait until there are enough of them for a kernel. */
@@ -30,6 +32,7 @@ typedef struct outline_queue {
     int32_t count;
     rlf_way_from at;
     rlf_normals aside;
+    float rounded[RLF_BATCH]; /* 1 where something that is not flat was in front, else 0 */
 } outline_queue;
 
 /* Filled pixels, those of them that have an outline, and of these those that are not rounded. */
@@ -72,13 +75,16 @@ static bool may_be_front(const rlf_reconstruct *stage, int32_t x, int32_t y, ptr
                               rlf_hold_may_move(stage, x, y));
 }
 
-static void walk_in(const outline_job *job, const outline_queue *q, rlf_way_in *restrict in)
+static void walk_in(const outline_job *job, outline_queue *q, rlf_way_in *restrict in)
 {
     int32_t inner[RLF_BATCH];
     rlf_kernel_way_in(&job->way, &q->at, 1, in, inner);
     for (int32_t k = 0; k < q->count; k++) {
         bool is_front = may_be_front(job->side->stage, q->at.x[k], q->at.y[k], inner[k]);
         in->moves[k] = is_front ? 1.0f : 0.0f;
+        ptrdiff_t i = (ptrdiff_t)q->at.y[k] * job->way.width + q->at.x[k];
+        bool is_rounded = job->front != NULL && (job->front[i] | job->front[inner[k]]) != 0;
+        q->rounded[k] = is_rounded ? 1.0f : 0.0f;
     }
 }
 
@@ -116,7 +122,7 @@ static void turn_faces(const outline_job *job, outline_queue *q)
     for (int32_t k = 0; k < q->count; k++) {
         read_window(job, q->at.x[k], q->at.y[k], k, window);
     }
-    rlf_kernel_outline_face(&q->at.outline, &q->aside, window, &normals);
+    rlf_kernel_outline_face(&q->at.outline, &q->aside, window, q->rounded, &normals);
     for (int32_t k = 0; k < q->count; k++) {
         if (is_set(&normals, k)) {
             write_normal(job, (ptrdiff_t)q->at.y[k] * job->way.width + q->at.x[k], &normals, k);
@@ -137,6 +143,7 @@ static void turn_found(const outline_job *job, outline_queues *queues)
             write_normal(job, (ptrdiff_t)q->at.y[k] * job->way.width + q->at.x[k], &normals, k);
             continue;
         }
+        faces->rounded[faces->count] = q->rounded[k];
         faces->aside.x[faces->count] = q->aside.x[k];
         faces->aside.y[faces->count] = q->aside.y[k];
         faces->aside.z[faces->count] = q->aside.z[k];
@@ -203,13 +210,13 @@ static void outline_rows(void *context, int32_t begin, int32_t end, int32_t work
     turn_faces(job, &queues.faces);
 }
 
-void rlf_normals_outline(const rlf_reconstruct *stage, const rlf_slot *slot)
+void rlf_normals_outline(const rlf_reconstruct *stage, const rlf_slot *slot, const uint8_t *rounded)
 {
     const rlf_grid *grid = &stage->grid;
     rlf_side_job side = rlf_side_job_make(stage, slot);
     const rlf_way way = {grid->width, grid->height, grid->ray_x, grid->ray_y,
                          slot->depth, side.known,   slot->normal};
-    outline_job job = {way, slot->reason, &side};
+    outline_job job = {way, slot->reason, &side, rounded};
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, outline_rows, &job);
     rlf_side_spread(&side);
 }

@@ -240,10 +240,12 @@ static void leave_out(const rlf_slot *slot, const rlf_region *region, int32_t wi
     }
 }
 
-/* Where something that is not flat was in front a frame ago. */
-static const uint8_t *find_front(const rlf_reconstruct *stage)
+const uint8_t *rlf_normals_rounded_front(const rlf_reconstruct *stage)
 {
     const rlf_slot *before = stage->previous;
+    if (before == NULL) {
+        return NULL;
+    }
     const uint8_t *front = before->foreground;
     uint8_t *rounded = stage->work.links;
     for (int32_t r = 0; r < before->foreground_region_count; r++) {
@@ -259,16 +261,16 @@ static const uint8_t *find_front(const rlf_reconstruct *stage)
     return front;
 }
 
-void rlf_normals_turn(const rlf_reconstruct *stage, const rlf_slot *slot)
+void rlf_normals_turn(const rlf_reconstruct *stage, const rlf_slot *slot, const uint8_t *rounded)
 {
     const rlf_grid *grid = &stage->grid;
-    if (stage->previous == NULL) {
+    if (rounded == NULL) {
         return;
     }
     const rlf_work *work = &stage->work;
     turn_job job = {{grid->width, grid->height, grid->ray_x, grid->ray_y, slot->depth,
                      work->mask[0], slot->normal},
-                    find_front(stage),
+                    rounded,
                     work->front,
                     {work->depth[0], work->sum[0], work->sum[1]},
                     work->mask[1]};
