@@ -23,7 +23,7 @@ typedef struct golden {
 } golden;
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0x3090b0da535ce12au, 0x1e3fcb243611d121u, 0x92325fb92f0c4681u},
+    {RLF_PROFILE_LIVE, 0x5851ce2013462708u, 0x1aefc8f68efadf92u, 0x92325fb92f0c4681u},
     {RLF_PROFILE_THESIS, 0xa393eb06e579d241u, 0xd84652fb54683851u, 0xc064b44391e1e990u},
 };
 
