@@ -140,20 +140,28 @@ static void a_narrow_post_is_as_deep_as_it_is_wide(void **state)
     assert_true(10 * all.front_wrong <= all.front);
 }
 
-/* The background takes over what many frames have told, when its tiles are made once more. */
-static void the_background_has_the_side(void **state)
+/* A block after so many frames that the background's tiles were made once more. */
+static const rlf_surface *watch_long(seen_view *f, block b, rlf_reconstruct **stage)
 {
     enum { LONG = 96 };
-    seen_view *f = *state;
     set_wall(f);
-    add_block(f, (block){-1.00, -0.95, 3.2, 3.26});
+    add_block(f, b);
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
-    rlf_reconstruct *stage = seen_view_stage(&def);
+    *stage = seen_view_stage(&def);
     const rlf_surface *s = NULL;
     for (int32_t k = 0; k < LONG; k++) {
         take_frame(f);
-        s = seen_view_process(f, stage, k);
+        s = seen_view_process(f, *stage, k);
     }
+    return s;
+}
+
+/* The background takes over what many frames have told. */
+static void the_background_has_the_side(void **state)
+{
+    seen_view *f = *state;
+    rlf_reconstruct *stage = NULL;
+    const rlf_surface *s = watch_long(f, (block){-1.00, -0.95, 3.2, 3.26}, &stage);
     int side = 0, wrong = 0;
     const rlf_vec3 truth = {1.0, 0.0, 0.0};
     for (int i = 12 * WIDTH; i < COUNT - 12 * WIDTH; i++) {
@@ -166,6 +174,30 @@ static void the_background_has_the_side(void **state)
     assert_true(side >= HEIGHT - 24);
     assert_true(100 * wrong <= 12 * side);
     rlf_reconstruct_destroy(&stage);
+}
+
+/* Its outermost pixel, which the sensor drops in every frame, has the side's depth, too: level with
+ * the pixel inside of it, it would be a pixel's step of the side, 3 cm, too near. */
+static void the_side_goes_on_to_its_end(void **state)
+{
+    static const double fars[3] = {3.26, 3.30, 3.34};
+    int last = 0;
+    double sum = 0.0;
+    for (int k = 0; k < 3; k++) {
+        rlf_reconstruct *stage = NULL;
+        const rlf_surface *s = watch_long(*state, (block){-1.00, -0.95, 3.2, fars[k]}, &stage);
+        const float *truth = ((seen_view *)*state)->truth;
+        for (int i = 12 * WIDTH; i < COUNT - 12 * WIDTH; i++) {
+            bool is_last = is_side_at[i] && !is_side_at[i + 1];
+            double off = s->background_depth[i] - truth[i];
+            last += is_last;
+            sum += is_last ? rlf_max(off, -off) : 0.0;
+        }
+        rlf_reconstruct_destroy(&stage);
+    }
+    print_message("the side's last pixels: %.1f mm off on average\n", 1000.0 * sum / last);
+    assert_true(last >= 3 * (HEIGHT - 24));
+    assert_true(sum <= 0.012 * last);
 }
 
 static void a_plate_has_no_side(void **state)
@@ -213,6 +245,7 @@ int main(void)
         cmocka_unit_test(the_background_has_the_side),
         cmocka_unit_test(a_plate_has_no_side),
         cmocka_unit_test(the_wall_shows_in_a_slit),
+        cmocka_unit_test(the_side_goes_on_to_its_end),
     };
     return cmocka_run_group_tests(tests, set_up, seen_view_destroy);
 }

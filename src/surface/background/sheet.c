@@ -28,10 +28,6 @@ static const float SHARP = 0.99f;
 /* Share of the depth, from one side of an outline to the other. */
 static const float SIDE = 0.04f;
 
-typedef struct rectangle {
-    int32_t x0, y0, x1, y1;
-} rectangle;
-
 static int32_t tile_columns(const rlf_grid *grid)
 {
     return (grid->width + RLF_SHEET_TILE - 1) / RLF_SHEET_TILE;
@@ -49,26 +45,26 @@ void rlf_sheet_changed(rlf_background *background, const rlf_grid *grid, int32_t
     background->changed += count;
 }
 
-static rectangle tile_at(const rlf_grid *grid, int32_t tile)
+static rlf_rect tile_at(const rlf_grid *grid, int32_t tile)
 {
     int32_t x0 = tile % tile_columns(grid) * RLF_SHEET_TILE;
     int32_t y0 = tile / tile_columns(grid) * RLF_SHEET_TILE;
     int32_t x1 = x0 + RLF_SHEET_TILE, y1 = y0 + RLF_SHEET_TILE;
-    const rectangle r = {x0, y0, x1 < grid->width ? x1 : grid->width,
-                         y1 < grid->height ? y1 : grid->height};
+    const rlf_rect r = {x0, y0, x1 < grid->width ? x1 : grid->width,
+                        y1 < grid->height ? y1 : grid->height};
     return r;
 }
 
-static rectangle widen(const rlf_grid *grid, rectangle r)
+static rlf_rect widen(const rlf_grid *grid, rlf_rect r)
 {
-    const rectangle wide = {r.x0 > MARGIN ? r.x0 - MARGIN : 0, r.y0 > MARGIN ? r.y0 - MARGIN : 0,
-                            r.x1 + MARGIN < grid->width ? r.x1 + MARGIN : grid->width,
-                            r.y1 + MARGIN < grid->height ? r.y1 + MARGIN : grid->height};
+    const rlf_rect wide = {r.x0 > MARGIN ? r.x0 - MARGIN : 0, r.y0 > MARGIN ? r.y0 - MARGIN : 0,
+                           r.x1 + MARGIN < grid->width ? r.x1 + MARGIN : grid->width,
+                           r.y1 + MARGIN < grid->height ? r.y1 + MARGIN : grid->height};
     return wide;
 }
 
 /* Copies r from a plane of width `from_width` whose corner is at (from_x, from_y) to another. */
-static void copy_part(rectangle r, const float *from, int32_t from_x, int32_t from_y,
+static void copy_part(rlf_rect r, const float *from, int32_t from_x, int32_t from_y,
                       int32_t from_width, float *to, int32_t to_x, int32_t to_y, int32_t to_width)
 {
     for (int32_t y = r.y0; y < r.y1; y++) {
@@ -122,7 +118,7 @@ static bool is_near(float depth, float other)
 /* The model's mean does not tell on which side of an outline a pixel is: it is of whatever was seen
  * first. What frames agree on does, where this frame agrees, too, or something hides it. */
 static void take_sides(const rlf_reconstruct *stage, const rlf_slot *slot, const rlf_sheet *old,
-                       rlf_sheet *sheet, rectangle r)
+                       rlf_sheet *sheet, rlf_rect r)
 {
     for (int32_t y = r.y0; y < r.y1 && slot != NULL; y++) {
         for (int32_t x = r.x0; x < r.x1; x++) {
@@ -143,7 +139,7 @@ static void take_sides(const rlf_reconstruct *stage, const rlf_slot *slot, const
  * sides that nothing was seen of have their normals. A pixel whose normal there, or the one that
  * frames agree on, is another one takes it; one that something hides keeps what it had. */
 static void sharpen(const rlf_reconstruct *stage, const rlf_slot *slot, const rlf_sheet *old,
-                    rlf_sheet *sheet, rectangle r)
+                    rlf_sheet *sheet, rlf_rect r)
 {
     const rlf_reconstruct_def *def = &stage->def;
     if (slot == NULL || !def->enable_smoothing || !def->enable_edge_normals ||
@@ -172,7 +168,7 @@ static void sharpen(const rlf_reconstruct *stage, const rlf_slot *slot, const rl
 static void make_tile(rlf_reconstruct *stage, const rlf_slot *slot, rlf_sheet *sheet, int32_t tile)
 {
     const rlf_grid *grid = &stage->grid;
-    const rectangle r = tile_at(grid, tile), wide = widen(grid, r);
+    const rlf_rect r = tile_at(grid, tile), wide = widen(grid, r);
     int32_t width = wide.x1 - wide.x0;
     float *const *crop = stage->work.crop;
     const float *const from[3] = {stage->background.mean, grid->ray_x, grid->ray_y};
@@ -193,6 +189,7 @@ static void make_tile(rlf_reconstruct *stage, const rlf_slot *slot, rlf_sheet *s
     const rlf_sheet *newest = &stage->background.sheets[stage->background.newest];
     take_sides(stage, slot, newest, sheet, r);
     sharpen(stage, slot, newest, sheet, r);
+    rlf_sheet_fit_rims(stage, slot, newest, sheet, r);
     tile_is_made(&stage->background, tile, stage->background.changes[tile] >= CHANGES);
 }
 
@@ -205,7 +202,7 @@ static void begin_draft(rlf_reconstruct *stage)
     rlf_sheet *draft = &background->sheets[(background->newest + 1) % RLF_SHEETS];
     for (int32_t tile = 0; tile < rlf_sheet_tiles(grid); tile++) {
         if (background->version[tile] > draft->version) {
-            const rectangle r = tile_at(grid, tile);
+            const rlf_rect r = tile_at(grid, tile);
             copy_part(r, newest->depth, 0, 0, grid->width, draft->depth, 0, 0, grid->width);
             for (int k = 0; k < 3; k++) {
                 copy_part(r, newest->normal[k], 0, 0, grid->width, draft->normal[k], 0, 0,
@@ -243,9 +240,10 @@ static void make_all(rlf_reconstruct *stage, const rlf_slot *slot, rlf_sheet *sh
     memcpy(sheet->depth, background->mean, (size_t)stage->grid.count * sizeof *sheet->depth);
     rlf_normals_job normals = rlf_normals_job_make(stage, sheet->depth, sheet->normal);
     rlf_normals_compute(&normals);
-    const rectangle all = {0, 0, stage->grid.width, stage->grid.height};
+    const rlf_rect all = {0, 0, stage->grid.width, stage->grid.height};
     take_sides(stage, slot, NULL, sheet, all);
     sharpen(stage, slot, NULL, sheet, all);
+    rlf_sheet_fit_rims(stage, slot, NULL, sheet, all);
     for (int32_t tile = 0; tile < tiles; tile++) {
         tile_is_made(background, tile, true);
     }
