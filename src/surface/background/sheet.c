@@ -2,8 +2,8 @@
  *
  * A draft is the oldest sheet, which no valid surface refers to. Tiles whose pixels were replaced
  * are made anew from the model, the most changed first, so many per frame that no frame costs much
- * more than another; a thing that leaves is published at once. A tile is made once more whenever
- * the means of what is new in it have got much better. */
+ * more than another; a thing that leaves is published at once. A tile is made once more when
+ * most of what is new in it has been seen, and when the means of that have got much better. */
 #include "surface/steps.h"
 
 #include "kernel/kernel.h"
@@ -19,7 +19,8 @@ enum {
     FRAMES = 10,          /* ... after at least this many frames */
     CHANGES_URGENT = 400, /* replaced pixels that make one at once: a thing has left */
     FRAMES_LONG = 30,     /* after this many any change does */
-    REFINED_FRAMES = 40   /* so many make a mean much better than the first few */
+    SHOWN_FRAMES = 10,    /* so many show what the first few did not, beside outlines ... */
+    REFINED_FRAMES = 40   /* ... and so many make a mean much better */
 };
 
 /* Cosine: the angle to another normal that is no noise. */
@@ -298,7 +299,8 @@ static bool is_due(rlf_background *background, int32_t tiles)
     bool better = false;
     for (int32_t tile = 0; tile < tiles; tile++) {
         background->age[tile] += background->age[tile] < UINT8_MAX ? 1 : 0;
-        background->is_better[tile] |= background->age[tile] == REFINED_FRAMES;
+        int32_t age = background->age[tile];
+        background->is_better[tile] |= age == SHOWN_FRAMES || age == REFINED_FRAMES;
         better = better || background->is_better[tile] != 0;
     }
     background->sheet_age++;
