@@ -56,7 +56,8 @@ static float depth_behind(const fill_job *job, int32_t x, int32_t y)
     return known ? job->behind->depth[i] : 0.0f;
 }
 
-/* The pixel shows the background: it has its depth and its normal. */
+/* The pixel shows the background: it has its depth and its normal. Where the published depth is not
+ * that of the model, the model's, by which the pixel would be taken for foreground otherwise. */
 static float show_behind(const fill_job *job, int32_t x, int32_t y)
 {
     ptrdiff_t i = (ptrdiff_t)y * job->stage->grid.width + x;
@@ -64,7 +65,9 @@ static float show_behind(const fill_job *job, int32_t x, int32_t y)
     for (int k = 0; k < 3 && normals; k++) {
         job->normal[k][i] = job->behind->normal[k][i];
     }
-    return job->behind->depth[i];
+    float z = job->behind->depth[i], model = job->stage->background.mean[i];
+    bool is_model = rlf_kernel_abs(z - model) < rlf_background_gate(&job->stage->def, model);
+    return is_model || !(model > 0.0f) ? z : model;
 }
 
 /* Between two near ends that are far enough apart for a slit: what a driver takes away beside each
