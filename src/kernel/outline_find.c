@@ -51,6 +51,7 @@ RLF_KERNEL_PART void find_nearest(const rlf_windows *restrict depth, const float
         nearest[i] = own[i];
     }
     for (int32_t k = 0; k < RLF_WINDOW_SIZE; k++) {
+        RLF_KERNEL_WHOLE
         for (int32_t i = 0; i < RLF_BATCH; i++) {
             float z = depth->at[k][i];
             float of_own = z > own[i] * (1.0f - RLF_OUTLINE_JUMP) ? z : own[i];
