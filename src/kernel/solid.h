@@ -71,7 +71,8 @@ RLF_KERNEL_PART rlf_kernel_section rlf_kernel_section_at(const rlf_kernel_trunk 
 {
     const double chest = t.at[0], waist = t.at[1], last = t.at[2];
     double below = down + t.above;
-    bool is_above = below<chest, is_under = below> last, is_lower = below > waist;
+    bool is_above = chest > below, is_lower = below > waist;
+    bool is_under = below > last;
     double from = is_lower ? waist : chest, span = is_lower ? last - waist : waist - chest;
     double way = below - from;
     way = is_under ? below - last : way;
