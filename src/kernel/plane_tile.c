@@ -17,8 +17,9 @@ enum {
     SPAN = 8,  /* blocks that get small windows together */
     PLANES = RLF_KERNEL_TILE_WIDTH / 2 + SPAN, /* REACH on each side of the tile, then padding */
     CORNERS = PLANES + SPAN,
-    BLOCKS = CORNERS + SPAN,
-    PIXELS = 2 * PLANES
+    BLOCKS = CORNERS + 2 * SPAN,
+    LEFT = 16,
+    PIXELS = LEFT - 2 * REACH + 2 * PLANES + 4
 };
 
 /* Largest residuals that a window may have, in sigmas. */
@@ -29,15 +30,15 @@ enum { N, X, Y, XX, XY, YY, W, XW, YW, WW, MOMENTS };
 /* Plane i is of block i - REACH of the tile. The moments of that block have the index
  * i + HALO - REACH, and the corner to its left has the index i. */
 typedef struct moment_row {
-    float of[MOMENTS][BLOCKS];
+    _Alignas(64) float of[MOMENTS][BLOCKS];
 } moment_row;
 
 typedef struct plane_row {
-    float a[CORNERS], b[CORNERS], c[CORNERS], weight[CORNERS], precision[CORNERS];
+    _Alignas(64) float a[CORNERS], b[CORNERS], c[CORNERS], weight[CORNERS], precision[CORNERS];
 } plane_row;
 
 typedef struct pixel_planes { /* of one row of blocks, each value twice: once per pixel column */
-    float a[PIXELS], b[PIXELS], c[PIXELS], weight[PIXELS], precision[PIXELS];
+    _Alignas(64) float a[PIXELS], b[PIXELS], c[PIXELS], weight[PIXELS], precision[PIXELS];
 } pixel_planes;
 
 /* Windows of 2x2 blocks, fitted span by span when one is asked for. */
@@ -295,17 +296,17 @@ RLF_KERNEL_PART void make_planes(tile_state *state, int32_t row)
         }
     }
     pixel_planes *out = &state->pixels[row % 5];
-    expand(planes.a, state->planes, out->a);
-    expand(planes.b, state->planes, out->b);
-    expand(planes.c, state->planes, out->c);
-    expand(planes.weight, state->planes, out->weight);
-    expand(planes.precision, state->planes, out->precision);
+    expand(planes.a, state->planes, out->a + LEFT - 2 * REACH);
+    expand(planes.b, state->planes, out->b + LEFT - 2 * REACH);
+    expand(planes.c, state->planes, out->c + LEFT - 2 * REACH);
+    expand(planes.weight, state->planes, out->weight + LEFT - 2 * REACH);
+    expand(planes.precision, state->planes, out->precision + LEFT - 2 * REACH);
 }
 
 /* ---- pixels ---- */
 
 typedef struct blend { /* of one row of pixels */
-    float x[RLF_KERNEL_TILE_WIDTH], y[RLF_KERNEL_TILE_WIDTH], w[RLF_KERNEL_TILE_WIDTH];
+    _Alignas(64) float x[RLF_KERNEL_TILE_WIDTH], y[RLF_KERNEL_TILE_WIDTH], w[RLF_KERNEL_TILE_WIDTH];
     /* sums of planes times weight, and of weights */
     float a[RLF_KERNEL_TILE_WIDTH], b[RLF_KERNEL_TILE_WIDTH], c[RLF_KERNEL_TILE_WIDTH];
     float weight[RLF_KERNEL_TILE_WIDTH];
@@ -361,7 +362,7 @@ RLF_KERNEL_PART void offer_planes(const pixel_planes *const planes[5], int32_t c
     const pixel_planes *restrict p2 = planes[2], *restrict p3 = planes[3];
     const pixel_planes *restrict p4 = planes[4];
     for (int32_t i = 0; i < count; i++) {
-        int32_t k = i + 2 * REACH;
+        int32_t k = i + LEFT;
         plane_sums sums = {{0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f, 0.0f}};
         sums = offer_both(sums, p0, k, upper, lower, i);
         sums = offer_both(sums, p0, k - 4, upper, lower, i);
