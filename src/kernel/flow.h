@@ -129,20 +129,37 @@ void rlf_kernel_flow_row(const rlf_kernel_flow *flow, const float *restrict dept
 
 /* Planes of an image from a row's first pixel on; the rows above and below are inside. */
 typedef struct rlf_kernel_rim_in {
-    const int32_t *label;
     const uint8_t *foreground;
     const float *depth;
     ptrdiff_t width; /* of the image */
-    float least;     /* metres from the region to what is behind it */
+    float least;     /* metres from a pixel to what is behind it */
 } rlf_kernel_rim_in;
 
-/* 1 for the region's pixels beside one that shows the background behind them, else 0; reads a pixel
- * more on both sides. */
-void rlf_kernel_rim_row(const rlf_kernel_rim_in *in, int32_t own, int32_t count,
-                        uint8_t *restrict is_rim);
+/* Not 0 for pixels beside one that shows the background behind them; reads a pixel more on both
+ * sides. */
+void rlf_kernel_rim_row(const rlf_kernel_rim_in *in, int32_t count, uint8_t *restrict is_rim);
 /* The region's pixels in the window about (x, y), which is inside the image of labels, at least
  * RLF_RIM_SIDE + 1 pixels wide, and the sums of their steps from there: count, x, y. */
 void rlf_kernel_rim_window(const int32_t *label, int32_t width, int32_t own, int32_t x, int32_t y,
                            int32_t out[3]);
+
+/* ---- rest_count.c: regions that rest, see surface/velocity/velocity.c
+ * --------------------------------------------------- */
+
+/* Planes of an image; a rectangle of it, every stride-th pixel of every stride-th row. */
+typedef struct rlf_kernel_rest_in {
+    const int32_t *label;
+    const uint8_t *reason;
+    const float *depth, *normal[3], *ray_x, *ray_y;
+    const float *before; /* depth where something was seen a frame ago, 0 elsewhere */
+    int32_t width;       /* of the image */
+    int32_t x0, y0, x1, y1, stride;
+    int32_t own; /* the region's label */
+    rlf_kernel_noise noise;
+    float reach; /* metres: what is farther from where it was is another limb */
+} rlf_kernel_rest_in;
+
+/* Pixels of the region that were seen, and those of them that are where they were, by the noise. */
+void rlf_kernel_rest_count(const rlf_kernel_rest_in *in, int32_t *samples, int32_t *inliers);
 
 #endif

@@ -1,26 +1,40 @@
 /* Where a region ends, and how much of a window it fills. */
 #include "kernel/flow.h"
 
-enum { LANES = RLF_RIM_SIDE + 1 };
+enum { LANES = RLF_RIM_SIDE + 1, CHUNK = 256, LEFT = 1, RIGHT = 2, ABOVE = 4, BELOW = 8 };
 
-RLF_KERNEL void rlf_kernel_rim_row(const rlf_kernel_rim_in *in, int32_t own, int32_t count,
-                                   uint8_t *restrict is_rim)
+/* On which sides of pixels i .. i + size - 1 something lies behind them. */
+RLF_KERNEL_PART void find_behind(const rlf_kernel_rim_in *in, int32_t i, int32_t size,
+                                 int32_t *restrict sides)
 {
-    const int32_t *restrict label = in->label;
-    const float *restrict at = in->depth;
+    const float *restrict at = in->depth + i;
     const float *restrict up = at - in->width;
     const float *restrict down = at + in->width;
-    const uint8_t *restrict front = in->foreground;
-    const uint8_t *restrict front_up = front - in->width;
-    const uint8_t *restrict front_down = front + in->width;
     float least = in->least;
-    for (int32_t i = 0; i < count; i++) {
-        float behind = at[i] + least;
-        int32_t left = (front[i - 1] == 0) & (at[i - 1] > behind);
-        int32_t right = (front[i + 1] == 0) & (at[i + 1] > behind);
-        int32_t above = (front_up[i] == 0) & (up[i] > behind);
-        int32_t below = (front_down[i] == 0) & (down[i] > behind);
-        is_rim[i] = (uint8_t)((label[i] == own) & (left | right | above | below));
+    for (int32_t k = 0; k < size; k++) {
+        float behind = at[k] + least;
+        int32_t left = at[k - 1] > behind ? LEFT : 0, right = at[k + 1] > behind ? RIGHT : 0;
+        int32_t above = up[k] > behind ? ABOVE : 0, below = down[k] > behind ? BELOW : 0;
+        sides[k] = left | right | above | below;
+    }
+}
+
+RLF_KERNEL void rlf_kernel_rim_row(const rlf_kernel_rim_in *in, int32_t count,
+                                   uint8_t *restrict is_rim)
+{
+    int32_t sides[CHUNK];
+    for (int32_t first = 0; first < count; first += CHUNK) {
+        int32_t size = count - first < CHUNK ? count - first : CHUNK;
+        find_behind(in, first, size, sides);
+        const uint8_t *restrict front = in->foreground + first;
+        const uint8_t *restrict up = front - in->width;
+        const uint8_t *restrict down = front + in->width;
+        for (int32_t k = 0; k < size; k++) { /* apart, because bytes make longer vectors */
+            uint8_t left = front[k - 1] == 0 ? LEFT : 0, right = front[k + 1] == 0 ? RIGHT : 0;
+            uint8_t above = up[k] == 0 ? ABOVE : 0, below = down[k] == 0 ? BELOW : 0;
+            uint8_t background = (uint8_t)(left | right | above | below);
+            is_rim[first + k] = (uint8_t)(background & (uint8_t)sides[k]);
+        }
     }
 }
 

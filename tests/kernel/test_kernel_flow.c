@@ -227,9 +227,8 @@ static void rims_are_their_definition(void **state)
     }
     for (int32_t y = R; y < HEIGHT - R; y++) {
         ptrdiff_t row = (ptrdiff_t)y * WIDTH;
-        const rlf_kernel_rim_in in = {label + row + R, foreground + row + R, depth + row + R, WIDTH,
-                                      0.3f};
-        rlf_kernel_rim_row(&in, OWN, WIDTH - 2 * R, is_rim);
+        const rlf_kernel_rim_in in = {foreground + row + R, depth + row + R, WIDTH, 0.3f};
+        rlf_kernel_rim_row(&in, WIDTH - 2 * R, is_rim);
         for (int32_t x = R; x < WIDTH - R; x++) {
             int32_t expected[3] = {0, 0, 0}, found[3];
             for (int32_t k = 0; k < RLF_RIM_SIDE * RLF_RIM_SIDE; k++) {
@@ -247,7 +246,7 @@ static void rims_are_their_definition(void **state)
                 ptrdiff_t n = row + x + step[k];
                 is_beside |= foreground[n] == 0 && depth[n] > depth[row + x] + 0.3f;
             }
-            assert_int_equal(is_rim[x - R], label[row + x] == OWN && is_beside);
+            assert_int_equal(is_rim[x - R] != 0, is_beside);
         }
     }
 }

@@ -10,13 +10,13 @@
  * the frame before: along an outline that runs slantwise to the pixels these are parts of a pixel.
  */
 #include "surface/velocity/velocity.h"
+#include "surface/window.h"
 
 #include <math.h>
 
 enum {
     RADIUS = RLF_RIM_RADIUS,
     SIDE = RLF_RIM_SIDE,
-    RUN = 128,
     FIRST_STEP = 2 /* along the outline: the windows of two neighbours are almost the same */
 };
 
@@ -31,6 +31,7 @@ static bool measure(const rlf_flow *job, int32_t label, int32_t x, int32_t y, rl
     rlf_kernel_rim_window(job->now->label, width, label, x, y, window);
     out->i = (ptrdiff_t)y * width + x;
     out->count = window[0];
+    out->before_x = out->before_y = -1;
     float length = (float)sqrt((double)(window[1] * window[1] + window[2] * window[2]));
     if (length < least_pull * (float)(SIDE * SIDE * (RADIUS + 1)) / 4.0f) {
         return false;
@@ -58,38 +59,79 @@ static void add_rim(const rlf_flow *job, int32_t label, int32_t x, int32_t y, rl
     out->count += measure(job, label, x, y, &out->rim[out->count]);
 }
 
+/* Pixels of the span that a window fits about. */
+static rlf_span inside(const rlf_grid *grid, rlf_span span)
+{
+    return (rlf_span){span.x0 > RADIUS ? span.x0 : RADIUS,
+                      rlf_least(span.x1, grid->width - RADIUS)};
+}
+
+/* Pixels of the rows that windows fit about, beside the background, of all regions at once. */
+static void mark_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const rlf_flow *job = context;
+    int32_t width = job->stage->grid.width;
+    for (int32_t y = begin + RADIUS; y < end + RADIUS; y++) {
+        rlf_span span = inside(&job->stage->grid, job->now->moved[y]);
+        ptrdiff_t i = (ptrdiff_t)y * width + span.x0;
+        const rlf_kernel_rim_in row = {job->now->foreground + i, job->now->depth + i, width,
+                                       least_step_m};
+        if (span.x0 < span.x1) {
+            rlf_kernel_rim_row(&row, span.x1 - span.x0, job->stage->work.mask[1] + i);
+        }
+    }
+}
+
+void rlf_rims_mark(const rlf_flow *job)
+{
+    rlf_flow copy = *job;
+    const rlf_grid *grid = &job->stage->grid;
+    if (grid->width > SIDE && grid->height > SIDE) {
+        rlf_parallel_for(job->stage->def.pool, grid->height - 2 * RADIUS, RLF_ROW_GRAIN, mark_rows,
+                         &copy);
+    }
+}
+
 void rlf_rims_find(const rlf_flow *job, const rlf_region *region, rlf_rims *out)
 {
     const rlf_grid *grid = &job->stage->grid;
-    int32_t x0 = region->x0 > RADIUS ? region->x0 : RADIUS;
+    rlf_span span = inside(grid, (rlf_span){region->x0, region->x1});
     int32_t y0 = region->y0 > RADIUS ? region->y0 : RADIUS;
-    int32_t x1 = region->x1 < grid->width - RADIUS ? region->x1 : grid->width - RADIUS;
     int32_t y1 = region->y1 < grid->height - RADIUS ? region->y1 : grid->height - RADIUS;
-    uint8_t is_rim[RUN];
     out->count = out->seen = 0;
     out->step = FIRST_STEP;
     if (grid->width <= SIDE) {
         return; /* too narrow for a window */
     }
     for (int32_t y = y0; y < y1; y++) {
-        for (int32_t x = x0; x < x1; x += RUN) {
-            ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-            const rlf_kernel_rim_in row = {.label = job->now->label + i,
-                                           .foreground = job->now->foreground + i,
-                                           .depth = job->now->depth + i,
-                                           .width = grid->width,
-                                           .least = least_step_m};
-            int32_t count = x1 - x < RUN ? x1 - x : RUN;
-            rlf_kernel_rim_row(&row, region->label, count, is_rim);
-            for (int32_t k = 0; (k = rlf_kernel_next_mark(is_rim, k, count)) < count; k++) {
-                add_rim(job, region->label, x + k, y, out);
+        ptrdiff_t row = (ptrdiff_t)y * grid->width;
+        const uint8_t *is_rim = job->stage->work.mask[1] + row;
+        const int32_t *label = job->now->label + row;
+        for (int32_t x = span.x0; (x = rlf_kernel_next_mark(is_rim, x, span.x1)) < span.x1; x++) {
+            if (label[x] == region->label) {
+                add_rim(job, region->label, x, y, out);
             }
         }
     }
 }
 
-bool rlf_rim_beyond(const rlf_flow *job, int32_t label, const rlf_rim *rim, rlf_vec3 p, rlf_vec3 v,
-                    rlf_vec3 *direction, double *out)
+/* The region's pixels in the window about (x, y) a frame ago. Passes that improve a motion ask for
+ * the same place again. */
+static int32_t count_before(const rlf_flow *job, int32_t label, int32_t x, int32_t y, rlf_rim *rim)
+{
+    if (rim->before_x != x || rim->before_y != y) {
+        int32_t window[3];
+        rlf_kernel_rim_window(job->before->label, job->stage->grid.width, label, x, y, window);
+        rim->before_x = x;
+        rim->before_y = y;
+        rim->before_count = window[0];
+    }
+    return rim->before_count;
+}
+
+bool rlf_rim_beyond(const rlf_flow *job, int32_t label, rlf_rim *rim, rlf_vec3 p, rlf_vec3 v,
+                    double *out)
 {
     const rlf_grid *grid = &job->stage->grid;
     rlf_vec3 q = rlf_mad(p, v, -(double)job->dt);
@@ -103,13 +145,17 @@ bool rlf_rim_beyond(const rlf_flow *job, int32_t label, const rlf_rim *rim, rlf_
         !(w < grid->height - RADIUS - 1)) {
         return false;
     }
-    int32_t x = (int32_t)(u + 0.5), y = (int32_t)(w + 0.5), before[3];
-    rlf_kernel_rim_window(job->before->label, grid->width, label, x, y, before);
+    int32_t x = (int32_t)(u + 0.5), y = (int32_t)(w + 0.5);
+    int32_t before = count_before(job, label, x, y, rim);
     double part = (u - x) * (double)rim->out_x + (w - y) * (double)rim->out_y;
-    double pixels = part - (double)(before[0] - rim->count) / (double)rim->per_pixel;
-    rlf_vec3 ray = rlf_normalize(p);
-    rlf_vec3 m = rlf_vec3_make(rim->out_x, rim->out_y, 0.0);
-    *direction = rlf_normalize(rlf_mad(m, ray, -rlf_dot(m, ray)));
+    double pixels = part - (double)(before - rim->count) / (double)rim->per_pixel;
     *out = pixels * p.z / (grid->camera.fx * (double)job->dt);
     return true;
+}
+
+rlf_vec3 rlf_rim_direction(const rlf_rim *rim, rlf_vec3 p)
+{
+    rlf_vec3 ray = rlf_normalize(p);
+    rlf_vec3 m = rlf_vec3_make(rim->out_x, rim->out_y, 0.0);
+    return rlf_normalize(rlf_mad(m, ray, -rlf_dot(m, ray)));
 }

@@ -105,10 +105,9 @@ static int32_t agreeing(const rlf_twist *t)
 typedef struct twist_sum {
     const rlf_flow *job;
     const rlf_region *region;
-    const rlf_rims *rims;
+    rlf_rims *rims;
     double slack;      /* widens what agrees while the motion is still far off */
     double rim_weight; /* 0: the outline only says how far off it is */
-    bool only_counts;  /* what agrees with rest, and nothing is improved */
     double speed;      /* of the motion so far */
     double a[6][6], b[6];
 } twist_sum;
@@ -129,21 +128,6 @@ static void add_row(twist_sum *sum, rlf_twist *t, rlf_vec3 p, rlf_vec3 n, double
     }
 }
 
-/* Whether a pixel is where it was: what rests stays on its ray, and its slope has no say. */
-static void count_pixel(const twist_sum *sum, rlf_twist *t, ptrdiff_t i)
-{
-    const rlf_flow *job = sum->job;
-    const rlf_grid *grid = &job->stage->grid;
-    const rlf_slot *now = job->now;
-    const float x = grid->ray_x[i], y = grid->ray_y[i], before = job->view.seen[i];
-    const float step = now->depth[i] - before, reach = 2.0f * rlf_flow_limb_m;
-    const float facing = -(now->normal[0][i] * x + now->normal[1][i] * y + now->normal[2][i]);
-    const float bound = 3.0f * 1.41421356f * rlf_kernel_sigma(job->noise, now->depth[i]);
-    t->samples++;
-    t->inliers += facing > 0.0f && before > 0.0f && step <= bound && step >= -bound &&
-                  step * step * (x * x + y * y + 1.0f) < reach * reach;
-}
-
 static void add_pixel(twist_sum *sum, rlf_twist *t, ptrdiff_t i)
 {
     const rlf_flow *job = sum->job;
@@ -162,13 +146,13 @@ static void add_pixel(twist_sum *sum, rlf_twist *t, ptrdiff_t i)
     }
 }
 
-static void add_rim(twist_sum *sum, rlf_twist *t, const rlf_rim *rim)
+static void add_rim(twist_sum *sum, rlf_twist *t, rlf_rim *rim)
 {
     const rlf_flow *job = sum->job;
-    rlf_vec3 p = rlf_flow_point(&job->stage->grid, job->now->depth, rim->i), n;
+    rlf_vec3 p = rlf_flow_point(&job->stage->grid, job->now->depth, rim->i);
     double off;
     t->rim_samples++;
-    if (!rlf_rim_beyond(job, sum->region->label, rim, p, rlf_twist_velocity(t, p), &n, &off)) {
+    if (!rlf_rim_beyond(job, sum->region->label, rim, p, rlf_twist_velocity(t, p), &off)) {
         return;
     }
     double depth_sigma = rlf_kernel_sigma(job->noise, job->now->depth[rim->i]);
@@ -180,7 +164,7 @@ static void add_rim(twist_sum *sum, rlf_twist *t, const rlf_rim *rim)
     if (off <= bound && off >= -bound) {
         t->rim_inliers++;
         if (weight > 0.0) {
-            add_row(sum, t, p, n, off, sigma, weight);
+            add_row(sum, t, p, rlf_rim_direction(rim, p), off, sigma, weight);
         }
     }
 }
@@ -197,36 +181,65 @@ static void step(twist_sum *sum, rlf_twist *t)
     }
 }
 
+static void add_rims(twist_sum *sum, rlf_twist *t)
+{
+    t->rim_samples = t->rim_inliers = 0;
+    t->rim_excess = 0.0;
+    for (int32_t k = 0; k < sum->rims->count; k++) {
+        add_rim(sum, t, &sum->rims->rim[k]);
+    }
+}
+
 /* One step of Gauss and Newton over the pixels and rims that agree with the motion so far. */
 static void fit_pass(const twist_sum *start, double slack, rlf_twist *t)
 {
     twist_sum sum = *start;
     const rlf_flow *job = sum.job;
     const rlf_region *region = sum.region;
-    const rlf_rims *rims = sum.rims;
     sum.slack = slack;
     sum.speed = sqrt(t->x[0] * t->x[0] + t->x[1] * t->x[1] + t->x[2] * t->x[2]);
-    t->samples = t->inliers = t->rim_samples = t->rim_inliers = 0;
-    t->noise = t->explained = t->rim_excess = 0.0;
+    t->samples = t->inliers = 0;
+    t->noise = t->explained = 0.0;
     for (int32_t v = region->y0; v < region->y1; v += t->stride) {
         for (int32_t u = region->x0; u < region->x1; u += t->stride) {
             ptrdiff_t i = (ptrdiff_t)v * job->stage->grid.width + u;
             if (job->now->label[i] == region->label && job->now->reason[i] == RLF_REASON_OK) {
-                if (sum.only_counts) {
-                    count_pixel(&sum, t, i);
-                } else {
-                    add_pixel(&sum, t, i);
-                }
+                add_pixel(&sum, t, i);
             }
         }
     }
-    for (int32_t k = 0; k < rims->count; k++) {
-        add_rim(&sum, t, &rims->rim[k]);
-    }
-    if (!sum.only_counts) {
-        step(&sum, t);
-    }
+    add_rims(&sum, t);
+    step(&sum, t);
 }
+
+/* What agrees with rest. */
+static void count_rest(const twist_sum *start, rlf_twist *t)
+{
+    twist_sum sum = *start;
+    const rlf_flow *job = sum.job;
+    const rlf_grid *grid = &job->stage->grid;
+    const rlf_slot *now = job->now;
+    const rlf_region *region = sum.region;
+    const rlf_kernel_rest_in in = {.label = now->label,
+                                   .reason = now->reason,
+                                   .depth = now->depth,
+                                   .normal = {now->normal[0], now->normal[1], now->normal[2]},
+                                   .ray_x = grid->ray_x,
+                                   .ray_y = grid->ray_y,
+                                   .before = job->view.seen,
+                                   .width = grid->width,
+                                   .x0 = region->x0,
+                                   .y0 = region->y0,
+                                   .x1 = region->x1,
+                                   .y1 = region->y1,
+                                   .stride = t->stride,
+                                   .own = region->label,
+                                   .noise = job->noise,
+                                   .reach = 2.0f * rlf_flow_limb_m};
+    rlf_kernel_rest_count(&in, &t->samples, &t->inliers);
+    add_rims(&sum, t);
+}
+
 static rlf_twist start_from(const rlf_region *region, rlf_vec3 velocity)
 {
     rlf_vec3 size = rlf_sub(region->box.max, region->box.min);
@@ -304,11 +317,10 @@ static bool is_moving(const rlf_flow *job, const rlf_region *region, rlf_vec3 se
 {
     rlf_rims rims;
     rlf_rims_find(job, region, &rims);
-    twist_sum sum = {.job = job, .region = region, .rims = &rims, .only_counts = true};
+    twist_sum sum = {.job = job, .region = region, .rims = &rims};
     const rlf_vec3 none = {0, 0, 0};
     rlf_twist rest = start_from(region, none);
-    fit_pass(&sum, 0.0, &rest);
-    sum.only_counts = false;
+    count_rest(&sum, &rest);
     const rlf_twist all = {.inliers = rest.samples, .rim_inliers = rest.rim_samples};
     if (is_rest_as_likely(&rest, &all)) {
         return false; /* whatever the motion */
@@ -370,6 +382,17 @@ static rlf_kernel_flow_view look_back(const rlf_reconstruct *stage, const rlf_sl
                                   .limb = rlf_flow_limb_m};
 }
 
+/* Where the regions are. */
+static void unite_spans(rlf_slot *slot)
+{
+    for (int32_t r = 0; r < slot->foreground_region_count; r++) {
+        const rlf_region *region = &slot->regions[slot->foreground_region_first + r];
+        for (int32_t y = region->y0; y < region->y1; y++) {
+            slot->moved[y] = rlf_span_unite(slot->moved[y], (rlf_span){region->x0, region->x1});
+        }
+    }
+}
+
 void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot)
 {
     const rlf_slot *before = stage->previous;
@@ -386,11 +409,10 @@ void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot)
                           (float)dt,
                           rlf_kernel_noise_make(&stage->def.rig.noise),
                           look_back(stage, before, is_all_front)};
+    unite_spans(slot);
+    rlf_rims_mark(&job);
     for (int32_t r = 0; r < slot->foreground_region_count; r++) {
         rlf_region *region = &slot->regions[slot->foreground_region_first + r];
-        for (int32_t y = region->y0; y < region->y1; y++) {
-            slot->moved[y] = rlf_span_unite(slot->moved[y], (rlf_span){region->x0, region->x1});
-        }
         rlf_twist twist;
         bool moves = region_motion(&job, region, &twist);
         rlf_velocity_cells(&job, region, &twist, moves);

@@ -77,9 +77,10 @@ void rlf_cells_write(rlf_cell_grid *g);
 /* A pixel at a region's outline before a background that is farther: see velocity/outline.c. */
 typedef struct rlf_rim {
     ptrdiff_t i;
-    int32_t count;      /* of the region's pixels in a window about it */
-    float out_x, out_y; /* unit, in the image, out of the region */
-    float per_pixel;    /* change of count for a pixel's step outwards */
+    int32_t count;                            /* of the region's pixels in a window about it */
+    float out_x, out_y;                       /* unit, in the image, out of the region */
+    float per_pixel;                          /* change of count for a pixel's step outwards */
+    int32_t before_x, before_y, before_count; /* the window a frame ago that was asked for last */
 } rlf_rim;
 
 enum { RLF_RIMS_MAX = 128 };
@@ -90,12 +91,16 @@ typedef struct rlf_rims {
     int32_t seen, step; /* pixels of the outline; every step-th is taken */
 } rlf_rims;
 
-/* Some of the region's outline, evenly. */
+/* Marks in work.mask[1] what may be the regions' outlines, within the rows' spans slot->moved. */
+void rlf_rims_mark(const rlf_flow *job);
+/* Some of the region's outline, evenly; from the marks. */
 void rlf_rims_find(const rlf_flow *job, const rlf_region *region, rlf_rims *out);
-/* Speed of the outline at p, the rim's point, beyond v along *direction, which is unit, square to
- * the outline and to the ray. False out of view. */
-bool rlf_rim_beyond(const rlf_flow *job, int32_t label, const rlf_rim *rim, rlf_vec3 p, rlf_vec3 v,
-                    rlf_vec3 *direction, double *out);
+/* Speed of the outline at p, the rim's point, beyond v along rlf_rim_direction. False out of view.
+ */
+bool rlf_rim_beyond(const rlf_flow *job, int32_t label, rlf_rim *rim, rlf_vec3 p, rlf_vec3 v,
+                    double *out);
+/* Unit, square to the outline and to the ray. */
+rlf_vec3 rlf_rim_direction(const rlf_rim *rim, rlf_vec3 p);
 
 static const float rlf_flow_fastest = 5.0f; /* m/s */
 /* Within a window: farther pixels are another limb. */
