@@ -93,6 +93,21 @@ void rlf_rims_mark(const rlf_flow *job)
     }
 }
 
+/* What the region's motion is found from is far apart in memory: brought near, before windows and
+ * pixels ask for it. */
+static void fetch_row(const rlf_flow *job, ptrdiff_t row, rlf_span span)
+{
+    enum { LINE = 16 }; /* values of a line of cache */
+    for (int32_t x = span.x0; x < span.x1 + LINE - 1; x += LINE) {
+        ptrdiff_t i = row + rlf_least(x, span.x1 - 1);
+        RLF_KERNEL_SOON(&job->before->label[i]);
+        RLF_KERNEL_SOON(&job->view.seen[i]);
+        for (int k = 0; k < 3; k++) {
+            RLF_KERNEL_SOON(&job->now->normal[k][i]);
+        }
+    }
+}
+
 void rlf_rims_find(const rlf_flow *job, const rlf_region *region, rlf_rims *out)
 {
     const rlf_grid *grid = &job->stage->grid;
@@ -108,6 +123,7 @@ void rlf_rims_find(const rlf_flow *job, const rlf_region *region, rlf_rims *out)
         ptrdiff_t row = (ptrdiff_t)y * grid->width;
         const uint8_t *is_rim = job->stage->work.mask[1] + row;
         const int32_t *label = job->now->label + row;
+        fetch_row(job, row, span);
         for (int32_t x = span.x0; (x = rlf_kernel_next_mark(is_rim, x, span.x1)) < span.x1; x++) {
             if (label[x] == region->label) {
                 add_rim(job, region->label, x, y, out);
