@@ -252,6 +252,9 @@ static int parse(int argc, char **argv, run_options *o)
     if (argc - optind != 1) {
         return command_usage("run", argc == optind ? "needs a SOURCE" : "takes one SOURCE only");
     }
+    if (o->output.picture_count > 0 && o->output.picture_folder == NULL) {
+        return command_usage("run", "--picture-at needs --pictures DIR");
+    }
     o->session.source = argv[optind];
     return -1;
 }
@@ -300,7 +303,7 @@ static rlf_result run_headless(const run_options *o, session *s, run_output *out
         return rlf_fail(RLF_ERROR_IO, "%s: has no frame with depth; check its depth.txt",
                         o->session.source);
     }
-    return RLF_OK;
+    return command_interrupted ? RLF_OK : run_output_check(output);
 }
 
 #ifdef RLF_HAVE_VIEWER

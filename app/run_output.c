@@ -113,6 +113,7 @@ rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame)
     const rlf_stage_times *t = &frame->times;
     timing_add_frame(&out->times, t, t->capture_ms + t->surface_ms + t->physics_ms + t->render_ms);
     out->frames++;
+    out->last_index = frame->frame_index;
     out->gravity = frame->snapshot->gravity;
     out->light = frame->render.light_direction;
     out->is_light_estimated = frame->render.is_light_estimated;
@@ -129,6 +130,19 @@ rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame)
         result = write_picture(out, frame);
     }
     return result;
+}
+
+rlf_result run_output_check(const run_output *out)
+{
+    const run_output_options *o = &out->options;
+    for (int i = 0; i < o->picture_count; i++) {
+        if (o->picture_folder != NULL && o->picture_at[i] > out->last_index) {
+            return rlf_fail(RLF_ERROR_IO,
+                            "no picture of frame %lld: the last one was %lld (the first is 0)",
+                            (long long)o->picture_at[i], (long long)out->last_index);
+        }
+    }
+    return RLF_OK;
 }
 
 rlf_result run_output_close(run_output *out)

@@ -28,6 +28,7 @@ typedef struct run_output {
     rlf_video *video;
     rlf_csv_log *log;
     int64_t frames, pictures;
+    int64_t last_index; /* of the frames */
     int64_t start_ns, last_frame_ns, last_progress_ns;
     rlf_vec3 gravity; /* of the last frame */
     rlf_vec3 light;   /* of the last picture: where it shines to; 0 = no picture */
@@ -40,6 +41,8 @@ rlf_result run_output_open(const run_output_options *options, const rlf_source_i
                            int64_t frame_total, run_output *out);
 /* Takes one frame: writes what was asked for and notes the times. */
 rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame);
+/* Fails for a picture asked for of a frame that never came; the source may have ended before. */
+rlf_result run_output_check(const run_output *out);
 /* Saves one picture as relief-NNNNNN.png in the picture folder (or here) and says where. */
 rlf_result run_output_save(run_output *out, const rlf_image_rgba8 *image, char *out_message,
                            size_t message_size);

@@ -53,6 +53,10 @@ expect_done run synthetic:room --headless --frames 2 --gravity floor
 grep -q "^gravity:  -\\?0.0[0-9], 9.81, -\\?0.0[0-9]" stdout.txt || fail "run --gravity floor: $(cat stdout.txt)"
 expect_error 2 "soft, hard, thesis or off" run synthetic:room --headless --occlusion maybe
 expect_error 2 "frames" run synthetic:room --headless --frames 0
+expect_error 2 "needs --pictures" run synthetic:room --headless --frames 2 --picture-at 1
+expect_error 1 "no picture of frame 2: the last one was 1" run synthetic:room --headless --frames 2 \
+    --picture-at 1,2 --pictures late
+[ "$(ls late)" = 000001.png ] || fail "run --picture-at 1,2: $(ls late)"
 expect_error 2 "frames" run synthetic:room --headless --frames ten
 expect_error 2 "relief settings" run synthetic:room --set smell=on
 expect_error 2 "off or on" run synthetic:room --set fill=maybe
