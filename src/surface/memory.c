@@ -60,6 +60,7 @@ static void take_slot(rlf_reconstruct *stage, rlf_slot *slot)
     }
     slot->label = take(stage, n, sizeof(int32_t));
     slot->moved = take(stage, (size_t)stage->grid.height, sizeof(rlf_span));
+    slot->thick = take(stage, (size_t)stage->grid.height, sizeof(rlf_span));
     slot->reason = take(stage, n, 1);
     slot->foreground = take(stage, n, 1);
     slot->regions = take(stage, 2 * (size_t)stage->def.region_capacity, sizeof(rlf_region));

@@ -38,6 +38,7 @@ typedef struct rlf_slot {
     int32_t *label;
     uint8_t *reason, *foreground;
     rlf_span *moved; /* per row, where the velocity planes were written */
+    rlf_span *thick; /* the same of thickness */
     rlf_region *regions;
     int32_t *region_points;
     int32_t foreground_region_first, foreground_region_count; /* in regions */

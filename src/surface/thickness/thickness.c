@@ -218,9 +218,28 @@ rlf_chord_job rlf_chord_job_make(rlf_reconstruct *stage, const rlf_slot *slot)
                            .noise = rlf_kernel_noise_make(&stage->def.rig.noise)};
 }
 
+/* The published plane holds only what was written into the slot three frames ago. Only foreground
+ * and regions are given a thickness. */
+static void clear_thickness(const rlf_grid *grid, rlf_slot *slot)
+{
+    for (int32_t y = 0; y < grid->height; y++) {
+        ptrdiff_t row = (ptrdiff_t)y * grid->width;
+        rlf_span *span = &slot->thick[y];
+        memset(slot->thickness + row + span->x0, 0,
+               (size_t)(span->x1 - span->x0) * sizeof *slot->thickness);
+        *span = rlf_background_span(slot->foreground + row, grid->width);
+    }
+    for (int32_t r = 0; r < slot->foreground_region_count; r++) {
+        const rlf_region *region = &slot->regions[slot->foreground_region_first + r];
+        for (int32_t y = region->y0; y < region->y1; y++) {
+            slot->thick[y] = rlf_span_unite(slot->thick[y], (rlf_span){region->x0, region->x1});
+        }
+    }
+}
+
 void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot)
 {
-    memset(slot->thickness, 0, (size_t)stage->grid.count * sizeof *slot->thickness);
+    clear_thickness(&stage->grid, slot);
     find_plates(stage, slot, stage->work.map);
     rlf_chord_job job = rlf_chord_job_make(stage, slot);
     int32_t count = find_blocks(&job, stage->work.blocks);
