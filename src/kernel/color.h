@@ -19,7 +19,8 @@ void rlf_kernel_color_offsets(const rlf_color_places *restrict places,
                               const rlf_gap_ends *restrict ends,
                               int32_t offset[restrict RLF_COLOR_SAMPLES][RLF_BATCH]);
 
-/* red | green << 8 | blue << 16 of each sample, and the colours at the places themselves. */
+/* red | green << 8 | blue << 16 | any << 24 of each sample, and the colours at the places
+ * themselves. */
 typedef struct rlf_color_samples {
     uint32_t sample[RLF_COLOR_SAMPLES][RLF_BATCH];
     float color[3][RLF_BATCH];

@@ -47,55 +47,56 @@ RLF_KERNEL void rlf_kernel_color_offsets(const rlf_color_places *restrict places
     }
 }
 
-/* Colours of one side. */
-typedef struct palette {
-    float weight[RLF_BATCH], sum[3][RLF_BATCH], square[3][RLF_BATCH];
-} palette;
+enum { SAMPLES = RLF_COLOR_SAMPLES };
 
-/* Adds a sample to both sides, to one of them with a weight of 0: so nothing depends on a pixel. */
-RLF_KERNEL_PART void add_sample(const uint32_t *restrict sample, const float *restrict to_far,
-                                const float *restrict to_near, palette *restrict far_side,
-                                palette *restrict near_side)
+/* What each sample counts on a side: on one of them 0, so that nothing depends on a pixel. */
+typedef struct sample_weights {
+    float of[SAMPLES][RLF_BATCH], sum[RLF_BATCH];
+} sample_weights;
+
+RLF_KERNEL_PART void choose_sides(const rlf_windows *restrict depth,
+                                  const rlf_gap_ends *restrict ends, const float *restrict middle,
+                                  sample_weights *restrict far_side,
+                                  sample_weights *restrict near_side)
 {
     for (int32_t i = 0; i < RLF_BATCH; i++) {
-        far_side->weight[i] += to_far[i];
-        near_side->weight[i] += to_near[i];
-    }
-    for (int32_t k = 0; k < 3; k++) {
-        for (int32_t i = 0; i < RLF_BATCH; i++) {
-            float value = (float)(int32_t)(sample[i] >> (8 * k) & 255u);
-            float near_part = to_near[i] * value, far_part = to_far[i] * value;
-            near_side->sum[k][i] += near_part;
-            near_side->square[k][i] += near_part * value;
-            far_side->sum[k][i] += far_part;
-            far_side->square[k][i] += far_part * value;
+        float of_far = 0.0f, of_near = 0.0f;
+        RLF_KERNEL_UNROLLED(SAMPLES)
+        for (int32_t s = 0; s < SAMPLES; s++) {
+            int32_t place = s < ABOUT ? (about[s][1] + PX) * SIDE + about[s][0] + PX : 0;
+            float end = s == ABOUT ? ends->before[i] : ends->after[i];
+            float at = s < ABOUT ? depth->at[place][i] : end;
+            float weight = s < ABOUT ? weight_at[s] : end_weight;
+            float counts = at > 0.0f ? weight : 0.0f;
+            near_side->of[s][i] = at < middle[i] ? counts : 0.0f;
+            far_side->of[s][i] = at < middle[i] ? 0.0f : counts;
+            of_near += near_side->of[s][i];
+            of_far += far_side->of[s][i];
         }
+        near_side->sum[i] = of_near;
+        far_side->sum[i] = of_far;
     }
 }
 
-/* Adds all samples; what was not seen counts 0. */
-RLF_KERNEL_PART void gather(const rlf_windows *restrict depth, const rlf_gap_ends *restrict ends,
-                            const float *restrict middle, const rlf_color_samples *restrict seen,
-                            palette *restrict far_side, palette *restrict near_side)
+/* Sums of one of the three colours, and of its squares. */
+typedef struct palette {
+    float sum[RLF_BATCH], square[RLF_BATCH];
+} palette;
+
+RLF_KERNEL_PART void add_samples(const rlf_color_samples *restrict seen, int32_t color,
+                                 const sample_weights *restrict weight, palette *restrict out)
 {
-    float to_far[RLF_BATCH], to_near[RLF_BATCH];
-    for (int32_t s = 0; s < ABOUT; s++) {
-        const float *at = depth->at[(about[s][1] + PX) * SIDE + about[s][0] + PX];
-        const float weight = weight_at[s];
-        for (int32_t i = 0; i < RLF_BATCH; i++) {
-            float counts = at[i] > 0.0f ? weight : 0.0f;
-            to_near[i] = at[i] < middle[i] ? counts : 0.0f;
-            to_far[i] = at[i] < middle[i] ? 0.0f : counts;
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        float sum = 0.0f, square = 0.0f;
+        RLF_KERNEL_UNROLLED(SAMPLES)
+        for (int32_t s = 0; s < SAMPLES; s++) {
+            float value = (float)(int32_t)(seen->sample[s][i] >> (8 * color) & 255u);
+            float part = weight->of[s][i] * value;
+            sum += part;
+            square += part * value;
         }
-        add_sample(seen->sample[s], to_far, to_near, far_side, near_side);
-    }
-    for (int32_t s = 0; s < 2; s++) {
-        const float *at = s == 0 ? ends->before : ends->after;
-        for (int32_t i = 0; i < RLF_BATCH; i++) {
-            to_near[i] = at[i] < middle[i] ? end_weight : 0.0f;
-            to_far[i] = at[i] < middle[i] ? 0.0f : end_weight;
-        }
-        add_sample(seen->sample[ABOUT + s], to_far, to_near, far_side, near_side);
+        out->sum[i] = sum;
+        out->square[i] = square;
     }
 }
 
@@ -104,19 +105,22 @@ typedef struct relation {
     float apart[RLF_BATCH], along[RLF_BATCH], from_far[RLF_BATCH], within[RLF_BATCH];
 } relation;
 
-RLF_KERNEL_PART void relate(const palette *restrict far_side, const palette *restrict near_side,
+RLF_KERNEL_PART void relate(const sample_weights *restrict far_side,
+                            const sample_weights *restrict near_side,
                             const rlf_color_samples *restrict seen, relation *restrict out)
 {
     memset(out, 0, sizeof *out);
     for (int32_t k = 0; k < 3; k++) {
+        palette of_far, of_near;
+        add_samples(seen, k, far_side, &of_far);
+        add_samples(seen, k, near_side, &of_near);
         for (int32_t i = 0; i < RLF_BATCH; i++) {
-            float of_far = 1.0f / far_side->weight[i], of_near = 1.0f / near_side->weight[i];
-            float far_mean = far_side->sum[k][i] * of_far;
-            float near_mean = near_side->sum[k][i] * of_near;
+            float per_far = 1.0f / far_side->sum[i], per_near = 1.0f / near_side->sum[i];
+            float far_mean = of_far.sum[i] * per_far, near_mean = of_near.sum[i] * per_near;
             float step = near_mean - far_mean, off = seen->color[k][i] - far_mean;
             float within = out->within[i];
-            within += far_side->square[k][i] * of_far - far_mean * far_mean;
-            within += near_side->square[k][i] * of_near - near_mean * near_mean;
+            within += of_far.square[i] * per_far - far_mean * far_mean;
+            within += of_near.square[i] * per_near - near_mean * near_mean;
             out->within[i] = within;
             out->apart[i] += step * step;
             out->along[i] += step * off;
@@ -144,15 +148,17 @@ RLF_KERNEL_PART void find_shares(const relation *restrict r, rlf_color_shares *r
 RLF_KERNEL_PART void find_ways(const rlf_windows *restrict depth, const float *restrict middle,
                                rlf_color_shares *restrict out)
 {
-    memset(out->way, 0, sizeof out->way);
-    for (int32_t k = 0; k < RLF_WINDOW_SIZE; k++) {
-        const float x = (float)(k % SIDE - PX), y = (float)(k / SIDE - PX);
-        for (int32_t i = 0; i < RLF_BATCH; i++) {
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        float way_x = 0.0f, way_y = 0.0f;
+        RLF_KERNEL_UNROLLED(RLF_WINDOW_SIZE)
+        for (int32_t k = 0; k < RLF_WINDOW_SIZE; k++) {
             float z = depth->at[k][i], sign = z < middle[i] ? 1.0f : -1.0f;
             sign = z > 0.0f ? sign : 0.0f;
-            out->way[0][i] += sign * x;
-            out->way[1][i] += sign * y;
+            way_x += sign * (float)(k % SIDE - PX);
+            way_y += sign * (float)(k / SIDE - PX);
         }
+        out->way[0][i] = way_x;
+        out->way[1][i] = way_y;
     }
 }
 
@@ -161,15 +167,13 @@ RLF_KERNEL void rlf_kernel_color_shares(const rlf_windows *restrict depth,
                                         const rlf_color_samples *restrict seen,
                                         rlf_color_shares *restrict out)
 {
-    palette far_side, near_side;
+    sample_weights far_side, near_side;
     relation between;
     float middle[RLF_BATCH];
-    memset(&far_side, 0, sizeof far_side);
-    memset(&near_side, 0, sizeof near_side);
     for (int32_t i = 0; i < RLF_BATCH; i++) {
         middle[i] = rlf_gap_middle(ends->before[i], ends->after[i]);
     }
-    gather(depth, ends, middle, seen, &far_side, &near_side);
+    choose_sides(depth, ends, middle, &far_side, &near_side);
     relate(&far_side, &near_side, seen, &between);
     find_shares(&between, out);
     find_ways(depth, middle, out);

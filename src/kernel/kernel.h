@@ -52,6 +52,14 @@
 #define RLF_KERNEL_WHOLE
 #endif
 
+/* Before a loop within one over lanes: its sums then stay in registers. */
+#if defined(__GNUC__) && !defined(__clang__)
+#define RLF_KERNEL_PRAGMA(text) _Pragma(#text)
+#define RLF_KERNEL_UNROLLED(times) RLF_KERNEL_PRAGMA(GCC unroll times)
+#else
+#define RLF_KERNEL_UNROLLED(times)
+#endif
+
 /* What is read soon: brought near while other work is done. */
 #if defined(__GNUC__)
 #define RLF_KERNEL_SOON(address) __builtin_prefetch(address)

@@ -107,7 +107,8 @@ static void read_samples(const rlf_color_side *side, const rlf_side_cases *c, co
         }
         for (int32_t s = 0; s < RLF_COLOR_SAMPLES; s++) {
             const uint8_t *p = side->image.data + offset[s][k];
-            out->sample[s][k] = (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16;
+            out->sample[s][k] = (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 |
+                                (uint32_t)p[3] << 24; /* one load */
         }
         float color[3];
         read_between(&side->image, places->u[k], places->v[k], color);
