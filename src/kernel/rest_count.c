@@ -11,9 +11,9 @@ typedef struct rest_counts {
     int32_t samples[LANES], inliers[LANES];
 } rest_counts;
 
-RLF_KERNEL_PART int32_t is_sample(const rlf_kernel_rest_in *in, ptrdiff_t i)
+RLF_KERNEL_PART int32_t was_sensed(const rlf_kernel_rest_in *in, ptrdiff_t i)
 {
-    return (in->label[i] == in->own) & (in->reason[i] == RLF_REASON_OK);
+    return in->reason[i] == RLF_REASON_OK ? 1 : 0;
 }
 
 RLF_KERNEL_PART int32_t rests(const rlf_kernel_rest_in *in, ptrdiff_t i)
@@ -30,10 +30,14 @@ RLF_KERNEL_PART int32_t rests(const rlf_kernel_rest_in *in, ptrdiff_t i)
 RLF_KERNEL_PART void count_lanes(const rlf_kernel_rest_in *in, ptrdiff_t i, int32_t room,
                                  rest_counts *restrict c)
 {
-    int32_t stride = in->stride, shift = LANES % stride;
+    int32_t stride = in->stride, shift = LANES % stride, sensed[LANES];
+    RLF_KERNEL_WHOLE
+    for (int32_t k = 0; k < LANES; k++) { /* apart: with bytes lanes are shorter */
+        sensed[k] = was_sensed(in, i + k);
+    }
     RLF_KERNEL_WHOLE
     for (int32_t k = 0; k < LANES; k++) {
-        int32_t is = (c->phase[k] == 0) & (k < room) & is_sample(in, i + k);
+        int32_t is = (c->phase[k] == 0) & (k < room) & (in->label[i + k] == in->own) & sensed[k];
         c->samples[k] += is;
         c->inliers[k] += is & rests(in, i + k);
         int32_t next = c->phase[k] + shift;
@@ -49,7 +53,8 @@ RLF_KERNEL_PART void count_row(const rlf_kernel_rest_in *in, int32_t y, rest_cou
         count_lanes(in, row + x, in->x1 - x, c);
     }
     for (; x < in->x1; x++) { /* at the image's right side */
-        int32_t is = (x - in->x0) % in->stride == 0 ? is_sample(in, row + x) : 0;
+        bool is_looked_at = (x - in->x0) % in->stride == 0 && in->label[row + x] == in->own;
+        int32_t is = is_looked_at ? was_sensed(in, row + x) : 0;
         c->samples[0] += is;
         c->inliers[0] += is & rests(in, row + x);
     }
