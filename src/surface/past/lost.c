@@ -99,8 +99,11 @@ void rlf_past_predict(rlf_reconstruct *stage, const rlf_slot *slot, const float 
     }
     past->ahead_count = 0;
     for (int32_t y = 0; y < grid->height && motion.dt > 0.0f; y++) {
-        for (int32_t x = before->moved[y].x0; x < before->moved[y].x1; x += RLF_PAST_PIXELS) {
-            int32_t rest = before->moved[y].x1 - x;
+        const uint8_t *front = before->foreground + (ptrdiff_t)y * grid->width;
+        const rlf_span moved = before->moved[y];
+        for (int32_t x = moved.x0; (x = rlf_kernel_next_mark(front, x, moved.x1)) < moved.x1;
+             x += RLF_PAST_PIXELS) {
+            int32_t rest = moved.x1 - x;
             rlf_kernel_moving_row row =
                 rlf_past_row(grid, before, x, y, rest < RLF_PAST_PIXELS ? rest : RLF_PAST_PIXELS);
             predict_pixels(stage, &row, &motion, depth);

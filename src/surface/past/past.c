@@ -164,7 +164,9 @@ static void look_at_row(rlf_reconstruct *stage, const rlf_slot *slot, int32_t y,
     const rlf_slot *before = stage->previous;
     const rlf_span moved = before->moved[y];
     uint8_t away[RLF_PAST_PIXELS];
-    for (int32_t x = moved.x0; x < moved.x1; x += RLF_PAST_PIXELS) {
+    const uint8_t *front = before->foreground + (ptrdiff_t)y * grid->width;
+    for (int32_t x = moved.x0; (x = rlf_kernel_next_mark(front, x, moved.x1)) < moved.x1;
+         x += RLF_PAST_PIXELS) {
         int32_t count = moved.x1 - x < RLF_PAST_PIXELS ? moved.x1 - x : RLF_PAST_PIXELS;
         const rlf_kernel_moving_row row = rlf_past_row(grid, before, x, y, count);
         ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
