@@ -117,7 +117,7 @@ typedef struct rlf_kernel_flow {
 } rlf_kernel_flow;
 
 /* Velocities of `count` pixels from the cells with their limb, by nearness. */
-void rlf_kernel_flow_row(const rlf_kernel_flow *flow, const float *restrict depth,
+void rlf_kernel_flow_row(const rlf_kernel_flow *restrict flow, const float *restrict depth,
                          const float *restrict ray_x, const float *restrict ray_y, int32_t count,
                          float *const velocity[3]);
 

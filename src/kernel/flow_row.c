@@ -11,10 +11,11 @@ typedef struct sums {
 } sums;
 
 /* Velocity of what moves as one. */
-RLF_KERNEL_PART void move_points(const rlf_kernel_twist t, const float *restrict depth,
+RLF_KERNEL_PART void move_points(const rlf_kernel_twist *twist, const float *restrict depth,
                                  const float *restrict ray_x, const float *restrict ray_y,
                                  int32_t count, sums *restrict to)
 {
+    const rlf_kernel_twist t = *twist;
     for (int32_t i = 0; i < count; i++) {
         float z = depth[i], x = z * ray_x[i], y = z * ray_y[i];
         double px = (double)x - t.centre[0], py = (double)y - t.centre[1];
@@ -25,32 +26,34 @@ RLF_KERNEL_PART void move_points(const rlf_kernel_twist t, const float *restrict
     }
 }
 
-RLF_KERNEL_PART void start(const rlf_kernel_flow *f, int32_t first, int32_t count,
+RLF_KERNEL_PART void start(float inverse, float column, int32_t first, bool moves, int32_t count,
                            sums *restrict to)
 {
-    float inverse = f->inverse, column = f->column;
     for (int32_t i = 0; i < count; i++) {
         to->across[i] = (((float)(first + i) + 0.5f) * inverse - 0.5f) - column;
         to->weight[i] = to->v[0][i] = to->v[1][i] = to->v[2][i] = 0.0f;
     }
-    for (int32_t i = 0; i < count && !f->moves; i++) {
+    for (int32_t i = 0; i < count && !moves; i++) {
         to->whole[0][i] = to->whole[1][i] = to->whole[2][i] = 0.0f;
     }
 }
 
 /* Adds a cell to the pixels with its limb, by nearness. */
-RLF_KERNEL_PART void add_cell(const rlf_kernel_flow_cell cell, bool is_right, float down,
+RLF_KERNEL_PART void add_cell(const rlf_kernel_flow_cell *cell, bool is_right, float down,
                               float limb, const float *restrict depth, int32_t count,
                               sums *restrict to)
 {
+    const float x = cell->velocity[0], y = cell->velocity[1], z = cell->velocity[2];
+    const float at = cell->depth;
+    const bool is_whole = cell->is_whole;
     for (int32_t i = 0; i < count; i++) {
         float across = is_right ? to->across[i] : 1.0f - to->across[i];
         float weight = across * down + 1e-4f;
-        weight = rlf_kernel_abs(cell.depth - depth[i]) > limb ? 0.0f : weight;
+        weight = rlf_kernel_abs(at - depth[i]) > limb ? 0.0f : weight;
         to->weight[i] += weight;
-        to->v[0][i] += weight * (cell.is_whole ? to->whole[0][i] : cell.velocity[0]);
-        to->v[1][i] += weight * (cell.is_whole ? to->whole[1][i] : cell.velocity[1]);
-        to->v[2][i] += weight * (cell.is_whole ? to->whole[2][i] : cell.velocity[2]);
+        to->v[0][i] += weight * (is_whole ? to->whole[0][i] : x);
+        to->v[1][i] += weight * (is_whole ? to->whole[1][i] : y);
+        to->v[2][i] += weight * (is_whole ? to->whole[2][i] : z);
     }
 }
 
@@ -76,24 +79,28 @@ RLF_KERNEL_PART void finish(const sums *restrict from, float fastest, int32_t co
     }
 }
 
-RLF_KERNEL void rlf_kernel_flow_row(const rlf_kernel_flow *flow, const float *restrict depth,
-                                    const float *restrict ray_x, const float *restrict ray_y,
-                                    int32_t count, float *const velocity[3])
+RLF_KERNEL void rlf_kernel_flow_row(const rlf_kernel_flow *restrict flow,
+                                    const float *restrict depth, const float *restrict ray_x,
+                                    const float *restrict ray_y, int32_t count,
+                                    float *const velocity[3])
 {
-    const rlf_kernel_flow f = *flow;
+    /* No copy of the flow: it has just been written value by value, and whole lines of that would
+     * be waited for. */
+    const bool moves = flow->moves;
+    const float limb = flow->limb, fastest = flow->fastest, below = flow->down;
     for (int32_t i = 0; i < count; i += RUN) {
         int32_t n = count - i < RUN ? count - i : RUN;
         sums s;
-        start(&f, f.first + i, n, &s);
-        if (f.moves) {
-            move_points(f.twist, depth + i, ray_x + i, ray_y + i, n, &s);
+        start(flow->inverse, flow->column, flow->first + i, moves, n, &s);
+        if (moves) {
+            move_points(&flow->twist, depth + i, ray_x + i, ray_y + i, n, &s);
         }
         for (int k = 0; k < 4; k++) {
-            if (f.cell[k].is_known) {
-                float down = k / 2 ? f.down : 1.0f - f.down;
-                add_cell(f.cell[k], k % 2 != 0, down, f.limb, depth + i, n, &s);
+            const rlf_kernel_flow_cell *cell = &flow->cell[k];
+            if (cell->is_known) {
+                add_cell(cell, k % 2 != 0, k / 2 ? below : 1.0f - below, limb, depth + i, n, &s);
             }
         }
-        finish(&s, f.fastest, n, velocity[0] + i, velocity[1] + i, velocity[2] + i);
+        finish(&s, fastest, n, velocity[0] + i, velocity[1] + i, velocity[2] + i);
     }
 }
