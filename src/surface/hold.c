@@ -12,6 +12,7 @@
 
 #include "kernel/batch.h"
 
+#include <math.h>
 #include <string.h>
 
 enum {
@@ -193,12 +194,28 @@ static void read_seen(const hold_job *job, int32_t x, int32_t y, int32_t lane,
     }
 }
 
+/* How much more noise the face at pixel i has than one that is seen squarely. */
+static float slant_at(const rlf_reconstruct *stage, ptrdiff_t i)
+{
+    if (stage->previous == NULL) {
+        return 1.0f;
+    }
+    float x = stage->grid.ray_x[i], y = stage->grid.ray_y[i];
+    float *const *n = stage->previous->normal;
+    float facing = -(n[0][i] * x + n[1][i] * y + n[2][i]), length = sqrtf(x * x + y * y + 1.0f);
+    return rlf_kernel_slant(facing > 0.0f ? facing : length, length);
+}
+
 /* What was taken for a mixed pixel is where it was before. */
 static bool is_confirmed(const hold_job *job, ptrdiff_t i)
 {
     float z = job->raw != NULL && job->reason[i] == RLF_REASON_FLYING ? job->raw[i] : 0.0f;
-    float off = z * job->stage->steady.mean[i] - 1.0f; /* share of the depth */
-    return z > 0.0f && rlf_kernel_abs(off) * z < MOST_SIGMAS * rlf_kernel_sigma(job->noise, z);
+    if (!(z > 0.0f)) {
+        return false;
+    }
+    float off = rlf_kernel_abs(z * job->stage->steady.mean[i] - 1.0f); /* share of the depth */
+    float sigma = rlf_kernel_sigma(job->noise, z) * slant_at(job->stage, i);
+    return off * z < MOST_SIGMAS * sigma;
 }
 
 static void recall_pixel(const hold_job *job, int32_t x, int32_t y, hold_queue *q)
