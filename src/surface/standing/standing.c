@@ -10,10 +10,12 @@ enum {
     CHANGED = 100, /* pixels that are not as they were fitted make a new round ... */
     PAUSE = 150,   /* ... so many frames after the last one began */
     SETTLED = 60,  /* so do the first frames, in which means get better */
+    BESIDE = 2,    /* pixels */
     AT_FIRST = 5   /* steps per frame of the first round */
 };
 
 static const float same_m = 0.03f; /* less is no other depth */
+static const float step_m = 0.04f; /* beside one another on one thing */
 static const float thinnest_m = 0.02f, thickest_m = 0.6f;
 
 void rlf_standing_reset(rlf_standing *standing)
@@ -121,6 +123,53 @@ static void fit(rlf_reconstruct *stage, const rlf_sheet *sheet, int32_t piece)
     }
 }
 
+/* The back of the pixels beside pixel (x, y), of the nearest that have one and are as deep: depth
+ * of it; 0 = there is none. */
+static float back_beside(const rlf_reconstruct *stage, int32_t x, int32_t y)
+{
+    const rlf_standing *standing = &stage->background.thick;
+    const rlf_grid *grid = &stage->grid;
+    float z = standing->depth[(ptrdiff_t)y * grid->width + x], sum = 0.0f, count = 0.0f;
+    for (int32_t r = 1; r <= BESIDE && !(count > 0.0f); r++) {
+        for (int32_t dy = -r; dy <= r; dy++) {
+            for (int32_t dx = -r; dx <= r; dx++) {
+                if (x + dx < 0 || y + dy < 0 || x + dx >= grid->width || y + dy >= grid->height) {
+                    continue;
+                }
+                ptrdiff_t i = (ptrdiff_t)(y + dy) * grid->width + x + dx;
+                if (standing->thickness[i] > 0.0f &&
+                    rlf_kernel_abs(standing->depth[i] - z) < step_m) {
+                    sum += standing->depth[i] + standing->thickness[i];
+                    count += 1.0f;
+                }
+            }
+        }
+    }
+    return count > 0.0f ? sum / count : 0.0f;
+}
+
+/* Pixels that were given to no piece, at creases and outlines, are as deep as what is beside them.
+ */
+static void close_gaps(const rlf_reconstruct *stage)
+{
+    const rlf_standing *standing = &stage->background.thick;
+    const rlf_grid *grid = &stage->grid;
+    for (int32_t y = 0; y < grid->height; y++) {
+        for (int32_t x = 0; x < grid->width; x++) {
+            ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+            if (standing->piece[i] != 0 || !(standing->depth[i] > 0.0f)) {
+                continue;
+            }
+            float back = back_beside(stage, x, y), deep = back - standing->depth[i];
+            deep = deep > thinnest_m ? deep : thinnest_m;
+            standing->thickness[i] = back > 0.0f ? -deep : 0.0f;
+        }
+    }
+    for (int32_t i = 0; i < grid->count; i++) {
+        standing->thickness[i] = rlf_kernel_abs(standing->thickness[i]);
+    }
+}
+
 static void swap(float **a, float **b)
 {
     float *c = *a;
@@ -141,8 +190,9 @@ static void publish(rlf_reconstruct *stage, const rlf_sheet *sheet)
     float *out = standing->published[standing->newest];
     int32_t changed = 0;
     for (int32_t i = 0; i < stage->grid.count; i++) {
-        bool same = is_same(standing->done_depth[i], sheet->depth[i]);
-        out[i] = same ? standing->done[i] : 0.0f;
+        float z = sheet->depth[i], was = standing->done_depth[i], deep = standing->done[i];
+        bool same = is_same(was, z), within = deep > 0.0f && z > was && z < was + deep;
+        out[i] = same ? deep : within ? was + deep - z : 0.0f;
         changed += same ? 0 : 1;
     }
     standing->changed = changed;
@@ -166,6 +216,10 @@ static void go_on(rlf_reconstruct *stage, const rlf_sheet *sheet)
     standing->next_piece = k + 1;
     if (k <= standing->piece_count) {
         fit(stage, sheet, k);
+        return;
+    }
+    if (k == standing->piece_count + 1) {
+        close_gaps(stage);
         return;
     }
     swap(&standing->depth, &standing->done_depth);
