@@ -60,11 +60,13 @@
 #define RLF_KERNEL_UNROLLED(times)
 #endif
 
-/* What is read soon: brought near while other work is done. */
+/* What is read, or written, soon: brought near while other work is done. */
 #if defined(__GNUC__)
 #define RLF_KERNEL_SOON(address) __builtin_prefetch(address)
+#define RLF_KERNEL_SOON_WRITTEN(address) __builtin_prefetch(address, 1)
 #else
 #define RLF_KERNEL_SOON(address) ((void)(address))
+#define RLF_KERNEL_SOON_WRITTEN(address) ((void)(address))
 #endif
 
 /* sigma(z) = max(c0 + c1 z + c2 z^2, 0.3 mm) in single precision. */

@@ -18,7 +18,8 @@ enum {
     PLANES = RLF_KERNEL_TILE_WIDTH / 2 + SPAN, /* REACH on each side of the tile, then padding */
     CORNERS = PLANES + SPAN,
     BLOCKS = CORNERS + 2 * SPAN,
-    LEFT = 16,
+    LINE = 16, /* floats of a line of cache */
+    LEFT = LINE,
     PIXELS = LEFT - 2 * REACH + 2 * PLANES + 4
 };
 
@@ -105,6 +106,28 @@ RLF_KERNEL_PART void add_half_block(pixel_row upper, pixel_row lower, rlf_plane_
     store_moments(rlf_plane_add(top, low), i, out);
 }
 
+/* The next row of pixels in the tile begins far from the end of this one: it is brought near. */
+RLF_KERNEL_PART void fetch_row(const rlf_kernel_tile *t, ptrdiff_t i, int32_t count)
+{
+    for (int32_t k = 0; k < count; k += LINE) {
+        RLF_KERNEL_SOON(t->depth + i + k);
+        RLF_KERNEL_SOON(t->ray_x + i + k);
+        RLF_KERNEL_SOON(t->ray_y + i + k);
+    }
+}
+
+RLF_KERNEL_PART void fetch_out(const rlf_kernel_tile *t, ptrdiff_t i, int32_t count)
+{
+    for (int32_t k = 0; k < count; k += LINE) {
+        RLF_KERNEL_SOON_WRITTEN(t->out_x + i + k);
+        RLF_KERNEL_SOON_WRITTEN(t->out_y + i + k);
+        RLF_KERNEL_SOON_WRITTEN(t->out_z + i + k);
+        if (t->out_depth != NULL) {
+            RLF_KERNEL_SOON_WRITTEN(t->out_depth + i + k);
+        }
+    }
+}
+
 /* Moments of the row of blocks whose first row of pixels is y. Blocks outside the image are 0 from
  * the start and stay so. */
 RLF_KERNEL_PART void make_moments(tile_state *state, int32_t y, moment_row *restrict out)
@@ -127,6 +150,9 @@ RLF_KERNEL_PART void make_moments(tile_state *state, int32_t y, moment_row *rest
     pixel_row lower = {missing, upper.x, upper.y};
     if (y + 1 < t->height) {
         lower = (pixel_row){upper.z + t->width, upper.x + t->width, upper.y + t->width};
+    }
+    for (int32_t next = 2; next < 4 && y + next < t->height; next++) {
+        fetch_row(t, i + (ptrdiff_t)next * t->width, 2 * count);
     }
     add_blocks(upper, lower, state->ref, count, out, first);
     if (is_cut && t->width % 2 != 0) {
@@ -424,6 +450,7 @@ RLF_KERNEL_PART void make_pixels(const tile_state *state, int32_t row, int32_t y
     blend at[2];
     for (int32_t r = 0; r < 2; r++) { /* below the last row: that row again */
         ptrdiff_t i = (ptrdiff_t)(y + (r < rows ? r : 0)) * t->width + t->x0;
+        fetch_out(t, i, count);
         begin_blend(t->ray_x + i, t->ray_y + i, t->depth + i, count, &at[r]);
     }
     offer_planes(planes, count, &at[0], &at[1]);
