@@ -63,6 +63,16 @@ typedef struct rlf_way_in {
 void rlf_kernel_way_in(const rlf_way *way, const rlf_way_from *restrict from, int32_t first_step,
                        rlf_way_in *restrict in, int32_t *restrict inner);
 
+/* ---- lean_out.c ---- */
+
+#define RLF_LEAN_STEPS 4
+
+/* Writes the direction in the image that each pixel's normal leans to, and the outline that the
+ * surface ends at within so many steps there. Reads that far, and a step the other way: pixels are
+ * that far inside of the image. */
+void rlf_kernel_lean_out(const rlf_way *way, const rlf_way_from *restrict from,
+                         rlf_outlines *restrict out);
+
 /* ---- outline_turn.c ---- */
 
 /* Normals of what turns steadily outwards, as something rounded does: 0 where it does not. `aside`

@@ -339,6 +339,81 @@ static void ways_end_with_their_surface(void **state)
 
 /* A thing of 12 columns before a wall: those within four of the wall, where something was in
  * front before. */
+/* The definition, for one pixel: 0 = its normal leans nowhere, or there is no outline. */
+static float steps_out(const rlf_way *way, int32_t x, int32_t y, float *out_x, float *out_y)
+{
+    ptrdiff_t i = (ptrdiff_t)y * way->width + x;
+    float rx = way->ray_x[i], ry = way->ray_y[i], square = 1.0f + rx * rx + ry * ry;
+    float nx = way->normal[0][i], ny = way->normal[1][i];
+    float along = (nx * rx + ny * ry + way->normal[2][i]) / square;
+    float lean_x = nx - along * rx, lean_y = ny - along * ry;
+    float lean = sqrtf(lean_x * lean_x + lean_y * lean_y);
+    if (!(lean > 0.1f)) {
+        return 0.0f;
+    }
+    *out_x = lean_x / lean;
+    *out_y = lean_y / lean;
+    int32_t sx = (int32_t)((float)x - *out_x + 0.5f), sy = (int32_t)((float)y - *out_y + 0.5f);
+    float last = way->depth[i], rise = last - way->depth[(ptrdiff_t)sy * way->width + sx];
+    for (int32_t k = 1; k <= RLF_LEAN_STEPS; k++) {
+        sx = (int32_t)((float)x + (float)k * *out_x + 0.5f);
+        sy = (int32_t)((float)y + (float)k * *out_y + 0.5f);
+        float z = way->depth[(ptrdiff_t)sy * way->width + sx];
+        if (z > rlf_outline_behind(last, RLF_OUTLINE_STEP_SEEN, rise)) {
+            return (float)(sx - x) * *out_x + (float)(sy - y) * *out_y - 0.5f;
+        }
+        if (!(fabsf(z - last) <= 0.04f * last)) {
+            return 0.0f;
+        }
+        rise = z - last;
+        last = z;
+    }
+    return 0.0f;
+}
+
+/* Normals that lean anywhere or nowhere, on a surface with steps behind and before it. */
+static void lean_out_is_its_definition(void **state)
+{
+    (void)state;
+    enum { W = 40, H = 30, IN = RLF_LEAN_STEPS };
+    static float plane[6][W * H]; /* depth, rays, normal */
+    float *const normal[3] = {plane[3], plane[4], plane[5]};
+    const rlf_way way = {.width = W,
+                         .height = H,
+                         .ray_x = plane[1],
+                         .ray_y = plane[2],
+                         .depth = plane[0],
+                         .normal = normal};
+    analytic_random r = {23};
+    for (int32_t i = 0; i < W * H; i++) {
+        double kind = random_uniform(&r), step = kind < 0.7 ? 0.01 : kind < 0.9 ? 0.2 : -0.2;
+        plane[0][i] = (float)(2.0 + step * random_uniform(&r));
+        plane[1][i] = (float)(i % W - W / 2) / 50.0f;
+        plane[2][i] = (float)(i / W - H / 2) / 50.0f;
+        plane[3][i] = i % 5 == 0 ? -plane[1][i] : (float)random_uniform(&r) - 0.5f;
+        plane[4][i] = i % 5 == 0 ? -plane[2][i] : (float)random_uniform(&r) - 0.5f;
+        plane[5][i] = -1.0f;
+    }
+    int32_t ends = 0;
+    for (int32_t y = IN; y < H - IN; y++) {
+        rlf_way_from from;
+        rlf_outlines found;
+        for (int32_t k = 0; k < RLF_BATCH; k++) {
+            from.x[k] = IN + 2 * k;
+            from.y[k] = y;
+        }
+        rlf_kernel_lean_out(&way, &from, &found);
+        for (int32_t k = 0; k < RLF_BATCH; k++) {
+            float out_x = 0.0f, out_y = 0.0f;
+            float distance = steps_out(&way, from.x[k], y, &out_x, &out_y);
+            assert_true(found.x[k] == out_x && found.y[k] == out_y);
+            assert_true(found.distance[k] == distance);
+            ends += distance > 0.0f;
+        }
+    }
+    assert_true(ends > 50);
+}
+
 static void near_edge_row_marks_what_is_seen_beside_a_jump(void **state)
 {
     (void)state;
@@ -374,6 +449,7 @@ int main(void)
         cmocka_unit_test(windows_near_an_outline_are_moved_out),
         cmocka_unit_test(what_is_rounded_leans_out_beside_its_outline),
         cmocka_unit_test(ways_end_with_their_surface),
+        cmocka_unit_test(lean_out_is_its_definition),
         cmocka_unit_test(near_edge_row_marks_what_is_seen_beside_a_jump),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

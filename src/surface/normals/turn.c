@@ -13,13 +13,9 @@
 
 #include "kernel/outline.h"
 
-#include <math.h>
 #include <string.h>
 
-enum { MOST_STEPS = 4, ABOUT = RLF_NEAR_EDGE_APART };
-
-static const float MOST_STEP = 0.04f; /* share of the depth from pixel to pixel of one surface */
-static const float LEAST_LEAN = 0.1f; /* sine between ray and normal that has a direction */
+enum { ABOUT = RLF_NEAR_EDGE_APART };
 
 typedef struct turn_job {
     rlf_way way;
@@ -36,32 +32,9 @@ typedef struct turn_queue {
 } turn_queue;
 
 typedef struct turn_queues {
-    turn_queue near, found;
+    turn_queue near, leaning, found;
     rlf_windows depth; /* about the near */
 } turn_queues;
-
-/* Pixels from (x, y) to the outline that the surface ends at in a direction; 0 = none is near. */
-static float steps_out(const rlf_way *way, int32_t x, int32_t y, float out_x, float out_y)
-{
-    int32_t inner_x = (int32_t)((float)x - out_x + 0.5f);
-    int32_t inner_y = (int32_t)((float)y - out_y + 0.5f);
-    float last = way->depth[(ptrdiff_t)y * way->width + x];
-    float rise = last - way->depth[(ptrdiff_t)inner_y * way->width + inner_x];
-    for (int32_t k = 1; k <= MOST_STEPS; k++) {
-        int32_t sx = (int32_t)((float)x + (float)k * out_x + 0.5f);
-        int32_t sy = (int32_t)((float)y + (float)k * out_y + 0.5f);
-        float z = way->depth[(ptrdiff_t)sy * way->width + sx];
-        if (z > rlf_outline_behind(last, RLF_OUTLINE_STEP_SEEN, rise)) {
-            return (float)(sx - x) * out_x + (float)(sy - y) * out_y - 0.5f;
-        }
-        if (!(rlf_kernel_abs(z - last) <= MOST_STEP * last)) {
-            return 0.0f;
-        }
-        rise = z - last;
-        last = z;
-    }
-    return 0.0f;
-}
 
 static void turn_found(const turn_job *job, turn_queue *q)
 {
@@ -100,23 +73,36 @@ static void push_found(const turn_job *job, turn_queue *found, int32_t x, int32_
     }
 }
 
-/* The outline in the direction that the pixel's normal leans to. */
-static void find_by_normal(const turn_job *job, int32_t x, int32_t y, turn_queue *found)
+/* The outlines in the directions that the pixels' normals lean to. */
+static void find_by_normal(const turn_job *job, turn_queues *queues)
 {
-    const rlf_way *way = &job->way;
-    ptrdiff_t i = (ptrdiff_t)y * way->width + x;
-    float nx = way->normal[0][i], ny = way->normal[1][i], nz = way->normal[2][i];
-    float rx = way->ray_x[i], ry = way->ray_y[i], square = 1.0f + rx * rx + ry * ry;
-    float along = (nx * rx + ny * ry + nz) / square;
-    float lean_x = nx - along * rx, lean_y = ny - along * ry;
-    float lean = sqrtf(lean_x * lean_x + lean_y * lean_y);
-    if (!(lean > LEAST_LEAN)) {
+    turn_queue *q = &queues->leaning;
+    if (q->count == 0) {
         return;
     }
-    float out_x = lean_x / lean, out_y = lean_y / lean;
-    float distance = steps_out(way, x, y, out_x, out_y);
-    if (distance > 0.0f) {
-        push_found(job, found, x, y, out_x, out_y, distance);
+    for (int32_t k = q->count; k < RLF_BATCH; k++) { /* are looked at as well */
+        q->at.x[k] = q->at.x[0];
+        q->at.y[k] = q->at.y[0];
+    }
+    rlf_outlines *outline = &q->at.outline;
+    rlf_kernel_lean_out(&job->way, &q->at, outline);
+    for (int32_t k = 0; k < q->count; k++) {
+        if (outline->distance[k] > 0.0f) {
+            push_found(job, &queues->found, q->at.x[k], q->at.y[k], outline->x[k], outline->y[k],
+                       outline->distance[k]);
+        }
+    }
+    q->count = 0;
+}
+
+static void push_leaning(const turn_job *job, int32_t x, int32_t y, turn_queues *queues)
+{
+    turn_queue *q = &queues->leaning;
+    int32_t lane = q->count++;
+    q->at.x[lane] = x;
+    q->at.y[lane] = y;
+    if (q->count == RLF_BATCH) {
+        find_by_normal(job, queues);
     }
 }
 
@@ -130,7 +116,7 @@ static void find_outlines(const turn_job *job, turn_queues *queues)
             push_found(job, &queues->found, q->at.x[k], q->at.y[k], outline->x[k], outline->y[k],
                        outline->distance[k]);
         } else {
-            find_by_normal(job, q->at.x[k], q->at.y[k], &queues->found);
+            push_leaning(job, q->at.x[k], q->at.y[k], queues);
         }
     }
     q->count = 0;
@@ -183,7 +169,7 @@ static void turn_row(const turn_job *job, int32_t y, turn_queues *queues)
     for (int32_t x = span.x0; (x = rlf_kernel_next_mark(mark, x, span.x1)) < span.x1; x++) {
         mark[x] = 0;
         if (!ends_in_window(way, row + x)) {
-            find_by_normal(job, x, y, &queues->found);
+            push_leaning(job, x, y, queues);
             continue;
         }
         int32_t lane = q->count++;
@@ -210,6 +196,7 @@ static void turn_rows(void *context, int32_t begin, int32_t end, int32_t worker)
         }
     }
     find_outlines(job, &queues);
+    find_by_normal(job, &queues);
     turn_found(job, &queues.found);
 }
 
