@@ -8,6 +8,9 @@ static const float votes_at[RLF_WINDOW_SIDE][RLF_WINDOW_SIDE] = {{0.2f, 0.3f, 0.
                                                                  {0.3f, 1.3f, 4.0f, 1.3f, 0.3f},
                                                                  {0.2f, 0.3f, 0.4f, 0.3f, 0.2f}};
 
+/* Votes that differ by less are a tie, which is half of the least difference. */
+static const float tie = 0.05f;
+
 /* Share of the depth, from a side's end to a hole pixel. */
 static const float most_change = 0.05f;
 
@@ -105,7 +108,9 @@ RLF_KERNEL_PART float continue_side(const side *restrict s, int32_t i, float end
 }
 
 /* The side of the pixels that each hole pixel is on, and the range of their depths: a third
- * surface, as at corners, is of no side. */
+ * surface, as at corners, is of no side. What is in front is convex more often than not, so that
+ * more of what is about its outline is behind: a tie is the nearer side's where nothing moves.
+ * Where something does the range has no end, and a tie is the nearer end's. */
 typedef struct choice {
     float end[RLF_BATCH], least[RLF_BATCH], most[RLF_BATCH];
     int32_t is_far[RLF_BATCH];
@@ -118,10 +123,10 @@ RLF_KERNEL_PART void choose_sides(const rlf_gap_ends *restrict ends, const float
         float before = ends->before[i], after = ends->after[i];
         float middle = rlf_gap_middle(before, after);
         int32_t before_is_near = before < after ? 1 : 0;
-        int32_t tie = rlf_kernel_abs(votes[i]) < 0.05f; /* half of the least votes' difference */
         int32_t by_steps = ends->to_before[i] <= ends->to_after[i] ? 1 : 0;
         int32_t by_votes = (votes[i] > 0.0f ? 1 : 0) ^ before_is_near ^ 1;
-        int32_t first = tie != 0 ? by_steps : by_votes;
+        int32_t of_tie = ends->most_apart[i] < 1.0f ? before_is_near : by_steps;
+        int32_t first = rlf_kernel_abs(votes[i]) < tie ? of_tie : by_votes;
         int32_t is_far = first ^ before_is_near;
         float end = first != 0 ? before : after;
         float apart = ends->most_apart[i] * end, least = end - apart, most = end + apart;

@@ -159,6 +159,32 @@ static void fill_batch_continues_the_side_with_more_votes(void **state)
     assert_true(off < 1e-6 && off > -1e-6);
 }
 
+/* Columns that are missing between one at `left` and, as wide, one at `right`. */
+static void fill_batch_gives_a_tie_to_the_nearer_side(void **state)
+{
+    (void)state;
+    rlf_windows depth;
+    rlf_gap_ends ends;
+    float votes[RLF_BATCH], out[RLF_BATCH];
+    uint8_t kind[RLF_BATCH];
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        float left = i % 2 == 0 ? 2.0f : 4.0f, right = 6.0f - left;
+        for (int32_t k = 0; k < RLF_WINDOW_SIZE; k++) {
+            depth.at[k][i] = k % 5 < 2 ? left : k % 5 > 2 ? right : 0.0f;
+        }
+        ends.before[i] = left;
+        ends.after[i] = right;
+        ends.to_before[i] = ends.to_after[i] = 1.0f;
+        ends.most_apart[i] = 0.05f;
+    }
+    rlf_kernel_fill_votes(&depth, &ends, votes);
+    rlf_kernel_fill_batch(&depth, &ends, votes, out, kind);
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        assert_int_equal(kind[i], RLF_FILL_NEAR);
+        assert_true(out[i] == 2.0f);
+    }
+}
+
 /* A box's front at 2 m before a wall at 4 m, and another one's, at 2.5 m or 1.6 m, in the rows
  * above that the hole is in: the front goes on as it is. */
 static void fill_batch_leaves_a_third_surface_out(void **state)
@@ -443,6 +469,7 @@ int main(void)
         cmocka_unit_test(recall_batch_is_its_definition),
         cmocka_unit_test(gap_patch_finds_the_shortest_gap),
         cmocka_unit_test(fill_batch_continues_the_side_with_more_votes),
+        cmocka_unit_test(fill_batch_gives_a_tie_to_the_nearer_side),
         cmocka_unit_test(fill_batch_leaves_a_third_surface_out),
         cmocka_unit_test(outlines_point_to_what_is_behind),
         cmocka_unit_test(slopes_have_no_outlines),
