@@ -23,7 +23,7 @@ typedef struct golden {
 } golden;
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0x95af0d4a5fe84b8eu, 0x45e76a052c4b510fu, 0x39f423ac5983e21bu},
+    {RLF_PROFILE_LIVE, 0x55241150ce2c9f6du, 0xc783b788c533eb7eu, 0x956d1ca5721725feu},
     {RLF_PROFILE_THESIS, 0xa393eb06e579d241u, 0xd84652fb54683851u, 0xc064b44391e1e990u},
 };
 
