@@ -134,6 +134,7 @@ static void take_work(rlf_reconstruct *stage)
     for (int k = 0; k < 6; k++) {
         work->crop[k] = take(stage, rlf_sheet_crop_size(), sizeof(float));
     }
+    work->seen = take(stage, n, sizeof(float));
     work->color = take(stage, n, sizeof(uint32_t));
     work->links = take(stage, n, 1);
     work->component = take(stage, padded, sizeof(int32_t));

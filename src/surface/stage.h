@@ -275,6 +275,7 @@ typedef struct rlf_color_side {
 typedef struct rlf_work {
     float *depth[2];    /* planes; these, sum and component have room for RLF_CHORD_PAD */
     float *sum[2];      /* planes: velocity sums, thickness */
+    float *seen;        /* plane of velocity.c; 0 between its frames */
     uint8_t *mask[2];   /* planes */
     uint32_t *color;    /* plane: of the frame, see segment/color.c */
     uint8_t *links;     /* plane of RLF_LINK_ bits */

@@ -49,6 +49,12 @@ rlf_span rlf_background_span(const uint8_t *foreground, int32_t width)
     while (span.x0 < width && foreground[span.x0] == 0) {
         span.x0++;
     }
+    for (; span.x1 - 8 >= span.x0; span.x1 -= 8) {
+        memcpy(&eight, foreground + span.x1 - 8, sizeof eight);
+        if (eight != 0) {
+            break;
+        }
+    }
     while (span.x1 > span.x0 && foreground[span.x1 - 1] == 0) {
         span.x1--;
     }

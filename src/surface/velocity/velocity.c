@@ -355,19 +355,27 @@ static bool region_motion(const rlf_flow *job, rlf_region *region, rlf_twist *ou
     return true;
 }
 
+/* Row y of the frame before, as far as something was in front. */
+static const uint8_t *front_before(const rlf_reconstruct *stage, int32_t y, rlf_span *span)
+{
+    bool is_all_front = stage->def.background_method == RLF_BACKGROUND_OFF;
+    const uint8_t *foreground = stage->previous->foreground + (ptrdiff_t)y * stage->grid.width;
+    const uint8_t *front = is_all_front ? stage->work.ones : foreground;
+    *span = rlf_background_span(front, stage->grid.width);
+    return front;
+}
+
 /* The frame before as the samples of this one look at it. */
-static rlf_kernel_flow_view look_back(const rlf_reconstruct *stage, const rlf_slot *before,
-                                      bool is_all_front)
+static rlf_kernel_flow_view look_back(const rlf_reconstruct *stage)
 {
     const rlf_grid *grid = &stage->grid;
-    float *seen = stage->work.sum[0];
+    const rlf_slot *before = stage->previous;
+    float *seen = stage->work.seen;
     for (int32_t y = 0; y < grid->height; y++) {
-        ptrdiff_t i = (ptrdiff_t)y * grid->width;
-        const uint8_t *front = is_all_front ? stage->work.ones : before->foreground + i;
-        rlf_span span = rlf_background_span(front, grid->width);
-        memset(seen + i, 0, (size_t)grid->width * sizeof *seen);
+        rlf_span span;
+        const uint8_t *front = front_before(stage, y, &span);
+        ptrdiff_t i = (ptrdiff_t)y * grid->width + span.x0;
         if (span.x0 < span.x1) {
-            i += span.x0;
             rlf_kernel_front_row(before->depth + i, before->reason + i, front + span.x0,
                                  span.x1 - span.x0, seen + i);
         }
@@ -380,6 +388,18 @@ static rlf_kernel_flow_view look_back(const rlf_reconstruct *stage, const rlf_sl
                                   .fx = (float)grid->camera.fx,
                                   .fy = (float)grid->camera.fy,
                                   .limb = rlf_flow_limb_m};
+}
+
+/* Leaves the plane as it was, 0: what was written is still near at hand. */
+static void look_away(const rlf_reconstruct *stage)
+{
+    float *seen = stage->work.seen;
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        rlf_span span;
+        front_before(stage, y, &span);
+        memset(seen + (ptrdiff_t)y * stage->grid.width + span.x0, 0,
+               (size_t)(span.x1 - span.x0) * sizeof *seen);
+    }
 }
 
 /* Where the regions are. */
@@ -402,13 +422,9 @@ void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot)
     if (!(dt > 0.0) || dt > longest_gap_s || slot->foreground_region_count == 0) {
         return;
     }
-    bool is_all_front = stage->def.background_method == RLF_BACKGROUND_OFF;
-    const rlf_flow job = {stage,
-                          before,
-                          slot,
-                          (float)dt,
-                          rlf_kernel_noise_make(&stage->def.rig.noise),
-                          look_back(stage, before, is_all_front)};
+    const rlf_flow job = {
+        stage,           before, slot, (float)dt, rlf_kernel_noise_make(&stage->def.rig.noise),
+        look_back(stage)};
     unite_spans(slot);
     rlf_rims_mark(&job);
     for (int32_t r = 0; r < slot->foreground_region_count; r++) {
@@ -417,4 +433,5 @@ void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot)
         bool moves = region_motion(&job, region, &twist);
         rlf_velocity_cells(&job, region, &twist, moves);
     }
+    look_away(stage);
 }
