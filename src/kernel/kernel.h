@@ -500,6 +500,17 @@ void rlf_kernel_spread_row(const rlf_kernel_knots *in, int32_t count, float jump
                            const float *restrict at, const float *restrict right,
                            float *restrict out_at, float *restrict out_right);
 
+/* ---- knot_row.c: what chords are cut in, see surface/thickness/knots.c
+ * --------------------------------------------------- */
+
+/* Of a region's pixels: their depth, the inverse of what was sensed, 0 = nothing, and the label. */
+void rlf_kernel_chord_front(const float *restrict raw, const float *restrict depth, int32_t label,
+                            int32_t count, float *restrict front, float *restrict inverse,
+                            int32_t *restrict labels);
+/* Of every step-th pixel the front, or less than 0 where there is none: -depth. */
+void rlf_kernel_knot_row(const float *restrict front, const float *restrict depth, int32_t step,
+                         int32_t count, float *restrict knot);
+
 /* ---- chord_row.c: chords of the foreground, see surface/thickness/thickness.h
  * --------------------------------------------------- */
 

@@ -25,16 +25,10 @@ static void prepare_run(const rlf_chord_job *job, const rlf_run *run, int32_t y)
         RLF_KERNEL_SOON(&job->raw[from + width + x]); /* of the row below */
         RLF_KERNEL_SOON(&slot->depth[from + width + x]);
     }
-    const float *restrict raw = job->raw + from, *restrict depth = slot->depth + from;
-    float *restrict front = job->front + to, *restrict inverse = job->inverse + to;
-    int32_t *restrict label = job->label + to;
-    for (int32_t x = run->x0; x < run->x1; x++) {
-        bool is_seen = raw[x] > 0.0f;
-        float one = 1.0f / (is_seen ? raw[x] : 1.0f);
-        front[x] = depth[x];
-        inverse[x] = is_seen ? one : 0.0f;
-        label[x] = region->label;
-    }
+    from += run->x0;
+    to += run->x0;
+    rlf_kernel_chord_front(job->raw + from, slot->depth + from, region->label, run->x1 - run->x0,
+                           job->front + to, job->inverse + to, job->label + to);
 }
 
 /* The row's knots, those beside the image unknown. */
@@ -43,10 +37,9 @@ static void prepare_knots(const rlf_chord_job *job, int32_t y)
     const float *depth = job->slot->depth + (ptrdiff_t)y * job->stage->grid.width;
     ptrdiff_t from = y * job->pitch, to = y / job->step * job->knot_pitch;
     int32_t x0 = job->x0 / job->step, x1 = (job->x0 + job->width + job->step - 1) / job->step;
-    for (int32_t x = x0; x < x1; x++) {
-        float front = job->front[from + (ptrdiff_t)job->step * x];
-        job->knot[to + x] = front > 0.0f ? front : -depth[job->step * x];
-    }
+    ptrdiff_t first = (ptrdiff_t)job->step * x0;
+    rlf_kernel_knot_row(job->front + from + first, depth + first, job->step, x1 - x0,
+                        job->knot + to + x0);
     for (int k = 0; k < 6; k++) {
         memset(job->stage->work.solid[k] + to + x0, 0, (size_t)(x1 - x0) * sizeof(float));
     }
