@@ -315,6 +315,36 @@ static void rest_count_is_its_definition(void **state)
     }
 }
 
+/* What chords of a region are cut in, of short and long rows. */
+static void knots_are_their_definition(void **state)
+{
+    (void)state;
+    enum { LENGTH = 70, LABEL = 9 };
+    analytic_random r = {29};
+    float raw[2 * LENGTH], depth[2 * LENGTH], front[2 * LENGTH], inverse[LENGTH], knot[LENGTH];
+    int32_t label[LENGTH];
+    for (int32_t i = 0; i < 2 * LENGTH; i++) {
+        raw[i] = random_uniform(&r) < 0.3 ? 0.0f : (float)(1.0 + random_uniform(&r));
+        depth[i] = (float)(1.0 + random_uniform(&r));
+        front[i] = random_uniform(&r) < 0.3 ? 0.0f : depth[i];
+    }
+    for (int32_t count = 0; count <= LENGTH; count++) {
+        for (int32_t step = 1; step <= 2; step++) {
+            rlf_kernel_knot_row(front, depth, step, count, knot);
+            for (int32_t k = 0; k < count; k++) {
+                float at = front[step * k];
+                assert_true(knot[k] == (at > 0.0f ? at : -depth[step * k]));
+            }
+        }
+        float own[LENGTH];
+        rlf_kernel_chord_front(raw, depth, LABEL, count, own, inverse, label);
+        for (int32_t i = 0; i < count; i++) {
+            assert_true(own[i] == depth[i] && label[i] == LABEL);
+            assert_true(inverse[i] == (raw[i] > 0.0f ? 1.0f / raw[i] : 0.0f));
+        }
+    }
+}
+
 /* How far p = z (u, v, 1) is beyond the faces of the box along each axis, metres. */
 static void beyond_faces(const rlf_kernel_plate *box, double u, double v, double z, double out[3])
 {
@@ -383,6 +413,7 @@ int main(void)
         cmocka_unit_test(move_row_is_its_definition),
         cmocka_unit_test(rims_are_their_definition),
         cmocka_unit_test(rest_count_is_its_definition),
+        cmocka_unit_test(knots_are_their_definition),
         cmocka_unit_test(flow_residuals_are_distances),
         cmocka_unit_test(plate_row_is_its_definition),
     };

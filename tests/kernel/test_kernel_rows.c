@@ -384,35 +384,6 @@ static void still_row_is_its_definition(void **state)
     }
 }
 
-static void knots_are_their_definition(void **state)
-{
-    (void)state;
-    enum { LENGTH = 70, LABEL = 9 };
-    analytic_random r = {29};
-    float raw[2 * LENGTH], depth[2 * LENGTH], front[2 * LENGTH], inverse[LENGTH], knot[LENGTH];
-    int32_t label[LENGTH];
-    for (int32_t i = 0; i < 2 * LENGTH; i++) {
-        raw[i] = random_uniform(&r) < 0.3 ? 0.0f : (float)(1.0 + random_uniform(&r));
-        depth[i] = (float)(1.0 + random_uniform(&r));
-        front[i] = random_uniform(&r) < 0.3 ? 0.0f : depth[i];
-    }
-    for (int32_t count = 0; count <= LENGTH; count++) {
-        for (int32_t step = 1; step <= 2; step++) {
-            rlf_kernel_knot_row(front, depth, step, count, knot);
-            for (int32_t k = 0; k < count; k++) {
-                float at = front[step * k];
-                assert_true(knot[k] == (at > 0.0f ? at : -depth[step * k]));
-            }
-        }
-        float own[LENGTH];
-        rlf_kernel_chord_front(raw, depth, LABEL, count, own, inverse, label);
-        for (int32_t i = 0; i < count; i++) {
-            assert_true(own[i] == depth[i] && label[i] == LABEL);
-            assert_true(inverse[i] == (raw[i] > 0.0f ? 1.0f / raw[i] : 0.0f));
-        }
-    }
-}
-
 static void chord_sums_are_their_definition(void **state)
 {
     (void)state;
@@ -592,7 +563,6 @@ int main(void)
         cmocka_unit_test(plane_tile_stays_in_its_tile),
         cmocka_unit_test(body_mean_row_is_its_definition),
         cmocka_unit_test(near_normal_is_its_definition),
-        cmocka_unit_test(knots_are_their_definition),
         cmocka_unit_test(chord_sums_are_their_definition),
         cmocka_unit_test(chord_solid_is_its_definition),
         cmocka_unit_test(thickness_ends_at_the_background),
