@@ -3,7 +3,7 @@ if(TARGET relief_app)
   add_test(NAME app.command
            COMMAND sh ${PROJECT_SOURCE_DIR}/tests/app/test_command.sh $<TARGET_FILE:relief_app>
                    ${CMAKE_CURRENT_BINARY_DIR}/app_command)
-  set_tests_properties(app.command PROPERTIES LABELS app TIMEOUT 1200) # minutes with sanitizers
+  set_tests_properties(app.command PROPERTIES LABELS app TIMEOUT 3600) # minutes with sanitizers
 endif()
 
 # What `relief eval` and its kin count, and what they say about it.
@@ -12,14 +12,14 @@ if(TARGET relief_app)
           test_eval_sensed test_settings)
     relief_test(${PROJECT_SOURCE_DIR}/tests/app/${name}.c app)
     target_link_libraries(${name} PRIVATE relief_measures)
-    set_tests_properties(app.${name} PROPERTIES TIMEOUT 1200) # minutes with sanitizers
+    set_tests_properties(app.${name} PROPERTIES TIMEOUT 3600) # minutes with sanitizers
   endforeach()
 endif()
 
 # Every figure within its bound, mean of two seeds. Minutes with sanitizers, so only as released.
 if(TARGET relief_app AND CMAKE_BUILD_TYPE STREQUAL Release)
   add_test(NAME app.eval_bounds COMMAND relief_app eval --seeds 2)
-  set_tests_properties(app.eval_bounds PROPERTIES LABELS app TIMEOUT 900)
+  set_tests_properties(app.eval_bounds PROPERTIES LABELS app TIMEOUT 3600)
 endif()
 
 # The report page; measures a little itself, so only as released.
@@ -28,5 +28,5 @@ if(TARGET relief_app AND Python3_FOUND AND CMAKE_BUILD_TYPE STREQUAL Release)
   add_test(NAME app.report
            COMMAND sh ${PROJECT_SOURCE_DIR}/tests/app/test_report.sh $<TARGET_FILE:relief_app>
                    ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/app_report)
-  set_tests_properties(app.report PROPERTIES LABELS app TIMEOUT 900)
+  set_tests_properties(app.report PROPERTIES LABELS app TIMEOUT 3600)
 endif()

@@ -4,11 +4,11 @@ set_tests_properties(docs.links PROPERTIES LABELS docs TIMEOUT 60)
 if(TARGET relief_app)
   add_test(NAME docs.commands COMMAND ${CMAKE_CURRENT_LIST_DIR}/commands.sh ${PROJECT_SOURCE_DIR}
            ${PROJECT_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR}/docs)
-  set_tests_properties(docs.commands PROPERTIES LABELS docs TIMEOUT 600)
+  set_tests_properties(docs.commands PROPERTIES LABELS docs TIMEOUT 1800)
 endif()
 # The first command of the README builds and runs the release preset, so it is run from there only.
 if(TARGET relief_app AND PROJECT_BINARY_DIR STREQUAL "${PROJECT_SOURCE_DIR}/build/release")
   add_test(NAME docs.demo COMMAND ${CMAKE_CURRENT_LIST_DIR}/demo.sh ${PROJECT_SOURCE_DIR}
            ${CMAKE_CURRENT_BINARY_DIR}/demo)
-  set_tests_properties(docs.demo PROPERTIES LABELS docs TIMEOUT 600)
+  set_tests_properties(docs.demo PROPERTIES LABELS docs TIMEOUT 1800)
 endif()

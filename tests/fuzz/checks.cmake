@@ -44,7 +44,7 @@ foreach(name IN LISTS fuzz_names)
   target_link_libraries(fuzz_${name} PRIVATE relief_io_fuzz)
   add_test(NAME fuzz.${name} COMMAND fuzz_${name} ${RELIEF_FUZZ_ITERATIONS}
            WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
-  set_tests_properties(fuzz.${name} PROPERTIES LABELS fuzz TIMEOUT 300)
+  set_tests_properties(fuzz.${name} PROPERTIES LABELS fuzz TIMEOUT 1800)
   # Assimp itself leaks a few hundred bytes per damaged file: docs/limits.md. Nothing else may.
   if(name STREQUAL "model")
     set_tests_properties(fuzz.${name} PROPERTIES ENVIRONMENT

@@ -21,5 +21,5 @@ if(RELIEF_XVFB_RUN)
 endif()
 add_test(NAME gl.viewer_test COMMAND ${launcher} $<TARGET_FILE:viewer_test>)
 # Window system and driver libraries are unloaded with memory they still hold.
-set_tests_properties(gl.viewer_test PROPERTIES LABELS gl TIMEOUT 300
+set_tests_properties(gl.viewer_test PROPERTIES LABELS gl TIMEOUT 1800
                      ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0")

@@ -6,4 +6,4 @@ if(RELIEF_CXX)
 endif()
 add_test(NAME house.headers COMMAND ${CMAKE_CURRENT_LIST_DIR}/headers.sh
          ${PROJECT_SOURCE_DIR}/include ${CMAKE_C_COMPILER} ${cxx})
-set_tests_properties(house.headers PROPERTIES LABELS house TIMEOUT 300)
+set_tests_properties(house.headers PROPERTIES LABELS house TIMEOUT 1800)

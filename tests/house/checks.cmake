@@ -5,7 +5,7 @@ set(house ${CMAKE_CURRENT_LIST_DIR})
 # house_check(NAME COMMAND...): one test labelled house; exit status 77 is a visible skip.
 function(house_check name)
   add_test(NAME house.${name} COMMAND ${ARGN})
-  set_tests_properties(house.${name} PROPERTIES LABELS house SKIP_RETURN_CODE 77 TIMEOUT 300)
+  set_tests_properties(house.${name} PROPERTIES LABELS house SKIP_RETURN_CODE 77 TIMEOUT 1800)
 endfunction()
 
 house_check(include_graph ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}
@@ -36,7 +36,7 @@ if(NOT RELIEF_SANITIZE)
   endforeach()
   add_test(NAME house.circles COMMAND ${house}/circles.sh ${CMAKE_NM} ${objects}
            COMMAND_EXPAND_LISTS)
-  set_tests_properties(house.circles PROPERTIES LABELS house TIMEOUT 300)
+  set_tests_properties(house.circles PROPERTIES LABELS house TIMEOUT 1800)
   house_check(circles_rejects ${house}/circles_rejects.sh ${house}/circles.sh
               ${CMAKE_CURRENT_BINARY_DIR}/circles ${CMAKE_C_COMPILER} ${CMAKE_NM})
 endif()
