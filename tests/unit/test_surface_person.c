@@ -160,12 +160,36 @@ static void his_limbs_have_their_own_velocity(void **state)
     free(error);
 }
 
+/* A leg begins to swing, and passes behind the other one: a frame ago it moved otherwise, or was
+ * hidden, so that nothing says how fast it is. */
+static void what_swings_is_as_fast_as_it_is(void **state)
+{
+    walk *w = *state;
+    const double FAST = 1.5;
+    double off = 0.0, speed = 0.0;
+    while (next(w)) {
+        const rlf_surface *s = w->surface;
+        const rlf_truth *t = w->truth;
+        for (int32_t i = 0; i < s->width * s->height; i++) {
+            rlf_vec3 real = {t->velocity_x[i], t->velocity_y[i], t->velocity_z[i]};
+            rlf_vec3 found = {s->velocity_x[i], s->velocity_y[i], s->velocity_z[i]};
+            if (t->foreground[i] && s->foreground[i] && rlf_length(real) > FAST) {
+                off += rlf_length(rlf_sub(found, real));
+                speed += rlf_length(real);
+            }
+        }
+    }
+    assert_true(speed > 0.0);
+    assert_true(off < 0.3 * speed);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_walking_person_is_one_region_with_one_label, start,
                                         finish),
         cmocka_unit_test_setup_teardown(his_limbs_have_their_own_velocity, start, finish),
+        cmocka_unit_test_setup_teardown(what_swings_is_as_fast_as_it_is, start, finish),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,10 +14,12 @@ enum {
     MOST_SAMPLES = RLF_FLOW_BATCH, /* SIDE_SAMPLES squared */
     LEAST_SAMPLES = 6,             /* that must agree */
     PASSES = 3,
-    GUESSES = 9
+    GUESSES = 9,
+    SEARCH = 4 /* steps to each side */
 };
 
 static const float cell_m = 0.09f;  /* of a limb */
+static const float step_m = 0.045f; /* of the search: a limb half beside where it was still fits */
 static const float reach_m = 0.01f; /* beyond the noise: from here on a residual is all wrong */
 /* Squared sum of 3 normal variables that chance exceeds once in 400 times. */
 static const float significant_3 = 14.2f;
@@ -321,6 +323,27 @@ static void lean_on(const rlf_cell_grid *g, const samples *all, const float moti
     }
 }
 
+/* A limb that begins to swing, or comes from behind another, moves as nothing about it did a frame
+ * ago: looks for where it was, to the sides. (Up and down, too, legs are found where they were not:
+ * they are long.) */
+static void search(const rlf_cell_grid *g, const samples *all, cell_fit *fit)
+{
+    velocity_guess guess[2 * SEARCH];
+    int32_t count = 0;
+    for (int32_t k = -SEARCH; k <= SEARCH; k++) {
+        const float v[3] = {(float)k * step_m / g->job->dt, 0.0f, 0.0f};
+        if (k != 0) {
+            guess[count++] = guess_of(v, -1.0f);
+        }
+    }
+    float v[3];
+    float cost = fit_guesses(g, all, guess, count, v);
+    if (cost < fit->cost) {
+        fit->cost = cost;
+        copy(v, fit->velocity);
+    }
+}
+
 static void fit_cell(const rlf_cell_grid *g, const samples *all, const rlf_cell *left,
                      rlf_cell *cell)
 {
@@ -344,6 +367,9 @@ static void fit_cell(const rlf_cell_grid *g, const samples *all, const rlf_cell 
         guess[count++] = guess_of(left->velocity, -1.0f);
     }
     fit.cost = fit_guesses(g, all, guess, count, fit.velocity);
+    if (2.0f * fit.cost > all->limit * (float)all->count) {
+        search(g, all, &fit);
+    }
     decide(g, all, &fit, whole, cell);
     if (cell->state == RLF_CELL_MOVES) {
         lean_on(g, all, whole, fit.cost, cell);
