@@ -4,6 +4,8 @@
 
 #include "relief/reconstruct.h"
 
+#include "kernel/touch.h"
+
 /* The planes of a grid that every step reads. */
 typedef struct rlf_grid {
     int32_t width, height, count;
@@ -209,11 +211,9 @@ typedef struct rlf_plates {
 } rlf_plates;
 
 /* The trunk of a person, as a solid under the head: see torso.h. */
-enum { RLF_TORSO_UNKNOWNS = 11, RLF_TORSOS = 16 };
+enum { RLF_TORSOS = 16 };
 
 /* A leg of a person, as a chain of solids below the torso: see legs.h. */
-enum { RLF_LEG_UNKNOWNS = 11 };
-
 typedef struct rlf_leg {
     double unknown[RLF_LEG_UNKNOWNS];
     double doubt[RLF_LEG_UNKNOWNS][RLF_LEG_UNKNOWNS]; /* covariance of them */

@@ -53,6 +53,13 @@ static rlf_vec3 camera_of(const rlf_torso *t)
     return rlf_torso_place(t, rlf_vec3_make(0.0, 0.0, 0.0));
 }
 
+/* Both legs' axes of a torso. */
+static rlf_kernel_legs legs_of(const rlf_torso *t)
+{
+    const rlf_leg_shape shape[2] = {rlf_leg_shape_of(t, 0), rlf_leg_shape_of(t, 1)};
+    return rlf_legs_of(shape, camera_of(t));
+}
+
 static rlf_torso_cut cut_by_ray(const rlf_torso *t, const rlf_leg_part *part, double x, double y)
 {
     const rlf_kernel_limb limb = rlf_leg_limb(part, camera_of(t));
@@ -103,11 +110,12 @@ static void rays_end_on_the_surface(void **state)
                 double z = meet(&t, x, y, &leg);
                 if (z > 0.0) {
                     rlf_kernel_nearest nearest;
-                    const rlf_leg_shape shape[2] = {rlf_leg_shape_of(&t, 0),
-                                                    rlf_leg_shape_of(&t, 1)};
+                    rlf_kernel_places places;
+                    const rlf_kernel_legs legs = legs_of(&t);
                     rlf_vec3 p = rlf_torso_place(&t, rlf_vec3_make(z * x, z * y, z));
                     hits++;
-                    rlf_legs_nearest(shape, &p, 1, &nearest);
+                    rlf_places_read(&p, 1, &places);
+                    rlf_kernel_find_nearest(legs.axis, 2 * RLF_LEG_PARTS, &places, &nearest);
                     assert_true(fabs(nearest.distance[0]) < 0.006);
                     assert_true((int)nearest.axis[0] / RLF_LEG_PARTS == leg);
                 }
@@ -115,6 +123,21 @@ static void rays_end_on_the_surface(void **state)
         }
     }
     assert_true(hits > 2000);
+}
+
+/* Of one place and the part. */
+static rlf_kernel_touches touch_at(const rlf_torso *t, int part, rlf_vec3 p)
+{
+    const rlf_kernel_legs legs = legs_of(t);
+    rlf_kernel_places places;
+    rlf_kernel_touches out;
+    double axis[RLF_KERNEL_RAY_LANES];
+    for (int i = 0; i < RLF_KERNEL_RAY_LANES; i++) {
+        axis[i] = part;
+    }
+    rlf_places_read(&p, 1, &places);
+    rlf_kernel_touch_legs(&legs, &places, axis, &out);
+    return out;
 }
 
 static void slopes_are_derivatives(void **state)
@@ -131,15 +154,14 @@ static void slopes_are_derivatives(void **state)
         rlf_vec3 toward = rlf_normalize(rlf_sub(camera_of(&t), middle));
         rlf_vec3 p = rlf_mad(middle, toward, 0.08);
         p.x += 0.03;
-        rlf_leg_touch here = rlf_leg_touch_at(&shape, i % RLF_LEG_PARTS, p, camera_of(&t));
+        const rlf_kernel_touches here = touch_at(&t, i % RLF_LEG_PARTS, p);
         for (int k = 0; k < RLF_LEG_UNKNOWNS; k++) {
             rlf_torso moved = t;
             moved.leg[0].unknown[k] += step;
-            shape = rlf_leg_shape_of(&moved, 0);
-            rlf_leg_touch there = rlf_leg_touch_at(&shape, i % RLF_LEG_PARTS, p, camera_of(&t));
-            double found = (there.distance - here.distance) / step;
+            const rlf_kernel_touches there = touch_at(&moved, i % RLF_LEG_PARTS, p);
+            double found = (there.distance[0] - here.distance[0]) / step;
             /* the radius changes along a part: little, and not in the slopes */
-            assert_true(fabs(found - here.slope[k]) < 0.07);
+            assert_true(fabs(found - here.slope[k][0]) < 0.07);
         }
     }
 }

@@ -13,19 +13,6 @@
 
 #include "surface/thickness/torso.h"
 
-/* What is unknown of a leg: places of its joints, metres; how far the foot is turned from ahead,
- * radians; its radii at hip, knee and ankle, and how far the hip is ahead of the trunk's axis,
- * metres. */
-enum {
-    RLF_LEG_KNEE = 0,
-    RLF_LEG_ANKLE = 3,
-    RLF_LEG_TOES = 6,
-    RLF_LEG_RADIUS = 7,
-    RLF_LEG_HIP = 10
-};
-
-enum { RLF_THIGH, RLF_SHIN, RLF_FOOT, RLF_LEG_PARTS };
-
 /* A capsule whose radius changes evenly along it. */
 typedef struct rlf_leg_part {
     rlf_vec3 begin, end;
@@ -36,27 +23,15 @@ typedef struct rlf_leg_shape {
     rlf_leg_part part[RLF_LEG_PARTS];
 } rlf_leg_shape;
 
-/* How far something is off, and how that changes with each unknown. */
-typedef struct rlf_leg_touch {
-    double distance, slope[RLF_LEG_UNKNOWNS];
-} rlf_leg_touch;
-
 /* ---- thickness/legs_solid.c ---- */
 /* A leg that stands, side -1 or 1, and the variance of each unknown among people and their ways. */
 void rlf_leg_usual(const rlf_torso *torso, double side, double unknown[RLF_LEG_UNKNOWNS],
                    double variance[RLF_LEG_UNKNOWNS]);
 rlf_leg_shape rlf_leg_shape_of(const rlf_torso *torso, int leg);
-/* From up to RLF_KERNEL_RAYS places to the nearest of the parts of both legs; out->axis counts
- * them: part, and RLF_LEG_PARTS more for the second leg's. */
-void rlf_legs_nearest(const rlf_leg_shape shape[2], const rlf_vec3 *p, int32_t count,
-                      rlf_kernel_nearest *out);
-/* From a place to one part, metres, less than 0 within. */
-rlf_leg_touch rlf_leg_touch_at(const rlf_leg_shape *shape, int part, rlf_vec3 p, rlf_vec3 camera);
-/* The place on the camera's ray through p that is nearest to the part's axis; p where the camera
- * looks along that. */
-rlf_vec3 rlf_leg_beside(const rlf_leg_part *part, rlf_vec3 p, rlf_vec3 camera);
-/* How much longer thigh or shin is than usual, of the spread among people. */
-rlf_leg_touch rlf_leg_stretch(const rlf_leg_shape *shape, int part);
+/* Both legs' axes, and the camera in the torso's axes. */
+rlf_kernel_legs rlf_legs_of(const rlf_leg_shape shape[2], rlf_vec3 camera);
+/* How much longer thigh and shin are than usual, of the spread among people: two touches. */
+void rlf_leg_stretch(const rlf_leg_shape *shape, rlf_kernel_touches *out);
 
 /* The part, as rays from the camera cut it. */
 rlf_kernel_limb rlf_leg_limb(const rlf_leg_part *part, rlf_vec3 camera);

@@ -29,105 +29,122 @@ static const double better_by = 0.1;       /* and taken if they explain so much 
 static const double foot_scale_m = 0.05, foot_top = 0.1; /* above an ankle, metres */
 static const double facing_gain = 20.0;                  /* 1/m^2: how much what is seen says */
 
-/* Normal equations of the correction x: J x = -distance. */
-typedef struct equations {
-    double a[N][N], b[N];
-    double area_m2;
-} equations;
-
-static void add_touch(equations *sum, const rlf_leg_touch *touch, double weight)
-{
-    for (int r = 0; r < N; r++) {
-        double part = weight * touch->slope[r];
-        if (part == 0.0) { /* what a part does not hang on */
-            continue;
-        }
-        sum->b[r] -= part * touch->distance;
-        for (int c = 0; c <= r; c++) {
-            sum->a[r][c] += part * touch->slope[c];
-        }
-    }
-}
-
 /* What places say about both legs. */
 typedef struct reading {
-    rlf_leg_shape shape[2];
-    rlf_vec3 camera;
-    double scale;  /* of the weight */
-    double weight; /* of a place that fits */
-    double area_m2;
+    rlf_kernel_legs legs;
+    rlf_kernel_equations sum[2];
+    double area_m2[2];
+    double scale;    /* of the weight */
+    double weight;   /* of a point that fits */
+    double point_m2; /* what one stands for */
 } reading;
 
-/* On a leg's outline the camera's ray touches it: the place on the ray that is nearest to the axis
- * is on the surface, which tells how thick the leg is. */
-static void add_rim(const reading *r, rlf_vec3 rim, int leg, int part, equations sum[2])
+/* Adds what is off by as much as the touches to the legs that they are of, each so many times. */
+static void add_touches(reading *r, const rlf_kernel_touches *touches, const double *axis,
+                        const double *weight, int32_t count)
 {
-    if (part == RLF_FOOT) { /* not seen from beside */
-        return;
-    }
-    rlf_vec3 p = rlf_leg_beside(&r->shape[leg].part[part], rim, r->camera);
-    rlf_leg_touch touch = rlf_leg_touch_at(&r->shape[leg], part, p, r->camera);
-    double off = touch.distance / r->scale, share = 1.0 / (1.0 + off * off);
-    add_touch(&sum[leg], &touch, rim_worth * r->weight * share * share);
-}
-
-static void add_point(const reading *r, rlf_vec3 p, int leg, int part, equations sum[2])
-{
-    rlf_leg_touch touch = rlf_leg_touch_at(&r->shape[leg], part, p, r->camera);
-    double off = touch.distance / r->scale, share = 1.0 / (1.0 + off * off);
-    add_touch(&sum[leg], &touch, r->weight * share * share);
-    sum[leg].area_m2 += share > 0.5 ? r->area_m2 : 0.0;
-}
-
-typedef void add_place(const reading *r, rlf_vec3 p, int leg, int part, equations sum[2]);
-
-/* Adds each of the places to the leg that it is nearest to. */
-static void add_places(const reading *r, const rlf_vec3 *p, int32_t count, add_place *add,
-                       equations sum[2])
-{
-    rlf_kernel_nearest nearest;
-    for (int32_t first = 0; first < count; first += RLF_KERNEL_RAYS) {
-        int32_t some = count - first < RLF_KERNEL_RAYS ? count - first : RLF_KERNEL_RAYS;
-        rlf_legs_nearest(r->shape, p + first, some, &nearest);
-        for (int32_t i = 0; i < some; i++) {
-            int axis = (int)nearest.axis[i];
-            add(r, p[first + i], axis / RLF_LEG_PARTS, axis % RLF_LEG_PARTS, sum);
-        }
-    }
-}
-
-static void add_points(const rlf_torso *torso, const rlf_torso_points *points, double scale,
-                       equations sum[2])
-{
-    const reading r = {.shape = {rlf_leg_shape_of(torso, 0), rlf_leg_shape_of(torso, 1)},
-                       .camera = rlf_torso_place(torso, rlf_vec3_make(0.0, 0.0, 0.0)),
-                       .scale = scale,
-                       .weight = weight_m4 * points->area_m2,
-                       .area_m2 = points->area_m2};
-    memset(sum, 0, 2 * sizeof *sum);
-    add_places(&r, points->p, points->count, add_point, sum);
-    add_places(&r, points->rim, points->rim_count, add_rim, sum);
+    double own[RLF_KERNEL_RAYS];
     for (int leg = 0; leg < 2; leg++) {
-        for (int part = RLF_THIGH; part <= RLF_SHIN; part++) {
-            rlf_leg_touch stretch = rlf_leg_stretch(&r.shape[leg], part);
-            add_touch(&sum[leg], &stretch, 1.0);
+        for (int32_t i = 0; i < count; i++) {
+            own[i] = (axis[i] >= RLF_LEG_PARTS) == (leg != 0) ? weight[i] : 0.0;
         }
+        rlf_kernel_add_touches(touches, own, count, &r->sum[leg]);
     }
 }
 
-static void correct(rlf_leg *leg, equations *sum, double information[N][N],
+static double share_at(const reading *r, double distance)
+{
+    double off = distance / r->scale;
+    return 1.0 / (1.0 + off * off);
+}
+
+/* On a leg's outline the camera's ray touches it: the place on the ray that is nearest to the axis
+ * is on the surface, which tells how thick the leg is. A foot is not seen from beside. */
+static void add_rim(reading *r, const rlf_vec3 *p, int32_t count)
+{
+    rlf_kernel_places places;
+    rlf_kernel_nearest nearest;
+    rlf_kernel_touches touches;
+    double weight[RLF_KERNEL_RAYS];
+    rlf_places_read(p, count, &places);
+    rlf_kernel_find_nearest(r->legs.axis, 2 * RLF_LEG_PARTS, &places, &nearest);
+    rlf_kernel_legs_beside(&r->legs, nearest.axis, &places);
+    rlf_kernel_touch_legs(&r->legs, &places, nearest.axis, &touches);
+    for (int32_t i = 0; i < count; i++) {
+        double share = share_at(r, touches.distance[i]);
+        bool is_foot = (int)nearest.axis[i] % RLF_LEG_PARTS == RLF_FOOT;
+        weight[i] = is_foot ? 0.0 : rim_worth * r->weight * share * share;
+    }
+    add_touches(r, &touches, nearest.axis, weight, count);
+}
+
+/* Adds each of the points to the leg that it is nearest to. */
+static void add_points(reading *r, const rlf_vec3 *p, int32_t count)
+{
+    rlf_kernel_places places;
+    rlf_kernel_nearest nearest;
+    rlf_kernel_touches touches;
+    double weight[RLF_KERNEL_RAYS];
+    rlf_places_read(p, count, &places);
+    rlf_kernel_find_nearest(r->legs.axis, 2 * RLF_LEG_PARTS, &places, &nearest);
+    rlf_kernel_touch_legs(&r->legs, &places, nearest.axis, &touches);
+    for (int32_t i = 0; i < count; i++) {
+        double share = share_at(r, touches.distance[i]);
+        int leg = nearest.axis[i] >= RLF_LEG_PARTS;
+        r->area_m2[leg] += share > 0.5 ? r->point_m2 : 0.0;
+        weight[i] = r->weight * share * share;
+    }
+    add_touches(r, &touches, nearest.axis, weight, count);
+}
+
+static rlf_kernel_legs legs_of(const rlf_torso *torso)
+{
+    const rlf_leg_shape shape[2] = {rlf_leg_shape_of(torso, 0), rlf_leg_shape_of(torso, 1)};
+    return rlf_legs_of(shape, rlf_torso_place(torso, rlf_vec3_make(0.0, 0.0, 0.0)));
+}
+
+static int32_t batch_at(int32_t first, int32_t count)
+{
+    return count - first < RLF_KERNEL_RAYS ? count - first : RLF_KERNEL_RAYS;
+}
+
+static void read_points(const rlf_torso *torso, const rlf_torso_points *points, double scale,
+                        reading *out)
+{
+    static const double once[2] = {1.0, 1.0};
+    *out = (reading){.legs = legs_of(torso),
+                     .scale = scale,
+                     .weight = weight_m4 * points->area_m2,
+                     .point_m2 = points->area_m2};
+    for (int32_t i = 0; i < points->count; i += RLF_KERNEL_RAYS) {
+        add_points(out, points->p + i, batch_at(i, points->count));
+    }
+    for (int32_t i = 0; i < points->rim_count; i += RLF_KERNEL_RAYS) {
+        add_rim(out, points->rim + i, batch_at(i, points->rim_count));
+    }
+    for (int leg = 0; leg < 2; leg++) {
+        const rlf_leg_shape shape = rlf_leg_shape_of(torso, leg);
+        rlf_kernel_touches stretch;
+        rlf_leg_stretch(&shape, &stretch);
+        rlf_kernel_add_touches(&stretch, once, 2, &out->sum[leg]);
+    }
+}
+
+static void correct(rlf_leg *leg, const rlf_kernel_equations *sum, double information[N][N],
                     const double expected[N])
 {
+    double b[N];
     for (int r = 0; r < N; r++) {
+        b[r] = sum->b[r];
         for (int c = 0; c < N; c++) {
-            sum->a[r][c] = information[r][c] + (c <= r ? sum->a[r][c] : sum->a[c][r]);
-            sum->b[r] += information[r][c] * (expected[c] - leg->unknown[c]);
+            leg->doubt[r][c] = information[r][c] + (c <= r ? sum->a[r][c] : sum->a[c][r]);
+            b[r] += information[r][c] * (expected[c] - leg->unknown[c]);
         }
     }
-    math_invert(&sum->a[0][0], N);
+    math_invert(&leg->doubt[0][0], N);
     for (int r = 0; r < N; r++) {
         for (int c = 0; c < N; c++) {
-            leg->unknown[r] += sum->a[r][c] * sum->b[c];
+            leg->unknown[r] += leg->doubt[r][c] * b[c];
         }
     }
     leg->unknown[RLF_LEG_TOES] = rlf_clamp(leg->unknown[RLF_LEG_TOES], -1.0, 1.0);
@@ -152,22 +169,19 @@ static void make_alike(rlf_torso *torso)
 static void improve(rlf_torso *torso, const rlf_torso_points *points, double scale, int32_t passes)
 {
     double information[2][N][N], expected[2][N];
-    equations sum[2];
     for (int leg = 0; leg < 2; leg++) {
         memcpy(expected[leg], torso->leg[leg].unknown, sizeof expected[leg]);
         memcpy(information[leg], torso->leg[leg].doubt, sizeof information[leg]);
         math_invert(&information[leg][0][0], N);
     }
     for (int32_t pass = 0; pass < passes; pass++) {
-        add_points(torso, points, scale, sum);
+        reading read;
+        read_points(torso, points, scale, &read);
         for (int leg = 0; leg < 2; leg++) {
-            correct(&torso->leg[leg], &sum[leg], information[leg], expected[leg]);
+            correct(&torso->leg[leg], &read.sum[leg], information[leg], expected[leg]);
+            torso->leg[leg].area_m2 = read.area_m2[leg];
         }
         scale = rlf_max(0.6 * scale, scale_m);
-    }
-    for (int leg = 0; leg < 2; leg++) {
-        memcpy(torso->leg[leg].doubt, sum[leg].a, sizeof sum[leg].a);
-        torso->leg[leg].area_m2 = sum[leg].area_m2;
     }
     make_alike(torso);
 }
@@ -237,13 +251,14 @@ static void go_on(rlf_torso *torso, const rlf_torso_points *points, double dt)
 /* How badly the legs explain what is seen of feet, m^2. */
 static double misfit_of_feet(const rlf_torso *torso, const rlf_torso_points *points)
 {
-    const rlf_leg_shape shape[2] = {rlf_leg_shape_of(torso, 0), rlf_leg_shape_of(torso, 1)};
+    const rlf_kernel_legs legs = legs_of(torso);
     double top = rlf_min(torso->leg[0].unknown[RLF_LEG_ANKLE + 1],
                          torso->leg[1].unknown[RLF_LEG_ANKLE + 1]) -
                  foot_top;
     double sum = 0.0;
     for (int32_t i = 0; i < points->count;) {
         rlf_vec3 feet[RLF_KERNEL_RAYS];
+        rlf_kernel_places places;
         rlf_kernel_nearest nearest;
         int32_t count = 0;
         for (; i < points->count && count < RLF_KERNEL_RAYS; i++) {
@@ -251,7 +266,8 @@ static double misfit_of_feet(const rlf_torso *torso, const rlf_torso_points *poi
                 feet[count++] = points->p[i];
             }
         }
-        rlf_legs_nearest(shape, feet, count, &nearest);
+        rlf_places_read(feet, count, &places);
+        rlf_kernel_find_nearest(legs.axis, 2 * RLF_LEG_PARTS, &places, &nearest);
         for (int32_t k = 0; k < count; k++) {
             double off = nearest.distance[k] / foot_scale_m;
             sum += points->area_m2 * off * off / (1.0 + off * off);

@@ -4,6 +4,7 @@
 #include "relief/math.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Metres, of both sexes' means in ANSUR II (Gordon et al. 2014, Natick/TR-15/007) at their mean
  * stature, 1.69 m: trochanter below the shoulders' middle (the hips' joints are 17 cm apart), ...
@@ -91,20 +92,6 @@ rlf_leg_shape rlf_leg_shape_of(const rlf_torso *torso, int leg)
     return out;
 }
 
-/* The place of a part's axis that is nearest to a point. */
-typedef struct foot_point {
-    rlf_vec3 off;     /* from there to the point */
-    double t, radius; /* share of the axis, 0..1; of the part */
-} foot_point;
-
-static foot_point foot_of(const rlf_leg_part *s, rlf_vec3 p)
-{
-    rlf_vec3 along = rlf_sub(s->end, s->begin), off = rlf_sub(p, s->begin);
-    double t = rlf_clamp(rlf_dot(off, along) / (rlf_dot(along, along) + 1e-9), 0.0, 1.0);
-    return (foot_point){rlf_mad(off, along, -t), t,
-                        s->radius[0] + t * (s->radius[1] - s->radius[0])};
-}
-
 static void put(rlf_vec3 v, double out[3])
 {
     out[0] = v.x;
@@ -122,85 +109,41 @@ static rlf_kernel_axis axis_of(const rlf_leg_part *part)
     return out;
 }
 
-void rlf_legs_nearest(const rlf_leg_shape shape[2], const rlf_vec3 *p, int32_t count,
-                      rlf_kernel_nearest *out)
+rlf_kernel_legs rlf_legs_of(const rlf_leg_shape shape[2], rlf_vec3 camera)
 {
-    rlf_kernel_axis axes[2 * RLF_LEG_PARTS];
-    rlf_kernel_places places = {.count = 0};
+    rlf_kernel_legs out = {.heel = heel_back,
+                           .length = heel_back + toes_ahead,
+                           .behind = behind_share,
+                           .least_aslant = least_aslant};
+    put(camera, out.camera);
     for (int k = 0; k < 2 * RLF_LEG_PARTS; k++) {
-        axes[k] = axis_of(&shape[k / RLF_LEG_PARTS].part[k % RLF_LEG_PARTS]);
-    }
-    while (places.count < count || places.count % RLF_KERNEL_RAY_LANES != 0) {
-        int32_t i = places.count++;
-        const rlf_vec3 *at = &p[i < count ? i : count - 1];
-        places.side[i] = at->x;
-        places.down[i] = at->y;
-        places.ahead[i] = at->z;
-    }
-    rlf_kernel_find_nearest(axes, 2 * RLF_LEG_PARTS, &places, out);
-}
-
-rlf_leg_touch rlf_leg_touch_at(const rlf_leg_shape *shape, int part, rlf_vec3 p, rlf_vec3 camera)
-{
-    const rlf_leg_part s = shape->part[part];
-    const foot_point foot = foot_of(&s, p);
-    double length = rlf_length(foot.off) + 1e-9, t = foot.t;
-    rlf_vec3 n = rlf_scale(foot.off, 1.0 / length);
-    if (rlf_dot(n, rlf_sub(p, camera)) > behind_share * rlf_length(rlf_sub(p, camera))) {
-        n = rlf_scale(n, -1.0);
-        length = -length;
-    }
-    rlf_leg_touch out = {.distance = length - foot.radius};
-    double of_knee = part == RLF_THIGH ? t : part == RLF_SHIN ? 1.0 - t : 0.0;
-    double of_ankle = part == RLF_THIGH ? 0.0 : part == RLF_SHIN ? t : 1.0;
-    const double by[3] = {n.x, n.y, n.z};
-    for (int k = 0; k < 3; k++) {
-        out.slope[RLF_LEG_KNEE + k] = -of_knee * by[k];
-        out.slope[RLF_LEG_ANKLE + k] = -of_ankle * by[k];
-    }
-    out.slope[RLF_LEG_HIP] = part == RLF_THIGH ? (t - 1.0) * n.z : 0.0;
-    if (part == RLF_FOOT) { /* turned, the axis moves square to itself */
-        double ahead = t * (heel_back + toes_ahead) - heel_back;
-        double share = ahead / (heel_back + toes_ahead);
-        rlf_vec3 along = rlf_sub(s.end, s.begin);
-        out.slope[RLF_LEG_TOES] = -share * (n.x * along.z - n.z * along.x);
-    } else {
-        out.slope[RLF_LEG_RADIUS + part] = t - 1.0;
-        out.slope[RLF_LEG_RADIUS + part + 1] = -t;
+        const rlf_leg_part *part = &shape[k / RLF_LEG_PARTS].part[k % RLF_LEG_PARTS];
+        out.axis[k] = axis_of(part);
+        put(rlf_normalize(rlf_sub(part->end, part->begin)), out.unit[k]);
     }
     return out;
 }
 
-rlf_vec3 rlf_leg_beside(const rlf_leg_part *s, rlf_vec3 p, rlf_vec3 camera)
+void rlf_leg_stretch(const rlf_leg_shape *shape, rlf_kernel_touches *out)
 {
-    rlf_vec3 along = rlf_normalize(rlf_sub(s->end, s->begin)),
-             way = rlf_normalize(rlf_sub(p, camera));
-    rlf_vec3 off = rlf_sub(s->begin, p);
-    double cosine = rlf_dot(along, way), square = 1.0 - cosine * cosine;
-    if (square < least_aslant) {
-        return p;
-    }
-    return rlf_mad(p, way, (rlf_dot(off, way) - cosine * rlf_dot(off, along)) / square);
-}
-
-rlf_leg_touch rlf_leg_stretch(const rlf_leg_shape *shape, int part)
-{
-    const rlf_leg_part s = shape->part[part];
-    rlf_vec3 along = rlf_sub(s.end, s.begin);
-    double length = rlf_length(along) + 1e-9;
-    rlf_leg_touch out = {.distance = (length - usual_length[part]) / length_spread};
-    const double by[3] = {along.x, along.y, along.z};
-    for (int k = 0; k < 3; k++) {
-        double slope = by[k] / (length * length_spread);
-        out.slope[part == RLF_THIGH ? RLF_LEG_KNEE + k : RLF_LEG_ANKLE + k] = slope;
-        if (part == RLF_SHIN) {
-            out.slope[RLF_LEG_KNEE + k] = -slope;
+    memset(out, 0, sizeof *out);
+    for (int part = RLF_THIGH; part <= RLF_SHIN; part++) {
+        const rlf_leg_part s = shape->part[part];
+        rlf_vec3 along = rlf_sub(s.end, s.begin);
+        double length = rlf_length(along) + 1e-9;
+        const double by[3] = {along.x, along.y, along.z};
+        out->distance[part] = (length - usual_length[part]) / length_spread;
+        for (int k = 0; k < 3; k++) {
+            double slope = by[k] / (length * length_spread);
+            out->slope[part == RLF_THIGH ? RLF_LEG_KNEE + k : RLF_LEG_ANKLE + k][part] = slope;
+            if (part == RLF_SHIN) {
+                out->slope[RLF_LEG_KNEE + k][part] = -slope;
+            }
+        }
+        if (part == RLF_THIGH) {
+            out->slope[RLF_LEG_HIP][part] = -by[2] / (length * length_spread);
         }
     }
-    if (part == RLF_THIGH) {
-        out.slope[RLF_LEG_HIP] = -by[2] / (length * length_spread);
-    }
-    return out;
 }
 
 rlf_kernel_limb rlf_leg_limb(const rlf_leg_part *part, rlf_vec3 camera)

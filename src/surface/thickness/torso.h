@@ -12,26 +12,8 @@
 #ifndef RLF_SURFACE_THICKNESS_TORSO_H
 #define RLF_SURFACE_THICKNESS_TORSO_H
 
-#include "kernel/solid.h"
+#include "kernel/touch.h"
 #include "surface/thickness/thickness.h"
-
-/* What is unknown of a torso, metres and radians. `side` is the level unit vector from its axis to
- * a shoulder, `ahead` the one at a right angle to it. */
-enum {
-    RLF_TORSO_AHEAD,    /* of the head's middle: where the axis is at the shoulders */
-    RLF_TORSO_TURN,     /* about the upright axis, from `side` */
-    RLF_TORSO_LEAN,     /* ahead, per metre further down */
-    RLF_TORSO_SHOULDER, /* from the axis to the middle of a shoulder's round end */
-    RLF_TORSO_DROP,     /* how much lower than usual the trunk hangs below the head's top */
-    RLF_TORSO_BREADTH,  /* half of it at chest, waist and buttocks */
-    RLF_TORSO_DEPTH = RLF_TORSO_BREADTH + 3, /* the same */
-};
-
-/* How far a point is from the surface, metres, less than 0 within; and how that changes with each
- * unknown. */
-typedef struct rlf_torso_touch {
-    double distance, slope[RLF_TORSO_UNKNOWNS];
-} rlf_torso_touch;
 
 /* Depths between which a ray is in one part of a solid. */
 typedef struct rlf_torso_cut {
@@ -52,11 +34,16 @@ void rlf_torso_usual(double unknown[RLF_TORSO_UNKNOWNS],
 rlf_vec3 rlf_torso_place(const rlf_torso *torso, rlf_vec3 p);
 /* The point at a place: the other way round. */
 rlf_vec3 rlf_torso_point(const rlf_torso *torso, rlf_vec3 place);
-/* False when the point is at the height of the head or of the legs. */
-bool rlf_torso_touch_at(const rlf_torso *torso, rlf_vec3 p, rlf_torso_touch *out);
-/* The same of a place on the trunk's outline, where the camera's ray touches it: how far the ray is
- * from the surface, and how much farther than p its place there is. False at other heights. */
-bool rlf_torso_touch_rim(const rlf_torso *torso, rlf_vec3 p, rlf_torso_touch *out, double *moved_m);
+/* Up to RLF_KERNEL_RAYS places for kernels. */
+void rlf_places_read(const rlf_vec3 *place, int32_t count, rlf_kernel_places *out);
+/* How far up to RLF_KERNEL_RAYS points are off the surface; there is none at the heights of the
+ * head and of the legs. */
+void rlf_torso_touch(const rlf_torso *torso, const rlf_vec3 *p, int32_t count,
+                     rlf_kernel_touches *out);
+/* The same of places on the trunk's outline, where the camera's rays touch it: how far the rays are
+ * from the surface, and how much farther than p their places there are. */
+void rlf_torso_touch_rim(const rlf_torso *torso, const rlf_vec3 *p, int32_t count,
+                         rlf_kernel_touches *out, double moved_m[RLF_KERNEL_RAYS]);
 /* Rays in the torso's own axes: none; one more, (x, y, 1); as many as kernels want. */
 void rlf_torso_begin_rays(const rlf_torso *torso, rlf_kernel_ray_lanes *out);
 void rlf_torso_add_ray(const rlf_torso *torso, double x, double y, rlf_kernel_ray_lanes *rays);

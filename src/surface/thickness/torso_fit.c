@@ -20,28 +20,14 @@ static const double rim_worth = 12.0;
 static const double rim_apart_m = 0.04; /* in depth: what is as far off counts half */
 static const double most_turn = 0.3;    /* rad, in one pass */
 
-/* Normal equations of the correction x: J x = -distance. */
-typedef struct equations {
-    double a[N][N], b[N];
-    int first, end; /* of the unknowns that are asked for */
-    double weight;  /* of a point that fits, 1/m^2 */
+/* What a frame's points say. */
+typedef struct reading {
+    rlf_kernel_equations sum;
+    double weight; /* of a point that fits, 1/m^2 */
     double misfit;
     int32_t count, fitting;
-} equations;
-
-static void add_touch(const rlf_torso_touch *touch, double weight, equations *sum)
-{
-    for (int r = sum->first; r < sum->end; r++) {
-        double part = weight * touch->slope[r];
-        if (part == 0.0) { /* what this part of the torso does not hang on */
-            continue;
-        }
-        sum->b[r] -= part * touch->distance;
-        for (int c = sum->first; c <= r; c++) {
-            sum->a[r][c] += part * touch->slope[c];
-        }
-    }
-}
+    bool is_turn; /* only that is asked for */
+} reading;
 
 /* How much something counts that is so far off the surface. */
 static double share_at(double distance)
@@ -50,28 +36,49 @@ static double share_at(double distance)
     return 1.0 / (1.0 + off * off);
 }
 
-static void add_point(const rlf_torso *torso, rlf_vec3 p, equations *sum)
+static void add_touches(const rlf_kernel_touches *touches, const double *weight, int32_t count,
+                        reading *to)
 {
-    rlf_torso_touch touch;
-    if (!rlf_torso_touch_at(torso, p, &touch)) {
+    const int k = RLF_TORSO_TURN;
+    if (!to->is_turn) {
+        rlf_kernel_add_touches(touches, weight, count, &to->sum);
         return;
     }
-    double share = share_at(touch.distance);
-    sum->misfit += 1.0 - share;
-    sum->count++;
-    sum->fitting += share > 0.5;
-    add_touch(&touch, sum->weight * share * share, sum);
+    for (int32_t i = 0; i < count; i++) {
+        double part = weight[i] * touches->slope[k][i];
+        to->sum.b[k] -= part * touches->distance[i];
+        to->sum.a[k][k] += part * touches->slope[k][i];
+    }
+}
+
+static void add_points(const rlf_torso *torso, const rlf_vec3 *p, int32_t count, reading *to)
+{
+    rlf_kernel_touches touches;
+    double weight[RLF_KERNEL_RAYS];
+    rlf_torso_touch(torso, p, count, &touches);
+    for (int32_t i = 0; i < count; i++) {
+        double share = share_at(touches.distance[i]);
+        bool is_any = touches.is_any[i] > 0.0;
+        to->misfit += is_any ? 1.0 - share : 0.0;
+        to->count += is_any;
+        to->fitting += is_any && share > 0.5;
+        weight[i] = is_any ? to->weight * share * share : 0.0;
+    }
+    add_touches(&touches, weight, count, to);
 }
 
 /* An outline that lies elsewhere in depth than the trunk's is an arm's. */
-static void add_rim(const rlf_torso *torso, rlf_vec3 p, equations *sum)
+static void add_rim(const rlf_torso *torso, const rlf_vec3 *p, int32_t count, reading *to)
 {
-    rlf_torso_touch touch;
-    double moved;
-    if (rlf_torso_touch_rim(torso, p, &touch, &moved)) {
-        double off = moved / rim_apart_m, share = share_at(touch.distance) / (1.0 + off * off);
-        add_touch(&touch, rim_worth * sum->weight * share * share, sum);
+    rlf_kernel_touches touches;
+    double weight[RLF_KERNEL_RAYS], moved[RLF_KERNEL_RAYS];
+    rlf_torso_touch_rim(torso, p, count, &touches, moved);
+    for (int32_t i = 0; i < count; i++) {
+        double off = moved[i] / rim_apart_m;
+        double share = share_at(touches.distance[i]) / (1.0 + off * off);
+        weight[i] = touches.is_any[i] > 0.0 ? rim_worth * to->weight * share * share : 0.0;
     }
+    add_touches(&touches, weight, count, to);
 }
 
 /* Turns the torso about the upright axis. */
@@ -83,13 +90,13 @@ static void turn(rlf_torso *torso, double angle)
     torso->side_z = z / length;
 }
 
-static void correct(rlf_torso *torso, const equations *sum)
+static void correct(rlf_torso *torso, double covariance[N][N], const double b[N])
 {
     double x[N];
     for (int r = 0; r < N; r++) {
         x[r] = 0.0;
         for (int c = 0; c < N; c++) {
-            x[r] += sum->a[r][c] * sum->b[c];
+            x[r] += covariance[r][c] * b[c];
         }
     }
     x[RLF_TORSO_TURN] = rlf_clamp(x[RLF_TORSO_TURN], -most_turn, most_turn);
@@ -99,15 +106,20 @@ static void correct(rlf_torso *torso, const equations *sum)
     }
 }
 
-static void add_points(const rlf_torso *torso, const rlf_torso_points *points, int first, int end,
-                       equations *sum)
+static int32_t batch_at(int32_t first, int32_t count)
 {
-    *sum = (equations){.first = first, .end = end, .weight = weight_m4 * points->area_m2};
-    for (int32_t i = 0; i < points->count; i++) {
-        add_point(torso, points->p[i], sum);
+    return count - first < RLF_KERNEL_RAYS ? count - first : RLF_KERNEL_RAYS;
+}
+
+static void read_points(const rlf_torso *torso, const rlf_torso_points *points, bool is_turn,
+                        reading *out)
+{
+    *out = (reading){.is_turn = is_turn, .weight = weight_m4 * points->area_m2};
+    for (int32_t i = 0; i < points->count; i += RLF_KERNEL_RAYS) {
+        add_points(torso, points->p + i, batch_at(i, points->count), out);
     }
-    for (int32_t i = 0; i < points->rim_count; i++) {
-        add_rim(torso, points->rim[i], sum);
+    for (int32_t i = 0; i < points->rim_count; i += RLF_KERNEL_RAYS) {
+        add_rim(torso, points->rim + i, batch_at(i, points->rim_count), out);
     }
 }
 
@@ -115,11 +127,11 @@ static void add_points(const rlf_torso *torso, const rlf_torso_points *points, i
 static void find_turn(rlf_torso *torso, const rlf_torso_points *points, double expected)
 {
     const int k = RLF_TORSO_TURN;
-    equations sum;
-    add_points(torso, points, k, k + 1, &sum);
+    reading r;
+    read_points(torso, points, true, &r);
     double information = 1.0 / torso->doubt[k][k];
     double by =
-        (sum.b[k] + information * (expected - torso->unknown[k])) / (sum.a[k][k] + information);
+        (r.sum.b[k] + information * (expected - torso->unknown[k])) / (r.sum.a[k][k] + information);
     by = rlf_clamp(by, -most_turn, most_turn);
     turn(torso, by);
     torso->unknown[k] += by;
@@ -127,8 +139,8 @@ static void find_turn(rlf_torso *torso, const rlf_torso_points *points, double e
 
 void rlf_torso_improve(rlf_torso *torso, const rlf_torso_points *points, int32_t passes)
 {
-    double information[N][N], expected[N];
-    equations sum = {.count = 0};
+    double information[N][N], covariance[N][N] = {{0.0}}, expected[N];
+    reading read = {.count = 0};
     turn(torso, torso->unknown[RLF_TORSO_TURN]);
     torso->unknown[RLF_TORSO_TURN] = 0.0;
     memcpy(expected, torso->unknown, sizeof expected);
@@ -136,18 +148,19 @@ void rlf_torso_improve(rlf_torso *torso, const rlf_torso_points *points, int32_t
     math_invert(&information[0][0], N);
     for (int32_t pass = 0; pass < passes; pass++) {
         find_turn(torso, points, expected[RLF_TORSO_TURN]);
-        add_points(torso, points, 0, N, &sum);
+        read_points(torso, points, false, &read);
+        rlf_kernel_equations *sum = &read.sum;
         for (int r = 0; r < N; r++) {
             for (int c = 0; c < N; c++) {
-                sum.a[r][c] = information[r][c] + (c <= r ? sum.a[r][c] : sum.a[c][r]);
+                covariance[r][c] = information[r][c] + (c <= r ? sum->a[r][c] : sum->a[c][r]);
                 double off = expected[c] - torso->unknown[c];
-                sum.b[r] += c == RLF_TORSO_TURN ? 0.0 : information[r][c] * off;
+                sum->b[r] += c == RLF_TORSO_TURN ? 0.0 : information[r][c] * off;
             }
         }
-        math_invert(&sum.a[0][0], N);
-        correct(torso, &sum);
+        math_invert(&covariance[0][0], N);
+        correct(torso, covariance, sum->b);
     }
-    memcpy(torso->doubt, sum.a, sizeof torso->doubt);
-    torso->misfit = sum.count >= LEAST_POINTS ? sum.misfit / sum.count : 1.0;
-    torso->area_m2 = sum.fitting * points->area_m2;
+    memcpy(torso->doubt, covariance, sizeof torso->doubt);
+    torso->misfit = read.count >= LEAST_POINTS ? read.misfit / read.count : 1.0;
+    torso->area_m2 = read.fitting * points->area_m2;
 }

@@ -89,14 +89,6 @@ static rlf_kernel_trunk trunk_of(const rlf_torso *torso)
     return t;
 }
 
-/* At a height below the shoulders' middle, downwards; false above and below the trunk. */
-static bool find_section(const rlf_torso *torso, double down, rlf_kernel_section *out)
-{
-    const rlf_kernel_trunk trunk = trunk_of(torso);
-    *out = rlf_kernel_section_at(trunk, down);
-    return down + shoulder_at > rlf_torso_first && down + shoulder_at < rlf_torso_last;
-}
-
 /* A point in the torso's own axes: to the side and ahead of the head's middle, and downwards from
  * the shoulders' middle. */
 typedef struct own_place {
@@ -128,79 +120,71 @@ rlf_vec3 rlf_torso_point(const rlf_torso *torso, rlf_vec3 place)
                          torso->head.z + place.x * torso->side_z + place.z * torso->side_x);
 }
 
-/* Sampson's distance from the section's ellipse. */
-static bool touch_trunk(const rlf_torso *torso, const own_place *at, rlf_torso_touch *out)
+static rlf_kernel_bar bar_of(const rlf_torso *torso)
 {
-    rlf_kernel_section s;
-    if (!find_section(torso, at->down, &s)) {
-        return false;
-    }
-    double u = at->side / s.breadth;
-    double v =
-        (at->ahead - torso->unknown[RLF_TORSO_AHEAD] - torso->unknown[RLF_TORSO_LEAN] * at->down) /
-        s.depth;
-    double gu = u / s.breadth, gv = v / s.depth, steep = sqrt(gu * gu + gv * gv) + 1e-9;
-    gu /= steep;
-    gv /= steep;
-    *out = (rlf_torso_touch){.distance = (u * u + v * v - 1.0) / (2.0 * steep)};
-    out->distance = rlf_max(out->distance, -deepest_in_m);
-    out->slope[RLF_TORSO_AHEAD] = -gv;
-    out->slope[RLF_TORSO_LEAN] = -gv * at->down;
-    out->slope[RLF_TORSO_TURN] = gu * at->ahead - gv * at->side;
-    for (int k = 0; k < SECTIONS; k++) {
-        out->slope[RLF_TORSO_BREADTH + k] = -gu * u * s.share[k];
-        out->slope[RLF_TORSO_DEPTH + k] = -gv * v * s.share[k];
-    }
-    return true;
+    return (rlf_kernel_bar){torso->unknown[RLF_TORSO_SHOULDER], torso->unknown[RLF_TORSO_AHEAD],
+                            shoulder_round};
 }
 
-static bool touch_shoulders(const rlf_torso *torso, const own_place *at, rlf_torso_touch *out)
+void rlf_places_read(const rlf_vec3 *place, int32_t count, rlf_kernel_places *out)
 {
-    if (at->down > arms_down_m || at->down < -shoulders_up_m) {
-        return false;
+    int32_t i = 0;
+    for (; i < count || i % RLF_KERNEL_RAY_LANES != 0; i++) {
+        const rlf_vec3 *at = &place[i < count ? i : count - 1];
+        out->side[i] = at->x;
+        out->down[i] = at->y;
+        out->ahead[i] = at->z;
     }
-    double reach = torso->unknown[RLF_TORSO_SHOULDER], end = rlf_clamp(at->side, -reach, reach);
-    double u = at->side - end, v = at->ahead - torso->unknown[RLF_TORSO_AHEAD];
-    double r = sqrt(u * u + v * v + at->down * at->down) + 1e-9;
-    *out = (rlf_torso_touch){.distance = r - shoulder_round};
-    out->slope[RLF_TORSO_AHEAD] = -v / r;
-    out->slope[RLF_TORSO_TURN] = (u * at->ahead - v * at->side) / r;
-    out->slope[RLF_TORSO_SHOULDER] = (u < 0.0 ? u : -u) / r;
-    out->slope[RLF_TORSO_DROP] = -at->down / r;
-    return true;
+    out->count = i;
 }
 
-/* At the place on the ray that is nearest to the middle of the section, in axes in which that is a
- * circle. */
-bool rlf_torso_touch_rim(const rlf_torso *torso, rlf_vec3 p, rlf_torso_touch *out, double *moved_m)
+static void find_places(const rlf_torso *torso, const rlf_vec3 *p, int32_t count,
+                        rlf_kernel_places *out)
 {
-    const rlf_vec3 origin = {0.0, 0.0, 0.0};
-    own_place at = find_place(torso, p), from = find_place(torso, origin);
-    own_place way = {at.side - from.side, at.ahead - from.ahead, at.down - from.down};
-    rlf_kernel_section s;
-    if (at.down < arms_down_m || !find_section(torso, at.down, &s)) {
-        return false;
+    rlf_vec3 place[RLF_KERNEL_RAYS];
+    for (int32_t i = 0; i < count; i++) {
+        place[i] = rlf_torso_place(torso, p[i]);
     }
-    double axis = torso->unknown[RLF_TORSO_AHEAD] + torso->unknown[RLF_TORSO_LEAN] * at.down;
-    double u = at.side / s.breadth, v = (at.ahead - axis) / s.depth;
-    double du = way.side / s.breadth, dv = way.ahead / s.depth;
-    double by = -(u * du + v * dv) / (du * du + dv * dv);
-    at = (own_place){at.side + by * way.side, at.ahead + by * way.ahead, at.down + by * way.down};
-    *moved_m = by * p.z;
-    return touch_trunk(torso, &at, out);
+    rlf_places_read(place, count, out);
 }
 
-bool rlf_torso_touch_at(const rlf_torso *torso, rlf_vec3 p, rlf_torso_touch *out)
+void rlf_torso_touch(const rlf_torso *torso, const rlf_vec3 *p, int32_t count,
+                     rlf_kernel_touches *out)
 {
-    own_place at = find_place(torso, p);
-    rlf_torso_touch shoulders;
-    bool has_trunk = touch_trunk(torso, &at, out);
-    if (touch_shoulders(torso, &at, &shoulders) &&
-        (!has_trunk || shoulders.distance < out->distance)) {
-        *out = shoulders;
-        return true;
+    const rlf_kernel_torso solid = {.trunk = trunk_of(torso),
+                                    .bar = bar_of(torso),
+                                    .bar_top = -shoulders_up_m,
+                                    .bar_bottom = arms_down_m,
+                                    .deepest = deepest_in_m};
+    rlf_kernel_places places;
+    find_places(torso, p, count, &places);
+    rlf_kernel_touch_torso(&solid, &places, out);
+}
+
+void rlf_torso_touch_rim(const rlf_torso *torso, const rlf_vec3 *p, int32_t count,
+                         rlf_kernel_touches *out, double moved_m[RLF_KERNEL_RAYS])
+{
+    const rlf_vec3 camera = rlf_torso_place(torso, rlf_vec3_make(0.0, 0.0, 0.0));
+    const double from[3] = {camera.x, camera.y, camera.z};
+    const rlf_kernel_torso solid = {.trunk = trunk_of(torso), /* and no bar */
+                                    .bar = bar_of(torso),
+                                    .bar_top = INFINITY,
+                                    .bar_bottom = -INFINITY,
+                                    .deepest = deepest_in_m};
+    rlf_kernel_places places;
+    bool is_below[RLF_KERNEL_RAYS];
+    find_places(torso, p, count, &places);
+    for (int32_t i = 0; i < count; i++) {
+        double below = places.down[i] + shoulder_at;
+        is_below[i] =
+            !(places.down[i] < arms_down_m) && below > rlf_torso_first && below < rlf_torso_last;
     }
-    return has_trunk;
+    rlf_kernel_trunk_beside(&solid.trunk, from, &places, moved_m);
+    rlf_kernel_touch_torso(&solid, &places, out);
+    for (int32_t i = 0; i < count; i++) {
+        out->is_any[i] = is_below[i] ? out->is_any[i] : 0.0;
+        moved_m[i] *= p[i].z;
+    }
 }
 
 void rlf_torso_begin_rays(const rlf_torso *torso, rlf_kernel_ray_lanes *out)
@@ -239,8 +223,7 @@ void rlf_torso_cut_rays(const rlf_torso *torso, const rlf_kernel_ray_lanes *rays
 bool rlf_torso_cut_shoulders(const rlf_torso *torso, const rlf_kernel_ray_lanes *rays,
                              rlf_kernel_cuts *out)
 {
-    const rlf_kernel_bar bar = {torso->unknown[RLF_TORSO_SHOULDER], torso->unknown[RLF_TORSO_AHEAD],
-                                shoulder_round};
+    const rlf_kernel_bar bar = bar_of(torso);
     double far = torso->head.z + bar.reach + rlf_max(bar.ahead, -bar.ahead) + shoulder_round;
     double near = 2.0 * torso->head.z - far, top = 1e9, bottom = -1e9;
     for (int32_t i = 0; i < rays->count; i++) {
