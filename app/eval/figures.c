@@ -50,6 +50,7 @@ typedef enum figure_index {
     SPEED_MEDIAN,
     SPEED_MEAN,
     VELOCITY_MEDIAN,
+    SWIFT_MEAN,
     STILL_ZERO,
     PHANTOMS_SOON,
     PHANTOMS_LATE,
@@ -119,6 +120,7 @@ static const figure_name names[FIGURE_COUNT] = {
     [SPEED_MEDIAN] = {"speed_median_percent", "speed along the normal: median error, %"},
     [SPEED_MEAN] = {"speed_mean_percent", "speed along the normal: mean error, %"},
     [VELOCITY_MEDIAN] = {"velocity_median_percent", "velocity, whole vector: median error, %"},
+    [SWIFT_MEAN] = {"velocity_swift_mean_percent", "velocity above 1.5 m/s: mean error, %"},
     [STILL_ZERO] = {"still_zero_percent", "still pixels exactly still, %"},
     [PHANTOMS_SOON] = {"background_phantoms_soon_percent", "phantoms 3 frames after, %"},
     [PHANTOMS_LATE] = {"background_phantoms_late_percent", "phantoms 30 frames after, %"},
@@ -182,6 +184,7 @@ static void get_solid(const eval_solid *s, double *v)
     v[SPEED_MEDIAN] = eval_speed_median_percent(&s->normal);
     v[SPEED_MEAN] = eval_speed_mean_percent(&s->normal);
     v[VELOCITY_MEDIAN] = eval_speed_median_percent(&s->full);
+    v[SWIFT_MEAN] = eval_speed_mean_percent(&s->swift);
     v[STILL_ZERO] = eval_percent(s->still_zero, s->still);
     v[PHANTOMS_SOON] = eval_percent(s->phantoms.left_soon, s->phantoms.seen_soon);
     v[PHANTOMS_LATE] = eval_percent(s->phantoms.left_late, s->phantoms.seen_late);

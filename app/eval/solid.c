@@ -5,6 +5,7 @@
 
 #define CLOSE_M 0.05
 #define FAST_M_PER_S 0.2
+#define SWIFT_M_PER_S 1.5
 #define STILL_M_PER_S 1e-4
 #define AGE_SOON 3
 #define AGE_LATE 30
@@ -72,6 +73,9 @@ static void add_velocity(eval_solid *e, const rlf_surface *s, int32_t i, const r
     }
     if (rlf_length(real) > FAST_M_PER_S) {
         add_speed(&e->full, rlf_length(error), rlf_length(real));
+    }
+    if (rlf_length(real) > SWIFT_M_PER_S) {
+        add_speed(&e->swift, rlf_length(error), rlf_length(real));
     }
 }
 

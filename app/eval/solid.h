@@ -35,6 +35,7 @@ typedef struct eval_solid {
     int64_t standing_known; /* of its pixels those whose thickness is no guess */
     eval_speed normal;      /* along the true normal */
     eval_speed full;        /* of the whole vector */
+    eval_speed swift;       /* the same of what swings: limbs above 1.5 m/s */
     int64_t still, still_zero;
     eval_phantoms phantoms;
 } eval_solid;

@@ -380,11 +380,12 @@ static void fit_cell(const rlf_cell_grid *g, const samples *all, const rlf_cell 
  */
 static bool neighbour_mean(const rlf_cell_grid *g, int32_t row, int32_t column, float out[3])
 {
-    const int32_t side[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    const int32_t side[8][2] = {{-1, -1}, {0, -1}, {1, -1}, {-1, 0},
+                                {1, 0},   {-1, 1}, {0, 1},  {1, 1}};
     const rlf_cell *cell = &g->cells[row * g->columns + column];
     float count = 0.0f;
     out[0] = out[1] = out[2] = 0.0f;
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 8; k++) {
         int32_t r = row + side[k][1], c = column + side[k][0];
         if (r < 0 || c < 0 || r >= g->rows || c >= g->columns) {
             continue;
