@@ -60,7 +60,8 @@
 #define RLF_KERNEL_UNROLLED(times)
 #endif
 
-/* What is read, or written, soon: brought near while other work is done. */
+/* What is read, or written, soon: brought near while other work is done. A function that does
+ * nothing else is an RLF_KERNEL_PART: compilers leave out calls that have no effect. */
 #if defined(__GNUC__)
 #define RLF_KERNEL_SOON(address) __builtin_prefetch(address)
 #define RLF_KERNEL_SOON_WRITTEN(address) __builtin_prefetch(address, 1)

@@ -155,7 +155,7 @@ static void fill_batch(const fill_job *job, fill_queue *q)
 }
 
 /* What a batch will read of the pixel is brought near. */
-static void look_ahead(const fill_job *job, ptrdiff_t i)
+RLF_KERNEL_PART void look_ahead(const fill_job *job, ptrdiff_t i)
 {
     const rlf_grid *grid = &job->stage->grid;
     RLF_KERNEL_SOON(&grid->ray_x[i]);

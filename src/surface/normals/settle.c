@@ -149,7 +149,7 @@ static void count_marks(const uint8_t *restrict reason, const uint8_t *restrict 
     }
 }
 
-static void fetch(const settle_job *job, ptrdiff_t i)
+RLF_KERNEL_PART void fetch(const settle_job *job, ptrdiff_t i)
 {
     RLF_KERNEL_SOON(&job->settled[i]);
     for (int32_t k = 0; k < 3; k++) {

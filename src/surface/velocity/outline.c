@@ -95,7 +95,7 @@ void rlf_rims_mark(const rlf_flow *job)
 
 /* What the region's motion is found from is far apart in memory: brought near, before windows and
  * pixels ask for it. */
-static void fetch_row(const rlf_flow *job, ptrdiff_t row, rlf_span span)
+RLF_KERNEL_PART void fetch_row(const rlf_flow *job, ptrdiff_t row, rlf_span span)
 {
     enum { LINE = 16 }; /* values of a line of cache */
     for (int32_t x = span.x0; x < span.x1 + LINE - 1; x += LINE) {
