@@ -44,6 +44,17 @@ typedef struct rlf_way {
     float *const *normal;
 } rlf_way;
 
+/* What is read at pixel (x, y) itself is brought near. */
+RLF_KERNEL_PART void rlf_way_fetch(const rlf_way *way, int32_t x, int32_t y)
+{
+    ptrdiff_t i = (ptrdiff_t)y * way->width + x;
+    RLF_KERNEL_SOON(&way->ray_x[i]);
+    RLF_KERNEL_SOON(&way->ray_y[i]);
+    for (int32_t k = 0; k < 3; k++) {
+        RLF_KERNEL_SOON(&way->normal[k][i]);
+    }
+}
+
 /* Pixels and what they see of their outlines. */
 typedef struct rlf_way_from {
     int32_t x[RLF_BATCH], y[RLF_BATCH];

@@ -25,6 +25,9 @@ static const float MOST_CHANGE = 0.05f;
 /* The same for what moves: all that is on its side of the middle. Arms and trunks are round. */
 static const float MOVING_CHANGE = 1e6f;
 
+/* Pixels from one to where the background must go on. */
+enum { ABOUT_BEHIND = 3 };
+
 typedef struct fill_job {
     const rlf_reconstruct *stage;
     const rlf_sheet *behind; /* the background; NULL = unknown */
@@ -38,13 +41,13 @@ typedef struct fill_job {
 /* The background has no outline about a pixel, where its own normals would be guesses too. */
 static bool is_whole(const fill_job *job, int32_t x, int32_t y)
 {
-    enum { ABOUT = 3 };
     const rlf_grid *grid = &job->stage->grid;
     const float *at = job->behind->depth + (ptrdiff_t)y * grid->width + x;
-    ptrdiff_t row = (ptrdiff_t)ABOUT * grid->width;
+    ptrdiff_t row = (ptrdiff_t)ABOUT_BEHIND * grid->width;
     float most = MOST_CHANGE * at[0];
-    return x >= ABOUT && y >= ABOUT && x + ABOUT < grid->width && y + ABOUT < grid->height &&
-           rlf_kernel_abs(at[-ABOUT] - at[0]) < most && rlf_kernel_abs(at[ABOUT] - at[0]) < most &&
+    return x >= ABOUT_BEHIND && y >= ABOUT_BEHIND && x + ABOUT_BEHIND < grid->width &&
+           y + ABOUT_BEHIND < grid->height && rlf_kernel_abs(at[-ABOUT_BEHIND] - at[0]) < most &&
+           rlf_kernel_abs(at[ABOUT_BEHIND] - at[0]) < most &&
            rlf_kernel_abs(at[-row] - at[0]) < most && rlf_kernel_abs(at[row] - at[0]) < most;
 }
 
@@ -161,7 +164,11 @@ RLF_KERNEL_PART void look_ahead(const fill_job *job, ptrdiff_t i)
     RLF_KERNEL_SOON(&grid->ray_x[i]);
     RLF_KERNEL_SOON(&grid->ray_y[i]);
     if (job->behind != NULL) {
+        ptrdiff_t row = ABOUT_BEHIND * grid->width;
+        RLF_KERNEL_SOON(&job->stage->background.mean[i]);
         RLF_KERNEL_SOON(&job->behind->depth[i]);
+        RLF_KERNEL_SOON(&job->behind->depth[i >= row ? i - row : i]);
+        RLF_KERNEL_SOON(&job->behind->depth[i + row < grid->count ? i + row : i]);
         for (int k = 0; k < 3; k++) {
             RLF_KERNEL_SOON(&job->behind->normal[k][i]);
         }

@@ -168,6 +168,7 @@ static void find_outlines(const outline_job *job, outline_queues *queues)
         bool has_outline = q->at.outline.distance[k] > 0.0f;
         if (has_outline && !rlf_side_find(job->side, q->at.x[k], q->at.y[k], q->at.outline.x[k],
                                           q->at.outline.y[k])) {
+            rlf_way_fetch(&job->way, q->at.x[k], q->at.y[k]);
             push(&queues->found, q->at.x[k], q->at.y[k], &q->at.outline, k);
             if (queues->found.count == RLF_BATCH) {
                 turn_found(job, queues);

@@ -63,6 +63,7 @@ static void push_found(const turn_job *job, turn_queue *found, int32_t x, int32_
                        float out_y, float distance)
 {
     int32_t lane = found->count++;
+    rlf_way_fetch(&job->way, x, y);
     found->at.x[lane] = x;
     found->at.y[lane] = y;
     found->at.outline.x[lane] = out_x;
@@ -99,6 +100,7 @@ static void push_leaning(const turn_job *job, int32_t x, int32_t y, turn_queues 
 {
     turn_queue *q = &queues->leaning;
     int32_t lane = q->count++;
+    rlf_way_fetch(&job->way, x, y);
     q->at.x[lane] = x;
     q->at.y[lane] = y;
     if (q->count == RLF_BATCH) {

@@ -68,15 +68,17 @@ bool rlf_past_move_pixel(const rlf_grid *grid, const rlf_slot *slot, int32_t x, 
 /* Pixels of the same body from k on along `step`, up to `limit`. */
 static int32_t run_length(const rlf_slot *slot, ptrdiff_t k, ptrdiff_t step, int32_t limit)
 {
-    int32_t n = 0;
-    while (n < limit && rlf_past_is_front(slot, k + (n + 1) * step)) {
-        float jump = slot->depth[k + (n + 1) * step] - slot->depth[k + n * step];
-        if (jump > body_jump_m || jump < -body_jump_m) {
-            break;
+    float z = slot->depth[k];
+    for (int32_t n = 0; n < limit; n++) {
+        k += step;
+        float next = slot->depth[k], jump = next - z;
+        if (slot->foreground[k] == 0 || !(next > 0.0f) || jump > body_jump_m ||
+            jump < -body_jump_m) {
+            return n;
         }
-        n++;
+        z = next;
     }
-    return n;
+    return limit;
 }
 
 static int32_t least_of(int32_t a, int32_t b)
