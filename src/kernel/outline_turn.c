@@ -7,7 +7,7 @@
  * (a crease bends): people and what else moves are rounded, what stands in a room mostly has faces,
  * and a crease beside an outline looks like a little of a turn. What moves may be so thin that most
  * of the samples are beyond its middle, where it turns to the other side. */
-static const float least_turn_still = 0.3f, least_turn_moving = 0.04f;
+static const float least_turn_still = 0.5f, least_turn_moving = 0.04f;
 static const float most_bend_still = 0.1f, most_bend_moving = 0.15f;
 static const float least_out_still = 0.0f, least_out_moving = -1.0f;
 static const float most_aside = 0.98f; /* sine of the steepest normal that is given */

@@ -125,6 +125,9 @@ static void complete_planes(rlf_reconstruct *stage, rlf_slot *slot)
     if (stage->def.enable_edge_normals) {
         rlf_normals_crease(stage, slot);
     }
+    if (stage->steady.settled != NULL) {
+        rlf_settle_lead(stage, slot);
+    }
     if (stage->def.enable_fill && stage->def.enable_edge_normals) {
         const uint8_t *rounded = rlf_normals_rounded_front(stage);
         rlf_normals_turn(stage, slot, rounded);
@@ -208,6 +211,7 @@ static void make_normals(rlf_reconstruct *stage, rlf_slot *slot)
     if (exact && stage->def.enable_smoothing && job.face_camera) {
         if (stage->steady.settled != NULL) {
             rlf_settle_normals(stage, slot);
+            rlf_settle_agree(stage, slot);
         }
         return; /* the rest was made with the depth */
     }

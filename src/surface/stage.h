@@ -119,6 +119,8 @@ typedef struct rlf_background {
     rlf_standing thick;
 } rlf_background;
 
+enum { RLF_SETTLE_MOST_VOTES = 32 }; /* a second: as long may what was stay */
+
 /* The normal that most frames agree on at a pixel that is watched: see normals/settle.c. */
 typedef struct rlf_settled {
     float normal[3], depth;
@@ -131,10 +133,11 @@ typedef struct rlf_steady {
     float *mean, *frames;
     rlf_settled *settled; /* plane; NULL when normals at edges are not wanted */
     uint8_t *mark;        /* plane: not 0 where one is watched, see normals/settle.c */
-    uint8_t *overruled;   /* plane: 1 where the newest frame's normal is another */
+    uint8_t *overruled;   /* plane: not 0 where the newest frame's own normal is another */
     uint8_t *calm;     /* per block of RLF_HOLD_BLOCK pixels, frames since something moved there */
     uint8_t *restless; /* per block: 1 where it, or one beside it, is not calm */
     int32_t age;       /* frames that were averaged, up to 255 */
+    int32_t next_row;  /* the first that normals/agree.c asks next */
 } rlf_steady;
 
 /* Side of a block in pixels, and the frames without motion after which one is calm. */

@@ -44,12 +44,20 @@ bool rlf_settle_is_wanted(const rlf_reconstruct_def *def);
 /* What frames agree on at pixel i; NULL = nothing. */
 const rlf_settled *rlf_settle_at(const rlf_reconstruct *stage, ptrdiff_t i);
 /* What follows is not called when steady.settled is NULL. */
+/* Seen pixels that are watched take what has been settled, before others are completed from them;
+ * after rlf_normals_crease. */
+void rlf_settle_lead(const rlf_reconstruct *stage, const rlf_slot *slot);
 /* Normals of the background's watched pixels become those that most frames agree on. After
  * rlf_background_update. */
 void rlf_settle_normals(const rlf_reconstruct *stage, const rlf_slot *slot);
+/* agree.c: settles the normals that means over time lie on, in some of the rows; after
+ * rlf_settle_normals. */
+void rlf_settle_agree(rlf_reconstruct *stage, const rlf_slot *slot);
 /* Watches the pixels from `first` on whose mark is not 0. */
 void rlf_settle_watch(const rlf_reconstruct *stage, ptrdiff_t first, const uint8_t *marks,
                       int32_t count);
+/* Seen pixel i has another normal than when it took what was settled. */
+void rlf_settle_ask(const rlf_reconstruct *stage, ptrdiff_t i);
 /* Lags of a row by the normals that the frame before found itself, where they were overruled. */
 void rlf_settle_lags(const rlf_reconstruct *stage, ptrdiff_t row, const rlf_kernel_lag_in *in,
                      int8_t *lag);

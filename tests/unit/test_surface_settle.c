@@ -164,6 +164,57 @@ static void what_has_changed_is_believed(void **state)
     assert_true(50 * moved.wrong < 50 * there.wrong + moved.count);
 }
 
+/* A shelf board beside the camera, three and a half centimetres thick, from above: its side is
+ * a strip of four or five pixels between its top, seen at a low angle, and the wall behind. */
+static void set_board(seen_view *v, double right, double top)
+{
+    const double first = 2.5, last = 3.5, thick = 0.035, wall = 4.0;
+    for (int i = 0; i < COUNT; i++) {
+        double x = v->ray_x[i], y = v->ray_y[i];
+        double at_top = top / rlf_max(y, 0.001), at_side = right / rlf_min(x, -0.001);
+        face[i] =
+            at_side > first && at_side < last && y * at_side > top && y * at_side < top + thick;
+        bool is_front = x * first < right && y * first > top && y * first < top + thick;
+        bool is_top = at_top > first && at_top < last && x * at_top < right;
+        v->truth[i] = (float)(is_front ? first : face[i] ? at_side : is_top ? at_top : wall);
+        normal[i] = rlf_vec3_make(face[i] ? 1 : 0, 0, 0);
+    }
+}
+
+/* A slanted face is noisier. */
+static const rlf_surface *take_slanted(seen_view *v, rlf_reconstruct *stage, int32_t number)
+{
+    const float slanted = 2.5f;
+    for (int i = 0; i < COUNT; i++) {
+        float noise = seen_view_noisy(v, v->truth[i]) - v->truth[i];
+        v->seen[i] = v->truth[i] + (face[i] ? slanted : 1.0f) * noise;
+    }
+    return seen_view_process(v, stage, number);
+}
+
+static void a_narrow_side_is_found(void **state)
+{
+    seen_view *v = *state;
+    int count = 0, wrong = 0;
+    for (int k = 0; k < 6; k++) {
+        set_board(v, -0.4 - 0.01 * k, 0.2 + 0.003 * k);
+        rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &v->rig);
+        rlf_reconstruct *stage = seen_view_stage(&def);
+        const rlf_surface *s = NULL;
+        for (int32_t t = 0; t <= 2 * SETTLED; t++) {
+            s = take_slanted(v, stage, t);
+        }
+        for (int i = 0; i < COUNT; i++) {
+            count += face[i];
+            wrong += face[i] && angle_deg(normal_at(s, i), normal[i]) > 30.0;
+        }
+        rlf_reconstruct_destroy(&stage);
+    }
+    print_message("%d of %d wrong\n", wrong, count);
+    assert_true(count > 300);
+    assert_true(7 * wrong < count);
+}
+
 static void what_stands_in_front_has_its_own(void **state)
 {
     seen_view *v = *state;
@@ -188,6 +239,7 @@ int main(void)
         cmocka_unit_test(noise_does_not_turn_normals),
         cmocka_unit_test(the_background_has_the_side_that_is_settled),
         cmocka_unit_test(what_has_changed_is_believed),
+        cmocka_unit_test(a_narrow_side_is_found),
         cmocka_unit_test(what_stands_in_front_has_its_own),
     };
     return cmocka_run_group_tests(tests, set_up, seen_view_destroy);

@@ -6,11 +6,13 @@
  * that does not takes from it, and at zero the next candidate is the newest. So what has changed
  * stays for no longer than its votes, and only at the depth where it was. Only pixels that ever
  * were filled or lay on a crease are watched, and only while they show the background: what moves
- * has nothing to agree on.
+ * has nothing to agree on. What was filled is completed from what has been settled for what was
+ * seen beside it.
  *
  * The gates of the next frame's steadying go by what the frame itself saw (rlf_settle_lags): a
  * pixel that was overruled by a steep face's noise must not count as motion, or the other way
- * round. */
+ * round. What has been settled for long may be the steeper one, and counts then: a side that frames
+ * take for the front beside it is as noisy as a side. */
 #include "surface/steps.h"
 
 #include "kernel/kernel.h"
@@ -22,20 +24,23 @@ static const float AGREED = 0.94f;     /* cosine: 20 degrees */
 static const float MOST_APART = 0.03f; /* share of the depth, of one surface */
 
 enum {
-    MOST_VOTES = 32, /* a second: as long may what was stay */
-    LEAST_VOTES = 3, /* for the published background */
+    LEAST_VOTES = 3,    /* for the published background */
+    LEADING_VOTES = 16, /* for what is completed from what was seen */
     /* A pixel's mark is how many frames it is still watched for. */
     MOST_IDLE = 8, /* frames in a row that gave no reason to */
     DUE = 128,     /* the newest frame gives one */
+    AGREES = 64,   /* it agrees, and all votes are for that already */
     TOGETHER = 64, /* pixels */
     SPAN = 512
 };
 
 enum { ASKED = 1, ENDED };
 
+enum { OVERRULED = 1, OVERRULED_AHEAD /* of the vote */ };
+
 typedef struct settle_job {
     int32_t width;
-    const uint8_t *reason, *foreground;
+    const uint8_t *reason, *foreground, *known;
     const float *depth;
     float *const *normal;
     rlf_settled *settled;
@@ -51,7 +56,7 @@ static void propose(rlf_settled *s, const float normal[3], float depth)
 
 static void agree(rlf_settled *s, const float normal[3], float depth)
 {
-    if (s->votes == MOST_VOTES) {
+    if (s->votes == RLF_SETTLE_MOST_VOTES) {
         return;
     }
     s->votes++;
@@ -67,14 +72,19 @@ static void agree(rlf_settled *s, const float normal[3], float depth)
     s->depth += part * (depth - s->depth);
 }
 
+static void write_normal(const settle_job *job, ptrdiff_t i, const float normal[3])
+{
+    for (int32_t k = 0; k < 3; k++) {
+        job->normal[k][i] = normal[k];
+    }
+}
+
 static void overrule(const settle_job *job, ptrdiff_t i, const float normal[3])
 {
     rlf_settled *s = &job->settled[i];
-    memcpy(s->own, normal, sizeof s->own);
-    for (int32_t k = 0; k < 3; k++) {
-        job->normal[k][i] = s->normal[k];
-    }
-    job->overruled[i] = 1;
+    memmove(s->own, normal, sizeof s->own);
+    write_normal(job, i, s->normal);
+    job->overruled[i] = OVERRULED;
 }
 
 /* What a watched pixel has now, and how that is to what was settled. */
@@ -91,6 +101,7 @@ static void vote(const settle_job *job, ptrdiff_t i, const ballot *now)
     } else if (now->is_near && now->cosine > AGREED) {
         agree(s, now->normal, now->depth);
     } else if (--s->votes == 0) {
+        write_normal(job, i, now->normal);
         propose(s, now->normal, now->depth);
     } else if (now->is_near) {
         overrule(job, i, now->normal);
@@ -104,12 +115,15 @@ static bool compare(const settle_job *job, ptrdiff_t i, ballot *now)
     const rlf_settled *s = &job->settled[i];
     float z = job->depth[i], square = 0.0f;
     *now = (ballot){{job->normal[0][i], job->normal[1][i], job->normal[2][i]}, z, 0.0f, false};
+    if (job->overruled[i] == OVERRULED_AHEAD) {
+        memcpy(now->normal, s->own, sizeof s->own);
+    }
     for (int32_t k = 0; k < 3; k++) {
         now->cosine += now->normal[k] * s->normal[k];
         square += now->normal[k] * now->normal[k];
     }
     now->is_near = rlf_kernel_abs(z - s->depth) < MOST_APART * z;
-    bool is_settled = (s->votes == MOST_VOTES) & now->is_near & (now->cosine > AGREED);
+    bool is_settled = (s->votes == RLF_SETTLE_MOST_VOTES) & now->is_near & (now->cosine > AGREED);
     return (square > 0.5f) & !is_settled;
 }
 
@@ -142,10 +156,13 @@ static void count_marks(const uint8_t *restrict reason, const uint8_t *restrict 
 {
     for (int32_t x = 0; x < count; x++) {
         bool is_front = foreground[x] != 0;
-        uint8_t old = (uint8_t)(mark[x] | choose(reason[x] == RLF_REASON_FILLED, DUE, 0));
+        bool agrees = (mark[x] & AGREES) != 0;
+        uint8_t old = (uint8_t)((mark[x] & (uint8_t)~AGREES) |
+                                choose(reason[x] == RLF_REASON_FILLED, DUE, 0));
         uint8_t next = choose(old >= DUE, MOST_IDLE, (uint8_t)(old - (old != 0)));
         mark[x] = choose(is_front, old & (DUE - 1), next);
-        now[x] = choose(is_front, 0, choose(next != 0, ASKED, choose(old != 0, ENDED, 0)));
+        now[x] = choose(is_front, 0,
+                        choose(next != 0, choose(agrees, 0, ASKED), choose(old != 0, ENDED, 0)));
     }
 }
 
@@ -177,17 +194,79 @@ static void settle_pixels(const settle_job *job, ptrdiff_t first, int32_t count)
     vote_all(job, first, asked, waiting);
 }
 
+/* What stands in front keeps its own normals. */
+static void take_back(const settle_job *job, ptrdiff_t row)
+{
+    uint8_t *overruled = job->overruled + row;
+    for (int32_t x = 0; (x = rlf_kernel_next_mark(overruled, x, job->width)) < job->width; x++) {
+        if (job->foreground[row + x] != 0) {
+            write_normal(job, row + x, job->settled[row + x].own);
+            overruled[x] = 0;
+        }
+    }
+}
+
 static void settle_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
     const settle_job *job = context;
     for (int32_t y = begin; y < end; y++) {
         ptrdiff_t row = (ptrdiff_t)y * job->width;
-        memset(job->overruled + row, 0, (size_t)job->width);
+        take_back(job, row);
         for (int32_t x = 0; x < job->width; x += SPAN) {
             settle_pixels(job, row + x, job->width - x < SPAN ? job->width - x : SPAN);
         }
     }
+}
+
+/* ---- before what was filled is completed ---- */
+
+/* A seen pixel that is watched has what was settled at its depth, unless it found that itself. */
+static void lead(const settle_job *job, ptrdiff_t i)
+{
+    rlf_settled *s = &job->settled[i];
+    float z = job->depth[i], cosine = 0.0f, square = 0.0f;
+    const float own[3] = {job->normal[0][i], job->normal[1][i], job->normal[2][i]};
+    for (int32_t k = 0; k < 3; k++) {
+        cosine += own[k] * s->normal[k];
+        square += own[k] * own[k];
+    }
+    bool is_near = rlf_kernel_abs(z - s->depth)<MOST_APART * z, agrees = cosine> AGREED;
+    bool is_settled = (s->votes == RLF_SETTLE_MOST_VOTES) & is_near & agrees;
+    job->mark[i] = (uint8_t)(job->mark[i] | (is_settled ? AGREES : 0));
+    if ((square > 0.5f) & (s->votes >= LEADING_VOTES) & is_near & !agrees) {
+        memcpy(s->own, own, sizeof own);
+        write_normal(job, i, s->normal);
+        job->overruled[i] = OVERRULED_AHEAD;
+    }
+}
+
+static void lead_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const settle_job *job = context;
+    for (int32_t y = begin; y < end; y++) {
+        ptrdiff_t row = (ptrdiff_t)y * job->width;
+        const uint8_t *mark = job->mark + row, *known = job->known + row;
+        memset(job->overruled + row, 0, (size_t)job->width);
+        for (int32_t x = 0; (x = rlf_kernel_next_mark(mark, x, job->width)) < job->width; x++) {
+            if (known[x] != 0) {
+                lead(job, row + x);
+            }
+        }
+    }
+}
+
+void rlf_settle_lead(const rlf_reconstruct *stage, const rlf_slot *slot)
+{
+    settle_job job = {.width = stage->grid.width,
+                      .known = stage->work.mask[0],
+                      .depth = slot->depth,
+                      .normal = slot->normal,
+                      .settled = stage->steady.settled,
+                      .mark = stage->steady.mark,
+                      .overruled = stage->steady.overruled};
+    rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, lead_rows, &job);
 }
 
 bool rlf_settle_is_wanted(const rlf_reconstruct_def *def)
@@ -228,6 +307,23 @@ void rlf_settle_watch(const rlf_reconstruct *stage, ptrdiff_t first, const uint8
     }
 }
 
+void rlf_settle_ask(const rlf_reconstruct *stage, ptrdiff_t i)
+{
+    if (stage->steady.mark != NULL) {
+        stage->steady.mark[i] &= (uint8_t)~AGREES;
+    }
+}
+
+/* The steeper of the normals that pixel i found and that were settled, in the frame before. */
+static const float *steeper(const rlf_reconstruct *stage, ptrdiff_t i)
+{
+    const rlf_settled *s = &stage->steady.settled[i];
+    float x = stage->grid.ray_x[i], y = stage->grid.ray_y[i];
+    float own = s->own[0] * x + s->own[1] * y + s->own[2];
+    float settled = s->normal[0] * x + s->normal[1] * y + s->normal[2];
+    return settled > own && s->votes > LEADING_VOTES ? s->normal : s->own;
+}
+
 void rlf_settle_lags(const rlf_reconstruct *stage, ptrdiff_t row, const rlf_kernel_lag_in *in,
                      int8_t *lag)
 {
@@ -235,7 +331,7 @@ void rlf_settle_lags(const rlf_reconstruct *stage, ptrdiff_t row, const rlf_kern
     int32_t width = stage->grid.width;
     rlf_kernel_noise noise = rlf_kernel_noise_make(&stage->def.rig.noise);
     for (int32_t x = 0; (x = rlf_kernel_next_mark(overruled, x, width)) < width; x++) {
-        const float *own = stage->steady.settled[row + x].own;
+        const float *own = steeper(stage, row + x);
         const rlf_kernel_lag_in one = {{&own[0], &own[1], &own[2]},
                                        in->ray_x + x,
                                        in->ray_y + x,

@@ -227,6 +227,7 @@ static void spread_from(const rlf_side_job *job, int32_t x, int32_t y)
     int32_t steps = across > down ? across : down;
     for (int32_t k = 1; k <= steps; k++) {
         ptrdiff_t i = from + (ptrdiff_t)(dy * k / steps) * job->width + dx * k / steps;
+        rlf_settle_ask(job->stage, i);
         for (int32_t n = 0; n < 3; n++) {
             job->normal[n][i] = job->normal[n][from];
         }
