@@ -323,6 +323,22 @@ static void bounces_off_a_front_beside_a_slanted_side(void **state)
     }
 }
 
+/* A ball that comes from beyond the block's edge, and passes that without a touch. */
+static void bounces_off_a_front_behind_its_edge(void **state)
+{
+    (void)state;
+    set_block(-0.2);
+    double worst = 0.0;
+    for (int i = 0; i < 20; i++) {
+        rlf_vec3 touched = {-0.205 - 0.002 * i, 0.02, 2.0 - RADIUS};
+        rlf_vec3 from = rlf_mad(touched, rlf_vec3_make(-3.0, 0.0, 1.5), -0.12 - 0.001 * i);
+        rlf_vec3 out = thrown(from, rlf_vec3_make(-3.0, 0.0, 1.5), RADIUS);
+        worst = fmax(worst, degrees_between(out, rlf_vec3_make(-3.0, 0.0, -1.2)));
+    }
+    print_message("behind an edge: direction off by %.1f deg at most\n", worst);
+    assert_true(worst < 2.0);
+}
+
 /* The foreground becomes what the camera sees of a solid ball, as thick as that is. */
 static void set_thick(rlf_vec3 centre, double radius)
 {
@@ -419,6 +435,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(bounces_off_a_rim_where_it_is, set_up, tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_a_front_beside_a_slanted_side, set_up,
                                         tear_down),
+        cmocka_unit_test_setup_teardown(bounces_off_a_front_behind_its_edge, set_up, tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_a_floor_seen_at_a_low_angle, set_up, tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_a_noisy_bulge_that_moves, set_up, tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_the_back_of_something_thick, set_up, tear_down),

@@ -120,23 +120,30 @@ static void add_hit(grid_job *job, double time, const patch_mean *touched, int32
 }
 
 /* When the ball comes to the end of the face, which stands out beyond the pixels that show it, and
- * where on it. */
-static rlf_vec3 meet_end(const grid_patch *p, const patch_end *end, const patch_mean *face,
-                         double *time)
+ * where on it. False when it does not before the next query: pixels are noted for balls that are
+ * wider by what is between them. */
+static bool meet_end(const grid_patch *p, const patch_end *end, const patch_mean *face,
+                     double *time, rlf_vec3 *out)
 {
     double start = rlf_max(0.0, p->time);
     rlf_vec3 v = face->velocity, edge = end->point;
+    bool is_reached = false;
     for (int32_t i = 0; i < EDGE_MOVES; i++) {
         double later = rlf_max(0.0, *time) - start;
         rlf_vec3 centre = rlf_mad(patch_centre_at(p->job, *time), v, -later);
         edge = patch_end_nearest(end, centre);
         double next;
-        if (!grid_ball_time(p->job, rlf_mad(edge, v, -start), v, 0.0, &next)) {
+        if (grid_ball_time(p->job, rlf_mad(edge, v, -start), v, 0.0, &next)) {
+            *time = next;
+            is_reached = true;
+        } else if (is_reached || *time >= p->job->horizon) {
             break;
+        } else {
+            *time = p->job->horizon;
         }
-        *time = next;
     }
-    return rlf_mad(edge, v, rlf_max(0.0, *time) - start);
+    *out = rlf_mad(edge, v, rlf_max(0.0, *time) - start);
+    return is_reached;
 }
 
 /* Reads all pixels about the nearest one. */
@@ -183,7 +190,10 @@ static bool face_edge(grid_patch *p, grid_meeting *touch, patch_mean *touched)
     }
     patch_find_end(p, touched, is_averaged, &end);
     double time = p->time;
-    rlf_vec3 edge = meet_end(p, &end, touched, &time);
+    rlf_vec3 edge;
+    if (!meet_end(p, &end, touched, &time, &edge)) {
+        return false;
+    }
     touch->time = time;
     rlf_vec3 centre = patch_centre_at(p->job, time), way = rlf_sub(centre, edge);
     rlf_vec3 direction = rlf_normalize(way);
@@ -216,6 +226,8 @@ static bool touch_face(const grid_job *job, grid_meeting *touch, patch_mean *out
     return true;
 }
 
+/* The wall's direction is smoother than that to the one line of it that was noted: the plane that
+ * faces it is where the ball is when it comes to that line. */
 static bool touch_wall(const grid_job *job, const grid_meeting *touch, patch_mean *out,
                        int32_t *label)
 {
@@ -226,7 +238,9 @@ static bool touch_wall(const grid_job *job, const grid_meeting *touch, patch_mea
     *label = cell.label;
     out->velocity = cell.velocity;
     out->normal = touch->direction;
-    out->point = rlf_mad(touch->point, cell.velocity, rlf_max(0.0, touch->time));
+    rlf_vec3 centre = patch_centre_at(job, touch->time);
+    rlf_vec3 point = rlf_mad(touch->point, cell.velocity, rlf_max(0.0, touch->time));
+    out->point = rlf_mad(centre, out->normal, -rlf_length(rlf_sub(centre, point)));
     return true;
 }
 
@@ -239,28 +253,45 @@ static bool is_met(const grid_job *job, const patch_mean *touched, double time, 
     return height - job->body->shape.shape.radius > -0.002;
 }
 
+/* What a touch's pixels say. Pixels are noted for balls that are wider, by unlike amounts: only the
+ * time that is found tells which touch is the first. */
+typedef struct found_touch {
+    patch_mean touched;
+    double time;
+    int32_t label;
+} found_touch;
+
+static int32_t find_touches(const grid_job *job, found_touch *out)
+{
+    int32_t count = 0;
+    for (int32_t k = 0; k < job->meeting_count; k++) {
+        grid_meeting touch = job->meetings[k];
+        found_touch *found = &out[count];
+        bool is_wall = touch.face == GRID_TOUCH_SIDE;
+        count += is_wall ? touch_wall(job, &touch, &found->touched, &found->label)
+                         : touch_face(job, &touch, &found->touched, &found->label);
+        found->time = touch.time;
+    }
+    return count;
+}
+
 void grid_ball_add_hits(grid_job *job)
 {
-    bool is_used[GRID_MEETINGS_MAX] = {false};
+    found_touch touches[GRID_MEETINGS_MAX];
+    int32_t count = find_touches(job, touches);
     double first = -1.0;
-    for (int32_t k = 0; k < job->meeting_count; k++) {
-        int32_t i = -1;
-        for (int32_t j = 0; j < job->meeting_count; j++) {
-            if (!is_used[j] && (i < 0 || job->meetings[j].time < job->meetings[i].time)) {
-                i = j;
-            }
+    while (count > 0) {
+        int32_t i = 0;
+        for (int32_t j = 1; j < count; j++) {
+            i = touches[j].time < touches[i].time ? j : i;
         }
-        is_used[i] = true;
-        grid_meeting touch = job->meetings[i];
-        patch_mean touched;
-        int32_t label;
-        bool is_found = touch.face == GRID_TOUCH_SIDE ? touch_wall(job, &touch, &touched, &label)
-                                                      : touch_face(job, &touch, &touched, &label);
-        double time = rlf_max(0.0, touch.time);
-        if (is_found && (first < 0.0 ||
-                         (is_met(job, &touched, time, first) && !is_known(job, touched.normal)))) {
-            add_hit(job, time, &touched, label);
+        const found_touch *found = &touches[i];
+        double time = rlf_max(0.0, found->time);
+        if (first < 0.0 ||
+            (is_met(job, &found->touched, time, first) && !is_known(job, found->touched.normal))) {
+            add_hit(job, time, &found->touched, found->label);
             first = first < 0.0 ? time : first;
         }
+        touches[i] = touches[--count];
     }
 }

@@ -140,16 +140,17 @@ static seen_span span_of(const grid_patch *p, const patch_plane *face, rlf_vec3 
     return span;
 }
 
-/* Whether the faces of the set are seen beside q, and on both sides of it along their edge. */
+/* Whether the faces of the set are seen beside q, and two of them on both sides of it along their
+ * edge. The first face alone is none: the ball is beyond its end. */
 static bool is_seen(const grid_patch *p, const patch_corner *corner, uint32_t bits, rlf_vec3 q)
 {
     const rlf_grid *grid = p->job->query->grid;
     int32_t set[CORNER_FACES], count = list_faces(bits, set);
     double at[2], from = 0.0, to = 0.0;
-    if (count < 2 || !(q.z > 0.0) || !grid->project(grid->project_context, q, &at[0], &at[1])) {
+    if (bits < 2 || !(q.z > 0.0) || !grid->project(grid->project_context, q, &at[0], &at[1])) {
         return false;
     }
-    rlf_vec3 along = rlf_cross(corner->faces[set[0]].normal, corner->faces[set[1]].normal);
+    rlf_vec3 along = rlf_cross(corner->faces[set[0]].normal, corner->faces[set[count > 1]].normal);
     for (int32_t i = 0; i < count; i++) {
         seen_span span = span_of(p, &corner->faces[set[i]], q, at, along);
         if (!span.is_any) {
@@ -158,7 +159,7 @@ static bool is_seen(const grid_patch *p, const patch_corner *corner, uint32_t bi
         from = rlf_min(from, span.from);
         to = rlf_max(to, span.to);
     }
-    return count > 2 || (from < 0.0 && to > 0.0);
+    return count != 2 || (from < 0.0 && to > 0.0);
 }
 
 bool corner_find(const grid_patch *p, const patch_mean *face, patch_corner *out)
