@@ -231,7 +231,8 @@ static void lead(const settle_job *job, ptrdiff_t i)
         cosine += own[k] * s->normal[k];
         square += own[k] * own[k];
     }
-    bool is_near = rlf_kernel_abs(z - s->depth)<MOST_APART * z, agrees = cosine> AGREED;
+    bool is_near = rlf_kernel_abs(z - s->depth) < MOST_APART * z;
+    bool agrees = cosine > AGREED;
     bool is_settled = (s->votes == RLF_SETTLE_MOST_VOTES) & is_near & agrees;
     job->mark[i] = (uint8_t)(job->mark[i] | (is_settled ? AGREES : 0));
     if ((square > 0.5f) & (s->votes >= LEADING_VOTES) & is_near & !agrees) {
