@@ -47,8 +47,8 @@ const rlf_settled *rlf_settle_at(const rlf_reconstruct *stage, ptrdiff_t i);
 /* Seen pixels that are watched take what has been settled, before others are completed from them;
  * after rlf_normals_crease. */
 void rlf_settle_lead(const rlf_reconstruct *stage, const rlf_slot *slot);
-/* Normals of the background's watched pixels become those that most frames agree on. After
- * rlf_background_update. */
+/* Normals of the background's watched pixels become those that most frames agree on, and so does
+ * the depth of those that were filled on another side. After rlf_background_update. */
 void rlf_settle_normals(const rlf_reconstruct *stage, const rlf_slot *slot);
 /* agree.c: settles the normals that means over time lie on, in some of the rows; after
  * rlf_settle_normals. */

@@ -10,6 +10,8 @@
 
 #include "seen_view.h"
 
+#include <math.h>
+
 enum { WIDTH = 192, HEIGHT = 96, COUNT = WIDTH * HEIGHT, SETTLED = 48, SECOND = 40 };
 
 static rlf_vec3 normal[COUNT];
@@ -142,6 +144,47 @@ static void the_background_has_the_side_that_is_settled(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
+/* A board before a wall, at whose edge the sensor drops four columns, ragged by one on both sides,
+ * while something flickers beside it, so that nothing that was seen is recalled. */
+static const rlf_surface *take_ragged(seen_view *v, rlf_reconstruct *stage, int32_t number)
+{
+    enum { EDGE = 96, DROPPED = 2, BESIDE = EDGE + 8, BROAD = 4 };
+    for (int32_t y = 0; y < HEIGHT; y++) {
+        int32_t first = EDGE - DROPPED + (int32_t)(3.0 * random_uniform(&v->random)) - 1;
+        int32_t last = EDGE + DROPPED + (int32_t)(3.0 * random_uniform(&v->random)) - 1;
+        for (int32_t x = 0; x < WIDTH; x++) {
+            bool flickers = x >= BESIDE && x < BESIDE + BROAD && number % 2 != 0;
+            float z = seen_view_noisy(v, x < EDGE ? 2.0f : flickers ? 2.7f : 3.0f);
+            v->seen[y * WIDTH + x] = x >= first && x < last ? 0.0f : z;
+        }
+    }
+    return seen_view_process(v, stage, number);
+}
+
+/* A dropped pixel has one side while nothing moves there, not one that raggedness chooses anew. */
+static void a_dropped_pixel_stays_on_its_side(void **state)
+{
+    enum { FRAMES = 32, EDGE = 96, ABOUT = 3, LAST = SETTLED + FRAMES };
+    static float before[COUNT];
+    seen_view *v = *state;
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &v->rig);
+    rlf_reconstruct *stage = seen_view_stage(&def);
+    int changed = 0;
+    for (int32_t t = 0; t < LAST; t++) {
+        const rlf_surface *s = take_ragged(v, stage, t);
+        for (int i = 8 * WIDTH; i < COUNT - 8 * WIDTH; i++) {
+            int32_t x = i % WIDTH;
+            bool is_watched = t >= SETTLED && x >= EDGE - ABOUT && x < EDGE + ABOUT;
+            changed += is_watched && fabs(s->depth[i] - before[i]) > 0.5;
+            before[i] = s->depth[i];
+        }
+    }
+    int count = (HEIGHT - 16) * 2 * ABOUT * FRAMES;
+    print_message("%d changes of side in %d pixels\n", changed, count);
+    assert_true(50 * changed < count);
+    rlf_reconstruct_destroy(&stage);
+}
+
 /* A corner is three pixels off its place, nearer than a jump of depth: soon it is as right as one
  * that was there from the start. */
 static void what_has_changed_is_believed(void **state)
@@ -238,6 +281,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(noise_does_not_turn_normals),
         cmocka_unit_test(the_background_has_the_side_that_is_settled),
+        cmocka_unit_test(a_dropped_pixel_stays_on_its_side),
         cmocka_unit_test(what_has_changed_is_believed),
         cmocka_unit_test(a_narrow_side_is_found),
         cmocka_unit_test(what_stands_in_front_has_its_own),

@@ -7,7 +7,8 @@
  * stays for no longer than its votes, and only at the depth where it was. Only pixels that ever
  * were filled or lay on a crease are watched, and only while they show the background: what moves
  * has nothing to agree on. What was filled is completed from what has been settled for what was
- * seen beside it.
+ * seen beside it. On which side of an outline a filled pixel is, each frame guesses anew as well:
+ * one that is on another than most frames agree on is put back, depth and normal.
  *
  * The gates of the next frame's steadying go by what the frame itself saw (rlf_settle_lags): a
  * pixel that was overruled by a steep face's noise must not count as motion, or the other way
@@ -41,7 +42,7 @@ enum { OVERRULED = 1, OVERRULED_AHEAD /* of the vote */ };
 typedef struct settle_job {
     int32_t width;
     const uint8_t *reason, *foreground, *known;
-    const float *depth;
+    float *depth;
     float *const *normal;
     rlf_settled *settled;
     uint8_t *mark, *overruled;
@@ -105,6 +106,9 @@ static void vote(const settle_job *job, ptrdiff_t i, const ballot *now)
         propose(s, now->normal, now->depth);
     } else if (now->is_near) {
         overrule(job, i, now->normal);
+    } else if (job->reason[i] == RLF_REASON_FILLED) {
+        overrule(job, i, now->normal);
+        job->depth[i] = s->depth;
     }
 }
 
