@@ -3,6 +3,7 @@
  * Pairs are coloured greedily in their order (each takes the first colour that neither of its
  * bodies has), then a colour's groups fill batches of eight, those with many points first, so that
  * few lanes are empty. The real surface comes last: nothing gives way less. */
+#include "physics/fetch.h"
 #include "physics/solver.h"
 
 /* Contacts are springs of half the substep rate, critically damped, solved implicitly (Catto 2011,
@@ -117,6 +118,7 @@ static void add_points(phys_batch *batch, const phys_group *g, int32_t lane, dou
         rlf_lane_point *p = &batch->lanes.points[i];
         const phys_point *near = &g->points[i];
         const double *impulses = near->impulses;
+        batch->contacts[i].of[lane] = near->contact;
         set_vec(&p->normal, lane, near->normal);
         set_vec(&p->tangent, lane, rlf_perpendicular(near->normal));
         set_vec(&p->r_a, lane, near->r_a);
@@ -161,12 +163,15 @@ static void add_group(const rlf_world *world, phys_batch *batch, const phys_grou
 }
 
 /* A batch for a first group; the next ones have no more points. */
-static void start_batch(phys_batch *batch, rlf_lane_point *points, const phys_group *first)
+static void start_batch(phys_batch *batch, rlf_lane_point *points, phys_lane_contacts *contacts,
+                        const phys_group *first)
 {
     *batch = (phys_batch){.lanes = {.points = points, .point_count = first->point_count}};
+    batch->contacts = contacts;
     batch->lanes.has_b = first->b != NULL;
     for (int32_t i = 0; i < first->point_count; i++) {
         points[i] = (rlf_lane_point){.ease = {0}};
+        contacts[i] = (phys_lane_contacts){{NULL}};
     }
 }
 
@@ -179,22 +184,44 @@ static void close_batch(phys_batch *batch)
     rlf_kernel_lanes_weigh(&batch->lanes);
 }
 
+/* Fetches the groups that will be put into batches after the k-th, and what they are of. */
+RLF_KERNEL_PART void fetch_groups(const phys_group *groups, const int32_t *order, int32_t k,
+                                  int32_t count)
+{
+    enum { GROUPS_AHEAD = 8, POINTS_AHEAD = 4 };
+    if (k + GROUPS_AHEAD < count) {
+        RLF_KERNEL_SOON(&groups[order[k + GROUPS_AHEAD]]);
+    }
+    if (k + POINTS_AHEAD < count) {
+        const phys_group *g = &groups[order[k + POINTS_AHEAD]];
+        phys_fetch(g->points, (size_t)g->point_count * sizeof(phys_point));
+        phys_fetch_body(g->a);
+        if (g->b != NULL) {
+            phys_fetch_body(g->b);
+        }
+    }
+}
+
 int32_t phys_batches_make(rlf_world *world, const phys_island *island, const phys_group *groups,
                           int32_t count, double h)
 {
     phys_batch *batches = phys_batches_of(world, island);
-    rlf_lane_point *points = world->batch_points + island->pair_begin * PHYS_PAIR_CONTACTS +
-                             island->body_begin * PHYS_SURFACE_CONTACTS;
+    int32_t begin =
+        island->pair_begin * PHYS_PAIR_CONTACTS + island->body_begin * PHYS_SURFACE_CONTACTS;
+    rlf_lane_point *points = world->batch_points + begin;
+    phys_lane_contacts *contacts = world->batch_contacts + begin;
     const int32_t *keys = world->batch_keys + island->pair_begin + island->body_begin;
     const int32_t *order = world->batch_order + island->pair_begin + island->body_begin;
     int32_t made = 0, colour = -1;
     sort_groups(world, island, groups, count);
     for (int32_t k = 0; k < count; k++) {
         const phys_group *g = &groups[order[k]];
+        fetch_groups(groups, order, k, count);
         int32_t own = colour_of_key(keys[order[k]]);
         if (made == 0 || own < 0 || own != colour || batches[made - 1].count == RLF_LANES) {
-            start_batch(&batches[made++], points, g);
+            start_batch(&batches[made++], points, contacts, g);
             points += g->point_count;
+            contacts += g->point_count;
             colour = own;
         }
         add_group(world, &batches[made - 1], g, h);
@@ -205,16 +232,37 @@ int32_t phys_batches_make(rlf_world *world, const phys_island *island, const phy
     return made;
 }
 
-void phys_batch_finish(const phys_batch *batch)
+static void finish_row(const phys_lane_contacts *row, const rlf_lane_point *point)
 {
-    for (int32_t lane = 0; lane < batch->count; lane++) {
-        const phys_group *g = batch->groups[lane];
-        for (int32_t i = 0; i < g->point_count; i++) {
-            phys_contact *c = g->points[i].contact;
-            for (int32_t row = 0; row < 3; row++) {
-                c->impulses[row] = (double)batch->lanes.points[i].impulse[row][lane];
-            }
-            c->impulse_sum += c->impulses[0];
+    for (int32_t lane = 0; lane < RLF_LANES && row->of[lane] != NULL; lane++) {
+        phys_contact *c = row->of[lane];
+        for (int32_t k = 0; k < 3; k++) {
+            c->impulses[k] = (double)point->impulse[k][lane];
         }
+        c->impulse_sum += c->impulses[0];
+    }
+}
+
+RLF_KERNEL_PART void fetch_row(const phys_lane_contacts *row)
+{
+    for (int32_t lane = 0; lane < RLF_LANES && row->of[lane] != NULL; lane++) {
+        RLF_KERNEL_SOON_WRITTEN(row->of[lane]->impulses);
+    }
+}
+
+void phys_batches_finish(const phys_batch *batches, int32_t count)
+{
+    enum { AHEAD = 2 };
+    if (count == 0) {
+        return;
+    }
+    const phys_batch *last = &batches[count - 1];
+    const phys_lane_contacts *rows = batches->contacts; /* those of all batches, side by side */
+    ptrdiff_t row_count = last->contacts + last->lanes.point_count - rows;
+    for (ptrdiff_t i = 0; i < row_count; i++) {
+        if (i + AHEAD < row_count) {
+            fetch_row(&rows[i + AHEAD]);
+        }
+        finish_row(&rows[i], &batches->lanes.points[i]);
     }
 }

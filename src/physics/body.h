@@ -6,8 +6,8 @@
 #include "physics/shape/shape.h"
 
 typedef struct phys_body {
-    /* what a substep reads, side by side */
-    rlf_vec3 v, w;                  /* of the centre of mass, and angular: world */
+    /* what a substep reads, side by side; lines of memory begin where bodies do */
+    _Alignas(64) rlf_vec3 v, w;     /* of the centre of mass, and angular: world */
     double inverse_mass;            /* 0 while held, and of a kinematic body */
     rlf_mat3 inverse_inertia_world; /* 0 while held, and of a kinematic body */
     rlf_vec3 x;                     /* centre of mass, world */
@@ -27,9 +27,18 @@ typedef struct phys_body {
     bool was_pressed;  /* ... in the last one */
     bool is_restless;  /* a bounce turned its way: its contacts are to be searched again */
 
-    uint32_t generation; /* of the handle; counts up when a body goes */
+    uint32_t generation;                 /* of the handle; counts up when a body goes */
+    int32_t surface_age, surface_period; /* substeps since, and between, surface queries */
+    rlf_vec3 surface_x;                  /* where it was when its contacts with it were searched */
+    double surface_clear; /* m that it may move from there before it touches; 0: it may touch, or it
+                             is not known */
+    int32_t surface_count;
+    phys_contact *surface; /* PHYS_SURFACE_CONTACTS */
+    double restitution, friction;
+    phys_stance stance; /* on the surface */
     phys_shape shape;
-    double mass, restitution, friction, gravity_scale, release_time;
+
+    double mass, gravity_scale, release_time;
     double rolling_resistance;
     double linear_damping, angular_damping; /* 1/s */
     rlf_mat3 inertia, inverse_inertia;      /* body frame */
@@ -48,19 +57,12 @@ typedef struct phys_body {
     bool has_left;        /* it left the place where it rested, in the last look */
     bool is_disturbed;    /* it touches something restless */
 
-    int32_t surface_age, surface_period; /* substeps since, and between, surface queries */
-    double surface_time;                 /* world time of the last one, s */
-    rlf_vec3 surface_x;                  /* where it was when its contacts were searched ... */
-    double surface_turned;               /* ... how far it had turned ... */
-    int64_t surface_version;             /* ... and what stays then, 0 = something moved near it */
-    double surface_clear;                /* m that it may move from there before it touches; 0: it
-                                            may touch, or it is not known */
-    rlf_vec3 surface_v, surface_w;       /* v and w then */
-    rlf_vec3 surface_flow;               /* velocity of the foreground near it, grid frame */
+    double surface_time;           /* world time of the last surface query, s */
+    double surface_turned;         /* how far it had turned then ... */
+    int64_t surface_version;       /* ... and what stays, 0 = something moved near it */
+    rlf_vec3 surface_v, surface_w; /* v and w then */
+    rlf_vec3 surface_flow;         /* velocity of the foreground near it, grid frame */
     uint8_t home[2]; /* field_state: which side of foreground and background it belongs to */
-    phys_stance stance;
-    phys_contact *surface; /* PHYS_SURFACE_CONTACTS */
-    int32_t surface_count;
 
     char name[RLF_NAME_MAX];
     float color[3];

@@ -1,6 +1,6 @@
 /* Islands, and what happens to one in a substep. No two islands share a body that moves, so they
  * may be worked on in any order. */
-#include "kernel/kernel.h"
+#include "physics/fetch.h"
 #include "physics/grid/guard.h"
 #include "physics/integrate.h"
 #include "physics/solver.h"
@@ -200,17 +200,35 @@ static void move_body(const rlf_world *world, phys_body *body, const grid_query 
     }
 }
 
-/* Fetches what a pair's group will be read from, which is spread over memory. */
-static void fetch_pair(const rlf_world *world, const phys_pair *pair)
+enum { PAIRS_AHEAD = 8, CONTACTS_AHEAD = 4, BODIES_AHEAD = 4 };
+
+/* Fetches what the groups of the pairs after the k-th of the island will be read from. */
+RLF_KERNEL_PART void fetch_pairs(const rlf_world *world, const phys_island *island, int32_t k)
 {
-    enum { LINE = 64, CONTACT_LINES = sizeof(phys_contact) / LINE, BODY_LINES = 7 };
-    const char *contacts = (const char *)pair->contacts;
-    const char *body = (const char *)&world->bodies[pair->b]; /* a's is that of the pair before */
-    for (int32_t i = 0; i < pair->contact_count * CONTACT_LINES; i++) {
-        RLF_KERNEL_SOON(contacts + (size_t)i * LINE);
+    if (k + PAIRS_AHEAD < island->pair_end) {
+        phys_fetch(&world->pairs[world->island_pairs[k + PAIRS_AHEAD]], sizeof(phys_pair));
     }
-    for (int32_t i = 0; i < BODY_LINES; i++) {
-        RLF_KERNEL_SOON(body + (size_t)i * LINE);
+    if (k + CONTACTS_AHEAD < island->pair_end) {
+        const phys_pair *pair = &world->pairs[world->island_pairs[k + CONTACTS_AHEAD]];
+        phys_fetch_contacts(pair);
+        phys_fetch_body(&world->bodies[pair->b]); /* a's is that of the pair before */
+    }
+}
+
+/* The body some places after the i-th of the island. */
+RLF_KERNEL_PART void fetch_next(const rlf_world *world, const phys_island *island, int32_t i)
+{
+    if (i + BODIES_AHEAD < island->body_end) {
+        phys_fetch_body(&world->bodies[world->island_bodies[i + BODIES_AHEAD]]);
+    }
+}
+
+RLF_KERNEL_PART void fetch_surface(const rlf_world *world, const phys_island *island, int32_t i)
+{
+    fetch_next(world, island, i + CONTACTS_AHEAD);
+    if (i + CONTACTS_AHEAD < island->body_end) {
+        const phys_body *body = &world->bodies[world->island_bodies[i + CONTACTS_AHEAD]];
+        phys_fetch(body->surface, (size_t)body->surface_count * sizeof(phys_contact));
     }
 }
 
@@ -221,17 +239,15 @@ static int32_t list_groups(rlf_world *world, const phys_island *island, phys_gro
 {
     phys_point *points = world->near_points + island->pair_begin * PHYS_PAIR_CONTACTS +
                          island->body_begin * PHYS_SURFACE_CONTACTS;
-    const int32_t AHEAD = 3;
     int32_t count = 0;
     for (int32_t k = island->pair_begin; k < island->pair_end; k++) {
-        if (k + AHEAD < island->pair_end) {
-            fetch_pair(world, &world->pairs[world->island_pairs[k + AHEAD]]);
-        }
+        fetch_pairs(world, island, k);
         if (phys_group_of_pair(world, world->island_pairs[k], h, points, &groups[count])) {
             points += groups[count++].point_count;
         }
     }
     for (int32_t i = island->body_begin; i < island->body_end; i++) {
+        fetch_surface(world, island, i);
         if (phys_group_of_body(world, world->island_bodies[i], h, points, &groups[count])) {
             points += groups[count++].point_count;
         }
@@ -262,11 +278,13 @@ void phys_island_substep(rlf_world *world, const phys_island *island, const grid
     int32_t begin = island->body_begin, end = island->body_end;
     phys_group *groups = world->groups + island->pair_begin + island->body_begin;
     for (int32_t i = begin; i < end; i++) {
+        fetch_next(world, island, i);
         start_body(world, &world->bodies[bodies[i]]);
     }
     int32_t count = list_groups(world, island, groups, h);
     phys_solve_impacts(world, island, groups, count, h);
     for (int32_t i = begin; i < end; i++) {
+        fetch_next(world, island, i);
         accelerate(world, &world->bodies[bodies[i]], h);
         load_speed(world, bodies[i]);
     }
@@ -278,15 +296,15 @@ void phys_island_substep(rlf_world *world, const phys_island *island, const grid
         mark_pressed(&batches[k]);
     }
     for (int32_t i = begin; i < end; i++) {
+        fetch_next(world, island, i);
         store_speed(world, bodies[i]);
         move_body(world, &world->bodies[bodies[i]], query, h);
         load_speed(world, bodies[i]);
     }
     phys_batches_solve(world, batches, count, false, RELAX_PASSES);
     for (int32_t i = begin; i < end; i++) {
+        fetch_next(world, island, i);
         store_speed(world, bodies[i]);
     }
-    for (int32_t k = 0; k < count; k++) {
-        phys_batch_finish(&batches[k]);
-    }
+    phys_batches_finish(batches, count);
 }

@@ -1,5 +1,6 @@
 /* One frame by the live method: equal substeps of at most 1 / step_hz, in groups of up to
  * PHYS_PERIOD_MAX between searches for pairs and islands. */
+#include "physics/fetch.h"
 #include "physics/grid/collide.h"
 #include "physics/integrate.h"
 #include "physics/pair/search.h"
@@ -121,37 +122,52 @@ static void collide_range(void *context, int32_t begin, int32_t end, int32_t wor
 {
     surface_job *job = context;
     (void)worker;
-    for (int32_t i = begin; i < end; i++) {
+    for (int32_t k = begin; k < end; k++) {
+        int32_t i = job->world->due_bodies[k];
         phys_body *body = &job->world->bodies[i];
-        if (is_due(body, job->query->step)) {
-            grid_collide(job->query, body, i);
-            body->surface_v = body->v;
-            body->surface_w = body->w;
+        grid_collide(job->query, body, i);
+        body->surface_v = body->v;
+        body->surface_w = body->w;
+    }
+}
+
+/* Lists the bodies that are to ask the surface in this substep; returns their number. */
+static int32_t list_due(rlf_world *world, const grid_query *query)
+{
+    enum { AHEAD = 6 };
+    int32_t due = 0;
+    for (int32_t i = 0; i < world->body_top; i++) {
+        phys_body *body = &world->bodies[i];
+        const phys_body *next = &world->bodies[i + AHEAD < world->body_top ? i + AHEAD : i];
+        RLF_KERNEL_SOON(&next->v);
+        RLF_KERNEL_SOON(&next->x);
+        RLF_KERNEL_SOON(&next->is_alive);
+        if (phys_body_is_moving(body)) {
+            body->surface_age++;
+            if (is_due(body, query->step)) {
+                world->due_bodies[due++] = i;
+            }
         }
     }
+    return due;
 }
 
 static void find_surface_contacts(rlf_world *world, const grid_query *query)
 {
-    int32_t due = 0;
-    for (int32_t i = 0; i < world->body_top; i++) {
-        phys_body *body = &world->bodies[i];
-        if (query == NULL) {
-            body->surface_count = 0;
-        } else if (phys_body_is_moving(body)) {
-            body->surface_age++;
-            if (is_due(body, query->step)) {
-                phys_log_contacts(world, body->surface, body->surface_count);
-                grid_collide_prepare(query, body);
-                due++;
-            }
+    if (query == NULL) {
+        for (int32_t i = 0; i < world->body_top; i++) {
+            world->bodies[i].surface_count = 0;
         }
+        return;
     }
-    if (due > 0) {
-        surface_job job = {world, query};
-        rlf_parallel_for(due >= 16 ? world->def.pool : NULL, world->body_top, 8, collide_range,
-                         &job);
+    int32_t due = list_due(world, query);
+    for (int32_t k = 0; k < due; k++) {
+        phys_body *body = &world->bodies[world->due_bodies[k]];
+        phys_log_contacts(world, body->surface, body->surface_count);
+        grid_collide_prepare(query, body);
     }
+    surface_job job = {world, query};
+    rlf_parallel_for(due >= 16 ? world->def.pool : NULL, due, 8, collide_range, &job);
 }
 
 static void move_driven(rlf_world *world, double h)
@@ -225,8 +241,13 @@ static void leap(rlf_world *world, const rlf_grid *grid, int32_t count, double h
 
 static void fill_log(rlf_world *world)
 {
+    enum { AHEAD = 8 };
     for (int32_t i = 0; i < world->pair_count; i++) {
         phys_pair *pair = &world->pairs[i];
+        if (i + 2 * AHEAD < world->pair_count) {
+            phys_fetch_contacts(&world->pairs[i + AHEAD]);
+            phys_fetch(&world->pairs[i + 2 * AHEAD], sizeof(*pair));
+        }
         phys_log_contacts(world, pair->contacts, pair->contact_count);
     }
     for (int32_t i = 0; i < world->body_top; i++) {

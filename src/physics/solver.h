@@ -22,7 +22,7 @@ static inline phys_batch *phys_batches_of(const rlf_world *world, const phys_isl
 }
 
 /* Adds this substep's impulses to the contacts' sums and keeps them for the next one. */
-void phys_batch_finish(const phys_batch *batch);
+void phys_batches_finish(const phys_batch *batches, int32_t count);
 
 /* Starts from the impulses of the last substep. */
 void phys_batches_warm_start(rlf_world *world, const phys_batch *batches, int32_t count);

@@ -34,10 +34,16 @@ typedef struct phys_group {
     double speed; /* no point of the two bodies moves faster past the other, m/s */
 } phys_group;
 
+/* The contacts of a batch's point; NULL where a lane has none. */
+typedef struct phys_lane_contacts {
+    phys_contact *of[RLF_LANES];
+} phys_lane_contacts;
+
 /* Groups that are solved side by side; see batch.c. */
 typedef struct phys_batch {
     rlf_lane_batch lanes;
     const phys_group *groups[RLF_LANES];
+    phys_lane_contacts *contacts; /* of lanes.points */
     int32_t count;
     bool resists_rolling; /* some group does */
 } phys_batch;
@@ -84,6 +90,7 @@ struct rlf_world {
     phys_contact *pair_contacts, *old_pair_contacts;
     int32_t free_count;  /* so many pairs more can be kept */
     int32_t *due_pairs;  /* whose contacts are to be searched now */
+    int32_t *due_bodies; /* that are to ask the surface now */
     phys_proxy *proxies; /* see pair/broad_phase.c */
     int32_t *bins;       /* where each of bin_count begins in the list of boxes; and its end */
     int32_t bin_count;
@@ -105,11 +112,12 @@ struct rlf_world {
 
     phys_batch *batches; /* of each island; see batch.c */
     rlf_lane_point *batch_points;
-    int32_t *batch_keys, *batch_order; /* of an island's groups */
-    uint64_t *colours;                 /* per body: those of its pairs, as bits */
-    rlf_lane_speed *speeds;            /* per body: its velocities while they are solved for */
-    rlf_lane_speed *old_speeds;        /* ... and before */
-    int32_t *busy_pass;                /* per body: the pass in which it is to be solved again */
+    phys_lane_contacts *batch_contacts; /* of batch_points */
+    int32_t *batch_keys, *batch_order;  /* of an island's groups */
+    uint64_t *colours;                  /* per body: those of its pairs, as bits */
+    rlf_lane_speed *speeds;             /* per body: its velocities while they are solved for */
+    rlf_lane_speed *old_speeds;         /* ... and before */
+    int32_t *busy_pass;                 /* per body: the pass in which it is to be solved again */
 
     double *event_times;   /* see impact/impact.c; of the groups, island by island */
     int32_t *event_counts; /* of this substep */

@@ -40,13 +40,19 @@ static inline double virtual_gap(const phys_point *p, const phys_group *g)
     return p->separation + rlf_dot(p->normal, shift);
 }
 
-static inline double normal_acceleration(const phys_point *p, const phys_group *g)
+/* Of a, as b or the surface sees it. */
+static inline rlf_vec3 acceleration_between(const phys_group *g)
 {
     rlf_vec3 a = phys_body_is_moving(g->a) ? g->a->acceleration : rlf_vec3_make(0, 0, 0);
     if (g->b != NULL && phys_body_is_moving(g->b)) {
         a = rlf_sub(a, g->b->acceleration);
     }
-    return rlf_dot(p->normal, a);
+    return a;
+}
+
+static inline double normal_acceleration(const phys_point *p, const phys_group *g)
+{
+    return rlf_dot(p->normal, acceleration_between(g));
 }
 
 /* All contacts that close at time t answer together: the normal velocities after are those before

@@ -4,6 +4,7 @@
  * changes v by dv and shift by -dv t, so that the path is continuous at t. Restitution therefore
  * acts at the speed and the place of the impact (no height is lost to the step), and a row of
  * touching balls passes a blow on ball by ball. Slow contacts are left to the solver. */
+#include "physics/fetch.h"
 #include "physics/grid/scan.h"
 #include "physics/impact/answer.h"
 #include "physics/solver.h"
@@ -74,6 +75,18 @@ static double first_reach(const phys_group *g, double h)
     double pull = phys_body_is_moving(g->a) ? g->a->pull : 0.0;
     pull += g->b != NULL && phys_body_is_moving(g->b) ? g->b->pull : 0.0;
     return 1.001 * (g->speed + pull * h) * h;
+}
+
+/* Whether none of its points comes together too fast to rest, wherever they are and whatever their
+ * normals, while nothing has bounced. */
+static bool is_resting(const phys_group *g, double h)
+{
+    for (int32_t i = 0; i < g->point_count && g->b == NULL; i++) {
+        if (rlf_dot(g->points[i].r_b, g->points[i].r_b) > 0.0) {
+            return false;
+        }
+    }
+    return 1.001 * (g->speed + rlf_length(acceleration_between(g)) * h) < slow_speed(g, h);
 }
 
 /* Points whose gap is beyond `reach` cannot touch. */
@@ -169,6 +182,17 @@ static void link_groups(event_list *list, const phys_island *island, int32_t cou
     }
 }
 
+/* Fetches the bodies of the groups after the k-th. */
+RLF_KERNEL_PART void fetch_groups(const phys_group *groups, int32_t k, int32_t count)
+{
+    enum { AHEAD = 6 };
+    const phys_group *g = &groups[k + AHEAD < count ? k + AHEAD : k];
+    phys_fetch_body(g->a);
+    if (g->b != NULL) {
+        phys_fetch_body(g->b);
+    }
+}
+
 /* Sets a group's next event and lists it. */
 static void look_at_group(event_list *list, int32_t k, double reach)
 {
@@ -221,9 +245,10 @@ void phys_solve_impacts(rlf_world *world, const phys_island *island, const phys_
     list.next_link = world->next_link + 2 * place;
     list.pending = world->pending + place;
     for (int32_t k = 0; k < count; k++) {
+        fetch_groups(groups, k, count);
         list.counts[k] = 0;
         list.times[k] = NO_EVENT;
-        if (groups[k].b == NULL || groups[k].speed > SLOW) {
+        if (!is_resting(&groups[k], h)) {
             look_at_group(&list, k, first_reach(&groups[k], h));
         }
     }
@@ -238,6 +263,7 @@ void phys_solve_impacts(rlf_world *world, const phys_island *island, const phys_
         look_at_body(&list, groups[k].b);
     }
     for (int32_t k = 0; k < count; k++) {
+        fetch_groups(groups, k, count);
         carry_gaps(&groups[k]);
     }
 }

@@ -1,5 +1,6 @@
 /* Keeping pairs from one broad phase to the next, and searching their contacts when they moved. */
 #include "physics/pair/search.h"
+#include "physics/fetch.h"
 #include "physics/pair/broad_phase.h"
 #include "physics/pair/collide.h"
 
@@ -9,6 +10,8 @@
 #define STILL_SHARE_OF_SIDE 0.01
 /* Fast bodies are searched again when they moved by this share of the largest ball in them. */
 #define TRAVEL_SHARE 0.3
+
+enum { BODIES_AHEAD = 4, PAIRS_AHEAD = 8 };
 
 static double travel_of(const phys_body *a, const phys_body *b)
 {
@@ -137,6 +140,26 @@ static int32_t apart_for(const rlf_world *world, const phys_pair *pair, double h
     return (int32_t)rlf_clamp(steps, 0.0, PHYS_PERIOD_MAX);
 }
 
+/* Fetches the pairs after the k-th, and their bodies: a's is most often that of the pair before. */
+RLF_KERNEL_PART void fetch_pairs(const rlf_world *world, int32_t k)
+{
+    if (k + PAIRS_AHEAD < world->pair_count) {
+        phys_fetch(&world->pairs[k + PAIRS_AHEAD], sizeof(phys_pair));
+        phys_fetch_body(&world->bodies[world->pairs[k + BODIES_AHEAD].b]);
+    }
+}
+
+/* Those after the n-th that is due, and its bodies and contacts. */
+RLF_KERNEL_PART void fetch_due(const rlf_world *world, int32_t n, int32_t end)
+{
+    if (n + PAIRS_AHEAD < end) {
+        const phys_pair *pair = &world->pairs[world->due_pairs[n + PAIRS_AHEAD]];
+        phys_fetch_body(&world->bodies[pair->a]);
+        phys_fetch_body(&world->bodies[pair->b]);
+        phys_fetch_contacts(pair);
+    }
+}
+
 typedef struct pair_job {
     rlf_world *world;
     double h;
@@ -153,6 +176,7 @@ static void collide_range(void *context, int32_t begin, int32_t end, int32_t wor
         int32_t count = end - first < RLF_SAT_LANES ? end - first : RLF_SAT_LANES;
         for (int32_t lane = 0; lane < RLF_SAT_LANES; lane++) { /* the last one fills what is left */
             int32_t i = first + (lane < count ? lane : count - 1);
+            fetch_due(world, i, end);
             start_search(world, &world->pairs[world->due_pairs[i]], job->h, lane, &lanes);
         }
         rlf_kernel_sat_find(&lanes, &axes);
@@ -165,6 +189,7 @@ static void collide_range(void *context, int32_t begin, int32_t end, int32_t wor
 static void search_due(rlf_world *world, int32_t count, double h)
 {
     for (int32_t i = 0; i < count; i++) {
+        fetch_due(world, i, count);
         phys_pair *pair = &world->pairs[world->due_pairs[i]];
         phys_log_contacts(world, pair->contacts, pair->contact_count);
     }
@@ -234,6 +259,9 @@ static void merge(rlf_world *world)
     world->pair_count = 0;
     for (int32_t k = 0; k < world->near_count; k++) {
         phys_near key = world->near_sorted[k];
+        if (old + PAIRS_AHEAD < old_end) {
+            phys_fetch_contacts(old + PAIRS_AHEAD);
+        }
         while (old < old_end && is_before(old, key)) {
             keep_or_free(world, old++);
         }
@@ -255,6 +283,7 @@ void phys_find_pairs(rlf_world *world, double h)
     merge(world);
     for (int32_t i = 0; i < world->pair_count; i++) {
         phys_pair *pair = &world->pairs[i];
+        fetch_pairs(world, i);
         bool is_idle = phys_body_is_idle(&world->bodies[pair->a]) &&
                        phys_body_is_idle(&world->bodies[pair->b]);
         pair->age = 0;
@@ -272,6 +301,7 @@ void phys_refresh_pairs(rlf_world *world, double h)
     int32_t due = 0;
     for (int32_t i = 0; i < world->pair_count; i++) {
         phys_pair *pair = &world->pairs[i];
+        fetch_pairs(world, i);
         if (++pair->age >= pair->period && apart_for(world, pair, h) == 0) {
             world->due_pairs[due++] = i;
         }

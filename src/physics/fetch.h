@@ -1,0 +1,32 @@
+/* Bringing near what will be read soon: the bodies and contacts of a crowd do not fit in a
+ * processor's second cache, and are read in the order of pairs and groups. */
+#ifndef RLF_PHYSICS_FETCH_H
+#define RLF_PHYSICS_FETCH_H
+
+#include "kernel/kernel.h"
+#include "physics/world_state.h"
+
+#include <stddef.h>
+
+#define PHYS_LINE 64 /* bytes that come from memory together */
+
+RLF_KERNEL_PART void phys_fetch(const void *memory, size_t size)
+{
+    for (size_t at = 0; at < size; at += PHYS_LINE) {
+        RLF_KERNEL_SOON((const char *)memory + at);
+    }
+}
+
+/* What a substep reads of a body. */
+RLF_KERNEL_PART void phys_fetch_body(const phys_body *body)
+{
+    phys_fetch(body, offsetof(phys_body, mass));
+}
+
+/* The contacts of a pair. */
+RLF_KERNEL_PART void phys_fetch_contacts(const phys_pair *pair)
+{
+    phys_fetch(pair->contacts, (size_t)pair->contact_count * sizeof(phys_contact));
+}
+
+#endif
