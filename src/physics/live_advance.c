@@ -118,12 +118,22 @@ static bool is_due(const phys_body *body, double h)
            (body->is_restless && !is_clear);
 }
 
+/* What a search for contacts with the surface reads of a body. */
+RLF_KERNEL_PART void fetch_due(const rlf_world *world, int32_t k)
+{
+    const phys_body *body = &world->bodies[world->due_bodies[k]];
+    phys_fetch_body(body);
+    phys_fetch(&body->surface_time, offsetof(phys_body, home) - offsetof(phys_body, surface_time));
+    phys_fetch(body->surface, (size_t)body->surface_count * sizeof(phys_contact));
+}
+
 static void collide_range(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     surface_job *job = context;
     (void)worker;
     for (int32_t k = begin; k < end; k++) {
         int32_t i = job->world->due_bodies[k];
+        fetch_due(job->world, k + 2 < end ? k + 2 : k);
         phys_body *body = &job->world->bodies[i];
         grid_collide(job->query, body, i);
         body->surface_v = body->v;

@@ -386,12 +386,9 @@ static void collide_sheets(grid_job *job, phys_body *body, int32_t body_index)
 
 void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
 {
-    phys_trace old[PHYS_SURFACE_CONTACTS];
-    int32_t old_count = body->surface_count;
-    for (int32_t i = 0; i < old_count; i++) {
-        old[i] = phys_trace_of(&body->surface[i]);
-    }
     double swept_from = body->surface_time;
+    int32_t old_count = body->surface_count;
+    phys_trace old[PHYS_SURFACE_CONTACTS];
     grid_job job;
     set_up(&job, query, body);
     if (is_settled(&job)) {
@@ -405,6 +402,9 @@ void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
         body->surface_period = 1;
         body->surface_clear = way;
         return;
+    }
+    for (int32_t i = 0; i < old_count; i++) {
+        old[i] = phys_trace_of(&body->surface[i]);
     }
     job.asked_before = swept_from;
     collide_sheets(&job, body, body_index);

@@ -196,6 +196,9 @@ static void look_at_batch(grid_job *job, const grid_tile *tile, grid_pixels *pix
         grid_pixels_keep_near(pixels, job->centre, thickness, wide_reach(job, tile, job->reach));
     }
     for (int32_t k = 0; k < pixels->count; k++) {
+        grid_cell_fetch(sheet, pixels->y[k] * job->query->grid->width + pixels->x[k]);
+    }
+    for (int32_t k = 0; k < pixels->count; k++) {
         look_at_pixel(job, pixels->x[k], pixels->y[k], stride, flow);
     }
     pixels->count = 0;

@@ -101,6 +101,15 @@ static void set_block(grid_blocks *blocks, int32_t block, const rlf_aabb *box)
     }
 }
 
+/* What is read of a row of a tile's pixels, most often a line of memory each. */
+RLF_KERNEL_PART void fetch_row(const rlf_grid_sheet *sheet, int32_t i)
+{
+    RLF_KERNEL_SOON(&sheet->normal_x[i]);
+    RLF_KERNEL_SOON(&sheet->normal_y[i]);
+    RLF_KERNEL_SOON(&sheet->normal_z[i]);
+    grid_cell_fetch(sheet, i);
+}
+
 /* The boxes about the solids behind the pixels, and their highest speed. */
 static void bound(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet *sheet,
                   const int32_t rect[4], int32_t shift)
@@ -115,6 +124,7 @@ static void bound(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet *s
     tile->speed = tile->deepest = 0.0;
     for (int32_t y = rect[1]; y < rect[3]; y++) {
         rlf_aabb *row = &solids[((y - rect[1]) >> shift) * TILE_BLOCKS];
+        fetch_row(sheet, (y + 2 < rect[3] ? y + 2 : y) * grid->width + rect[0]);
         for (int32_t x = rect[0]; x < rect[2]; x++) {
             field_cell cell;
             if (grid_cell_read(grid, sheet, x, y, &cell)) {
