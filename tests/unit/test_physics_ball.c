@@ -339,6 +339,42 @@ static void bounces_off_a_front_behind_its_edge(void **state)
     assert_true(worst < 2.0);
 }
 
+/* A leg 4 cm wide and deep, of whose side at x = side_x one or two columns are seen. */
+static void set_leg(double side_x)
+{
+    grid_plane wall = grid_wall(4);
+    grid_fixture_set_room(fixture, &wall, 1);
+    for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
+        double mx = fixture->planes[0][i], z = side_x / mx;
+        bool is_front = 2.58 * mx > side_x && 2.58 * mx < side_x + 0.04;
+        if (is_front || (mx > 0.0 && z > 2.58 && z < 2.62)) {
+            fixture->planes[2][i] = (float)(is_front ? 2.58 : z);
+            fixture->planes[3][i] = is_front ? 0.0f : -1.0f;
+            fixture->planes[4][i] = 0.0f;
+            fixture->planes[5][i] = is_front ? -1.0f : 0.0f;
+        }
+    }
+    fixture->grid.background.default_thickness = 0.15;
+}
+
+/* Of a fast ball's way every second pixel is looked at: the side may be between them. */
+static void bounces_off_a_side_one_pixel_wide(void **state)
+{
+    (void)state;
+    const double radius = 0.02;
+    int off = 0;
+    for (int i = 0; i < 400; i++) {
+        const double side_x = 0.58 + 0.0035 * (i % 20);
+        const rlf_vec3 v = {3.0, 4.6, 2.2};
+        set_leg(side_x);
+        rlf_vec3 touched = {side_x - radius, 0.02 + 0.0011 * i, 2.6};
+        rlf_vec3 out = thrown(rlf_mad(touched, v, -0.08 - 0.0007 * (i / 20)), v, radius);
+        off += degrees_between(out, rlf_vec3_make(-2.4, 4.6, 2.2)) > 10.0;
+    }
+    print_message("off a narrow side: %d of 400 go elsewhere\n", off);
+    assert_true(off < 4);
+}
+
 /* The foreground becomes what the camera sees of a solid ball, as thick as that is. */
 static void set_thick(rlf_vec3 centre, double radius)
 {
@@ -437,6 +473,7 @@ int main(void)
                                         tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_a_front_behind_its_edge, set_up, tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_a_floor_seen_at_a_low_angle, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(bounces_off_a_side_one_pixel_wide, set_up, tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_a_noisy_bulge_that_moves, set_up, tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_the_back_of_something_thick, set_up, tear_down),
     };

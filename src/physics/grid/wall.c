@@ -164,6 +164,8 @@ static bool find_outline(const grid_job *job, const field_cell *cell, const int3
 void grid_wall_look(grid_job *job, const field_cell *cell, int32_t stride)
 {
     bool is_done = false; /* with the pixel itself */
+    /* a side seen at a low angle may be between the pixels that are looked at */
+    bool is_face_looked_at = job->is_ball && job->sheet->velocity_x == NULL;
     for (int32_t k = 0; k < 4; k++) {
         field_cell end;
         if (!find_outline(job, cell, NEIGHBOURS[k], stride, &end)) {
@@ -172,6 +174,9 @@ void grid_wall_look(grid_job *job, const field_cell *cell, int32_t stride)
         bool is_own = end.x == cell->x && end.y == cell->y;
         double deep = is_own && is_done ? 0.0 : wall_depth(job, &end);
         rlf_vec3 shift = rlf_scale(end.velocity, job->query->tau);
+        if (is_face_looked_at && !is_own) {
+            grid_ball_look(job, &end, rlf_add(end.point, shift));
+        }
         if (deep > 0.0 && job->is_ball) {
             grid_ball_look_outline(job, &end, shift, deep);
         } else if (deep > 0.0) {
