@@ -31,6 +31,8 @@ static const setting table[] = {
      "mixed pixels at edges are dropped"},
     {"fill", KIND_SWITCH, AT(enable_fill), switch_words, "small holes are filled"},
     {"smoothing", KIND_SWITCH, AT(enable_smoothing), switch_words, "depth is averaged in planes"},
+    {"wide_planes", KIND_SWITCH, AT(enable_wide_planes), switch_words,
+     "and in wider ones where the sensor is rough"},
     {"steadying", KIND_SWITCH, AT(enable_steadying), switch_words,
      "still depth is averaged over time"},
     {"hold", KIND_SWITCH, AT(enable_hold), switch_words, "dropped pixels keep what was seen"},

@@ -68,10 +68,12 @@ typedef struct rlf_reconstruct_def {
     bool enable_fill;           /* live: true: fill small holes (reason FILLED) */
     bool enable_smoothing; /* live: true: averages depth within planes, as far as the sensor's noise
                               explains what it takes away; never across an edge or a crease */
-    bool enable_steadying; /* live: true: averages depth that does not change over 32 frames; what
-                              changes by more than the noise starts anew */
-    bool enable_hold;      /* live: true, needs steadying: a dropped pixel keeps what was seen there
-                              (reason FILLED) while nothing moves beside it */
+    bool enable_wide_planes; /* live: true, needs smoothing: planes up to 40 pixels wide where the
+                                sensor is rough, as structured light is; others are not touched */
+    bool enable_steadying;   /* live: true: averages depth that does not change over 32 frames; what
+                                changes by more than the noise starts anew */
+    bool enable_hold; /* live: true, needs steadying: a dropped pixel keeps what was seen there
+                         (reason FILLED) while nothing moves beside it */
     bool enable_edge_normals; /* live: true, needs smoothing: normals of creases from the faces that
                                  meet there, of filled outlines from how the surface turns away;
                                  with steadying, what most frames of a second agree on, for the

@@ -49,6 +49,7 @@ static void set_live(rlf_reconstruct_def *def)
     def->enable_flying_removal = true;
     def->enable_fill = true;
     def->enable_smoothing = true;
+    def->enable_wide_planes = true;
     def->enable_steadying = true;
     def->enable_hold = true;
     def->enable_edge_normals = true;

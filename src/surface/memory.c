@@ -211,6 +211,32 @@ static void take_steady(rlf_reconstruct *stage)
     }
 }
 
+static void take_wide(rlf_reconstruct *stage)
+{
+    const rlf_grid *grid = &stage->grid;
+    const float *ray_x = grid->ray_x, *ray_y = grid->ray_y;
+    int32_t width = grid->width, height = grid->height;
+    for (int level = 0; level < RLF_WIDE_LEVELS && rlf_wide_is_wanted(&stage->def, grid); level++) {
+        rlf_wide *wide = &stage->wide[level];
+        wide->width = width / 2;
+        wide->height = height / 2;
+        size_t n = (size_t)wide->width * (size_t)wide->height;
+        float **const planes[] = {&wide->ray_x,    &wide->ray_y,     &wide->depth,
+                                  &wide->smooth,   &wide->normal[0], &wide->normal[1],
+                                  &wide->normal[2]};
+        for (size_t k = 0; k < sizeof planes / sizeof planes[0]; k++) {
+            *planes[k] = take(stage, n, sizeof(float));
+        }
+        if (wide->ray_x != NULL) {
+            rlf_wide_fill_rays(ray_x, ray_y, width, wide);
+        }
+        ray_x = wide->ray_x;
+        ray_y = wide->ray_y;
+        width = wide->width;
+        height = wide->height;
+    }
+}
+
 static void take_color_side(rlf_reconstruct *stage)
 {
     const rlf_reconstruct_def *def = &stage->def;
@@ -231,6 +257,7 @@ static void take_all(rlf_reconstruct *stage)
     take_background(stage);
     take_standing(stage);
     take_steady(stage);
+    take_wide(stage);
     take_family(stage);
     take_past(stage);
     take_color_side(stage);

@@ -116,6 +116,7 @@ static void make_planes(rlf_reconstruct *stage, const float *depth, float *smoot
     rlf_normals_job job = rlf_normals_job_make(stage, depth, slot->normal);
     job.smooth = smooth;
     rlf_normals_plane_fit(&job);
+    rlf_normals_widen(stage, &job);
 }
 
 /* Normals at creases, of what no plane explains and of what was filled: outlines and what is beside

@@ -140,6 +140,17 @@ typedef struct rlf_steady {
     int32_t next_row;  /* the first that normals/agree.c asks next */
 } rlf_steady;
 
+/* Coarser pictures of a frame, each of half the resolution of the one before: see normals/wide.c.
+ */
+enum { RLF_WIDE_LEVELS = 2 };
+
+/* Planes; NULL when they are not wanted. */
+typedef struct rlf_wide {
+    int32_t width, height;
+    float *ray_x, *ray_y;
+    float *depth, *smooth, *normal[3];
+} rlf_wide;
+
 /* Side of a block in pixels, and the frames without motion after which one is calm. */
 enum { RLF_HOLD_BLOCK = 8, RLF_HOLD_CALM = 8 };
 
@@ -314,6 +325,7 @@ struct rlf_reconstruct {
     int32_t next_label;
     rlf_background background;
     rlf_steady steady;
+    rlf_wide wide[RLF_WIDE_LEVELS];
     rlf_family family; /* of the foreground */
     rlf_past past;     /* of the foreground */
     rlf_plates plates; /* of the foreground */

@@ -88,6 +88,12 @@ void rlf_normals_plane(const rlf_normals_job *job);
  * `filled`. */
 void rlf_normals_plane_fit(const rlf_normals_job *job);
 void rlf_normals_plane_complete(const rlf_normals_job *job);
+/* normals/wide.c: whether a sensor is so rough that it needs wider planes; the rays of a coarser
+ * picture, from those of the one before, which is `width` wide; and after rlf_normals_plane_fit
+ * planes from 20 and 40 pixels where they agree with its own, in job->out and job->smooth. */
+bool rlf_wide_is_wanted(const rlf_reconstruct_def *def, const rlf_grid *grid);
+void rlf_wide_fill_rays(const float *ray_x, const float *ray_y, int32_t width, rlf_wide *out);
+void rlf_normals_widen(const rlf_reconstruct *stage, const rlf_normals_job *job);
 /* Exact inverse-depth normal of one pixel, for those that no plane explains. */
 void rlf_normals_slope_pixel(const rlf_normals_job *job, int32_t x, int32_t y);
 
