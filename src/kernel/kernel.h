@@ -225,34 +225,6 @@ typedef struct rlf_kernel_tile {
 
 void rlf_kernel_plane_tile(const rlf_kernel_tile *tile);
 
-/* ---- wide_row.c: wider planes for rough sensors
- * --------------------------------------------------------- */
-
-/* Mean depth of each two pixels of two rows of 2 count; 0 where one is missing, or they are too far
- * apart for the noise. */
-void rlf_kernel_halve_row(rlf_kernel_noise noise, const float *restrict upper,
-                          const float *restrict lower, int32_t count, float *restrict out);
-
-/* Normals, 0 where there is none, as planes of inverse depth: 1 / depth is x u + y v + z along the
- * ray (u, v, 1); 0 stays 0. */
-void rlf_kernel_invert_planes(const float *restrict depth, const float *restrict ray_x,
-                              const float *restrict ray_y, int32_t count, float *restrict x,
-                              float *restrict y, float *restrict z);
-
-/* A row of 2 half_width pixels, and rows of planes of inverse depth at half the resolution: that
- * which covers it and the next one above or below, the same where there is none. */
-typedef struct rlf_kernel_wide {
-    const float *depth, *ray_x, *ray_y;
-    int32_t half_width;
-    const float *plane[3], *beside[3], *half_ray_x, *half_ray_y;
-    rlf_kernel_noise noise;
-    float tilt; /* radians that a pixel's own plane is off, per share that its depth is */
-} rlf_kernel_wide;
-
-/* Takes the normals of the wide planes where they agree with the pixel's own and its depth on its
- * own plane, and their depth where they are nearly the same. */
-void rlf_kernel_wide_row(const rlf_kernel_wide *in, float *const normal[3], float *restrict smooth);
-
 /* ---- near_normal.c: normals of what no plane explains
  * --------------------------------------------------- */
 

@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "analytic.h"
-#include "kernel/kernel.h"
+#include "kernel/wide.h"
 
 #include <math.h>
 

@@ -8,7 +8,7 @@
  * grow with the noise: Holzer et al. 2012, section III-C; here the residuals decide as well.) */
 #include "surface/steps.h"
 
-#include "kernel/kernel.h"
+#include "kernel/wide.h"
 
 #include <math.h>
 
