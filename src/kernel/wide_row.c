@@ -80,7 +80,7 @@ RLF_KERNEL_PART void lean(const rlf_kernel_wide *in, plane_at own, plane_at besi
         float off = u[i] * ray_x[i] + v[i] * ray_y[i] + w[i] - mine;
         float sigma = rlf_kernel_inverse_sigma(noise, mine);
         float turn = square_of(u[i] - x[i], v[i] - y[i], w[i] - z[i]);
-        float error = most_bend * tilt * sigma; /* of 1 / depth: times the square of the plane's */
+        float error = most_bend * tilt * sigma; /* radians, times the inverse depth */
         float most = error * error * square_of(x[i], y[i], z[i]);
         int is_near = rlf_kernel_abs(off) < most_off * sigma ? 1 : 0;
         int is_bent = turn * (mine * mine) < most ? 0 : is_near;

@@ -10,8 +10,6 @@
 
 #include "kernel/wide.h"
 
-#include <math.h>
-
 /* Standard deviation of the slope of a plane through 10x10 pixels, in those of one pixel's depth
  * per pixel: sqrt(12) / (10 * 10). */
 static const double tilt_per_sigma = 0.0346;
