@@ -259,7 +259,7 @@ static void merge(rlf_world *world)
     world->pair_count = 0;
     for (int32_t k = 0; k < world->near_count; k++) {
         phys_near key = world->near_sorted[k];
-        if (old + PAIRS_AHEAD < old_end) {
+        if (old_end - old > PAIRS_AHEAD) {
             phys_fetch_contacts(old + PAIRS_AHEAD);
         }
         while (old < old_end && is_before(old, key)) {
