@@ -52,6 +52,11 @@ typedef enum figure_index {
     VELOCITY_MEDIAN,
     SWIFT_MEAN,
     STILL_ZERO,
+    BEHIND_MISSING,
+    BEHIND_OFF,
+    BEHIND_RMS,
+    BEHIND_NORMAL_MEAN,
+    BEHIND_NORMAL_WRONG,
     PHANTOMS_SOON,
     PHANTOMS_LATE,
     BOUNCES,
@@ -122,6 +127,11 @@ static const figure_name names[FIGURE_COUNT] = {
     [VELOCITY_MEDIAN] = {"velocity_median_percent", "velocity, whole vector: median error, %"},
     [SWIFT_MEAN] = {"velocity_swift_mean_percent", "velocity above 1.5 m/s: mean error, %"},
     [STILL_ZERO] = {"still_zero_percent", "still pixels exactly still, %"},
+    [BEHIND_MISSING] = {"behind_missing_percent", "room behind what moves: missing, %"},
+    [BEHIND_OFF] = {"behind_off_percent", "room behind what moves: > 4 cm off, %"},
+    [BEHIND_RMS] = {"behind_rmse_mm", "  the others: RMSE, mm"},
+    [BEHIND_NORMAL_MEAN] = {"behind_normals_mean_deg", "  their normals: mean, deg"},
+    [BEHIND_NORMAL_WRONG] = {"behind_normals_over_30_percent", "  their normals: > 30 deg off, %"},
     [PHANTOMS_SOON] = {"background_phantoms_soon_percent", "phantoms 3 frames after, %"},
     [PHANTOMS_LATE] = {"background_phantoms_late_percent", "phantoms 30 frames after, %"},
     [BOUNCES] = {"bounces", "bounces on the real scene"},
@@ -190,6 +200,15 @@ static void get_solid(const eval_solid *s, double *v)
     v[PHANTOMS_LATE] = eval_percent(s->phantoms.left_late, s->phantoms.seen_late);
 }
 
+static void get_behind(const eval_behind *b, double *v)
+{
+    v[BEHIND_MISSING] = eval_behind_missing_percent(b);
+    v[BEHIND_OFF] = eval_behind_off_percent(b);
+    v[BEHIND_RMS] = eval_behind_rms_mm(b);
+    v[BEHIND_NORMAL_MEAN] = eval_mean_deg(&b->angles);
+    v[BEHIND_NORMAL_WRONG] = eval_wrong_percent(&b->angles);
+}
+
 static void get_collisions(const eval_collisions *c, double *v)
 {
     v[BOUNCES] = (double)c->bounces;
@@ -220,5 +239,6 @@ void eval_figures_get(const eval_measures *m, double *values)
     values[FOREGROUND_FALSE] =
         eval_percent(f->all.false_positive, f->all.false_positive + f->all.true_negative);
     get_solid(&m->solid, values);
+    get_behind(&m->behind, values);
     get_collisions(&m->collisions, values);
 }

@@ -2,8 +2,9 @@
 #ifndef RELIEF_APP_EVAL_FIGURES_H
 #define RELIEF_APP_EVAL_FIGURES_H
 
-#include "eval/eval.h"
+#include "eval/behind.h"
 #include "eval/distance.h"
+#include "eval/eval.h"
 #include "eval/solid.h"
 
 /* Everything measured for one profile. */
@@ -13,6 +14,7 @@ typedef struct eval_measures {
     eval_centre centre;
     eval_foreground foreground;
     eval_solid solid;
+    eval_behind behind;
     eval_collisions collisions;
     eval_distance distance;
 } eval_measures;

@@ -84,6 +84,9 @@ static rlf_result open_lane(run *r, lane *l, int64_t seed)
         eval_collisions_restart(&l->measures.collisions);
         result = eval_solid_restart(&l->measures.solid, &info->rig);
     }
+    if (result == RLF_OK) {
+        result = eval_behind_init(&l->measures.behind, r->source);
+    }
     return result;
 }
 
@@ -91,6 +94,7 @@ static void close_lane(lane *l)
 {
     eval_collisions_finish(&l->measures.collisions);
     eval_solid_finish(&l->measures.solid);
+    eval_behind_finish(&l->measures.behind);
     eval_depth_finish(&l->measures.depth);
     rlf_pipeline_destroy(&l->pipeline);
     rlf_scene_destroy(&l->scene);
@@ -140,6 +144,7 @@ static void measure(run *r, eval_measures *m, const rlf_pipeline_output *out)
     eval_centre_add(&m->centre, out->surface, truth, rig);
     eval_foreground_add(&m->foreground, out->surface, truth, rig);
     eval_solid_add(&m->solid, out->surface, truth, rig);
+    eval_behind_add(&m->behind, out->surface, truth);
     eval_collisions_add(&m->collisions, out->snapshot, r->source);
 }
 

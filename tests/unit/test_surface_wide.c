@@ -197,6 +197,47 @@ static void a_fine_sensor_is_not_touched(void **state)
     seen_view_destroy(&view);
 }
 
+/* Mean error of the second layer's normals, degrees, after somebody came to stand in the middle. */
+static double behind_error(seen_view *v, bool wide)
+{
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &v->rig);
+    def.enable_wide_planes = wide;
+    rlf_reconstruct *stage = seen_view_stage(&def);
+    for (int32_t k = 0; k < 50; k++) {
+        (void)seen_view_process(v, stage, k);
+    }
+    for (int i = 0; i < COUNT; i++) {
+        v->seen[i] = i % WIDTH > 100 && i % WIDTH < 220 ? 1.5f : v->seen[i];
+    }
+    const rlf_surface *s = seen_view_process(v, stage, 50);
+    double sum = 0.0;
+    int32_t hidden = 0;
+    for (int i = 0; i < COUNT; i++) {
+        rlf_vec3 n = {s->background_normal_x[i], s->background_normal_y[i],
+                      s->background_normal_z[i]};
+        sum += s->foreground[i] ? angle_deg(n, wall_normal(v, i)) : 0.0;
+        hidden += s->foreground[i];
+    }
+    assert_true(hidden > COUNT / 4);
+    rlf_reconstruct_destroy(&stage);
+    return sum / hidden;
+}
+
+/* Noise that stays from frame to frame, as structured light's does: no mean over time helps. */
+static void so_is_what_is_behind(void **state)
+{
+    seen_view *v = *state;
+    for (int i = 0; i < COUNT; i++) {
+        v->truth[i] = (float)plane_depth(wall_normal(v, i), -2.8, v->ray_x[i], v->ray_y[i]);
+    }
+    see(v);
+    double narrow = behind_error(v, false);
+    begin_noise(state);
+    see(v);
+    double wide = behind_error(v, true);
+    assert_true(narrow > 3.0 && wide < 0.3 * narrow);
+}
+
 /* Odd sizes down to less than a block; everything missing but a pixel in seven. */
 static void any_size_will_do(void **state)
 {
@@ -227,6 +268,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(a_wall_is_flatter, begin_noise),
+        cmocka_unit_test_setup(so_is_what_is_behind, begin_noise),
         cmocka_unit_test_setup(a_corner_stays_sharp, begin_noise),
         cmocka_unit_test_setup(a_ball_stays_round, begin_noise),
         cmocka_unit_test_setup(a_step_stays_where_it_is, begin_noise),

@@ -23,8 +23,9 @@ enum {
     REFINED_FRAMES = 40   /* ... and so many make a mean much better */
 };
 
-/* Cosine: the angle to another normal that is no noise. */
-static const float SHARP = 0.99f;
+/* Cosine: the angle to another normal that is no noise. A rough sensor's normals are of wider
+ * planes (normals/wide.c) than fit in a tile: there all are another one. */
+static const float SHARP = 0.99f, ANY = 2.0f;
 
 /* Share of the depth, from one side of an outline to the other. */
 static const float SIDE = 0.04f;
@@ -92,23 +93,23 @@ static bool is_of_model(const rlf_reconstruct *stage, const float *depth, int32_
     return z > 0.0f && depth[i] > 0.0f && rlf_kernel_abs(depth[i] - z) <= gate;
 }
 
-/* A normal, where it is known and another one than that of pixel i of `to`. */
-static void take_normal(const float normal[3], int32_t i, float *const to[3])
+/* A normal, where it is known and has a cosine below `most` to that of pixel i of `to`. */
+static void take_normal(const float normal[3], float most, int32_t i, float *const to[3])
 {
     float cosine = 0.0f, size = 0.0f;
     for (int k = 0; k < 3; k++) {
         cosine += normal[k] * to[k][i];
         size += normal[k] * normal[k];
     }
-    for (int k = 0; k < 3 && size > 0.5f && cosine < SHARP; k++) {
+    for (int k = 0; k < 3 && size > 0.5f && cosine < most; k++) {
         to[k][i] = normal[k];
     }
 }
 
-static void take_normal_of(float *const from[3], int32_t i, float *const to[3])
+static void take_normal_of(float *const from[3], float most, int32_t i, float *const to[3])
 {
     const float normal[3] = {from[0][i], from[1][i], from[2][i]};
-    take_normal(normal, i, to);
+    take_normal(normal, most, i, to);
 }
 
 static bool is_near(float depth, float other)
@@ -147,17 +148,18 @@ static void sharpen(const rlf_reconstruct *stage, const rlf_slot *slot, const rl
         def->normal_method != RLF_NORMALS_INVERSE_DEPTH || !def->normals_face_camera) {
         return; /* the frame has no such normals, or not yet */
     }
+    const float most = stage->wide[0].depth != NULL ? ANY : SHARP;
     for (int32_t y = r.y0; y < r.y1; y++) {
         for (int32_t x = r.x0; x < r.x1; x++) {
             int32_t i = y * stage->grid.width + x;
             bool is_seen = slot->foreground[i] == 0 && is_of_model(stage, slot->depth, i);
             const rlf_settled *settled = rlf_settle_at(stage, i);
             if (settled != NULL && is_near(sheet->depth[i], settled->depth)) {
-                take_normal(settled->normal, i, sheet->normal);
+                take_normal(settled->normal, most, i, sheet->normal);
             } else if (is_seen) {
-                take_normal_of(slot->normal, i, sheet->normal);
+                take_normal_of(slot->normal, most, i, sheet->normal);
             } else if (old != NULL && is_of_model(stage, old->depth, i)) {
-                take_normal_of(old->normal, i, sheet->normal);
+                take_normal_of(old->normal, most, i, sheet->normal);
             }
         }
     }
