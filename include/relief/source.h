@@ -71,7 +71,7 @@ RLF_API rlf_result rlf_source_next(rlf_source *source, rlf_frame *out_frame);
 /* RLF_ERROR_UNSUPPORTED when the source cannot start again. */
 RLF_API rlf_result rlf_source_restart(rlf_source *source);
 /* Truth of the last frame, or NULL when the source knows none. Valid until the next call of next.
- */
+ * Thread-safety: as next; the first call for a frame may make the planes. */
 RLF_API const rlf_truth *rlf_source_get_truth(rlf_source *source);
 
 #ifdef __cplusplus

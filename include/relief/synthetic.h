@@ -63,7 +63,7 @@ typedef struct rlf_synthetic_def {
                                      neighbouring pixels, as a Kinect v1's; needs enable_noise */
     bool enable_edge_filter;      /* default true: the driver's invalid band at silhouettes */
     bool enable_color;            /* default true */
-    bool enable_truth;            /* default true; false saves the truth planes' time */
+    bool enable_truth;            /* default true: made when it is asked for; false saves memory */
     int32_t color_width, color_height; /* default 960 x 540; fx scales with the width */
     rlf_pool *pool;                    /* borrowed; NULL = one thread */
 } rlf_synthetic_def;

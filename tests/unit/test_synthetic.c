@@ -267,6 +267,31 @@ static void check_feet(uint64_t person)
     }
 }
 
+/* Cameras know no truth: it is made when it is asked for, whatever was asked before. */
+static void truth_does_not_depend_on_when_it_was_asked_for(void **state)
+{
+    (void)state;
+    rlf_source *often = open_source("synthetic:chair?color=0", NULL);
+    rlf_source *seldom = open_source("synthetic:chair?color=0", NULL);
+    for (uint64_t i = 90; i < 130; i++) {
+        (void)frame_at(often, i);
+        (void)frame_at(seldom, i);
+        const rlf_truth *all = rlf_source_get_truth(often);
+        if (i % 13 != 0) {
+            continue;
+        }
+        const rlf_truth *some = rlf_source_get_truth(seldom);
+        assert_ptr_equal(rlf_source_get_truth(seldom), some);
+        assert_memory_equal(some->label, all->label, PIXELS * sizeof(*some->label));
+        assert_memory_equal(some->foreground, all->foreground, PIXELS);
+        assert_memory_equal(some->thickness, all->thickness, PIXELS * sizeof(float));
+        assert_memory_equal(some->normal_z, all->normal_z, PIXELS * sizeof(float));
+        assert_memory_equal(some->velocity_x, all->velocity_x, PIXELS * sizeof(float));
+    }
+    rlf_source_destroy(&often);
+    rlf_source_destroy(&seldom);
+}
+
 static void feet_carry_the_person(void **state)
 {
     (void)state;
@@ -428,6 +453,7 @@ int main(void)
         cmocka_unit_test(velocity_is_what_the_distance_field_does),
         cmocka_unit_test(the_room_is_empty_at_first),
         cmocka_unit_test(the_chair_is_taken_away),
+        cmocka_unit_test(truth_does_not_depend_on_when_it_was_asked_for),
         cmocka_unit_test(feet_carry_the_person),
         cmocka_unit_test(people_differ),
         cmocka_unit_test(same_def_gives_the_same_bits),

@@ -8,14 +8,11 @@
 #define ROWS_PER_CHUNK 8
 #define COVER_M 0.05f /* what stands so much before a mover covers it */
 
+enum { BLOCK = 64 }; /* pixels looked at together */
+
 static size_t index_of(const synth_color *color, int32_t x, int32_t y)
 {
     return (size_t)y * (size_t)color->view.camera.width + (size_t)x;
-}
-
-static bool has_row(synth_rect rect, int32_t y)
-{
-    return y >= rect.y0 && y < rect.y1 && rect.x0 < rect.x1;
 }
 
 static void restore_row(synth_color *color, int32_t y)
@@ -26,32 +23,52 @@ static void restore_row(synth_color *color, int32_t y)
 }
 
 /* The room's light on a mover: less of it near the floor and below. */
-static double sky_on_mover(const synth_color *color, const synth_site *site)
+RLF_KERNEL_PART double sky_on_mover(double floor_y, const synth_site *site)
 {
-    double height = rlf_clamp((color->scene->floor_y - site->p.y) / 0.6, 0.0, 1.0);
+    double height = rlf_clamp((floor_y - site->p.y) / 0.6, 0.0, 1.0);
     double up = 0.5 - 0.5 * site->normal.y;
     return (0.55 + 0.45 * height) * (0.82 + 0.28 * up);
+}
+
+/* Light on the points of a run: rgb. */
+RLF_KERNEL static void light_run(const synth_scene *scene, const synth_touches *touches,
+                                 int32_t count, double (*restrict light)[SYNTH_RUN_MOST])
+{
+    const rlf_vec3 lamp = scene->lamp;
+    const double floor_y = scene->floor_y;
+    for (int32_t i = 0; i < count; i++) {
+        const synth_site site = {
+            {touches->p[0][i], touches->p[1][i], touches->p[2][i]},
+            {touches->normal[0][i], touches->normal[1][i], touches->normal[2][i]}};
+        const rlf_vec3 here = synth_light(lamp, &site, 1.0, sky_on_mover(floor_y, &site));
+        light[0][i] = here.x;
+        light[1][i] = here.y;
+        light[2][i] = here.z;
+    }
+}
+
+static void paint_run(synth_color *color, const synth_run *run, int32_t y)
+{
+    const synth_part *part = &color->scene->movers[run->id];
+    uint8_t *paint = color->paint + 4 * index_of(color, run->x0, y);
+    synth_touches touches;
+    double light[3][SYNTH_RUN_MOST];
+    synth_canvas_touch(&color->canvas, run, y, &touches);
+    light_run(color->scene, &touches, run->x1 - run->x0, light);
+    for (int32_t i = 0; i < run->x1 - run->x0; i++) {
+        const rlf_vec3 local = {touches.local[0][i], touches.local[1][i], touches.local[2][i]};
+        const rlf_vec3 albedo = synth_albedo(part, local);
+        synth_encode(color->gamma, (float)(light[0][i] * albedo.x), (float)(light[1][i] * albedo.y),
+                     (float)(light[2][i] * albedo.z), paint + 4 * (size_t)i);
+    }
 }
 
 static void paint_row(synth_color *color, int32_t y)
 {
     const synth_canvas *canvas = &color->canvas;
-    for (int32_t x = canvas->drawn.x0; x < canvas->drawn.x1; x++) {
-        size_t i = index_of(color, x, y);
-        int32_t id = canvas->part[i];
-        if (id < 0) {
-            continue;
-        }
-        const synth_part *part = &color->scene->movers[id];
-        synth_touch touch =
-            synth_stamp_touch(&canvas->stamps[id], &color->view, x, y, canvas->z[i]);
-        synth_site site = {{touch.p[0], touch.p[1], touch.p[2]},
-                           {touch.normal[0], touch.normal[1], touch.normal[2]}};
-        rlf_vec3 light = synth_light(color->scene->lamp, &site, 1.0, sky_on_mover(color, &site));
-        rlf_vec3 albedo =
-            synth_albedo(part, rlf_vec3_make(touch.local[0], touch.local[1], touch.local[2]));
-        synth_encode(color->gamma, (float)(light.x * albedo.x), (float)(light.y * albedo.y),
-                     (float)(light.z * albedo.z), &color->paint[4 * i]);
+    synth_run run;
+    for (int32_t x = canvas->drawn.x0; synth_canvas_next_run(canvas, x, y, &run); x = run.x1) {
+        paint_run(color, &run, y);
     }
 }
 
@@ -61,14 +78,14 @@ static void draw_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     const synth_color_planes *room = &color->room[color->room_index];
     (void)worker;
     for (int32_t y = begin; y < end; y++) {
-        if (has_row(color->dirty, y)) {
+        if (synth_rect_has_row(color->dirty, y)) {
             restore_row(color, y);
         }
-        if (has_row(color->shadow.rect, y)) {
+        if (synth_rect_has_row(color->shadow.rect, y)) {
             synth_shadow_apply(&color->shadow, &color->view, color->scene->floor_y, y, room->lamp,
                                color->out);
         }
-        if (has_row(color->canvas.drawn, y)) {
+        if (synth_rect_has_row(color->canvas.drawn, y)) {
             synth_canvas_draw_row(&color->canvas, room->z, y);
             paint_row(color, y);
         }
@@ -78,7 +95,7 @@ static void draw_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 static bool is_painted(const synth_color *color, int32_t x, int32_t y)
 {
     const synth_rect *drawn = &color->canvas.drawn;
-    return x >= drawn->x0 && x < drawn->x1 && has_row(*drawn, y) &&
+    return x >= drawn->x0 && x < drawn->x1 && synth_rect_has_row(*drawn, y) &&
            color->canvas.part[index_of(color, x, y)] >= 0;
 }
 
@@ -169,33 +186,65 @@ static void blend_pixel(synth_color *color, int32_t x, int32_t y)
     }
 }
 
-/* True when all nine pixels around column x agree on being painted or not. */
-static bool is_uniform(const int32_t *above, const int32_t *row, const int32_t *below, int32_t x)
+enum { NOT_PAINTED, PAINTED, AT_OUTLINE };
+
+/* Whether all nine pixels around each of `count` from `row` on are painted, or none: their parts,
+ * `width` to a row, are < 0 where not. */
+RLF_KERNEL static void find_outline(const int32_t *row, ptrdiff_t width, int32_t count,
+                                    uint8_t *restrict kind)
 {
-    int32_t any = 0;
-    int32_t all = -1;
-    for (int32_t k = x - 1; k <= x + 1; k++) {
-        any |= ~above[k] | ~row[k] | ~below[k]; /* sign bit: some part is >= 0 */
-        all &= ~above[k] & ~row[k] & ~below[k]; /* sign bit: all parts are >= 0 */
+    const int32_t *above = row - width;
+    const int32_t *below = row + width;
+    int32_t kinds[BLOCK]; /* by themselves: bytes among integers are not vectorised */
+    for (int32_t i = 0; i < count; i++) {
+        const int32_t all = above[i - 1] & above[i] & above[i + 1] & row[i - 1] & row[i] &
+                            row[i + 1] & below[i - 1] & below[i] & below[i + 1];
+        const int32_t any = above[i - 1] | above[i] | above[i + 1] | row[i - 1] | row[i] |
+                            row[i + 1] | below[i - 1] | below[i] | below[i + 1];
+        const int32_t some = all < 0 ? NOT_PAINTED : AT_OUTLINE; /* sign: of all that are < 0 */
+        kinds[i] = any >= 0 ? PAINTED : some;
     }
-    return any >= 0 || all < 0;
+    for (int32_t i = 0; i < count; i++) {
+        kind[i] = (uint8_t)kinds[i];
+    }
+}
+
+static void blend_pixels(synth_color *color, int32_t x0, int32_t x1, int32_t y)
+{
+    for (int32_t x = x0; x < x1; x++) {
+        blend_pixel(color, x, y);
+    }
+}
+
+/* The same for pixels whose neighbours are all inside the canvas's rectangle. */
+static void blend_inner(synth_color *color, int32_t x0, int32_t x1, int32_t y)
+{
+    const int32_t width = color->view.camera.width;
+    uint8_t kind[BLOCK];
+    for (int32_t first = x0; first < x1; first += BLOCK) {
+        const int32_t count = x1 - first < BLOCK ? x1 - first : BLOCK;
+        const size_t at = index_of(color, first, y);
+        find_outline(color->canvas.part + at, width, count, kind);
+        for (int32_t i = 0; i < count; i++) {
+            if (kind[i] == AT_OUTLINE) {
+                blend_pixel(color, first + i, y);
+            } else if (kind[i] == PAINTED) {
+                const size_t pixel = 4 * (at + (size_t)i);
+                memcpy(color->out + pixel, color->paint + pixel, 4);
+            }
+        }
+    }
 }
 
 static void blend_row(synth_color *color, synth_rect rect, int32_t y)
 {
     const synth_rect *drawn = &color->canvas.drawn;
-    int32_t width = color->view.camera.width;
-    const int32_t *row = color->canvas.part + index_of(color, 0, y);
-    bool is_inner_row = y > drawn->y0 && y < drawn->y1 - 1;
-    for (int32_t x = rect.x0; x < rect.x1; x++) {
-        bool is_inner = is_inner_row && x > drawn->x0 && x < drawn->x1 - 1;
-        if (!is_inner || !is_uniform(row - width, row, row + width, x)) {
-            blend_pixel(color, x, y);
-        } else if (row[x] >= 0) {
-            size_t i = 4 * index_of(color, x, y);
-            memcpy(color->out + i, color->paint + i, 4);
-        }
-    }
+    const bool is_inner = y > drawn->y0 && y < drawn->y1 - 1 && drawn->x1 - drawn->x0 > 2;
+    const int32_t x0 = is_inner ? drawn->x0 + 1 : rect.x1;
+    const int32_t x1 = is_inner ? drawn->x1 - 1 : rect.x1;
+    blend_pixels(color, rect.x0, x0, y);
+    blend_inner(color, x0, x1, y);
+    blend_pixels(color, x1, rect.x1, y);
 }
 
 static void blend_rows(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -204,7 +253,7 @@ static void blend_rows(void *context, int32_t begin, int32_t end, int32_t worker
     synth_rect rect = synth_rect_grow(color->canvas.drawn, 1, &color->view.camera);
     (void)worker;
     for (int32_t y = begin; y < end; y++) {
-        if (has_row(rect, y)) {
+        if (synth_rect_has_row(rect, y)) {
             blend_row(color, rect, y);
         }
     }

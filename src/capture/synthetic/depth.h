@@ -30,7 +30,10 @@ typedef struct synth_depth {
     float *velocity[3];
     uint16_t *out; /* millimetres */
     synth_canvas canvas;
-    synth_rect dirty; /* where `now` differs from the room */
+    synth_rect dirty;         /* where `now` differs from the room */
+    bool has_truth;           /* the frame's truth planes are made */
+    int32_t truth_room_index; /* of the state that they show; -1 = none yet */
+    synth_rect truth_dirty;   /* where they differ from the room */
     const synth_scene *scene;
     uint32_t frame;
 } synth_depth;
@@ -41,5 +44,9 @@ void synth_depth_destroy(synth_depth *depth);
 
 /* Makes the frame of the scene as it stands now; room_index says which state of the room. */
 void synth_depth_render(synth_depth *depth, uint32_t frame, int32_t room_index);
+
+/* depth_truth.c: the truth planes of that frame, made when they are asked for: cameras know none.
+ */
+void synth_depth_find_truth(synth_depth *depth);
 
 #endif

@@ -66,10 +66,8 @@ static void cast_tiles(void *context, int32_t begin, int32_t end, int32_t worker
 static void find_jumps(const synth_depth_planes *planes)
 {
     for (size_t y = 1; y + 1 < SYNTH_DEPTH_HEIGHT; y++) {
-        for (size_t x = 1; x + 1 < SYNTH_DEPTH_WIDTH; x++) {
-            size_t i = y * SYNTH_DEPTH_WIDTH + x;
-            planes->jump[i] = synth_is_jump(planes->z, i);
-        }
+        const size_t first = y * SYNTH_DEPTH_WIDTH + 1;
+        synth_noise_find_jumps(planes->z + first, SYNTH_DEPTH_WIDTH - 2, planes->jump + first);
     }
 }
 
@@ -136,7 +134,7 @@ static rlf_result create_frame(synth_depth *depth, bool enable_truth)
 rlf_result synth_depth_create(synth_depth *depth, const synth_scene *scene, bool enable_truth)
 {
     depth->scene = scene;
-    depth->room_index = -1;
+    depth->room_index = depth->truth_room_index = -1;
     rlf_result result = create_frame(depth, enable_truth);
     int32_t states = scene->removed_count > 0 ? 2 : 1;
     for (int32_t k = 0; k < states && result == RLF_OK; k++) {

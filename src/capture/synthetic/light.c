@@ -4,19 +4,6 @@
 
 #define LAMP_HALF 0.16 /* metres */
 
-rlf_vec3 synth_light(rlf_vec3 lamp_at, const synth_site *site, double lamp, double sky)
-{
-    rlf_vec3 to_lamp = rlf_sub(lamp_at, site->p);
-    double distance2 = rlf_dot(to_lamp, to_lamp);
-    double cosine = rlf_dot(site->normal, to_lamp) / sqrt(distance2);
-    double direct = lamp * rlf_max(0.0, cosine) * 10.5 / (4.5 + distance2);
-    double up = 0.5 - 0.5 * site->normal.y; /* 1 facing the ceiling, 0 facing the floor */
-    double ambient = sky * (0.38 + 0.06 * up);
-    /* warm lamp, bluish daylight, a little warm light back from the floor */
-    return rlf_vec3_make(0.98 * direct + ambient * (1.02 - 0.06 * up), 0.92 * direct + ambient,
-                         0.82 * direct + ambient * (0.94 + 0.14 * up));
-}
-
 static bool is_blocked(const synth_scene *scene, int32_t count, const synth_ray *ray)
 {
     double length2 = rlf_dot(ray->direction, ray->direction);

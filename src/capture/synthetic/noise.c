@@ -1,6 +1,7 @@
 /* The noise recipe. Every number is a function of (seed, frame, pixel). */
 #include "capture/synthetic/noise.h"
 #include "capture/synthetic/hash.h"
+#include "kernel/kernel.h"
 
 #include <string.h>
 
@@ -9,6 +10,8 @@
 #define JUMP_SHARE 0.04f        /* of the depth: second difference that counts as a jump */
 #define FLYING_PROBABILITY 0.5f /* that a jump pixel mixes both sides */
 #define KEPT_AT_JUMP 0.05f      /* that the driver's edge filter keeps a jump pixel */
+
+enum { BLOCK = 64 }; /* pixels worked on together: a share of the width */
 
 /* That it keeps a pixel with so many jump pixels among its eight neighbours: 0.74^n, because each
  * of them removes it with probability 0.26. */
@@ -27,21 +30,44 @@ void synth_noise_init(synth_noise *noise, uint64_t seed)
     }
 }
 
-float synth_noise_sigma(const synth_noise *noise, float z, float cosine)
+RLF_KERNEL_PART float sigma_of(const float *incidences, float z, float cosine)
 {
     float c = cosine < 0.0f ? 0.0f : (cosine > 1.0f ? 1.0f : cosine);
     float x = c * (float)SYNTH_INCIDENCE_STEPS;
     int32_t i = (int32_t)x;
     i = i < SYNTH_INCIDENCE_STEPS ? i : SYNTH_INCIDENCE_STEPS - 1;
     float f = x - (float)i;
-    float incidence = noise->incidence[i] + (noise->incidence[i + 1] - noise->incidence[i]) * f;
+    float incidence = incidences[i] + (incidences[i + 1] - incidences[i]) * f;
     return 1.5f - 0.5f * z + 0.3f * z * z + 0.1f * z * sqrtf(z) * incidence;
+}
+
+float synth_noise_sigma(const synth_noise *noise, float z, float cosine)
+{
+    return sigma_of(noise->incidence, z, cosine);
+}
+
+RLF_KERNEL_PART float margin_of(float reflectance, float z, float cosine, float vignette)
+{
+    float amplitude = reflectance * cosine / (z * z) * vignette;
+    return (amplitude - AMPLITUDE_THRESHOLD) / AMPLITUDE_SIGMA;
 }
 
 float synth_noise_margin(float reflectance, float z, float cosine, float vignette)
 {
-    float amplitude = reflectance * cosine / (z * z) * vignette;
-    return (amplitude - AMPLITUDE_THRESHOLD) / AMPLITUDE_SIGMA;
+    return margin_of(reflectance, z, cosine, vignette);
+}
+
+RLF_KERNEL void synth_noise_find(const synth_noise *noise, const synth_noise_seen *seen,
+                                 float *restrict sigma, float *restrict margin)
+{
+    const float *restrict z = seen->z;
+    const float *restrict cosine = seen->cosine;
+    const float *restrict vignette = seen->vignette;
+    const float reflectance = seen->reflectance;
+    for (int32_t i = 0; i < seen->count; i++) {
+        sigma[i] = sigma_of(noise->incidence, z[i], cosine[i]);
+        margin[i] = margin_of(reflectance, z[i], cosine[i], vignette[i]);
+    }
 }
 
 double synth_noise_vignette(double u, double v)
@@ -51,7 +77,7 @@ double synth_noise_vignette(double u, double v)
     return 1.0 / (1.0 + rlf_exp(60.0 * (sqrt(x * x + y * y) - 1.045)));
 }
 
-static float magnitude(float x)
+RLF_KERNEL_PART float magnitude(float x)
 {
     return x < 0.0f ? -x : x;
 }
@@ -66,15 +92,21 @@ static float bend_y(const float *z, size_t i)
     return magnitude(z[i - SYNTH_DEPTH_WIDTH] - 2.0f * z[i] + z[i + SYNTH_DEPTH_WIDTH]);
 }
 
-uint8_t synth_is_jump(const float *z, size_t i)
+RLF_KERNEL void synth_noise_find_jumps(const float *z, int32_t count, uint8_t *restrict out)
 {
-    float limit = JUMP_SHARE * z[i];
-    return bend_x(z, i) > limit || bend_y(z, i) > limit;
+    const float *above = z - SYNTH_DEPTH_WIDTH;
+    const float *below = z + SYNTH_DEPTH_WIDTH;
+    for (int32_t i = 0; i < count; i++) {
+        float limit = JUMP_SHARE * z[i];
+        float across = magnitude(z[i - 1] - 2.0f * z[i] + z[i + 1]);
+        float down = magnitude(above[i] - 2.0f * z[i] + below[i]);
+        out[i] = (across > limit ? 1 : 0) | (down > limit ? 1 : 0);
+    }
 }
 
-static uint16_t quantise(const synth_noise *noise, float depth_mm)
+RLF_KERNEL_PART uint16_t quantise(float least, float most, float depth_mm)
 {
-    int is_inside = (depth_mm >= noise->min_mm) & (depth_mm <= noise->max_mm);
+    int is_inside = (depth_mm >= least) & (depth_mm <= most);
     return (uint16_t)(is_inside ? (int32_t)(depth_mm + 0.5f) : 0);
 }
 
@@ -84,25 +116,39 @@ static void apply_steps(const synth_noise *noise, const synth_noise_row *row, ui
     for (int32_t x = 0; x < SYNTH_DEPTH_WIDTH; x++) {
         if (out[x] != 0) {
             float seen = synth_noise_steps(noise, row->frame, x, row->y, z[x]);
-            out[x] = quantise(noise, 1000.0f * seen);
+            out[x] = quantise(noise->min_mm, noise->max_mm, 1000.0f * seen);
         }
     }
 }
 
-static void apply_axial(const synth_noise *noise, const synth_noise_row *row, uint32_t key,
-                        uint16_t *out)
+/* Depth with its noise where enough light comes back, else 0: in millimetres. */
+RLF_KERNEL_PART void add_axial(const float *restrict z, const float *restrict sigma,
+                               const float *restrict margin, uint32_t key, int32_t x0,
+                               float *restrict out)
 {
-    size_t first = (size_t)row->y * SYNTH_DEPTH_WIDTH;
-    const float *z = row->z + first;
-    const float *sigma = row->sigma + first;
-    const float *margin = row->margin + first;
-    for (int32_t x = 0; x < SYNTH_DEPTH_WIDTH; x++) {
-        uint32_t h = synth_hash(key + (uint32_t)x * 0x9e3779b9u);
+    for (int32_t i = 0; i < BLOCK; i++) {
+        uint32_t h = synth_hash(key + (uint32_t)(x0 + i) * 0x9e3779b9u);
         uint32_t h2 = h * 0x9e3779b1u;
         h2 ^= h2 >> 15;
-        float depth = z[x] * 1000.0f + sigma[x] * synth_normal(h);
-        int is_lit = margin[x] + synth_normal(h2) >= 0.0f;
-        out[x] = quantise(noise, is_lit ? depth : 0.0f);
+        float depth = z[i] * 1000.0f + sigma[i] * synth_normal(h);
+        int is_lit = margin[i] + synth_normal(h2) >= 0.0f;
+        out[i] = is_lit ? depth : 0.0f;
+    }
+}
+
+RLF_KERNEL static void apply_axial(const synth_noise *noise, const synth_noise_row *row,
+                                   uint32_t key, uint16_t *restrict out)
+{
+    const size_t first = (size_t)row->y * SYNTH_DEPTH_WIDTH;
+    const float least = noise->min_mm;
+    const float most = noise->max_mm;
+    float depth[BLOCK];
+    for (int32_t x = 0; x < SYNTH_DEPTH_WIDTH; x += BLOCK) {
+        const size_t at = first + (size_t)x;
+        add_axial(row->z + at, row->sigma + at, row->margin + at, key, x, depth);
+        for (int32_t i = 0; i < BLOCK; i++) {
+            out[x + i] = quantise(least, most, depth[i]);
+        }
     }
 }
 
@@ -122,7 +168,8 @@ static void apply_jump(const synth_noise *noise, const synth_noise_row *row, uin
     bool is_jump = row->jump[i] != 0;
     if (is_jump && synth_uniform(h) < FLYING_PROBABILITY && out[x] != 0) {
         uint32_t h2 = synth_hash(h + 0x9e3779b9u);
-        out[x] = quantise(noise, 1000.0f * flying_depth(row->z, i, synth_uniform(h2)));
+        out[x] = quantise(noise->min_mm, noise->max_mm,
+                          1000.0f * flying_depth(row->z, i, synth_uniform(h2)));
     }
     float kept = kept_beside_jumps[is_jump ? count - 1 : count];
     kept *= is_jump ? KEPT_AT_JUMP : 1.0f;
@@ -131,19 +178,25 @@ static void apply_jump(const synth_noise *noise, const synth_noise_row *row, uin
     }
 }
 
-/* Visits the pixels that have a jump in their 3x3 neighbourhood. */
-static void apply_jumps(const synth_noise *noise, const synth_noise_row *row, uint32_t key,
-                        uint16_t *out)
+/* Jumps in the 3x3 neighbourhood of each pixel of a row; 0 at both ends. */
+RLF_KERNEL static void count_jumps(const uint8_t *jump, uint8_t *restrict count)
 {
-    const uint8_t *jump = row->jump + (size_t)row->y * SYNTH_DEPTH_WIDTH;
     uint8_t column[SYNTH_DEPTH_WIDTH];
-    uint8_t count[SYNTH_DEPTH_WIDTH] = {0}; /* of jumps in the 3x3 neighbourhood */
     for (int32_t x = 0; x < SYNTH_DEPTH_WIDTH; x++) {
         column[x] = (uint8_t)(jump[x - SYNTH_DEPTH_WIDTH] + jump[x] + jump[x + SYNTH_DEPTH_WIDTH]);
     }
     for (int32_t x = 1; x < SYNTH_DEPTH_WIDTH - 1; x++) {
         count[x] = (uint8_t)(column[x - 1] + column[x] + column[x + 1]);
     }
+    count[0] = count[SYNTH_DEPTH_WIDTH - 1] = 0;
+}
+
+/* Visits the pixels that have a jump in their 3x3 neighbourhood. */
+static void apply_jumps(const synth_noise *noise, const synth_noise_row *row, uint32_t key,
+                        uint16_t *out)
+{
+    uint8_t count[SYNTH_DEPTH_WIDTH];
+    count_jumps(row->jump + (size_t)row->y * SYNTH_DEPTH_WIDTH, count);
     for (int32_t block = 0; block < SYNTH_DEPTH_WIDTH; block += 8) {
         uint64_t any;
         memcpy(&any, count + block, sizeof(any));
@@ -160,7 +213,7 @@ void synth_noise_apply(const synth_noise *noise, const synth_noise_row *row, uin
     if (!noise->enable) {
         const float *z = row->z + (size_t)row->y * SYNTH_DEPTH_WIDTH;
         for (int32_t x = 0; x < SYNTH_DEPTH_WIDTH; x++) {
-            out[x] = quantise(noise, z[x] * 1000.0f);
+            out[x] = quantise(noise->min_mm, noise->max_mm, z[x] * 1000.0f);
         }
         return;
     }

@@ -38,11 +38,21 @@ float synth_noise_sigma(const synth_noise *noise, float z, float cosine);
 /* Amplitude of the returned light above the driver's threshold, in standard deviations of it. */
 float synth_noise_margin(float reflectance, float z, float cosine, float vignette);
 
+/* Both at once of surfaces that reflect alike: `count` pixels of a row. */
+typedef struct synth_noise_seen {
+    float reflectance;
+    const float *z, *cosine, *vignette;
+    int32_t count;
+} synth_noise_seen;
+void synth_noise_find(const synth_noise *noise, const synth_noise_seen *seen, float *sigma,
+                      float *margin);
+
 /* Share of light that the lens passes at pixel (u, v). */
 double synth_noise_vignette(double u, double v);
 
-/* 1 where depth jumps between the neighbours of index i, which must not be on the border. */
-uint8_t synth_is_jump(const float *z, size_t i);
+/* 1 where depth jumps between the neighbours of a pixel: `count` pixels from z on, none of them on
+ * the border. */
+void synth_noise_find_jumps(const float *z, int32_t count, uint8_t *out);
 
 /* noise_steps.c: depth in metres at pixel (x, y) as structured light measures it; z > 0. */
 float synth_noise_steps(const synth_noise *noise, uint32_t frame, int32_t x, int32_t y, float z);

@@ -51,8 +51,9 @@ static void sensor_destroy(void *self)
 
 static void fill_truth(synth_sensor *sensor)
 {
-    const synth_depth *depth = &sensor->depth;
+    synth_depth *depth = &sensor->depth;
     rlf_truth *truth = &sensor->truth;
+    synth_depth_find_truth(depth);
     truth->depth = depth->now.z;
     truth->normal_x = depth->now.normal[0];
     truth->normal_y = depth->now.normal[1];
@@ -96,9 +97,6 @@ static rlf_result sensor_next(void *self, rlf_frame *out)
                                        .height = def->color_height,
                                        .stride = 4 * (ptrdiff_t)def->color_width};
     }
-    if (def->enable_truth) {
-        fill_truth(sensor);
-    }
     out->sequence = (uint64_t)frame;
     out->time_ns = (int64_t)(sensor->time * 1e9 + 0.5);
     out->depth_u16 = sensor->depth.out;
@@ -120,7 +118,13 @@ static rlf_result sensor_restart(void *self)
 static const rlf_truth *sensor_truth(void *self)
 {
     synth_sensor *sensor = self;
-    return sensor->has_frame && sensor->def.enable_truth ? &sensor->truth : NULL;
+    if (!sensor->has_frame || !sensor->def.enable_truth) {
+        return NULL;
+    }
+    if (!sensor->depth.has_truth) {
+        fill_truth(sensor);
+    }
+    return &sensor->truth;
 }
 
 synth_sensor *synth_sensor_of(const rlf_source *source)

@@ -2,6 +2,7 @@
  * the floor, so the ellipses are drawn row by row. */
 #include "capture/synthetic/shadow.h"
 #include "capture/synthetic/light.h"
+#include "kernel/kernel.h"
 
 #define ROW_MAX 4096
 #define PENUMBRA 0.06       /* metres of softness per metre between ball and floor */
@@ -97,24 +98,49 @@ void synth_shadow_place(synth_shadow *shadow, const synth_scene *scene, const sy
 
 /* Multiplies light[i], pixel i of a row at floor depth z, by what the blob lets through: 1 - k (1 -
  * d^2)^2 for the normalised distance d < 1. */
-static void dim_row(const synth_blob *blob, float x0, float step, float z, float *light,
-                    int32_t count)
+RLF_KERNEL static void dim_row(const synth_blob blob, float x0, float step, float z,
+                               float *restrict light, int32_t count)
 {
-    float dz = z - blob->z;
-    if (dz > blob->long_radius || dz < -blob->long_radius) {
+    float dz = z - blob.z;
+    if (dz > blob.long_radius || dz < -blob.long_radius) {
         return;
     }
-    float first = (blob->x - blob->long_radius - x0) / step;
-    float last = (blob->x + blob->long_radius - x0) / step + 1.0f;
+    float first = (blob.x - blob.long_radius - x0) / step;
+    float last = (blob.x + blob.long_radius - x0) / step + 1.0f;
     int32_t begin = first > 0.0f ? (first < (float)count ? (int32_t)first : count) : 0;
     int32_t end = last < (float)count ? (last > 0.0f ? (int32_t)last : 0) : count;
     for (int32_t i = begin; i < end; i++) {
-        float dx = x0 + step * (float)i - blob->x;
-        float along = (dx * blob->along_x + dz * blob->along_z) / blob->long_radius;
-        float aside = (dx * blob->along_z - dz * blob->along_x) / blob->short_radius;
+        float dx = x0 + step * (float)i - blob.x;
+        float along = (dx * blob.along_x + dz * blob.along_z) / blob.long_radius;
+        float aside = (dx * blob.along_z - dz * blob.along_x) / blob.short_radius;
         float rest = 1.0f - along * along - aside * aside;
         rest = rest > 0.0f ? rest : 0.0f;
-        light[i] *= 1.0f - blob->strength * rest * rest;
+        light[i] *= 1.0f - blob.strength * rest * rest;
+    }
+}
+
+/* Turns light into what code values are multiplied by, which go about with its square root: 1 where
+ * the lamp is not seen anyway, or hardly any of it is lost. */
+RLF_KERNEL static void find_factors(const uint8_t *restrict lamp, int32_t count,
+                                    float *restrict light)
+{
+    for (int32_t i = 0; i < count; i++) {
+        float linear = 1.0f - (1.0f - light[i]) * (float)lamp[i] * (1.0f / 255.0f);
+        float factor = sqrtf(linear);
+        factor = lamp[i] == 0 ? 1.0f : factor;
+        light[i] = light[i] >= 0.999f ? 1.0f : factor;
+    }
+}
+
+/* Times 1 a code value is itself. */
+RLF_KERNEL static void darken_row(const float *restrict factor, int32_t count,
+                                  uint8_t *restrict rgba)
+{
+    for (int32_t i = 0; i < count; i++) {
+        for (int c = 0; c < 3; c++) {
+            uint8_t *code = &rgba[4 * (size_t)i + (size_t)c];
+            *code = (uint8_t)((float)*code * factor[i] + 0.5f);
+        }
     }
 }
 
@@ -134,18 +160,9 @@ void synth_shadow_apply(const synth_shadow *shadow, const synth_view *view, doub
         light[i] = 1.0f;
     }
     for (int32_t k = 0; k < shadow->blob_count; k++) {
-        dim_row(&shadow->blobs[k], (float)x0, (float)(z / camera->fx), (float)z, light, count);
+        dim_row(shadow->blobs[k], (float)x0, (float)(z / camera->fx), (float)z, light, count);
     }
-    for (int32_t i = 0; i < count; i++) {
-        size_t pixel = (size_t)y * (size_t)camera->width + (size_t)(shadow->rect.x0 + i);
-        if (lamp[pixel] == 0 || light[i] >= 0.999f) {
-            continue;
-        }
-        float linear = 1.0f - (1.0f - light[i]) * (float)lamp[pixel] * (1.0f / 255.0f);
-        float factor = sqrtf(linear); /* code values go about with the square root of light */
-        for (int c = 0; c < 3; c++) {
-            uint8_t *code = &rgba[4 * pixel + (size_t)c];
-            *code = (uint8_t)((float)*code * factor + 0.5f);
-        }
-    }
+    const size_t first = (size_t)y * (size_t)camera->width + (size_t)shadow->rect.x0;
+    find_factors(lamp + first, count, light);
+    darken_row(light, count, rgba + 4 * first);
 }

@@ -1,6 +1,8 @@
 /* Movers as stamps: where they project to, and their rows. */
 #include "capture/synthetic/stamp.h"
 
+#include "kernel/kernel.h"
+
 #define NEAREST 0.05 /* metres; what is nearer is not drawn */
 
 /* Coefficients of one row: direction d + i step_d and origin o + i step_o for pixel i. */
@@ -15,40 +17,43 @@ typedef struct row {
 } row;
 
 /* Entry into the unit sphere: |o + s d|^2 = 1. */
-static void draw_ellipsoid(const row *r)
+RLF_KERNEL static void draw_ellipsoid(const row r)
 {
-    float *z = r->z;
-    int32_t *part = r->part;
-    for (int32_t i = 0; i < r->count; i++) {
+    float *restrict z = r.z;
+    int32_t *restrict part = r.part;
+    for (int32_t i = 0; i < r.count; i++) {
         float u = (float)i;
-        float dx = r->d[0] + u * r->step_d[0];
-        float dy = r->d[1] + u * r->step_d[1];
-        float dz = r->d[2] + u * r->step_d[2];
-        float ox = r->o[0] + u * r->step_o[0];
-        float oy = r->o[1] + u * r->step_o[1];
-        float oz = r->o[2] + u * r->step_o[2];
+        float dx = r.d[0] + u * r.step_d[0];
+        float dy = r.d[1] + u * r.step_d[1];
+        float dz = r.d[2] + u * r.step_d[2];
+        float ox = r.o[0] + u * r.step_o[0];
+        float oy = r.o[1] + u * r.step_o[1];
+        float oz = r.o[2] + u * r.step_o[2];
         float a = dx * dx + dy * dy + dz * dz;
         float b = ox * dx + oy * dy + oz * dz;
         float c = ox * ox + oy * oy + oz * oz - 1.0f;
         float discriminant = b * b - a * c;
         float root = sqrtf(discriminant > 0.0f ? discriminant : 0.0f);
-        float t = r->z0 - (b + root) / a;
+        float t = r.z0 - (b + root) / a;
         int hit = (discriminant > 0.0f) & (t > (float)NEAREST) & (t < z[i]);
         z[i] = hit ? t : z[i];
-        part[i] = hit ? r->id : part[i];
+        part[i] = hit ? r.id : part[i];
     }
 }
 
 /* Slab method. */
-static void draw_box(const row *r, const float half[3])
+RLF_KERNEL static void draw_box(const row r, const float half[3])
 {
-    for (int32_t i = 0; i < r->count; i++) {
+    float *restrict z = r.z;
+    int32_t *restrict part = r.part;
+    for (int32_t i = 0; i < r.count; i++) {
         float u = (float)i;
         float near = -1e9f;
         float far = 1e9f;
+        RLF_KERNEL_UNROLLED(3)
         for (int k = 0; k < 3; k++) {
-            float d = r->d[k] + u * r->step_d[k];
-            float o = r->o[k] + u * r->step_o[k];
+            float d = r.d[k] + u * r.step_d[k];
+            float o = r.o[k] + u * r.step_o[k];
             d = d == 0.0f ? 1e-12f : d;
             float t1 = (-half[k] - o) / d;
             float t2 = (half[k] - o) / d;
@@ -57,17 +62,16 @@ static void draw_box(const row *r, const float half[3])
             near = low > near ? low : near;
             far = high < far ? high : far;
         }
-        float t = r->z0 + near;
-        if (near <= far && t > (float)NEAREST && t < r->z[i]) {
-            r->z[i] = t;
-            r->part[i] = r->id;
-        }
+        float t = r.z0 + near;
+        int hit = (near <= far) & (t > (float)NEAREST) & (t < z[i]);
+        z[i] = hit ? t : z[i];
+        part[i] = hit ? r.id : part[i];
     }
 }
 
 /* Entry is the smallest of the entries into the two spheres and the crossings of the lateral
  * surface between them; see intersect_cone in shape.c. */
-static void draw_cone(const row *r, const synth_stamp *stamp)
+RLF_KERNEL static void draw_cone(const row r, const synth_stamp *stamp)
 {
     const float sine = stamp->sine;
     const float cosine2 = stamp->cosine2;
@@ -76,16 +80,16 @@ static void draw_cone(const row *r, const synth_stamp *stamp)
     const float radius_a2 = radius_a * radius_a;
     const float radius_b2 = stamp->radius_b * stamp->radius_b;
     const float far = 1e9f;
-    float *z = r->z;
-    int32_t *part = r->part;
-    for (int32_t i = 0; i < r->count; i++) {
+    float *restrict z = r.z;
+    int32_t *restrict part = r.part;
+    for (int32_t i = 0; i < r.count; i++) {
         float u = (float)i;
-        float dx = r->d[0] + u * r->step_d[0];
-        float dy = r->d[1] + u * r->step_d[1];
-        float dz = r->d[2] + u * r->step_d[2];
-        float ox = r->o[0] + u * r->step_o[0];
-        float oy = r->o[1] + u * r->step_o[1];
-        float oz = r->o[2] + u * r->step_o[2];
+        float dx = r.d[0] + u * r.step_d[0];
+        float dy = r.d[1] + u * r.step_d[1];
+        float dz = r.d[2] + u * r.step_d[2];
+        float ox = r.o[0] + u * r.step_o[0];
+        float oy = r.o[1] + u * r.step_o[1];
+        float oz = r.o[2] + u * r.step_o[2];
         float d_side = dx * dx + dz * dz;
         float m_side = ox * dx + oz * dz;
         float o_side = ox * ox + oz * oz;
@@ -120,10 +124,10 @@ static void draw_cone(const row *r, const synth_stamp *stamp)
         best = t1 < best ? t1 : best;
         best = t2 < best ? t2 : best;
 
-        float t = r->z0 + best;
+        float t = r.z0 + best;
         int hit = (t > (float)NEAREST) & (t < z[i]);
         z[i] = hit ? t : z[i];
-        part[i] = hit ? r->id : part[i];
+        part[i] = hit ? r.id : part[i];
     }
 }
 
@@ -146,9 +150,9 @@ static void draw_stamp_row(synth_canvas *canvas, int32_t id, int32_t y)
         r.step_o[k] = (float)(stamp->A[k][0] / camera->fx * stamp->z0);
     }
     switch (stamp->type) {
-    case SYNTH_BOX: draw_box(&r, stamp->half); break;
-    case SYNTH_CONE: draw_cone(&r, stamp); break;
-    default: draw_ellipsoid(&r); break;
+    case SYNTH_BOX: draw_box(r, stamp->half); break;
+    case SYNTH_CONE: draw_cone(r, stamp); break;
+    default: draw_ellipsoid(r); break;
     }
 }
 
@@ -168,47 +172,16 @@ void synth_canvas_draw_row(synth_canvas *canvas, const float *static_z, int32_t 
     }
 }
 
-synth_touch synth_stamp_touch(const synth_stamp *stamp, const synth_view *view, int32_t x,
-                              int32_t y, float z)
+bool synth_canvas_next_run(const synth_canvas *canvas, int32_t x, int32_t y, synth_run *out)
 {
-    rlf_vec3 m = synth_view_ray(view, x, y).direction;
-    const float p[3] = {(float)(m.x * z), (float)(m.y * z), z};
-    float A[3][3];
-    float q[3];
-    for (int k = 0; k < 3; k++) {
-        for (int j = 0; j < 3; j++) {
-            A[k][j] = (float)stamp->A[k][j];
-        }
-        q[k] = A[k][0] * p[0] + A[k][1] * p[1] + A[k][2] * p[2] - (float)stamp->offset[k];
+    const int32_t *part = canvas->part + (size_t)y * (size_t)canvas->view.camera.width;
+    const int32_t last = canvas->drawn.x1;
+    while (x < last && part[x] < 0) {
+        x++;
     }
-    float g[3] = {q[0], q[1], q[2]}; /* gradient in q */
-    synth_touch touch;
-    if (stamp->type == SYNTH_CONE) {
-        float rho = sqrtf(q[0] * q[0] + q[2] * q[2]);
-        float t = q[1] - rho * stamp->sine / sqrtf(stamp->cosine2);
-        t = t < 0.0f ? 0.0f : (t > stamp->length ? stamp->length : t);
-        g[1] = q[1] - t;
-    } else if (stamp->type == SYNTH_BOX) {
-        int face = 0;
-        float depth[3];
-        for (int k = 0; k < 3; k++) {
-            depth[k] = (q[k] < 0.0f ? -q[k] : q[k]) - stamp->half[k];
-            face = depth[k] > depth[face] ? k : face;
-        }
-        for (int k = 0; k < 3; k++) {
-            g[k] = k != face ? 0.0f : (q[k] < 0.0f ? -1.0f : 1.0f);
-        }
+    *out = (synth_run){x < last ? part[x] : -1, x, x};
+    while (out->x1 < last && out->x1 - x < SYNTH_RUN_MOST && part[out->x1] == out->id) {
+        out->x1++;
     }
-    float n[3];
-    for (int k = 0; k < 3; k++) {
-        n[k] = A[0][k] * g[0] + A[1][k] * g[1] + A[2][k] * g[2];
-    }
-    float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    const float origin[3] = {(float)view->origin.x, (float)view->origin.y, (float)view->origin.z};
-    for (int k = 0; k < 3; k++) {
-        touch.p[k] = p[k] + origin[k];
-        touch.normal[k] = n[k] / length;
-        touch.local[k] = stamp->type == SYNTH_ELLIPSOID ? q[k] * stamp->half[k] : q[k];
-    }
-    return touch;
+    return x < last;
 }

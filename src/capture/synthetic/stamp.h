@@ -37,14 +37,27 @@ void synth_canvas_place(synth_canvas *canvas, const synth_scene *scene);
 /* Draws row y inside `drawn`, in front of the static room's depth (a whole picture). */
 void synth_canvas_draw_row(synth_canvas *canvas, const float *static_z, int32_t y);
 
-/* Point of a stamp's surface at pixel (x, y) and depth z. */
-typedef struct synth_touch {
-    float p[3];      /* camera frame of the depth camera */
-    float normal[3]; /* outward, unit */
-    float local[3];  /* in the shape's own frame */
-} synth_touch;
+/* Pixels x0 <= x < x1 of a row that show one stamp. */
+typedef struct synth_run {
+    int32_t id, x0, x1;
+} synth_run;
 
-synth_touch synth_stamp_touch(const synth_stamp *stamp, const synth_view *view, int32_t x,
-                              int32_t y, float z);
+#define SYNTH_RUN_MOST 64 /* pixels */
+
+/* The next run of row y from column x on, of SYNTH_RUN_MOST pixels at most; false when none is left
+ * in `drawn`. */
+bool synth_canvas_next_run(const synth_canvas *canvas, int32_t x, int32_t y, synth_run *out);
+
+/* Points of a stamp's surface at the pixels of a run. Kernels work on whole lanes: what is beyond
+ * the last pixel are numbers of no use. */
+typedef struct synth_touches {
+    float p[3][SYNTH_RUN_MOST];      /* camera frame of the depth camera */
+    float normal[3][SYNTH_RUN_MOST]; /* outward, unit */
+    float local[3][SYNTH_RUN_MOST];  /* in the shape's own frame */
+} synth_touches;
+
+/* touch.c: at the depths that the canvas has there. */
+void synth_canvas_touch(const synth_canvas *canvas, const synth_run *run, int32_t y,
+                        synth_touches *out);
 
 #endif

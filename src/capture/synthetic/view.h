@@ -33,6 +33,11 @@ static inline bool synth_rect_is_empty(synth_rect r)
     return r.x0 >= r.x1 || r.y0 >= r.y1;
 }
 
+static inline bool synth_rect_has_row(synth_rect r, int32_t y)
+{
+    return y >= r.y0 && y < r.y1 && r.x0 < r.x1;
+}
+
 static inline synth_rect synth_rect_union(synth_rect a, synth_rect b)
 {
     if (synth_rect_is_empty(a)) {
