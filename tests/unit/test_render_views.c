@@ -168,12 +168,44 @@ static void regions_have_boxes_and_labels(void **state)
     assert_true((away < away_below ? away : away_below) < 150);
     assert_true(
         memcmp(plain + (size_t)(4 * 960) * (size_t)y, rlf_rgba8_row(&out.image, y), 4 * 960) != 0);
-    int32_t white = 0;
-    for (int32_t i = 0; i < 960 * 540; i++) {
-        white += out.image.data[4 * i] == 255 && out.image.data[4 * i + 2] == 255;
+    int32_t white = 0, around = 0; /* "fg 7" in the middle of its pixels, and nowhere else */
+    for (int32_t i = 0; i < 512 * 424; i++) {
+        const uint8_t *p = grid_pixel(&out, i % 512, i / 512);
+        bool is_white = p[0] == 255 && p[2] == 255;
+        white += is_white;
+        around += is_white && abs(i % 512 - 250) < 40 && i / 512 >= 149 && i / 512 < 170;
     }
-    assert_true(white > 40); /* "fg 7" */
+    assert_true(white > 40);
+    assert_int_equal(around, white);
     free(plain);
+    rlf_compositor_destroy(&compositor);
+    scene_free(s);
+}
+
+/* Red in the picture is what the colour camera sees of the strip. 52 mm beside it the depth camera
+ * sees wall there: it must not be red. */
+static void what_the_color_camera_does_not_see_has_no_color(void **state)
+{
+    (void)state;
+    render_scene *s = scene_make(2.5);
+    scene_add_strip(s, 200, 300, 1.0);
+    for (int32_t i = 0; i < 960 * 540; i++) {
+        double x = (i % 960 - 479.5) / 540.5 * 1.0 + 0.052, u = x * 365.5 + 255.5;
+        s->color[4 * i] = u > 199.5 && u < 299.5 ? 255 : s->color[4 * i];
+    }
+    rlf_compositor_def def = scene_def(s);
+    rlf_compositor *compositor = create(&def);
+    rlf_render_output out = show(compositor, s, RLF_VIEW_FOREGROUND);
+    int32_t hidden = 0;
+    for (int32_t u = 150; u < 350; u++) {
+        bool is_strip = s->foreground[212 * 512 + u] != 0;
+        const uint8_t *p = grid_pixel(&out, u, 212);
+        bool is_edge = abs(u - 200) < 2 || abs(u - 300) < 2;
+        assert_true(is_edge || (p[0] > p[2] + 40) == is_strip);
+        double wall_u = (u - 255.5) + 365.5 * 0.052 * (1.0 - 1.0 / 2.5);
+        hidden += !is_strip && wall_u > 199.5 - 255.5 && wall_u < 299.5 - 255.5;
+    }
+    assert_in_range(hidden, 9, 13); /* 11.4 pixels of parallax */
     rlf_compositor_destroy(&compositor);
     scene_free(s);
 }
@@ -389,6 +421,7 @@ int main(void)
         cmocka_unit_test(planes_have_their_colors),
         cmocka_unit_test(foreground_is_tinted_and_motion_colored),
         cmocka_unit_test(regions_have_boxes_and_labels),
+        cmocka_unit_test(what_the_color_camera_does_not_see_has_no_color),
         cmocka_unit_test(mesh_lines_meet_where_the_points_are),
         cmocka_unit_test(any_size_is_a_picture),
         cmocka_unit_test(picture_without_bodies_is_the_camera_s),

@@ -229,15 +229,19 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
     return RLF_OK;
 }
 
+/* All of the real depth, as the picture's camera sees it. */
+static rlf_result see_real(soft *s, const rlf_render_input *input)
+{
+    const registration_window all = {0, 0, s->camera.width, s->camera.height};
+    real_depth_read(&s->real, input);
+    return real_depth_update(&s->real, input, NULL, &all);
+}
+
 static rlf_result draw_mesh(soft *s, const rlf_render_input *input)
 {
-    if (input->frame->color.data == NULL) {
-        const registration_window all = {0, 0, s->camera.width, s->camera.height};
-        real_depth_read(&s->real, input);
-        rlf_result result = real_depth_update(&s->real, input, NULL, &all);
-        if (result != RLF_OK) {
-            return result;
-        }
+    rlf_result result = input->frame->color.data == NULL ? see_real(s, input) : RLF_OK;
+    if (result != RLF_OK) {
+        return result;
     }
     soft_set_background(s, &input->frame->color);
     rlf_parallel_for(s->def.pool, s->image.height, SOFT_BAND_ROWS, draw_background_rows, s);
@@ -258,7 +262,10 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
     room_light_update(&s->lamp, &s->def, input->frame);
     light_direction_update(&s->direction, &s->def, input->frame, input->surface);
     soft_set_viewpoint(s, &s->camera, &s->T_picture_depth);
-    rlf_result result = RLF_OK;
+    rlf_result result = soft_view_has_colors(input) ? see_real(s, input) : RLF_OK;
+    if (result != RLF_OK) {
+        return result;
+    }
     if (input->view == RLF_VIEW_CAMERA) {
         result = draw_camera(s, input);
     } else if (input->view == RLF_VIEW_CONTACTS) {

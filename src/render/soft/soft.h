@@ -376,7 +376,10 @@ void soft_draw_reason_legend(soft *s);
 soft_color soft_color_reason(rlf_reason reason);
 void soft_draw_arrow(const rlf_image_rgba8 *image, soft_point from, soft_point to,
                      soft_color color);
-/* Colour of the camera's picture where grid point i lies at depth z; grey depth without one. */
+/* Whether a view shows the camera's colours at the surface's pixels: s->real is read then. */
+bool soft_view_has_colors(const rlf_render_input *input);
+/* Colour of the camera's picture where grid point i lies at depth z; grey depth without one, and
+ * where something nearer hides it from the colour camera. s->real must be read. */
 soft_color soft_grid_color(const soft *s, const rlf_render_input *input, int32_t i, float z);
 /* view_points.c */
 rlf_result soft_draw_points(soft *s, const rlf_render_input *input);

@@ -59,6 +59,7 @@ static void draw_box(soft *s, const soft_fit *fit, const rlf_aabb *box, soft_col
 void soft_draw_region_marks(soft *s, const rlf_surface *surface, const soft_fit *fit)
 {
     int32_t scale = soft_text_scale(s->image.height);
+    const rlf_image_rgba8 part = fitted_part(s, fit);
     for (int32_t i = 0; i < surface->region_count; i++) {
         const rlf_region *region = &surface->regions[i];
         draw_box(s, fit, &region->box, soft_color_label(region->label));
@@ -72,7 +73,7 @@ void soft_draw_region_marks(soft *s, const rlf_surface *surface, const soft_fit 
         double middle_y = 0.5 * (region->y0 + region->y1);
         soft_text style = {(int32_t)(middle_x * fit->scale) - soft_text_width(line, scale) / 2,
                            (int32_t)(middle_y * fit->scale), scale, soft_rgb(255, 255, 255), true};
-        soft_draw_text(&s->image, &style, line);
+        soft_draw_text(&part, &style, line);
     }
 }
 

@@ -5,6 +5,7 @@
 
 #define THICKNESS_FULL_M 0.5 /* the palette's end */
 #define SPEED_FULL_M_S 1.0   /* full brightness */
+#define NEARER 0.98          /* of a point's depth: what is nearer hides it */
 
 typedef struct grid_view {
     const soft *s;
@@ -38,6 +39,24 @@ static soft_color dim_depth(const grid_view *view, float z)
     return soft_rgb(grey, grey, grey);
 }
 
+/* Whether something stands between the colour camera and a point that it would see at (u, v) of the
+ * picture, z metres deep: the colour there is not the point's. */
+static bool is_hidden(const soft *s, const rlf_image_rgba8 *image, double u, double v, double z)
+{
+    const rlf_plane_f32 *real = &s->real.z;
+    int32_t x = (int32_t)((u + 0.5) * real->width / image->width);
+    int32_t y = (int32_t)((v + 0.5) * real->height / image->height);
+    float nearest = rlf_f32_row(real, y)[x];
+    return nearest > 0.0f && nearest < NEARER * z;
+}
+
+bool soft_view_has_colors(const rlf_render_input *input)
+{
+    bool shows = input->view == RLF_VIEW_REGIONS || input->view == RLF_VIEW_FOREGROUND ||
+                 input->view == RLF_VIEW_POINTS;
+    return shows && input->frame->color.data != NULL;
+}
+
 soft_color soft_grid_color(const soft *s, const rlf_render_input *input, int32_t i, float z)
 {
     const rlf_surface *surface = input->surface;
@@ -51,7 +70,8 @@ soft_color soft_grid_color(const soft *s, const rlf_render_input *input, int32_t
     p = rlf_transform(&s->def.rig.T_color_depth, p);
     if (!rlf_camera_project(s->def.rig.has_color ? &s->def.rig.color : &s->def.rig.depth, p, &u,
                             &v) ||
-        !(u > -0.5 && v > -0.5 && u < image->width - 0.5 && v < image->height - 0.5)) {
+        !(u > -0.5 && v > -0.5 && u < image->width - 0.5 && v < image->height - 0.5) ||
+        is_hidden(s, image, u, v, p.z)) {
         return dim_depth(&range, z);
     }
     const uint8_t *pixel = rlf_rgba8_row(image, (int32_t)(v + 0.5)) + 4 * (ptrdiff_t)(u + 0.5);
