@@ -246,19 +246,36 @@ static void lead(const settle_job *job, ptrdiff_t i)
     }
 }
 
+/* As with votes: what some pixels have is on its way while the next are found. */
+static void lead_row(const settle_job *job, ptrdiff_t row)
+{
+    const uint8_t *mark = job->mark + row, *known = job->known + row;
+    for (int32_t x = 0; x < job->width;) {
+        int32_t seen[TOGETHER], count = 0;
+        for (; count < TOGETHER; x++) {
+            x = rlf_kernel_next_mark(mark, x, job->width);
+            if (x >= job->width) {
+                break;
+            }
+            if (known[x] != 0) {
+                fetch(job, row + x);
+                seen[count++] = x;
+            }
+        }
+        for (int32_t k = 0; k < count; k++) {
+            lead(job, row + seen[k]);
+        }
+    }
+}
+
 static void lead_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
     const settle_job *job = context;
     for (int32_t y = begin; y < end; y++) {
         ptrdiff_t row = (ptrdiff_t)y * job->width;
-        const uint8_t *mark = job->mark + row, *known = job->known + row;
         memset(job->overruled + row, 0, (size_t)job->width);
-        for (int32_t x = 0; (x = rlf_kernel_next_mark(mark, x, job->width)) < job->width; x++) {
-            if (known[x] != 0) {
-                lead(job, row + x);
-            }
-        }
+        lead_row(job, row);
     }
 }
 
