@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "analytic.h"
+#include "seen_view.h"
 
 #include <math.h>
 
@@ -15,28 +15,28 @@ enum { WIDTH = 97, HEIGHT = 72, COUNT = WIDTH * HEIGHT };
 static const double wall_z = 3.0, board_z = 2.0;
 
 typedef struct fixture {
-    rlf_rig rig;
-    float truth[COUNT], seen[COUNT];
-    analytic_random random;
+    seen_view view;
     rlf_reconstruct *stage;
 } fixture;
 
 static int make_fixture(void **state)
 {
     static fixture f;
-    f.rig = analytic_rig(WIDTH, HEIGHT);
-    f.random = (analytic_random){5};
-    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f.rig);
+    seen_view_create(&f.view, analytic_rig(WIDTH, HEIGHT), 5);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f.view.rig);
     def.background_method = RLF_BACKGROUND_OFF;
     def.enable_fill = false; /* memory alone */
+    f.stage = seen_view_stage(&def);
     *state = &f;
-    return rlf_reconstruct_create(&def, &f.stage) == RLF_OK ? 0 : -1;
+    return 0;
 }
 
 static int free_fixture(void **state)
 {
-    rlf_reconstruct_destroy(&((fixture *)*state)->stage);
-    return 0;
+    fixture *f = *state;
+    void *view = &f->view;
+    rlf_reconstruct_destroy(&f->stage);
+    return seen_view_destroy(&view);
 }
 
 /* A board of 30 columns from `left` on in front of a wall; left = WIDTH: none. */
@@ -44,30 +44,26 @@ static void set_board(fixture *f, int32_t left)
 {
     for (int i = 0; i < COUNT; i++) {
         int32_t x = i % WIDTH;
-        f->truth[i] = (float)(x >= left && x < left + 30 ? board_z : wall_z);
+        f->view.truth[i] = (float)(x >= left && x < left + 30 ? board_z : wall_z);
     }
 }
 
 static bool is_beside_edge(const fixture *f, int i)
 {
     int32_t x = i % WIDTH;
-    bool left = x > 0 && fabsf(f->truth[i] - f->truth[i - 1]) > 0.1f;
-    return left || (x + 1 < WIDTH && fabsf(f->truth[i] - f->truth[i + 1]) > 0.1f);
+    bool left = x > 0 && fabsf(f->view.truth[i] - f->view.truth[i - 1]) > 0.1f;
+    return left || (x + 1 < WIDTH && fabsf(f->view.truth[i] - f->view.truth[i + 1]) > 0.1f);
 }
 
 /* One frame: noise, a share of pixels dropped, and most of those beside an edge. */
 static const rlf_surface *process(fixture *f, int32_t number, double dropped)
 {
     for (int i = 0; i < COUNT; i++) {
-        double sigma = rlf_depth_noise_sigma(&f->rig.noise, f->truth[i]);
         double share = is_beside_edge(f, i) ? 0.7 : dropped;
-        bool kept = random_uniform(&f->random) >= share;
-        f->seen[i] = kept ? f->truth[i] + (float)(sigma * random_normal(&f->random)) : 0.0f;
+        bool kept = random_uniform(&f->view.random) >= share;
+        f->view.seen[i] = kept ? seen_view_noisy(&f->view, f->view.truth[i]) : 0.0f;
     }
-    rlf_frame frame = analytic_frame(&f->rig, f->seen, number);
-    const rlf_surface *s = NULL;
-    assert_int_equal(rlf_reconstruct_process(f->stage, &frame, &s), RLF_OK);
-    return s;
+    return seen_view_process(&f->view, f->stage, number);
 }
 
 static void what_stands_is_recalled(void **state)
@@ -81,11 +77,11 @@ static void what_stands_is_recalled(void **state)
     }
     int dropped = 0, missing = 0;
     for (int i = 0; i < COUNT; i++) {
-        dropped += f->seen[i] <= 0.0f;
+        dropped += f->view.seen[i] <= 0.0f;
         missing += s->reason[i] == RLF_REASON_NO_RETURN;
         if (s->depth[i] > 0.0f) {
-            assert_true(fabs(s->depth[i] - f->truth[i]) < 0.02);
-            assert_true(f->seen[i] > 0.0f || s->reason[i] == RLF_REASON_FILLED);
+            assert_true(fabs(s->depth[i] - f->view.truth[i]) < 0.02);
+            assert_true(f->view.seen[i] > 0.0f || s->reason[i] == RLF_REASON_FILLED);
             assert_true(s->normal_z[i] < -0.9f);
         }
     }
@@ -105,7 +101,7 @@ static void what_stands_from_the_first_frame_on_is_recalled_at_once(void **state
     int dropped = 0, missing = 0;
     for (int i = 0; i < COUNT; i++) {
         bool inside = !is_beside_edge(f, i);
-        dropped += inside && f->seen[i] <= 0.0f;
+        dropped += inside && f->view.seen[i] <= 0.0f;
         missing += inside && s->reason[i] == RLF_REASON_NO_RETURN;
     }
     assert_true(dropped > COUNT / 12);
@@ -141,7 +137,7 @@ static void what_moves_is_not_recalled(void **state)
         set_board(f, t < 30 ? 20 : 20 + (t - 28) / 2);
         const rlf_surface *s = process(f, t, 0.1);
         for (int i = 0; i < COUNT; i++) {
-            bool is_wrong = s->depth[i] > 0.0f && fabs(s->depth[i] - f->truth[i]) > 0.1;
+            bool is_wrong = s->depth[i] > 0.0f && fabs(s->depth[i] - f->view.truth[i]) > 0.1;
             wrong += is_wrong && t != 30;
             wrong_at_start += is_wrong && t == 30;
         }
@@ -154,7 +150,7 @@ static void switched_off_it_recalls_nothing(void **state)
 {
     fixture *f = *state;
     rlf_reconstruct *with = f->stage;
-    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->rig);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->view.rig);
     def.background_method = RLF_BACKGROUND_OFF;
     def.enable_fill = def.enable_hold = false;
     assert_int_equal(rlf_reconstruct_create(&def, &f->stage), RLF_OK);
@@ -162,7 +158,7 @@ static void switched_off_it_recalls_nothing(void **state)
     for (int t = 0; t < 10; t++) {
         const rlf_surface *s = process(f, t, 0.1);
         for (int i = 0; i < COUNT; i++) {
-            assert_true(f->seen[i] > 0.0f || s->depth[i] <= 0.0f);
+            assert_true(f->view.seen[i] > 0.0f || s->depth[i] <= 0.0f);
         }
     }
     rlf_reconstruct_destroy(&f->stage);
@@ -175,7 +171,7 @@ enum { REAR = 33, FRONT = 37 };
 static double top_depth(const fixture *f, int32_t y)
 {
     const double below_eye = 0.4;
-    return below_eye * f->rig.depth.fy / (y - f->rig.depth.cy);
+    return below_eye * f->view.rig.depth.fy / (y - f->view.rig.depth.cy);
 }
 
 /* Noise of a face seen so low; of the rows beside the wall most pixels are dropped. */
@@ -187,15 +183,12 @@ static const rlf_surface *see_top(fixture *f, int32_t number)
         int32_t y = i / WIDTH;
         bool is_top = y >= REAR && y < FRONT;
         double z = y < REAR ? wall_z : top_depth(f, is_top ? y : FRONT);
-        double sigma = rlf_depth_noise_sigma(&f->rig.noise, z) * (is_top ? noisier : 1.0);
+        double sigma = rlf_depth_noise_sigma(&f->view.rig.noise, z) * (is_top ? noisier : 1.0);
         double share = y >= REAR - 2 && y < REAR + 2 ? dropped[y - REAR + 2] : 0.0;
-        bool kept = random_uniform(&f->random) >= share;
-        f->seen[i] = kept ? (float)(z + sigma * random_normal(&f->random)) : 0.0f;
+        bool kept = random_uniform(&f->view.random) >= share;
+        f->view.seen[i] = kept ? (float)(z + sigma * random_normal(&f->view.random)) : 0.0f;
     }
-    rlf_frame frame = analytic_frame(&f->rig, f->seen, number);
-    const rlf_surface *s = NULL;
-    assert_int_equal(rlf_reconstruct_process(f->stage, &frame, &s), RLF_OK);
-    return s;
+    return seen_view_process(&f->view, f->stage, number);
 }
 
 /* Samples of the second row have their like below them only: what is believed for that is too near.
@@ -203,9 +196,9 @@ static const rlf_surface *see_top(fixture *f, int32_t number)
 static void the_rear_of_a_low_top_is_not_drawn_near(void **state)
 {
     fixture f = *(fixture *)*state;
-    f.rig.depth.fx = f.rig.depth.fy = 365.0;
-    f.rig.depth.cy = -26.0;
-    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f.rig);
+    f.view.rig.depth.fx = f.view.rig.depth.fy = 365.0;
+    f.view.rig.depth.cy = -26.0;
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f.view.rig);
     def.background_method = RLF_BACKGROUND_OFF;
     assert_int_equal(rlf_reconstruct_create(&def, &f.stage), RLF_OK);
     double off = 0.0, count = 0.0;

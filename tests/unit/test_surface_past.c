@@ -8,7 +8,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "analytic.h"
+#include "seen_view.h"
 
 #include <math.h>
 
@@ -19,25 +19,27 @@ static const double wall_z = 4.0, front_z = 2.9, deep = 0.16, half_width = 0.012
 static const double start_x = 0.95, step_x = -0.04; /* per frame: 1.2 m/s */
 
 typedef struct fixture {
-    rlf_rig rig;
-    float truth[COUNT], back[COUNT], seen[COUNT]; /* back: where the ray leaves the book, or 0 */
-    analytic_random random;
+    seen_view view;
+    float back[COUNT]; /* where the ray leaves the book, or 0 */
     rlf_reconstruct *stage;
 } fixture;
 
 static int make_fixture(void **state)
 {
     static fixture f;
-    f.rig = analytic_rig(WIDTH, HEIGHT);
-    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f.rig);
+    seen_view_create(&f.view, analytic_rig(WIDTH, HEIGHT), 7);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f.view.rig);
+    f.stage = seen_view_stage(&def);
     *state = &f;
-    return rlf_reconstruct_create(&def, &f.stage) == RLF_OK ? 0 : -1;
+    return 0;
 }
 
 static int free_fixture(void **state)
 {
-    rlf_reconstruct_destroy(&((fixture *)*state)->stage);
-    return 0;
+    fixture *f = *state;
+    void *view = &f->view;
+    rlf_reconstruct_destroy(&f->stage);
+    return seen_view_destroy(&view);
 }
 
 /* Where the ray (u, ., 1) enters and leaves the book about x = centre; false when it misses. */
@@ -52,12 +54,12 @@ static bool cut(double u, double centre, double out[2])
 
 static void set_book(fixture *f, double centre)
 {
-    const rlf_camera *c = &f->rig.depth;
+    const rlf_camera *c = &f->view.rig.depth;
     for (int32_t i = 0; i < COUNT; i++) {
         double u = (i % WIDTH - c->cx) / c->fx, z[2];
         int32_t y = i / WIDTH;
         bool is_book = y >= TOP && y < BOTTOM && cut(fabs(u) < 1e-6 ? 1e-6 : u, centre, z);
-        f->truth[i] = (float)(is_book ? z[0] : wall_z);
+        f->view.truth[i] = (float)(is_book ? z[0] : wall_z);
         f->back[i] = (float)(is_book ? z[1] : 0.0);
     }
 }
@@ -77,21 +79,17 @@ static bool is_book_near(const fixture *f, int32_t i, int32_t reach)
 static const rlf_surface *process(fixture *f, int32_t number, bool is_lost)
 {
     for (int32_t i = 0; i < COUNT; i++) {
-        double sigma = rlf_depth_noise_sigma(&f->rig.noise, f->truth[i]);
         bool is_missing = is_lost && is_book_near(f, i, BAND);
-        f->seen[i] = is_missing ? 0.0f : f->truth[i] + (float)(sigma * random_normal(&f->random));
+        f->view.seen[i] = is_missing ? 0.0f : seen_view_noisy(&f->view, f->view.truth[i]);
     }
-    rlf_frame frame = analytic_frame(&f->rig, f->seen, number);
-    const rlf_surface *s = NULL;
-    assert_int_equal(rlf_reconstruct_process(f->stage, &frame, &s), RLF_OK);
-    return s;
+    return seen_view_process(&f->view, f->stage, number);
 }
 
 /* The empty room, then the book as it is carried in, up to that frame of its way. */
 static const rlf_surface *carry(fixture *f, int32_t frames)
 {
     const rlf_surface *s = NULL;
-    f->random = (analytic_random){7};
+    f->view.random = (analytic_random){7};
     rlf_reconstruct_reset(f->stage);
     for (int32_t t = 0; t < EMPTY_FRAMES + frames; t++) {
         set_book(f, t < EMPTY_FRAMES ? -1e3 : start_x + step_x * (t - EMPTY_FRAMES));
@@ -123,7 +121,7 @@ static double share_known(const fixture *f, const rlf_surface *s, int32_t *out_o
     for (int32_t i = 0; i < COUNT; i++) {
         bool is_front = s->foreground[i] != 0 && s->depth[i] > 0.0f;
         book += f->back[i] > 0.0f;
-        known += f->back[i] > 0.0f && is_front && fabsf(s->depth[i] - f->truth[i]) < 0.2f;
+        known += f->back[i] > 0.0f && is_front && fabsf(s->depth[i] - f->view.truth[i]) < 0.2f;
         *out_off += is_front && !is_book_near(f, i, BAND);
     }
     return book > 0 ? (double)known / book : 0.0;

@@ -8,7 +8,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "analytic.h"
+#include "seen_view.h"
 #include "surface/plate/plate.h"
 
 #include <math.h>
@@ -19,25 +19,27 @@ enum { WIDTH = 512, HEIGHT = 200, COUNT = WIDTH * HEIGHT, BAND = 2, EMPTY_FRAMES
 static const double wall_z = 4.0, middle_z = 2.6, stick_m = 0.02;
 
 typedef struct fixture {
-    rlf_rig rig;
-    float truth[COUNT], back[COUNT], seen[COUNT]; /* back: where the ray leaves the plate, or 0 */
-    analytic_random random;
+    seen_view view;
+    float back[COUNT]; /* where the ray leaves the plate, or 0 */
     rlf_reconstruct *stage;
 } fixture;
 
 static int make_fixture(void **state)
 {
     static fixture f;
-    f.rig = analytic_rig(WIDTH, HEIGHT);
-    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f.rig);
+    seen_view_create(&f.view, analytic_rig(WIDTH, HEIGHT), 7);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f.view.rig);
+    f.stage = seen_view_stage(&def);
     *state = &f;
-    return rlf_reconstruct_create(&def, &f.stage) == RLF_OK ? 0 : -1;
+    return 0;
 }
 
 static int free_fixture(void **state)
 {
-    rlf_reconstruct_destroy(&((fixture *)*state)->stage);
-    return 0;
+    fixture *f = *state;
+    void *view = &f->view;
+    rlf_reconstruct_destroy(&f->stage);
+    return seen_view_destroy(&view);
 }
 
 /* Half extents along the view, down and across when it is edge-on, and where it is. */
@@ -66,14 +68,14 @@ static bool cut(const plate *p, double u, double v, double out[2])
 /* A wall, the stick under the plate, and the plate, if any. */
 static void draw(fixture *f, const plate *p)
 {
-    const rlf_camera *c = &f->rig.depth;
+    const rlf_camera *c = &f->view.rig.depth;
     for (int32_t i = 0; i < COUNT; i++) {
         double u = (i % WIDTH - c->cx) / c->fx, v = (i / WIDTH - c->cy) / c->fy, z[2];
         bool is_plate = p != NULL && cut(p, u, v, z);
-        f->truth[i] = (float)(is_plate ? z[0] : wall_z);
+        f->view.truth[i] = (float)(is_plate ? z[0] : wall_z);
         f->back[i] = (float)(is_plate ? z[1] : 0.0);
         if (p != NULL && v * middle_z >= p->half[1] && fabs(u * middle_z - p->x) < stick_m) {
-            f->truth[i] = (float)middle_z;
+            f->view.truth[i] = (float)middle_z;
         }
     }
 }
@@ -84,7 +86,7 @@ static bool is_at_step(const fixture *f, int32_t i)
     for (int32_t dy = -BAND; dy <= BAND; dy++) {
         for (int32_t dx = -BAND; dx <= BAND; dx++) {
             bool is_inside = x + dx >= 0 && x + dx < WIDTH && y + dy >= 0 && y + dy < HEIGHT;
-            if (is_inside && fabsf(f->truth[i + dy * WIDTH + dx] - f->truth[i]) > 0.2f) {
+            if (is_inside && fabsf(f->view.truth[i + dy * WIDTH + dx] - f->view.truth[i]) > 0.2f) {
                 return true;
             }
         }
@@ -96,19 +98,15 @@ static bool is_at_step(const fixture *f, int32_t i)
 static const rlf_surface *process(fixture *f, int32_t number)
 {
     for (int32_t i = 0; i < COUNT; i++) {
-        double sigma = rlf_depth_noise_sigma(&f->rig.noise, f->truth[i]);
-        float noisy = f->truth[i] + (float)(sigma * random_normal(&f->random));
-        f->seen[i] = is_at_step(f, i) ? 0.0f : noisy;
+        float noisy = seen_view_noisy(&f->view, f->view.truth[i]);
+        f->view.seen[i] = is_at_step(f, i) ? 0.0f : noisy;
     }
-    rlf_frame frame = analytic_frame(&f->rig, f->seen, number);
-    const rlf_surface *s = NULL;
-    assert_int_equal(rlf_reconstruct_process(f->stage, &frame, &s), RLF_OK);
-    return s;
+    return seen_view_process(&f->view, f->stage, number);
 }
 
 static void start(fixture *f)
 {
-    f->random = (analytic_random){7};
+    f->view.random = (analytic_random){7};
     rlf_reconstruct_reset(f->stage);
     draw(f, NULL);
     for (int32_t t = 0; t < EMPTY_FRAMES; t++) {
@@ -168,7 +166,7 @@ static void a_barrel_is_no_plate(void **state)
 {
     const double radius = 0.16, half_height = 0.2;
     fixture *f = *state;
-    const rlf_camera *c = &f->rig.depth;
+    const rlf_camera *c = &f->view.rig.depth;
     double sum = 0.0;
     int32_t count = 0;
     start(f);
@@ -179,7 +177,7 @@ static void a_barrel_is_no_plate(void **state)
             double b = u * x + middle_z, a = u * u + 1.0;
             double root = b * b - a * (x * x + middle_z * middle_z - radius * radius);
             bool is_barrel = root > 0.0 && fabs(v) * middle_z < half_height;
-            f->truth[i] = (float)(is_barrel ? (b - sqrt(root)) / a : wall_z);
+            f->view.truth[i] = (float)(is_barrel ? (b - sqrt(root)) / a : wall_z);
             f->back[i] = (float)(is_barrel ? (b + sqrt(root)) / a : 0.0);
         }
         sum += back_error(f, process(f, EMPTY_FRAMES + t), &count);
@@ -194,7 +192,7 @@ static void a_frame_places_a_plate_and_does_not_move_it_again(void **state)
 {
     fixture *f = *state;
     const plate seen = {.half = {0.01, 0.12, 0.09}, .x = 0.05};
-    const double pixel_m = middle_z / f->rig.depth.fx;
+    const double pixel_m = middle_z / f->view.rig.depth.fx;
     start(f);
     draw(f, &seen);
     for (int k = 0; k < 20; k++) {
@@ -204,13 +202,13 @@ static void a_frame_places_a_plate_and_does_not_move_it_again(void **state)
         for (int u = 0; u < RLF_PLATE_UNKNOWNS; u++) {
             box.doubt[u][u] = 0.02 * 0.02;
         }
-        rlf_plate_improve(f->stage, f->truth, &box);
+        rlf_plate_improve(f->stage, f->view.truth, &box);
         assert_true(fabs(box.pose.p.x - seen.x) < pixel_m);
         assert_true(fabs(box.pose.p.y) < pixel_m);
         assert_true(fabs(box.half[0] - seen.half[1]) < pixel_m);
         assert_true(fabs(box.half[1] - seen.half[2]) < pixel_m);
         const rlf_plate before = box;
-        rlf_plate_improve(f->stage, f->truth, &box);
+        rlf_plate_improve(f->stage, f->view.truth, &box);
         assert_true(rlf_length(rlf_sub(box.pose.p, before.pose.p)) < 0.0005);
     }
 }
