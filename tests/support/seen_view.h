@@ -39,14 +39,21 @@ static inline float seen_view_noisy(seen_view *v, float z)
     return z + (float)(sigma * random_normal(&v->random));
 }
 
+/* The stage's surface of a depth image, metres. */
+static inline const rlf_surface *seen_depth_process(const rlf_rig *rig, const float *depth,
+                                                    rlf_reconstruct *stage, int32_t number)
+{
+    rlf_frame frame = analytic_frame(rig, depth, number);
+    const rlf_surface *s = NULL;
+    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    return s;
+}
+
 /* The stage's surface of what is seen. */
 static inline const rlf_surface *seen_view_process(const seen_view *v, rlf_reconstruct *stage,
                                                    int32_t number)
 {
-    rlf_frame frame = analytic_frame(&v->rig, v->seen, number);
-    const rlf_surface *s = NULL;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
-    return s;
+    return seen_depth_process(&v->rig, v->seen, stage, number);
 }
 
 static inline rlf_reconstruct *seen_view_stage(const rlf_reconstruct_def *def)
@@ -54,6 +61,30 @@ static inline rlf_reconstruct *seen_view_stage(const rlf_reconstruct_def *def)
     rlf_reconstruct *stage = NULL;
     assert_int_equal(rlf_reconstruct_create(def, &stage), RLF_OK);
     return stage;
+}
+
+/* A view with its stage, the state of a group of tests. */
+typedef struct staged_view {
+    seen_view view;
+    float *back; /* where rays leave what is looked at, metres; 0 = they miss it */
+    rlf_reconstruct *stage;
+} staged_view;
+
+static inline void staged_view_create(staged_view *s, const rlf_reconstruct_def *def, uint64_t seed)
+{
+    seen_view_create(&s->view, def->rig, seed);
+    s->back = rlf_alloc_array((size_t)s->view.count, sizeof(float));
+    s->stage = seen_view_stage(def);
+}
+
+/* A group's tear-down. */
+static inline int staged_view_destroy(void **state)
+{
+    staged_view *s = *state;
+    void *view = &s->view;
+    rlf_free(s->back);
+    rlf_reconstruct_destroy(&s->stage);
+    return seen_view_destroy(&view);
 }
 
 #endif

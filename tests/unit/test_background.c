@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "analytic.h"
+#include "seen_view.h"
 
 enum { WIDTH = 96, HEIGHT = 72, COUNT = WIDTH * HEIGHT };
 
@@ -22,18 +22,13 @@ static rlf_reconstruct *make_stage(rlf_profile profile, rlf_background_method me
     def.background_method = method;
     def.min_region_points = 8;
     def.segment_tau_m = 0.1;
-    rlf_reconstruct *stage = NULL;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
-    return stage;
+    return seen_view_stage(&def);
 }
 
 static const rlf_surface *process(rlf_reconstruct *stage, int32_t number)
 {
     rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
-    rlf_frame frame = analytic_frame(&rig, depth, number);
-    const rlf_surface *s = NULL;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
-    return s;
+    return seen_depth_process(&rig, depth, stage, number);
 }
 
 static void wall(float z)

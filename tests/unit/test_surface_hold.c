@@ -14,33 +14,20 @@ enum { WIDTH = 97, HEIGHT = 72, COUNT = WIDTH * HEIGHT };
 
 static const double wall_z = 3.0, board_z = 2.0;
 
-typedef struct fixture {
-    seen_view view;
-    rlf_reconstruct *stage;
-} fixture;
-
 static int make_fixture(void **state)
 {
-    static fixture f;
-    seen_view_create(&f.view, analytic_rig(WIDTH, HEIGHT), 5);
-    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f.view.rig);
+    static staged_view f;
+    const rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
     def.background_method = RLF_BACKGROUND_OFF;
     def.enable_fill = false; /* memory alone */
-    f.stage = seen_view_stage(&def);
+    staged_view_create(&f, &def, 5);
     *state = &f;
     return 0;
 }
 
-static int free_fixture(void **state)
-{
-    fixture *f = *state;
-    void *view = &f->view;
-    rlf_reconstruct_destroy(&f->stage);
-    return seen_view_destroy(&view);
-}
-
 /* A board of 30 columns from `left` on in front of a wall; left = WIDTH: none. */
-static void set_board(fixture *f, int32_t left)
+static void set_board(staged_view *f, int32_t left)
 {
     for (int i = 0; i < COUNT; i++) {
         int32_t x = i % WIDTH;
@@ -48,7 +35,7 @@ static void set_board(fixture *f, int32_t left)
     }
 }
 
-static bool is_beside_edge(const fixture *f, int i)
+static bool is_beside_edge(const staged_view *f, int i)
 {
     int32_t x = i % WIDTH;
     bool left = x > 0 && fabsf(f->view.truth[i] - f->view.truth[i - 1]) > 0.1f;
@@ -56,7 +43,7 @@ static bool is_beside_edge(const fixture *f, int i)
 }
 
 /* One frame: noise, a share of pixels dropped, and most of those beside an edge. */
-static const rlf_surface *process(fixture *f, int32_t number, double dropped)
+static const rlf_surface *process(staged_view *f, int32_t number, double dropped)
 {
     for (int i = 0; i < COUNT; i++) {
         double share = is_beside_edge(f, i) ? 0.7 : dropped;
@@ -68,7 +55,7 @@ static const rlf_surface *process(fixture *f, int32_t number, double dropped)
 
 static void what_stands_is_recalled(void **state)
 {
-    fixture *f = *state;
+    staged_view *f = *state;
     rlf_reconstruct_reset(f->stage);
     set_board(f, 30);
     const rlf_surface *s = NULL;
@@ -91,7 +78,7 @@ static void what_stands_is_recalled(void **state)
 
 static void what_stands_from_the_first_frame_on_is_recalled_at_once(void **state)
 {
-    fixture *f = *state;
+    staged_view *f = *state;
     rlf_reconstruct_reset(f->stage);
     set_board(f, 30);
     const rlf_surface *s = NULL;
@@ -111,7 +98,7 @@ static void what_stands_from_the_first_frame_on_is_recalled_at_once(void **state
 /* The board is gone from one frame to the next, and half of the pixels with it. */
 static void what_left_is_forgotten(void **state)
 {
-    fixture *f = *state;
+    staged_view *f = *state;
     rlf_reconstruct_reset(f->stage);
     set_board(f, 30);
     for (int t = 0; t < 40; t++) {
@@ -130,7 +117,7 @@ static void what_left_is_forgotten(void **state)
  * pixels that prove it; after that nothing is recalled on the wrong side of its edges. */
 static void what_moves_is_not_recalled(void **state)
 {
-    fixture *f = *state;
+    staged_view *f = *state;
     rlf_reconstruct_reset(f->stage);
     int wrong = 0, wrong_at_start = 0;
     for (int t = 0; t < 60; t++) {
@@ -148,7 +135,7 @@ static void what_moves_is_not_recalled(void **state)
 
 static void switched_off_it_recalls_nothing(void **state)
 {
-    fixture *f = *state;
+    staged_view *f = *state;
     rlf_reconstruct *with = f->stage;
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f->view.rig);
     def.background_method = RLF_BACKGROUND_OFF;
@@ -168,14 +155,14 @@ static void switched_off_it_recalls_nothing(void **state)
 /* A level top seen at ten degrees: four rows, each 38 mm behind the one below, before a wall. */
 enum { REAR = 33, FRONT = 37 };
 
-static double top_depth(const fixture *f, int32_t y)
+static double top_depth(const staged_view *f, int32_t y)
 {
     const double below_eye = 0.4;
     return below_eye * f->view.rig.depth.fy / (y - f->view.rig.depth.cy);
 }
 
 /* Noise of a face seen so low; of the rows beside the wall most pixels are dropped. */
-static const rlf_surface *see_top(fixture *f, int32_t number)
+static const rlf_surface *see_top(staged_view *f, int32_t number)
 {
     const double noisier = 12.0;
     static const double dropped[4] = {0.6, 0.95, 0.95, 0.6}; /* the middle two are at the edge */
@@ -195,7 +182,7 @@ static const rlf_surface *see_top(fixture *f, int32_t number)
  */
 static void the_rear_of_a_low_top_is_not_drawn_near(void **state)
 {
-    fixture f = *(fixture *)*state;
+    staged_view f = *(staged_view *)*state;
     f.view.rig.depth.fx = f.view.rig.depth.fy = 365.0;
     f.view.rig.depth.cy = -26.0;
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f.view.rig);
@@ -225,5 +212,5 @@ int main(void)
         cmocka_unit_test(switched_off_it_recalls_nothing),
         cmocka_unit_test(the_rear_of_a_low_top_is_not_drawn_near),
     };
-    return cmocka_run_group_tests(tests, make_fixture, free_fixture);
+    return cmocka_run_group_tests(tests, make_fixture, staged_view_destroy);
 }

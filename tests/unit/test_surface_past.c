@@ -18,28 +18,14 @@ enum { EMPTY_FRAMES = 8 };
 static const double wall_z = 4.0, front_z = 2.9, deep = 0.16, half_width = 0.012;
 static const double start_x = 0.95, step_x = -0.04; /* per frame: 1.2 m/s */
 
-typedef struct fixture {
-    seen_view view;
-    float back[COUNT]; /* where the ray leaves the book, or 0 */
-    rlf_reconstruct *stage;
-} fixture;
-
 static int make_fixture(void **state)
 {
-    static fixture f;
-    seen_view_create(&f.view, analytic_rig(WIDTH, HEIGHT), 7);
-    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f.view.rig);
-    f.stage = seen_view_stage(&def);
+    static staged_view f;
+    const rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
+    staged_view_create(&f, &def, 7);
     *state = &f;
     return 0;
-}
-
-static int free_fixture(void **state)
-{
-    fixture *f = *state;
-    void *view = &f->view;
-    rlf_reconstruct_destroy(&f->stage);
-    return seen_view_destroy(&view);
 }
 
 /* Where the ray (u, ., 1) enters and leaves the book about x = centre; false when it misses. */
@@ -52,7 +38,7 @@ static bool cut(double u, double centre, double out[2])
     return out[0] < out[1];
 }
 
-static void set_book(fixture *f, double centre)
+static void set_book(staged_view *f, double centre)
 {
     const rlf_camera *c = &f->view.rig.depth;
     for (int32_t i = 0; i < COUNT; i++) {
@@ -64,7 +50,7 @@ static void set_book(fixture *f, double centre)
     }
 }
 
-static bool is_book_near(const fixture *f, int32_t i, int32_t reach)
+static bool is_book_near(const staged_view *f, int32_t i, int32_t reach)
 {
     int32_t x = i % WIDTH;
     for (int32_t d = -reach; d <= reach; d++) {
@@ -76,7 +62,7 @@ static bool is_book_near(const fixture *f, int32_t i, int32_t reach)
 }
 
 /* What a frame of noise shows of it; `is_lost`: nothing of the book and of a band beside it. */
-static const rlf_surface *process(fixture *f, int32_t number, bool is_lost)
+static const rlf_surface *process(staged_view *f, int32_t number, bool is_lost)
 {
     for (int32_t i = 0; i < COUNT; i++) {
         bool is_missing = is_lost && is_book_near(f, i, BAND);
@@ -86,7 +72,7 @@ static const rlf_surface *process(fixture *f, int32_t number, bool is_lost)
 }
 
 /* The empty room, then the book as it is carried in, up to that frame of its way. */
-static const rlf_surface *carry(fixture *f, int32_t frames)
+static const rlf_surface *carry(staged_view *f, int32_t frames)
 {
     const rlf_surface *s = NULL;
     f->view.random = (analytic_random){7};
@@ -99,7 +85,7 @@ static const rlf_surface *carry(fixture *f, int32_t frames)
 }
 
 /* Metres, mean over the book's pixels that are known. */
-static double mean_back_error(const fixture *f, const rlf_surface *s)
+static double mean_back_error(const staged_view *f, const rlf_surface *s)
 {
     double sum = 0.0;
     int32_t count = 0;
@@ -114,7 +100,7 @@ static double mean_back_error(const fixture *f, const rlf_surface *s)
 }
 
 /* Share of the book's pixels that are known, and how many of the foreground are off it. */
-static double share_known(const fixture *f, const rlf_surface *s, int32_t *out_off)
+static double share_known(const staged_view *f, const rlf_surface *s, int32_t *out_off)
 {
     int32_t book = 0, known = 0;
     *out_off = 0;
@@ -129,14 +115,14 @@ static double share_known(const fixture *f, const rlf_surface *s, int32_t *out_o
 
 static void what_has_turned_away_is_remembered(void **state)
 {
-    fixture *f = *state;
+    staged_view *f = *state;
     const rlf_surface *s = carry(f, 22);       /* 11 cm beside the axis: two degrees */
     assert_true(mean_back_error(f, s) < 0.07); /* by its shape alone: 0.13 */
 }
 
 static void what_is_lost_is_still_there(void **state)
 {
-    fixture *f = *state;
+    staged_view *f = *state;
     int32_t off;
     carry(f, 18);
     for (int32_t t = 18; t < 25; t++) {
@@ -149,7 +135,7 @@ static void what_is_lost_is_still_there(void **state)
 
 static void what_has_left_is_gone_at_once(void **state)
 {
-    fixture *f = *state;
+    staged_view *f = *state;
     int32_t off;
     carry(f, 20);
     set_book(f, -1e3);
@@ -163,7 +149,7 @@ static void what_has_left_is_gone_at_once(void **state)
 static void a_gap_does_not_keep_it(void **state)
 {
     const int32_t LONGEST = 20;
-    fixture *f = *state;
+    staged_view *f = *state;
     int32_t off = 0;
     carry(f, 20);
     for (int32_t t = 20; t < 20 + LONGEST; t++) {
@@ -183,5 +169,5 @@ int main(void)
         cmocka_unit_test(what_has_left_is_gone_at_once),
         cmocka_unit_test(a_gap_does_not_keep_it),
     };
-    return cmocka_run_group_tests(tests, make_fixture, free_fixture);
+    return cmocka_run_group_tests(tests, make_fixture, staged_view_destroy);
 }

@@ -18,28 +18,14 @@ enum { WIDTH = 512, HEIGHT = 200, COUNT = WIDTH * HEIGHT, BAND = 2, EMPTY_FRAMES
 
 static const double wall_z = 4.0, middle_z = 2.6, stick_m = 0.02;
 
-typedef struct fixture {
-    seen_view view;
-    float back[COUNT]; /* where the ray leaves the plate, or 0 */
-    rlf_reconstruct *stage;
-} fixture;
-
 static int make_fixture(void **state)
 {
-    static fixture f;
-    seen_view_create(&f.view, analytic_rig(WIDTH, HEIGHT), 7);
-    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &f.view.rig);
-    f.stage = seen_view_stage(&def);
+    static staged_view f;
+    const rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
+    staged_view_create(&f, &def, 7);
     *state = &f;
     return 0;
-}
-
-static int free_fixture(void **state)
-{
-    fixture *f = *state;
-    void *view = &f->view;
-    rlf_reconstruct_destroy(&f->stage);
-    return seen_view_destroy(&view);
 }
 
 /* Half extents along the view, down and across when it is edge-on, and where it is. */
@@ -66,7 +52,7 @@ static bool cut(const plate *p, double u, double v, double out[2])
 }
 
 /* A wall, the stick under the plate, and the plate, if any. */
-static void draw(fixture *f, const plate *p)
+static void draw(staged_view *f, const plate *p)
 {
     const rlf_camera *c = &f->view.rig.depth;
     for (int32_t i = 0; i < COUNT; i++) {
@@ -80,7 +66,7 @@ static void draw(fixture *f, const plate *p)
     }
 }
 
-static bool is_at_step(const fixture *f, int32_t i)
+static bool is_at_step(const staged_view *f, int32_t i)
 {
     int32_t x = i % WIDTH, y = i / WIDTH;
     for (int32_t dy = -BAND; dy <= BAND; dy++) {
@@ -95,7 +81,7 @@ static bool is_at_step(const fixture *f, int32_t i)
 }
 
 /* As the sensor shows it: noise, and no depth beside steps. */
-static const rlf_surface *process(fixture *f, int32_t number)
+static const rlf_surface *process(staged_view *f, int32_t number)
 {
     for (int32_t i = 0; i < COUNT; i++) {
         float noisy = seen_view_noisy(&f->view, f->view.truth[i]);
@@ -104,7 +90,7 @@ static const rlf_surface *process(fixture *f, int32_t number)
     return seen_view_process(&f->view, f->stage, number);
 }
 
-static void start(fixture *f)
+static void start(staged_view *f)
 {
     f->view.random = (analytic_random){7};
     rlf_reconstruct_reset(f->stage);
@@ -115,7 +101,7 @@ static void start(fixture *f)
 }
 
 /* Metres, mean over the pixels of the plate that are known. */
-static double back_error(const fixture *f, const rlf_surface *s, int32_t *count)
+static double back_error(const staged_view *f, const rlf_surface *s, int32_t *count)
 {
     double sum = 0.0;
     for (int32_t i = 0; i < COUNT; i++) {
@@ -128,7 +114,7 @@ static double back_error(const fixture *f, const rlf_surface *s, int32_t *count)
 }
 
 /* It turns from `from` to -from degrees and back while it is carried along. */
-static double error_edge_on(fixture *f, const double half[3], double from_deg)
+static double error_edge_on(staged_view *f, const double half[3], double from_deg)
 {
     const int32_t FRAMES = 90;
     const double edge_on = 12.0 * RLF_PI / 180.0;
@@ -165,7 +151,7 @@ static void a_plate_edge_on_is_as_deep_as_its_face_was_wide(void **state)
 static void a_barrel_is_no_plate(void **state)
 {
     const double radius = 0.16, half_height = 0.2;
-    fixture *f = *state;
+    staged_view *f = *state;
     const rlf_camera *c = &f->view.rig.depth;
     double sum = 0.0;
     int32_t count = 0;
@@ -190,7 +176,7 @@ static void a_barrel_is_no_plate(void **state)
  * too, and the same frame does not move it on: where it began has no say but by its doubt. */
 static void a_frame_places_a_plate_and_does_not_move_it_again(void **state)
 {
-    fixture *f = *state;
+    staged_view *f = *state;
     const plate seen = {.half = {0.01, 0.12, 0.09}, .x = 0.05};
     const double pixel_m = middle_z / f->view.rig.depth.fx;
     start(f);
@@ -220,5 +206,5 @@ int main(void)
         cmocka_unit_test(a_barrel_is_no_plate),
         cmocka_unit_test(a_frame_places_a_plate_and_does_not_move_it_again),
     };
-    return cmocka_run_group_tests(tests, make_fixture, free_fixture);
+    return cmocka_run_group_tests(tests, make_fixture, staged_view_destroy);
 }
