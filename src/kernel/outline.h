@@ -61,6 +61,11 @@ typedef struct rlf_way_from {
     rlf_outlines outline;
 } rlf_way_from;
 
+/* Of pixels whose windows show no outline, the one that is within RLF_NEAR_EDGE_APART pixels of
+ * them. They are that far inside of the image. */
+void rlf_kernel_outline_apart(const rlf_way *way, const rlf_way_from *restrict from,
+                              rlf_outlines *restrict out);
+
 /* What is known on the way in from an outline, step by step. */
 typedef struct rlf_way_in {
     float ray_x[RLF_BATCH], ray_y[RLF_BATCH]; /* of the pixels themselves */
@@ -73,16 +78,6 @@ typedef struct rlf_way_in {
  * on, and the last pixel that is still of it; not whether it moves. */
 void rlf_kernel_way_in(const rlf_way *way, const rlf_way_from *restrict from, int32_t first_step,
                        rlf_way_in *restrict in, int32_t *restrict inner);
-
-/* ---- lean_out.c ---- */
-
-#define RLF_LEAN_STEPS 4
-
-/* Writes the direction in the image that each pixel's normal leans to, and the outline that the
- * surface ends at within so many steps there. Reads that far, and a step the other way: pixels are
- * that far inside of the image. */
-void rlf_kernel_lean_out(const rlf_way *way, const rlf_way_from *restrict from,
-                         rlf_outlines *restrict out);
 
 /* ---- outline_turn.c ---- */
 

@@ -363,83 +363,51 @@ static void ways_end_with_their_surface(void **state)
     }
 }
 
-/* A thing of 12 columns before a wall: those within four of the wall, where something was in
- * front before. */
-/* The definition, for one pixel: 0 = its normal leans nowhere, or there is no outline. */
-static float steps_out(const rlf_way *way, int32_t x, int32_t y, float *out_x, float *out_y)
+/* Depth of what ends at a straight line through the middle of the image, a wall behind it. */
+static void draw_end(int32_t width, int32_t height, double out_x, double out_y, float *depth)
 {
-    ptrdiff_t i = (ptrdiff_t)y * way->width + x;
-    float rx = way->ray_x[i], ry = way->ray_y[i], square = 1.0f + rx * rx + ry * ry;
-    float nx = way->normal[0][i], ny = way->normal[1][i];
-    float along = (nx * rx + ny * ry + way->normal[2][i]) / square;
-    float lean_x = nx - along * rx, lean_y = ny - along * ry;
-    float lean = sqrtf(lean_x * lean_x + lean_y * lean_y);
-    if (!(lean > 0.1f)) {
-        return 0.0f;
+    for (int32_t i = 0; i < width * height; i++) {
+        double x = i % width - width / 2, y = i / width - height / 2;
+        depth[i] = out_x * x + out_y * y > 0.2 ? 3.0f : 2.0f;
     }
-    *out_x = lean_x / lean;
-    *out_y = lean_y / lean;
-    int32_t sx = (int32_t)((float)x - *out_x + 0.5f), sy = (int32_t)((float)y - *out_y + 0.5f);
-    float last = way->depth[i], rise = last - way->depth[(ptrdiff_t)sy * way->width + sx];
-    for (int32_t k = 1; k <= RLF_LEAN_STEPS; k++) {
-        sx = (int32_t)((float)x + (float)k * *out_x + 0.5f);
-        sy = (int32_t)((float)y + (float)k * *out_y + 0.5f);
-        float z = way->depth[(ptrdiff_t)sy * way->width + sx];
-        if (z > rlf_outline_behind(last, RLF_OUTLINE_STEP_SEEN, rise)) {
-            return (float)(sx - x) * *out_x + (float)(sy - y) * *out_y - 0.5f;
-        }
-        if (!(fabsf(z - last) <= 0.04f * last)) {
-            return 0.0f;
-        }
-        rise = z - last;
-        last = z;
-    }
-    return 0.0f;
 }
 
-/* Normals that lean anywhere or nowhere, on a surface with steps behind and before it. */
-static void lean_out_is_its_definition(void **state)
+/* Pixels one to six steps in from a straight end, in eight directions: the outline is square to it,
+ * as near as what is behind, and none where that is farther than four rows, columns or both. */
+static void outlines_are_seen_from_four_pixels(void **state)
 {
     (void)state;
-    enum { W = 40, H = 30, IN = RLF_LEAN_STEPS };
-    static float plane[6][W * H]; /* depth, rays, normal */
-    float *const normal[3] = {plane[3], plane[4], plane[5]};
-    const rlf_way way = {.width = W,
-                         .height = H,
-                         .ray_x = plane[1],
-                         .ray_y = plane[2],
-                         .depth = plane[0],
-                         .normal = normal};
-    analytic_random r = {23};
-    for (int32_t i = 0; i < W * H; i++) {
-        double kind = random_uniform(&r), step = kind < 0.7 ? 0.01 : kind < 0.9 ? 0.2 : -0.2;
-        plane[0][i] = (float)(2.0 + step * random_uniform(&r));
-        plane[1][i] = (float)(i % W - W / 2) / 50.0f;
-        plane[2][i] = (float)(i / W - H / 2) / 50.0f;
-        plane[3][i] = i % 5 == 0 ? -plane[1][i] : (float)random_uniform(&r) - 0.5f;
-        plane[4][i] = i % 5 == 0 ? -plane[2][i] : (float)random_uniform(&r) - 0.5f;
-        plane[5][i] = -1.0f;
-    }
-    int32_t ends = 0;
-    for (int32_t y = IN; y < H - IN; y++) {
+    enum { W = 40, H = 30, STEPS = 6, APART = RLF_NEAR_EDGE_APART };
+    static float depth[W * H];
+    const rlf_way way = {.width = W, .height = H, .depth = depth};
+    for (int32_t t = 0; t < 8; t++) {
+        double angle = 0.25 * 3.14159265358979 * t, x = cos(angle), y = sin(angle);
+        int32_t step_x = (int32_t)round(x), step_y = (int32_t)round(y);
         rlf_way_from from;
         rlf_outlines found;
+        draw_end(W, H, x, y, depth);
         for (int32_t k = 0; k < RLF_BATCH; k++) {
-            from.x[k] = IN + 2 * k;
-            from.y[k] = y;
+            from.x[k] = W / 2 - k % STEPS * step_x;
+            from.y[k] = H / 2 - k % STEPS * step_y;
         }
-        rlf_kernel_lean_out(&way, &from, &found);
+        rlf_kernel_outline_apart(&way, &from, &found);
         for (int32_t k = 0; k < RLF_BATCH; k++) {
-            float out_x = 0.0f, out_y = 0.0f;
-            float distance = steps_out(&way, from.x[k], y, &out_x, &out_y);
-            assert_true(found.x[k] == out_x && found.y[k] == out_y);
-            assert_true(found.distance[k] == distance);
-            ends += distance > 0.0f;
+            int32_t steps = k % STEPS + 1;
+            double pixel = t % 2 == 0 ? 1.0 : sqrt(0.5); /* from row to row of pixels */
+            double least = pixel * (t % 2 == 0 ? steps : 2 * steps - 1);
+            if (steps > APART) {
+                assert_true(found.distance[k] == 0.0f);
+                continue;
+            }
+            assert_true(fabs(found.x[k] - x) < 1e-5 && fabs(found.y[k] - y) < 1e-5);
+            assert_true(found.distance[k] + 0.5 > least - 1e-5);
+            assert_true(found.distance[k] + 0.5 < least + 0.3);
         }
     }
-    assert_true(ends > 50);
 }
 
+/* A thing of 12 columns before a wall: those within four of the wall, where something was in
+ * front before. */
 static void near_edge_row_marks_what_is_seen_beside_a_jump(void **state)
 {
     (void)state;
@@ -476,7 +444,7 @@ int main(void)
         cmocka_unit_test(windows_near_an_outline_are_moved_out),
         cmocka_unit_test(what_is_rounded_leans_out_beside_its_outline),
         cmocka_unit_test(ways_end_with_their_surface),
-        cmocka_unit_test(lean_out_is_its_definition),
+        cmocka_unit_test(outlines_are_seen_from_four_pixels),
         cmocka_unit_test(near_edge_row_marks_what_is_seen_beside_a_jump),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

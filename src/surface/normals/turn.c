@@ -5,9 +5,8 @@
  * degrees on a limb. As in outline.c the outward component grows linearly up to 1 at the outline,
  * so what the window found is moved out to the pixel.
  *
- * Where the outline runs is seen from the depth within two pixels. Beyond these, a surface turns
- * away in the direction that its normal leans to. What stands still or is flat has faces, not
- * limbs, and is left alone. */
+ * Where the outline runs is seen from the depth within two pixels, and where there is none within
+ * four. What stands still or is flat has faces, not limbs, and is left alone. */
 #include "surface/steps.h"
 #include "surface/window.h"
 
@@ -32,7 +31,7 @@ typedef struct turn_queue {
 } turn_queue;
 
 typedef struct turn_queues {
-    turn_queue near, leaning, found;
+    turn_queue near, apart, found;
     rlf_windows depth; /* about the near */
 } turn_queues;
 
@@ -74,10 +73,10 @@ static void push_found(const turn_job *job, turn_queue *found, int32_t x, int32_
     }
 }
 
-/* The outlines in the directions that the pixels' normals lean to. */
-static void find_by_normal(const turn_job *job, turn_queues *queues)
+/* The outlines of pixels whose windows show none. */
+static void find_apart(const turn_job *job, turn_queues *queues)
 {
-    turn_queue *q = &queues->leaning;
+    turn_queue *q = &queues->apart;
     if (q->count == 0) {
         return;
     }
@@ -86,7 +85,7 @@ static void find_by_normal(const turn_job *job, turn_queues *queues)
         q->at.y[k] = q->at.y[0];
     }
     rlf_outlines *outline = &q->at.outline;
-    rlf_kernel_lean_out(&job->way, &q->at, outline);
+    rlf_kernel_outline_apart(&job->way, &q->at, outline);
     for (int32_t k = 0; k < q->count; k++) {
         if (outline->distance[k] > 0.0f) {
             push_found(job, &queues->found, q->at.x[k], q->at.y[k], outline->x[k], outline->y[k],
@@ -96,15 +95,15 @@ static void find_by_normal(const turn_job *job, turn_queues *queues)
     q->count = 0;
 }
 
-static void push_leaning(const turn_job *job, int32_t x, int32_t y, turn_queues *queues)
+static void push_apart(const turn_job *job, int32_t x, int32_t y, turn_queues *queues)
 {
-    turn_queue *q = &queues->leaning;
+    turn_queue *q = &queues->apart;
     int32_t lane = q->count++;
     rlf_way_fetch(&job->way, x, y);
     q->at.x[lane] = x;
     q->at.y[lane] = y;
     if (q->count == RLF_BATCH) {
-        find_by_normal(job, queues);
+        find_apart(job, queues);
     }
 }
 
@@ -118,7 +117,7 @@ static void find_outlines(const turn_job *job, turn_queues *queues)
             push_found(job, &queues->found, q->at.x[k], q->at.y[k], outline->x[k], outline->y[k],
                        outline->distance[k]);
         } else {
-            push_leaning(job, q->at.x[k], q->at.y[k], queues);
+            push_apart(job, q->at.x[k], q->at.y[k], queues);
         }
     }
     q->count = 0;
@@ -171,7 +170,7 @@ static void turn_row(const turn_job *job, int32_t y, turn_queues *queues)
     for (int32_t x = span.x0; (x = rlf_kernel_next_mark(mark, x, span.x1)) < span.x1; x++) {
         mark[x] = 0;
         if (!ends_in_window(way, row + x)) {
-            push_leaning(job, x, y, queues);
+            push_apart(job, x, y, queues);
             continue;
         }
         int32_t lane = q->count++;
@@ -198,7 +197,7 @@ static void turn_rows(void *context, int32_t begin, int32_t end, int32_t worker)
         }
     }
     find_outlines(job, &queues);
-    find_by_normal(job, &queues);
+    find_apart(job, &queues);
     turn_found(job, &queues.found);
 }
 
