@@ -149,9 +149,9 @@ const known_layer *real_depth_known(const real_depth *real)
 }
 
 rlf_result real_depth_update(real_depth *real, const rlf_render_input *input,
-                             const silhouette *bodies, const registration_window *needed)
+                             const silhouette *bodies, const real_windows *needed)
 {
-    registration_window window = *needed;
+    real_windows windows = *needed;
     if (!real->uses_frame && bodies != NULL) {
         clean_plate_update(&real->plate, real->registration, input, bodies, real->input);
     }
@@ -161,11 +161,14 @@ rlf_result real_depth_update(real_depth *real, const rlf_render_input *input,
     known_layer_fill(&real->sensed, real->input);
     if (real->sensed.count > 0) { /* models may be anywhere, and looked at anywhere */
         real->nearest = 0.0f;
-        window = (registration_window){0, 0, real->z.width, real->z.height};
+        windows = (real_windows){{{0, 0, real->z.width, real->z.height}}, 1};
     }
     const rlf_plane_u8 no_state = {NULL, real->z.width, real->z.height, real->z.width};
-    registration_apply_window(real->registration, real->input, &window, (double)real->nearest,
-                              &real->z, &no_state);
+    real_windows_join(&windows, real->registration, (double)real->nearest);
+    for (int32_t i = 0; i < windows.count; i++) {
+        registration_apply_window(real->registration, real->input, &windows.window[i],
+                                  (double)real->nearest, &real->z, &no_state);
+    }
     if (result == RLF_OK) {
         result = known_layer_place(&real->known, input->snapshot, &T_picture_world);
     }

@@ -6,6 +6,7 @@
 #include "relief/compositor.h"
 #include "render/clean_plate.h"
 #include "render/real_shade.h"
+#include "render/real_windows.h"
 
 typedef struct real_depth {
     rlf_registration *registration;
@@ -42,11 +43,11 @@ const known_layer *real_depth_known(const real_depth *real);
 void real_depth_destroy(real_depth *real);
 /* Reads the depth that is to be registered, and fills `seen`. */
 void real_depth_read(real_depth *real, const rlf_render_input *input);
-/* Fills a window of z with what was read last; of other pixels nothing is known. Pixels without
+/* Fills windows of z with what was read last; of other pixels nothing is known. Pixels without
  * depth take the background's, when the surface knows it; those that may hide `bodies`, as placed
  * for this picture (NULL = none), are settled by what the picture shows; models of real things take
  * their place. RLF_ERROR_MEMORY as known_layer_place. */
 rlf_result real_depth_update(real_depth *real, const rlf_render_input *input,
-                             const silhouette *bodies, const registration_window *needed);
+                             const silhouette *bodies, const real_windows *needed);
 
 #endif

@@ -269,7 +269,7 @@ static rlf_result update_real_depth(gl_compositor *c, const rlf_render_input *in
     if (s != NULL) {
         silhouette_place(s, &c->view.camera, &c->view.T_picture_world, input->snapshot);
     }
-    const registration_window all = {0, 0, c->real.z.width, c->real.z.height};
+    const real_windows all = {{{0, 0, c->real.z.width, c->real.z.height}}, 1};
     real_depth_read(&c->real, input);
     rlf_result result = real_depth_update(&c->real, input, s, &all);
     gl_texture_upload_f32(&c->depth_texture, c->real.z.data, c->real.z.width, c->real.z.height);

@@ -5,29 +5,46 @@
  * beyond that. */
 #define MARGIN (3 * SILHOUETTE_TILE)
 
-static void widen(registration_window *window, const caster_rect *by)
+static void add(const soft *s, const caster_rect *rect, real_windows *out)
 {
-    window->x0 = by->x0 < window->x0 ? by->x0 : window->x0;
-    window->y0 = by->y0 < window->y0 ? by->y0 : window->y0;
-    window->x1 = by->x1 > window->x1 ? by->x1 : window->x1;
-    window->y1 = by->y1 > window->y1 ? by->y1 : window->y1;
+    const int32_t width = s->camera.width;
+    const int32_t height = s->camera.height;
+    const registration_window window = {rect->x0 > MARGIN ? rect->x0 - MARGIN : 0,
+                                        rect->y0 > MARGIN ? rect->y0 - MARGIN : 0,
+                                        rect->x1 + MARGIN < width ? rect->x1 + MARGIN : width,
+                                        rect->y1 + MARGIN < height ? rect->y1 + MARGIN : height};
+    if (window.x0 < window.x1 && window.y0 < window.y1) {
+        real_windows_add(out, &window);
+    }
 }
 
-/* Tiles with bodies: all that are drawn there, and what silhouettes look at. */
-static void widen_by_tiles(registration_window *window, const silhouette *s)
+static bool has_bodies(const silhouette_tile *own)
 {
-    for (int32_t i = 0; i < s->columns * s->rows; i++) {
-        if (s->own[i].far_z >= s->own[i].near_z) {
-            const int32_t x = i % s->columns * SILHOUETTE_TILE;
-            const int32_t y = i / s->columns * SILHOUETTE_TILE;
-            const caster_rect tile = {x, y, x + SILHOUETTE_TILE, y + SILHOUETTE_TILE};
-            widen(window, &tile);
+    return own->far_z >= own->near_z;
+}
+
+/* Tiles with bodies, run by run: all that are drawn there, and what silhouettes look at. */
+static void add_tiles(const soft *s, real_windows *out)
+{
+    const silhouette *l = &s->silhouette;
+    for (int32_t row = 0; row < l->rows; row++) {
+        const silhouette_tile *own = l->own + row * l->columns;
+        for (int32_t end = 0; end < l->columns; end++) {
+            const int32_t first = end;
+            while (end < l->columns && has_bodies(&own[end])) {
+                end++;
+            }
+            const caster_rect run = {first * SILHOUETTE_TILE, row * SILHOUETTE_TILE,
+                                     end * SILHOUETTE_TILE, (row + 1) * SILHOUETTE_TILE};
+            if (first < end) {
+                add(s, &run, out);
+            }
         }
     }
 }
 
 /* Where bodies are when no silhouette knows. */
-static void widen_by_bodies(registration_window *window, const soft *s)
+static void add_bodies(const soft *s, real_windows *out)
 {
     for (int32_t i = 0; i < s->scene.body_count; i++) {
         const soft_body *body = &s->scene.bodies[i];
@@ -35,31 +52,25 @@ static void widen_by_bodies(registration_window *window, const soft *s)
         if (caster_rect_of_ball(&s->camera, body->center, body->radius, &rect)) {
             rect.y0 = body->y0;
             rect.y1 = body->y1;
-            widen(window, &rect);
+            add(s, &rect, out);
         }
     }
 }
 
-registration_window soft_needed_depth(const soft *s, const rlf_render_input *input)
+real_windows soft_needed_depth(const soft *s, const rlf_render_input *input)
 {
     const soft_scene *scene = &s->scene;
-    const int32_t width = s->camera.width;
-    const int32_t height = s->camera.height;
-    registration_window window = {width, height, 0, 0};
+    real_windows windows = {.count = 0};
     if (input->frame->color.data == NULL) {
-        return (registration_window){0, 0, width, height};
+        return (real_windows){{{0, 0, s->camera.width, s->camera.height}}, 1};
     }
-    widen_by_bodies(&window, s);
-    widen_by_tiles(&window, &s->silhouette);
+    add_bodies(s, &windows);
+    add_tiles(s, &windows);
     for (int32_t i = 0; i < scene->caster_count; i++) {
         const caster_rect *reach = &scene->reach[i];
         if (scene->casters[i].near_m > 0.0f && reach->x0 < reach->x1 && reach->y0 < reach->y1) {
-            widen(&window, reach);
+            add(s, reach, &windows);
         }
     }
-    window.x0 = window.x0 > MARGIN ? window.x0 - MARGIN : 0;
-    window.y0 = window.y0 > MARGIN ? window.y0 - MARGIN : 0;
-    window.x1 = window.x1 + MARGIN < width ? window.x1 + MARGIN : width;
-    window.y1 = window.y1 + MARGIN < height ? window.y1 + MARGIN : height;
-    return window;
+    return windows;
 }

@@ -209,7 +209,7 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
         place_silhouette(s, input);
     }
     if (input->frame->color.data == NULL || has_bodies) {
-        const registration_window needed = soft_needed_depth(s, input);
+        const real_windows needed = soft_needed_depth(s, input);
         real_depth_read(&s->real, input);
         soft_scene_light(s, input);
         result = real_depth_update(&s->real, input, has_edges ? &s->silhouette : NULL, &needed);
@@ -232,7 +232,7 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
 /* All of the real depth, as the picture's camera sees it. */
 static rlf_result see_real(soft *s, const rlf_render_input *input)
 {
-    const registration_window all = {0, 0, s->camera.width, s->camera.height};
+    const real_windows all = {{{0, 0, s->camera.width, s->camera.height}}, 1};
     real_depth_read(&s->real, input);
     return real_depth_update(&s->real, input, NULL, &all);
 }

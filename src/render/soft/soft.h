@@ -226,7 +226,7 @@ void soft_set_viewpoint(soft *s, const rlf_camera *camera, const rlf_pose *T_pic
 
 /* needed.c: what is looked at of the registered depth. Scene and silhouette's bodies must be in
  * place. */
-registration_window soft_needed_depth(const soft *s, const rlf_render_input *input);
+real_windows soft_needed_depth(const soft *s, const rlf_render_input *input);
 
 /* background.c: the colour picture, or, when it has no data, registered depth in grey. */
 void soft_set_background(soft *s, const rlf_image_rgba8 *color);
