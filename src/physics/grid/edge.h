@@ -18,9 +18,10 @@ double grid_edge_end(const rlf_grid *grid, const rlf_grid_sheet *sheet, const fi
 bool grid_edge_normal(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
                       rlf_vec3 *out);
 
-/* How wide the solid is at the cell as the image shows it, up to `limit` metres: the shorter of its
- * row's and its column's run between steps in depth. */
-double grid_edge_width(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
+/* How deep a guessed solid is at the cell, up to `limit` metres: no more than it is wide, by the
+ * shorter of its row's and its column's run between steps in depth, and no more than is hidden at
+ * the ends of these, as far as the camera looks past them. */
+double grid_edge_depth(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
                        double limit);
 
 /* The direction of a side wall's outline, unit, square to its face and to where it goes inward. */

@@ -174,7 +174,7 @@ field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf
     }
     if (out->is_guess) {
         /* How thick it is was never seen: no thicker than it is wide (a table's leg). */
-        out->thickness = grid_edge_width(grid, sheet, out, out->thickness);
+        out->thickness = grid_edge_depth(grid, sheet, out, out->thickness);
         out->thickness = rlf_max(out->thickness, THICKNESS_MIN);
         out->back = front + out->thickness;
         if (q.z <= out->back && is_beside(grid, sheet, out, q)) {

@@ -17,7 +17,7 @@ rlf_vec3 patch_centre_at(const grid_job *job, double time)
 void patch_limit_thickness(const grid_job *job, field_cell *cell)
 {
     if (cell->is_guess) {
-        cell->thickness = grid_edge_width(job->query->grid, job->sheet, cell, cell->thickness);
+        cell->thickness = grid_edge_depth(job->query->grid, job->sheet, cell, cell->thickness);
     }
 }
 

@@ -40,7 +40,7 @@ static double wall_depth(const grid_job *job, const field_cell *cell)
     if (!(deep > 0.0) || !cell->is_guess) {
         return deep;
     }
-    deep = rlf_min(deep, grid_edge_width(grid, sheet, cell, cell->thickness)); /* nor than wide */
+    deep = rlf_min(deep, grid_edge_depth(grid, sheet, cell, cell->thickness)); /* nor than wide */
     rlf_vec3 inward = grid_cell_inward(cell);
     for (int32_t k = STEPS; k > 0; k--) {
         double reach = deep * k / STEPS;
