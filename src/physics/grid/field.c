@@ -105,15 +105,6 @@ static double plane_depth(const field_cell *cell, rlf_vec3 q)
     return rlf_clamp(on_ray, NEAREST_SHARE * z, 1.05 * z);
 }
 
-rlf_vec3 grid_cell_inward(const field_cell *cell)
-{
-    double facing = rlf_dot(cell->normal, cell->point) / cell->point.z;
-    if (!cell->is_guess || facing > -0.02) {
-        return rlf_scale(cell->point, 1.0 / cell->point.z);
-    }
-    return rlf_scale(cell->normal, facing);
-}
-
 bool grid_field_is_open(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q)
 {
     int32_t x, y;

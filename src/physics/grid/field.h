@@ -60,7 +60,14 @@ field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf
 /* Which way the solid goes from the cell's point, and how far per metre of thickness: along the
  * ray, on which thickness was found; but where it is a guess, square to the face. What is behind
  * the far edge of a table's top is no part of the table. */
-rlf_vec3 grid_cell_inward(const field_cell *cell);
+static inline rlf_vec3 grid_cell_inward(const field_cell *cell)
+{
+    double facing = rlf_dot(cell->normal, cell->point) / cell->point.z;
+    if (!cell->is_guess || facing > -0.02) {
+        return rlf_scale(cell->point, 1.0 / cell->point.z);
+    }
+    return rlf_scale(cell->normal, facing);
+}
 
 /* Whether q is before all that may be on its ray by the depth of its pixel alone: false says
  * nothing. */
