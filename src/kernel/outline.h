@@ -103,7 +103,8 @@ void rlf_kernel_near_edge_row(const float *depth, ptrdiff_t width, int32_t begin
                               uint8_t *restrict mark);
 
 /* Normals of pixels near an outline that were seen, the first sample being the pixel itself: 0
- * where what is about them does not turn steadily outwards. */
+ * where what is about them does not turn steadily outwards, unless it is right beside the outline
+ * and not flat. */
 void rlf_kernel_outline_near(const rlf_outlines *restrict at, const rlf_way_in *restrict in,
                              rlf_normals *restrict out);
 

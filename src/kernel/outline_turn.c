@@ -18,6 +18,10 @@ static const float crease = 0.95f; /* cosine between two faces */
 /* Tangent, at most: what is known lies one or two pixels farther in than what was filled, on limbs
  * of some eight pixels in radius. */
 static const float lean_out = 0.5f;
+/* The same of what was seen within so many pixels of an outline that it does not steadily turn to.
+ * The planes of a flat thing are a tenth of a degree to one off: what is uneven by more (a sine,
+ * RMS about a steady turn) is not flat. */
+static const float lean_seen = 0.4f, most_beside = 2.0f, least_uneven = 0.02f;
 
 typedef struct vector {
     float x, y, z;
@@ -95,17 +99,29 @@ RLF_KERNEL_PART way_sum sum_way(const rlf_way_in *restrict in, int32_t i, const 
     return sum;
 }
 
+/* Of the samples of a way: spread of their places, turn outwards along it, and how they bend about
+ * a steady turn, as its mean square times count and spread. */
+typedef struct way_fit {
+    float spread, turn, bend;
+} way_fit;
+
+RLF_KERNEL_PART way_fit fit_way(const way_sum *restrict in, float n)
+{
+    float s = in->s / n, out = in->out / n;
+    float spread = in->ss - in->s * s, turn = in->out * s - in->s_out;
+    return (way_fit){spread, turn, (in->oo - in->out * out) * spread - turn * turn};
+}
+
 /* 1 when the samples turn steadily outwards, else 0. */
-RLF_KERNEL_PART float is_rounded(const way_sum *restrict in, float n, float distance, bool moves)
+RLF_KERNEL_PART float is_rounded(const way_sum *restrict in, const way_fit *restrict fit, float n,
+                                 float distance, bool moves)
 {
     float least_turn = moves ? least_turn_moving : least_turn_still;
     float most_bend = moves ? most_bend_moving : most_bend_still;
     float least_out = moves ? least_out_moving : least_out_still;
     float s = in->s / n, out = in->out / n;
-    float spread = in->ss - in->s * s, turn = in->out * s - in->s_out;
-    float bend = (in->oo - in->out * out) * spread - turn * turn;
-    float steady = bend <= n * most_bend * most_bend * spread ? 1.0f : 0.0f;
-    float turns = turn * s > least_turn * spread * (1.0f - out) ? steady : 0.0f;
+    float steady = fit->bend <= n * most_bend * most_bend * fit->spread ? 1.0f : 0.0f;
+    float turns = fit->turn * s > least_turn * fit->spread * (1.0f - out) ? steady : 0.0f;
     float inwards = s > distance ? turns : 0.0f;
     float outwards = out >= least_out ? inwards : 0.0f;
     return in->n < 1.5f ? 0.0f : outwards;
@@ -136,7 +152,8 @@ RLF_KERNEL void rlf_kernel_outline_round(const rlf_outlines *restrict at,
         axes a = make_axes(in->ray_x[i], in->ray_y[i], at->x[i], at->y[i]);
         way_sum sum = sum_way(in, i, &a);
         float count = sum.n > 1.0f ? sum.n : 1.0f, distance = at->distance[i];
-        bool rounded = is_rounded(&sum, count, distance, in->moves[i] > 0.5f) > 0.0f;
+        way_fit fit = fit_way(&sum, count);
+        bool rounded = is_rounded(&sum, &fit, count, distance, in->moves[i] > 0.5f) > 0.0f;
         vector n = rounded_normal(&sum, count, distance, &a);
         vector result = {rounded ? n.x : 0.0f, rounded ? n.y : 0.0f, rounded ? n.z : 0.0f};
         set(out, i, result);
@@ -146,23 +163,37 @@ RLF_KERNEL void rlf_kernel_outline_round(const rlf_outlines *restrict at,
 
 /* ---- seen near the outline ---- */
 
+/* 1 right beside the outline of what is not flat, else 0. */
+RLF_KERNEL_PART float is_uneven_beside(const way_fit *restrict fit, float n, float distance)
+{
+    float uneven = fit->bend > n * least_uneven * least_uneven * fit->spread ? 1.0f : 0.0f;
+    return distance < most_beside ? uneven : 0.0f;
+}
+
 RLF_KERNEL void rlf_kernel_outline_near(const rlf_outlines *restrict at,
                                         const rlf_way_in *restrict in, rlf_normals *restrict out)
 {
-    float turns[RLF_BATCH];
+    float found[RLF_BATCH];
     for (int32_t i = 0; i < RLF_BATCH; i++) {
         axes a = make_axes(in->ray_x[i], in->ray_y[i], at->x[i], at->y[i]);
         way_sum sum = sum_way(in, i, &a);
         float count = sum.n > 1.0f ? sum.n : 1.0f, distance = at->distance[i];
-        float rounded = is_rounded(&sum, count, distance, in->moves[i] > 0.5f);
-        turns[i] = sum.n > 2.5f ? rounded : 0.0f;
+        way_fit fit = fit_way(&sum, count);
+        bool turns = is_rounded(&sum, &fit, count, distance, in->moves[i] > 0.5f) > 0.0f;
+        float leans = is_uneven_beside(&fit, count, distance);
+        found[i] = sum.n > 2.5f ? (turns ? 1.0f : leans) : 0.0f;
         vector own = get(&in->normal[0], i);
         float share = distance / (distance + window_inside); /* of the way from outline to window */
-        set(out, i, turned_normal(1.0f - share * (1.0f - dot(own, a.out)), dot(own, a.along), &a));
+        vector turned =
+            turned_normal(1.0f - share * (1.0f - dot(own, a.out)), dot(own, a.along), &a);
+        vector leant = unit(add(own, scaled(a.out, lean_seen)));
+        set(out, i,
+            (vector){turns ? turned.x : leant.x, turns ? turned.y : leant.y,
+                     turns ? turned.z : leant.z});
     }
     for (int32_t i = 0; i < RLF_BATCH; i++) {
         vector n = get(out, i);
-        bool is_kept = turns[i] > 0.0f;
+        bool is_kept = found[i] > 0.0f;
         set(out, i, (vector){is_kept ? n.x : 0.0f, is_kept ? n.y : 0.0f, is_kept ? n.z : 0.0f});
     }
 }

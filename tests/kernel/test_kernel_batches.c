@@ -292,6 +292,38 @@ static void windows_near_an_outline_are_moved_out(void **state)
     }
 }
 
+/* Two faces or folds, in turn, beside an outline: what is not flat leans out by a tangent of 0.4
+ * within two pixels of it, unless it is known of less than three pixels. */
+static void what_is_uneven_leans_out_beside_its_outline(void **state)
+{
+    (void)state;
+    const double lean = 0.4;
+    rlf_outlines at;
+    rlf_way_in in;
+    memset(&in, 0, sizeof in);
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        at.x[i] = 1.0f;
+        at.y[i] = 0.0f;
+        at.distance[i] = i < 8 ? 1.5f : 2.5f;
+        in.moves[i] = 1.0f;
+        double by = i % 2 == 0 ? 0.05 : 0.01; /* of a flat thing's noise, or more */
+        for (int32_t k = 0; k < (i % 4 < 2 ? RLF_OUTLINE_STEPS : 2); k++) {
+            double out = 0.2 + (k % 2 == 0 ? by : -by);
+            in.s[k][i] = at.distance[i] + (float)k;
+            in.normal[k].x[i] = (float)out;
+            in.normal[k].z[i] = (float)-sqrt(1.0 - out * out);
+        }
+    }
+    rlf_normals found;
+    rlf_kernel_outline_near(&at, &in, &found);
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        double own = in.normal[0].x[i], length = sqrt(1.0 + 2.0 * own * lean + lean * lean);
+        bool leans = i < 8 && i % 4 == 0;
+        assert_true(fabs(found.x[i] - (leans ? (own + lean) / length : 0.0)) < 1e-5);
+        assert_true(fabs(found.z[i] - (leans ? in.normal[0].z[i] / length : 0.0)) < 1e-5);
+    }
+}
+
 /* What is known of one face leans by 0.3: something rounded leans out more beside it, as a face it
  * has no other normal; nor has anything about which nothing is known. */
 static void what_is_rounded_leans_out_beside_its_outline(void **state)
@@ -442,6 +474,7 @@ int main(void)
         cmocka_unit_test(outlines_point_to_what_is_behind),
         cmocka_unit_test(slopes_have_no_outlines),
         cmocka_unit_test(windows_near_an_outline_are_moved_out),
+        cmocka_unit_test(what_is_uneven_leans_out_beside_its_outline),
         cmocka_unit_test(what_is_rounded_leans_out_beside_its_outline),
         cmocka_unit_test(ways_end_with_their_surface),
         cmocka_unit_test(outlines_are_seen_from_four_pixels),

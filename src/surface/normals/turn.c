@@ -5,6 +5,8 @@
  * degrees on a limb. As in outline.c the outward component grows linearly up to 1 at the outline,
  * so what the window found is moved out to the pixel.
  *
+ * What does not turn steadily but is not flat either, right beside an outline, leans out a little.
+ *
  * Where the outline runs is seen from the depth within two pixels, and where there is none within
  * four. What stands still or is flat has faces, not limbs, and is left alone. */
 #include "surface/steps.h"
