@@ -16,22 +16,31 @@ typedef struct row {
     int32_t *part;
 } row;
 
+typedef struct ray {
+    float dx, dy, dz, ox, oy, oz;
+} ray;
+
+RLF_KERNEL_PART ray ray_of(const row *r, int32_t i)
+{
+    const float u = (float)i;
+    return (ray){.dx = r->d[0] + u * r->step_d[0],
+                 .dy = r->d[1] + u * r->step_d[1],
+                 .dz = r->d[2] + u * r->step_d[2],
+                 .ox = r->o[0] + u * r->step_o[0],
+                 .oy = r->o[1] + u * r->step_o[1],
+                 .oz = r->o[2] + u * r->step_o[2]};
+}
+
 /* Entry into the unit sphere: |o + s d|^2 = 1. */
 RLF_KERNEL static void draw_ellipsoid(const row r)
 {
     float *restrict z = r.z;
     int32_t *restrict part = r.part;
     for (int32_t i = 0; i < r.count; i++) {
-        float u = (float)i;
-        float dx = r.d[0] + u * r.step_d[0];
-        float dy = r.d[1] + u * r.step_d[1];
-        float dz = r.d[2] + u * r.step_d[2];
-        float ox = r.o[0] + u * r.step_o[0];
-        float oy = r.o[1] + u * r.step_o[1];
-        float oz = r.o[2] + u * r.step_o[2];
-        float a = dx * dx + dy * dy + dz * dz;
-        float b = ox * dx + oy * dy + oz * dz;
-        float c = ox * ox + oy * oy + oz * oz - 1.0f;
+        const ray m = ray_of(&r, i);
+        float a = m.dx * m.dx + m.dy * m.dy + m.dz * m.dz;
+        float b = m.ox * m.dx + m.oy * m.dy + m.oz * m.dz;
+        float c = m.ox * m.ox + m.oy * m.oy + m.oz * m.oz - 1.0f;
         float discriminant = b * b - a * c;
         float root = sqrtf(discriminant > 0.0f ? discriminant : 0.0f);
         float t = r.z0 - (b + root) / a;
@@ -83,41 +92,35 @@ RLF_KERNEL static void draw_cone(const row r, const synth_stamp *stamp)
     float *restrict z = r.z;
     int32_t *restrict part = r.part;
     for (int32_t i = 0; i < r.count; i++) {
-        float u = (float)i;
-        float dx = r.d[0] + u * r.step_d[0];
-        float dy = r.d[1] + u * r.step_d[1];
-        float dz = r.d[2] + u * r.step_d[2];
-        float ox = r.o[0] + u * r.step_o[0];
-        float oy = r.o[1] + u * r.step_o[1];
-        float oz = r.o[2] + u * r.step_o[2];
-        float d_side = dx * dx + dz * dz;
-        float m_side = ox * dx + oz * dz;
-        float o_side = ox * ox + oz * oz;
-        float dd = d_side + dy * dy;
+        const ray m = ray_of(&r, i);
+        float d_side = m.dx * m.dx + m.dz * m.dz;
+        float m_side = m.ox * m.dx + m.oz * m.dz;
+        float o_side = m.ox * m.ox + m.oz * m.oz;
+        float dd = d_side + m.dy * m.dy;
 
-        float b = m_side + oy * dy;
-        float q = b * b - dd * (o_side + oy * oy - radius_a2);
+        float b = m_side + m.oy * m.dy;
+        float q = b * b - dd * (o_side + m.oy * m.oy - radius_a2);
         float entry = (-b - sqrtf(q > 0.0f ? q : 0.0f)) / dd;
         float best = q > 0.0f ? entry : far;
 
-        float oy_b = oy - length;
-        b = m_side + oy_b * dy;
+        float oy_b = m.oy - length;
+        b = m_side + oy_b * m.dy;
         q = b * b - dd * (o_side + oy_b * oy_b - radius_b2);
         entry = (-b - sqrtf(q > 0.0f ? q : 0.0f)) / dd;
         entry = q > 0.0f ? entry : far;
         best = entry < best ? entry : best;
 
-        float k = radius_a - sine * oy;
-        float a = cosine2 * d_side - sine * sine * dy * dy;
-        b = cosine2 * m_side + k * sine * dy;
+        float k = radius_a - sine * m.oy;
+        float a = cosine2 * d_side - sine * sine * m.dy * m.dy;
+        b = cosine2 * m_side + k * sine * m.dy;
         float c = cosine2 * o_side - k * k;
         q = b * b - a * c;
         float root = sqrtf(q > 0.0f ? q : 0.0f);
         float s = b > 0.0f ? -b - root : root - b; /* without cancellation */
         float t1 = s / (a == 0.0f ? 1e-12f : a);
         float t2 = c / (s == 0.0f ? 1e-12f : s);
-        float y1 = oy + t1 * dy - radius_a * sine;
-        float y2 = oy + t2 * dy - radius_a * sine;
+        float y1 = m.oy + t1 * m.dy - radius_a * sine;
+        float y2 = m.oy + t2 * m.dy - radius_a * sine;
         float end = length * cosine2;
         t1 = ((q > 0.0f) & (y1 >= 0.0f) & (y1 <= end)) ? t1 : far;
         t2 = ((q > 0.0f) & (y2 >= 0.0f) & (y2 <= end)) ? t2 : far;

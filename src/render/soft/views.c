@@ -46,6 +46,8 @@ static bool is_hidden(const soft *s, const rlf_image_rgba8 *image, double u, dou
     const rlf_plane_f32 *real = &s->real.z;
     int32_t x = (int32_t)((u + 0.5) * real->width / image->width);
     int32_t y = (int32_t)((v + 0.5) * real->height / image->height);
+    x = x < real->width ? x : real->width - 1; /* by rounding alone */
+    y = y < real->height ? y : real->height - 1;
     float nearest = rlf_f32_row(real, y)[x];
     return nearest > 0.0f && nearest < NEARER * z;
 }
