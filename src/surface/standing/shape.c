@@ -28,7 +28,6 @@ typedef struct shape_sample {
 typedef struct shape_search {
     shape_sample sample[SAMPLES];
     int32_t count;
-    bool is_cut; /* by the border of the image */
 } shape_search;
 
 typedef struct face {
@@ -59,7 +58,6 @@ static void take_samples(const rlf_reconstruct *stage, float *const normal[3], i
         step++;
     }
     search->count = 0;
-    search->is_cut = w->x0 == 0 || w->y0 == 0 || w->x1 == grid->width || w->y1 == grid->height;
     for (int32_t y = w->y0; y < w->y1; y += step) {
         for (int32_t x = w->x0; x < w->x1; x += step) {
             bool is_own = stage->background.thick.piece[(ptrdiff_t)y * grid->width + x] == piece;
@@ -161,14 +159,18 @@ static const face *face_at(const face faces[2], rlf_vec3 p)
     return &faces[off[1] < off[0]];
 }
 
+static bool is_at_border(const rlf_grid *grid, int32_t x, int32_t y)
+{
+    return x == 0 || y == 0 || x + 1 == grid->width || y + 1 == grid->height;
+}
+
 /* Whether another piece, or the image's border, is beside pixel (x, y). */
 static bool is_rim(const rlf_reconstruct *stage, int32_t x, int32_t y)
 {
     ptrdiff_t width = stage->grid.width;
     const uint8_t *piece = stage->background.thick.piece + y * width + x;
-    return x == 0 || y == 0 || x + 1 == width || y + 1 == stage->grid.height ||
-           piece[-1] != piece[0] || piece[1] != piece[0] || piece[-width] != piece[0] ||
-           piece[width] != piece[0];
+    return is_at_border(&stage->grid, x, y) || piece[-1] != piece[0] || piece[1] != piece[0] ||
+           piece[-width] != piece[0] || piece[width] != piece[0];
 }
 
 /* What pixel (x, y) covers of its face, at a rim: of one seen at a low angle centimetres. */
@@ -202,20 +204,31 @@ static pixel_span span_of(const rlf_reconstruct *stage, int32_t x, int32_t y, co
     return span;
 }
 
-/* The bin that holds the few-th from the begin of `bins`, or from their end. */
-static int32_t bin_of(const int32_t bins[BINS], int32_t few, bool from_end)
+/* How many pixels lie where along an axis, and how many of these at the border of the image; the
+ * first bin is at the end that is sought. */
+typedef struct end_bins {
+    int32_t all[BINS], border[BINS];
+} end_bins;
+
+/* The bin that holds the few-th; `is_open`: most of those before it, and of its own, are at the
+ * border. */
+static int32_t find_end(const end_bins *bins, int32_t few, bool *is_open)
 {
-    int32_t k = 0, sum = bins[from_end ? BINS - 1 : 0];
+    int32_t k = 0, sum = bins->all[0], border = bins->border[0];
     while (sum <= few && k + 1 < BINS) {
         k++;
-        sum += bins[from_end ? BINS - 1 - k : k];
+        sum += bins->all[k];
+        border += bins->border[k];
     }
-    return from_end ? BINS - 1 - k : k;
+    *is_open = 2 * border > sum;
+    return k;
 }
 
-static int32_t bin_at(double at, double low, double high)
+static void add_end(end_bins *bins, double along, double length, bool is_at_border)
 {
-    return (int32_t)rlf_clamp((at - low) / rlf_max(high - low, 1e-6) * BINS, 0.0, BINS - 1.0);
+    int32_t k = (int32_t)rlf_clamp(along / rlf_max(length, 1e-6) * BINS, 0.0, BINS - 1.0);
+    bins->all[k]++;
+    bins->border[k] += is_at_border;
 }
 
 /* Ends of the piece's pixels along the axes, but for a few outliers. */
@@ -223,7 +236,8 @@ static void find_ends(const rlf_reconstruct *stage, int32_t piece, const face fa
                       rlf_standing_solid *box)
 {
     const rlf_rect *w = &stage->background.thick.window[piece];
-    int32_t bins[2][3][BINS] = {{{0}}}, count = 0;
+    end_bins low_bins[3] = {{{0}, {0}}}, high_bins[3] = {{{0}, {0}}};
+    int32_t count = 0;
     double low[3] = {1e9, 1e9, 1e9}, high[3] = {-1e9, -1e9, -1e9};
     for (int pass = 0; pass < 2; pass++) {
         for (int32_t y = w->y0; y < w->y1; y++) {
@@ -232,13 +246,14 @@ static void find_ends(const rlf_reconstruct *stage, int32_t piece, const face fa
                     continue;
                 }
                 const pixel_span at = span_of(stage, x, y, faces, box);
+                bool is_cut = is_at_border(&stage->grid, x, y);
                 for (int k = 0; k < 3 && pass == 0; k++) {
                     low[k] = rlf_min(low[k], at.low[k]);
                     high[k] = rlf_max(high[k], at.high[k]);
                 }
                 for (int k = 0; k < 3 && pass == 1; k++) {
-                    bins[0][k][bin_at(at.low[k], low[k], high[k])]++;
-                    bins[1][k][bin_at(at.high[k], low[k], high[k])]++;
+                    add_end(&low_bins[k], at.low[k] - low[k], high[k] - low[k], is_cut);
+                    add_end(&high_bins[k], high[k] - at.high[k], high[k] - low[k], is_cut);
                 }
                 count += pass;
             }
@@ -247,8 +262,8 @@ static void find_ends(const rlf_reconstruct *stage, int32_t piece, const face fa
     for (int k = 0; k < 3; k++) {
         double size = (high[k] - low[k]) / BINS;
         int32_t few = (int32_t)(end_share * count);
-        box->low[k] = low[k] + size * bin_of(bins[0][k], few, false);
-        box->high[k] = low[k] + size * (bin_of(bins[1][k], few, true) + 1);
+        box->low[k] = low[k] + size * find_end(&low_bins[k], few, &box->is_open_low[k]);
+        box->high[k] = high[k] - size * find_end(&high_bins[k], few, &box->is_open_high[k]);
     }
 }
 
@@ -287,13 +302,12 @@ static bool find_ball(const shape_search *search, rlf_standing_solid *out)
     return rest < near * near && out->radius < largest_m;
 }
 
-/* Depths between which the ray is in the box, along `axes` of its axes; false when it misses it. */
-static bool cut_box(const rlf_standing_solid *box, int32_t axes, rlf_vec3 ray, double *enter,
-                    double *leave)
+/* Depths between which the ray is in the box; false when it misses it. */
+static bool cut_box(const rlf_standing_solid *box, rlf_vec3 ray, double *enter, double *leave)
 {
     *enter = 0.0;
     *leave = 1e9;
-    for (int k = 0; k < axes; k++) {
+    for (int k = 0; k < 3; k++) {
         double along = rlf_dot(box->axis[k], ray);
         bool is_along = along < 1e-9 && along > -1e-9;
         double a = box->low[k] / (is_along ? 1e-9 : along);
@@ -318,7 +332,7 @@ static bool is_seen_through(const rlf_reconstruct *stage, int32_t piece,
             double enter, leave, seen = standing->depth[i];
             if (standing->piece[i] == piece) {
                 own++;
-            } else if (cut_box(box, 3, rlf_vec3_make(grid->ray_x[i], grid->ray_y[i], 1.0), &enter,
+            } else if (cut_box(box, rlf_vec3_make(grid->ray_x[i], grid->ray_y[i], 1.0), &enter,
                                &leave)) {
                 through += rlf_min(leave, seen) > enter + through_m;
             }
@@ -339,7 +353,6 @@ static bool find_box(const rlf_reconstruct *stage, int32_t piece, const shape_se
     out->axis[2] = rlf_normalize(rlf_cross(faces[0].normal, faces[1].normal));
     out->axis[1] = rlf_cross(out->axis[2], out->axis[0]);
     find_ends(stage, piece, faces, out);
-    out->is_open = search->is_cut;
     return agrees(search, faces, out) && !is_seen_through(stage, piece, out);
 }
 
@@ -360,8 +373,15 @@ void rlf_standing_find_shape(const rlf_reconstruct *stage, float *const normal[3
 
 static double box_exit(const rlf_standing_solid *box, rlf_vec3 ray)
 {
-    double enter, leave;
-    (void)cut_box(box, box->is_open ? 2 : 3, ray, &enter, &leave);
+    double leave = 1e9;
+    for (int k = 0; k < 3; k++) {
+        double along = rlf_dot(box->axis[k], ray);
+        if (along > 1e-9 && !box->is_open_high[k]) {
+            leave = rlf_min(leave, box->high[k] / along);
+        } else if (along < -1e-9 && !box->is_open_low[k]) {
+            leave = rlf_min(leave, box->low[k] / along);
+        }
+    }
     return leave;
 }
 

@@ -34,12 +34,12 @@ typedef enum rlf_standing_shape {
 } rlf_standing_shape;
 
 /* Camera frame. A box has axis[k] . p from low[k] to high[k], the first two axes out of faces that
- * are seen; open: beyond the border of the image it may go on along the third. */
+ * are seen. At an open end the border of the image cuts it: it may go on. */
 typedef struct rlf_standing_solid {
     rlf_standing_shape shape;
     rlf_vec3 axis[3];
     double low[3], high[3];
-    bool is_open;
+    bool is_open_low[3], is_open_high[3];
     rlf_vec3 centre; /* of a ball */
     double radius;
 } rlf_standing_solid;
