@@ -19,7 +19,8 @@ extern "C" {
 typedef enum rlf_border {
     RLF_BORDER_OPEN = 0, /* nothing: bodies leave the room there */
     RLF_BORDER_EXTEND =
-        1 /* the outermost planes go on: floor and walls; also behind what hides them */
+        1 /* the outermost planes go on: floor and walls; also behind what hides them; and what the
+             border of the image cuts, for 25 cm */
 } rlf_border;
 
 /* One sheet of the organised grid, in the grid's frame. Planes are width*height, row-major. */

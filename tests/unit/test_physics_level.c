@@ -14,6 +14,9 @@
 #define CARTON_NEAR 1.6
 #define CARTON_FAR 1.75
 #define CARTON_SIDE 0.15
+#define CORNER_Z 1.55
+#define CORNER_FAR 1.75
+#define CORNER_SLOPE 1.0
 #define HALF 0.03 /* of the cube that falls */
 
 static void paint(double right)
@@ -31,6 +34,24 @@ static void paint(double right)
         } else if (lid > CARTON_NEAR && lid < CARTON_FAR && lid * ray.x > -CARTON_SIDE &&
                    lid * ray.x < CARTON_SIDE) {
             grid_room_paint(i, lid, rlf_vec3_make(0, -1, 0));
+        }
+    }
+}
+
+/* A carton with an edge towards the camera. Where its sides come down on the top no depth jumps. */
+static void paint_corner(void)
+{
+    grid_room_create();
+    for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
+        rlf_vec3 ray = grid_room_ray(i);
+        double top = TOP_Y / ray.y, aside = ray.x < 0.0 ? -ray.x : ray.x;
+        double z = CORNER_Z / (1.0 - CORNER_SLOPE * aside);
+        if (top > TOP_NEAR && top < TOP_FAR) {
+            grid_room_paint(i, top, rlf_vec3_make(0, -1, 0));
+        }
+        if (z > 0.0 && z < CORNER_FAR && z * ray.y > CARTON_Y && z * ray.y < TOP_Y) {
+            double side = ray.x < 0.0 ? -CORNER_SLOPE : CORNER_SLOPE;
+            grid_room_paint(i, z, rlf_normalize(rlf_vec3_make(side, 0, -1)));
         }
     }
 }
@@ -58,6 +79,17 @@ static void top_goes_on_behind_a_carton(void **state)
         }
     }
     assert_true(drop(RLF_BORDER_OPEN, 0.0, 1.9) > TOP_Y + 0.1);
+    grid_room_destroy(NULL);
+}
+
+static void top_goes_on_behind_a_corner(void **state)
+{
+    (void)state;
+    paint_corner();
+    for (double x = -0.06; x < 0.07; x += 0.03) {
+        double y = drop(RLF_BORDER_EXTEND, x, CORNER_FAR + HALF + 0.005);
+        assert_true(y > TOP_Y - HALF - 0.005 && y < TOP_Y - HALF + 0.005);
+    }
     grid_room_destroy(NULL);
 }
 
@@ -97,6 +129,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(top_goes_on_behind_a_carton),
+        cmocka_unit_test(top_goes_on_behind_a_corner),
         cmocka_unit_test(nothing_is_beyond_its_far_edge),
         cmocka_unit_test(one_side_alone_says_nothing),
         cmocka_unit_test(air_below_it_is_free),

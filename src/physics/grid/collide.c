@@ -2,7 +2,7 @@
  * outlines and bumps against it. Costs per body, not per pixel; nothing is built per frame. */
 #include "physics/grid/collide.h"
 #include "physics/grid/ball_hit.h"
-#include "physics/grid/below.h"
+#include "physics/grid/beyond.h"
 #include "physics/grid/hidden.h"
 #include "physics/grid/near.h"
 #include "physics/grid/reduce.h"
@@ -18,8 +18,8 @@
 #define SETTLED_SHARE 0.5
 /* m of free way beyond that to the next query, looked for so that a blow does not ask for one. */
 #define FREE_WAY 0.02
-/* Touches with what goes on below the picture. */
-#define BELOW_MAX 16
+/* Touches with what goes on beyond the picture. */
+#define BEYOND_MAX 16
 
 static void set_up(grid_job *job, const grid_query *query, const phys_body *body)
 {
@@ -197,42 +197,42 @@ static void collide_sheet(grid_job *job, const grid_tiles *tiles, uint8_t *home)
     }
 }
 
-/* Touches of the body with what goes on below the picture, from a look at it lifted into view. */
-typedef struct below_hits {
-    grid_hit hits[BELOW_MAX];
+/* Touches of the body with what goes on beyond the picture, from a look at it moved into view. */
+typedef struct beyond_hits {
+    grid_hit hits[BEYOND_MAX];
     int32_t count;
     double nearest2;
-} below_hits;
+} beyond_hits;
 
-static void collide_below(grid_job *job, below_hits *below)
+static void collide_beyond(grid_job *job, beyond_hits *beyond)
 {
     const grid_query *query = job->query;
-    double rise = grid_below_rise(query, job->centre, job->body->shape.radius);
-    below->count = 0;
-    below->nearest2 = 1e18;
-    if (!(rise > 0.0)) {
+    grid_shift shift = grid_beyond_shift(query, job->centre, job->body->shape.radius);
+    beyond->count = 0;
+    beyond->nearest2 = 1e18;
+    if (!(shift.length > 0.0)) {
         return;
     }
     rlf_vec3 centre = job->centre;
     uint8_t home = FIELD_NONE;
-    job->centre = rlf_mad(centre, query->up, rise);
+    job->centre = rlf_mad(centre, shift.way, shift.length);
     collide_sheet(job, query->background, &home);
     job->centre = centre;
-    below->nearest2 = job->nearest2;
-    for (int32_t i = 0; i < job->hit_count && below->count < BELOW_MAX; i++) {
-        if (grid_below_stands(query, &job->hits[i])) {
-            grid_hit *hit = &below->hits[below->count++];
+    beyond->nearest2 = job->nearest2;
+    for (int32_t i = 0; i < job->hit_count && beyond->count < BEYOND_MAX; i++) {
+        if (grid_beyond_goes_on(query, &shift, &job->hits[i])) {
+            grid_hit *hit = &beyond->hits[beyond->count++];
             *hit = job->hits[i];
-            hit->point = rlf_mad(hit->point, query->up, -rise);
+            hit->point = rlf_mad(hit->point, shift.way, -shift.length);
         }
     }
 }
 
-static void add_below(grid_job *job, const below_hits *below)
+static void add_beyond(grid_job *job, const beyond_hits *beyond)
 {
-    job->nearest2 = rlf_min(job->nearest2, below->nearest2);
-    for (int32_t i = 0; i < below->count && job->hit_count < GRID_HITS_MAX; i++) {
-        job->hits[job->hit_count++] = below->hits[i];
+    job->nearest2 = rlf_min(job->nearest2, beyond->nearest2);
+    for (int32_t i = 0; i < beyond->count && job->hit_count < GRID_HITS_MAX; i++) {
+        job->hits[job->hit_count++] = beyond->hits[i];
     }
 }
 
@@ -256,16 +256,16 @@ static void set_period(grid_job *job, phys_body *body, double most)
     job->horizon = (body->surface_period + 1) * job->query->step;
 }
 
-/* How far from the centre anything that goes on below the picture is, no less than this. */
-static double free_below(grid_job *job, double reach, double least)
+/* How far from the centre anything that goes on beyond the picture is, no less than this. */
+static double free_beyond(grid_job *job, double reach, double least)
 {
     const grid_query *query = job->query;
-    double rise = grid_below_rise(query, job->centre, job->body->shape.radius);
-    if (!(rise > 0.0)) {
+    grid_shift shift = grid_beyond_shift(query, job->centre, job->body->shape.radius);
+    if (!(shift.length > 0.0)) {
         return reach;
     }
     rlf_vec3 centre = job->centre;
-    job->centre = rlf_mad(centre, query->up, rise);
+    job->centre = rlf_mad(centre, shift.way, shift.length);
     double distance = grid_scan_distance(job, query->background, reach, least);
     job->centre = centre;
     return distance;
@@ -290,7 +290,7 @@ static double free_way(grid_job *job, double least)
     if (way > least) {
         way = rlf_min(way, grid_hidden_face_height(job, wide) - beside);
     }
-    return way > least ? rlf_min(way, free_below(job, wide, limit) - beside) : way;
+    return way > least ? rlf_min(way, free_beyond(job, wide, limit) - beside) : way;
 }
 
 /* How far the body may go before it comes to what the last scan saw. */
@@ -308,9 +308,9 @@ bool grid_collide_prepare(const grid_query *query, const phys_body *body)
     double reach = reach_of(query, body, query_period(body, query->step, PERIOD_AT_REST));
     reach = rlf_max(reach, wide_reach_of(query, body)) + slip_of(query->foreground);
     rlf_vec3 centre = rlf_transform(&query->T_grid_world, body->x);
-    double rise = grid_below_rise(query, centre, body->shape.radius);
-    rlf_vec3 lifted = rlf_mad(centre, query->up, rise);
-    if (rise > 0.0 && grid_footprint(query->grid, lifted, reach, rect, &stride)) {
+    grid_shift shift = grid_beyond_shift(query, centre, body->shape.radius);
+    rlf_vec3 moved = rlf_mad(centre, shift.way, shift.length);
+    if (shift.length > 0.0 && grid_footprint(query->grid, moved, reach, rect, &stride)) {
         grid_tiles_make(query->background, query->grid, rect);
     }
     if (!grid_footprint(query->grid, centre, reach, rect, &stride)) {
@@ -375,10 +375,10 @@ static void collide_sheets(grid_job *job, phys_body *body, int32_t body_index)
     if (!job->is_near && body->is_pressed) {
         set_period(job, body, PERIOD_AT_REST);
     }
-    below_hits below;
-    collide_below(job, &below);
+    beyond_hits beyond;
+    collide_beyond(job, &beyond);
     collide_sheet(job, query->background, &body->home[1]);
-    add_below(job, &below);
+    add_beyond(job, &beyond);
     grid_hidden_collide(job, wide_reach_of(job->query, job->body));
     body->surface_clear = rlf_min(body->surface_clear, clearance_of(job));
     grid_reduce(job, body, body_index, RLF_CONTACT_BACKGROUND);

@@ -39,6 +39,14 @@ static bool read_level(const level_search *s, int32_t x, int32_t y, field_cell *
            rlf_dot(out->normal, s->up) > LEVEL;
 }
 
+static bool is_level_at(const level_search *s, ptrdiff_t i)
+{
+    const rlf_grid_sheet *sheet = &s->grid->background;
+    double up = (double)sheet->normal_x[i] * s->up.x + (double)sheet->normal_y[i] * s->up.y +
+                (double)sheet->normal_z[i] * s->up.z;
+    return up > LEVEL;
+}
+
 static bool is_of_shell(const level_search *s, rlf_vec3 p)
 {
     for (int32_t i = 0; i < s->shell->count; i++) {
@@ -134,20 +142,24 @@ static void look_behind(level_search *s, int32_t last, int32_t x, int32_t y)
     }
 }
 
+/* A level face may end at a pixel because something before it hides it, or stands on it. */
 static void search_row(level_search *s, int32_t y)
 {
-    const float *depth = s->grid->background.depth + (ptrdiff_t)y * s->grid->width;
+    const rlf_grid_sheet *sheet = &s->grid->background;
+    ptrdiff_t row = (ptrdiff_t)y * s->grid->width;
+    bool was_level = false;
     int32_t last = -HOLE_PX;
     for (int32_t x = 0; x < s->grid->width; x++) {
-        double z = depth[x];
+        double z = (double)sheet->depth[row + x];
         if (!(z > 0.0)) {
             continue;
         }
-        bool is_hidden = x - last <= HOLE_PX && last >= SETTLED_PX &&
-                         (double)depth[last] > z + grid_edge_step(z);
-        if (is_hidden) {
+        bool is_level = is_level_at(s, row + x), is_near = x - last <= HOLE_PX;
+        bool is_hidden = is_near && (double)sheet->depth[row + last] > z + grid_edge_step(z);
+        if (last >= SETTLED_PX && (is_hidden || (is_near && was_level && !is_level))) {
             look_behind(s, last, last + 1, y);
         }
+        was_level = is_level;
         last = x;
     }
 }

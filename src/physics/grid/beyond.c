@@ -1,0 +1,107 @@
+/* Moving bodies into view from beyond the picture's border, and what they may touch there. */
+#include "physics/grid/beyond.h"
+
+#define FARTHEST 0.25 /* m that a place is moved until it is in view */
+#define ALONG 0.3     /* sine of the angle between a side and the way along it */
+#define SAME_SIDE 0.1 /* m beside a touch that its side may be at the border */
+#define BESIDE_PX 1   /* an outline's place is that far off */
+
+static bool pixel_of(const rlf_grid *grid, rlf_vec3 q, int32_t *x, int32_t *y)
+{
+    double u, v;
+    if (!(q.z > 0.0) || !grid->project(grid->project_context, q, &u, &v)) {
+        return false;
+    }
+    *x = (int32_t)(u + 0.5);
+    *y = (int32_t)(v + 0.5);
+    return true;
+}
+
+/* The shortest shift along a way that takes q to where something is in view; 0: none does. */
+static double length_to_view(const grid_query *query, rlf_vec3 q, rlf_vec3 way)
+{
+    const rlf_grid *grid = query->grid;
+    int32_t x, y;
+    if (!pixel_of(grid, rlf_mad(q, way, FARTHEST), &x, &y)) {
+        return 0.0;
+    }
+    double pixel = rlf_max(q.z * grid->pixel_angle, 0.002);
+    for (double length = pixel; length < FARTHEST; length += pixel) {
+        field_cell cell;
+        if (pixel_of(grid, rlf_mad(q, way, length), &x, &y) &&
+            grid_cell_read(grid, &grid->background, x, y, &cell)) {
+            return length;
+        }
+    }
+    return 0.0;
+}
+
+grid_shift grid_beyond_shift(const grid_query *query, rlf_vec3 q, double radius)
+{
+    const grid_shift shifts[4] = {{query->up, 0.0, 0, -1},
+                                  {{1, 0, 0}, 0.0, 1, 0},
+                                  {{-1, 0, 0}, 0.0, -1, 0},
+                                  {rlf_neg(query->up), 0.0, 0, 1}};
+    grid_shift none = {{0, 0, 0}, 0.0, 0, 0};
+    int32_t x, y;
+    if (query->shell == NULL || !(q.z > 0.0) || pixel_of(query->grid, q, &x, &y)) {
+        return none;
+    }
+    for (int k = 0; k < 4; k++) {
+        grid_shift shift = shifts[k];
+        bool is_way = rlf_dot(shift.way, shift.way) > 0.0;
+        shift.length = is_way ? length_to_view(query, q, shift.way) : 0.0;
+        if (shift.length > 0.0) {
+            shift.length += radius;
+            return shift;
+        }
+    }
+    return none;
+}
+
+static bool is_along(const grid_shift *shift, rlf_vec3 normal)
+{
+    double slope = rlf_dot(normal, shift->way);
+    return slope < ALONG && slope > -ALONG;
+}
+
+/* The pixel next to the border, of those of a row or column out to (x, y), that shows anything. */
+static bool read_outermost(const rlf_grid *grid, const grid_shift *shift, int32_t x, int32_t y,
+                           field_cell *out)
+{
+    int32_t u = shift->dx == 0 ? x : shift->dx > 0 ? 0 : grid->width - 1;
+    int32_t v = shift->dy == 0 ? y : shift->dy > 0 ? 0 : grid->height - 1;
+    while (u >= 0 && v >= 0 && u < grid->width && v < grid->height) {
+        if (grid_cell_read(grid, &grid->background, u, v, out)) {
+            return true;
+        }
+        if (u == x && v == y) {
+            return false;
+        }
+        u += shift->dx;
+        v += shift->dy;
+    }
+    return false;
+}
+
+bool grid_beyond_goes_on(const grid_query *query, const grid_shift *shift, const grid_hit *hit)
+{
+    const rlf_grid *grid = query->grid;
+    int32_t x, y;
+    if (!is_along(shift, hit->normal) || !pixel_of(grid, hit->point, &x, &y)) {
+        return false;
+    }
+    for (int32_t k = -BESIDE_PX; k <= BESIDE_PX; k++) {
+        field_cell end;
+        int32_t u = x + k * (shift->dy != 0), v = y + k * (shift->dx != 0);
+        if (!read_outermost(grid, shift, u, v, &end) || !is_along(shift, end.normal)) {
+            continue;
+        }
+        rlf_vec3 off = rlf_sub(end.point, hit->point);
+        off = rlf_mad(off, shift->way, -rlf_dot(off, shift->way));
+        if (rlf_dot(off, off) < SAME_SIDE * SAME_SIDE) {
+            return true;
+        }
+    }
+    return false;
+}

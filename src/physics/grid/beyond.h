@@ -1,0 +1,23 @@
+/* What the picture's border cuts goes on beyond it: a table's leg, whose foot is out of view, a
+ * cupboard at its side. A body there meets what it would meet if it were moved into view. */
+#ifndef RLF_PHYSICS_GRID_BEYOND_H
+#define RLF_PHYSICS_GRID_BEYOND_H
+
+#include "physics/grid/scan.h"
+
+/* A way into view. */
+typedef struct grid_shift {
+    rlf_vec3 way;   /* grid frame, unit: up or down, or along the picture's rows */
+    double length;  /* metres; 0: there is none */
+    int32_t dx, dy; /* from the border's pixels inwards */
+} grid_shift;
+
+/* How a body about q (grid frame) must be moved until all of it is in view; no way where q is in
+ * view, or nothing is in view close by. */
+grid_shift grid_beyond_shift(const grid_query *query, rlf_vec3 q, double radius);
+
+/* Whether the touch of a body that was moved so is one with something that goes on to where the
+ * picture ends. */
+bool grid_beyond_goes_on(const grid_query *query, const grid_shift *shift, const grid_hit *hit);
+
+#endif

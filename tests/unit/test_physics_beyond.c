@@ -1,0 +1,147 @@
+/* What the picture's border cuts goes on beyond it: a leg down to the floor, a cupboard's front. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "grid_room.h"
+
+#define LEG_Z 1.5
+#define LEG_SIDE 0.03
+#define RADIUS 0.04
+#define START (-0.3)
+#define FRONT_Z 1.5
+#define FRONT_PIXELS 60
+
+static void paint(int32_t last_row)
+{
+    grid_room_create();
+    for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
+        double x = LEG_Z * grid_room_ray(i).x;
+        if (x > -LEG_SIDE && x < LEG_SIDE && i / GRID_W <= last_row) {
+            grid_room_paint(i, LEG_Z, rlf_vec3_make(0, 0, -1));
+        }
+    }
+}
+
+/* Where a body is that slides across the floor below the picture for half a second. */
+static double slide(rlf_shape_type type, double z)
+{
+    double u, v;
+    rlf_body_def def = rlf_body_def_default();
+    def.shape = (rlf_shape){.type = type, .radius = RADIUS};
+    def.shape.size = rlf_vec3_make(2 * RADIUS, 2 * RADIUS, 2 * RADIUS);
+    def.position = rlf_vec3_make(START, GRID_ROOM_FLOOR - RADIUS - 0.002, z);
+    def.velocity = rlf_vec3_make(1.5, 0, 0);
+    def.friction = 0.0;
+    def.restitution = 0.0;
+    assert_false(grid_fixture_project(NULL, def.position, &u, &v));
+    const grid_room_way way = grid_room_run(RLF_BORDER_EXTEND, &def, 15);
+    assert_true(way.is_there && way.p.y < GRID_ROOM_FLOOR);
+    return way.p.x;
+}
+
+static void leg_goes_on_below_the_picture(void **state)
+{
+    (void)state;
+    paint(GRID_H);
+    assert_true(slide(RLF_SHAPE_SPHERE, LEG_Z + 0.02) < -LEG_SIDE - RADIUS + 0.01);
+    assert_true(slide(RLF_SHAPE_BOX, LEG_Z + 0.02) < -LEG_SIDE - RADIUS + 0.01);
+    grid_room_destroy(NULL);
+}
+
+static void air_before_it_is_free(void **state)
+{
+    (void)state;
+    paint(GRID_H);
+    assert_true(slide(RLF_SHAPE_SPHERE, LEG_Z - 0.1) > 0.3);
+    assert_true(slide(RLF_SHAPE_BOX, LEG_Z - 0.1) > 0.3);
+    grid_room_destroy(NULL);
+}
+
+/* Below what ends in the picture bodies pass. */
+static void what_hangs_does_not(void **state)
+{
+    (void)state;
+    paint(GRID_H - 8);
+    assert_true(slide(RLF_SHAPE_SPHERE, LEG_Z + 0.02) > 0.3);
+    assert_true(slide(RLF_SHAPE_BOX, LEG_Z + 0.02) > 0.3);
+    grid_room_destroy(NULL);
+}
+
+enum { LEFT, RIGHT, TOP, SIDES };
+
+/* How many pixels are between pixel i and that border. */
+static int32_t inward(int32_t i, int side)
+{
+    return side == TOP ? i / GRID_W : side == LEFT ? i % GRID_W : GRID_W - 1 - i % GRID_W;
+}
+
+/* A front at that border, that begins so many pixels from it. */
+static void paint_front(int side, int32_t first)
+{
+    grid_room_create();
+    for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
+        if (inward(i, side) >= first && inward(i, side) < FRONT_PIXELS) {
+            grid_room_paint(i, FRONT_Z, rlf_vec3_make(0, 0, -1));
+        }
+    }
+}
+
+/* The farthest z of a body that flies at such a front for half a second, `beside` m out of view. */
+static double fly_at(rlf_shape_type type, int side, double beside)
+{
+    double u, v;
+    rlf_vec3 low = rlf_scale(grid_room_ray(0), FRONT_Z);
+    rlf_vec3 high = rlf_scale(grid_room_ray(GRID_W - 1), FRONT_Z);
+    const rlf_vec3 start[SIDES] = {{low.x - beside, 0.0, FRONT_Z - 0.3},
+                                   {high.x + beside, 0.0, FRONT_Z - 0.3},
+                                   {0.0, low.y - beside, FRONT_Z - 0.3}};
+    rlf_body_def def = rlf_body_def_default();
+    def.shape = (rlf_shape){.type = type, .radius = RADIUS};
+    def.shape.size = rlf_vec3_make(2 * RADIUS, 2 * RADIUS, 2 * RADIUS);
+    def.position = start[side];
+    def.velocity = rlf_vec3_make(0, 0, 3.0);
+    def.gravity_scale = 0.0;
+    def.restitution = 0.0;
+    assert_false(grid_fixture_project(NULL, def.position, &u, &v));
+    const grid_room_way way = grid_room_run(RLF_BORDER_EXTEND, &def, 15);
+    assert_true(way.is_there);
+    return way.farthest_z;
+}
+
+static void a_front_goes_on_beyond_the_picture(void **state)
+{
+    (void)state;
+    for (int side = 0; side < SIDES; side++) {
+        paint_front(side, 0);
+        assert_true(fly_at(RLF_SHAPE_SPHERE, side, 0.1) < FRONT_Z - RADIUS + 0.01);
+        assert_true(fly_at(RLF_SHAPE_BOX, side, 0.1) < FRONT_Z - RADIUS + 0.01);
+        assert_true(fly_at(RLF_SHAPE_BOX, side, 0.5) > FRONT_Z + 0.5); /* nobody knows */
+        grid_room_destroy(NULL);
+    }
+}
+
+static void what_ends_before_the_border_does_not(void **state)
+{
+    (void)state;
+    for (int side = 0; side < SIDES; side++) {
+        paint_front(side, 8);
+        assert_true(fly_at(RLF_SHAPE_SPHERE, side, 0.1) > FRONT_Z + 0.5);
+        assert_true(fly_at(RLF_SHAPE_BOX, side, 0.1) > FRONT_Z + 0.5);
+        grid_room_destroy(NULL);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(leg_goes_on_below_the_picture),
+        cmocka_unit_test(air_before_it_is_free),
+        cmocka_unit_test(what_hangs_does_not),
+        cmocka_unit_test(a_front_goes_on_beyond_the_picture),
+        cmocka_unit_test(what_ends_before_the_border_does_not),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
