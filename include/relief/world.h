@@ -15,13 +15,9 @@ extern "C" {
  * --------------------------------------------------------- */
 
 /* What is where the camera sees nothing: beyond its view, and in the ring of missing pixels at the
- * border of its image. */
-typedef enum rlf_border {
-    RLF_BORDER_OPEN = 0, /* nothing: bodies leave the room there */
-    RLF_BORDER_EXTEND =
-        1 /* the outermost planes go on: floor and walls; also behind what hides them; and what the
-             border of the image cuts, for 25 cm */
-} rlf_border;
+ * border of its image. OPEN: nothing, bodies leave the room there. EXTEND: the outermost planes go
+ * on, floor and walls, also behind what hides them; and for 25 cm what the border cuts. */
+typedef enum rlf_border { RLF_BORDER_OPEN = 0, RLF_BORDER_EXTEND = 1 } rlf_border;
 
 /* One sheet of the organised grid, in the grid's frame. Planes are width*height, row-major. */
 typedef struct rlf_grid_sheet {
