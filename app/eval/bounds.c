@@ -35,6 +35,7 @@ const eval_bound eval_bounds[] = {
     {"room", "behind_off_percent", '<', NAN, 0.1, "none", ""},
     {"room", "behind_rmse_mm", '<', NAN, 0.8, "", ""},
     {"room", "behind_normals_mean_deg", '<', NAN, 0.3, "", ""},
+    {"room", "bounces_off_mm", '<', NAN, 2.5, "", ""},
     {"room", "bounces_phantom_percent", '<', NAN, 3, "", ""},
     {"room", "bounces_right_percent", '>', 99.5, 92, "9 of 10 at best", ""},
     {"room", "bounces_within_10_percent", '>', NAN, 88, "", ""},

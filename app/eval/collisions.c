@@ -106,6 +106,7 @@ void eval_collisions_judge(eval_collisions *e, const rlf_contact *contact, rlf_s
         e->phantom++;
         return;
     }
+    e->off_m += distance < 0.0 ? -distance : distance;
     double degrees = degrees_between(contact->normal, normal);
     double least = rlf_min(degrees, degrees_ahead(contact, source));
     eval_add_angle(&e->angles, degrees);

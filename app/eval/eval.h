@@ -77,6 +77,7 @@ typedef struct eval_collisions {
                         between its faces */
     int64_t wrong;   /* of the others, more than 30 degrees off that of the nearest true face */
     int64_t unexplained; /* of those, the ones that no edge of the true scene explains */
+    double off_m;        /* sum of how far the others' places are from the nearest true surface */
     int64_t entries;     /* times a body's centre got inside something real, in view */
     eval_angles angles;
     bool *was_inside;     /* per body */

@@ -61,6 +61,7 @@ typedef enum figure_index {
     PHANTOMS_LATE,
     BOUNCES,
     BOUNCES_PHANTOM,
+    BOUNCES_OFF,
     BOUNCES_MEAN,
     BOUNCES_RIGHT,
     BOUNCES_CLOSE,
@@ -138,6 +139,7 @@ static const figure_name names[FIGURE_COUNT] = {
     [PHANTOMS_LATE] = {"background_phantoms_late_percent", "phantoms 30 frames after, %"},
     [BOUNCES] = {"bounces", "bounces on the real scene"},
     [BOUNCES_PHANTOM] = {"bounces_phantom_percent", "bounces where nothing real is, %"},
+    [BOUNCES_OFF] = {"bounces_off_mm", "bounces: mean error of the place, mm"},
     [BOUNCES_MEAN] = {"bounces_mean_deg", "bounces: mean error of the normal, deg"},
     [BOUNCES_RIGHT] = {"bounces_right_percent", "bounces within 10 deg of a true direction, %"},
     [BOUNCES_CLOSE] = {"bounces_within_10_percent", "  of that of the nearest true face, %"},
@@ -215,6 +217,7 @@ static void get_collisions(const eval_collisions *c, double *v)
 {
     v[BOUNCES] = (double)c->bounces;
     v[BOUNCES_PHANTOM] = eval_percent(c->phantom, c->bounces);
+    v[BOUNCES_OFF] = c->angles.count > 0 ? 1e3 * c->off_m / (double)c->angles.count : NAN;
     v[BOUNCES_MEAN] = eval_mean_deg(&c->angles);
     v[BOUNCES_RIGHT] = eval_percent(c->right, c->angles.count);
     v[BOUNCES_CLOSE] = eval_within_percent(&c->angles, 10.0);

@@ -90,8 +90,8 @@ typedef struct rlf_contact {
     rlf_contact_other other;
     rlf_body_id other_body; /* null unless other is a body */
     int32_t region_label;   /* of the surface; 0 when other is a body or no region */
-    rlf_vec3 point;         /* world, metres */
-    rlf_vec3 normal;        /* unit, from the surface (or other body) to `body` */
+    rlf_vec3 point;         /* world, metres: where they met, or, of what rests, touch at the end */
+    rlf_vec3 normal;        /* the same; unit, from the surface (or other body) to `body` */
     double separation;      /* metres, negative when they overlap */
     double impulse;         /* N s along the normal during this frame, >= 0 */
     double surface_speed;   /* m/s of the surface along the normal, towards the body > 0 */

@@ -20,7 +20,8 @@ typedef struct phys_contact {
     double impulse_sum; /* N s along the normal that the frame's list does not hold yet ... */
     rlf_vec3 surface_velocity; /* world, m/s; 0 between bodies */
     double surface_time;       /* world time of anchor_b, s */
-    double approach;           /* ... and the highest speed at which they met, m/s */
+    double approach;           /* ... the highest speed at which they met, m/s, 0 = they rest, */
+    rlf_vec3 met;              /* ... and where that was, world */
     rlf_contact_other other;
     int32_t a, b;  /* body indices; b < 0: the surface */
     int32_t label; /* region label of the surface, 0 else */

@@ -78,12 +78,14 @@ void phys_log_impulse(rlf_world *world, phys_contact *contact, rlf_vec3 point, d
         entry->other_body = phys_body_id(world, contact->b);
     }
     entry->region_label = contact->label;
-    entry->point = point;
-    entry->normal = contact->normal;
     entry->separation = contact->separation;
     entry->impulse += impulse;
-    entry->surface_speed = rlf_dot(contact->surface_velocity, contact->normal);
-    entry->approach_speed = rlf_max(entry->approach_speed, approach);
+    if (approach >= entry->approach_speed) {
+        entry->point = point;
+        entry->normal = contact->normal;
+        entry->surface_speed = rlf_dot(contact->surface_velocity, contact->normal);
+        entry->approach_speed = approach;
+    }
 }
 
 void phys_log_contacts(rlf_world *world, phys_contact *contacts, int32_t count)
@@ -92,9 +94,9 @@ void phys_log_contacts(rlf_world *world, phys_contact *contacts, int32_t count)
         phys_contact *contact = &contacts[i];
         if (contact->impulse_sum > 0.0) {
             const phys_body *body = &world->bodies[contact->a];
-            rlf_vec3 r = phys_contact_arm(contact, body);
-            phys_log_impulse(world, contact, rlf_add(body->x, r), contact->impulse_sum,
-                             contact->approach);
+            rlf_vec3 now = rlf_add(body->x, phys_contact_arm(contact, body));
+            phys_log_impulse(world, contact, contact->approach > 0.0 ? contact->met : now,
+                             contact->impulse_sum, contact->approach);
             contact->impulse_sum = contact->approach = 0.0;
         }
     }

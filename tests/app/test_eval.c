@@ -234,6 +234,7 @@ static int judged(rlf_source *source, double x, double y, double nx, double ny)
     eval_collisions_judge(&e, &contact, source);
     assert_int_equal(e.bounces, 1);
     assert_int_equal(e.phantom, 0);
+    assert_true(e.off_m < 0.021);
     return e.right > 0 ? 2 : e.unexplained > 0 ? 0 : 1;
 }
 
@@ -259,6 +260,26 @@ static void every_direction_between_the_faces_of_an_edge_is_right(void **state)
     rlf_source_destroy(&source);
 }
 
+/* A place 2 cm over the table is 2 cm off, one in its top 1. */
+static void bounces_are_measured_where_they_are(void **state)
+{
+    (void)state;
+    rlf_source *source = NULL;
+    rlf_frame frame;
+    rlf_synthetic_def def = rlf_synthetic_def_default();
+    def.scene = RLF_SYNTHETIC_EMPTY;
+    assert_int_equal(rlf_synthetic_create(&def, &source), RLF_OK);
+    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    eval_collisions e = {0};
+    rlf_contact contact = {.point = {0.72, 0.565 - 0.02, 2.57}, .normal = {0, -1, 0}};
+    eval_collisions_judge(&e, &contact, source);
+    assert_float_equal(e.off_m, 0.02, 1e-6);
+    contact.point.y = 0.565 + 0.01;
+    eval_collisions_judge(&e, &contact, source);
+    assert_float_equal(e.off_m, 0.03, 1e-6);
+    rlf_source_destroy(&source);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -270,6 +291,7 @@ int main(void)
         cmocka_unit_test(missing_points_fall_into_the_four_cases),
         cmocka_unit_test(collision_scene_is_the_same_for_a_seed),
         cmocka_unit_test(every_direction_between_the_faces_of_an_edge_is_right),
+        cmocka_unit_test(bounces_are_measured_where_they_are),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

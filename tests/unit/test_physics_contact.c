@@ -97,6 +97,41 @@ static double slide(double slope, double friction)
     return v;
 }
 
+/* A blow is told at the place where they met, not where the body is at the end of the frame. */
+static void blows_are_told_where_they_were(void **state)
+{
+    (void)state;
+    const double HEIGHT = 0.103, RADIUS = 0.05, FRAME = 1.0 / 30;
+    int32_t blows = 0;
+    set_floor(1);
+    for (int type = 0; type < 2; type++) {
+        rlf_world *world = make_world(rlf_vec3_make(0, 0, 0));
+        rlf_body_def def = rlf_body_def_default();
+        def.shape.type = type == 0 ? RLF_SHAPE_SPHERE : RLF_SHAPE_BOX;
+        def.shape.radius = RADIUS;
+        def.shape.size = rlf_vec3_make(2 * RADIUS, 2 * RADIUS, 2 * RADIUS);
+        def.friction = 0.0;
+        def.restitution = 1.0;
+        def.position = rlf_vec3_make(-0.2, 1 - RADIUS - HEIGHT, 2.5);
+        def.velocity = rlf_vec3_make(1.5, 2.0, 0.0);
+        assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+        for (int k = 0; k < 6; k++) {
+            rlf_world_advance(world, &fixture->grid, FRAME);
+            const rlf_snapshot *s = rlf_world_get_snapshot(world);
+            for (int32_t i = 0; i < s->contact_count; i++) {
+                const rlf_contact *c = &s->contacts[i];
+                double aside = c->point.x - (def.position.x + 0.75 * HEIGHT);
+                assert_true(fabs(c->point.y - 1.0) < 2e-4);
+                assert_true(fabs(aside) < (type == 0 ? 2e-4 : RADIUS + 2e-4));
+                assert_true(fabs(c->approach_speed - 2.0) < 1e-2);
+                blows++;
+            }
+        }
+        rlf_world_destroy(&world);
+    }
+    assert_true(blows >= 2);
+}
+
 static void slope_sticks_and_slips(void **state)
 {
     (void)state;
@@ -347,6 +382,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bounces_to_the_square_of_restitution),
+        cmocka_unit_test(blows_are_told_where_they_were),
         cmocka_unit_test(slope_sticks_and_slips),
         cmocka_unit_test(sticking_cube_does_not_creep),
         cmocka_unit_test(rests_without_drift_and_sleeps),

@@ -27,7 +27,10 @@ static void note_blow(phys_body *body, int32_t body_index, const guard_wall *wal
         c->surface_time = time;
     }
     c->impulse_sum += impulse;
-    c->approach = rlf_max(c->approach, approach);
+    if (approach > c->approach) {
+        c->approach = approach;
+        c->met = rlf_mad(body->x, wall->normal, -body->shape.inner_radius);
+    }
 }
 
 /* A blow at the centre, which turns nothing. */

@@ -222,6 +222,29 @@ static void solve_points(const phys_group *g, impact_point *points, int32_t coun
     }
 }
 
+/* Where a's point is at time t, world. */
+static rlf_vec3 place_at(const phys_point *p, const phys_group *g, const phys_sides *s, double t)
+{
+    const phys_body *a = g->a;
+    rlf_vec3 at = rlf_add(rlf_add(a->x, a->impact_shift), p->r_a);
+    at = rlf_add(at, rlf_cross(a->impact_turn, p->r_a));
+    at = rlf_mad(at, rlf_add(s->v_a, rlf_cross(s->w_a, p->r_a)), t);
+    return s->mobility_a > 0.0 ? rlf_mad(at, a->acceleration, 0.5 * t * t) : at;
+}
+
+/* Adds a blow to what the frame's list will hold of the contact. */
+static void note_blow(const impact_point *p, const phys_group *g, const phys_sides *before,
+                      double t)
+{
+    phys_contact *c = p->near->contact;
+    p->near->is_impacted = true;
+    c->impulse_sum += p->rows[0].impulse;
+    if (p->approach > c->approach) {
+        c->approach = p->approach;
+        c->met = place_at(p->near, g, before, t);
+    }
+}
+
 void phys_impact_answer(const phys_group *g, double t)
 {
     impact_point points[PHYS_SURFACE_CONTACTS];
@@ -232,11 +255,8 @@ void phys_impact_answer(const phys_group *g, double t)
     limit_energy(g, &before, &s, t);
     sides_store(&s, g);
     for (int32_t i = 0; i < count; i++) {
-        phys_contact *c = points[i].near->contact;
         if (points[i].rows[0].impulse > 0.0) {
-            points[i].near->is_impacted = true;
-            c->impulse_sum += points[i].rows[0].impulse;
-            c->approach = rlf_max(c->approach, points[i].approach);
+            note_blow(&points[i], g, &before, t);
         }
     }
 }
