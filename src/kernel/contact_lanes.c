@@ -252,22 +252,85 @@ RLF_KERNEL_PART void solve_friction(const lane_sides *sides, rlf_lane_point *p, 
     }
 }
 
+/* A batch that is being solved. */
+typedef struct lane_work {
+    const rlf_lane_batch *batch;
+    lane_sides sides;
+    lane_speeds s;
+    float most[RLF_LANES];
+} lane_work;
+
+RLF_KERNEL_PART void start(lane_work *work, const rlf_lane_batch *batch,
+                           const rlf_lane_speed *speeds)
+{
+    work->batch = batch;
+    work->sides = sides_of(batch);
+    work->s = load(batch, speeds);
+    for (int32_t lane = 0; lane < RLF_LANES; lane++) {
+        work->most[lane] = -1.0f;
+    }
+}
+
+RLF_KERNEL_PART void finish(const lane_work *work, bool has_b, rlf_lane_speed *speeds,
+                            float *excess)
+{
+    store(work->batch, &work->s, has_b, speeds);
+    for (int32_t lane = 0; lane < RLF_LANES; lane++) {
+        excess[lane] = work->most[lane];
+    }
+}
+
+/* Both for the points begin <= i < end. */
+RLF_KERNEL_PART void solve_normals(lane_work *work, int32_t begin, int32_t end, bool has_b,
+                                   bool push, float settled)
+{
+    for (int32_t i = begin; i < end; i++) {
+        solve_normal(&work->sides, &work->batch->points[i], has_b, push, settled, &work->s,
+                     work->most);
+    }
+}
+
+RLF_KERNEL_PART void solve_frictions(lane_work *work, int32_t begin, int32_t end, bool has_b,
+                                     float settled)
+{
+    for (int32_t i = begin; i < end; i++) {
+        solve_friction(&work->sides, &work->batch->points[i], has_b, settled, &work->s, work->most);
+    }
+}
+
 RLF_KERNEL_PART void solve(const rlf_lane_batch *batch, bool has_b, bool push, float settled,
                            rlf_lane_speed *speeds, float *excess)
 {
-    float most[RLF_LANES] = {-1, -1, -1, -1, -1, -1, -1, -1};
-    const lane_sides sides = sides_of(batch);
-    lane_speeds s = load(batch, speeds);
-    for (int32_t i = 0; i < batch->point_count; i++) {
-        solve_normal(&sides, &batch->points[i], has_b, push, settled, &s, most);
+    lane_work work;
+    start(&work, batch, speeds);
+    solve_normals(&work, 0, batch->point_count, has_b, push, settled);
+    solve_frictions(&work, 0, batch->point_count, has_b, settled);
+    finish(&work, has_b, speeds, excess);
+}
+
+/* In turn: what a processor does for one batch does not wait for what it does for the other. */
+RLF_KERNEL_PART void solve_two(const rlf_lane_batch *const batches[2], bool has_b, bool push,
+                               float settled, rlf_lane_speed *speeds, float (*excess)[RLF_LANES])
+{
+    lane_work one, two;
+    int32_t end_one = batches[0]->point_count, end_two = batches[1]->point_count;
+    int32_t both = end_one < end_two ? end_one : end_two;
+    start(&one, batches[0], speeds);
+    start(&two, batches[1], speeds);
+    for (int32_t i = 0; i < both; i++) {
+        solve_normals(&one, i, i + 1, has_b, push, settled);
+        solve_normals(&two, i, i + 1, has_b, push, settled);
     }
-    for (int32_t i = 0; i < batch->point_count; i++) {
-        solve_friction(&sides, &batch->points[i], has_b, settled, &s, most);
+    solve_normals(&one, both, end_one, has_b, push, settled);
+    solve_normals(&two, both, end_two, has_b, push, settled);
+    for (int32_t i = 0; i < both; i++) {
+        solve_frictions(&one, i, i + 1, has_b, settled);
+        solve_frictions(&two, i, i + 1, has_b, settled);
     }
-    store(batch, &s, has_b, speeds);
-    for (int32_t lane = 0; lane < RLF_LANES; lane++) {
-        excess[lane] = most[lane];
-    }
+    solve_frictions(&one, both, end_one, has_b, settled);
+    solve_frictions(&two, both, end_two, has_b, settled);
+    finish(&one, has_b, speeds, excess[0]);
+    finish(&two, has_b, speeds, excess[1]);
 }
 
 RLF_KERNEL void rlf_kernel_lanes_solve(const rlf_lane_batch *batch, rlf_lane_speed *speeds,
@@ -281,5 +344,21 @@ RLF_KERNEL void rlf_kernel_lanes_solve(const rlf_lane_batch *batch, rlf_lane_spe
         solve(batch, false, true, settled, speeds, excess);
     } else {
         solve(batch, false, false, settled, speeds, excess);
+    }
+}
+
+RLF_KERNEL void rlf_kernel_lanes_solve_two(const rlf_lane_batch *const batches[2],
+                                           rlf_lane_speed *speeds, bool push, float settled,
+                                           float excess[2][RLF_LANES])
+{
+    bool has_b = batches[0]->has_b;
+    if (has_b && push) {
+        solve_two(batches, true, true, settled, speeds, excess);
+    } else if (has_b) {
+        solve_two(batches, true, false, settled, speeds, excess);
+    } else if (push) {
+        solve_two(batches, false, true, settled, speeds, excess);
+    } else {
+        solve_two(batches, false, false, settled, speeds, excess);
     }
 }

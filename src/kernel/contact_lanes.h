@@ -64,4 +64,9 @@ void rlf_kernel_lanes_push(const rlf_lane_batch *batch, rlf_lane_speed *speeds);
 void rlf_kernel_lanes_solve(const rlf_lane_batch *batch, rlf_lane_speed *speeds, bool push,
                             float settled, float excess[RLF_LANES]);
 
+/* The same for two batches that share no body that moves, and of which both or none are of
+ * surfaces. */
+void rlf_kernel_lanes_solve_two(const rlf_lane_batch *const batches[2], rlf_lane_speed *speeds,
+                                bool push, float settled, float excess[2][RLF_LANES]);
+
 #endif

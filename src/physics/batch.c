@@ -219,7 +219,8 @@ int32_t phys_batches_make(rlf_world *world, const phys_island *island, const phy
         fetch_groups(groups, order, k, count);
         int32_t own = colour_of_key(keys[order[k]]);
         if (made == 0 || own < 0 || own != colour || batches[made - 1].count == RLF_LANES) {
-            start_batch(&batches[made++], points, contacts, g);
+            start_batch(&batches[made], points, contacts, g);
+            batches[made++].is_apart = own >= 0 && own == colour;
             points += g->point_count;
             contacts += g->point_count;
             colour = own;

@@ -214,12 +214,12 @@ static void set_busy(rlf_world *world, const rlf_lane_batch *lanes, int32_t lane
     }
 }
 
-/* Returns whether an impulse changed by more than rounding: the next pass looks there again. */
-static bool solve_batch(rlf_world *world, const phys_batch *batch, bool push, int32_t pass)
+/* Solves for rolling, and marks the bodies next to which an impulse changed by more than rounding:
+ * the next pass looks there again. Returns whether one did. */
+static bool finish_batch(rlf_world *world, const phys_batch *batch, const float *excess,
+                         int32_t pass)
 {
-    float excess[RLF_LANES];
     bool is_any = false;
-    rlf_kernel_lanes_solve(&batch->lanes, world->speeds, push, SETTLED, excess);
     for (int32_t lane = 0; lane < batch->count; lane++) {
         bool is_busy = excess[lane] > 0.0f;
         if (batch->resists_rolling) {
@@ -233,6 +233,46 @@ static bool solve_batch(rlf_world *world, const phys_batch *batch, bool push, in
     return is_any;
 }
 
+/* Solves one batch, or two that are apart. */
+static bool solve_batches(rlf_world *world, const phys_batch *const batches[2], int32_t count,
+                          bool push, int32_t pass)
+{
+    float excess[2][RLF_LANES];
+    const rlf_lane_batch *lanes[2] = {&batches[0]->lanes, &batches[count - 1]->lanes};
+    if (count == 2) {
+        rlf_kernel_lanes_solve_two(lanes, world->speeds, push, SETTLED, excess);
+    } else {
+        rlf_kernel_lanes_solve(lanes[0], world->speeds, push, SETTLED, excess[0]);
+    }
+    bool is_busy = finish_batch(world, batches[0], excess[0], pass);
+    return count == 2 ? finish_batch(world, batches[1], excess[1], pass) || is_busy : is_busy;
+}
+
+/* One pass over the batches that are busy. Returns whether some still are. */
+static bool solve_pass(rlf_world *world, const phys_batch *batches, int32_t count, bool push,
+                       int32_t pass)
+{
+    const phys_batch *waiting[2] = {NULL, NULL};
+    bool is_busy = false;
+    for (int32_t k = 0; k < count; k++) {
+        if (waiting[0] != NULL && !batches[k].is_apart) {
+            is_busy |= solve_batches(world, waiting, 1, push, pass);
+            waiting[0] = NULL;
+        }
+        if (!is_busy_in(world, &batches[k].lanes, pass)) {
+            continue;
+        }
+        if (waiting[0] == NULL) {
+            waiting[0] = &batches[k];
+        } else {
+            waiting[1] = &batches[k];
+            is_busy |= solve_batches(world, waiting, 2, push, pass);
+            waiting[0] = NULL;
+        }
+    }
+    return waiting[0] != NULL ? solve_batches(world, waiting, 1, push, pass) || is_busy : is_busy;
+}
+
 void phys_batches_solve(rlf_world *world, const phys_batch *batches, int32_t count, bool push,
                         int32_t passes)
 {
@@ -243,11 +283,6 @@ void phys_batches_solve(rlf_world *world, const phys_batch *batches, int32_t cou
     }
     bool is_busy = true;
     for (int32_t pass = 0; pass < passes && is_busy; pass++) {
-        is_busy = false;
-        for (int32_t k = 0; k < count; k++) {
-            if (is_busy_in(world, &batches[k].lanes, pass)) {
-                is_busy |= solve_batch(world, &batches[k], push, pass);
-            }
-        }
+        is_busy = solve_pass(world, batches, count, push, pass);
     }
 }

@@ -46,6 +46,7 @@ typedef struct phys_batch {
     phys_lane_contacts *contacts; /* of lanes.points */
     int32_t count;
     bool resists_rolling; /* some group does */
+    bool is_apart;        /* shares no body that moves with the batch before */
 } phys_batch;
 
 /* Two bodies whose boxes overlap. */

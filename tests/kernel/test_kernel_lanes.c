@@ -211,6 +211,40 @@ static void a_pass_is_that_of_each_lane(void **state)
     }
 }
 
+/* Two batches of different lengths, the second one's bodies behind the first one's. */
+static void two_are_solved_as_each_alone(void **state)
+{
+    (void)state;
+    analytic_random r = {4};
+    for (int32_t run = 0; run < 200; run++) {
+        scene alone[2], both[2];
+        rlf_lane_speed speeds[4 * RLF_LANES];
+        float excess[2][RLF_LANES], excess_alone[RLF_LANES];
+        bool push = run % 2 == 1;
+        for (int32_t k = 0; k < 2; k++) {
+            make_scene(&alone[k], &r, run % 4 < 2);
+            alone[k].batch.point_count = k == run / 4 % 2 ? POINTS : 1 + run % POINTS;
+            both[k] = alone[k];
+            both[k].batch.points = both[k].points;
+            memcpy(&speeds[2 * RLF_LANES * k], both[k].speeds, sizeof(both[k].speeds));
+            for (int32_t lane = 0; lane < RLF_LANES; lane++) {
+                both[k].batch.a[lane] += 2 * RLF_LANES * k;
+                both[k].batch.b[lane] += 2 * RLF_LANES * k;
+            }
+        }
+        const rlf_lane_batch *batches[2] = {&both[0].batch, &both[1].batch};
+        rlf_kernel_lanes_solve_two(batches, speeds, push, 1e-6f, excess);
+        for (int32_t k = 0; k < 2; k++) {
+            scene *s = &alone[k];
+            s->batch.points = s->points;
+            rlf_kernel_lanes_solve(&s->batch, s->speeds, push, 1e-6f, excess_alone);
+            assert_memory_equal(excess[k], excess_alone, sizeof(excess_alone));
+            assert_memory_equal(&speeds[2 * RLF_LANES * k], s->speeds, sizeof(s->speeds));
+            assert_memory_equal(both[k].points, s->points, sizeof(s->points));
+        }
+    }
+}
+
 /* A point of the weighed mass changes its speed by 1 / mass for a unit impulse. */
 static void mass_is_impulse_by_speed(void **state)
 {
@@ -261,6 +295,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_pass_is_that_of_each_lane),
+        cmocka_unit_test(two_are_solved_as_each_alone),
         cmocka_unit_test(mass_is_impulse_by_speed),
         cmocka_unit_test(passes_settle),
     };

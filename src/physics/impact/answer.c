@@ -1,5 +1,6 @@
 /* The answer to an impact: restitution and friction at all points of a group that close. */
 #include "physics/impact/answer.h"
+#include "kernel/kernel.h"
 
 /* Gap at which a contact of the same group takes part in an impact, metres. */
 #define TOGETHER 2e-4
@@ -103,13 +104,15 @@ static impact_row row_make(const phys_point *p, const phys_group *g, const phys_
 }
 
 /* Returns by how much the point's speed along the row changed, m/s. */
-static inline double row_push(impact_row *row, phys_sides *s, double impulse)
+RLF_KERNEL_PART double row_push(impact_row *row, phys_sides *s, bool has_b, double impulse)
 {
     double change = impulse - row->impulse;
     s->v_a = rlf_mad(s->v_a, row->direction, change * s->mobility_a);
     s->w_a = rlf_mad(s->w_a, row->spin_a, change);
-    s->v_b = rlf_mad(s->v_b, row->direction, -change * s->mobility_b);
-    s->w_b = rlf_mad(s->w_b, row->spin_b, -change);
+    if (has_b) {
+        s->v_b = rlf_mad(s->v_b, row->direction, -change * s->mobility_b);
+        s->w_b = rlf_mad(s->w_b, row->spin_b, -change);
+    }
     row->impulse = impulse;
     return (change < 0.0 ? -change : change) * row->mobility;
 }
@@ -143,45 +146,40 @@ static void find_mass(impact_point *p, const phys_sides *s)
     p->has_mass = rlf_mat3_invert(&mobility, &p->mass);
 }
 
-/* The impulses that stop the point in all three directions at once, where friction holds it.
- * Returns whether it does, and then the largest change of speed, m/s. */
-static bool hold_point(impact_point *p, double friction, phys_sides *s, bool has_b, double *change)
+/* The impulses that stop the point in all three directions at once, `v` being its speeds along
+ * them. Returns whether friction holds it then. */
+RLF_KERNEL_PART bool find_hold(const impact_point *p, double friction, rlf_vec3 v, rlf_vec3 *out)
 {
-    impact_row *rows = p->rows;
-    rlf_vec3 v = relative_velocity(p->near, s, has_b);
-    rlf_vec3 lack = {p->target - rlf_dot(rows[0].direction, v), -rlf_dot(rows[1].direction, v),
-                     -rlf_dot(rows[2].direction, v)};
+    const impact_row *rows = p->rows;
+    rlf_vec3 lack = {p->target - v.x, -v.y, -v.z};
     rlf_vec3 j = rlf_mat3_mul_vec(&p->mass, lack);
-    j = rlf_add(j, rlf_vec3_make(rows[0].impulse, rows[1].impulse, rows[2].impulse));
-    double limit = friction * j.x;
-    if (!p->has_mass || !(j.x >= 0.0) || j.y * j.y + j.z * j.z > limit * limit) {
-        return false;
-    }
-    *change = row_push(&rows[0], s, j.x);
-    *change = rlf_max(*change, row_push(&rows[1], s, j.y));
-    *change = rlf_max(*change, row_push(&rows[2], s, j.z));
-    return true;
+    *out = rlf_add(j, rlf_vec3_make(rows[0].impulse, rows[1].impulse, rows[2].impulse));
+    double limit = friction * out->x;
+    return p->has_mass && out->x >= 0.0 && !(out->y * out->y + out->z * out->z > limit * limit);
 }
 
 /* One pass: where friction does not hold it the normal's row, then friction within the cone that
  * its impulse allows. Returns the largest change of speed, m/s. */
-static double solve_point(impact_point *p, double friction, phys_sides *s, bool has_b)
+RLF_KERNEL_PART double solve_point(impact_point *p, double friction, phys_sides *s, bool has_b)
 {
     impact_row *rows = p->rows;
-    double held;
-    if (hold_point(p, friction, s, has_b, &held)) {
-        return held;
+    rlf_vec3 v = relative_velocity(p->near, s, has_b), hold;
+    v = rlf_vec3_make(rlf_dot(rows[0].direction, v), rlf_dot(rows[1].direction, v),
+                      rlf_dot(rows[2].direction, v));
+    if (find_hold(p, friction, v, &hold)) {
+        double change = row_push(&rows[0], s, has_b, hold.x);
+        change = rlf_max(change, row_push(&rows[1], s, has_b, hold.y));
+        return rlf_max(change, row_push(&rows[2], s, has_b, hold.z));
     }
-    double v = rlf_dot(rows[0].direction, relative_velocity(p->near, s, has_b));
-    double blow = rlf_max(0.0, rows[0].impulse + rows[0].mass * (p->target - v));
-    double most = row_push(&rows[0], s, blow);
+    double blow = rlf_max(0.0, rows[0].impulse + rows[0].mass * (p->target - v.x));
+    double most = row_push(&rows[0], s, has_b, blow);
     rlf_vec3 slip = relative_velocity(p->near, s, has_b);
     double j0 = rows[1].impulse - rows[1].mass * rlf_dot(rows[1].direction, slip);
     double j1 = rows[2].impulse - rows[2].mass * rlf_dot(rows[2].direction, slip);
     double limit = friction * rows[0].impulse, length2 = j0 * j0 + j1 * j1;
     double scale = length2 > limit * limit ? limit / sqrt(length2) : 1.0;
-    most = rlf_max(most, row_push(&rows[1], s, j0 * scale));
-    return rlf_max(most, row_push(&rows[2], s, j1 * scale));
+    most = rlf_max(most, row_push(&rows[1], s, has_b, j0 * scale));
+    return rlf_max(most, row_push(&rows[2], s, has_b, j1 * scale));
 }
 
 /* Those of the group's contacts that close at time t. */
@@ -208,7 +206,8 @@ static int32_t list_points(const phys_group *g, const phys_sides *s, double t, i
     return count;
 }
 
-static void solve_points(const phys_group *g, impact_point *points, int32_t count, phys_sides *s)
+RLF_KERNEL_PART void solve_points(const phys_group *g, impact_point *points, int32_t count,
+                                bool has_b, phys_sides *s)
 {
     double fastest = 0.0, change = 1e30;
     for (int32_t i = 0; i < count; i++) {
@@ -217,7 +216,7 @@ static void solve_points(const phys_group *g, impact_point *points, int32_t coun
     for (int32_t pass = 0; pass < PASSES && change > SETTLED * fastest; pass++) {
         change = 0.0;
         for (int32_t i = 0; i < count; i++) {
-            change = rlf_max(change, solve_point(&points[i], g->friction, s, g->b != NULL));
+            change = rlf_max(change, solve_point(&points[i], g->friction, s, has_b));
         }
     }
 }
@@ -251,7 +250,11 @@ void phys_impact_answer(const phys_group *g, double t)
     phys_sides s = sides_load(g);
     const phys_sides before = s;
     int32_t count = list_points(g, &s, t, points);
-    solve_points(g, points, count, &s);
+    if (g->b != NULL) { /* each has a loop of its own */
+        solve_points(g, points, count, true, &s);
+    } else {
+        solve_points(g, points, count, false, &s);
+    }
     limit_energy(g, &before, &s, t);
     sides_store(&s, g);
     for (int32_t i = 0; i < count; i++) {
