@@ -101,13 +101,17 @@ static void set_vec(rlf_lane_vec *of, int32_t lane, rlf_vec3 v)
 
 static void set_targets(rlf_lane_point *p, int32_t lane, const phys_point *c, double slop, double h)
 {
+    float rest = 0.0f, push = 0.0f, ease = 0.0f;
     if (c->separation > 0.0) { /* may close the gap, not more */
-        p->target[0][lane] = p->target[1][lane] = (float)(-c->separation / h);
+        rest = push = (float)(-c->separation / h);
     } else if (!c->is_impacted) {
         double overlap = rlf_min(c->separation + slop, 0.0);
-        p->target[1][lane] = (float)rlf_min(-SOFT_OMEGA_H / SOFT_A1 / h * overlap, PUSH_SPEED_MAX);
-        p->ease[lane] = (float)(1.0 / (1.0 + SOFT_A2));
+        push = (float)rlf_min(-SOFT_OMEGA_H / SOFT_A1 / h * overlap, PUSH_SPEED_MAX);
+        ease = (float)(1.0 / (1.0 + SOFT_A2));
     }
+    p->target[0][lane] = rest;
+    p->target[1][lane] = push;
+    p->ease[lane] = ease;
 }
 
 static void add_points(phys_batch *batch, const phys_group *g, int32_t lane, double h)
@@ -125,8 +129,8 @@ static void add_points(phys_batch *batch, const phys_group *g, int32_t lane, dou
         set_vec(&p->r_b, lane, near->r_b);
         set_targets(p, lane, near, slop, h);
         p->friction[lane] = (float)g->friction;
-        for (int32_t row = 0; row < 3 && impulses[0] > 0.0; row++) {
-            p->impulse[row][lane] = (float)impulses[row];
+        for (int32_t row = 0; row < 3; row++) {
+            p->impulse[row][lane] = impulses[0] > 0.0 ? (float)impulses[row] : 0.0f;
         }
     }
 }
@@ -170,13 +174,32 @@ static void start_batch(phys_batch *batch, rlf_lane_point *points, phys_lane_con
     batch->contacts = contacts;
     batch->lanes.has_b = first->b != NULL;
     for (int32_t i = 0; i < first->point_count; i++) {
-        points[i] = (rlf_lane_point){.ease = {0}};
         contacts[i] = (phys_lane_contacts){{NULL}};
+    }
+}
+
+/* All zero where the lanes from `first` on have no point. */
+static void clear_lanes(rlf_lane_point *p, int32_t first)
+{
+    float(*values)[RLF_LANES] = (float(*)[RLF_LANES])p; /* it holds nothing else */
+    for (size_t k = 0; k < sizeof(*p) / sizeof(values[0]); k++) {
+        for (int32_t lane = first; lane < RLF_LANES; lane++) {
+            values[k][lane] = 0.0f;
+        }
     }
 }
 
 static void close_batch(phys_batch *batch)
 {
+    for (int32_t i = 0; i < batch->lanes.point_count; i++) {
+        int32_t first = batch->count; /* the last lanes have the fewest points */
+        while (first > 0 && batch->contacts[i].of[first - 1] == NULL) {
+            first--;
+        }
+        if (first < RLF_LANES) {
+            clear_lanes(&batch->lanes.points[i], first);
+        }
+    }
     for (int32_t lane = batch->count; lane < RLF_LANES; lane++) {
         batch->lanes.a[lane] = batch->lanes.a[0];
         batch->lanes.b[lane] = batch->lanes.b[0];

@@ -1,6 +1,8 @@
 /* Contact events: the touches of this advance against those of the last one. */
 #include "physics/world_state.h"
 
+#include <string.h>
+
 static int32_t index_of(rlf_body_id id)
 {
     return (int32_t)id.index1 - 1;
@@ -44,33 +46,54 @@ static bool goes_on_asleep(const rlf_world *world, const phys_touch *touch)
     return phys_body_is_idle(a) && phys_body_is_idle(b);
 }
 
+static int32_t touch_capacity(const rlf_world *world)
+{
+    return world->def.contact_capacity + world->def.body_capacity;
+}
+
 static void add_touch(rlf_world *world, phys_touch touch)
 {
-    if (world->touch_count < world->def.contact_capacity + world->def.body_capacity) {
-        world->touches[world->touch_count++] = touch;
+    if (world->touch_count < touch_capacity(world)) {
+        world->unsorted_touches[world->touch_count++] = touch;
     }
 }
 
-/* By key (Shell 1959); a key that is there more than once is kept once. */
+/* Puts those of each body into its own range: touch_begin[i + 1] is then the end of body i's. */
+static void sort_by_body(rlf_world *world)
+{
+    int32_t *begin = world->touch_begin;
+    const phys_touch *from = world->unsorted_touches;
+    memset(begin, 0, ((size_t)world->body_top + 2) * sizeof(*begin));
+    for (int32_t i = 0; i < world->touch_count; i++) {
+        begin[from[i].body.index1 + 1]++;
+    }
+    for (int32_t i = 1; i <= world->body_top + 1; i++) {
+        begin[i] += begin[i - 1];
+    }
+    for (int32_t i = 0; i < world->touch_count; i++) {
+        world->touches[begin[from[i].body.index1]++] = from[i];
+    }
+}
+
+/* By key: by counting for the body, by insertion for the few others of each; a key that is there
+ * more than once is kept once. */
 static void sort_touches(rlf_world *world)
 {
     phys_touch *touches = world->touches;
-    for (int32_t gap = world->touch_count / 2; gap > 0; gap /= 2) {
-        for (int32_t i = gap; i < world->touch_count; i++) {
-            phys_touch touch = touches[i];
-            int32_t at = i;
-            while (at >= gap && touches[at - gap].key > touch.key) {
-                touches[at] = touches[at - gap];
-                at -= gap;
-            }
-            touches[at] = touch;
-        }
-    }
     int32_t kept = 0;
+    sort_by_body(world);
     for (int32_t i = 0; i < world->touch_count; i++) {
-        if (kept == 0 || touches[kept - 1].key != touches[i].key) {
-            touches[kept++] = touches[i];
+        phys_touch touch = touches[i];
+        int32_t at = kept;
+        while (at > 0 && touches[at - 1].key > touch.key) {
+            at--;
         }
+        if (at > 0 && touches[at - 1].key == touch.key) {
+            continue;
+        }
+        memmove(&touches[at + 1], &touches[at], (size_t)(kept - at) * sizeof(touch));
+        touches[at] = touch;
+        kept++;
     }
     world->touch_count = kept;
 }

@@ -62,6 +62,8 @@ static int32_t plan_memory(rlf_world *w, memory_plan plans[PLANS_MAX])
         PLAN(states, bodies),
         PLAN(touches, contacts + bodies),
         PLAN(old_touches, contacts + bodies),
+        PLAN(unsorted_touches, contacts + bodies),
+        PLAN(touch_begin, bodies + 2),
         PLAN(events, 2 * (contacts + bodies)),
         PLAN(foreground_tiles.tiles, TILES_MAX),
         PLAN(background_tiles.tiles, TILES_MAX),

@@ -127,6 +127,8 @@ struct rlf_world {
     int32_t *next_link;    /* link 2 k is an island's k-th group as its a sees it, 2 k + 1: its b */
 
     phys_touch *touches, *old_touches; /* of this advance and the one before, sorted by key */
+    phys_touch *unsorted_touches;      /* of this advance as they were listed */
+    int32_t *touch_begin;              /* see events.c */
     int32_t touch_count, old_touch_count;
     rlf_contact_event *events; /* of this advance */
     int32_t event_count;

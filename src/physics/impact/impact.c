@@ -205,14 +205,17 @@ static void look_at_group(event_list *list, int32_t k, double reach)
     }
 }
 
-static void look_at_body(event_list *list, const phys_body *body)
+/* But for the group `seen`, which was looked at. */
+static void look_at_body(event_list *list, const phys_body *body, int32_t seen)
 {
     if (body == NULL || !phys_body_is_moving(body)) {
         return;
     }
     int32_t link = list->world->first_link[body - list->world->bodies];
     for (; link >= 0; link = list->next_link[link]) {
-        look_at_group(list, link / 2, NO_EVENT);
+        if (link / 2 != seen) {
+            look_at_group(list, link / 2, NO_EVENT);
+        }
     }
 }
 
@@ -259,8 +262,9 @@ void phys_solve_impacts(rlf_world *world, const phys_island *island, const phys_
     for (int32_t k = take_first(&list); k >= 0; k = take_first(&list)) {
         list.counts[k]++;
         bounce(&groups[k], list.times[k], h);
-        look_at_body(&list, groups[k].a);
-        look_at_body(&list, groups[k].b);
+        look_at_group(&list, k, NO_EVENT);
+        look_at_body(&list, groups[k].a, k);
+        look_at_body(&list, groups[k].b, k);
     }
     for (int32_t k = 0; k < count; k++) {
         fetch_groups(groups, k, count);
