@@ -9,7 +9,7 @@ typedef struct memory_plan {
     size_t count, size;
 } memory_plan;
 
-#define PLANS_MAX 48
+#define PLANS_MAX 64
 #define PLAN(field, number)                                                                        \
     {                                                                                              \
         &w->field, (number), sizeof(*w->field)                                                     \
@@ -67,7 +67,10 @@ static int32_t plan_memory(rlf_world *w, memory_plan plans[PLANS_MAX])
         PLAN(events, 2 * (contacts + bodies)),
         PLAN(foreground_tiles.tiles, TILES_MAX),
         PLAN(background_tiles.tiles, TILES_MAX),
+        PLAN(foreground_tiles.marks, TILES_MAX),
+        PLAN(background_tiles.marks, TILES_MAX),
     };
+    _Static_assert(sizeof(all) / sizeof(all[0]) <= PLANS_MAX, "more plans than PLANS_MAX");
     memcpy(plans, all, sizeof(all));
     return (int32_t)(sizeof(all) / sizeof(all[0]));
 }

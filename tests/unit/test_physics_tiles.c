@@ -73,7 +73,8 @@ static void tiles_tell_no_longer_distances(void **state)
 {
     grid_fixture *f = *state;
     const int32_t all[4] = {0, 0, GRID_W, GRID_H};
-    grid_tiles tiles = {.tiles = calloc(TILES_MAX, sizeof(grid_tile))};
+    grid_tiles tiles = {.tiles = calloc(TILES_MAX, sizeof(grid_tile)),
+                        .marks = calloc(TILES_MAX, sizeof(uint64_t))};
     grid_tiles_start(&tiles, &f->grid, &f->grid.background, true);
     assert_int_equal(tiles.size, SIDE);
     assert_true(grid_tiles_make(&tiles, &f->grid, all));
@@ -92,6 +93,7 @@ static void tiles_tell_no_longer_distances(void **state)
         assert_true(told <= least);
         assert_true(told > least - 2.0 * THICKNESS);
     }
+    free(tiles.marks);
     free(tiles.tiles);
 }
 
@@ -154,7 +156,8 @@ static void what_touches_is_told_to_be_near(void **state)
 {
     grid_fixture *f = *state;
     const int32_t all[4] = {0, 0, GRID_W, GRID_H};
-    grid_tiles tiles = {.tiles = calloc(TILES_MAX, sizeof(grid_tile))};
+    grid_tiles tiles = {.tiles = calloc(TILES_MAX, sizeof(grid_tile)),
+                        .marks = calloc(TILES_MAX, sizeof(uint64_t))};
     const grid_query query = {.grid = &f->grid, .step = 1.0 / 240.0, .background = &tiles};
     rlf_vec3 points[PHYS_POINTS_MAX];
     phys_body body = {0};
@@ -182,6 +185,7 @@ static void what_touches_is_told_to_be_near(void **state)
     print_message("%d points: %d may touch, %d do\n", asked, told, touches);
     assert_true(touches > 3000 && told < asked * 3 / 4);
     phys_shape_finish(&body.shape);
+    free(tiles.marks);
     free(tiles.tiles);
 }
 

@@ -264,7 +264,7 @@ static void look_at_rough(grid_job *job, const grid_tile *tile, const int32_t re
 /* The least distance of the tile's blocks at this time, but no more than `reach`. */
 static double tile_distance(const grid_job *job, const grid_tile *tile, double reach)
 {
-    if (tile->kind == TILE_EMPTY || is_out_of_reach(job, tile, reach)) {
+    if (is_out_of_reach(job, tile, reach)) {
         return reach;
     }
     double slip = wide_reach(job, tile, 0.0);
@@ -281,8 +281,11 @@ double grid_scan_distance(const grid_job *job, const grid_tiles *tiles, double r
     double nearest = reach;
     for (int32_t y = rect[1] / tiles->size; y * tiles->size < rect[3]; y++) {
         for (int32_t x = rect[0] / tiles->size; x * tiles->size < rect[2]; x++) {
-            const grid_tile *tile = &tiles->tiles[y * tiles->columns + x];
-            nearest = tile_distance(job, tile, nearest);
+            int32_t i = y * tiles->columns + x;
+            if (grid_tiles_kind(tiles, i) == TILE_EMPTY) {
+                continue;
+            }
+            nearest = tile_distance(job, &tiles->tiles[i], nearest);
             if (nearest <= least) {
                 return nearest;
             }
@@ -303,12 +306,14 @@ void grid_scan_footprint(grid_job *job)
     job->stride = stride;
     for (int32_t y = rect[1] / tiles->size; y * tiles->size < rect[3]; y++) {
         for (int32_t x = rect[0] / tiles->size; x * tiles->size < rect[2]; x++) {
-            const grid_tile *tile = &tiles->tiles[y * tiles->columns + x];
+            int32_t i = y * tiles->columns + x;
+            tile_kind kind = grid_tiles_kind(tiles, i);
+            const grid_tile *tile = &tiles->tiles[i];
             const int32_t corner[2] = {x * tiles->size, y * tiles->size};
-            if (tile->kind == TILE_EMPTY || tile->near_z > job->centre.z + job->reach) {
+            if (kind == TILE_EMPTY || tile->near_z > job->centre.z + job->reach) {
                 continue;
             }
-            if (tile->kind == TILE_FLAT) {
+            if (kind == TILE_FLAT) {
                 look_at_flat(job, tile, &flow);
             } else if (!is_out_of_reach(job, tile, job->reach)) {
                 look_at_rough(job, tile, rect, corner, &flow);

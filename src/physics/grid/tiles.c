@@ -295,8 +295,8 @@ static int32_t narrowest(const rlf_grid *grid, const rlf_grid_sheet *sheet, cons
     return shortest;
 }
 
-static void make_tile(grid_tile *tile, const grid_tiles *tiles, const rlf_grid *grid,
-                      const int32_t at[2])
+static tile_kind make_tile(grid_tile *tile, const grid_tiles *tiles, const rlf_grid *grid,
+                           const int32_t at[2])
 {
     int32_t x = at[0] * tiles->size, y = at[1] * tiles->size;
     const int32_t own[4] = {x, y, least(x + tiles->size, grid->width),
@@ -305,20 +305,17 @@ static void make_tile(grid_tile *tile, const grid_tiles *tiles, const rlf_grid *
                              least(own[2] + RIM_PX, grid->width),
                              least(own[3] + RIM_PX, grid->height)};
     const uint8_t *mask = tiles->sheet->mask;
-    tile->stamp = tiles->stamp;
     tile->count = 0;
     if (mask == NULL || !is_masked_out(grid, mask, own)) {
         measure(tile, grid, tiles->sheet, own);
         bound(tile, grid, tiles->sheet, own, tiles->block_shift);
     }
     if (tile->count == 0) {
-        tile->kind = TILE_EMPTY;
-    } else {
-        bool is_flat =
-            fit(tile, grid, tiles->sheet, own) && is_even(tile, grid, tiles->sheet, wide);
-        tile->kind = is_flat ? TILE_FLAT : TILE_ROUGH;
-        tile->narrow = is_flat ? tiles->size : narrowest(grid, tiles->sheet, own);
+        return TILE_EMPTY;
     }
+    bool is_flat = fit(tile, grid, tiles->sheet, own) && is_even(tile, grid, tiles->sheet, wide);
+    tile->narrow = is_flat ? tiles->size : narrowest(grid, tiles->sheet, own);
+    return is_flat ? TILE_FLAT : TILE_ROUGH;
 }
 
 bool grid_tiles_make(grid_tiles *tiles, const rlf_grid *grid, const int32_t rect[4])
@@ -329,12 +326,13 @@ bool grid_tiles_make(grid_tiles *tiles, const rlf_grid *grid, const int32_t rect
     }
     for (int32_t row = rect[1] / tiles->size; row * tiles->size < rect[3]; row++) {
         for (int32_t column = rect[0] / tiles->size; column * tiles->size < rect[2]; column++) {
-            grid_tile *tile = &tiles->tiles[row * tiles->columns + column];
+            int32_t i = row * tiles->columns + column;
             const int32_t at[2] = {column, row};
-            if (tile->stamp != tiles->stamp) {
-                make_tile(tile, tiles, grid, at);
+            if (tiles->marks[i] >> 2 != tiles->stamp) {
+                tile_kind kind = make_tile(&tiles->tiles[i], tiles, grid, at);
+                tiles->marks[i] = tiles->stamp << 2 | (uint64_t)kind;
             }
-            is_any = is_any || tile->kind != TILE_EMPTY;
+            is_any = is_any || grid_tiles_kind(tiles, i) != TILE_EMPTY;
         }
     }
     return is_any;

@@ -22,15 +22,13 @@ typedef struct grid_blocks {
 } grid_blocks;
 
 typedef struct grid_tile {
-    uint64_t stamp; /* of the surface it was made for */
-    tile_kind kind;
-    int32_t count;  /* its pixels that have a surface */
-    double near_z;  /* least depth, metres */
-    int32_t narrow; /* pixels across what is narrowest in a rough one, as far as it is seen in it */
-    double speed;   /* no pixel is faster, m/s */
-    bool is_endless; /* its solid never ends ... */
-    rlf_aabb solid;  /* ... or the box about that */
+    double near_z;   /* least depth, metres */
+    double speed;    /* no pixel is faster, m/s */
+    rlf_aabb solid;  /* the box about its solid, unless ... */
+    bool is_endless; /* ... that never ends */
     bool is_guess;   /* so is the thickness of all its pixels */
+    int32_t count;   /* its pixels that have a surface */
+    int32_t narrow; /* pixels across what is narrowest in a rough one, as far as it is seen in it */
     double deepest;  /* no solid of its pixels goes farther below its face, metres */
     grid_blocks blocks;
     rlf_aabb box;    /* about its points at the time when they were seen */
@@ -45,7 +43,15 @@ typedef struct grid_tiles {
     int32_t block_shift;         /* a block is 1 << block_shift pixels wide */
     uint64_t stamp;
     grid_tile *tiles; /* TILES_MAX */
+    /* What is asked of most tiles, apart from them: it stays near. For which stamp a tile was made,
+     * and in the last two bits its kind; TILES_MAX. */
+    uint64_t *marks;
 } grid_tiles;
+
+static inline tile_kind grid_tiles_kind(const grid_tiles *tiles, int32_t index)
+{
+    return (tile_kind)(tiles->marks[index] & 3u);
+}
 
 /* Begins with a new surface, or goes on with the same one when `is_new` is false. */
 void grid_tiles_start(grid_tiles *tiles, const rlf_grid *grid, const rlf_grid_sheet *sheet,
