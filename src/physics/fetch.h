@@ -17,10 +17,30 @@ RLF_KERNEL_PART void phys_fetch(const void *memory, size_t size)
     }
 }
 
+/* Where a body is and how it is turned, and its speed: what a contact's gap is told from. */
+RLF_KERNEL_PART void phys_fetch_place(const phys_body *body)
+{
+    phys_fetch(&body->x, offsetof(phys_body, acceleration) - offsetof(phys_body, x));
+}
+
+/* How a body moves: what a bounce is told from. */
+RLF_KERNEL_PART void phys_fetch_motion(const phys_body *body)
+{
+    phys_fetch(body, offsetof(phys_body, generation));
+}
+
 /* What a substep reads of a body. */
 RLF_KERNEL_PART void phys_fetch_body(const phys_body *body)
 {
     phys_fetch(body, offsetof(phys_body, mass));
+}
+
+/* What every substep reads of contacts. */
+RLF_KERNEL_PART void phys_fetch_near(const phys_contact *contacts, int32_t count)
+{
+    for (int32_t i = 0; i < count; i++) {
+        phys_fetch(&contacts[i], offsetof(phys_contact, surface_velocity));
+    }
 }
 
 /* The contacts of a pair. */

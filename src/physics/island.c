@@ -210,8 +210,8 @@ RLF_KERNEL_PART void fetch_pairs(const rlf_world *world, const phys_island *isla
     }
     if (k + CONTACTS_AHEAD < island->pair_end) {
         const phys_pair *pair = &world->pairs[world->island_pairs[k + CONTACTS_AHEAD]];
-        phys_fetch_contacts(pair);
-        phys_fetch_body(&world->bodies[pair->b]); /* a's is that of the pair before */
+        phys_fetch_near(pair->contacts, pair->contact_count);
+        phys_fetch_place(&world->bodies[pair->b]); /* a's is that of the pair before */
     }
 }
 

@@ -187,9 +187,9 @@ RLF_KERNEL_PART void fetch_groups(const phys_group *groups, int32_t k, int32_t c
 {
     enum { AHEAD = 6 };
     const phys_group *g = &groups[k + AHEAD < count ? k + AHEAD : k];
-    phys_fetch_body(g->a);
+    phys_fetch_motion(g->a);
     if (g->b != NULL) {
-        phys_fetch_body(g->b);
+        phys_fetch_motion(g->b);
     }
 }
 
