@@ -114,17 +114,26 @@ static void set_targets(rlf_lane_point *p, int32_t lane, const phys_point *c, do
     p->ease[lane] = ease;
 }
 
+static bool is_same(rlf_vec3 a, rlf_vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
 static void add_points(phys_batch *batch, const phys_group *g, int32_t lane, double h)
 {
     double radius = g->a->shape.radius;
     double slop = SLOP_SHARE * (g->b != NULL ? rlf_min(radius, g->b->shape.radius) : radius);
+    rlf_vec3 tangent = {0, 0, 0};
     for (int32_t i = 0; i < g->point_count; i++) {
         rlf_lane_point *p = &batch->lanes.points[i];
         const phys_point *near = &g->points[i];
         const double *impulses = near->impulses;
         batch->contacts[i].of[lane] = near->contact;
+        if (i == 0 || !is_same(near->normal, near[-1].normal)) {
+            tangent = rlf_perpendicular(near->normal);
+        }
         set_vec(&p->normal, lane, near->normal);
-        set_vec(&p->tangent, lane, rlf_perpendicular(near->normal));
+        set_vec(&p->tangent, lane, tangent);
         set_vec(&p->r_a, lane, near->r_a);
         set_vec(&p->r_b, lane, near->r_b);
         set_targets(p, lane, near, slop, h);
