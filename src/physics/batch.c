@@ -216,6 +216,14 @@ static void close_batch(phys_batch *batch)
     rlf_kernel_lanes_weigh(&batch->lanes);
 }
 
+/* What a batch holds of a group's body. */
+RLF_KERNEL_PART void fetch_side(const phys_body *body)
+{
+    RLF_KERNEL_SOON(&body->inverse_mass);
+    RLF_KERNEL_SOON(&body->is_alive);
+    phys_fetch_weight(body);
+}
+
 /* Fetches the groups that will be put into batches after the k-th, and what they are of. */
 RLF_KERNEL_PART void fetch_groups(const phys_group *groups, const int32_t *order, int32_t k,
                                   int32_t count)
@@ -227,9 +235,9 @@ RLF_KERNEL_PART void fetch_groups(const phys_group *groups, const int32_t *order
     if (k + POINTS_AHEAD < count) {
         const phys_group *g = &groups[order[k + POINTS_AHEAD]];
         phys_fetch(g->points, (size_t)g->point_count * sizeof(phys_point));
-        phys_fetch_body(g->a);
+        fetch_side(g->a);
         if (g->b != NULL) {
-            phys_fetch_body(g->b);
+            fetch_side(g->b);
         }
     }
 }

@@ -5,47 +5,54 @@
 #include "physics/contact.h"
 #include "physics/shape/shape.h"
 
+/* What a part of a substep reads lies side by side: lines of memory begin where bodies do, and no
+ * crowd fits in a processor's second cache. See fetch.h. */
 typedef struct phys_body {
-    /* what a substep reads, side by side; lines of memory begin where bodies do */
-    _Alignas(64) rlf_vec3 v, w;     /* of the centre of mass, and angular: world */
-    double inverse_mass;            /* 0 while held, and of a kinematic body */
-    rlf_mat3 inverse_inertia_world; /* 0 while held, and of a kinematic body */
-    rlf_vec3 x;                     /* centre of mass, world */
-    rlf_quat q;
-    rlf_mat3 R;    /* of q; the thesis method integrates R itself */
-    double turned; /* radians, all turns added up */
-    double speed;  /* no point of it was faster at the start of the substep, m/s */
+    _Alignas(64) rlf_vec3 v; /* of the centre of mass, world */
+    rlf_vec3 w;              /* angular, world */
+    double inverse_mass;     /* 0 while held, and of a kinematic body */
+    double speed;            /* no point of it was faster at the start of the substep, m/s */
+
     rlf_vec3 acceleration, angular_acceleration;
     double pull;                        /* length of the acceleration, m/s^2 */
-    rlf_vec3 impact_shift, impact_turn; /* x and orientation jump so that x(t) = x + shift + v t */
     double impact_time;                 /* of its last bounce in this substep, s */
+    rlf_vec3 impact_shift, impact_turn; /* x and orientation jump so that x(t) = x + shift + v t */
     bool is_alive, is_held, is_asleep, collides_with_bodies;
-    bool is_kinematic; /* not held: moves by v and w, and nothing changes them */
-    bool is_real;      /* a model of a real thing */
-    bool is_isotropic; /* inertia is a multiple of 1 */
-    bool is_pressed;   /* a contact held it in this substep */
-    bool was_pressed;  /* ... in the last one */
-    bool is_restless;  /* a bounce turned its way: its contacts are to be searched again */
+    bool is_kinematic;   /* not held: moves by v and w, and nothing changes them */
+    bool is_real;        /* a model of a real thing */
+    bool is_isotropic;   /* inertia is a multiple of 1 */
+    bool is_pressed;     /* a contact held it in this substep */
+    bool was_pressed;    /* ... in the last one */
+    bool is_restless;    /* a bounce turned its way: its contacts are to be searched again */
+    uint32_t generation; /* of the handle; counts up when a body goes */
 
-    uint32_t generation;                 /* of the handle; counts up when a body goes */
-    int32_t surface_age, surface_period; /* substeps since, and between, surface queries */
-    rlf_vec3 surface_x;                  /* where it was when its contacts with it were searched */
+    rlf_vec3 x; /* centre of mass, world */
+    rlf_quat q;
+    double turned; /* radians, all turns added up */
+    rlf_mat3 R;    /* of q; the thesis method integrates R itself */
+
+    rlf_vec3 surface_x;   /* where it was when its contacts with the surface were searched */
     double surface_clear; /* m that it may move from there before it touches; 0: it may touch, or it
                              is not known */
+    int32_t surface_age, surface_period; /* substeps since, and between, surface queries */
     int32_t surface_count;
     phys_contact *surface; /* PHYS_SURFACE_CONTACTS */
-    double restitution, friction;
-    phys_stance stance; /* on the surface */
-    phys_shape shape;
 
-    double mass, gravity_scale, release_time;
-    double rolling_resistance;
+    rlf_vec3 force, torque;                 /* from the caller, for the next advance */
     double linear_damping, angular_damping; /* 1/s */
-    rlf_mat3 inertia, inverse_inertia;      /* body frame */
-    rlf_vec3 momentum, momentum_w; /* angular momentum that goes with momentum_w and momentum_q */
+
+    rlf_mat3 inverse_inertia_world; /* 0 while held, and of a kinematic body */
+    double rolling_resistance;
+    double restitution, friction;
+    double mass, gravity_scale;
+    phys_shape shape;
+    phys_stance stance; /* on the surface */
+
+    double release_time;
+    rlf_mat3 inertia, inverse_inertia; /* body frame */
+    rlf_vec3 momentum, momentum_w;     /* angular momentum that goes with momentum_w, momentum_q */
     rlf_quat momentum_q;
     rlf_vec3 throw_v, throw_w; /* velocities to start with when a held body is released */
-    rlf_vec3 force, torque;    /* from the caller, for the next advance */
 
     double still_time; /* s it has stayed in place */
     rlf_vec3 still_x;
@@ -84,6 +91,16 @@ static inline void phys_body_orient(phys_body *body)
     rlf_mat3 half = rlf_mat3_mul(&body->R, &body->inverse_inertia);
     rlf_mat3 transposed = rlf_mat3_transpose(&body->R);
     body->inverse_inertia_world = rlf_mat3_mul(&half, &transposed);
+}
+
+/* The same after a turn: the inertia of what turns like a ball stays as it is. */
+static inline void phys_body_reorient(phys_body *body)
+{
+    if (body->is_isotropic && body->inverse_mass > 0.0) {
+        body->R = rlf_quat_to_mat3(body->q);
+    } else {
+        phys_body_orient(body);
+    }
 }
 
 /* Its contacts with the surface are to be searched in the next substep. */

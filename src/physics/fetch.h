@@ -17,22 +17,39 @@ RLF_KERNEL_PART void phys_fetch(const void *memory, size_t size)
     }
 }
 
-/* Where a body is and how it is turned, and its speed: what a contact's gap is told from. */
-RLF_KERNEL_PART void phys_fetch_place(const phys_body *body)
-{
-    phys_fetch(&body->x, offsetof(phys_body, acceleration) - offsetof(phys_body, x));
-}
+/* From one field of a body to another. */
+#define PHYS_FETCH_PART(body, first, end)                                                          \
+    phys_fetch(&(body)->first, offsetof(phys_body, end) - offsetof(phys_body, first))
 
-/* How a body moves: what a bounce is told from. */
+/* How a body moves in this substep. */
 RLF_KERNEL_PART void phys_fetch_motion(const phys_body *body)
 {
-    phys_fetch(body, offsetof(phys_body, generation));
+    PHYS_FETCH_PART(body, v, x);
+}
+
+/* Where it is, how it is turned and how fast it is: what a contact's gap is told from. */
+RLF_KERNEL_PART void phys_fetch_place(const phys_body *body)
+{
+    RLF_KERNEL_SOON(&body->v);
+    PHYS_FETCH_PART(body, x, force);
+}
+
+/* What pushes it. */
+RLF_KERNEL_PART void phys_fetch_push(const phys_body *body)
+{
+    PHYS_FETCH_PART(body, force, inverse_inertia_world);
+}
+
+/* How heavy it is, and how large. */
+RLF_KERNEL_PART void phys_fetch_weight(const phys_body *body)
+{
+    PHYS_FETCH_PART(body, inverse_inertia_world, shape.shape);
 }
 
 /* What a substep reads of a body. */
 RLF_KERNEL_PART void phys_fetch_body(const phys_body *body)
 {
-    phys_fetch(body, offsetof(phys_body, mass));
+    PHYS_FETCH_PART(body, v, release_time);
 }
 
 /* What every substep reads of contacts. */

@@ -61,7 +61,7 @@ void phys_integrate_rotation(phys_body *body, double h)
     const double NEARLY_STILL = 1e-5;
     if (body->is_isotropic || body->inverse_mass == 0.0 || angle < NEARLY_STILL) {
         body->q = turn(rlf_scale(body->w, h), body->q);
-        phys_body_orient(body);
+        phys_body_reorient(body);
         return;
     }
     rlf_vec3 L = angular_momentum(body);
@@ -70,7 +70,7 @@ void phys_integrate_rotation(phys_body *body, double h)
     body->momentum = L;
     body->momentum_w = body->w;
     body->momentum_q = body->q;
-    phys_body_orient(body);
+    phys_body_reorient(body);
 }
 
 void phys_integrate_position(phys_body *body, double h)
@@ -82,7 +82,7 @@ void phys_integrate_position(phys_body *body, double h)
     if (rlf_dot(body->impact_turn, body->impact_turn) > 0.0) {
         body->q = turn(body->impact_turn, body->q);
         body->turned += rlf_length(body->impact_turn);
-        phys_body_orient(body);
+        phys_body_reorient(body);
     }
     phys_integrate_rotation(body, h);
 }

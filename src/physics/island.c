@@ -216,20 +216,43 @@ RLF_KERNEL_PART void fetch_pairs(const rlf_world *world, const phys_island *isla
 }
 
 /* The body some places after the i-th of the island. */
-RLF_KERNEL_PART void fetch_next(const rlf_world *world, const phys_island *island, int32_t i)
+static inline const phys_body *next_body(const rlf_world *world, const phys_island *island,
+                                         int32_t i)
 {
-    if (i + BODIES_AHEAD < island->body_end) {
-        phys_fetch_body(&world->bodies[world->island_bodies[i + BODIES_AHEAD]]);
-    }
+    int32_t next = i + BODIES_AHEAD < island->body_end ? i + BODIES_AHEAD : i;
+    return &world->bodies[world->island_bodies[next]];
 }
 
 RLF_KERNEL_PART void fetch_surface(const rlf_world *world, const phys_island *island, int32_t i)
 {
-    fetch_next(world, island, i + CONTACTS_AHEAD);
-    if (i + CONTACTS_AHEAD < island->body_end) {
-        const phys_body *body = &world->bodies[world->island_bodies[i + CONTACTS_AHEAD]];
-        phys_fetch(body->surface, (size_t)body->surface_count * sizeof(phys_contact));
-    }
+    const phys_body *far = next_body(world, island, i + CONTACTS_AHEAD < island->body_end
+                                                        ? i + CONTACTS_AHEAD
+                                                        : i);
+    const phys_body *body = next_body(world, island, i);
+    phys_fetch_place(far);
+    phys_fetch_weight(far);
+    phys_fetch(body->surface, (size_t)body->surface_count * sizeof(phys_contact));
+}
+
+/* What the parts of a substep read of it. */
+RLF_KERNEL_PART void fetch_to_start(const phys_body *body)
+{
+    phys_fetch_motion(body);
+    phys_fetch_push(body);
+    phys_fetch_weight(body);
+}
+
+RLF_KERNEL_PART void fetch_to_accelerate(const phys_body *body)
+{
+    phys_fetch_motion(body);
+    phys_fetch_push(body);
+}
+
+RLF_KERNEL_PART void fetch_to_move(const phys_body *body)
+{
+    phys_fetch_motion(body);
+    phys_fetch_place(body);
+    RLF_KERNEL_SOON(&body->shape);
 }
 
 /* Lists the island's groups that may touch in this substep: its pairs first. The real surface comes
@@ -278,13 +301,13 @@ void phys_island_substep(rlf_world *world, const phys_island *island, const grid
     int32_t begin = island->body_begin, end = island->body_end;
     phys_group *groups = world->groups + island->pair_begin + island->body_begin;
     for (int32_t i = begin; i < end; i++) {
-        fetch_next(world, island, i);
+        fetch_to_start(next_body(world, island, i));
         start_body(world, &world->bodies[bodies[i]]);
     }
     int32_t count = list_groups(world, island, groups, h);
     phys_solve_impacts(world, island, groups, count, h);
     for (int32_t i = begin; i < end; i++) {
-        fetch_next(world, island, i);
+        fetch_to_accelerate(next_body(world, island, i));
         accelerate(world, &world->bodies[bodies[i]], h);
         load_speed(world, bodies[i]);
     }
@@ -296,14 +319,14 @@ void phys_island_substep(rlf_world *world, const phys_island *island, const grid
         mark_pressed(&batches[k]);
     }
     for (int32_t i = begin; i < end; i++) {
-        fetch_next(world, island, i);
+        fetch_to_move(next_body(world, island, i));
         store_speed(world, bodies[i]);
         move_body(world, &world->bodies[bodies[i]], query, h);
         load_speed(world, bodies[i]);
     }
     phys_batches_solve(world, batches, count, false, RELAX_PASSES);
     for (int32_t i = begin; i < end; i++) {
-        fetch_next(world, island, i);
+        RLF_KERNEL_SOON_WRITTEN(&next_body(world, island, i)->v);
         store_speed(world, bodies[i]);
     }
     phys_batches_finish(batches, count);

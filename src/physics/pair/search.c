@@ -145,8 +145,19 @@ RLF_KERNEL_PART void fetch_pairs(const rlf_world *world, int32_t k)
 {
     if (k + PAIRS_AHEAD < world->pair_count) {
         phys_fetch(&world->pairs[k + PAIRS_AHEAD], sizeof(phys_pair));
-        phys_fetch_body(&world->bodies[world->pairs[k + BODIES_AHEAD].b]);
+        const phys_body *b = &world->bodies[world->pairs[k + BODIES_AHEAD].b];
+        RLF_KERNEL_SOON(&b->v);
+        RLF_KERNEL_SOON(&b->is_alive);
+        RLF_KERNEL_SOON(&b->x);
+        RLF_KERNEL_SOON(&b->shape);
     }
+}
+
+/* What a search reads of one of the bodies. */
+RLF_KERNEL_PART void fetch_side(const phys_body *body)
+{
+    phys_fetch_place(body);
+    PHYS_FETCH_PART(body, shape, release_time);
 }
 
 /* Those after the n-th that is due, and its bodies and contacts. */
@@ -154,8 +165,8 @@ RLF_KERNEL_PART void fetch_due(const rlf_world *world, int32_t n, int32_t end)
 {
     if (n + PAIRS_AHEAD < end) {
         const phys_pair *pair = &world->pairs[world->due_pairs[n + PAIRS_AHEAD]];
-        phys_fetch_body(&world->bodies[pair->a]);
-        phys_fetch_body(&world->bodies[pair->b]);
+        fetch_side(&world->bodies[pair->a]);
+        fetch_side(&world->bodies[pair->b]);
         phys_fetch_contacts(pair);
     }
 }
