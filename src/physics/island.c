@@ -225,9 +225,8 @@ static inline const phys_body *next_body(const rlf_world *world, const phys_isla
 
 RLF_KERNEL_PART void fetch_surface(const rlf_world *world, const phys_island *island, int32_t i)
 {
-    const phys_body *far = next_body(world, island, i + CONTACTS_AHEAD < island->body_end
-                                                        ? i + CONTACTS_AHEAD
-                                                        : i);
+    const phys_body *far =
+        next_body(world, island, i + CONTACTS_AHEAD < island->body_end ? i + CONTACTS_AHEAD : i);
     const phys_body *body = next_body(world, island, i);
     phys_fetch_place(far);
     phys_fetch_weight(far);

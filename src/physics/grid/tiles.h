@@ -29,7 +29,7 @@ typedef struct grid_tile {
     bool is_guess;   /* so is the thickness of all its pixels */
     int32_t count;   /* its pixels that have a surface */
     int32_t narrow; /* pixels across what is narrowest in a rough one, as far as it is seen in it */
-    double deepest;  /* no solid of its pixels goes farther below its face, metres */
+    double deepest; /* no solid of its pixels goes farther below its face, metres */
     grid_blocks blocks;
     rlf_aabb box;    /* about its points at the time when they were seen */
     rlf_vec3 normal; /* of a flat one: normal.p = offset */

@@ -207,7 +207,7 @@ static int32_t list_points(const phys_group *g, const phys_sides *s, double t, i
 }
 
 RLF_KERNEL_PART void solve_points(const phys_group *g, impact_point *points, int32_t count,
-                                bool has_b, phys_sides *s)
+                                  bool has_b, phys_sides *s)
 {
     double fastest = 0.0, change = 1e30;
     for (int32_t i = 0; i < count; i++) {

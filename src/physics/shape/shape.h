@@ -16,7 +16,7 @@ typedef struct phys_shape {
     double radius;       /* bounding sphere about the origin, metres */
     double inner_radius; /* about the largest sphere about the origin that fits, metres */
     rlf_shape shape;
-    phys_plane *planes;  /* of a hull, owned; else NULL */
+    phys_plane *planes; /* of a hull, owned; else NULL */
     int32_t plane_count;
     rlf_vec3 *points; /* PHYS_POINTS_MAX, borrowed: on the surface, body frame; vertices first */
     int32_t point_count;
