@@ -88,6 +88,14 @@ typedef struct rlf_standing {
     int32_t age, round_age;          /* frames since there is a sheet; since the round began */
 } rlf_standing;
 
+/* Means of what was seen of faces at a low angle; NULL planes when they are not wanted: see
+ * background/low.c. */
+typedef struct rlf_low {
+    uint8_t *mark;          /* plane: 1 where the newest sheet shows such a face */
+    float *mean, *variance; /* planes: of inverse depth as it came */
+    float *samples;         /* plane: how many are in them */
+} rlf_low;
+
 /* The background model. AVERAGE: mean holds sums until it is ready. */
 typedef struct rlf_background {
     float *mean;
@@ -117,6 +125,7 @@ typedef struct rlf_background {
     bool is_stale;        /* the newest sheet shows a room that is gone */
     int32_t other_frames; /* ADAPTIVE: frames in a row that showed another room */
     rlf_standing thick;
+    rlf_low low;
 } rlf_background;
 
 enum { RLF_SETTLE_MOST_VOTES = 32 }; /* a second: as long may what was stay */

@@ -16,6 +16,10 @@ void rlf_background_reset(rlf_background *background, const rlf_grid *grid)
     memset(background->standing, 0, (size_t)grid->height * sizeof *background->standing);
     memset(background->color, 0, n * sizeof *background->color);
     memset(background->hides, 0, (size_t)grid->height);
+    if (background->low.mark != NULL) {
+        memset(background->low.mark, 0, n);
+        memset(background->low.samples, 0, n * sizeof *background->low.samples);
+    }
     background->frames = 0;
     memset(background->changes, 0, (size_t)rlf_sheet_tiles(grid) * sizeof *background->changes);
     memset(background->age, 0, (size_t)rlf_sheet_tiles(grid));

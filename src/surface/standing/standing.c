@@ -14,8 +14,9 @@ enum {
     AT_FIRST = 5   /* steps per frame of the first round */
 };
 
-static const float same_m = 0.03f; /* less is no other depth */
-static const float step_m = 0.04f; /* beside one another on one thing */
+static const float same_m = 0.03f;     /* less is no other depth */
+static const float same_share = 0.04f; /* of the depth: so far a better mean moves a pixel */
+static const float step_m = 0.04f;     /* beside one another on one thing */
 static const float thinnest_m = 0.02f, thickest_m = 0.6f;
 
 void rlf_standing_reset(rlf_standing *standing)
@@ -182,6 +183,16 @@ static bool is_same(float a, float b)
     return rlf_kernel_abs(a - b) < same_m;
 }
 
+/* How thick it is where the front has moved back by `off`: its back stays where it is. A face at a
+ * low angle moves by more than it is thick there, and is the same one. */
+static float left_of(float deep, float off, float z)
+{
+    bool is_behind = deep > 0.0f && off > 0.0f, is_back = off > deep - thinnest_m;
+    bool is_other = off >= deep && off > same_share * z;
+    float left = is_back ? thinnest_m : deep - off;
+    return is_behind && !is_other ? left : 0.0f;
+}
+
 /* What is known of the newest sheet. */
 static void publish(rlf_reconstruct *stage, const rlf_sheet *sheet)
 {
@@ -191,8 +202,8 @@ static void publish(rlf_reconstruct *stage, const rlf_sheet *sheet)
     int32_t changed = 0;
     for (int32_t i = 0; i < stage->grid.count; i++) {
         float z = sheet->depth[i], was = standing->done_depth[i], deep = standing->done[i];
-        bool same = is_same(was, z), within = deep > 0.0f && z > was && z < was + deep;
-        out[i] = same ? deep : within ? was + deep - z : 0.0f;
+        bool same = is_same(was, z);
+        out[i] = same ? deep : left_of(deep, z - was, z);
         changed += same ? 0 : 1;
     }
     standing->changed = changed;

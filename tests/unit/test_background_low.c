@@ -1,0 +1,102 @@
+/* A level top seen at ten degrees, four rows high and far noisier than what faces the camera: the
+ * background has its plane. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+#include <math.h>
+
+#include "analytic.h"
+#include "surface/steps.h"
+
+enum { WIDTH = 160, HEIGHT = 120, COUNT = WIDTH * HEIGHT, FRAMES = 60 };
+
+static const double top_m = 0.42, front_m = 2.2, back_m = 2.9, wall_m = 3.9;
+/* A rough sample of a top, as in Fankhauser et al. 2015: metres. */
+static const double top_sigma = 0.022;
+static const double kept_at_step = 0.05, kept_beside_step = 0.4; /* by the driver */
+
+static float depth[COUNT];
+
+/* Depth along the ray whose y is given; whether it is of the top. */
+static double true_depth(double y, bool *is_top)
+{
+    double z = y > 0.0 ? top_m / y : wall_m;
+    *is_top = z > front_m && z < back_m;
+    return *is_top ? z : z <= front_m ? front_m : wall_m;
+}
+
+static void make_frame(const rlf_rig *rig, analytic_random *random)
+{
+    for (int32_t i = 0; i < COUNT; i++) {
+        double y = (i / WIDTH - rig->depth.cy) / rig->depth.fy;
+        bool is_top, other;
+        double z = true_depth(y, &is_top), pitch = 1.0 / rig->depth.fy;
+        double near = true_depth(y + pitch, &other), far = true_depth(y - pitch, &other);
+        double farther = true_depth(y - 2.0 * pitch, &other);
+        bool is_step = far - z > 0.2 || z - near > 0.2, is_beside = farther - far > 0.2;
+        double kept = is_step ? kept_at_step : is_beside ? kept_beside_step : 1.0;
+        double sigma = is_top ? top_sigma : rlf_depth_noise_sigma(&rig->noise, z);
+        double sample = z + sigma * random_normal(random);
+        depth[i] = random_uniform(random) < kept ? (float)sample : 0.0f;
+    }
+}
+
+static const rlf_surface *look(rlf_reconstruct *stage)
+{
+    analytic_random random = {7};
+    const rlf_surface *s = NULL;
+    for (int32_t t = 0; t < FRAMES; t++) {
+        make_frame(&stage->def.rig, &random);
+        rlf_frame frame = analytic_frame(&stage->def.rig, depth, t);
+        frame.rig = NULL;
+        assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+    }
+    return s;
+}
+
+/* Means over the top's pixels that the background shows as such. */
+static void measure(const rlf_surface *s, const rlf_rig *rig, double *out_off, double *out_turn)
+{
+    const rlf_vec3 up = {0, -1, 0};
+    double count = 0.0, off = 0.0, turn = 0.0;
+    for (int32_t i = 0; i < COUNT; i++) {
+        double y = (i / WIDTH - rig->depth.cy) / rig->depth.fy, z = s->background_depth[i];
+        rlf_vec3 n = {s->background_normal_x[i], s->background_normal_y[i],
+                      s->background_normal_z[i]};
+        bool is_top, is_inside = i % WIDTH > 20 && i % WIDTH < WIDTH - 20;
+        (void)true_depth(y, &is_top);
+        if (is_inside && is_top && z < wall_m - 0.5) {
+            count += 1.0;
+            off += fabs(z * y - top_m);
+            turn += angle_deg(n, up);
+        }
+    }
+    assert_true(count > 300);
+    *out_off = off / count;
+    *out_turn = turn / count;
+}
+
+static void a_top_seen_at_a_low_angle_is_flat_and_level(void **state)
+{
+    (void)state;
+    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
+    rlf_reconstruct *stage = NULL;
+    double off, turn;
+    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    measure(look(stage), &rig, &off, &turn);
+    print_message("top: %.2f mm off, %.2f degrees\n", 1000.0 * off, turn);
+    assert_true(off < 0.0006 && turn < 0.4);
+    rlf_reconstruct_destroy(&stage);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_top_seen_at_a_low_angle_is_flat_and_level),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
