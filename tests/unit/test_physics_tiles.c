@@ -189,6 +189,24 @@ static void what_touches_is_told_to_be_near(void **state)
     free(tiles.tiles);
 }
 
+/* What is asked for its state alone has the same, inside, before and behind, at any depth. */
+static void a_state_alone_is_the_same(void **state)
+{
+    grid_fixture *f = *state;
+    int32_t counts[FIELD_BEHIND + 1] = {0};
+    for (int32_t k = 0; k < 20000; k++) {
+        field_cell whole, cheap;
+        int32_t i = (int32_t)next(0, GRID_W * GRID_H);
+        double z = (double)f->grid.background.depth[i] + next(-0.02, 0.3);
+        rlf_vec3 q = {z * (double)f->grid.ray_x[i], z * (double)f->grid.ray_y[i], z};
+        field_state told = grid_field_at(&f->grid, &f->grid.background, q, &whole);
+        assert_int_equal(grid_field_state(&f->grid, &f->grid.background, q, &cheap), told);
+        counts[told]++;
+    }
+    assert_true(counts[FIELD_FRONT] > 200 && counts[FIELD_INSIDE] > 200 &&
+                counts[FIELD_BEHIND] > 200);
+}
+
 static int open_scene(void **state)
 {
     *state = make_scene();
@@ -207,6 +225,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tiles_tell_no_longer_distances),
         cmocka_unit_test(near_pixels_are_kept),
+        cmocka_unit_test(a_state_alone_is_the_same),
         cmocka_unit_test(what_touches_is_told_to_be_near),
     };
     return cmocka_run_group_tests(tests, open_scene, close_scene);

@@ -161,7 +161,7 @@ static bool find_home(grid_job *job, uint8_t *home)
     rlf_vec3 seen = rlf_mad(job->centre, job->surface_velocity, -job->query->tau);
     field_state state = FIELD_NONE;
     if (job->is_near) {
-        state = grid_field_at(job->query->grid, job->sheet, seen, &cell);
+        state = grid_field_state(job->query->grid, job->sheet, seen, &cell);
     }
     if (state == FIELD_BEHIND && *home == FIELD_FRONT && is_swept(job, &cell, seen)) {
         *home = FIELD_INSIDE;

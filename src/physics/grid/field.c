@@ -148,8 +148,10 @@ static bool is_beside(const rlf_grid *grid, const rlf_grid_sheet *sheet, const f
     return grid_field_is_seen_through(grid, sheet, rlf_mad(q, cell->normal, -height));
 }
 
-field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
-                          field_cell *out)
+/* How thick a guess is takes a walk over its pixels: where q's state does not hang on that, only
+ * `is_whole` asks for it. */
+static inline field_state state_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
+                                   bool is_whole, field_cell *out)
 {
     int32_t x, y;
     if (!pixel_of(grid, q, &x, &y) || !read_bridged(grid, sheet, x, y, out)) {
@@ -164,15 +166,30 @@ field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf
         return FIELD_BEHIND; /* whatever its width */
     }
     if (out->is_guess) {
-        /* How thick it is was never seen: no thicker than it is wide (a table's leg). */
-        out->thickness = grid_edge_depth(grid, sheet, out, out->thickness);
-        out->thickness = rlf_max(out->thickness, THICKNESS_MIN);
-        out->back = front + out->thickness;
+        bool is_told = q.z <= front + THICKNESS_MIN || q.z > out->back;
+        if (is_whole || !is_told) {
+            /* How thick it is was never seen: no thicker than it is wide (a table's leg). */
+            out->thickness = grid_edge_depth(grid, sheet, out, out->thickness);
+            out->thickness = rlf_max(out->thickness, THICKNESS_MIN);
+            out->back = front + out->thickness;
+        }
         if (q.z <= out->back && is_beside(grid, sheet, out, q)) {
             return FIELD_BEHIND;
         }
     }
     return q.z <= out->back ? FIELD_INSIDE : FIELD_BEHIND;
+}
+
+field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
+                          field_cell *out)
+{
+    return state_at(grid, sheet, q, true, out);
+}
+
+field_state grid_field_state(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
+                             field_cell *out)
+{
+    return state_at(grid, sheet, q, false, out);
 }
 
 rlf_vec3 grid_back_point(const field_cell *cell)

@@ -57,6 +57,10 @@ RLF_KERNEL_PART void grid_cell_fetch(const rlf_grid_sheet *sheet, int32_t i)
 field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
                           field_cell *out);
 
+/* The same, but thickness and back of *out may be left as they were guessed: much cheaper. */
+field_state grid_field_state(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
+                             field_cell *out);
+
 /* Which way the solid goes from the cell's point, and how far per metre of thickness: along the
  * ray, on which thickness was found; but where it is a guess, square to the face. What is behind
  * the far edge of a table's top is no part of the table. */

@@ -212,5 +212,5 @@ bool grid_level_find(const grid_levels *levels, const rlf_grid *grid, rlf_vec3 q
 bool grid_level_is_hidden(const rlf_grid *grid, rlf_vec3 q)
 {
     field_cell cell;
-    return grid_field_at(grid, &grid->background, q, &cell) != FIELD_FRONT;
+    return grid_field_state(grid, &grid->background, q, &cell) != FIELD_FRONT;
 }

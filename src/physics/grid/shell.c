@@ -149,6 +149,6 @@ bool grid_shell_is_hidden(const rlf_grid *grid, rlf_vec3 q)
     if (grid_field_is_open(grid, &grid->background, q)) {
         return false;
     }
-    field_state state = grid_field_at(grid, &grid->background, q, &cell);
+    field_state state = grid_field_state(grid, &grid->background, q, &cell);
     return state == FIELD_NONE || state == FIELD_BEHIND;
 }
