@@ -437,6 +437,47 @@ static void bounces_off_a_noisy_bulge_that_moves(void **state)
     memset(fixture->mask, 0, (size_t)GRID_W * GRID_H);
 }
 
+/* The foreground becomes what the camera sees of an upright limb. */
+static void set_limb(rlf_vec3 axis, double radius)
+{
+    grid_plane wall = grid_wall(4);
+    grid_fixture_set_room(fixture, &wall, 1);
+    grid_fixture_set_slab(fixture, grid_wall(2), rlf_vec3_make(0, 0, 2), rlf_vec3_make(9, 9, 0),
+                          0.3, rlf_vec3_make(0, 0, 0));
+    for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
+        double m = fixture->planes[0][i], a = m * m + 1.0, b = m * axis.x + axis.z;
+        double square = b * b - a * (axis.x * axis.x + axis.z * axis.z - radius * radius);
+        fixture->mask[i] = square > 0.0;
+        double root = sqrt(fmax(square, 0.0)), z = (b - root) / a;
+        fixture->planes[6][i] = (float)z;
+        fixture->planes[7][i] = (float)((m * z - axis.x) / radius);
+        fixture->planes[8][i] = 0.0f;
+        fixture->planes[9][i] = (float)((z - axis.z) / radius);
+        fixture->planes[13][i] = (float)(2.0 * root / a);
+    }
+}
+
+/* Beside a limb's outline its pixels lie on one side of the place that is touched. It bends across
+ * itself only. */
+static void bounces_off_a_limbs_flank(void **state)
+{
+    (void)state;
+    const rlf_vec3 AXIS = {0.1, 0, 2.6};
+    const double LIMB = 0.05, BALL = 0.1;
+    double sum = 0.0;
+    set_limb(AXIS, LIMB);
+    for (int i = 0; i < 40; i++) {
+        double angle = (45.0 + 1.0 * (i / 2)) * (i % 2 == 0 ? 1.0 : -1.0) * RLF_PI / 180.0;
+        rlf_vec3 n = {sin(angle), 0, -cos(angle)}, at = rlf_mad(AXIS, n, LIMB + BALL);
+        rlf_vec3 v = rlf_scale(n, -3.0);
+        rlf_vec3 out = thrown(rlf_mad(at, v, -0.05), v, BALL);
+        sum += degrees_between(out, n);
+    }
+    print_message("flank: direction off by %.1f deg on average\n", sum / 40);
+    assert_true(sum / 40 < 1.0);
+    memset(fixture->mask, 0, (size_t)GRID_W * GRID_H);
+}
+
 /* From behind, where the front is out of the ball's reach. */
 static void bounces_off_the_back_of_something_thick(void **state)
 {
@@ -475,6 +516,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(bounces_off_a_floor_seen_at_a_low_angle, set_up, tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_a_side_one_pixel_wide, set_up, tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_a_noisy_bulge_that_moves, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(bounces_off_a_limbs_flank, set_up, tear_down),
         cmocka_unit_test_setup_teardown(bounces_off_the_back_of_something_thick, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

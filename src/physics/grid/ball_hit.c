@@ -6,6 +6,7 @@
  * the contact points from the edge to the centre. */
 #include "physics/grid/ball_hit.h"
 #include "physics/grid/ball.h"
+#include "physics/grid/bend.h"
 #include "physics/grid/end.h"
 
 #define EDGE_MOVES 6
@@ -222,7 +223,12 @@ static bool touch_face(const grid_job *job, grid_meeting *touch, patch_mean *out
     if (!is_supported(&p, out)) {
         return face_edge(&p, touch, out);
     }
-    patch_correct_bulge(&p, out);
+    /* what stands is flat or round; what moves has limbs */
+    if (job->sheet->velocity_x != NULL) {
+        bend_correct(&p, out);
+    } else {
+        patch_correct_bulge(&p, out);
+    }
     return true;
 }
 

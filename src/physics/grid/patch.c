@@ -65,24 +65,31 @@ static double area_of(const field_cell *cell)
     return cell->point.z * cell->point.z / rlf_max(cosine, 0.15);
 }
 
+double patch_weight(const grid_patch *p, const patch_sample *s)
+{
+    const patch_sample *nearest = &p->samples[p->nearest];
+    bool is_of_one_frame = p->job->sheet->velocity_x != NULL;
+    double band = patch_band(nearest->cell.point.z) * (is_of_one_frame ? RAW : 1.0);
+    double share = 1.0 - (s->distance - nearest->distance) / band;
+    if (share <= 0.0 || !patch_is_of_face(s->cell.normal, nearest->cell.normal)) {
+        return 0.0;
+    }
+    return share * share * area_of(&s->cell);
+}
+
 /* Weighted means over the pixels near the ball, and the slope of the normals over the points (least
  * squares for n - n_mean = curvature (p - p_mean)). */
 patch_mean patch_mean_of(const grid_patch *p)
 {
-    double least = p->samples[p->nearest].distance;
-    bool is_of_one_frame = p->job->sheet->velocity_x != NULL;
-    double band = patch_band(p->samples[p->nearest].cell.point.z) * (is_of_one_frame ? RAW : 1.0);
     rlf_vec3 points = {0, 0, 0}, normals = {0, 0, 0}, velocities = {0, 0, 0};
-    rlf_vec3 face = p->samples[p->nearest].cell.normal;
     double total = 0.0, square = 0.0, product = 0.0;
     rlf_vec3 origin = p->samples[p->nearest].point; /* small differences, few digits lost */
     for (int32_t i = 0; i < p->count; i++) {
         const patch_sample *s = &p->samples[i];
-        double share = 1.0 - (s->distance - least) / band;
-        if (share <= 0.0 || !patch_is_of_face(s->cell.normal, face)) {
+        double weight = patch_weight(p, s);
+        if (!(weight > 0.0)) {
             continue;
         }
-        double weight = share * share * area_of(&s->cell);
         rlf_vec3 d = rlf_sub(s->point, origin);
         points = rlf_mad(points, d, weight);
         normals = rlf_mad(normals, s->cell.normal, weight);

@@ -52,6 +52,10 @@ rlf_vec3 patch_back_of(const field_cell *cell, rlf_vec3 p);
 /* Fills centre, index, samples, count and nearest (-1: no sample) for the other members. */
 void patch_read(grid_patch *p);
 
+/* How much a sample of the patch counts: the less, the farther it is from the ball, and nothing
+ * where it is of another face. */
+double patch_weight(const grid_patch *p, const patch_sample *s);
+
 /* Weighted means over the pixels near the ball, and the slope of the normals over the points (least
  * squares for n - n_mean = curvature (p - p_mean)). */
 patch_mean patch_mean_of(const grid_patch *p);
