@@ -72,6 +72,18 @@ static void a_side_that_is_seen_belongs_to_the_solid(void **state)
     }
 }
 
+/* A bar is guessed as deep as its front is wide, not as wide as what is seen of it. */
+static void a_side_that_is_seen_makes_no_front_wider(void **state)
+{
+    (void)state;
+    const block bar = {-1.08, -0.99, -0.3, 0.3, 0.09};
+    for (int k = 0; k < 2; k++) {
+        double met = met_behind(&bar, k == 0 ? RLF_SHAPE_SPHERE : RLF_SHAPE_BOX, -1.035);
+        print_message("met %.3f m behind\n", met);
+        assert_true(met > 0.07 && met < 0.11);
+    }
+}
+
 /* All sides of what is straight ahead hide behind its front. */
 static void where_nothing_tells_the_guess_stays(void **state)
 {
@@ -87,6 +99,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_flat_thing_is_no_deeper_than_its_outline_shows),
         cmocka_unit_test(a_side_that_is_seen_belongs_to_the_solid),
+        cmocka_unit_test(a_side_that_is_seen_makes_no_front_wider),
         cmocka_unit_test(where_nothing_tells_the_guess_stays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -6,6 +6,8 @@
 #define SAME_SIDE 0.1 /* m beside a touch that its side may be at the border */
 #define BESIDE_PX 1   /* an outline's place is that far off */
 
+static const grid_shift no_shift = {{0, 0, 0}, 0.0, 0, 0};
+
 static bool pixel_of(const rlf_grid *grid, rlf_vec3 q, int32_t *x, int32_t *y)
 {
     double u, v;
@@ -36,17 +38,12 @@ static double length_to_view(const grid_query *query, rlf_vec3 q, rlf_vec3 way)
     return 0.0;
 }
 
-grid_shift grid_beyond_shift(const grid_query *query, rlf_vec3 q, double radius)
+static grid_shift find_shift(const grid_query *query, rlf_vec3 q, double radius)
 {
     const grid_shift shifts[4] = {{query->up, 0.0, 0, -1},
                                   {{1, 0, 0}, 0.0, 1, 0},
                                   {{-1, 0, 0}, 0.0, -1, 0},
                                   {rlf_neg(query->up), 0.0, 0, 1}};
-    grid_shift none = {{0, 0, 0}, 0.0, 0, 0};
-    int32_t x, y;
-    if (query->shell == NULL || !(q.z > 0.0) || pixel_of(query->grid, q, &x, &y)) {
-        return none;
-    }
     for (int k = 0; k < 4; k++) {
         grid_shift shift = shifts[k];
         bool is_way = rlf_dot(shift.way, shift.way) > 0.0;
@@ -56,7 +53,16 @@ grid_shift grid_beyond_shift(const grid_query *query, rlf_vec3 q, double radius)
             return shift;
         }
     }
-    return none;
+    return no_shift;
+}
+
+grid_shift grid_beyond_shift(const grid_query *query, rlf_vec3 q, double radius)
+{
+    int32_t x, y;
+    if (query->shell == NULL || !(q.z > 0.0) || pixel_of(query->grid, q, &x, &y)) {
+        return no_shift;
+    }
+    return find_shift(query, q, radius);
 }
 
 static bool is_along(const grid_shift *shift, rlf_vec3 normal)

@@ -112,19 +112,47 @@ static double depth_beside(const rlf_grid *grid, const rlf_grid_sheet *sheet,
     return limit;
 }
 
+/* How many of the run's last pixels are on another face of the solid than the cell. */
+static int32_t pixels_aside(const rlf_grid *grid, const rlf_grid_sheet *sheet,
+                            const field_cell *cell, const int32_t way[2], int32_t run)
+{
+    const double SAME_FACE = 0.9;
+    int32_t count = 0;
+    for (int32_t k = run; k > 0; k--) {
+        int32_t i = (cell->y + way[1] * k) * grid->width + cell->x + way[0] * k;
+        double cosine = (double)sheet->normal_x[i] * cell->normal.x +
+                        (double)sheet->normal_y[i] * cell->normal.y +
+                        (double)sheet->normal_z[i] * cell->normal.z;
+        if (cosine > SAME_FACE) {
+            break;
+        }
+        count++;
+    }
+    return count;
+}
+
+/* How many pixels of a run both ways the solid is wide: its front alone, which is the larger face,
+ * and not a side too that is seen beside it. */
+static int32_t width_of(const int32_t run[2], const int32_t aside[2])
+{
+    int32_t other = aside[0] + aside[1], own = run[0] + 1 + run[1] - other;
+    return own > other ? own : other;
+}
+
 double grid_edge_depth(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
                        double limit)
 {
     const int32_t WAYS[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     double pixel = cell->point.z * grid->pixel_angle, deep = limit;
-    int32_t most = (int32_t)rlf_min(limit / pixel + 1.0, 256.0), run[4];
+    int32_t most = (int32_t)rlf_min(limit / pixel + 1.0, 256.0), run[4], aside[4] = {0};
     for (int32_t k = 0; k < 4; k++) {
         run[k] = run_length(grid, sheet, cell, WAYS[k], most);
         if (run[k] < most) {
             deep = rlf_min(deep, depth_beside(grid, sheet, cell, WAYS[k], run[k], limit));
+            aside[k] = pixels_aside(grid, sheet, cell, WAYS[k], run[k]);
         }
     }
-    int32_t row = run[0] + 1 + run[1], column = run[2] + 1 + run[3];
+    int32_t row = width_of(run, aside), column = width_of(run + 2, aside + 2);
     double wide = (row < column ? row : column) * pixel;
     return rlf_min(rlf_min(wide, rlf_max(deep, LEAST_DEEP)), limit);
 }
