@@ -204,10 +204,9 @@ typedef struct beyond_hits {
     double nearest2;
 } beyond_hits;
 
-static void collide_beyond(grid_job *job, beyond_hits *beyond)
+static void collide_beyond(grid_job *job, grid_shift shift, beyond_hits *beyond)
 {
     const grid_query *query = job->query;
-    grid_shift shift = grid_beyond_shift(query, job->centre, job->body->shape.radius);
     beyond->count = 0;
     beyond->nearest2 = 1e18;
     if (!(shift.length > 0.0)) {
@@ -257,10 +256,9 @@ static void set_period(grid_job *job, phys_body *body, double most)
 }
 
 /* How far from the centre anything that goes on beyond the picture is, no less than this. */
-static double free_beyond(grid_job *job, double reach, double least)
+static double free_beyond(grid_job *job, grid_shift shift, double reach, double least)
 {
     const grid_query *query = job->query;
-    grid_shift shift = grid_beyond_shift(query, job->centre, job->body->shape.radius);
     if (!(shift.length > 0.0)) {
         return reach;
     }
@@ -273,7 +271,7 @@ static double free_beyond(grid_job *job, double reach, double least)
 
 /* How far the body may go before it comes to anything, wherever the camera looks, by tiles and
  * planes alone. What is not above `least` need not be told apart. */
-static double free_way(grid_job *job, double least)
+static double free_way(grid_job *job, grid_shift shift, double least)
 {
     const grid_query *query = job->query;
     double wide = wide_reach_of(query, job->body);
@@ -290,7 +288,7 @@ static double free_way(grid_job *job, double least)
     if (way > least) {
         way = rlf_min(way, grid_hidden_face_height(job, wide) - beside);
     }
-    return way > least ? rlf_min(way, free_beyond(job, wide, limit) - beside) : way;
+    return way > least ? rlf_min(way, free_beyond(job, shift, wide, limit) - beside) : way;
 }
 
 /* How far the body may go before it comes to what the last scan saw. */
@@ -364,7 +362,7 @@ static void keep_contacts(const grid_query *query, phys_body *body)
 }
 
 /* Both sheets, the nearer first. */
-static void collide_sheets(grid_job *job, phys_body *body, int32_t body_index)
+static void collide_sheets(grid_job *job, grid_shift shift, phys_body *body, int32_t body_index)
 {
     const grid_query *query = job->query;
     set_period(job, body, PERIOD_MAX);
@@ -376,7 +374,7 @@ static void collide_sheets(grid_job *job, phys_body *body, int32_t body_index)
         set_period(job, body, PERIOD_AT_REST);
     }
     beyond_hits beyond;
-    collide_beyond(job, &beyond);
+    collide_beyond(job, shift, &beyond);
     collide_sheet(job, query->background, &body->home[1]);
     add_beyond(job, &beyond);
     grid_hidden_collide(job, wide_reach_of(job->query, job->body));
@@ -396,7 +394,8 @@ void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
         return;
     }
     start_contacts(query, body);
-    double least = phys_body_way(body, query->step), way = free_way(&job, least);
+    grid_shift shift = grid_beyond_shift(query, job.centre, body->shape.radius);
+    double least = phys_body_way(body, query->step), way = free_way(&job, shift, least);
     if (way > least) {
         body->home[0] = body->home[1] = FIELD_NONE;
         body->surface_period = 1;
@@ -407,7 +406,7 @@ void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
         old[i] = phys_trace_of(&body->surface[i]);
     }
     job.asked_before = swept_from;
-    collide_sheets(&job, body, body_index);
+    collide_sheets(&job, shift, body, body_index);
     if (query->background->sheet->velocity_x == NULL && is_alone(&job, body->surface_period)) {
         body->surface_version = query->rest_version;
     }

@@ -131,12 +131,17 @@ static int32_t pixels_aside(const rlf_grid *grid, const rlf_grid_sheet *sheet,
     return count;
 }
 
-/* How many pixels of a run both ways the solid is wide: its front alone, which is the larger face,
- * and not a side too that is seen beside it. */
-static int32_t width_of(const int32_t run[2], const int32_t aside[2])
+/* How many pixels of a run both ways along the way the solid is wide: its front alone, which is the
+ * larger face, and not a side too that is seen beside it. */
+static int32_t front_width(const rlf_grid *grid, const rlf_grid_sheet *sheet,
+                           const field_cell *cell, const int32_t ways[2][2], const int32_t run[2],
+                           int32_t most)
 {
-    int32_t other = aside[0] + aside[1], own = run[0] + 1 + run[1] - other;
-    return own > other ? own : other;
+    int32_t all = run[0] + 1 + run[1], aside = 0;
+    for (int32_t k = 0; k < 2; k++) {
+        aside += run[k] < most ? pixels_aside(grid, sheet, cell, ways[k], run[k]) : 0;
+    }
+    return 2 * aside > all ? aside : all - aside;
 }
 
 double grid_edge_depth(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
@@ -144,17 +149,21 @@ double grid_edge_depth(const rlf_grid *grid, const rlf_grid_sheet *sheet, const 
 {
     const int32_t WAYS[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     double pixel = cell->point.z * grid->pixel_angle, deep = limit;
-    int32_t most = (int32_t)rlf_min(limit / pixel + 1.0, 256.0), run[4], aside[4] = {0};
+    int32_t most = (int32_t)rlf_min(limit / pixel + 1.0, 256.0), run[4];
     for (int32_t k = 0; k < 4; k++) {
         run[k] = run_length(grid, sheet, cell, WAYS[k], most);
         if (run[k] < most) {
             deep = rlf_min(deep, depth_beside(grid, sheet, cell, WAYS[k], run[k], limit));
-            aside[k] = pixels_aside(grid, sheet, cell, WAYS[k], run[k]);
         }
     }
-    int32_t row = width_of(run, aside), column = width_of(run + 2, aside + 2);
-    double wide = (row < column ? row : column) * pixel;
-    return rlf_min(rlf_min(wide, rlf_max(deep, LEAST_DEEP)), limit);
+    deep = rlf_min(rlf_max(deep, LEAST_DEEP), limit);
+    for (int32_t k = 0; k < 4; k += 2) {
+        int32_t all = run[k] + 1 + run[k + 1];
+        if (0.5 * all * pixel < deep) { /* else the front is wider, whatever is beside it */
+            deep = rlf_min(deep, pixel * front_width(grid, sheet, cell, WAYS + k, run + k, most));
+        }
+    }
+    return deep;
 }
 
 /* The side wall's face, square to the unit axis along which it goes inward. */
