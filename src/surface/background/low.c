@@ -23,8 +23,8 @@ enum {
     MOST = 128,    /* samples in a mean */
     LEAST = 4,     /* in one that counts */
     LEAST_ON = 12, /* means on a plane */
-    BLOCK_ACROSS = 4,
-    BLOCK_DOWN = 3,
+    BLOCK_ACROSS = 8,
+    BLOCK_DOWN = 6,
     BLOCK_PLANES = 4
 };
 
