@@ -23,7 +23,7 @@ typedef struct golden {
 } golden;
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0xace0e66c6acda4aeu, 0xc0e892db9733874cu, 0xc3f02d3575b0b354u},
+    {RLF_PROFILE_LIVE, 0x81989697d1bf1b05u, 0x23b5a669c46e4e45u, 0xa936bc981ae2fb83u},
     {RLF_PROFILE_THESIS, 0xa393eb06e579d241u, 0xd84652fb54683851u, 0xc064b44391e1e990u},
 };
 
