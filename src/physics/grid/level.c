@@ -148,15 +148,16 @@ static void search_row(level_search *s, int32_t y)
     const rlf_grid_sheet *sheet = &s->grid->background;
     ptrdiff_t row = (ptrdiff_t)y * s->grid->width;
     bool was_level = false;
-    int32_t last = -HOLE_PX;
+    int32_t last = -1;
     for (int32_t x = 0; x < s->grid->width; x++) {
         double z = (double)sheet->depth[row + x];
         if (!(z > 0.0)) {
             continue;
         }
-        bool is_level = is_level_at(s, row + x), is_near = x - last <= HOLE_PX;
+        bool is_level = is_level_at(s, row + x);
+        bool is_near = last >= SETTLED_PX && x - last <= HOLE_PX;
         bool is_hidden = is_near && (double)sheet->depth[row + last] > z + grid_edge_step(z);
-        if (last >= SETTLED_PX && (is_hidden || (is_near && was_level && !is_level))) {
+        if (is_hidden || (is_near && was_level && !is_level)) {
             look_behind(s, last, last + 1, y);
         }
         was_level = is_level;
