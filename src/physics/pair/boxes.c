@@ -1,5 +1,6 @@
 /* Box against box: separating axes, then the incident face clipped to the reference face
  * (Gottschalk, Lin and Manocha 1996; Ericson 2005, 5.5). */
+#include "physics/pair/clip.h"
 #include "physics/pair/collide.h"
 
 typedef struct box {
@@ -117,23 +118,6 @@ static int32_t edge_contact(const box *a, const box *b, const sat_result *sat, p
     return 1;
 }
 
-/* Sutherland and Hodgman 1974: keeps the polygon's part with n.p <= d. */
-static int32_t clip(const rlf_vec3 *in, int32_t count, rlf_vec3 n, double d, rlf_vec3 *out)
-{
-    int32_t kept = 0;
-    for (int32_t i = 0; i < count; i++) {
-        rlf_vec3 p = in[i], q = in[i + 1 < count ? i + 1 : 0];
-        double dp = rlf_dot(n, p) - d, dq = rlf_dot(n, q) - d;
-        if (dp <= 0.0) {
-            out[kept++] = p;
-        }
-        if ((dp < 0.0 && dq > 0.0) || (dp > 0.0 && dq < 0.0)) {
-            out[kept++] = rlf_mad(p, rlf_sub(q, p), dp / (dp - dq));
-        }
-    }
-    return kept;
-}
-
 /* The face of `b` that looks most against n. */
 static void incident_face(const box *b, rlf_vec3 n, rlf_vec3 out[4])
 {
@@ -166,7 +150,7 @@ static int32_t face_contacts(const box *ref, const box *other, rlf_vec3 n, int32
     for (int32_t side = 0; side < 4; side++) {
         int32_t axis = (face + 1 + side / 2) % 3;
         rlf_vec3 m = side % 2 == 0 ? ref->axis[axis] : rlf_neg(ref->axis[axis]);
-        count = clip(polygon, count, m, rlf_dot(m, ref->centre) + ref->half[axis], clipped);
+        count = pair_clip(polygon, count, m, rlf_dot(m, ref->centre) + ref->half[axis], clipped);
         rlf_vec3 *swap = polygon;
         polygon = clipped;
         clipped = swap;

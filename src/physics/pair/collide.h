@@ -14,7 +14,7 @@ typedef struct pair_point {
     double separation;
 } pair_point;
 
-#define PAIR_POINTS_MAX 192
+#define PAIR_POINTS_MAX 48
 
 /* Puts a pair into a lane, where its separating axes are looked for. Of other shapes than boxes
  * what is found means nothing. */
@@ -27,7 +27,15 @@ void pair_boxes_load(const phys_body *a, const phys_body *b, double margin, int3
 int32_t pair_collide_boxes(const phys_body *a, const phys_body *b, double margin,
                            const rlf_sat_axes *axes, int32_t lane, pair_point *out, double *out_gap,
                            phys_side *out_side);
-int32_t pair_collide_shapes(const phys_body *a, const phys_body *b, double margin, pair_point *out);
+
+/* The same for other shapes, the points of pair_collide_convex for all but balls and two capsules.
+ * Sets *out_gap where it is known. */
+int32_t pair_collide_shapes(const phys_body *a, const phys_body *b, double margin, pair_point *out,
+                            double *out_gap);
+
+/* Any two convex shapes but two of which neither has a volume but its rounding. */
+int32_t pair_collide_convex(const phys_body *a, const phys_body *b, double margin, pair_point *out,
+                            double *out_gap);
 
 /* Chooses up to PHYS_PAIR_CONTACTS of them that give the widest support; returns their number. */
 int32_t pair_reduce(const pair_point *points, int32_t count, double radius,

@@ -42,15 +42,6 @@ static void keep_impulse(phys_contact *contact, const phys_trace *old, int32_t o
     }
 }
 
-/* What is `offset` from the body's centre, in its frame. */
-static rlf_vec3 to_body(const phys_body *body, rlf_vec3 offset)
-{
-    const rlf_mat3 *R = &body->R;
-    return rlf_vec3_make(R->m[0][0] * offset.x + R->m[1][0] * offset.y + R->m[2][0] * offset.z,
-                         R->m[0][1] * offset.x + R->m[1][1] * offset.y + R->m[2][1] * offset.z,
-                         R->m[0][2] * offset.x + R->m[1][2] * offset.y + R->m[2][2] * offset.z);
-}
-
 static void set_contacts(phys_pair *pair, const phys_body *a, const phys_body *b,
                          const pair_point *points, const int32_t *chosen, int32_t count)
 {
@@ -65,8 +56,8 @@ static void set_contacts(phys_pair *pair, const phys_body *a, const phys_body *b
         const pair_point *p = &points[chosen[i]];
         phys_contact *fresh = &pair->contacts[i];
         *fresh = (phys_contact){.a = pair->a, .b = pair->b, .other = RLF_CONTACT_BODY, .log = -1};
-        fresh->anchor_a = to_body(a, rlf_sub(p->core_a, a->x));
-        fresh->anchor_b = to_body(b, rlf_sub(p->core_b, b->x));
+        fresh->anchor_a = phys_to_frame(&a->R, rlf_sub(p->core_a, a->x));
+        fresh->anchor_b = phys_to_frame(&b->R, rlf_sub(p->core_b, b->x));
         fresh->rounding_a = p->rounding_a;
         fresh->rounding_b = p->rounding_b;
         fresh->normal = p->normal;
@@ -104,7 +95,7 @@ static void collide_pair(const rlf_world *world, phys_pair *pair, const rlf_sat_
     bool are_boxes = a->shape.shape.type == RLF_SHAPE_BOX && b->shape.shape.type == RLF_SHAPE_BOX;
     int32_t count = are_boxes ? pair_collide_boxes(a, b, pair->margin, axes, lane, points,
                                                    &pair->gap, &pair->side)
-                              : pair_collide_shapes(a, b, pair->margin, points);
+                              : pair_collide_shapes(a, b, pair->margin, points, &pair->gap);
     if (count == 0) {
         pair->contact_count = 0;
         return;

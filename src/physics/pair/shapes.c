@@ -1,35 +1,26 @@
-/* Any shape against any other: sample points of each in the signed distance of the other. Balls and
- * capsules are points of their cores with a rounding, which is exact. */
+/* Balls against anything and capsules against each other: points of their cores, with a rounding,
+ * in the signed distance of the other, which is exact. */
 #include "physics/pair/collide.h"
 
-/* Core points of a shape, or its surface points with rounding 0. */
-static int32_t feature_points(const phys_shape *shape, rlf_vec3 out[PHYS_POINTS_MAX],
-                              double *rounding)
+#define CAPSULE_POINTS 5
+
+/* Core points of a ball or a capsule; returns their number. */
+static int32_t core_points(const rlf_shape *shape, rlf_vec3 out[CAPSULE_POINTS])
 {
-    *rounding = shape->shape.radius;
-    if (shape->shape.type == RLF_SHAPE_SPHERE) {
-        out[0] = rlf_vec3_make(0, 0, 0);
-        return 1;
+    int32_t count = shape->type == RLF_SHAPE_CAPSULE ? CAPSULE_POINTS : 1;
+    for (int32_t i = 0; i < count; i++) {
+        double place = count > 1 ? (double)i / (count - 1) - 0.5 : 0.0;
+        out[i] = rlf_vec3_make(0, shape->height * place, 0);
     }
-    if (shape->shape.type == RLF_SHAPE_CAPSULE) {
-        for (int32_t i = 0; i < 5; i++) {
-            out[i] = rlf_vec3_make(0, shape->shape.height * (0.25 * i - 0.5), 0);
-        }
-        return 5;
-    }
-    *rounding = 0.0;
-    for (int32_t i = 0; i < shape->point_count; i++) {
-        out[i] = shape->points[i];
-    }
-    return shape->point_count;
+    return count;
 }
 
 static int32_t points_against(const phys_body *a, const phys_body *b, double margin,
                               bool is_swapped, pair_point *out)
 {
-    rlf_vec3 points[PHYS_POINTS_MAX];
-    double rounding;
-    int32_t count = feature_points(&a->shape, points, &rounding);
+    rlf_vec3 points[CAPSULE_POINTS];
+    double rounding = a->shape.shape.radius;
+    int32_t count = core_points(&a->shape.shape, points);
     rlf_pose T_world_a = phys_body_pose(a), T_world_b = phys_body_pose(b);
     int32_t kept = 0;
     for (int32_t i = 0; i < count; i++) {
@@ -78,7 +69,8 @@ static int32_t crossed_capsules(const phys_body *a, const phys_body *b, double m
     return out->separation <= margin ? 1 : 0;
 }
 
-int32_t pair_collide_shapes(const phys_body *a, const phys_body *b, double margin, pair_point *out)
+int32_t pair_collide_shapes(const phys_body *a, const phys_body *b, double margin, pair_point *out,
+                            double *out_gap)
 {
     rlf_shape_type type_a = a->shape.shape.type, type_b = b->shape.shape.type;
     if (type_a == RLF_SHAPE_SPHERE) {
@@ -87,12 +79,12 @@ int32_t pair_collide_shapes(const phys_body *a, const phys_body *b, double margi
     if (type_b == RLF_SHAPE_SPHERE) {
         return points_against(b, a, margin, true, out);
     }
+    if (type_a != RLF_SHAPE_CAPSULE || type_b != RLF_SHAPE_CAPSULE) {
+        return pair_collide_convex(a, b, margin, out, out_gap);
+    }
     int32_t count = points_against(a, b, margin, false, out);
     count += points_against(b, a, margin, true, out + count);
-    if (type_a == RLF_SHAPE_CAPSULE && type_b == RLF_SHAPE_CAPSULE) {
-        count += crossed_capsules(a, b, margin, out + count);
-    }
-    return count;
+    return count + crossed_capsules(a, b, margin, out + count);
 }
 
 int32_t pair_reduce(const pair_point *points, int32_t count, double radius,

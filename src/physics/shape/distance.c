@@ -1,4 +1,5 @@
 /* Signed distance to a shape's surface, and its farthest points. */
+#include "physics/shape/convex.h"
 #include "physics/shape/shape.h"
 
 static double box_distance(rlf_vec3 half, rlf_vec3 p, rlf_vec3 *gradient)
@@ -43,35 +44,50 @@ static double cylinder_distance(const rlf_shape *s, rlf_vec3 p, rlf_vec3 *gradie
     return length;
 }
 
-static double hull_distance(const phys_shape *s, rlf_vec3 p, rlf_vec3 *gradient)
+static phys_plane plane_at(const rlf_hull *hull, const phys_plane *planes, int32_t i)
 {
-    double best = -1e30;
-    for (int32_t i = 0; i < s->plane_count; i++) {
-        double d = rlf_dot(s->planes[i].normal, p) - s->planes[i].offset;
-        if (d > best) {
-            best = d;
-            *gradient = s->planes[i].normal;
-        }
-    }
-    return best;
+    return planes != NULL ? planes[i] : phys_plane_of_triangle(hull, i);
 }
 
-/* As hull_distance, without planes that were made before. */
-static double triangles_distance(const rlf_hull *hull, rlf_vec3 p, rlf_vec3 *gradient)
+/* Nearest point of the faces that p is before; `least` is the distance to the farthest plane. */
+static double outside_hull(const rlf_hull *hull, const phys_plane *planes, int32_t count,
+                           rlf_vec3 p, double least, rlf_vec3 *gradient)
 {
-    double best = -1e30;
-    for (int32_t i = 0; i < hull->triangle_count; i++) {
-        const int32_t *corner = hull->triangles + 3 * (ptrdiff_t)i;
-        rlf_vec3 a = hull->vertices[corner[0]];
-        rlf_vec3 n = rlf_normalize(rlf_cross(rlf_sub(hull->vertices[corner[1]], a),
-                                             rlf_sub(hull->vertices[corner[2]], a)));
-        double d = rlf_dot(n, rlf_sub(p, a));
-        if (rlf_dot(n, n) > 0.5 && d > best) {
-            best = d;
-            *gradient = n;
+    double nearest = 1e30;
+    for (int32_t i = 0; i < count && nearest > least + 1e-12; i++) {
+        phys_plane plane = plane_at(hull, planes, i);
+        double height = rlf_dot(plane.normal, p) - plane.offset;
+        if (!(height > 0.0) || height >= nearest) {
+            continue;
+        }
+        const int32_t *t = hull->triangles + 3 * (ptrdiff_t)plane.triangle;
+        const rlf_vec3 corner[3] = {rlf_sub(hull->vertices[t[0]], p),
+                                    rlf_sub(hull->vertices[t[1]], p),
+                                    rlf_sub(hull->vertices[t[2]], p)};
+        rlf_vec3 to = convex_nearest_of_triangle(corner);
+        double distance = rlf_length(to);
+        if (distance < nearest) {
+            nearest = distance;
+            *gradient = distance > 1e-9 ? rlf_scale(to, -1.0 / distance) : plane.normal;
         }
     }
-    return best;
+    return nearest;
+}
+
+/* Inside: the nearest plane. Triangles without area have no plane of their own. */
+static double hull_distance(const rlf_hull *hull, const phys_plane *planes, int32_t count,
+                            rlf_vec3 p, rlf_vec3 *gradient)
+{
+    double best = -1e30;
+    for (int32_t i = 0; i < count; i++) {
+        phys_plane plane = plane_at(hull, planes, i);
+        double height = rlf_dot(plane.normal, p) - plane.offset;
+        if (height > best && rlf_dot(plane.normal, plane.normal) > 0.5) {
+            best = height;
+            *gradient = plane.normal;
+        }
+    }
+    return best > 0.0 ? outside_hull(hull, planes, count, p, best, gradient) : best;
 }
 
 double rlf_shape_distance(const rlf_shape *s, rlf_vec3 p, rlf_vec3 *out_gradient)
@@ -85,15 +101,18 @@ double rlf_shape_distance(const rlf_shape *s, rlf_vec3 p, rlf_vec3 *out_gradient
         return ball_distance(s->radius, to_axis, out_gradient);
     }
     case RLF_SHAPE_CYLINDER: return cylinder_distance(s, p, out_gradient);
-    case RLF_SHAPE_HULL: return triangles_distance(s->hull, p, out_gradient);
+    case RLF_SHAPE_HULL:
+        return hull_distance(s->hull, NULL, s->hull->triangle_count, p, out_gradient);
     }
     return 0.0;
 }
 
 double phys_shape_distance(const phys_shape *shape, rlf_vec3 p, rlf_vec3 *out_gradient)
 {
-    return shape->shape.type == RLF_SHAPE_HULL ? hull_distance(shape, p, out_gradient)
-                                               : rlf_shape_distance(&shape->shape, p, out_gradient);
+    const rlf_shape *s = &shape->shape;
+    return s->type == RLF_SHAPE_HULL
+               ? hull_distance(s->hull, shape->planes, shape->plane_count, p, out_gradient)
+               : rlf_shape_distance(s, p, out_gradient);
 }
 
 int32_t phys_shape_support(const phys_shape *shape, rlf_vec3 direction, rlf_vec3 out[2],

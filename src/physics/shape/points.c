@@ -81,6 +81,15 @@ static void hull_points(phys_shape *s)
     }
 }
 
+phys_plane phys_plane_of_triangle(const rlf_hull *hull, int32_t triangle)
+{
+    const int32_t *t = hull->triangles + 3 * (ptrdiff_t)triangle;
+    rlf_vec3 a = hull->vertices[t[0]];
+    rlf_vec3 normal = rlf_normalize(
+        rlf_cross(rlf_sub(hull->vertices[t[1]], a), rlf_sub(hull->vertices[t[2]], a)));
+    return (phys_plane){normal, rlf_dot(normal, a), triangle};
+}
+
 static rlf_result hull_planes(phys_shape *s)
 {
     const rlf_hull *hull = s->shape.hull;
@@ -89,12 +98,8 @@ static rlf_result hull_planes(phys_shape *s)
         return RLF_ERROR_MEMORY;
     }
     for (int32_t i = 0; i < hull->triangle_count; i++) {
-        const int32_t *t = hull->triangles + 3 * i;
-        rlf_vec3 a = hull->vertices[t[0]];
-        rlf_vec3 normal = rlf_normalize(
-            rlf_cross(rlf_sub(hull->vertices[t[1]], a), rlf_sub(hull->vertices[t[2]], a)));
-        if (rlf_dot(normal, normal) > 0.5) { /* a triangle without area bounds nothing */
-            phys_plane plane = {normal, rlf_dot(normal, a)};
+        phys_plane plane = phys_plane_of_triangle(hull, i);
+        if (rlf_dot(plane.normal, plane.normal) > 0.5) { /* one without area bounds nothing */
             s->planes[s->plane_count++] = plane;
             s->inner_radius = rlf_min(s->inner_radius, plane.offset);
         }

@@ -8,6 +8,21 @@ static bool is_size(double value)
     return value > 0.0 && value <= SIZE_MAX_M;
 }
 
+/* The area vectors of a closed surface add up to nothing. */
+static bool is_closed(const rlf_hull *hull)
+{
+    rlf_vec3 sum = {0, 0, 0};
+    double area = 0.0;
+    for (int32_t i = 0; i < hull->triangle_count; i++) {
+        const int32_t *t = hull->triangles + 3 * (ptrdiff_t)i;
+        rlf_vec3 a = hull->vertices[t[0]];
+        rlf_vec3 n = rlf_cross(rlf_sub(hull->vertices[t[1]], a), rlf_sub(hull->vertices[t[2]], a));
+        sum = rlf_add(sum, n);
+        area += rlf_length(n);
+    }
+    return rlf_length(sum) <= 1e-6 * area;
+}
+
 static rlf_result check_hull(const rlf_hull *hull)
 {
     if (hull == NULL || hull->vertices == NULL || hull->triangles == NULL) {
@@ -33,6 +48,11 @@ static rlf_result check_hull(const rlf_hull *hull)
                             "body def: shape.hull.triangles[%d]: index %d of %d vertices", (int)i,
                             (int)hull->triangles[i], (int)hull->vertex_count);
         }
+    }
+    if (!is_closed(hull)) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "body def: shape.hull.triangles: not closed: give all faces, each "
+                        "counter-clockwise seen from outside");
     }
     return RLF_OK;
 }

@@ -10,6 +10,7 @@
 typedef struct phys_plane {
     rlf_vec3 normal;
     double offset;
+    int32_t triangle; /* of the hull */
 } phys_plane;
 
 typedef struct phys_shape {
@@ -23,6 +24,14 @@ typedef struct phys_shape {
     int32_t vertex_count;
 } phys_shape;
 
+/* A vector in the frame that R turns into it: R^T v. */
+static inline rlf_vec3 phys_to_frame(const rlf_mat3 *R, rlf_vec3 v)
+{
+    return rlf_vec3_make(R->m[0][0] * v.x + R->m[1][0] * v.y + R->m[2][0] * v.z,
+                         R->m[0][1] * v.x + R->m[1][1] * v.y + R->m[2][1] * v.z,
+                         R->m[0][2] * v.x + R->m[1][2] * v.y + R->m[2][2] * v.z);
+}
+
 /* RLF_OK or RLF_ERROR_INVALID with a line that names the field. */
 rlf_result phys_shape_check(const rlf_shape *shape);
 
@@ -31,9 +40,11 @@ rlf_result phys_shape_check(const rlf_shape *shape);
 rlf_result phys_shape_init(phys_shape *out, const rlf_shape *shape, rlf_vec3 *points);
 void phys_shape_finish(phys_shape *shape);
 
+/* The plane of a hull's triangle; the zero normal when it has no area. */
+phys_plane phys_plane_of_triangle(const rlf_hull *hull, int32_t triangle);
+
 /* Signed distance of p (body frame) to the surface, negative inside, metres. out_gradient is the
- * unit direction in which it grows. Exact but for a hull outside near an edge, where it is the
- * distance to the farthest face's plane, a lower bound. */
+ * unit direction in which it grows. */
 double phys_shape_distance(const phys_shape *shape, rlf_vec3 p, rlf_vec3 *out_gradient);
 
 /* Up to two core points of a round shape (body frame): the surface point farthest along the unit

@@ -1,0 +1,399 @@
+/* Distance and depth of convex shapes against closed forms and against their definition; what they
+ * make of bodies that cross, are fast, or lie in a heap. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "physics/shape/convex.h"
+#include "physics/shape/shape.h"
+#include "relief/query.h"
+#include "relief/world.h"
+
+#include <math.h>
+#include <string.h>
+
+static uint64_t seed = 7;
+
+static double next(double low, double high)
+{
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    return low + (high - low) * ((double)(seed >> 11) / 9007199254740992.0);
+}
+
+static rlf_vec3 next_vector(double size)
+{
+    rlf_vec3 v = {next(-size, size), next(-size, size), next(-size, size)};
+    return v;
+}
+
+static const rlf_vec3 TIPS[6] = {{0.1, 0, 0},  {-0.1, 0, 0}, {0, 0.1, 0},
+                                 {0, -0.1, 0}, {0, 0, 0.1},  {0, 0, -0.1}};
+static const int32_t TIP_FACES[24] = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4,
+                                      2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
+static const rlf_hull OCTAHEDRON = {TIPS, 6, TIP_FACES, 8};
+
+/* A roof along z whose ridge is at the top, y = -0.06. */
+static const rlf_vec3 ROOF[6] = {{-0.05, 0.03, -0.2}, {0.05, 0.03, -0.2}, {0, -0.06, -0.2},
+                                 {-0.05, 0.03, 0.2},  {0.05, 0.03, 0.2},  {0, -0.06, 0.2}};
+static const int32_t ROOF_FACES[24] = {0, 1, 2, 3, 5, 4, 0, 4, 1, 0, 3, 4,
+                                       1, 5, 2, 1, 4, 5, 2, 3, 0, 2, 5, 3};
+static const rlf_hull PRISM = {ROOF, 6, ROOF_FACES, 8};
+
+typedef enum kind { BOX, BALL, CAPSULE, CYLINDER, TIPPED, RIDGED, KINDS } kind;
+static const char *const NAMES[KINDS] = {"box",      "ball",       "capsule",
+                                         "cylinder", "octahedron", "prism"};
+
+static rlf_shape shape_of(kind k, double scale)
+{
+    static rlf_vec3 vertices[2][6];
+    static rlf_hull hulls[2];
+    rlf_shape shape = {.type = (rlf_shape_type)(k < TIPPED ? (int)k : (int)RLF_SHAPE_HULL)};
+    shape.size = rlf_vec3_make(0.12 * scale, 0.08 * scale, 0.1 * scale);
+    shape.radius = 0.04 * scale;
+    shape.height = 0.1 * scale;
+    if (k >= TIPPED) {
+        const rlf_hull *from = k == TIPPED ? &OCTAHEDRON : &PRISM;
+        rlf_hull *hull = &hulls[k - TIPPED];
+        for (int i = 0; i < 6; i++) {
+            vertices[k - TIPPED][i] = rlf_scale(from->vertices[i], scale);
+        }
+        *hull = *from;
+        hull->vertices = vertices[k - TIPPED];
+        shape.hull = scale == 1.0 ? from : hull;
+    }
+    return shape;
+}
+
+static convex_core core_of(const rlf_shape *shape, rlf_vec3 at)
+{
+    convex_core core = {shape, rlf_quat_to_mat3(rlf_quat_from_rotation_vector(next_vector(3))), at};
+    return core;
+}
+
+/* A segment's nearest point to a shape, by trying many. */
+static double nearest_of_many(const convex_core *segment, const convex_core *other)
+{
+    rlf_vec3 points[PHYS_POINTS_MAX], gradient;
+    phys_shape prepared;
+    assert_int_equal(phys_shape_init(&prepared, other->shape, points), RLF_OK);
+    double best = 1e30;
+    for (int i = 0; i <= 4000; i++) {
+        rlf_vec3 p = rlf_vec3_make(0, segment->shape->height * (i / 4000.0 - 0.5), 0);
+        p = rlf_add(segment->at, rlf_mat3_mul_vec(&segment->R, p));
+        p = phys_to_frame(&other->R, rlf_sub(p, other->at));
+        best = fmin(best, phys_shape_distance(&prepared, p, &gradient));
+    }
+    phys_shape_finish(&prepared);
+    return best;
+}
+
+static void distance_is_that_of_the_nearest_points(void **state)
+{
+    (void)state;
+    const rlf_shape segment = shape_of(CAPSULE, 1);
+    double worst = 0;
+    int apart = 0;
+    for (int i = 0; i < 600; i++) {
+        const rlf_shape other = shape_of((kind)(i % KINDS), 1);
+        if (other.type == RLF_SHAPE_SPHERE || other.type == RLF_SHAPE_CAPSULE) {
+            continue; /* their distance holds the rounding */
+        }
+        convex_core a = core_of(&segment, rlf_vec3_make(0, 0, 0));
+        convex_core b = core_of(&other, next_vector(0.25));
+        convex_gap gap;
+        convex_simplex simplex;
+        double many = nearest_of_many(&a, &b);
+        bool is_apart = convex_distance(&a, &b, 1e9, &gap, &simplex);
+        if (many > 1e-3) {
+            assert_true(is_apart);
+            worst = fmax(worst, fabs(gap.distance - many));
+            assert_true(fabs(rlf_length(rlf_sub(gap.on_a, gap.on_b)) - gap.distance) < 1e-9);
+            apart++;
+        }
+    }
+    print_message("distance: %d pairs apart, at most %.2e m off the nearest of many\n", apart,
+                  worst);
+    assert_true(apart > 150 && worst < 1e-5);
+}
+
+/* How far the difference goes along d: what a must be moved against it to come free. */
+static double depth_along(const convex_core *a, const convex_core *b, rlf_vec3 d)
+{
+    return rlf_dot(convex_difference(a, b, d).p, d);
+}
+
+/* Moved by its depth a shape just touches, and there is no shorter way out. */
+static void depth_is_the_shortest_way_out(void **state)
+{
+    (void)state;
+    double worst = 0;
+    int deep = 0;
+    for (int i = 0; i < 1200; i++) {
+        const rlf_shape one = shape_of((kind)(i % KINDS), 1),
+                        two = shape_of((kind)(i / 7 % 6), 1.01);
+        if (one.type == RLF_SHAPE_SPHERE || one.type == RLF_SHAPE_CAPSULE) {
+            continue; /* cores without volume */
+        }
+        convex_core a = core_of(&one, rlf_vec3_make(0, 0, 0)), b = core_of(&two, next_vector(0.06));
+        convex_gap gap;
+        convex_simplex simplex;
+        if (convex_distance(&a, &b, 1e9, &gap, &simplex)) {
+            continue;
+        }
+        assert_true(convex_depth(&a, &b, &simplex, &gap));
+        assert_true(gap.distance <= 0 && fabs(rlf_length(gap.normal) - 1) < 1e-12);
+        double along = depth_along(&a, &b, rlf_neg(gap.normal));
+        worst = fmax(worst, fabs(along + gap.distance));
+        for (int k = 0; k < 60; k++) {
+            rlf_vec3 d = rlf_normalize(rlf_add(rlf_neg(gap.normal), next_vector(k < 30 ? 0.1 : 2)));
+            assert_true(depth_along(&a, &b, d) > -gap.distance * 0.998 - 2e-7);
+        }
+        double off = rlf_dot(gap.normal, rlf_sub(gap.on_a, gap.on_b)) - gap.distance;
+        assert_true(fabs(off) < 1e-9);
+        deep++;
+    }
+    print_message("depth: %d pairs, at most %.2e m short of the way out\n", deep, worst);
+    assert_true(deep > 300 && worst < 2e-4);
+}
+
+/* Beyond a hull's tip and edge the nearest point is the tip, or on the edge. */
+static void distance_to_a_hull_is_exact(void **state)
+{
+    (void)state;
+    const rlf_shape shape = shape_of(TIPPED, 1);
+    rlf_vec3 gradient;
+    double d = rlf_shape_distance(&shape, rlf_vec3_make(0.3, 0, 0), &gradient);
+    assert_true(fabs(d - 0.2) < 1e-12 && fabs(gradient.x - 1) < 1e-12);
+    d = rlf_shape_distance(&shape, rlf_vec3_make(0.25, 0.25, 0), &gradient);
+    assert_true(fabs(d - 0.2 * sqrt(2)) < 1e-12 && fabs(gradient.x - sqrt(0.5)) < 1e-12);
+    d = rlf_shape_distance(&shape, rlf_vec3_make(0.1, 0.1, 0.1), &gradient);
+    assert_true(fabs(d - 0.2 / sqrt(3)) < 1e-12);
+    d = rlf_shape_distance(&shape, rlf_vec3_make(0.01, 0.01, 0.01), &gradient);
+    assert_true(fabs(d + 0.07 / sqrt(3)) < 1e-12);
+}
+
+static rlf_world *make_world(double gravity)
+{
+    rlf_world_def def = rlf_world_def_default();
+    def.gravity = rlf_vec3_make(0, gravity, 0);
+    def.body_capacity = 64;
+    rlf_world *world = NULL;
+    assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
+    return world;
+}
+
+static void add(rlf_world *world, const rlf_body_def *def)
+{
+    assert_int_equal(rlf_world_add_body(world, def, NULL), RLF_OK);
+}
+
+static const rlf_body_state *body(const rlf_world *world, int i)
+{
+    return &rlf_world_get_snapshot(world)->bodies[i];
+}
+
+static rlf_body_def body_of(kind k)
+{
+    rlf_body_def def = rlf_body_def_default();
+    def.shape = shape_of(k, 1);
+    return def;
+}
+
+/* One lies across another that is fixed, edge over edge: neither's corners are near the other. */
+static void across(kind below, rlf_vec3 turn_below, kind above, rlf_vec3 turn_above, double height)
+{
+    rlf_world *world = make_world(9.81);
+    rlf_body_def def = body_of(below);
+    def.is_kinematic = true;
+    def.position = rlf_vec3_make(0, 0, 1);
+    def.orientation = rlf_quat_from_rotation_vector(turn_below);
+    def.shape.height = 0.4;
+    add(world, &def);
+    def = body_of(above);
+    def.position = rlf_vec3_make(0, -height - 0.02, 1);
+    def.orientation = rlf_quat_from_rotation_vector(turn_above);
+    def.shape.height = 0.4;
+    def.shape.size = rlf_vec3_make(0.3, 0.08, 0.08);
+    def.restitution = 0;
+    add(world, &def);
+    for (int k = 0; k < 15; k++) {
+        rlf_world_advance(world, NULL, 1.0 / 30);
+    }
+    double off = -body(world, 1)->T_world_body.p.y - height;
+    print_message("%s across %s: %.2f mm off\n", NAMES[above], NAMES[below], 1e3 * off);
+    assert_true(fabs(off) < 1.5e-3);
+    rlf_world_destroy(&world);
+}
+
+static void edges_meet_edges(void **state)
+{
+    (void)state;
+    const double QUARTER = 0.5 * RLF_PI;
+    const rlf_vec3 none = {0, 0, 0}, along_z = {QUARTER, 0, 0}, along_x = {0, 0, QUARTER};
+    rlf_vec3 over = {0, 0, RLF_PI}; /* the ridge looks down; a quarter turn about y crosses it */
+    rlf_quat q = rlf_quat_mul(rlf_quat_from_rotation_vector(rlf_vec3_make(0, QUARTER, 0)),
+                              rlf_quat_from_rotation_vector(over));
+    double angle = 2 * rlf_acos(q.w), s = sqrt(1 - q.w * q.w);
+    over = rlf_scale(rlf_vec3_make(q.x, q.y, q.z), angle / s);
+    across(RIDGED, none, RIDGED, over, 0.12);
+    across(CYLINDER, along_z, CYLINDER, along_x, 0.08);
+    across(RIDGED, none, CYLINDER, along_x, 0.1);
+    across(RIDGED, none, CAPSULE, along_x, 0.1);
+    across(CYLINDER, along_z, CAPSULE, along_x, 0.08);
+    across(RIDGED, none, BOX, rlf_vec3_make(QUARTER / 2, 0, 0), 0.06 + 0.08 / sqrt(2));
+}
+
+static bool has_blow(const rlf_world *world)
+{
+    const rlf_snapshot *s = rlf_world_get_snapshot(world);
+    for (int32_t i = 0; i < s->contact_count; i++) {
+        if (s->contacts[i].impulse > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* How many of 16 small ones thrown at a thin plate, a pole or a tip come out behind it; beside a
+ * tip they may, but not without a blow. */
+static int count_through(kind thrown, kind target, double speed)
+{
+    int through = 0;
+    for (int i = 0; i < 16; i++) {
+        rlf_world *world = make_world(0);
+        rlf_body_def def = body_of(target);
+        def.is_kinematic = true;
+        def.position = rlf_vec3_make(0, 0, 1);
+        def.shape.size = rlf_vec3_make(0.005, 1, 1);
+        def.shape.height = 1;
+        add(world, &def);
+        def = body_of(thrown);
+        def.shape = shape_of(thrown, 0.2);
+        def.position = rlf_vec3_make(-0.8 - 0.013 * i, 0.0007 * (i % 5), 1 + 0.0005 * (i % 7));
+        def.velocity = rlf_vec3_make(speed, 0, 0);
+        add(world, &def);
+        bool was_hit = false;
+        for (int k = 0; k < (int)(48 / speed) + 2; k++) {
+            rlf_world_advance(world, NULL, 1.0 / 30);
+            was_hit = was_hit || has_blow(world);
+        }
+        bool is_past =
+            rlf_world_get_snapshot(world)->body_count < 2 || body(world, 1)->T_world_body.p.x > 0;
+        through += !was_hit || (is_past && target != TIPPED);
+        rlf_world_destroy(&world);
+    }
+    return through;
+}
+
+static void nothing_passes_however_fast(void **state)
+{
+    (void)state;
+    const kind targets[3] = {BOX, CYLINDER, TIPPED};
+    const double speeds[4] = {2, 10, 25, 50};
+    for (int k = 0; k < KINDS; k++) {
+        for (int t = 0; t < 3; t++) {
+            for (int s = 0; s < 4; s++) {
+                int through = count_through((kind)k, targets[t], speeds[s]);
+                if (through > 0) {
+                    print_message("%s at %s, %g m/s: %d of 16\n", NAMES[k], NAMES[targets[t]],
+                                  speeds[s], through);
+                }
+                assert_int_equal(through, 0);
+            }
+        }
+    }
+}
+
+static void add_walls(rlf_world *world)
+{
+    const double places[5][3] = {
+        {0, 0.55, 1}, {-0.35, 0, 1}, {0.35, 0, 1}, {0, 0, 0.65}, {0, 0, 1.35}};
+    for (int i = 0; i < 5; i++) {
+        rlf_body_def def = body_of(BOX);
+        def.is_kinematic = true;
+        def.shape.size =
+            rlf_vec3_make(i == 1 || i == 2 ? 0.1 : 1, i == 0 ? 0.1 : 2, i == 3 || i == 4 ? 0.1 : 1);
+        def.position = rlf_vec3_make(places[i][0], places[i][1], places[i][2]);
+        add(world, &def);
+    }
+}
+
+/* Pairs of bodies that overlap even when both are made smaller. */
+static int count_overlaps(const rlf_world *world, const int *kinds, int first, double scale)
+{
+    const rlf_snapshot *s = rlf_world_get_snapshot(world);
+    int overlaps = 0;
+    for (int i = first; i < s->body_count; i++) {
+        for (int k = i + 1; k < s->body_count; k++) {
+            rlf_shape a = shape_of((kind)kinds[i], scale), b = shape_of((kind)kinds[k], scale);
+            overlaps += rlf_shapes_overlap(&a, &s->bodies[i].T_world_body, &b,
+                                           &s->bodies[k].T_world_body) == RLF_QUERY_HIT;
+        }
+    }
+    return overlaps;
+}
+
+/* A heap of any shapes comes to rest, nothing in anything else. */
+static void heaps_come_to_rest(void **state)
+{
+    (void)state;
+    for (int which = 0; which <= KINDS; which++) {
+        rlf_world *world = make_world(9.81);
+        int kinds[64] = {0};
+        add_walls(world);
+        for (int i = 0; i < 24; i++) {
+            kind k = (kind)(which < KINDS ? which : i % KINDS);
+            rlf_body_def def = body_of(k);
+            def.position = rlf_vec3_make(0.2 * (i % 3 - 1) + next(-0.01, 0.01),
+                                         0.3 - 0.3 * (i / 6) + next(-0.01, 0.01),
+                                         0.9 + 0.2 * (i / 3 % 2) + next(-0.01, 0.01));
+            def.orientation = rlf_quat_from_rotation_vector(next_vector(2));
+            def.restitution = 0.2;
+            def.rolling_resistance = 0.05;
+            kinds[5 + i] = k;
+            add(world, &def);
+        }
+        int awake = 0;
+        for (int k = 0; k < 240; k++) {
+            rlf_world_advance(world, NULL, 1.0 / 30);
+        }
+        assert_int_equal(rlf_world_get_snapshot(world)->body_count, 29);
+        for (int i = 5; i < 29; i++) {
+            awake += !body(world, i)->is_asleep;
+        }
+        int overlaps = count_overlaps(world, kinds, 5, 0.97);
+        print_message("heap of %s: %d overlap, %d awake\n", which < KINDS ? NAMES[which] : "all",
+                      overlaps, awake);
+        assert_int_equal(overlaps, 0);
+        assert_int_equal(awake, 0);
+        rlf_world_destroy(&world);
+    }
+}
+
+static void open_hulls_are_refused(void **state)
+{
+    (void)state;
+    rlf_world *world = make_world(0);
+    rlf_body_def def = body_of(TIPPED);
+    const rlf_hull half = {TIPS, 6, TIP_FACES, 4};
+    def.shape.hull = &half;
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_ERROR_INVALID);
+    assert_non_null(strstr(rlf_error_text(), "not closed"));
+    rlf_world_destroy(&world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(distance_is_that_of_the_nearest_points),
+        cmocka_unit_test(depth_is_the_shortest_way_out),
+        cmocka_unit_test(distance_to_a_hull_is_exact),
+        cmocka_unit_test(edges_meet_edges),
+        cmocka_unit_test(nothing_passes_however_fast),
+        cmocka_unit_test(heaps_come_to_rest),
+        cmocka_unit_test(open_hulls_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
