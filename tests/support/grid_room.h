@@ -12,12 +12,14 @@
 #define GRID_ROOM_WALL 4
 
 static grid_fixture *grid_room;
+static double grid_room_down; /* y of the way down, of length 1 */
 
 /* Of its solid only the front is seen: 15 cm are guessed. */
 static inline void grid_room_create(void)
 {
     grid_plane planes[2] = {grid_floor(GRID_ROOM_FLOOR), grid_wall(GRID_ROOM_WALL)};
     grid_room = grid_fixture_create();
+    grid_room_down = 1.0;
     grid_fixture_set_room(grid_room, planes, 2);
     grid_room->grid.background.default_thickness = 0.15;
 }
@@ -45,6 +47,23 @@ static inline void grid_room_paint(int32_t i, double z, rlf_vec3 n)
     grid_room->planes[5][i] = (float)n.z;
 }
 
+/* Turns the camera upside down: the room is now its image in the plane y = 0. */
+static inline void grid_room_turn_over(void)
+{
+    grid_room_down = -1.0;
+    for (int32_t i = 0; i < GRID_W * GRID_H / 2; i++) {
+        int32_t other = (GRID_H - 1 - i / GRID_W) * GRID_W + i % GRID_W;
+        for (int32_t plane = 2; plane < 6; plane++) {
+            float value = grid_room->planes[plane][i];
+            grid_room->planes[plane][i] = grid_room->planes[plane][other];
+            grid_room->planes[plane][other] = value;
+        }
+    }
+    for (int32_t i = 0; i < GRID_W * GRID_H; i++) {
+        grid_room->planes[4][i] = -grid_room->planes[4][i];
+    }
+}
+
 /* What became of a body. */
 typedef struct grid_room_way {
     bool is_there;     /* false: it left the world */
@@ -59,6 +78,7 @@ static inline grid_room_way grid_room_run(rlf_border border, const rlf_body_def 
     rlf_world_def world_def = rlf_world_def_default();
     world_def.border = border;
     world_def.body_capacity = 1;
+    world_def.gravity.y *= grid_room_down;
     rlf_world *world = NULL;
     assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
     assert_int_equal(rlf_world_add_body(world, def, NULL), RLF_OK);

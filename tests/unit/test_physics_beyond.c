@@ -32,13 +32,13 @@ static double slide(rlf_shape_type type, double z)
     rlf_body_def def = rlf_body_def_default();
     def.shape = (rlf_shape){.type = type, .radius = RADIUS};
     def.shape.size = rlf_vec3_make(2 * RADIUS, 2 * RADIUS, 2 * RADIUS);
-    def.position = rlf_vec3_make(START, GRID_ROOM_FLOOR - RADIUS - 0.002, z);
+    def.position = rlf_vec3_make(START, grid_room_down * (GRID_ROOM_FLOOR - RADIUS - 0.002), z);
     def.velocity = rlf_vec3_make(1.5, 0, 0);
     def.friction = 0.0;
     def.restitution = 0.0;
     assert_false(grid_fixture_project(NULL, def.position, &u, &v));
     const grid_room_way way = grid_room_run(RLF_BORDER_EXTEND, &def, 15);
-    assert_true(way.is_there && way.p.y < GRID_ROOM_FLOOR);
+    assert_true(way.is_there && grid_room_down * way.p.y < GRID_ROOM_FLOOR);
     return way.p.x;
 }
 
@@ -65,6 +65,23 @@ static void what_hangs_does_not(void **state)
 {
     (void)state;
     paint(GRID_H - 8);
+    assert_true(slide(RLF_SHAPE_SPHERE, LEG_Z + 0.02) > 0.3);
+    assert_true(slide(RLF_SHAPE_BOX, LEG_Z + 0.02) > 0.3);
+    grid_room_destroy(NULL);
+}
+
+/* What is down decides, and not which of the picture's borders is the lower one. */
+static void a_camera_may_hang_upside_down(void **state)
+{
+    (void)state;
+    paint(GRID_H);
+    grid_room_turn_over();
+    assert_true(slide(RLF_SHAPE_SPHERE, LEG_Z + 0.02) < -LEG_SIDE - RADIUS + 0.01);
+    assert_true(slide(RLF_SHAPE_BOX, LEG_Z + 0.02) < -LEG_SIDE - RADIUS + 0.01);
+    assert_true(slide(RLF_SHAPE_BOX, LEG_Z - 0.1) > 0.3);
+    grid_room_destroy(NULL);
+    paint(GRID_H - 8);
+    grid_room_turn_over();
     assert_true(slide(RLF_SHAPE_SPHERE, LEG_Z + 0.02) > 0.3);
     assert_true(slide(RLF_SHAPE_BOX, LEG_Z + 0.02) > 0.3);
     grid_room_destroy(NULL);
@@ -140,6 +157,7 @@ int main(void)
         cmocka_unit_test(leg_goes_on_below_the_picture),
         cmocka_unit_test(air_before_it_is_free),
         cmocka_unit_test(what_hangs_does_not),
+        cmocka_unit_test(a_camera_may_hang_upside_down),
         cmocka_unit_test(a_front_goes_on_beyond_the_picture),
         cmocka_unit_test(what_ends_before_the_border_does_not),
     };

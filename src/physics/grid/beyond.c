@@ -38,15 +38,23 @@ static double length_to_view(const grid_query *query, rlf_vec3 q, rlf_vec3 way)
     return 0.0;
 }
 
+/* Along the axis of the image on which q comes in: a camera may be rolled, or upside down. */
+static void set_inwards(grid_shift *shift, rlf_vec3 q)
+{
+    double x = shift->way.x - shift->way.z * (q.x / q.z);
+    double y = shift->way.y - shift->way.z * (q.y / q.z);
+    bool is_row = x * x > y * y;
+    shift->dx = !is_row ? 0 : x > 0.0 ? 1 : -1;
+    shift->dy = is_row ? 0 : y > 0.0 ? 1 : -1;
+}
+
 static grid_shift find_shift(const grid_query *query, rlf_vec3 q, double radius)
 {
-    const grid_shift shifts[4] = {{query->up, 0.0, 0, -1},
-                                  {{1, 0, 0}, 0.0, 1, 0},
-                                  {{-1, 0, 0}, 0.0, -1, 0},
-                                  {rlf_neg(query->up), 0.0, 0, 1}};
+    const rlf_vec3 ways[4] = {query->up, {1, 0, 0}, {-1, 0, 0}, rlf_neg(query->up)};
     for (int k = 0; k < 4; k++) {
-        grid_shift shift = shifts[k];
+        grid_shift shift = {.way = ways[k]};
         bool is_way = rlf_dot(shift.way, shift.way) > 0.0;
+        set_inwards(&shift, q);
         shift.length = is_way ? length_to_view(query, q, shift.way) : 0.0;
         if (shift.length > 0.0) {
             shift.length += radius;
