@@ -21,7 +21,7 @@ typedef struct phys_contact {
     rlf_vec3 surface_velocity; /* world, m/s; 0 between bodies */
     double surface_time;       /* world time of anchor_b, s */
     double approach;           /* ... the highest speed at which they met, m/s, 0 = they rest, */
-    rlf_vec3 met;              /* ... and where that was, world */
+    rlf_vec3 met, met_normal;  /* ... and where that was, and its normal then, world */
     rlf_contact_other other;
     int32_t a, b;  /* body indices; b < 0: the surface */
     int32_t label; /* region label of the surface, 0 else */

@@ -58,8 +58,7 @@ const rlf_snapshot *rlf_world_get_snapshot(const rlf_world *world)
     return RLF_ASSERT(world != NULL) ? &world->snapshot : NULL;
 }
 
-void phys_log_impulse(rlf_world *world, phys_contact *contact, rlf_vec3 point, double impulse,
-                      double approach)
+void phys_log_impulse(rlf_world *world, phys_contact *contact)
 {
     bool is_new = contact->log < world->log_begin;
     if (is_new) {
@@ -79,12 +78,12 @@ void phys_log_impulse(rlf_world *world, phys_contact *contact, rlf_vec3 point, d
     }
     entry->region_label = contact->label;
     entry->separation = contact->separation;
-    entry->impulse += impulse;
-    if (approach >= entry->approach_speed) {
-        entry->point = point;
-        entry->normal = contact->normal;
-        entry->surface_speed = rlf_dot(contact->surface_velocity, contact->normal);
-        entry->approach_speed = approach;
+    entry->impulse += contact->impulse_sum;
+    if (is_new || contact->approach >= entry->approach_speed) {
+        entry->point = contact->met;
+        entry->normal = contact->met_normal;
+        entry->surface_speed = rlf_dot(contact->surface_velocity, contact->met_normal);
+        entry->approach_speed = contact->approach;
     }
 }
 
@@ -93,10 +92,12 @@ void phys_log_contacts(rlf_world *world, phys_contact *contacts, int32_t count)
     for (int32_t i = 0; i < count; i++) {
         phys_contact *contact = &contacts[i];
         if (contact->impulse_sum > 0.0) {
-            const phys_body *body = &world->bodies[contact->a];
-            rlf_vec3 now = rlf_add(body->x, phys_contact_arm(contact, body));
-            phys_log_impulse(world, contact, contact->approach > 0.0 ? contact->met : now,
-                             contact->impulse_sum, contact->approach);
+            if (!(contact->approach > 0.0)) { /* it rests: where it is now */
+                const phys_body *body = &world->bodies[contact->a];
+                contact->met = rlf_add(body->x, phys_contact_arm(contact, body));
+                contact->met_normal = contact->normal;
+            }
+            phys_log_impulse(world, contact);
             contact->impulse_sum = contact->approach = 0.0;
         }
     }

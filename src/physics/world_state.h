@@ -189,9 +189,8 @@ int32_t phys_find_body(const rlf_world *world, rlf_body_id id);
 /* Ends a body's sleep. */
 void phys_body_wake(phys_body *body);
 
-/* Adds `impulse` at `contact`, which is at `point` now, to the frame's contact list. */
-void phys_log_impulse(rlf_world *world, phys_contact *contact, rlf_vec3 point, double impulse,
-                      double approach);
+/* Adds the contact's impulse to the frame's contact list, with where it met. */
+void phys_log_impulse(rlf_world *world, phys_contact *contact);
 
 /* Moves the impulses that contacts have gathered to the list. */
 void phys_log_contacts(rlf_world *world, phys_contact *contacts, int32_t count);

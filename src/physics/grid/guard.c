@@ -30,6 +30,7 @@ static void note_blow(phys_body *body, int32_t body_index, const guard_wall *wal
     if (approach > c->approach) {
         c->approach = approach;
         c->met = rlf_mad(body->x, wall->normal, -body->shape.inner_radius);
+        c->met_normal = wall->normal;
     }
 }
 

@@ -241,6 +241,7 @@ static void note_blow(const impact_point *p, const phys_group *g, const phys_sid
     if (p->approach > c->approach) {
         c->approach = p->approach;
         c->met = place_at(p->near, g, before, t);
+        c->met_normal = p->near->normal;
     }
 }
 

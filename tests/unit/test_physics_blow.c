@@ -1,0 +1,79 @@
+/* How blows are told: where two things met and which way, not where they are when it is told. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "relief/world.h"
+
+#include <math.h>
+
+/* The hardest contact of the frame; of speed 0 where there is none. */
+static rlf_contact hardest(const rlf_world *world)
+{
+    const rlf_snapshot *s = rlf_world_get_snapshot(world);
+    rlf_contact best = {.approach_speed = 0.0};
+    for (int32_t i = 0; i < s->contact_count; i++) {
+        if (s->contacts[i].approach_speed > best.approach_speed) {
+            best = s->contacts[i];
+        }
+    }
+    return best;
+}
+
+/* The blow of a box's side, which turns as it comes, on the edge of a box that stays. */
+static rlf_contact blow_on_edge(double gap, double step)
+{
+    const double HALF_DIAGONAL = 0.1 * sqrt(2.0);
+    rlf_world_def world_def = rlf_world_def_default();
+    world_def.body_capacity = 2;
+    world_def.gravity = rlf_vec3_make(0, 0, 0);
+    rlf_world *world = NULL;
+    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+    rlf_body_def edge = rlf_body_def_default();
+    edge.is_kinematic = true;
+    edge.shape.size = rlf_vec3_make(0.2, 0.2, 0.2);
+    edge.position = rlf_vec3_make(0, 0, 2);
+    edge.orientation = rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), RLF_PI / 4);
+    assert_int_equal(rlf_world_add_body(world, &edge, NULL), RLF_OK);
+    rlf_body_def def = rlf_body_def_default();
+    def.shape.size = rlf_vec3_make(0.2, 0.2, 0.1);
+    def.restitution = 1.0;
+    def.friction = 0.0;
+    def.position = rlf_vec3_make(0.03, 0, 2 - HALF_DIAGONAL - 0.05 - gap);
+    def.velocity = rlf_vec3_make(0, 0, 1);
+    def.angular_velocity = rlf_vec3_make(0, 3, 0);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    rlf_contact blow = {.approach_speed = 0.0};
+    for (double t = 0.0; t < 0.3 && !(blow.approach_speed > 0.0); t += step) {
+        rlf_world_advance(world, NULL, step);
+        blow = hardest(world);
+    }
+    rlf_world_destroy(&world);
+    return blow;
+}
+
+/* However many substeps an advance has left after it. */
+static void a_normal_is_that_of_the_blow(void **state)
+{
+    (void)state;
+    double most = 0.0;
+    for (int k = 0; k < 8; k++) {
+        double gap = 0.004 + 0.004 * k;
+        rlf_contact often = blow_on_edge(gap, 1.0 / 240), seldom = blow_on_edge(gap, 1.0 / 30);
+        assert_true(often.approach_speed > 0.5 && seldom.approach_speed > 0.5);
+        double turn = asin(rlf_length(rlf_cross(often.normal, seldom.normal))) * 180 / RLF_PI;
+        most = rlf_max(most, turn);
+    }
+    print_message("normals of the same blow: %.3f deg apart\n", most);
+    assert_true(most < 0.1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_normal_is_that_of_the_blow),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
