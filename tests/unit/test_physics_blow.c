@@ -5,7 +5,9 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "relief/world.h"
+#include "physics/grid/guard.h"
+
+#include "grid_room.h"
 
 #include <math.h>
 
@@ -70,10 +72,40 @@ static void a_normal_is_that_of_the_blow(void **state)
     assert_true(most < 0.1);
 }
 
+/* A body whose centre is stopped at the wall is back where it was; the blow was on its way. */
+static void a_stopped_centre_met_the_wall(void **state)
+{
+    (void)state;
+    grid_query query = {.grid = &grid_room->grid, .T_grid_world = rlf_pose_identity()};
+    query.step = 1.0 / 240;
+    phys_contact contacts[PHYS_SURFACE_CONTACTS];
+    phys_body body = {.restitution = 0.5, .inverse_mass = 1.0, .surface = contacts};
+    body.shape.inner_radius = 0.02;
+    body.v = rlf_vec3_make(3, 1, 30);
+    const rlf_vec3 before = rlf_vec3_make(0, 0, GRID_ROOM_WALL - 0.1);
+    body.x = rlf_mad(before, body.v, query.step);
+    grid_guard_centre(&query, &body, 0, before);
+    assert_int_equal(body.surface_count, 1);
+    rlf_vec3 met = rlf_mad(before, rlf_vec3_make(3, 1, 30), 0.1 / 30);
+    print_message("stopped %.4f m from the wall, met it %.4f m off\n", GRID_ROOM_WALL - body.x.z,
+                  rlf_length(rlf_sub(body.surface[0].met, met)));
+    assert_true(fabs(body.surface[0].met.z - GRID_ROOM_WALL) < 1e-6);
+    assert_true(rlf_length(rlf_sub(body.surface[0].met, met)) < GRID_ROOM_WALL / GRID_F);
+    assert_true(body.surface[0].met_normal.z < -0.999);
+}
+
+static int set_up(void **state)
+{
+    (void)state;
+    grid_room_create();
+    return 0;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_normal_is_that_of_the_blow),
+        cmocka_unit_test(a_stopped_centre_met_the_wall),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, set_up, grid_room_destroy);
 }

@@ -10,7 +10,7 @@ typedef struct guard_wall {
     int32_t label;
 } guard_wall;
 
-/* Adds the blow to the body's contacts: at the point of its inmost ball. */
+/* Adds the blow to the body's contacts. */
 static void note_blow(phys_body *body, int32_t body_index, const guard_wall *wall, double impulse,
                       double approach, double time)
 {
@@ -29,7 +29,7 @@ static void note_blow(phys_body *body, int32_t body_index, const guard_wall *wal
     c->impulse_sum += impulse;
     if (approach > c->approach) {
         c->approach = approach;
-        c->met = rlf_mad(body->x, wall->normal, -body->shape.inner_radius);
+        c->met = wall->point; /* the body is back where it was before */
         c->met_normal = wall->normal;
     }
 }
