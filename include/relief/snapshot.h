@@ -92,10 +92,10 @@ typedef struct rlf_contact {
     int32_t region_label;   /* of the surface; 0 when other is a body or no region */
     rlf_vec3 point;         /* world, metres: where they met, or, of what rests, touch at the end */
     rlf_vec3 normal;        /* the same; unit, from the surface (or other body) to `body` */
-    double separation;      /* metres, negative when they overlap */
+    double separation;      /* metres, of the frame's last substep; negative when they overlap */
     double impulse;         /* N s along the normal during this frame, >= 0 */
-    double surface_speed;   /* m/s of the surface along the normal, towards the body > 0 */
-    double approach_speed;  /* m/s at which they met, > 0 */
+    double surface_speed;   /* m/s of the surface along the normal as they met, to the body > 0 */
+    double approach_speed;  /* m/s at which they met; 0 of what rests */
 } rlf_contact;
 
 /* Two things began or stopped touching. A body that falls asleep goes on touching what it lies on.

@@ -46,7 +46,7 @@ RLF_KERNEL_PART void phys_fetch_weight(const phys_body *body)
     PHYS_FETCH_PART(body, inverse_inertia_world, shape.shape);
 }
 
-/* What a substep reads of a body. */
+/* All of the above and what it touches with: what a search for its contacts reads. */
 RLF_KERNEL_PART void phys_fetch_body(const phys_body *body)
 {
     PHYS_FETCH_PART(body, v, release_time);
