@@ -57,13 +57,11 @@ static bool height_at(const grid_patch *p, const patch_mean *mean, rlf_vec3 q, d
     const rlf_grid_sheet *sheet = p->job->sheet;
     double tau = p->job->query->tau + rlf_max(0.0, p->time);
     rlf_vec3 seen = rlf_mad(q, mean->velocity, -tau); /* as the pixels show it */
-    double u, v;
-    if (!(seen.z > 0.0) || !grid->project(grid->project_context, seen, &u, &v) || !(u > -0.5) ||
-        !(v > -0.5) || !(u < grid->width - 0.5) || !(v < grid->height - 0.5)) {
+    int32_t x, y;
+    field_cell cell;
+    if (!grid_pixel_of(grid, seen, &x, &y)) {
         return false;
     }
-    int32_t x = (int32_t)(u + 0.5), y = (int32_t)(v + 0.5);
-    field_cell cell;
     if (sheet->mask != NULL && sheet->mask[y * grid->width + x] == 0) {
         *out = -1.0; /* free */
         *normal = mean->normal;

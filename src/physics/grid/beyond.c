@@ -8,29 +8,18 @@
 
 static const grid_shift no_shift = {{0, 0, 0}, 0.0, 0, 0};
 
-static bool pixel_of(const rlf_grid *grid, rlf_vec3 q, int32_t *x, int32_t *y)
-{
-    double u, v;
-    if (!(q.z > 0.0) || !grid->project(grid->project_context, q, &u, &v)) {
-        return false;
-    }
-    *x = (int32_t)(u + 0.5);
-    *y = (int32_t)(v + 0.5);
-    return true;
-}
-
 /* The shortest shift along a way that takes q to where something is in view; 0: none does. */
 static double length_to_view(const grid_query *query, rlf_vec3 q, rlf_vec3 way)
 {
     const rlf_grid *grid = query->grid;
     int32_t x, y;
-    if (!pixel_of(grid, rlf_mad(q, way, FARTHEST), &x, &y)) {
+    if (!grid_pixel_of(grid, rlf_mad(q, way, FARTHEST), &x, &y)) {
         return 0.0;
     }
     double pixel = rlf_max(q.z * grid->pixel_angle, 0.002);
     for (double length = pixel; length < FARTHEST; length += pixel) {
         field_cell cell;
-        if (pixel_of(grid, rlf_mad(q, way, length), &x, &y) &&
+        if (grid_pixel_of(grid, rlf_mad(q, way, length), &x, &y) &&
             grid_cell_read(grid, &grid->background, x, y, &cell)) {
             return length;
         }
@@ -67,7 +56,7 @@ static grid_shift find_shift(const grid_query *query, rlf_vec3 q, double radius)
 grid_shift grid_beyond_shift(const grid_query *query, rlf_vec3 q, double radius)
 {
     int32_t x, y;
-    if (query->shell == NULL || !(q.z > 0.0) || pixel_of(query->grid, q, &x, &y)) {
+    if (query->shell == NULL || !(q.z > 0.0) || grid_pixel_of(query->grid, q, &x, &y)) {
         return no_shift;
     }
     return find_shift(query, q, radius);
@@ -102,7 +91,7 @@ bool grid_beyond_goes_on(const grid_query *query, const grid_shift *shift, const
 {
     const rlf_grid *grid = query->grid;
     int32_t x, y;
-    if (!is_along(shift, hit->normal) || !pixel_of(grid, hit->point, &x, &y)) {
+    if (!is_along(shift, hit->normal) || !grid_pixel_of(grid, hit->point, &x, &y)) {
         return false;
     }
     for (int32_t k = -BESIDE_PX; k <= BESIDE_PX; k++) {

@@ -81,7 +81,7 @@ static bool read_bridged(const rlf_grid *grid, const rlf_grid_sheet *sheet, int3
     return false;
 }
 
-static bool pixel_of(const rlf_grid *grid, rlf_vec3 q, int32_t *x, int32_t *y)
+bool grid_pixel_of(const rlf_grid *grid, rlf_vec3 q, int32_t *x, int32_t *y)
 {
     double u, v;
     if (!(q.z > 0.0) || !grid->project(grid->project_context, q, &u, &v) || !(u > -0.5) ||
@@ -108,7 +108,7 @@ static double plane_depth(const field_cell *cell, rlf_vec3 q)
 bool grid_field_is_open(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q)
 {
     int32_t x, y;
-    if (!pixel_of(grid, q, &x, &y) || is_masked_out(grid, sheet, x, y)) {
+    if (!grid_pixel_of(grid, q, &x, &y) || is_masked_out(grid, sheet, x, y)) {
         return false;
     }
     double z = sheet->depth[y * grid->width + x];
@@ -119,7 +119,7 @@ bool grid_field_is_seen_through(const rlf_grid *grid, const rlf_grid_sheet *shee
 {
     int32_t x, y;
     field_cell cell;
-    return pixel_of(grid, q, &x, &y) && grid_cell_read(grid, sheet, x, y, &cell) &&
+    return grid_pixel_of(grid, q, &x, &y) && grid_cell_read(grid, sheet, x, y, &cell) &&
            plane_depth(&cell, q) > q.z + SEEN_BEHIND;
 }
 
@@ -127,7 +127,7 @@ bool grid_field_is_well_before(const rlf_grid *grid, const rlf_grid_sheet *sheet
                                double height)
 {
     int32_t x, y;
-    if (!pixel_of(grid, q, &x, &y)) {
+    if (!grid_pixel_of(grid, q, &x, &y)) {
         return false;
     }
     int32_t i = y * grid->width + x;
@@ -154,7 +154,7 @@ static inline field_state state_at(const rlf_grid *grid, const rlf_grid_sheet *s
                                    bool is_whole, field_cell *out)
 {
     int32_t x, y;
-    if (!pixel_of(grid, q, &x, &y) || !read_bridged(grid, sheet, x, y, out)) {
+    if (!grid_pixel_of(grid, q, &x, &y) || !read_bridged(grid, sheet, x, y, out)) {
         return FIELD_NONE;
     }
     double front = plane_depth(out, q);

@@ -30,6 +30,9 @@ typedef struct field_cell {
     double back;      /* z of the back on the query's ray */
 } field_cell;
 
+/* The pixel on q's ray; false when q is out of view. */
+bool grid_pixel_of(const rlf_grid *grid, rlf_vec3 q, int32_t *x, int32_t *y);
+
 /* Reads pixel (x, y); false when the sheet has no surface there. */
 bool grid_cell_read(const rlf_grid *grid, const rlf_grid_sheet *sheet, int32_t x, int32_t y,
                     field_cell *out);

@@ -199,10 +199,11 @@ bool grid_level_find(const grid_levels *levels, const rlf_grid *grid, rlf_vec3 q
 {
     for (int32_t i = 0; i < levels->face_count; i++) {
         const shell_plane *plane = &levels->faces[i].plane;
-        double u, v, height = height_over(plane, q);
+        double height = height_over(plane, q);
+        int32_t x, y;
         if (height < reach && height > -OFF &&
-            grid->project(grid->project_context, rlf_mad(q, plane->normal, -height), &u, &v) &&
-            is_in_strip(levels, i, (int32_t)(u + 0.5), (int32_t)(v + 0.5))) {
+            grid_pixel_of(grid, rlf_mad(q, plane->normal, -height), &x, &y) &&
+            is_in_strip(levels, i, x, y)) {
             *out = *plane;
             return true;
         }

@@ -35,12 +35,11 @@ bool grid_upright_find(const rlf_grid *grid, rlf_vec3 q, rlf_vec3 up, double rea
     for (double above = 0.0; above < HIGHEST && tries < TRIES; above += pixel) {
         field_cell cell;
         rlf_vec3 r = rlf_mad(q, up, above);
-        double u, v;
-        if (!(r.z > 0.0) || !grid->project(grid->project_context, r, &u, &v)) {
+        int32_t x, y;
+        if (!grid_pixel_of(grid, r, &x, &y)) {
             return false;
         }
-        if (!grid_cell_read(grid, &grid->background, (int32_t)(u + 0.5), (int32_t)(v + 0.5),
-                            &cell)) {
+        if (!grid_cell_read(grid, &grid->background, x, y, &cell)) {
             continue;
         }
         if (cell.point.z < r.z - DEEPEST) {
