@@ -16,7 +16,8 @@ extern "C" {
 
 /* What is where the camera sees nothing: beyond its view, and in the ring of missing pixels at the
  * border of its image. OPEN: nothing, bodies leave the room there. EXTEND: the outermost planes go
- * on, floor and walls, also behind what hides them; and for 25 cm what the border cuts. */
+ * on, floor and walls, also behind what hides them; and for 25 cm what the border cuts, or a ring
+ * that is no wider than an eighth of the image. */
 typedef enum rlf_border { RLF_BORDER_OPEN = 0, RLF_BORDER_EXTEND = 1 } rlf_border;
 
 /* One sheet of the organised grid, in the grid's frame. Planes are width*height, row-major. */

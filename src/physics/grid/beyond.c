@@ -5,6 +5,7 @@
 #define ALONG 0.3     /* sine of the angle between a side and the way along it */
 #define SAME_SIDE 0.1 /* m beside a touch that its side may be at the border */
 #define BESIDE_PX 1   /* an outline's place is that far off */
+#define RING_SHARE 8  /* missing pixels at the border are no wider than the picture by this */
 
 static const grid_shift no_shift = {{0, 0, 0}, 0.0, 0, 0};
 
@@ -37,13 +38,40 @@ static void set_inwards(grid_shift *shift, rlf_vec3 q)
     shift->dy = is_row ? 0 : y > 0.0 ? 1 : -1;
 }
 
+/* The border's pixel from which the way comes to (x, y). Returns how many pixels that is away. */
+static int32_t border_pixel(const rlf_grid *grid, const grid_shift *shift, int32_t x, int32_t y,
+                            int32_t *u, int32_t *v)
+{
+    *u = shift->dx == 0 ? x : shift->dx > 0 ? 0 : grid->width - 1;
+    *v = shift->dy == 0 ? y : shift->dy > 0 ? 0 : grid->height - 1;
+    return shift->dx * (x - *u) + shift->dy * (y - *v);
+}
+
+/* Whether the pixel is one of a ring of missing ones at the border, which the way leaves. What is
+ * wider is a hole in what is seen. */
+static bool is_in_ring(const rlf_grid *grid, const grid_shift *shift, int32_t x, int32_t y)
+{
+    int32_t u, v, own = border_pixel(grid, shift, x, y, &u, &v);
+    int32_t widest = (shift->dx != 0 ? grid->width : grid->height) / RING_SHARE;
+    for (int32_t k = 0; own < widest && k <= widest; k++, u += shift->dx, v += shift->dy) {
+        field_cell cell;
+        if (grid_cell_read(grid, &grid->background, u, v, &cell)) {
+            return k > own;
+        }
+    }
+    return false;
+}
+
 static grid_shift find_shift(const grid_query *query, rlf_vec3 q, double radius)
 {
+    int32_t x = 0, y = 0;
+    bool is_in_picture = grid_pixel_of(query->grid, q, &x, &y);
     const rlf_vec3 ways[4] = {query->up, {1, 0, 0}, {-1, 0, 0}, rlf_neg(query->up)};
     for (int k = 0; k < 4; k++) {
         grid_shift shift = {.way = ways[k]};
-        bool is_way = rlf_dot(shift.way, shift.way) > 0.0;
         set_inwards(&shift, q);
+        bool is_way = rlf_dot(shift.way, shift.way) > 0.0 &&
+                      (!is_in_picture || is_in_ring(query->grid, &shift, x, y));
         shift.length = is_way ? length_to_view(query, q, shift.way) : 0.0;
         if (shift.length > 0.0) {
             shift.length += radius;
@@ -55,11 +83,7 @@ static grid_shift find_shift(const grid_query *query, rlf_vec3 q, double radius)
 
 grid_shift grid_beyond_shift(const grid_query *query, rlf_vec3 q, double radius)
 {
-    int32_t x, y;
-    if (query->shell == NULL || !(q.z > 0.0) || grid_pixel_of(query->grid, q, &x, &y)) {
-        return no_shift;
-    }
-    return find_shift(query, q, radius);
+    return query->shell != NULL && q.z > 0.0 ? find_shift(query, q, radius) : no_shift;
 }
 
 static bool is_along(const grid_shift *shift, rlf_vec3 normal)
@@ -72,8 +96,8 @@ static bool is_along(const grid_shift *shift, rlf_vec3 normal)
 static bool read_outermost(const rlf_grid *grid, const grid_shift *shift, int32_t x, int32_t y,
                            field_cell *out)
 {
-    int32_t u = shift->dx == 0 ? x : shift->dx > 0 ? 0 : grid->width - 1;
-    int32_t v = shift->dy == 0 ? y : shift->dy > 0 ? 0 : grid->height - 1;
+    int32_t u, v;
+    (void)border_pixel(grid, shift, x, y, &u, &v);
     while (u >= 0 && v >= 0 && u < grid->width && v < grid->height) {
         if (grid_cell_read(grid, &grid->background, u, v, out)) {
             return true;

@@ -13,7 +13,7 @@ typedef struct grid_shift {
 } grid_shift;
 
 /* How a body about q (grid frame) must be moved until all of it is in view; no way where q is in
- * view, or nothing is in view close by. */
+ * view, and not in a ring of missing pixels at the border, or nothing is in view close by. */
 grid_shift grid_beyond_shift(const grid_query *query, rlf_vec3 q, double radius);
 
 /* Whether the touch of a body that was moved so is one with something that goes on to where the
