@@ -205,7 +205,9 @@ void phys_thesis_advance(rlf_world *world, const rlf_grid *grid, double dt);
 /* Whether the grid's room goes on where the camera does not look. */
 static inline bool phys_world_has_shell(const rlf_world *world, const rlf_grid *grid)
 {
-    return world->def.border == RLF_BORDER_EXTEND || grid->background.border == RLF_BORDER_EXTEND;
+    const rlf_grid_sheet *sheet = &grid->background;
+    return sheet->depth != NULL && sheet->normal_x != NULL &&
+           (world->def.border == RLF_BORDER_EXTEND || sheet->border == RLF_BORDER_EXTEND);
 }
 
 /* Adds the milliseconds since *clock_ns to *sum_ms and sets the clock. */

@@ -192,6 +192,16 @@ static void a_front_ends_at_a_hole(void **state)
     }
 }
 
+static void without_a_background_all_is_free(void **state)
+{
+    (void)state;
+    grid_room_create();
+    grid_room->grid.background.depth = NULL;
+    assert_true(fly_at(RLF_SHAPE_BOX, LEFT, 0.1) > FRONT_Z + 0.5);
+    assert_true(fly_at(RLF_SHAPE_BOX, LEFT, -0.1) > FRONT_Z + 0.5);
+    grid_room_destroy(NULL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -203,6 +213,7 @@ int main(void)
         cmocka_unit_test(what_ends_before_the_border_does_not),
         cmocka_unit_test(a_front_goes_on_in_a_ring),
         cmocka_unit_test(a_front_ends_at_a_hole),
+        cmocka_unit_test(without_a_background_all_is_free),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
