@@ -112,18 +112,23 @@ static double depth_beside(const rlf_grid *grid, const rlf_grid_sheet *sheet,
     return limit;
 }
 
-/* How many of the run's last pixels are on another face of the solid than the cell. */
+/* How many of the run's last pixels are on one other face of the solid than the cell: those of what
+ * is round are on none, and what has no normal is on no other. */
 static int32_t pixels_aside(const rlf_grid *grid, const rlf_grid_sheet *sheet,
                             const field_cell *cell, const int32_t way[2], int32_t run)
 {
     const double SAME_FACE = 0.9;
+    rlf_vec3 last = {0, 0, 0};
     int32_t count = 0;
     for (int32_t k = run; k > 0; k--) {
         int32_t i = (cell->y + way[1] * k) * grid->width + cell->x + way[0] * k;
-        double cosine = (double)sheet->normal_x[i] * cell->normal.x +
-                        (double)sheet->normal_y[i] * cell->normal.y +
-                        (double)sheet->normal_z[i] * cell->normal.z;
-        if (cosine > SAME_FACE) {
+        rlf_vec3 n = rlf_vec3_make(sheet->normal_x[i], sheet->normal_y[i], sheet->normal_z[i]);
+        bool is_known = sheet->depth[i] > 0.0f && rlf_dot(n, n) > 0.25;
+        if (count == 0 && !is_known) {
+            continue;
+        }
+        last = count == 0 ? n : last;
+        if (rlf_dot(n, cell->normal) > SAME_FACE || !(rlf_dot(n, last) > SAME_FACE)) {
             break;
         }
         count++;

@@ -20,7 +20,9 @@ bool grid_edge_normal(const rlf_grid *grid, const rlf_grid_sheet *sheet, const f
 
 /* How deep a guessed solid is at the cell, up to `limit` metres: no more than it is wide, by the
  * shorter of its row's and its column's run between steps in depth, and no more than is hidden at
- * the ends of these, as far as the camera looks past them. */
+ * the ends of these, as far as the camera looks past them. Not counted is a flat side that
+ * is seen beside its front, all of whose pixels face one way: missing ones, and most of those of
+ * what is round, do count. */
 double grid_edge_depth(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell,
                        double limit);
 
