@@ -30,26 +30,32 @@ static rlf_result read_motion(const io_json_object *body, rlf_body_def *def)
 
 static rlf_result read_material(const io_json_object *body, rlf_body_def *def)
 {
-    static const io_json_field fields[6] = {
+    static const io_json_field fields[8] = {
         {"mass", "a number of kg, > 0 and at most 1e6", IO_POSITIVE, 1e6, false},
         {"restitution", "a number from 0 to 1", 0, 1, false},
         {"friction", "a number >= 0 and at most 1000", 0, 1000, false},
         {"rolling_resistance", "a number >= 0 and at most 1000", 0, 1000, false},
         {"gravity_scale", "a number from -1000 to 1000", -1000, 1000, false},
-        {"release_time", "a number of seconds, >= 0 and at most 1e6", 0, 1e6, false}};
+        {"release_time", "a number of seconds, >= 0 and at most 1e6", 0, 1e6, false},
+        {"linear_damping", "a number per second, >= 0 and at most 1000", 0, 1000, false},
+        {"angular_damping", "a number per second, >= 0 and at most 1000", 0, 1000, false}};
     static const io_json_field collides = {"collides_with_bodies", "true or false", 0, 0, false};
+    static const io_json_field kinematic = {"kinematic", "true or false", 0, 0, false};
     static const io_json_field color = {"color", "three numbers from 0 to 1 (red, green, blue)", 0,
                                         1, false};
-    double *const targets[6] = {&def->mass,          &def->restitution,
-                                &def->friction,      &def->rolling_resistance,
-                                &def->gravity_scale, &def->release_time};
-    for (int i = 0; i < 6; i++) {
+    double *const targets[8] = {
+        &def->mass,          &def->restitution,  &def->friction,       &def->rolling_resistance,
+        &def->gravity_scale, &def->release_time, &def->linear_damping, &def->angular_damping};
+    for (int i = 0; i < 8; i++) {
         rlf_result result = io_json_get_number(body, &fields[i], targets[i]);
         if (result != RLF_OK) {
             return result;
         }
     }
     rlf_result result = io_json_get_bool(body, &collides, &def->collides_with_bodies);
+    if (result == RLF_OK) {
+        result = io_json_get_bool(body, &kinematic, &def->is_kinematic);
+    }
     double c[3] = {def->color[0], def->color[1], def->color[2]};
     if (result == RLF_OK) {
         result = io_json_get_numbers(body, &color, c, 3);
@@ -63,13 +69,17 @@ static rlf_result read_material(const io_json_object *body, rlf_body_def *def)
 static rlf_result read_body(const io_json_object *body, const io_scene_reader *reader)
 {
     rlf_body_def *def = &reader->scene->bodies[reader->scene->body_count];
-    static const char *const known[] = {"name",          "shape",        "size",
-                                        "radius",        "height",       "model",
-                                        "vertices",      "mass",         "position",
-                                        "orientation",   "velocity",     "angular_velocity",
-                                        "restitution",   "friction",     "rolling_resistance",
-                                        "gravity_scale", "release_time", "collides_with_bodies",
-                                        "color"};
+    static const char *const known[] = {"name",           "shape",
+                                        "size",           "radius",
+                                        "height",         "model",
+                                        "vertices",       "mass",
+                                        "position",       "orientation",
+                                        "velocity",       "angular_velocity",
+                                        "restitution",    "friction",
+                                        "gravity_scale",  "rolling_resistance",
+                                        "linear_damping", "angular_damping",
+                                        "release_time",   "collides_with_bodies",
+                                        "kinematic",      "color"};
     const char *unknown = io_json_unknown_key(body, known, sizeof(known) / sizeof(known[0]));
     if (unknown != NULL) {
         return io_json_fail(body, unknown, "is not a known key: see the list in docs/formats.md");

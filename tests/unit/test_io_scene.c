@@ -47,7 +47,8 @@ static void every_key_is_read(void **state)
         "\"mass\":2,\"position\":[4,5,6],\"orientation\":[0,0,0.7071,0.7071],"
         "\"velocity\":[7,8,9],\"angular_velocity\":[10,11,12],\"restitution\":0.25,"
         "\"friction\":0.75,\"rolling_resistance\":0.02,\"gravity_scale\":-1,\"release_time\":1.5,"
-        "\"collides_with_bodies\":false,\"color\":[0,0.5,1]},"
+        "\"collides_with_bodies\":false,\"kinematic\":true,\"linear_damping\":0.125,"
+        "\"angular_damping\":3,\"color\":[0,0.5,1]},"
         "{\"shape\":\"sphere\",\"radius\":0.05},"
         "{\"shape\":\"capsule\",\"radius\":0.06,\"height\":0.3},"
         "{\"shape\":\"cylinder\",\"radius\":0.07,\"height\":0.4},{}]}");
@@ -63,7 +64,8 @@ static void every_key_is_read(void **state)
     assert_true(b[0].angular_velocity.x == 10 && b[0].restitution == 0.25);
     assert_true(b[0].friction == 0.75 && b[0].gravity_scale == -1 && b[0].release_time == 1.5);
     assert_true(b[0].rolling_resistance == 0.02);
-    assert_false(b[0].collides_with_bodies);
+    assert_true(b[0].linear_damping == 0.125 && b[0].angular_damping == 3);
+    assert_true(!b[0].collides_with_bodies && b[0].is_kinematic);
     assert_true(b[0].color[0] == 0.0F && b[0].color[1] == 0.5F && b[0].color[2] == 1.0F);
     double norm = b[0].orientation.z * b[0].orientation.z + b[0].orientation.w * b[0].orientation.w;
     assert_true(norm > 1 - 1e-12 && norm < 1 + 1e-12);
@@ -110,6 +112,11 @@ static const struct {
     {BODY("{\"rolling_resistance\":-1}"), RLF_ERROR_INVALID, "bodies[1].rolling_resistance is -1",
      ">= 0"},
     {BODY("{\"release_time\":-1}"), RLF_ERROR_INVALID, "bodies[1].release_time is -1", ">= 0"},
+    {BODY("{\"linear_damping\":-1}"), RLF_ERROR_INVALID, "bodies[1].linear_damping is -1", ">= 0"},
+    {BODY("{\"angular_damping\":1e4}"), RLF_ERROR_INVALID, "bodies[1].angular_damping is 10000",
+     "at most 1000"},
+    {BODY("{\"kinematic\":1}"), RLF_ERROR_INVALID, "bodies[1].kinematic is a number",
+     "true or false"},
     {BODY("{\"color\":[0,0,255]}"), RLF_ERROR_INVALID, "bodies[1].color is 255", "0 to 1"},
     {BODY("{\"collides_with_bodies\":1}"), RLF_ERROR_INVALID,
      "bodies[1].collides_with_bodies is a number", "true or false"},
