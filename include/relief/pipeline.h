@@ -46,7 +46,7 @@ typedef struct rlf_pipeline_def {
     rlf_profile profile;
     rlf_source *source;              /* borrowed for the pipeline's life; required */
     rlf_reconstruct_def reconstruct; /* set by rlf_pipeline_def_default from profile and source */
-    rlf_world_def world;
+    rlf_world_def world; /* its capacities are raised to what the scene needs, and 256 throws */
     rlf_compositor_def compositor;
     const rlf_scene *scene;         /* copied; NULL = no bodies */
     bool enable_render;             /* default true; false: no picture is made */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define ADVANCE_MAX_S 1.0 /* a longer gap between frames advances physics by this much only */
+#define THROWS_MAX 256    /* bodies that there is room for beside a scene's */
 
 rlf_pipeline_def rlf_pipeline_def_default(rlf_profile profile, rlf_source *source, rlf_pool *pool)
 {
@@ -91,6 +92,19 @@ static rlf_result make_rays(rlf_pipeline *p, const rlf_camera *depth)
     return RLF_OK;
 }
 
+/* A scene's file cannot ask for a larger world: its bodies do, with as many contacts for each as
+ * the default has. */
+static void make_room(rlf_world_def *def, const rlf_scene *scene)
+{
+    const double CONTACTS_EACH = 16, CONTACTS_MAX = 1e7;
+    int32_t bodies = scene->body_count + RLF_KNOWN_MAX + THROWS_MAX;
+    if (def->body_capacity < bodies) {
+        def->body_capacity = bodies;
+        def->contact_capacity =
+            (int32_t)rlf_min(CONTACTS_MAX, rlf_max(def->contact_capacity, bodies * CONTACTS_EACH));
+    }
+}
+
 static rlf_result create_stages(rlf_pipeline *p)
 {
     rlf_result result = rlf_reconstruct_create(&p->def.reconstruct, &p->reconstruct);
@@ -99,6 +113,7 @@ static rlf_result create_stages(rlf_pipeline *p)
     }
     p->def.world.gravity = p->scene.gravity;
     p->def.world.border = p->scene.border;
+    make_room(&p->def.world, &p->scene);
     result = rlf_world_create(&p->def.world, &p->world);
     if (result != RLF_OK) {
         return result;

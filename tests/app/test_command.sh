@@ -133,6 +133,16 @@ for profile in live thesis; do
         fail "$profile: contacts.csv header"
 done
 
+# A scene may have more bodies than a world has room for by default.
+awk 'BEGIN {
+    printf "{\"bodies\":["
+    for (i = 0; i < 1500; i++)
+        printf "%s{\"size\":[0.02,0.02,0.02],\"position\":[%.2f,%.2f,2]}", i ? "," : "", i % 50 * 0.04 - 1, int(i / 50) * 0.04 - 1
+    printf "]}"
+}' >many.json
+expect_done run synthetic:empty --scene many.json --headless --frames 2 --quiet --log log_many
+[ "$(wc -l <log_many/bodies.csv)" -eq 3001 ] || fail "1500 bodies: $(wc -l <log_many/bodies.csv) rows"
+
 # Without OpenGL, or a build without it, the soft renderer draws the same pictures and one line says so.
 expect_done run "synthetic:room?frames=4" --headless --renderer soft --quiet --pictures soft --picture-every 1
 __EGL_VENDOR_LIBRARY_DIRS=/nonexistent "$relief" run "synthetic:room?frames=4" --headless --renderer gl \

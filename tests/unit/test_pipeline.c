@@ -312,6 +312,37 @@ static void gravity_is_that_of_the_floor(void **state)
     rlf_source_destroy(&source);
 }
 
+/* More bodies than a world has room for by default, and throws beside them. */
+static void the_world_is_as_large_as_its_scene(void **state)
+{
+    (void)state;
+    enum { BODIES = 1500, THROWS = 256 };
+    static rlf_body_def bodies[BODIES];
+    for (int32_t i = 0; i < BODIES; i++) {
+        (void)drop_scene(&bodies[i]);
+        bodies[i].shape.size = rlf_vec3_make(0.02, 0.02, 0.02);
+        bodies[i].position = rlf_vec3_make(i % 50 * 0.03 - 0.75, i / 50 * 0.03 - 0.45, 1.0);
+    }
+    assert_true(BODIES > rlf_world_def_default().body_capacity);
+    rlf_scene scene = {.gravity = {0, 0, 9.81}, .bodies = bodies, .body_count = BODIES};
+    rlf_source *source = open_plane(2, 33333333);
+    rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_LIVE, source, NULL);
+    def.scene = &scene;
+    rlf_pipeline *pipeline = NULL;
+    rlf_pipeline_output out;
+    assert_int_equal(rlf_pipeline_create(&def, &pipeline), RLF_OK);
+    for (int32_t i = 0; i < THROWS; i++) {
+        rlf_body_id id;
+        assert_int_equal(rlf_world_add_body(rlf_pipeline_get_world(pipeline), &bodies[i], &id),
+                         RLF_OK);
+    }
+    assert_int_equal(rlf_pipeline_step(pipeline, &out), RLF_OK);
+    assert_int_equal(rlf_pipeline_step(pipeline, &out), RLF_OK);
+    assert_int_equal(out.snapshot->body_count, BODIES + THROWS);
+    rlf_pipeline_destroy(&pipeline);
+    rlf_source_destroy(&source);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -324,6 +355,7 @@ int main(void)
         cmocka_unit_test(a_lost_device_gives_way_to_the_soft_renderer),
         cmocka_unit_test(views_lie_side_by_side),
         cmocka_unit_test(gravity_is_that_of_the_floor),
+        cmocka_unit_test(the_world_is_as_large_as_its_scene),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
