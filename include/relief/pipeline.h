@@ -21,7 +21,8 @@ typedef struct rlf_scene {
      * up is (rlf_surface_find_up), and keeps its strength. Where they do not tell it stays as it
      * is, with a warning. */
     bool finds_gravity;
-    rlf_body_def *bodies; /* owned when made by rlf_scene_create or rlf_scene_load */
+    rlf_body_def *bodies; /* owned when made by rlf_scene_create or rlf_scene_load, with their
+                             hulls, of which each is that of bodies in a row */
     int32_t body_count;
     rlf_border border;         /* what is beyond the camera's view; default open */
     rlf_known_def *known;      /* models of real things; owned as the bodies are */

@@ -175,7 +175,7 @@ rlf_result io_known_read(const io_json_object *top, const char *folder, rlf_scen
         }
         rlf_known_def *def = &scene->known[i];
         *def = rlf_known_def_default();
-        const io_scene_reader reader = {folder, NULL, scene};
+        const io_scene_reader reader = {.folder = folder, .scene = scene};
         rlf_result result = read_known(&object, &reader, def);
         if (result == RLF_OK) {
             result = check_name_is_new(&object, scene, def->name);

@@ -46,6 +46,16 @@ static rlf_result move_models(json_t *list, const char *from, const char *to)
     return result;
 }
 
+/* A pattern's model is named in its body. */
+static rlf_result move_spawn_models(json_t *list, const char *from, const char *to)
+{
+    rlf_result result = RLF_OK;
+    for (size_t i = 0; i < json_array_size(list) && result == RLF_OK; i++) {
+        result = move_model(json_object_get(json_array_get(list, i), "body"), from, to);
+    }
+    return result;
+}
+
 static void set_pose(json_t *object, const rlf_pose *T)
 {
     json_object_del(object, "points");
@@ -110,6 +120,9 @@ rlf_result rlf_scene_save_known(const char *scene_path, const rlf_known_def *kno
     }
     if (result == RLF_OK) {
         result = move_models(json_object_get(document, "bodies"), scene_path, out_path);
+    }
+    if (result == RLF_OK) {
+        result = move_spawn_models(json_object_get(document, "spawn"), scene_path, out_path);
     }
     if (result == RLF_OK) {
         result = move_models(json_object_get(document, "known_objects"), scene_path, out_path);

@@ -5,6 +5,8 @@
 #include "relief/pipeline.h"
 #include "io/json.h"
 
+#define IO_SCENE_BODIES_MAX 65536
+
 /* `folder` is where relative names of models start. */
 rlf_result io_scene_parse(const io_bytes *file, const char *folder, rlf_scene *out);
 
@@ -17,10 +19,23 @@ rlf_result io_scene_read_orientation(const io_json_object *object, rlf_quat *out
 
 /* A scene while it is read; models are kept in it. */
 typedef struct io_scene_reader {
-    const char *folder;   /* where names of files start */
-    const json_t *bodies; /* those in scene->bodies have been read; NULL = none */
+    const char *folder; /* where names of files start */
+    json_t *bodies;     /* what each of scene->bodies was read from; NULL = none */
+    json_t *names;      /* of bodies, each with the path of the one that has it */
     rlf_scene *scene;
+    int32_t capacity; /* of scene->bodies */
 } io_scene_reader;
+
+/* scene_body.c: room for `count` more bodies. */
+rlf_result io_scene_reserve(io_scene_reader *reader, int32_t count);
+/* Reads one more body of the scene, for which there is room; the scene has it also on failure. */
+rlf_result io_scene_read_body(const io_json_object *body, const io_scene_reader *reader);
+/* The scene's last body comes from `body`: an error when its name is taken. */
+rlf_result io_scene_note_body(const io_json_object *body, const io_scene_reader *reader);
+/* The list "bodies". */
+rlf_result io_scene_read_bodies(const io_json_object *top, io_scene_reader *reader);
+/* scene_spawn.c: the list "spawn". */
+rlf_result io_spawn_read(const io_json_object *top, io_scene_reader *reader);
 
 /* scene_shape.c: the look comes with the key "model". */
 rlf_result io_scene_read_shape(const io_json_object *object, const io_scene_reader *reader,

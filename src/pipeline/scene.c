@@ -43,7 +43,9 @@ void rlf_scene_destroy(rlf_scene *scene)
         return;
     }
     for (int32_t i = 0; i < scene->body_count; i++) {
-        rlf_free((void *)(uintptr_t)scene->bodies[i].shape.hull);
+        const rlf_hull *hull = scene->bodies[i].shape.hull;
+        bool is_last = i + 1 == scene->body_count || scene->bodies[i + 1].shape.hull != hull;
+        rlf_free(is_last ? (void *)(uintptr_t)hull : NULL);
     }
     for (int32_t i = 0; i < scene->known_count; i++) {
         rlf_free((void *)(uintptr_t)scene->known[i].shape.hull);

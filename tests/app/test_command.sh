@@ -86,6 +86,8 @@ printf '{"bodies": [{"shape": "box", "mass": NaN}]}' >nan.json
 expect_error 1 "nan.json" run synthetic:room --headless --scene nan.json
 printf '{"bodies": [{"shape": "box", "colour": [1, 0, 0]}]}' >unknown.json
 expect_error 1 "colour" run synthetic:room --headless --scene unknown.json
+printf '{"spawn": [{"body": {}, "pattern": "heap", "count": 3}]}' >heap.json
+expect_error 1 "heap.json: spawn\[0\].pattern is \"heap\"" run synthetic:room --headless --scene heap.json
 : >file
 echo '{"known_objects":[{"name":"crate","shape":"box","size":[0.34,0.22,0.26]}]}' >known.json
 room=synthetic:empty
@@ -142,6 +144,10 @@ awk 'BEGIN {
 }' >many.json
 expect_done run synthetic:empty --scene many.json --headless --frames 2 --quiet --log log_many
 [ "$(wc -l <log_many/bodies.csv)" -eq 3001 ] || fail "1500 bodies: $(wc -l <log_many/bodies.csv) rows"
+echo '{"spawn":[{"body":{"name":"n","size":[0.02,0.02,0.02],"position":[0,-0.4,2]},"pattern":"grid",
+    "count":[50,30,1],"spacing":[0.04,0.04,0.04]}]}' >spawn.json
+expect_done run synthetic:empty --scene spawn.json --headless --frames 2 --quiet --log log_spawn
+[ "$(grep -c '^[01],[^,]*,n_[0-9]*,' log_spawn/bodies.csv)" -eq 3000 ] || fail "spawn: $(tail -n 1 log_spawn/bodies.csv)"
 
 # Without OpenGL, or a build without it, the soft renderer draws the same pictures and one line says so.
 expect_done run "synthetic:room?frames=4" --headless --renderer soft --quiet --pictures soft --picture-every 1

@@ -11,6 +11,8 @@
 #include "io/scene_json.h"
 #include "io_support.h"
 
+#include <sys/stat.h>
+
 static rlf_result parse(const char *text, rlf_scene *scene)
 {
     io_bytes file = {"scene.json", (const uint8_t *)text, strlen(text)};
@@ -128,6 +130,26 @@ static void poses_are_saved_in_a_copy(void **state)
     assert_int_equal(rlf_scene_save_known(in, &def, 1, out), RLF_ERROR_INVALID);
 }
 
+/* In another folder: models of bodies and of patterns are found from there, too. */
+static void a_copy_elsewhere_finds_its_models(void **state)
+{
+    (void)state;
+    char in[512];
+    assert_int_equal(mkdir(test_path("scenes"), 0700), 0);
+    test_write_text("scenes/gem.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                      "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    test_write_text("scenes/gems.json",
+                    "{\"bodies\":[{\"shape\":\"hull\",\"model\":\"gem.obj\"}],\"spawn\":[{\"body\":"
+                    "{\"shape\":\"hull\",\"model\":\"gem.obj\",\"size\":[1,1,1]},\"pattern\":"
+                    "\"stack\",\"count\":2,\"spacing\":1}]}");
+    snprintf(in, sizeof(in), "%s", test_path("scenes/gems.json"));
+    assert_int_equal(rlf_scene_save_known(in, NULL, 0, test_path("copy.json")), RLF_OK);
+    rlf_scene scene;
+    assert_int_equal(rlf_scene_load(test_path("copy.json"), &scene), RLF_OK);
+    assert_int_equal(scene.body_count, 3);
+    rlf_scene_destroy(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -137,6 +159,7 @@ int main(void)
         cmocka_unit_test(models_are_read),
 #endif
         cmocka_unit_test(poses_are_saved_in_a_copy),
+        cmocka_unit_test(a_copy_elsewhere_finds_its_models),
     };
     return cmocka_run_group_tests(tests, test_folder_make, test_folder_remove);
 }
