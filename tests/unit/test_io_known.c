@@ -11,8 +11,6 @@
 #include "io/scene_json.h"
 #include "io_support.h"
 
-#include <sys/stat.h>
-
 static rlf_result parse(const char *text, rlf_scene *scene)
 {
     io_bytes file = {"scene.json", (const uint8_t *)text, strlen(text)};
