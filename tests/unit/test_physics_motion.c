@@ -54,6 +54,31 @@ static void free_fall_is_exact(void **state)
     }
 }
 
+/* A body of half gravity falls half as far, one of none stays, one of less than none rises. */
+static void each_falls_by_its_own_gravity(void **state)
+{
+    (void)state;
+    const double scales[] = {1, 0.5, 0, -0.25};
+    rlf_world *world = make_world(rlf_vec3_make(0, 9.81, 3));
+    for (int i = 0; i < 4; i++) {
+        rlf_body_def def = rlf_body_def_default();
+        def.position = rlf_vec3_make(i, 0, 2);
+        def.gravity_scale = scales[i];
+        add(world, &def);
+    }
+    for (int i = 0; i < 30; i++) {
+        rlf_world_advance(world, NULL, 1.0 / 30);
+    }
+    for (int i = 0; i < 4; i++) {
+        const rlf_body_state *body = first(world) + i;
+        assert_true(body->T_world_body.p.x == i);
+        assert_true(fabs(body->T_world_body.p.y - scales[i] * 0.5 * 9.81) <= 1e-9);
+        assert_true(fabs(body->T_world_body.p.z - 2 - scales[i] * 0.5 * 3) <= 1e-9);
+        assert_true(fabs(body->velocity.y - scales[i] * 9.81) <= 1e-9);
+    }
+    rlf_world_destroy(&world);
+}
+
 static void projectile_and_energy(void **state)
 {
     (void)state;
@@ -170,6 +195,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(free_fall_is_exact),
+        cmocka_unit_test(each_falls_by_its_own_gravity),
         cmocka_unit_test(projectile_and_energy),
         cmocka_unit_test(force_acts_for_one_advance),
         cmocka_unit_test(impulse_turns_and_moves),

@@ -74,6 +74,41 @@ static void cube_inertia_is_C_1(void **state)
     near(I.m[2][2], 4 + 1, 1e-12);
 }
 
+static void expect_diagonal(const rlf_mat3 *I, double x, double y, double z)
+{
+    const double expected[3] = {x, y, z};
+    for (int i = 0; i < 9; i++) {
+        near(I->m[i / 3][i % 3], i / 3 == i % 3 ? expected[i / 3] : 0, 1e-12);
+    }
+}
+
+/* Solids of 3 kg whose axis is y, as textbooks have them. */
+static void round_inertia_is_closed_form(void **state)
+{
+    (void)state;
+    const double m = 3, r = 0.5, h = 2;
+    rlf_shape sphere = {.type = RLF_SHAPE_SPHERE, .radius = r};
+    rlf_mat3 I = rlf_shape_inertia(&sphere, m);
+    expect_diagonal(&I, 0.4 * m * r * r, 0.4 * m * r * r, 0.4 * m * r * r);
+
+    rlf_shape cylinder = {.type = RLF_SHAPE_CYLINDER, .radius = r, .height = h};
+    I = rlf_shape_inertia(&cylinder, m);
+    double across = m * (3 * r * r + h * h) / 12;
+    expect_diagonal(&I, across, 0.5 * m * r * r, across);
+
+    /* A cylinder and two half balls, whose own centres are 3/8 r above their faces. */
+    rlf_shape capsule = {.type = RLF_SHAPE_CAPSULE, .radius = r, .height = h};
+    I = rlf_shape_inertia(&capsule, m);
+    double ball = 4.0 / 3 * r * r * r, tube = r * r * h; /* volumes / pi */
+    double mb = m * ball / (ball + tube), mt = m * tube / (ball + tube);
+    across = mt * (3 * r * r + h * h) / 12 +
+             mb * (0.4 * r * r + h * h / 4 + 2 * (h / 2) * (3.0 / 8 * r));
+    expect_diagonal(&I, across, 0.5 * mt * r * r + 0.4 * mb * r * r, across);
+    capsule.height = 1e-12; /* nothing but a ball is left */
+    I = rlf_shape_inertia(&capsule, m);
+    expect_diagonal(&I, 0.4 * m * r * r, 0.4 * m * r * r, 0.4 * m * r * r);
+}
+
 /* A hull in a box's shape has the box's tensor. */
 static void hull_inertia_is_exact(void **state)
 {
@@ -234,6 +269,7 @@ int main(void)
         cmocka_unit_test(orientation_stays_orthogonal),
         cmocka_unit_test(orientation_step_is_eq_4_5),
         cmocka_unit_test(cube_inertia_is_C_1),
+        cmocka_unit_test(round_inertia_is_closed_form),
         cmocka_unit_test(hull_inertia_is_exact),
         cmocka_unit_test(forces_and_torques),
         cmocka_unit_test(impulse_formula),
