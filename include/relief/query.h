@@ -44,8 +44,7 @@ typedef struct rlf_overlap {
 } rlf_overlap;
 
 /* What overlaps the sphere of `radius` metres at `centre` (world). The ids of the first `capacity`
- * bodies, in the order of their slots, go to `ids`, which may be NULL when capacity is 0. A hull
- * counts as near its edges and corners as the planes of its faces are. */
+ * bodies, in the order of their slots, go to `ids`, which may be NULL when capacity is 0. */
 RLF_API rlf_overlap rlf_world_overlap_sphere(const rlf_world *world, const rlf_grid *grid,
                                              rlf_vec3 centre, double radius, rlf_body_id *ids,
                                              int32_t capacity);

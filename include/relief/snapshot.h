@@ -55,8 +55,7 @@ typedef struct rlf_look {
 /* Largest distance from the shape's origin to its surface, metres. */
 RLF_API double rlf_shape_radius(const rlf_shape *shape);
 /* Signed distance of p (the shape's frame, metres) to the shape's surface, negative inside, and the
- * unit direction in which it grows. Exact but for a hull outside near an edge, where it is the
- * distance to the farthest face's plane, a lower bound; a hull costs its triangles. */
+ * unit direction in which it grows. A hull costs its triangles. */
 RLF_API double rlf_shape_distance(const rlf_shape *shape, rlf_vec3 p, rlf_vec3 *out_gradient);
 /* Where origin + t direction (the shape's frame; the direction need not be of unit length) enters
  * and leaves the shape, a hull being convex. False when the line misses it. *out_enter is negative

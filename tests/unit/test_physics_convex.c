@@ -11,6 +11,8 @@
 #include "relief/query.h"
 #include "relief/world.h"
 
+#include "grid_room.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -373,6 +375,62 @@ static void heaps_come_to_rest(void **state)
     }
 }
 
+#define RINGS 21
+#define SEGMENTS 24
+
+/* A ball of many small faces about the y axis, 10 cm in radius. */
+static const rlf_hull *faceted_ball(void)
+{
+    static rlf_vec3 vertices[RINGS * SEGMENTS];
+    static int32_t triangles[6 * RINGS * SEGMENTS];
+    int32_t n = 0;
+    for (int r = 0; r < RINGS; r++) {
+        double polar = RLF_PI * (r + 0.02) / (RINGS - 0.96);
+        for (int s = 0; s < SEGMENTS; s++) {
+            double turn = 2 * RLF_PI * s / SEGMENTS;
+            vertices[r * SEGMENTS + s] = rlf_vec3_make(
+                0.1 * sin(polar) * cos(turn), 0.1 * cos(polar), 0.1 * sin(polar) * sin(turn));
+            int32_t a = r * SEGMENTS + s, b = r * SEGMENTS + (s + 1) % SEGMENTS;
+            const int32_t side[6] = {a, b, a + SEGMENTS, b, b + SEGMENTS, a + SEGMENTS};
+            for (int k = 0; k < 6 && r + 1 < RINGS; k++) {
+                triangles[n++] = side[k];
+            }
+        }
+    }
+    for (int s = 1; s + 1 < SEGMENTS; s++) {
+        const int32_t last = (RINGS - 1) * SEGMENTS;
+        const int32_t caps[6] = {0, s + 1, s, last, last + s, last + s + 1};
+        for (int k = 0; k < 6; k++) {
+            triangles[n++] = caps[k];
+        }
+    }
+    static rlf_hull hull;
+    hull = (rlf_hull){vertices, RINGS * SEGMENTS, triangles, n / 3};
+    return &hull;
+}
+
+/* Of 504 corners 64 are sample points; it stands on the others, too. */
+static void fine_hulls_rest_on_the_surface(void **state)
+{
+    (void)state;
+    grid_room_create();
+    double worst = 0;
+    for (int i = 0; i < 4; i++) {
+        rlf_body_def def = rlf_body_def_default();
+        def.shape = (rlf_shape){.type = RLF_SHAPE_HULL, .hull = faceted_ball()};
+        def.position = rlf_vec3_make(0, GRID_ROOM_FLOOR - 0.12, 2);
+        def.orientation = rlf_quat_from_rotation_vector(next_vector(3));
+        def.restitution = 0;
+        def.rolling_resistance = 0.1;
+        grid_room_way way = grid_room_run(RLF_BORDER_OPEN, &def, 60);
+        assert_true(way.is_there);
+        worst = fmax(worst, fabs(GRID_ROOM_FLOOR - way.p.y - 0.1));
+    }
+    print_message("a ball of 504 corners rests at most %.2f mm off its radius\n", 1e3 * worst);
+    assert_true(worst < 1.5e-3);
+    grid_fixture_destroy(&grid_room);
+}
+
 static void open_hulls_are_refused(void **state)
 {
     (void)state;
@@ -394,6 +452,7 @@ int main(void)
         cmocka_unit_test(edges_meet_edges),
         cmocka_unit_test(nothing_passes_however_fast),
         cmocka_unit_test(heaps_come_to_rest),
+        cmocka_unit_test(fine_hulls_rest_on_the_surface),
         cmocka_unit_test(open_hulls_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

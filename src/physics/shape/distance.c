@@ -138,8 +138,11 @@ int32_t phys_shape_support(const phys_shape *shape, rlf_vec3 direction, rlf_vec3
         out[1] = rlf_add(rim, rlf_vec3_make(0, -half, 0));
         return 2;
     }
-    case RLF_SHAPE_BOX:
-    case RLF_SHAPE_HULL: break;
+    case RLF_SHAPE_BOX: break;
+    case RLF_SHAPE_HULL:
+        *out_rounding = 0.0;
+        out[0] = convex_farthest(s, direction);
+        return s->hull->vertex_count > PHYS_POINTS_MAX ? 1 : 0;
     }
     return 0;
 }

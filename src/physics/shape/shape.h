@@ -47,9 +47,10 @@ phys_plane phys_plane_of_triangle(const rlf_hull *hull, int32_t triangle);
  * unit direction in which it grows. */
 double phys_shape_distance(const phys_shape *shape, rlf_vec3 p, rlf_vec3 *out_gradient);
 
-/* Up to two core points of a round shape (body frame): the surface point farthest along the unit
+/* Up to two core points of a shape (body frame): the surface point farthest along the unit
  * `direction` is core + *out_rounding * direction. Ball: its centre; capsule: the cap centres;
- * cylinder: the two rim points, rounding 0. Returns their number; 0 for box and hull. */
+ * cylinder: the two rim points, rounding 0; a hull with more vertices than it has sample points:
+ * its farthest one. Returns their number; 0 for a box and for other hulls. */
 int32_t phys_shape_support(const phys_shape *shape, rlf_vec3 direction, rlf_vec3 out[2],
                            double *out_rounding);
 
