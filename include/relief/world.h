@@ -142,9 +142,10 @@ RLF_API bool rlf_world_apply_force(rlf_world *world, rlf_body_id id, rlf_vec3 fo
 /* Gravity, m/s^2, from now on; bodies that sleep wake up. False when it is not finite. */
 RLF_API bool rlf_world_set_gravity(rlf_world *world, rlf_vec3 gravity);
 
-/* Advances time by dt seconds (0 < dt <= 1; else nothing happens) against the surface `grid`, which
- * may be NULL for empty space and is only read during the call. Allocates nothing. Results do not
- * depend on the pool. Thread-safety: one call at a time per world. */
+/* Advances time by dt seconds against the surface `grid`, which may be NULL for empty space and is
+ * only read during the call. 0 < dt <= 1: anything else is the caller's mistake, is told as such
+ * (rlf_set_assert) and does nothing. Allocates nothing. Results do not depend on the pool.
+ * Thread-safety: one call at a time per world. */
 RLF_API void rlf_world_advance(rlf_world *world, const rlf_grid *grid, double dt);
 
 /* Where the time of the last advance went, milliseconds; the thesis's method sets only the last. */

@@ -236,7 +236,7 @@ void rlf_world_reset(rlf_world *world)
 
 void rlf_world_advance(rlf_world *world, const rlf_grid *grid, double dt)
 {
-    if (!RLF_ASSERT(world != NULL) || !(dt > 0.0 && dt <= 1.0)) {
+    if (!RLF_ASSERT(world != NULL) || !RLF_ASSERT(dt > 0.0 && dt <= 1.0)) {
         return;
     }
     world->log_begin += world->log_count;

@@ -180,7 +180,7 @@ static void leaves_at_the_bounds(void **state)
     }
 }
 
-static void odd_time_steps_do_nothing(void **state)
+static void odd_time_steps_are_told_and_do_nothing(void **state)
 {
     (void)state;
     rlf_world *world = make_world(RLF_PHYSICS_LIVE, 2, NULL);
@@ -188,9 +188,13 @@ static void odd_time_steps_do_nothing(void **state)
     assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
     uint64_t hash = rlf_world_hash(world);
     const double steps[] = {0, -1, 10, NAN, INFINITY};
+    rlf_set_assert(count_assert, NULL);
+    assert_count = 0;
     for (int i = 0; i < 5; i++) {
         rlf_world_advance(world, NULL, steps[i]);
+        assert_int_equal(assert_count, i + 1);
     }
+    rlf_set_assert(NULL, NULL);
     assert_true(rlf_world_hash(world) == hash);
     assert_int_equal(rlf_world_get_snapshot(world)->time_ns, 0);
     rlf_world_destroy(&world);
@@ -277,7 +281,7 @@ int main(void)
         cmocka_unit_test(bad_worlds_are_named),
         cmocka_unit_test(handles_go_stale),
         cmocka_unit_test(leaves_at_the_bounds),
-        cmocka_unit_test(odd_time_steps_do_nothing),
+        cmocka_unit_test(odd_time_steps_are_told_and_do_nothing),
         cmocka_unit_test(same_bits_for_any_pool_and_no_allocation),
         cmocka_unit_test(heap_in_one_place),
     };
