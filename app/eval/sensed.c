@@ -2,7 +2,11 @@
 #include "eval/eval.h"
 #include "eval/sensed.h"
 
-#define THROWS 200 /* per seed and row: 5 seeds make 1000 */
+#define THROWS 334     /* per seed and row: 3 seeds make 1000 */
+#define BALLS 400      /* of REALISM, per seed */
+#define LOST_MAX 10    /* frames lost in a row */
+#define LOST_THROWS 20 /* per number of lost frames */
+#define LOST_BEGIN 1.5 /* s; the person walks in the middle of the view */
 
 #define ADD(key, title, value) eval_table_add(table, "sensed", key, title, profile, value)
 
@@ -23,9 +27,36 @@ static rlf_result add_static_throws(eval_table *table, const throw_conditions *o
     eval_throws o;
     rlf_result result = eval_sensed_throw(&def, &o);
     if (result == RLF_OK) {
-        ADD("throw_tunnelled", "THROW: tunnelled, of 200 throws into the still room",
+        ADD("throw_tunnelled", "THROW: tunnelled, of 334 throws into the still room",
             (double)o.tunnelled);
         ADD("throw_not_finite", "THROW: not finite", (double)o.not_finite);
+    }
+    return result;
+}
+
+/* Each of 1 to LOST_MAX frames lost after every one that arrives, while a person walks or not. */
+static rlf_result throw_through_gaps(const throw_conditions *on, bool is_walking, eval_throws *sum)
+{
+    const char *still = "synthetic:empty?color=0&frames=-1";
+    const char *walked = "synthetic:room?color=0&frames=-1";
+    rlf_result result = RLF_OK;
+    *sum = (eval_throws){0};
+    for (int32_t lost = 1; lost <= LOST_MAX && result == RLF_OK; lost++) {
+        eval_throw_def def = {.source = is_walking ? walked : still,
+                              .aim = is_walking ? EVAL_AIM_ANY : EVAL_AIM_ROOM,
+                              .throws = LOST_THROWS,
+                              .per_frame = 2,
+                              .begin_s = is_walking ? LOST_BEGIN : 0.0,
+                              .lost = lost,
+                              .profile = on->profile,
+                              .oracle = on->oracle,
+                              .seed = on->seed};
+        eval_throws o;
+        result = eval_sensed_throw(&def, &o);
+        sum->tunnelled += o.tunnelled;
+        sum->swallowed += o.swallowed;
+        sum->not_finite += o.not_finite;
+        sum->fastest = rlf_max(sum->fastest, o.fastest);
     }
     return result;
 }
@@ -33,25 +64,24 @@ static rlf_result add_static_throws(eval_table *table, const throw_conditions *o
 static rlf_result add_lost_frames(eval_table *table, const throw_conditions *on)
 {
     const rlf_profile profile = on->profile;
-    double tunnelled = 0.0, fastest = 0.0;
-    for (int32_t lost = 1; lost <= 10; lost += 3) {
-        eval_throw_def def = {.source = "synthetic:empty?color=0&frames=-1",
-                              .throws = 40,
-                              .lost = lost,
-                              .profile = profile,
-                              .oracle = on->oracle,
-                              .seed = on->seed};
-        eval_throws o;
-        rlf_result result = eval_sensed_throw(&def, &o);
-        if (result != RLF_OK) {
-            return result;
-        }
-        tunnelled += (double)(o.tunnelled + o.not_finite);
-        fastest = rlf_max(fastest, o.fastest);
+    eval_throws o;
+    rlf_result result = throw_through_gaps(on, false, &o);
+    if (result == RLF_OK) {
+        ADD("drop_tunnelled", "DROP-FRAMES, 1 to 10 lost: tunnelled, of 200",
+            (double)(o.tunnelled + o.not_finite));
+        ADD("drop_fastest", "DROP-FRAMES: fastest body, m/s (thrown at up to 10)", o.fastest);
+        result = throw_through_gaps(on, true, &o);
     }
-    ADD("drop_tunnelled", "DROP-FRAMES, 1 to 10 lost: tunnelled, of 160", tunnelled);
-    ADD("drop_fastest", "DROP-FRAMES: fastest body, m/s (thrown at up to 10)", fastest);
-    return RLF_OK;
+    if (result == RLF_OK) {
+        ADD("drop_walk_tunnelled", "DROP-FRAMES, a person walks: tunnelled, of 200",
+            (double)o.tunnelled);
+        ADD("drop_walk_swallowed", "DROP-FRAMES, a person walks: deep in the person, of 200",
+            (double)o.swallowed);
+        ADD("drop_walk_not_finite", "DROP-FRAMES, a person walks: not finite",
+            (double)o.not_finite);
+        ADD("drop_walk_fastest", "DROP-FRAMES, a person walks: fastest body, m/s", o.fastest);
+    }
+    return result;
 }
 
 static rlf_result add_aimed(eval_table *table, const throw_conditions *on, bool is_edge)
@@ -69,11 +99,11 @@ static rlf_result add_aimed(eval_table *table, const throw_conditions *on, bool 
     if (result == RLF_OK && is_edge) {
         ADD("edge_bounced_percent", "EDGE: bounced off a book's edge, %",
             eval_percent(o.bounced, o.thrown));
-        ADD("edge_passed_percent", "  went through, %", eval_percent(o.passed, o.thrown));
+        ADD("edge_passed_percent", "EDGE: went through, %", eval_percent(o.passed, o.thrown));
     } else if (result == RLF_OK) {
         ADD("behind_bounced_percent", "BEHIND: bounced off a person's back, %",
             eval_percent(o.bounced, o.thrown));
-        ADD("behind_passed_percent", "  went through, %", eval_percent(o.passed, o.thrown));
+        ADD("behind_passed_percent", "BEHIND: went through, %", eval_percent(o.passed, o.thrown));
     }
     return result;
 }
@@ -83,7 +113,7 @@ static rlf_result add_realism(eval_table *table, const throw_conditions *on)
     const rlf_profile profile = on->profile;
     eval_throw_def def = {.source = "synthetic:room?frames=-1",
                           .aim = EVAL_AIM_ANY,
-                          .throws = 2 * THROWS,
+                          .throws = BALLS,
                           .balls_only = true,
                           .profile = profile,
                           .oracle = on->oracle,
@@ -143,8 +173,9 @@ static rlf_result add_rest(eval_table *table, rlf_profile profile)
     result = result == RLF_OK ? eval_sensed_rest(profile, 60.0, &rest) : result;
     if (result == RLF_OK) {
         ADD("noise_jitter_mm", "NOISE: cube on a table for 60 s, RMS, mm", rest.jitter_mm);
+        ADD("noise_awake_mm", "NOISE: the same until it sleeps, mm", rest.awake_mm);
         ADD("noise_asleep_s", "NOISE: asleep after, s", rest.asleep_s);
-        ADD("noise_wakes", "NOISE: wakes", rest.wakes);
+        ADD("noise_wakes", "NOISE: wakes", rest.asleep_s < EVAL_NEVER ? rest.wakes : NAN);
         result = eval_sensed_chair(profile, &frames);
     }
     if (result == RLF_OK) {

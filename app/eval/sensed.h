@@ -36,7 +36,10 @@ typedef enum eval_aim {
 typedef struct eval_throw_def {
     const char *source;
     eval_aim aim;
-    int32_t throws, lost;
+    int32_t throws;
+    int32_t per_frame; /* thrown together at most; 0: 8 */
+    int32_t lost;      /* frames lost after each that arrives, once throwing has begun */
+    double begin_s;    /* s before which nothing is thrown */
     bool balls_only;
     rlf_profile profile;
     int32_t oracle; /* bits of eval_oracle_part; 0: all is sensed */
@@ -47,7 +50,9 @@ typedef struct eval_throw_def {
 typedef struct eval_throws {
     int64_t thrown;
     int64_t not_finite;
-    int64_t tunnelled; /* whose centre got 2 cm into something true that is seen, in view */
+    int64_t
+        tunnelled; /* whose centre got 2 cm into something true that is seen and stays, in view */
+    int64_t swallowed; /* the same with what moves */
     double fastest;    /* m/s */
     int64_t bounced;   /* aimed ones: that came back from the target */
     int64_t passed;    /* aimed ones: that went through it */
@@ -74,8 +79,10 @@ rlf_result eval_sensed_swipe(rlf_profile profile, rlf_shape_type shape, double s
 rlf_result eval_sensed_carry(rlf_profile profile, int32_t *out_stayed);
 
 typedef struct eval_rest {
-    double jitter_mm; /* RMS about the mean place, from 1 s after the landing on */
-    double asleep_s;  /* s from the landing to sleep; EVAL_NEVER = never */
+    double jitter_mm; /* RMS about the mean place, from 0.3 s after the last bounce of its landing
+                         on; NAN: it never came to rest there */
+    double awake_mm;  /* the same while it does not sleep yet */
+    double asleep_s;  /* s from the first touch to sleep; EVAL_NEVER = never */
     int32_t wakes;
 } eval_rest;
 

@@ -9,6 +9,9 @@
 #define START 3.0
 #define RISE 0.4
 #define FRAME_S (1.0 / 30)
+#define BOUNCE_SPEED 0.05 /* m/s; what meets the table slower does not bounce */
+#define SETTLE_S 0.3      /* from the last bounce to rest */
+#define LANDING_S 1.0     /* bounces later than this after the first touch are jitter */
 
 static rlf_body_def body_of(rlf_shape_type type, rlf_vec3 position)
 {
@@ -158,9 +161,43 @@ static void add_place(rest_sum *sum, rlf_vec3 p)
 
 static double spread_mm(const rest_sum *sum)
 {
-    double n = (double)(sum->count > 0 ? sum->count : 1);
+    double n = (double)sum->count;
     rlf_vec3 mean = rlf_scale(sum->sum, 1.0 / n);
-    return 1e3 * sqrt(rlf_max(0.0, sum->square / n - rlf_dot(mean, mean)));
+    return n > 0.0 ? 1e3 * sqrt(rlf_max(0.0, sum->square / n - rlf_dot(mean, mean))) : NAN;
+}
+
+/* A cube that comes down, as seen so far. */
+typedef struct landing {
+    double touched, bounced; /* s of its first touch and of its last bounce; < 0: none yet */
+    bool was_asleep;
+    rest_sum all, awake; /* places from rest on */
+} landing;
+
+static bool is_bounce(const rlf_snapshot *s)
+{
+    bool is_hard = false;
+    for (int32_t i = 0; i < s->contact_count; i++) {
+        is_hard = is_hard || s->contacts[i].approach_speed > BOUNCE_SPEED;
+    }
+    return is_hard;
+}
+
+static void watch(landing *l, const rlf_snapshot *s, double now, eval_rest *out)
+{
+    const rlf_body_state *body = &s->bodies[0];
+    bool is_first = l->touched < 0.0 && s->contact_count > 0;
+    l->touched = is_first ? now : l->touched;
+    bool is_landing = is_first || (is_bounce(s) && now < l->touched + LANDING_S);
+    l->bounced = is_landing ? now : l->bounced;
+    if (l->touched >= 0.0 && now > l->bounced + SETTLE_S) {
+        add_place(&l->all, body->T_world_body.p);
+        if (!body->is_asleep) {
+            add_place(&l->awake, body->T_world_body.p);
+        }
+    }
+    out->asleep_s = body->is_asleep ? rlf_min(out->asleep_s, now - l->touched) : out->asleep_s;
+    out->wakes += l->was_asleep && !body->is_asleep;
+    l->was_asleep = body->is_asleep;
 }
 
 rlf_result eval_sensed_rest(rlf_profile profile, double seconds, eval_rest *out)
@@ -175,25 +212,16 @@ rlf_result eval_sensed_rest(rlf_profile profile, double seconds, eval_rest *out)
     rlf_body_def def = body_of(RLF_SHAPE_BOX, rlf_vec3_make(1.04, 0.565 - 0.06, 2.22));
     rlf_body_id id;
     result = result == RLF_OK ? rlf_world_add_body(stage.world, &def, &id) : result;
-    rest_sum sum = {0};
-    double landed = -1.0;
-    bool was_asleep = false;
+    landing l = {.touched = -1.0, .bounced = -1.0};
     while (result == RLF_OK && stage.frame.time_s < 1.0 + seconds) {
         result = eval_room_step(&stage);
-        const rlf_body_state *body = first_of(&stage);
-        double now = stage.frame.time_s;
-        if (result != RLF_OK || body == NULL) {
+        if (result != RLF_OK || first_of(&stage) == NULL) {
             break;
         }
-        landed = landed < 0.0 && stage.frame.snapshot->contact_count > 0 ? now : landed;
-        if (landed >= 0.0 && now > landed + 1.0) {
-            add_place(&sum, body->T_world_body.p);
-        }
-        out->asleep_s = body->is_asleep ? rlf_min(out->asleep_s, now - landed) : out->asleep_s;
-        out->wakes += was_asleep && !body->is_asleep;
-        was_asleep = body->is_asleep;
+        watch(&l, stage.frame.snapshot, stage.frame.time_s, out);
     }
-    out->jitter_mm = spread_mm(&sum);
+    out->jitter_mm = spread_mm(&l.all);
+    out->awake_mm = spread_mm(&l.awake);
     eval_room_close(&stage);
     return result;
 }

@@ -15,6 +15,8 @@
 #define EDGE_PX 8
 #define PIERCED 0.5 /* share of its inner radius by which a body that went through came nearer */
 #define FRAMES_MAX 4000
+#define STEPS 8      /* places looked at on the way from a frame to the next that the sensor took */
+#define SHOWN_S 0.05 /* before it a new frame's surface is not known; physics lets it stand */
 
 typedef struct track {
     bool is_alive, is_pending;
@@ -161,23 +163,36 @@ static bool is_seen(const throwing *run, rlf_vec3 p, rlf_vec3 n)
     return rlf_dot(n, p) <= 0.0 && is_in_sight(run, p);
 }
 
+/* Where a body without a touch was at that share of the time between two frames. */
+static rlf_vec3 place_between(const track *t, const rlf_body_state *body, double dt, double share)
+{
+    rlf_vec3 way = rlf_sub(body->T_world_body.p, t->before.T_world_body.p);
+    rlf_vec3 p = rlf_mad(t->before.T_world_body.p, way, share);
+    return rlf_mad(p, gravity_of(t), -0.5 * dt * dt * share * (1.0 - share));
+}
+
 /* The centre got into something true that the camera sees, or is a part of the room's shell: at the
- * end of a frame or, where nothing was touched, on the way. */
+ * end of a frame or, where nothing was touched, on the way. What moves is then where the new frame
+ * shows it: frames that are lost tell nothing of its way. */
 static void look_for_tunnel(throwing *run, track *t, const rlf_body_state *body, bool has_contact,
                             double begin, double end)
 {
     const double DEEP = -0.02;
-    int32_t steps = has_contact || run->def->lost > 0 ? 1 : 8;
+    double dt = end - begin;
+    int32_t steps = has_contact ? 1 : STEPS * (run->def->lost + 1);
     for (int32_t i = 1; i <= steps && !t->has_tunnelled; i++) {
         double share = (double)i / steps;
-        rlf_vec3 way = rlf_sub(body->T_world_body.p, t->before.T_world_body.p);
-        rlf_vec3 p = rlf_mad(t->before.T_world_body.p, way, share);
-        rlf_synthetic_hit hit = nearest(run, begin + (end - begin) * share, p);
+        rlf_vec3 p = place_between(t, body, dt, share);
+        rlf_synthetic_hit hit = nearest(run, rlf_max(begin + dt * share, end - SHOWN_S), p);
         if (hit.distance < DEEP && is_in_view(run, p)) {
             rlf_vec3 surface = rlf_mad(p, hit.normal, -hit.distance);
             t->has_tunnelled =
                 hit.label <= RLF_SYNTHETIC_LABEL_CEILING || is_seen(run, surface, hit.normal);
-            run->out->tunnelled += t->has_tunnelled;
+            if (t->has_tunnelled && hit.label >= RLF_SYNTHETIC_LABEL_PERSON) {
+                run->out->swallowed++;
+            } else if (t->has_tunnelled) {
+                run->out->tunnelled++;
+            }
         }
     }
 }
@@ -186,7 +201,6 @@ static void look_for_tunnel(throwing *run, track *t, const rlf_body_state *body,
 static void note_nearest(const throwing *run, track *t, const rlf_body_state *body, double begin,
                          double end)
 {
-    const int32_t STEPS = 8;
     rlf_vec3 way = rlf_sub(body->T_world_body.p, t->before.T_world_body.p);
     for (int32_t i = 1; i <= STEPS; i++) {
         double share = (double)i / STEPS;
@@ -409,9 +423,33 @@ static void follow_all(throwing *run, double begin, double end)
     }
 }
 
+/* Frame by frame, until all are thrown and none flies any more. */
+static rlf_result play(throwing *run)
+{
+    const eval_throw_def *def = run->def;
+    const int32_t per_frame = def->per_frame > 0 ? def->per_frame : 8;
+    rlf_result result = RLF_OK;
+    double before = 0.0;
+    for (int32_t i = 0; i < FRAMES_MAX && (run->out->thrown < def->throws || run->alive > 0); i++) {
+        result = eval_room_step(&run->stage);
+        if (result != RLF_OK) {
+            break;
+        }
+        double now = run->stage.frame.time_s;
+        follow_all(run, before, now);
+        int64_t left = def->throws - run->out->thrown;
+        bool has_begun = run->stage.frame.frame_index >= FIRST_FRAME && now >= def->begin_s;
+        if (has_begun && left > 0) {
+            add_throws(run, left < per_frame ? (int32_t)left : per_frame);
+        }
+        run->stage.lost = has_begun ? def->lost : 0; /* the background first */
+        before = now;
+    }
+    return result;
+}
+
 rlf_result eval_sensed_throw(const eval_throw_def *def, eval_throws *out)
 {
-    const int32_t PER_FRAME = 8;
     memset(out, 0, sizeof(*out));
     throwing *run = rlf_alloc(sizeof(*run));
     if (run == NULL) {
@@ -422,21 +460,8 @@ rlf_result eval_sensed_throw(const eval_throw_def *def, eval_throws *out)
     run->random = eval_random_start(def->seed);
     rlf_result result =
         eval_room_open(def->source, def->lost, def->profile, def->oracle, &run->stage);
-    double before = 0.0;
-    for (int32_t i = 0;
-         result == RLF_OK && i < FRAMES_MAX && (out->thrown < def->throws || run->alive > 0); i++) {
-        result = eval_room_step(&run->stage);
-        if (result != RLF_OK) {
-            break;
-        }
-        double now = run->stage.frame.time_s;
-        follow_all(run, before, now);
-        int64_t left = def->throws - out->thrown;
-        if (run->stage.frame.frame_index >= FIRST_FRAME && left > 0) {
-            add_throws(run, left < PER_FRAME ? (int32_t)left : PER_FRAME);
-        }
-        before = now;
-    }
+    run->stage.lost = 0;
+    result = result == RLF_OK ? play(run) : result;
     eval_room_close(&run->stage);
     rlf_free(run);
     return result == RLF_END ? RLF_OK : result;

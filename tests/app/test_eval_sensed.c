@@ -49,6 +49,30 @@ static void throws_into_the_still_room_stay_in_it(void **state)
     }
 }
 
+/* The person is in the middle of the view from 1.5 s on. The thesis's method shows that there is
+ * something to go wrong. */
+static void lost_frames_of_a_walking_person_let_nothing_through(void **state)
+{
+    (void)state;
+    eval_throw_def def = {.source = "synthetic:room?color=0&frames=-1",
+                          .aim = EVAL_AIM_ANY,
+                          .throws = 40,
+                          .per_frame = 4,
+                          .begin_s = 1.5,
+                          .lost = 7,
+                          .seed = 9};
+    eval_throws o;
+    assert_int_equal(eval_sensed_throw(&def, &o), RLF_OK);
+    assert_int_equal(o.thrown, 40);
+    assert_int_equal(o.tunnelled + o.swallowed + o.not_finite, 0);
+    assert_true(o.fastest < 15.0);
+    def.profile = RLF_PROFILE_THESIS;
+    assert_int_equal(eval_sensed_throw(&def, &o), RLF_OK);
+    print_message("7 frames lost, thesis: %d tunnelled, %d in the person\n", (int)o.tunnelled,
+                  (int)o.swallowed);
+    assert_true(o.tunnelled > 10 && o.swallowed > 0);
+}
+
 static void balls_bounce_as_they_truly_would(void **state)
 {
     (void)state;
@@ -111,12 +135,15 @@ static void rest_is_rest_and_lost_support_is_lost(void **state)
     (void)state;
     eval_rest rest;
     assert_int_equal(eval_sensed_rest(RLF_PROFILE_LIVE, 8.0, &rest), RLF_OK);
-    assert_true(rest.jitter_mm <= 0.5);
+    assert_true(rest.jitter_mm > 0.0 && rest.jitter_mm <= 0.5); /* there are samples */
+    assert_true(rest.awake_mm >= rest.jitter_mm && rest.awake_mm <= 0.5);
     assert_true(rest.asleep_s <= 1.0);
     assert_int_equal(rest.wakes, 0);
     double frames;
     assert_int_equal(eval_sensed_chair(RLF_PROFILE_LIVE, &frames), RLF_OK);
     assert_true(frames <= 4.0);
+    assert_int_equal(eval_sensed_rest(RLF_PROFILE_THESIS, 3.0, &rest), RLF_OK);
+    assert_true(isnan(rest.jitter_mm) && isnan(rest.awake_mm)); /* it falls through the table */
 }
 
 int main(void)
@@ -124,6 +151,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(true_ball_bounces_exactly),
         cmocka_unit_test(throws_into_the_still_room_stay_in_it),
+        cmocka_unit_test(lost_frames_of_a_walking_person_let_nothing_through),
         cmocka_unit_test(balls_bounce_as_they_truly_would),
         cmocka_unit_test(backs_and_book_edges_turn_most_back),
         cmocka_unit_test(trays_lift_and_boards_push),
