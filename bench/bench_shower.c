@@ -12,6 +12,14 @@
 #define EMPTY_FRAMES 8   /* the background needs five */
 #define LAYER_COLUMNS 14 /* cubes of a layer side by side */
 
+/* Of one worker its own time, whoever else uses the machine; of several that on the wall. */
+static double now_ms(bool is_alone)
+{
+    struct timespec t;
+    clock_gettime(is_alone ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &t);
+    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
+}
+
 static rlf_synthetic_def source_def(rlf_synthetic_scene scene, uint64_t seed)
 {
     rlf_synthetic_def def = rlf_synthetic_def_default();
@@ -27,6 +35,7 @@ bool room_open(room *r, uint64_t seed, int32_t scale_factor)
 {
     memset(r, 0, sizeof(*r));
     r->seed = seed;
+    r->first_time_ns = -1;
     rlf_synthetic_def def = source_def(RLF_SYNTHETIC_ROOM, seed);
     if (rlf_synthetic_create(&def, &r->source) != RLF_OK) {
         return false;
@@ -34,7 +43,9 @@ bool room_open(room *r, uint64_t seed, int32_t scale_factor)
     rlf_reconstruct_def reconstruct =
         rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rlf_source_get_info(r->source)->rig);
     reconstruct.scale_factor = scale_factor;
-    bool is_good = rlf_reconstruct_create(&reconstruct, &r->reconstruct) == RLF_OK;
+    bool is_good = rlf_reconstruct_create(&reconstruct, &r->reconstruct) == RLF_OK &&
+                   far_side_create(reconstruct.rig.depth.width, reconstruct.rig.depth.height,
+                                   &r->far) == RLF_OK;
     for (int32_t k = 0; k < EMPTY_FRAMES && is_good; k++) {
         is_good = room_next(r);
     }
@@ -44,13 +55,19 @@ bool room_open(room *r, uint64_t seed, int32_t scale_factor)
 bool room_next(room *r)
 {
     const rlf_pose camera = rlf_pose_identity();
+    const rlf_vec3 down = {0, 1, 0};
     const rlf_surface *surface = NULL;
     rlf_frame frame;
     if (rlf_source_next(r->source, &frame) != RLF_OK ||
         rlf_reconstruct_process(r->reconstruct, &frame, &surface) != RLF_OK) {
         return false;
     }
+    r->first_time_ns = r->first_time_ns < 0 ? frame.time_ns : r->first_time_ns;
+    r->time_s = 1e-9 * (double)(frame.time_ns - r->first_time_ns);
+    double start = now_ms(true);
     grid_from_surface(surface, &camera, r->regions, ROOM_REGIONS_MAX, &r->grid);
+    r->grid.foreground.thickness = far_side_thicken(&r->far, surface, down);
+    r->grid_ms = now_ms(true) - start;
     return true;
 }
 
@@ -58,12 +75,14 @@ bool room_empty(room *r)
 {
     rlf_synthetic_def def = source_def(RLF_SYNTHETIC_EMPTY, r->seed);
     rlf_source_destroy(&r->source);
+    r->first_time_ns = -1;
     return rlf_synthetic_create(&def, &r->source) == RLF_OK;
 }
 
 void room_close(room *r)
 {
     rlf_reconstruct_destroy(&r->reconstruct);
+    far_side_destroy(&r->far);
     rlf_source_destroy(&r->source);
 }
 
@@ -80,15 +99,22 @@ bool shower_open(shower *s, int32_t count, double seconds, rlf_pool *pool)
     s->empty_time = seconds;
     s->step_capacity = 2 * (int32_t)((seconds + SHOWER_SETTLE) * ROOM_HZ);
     s->step_ms = malloc((size_t)s->step_capacity * sizeof(*s->step_ms));
+    s->grid_ms = malloc((size_t)s->step_capacity * sizeof(*s->grid_ms));
     s->inside = calloc((size_t)count, sizeof(*s->inside));
-    return s->step_ms != NULL && s->inside != NULL && rlf_world_create(&def, &s->world) == RLF_OK;
+    s->passages = calloc((size_t)count, sizeof(*s->passages));
+    s->places = calloc((size_t)count, sizeof(*s->places));
+    return s->step_ms != NULL && s->grid_ms != NULL && s->inside != NULL && s->passages != NULL &&
+           s->places != NULL && rlf_world_create(&def, &s->world) == RLF_OK;
 }
 
 void shower_close(shower *s)
 {
     rlf_world_destroy(&s->world);
     free(s->step_ms);
+    free(s->grid_ms);
     free(s->inside);
+    free(s->passages);
+    free(s->places);
 }
 
 rlf_body_def shower_cube(int32_t index)
@@ -108,19 +134,12 @@ static bool drop_layer(shower *s)
 {
     for (int32_t k = 0; k < SHOWER_LAYER && s->added < s->count; k++, s->added++) {
         rlf_body_def def = shower_cube(s->added);
+        s->places[s->added] = def.position;
         if (rlf_world_add_body(s->world, &def, NULL) != RLF_OK) {
             return false;
         }
     }
     return true;
-}
-
-/* Of one worker its own time, whoever else uses the machine; of several that on the wall. */
-static double now_ms(bool is_alone)
-{
-    struct timespec t;
-    clock_gettime(is_alone ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &t);
-    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
 }
 
 static void advance(shower *s, const rlf_grid *grid)
@@ -215,8 +234,11 @@ bool shower_step(shower *s, room *r)
     if (frame % SHOWER_LAYER_FRAMES == 0 && !drop_layer(s)) {
         return false;
     }
+    s->grid_ms[frame] = r->grid_ms;
     advance(s, &r->grid);
+    shower_look_for_passages(s, r, r->time_s);
     advance(s, &r->grid);
+    shower_look_for_passages(s, r, r->time_s + 0.5 / ROOM_HZ);
     count_losses(s, r);
     count_deep(s);
     return true;
@@ -292,4 +314,13 @@ double shower_busiest_second(const shower *s)
         worst = i >= 2 * ROOM_HZ - 1 && sum > worst ? sum : worst;
     }
     return worst / (2.0 * ROOM_HZ);
+}
+
+double shower_grid_mean(const shower *s)
+{
+    double sum = 0.0;
+    for (int32_t i = 0; i < s->step_count / 2; i++) {
+        sum += s->grid_ms[i];
+    }
+    return s->step_count > 0 ? sum / s->step_count : 0.0;
 }

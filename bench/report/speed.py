@@ -88,6 +88,10 @@ GOALS = [
          "bench_physics --bodies 100,1000 --seconds 60"),
     Goal("CROWD: lost of 1000 in 60 s", "<=", 0, "cubes", _cubes(1000, "lost", None, "crowd"), "",
          "ODE 0, Jolt 3, Bullet 19 to 30, Box3D 790 on two meshes", "bench_physics --bodies 100,1000 --seconds 60"),
+    Goal("CROWD: gone through the person, of 100 in 60 s", "<=", 0, "cubes",
+         _cubes(100, "through", None, "crowd"), "", "", "bench_physics --bodies 100,1000 --seconds 60"),
+    Goal("CROWD: gone through the person, of 1000 in 60 s", "<=", 0, "cubes",
+         _cubes(1000, "through", None, "crowd"), "", "", "bench_physics --bodies 100,1000 --seconds 60"),
     Goal("allocations in the steps of 1000 cubes", "<=", 0, "", _cubes(1000, "allocs", None), "",
          "Box3D 488 in 132 steps of 200", "bench_physics"),
 ]
