@@ -178,24 +178,29 @@ static double slope_error(const peer *p)
     return fabs(low - atan(FRICTION) / DEGREE);
 }
 
-enum { ANSWERS = 6, CROWDS = 2 };
+enum { ANSWERS = 8, CROWDS = 2 };
 
 static const int32_t COUNTS[CROWDS] = {100, 1000};
 
 /* What one engine did. */
 typedef struct result {
-    double answers[ANSWERS]; /* fall, tumble, chain, drift, depth, slope; NAN: it has none */
+    /* Fall, tumble, chain, drift, depth, slope, lifted, swept; NAN: it has none. */
+    double answers[ANSWERS];
     peer_cost crowds[CROWDS];
 } result;
 
 static void ask(const peer *p, result *out)
 {
     double drift = NAN, depth = NAN, slope = NAN;
+    int32_t lifted = 0, swept = 0;
     if (p->plays_bodies) {
         stack(p, &drift, &depth);
         slope = slope_error(p);
     }
-    const double all[ANSWERS] = {free_fall(p), tumble(p), chain(p), drift, depth, slope};
+    bool is_pushed = p->plays_bodies && peer_push(p, &lifted, &swept);
+    const double all[ANSWERS] = {
+        free_fall(p),           tumble(p), chain(p), drift, depth, slope, is_pushed ? lifted : NAN,
+        is_pushed ? swept : NAN};
     printf("%-8s", p->name);
     for (int32_t i = 0; i < ANSWERS; i++) {
         out->answers[i] = all[i];
@@ -228,8 +233,8 @@ static bool ask_crowds(result results[PEERS], double seconds, uint64_t seed)
 
 static void write_engine(FILE *file, const peer *p, const result *r, bool has_crowds)
 {
-    static const char *const NAMES[ANSWERS] = {"fall_mm",  "tumble",  "chain_percent",
-                                               "drift_mm", "deep_mm", "slope_deg"};
+    static const char *const NAMES[ANSWERS] = {"fall_mm", "tumble",    "chain_percent", "drift_mm",
+                                               "deep_mm", "slope_deg", "lifted",        "swept"};
     fprintf(file, "    {\"name\": \"%s\"", p->name);
     for (int32_t i = 0; i < ANSWERS; i++) {
         if (isfinite(r->answers[i])) {
@@ -305,8 +310,8 @@ int main(int argc, char **argv)
         return status;
     }
     result results[PEERS] = {0};
-    printf("%-8s %12s %12s %12s %12s %12s %12s\n", "", "fall, mm", "tumble", "chain, %",
-           "stack, mm", "deep, mm", "slope, deg");
+    printf("%-8s %12s %12s %12s %12s %12s %12s %12s %12s\n", "", "fall, mm", "tumble", "chain, %",
+           "stack, mm", "deep, mm", "slope, deg", "LIFT, of 8", "SWIPE, of 8");
     for (int32_t k = 0; k < PEERS; k++) {
         ask(peers[k], &results[k]);
     }

@@ -44,6 +44,18 @@ typedef struct peer {
 extern const peer peer_live, peer_thesis, peer_ode, peer_bullet;
 
 #define PEER_STEP (1.0 / 60.0)
+#define PEER_SPEEDS 4
+
+/* Room for the mesh of a grid. */
+typedef struct peer_mesher {
+    float *vertices;
+    uint32_t *triangles;
+} peer_mesher;
+
+bool peer_mesher_open(peer_mesher *out, const rlf_grid *grid);
+void peer_mesher_close(peer_mesher *mesher);
+/* Two triangles for each square of pixels, but none across an edge. It is the mesher's. */
+peer_mesh peer_mesh_of(peer_mesher *mesher, const rlf_grid *grid, const rlf_grid_sheet *sheet);
 
 /* What a crowd cost, ms per 1/60 s, and how many of its cubes were lost in view. */
 typedef struct peer_cost {
@@ -53,6 +65,10 @@ typedef struct peer_cost {
 
 /* Cubes fall on the room while a person walks through it. */
 bool peer_crowd(const peer *p, int32_t count, double seconds, uint64_t seed, peer_cost *out);
+
+/* How many times of 2 * PEER_SPEEDS a rising plate carries a box or a ball and throws it, and a
+ * board pushes one before it. */
+bool peer_push(const peer *p, int32_t *out_lifted, int32_t *out_swept);
 
 #ifdef __cplusplus
 }

@@ -9,8 +9,6 @@
 #include <string.h>
 #include <time.h>
 
-#define JUMP 0.05 /* m and more from pixel to pixel, or this share of the depth: an edge */
-
 typedef struct crowd {
     const peer *p;
     void *engine;
@@ -18,8 +16,7 @@ typedef struct crowd {
     int32_t count, added, frame, step_count;
     double *step_ms;
     int32_t *inside, lost;
-    float *vertices;
-    uint32_t *triangles;
+    peer_mesher mesher;
 } crowd;
 
 static double now_ms(void)
@@ -29,42 +26,11 @@ static double now_ms(void)
     return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
 }
 
-static bool is_close(const rlf_grid_sheet *sheet, const int32_t corners[3])
-{
-    double low = 1e9, high = 0.0;
-    for (int i = 0; i < 3; i++) {
-        bool is_there = sheet->mask == NULL || sheet->mask[corners[i]] != 0;
-        double z = is_there ? (double)sheet->depth[corners[i]] : 0.0;
-        low = rlf_min(low, z);
-        high = rlf_max(high, z);
-    }
-    return low > 0.0 && high - low < rlf_max(JUMP, 0.5 * JUMP * high);
-}
-
-/* Two triangles for each square of pixels, but none across an edge. */
 static void set_mesh(crowd *c, int32_t layer)
 {
     const rlf_grid *grid = &c->room.grid;
-    const rlf_grid_sheet *sheet = layer == 0 ? &grid->background : &grid->foreground;
-    int32_t w = grid->width, pixels = w * grid->height;
-    peer_mesh mesh = {c->vertices, c->triangles, pixels, 0};
-    for (int32_t i = 0; i < pixels; i++) {
-        float z = sheet->depth[i];
-        c->vertices[3 * i] = z * grid->ray_x[i];
-        c->vertices[3 * i + 1] = z * grid->ray_y[i];
-        c->vertices[3 * i + 2] = z;
-    }
-    for (int32_t i = 0; i < pixels - w; i++) {
-        const int32_t halves[2][3] = {{i, i + w, i + 1}, {i + 1, i + w, i + w + 1}};
-        for (int32_t k = 0; k < 2 && i % w < w - 1; k++) {
-            if (is_close(sheet, halves[k])) {
-                uint32_t *t = &c->triangles[3 * mesh.triangle_count++];
-                for (int32_t corner = 0; corner < 3; corner++) {
-                    t[corner] = (uint32_t)halves[k][corner];
-                }
-            }
-        }
-    }
+    peer_mesh mesh =
+        peer_mesh_of(&c->mesher, grid, layer == 0 ? &grid->background : &grid->foreground);
     c->p->set_mesh(c->engine, layer, &mesh);
 }
 
@@ -143,14 +109,11 @@ bool peer_crowd(const peer *p, int32_t count, double seconds, uint64_t seed, pee
     int32_t frames = (int32_t)(seconds * ROOM_HZ);
     crowd c = {.p = p, .count = count};
     bool is_good = room_open(&c.room, seed, 1);
-    size_t pixels = is_good ? (size_t)c.room.grid.width * (size_t)c.room.grid.height : 1;
     c.engine = is_good ? p->open(rlf_vec3_make(0, 9.81, 0), count) : NULL;
     c.step_ms = malloc((size_t)(frames + 1) * sizeof(*c.step_ms));
     c.inside = calloc((size_t)count, sizeof(*c.inside));
-    c.vertices = malloc(3 * pixels * sizeof(*c.vertices));
-    c.triangles = malloc(6 * pixels * sizeof(*c.triangles));
-    is_good = c.engine != NULL && c.step_ms != NULL && c.inside != NULL && c.vertices != NULL &&
-              c.triangles != NULL;
+    is_good = c.engine != NULL && c.step_ms != NULL && c.inside != NULL &&
+              peer_mesher_open(&c.mesher, &c.room.grid);
     for (int32_t k = 0; k < frames && is_good; k++) {
         is_good = play_frame(&c);
     }
@@ -163,8 +126,7 @@ bool peer_crowd(const peer *p, int32_t count, double seconds, uint64_t seed, pee
     }
     free(c.step_ms);
     free(c.inside);
-    free(c.vertices);
-    free(c.triangles);
+    peer_mesher_close(&c.mesher);
     room_close(&c.room);
     return is_good;
 }

@@ -170,9 +170,10 @@ def engines(data):
     if not data.engines:
         return Section("Beside other physics engines", [Text(
             "ABSENT: bench_peers is built where pkg-config finds ode or bullet (docs/dependencies.md).")])
-    keys = ("fall_mm", "tumble", "chain_percent", "drift_mm", "deep_mm", "slope_deg")
+    keys = ("fall_mm", "tumble", "chain_percent", "drift_mm", "deep_mm", "slope_deg", "lifted", "swept")
     heads = ["free fall of 1 s, mm off", "tumbling, 100 s: energy drift", "row of 5 balls, worst, %",
-             "ten cubes, 20 s: mm aside", "mm deep", "slope, degrees off"]
+             "ten cubes, 20 s: mm aside", "mm deep", "slope, degrees off", "LIFT, of 8",
+             "SWIPE, of 8"]
     counts = sorted({c["cubes"] for e in data.engines["engines"] for c in e["crowds"]})
     rows = []
     for engine in data.engines["engines"]:
