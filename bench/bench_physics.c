@@ -1,6 +1,6 @@
 /* Milliseconds of physics per 1/60 s: showers of cubes on the live surface of the synthetic room,
- * in which a person walks. A new surface comes 30 times a second; only rlf_world_advance is timed,
- * which holds all that the collider needs per new surface. Prints, for each count of cubes, the
+ * in which a person walks. A new surface comes 30 times a second; rlf_world_advance is timed, and
+ * beside it what makes the collider's grid of a new surface. Prints, for each count of cubes, the
  * cost of each phase. */
 #include "bench_physics.h"
 
