@@ -99,7 +99,8 @@ static void set_vec(rlf_lane_vec *of, int32_t lane, rlf_vec3 v)
     of->z[lane] = (float)v.z;
 }
 
-static void set_targets(rlf_lane_point *p, int32_t lane, const phys_point *c, double slop, double h)
+/* Returns whether the overlap is pushed apart at full speed. */
+static bool set_targets(rlf_lane_point *p, int32_t lane, const phys_point *c, double slop, double h)
 {
     float rest = 0.0f, push = 0.0f, ease = 0.0f;
     if (c->separation > 0.0) { /* may close the gap, not more */
@@ -112,6 +113,7 @@ static void set_targets(rlf_lane_point *p, int32_t lane, const phys_point *c, do
     p->target[0][lane] = rest;
     p->target[1][lane] = push;
     p->ease[lane] = ease;
+    return push >= (float)PUSH_SPEED_MAX;
 }
 
 static bool is_same(rlf_vec3 a, rlf_vec3 b)
@@ -136,7 +138,7 @@ static void add_points(phys_batch *batch, const phys_group *g, int32_t lane, dou
         set_vec(&p->tangent, lane, tangent);
         set_vec(&p->r_a, lane, near->r_a);
         set_vec(&p->r_b, lane, near->r_b);
-        set_targets(p, lane, near, slop, h);
+        batch->is_deep |= set_targets(p, lane, near, slop, h);
         p->friction[lane] = (float)g->friction;
         for (int32_t row = 0; row < 3; row++) {
             p->impulse[row][lane] = impulses[0] > 0.0 ? (float)impulses[row] : 0.0f;

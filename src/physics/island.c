@@ -7,6 +7,8 @@
 
 #define SOLVE_PASSES 6
 #define RELAX_PASSES 2
+/* Where much is pushed apart at once, speeds add up through all of it: they are taken out again. */
+#define DEEP_RELAX_PASSES 40
 #define WORK_LEAST 256 /* bodies and pairs that are worked on together, in one island or more */
 
 static int32_t root_of(rlf_world *world, int32_t i)
@@ -293,6 +295,16 @@ static void mark_pressed(const phys_batch *batch)
     }
 }
 
+static int32_t relax_passes(const phys_batch *batches, int32_t count)
+{
+    for (int32_t k = 0; k < count; k++) {
+        if (batches[k].is_deep) {
+            return DEEP_RELAX_PASSES;
+        }
+    }
+    return RELAX_PASSES;
+}
+
 void phys_island_substep(rlf_world *world, const phys_island *island, const grid_query *query,
                          double h)
 {
@@ -323,7 +335,7 @@ void phys_island_substep(rlf_world *world, const phys_island *island, const grid
         move_body(world, &world->bodies[bodies[i]], query, h);
         load_speed(world, bodies[i]);
     }
-    phys_batches_solve(world, batches, count, false, RELAX_PASSES);
+    phys_batches_solve(world, batches, count, false, relax_passes(batches, count));
     for (int32_t i = begin; i < end; i++) {
         RLF_KERNEL_SOON_WRITTEN(&next_body(world, island, i)->v);
         store_speed(world, bodies[i]);

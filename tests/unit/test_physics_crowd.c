@@ -129,8 +129,8 @@ static double moving_energy(const rlf_world *world)
     return sum;
 }
 
-/* 300 cubes overlap wholly. What pushes them apart is to be taken out of their speed again; in a
- * heap like that two passes of relaxation leave much of it (40 passes: 2.6 m/s and 8 J). */
+/* 300 cubes overlap wholly. What pushes them apart is taken out of their speed again, in more
+ * passes than else: two leave 24 m/s and 700 J. */
 static void heap_in_one_place_comes_apart_at_bounded_speed(void **state)
 {
     (void)state;
@@ -147,7 +147,7 @@ static void heap_in_one_place_comes_apart_at_bounded_speed(void **state)
         energy = rlf_max(energy, moving_energy(world));
     }
     print_message("300 cubes in one place: up to %.1f m/s, %.0f J\n", most, energy);
-    assert_true(most < 30 && energy < 800);
+    assert_true(most < 5 && energy < 20);
     rlf_world_destroy(&world);
 }
 
