@@ -138,7 +138,7 @@ static void add_points(phys_batch *batch, const phys_group *g, int32_t lane, dou
         set_vec(&p->tangent, lane, tangent);
         set_vec(&p->r_a, lane, near->r_a);
         set_vec(&p->r_b, lane, near->r_b);
-        batch->is_deep |= set_targets(p, lane, near, slop, h);
+        batch->is_deep |= set_targets(p, lane, near, slop, h) && g->b != NULL;
         p->friction[lane] = (float)g->friction;
         for (int32_t row = 0; row < 3; row++) {
             p->impulse[row][lane] = impulses[0] > 0.0 ? (float)impulses[row] : 0.0f;

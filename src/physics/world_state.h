@@ -46,7 +46,7 @@ typedef struct phys_batch {
     phys_lane_contacts *contacts; /* of lanes.points */
     int32_t count;
     bool resists_rolling; /* some group does */
-    bool is_deep;         /* some group overlaps so much that it is pushed apart at full speed */
+    bool is_deep;         /* two bodies overlap so much that they are pushed apart at full speed */
     bool is_apart;        /* shares no body that moves with the batch before */
 } phys_batch;
 
