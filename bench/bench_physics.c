@@ -1,6 +1,6 @@
 /* Milliseconds of physics per 1/60 s: showers of cubes on the live surface of the synthetic room,
- * in which a person walks. A new surface comes 30 times a second; rlf_world_advance is timed, and
- * beside it what makes the collider's grid of a new surface. Prints, for each count of cubes, the
+ * in which a person walks. A new surface comes 30 times a second; rlf_world_advance is timed,
+ * and what makes the collider's grid of a new surface. Prints, for each count of cubes, the
  * cost of each phase. */
 #include "bench_physics.h"
 
@@ -141,7 +141,7 @@ static void print_rows(const shower *showers, const options *o, const room *r)
         "poured: until a second after the last cubes are dropped; ploughed: from then on, while "
         "a person walks; at rest: in the last second\n"
         "worst: step; busiest: mean of the costliest second; the parts are means of all steps\n"
-        "grid: beside all other times, what the collider needs once per new surface, per 1/60 s\n"
+        "grid: what the collider's grid needs of it, once per new surface; in all but the parts\n"
         "lost: 0.3 s or more inside floor, walls or furniture, or gone; hidden: those of them "
         "that are where no picture shows it\n"
         "through: 0.3 s or more %.0f mm in the true person, or in on one side and out on another\n"

@@ -222,7 +222,7 @@ def _phases(physics):
                 rows.append(Row([f"{row['cubes']} cubes, {phase}"] +
                                 [number(cost[key], 3) for key in ("median_ms", "p95_ms", "mean_ms")]))
     if physics["rows"] and physics["rows"][0].get("grid_ms") is not None:
-        rows.append(Row(["beside these: making the collider of each new surface", "-", "-",
+        rows.append(Row(["of that: making the collider's grid of each new surface", "-", "-",
                          number(physics["rows"][0]["grid_ms"], 3)]))
     return [Text(f"The cubes of bench_physics fall into the room with a person in it for {physics['seconds']:g} s; then it "
                  "is empty. Above: the phase with the largest median.", True),
