@@ -13,7 +13,7 @@
 
 enum { WIDTH = 160, HEIGHT = 120, COUNT = WIDTH * HEIGHT, FRAMES = 60 };
 
-static const double top_m = 0.42, front_m = 2.2, back_m = 2.9, wall_m = 3.9;
+static const double top_m = 0.42, front_m = 2.2, back_m = 2.9, wall_m = 3.9, plate_m = 1.5;
 /* A rough sample of a top, as in Fankhauser et al. 2015: metres. */
 static const double top_sigma = 0.022;
 static const double kept_at_step = 0.05, kept_beside_step = 0.4; /* by the driver */
@@ -93,10 +93,87 @@ static void a_top_seen_at_a_low_angle_is_flat_and_level(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
+/* ---- a box that is taken away ---- */
+
+typedef struct box_show {
+    rlf_reconstruct *stage;
+    const rlf_surface *surface;
+    analytic_random random;
+    int32_t frame;
+} box_show;
+
+/* Whether pixel i would show the box's top; its depth along the ray. */
+static bool is_of_box(const rlf_rig *rig, int32_t i, double *out_z, bool *is_top)
+{
+    int32_t x = i % WIDTH;
+    double y = (i / WIDTH - rig->depth.cy) / rig->depth.fy;
+    *out_z = true_depth(y, is_top);
+    return x >= 20 && x < WIDTH - 10 && *out_z < wall_m;
+}
+
+static void watch(box_show *s, int32_t frames, bool has_box, bool has_plate)
+{
+    const rlf_rig *rig = &s->stage->def.rig;
+    for (int32_t t = 0; t < frames; t++) {
+        for (int32_t i = 0; i < COUNT; i++) {
+            bool is_top, is_hidden = has_plate && i % WIDTH >= 30 && i % WIDTH < 130;
+            double z, sigma;
+            bool is_box = is_of_box(rig, i, &z, &is_top) && has_box;
+            z = is_hidden ? plate_m : is_box ? z : wall_m;
+            sigma =
+                is_box && is_top && !is_hidden ? top_sigma : rlf_depth_noise_sigma(&rig->noise, z);
+            depth[i] = (float)(z + sigma * random_normal(&s->random));
+        }
+        rlf_frame frame = analytic_frame(rig, depth, s->frame++);
+        frame.rig = NULL;
+        assert_int_equal(rlf_reconstruct_process(s->stage, &frame, &s->surface), RLF_OK);
+    }
+}
+
+/* Pixels at which the background shows the top. */
+static int32_t count_top(const box_show *s, int32_t *all)
+{
+    int32_t count = 0;
+    *all = 0;
+    for (int32_t i = 0; i < COUNT; i++) {
+        double z;
+        bool is_top;
+        if (is_of_box(&s->stage->def.rig, i, &z, &is_top) && is_top) {
+            float shown = s->surface->background_depth[i];
+            *all += 1;
+            count += shown > 0.0f && shown < (float)wall_m - 0.4f;
+        }
+    }
+    return count;
+}
+
+/* Somebody comes before it; behind him it is taken away, the wall is seen for four frames, and he
+ * is there again. */
+static void a_top_that_was_taken_away_does_not_stay(void **state)
+{
+    (void)state;
+    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
+    box_show s = {.random = {7}};
+    int32_t all, hidden, seen;
+    assert_int_equal(rlf_reconstruct_create(&def, &s.stage), RLF_OK);
+    watch(&s, 90, true, false);
+    watch(&s, 20, true, true);
+    watch(&s, 4, false, false);
+    watch(&s, 100, false, true);
+    hidden = count_top(&s, &all);
+    watch(&s, 240, false, false);
+    seen = count_top(&s, &all);
+    print_message("of %d pixels of the top %d stay while hidden, %d seen\n", all, hidden, seen);
+    assert_true(all > 500 && hidden * 8 < all && seen * 8 < all);
+    rlf_reconstruct_destroy(&s.stage);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_top_seen_at_a_low_angle_is_flat_and_level),
+        cmocka_unit_test(a_top_that_was_taken_away_does_not_stay),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -367,9 +367,13 @@ static void fit_pixel(const low_fit *f, rlf_sheet *sheet, ptrdiff_t i, low_block
     }
 }
 
-/* What something hides stays where it was put when it was seen. */
+/* What something hides stays where it was put when it was seen, unless the model is another one. */
 static void keep(const low_fit *f, rlf_sheet *sheet, ptrdiff_t i)
 {
+    float z = sheet->depth[i];
+    if (!(rlf_kernel_abs(f->old->depth[i] - z) < MOST_CHANGE * z)) {
+        return;
+    }
     sheet->depth[i] = f->old->depth[i];
     for (int k = 0; k < 3; k++) {
         sheet->normal[k][i] = f->old->normal[k][i];
