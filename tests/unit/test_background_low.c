@@ -165,7 +165,7 @@ static void a_top_that_was_taken_away_does_not_stay(void **state)
     watch(&s, 240, false, false);
     seen = count_top(&s, &all);
     print_message("of %d pixels of the top %d stay while hidden, %d seen\n", all, hidden, seen);
-    assert_true(all > 500 && hidden * 8 < all && seen * 8 < all);
+    assert_true(all > 500 && hidden * 50 < all && seen * 50 < all);
     rlf_reconstruct_destroy(&s.stage);
 }
 

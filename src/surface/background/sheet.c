@@ -117,6 +117,14 @@ static bool is_near(float depth, float other)
     return rlf_kernel_abs(depth - other) < SIDE * other;
 }
 
+/* Something hides pixel i, of which the sheet before showed what was settled, and the model is not
+ * newer than that: the proof that a thing has left takes fewer frames than its votes. */
+static bool was_on_side(const rlf_reconstruct *stage, const rlf_settled *settled, float was,
+                        int32_t i)
+{
+    return is_near(was, settled->depth) && stage->background.weight[i] >= settled->votes;
+}
+
 /* The model's mean does not tell on which side of an outline a pixel is: it is of whatever was seen
  * first. What frames agree on does, where this frame agrees, too, or something hides it. */
 static void take_sides(const rlf_reconstruct *stage, const rlf_slot *slot, const rlf_sheet *old,
@@ -130,9 +138,10 @@ static void take_sides(const rlf_reconstruct *stage, const rlf_slot *slot, const
                 is_near(sheet->depth[i], settled->depth)) {
                 continue;
             }
-            bool is_hidden = slot->foreground[i] != 0;
-            const float *told = !is_hidden ? slot->depth : old != NULL ? old->depth : sheet->depth;
-            sheet->depth[i] = is_near(told[i], settled->depth) ? settled->depth : sheet->depth[i];
+            bool is_on = slot->foreground[i] == 0
+                             ? is_near(slot->depth[i], settled->depth)
+                             : old != NULL && was_on_side(stage, settled, old->depth[i], i);
+            sheet->depth[i] = is_on ? settled->depth : sheet->depth[i];
         }
     }
 }
