@@ -20,7 +20,7 @@ enum {
     DOWN = 6,      /* ... in rows */
     ENDS = 6,      /* so far from a face's end it is fitted */
     PASSES = 3,    /* of the fit; what is far off it is left out */
-    MOST = 128,    /* samples in a mean */
+    MOST = 32,     /* samples in a mean: a second, and what has moved is forgotten */
     LEAST = 4,     /* in one that counts */
     LEAST_ON = 12, /* means on a plane */
     BLOCK_ACROSS = 8,
