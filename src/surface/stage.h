@@ -91,7 +91,7 @@ typedef struct rlf_standing {
 /* Means of what was seen of faces at a low angle; NULL planes when they are not wanted: see
  * background/low.c. */
 typedef struct rlf_low {
-    uint8_t *mark;          /* plane: 1 where the newest sheet shows such a face */
+    uint8_t *mark;          /* plane: 1 where what was made of a sheet last shows one that ends */
     float *mean, *variance; /* planes: of inverse depth as it came */
     float *samples;         /* plane: how many are in them */
 } rlf_low;

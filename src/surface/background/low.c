@@ -7,13 +7,14 @@
  * mean per pixel of depth as it came, within a wide gate about the background, and a plane by least
  * squares through the means about a pixel that are of its face. What was hardly ever seen goes on
  * in that plane, too. */
+#include "surface/background/facing.h"
+#include "surface/background/low_plane.h"
 #include "surface/steps.h"
 #include "surface/window.h"
 
 #include "kernel/kernel.h"
 
 #include <math.h>
-#include <string.h>
 
 enum {
     ACROSS = 10,   /* pixels: as far reach the means that are asked ... */
@@ -25,19 +26,21 @@ enum {
     LEAST_ON = 12, /* means on a plane */
     BLOCK_ACROSS = 8,
     BLOCK_DOWN = 6,
-    BLOCK_PLANES = 4
+    BLOCK_PLANES = 4,
+    AROUND_ACROSS = BLOCK_ACROSS + 2 * ACROSS, /* pixels: a block and all that are asked ... */
+    AROUND_DOWN = BLOCK_DOWN + 2 * DOWN,       /* ... in rows */
+    WIDE = 2 * ACROSS + 1,                     /* pixels that are asked of a row, about one */
+    MOST_MEANS = WIDE * (2 * DOWN + 1)
 };
 
-static const float LOW = 0.3f;           /* cosine between ray and normal: less is a low angle */
-static const float LEAST_FACING = 0.02f; /* a face may be seen edge-on, not from behind */
-static const float ONE_FACE = 0.94f;     /* cosine: 20 degrees */
-static const float OFF_FACE = 0.01f;     /* share of the depth, at its end */
-static const float GATE = 6.0f;          /* sigmas of a sample */
-static const float LEAST_NOISE = 0.4f;   /* of the sigma that a sample of such a face has */
-static const float MOST_OFF = 3.0f;      /* sigmas: a mean that is on a plane */
-static const float MOST_LEFT = 2.0f;     /* of the samples' variance: what is left of a plane's */
-static const float MOST_TURN = 0.02f;    /* radians: error of the plane */
-static const float MOST_CHANGE = 0.04f;  /* share of the depth */
+static const float LOW = 0.3f;          /* cosine between ray and normal: less is a low angle */
+static const float OFF_FACE = 0.01f;    /* share of the depth, at its end */
+static const float GATE = 6.0f;         /* sigmas of a sample */
+static const float LEAST_NOISE = 0.4f;  /* of the sigma that a sample of such a face has */
+static const float MOST_OFF = 3.0f;     /* sigmas: a mean that is on a plane */
+static const double MOST_LEFT = 2.0;    /* of the samples' variance: what is left of a plane's */
+static const float MOST_TURN = 0.02f;   /* radians: error of the plane */
+static const float MOST_CHANGE = 0.04f; /* share of the depth */
 
 /* ---- means of samples ---- */
 
@@ -51,17 +54,23 @@ typedef struct low_job {
 /* Cosine of the angle at which pixel i is seen; < 0 from behind. */
 static float facing_at(const rlf_grid *grid, float *const normal[3], ptrdiff_t i)
 {
-    float x = grid->ray_x[i], y = grid->ray_y[i];
-    float dot = normal[0][i] * x + normal[1][i] * y + normal[2][i];
-    return -dot / sqrtf(x * x + y * y + 1.0f);
+    float x = grid->ray_x[i], y = grid->ray_y[i], n[3];
+    rlf_read_normal(normal, i, n);
+    return -rlf_facing(grid, n, i) / sqrtf(x * x + y * y + 1.0f);
+}
+
+/* How much noisier its samples are than those of a face that is seen squarely. */
+static float slant_at(const rlf_grid *grid, float *const normal[3], ptrdiff_t i)
+{
+    float cosine = facing_at(grid, normal, i);
+    return rlf_kernel_slant(cosine > rlf_least_facing ? cosine : rlf_least_facing, 1.0f);
 }
 
 static void add_sample(const low_job *job, ptrdiff_t i)
 {
     const rlf_low *low = &job->stage->background.low;
     float z = job->raw[i], behind = job->sheet->depth[i];
-    float cosine = facing_at(&job->stage->grid, job->sheet->normal, i);
-    float slant = rlf_kernel_slant(cosine > LEAST_FACING ? cosine : LEAST_FACING, 1.0f);
+    float slant = slant_at(&job->stage->grid, job->sheet->normal, i);
     float gate = GATE * slant * rlf_kernel_sigma(job->noise, behind);
     if (!(z > 0.0f) || !(rlf_kernel_abs(z - behind) < gate)) {
         return;
@@ -81,7 +90,7 @@ static void add_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     for (int32_t y = begin; y < end; y++) {
         const uint8_t *mark = job->stage->background.low.mark + (ptrdiff_t)y * width;
         for (int32_t x = 0; (x = rlf_kernel_next_mark(mark, x, width)) < width; x++) {
-            if (job->stage->steady.calm == NULL || !rlf_hold_may_move(job->stage, x, y)) {
+            if (!rlf_hold_may_move(job->stage, x, y)) {
                 add_sample(job, (ptrdiff_t)y * width + x);
             }
         }
@@ -98,21 +107,15 @@ void rlf_low_add(const rlf_reconstruct *stage, const rlf_sheet *sheet, const flo
 
 /* ---- which pixels ---- */
 
-static float dot_ray(const rlf_grid *grid, const float normal[3], ptrdiff_t i)
-{
-    return normal[0] * grid->ray_x[i] + normal[1] * grid->ray_y[i] + normal[2];
-}
-
 /* The face of pixel i does not go on to pixel `at`. */
 static bool ends_at(const rlf_grid *grid, const rlf_sheet *sheet, ptrdiff_t i, ptrdiff_t at)
 {
-    const float n[3] = {sheet->normal[0][i], sheet->normal[1][i], sheet->normal[2][i]};
-    float z = sheet->depth[at], cosine = 0.0f;
-    for (int k = 0; k < 3; k++) {
-        cosine += n[k] * sheet->normal[k][at];
-    }
-    float off = dot_ray(grid, n, i) * sheet->depth[i] - dot_ray(grid, n, at) * z;
-    return !(z > 0.0f) || !(cosine > ONE_FACE) || !(rlf_kernel_abs(off) < OFF_FACE * z);
+    float n[3], other[3], z = sheet->depth[at];
+    rlf_read_normal(sheet->normal, i, n);
+    rlf_read_normal(sheet->normal, at, other);
+    float off = rlf_facing(grid, n, i) * sheet->depth[i] - rlf_facing(grid, n, at) * z;
+    return !(z > 0.0f) || !(rlf_cosine(n, other) > rlf_one_face) ||
+           !(rlf_kernel_abs(off) < OFF_FACE * z);
 }
 
 static bool is_low(const rlf_grid *grid, const rlf_sheet *sheet, ptrdiff_t i)
@@ -122,7 +125,7 @@ static bool is_low(const rlf_grid *grid, const rlf_sheet *sheet, ptrdiff_t i)
     }
     float cosine = facing_at(grid, sheet->normal, i);
     ptrdiff_t down = (ptrdiff_t)ENDS * grid->width;
-    return cosine > LEAST_FACING && cosine < LOW &&
+    return cosine > rlf_least_facing && cosine < LOW &&
            (ends_at(grid, sheet, i, i - ENDS) || ends_at(grid, sheet, i, i + ENDS) ||
             ends_at(grid, sheet, i, i - down) || ends_at(grid, sheet, i, i + down));
 }
@@ -154,137 +157,104 @@ void rlf_low_mark(const rlf_reconstruct *stage, const rlf_sheet *sheet, rlf_rect
 
 /* ---- the plane about a pixel ---- */
 
-/* Inverse depth is a + b x + c y along the ray (x, y, 1). */
-typedef struct low_plane {
-    double a, b, c;
-    double noise; /* of a sample */
-    double turn;  /* radians: error of its normal */
-} low_plane;
-
-typedef struct low_sums {
-    double n, x, y, xx, xy, yy, w, xw, yw, ww, variance;
-    int32_t count;
-} low_sums;
-
-static void add_mean(low_sums *s, double n, double x, double y, double w, double variance)
-{
-    s->variance += n * variance;
-    s->n += n;
-    s->x += n * x;
-    s->y += n * y;
-    s->xx += n * x * x;
-    s->xy += n * x * y;
-    s->yy += n * y * y;
-    s->w += n * w;
-    s->xw += n * x * w;
-    s->yw += n * y * w;
-    s->ww += n * w * w;
-    s->count++;
-}
-
-static double inverse_depth(const low_plane *p, double x, double y)
-{
-    return p->a + p->b * x + p->c * y;
-}
-
-/* Error of the normal about the middle of the means, from the covariance of the slopes. */
-static double turn_of(const low_plane *p, double variance, const double cov[3], double x, double y)
-{
-    const rlf_vec3 q = {p->b, p->c, p->a};
-    rlf_vec3 u = {1.0, 0.0, -x}, v = {0.0, 1.0, -y};
-    double square = rlf_dot(q, q);
-    u = rlf_mad(u, q, -rlf_dot(u, q) / square);
-    v = rlf_mad(v, q, -rlf_dot(v, q) / square);
-    double sum = cov[0] * rlf_dot(u, u) + 2.0 * cov[1] * rlf_dot(u, v) + cov[2] * rlf_dot(v, v);
-    return sqrt(rlf_max(0.0, variance * sum / square));
-}
-
-/* The sums are about the ray (x0, y0). */
-static bool solve(const low_sums *s, double x0, double y0, low_plane *out)
-{
-    double mx = s->x / s->n, my = s->y / s->n, mw = s->w / s->n;
-    double xx = s->xx - s->x * mx, xy = s->xy - s->x * my, yy = s->yy - s->y * my;
-    double xw = s->xw - s->x * mw, yw = s->yw - s->y * mw, ww = s->ww - s->w * mw;
-    double det = xx * yy - xy * xy;
-    if (!(det > 0.02 * xx * yy)) {
-        out->noise = 0.0;
-        return false;
-    }
-    out->b = (xw * yy - yw * xy) / det;
-    out->c = (yw * xx - xw * xy) / det;
-    out->a = mw - out->b * (mx + x0) - out->c * (my + y0);
-    double left = rlf_max(0.0, ww - out->b * xw - out->c * yw) / (s->count - 3);
-    double variance = s->variance / s->n;
-    const double cov[3] = {yy / det, -xy / det, xx / det};
-    out->noise = sqrt(variance);
-    out->turn = turn_of(out, rlf_max(left, variance), cov, mx + x0, my + y0);
-    return left < MOST_LEFT * variance;
-}
-
 typedef struct low_fit {
     const rlf_reconstruct *stage;
     const rlf_slot *slot;
-    const rlf_sheet *old, *sheet;
+    const rlf_sheet *old;
+    rlf_sheet *sheet;
     rlf_kernel_noise noise;
 } low_fit;
+
+/* A block of pixels. */
+typedef struct low_block {
+    rlf_low_plane planes[BLOCK_PLANES]; /* neighbours have the same one */
+    int32_t count;
+    int32_t x0, y0;   /* the first pixel that is asked */
+    bool has_counted; /* from the first that is fitted on, `counts` is known: */
+    uint8_t counts[AROUND_DOWN][AROUND_ACROSS]; /* 1 where the mean counts */
+} low_block;
 
 /* Its samples are as noisy as those of such a face: a pixel of the face beside it, which frames
  * took for this one, is not. */
 static bool is_noisy(const low_fit *f, ptrdiff_t i)
 {
     const rlf_low *low = &f->stage->background.low;
-    const rlf_grid *grid = &f->stage->grid;
-    float cosine = facing_at(grid, f->sheet->normal, i), w = low->mean[i];
-    float slant = rlf_kernel_slant(cosine > LEAST_FACING ? cosine : LEAST_FACING, 1.0f);
-    float sigma = LEAST_NOISE * slant * rlf_kernel_inverse_sigma(f->noise, w);
+    float slant = slant_at(&f->stage->grid, f->sheet->normal, i);
+    float sigma = LEAST_NOISE * slant * rlf_kernel_inverse_sigma(f->noise, low->mean[i]);
     return low->samples[i] >= (float)LEAST && low->variance[i] > sigma * sigma;
 }
 
-static bool is_of_face(const low_fit *f, const float normal[3], ptrdiff_t at)
+static void count_mean(const low_fit *f, low_block *block, int32_t x, int32_t y)
 {
-    float cosine = 0.0f;
-    for (int k = 0; k < 3; k++) {
-        cosine += normal[k] * f->sheet->normal[k][at];
-    }
-    return f->stage->background.low.mark[at] != 0 && cosine > ONE_FACE && is_noisy(f, at);
+    ptrdiff_t i = (ptrdiff_t)y * f->stage->grid.width + x;
+    bool counts = f->stage->background.low.mark[i] != 0 && is_noisy(f, i);
+    block->counts[y - block->y0][x - block->x0] = counts;
 }
 
-/* The means about pixel i that are of its face and on the plane. */
-static low_sums sums_about(const low_fit *f, ptrdiff_t i, const float normal[3],
-                           const low_plane *plane)
+static void count_means(const low_fit *f, low_block *block)
+{
+    const rlf_grid *grid = &f->stage->grid;
+    int32_t x1 = rlf_least(block->x0 + AROUND_ACROSS, grid->width);
+    int32_t y1 = rlf_least(block->y0 + AROUND_DOWN, grid->height);
+    for (int32_t y = block->y0; y < y1; y++) {
+        for (int32_t x = block->x0; x < x1; x++) {
+            count_mean(f, block, x, y);
+        }
+    }
+    block->has_counted = true;
+}
+
+/* The means about a pixel that count and are of its face. */
+typedef struct low_means {
+    ptrdiff_t at[MOST_MEANS];
+    int32_t count;
+} low_means;
+
+static void find_means(const low_fit *f, const low_block *block, int32_t x, int32_t y,
+                       const float normal[3], low_means *out)
+{
+    out->count = 0;
+    for (int32_t dy = -DOWN; dy <= DOWN; dy++) {
+        const uint8_t *counts = &block->counts[y + dy - block->y0][x - ACROSS - block->x0];
+        ptrdiff_t row = (ptrdiff_t)(y + dy) * f->stage->grid.width + x - ACROSS;
+        for (int32_t k = 0; (k = rlf_kernel_next_mark(counts, k, WIDE)) < WIDE; k++) {
+            float other[3];
+            rlf_read_normal(f->sheet->normal, row + k, other);
+            if (rlf_cosine(normal, other) > rlf_one_face) {
+                out->at[out->count++] = row + k;
+            }
+        }
+    }
+}
+
+/* Of those that are on the plane; about the ray of pixel i. */
+static rlf_low_sums sums_of(const low_fit *f, ptrdiff_t i, const low_means *means,
+                            const rlf_low_plane *plane)
 {
     const rlf_grid *grid = &f->stage->grid;
     const rlf_low *low = &f->stage->background.low;
-    low_sums sums = {.count = 0};
-    for (int32_t dy = -DOWN; dy <= DOWN; dy++) {
-        for (int32_t dx = -ACROSS; dx <= ACROSS; dx++) {
-            ptrdiff_t at = i + (ptrdiff_t)dy * grid->width + dx;
-            if (!is_of_face(f, normal, at)) {
-                continue;
-            }
-            double x = grid->ray_x[at], y = grid->ray_y[at], w = low->mean[at];
-            double off = w - inverse_depth(plane, x, y), most = MOST_OFF * plane->noise;
-            if (off * off * low->samples[at] < most * most) {
-                add_mean(&sums, low->samples[at], x - grid->ray_x[i], y - grid->ray_y[i], w,
-                         low->variance[at]);
-            }
+    rlf_low_sums sums = {.count = 0};
+    for (int32_t k = 0; k < means->count; k++) {
+        ptrdiff_t at = means->at[k];
+        double x = grid->ray_x[at], y = grid->ray_y[at], w = low->mean[at];
+        double off = w - rlf_low_plane_at(plane, x, y), most = MOST_OFF * plane->noise;
+        if (off * off * low->samples[at] < most * most) {
+            rlf_low_sums_add(&sums, low->samples[at], x - grid->ray_x[i], y - grid->ray_y[i], w,
+                             low->variance[at]);
         }
     }
     return sums;
 }
 
-/* Mean of the normals of the face about pixel i. */
-static void mean_normal(const low_fit *f, ptrdiff_t i, const float normal[3], float out[3])
+/* Mean of the normals, and pixel i's own. */
+static void mean_normal(const low_fit *f, const low_means *means, const float normal[3],
+                        float out[3])
 {
     rlf_vec3 sum = {normal[0], normal[1], normal[2]};
-    for (int32_t dy = -DOWN; dy <= DOWN; dy++) {
-        for (int32_t dx = -ACROSS; dx <= ACROSS; dx++) {
-            ptrdiff_t at = i + (ptrdiff_t)dy * f->stage->grid.width + dx;
-            if (is_of_face(f, normal, at)) {
-                float *const *n = f->sheet->normal;
-                sum = rlf_add(sum, rlf_vec3_make(n[0][at], n[1][at], n[2][at]));
-            }
-        }
+    for (int32_t k = 0; k < means->count; k++) {
+        float n[3];
+        rlf_read_normal(f->sheet->normal, means->at[k], n);
+        sum = rlf_add(sum, rlf_vec3_make(n[0], n[1], n[2]));
     }
     sum = rlf_normalize(sum);
     out[0] = (float)sum.x;
@@ -293,49 +263,52 @@ static void mean_normal(const low_fit *f, ptrdiff_t i, const float normal[3], fl
 }
 
 /* From the plane that the sheet shows about pixel i, within what its depth may be off. */
-static bool find_plane(const low_fit *f, ptrdiff_t i, const float normal[3], low_plane *out)
+static bool find_plane(const low_fit *f, ptrdiff_t i, const low_means *means, const float normal[3],
+                       rlf_low_plane *out)
 {
     const rlf_grid *grid = &f->stage->grid;
     float x = grid->ray_x[i], y = grid->ray_y[i], w = 1.0f / f->sheet->depth[i], mean[3];
-    mean_normal(f, i, normal, mean);
-    float here = dot_ray(grid, mean, i), length = sqrtf(x * x + y * y + 1.0f);
-    if (!(here < -LEAST_FACING)) {
+    mean_normal(f, means, normal, mean);
+    float here = rlf_facing(grid, mean, i), length = sqrtf(x * x + y * y + 1.0f);
+    if (!(here < -rlf_least_facing)) {
         return false;
     }
     double sigma = rlf_kernel_inverse_sigma(f->noise, w) * rlf_kernel_slant(-here, length);
-    *out = (low_plane){w * mean[2] / here, w * mean[0] / here, w * mean[1] / here, 0.0, 0.0};
-    out->noise = sigma * sqrt((double)MOST) / MOST_OFF; /* one sigma, of whatever mean */
+    *out = (rlf_low_plane){w * mean[2] / here, w * mean[0] / here, w * mean[1] / here, 0.0, 0.0};
+    /* A mean of n may be off by sigma sqrt(MOST / n): the sheet's depth is no better. */
+    out->noise = sigma * sqrt((double)MOST) / MOST_OFF;
     bool is_plane = false;
     for (int32_t k = 0; k < PASSES; k++) {
-        low_sums sums = sums_about(f, i, normal, out);
+        rlf_low_sums sums = sums_of(f, i, means, out);
         if (sums.count < LEAST_ON) {
             return false;
         }
-        is_plane = solve(&sums, x, y, out);
+        is_plane = rlf_low_plane_solve(&sums, x, y, MOST_LEFT, out);
     }
     return is_plane && out->turn < MOST_TURN;
 }
 
 /* Pixel i has no mean of its own, or one on the plane. */
-static bool is_on(const low_fit *f, ptrdiff_t i, const low_plane *plane)
+static bool is_on(const low_fit *f, ptrdiff_t i, const rlf_low_plane *plane)
 {
     const rlf_grid *grid = &f->stage->grid;
     const rlf_low *low = &f->stage->background.low;
-    double off = low->mean[i] - inverse_depth(plane, grid->ray_x[i], grid->ray_y[i]);
+    double off = low->mean[i] - rlf_low_plane_at(plane, grid->ray_x[i], grid->ray_y[i]);
     double most = MOST_OFF * plane->noise;
     return low->samples[i] < (float)LEAST ||
            (is_noisy(f, i) && off * off * low->samples[i] < most * most);
 }
 
 /* Puts pixel i on the plane if it is on it but for noise. */
-static bool put_on(const low_fit *f, rlf_sheet *sheet, ptrdiff_t i, const low_plane *plane)
+static bool put_on(const low_fit *f, ptrdiff_t i, const rlf_low_plane *plane)
 {
     const rlf_grid *grid = &f->stage->grid;
+    const rlf_sheet *sheet = f->sheet;
     rlf_vec3 n = rlf_normalize(rlf_vec3_make(-plane->b, -plane->c, -plane->a));
-    float z = (float)(1.0 / inverse_depth(plane, grid->ray_x[i], grid->ray_y[i]));
+    float z = (float)(1.0 / rlf_low_plane_at(plane, grid->ray_x[i], grid->ray_y[i]));
     double cosine =
         n.x * sheet->normal[0][i] + n.y * sheet->normal[1][i] + n.z * sheet->normal[2][i];
-    if (!(rlf_kernel_abs(z - sheet->depth[i]) < MOST_CHANGE * z) || !(cosine > ONE_FACE) ||
+    if (!(rlf_kernel_abs(z - sheet->depth[i]) < MOST_CHANGE * z) || !(cosine > rlf_one_face) ||
         !is_on(f, i, plane)) {
         return false;
     }
@@ -346,51 +319,59 @@ static bool put_on(const low_fit *f, rlf_sheet *sheet, ptrdiff_t i, const low_pl
     return true;
 }
 
-/* The planes of a block of pixels: neighbours have the same one. */
-typedef struct low_block {
-    low_plane planes[BLOCK_PLANES];
-    int32_t count;
-} low_block;
-
-static void fit_pixel(const low_fit *f, rlf_sheet *sheet, ptrdiff_t i, low_block *block)
+static void fit_pixel(const low_fit *f, int32_t x, int32_t y, low_block *block)
 {
-    const float normal[3] = {sheet->normal[0][i], sheet->normal[1][i], sheet->normal[2][i]};
+    ptrdiff_t i = (ptrdiff_t)y * f->stage->grid.width + x;
     for (int32_t k = 0; k < block->count; k++) {
-        if (put_on(f, sheet, i, &block->planes[k])) {
+        if (put_on(f, i, &block->planes[k])) {
             return;
         }
     }
-    low_plane plane;
-    if (find_plane(f, i, normal, &plane) && put_on(f, sheet, i, &plane) &&
+    if (!block->has_counted) {
+        count_means(f, block);
+    }
+    float normal[3];
+    low_means means;
+    rlf_low_plane plane;
+    rlf_read_normal(f->sheet->normal, i, normal);
+    find_means(f, block, x, y, normal, &means);
+    if (find_plane(f, i, &means, normal, &plane) && put_on(f, i, &plane) &&
         block->count < BLOCK_PLANES) {
         block->planes[block->count++] = plane;
     }
 }
 
 /* What something hides stays where it was put when it was seen, unless the model is another one. */
-static void keep(const low_fit *f, rlf_sheet *sheet, ptrdiff_t i)
+static void keep(const low_fit *f, ptrdiff_t i)
 {
-    float z = sheet->depth[i];
+    float z = f->sheet->depth[i];
     if (!(rlf_kernel_abs(f->old->depth[i] - z) < MOST_CHANGE * z)) {
         return;
     }
-    sheet->depth[i] = f->old->depth[i];
+    f->sheet->depth[i] = f->old->depth[i];
     for (int k = 0; k < 3; k++) {
-        sheet->normal[k][i] = f->old->normal[k][i];
+        f->sheet->normal[k][i] = f->old->normal[k][i];
     }
 }
 
-static void fit_block(const low_fit *f, rlf_sheet *sheet, rlf_rect r)
+static void fit_block(const low_fit *f, rlf_rect r)
 {
-    low_block block = {.count = 0};
+    low_block block;
+    block.count = 0;
+    block.x0 = r.x0 - ACROSS;
+    block.y0 = r.y0 - DOWN;
+    block.has_counted = false;
     for (int32_t y = r.y0; y < r.y1; y++) {
-        for (int32_t x = r.x0; x < r.x1; x++) {
+        const uint8_t *mark = f->stage->background.low.mark + (ptrdiff_t)y * f->stage->grid.width;
+        for (int32_t x = r.x0; (x = rlf_kernel_next_mark(mark, x, r.x1)) < r.x1; x++) {
             ptrdiff_t i = (ptrdiff_t)y * f->stage->grid.width + x;
-            bool is_marked = f->stage->background.low.mark[i] != 0;
-            if (is_marked && f->old != NULL && f->slot->foreground[i] != 0) {
-                keep(f, sheet, i);
-            } else if (is_marked && is_low(&f->stage->grid, sheet, i)) {
-                fit_pixel(f, sheet, i, &block);
+            if (f->old != NULL && f->slot->foreground[i] != 0) {
+                keep(f, i);
+            } else if (is_low(&f->stage->grid, f->sheet, i)) {
+                fit_pixel(f, x, y, &block);
+            }
+            if (block.has_counted) {
+                count_mean(f, &block, x, y); /* it has another normal */
             }
         }
     }
@@ -408,7 +389,7 @@ void rlf_low_fit(const rlf_reconstruct *stage, const rlf_slot *slot, const rlf_s
         for (int32_t x = in.x0; x < in.x1; x += BLOCK_ACROSS) {
             const rlf_rect block = {x, y, rlf_least(x + BLOCK_ACROSS, in.x1),
                                     rlf_least(y + BLOCK_DOWN, in.y1)};
-            fit_block(&f, sheet, block);
+            fit_block(&f, block);
         }
     }
 }

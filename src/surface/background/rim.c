@@ -7,6 +7,7 @@
  * its face. So its depth follows its normal: it is where the seen pixels about it that face the
  * same way go on. Where none of its face was seen, that begins half way from the nearest seen
  * pixel, behind the front that this is on. */
+#include "surface/background/facing.h"
 #include "surface/steps.h"
 #include "surface/window.h"
 
@@ -16,9 +17,7 @@ enum { ABOUT = 2 /* pixels */ };
 
 static const float LEAST_FRAMES = 2.0f;    /* with depth; fewer were mixed as likely as not */
 static const float ONE_THING = 0.04f;      /* share of the depth between pixels of one thing */
-static const float ONE_FACE = 0.94f;       /* cosine: 20 degrees */
 static const float OTHER_FACE = 0.7f;      /* cosine: 45 degrees */
-static const float LEAST_FACING = 0.02f;   /* a face may be seen edge-on, not from behind */
 static const float MOST_CHANGE = 0.05f;    /* share of the depth */
 static const float STEEPEST_CHANGE = 0.1f; /* the same, of one face from pixel to pixel */
 
@@ -41,35 +40,17 @@ static bool is_beside(const rim_job *job, ptrdiff_t i, ptrdiff_t seen)
     return is_seen(job, seen) && rlf_kernel_abs(job->sheet->depth[seen] - z) < ONE_THING * z;
 }
 
-static void read_normal(const rim_job *job, ptrdiff_t i, float out[3])
-{
-    for (int k = 0; k < 3; k++) {
-        out[k] = job->sheet->normal[k][i];
-    }
-}
-
-static float cosine(const float a[3], const float b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/* < 0 where it faces the camera. */
-static float facing(const rim_job *job, const float normal[3], ptrdiff_t i)
-{
-    return normal[0] * job->grid->ray_x[i] + normal[1] * job->grid->ray_y[i] + normal[2];
-}
-
 /* Inverse depth of pixel i on the face that the seen pixels about it show; 0 = they show none. */
 static float go_on(const rim_job *job, ptrdiff_t i, const float normal[3])
 {
-    float sum = 0.0f, weights = 0.0f, here = facing(job, normal, i);
+    float sum = 0.0f, weights = 0.0f, here = rlf_facing(job->grid, normal, i);
     for (int32_t dy = -ABOUT; dy <= ABOUT; dy++) {
         for (int32_t dx = -ABOUT; dx <= ABOUT; dx++) {
             ptrdiff_t at = i + (ptrdiff_t)dy * job->grid->width + dx;
             float other[3];
-            read_normal(job, at, other);
-            float change = here / facing(job, normal, at);
-            if (!is_beside(job, i, at) || !(cosine(normal, other) > ONE_FACE) ||
+            rlf_read_normal(job->sheet->normal, at, other);
+            float change = here / rlf_facing(job->grid, normal, at);
+            if (!is_beside(job, i, at) || !(rlf_cosine(normal, other) > rlf_one_face) ||
                 !(rlf_kernel_abs(change - 1.0f) < STEEPEST_CHANGE)) {
                 continue;
             }
@@ -86,14 +67,16 @@ static float go_on(const rim_job *job, ptrdiff_t i, const float normal[3])
 static float begin_at(const rim_job *job, ptrdiff_t i, const float normal[3], ptrdiff_t at)
 {
     float front[3];
-    read_normal(job, at, front);
-    if (!(cosine(normal, front) < OTHER_FACE)) {
+    rlf_read_normal(job->sheet->normal, at, front);
+    if (!(rlf_cosine(normal, front) < OTHER_FACE)) {
         return 0.0f;
     }
-    float inverse = 1.0f / (facing(job, front, at) * job->sheet->depth[at]);
-    float middle = 0.5f * (facing(job, front, at) + facing(job, front, i)) * inverse;
-    float here = facing(job, normal, i), there = facing(job, normal, at);
-    float found = middle * here / (0.5f * (here + there)), level = facing(job, front, i) * inverse;
+    const rlf_grid *grid = job->grid;
+    float inverse = 1.0f / (rlf_facing(grid, front, at) * job->sheet->depth[at]);
+    float middle = 0.5f * (rlf_facing(grid, front, at) + rlf_facing(grid, front, i)) * inverse;
+    float here = rlf_facing(grid, normal, i), there = rlf_facing(grid, normal, at);
+    float found = middle * here / (0.5f * (here + there));
+    float level = rlf_facing(grid, front, i) * inverse;
     return found < level && found > (1.0f - STEEPEST_CHANGE) * level ? found : 0.0f;
 }
 
@@ -114,8 +97,8 @@ static float begin(const rim_job *job, ptrdiff_t i, const float normal[3])
 static float depth_at(const rim_job *job, ptrdiff_t i)
 {
     float normal[3], z = job->sheet->depth[i];
-    read_normal(job, i, normal);
-    if (!(z > 0.0f) || !(facing(job, normal, i) < -LEAST_FACING)) {
+    rlf_read_normal(job->sheet->normal, i, normal);
+    if (!(z > 0.0f) || !(rlf_facing(job->grid, normal, i) < -rlf_least_facing)) {
         return z;
     }
     float inverse = go_on(job, i, normal);
