@@ -27,6 +27,7 @@ static const standing_box high_box = {{0.4, 0.4, 2.3}, {0.12, 0.5, 0.15}, -0.05}
 /* Goes on beyond the left border. */
 static const standing_box cut_box = {{-1.7, 0.4, 2.3}, {0.6, 0.4, 0.15}, 0.0};
 static const standing_box *box = &low_box;
+static double zoom = 1.0;
 
 static float depth[COUNT], exit_depth[COUNT];
 static int kind[COUNT];
@@ -99,6 +100,8 @@ typedef struct show {
 static void open_show(show *s, rlf_pool *pool)
 {
     s->rig = analytic_rig(WIDTH, HEIGHT);
+    s->rig.depth.fx *= zoom;
+    s->rig.depth.fy *= zoom;
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &s->rig);
     def.pool = pool;
     s->random = (analytic_random){23};
@@ -212,6 +215,43 @@ static void what_has_left_has_no_back(void **state)
     rlf_reconstruct_destroy(&s.stage);
 }
 
+/* Pixels of the ball that have a back. */
+static int count_known(const rlf_surface *surface)
+{
+    int known = 0;
+    for (int i = 0; i < COUNT; i++) {
+        known += kind[i] == BALL && surface->background_thickness[i] > 0.0f;
+    }
+    return known;
+}
+
+/* A ball close to the wall: that is hardly farther than its back, and is another thing. */
+static void a_wall_is_not_thick_where_a_ball_was(void **state)
+{
+    (void)state;
+    const double radius = 0.08;
+    const rlf_vec3 middle = {0.2, -0.1, wall_z - radius - 0.02};
+    show s;
+    zoom = 2.0;
+    open_show(&s, NULL);
+    zoom = 1.0;
+    see(&s.rig, false);
+    for (int i = 0; i < COUNT; i++) {
+        double z = sphere_depth(middle, radius, (i % WIDTH - s.rig.depth.cx) / s.rig.depth.fx,
+                                (i / WIDTH - s.rig.depth.cy) / s.rig.depth.fy);
+        kind[i] = z > 0.0 ? BALL : WALL;
+        depth[i] = z > 0.0 ? (float)z : depth[i];
+    }
+    int there = count_known(watch(&s, 120));
+    for (int i = 0; i < COUNT; i++) {
+        depth[i] = kind[i] == BALL ? (float)wall_z : depth[i];
+    }
+    int left = count_known(watch(&s, 16));
+    print_message("of %d pixels with a back %d still have one\n", there, left);
+    assert_true(there > 300 && left * 50 < there);
+    rlf_reconstruct_destroy(&s.stage);
+}
+
 /* A surface keeps its plane while it is valid, also while a new one is published. */
 static void planes_of_valid_surfaces_stay(void **state)
 {
@@ -266,6 +306,7 @@ int main(void)
         cmocka_unit_test(a_side_at_a_low_angle_shows_how_deep_a_box_is),
         cmocka_unit_test(a_box_that_the_border_cuts_goes_on),
         cmocka_unit_test(what_has_left_has_no_back),
+        cmocka_unit_test(a_wall_is_not_thick_where_a_ball_was),
         cmocka_unit_test(planes_of_valid_surfaces_stay),
         cmocka_unit_test(workers_change_nothing),
     };

@@ -1,9 +1,11 @@
 /* Rounds over the background's pieces. */
 #include "surface/standing/standing.h"
 
+#include "surface/background/facing.h"
 #include "surface/steps.h"
 #include "surface/thickness/thickness.h"
 
+#include <math.h>
 #include <string.h>
 
 enum {
@@ -15,7 +17,8 @@ enum {
 };
 
 static const float same_m = 0.03f;     /* less is no other depth */
-static const float same_share = 0.04f; /* of the depth: so far a better mean moves a pixel */
+static const float same_share = 0.04f; /* of the depth: so far a mean of a low face moves */
+static const float low = 0.3f;         /* cosine between ray and normal: less is a low angle */
 static const float step_m = 0.04f;     /* beside one another on one thing */
 static const float thinnest_m = 0.02f, thickest_m = 0.6f;
 
@@ -183,12 +186,21 @@ static bool is_same(float a, float b)
     return rlf_kernel_abs(a - b) < same_m;
 }
 
+/* So far pixel i of a face moves, the better its mean is: metres. */
+static float drift_at(const rlf_grid *grid, const rlf_sheet *sheet, ptrdiff_t i)
+{
+    float x = grid->ray_x[i], y = grid->ray_y[i], n[3];
+    rlf_read_normal(sheet->normal, i, n);
+    bool is_low = -rlf_facing(grid, n, i) < low * sqrtf(x * x + y * y + 1.0f);
+    return is_low ? same_share * sheet->depth[i] : 0.0f;
+}
+
 /* How thick it is where the front has moved back by `off`: its back stays where it is. A face at a
  * low angle moves by more than it is thick there, and is the same one. */
-static float left_of(float deep, float off, float z)
+static float left_of(float deep, float off, float drift)
 {
     bool is_behind = deep > 0.0f && off > 0.0f, is_back = off > deep - thinnest_m;
-    bool is_other = off >= deep && off > same_share * z;
+    bool is_other = off >= deep && off > drift;
     float left = is_back ? thinnest_m : deep - off;
     return is_behind && !is_other ? left : 0.0f;
 }
@@ -203,7 +215,7 @@ static void publish(rlf_reconstruct *stage, const rlf_sheet *sheet)
     for (int32_t i = 0; i < stage->grid.count; i++) {
         float z = sheet->depth[i], was = standing->done_depth[i], deep = standing->done[i];
         bool same = is_same(was, z);
-        out[i] = same ? deep : left_of(deep, z - was, z);
+        out[i] = same ? deep : left_of(deep, z - was, drift_at(&stage->grid, sheet, i));
         changed += same ? 0 : 1;
     }
     standing->changed = changed;
