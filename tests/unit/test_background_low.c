@@ -197,12 +197,26 @@ static void a_top_that_was_taken_away_does_not_stay(void **state)
     rlf_reconstruct_destroy(&s.stage);
 }
 
+/* A background that is never made anew asks for no such means. */
+static void only_a_background_that_is_renewed_keeps_means(void **state)
+{
+    (void)state;
+    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
+    rlf_reconstruct *stage = NULL;
+    def.background_method = RLF_BACKGROUND_AVERAGE;
+    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    assert_null(stage->background.low.mark);
+    rlf_reconstruct_destroy(&stage);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_top_seen_at_a_low_angle_is_flat_and_level),
         cmocka_unit_test(a_slab_that_lay_on_it_is_forgotten),
         cmocka_unit_test(a_top_that_was_taken_away_does_not_stay),
+        cmocka_unit_test(only_a_background_that_is_renewed_keeps_means),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
