@@ -14,7 +14,7 @@
 #define EVERY 15
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0x81989697d1bf1b05u, 0x23b5a669c46e4e45u, 0xa936bc981ae2fb83u},
+    {RLF_PROFILE_LIVE, 0x70b4e4fb772b8b74u, 0xf9a7dab49ab1e986u, 0x87dd08b6788406dfu},
     {RLF_PROFILE_THESIS, 0xa393eb06e579d241u, 0xd84652fb54683851u, 0xc064b44391e1e990u},
 };
 
