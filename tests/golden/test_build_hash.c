@@ -12,8 +12,9 @@
 #define STEPS 90
 #define HEAP 40
 
-static const golden room = {RLF_PROFILE_LIVE, 0x0u, 0x0u, 0x0u};
-static const uint64_t heap = 0x0u;
+static const golden room = {RLF_PROFILE_LIVE, 0xa922131ca8a7c195u, 0xb1514b4fddf6a5a8u,
+                            0x304e60212fbabbb8u};
+static const uint64_t heap = 0x8ca4561289a6055au;
 
 static const rlf_vec3 TIPS[6] = {{0.06, 0, 0},  {-0.06, 0, 0}, {0, 0.06, 0},
                                  {0, -0.06, 0}, {0, 0, 0.06},  {0, 0, -0.06}};
