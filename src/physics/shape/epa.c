@@ -9,9 +9,10 @@
 #define THIN 1e-9      /* m: what is thinner has no volume */
 #define IN_LINE 1e-10  /* sine */
 #define IN_PLANE 1e-10 /* m: a corner so little above a face's plane does not see it */
-/* A face lies on the difference when nothing is farther out by more than this: m, and a share of
- * its distance. */
+/* A face lies on the difference when nothing is farther out by more than this: m, of something
+ * curved, which is polished, more, and a share of its distance. */
 #define ON_FACE 1e-7
+#define ON_CURVED_FACE 2e-5
 #define ON_FACE_SHARE 1e-3
 
 #define POLISHES 2
@@ -216,11 +217,13 @@ bool convex_depth(const convex_core *a, const convex_core *b, const convex_simpl
         return false;
     }
     close_tetrahedron(&e);
+    bool is_any_curved = is_curved(a) || is_curved(b);
+    double on_face = is_any_curved ? ON_CURVED_FACE : ON_FACE;
     epa_face face = nearest_face(&e);
     while (true) {
         const convex_corner corner = convex_difference(a, b, face.normal);
         double farther = rlf_dot(face.normal, corner.p) - face.distance;
-        if (farther <= ON_FACE + ON_FACE_SHARE * face.distance || !grow(&e, &corner)) {
+        if (farther <= on_face + ON_FACE_SHARE * face.distance || !grow(&e, &corner)) {
             break;
         }
         const epa_face next = nearest_face(&e);
@@ -230,7 +233,7 @@ bool convex_depth(const convex_core *a, const convex_core *b, const convex_simpl
         face = next;
     }
     tell(&e, &face, out);
-    for (int32_t i = 0; i < POLISHES && (is_curved(a) || is_curved(b)); i++) {
+    for (int32_t i = 0; i < POLISHES && is_any_curved; i++) {
         polish(a, b, out);
     }
     return true;

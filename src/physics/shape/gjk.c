@@ -3,8 +3,8 @@
 #include "physics/shape/convex.h"
 
 #define STEPS_MAX 64
-#define TOUCH2 1e-18   /* m^2: nearer than that they touch */
-#define PROGRESS 1e-14 /* of the distance: what a further corner must gain */
+#define TOUCH2 1e-18  /* m^2: nearer than that they touch */
+#define PROGRESS 1e-8 /* of the distance: what a further corner must gain */
 
 /* Keeps those corners of `from` whose places are listed. */
 static void keep(convex_simplex *s, const convex_simplex *from, int32_t count,
