@@ -74,7 +74,7 @@ typedef struct shower {
     int32_t *inside;          /* per body: frames inside something that stays */
     int32_t through_count;    /* bodies that went through the person */
     shower_passage *passages; /* per body */
-    rlf_vec3 *places;         /* per body: of its centre after the last step */
+    rlf_vec3 *places[2];      /* per body: of its centre after the last frame, and in between */
 } shower;
 
 /* The index-th cube: one of a layer under the ceiling, each turned in its own way. */
@@ -85,9 +85,10 @@ bool shower_open(shower *s, int32_t count, double seconds, rlf_pool *pool);
 /* Drops cubes and advances by one frame in two steps of 1/60 s. */
 bool shower_step(shower *s, room *r);
 void shower_close(shower *s);
-/* After a step that ends at `time_s` of the source: who is in the true person, and who has gone
- * through it. */
-void shower_look_for_passages(shower *s, const room *r, double time_s);
+/* Between the two steps of a frame: where the bodies are. */
+void shower_note_places(shower *s);
+/* After both: who is in the true person, and who has gone through it. */
+void shower_look_for_passages(shower *s, const room *r);
 
 /* Of the steps of a phase; all zero when the run was too short for it. */
 shower_cost shower_cost_of(const shower *s, shower_phase phase);

@@ -102,9 +102,12 @@ bool shower_open(shower *s, int32_t count, double seconds, rlf_pool *pool)
     s->grid_ms = malloc((size_t)s->step_capacity * sizeof(*s->grid_ms));
     s->inside = calloc((size_t)count, sizeof(*s->inside));
     s->passages = calloc((size_t)count, sizeof(*s->passages));
-    s->places = calloc((size_t)count, sizeof(*s->places));
+    for (int i = 0; i < 2; i++) {
+        s->places[i] = calloc((size_t)count, sizeof(*s->places[i]));
+    }
     return s->step_ms != NULL && s->grid_ms != NULL && s->inside != NULL && s->passages != NULL &&
-           s->places != NULL && rlf_world_create(&def, &s->world) == RLF_OK;
+           s->places[0] != NULL && s->places[1] != NULL &&
+           rlf_world_create(&def, &s->world) == RLF_OK;
 }
 
 void shower_close(shower *s)
@@ -114,7 +117,8 @@ void shower_close(shower *s)
     free(s->grid_ms);
     free(s->inside);
     free(s->passages);
-    free(s->places);
+    free(s->places[0]);
+    free(s->places[1]);
 }
 
 rlf_body_def shower_cube(int32_t index)
@@ -134,7 +138,7 @@ static bool drop_layer(shower *s)
 {
     for (int32_t k = 0; k < SHOWER_LAYER && s->added < s->count; k++, s->added++) {
         rlf_body_def def = shower_cube(s->added);
-        s->places[s->added] = def.position;
+        s->places[0][s->added] = def.position;
         if (rlf_world_add_body(s->world, &def, NULL) != RLF_OK) {
             return false;
         }
@@ -237,9 +241,9 @@ bool shower_step(shower *s, room *r)
     }
     s->grid_ms[frame] = r->grid_ms;
     advance(s, r);
-    shower_look_for_passages(s, r, r->time_s);
+    shower_note_places(s);
     advance(s, r);
-    shower_look_for_passages(s, r, r->time_s + 0.5 / ROOM_HZ);
+    shower_look_for_passages(s, r);
     count_losses(s, r);
     count_deep(s);
     return true;

@@ -25,7 +25,34 @@ static bool follow(shower_passage *way, const rlf_synthetic_hit *hit)
     return is_across;
 }
 
-void shower_look_for_passages(shower *s, const room *r, double time_s)
+/* Follows the centre from place to place in the step that ends at `time_s` of the source. */
+static bool follow_way(shower_passage *way, const room *r, rlf_vec3 from, rlf_vec3 to,
+                       double time_s)
+{
+    rlf_vec3 path = rlf_sub(to, from);
+    int32_t places = 1 + (int32_t)(rlf_length(path) / APART);
+    bool is_across = false;
+    for (int32_t j = 1; j <= places; j++) {
+        double share = (double)j / places;
+        double before = (1.0 - share) * 0.5 / ROOM_HZ;
+        rlf_synthetic_hit hit =
+            nearest(r, rlf_max(time_s - before, 0.0), rlf_mad(from, path, share));
+        is_across = follow(way, &hit) || is_across;
+    }
+    way->steps = way->is_deep ? way->steps + 1 : 0;
+    return is_across;
+}
+
+void shower_note_places(shower *s)
+{
+    const rlf_snapshot *snapshot = rlf_world_get_snapshot(s->world);
+    for (int32_t i = 0; i < snapshot->body_count; i++) {
+        const rlf_body_state *body = &snapshot->bodies[i];
+        s->places[1][body->id.index1 - 1] = body->T_world_body.p;
+    }
+}
+
+void shower_look_for_passages(shower *s, const room *r)
 {
     const int32_t STAYS = 2 * SHOWER_LOST; /* steps */
     const rlf_snapshot *snapshot = rlf_world_get_snapshot(s->world);
@@ -33,21 +60,13 @@ void shower_look_for_passages(shower *s, const room *r, double time_s)
         const rlf_body_state *body = &snapshot->bodies[i];
         int32_t k = (int32_t)body->id.index1 - 1;
         shower_passage *way = &s->passages[k];
-        rlf_vec3 from = s->places[k], path = rlf_sub(body->T_world_body.p, from);
-        int32_t places = 1 + (int32_t)(rlf_length(path) / APART);
-        bool is_across = false;
-        for (int32_t j = 1; j <= places; j++) {
-            double share = (double)j / places;
-            double before = (1.0 - share) * 0.5 / ROOM_HZ;
-            rlf_synthetic_hit hit =
-                nearest(r, rlf_max(time_s - before, 0.0), rlf_mad(from, path, share));
-            is_across = follow(way, &hit) || is_across;
-        }
-        way->steps = way->is_deep ? way->steps + 1 : 0;
+        rlf_vec3 from = s->places[0][k], between = s->places[1][k], to = body->T_world_body.p;
+        bool is_across = follow_way(way, r, from, between, r->time_s);
+        is_across = follow_way(way, r, between, to, r->time_s + 0.5 / ROOM_HZ) || is_across;
         if (!way->is_through && (is_across || way->steps >= STAYS)) {
             way->is_through = true;
             s->through_count++;
         }
-        s->places[k] = body->T_world_body.p;
+        s->places[0][k] = to;
     }
 }

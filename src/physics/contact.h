@@ -7,6 +7,21 @@
 #define PHYS_SURFACE_CONTACTS 12 /* of one body with the real surface */
 #define PHYS_PAIR_CONTACTS 4     /* of two bodies */
 
+/* For what is only told: single precision takes half of the memory. */
+typedef struct phys_vec3f {
+    float x, y, z;
+} phys_vec3f;
+
+static inline phys_vec3f phys_narrow(rlf_vec3 v)
+{
+    return (phys_vec3f){(float)v.x, (float)v.y, (float)v.z};
+}
+
+static inline rlf_vec3 phys_widen(phys_vec3f v)
+{
+    return rlf_vec3_make((double)v.x, (double)v.y, (double)v.z);
+}
+
 /* One touching point. The normal points from b (or the surface) to a. What every substep reads
  * comes first. */
 typedef struct phys_contact {
@@ -18,10 +33,10 @@ typedef struct phys_contact {
     double rounding_b;  /* ... of b from anchor_b along the normal: round shapes roll */
     double impulses[3]; /* along the normal and two tangents in the last substep, N s */
     double impulse_sum; /* N s along the normal that the frame's list does not hold yet ... */
-    rlf_vec3 surface_velocity; /* world, m/s; 0 between bodies */
-    double surface_time;       /* world time of anchor_b, s */
-    double approach;           /* ... the highest speed at which they met, m/s, 0 = they rest, */
-    rlf_vec3 met, met_normal;  /* ... and where that was, and its normal then, world */
+    rlf_vec3 surface_velocity;  /* world, m/s; 0 between bodies */
+    double surface_time;        /* world time of anchor_b, s */
+    double approach;            /* ... the highest speed at which they met, m/s, 0 = they rest, */
+    phys_vec3f met, met_normal; /* ... and where that was, and its normal then, world */
     rlf_contact_other other;
     int32_t a, b;  /* body indices; b < 0: the surface */
     int32_t label; /* region label of the surface, 0 else */

@@ -80,9 +80,9 @@ void phys_log_impulse(rlf_world *world, phys_contact *contact)
     entry->separation = contact->separation;
     entry->impulse += contact->impulse_sum;
     if (is_new || contact->approach >= entry->approach_speed) {
-        entry->point = contact->met;
-        entry->normal = contact->met_normal;
-        entry->surface_speed = rlf_dot(contact->surface_velocity, contact->met_normal);
+        entry->point = phys_widen(contact->met);
+        entry->normal = rlf_normalize(phys_widen(contact->met_normal));
+        entry->surface_speed = rlf_dot(contact->surface_velocity, entry->normal);
         entry->approach_speed = contact->approach;
     }
 }
@@ -94,8 +94,8 @@ void phys_log_contacts(rlf_world *world, phys_contact *contacts, int32_t count)
         if (contact->impulse_sum > 0.0) {
             if (!(contact->approach > 0.0)) { /* it rests: where it is now */
                 const phys_body *body = &world->bodies[contact->a];
-                contact->met = rlf_add(body->x, phys_contact_arm(contact, body));
-                contact->met_normal = contact->normal;
+                contact->met = phys_narrow(rlf_add(body->x, phys_contact_arm(contact, body)));
+                contact->met_normal = phys_narrow(contact->normal);
             }
             phys_log_impulse(world, contact);
             contact->impulse_sum = contact->approach = 0.0;

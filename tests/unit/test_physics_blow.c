@@ -88,9 +88,10 @@ static void a_stopped_centre_met_the_wall(void **state)
     assert_int_equal(body.surface_count, 1);
     rlf_vec3 met = rlf_mad(before, rlf_vec3_make(3, 1, 30), 0.1 / 30);
     print_message("stopped %.4f m from the wall, met it %.4f m off\n", GRID_ROOM_WALL - body.x.z,
-                  rlf_length(rlf_sub(body.surface[0].met, met)));
-    assert_true(fabs(body.surface[0].met.z - GRID_ROOM_WALL) < 1e-6);
-    assert_true(rlf_length(rlf_sub(body.surface[0].met, met)) < GRID_ROOM_WALL / GRID_F);
+                  rlf_length(rlf_sub(phys_widen(body.surface[0].met), met)));
+    assert_true(fabs(phys_widen(body.surface[0].met).z - GRID_ROOM_WALL) < 1e-6);
+    assert_true(rlf_length(rlf_sub(phys_widen(body.surface[0].met), met)) <
+                GRID_ROOM_WALL / GRID_F);
     assert_true(body.surface[0].met_normal.z < -0.999);
 }
 

@@ -83,7 +83,14 @@ static grid_shift find_shift(const grid_query *query, rlf_vec3 q, double radius)
 
 grid_shift grid_beyond_shift(const grid_query *query, rlf_vec3 q, double radius)
 {
-    return query->shell != NULL && q.z > 0.0 ? find_shift(query, q, radius) : no_shift;
+    int32_t x, y;
+    field_cell cell;
+    if (query->shell == NULL || !(q.z > 0.0)) {
+        return no_shift;
+    }
+    bool is_seen = grid_pixel_of(query->grid, q, &x, &y) &&
+                   grid_cell_read(query->grid, &query->grid->background, x, y, &cell);
+    return is_seen ? no_shift : find_shift(query, q, radius);
 }
 
 static bool is_along(const grid_shift *shift, rlf_vec3 normal)

@@ -29,8 +29,8 @@ static void note_blow(phys_body *body, int32_t body_index, const guard_wall *wal
     c->impulse_sum += impulse;
     if (approach > c->approach) {
         c->approach = approach;
-        c->met = wall->point; /* the body is back where it was before */
-        c->met_normal = wall->normal;
+        c->met = phys_narrow(wall->point); /* the body is back where it was before */
+        c->met_normal = phys_narrow(wall->normal);
     }
 }
 

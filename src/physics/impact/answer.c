@@ -240,8 +240,8 @@ static void note_blow(const impact_point *p, const phys_group *g, const phys_sid
     c->impulse_sum += p->rows[0].impulse;
     if (p->approach > c->approach) {
         c->approach = p->approach;
-        c->met = place_at(p->near, g, before, t);
-        c->met_normal = p->near->normal;
+        c->met = phys_narrow(place_at(p->near, g, before, t));
+        c->met_normal = phys_narrow(p->near->normal);
     }
 }
 

@@ -24,8 +24,8 @@ static void vertices_against(rlf_world *world, int32_t a_index, int32_t b_index)
             -rlf_dot(n, rlf_sub(phys_body_velocity_at(a, r_a), phys_body_velocity_at(b, r_b)));
         double j = thesis_impulse(a, b, p, n, restitution);
         if (j > 0.0) {
-            phys_contact contact = {.a = a_index, .b = b_index, .log = -1, .met = p};
-            contact.met_normal = n;
+            phys_contact contact = {.a = a_index, .b = b_index, .log = -1, .met = phys_narrow(p)};
+            contact.met_normal = phys_narrow(n);
             contact.separation = distance;
             contact.impulse_sum = j;
             contact.approach = approach;
@@ -47,8 +47,8 @@ static bool collide_balls(rlf_world *world, int32_t a_index, int32_t b_index)
     double approach = -rlf_dot(n, rlf_sub(a->v, b->v));
     double j = thesis_impulse(a, b, p, n, rlf_max(a->restitution, b->restitution));
     if (j > 0.0) {
-        phys_contact contact = {.a = a_index, .b = b_index, .log = -1, .met = p};
-        contact.met_normal = n;
+        phys_contact contact = {.a = a_index, .b = b_index, .log = -1, .met = phys_narrow(p)};
+        contact.met_normal = phys_narrow(n);
         contact.separation = rlf_length(rlf_sub(a->x, b->x)) - a->shape.radius - b->shape.radius;
         contact.impulse_sum = j;
         contact.approach = approach;

@@ -55,11 +55,11 @@ static void touch_point(const narrow_job *job, int32_t i)
     double approach = -rlf_dot(n, phys_body_velocity_at(body, rlf_sub(p, body->x)));
     double j = thesis_impulse(body, NULL, p, n, body->restitution);
     if (j > 0.0) {
-        phys_contact contact = {.a = job->body_index, .b = -1, .log = -1, .met = p};
+        phys_contact contact = {.a = job->body_index, .b = -1, .log = -1, .met = phys_narrow(p)};
         contact.other =
             job->region->is_foreground ? RLF_CONTACT_FOREGROUND : RLF_CONTACT_BACKGROUND;
         contact.label = job->region->label;
-        contact.met_normal = n;
+        contact.met_normal = phys_narrow(n);
         contact.separation = distance;
         contact.impulse_sum = j;
         contact.approach = approach;
