@@ -144,7 +144,8 @@ static void print_rows(const shower *showers, const options *o, const room *r)
         "grid: what the collider's grid needs of it, once per new surface; in all but the parts\n"
         "lost: 0.3 s or more inside floor, walls or furniture, or gone; hidden: those of them "
         "that are where no picture shows it\n"
-        "through: 0.3 s or more %.0f mm in the true person, or in on one side and out on another\n"
+        "through: 0.3 s or more %.0f mm in the true person in view, or in on one side and out on "
+        "another\n"
         "deep: pairs that overlap by more than %.0f mm, mean of all frames\n",
         1e3 * SHOWER_DEEP, 1e3 * SHOWER_DEEP);
 }

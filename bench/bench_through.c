@@ -4,10 +4,21 @@
 #define APART 0.02      /* m between the places looked at on a cube's way */
 #define OPPOSITE (-0.3) /* cosine between the normals of two sides of a solid */
 
+/* Of the person beyond the picture nothing is known. */
+static bool is_in_view(const room *r, rlf_vec3 p)
+{
+    const rlf_grid *grid = &r->grid;
+    double u, v;
+    return grid->project(grid->project_context, p, &u, &v) && u >= 0.0 && v >= 0.0 &&
+           u <= grid->width - 1 && v <= grid->height - 1;
+}
+
 static rlf_synthetic_hit nearest(const room *r, double time_s, rlf_vec3 p)
 {
     rlf_synthetic_hit hit = {.distance = 1.0};
-    (void)rlf_synthetic_nearest(r->source, time_s, p, &hit);
+    if (is_in_view(r, p)) {
+        (void)rlf_synthetic_nearest(r->source, time_s, p, &hit);
+    }
     return hit;
 }
 
