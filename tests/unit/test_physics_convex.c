@@ -431,6 +431,60 @@ static void fine_hulls_rest_on_the_surface(void **state)
     grid_fixture_destroy(&grid_room);
 }
 
+#define RIM 16
+
+/* A box of 20 x 10 x 20 cm whose upper and lower edges have three more corners each, in a line. */
+static const rlf_hull *box_of_many_corners(void)
+{
+    static rlf_vec3 vertices[2 * RIM];
+    static int32_t triangles[3 * 4 * RIM];
+    static rlf_hull hull;
+    int32_t n = 0;
+    for (int i = 0; i < RIM; i++) {
+        double along = 0.05 * (i % 4) - 0.1;
+        double x = i / 4 == 0 ? along : i / 4 == 1 ? 0.1 : i / 4 == 2 ? -along : -0.1;
+        double z = i / 4 == 0 ? -0.1 : i / 4 == 1 ? along : i / 4 == 2 ? 0.1 : -along;
+        vertices[i] = rlf_vec3_make(x, -0.05, z);
+        vertices[RIM + i] = rlf_vec3_make(x, 0.05, z);
+        int32_t next_i = (i + 1) % RIM;
+        const int32_t side[6] = {i, RIM + i, next_i, next_i, RIM + i, RIM + next_i};
+        const int32_t caps[6] = {0, i, next_i, RIM, RIM + next_i, RIM + i};
+        for (int k = 0; k < 6; k++) {
+            triangles[n++] = side[k];
+        }
+        for (int k = 0; k < 6 && i > 0 && i + 1 < RIM; k++) {
+            triangles[n++] = caps[k];
+        }
+    }
+    hull = (rlf_hull){vertices, 2 * RIM, triangles, n / 3};
+    return &hull;
+}
+
+/* Edge on edge in a line, where rounding decides which corners are cut away. */
+static void corners_in_a_line_stand(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 12; i++) {
+        rlf_world *world = make_world(9.81);
+        rlf_body_def def = rlf_body_def_default();
+        def.shape = (rlf_shape){.type = RLF_SHAPE_HULL, .hull = box_of_many_corners()};
+        def.orientation = rlf_quat_from_rotation_vector(rlf_vec3_make(0, 0.7 * i, 0));
+        def.position = rlf_vec3_make(0.1 * i, 0, 1);
+        def.is_kinematic = true;
+        add(world, &def);
+        def.is_kinematic = false;
+        def.restitution = 0;
+        def.position.y = -0.101;
+        add(world, &def);
+        for (int k = 0; k < 30; k++) {
+            rlf_world_advance(world, NULL, 1.0 / 30);
+        }
+        assert_true(fabs(body(world, 1)->T_world_body.p.y + 0.1) < 1e-3);
+        assert_true(fabs(body(world, 1)->T_world_body.p.x - 0.1 * i) < 1e-3);
+        rlf_world_destroy(&world);
+    }
+}
+
 static void open_hulls_are_refused(void **state)
 {
     (void)state;
@@ -453,6 +507,7 @@ int main(void)
         cmocka_unit_test(nothing_passes_however_fast),
         cmocka_unit_test(heaps_come_to_rest),
         cmocka_unit_test(fine_hulls_rest_on_the_surface),
+        cmocka_unit_test(corners_in_a_line_stand),
         cmocka_unit_test(open_hulls_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

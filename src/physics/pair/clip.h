@@ -5,7 +5,8 @@
 #include "relief/math.h"
 
 /* Sutherland and Hodgman 1974: keeps the part of a convex polygon with n.p <= d; of two corners, a
- * segment's. Returns the corners left, at most one more than before. */
+ * segment's. Returns the corners left: one more than before at most, but where rounding makes
+ * corners in a line lie on both sides, half as many more. */
 static inline int32_t pair_clip(const rlf_vec3 *in, int32_t count, rlf_vec3 n, double d,
                                 rlf_vec3 *out)
 {

@@ -14,7 +14,7 @@ typedef struct pair_point {
     double separation;
 } pair_point;
 
-#define PAIR_POINTS_MAX 48
+#define PAIR_POINTS_MAX 64
 
 /* Puts a pair into a lane, where its separating axes are looked for. Of other shapes than boxes
  * what is found means nothing. */

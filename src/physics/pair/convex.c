@@ -37,16 +37,17 @@ static void add(touching *t, rlf_vec3 on_reference, rlf_vec3 on_incident)
     }
 }
 
-/* The incident face's part before the reference polygon. */
+/* The incident face's part before the reference polygon. Two convex faces leave no more corners
+ * than they have together; where corners lie in a line rounding may add half as many in a cut. */
 static void touch_polygon(touching *t)
 {
     const pair_face *r = t->reference;
-    rlf_vec3 buffers[2][2 * PAIR_FACE_MAX];
+    rlf_vec3 buffers[2][3 * PAIR_FACE_MAX];
     int32_t count = t->incident->count, now = 0;
     for (int32_t i = 0; i < count; i++) {
         buffers[0][i] = t->incident->corner[i];
     }
-    for (int32_t i = 0; i < r->count; i++) {
+    for (int32_t i = 0; i < r->count && count <= 2 * PAIR_FACE_MAX; i++) {
         rlf_vec3 p = r->corner[i], q = r->corner[i + 1 < r->count ? i + 1 : 0];
         rlf_vec3 side = rlf_cross(rlf_sub(q, p), r->normal);
         count = pair_clip(buffers[now], count, side, rlf_dot(side, p), buffers[1 - now]);
