@@ -77,9 +77,11 @@ int sources_main(int argc, char **argv)
     }
     printf(
         "synthetic:NAME[?key=value&...]  a simulated room with ground truth\n"
-        "    NAME: room, empty, thesis, chair, book, hand, lift, swipe, carry, crossing\n"
+        "    NAME: room, empty, thesis, chair, book, hand, lift, swipe, carry, crossing, random\n"
         "    keys: seed, person (who it is; 1 = 1.75 m tall), frames, fps, speed, lamp (X,Y,Z),\n"
-        "    noise (0|1|steps), edge_filter (0|1), color (WxH or 0)\n"
+        "    noise (0|1|steps), edge_filter (0|1), color (WxH or 0), push (none|lift|swipe|carry)\n"
+        "    random: room, people, camera and sensor drawn by the seed; with push something\n"
+        "    that stood there is lifted, sweeps or carries at speed instead of people coming\n"
         "FOLDER                          a clip: depth.txt, rgb.txt, PNG/JPEG, camera.json\n");
     return EXIT_DONE;
 }

@@ -1,6 +1,7 @@
 /* Relief: the synthetic room, a ray-cast sensor that knows the truth.
  *
- * A level depth camera (Kinect v2 intrinsics) looks into a room: wall, column, floor, table, boxes,
+ * Rooms, people and sensors can be drawn at random, see scene random. Otherwise:
+ * a level depth camera (Kinect v2 intrinsics) looks into a room: wall, column, floor, table, boxes,
  * ball, chair, and a person of rounded limbs who walks and reaches. A colour camera sits 52 mm
  * beside it. Noise and dropout follow Fankhauser et al. 2015 and the libfreenect2 invalidation
  * chain. SPDX-License-Identifier: MIT */
@@ -24,8 +25,20 @@ typedef enum rlf_synthetic_scene {
     RLF_SYNTHETIC_LIFT = 6, /* a tray comes in, rises 0.4 m at `speed` from t = 3 s on, and stops */
     RLF_SYNTHETIC_SWIPE = 7,   /* an upright board moves 1.1 m along the floor from t = 3 s on */
     RLF_SYNTHETIC_CARRY = 8,   /* a tray comes in and moves along a circle from t = 3 s on */
-    RLF_SYNTHETIC_CROSSING = 9 /* bare room; two people walk past each other, 0.8 m apart */
+    RLF_SYNTHETIC_CROSSING = 9, /* bare room; two people walk past each other, 0.8 m apart */
+    RLF_SYNTHETIC_RANDOM = 10   /* room, people, camera and sensor drawn by the seed */
 } rlf_synthetic_scene;
+
+/* What happens in a random room instead of people who come: something that stood there since the
+ * first frame is moved at `speed` from t = 3 s on. Truth has its pose from the first frame on. */
+typedef enum rlf_synthetic_push {
+    RLF_SYNTHETIC_PUSH_NONE = 0,
+    RLF_SYNTHETIC_PUSH_LIFT = 1,  /* "plate", 0.5 x 0.024 x 0.4 m, rises by 0.4 m and stops */
+    RLF_SYNTHETIC_PUSH_SWIPE = 2, /* "board", 0.024 x 0.5 x 0.4 m, upright, moves 1.1 m on the floor
+                                     and stops; its frame's x axis is turned by 0.35 rad against
+                                     its way, so that its pushing side shows */
+    RLF_SYNTHETIC_PUSH_CARRY = 3  /* "tray", as the plate, moves along a circle of 0.25 m radius */
+} rlf_synthetic_push;
 
 /* Values of rlf_truth.label. The first four are the room's shell: endlessly thick, thickness 0. */
 typedef enum rlf_synthetic_label {
@@ -40,22 +53,24 @@ typedef enum rlf_synthetic_label {
     RLF_SYNTHETIC_LABEL_BOX_TOP = 9,
     RLF_SYNTHETIC_LABEL_BALL = 10,
     RLF_SYNTHETIC_LABEL_CHAIR = 11,
-    RLF_SYNTHETIC_LABEL_PERSON = 12, /* from here on: foreground */
+    RLF_SYNTHETIC_LABEL_PERSON = 12, /* from here to THING: foreground */
     RLF_SYNTHETIC_LABEL_BOOK = 13,
     RLF_SYNTHETIC_LABEL_HAND = 14,
     RLF_SYNTHETIC_LABEL_TRAY = 15,
-    RLF_SYNTHETIC_LABEL_SECOND_PERSON = 16
+    RLF_SYNTHETIC_LABEL_SECOND_PERSON = 16, /* 17, 18: the third and fourth of a random room */
+    RLF_SYNTHETIC_LABEL_THING = 32          /* from here on: what stands in a random room */
 } rlf_synthetic_label;
 
 typedef struct rlf_synthetic_def {
     uint32_t cookie;
     rlf_synthetic_scene scene; /* default room */
-    uint64_t seed;             /* of noise and dropout; default 1 */
+    uint64_t seed;             /* of noise and dropout, of a random room too; default 1 */
     uint64_t person;           /* who it is; default 1: an adult of 1.75 m. Every other number is
                                   someone else in size, build, clothes and pace */
     double frames_per_second;  /* default 30 */
     int64_t frame_count;       /* default 300 (10 s); -1 = endless */
     double speed;              /* of the tray or board, m/s, above 0, at most 10; default 0.5 */
+    rlf_synthetic_push push;   /* of a random room only; default none */
     rlf_vec3 lamp;             /* a wide lamp's middle, metres, camera frame, at most 20 m away;
                                   default (-0.7, -1.85, 1.5): under the ceiling, left */
     bool enable_noise;         /* default true: axial noise, dropout, flying pixels, edge filter */
@@ -74,9 +89,10 @@ RLF_API rlf_synthetic_def rlf_synthetic_def_default(void);
 RLF_API rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source **out);
 
 /* Reads "synthetic:NAME[?key=value[&key=value...]]" into *def: NAME one of room, empty, thesis,
- * chair, book, hand, lift, swipe, carry, crossing; keys seed, person, frames, fps, speed,
- * lamp (X,Y,Z), noise (0|1|steps), edge_filter (0|1), color (WxH or 0). RLF_ERROR_INVALID names the
- * part that is wrong and what is allowed. */
+ * chair, book, hand, lift, swipe, carry, crossing, random; keys seed, person, frames, fps, speed,
+ * lamp (X,Y,Z), noise (0|1|steps), edge_filter (0|1), color (WxH or 0), push (none|lift|swipe|carry).
+ * A random room draws its sensor and its lamp itself: of noise only 0 has an effect there.
+ * RLF_ERROR_INVALID names the part that is wrong and what is allowed. */
 RLF_API rlf_result rlf_synthetic_parse(const char *source, rlf_synthetic_def *def);
 
 /* True surface point nearest along the true scene at this instant of a source made by
@@ -94,6 +110,10 @@ RLF_API rlf_result rlf_synthetic_distance(rlf_source *source, rlf_vec3 p, double
 RLF_API rlf_result rlf_synthetic_cast(rlf_source *source, rlf_vec3 origin,
                                       const rlf_vec3 *directions, int32_t count,
                                       float *out_distance, int32_t *out_label);
+
+/* Unit vector towards the floor, camera frame: (0, 1, 0) but in random rooms, whose cameras are
+ * tilted. RLF_ERROR_INVALID when the source is not a synthetic one. */
+RLF_API rlf_result rlf_synthetic_get_down(const rlf_source *source, rlf_vec3 *out);
 
 /* What rlf_synthetic_nearest found. */
 typedef struct rlf_synthetic_hit {

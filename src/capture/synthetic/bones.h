@@ -2,6 +2,7 @@
 #ifndef RLF_CAPTURE_SYNTHETIC_BONES_H
 #define RLF_CAPTURE_SYNTHETIC_BONES_H
 
+#include "capture/synthetic/gait.h"
 #include "capture/synthetic/scene.h"
 
 /* Limbs come in pairs: left, right. A bone's frame has its origin at its upper joint, y along the
@@ -22,6 +23,23 @@ typedef enum synth_bone {
     SYNTH_THUMB = SYNTH_FINGER_TIP + 4,
     SYNTH_BONE_COUNT
 } synth_bone;
+
+/* Bones of a body of that figure in that moment of its walk, on the floor of the scene. */
+void synth_set_bones(const synth_scene *scene, const synth_figure *figure, const synth_gait *gait,
+                     rlf_pose *bones);
+
+/* Bones now and on both sides of now. */
+typedef struct synth_motion {
+    rlf_pose before[SYNTH_BONE_COUNT];
+    rlf_pose now[SYNTH_BONE_COUNT];
+    rlf_pose after[SYNTH_BONE_COUNT];
+} synth_motion;
+
+#define SYNTH_DIFFERENCE_S 1e-3 /* from now to either side: error ~ h^2 / 6 jerk */
+
+/* movers.c: adds a mover that moves with its bone. */
+void synth_put_flesh(synth_scene *scene, const synth_flesh *flesh, int32_t label,
+                     const synth_motion *m);
 
 /* Bones of the person (and the book he holds) at time t, in the camera frame. */
 void synth_person_bones(const synth_scene *scene, double t, rlf_pose bones[SYNTH_BONE_COUNT]);

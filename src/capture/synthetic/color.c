@@ -23,10 +23,10 @@ static void restore_row(synth_color *color, int32_t y)
 }
 
 /* The room's light on a mover: less of it near the floor and below. */
-RLF_KERNEL_PART double sky_on_mover(double floor_y, const synth_site *site)
+RLF_KERNEL_PART double sky_on_mover(double floor_y, rlf_vec3 down, const synth_site *site)
 {
-    double height = rlf_clamp((floor_y - site->p.y) / 0.6, 0.0, 1.0);
-    double up = 0.5 - 0.5 * site->normal.y;
+    double height = rlf_clamp((floor_y - rlf_dot(site->p, down)) / 0.6, 0.0, 1.0);
+    double up = 0.5 - 0.5 * rlf_dot(site->normal, down);
     return (0.55 + 0.45 * height) * (0.82 + 0.28 * up);
 }
 
@@ -35,12 +35,14 @@ RLF_KERNEL static void light_run(const synth_scene *scene, const synth_touches *
                                  int32_t count, double (*restrict light)[SYNTH_RUN_MOST])
 {
     const rlf_vec3 lamp = scene->lamp;
+    const rlf_vec3 down = scene->down;
     const double floor_y = scene->floor_y;
     for (int32_t i = 0; i < count; i++) {
         const synth_site site = {
             {touches->p[0][i], touches->p[1][i], touches->p[2][i]},
             {touches->normal[0][i], touches->normal[1][i], touches->normal[2][i]}};
-        const rlf_vec3 here = synth_light(lamp, &site, 1.0, sky_on_mover(floor_y, &site));
+        const rlf_vec3 here = synth_light(lamp, down, &site, 1.0,
+                                          sky_on_mover(floor_y, down, &site));
         light[0][i] = here.x;
         light[1][i] = here.y;
         light[2][i] = here.z;

@@ -27,8 +27,9 @@ static lit light_at(const job *j, const synth_site *site)
 {
     double lamp = synth_lamp_share(j->scene, j->static_count, site);
     double sky = synth_sky_share(j->scene, j->static_count, site);
-    lit result = {synth_light(j->scene->lamp, site, lamp, sky), 0.0};
-    result.lamp_share = 1.0 - synth_light(j->scene->lamp, site, 0.0, sky).y / result.light.y;
+    lit result = {synth_light(j->scene->lamp, j->scene->down, site, lamp, sky), 0.0};
+    const double dark = synth_light(j->scene->lamp, j->scene->down, site, 0.0, sky).y;
+    result.lamp_share = 1.0 - dark / result.light.y;
     return result;
 }
 

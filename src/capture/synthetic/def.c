@@ -9,7 +9,8 @@
 #define LAMP_MAX 20.0 /* metres from the camera */
 
 static const char *const scene_names[] = {"room", "empty", "thesis", "chair", "book",
-                                          "hand", "lift",  "swipe",  "carry", "crossing"};
+                                          "hand", "lift",  "swipe",  "carry", "crossing",
+                                          "random"};
 #define SCENE_COUNT ((int)(sizeof(scene_names) / sizeof(scene_names[0])))
 
 const char *synth_scene_name(rlf_synthetic_scene scene)
@@ -65,6 +66,13 @@ rlf_result synth_def_check(const rlf_synthetic_def *def)
     if (def->enable_color && !is_size) {
         return rlf_fail(RLF_ERROR_INVALID, "synthetic: color size is %d x %d; use 1 to %d each",
                         (int)def->color_width, (int)def->color_height, COLOR_SIZE_MAX);
+    }
+    if ((int)def->push < 0 || def->push > RLF_SYNTHETIC_PUSH_CARRY) {
+        return rlf_fail(RLF_ERROR_INVALID, "synthetic: push is %d; use an rlf_synthetic_push",
+                        (int)def->push);
+    }
+    if (def->push != RLF_SYNTHETIC_PUSH_NONE && def->scene != RLF_SYNTHETIC_RANDOM) {
+        return rlf_fail(RLF_ERROR_INVALID, "synthetic: push is for scene random only");
     }
     return RLF_OK;
 }

@@ -37,6 +37,16 @@ RLF_KERNEL static void find_cosines(const synth_touches *touches, int32_t count,
     }
 }
 
+/* What a stereo camera finds to match on a run, in place of the light that comes back. */
+static void match_run(const synth_part *part, const synth_touches *touches, int32_t count,
+                      float *margin)
+{
+    for (int32_t i = 0; i < count; i++) {
+        const rlf_vec3 local = {touches->local[0][i], touches->local[1][i], touches->local[2][i]};
+        margin[i] = synth_noise_match(synth_look_texture(part, local));
+    }
+}
+
 /* Depth and noise of the movers' pixels in row y. */
 static void resolve_row(synth_depth *depth, int32_t y)
 {
@@ -48,11 +58,14 @@ static void resolve_row(synth_depth *depth, int32_t y)
         const size_t first = (size_t)y * SYNTH_DEPTH_WIDTH + (size_t)run.x0;
         const int32_t count = run.x1 - run.x0;
         const synth_part *part = &depth->scene->movers[run.id];
-        const synth_noise_seen seen = {(float)synth_infrared(part->material), canvas->z + first,
+        const synth_noise_seen seen = {(float)synth_infrared(part), canvas->z + first,
                                        cosine, depth->vignette + first, count};
         synth_canvas_touch(canvas, &run, y, &touches);
         find_cosines(&touches, count, cosine);
         synth_noise_find(&depth->noise, &seen, depth->now.sigma + first, depth->now.margin + first);
+        if (synth_depth_is_stereo(depth)) {
+            match_run(part, &touches, count, depth->now.margin + first);
+        }
         memcpy(depth->now.z + first, canvas->z + first, (size_t)count * sizeof(float));
     }
 }

@@ -38,6 +38,11 @@ typedef struct synth_depth {
     uint32_t frame;
 } synth_depth;
 
+static inline bool synth_depth_is_stereo(const synth_depth *depth)
+{
+    return depth->noise.drawn != NULL && depth->noise.drawn->kind == SYNTH_STEREO;
+}
+
 /* `depth` is zeroed, with view, noise and pool set. Casts the room. */
 rlf_result synth_depth_create(synth_depth *depth, const synth_scene *scene, bool enable_truth);
 void synth_depth_destroy(synth_depth *depth);

@@ -27,6 +27,7 @@ typedef enum synth_material {
     SYNTH_TROUSERS,
     SYNTH_SHOE,
     SYNTH_BOOK,
+    SYNTH_DRAWN, /* as the part's look says */
     SYNTH_MATERIAL_COUNT
 } synth_material;
 

@@ -5,53 +5,37 @@
 #define RAMP 0.2         /* share of a walk's time in which it speeds up, and slows down */
 #define STEP_HEIGHT 0.05 /* metres that a swinging foot is lifted */
 
-#define WEST (-0.5 * RLF_PI) /* walking towards -x */
-#define EAST (-1.5 * RLF_PI)
+#define WEST SYNTH_WEST
+#define EAST SYNTH_EAST
 #define CAMERA (-RLF_PI)
 
-/* begin..end in seconds; from and to are x in metres (walk) or headings in radians (turn). */
-typedef struct act {
-    bool is_walk;
-    double begin, end;
-    double from, to;
-} act;
-
-typedef struct script {
-    double period;
-    double z;       /* of the path */
-    double heading; /* at first */
-    double reach_begin, reach_end;
-    const act *acts;
-    int act_count;
-} script;
-
-static const act room_acts[] = {
+static const synth_act room_acts[] = {
     {true, 0.3, 3.5, 3.35, -0.2},
     {false, 3.5, 4.1, WEST, CAMERA},
     {false, 6.5, 7.1, CAMERA, WEST},
     {true, 7.1, 9.9, -0.2, -3.3},
 };
-static const act thesis_acts[] = {
+static const synth_act thesis_acts[] = {
     {true, 0.6, 3.6, 2.6, -0.85},  {false, 3.6, 4.3, WEST, EAST}, {true, 4.3, 6.1, -0.85, 0.95},
     {false, 6.1, 6.8, EAST, WEST}, {true, 6.8, 9.8, 0.95, -2.6},
 };
-static const act book_acts[] = {
+static const synth_act book_acts[] = {
     {true, 0.3, 3.5, 3.35, -0.2},
     {false, 3.5, 4.1, WEST, CAMERA},
     {false, 9.2, 9.8, CAMERA, WEST},
     {true, 9.8, 12.6, -0.2, -3.3},
 };
 
-static const act crossing_acts[] = {{true, 0.3, 5.3, 2.3, -2.3}};
-static const act second_acts[] = {{true, 0.3, 5.3, -2.7, 2.7}};
+static const synth_act crossing_acts[] = {{true, 0.3, 5.3, 2.3, -2.3}};
+static const synth_act second_acts[] = {{true, 0.3, 5.3, -2.7, 2.7}};
 
-static const script room_script = {10.0, 2.95, WEST, 3.9, 6.6, room_acts, 4};
-static const script thesis_script = {10.0, 2.3, WEST, 0.0, 0.0, thesis_acts, 5};
-static const script book_script = {13.0, 2.95, WEST, 0.0, 0.0, book_acts, 4};
-static const script crossing_script = {6.0, 2.2, WEST, 0.0, 0.0, crossing_acts, 1};
-static const script second_script = {6.0, 3.0, EAST, 0.0, 0.0, second_acts, 1};
+static const synth_script room_script = {10.0, 2.95, WEST, 3.9, 6.6, room_acts, 4, 0.0, 0.0, 0.0};
+static const synth_script thesis_script = {10.0, 2.3, WEST, 0.0, 0.0, thesis_acts, 5, 0.0, 0.0, 0.0};
+static const synth_script book_script = {13.0, 2.95, WEST, 0.0, 0.0, book_acts, 4, 0.0, 0.0, 0.0};
+static const synth_script crossing_script = {6.0, 2.2, WEST, 0.0, 0.0, crossing_acts, 1, 0.0, 0.0, 0.0};
+static const synth_script second_script = {6.0, 3.0, EAST, 0.0, 0.0, second_acts, 1, 0.0, 0.0, 0.0};
 
-static const script *script_of(rlf_synthetic_scene kind)
+static const synth_script *script_of(rlf_synthetic_scene kind)
 {
     switch (kind) {
     case RLF_SYNTHETIC_THESIS: return &thesis_script;
@@ -115,7 +99,19 @@ static rlf_vec3 beside(const synth_gait *gait, rlf_vec3 p, double heading, int s
     return rlf_add(p, rlf_vec3_make(offset * rlf_cos(heading), 0, -offset * rlf_sin(heading)));
 }
 
-static void walk(synth_gait *gait, const act *a, double step, double t)
+/* The hips go back over the seat, the feet stay. */
+static void sit(synth_gait *gait, const synth_script *s, double leg, double now)
+{
+    const double back = 0.36 * leg;
+    gait->sitting =
+        synth_smooth((now - s->sit_begin) / 1.0) * synth_smooth((s->sit_end - now) / 1.0);
+    gait->seat = s->seat;
+    const double away = back * gait->sitting;
+    const rlf_vec3 ahead = {rlf_sin(gait->heading), 0, rlf_cos(gait->heading)};
+    gait->position = rlf_mad(gait->position, ahead, -away);
+}
+
+static void walk(synth_gait *gait, const synth_act *a, double step, double t)
 {
     double x = (t - a->begin) / (a->end - a->begin);
     double distance = a->to - a->from;
@@ -137,7 +133,7 @@ static void walk(synth_gait *gait, const act *a, double step, double t)
 }
 
 /* The left foot turns during the first 60 % of the time, the right one during the last. */
-static void turn(synth_gait *gait, const act *a, double t)
+static void turn(synth_gait *gait, const synth_act *a, double t)
 {
     double x = (t - a->begin) / (a->end - a->begin);
     gait->heading = a->from + (a->to - a->from) * synth_smooth(x);
@@ -160,9 +156,9 @@ static void stand(synth_gait *gait)
 }
 
 /* Act i at the figure's own pace: who walks slower comes from less far, and goes less far away. */
-static act act_of(const script *s, const synth_figure *figure, int i)
+static synth_act act_of(const synth_script *s, const synth_figure *figure, int i)
 {
-    act a = s->acts[i];
+    synth_act a = s->acts[i];
     if (i == 0) {
         a.from = a.to + (a.from - a.to) * figure->pace;
     } else if (i == s->act_count - 1) {
@@ -171,7 +167,7 @@ static act act_of(const script *s, const synth_figure *figure, int i)
     return a;
 }
 
-static synth_gait follow(const script *s, const synth_figure *figure, double t)
+synth_gait synth_gait_follow(const synth_script *s, const synth_figure *figure, double t)
 {
     double now = t - s->period * (double)(int64_t)(t / s->period);
     synth_gait gait = {.position = {act_of(s, figure, 0).from, 0.0, s->z},
@@ -179,7 +175,7 @@ static synth_gait follow(const script *s, const synth_figure *figure, double t)
                        .foot_offset = figure->hip};
     stand(&gait);
     for (int i = 0; i < s->act_count && now >= s->acts[i].begin; i++) {
-        act a = act_of(s, figure, i);
+        synth_act a = act_of(s, figure, i);
         bool is_over = now >= a.end;
         if (!is_over && a.is_walk) {
             walk(&gait, &a, figure->step, now);
@@ -191,6 +187,9 @@ static synth_gait follow(const script *s, const synth_figure *figure, double t)
             stand(&gait);
         }
     }
+    if (s->sit_end > 0.0) {
+        sit(&gait, s, figure->leg, now);
+    }
     if (s->reach_end > 0.0) {
         gait.gesture_time = now - s->reach_begin;
         gait.reach =
@@ -201,10 +200,10 @@ static synth_gait follow(const script *s, const synth_figure *figure, double t)
 
 synth_gait synth_gait_at(rlf_synthetic_scene kind, const synth_figure *figure, double t)
 {
-    return follow(script_of(kind), figure, t);
+    return synth_gait_follow(script_of(kind), figure, t);
 }
 
 synth_gait synth_second_gait_at(const synth_figure *figure, double t)
 {
-    return follow(&second_script, figure, t);
+    return synth_gait_follow(&second_script, figure, t);
 }

@@ -21,7 +21,32 @@ typedef struct synth_gait {
     double foot_offset;  /* of each foot from the middle plane of the body, metres */
     double reach;        /* 0..1: how far the right arm follows its gesture */
     double gesture_time; /* s since the gesture began */
+    double sitting;      /* 0 standing .. 1 sitting */
+    double seat;         /* height of the hips when sitting, metres */
 } synth_gait;
+
+/* begin..end in seconds; from and to are x in metres (walk) or headings in radians (turn). */
+typedef struct synth_act {
+    bool is_walk;
+    double begin, end;
+    double from, to;
+} synth_act;
+
+typedef struct synth_script {
+    double period;
+    double z;       /* of the path */
+    double heading; /* at first */
+    double reach_begin, reach_end;
+    const synth_act *acts;
+    int act_count;
+    double sit_begin, sit_end, seat; /* s; s; height of the hips, metres. End 0 = never */
+} synth_script;
+
+#define SYNTH_WEST (-0.5 * RLF_PI) /* heading of a walk towards -x */
+#define SYNTH_EAST (-1.5 * RLF_PI)
+
+/* t in seconds since the first frame; the script repeats for ever. */
+synth_gait synth_gait_follow(const synth_script *script, const synth_figure *figure, double t);
 
 /* t in seconds since the first frame; the script of each scene repeats for ever. */
 synth_gait synth_gait_at(rlf_synthetic_scene kind, const synth_figure *figure, double t);

@@ -33,8 +33,7 @@ static double lattice(int32_t x, int32_t y)
     return synth_uniform(synth_hash2((uint32_t)x, (uint32_t)y));
 }
 
-/* Value noise in 0..1, one cell per unit. */
-static double noise(double x, double y)
+double synth_value_noise(double x, double y)
 {
     int32_t ix = floor_of(x);
     int32_t iy = floor_of(y);
@@ -50,9 +49,9 @@ static double noise(double x, double y)
 /* Wood whose grain runs along `along`. */
 static rlf_vec3 wood(rlf_vec3 light, rlf_vec3 dark, double along, double across)
 {
-    double wave = noise(along * 2.5, across * 22.0);
-    double fine = noise(along * 14.0, across * 190.0);
-    double ring = fraction(3.0 * noise(along * 0.9, across * 9.0));
+    double wave = synth_value_noise(along * 2.5, across * 22.0);
+    double fine = synth_value_noise(along * 14.0, across * 190.0);
+    double ring = fraction(3.0 * synth_value_noise(along * 0.9, across * 9.0));
     double t = 0.45 * wave + 0.25 * fine + 0.3 * ring;
     return mix(light, dark, t);
 }
@@ -79,7 +78,7 @@ static rlf_vec3 floor_tiles(double x, double z)
 {
     const double side = 0.3;
     double tone = lattice(floor_of(x / side), floor_of(z / side));
-    double cloud = noise(x * 11.0, z * 11.0);
+    double cloud = synth_value_noise(x * 11.0, z * 11.0);
     double joint =
         rlf_min(0.5 - absolute(fraction(x / side) - 0.5), 0.5 - absolute(fraction(z / side) - 0.5));
     rlf_vec3 tile = rlf_scale(rgb(0.135, 0.15, 0.165), 0.75 + 0.25 * tone + 0.25 * cloud);
@@ -121,7 +120,7 @@ static rlf_vec3 wall(double x, double up)
     if (up < -1.2) {
         return up > -1.207 ? rgb(0.35, 0.34, 0.32) : rgb(0.78, 0.77, 0.74);
     }
-    double tone = 0.97 + 0.03 * noise(x * 3.0, up * 3.0) + 0.02 * noise(x * 60.0, up * 60.0);
+    double tone = 0.97 + 0.03 * synth_value_noise(x * 3.0, up * 3.0) + 0.02 * synth_value_noise(x * 60.0, up * 60.0);
     return rlf_scale(rgb(0.60, 0.66, 0.64), tone);
 }
 
@@ -146,7 +145,7 @@ static rlf_vec3 cupboard(rlf_vec3 local, rlf_vec3 size)
 
 static rlf_vec3 cardboard(rlf_vec3 local)
 {
-    double flute = 0.94 + 0.06 * noise(local.x * 9.0, local.y * 160.0);
+    double flute = 0.94 + 0.06 * synth_value_noise(local.x * 9.0, local.y * 160.0);
     if (absolute(local.x) < 0.026 && local.y < 0.035) {
         return rgb(0.60, 0.50, 0.30);
     }
@@ -167,9 +166,9 @@ static rlf_vec3 ball(rlf_vec3 local)
 }
 
 /* The head's frame is upright with y down and z ahead; size 0.076 x 0.112 x 0.094. */
-static rlf_vec3 face(rlf_vec3 p)
+static rlf_vec3 face(rlf_vec3 p, rlf_vec3 own)
 {
-    rlf_vec3 skin = rgb(0.62, 0.36, 0.24);
+    rlf_vec3 skin = own.x > 0.0 ? own : rgb(0.62, 0.36, 0.24);
     if (p.z < 0.0) {
         return skin;
     }
@@ -206,7 +205,7 @@ static rlf_vec3 book(rlf_vec3 local)
 {
     bool is_cover = absolute(local.z) > 0.0123 || local.x < -0.084;
     if (!is_cover) {
-        return rlf_scale(rgb(0.80, 0.77, 0.68), 0.85 + 0.15 * noise(local.z * 900.0, 0.0));
+        return rlf_scale(rgb(0.80, 0.77, 0.68), 0.85 + 0.15 * synth_value_noise(local.z * 900.0, 0.0));
     }
     if (absolute(local.x) < 0.055 && local.y > -0.085 && local.y < -0.045) {
         return rgb(0.85, 0.68, 0.25);
@@ -223,7 +222,7 @@ rlf_vec3 synth_albedo(const synth_part *part, rlf_vec3 p)
     case SYNTH_RUBBER: return rgb(0.035, 0.035, 0.04);
     case SYNTH_CEILING: return rgb(0.80, 0.80, 0.78);
     case SYNTH_COLUMN:
-        return rlf_scale(rgb(0.74, 0.70, 0.62), 0.96 + 0.04 * noise(p.x * 8, p.y * 8));
+        return rlf_scale(rgb(0.74, 0.70, 0.62), 0.96 + 0.04 * synth_value_noise(p.x * 8, p.y * 8));
     case SYNTH_CUPBOARD: return cupboard(p, part->shape.size);
     case SYNTH_TABLE: return wood(rgb(0.47, 0.27, 0.13), rgb(0.27, 0.135, 0.06), p.x, p.z + p.y);
     case SYNTH_CARDBOARD: return cardboard(p);
@@ -231,18 +230,19 @@ rlf_vec3 synth_albedo(const synth_part *part, rlf_vec3 p)
     case SYNTH_BOX_TEAL: return absolute(p.y) < 0.02 ? rgb(0.8, 0.8, 0.75) : rgb(0.03, 0.33, 0.34);
     case SYNTH_BALL: return ball(p);
     case SYNTH_CHAIR: return wood(rgb(0.30, 0.19, 0.11), rgb(0.20, 0.12, 0.07), p.y, p.x + p.z);
-    case SYNTH_FACE: return face(p);
+    case SYNTH_FACE: return face(p, part->look.color);
     case SYNTH_HAIR: return rgb(0.055, 0.032, 0.020);
     case SYNTH_SHIRT: return shirt(part, p);
     case SYNTH_TROUSERS: return rgb(0.045, 0.075, 0.155);
     case SYNTH_SHOE:
         return p.x > 0.030 || p.x < -0.030 ? rgb(0.6, 0.6, 0.6) : rgb(0.06, 0.06, 0.07);
     case SYNTH_BOOK: return book(p);
+    case SYNTH_DRAWN: return synth_look_albedo(&part->look, p);
     default: return rgb(0.62, 0.36, 0.24);
     }
 }
 
-double synth_infrared(synth_material material)
+double synth_infrared(const synth_part *part)
 {
     static const double reflectance[SYNTH_MATERIAL_COUNT] = {
         [SYNTH_WALL] = 0.6,     [SYNTH_FLOOR] = 0.45,   [SYNTH_TILES] = 0.45,
@@ -253,7 +253,7 @@ double synth_infrared(synth_material material)
         [SYNTH_HAIR] = 0.15,    [SYNTH_SHIRT] = 0.45,   [SYNTH_TROUSERS] = 0.35,
         [SYNTH_SHOE] = 0.2,     [SYNTH_BOOK] = 0.4,
     };
-    return reflectance[material];
+    return part->material == SYNTH_DRAWN ? part->look.reflectance : reflectance[part->material];
 }
 
 void synth_gamma_table(uint8_t table[SYNTH_GAMMA_SIZE])

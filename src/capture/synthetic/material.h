@@ -8,7 +8,15 @@
 rlf_vec3 synth_albedo(const synth_part *part, rlf_vec3 local);
 
 /* Share of infrared light that comes back, 0..1. */
-double synth_infrared(synth_material material);
+double synth_infrared(const synth_part *part);
+
+/* look.c: linear RGB albedo of a drawn part at a point of its own frame, and how much of a pattern a
+ * stereo camera finds there: 1 = plenty, 0 = none. */
+rlf_vec3 synth_look_albedo(const synth_look *look, rlf_vec3 local);
+float synth_look_texture(const synth_part *part, rlf_vec3 local);
+
+/* Value noise in 0..1, one cell per unit. */
+double synth_value_noise(double x, double y);
 
 /* Entry i is the sRGB code value of linear light (i + 0.5) / SYNTH_GAMMA_SIZE (IEC 61966-2-1). */
 #define SYNTH_GAMMA_SIZE 4096

@@ -1,16 +1,8 @@
 /* Puts the solids on the bones, with the velocity of their rigid motion. */
 #include "capture/synthetic/bones.h"
-
-#define DIFFERENCE_S 1e-3 /* half the interval of the central difference: error ~ h^2 / 6 jerk */
+#include "capture/synthetic/random/random.h"
 
 typedef void (*bones_fn)(const synth_scene *, double, rlf_pose[SYNTH_BONE_COUNT]);
-
-/* Bones now and on both sides of now. */
-typedef struct motion {
-    rlf_pose before[SYNTH_BONE_COUNT];
-    rlf_pose now[SYNTH_BONE_COUNT];
-    rlf_pose after[SYNTH_BONE_COUNT];
-} motion;
 
 static rlf_pose pose_on_bone(const rlf_pose *bone, const synth_flesh *flesh)
 {
@@ -24,13 +16,14 @@ static rlf_pose pose_on_bone(const rlf_pose *bone, const synth_flesh *flesh)
     return rlf_pose_mul(bone, &local);
 }
 
-static void put_flesh(synth_scene *scene, const synth_flesh *flesh, int32_t label, const motion *m)
+void synth_put_flesh(synth_scene *scene, const synth_flesh *flesh, int32_t label,
+                     const synth_motion *m)
 {
     synth_part *part = &scene->movers[scene->mover_count++];
     rlf_pose before = pose_on_bone(&m->before[flesh->bone], flesh);
     rlf_pose after = pose_on_bone(&m->after[flesh->bone], flesh);
     rlf_quat turn = rlf_quat_mul(after.q, rlf_quat_conjugate(before.q));
-    double rate = (turn.w < 0.0 ? -2.0 : 2.0) / (2.0 * DIFFERENCE_S);
+    double rate = (turn.w < 0.0 ? -2.0 : 2.0) / (2.0 * SYNTH_DIFFERENCE_S);
     *part = (synth_part){.name = flesh->name, .label = label, .material = flesh->material};
     part->shape.type = flesh->type;
     part->shape.size = flesh->size;
@@ -38,7 +31,7 @@ static void put_flesh(synth_scene *scene, const synth_flesh *flesh, int32_t labe
     part->shape.radius_a = flesh->radius_a;
     part->shape.radius_b = flesh->radius_b;
     part->shape.T_camera_shape = pose_on_bone(&m->now[flesh->bone], flesh);
-    part->velocity = rlf_scale(rlf_sub(after.p, before.p), 1.0 / (2.0 * DIFFERENCE_S));
+    part->velocity = rlf_scale(rlf_sub(after.p, before.p), 1.0 / (2.0 * SYNTH_DIFFERENCE_S));
     part->angular_velocity = rlf_scale(rlf_vec3_make(turn.x, turn.y, turn.z), rate);
 }
 
@@ -48,45 +41,49 @@ rlf_vec3 synth_part_velocity(const synth_part *part, rlf_vec3 p)
     return rlf_add(part->velocity, rlf_cross(part->angular_velocity, arm));
 }
 
-static motion motion_at(const synth_scene *scene, bones_fn bones, double t)
+static synth_motion motion_at(const synth_scene *scene, bones_fn bones, double t)
 {
-    motion m;
-    bones(scene, t - DIFFERENCE_S, m.before);
+    synth_motion m;
+    bones(scene, t - SYNTH_DIFFERENCE_S, m.before);
     bones(scene, t, m.now);
-    bones(scene, t + DIFFERENCE_S, m.after);
+    bones(scene, t + SYNTH_DIFFERENCE_S, m.after);
     return m;
 }
 
 static void move_tray(synth_scene *scene, double t)
 {
-    motion m = motion_at(scene, synth_tray_bones, t);
-    put_flesh(scene, &synth_tray_flesh[0], RLF_SYNTHETIC_LABEL_TRAY, &m);
-    put_flesh(scene, &synth_tray_flesh[1], RLF_SYNTHETIC_LABEL_HAND, &m);
+    synth_motion m = motion_at(scene, synth_tray_bones, t);
+    synth_put_flesh(scene, &synth_tray_flesh[0], RLF_SYNTHETIC_LABEL_TRAY, &m);
+    synth_put_flesh(scene, &synth_tray_flesh[1], RLF_SYNTHETIC_LABEL_HAND, &m);
 }
 
 static void move_hand(synth_scene *scene, double t)
 {
-    motion m = motion_at(scene, synth_hand_bones, t);
+    synth_motion m = motion_at(scene, synth_hand_bones, t);
     for (int32_t i = 0; i < synth_hand_flesh_count; i++) {
-        put_flesh(scene, &synth_hand_flesh[i], RLF_SYNTHETIC_LABEL_HAND, &m);
+        synth_put_flesh(scene, &synth_hand_flesh[i], RLF_SYNTHETIC_LABEL_HAND, &m);
     }
 }
 
 static void move_person(synth_scene *scene, const synth_figure *figure, bones_fn bones,
                         int32_t label, double t)
 {
-    motion m = motion_at(scene, bones, t);
+    synth_motion m = motion_at(scene, bones, t);
     for (int32_t i = 0; i < SYNTH_PERSON_FLESH; i++) {
-        put_flesh(scene, &figure->flesh[i], label, &m);
+        synth_put_flesh(scene, &figure->flesh[i], label, &m);
     }
     if (scene->kind == RLF_SYNTHETIC_BOOK) {
-        put_flesh(scene, &synth_book_flesh, RLF_SYNTHETIC_LABEL_BOOK, &m);
+        synth_put_flesh(scene, &synth_book_flesh, RLF_SYNTHETIC_LABEL_BOOK, &m);
     }
 }
 
 void synth_scene_move(synth_scene *scene, double t)
 {
     scene->mover_count = 0;
+    if (scene->random != NULL) {
+        synth_random_move(scene, t);
+        return;
+    }
     if (scene->kind == RLF_SYNTHETIC_EMPTY) {
         return;
     }

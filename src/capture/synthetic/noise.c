@@ -192,8 +192,8 @@ RLF_KERNEL static void count_jumps(const uint8_t *jump, uint8_t *restrict count)
 }
 
 /* Visits the pixels that have a jump in their 3x3 neighbourhood. */
-static void apply_jumps(const synth_noise *noise, const synth_noise_row *row, uint32_t key,
-                        uint16_t *out)
+void synth_noise_apply_jumps(const synth_noise *noise, const synth_noise_row *row, uint32_t key,
+                             uint16_t *out)
 {
     uint8_t count[SYNTH_DEPTH_WIDTH];
     count_jumps(row->jump + (size_t)row->y * SYNTH_DEPTH_WIDTH, count);
@@ -221,12 +221,16 @@ void synth_noise_apply(const synth_noise *noise, const synth_noise_row *row, uin
         memset(out, 0, SYNTH_DEPTH_WIDTH * sizeof(*out));
         return;
     }
+    if (noise->drawn != NULL) {
+        synth_noise_apply_drawn(noise, row, out);
+        return;
+    }
     uint32_t key = synth_hash2(synth_hash2(noise->seed, row->frame), (uint32_t)row->y);
     apply_axial(noise, row, key, out);
     if (noise->enable_steps) {
         apply_steps(noise, row, out);
     }
-    apply_jumps(noise, row, key, out);
+    synth_noise_apply_jumps(noise, row, key, out);
     out[0] = 0;
     out[SYNTH_DEPTH_WIDTH - 1] = 0;
 }

@@ -16,7 +16,20 @@ typedef struct synth_noise {
     bool enable_edge_filter;
     bool enable_steps;    /* structured light instead of time of flight */
     float min_mm, max_mm; /* the sensor's range */
+    const struct synth_drawn_noise *drawn; /* borrowed: of a sensor drawn at random; NULL else */
 } synth_noise;
+
+/* A sensor drawn at random, see noise_drawn.c. */
+typedef struct synth_drawn_noise {
+    enum { SYNTH_FLIGHT, SYNTH_PATTERN, SYNTH_STEREO } kind;
+    float shift_m;    /* pixels x metres: the shift of a match is this over depth; 0 = no shadow */
+    float alike;      /* share of the noise that neighbours have in common, 0..1 */
+    float lasting;    /* share of that which stays from frame to frame, 0..1 */
+    int32_t pitch;    /* pixels between independent errors */
+    int32_t fat;      /* pixels that a near edge spreads over what is behind: stereo */
+    int32_t rim[4];   /* columns left and right, rows at the top and the bottom without depth */
+    bool keeps_edges; /* no filter of mixed pixels */
+} synth_drawn_noise;
 
 /* What the noise of one row needs. */
 typedef struct synth_noise_row {
@@ -38,6 +51,12 @@ float synth_noise_sigma(const synth_noise *noise, float z, float cosine);
 /* Amplitude of the returned light above the driver's threshold, in standard deviations of it. */
 float synth_noise_margin(float reflectance, float z, float cosine, float vignette);
 
+/* How far what stereo finds to match, 0..1, is above what it needs; in the same unit. */
+static inline float synth_noise_match(float texture)
+{
+    return (texture - 0.3f) * 12.0f;
+}
+
 /* Both at once of surfaces that reflect alike: `count` pixels of a row. */
 typedef struct synth_noise_seen {
     float reflectance;
@@ -56,6 +75,12 @@ void synth_noise_find_jumps(const float *z, int32_t count, uint8_t *out);
 
 /* noise_steps.c: depth in metres at pixel (x, y) as structured light measures it; z > 0. */
 float synth_noise_steps(const synth_noise *noise, uint32_t frame, int32_t x, int32_t y, float z);
+
+/* What the drawn sensor delivers instead. */
+void synth_noise_apply_drawn(const synth_noise *noise, const synth_noise_row *row, uint16_t *out);
+/* Mixes and drops pixels of row y at jumps. */
+void synth_noise_apply_jumps(const synth_noise *noise, const synth_noise_row *row, uint32_t key,
+                             uint16_t *out);
 
 /* Depth of row y in millimetres as the driver delivers it; 0 = missing. */
 void synth_noise_apply(const synth_noise *noise, const synth_noise_row *row, uint16_t *out);

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #define PREFIX "synthetic:"
-#define SCENES "room, empty, thesis, chair, book, hand, lift, swipe, carry, crossing"
-#define KEYS "seed, person, frames, fps, speed, lamp, noise, edge_filter, color"
+#define SCENES "room, empty, thesis, chair, book, hand, lift, swipe, carry, crossing, random"
+#define KEYS "seed, person, frames, fps, speed, lamp, noise, edge_filter, color, push"
 
 /* A piece of the source string. */
 typedef struct piece {
@@ -125,6 +125,17 @@ static bool read_switch(piece p, bool *out)
     return is_word(p, "0") || is_word(p, "1");
 }
 
+static bool read_push(piece p, rlf_synthetic_push *out)
+{
+    static const char *const names[4] = {"none", "lift", "swipe", "carry"};
+    int i = 0;
+    while (i < 4 && !is_word(p, names[i])) {
+        i++;
+    }
+    *out = (rlf_synthetic_push)(i < 4 ? i : 0);
+    return i < 4;
+}
+
 /* What a key's value must be, in words; NULL when no such key exists. `is_good` says whether it is,
  * and then it has been set in *def. */
 static const char *set_value(piece key, piece value, rlf_synthetic_def *def, bool *is_good)
@@ -165,6 +176,10 @@ static const char *set_value(piece key, piece value, rlf_synthetic_def *def, boo
     if (is_word(key, "edge_filter")) {
         *is_good = read_switch(value, &def->enable_edge_filter);
         return "0 or 1";
+    }
+    if (is_word(key, "push")) {
+        *is_good = read_push(value, &def->push);
+        return "none, lift, swipe or carry";
     }
     if (is_word(key, "color")) {
         *is_good = read_size(value, def);

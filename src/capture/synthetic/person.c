@@ -55,6 +55,7 @@ static void set_trunk(const synth_figure *figure, const rlf_pose *body, const sy
 {
     double dip = gait->walking * (0.0315 - 0.0215 * rlf_cos(2.0 * RLF_PI * gait->stride));
     double hip = (HIP_HEIGHT - dip) * figure->leg;
+    hip += gait->sitting * (gait->seat - hip);
     double twist = 0.16 * gait->swing;
     double lean = 0.05 + 0.06 * gait->walking + 0.05 * gait->reach;
     rlf_pose pelvis = {rlf_vec3_make(0, -hip, 0),
@@ -162,7 +163,7 @@ static void set_book(const synth_figure *figure, double t, rlf_pose *bones)
         rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), 0.5 * RLF_PI * (1.0 + turned));
 }
 
-static void set_bones(const synth_scene *scene, const synth_figure *figure, const synth_gait *gait,
+void synth_set_bones(const synth_scene *scene, const synth_figure *figure, const synth_gait *gait,
                       rlf_pose *bones)
 {
     rlf_pose body = body_pose(scene, gait);
@@ -176,13 +177,13 @@ static void set_bones(const synth_scene *scene, const synth_figure *figure, cons
 void synth_second_bones(const synth_scene *scene, double t, rlf_pose bones[SYNTH_BONE_COUNT])
 {
     synth_gait gait = synth_second_gait_at(&scene->second, t);
-    set_bones(scene, &scene->second, &gait, bones);
+    synth_set_bones(scene, &scene->second, &gait, bones);
 }
 
 void synth_person_bones(const synth_scene *scene, double t, rlf_pose bones[SYNTH_BONE_COUNT])
 {
     synth_gait gait = synth_gait_at(scene->kind, &scene->person, t);
-    set_bones(scene, &scene->person, &gait, bones);
+    synth_set_bones(scene, &scene->person, &gait, bones);
     if (scene->kind == RLF_SYNTHETIC_BOOK) {
         set_book(&scene->person, t, bones);
     }

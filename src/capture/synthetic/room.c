@@ -141,7 +141,8 @@ static void build_room(synth_scene *scene)
 
 void synth_scene_build(synth_scene *scene, rlf_synthetic_scene kind)
 {
-    *scene = (synth_scene){.kind = kind, .speed = 0.5, .lamp = {-0.70, -1.85, 1.5}};
+    *scene = (synth_scene){
+        .kind = kind, .speed = 0.5, .lamp = {-0.70, -1.85, 1.5}, .down = {0.0, 1.0, 0.0}};
     if (kind == RLF_SYNTHETIC_THESIS) {
         build_thesis(scene);
     } else if (synth_has_tray(kind) || kind == RLF_SYNTHETIC_CROSSING) {

@@ -6,13 +6,35 @@
 #include "capture/synthetic/shape.h"
 #include "relief/synthetic.h"
 
-#define SYNTH_PART_MAX 48 /* of the room, and of the movers */
+#define SYNTH_PART_MAX 224 /* of the room, and of the movers */
+
+typedef enum synth_pattern {
+    SYNTH_PLAIN = 0,
+    SYNTH_WOOD,
+    SYNTH_STRIPES,
+    SYNTH_CHECKS,
+    SYNTH_SPECKLE, /* carpet, plaster, wool */
+    SYNTH_PRINT,   /* blots of a second colour: a rug, a picture, a printed shirt */
+    SYNTH_PATTERN_COUNT
+} synth_pattern;
+
+/* What a drawn part looks like; linear colours, 0..1. */
+typedef struct synth_look {
+    rlf_vec3 color, second;
+    synth_pattern pattern;
+    double size;       /* of the pattern's cell, metres */
+    float reflectance; /* of infrared light, 0..1 */
+    float texture;     /* 0..1: how much a stereo camera finds to match */
+} synth_look;
+
+struct synth_random;
 
 typedef struct synth_part {
     synth_shape shape;
     const char *name;
     int32_t label; /* rlf_synthetic_label */
     synth_material material;
+    synth_look look;           /* of a drawn part; of a face its skin, where it is not black */
     rlf_vec3 velocity;         /* of the shape's origin, m/s, camera frame */
     rlf_vec3 angular_velocity; /* rad/s, camera frame */
 } synth_part;
@@ -20,6 +42,7 @@ typedef struct synth_part {
 typedef struct synth_scene {
     rlf_synthetic_scene kind;
     double floor_y;      /* height of the camera above the floor, metres */
+    rlf_vec3 down;       /* unit, towards the floor, camera frame */
     double speed;        /* of the tray, m/s */
     rlf_vec3 lamp;       /* middle of the lamp, camera frame */
     double removal_time; /* s; when the last parts of the room are taken away; 0 = never */
@@ -29,6 +52,7 @@ typedef struct synth_scene {
     synth_part movers[SYNTH_PART_MAX];
     int32_t mover_count;
     synth_figure person, second; /* the second is in scene "crossing" */
+    const struct synth_random *random; /* borrowed: a room drawn at random; NULL in the others */
 } synth_scene;
 
 /* A scene with a tray, see tray.c. */

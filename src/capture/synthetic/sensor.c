@@ -41,12 +41,34 @@ static rlf_rig make_rig(const rlf_synthetic_def *def)
     return rig;
 }
 
+/* What was drawn of the sensor in place of the Kinect's. */
+static void set_drawn(rlf_rig *rig, const synth_random *random)
+{
+    const double scale = random->focal / KINECT_F;
+    rig->depth.fx = rig->depth.fy = random->focal;
+    rig->color.fx *= scale;
+    rig->color.fy *= scale;
+    rig->depth_min_m = random->min_m;
+    rig->depth_max_m = random->max_m;
+    rig->noise = random->sigma;
+}
+
 static void sensor_destroy(void *self)
 {
     synth_sensor *sensor = self;
     synth_depth_destroy(&sensor->depth);
     synth_color_destroy(&sensor->color);
     rlf_free(sensor);
+}
+
+static void add_poses(synth_sensor *sensor, const synth_part *parts, int32_t count)
+{
+    for (int32_t i = 0; i < count; i++) {
+        rlf_truth_pose *pose = &sensor->poses[sensor->truth.pose_count++];
+        (void)snprintf(pose->name, sizeof(pose->name), "%s", parts[i].name);
+        pose->label = parts[i].label;
+        pose->T_camera_object = parts[i].shape.T_camera_shape;
+    }
 }
 
 static void fill_truth(synth_sensor *sensor)
@@ -66,13 +88,10 @@ static void fill_truth(synth_sensor *sensor)
     truth->velocity_z = depth->velocity[2];
     truth->background_depth = depth->room[depth->room_index].z;
     truth->poses = sensor->poses;
-    truth->pose_count = sensor->scene.mover_count;
-    for (int32_t i = 0; i < sensor->scene.mover_count; i++) {
-        const synth_part *part = &sensor->scene.movers[i];
-        rlf_truth_pose *pose = &sensor->poses[i];
-        (void)snprintf(pose->name, sizeof(pose->name), "%s", part->name);
-        pose->label = part->label;
-        pose->T_camera_object = part->shape.T_camera_shape;
+    truth->pose_count = 0;
+    add_poses(sensor, sensor->scene.movers, sensor->scene.mover_count);
+    if (sensor->scene.random != NULL && sensor->time < sensor->random.moved.start) {
+        add_poses(sensor, sensor->random.moved.parts, sensor->random.moved.part_count);
     }
 }
 
@@ -132,21 +151,23 @@ synth_sensor *synth_sensor_of(const rlf_source *source)
     return capture_source_self(source, sensor_next);
 }
 
-static rlf_result sensor_create(const rlf_synthetic_def *def, const rlf_rig *rig,
-                                synth_sensor **out)
+static void build_scene(synth_sensor *sensor)
 {
-    synth_sensor *sensor = rlf_alloc(sizeof(*sensor));
-    if (sensor == NULL) {
-        return RLF_ERROR_MEMORY;
+    const rlf_synthetic_def *def = &sensor->def;
+    if (def->scene == RLF_SYNTHETIC_RANDOM) {
+        synth_random_build(&sensor->scene, &sensor->random, def);
+    } else {
+        synth_scene_build(&sensor->scene, def->scene);
+        synth_scene_set_people(&sensor->scene, def->person);
+        sensor->scene.speed = def->speed;
+        sensor->scene.lamp = def->lamp;
     }
-    sensor->def = *def;
-    synth_scene_build(&sensor->scene, def->scene);
-    synth_scene_set_people(&sensor->scene, def->person);
-    sensor->scene.speed = def->speed;
-    sensor->scene.lamp = def->lamp;
     sensor->asked = sensor->scene;
-    sensor->depth.view.camera = rig->depth;
-    sensor->depth.pool = def->pool;
+}
+
+static void set_noise(synth_sensor *sensor, const rlf_rig *rig)
+{
+    const rlf_synthetic_def *def = &sensor->def;
     synth_noise *noise = &sensor->depth.noise;
     synth_noise_init(noise, def->seed);
     noise->enable = def->enable_noise;
@@ -154,6 +175,25 @@ static rlf_result sensor_create(const rlf_synthetic_def *def, const rlf_rig *rig
     noise->enable_edge_filter = def->enable_edge_filter;
     noise->min_mm = (float)(1000.0 * rig->depth_min_m);
     noise->max_mm = (float)(1000.0 * rig->depth_max_m);
+    noise->drawn = sensor->scene.random != NULL ? &sensor->random.noise : NULL;
+}
+
+/* Sets *rig as well. */
+static rlf_result sensor_create(const rlf_synthetic_def *def, rlf_rig *rig, synth_sensor **out)
+{
+    synth_sensor *sensor = rlf_alloc(sizeof(*sensor));
+    if (sensor == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    sensor->def = *def;
+    build_scene(sensor);
+    *rig = make_rig(def);
+    if (sensor->scene.random != NULL) {
+        set_drawn(rig, &sensor->random);
+    }
+    sensor->depth.view.camera = rig->depth;
+    sensor->depth.pool = def->pool;
+    set_noise(sensor, rig);
     rlf_result result = synth_depth_create(&sensor->depth, &sensor->scene, def->enable_truth);
     if (result == RLF_OK && def->enable_color) {
         sensor->color.view.camera = rig->color;
@@ -179,8 +219,7 @@ rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source **out)
     if (result != RLF_OK) {
         return result;
     }
-    rlf_source_info info = {.rig = make_rig(def),
-                            .frame_count = def->frame_count,
+    rlf_source_info info = {.frame_count = def->frame_count,
                             .frames_per_second = def->frames_per_second};
     (void)snprintf(info.name, sizeof(info.name), "synthetic:%s", synth_scene_name(def->scene));
     synth_sensor *sensor = NULL;

@@ -4,10 +4,12 @@
 
 #include "capture/synthetic/color.h"
 #include "capture/synthetic/depth.h"
+#include "capture/synthetic/random/random.h"
 
 typedef struct synth_sensor {
     rlf_synthetic_def def;
     synth_scene scene;
+    synth_random random; /* the scene's, if it is a random one */
     synth_depth depth;
     synth_color color;
     int64_t next_frame;
@@ -16,7 +18,7 @@ typedef struct synth_sensor {
     synth_scene asked; /* the scene at the time that was asked for last; see nearest.c */
     double asked_time;
     rlf_truth truth;
-    rlf_truth_pose poses[SYNTH_PART_MAX];
+    rlf_truth_pose poses[SYNTH_PART_MAX + SYNTH_THING_MAX];
 } synth_sensor;
 
 #define SYNTH_FRAME_COUNT_MAX 4294967295 /* the noise is keyed by a 32-bit frame number */

@@ -2,17 +2,25 @@
  * the floor, so the ellipses are drawn row by row. */
 #include "capture/synthetic/shadow.h"
 #include "capture/synthetic/light.h"
+#include "capture/synthetic/random/random.h"
 #include "kernel/kernel.h"
 
 #define ROW_MAX 4096
 #define PENUMBRA 0.06       /* metres of softness per metre between ball and floor */
 #define CONTACT_HEIGHT 0.15 /* metres */
 
+#define LEAST_RADIUS 0.025 /* metres; smaller solids of a random room, as fingers, throw none */
+
+static rlf_vec3 to_level(const synth_shadow *shadow, rlf_vec3 p)
+{
+    return shadow->is_tilted ? rlf_rotate(shadow->q_level_camera, p) : p;
+}
+
 /* Shadow of the ball about c: projected from the lamp to the floor; softer and weaker with height.
  */
 static void add_blob(synth_shadow *shadow, const synth_scene *scene, rlf_vec3 c, double radius)
 {
-    const rlf_vec3 lamp = scene->lamp;
+    const rlf_vec3 lamp = to_level(shadow, scene->lamp);
     const double floor_y = scene->floor_y;
     rlf_vec3 ray = rlf_sub(c, lamp);
     if (!(ray.y > 0.1) || shadow->blob_count >= SYNTH_BLOB_MAX) {
@@ -44,20 +52,28 @@ static void add_contact(synth_shadow *shadow, rlf_vec3 c, double radius, double 
     float reach = (float)(1.7 * radius + 0.5 * gap);
     float strength = (float)(0.7 * (1.0 - gap / CONTACT_HEIGHT));
     shadow->blobs[shadow->blob_count++] =
-        (synth_blob){(float)c.x, (float)c.z, 1.0f, 0.0f, reach, reach, strength};
+        (synth_blob){.x = (float)c.x,
+                     .z = (float)c.z,
+                     .along_x = 1.0f,
+                     .long_radius = reach,
+                     .short_radius = reach,
+                     .strength = strength};
 }
 
 static void add_part(synth_shadow *shadow, const synth_scene *scene, const synth_shape *shape)
 {
-    if (shape->type != SYNTH_CONE) {
+    if (shape->type != SYNTH_CONE && shape->type != SYNTH_FRUSTUM) {
         double radius = 0.5 * (shape->size.x + rlf_min(shape->size.y, shape->size.z));
-        add_blob(shadow, scene, shape->T_camera_shape.p, radius);
+        add_blob(shadow, scene, to_level(shadow, shape->T_camera_shape.p), radius);
+        return;
+    }
+    if (shadow->is_tilted && shape->radius_a < LEAST_RADIUS) {
         return;
     }
     for (int i = 0; i < 3; i++) {
         double share = (i + 0.5) / 3.0;
-        rlf_vec3 p =
-            rlf_transform(&shape->T_camera_shape, rlf_vec3_make(0, share * shape->length, 0));
+        rlf_vec3 p = to_level(shadow, rlf_transform(&shape->T_camera_shape,
+                                                    rlf_vec3_make(0, share * shape->length, 0)));
         double radius = shape->radius_a + (shape->radius_b - shape->radius_a) * share;
         add_blob(shadow, scene, p, radius);
         add_contact(shadow, p, radius, scene->floor_y);
@@ -88,11 +104,21 @@ void synth_shadow_place(synth_shadow *shadow, const synth_scene *scene, const sy
 {
     shadow->blob_count = 0;
     shadow->rect = (synth_rect){0, 0, 0, 0};
+    shadow->is_tilted = scene->random != NULL;
+    if (shadow->is_tilted) {
+        shadow->q_level_camera = rlf_quat_conjugate(scene->random->q_camera_level);
+    }
     for (int32_t i = 0; i < scene->mover_count; i++) {
         add_part(shadow, scene, &scene->movers[i].shape);
     }
     for (int32_t i = 0; i < shadow->blob_count; i++) {
-        widen_rect(&shadow->rect, &shadow->blobs[i], view, scene->floor_y);
+        synth_blob *blob = &shadow->blobs[i];
+        if (shadow->is_tilted) {
+            blob->rect = synth_shadow_rect(shadow, blob, view, scene->floor_y);
+            shadow->rect = synth_rect_union(shadow->rect, blob->rect);
+        } else {
+            widen_rect(&shadow->rect, blob, view, scene->floor_y);
+        }
     }
 }
 
@@ -144,23 +170,40 @@ RLF_KERNEL static void darken_row(const float *restrict factor, int32_t count,
     }
 }
 
+/* A level camera's row is a line on the floor; false where it looks over it. */
+static bool dim_level(const synth_shadow *shadow, const synth_view *view, double floor_y, int32_t y,
+                      float *light)
+{
+    const rlf_camera *camera = &view->camera;
+    const int32_t count = shadow->rect.x1 - shadow->rect.x0;
+    double slope = (y - camera->cy) / camera->fy;
+    if (slope <= 0.01) {
+        return false;
+    }
+    double z = (floor_y - view->origin.y) / slope;
+    double x0 = view->origin.x + z * (shadow->rect.x0 - camera->cx) / camera->fx;
+    for (int32_t k = 0; k < shadow->blob_count; k++) {
+        dim_row(shadow->blobs[k], (float)x0, (float)(z / camera->fx), (float)z, light, count);
+    }
+    return true;
+}
+
 void synth_shadow_apply(const synth_shadow *shadow, const synth_view *view, double floor_y,
                         int32_t y, const uint8_t *lamp, uint8_t *rgba)
 {
     const rlf_camera *camera = &view->camera;
     float light[ROW_MAX];
-    double slope = (y - camera->cy) / camera->fy;
     int32_t count = shadow->rect.x1 - shadow->rect.x0;
-    if (slope <= 0.01 || count <= 0 || count > ROW_MAX) {
+    if (count <= 0 || count > ROW_MAX) {
         return;
     }
-    double z = (floor_y - view->origin.y) / slope;
-    double x0 = view->origin.x + z * (shadow->rect.x0 - camera->cx) / camera->fx;
     for (int32_t i = 0; i < count; i++) {
         light[i] = 1.0f;
     }
-    for (int32_t k = 0; k < shadow->blob_count; k++) {
-        dim_row(shadow->blobs[k], (float)x0, (float)(z / camera->fx), (float)z, light, count);
+    if (shadow->is_tilted) {
+        synth_shadow_dim(shadow, view, floor_y, y, light);
+    } else if (!dim_level(shadow, view, floor_y, y, light)) {
+        return;
     }
     const size_t first = (size_t)y * (size_t)camera->width + (size_t)shadow->rect.x0;
     find_factors(lamp + first, count, light);

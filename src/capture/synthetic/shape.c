@@ -112,6 +112,42 @@ static bool intersect_cone(const synth_shape *shape, rlf_vec3 o, rlf_vec3 d, syn
     return out->near <= out->far;
 }
 
+/* A disc across the axis at height y. */
+static void extend_to_disc(synth_interval *out, rlf_vec3 o, rlf_vec3 d, double y, double radius)
+{
+    if (d.y != 0.0) {
+        double t = (y - o.y) / d.y, px = o.x + t * d.x, pz = o.z + t * d.z;
+        if (px * px + pz * pz <= radius * radius) {
+            extend(out, t);
+        }
+    }
+}
+
+/* As for the round cone: entry and exit are among the crossings that lie in the solid. */
+static bool intersect_frustum(const synth_shape *shape, rlf_vec3 o, rlf_vec3 d, synth_interval *out)
+{
+    synth_interval hit;
+    double slope = (shape->radius_b - shape->radius_a) / shape->length;
+    double radius = shape->radius_a + slope * o.y;
+    double a = d.x * d.x + d.z * d.z - slope * slope * d.y * d.y;
+    double b = o.x * d.x + o.z * d.z - slope * radius * d.y;
+    double c = o.x * o.x + o.z * o.z - radius * radius;
+    out->near = FAR_AWAY;
+    out->far = -FAR_AWAY;
+    extend_to_disc(out, o, d, 0.0, shape->radius_a);
+    extend_to_disc(out, o, d, shape->length, shape->radius_b);
+    if (solve_quadratic(a, b, c, &hit)) {
+        const double roots[2] = {hit.near, hit.far};
+        for (int i = 0; i < 2; i++) {
+            double y = o.y + roots[i] * d.y;
+            if (y >= 0.0 && y <= shape->length) {
+                extend(out, roots[i]);
+            }
+        }
+    }
+    return out->near <= out->far;
+}
+
 static rlf_vec3 divide(rlf_vec3 a, rlf_vec3 b)
 {
     return rlf_vec3_make(a.x / b.x, a.y / b.y, a.z / b.z);
@@ -126,6 +162,7 @@ bool synth_shape_intersect(const synth_shape *shape, const synth_ray *ray, synth
     case SYNTH_HALF_SPACE: return intersect_half_space(o, d, out);
     case SYNTH_BOX: return intersect_box(shape->size, o, d, out);
     case SYNTH_CONE: return intersect_cone(shape, o, d, out);
+    case SYNTH_FRUSTUM: return intersect_frustum(shape, o, d, out);
     default: return intersect_sphere(1.0, divide(o, shape->size), divide(d, shape->size), out);
     }
 }
@@ -141,6 +178,11 @@ double synth_shape_bound(const synth_shape *shape, rlf_vec3 *out_centre)
         double centre = reach - shape->radius_a;
         *out_centre = rlf_transform(&shape->T_camera_shape, rlf_vec3_make(0, centre, 0));
         return reach;
+    }
+    case SYNTH_FRUSTUM: {
+        double half = 0.5 * shape->length, radius = rlf_max(shape->radius_a, shape->radius_b);
+        *out_centre = rlf_transform(&shape->T_camera_shape, rlf_vec3_make(0, half, 0));
+        return sqrt(half * half + radius * radius);
     }
     default: return FAR_AWAY;
     }

@@ -10,15 +10,16 @@ typedef enum synth_shape_type {
     SYNTH_HALF_SPACE = 0, /* local y >= 0: solid below the plane y = 0 */
     SYNTH_BOX = 1,        /* |local| <= size */
     SYNTH_CONE = 2,       /* round cone: hull of two spheres, at 0 and at (0, length, 0) */
-    SYNTH_ELLIPSOID = 3   /* |local / size| <= 1 */
+    SYNTH_ELLIPSOID = 3,  /* |local / size| <= 1 */
+    SYNTH_FRUSTUM = 4     /* flat ends: discs at 0 and at (0, length, 0), straight between */
 } synth_shape_type;
 
 typedef struct synth_shape {
     synth_shape_type type;
     rlf_pose T_camera_shape;
     rlf_vec3 size;             /* half extents or radii, metres */
-    double length;             /* of the cone's axis, metres, > |radius_a - radius_b| */
-    double radius_a, radius_b; /* of the cone's spheres at local y = 0 and y = length */
+    double length;             /* of the axis, metres; of a round cone > |radius_a - radius_b| */
+    double radius_a, radius_b; /* of a cone's spheres or discs at local y = 0 and y = length */
 } synth_shape;
 
 /* Where a ray is inside a solid: origin + t direction for near <= t <= far. */

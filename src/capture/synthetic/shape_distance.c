@@ -56,6 +56,64 @@ static double distance_to_cone(const synth_shape *shape, rlf_vec3 p, rlf_vec3 *n
     return length - radius;
 }
 
+/* In the half plane through the axis and p: distance along the axis and across it. */
+typedef struct half_plane {
+    double rho, y;
+} half_plane;
+
+static half_plane to_segment(half_plane p, half_plane a, half_plane b)
+{
+    double dr = b.rho - a.rho, dy = b.y - a.y;
+    double share = ((p.rho - a.rho) * dr + (p.y - a.y) * dy) / (dr * dr + dy * dy);
+    share = rlf_clamp(share, 0.0, 1.0);
+    return (half_plane){p.rho - a.rho - share * dr, p.y - a.y - share * dy};
+}
+
+/* Of the face whose plane p is farthest outside of, or least inside. */
+static double frustum_face(const synth_shape *shape, half_plane p, half_plane *normal)
+{
+    double rise = shape->radius_b - shape->radius_a;
+    double slant = sqrt(rise * rise + shape->length * shape->length);
+    const half_plane normals[3] = {{0, -1}, {0, 1}, {shape->length / slant, -rise / slant}};
+    const double off[3] = {-p.y, p.y - shape->length,
+                           (p.rho - shape->radius_a) * normals[2].rho + p.y * normals[2].y};
+    int face = off[1] > off[0] ? 1 : 0;
+    face = off[2] > off[face] ? 2 : face;
+    *normal = normals[face];
+    return off[face];
+}
+
+static double distance_to_frustum(const synth_shape *shape, rlf_vec3 p, rlf_vec3 *normal)
+{
+    const half_plane corners[4] = {
+        {0, 0}, {shape->radius_a, 0}, {shape->radius_b, shape->length}, {0, shape->length}};
+    half_plane at = {sqrt(p.x * p.x + p.z * p.z), p.y}, n;
+    double distance = frustum_face(shape, at, &n);
+    if (distance > 0.0) {
+        distance = 1e9;
+        for (int i = 0; i < 3; i++) {
+            half_plane off = to_segment(at, corners[i], corners[i + 1]);
+            double length = sqrt(off.rho * off.rho + off.y * off.y);
+            if (length < distance && length > 0.0) {
+                distance = length;
+                n = (half_plane){off.rho / length, off.y / length};
+            }
+        }
+    }
+    double x = at.rho > 0.0 ? p.x / at.rho : 1.0, z = at.rho > 0.0 ? p.z / at.rho : 0.0;
+    *normal = rlf_vec3_make(n.rho * x, n.y, n.rho * z);
+    return distance;
+}
+
+/* On the surface or very near to it. */
+static rlf_vec3 frustum_normal(const synth_shape *shape, rlf_vec3 p)
+{
+    half_plane at = {sqrt(p.x * p.x + p.z * p.z), p.y}, n;
+    (void)frustum_face(shape, at, &n);
+    double scale = at.rho > 0.0 ? n.rho / at.rho : 0.0;
+    return rlf_vec3_make(p.x * scale, n.y, p.z * scale);
+}
+
 /* Nearest point of an ellipsoid (Eberly, "Distance from a point to an ellipsoid"): x_i = e_i^2 p_i
  * / (s + e_i^2), where s is the largest root of sum (e_i p_i / (s + e_i^2))^2 = 1. The sum is
  * convex and falls for s > -min e^2, so Newton from the left end climbs to the root; a bisection
@@ -120,6 +178,7 @@ double synth_shape_distance(const synth_shape *shape, rlf_vec3 p, rlf_vec3 *out_
     case SYNTH_HALF_SPACE: distance = -local.y; break;
     case SYNTH_BOX: distance = distance_to_box(shape->size, local, &normal); break;
     case SYNTH_CONE: distance = distance_to_cone(shape, local, &normal); break;
+    case SYNTH_FRUSTUM: distance = distance_to_frustum(shape, local, &normal); break;
     default: distance = distance_to_ellipsoid(shape->size, local, &normal); break;
     }
     *out_normal = rlf_rotate(shape->T_camera_shape.q, normal);
@@ -135,6 +194,7 @@ rlf_vec3 synth_shape_normal(const synth_shape *shape, rlf_vec3 p)
     case SYNTH_HALF_SPACE: break;
     case SYNTH_BOX: (void)nearest_face(size, local, &normal); break;
     case SYNTH_CONE: (void)distance_to_cone(shape, local, &normal); break;
+    case SYNTH_FRUSTUM: normal = frustum_normal(shape, local); break;
     default:
         normal = rlf_normalize(rlf_vec3_make(
             local.x / (size.x * size.x), local.y / (size.y * size.y), local.z / (size.z * size.z)));

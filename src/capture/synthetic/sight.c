@@ -84,3 +84,17 @@ rlf_result rlf_synthetic_cast(rlf_source *source, rlf_vec3 origin, const rlf_vec
     }
     return RLF_OK;
 }
+
+rlf_result rlf_synthetic_get_down(const rlf_source *source, rlf_vec3 *out)
+{
+    if (!RLF_ASSERT(source != NULL && out != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    const synth_sensor *sensor = synth_sensor_of(source);
+    if (sensor == NULL) {
+        return rlf_fail(RLF_ERROR_INVALID, "%s: not a synthetic source, so its truth is unknown",
+                        rlf_source_get_info(source)->name);
+    }
+    *out = sensor->scene.down;
+    return RLF_OK;
+}

@@ -134,6 +134,51 @@ RLF_KERNEL static void draw_cone(const row r, const synth_stamp *stamp)
     }
 }
 
+/* Entry is the smallest of the crossings of the ends and of the side; see intersect_frustum. */
+RLF_KERNEL static void draw_frustum(const row r, const synth_stamp *stamp)
+{
+    const float slope = stamp->sine;
+    const float radius_a = stamp->radius_a;
+    const float length = stamp->length;
+    const float radius_a2 = radius_a * radius_a;
+    const float radius_b2 = stamp->radius_b * stamp->radius_b;
+    const float far = 1e9f;
+    float *restrict z = r.z;
+    int32_t *restrict part = r.part;
+    for (int32_t i = 0; i < r.count; i++) {
+        const ray m = ray_of(&r, i);
+        float dy = m.dy == 0.0f ? 1e-12f : m.dy;
+        float t_a = -m.oy / dy;
+        float t_b = (length - m.oy) / dy;
+        float ax = m.ox + t_a * m.dx, az = m.oz + t_a * m.dz;
+        float bx = m.ox + t_b * m.dx, bz = m.oz + t_b * m.dz;
+        float best = ax * ax + az * az <= radius_a2 ? t_a : far;
+        float end = bx * bx + bz * bz <= radius_b2 ? t_b : far;
+        best = end < best ? end : best;
+
+        float k = radius_a + slope * m.oy;
+        float a = m.dx * m.dx + m.dz * m.dz - slope * slope * m.dy * m.dy;
+        float b = m.ox * m.dx + m.oz * m.dz - slope * k * m.dy;
+        float c = m.ox * m.ox + m.oz * m.oz - k * k;
+        float q = b * b - a * c;
+        float root = sqrtf(q > 0.0f ? q : 0.0f);
+        float s = b > 0.0f ? -b - root : root - b; /* without cancellation */
+        float t1 = s / (a == 0.0f ? 1e-12f : a);
+        float t2 = c / (s == 0.0f ? 1e-12f : s);
+        float y1 = m.oy + t1 * m.dy;
+        float y2 = m.oy + t2 * m.dy;
+        t1 = ((q > 0.0f) & (y1 >= 0.0f) & (y1 <= length)) ? t1 : far;
+        t2 = ((q > 0.0f) & (y2 >= 0.0f) & (y2 <= length)) ? t2 : far;
+        best = t1 < best ? t1 : best;
+        best = t2 < best ? t2 : best;
+
+        float t = r.z0 + best;
+        int hit = (t > (float)NEAREST) & (t < z[i]);
+        z[i] = hit ? t : z[i];
+        part[i] = hit ? r.id : part[i];
+    }
+}
+
 static void draw_stamp_row(synth_canvas *canvas, int32_t id, int32_t y)
 {
     const synth_stamp *stamp = &canvas->stamps[id];
@@ -155,6 +200,7 @@ static void draw_stamp_row(synth_canvas *canvas, int32_t id, int32_t y)
     switch (stamp->type) {
     case SYNTH_BOX: draw_box(r, stamp->half); break;
     case SYNTH_CONE: draw_cone(r, stamp); break;
+    case SYNTH_FRUSTUM: draw_frustum(r, stamp); break;
     default: draw_ellipsoid(r); break;
     }
 }

@@ -8,7 +8,7 @@
 #include "capture/synthetic/view.h"
 
 /* A mover prepared for one view. The solid is seen in coordinates q = A (p - p0) in which it is a
- * unit sphere (ellipsoid) or has its own size (box, cone). */
+ * unit sphere (ellipsoid) or has its own size (box, cone, frustum). */
 typedef struct synth_stamp {
     synth_shape_type type;
     synth_rect rect;
@@ -16,7 +16,7 @@ typedef struct synth_stamp {
     double offset[3]; /* A (p0 - view origin) */
     double z0;        /* a depth near the solid: rays are measured from there, for precision */
     float half[3];    /* box: half extents; ellipsoid: radii */
-    float sine, cosine2, length, radius_a, radius_b;
+    float sine, cosine2, length, radius_a, radius_b; /* frustum: sine is its slope */
 } synth_stamp;
 
 typedef struct synth_canvas {

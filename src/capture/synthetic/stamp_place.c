@@ -44,6 +44,17 @@ static void add_sphere(rlf_vec3 c, double radius, span spans[2])
     add_ellipsoid(&M, c, spans);
 }
 
+/* An ellipsoid about the middle of T; one radius may be 0. */
+static void add_radii(const rlf_pose *T, rlf_vec3 radii, span spans[2])
+{
+    rlf_mat3 R = rlf_quat_to_mat3(T->q);
+    rlf_mat3 D = rlf_mat3_diagonal(radii.x * radii.x, radii.y * radii.y, radii.z * radii.z);
+    rlf_mat3 R_t = rlf_mat3_transpose(&R);
+    rlf_mat3 RD = rlf_mat3_mul(&R, &D);
+    rlf_mat3 M = rlf_mat3_mul(&RD, &R_t);
+    add_ellipsoid(&M, T->p, spans);
+}
+
 /* `T` maps the shape into the view's camera frame. */
 static void outline(const synth_shape *shape, const rlf_pose *T, span spans[2])
 {
@@ -63,13 +74,13 @@ static void outline(const synth_shape *shape, const rlf_pose *T, span spans[2])
         }
         return;
     }
-    rlf_mat3 R = rlf_quat_to_mat3(T->q);
-    rlf_mat3 D = rlf_mat3_diagonal(shape->size.x * shape->size.x, shape->size.y * shape->size.y,
-                                   shape->size.z * shape->size.z);
-    rlf_mat3 R_t = rlf_mat3_transpose(&R);
-    rlf_mat3 RD = rlf_mat3_mul(&R, &D);
-    rlf_mat3 M = rlf_mat3_mul(&RD, &R_t);
-    add_ellipsoid(&M, T->p, spans);
+    if (shape->type == SYNTH_FRUSTUM) {
+        rlf_pose end = {rlf_transform(T, rlf_vec3_make(0, shape->length, 0)), T->q};
+        add_radii(T, rlf_vec3_make(shape->radius_a, 0, shape->radius_a), spans);
+        add_radii(&end, rlf_vec3_make(shape->radius_b, 0, shape->radius_b), spans);
+        return;
+    }
+    add_radii(T, shape->size, spans);
 }
 
 static int32_t to_pixel(double x, int32_t size)
@@ -108,9 +119,9 @@ static void place(synth_stamp *stamp, const synth_shape *shape, const synth_view
             stamp->offset[k] += stamp->A[k][j] * p[j];
         }
     }
-    if (shape->type == SYNTH_CONE) {
+    if (shape->type == SYNTH_CONE || shape->type == SYNTH_FRUSTUM) {
         double sine = (shape->radius_a - shape->radius_b) / shape->length;
-        stamp->sine = (float)sine;
+        stamp->sine = (float)(shape->type == SYNTH_FRUSTUM ? -sine : sine);
         stamp->cosine2 = (float)(1.0 - sine * sine);
         stamp->length = (float)shape->length;
         stamp->radius_a = (float)shape->radius_a;

@@ -75,6 +75,25 @@ RLF_KERNEL_PART void lean_box(const float half[3], int32_t count, points *v)
     }
 }
 
+/* Out of the face that the point is least inside of: an end or the side. */
+RLF_KERNEL_PART void lean_frustum(const synth_stamp *stamp, int32_t count, points *v)
+{
+    const float slope = stamp->sine;
+    const float slant = sqrtf(1.0f + slope * slope);
+    for (int32_t i = 0; i < count; i++) {
+        float rho = sqrtf(v->q[0][i] * v->q[0][i] + v->q[2][i] * v->q[2][i]);
+        float side = (rho - stamp->radius_a - slope * v->q[1][i]) / slant;
+        float low = -v->q[1][i];
+        float high = v->q[1][i] - stamp->length;
+        float end = high > low ? high : low;
+        float sign = high > low ? 1.0f : -1.0f;
+        int is_end = end > side;
+        v->gradient[0][i] = is_end ? 0.0f : v->q[0][i];
+        v->gradient[1][i] = is_end ? sign : -slope * rho;
+        v->gradient[2][i] = is_end ? 0.0f : v->q[2][i];
+    }
+}
+
 RLF_KERNEL_PART void turn_back(const synth_stamp *stamp, const points *v, int32_t count,
                                synth_touches *out)
 {
@@ -128,6 +147,8 @@ RLF_KERNEL void synth_canvas_touch(const synth_canvas *canvas, const synth_run *
         lean_cone(stamp, count, &v);
     } else if (stamp->type == SYNTH_BOX) {
         lean_box(stamp->half, count, &v);
+    } else if (stamp->type == SYNTH_FRUSTUM) {
+        lean_frustum(stamp, count, &v);
     }
     turn_back(stamp, &v, count, out);
     put_points(stamp, canvas->view.origin, &v, count, out);
