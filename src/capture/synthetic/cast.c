@@ -19,9 +19,8 @@ void synth_tile_candidates(const synth_scene *scene, int32_t count, const synth_
     double sine = sqrt(1.0 - cosine * cosine);
     out->count = 0;
     for (int32_t i = 0; i < count; i++) {
-        rlf_vec3 centre;
-        double radius = synth_shape_bound(&scene->statics[i].shape, &centre);
-        rlf_vec3 offset = rlf_sub(centre, view->origin);
+        const double radius = scene->bounds[i].radius;
+        rlf_vec3 offset = rlf_sub(scene->bounds[i].centre, view->origin);
         double along = rlf_dot(offset, axis);
         double aside = rlf_length(rlf_mad(offset, axis, -along));
         if (aside * cosine - along * sine <= radius) {

@@ -111,6 +111,7 @@ static void destroy_planes(synth_depth_planes *planes)
 
 static rlf_result create_frame(synth_depth *depth, bool enable_truth)
 {
+    const synth_drawn_noise *drawn = depth->noise.drawn;
     depth->vignette = rlf_alloc_array(PIXELS, sizeof(float));
     depth->out = rlf_alloc_array(PIXELS, sizeof(uint16_t));
     if (depth->vignette == NULL || depth->out == NULL) {
@@ -128,8 +129,9 @@ static rlf_result create_frame(synth_depth *depth, bool enable_truth)
         }
     }
     for (size_t i = 0; i < PIXELS; i++) {
-        depth->vignette[i] = (float)synth_noise_vignette((double)(i % SYNTH_DEPTH_WIDTH),
-                                                         (double)(i / SYNTH_DEPTH_WIDTH));
+        const double u = (double)(i % SYNTH_DEPTH_WIDTH), v = (double)(i / SYNTH_DEPTH_WIDTH);
+        const bool is_even = drawn != NULL && drawn->has_even_light;
+        depth->vignette[i] = is_even ? 1.0f : (float)synth_noise_vignette(u, v);
     }
     rlf_result result = synth_canvas_create(&depth->canvas, &depth->view);
     return result == RLF_OK ? create_planes(&depth->now, enable_truth) : result;

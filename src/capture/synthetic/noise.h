@@ -26,9 +26,10 @@ typedef struct synth_drawn_noise {
     float alike;      /* share of the noise that neighbours have in common, 0..1 */
     float lasting;    /* share of that which stays from frame to frame, 0..1 */
     int32_t pitch;    /* pixels between independent errors */
-    int32_t fat;      /* pixels that a near edge spreads over what is behind: stereo */
+    int32_t fat;      /* pixels that a near edge spreads over what is behind: stereo; <= 8 */
     int32_t rim[4];   /* columns left and right, rows at the top and the bottom without depth */
     bool keeps_edges; /* no filter of mixed pixels */
+    bool has_even_light; /* the corners get as much of it as the middle */
 } synth_drawn_noise;
 
 /* What the noise of one row needs. */

@@ -139,6 +139,14 @@ static void build_room(synth_scene *scene)
     add_chair(scene);
 }
 
+void synth_scene_bound(synth_scene *scene)
+{
+    for (int32_t i = 0; i < scene->static_count; i++) {
+        synth_ball *ball = &scene->bounds[i];
+        ball->radius = synth_shape_bound(&scene->statics[i].shape, &ball->centre);
+    }
+}
+
 void synth_scene_build(synth_scene *scene, rlf_synthetic_scene kind)
 {
     *scene = (synth_scene){
@@ -150,6 +158,7 @@ void synth_scene_build(synth_scene *scene, rlf_synthetic_scene kind)
     } else {
         build_room(scene);
     }
+    synth_scene_bound(scene);
     scene->removal_time = kind == RLF_SYNTHETIC_CHAIR ? 4.0 : 0.0;
     synth_scene_set_people(scene, 1);
 }

@@ -39,6 +39,12 @@ typedef struct synth_part {
     rlf_vec3 angular_velocity; /* rad/s, camera frame */
 } synth_part;
 
+/* A ball that holds a part. */
+typedef struct synth_ball {
+    rlf_vec3 centre;
+    double radius;
+} synth_ball;
+
 typedef struct synth_scene {
     rlf_synthetic_scene kind;
     double floor_y;      /* height of the camera above the floor, metres */
@@ -47,7 +53,8 @@ typedef struct synth_scene {
     rlf_vec3 lamp;       /* middle of the lamp, camera frame */
     double removal_time; /* s; when the last parts of the room are taken away; 0 = never */
     synth_part statics[SYNTH_PART_MAX];
-    int32_t static_count;  /* at start */
+    synth_ball bounds[SYNTH_PART_MAX]; /* of the statics, see synth_scene_bound */
+    int32_t static_count;              /* at start */
     int32_t removed_count; /* so many of the last statics go at removal_time */
     synth_part movers[SYNTH_PART_MAX];
     int32_t mover_count;
@@ -69,6 +76,9 @@ static inline bool synth_is_shell(int32_t label)
 /* Builds the room and names the movers; their poses are those of time 0. The person is that of seed
  * 1. */
 void synth_scene_build(synth_scene *scene, rlf_synthetic_scene kind);
+
+/* Finds the statics' bounds, once they are all there. */
+void synth_scene_bound(synth_scene *scene);
 
 /* Gives the people the figures of a seed, see figure.h, at time 0. */
 void synth_scene_set_people(synth_scene *scene, uint64_t seed);

@@ -70,8 +70,9 @@ static void add_part(synth_shadow *shadow, const synth_scene *scene, const synth
     if (shadow->is_tilted && shape->radius_a < LEAST_RADIUS) {
         return;
     }
-    for (int i = 0; i < 3; i++) {
-        double share = (i + 0.5) / 3.0;
+    const int count = shadow->is_tilted && shape->length < 4.0 * shape->radius_a ? 1 : 3;
+    for (int i = 0; i < count; i++) {
+        double share = (i + 0.5) / count;
         rlf_vec3 p = to_level(shadow, rlf_transform(&shape->T_camera_shape,
                                                     rlf_vec3_make(0, share * shape->length, 0)));
         double radius = shape->radius_a + (shape->radius_b - shape->radius_a) * share;

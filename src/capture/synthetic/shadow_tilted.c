@@ -15,6 +15,7 @@ synth_rect synth_shadow_rect(const synth_shadow *shadow, const synth_blob *blob,
     const rlf_camera *camera = &view->camera;
     const rlf_quat q_camera_level = rlf_quat_conjugate(shadow->q_level_camera);
     double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};
+    int32_t behind = 0;
     for (int32_t i = 0; i < 4; i++) { /* the square about the ellipse */
         const double x = blob->x + (i & 1 ? 1.0 : -1.0) * (double)blob->long_radius;
         const double z = blob->z + (i & 2 ? 1.0 : -1.0) * (double)blob->long_radius;
@@ -22,12 +23,16 @@ synth_rect synth_shadow_rect(const synth_shadow *shadow, const synth_blob *blob,
             rlf_sub(rlf_rotate(q_camera_level, rlf_vec3_make(x, floor_y, z)), view->origin);
         double at[2];
         if (p.z < 0.1 || !rlf_camera_project(camera, p, &at[0], &at[1])) {
-            return whole(camera);
+            behind++;
+            continue;
         }
         for (int k = 0; k < 2; k++) {
             low[k] = rlf_min(low[k], at[k]);
             high[k] = rlf_max(high[k], at[k]);
         }
+    }
+    if (behind > 0) {
+        return behind == 4 ? (synth_rect){0, 0, 0, 0} : whole(camera);
     }
     synth_rect rect = {(int32_t)rlf_clamp(low[0], 0, camera->width),
                        (int32_t)rlf_clamp(low[1], 0, camera->height),

@@ -103,9 +103,15 @@ static void place(synth_stamp *stamp, const synth_shape *shape, const synth_view
     rlf_pose T = shape->T_camera_shape;
     T.p = rlf_sub(T.p, view->origin);
     span spans[2];
-    outline(shape, &T, spans);
+    rlf_vec3 centre;
+    const double reach = synth_shape_bound(shape, &centre);
+    const bool is_behind = centre.z - view->origin.z + reach < NEAREST;
     stamp->type = shape->type;
-    stamp->rect = rect_of(spans, &view->camera);
+    stamp->rect = (synth_rect){0, 0, 0, 0};
+    if (!is_behind) {
+        outline(shape, &T, spans);
+        stamp->rect = rect_of(spans, &view->camera);
+    }
     stamp->z0 = T.p.z;
     const double half[3] = {shape->size.x, shape->size.y, shape->size.z};
     const double p[3] = {T.p.x, T.p.y, T.p.z};

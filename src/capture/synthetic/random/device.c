@@ -18,6 +18,7 @@ static void draw_flight(synth_random *r, synth_draw *d)
     r->max_m = synth_draw_range(d, 4.5, 6.5);
     r->sigma = (rlf_depth_noise){0.0015, -0.0005, 0.0003};
     r->noise.kind = SYNTH_FLIGHT;
+    r->noise.has_even_light = synth_draw_chance(d, 0.5);
     r->noise.alike = (float)synth_draw_range(d, 0.0, 0.6);
     r->noise.lasting = (float)synth_draw_range(d, 0.0, 0.4);
     r->noise.pitch = 2 + synth_draw_index(d, 3);
@@ -58,6 +59,7 @@ void synth_draw_device(synth_plan *plan, uint64_t seed)
     const double half_view = synth_draw_range(&d, 27.0, 43.0) * RLF_PI / 180.0;
     r->focal = 0.5 * SYNTH_DEPTH_WIDTH * rlf_cos(half_view) / rlf_sin(half_view);
     r->noise = (synth_drawn_noise){.pitch = 4};
+    r->noise.has_even_light = true;
     draw_rim(&d, r->noise.rim);
     switch (synth_draw_index(&d, 3)) {
     case 0: draw_flight(r, &d); break;

@@ -102,6 +102,7 @@ void synth_random_build(synth_scene *scene, synth_random *random, const rlf_synt
             break;
         }
     }
+    synth_scene_bound(scene);
     synth_scene_move(scene, 0.0);
 }
 
