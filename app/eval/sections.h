@@ -12,6 +12,8 @@ rlf_result eval_planes_run(eval_table *table, int64_t seed, int profile_mask);
 rlf_result eval_plate_run(eval_table *table, int64_t seed, int profile_mask);
 /* Clean depth with true normals: every frame below `folder`; see docs/measuring.md. */
 rlf_result eval_public_run(eval_table *table, const char *folder, int profile_mask);
+/* Things that stood from the first frame on start to move under and beside bodies. */
+rlf_result eval_start_run(eval_table *table, int64_t seed, int profile_mask);
 /* Free flight, collisions between bodies, and bodies on sensed planes that move or rest. */
 rlf_result eval_physics_run(eval_table *table, int64_t seed, int profile_mask);
 /* Physics on what the synthetic sensor shows, against the true scene. */

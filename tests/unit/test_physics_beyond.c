@@ -202,9 +202,52 @@ static void without_a_background_all_is_free(void **state)
     grid_room_destroy(NULL);
 }
 
+/* The floor is level about 3 m from the camera, and rises towards it by that slope. */
+static void set_floor(double slope)
+{
+    const rlf_vec3 n = rlf_normalize(rlf_vec3_make(0, -1, slope));
+    grid_plane planes[2] = {grid_floor(GRID_ROOM_FLOOR), grid_wall(GRID_ROOM_WALL)};
+    planes[0] = (grid_plane){n, rlf_dot(n, rlf_vec3_make(0, GRID_ROOM_FLOOR, 3))};
+    grid_fixture_set_room(grid_room, planes, 2);
+    grid_room->grid.background.version++;
+}
+
+/* The floor as it is fitted again goes on 24 mm higher where a body rests out of view. */
+static void a_new_fit_throws_nothing(void **state)
+{
+    (void)state;
+    const double SLOPE = 0.011, MOST = 0.001;
+    rlf_world_def world_def = rlf_world_def_default();
+    world_def.border = RLF_BORDER_EXTEND;
+    rlf_body_def def = rlf_body_def_default();
+    def.shape = (rlf_shape){.type = RLF_SHAPE_BOX, .size = {0.1, 0.1, 0.1}};
+    def.position = rlf_vec3_make(0.0, GRID_ROOM_FLOOR - 0.052, 0.8);
+    rlf_world *world = NULL;
+    grid_room_create();
+    set_floor(0.0);
+    assert_int_equal(rlf_world_create(&world_def, &world), RLF_OK);
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    double before = 0.0, first = 0.0, y = 0.0;
+    for (int k = 0; k < 300; k++) {
+        if (k == 30) {
+            set_floor(SLOPE);
+        }
+        grid_room->grid.time_ns++;
+        rlf_world_advance(world, &grid_room->grid, GRID_ROOM_FRAME);
+        y = rlf_world_get_snapshot(world)->bodies[0].T_world_body.p.y;
+        first = k == 29 ? y : first;
+        assert_true(k < 30 || (y < before + MOST && y > before - MOST));
+        before = y;
+    }
+    assert_true(y < first - 0.02 && y > first - 0.028);
+    rlf_world_destroy(&world);
+    grid_room_destroy(NULL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_new_fit_throws_nothing),
         cmocka_unit_test(leg_goes_on_below_the_picture),
         cmocka_unit_test(air_before_it_is_free),
         cmocka_unit_test(what_hangs_does_not),

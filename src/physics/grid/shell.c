@@ -13,6 +13,7 @@
 #define SAME_NORMAL 0.97 /* cosine */
 #define SAME_OFFSET 0.1  /* m */
 #define AGREEMENT 0.95   /* cosine between a plane and the normals of its samples */
+#define GLIDE_S 2.0      /* time constant of a plane on its way to a new fit */
 
 typedef struct shell_sample {
     rlf_vec3 point, normal;
@@ -84,7 +85,7 @@ static shell_support look_at_plane(const shell_search *search, const shell_plane
 static bool is_known(const grid_shell *shell, const shell_plane *plane)
 {
     for (int32_t i = 0; i < shell->count; i++) {
-        const shell_plane *known = &shell->planes[i];
+        const shell_plane *known = &shell->fitted[i];
         double off = known->offset - plane->offset;
         if (rlf_dot(known->normal, plane->normal) > SAME_NORMAL && off < SAME_OFFSET &&
             off > -SAME_OFFSET) {
@@ -98,10 +99,11 @@ static void keep_known(grid_shell *shell, const shell_search *search)
 {
     int32_t kept = 0;
     for (int32_t i = 0; i < shell->count; i++) {
-        shell_support support = look_at_plane(search, &shell->planes[i]);
+        shell_support support = look_at_plane(search, &shell->fitted[i]);
         if (support.beyond <= 2.0 * BEYOND_MAX * search->count) {
             bool is_seen = support.on >= SHARE_MIN * search->count;
-            shell->planes[kept++] = is_seen ? support.refined : shell->planes[i];
+            shell->planes[kept] = shell->planes[i];
+            shell->fitted[kept++] = is_seen ? support.refined : shell->fitted[i];
         }
     }
     shell->count = kept;
@@ -120,6 +122,7 @@ static void find_new(grid_shell *shell, const shell_search *search)
             support = look_at_plane(search, &plane);
             if (k == REFINEMENTS && support.on >= SHARE_MIN * search->count &&
                 support.beyond <= BEYOND_MAX * search->count) {
+                shell->fitted[shell->count] = plane;
                 shell->planes[shell->count++] = plane;
                 break;
             }
@@ -141,6 +144,19 @@ void grid_shell_update(grid_shell *shell, const rlf_grid *grid)
     keep_known(shell, &search);
     find_new(shell, &search);
     shell->turn++;
+}
+
+void grid_shell_glide(grid_shell *shell, double dt)
+{
+    double share = dt / (dt + GLIDE_S);
+    for (int32_t i = 0; i < shell->count; i++) {
+        shell_plane *plane = &shell->planes[i];
+        const shell_plane *to = &shell->fitted[i];
+        rlf_vec3 normal = rlf_mad(plane->normal, rlf_sub(to->normal, plane->normal), share);
+        double length = rlf_length(normal);
+        plane->offset = (plane->offset + (to->offset - plane->offset) * share) / length;
+        plane->normal = rlf_scale(normal, 1.0 / length);
+    }
 }
 
 bool grid_shell_is_hidden(const rlf_grid *grid, rlf_vec3 q)
