@@ -3,6 +3,7 @@
 #include "command.h"
 #include "eval/oracle.h"
 #include "eval/picture.h"
+#include "eval/random/random.h"
 #include "eval/report.h"
 #include "eval/run.h"
 #include "eval/sections.h"
@@ -26,6 +27,9 @@ typedef struct eval_options {
     int64_t seeds, threads;
     int profile_mask; /* bit of each rlf_profile */
     int32_t oracle;   /* bits of eval_oracle_part */
+    int64_t rooms;    /* drawn at random */
+    bool is_random;   /* only these */
+    bool is_tuning;   /* their even seeds */
     setting_list settings;
 } eval_options;
 
@@ -60,6 +64,12 @@ static const section sections[] = {
 };
 #define SECTION_COUNT ((int)(sizeof(sections) / sizeof(sections[0])))
 
+/* Rooms drawn at random: each is a task, with a seed of its own. */
+static bool is_random_section(const char *name)
+{
+    return strcmp(name, EVAL_RANDOM) == 0 || strcmp(name, EVAL_RANDOM_PUSH) == 0;
+}
+
 static const section *find_section(const char *name)
 {
     for (int i = 0; i < SECTION_COUNT; i++) {
@@ -85,6 +95,11 @@ static void print_help(void)
         printf("                      %-9s %s\n", sections[i].name, sections[i].title);
     }
     printf(
+        "                      random    rooms, people and sensors drawn at random\n"
+        "                      push      in them, what stood there lifts, sweeps and carries\n"
+        "  --random          the same as --scene random\n"
+        "  --rooms N         drawn at random: seeds 1, 3, 5, ... of N rooms, default 20\n"
+        "  --tune            seeds 2, 4, 6, ... instead: for tuning, never reported\n"
         "  --normals DIR     clean depth with true normals: folders of depth.bin, normal.png and\n"
         "                    params.txt (docs/measuring.md); only this unless --scene is given\n"
         "  --seeds N         seeds 1..N of noise and throws, default 3\n"
@@ -117,7 +132,7 @@ static bool take_profiles(const char *text, void *out)
 static bool take_scene(const char *text, void *out)
 {
     *(const char **)out = text;
-    return eval_scene_find(text) != NULL || find_section(text) != NULL;
+    return eval_scene_find(text) != NULL || find_section(text) != NULL || is_random_section(text);
 }
 
 /* -1, or an exit status when the section asked for has no such oracle. */
@@ -138,7 +153,7 @@ static int check_oracle(const eval_options *o)
 
 static int parse(int argc, char **argv, eval_options *o)
 {
-    *o = (eval_options){.seeds = 3, .profile_mask = 3};
+    *o = (eval_options){.seeds = 3, .profile_mask = 3, .rooms = 20};
     const option_def options[] = {
         {.name = "scene",
          .kind = OPTION_CHOICE,
@@ -148,6 +163,9 @@ static int parse(int argc, char **argv, eval_options *o)
         {.name = "normals", .kind = OPTION_TEXT, .out = &o->normals_path},
         {.name = "frames", .kind = OPTION_INT64, .out = &o->frames, .low = 20, .high = 100000},
         {.name = "seeds", .kind = OPTION_INT64, .out = &o->seeds, .low = 1, .high = EVAL_SEEDS_MAX},
+        {.name = "rooms", .kind = OPTION_INT64, .out = &o->rooms, .low = 1, .high = EVAL_SEEDS_MAX},
+        {.name = "random", .kind = OPTION_FLAG, .out = &o->is_random},
+        {.name = "tune", .kind = OPTION_FLAG, .out = &o->is_tuning},
         {.name = "profile",
          .kind = OPTION_CHOICE,
          .out = &o->profile_mask,
@@ -165,6 +183,7 @@ static int parse(int argc, char **argv, eval_options *o)
         {0},
     };
     int status = options_parse("eval", argc, argv, options, print_help);
+    o->section = o->is_random ? EVAL_RANDOM : o->section;
     status = status < 0 ? check_oracle(o) : status;
     return status < 0 && argc != optind ? command_usage("eval", "takes no SOURCE") : status;
 }
@@ -177,6 +196,12 @@ static rlf_result run_task(const eval_task *task)
         int64_t frames = o->frames > 0 ? o->frames : scene->frames;
         return eval_scene_run(task->table, scene, task->seed, frames, o->profile_mask,
                               &o->settings);
+    }
+    if (strcmp(task->section, EVAL_RANDOM) == 0) {
+        return eval_random_run(task->table, task->seed, o->frames, &o->settings);
+    }
+    if (strcmp(task->section, EVAL_RANDOM_PUSH) == 0) {
+        return eval_random_push_run(task->table, task->seed);
     }
     if (o->section != NULL && strcmp(o->section, PICTURE) == 0) {
         return eval_picture_run_whole(task->table, task->seed,
@@ -215,6 +240,12 @@ static int32_t list_tasks(const eval_options *o, eval_task *tasks)
             tasks[count++] = (eval_task){.section = name, .seed = seed, .options = o};
         }
     }
+    const bool has_rooms = o->section != NULL ? is_random_section(o->section) : o->normals_path == NULL;
+    for (int32_t i = 0; has_rooms && i < o->rooms; i++) {
+        tasks[count++] = (eval_task){.section = o->section != NULL ? o->section : EVAL_RANDOM,
+                                     .seed = eval_random_seed(i, o->is_tuning),
+                                     .options = o};
+    }
     return count;
 }
 
@@ -244,7 +275,8 @@ static rlf_result run_all(const eval_options *o, eval_task *tasks, int32_t count
 
 static rlf_result measure(const eval_options *o, eval_table *table)
 {
-    size_t capacity = (size_t)(eval_scene_count + SECTION_COUNT) * (size_t)o->seeds;
+    size_t capacity =
+        (size_t)(eval_scene_count + SECTION_COUNT) * (size_t)o->seeds + (size_t)o->rooms;
     eval_task *tasks = rlf_alloc_array(capacity, sizeof(*tasks));
     if (tasks == NULL) {
         return RLF_ERROR_MEMORY;
@@ -278,7 +310,11 @@ int eval_main(int argc, char **argv)
                                       .is_whole = options.frames == 0,
                                       .json_path = options.json_path,
                                       .seeds = options.seeds};
+        const bool is_random = options.section != NULL && is_random_section(options.section);
+        report.print_all = report.print_all && !is_random;
         result = eval_report(table, &report, &outside);
+        eval_random_report(table, is_random ? options.section : EVAL_RANDOM, options.is_tuning);
+        eval_columns_report(table);
     }
     bool is_full = table->is_full;
     rlf_free(table);

@@ -58,6 +58,27 @@ static rlf_result echo_next(void *self, rlf_frame *out)
     return RLF_OK;
 }
 
+/* Bodies of a room that is not the old one: they fall to its floor, and what would start inside
+ * something starts before the camera, where nothing stands. */
+static void turn_scene(const run *r, rlf_scene *scene)
+{
+    const double apart = 0.15;
+    rlf_vec3 down = {0, 1, 0};
+    if (strcmp(rlf_source_get_info(r->source)->name, "synthetic:random") != 0) {
+        return;
+    }
+    (void)rlf_synthetic_get_down(r->source, &down);
+    scene->gravity = rlf_scale(down, 9.81);
+    for (int32_t i = 0; i < scene->body_count; i++) {
+        rlf_body_def *body = &scene->bodies[i];
+        rlf_synthetic_hit hit;
+        if (rlf_synthetic_nearest(r->source, body->release_time, body->position, &hit) == RLF_OK &&
+            hit.distance < apart) {
+            body->position = rlf_vec3_make(0.0, 0.0, 0.4);
+        }
+    }
+}
+
 static rlf_result open_lane(run *r, lane *l, int64_t seed)
 {
     const rlf_source_info *info = rlf_source_get_info(r->source);
@@ -69,6 +90,7 @@ static rlf_result open_lane(run *r, lane *l, int64_t seed)
     if (result != RLF_OK) {
         return result;
     }
+    turn_scene(r, &l->scene);
     rlf_pipeline_def def = rlf_pipeline_def_default(l->profile, l->echo, NULL);
     def.scene = &l->scene;
     def.enable_render = false;

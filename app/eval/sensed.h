@@ -30,8 +30,16 @@ typedef enum eval_aim {
     EVAL_AIM_ROOM = 0,   /* anywhere in view */
     EVAL_AIM_ANY = 1,    /* the same, every second one at the person */
     EVAL_AIM_BEHIND = 2, /* at the back of the person, from the wall's side */
-    EVAL_AIM_EDGE = 3    /* at the book seen edge-on, from its side */
+    EVAL_AIM_EDGE = 3,   /* at the book seen edge-on, from its side */
+    EVAL_AIM_BACK = 4,   /* at the back of anybody, from farther along the view: random rooms */
+    EVAL_AIM_SIDE = 5    /* at anybody from the side, across the view: random rooms */
 } eval_aim;
+
+/* Whether throws are at one target, without gravity. */
+static inline bool eval_is_aimed(eval_aim aim)
+{
+    return aim >= EVAL_AIM_BEHIND;
+}
 
 typedef struct eval_throw_def {
     const char *source;
@@ -40,6 +48,7 @@ typedef struct eval_throw_def {
     int32_t per_frame; /* thrown together at most; 0: 8 */
     int32_t lost;      /* frames lost after each that arrives, once throwing has begun */
     double begin_s;    /* s before which nothing is thrown */
+    double end_s;      /* s after which nothing is; 0 = until all are */
     bool balls_only;
     rlf_profile profile;
     int32_t oracle; /* bits of eval_oracle_part; 0: all is sensed */

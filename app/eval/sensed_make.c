@@ -63,13 +63,15 @@ static bool pick_point(const eval_room *stage, eval_random *r, bool on_foregroun
 {
     const int32_t MARGIN = 20;
     const rlf_truth *truth = rlf_source_get_truth(stage->truth);
-    const rlf_camera *camera = &rlf_source_get_info(stage->truth)->rig.depth;
+    const rlf_rig *rig = &rlf_source_get_info(stage->truth)->rig;
+    const rlf_camera *camera = &rig->depth;
     for (int32_t i = 0; i < 2000; i++) {
         int32_t x = (int32_t)eval_random_range(r, MARGIN, camera->width - MARGIN);
         int32_t y = (int32_t)eval_random_range(r, MARGIN, camera->height - MARGIN);
         int32_t pixel = y * camera->width + x;
         rlf_vec3 ray;
-        if (truth->depth[pixel] > 0.5f && (!on_foreground || truth->foreground[pixel] != 0) &&
+        if (truth->depth[pixel] > rig->depth_min_m && truth->depth[pixel] < rig->depth_max_m &&
+            (!on_foreground || truth->foreground[pixel] != 0) &&
             rlf_camera_unproject(camera, x, y, &ray)) {
             *out = rlf_scale(ray, truth->depth[pixel] / ray.z);
             return true;
@@ -91,6 +93,25 @@ static bool book_pose(const eval_room *stage, rlf_pose *out)
         }
     }
     return false;
+}
+
+/* From farther along the view, or from the left or right of it. */
+static bool pick_way_at_anybody(eval_aim aim, const eval_room *stage, eval_random *r,
+                                rlf_vec3 *from, rlf_vec3 *to)
+{
+    rlf_vec3 down = {0, 1, 0};
+    if (!pick_point(stage, r, true, to) || rlf_synthetic_get_down(stage->truth, &down) != RLF_OK) {
+        return false;
+    }
+    const rlf_vec3 view = rlf_normalize(*to);
+    const rlf_vec3 aside = rlf_normalize(rlf_cross(down, view));
+    const double side = eval_random_range(r, -1.0, 1.0) < 0.0 ? -1.0 : 1.0;
+    const double away = eval_random_range(r, 0.5, 0.9);
+    const rlf_vec3 way = aim == EVAL_AIM_BACK ? view : rlf_scale(aside, side);
+    *from = rlf_mad(*to, way, away);
+    *from = rlf_add(*from, eval_random_in_box(r, rlf_vec3_make(-0.15, -0.15, -0.15),
+                                              rlf_vec3_make(0.15, 0.15, 0.15)));
+    return true;
 }
 
 /* Where from, and the point to fly to. */
@@ -121,6 +142,8 @@ static bool pick_way(const eval_throw_def *def, const eval_room *stage, eval_ran
         *from = rlf_add(*to, eval_random_in_box(r, rlf_vec3_make(-0.9, -0.15, -0.15),
                                                 rlf_vec3_make(-0.6, 0.15, 0.15)));
         return true;
+    case EVAL_AIM_BACK:
+    case EVAL_AIM_SIDE: return pick_way_at_anybody(def->aim, stage, r, from, to);
     }
     return false;
 }
@@ -128,7 +151,7 @@ static bool pick_way(const eval_throw_def *def, const eval_room *stage, eval_ran
 bool eval_sensed_make(const eval_throw_def *def, const eval_room *stage, eval_random *r,
                       rlf_body_def *out)
 {
-    bool is_aimed = def->aim == EVAL_AIM_BEHIND || def->aim == EVAL_AIM_EDGE;
+    bool is_aimed = eval_is_aimed(def->aim);
     *out = rlf_body_def_default();
     rlf_vec3 to;
     if (!pick_way(def, stage, r, &out->position, &to)) {

@@ -33,6 +33,9 @@ rlf_result eval_room_open(const char *source, int32_t lost, rlf_profile profile,
         rlf_pipeline_def def = rlf_pipeline_def_default(profile, seen, NULL);
         def.enable_render = false;
         def.world.border = RLF_BORDER_EXTEND;
+        rlf_vec3 down = {0, 1, 0};
+        (void)rlf_synthetic_get_down(out->truth, &down);
+        def.world.gravity = rlf_scale(down, 9.81);
         def.replace_surface = oracle != 0 ? eval_oracle_replace : NULL;
         def.replace_context = out->oracle;
         result = rlf_pipeline_create(&def, &out->pipeline);

@@ -27,6 +27,7 @@ typedef struct track {
     double born_s, last_touch_s;
     rlf_body_state before;
     double restitution, friction, gravity_scale;
+    rlf_vec3 gravity; /* m/s^2 */
     eval_ball twins[TWINS];   /* while a bounce is pending */
     eval_ball nudged[NUDGES]; /* the same */
     bool has_sensed;
@@ -44,14 +45,15 @@ typedef struct throwing {
 
 static rlf_vec3 gravity_of(const track *t)
 {
-    return rlf_vec3_make(0.0, 9.81 * t->gravity_scale, 0.0);
+    return rlf_scale(t->gravity, t->gravity_scale);
 }
 
 static bool is_in_view(const throwing *run, rlf_vec3 p)
 {
-    const rlf_camera *camera = &rlf_source_get_info(run->stage.truth)->rig.depth;
+    const rlf_rig *rig = &rlf_source_get_info(run->stage.truth)->rig;
+    const rlf_camera *camera = &rig->depth;
     double u, v;
-    return p.z > 0.5 && p.z < 4.5 && rlf_camera_project(camera, p, &u, &v) && u >= EDGE_PX &&
+    return p.z > rig->depth_min_m && p.z < rig->depth_max_m && rlf_camera_project(camera, p, &u, &v) && u >= EDGE_PX &&
            v >= EDGE_PX && u <= camera->width - 1 - EDGE_PX && v <= camera->height - 1 - EDGE_PX;
 }
 
@@ -62,15 +64,21 @@ static rlf_synthetic_hit nearest(const throwing *run, double t, rlf_vec3 p)
     return hit;
 }
 
+static bool is_mover(int32_t label)
+{
+    return label >= RLF_SYNTHETIC_LABEL_PERSON && label < RLF_SYNTHETIC_LABEL_THING;
+}
+
 static bool is_target(eval_aim aim, int32_t label)
 {
-    return (aim == EVAL_AIM_BEHIND && label == RLF_SYNTHETIC_LABEL_PERSON) ||
+    return ((aim == EVAL_AIM_BACK || aim == EVAL_AIM_SIDE) && is_mover(label)) ||
+           (aim == EVAL_AIM_BEHIND && label == RLF_SYNTHETIC_LABEL_PERSON) ||
            (aim == EVAL_AIM_EDGE && label == RLF_SYNTHETIC_LABEL_BOOK);
 }
 
 static bool is_aimed(const throwing *run)
 {
-    return run->def->aim == EVAL_AIM_BEHIND || run->def->aim == EVAL_AIM_EDGE;
+    return eval_is_aimed(run->def->aim);
 }
 
 static eval_ball ball_of(const track *t)
@@ -111,6 +119,7 @@ static void add_throws(throwing *run, int32_t count)
         t->restitution = body.restitution;
         t->friction = body.friction;
         t->gravity_scale = body.gravity_scale;
+        t->gravity = rlf_world_get_snapshot(run->stage.world)->gravity;
         t->before.shape = body.shape;
         t->before.T_world_body.p = body.position;
         t->before.velocity = body.velocity;
@@ -188,7 +197,7 @@ static void look_for_tunnel(throwing *run, track *t, const rlf_body_state *body,
             rlf_vec3 surface = rlf_mad(p, hit.normal, -hit.distance);
             t->has_tunnelled =
                 hit.label <= RLF_SYNTHETIC_LABEL_CEILING || is_seen(run, surface, hit.normal);
-            if (t->has_tunnelled && hit.label >= RLF_SYNTHETIC_LABEL_PERSON) {
+            if (t->has_tunnelled && is_mover(hit.label)) {
                 run->out->swallowed++;
             } else if (t->has_tunnelled) {
                 run->out->tunnelled++;
@@ -430,14 +439,16 @@ static rlf_result play(throwing *run)
     const int32_t per_frame = def->per_frame > 0 ? def->per_frame : 8;
     rlf_result result = RLF_OK;
     double before = 0.0;
-    for (int32_t i = 0; i < FRAMES_MAX && (run->out->thrown < def->throws || run->alive > 0); i++) {
+    bool is_over = false; /* nothing more is thrown */
+    for (int32_t i = 0; i < FRAMES_MAX && (!is_over || run->alive > 0); i++) {
         result = eval_room_step(&run->stage);
         if (result != RLF_OK) {
             break;
         }
         double now = run->stage.frame.time_s;
         follow_all(run, before, now);
-        int64_t left = def->throws - run->out->thrown;
+        is_over = run->out->thrown >= def->throws || (def->end_s > 0.0 && now >= def->end_s);
+        int64_t left = is_over ? 0 : def->throws - run->out->thrown;
         bool has_begun = run->stage.frame.frame_index >= FIRST_FRAME && now >= def->begin_s;
         if (has_begun && left > 0) {
             add_throws(run, left < per_frame ? (int32_t)left : per_frame);

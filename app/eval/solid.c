@@ -101,7 +101,8 @@ static void add_phantom(eval_phantoms *p, const rlf_surface *s, int32_t i, const
 
 static bool is_furniture(int32_t label)
 {
-    return label > RLF_SYNTHETIC_LABEL_COLUMN && label < RLF_SYNTHETIC_LABEL_PERSON;
+    return (label > RLF_SYNTHETIC_LABEL_COLUMN && label < RLF_SYNTHETIC_LABEL_PERSON) ||
+           label >= RLF_SYNTHETIC_LABEL_THING;
 }
 
 /* Where the background shows a thing: what bodies take for its back. */

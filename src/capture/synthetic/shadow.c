@@ -9,7 +9,7 @@
 #define PENUMBRA 0.06       /* metres of softness per metre between ball and floor */
 #define CONTACT_HEIGHT 0.15 /* metres */
 
-#define LEAST_RADIUS 0.025 /* metres; smaller solids of a random room, as fingers, throw none */
+#define LEAST_RADIUS 0.035 /* metres; smaller solids of a random room, as fingers, throw none */
 
 static rlf_vec3 to_level(const synth_shadow *shadow, rlf_vec3 p)
 {
@@ -70,7 +70,7 @@ static void add_part(synth_shadow *shadow, const synth_scene *scene, const synth
     if (shadow->is_tilted && shape->radius_a < LEAST_RADIUS) {
         return;
     }
-    const int count = shadow->is_tilted && shape->length < 4.0 * shape->radius_a ? 1 : 3;
+    const int count = !shadow->is_tilted ? 3 : (shape->length < 4.0 * shape->radius_a ? 1 : 2);
     for (int i = 0; i < count; i++) {
         double share = (i + 0.5) / count;
         rlf_vec3 p = to_level(shadow, rlf_transform(&shape->T_camera_shape,

@@ -26,7 +26,7 @@ static void wear_coat(synth_individual *p, synth_draw *d)
 {
     const double s = p->figure.leg, wide = p->figure.flesh[0].size.x;
     wear_round(p, SYNTH_PELVIS, SYNTH_SHIRT, rlf_vec3_make(0, -0.34 * s, 0),
-               s * synth_draw_range(d, 0.6, 0.85), 0.98 * wide,
+               s * synth_draw_range(d, 0.6, 0.85), 0.84 * wide,
                wide + s * synth_draw_range(d, 0.06, 0.14));
 }
 
@@ -34,7 +34,7 @@ static void wear_skirt(synth_individual *p, synth_draw *d)
 {
     const double s = p->figure.leg, wide = p->figure.flesh[0].size.x;
     wear_round(p, SYNTH_PELVIS, SYNTH_TROUSERS, rlf_vec3_make(0, -0.1 * s, 0),
-               s * synth_draw_range(d, 0.4, 0.75), 0.95 * wide,
+               s * synth_draw_range(d, 0.4, 0.75), 0.88 * wide,
                wide + s * synth_draw_range(d, 0.05, 0.18));
 }
 

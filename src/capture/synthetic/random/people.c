@@ -121,7 +121,12 @@ static bool add_stool(synth_plan *plan, synth_individual *person, const synth_la
     const double z = lane->to_z - STOOL_BACK * leg * level.z;
     const double half = radius + 0.02;
     const synth_plot plot = {x - half, x + half, z - half, z + half};
-    if (synth_place_from_lane(lane, x, z) < STOOL_BACK * leg - 0.06 ||
+    const synth_flesh *last = &person->flesh[person->flesh_count - 1];
+    bool is_skirted = false; /* coats and skirts are stiff: who wears one stands */
+    for (const synth_flesh *f = person->flesh; f <= last; f++) {
+        is_skirted = is_skirted || (f->bone == SYNTH_PELVIS && f->type == SYNTH_FRUSTUM);
+    }
+    if (is_skirted || synth_place_from_lane(lane, x, z) < STOOL_BACK * leg - 0.06 ||
         !synth_place_is_free(plan, plot)) {
         return false;
     }

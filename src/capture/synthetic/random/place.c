@@ -1,7 +1,7 @@
 /* Where things have room. */
 #include "capture/synthetic/random/plan.h"
 
-#define CAMERA_CLEAR 0.45 /* metres about the camera that nothing stands in */
+#define CAMERA_CLEAR 0.75 /* metres about the camera that nothing stands in */
 #define LANE_HALF 0.40    /* metres that people need on either side of their way */
 #define WALL_GAP 0.02
 #define TRIES 24

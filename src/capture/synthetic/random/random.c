@@ -5,7 +5,7 @@
 #define ATTEMPTS 60
 #define GRID 24           /* rays across and down that try the view */
 #define SEEN_SHARE 0.6    /* of them that must meet something in range */
-#define NEAREST_M 0.55    /* nothing hangs before the lens */
+#define NEAREST_M 0.65    /* nothing hangs before the lens */
 #define STATIC_MARGIN 0.1 /* metres inside the range */
 
 static void turn_part(synth_part *part, rlf_quat q)
