@@ -48,8 +48,9 @@ static void every_scene_has_its_name(void **state)
 {
     (void)state;
     static const char *const names[] = {"room", "empty", "thesis", "chair", "book",
-                                        "hand", "lift",  "swipe",  "carry", "crossing"};
-    for (int i = 0; i < 10; i++) {
+                                        "hand", "lift",  "swipe",  "carry", "crossing",
+                                        "random"};
+    for (int i = 0; i < 11; i++) {
         char text[64] = "synthetic:";
         strcat(text, names[i]);
         rlf_synthetic_def def = rlf_synthetic_def_default();

@@ -183,7 +183,11 @@ const synth_part *synth_nearest(const synth_part *parts, int32_t count, rlf_vec3
     *out_distance = 1e9;
     *out_normal = rlf_vec3_make(0, 0, 0);
     for (int32_t i = 0; i < count; i++) {
-        rlf_vec3 normal;
+        rlf_vec3 normal, centre;
+        const double radius = synth_shape_bound(&parts[i].shape, &centre);
+        if (rlf_length(rlf_sub(p, centre)) - radius >= *out_distance) {
+            continue; /* the ball about it is farther already */
+        }
         double distance = synth_shape_distance(&parts[i].shape, p, &normal);
         if (distance < *out_distance) {
             *out_distance = distance;

@@ -56,6 +56,8 @@ static double distance_to_cone(const synth_shape *shape, rlf_vec3 p, rlf_vec3 *n
     return length - radius;
 }
 
+#define ON_SURFACE 1e-12 /* metres: the way to the nearest point says nothing of the normal */
+
 /* In the half plane through the axis and p: distance along the axis and across it. */
 typedef struct half_plane {
     double rho, y;
@@ -89,14 +91,15 @@ static double distance_to_frustum(const synth_shape *shape, rlf_vec3 p, rlf_vec3
         {0, 0}, {shape->radius_a, 0}, {shape->radius_b, shape->length}, {0, shape->length}};
     half_plane at = {sqrt(p.x * p.x + p.z * p.z), p.y}, n;
     double distance = frustum_face(shape, at, &n);
+    const half_plane face = n;
     if (distance > 0.0) {
         distance = 1e9;
         for (int i = 0; i < 3; i++) {
             half_plane off = to_segment(at, corners[i], corners[i + 1]);
             double length = sqrt(off.rho * off.rho + off.y * off.y);
-            if (length < distance && length > 0.0) {
+            if (length < distance) {
                 distance = length;
-                n = (half_plane){off.rho / length, off.y / length};
+                n = length > ON_SURFACE ? (half_plane){off.rho / length, off.y / length} : face;
             }
         }
     }
