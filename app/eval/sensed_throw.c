@@ -27,7 +27,7 @@ typedef struct track {
     double born_s, last_touch_s;
     rlf_body_state before;
     double restitution, friction, gravity_scale;
-    rlf_vec3 gravity; /* m/s^2 */
+    rlf_vec3 gravity;         /* m/s^2 */
     eval_ball twins[TWINS];   /* while a bounce is pending */
     eval_ball nudged[NUDGES]; /* the same */
     bool has_sensed;
@@ -53,8 +53,9 @@ static bool is_in_view(const throwing *run, rlf_vec3 p)
     const rlf_rig *rig = &rlf_source_get_info(run->stage.truth)->rig;
     const rlf_camera *camera = &rig->depth;
     double u, v;
-    return p.z > rig->depth_min_m && p.z < rig->depth_max_m && rlf_camera_project(camera, p, &u, &v) && u >= EDGE_PX &&
-           v >= EDGE_PX && u <= camera->width - 1 - EDGE_PX && v <= camera->height - 1 - EDGE_PX;
+    return p.z > rig->depth_min_m && p.z < rig->depth_max_m &&
+           rlf_camera_project(camera, p, &u, &v) && u >= EDGE_PX && v >= EDGE_PX &&
+           u <= camera->width - 1 - EDGE_PX && v <= camera->height - 1 - EDGE_PX;
 }
 
 static rlf_synthetic_hit nearest(const throwing *run, double t, rlf_vec3 p)

@@ -23,8 +23,8 @@ typedef enum rlf_synthetic_scene {
     RLF_SYNTHETIC_BOOK = 4,   /* the person holds a book edge-on, then turns it to the camera */
     RLF_SYNTHETIC_HAND = 5,   /* a hand moves close to the camera (0.6-1.2 m) */
     RLF_SYNTHETIC_LIFT = 6, /* a tray comes in, rises 0.4 m at `speed` from t = 3 s on, and stops */
-    RLF_SYNTHETIC_SWIPE = 7,   /* an upright board moves 1.1 m along the floor from t = 3 s on */
-    RLF_SYNTHETIC_CARRY = 8,   /* a tray comes in and moves along a circle from t = 3 s on */
+    RLF_SYNTHETIC_SWIPE = 7,    /* an upright board moves 1.1 m along the floor from t = 3 s on */
+    RLF_SYNTHETIC_CARRY = 8,    /* a tray comes in and moves along a circle from t = 3 s on */
     RLF_SYNTHETIC_CROSSING = 9, /* bare room; two people walk past each other, 0.8 m apart */
     RLF_SYNTHETIC_RANDOM = 10   /* room, people, camera and sensor drawn by the seed */
 } rlf_synthetic_scene;
@@ -90,9 +90,9 @@ RLF_API rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source
 
 /* Reads "synthetic:NAME[?key=value[&key=value...]]" into *def: NAME one of room, empty, thesis,
  * chair, book, hand, lift, swipe, carry, crossing, random; keys seed, person, frames, fps, speed,
- * lamp (X,Y,Z), noise (0|1|steps), edge_filter (0|1), color (WxH or 0), push (none|lift|swipe|carry).
- * A random room draws its sensor and its lamp itself: of noise only 0 has an effect there.
- * RLF_ERROR_INVALID names the part that is wrong and what is allowed. */
+ * lamp (X,Y,Z), noise (0|1|steps), edge_filter (0|1), color (WxH or 0), push
+ * (none|lift|swipe|carry). A random room draws its sensor and its lamp itself: of noise only 0 has
+ * an effect there. RLF_ERROR_INVALID names the part that is wrong and what is allowed. */
 RLF_API rlf_result rlf_synthetic_parse(const char *source, rlf_synthetic_def *def);
 
 /* True surface point nearest along the true scene at this instant of a source made by

@@ -47,9 +47,8 @@ static void every_key_is_read(void **state)
 static void every_scene_has_its_name(void **state)
 {
     (void)state;
-    static const char *const names[] = {"room", "empty", "thesis", "chair", "book",
-                                        "hand", "lift",  "swipe",  "carry", "crossing",
-                                        "random"};
+    static const char *const names[] = {"room", "empty", "thesis", "chair",    "book",  "hand",
+                                        "lift", "swipe", "carry",  "crossing", "random"};
     for (int i = 0; i < 11; i++) {
         char text[64] = "synthetic:";
         strcat(text, names[i]);

@@ -81,8 +81,8 @@ static void check_rays(rlf_source *source, const rlf_frame *frame)
     for (int i = 0; i < PIXELS; i += 97) {
         const rlf_vec3 ray = {(i % WIDTH - camera->cx) / camera->fx,
                               (i / WIDTH - camera->cy) / camera->fy, 1.0};
-        const rlf_vec3 origin = {0, 0, 0}, n = {truth->normal_x[i], truth->normal_y[i],
-                                                truth->normal_z[i]};
+        const rlf_vec3 origin = {0, 0, 0},
+                       n = {truth->normal_x[i], truth->normal_y[i], truth->normal_z[i]};
         float distance;
         int32_t label;
         assert_int_equal(rlf_synthetic_cast(source, origin, &ray, 1, &distance, &label), RLF_OK);
@@ -153,8 +153,7 @@ static void every_seed_gives_a_room_that_is_seen(void **state)
 static void a_plate_stands_and_rises(void **state)
 {
     (void)state;
-    rlf_source *source =
-        open_source("synthetic:random?color=0&seed=3&push=lift&speed=0.25", NULL);
+    rlf_source *source = open_source("synthetic:random?color=0&seed=3&push=lift&speed=0.25", NULL);
     rlf_vec3 down;
     assert_int_equal(rlf_synthetic_get_down(source, &down), RLF_OK);
     (void)frame_at(source, 89);

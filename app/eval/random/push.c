@@ -150,11 +150,10 @@ static rlf_result swipe(push *p, bool *out_right)
 static rlf_result carry(push *p, bool *out_right)
 {
     rlf_pose tray;
-    rlf_result result =
-        run_until(p, START + rlf_min(3.0, 2.0 * RLF_PI * CIRCLE / p->speed));
+    rlf_result result = run_until(p, START + rlf_min(3.0, 2.0 * RLF_PI * CIRCLE / p->speed));
     const rlf_body_state *cube = cube_of(p);
-    *out_right = result == RLF_OK && cube != NULL && find_pose(p, "tray", &tray) &&
-                 is_on(p, cube, tray.p);
+    *out_right =
+        result == RLF_OK && cube != NULL && find_pose(p, "tray", &tray) && is_on(p, cube, tray.p);
     return result;
 }
 
@@ -190,10 +189,9 @@ typedef struct push_name {
 static const push_name names[KINDS][SPEEDS] = {NAMES("lift", "LIFT", "rises with the plate"),
                                                NAMES("swipe", "SWIPE", "pushed, none passed"),
                                                NAMES("carry", "CARRY", "stays on the tray")};
-static const push_name all_names[KINDS] = {
-    {"lift_percent", "LIFT from rest: right, %"},
-    {"swipe_percent", "SWIPE from rest: right, %"},
-    {"carry_percent", "CARRY from rest: right, %"}};
+static const push_name all_names[KINDS] = {{"lift_percent", "LIFT from rest: right, %"},
+                                           {"swipe_percent", "SWIPE from rest: right, %"},
+                                           {"carry_percent", "CARRY from rest: right, %"}};
 
 /* Friction holds nothing on a tray that takes the circle at 1 m/s or more. */
 static int32_t speeds_of(int32_t kind)
@@ -223,8 +221,8 @@ rlf_result eval_random_add_pushes(eval_table *table, int64_t seed, bool has_all_
                                RLF_PROFILE_LIVE, is_right ? 100.0 : 0.0);
             }
         }
-        eval_table_add(table, section, all_names[kind].key, all_names[kind].title,
-                       RLF_PROFILE_LIVE, eval_percent(right, count));
+        eval_table_add(table, section, all_names[kind].key, all_names[kind].title, RLF_PROFILE_LIVE,
+                       eval_percent(right, count));
     }
     return RLF_OK;
 }

@@ -56,7 +56,8 @@ static rlf_result add_throws(eval_table *table, int64_t seed)
 rlf_result eval_random_run(eval_table *table, int64_t seed, int64_t frames,
                            const setting_list *settings)
 {
-    const eval_scene room = {EVAL_RANDOM, "", EVAL_RANDOM_FRAMES, "random", "&color=640x360", false};
+    const eval_scene room = {EVAL_RANDOM,      "",   EVAL_RANDOM_FRAMES, "random",
+                             "&color=640x360", false};
     rlf_result result = eval_scene_run(table, &room, seed, frames > 0 ? frames : room.frames,
                                        1 << RLF_PROFILE_LIVE, settings);
     result = result == RLF_OK ? add_throws(table, seed) : result;

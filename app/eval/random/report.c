@@ -10,19 +10,12 @@
 /* More is better of these; less of all others. */
 static bool is_more_better(const char *key)
 {
-    static const char *const good[] = {"foreground_f",
-                                       "foreground_f_valid",
-                                       "foreground_precision",
-                                       "foreground_recall",
-                                       "exit_within_5_cm_percent",
-                                       "standing_within_5_cm_percent",
-                                       "standing_known_percent",
-                                       "still_zero_percent",
-                                       "bounces",
-                                       "bounces_right_percent",
-                                       "bounces_within_10_percent",
-                                       "behind_bounced_percent",
-                                       "edge_bounced_percent"};
+    static const char *const good[] = {
+        "foreground_f",           "foreground_f_valid",        "foreground_precision",
+        "foreground_recall",      "exit_within_5_cm_percent",  "standing_within_5_cm_percent",
+        "standing_known_percent", "still_zero_percent",        "bounces",
+        "bounces_right_percent",  "bounces_within_10_percent", "behind_bounced_percent",
+        "edge_bounced_percent"};
     for (size_t i = 0; i < sizeof(good) / sizeof(good[0]); i++) {
         if (strcmp(good[i], key) == 0) {
             return true;
@@ -37,8 +30,8 @@ static int32_t worst_of(const eval_row *row)
     const double *v = row->values[RLF_PROFILE_LIVE];
     int32_t worst = -1;
     for (int32_t i = 0; i < row->count[RLF_PROFILE_LIVE]; i++) {
-        const bool is_worse = worst >= 0 && (is_more_better(row->key) ? v[i] < v[worst]
-                                                                      : v[i] > v[worst]);
+        const bool is_worse =
+            worst >= 0 && (is_more_better(row->key) ? v[i] < v[worst] : v[i] > v[worst]);
         worst = !isnan(v[i]) && (worst < 0 || is_worse) ? i : worst;
     }
     return worst;

@@ -41,8 +41,8 @@ RLF_KERNEL static void light_run(const synth_scene *scene, const synth_touches *
         const synth_site site = {
             {touches->p[0][i], touches->p[1][i], touches->p[2][i]},
             {touches->normal[0][i], touches->normal[1][i], touches->normal[2][i]}};
-        const rlf_vec3 here = synth_light(lamp, down, &site, 1.0,
-                                          sky_on_mover(floor_y, down, &site));
+        const rlf_vec3 here =
+            synth_light(lamp, down, &site, 1.0, sky_on_mover(floor_y, down, &site));
         light[0][i] = here.x;
         light[1][i] = here.y;
         light[2][i] = here.z;

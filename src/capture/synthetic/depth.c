@@ -58,8 +58,8 @@ static void resolve_row(synth_depth *depth, int32_t y)
         const size_t first = (size_t)y * SYNTH_DEPTH_WIDTH + (size_t)run.x0;
         const int32_t count = run.x1 - run.x0;
         const synth_part *part = &depth->scene->movers[run.id];
-        const synth_noise_seen seen = {(float)synth_infrared(part), canvas->z + first,
-                                       cosine, depth->vignette + first, count};
+        const synth_noise_seen seen = {(float)synth_infrared(part), canvas->z + first, cosine,
+                                       depth->vignette + first, count};
         synth_canvas_touch(canvas, &run, y, &touches);
         find_cosines(&touches, count, cosine);
         synth_noise_find(&depth->noise, &seen, depth->now.sigma + first, depth->now.margin + first);

@@ -22,10 +22,11 @@ static void store(const job *j, const synth_candidates *candidates, const synth_
     float z = (float)hit.t;
     planes->z[i] = z;
     planes->sigma[i] = synth_noise_sigma(&j->depth->noise, z, (float)cosine);
-    planes->margin[i] = synth_noise_margin((float)synth_infrared(part), z, (float)cosine,
-                                           j->depth->vignette[i]);
+    planes->margin[i] =
+        synth_noise_margin((float)synth_infrared(part), z, (float)cosine, j->depth->vignette[i]);
     if (synth_depth_is_stereo(j->depth)) {
-        rlf_vec3 local = rlf_transform_inverse(&part->shape.T_camera_shape, synth_ray_at(ray, hit.t));
+        rlf_vec3 local =
+            rlf_transform_inverse(&part->shape.T_camera_shape, synth_ray_at(ray, hit.t));
         planes->margin[i] = synth_noise_match(synth_look_texture(part, local));
     }
     if (planes->label == NULL) {

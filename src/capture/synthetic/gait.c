@@ -30,9 +30,11 @@ static const synth_act crossing_acts[] = {{true, 0.3, 5.3, 2.3, -2.3}};
 static const synth_act second_acts[] = {{true, 0.3, 5.3, -2.7, 2.7}};
 
 static const synth_script room_script = {10.0, 2.95, WEST, 3.9, 6.6, room_acts, 4, 0.0, 0.0, 0.0};
-static const synth_script thesis_script = {10.0, 2.3, WEST, 0.0, 0.0, thesis_acts, 5, 0.0, 0.0, 0.0};
+static const synth_script thesis_script = {10.0,        2.3, WEST, 0.0, 0.0,
+                                           thesis_acts, 5,   0.0,  0.0, 0.0};
 static const synth_script book_script = {13.0, 2.95, WEST, 0.0, 0.0, book_acts, 4, 0.0, 0.0, 0.0};
-static const synth_script crossing_script = {6.0, 2.2, WEST, 0.0, 0.0, crossing_acts, 1, 0.0, 0.0, 0.0};
+static const synth_script crossing_script = {6.0,           2.2, WEST, 0.0, 0.0,
+                                             crossing_acts, 1,   0.0,  0.0, 0.0};
 static const synth_script second_script = {6.0, 3.0, EAST, 0.0, 0.0, second_acts, 1, 0.0, 0.0, 0.0};
 
 static const synth_script *script_of(rlf_synthetic_scene kind)

@@ -101,8 +101,9 @@ double synth_sky_share(const synth_scene *scene, int32_t count, const synth_site
             rlf_vec3 offset = rlf_sub(p, ball->centre);
             if (rlf_dot(offset, offset) < radius * radius) {
                 rlf_vec3 normal;
-                nearest = rlf_min(nearest, synth_shape_distance(
-                                               &scene->statics[near.index[i]].shape, p, &normal));
+                nearest =
+                    rlf_min(nearest,
+                            synth_shape_distance(&scene->statics[near.index[i]].shape, p, &normal));
             }
         }
         blocked += weights[k] * (1.0 - rlf_max(0.0, nearest) / h);

@@ -20,7 +20,8 @@ RLF_KERNEL_PART rlf_vec3 synth_light(rlf_vec3 lamp_at, rlf_vec3 down, const synt
     double distance2 = rlf_dot(to_lamp, to_lamp);
     double cosine = rlf_dot(site->normal, to_lamp) / sqrt(distance2);
     double direct = lamp * rlf_max(0.0, cosine) * 10.5 / (4.5 + distance2);
-    double up = 0.5 - 0.5 * rlf_dot(site->normal, down); /* 1 facing the ceiling, 0 facing the floor */
+    double up =
+        0.5 - 0.5 * rlf_dot(site->normal, down); /* 1 facing the ceiling, 0 facing the floor */
     double ambient = sky * (0.38 + 0.06 * up);
     /* warm lamp, bluish daylight, a little warm light back from the floor */
     return rlf_vec3_make(0.98 * direct + ambient * (1.02 - 0.06 * up), 0.92 * direct + ambient,

@@ -120,7 +120,8 @@ static rlf_vec3 wall(double x, double up)
     if (up < -1.2) {
         return up > -1.207 ? rgb(0.35, 0.34, 0.32) : rgb(0.78, 0.77, 0.74);
     }
-    double tone = 0.97 + 0.03 * synth_value_noise(x * 3.0, up * 3.0) + 0.02 * synth_value_noise(x * 60.0, up * 60.0);
+    double tone = 0.97 + 0.03 * synth_value_noise(x * 3.0, up * 3.0) +
+                  0.02 * synth_value_noise(x * 60.0, up * 60.0);
     return rlf_scale(rgb(0.60, 0.66, 0.64), tone);
 }
 
@@ -205,7 +206,8 @@ static rlf_vec3 book(rlf_vec3 local)
 {
     bool is_cover = absolute(local.z) > 0.0123 || local.x < -0.084;
     if (!is_cover) {
-        return rlf_scale(rgb(0.80, 0.77, 0.68), 0.85 + 0.15 * synth_value_noise(local.z * 900.0, 0.0));
+        return rlf_scale(rgb(0.80, 0.77, 0.68),
+                         0.85 + 0.15 * synth_value_noise(local.z * 900.0, 0.0));
     }
     if (absolute(local.x) < 0.055 && local.y > -0.085 && local.y < -0.045) {
         return rgb(0.85, 0.68, 0.25);

@@ -10,8 +10,8 @@ rlf_vec3 synth_albedo(const synth_part *part, rlf_vec3 local);
 /* Share of infrared light that comes back, 0..1. */
 double synth_infrared(const synth_part *part);
 
-/* look.c: linear RGB albedo of a drawn part at a point of its own frame, and how much of a pattern a
- * stereo camera finds there: 1 = plenty, 0 = none. */
+/* look.c: linear RGB albedo of a drawn part at a point of its own frame, and how much of a pattern
+ * a stereo camera finds there: 1 = plenty, 0 = none. */
 rlf_vec3 synth_look_albedo(const synth_look *look, rlf_vec3 local);
 float synth_look_texture(const synth_part *part, rlf_vec3 local);
 

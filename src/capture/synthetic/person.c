@@ -164,7 +164,7 @@ static void set_book(const synth_figure *figure, double t, rlf_pose *bones)
 }
 
 void synth_set_bones(const synth_scene *scene, const synth_figure *figure, const synth_gait *gait,
-                      rlf_pose *bones)
+                     rlf_pose *bones)
 {
     rlf_pose body = body_pose(scene, gait);
     set_trunk(figure, &body, gait, bones);

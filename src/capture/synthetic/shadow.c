@@ -51,13 +51,12 @@ static void add_contact(synth_shadow *shadow, rlf_vec3 c, double radius, double 
     }
     float reach = (float)(1.7 * radius + 0.5 * gap);
     float strength = (float)(0.7 * (1.0 - gap / CONTACT_HEIGHT));
-    shadow->blobs[shadow->blob_count++] =
-        (synth_blob){.x = (float)c.x,
-                     .z = (float)c.z,
-                     .along_x = 1.0f,
-                     .long_radius = reach,
-                     .short_radius = reach,
-                     .strength = strength};
+    shadow->blobs[shadow->blob_count++] = (synth_blob){.x = (float)c.x,
+                                                       .z = (float)c.z,
+                                                       .along_x = 1.0f,
+                                                       .long_radius = reach,
+                                                       .short_radius = reach,
+                                                       .strength = strength};
 }
 
 static void add_part(synth_shadow *shadow, const synth_scene *scene, const synth_shape *shape)

@@ -41,8 +41,7 @@ void synth_draw_camera(synth_plan *plan, bool is_pushed)
     const double pitch = draw_pitch(d, plan->floor_y);
     const rlf_quat turn = rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), yaw);
     const rlf_quat tilt = rlf_quat_from_axis_angle(rlf_vec3_make(1, 0, 0), -pitch);
-    const rlf_quat roll =
-        rlf_quat_from_axis_angle(rlf_vec3_make(0, 0, 1), draw_roll(d, is_pushed));
+    const rlf_quat roll = rlf_quat_from_axis_angle(rlf_vec3_make(0, 0, 1), draw_roll(d, is_pushed));
     const rlf_quat q_level_camera = rlf_quat_mul(turn, rlf_quat_mul(tilt, roll));
     plan->random->q_camera_level = rlf_quat_conjugate(q_level_camera);
     plan->scene->floor_y = plan->floor_y;

@@ -76,8 +76,8 @@ static void spread_fingers(synth_individual *p)
         for (int32_t i = 0; i < 4; i++) {
             const double across = (side == 0 ? 1.0 : -1.0) * (0.033 - 0.022 * i) * s;
             const rlf_vec3 at = {across, 0.088 * s, -0.004 * s};
-            synth_flesh *f = i == 0 ? &p->flesh[from]
-                                    : wear(p, SYNTH_PALM + side, SYNTH_SKIN, SYNTH_CONE, at);
+            synth_flesh *f =
+                i == 0 ? &p->flesh[from] : wear(p, SYNTH_PALM + side, SYNTH_SKIN, SYNTH_CONE, at);
             f->type = SYNTH_CONE;
             f->offset = at;
             f->length = s * length[i];
@@ -111,14 +111,9 @@ static void draw_looks(synth_individual *p, synth_draw *d)
     }
 }
 
-void synth_draw_clothes(synth_individual *p, synth_draw *d)
+/* Long sleeves over bare arms, and wide trousers. */
+static void widen_cloth(synth_individual *p, bool has_sleeves, bool is_wide)
 {
-    for (int32_t i = 0; i < SYNTH_PERSON_FLESH; i++) {
-        p->flesh[i] = p->figure.flesh[i];
-    }
-    p->flesh_count = SYNTH_PERSON_FLESH;
-    draw_looks(p, d);
-    const bool has_sleeves = synth_draw_chance(d, 0.6), is_wide = synth_draw_chance(d, 0.3);
     for (int32_t i = 0; i < SYNTH_PERSON_FLESH; i++) {
         synth_flesh *f = &p->flesh[i];
         const bool is_sleeve = f->bone == SYNTH_FOREARM || f->bone == SYNTH_FOREARM + 1;
@@ -133,6 +128,17 @@ void synth_draw_clothes(synth_individual *p, synth_draw *d)
             f->radius_b *= 1.35;
         }
     }
+}
+
+void synth_draw_clothes(synth_individual *p, synth_draw *d)
+{
+    for (int32_t i = 0; i < SYNTH_PERSON_FLESH; i++) {
+        p->flesh[i] = p->figure.flesh[i];
+    }
+    p->flesh_count = SYNTH_PERSON_FLESH;
+    draw_looks(p, d);
+    const bool has_sleeves = synth_draw_chance(d, 0.6), is_wide = synth_draw_chance(d, 0.3);
+    widen_cloth(p, has_sleeves, is_wide);
     if (synth_draw_chance(d, 0.75)) {
         spread_fingers(p);
     }

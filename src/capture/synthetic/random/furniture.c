@@ -25,8 +25,9 @@ static void add_rug(synth_plan *plan)
                              synth_draw_range(d, 0.3 * r->z1, 0.7 * r->z1),
                              synth_draw_range(d, -0.3, 0.3)};
     synth_maker m = {plan, spot, 0.0, RLF_SYNTHETIC_LABEL_FLOOR};
-    synth_make_box(&m, &look, rlf_vec3_make(0, -0.05, 0),
-                   rlf_vec3_make(synth_draw_range(d, 0.8, 2.2), 0.057, synth_draw_range(d, 0.6, 1.5)));
+    synth_make_box(
+        &m, &look, rlf_vec3_make(0, -0.05, 0),
+        rlf_vec3_make(synth_draw_range(d, 0.8, 2.2), 0.057, synth_draw_range(d, 0.6, 1.5)));
 }
 
 /* A ball of paper or glass on a cord, where nobody's head goes. */
@@ -43,7 +44,8 @@ static void add_hanging_lamp(synth_plan *plan)
     synth_maker m = synth_make(plan, spot);
     synth_make_rod(&m, &plan->metal, rlf_vec3_make(0, hang, 0),
                    rlf_vec3_make(0, plan->height + 0.02, 0), 0.006);
-    synth_make_egg(&m, &look, rlf_vec3_make(0, hang, 0), rlf_vec3_make(radius, 0.8 * radius, radius));
+    synth_make_egg(&m, &look, rlf_vec3_make(0, hang, 0),
+                   rlf_vec3_make(radius, 0.8 * radius, radius));
 }
 
 void synth_draw_furniture(synth_plan *plan)

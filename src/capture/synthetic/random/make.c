@@ -18,8 +18,8 @@ static synth_part *add(synth_maker *m, const synth_look *look, synth_shape_type 
     synth_scene *scene = m->plan->scene;
     int32_t i = scene->static_count < SYNTH_PART_MAX ? scene->static_count++ : SYNTH_PART_MAX - 1;
     synth_part *part = &scene->statics[i];
-    *part = (synth_part){
-        .name = "thing", .label = m->label, .material = SYNTH_DRAWN, .look = *look};
+    *part =
+        (synth_part){.name = "thing", .label = m->label, .material = SYNTH_DRAWN, .look = *look};
     part->shape.type = type;
     part->shape.T_camera_shape.q = yaw_of(m);
     return part;
@@ -70,8 +70,8 @@ void synth_make_rod(synth_maker *m, const synth_look *look, rlf_vec3 from, rlf_v
     synth_part *part = add(m, look, SYNTH_CONE);
     rlf_vec3 a = to_level(m, from), b = to_level(m, to);
     rlf_vec3 way = rlf_sub(b, a);
-    rlf_vec3 other = way.y * way.y > 0.5 * rlf_dot(way, way) ? rlf_vec3_make(0, 0, 1)
-                                                             : rlf_vec3_make(0, 1, 0);
+    rlf_vec3 other =
+        way.y * way.y > 0.5 * rlf_dot(way, way) ? rlf_vec3_make(0, 0, 1) : rlf_vec3_make(0, 1, 0);
     part->shape.length = rlf_length(way);
     part->shape.radius_a = part->shape.radius_b = radius;
     part->shape.T_camera_shape = synth_bone_pose(a, way, other);

@@ -9,8 +9,8 @@
 #define CIRCLE 0.25    /* metres, radius */
 #define RAMP 0.4       /* s in which a tray reaches its speed along the circle */
 #define TRIES 400
-#define INSIDE 0.06    /* metres that all of it stays inside the picture */
-#define TURNED 0.35    /* radians that the board's pushing side is turned to the camera */
+#define INSIDE 0.06 /* metres that all of it stays inside the picture */
+#define TURNED 0.35 /* radians that the board's pushing side is turned to the camera */
 
 static const rlf_vec3 plate_size = {0.5, 0.024, 0.4}, board_size = {0.024, 0.5, 0.4};
 
@@ -26,8 +26,7 @@ rlf_vec3 synth_random_offset(const synth_moved *m, double t)
 {
     const double tau = rlf_max(0.0, t - m->start);
     switch (m->push) {
-    case RLF_SYNTHETIC_PUSH_SWIPE:
-        return rlf_scale(m->along, rlf_min(m->speed * tau, SWEEP_WAY));
+    case RLF_SYNTHETIC_PUSH_SWIPE: return rlf_scale(m->along, rlf_min(m->speed * tau, SWEEP_WAY));
     case RLF_SYNTHETIC_PUSH_CARRY: return carry_at(m, tau);
     default: return rlf_scale(m->up, rlf_min(m->speed * tau, m->rise));
     }
@@ -44,7 +43,8 @@ static bool is_seen_all_the_way(const synth_plan *plan, const stage *s, rlf_vec3
                                 rlf_synthetic_push push)
 {
     const double c = rlf_cos(s->spot.yaw), n = rlf_sin(s->spot.yaw);
-    const bool is_lift = push == RLF_SYNTHETIC_PUSH_LIFT, is_swipe = push == RLF_SYNTHETIC_PUSH_SWIPE;
+    const bool is_lift = push == RLF_SYNTHETIC_PUSH_LIFT,
+               is_swipe = push == RLF_SYNTHETIC_PUSH_SWIPE;
     for (int32_t i = 0; i < 24; i++) {
         const int32_t end = i / 8; /* both ends of the way, and the middle */
         const double x0 = (i & 1 ? 0.5 : -0.5) * size.x, z0 = (i & 2 ? 0.5 : -0.5) * size.z;
@@ -52,8 +52,8 @@ static bool is_seen_all_the_way(const synth_plan *plan, const stage *s, rlf_vec3
                                 is_swipe ? SWEEP_WAY - SWEEP_BACK + 0.15 : 0.0, 0.0};
         const double x = x0 + (is_lift ? 0.0 : ways[end]);
         const double z = z0 + (is_lift || is_swipe ? 0.0 : (end - 1) * CIRCLE);
-        const double up = (i & 4 ? 0.5 * size.y + 0.12 : -0.5 * size.y) +
-                          (is_lift && end == 1 ? LIFT_RISE : 0.0);
+        const double up =
+            (i & 4 ? 0.5 * size.y + 0.12 : -0.5 * size.y) + (is_lift && end == 1 ? LIFT_RISE : 0.0);
         const rlf_vec3 at = {s->spot.x + c * x + n * z, s->height + up, s->spot.z - n * x + c * z};
         const double away = sqrt(at.x * at.x + at.z * at.z);
         if (!synth_place_is_seen(plan, at, INSIDE) || away < plan->random->min_m + 0.1) {
@@ -138,8 +138,8 @@ bool synth_draw_push(synth_plan *plan, const rlf_synthetic_def *def)
     m->aside = rlf_rotate(turn, rlf_vec3_make(0, 0, 1));
     m->up = rlf_vec3_make(0, -1, 0);
     synth_maker place = synth_make(plan, s.spot);
-    synth_maker thing = synth_make_on(&place, is_swipe ? -SWEEP_BACK : 0.0, s.height, 0.0,
-                                      is_swipe ? TURNED : 0.0);
+    synth_maker thing =
+        synth_make_on(&place, is_swipe ? -SWEEP_BACK : 0.0, s.height, 0.0, is_swipe ? TURNED : 0.0);
     const rlf_vec3 size = is_swipe ? board_size : plate_size;
     const synth_look look = synth_look_any(&plan->draw);
     if (!is_swipe) { /* a pedestal that stays */

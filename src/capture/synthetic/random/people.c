@@ -3,8 +3,9 @@
 #include "capture/synthetic/random/plan.h"
 
 #define TRIES 80
-#define APART 0.75      /* metres between the places where two people stop */
-#define STOOL_BACK 0.40 /* metres from the feet of who sits to the middle of the seat, of an adult */
+#define APART 0.75 /* metres between the places where two people stop */
+#define STOOL_BACK                                                                                 \
+    0.40 /* metres from the feet of who sits to the middle of the seat, of an adult */
 
 typedef struct place {
     double x, z;

@@ -70,7 +70,8 @@ static bool take_about(synth_plan *plan, synth_spot spot, double across, double 
     if (!synth_place_is_free(plan, plot)) {
         return false;
     }
-    synth_place_take(plan, (synth_plot){plot.x0 - gap, plot.x1 + gap, plot.z0 - gap, plot.z1 + gap});
+    synth_place_take(plan,
+                     (synth_plot){plot.x0 - gap, plot.x1 + gap, plot.z0 - gap, plot.z1 + gap});
     return true;
 }
 

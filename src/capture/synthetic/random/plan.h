@@ -1,5 +1,5 @@
-/* The drawing of a room while it is being made. Coordinates are those of the level frame: the camera
- * is the origin, y down, x and z along the walls. Heights are above the floor. */
+/* The drawing of a room while it is being made. Coordinates are those of the level frame: the
+ * camera is the origin, y down, x and z along the walls. Heights are above the floor. */
 #ifndef RLF_CAPTURE_SYNTHETIC_RANDOM_PLAN_H
 #define RLF_CAPTURE_SYNTHETIC_RANDOM_PLAN_H
 
@@ -70,7 +70,8 @@ bool synth_place_at_wall(synth_plan *plan, double width, double depth, synth_spo
 bool synth_place_anywhere(synth_plan *plan, double width, double depth, synth_spot *out);
 /* Distance of (x, z) from the lane, metres. */
 double synth_place_from_lane(const synth_lane *lane, double x, double z);
-/* Whether the depth camera sees (x, height, z), `margin` metres inside its picture; < 0: outside. */
+/* Whether the depth camera sees (x, height, z), `margin` metres inside its picture; < 0: outside.
+ */
 bool synth_place_is_seen(const synth_plan *plan, rlf_vec3 at, double margin);
 
 /* looks.c */

@@ -46,8 +46,8 @@ typedef struct synth_random {
     synth_moved moved;
 } synth_random;
 
-/* Draws the room of def->seed into *scene (its other fields zero) and *random, which the scene keeps
- * a pointer to. */
+/* Draws the room of def->seed into *scene (its other fields zero) and *random, which the scene
+ * keeps a pointer to. */
 void synth_random_build(synth_scene *scene, synth_random *random, const rlf_synthetic_def *def);
 
 /* The movers at time t. */

@@ -13,7 +13,8 @@ static void fill_board(synth_maker *m, double width, double depth, double height
     const double end = x + width * synth_draw_range(d, 0.2, 0.9);
     while (x < end - 0.05 && m->plan->scene->static_count < SYNTH_STATICS_MAX) {
         const synth_look look = synth_look_any(d);
-        const double thick = synth_draw_range(d, 0.04, 0.2), tall = room * synth_draw_range(d, 0.4, 0.9);
+        const double thick = synth_draw_range(d, 0.04, 0.2),
+                     tall = room * synth_draw_range(d, 0.4, 0.9);
         synth_make_box(m, &look, v(x + 0.5 * thick, height, 0.02),
                        v(thick, tall, depth * synth_draw_range(d, 0.5, 0.9)));
         x += thick + (synth_draw_chance(d, 0.3) ? 0.1 : 0.002);
@@ -45,8 +46,8 @@ static void make_shelf(synth_maker *m, double width, double depth)
 static void make_cupboard(synth_maker *m, double width, double depth)
 {
     synth_draw *d = &m->plan->draw;
-    const double height = synth_draw_chance(d, 0.5) ? synth_draw_range(d, 0.7, 1.1)
-                                                    : synth_draw_range(d, 1.6, 2.1);
+    const double height =
+        synth_draw_chance(d, 0.5) ? synth_draw_range(d, 0.7, 1.1) : synth_draw_range(d, 1.6, 2.1);
     const synth_look look = synth_draw_chance(d, 0.5) ? synth_look_wood(d) : synth_look_paint(d);
     const int32_t doors = width > 0.9 ? 2 : 1;
     synth_make_box(m, &look, v(0, 0.06, 0), v(width, height - 0.06, depth));
