@@ -11,7 +11,7 @@
 static const char *const normal_words[] = {"six_faces", "four_faces", "thesis", "inverse_depth",
                                            NULL};
 static const char *const background_words[] = {"off", "average", "adaptive", NULL};
-static const char *const segment_words[] = {"off", "thesis", "noise", NULL};
+static const char *const segment_words[] = {"off", "thesis", "noise", "objects", NULL};
 static const char *const switch_words[] = {"off", "on", NULL};
 
 typedef enum kind { KIND_SWITCH, KIND_WORD, KIND_COUNT, KIND_NUMBER } kind;

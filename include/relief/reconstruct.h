@@ -30,7 +30,9 @@ typedef enum rlf_background_method {
 typedef enum rlf_segment_method {
     RLF_SEGMENT_OFF = 0,    /* the whole layer is one region */
     RLF_SEGMENT_THESIS = 1, /* eq. 4.4 in two directions, AND, 4-connected regions, dilation */
-    RLF_SEGMENT_NOISE = 2   /* depth difference scaled with noise and slope */
+    RLF_SEGMENT_NOISE = 2,  /* depth difference scaled with noise and slope */
+    RLF_SEGMENT_OBJECTS = 3 /* as NOISE; planes that things stand on are regions of their own, and
+                               things that touch are parted where they meet in a concave edge */
 } rlf_segment_method;
 
 /* All settings of the surface stage. Any mix of methods can be run. */

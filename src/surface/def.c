@@ -42,7 +42,7 @@ static void set_live(rlf_reconstruct_def *def)
     def->scale_factor = 1;
     def->normal_method = RLF_NORMALS_INVERSE_DEPTH;
     def->normals_face_camera = true;
-    def->background_segment = RLF_SEGMENT_NOISE;
+    def->background_segment = RLF_SEGMENT_OBJECTS;
     def->foreground_segment = RLF_SEGMENT_NOISE;
     def->min_region_points = 150;
     def->background_method = RLF_BACKGROUND_ADAPTIVE;
@@ -115,7 +115,7 @@ rlf_result rlf_reconstruct_def_check(const rlf_reconstruct_def *def)
         {"depth_max_m", def->depth_max_m, 0.001, 1000},
         {"depth_max_m - depth_min_m", def->depth_max_m - def->depth_min_m, 1e-6, 1000},
         {"normal_method", def->normal_method, RLF_NORMALS_SIX_FACES, RLF_NORMALS_INVERSE_DEPTH},
-        {"background_segment", def->background_segment, RLF_SEGMENT_OFF, RLF_SEGMENT_NOISE},
+        {"background_segment", def->background_segment, RLF_SEGMENT_OFF, RLF_SEGMENT_OBJECTS},
         {"foreground_segment", def->foreground_segment, RLF_SEGMENT_OFF, RLF_SEGMENT_NOISE},
         {"segment_tau_m", def->segment_tau_m, 0, 1000},
         {"segment_color_tau", def->segment_color_tau, 0, 2},

@@ -2,6 +2,7 @@
 #include "surface/stage.h"
 
 #include "base/guard.h"
+#include "surface/objects/objects.h"
 #include "surface/past/past.h"
 #include "surface/steps.h"
 #include "surface/thickness/thickness.h"
@@ -170,6 +171,29 @@ static void take_work(rlf_reconstruct *stage)
     }
 }
 
+static void take_objects(rlf_reconstruct *stage)
+{
+    if (stage->def.background_segment != RLF_SEGMENT_OBJECTS ||
+        stage->def.background_method == RLF_BACKGROUND_OFF) {
+        return;
+    }
+    rlf_objects o = rlf_objects_layout(&stage->grid);
+    size_t n = (size_t)stage->grid.count, patches = (size_t)(o.width * o.height);
+    rlf_objects *objects = take(stage, 1, sizeof *objects);
+    o.patch = take(stage, patches, sizeof *o.patch);
+    o.near = take(stage, patches, sizeof *o.near);
+    o.scratch[0] = take(stage, patches, sizeof *o.scratch[0]);
+    o.scratch[1] = take(stage, patches, sizeof *o.scratch[1]);
+    o.queue = take(stage, patches, sizeof *o.queue);
+    o.support = take(stage, n, 1);
+    o.links = take(stage, n, 1);
+    o.distance = take(stage, n, 1);
+    if (objects != NULL) {
+        *objects = o;
+    }
+    stage->objects = objects;
+}
+
 static void take_family(rlf_reconstruct *stage)
 {
     rlf_family *family = &stage->family;
@@ -266,6 +290,7 @@ static void take_all(rlf_reconstruct *stage)
     take_steady(stage);
     take_wide(stage);
     take_family(stage);
+    take_objects(stage);
     take_past(stage);
     take_color_side(stage);
     take_work(stage);

@@ -340,6 +340,7 @@ struct rlf_reconstruct {
     rlf_plates plates; /* of the foreground */
     rlf_torsos torsos; /* of the foreground */
     rlf_color_side side;
+    struct rlf_objects *objects; /* see objects/objects.h; NULL = they are not wanted */
     rlf_work work;
     bool has_color;      /* work.color holds the frame's */
     bool has_components; /* work.runs holds the front sheet's, so many: */

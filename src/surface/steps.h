@@ -150,6 +150,7 @@ typedef struct rlf_layer_in {
     rlf_layer layer;
     rlf_segment_method method;
     const float *depth;
+    float *const *normal;          /* planes; OBJECTS only */
     const uint8_t *mask;           /* members; NULL = every valid pixel */
     const rlf_span *spans;         /* where they are; NULL = anywhere */
     const uint32_t *color;         /* NULL = depth alone tells them apart */
@@ -161,6 +162,9 @@ typedef struct rlf_layer_in {
     int32_t previous_count;
     int64_t elapsed_ns; /* since then */
 } rlf_layer_in;
+
+/* Runs of equal numbers of a plane, into work.runs. */
+void rlf_runs_find(rlf_reconstruct *stage, const int32_t *number);
 
 typedef struct rlf_layer_out {
     rlf_region *regions; /* region_capacity */

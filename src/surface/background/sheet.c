@@ -275,6 +275,7 @@ static void finish(rlf_reconstruct *stage)
     rlf_layer_in in = {.layer = RLF_LAYER_BACKGROUND,
                        .method = stage->def.background_segment,
                        .depth = sheet->depth,
+                       .normal = sheet->normal,
                        .color = stage->has_color ? background->color : NULL};
     if (old != NULL) {
         in.previous_label = old->label;

@@ -1,8 +1,29 @@
 /* From components to regions: which are kept, which small ones join a neighbour, and their order.
  */
-#include "surface/steps.h"
+#include "surface/objects/objects.h"
 
 #include <string.h>
+
+void rlf_runs_find(rlf_reconstruct *stage, const int32_t *number)
+{
+    const rlf_runs *runs = &stage->work.runs;
+    int32_t width = stage->grid.width, count = 0;
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        const int32_t *row = number + (ptrdiff_t)y * width;
+        runs->first[y] = count;
+        for (int32_t x = 0; x < width; x++) {
+            if (row[x] == 0) {
+                continue;
+            }
+            if (x > 0 && row[x] == row[x - 1]) {
+                runs->run[count - 1].x1 = x + 1;
+            } else {
+                runs->run[count++] = (rlf_run){x, x + 1, row[x]};
+            }
+        }
+    }
+    runs->first[stage->grid.height] = count;
+}
 
 /* Everything is one component. */
 static int32_t find_single(rlf_reconstruct *stage, const rlf_layer_in *in)
@@ -28,6 +49,9 @@ static int32_t find_components(rlf_reconstruct *stage, const rlf_layer_in *in)
     }
     if (in->method == RLF_SEGMENT_OFF) {
         return find_single(stage, in);
+    }
+    if (in->method == RLF_SEGMENT_OBJECTS) {
+        return rlf_objects_find(stage, in);
     }
     rlf_segment_links(stage, in->method, in->depth, in->mask, in->spans);
     if (in->color != NULL) {
@@ -121,28 +145,6 @@ static void number_runs(rlf_reconstruct *stage)
     }
 }
 
-/* Runs of the plane of region numbers. */
-static void find_runs(rlf_reconstruct *stage, const int32_t *number)
-{
-    const rlf_runs *runs = &stage->work.runs;
-    int32_t width = stage->grid.width, count = 0;
-    for (int32_t y = 0; y < stage->grid.height; y++) {
-        const int32_t *row = number + (ptrdiff_t)y * width;
-        runs->first[y] = count;
-        for (int32_t x = 0; x < width; x++) {
-            if (row[x] == 0) {
-                continue;
-            }
-            if (x > 0 && row[x] == row[x - 1]) {
-                runs->run[count - 1].x1 = x + 1;
-            } else {
-                runs->run[count++] = (rlf_run){x, x + 1, row[x]};
-            }
-        }
-    }
-    runs->first[stage->grid.height] = count;
-}
-
 static void fill_run(const rlf_run *run, int32_t value, int32_t *row)
 {
     for (int32_t x = run->x0; x < run->x1; x++) {
@@ -164,13 +166,13 @@ static void dilate(rlf_reconstruct *stage, const rlf_layer_in *in)
         }
     }
     rlf_segment_dilate(&stage->grid, stage->def.segment_tau_m, in->depth, in->mask, number);
-    find_runs(stage, number);
+    rlf_runs_find(stage, number);
 }
 
 void rlf_layer_segment(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out)
 {
     int32_t components = find_components(stage, in);
-    out->region_count = number_regions(stage, components, in->method == RLF_SEGMENT_NOISE);
+    out->region_count = number_regions(stage, components, in->method >= RLF_SEGMENT_NOISE);
     number_runs(stage);
     if (in->method == RLF_SEGMENT_THESIS && stage->def.enable_dilation) {
         dilate(stage, in);

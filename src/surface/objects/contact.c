@@ -1,0 +1,62 @@
+/* Where one thing touches another: two points of one convex thing are both behind the other's
+ * tangent plane (Stein et al. 2014). At a concave contact both are in front of it, and at a depth
+ * step one is. */
+#include "surface/objects/objects.h"
+
+#include "kernel/kernel.h"
+
+static const float SIGMAS = 2.0f;       /* in front of the other's tangent plane ... */
+static const float LEAST_SLOPE = 0.25f; /* ... and by this much of the way between them */
+
+/* Pixels i and j, on both sides of a third, are of two things. */
+static bool is_contact(const rlf_grid *grid, const rlf_layer_in *in, rlf_kernel_noise noise,
+                       int32_t i, int32_t j)
+{
+    float zi = in->depth[i], zj = in->depth[j];
+    if (!(zi > 0.0f) || !(zj > 0.0f)) {
+        return false;
+    }
+    float d[3] = {zj * grid->ray_x[j] - zi * grid->ray_x[i],
+                  zj * grid->ray_y[j] - zi * grid->ray_y[i], zj - zi};
+    float above_i = 0.0f, above_j = 0.0f, way = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        above_i += d[k] * in->normal[k][i];
+        above_j -= d[k] * in->normal[k][j];
+        way += d[k] * d[k];
+    }
+    float above = above_i > above_j ? above_i : above_j;
+    return above > SIGMAS * rlf_kernel_sigma(noise, zi) &&
+           above * above > LEAST_SLOPE * LEAST_SLOPE * way;
+}
+
+void rlf_contacts_cut(rlf_reconstruct *stage, const rlf_layer_in *in)
+{
+    const rlf_grid *grid = &stage->grid;
+    rlf_objects *o = stage->objects;
+    rlf_kernel_noise noise = rlf_kernel_noise_make(&stage->def.rig.noise);
+    int32_t reach = o->side / 2, width = grid->width;
+    uint8_t *links = stage->work.links;
+    for (int32_t y = 0; y < grid->height; y++) {
+        for (int32_t x = 0; x < width; x++) {
+            int32_t i = y * width + x;
+            bool is_cut = o->support[i] != 0;
+            if (!is_cut && (links[i] & RLF_LINK_MEMBER)) {
+                is_cut = (x >= reach && x + reach < width &&
+                          o->support[i - reach] + o->support[i + reach] == 0 &&
+                          is_contact(grid, in, noise, i - reach, i + reach)) ||
+                         (y >= reach && y + reach < grid->height &&
+                          o->support[i - reach * width] + o->support[i + reach * width] == 0 &&
+                          is_contact(grid, in, noise, i - reach * width, i + reach * width));
+            }
+            links[i] = is_cut ? 0 : links[i];
+        }
+    }
+    for (int32_t i = grid->count - 1; i >= 0; i--) {
+        int32_t x = i % width, link = links[i];
+        link &= x > 0 && links[i - 1] == 0 ? ~RLF_LINK_LEFT : 255;
+        link &= i >= width && links[i - width] == 0 ? ~RLF_LINK_UP : 255;
+        link &= i >= width && x > 0 && links[i - width - 1] == 0 ? ~RLF_LINK_UP_LEFT : 255;
+        link &= i >= width && x + 1 < width && links[i - width + 1] == 0 ? ~RLF_LINK_UP_RIGHT : 255;
+        links[i] = (uint8_t)link;
+    }
+}

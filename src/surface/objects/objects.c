@@ -1,0 +1,111 @@
+/* The regions of a layer: its support planes, and the things that are left. */
+#include "surface/objects/objects.h"
+
+#include <string.h>
+
+enum { PATCHES = 80 }; /* in a row of a grid */
+
+rlf_objects rlf_objects_layout(const rlf_grid *grid)
+{
+    rlf_objects o = {.side = 2 * ((grid->width + 2 * PATCHES - 1) / (2 * PATCHES))};
+    o.side = o.side < 4 ? 4 : o.side;
+    o.width = (grid->width + o.side - 1) / o.side;
+    o.height = (grid->height + o.side - 1) / o.side;
+    return o;
+}
+
+/* Numbers of what is large enough, into work.component: support planes first. Other pixels have 0.
+ * Returns the highest number. */
+static int32_t number_pixels(rlf_reconstruct *stage)
+{
+    const rlf_work *work = &stage->work;
+    const rlf_objects *o = stage->objects;
+    int32_t end = work->runs.first[stage->grid.height];
+    int32_t components = 0, next = o->count;
+    for (int32_t r = 0; r < end; r++) {
+        int32_t c = work->runs.run[r].component;
+        if (c > components) {
+            components = c;
+            work->map[c] = work->size[c] >= stage->def.min_region_points ? ++next : 0;
+        }
+    }
+    for (int32_t i = 0; i < stage->grid.count; i++) {
+        work->component[i] = o->support[i];
+    }
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        int32_t *row = work->component + (ptrdiff_t)y * stage->grid.width;
+        for (int32_t r = work->runs.first[y]; r < work->runs.first[y + 1]; r++) {
+            const rlf_run *run = &work->runs.run[r];
+            for (int32_t x = run->x0; x < run->x1; x++) {
+                row[x] = work->map[run->component];
+            }
+        }
+    }
+    return next;
+}
+
+/* Pixel i takes the number of pixel j when that is nearer to where it came from. */
+static void spread(rlf_reconstruct *stage, int32_t i, int32_t j, bool is_linked, bool any)
+{
+    uint8_t *distance = stage->objects->distance;
+    int32_t *number = stage->work.component;
+    if (number[j] > stage->objects->count || (any && number[j] > 0)) {
+        if ((is_linked || any) && distance[j] + 1 < distance[i]) {
+            distance[i] = (uint8_t)(distance[j] + 1);
+            number[i] = number[j];
+        }
+    }
+}
+
+/* Pixels without a number take the nearest over links, two passes of a distance transform (Rosenfeld
+ * and Pfaltz 1966); any: over valid pixels. */
+static void grow(rlf_reconstruct *stage, const float *depth, bool any)
+{
+    const rlf_objects *o = stage->objects;
+    int32_t width = stage->grid.width, count = stage->grid.count;
+    for (int32_t i = 0; i < count; i++) {
+        o->distance[i] = stage->work.component[i] > 0 ? 0 : 254;
+    }
+    for (int32_t pass = 0; pass < 4; pass++) {
+        for (int32_t k = 0; k < count; k++) {
+            bool back = pass % 2 == 1;
+            int32_t i = back ? count - 1 - k : k;
+            if (o->distance[i] <= 1 || !(depth[i] > 0.0f)) {
+                continue;
+            }
+            int32_t x = i % width;
+            if (!back && x > 0) {
+                spread(stage, i, i - 1, o->links[i] & RLF_LINK_LEFT, any);
+            }
+            if (!back && i >= width) {
+                spread(stage, i, i - width, o->links[i] & RLF_LINK_UP, any);
+            }
+            if (back && x + 1 < width) {
+                spread(stage, i, i + 1, o->links[i + 1] & RLF_LINK_LEFT, any);
+            }
+            if (back && i + width < count) {
+                spread(stage, i, i + width, o->links[i + width] & RLF_LINK_UP, any);
+            }
+        }
+    }
+}
+
+int32_t rlf_objects_find(rlf_reconstruct *stage, const rlf_layer_in *in)
+{
+    rlf_work *work = &stage->work;
+    rlf_segment_links(stage, RLF_SEGMENT_NOISE, in->depth, in->mask, in->spans);
+    rlf_supports_find(stage, in);
+    rlf_supports_mark(stage, in);
+    memcpy(stage->objects->links, work->links, (size_t)stage->grid.count);
+    rlf_contacts_cut(stage, in);
+    rlf_components_find(stage, in->spans);
+    int32_t components = number_pixels(stage);
+    grow(stage, in->depth, false);
+    grow(stage, in->depth, true);
+    rlf_runs_find(stage, work->component);
+    memset(work->size, 0, (size_t)(components + 1) * sizeof *work->size);
+    for (int32_t r = 0; r < work->runs.first[stage->grid.height]; r++) {
+        work->size[work->runs.run[r].component] += work->runs.run[r].x1 - work->runs.run[r].x0;
+    }
+    return components;
+}

@@ -1,0 +1,68 @@
+/* Things and what they stand on, as regions of the background.
+ *
+ * Large planes are found first: floors, walls, tables (planes.c). Pixels on one of them are its
+ * region (support.c). What is left is cut along concave contacts and depth steps, where one thing
+ * touches another (contact.c), and its connected components are the things (objects.c). */
+#ifndef RLF_SURFACE_OBJECTS_H
+#define RLF_SURFACE_OBJECTS_H
+
+#include "surface/steps.h"
+
+/* A square of pixels and the plane through its points. Planes are fitted to inverse depth, which is
+ * linear in the rays: 1 / z = a ray_x + b ray_y + c, and (a, b, c) is along the normal. */
+typedef struct rlf_plane_sum {
+    double count, x, y, w;
+    double xx, xy, yy, xw, yw, ww;
+} rlf_plane_sum;
+
+typedef struct rlf_support_plane {
+    double a, b, c;
+    double variance; /* of inverse depth about it */
+} rlf_support_plane;
+
+typedef struct rlf_patch {
+    rlf_plane_sum sum;
+    rlf_support_plane plane;
+    double sigma; /* of the sensor's inverse depth here */
+    int32_t plane_id;
+    bool is_flat, is_used;
+} rlf_patch;
+
+/* Most support planes of one sheet. */
+enum { RLF_SUPPORTS = 16 };
+
+typedef struct rlf_objects {
+    int32_t side;          /* of a patch, pixels */
+    int32_t width, height; /* in patches */
+    rlf_patch *patch;
+    uint32_t *near;       /* per patch: a bit for each support plane that may be seen there */
+    uint32_t *scratch[2]; /* the same */
+    int32_t *queue;       /* patches */
+    uint8_t *support;     /* plane of pixels: of which support plane, from 1; 0 = of none */
+    uint8_t *links;       /* plane: RLF_LINK_ bits before things are cut */
+    uint8_t *distance;    /* plane: pixels from what has a number */
+    rlf_support_plane plane[RLF_SUPPORTS];
+    int32_t count;
+} rlf_objects;
+
+/* objects.c: side and extent of the patches of a grid. */
+rlf_objects rlf_objects_layout(const rlf_grid *grid);
+
+/* planes.c */
+void rlf_plane_sum_add(rlf_plane_sum *sum, const rlf_plane_sum *other);
+/* Least squares; false when the points are on a line. */
+bool rlf_plane_sum_fit(const rlf_plane_sum *sum, rlf_support_plane *out);
+double rlf_support_cosine(const rlf_support_plane *a, const rlf_support_plane *b);
+/* Finds the support planes of a layer. */
+void rlf_supports_find(rlf_reconstruct *stage, const rlf_layer_in *in);
+
+/* support.c: writes objects.support. */
+void rlf_supports_mark(rlf_reconstruct *stage, const rlf_layer_in *in);
+
+/* contact.c: takes pixels out of work.links where things touch, and on the support planes. */
+void rlf_contacts_cut(rlf_reconstruct *stage, const rlf_layer_in *in);
+
+/* objects.c: components of a layer into work.runs, as rlf_components_find does. */
+int32_t rlf_objects_find(rlf_reconstruct *stage, const rlf_layer_in *in);
+
+#endif

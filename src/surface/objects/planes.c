@@ -1,0 +1,190 @@
+/* Support planes by region growing over patches (Poppinga et al. 2008): from the flattest patch to
+ * those beside it, as far as the sensor's noise explains what is off the plane. */
+#include "surface/objects/objects.h"
+
+#include <math.h>
+
+static const double FLAT_SIGMAS = 1.0;   /* RMS of a patch about its own plane */
+static const double GROW_SIGMAS = 2.0;   /* of a patch's middle, off the plane */
+static const double LEAST_COSINE = 0.94; /* 20 degrees, between a patch and the plane */
+static const double LEAST_SIDE_M = 0.45; /* a support plane shows at least a square of that */
+enum { REFITS = 3, MOST_TRIES = 48 };
+
+void rlf_plane_sum_add(rlf_plane_sum *sum, const rlf_plane_sum *other)
+{
+    sum->count += other->count;
+    sum->x += other->x;
+    sum->y += other->y;
+    sum->w += other->w;
+    sum->xx += other->xx;
+    sum->xy += other->xy;
+    sum->yy += other->yy;
+    sum->xw += other->xw;
+    sum->yw += other->yw;
+    sum->ww += other->ww;
+}
+
+bool rlf_plane_sum_fit(const rlf_plane_sum *sum, rlf_support_plane *out)
+{
+    double inv = sum->count > 0.0 ? 1.0 / sum->count : 0.0;
+    double x = sum->x * inv, y = sum->y * inv, w = sum->w * inv;
+    double xx = sum->xx * inv - x * x, xy = sum->xy * inv - x * y, yy = sum->yy * inv - y * y;
+    double xw = sum->xw * inv - x * w, yw = sum->yw * inv - y * w, ww = sum->ww * inv - w * w;
+    double determinant = xx * yy - xy * xy;
+    if (!(determinant > 1e-6 * (xx + yy) * (xx + yy))) {
+        return false;
+    }
+    out->a = (xw * yy - yw * xy) / determinant;
+    out->b = (yw * xx - xw * xy) / determinant;
+    out->c = w - out->a * x - out->b * y;
+    out->variance = rlf_max(ww - out->a * xw - out->b * yw, 0.0);
+    return true;
+}
+
+double rlf_support_cosine(const rlf_support_plane *p, const rlf_support_plane *q)
+{
+    double pp = p->a * p->a + p->b * p->b + p->c * p->c;
+    double qq = q->a * q->a + q->b * q->b + q->c * q->c;
+    double pq = p->a * q->a + p->b * q->b + p->c * q->c;
+    return pp > 0.0 && qq > 0.0 ? pq / sqrt(pp * qq) : 0.0;
+}
+
+static rlf_plane_sum sum_patch(const rlf_grid *grid, const float *depth, rlf_rect r)
+{
+    rlf_plane_sum sum = {0};
+    for (int32_t y = r.y0; y < r.y1; y++) {
+        for (int32_t i = y * grid->width + r.x0; i < y * grid->width + r.x1; i++) {
+            if (depth[i] > 0.0f) {
+                double rx = grid->ray_x[i], ry = grid->ray_y[i], w = 1.0 / (double)depth[i];
+                const rlf_plane_sum one = {1.0,     rx,      ry,     w,      rx * rx,
+                                           rx * ry, ry * ry, rx * w, ry * w, w * w};
+                rlf_plane_sum_add(&sum, &one);
+            }
+        }
+    }
+    return sum;
+}
+
+static void fit_patches(rlf_reconstruct *stage, const float *depth)
+{
+    rlf_objects *o = stage->objects;
+    const rlf_grid *grid = &stage->grid;
+    for (int32_t k = 0; k < o->width * o->height; k++) {
+        rlf_patch *p = &o->patch[k];
+        int32_t x = k % o->width * o->side, y = k / o->width * o->side;
+        const rlf_rect r = {x, y, x + o->side < grid->width ? x + o->side : grid->width,
+                            y + o->side < grid->height ? y + o->side : grid->height};
+        *p = (rlf_patch){.sum = sum_patch(grid, depth, r)};
+        int32_t area = (r.x1 - r.x0) * (r.y1 - r.y0);
+        p->is_used = true;
+        if (2.0 * p->sum.count >= area && rlf_plane_sum_fit(&p->sum, &p->plane)) {
+            double z = p->sum.count / p->sum.w;
+            p->sigma = rlf_depth_noise_sigma(&stage->def.rig.noise, z) / (z * z);
+            p->is_flat = p->plane.variance <= FLAT_SIGMAS * FLAT_SIGMAS * p->sigma * p->sigma;
+            p->is_used = !p->is_flat;
+        }
+    }
+}
+
+/* The flattest patch that is not used yet; -1 = none. */
+static int32_t find_seed(const rlf_objects *o)
+{
+    int32_t best = -1;
+    double least = INFINITY;
+    for (int32_t k = 0; k < o->width * o->height; k++) {
+        const rlf_patch *p = &o->patch[k];
+        double excess = p->is_used ? INFINITY : p->plane.variance / (p->sigma * p->sigma);
+        best = excess < least ? k : best;
+        least = rlf_min(excess, least);
+    }
+    return best;
+}
+
+static bool is_on(const rlf_patch *p, const rlf_support_plane *plane)
+{
+    double inv = 1.0 / p->sum.count;
+    double off = p->sum.w * inv - plane->a * p->sum.x * inv - plane->b * p->sum.y * inv - plane->c;
+    return off * off <= GROW_SIGMAS * GROW_SIGMAS * p->sigma * p->sigma &&
+           rlf_support_cosine(&p->plane, plane) >= LEAST_COSINE;
+}
+
+/* Grows a plane from a seed; `refit`: the plane follows what it has grown to. Returns how many
+ * patches are in the queue; they have the plane's id. */
+static int32_t grow(rlf_objects *o, int32_t seed, int32_t id, bool refit, rlf_support_plane *plane,
+                    rlf_plane_sum *sum)
+{
+    int32_t count = 0, next_fit = 4;
+    *sum = (rlf_plane_sum){0};
+    o->queue[count++] = seed;
+    o->patch[seed].plane_id = id;
+    for (int32_t at = 0; at < count; at++) {
+        int32_t k = o->queue[at], x = k % o->width, y = k / o->width;
+        rlf_plane_sum_add(sum, &o->patch[k].sum);
+        if (refit && at + 1 == next_fit) {
+            rlf_plane_sum_fit(sum, plane);
+            next_fit *= 2;
+        }
+        const int32_t next[4] = {x > 0 ? k - 1 : -1, x + 1 < o->width ? k + 1 : -1,
+                                 y > 0 ? k - o->width : -1,
+                                 y + 1 < o->height ? k + o->width : -1};
+        for (int n = 0; n < 4; n++) {
+            rlf_patch *p = next[n] >= 0 ? &o->patch[next[n]] : NULL;
+            if (p != NULL && !p->is_used && p->plane_id == 0 && is_on(p, plane)) {
+                p->plane_id = id;
+                o->queue[count++] = next[n];
+            }
+        }
+    }
+    return count;
+}
+
+static void release(rlf_objects *o, int32_t count)
+{
+    for (int32_t at = 0; at < count; at++) {
+        o->patch[o->queue[at]].plane_id = 0;
+    }
+}
+
+/* Of what is seen of it, square metres. */
+static double area_of(const rlf_reconstruct *stage, const rlf_objects *o, int32_t count,
+                      const rlf_support_plane *plane)
+{
+    double size = sqrt(plane->a * plane->a + plane->b * plane->b + plane->c * plane->c);
+    double area = 0.0;
+    for (int32_t at = 0; at < count; at++) {
+        const rlf_plane_sum *s = &o->patch[o->queue[at]].sum;
+        double z = s->count / s->w;
+        /* n . ray = distance / z, and 1 / size is the plane's distance. */
+        area += s->count * z * z * z * size;
+    }
+    return area / (stage->grid.camera.fx * stage->grid.camera.fy);
+}
+
+void rlf_supports_find(rlf_reconstruct *stage, const rlf_layer_in *in)
+{
+    rlf_objects *o = stage->objects;
+    fit_patches(stage, in->depth);
+    o->count = 0;
+    int32_t seed = find_seed(o);
+    for (int32_t tries = 0; seed >= 0 && tries < MOST_TRIES && o->count < RLF_SUPPORTS; tries++) {
+        rlf_support_plane plane = o->patch[seed].plane;
+        rlf_plane_sum sum;
+        int32_t id = o->count + 1;
+        int32_t count = grow(o, seed, id, true, &plane, &sum);
+        for (int k = 0; k < REFITS; k++) {
+            rlf_plane_sum_fit(&sum, &plane);
+            release(o, count);
+            count = grow(o, seed, id, false, &plane, &sum);
+        }
+        bool is_support = area_of(stage, o, count, &plane) >= LEAST_SIDE_M * LEAST_SIDE_M;
+        for (int32_t at = 0; at < count; at++) {
+            o->patch[o->queue[at]].is_used = true;
+        }
+        if (is_support) {
+            o->plane[o->count++] = plane;
+        } else {
+            release(o, count);
+        }
+        seed = find_seed(o);
+    }
+}

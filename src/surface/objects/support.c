@@ -1,0 +1,105 @@
+/* Which pixels are on a support plane. A plane goes on behind what stands on it: it is looked for
+ * within the rows and columns between its patches. */
+#include "surface/objects/objects.h"
+
+#include "kernel/kernel.h"
+
+#include <string.h>
+
+static const float ON_SIGMAS = 3.0f;     /* off the plane */
+static const float LEAST_COSINE = 0.77f; /* 40 degrees, between a pixel's normal and the plane's */
+
+/* Sets the bits of a line of patches between the first and the last that has them. */
+static void span_line(const uint32_t *from, uint32_t *to, int32_t count, int32_t step)
+{
+    uint32_t before = 0, after = 0;
+    for (int32_t k = 0; k < count; k++) {
+        before |= from[k * step];
+        to[k * step] = before;
+    }
+    for (int32_t k = count - 1; k >= 0; k--) {
+        after |= from[k * step];
+        to[k * step] &= after;
+    }
+}
+
+/* objects.near: patches of a plane, those between them, and one more all around. */
+static void find_near(rlf_objects *o)
+{
+    uint32_t *across = o->scratch[0], *down = o->scratch[1];
+    for (int32_t k = 0; k < o->width * o->height; k++) {
+        o->near[k] = o->patch[k].plane_id > 0 ? 1u << (o->patch[k].plane_id - 1) : 0;
+    }
+    for (int32_t y = 0; y < o->height; y++) {
+        span_line(o->near + y * o->width, across + y * o->width, o->width, 1);
+    }
+    for (int32_t x = 0; x < o->width; x++) {
+        span_line(o->near + x, down + x, o->height, o->width);
+    }
+    for (int32_t k = 0; k < o->width * o->height; k++) {
+        across[k] &= down[k];
+    }
+    for (int32_t y = 0; y < o->height; y++) {
+        for (int32_t x = 0; x < o->width; x++) {
+            uint32_t bits = 0;
+            for (int32_t v = y > 0 ? y - 1 : 0; v <= y + 1 && v < o->height; v++) {
+                for (int32_t u = x > 0 ? x - 1 : 0; u <= x + 1 && u < o->width; u++) {
+                    bits |= across[v * o->width + u];
+                }
+            }
+            o->near[y * o->width + x] = bits;
+        }
+    }
+}
+
+typedef struct float_plane {
+    float a, b, c, size;
+} float_plane;
+
+/* The plane of `bits` that pixel i is on; 0 = of none. */
+static uint8_t support_of(const rlf_reconstruct *stage, const rlf_layer_in *in,
+                          const float_plane *planes, uint32_t bits, int32_t i)
+{
+    const rlf_grid *grid = &stage->grid;
+    float w = 1.0f / in->depth[i];
+    float limit = ON_SIGMAS *
+                  rlf_kernel_inverse_sigma(rlf_kernel_noise_make(&stage->def.rig.noise), w);
+    uint8_t best = 0;
+    for (int32_t k = 0; bits != 0; k++, bits >>= 1) {
+        const float_plane *p = &planes[k];
+        float off = rlf_kernel_abs(w - p->a * grid->ray_x[i] - p->b * grid->ray_y[i] - p->c);
+        if ((bits & 1) == 0 || off > limit) {
+            continue;
+        }
+        float cosine = -(in->normal[0][i] * p->a + in->normal[1][i] * p->b + in->normal[2][i] * p->c);
+        bool has_normal = in->normal[0][i] != 0.0f || in->normal[1][i] != 0.0f ||
+                          in->normal[2][i] != 0.0f;
+        if (!has_normal || cosine >= LEAST_COSINE * p->size) {
+            best = (uint8_t)(k + 1);
+            limit = off;
+        }
+    }
+    return best;
+}
+
+void rlf_supports_mark(rlf_reconstruct *stage, const rlf_layer_in *in)
+{
+    rlf_objects *o = stage->objects;
+    float_plane planes[RLF_SUPPORTS];
+    for (int32_t k = 0; k < o->count; k++) {
+        const rlf_support_plane *p = &o->plane[k];
+        planes[k] = (float_plane){(float)p->a, (float)p->b, (float)p->c,
+                                  (float)sqrt(p->a * p->a + p->b * p->b + p->c * p->c)};
+    }
+    find_near(o);
+    memset(o->support, 0, (size_t)stage->grid.count);
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        const uint32_t *near = o->near + y / o->side * o->width;
+        for (int32_t x = 0; x < stage->grid.width; x++) {
+            int32_t i = y * stage->grid.width + x;
+            if (in->depth[i] > 0.0f && near[x / o->side] != 0) {
+                o->support[i] = support_of(stage, in, planes, near[x / o->side], i);
+            }
+        }
+    }
+}
