@@ -102,6 +102,7 @@ int32_t rlf_objects_find(rlf_reconstruct *stage, const rlf_layer_in *in)
     int32_t components = number_pixels(stage);
     grow(stage, in->depth, false);
     grow(stage, in->depth, true);
+    rlf_hollows_join(stage, in, components);
     rlf_runs_find(stage, work->component);
     memset(work->size, 0, (size_t)(components + 1) * sizeof *work->size);
     for (int32_t r = 0; r < work->runs.first[stage->grid.height]; r++) {

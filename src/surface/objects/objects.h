@@ -24,12 +24,25 @@ typedef struct rlf_patch {
     rlf_plane_sum sum;
     rlf_support_plane plane;
     double sigma; /* of the sensor's inverse depth here */
-    int32_t plane_id;
+    double off;       /* inverse depth of its middle, off its support plane */
+    int32_t plane_id; /* its support plane, from 1; 0 = none */
     bool is_flat, is_used;
 } rlf_patch;
 
 /* Most support planes of one sheet. */
 enum { RLF_SUPPORTS = 16 };
+
+/* What is known of a thing. */
+typedef struct rlf_object_sum {
+    double count, p[3], n[3];
+    double along, square;             /* of point . normal, and of point . point */
+    int32_t border, shared, votes;    /* pixels: of its border, and of that with `neighbour` */
+    int32_t neighbour;                /* the thing that most of its border is with; 0 = none */
+    bool is_hollow;
+} rlf_object_sum;
+
+/* Most numbers of things that are looked at so. */
+enum { RLF_OBJECTS_SUMMED = 1024 };
 
 typedef struct rlf_objects {
     int32_t side;          /* of a patch, pixels */
@@ -41,6 +54,7 @@ typedef struct rlf_objects {
     uint8_t *support;     /* plane of pixels: of which support plane, from 1; 0 = of none */
     uint8_t *links;       /* plane: RLF_LINK_ bits before things are cut */
     uint8_t *distance;    /* plane: pixels from what has a number */
+    rlf_object_sum *sum;   /* RLF_OBJECTS_SUMMED */
     rlf_support_plane plane[RLF_SUPPORTS];
     int32_t count;
 } rlf_objects;
@@ -61,6 +75,9 @@ void rlf_supports_mark(rlf_reconstruct *stage, const rlf_layer_in *in);
 
 /* contact.c: takes pixels out of work.links where things touch, and on the support planes. */
 void rlf_contacts_cut(rlf_reconstruct *stage, const rlf_layer_in *in);
+
+/* hollow.c: joins the insides of things to their outsides, in work.component. */
+void rlf_hollows_join(rlf_reconstruct *stage, const rlf_layer_in *in, int32_t components);
 
 /* objects.c: components of a layer into work.runs, as rlf_components_find does. */
 int32_t rlf_objects_find(rlf_reconstruct *stage, const rlf_layer_in *in);

@@ -7,6 +7,8 @@
 static const double FLAT_SIGMAS = 1.0;   /* RMS of a patch about its own plane */
 static const double GROW_SIGMAS = 2.0;   /* of a patch's middle, off the plane */
 static const double LEAST_COSINE = 0.94; /* 20 degrees, between a patch and the plane */
+/* Sensors bend planes: a patch may be further off that goes on from the one beside it. */
+static const double BENT_SIGMAS = 8.0, STEP_SIGMAS = 1.0, BENT_COSINE = 0.985;
 static const double LEAST_SIDE_M = 0.45; /* a support plane shows at least a square of that */
 enum { REFITS = 3, MOST_TRIES = 48 };
 
@@ -100,12 +102,22 @@ static int32_t find_seed(const rlf_objects *o)
     return best;
 }
 
-static bool is_on(const rlf_patch *p, const rlf_support_plane *plane)
+static double off_plane(const rlf_patch *p, const rlf_support_plane *plane)
 {
     double inv = 1.0 / p->sum.count;
-    double off = p->sum.w * inv - plane->a * p->sum.x * inv - plane->b * p->sum.y * inv - plane->c;
-    return off * off <= GROW_SIGMAS * GROW_SIGMAS * p->sigma * p->sigma &&
-           rlf_support_cosine(&p->plane, plane) >= LEAST_COSINE;
+    return p->sum.w * inv - plane->a * p->sum.x * inv - plane->b * p->sum.y * inv - plane->c;
+}
+
+/* Whether a patch is on a plane, or goes on from one that is `beside` off it. */
+static bool is_on(const rlf_patch *p, const rlf_support_plane *plane, double beside)
+{
+    double off = off_plane(p, plane), inv = 1.0 / p->sigma;
+    double cosine = rlf_support_cosine(&p->plane, plane);
+    double sigmas = inv * off, step = inv * (off - beside);
+    bool is_near = sigmas * sigmas <= GROW_SIGMAS * GROW_SIGMAS && cosine >= LEAST_COSINE;
+    bool is_bent = sigmas * sigmas <= BENT_SIGMAS * BENT_SIGMAS &&
+                   step * step <= STEP_SIGMAS * STEP_SIGMAS && cosine >= BENT_COSINE;
+    return is_near || is_bent;
 }
 
 /* Grows a plane from a seed; `refit`: the plane follows what it has grown to. Returns how many
@@ -124,12 +136,13 @@ static int32_t grow(rlf_objects *o, int32_t seed, int32_t id, bool refit, rlf_su
             rlf_plane_sum_fit(sum, plane);
             next_fit *= 2;
         }
+        o->patch[k].off = off_plane(&o->patch[k], plane);
         const int32_t next[4] = {x > 0 ? k - 1 : -1, x + 1 < o->width ? k + 1 : -1,
                                  y > 0 ? k - o->width : -1,
                                  y + 1 < o->height ? k + o->width : -1};
         for (int n = 0; n < 4; n++) {
             rlf_patch *p = next[n] >= 0 ? &o->patch[next[n]] : NULL;
-            if (p != NULL && !p->is_used && p->plane_id == 0 && is_on(p, plane)) {
+            if (p != NULL && !p->is_used && p->plane_id == 0 && is_on(p, plane, o->patch[k].off)) {
                 p->plane_id = id;
                 o->queue[count++] = next[n];
             }

@@ -52,13 +52,32 @@ static void find_near(rlf_objects *o)
     }
 }
 
+/* How far a plane is bent at a patch: as at the patch, or as at those beside it. */
+static float bend_at(const rlf_objects *o, int32_t k, int32_t id)
+{
+    double sum = 0.0, count = 0.0;
+    int32_t x = k % o->width, y = k / o->width;
+    if (o->patch[k].plane_id == id) {
+        return (float)o->patch[k].off;
+    }
+    for (int32_t v = y > 0 ? y - 1 : 0; v <= y + 1 && v < o->height; v++) {
+        for (int32_t u = x > 0 ? x - 1 : 0; u <= x + 1 && u < o->width; u++) {
+            const rlf_patch *p = &o->patch[v * o->width + u];
+            sum += p->plane_id == id ? p->off : 0.0;
+            count += p->plane_id == id ? 1.0 : 0.0;
+        }
+    }
+    return (float)(count > 0.0 ? sum / count : 0.0);
+}
+
 typedef struct float_plane {
     float a, b, c, size;
 } float_plane;
 
 /* The plane of `bits` that pixel i is on; 0 = of none. */
 static uint8_t support_of(const rlf_reconstruct *stage, const rlf_layer_in *in,
-                          const float_plane *planes, uint32_t bits, int32_t i)
+                          const float_plane *planes, uint32_t bits, const float *bend,
+                          int32_t i)
 {
     const rlf_grid *grid = &stage->grid;
     float w = 1.0f / in->depth[i];
@@ -67,7 +86,7 @@ static uint8_t support_of(const rlf_reconstruct *stage, const rlf_layer_in *in,
     uint8_t best = 0;
     for (int32_t k = 0; bits != 0; k++, bits >>= 1) {
         const float_plane *p = &planes[k];
-        float off = rlf_kernel_abs(w - p->a * grid->ray_x[i] - p->b * grid->ray_y[i] - p->c);
+        float off = rlf_kernel_abs(w - p->a * grid->ray_x[i] - p->b * grid->ray_y[i] - p->c - bend[k]);
         if ((bits & 1) == 0 || off > limit) {
             continue;
         }
@@ -82,6 +101,27 @@ static uint8_t support_of(const rlf_reconstruct *stage, const rlf_layer_in *in,
     return best;
 }
 
+static void mark_patch(rlf_reconstruct *stage, const rlf_layer_in *in, const float_plane *planes,
+                       int32_t k)
+{
+    const rlf_objects *o = stage->objects;
+    const rlf_grid *grid = &stage->grid;
+    int32_t x0 = k % o->width * o->side, y0 = k / o->width * o->side;
+    int32_t x1 = x0 + o->side < grid->width ? x0 + o->side : grid->width;
+    int32_t y1 = y0 + o->side < grid->height ? y0 + o->side : grid->height;
+    float bend[RLF_SUPPORTS];
+    for (int32_t p = 0; p < o->count && o->near[k] != 0; p++) {
+        bend[p] = o->near[k] >> p & 1 ? bend_at(o, k, p + 1) : 0.0f;
+    }
+    for (int32_t y = y0; y < y1 && o->near[k] != 0; y++) {
+        for (int32_t i = y * grid->width + x0; i < y * grid->width + x1; i++) {
+            if (in->depth[i] > 0.0f) {
+                o->support[i] = support_of(stage, in, planes, o->near[k], bend, i);
+            }
+        }
+    }
+}
+
 void rlf_supports_mark(rlf_reconstruct *stage, const rlf_layer_in *in)
 {
     rlf_objects *o = stage->objects;
@@ -93,13 +133,7 @@ void rlf_supports_mark(rlf_reconstruct *stage, const rlf_layer_in *in)
     }
     find_near(o);
     memset(o->support, 0, (size_t)stage->grid.count);
-    for (int32_t y = 0; y < stage->grid.height; y++) {
-        const uint32_t *near = o->near + y / o->side * o->width;
-        for (int32_t x = 0; x < stage->grid.width; x++) {
-            int32_t i = y * stage->grid.width + x;
-            if (in->depth[i] > 0.0f && near[x / o->side] != 0) {
-                o->support[i] = support_of(stage, in, planes, near[x / o->side], i);
-            }
-        }
+    for (int32_t k = 0; k < o->width * o->height && o->count > 0; k++) {
+        mark_patch(stage, in, planes, k);
     }
 }
