@@ -12,6 +12,7 @@ static const char *const normal_words[] = {"six_faces", "four_faces", "thesis", 
                                            NULL};
 static const char *const background_words[] = {"off", "average", "adaptive", NULL};
 static const char *const segment_words[] = {"off", "thesis", "noise", "objects", NULL};
+static const char *const front_words[] = {"off", "thesis", "noise", NULL};
 static const char *const switch_words[] = {"off", "on", NULL};
 
 typedef enum kind { KIND_SWITCH, KIND_WORD, KIND_COUNT, KIND_NUMBER } kind;
@@ -59,7 +60,7 @@ static const setting table[] = {
     {"foreground_min_m", KIND_NUMBER, AT(foreground_min_m), NULL, "adaptive: and metres"},
     {"background_segment", KIND_WORD, AT(background_segment), segment_words,
      "regions of the background"},
-    {"foreground_segment", KIND_WORD, AT(foreground_segment), segment_words,
+    {"foreground_segment", KIND_WORD, AT(foreground_segment), front_words,
      "regions of the foreground"},
     {"segment_tau_m", KIND_NUMBER, AT(segment_tau_m), NULL, "eq. 4.4 threshold, metres"},
     {"segment_diagonals", KIND_SWITCH, AT(segment_diagonals), switch_words,

@@ -337,6 +337,28 @@ static void label_background(rlf_reconstruct *stage, rlf_slot *slot)
     }
 }
 
+/* While the background is learnt, what is seen is taken to be it: regions from the first frame on.
+ */
+static void segment_first(rlf_reconstruct *stage, rlf_slot *slot)
+{
+    const rlf_slot *before = stage->previous;
+    rlf_layer_in in = {.layer = RLF_LAYER_BACKGROUND,
+                       .method = stage->def.background_segment,
+                       .depth = slot->depth,
+                       .normal = slot->normal,
+                       .color = stage->has_color ? stage->work.color : NULL};
+    if (before != NULL) {
+        in.previous_label = before->label;
+        in.previous = before->regions;
+        in.previous_count = before->foreground_region_first;
+        in.elapsed_ns = slot->surface.time_ns - before->surface.time_ns;
+    }
+    rlf_layer_out out = {slot->regions, slot->region_points, 0, 0};
+    rlf_layer_segment(stage, &in, &out);
+    slot->foreground_region_first = out.region_count;
+    rlf_region_write_labels(stage, &out, slot->label);
+}
+
 static void make_regions(rlf_reconstruct *stage, rlf_slot *slot)
 {
     copy_background_regions(rlf_sheet_newest(stage), slot);
@@ -350,6 +372,8 @@ static void make_regions(rlf_reconstruct *stage, rlf_slot *slot)
     label_background(stage, slot);
     if (has_front) {
         rlf_region_write_labels(stage, &out, slot->label);
+    } else if (stage->objects != NULL) {
+        segment_first(stage, slot);
     }
 }
 

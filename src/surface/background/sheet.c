@@ -265,11 +265,18 @@ static void make_all(rlf_reconstruct *stage, const rlf_slot *slot, rlf_sheet *sh
     }
 }
 
+const rlf_sheet *rlf_sheet_newest(const rlf_reconstruct *stage)
+{
+    const rlf_background *background = &stage->background;
+    bool none = background->newest < 0 || background->is_stale;
+    return none ? NULL : &background->sheets[background->newest];
+}
+
 /* Regions of the finished draft; from now on it is the newest. */
 static void finish(rlf_reconstruct *stage)
 {
     rlf_background *background = &stage->background;
-    const rlf_sheet *old = background->newest < 0 ? NULL : &background->sheets[background->newest];
+    const rlf_sheet *old = rlf_sheet_newest(stage);
     int32_t next = (background->newest + 1) % RLF_SHEETS;
     rlf_sheet *sheet = &background->sheets[next];
     rlf_layer_in in = {.layer = RLF_LAYER_BACKGROUND,
@@ -281,6 +288,10 @@ static void finish(rlf_reconstruct *stage)
         in.previous_label = old->label;
         in.previous = old->regions;
         in.previous_count = old->region_count;
+    } else if (stage->previous != NULL && stage->objects != NULL) {
+        in.previous_label = stage->previous->label;
+        in.previous = stage->previous->regions;
+        in.previous_count = stage->previous->foreground_region_first;
     }
     rlf_layer_out out = {sheet->regions, sheet->region_points, 0, 0};
     rlf_layer_segment(stage, &in, &out);
@@ -293,13 +304,6 @@ static void finish(rlf_reconstruct *stage)
     background->sheet_age = 0;
     background->is_drafting = false;
     background->is_stale = false;
-}
-
-const rlf_sheet *rlf_sheet_newest(const rlf_reconstruct *stage)
-{
-    const rlf_background *background = &stage->background;
-    bool none = background->newest < 0 || background->is_stale;
-    return none ? NULL : &background->sheets[background->newest];
 }
 
 void rlf_sheet_publish(rlf_reconstruct *stage, const rlf_slot *slot)
