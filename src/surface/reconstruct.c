@@ -1,5 +1,6 @@
 /* The surface stage: one frame through all steps into the next slot of the ring. */
 #include "surface/color_side.h"
+#include "surface/objects/objects.h"
 #include "surface/past/past.h"
 #include "surface/plate/plate.h"
 #include "surface/standing/standing.h"
@@ -70,6 +71,7 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
     rlf_background_reset(&stage->background, &stage->grid);
     rlf_standing_reset(&stage->background.thick);
     rlf_steady_reset(&stage->steady, stage->grid.count);
+    rlf_objects_reset(stage->objects);
     stage->family.count = 0;
     rlf_past_reset(&stage->past, &stage->grid);
     stage->plates = (rlf_plates){.count = 0};

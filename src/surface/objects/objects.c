@@ -14,6 +14,16 @@ rlf_objects rlf_objects_layout(const rlf_grid *grid)
     return o;
 }
 
+void rlf_objects_reset(rlf_objects *objects)
+{
+    for (int32_t k = 0; objects != NULL && k < objects->width * objects->height; k++) {
+        objects->patch[k] = (rlf_patch){0};
+    }
+    if (objects != NULL) {
+        objects->count = 0;
+    }
+}
+
 /* Numbers of what is large enough, into work.component: support planes first. Other pixels have 0.
  * Returns the highest number. */
 static int32_t number_pixels(rlf_reconstruct *stage)

@@ -26,6 +26,7 @@ typedef struct rlf_patch {
     double sigma; /* of the sensor's inverse depth here */
     double off;       /* inverse depth of its middle, off its support plane */
     int32_t plane_id; /* its support plane, from 1; 0 = none */
+    int32_t was;      /* the same in the sheet before */
     bool is_flat, is_used;
 } rlf_patch;
 
@@ -56,11 +57,14 @@ typedef struct rlf_objects {
     uint8_t *distance;    /* plane: pixels from what has a number */
     rlf_object_sum *sum;   /* RLF_OBJECTS_SUMMED */
     rlf_support_plane plane[RLF_SUPPORTS];
-    int32_t count;
+    bool is_seen[RLF_SUPPORTS];
+    int32_t count; /* of planes; some may be seen no more */
 } rlf_objects;
 
 /* objects.c: side and extent of the patches of a grid. */
 rlf_objects rlf_objects_layout(const rlf_grid *grid);
+/* Forgets the sheet before. */
+void rlf_objects_reset(rlf_objects *objects);
 
 /* planes.c */
 void rlf_plane_sum_add(rlf_plane_sum *sum, const rlf_plane_sum *other);

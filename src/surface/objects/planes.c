@@ -10,6 +10,7 @@ static const double LEAST_COSINE = 0.94; /* 20 degrees, between a patch and the 
 /* Sensors bend planes: a patch may be further off that goes on from the one beside it. */
 static const double BENT_SIGMAS = 8.0, STEP_SIGMAS = 1.0, BENT_COSINE = 0.985;
 static const double LEAST_SIDE_M = 0.45; /* a support plane shows at least a square of that */
+static const double STAYS_M = 0.4;       /* and one that was known of that */
 enum { REFITS = 3, MOST_TRIES = 48 };
 
 void rlf_plane_sum_add(rlf_plane_sum *sum, const rlf_plane_sum *other)
@@ -76,7 +77,7 @@ static void fit_patches(rlf_reconstruct *stage, const float *depth)
         int32_t x = k % o->width * o->side, y = k / o->width * o->side;
         const rlf_rect r = {x, y, x + o->side < grid->width ? x + o->side : grid->width,
                             y + o->side < grid->height ? y + o->side : grid->height};
-        *p = (rlf_patch){.sum = sum_patch(grid, depth, r)};
+        *p = (rlf_patch){.sum = sum_patch(grid, depth, r), .was = p->plane_id};
         int32_t area = (r.x1 - r.x0) * (r.y1 - r.y0);
         p->is_used = true;
         if (2.0 * p->sum.count >= area && rlf_plane_sum_fit(&p->sum, &p->plane)) {
@@ -120,20 +121,17 @@ static bool is_on(const rlf_patch *p, const rlf_support_plane *plane, double bes
     return is_near || is_bent;
 }
 
-/* Grows a plane from a seed; `refit`: the plane follows what it has grown to. Returns how many
- * patches are in the queue; they have the plane's id. */
-static int32_t grow(rlf_objects *o, int32_t seed, int32_t id, bool refit, rlf_support_plane *plane,
-                    rlf_plane_sum *sum)
+/* Grows a plane from the first `count` patches in the queue, which it has already; `refit`: it
+ * follows what it has grown to. Returns how many it has then. */
+static int32_t grow(rlf_objects *o, int32_t count, int32_t id, bool refit, rlf_support_plane *plane)
 {
-    int32_t count = 0, next_fit = 4;
-    *sum = (rlf_plane_sum){0};
-    o->queue[count++] = seed;
-    o->patch[seed].plane_id = id;
+    int32_t next_fit = 4;
+    rlf_plane_sum sum = {0};
     for (int32_t at = 0; at < count; at++) {
         int32_t k = o->queue[at], x = k % o->width, y = k / o->width;
-        rlf_plane_sum_add(sum, &o->patch[k].sum);
+        rlf_plane_sum_add(&sum, &o->patch[k].sum);
         if (refit && at + 1 == next_fit) {
-            rlf_plane_sum_fit(sum, plane);
+            rlf_plane_sum_fit(&sum, plane);
             next_fit *= 2;
         }
         o->patch[k].off = off_plane(&o->patch[k], plane);
@@ -142,20 +140,31 @@ static int32_t grow(rlf_objects *o, int32_t seed, int32_t id, bool refit, rlf_su
                                  y + 1 < o->height ? k + o->width : -1};
         for (int n = 0; n < 4; n++) {
             rlf_patch *p = next[n] >= 0 ? &o->patch[next[n]] : NULL;
-            if (p != NULL && !p->is_used && p->plane_id == 0 && is_on(p, plane, o->patch[k].off)) {
+            if (p != NULL && !p->is_used && p->plane_id == 0 &&
+                is_on(p, plane, o->patch[k].off)) {
                 p->plane_id = id;
                 o->queue[count++] = next[n];
             }
         }
     }
+    rlf_plane_sum_fit(&sum, plane);
     return count;
 }
 
-static void release(rlf_objects *o, int32_t count)
+/* Takes the plane's id from patches of the queue, but for those that are on the plane: these begin
+ * the queue of the next growth. Returns their number. */
+static int32_t prune(rlf_objects *o, int32_t count, const rlf_support_plane *plane)
 {
+    int32_t kept = 0;
     for (int32_t at = 0; at < count; at++) {
-        o->patch[o->queue[at]].plane_id = 0;
+        rlf_patch *p = &o->patch[o->queue[at]];
+        if (is_on(p, plane, INFINITY)) {
+            o->queue[kept++] = o->queue[at];
+        } else {
+            p->plane_id = 0;
+        }
     }
+    return kept;
 }
 
 /* Of what is seen of it, square metres. */
@@ -173,31 +182,73 @@ static double area_of(const rlf_reconstruct *stage, const rlf_objects *o, int32_
     return area / (stage->grid.camera.fx * stage->grid.camera.fy);
 }
 
+/* Grows plane `id` until it stays as it is; it is kept when it shows `least_m` squared. */
+static bool settle(rlf_reconstruct *stage, int32_t id, int32_t count, double least_m)
+{
+    rlf_objects *o = stage->objects;
+    rlf_support_plane *plane = &o->plane[id - 1];
+    for (int k = 0; k < REFITS; k++) {
+        count = prune(o, count, plane);
+        count = grow(o, count, id, false, plane);
+    }
+    bool is_support = area_of(stage, o, count, plane) >= least_m * least_m;
+    for (int32_t at = 0; at < count; at++) {
+        rlf_patch *p = &o->patch[o->queue[at]];
+        p->is_used = true;
+        p->plane_id = is_support ? id : 0;
+    }
+    return is_support;
+}
+
+/* The planes of the sheet before, as far as they are seen still. */
+static void follow(rlf_reconstruct *stage)
+{
+    rlf_objects *o = stage->objects;
+    for (int32_t id = 1; id <= o->count; id++) {
+        int32_t count = 0;
+        for (int32_t k = 0; k < o->width * o->height; k++) {
+            if (o->patch[k].was == id && !o->patch[k].is_used) {
+                o->patch[k].plane_id = id;
+                o->queue[count++] = k;
+            }
+        }
+        o->is_seen[id - 1] = count > 0 && settle(stage, id, count, STAYS_M);
+        if (!o->is_seen[id - 1]) {
+            for (int32_t k = 0; k < o->width * o->height; k++) {
+                o->patch[k].is_used = !o->patch[k].is_flat || o->patch[k].plane_id > 0;
+            }
+        }
+    }
+}
+
+/* The first id that no plane has; 0 = none. */
+static int32_t free_id(const rlf_objects *o)
+{
+    for (int32_t k = 0; k < o->count; k++) {
+        if (!o->is_seen[k]) {
+            return k + 1;
+        }
+    }
+    return o->count < RLF_SUPPORTS ? o->count + 1 : 0;
+}
+
 void rlf_supports_find(rlf_reconstruct *stage, const rlf_layer_in *in)
 {
     rlf_objects *o = stage->objects;
     fit_patches(stage, in->depth);
-    o->count = 0;
-    int32_t seed = find_seed(o);
-    for (int32_t tries = 0; seed >= 0 && tries < MOST_TRIES && o->count < RLF_SUPPORTS; tries++) {
-        rlf_support_plane plane = o->patch[seed].plane;
-        rlf_plane_sum sum;
-        int32_t id = o->count + 1;
-        int32_t count = grow(o, seed, id, true, &plane, &sum);
-        for (int k = 0; k < REFITS; k++) {
-            rlf_plane_sum_fit(&sum, &plane);
-            release(o, count);
-            count = grow(o, seed, id, false, &plane, &sum);
+    follow(stage);
+    int32_t seed = find_seed(o), id = free_id(o);
+    for (int32_t tries = 0; seed >= 0 && id > 0 && tries < MOST_TRIES; tries++) {
+        o->plane[id - 1] = o->patch[seed].plane;
+        o->patch[seed].plane_id = id;
+        o->queue[0] = seed;
+        int32_t count = grow(o, 1, id, true, &o->plane[id - 1]);
+        if (settle(stage, id, count, LEAST_SIDE_M)) {
+            o->is_seen[id - 1] = true;
+            o->count = id > o->count ? id : o->count;
+            id = free_id(o);
         }
-        bool is_support = area_of(stage, o, count, &plane) >= LEAST_SIDE_M * LEAST_SIDE_M;
-        for (int32_t at = 0; at < count; at++) {
-            o->patch[o->queue[at]].is_used = true;
-        }
-        if (is_support) {
-            o->plane[o->count++] = plane;
-        } else {
-            release(o, count);
-        }
+        o->patch[seed].is_used = true;
         seed = find_seed(o);
     }
 }

@@ -4,9 +4,8 @@
 
 #include "kernel/kernel.h"
 
-#include <string.h>
-
-static const float ON_SIGMAS = 3.0f;     /* off the plane */
+static const float ON_SIGMAS = 3.0f;     /* off the plane ... */
+static const float WAS_SIGMAS = 4.0f;    /* ... where the sheet before showed it */
 static const float LEAST_COSINE = 0.77f; /* 40 degrees, between a pixel's normal and the plane's */
 
 /* Sets the bits of a line of patches between the first and the last that has them. */
@@ -81,24 +80,25 @@ static uint8_t support_of(const rlf_reconstruct *stage, const rlf_layer_in *in,
 {
     const rlf_grid *grid = &stage->grid;
     float w = 1.0f / in->depth[i];
-    float limit = ON_SIGMAS *
-                  rlf_kernel_inverse_sigma(rlf_kernel_noise_make(&stage->def.rig.noise), w);
-    uint8_t best = 0;
+    float sigma = rlf_kernel_inverse_sigma(rlf_kernel_noise_make(&stage->def.rig.noise), w);
+    float least = WAS_SIGMAS * sigma;
+    int32_t best = 0, before = stage->objects->support[i];
     for (int32_t k = 0; bits != 0; k++, bits >>= 1) {
         const float_plane *p = &planes[k];
         float off = rlf_kernel_abs(w - p->a * grid->ray_x[i] - p->b * grid->ray_y[i] - p->c - bend[k]);
-        if ((bits & 1) == 0 || off > limit) {
+        off += before == k + 1 ? 0.0f : (WAS_SIGMAS - ON_SIGMAS) * sigma;
+        if ((bits & 1) == 0 || off > least) {
             continue;
         }
         float cosine = -(in->normal[0][i] * p->a + in->normal[1][i] * p->b + in->normal[2][i] * p->c);
         bool has_normal = in->normal[0][i] != 0.0f || in->normal[1][i] != 0.0f ||
                           in->normal[2][i] != 0.0f;
         if (!has_normal || cosine >= LEAST_COSINE * p->size) {
-            best = (uint8_t)(k + 1);
-            limit = off;
+            best = k + 1;
+            least = off;
         }
     }
-    return best;
+    return (uint8_t)best;
 }
 
 static void mark_patch(rlf_reconstruct *stage, const rlf_layer_in *in, const float_plane *planes,
@@ -113,11 +113,11 @@ static void mark_patch(rlf_reconstruct *stage, const rlf_layer_in *in, const flo
     for (int32_t p = 0; p < o->count && o->near[k] != 0; p++) {
         bend[p] = o->near[k] >> p & 1 ? bend_at(o, k, p + 1) : 0.0f;
     }
-    for (int32_t y = y0; y < y1 && o->near[k] != 0; y++) {
+    for (int32_t y = y0; y < y1; y++) {
         for (int32_t i = y * grid->width + x0; i < y * grid->width + x1; i++) {
-            if (in->depth[i] > 0.0f) {
-                o->support[i] = support_of(stage, in, planes, o->near[k], bend, i);
-            }
+            o->support[i] = in->depth[i] > 0.0f && o->near[k] != 0
+                                ? support_of(stage, in, planes, o->near[k], bend, i)
+                                : 0;
         }
     }
 }
@@ -132,8 +132,7 @@ void rlf_supports_mark(rlf_reconstruct *stage, const rlf_layer_in *in)
                                   (float)sqrt(p->a * p->a + p->b * p->b + p->c * p->c)};
     }
     find_near(o);
-    memset(o->support, 0, (size_t)stage->grid.count);
-    for (int32_t k = 0; k < o->width * o->height && o->count > 0; k++) {
+    for (int32_t k = 0; k < o->width * o->height; k++) {
         mark_patch(stage, in, planes, k);
     }
 }
