@@ -186,6 +186,7 @@ static void take_objects(rlf_reconstruct *stage)
     o.scratch[1] = take(stage, patches, sizeof *o.scratch[1]);
     o.queue = take(stage, patches, sizeof *o.queue);
     o.sum = take(stage, RLF_OBJECTS_SUMMED, sizeof *o.sum);
+    o.border = take(stage, RLF_BORDERS, sizeof *o.border);
     o.support = take(stage, n, 1);
     o.links = take(stage, n, 1);
     o.distance = take(stage, n, 1);

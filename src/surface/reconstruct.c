@@ -71,7 +71,7 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
     rlf_background_reset(&stage->background, &stage->grid);
     rlf_standing_reset(&stage->background.thick);
     rlf_steady_reset(&stage->steady, stage->grid.count);
-    rlf_objects_reset(stage->objects);
+    rlf_objects_reset(stage->objects, stage->grid.count);
     stage->family.count = 0;
     rlf_past_reset(&stage->past, &stage->grid);
     stage->plates = (rlf_plates){.count = 0};

@@ -34,6 +34,25 @@ static bool is_contact(const rlf_grid *grid, const rlf_layer_in *in, rlf_kernel_
            above * above > LEAST_SLOPE * LEAST_SLOPE * way;
 }
 
+/* Links of pixel i to pixels that are linked still, and were not another thing's. */
+static uint8_t cut_links(const rlf_reconstruct *stage, const rlf_layer_in *in, int32_t i)
+{
+    const uint8_t *links = stage->work.links;
+    int32_t width = stage->grid.width, link = links[i];
+    const int32_t bits[4] = {RLF_LINK_LEFT, RLF_LINK_UP, RLF_LINK_UP_LEFT, RLF_LINK_UP_RIGHT};
+    const int32_t step[4] = {-1, -width, -width - 1, -width + 1};
+    for (int k = 0; k < 4; k++) {
+        if (link & bits[k]) {
+            int32_t j = i + step[k];
+            bool was_one = in->previous_label == NULL || in->previous_label[i] == 0 ||
+                           in->previous_label[j] == 0 ||
+                           in->previous_label[i] == in->previous_label[j];
+            link &= links[j] == 0 || !was_one ? ~bits[k] : ~0;
+        }
+    }
+    return (uint8_t)link;
+}
+
 void rlf_contacts_cut(rlf_reconstruct *stage, const rlf_layer_in *in)
 {
     const rlf_grid *grid = &stage->grid;
@@ -56,12 +75,7 @@ void rlf_contacts_cut(rlf_reconstruct *stage, const rlf_layer_in *in)
             links[i] = is_cut ? 0 : links[i];
         }
     }
-    for (int32_t i = grid->count - 1; i >= 0; i--) {
-        int32_t x = i % width, link = links[i];
-        link &= x > 0 && links[i - 1] == 0 ? ~RLF_LINK_LEFT : 255;
-        link &= i >= width && links[i - width] == 0 ? ~RLF_LINK_UP : 255;
-        link &= i >= width && x > 0 && links[i - width - 1] == 0 ? ~RLF_LINK_UP_LEFT : 255;
-        link &= i >= width && x + 1 < width && links[i - width + 1] == 0 ? ~RLF_LINK_UP_RIGHT : 255;
-        links[i] = (uint8_t)link;
+    for (int32_t i = 0; i < grid->count; i++) {
+        links[i] = links[i] != 0 ? cut_links(stage, in, i) : 0;
     }
 }

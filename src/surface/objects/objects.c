@@ -14,12 +14,12 @@ rlf_objects rlf_objects_layout(const rlf_grid *grid)
     return o;
 }
 
-void rlf_objects_reset(rlf_objects *objects)
+void rlf_objects_reset(rlf_objects *objects, int32_t count)
 {
-    for (int32_t k = 0; objects != NULL && k < objects->width * objects->height; k++) {
-        objects->patch[k] = (rlf_patch){0};
-    }
     if (objects != NULL) {
+        memset(objects->patch, 0,
+               (size_t)(objects->width * objects->height) * sizeof *objects->patch);
+        memset(objects->support, 0, (size_t)count);
         objects->count = 0;
     }
 }
@@ -112,7 +112,7 @@ int32_t rlf_objects_find(rlf_reconstruct *stage, const rlf_layer_in *in)
     int32_t components = number_pixels(stage);
     grow(stage, in->depth, false);
     grow(stage, in->depth, true);
-    rlf_hollows_join(stage, in, components);
+    rlf_objects_join(stage, in, components);
     rlf_runs_find(stage, work->component);
     memset(work->size, 0, (size_t)(components + 1) * sizeof *work->size);
     for (int32_t r = 0; r < work->runs.first[stage->grid.height]; r++) {

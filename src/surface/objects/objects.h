@@ -36,14 +36,23 @@ enum { RLF_SUPPORTS = 16 };
 /* What is known of a thing. */
 typedef struct rlf_object_sum {
     double count, p[3], n[3];
-    double along, square;             /* of point . normal, and of point . point */
-    int32_t border, shared, votes;    /* pixels: of its border, and of that with `neighbour` */
-    int32_t neighbour;                /* the thing that most of its border is with; 0 = none */
-    bool is_hollow;
+    double along, square;  /* of point . normal, and of point . point */
+    int32_t border;        /* pixels of it */
+    int32_t neighbour;     /* the thing that most of it is with; 0 = none */
+    int32_t shared;        /* pixels of that part ... */
+    int32_t was_one;       /* ... where both had the same label */
 } rlf_object_sum;
 
-/* Most numbers of things that are looked at so. */
-enum { RLF_OBJECTS_SUMMED = 1024 };
+/* Neighbouring pixels of two numbers, a < b; a = 0: this entry is free. */
+typedef struct rlf_border {
+    int32_t a, b;
+    int32_t pixels;  /* pairs of them ... */
+    int32_t open;    /* ... that nothing parts */
+    int32_t was_one; /* ... that had the same label */
+} rlf_border;
+
+/* Most numbers of things that are looked at so, and most pairs of them. */
+enum { RLF_OBJECTS_SUMMED = 1024, RLF_BORDERS = 4096 };
 
 typedef struct rlf_objects {
     int32_t side;          /* of a patch, pixels */
@@ -56,6 +65,7 @@ typedef struct rlf_objects {
     uint8_t *links;       /* plane: RLF_LINK_ bits before things are cut */
     uint8_t *distance;    /* plane: pixels from what has a number */
     rlf_object_sum *sum;   /* RLF_OBJECTS_SUMMED */
+    rlf_border *border;    /* RLF_BORDERS */
     rlf_support_plane plane[RLF_SUPPORTS];
     bool is_seen[RLF_SUPPORTS];
     int32_t count; /* of planes; some may be seen no more */
@@ -63,8 +73,8 @@ typedef struct rlf_objects {
 
 /* objects.c: side and extent of the patches of a grid. */
 rlf_objects rlf_objects_layout(const rlf_grid *grid);
-/* Forgets the sheet before. */
-void rlf_objects_reset(rlf_objects *objects);
+/* Forgets the sheet before, of `count` pixels. */
+void rlf_objects_reset(rlf_objects *objects, int32_t count);
 
 /* planes.c */
 void rlf_plane_sum_add(rlf_plane_sum *sum, const rlf_plane_sum *other);
@@ -80,8 +90,8 @@ void rlf_supports_mark(rlf_reconstruct *stage, const rlf_layer_in *in);
 /* contact.c: takes pixels out of work.links where things touch, and on the support planes. */
 void rlf_contacts_cut(rlf_reconstruct *stage, const rlf_layer_in *in);
 
-/* hollow.c: joins the insides of things to their outsides, in work.component. */
-void rlf_hollows_join(rlf_reconstruct *stage, const rlf_layer_in *in, int32_t components);
+/* join.c: gives things that are one the same number, in work.component. */
+void rlf_objects_join(rlf_reconstruct *stage, const rlf_layer_in *in, int32_t components);
 
 /* objects.c: components of a layer into work.runs, as rlf_components_find does. */
 int32_t rlf_objects_find(rlf_reconstruct *stage, const rlf_layer_in *in);
