@@ -5,12 +5,14 @@
  * step or a concave edge parts from its outside. */
 #include "surface/objects/objects.h"
 
+#include <math.h>
 #include <string.h>
 
 static const double LEAST_OPEN = 0.5;    /* of a border, where nothing parts two that are one */
 static const double LEAST_SHARE = 0.25;  /* of what is about a hollow thing, its outside's */
-/* Covariance of points and normals, per spread of the points; it is -0.6 inside half a sphere. */
-static const double HOLLOW = -0.2, WAS_HOLLOW = -0.1;
+/* Convexity of an inside, that was parted from its outside or not, and of an outside. It is 0.6 of
+ * half a ball, and as much below 0 inside of it. */
+static const double HOLLOW = -0.2, WAS_HOLLOW = -0.1, OUTSIDE = 0.1;
 
 /* The entry of things a < b; NULL = there is no room. Open addressing. */
 static rlf_border *find_border(rlf_objects *o, int32_t a, int32_t b)
@@ -121,8 +123,8 @@ static void add_points(rlf_reconstruct *stage, const rlf_layer_in *in)
     }
 }
 
-/* Whether normals converge by more than `least`, which is negative. */
-static bool is_hollow(const rlf_object_sum *s, double least)
+/* Covariance of points and normals, per spread of the points: > 0 of what is convex. */
+static double convexity(const rlf_object_sum *s)
 {
     double inv = s->count > 0.0 ? 1.0 / s->count : 0.0;
     double along = s->along * inv, spread = s->square * inv;
@@ -130,7 +132,7 @@ static bool is_hollow(const rlf_object_sum *s, double least)
         along -= s->p[k] * s->n[k] * inv * inv;
         spread -= s->p[k] * s->p[k] * inv * inv;
     }
-    return s->count > 0.0 && along < 0.0 && along * along > least * least * rlf_max(spread, 0.0);
+    return spread > 0.0 ? along / sqrt(spread) : 0.0;
 }
 
 /* The border counts for its thing `own`. */
@@ -139,7 +141,7 @@ static void meet(rlf_objects *o, const rlf_border *border, int32_t own, int32_t 
     if (own > o->count && own < RLF_OBJECTS_SUMMED) {
         rlf_object_sum *s = &o->sum[own];
         s->border += border->pixels;
-        if (other > o->count && border->pixels > s->shared) {
+        if (other > o->count && border->pixels + border->was_one > s->shared + s->was_one) {
             s->shared = border->pixels;
             s->was_one = border->was_one;
             s->neighbour = other;
@@ -158,14 +160,13 @@ static void join_hollow(rlf_reconstruct *stage, int32_t components)
         }
     }
     for (int32_t c = 0; c <= components; c++) {
-        const rlf_object_sum *s = c < RLF_OBJECTS_SUMMED ? &o->sum[c] : NULL;
-        stage->work.map[c] = c;
-        if (s != NULL && s->shared > 0 && s->shared >= LEAST_SHARE * s->border &&
-            is_hollow(s, 2 * s->was_one > s->shared ? WAS_HOLLOW : HOLLOW)) {
-            int32_t to = s->neighbour;
-            bool is_outside = to >= RLF_OBJECTS_SUMMED || !is_hollow(&o->sum[to], WAS_HOLLOW);
-            stage->work.map[c] = is_outside ? to : c;
-        }
+        const rlf_object_sum *s = c < RLF_OBJECTS_SUMMED ? &o->sum[c] : &o->sum[0];
+        bool has_outside = s->shared > 0 && s->neighbour < RLF_OBJECTS_SUMMED &&
+                           s->shared >= LEAST_SHARE * s->border &&
+                           convexity(&o->sum[s->neighbour]) > OUTSIDE;
+        bool was_one = 2 * s->was_one > s->shared;
+        bool is_inside = has_outside && convexity(s) < (was_one ? WAS_HOLLOW : HOLLOW);
+        stage->work.map[c] = is_inside ? s->neighbour : c;
     }
     renumber(stage, components);
 }
