@@ -5,7 +5,7 @@
 
 #include "kernel/kernel.h"
 
-static const float SIGMAS = 2.0f;       /* in front of the other's tangent plane ... */
+static const float SIGMAS = 4.0f;       /* in front of the other's tangent plane ... */
 static const float LEAST_SLOPE = 0.25f; /* ... and by this much of the way between them */
 /* What was one thing, or two, in the sheet before needs more to become another. */
 static const float WAS_ONE = 1.4f, WAS_TWO = 0.7f;
