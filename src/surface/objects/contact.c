@@ -53,29 +53,52 @@ static uint8_t cut_links(const rlf_reconstruct *stage, const rlf_layer_in *in, i
     return (uint8_t)link;
 }
 
-void rlf_contacts_cut(rlf_reconstruct *stage, const rlf_layer_in *in)
+typedef struct contact_job {
+    rlf_reconstruct *stage;
+    const rlf_layer_in *in;
+    rlf_kernel_noise noise;
+    int32_t reach; /* pixels, from a contact to both sides */
+} contact_job;
+
+/* Two things meet at pixel i = (x, y), across or down. */
+static bool is_cut(const contact_job *job, int32_t i, int32_t x, int32_t y)
 {
-    const rlf_grid *grid = &stage->grid;
-    rlf_objects *o = stage->objects;
-    rlf_kernel_noise noise = rlf_kernel_noise_make(&stage->def.rig.noise);
-    int32_t reach = o->side / 2, width = grid->width;
-    uint8_t *links = stage->work.links;
-    for (int32_t y = 0; y < grid->height; y++) {
+    const rlf_grid *grid = &job->stage->grid;
+    const uint8_t *support = job->stage->objects->support;
+    int32_t across = job->reach, down = job->reach * grid->width;
+    bool is_wide = x >= job->reach && x + job->reach < grid->width &&
+                   support[i - across] + support[i + across] == 0;
+    bool is_high = y >= job->reach && y + job->reach < grid->height &&
+                   support[i - down] + support[i + down] == 0;
+    return (is_wide && is_contact(grid, job->in, job->noise, i - across, i + across)) ||
+           (is_high && is_contact(grid, job->in, job->noise, i - down, i + down));
+}
+
+static void cut_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const contact_job *job = context;
+    int32_t width = job->stage->grid.width;
+    uint8_t *links = job->stage->work.links;
+    for (int32_t y = begin; y < end; y++) {
         for (int32_t x = 0; x < width; x++) {
             int32_t i = y * width + x;
-            bool is_cut = o->support[i] != 0;
-            if (!is_cut && (links[i] & RLF_LINK_MEMBER)) {
-                is_cut = (x >= reach && x + reach < width &&
-                          o->support[i - reach] + o->support[i + reach] == 0 &&
-                          is_contact(grid, in, noise, i - reach, i + reach)) ||
-                         (y >= reach && y + reach < grid->height &&
-                          o->support[i - reach * width] + o->support[i + reach * width] == 0 &&
-                          is_contact(grid, in, noise, i - reach * width, i + reach * width));
-            }
-            links[i] = is_cut ? 0 : links[i];
+            bool is_off =
+                job->stage->objects->support[i] != 0 || (links[i] != 0 && is_cut(job, i, x, y));
+            links[i] = is_off ? 0 : links[i];
         }
     }
-    for (int32_t i = 0; i < grid->count; i++) {
+}
+
+void rlf_contacts_cut(rlf_reconstruct *stage, const rlf_layer_in *in)
+{
+    contact_job job = {.stage = stage,
+                       .in = in,
+                       .noise = rlf_kernel_noise_make(&stage->def.rig.noise),
+                       .reach = stage->objects->side / 2};
+    rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, cut_rows, &job);
+    uint8_t *links = stage->work.links;
+    for (int32_t i = 0; i < stage->grid.count; i++) {
         links[i] = links[i] != 0 ? cut_links(stage, in, i) : 0;
     }
 }

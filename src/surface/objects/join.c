@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-static const double LEAST_OPEN = 0.5;    /* of a border, where nothing parts two that are one */
-static const double LEAST_SHARE = 0.25;  /* of what is about a hollow thing, its outside's */
+static const double LEAST_OPEN = 0.5;   /* of a border, where nothing parts two that are one */
+static const double LEAST_SHARE = 0.25; /* of what is about a hollow thing, its outside's */
 /* Convexity of an inside, that was parted from its outside or not, and of an outside. It is 0.6 of
  * half a ball, and as much below 0 inside of it. */
 static const double HOLLOW = -0.2, WAS_HOLLOW = -0.1, OUTSIDE = 0.1;
@@ -41,8 +41,8 @@ static void add_border(rlf_reconstruct *stage, const rlf_layer_in *in, int32_t i
         bool is_cut = stage->work.links[i] == 0 || stage->work.links[j] == 0;
         border->pixels++;
         border->open += (o->links[i] & bit) != 0 && !is_cut ? 1 : 0;
-        border->was_one += in->previous_label != NULL &&
-                           in->previous_label[i] == in->previous_label[j] ? 1 : 0;
+        border->was_one +=
+            in->previous_label != NULL && in->previous_label[i] == in->previous_label[j] ? 1 : 0;
     }
 }
 
@@ -100,25 +100,32 @@ static void join_open(rlf_reconstruct *stage, int32_t components)
     renumber(stage, components);
 }
 
+static void add_point(rlf_reconstruct *stage, const rlf_layer_in *in, int32_t i)
+{
+    int32_t c = stage->work.component[i];
+    if (c <= stage->objects->count || c >= RLF_OBJECTS_SUMMED) {
+        return;
+    }
+    rlf_object_sum *s = &stage->objects->sum[c];
+    double z = in->depth[i];
+    const double p[3] = {z * stage->grid.ray_x[i], z * stage->grid.ray_y[i], z};
+    s->count += 1.0;
+    for (int k = 0; k < 3; k++) {
+        double n = in->normal[k][i];
+        s->p[k] += p[k];
+        s->n[k] += n;
+        s->along += p[k] * n;
+        s->square += p[k] * p[k];
+    }
+}
+
 static void add_points(rlf_reconstruct *stage, const rlf_layer_in *in)
 {
-    const rlf_grid *grid = &stage->grid;
+    int32_t stride = stage->objects->stride;
     memset(stage->objects->sum, 0, RLF_OBJECTS_SUMMED * sizeof *stage->objects->sum);
-    for (int32_t i = 0; i < grid->count; i++) {
-        int32_t c = stage->work.component[i];
-        if (c <= stage->objects->count || c >= RLF_OBJECTS_SUMMED) {
-            continue;
-        }
-        rlf_object_sum *s = &stage->objects->sum[c];
-        double z = in->depth[i];
-        const double p[3] = {z * grid->ray_x[i], z * grid->ray_y[i], z};
-        s->count += 1.0;
-        for (int k = 0; k < 3; k++) {
-            double n = in->normal[k][i];
-            s->p[k] += p[k];
-            s->n[k] += n;
-            s->along += p[k] * n;
-            s->square += p[k] * p[k];
+    for (int32_t y = 0; y < stage->grid.height; y += stride) {
+        for (int32_t x = 0; x < stage->grid.width; x += stride) {
+            add_point(stage, in, y * stage->grid.width + x);
         }
     }
 }

@@ -9,6 +9,7 @@ rlf_objects rlf_objects_layout(const rlf_grid *grid)
 {
     rlf_objects o = {.side = 2 * ((grid->width + 2 * PATCHES - 1) / (2 * PATCHES))};
     o.side = o.side < 4 ? 4 : o.side;
+    o.stride = o.side / 4;
     o.width = (grid->width + o.side - 1) / o.side;
     o.height = (grid->height + o.side - 1) / o.side;
     return o;
@@ -55,47 +56,50 @@ static int32_t number_pixels(rlf_reconstruct *stage)
 }
 
 /* Pixel i takes the number of pixel j when that is nearer to where it came from. */
-static void spread(rlf_reconstruct *stage, int32_t i, int32_t j, bool is_linked, bool any)
+static void spread(rlf_reconstruct *stage, int32_t i, int32_t j, int32_t link, int32_t least)
 {
     uint8_t *distance = stage->objects->distance;
     int32_t *number = stage->work.component;
-    if (number[j] > stage->objects->count || (any && number[j] > 0)) {
-        if ((is_linked || any) && distance[j] + 1 < distance[i]) {
-            distance[i] = (uint8_t)(distance[j] + 1);
-            number[i] = number[j];
-        }
+    if (number[j] >= least && link != 0 && distance[j] + 1 < distance[i]) {
+        distance[i] = (uint8_t)(distance[j] + 1);
+        number[i] = number[j];
     }
 }
 
-/* Pixels without a number take the nearest over links, two passes of a distance transform (Rosenfeld
- * and Pfaltz 1966); any: over valid pixels. */
-static void grow(rlf_reconstruct *stage, const float *depth, bool any)
+static void spread_to(rlf_reconstruct *stage, int32_t i, bool is_back, int32_t least)
 {
-    const rlf_objects *o = stage->objects;
-    int32_t width = stage->grid.width, count = stage->grid.count;
-    for (int32_t i = 0; i < count; i++) {
-        o->distance[i] = stage->work.component[i] > 0 ? 0 : 254;
+    const uint8_t *links = stage->objects->links;
+    int32_t width = stage->grid.width, x = i % width;
+    if (!is_back && x > 0) {
+        spread(stage, i, i - 1, least > 1 ? links[i] & RLF_LINK_LEFT : 1, least);
     }
-    for (int32_t pass = 0; pass < 4; pass++) {
+    if (!is_back && i >= width) {
+        spread(stage, i, i - width, least > 1 ? links[i] & RLF_LINK_UP : 1, least);
+    }
+    if (is_back && x + 1 < width) {
+        spread(stage, i, i + 1, least > 1 ? links[i + 1] & RLF_LINK_LEFT : 1, least);
+    }
+    if (is_back && i + width < stage->grid.count) {
+        spread(stage, i, i + width, least > 1 ? links[i + width] & RLF_LINK_UP : 1, least);
+    }
+}
+
+/* Seen pixels without a number take the nearest one from `least` on, in passes of a distance
+ * transform (Rosenfeld and Pfaltz 1966): over links, or over anything from 1 on. */
+static void grow(rlf_reconstruct *stage, const float *depth, int32_t least)
+{
+    enum { PASSES = 4, FAR = 254 };
+    int32_t *pixel = stage->work.parent, count = 0;
+    for (int32_t i = 0; i < stage->grid.count; i++) {
+        bool is_open = stage->work.component[i] == 0 && depth[i] > 0.0f;
+        stage->objects->distance[i] = stage->work.component[i] > 0 ? 0 : FAR;
+        pixel[count] = i;
+        count += is_open ? 1 : 0;
+    }
+    for (int32_t pass = 0; pass < PASSES; pass++) {
         for (int32_t k = 0; k < count; k++) {
-            bool back = pass % 2 == 1;
-            int32_t i = back ? count - 1 - k : k;
-            if (o->distance[i] <= 1 || !(depth[i] > 0.0f)) {
-                continue;
-            }
-            int32_t x = i % width;
-            if (!back && x > 0) {
-                spread(stage, i, i - 1, o->links[i] & RLF_LINK_LEFT, any);
-            }
-            if (!back && i >= width) {
-                spread(stage, i, i - width, o->links[i] & RLF_LINK_UP, any);
-            }
-            if (back && x + 1 < width) {
-                spread(stage, i, i + 1, o->links[i + 1] & RLF_LINK_LEFT, any);
-            }
-            if (back && i + width < count) {
-                spread(stage, i, i + width, o->links[i + width] & RLF_LINK_UP, any);
-            }
+            bool is_back = pass % 2 == 1;
+            spread_to(stage, pixel[is_back ? count - 1 - k : k], is_back, least);
         }
     }
 }
@@ -110,8 +114,8 @@ int32_t rlf_objects_find(rlf_reconstruct *stage, const rlf_layer_in *in)
     rlf_contacts_cut(stage, in);
     rlf_components_find(stage, in->spans);
     int32_t components = number_pixels(stage);
-    grow(stage, in->depth, false);
-    grow(stage, in->depth, true);
+    grow(stage, in->depth, stage->objects->count + 1);
+    grow(stage, in->depth, 1);
     rlf_objects_join(stage, in, components);
     rlf_runs_find(stage, work->component);
     memset(work->size, 0, (size_t)(components + 1) * sizeof *work->size);

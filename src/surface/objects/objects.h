@@ -23,24 +23,24 @@ typedef struct rlf_support_plane {
 typedef struct rlf_patch {
     rlf_plane_sum sum;
     rlf_support_plane plane;
-    double sigma; /* of the sensor's inverse depth here */
+    double sigma;     /* of the sensor's inverse depth here */
     double off;       /* inverse depth of its middle, off its support plane */
     int32_t plane_id; /* its support plane, from 1; 0 = none */
     int32_t was;      /* the same in the sheet before */
     bool is_flat, is_used;
 } rlf_patch;
 
-/* Most support planes of one sheet. */
-enum { RLF_SUPPORTS = 16 };
+/* Most support planes of one sheet, and rows of patches per chunk of a parallel loop. */
+enum { RLF_SUPPORTS = 16, RLF_PATCH_GRAIN = 4 };
 
 /* What is known of a thing. */
 typedef struct rlf_object_sum {
     double count, p[3], n[3];
-    double along, square;  /* of point . normal, and of point . point */
-    int32_t border;        /* pixels of it */
-    int32_t neighbour;     /* the thing that most of it is with; 0 = none */
-    int32_t shared;        /* pixels of that part ... */
-    int32_t was_one;       /* ... where both had the same label */
+    double along, square; /* of point . normal, and of point . point */
+    int32_t border;       /* pixels of it */
+    int32_t neighbour;    /* the thing that most of it is with; 0 = none */
+    int32_t shared;       /* pixels of that part ... */
+    int32_t was_one;      /* ... where both had the same label */
 } rlf_object_sum;
 
 /* Neighbouring pixels of two numbers, a < b; a = 0: this entry is free. */
@@ -56,6 +56,7 @@ enum { RLF_OBJECTS_SUMMED = 1024, RLF_BORDERS = 4096 };
 
 typedef struct rlf_objects {
     int32_t side;          /* of a patch, pixels */
+    int32_t stride;        /* of the pixels that sums are made of */
     int32_t width, height; /* in patches */
     rlf_patch *patch;
     uint32_t *near;       /* per patch: a bit for each support plane that may be seen there */
@@ -64,8 +65,8 @@ typedef struct rlf_objects {
     uint8_t *support;     /* plane of pixels: of which support plane, from 1; 0 = of none */
     uint8_t *links;       /* plane: RLF_LINK_ bits before things are cut */
     uint8_t *distance;    /* plane: pixels from what has a number */
-    rlf_object_sum *sum;   /* RLF_OBJECTS_SUMMED */
-    rlf_border *border;    /* RLF_BORDERS */
+    rlf_object_sum *sum;  /* RLF_OBJECTS_SUMMED */
+    rlf_border *border;   /* RLF_BORDERS */
     rlf_support_plane plane[RLF_SUPPORTS];
     bool is_seen[RLF_SUPPORTS];
     int32_t count; /* of planes; some may be seen no more */

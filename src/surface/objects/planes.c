@@ -52,11 +52,15 @@ double rlf_support_cosine(const rlf_support_plane *p, const rlf_support_plane *q
     return pp > 0.0 && qq > 0.0 ? pq / sqrt(pp * qq) : 0.0;
 }
 
-static rlf_plane_sum sum_patch(const rlf_grid *grid, const float *depth, rlf_rect r)
+/* Of every `stride`-th pixel both ways; *asked is how many these are. */
+static rlf_plane_sum sum_patch(const rlf_grid *grid, const float *depth, rlf_rect r, int32_t stride,
+                               int32_t *asked)
 {
     rlf_plane_sum sum = {0};
-    for (int32_t y = r.y0; y < r.y1; y++) {
-        for (int32_t i = y * grid->width + r.x0; i < y * grid->width + r.x1; i++) {
+    *asked = 0;
+    for (int32_t y = r.y0; y < r.y1; y += stride) {
+        for (int32_t x = r.x0; x < r.x1; x += stride, ++*asked) {
+            int32_t i = y * grid->width + x;
             if (depth[i] > 0.0f) {
                 double rx = grid->ray_x[i], ry = grid->ray_y[i], w = 1.0 / (double)depth[i];
                 const rlf_plane_sum one = {1.0,     rx,      ry,     w,      rx * rx,
@@ -68,24 +72,36 @@ static rlf_plane_sum sum_patch(const rlf_grid *grid, const float *depth, rlf_rec
     return sum;
 }
 
-static void fit_patches(rlf_reconstruct *stage, const float *depth)
+static void fit_patch(rlf_reconstruct *stage, const float *depth, int32_t k)
 {
-    rlf_objects *o = stage->objects;
+    const rlf_objects *o = stage->objects;
     const rlf_grid *grid = &stage->grid;
-    for (int32_t k = 0; k < o->width * o->height; k++) {
-        rlf_patch *p = &o->patch[k];
-        int32_t x = k % o->width * o->side, y = k / o->width * o->side;
-        const rlf_rect r = {x, y, x + o->side < grid->width ? x + o->side : grid->width,
-                            y + o->side < grid->height ? y + o->side : grid->height};
-        *p = (rlf_patch){.sum = sum_patch(grid, depth, r), .was = p->plane_id};
-        int32_t area = (r.x1 - r.x0) * (r.y1 - r.y0);
-        p->is_used = true;
-        if (2.0 * p->sum.count >= area && rlf_plane_sum_fit(&p->sum, &p->plane)) {
-            double z = p->sum.count / p->sum.w;
-            p->sigma = rlf_depth_noise_sigma(&stage->def.rig.noise, z) / (z * z);
-            p->is_flat = p->plane.variance <= FLAT_SIGMAS * FLAT_SIGMAS * p->sigma * p->sigma;
-            p->is_used = !p->is_flat;
-        }
+    rlf_patch *p = &o->patch[k];
+    int32_t x = k % o->width * o->side, y = k / o->width * o->side, asked = 0;
+    const rlf_rect r = {x, y, x + o->side < grid->width ? x + o->side : grid->width,
+                        y + o->side < grid->height ? y + o->side : grid->height};
+    *p = (rlf_patch){.sum = sum_patch(grid, depth, r, o->stride, &asked), .was = p->plane_id};
+    p->is_used = true;
+    if (2.0 * p->sum.count >= asked && rlf_plane_sum_fit(&p->sum, &p->plane)) {
+        double z = p->sum.count / p->sum.w;
+        p->sigma = rlf_depth_noise_sigma(&stage->def.rig.noise, z) / (z * z);
+        p->is_flat = p->plane.variance <= FLAT_SIGMAS * FLAT_SIGMAS * p->sigma * p->sigma;
+        p->is_used = !p->is_flat;
+    }
+}
+
+typedef struct fit_job {
+    rlf_reconstruct *stage;
+    const float *depth;
+} fit_job;
+
+static void fit_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const fit_job *job = context;
+    int32_t width = job->stage->objects->width;
+    for (int32_t k = begin * width; k < end * width; k++) {
+        fit_patch(job->stage, job->depth, k);
     }
 }
 
@@ -136,12 +152,10 @@ static int32_t grow(rlf_objects *o, int32_t count, int32_t id, bool refit, rlf_s
         }
         o->patch[k].off = off_plane(&o->patch[k], plane);
         const int32_t next[4] = {x > 0 ? k - 1 : -1, x + 1 < o->width ? k + 1 : -1,
-                                 y > 0 ? k - o->width : -1,
-                                 y + 1 < o->height ? k + o->width : -1};
+                                 y > 0 ? k - o->width : -1, y + 1 < o->height ? k + o->width : -1};
         for (int n = 0; n < 4; n++) {
             rlf_patch *p = next[n] >= 0 ? &o->patch[next[n]] : NULL;
-            if (p != NULL && !p->is_used && p->plane_id == 0 &&
-                is_on(p, plane, o->patch[k].off)) {
+            if (p != NULL && !p->is_used && p->plane_id == 0 && is_on(p, plane, o->patch[k].off)) {
                 p->plane_id = id;
                 o->queue[count++] = next[n];
             }
@@ -179,7 +193,8 @@ static double area_of(const rlf_reconstruct *stage, const rlf_objects *o, int32_
         /* n . ray = distance / z, and 1 / size is the plane's distance. */
         area += s->count * z * z * z * size;
     }
-    return area / (stage->grid.camera.fx * stage->grid.camera.fy);
+    double pixels = (double)o->stride * o->stride; /* that each sample stands for */
+    return pixels * area / (stage->grid.camera.fx * stage->grid.camera.fy);
 }
 
 /* Grows plane `id` until it stays as it is; it is kept when it shows `least_m` squared. */
@@ -235,7 +250,8 @@ static int32_t free_id(const rlf_objects *o)
 void rlf_supports_find(rlf_reconstruct *stage, const rlf_layer_in *in)
 {
     rlf_objects *o = stage->objects;
-    fit_patches(stage, in->depth);
+    fit_job job = {stage, in->depth};
+    rlf_parallel_for(stage->def.pool, o->height, RLF_PATCH_GRAIN, fit_rows, &job);
     follow(stage);
     int32_t seed = find_seed(o), id = free_id(o);
     for (int32_t tries = 0; seed >= 0 && id > 0 && tries < MOST_TRIES; tries++) {

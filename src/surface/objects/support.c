@@ -75,8 +75,7 @@ typedef struct float_plane {
 
 /* The plane of `bits` that pixel i is on; 0 = of none. */
 static uint8_t support_of(const rlf_reconstruct *stage, const rlf_layer_in *in,
-                          const float_plane *planes, uint32_t bits, const float *bend,
-                          int32_t i)
+                          const float_plane *planes, uint32_t bits, const float *bend, int32_t i)
 {
     const rlf_grid *grid = &stage->grid;
     float w = 1.0f / in->depth[i];
@@ -85,14 +84,16 @@ static uint8_t support_of(const rlf_reconstruct *stage, const rlf_layer_in *in,
     int32_t best = 0, before = stage->objects->support[i];
     for (int32_t k = 0; bits != 0; k++, bits >>= 1) {
         const float_plane *p = &planes[k];
-        float off = rlf_kernel_abs(w - p->a * grid->ray_x[i] - p->b * grid->ray_y[i] - p->c - bend[k]);
+        float off =
+            rlf_kernel_abs(w - p->a * grid->ray_x[i] - p->b * grid->ray_y[i] - p->c - bend[k]);
         off += before == k + 1 ? 0.0f : (WAS_SIGMAS - ON_SIGMAS) * sigma;
         if ((bits & 1) == 0 || off > least) {
             continue;
         }
-        float cosine = -(in->normal[0][i] * p->a + in->normal[1][i] * p->b + in->normal[2][i] * p->c);
-        bool has_normal = in->normal[0][i] != 0.0f || in->normal[1][i] != 0.0f ||
-                          in->normal[2][i] != 0.0f;
+        float cosine =
+            -(in->normal[0][i] * p->a + in->normal[1][i] * p->b + in->normal[2][i] * p->c);
+        bool has_normal =
+            in->normal[0][i] != 0.0f || in->normal[1][i] != 0.0f || in->normal[2][i] != 0.0f;
         if (!has_normal || cosine >= LEAST_COSINE * p->size) {
             best = k + 1;
             least = off;
@@ -101,11 +102,16 @@ static uint8_t support_of(const rlf_reconstruct *stage, const rlf_layer_in *in,
     return (uint8_t)best;
 }
 
-static void mark_patch(rlf_reconstruct *stage, const rlf_layer_in *in, const float_plane *planes,
-                       int32_t k)
+typedef struct mark_job {
+    rlf_reconstruct *stage;
+    const rlf_layer_in *in;
+    float_plane planes[RLF_SUPPORTS];
+} mark_job;
+
+static void mark_patch(const mark_job *job, int32_t k)
 {
-    const rlf_objects *o = stage->objects;
-    const rlf_grid *grid = &stage->grid;
+    const rlf_objects *o = job->stage->objects;
+    const rlf_grid *grid = &job->stage->grid;
     int32_t x0 = k % o->width * o->side, y0 = k / o->width * o->side;
     int32_t x1 = x0 + o->side < grid->width ? x0 + o->side : grid->width;
     int32_t y1 = y0 + o->side < grid->height ? y0 + o->side : grid->height;
@@ -115,24 +121,32 @@ static void mark_patch(rlf_reconstruct *stage, const rlf_layer_in *in, const flo
     }
     for (int32_t y = y0; y < y1; y++) {
         for (int32_t i = y * grid->width + x0; i < y * grid->width + x1; i++) {
-            o->support[i] = in->depth[i] > 0.0f && o->near[k] != 0
-                                ? support_of(stage, in, planes, o->near[k], bend, i)
+            o->support[i] = job->in->depth[i] > 0.0f && o->near[k] != 0
+                                ? support_of(job->stage, job->in, job->planes, o->near[k], bend, i)
                                 : 0;
         }
+    }
+}
+
+static void mark_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    const mark_job *job = context;
+    int32_t width = job->stage->objects->width;
+    for (int32_t k = begin * width; k < end * width; k++) {
+        mark_patch(job, k);
     }
 }
 
 void rlf_supports_mark(rlf_reconstruct *stage, const rlf_layer_in *in)
 {
     rlf_objects *o = stage->objects;
-    float_plane planes[RLF_SUPPORTS];
+    mark_job job = {.stage = stage, .in = in};
     for (int32_t k = 0; k < o->count; k++) {
         const rlf_support_plane *p = &o->plane[k];
-        planes[k] = (float_plane){(float)p->a, (float)p->b, (float)p->c,
-                                  (float)sqrt(p->a * p->a + p->b * p->b + p->c * p->c)};
+        job.planes[k] = (float_plane){(float)p->a, (float)p->b, (float)p->c,
+                                      (float)sqrt(p->a * p->a + p->b * p->b + p->c * p->c)};
     }
     find_near(o);
-    for (int32_t k = 0; k < o->width * o->height; k++) {
-        mark_patch(stage, in, planes, k);
-    }
+    rlf_parallel_for(stage->def.pool, o->height, RLF_PATCH_GRAIN, mark_rows, &job);
 }
