@@ -120,6 +120,8 @@ void rlf_normals_crease(const rlf_reconstruct *stage, const rlf_slot *slot);
  * from 1 in raster order. work.size holds their pixel counts. `spans`: where the members of each
  * row are; NULL = anywhere. Returns their number. */
 int32_t rlf_components_find(const rlf_reconstruct *stage, const rlf_span *spans);
+/* Runs of equal numbers of a plane, into work.runs. */
+void rlf_runs_find(rlf_reconstruct *stage, const int32_t *number);
 
 /* ---- segment/segment.c ---- */
 /* Writes work.links from depth and (when not NULL) the members' mask, within the spans. */
@@ -162,9 +164,6 @@ typedef struct rlf_layer_in {
     int32_t previous_count;
     int64_t elapsed_ns; /* since then */
 } rlf_layer_in;
-
-/* Runs of equal numbers of a plane, into work.runs. */
-void rlf_runs_find(rlf_reconstruct *stage, const int32_t *number);
 
 typedef struct rlf_layer_out {
     rlf_region *regions; /* region_capacity */

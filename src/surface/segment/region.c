@@ -4,27 +4,6 @@
 
 #include <string.h>
 
-void rlf_runs_find(rlf_reconstruct *stage, const int32_t *number)
-{
-    const rlf_runs *runs = &stage->work.runs;
-    int32_t width = stage->grid.width, count = 0;
-    for (int32_t y = 0; y < stage->grid.height; y++) {
-        const int32_t *row = number + (ptrdiff_t)y * width;
-        runs->first[y] = count;
-        for (int32_t x = 0; x < width; x++) {
-            if (row[x] == 0) {
-                continue;
-            }
-            if (x > 0 && row[x] == row[x - 1]) {
-                runs->run[count - 1].x1 = x + 1;
-            } else {
-                runs->run[count++] = (rlf_run){x, x + 1, row[x]};
-            }
-        }
-    }
-    runs->first[stage->grid.height] = count;
-}
-
 /* Everything is one component. */
 static int32_t find_single(rlf_reconstruct *stage, const rlf_layer_in *in)
 {
