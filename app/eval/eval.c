@@ -4,6 +4,7 @@
 #include "eval/oracle.h"
 #include "eval/picture.h"
 #include "eval/random/random.h"
+#include "eval/real/real.h"
 #include "eval/report.h"
 #include "eval/run.h"
 #include "eval/sections.h"
@@ -23,6 +24,7 @@ typedef struct eval_options {
     const char *section; /* NULL = all of them */
     const char *normals_path;
     const char *json_path;
+    real_options real; /* folder NULL = not asked for */
     int64_t frames; /* 0 = each scene's own */
     int64_t seeds, threads;
     int profile_mask; /* bit of each rlf_profile */
@@ -102,6 +104,9 @@ static void print_help(void)
         "  --tune            seeds 2, 4, 6, ... instead: for tuning, never reported\n"
         "  --normals DIR     clean depth with true normals: folders of depth.bin, normal.png and\n"
         "                    params.txt (docs/measuring.md); only this unless --scene is given\n"
+        "  --real DIR        real recordings, each figure beside a simple baseline; only this\n"
+        "                    unless --scene is given; skipped where there is no DIR\n"
+        "  --silhouettes DIR what script/silhouettes made; default out/silhouettes\n"
         "  --seeds N         seeds 1..N of noise and throws, default 3\n"
         "  --frames N        frames per scene, default as long as its story\n"
         "  --profile NAME    live, thesis or both (default)\n"
@@ -117,7 +122,8 @@ static void print_help(void)
         "examples:\n"
         "  relief eval\n"
         "  relief eval --scene chair --seeds 10 --json chair.json\n"
-        "  relief eval --normals path/to/frames\n");
+        "  relief eval --normals path/to/frames\n"
+        "  relief eval --real path/to/clips --json real.json\n");
 }
 
 static bool take_profiles(const char *text, void *out)
@@ -153,7 +159,10 @@ static int check_oracle(const eval_options *o)
 
 static int parse(int argc, char **argv, eval_options *o)
 {
-    *o = (eval_options){.seeds = 3, .profile_mask = 3, .rooms = 20};
+    *o = (eval_options){.seeds = 3,
+                        .profile_mask = 3,
+                        .rooms = 20,
+                        .real = {.silhouettes = "out/silhouettes"}};
     const option_def options[] = {
         {.name = "scene",
          .kind = OPTION_CHOICE,
@@ -161,6 +170,8 @@ static int parse(int argc, char **argv, eval_options *o)
          .take = take_scene,
          .choices = "is not one of them"},
         {.name = "normals", .kind = OPTION_TEXT, .out = &o->normals_path},
+        {.name = "real", .kind = OPTION_TEXT, .out = &o->real.folder},
+        {.name = "silhouettes", .kind = OPTION_TEXT, .out = &o->real.silhouettes},
         {.name = "frames", .kind = OPTION_INT64, .out = &o->frames, .low = 20, .high = 100000},
         {.name = "seeds", .kind = OPTION_INT64, .out = &o->seeds, .low = 1, .high = EVAL_SEEDS_MAX},
         {.name = "rooms", .kind = OPTION_INT64, .out = &o->rooms, .low = 1, .high = EVAL_SEEDS_MAX},
@@ -234,8 +245,8 @@ static int32_t list_tasks(const eval_options *o, eval_task *tasks)
     for (int32_t s = 0; s < eval_scene_count + SECTION_COUNT; s++) {
         const char *name =
             s < eval_scene_count ? eval_scenes[s].name : sections[s - eval_scene_count].name;
-        bool is_wanted =
-            o->section != NULL ? strcmp(o->section, name) == 0 : o->normals_path == NULL;
+        bool is_whole = o->normals_path == NULL && o->real.folder == NULL;
+        bool is_wanted = o->section != NULL ? strcmp(o->section, name) == 0 : is_whole;
         for (int64_t seed = 1; is_wanted && seed <= o->seeds; seed++) {
             tasks[count++] = (eval_task){.section = name, .seed = seed, .options = o};
         }
@@ -290,6 +301,30 @@ static rlf_result measure(const eval_options *o, eval_table *table)
     return result;
 }
 
+/* Measures and reports; the table of real recordings is empty unless it was asked for. */
+static rlf_result run(const eval_options *o, eval_table *table, real_table *real,
+                      int32_t *out_outside)
+{
+    rlf_result result = measure(o, table);
+    if (result == RLF_OK && o->real.folder != NULL && !command_interrupted) {
+        result = real_run(real, &o->real);
+    }
+    if (result != RLF_OK || command_interrupted) {
+        return result;
+    }
+    eval_report_options report = {.print_all = o->section != NULL,
+                                  .is_whole = o->frames == 0,
+                                  .json_path = o->json_path,
+                                  .seeds = o->seeds,
+                                  .real = o->real.folder != NULL ? real : NULL};
+    const bool is_random = o->section != NULL && is_random_section(o->section);
+    report.print_all = report.print_all && !is_random;
+    result = eval_report(table, &report, out_outside);
+    eval_random_report(table, is_random ? o->section : EVAL_RANDOM, o->is_tuning);
+    eval_columns_report(table);
+    return result;
+}
+
 int eval_main(int argc, char **argv)
 {
     eval_options options;
@@ -301,24 +336,13 @@ int eval_main(int argc, char **argv)
         return command_failed();
     }
     eval_table *table = rlf_alloc(sizeof(*table));
-    if (table == NULL) {
-        return command_failed();
-    }
+    real_table *real = rlf_alloc(sizeof(*real));
     int32_t outside = 0;
-    rlf_result result = measure(&options, table);
-    if (result == RLF_OK && !command_interrupted) {
-        eval_report_options report = {.print_all = options.section != NULL,
-                                      .is_whole = options.frames == 0,
-                                      .json_path = options.json_path,
-                                      .seeds = options.seeds};
-        const bool is_random = options.section != NULL && is_random_section(options.section);
-        report.print_all = report.print_all && !is_random;
-        result = eval_report(table, &report, &outside);
-        eval_random_report(table, is_random ? options.section : EVAL_RANDOM, options.is_tuning);
-        eval_columns_report(table);
-    }
-    bool is_full = table->is_full;
+    rlf_result result = table != NULL && real != NULL ? run(&options, table, real, &outside)
+                                                      : RLF_ERROR_MEMORY;
+    bool is_full = result == RLF_OK && (table->is_full || real->is_full);
     rlf_free(table);
+    rlf_free(real);
     if (command_interrupted) {
         return command_stopped("eval");
     }

@@ -132,6 +132,9 @@ static rlf_result write_json(const eval_table *table, const eval_report_options 
     }
     json_t *root = json_pack("{s:o, s:o, s:i, s:o}", "machine", machine_json(), "seeds", seeds,
                              "outside", (int)outside, "figures", rows);
+    if (o->real != NULL) {
+        json_object_set_new(root, "real", real_json(o->real));
+    }
     return json_file_write(o->json_path, root);
 }
 
@@ -147,7 +150,12 @@ rlf_result eval_report(const eval_table *table, const eval_report_options *optio
             judged++;
         }
     }
-    print_table(table, options);
+    if (table->count > 0 || options->real == NULL) {
+        print_table(table, options);
+    }
+    if (options->real != NULL) {
+        real_print(options->real);
+    }
     printf("%d figures with a bound, %d outside it\n", (int)judged, (int)outside);
     *out_outside = outside;
     return options->json_path != NULL ? write_json(table, options, outside) : RLF_OK;

@@ -3,12 +3,14 @@
 #define RELIEF_APP_EVAL_REPORT_H
 
 #include "eval/bounds.h"
+#include "eval/real/real.h"
 
 typedef struct eval_report_options {
     bool print_all;        /* every figure; else those with a goal or a bound */
     bool is_whole;         /* nothing was shortened: a bounded figure without samples is outside */
     const char *json_path; /* NULL = none */
     int64_t seeds;
+    const real_table *real; /* of real recordings; NULL = not asked for */
 } eval_report_options;
 
 /* Prints the table, writes the JSON and sets *out_outside to the number of figures that are outside

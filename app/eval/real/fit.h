@@ -1,0 +1,40 @@
+/* The baselines' tools: planes by least squares and RANSAC, connected components. */
+#ifndef RELIEF_APP_EVAL_REAL_FIT_H
+#define RELIEF_APP_EVAL_REAL_FIT_H
+
+#include "relief/surface.h"
+
+/* Points n.p = d with unit n towards the camera, so d < 0. */
+typedef struct real_plane {
+    rlf_vec3 n;
+    double d;
+    int32_t inliers;
+} real_plane;
+
+/* A depth picture with the rays of its pixels; depth 0 = missing. Borrowed. */
+typedef struct real_points {
+    int32_t width, height;
+    const float *ray_x, *ray_y, *depth;
+} real_points;
+
+static inline rlf_vec3 real_point(const real_points *p, int32_t i)
+{
+    double z = p->depth[i];
+    return rlf_vec3_make(z * p->ray_x[i], z * p->ray_y[i], z);
+}
+
+/* How far a point may be from a plane: 3 sigma at its depth. */
+double real_tolerance(const rlf_depth_noise *noise, double z);
+/* The plane with most of the points that `is_free` marks (NULL = all): 200 draws, then least
+ * squares over those within the tolerance, twice. False when there are fewer than 100. */
+bool real_plane_find(const real_points *p, const uint8_t *is_free, const rlf_depth_noise *noise,
+                     real_plane *out);
+/* Unit normal of the 5x5 window around a pixel by least squares of inverse depth; (0,0,0) without
+ * 6 points, or at the border. */
+rlf_vec3 real_window_normal(const real_points *p, int32_t i);
+/* Labels 1, 2, ... of 4-connected marked pixels whose depths differ by less than `step` (share of
+ * the depth); others 0. `stack` has an entry per pixel. Returns the count. */
+int32_t real_components(const real_points *p, const uint8_t *is_marked, double step,
+                        int32_t *out_label, int32_t *stack);
+
+#endif

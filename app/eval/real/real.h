@@ -1,0 +1,56 @@
+/* `relief eval --real DIR`: figures on real recordings, each beside a baseline of a few lines. */
+#ifndef RELIEF_APP_EVAL_REAL_H
+#define RELIEF_APP_EVAL_REAL_H
+
+#include "eval/real/clip.h"
+
+#include <jansson.h>
+
+#define REAL_ROWS_MAX 256
+
+/* One figure. Part and key together are its name, and stay the same from version to version. */
+typedef struct real_row {
+    char part[32]; /* of the run, e.g. "objects", or a clip */
+    const char *key, *title;
+    char relation;            /* of the goal: '<' at most, '>' at least */
+    double goal;              /* NAN = none */
+    double relief, baseline;  /* NAN = not measured */
+    const char *baseline_name;
+} real_row;
+
+typedef struct real_table {
+    real_row rows[REAL_ROWS_MAX];
+    int32_t count;
+    bool is_full; /* a figure had no room: the table is not whole */
+} real_table;
+
+typedef struct real_options {
+    const char *folder;      /* with the clips, e.g. ../shared/data */
+    const char *silhouettes; /* what script/silhouettes made */
+} real_options;
+
+/* Takes the row over unless the table is full. */
+void real_add(real_table *table, const char *part, const real_row *row);
+
+/* Measures everything that is there; what is not is said on stderr and has no rows. A missing
+ * folder is not an error: it is skipped. */
+rlf_result real_run(real_table *table, const real_options *options);
+
+/* False when the folder is not there, after saying SKIPPED. */
+bool real_is_there(const char *path);
+/* Joins two names; false when the path is too long. */
+#define REAL_PATH_SIZE 1024
+bool real_join(char path[REAL_PATH_SIZE], const char *folder, const char *name);
+
+void real_print(const real_table *table);
+/* An array of objects: part, key, title, relation, goal, relief, baseline, baseline_name. */
+json_t *real_json(const real_table *table);
+
+/* The parts; each says on stderr what it is at. */
+rlf_result real_objects_run(real_table *table, const real_options *options);
+rlf_result real_still_run(real_table *table, const real_options *options);
+rlf_result real_fill_run(real_table *table, const real_options *options);
+rlf_result real_silhouettes_run(real_table *table, const real_options *options);
+rlf_result real_gravity_run(real_table *table, const real_options *options);
+
+#endif
