@@ -25,7 +25,7 @@ typedef struct eval_options {
     const char *normals_path;
     const char *json_path;
     real_options real; /* folder NULL = not asked for */
-    int64_t frames; /* 0 = each scene's own */
+    int64_t frames;    /* 0 = each scene's own */
     int64_t seeds, threads;
     int profile_mask; /* bit of each rlf_profile */
     int32_t oracle;   /* bits of eval_oracle_part */
@@ -338,8 +338,8 @@ int eval_main(int argc, char **argv)
     eval_table *table = rlf_alloc(sizeof(*table));
     real_table *real = rlf_alloc(sizeof(*real));
     int32_t outside = 0;
-    rlf_result result = table != NULL && real != NULL ? run(&options, table, real, &outside)
-                                                      : RLF_ERROR_MEMORY;
+    rlf_result result =
+        table != NULL && real != NULL ? run(&options, table, real, &outside) : RLF_ERROR_MEMORY;
     bool is_full = result == RLF_OK && (table->is_full || real->is_full);
     rlf_free(table);
     rlf_free(real);

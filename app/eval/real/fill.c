@@ -44,8 +44,8 @@ static rlf_result allocate(fill_run *r, const real_clip *clip, bool is_far)
     r->is_hidden = rlf_alloc_array(n, 1);
     r->error[0] = rlf_alloc_array(n, sizeof(float));
     r->error[1] = rlf_alloc_array(n, sizeof(float));
-    bool is_ready = r->mean != NULL && r->is_hidden != NULL && r->error[0] != NULL &&
-                    r->error[1] != NULL;
+    bool is_ready =
+        r->mean != NULL && r->is_hidden != NULL && r->error[0] != NULL && r->error[1] != NULL;
     return is_ready ? RLF_OK : RLF_ERROR_MEMORY;
 }
 
@@ -66,8 +66,7 @@ static void find_mean(fill_run *r, const real_clip *clip)
             seen += real_clip_depth(clip, f)[i] > 0;
         }
         bool is_steady = 10 * seen >= 8 * clip->count;
-        r->mean[i] =
-            is_steady ? (float)((double)sum / (double)seen / clip->units_per_metre) : 0.0f;
+        r->mean[i] = is_steady ? (float)((double)sum / (double)seen / clip->units_per_metre) : 0.0f;
     }
 }
 
@@ -190,11 +189,10 @@ static void add_row(real_table *table, const fill_run *r, const char *part, cons
 
 static void add_rows(real_table *table, fill_run *r, const char *part)
 {
-    static const char *const keys[2][4] = {
-        {"fill_near_median_mm", "fill_near_rmse_mm", "fill_near_wrong_percent",
-         "fill_near_missing_percent"},
-        {"fill_far_median_mm", "fill_far_rmse_mm", "fill_far_wrong_percent",
-         "fill_far_missing_percent"}};
+    static const char *const keys[2][4] = {{"fill_near_median_mm", "fill_near_rmse_mm",
+                                            "fill_near_wrong_percent", "fill_near_missing_percent"},
+                                           {"fill_far_median_mm", "fill_far_rmse_mm",
+                                            "fill_far_wrong_percent", "fill_far_missing_percent"}};
     double median[2], rmse[2], wrong[2], missing[2];
     for (int k = 0; k < 2; k++) {
         double sum = 0.0;

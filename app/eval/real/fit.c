@@ -4,15 +4,11 @@
 #include <string.h>
 
 #define DRAWS 200
+#define SIGMAS 3.0
 #define SAMPLES 4000 /* points that each draw is judged by */
 #define POINTS_MIN 100
 #define WINDOW 2 /* pixels to each side */
 #define WINDOW_MIN 6
-
-double real_tolerance(const rlf_depth_noise *noise, double z)
-{
-    return 3.0 * rlf_depth_noise_sigma(noise, z);
-}
 
 /* Sums of a linear fit 1/z = a x + b y + c over rays: exact for planes. */
 typedef struct fit_sums {
@@ -58,17 +54,17 @@ static bool is_usable(const real_points *p, const uint8_t *is_free, int32_t i)
     return p->depth[i] > 0.0f && (is_free == NULL || is_free[i]);
 }
 
-static bool is_on(const real_points *p, const real_plane *plane, const rlf_depth_noise *noise,
-                  int32_t i)
+bool real_plane_holds(const real_points *p, const real_plane *plane, const rlf_depth_noise *noise,
+                      int32_t i)
 {
     double off = rlf_dot(plane->n, real_point(p, i)) - plane->d;
-    double most = real_tolerance(noise, p->depth[i]);
+    double most = SIGMAS * rlf_depth_noise_sigma(noise, p->depth[i]);
     return off < most && off > -most;
 }
 
 /* Through three points. */
-static bool draw_plane(const real_points *p, const int32_t *samples, int32_t count, uint32_t *random,
-                       real_plane *out)
+static bool draw_plane(const real_points *p, const int32_t *samples, int32_t count,
+                       uint32_t *random, real_plane *out)
 {
     rlf_vec3 a[3];
     for (int k = 0; k < 3; k++) {
@@ -91,7 +87,7 @@ static void refine(const real_points *p, const uint8_t *is_free, const rlf_depth
         fit_sums sums = {{0}, {0}};
         plane->inliers = 0;
         for (int32_t i = 0; i < p->width * p->height; i++) {
-            if (is_usable(p, is_free, i) && is_on(p, plane, noise, i)) {
+            if (is_usable(p, is_free, i) && real_plane_holds(p, plane, noise, i)) {
                 add_point(&sums, p->ray_x[i], p->ray_y[i], 1.0 / p->depth[i]);
                 plane->inliers++;
             }
@@ -121,7 +117,7 @@ bool real_plane_find(const real_points *p, const uint8_t *is_free, const rlf_dep
             continue;
         }
         for (int32_t k = 0; k < count; k++) {
-            plane.inliers += is_on(p, &plane, noise, samples[k]);
+            plane.inliers += real_plane_holds(p, &plane, noise, samples[k]);
         }
         *out = plane.inliers > out->inliers ? plane : *out;
     }

@@ -23,10 +23,11 @@ static inline rlf_vec3 real_point(const real_points *p, int32_t i)
     return rlf_vec3_make(z * p->ray_x[i], z * p->ray_y[i], z);
 }
 
-/* How far a point may be from a plane: 3 sigma at its depth. */
-double real_tolerance(const rlf_depth_noise *noise, double z);
+/* True when the point of pixel i is on the plane: within 3 sigma of the sensor's noise there. */
+bool real_plane_holds(const real_points *p, const real_plane *plane, const rlf_depth_noise *noise,
+                      int32_t i);
 /* The plane with most of the points that `is_free` marks (NULL = all): 200 draws, then least
- * squares over those within the tolerance, twice. False when there are fewer than 100. */
+ * squares over those on it, twice. False when there are fewer than 100. */
 bool real_plane_find(const real_points *p, const uint8_t *is_free, const rlf_depth_noise *noise,
                      real_plane *out);
 /* Unit normal of the 5x5 window around a pixel by least squares of inverse depth; (0,0,0) without

@@ -20,13 +20,13 @@ typedef struct gravity_clip {
 
 /* Normals of planes found by RANSAC, each looked at in a picture of its inliers. */
 static const gravity_clip clips[] = {
-    {"hands_toys", "gravity: hands_toys", 0, {-0.0185, -0.8660, -0.5000}},   /* the table */
+    {"hands_toys", "gravity: hands_toys", 0, {-0.0185, -0.8660, -0.5000}}, /* the table */
     {"hands_toys", "gravity: hands_toys 80", 80, {-0.0185, -0.8660, -0.5000}},
-    {"room_still", "gravity: room_still", 0, {-0.1177, -0.9730, 0.1988}},    /* the ceiling */
+    {"room_still", "gravity: room_still", 0, {-0.1177, -0.9730, 0.1988}},       /* the ceiling */
     {"kinect2_frame", "gravity: kinect2_frame", 0, {-0.0184, -0.9990, 0.0400}}, /* the desk */
-    {"azure_frame", "gravity: azure_frame", 0, {0.0104, -0.9870, 0.1604}},   /* the table */
-    {"table_hands", "gravity: table_hands", 0, {-0.1632, 0.8060, -0.5690}},  /* the table */
-    {"redkitchen", "gravity: redkitchen", 0, {0.1145, -0.8750, -0.4705}},    /* table, floor */
+    {"azure_frame", "gravity: azure_frame", 0, {0.0104, -0.9870, 0.1604}},      /* the table */
+    {"table_hands", "gravity: table_hands", 0, {-0.1632, 0.8060, -0.5690}},     /* the table */
+    {"redkitchen", "gravity: redkitchen", 0, {0.1145, -0.8750, -0.4705}},       /* table, floor */
     {"labelled/five_people", "gravity: five_people", 0, {0.0061, -0.9965, -0.0836}}, /* floor */
     {"tum_fr1_rpy", "gravity: tum_fr1_rpy 0", 0, {0, 0, 0}},
     {"tum_fr1_rpy", "gravity: tum_fr1_rpy 40", 40, {0, 0, 0}},
@@ -136,8 +136,8 @@ static rlf_result run_clip(real_table *table, const gravity_clip *c, const char 
     real_clip clip;
     rlf_vec3 up = c->up;
     bool is_single = strncmp(c->name, "labelled/", 9) == 0;
-    rlf_result result =
-        is_single ? real_clip_load_single(folder, &clip) : real_clip_load(folder, c->frame, 1, &clip);
+    rlf_result result = is_single ? real_clip_load_single(folder, &clip)
+                                  : real_clip_load(folder, c->frame, 1, &clip);
     if (result != RLF_OK) {
         return result;
     }

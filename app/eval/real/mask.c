@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#define CLOSE_PX 4  /* to each side: 9 x 9 */
+#define CLOSE_PX 4    /* to each side: 9 x 9 */
 #define NOWHERE 30000 /* rows; more than any picture has */
 
 rlf_result real_mask_work_init(real_mask_work *w, int32_t width, int32_t height)
@@ -127,7 +127,8 @@ static int64_t largest_blot(real_mask_work *w, const uint8_t *found, const uint8
                             bool is_inside)
 {
     for (int32_t i = 0; i < w->width * w->height; i++) {
-        bool is_false = is_inside ? truth[i] == REAL_INSIDE && !found[i] : truth[i] == 0 && found[i];
+        bool is_false =
+            is_inside ? truth[i] == REAL_INSIDE && !found[i] : truth[i] == 0 && found[i];
         w->flag[i] = is_false && distance_at(w, w->column[1], i) > REAL_BLOT_PX;
     }
     return real_mask_largest(w->flag, w->width, w->height, w->stack);
@@ -204,6 +205,11 @@ static void spread(uint8_t *mask, int32_t width, int32_t height, uint8_t *scratc
     for (int32_t x = 0; x < width; x++) {
         spread_line(scratch + x, mask + x, height, width, value);
     }
+}
+
+void real_mask_grow(uint8_t *mask, int32_t width, int32_t height, uint8_t *scratch)
+{
+    spread(mask, width, height, scratch, 1);
 }
 
 void real_mask_close(uint8_t *mask, int32_t width, int32_t height, uint8_t *scratch)

@@ -16,7 +16,7 @@ typedef struct real_mask_errors {
     int64_t distance_count;
     double distance_sum;
     int64_t pictures;
-    int64_t blot_inside_sum, blot_inside_max;   /* pixels of each picture's largest */
+    int64_t blot_inside_sum, blot_inside_max; /* pixels of each picture's largest */
     int64_t blot_outside_sum, blot_outside_max;
 } real_mask_errors;
 
@@ -39,6 +39,8 @@ double real_mask_iou(const real_mask_errors *e);
 double real_mask_distance_mean(const real_mask_errors *e);
 double real_mask_distance_p95(const real_mask_errors *e);
 
+/* Grows the mask by 4 pixels every way, in place; `scratch` is a plane. */
+void real_mask_grow(uint8_t *mask, int32_t width, int32_t height, uint8_t *scratch);
 /* Square closing, 9 x 9, in place; `scratch` is a plane. */
 void real_mask_close(uint8_t *mask, int32_t width, int32_t height, uint8_t *scratch);
 /* Pixels of the largest 4-connected component of 1s; the mask is 0 afterwards. `stack` has an entry

@@ -111,11 +111,10 @@ static rlf_result take_surface(void *context, const rlf_frame *frame, const rlf_
 static void judge(object_frame *f, object_sums *sums)
 {
     for (int k = 0; k < 2; k++) {
-        int32_t count =
-            real_dense_labels(f->label[k], f->pixels, f->areas, f->names, REGIONS_MAX);
+        int32_t count = real_dense_labels(f->label[k], f->pixels, f->areas, f->names, REGIONS_MAX);
         for (int32_t object = 2; object <= 25; object++) {
-            double iou = real_best_iou(f->truth, object, f->label[k], f->pixels, f->areas, count,
-                                       f->counts);
+            double iou =
+                real_best_iou(f->truth, object, f->label[k], f->pixels, f->areas, count, f->counts);
             if (!isnan(iou)) {
                 sums->objects += k == 0;
                 sums->iou_sum[k] += iou;
@@ -182,8 +181,8 @@ rlf_result real_objects_run(real_table *table, const real_options *options)
     object_sums sums = {0};
     rlf_result result = RLF_OK;
     for (int i = 0; i < count; i++) {
-        bool is_table = real_join(folder, parent, entries[i]->d_name) &&
-                        real_join(path, folder, "label.png");
+        bool is_table =
+            real_join(folder, parent, entries[i]->d_name) && real_join(path, folder, "label.png");
         FILE *file = is_table ? fopen(path, "rb") : NULL;
         if (file != NULL) {
             (void)fclose(file);

@@ -12,9 +12,9 @@
 typedef struct real_row {
     char part[32]; /* of the run, e.g. "objects", or a clip */
     const char *key, *title;
-    char relation;            /* of the goal: '<' at most, '>' at least */
-    double goal;              /* NAN = none */
-    double relief, baseline;  /* NAN = not measured */
+    char relation;           /* of the goal: '<' at most, '>' at least */
+    double goal;             /* NAN = none */
+    double relief, baseline; /* NAN = not measured */
     const char *baseline_name;
 } real_row;
 

@@ -12,16 +12,18 @@
 #define MEDIAN_FRAMES 10 /* the baseline's background */
 #define NEARER 0.97      /* of the background's depth: the baseline's foreground */
 #define BEHIND_M 0.1     /* the room is behind the slab by this much, or not judged */
+#define RIM_SHARE 0.25   /* rows and columns at the border with depth in less than this have none */
 
 typedef struct silhouette_clip {
     const char *name, *part;
     int32_t first, count; /* the background is learnt from frame `first` on */
     double slab_m;
+    bool has_foreground; /* false: the person is there, and still, from the first frame on */
 } silhouette_clip;
 
 static const silhouette_clip clips[] = {
-    {"hands_toys", "hands_toys from frame 80", 80, 280, 1.6},
-    {"table_hands", "table_hands from frame 0", 0, 100, 1.5},
+    {"hands_toys", "hands_toys from frame 80", 80, 280, 1.6, true},
+    {"table_hands", "table_hands from frame 0", 0, 100, 1.5, false},
 };
 
 /* What is judged: [0] Relief, [1] the baseline, [2] for the matte a baseline that is closed. */
@@ -30,6 +32,9 @@ typedef struct silhouette_run {
     real_mask_work work;
     int32_t pixels;
     uint8_t *found, *scratch, *truth, *first; /* first: the person in the first frames */
+    int32_t x0, y0, x1, y1;                   /* within the rim without depth */
+    int64_t rim, rim_hidden[2];               /* the person's pixels there */
+    uint8_t *near; /* furniture before the slab, or its edge, in the first frames */
     float *raw, *median;
     const char *folder;
     double slab_m;
@@ -39,8 +44,8 @@ static rlf_result allocate(silhouette_run *r, const real_clip *clip)
 {
     size_t n = (size_t)real_clip_pixels(clip);
     r->pixels = (int32_t)n;
-    uint8_t **const bytes[4] = {&r->found, &r->scratch, &r->truth, &r->first};
-    for (int k = 0; k < 4; k++) {
+    uint8_t **const bytes[5] = {&r->found, &r->scratch, &r->truth, &r->first, &r->near};
+    for (int k = 0; k < 5; k++) {
         *bytes[k] = rlf_alloc_array(n, 1);
         if (*bytes[k] == NULL) {
             return RLF_ERROR_MEMORY;
@@ -60,6 +65,7 @@ static void release(silhouette_run *r)
     rlf_free(r->scratch);
     rlf_free(r->truth);
     rlf_free(r->first);
+    rlf_free(r->near);
     rlf_free(r->raw);
     rlf_free(r->median);
     rlf_free(r);
@@ -86,6 +92,47 @@ static void find_median(silhouette_run *r, const real_clip *clip)
     }
 }
 
+/* The edge of furniture is no outline of a person: twice 4 pixels around it are not judged. */
+static void find_near(silhouette_run *r)
+{
+    for (int32_t i = 0; i < r->pixels; i++) {
+        r->near[i] = r->median[i] > 0.0f && r->median[i] < (float)(r->slab_m + BEHIND_M);
+    }
+    real_mask_grow(r->near, r->work.width, r->work.height, r->scratch);
+    real_mask_grow(r->near, r->work.width, r->work.height, r->scratch);
+}
+
+static double line_share(const silhouette_run *r, int32_t start, int32_t count, int32_t stride)
+{
+    int32_t seen = 0;
+    for (int32_t i = 0; i < count; i++) {
+        seen += r->median[start + i * stride] > 0.0f;
+    }
+    return (double)seen / count;
+}
+
+/* Most cameras have no depth in some rows and columns at the border. */
+static void find_rim(silhouette_run *r)
+{
+    int32_t w = r->work.width, h = r->work.height;
+    r->x1 = w;
+    r->y1 = h;
+    for (; r->x0 < w / 4 && line_share(r, r->x0, h, w) < RIM_SHARE; r->x0++) {
+    }
+    for (; r->x1 > w - w / 4 && line_share(r, r->x1 - 1, h, w) < RIM_SHARE; r->x1--) {
+    }
+    for (; r->y0 < h / 4 && line_share(r, r->y0 * w, w, 1) < RIM_SHARE; r->y0++) {
+    }
+    for (; r->y1 > h - h / 4 && line_share(r, (r->y1 - 1) * w, w, 1) < RIM_SHARE; r->y1--) {
+    }
+}
+
+static bool is_in_rim(const silhouette_run *r, int32_t i)
+{
+    int32_t x = i % r->work.width, y = i / r->work.width;
+    return x < r->x0 || y < r->y0 || x >= r->x1 || y >= r->y1;
+}
+
 /* False when there is none for this frame. */
 static bool read_mask(const silhouette_run *r, const char *name, uint8_t *out)
 {
@@ -106,7 +153,7 @@ static bool read_mask(const silhouette_run *r, const char *name, uint8_t *out)
 static void judge_foreground(silhouette_run *r, const rlf_surface *s, const uint8_t *mask)
 {
     for (int32_t i = 0; i < r->pixels; i++) {
-        r->truth[i] = r->first[i] ? REAL_UNJUDGED : mask[i];
+        r->truth[i] = r->first[i] || is_in_rim(r, i) ? REAL_UNJUDGED : mask[i];
         r->found[i] = s->foreground[i];
     }
     real_mask_add(&r->foreground[0], &r->work, r->found, r->truth);
@@ -117,18 +164,21 @@ static void judge_foreground(silhouette_run *r, const rlf_surface *s, const uint
     real_mask_add(&r->foreground[1], &r->work, r->found, r->truth);
 }
 
-/* Furniture nearer than the slab hides it as well: only where the room is behind it is he judged.
- */
+/* Furniture nearer than the slab hides it as well: what is beside him is judged only where the room
+ * is not known to be nearer. The rim is judged by itself. */
 static void judge_matte(silhouette_run *r, const rlf_plane_u8 *matte, const uint8_t *mask)
 {
     for (int32_t i = 0; i < r->pixels; i++) {
-        bool is_open = r->median[i] > (float)(r->slab_m + BEHIND_M);
-        r->truth[i] = mask[i] == 0 && !is_open ? REAL_UNJUDGED : mask[i];
+        bool is_rim = is_in_rim(r, i);
+        r->truth[i] = is_rim || (mask[i] == 0 && r->near[i]) ? REAL_UNJUDGED : mask[i];
         r->found[i] = rlf_u8_row(matte, i / r->work.width)[i % r->work.width] < 128;
+        r->rim += is_rim && mask[i] == REAL_INSIDE;
+        r->rim_hidden[0] += is_rim && mask[i] == REAL_INSIDE && r->found[i];
     }
     real_mask_add(&r->matte[0], &r->work, r->found, r->truth);
     for (int32_t i = 0; i < r->pixels; i++) {
         r->found[i] = r->raw[i] > 0.0f && r->raw[i] < (float)r->slab_m;
+        r->rim_hidden[1] += is_in_rim(r, i) && mask[i] == REAL_INSIDE && r->found[i];
     }
     real_mask_add(&r->matte[1], &r->work, r->found, r->truth);
     real_mask_close(r->found, r->work.width, r->work.height, r->scratch);
@@ -156,7 +206,9 @@ static rlf_result run_frames(silhouette_run *r, const silhouette_clip *c, const 
         for (int32_t k = 0; k < r->pixels; k++) {
             r->raw[k] = (float)(real_clip_depth(clip, i)[k] / clip->units_per_metre);
         }
-        judge_foreground(r, frame.surface, mask);
+        if (c->has_foreground) {
+            judge_foreground(r, frame.surface, mask);
+        }
         judge_matte(r, &alpha, mask);
     }
     real_matte_close(&matte);
@@ -220,8 +272,7 @@ static const struct {
      real_mask_distance_p95},
     {"matte_outline_mean_closed_px", "  the same beside another baseline: off by, px", CLOSED, true,
      2, '<', NAN, real_mask_distance_mean},
-    {"matte_outline_p95_closed_px", "  p95, px", CLOSED, true, 2, '<', NAN,
-     real_mask_distance_p95},
+    {"matte_outline_p95_closed_px", "  p95, px", CLOSED, true, 2, '<', NAN, real_mask_distance_p95},
     {"matte_hole_px", "matte, largest blot on a person: mean, px", RAW, true, 1, '<', NAN,
      inside_mean},
     {"matte_hole_max_px", "  most of all frames, px", RAW, true, 1, '<', 30.0, inside_max},
@@ -249,8 +300,18 @@ static void add_rows(real_table *table, const silhouette_clip *c, const silhouet
                         .relief = figures[i].value(&e[0]),
                         .baseline = figures[i].value(&e[figures[i].baseline]),
                         .baseline_name = figures[i].baseline_name};
-        real_add(table, c->part, &row);
+        if (figures[i].is_matte || c->has_foreground) {
+            real_add(table, c->part, &row);
+        }
     }
+    const real_row rim = {.key = "matte_rim_percent",
+                          .title = "matte, person in the rim without depth: hides, %",
+                          .relation = '>',
+                          .goal = NAN,
+                          .relief = eval_percent(r->rim_hidden[0], r->rim),
+                          .baseline = eval_percent(r->rim_hidden[1], r->rim),
+                          .baseline_name = RAW};
+    real_add(table, c->part, &rim);
 }
 
 static rlf_result run_clip(real_table *table, const silhouette_clip *c, const char *folder,
@@ -268,6 +329,8 @@ static rlf_result run_clip(real_table *table, const silhouette_clip *c, const ch
     result = has_masks && result == RLF_OK ? allocate(r, &clip) : result;
     if (has_masks && result == RLF_OK) {
         find_median(r, &clip);
+        find_near(r);
+        find_rim(r);
         (void)read_mask(r, "first.png", r->first);
         result = run_frames(r, c, &clip);
     }

@@ -12,7 +12,7 @@
 #define DEGREES (180.0 / RLF_PI)
 #define PLANES_MAX 4
 #define PLANE_SHARE 0.05 /* of the pixels with depth: less is no large plane */
-#define LAST_MAX 20
+#define AROUND 6         /* pixels */
 #define ALPHA_CHANGE 127 /* of 255 */
 #define PICTURE_PIXELS 76800.0
 
@@ -30,11 +30,12 @@ static const still_clip clips[] = {
 typedef struct still_run {
     int32_t pixels, count, last, seen;
     rlf_depth_noise noise;
-    float *sum, *mean;                     /* of the raw depth */
-    uint16_t *hits;                        /* frames with depth */
-    float *normals[2];                     /* [judged frame][pixel][3] */
-    const float *ray_x, *ray_y;            /* the last surface's */
-    uint8_t *band, *scratch, *is_interior; /* interior: no edge near, normals in all judged frames */
+    float *sum, *mean;          /* of the raw depth */
+    uint16_t *hits;             /* frames with depth */
+    float *normals[2];          /* [judged frame][pixel][3] */
+    const float *ray_x, *ray_y; /* the last surface's */
+    uint8_t *band, *scratch,
+        *is_interior; /* interior: no edge near, normals in all judged frames */
     int32_t width, height;
 } still_run;
 
@@ -108,8 +109,7 @@ static rlf_result take_surface(void *context, const rlf_frame *frame, const rlf_
     int32_t judged = index - (r->count - r->last);
     const real_points mean = {s->width, s->height, s->ray_x, s->ray_y, r->mean};
     for (int32_t i = 0; i < r->pixels && judged >= 0; i++) {
-        put_normal(r, 0, judged, i,
-                   rlf_vec3_make(s->normal_x[i], s->normal_y[i], s->normal_z[i]));
+        put_normal(r, 0, judged, i, rlf_vec3_make(s->normal_x[i], s->normal_y[i], s->normal_z[i]));
         put_normal(r, 1, judged, i, real_window_normal(&mean, i));
     }
     r->seen = judged + 1;
@@ -153,6 +153,19 @@ static double temporal_noise(const still_run *r, int method)
     return count > 0 ? sum / (double)count : NAN;
 }
 
+/* All pixels around are on the plane as well: what merely crosses it is not. */
+static bool is_within(const still_run *r, const uint8_t *is_on, int32_t i)
+{
+    int32_t x = i % r->width, y = i / r->width;
+    bool is_in = x >= AROUND && y >= AROUND && x < r->width - AROUND && y < r->height - AROUND;
+    for (int32_t dy = -AROUND; dy <= AROUND && is_in; dy++) {
+        for (int32_t dx = -AROUND; dx <= AROUND && is_in; dx++) {
+            is_in = is_on[i + dy * r->width + dx];
+        }
+    }
+    return is_in;
+}
+
 typedef struct plane_figures {
     double angle_sum[2];
     int64_t samples, over[2];
@@ -161,7 +174,7 @@ typedef struct plane_figures {
 
 /* The last frame's normals against large planes of the mean of all frames. */
 static void compare_planes(const still_run *r, const real_points *mean, uint8_t *is_free,
-                           plane_figures *out)
+                           uint8_t *is_on, plane_figures *out)
 {
     int32_t with_depth = 0;
     for (int32_t i = 0; i < r->pixels; i++) {
@@ -176,16 +189,16 @@ static void compare_planes(const still_run *r, const real_points *mean, uint8_t 
         }
         out->planes++;
         for (int32_t i = 0; i < r->pixels; i++) {
-            double off = rlf_dot(plane.n, real_point(mean, i)) - plane.d;
-            double most = real_tolerance(&r->noise, r->mean[i]);
-            bool is_on = is_free[i] && off < most && off > -most;
-            for (int k = 0; k < 2 && is_on && r->is_interior[i]; k++) {
+            is_on[i] = is_free[i] && real_plane_holds(mean, &plane, &r->noise, i);
+            is_free[i] = is_free[i] && !is_on[i];
+        }
+        for (int32_t i = 0; i < r->pixels; i++) {
+            for (int k = 0; k < 2 && r->is_interior[i] && is_within(r, is_on, i); k++) {
                 double angle = angle_deg(get_normal(r, k, r->last - 1, i), plane.n);
                 out->angle_sum[k] += angle;
                 out->over[k] += angle > 30.0;
                 out->samples += k == 0;
             }
-            is_free[i] = is_free[i] && !is_on;
         }
     }
 }
@@ -284,7 +297,7 @@ static rlf_result add_rows(real_table *table, const still_clip *c, const real_cl
     }
     if (result == RLF_OK) {
         const real_points mean = {r->width, r->height, rays[0], rays[1], r->mean};
-        compare_planes(r, &mean, r->scratch, &planes);
+        compare_planes(r, &mean, r->scratch, r->band, &planes);
         result = measure_flicker(clip, r->last, flicker);
     }
     for (int k = 0; k < 2; k++) {
