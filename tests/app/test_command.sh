@@ -184,6 +184,9 @@ expect_error 2 "live, thesis or both" eval --profile ours
 expect_error 2 "--seeds" eval --seeds 0
 expect_error 1 "no/eval.json" eval --json no/eval.json
 expect_error 1 "no_such_frames" eval --normals no_such_frames
+expect_done eval --real no_such_clips --json real.json
+grep -q "SKIPPED, there is no folder no_such_clips" stdout.txt || fail "eval: $(cat stdout.txt)"
+grep -q '"real": \[\]' real.json || fail "eval: real.json"
 expect_done eval --scene plate --profile live --seeds 2 --json eval.json
 grep -q "0 outside it" stdout.txt || fail "eval: $(cat stdout.txt)"
 grep -q '"commit"' eval.json || fail "eval: eval.json names no machine"

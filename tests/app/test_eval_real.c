@@ -1,0 +1,238 @@
+/* Figures on real recordings: masks, labels, planes and turned clips, on input made here. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "eval/real/fit.h"
+#include "eval/real/mask.h"
+#include "eval/real/real.h"
+#include "eval/report.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define W 120
+#define H 100
+#define PIXELS (W * H)
+
+static uint8_t found[PIXELS], truth[PIXELS], scratch[PIXELS];
+
+static void put_disc(uint8_t *mask, double cx, double cy, double radius, uint8_t value)
+{
+    for (int32_t i = 0; i < PIXELS; i++) {
+        double dx = i % W - cx, dy = i / W - cy;
+        mask[i] = dx * dx + dy * dy <= radius * radius ? value : mask[i];
+    }
+}
+
+static real_mask_errors compare(void)
+{
+    real_mask_errors e;
+    real_mask_work work;
+    memset(&e, 0, sizeof(e));
+    assert_int_equal(real_mask_work_init(&work, W, H), RLF_OK);
+    real_mask_add(&e, &work, found, truth);
+    real_mask_work_finish(&work);
+    return e;
+}
+
+static int clear(void **state)
+{
+    (void)state;
+    memset(found, 0, sizeof(found));
+    memset(truth, 0, sizeof(truth));
+    return 0;
+}
+
+static void equal_masks_have_no_error(void **state)
+{
+    (void)state;
+    put_disc(found, 60, 50, 20, 1);
+    put_disc(truth, 60, 50, 20, REAL_INSIDE);
+    real_mask_errors e = compare();
+    assert_true(real_mask_iou(&e) >= 1.0);
+    assert_true(real_mask_distance_mean(&e) <= 0.0);
+    assert_int_equal(e.blot_inside_max + e.blot_outside_max, 0);
+}
+
+/* A circle shifted by s is off by s |cos|, s 2/pi in the mean, to a fraction of a pixel. */
+static void shifted_disc_is_off_by_its_shift(void **state)
+{
+    (void)state;
+    put_disc(found, 64, 50, 25, 1);
+    put_disc(truth, 60, 50, 25, REAL_INSIDE);
+    real_mask_errors e = compare();
+    assert_true(fabs(real_mask_distance_mean(&e) - 4.0 * 2.0 / RLF_PI) < 0.35);
+    assert_true(fabs(real_mask_distance_p95(&e) - 4.0) < 0.6);
+    double half = rlf_acos(2.0 / 25.0); /* the lens of two circles */
+    double both = 2.0 * 625.0 * half - 4.0 * sqrt(625.0 - 4.0);
+    assert_true(fabs(real_mask_iou(&e) - both / (2.0 * RLF_PI * 625.0 - both)) < 0.01);
+}
+
+static void blots_are_told_from_outlines(void **state)
+{
+    (void)state;
+    put_disc(found, 60, 50, 31, 1); /* an outline 1 pixel too wide is no blot */
+    put_disc(truth, 60, 50, 30, REAL_INSIDE);
+    put_disc(found, 60, 50, 4, 0);
+    put_disc(found, 5, 5, 3, 1);
+    real_mask_errors e = compare();
+    assert_int_equal(e.blot_inside_max, 49); /* pixels of a disc of radius 4 */
+    assert_int_equal(e.blot_outside_max, 29);
+}
+
+static void what_is_not_judged_does_not_count(void **state)
+{
+    (void)state;
+    put_disc(truth, 60, 50, 20, REAL_INSIDE);
+    put_disc(found, 60, 50, 20, 1);
+    put_disc(found, 110, 10, 5, 1);
+    put_disc(truth, 110, 10, 7, REAL_UNJUDGED);
+    real_mask_errors e = compare();
+    assert_true(real_mask_iou(&e) >= 1.0);
+    assert_true(real_mask_distance_mean(&e) <= 0.0);
+    assert_int_equal(e.blot_outside_max, 0);
+}
+
+static void closing_fills_what_is_narrow(void **state)
+{
+    (void)state;
+    put_disc(found, 60, 50, 30, 1);
+    put_disc(found, 60, 50, 3, 0);
+    real_mask_close(found, W, H, scratch);
+    assert_int_equal(found[50 * W + 60], 1);
+    assert_int_equal(found[50 * W + 92], 0);
+    clear(NULL);
+    put_disc(found, 60, 50, 30, 1);
+    put_disc(found, 60, 50, 8, 0);
+    real_mask_close(found, W, H, scratch);
+    assert_int_equal(found[50 * W + 60], 0);
+}
+
+static void best_region_is_found(void **state)
+{
+    (void)state;
+    const int32_t true_label[8] = {2, 2, 2, 2, 3, 3, 0, 0};
+    int32_t label[8] = {70, 70, 70, 9, 9, 9, 9, 0};
+    int32_t areas[8], names[8], counts[8];
+    int32_t count = real_dense_labels(label, 8, areas, names, 8);
+    assert_int_equal(count, 3);
+    assert_int_equal(areas[2], 4);
+    assert_true(fabs(real_best_iou(true_label, 2, label, 8, areas, count, counts) - 0.75) < 1e-12);
+    assert_true(fabs(real_best_iou(true_label, 3, label, 8, areas, count, counts) - 0.5) < 1e-12);
+    assert_true(isnan(real_best_iou(true_label, 4, label, 8, areas, count, counts)));
+}
+
+static void planes_and_components_are_found(void **state)
+{
+    (void)state;
+    static float ray_x[PIXELS], ray_y[PIXELS], depth[PIXELS];
+    static int32_t label[PIXELS], stack[PIXELS];
+    const rlf_depth_noise noise = {0.001, 0, 0};
+    const rlf_vec3 up = rlf_normalize(rlf_vec3_make(0.1, -0.8, -0.6));
+    for (int32_t i = 0; i < PIXELS; i++) {
+        ray_x[i] = (float)((i % W - 60) / 100.0);
+        ray_y[i] = (float)((i / W - 50) / 100.0 + 0.6);
+        depth[i] = (float)(-1.0 / (up.x * ray_x[i] + up.y * ray_y[i] + up.z));
+        bool is_thing = i % W / 20 % 2 == 1 && i / W >= 40 && i / W < 60;
+        depth[i] *= is_thing ? 0.8f : 1.0f;
+        scratch[i] = is_thing;
+    }
+    const real_points points = {W, H, ray_x, ray_y, depth};
+    real_plane plane;
+    assert_true(real_plane_find(&points, NULL, &noise, &plane));
+    assert_true(rlf_dot(plane.n, up) > 0.999999 && fabs(plane.d + 1.0) < 1e-3);
+    assert_true(rlf_dot(real_window_normal(&points, 10 * W + 60), up) > 0.99999);
+    assert_int_equal(real_components(&points, scratch, 0.02, label, stack), 3);
+}
+
+/* A point seen by the turned camera is the turned point, lens included. */
+static void cameras_turn_with_their_pictures(void **state)
+{
+    (void)state;
+    const rlf_camera camera = {.width = 640,
+                               .height = 480,
+                               .fx = 520,
+                               .fy = 530,
+                               .cx = 318,
+                               .cy = 255,
+                               .distortion_model = RLF_DISTORTION_PLUMB_BOB,
+                               .distortion = {0.26, -0.95, -0.005, 0.0026, 1.16}};
+    const rlf_vec3 p = {0.2, 0.15, 1.0};
+    double u, v, turned_u, turned_v;
+    assert_true(rlf_camera_project(&camera, p, &u, &v));
+    for (int turn = 0; turn < 8; turn++) {
+        double x = turn >= 4 ? 639 - u : u, y = v, width = 640, height = 480;
+        for (int k = 0; k < turn % 4; k++) {
+            double old_x = x, old_width = width;
+            x = height - 1 - y;
+            y = old_x;
+            width = height;
+            height = old_width;
+        }
+        rlf_camera turned = real_turn_camera(&camera, turn % 4, turn >= 4);
+        rlf_vec3 q = real_turn_vector(p, turn % 4, turn >= 4);
+        assert_true(rlf_camera_project(&turned, q, &turned_u, &turned_v));
+        assert_true(fabs(turned_u - x) < 1e-9 && fabs(turned_v - y) < 1e-9);
+    }
+}
+
+static void missing_clips_are_skipped(void **state)
+{
+    (void)state;
+    static real_table table;
+    static eval_table synthetic;
+    int32_t outside = -1;
+    const real_options options = {.folder = "no_such_folder", .silhouettes = "none"};
+    assert_int_equal(real_run(&table, &options), RLF_OK);
+    assert_int_equal(table.count, 0);
+    const eval_report_options report = {.is_whole = true, .seeds = 1, .real = &table};
+    assert_int_equal(eval_report(&synthetic, &report, &outside), RLF_OK);
+    assert_int_equal(outside, 0);
+}
+
+static void rows_keep_their_names(void **state)
+{
+    (void)state;
+    static real_table table;
+    const real_row row = {.key = "k",
+                          .title = "T",
+                          .relation = '<',
+                          .goal = 1.0,
+                          .relief = 2.0,
+                          .baseline = NAN,
+                          .baseline_name = "b"};
+    for (int i = 0; i <= REAL_ROWS_MAX; i++) {
+        real_add(&table, "part", &row);
+    }
+    assert_true(table.is_full && table.count == REAL_ROWS_MAX);
+    table.count = 1;
+    real_print(&table);
+    json_t *json = real_json(&table), *first = json_array_get(json, 0);
+    assert_string_equal(json_string_value(json_object_get(first, "part")), "part");
+    assert_string_equal(json_string_value(json_object_get(first, "key")), "k");
+    assert_true(json_real_value(json_object_get(first, "relief")) == 2.0);
+    assert_true(json_is_null(json_object_get(first, "baseline")));
+    json_decref(json);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(equal_masks_have_no_error, clear),
+        cmocka_unit_test_setup(shifted_disc_is_off_by_its_shift, clear),
+        cmocka_unit_test_setup(blots_are_told_from_outlines, clear),
+        cmocka_unit_test_setup(what_is_not_judged_does_not_count, clear),
+        cmocka_unit_test_setup(closing_fills_what_is_narrow, clear),
+        cmocka_unit_test_setup(best_region_is_found, clear),
+        cmocka_unit_test_setup(planes_and_components_are_found, clear),
+        cmocka_unit_test(cameras_turn_with_their_pictures),
+        cmocka_unit_test(missing_clips_are_skipped),
+        cmocka_unit_test(rows_keep_their_names),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
