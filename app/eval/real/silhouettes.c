@@ -12,6 +12,7 @@
 #define MEDIAN_FRAMES 10 /* the baseline's background */
 #define NEARER 0.97      /* of the background's depth: the baseline's foreground */
 #define BEHIND_M 0.1     /* the room is behind the slab by this much, or not judged */
+#define RIM_RAGGED 6     /* pixels */
 #define RIM_SHARE 0.25   /* rows and columns at the border with depth in less than this have none */
 
 typedef struct silhouette_clip {
@@ -111,7 +112,8 @@ static double line_share(const silhouette_run *r, int32_t start, int32_t count, 
     return (double)seen / count;
 }
 
-/* Most cameras have no depth in some rows and columns at the border. */
+/* Most cameras have no depth in some rows and columns at the border, and little beside them: a rim
+ * is RIM_RAGGED wider than they are. */
 static void find_rim(silhouette_run *r)
 {
     int32_t w = r->work.width, h = r->work.height;
@@ -125,6 +127,10 @@ static void find_rim(silhouette_run *r)
     }
     for (; r->y1 > h - h / 4 && line_share(r, (r->y1 - 1) * w, w, 1) < RIM_SHARE; r->y1--) {
     }
+    r->x0 += r->x0 > 0 ? RIM_RAGGED : 0;
+    r->y0 += r->y0 > 0 ? RIM_RAGGED : 0;
+    r->x1 -= r->x1 < w ? RIM_RAGGED : 0;
+    r->y1 -= r->y1 < h ? RIM_RAGGED : 0;
 }
 
 static bool is_in_rim(const silhouette_run *r, int32_t i)
