@@ -159,10 +159,8 @@ static int check_oracle(const eval_options *o)
 
 static int parse(int argc, char **argv, eval_options *o)
 {
-    *o = (eval_options){.seeds = 3,
-                        .profile_mask = 3,
-                        .rooms = 20,
-                        .real = {.silhouettes = "out/silhouettes"}};
+    *o = (eval_options){
+        .seeds = 3, .profile_mask = 3, .rooms = 20, .real = {.silhouettes = "out/silhouettes"}};
     const option_def options[] = {
         {.name = "scene",
          .kind = OPTION_CHOICE,
@@ -251,8 +249,8 @@ static int32_t list_tasks(const eval_options *o, eval_task *tasks)
             tasks[count++] = (eval_task){.section = name, .seed = seed, .options = o};
         }
     }
-    const bool has_rooms =
-        o->section != NULL ? is_random_section(o->section) : o->normals_path == NULL;
+    const bool has_rooms = o->section != NULL ? is_random_section(o->section)
+                                              : o->normals_path == NULL && o->real.folder == NULL;
     for (int32_t i = 0; has_rooms && i < o->rooms; i++) {
         tasks[count++] = (eval_task){.section = o->section != NULL ? o->section : EVAL_RANDOM,
                                      .seed = eval_random_seed(i, o->is_tuning),
@@ -308,6 +306,7 @@ static rlf_result run(const eval_options *o, eval_table *table, real_table *real
     rlf_result result = measure(o, table);
     if (result == RLF_OK && o->real.folder != NULL && !command_interrupted) {
         result = real_run(real, &o->real);
+        real_add_headlines(real, table);
     }
     if (result != RLF_OK || command_interrupted) {
         return result;

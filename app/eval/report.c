@@ -150,7 +150,7 @@ rlf_result eval_report(const eval_table *table, const eval_report_options *optio
             judged++;
         }
     }
-    if (table->count > 0 || options->real == NULL) {
+    if (judged > 0 || options->real == NULL) {
         print_table(table, options);
     }
     if (options->real != NULL) {

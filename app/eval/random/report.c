@@ -82,6 +82,9 @@ static const headline headlines[] = {
     {"LIFT from rest: right, % (old room: of 12)", "lift_percent", "sensed", "lift_count"},
     {"SWIPE from rest: right, % (old room: of 12)", "swipe_percent", "sensed", "swipe_count"},
     {"CARRY from rest: right, % (old room: of 3)", "carry_percent", "sensed", "carry_stayed"},
+    {"outline of a person: off by, px", "person_mean_px", "picture", NULL},
+    {"objects on tables: IoU of the best region", "object_iou", "room", NULL},
+    {"up within 10 deg, any roll, %", "up_right_percent", "room", NULL},
 };
 
 static double mean_of(const eval_table *table, const char *scene, const char *key)

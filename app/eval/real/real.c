@@ -61,6 +61,29 @@ rlf_result real_run(real_table *table, const real_options *options)
     return result;
 }
 
+void real_add_headlines(const real_table *table, eval_table *out)
+{
+    static const struct {
+        const char *key, *other_key, *title;
+    } headlines[] = {
+        {"normals_plane_deg", "normals_interior_mean_deg", "normals on large planes, deg"},
+        {"normals_plane_over_30_percent", "normals_interior_over_30_percent", "  over 30 deg, %"},
+        {"foreground_f", "foreground_f", "foreground: F"},
+        {"matte_outline_mean_px", "person_mean_px", "outline of a person: off by, px"},
+        {"object_iou", "object_iou", "objects on tables: IoU of the best region"},
+        {"up_right_percent", "up_right_percent", "up within 10 deg, any roll, %"},
+    };
+    for (size_t h = 0; h < sizeof(headlines) / sizeof(headlines[0]); h++) {
+        for (int32_t i = 0; i < table->count; i++) {
+            const real_row *row = &table->rows[i];
+            if (strcmp(row->key, headlines[h].key) == 0 && !isnan(row->relief)) {
+                eval_table_add(out, "real", headlines[h].other_key, headlines[h].title,
+                               RLF_PROFILE_LIVE, row->relief);
+            }
+        }
+    }
+}
+
 static void format(double value, char out[24])
 {
     if (isnan(value)) {
