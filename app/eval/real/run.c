@@ -1,0 +1,30 @@
+/* The run over all parts. */
+#include "command.h"
+#include "eval/real/real.h"
+
+#include <stdio.h>
+
+rlf_result real_run(real_table *table, const real_options *options)
+{
+    typedef rlf_result (*part_fn)(real_table *, const real_options *);
+    static const struct {
+        const char *name;
+        part_fn run;
+    } parts[] = {
+        {"objects on tables", real_objects_run}, {"still clips", real_still_run},
+        {"filled pixels", real_fill_run},        {"silhouettes", real_silhouettes_run},
+        {"gravity", real_gravity_run},
+    };
+    if (!real_is_there(options->folder)) {
+        printf("real clips: SKIPPED, there is no folder %s\n", options->folder);
+        return RLF_OK;
+    }
+    rlf_result result = RLF_OK;
+    for (size_t i = 0; i < sizeof(parts) / sizeof(parts[0]) && result == RLF_OK; i++) {
+        if (!command_interrupted) {
+            fprintf(stderr, "real: %s\n", parts[i].name);
+            result = parts[i].run(table, options);
+        }
+    }
+    return result;
+}
