@@ -37,7 +37,7 @@ typedef struct synth_motion {
 
 #define SYNTH_DIFFERENCE_S 1e-3 /* from now to either side: error ~ h^2 / 6 jerk */
 
-/* movers.c: adds a mover that moves with its bone. */
+/* put.c: adds a mover that moves with its bone. */
 void synth_put_flesh(synth_scene *scene, const synth_flesh *flesh, int32_t label,
                      const synth_motion *m);
 

@@ -1,6 +1,5 @@
 /* Procedural textures. Coordinates are metres in the shape's own frame. */
 #include "capture/synthetic/material.h"
-#include "capture/synthetic/hash.h"
 
 static rlf_vec3 rgb(double r, double g, double b)
 {
@@ -28,24 +27,6 @@ static double fraction(double x)
     return x - floor_of(x);
 }
 
-static double lattice(int32_t x, int32_t y)
-{
-    return synth_uniform(synth_hash2((uint32_t)x, (uint32_t)y));
-}
-
-double synth_value_noise(double x, double y)
-{
-    int32_t ix = floor_of(x);
-    int32_t iy = floor_of(y);
-    double fx = x - ix;
-    double fy = y - iy;
-    fx = fx * fx * (3.0 - 2.0 * fx);
-    fy = fy * fy * (3.0 - 2.0 * fy);
-    double top = lattice(ix, iy) + (lattice(ix + 1, iy) - lattice(ix, iy)) * fx;
-    double bottom = lattice(ix, iy + 1) + (lattice(ix + 1, iy + 1) - lattice(ix, iy + 1)) * fx;
-    return top + (bottom - top) * fy;
-}
-
 /* Wood whose grain runs along `along`. */
 static rlf_vec3 wood(rlf_vec3 light, rlf_vec3 dark, double along, double across)
 {
@@ -62,9 +43,9 @@ static rlf_vec3 floor_boards(double x, double z)
     const double width = 0.16;
     const double length = 1.3;
     int32_t row = floor_of(z / width);
-    double shifted = x / length + lattice(row, 77);
+    double shifted = x / length + synth_lattice(row, 77);
     int32_t board = floor_of(shifted);
-    double tone = lattice(row, board);
+    double tone = synth_lattice(row, board);
     rlf_vec3 light = mix(rgb(0.50, 0.31, 0.165), rgb(0.40, 0.225, 0.11), tone);
     rlf_vec3 color = wood(light, rlf_scale(light, 0.62), x + 3.0 * tone, z + 7.0 * tone);
     double gap_z = (0.5 - absolute(fraction(z / width) - 0.5)) * width;
@@ -77,7 +58,7 @@ static rlf_vec3 floor_boards(double x, double z)
 static rlf_vec3 floor_tiles(double x, double z)
 {
     const double side = 0.3;
-    double tone = lattice(floor_of(x / side), floor_of(z / side));
+    double tone = synth_lattice(floor_of(x / side), floor_of(z / side));
     double cloud = synth_value_noise(x * 11.0, z * 11.0);
     double joint =
         rlf_min(0.5 - absolute(fraction(x / side) - 0.5), 0.5 - absolute(fraction(z / side) - 0.5));

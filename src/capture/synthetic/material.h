@@ -15,7 +15,9 @@ double synth_infrared(const synth_part *part);
 rlf_vec3 synth_look_albedo(const synth_look *look, rlf_vec3 local);
 float synth_look_texture(const synth_part *part, rlf_vec3 local);
 
-/* Value noise in 0..1, one cell per unit. */
+/* value_noise.c: a random number in 0..1 for each corner of a grid, and value noise between them, one
+ * cell per unit. */
+double synth_lattice(int32_t x, int32_t y);
 double synth_value_noise(double x, double y);
 
 /* Entry i is the sRGB code value of linear light (i + 0.5) / SYNTH_GAMMA_SIZE (IEC 61966-2-1). */

@@ -8,16 +8,8 @@
 #define AMPLITUDE_THRESHOLD 0.0042f
 #define AMPLITUDE_SIGMA 0.002f
 #define JUMP_SHARE 0.04f        /* of the depth: second difference that counts as a jump */
-#define FLYING_PROBABILITY 0.5f /* that a jump pixel mixes both sides */
-#define KEPT_AT_JUMP 0.05f      /* that the driver's edge filter keeps a jump pixel */
 
 enum { BLOCK = 64 }; /* pixels worked on together: a share of the width */
-
-/* That it keeps a pixel with so many jump pixels among its eight neighbours: 0.74^n, because each
- * of them removes it with probability 0.26. */
-static const float kept_beside_jumps[9] = {1.0f,        0.74f,       0.5476f,
-                                           0.405224f,   0.29986576f, 0.22190066f,
-                                           0.16420649f, 0.12151280f, 0.08991947f};
 
 void synth_noise_init(synth_noise *noise, uint64_t seed)
 {
@@ -82,16 +74,6 @@ RLF_KERNEL_PART float magnitude(float x)
     return x < 0.0f ? -x : x;
 }
 
-static float bend_x(const float *z, size_t i)
-{
-    return magnitude(z[i - 1] - 2.0f * z[i] + z[i + 1]);
-}
-
-static float bend_y(const float *z, size_t i)
-{
-    return magnitude(z[i - SYNTH_DEPTH_WIDTH] - 2.0f * z[i] + z[i + SYNTH_DEPTH_WIDTH]);
-}
-
 RLF_KERNEL void synth_noise_find_jumps(const float *z, int32_t count, uint8_t *restrict out)
 {
     const float *above = z - SYNTH_DEPTH_WIDTH;
@@ -104,19 +86,13 @@ RLF_KERNEL void synth_noise_find_jumps(const float *z, int32_t count, uint8_t *r
     }
 }
 
-RLF_KERNEL_PART uint16_t quantise(float least, float most, float depth_mm)
-{
-    int is_inside = (depth_mm >= least) & (depth_mm <= most);
-    return (uint16_t)(is_inside ? (int32_t)(depth_mm + 0.5f) : 0);
-}
-
 static void apply_steps(const synth_noise *noise, const synth_noise_row *row, uint16_t *out)
 {
     const float *z = row->z + (size_t)row->y * SYNTH_DEPTH_WIDTH;
     for (int32_t x = 0; x < SYNTH_DEPTH_WIDTH; x++) {
         if (out[x] != 0) {
             float seen = synth_noise_steps(noise, row->frame, x, row->y, z[x]);
-            out[x] = quantise(noise->min_mm, noise->max_mm, 1000.0f * seen);
+            out[x] = synth_noise_quantise(noise->min_mm, noise->max_mm, 1000.0f * seen);
         }
     }
 }
@@ -147,63 +123,7 @@ RLF_KERNEL static void apply_axial(const synth_noise *noise, const synth_noise_r
         const size_t at = first + (size_t)x;
         add_axial(row->z + at, row->sigma + at, row->margin + at, key, x, depth);
         for (int32_t i = 0; i < BLOCK; i++) {
-            out[x + i] = quantise(least, most, depth[i]);
-        }
-    }
-}
-
-/* The two sides of the jump at index i, mixed. */
-static float flying_depth(const float *z, size_t i, float share)
-{
-    size_t step = bend_x(z, i) > bend_y(z, i) ? 1 : SYNTH_DEPTH_WIDTH;
-    return share * z[i - step] + (1.0f - share) * z[i + step];
-}
-
-/* One pixel that is a jump or has `count` jump pixels in its 3x3 neighbourhood. */
-static void apply_jump(const synth_noise *noise, const synth_noise_row *row, uint32_t key,
-                       int32_t x, uint8_t count, uint16_t *out)
-{
-    size_t i = (size_t)row->y * SYNTH_DEPTH_WIDTH + (size_t)x;
-    uint32_t h = synth_hash(key ^ ((uint32_t)x * 0x85ebca6bu + 1u));
-    bool is_jump = row->jump[i] != 0;
-    if (is_jump && synth_uniform(h) < FLYING_PROBABILITY && out[x] != 0) {
-        uint32_t h2 = synth_hash(h + 0x9e3779b9u);
-        out[x] = quantise(noise->min_mm, noise->max_mm,
-                          1000.0f * flying_depth(row->z, i, synth_uniform(h2)));
-    }
-    float kept = kept_beside_jumps[is_jump ? count - 1 : count];
-    kept *= is_jump ? KEPT_AT_JUMP : 1.0f;
-    if (noise->enable_edge_filter && synth_uniform(synth_hash(h ^ 0x2545f491u)) >= kept) {
-        out[x] = 0;
-    }
-}
-
-/* Jumps in the 3x3 neighbourhood of each pixel of a row; 0 at both ends. */
-RLF_KERNEL static void count_jumps(const uint8_t *jump, uint8_t *restrict count)
-{
-    uint8_t column[SYNTH_DEPTH_WIDTH];
-    for (int32_t x = 0; x < SYNTH_DEPTH_WIDTH; x++) {
-        column[x] = (uint8_t)(jump[x - SYNTH_DEPTH_WIDTH] + jump[x] + jump[x + SYNTH_DEPTH_WIDTH]);
-    }
-    for (int32_t x = 1; x < SYNTH_DEPTH_WIDTH - 1; x++) {
-        count[x] = (uint8_t)(column[x - 1] + column[x] + column[x + 1]);
-    }
-    count[0] = count[SYNTH_DEPTH_WIDTH - 1] = 0;
-}
-
-/* Visits the pixels that have a jump in their 3x3 neighbourhood. */
-void synth_noise_apply_jumps(const synth_noise *noise, const synth_noise_row *row, uint32_t key,
-                             uint16_t *out)
-{
-    uint8_t count[SYNTH_DEPTH_WIDTH];
-    count_jumps(row->jump + (size_t)row->y * SYNTH_DEPTH_WIDTH, count);
-    for (int32_t block = 0; block < SYNTH_DEPTH_WIDTH; block += 8) {
-        uint64_t any;
-        memcpy(&any, count + block, sizeof(any));
-        for (int32_t x = block; any != 0 && x < block + 8; x++) {
-            if (count[x] != 0) {
-                apply_jump(noise, row, key, x, count[x], out);
-            }
+            out[x + i] = synth_noise_quantise(least, most, depth[i]);
         }
     }
 }
@@ -213,7 +133,7 @@ void synth_noise_apply(const synth_noise *noise, const synth_noise_row *row, uin
     if (!noise->enable) {
         const float *z = row->z + (size_t)row->y * SYNTH_DEPTH_WIDTH;
         for (int32_t x = 0; x < SYNTH_DEPTH_WIDTH; x++) {
-            out[x] = quantise(noise->min_mm, noise->max_mm, z[x] * 1000.0f);
+            out[x] = synth_noise_quantise(noise->min_mm, noise->max_mm, z[x] * 1000.0f);
         }
         return;
     }

@@ -3,6 +3,7 @@
 #ifndef RLF_CAPTURE_SYNTHETIC_NOISE_H
 #define RLF_CAPTURE_SYNTHETIC_NOISE_H
 
+#include "kernel/kernel.h"
 #include "relief/frame.h"
 
 #define SYNTH_DEPTH_WIDTH 512
@@ -77,9 +78,16 @@ void synth_noise_find_jumps(const float *z, int32_t count, uint8_t *out);
 /* noise_steps.c: depth in metres at pixel (x, y) as structured light measures it; z > 0. */
 float synth_noise_steps(const synth_noise *noise, uint32_t frame, int32_t x, int32_t y, float z);
 
-/* What the drawn sensor delivers instead. */
+/* Millimetres in steps of one; 0 outside the range. */
+RLF_KERNEL_PART uint16_t synth_noise_quantise(float least, float most, float depth_mm)
+{
+    int is_inside = (depth_mm >= least) & (depth_mm <= most);
+    return (uint16_t)(is_inside ? (int32_t)(depth_mm + 0.5f) : 0);
+}
+
+/* noise_drawn.c: what the drawn sensor delivers instead. */
 void synth_noise_apply_drawn(const synth_noise *noise, const synth_noise_row *row, uint16_t *out);
-/* Mixes and drops pixels of row y at jumps. */
+/* noise_jumps.c: mixes and drops pixels of row y at jumps. */
 void synth_noise_apply_jumps(const synth_noise *noise, const synth_noise_row *row, uint32_t key,
                              uint16_t *out);
 

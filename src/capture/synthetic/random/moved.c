@@ -4,33 +4,12 @@
 
 #define START 3.0      /* s; of a push */
 #define LIFT_RISE 0.4  /* metres */
-#define SWEEP_WAY 1.1  /* metres */
 #define SWEEP_BACK 0.6 /* metres that the board starts before the middle of its way */
-#define CIRCLE 0.25    /* metres, radius */
-#define RAMP 0.4       /* s in which a tray reaches its speed along the circle */
 #define TRIES 400
 #define INSIDE 0.06 /* metres that all of it stays inside the picture */
 #define TURNED 0.35 /* radians that the board's pushing side is turned to the camera */
 
 static const rlf_vec3 plate_size = {0.5, 0.024, 0.4}, board_size = {0.024, 0.5, 0.4};
-
-static rlf_vec3 carry_at(const synth_moved *m, double tau)
-{
-    const double way = tau < RAMP ? 0.5 * tau * tau / RAMP : tau - 0.5 * RAMP;
-    const double angle = m->speed * way / CIRCLE;
-    const rlf_vec3 along = rlf_scale(m->along, CIRCLE * (rlf_cos(angle) - 1.0));
-    return rlf_mad(along, m->aside, CIRCLE * rlf_sin(angle));
-}
-
-rlf_vec3 synth_random_offset(const synth_moved *m, double t)
-{
-    const double tau = rlf_max(0.0, t - m->start);
-    switch (m->push) {
-    case RLF_SYNTHETIC_PUSH_SWIPE: return rlf_scale(m->along, rlf_min(m->speed * tau, SWEEP_WAY));
-    case RLF_SYNTHETIC_PUSH_CARRY: return carry_at(m, tau);
-    default: return rlf_scale(m->up, rlf_min(m->speed * tau, m->rise));
-    }
-}
 
 /* Where a push happens: on the floor, seen along `yaw`. */
 typedef struct stage {
@@ -48,10 +27,10 @@ static bool is_seen_all_the_way(const synth_plan *plan, const stage *s, rlf_vec3
     for (int32_t i = 0; i < 24; i++) {
         const int32_t end = i / 8; /* both ends of the way, and the middle */
         const double x0 = (i & 1 ? 0.5 : -0.5) * size.x, z0 = (i & 2 ? 0.5 : -0.5) * size.z;
-        const double ways[3] = {is_swipe ? -SWEEP_BACK : -2.0 * CIRCLE,
-                                is_swipe ? SWEEP_WAY - SWEEP_BACK + 0.15 : 0.0, 0.0};
+        const double ways[3] = {is_swipe ? -SWEEP_BACK : -2.0 * SYNTH_CIRCLE,
+                                is_swipe ? SYNTH_SWEEP_WAY - SWEEP_BACK + 0.15 : 0.0, 0.0};
         const double x = x0 + (is_lift ? 0.0 : ways[end]);
-        const double z = z0 + (is_lift || is_swipe ? 0.0 : (end - 1) * CIRCLE);
+        const double z = z0 + (is_lift || is_swipe ? 0.0 : (end - 1) * SYNTH_CIRCLE);
         const double up =
             (i & 4 ? 0.5 * size.y + 0.12 : -0.5 * size.y) + (is_lift && end == 1 ? LIFT_RISE : 0.0);
         const rlf_vec3 at = {s->spot.x + c * x + n * z, s->height + up, s->spot.z - n * x + c * z};

@@ -1,5 +1,4 @@
 /* A room drawn at random, and drawn again until it can be seen. */
-#include "capture/synthetic/bones.h"
 #include "capture/synthetic/random/plan.h"
 
 #define ATTEMPTS 60
@@ -102,61 +101,5 @@ void synth_random_build(synth_scene *scene, synth_random *random, const rlf_synt
         }
     }
     synth_scene_bound(scene);
-    synth_scene_move(scene, 0.0);
-}
-
-/* Bones of a person, camera frame. */
-static void find_bones(const synth_scene *scene, const synth_individual *person, double t,
-                       rlf_pose *bones)
-{
-    synth_script script = person->script;
-    script.acts = person->acts;
-    const synth_gait gait = synth_gait_follow(&script, &person->figure, t);
-    const rlf_pose T_camera_level = {{0, 0, 0}, scene->random->q_camera_level};
-    const rlf_pose T = rlf_pose_mul(&T_camera_level, &person->T_level_path);
-    synth_set_bones(scene, &person->figure, &gait, bones);
-    for (int32_t i = 0; i < SYNTH_BOOK_BONE; i++) {
-        bones[i] = rlf_pose_mul(&T, &bones[i]);
-    }
-}
-
-static void move_person(synth_scene *scene, const synth_individual *person, double t)
-{
-    synth_motion m;
-    find_bones(scene, person, t - SYNTH_DIFFERENCE_S, m.before);
-    find_bones(scene, person, t, m.now);
-    find_bones(scene, person, t + SYNTH_DIFFERENCE_S, m.after);
-    for (int32_t i = 0; i < person->flesh_count; i++) {
-        const synth_flesh *flesh = &person->flesh[i];
-        synth_put_flesh(scene, flesh, person->label, &m);
-        synth_part *part = &scene->movers[scene->mover_count - 1];
-        part->look = person->looks[flesh->material];
-        part->material = flesh->material == SYNTH_FACE ? SYNTH_FACE : SYNTH_DRAWN;
-    }
-}
-
-static void move_thing(synth_scene *scene, double t)
-{
-    const synth_moved *m = &scene->random->moved;
-    if (m->part_count == 0 || m->is_gone || t < m->start) {
-        return;
-    }
-    const double h = SYNTH_DIFFERENCE_S;
-    const rlf_vec3 offset = synth_random_offset(m, t);
-    const rlf_vec3 way = rlf_sub(synth_random_offset(m, t + h), synth_random_offset(m, t - h));
-    for (int32_t i = 0; i < m->part_count; i++) {
-        synth_part *part = &scene->movers[scene->mover_count++];
-        *part = m->parts[i];
-        part->velocity = rlf_scale(way, 0.5 / h);
-        part->shape.T_camera_shape.p = rlf_add(part->shape.T_camera_shape.p, offset);
-    }
-}
-
-void synth_random_move(synth_scene *scene, double t)
-{
-    scene->mover_count = 0;
-    for (int32_t i = 0; i < scene->random->people_count; i++) {
-        move_person(scene, &scene->random->people[i], t);
-    }
-    move_thing(scene, t);
+    synth_random_move(scene, 0.0);
 }

@@ -10,6 +10,8 @@
 #define SYNTH_ACTS_MAX 4
 #define SYNTH_CLOTHES_MAX 16 /* beside the body's own solids */
 #define SYNTH_THING_MAX 16   /* parts of the thing that is moved */
+#define SYNTH_SWEEP_WAY 1.1  /* metres, of a board */
+#define SYNTH_CIRCLE 0.25    /* metres, radius of a tray's way */
 
 /* Level frame: the camera is its origin, y down, x and z along the walls. */
 typedef struct synth_individual {
@@ -52,8 +54,5 @@ void synth_random_build(synth_scene *scene, synth_random *random, const rlf_synt
 
 /* The movers at time t. */
 void synth_random_move(synth_scene *scene, double t);
-
-/* How far the moved thing is from its place at time t, camera frame, metres. */
-rlf_vec3 synth_random_offset(const synth_moved *moved, double t);
 
 #endif
