@@ -5,6 +5,7 @@
  *   params.txt  fx fy u0 v0 [scale], pixels counted from 1
  * The error is acos |n.n_gt|, as there: 0 to 90 degrees. */
 #define _POSIX_C_SOURCE 200809L
+#include "eval/public.h"
 #include "eval/eval.h"
 #include "eval/sections.h"
 
@@ -14,18 +15,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#define WIDTH 640
-#define HEIGHT 480
-#define COUNT (WIDTH * HEIGHT)
 #define NOTHING 1.0f
 #define PATH_SIZE 1024
-
-typedef struct public_frame {
-    float *depth; /* 0 = nothing there */
-    float *ray_x, *ray_y;
-    float *found[3];
-    uint16_t *truth; /* three a pixel */
-} public_frame;
 
 static void free_frame(public_frame *f)
 {
@@ -45,21 +36,21 @@ static rlf_result read_depth(const char *path, float *out)
     if (file == NULL) {
         return rlf_fail(RLF_ERROR_IO, "%s: cannot be read; check the folder", path);
     }
-    size_t got = fread(out, sizeof(float), COUNT, file);
+    size_t got = fread(out, sizeof(float), PUBLIC_COUNT, file);
     bool is_longer = fgetc(file) != EOF;
     fclose(file);
-    if (got != COUNT || is_longer) {
-        return rlf_fail(RLF_ERROR_FORMAT, "%s: is not %d x %d float32 (%d bytes)", path, WIDTH,
-                        HEIGHT, COUNT * 4);
+    if (got != PUBLIC_COUNT || is_longer) {
+        return rlf_fail(RLF_ERROR_FORMAT, "%s: is not %d x %d float32 (%d bytes)", path,
+                        PUBLIC_WIDTH, PUBLIC_HEIGHT, PUBLIC_COUNT * 4);
     }
-    for (int32_t i = 0; i < COUNT; i++) {
+    for (int32_t i = 0; i < PUBLIC_COUNT; i++) {
         bool is_nothing = !(out[i] < NOTHING) && !(out[i] > NOTHING);
         out[i] = is_nothing ? 0.0f : out[i];
     }
     return RLF_OK;
 }
 
-static rlf_result read_rays(const char *path, float *ray_x, float *ray_y)
+static rlf_result read_rays(const char *path, public_frame *f)
 {
     double fx, fy, u0, v0;
     FILE *file = fopen(path, "r");
@@ -71,9 +62,15 @@ static rlf_result read_rays(const char *path, float *ray_x, float *ray_y)
     if (count != 4 || !(fx > 0.0) || !(fy > 0.0)) {
         return rlf_fail(RLF_ERROR_FORMAT, "%s: must hold the numbers fx fy u0 v0", path);
     }
-    for (int32_t i = 0; i < COUNT; i++) {
-        ray_x[i] = (float)((i % WIDTH - (u0 - 1.0)) / fx);
-        ray_y[i] = (float)((i / WIDTH - (v0 - 1.0)) / fy);
+    f->camera = (rlf_camera){.width = PUBLIC_WIDTH,
+                             .height = PUBLIC_HEIGHT,
+                             .fx = fx,
+                             .fy = fy,
+                             .cx = u0 - 1.0,
+                             .cy = v0 - 1.0};
+    for (int32_t i = 0; i < PUBLIC_COUNT; i++) {
+        f->ray_x[i] = (float)((i % PUBLIC_WIDTH - (u0 - 1.0)) / fx);
+        f->ray_y[i] = (float)((i / PUBLIC_WIDTH - (v0 - 1.0)) / fy);
     }
     return RLF_OK;
 }
@@ -82,9 +79,9 @@ static rlf_result read_truth(const char *path, uint16_t **out)
 {
     int32_t width, height;
     rlf_result result = rlf_png_read_rgb_u16(path, out, &width, &height);
-    if (result == RLF_OK && (width != WIDTH || height != HEIGHT)) {
+    if (result == RLF_OK && (width != PUBLIC_WIDTH || height != PUBLIC_HEIGHT)) {
         return rlf_fail(RLF_ERROR_FORMAT, "%s: is %d x %d, not %d x %d", path, (int)width,
-                        (int)height, WIDTH, HEIGHT);
+                        (int)height, PUBLIC_WIDTH, PUBLIC_HEIGHT);
     }
     return result;
 }
@@ -102,7 +99,7 @@ static rlf_result read_frame(const char *folder, public_frame *f)
     float **const planes[6] = {&f->depth,    &f->ray_x,    &f->ray_y,
                                &f->found[0], &f->found[1], &f->found[2]};
     for (int k = 0; k < 6; k++) {
-        *planes[k] = rlf_alloc_array(COUNT, sizeof(float));
+        *planes[k] = rlf_alloc_array(PUBLIC_COUNT, sizeof(float));
         if (*planes[k] == NULL) {
             return RLF_ERROR_MEMORY;
         }
@@ -111,7 +108,7 @@ static rlf_result read_frame(const char *folder, public_frame *f)
                             ? read_depth(path, f->depth)
                             : rlf_fail(RLF_ERROR_IO, "%s: the name is too long", folder);
     if (result == RLF_OK && join(path, folder, "params.txt")) {
-        result = read_rays(path, f->ray_x, f->ray_y);
+        result = read_rays(path, f);
     }
     if (result == RLF_OK && join(path, folder, "normal.png")) {
         result = read_truth(path, &f->truth);
@@ -119,27 +116,32 @@ static rlf_result read_frame(const char *folder, public_frame *f)
     return result;
 }
 
+double public_error_deg(const public_frame *f, int32_t pixel, rlf_vec3 normal)
+{
+    const uint16_t *png = &f->truth[3 * (size_t)pixel];
+    rlf_vec3 real = {1.0 - 2.0 * png[0] / 65535.0, 1.0 - 2.0 * png[1] / 65535.0,
+                     1.0 - 2.0 * png[2] / 65535.0};
+    double cosine = rlf_dot(normal, rlf_normalize(real));
+    cosine = cosine < 0.0 ? -cosine : cosine;
+    return rlf_acos(rlf_min(cosine, 1.0)) * 180.0 / RLF_PI;
+}
+
 static void measure(public_frame *f, rlf_profile profile, eval_angles *angles)
 {
     rlf_normal_method method =
         profile == RLF_PROFILE_LIVE ? RLF_NORMALS_INVERSE_DEPTH : RLF_NORMALS_THESIS;
-    rlf_compute_normals(method, true, WIDTH, HEIGHT, f->ray_x, f->ray_y, f->depth, NULL,
-                        f->found[0], f->found[1], f->found[2]);
-    for (int32_t i = 0; i < COUNT; i++) {
+    rlf_compute_normals(method, true, PUBLIC_WIDTH, PUBLIC_HEIGHT, f->ray_x, f->ray_y, f->depth,
+                        NULL, f->found[0], f->found[1], f->found[2]);
+    for (int32_t i = 0; i < PUBLIC_COUNT; i++) {
         if (!(f->depth[i] > 0.0f)) {
             continue;
         }
         rlf_vec3 found = {f->found[0][i], f->found[1][i], f->found[2][i]};
-        const uint16_t *png = &f->truth[3 * (size_t)i];
-        rlf_vec3 real = {1.0 - 2.0 * png[0] / 65535.0, 1.0 - 2.0 * png[1] / 65535.0,
-                         1.0 - 2.0 * png[2] / 65535.0};
         if (!(rlf_length(found) > 0.5)) {
             angles->missing++;
             continue;
         }
-        double cosine = rlf_dot(found, rlf_normalize(real));
-        cosine = cosine < 0.0 ? -cosine : cosine;
-        eval_add_angle(angles, rlf_acos(rlf_min(cosine, 1.0)) * 180.0 / RLF_PI);
+        eval_add_angle(angles, public_error_deg(f, i, found));
     }
 }
 
@@ -167,6 +169,9 @@ static rlf_result run_frame(eval_table *table, const char *folder, const char *n
                        eval_missing_percent(angles));
     }
     rlf_free(angles);
+    if (result == RLF_OK) {
+        result = public_still_run(table, &frame, name, profile_mask);
+    }
     free_frame(&frame);
     return result;
 }

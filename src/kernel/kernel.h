@@ -92,6 +92,14 @@ RLF_KERNEL_PART float rlf_kernel_inverse_sigma(rlf_kernel_noise n, float w)
     float least = 0.0003f * (w * w);
     return sigma > least ? sigma : least;
 }
+/* The square of that in a mean over frames: 1 / their number is `left`, and an error that lasts
+ * stays, but is no more than the noise of one frame. */
+RLF_KERNEL_PART float rlf_kernel_left_variance(float sigma, float left, float lasting)
+{
+    float one = sigma * sigma;
+    float mean = one * left + lasting * lasting;
+    return mean < one ? mean : one;
+}
 /* How much noisier a slanted surface is: Fankhauser et al. 2015 add
  * 0.1 mm z^1.5 theta^2 / (pi/2 - theta)^2 to a Kinect v2's noise, which at 2 to 4.5 m is 0.17 to
  * 0.19 of the frontal noise, here 0.18 of any sensor's. `along` / `length` is the cosine. It ends
@@ -216,6 +224,9 @@ typedef struct rlf_kernel_tile {
     int32_t x0, y0;        /* corner of the tile: even numbers */
     int32_t x1, y1;        /* end of the tile, <= width, height */
     const float *depth, *ray_x, *ray_y;
+    const float *frames; /* plane: of how many frames depth is the mean, as of steady_row; NULL = 1
+                          */
+    float lasting; /* error of inverse depth that no mean takes away, 1/m; at most the noise */
     rlf_kernel_noise noise;
     float *out_x, *out_y, *out_z; /* planes of the image; written inside the tile only; 0 where
                                      no plane explains the pixel */

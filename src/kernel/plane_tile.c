@@ -24,9 +24,9 @@ enum {
 };
 
 /* Largest residuals that a window may have, in sigmas. */
-static const float WIDE_SIGMAS = 1.15f, NARROW_SIGMAS = 1.6f;
+static const rlf_plane_gate WIDE = {1.15f, true}, NARROW = {1.6f, false};
 
-enum { N, X, Y, XX, XY, YY, W, XW, YW, WW, MOMENTS };
+enum { N, X, Y, XX, XY, YY, W, XW, YW, WW, LEFT_OVER, MOMENTS };
 
 /* Plane i is of block i - REACH of the tile. The moments of that block have the index
  * i + HALO - REACH, and the corner to its left has the index i. */
@@ -60,7 +60,7 @@ typedef struct tile_state {
 /* ---- moments ---- */
 
 typedef struct pixel_row {
-    const float *z, *x, *y;
+    const float *z, *frames, *x, *y;
 } pixel_row;
 
 RLF_KERNEL_PART void store_moments(rlf_plane_moments s, int32_t i, moment_row *out)
@@ -75,13 +75,14 @@ RLF_KERNEL_PART void store_moments(rlf_plane_moments s, int32_t i, moment_row *o
     out->of[XW][i] = s.xw;
     out->of[YW][i] = s.yw;
     out->of[WW][i] = s.ww;
+    out->of[LEFT_OVER][i] = s.left;
 }
 
-RLF_KERNEL_PART rlf_plane_moments pair_moments(const float *z, const float *x, const float *y,
-                                               rlf_plane_reference ref)
+RLF_KERNEL_PART rlf_plane_moments pair_moments(const float *z, const float *frames, const float *x,
+                                               const float *y, rlf_plane_reference ref)
 {
-    return rlf_plane_add(rlf_plane_pixel(z[0], x[0], y[0], ref),
-                         rlf_plane_pixel(z[1], x[1], y[1], ref));
+    return rlf_plane_add(rlf_plane_pixel(z[0], frames[0], x[0], y[0], ref),
+                         rlf_plane_pixel(z[1], frames[1], x[1], y[1], ref));
 }
 
 /* Whole blocks: `count` of them from two rows of pixels. */
@@ -90,9 +91,10 @@ RLF_KERNEL_PART void add_blocks(pixel_row upper, pixel_row lower, rlf_plane_refe
 {
     const float *restrict z0 = upper.z, *restrict x0 = upper.x, *restrict y0 = upper.y;
     const float *restrict z1 = lower.z, *restrict x1 = lower.x, *restrict y1 = lower.y;
+    const float *restrict f0 = upper.frames, *restrict f1 = lower.frames;
     for (int32_t i = 0; i < count; i++) {
-        rlf_plane_moments top = pair_moments(z0 + 2 * i, x0 + 2 * i, y0 + 2 * i, ref);
-        rlf_plane_moments low = pair_moments(z1 + 2 * i, x1 + 2 * i, y1 + 2 * i, ref);
+        rlf_plane_moments top = pair_moments(z0 + 2 * i, f0 + 2 * i, x0 + 2 * i, y0 + 2 * i, ref);
+        rlf_plane_moments low = pair_moments(z1 + 2 * i, f1 + 2 * i, x1 + 2 * i, y1 + 2 * i, ref);
         store_moments(rlf_plane_add(top, low), first + i, out);
     }
 }
@@ -101,8 +103,10 @@ RLF_KERNEL_PART void add_blocks(pixel_row upper, pixel_row lower, rlf_plane_refe
 RLF_KERNEL_PART void add_half_block(pixel_row upper, pixel_row lower, rlf_plane_reference ref,
                                     int32_t x, moment_row *restrict out, int32_t i)
 {
-    rlf_plane_moments top = rlf_plane_pixel(upper.z[x], upper.x[x], upper.y[x], ref);
-    rlf_plane_moments low = rlf_plane_pixel(lower.z[x], lower.x[x], lower.y[x], ref);
+    rlf_plane_moments top =
+        rlf_plane_pixel(upper.z[x], upper.frames[x], upper.x[x], upper.y[x], ref);
+    rlf_plane_moments low =
+        rlf_plane_pixel(lower.z[x], lower.frames[x], lower.x[x], lower.y[x], ref);
     store_moments(rlf_plane_add(top, low), i, out);
 }
 
@@ -146,10 +150,13 @@ RLF_KERNEL_PART void make_moments(tile_state *state, int32_t y, moment_row *rest
     bool is_cut = count > room;
     count = is_cut ? room : count;
     ptrdiff_t i = (ptrdiff_t)y * t->width + x;
-    pixel_row upper = {t->depth + i, t->ray_x + i, t->ray_y + i};
-    pixel_row lower = {missing, upper.x, upper.y};
+    const float *frames = t->frames != NULL ? t->frames + i : missing; /* less than one is one */
+    pixel_row upper = {t->depth + i, frames, t->ray_x + i, t->ray_y + i};
+    pixel_row lower = {missing, frames, upper.x, upper.y};
     if (y + 1 < t->height) {
-        lower = (pixel_row){upper.z + t->width, upper.x + t->width, upper.y + t->width};
+        ptrdiff_t below = t->frames != NULL ? t->width : 0;
+        lower =
+            (pixel_row){upper.z + t->width, frames + below, upper.x + t->width, upper.y + t->width};
     }
     for (int32_t next = 2; next < 4 && y + next < t->height; next++) {
         fetch_row(t, i + (ptrdiff_t)next * t->width, 2 * count);
@@ -215,23 +222,24 @@ RLF_KERNEL_PART float run(const float *v, int32_t length)
 /* Moments of the window of `length` blocks from the index i on. */
 RLF_KERNEL_PART rlf_plane_moments window(const moment_row *s, int32_t i, int32_t length)
 {
-    rlf_plane_moments sum = {run(s->of[N] + i, length),  run(s->of[X] + i, length),
-                             run(s->of[Y] + i, length),  run(s->of[XX] + i, length),
-                             run(s->of[XY] + i, length), run(s->of[YY] + i, length),
-                             run(s->of[W] + i, length),  run(s->of[XW] + i, length),
-                             run(s->of[YW] + i, length), run(s->of[WW] + i, length)};
+    rlf_plane_moments sum = {
+        run(s->of[N] + i, length),  run(s->of[X] + i, length),        run(s->of[Y] + i, length),
+        run(s->of[XX] + i, length), run(s->of[XY] + i, length),       run(s->of[YY] + i, length),
+        run(s->of[W] + i, length),  run(s->of[XW] + i, length),       run(s->of[YW] + i, length),
+        run(s->of[WW] + i, length), run(s->of[LEFT_OVER] + i, length)};
     return sum;
 }
 
 /* Planes of the windows of `length` blocks; that of plane i starts at the moments i + shift. */
 RLF_KERNEL_PART void fit_windows(const tile_state *state, const moment_row *restrict sums,
-                                 int32_t shift, int32_t length, float most_sigmas, int32_t first,
+                                 int32_t shift, int32_t length, rlf_plane_gate gate, int32_t first,
                                  int32_t end, plane_row *restrict out)
 {
     const rlf_plane_reference ref = state->ref;
     const rlf_kernel_noise noise = state->tile->noise;
+    const float lasting = state->tile->lasting;
     for (int32_t i = first; i < end; i++) {
-        store_plane(rlf_plane_fit(window(sums, i + shift, length), ref, noise, most_sigmas), i,
+        store_plane(rlf_plane_fit(window(sums, i + shift, length), ref, noise, lasting, gate), i,
                     out);
     }
 }
@@ -250,7 +258,7 @@ RLF_KERNEL_PART void fit_corners(const tile_state *state, const moment_row *cons
         }
         if (last > first) {
             sum_rows(rows, 2, first, last + SPAN, &sums);
-            fit_windows(state, &sums, 1, 2, NARROW_SIGMAS, first, last, &corners->planes);
+            fit_windows(state, &sums, 1, 2, NARROW, first, last, &corners->planes);
         }
         first = last > first ? last : first + SPAN;
     }
@@ -276,7 +284,7 @@ RLF_KERNEL_PART void fit_small(tile_state *state, const moment_row *const rows[5
     moment_row sums;
     plane_row best;
     sum_rows(rows + 1, 3, first, end + SPAN, &sums);
-    fit_windows(state, &sums, 1, 3, NARROW_SIGMAS, first, end, &best);
+    fit_windows(state, &sums, 1, 3, NARROW, first, end, &best);
     for (int32_t side = 0; side < 2; side++) {
         corner_row *corners = &state->corners[(row + 1 + side) % 2];
         fit_corners(state, rows + 1 + side, first, end + SPAN, corners);
@@ -310,7 +318,7 @@ RLF_KERNEL_PART void make_planes(tile_state *state, int32_t row)
     plane_row planes;
     memset(state->corners[row % 2].is_fitted, 0, sizeof state->corners[0].is_fitted);
     sum_rows(rows, 5, 0, state->planes + HALO, &sums);
-    fit_windows(state, &sums, 0, 5, WIDE_SIGMAS, 0, state->planes, &planes);
+    fit_windows(state, &sums, 0, 5, WIDE, 0, state->planes, &planes);
     for (int32_t first = 0; first < state->planes; first += SPAN) {
         int32_t end = first;
         while (end < state->planes && needs_small(&sums, &planes, end)) {

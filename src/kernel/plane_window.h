@@ -12,11 +12,19 @@
 
 typedef struct rlf_plane_moments { /* of inverse depth w and ray x, y */
     float n, x, y, xx, xy, yy, w, xw, yw, ww;
+    float left; /* of noise: the sum of 1 / the frames that each pixel is the mean of */
 } rlf_plane_moments;
 
 typedef struct rlf_plane_reference {
     float x, y, w; /* what moments are relative to */
 } rlf_plane_reference;
+
+/* What a window may leave: so many sigmas of a frame's noise, or of what averaging has left of it.
+ */
+typedef struct rlf_plane_gate {
+    float sigmas;
+    bool is_averaged;
+} rlf_plane_gate;
 
 typedef struct rlf_plane {
     float a, b, c;   /* inverse depth is a + b x + c y */
@@ -24,22 +32,28 @@ typedef struct rlf_plane {
     float precision; /* 1 / the square of the largest error of a pixel on it */
 } rlf_plane;
 
-RLF_KERNEL_PART rlf_plane_moments rlf_plane_pixel(float z, float ray_x, float ray_y,
+/* `frames`: of which depth z is the mean; one division serves two quotients. */
+RLF_KERNEL_PART rlf_plane_moments rlf_plane_pixel(float z, float frames, float ray_x, float ray_y,
                                                   rlf_plane_reference ref)
 {
     bool is_seen = z > 0.0f;
+    float all = rlf_kernel_abs(frames);
+    all = all > 1.0f ? all : 1.0f;
+    float inverse = 1.0f / (is_seen ? z * all : 1.0f);
     float n = is_seen ? 1.0f : 0.0f;
     float x = is_seen ? ray_x - ref.x : 0.0f;
     float y = is_seen ? ray_y - ref.y : 0.0f;
-    float w = is_seen ? 1.0f / (is_seen ? z : 1.0f) - ref.w : 0.0f;
-    rlf_plane_moments s = {n, x, y, x * x, x * y, y * y, w, x * w, y * w, w * w};
+    float w = is_seen ? all * inverse - ref.w : 0.0f;
+    float left = is_seen ? z * inverse : 0.0f;
+    rlf_plane_moments s = {n, x, y, x * x, x * y, y * y, w, x * w, y * w, w * w, left};
     return s;
 }
 
 RLF_KERNEL_PART rlf_plane_moments rlf_plane_add(rlf_plane_moments s, rlf_plane_moments t)
 {
-    rlf_plane_moments sum = {s.n + t.n,   s.x + t.x, s.y + t.y,   s.xx + t.xx, s.xy + t.xy,
-                             s.yy + t.yy, s.w + t.w, s.xw + t.xw, s.yw + t.yw, s.ww + t.ww};
+    rlf_plane_moments sum = {s.n + t.n,   s.x + t.x,   s.y + t.y,      s.xx + t.xx,
+                             s.xy + t.xy, s.yy + t.yy, s.w + t.w,      s.xw + t.xw,
+                             s.yw + t.yw, s.ww + t.ww, s.left + t.left};
     return sum;
 }
 
@@ -50,7 +64,7 @@ RLF_KERNEL_PART rlf_plane_moments rlf_plane_add(rlf_plane_moments s, rlf_plane_m
  * slant, because planes laid across an edge are steep. Sums are scaled by n, and one division
  * serves two quotients. */
 RLF_KERNEL_PART rlf_plane rlf_plane_fit(rlf_plane_moments s, rlf_plane_reference ref,
-                                        rlf_kernel_noise noise, float most_sigmas)
+                                        rlf_kernel_noise noise, float lasting, rlf_plane_gate gate)
 {
     float n = s.n > 1.0f ? s.n : 1.0f;
     float xx = n * s.xx - s.x * s.x;
@@ -77,10 +91,12 @@ RLF_KERNEL_PART rlf_plane rlf_plane_fit(rlf_plane_moments s, rlf_plane_reference
     float freedom = n > 4.0f ? n - 3.0f : 1.0f;
     float sigma = rlf_kernel_inverse_sigma(noise, w);
     float slant = rlf_kernel_slant(w, sqrtf(square));
-    float frontal = sigma * sigma * freedom;
+    float one_frame = sigma * sigma * freedom;
+    float frontal = rlf_kernel_left_variance(sigma, s.left / n, lasting) * freedom;
     frontal = frontal > 1e-16f ? frontal : 1e-16f;
     float slanted = frontal * (slant * slant);
-    usable = residual <= most_sigmas * most_sigmas * slanted ? usable : 0.0f;
+    float most = gate.is_averaged ? slanted : one_frame * (slant * slant);
+    usable = residual <= gate.sigmas * gate.sigmas * most ? usable : 0.0f;
     float measured = residual > frontal ? residual : frontal;
     float excused = residual > slanted ? residual : slanted;
     float inv_product = 1.0f / (measured * excused);
@@ -89,6 +105,27 @@ RLF_KERNEL_PART rlf_plane rlf_plane_fit(rlf_plane_moments s, rlf_plane_reference
     float weight = spread * inv_variance * (freedom * sqrtf(inv_product));
     rlf_plane p = {a, b, c, usable * weight, (1.0f / 9.0f) * inv_variance};
     return p;
+}
+
+/* What the plane of a window leaves: variance of a pixel's inverse depth; the middle's. */
+typedef struct rlf_plane_rest {
+    float variance, w;
+    float slant; /* how much noisier its slant makes it */
+} rlf_plane_rest;
+
+RLF_KERNEL_PART rlf_plane_rest rlf_plane_leave(rlf_plane_moments s, rlf_plane_reference ref)
+{
+    float n = s.n;
+    float xx = n * s.xx - s.x * s.x, xy = n * s.xy - s.x * s.y, yy = n * s.yy - s.y * s.y;
+    float xw = n * s.xw - s.x * s.w, yw = n * s.yw - s.y * s.w, ww = n * s.ww - s.w * s.w;
+    float det = xx * yy - xy * xy;
+    float b = (xw * yy - yw * xy) / det, c = (yw * xx - xw * xy) / det;
+    float mx = ref.x + s.x / n, my = ref.y + s.y / n, w = ref.w + s.w / n;
+    float a = w - b * mx - c * my;
+    float square = (a * a + b * b + c * c) * (mx * mx + my * my + 1.0f);
+    rlf_plane_rest rest = {(ww - b * xw - c * yw) / (n * (n - 3.0f)), w,
+                           rlf_kernel_slant(w, sqrtf(square))};
+    return rest;
 }
 
 #endif

@@ -34,6 +34,17 @@ RLF_KERNEL void rlf_kernel_halve_row(rlf_kernel_noise noise, const float *restri
     }
 }
 
+RLF_KERNEL void rlf_kernel_halve_frames(const float *restrict upper, const float *restrict lower,
+                                        int32_t count, float *restrict out)
+{
+    for (int32_t i = 0; i < count; i++) {
+        float a = rlf_kernel_abs(upper[2 * i]), b = rlf_kernel_abs(upper[2 * i + 1]);
+        float c = rlf_kernel_abs(lower[2 * i]), d = rlf_kernel_abs(lower[2 * i + 1]);
+        float top = a < b ? a : b, low = c < d ? c : d;
+        out[i] = top < low ? top : low;
+    }
+}
+
 RLF_KERNEL void rlf_kernel_invert_planes(const float *restrict depth, const float *restrict ray_x,
                                          const float *restrict ray_y, int32_t count,
                                          float *restrict x, float *restrict y, float *restrict z)
@@ -45,6 +56,13 @@ RLF_KERNEL void rlf_kernel_invert_planes(const float *restrict depth, const floa
         y[i] *= whole;
         z[i] *= whole;
     }
+}
+
+/* Sigma of inverse depth that is the mean of so many frames. */
+RLF_KERNEL_PART float mean_sigma(rlf_kernel_noise noise, float w, float frames, float lasting)
+{
+    float all = rlf_kernel_abs(frames), left = 1.0f / (all > 1.0f ? all : 1.0f);
+    return sqrtf(rlf_kernel_left_variance(rlf_kernel_inverse_sigma(noise, w), left, lasting));
 }
 
 RLF_KERNEL_PART float square_of(float x, float y, float z)
@@ -73,12 +91,13 @@ RLF_KERNEL_PART void lean(const rlf_kernel_wide *in, plane_at own, plane_at besi
     const float *restrict ray_x = in->half_ray_x + first, *restrict ray_y = in->half_ray_y + first;
     const float *restrict x = own.x, *restrict y = own.y, *restrict z = own.z;
     const float *restrict u = beside.x, *restrict v = beside.y, *restrict w = beside.z;
+    const float *restrict frames = in->half_frames + first;
     const rlf_kernel_noise noise = in->noise;
-    const float tilt = in->tilt;
+    const float tilt = in->tilt, lasting = in->lasting;
     for (int32_t i = 0; i < count; i++) {
         float mine = x[i] * ray_x[i] + y[i] * ray_y[i] + z[i];
         float off = u[i] * ray_x[i] + v[i] * ray_y[i] + w[i] - mine;
-        float sigma = rlf_kernel_inverse_sigma(noise, mine);
+        float sigma = mean_sigma(noise, mine, frames[i], lasting);
         float turn = square_of(u[i] - x[i], v[i] - y[i], w[i] - z[i]);
         float error = most_bend * tilt * sigma; /* radians, times the inverse depth */
         float most = error * error * square_of(x[i], y[i], z[i]);
@@ -145,16 +164,18 @@ RLF_KERNEL_PART void judge(const rlf_kernel_wide *in, const plane_run *restrict 
     const float *restrict depth = in->depth + first;
     const float *restrict ray_x = in->ray_x + first, *restrict ray_y = in->ray_y + first;
     const float *restrict nx = normal[0], *restrict ny = normal[1], *restrict nz = normal[2];
+    const float *restrict frames = in->frames + first;
     const rlf_kernel_noise noise = in->noise;
-    const float tilt = in->tilt;
+    const float tilt = in->tilt, lasting = in->lasting;
     for (int32_t i = 0; i < count; i++) {
         float inverse = wide->x[i] * ray_x[i] + wide->y[i] * ray_y[i] + wide->z[i];
         float length = square_of(wide->x[i], wide->y[i], wide->z[i]);
         float scale = -1.0f / sqrtf(length > 1e-30f ? length : 1.0f);
         float x = wide->x[i] * scale, y = wide->y[i] * scale, z = wide->z[i] * scale;
         float there = 1.0f / (inverse > 1e-3f ? inverse : 1.0f);
-        float sigma = rlf_kernel_sigma(noise, depth[i]);
-        float error = tilt * sigma / (depth[i] > 0.0f ? depth[i] : 1.0f);
+        float deep = depth[i] > 0.0f ? depth[i] : 1.0f;
+        float sigma = deep * deep * mean_sigma(noise, 1.0f / deep, frames[i], lasting);
+        float error = tilt * sigma / deep;
         float square = error * error;
         float turn = square_of(x - nx[i], y - ny[i], z - nz[i]); /* of the chord, squared */
         int is_plane = (depth[i] > 0.0f ? 1 : 0) & (inverse > 1e-3f ? 1 : 0);

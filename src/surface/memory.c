@@ -254,9 +254,9 @@ static void take_wide(rlf_reconstruct *stage)
         wide->width = width / 2;
         wide->height = height / 2;
         size_t n = (size_t)wide->width * (size_t)wide->height;
-        float **const planes[] = {&wide->ray_x,    &wide->ray_y,     &wide->depth,
-                                  &wide->smooth,   &wide->normal[0], &wide->normal[1],
-                                  &wide->normal[2]};
+        float **const planes[] = {&wide->ray_x,     &wide->ray_y,     &wide->depth,
+                                  &wide->smooth,    &wide->normal[0], &wide->normal[1],
+                                  &wide->normal[2], &wide->frames};
         for (size_t k = 0; k < sizeof planes / sizeof planes[0]; k++) {
             *planes[k] = take(stage, n, sizeof(float));
         }

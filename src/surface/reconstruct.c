@@ -117,6 +117,12 @@ static void make_planes(rlf_reconstruct *stage, const float *depth, float *smoot
 {
     rlf_normals_job job = rlf_normals_job_make(stage, depth, slot->normal);
     job.smooth = smooth;
+    job.frames = stage->work.zero_plane; /* less than one is one */
+    if (stage->steady.frames != NULL) {
+        rlf_lasting_measure(stage, depth);
+        job.frames = stage->steady.frames;
+        job.lasting = stage->steady.lasting.sigma;
+    }
     rlf_normals_plane_fit(&job);
     rlf_normals_widen(stage, &job);
 }

@@ -137,6 +137,16 @@ typedef struct rlf_settled {
     int32_t votes; /* 0 = no normal yet */
 } rlf_settled;
 
+/* How much of the noise stays in any mean: see normals/lasting.c. */
+enum { RLF_LASTING_BINS = 64, RLF_LASTING_ALL = 1000 };
+
+typedef struct rlf_lasting {
+    float sigma;                     /* of inverse depth, 1/m; RLF_LASTING_ALL = not known yet */
+    int32_t count[RLF_LASTING_BINS]; /* of windows, by what they leave */
+    int32_t phase;                   /* which rows of windows are next */
+    int32_t frame;                   /* since some were looked at */
+} rlf_lasting;
+
 /* Means of inverse depth over time; NULL planes when they are not wanted. */
 typedef struct rlf_steady {
     float *mean, *frames;
@@ -147,6 +157,7 @@ typedef struct rlf_steady {
     uint8_t *restless; /* per block: 1 where it, or one beside it, is not calm */
     int32_t age;       /* frames that were averaged, up to 255 */
     int32_t next_row;  /* the first that normals/agree.c asks next */
+    rlf_lasting lasting;
 } rlf_steady;
 
 /* Coarser pictures of a frame, each of half the resolution of the one before: see normals/wide.c.
@@ -157,7 +168,7 @@ enum { RLF_WIDE_LEVELS = 2 };
 typedef struct rlf_wide {
     int32_t width, height;
     float *ray_x, *ray_y;
-    float *depth, *smooth, *normal[3];
+    float *depth, *frames, *smooth, *normal[3];
 } rlf_wide;
 
 /* Side of a block in pixels, and the frames without motion after which one is calm. */

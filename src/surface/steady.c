@@ -90,6 +90,7 @@ void rlf_steady_reset(rlf_steady *steady, int32_t count)
         memset(steady->restless, 0, (size_t)count);
         steady->age = 0;
         steady->next_row = 0;
+        steady->lasting = (rlf_lasting){.sigma = (float)RLF_LASTING_ALL};
     }
     if (steady->settled != NULL) {
         memset(steady->settled, 0, (size_t)count * sizeof *steady->settled);

@@ -71,6 +71,8 @@ typedef struct rlf_normals_job {
     const float *filled;          /* depth with holes filled: they take normals from beside them;
                                      NULL = the same as depth */
     const rlf_depth_noise *noise; /* NULL = clean */
+    const float *frames;          /* plane: of how many frames depth is the mean; NULL = of one */
+    float lasting;                /* error of inverse depth that stays in any mean, 1/m */
     float *out[3];
     float *smooth; /* depth of the planes, when the method fits any; NULL = not wanted */
     rlf_pool *pool;
@@ -94,6 +96,8 @@ void rlf_normals_plane_complete(const rlf_normals_job *job);
 bool rlf_wide_is_wanted(const rlf_reconstruct_def *def, const rlf_grid *grid);
 void rlf_wide_fill_rays(const float *ray_x, const float *ray_y, int32_t width, rlf_wide *out);
 void rlf_normals_widen(const rlf_reconstruct *stage, const rlf_normals_job *job);
+/* normals/lasting.c: measures how much of the noise stays in the means over time. */
+void rlf_lasting_measure(rlf_reconstruct *stage, const float *depth);
 /* Exact inverse-depth normal of one pixel, for those that no plane explains. */
 void rlf_normals_slope_pixel(const rlf_normals_job *job, int32_t x, int32_t y);
 

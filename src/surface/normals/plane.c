@@ -22,6 +22,8 @@ static void plane_bands(void *context, int32_t begin, int32_t end, int32_t worke
                                     job->depth,
                                     job->ray_x,
                                     job->ray_y,
+                                    job->frames,
+                                    job->lasting,
                                     rlf_kernel_noise_make(job->noise),
                                     job->out[0],
                                     job->out[1],

@@ -53,6 +53,9 @@ static void halve_rows(void *context, int32_t begin, int32_t end, int32_t worker
         const float *upper = job->whole->depth + (ptrdiff_t)2 * y * job->whole->width;
         rlf_kernel_halve_row(job->noise, upper, upper + job->whole->width, half->width,
                              half->depth + (ptrdiff_t)y * half->width);
+        const float *frames = job->whole->frames + (ptrdiff_t)2 * y * job->whole->width;
+        rlf_kernel_halve_frames(frames, frames + job->whole->width, half->width,
+                                half->frames + (ptrdiff_t)y * half->width);
     }
 }
 
@@ -81,12 +84,15 @@ static void speak_rows(void *context, int32_t begin, int32_t end, int32_t worker
         const rlf_kernel_wide in = {.depth = whole->depth + i,
                                     .ray_x = whole->ray_x + i,
                                     .ray_y = whole->ray_y + i,
+                                    .frames = whole->frames + i,
+                                    .half_frames = half->frames + k,
                                     .half_width = half->width,
                                     .plane = {plane[0] + k, plane[1] + k, plane[2] + k},
                                     .beside = {plane[0] + b, plane[1] + b, plane[2] + b},
                                     .half_ray_x = half->ray_x + k,
                                     .half_ray_y = half->ray_y + k,
                                     .noise = job->noise,
+                                    .lasting = whole->lasting,
                                     .tilt = job->tilt};
         float *const normal[3] = {whole->out[0] + i, whole->out[1] + i, whole->out[2] + i};
         rlf_kernel_wide_row(&in, normal, whole->smooth + i);
@@ -107,6 +113,7 @@ static void widen(const rlf_normals_job *whole, const rlf_wide *half, int32_t le
     wide.ray_x = half->ray_x;
     wide.ray_y = half->ray_y;
     wide.depth = half->depth;
+    wide.frames = half->frames;
     wide.smooth = half->smooth;
     for (int k = 0; k < 3; k++) {
         wide.out[k] = half->normal[k];
