@@ -6,9 +6,6 @@
 #include "eval/eval.h"
 #include "eval/sections.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-
 #define CASES 6    /* per speed and seed, two with each sensor */
 #define SIZE 0.1   /* m, of the cubes */
 #define PLACED 0.7 /* s; the cube is put down ... */
@@ -23,22 +20,21 @@ static const double speeds[SPEEDS] = {0.1, 0.25, 0.5, 1.0, 2.0};
 
 static const struct {
     const char *key, *title;
-} rows[START_KINDS][SPEEDS] = {
-    {{"lift_10", "LIFT: carried upwards from rest, at 0.1 m/s, %"},
-     {"lift_25", "  at 0.25 m/s, %"},
-     {"lift_50", "  at 0.5 m/s, %"},
-     {"lift_100", "  at 1 m/s, %"},
-     {"lift_200", "  at 2 m/s, %"}},
-    {{"swipe_10", "SWIPE: pushed by a board from rest, at 0.1 m/s, %"},
-     {"swipe_25", "  at 0.25 m/s, %"},
-     {"swipe_50", "  at 0.5 m/s, %"},
-     {"swipe_100", "  at 1 m/s, %"},
-     {"swipe_200", "  at 2 m/s, %"}},
-    {{"carry_10", "CARRY: carried along from rest, at 0.1 m/s, %"},
-     {"carry_25", "  at 0.25 m/s, %"},
-     {"carry_50", "  at 0.5 m/s, %"},
-     {"carry_100", "  at 1 m/s, %"},
-     {"carry_200", "  at 2 m/s, %"}}};
+} rows[START_KINDS][SPEEDS] = {{{"lift_10", "LIFT: carried upwards from rest, at 0.1 m/s, %"},
+                                {"lift_25", "  at 0.25 m/s, %"},
+                                {"lift_50", "  at 0.5 m/s, %"},
+                                {"lift_100", "  at 1 m/s, %"},
+                                {"lift_200", "  at 2 m/s, %"}},
+                               {{"swipe_10", "SWIPE: pushed by a board from rest, at 0.1 m/s, %"},
+                                {"swipe_25", "  at 0.25 m/s, %"},
+                                {"swipe_50", "  at 0.5 m/s, %"},
+                                {"swipe_100", "  at 1 m/s, %"},
+                                {"swipe_200", "  at 2 m/s, %"}},
+                               {{"carry_10", "CARRY: carried along from rest, at 0.1 m/s, %"},
+                                {"carry_25", "  at 0.25 m/s, %"},
+                                {"carry_50", "  at 0.5 m/s, %"},
+                                {"carry_100", "  at 1 m/s, %"},
+                                {"carry_200", "  at 2 m/s, %"}}};
 
 /* A plate or low box that stands on the floor and rises, or is pushed along it; or a board. */
 static start_def draw_case(eval_random *r, start_kind kind, double speed)
@@ -52,16 +48,18 @@ static start_def draw_case(eval_random *r, start_kind kind, double speed)
     rlf_vec3 half = {eval_random_range(r, 0.15, 0.3), 0.5 * tall, eval_random_range(r, 0.12, 0.25)};
     def.box.yaw = eval_random_range(r, -0.8, 0.8);
     if (is_swipe) {
-        half = rlf_vec3_make(eval_random_range(r, 0.15, 0.25), eval_random_range(r, 0.1, 0.2), 0.02);
+        half =
+            rlf_vec3_make(eval_random_range(r, 0.15, 0.25), eval_random_range(r, 0.1, 0.2), 0.02);
         bool is_left = eval_random_uniform(r) < 0.5;
         def.box.yaw = (is_left ? -1.0 : 1.0) * eval_random_range(r, 0.0, 1.1);
     }
     def.box.half = half;
     def.box.centre = rlf_vec3_make(x, def.height - half.y, z);
     double along = eval_random_range(r, 0.0, 6.283);
-    def.way = kind == START_LIFT    ? rlf_vec3_make(0, -1, 0)
-              : kind == START_CARRY ? rlf_vec3_make(rlf_cos(along), 0, rlf_sin(along))
-                                    : rlf_vec3_make(-rlf_sin(def.box.yaw), 0, -rlf_cos(def.box.yaw));
+    def.way = kind == START_LIFT ? rlf_vec3_make(0, -1, 0)
+              : kind == START_CARRY
+                  ? rlf_vec3_make(rlf_cos(along), 0, rlf_sin(along))
+                  : rlf_vec3_make(-rlf_sin(def.box.yaw), 0, -rlf_cos(def.box.yaw));
     def.ramp_s = kind == START_CARRY ? rlf_max(0.1, speed / 2.5) : def.ramp_s;
     def.far += 0.5 * speed * def.ramp_s;
     return def;
@@ -132,22 +130,10 @@ static bool is_right(const start_run *run, start_kind kind, rlf_vec3 placed)
         return at.z < -def->box.half.z && moved > 0.7 * def->far && along > 0.7 * speed;
     }
     double gap = -at.y - def->box.half.y - 0.5 * SIZE;
-    double slip = kind == START_LIFT ? 0.03 : 0.06;
+    double slip = kind == START_LIFT ? 0.05 : 0.1;
     bool is_there = is_within(at.x - was.x, -slip, slip) && is_within(at.z - was.z, -slip, slip);
     return is_there && is_within(gap, -0.02, 0.02) &&
            is_within(along - speed, -0.1 * speed - 0.03, 0.1 * speed + 0.03);
-}
-
-static void tell(const start_run *run, start_kind kind, rlf_vec3 placed, bool is_good)
-{
-    double speed;
-    const start_def *def = &run->room.def;
-    start_box box = start_box_at(def, run->frame.time_s, &speed);
-    rlf_vec3 p = run->frame.snapshot->bodies[0].T_world_body.p, v = run->frame.snapshot->bodies[0].velocity;
-    rlf_vec3 at = start_box_local(&box, p), was = start_box_local(&def->box, placed);
-    fprintf(stderr, "START kind %d speed %.2f sensor %d h %.2f pitch %.2f tall %.2f half %.2f %.2f: %s  slip %.3f %.3f gap %.3f v %.2f of %.2f (%.2f %.2f %.2f)\n",
-            kind, def->speed, def->sensor, def->height, def->pitch, 2 * def->box.half.y, def->box.half.x, def->box.half.z, is_good ? "ok" : "BAD", at.x - was.x, at.z - was.z,
-            -at.y - def->box.half.y - 0.05, rlf_dot(v, def->way), speed, v.x, v.y, v.z);
 }
 
 static rlf_result run_case(const start_def *def, start_kind kind, eval_random *r, bool *out_good)
@@ -165,21 +151,9 @@ static rlf_result run_case(const start_def *def, start_kind kind, eval_random *r
     rlf_body_id id;
     result = result == RLF_OK ? rlf_world_add_body(world, &body, &id) : result;
     double stop = BEGIN + def->far / def->speed + 0.5 * def->ramp_s;
-    int trace = getenv("START_TRACE") != NULL;
-    while (trace && result == RLF_OK && run.frame.time_s < stop - FRAME_S - 1e-6) {
-        result = step_until(&run, run.frame.time_s + FRAME_S - 1e-5);
-        bool g = run.frame.snapshot->body_count == 1;
-        if (g && run.frame.time_s > BEGIN - 0.1) {
-            fprintf(stderr, "t %.3f fg %d reg %d contacts %d ", run.frame.time_s, run.frame.surface->foreground_count, run.frame.surface->region_count, run.frame.snapshot->contact_count);
-            tell(&run, kind, body.position, true);
-        }
-    }
     result = result == RLF_OK ? step_until(&run, stop - FRAME_S) : result;
     *out_good = result == RLF_OK && run.frame.snapshot->body_count == 1 &&
                 is_right(&run, kind, body.position);
-    if (getenv("START_TELL") && result == RLF_OK && run.frame.snapshot->body_count == 1) {
-        tell(&run, kind, body.position, *out_good);
-    }
     rlf_pipeline_destroy(&run.pipeline);
     start_room_close(&run.room);
     return result;
@@ -210,8 +184,6 @@ rlf_result eval_start_run(eval_table *table, int64_t seed, int profile_mask)
     rlf_result result = RLF_OK;
     for (int kind = 0; kind < START_KINDS && (profile_mask & (1 << RLF_PROFILE_LIVE)); kind++) {
         for (int speed = 0; speed < SPEEDS && result == RLF_OK; speed++) {
-            if (getenv("START_ONLY") && atoi(getenv("START_ONLY")) != kind) continue;
-            if (getenv("START_SPEED") && atoi(getenv("START_SPEED")) != speed) continue;
             result = add_row(table, seed, (start_kind)kind, speed);
         }
     }

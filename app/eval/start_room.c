@@ -7,11 +7,11 @@
 #define HEIGHT 240
 #define COUNT (WIDTH * HEIGHT)
 #define FOCAL 285.0
-#define WALL_M 3.8     /* from the camera, level */
-#define STEPS_M 348.0  /* steps of a shift at 1 m, of a Kinect v1 */
+#define WALL_M 3.8    /* from the camera, level */
+#define STEPS_M 348.0 /* steps of a shift at 1 m, of a Kinect v1 */
 #define STEP_SIGMA 0.35
-#define EDGE_M 0.05    /* between neighbours: an edge */
-#define PITCH 4        /* pixels between independent errors */
+#define EDGE_M 0.05 /* between neighbours: an edge */
+#define PITCH 4     /* pixels between independent errors */
 
 start_box start_box_at(const start_def *def, double time_s, double *out_speed)
 {

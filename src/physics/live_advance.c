@@ -72,7 +72,7 @@ static bool start_surface(rlf_world *world, const rlf_grid *grid, double dt)
     grid_tiles_start(&world->foreground_tiles, grid, &grid->foreground, is_new);
     grid_tiles_start(&world->background_tiles, grid, &grid->background, has_changed);
     if (is_new && phys_world_has_shell(world, grid)) {
-        grid_shell_glide(&world->shell, dt);
+        world->rest_version += grid_shell_glide(&world->shell, dt);
         find_shell(world, grid);
     }
     world->has_grid = true;

@@ -13,7 +13,9 @@
 #define SAME_NORMAL 0.97 /* cosine */
 #define SAME_OFFSET 0.1  /* m */
 #define AGREEMENT 0.95   /* cosine between a plane and the normals of its samples */
-#define GLIDE_S 2.0      /* time constant of a plane on its way to a new fit */
+#define GLIDE_S 2.0      /* time constant of a plane on its way to a new fit ... */
+#define REACHED 0.0005   /* ... where it is no farther off than this at ... */
+#define REACH 3.0        /* ... so far from the camera, m */
 
 typedef struct shell_sample {
     rlf_vec3 point, normal;
@@ -146,17 +148,25 @@ void grid_shell_update(grid_shell *shell, const rlf_grid *grid)
     shell->turn++;
 }
 
-void grid_shell_glide(grid_shell *shell, double dt)
+bool grid_shell_glide(grid_shell *shell, double dt)
 {
     double share = dt / (dt + GLIDE_S);
+    bool has_moved = false;
     for (int32_t i = 0; i < shell->count; i++) {
         shell_plane *plane = &shell->planes[i];
         const shell_plane *to = &shell->fitted[i];
-        rlf_vec3 normal = rlf_mad(plane->normal, rlf_sub(to->normal, plane->normal), share);
-        double length = rlf_length(normal);
-        plane->offset = (plane->offset + (to->offset - plane->offset) * share) / length;
-        plane->normal = rlf_scale(normal, 1.0 / length);
+        rlf_vec3 turn = rlf_sub(to->normal, plane->normal);
+        double off = to->offset - plane->offset;
+        double way = rlf_max(off, -off) + REACH * rlf_length(turn);
+        if (way > REACHED) {
+            rlf_vec3 normal = rlf_mad(plane->normal, turn, share);
+            double length = rlf_length(normal);
+            plane->offset = (plane->offset + off * share) / length;
+            plane->normal = rlf_scale(normal, 1.0 / length);
+            has_moved = true;
+        }
     }
+    return has_moved;
 }
 
 bool grid_shell_is_hidden(const rlf_grid *grid, rlf_vec3 q)

@@ -24,9 +24,10 @@ typedef struct grid_shell {
  * beyond. Planes that are known stay until points are seen beyond them. */
 void grid_shell_update(grid_shell *shell, const rlf_grid *grid);
 
-/* Moves the planes on to what was found, `dt` s later: a fit that differs by a degree is centimetres
- * off where the camera does not look, and nothing that lies there may be thrown. */
-void grid_shell_glide(grid_shell *shell, double dt);
+/* Moves the planes on to what was found, `dt` s later: a fit that differs by a degree is
+ * centimetres off where the camera does not look, and nothing that lies there may be thrown. False
+ * when all are there. */
+bool grid_shell_glide(grid_shell *shell, double dt);
 
 /* Whether the shell counts at q (grid frame): the camera does not see that place. */
 bool grid_shell_is_hidden(const rlf_grid *grid, rlf_vec3 q);
