@@ -115,6 +115,9 @@ static void take_standing(rlf_reconstruct *stage)
         standing->done_depth = take(stage, n, sizeof(float));
         standing->done = take(stage, n, sizeof(float));
         standing->piece = take(stage, n, 1);
+        stage->background.depart.thing = take(stage, n, 1);
+        stage->background.depart.depth = take(stage, n, sizeof(float));
+        stage->background.depart.left = take(stage, n, 1);
         for (int k = 0; k < RLF_SHEETS; k++) {
             standing->published[k] = take(stage, n, sizeof(float));
         }

@@ -96,6 +96,15 @@ typedef struct rlf_low {
     float *samples;         /* plane: how many are in them */
 } rlf_low;
 
+/* What starts to move out of the background: see background/depart.c; NULL planes when things are
+ * not known. */
+typedef struct rlf_depart {
+    uint8_t *thing; /* plane: of which of the background's things; 0 = of none */
+    float *depth;   /* plane: of it as it stood */
+    uint8_t *left;  /* plane: 1 where the mean is of something that moves: no background */
+    bool is_urgent; /* something has left in this frame */
+} rlf_depart;
+
 /* The background model. AVERAGE: mean holds sums until it is ready. */
 typedef struct rlf_background {
     float *mean;
@@ -126,6 +135,7 @@ typedef struct rlf_background {
     int32_t other_frames; /* ADAPTIVE: frames in a row that showed another room */
     rlf_standing thick;
     rlf_low low;
+    rlf_depart depart;
 } rlf_background;
 
 enum { RLF_SETTLE_MOST_VOTES = 32 }; /* a second: as long may what was stay */

@@ -214,6 +214,16 @@ bool rlf_region_is_flat(const rlf_reconstruct *stage, const rlf_region *region);
 void rlf_background_update(rlf_reconstruct *stage, rlf_slot *slot);
 void rlf_background_average_update(rlf_reconstruct *stage, rlf_slot *slot);
 void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot);
+/* ---- background/depart.c: what stood and starts to move; all do nothing without its planes ----
+ */
+/* The things of the background are those that standing/pieces.c has just found. */
+void rlf_depart_take(rlf_reconstruct *stage);
+/* What has left and is seen is FOREGROUND in `seen`; its model follows it. */
+void rlf_depart_follow(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *seen);
+/* Makes foreground of things that start to move; after the 3x3 majority. Uses work.mask[0]. */
+void rlf_depart_find(rlf_reconstruct *stage, rlf_slot *slot);
+void rlf_depart_reset(rlf_depart *depart, int32_t count);
+
 /* Takes still foreground into the model; slot->foreground is finished. */
 void rlf_background_absorb(rlf_reconstruct *stage, const rlf_slot *slot);
 /* Takes it back out where what it hides is seen again. */

@@ -46,8 +46,12 @@ static void absorb_pixel(rlf_reconstruct *stage, int32_t i)
 {
     rlf_background *background = &stage->background;
     float beneath = background->beneath[i];
-    background->beneath[i] = beneath > 0.0f ? beneath : background->mean[i];
+    bool has_left = background->depart.left != NULL && background->depart.left[i];
+    background->beneath[i] = beneath > 0.0f || has_left ? beneath : background->mean[i];
     background->hides[i / stage->grid.width] = 1;
+    if (has_left) {
+        background->depart.left[i] = 0;
+    }
     replace(stage, i, background->still[i]);
 }
 

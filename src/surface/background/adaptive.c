@@ -175,8 +175,10 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot)
     }
     background->state = RLF_BACKGROUND_READY;
     if (!learning) {
+        rlf_depart_follow(stage, slot, job.seen);
         rlf_parallel_for(def->pool, stage->grid.height, RLF_ROW_GRAIN, majority_rows, &job);
         rlf_background_restore(stage, slot);
+        rlf_depart_find(stage, slot);
     }
     rlf_sheet_advance(stage, slot);
     if (!learning) {

@@ -20,6 +20,7 @@ void rlf_background_reset(rlf_background *background, const rlf_grid *grid)
         memset(background->low.mark, 0, n);
         memset(background->low.samples, 0, n * sizeof *background->low.samples);
     }
+    rlf_depart_reset(&background->depart, grid->count);
     background->frames = 0;
     memset(background->changes, 0, (size_t)rlf_sheet_tiles(grid) * sizeof *background->changes);
     memset(background->age, 0, (size_t)rlf_sheet_tiles(grid));

@@ -174,6 +174,21 @@ static void sharpen(const rlf_reconstruct *stage, const rlf_slot *slot, const rl
     }
 }
 
+/* What has left is no background. */
+static void clear_left(const rlf_reconstruct *stage, rlf_sheet *sheet, rlf_rect r)
+{
+    const uint8_t *left = stage->background.depart.left;
+    for (int32_t y = r.y0; y < r.y1 && left != NULL; y++) {
+        int32_t row = y * stage->grid.width;
+        for (int32_t x = r.x0; (x = rlf_kernel_next_mark(left + row, x, r.x1)) < r.x1; x++) {
+            sheet->depth[row + x] = 0.0f;
+            for (int k = 0; k < 3; k++) {
+                sheet->normal[k][row + x] = 0.0f;
+            }
+        }
+    }
+}
+
 /* A tile from the model; its normals are those of a part of the image that holds all they depend
  * on.
  */
@@ -204,6 +219,7 @@ static void make_tile(rlf_reconstruct *stage, const rlf_slot *slot, rlf_sheet *s
     rlf_sheet_fit_rims(stage, slot, newest, sheet, r);
     rlf_low_fit(stage, slot, newest, sheet, r);
     rlf_low_mark(stage, sheet, r);
+    clear_left(stage, sheet, r);
     tile_is_made(&stage->background, tile, stage->background.changes[tile] >= CHANGES);
 }
 
@@ -337,7 +353,7 @@ void rlf_sheet_advance(rlf_reconstruct *stage, const rlf_slot *slot)
         return;
     }
     bool due = is_due(background, tiles);
-    bool urgent = background->changed >= CHANGES_URGENT;
+    bool urgent = background->depart.is_urgent || background->changed >= CHANGES_URGENT;
     if (!background->is_drafting && !urgent && !due) {
         return;
     }
@@ -346,6 +362,7 @@ void rlf_sheet_advance(rlf_reconstruct *stage, const rlf_slot *slot)
     }
     rlf_sheet *draft = &background->sheets[(background->newest + 1) % RLF_SHEETS];
     int32_t most = 1 + tiles / (urgent ? PARTS_URGENT : PARTS);
+    most = background->depart.is_urgent ? tiles : most;
     int32_t tile = next_tile(background, tiles);
     for (int32_t made = 0; made < most && tile >= 0; made++) {
         make_tile(stage, slot, draft, tile);

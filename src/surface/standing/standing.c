@@ -230,6 +230,9 @@ static void go_on(rlf_reconstruct *stage, const rlf_sheet *sheet)
     if (standing->next_piece == 0) {
         bool is_last = rlf_standing_find_pieces(stage, sheet->normal, standing->step++);
         standing->next_piece = is_last ? 1 : 0;
+        if (is_last) {
+            rlf_depart_take(stage);
+        }
         return;
     }
     int32_t k = standing->next_piece;

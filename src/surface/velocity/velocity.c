@@ -268,11 +268,9 @@ static bool is_outline_off(const rlf_twist *t)
     return t->rim_samples > 0 && t->rim_excess > rim_excess * t->rim_samples;
 }
 
-/* More than chance, and more than half of one pixel's noise: small errors that pixels share, from
- * limbs that move by themselves, do not average out. */
-static bool is_significant(const rlf_twist *t)
+/* More than chance, and more than a share of one pixel's noise. */
+static bool is_significant(const rlf_twist *t, double least)
 {
-    const double least = 0.25;
     int32_t count = agreeing(t);
     return t->inliers >= LEAST_REGION_SAMPLES && t->explained > least * t->noise &&
            t->explained > significant_6 * t->noise / count * rlf_flow_correlated;
@@ -294,21 +292,45 @@ static bool is_same_shape(const rlf_region *a, const rlf_region *b)
     return 5 * a->point_count >= 4 * b->point_count && 5 * b->point_count >= 4 * a->point_count;
 }
 
+/* The region of the frame before that it is; NULL = it is new. */
+static const rlf_region *find_before(const rlf_flow *job, const rlf_region *region)
+{
+    const rlf_slot *before = job->before;
+    for (int32_t k = 0; k < before->foreground_region_count; k++) {
+        const rlf_region *old = &before->regions[before->foreground_region_first + k];
+        if (old->label == region->label) {
+            return old;
+        }
+    }
+    return NULL;
+}
+
 /* Velocity of the visible part's centroid. A silhouette that flickers moves the centroid a little,
  * so small steps do not count. */
 static rlf_vec3 centroid_velocity(const rlf_flow *job, const rlf_region *region)
 {
     const double least_step_m = 0.005;
-    const rlf_slot *before = job->before;
-    for (int32_t k = 0; k < before->foreground_region_count; k++) {
-        const rlf_region *old = &before->regions[before->foreground_region_first + k];
+    const rlf_region *old = find_before(job, region);
+    if (old != NULL && is_same_shape(old, region)) {
         rlf_vec3 step = rlf_sub(region->centroid, old->centroid);
-        bool same = old->label == region->label && is_same_shape(old, region);
-        if (same && rlf_length(step) > least_step_m) {
+        if (rlf_length(step) > least_step_m) {
             return rlf_scale(step, 1.0 / (double)job->dt);
         }
     }
     return rlf_vec3_make(0, 0, 0);
+}
+
+/* Whether what moved a frame ago goes on as it did, rather than rests: slow motion is less than a
+ * frame's noise, but so it is found once and kept. */
+static bool goes_on(const twist_sum *sum, const rlf_twist *rest)
+{
+    const rlf_region *before = find_before(sum->job, sum->region);
+    if (before == NULL || !(rlf_length(before->linear_velocity) > 0.0)) {
+        return false;
+    }
+    rlf_twist same = start_from(sum->region, before->linear_velocity);
+    fit_pass(sum, 0.0, &same);
+    return agreeing(&same) >= agreeing(rest) && same.rim_excess < rest->rim_excess;
 }
 
 /* Whether the region moves as one. Tried from rest and from the centroid's motion; what more pixels
@@ -322,11 +344,13 @@ static bool is_moving(const rlf_flow *job, const rlf_region *region, rlf_vec3 se
     rlf_twist rest = start_from(region, none);
     count_rest(&sum, &rest);
     const rlf_twist all = {.inliers = rest.samples, .rim_inliers = rest.rim_samples};
-    if (is_rest_as_likely(&rest, &all)) {
+    bool is_going_on = goes_on(&sum, &rest);
+    bool rests = is_rest_as_likely(&rest, &all);
+    if (rests && !is_going_on) {
         return false; /* whatever the motion */
     }
     *out = fit_from(&sum, none);
-    if (is_outline_off(out)) {
+    if ((rests && !is_significant(out, 0.0)) || is_outline_off(out)) {
         sum.rim_weight = rim_weight;
         *out = fit_from(&sum, none);
     }
@@ -334,8 +358,11 @@ static bool is_moving(const rlf_flow *job, const rlf_region *region, rlf_vec3 se
         rlf_twist other = fit_from(&sum, seen);
         *out = agreeing(&other) > agreeing(out) ? other : *out;
     }
-    return is_significant(out) && 3 * agreeing(out) >= agreeing(&all) &&
-           !is_rest_as_likely(&rest, out);
+    /* Half of a pixel's noise: small errors that pixels share, from limbs that move by themselves,
+     * do not average out. */
+    double least = is_going_on ? 0.0 : 0.25;
+    return is_significant(out, least) && 3 * agreeing(out) >= agreeing(&all) &&
+           (is_going_on || !is_rest_as_likely(&rest, out));
 }
 
 static bool region_motion(const rlf_flow *job, rlf_region *region, rlf_twist *out)
@@ -355,13 +382,24 @@ static bool region_motion(const rlf_flow *job, rlf_region *region, rlf_twist *ou
     return true;
 }
 
-/* Row y of the frame before, as far as something was in front. */
+/* Row y of the frame before, as far as something was in front: or was taken for background then,
+ * and has left since. */
 static const uint8_t *front_before(const rlf_reconstruct *stage, int32_t y, rlf_span *span)
 {
     bool is_all_front = stage->def.background_method == RLF_BACKGROUND_OFF;
-    const uint8_t *foreground = stage->previous->foreground + (ptrdiff_t)y * stage->grid.width;
+    int32_t width = stage->grid.width;
+    ptrdiff_t row = (ptrdiff_t)y * width;
+    const uint8_t *foreground = stage->previous->foreground + row;
+    const uint8_t *left = stage->background.depart.left;
     const uint8_t *front = is_all_front ? stage->work.ones : foreground;
-    *span = rlf_background_span(front, stage->grid.width);
+    if (!is_all_front && left != NULL && rlf_kernel_next_mark(left + row, 0, width) < width) {
+        uint8_t *both = stage->work.mask[0] + row;
+        for (int32_t x = 0; x < width; x++) {
+            both[x] = foreground[x] | left[row + x];
+        }
+        front = both;
+    }
+    *span = rlf_background_span(front, width);
     return front;
 }
 

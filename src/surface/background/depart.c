@@ -1,0 +1,285 @@
+/* What stood since the first frame and starts to move. Most of it shows the background's depth
+ * still: a box that is pushed differs at two of its edges alone, one that is lifted by less than
+ * the noise of a pixel. So it is decided for a whole thing of the background (standing/pieces.c):
+ *
+ * - it went aside: something farther is seen where it was, and something nearer beside it, which
+ *   goes on with it;
+ * - it came nearer: a good part of it did in the same frames, and by the same way along its
+ *   normals. What comes before it instead comes over it from its edge.
+ *
+ * All of it becomes foreground at once, and the background has nothing there until it is seen past:
+ * no solid stays where it was. */
+#include "surface/steps.h"
+
+#include "kernel/kernel.h"
+
+#include <string.h>
+
+enum {
+    LOST = 1,
+    LEAST_EDGE = 12,  /* pixels that went, and that came, at its edges ... */
+    EDGE_SHARE = 12,  /* ... and of the width and height of its rectangle one of so many */
+    GAP = 3,          /* pixels between things, at most */
+    LEAST_RISEN = 50, /* pixels that came nearer */
+    IMAGE_SHARE = 5,  /* what fills more than one of so many parts of the image is the room */
+    LEFT_WEIGHT = 2   /* samples: a mean of one has just been replaced */
+};
+
+static const float beside_m = 0.03f;   /* from pixel to pixel of one thing */
+static const float risen_share = 0.3f; /* of a thing's pixels, and of them in this frame */
+static const float even = 0.3f;        /* of the mean way along the normals: standard deviation */
+static const float slowest = 0.05f;    /* of that way: in this frame */
+static const float farthest_m = 0.15f; /* in one frame */
+
+typedef struct tally {
+    rlf_rect window;
+    int32_t seen, lost, gained, risen, fresh;
+    float way, square, step; /* of what has risen, along its normals; in this frame */
+} tally;
+
+void rlf_depart_take(rlf_reconstruct *stage)
+{
+    rlf_depart *depart = &stage->background.depart;
+    size_t n = (size_t)stage->grid.count;
+    memcpy(depart->thing, stage->background.thick.piece, n);
+    memcpy(depart->depth, stage->background.thick.depth, n * sizeof *depart->depth);
+}
+
+/* What has left shows what is there now, be it nearer or farther by a little. */
+static void follow(rlf_reconstruct *stage, const rlf_slot *slot, int32_t i, uint8_t *seen)
+{
+    rlf_background *background = &stage->background;
+    float z = slot->depth[i], off = z - background->mean[i];
+    if (!(z > 0.0f)) {
+        return;
+    }
+    if (background->weight[i] < LEFT_WEIGHT) { /* seen past for long enough */
+        background->depart.left[i] = 0;
+        return;
+    }
+    float gate = rlf_background_gate(&stage->def, z);
+    if (off <= gate) {
+        seen[i] = RLF_SEEN_FOREGROUND;
+        if (-off <= gate) {
+            background->mean[i] = z;
+            background->weight[i] = LEFT_WEIGHT;
+            background->deviation[i] = 0.0f;
+        }
+    }
+}
+
+void rlf_depart_follow(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *seen)
+{
+    const uint8_t *left = stage->background.depart.left;
+    int32_t count = left == NULL ? 0 : stage->grid.count;
+    for (int32_t i = 0; (i = rlf_kernel_next_mark(left, i, count)) < count; i++) {
+        follow(stage, slot, i, seen);
+    }
+}
+
+/* Metres that pixel i came nearer along the normal that it had, from depth `from`. */
+static float way_from(const rlf_reconstruct *stage, const rlf_sheet *sheet, int32_t i, float from,
+                      float to)
+{
+    const rlf_grid *grid = &stage->grid;
+    float facing = -(sheet->normal[0][i] * grid->ray_x[i] + sheet->normal[1][i] * grid->ray_y[i] +
+                     sheet->normal[2][i]);
+    return (from - to) * facing;
+}
+
+static void add_pixel(const rlf_reconstruct *stage, const rlf_slot *slot, int32_t i, tally *t)
+{
+    const rlf_depart *depart = &stage->background.depart;
+    float z = slot->depth[i], gate = rlf_background_gate(&stage->def, z);
+    const rlf_slot *before = stage->previous;
+    t->seen++;
+    stage->work.mask[0][i] = z - depart->depth[i] > gate ? LOST : 0;
+    if (slot->foreground[i] == RLF_SEEN_FOREGROUND && before != NULL) {
+        float way = way_from(stage, rlf_sheet_newest(stage), i, depart->depth[i], z);
+        t->risen++;
+        t->fresh += before->foreground[i] == 0;
+        t->way += way;
+        t->square += way * way;
+        if (before->depth[i] > 0.0f) {
+            t->step += way_from(stage, rlf_sheet_newest(stage), i, before->depth[i], z);
+        }
+    }
+}
+
+static void widen(rlf_rect *w, int32_t x, int32_t y)
+{
+    w->x0 = x < w->x0 ? x : w->x0;
+    w->x1 = x + 1 > w->x1 ? x + 1 : w->x1;
+    w->y0 = y < w->y0 ? y : w->y0;
+    w->y1 = y + 1;
+}
+
+/* The other thing, from pixel i on in one of four ways, that is as deep; 0: none. Between things
+ * there are pixels of none. */
+static uint8_t thing_on(const rlf_reconstruct *stage, const float *depth, int32_t i, int32_t way)
+{
+    const rlf_grid *grid = &stage->grid;
+    const uint8_t *thing = stage->background.depart.thing;
+    static const int32_t ways[4][2] = {{0, -1}, {-1, 0}, {1, 0}, {0, 1}};
+    for (int32_t r = 1; r <= GAP; r++) {
+        int32_t x = i % grid->width + r * ways[way][0], y = i / grid->width + r * ways[way][1];
+        int32_t j = y * grid->width + x;
+        if (x < 0 || y < 0 || x >= grid->width || y >= grid->height) {
+            return 0;
+        }
+        if (thing[j] != 0 && thing[j] != thing[i]) {
+            bool is_there = depth[j] > 0.0f && stage->work.mask[0][j] != LOST;
+            float off = rlf_kernel_abs(depth[j] - depth[i]);
+            return is_there && off < beside_m * (float)r ? thing[j] : 0;
+        }
+    }
+    return 0;
+}
+
+/* The first of them all round; 0: none. */
+static uint8_t thing_beside(const rlf_reconstruct *stage, const float *depth, int32_t i)
+{
+    uint8_t thing = 0;
+    for (int32_t way = 0; way < 4 && thing == 0; way++) {
+        thing = thing_on(stage, depth, i, way);
+    }
+    return thing;
+}
+
+static void count_things(const rlf_reconstruct *stage, const rlf_slot *slot, tally *tallies)
+{
+    const rlf_grid *grid = &stage->grid;
+    const uint8_t *thing = stage->background.depart.thing;
+    for (int32_t k = 0; k <= RLF_PIECES; k++) {
+        tallies[k] = (tally){.window = {grid->width, grid->height, 0, 0}};
+    }
+    memset(stage->work.mask[0], 0, (size_t)grid->count);
+    for (int32_t i = 0; (i = rlf_kernel_next_mark(thing, i, grid->count)) < grid->count; i++) {
+        if (slot->depth[i] > 0.0f && slot->reason[i] == RLF_REASON_OK) {
+            widen(&tallies[thing[i]].window, i % grid->width, i / grid->width);
+            add_pixel(stage, slot, i, &tallies[thing[i]]);
+        }
+    }
+}
+
+/* What went and what came, at the edges: no single pixels, which noise makes. */
+static void count_edges(const rlf_reconstruct *stage, const rlf_slot *slot, tally *tallies)
+{
+    const rlf_grid *grid = &stage->grid;
+    const uint8_t *lost = stage->work.mask[0], *thing = stage->background.depart.thing;
+    for (int32_t y = 1; y < grid->height; y++) {
+        for (int32_t x = 1; x < grid->width; x++) {
+            int32_t i = y * grid->width + x, above = i - grid->width;
+            if (lost[i] == LOST && lost[i - 1] == LOST && lost[above] == LOST &&
+                lost[above - 1] == LOST) {
+                tallies[thing[i]].lost++;
+            }
+            if (slot->foreground[i] != 0) {
+                tallies[thing_beside(stage, slot->depth, i)].gained++;
+            }
+        }
+    }
+}
+
+static bool went_aside(const tally *t)
+{
+    int32_t round = t->window.x1 - t->window.x0 + t->window.y1 - t->window.y0;
+    int32_t least = round / EDGE_SHARE > LEAST_EDGE ? round / EDGE_SHARE : LEAST_EDGE;
+    return t->lost >= least && t->gained >= least;
+}
+
+static bool came_nearer(const rlf_reconstruct *stage, const tally *t)
+{
+    float n = (float)t->risen;
+    if (t->risen < LEAST_RISEN || n < risen_share * (float)t->seen ||
+        (float)t->fresh < risen_share * n) {
+        return false;
+    }
+    float mean = t->way / n, variance = t->square / n - mean * mean;
+    float most = even * mean + 0.25f * (float)stage->def.foreground_min_m;
+    return mean > 0.0f && mean < farthest_m && variance < most * most && t->step > slowest * t->way;
+}
+
+static bool has_departed(const rlf_reconstruct *stage, const tally *t)
+{
+    const rlf_rect *w = &t->window;
+    bool is_room =
+        t->seen == 0 || (w->x1 - w->x0) * (w->y1 - w->y0) > stage->grid.count / IMAGE_SHARE;
+    return !is_room && (went_aside(t) || came_nearer(stage, t));
+}
+
+static void leave(rlf_reconstruct *stage, rlf_slot *slot, int32_t i)
+{
+    rlf_background *background = &stage->background;
+    int32_t width = stage->grid.width;
+    float z = slot->depth[i];
+    bool is_lost = stage->work.mask[0][i] == LOST;
+    background->depart.left[i] = !is_lost;
+    background->mean[i] = z > 0.0f ? z : background->mean[i];
+    background->weight[i] = is_lost ? 1 : LEFT_WEIGHT;
+    background->deviation[i] = 0.0f;
+    background->beyond[i] = 0;
+    background->beneath[i] = 0.0f;
+    rlf_sheet_changed(background, &stage->grid, i % width, i / width, 1);
+    slot->foreground[i] = !is_lost && z > 0.0f ? RLF_SEEN_FOREGROUND : slot->foreground[i];
+}
+
+/* A pixel of no thing belongs to the ones beside it that have left, if no other is as deep: it is
+ * at their outline, and not where they stand. */
+static bool is_outline(const rlf_reconstruct *stage, const uint8_t *departed, int32_t i)
+{
+    int32_t own = 0, others = 0;
+    for (int32_t way = 0; way < 4 && stage->background.mean[i] > 0.0f; way++) {
+        uint8_t thing = thing_on(stage, stage->background.mean, i, way);
+        own += departed[thing];
+        others += thing != 0 && !departed[thing];
+    }
+    return own > 0 && others == 0;
+}
+
+/* The spans of rows are those of the foreground as it is then. */
+static void leave_all(rlf_reconstruct *stage, rlf_slot *slot, const uint8_t *departed)
+{
+    const rlf_grid *grid = &stage->grid;
+    uint8_t *thing = stage->background.depart.thing;
+    for (int32_t i = 0; i < grid->count; i++) {
+        if (departed[thing[i]] || (thing[i] == 0 && is_outline(stage, departed, i))) {
+            leave(stage, slot, i);
+        }
+    }
+    for (int32_t i = 0; i < grid->count; i++) {
+        thing[i] = departed[thing[i]] ? 0 : thing[i];
+    }
+    for (int32_t y = 0; y < grid->height; y++) {
+        stage->work.front[y] =
+            rlf_background_span(slot->foreground + (ptrdiff_t)y * grid->width, grid->width);
+    }
+}
+
+void rlf_depart_find(rlf_reconstruct *stage, rlf_slot *slot)
+{
+    rlf_depart *depart = &stage->background.depart;
+    tally tallies[RLF_PIECES + 1];
+    uint8_t departed[RLF_PIECES + 1] = {0};
+    depart->is_urgent = false;
+    if (depart->thing == NULL || rlf_sheet_newest(stage) == NULL) {
+        return;
+    }
+    count_things(stage, slot, tallies);
+    count_edges(stage, slot, tallies);
+    for (int32_t k = 1; k <= RLF_PIECES; k++) {
+        departed[k] = has_departed(stage, &tallies[k]);
+        depart->is_urgent = depart->is_urgent || departed[k];
+    }
+    if (depart->is_urgent) {
+        leave_all(stage, slot, departed);
+    }
+}
+
+void rlf_depart_reset(rlf_depart *depart, int32_t count)
+{
+    if (depart->thing != NULL) {
+        memset(depart->thing, 0, (size_t)count);
+        memset(depart->left, 0, (size_t)count);
+    }
+}

@@ -1,0 +1,105 @@
+/* A box that stands before a wall from the first frame on, and then goes: it is foreground whole,
+ * though most of it shows the depth that it had. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "seen_view.h"
+
+enum { WIDTH = 160, HEIGHT = 120, COUNT = WIDTH * HEIGHT, X0 = 50, X1 = 90, Y0 = 40, Y1 = 80 };
+enum { STILL = 60 };
+
+static const float WALL = 2.0f, BOX = 1.4f;
+static float depth[COUNT];
+
+static bool is_in(int i, int x)
+{
+    return i % WIDTH >= X0 + x && i % WIDTH < X1 + x && i / WIDTH >= Y0 && i / WIDTH < Y1;
+}
+
+/* A box `x` pixels aside and `nearer` metres before its place, and what comes in from the left. */
+static const rlf_surface *show(rlf_reconstruct *stage, int frame, int x, float nearer, int hand)
+{
+    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    for (int i = 0; i < COUNT; i++) {
+        depth[i] = is_in(i, x) ? BOX - nearer : WALL;
+        bool is_hand = i % WIDTH < hand && i / WIDTH >= Y0 + 10 && i / WIDTH < Y1 - 10;
+        depth[i] = is_hand ? BOX - 0.03f : depth[i];
+    }
+    return seen_depth_process(&rig, depth, stage, frame);
+}
+
+static rlf_reconstruct *stand(void)
+{
+    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
+    rlf_reconstruct *stage = seen_view_stage(&def);
+    for (int k = 0; k < STILL; k++) {
+        assert_int_equal(show(stage, k, 0, 0.0f, 0)->foreground_count, 0);
+    }
+    return stage;
+}
+
+/* Share of the box that is foreground, and of its pixels that still have a background there. */
+static double share_of(const rlf_surface *s, int x, bool is_background)
+{
+    int count = 0, all = 0;
+    for (int i = 0; i < COUNT; i++) {
+        if (is_in(i, x)) {
+            all++;
+            bool stands = s->background_depth[i] > 0.0f && s->background_depth[i] < 1.7f;
+            count += is_background ? stands : s->foreground[i] != 0;
+        }
+    }
+    return (double)count / all;
+}
+
+static void what_goes_aside_is_foreground_whole(void **state)
+{
+    (void)state;
+    rlf_reconstruct *stage = stand();
+    const rlf_surface *s = NULL;
+    for (int k = 1; k <= 6; k++) {
+        s = show(stage, STILL + k, k, 0.0f, 0);
+    }
+    assert_true(share_of(s, 6, false) > 0.9);
+    assert_true(share_of(s, 6, true) < 0.1);
+    rlf_reconstruct_destroy(&stage);
+}
+
+static void what_comes_nearer_leaves_nothing_behind_it(void **state)
+{
+    (void)state;
+    rlf_reconstruct *stage = stand();
+    const rlf_surface *s = NULL;
+    for (int k = 1; k <= 10; k++) {
+        s = show(stage, STILL + k, 0, 0.004f * (float)k, 0);
+    }
+    assert_true(share_of(s, 0, false) > 0.9);
+    assert_true(share_of(s, 0, true) < 0.1);
+    rlf_reconstruct_destroy(&stage);
+}
+
+static void what_is_touched_stays_background(void **state)
+{
+    (void)state;
+    rlf_reconstruct *stage = stand();
+    const rlf_surface *s = NULL;
+    for (int k = 1; k <= 30; k++) {
+        s = show(stage, STILL + k, 0, 0.0f, 2 * k + 10);
+    }
+    assert_true(share_of(s, 0, true) > 0.9);
+    rlf_reconstruct_destroy(&stage);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_goes_aside_is_foreground_whole),
+        cmocka_unit_test(what_comes_nearer_leaves_nothing_behind_it),
+        cmocka_unit_test(what_is_touched_stays_background),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
