@@ -365,6 +365,9 @@ static void segment_first(rlf_reconstruct *stage, rlf_slot *slot)
     rlf_layer_segment(stage, &in, &out);
     slot->foreground_region_first = out.region_count;
     rlf_region_write_labels(stage, &out, slot->label);
+    /* The steps that follow read the runs as the foreground's, and there is none. */
+    memset(stage->work.runs.first, 0,
+           (size_t)(stage->grid.height + 1) * sizeof *stage->work.runs.first);
 }
 
 static void make_regions(rlf_reconstruct *stage, rlf_slot *slot)
