@@ -114,7 +114,9 @@ rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame)
     timing_add_frame(&out->times, t, t->capture_ms + t->surface_ms + t->physics_ms + t->render_ms);
     out->frames++;
     out->last_index = frame->frame_index;
+    out->moving_frames += frame->surface->camera_moves;
     out->gravity = frame->snapshot->gravity;
+    out->gravity_confidence = frame->gravity_confidence;
     out->light = frame->render.light_direction;
     out->is_light_estimated = frame->render.is_light_estimated;
     print_progress(out);
@@ -183,8 +185,15 @@ void run_output_print_summary(const run_output *out, const char *how)
     fprintf(file, "  %.1f frames per second (median of the loop, without writing files)\n",
             median > 0.0 ? 1000.0 / median : 0.0);
     if (o->finds_gravity) {
-        fprintf(file, "gravity:  %.2f, %.2f, %.2f m/s^2 (right, down, forward)\n", out->gravity.x,
-                out->gravity.y, out->gravity.z);
+        bool is_sure = out->gravity_confidence >= RLF_UP_SURE;
+        fprintf(file,
+                "gravity:  %.2f, %.2f, %.2f m/s^2 (right, down, forward), confidence %.2f%s\n",
+                out->gravity.x, out->gravity.y, out->gravity.z, out->gravity_confidence,
+                is_sure ? "" : ": not sure; if it is wrong, pass --gravity X,Y,Z");
+    }
+    if (out->moving_frames > 0) {
+        fprintf(file, "camera:   moved in %lld frames; put it still (it is not tracked)\n",
+                (long long)out->moving_frames);
     }
     if (rlf_length(out->light) > 0.0) {
         fprintf(file, "light:    to %.2f, %.2f, %.2f (right, down, forward), %s\n", out->light.x,

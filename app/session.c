@@ -90,6 +90,7 @@ static rlf_result open_all(const session_options *options, session *s)
         session_set_scale(&def.reconstruct, options->scale_factor);
     }
     settings_apply(&options->settings, &def.reconstruct);
+    settings_warn(&options->settings, &def.reconstruct);
     def.enable_render = options->enable_render;
     if (options->is_occlusion_set) {
         def.compositor.occlusion = options->occlusion;

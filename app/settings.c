@@ -159,6 +159,105 @@ void settings_apply(const setting_list *s, rlf_reconstruct_def *def)
     }
 }
 
+static bool has_smoothing(const rlf_reconstruct_def *def)
+{
+    return def->enable_smoothing;
+}
+
+static bool has_steadying(const rlf_reconstruct_def *def)
+{
+    return def->enable_steadying;
+}
+
+static bool can_coast(const rlf_reconstruct_def *def)
+{
+    return def->enable_thickness && def->enable_velocity;
+}
+
+static bool has_color_to_fill(const rlf_reconstruct_def *def)
+{
+    return def->enable_fill && def->rig.has_color;
+}
+
+static bool has_color(const rlf_reconstruct_def *def)
+{
+    return def->rig.has_color;
+}
+
+static bool is_average(const rlf_reconstruct_def *def)
+{
+    return def->background_method == RLF_BACKGROUND_AVERAGE;
+}
+
+static bool is_adaptive(const rlf_reconstruct_def *def)
+{
+    return def->background_method == RLF_BACKGROUND_ADAPTIVE;
+}
+
+static bool has_background(const rlf_reconstruct_def *def)
+{
+    return def->background_method != RLF_BACKGROUND_OFF;
+}
+
+static bool segments_as_thesis(const rlf_reconstruct_def *def)
+{
+    return def->background_segment == RLF_SEGMENT_THESIS ||
+           def->foreground_segment == RLF_SEGMENT_THESIS;
+}
+
+static bool segments(const rlf_reconstruct_def *def)
+{
+    return def->background_segment != RLF_SEGMENT_OFF || def->foreground_segment != RLF_SEGMENT_OFF;
+}
+
+/* What a setting counts with only; a setting that is not here always counts. */
+typedef struct need {
+    const char *name;
+    bool (*holds)(const rlf_reconstruct_def *def);
+    const char *text;
+} need;
+
+static const need needs[] = {
+    {"wide_planes", has_smoothing, "smoothing=on"},
+    {"hold", has_steadying, "steadying=on"},
+    {"edge_normals", has_smoothing, "smoothing=on"},
+    {"coast", can_coast, "thickness=on and velocity=on"},
+    {"color_sides", has_color_to_fill, "fill=on and a colour picture"},
+    {"dilation", segments_as_thesis, "background_segment=thesis or foreground_segment=thesis"},
+    {"background_frames", has_background, "a background_method other than off"},
+    {"absorb_after_s", is_adaptive, "background_method=adaptive"},
+    {"foreground_threshold_m", is_average, "background_method=average"},
+    {"foreground_sigmas", is_adaptive, "background_method=adaptive"},
+    {"foreground_min_m", is_adaptive, "background_method=adaptive"},
+    {"segment_tau_m", segments_as_thesis, "background_segment=thesis or foreground_segment=thesis"},
+    {"segment_diagonals", segments, "a background_segment or foreground_segment"},
+    {"segment_color_tau", has_color, "a colour picture"},
+    {"min_region_points", segments, "a background_segment or foreground_segment"},
+};
+#define NEED_COUNT ((int)(sizeof(needs) / sizeof(needs[0])))
+
+const char *settings_need(const char *text, const rlf_reconstruct_def *def)
+{
+    size_t length = (size_t)(strchr(text, '=') - text);
+    for (int i = 0; i < NEED_COUNT; i++) {
+        const need *n = &needs[i];
+        if (strlen(n->name) == length && strncmp(n->name, text, length) == 0) {
+            return n->holds(def) ? NULL : n->text;
+        }
+    }
+    return NULL;
+}
+
+void settings_warn(const setting_list *s, const rlf_reconstruct_def *def)
+{
+    for (int32_t i = 0; i < s->count; i++) {
+        const char *text = settings_need(s->texts[i], def);
+        if (text != NULL) {
+            rlf_log(RLF_LOG_WARNING, "--set %s has no effect here: it needs %s", s->texts[i], text);
+        }
+    }
+}
+
 /* A setting's value as `--set` takes it. */
 static const char *get(const setting *t, const rlf_reconstruct_def *def, char text[32])
 {

@@ -18,6 +18,13 @@ rlf_result settings_add(setting_list *s, const char *text);
 /* Puts what was kept into a def. Numbers out of range are found by rlf_reconstruct_create. */
 void settings_apply(const setting_list *s, rlf_reconstruct_def *def);
 
+/* What "NAME=VALUE", as it was kept, needs to have an effect and a def lacks; NULL when it has one.
+ */
+const char *settings_need(const char *text, const rlf_reconstruct_def *def);
+
+/* One line for each that has no effect with a def to which they were applied. */
+void settings_warn(const setting_list *s, const rlf_reconstruct_def *def);
+
 /* Prints every setting with the values of both profiles for a camera. */
 void settings_print(const rlf_rig *rig);
 

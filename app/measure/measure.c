@@ -18,8 +18,9 @@ typedef struct measure_options {
     int32_t scale_count;
     setting_list settings;
     const char *csv_path, *json_path;
-    bool noise; /* the sensor's noise instead of the table */
-    bool up;    /* which way is up instead */
+    bool noise;  /* the sensor's noise instead of the table */
+    bool up;     /* which way is up instead */
+    bool turned; /* and also with the camera turned */
 } measure_options;
 
 static void print_help(void)
@@ -40,7 +41,10 @@ static void print_help(void)
         "  --json FILE       the rows as JSON\n"
         "  --noise           instead: the sensor's noise by distance, of a still scene\n"
         "  --up              instead: where floors, tables and walls say that up is, and how far\n"
-        "                    off that is if the clip has a groundtruth.txt\n\n"
+        "                    off that is if the clip has a groundtruth.txt\n"
+        "  --turned          with --up: also with the camera turned by 90, 180 and 270 degrees "
+        "and\n"
+        "                    mirrored, beside the answer for the camera as it is\n\n"
         "examples:\n"
         "  relief measure synthetic:thesis\n"
         "  relief measure path/to/clip --scale 8 --csv table.csv\n"
@@ -77,6 +81,7 @@ static int parse(int argc, char **argv, measure_options *o)
         {.name = "json", .kind = OPTION_TEXT, .out = &o->json_path},
         {.name = "noise", .kind = OPTION_FLAG, .out = &o->noise},
         {.name = "up", .kind = OPTION_FLAG, .out = &o->up},
+        {.name = "turned", .kind = OPTION_FLAG, .out = &o->turned},
         {.name = "set", .kind = OPTION_SET, .out = &o->settings},
         {0},
     };
@@ -95,6 +100,9 @@ static int parse(int argc, char **argv, measure_options *o)
     }
     if (o->up && (o->noise || o->csv_path != NULL || o->json_path != NULL)) {
         return command_usage("measure", "--up goes without --noise, --csv and --json");
+    }
+    if (o->turned && !o->up) {
+        return command_usage("measure", "--turned goes with --up");
     }
     o->source = argv[optind];
     return -1;
@@ -185,7 +193,7 @@ int measure_main(int argc, char **argv)
     }
     rlf_result result;
     if (options.up) {
-        result = measure_up_run(options.source, options.frames);
+        result = measure_up_run(options.source, options.frames, options.turned);
     } else if (options.noise) {
         result = measure_noise_run(options.source, options.frames, options.json_path);
     } else {

@@ -6,7 +6,8 @@
 #include "relief/io.h"
 
 /* Prints how the camera looks, as floors, tables and walls of each frame by itself say; and, for a
- * folder with a groundtruth.txt of the TUM RGB-D benchmark (its z is up), how far off that is. */
-rlf_result measure_up_run(const char *source_name, int64_t frames);
+ * folder with a groundtruth.txt of the TUM RGB-D benchmark (its z is up), how far off that is.
+ * is_turned: the same of each frame turned by quarters and mirrored, beside the unturned answer. */
+rlf_result measure_up_run(const char *source_name, int64_t frames, bool is_turned);
 
 #endif

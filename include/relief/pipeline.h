@@ -18,8 +18,9 @@ typedef struct rlf_scene {
     rlf_vec3 gravity;      /* m/s^2, world */
     bool is_gravity_given; /* the scene's file says what gravity is; else it is the default */
     /* True: gravity is turned away from where the first frame's floors, tables and walls say that
-     * up is (rlf_surface_find_up), and keeps its strength. Where they do not tell it stays as it
-     * is, with a warning. */
+     * up is (rlf_surface_find_up), and keeps its strength. Where they are not sure the next nine
+     * frames are asked, too, and the surest answer counts; if that is still not sure, a warning
+     * says so. Where there is nothing to ask it stays as it is. */
     bool finds_gravity;
     rlf_body_def *bodies; /* owned when made by rlf_scene_create or rlf_scene_load, with their
                              hulls, of which each is that of bodies in a row */
@@ -72,7 +73,8 @@ typedef struct rlf_pipeline_output {
     rlf_frame frame;
     const rlf_surface *surface;
     const rlf_snapshot *snapshot;
-    rlf_render_output render; /* image.data NULL when rendering is off */
+    double gravity_confidence; /* 0..1; below RLF_UP_SURE it is a guess; 1 when it was given */
+    rlf_render_output render;  /* image.data NULL when rendering is off */
     rlf_stage_times times;
 } rlf_pipeline_output;
 

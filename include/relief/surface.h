@@ -93,6 +93,10 @@ typedef struct rlf_surface {
     /* While it and background_depth stay the same, so do the planes above; 0 = not known. */
     int64_t background_version;
     rlf_background_state background_state;
+    /* The camera itself moves, or did within the last 8 frames; told within 10 frames. Then all is
+     * one sheet at rest and nothing is foreground: the background is learnt anew when it stands.
+     * Always false with a background other than adaptive. */
+    bool camera_moves;
 
     /* Regions of both layers; region_points lists pixel indices region by region when kept. */
     const rlf_region *regions;
@@ -146,13 +150,17 @@ RLF_API size_t rlf_mesh_indices_region(const rlf_surface *surface, const rlf_reg
 /* ---- which way is up ----------------------------------------------------------------------------
  */
 
-/* The direction, in the camera's frame, in which most of the front sheet's normals are along it
- * (floors and tables) or across it (walls): Gupta, Arbelaez, Malik 2013. Of a room's axes it is
- * the one nearest to the picture's up that has a floor or table, seen from above, under it: right
- * for cameras that look down by less than some 60 degrees or up by less than 25. Returns false, and
- * out_up = (0, -1, 0), where the normals do not tell: hardly any, or of one wall only. Reads every
- * 4th pixel both ways. */
-RLF_API bool rlf_surface_find_up(const rlf_surface *surface, rlf_vec3 *out_up);
+/* Which way is up, in the camera's frame, for any roll of the camera, and how sure that is: 0..1, 0
+ * where no pixel tells. Below RLF_UP_SURE the answer is a guess, and whoever lets bodies fall by it
+ * ought to say so.
+ *
+ * The directions that most normals are along (floors and tables) or across (walls) are the axes
+ * (Gupta, Arbelaez, Malik 2013). Which end of which axis is up is weighed: how many normals it
+ * explains, how many faces look up rather than down, how much stands on the largest of those, and,
+ * weakly, that cameras are seldom rolled and look down rather than up. A camera that looks
+ * straight at a bare wall, or straight down on a bare floor, cannot know. Thread-safe. */
+#define RLF_UP_SURE 0.8
+RLF_API double rlf_surface_find_up(const rlf_surface *surface, rlf_vec3 *out_up);
 
 #ifdef __cplusplus
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define ADVANCE_MAX_S 1.0 /* a longer gap between frames advances physics by this much only */
+#define GRAVITY_FRAMES 10 /* that are asked at most which way is up */
 #define THROWS_MAX 256    /* bodies that there is room for beside a scene's */
 
 rlf_pipeline_def rlf_pipeline_def_default(rlf_profile profile, rlf_source *source, rlf_pool *pool)
@@ -213,18 +214,47 @@ static rlf_known_view known_view(const rlf_pipeline *p)
     return view;
 }
 
+/* One line where it is not sure. */
+static void tell_gravity(const rlf_pipeline *p)
+{
+    const rlf_vec3 g = rlf_world_get_snapshot(p->world)->gravity;
+    double confidence = p->last.gravity_confidence;
+    if (confidence < RLF_UP_SURE) {
+        rlf_log(RLF_LOG_WARNING,
+                "gravity: not sure which way is down (confidence %.2f): taken to be %.2f, %.2f, "
+                "%.2f; if that is wrong, pass --gravity X,Y,Z",
+                confidence, g.x, g.y, g.z);
+    }
+}
+
+/* Asks the newest surface; the surest answer so far counts. */
 static void find_gravity(rlf_pipeline *p)
 {
     rlf_vec3 up;
-    if (!rlf_surface_find_up(p->last.surface, &up)) {
-        const rlf_vec3 *g = &p->scene.gravity;
-        rlf_log(RLF_LOG_WARNING,
-                "gravity: no floor, table or walls tell where it points; it stays %.2f, %.2f, %.2f",
-                g->x, g->y, g->z);
-        return;
+    double confidence = rlf_surface_find_up(p->last.surface, &up);
+    if (confidence > p->last.gravity_confidence) {
+        rlf_vec3 down = rlf_neg(rlf_rotate(p->def.T_world_camera.q, up));
+        rlf_world_set_gravity(p->world, rlf_scale(down, rlf_length(p->scene.gravity)));
+        p->last.gravity_confidence = confidence;
     }
-    rlf_vec3 down = rlf_neg(rlf_rotate(p->def.T_world_camera.q, up));
-    rlf_world_set_gravity(p->world, rlf_scale(down, rlf_length(p->scene.gravity)));
+}
+
+/* The first frame's noise may hide what the next ones show: an answer that is not sure is asked for
+ * again, until it is told. */
+static void seek_gravity(rlf_pipeline *p)
+{
+    bool is_first = p->frame_index == 0;
+    if (is_first) {
+        p->last.gravity_confidence = p->scene.finds_gravity ? 0.0 : 1.0;
+        p->gravity_frames = p->scene.finds_gravity ? GRAVITY_FRAMES : 0;
+    }
+    if (p->gravity_frames > 0) {
+        find_gravity(p);
+        p->gravity_frames = p->last.gravity_confidence < RLF_UP_SURE ? p->gravity_frames - 1 : 0;
+        if (p->gravity_frames == 0) {
+            tell_gravity(p);
+        }
+    }
 }
 
 /* The real surface for physics, with what its people hide. */
@@ -243,9 +273,7 @@ static rlf_result advance_world(rlf_pipeline *p)
 {
     rlf_pipeline_output *out = &p->last;
     rlf_grid grid;
-    if (p->frame_index == 0 && p->scene.finds_gravity) {
-        find_gravity(p);
-    }
+    seek_gravity(p);
     make_grid(p, &grid);
     bool is_first = p->frame_index == 0;
     const rlf_known_view view = known_view(p);
@@ -268,6 +296,18 @@ static rlf_result advance_world(rlf_pipeline *p)
     return RLF_OK;
 }
 
+/* One line when it begins. */
+static void tell_motion(rlf_pipeline *p)
+{
+    if (p->last.surface->camera_moves && !p->has_moved) {
+        rlf_log(RLF_LOG_WARNING,
+                "the camera moves (frame %lld): put it still; while it moves all is "
+                "taken to be at rest, and bodies do not move with the room",
+                (long long)p->frame_index);
+        p->has_moved = true;
+    }
+}
+
 static rlf_result make_surface(rlf_pipeline *p)
 {
     const rlf_surface *surface;
@@ -276,7 +316,10 @@ static rlf_result make_surface(rlf_pipeline *p)
         surface = p->def.replace_surface(p->def.replace_context, surface);
         result = surface != NULL ? RLF_OK : rlf_fail(RLF_ERROR_INVALID, "replace_surface failed");
     }
-    p->last.surface = result == RLF_OK ? surface : p->last.surface;
+    if (result == RLF_OK) {
+        p->last.surface = surface;
+        tell_motion(p);
+    }
     return result;
 }
 
@@ -289,6 +332,10 @@ rlf_result rlf_pipeline_step(rlf_pipeline *p, rlf_pipeline_output *out)
     int64_t clock = rlf_clock_ns();
     rlf_frame frame;
     rlf_result result = rlf_source_next(p->def.source, &frame);
+    if (result == RLF_END && p->gravity_frames > 0) {
+        p->gravity_frames = 0;
+        tell_gravity(p);
+    }
     if (result != RLF_OK) {
         return result;
     }
@@ -341,6 +388,7 @@ rlf_result rlf_pipeline_restart(rlf_pipeline *p)
     rlf_reconstruct_reset(p->reconstruct);
     rlf_world_reset(p->world);
     p->frame_index = 0;
+    p->has_moved = false;
     return add_bodies(p);
 }
 

@@ -37,7 +37,9 @@ struct rlf_pipeline {
     const char *overlay_lines[OVERLAY_LINES_MAX];
     int32_t overlay_count;
 
-    int64_t frame_index; /* of the next frame */
+    int32_t gravity_frames; /* that are still asked which way is up */
+    bool has_moved;         /* the camera, and that was told */
+    int64_t frame_index;    /* of the next frame */
     int64_t first_time_ns, last_time_ns;
     rlf_pipeline_output last;
 };

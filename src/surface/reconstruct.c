@@ -1,5 +1,6 @@
 /* The surface stage: one frame through all steps into the next slot of the ring. */
 #include "surface/color_side.h"
+#include "surface/ego_motion.h"
 #include "surface/objects/objects.h"
 #include "surface/past/past.h"
 #include "surface/plate/plate.h"
@@ -77,6 +78,7 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
     stage->plates = (rlf_plates){.count = 0};
     stage->torsos.count = 0;
     rlf_color_side_reset(stage);
+    rlf_ego_motion_reset(&stage->ego);
     stage->previous = NULL;
 }
 
@@ -157,6 +159,9 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
     float *kept = fill || smooth ? stage->work.depth[1] : slot->depth;
     float *raw = flying ? stage->work.depth[0] : kept;
     rlf_points_read(stage, frame, raw, slot->reason);
+    if (stage->def.background_method == RLF_BACKGROUND_ADAPTIVE) {
+        rlf_ego_motion_watch(stage, raw);
+    }
     rlf_stage_add_time(stage, RLF_SURFACE_READ);
     if (flying) {
         rlf_flying_remove(stage, raw, kept, slot->reason);
@@ -431,6 +436,7 @@ static void publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *sl
     s->background_thickness = thickness == NULL ? none : thickness;
     s->background_version = sheet == NULL ? 0 : (int64_t)sheet->version + publications;
     s->background_state = stage->background.state;
+    s->camera_moves = stage->ego.moves;
     s->regions = slot->regions;
     s->region_count = slot->foreground_region_first + slot->foreground_region_count;
     s->region_points = slot->region_points;
@@ -478,6 +484,7 @@ rlf_result rlf_reconstruct_process(rlf_reconstruct *stage, const rlf_frame *fram
         rlf_standing_advance(stage);
         rlf_stage_add_time(stage, RLF_SURFACE_THICKNESS);
     }
+    rlf_ego_motion_remember(stage, slot);
     publish(stage, frame, slot);
     rlf_stage_add_time(stage, RLF_SURFACE_PUBLISH);
     stage->previous = slot;

@@ -315,6 +315,23 @@ typedef struct rlf_color_side {
     int32_t parts;
 } rlf_color_side;
 
+/* What is seen of an earlier frame, see ego_motion.c. */
+enum { RLF_EGO_POINTS = 400 };
+
+typedef struct rlf_ego_point {
+    rlf_vec3 point, normal;
+    int32_t pixel;
+} rlf_ego_point;
+
+typedef struct rlf_ego_motion {
+    rlf_ego_point points[RLF_EGO_POINTS];
+    int32_t count, age;  /* age: frames since they were seen */
+    rlf_pose pose, step; /* their motion since then, and that of the last frame */
+    int32_t seen_frames; /* in a row in which the camera moved */
+    int32_t hold;        /* frames for which it is still taken to move */
+    bool moves;
+} rlf_ego_motion;
+
 /* Memory that is free between steps. */
 typedef struct rlf_work {
     float *depth[2];    /* planes; these, sum and component have room for RLF_CHORD_PAD */
@@ -362,6 +379,7 @@ struct rlf_reconstruct {
     rlf_torsos torsos; /* of the foreground */
     rlf_color_side side;
     struct rlf_objects *objects; /* see objects/objects.h; NULL = they are not wanted */
+    rlf_ego_motion ego;
     rlf_work work;
     bool has_color;      /* work.color holds the frame's */
     bool has_components; /* work.runs holds the front sheet's, so many: */

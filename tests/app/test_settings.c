@@ -43,6 +43,22 @@ static void the_last_one_wins(void **state)
     assert_true(def.enable_hold);
 }
 
+static void what_has_no_effect_is_told(void **state)
+{
+    (void)state;
+    rlf_reconstruct_def live = def_of(RLF_PROFILE_LIVE), thesis = def_of(RLF_PROFILE_THESIS);
+    assert_non_null(settings_need("segment_tau_m=0.1", &live));
+    assert_null(settings_need("segment_tau_m=0.1", &thesis));
+    assert_non_null(settings_need("foreground_threshold_m=0.1", &live));
+    assert_null(settings_need("foreground_sigmas=5", &live));
+    assert_non_null(settings_need("absorb_after_s=5", &thesis));
+    assert_non_null(settings_need("segment_color_tau=0.1", &live)); /* the rig has no colour */
+    assert_null(settings_need("hold=off", &live));
+    live.enable_steadying = false;
+    assert_non_null(settings_need("hold=on", &live));
+    assert_null(settings_need("depth_max_m=3", &live));
+}
+
 static void what_is_no_setting_is_refused(void **state)
 {
     (void)state;
@@ -81,6 +97,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_setting_reaches_its_field_alone),
         cmocka_unit_test(the_last_one_wins),
+        cmocka_unit_test(what_has_no_effect_is_told),
         cmocka_unit_test(what_is_no_setting_is_refused),
         cmocka_unit_test(there_is_an_end_to_them),
     };

@@ -74,15 +74,13 @@ static void look(room_view *v, const plane *planes, int32_t count, rlf_quat turn
                                .ray_y = v->ray_y};
 }
 
-/* Degrees between what is found and the truth; 180 when nothing is. */
-static double error_of(const room_view *v, rlf_quat turn)
+/* Degrees between what is found and the truth. */
+static double error_of(const room_view *v, rlf_quat turn, double *out_confidence)
 {
     rlf_vec3 up;
-    if (!rlf_surface_find_up(&v->surface, &up)) {
-        assert_true(up.x == 0.0 && up.y == -1.0 && up.z == 0.0);
-        return 180.0;
-    }
+    *out_confidence = rlf_surface_find_up(&v->surface, &up);
     rlf_vec3 truth = rlf_rotate(turn, rlf_vec3_make(0, -1, 0));
+    assert_true(*out_confidence >= 0.0 && *out_confidence <= 1.0);
     return rlf_acos(rlf_clamp(rlf_dot(up, truth), -1.0, 1.0)) / RAD;
 }
 
@@ -91,11 +89,13 @@ static room_view view;
 static void a_room_is_found_from_any_usual_camera(void **state)
 {
     (void)state;
+    double confidence;
     for (double down = -15.0; down <= 50.0; down += 5.0) {
         for (double roll = -20.0; roll <= 20.0; roll += 10.0) {
             rlf_quat turn = camera_turn(down, roll);
             look(&view, room, 5, turn, 0.05);
-            assert_true(error_of(&view, turn) < 0.3); /* at -15 by a few normals of the ceiling */
+            assert_true(error_of(&view, turn, &confidence) <
+                        0.3); /* at -15 by a few normals of the ceiling */
         }
     }
 }
@@ -103,10 +103,11 @@ static void a_room_is_found_from_any_usual_camera(void **state)
 static void a_table_alone_is_enough(void **state)
 {
     (void)state;
+    double confidence;
     for (double down = 10.0; down <= 60.0; down += 10.0) {
         rlf_quat turn = camera_turn(down, 5.0);
         look(&view, room, 1, turn, 0.05);
-        assert_true(error_of(&view, turn) < 0.1);
+        assert_true(error_of(&view, turn, &confidence) < 0.1);
     }
 }
 
@@ -114,21 +115,104 @@ static void a_table_alone_is_enough(void **state)
 static void a_wall_is_no_floor(void **state)
 {
     (void)state;
+    double confidence;
     const plane near_wall[2] = {room[0], room[4]};
     rlf_quat turn = camera_turn(0.0, 3.0);
     look(&view, near_wall, 2, turn, 0.05);
-    assert_true(error_of(&view, turn) < 0.1);
+    assert_true(error_of(&view, turn, &confidence) < 0.1);
+}
+
+/* A box on the floor of the level frame, its edges along x, y and z. */
+typedef struct box {
+    rlf_vec3 low, high;
+} box;
+
+/* Puts a box, turned about the upright by yaw, in front of what is seen. */
+static void put_box(room_view *v, const box *b, double yaw_deg, rlf_quat turn)
+{
+    rlf_quat about = rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), yaw_deg * RAD);
+    rlf_quat back = rlf_quat_conjugate(rlf_quat_mul(turn, about));
+    const double low[3] = {b->low.x, b->low.y, b->low.z};
+    const double high[3] = {b->high.x, b->high.y, b->high.z};
+    for (int32_t i = 0; i < COUNT; i++) {
+        rlf_vec3 r = rlf_rotate(back, rlf_vec3_make(v->ray_x[i], v->ray_y[i], 1.0));
+        const double ray[3] = {r.x, r.y, r.z};
+        double near = 0.0, far = 1e9;
+        int32_t face = 0;
+        for (int32_t k = 0; k < 3; k++) {
+            double a = low[k] / ray[k], c = high[k] / ray[k];
+            face = rlf_min(a, c) > near ? k : face;
+            near = rlf_max(near, rlf_min(a, c));
+            far = rlf_min(far, rlf_max(a, c));
+        }
+        if (near < far && near > 0.0 && (v->depth[i] == 0.0f || near < v->depth[i])) {
+            double sign = ray[face] > 0.0 ? -1.0 : 1.0;
+            rlf_vec3 n = {face == 0 ? sign : 0, face == 1 ? sign : 0, face == 2 ? sign : 0};
+            n = rlf_rotate(rlf_quat_conjugate(back), n);
+            v->depth[i] = (float)near;
+            v->nx[i] = (float)n.x;
+            v->ny[i] = (float)n.y;
+            v->nz[i] = (float)n.z;
+        }
+    }
+}
+
+/* Three boxes on a table 0.6 m under the camera. */
+static const box boxes[3] = {{{-0.25, 0.45, 0.75}, {-0.10, 0.6, 0.87}},
+                             {{0.05, 0.40, 0.60}, {0.17, 0.6, 0.72}},
+                             {{-0.05, 0.5, 1.0}, {0.15, 0.6, 1.1}}};
+static const double yaws[3] = {20.0, -35.0, 5.0};
+
+static void look_at_table(rlf_quat turn)
+{
+    const plane table = {{0, -1, 0}, -0.6};
+    look(&view, &table, 1, turn, 0.05);
+    for (int32_t k = 0; k < 3; k++) {
+        put_box(&view, &boxes[k], yaws[k], turn);
+    }
+}
+
+/* A desk arm's camera hangs upside down, or on its side. */
+static void things_on_a_table_tell_for_any_roll(void **state)
+{
+    (void)state;
+    double confidence;
+    for (double roll = 0.0; roll < 360.0; roll += 30.0) {
+        rlf_quat turn = camera_turn(40.0, roll);
+        look_at_table(turn);
+        assert_true(error_of(&view, turn, &confidence) < 1.0);
+        bool lies_on_its_side = roll == 90.0 || roll == 270.0;
+        assert_true(confidence >= RLF_UP_SURE || lies_on_its_side);
+    }
+}
+
+/* Its walls are as good floors: whatever is answered, it is not sure. */
+static void a_rolled_empty_room_is_not_sure(void **state)
+{
+    (void)state;
+    double confidence;
+    for (double roll = 60.0; roll <= 300.0; roll += 30.0) {
+        rlf_quat turn = camera_turn(10.0, roll);
+        look(&view, room, 5, turn, 0.05);
+        double error = error_of(&view, turn, &confidence);
+        assert_true(error < 1.0 || confidence < RLF_UP_SURE);
+    }
 }
 
 static void what_tells_nothing_is_told_so(void **state)
 {
     (void)state;
-    look(&view, &room[4], 1, camera_turn(0.0, 0.0), 0.05); /* one wall, frontal */
-    assert_true(error_of(&view, camera_turn(0.0, 0.0)) == 180.0);
-    look(&view, room, 0, camera_turn(0.0, 0.0), 0.0); /* nothing at all */
-    assert_true(error_of(&view, camera_turn(0.0, 0.0)) == 180.0);
-    look(&view, room, 5, camera_turn(85.0, 0.0), 0.05); /* straight down: a floor or a wall? */
-    assert_true(error_of(&view, camera_turn(85.0, 0.0)) == 180.0);
+    double confidence;
+    rlf_quat level = camera_turn(0.0, 0.0), down = camera_turn(88.0, 0.0);
+    look(&view, &room[4], 1, level, 0.05); /* one wall, frontal */
+    assert_true(error_of(&view, level, &confidence) < 1.0);
+    assert_true(confidence < RLF_UP_SURE);
+    look(&view, room, 0, level, 0.0); /* nothing at all */
+    assert_true(error_of(&view, level, &confidence) == 0.0);
+    assert_true(confidence == 0.0);
+    look(&view, room, 1, down, 0.05); /* straight down: a floor or a wall? */
+    error_of(&view, down, &confidence);
+    assert_true(confidence < RLF_UP_SURE);
 }
 
 int main(void)
@@ -137,6 +221,8 @@ int main(void)
         cmocka_unit_test(a_room_is_found_from_any_usual_camera),
         cmocka_unit_test(a_table_alone_is_enough),
         cmocka_unit_test(a_wall_is_no_floor),
+        cmocka_unit_test(things_on_a_table_tell_for_any_roll),
+        cmocka_unit_test(a_rolled_empty_room_is_not_sure),
         cmocka_unit_test(what_tells_nothing_is_told_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

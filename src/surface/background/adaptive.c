@@ -149,7 +149,8 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot)
 {
     rlf_background *background = &stage->background;
     const rlf_reconstruct_def *def = &stage->def;
-    if (background->state == RLF_BACKGROUND_READY && rlf_background_is_cut(stage, slot->depth)) {
+    bool knows = background->state == RLF_BACKGROUND_READY;
+    if (stage->ego.moves || (knows && rlf_background_is_cut(stage, slot->depth))) {
         start_anew(stage);
     }
     bool learning = background->frames < def->background_frames;

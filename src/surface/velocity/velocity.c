@@ -8,6 +8,8 @@
  */
 #include "surface/velocity/velocity.h"
 
+#include "math/solve_six.h"
+
 #include <string.h>
 
 enum { STRIDE = 2, PASSES = 4, LEAST_REGION_SAMPLES = 30, MOST_SAMPLES = 400 };
@@ -62,31 +64,6 @@ static void twist_row(const rlf_twist *t, rlf_vec3 p, rlf_vec3 n, double row[6])
     row[3] = turn.x / t->length;
     row[4] = turn.y / t->length;
     row[5] = turn.z / t->length;
-}
-
-/* Symmetric positive definite: Cholesky's L L^T, in place. */
-static void solve_six(double a[6][6], const double b[6], double x[6])
-{
-    for (int i = 0; i < 6; i++) {
-        double sum = b[i];
-        for (int j = 0; j <= i; j++) {
-            double s = a[i][j];
-            for (int k = 0; k < j; k++) {
-                s -= a[i][k] * a[j][k];
-            }
-            a[i][j] = i == j ? sqrt(rlf_max(s, 1e-12)) : s / a[j][j];
-        }
-        for (int k = 0; k < i; k++) {
-            sum -= a[i][k] * x[k];
-        }
-        x[i] = sum / a[i][i];
-    }
-    for (int i = 5; i >= 0; i--) {
-        for (int k = i + 1; k < 6; k++) {
-            x[i] -= a[k][i] * x[k];
-        }
-        x[i] /= a[i][i];
-    }
 }
 
 /* What the sensor's noise makes of a speed, and the normal's error: 5 % of the motion. */
@@ -175,7 +152,7 @@ static void step(twist_sum *sum, rlf_twist *t)
     for (int k = 0; k < 6; k++) {
         sum->a[k][k] += ridge * (agreeing(t) + 1);
     }
-    solve_six(sum->a, sum->b, x);
+    math_solve_six(sum->a, sum->b, x);
     for (int k = 0; k < 6; k++) {
         t->x[k] += x[k];
     }

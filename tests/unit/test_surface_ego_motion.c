@@ -1,0 +1,129 @@
+/* A camera that moves is told, and people who move before a camera that stands are not. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "seen_view.h"
+
+enum { WIDTH = 160, HEIGHT = 120, COUNT = WIDTH * HEIGHT, STILL = 20, TOLD = 10, LEARNING = 5 };
+
+#define RAD (RLF_PI / 180.0)
+
+static float depth[COUNT];
+
+static rlf_reconstruct *make_stage(void)
+{
+    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
+    def.min_region_points = 8;
+    return seen_view_stage(&def);
+}
+
+static const rlf_surface *process(rlf_reconstruct *stage, int32_t number)
+{
+    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    return seen_depth_process(&rig, depth, stage, number);
+}
+
+/* A corner of a room with a ball, seen from a pose, with the sensor's noise. */
+static void look(const rlf_pose *T_room_camera, int32_t number)
+{
+    static const rlf_vec3 n[3] = {{0, -1, 0}, {0.6, 0, -0.8}, {-0.8, 0, -0.6}};
+    static const double d[3] = {-1.0, -1.9, -1.8};
+    const rlf_vec3 ball = {0.1, 0.5, 1.7};
+    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    analytic_random random = {(uint64_t)number + 7};
+    rlf_vec3 origin = T_room_camera->p;
+    for (int32_t i = 0; i < COUNT; i++) {
+        rlf_vec3 ray = {((i % WIDTH) - rig.depth.cx) / rig.depth.fx,
+                        ((i / WIDTH) - rig.depth.cy) / rig.depth.fy, 1.0};
+        rlf_vec3 way = rlf_rotate(T_room_camera->q, ray);
+        double nearest = 9.0;
+        for (int32_t k = 0; k < 3; k++) {
+            double t = (d[k] - rlf_dot(n[k], origin)) / rlf_dot(n[k], way);
+            nearest = t > 0.0 && t < nearest ? t : nearest;
+        }
+        rlf_vec3 to = rlf_sub(ball, origin);
+        double a = rlf_dot(way, way), b = rlf_dot(way, to);
+        double root = b * b - a * (rlf_dot(to, to) - 0.25 * 0.25);
+        double t = root > 0.0 ? (b - sqrt(root)) / a : 0.0;
+        nearest = t > 0.0 && t < nearest ? t : nearest;
+        double sigma = rlf_depth_noise_sigma(&rig.noise, nearest);
+        depth[i] = (float)(nearest + sigma * random_normal(&random));
+    }
+}
+
+/* A board that comes in from the left and covers half of what is seen. */
+static void put_board(int32_t number)
+{
+    int32_t edge = 4 * number < WIDTH * 6 / 10 ? 4 * number : WIDTH * 6 / 10;
+    for (int32_t i = 0; i < COUNT; i++) {
+        double z = 1.1 - 0.003 * number;
+        depth[i] = i % WIDTH < edge && depth[i] > z ? (float)z : depth[i];
+    }
+}
+
+/* A camera in a hand: it walks by 0.15 m/s and turns by 10 degrees per second. */
+static rlf_pose carried(int32_t frames)
+{
+    rlf_pose pose = {{0.003 * frames, 0.001 * frames, 0.004 * frames},
+                     rlf_quat_from_axis_angle(rlf_vec3_make(0.3, 1.0, 0.0), 0.33 * RAD * frames)};
+    return pose;
+}
+
+static void a_camera_that_moves_is_told(void **state)
+{
+    (void)state;
+    rlf_reconstruct *stage = make_stage();
+    const rlf_pose still = rlf_pose_identity();
+    for (int32_t k = 0; k < STILL; k++) {
+        look(&still, k);
+        assert_false(process(stage, k)->camera_moves);
+    }
+    for (int32_t k = 1; k <= 3 * TOLD; k++) {
+        rlf_pose pose = carried(k);
+        look(&pose, STILL + k);
+        const rlf_surface *s = process(stage, STILL + k - 1);
+        assert_true(s->camera_moves || k < TOLD);
+        for (int32_t i = 0; i < COUNT && s->camera_moves; i++) {
+            assert_true(s->foreground[i] == 0 && s->velocity_x[i] == 0.0f &&
+                        s->velocity_y[i] == 0.0f && s->velocity_z[i] == 0.0f);
+        }
+    }
+    const rlf_pose stands = carried(3 * TOLD);
+    const rlf_surface *s = NULL;
+    for (int32_t k = 0; k < 2 * TOLD + LEARNING; k++) {
+        look(&stands, 1000 + k);
+        s = process(stage, STILL + 3 * TOLD + k);
+    }
+    assert_false(s->camera_moves);
+    assert_int_equal(s->background_state, RLF_BACKGROUND_READY);
+    rlf_reconstruct_destroy(&stage);
+}
+
+static void who_walks_by_moves_no_camera(void **state)
+{
+    (void)state;
+    rlf_reconstruct *stage = make_stage();
+    const rlf_pose still = rlf_pose_identity();
+    for (int32_t k = 0; k < STILL + 40; k++) {
+        look(&still, k);
+        if (k >= STILL) {
+            put_board(k - STILL);
+        }
+        assert_false(process(stage, k)->camera_moves);
+    }
+    rlf_reconstruct_destroy(&stage);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_camera_that_moves_is_told),
+        cmocka_unit_test(who_walks_by_moves_no_camera),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
