@@ -7,10 +7,8 @@
 #define LATER_ROWS 4    /* and then */
 #define GATE 16         /* steps of a channel that still are the same colour */
 #define TIMES_MAX 4     /* a colour seen so often gives way after as many others */
-#define SEARCH 12       /* pixels to the nearest foreground with a depth, at most */
 #define CELL 8          /* pixels */
 #define CLEAR 2         /* cells around foreground that are not learnt: shadows, parallax */
-#define MARGIN_M 0.1f   /* bodies so near to a pixel's depths may be hidden by either */
 #define FOREIGN 900.0f  /* squared distance of colours, from which they are not the plate's */
 #define SAME 600.0f     /* up to which they are */
 #define FARTHEST 48.0f  /* picture pixels between a near place and a far one, at most */
@@ -68,7 +66,7 @@ static const uint8_t *color_at(const clean_plate *plate, const rlf_image_rgba8 *
     return rlf_rgba8_row(color, (int32_t)y) + 4 * (ptrdiff_t)(int32_t)x;
 }
 
-static float squared(const uint8_t *a, const uint8_t *b)
+float clean_plate_squared(const uint8_t *a, const uint8_t *b)
 {
     float sum = 0.0f;
     for (int k = 0; k < 3; k++) {
@@ -111,7 +109,7 @@ static float from_plate(const clean_plate *plate, const uint8_t *c, int32_t x, i
         }
         const uint8_t *known = plate->colors + 4 * ((ptrdiff_t)at_y * plate->width + at_x);
         if (known[3] != 0) {
-            const float here = may_be_shadow ? squared_in_shadow(c, known) : squared(c, known);
+            const float here = may_be_shadow ? squared_in_shadow(c, known) : clean_plate_squared(c, known);
             least = least < 0.0f || here < least ? here : least;
         } else if (k == 0) {
             return -1.0f;
@@ -122,15 +120,14 @@ static float from_plate(const clean_plate *plate, const uint8_t *c, int32_t x, i
 
 /* ---- cells ---------------------------------------------------------------------------------- */
 
-enum { HAS_FOREGROUND = 1, NEAR_FOREGROUND = 2, NOT_CLEAR = 4 };
+enum { HAS_FOREGROUND = 1, NOT_CLEAR = 2 };
 
-static void mark_around(clean_plate *plate, int32_t column, int32_t row, int32_t reach,
-                        uint8_t mark)
+static void mark_around(clean_plate *plate, int32_t column, int32_t row)
 {
-    for (int32_t y = row - reach; y <= row + reach; y++) {
-        for (int32_t x = column - reach; x <= column + reach; x++) {
+    for (int32_t y = row - CLEAR; y <= row + CLEAR; y++) {
+        for (int32_t x = column - CLEAR; x <= column + CLEAR; x++) {
             if (x >= 0 && y >= 0 && x < plate->columns && y < plate->rows) {
-                plate->cells[y * plate->columns + x] |= mark;
+                plate->cells[y * plate->columns + x] |= NOT_CLEAR;
             }
         }
     }
@@ -159,8 +156,7 @@ static void mark_cells(clean_plate *plate, const rlf_surface *surface)
     }
     for (int32_t i = 0; i < plate->columns * plate->rows; i++) {
         if ((plate->cells[i] & HAS_FOREGROUND) != 0) {
-            mark_around(plate, i % plate->columns, i / plate->columns, 1, NEAR_FOREGROUND);
-            mark_around(plate, i % plate->columns, i / plate->columns, CLEAR, NOT_CLEAR);
+            mark_around(plate, i % plate->columns, i / plate->columns);
         }
     }
 }
@@ -232,50 +228,14 @@ static void learn(clean_plate *plate, rlf_registration *registration, const rlf_
     }
 }
 
-/* ---- deciding ------------------------------------------------------------------------------- */
+/* ---- telling -------------------------------------------------------------------------------- */
 
-/* One frame's lost pixels. */
-typedef struct pass {
-    const clean_plate *plate;
-    const rlf_registration *registration;
-    const rlf_image_rgba8 *color;
-    const rlf_surface *surface;
-    const silhouette *bodies;
-    float *depth;
-} pass;
-
-/* The nearest pixel of the foreground that has a depth, in eight directions; -1 = none. */
-static ptrdiff_t nearest_foreground(const pass *p, int32_t x, int32_t y)
+const uint8_t *clean_plate_color(const clean_plate *plate, const rlf_registration *registration,
+                                 const rlf_image_rgba8 *color, int32_t i, float z)
 {
-    static const int32_t ways[8][2] = {{-1, 0},  {1, 0},  {0, -1}, {0, 1},
-                                       {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
-    for (int32_t r = 1; r <= SEARCH; r++) {
-        for (int k = 0; k < 8; k++) {
-            const int32_t at_x = x + r * ways[k][0];
-            const int32_t at_y = y + r * ways[k][1];
-            if (at_x < 0 || at_y < 0 || at_x >= p->plate->width || at_y >= p->plate->height) {
-                continue;
-            }
-            const ptrdiff_t i = (ptrdiff_t)at_y * p->plate->width + at_x;
-            if (p->surface->foreground[i] != 0 && p->surface->reason[i] == RLF_REASON_OK) {
-                return i;
-            }
-        }
-    }
-    return -1;
-}
-
-/* Depths of the bodies about a place of the picture; NULL when there are none. */
-static const silhouette_tile *bodies_at(const silhouette *s, const float at[2])
-{
-    if (!(at[0] > -0.5f && at[1] > -0.5f && at[0] < (float)s->cover.width - 0.5f &&
-          at[1] < (float)s->cover.height - 0.5f)) {
-        return NULL;
-    }
-    const int32_t column = (int32_t)(at[0] + 0.5f) / SILHOUETTE_TILE;
-    const int32_t row = (int32_t)(at[1] + 0.5f) / SILHOUETTE_TILE;
-    const silhouette_tile *tile = &s->tiles[row * s->columns + column];
-    return tile->far_z >= tile->near_z ? tile : NULL;
+    float at[2];
+    registration_pixel(registration, i, z, at);
+    return color_at(plate, color, at[0], at[1]);
 }
 
 static int32_t round_to_int(float x)
@@ -283,34 +243,35 @@ static int32_t round_to_int(float x)
     return (int32_t)(x + 128.5f) - 128;
 }
 
-/* True when pixel (x, y) shows a thing at near_z, for the picture there is not the plate's. */
-static bool shows_foreground(const pass *p, int32_t x, int32_t y, float near_z,
-                             const float at_far[2])
+/* True when pixel i shows a thing at near_z, for the picture there is not the plate's. */
+static bool shows_foreground(const clean_plate *plate, const clean_plate_sight *sight, int32_t i,
+                             float near_z, const float at_far[2])
 {
-    const clean_plate *plate = p->plate;
     float at[2];
-    registration_pixel(p->registration, y * plate->width + x, near_z, at);
-    const uint8_t *c = color_at(plate, p->color, at[0], at[1]);
+    registration_pixel(sight->registration, i, near_z, at);
+    const uint8_t *c = color_at(plate, sight->color, at[0], at[1]);
     const float u = at[0] - at_far[0];
     const float v = at[1] - at_far[1];
     if (c == NULL || !(u * u + v * v < FARTHEST * FARTHEST)) {
         return false;
     }
+    const int32_t x = i % plate->width;
+    const int32_t y = i / plate->width;
     const int32_t plate_x = x + round_to_int(plate->to_grid[0] * u + plate->to_grid[1] * v);
     const int32_t plate_y = y + round_to_int(plate->to_grid[2] * u + plate->to_grid[3] * v);
     return from_plate(plate, c, plate_x, plate_y, true) > FOREIGN;
 }
 
-/* True when pixel (x, y) shows its background, and foreground like that of pixel `near` would look
+/* True when pixel i shows its background, and foreground like that of pixel `near` would look
  * another way. */
-static bool shows_background(const pass *p, int32_t x, int32_t y, ptrdiff_t near,
-                             const float at_far[2])
+static bool shows_background(const clean_plate *plate, const clean_plate_sight *sight, int32_t i,
+                             int32_t near, const float at_far[2])
 {
-    const clean_plate *plate = p->plate;
-    float beside[2];
-    registration_pixel(p->registration, (int32_t)near, p->surface->depth[near], beside);
-    const uint8_t *c = color_at(plate, p->color, at_far[0], at_far[1]);
-    const uint8_t *foreground = color_at(plate, p->color, beside[0], beside[1]);
+    const int32_t x = i % plate->width;
+    const int32_t y = i / plate->width;
+    const uint8_t *c = color_at(plate, sight->color, at_far[0], at_far[1]);
+    const uint8_t *foreground = clean_plate_color(plate, sight->registration, sight->color, near,
+                                                  sight->surface->depth[near]);
     if (c == NULL || foreground == NULL) {
         return false;
     }
@@ -318,72 +279,36 @@ static bool shows_background(const pass *p, int32_t x, int32_t y, ptrdiff_t near
     return off >= 0.0f && off < SAME && from_plate(plate, foreground, x, y, true) > FOREIGN;
 }
 
-static void settle(const pass *p, int32_t x, int32_t y)
+int clean_plate_tells(const clean_plate *plate, const clean_plate_sight *sight, int32_t i,
+                      int32_t near, float near_z)
 {
-    const int32_t i = y * p->plate->width + x;
-    const float far_z = p->surface->background_depth[i];
+    const rlf_surface *surface = sight->surface;
+    const float far_z = surface->background_depth != NULL ? surface->background_depth[i] : 0.0f;
+    if (!(far_z > near_z) || !silhouette_jumps(near_z, far_z)) {
+        return 0;
+    }
     float at_far[2];
-    if (!(far_z > 0.0f)) {
-        return;
+    registration_pixel(sight->registration, i, far_z, at_far);
+    if (shows_foreground(plate, sight, i, near_z, at_far)) {
+        return 1;
     }
-    registration_pixel(p->registration, i, far_z, at_far);
-    const silhouette_tile *bodies = bodies_at(p->bodies, at_far);
-    if (bodies == NULL || far_z < bodies->near_z - MARGIN_M) {
-        return;
-    }
-    const ptrdiff_t near = nearest_foreground(p, x, y);
-    const float near_z = near >= 0 ? p->surface->depth[near] : far_z;
-    if (near_z >= far_z || near_z > bodies->far_z + MARGIN_M) {
-        return;
-    }
-    if (shows_foreground(p, x, y, near_z, at_far)) {
-        p->depth[i] = near_z;
-    } else if (shows_background(p, x, y, near, at_far)) {
-        p->depth[i] = far_z;
-    }
-}
-
-/* Lost pixels of a row of cells, in the cells near foreground. */
-static void settle_cells(const pass *p, int32_t row)
-{
-    const clean_plate *plate = p->plate;
-    const uint8_t *cells = plate->cells + row * plate->columns;
-    const int32_t end = (row + 1) * CELL < plate->height ? (row + 1) * CELL : plate->height;
-    for (int32_t column = 0; column < plate->columns; column++) {
-        const int32_t first = column * CELL;
-        while (column < plate->columns && (cells[column] & NEAR_FOREGROUND) != 0) {
-            column++;
-        }
-        const int32_t last = column * CELL < plate->width ? column * CELL : plate->width;
-        for (int32_t y = row * CELL; y < end && first < last; y++) {
-            const uint8_t *reason = p->surface->reason + (ptrdiff_t)y * plate->width;
-            int32_t x = rlf_kernel_next_mark(reason, first, last);
-            for (; x < last; x = rlf_kernel_next_mark(reason, x + 1, last)) {
-                settle(p, x, y);
-            }
-        }
-    }
+    return shows_background(plate, sight, i, near, at_far) ? -1 : 0;
 }
 
 void clean_plate_update(clean_plate *plate, rlf_registration *registration,
-                        const rlf_render_input *input, const silhouette *bodies, float *depth)
+                        const rlf_render_input *input)
 {
     const rlf_frame *frame = input->frame;
     const rlf_surface *surface = input->surface;
-    if (surface->background_depth == NULL || surface->foreground == NULL ||
-        surface->reason == NULL || frame->color.data == NULL || plate->to_grid[0] == 0.0f) {
-        return;
-    }
     plate->scale[0] = (float)frame->color.width / (float)registration->color.width;
     plate->scale[1] = (float)frame->color.height / (float)registration->color.height;
+    const bool is_new = !plate->has_sequence || frame->sequence != plate->last_sequence;
+    if (surface->background_depth == NULL || surface->foreground == NULL ||
+        frame->color.data == NULL || plate->to_grid[0] == 0.0f || !is_new) {
+        return;
+    }
     mark_cells(plate, surface);
-    if (!plate->has_sequence || frame->sequence != plate->last_sequence) {
-        learn(plate, registration, &frame->color, surface);
-        plate->last_sequence = frame->sequence;
-        plate->has_sequence = true;
-    }
-    const pass p = {plate, registration, &frame->color, surface, bodies, depth};
-    for (int32_t row = 0; row < plate->rows; row++) {
-        settle_cells(&p, row);
-    }
+    learn(plate, registration, &frame->color, surface);
+    plate->last_sequence = frame->sequence;
+    plate->has_sequence = true;
 }

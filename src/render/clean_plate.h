@@ -5,7 +5,8 @@
  * beside a box, the gap between two limbs. The background model knows how far the room is there;
  * the plate keeps its colour beside it. A lost pixel near foreground is foreground where the
  * picture differs from the plate, and background where it shows the plate's colour and the
- * foreground's is another; else it stays as it was filled.
+ * foreground's is another; else the plate
+ * does not tell.
  *
  * A colour is compared with the plate's pixel and its neighbours (Elgammal et al. 2000), and what
  * is the plate's colour but darker may be a shadow on it (Horprasert et al. 1999). When most of
@@ -36,10 +37,25 @@ rlf_result clean_plate_create(const rlf_registration *registration, const rlf_ca
                               const rlf_pose *T_picture_depth, clean_plate *out);
 void clean_plate_destroy(clean_plate *plate);
 
-/* Learns a part of the plate from a new frame, and settles `depth` ([grid pixel], metres: what the
- * surface shows, else its background) of lost pixels where that may hide one of `bodies`. Without
- * colour or a background nothing is done. */
+/* Learns a part of the plate from a new frame. Without colour or a background nothing is done. */
 void clean_plate_update(clean_plate *plate, rlf_registration *registration,
-                        const rlf_render_input *input, const silhouette *bodies, float *depth);
+                        const rlf_render_input *input);
+
+/* RGB of the frame where pixel i is seen if it is z metres away; NULL outside of the picture. */
+const uint8_t *clean_plate_color(const clean_plate *plate, const rlf_registration *registration,
+                                 const rlf_image_rgba8 *color, int32_t i, float z);
+/* Squared distance of two colours. */
+float clean_plate_squared(const uint8_t *a, const uint8_t *b);
+
+typedef struct clean_plate_sight {
+    const rlf_registration *registration;
+    const rlf_image_rgba8 *color;
+    const rlf_surface *surface;
+} clean_plate_sight;
+
+/* What the plate says of lost pixel i that may be of a thing at near_z, like seen pixel `near`:
+ * 1 = the thing, -1 = the background, 0 = nothing. */
+int clean_plate_tells(const clean_plate *plate, const clean_plate_sight *sight, int32_t i,
+                      int32_t near, float near_z);
 
 #endif

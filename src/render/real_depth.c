@@ -75,7 +75,7 @@ rlf_result real_depth_create(const rlf_compositor_def *def, const rlf_camera *ca
                                          &out->registration);
     }
     if (result == RLF_OK && !out->uses_frame) {
-        result = clean_plate_create(out->registration, depth, &out->T_picture_depth, &out->plate);
+        result = lost_depth_create(out->registration, depth, &out->T_picture_depth, &out->lost);
     }
     if (result == RLF_OK) {
         result = real_shade_grid_create(def->grid.width, def->grid.height, &out->seen);
@@ -95,7 +95,7 @@ rlf_result real_depth_create(const rlf_compositor_def *def, const rlf_camera *ca
 void real_depth_destroy(real_depth *real)
 {
     rlf_registration_destroy(&real->registration);
-    clean_plate_destroy(&real->plate);
+    lost_depth_destroy(&real->lost);
     real_shade_grid_destroy(&real->seen);
     known_layer_destroy(&real->known);
     known_layer_destroy(&real->sensed);
@@ -149,11 +149,12 @@ const known_layer *real_depth_known(const real_depth *real)
 }
 
 rlf_result real_depth_update(real_depth *real, const rlf_render_input *input,
-                             const silhouette *bodies, const real_windows *needed)
+                             bool settles, const real_windows *needed)
 {
     real_windows windows = *needed;
-    if (!real->uses_frame && bodies != NULL) {
-        clean_plate_update(&real->plate, real->registration, input, bodies, real->input);
+    if (!real->uses_frame && settles) {
+        real->nearest = lost_depth_update(&real->lost, real->registration, input, needed,
+                                          real->input, real->nearest);
     }
     rlf_pose T_camera_world = rlf_pose_invert(&input->T_world_camera);
     rlf_pose T_picture_world = rlf_pose_mul(&real->T_picture_depth, &T_camera_world);

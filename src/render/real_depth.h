@@ -4,7 +4,7 @@
 
 #include "known/layer.h"
 #include "relief/compositor.h"
-#include "render/clean_plate.h"
+#include "render/lost_depth.h"
 #include "render/real_shade.h"
 #include "render/real_windows.h"
 
@@ -22,7 +22,7 @@ typedef struct real_depth {
     uint8_t *is_in_lens;   /* uses_frame only */
 
     real_shade_grid seen; /* of the surface, as it was last read */
-    clean_plate plate;    /* not uses_frame only */
+    lost_depth lost;      /* not uses_frame only */
     rlf_pool *pool;
 
     known_layer known;  /* models of real things: they are put into z, */
@@ -44,10 +44,9 @@ void real_depth_destroy(real_depth *real);
 /* Reads the depth that is to be registered, and fills `seen`. */
 void real_depth_read(real_depth *real, const rlf_render_input *input);
 /* Fills windows of z with what was read last; of other pixels nothing is known. Pixels without
- * depth take the background's, when the surface knows it; those that may hide `bodies`, as placed
- * for this picture (NULL = none), are settled by what the picture shows; models of real things take
- * their place. RLF_ERROR_MEMORY as known_layer_place. */
+ * depth take the background's, when the surface knows it; `settles`: what is around them and what the
+ * picture shows decides (lost_depth.h). Models of real things take their place. RLF_ERROR_MEMORY as known_layer_place. */
 rlf_result real_depth_update(real_depth *real, const rlf_render_input *input,
-                             const silhouette *bodies, const real_windows *needed);
+                             bool settles, const real_windows *needed);
 
 #endif

@@ -28,6 +28,11 @@ static rlf_result allocate(silhouette *s, int32_t width, int32_t height)
     s->marks = rlf_alloc_array(tiles, 1);
     s->settled = rlf_alloc_array(pixels, sizeof(*s->settled));
     s->last = rlf_alloc_array(pixels, sizeof(*s->last));
+    s->held_near = rlf_alloc_array(pixels, sizeof(*s->held_near));
+    s->held_far = rlf_alloc_array(pixels, sizeof(*s->held_far));
+    s->doubts = rlf_alloc_array(pixels, sizeof(*s->doubts));
+    s->changes = rlf_alloc_array((size_t)s->rows, sizeof(*s->changes));
+    has_all = has_all && s->changes != NULL && s->held_near != NULL && s->held_far != NULL && s->doubts != NULL;
     s->offset_x = rlf_alloc_array((size_t)width, sizeof(*s->offset_x));
     s->offset_y = rlf_alloc_array((size_t)height, sizeof(*s->offset_y));
     has_all = has_all && s->cover.data != NULL && s->tiles != NULL && s->own != NULL &&
@@ -55,9 +60,10 @@ rlf_result silhouette_create(const rlf_camera *camera, const rlf_camera *depth, 
 
 void silhouette_destroy(silhouette *s)
 {
-    void *parts[11] = {s->near_z.data, s->far_z.data, s->cover.data, s->settled, s->last, s->tiles,
-                       s->own,         s->offset_x,   s->offset_y,   s->marks,   s->real};
-    for (int i = 0; i < 11; i++) {
+    void *parts[15] = {s->near_z.data, s->far_z.data, s->cover.data, s->settled,  s->last,
+                       s->tiles,       s->own,        s->offset_x,   s->offset_y, s->marks,
+                       s->real,        s->held_near,  s->held_far,   s->doubts,   s->changes};
+    for (int i = 0; i < 15; i++) {
         rlf_free(parts[i]);
     }
     memset(s, 0, sizeof(*s));
@@ -295,5 +301,8 @@ void silhouette_update(silhouette *s, const rlf_plane_f32 *z, const known_layer 
     rlf_parallel_for(s->pool, s->rows, 1, settle_rows, &p);
     rlf_parallel_for(s->pool, s->columns, 1, settle_columns, &p);
     rlf_parallel_for(s->pool, s->rows, 1, silhouette_steady_rows, &p);
+    if (p.is_new) {
+        silhouette_learn_noise(s);
+    }
     put_edges(&p);
 }

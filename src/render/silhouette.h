@@ -26,9 +26,15 @@ enum {
     SILHOUETTE_JUMPS =
         1,               /* depth jumps, where bodies are, between its pixels or to the next ones */
     SILHOUETTE_EDGE = 2, /* it, or a tile beside it, jumps: look at near_z, far_z and cover */
-    SILHOUETTE_FILLED = 4 /* near_z, far_z and cover are set: in and around those with an edge */
+    SILHOUETTE_FILLED = 4, /* near_z, far_z and cover are set: in and around those with an edge */
+    SILHOUETTE_WAS_EDGE = 8 /* of the last picture: while it has bodies it stays one */
 };
 #define SILHOUETTE_AROUND 1 /* tiles to the left and right of an edge's that are filled too */
+
+/* How much the light of pixels changed from one picture to the next, and in how many values. */
+typedef struct silhouette_change {
+    int32_t sum, count;
+} silhouette_change;
 
 typedef struct silhouette {
     /* The real world in the filled tiles: a pixel shows `cover` of near_z, the rest of far_z.
@@ -41,6 +47,12 @@ typedef struct silhouette {
      * picture that set it times 2^22 + light (14 bits) times 256 + cover. */
     uint16_t *settled;
     uint32_t *last;
+    /* near_z and far_z of that picture, and in how many more of the latest ones a still pixel
+     * seemed to show another surface than in how many it did not. */
+    float *held_near, *held_far;
+    uint8_t *doubts;
+    silhouette_change *changes; /* of each row of tiles */
+    int32_t still_light;        /* steps of a light that are noise, by those */
     uint16_t picture;       /* counts up, never 0 */
     uint64_t last_sequence; /* of the frame */
 

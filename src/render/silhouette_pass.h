@@ -26,5 +26,7 @@ void silhouette_mark_tiles(silhouette *s);
 
 /* silhouette_steady.c: what the lines settled becomes the cover, in rows of tiles likewise. */
 void silhouette_steady_rows(void *context, int32_t begin, int32_t end, int32_t worker);
+/* After a new picture's: how much noise changes the light. */
+void silhouette_learn_noise(silhouette *s);
 
 #endif

@@ -1,4 +1,4 @@
-/* Cover without lines gone astray, and steady over time. */
+/* Cover without lines gone astray; what pixels show is steady over time. */
 #include "silhouette_pass.h"
 
 #include "kernel/kernel.h"
@@ -6,7 +6,11 @@
 #include <string.h>
 
 #define STEADY_SHARE 4 /* a still pixel moves by a quarter of the way to its new cover */
-#define STEADY_LIGHT 2 /* steps of a light that noise may change */
+#define STEADY_LIGHT 2 /* steps of a light that noise may change, at least; at most, */
+#define STEADY_LIGHT_MOST 10
+#define STEADY_SPREAD 5 /* and in means of what it does: four standard deviations */
+#define STEADY_MOVES 16 /* larger changes are no noise */
+#define STEADY_TIMES 8 /* frames */
 
 #define NOT_DOUBTFUL (SILHOUETTE_NONE << 8) /* settled from here on: no line set it */
 #define VOTERS (2 * SILHOUETTE_TILE) /* of a row: one before the tile's pixels, and beyond them */
@@ -104,62 +108,6 @@ RLF_KERNEL_PART void find_light(const silhouette_pass *p, int32_t x0, int32_t y,
     }
 }
 
-/* Where the picture has not changed the cover moves slowly, so that noise does not show. Into
- * `last` and `cover` where the pixel is doubtful; `known`: of a picture that may be known. */
-RLF_KERNEL_PART void steady_pixels(const silhouette_pass *p, uint32_t known,
-                                   const uint16_t *restrict settled, const int32_t *restrict voted,
-                                   const int32_t *restrict light, uint32_t *restrict last,
-                                   uint8_t *restrict cover)
-{
-    const uint32_t picture = p->s->picture;
-    const int32_t moves = p->is_new ? 1 : 0;
-    RLF_KERNEL_WHOLE
-    for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
-        const uint32_t before = last[i];
-        const int32_t old = (int32_t)(before & 255u);
-        const int32_t mean = (light[i] >> 7) - (int32_t)(before >> 15 & 127u);
-        const int32_t tint = (light[i] & 127) - (int32_t)(before >> 8 & 127u);
-        const int32_t is_still = (mean <= STEADY_LIGHT ? 1 : 0) & (mean >= -STEADY_LIGHT) &
-                                 (tint <= STEADY_LIGHT) & (tint >= -STEADY_LIGHT);
-        const int32_t is_kept = is_still & (before >> 22 == known ? 1 : 0);
-        const int32_t slow = old + moves * ((voted[i] - old) / STEADY_SHARE);
-        const int32_t next = is_kept != 0 ? slow : voted[i];
-        const uint32_t now = picture << 22 | (uint32_t)light[i] << 8 | (uint32_t)next;
-        const bool is_doubtful = settled[i] < NOT_DOUBTFUL;
-        last[i] = is_doubtful ? now : before;
-        cover[i] = is_doubtful ? (uint8_t)next : cover[i];
-    }
-}
-
-/* `count` pixels of a tile from (x0, y) on. */
-RLF_KERNEL static void steady_row(const silhouette_pass *p, uint32_t known, int32_t x0, int32_t y,
-                                  int32_t count)
-{
-    const silhouette *s = p->s;
-    const ptrdiff_t first = (ptrdiff_t)y * s->cover.width + x0;
-    uint8_t *cover = s->cover.data + first;
-    uint32_t *last = s->last + first;
-    uint16_t rows[3][VOTERS];
-    int32_t voted[SILHOUETTE_TILE];
-    int32_t light[SILHOUETTE_TILE] = {0};
-    read_voters(s, x0, y, rows);
-    vote((const uint16_t(*)[VOTERS])rows, voted);
-    if (p->color != NULL) {
-        find_light(p, x0, y, count, light);
-    }
-    if (count == SILHOUETTE_TILE) {
-        steady_pixels(p, known, rows[1] + 1, voted, light, last, cover);
-        return;
-    }
-    uint32_t some_last[SILHOUETTE_TILE] = {0};
-    uint8_t some_cover[SILHOUETTE_TILE] = {0};
-    memcpy(some_last, last, (size_t)count * sizeof(*last));
-    memcpy(some_cover, cover, (size_t)count);
-    steady_pixels(p, known, rows[1] + 1, voted, light, some_last, some_cover);
-    memcpy(last, some_last, (size_t)count * sizeof(*last));
-    memcpy(cover, some_cover, (size_t)count);
-}
-
 /* False when no line settled any of `count` pixels. */
 static bool has_doubtful(const uint16_t *settled, int32_t count)
 {
@@ -170,6 +118,148 @@ static bool has_doubtful(const uint16_t *settled, int32_t count)
     return any != 0;
 }
 
+/* Of `count` <= SILHOUETTE_TILE pixels from `first` on. */
+typedef struct steady_pixels {
+    uint32_t *last;
+    uint8_t *cover, *doubts;
+    float *near_z, *far_z, *held_near, *held_far;
+} steady_pixels;
+
+static steady_pixels pixels_at(const silhouette *s, ptrdiff_t first)
+{
+    return (steady_pixels){.last = s->last + first,
+                           .cover = s->cover.data + first,
+                           .doubts = s->doubts + first,
+                           .near_z = s->near_z.data + first,
+                           .far_z = s->far_z.data + first,
+                           .held_near = s->held_near + first,
+                           .held_far = s->held_far + first};
+}
+
+RLF_KERNEL_PART int32_t is_within(int32_t off, int32_t most)
+{
+    return (off <= most ? 1 : 0) & (off >= -most ? 1 : 0);
+}
+
+/* True when what a pixel shows most of is on the same surface as what it showed. */
+RLF_KERNEL_PART int32_t is_same_surface(float a, float b)
+{
+    const float nearer = a < b ? a : b;
+    const float farther = a < b ? b : a;
+    return silhouette_jumps(nearer, farther) ? 0 : 1;
+}
+
+/* Which of `count` pixels show the same light as before, by the mean change of three: one pixel's
+ * noise is no change. */
+RLF_KERNEL_PART void find_still(const uint32_t *restrict last, const int32_t *restrict light,
+                                int32_t count, int32_t limit, int32_t *restrict out)
+{
+    int32_t mean[SILHOUETTE_TILE + 2] = {0};
+    int32_t tint[SILHOUETTE_TILE + 2] = {0};
+    for (int32_t i = 0; i < count; i++) {
+        mean[i + 1] = (light[i] >> 7) - (int32_t)(last[i] >> 15 & 127u);
+        tint[i + 1] = (light[i] & 127) - (int32_t)(last[i] >> 8 & 127u);
+    }
+    mean[0] = mean[1];
+    tint[0] = tint[1];
+    mean[count + 1] = mean[count];
+    tint[count + 1] = tint[count];
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
+        out[i] = is_within(mean[i] + mean[i + 1] + mean[i + 2], 3 * limit) &
+                 is_within(tint[i] + tint[i + 1] + tint[i + 2], 3 * limit);
+    }
+}
+
+/* Changes that may be noise, of pixels known from picture `known`. */
+RLF_KERNEL_PART void add_changes(const uint32_t *restrict last, const int32_t *restrict light,
+                                 int32_t count, uint32_t known, silhouette_change *change)
+{
+    for (int32_t i = 0; i < count; i++) {
+        const int32_t mean = (light[i] >> 7) - (int32_t)(last[i] >> 15 & 127u);
+        const int32_t tint = (light[i] & 127) - (int32_t)(last[i] >> 8 & 127u);
+        const int32_t is_noise = (last[i] >> 22 == known ? 1 : 0) & is_within(mean, STEADY_MOVES) &
+                                 is_within(tint, STEADY_MOVES);
+        change->sum += is_noise * ((mean < 0 ? -mean : mean) + (tint < 0 ? -tint : tint));
+        change->count += 2 * is_noise;
+    }
+}
+
+/* Where the picture has not changed the cover moves slowly, so that noise does not show, and a new
+ * surface has to be seen STEADY_TIMES more often than the old one: sensors lose depth now and then
+ * and find it again, and shift edges, while nothing moves. */
+RLF_KERNEL_PART void steady_tile_row(const silhouette_pass *p, uint32_t known,
+                                     const int32_t *restrict voted, const int32_t *restrict light,
+                                     int32_t count, const steady_pixels *at)
+{
+    int32_t is_still[SILHOUETTE_TILE];
+    find_still(at->last, light, count, p->s->still_light, is_still);
+    const uint32_t picture = p->s->picture;
+    const int32_t moves = p->is_new ? 1 : 0;
+    const int32_t times = p->color != NULL ? STEADY_TIMES : 0;
+    for (int32_t i = 0; i < count; i++) {
+        const uint32_t before = at->last[i];
+        const int32_t old = (int32_t)(before & 255u);
+        const int32_t is_known = is_still[i] & (before >> 22 == known ? 1 : 0);
+        const int32_t is_same = is_same_surface(old > 127 ? at->held_near[i] : at->held_far[i],
+                                                voted[i] > 127 ? at->near_z[i] : at->far_z[i]);
+        const int32_t doubts = at->doubts[i] + moves * (is_same != 0 ? -1 : 1);
+        const int32_t is_held = is_known & (1 - is_same) & (doubts <= times ? 1 : 0);
+        const int32_t slow = old + moves * ((voted[i] - old) / STEADY_SHARE);
+        const int32_t is_pair = is_same & is_same_surface(at->held_near[i], at->near_z[i]) &
+                                is_same_surface(at->held_far[i], at->far_z[i]);
+        const int32_t next = is_held != 0 ? old : ((is_known & is_pair) != 0 ? slow : voted[i]);
+        at->near_z[i] = is_held != 0 ? at->held_near[i] : at->near_z[i];
+        at->far_z[i] = is_held != 0 ? at->held_far[i] : at->far_z[i];
+        at->held_near[i] = at->near_z[i];
+        at->held_far[i] = at->far_z[i];
+        at->doubts[i] = (uint8_t)((is_known & (is_same | is_held)) != 0 && doubts > 0 ? doubts : 0);
+        at->cover[i] = (uint8_t)next;
+        at->last[i] = picture << 22 | (uint32_t)light[i] << 8 | (uint32_t)next;
+    }
+}
+
+/* `count` pixels of a tile from (x0, y) on. */
+RLF_KERNEL static void steady_row(const silhouette_pass *p, uint32_t known, int32_t x0, int32_t y,
+                                  int32_t count, silhouette_change *change)
+{
+    const silhouette *s = p->s;
+    const ptrdiff_t first = (ptrdiff_t)y * s->cover.width + x0;
+    const steady_pixels at = pixels_at(s, first);
+    int32_t voted[SILHOUETTE_TILE] = {0};
+    int32_t light[SILHOUETTE_TILE] = {0};
+    if (has_doubtful(s->settled + first, count)) {
+        uint16_t rows[3][VOTERS];
+        read_voters(s, x0, y, rows);
+        vote((const uint16_t(*)[VOTERS])rows, voted);
+    }
+    for (int32_t i = 0; i < count; i++) {
+        voted[i] = s->settled[first + i] < NOT_DOUBTFUL ? voted[i] : at.cover[i];
+    }
+    if (p->color != NULL) {
+        find_light(p, x0, y, count, light);
+    }
+    add_changes(at.last, light, count, known, change);
+    steady_tile_row(p, known, voted, light, count, &at);
+}
+
+static void steady_tile(const silhouette_pass *p, int32_t tile, uint32_t known,
+                        silhouette_change *change)
+{
+    const silhouette *s = p->s;
+    const int32_t x0 = tile % s->columns * SILHOUETTE_TILE;
+    const int32_t x1 = silhouette_at_most(x0 + SILHOUETTE_TILE, s->cover.width);
+    const int32_t y0 = tile / s->columns * SILHOUETTE_TILE;
+    const int32_t y1 = silhouette_at_most(y0 + SILHOUETTE_TILE, s->cover.height);
+    for (int32_t y = y0; y < y1; y++) {
+        if (p->color != NULL && y + 4 < y1) {
+            RLF_KERNEL_SOON(p->color + s->offset_y[y + 4] + s->offset_x[x0]);
+            RLF_KERNEL_SOON(s->last + (ptrdiff_t)(y + 4) * s->cover.width + x0);
+        }
+        steady_row(p, known, x0, y, x1 - x0, change);
+    }
+}
+
 void silhouette_steady_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     const silhouette_pass *p = context;
@@ -177,20 +267,24 @@ void silhouette_steady_rows(void *context, int32_t begin, int32_t end, int32_t w
     const uint32_t before = s->picture == 1 ? SILHOUETTE_PICTURES : s->picture - 1u;
     const uint32_t known = p->is_new ? before : s->picture;
     (void)worker;
-    for (int32_t tile = begin * s->columns; tile < end * s->columns; tile++) {
-        const int32_t x0 = tile % s->columns * SILHOUETTE_TILE;
-        const int32_t x1 = silhouette_at_most(x0 + SILHOUETTE_TILE, s->cover.width);
-        const int32_t y0 = tile / s->columns * SILHOUETTE_TILE;
-        const int32_t y1 = silhouette_at_most(y0 + SILHOUETTE_TILE, s->cover.height);
-        const bool has_edge = (s->marks[tile] & SILHOUETTE_EDGE) != 0;
-        for (int32_t y = y0; y < y1 && has_edge; y++) {
-            if (p->color != NULL && y + 4 < y1) {
-                RLF_KERNEL_SOON(p->color + s->offset_y[y + 4] + s->offset_x[x0]);
-                RLF_KERNEL_SOON(s->last + (ptrdiff_t)(y + 4) * s->cover.width + x0);
-            }
-            if (has_doubtful(s->settled + (ptrdiff_t)y * s->cover.width + x0, x1 - x0)) {
-                steady_row(p, known, x0, y, x1 - x0);
+    for (int32_t row = begin; row < end; row++) {
+        silhouette_change change = {0, 0};
+        for (int32_t k = 0; k < s->columns; k++) {
+            if ((s->marks[row * s->columns + k] & SILHOUETTE_EDGE) != 0) {
+                steady_tile(p, row * s->columns + k, known, &change);
             }
         }
+        s->changes[row] = change;
     }
+}
+
+void silhouette_learn_noise(silhouette *s)
+{
+    silhouette_change all = {0, 0};
+    for (int32_t row = 0; row < s->rows; row++) {
+        all.sum += s->changes[row].sum;
+        all.count += s->changes[row].count;
+    }
+    const int32_t limit = all.count > 0 ? STEADY_SPREAD * all.sum / all.count + 1 : 0;
+    s->still_light = limit < STEADY_LIGHT ? STEADY_LIGHT : silhouette_at_most(limit, STEADY_LIGHT_MOST);
 }

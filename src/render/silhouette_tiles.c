@@ -142,7 +142,7 @@ RLF_KERNEL static void find_jumps(const float *z, ptrdiff_t stride, int32_t rows
             real[k] = range_of(first, stride, rows + (below == rows ? 1 : 0));
             bool jumps = silhouette_jumps(real[k].near_z, real[k].far_z) &&
                          has_jump(first, stride, rows, below, &tiles[k]);
-            marks[k] = jumps ? SILHOUETTE_JUMPS : 0;
+            marks[k] |= jumps ? SILHOUETTE_JUMPS : 0;
         }
     }
 }
@@ -170,7 +170,9 @@ void silhouette_find_jumps(void *context, int32_t begin, int32_t end, int32_t wo
     const rlf_plane_f32 *z = p->z;
     const int32_t whole = (z->width - 1) / SILHOUETTE_TILE;
     const int32_t at = whole * SILHOUETTE_TILE;
-    memset(s->marks + begin * s->columns, 0, (size_t)((end - begin) * s->columns));
+    for (int32_t i = begin * s->columns; i < end * s->columns; i++) {
+        s->marks[i] = (s->marks[i] & SILHOUETTE_EDGE) != 0 ? SILHOUETTE_WAS_EDGE : 0;
+    }
     for (int32_t tile = begin; tile < end; tile++) {
         const int32_t y0 = tile * SILHOUETTE_TILE;
         const int32_t y1 = silhouette_at_most(y0 + SILHOUETTE_TILE, z->height);
@@ -181,7 +183,7 @@ void silhouette_find_jumps(void *context, int32_t begin, int32_t end, int32_t wo
         const int32_t last = first + whole;
         if (whole < s->columns && is_used(&s->tiles[last])) {
             s->real[last] = (silhouette_tile){0.0f, SILHOUETTE_FAR};
-            s->marks[last] = jumps_at_end(z, at, y0, y1) ? SILHOUETTE_JUMPS : 0;
+            s->marks[last] |= jumps_at_end(z, at, y0, y1) ? SILHOUETTE_JUMPS : 0;
         }
     }
 }
@@ -206,6 +208,9 @@ void silhouette_mark_tiles(silhouette *s)
         if ((s->marks[i] & SILHOUETTE_JUMPS) != 0) {
             mark_around(s, i, 1, SILHOUETTE_EDGE);
             mark_around(s, i, 1 + SILHOUETTE_AROUND, SILHOUETTE_FILLED);
+        }
+        if ((s->marks[i] & SILHOUETTE_WAS_EDGE) != 0 && is_used(&s->tiles[i])) {
+            s->marks[i] |= SILHOUETTE_EDGE | SILHOUETTE_FILLED;
         }
         if (s->fills_all && is_used(&s->tiles[i])) {
             s->marks[i] |= SILHOUETTE_FILLED;

@@ -1,0 +1,442 @@
+/* Which surface a pixel without depth belongs to. */
+#include "lost_depth.h"
+
+#include "kernel/kernel.h"
+
+#include <string.h>
+
+#define CELL 8         /* pixels */
+#define MOST_NATS 3.0f /* of one pixel */
+#define SEEN_NATS 1.0f /* of one that is seen, for its own side */
+#define RIM 24         /* pixels: so wide may the border be that a camera leaves without depth */
+#define HOLE_M 0.3f    /* what is seen farther than this from a lost pixel does not enclose it */
+#define INSIDE 2       /* pixels beyond the first seen one, whose colours may be mixed */
+#define ENCLOSED 2.5f  /* nats for a side that all ways lead to; for half of them none */
+#define REMEMBERED 1.5f /* nats: the background there is as near as the near side */
+#define MOST_COLOR 2.0f /* nats that colours say at most */
+#define COLOR_VARIANCE 100.0f /* squared sRGB steps, of three channels' noise and texture */
+#define STRANGE 5000.0f       /* squared distance from both sides that halves what colours say */
+#define FOREIGN 900.0f        /* that of a far side whose colour is not known */
+#define NO_CHOICE (-1.0f)
+#define VOTE 2                /* pixels around one that have a say */
+
+enum { NOTHING_SEEN = 255 };
+
+static const int32_t ways[LOST_DEPTH_WAYS][2] = {{-1, 0}, {0, -1}, {-1, -1}, {1, -1},
+                                                 {1, 0},  {0, 1},  {1, 1},   {-1, 1}};
+
+/* ---- create --------------------------------------------------------------------------------- */
+
+rlf_result lost_depth_create(const rlf_registration *registration, const rlf_camera *depth,
+                             const rlf_pose *T_picture_depth, lost_depth *out)
+{
+    memset(out, 0, sizeof(*out));
+    out->width = registration->width;
+    out->height = registration->height;
+    out->focal = (float)depth->fx;
+    out->columns = (out->width + CELL - 1) / CELL;
+    out->rows = (out->height + CELL - 1) / CELL;
+    const size_t pixels = (size_t)out->width * (size_t)out->height;
+    bool has_all = true;
+    for (int k = 0; k < LOST_DEPTH_WAYS; k++) {
+        out->away[k] = rlf_alloc(pixels);
+        has_all = has_all && out->away[k] != NULL;
+    }
+    out->far_z = rlf_alloc_array(pixels, sizeof(float));
+    out->near_z = rlf_alloc_array(pixels, sizeof(float));
+    out->nats = rlf_alloc_array(pixels, sizeof(float));
+    out->cells = rlf_alloc((size_t)out->columns * (size_t)out->rows);
+    has_all = has_all && out->far_z != NULL && out->near_z != NULL && out->nats != NULL && out->cells != NULL;
+    rlf_result result = has_all
+                            ? clean_plate_create(registration, depth, T_picture_depth, &out->plate)
+                            : RLF_ERROR_MEMORY;
+    if (result != RLF_OK) {
+        lost_depth_destroy(out);
+    }
+    return result;
+}
+
+void lost_depth_destroy(lost_depth *l)
+{
+    for (int k = 0; k < LOST_DEPTH_WAYS; k++) {
+        rlf_free(l->away[k]);
+    }
+    rlf_free(l->far_z);
+    rlf_free(l->nats);
+    rlf_free(l->near_z);
+    rlf_free(l->cells);
+    clean_plate_destroy(&l->plate);
+    memset(l, 0, sizeof(*l));
+}
+
+/* ---- the next seen pixels ------------------------------------------------------------------- */
+
+/* One row from the one before it, whose pixel x + dx is next. */
+RLF_KERNEL static void step_row(const uint8_t *restrict reason, const uint8_t *restrict before,
+                                int32_t dx, int32_t width, uint8_t *restrict out)
+{
+    const int32_t first = dx < 0 ? 1 : 0;
+    const int32_t last = dx > 0 ? width - 1 : width;
+    for (int32_t x = first; x < last; x++) {
+        const uint8_t more = (uint8_t)(before[x + dx] + (before[x + dx] < NOTHING_SEEN ? 1 : 0));
+        out[x] = reason[x] == RLF_REASON_OK ? 0 : more;
+    }
+    const int32_t edge = dx < 0 ? 0 : width - 1;
+    if (dx != 0) {
+        out[edge] = reason[edge] == RLF_REASON_OK ? 0 : NOTHING_SEEN;
+    }
+}
+
+static void step_along(const uint8_t *reason, int32_t dx, int32_t width, uint8_t *out)
+{
+    int32_t away = NOTHING_SEEN;
+    for (int32_t k = 0; k < width; k++) {
+        const int32_t x = dx < 0 ? k : width - 1 - k;
+        away = reason[x] == RLF_REASON_OK ? 0 : (away < NOTHING_SEEN ? away + 1 : away);
+        out[x] = (uint8_t)away;
+    }
+}
+
+static void find_ways(lost_depth *l, const uint8_t *reason, uint8_t *nothing)
+{
+    const int32_t width = l->width;
+    memset(nothing, NOTHING_SEEN, (size_t)width);
+    for (int k = 0; k < LOST_DEPTH_WAYS; k++) {
+        const int32_t dy = ways[k][1];
+        const uint8_t *before = nothing;
+        for (int32_t n = 0; n < l->height; n++) {
+            const ptrdiff_t row = (ptrdiff_t)(dy > 0 ? l->height - 1 - n : n) * width;
+            uint8_t *out = l->away[k] + row;
+            if (dy == 0) {
+                step_along(reason + row, ways[k][0], width, out);
+            } else {
+                step_row(reason + row, before, ways[k][0], width, out);
+            }
+            before = out;
+        }
+    }
+}
+
+/* ---- what is around a pixel ----------------------------------------------------------------- */
+
+typedef struct pass {
+    lost_depth *l;
+    const rlf_registration *registration;
+    const rlf_image_rgba8 *color; /* data NULL = none */
+    const rlf_surface *surface;
+    float *depth;
+    float nearest; /* of what was put into depth */
+} pass;
+
+/* A seen pixel. */
+typedef struct hit {
+    int32_t index, inside; /* the first, and one INSIDE of it */
+    float z;               /* of its surface at the lost pixel */
+    float away;            /* pixels */
+} hit;
+
+typedef struct around {
+    hit hits[LOST_DEPTH_WAYS]; /* near to far */
+    int32_t count, near_count;
+    int32_t missing; /* ways that lead to nothing */
+} around;
+
+/* Borders that a pixel without depth lies at, within the rim: 1 left, 2 right, 4 top, 8 bottom. */
+static int32_t rims_of(const lost_depth *l, int32_t x, int32_t y)
+{
+    const int32_t i = y * l->width + x;
+    const int32_t left = x < RIM && l->away[0][i] == NOTHING_SEEN ? 1 : 0;
+    const int32_t right = l->width - 1 - x < RIM && l->away[4][i] == NOTHING_SEEN ? 2 : 0;
+    const int32_t top = y < RIM && l->away[1][i] == NOTHING_SEEN ? 4 : 0;
+    const int32_t bottom = l->height - 1 - y < RIM && l->away[5][i] == NOTHING_SEEN ? 8 : 0;
+    return left | right | top | bottom;
+}
+
+/* True when a way leads along or out of one of those rims: that it meets nothing tells nothing. */
+static bool stays_in_rim(int32_t rims, const int32_t way[2])
+{
+    return ((rims & 1) != 0 && way[0] <= 0) || ((rims & 2) != 0 && way[0] >= 0) ||
+           ((rims & 4) != 0 && way[1] <= 0) || ((rims & 8) != 0 && way[1] >= 0);
+}
+
+static int32_t steps_to_border(const lost_depth *l, int32_t x, int32_t y, const int32_t way[2])
+{
+    const int32_t along_x = way[0] < 0 ? x : (way[0] > 0 ? l->width - 1 - x : l->width);
+    const int32_t along_y = way[1] < 0 ? y : (way[1] > 0 ? l->height - 1 - y : l->height);
+    return along_x < along_y ? along_x : along_y;
+}
+
+/* Depth of pixel `i` on the plane that is seen at pixel `j`, at most as far from its depth as the
+ * pixels are apart: a slope of 45 degrees. */
+static float on_plane(const rlf_surface *s, int32_t i, int32_t j, float apart_m)
+{
+    const float n[3] = {s->normal_x[j], s->normal_y[j], s->normal_z[j]};
+    const float z = s->depth[j];
+    const float there = n[0] * s->ray_x[j] + n[1] * s->ray_y[j] + n[2];
+    const float here = n[0] * s->ray_x[i] + n[1] * s->ray_y[i] + n[2];
+    const float least = z > 2.0f * apart_m ? z - apart_m : 0.5f * z;
+    if (!(here < -0.05f) || !(there < 0.0f)) {
+        return z;
+    }
+    const float plane = z * there / here;
+    return plane < least ? least : (plane > z + apart_m ? z + apart_m : plane);
+}
+
+static void add_hit(around *a, const hit *h)
+{
+    int32_t at = a->count++;
+    while (at > 0 && a->hits[at - 1].z > h->z) {
+        a->hits[at] = a->hits[at - 1];
+        at--;
+    }
+    a->hits[at] = *h;
+}
+
+/* Splits the hits where depth jumps most, more than a slope of 45 degrees between them does. */
+static void split_hits(const lost_depth *l, around *a)
+{
+    float most = 0.0f;
+    a->near_count = a->count;
+    for (int32_t k = 1; k < a->count; k++) {
+        const hit *b = &a->hits[k - 1];
+        const hit *c = &a->hits[k];
+        const float slope = (b->away + c->away) * b->z / l->focal;
+        const float gap = 1.0f / b->z - 1.0f / c->z;
+        if (silhouette_jumps(b->z, c->z - slope) && c->z - slope > b->z && gap > most) {
+            most = gap;
+            a->near_count = k;
+        }
+    }
+}
+
+static around look_around(const pass *p, int32_t x, int32_t y)
+{
+    const lost_depth *l = p->l;
+    const int32_t i = y * l->width + x;
+    const int32_t rims = rims_of(l, x, y);
+    around a = {.count = 0};
+    for (int k = 0; k < LOST_DEPTH_WAYS; k++) {
+        const int32_t away = l->away[k][i];
+        const int32_t border = steps_to_border(l, x, y, ways[k]);
+        const int32_t step = ways[k][1] * l->width + ways[k][0];
+        if (away >= NOTHING_SEEN) {
+            a.missing += stays_in_rim(rims, ways[k]) ? 0 : 1;
+            continue;
+        }
+        hit h = {.index = i + away * step, .away = (float)away};
+        const float z = p->surface->depth[h.index];
+        const float apart_m = h.away * z / l->focal;
+        if (apart_m > HOLE_M) {
+            a.missing++;
+            continue;
+        }
+        const int32_t further = away + INSIDE <= border ? h.index + INSIDE * step : h.index;
+        h.inside = p->surface->reason[further] == RLF_REASON_OK ? further : h.index;
+        h.z = p->surface->normal_x != NULL ? on_plane(p->surface, i, h.index, apart_m) : z;
+        add_hit(&a, &h);
+    }
+    split_hits(l, &a);
+    return a;
+}
+
+/* Depth that hits have together, the nearer to the pixel the more; 0 = there are none. */
+static float depth_of(const hit *hits, int32_t count)
+{
+    float sum = 0.0f;
+    float weights = 0.0f;
+    for (int32_t k = 0; k < count; k++) {
+        const float weight = 1.0f / (hits[k].away * hits[k].away);
+        sum += weight / hits[k].z;
+        weights += weight;
+    }
+    return count > 0 ? weights / sum : 0.0f;
+}
+
+/* ---- colours -------------------------------------------------------------------------------- */
+
+/* Least squared distance between the colour at pixel i, were it at depth z, and those of hits. */
+static float from_hits(const pass *p, int32_t i, float z, const hit *hits, int32_t count)
+{
+    const clean_plate *plate = &p->l->plate;
+    const uint8_t *c = clean_plate_color(plate, p->registration, p->color, i, z);
+    float least = -1.0f;
+    for (int32_t k = 0; k < count && c != NULL; k++) {
+        const int32_t j = hits[k].inside;
+        const uint8_t *other =
+            clean_plate_color(plate, p->registration, p->color, j, p->surface->depth[j]);
+        const float off = other != NULL ? clean_plate_squared(c, other) : -1.0f;
+        least = off >= 0.0f && (least < 0.0f || off < least) ? off : least;
+    }
+    return least;
+}
+
+/* Nats for the near side. */
+static float color_evidence(const pass *p, int32_t i, const around *a, float near_z, float far_z)
+{
+    const float from_near = from_hits(p, i, near_z, a->hits, a->near_count);
+    const float z = far_z > 0.0f ? far_z : near_z;
+    float from_far =
+        from_hits(p, i, z, a->hits + a->near_count, a->count - a->near_count);
+    if (from_near < 0.0f) {
+        return 0.0f;
+    }
+    from_far = from_far < 0.0f ? FOREIGN : from_far;
+    const float strange = (from_near < from_far ? from_near : from_far) / STRANGE;
+    float nats = 0.5f * (from_far - from_near) / COLOR_VARIANCE;
+    nats = nats > MOST_COLOR ? MOST_COLOR : (nats < -MOST_COLOR ? -MOST_COLOR : nats);
+    return nats / (1.0f + strange * strange);
+}
+
+/* The hit of the near side that is nearest to the pixel. */
+static int32_t nearest_hit(const around *a)
+{
+    int32_t best = 0;
+    for (int32_t k = 1; k < a->near_count; k++) {
+        best = a->hits[k].away < a->hits[best].away ? k : best;
+    }
+    return a->hits[best].index;
+}
+
+static float evidence(const pass *p, int32_t i, const around *a, float near_z, float far_z)
+{
+    const float background =
+        p->surface->background_depth != NULL ? p->surface->background_depth[i] : 0.0f;
+    const int32_t ways_known = a->count + a->missing;
+    float nats = ENCLOSED * (2.0f * (float)a->near_count / (float)ways_known - 1.0f);
+    if (background > 0.0f && !silhouette_jumps(background, near_z)) {
+        nats += REMEMBERED;
+    }
+    if (p->color->data == NULL || a->near_count == ways_known) {
+        return nats;
+    }
+    const clean_plate_sight sight = {p->registration, p->color, p->surface};
+    const int told = clean_plate_tells(&p->l->plate, &sight, i, nearest_hit(a), near_z);
+    return nats + (told != 0 ? MOST_COLOR * (float)told : color_evidence(p, i, a, near_z, far_z));
+}
+
+/* ---- passes --------------------------------------------------------------------------------- */
+
+static void settle(pass *p, int32_t x, int32_t y)
+{
+    const int32_t i = y * p->l->width + x;
+    const around a = look_around(p, x, y);
+    const float before = p->depth[i];
+    p->l->far_z[i] = NO_CHOICE;
+    if (a.count == 0) {
+        return;
+    }
+    const float near_z = depth_of(a.hits, a.near_count);
+    const bool has_farther = before > near_z && silhouette_jumps(near_z, before);
+    float far_z = has_farther ? before : depth_of(a.hits + a.near_count, a.count - a.near_count);
+    const bool is_before = before > 0.0f && !has_farther && silhouette_jumps(before, near_z);
+    if (is_before || (before > 0.0f && !(far_z > 0.0f))) {
+        return; /* what was seen there before, and nothing that speaks against it */
+    }
+    const float nats = evidence(p, i, &a, near_z, far_z);
+    p->l->far_z[i] = far_z;
+    p->l->near_z[i] = near_z;
+    p->l->nats[i] = nats > MOST_NATS ? MOST_NATS : (nats < -MOST_NATS ? -MOST_NATS : nats);
+    p->depth[i] = nats > 0.0f ? near_z : far_z;
+    p->nearest = near_z < p->nearest ? near_z : p->nearest;
+}
+
+/* Nats for the near side of a pixel, from all around it: seen ones of that side, or farther ones,
+ * have their full say. */
+static float mean_nats(const pass *p, int32_t x, int32_t y, float middle)
+{
+    const lost_depth *l = p->l;
+    float sum = 0.0f;
+    for (int32_t dy = -VOTE; dy <= VOTE; dy++) {
+        for (int32_t dx = -VOTE; dx <= VOTE; dx++) {
+            if (x + dx < 0 || y + dy < 0 || x + dx >= l->width || y + dy >= l->height) {
+                continue;
+            }
+            const int32_t i = (y + dy) * l->width + x + dx;
+            if (p->surface->reason[i] == RLF_REASON_OK) {
+                sum += p->depth[i] * middle < 1.0f ? SEEN_NATS : -SEEN_NATS;
+            } else if (l->cells[(y + dy) / CELL * l->columns + (x + dx) / CELL] != 0 &&
+                       l->far_z[i] >= 0.0f) {
+                sum += l->nats[i];
+            }
+        }
+    }
+    return sum;
+}
+
+/* Calls `visit` for every lost pixel of the cells that are needed. */
+static void for_lost(pass *p, void (*visit)(pass *p, int32_t x, int32_t y))
+{
+    const lost_depth *l = p->l;
+    for (int32_t y = 0; y < l->height; y++) {
+        const uint8_t *cells = l->cells + y / CELL * l->columns;
+        const uint8_t *reason = p->surface->reason + (ptrdiff_t)y * l->width;
+        int32_t x = rlf_kernel_next_mark(reason, 0, l->width);
+        for (; x < l->width; x = rlf_kernel_next_mark(reason, x + 1, l->width)) {
+            if (cells[x / CELL] != 0) {
+                visit(p, x, y);
+            }
+        }
+    }
+}
+
+/* Specks of a few pixels go the way of what is around them. */
+static void vote(pass *p, int32_t x, int32_t y)
+{
+    lost_depth *l = p->l;
+    const int32_t i = y * l->width + x;
+    if (l->far_z[i] < 0.0f) {
+        return;
+    }
+    const float far_inverse = l->far_z[i] > 0.0f ? 1.0f / l->far_z[i] : 0.0f;
+    const float middle = 0.5f * (1.0f / l->near_z[i] + far_inverse);
+    p->depth[i] = mean_nats(p, x, y, middle) > 0.0f ? l->near_z[i] : l->far_z[i];
+}
+
+static bool is_in_window(const real_windows *windows, const float at[2])
+{
+    for (int32_t k = 0; k < windows->count; k++) {
+        const registration_window *w = &windows->window[k];
+        if (at[0] >= (float)w->x0 && at[1] >= (float)w->y0 && at[0] < (float)w->x1 &&
+            at[1] < (float)w->y1) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Cells whose middle, at the depth that is seen or filled in, lies in a window; those have a
+ * margin. */
+static void mark_cells(const pass *p, const real_windows *needed)
+{
+    const lost_depth *l = p->l;
+    for (int32_t i = 0; i < l->columns * l->rows; i++) {
+        int32_t x = i % l->columns * CELL + CELL / 2;
+        int32_t y = i / l->columns * CELL + CELL / 2;
+        x = x < l->width ? x : l->width - 1;
+        y = y < l->height ? y : l->height - 1;
+        const float z = p->depth[y * l->width + x];
+        float at[2];
+        registration_pixel(p->registration, y * l->width + x, z > 0.0f ? z : 1e3f, at);
+        l->cells[i] = is_in_window(needed, at) ? 1 : 0;
+    }
+}
+
+float lost_depth_update(lost_depth *l, rlf_registration *registration,
+                        const rlf_render_input *input, const real_windows *needed, float *depth,
+                        float nearest)
+{
+    const rlf_surface *surface = input->surface;
+    if (surface->reason == NULL || surface->depth == NULL) {
+        return nearest;
+    }
+    clean_plate_update(&l->plate, registration, input);
+    if (needed->count == 0) {
+        return nearest;
+    }
+    pass p = {l, registration, &input->frame->color, surface, depth, nearest};
+    mark_cells(&p, needed);
+    find_ways(l, surface->reason, (uint8_t *)l->nats);
+    for_lost(&p, settle);
+    for_lost(&p, vote);
+    return p.nearest;
+}
