@@ -47,10 +47,10 @@ typedef struct silhouette {
      * picture that set it times 2^22 + light (14 bits) times 256 + cover. */
     uint16_t *settled;
     uint32_t *last;
-    /* near_z and far_z of that picture, and in how many more of the latest ones a still pixel
-     * seemed to show another surface than in how many it did not. */
+    /* near_z and far_z of that picture, and for how many pictures that surface is kept though
+     * another one seems to be seen. */
     float *held_near, *held_far;
-    uint8_t *doubts;
+    uint8_t *trust;
     silhouette_change *changes; /* of each row of tiles */
     int32_t still_light;        /* steps of a light that are noise, by those */
     uint16_t picture;       /* counts up, never 0 */

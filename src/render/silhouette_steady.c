@@ -10,7 +10,7 @@
 #define STEADY_LIGHT_MOST 10
 #define STEADY_SPREAD 5 /* and in means of what it does: four standard deviations */
 #define STEADY_MOVES 16 /* larger changes are no noise */
-#define STEADY_TIMES 8 /* frames */
+#define STEADY_TIMES 8 /* pictures: the most that trust in a surface lasts against another */
 
 #define NOT_DOUBTFUL (SILHOUETTE_NONE << 8) /* settled from here on: no line set it */
 #define VOTERS (2 * SILHOUETTE_TILE) /* of a row: one before the tile's pixels, and beyond them */
@@ -121,7 +121,7 @@ static bool has_doubtful(const uint16_t *settled, int32_t count)
 /* Of `count` <= SILHOUETTE_TILE pixels from `first` on. */
 typedef struct steady_pixels {
     uint32_t *last;
-    uint8_t *cover, *doubts;
+    uint8_t *cover, *trust;
     float *near_z, *far_z, *held_near, *held_far;
 } steady_pixels;
 
@@ -129,7 +129,7 @@ static steady_pixels pixels_at(const silhouette *s, ptrdiff_t first)
 {
     return (steady_pixels){.last = s->last + first,
                            .cover = s->cover.data + first,
-                           .doubts = s->doubts + first,
+                           .trust = s->trust + first,
                            .near_z = s->near_z.data + first,
                            .far_z = s->far_z.data + first,
                            .held_near = s->held_near + first,
@@ -185,9 +185,9 @@ RLF_KERNEL_PART void add_changes(const uint32_t *restrict last, const int32_t *r
     }
 }
 
-/* Where the picture has not changed the cover moves slowly, so that noise does not show, and a new
- * surface has to be seen STEADY_TIMES more often than the old one: sensors lose depth now and then
- * and find it again, and shift edges, while nothing moves. */
+/* Where the picture has not changed the cover moves slowly, so that noise does not show, and another
+ * surface has to be seen more often: sensors lose depth now and then and find it again, and shift
+ * edges, while nothing moves. What a pixel shows right after a change is not trusted yet. */
 RLF_KERNEL_PART void steady_tile_row(const silhouette_pass *p, uint32_t known,
                                      const int32_t *restrict voted, const int32_t *restrict light,
                                      int32_t count, const steady_pixels *at)
@@ -203,8 +203,8 @@ RLF_KERNEL_PART void steady_tile_row(const silhouette_pass *p, uint32_t known,
         const int32_t is_known = is_still[i] & (before >> 22 == known ? 1 : 0);
         const int32_t is_same = is_same_surface(old > 127 ? at->held_near[i] : at->held_far[i],
                                                 voted[i] > 127 ? at->near_z[i] : at->far_z[i]);
-        const int32_t doubts = at->doubts[i] + moves * (is_same != 0 ? -1 : 1);
-        const int32_t is_held = is_known & (1 - is_same) & (doubts <= times ? 1 : 0);
+        const int32_t trust = at->trust[i] + moves * (is_same != 0 ? 2 : -1);
+        const int32_t is_held = is_known & (1 - is_same) & (trust > 0 ? 1 : 0);
         const int32_t slow = old + moves * ((voted[i] - old) / STEADY_SHARE);
         const int32_t is_pair = is_same & is_same_surface(at->held_near[i], at->near_z[i]) &
                                 is_same_surface(at->held_far[i], at->far_z[i]);
@@ -213,7 +213,8 @@ RLF_KERNEL_PART void steady_tile_row(const silhouette_pass *p, uint32_t known,
         at->far_z[i] = is_held != 0 ? at->held_far[i] : at->far_z[i];
         at->held_near[i] = at->near_z[i];
         at->held_far[i] = at->far_z[i];
-        at->doubts[i] = (uint8_t)((is_known & (is_same | is_held)) != 0 && doubts > 0 ? doubts : 0);
+        const int32_t earned = (is_same | is_held) != 0 ? silhouette_at_most(trust, times) : times;
+        at->trust[i] = (uint8_t)(is_known != 0 ? earned : 0);
         at->cover[i] = (uint8_t)next;
         at->last[i] = picture << 22 | (uint32_t)light[i] << 8 | (uint32_t)next;
     }
