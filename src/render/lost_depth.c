@@ -6,17 +6,18 @@
 #include <string.h>
 
 #define CELL 8         /* pixels */
-#define MOST_NATS 3.0f /* of one pixel */
-#define SEEN_NATS 1.0f /* of one that is seen, for its own side */
-#define RIM 24         /* pixels: so wide may the border be that a camera leaves without depth */
+#define MOST_NATS 1.0f /* of one pixel among those that decide together */
+#define RIM 16         /* pixels: so wide may the border be that a camera leaves without depth */
 #define HOLE_M 0.3f    /* what is seen farther than this from a lost pixel does not enclose it */
 #define INSIDE 2       /* pixels beyond the first seen one, whose colours may be mixed */
-#define ENCLOSED 2.5f  /* nats for a side that all ways lead to; for half of them none */
+#define ENCLOSED 2.5f  /* nats for a side that all eight ways lead to; for half of them none */
 #define REMEMBERED 1.5f /* nats: the background there is as near as the near side */
 #define MOST_COLOR 2.0f /* nats that colours say at most */
 #define COLOR_VARIANCE 100.0f /* squared sRGB steps, of three channels' noise and texture */
 #define STRANGE 5000.0f       /* squared distance from both sides that halves what colours say */
-#define FOREIGN 900.0f        /* that of a far side whose colour is not known */
+#define FOREIGN 900.0f        /* that of a far side whose colour is not known, */
+#define MOST_FOREIGN 0.9f     /* and nats that this says at most: rims are not all alike */
+#define STEEPEST 4.0f         /* slope of a plane that goes on, along z per metre across */
 #define NO_CHOICE (-1.0f)
 #define VOTE 2                /* pixels around one that have a say */
 
@@ -141,22 +142,27 @@ typedef struct around {
     int32_t missing; /* ways that lead to nothing */
 } around;
 
-/* Borders that a pixel without depth lies at, within the rim: 1 left, 2 right, 4 top, 8 bottom. */
+/* Borders that a pixel without depth lies at, within the rim: 1 left, 2 top, 4 right, 8 bottom. */
 static int32_t rims_of(const lost_depth *l, int32_t x, int32_t y)
 {
     const int32_t i = y * l->width + x;
-    const int32_t left = x < RIM && l->away[0][i] == NOTHING_SEEN ? 1 : 0;
-    const int32_t right = l->width - 1 - x < RIM && l->away[4][i] == NOTHING_SEEN ? 2 : 0;
-    const int32_t top = y < RIM && l->away[1][i] == NOTHING_SEEN ? 4 : 0;
-    const int32_t bottom = l->height - 1 - y < RIM && l->away[5][i] == NOTHING_SEEN ? 8 : 0;
-    return left | right | top | bottom;
+    const int32_t to_border[4] = {x, y, l->width - 1 - x, l->height - 1 - y};
+    static const int outward[4] = {0, 1, 4, 5};
+    static const int inward[4] = {4, 5, 0, 1};
+    int32_t rims = 0;
+    for (int k = 0; k < 4; k++) {
+        const bool is_rim = to_border[k] < RIM && l->away[outward[k]][i] == NOTHING_SEEN &&
+                            to_border[k] + l->away[inward[k]][i] <= RIM;
+        rims |= is_rim ? 1 << k : 0;
+    }
+    return rims;
 }
 
 /* True when a way leads along or out of one of those rims: that it meets nothing tells nothing. */
 static bool stays_in_rim(int32_t rims, const int32_t way[2])
 {
-    return ((rims & 1) != 0 && way[0] <= 0) || ((rims & 2) != 0 && way[0] >= 0) ||
-           ((rims & 4) != 0 && way[1] <= 0) || ((rims & 8) != 0 && way[1] >= 0);
+    return ((rims & 1) != 0 && way[0] <= 0) || ((rims & 4) != 0 && way[0] >= 0) ||
+           ((rims & 2) != 0 && way[1] <= 0) || ((rims & 8) != 0 && way[1] >= 0);
 }
 
 static int32_t steps_to_border(const lost_depth *l, int32_t x, int32_t y, const int32_t way[2])
@@ -166,8 +172,8 @@ static int32_t steps_to_border(const lost_depth *l, int32_t x, int32_t y, const 
     return along_x < along_y ? along_x : along_y;
 }
 
-/* Depth of pixel `i` on the plane that is seen at pixel `j`, at most as far from its depth as the
- * pixels are apart: a slope of 45 degrees. */
+/* Depth of pixel `i` on the plane that is seen at pixel `j`, within STEEPEST times what the
+ * pixels are apart. */
 static float on_plane(const rlf_surface *s, int32_t i, int32_t j, float apart_m)
 {
     const float n[3] = {s->normal_x[j], s->normal_y[j], s->normal_z[j]};
@@ -232,7 +238,7 @@ static around look_around(const pass *p, int32_t x, int32_t y)
         }
         const int32_t further = away + INSIDE <= border ? h.index + INSIDE * step : h.index;
         h.inside = p->surface->reason[further] == RLF_REASON_OK ? further : h.index;
-        h.z = p->surface->normal_x != NULL ? on_plane(p->surface, i, h.index, apart_m) : z;
+        h.z = p->surface->normal_x != NULL ? on_plane(p->surface, i, h.index, STEEPEST * apart_m) : z;
         add_hit(&a, &h);
     }
     split_hits(l, &a);
@@ -280,10 +286,11 @@ static float color_evidence(const pass *p, int32_t i, const around *a, float nea
     if (from_near < 0.0f) {
         return 0.0f;
     }
+    const float most = from_far < 0.0f ? MOST_FOREIGN : MOST_COLOR;
     from_far = from_far < 0.0f ? FOREIGN : from_far;
     const float strange = (from_near < from_far ? from_near : from_far) / STRANGE;
     float nats = 0.5f * (from_far - from_near) / COLOR_VARIANCE;
-    nats = nats > MOST_COLOR ? MOST_COLOR : (nats < -MOST_COLOR ? -MOST_COLOR : nats);
+    nats = nats > MOST_COLOR ? MOST_COLOR : (nats < -most ? -most : nats);
     return nats / (1.0f + strange * strange);
 }
 
@@ -301,12 +308,12 @@ static float evidence(const pass *p, int32_t i, const around *a, float near_z, f
 {
     const float background =
         p->surface->background_depth != NULL ? p->surface->background_depth[i] : 0.0f;
-    const int32_t ways_known = a->count + a->missing;
-    float nats = ENCLOSED * (2.0f * (float)a->near_count / (float)ways_known - 1.0f);
+    const int32_t others = a->count - a->near_count + a->missing;
+    float nats = ENCLOSED * (float)(a->near_count - others) / LOST_DEPTH_WAYS;
     if (background > 0.0f && !silhouette_jumps(background, near_z)) {
         nats += REMEMBERED;
     }
-    if (p->color->data == NULL || a->near_count == ways_known) {
+    if (p->color->data == NULL || a->near_count == LOST_DEPTH_WAYS) {
         return nats;
     }
     const clean_plate_sight sight = {p->registration, p->color, p->surface};
@@ -353,7 +360,7 @@ static float mean_nats(const pass *p, int32_t x, int32_t y, float middle)
             }
             const int32_t i = (y + dy) * l->width + x + dx;
             if (p->surface->reason[i] == RLF_REASON_OK) {
-                sum += p->depth[i] * middle < 1.0f ? SEEN_NATS : -SEEN_NATS;
+                sum += p->depth[i] * middle < 1.0f ? MOST_NATS : -MOST_NATS;
             } else if (l->cells[(y + dy) / CELL * l->columns + (x + dx) / CELL] != 0 &&
                        l->far_z[i] >= 0.0f) {
                 sum += l->nats[i];
