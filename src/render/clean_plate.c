@@ -10,7 +10,6 @@
 #define CELL 8          /* pixels */
 #define CLEAR 2         /* cells around foreground that are not learnt: shadows, parallax */
 #define FOREIGN 900.0f  /* squared distance of colours, from which they are not the plate's */
-#define SAME 600.0f     /* up to which they are */
 #define FARTHEST 48.0f  /* picture pixels between a near place and a far one, at most */
 #define DARKEST 0.5f    /* share of the plate's colour in the deepest shadow, */
 #define BRIGHTEST 1.08f /* and in the light */
@@ -262,21 +261,15 @@ static bool shows_foreground(const clean_plate *plate, const clean_plate_sight *
     return from_plate(plate, c, plate_x, plate_y, true) > FOREIGN;
 }
 
-/* True when pixel i shows its background, and foreground like that of pixel `near` would look
- * another way. */
-static bool shows_background(const clean_plate *plate, const clean_plate_sight *sight, int32_t i,
-                             int32_t near, const float at_far[2])
+/* True when the background's colour is known at pixel i, and foreground like that of pixel `near`
+ * would look another way. */
+static bool would_differ(const clean_plate *plate, const clean_plate_sight *sight, int32_t i,
+                         int32_t near)
 {
-    const int32_t x = i % plate->width;
-    const int32_t y = i / plate->width;
-    const uint8_t *c = color_at(plate, sight->color, at_far[0], at_far[1]);
     const uint8_t *foreground = clean_plate_color(plate, sight->registration, sight->color, near,
                                                   sight->surface->depth[near]);
-    if (c == NULL || foreground == NULL) {
-        return false;
-    }
-    const float off = from_plate(plate, c, x, y, false);
-    return off >= 0.0f && off < SAME && from_plate(plate, foreground, x, y, true) > FOREIGN;
+    return foreground != NULL &&
+           from_plate(plate, foreground, i % plate->width, i / plate->width, true) > FOREIGN;
 }
 
 int clean_plate_tells(const clean_plate *plate, const clean_plate_sight *sight, int32_t i,
@@ -292,7 +285,7 @@ int clean_plate_tells(const clean_plate *plate, const clean_plate_sight *sight, 
     if (shows_foreground(plate, sight, i, near_z, at_far)) {
         return 1;
     }
-    return shows_background(plate, sight, i, near, at_far) ? -1 : 0;
+    return would_differ(plate, sight, i, near) ? -1 : 0;
 }
 
 void clean_plate_update(clean_plate *plate, rlf_registration *registration,

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define CELL 8         /* pixels */
+#define TOLD 99.0f     /* nats of what the background and its colour tell: not voted on */
 #define MOST_NATS 1.0f /* of one pixel among those that decide together */
 #define RIM 16         /* pixels: so wide may the border be that a camera leaves without depth */
 #define HOLE_M 0.3f    /* what is seen farther than this from a lost pixel does not enclose it */
@@ -304,21 +305,27 @@ static int32_t nearest_hit(const around *a)
     return a->hits[best].index;
 }
 
+/* Nats for the near side: of still things the background knows where they are, of moving ones the
+ * plate what they hide, and else what encloses the pixel and its colours tell. */
 static float evidence(const pass *p, int32_t i, const around *a, float near_z, float far_z)
 {
+    const rlf_surface *surface = p->surface;
     const float background =
-        p->surface->background_depth != NULL ? p->surface->background_depth[i] : 0.0f;
-    const int32_t others = a->count - a->near_count + a->missing;
-    float nats = ENCLOSED * (float)(a->near_count - others) / LOST_DEPTH_WAYS;
-    if (background > 0.0f && !silhouette_jumps(background, near_z)) {
-        nats += REMEMBERED;
+        surface->background_depth != NULL ? surface->background_depth[i] : 0.0f;
+    const bool was_near = background > 0.0f && !silhouette_jumps(background, near_z);
+    const int32_t nearest = nearest_hit(a);
+    if (background > 0.0f && (surface->foreground == NULL || surface->foreground[nearest] == 0)) {
+        return was_near ? TOLD : -TOLD;
     }
+    const int32_t others = a->count - a->near_count + a->missing;
+    const float nats = ENCLOSED * (float)(a->near_count - others) / LOST_DEPTH_WAYS +
+                       (was_near ? REMEMBERED : 0.0f);
     if (p->color->data == NULL || a->near_count == LOST_DEPTH_WAYS) {
         return nats;
     }
-    const clean_plate_sight sight = {p->registration, p->color, p->surface};
-    const int told = clean_plate_tells(&p->l->plate, &sight, i, nearest_hit(a), near_z);
-    return nats + (told != 0 ? MOST_COLOR * (float)told : color_evidence(p, i, a, near_z, far_z));
+    const clean_plate_sight sight = {p->registration, p->color, surface};
+    const int told = clean_plate_tells(&p->l->plate, &sight, i, nearest, near_z);
+    return told != 0 ? TOLD * (float)told : nats + color_evidence(p, i, a, near_z, far_z);
 }
 
 /* ---- passes --------------------------------------------------------------------------------- */
@@ -342,7 +349,7 @@ static void settle(pass *p, int32_t x, int32_t y)
     const float nats = evidence(p, i, &a, near_z, far_z);
     p->l->far_z[i] = far_z;
     p->l->near_z[i] = near_z;
-    p->l->nats[i] = nats > MOST_NATS ? MOST_NATS : (nats < -MOST_NATS ? -MOST_NATS : nats);
+    p->l->nats[i] = nats;
     p->depth[i] = nats > 0.0f ? near_z : far_z;
     p->nearest = near_z < p->nearest ? near_z : p->nearest;
 }
@@ -363,7 +370,8 @@ static float mean_nats(const pass *p, int32_t x, int32_t y, float middle)
                 sum += p->depth[i] * middle < 1.0f ? MOST_NATS : -MOST_NATS;
             } else if (l->cells[(y + dy) / CELL * l->columns + (x + dx) / CELL] != 0 &&
                        l->far_z[i] >= 0.0f) {
-                sum += l->nats[i];
+                const float nats = l->nats[i];
+                sum += nats > MOST_NATS ? MOST_NATS : (nats < -MOST_NATS ? -MOST_NATS : nats);
             }
         }
     }
@@ -391,7 +399,7 @@ static void vote(pass *p, int32_t x, int32_t y)
 {
     lost_depth *l = p->l;
     const int32_t i = y * l->width + x;
-    if (l->far_z[i] < 0.0f) {
+    if (l->far_z[i] < 0.0f || l->nats[i] >= TOLD || l->nats[i] <= -TOLD) {
         return;
     }
     const float far_inverse = l->far_z[i] > 0.0f ? 1.0f / l->far_z[i] : 0.0f;
