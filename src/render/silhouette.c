@@ -48,6 +48,7 @@ rlf_result silhouette_create(const rlf_camera *camera, const rlf_camera *depth, 
     out->columns = (camera->width + SILHOUETTE_TILE - 1) / SILHOUETTE_TILE;
     out->rows = (camera->height + SILHOUETTE_TILE - 1) / SILHOUETTE_TILE;
     out->pool = pool;
+    out->still_light = SILHOUETTE_STILL_LIGHT;
     double ratio = rlf_max(camera->fx / depth->fx, camera->fy / depth->fy);
     /* Sensors lose or mix up to three depth pixels at an edge. */
     out->reach = (int32_t)rlf_clamp(3.0 * ratio + 1.5, 2.0, SILHOUETTE_TILE);

@@ -13,6 +13,7 @@
 
 #define SILHOUETTE_FAR 1e9f      /* depth of what hides nothing */
 #define SILHOUETTE_TILE 16       /* pixels */
+#define SILHOUETTE_STILL_LIGHT 2 /* steps of a light that noise may change, at least */
 #define SILHOUETTE_NONE 255      /* distance: no edge near */
 #define SILHOUETTE_PICTURES 1023 /* are told apart by their numbers */
 

@@ -6,10 +6,8 @@
 #include <string.h>
 
 #define STEADY_SHARE 4 /* a still pixel moves by a quarter of the way to its new cover */
-#define STEADY_LIGHT 2 /* steps of a light that noise may change, at least; at most, */
-#define STEADY_LIGHT_MOST 10
-#define STEADY_SPREAD 5 /* and in means of what it does: four standard deviations */
-#define STEADY_MOVES 16 /* larger changes are no noise */
+#define STEADY_LIGHT_MOST 10 /* steps of a light that noise may change, at most; */
+#define STEADY_SPREAD 5 /* in means of what it does: four standard deviations */
 #define STEADY_TIMES 8 /* pictures: the most that trust in a surface lasts against another */
 
 #define NOT_DOUBTFUL (SILHOUETTE_NONE << 8) /* settled from here on: no line set it */
@@ -149,8 +147,8 @@ RLF_KERNEL_PART int32_t is_same_surface(float a, float b)
     return silhouette_jumps(nearer, farther) ? 0 : 1;
 }
 
-/* Which of `count` pixels show the same light as before, by the mean change of three: one pixel's
- * noise is no change. */
+/* Which of `count` pixels show the same light as before, by the mean change of three, whose noise is
+ * less than that of one. */
 RLF_KERNEL_PART void find_still(const uint32_t *restrict last, const int32_t *restrict light,
                                 int32_t count, int32_t limit, int32_t *restrict out)
 {
@@ -167,19 +165,21 @@ RLF_KERNEL_PART void find_still(const uint32_t *restrict last, const int32_t *re
     RLF_KERNEL_WHOLE
     for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
         out[i] = is_within(mean[i] + mean[i + 1] + mean[i + 2], 3 * limit) &
-                 is_within(tint[i] + tint[i + 1] + tint[i + 2], 3 * limit);
+                 is_within(tint[i] + tint[i + 1] + tint[i + 2], 3 * limit) &
+                 is_within(mean[i + 1], 2 * limit) & is_within(tint[i + 1], 2 * limit);
     }
 }
 
-/* Changes that may be noise, of pixels known from picture `known`. */
+/* Changes that may be noise, for they are at most so large, of pixels known from picture `known`. */
 RLF_KERNEL_PART void add_changes(const uint32_t *restrict last, const int32_t *restrict light,
-                                 int32_t count, uint32_t known, silhouette_change *change)
+                                 int32_t count, uint32_t known, int32_t most,
+                                 silhouette_change *change)
 {
     for (int32_t i = 0; i < count; i++) {
         const int32_t mean = (light[i] >> 7) - (int32_t)(last[i] >> 15 & 127u);
         const int32_t tint = (light[i] & 127) - (int32_t)(last[i] >> 8 & 127u);
-        const int32_t is_noise = (last[i] >> 22 == known ? 1 : 0) & is_within(mean, STEADY_MOVES) &
-                                 is_within(tint, STEADY_MOVES);
+        const int32_t is_noise = (last[i] >> 22 == known ? 1 : 0) & is_within(mean, most) &
+                                 is_within(tint, most);
         change->sum += is_noise * ((mean < 0 ? -mean : mean) + (tint < 0 ? -tint : tint));
         change->count += 2 * is_noise;
     }
@@ -240,7 +240,7 @@ RLF_KERNEL static void steady_row(const silhouette_pass *p, uint32_t known, int3
     if (p->color != NULL) {
         find_light(p, x0, y, count, light);
     }
-    add_changes(at.last, light, count, known, change);
+    add_changes(at.last, light, count, known, 2 * s->still_light, change);
     steady_tile_row(p, known, voted, light, count, &at);
 }
 
@@ -287,5 +287,5 @@ void silhouette_learn_noise(silhouette *s)
         all.count += s->changes[row].count;
     }
     const int32_t limit = all.count > 0 ? STEADY_SPREAD * all.sum / all.count + 1 : 0;
-    s->still_light = limit < STEADY_LIGHT ? STEADY_LIGHT : silhouette_at_most(limit, STEADY_LIGHT_MOST);
+    s->still_light = limit < SILHOUETTE_STILL_LIGHT ? SILHOUETTE_STILL_LIGHT : silhouette_at_most(limit, STEADY_LIGHT_MOST);
 }
