@@ -108,7 +108,8 @@ static float from_plate(const clean_plate *plate, const uint8_t *c, int32_t x, i
         }
         const uint8_t *known = plate->colors + 4 * ((ptrdiff_t)at_y * plate->width + at_x);
         if (known[3] != 0) {
-            const float here = may_be_shadow ? squared_in_shadow(c, known) : clean_plate_squared(c, known);
+            const float here =
+                may_be_shadow ? squared_in_shadow(c, known) : clean_plate_squared(c, known);
             least = least < 0.0f || here < least ? here : least;
         } else if (k == 0) {
             return -1.0f;

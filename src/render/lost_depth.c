@@ -5,13 +5,13 @@
 
 #include <string.h>
 
-#define CELL 8         /* pixels */
-#define TOLD 99.0f     /* nats of what the background and its colour tell: not voted on */
-#define MOST_NATS 1.0f /* of one pixel among those that decide together */
-#define RIM 16         /* pixels: so wide may the border be that a camera leaves without depth */
-#define HOLE_M 0.3f    /* what is seen farther than this from a lost pixel does not enclose it */
-#define INSIDE 2       /* pixels beyond the first seen one, whose colours may be mixed */
-#define ENCLOSED 2.5f  /* nats for a side that all eight ways lead to; for half of them none */
+#define CELL 8          /* pixels */
+#define TOLD 99.0f      /* nats of what the background and its colour tell: not voted on */
+#define MOST_NATS 1.0f  /* of one pixel among those that decide together */
+#define RIM 16          /* pixels: so wide may the border be that a camera leaves without depth */
+#define HOLE_M 0.3f     /* what is seen farther than this from a lost pixel does not enclose it */
+#define INSIDE 2        /* pixels beyond the first seen one, whose colours may be mixed */
+#define ENCLOSED 2.5f   /* nats for a side that all eight ways lead to; for half of them none */
 #define REMEMBERED 1.5f /* nats: the background there is as near as the near side */
 #define MOST_COLOR 2.0f /* nats that colours say at most */
 #define COLOR_VARIANCE 100.0f /* squared sRGB steps, of three channels' noise and texture */
@@ -20,7 +20,7 @@
 #define MOST_FOREIGN 0.9f     /* and nats that this says at most: rims are not all alike */
 #define STEEPEST 4.0f         /* slope of a plane that goes on, along z per metre across */
 #define NO_CHOICE (-1.0f)
-#define VOTE 2                /* pixels around one that have a say */
+#define VOTE 2 /* pixels around one that have a say */
 
 enum { NOTHING_SEEN = 255 };
 
@@ -48,7 +48,8 @@ rlf_result lost_depth_create(const rlf_registration *registration, const rlf_cam
     out->near_z = rlf_alloc_array(pixels, sizeof(float));
     out->nats = rlf_alloc_array(pixels, sizeof(float));
     out->cells = rlf_alloc((size_t)out->columns * (size_t)out->rows);
-    has_all = has_all && out->far_z != NULL && out->near_z != NULL && out->nats != NULL && out->cells != NULL;
+    has_all = has_all && out->far_z != NULL && out->near_z != NULL && out->nats != NULL &&
+              out->cells != NULL;
     rlf_result result = has_all
                             ? clean_plate_create(registration, depth, T_picture_depth, &out->plate)
                             : RLF_ERROR_MEMORY;
@@ -239,7 +240,8 @@ static around look_around(const pass *p, int32_t x, int32_t y)
         }
         const int32_t further = away + INSIDE <= border ? h.index + INSIDE * step : h.index;
         h.inside = p->surface->reason[further] == RLF_REASON_OK ? further : h.index;
-        h.z = p->surface->normal_x != NULL ? on_plane(p->surface, i, h.index, STEEPEST * apart_m) : z;
+        h.z =
+            p->surface->normal_x != NULL ? on_plane(p->surface, i, h.index, STEEPEST * apart_m) : z;
         add_hit(&a, &h);
     }
     split_hits(l, &a);
@@ -282,8 +284,7 @@ static float color_evidence(const pass *p, int32_t i, const around *a, float nea
 {
     const float from_near = from_hits(p, i, near_z, a->hits, a->near_count);
     const float z = far_z > 0.0f ? far_z : near_z;
-    float from_far =
-        from_hits(p, i, z, a->hits + a->near_count, a->count - a->near_count);
+    float from_far = from_hits(p, i, z, a->hits + a->near_count, a->count - a->near_count);
     if (from_near < 0.0f) {
         return 0.0f;
     }

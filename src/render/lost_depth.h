@@ -1,10 +1,10 @@
 /* Depths of pixels that the sensor lost, settled by what is seen around them and by colours.
  *
  * Black cloth, hair, edges and the rim of the picture return no light. From such a pixel the next
- * seen pixels in eight directions are looked at. They are one surface, or a near and a far one. What
- * a near surface encloses belongs to it (as a closing would have it, but as large as the hole is);
- * what is between two surfaces belongs to that whose colours it has; what is beyond the last seen
- * pixel of the picture goes on as its plane does. Where the room's own colour is remembered
+ * seen pixels in eight directions are looked at. They are one surface, or a near and a far one.
+ * What a near surface encloses belongs to it (as a closing would have it, but as large as the hole
+ * is); what is between two surfaces belongs to that whose colours it has; what is beyond the last
+ * seen pixel of the picture goes on as its plane does. Where the room's own colour is remembered
  * (clean_plate.h) that decides. Neighbours decide together, so that there are no specks. */
 #ifndef RLF_RENDER_LOST_DEPTH_H
 #define RLF_RENDER_LOST_DEPTH_H
@@ -33,8 +33,8 @@ rlf_result lost_depth_create(const rlf_registration *registration, const rlf_cam
 void lost_depth_destroy(lost_depth *l);
 
 /* Settles `depth` ([grid pixel], metres: what the surface shows, else its background) of lost
- * pixels that may be seen in the picture's windows. Colour and background may be missing. No depth is
- * nearer than `nearest`; returns the same of what was settled. */
+ * pixels that may be seen in the picture's windows. Colour and background may be missing. No depth
+ * is nearer than `nearest`; returns the same of what was settled. */
 float lost_depth_update(lost_depth *l, rlf_registration *registration,
                         const rlf_render_input *input, const real_windows *needed, float *depth,
                         float nearest);

@@ -44,9 +44,10 @@ void real_depth_destroy(real_depth *real);
 /* Reads the depth that is to be registered, and fills `seen`. */
 void real_depth_read(real_depth *real, const rlf_render_input *input);
 /* Fills windows of z with what was read last; of other pixels nothing is known. Pixels without
- * depth take the background's, when the surface knows it; `settles`: what is around them and what the
- * picture shows decides (lost_depth.h). Models of real things take their place. RLF_ERROR_MEMORY as known_layer_place. */
-rlf_result real_depth_update(real_depth *real, const rlf_render_input *input,
-                             bool settles, const real_windows *needed);
+ * depth take the background's, when the surface knows it; `settles`: what is around them and what
+ * the picture shows decides (lost_depth.h). Models of real things take their place.
+ * RLF_ERROR_MEMORY as known_layer_place. */
+rlf_result real_depth_update(real_depth *real, const rlf_render_input *input, bool settles,
+                             const real_windows *needed);
 
 #endif

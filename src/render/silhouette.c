@@ -32,7 +32,8 @@ static rlf_result allocate(silhouette *s, int32_t width, int32_t height)
     s->held_far = rlf_alloc_array(pixels, sizeof(*s->held_far));
     s->trust = rlf_alloc_array(pixels, sizeof(*s->trust));
     s->changes = rlf_alloc_array((size_t)s->rows, sizeof(*s->changes));
-    has_all = has_all && s->changes != NULL && s->held_near != NULL && s->held_far != NULL && s->trust != NULL;
+    has_all = has_all && s->changes != NULL && s->held_near != NULL && s->held_far != NULL &&
+              s->trust != NULL;
     s->offset_x = rlf_alloc_array((size_t)width, sizeof(*s->offset_x));
     s->offset_y = rlf_alloc_array((size_t)height, sizeof(*s->offset_y));
     has_all = has_all && s->cover.data != NULL && s->tiles != NULL && s->own != NULL &&
@@ -63,7 +64,7 @@ void silhouette_destroy(silhouette *s)
 {
     void *parts[15] = {s->near_z.data, s->far_z.data, s->cover.data, s->settled,  s->last,
                        s->tiles,       s->own,        s->offset_x,   s->offset_y, s->marks,
-                       s->real,        s->held_near,  s->held_far,   s->trust,   s->changes};
+                       s->real,        s->held_near,  s->held_far,   s->trust,    s->changes};
     for (int i = 0; i < 15; i++) {
         rlf_free(parts[i]);
     }

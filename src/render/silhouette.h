@@ -27,7 +27,7 @@ enum {
     SILHOUETTE_JUMPS =
         1,               /* depth jumps, where bodies are, between its pixels or to the next ones */
     SILHOUETTE_EDGE = 2, /* it, or a tile beside it, jumps: look at near_z, far_z and cover */
-    SILHOUETTE_FILLED = 4, /* near_z, far_z and cover are set: in and around those with an edge */
+    SILHOUETTE_FILLED = 4,  /* near_z, far_z and cover are set: in and around those with an edge */
     SILHOUETTE_WAS_EDGE = 8 /* of the last picture: while it has bodies it stays one */
 };
 #define SILHOUETTE_AROUND 1 /* tiles to the left and right of an edge's that are filled too */
@@ -54,8 +54,8 @@ typedef struct silhouette {
     uint8_t *trust;
     silhouette_change *changes; /* of each row of tiles */
     int32_t still_light;        /* steps of a light that are noise, by those */
-    uint16_t picture;       /* counts up, never 0 */
-    uint64_t last_sequence; /* of the frame */
+    uint16_t picture;           /* counts up, never 0 */
+    uint64_t last_sequence;     /* of the frame */
 
     silhouette_tile *tiles;
     silhouette_tile *own;  /* the same without the neighbours */

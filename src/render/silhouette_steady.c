@@ -5,10 +5,10 @@
 
 #include <string.h>
 
-#define STEADY_SHARE 4 /* a still pixel moves by a quarter of the way to its new cover */
+#define STEADY_SHARE 4       /* a still pixel moves by a quarter of the way to its new cover */
 #define STEADY_LIGHT_MOST 10 /* steps of a light that noise may change, at most; */
-#define STEADY_SPREAD 5 /* in means of what it does: four standard deviations */
-#define STEADY_TIMES 8 /* pictures: the most that trust in a surface lasts against another */
+#define STEADY_SPREAD 5      /* in means of what it does: four standard deviations */
+#define STEADY_TIMES 8       /* pictures: the most that trust in a surface lasts against another */
 
 #define NOT_DOUBTFUL (SILHOUETTE_NONE << 8) /* settled from here on: no line set it */
 #define VOTERS (2 * SILHOUETTE_TILE) /* of a row: one before the tile's pixels, and beyond them */
@@ -147,8 +147,8 @@ RLF_KERNEL_PART int32_t is_same_surface(float a, float b)
     return silhouette_jumps(nearer, farther) ? 0 : 1;
 }
 
-/* Which of `count` pixels show the same light as before, by the mean change of three, whose noise is
- * less than that of one. */
+/* Which of `count` pixels show the same light as before, by the mean change of three, whose noise
+ * is less than that of one. */
 RLF_KERNEL_PART void find_still(const uint32_t *restrict last, const int32_t *restrict light,
                                 int32_t count, int32_t limit, int32_t *restrict out)
 {
@@ -170,7 +170,8 @@ RLF_KERNEL_PART void find_still(const uint32_t *restrict last, const int32_t *re
     }
 }
 
-/* Changes that may be noise, for they are at most so large, of pixels known from picture `known`. */
+/* Changes that may be noise, for they are at most so large, of pixels known from picture `known`.
+ */
 RLF_KERNEL_PART void add_changes(const uint32_t *restrict last, const int32_t *restrict light,
                                  int32_t count, uint32_t known, int32_t most,
                                  silhouette_change *change)
@@ -178,16 +179,16 @@ RLF_KERNEL_PART void add_changes(const uint32_t *restrict last, const int32_t *r
     for (int32_t i = 0; i < count; i++) {
         const int32_t mean = (light[i] >> 7) - (int32_t)(last[i] >> 15 & 127u);
         const int32_t tint = (light[i] & 127) - (int32_t)(last[i] >> 8 & 127u);
-        const int32_t is_noise = (last[i] >> 22 == known ? 1 : 0) & is_within(mean, most) &
-                                 is_within(tint, most);
+        const int32_t is_noise =
+            (last[i] >> 22 == known ? 1 : 0) & is_within(mean, most) & is_within(tint, most);
         change->sum += is_noise * ((mean < 0 ? -mean : mean) + (tint < 0 ? -tint : tint));
         change->count += 2 * is_noise;
     }
 }
 
-/* Where the picture has not changed the cover moves slowly, so that noise does not show, and another
- * surface has to be seen more often: sensors lose depth now and then and find it again, and shift
- * edges, while nothing moves. What a pixel shows right after a change is not trusted yet. */
+/* Where the picture has not changed the cover moves slowly, so that noise does not show, and
+ * another surface has to be seen more often: sensors lose depth now and then and find it again, and
+ * shift edges, while nothing moves. What a pixel shows right after a change is not trusted yet. */
 RLF_KERNEL_PART void steady_tile_row(const silhouette_pass *p, uint32_t known,
                                      const int32_t *restrict voted, const int32_t *restrict light,
                                      int32_t count, const steady_pixels *at)
@@ -287,5 +288,6 @@ void silhouette_learn_noise(silhouette *s)
         all.count += s->changes[row].count;
     }
     const int32_t limit = all.count > 0 ? STEADY_SPREAD * all.sum / all.count + 1 : 0;
-    s->still_light = limit < SILHOUETTE_STILL_LIGHT ? SILHOUETTE_STILL_LIGHT : silhouette_at_most(limit, STEADY_LIGHT_MOST);
+    s->still_light = limit < SILHOUETTE_STILL_LIGHT ? SILHOUETTE_STILL_LIGHT
+                                                    : silhouette_at_most(limit, STEADY_LIGHT_MOST);
 }

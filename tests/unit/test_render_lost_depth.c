@@ -253,12 +253,9 @@ int main(void)
 {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        TEST(a_hole_in_a_thing_is_the_thing),
-        TEST(colours_part_a_band_without_depth),
-        TEST(a_thing_goes_on_into_the_rim),
-        TEST(a_plane_goes_on_into_the_rim),
-        TEST(a_void_is_not_filled),
-        TEST(nothing_flickers_while_nothing_moves),
+        TEST(a_hole_in_a_thing_is_the_thing), TEST(colours_part_a_band_without_depth),
+        TEST(a_thing_goes_on_into_the_rim),   TEST(a_plane_goes_on_into_the_rim),
+        TEST(a_void_is_not_filled),           TEST(nothing_flickers_while_nothing_moves),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
