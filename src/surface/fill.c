@@ -14,6 +14,7 @@
  * filled in some rows and not in others: what is left of it then is closed. */
 #include "surface/color_side.h"
 #include "surface/past/past.h"
+#include "surface/shadow.h"
 #include "surface/steps.h"
 #include "surface/window.h"
 
@@ -25,8 +26,8 @@ static const float MOST_CHANGE = 0.05f;
 /* The same for what moves: all that is on its side of the middle. Arms and trunks are round. */
 static const float MOVING_CHANGE = 1e6f;
 
-/* Pixels from one to where the background must go on. */
-enum { ABOUT_BEHIND = 3 };
+/* Pixels from one to where the background must go on; from a hole's pixel to its end. */
+enum { ABOUT_BEHIND = 3, LONGEST_HOLE = 3 * RLF_FILL_GAP };
 
 typedef struct fill_job {
     const rlf_reconstruct *stage;
@@ -73,21 +74,6 @@ static float show_behind(const fill_job *job, int32_t x, int32_t y)
     return is_model || !(model > 0.0f) ? z : model;
 }
 
-/* Between two near ends that are far enough apart for a slit: what a driver takes away beside each
- * edge does not reach its middle. */
-static bool is_slit(const fill_job *job, int32_t x, int32_t y, const rlf_gap_ends *ends, int32_t k)
-{
-    const float edge_width = 2.0f;
-    float farthest = ends->before[k] > ends->after[k] ? ends->before[k] : ends->after[k];
-    bool wide = ends->to_before[k] > edge_width && ends->to_after[k] > edge_width;
-    return wide && depth_behind(job, x, y) > (1.0f + MOST_CHANGE) * farthest;
-}
-
-static bool may_fill(uint8_t reason)
-{
-    return reason == RLF_REASON_NO_RETURN || reason == RLF_REASON_FLYING;
-}
-
 /* Hole pixels with an end on both sides, that wait until there are enough of them for a kernel. */
 typedef struct fill_queue {
     int32_t count;
@@ -98,6 +84,68 @@ typedef struct fill_queue {
     rlf_color_sum *sum; /* of the rows that are being filled */
     float *found;       /* what comes next goes there */
 } fill_queue;
+
+/* The next pixel with depth from (x, y) is no farther than `farthest`; false when there is none. */
+static bool meets_near(const fill_job *job, int32_t x, int32_t y, int32_t dx, int32_t dy,
+                       float farthest)
+{
+    const rlf_grid *grid = &job->stage->grid;
+    for (int32_t steps = 0; steps < LONGEST_HOLE; steps++) {
+        x += dx;
+        y += dy;
+        ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+        if (x < 0 || y < 0 || x >= grid->width || y >= grid->height) {
+            return false;
+        }
+        if (job->has[i] != 0) {
+            return job->depth[i] <= farthest;
+        }
+    }
+    return false;
+}
+
+/* Between two near ends that are far enough apart for a slit: what a driver takes away beside each
+ * edge does not reach its middle. Along it the background is seen: what is closed there too is a
+ * hole in one thing, which no light came back from. */
+static bool is_slit(const fill_job *job, const fill_queue *q, int32_t k)
+{
+    const float edge_width = 2.0f;
+    const rlf_gap_ends *ends = &q->ends;
+    const int32_t *line = rlf_line_step[q->line[k]];
+    int32_t x = q->x[k], y = q->y[k];
+    float farthest = ends->before[k] > ends->after[k] ? ends->before[k] : ends->after[k];
+    bool wide = ends->to_before[k] > edge_width && ends->to_after[k] > edge_width;
+    float most = (1.0f + MOST_CHANGE) * farthest;
+    return wide && depth_behind(job, x, y) > most &&
+           !(meets_near(job, x, y, -line[1], line[0], most) &&
+             meets_near(job, x, y, line[1], -line[0], most));
+}
+
+/* Between a near end and a far one on the side where the sensor's shadow lies, the pixels beside
+ * the far one are in it, whatever the pixels about them vote. `votes` < 0: the far side. */
+static void vote_by_shadow(const fill_job *job, const fill_queue *q, float votes[RLF_BATCH])
+{
+    const float sure = 1e6f, mixed = 1.0f; /* pixels: half of what drivers drop at an edge */
+    const rlf_gap_ends *ends = &q->ends;
+    for (int32_t k = 0; k < q->count && job->stage->shadow.is_known; k++) {
+        float before = ends->before[k], after = ends->after[k];
+        int32_t along = rlf_line_step[q->line[k]][0]; /* columns, from before to after */
+        if (along == 0 || !rlf_gap_is_edge(before, after, ends->to_before[k] + ends->to_after[k])) {
+            continue;
+        }
+        bool is_after = before < after; /* the far end is */
+        rlf_shadow_side side = is_after == (along > 0) ? RLF_SHADOW_RIGHT : RLF_SHADOW_LEFT;
+        float near_z = is_after ? before : after, far_z = is_after ? after : before;
+        float wide = rlf_shadow_width(job->stage, side, near_z, far_z);
+        float away = is_after ? ends->to_after[k] : ends->to_before[k];
+        votes[k] = wide >= 1.0f && away <= wide + mixed ? -sure : votes[k];
+    }
+}
+
+static bool may_fill(uint8_t reason)
+{
+    return reason == RLF_REASON_NO_RETURN || reason == RLF_REASON_FLYING;
+}
 
 /* The nearer side stands before the background, and something moves there: of what stands still
  * the pixels that were seen are recalled. */
@@ -142,14 +190,15 @@ static void fill_batch(const fill_job *job, fill_queue *q)
     if (job->stage->side.image.data != NULL) {
         ask_picture(job, q, votes);
     }
+    vote_by_shadow(job, q, votes);
     rlf_kernel_fill_batch(&q->depth, &q->ends, votes, filled, kind);
     for (int32_t k = 0; k < q->count; k++) {
         int32_t x = q->x[k], y = q->y[k];
         ptrdiff_t i = (ptrdiff_t)y * job->stage->grid.width + x;
         float z = filled[k];
-        bool behind = is_slit(job, x, y, &q->ends, k) ||
-                      (kind[k] == RLF_FILL_FAR &&
-                       rlf_kernel_abs(depth_behind(job, x, y) - z) < MOST_CHANGE * z);
+        bool behind =
+            is_slit(job, q, k) || (kind[k] == RLF_FILL_FAR &&
+                                   rlf_kernel_abs(depth_behind(job, x, y) - z) < MOST_CHANGE * z);
         bool lost = q->lost[k] > 0.0f;
         *q->found++ = lost ? q->lost[k] : behind ? show_behind(job, x, y) : z;
         job->reason[i] = RLF_REASON_FILLED;

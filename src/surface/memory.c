@@ -78,6 +78,7 @@ static void take_background(rlf_reconstruct *stage)
     background->deviation = take(stage, n, sizeof(float));
     background->weight = take(stage, n, 1);
     background->beyond = take(stage, n, 1);
+    background->absent = take(stage, n, 1);
     background->unknown_age = take(stage, n, 1);
     background->still = take(stage, n, sizeof(float));
     background->still_ms = take(stage, n, sizeof(uint16_t));

@@ -4,6 +4,7 @@
 #include "surface/objects/objects.h"
 #include "surface/past/past.h"
 #include "surface/plate/plate.h"
+#include "surface/shadow.h"
 #include "surface/standing/standing.h"
 #include "surface/steps.h"
 
@@ -79,6 +80,7 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
     stage->torsos.count = 0;
     rlf_color_side_reset(stage);
     rlf_ego_motion_reset(&stage->ego);
+    rlf_shadow_reset(&stage->shadow);
     stage->previous = NULL;
 }
 
@@ -191,6 +193,7 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
         memcpy(slot->depth, kept, (size_t)stage->grid.count * sizeof *kept);
     }
     if (fill) {
+        rlf_shadow_learn(stage, kept);
         rlf_color_side_start(stage, frame);
         rlf_fill_holes(stage, slot);
         rlf_color_side_learn(stage);

@@ -111,6 +111,7 @@ typedef struct rlf_background {
     float *deviation;     /* ADAPTIVE: mean absolute difference from the mean */
     uint8_t *weight;      /* samples in the mean */
     uint8_t *beyond;      /* ADAPTIVE: frames in a row that saw past the mean */
+    uint8_t *absent;      /* ADAPTIVE: share of the frames without depth, of 255 */
     uint8_t *unknown_age; /* ADAPTIVE: frames in a row that a hole had a background sample */
     float *still;         /* ADAPTIVE: depth of what stands in front */
     uint16_t *still_ms;   /* ADAPTIVE: how long it has not moved */
@@ -332,6 +333,17 @@ typedef struct rlf_ego_motion {
     bool moves;
 } rlf_ego_motion;
 
+/* The shadow that the sensor's projector leaves beside near things: see shadow.h. Two sides of a
+ * thing: left, right. */
+enum { RLF_SHADOW_BINS = 32 };
+
+typedef struct rlf_shadow {
+    float told[2][RLF_SHADOW_BINS]; /* by how many runs without depth, per baseline */
+    float baseline[2];              /* metres; 0 = none there */
+    bool is_known;                  /* enough was told */
+    int32_t next_row;               /* the first that is asked next */
+} rlf_shadow;
+
 /* Memory that is free between steps. */
 typedef struct rlf_work {
     float *depth[2];    /* planes; these, sum and component have room for RLF_CHORD_PAD */
@@ -380,6 +392,7 @@ struct rlf_reconstruct {
     rlf_color_side side;
     struct rlf_objects *objects; /* see objects/objects.h; NULL = they are not wanted */
     rlf_ego_motion ego;
+    rlf_shadow shadow;
     rlf_work work;
     bool has_color;      /* work.color holds the frame's */
     bool has_components; /* work.runs holds the front sheet's, so many: */

@@ -228,6 +228,17 @@ void rlf_depart_reset(rlf_depart *depart, int32_t count);
 void rlf_background_absorb(rlf_reconstruct *stage, const rlf_slot *slot);
 /* Takes it back out where what it hides is seen again. */
 void rlf_background_restore(rlf_reconstruct *stage, const rlf_slot *slot);
+/* background/unknown.c: pixels of slot->foreground that are RLF_SEEN_UNKNOWN become background
+ * where they go on what is seen of it; the others are decided when work.runs holds the foreground's
+ * components, stage->component_count of them. */
+void rlf_background_reveal(rlf_reconstruct *stage, const rlf_slot *slot);
+void rlf_background_decide_unknown(rlf_reconstruct *stage, const rlf_slot *slot);
+/* background/hidden.c: pixels without depth that a thing hides become foreground and get its depth
+ * and normal; learns which return nothing by themselves. While the background is learnt, that only.
+ * Before the pixels of slot->foreground are linked. Leaves work.mask[1]: RLF_COVERED where it was
+ * done. */
+enum { RLF_COVERED = 2 };
+void rlf_background_cover(rlf_reconstruct *stage, const rlf_slot *slot, bool is_learning);
 /* How far from z counts as another depth, metres. */
 float rlf_background_gate(const rlf_reconstruct_def *def, float z);
 /* Where the first and the last foreground pixel of a row are. */

@@ -7,11 +7,6 @@
 
 #include <string.h>
 
-enum {
-    HOLE_FRAMES = 10,        /* background samples in a row that fill a hole of the model */
-    HOLE_FRAMES_FRONT = 250, /* the same for what was taken as foreground */
-};
-
 typedef struct model_job {
     const rlf_reconstruct *stage;
     const rlf_slot *slot;
@@ -70,62 +65,6 @@ static void majority_rows(void *context, int32_t begin, int32_t end, int32_t wor
     }
 }
 
-/* vote[0][c]: pixels of component c that are in front of a known background. */
-static void count_seeds(const rlf_reconstruct *stage, const uint8_t *mask, int32_t components)
-{
-    const rlf_runs *runs = &stage->work.runs;
-    int32_t *seeds = stage->work.vote[0];
-    memset(seeds, 0, (size_t)(components + 1) * sizeof *seeds);
-    for (int32_t y = 0; y < stage->grid.height; y++) {
-        const uint8_t *row = mask + (ptrdiff_t)y * stage->grid.width;
-        for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
-            const rlf_run *run = &runs->run[r];
-            for (int32_t x = run->x0; x < run->x1; x++) {
-                seeds[run->component] += row[x] == RLF_SEEN_FOREGROUND ? 1 : 0;
-            }
-        }
-    }
-}
-
-static void learn_hole(rlf_reconstruct *stage, int32_t i, float z, bool front)
-{
-    rlf_background *background = &stage->background;
-    int32_t age = background->unknown_age[i] + 1;
-    if (age >= (front ? HOLE_FRAMES_FRONT : HOLE_FRAMES)) {
-        background->mean[i] = z;
-        background->deviation[i] = 0.0f;
-        background->weight[i] = 1;
-        rlf_sheet_changed(background, &stage->grid, i % stage->grid.width, i / stage->grid.width,
-                          1);
-        age = 0;
-    }
-    background->unknown_age[i] = (uint8_t)age;
-}
-
-/* Depth where the background has none: foreground when it hangs together with foreground or is
- * large, otherwise a hole of the model that is filled in time. */
-static void decide_unknown(rlf_reconstruct *stage, rlf_slot *slot)
-{
-    const rlf_work *work = &stage->work;
-    count_seeds(stage, slot->foreground, stage->component_count);
-    for (int32_t y = 0; y < stage->grid.height; y++) {
-        int32_t row = y * stage->grid.width;
-        for (int32_t r = work->runs.first[y]; r < work->runs.first[y + 1]; r++) {
-            rlf_run *run = &work->runs.run[r];
-            int32_t size = work->size[run->component];
-            bool front =
-                10 * work->vote[0][run->component] >= size || size >= stage->def.min_region_points;
-            for (int32_t i = row + run->x0; i < row + run->x1; i++) {
-                if (slot->foreground[i] == RLF_SEEN_UNKNOWN) {
-                    learn_hole(stage, i, slot->depth[i], front);
-                }
-                slot->foreground[i] = front;
-            }
-            run->component = front ? run->component : 0;
-        }
-    }
-}
-
 /* The sheet of the background is made by now: it needs the same memory. */
 static void find_front(rlf_reconstruct *stage, rlf_slot *slot)
 {
@@ -133,7 +72,7 @@ static void find_front(rlf_reconstruct *stage, rlf_slot *slot)
     rlf_segment_links(stage, RLF_SEGMENT_NOISE, slot->depth, slot->foreground, spans);
     stage->component_count = rlf_components_find(stage, spans);
     stage->has_components = stage->def.foreground_segment == RLF_SEGMENT_NOISE && !stage->has_color;
-    decide_unknown(stage, slot);
+    rlf_background_decide_unknown(stage, slot);
 }
 
 /* Keeps the newest sheet: surfaces may still refer to it. */
@@ -171,6 +110,7 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot)
         memset(stage->work.front, 0, (size_t)stage->grid.height * sizeof *stage->work.front);
     }
     if (learning && background->frames < def->background_frames) {
+        rlf_background_cover(stage, slot, true);
         background->state = RLF_BACKGROUND_LEARNING;
         return;
     }
@@ -182,6 +122,10 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot)
         rlf_depart_find(stage, slot);
     }
     rlf_sheet_advance(stage, slot);
+    if (!learning) {
+        rlf_background_reveal(stage, slot);
+    }
+    rlf_background_cover(stage, slot, learning);
     if (!learning) {
         find_front(stage, slot);
         rlf_background_absorb(stage, slot);

@@ -10,6 +10,7 @@ void rlf_background_reset(rlf_background *background, const rlf_grid *grid)
     memset(background->deviation, 0, n * sizeof *background->deviation);
     memset(background->weight, 0, n);
     memset(background->beyond, 0, n);
+    memset(background->absent, 0, n);
     memset(background->unknown_age, 0, n);
     memset(background->still_ms, 0, n * sizeof *background->still_ms);
     memset(background->beneath, 0, n * sizeof *background->beneath);
