@@ -317,7 +317,7 @@ typedef struct rlf_color_side {
 } rlf_color_side;
 
 /* What is seen of an earlier frame, see ego_motion.c. */
-enum { RLF_EGO_POINTS = 400 };
+enum { RLF_EGO_POINTS = 640 };
 
 typedef struct rlf_ego_point {
     rlf_vec3 point, normal;
