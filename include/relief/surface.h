@@ -159,7 +159,7 @@ RLF_API size_t rlf_mesh_indices_region(const rlf_surface *surface, const rlf_reg
  * explains, how many faces look up rather than down, how much stands on the largest of those, and,
  * weakly, that cameras are seldom rolled and look down rather than up. A camera that looks
  * straight at a bare wall, or straight down on a bare floor, cannot know. Thread-safe. */
-#define RLF_UP_SURE 0.8
+#define RLF_UP_SURE 0.7
 RLF_API double rlf_surface_find_up(const rlf_surface *surface, rlf_vec3 *out_up);
 
 #ifdef __cplusplus
