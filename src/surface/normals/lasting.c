@@ -45,7 +45,7 @@ static rlf_plane_moments sum_window(const rlf_reconstruct *stage, const float *d
 }
 
 /* Error of inverse depth that a plane leaves beyond what averaging explains, 1/m; false where it
- * cannot be told: faces at a low angle have noise of their own. */
+ * cannot be told: at a low angle noise hides it. */
 static bool look_at(const rlf_reconstruct *stage, const float *depth, ptrdiff_t corner, float *out)
 {
     ptrdiff_t middle = corner + (ptrdiff_t)(SIDE / 2) * stage->grid.width + SIDE / 2;
@@ -59,7 +59,8 @@ static bool look_at(const rlf_reconstruct *stage, const float *depth, ptrdiff_t 
         return false;
     }
     rlf_plane_rest rest = rlf_plane_leave(sum, ref);
-    float sigma = rlf_kernel_inverse_sigma(rlf_kernel_noise_make(&stage->def.rig.noise), rest.w);
+    rlf_kernel_noise noise = rlf_kernel_noise_make(&stage->def.rig.noise);
+    float sigma = rest.slant * rlf_kernel_inverse_sigma(noise, rest.w);
     float beyond = rest.variance - sigma * sigma * (sum.left / sum.n);
     *out = beyond > 0.0f ? sqrtf(beyond) : 0.0f;
     return rest.slant < MOST_SLANT;
