@@ -22,6 +22,8 @@
 #define NO_CHOICE (-1.0f)
 #define VOTE 2 /* pixels around one that have a say */
 
+#define MARGIN_M 0.1f /* bodies so near to what is behind them may be hidden by it */
+
 enum { NOTHING_SEEN = 255 };
 
 static const int32_t ways[LOST_DEPTH_WAYS][2] = {{-1, 0}, {0, -1}, {-1, -1}, {1, -1},
@@ -48,8 +50,10 @@ rlf_result lost_depth_create(const rlf_registration *registration, const rlf_cam
     out->near_z = rlf_alloc_array(pixels, sizeof(float));
     out->nats = rlf_alloc_array(pixels, sizeof(float));
     out->cells = rlf_alloc((size_t)out->columns * (size_t)out->rows);
-    has_all = has_all && out->far_z != NULL && out->near_z != NULL && out->nats != NULL &&
-              out->cells != NULL;
+    out->body_near =
+        rlf_alloc_array((size_t)out->columns * (size_t)out->rows, sizeof(*out->body_near));
+    has_all = has_all && out->body_near != NULL && out->far_z != NULL && out->near_z != NULL &&
+              out->nats != NULL && out->cells != NULL;
     rlf_result result = has_all
                             ? clean_plate_create(registration, depth, T_picture_depth, &out->plate)
                             : RLF_ERROR_MEMORY;
@@ -68,6 +72,7 @@ void lost_depth_destroy(lost_depth *l)
     rlf_free(l->nats);
     rlf_free(l->near_z);
     rlf_free(l->cells);
+    rlf_free(l->body_near);
     clean_plate_destroy(&l->plate);
     memset(l, 0, sizeof(*l));
 }
@@ -334,9 +339,12 @@ static float evidence(const pass *p, int32_t i, const around *a, float near_z, f
 static void settle(pass *p, int32_t x, int32_t y)
 {
     const int32_t i = y * p->l->width + x;
-    const around a = look_around(p, x, y);
     const float before = p->depth[i];
     p->l->far_z[i] = NO_CHOICE;
+    if (before > 0.0f && before < p->l->body_near[y / CELL * p->l->columns + x / CELL] - MARGIN_M) {
+        return; /* what is nearer than that hides what it hides */
+    }
+    const around a = look_around(p, x, y);
     if (a.count == 0) {
         return;
     }
@@ -420,9 +428,24 @@ static bool is_in_window(const real_windows *windows, const float at[2])
     return false;
 }
 
+/* Least depth of bodies about a place of the picture. */
+static float body_near_at(const silhouette *s, const float at[2])
+{
+    if (s == NULL) {
+        return 0.0f;
+    }
+    if (!(at[0] > -0.5f && at[1] > -0.5f && at[0] < (float)s->cover.width - 0.5f &&
+          at[1] < (float)s->cover.height - 0.5f)) {
+        return SILHOUETTE_FAR;
+    }
+    const int32_t column = (int32_t)(at[0] + 0.5f) / SILHOUETTE_TILE;
+    const int32_t row = (int32_t)(at[1] + 0.5f) / SILHOUETTE_TILE;
+    return s->tiles[row * s->columns + column].near_z;
+}
+
 /* Cells whose middle, at the depth that is seen or filled in, lies in a window; those have a
  * margin. */
-static void mark_cells(const pass *p, const real_windows *needed)
+static void mark_cells(const pass *p, const silhouette *bodies, const real_windows *needed)
 {
     const lost_depth *l = p->l;
     for (int32_t i = 0; i < l->columns * l->rows; i++) {
@@ -434,12 +457,13 @@ static void mark_cells(const pass *p, const real_windows *needed)
         float at[2];
         registration_pixel(p->registration, y * l->width + x, z > 0.0f ? z : 1e3f, at);
         l->cells[i] = is_in_window(needed, at) ? 1 : 0;
+        l->body_near[i] = body_near_at(bodies, at);
     }
 }
 
 float lost_depth_update(lost_depth *l, rlf_registration *registration,
-                        const rlf_render_input *input, const real_windows *needed, float *depth,
-                        float nearest)
+                        const rlf_render_input *input, const silhouette *bodies,
+                        const real_windows *needed, float *depth, float nearest)
 {
     const rlf_surface *surface = input->surface;
     if (surface->reason == NULL || surface->depth == NULL) {
@@ -450,7 +474,7 @@ float lost_depth_update(lost_depth *l, rlf_registration *registration,
         return nearest;
     }
     pass p = {l, registration, &input->frame->color, surface, depth, nearest};
-    mark_cells(&p, needed);
+    mark_cells(&p, bodies, needed);
     find_ways(l, surface->reason, (uint8_t *)l->nats);
     for_lost(&p, settle);
     for_lost(&p, vote);

@@ -24,6 +24,7 @@ typedef struct lost_depth {
     float *near_z, *far_z, *nats;   /* both sides, and what speaks for the near one; far_z 0 =
                                        nothing, < 0 = there is no choice */
     uint8_t *cells;                 /* of 8 x 8 pixels: 1 = a picture's window needs it */
+    float *body_near; /* of a cell: no body is nearer; SILHOUETTE_FAR = none is there */
     int32_t columns, rows;
 } lost_depth;
 
@@ -33,10 +34,11 @@ rlf_result lost_depth_create(const rlf_registration *registration, const rlf_cam
 void lost_depth_destroy(lost_depth *l);
 
 /* Settles `depth` ([grid pixel], metres: what the surface shows, else its background) of lost
- * pixels that may be seen in the picture's windows. Colour and background may be missing. No depth
+ * pixels that may be seen in the picture's windows. Colour and background may be missing. Where the
+ * background is nearer than `bodies` it stays (NULL = is never). No depth
  * is nearer than `nearest`; returns the same of what was settled. */
 float lost_depth_update(lost_depth *l, rlf_registration *registration,
-                        const rlf_render_input *input, const real_windows *needed, float *depth,
-                        float nearest);
+                        const rlf_render_input *input, const silhouette *bodies,
+                        const real_windows *needed, float *depth, float nearest);
 
 #endif

@@ -152,8 +152,8 @@ rlf_result real_depth_update(real_depth *real, const rlf_render_input *input, bo
                              const real_windows *needed)
 {
     real_windows windows = *needed;
-    if (!real->uses_frame && settles) {
-        real->nearest = lost_depth_update(&real->lost, real->registration, input, needed,
+    if (!real->uses_frame && bodies != NULL) {
+        real->nearest = lost_depth_update(&real->lost, real->registration, input, bodies, needed,
                                           real->input, real->nearest);
     }
     rlf_pose T_camera_world = rlf_pose_invert(&input->T_world_camera);

@@ -84,7 +84,7 @@ static void update(void)
         .frame = &s.frame, .surface = &s.surface, .T_world_camera = rlf_pose_identity()};
     memcpy(s.settled, s.sensed, sizeof(s.settled));
     s.frame.sequence++;
-    lost_depth_update(&s.lost, s.registration, &input, &s.needed, s.settled, 0.0f);
+    lost_depth_update(&s.lost, s.registration, &input, NULL, &s.needed, s.settled, 0.0f);
 }
 
 static int set_up(void **state)

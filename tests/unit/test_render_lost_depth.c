@@ -80,7 +80,7 @@ static int32_t update(void)
     const real_windows all = {{{0, 0, WIDTH, HEIGHT}}, 1};
     memcpy(s.settled, s.sensed, sizeof(s.settled));
     s.frame.sequence++;
-    lost_depth_update(&s.lost, s.registration, &input, &all, s.settled, 0.0f);
+    lost_depth_update(&s.lost, s.registration, &input, NULL, &all, s.settled, 0.0f);
     int32_t wrong = 0;
     for (int32_t i = 0; i < PIXELS; i++) {
         wrong += s.settled[i] < s.truth[i] - 0.05f || s.settled[i] > s.truth[i] + 0.05f;

@@ -271,7 +271,7 @@ static rlf_result update_real_depth(gl_compositor *c, const rlf_render_input *in
     }
     const real_windows all = {{{0, 0, c->real.z.width, c->real.z.height}}, 1};
     real_depth_read(&c->real, input);
-    rlf_result result = real_depth_update(&c->real, input, s != NULL, &all);
+    rlf_result result = real_depth_update(&c->real, input, s, &all);
     gl_texture_upload_f32(&c->depth_texture, c->real.z.data, c->real.z.width, c->real.z.height);
     return result;
 }

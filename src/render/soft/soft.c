@@ -212,7 +212,7 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
         const real_windows needed = soft_needed_depth(s, input);
         real_depth_read(&s->real, input);
         soft_scene_light(s, input);
-        result = real_depth_update(&s->real, input, has_edges, &needed);
+        result = real_depth_update(&s->real, input, has_edges ? &s->silhouette : NULL, &needed);
     }
     if (result != RLF_OK) {
         return result;
@@ -234,7 +234,7 @@ static rlf_result see_real(soft *s, const rlf_render_input *input)
 {
     const real_windows all = {{{0, 0, s->camera.width, s->camera.height}}, 1};
     real_depth_read(&s->real, input);
-    return real_depth_update(&s->real, input, false, &all);
+    return real_depth_update(&s->real, input, NULL, &all);
 }
 
 static rlf_result draw_mesh(soft *s, const rlf_render_input *input)
