@@ -148,8 +148,8 @@ const known_layer *real_depth_known(const real_depth *real)
     return real->known.count > 0 ? &real->known : NULL;
 }
 
-rlf_result real_depth_update(real_depth *real, const rlf_render_input *input, bool settles,
-                             const real_windows *needed)
+rlf_result real_depth_update(real_depth *real, const rlf_render_input *input,
+                             const silhouette *bodies, const real_windows *needed)
 {
     real_windows windows = *needed;
     if (!real->uses_frame && bodies != NULL) {

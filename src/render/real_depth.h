@@ -47,7 +47,7 @@ void real_depth_read(real_depth *real, const rlf_render_input *input);
  * depth take the background's, when the surface knows it; `settles`: what is around them and what
  * the picture shows decides (lost_depth.h). Models of real things take their place.
  * RLF_ERROR_MEMORY as known_layer_place. */
-rlf_result real_depth_update(real_depth *real, const rlf_render_input *input, bool settles,
-                             const real_windows *needed);
+rlf_result real_depth_update(real_depth *real, const rlf_render_input *input,
+                             const silhouette *bodies, const real_windows *needed);
 
 #endif
