@@ -53,9 +53,8 @@ void clean_plate_destroy(clean_plate *plate)
 
 /* ---- colours -------------------------------------------------------------------------------- */
 
-/* The frame's colour where the picture has (u, v); NULL outside. */
-static const uint8_t *color_at(const clean_plate *plate, const rlf_image_rgba8 *color, float u,
-                               float v)
+const uint8_t *clean_plate_picture(const clean_plate *plate, const rlf_image_rgba8 *color, float u,
+                                   float v)
 {
     const float x = (u + 0.5f) * plate->scale[0];
     const float y = (v + 0.5f) * plate->scale[1];
@@ -203,7 +202,7 @@ static void learn_row(clean_plate *plate, rlf_registration *registration,
     for (int32_t x = 0; x < plate->width; x++) {
         const bool is_seen = (cells[x / CELL] & NOT_CLEAR) == 0 && p->scale[x] > 0.0f &&
                              p->z[x] < RLF_KERNEL_NOTHING;
-        const uint8_t *c = is_seen ? color_at(plate, color, p->u[x], p->v[x]) : NULL;
+        const uint8_t *c = is_seen ? clean_plate_picture(plate, color, p->u[x], p->v[x]) : NULL;
         if (c != NULL) {
             const bool was_known = known[4 * x + 3] != 0;
             const bool is_same = take_color(known + 4 * x, c);
@@ -235,7 +234,7 @@ const uint8_t *clean_plate_color(const clean_plate *plate, const rlf_registratio
 {
     float at[2];
     registration_pixel(registration, i, z, at);
-    return color_at(plate, color, at[0], at[1]);
+    return clean_plate_picture(plate, color, at[0], at[1]);
 }
 
 static int32_t round_to_int(float x)
@@ -249,7 +248,7 @@ static bool shows_foreground(const clean_plate *plate, const clean_plate_sight *
 {
     float at[2];
     registration_pixel(sight->registration, i, near_z, at);
-    const uint8_t *c = color_at(plate, sight->color, at[0], at[1]);
+    const uint8_t *c = clean_plate_picture(plate, sight->color, at[0], at[1]);
     const float u = at[0] - at_far[0];
     const float v = at[1] - at_far[1];
     if (c == NULL || !(u * u + v * v < FARTHEST * FARTHEST)) {

@@ -41,6 +41,9 @@ void clean_plate_destroy(clean_plate *plate);
 void clean_plate_update(clean_plate *plate, rlf_registration *registration,
                         const rlf_render_input *input);
 
+/* RGB of the frame where the picture has (u, v); NULL outside of it. */
+const uint8_t *clean_plate_picture(const clean_plate *plate, const rlf_image_rgba8 *color, float u,
+                                   float v);
 /* RGB of the frame where pixel i is seen if it is z metres away; NULL outside of the picture. */
 const uint8_t *clean_plate_color(const clean_plate *plate, const rlf_registration *registration,
                                  const rlf_image_rgba8 *color, int32_t i, float z);

@@ -49,6 +49,8 @@ rlf_result lost_depth_create(const rlf_registration *registration, const rlf_cam
     out->far_z = rlf_alloc_array(pixels, sizeof(float));
     out->near_z = rlf_alloc_array(pixels, sizeof(float));
     out->nats = rlf_alloc_array(pixels, sizeof(float));
+    out->colors = rlf_alloc(4 * pixels);
+    has_all = has_all && out->colors != NULL;
     out->cells = rlf_alloc((size_t)out->columns * (size_t)out->rows);
     out->body_near =
         rlf_alloc_array((size_t)out->columns * (size_t)out->rows, sizeof(*out->body_near));
@@ -72,6 +74,7 @@ void lost_depth_destroy(lost_depth *l)
     rlf_free(l->nats);
     rlf_free(l->near_z);
     rlf_free(l->cells);
+    rlf_free(l->colors);
     rlf_free(l->body_near);
     clean_plate_destroy(&l->plate);
     memset(l, 0, sizeof(*l));
@@ -268,17 +271,47 @@ static float depth_of(const hit *hits, int32_t count)
 
 /* ---- colours -------------------------------------------------------------------------------- */
 
-/* Least squared distance between the colour at pixel i, were it at depth z, and those of hits. */
-static float from_hits(const pass *p, int32_t i, float z, const hit *hits, int32_t count)
+/* Colours of a row of pixels, as far away as they are seen; of lost ones as if a metre away. */
+static void find_colors(const pass *p, rlf_registration *registration, int32_t y)
 {
-    const clean_plate *plate = &p->l->plate;
-    const uint8_t *c = clean_plate_color(plate, p->registration, p->color, i, z);
+    lost_depth *l = p->l;
+    const ptrdiff_t row = (ptrdiff_t)y * l->width;
+    for (int32_t x = 0; x < l->width; x++) {
+        const float z = p->surface->depth[row + x];
+        l->near_z[row + x] = z > 0.0f ? z : 1.0f;
+    }
+    registration_project(registration, l->near_z, y, 0, l->width);
+    const rlf_kernel_points *at = &registration->points;
+    for (int32_t x = 0; x < l->width; x++) {
+        const bool is_seen = at->scale[x] > 0.0f && at->z[x] < RLF_KERNEL_NOTHING;
+        const uint8_t *c =
+            is_seen ? clean_plate_picture(&l->plate, p->color, at->u[x], at->v[x]) : NULL;
+        uint8_t *out = l->colors + 4 * (row + x);
+        out[3] = 0;
+        if (c != NULL) {
+            memcpy(out, c, 3);
+            out[3] = 1;
+        }
+    }
+}
+
+/* Colour at lost pixel i, were it at depth z; NULL outside of the picture. */
+static const uint8_t *color_at(const pass *p, int32_t i, float z)
+{
+    const uint8_t *own = p->l->colors + 4 * (ptrdiff_t)i;
+    if (p->registration->parallax_px_m > 0.0) {
+        return clean_plate_color(&p->l->plate, p->registration, p->color, i, z);
+    }
+    return own[3] != 0 ? own : NULL;
+}
+
+/* Least squared distance of a colour from those of hits; < 0: not known. */
+static float from_hits(const pass *p, const uint8_t *c, const hit *hits, int32_t count)
+{
     float least = -1.0f;
     for (int32_t k = 0; k < count && c != NULL; k++) {
-        const int32_t j = hits[k].inside;
-        const uint8_t *other =
-            clean_plate_color(plate, p->registration, p->color, j, p->surface->depth[j]);
-        const float off = other != NULL ? clean_plate_squared(c, other) : -1.0f;
+        const uint8_t *other = p->l->colors + 4 * (ptrdiff_t)hits[k].inside;
+        const float off = other[3] != 0 ? clean_plate_squared(c, other) : -1.0f;
         least = off >= 0.0f && (least < 0.0f || off < least) ? off : least;
     }
     return least;
@@ -287,9 +320,10 @@ static float from_hits(const pass *p, int32_t i, float z, const hit *hits, int32
 /* Nats for the near side. */
 static float color_evidence(const pass *p, int32_t i, const around *a, float near_z, float far_z)
 {
-    const float from_near = from_hits(p, i, near_z, a->hits, a->near_count);
+    const float from_near = from_hits(p, color_at(p, i, near_z), a->hits, a->near_count);
     const float z = far_z > 0.0f ? far_z : near_z;
-    float from_far = from_hits(p, i, z, a->hits + a->near_count, a->count - a->near_count);
+    float from_far =
+        from_hits(p, color_at(p, i, z), a->hits + a->near_count, a->count - a->near_count);
     if (from_near < 0.0f) {
         return 0.0f;
     }
@@ -476,6 +510,11 @@ float lost_depth_update(lost_depth *l, rlf_registration *registration,
     pass p = {l, registration, &input->frame->color, surface, depth, nearest};
     mark_cells(&p, bodies, needed);
     find_ways(l, surface->reason, (uint8_t *)l->nats);
+    for (int32_t y = 0; y < l->height && p.color->data != NULL; y++) {
+        if (memchr(l->cells + y / CELL * l->columns, 1, (size_t)l->columns) != NULL) {
+            find_colors(&p, registration, y);
+        }
+    }
     for_lost(&p, settle);
     for_lost(&p, vote);
     return p.nearest;

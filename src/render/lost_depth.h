@@ -24,6 +24,7 @@ typedef struct lost_depth {
     float *near_z, *far_z, *nats;   /* both sides, and what speaks for the near one; far_z 0 =
                                        nothing, < 0 = there is no choice */
     uint8_t *cells;                 /* of 8 x 8 pixels: 1 = a picture's window needs it */
+    uint8_t *colors;  /* [pixel][4]: RGB where it is seen, 1; 0 = not in the picture */
     float *body_near; /* of a cell: no body is nearer; SILHOUETTE_FAR = none is there */
     int32_t columns, rows;
 } lost_depth;
