@@ -8,7 +8,7 @@
 #define CELL 8          /* pixels */
 #define TOLD 99.0f      /* nats of what the background and its colour tell: not voted on */
 #define MOST_NATS 1.0f  /* of one pixel among those that decide together */
-#define RIM 16          /* pixels: so wide may the border be that a camera leaves without depth */
+#define RIM 24          /* pixels: so wide may the border be that a camera leaves without depth */
 #define HOLE_M 0.3f     /* what is seen farther than this from a lost pixel does not enclose it */
 #define INSIDE 2        /* pixels beyond the first seen one, whose colours may be mixed */
 #define ENCLOSED 2.5f   /* nats for a side that all eight ways lead to; for half of them none */
