@@ -222,7 +222,6 @@ void rlf_depart_take(rlf_reconstruct *stage);
 void rlf_depart_follow(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *seen);
 /* Makes foreground of things that start to move; after the 3x3 majority. Uses work.mask[0]. */
 void rlf_depart_find(rlf_reconstruct *stage, rlf_slot *slot);
-void rlf_depart_reset(rlf_depart *depart, int32_t count);
 
 /* Takes still foreground into the model; slot->foreground is finished. */
 void rlf_background_absorb(rlf_reconstruct *stage, const rlf_slot *slot);

@@ -15,8 +15,8 @@ double synth_infrared(const synth_part *part);
 rlf_vec3 synth_look_albedo(const synth_look *look, rlf_vec3 local);
 float synth_look_texture(const synth_part *part, rlf_vec3 local);
 
-/* value_noise.c: a random number in 0..1 for each corner of a grid, and value noise between them, one
- * cell per unit. */
+/* value_noise.c: a random number in 0..1 for each corner of a grid, and value noise between them,
+ * one cell per unit. */
 double synth_lattice(int32_t x, int32_t y);
 double synth_value_noise(double x, double y);
 

@@ -19,21 +19,28 @@ enum {
     LOST = 1,
     LEAST_EDGE = 12,  /* pixels that went, and that came, at its edges ... */
     EDGE_SHARE = 12,  /* ... and of the width and height of its rectangle one of so many */
+    MOST_UNLIKE = 8,  /* times as many of one as of the other */
     GAP = 3,          /* pixels between things, at most */
     LEAST_RISEN = 50, /* pixels that came nearer */
     IMAGE_SHARE = 5,  /* what fills more than one of so many parts of the image is the room */
     LEFT_WEIGHT = 2   /* samples: a mean of one has just been replaced */
 };
 
+static const float opposite = 0.7f;    /* of the thing's extent: from one side to the other */
 static const float beside_m = 0.03f;   /* from pixel to pixel of one thing */
 static const float risen_share = 0.3f; /* of a thing's pixels, and of them in this frame */
 static const float even = 0.3f;        /* of the mean way along the normals: standard deviation */
 static const float slowest = 0.05f;    /* of that way: in this frame */
-static const float farthest_m = 0.15f; /* in one frame */
+static const float farthest_m = 0.07f; /* in one frame */
+
+typedef struct edge_tally {
+    int32_t count, x, y; /* pixels; sums of their columns and rows */
+} edge_tally;
 
 typedef struct tally {
     rlf_rect window;
-    int32_t seen, lost, gained, risen, fresh;
+    edge_tally lost, gained;
+    int32_t seen, risen, fresh;
     float way, square, step; /* of what has risen, along its normals; in this frame */
 } tally;
 
@@ -162,6 +169,13 @@ static void count_things(const rlf_reconstruct *stage, const rlf_slot *slot, tal
     }
 }
 
+static void add_edge(edge_tally *edge, int32_t x, int32_t y)
+{
+    edge->count++;
+    edge->x += x;
+    edge->y += y;
+}
+
 /* What went and what came, at the edges: no single pixels, which noise makes. */
 static void count_edges(const rlf_reconstruct *stage, const rlf_slot *slot, tally *tallies)
 {
@@ -172,20 +186,34 @@ static void count_edges(const rlf_reconstruct *stage, const rlf_slot *slot, tall
             int32_t i = y * grid->width + x, above = i - grid->width;
             if (lost[i] == LOST && lost[i - 1] == LOST && lost[above] == LOST &&
                 lost[above - 1] == LOST) {
-                tallies[thing[i]].lost++;
+                add_edge(&tallies[thing[i]].lost, x, y);
             }
             if (slot->foreground[i] != 0) {
-                tallies[thing_beside(stage, slot->depth, i)].gained++;
+                add_edge(&tallies[thing_beside(stage, slot->depth, i)].gained, x, y);
             }
         }
     }
 }
 
+/* From the middle of what went to the middle of what came, in widths and heights of the thing. */
+static float way_aside(const tally *t)
+{
+    float lost = (float)t->lost.count, gained = (float)t->gained.count;
+    float x = (float)t->gained.x / gained - (float)t->lost.x / lost;
+    float y = (float)t->gained.y / gained - (float)t->lost.y / lost;
+    return rlf_kernel_abs(x) / (float)(t->window.x1 - t->window.x0) +
+           rlf_kernel_abs(y) / (float)(t->window.y1 - t->window.y0);
+}
+
+/* A thing that moves loses at one side as much as it gains at the other. Who walks by gains on one
+ * side, or all round, and noise loses all round. */
 static bool went_aside(const tally *t)
 {
     int32_t round = t->window.x1 - t->window.x0 + t->window.y1 - t->window.y0;
     int32_t least = round / EDGE_SHARE > LEAST_EDGE ? round / EDGE_SHARE : LEAST_EDGE;
-    return t->lost >= least && t->gained >= least;
+    int32_t lost = t->lost.count, gained = t->gained.count;
+    return lost >= least && gained >= least && lost <= MOST_UNLIKE * gained &&
+           gained <= MOST_UNLIKE * lost && way_aside(t) > opposite;
 }
 
 static bool came_nearer(const rlf_reconstruct *stage, const tally *t)
@@ -273,13 +301,5 @@ void rlf_depart_find(rlf_reconstruct *stage, rlf_slot *slot)
     }
     if (depart->is_urgent) {
         leave_all(stage, slot, departed);
-    }
-}
-
-void rlf_depart_reset(rlf_depart *depart, int32_t count)
-{
-    if (depart->thing != NULL) {
-        memset(depart->thing, 0, (size_t)count);
-        memset(depart->left, 0, (size_t)count);
     }
 }

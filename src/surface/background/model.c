@@ -21,7 +21,10 @@ void rlf_background_reset(rlf_background *background, const rlf_grid *grid)
         memset(background->low.mark, 0, n);
         memset(background->low.samples, 0, n * sizeof *background->low.samples);
     }
-    rlf_depart_reset(&background->depart, grid->count);
+    if (background->depart.thing != NULL) {
+        memset(background->depart.thing, 0, n);
+        memset(background->depart.left, 0, n);
+    }
     background->frames = 0;
     memset(background->changes, 0, (size_t)rlf_sheet_tiles(grid) * sizeof *background->changes);
     memset(background->age, 0, (size_t)rlf_sheet_tiles(grid));
