@@ -14,7 +14,7 @@
 #define EVERY 15
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0x70b4e4fb772b8b74u, 0xf9a7dab49ab1e986u, 0x87dd08b6788406dfu},
+    {RLF_PROFILE_LIVE, 0xf3f2f1ad2a913f9fu, 0xfe2b79ddb7c7d2c4u, 0x21d677fc67bcbe65u},
     {RLF_PROFILE_THESIS, 0xa393eb06e579d241u, 0xd84652fb54683851u, 0xc064b44391e1e990u},
 };
 
