@@ -2,42 +2,50 @@
 #include "capture/synthetic/shadow.h"
 #include "kernel/kernel.h"
 
+#define NEAREST 0.1 /* metres before the camera */
 #define LEAST_DOWN 0.02 /* of a ray: what is flatter does not reach the floor of a room */
 
-static synth_rect whole(const rlf_camera *camera)
+/* What some points project to. */
+typedef struct extent {
+    double low[2], high[2];
+} extent;
+
+static void add_point(extent *e, const rlf_camera *camera, rlf_vec3 p)
 {
-    return (synth_rect){0, 0, camera->width, camera->height};
+    const double at[2] = {camera->cx + camera->fx * p.x / p.z, camera->cy + camera->fy * p.y / p.z};
+    for (int k = 0; k < 2; k++) {
+        e->low[k] = rlf_min(e->low[k], at[k]);
+        e->high[k] = rlf_max(e->high[k], at[k]);
+    }
 }
 
+/* Of the square about the ellipse what lies before the camera: its corners, and where its sides
+ * cross the plane z = NEAREST. */
 synth_rect synth_shadow_rect(const synth_shadow *shadow, const synth_blob *blob,
                              const synth_view *view, double floor_y)
 {
+    static const double side_x[5] = {-1, 1, 1, -1, -1}, side_z[5] = {-1, -1, 1, 1, -1};
     const rlf_camera *camera = &view->camera;
     const rlf_quat q_camera_level = rlf_quat_conjugate(shadow->q_level_camera);
-    double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};
-    int32_t behind = 0;
-    for (int32_t i = 0; i < 4; i++) { /* the square about the ellipse */
-        const double x = blob->x + (i & 1 ? 1.0 : -1.0) * (double)blob->long_radius;
-        const double z = blob->z + (i & 2 ? 1.0 : -1.0) * (double)blob->long_radius;
-        const rlf_vec3 p =
-            rlf_sub(rlf_rotate(q_camera_level, rlf_vec3_make(x, floor_y, z)), view->origin);
-        double at[2];
-        if (p.z < 0.1 || !rlf_camera_project(camera, p, &at[0], &at[1])) {
-            behind++;
-            continue;
+    const double reach = (double)blob->long_radius;
+    extent e = {{1e9, 1e9}, {-1e9, -1e9}};
+    rlf_vec3 last = {0, 0, 0};
+    for (int32_t i = 0; i < 5; i++) {
+        const rlf_vec3 corner = {blob->x + side_x[i] * reach, floor_y, blob->z + side_z[i] * reach};
+        const rlf_vec3 p = rlf_sub(rlf_rotate(q_camera_level, corner), view->origin);
+        if (i > 0 && (p.z < NEAREST) != (last.z < NEAREST)) {
+            const double share = (NEAREST - last.z) / (p.z - last.z);
+            add_point(&e, camera, rlf_mad(last, rlf_sub(p, last), share));
         }
-        for (int k = 0; k < 2; k++) {
-            low[k] = rlf_min(low[k], at[k]);
-            high[k] = rlf_max(high[k], at[k]);
+        if (p.z >= NEAREST) {
+            add_point(&e, camera, p);
         }
+        last = p;
     }
-    if (behind > 0) {
-        return behind == 4 ? (synth_rect){0, 0, 0, 0} : whole(camera);
-    }
-    synth_rect rect = {(int32_t)rlf_clamp(low[0], 0, camera->width),
-                       (int32_t)rlf_clamp(low[1], 0, camera->height),
-                       (int32_t)rlf_clamp(high[0] + 2, 0, camera->width),
-                       (int32_t)rlf_clamp(high[1] + 2, 0, camera->height)};
+    synth_rect rect = {(int32_t)rlf_clamp(e.low[0], 0, camera->width),
+                       (int32_t)rlf_clamp(e.low[1], 0, camera->height),
+                       (int32_t)rlf_clamp(e.high[0] + 2, 0, camera->width),
+                       (int32_t)rlf_clamp(e.high[1] + 2, 0, camera->height)};
     return rect;
 }
 
