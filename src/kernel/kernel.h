@@ -119,6 +119,13 @@ RLF_KERNEL_PART float rlf_kernel_abs(float x)
 {
     return fabsf(x); /* a mask; a comparison and a choice are three times as dear */
 }
+/* Of how many frames a depth counts as the mean, from what rlf_kernel_steady_row keeps: a younger
+ * mean may be of something that moves, and has the noise of one frame. */
+RLF_KERNEL_PART float rlf_kernel_averaged_frames(float frames)
+{
+    float all = rlf_kernel_abs(frames);
+    return all >= 4.0f ? all : 1.0f;
+}
 
 RLF_KERNEL_PART uint64_t rlf_kernel_eight(const uint8_t *bytes)
 {

@@ -37,8 +37,7 @@ RLF_KERNEL_PART rlf_plane_moments rlf_plane_pixel(float z, float frames, float r
                                                   rlf_plane_reference ref)
 {
     bool is_seen = z > 0.0f;
-    float all = rlf_kernel_abs(frames);
-    all = all > 1.0f ? all : 1.0f;
+    float all = rlf_kernel_averaged_frames(frames);
     float inverse = 1.0f / (is_seen ? z * all : 1.0f);
     float n = is_seen ? 1.0f : 0.0f;
     float x = is_seen ? ray_x - ref.x : 0.0f;

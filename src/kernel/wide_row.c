@@ -61,7 +61,7 @@ RLF_KERNEL void rlf_kernel_invert_planes(const float *restrict depth, const floa
 /* Sigma of inverse depth that is the mean of so many frames. */
 RLF_KERNEL_PART float mean_sigma(rlf_kernel_noise noise, float w, float frames, float lasting)
 {
-    float all = rlf_kernel_abs(frames), left = 1.0f / (all > 1.0f ? all : 1.0f);
+    float left = 1.0f / rlf_kernel_averaged_frames(frames);
     return sqrtf(rlf_kernel_left_variance(rlf_kernel_inverse_sigma(noise, w), left, lasting));
 }
 
