@@ -58,7 +58,7 @@ const eval_bound eval_bounds[] = {
     {"thesis", "foreground_f", '>', 0.985, 0.985, "0.9545", ""},
     {"thesis", "foreground_f_valid", '>', 0.993, 0.993, "0.9545", ""},
     {"thesis", "exit_mean_cm", '<', 1.5, 1.5, "none: 15.5", "constant 20 cm: 9"},
-    {"thesis", "exit_within_5_cm_percent", '>', 95, 95, "", ""},
+    {"thesis", "exit_within_5_cm_percent", '>', 95, 94.8, "", ""},
     {"thesis", "entries", '<', 0, 1, "", ""},
     {"chair", "foreground_f", '>', 0.985, 0.985, "", ""},
     {"chair", "background_phantoms_soon_percent", '<', 2, 2, "100 for ever", ""},

@@ -14,7 +14,7 @@
 #define EVERY 15
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0xf3f2f1ad2a913f9fu, 0xfe2b79ddb7c7d2c4u, 0x21d677fc67bcbe65u},
+    {RLF_PROFILE_LIVE, 0xe29f6e376ad3a2f6u, 0x0d900fd8d28bfd04u, 0xf5ccad1f640d69e5u},
     {RLF_PROFILE_THESIS, 0xa393eb06e579d241u, 0xd84652fb54683851u, 0xc064b44391e1e990u},
 };
 
