@@ -97,10 +97,12 @@ static float way_from(const rlf_reconstruct *stage, const rlf_sheet *sheet, int3
 static void add_pixel(const rlf_reconstruct *stage, const rlf_slot *slot, int32_t i, tally *t)
 {
     const rlf_depart *depart = &stage->background.depart;
-    float z = slot->depth[i], gate = rlf_background_gate(&stage->def, z);
+    float z = slot->depth[i], off = z - depart->depth[i];
     const rlf_slot *before = stage->previous;
     t->seen++;
-    stage->work.mask[0][i] = z - depart->depth[i] > gate ? LOST : 0;
+    if (off > (float)stage->def.foreground_min_m && off > rlf_background_gate(&stage->def, z)) {
+        stage->work.mask[0][i] = LOST; /* the first is the least that the gate may be */
+    }
     if (slot->foreground[i] == RLF_SEEN_FOREGROUND && before != NULL) {
         float way = way_from(stage, rlf_sheet_newest(stage), i, depart->depth[i], z);
         t->risen++;
@@ -176,21 +178,34 @@ static void add_edge(edge_tally *edge, int32_t x, int32_t y)
     edge->y += y;
 }
 
-/* What went and what came, at the edges: no single pixels, which noise makes. */
-static void count_edges(const rlf_reconstruct *stage, const rlf_slot *slot, tally *tallies)
+/* What went, at the edges: no single pixels, which noise makes. True when it is enough of one. */
+static bool count_lost(const rlf_reconstruct *stage, tally *tallies)
 {
     const rlf_grid *grid = &stage->grid;
     const uint8_t *lost = stage->work.mask[0], *thing = stage->background.depart.thing;
-    for (int32_t y = 1; y < grid->height; y++) {
-        for (int32_t x = 1; x < grid->width; x++) {
-            int32_t i = y * grid->width + x, above = i - grid->width;
-            if (lost[i] == LOST && lost[i - 1] == LOST && lost[above] == LOST &&
-                lost[above - 1] == LOST) {
-                add_edge(&tallies[thing[i]].lost, x, y);
-            }
-            if (slot->foreground[i] != 0) {
-                add_edge(&tallies[thing_beside(stage, slot->depth, i)].gained, x, y);
-            }
+    bool is_enough = false;
+    for (int32_t i = grid->width; (i = rlf_kernel_next_mark(lost, i, grid->count)) < grid->count;
+         i++) {
+        int32_t x = i % grid->width, above = i - grid->width;
+        if (x > 0 && lost[i - 1] == LOST && lost[above] == LOST && lost[above - 1] == LOST) {
+            edge_tally *edge = &tallies[thing[i]].lost;
+            add_edge(edge, x, i / grid->width);
+            is_enough = is_enough || edge->count >= LEAST_EDGE;
+        }
+    }
+    return is_enough;
+}
+
+/* What came beside them. */
+static void count_gained(const rlf_reconstruct *stage, const rlf_slot *slot, tally *tallies)
+{
+    const rlf_grid *grid = &stage->grid;
+    const uint8_t *front = slot->foreground;
+    for (int32_t i = grid->width; (i = rlf_kernel_next_mark(front, i, grid->count)) < grid->count;
+         i++) {
+        int32_t x = i % grid->width;
+        if (x > 0) {
+            add_edge(&tallies[thing_beside(stage, slot->depth, i)].gained, x, i / grid->width);
         }
     }
 }
@@ -294,7 +309,9 @@ void rlf_depart_find(rlf_reconstruct *stage, rlf_slot *slot)
         return;
     }
     count_things(stage, slot, tallies);
-    count_edges(stage, slot, tallies);
+    if (count_lost(stage, tallies)) {
+        count_gained(stage, slot, tallies);
+    }
     for (int32_t k = 1; k <= RLF_PIECES; k++) {
         departed[k] = has_departed(stage, &tallies[k]);
         depart->is_urgent = depart->is_urgent || departed[k];
