@@ -102,6 +102,8 @@ typedef struct rlf_depart {
     uint8_t *thing; /* plane: of which of the background's things; 0 = of none */
     float *depth;   /* plane: of it as it stood */
     uint8_t *left;  /* plane: 1 where the mean is of something that moves: no background */
+    rlf_rect extent[RLF_PIECES + 1]; /* of each thing, from 1 ... */
+    int32_t size[RLF_PIECES + 1];    /* ... and its pixels */
     bool is_urgent; /* something has left in this frame */
 } rlf_depart;
 

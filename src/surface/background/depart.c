@@ -17,6 +17,7 @@
 
 enum {
     LOST = 1,
+    RISEN = 2,
     LEAST_EDGE = 12,  /* pixels that went, and that came, at its edges ... */
     EDGE_SHARE = 12,  /* ... and of the width and height of its rectangle one of so many */
     MOST_UNLIKE = 8,  /* times as many of one as of the other */
@@ -38,11 +39,35 @@ typedef struct edge_tally {
 } edge_tally;
 
 typedef struct tally {
-    rlf_rect window;
     edge_tally lost, gained;
-    int32_t seen, risen, fresh;
+    int32_t risen, fresh;
     float way, square, step; /* of what has risen, along its normals; in this frame */
 } tally;
+
+static void widen(rlf_rect *w, int32_t x, int32_t y)
+{
+    w->x0 = x < w->x0 ? x : w->x0;
+    w->x1 = x + 1 > w->x1 ? x + 1 : w->x1;
+    w->y0 = y < w->y0 ? y : w->y0;
+    w->y1 = y + 1;
+}
+
+/* Extent and size of each thing. */
+static void measure_things(const rlf_grid *grid, rlf_depart *depart)
+{
+    for (int32_t k = 0; k <= RLF_PIECES; k++) {
+        depart->extent[k] = (rlf_rect){grid->width, grid->height, 0, 0};
+        depart->size[k] = 0;
+    }
+    for (int32_t y = 0; y < grid->height; y++) {
+        const uint8_t *row = depart->thing + (ptrdiff_t)y * grid->width;
+        int32_t x = rlf_kernel_next_mark(row, 0, grid->width);
+        for (; x < grid->width; x = rlf_kernel_next_mark(row, x + 1, grid->width)) {
+            widen(&depart->extent[row[x]], x, y);
+            depart->size[row[x]]++;
+        }
+    }
+}
 
 void rlf_depart_take(rlf_reconstruct *stage)
 {
@@ -50,6 +75,7 @@ void rlf_depart_take(rlf_reconstruct *stage)
     size_t n = (size_t)stage->grid.count;
     memcpy(depart->thing, stage->background.thick.piece, n);
     memcpy(depart->depth, stage->background.thick.depth, n * sizeof *depart->depth);
+    measure_things(&stage->grid, depart);
 }
 
 /* What has left shows what is there now, be it nearer or farther by a little. */
@@ -94,33 +120,18 @@ static float way_from(const rlf_reconstruct *stage, const rlf_sheet *sheet, int3
     return (from - to) * facing;
 }
 
-static void add_pixel(const rlf_reconstruct *stage, const rlf_slot *slot, int32_t i, tally *t)
+static void add_risen(const rlf_reconstruct *stage, const rlf_slot *slot, int32_t i, tally *t)
 {
-    const rlf_depart *depart = &stage->background.depart;
-    float z = slot->depth[i], off = z - depart->depth[i];
+    float z = slot->depth[i], stood = stage->background.depart.depth[i];
     const rlf_slot *before = stage->previous;
-    t->seen++;
-    if (off > (float)stage->def.foreground_min_m && off > rlf_background_gate(&stage->def, z)) {
-        stage->work.mask[0][i] = LOST; /* the first is the least that the gate may be */
+    float way = way_from(stage, rlf_sheet_newest(stage), i, stood, z);
+    t->risen++;
+    t->fresh += before->foreground[i] == 0;
+    t->way += way;
+    t->square += way * way;
+    if (before->depth[i] > 0.0f) {
+        t->step += way_from(stage, rlf_sheet_newest(stage), i, before->depth[i], z);
     }
-    if (slot->foreground[i] == RLF_SEEN_FOREGROUND && before != NULL) {
-        float way = way_from(stage, rlf_sheet_newest(stage), i, depart->depth[i], z);
-        t->risen++;
-        t->fresh += before->foreground[i] == 0;
-        t->way += way;
-        t->square += way * way;
-        if (before->depth[i] > 0.0f) {
-            t->step += way_from(stage, rlf_sheet_newest(stage), i, before->depth[i], z);
-        }
-    }
-}
-
-static void widen(rlf_rect *w, int32_t x, int32_t y)
-{
-    w->x0 = x < w->x0 ? x : w->x0;
-    w->x1 = x + 1 > w->x1 ? x + 1 : w->x1;
-    w->y0 = y < w->y0 ? y : w->y0;
-    w->y1 = y + 1;
 }
 
 /* The other thing, from pixel i on in one of four ways, that is as deep; 0: none. Between things
@@ -155,19 +166,36 @@ static uint8_t thing_beside(const rlf_reconstruct *stage, const float *depth, in
     return thing;
 }
 
+/* Marks where a thing may be gone, being seen past by more than the least gate, or has come
+ * nearer. */
+RLF_KERNEL static void mark_row(const float *restrict depth, const float *restrict stood,
+                                const uint8_t *restrict thing, const uint8_t *restrict front,
+                                const uint8_t *restrict reason, float gate, int32_t count,
+                                uint8_t *restrict mark)
+{
+    for (int32_t i = 0; i < count; i++) {
+        int32_t is_seen = (depth[i] > 0.0f) & (thing[i] != 0) & (reason[i] == RLF_REASON_OK);
+        int32_t is_past = depth[i] - stood[i] > gate ? LOST : 0;
+        int32_t is_risen = front[i] == RLF_SEEN_FOREGROUND ? RISEN : 0;
+        mark[i] = (uint8_t)(is_seen != 0 ? is_past | is_risen : 0);
+    }
+}
+
 static void count_things(const rlf_reconstruct *stage, const rlf_slot *slot, tally *tallies)
 {
-    const rlf_grid *grid = &stage->grid;
-    const uint8_t *thing = stage->background.depart.thing;
-    for (int32_t k = 0; k <= RLF_PIECES; k++) {
-        tallies[k] = (tally){.window = {grid->width, grid->height, 0, 0}};
-    }
-    memset(stage->work.mask[0], 0, (size_t)grid->count);
-    for (int32_t i = 0; (i = rlf_kernel_next_mark(thing, i, grid->count)) < grid->count; i++) {
-        if (slot->depth[i] > 0.0f && slot->reason[i] == RLF_REASON_OK) {
-            widen(&tallies[thing[i]].window, i % grid->width, i / grid->width);
-            add_pixel(stage, slot, i, &tallies[thing[i]]);
+    const rlf_depart *depart = &stage->background.depart;
+    int32_t count = stage->grid.count;
+    uint8_t *mark = stage->work.mask[0];
+    mark_row(slot->depth, depart->depth, depart->thing, slot->foreground, slot->reason,
+             (float)stage->def.foreground_min_m, count, mark);
+    for (int32_t i = 0; (i = rlf_kernel_next_mark(mark, i, count)) < count; i++) {
+        float z = slot->depth[i];
+        bool is_lost = (mark[i] & LOST) != 0 &&
+                       z - depart->depth[i] > rlf_background_gate(&stage->def, z);
+        if ((mark[i] & RISEN) != 0 && stage->previous != NULL) {
+            add_risen(stage, slot, i, &tallies[depart->thing[i]]);
         }
+        mark[i] = is_lost ? LOST : 0;
     }
 }
 
@@ -211,30 +239,30 @@ static void count_gained(const rlf_reconstruct *stage, const rlf_slot *slot, tal
 }
 
 /* From the middle of what went to the middle of what came, in widths and heights of the thing. */
-static float way_aside(const tally *t)
+static float way_aside(const tally *t, const rlf_rect *extent)
 {
     float lost = (float)t->lost.count, gained = (float)t->gained.count;
     float x = (float)t->gained.x / gained - (float)t->lost.x / lost;
     float y = (float)t->gained.y / gained - (float)t->lost.y / lost;
-    return rlf_kernel_abs(x) / (float)(t->window.x1 - t->window.x0) +
-           rlf_kernel_abs(y) / (float)(t->window.y1 - t->window.y0);
+    return rlf_kernel_abs(x) / (float)(extent->x1 - extent->x0) +
+           rlf_kernel_abs(y) / (float)(extent->y1 - extent->y0);
 }
 
 /* A thing that moves loses at one side as much as it gains at the other. Who walks by gains on one
  * side, or all round, and noise loses all round. */
-static bool went_aside(const tally *t)
+static bool went_aside(const tally *t, const rlf_rect *extent)
 {
-    int32_t round = t->window.x1 - t->window.x0 + t->window.y1 - t->window.y0;
+    int32_t round = extent->x1 - extent->x0 + extent->y1 - extent->y0;
     int32_t least = round / EDGE_SHARE > LEAST_EDGE ? round / EDGE_SHARE : LEAST_EDGE;
     int32_t lost = t->lost.count, gained = t->gained.count;
     return lost >= least && gained >= least && lost <= MOST_UNLIKE * gained &&
-           gained <= MOST_UNLIKE * lost && way_aside(t) > opposite;
+           gained <= MOST_UNLIKE * lost && way_aside(t, extent) > opposite;
 }
 
-static bool came_nearer(const rlf_reconstruct *stage, const tally *t)
+static bool came_nearer(const rlf_reconstruct *stage, const tally *t, int32_t size)
 {
     float n = (float)t->risen;
-    if (t->risen < LEAST_RISEN || n < risen_share * (float)t->seen ||
+    if (t->risen < LEAST_RISEN || n < risen_share * (float)size ||
         (float)t->fresh < risen_share * n) {
         return false;
     }
@@ -243,12 +271,13 @@ static bool came_nearer(const rlf_reconstruct *stage, const tally *t)
     return mean > 0.0f && mean < farthest_m && variance < most * most && t->step > slowest * t->way;
 }
 
-static bool has_departed(const rlf_reconstruct *stage, const tally *t)
+static bool has_departed(const rlf_reconstruct *stage, const tally *t, int32_t k)
 {
-    const rlf_rect *w = &t->window;
-    bool is_room =
-        t->seen == 0 || (w->x1 - w->x0) * (w->y1 - w->y0) > stage->grid.count / IMAGE_SHARE;
-    return !is_room && (went_aside(t) || came_nearer(stage, t));
+    const rlf_depart *depart = &stage->background.depart;
+    const rlf_rect *e = &depart->extent[k];
+    bool is_room = (e->x1 - e->x0) * (e->y1 - e->y0) > stage->grid.count / IMAGE_SHARE;
+    return depart->size[k] > 0 && !is_room &&
+           (went_aside(t, e) || came_nearer(stage, t, depart->size[k]));
 }
 
 static void leave(rlf_reconstruct *stage, rlf_slot *slot, int32_t i)
@@ -302,7 +331,7 @@ static void leave_all(rlf_reconstruct *stage, rlf_slot *slot, const uint8_t *dep
 void rlf_depart_find(rlf_reconstruct *stage, rlf_slot *slot)
 {
     rlf_depart *depart = &stage->background.depart;
-    tally tallies[RLF_PIECES + 1];
+    tally tallies[RLF_PIECES + 1] = {0};
     uint8_t departed[RLF_PIECES + 1] = {0};
     depart->is_urgent = false;
     if (depart->thing == NULL || rlf_sheet_newest(stage) == NULL) {
@@ -313,7 +342,7 @@ void rlf_depart_find(rlf_reconstruct *stage, rlf_slot *slot)
         count_gained(stage, slot, tallies);
     }
     for (int32_t k = 1; k <= RLF_PIECES; k++) {
-        departed[k] = has_departed(stage, &tallies[k]);
+        departed[k] = has_departed(stage, &tallies[k], k);
         depart->is_urgent = depart->is_urgent || departed[k];
     }
     if (depart->is_urgent) {
