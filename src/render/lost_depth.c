@@ -24,17 +24,13 @@
 
 #define MARGIN_M 0.1f /* bodies so near to what is behind them may be hidden by it */
 
-enum { NOTHING_SEEN = 255 };
-
-static const int32_t ways[LOST_DEPTH_WAYS][2] = {{-1, 0}, {0, -1}, {-1, -1}, {1, -1},
-                                                 {1, 0},  {0, 1},  {1, 1},   {-1, 1}};
-
 /* ---- create --------------------------------------------------------------------------------- */
 
 rlf_result lost_depth_create(const rlf_registration *registration, const rlf_camera *depth,
-                             const rlf_pose *T_picture_depth, lost_depth *out)
+                             const rlf_pose *T_picture_depth, rlf_pool *pool, lost_depth *out)
 {
     memset(out, 0, sizeof(*out));
+    out->pool = pool;
     out->width = registration->width;
     out->height = registration->height;
     out->focal = (float)depth->fx;
@@ -50,7 +46,8 @@ rlf_result lost_depth_create(const rlf_registration *registration, const rlf_cam
     out->near_z = rlf_alloc_array(pixels, sizeof(float));
     out->nats = rlf_alloc_array(pixels, sizeof(float));
     out->colors = rlf_alloc(4 * pixels);
-    has_all = has_all && out->colors != NULL;
+    out->nearest = rlf_alloc_array((size_t)out->rows, sizeof(float));
+    has_all = has_all && out->colors != NULL && out->nearest != NULL;
     out->cells = rlf_alloc((size_t)out->columns * (size_t)out->rows);
     out->body_near =
         rlf_alloc_array((size_t)out->columns * (size_t)out->rows, sizeof(*out->body_near));
@@ -76,56 +73,9 @@ void lost_depth_destroy(lost_depth *l)
     rlf_free(l->cells);
     rlf_free(l->colors);
     rlf_free(l->body_near);
+    rlf_free(l->nearest);
     clean_plate_destroy(&l->plate);
     memset(l, 0, sizeof(*l));
-}
-
-/* ---- the next seen pixels ------------------------------------------------------------------- */
-
-/* One row from the one before it, whose pixel x + dx is next. */
-RLF_KERNEL static void step_row(const uint8_t *restrict reason, const uint8_t *restrict before,
-                                int32_t dx, int32_t width, uint8_t *restrict out)
-{
-    const int32_t first = dx < 0 ? 1 : 0;
-    const int32_t last = dx > 0 ? width - 1 : width;
-    for (int32_t x = first; x < last; x++) {
-        const uint8_t more = (uint8_t)(before[x + dx] + (before[x + dx] < NOTHING_SEEN ? 1 : 0));
-        out[x] = reason[x] == RLF_REASON_OK ? 0 : more;
-    }
-    const int32_t edge = dx < 0 ? 0 : width - 1;
-    if (dx != 0) {
-        out[edge] = reason[edge] == RLF_REASON_OK ? 0 : NOTHING_SEEN;
-    }
-}
-
-static void step_along(const uint8_t *reason, int32_t dx, int32_t width, uint8_t *out)
-{
-    int32_t away = NOTHING_SEEN;
-    for (int32_t k = 0; k < width; k++) {
-        const int32_t x = dx < 0 ? k : width - 1 - k;
-        away = reason[x] == RLF_REASON_OK ? 0 : (away < NOTHING_SEEN ? away + 1 : away);
-        out[x] = (uint8_t)away;
-    }
-}
-
-static void find_ways(lost_depth *l, const uint8_t *reason, uint8_t *nothing)
-{
-    const int32_t width = l->width;
-    memset(nothing, NOTHING_SEEN, (size_t)width);
-    for (int k = 0; k < LOST_DEPTH_WAYS; k++) {
-        const int32_t dy = ways[k][1];
-        const uint8_t *before = nothing;
-        for (int32_t n = 0; n < l->height; n++) {
-            const ptrdiff_t row = (ptrdiff_t)(dy > 0 ? l->height - 1 - n : n) * width;
-            uint8_t *out = l->away[k] + row;
-            if (dy == 0) {
-                step_along(reason + row, ways[k][0], width, out);
-            } else {
-                step_row(reason + row, before, ways[k][0], width, out);
-            }
-            before = out;
-        }
-    }
 }
 
 /* ---- what is around a pixel ----------------------------------------------------------------- */
@@ -136,7 +86,6 @@ typedef struct pass {
     const rlf_image_rgba8 *color; /* data NULL = none */
     const rlf_surface *surface;
     float *depth;
-    float nearest; /* of what was put into depth */
 } pass;
 
 /* A seen pixel. */
@@ -161,7 +110,7 @@ static int32_t rims_of(const lost_depth *l, int32_t x, int32_t y)
     static const int inward[4] = {4, 5, 0, 1};
     int32_t rims = 0;
     for (int k = 0; k < 4; k++) {
-        const bool is_rim = to_border[k] < RIM && l->away[outward[k]][i] == NOTHING_SEEN &&
+        const bool is_rim = to_border[k] < RIM && l->away[outward[k]][i] == LOST_DEPTH_NOTHING &&
                             to_border[k] + l->away[inward[k]][i] <= RIM;
         rims |= is_rim ? 1 << k : 0;
     }
@@ -233,10 +182,10 @@ static around look_around(const pass *p, int32_t x, int32_t y)
     around a = {.count = 0};
     for (int k = 0; k < LOST_DEPTH_WAYS; k++) {
         const int32_t away = l->away[k][i];
-        const int32_t border = steps_to_border(l, x, y, ways[k]);
-        const int32_t step = ways[k][1] * l->width + ways[k][0];
-        if (away >= NOTHING_SEEN) {
-            a.missing += stays_in_rim(rims, ways[k]) ? 0 : 1;
+        const int32_t border = steps_to_border(l, x, y, lost_depth_way[k]);
+        const int32_t step = lost_depth_way[k][1] * l->width + lost_depth_way[k][0];
+        if (away >= LOST_DEPTH_NOTHING) {
+            a.missing += stays_in_rim(rims, lost_depth_way[k]) ? 0 : 1;
             continue;
         }
         hit h = {.index = i + away * step, .away = (float)away};
@@ -370,7 +319,7 @@ static float evidence(const pass *p, int32_t i, const around *a, float near_z, f
 
 /* ---- passes --------------------------------------------------------------------------------- */
 
-static void settle(pass *p, int32_t x, int32_t y)
+static void settle(const pass *p, int32_t x, int32_t y)
 {
     const int32_t i = y * p->l->width + x;
     const float before = p->depth[i];
@@ -394,7 +343,8 @@ static void settle(pass *p, int32_t x, int32_t y)
     p->l->near_z[i] = near_z;
     p->l->nats[i] = nats;
     p->depth[i] = nats > 0.0f ? near_z : far_z;
-    p->nearest = near_z < p->nearest ? near_z : p->nearest;
+    float *nearest = &p->l->nearest[y / CELL];
+    *nearest = near_z < *nearest ? near_z : *nearest;
 }
 
 /* Nats for the near side of a pixel, from all around it: seen ones of that side, or farther ones,
@@ -421,11 +371,26 @@ static float mean_nats(const pass *p, int32_t x, int32_t y, float middle)
     return sum;
 }
 
-/* Calls `visit` for every lost pixel of the cells that are needed. */
-static void for_lost(pass *p, void (*visit)(pass *p, int32_t x, int32_t y))
+/* Specks of a few pixels go the way of what is around them. */
+static void vote(const pass *p, int32_t x, int32_t y)
+{
+    lost_depth *l = p->l;
+    const int32_t i = y * l->width + x;
+    if (l->far_z[i] < 0.0f || l->nats[i] >= TOLD || l->nats[i] <= -TOLD) {
+        return;
+    }
+    const float far_inverse = l->far_z[i] > 0.0f ? 1.0f / l->far_z[i] : 0.0f;
+    const float middle = 0.5f * (1.0f / l->near_z[i] + far_inverse);
+    p->depth[i] = mean_nats(p, x, y, middle) > 0.0f ? l->near_z[i] : l->far_z[i];
+}
+
+/* Calls `visit` for every lost pixel of the cells that are needed, in rows of cells. */
+static void for_lost(const pass *p, int32_t begin, int32_t end,
+                     void (*visit)(const pass *p, int32_t x, int32_t y))
 {
     const lost_depth *l = p->l;
-    for (int32_t y = 0; y < l->height; y++) {
+    const int32_t last = end * CELL < l->height ? end * CELL : l->height;
+    for (int32_t y = begin * CELL; y < last; y++) {
         const uint8_t *cells = l->cells + y / CELL * l->columns;
         const uint8_t *reason = p->surface->reason + (ptrdiff_t)y * l->width;
         int32_t x = rlf_kernel_next_mark(reason, 0, l->width);
@@ -437,17 +402,16 @@ static void for_lost(pass *p, void (*visit)(pass *p, int32_t x, int32_t y))
     }
 }
 
-/* Specks of a few pixels go the way of what is around them. */
-static void vote(pass *p, int32_t x, int32_t y)
+static void settle_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
-    lost_depth *l = p->l;
-    const int32_t i = y * l->width + x;
-    if (l->far_z[i] < 0.0f || l->nats[i] >= TOLD || l->nats[i] <= -TOLD) {
-        return;
-    }
-    const float far_inverse = l->far_z[i] > 0.0f ? 1.0f / l->far_z[i] : 0.0f;
-    const float middle = 0.5f * (1.0f / l->near_z[i] + far_inverse);
-    p->depth[i] = mean_nats(p, x, y, middle) > 0.0f ? l->near_z[i] : l->far_z[i];
+    (void)worker;
+    for_lost(context, begin, end, settle);
+}
+
+static void vote_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    (void)worker;
+    for_lost(context, begin, end, vote);
 }
 
 static bool is_in_window(const real_windows *windows, const float at[2])
@@ -507,15 +471,21 @@ float lost_depth_update(lost_depth *l, rlf_registration *registration,
     if (needed->count == 0) {
         return nearest;
     }
-    pass p = {l, registration, &input->frame->color, surface, depth, nearest};
+    pass p = {l, registration, &input->frame->color, surface, depth};
     mark_cells(&p, bodies, needed);
-    find_ways(l, surface->reason, (uint8_t *)l->nats);
+    lost_depth_find_ways(l, surface->reason);
     for (int32_t y = 0; y < l->height && p.color->data != NULL; y++) {
         if (memchr(l->cells + y / CELL * l->columns, 1, (size_t)l->columns) != NULL) {
             find_colors(&p, registration, y);
         }
     }
-    for_lost(&p, settle);
-    for_lost(&p, vote);
-    return p.nearest;
+    for (int32_t row = 0; row < l->rows; row++) {
+        l->nearest[row] = nearest;
+    }
+    rlf_parallel_for(l->pool, l->rows, 1, settle_rows, &p);
+    rlf_parallel_for(l->pool, l->rows, 1, vote_rows, &p);
+    for (int32_t row = 0; row < l->rows; row++) {
+        nearest = l->nearest[row] < nearest ? l->nearest[row] : nearest;
+    }
+    return nearest;
 }

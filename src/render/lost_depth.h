@@ -10,15 +10,22 @@
 #define RLF_RENDER_LOST_DEPTH_H
 
 #include "camera/register.h"
+#include "relief/base.h"
 #include "relief/compositor.h"
 #include "render/clean_plate.h"
 #include "render/real_windows.h"
 
 #define LOST_DEPTH_WAYS 8
+#define LOST_DEPTH_NOTHING 255 /* no seen pixel is met */
+
+/* Columns and rows per step. */
+static const int32_t lost_depth_way[LOST_DEPTH_WAYS][2] = {{-1, 0}, {0, -1}, {-1, -1}, {1, -1},
+                                                           {1, 0},  {0, 1},  {1, 1},   {-1, 1}};
 
 typedef struct lost_depth {
     int32_t width, height; /* of the depth grid */
     float focal;           /* grid pixels per metre at one metre */
+    rlf_pool *pool;        /* borrowed; NULL = none */
     clean_plate plate;
     uint8_t *away[LOST_DEPTH_WAYS]; /* pixels to the next seen one; 255 = none. Work memory, as: */
     float *near_z, *far_z, *nats;   /* both sides, and what speaks for the near one; far_z 0 =
@@ -26,12 +33,14 @@ typedef struct lost_depth {
     uint8_t *cells;                 /* of 8 x 8 pixels: 1 = a picture's window needs it */
     uint8_t *colors;  /* [pixel][4]: RGB where it is seen, 1; 0 = not in the picture */
     float *body_near; /* of a cell: no body is nearer; SILHOUETTE_FAR = none is there */
+    float *nearest;   /* of a row of cells: least depth that was settled */
     int32_t columns, rows;
 } lost_depth;
 
-/* `registration` is of the surface's grid and the picture's camera. RLF_ERROR_MEMORY. */
+/* `registration` is of the surface's grid and the picture's camera; `pool` is borrowed, NULL =
+ * none. RLF_ERROR_MEMORY. */
 rlf_result lost_depth_create(const rlf_registration *registration, const rlf_camera *depth,
-                             const rlf_pose *T_picture_depth, lost_depth *out);
+                             const rlf_pose *T_picture_depth, rlf_pool *pool, lost_depth *out);
 void lost_depth_destroy(lost_depth *l);
 
 /* Settles `depth` ([grid pixel], metres: what the surface shows, else its background) of lost
@@ -41,5 +50,8 @@ void lost_depth_destroy(lost_depth *l);
 float lost_depth_update(lost_depth *l, rlf_registration *registration,
                         const rlf_render_input *input, const silhouette *bodies,
                         const real_windows *needed, float *depth, float nearest);
+
+/* lost_depth_ways.c: fills `away` from a plane of reasons. */
+void lost_depth_find_ways(lost_depth *l, const uint8_t *reason);
 
 #endif

@@ -75,7 +75,8 @@ rlf_result real_depth_create(const rlf_compositor_def *def, const rlf_camera *ca
                                          &out->registration);
     }
     if (result == RLF_OK && !out->uses_frame) {
-        result = lost_depth_create(out->registration, depth, &out->T_picture_depth, &out->lost);
+        result = lost_depth_create(out->registration, depth, &out->T_picture_depth, out->pool,
+                                   &out->lost);
     }
     if (result == RLF_OK) {
         result = real_shade_grid_create(def->grid.width, def->grid.height, &out->seen);

@@ -104,7 +104,7 @@ typedef struct rlf_depart {
     uint8_t *left;  /* plane: 1 where the mean is of something that moves: no background */
     rlf_rect extent[RLF_PIECES + 1]; /* of each thing, from 1 ... */
     int32_t size[RLF_PIECES + 1];    /* ... and its pixels */
-    bool is_urgent; /* something has left in this frame */
+    bool is_urgent;                  /* something has left in this frame */
 } rlf_depart;
 
 /* The background model. AVERAGE: mean holds sums until it is ready. */

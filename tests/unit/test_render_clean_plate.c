@@ -113,8 +113,9 @@ static int set_up(void **state)
     assert_int_equal(rlf_registration_create(&s.depth_camera, s.ray_x, s.ray_y, &s.color_camera,
                                              &s.T_color_depth, &s.registration),
                      RLF_OK);
-    assert_int_equal(lost_depth_create(s.registration, &s.depth_camera, &s.T_color_depth, &s.lost),
-                     RLF_OK);
+    assert_int_equal(
+        lost_depth_create(s.registration, &s.depth_camera, &s.T_color_depth, NULL, &s.lost),
+        RLF_OK);
     s.needed = (real_windows){{{0, 0, COLOR_WIDTH, COLOR_HEIGHT}}, 1};
     paint(false, 1.0, 1.0);
     sense(false);

@@ -116,8 +116,8 @@ static int set_up(void **state)
     assert_int_equal(rlf_registration_create(&s.camera, s.ray_x, s.ray_y, &s.camera,
                                              &s.T_picture_depth, &s.registration),
                      RLF_OK);
-    assert_int_equal(lost_depth_create(s.registration, &s.camera, &s.T_picture_depth, &s.lost),
-                     RLF_OK);
+    assert_int_equal(
+        lost_depth_create(s.registration, &s.camera, &s.T_picture_depth, NULL, &s.lost), RLF_OK);
     assert_int_equal(silhouette_create(&s.camera, &s.camera, NULL, &s.edges), RLF_OK);
     return 0;
 }

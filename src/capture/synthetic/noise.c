@@ -7,7 +7,7 @@
 
 #define AMPLITUDE_THRESHOLD 0.0042f
 #define AMPLITUDE_SIGMA 0.002f
-#define JUMP_SHARE 0.04f        /* of the depth: second difference that counts as a jump */
+#define JUMP_SHARE 0.04f /* of the depth: second difference that counts as a jump */
 
 enum { BLOCK = 64 }; /* pixels worked on together: a share of the width */
 

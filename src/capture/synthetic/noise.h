@@ -15,8 +15,8 @@ typedef struct synth_noise {
     uint32_t seed;
     bool enable;
     bool enable_edge_filter;
-    bool enable_steps;    /* structured light instead of time of flight */
-    float min_mm, max_mm; /* the sensor's range */
+    bool enable_steps;                     /* structured light instead of time of flight */
+    float min_mm, max_mm;                  /* the sensor's range */
     const struct synth_drawn_noise *drawn; /* borrowed: of a sensor drawn at random; NULL else */
 } synth_noise;
 

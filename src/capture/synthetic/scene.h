@@ -55,10 +55,10 @@ typedef struct synth_scene {
     synth_part statics[SYNTH_PART_MAX];
     synth_ball bounds[SYNTH_PART_MAX]; /* of the statics, see synth_scene_bound */
     int32_t static_count;              /* at start */
-    int32_t removed_count; /* so many of the last statics go at removal_time */
+    int32_t removed_count;             /* so many of the last statics go at removal_time */
     synth_part movers[SYNTH_PART_MAX];
     int32_t mover_count;
-    synth_figure person, second; /* the second is in scene "crossing" */
+    synth_figure person, second;       /* the second is in scene "crossing" */
     const struct synth_random *random; /* borrowed: a room drawn at random; NULL in the others */
 } synth_scene;
 

@@ -2,7 +2,7 @@
 #include "capture/synthetic/shadow.h"
 #include "kernel/kernel.h"
 
-#define NEAREST 0.1 /* metres before the camera */
+#define NEAREST 0.1     /* metres before the camera */
 #define LEAST_DOWN 0.02 /* of a ray: what is flatter does not reach the floor of a room */
 
 /* What some points project to. */

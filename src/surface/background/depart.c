@@ -190,8 +190,8 @@ static void count_things(const rlf_reconstruct *stage, const rlf_slot *slot, tal
              (float)stage->def.foreground_min_m, count, mark);
     for (int32_t i = 0; (i = rlf_kernel_next_mark(mark, i, count)) < count; i++) {
         float z = slot->depth[i];
-        bool is_lost = (mark[i] & LOST) != 0 &&
-                       z - depart->depth[i] > rlf_background_gate(&stage->def, z);
+        bool is_lost =
+            (mark[i] & LOST) != 0 && z - depart->depth[i] > rlf_background_gate(&stage->def, z);
         if ((mark[i] & RISEN) != 0 && stage->previous != NULL) {
             add_risen(stage, slot, i, &tallies[depart->thing[i]]);
         }
