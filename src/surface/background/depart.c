@@ -27,6 +27,7 @@ enum {
     LEFT_WEIGHT = 2   /* samples: a mean of one has just been replaced */
 };
 
+static const float own_sigmas = 1.2533141f; /* per mean deviation: sqrt(pi / 2) */
 static const float opposite = 0.7f;    /* of the thing's extent: from one side to the other */
 static const float beside_m = 0.03f;   /* from pixel to pixel of one thing */
 static const float risen_share = 0.3f; /* of a thing's pixels, and of them in this frame */
@@ -181,6 +182,15 @@ RLF_KERNEL static void mark_row(const float *restrict depth, const float *restri
     }
 }
 
+/* Seen past by more than the sensor's noise, or the pixel's own where that is larger. */
+static bool is_past(const rlf_reconstruct *stage, float z, int32_t i)
+{
+    const rlf_background *background = &stage->background;
+    float off = z - background->depart.depth[i];
+    float own = own_sigmas * (float)stage->def.foreground_sigmas * background->deviation[i];
+    return off > rlf_background_gate(&stage->def, z) && off > own;
+}
+
 static void count_things(const rlf_reconstruct *stage, const rlf_slot *slot, tally *tallies)
 {
     const rlf_depart *depart = &stage->background.depart;
@@ -189,9 +199,7 @@ static void count_things(const rlf_reconstruct *stage, const rlf_slot *slot, tal
     mark_row(slot->depth, depart->depth, depart->thing, slot->foreground, slot->reason,
              (float)stage->def.foreground_min_m, count, mark);
     for (int32_t i = 0; (i = rlf_kernel_next_mark(mark, i, count)) < count; i++) {
-        float z = slot->depth[i];
-        bool is_lost =
-            (mark[i] & LOST) != 0 && z - depart->depth[i] > rlf_background_gate(&stage->def, z);
+        bool is_lost = (mark[i] & LOST) != 0 && is_past(stage, slot->depth[i], i);
         if ((mark[i] & RISEN) != 0 && stage->previous != NULL) {
             add_risen(stage, slot, i, &tallies[depart->thing[i]]);
         }
