@@ -28,9 +28,9 @@ enum {
 };
 
 static const float own_sigmas = 1.2533141f; /* per mean deviation: sqrt(pi / 2) */
-static const float opposite = 0.7f;    /* of the thing's extent: from one side to the other */
-static const float beside_m = 0.03f;   /* from pixel to pixel of one thing */
-static const float risen_share = 0.3f; /* of a thing's pixels, and of them in this frame */
+static const float opposite = 0.7f;         /* of the thing's extent: from one side to the other */
+static const float beside_m = 0.03f;        /* from pixel to pixel of one thing */
+static const float risen_share = 0.3f;      /* of a thing's pixels, and of them in this frame */
 static const float even = 0.3f;        /* of the mean way along the normals: standard deviation */
 static const float slowest = 0.05f;    /* of that way: in this frame */
 static const float farthest_m = 0.07f; /* in one frame */
