@@ -17,7 +17,7 @@ static rlf_result next_kept(void *self, rlf_frame *out)
 rlf_result eval_room_open(const char *source, int32_t lost, rlf_profile profile, int32_t oracle,
                           eval_room *out)
 {
-    static const rlf_source_methods methods = {next_kept, NULL, NULL, NULL};
+    static const rlf_source_methods methods = {.next = next_kept};
     memset(out, 0, sizeof(*out));
     out->lost = lost;
     rlf_result result = rlf_open_source(source, NULL, &out->truth);

@@ -175,7 +175,7 @@ static rlf_result open_all(start_room *room)
         room->still[i] = (float)room_depth(&room->def, room->rays[i]);
     }
     smooth_noise(&room->random, room->common);
-    static const rlf_source_methods methods = {next, NULL, NULL, NULL};
+    static const rlf_source_methods methods = {.next = next};
     return rlf_source_create_custom(&methods, &room->info, room, &room->source);
 }
 

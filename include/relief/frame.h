@@ -34,9 +34,24 @@ typedef struct rlf_rig {
     rlf_depth_noise noise; /* of the raw depth */
 } rlf_rig;
 
+/* What a source says about a frame, bits of rlf_frame.flags. */
+typedef enum rlf_frame_flag {
+    /* The driver gave mirrored pictures. The planes here are not: x is right. */
+    RLF_FRAME_UNMIRRORED = 1,
+    /* The device or the file had warped one picture into the other's camera already. */
+    RLF_FRAME_ALIGNED = 2,
+    /* The frame does not follow the one before it: a seek, a loop, a camera that came back. What
+     * was learnt from earlier frames may not hold. */
+    RLF_FRAME_DISCONTINUITY = 4
+} rlf_frame_flag;
+
 typedef struct rlf_frame {
     uint64_t sequence; /* counts up by one per frame that the device made; gaps are lost frames */
     int64_t time_ns;   /* device time, nanoseconds; increases from frame to frame */
+    int64_t host_time_ns;  /* rlf_clock_ns() when the frame reached this machine; 0 = unknown, as in
+                              files */
+    int64_t color_time_ns; /* device time of the colour picture; 0 = as time_ns */
+    uint32_t flags;        /* rlf_frame_flag */
     const rlf_rig *rig;
 
     /* Depth along z (not along the ray), rig->depth.width x height. Exactly one of the two is set.
@@ -48,6 +63,14 @@ typedef struct rlf_frame {
 
     /* Colour, rig->color.width x height; data NULL when this frame has none. */
     rlf_image_rgba8 color;
+
+    /* How sure the device is of each depth pixel, 255 = sure; NULL = it does not say. */
+    const uint8_t *confidence;
+    ptrdiff_t confidence_stride; /* bytes */
+
+    /* Where the device or the file says the depth camera was; the world is the source's own. */
+    bool has_pose;
+    rlf_pose T_world_camera;
 } rlf_frame;
 
 #ifdef __cplusplus

@@ -16,7 +16,21 @@ typedef struct rlf_source_info {
     int64_t frame_count;      /* -1 = unknown or endless */
     double frames_per_second; /* nominal; 0 = unknown */
     bool is_live;             /* true: newest frame wins; false: lock-step, every frame */
+    char device[128];         /* driver, model and serial number, or the format; "" = unknown */
+    bool can_seek;            /* rlf_source_seek works */
 } rlf_source_info;
+
+/* What became of a source's frames so far. */
+typedef struct rlf_source_status {
+    uint64_t given;    /* frames that rlf_source_next gave */
+    uint64_t lost;     /* that the device made and nobody got: gaps in its count or its times */
+    uint64_t late;     /* live: overtaken by a newer one before they were asked for */
+    uint64_t doubled;  /* came twice and were given once */
+    uint64_t unpaired; /* given without colour, since no picture was near in time */
+    uint64_t damaged;  /* could not be decoded */
+    bool is_connected; /* false: the device is gone; the source goes on looking for it */
+    double silence_s;  /* live: seconds since the last frame arrived; 0 for files */
+} rlf_source_status;
 
 /* What only a simulator knows, for the frame just given. All planes have the depth camera's size,
  * row-major without padding, in the depth camera's frame. */
@@ -53,6 +67,10 @@ typedef struct rlf_source_methods {
     const rlf_truth *(*truth)(void *self);
     /* Frees the context. NULL = nothing to free. */
     void (*destroy)(void *self);
+    /* Makes frame `index` (from 0) the next one. NULL = cannot. */
+    rlf_result (*seek)(void *self, int64_t index);
+    /* Fills *out, which is zero but for is_connected. NULL = only `given` is known. */
+    void (*status)(void *self, rlf_source_status *out);
 } rlf_source_methods;
 
 /* Makes a source of caller's methods. Copies both structs. On failure `self` is not destroyed. */
@@ -70,6 +88,11 @@ RLF_API const rlf_source_info *rlf_source_get_info(const rlf_source *source);
 RLF_API rlf_result rlf_source_next(rlf_source *source, rlf_frame *out_frame);
 /* RLF_ERROR_UNSUPPORTED when the source cannot start again. */
 RLF_API rlf_result rlf_source_restart(rlf_source *source);
+/* Makes frame `index` (0 .. frame_count - 1) the next one. RLF_ERROR_UNSUPPORTED when the source
+ * cannot, RLF_ERROR_INVALID when there is no such frame. */
+RLF_API rlf_result rlf_source_seek(rlf_source *source, int64_t index);
+/* What became of the frames so far. Thread-safety: as next. */
+RLF_API rlf_source_status rlf_source_get_status(const rlf_source *source);
 /* Truth of the last frame, or NULL when the source knows none. Valid until the next call of next.
  * Thread-safety: as next; the first call for a frame may make the planes. */
 RLF_API const rlf_truth *rlf_source_get_truth(rlf_source *source);

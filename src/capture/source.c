@@ -5,6 +5,7 @@ struct rlf_source {
     rlf_source_methods methods;
     rlf_source_info info;
     void *self;
+    uint64_t given;
 };
 
 static rlf_result check_info(const rlf_source_info *info)
@@ -66,6 +67,7 @@ rlf_result rlf_source_next(rlf_source *source, rlf_frame *out_frame)
     frame.rig = &source->info.rig;
     if (result == RLF_OK) {
         *out_frame = frame;
+        source->given++;
     }
     return result;
 }
@@ -80,6 +82,36 @@ rlf_result rlf_source_restart(rlf_source *source)
                         source->info.name);
     }
     return source->methods.restart(source->self);
+}
+
+rlf_result rlf_source_seek(rlf_source *source, int64_t index)
+{
+    if (!RLF_ASSERT(source != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    const rlf_source_info *info = &source->info;
+    if (source->methods.seek == NULL) {
+        return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: this source has no position to go to",
+                        info->name);
+    }
+    if (index < 0 || (info->frame_count >= 0 && index >= info->frame_count)) {
+        return rlf_fail(RLF_ERROR_INVALID, "%s: there is no frame %lld: use 0 to %lld", info->name,
+                        (long long)index, (long long)info->frame_count - 1);
+    }
+    return source->methods.seek(source->self, index);
+}
+
+rlf_source_status rlf_source_get_status(const rlf_source *source)
+{
+    rlf_source_status status = {.is_connected = true};
+    if (!RLF_ASSERT(source != NULL)) {
+        return status;
+    }
+    if (source->methods.status != NULL) {
+        source->methods.status(source->self, &status);
+    }
+    status.given = source->given;
+    return status;
 }
 
 const rlf_truth *rlf_source_get_truth(rlf_source *source)

@@ -19,7 +19,7 @@ set(public_render base math image camera frame surface snapshot model compositor
 set(public_render_gl ${public_render} gl)
 set(public_pipeline base math image camera frame surface snapshot source synthetic reconstruct world query
     model compositor known pipeline relief)
-set(public_io ${public_pipeline} io)
+set(public_io ${public_pipeline} io backend)
 
 set(internal_base "")
 set(internal_math base)
@@ -46,6 +46,7 @@ set(header_snapshot math)
 set(header_model image math)
 set(header_source frame)
 set(header_synthetic source)
+set(header_backend source)
 set(header_reconstruct surface)
 set(header_world snapshot)
 set(header_query world)
@@ -68,6 +69,7 @@ foreach(module base math image camera known pipeline io)
   set(owner_${module} ${module})
 endforeach()
 set(owner_gl render_gl)
+set(owner_backend io)
 
 # The core library knows the C library and POSIX threads, nothing else; base alone asks the system
 # for large pages and the sanitizer to guard memory, each where there is one.

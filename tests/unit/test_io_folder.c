@@ -8,7 +8,8 @@
 #include <cmocka.h>
 
 #include "relief/io.h"
-#include "io/frame_list.h"
+#include "io/folder/frame_list.h"
+#include "io/source/pairing.h"
 #include "io_support.h"
 #include "jpeg_sample.h"
 
@@ -138,12 +139,15 @@ static void times_that_go_back_are_sorted_with_a_warning(void **state)
     rlf_set_log(NULL, NULL);
     assert_int_equal(log.count, 1);
     assert_non_null(strstr(log.last, "depth.txt:2"));
-    const int values[3] = {200, 100, 300}; /* equal times keep their order */
+    const int values[2] = {200, 300}; /* of equal times the first of the file */
     rlf_frame frame;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 2; i++) {
         assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
         assert_int_equal(frame.depth_u16[0], values[i]);
     }
+    const rlf_source_status status = rlf_source_get_status(source);
+    assert_int_equal(status.given, 2);
+    assert_int_equal(status.doubled, 1);
     rlf_source_destroy(&source);
 }
 
@@ -301,9 +305,9 @@ static void sources_that_cannot_be_opened(void **state)
     } cases[] = {
         {"", RLF_ERROR_INVALID, "empty", "synthetic:room"},
         {"/no/such/place", RLF_ERROR_IO, "no such file or folder", "synthetic:room"},
-        {"openni2:0", RLF_ERROR_UNSUPPORTED, "\"openni2:\"", "synthetic:NAME"},
-        {"ros2:/camera", RLF_ERROR_UNSUPPORTED, "\"ros2:\"", "synthetic:NAME"},
-        {"realsense:", RLF_ERROR_UNSUPPORTED, "\"realsense:\"", "synthetic:NAME"},
+        {"openni2:0", RLF_ERROR_UNSUPPORTED, "\"openni2:\"", "relief sources"},
+        {"ros2:/camera", RLF_ERROR_UNSUPPORTED, "\"ros2:\"", "relief sources"},
+        {"realsense:", RLF_ERROR_UNSUPPORTED, "\"realsense:\"", "relief sources"},
         {test_path("file.bag"), RLF_ERROR_UNSUPPORTED, "is a file", "give the folder"},
     };
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
@@ -314,19 +318,17 @@ static void sources_that_cannot_be_opened(void **state)
     }
 }
 
-static void nearest_entry_of_a_list(void **state)
+static void nearest_of_times(void **state)
 {
     (void)state;
-    io_list_entry entries[3] = {{.time_ns = 10}, {.time_ns = 20}, {.time_ns = 40}};
-    io_frame_list list = {.entries = entries, .count = 3};
+    const int64_t list[3] = {10, 20, 40};
     const int64_t times[7] = {0, 10, 14, 15, 16, 30, 45};
     const int32_t nearest[7] = {0, 0, 0, 0, 1, 1, 2};
     for (int i = 0; i < 7; i++) {
-        assert_int_equal(io_frame_list_nearest(&list, times[i], 10), nearest[i]);
+        assert_int_equal(io_time_nearest(list, 3, times[i], 10), nearest[i]);
     }
-    assert_int_equal(io_frame_list_nearest(&list, 51, 10), -1);
-    list.count = 0;
-    assert_int_equal(io_frame_list_nearest(&list, 0, INT64_MAX - 1), -1);
+    assert_int_equal(io_time_nearest(list, 3, 51, 10), -1);
+    assert_int_equal(io_time_nearest(list, 0, 0, INT64_MAX - 1), -1);
 }
 
 typedef struct clip {
@@ -426,7 +428,7 @@ int main(void)
         CLIP_TEST(clip_without_color),
         CLIP_TEST(half_of_the_color_is_none),
         CLIP_TEST(sources_that_cannot_be_opened),
-        cmocka_unit_test(nearest_entry_of_a_list),
+        cmocka_unit_test(nearest_of_times),
         cmocka_unit_test(real_clips_play_to_their_end),
         cmocka_unit_test(real_calibration_is_read),
     };

@@ -56,7 +56,10 @@ static void frames_come_in_order_with_the_rig(void **state)
     (void)state;
     counter c = {.limit = 3};
     rlf_source_info info = make_info();
-    rlf_source_methods methods = {counter_next, counter_restart, counter_truth, counter_destroy};
+    rlf_source_methods methods = {.next = counter_next,
+                                  .restart = counter_restart,
+                                  .truth = counter_truth,
+                                  .destroy = counter_destroy};
     rlf_source *source = NULL;
     assert_int_equal(rlf_source_create_custom(&methods, &info, &c, &source), RLF_OK);
     assert_string_equal(rlf_source_get_info(source)->name, "counter");
@@ -102,7 +105,7 @@ static void a_bad_camera_is_named_and_self_is_kept(void **state)
     (void)state;
     counter c = {.limit = 3};
     rlf_source_info info = make_info();
-    rlf_source_methods methods = {counter_next, NULL, NULL, counter_destroy};
+    rlf_source_methods methods = {.next = counter_next, .destroy = counter_destroy};
     rlf_source *source = NULL;
     info.rig.depth.fx = 0.0;
     assert_int_equal(rlf_source_create_custom(&methods, &info, &c, &source), RLF_ERROR_INVALID);

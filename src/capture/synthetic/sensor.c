@@ -227,8 +227,10 @@ rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source **out)
     if (result != RLF_OK) {
         return result;
     }
-    static const rlf_source_methods methods = {sensor_next, sensor_restart, sensor_truth,
-                                               sensor_destroy};
+    static const rlf_source_methods methods = {.next = sensor_next,
+                                               .restart = sensor_restart,
+                                               .truth = sensor_truth,
+                                               .destroy = sensor_destroy};
     result = rlf_source_create_custom(&methods, &info, sensor, out);
     if (result != RLF_OK) {
         sensor_destroy(sensor);

@@ -1,15 +1,13 @@
 /* Frames from a folder in the TUM RGB-D layout: depth.txt, rgb.txt, camera.json and pictures. */
 #define _POSIX_C_SOURCE 200809L
 #include "relief/io.h"
-#include "io/frame_list.h"
+#include "io/folder/frame_list.h"
 #include "io/picture.h"
+#include "io/source/backends.h"
+#include "io/source/clip.h"
 
 #include <string.h>
 #include <sys/stat.h>
-
-/* Colour farther in time than this shows something else than the depth (one and a half frames at
- * 30 per second; TUM clips differ by up to 20 ms). */
-#define COLOR_GAP_MAX_NS 50000000
 
 typedef struct folder {
     char path[IO_PATH_MAX];
@@ -17,11 +15,7 @@ typedef struct folder {
     double units_per_metre;
     io_frame_list depth_list;
     io_frame_list color_list;
-    int32_t next;          /* into depth_list */
-    int32_t shown_color;   /* index whose picture is in `color`; -1 = none */
-    uint16_t *depth;       /* rig.depth.width x height */
-    rlf_image_rgba8 color; /* rig.color.width x height */
-    io_buffer file;        /* of the picture being decoded */
+    io_buffer file; /* of the picture being decoded */
 } folder;
 
 /* Reads the picture that an entry of `list_name` names. */
@@ -38,79 +32,33 @@ static rlf_result read_entry(folder *self, const io_list_entry *entry, const cha
     return io_file_read(path, IO_PICTURE_FILE_MAX, cure, &self->file, out);
 }
 
-static rlf_result read_depth(folder *self, const io_list_entry *entry)
+static rlf_result read_depth(void *context, int32_t index, void *out)
 {
+    folder *self = context;
     char path[IO_PATH_MAX];
     io_bytes file;
-    rlf_result result = read_entry(self, entry, "depth.txt", &file, path);
+    rlf_result result =
+        read_entry(self, &self->depth_list.entries[index], "depth.txt", &file, path);
     if (result != RLF_OK) {
         return result;
     }
     io_picture picture = {
-        .width = self->rig.depth.width, .height = self->rig.depth.height, .data = self->depth};
+        .width = self->rig.depth.width, .height = self->rig.depth.height, .data = out};
     return io_png_decode_u16(&file, &picture);
 }
 
-static rlf_result read_color(folder *self, int32_t index)
+static rlf_result read_color(void *context, int32_t index, const rlf_image_rgba8 *out)
 {
-    if (index == self->shown_color) {
-        return RLF_OK;
-    }
-    self->shown_color = -1; /* a failed decoding may leave half a picture */
+    folder *self = context;
     char path[IO_PATH_MAX];
     io_bytes file;
     rlf_result result = read_entry(self, &self->color_list.entries[index], "rgb.txt", &file, path);
     if (result != RLF_OK) {
         return result;
     }
-    io_picture picture = {.width = self->color.width,
-                          .height = self->color.height,
-                          .data = self->color.data,
-                          .is_opaque = true};
-    result = io_picture_decode(&file, &picture);
-    if (result == RLF_OK) {
-        self->shown_color = index;
-    }
-    return result;
-}
-
-static rlf_result folder_next(void *context, rlf_frame *out)
-{
-    folder *self = context;
-    if (self->next >= self->depth_list.count) {
-        return RLF_END;
-    }
-    /* A frame that fails is passed over by the next call: the caller decides whether to go on. */
-    int32_t index = self->next++;
-    const io_list_entry *entry = &self->depth_list.entries[index];
-    rlf_result result = read_depth(self, entry);
-    int32_t color_index = -1;
-    if (result == RLF_OK && self->rig.has_color) {
-        color_index = io_frame_list_nearest(&self->color_list, entry->time_ns, COLOR_GAP_MAX_NS);
-    }
-    if (color_index >= 0) {
-        result = read_color(self, color_index);
-    }
-    if (result != RLF_OK) {
-        return result;
-    }
-    memset(out, 0, sizeof(*out));
-    out->sequence = (uint64_t)index;
-    out->time_ns = entry->time_ns;
-    out->depth_u16 = self->depth;
-    out->depth_stride = (ptrdiff_t)self->rig.depth.width * 2;
-    out->depth_units_per_metre = self->units_per_metre;
-    if (color_index >= 0) {
-        out->color = self->color;
-    }
-    return RLF_OK;
-}
-
-static rlf_result folder_restart(void *context)
-{
-    folder *self = context;
-    self->next = 0;
-    return RLF_OK;
+    io_picture picture = {
+        .width = out->width, .height = out->height, .data = out->data, .is_opaque = true};
+    return io_picture_decode(&file, &picture);
 }
 
 static void folder_destroy(void *context)
@@ -119,8 +67,6 @@ static void folder_destroy(void *context)
     io_frame_list_free(&self->depth_list);
     io_frame_list_free(&self->color_list);
     io_buffer_free(&self->file);
-    rlf_free(self->depth);
-    rlf_free(self->color.data);
     rlf_free(self);
 }
 
@@ -150,10 +96,6 @@ static rlf_result open_depth(folder *self)
                         self->path);
     }
     size_t pixels = (size_t)self->rig.depth.width * (size_t)self->rig.depth.height;
-    self->depth = rlf_alloc_array(pixels, sizeof(self->depth[0]));
-    if (self->depth == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
     /* Pictures rarely come out larger than their pixels: one reservation serves the whole clip. */
     return io_buffer_reserve(&self->file, pixels * 2 + 65536);
 }
@@ -185,37 +127,66 @@ static rlf_result open_color(folder *self)
                 self->path);
     }
     self->rig.has_color = has_pictures && self->rig.has_color;
-    if (!self->rig.has_color) {
-        return RLF_OK;
-    }
-    int32_t width = self->rig.color.width;
-    int32_t height = self->rig.color.height;
-    uint8_t *data = rlf_alloc_array((size_t)width * (size_t)height, 4);
-    self->color = (rlf_image_rgba8){data, width, height, (ptrdiff_t)width * 4};
-    return data != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+    return RLF_OK;
 }
 
-static rlf_result open_all(folder *self, rlf_source_info *info)
+static rlf_result load_rig(const rlf_address *address, folder *self)
 {
+    if (address->rig != NULL) {
+        self->rig = *address->rig;
+        self->units_per_metre = address->units_per_metre;
+        return RLF_OK;
+    }
     char camera_path[IO_PATH_MAX];
     rlf_result result = io_path_join(self->path, "camera.json", camera_path);
-    if (result == RLF_OK) {
-        result = rlf_rig_load(camera_path, &self->rig, &self->units_per_metre);
+    return result == RLF_OK ? rlf_rig_load(camera_path, &self->rig, &self->units_per_metre)
+                            : result;
+}
+
+/* New array of a list's times. */
+static int64_t *times_of(const io_frame_list *list)
+{
+    int64_t *times = rlf_alloc_array((size_t)list->count, sizeof(times[0]));
+    for (int32_t i = 0; times != NULL && i < list->count; i++) {
+        times[i] = list->entries[i].time_ns;
     }
+    return times;
+}
+
+static rlf_result open_clip(folder *self, rlf_opened *out)
+{
+    int64_t *depth_times = times_of(&self->depth_list);
+    int64_t *color_times = times_of(&self->color_list);
+    rlf_result result = RLF_ERROR_MEMORY;
+    if (depth_times != NULL && color_times != NULL) {
+        const io_clip_def def = {.name = self->path,
+                                 .rig = self->rig,
+                                 .units_per_metre = self->units_per_metre,
+                                 .depth_times = depth_times,
+                                 .color_times = color_times,
+                                 .depth_count = self->depth_list.count,
+                                 .color_count = self->color_list.count,
+                                 .read_depth = read_depth,
+                                 .read_color = read_color,
+                                 .destroy = folder_destroy,
+                                 .self = self};
+        result = io_clip_open(&def, out);
+    }
+    rlf_free(depth_times);
+    rlf_free(color_times);
+    return result;
+}
+
+static rlf_result open_all(const rlf_address *address, folder *self, rlf_opened *out)
+{
+    rlf_result result = load_rig(address, self);
     if (result == RLF_OK) {
         result = open_depth(self);
     }
     if (result == RLF_OK) {
         result = open_color(self);
     }
-    if (result == RLF_OK) {
-        result = io_frame_list_rate(&self->depth_list, &info->frames_per_second);
-    }
-    snprintf(info->name, sizeof(info->name), "%.127s", self->path);
-    info->rig = self->rig;
-    info->frame_count = self->depth_list.count;
-    info->is_live = false;
-    return result;
+    return result == RLF_OK ? open_clip(self, out) : result;
 }
 
 static rlf_result check_is_folder(const char *path)
@@ -240,12 +211,9 @@ static rlf_result check_is_folder(const char *path)
     return RLF_OK;
 }
 
-rlf_result rlf_folder_source_open(const char *path, rlf_source **out)
+static rlf_result folder_open(const rlf_address *address, rlf_opened *out)
 {
-    if (!RLF_ASSERT(path != NULL && out != NULL)) {
-        return RLF_ERROR_INVALID;
-    }
-    *out = NULL;
+    const char *path = address->place;
     rlf_result result = check_is_folder(path);
     if (result != RLF_OK) {
         return result;
@@ -255,16 +223,38 @@ rlf_result rlf_folder_source_open(const char *path, rlf_source **out)
         return RLF_ERROR_MEMORY;
     }
     memcpy(self->path, path, strlen(path) + 1);
-    self->shown_color = -1;
-    rlf_source_info info = {0};
-    result = open_all(self, &info);
-    if (result == RLF_OK) {
-        static const rlf_source_methods methods = {
-            .next = folder_next, .restart = folder_restart, .destroy = folder_destroy};
-        result = rlf_source_create_custom(&methods, &info, self, out);
-    }
+    result = open_all(address, self, out);
     if (result != RLF_OK) {
         folder_destroy(self);
+        return result;
     }
-    return result;
+    snprintf(out->info.device, sizeof(out->info.device), "folder in the TUM layout");
+    return RLF_OK;
+}
+
+/* Any folder: what is missing in it is told when it is opened. */
+static bool is_folder(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
+}
+
+const rlf_backend io_backend_folder = {
+    .version = RLF_BACKEND_VERSION,
+    .scheme = "folder",
+    .summary = "a clip: depth.txt, rgb.txt, PNG/JPEG, camera.json (TUM layout)",
+    .recognises = is_folder,
+    .open = folder_open,
+};
+
+rlf_result rlf_folder_source_open(const char *path, rlf_source **out)
+{
+    if (!RLF_ASSERT(path != NULL && out != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    *out = NULL;
+    const rlf_address address = {.source = path, .place = path};
+    rlf_opened opened;
+    rlf_result result = folder_open(&address, &opened);
+    return result == RLF_OK ? io_source_create(&opened, out) : result;
 }

@@ -1,5 +1,5 @@
 /* Lists of timestamped files. */
-#include "io/frame_list.h"
+#include "io/folder/frame_list.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -145,54 +145,4 @@ void io_frame_list_free(io_frame_list *list)
     rlf_free(list->entries);
     rlf_free(list->text);
     memset(list, 0, sizeof(*list));
-}
-
-int32_t io_frame_list_nearest(const io_frame_list *list, int64_t time_ns, int64_t max_gap_ns)
-{
-    /* First entry at or after time_ns. */
-    int32_t low = 0;
-    int32_t high = list->count;
-    while (low < high) {
-        int32_t middle = low + (high - low) / 2;
-        if (list->entries[middle].time_ns < time_ns) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    int64_t after = low < list->count ? list->entries[low].time_ns - time_ns : INT64_MAX;
-    int64_t before = low > 0 ? time_ns - list->entries[low - 1].time_ns : INT64_MAX;
-    int64_t gap = before <= after ? before : after;
-    if (gap > max_gap_ns) {
-        return -1;
-    }
-    return before <= after ? low - 1 : low;
-}
-
-static int compare_times(const void *a, const void *b)
-{
-    const int64_t *x = a;
-    const int64_t *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
-rlf_result io_frame_list_rate(const io_frame_list *list, double *out_frames_per_second)
-{
-    *out_frames_per_second = 0.0;
-    if (list->count < 2) {
-        return RLF_OK;
-    }
-    int32_t count = list->count - 1;
-    int64_t *intervals = rlf_alloc_array((size_t)count, sizeof(intervals[0]));
-    if (intervals == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
-    for (int32_t i = 0; i < count; i++) {
-        intervals[i] = list->entries[i + 1].time_ns - list->entries[i].time_ns;
-    }
-    qsort(intervals, (size_t)count, sizeof(intervals[0]), compare_times);
-    int64_t median = intervals[count / 2];
-    rlf_free(intervals);
-    *out_frames_per_second = median > 0 ? (double)NS_PER_S / (double)median : 0.0;
-    return RLF_OK;
 }

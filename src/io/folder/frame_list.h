@@ -24,11 +24,4 @@ typedef struct io_frame_list {
 rlf_result io_frame_list_parse(const io_bytes *file, io_frame_list *out);
 void io_frame_list_free(io_frame_list *list);
 
-/* Index of the entry nearest to time_ns (the earlier of two equally near), or -1 when the list is
- * empty or the nearest is more than max_gap_ns away. */
-int32_t io_frame_list_nearest(const io_frame_list *list, int64_t time_ns, int64_t max_gap_ns);
-
-/* Frames per second from the median interval; 0 when it cannot be told. */
-rlf_result io_frame_list_rate(const io_frame_list *list, double *out_frames_per_second);
-
 #endif

@@ -1,0 +1,22 @@
+/* The back ends of this build. */
+#include "io/source/backends.h"
+
+/* In the order in which they are asked for a file: a folder is asked last, as it takes any. */
+static const rlf_backend *const built_in[] = {
+    &io_backend_folder,
+};
+#define BUILT_IN_COUNT ((int32_t)(sizeof(built_in) / sizeof(built_in[0])))
+
+const rlf_backend *io_backend_at(int32_t index)
+{
+    return index >= 0 && index < BUILT_IN_COUNT ? built_in[index] : NULL;
+}
+
+static const io_backend_absent absent[] = {
+    {0},
+};
+
+const io_backend_absent *io_backend_absent_at(int32_t index)
+{
+    return index >= 0 && absent[index].scheme != NULL ? &absent[index] : NULL;
+}

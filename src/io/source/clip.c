@@ -1,0 +1,266 @@
+/* A recorded clip as a source. */
+#include "io/source/clip.h"
+
+#include "io/source/pairing.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Colour farther in time than this shows something else than the depth (one and a half frames at
+ * 30 per second; TUM clips differ by up to 20 ms). */
+#define COLOR_GAP_MAX_NS 50000000
+
+/* A depth frame that is given: where it is, and the colour picture that goes with it. */
+typedef struct clip_frame {
+    int32_t depth, color; /* indices into the reader's times; color -1 = none */
+    int64_t time_ns, color_time_ns;
+    int64_t sequence; /* with the frames that the camera lost before it */
+    rlf_pose pose;
+    bool has_pose;
+} clip_frame;
+
+typedef struct clip {
+    io_clip_def def;
+    char name[4096];
+    clip_frame *frames;
+    int32_t count, next;
+    bool is_continued; /* the next frame follows the one given last */
+    int32_t shown_color;
+    void *depth;
+    rlf_image_rgba8 color;
+    uint64_t doubled, damaged, unpaired, lost;
+} clip;
+
+static rlf_result read_color(clip *c, int32_t index)
+{
+    if (index == c->shown_color) {
+        return RLF_OK;
+    }
+    c->shown_color = -1; /* a failed decoding may leave half a picture */
+    rlf_result result = c->def.read_color(c->def.self, index, &c->color);
+    if (result == RLF_OK) {
+        c->shown_color = index;
+    }
+    return result;
+}
+
+static void fill_frame(const clip *c, const clip_frame *f, rlf_frame *out)
+{
+    const bool is_float = c->def.units_per_metre <= 0.0;
+    memset(out, 0, sizeof(*out));
+    out->sequence = (uint64_t)f->sequence;
+    out->time_ns = f->time_ns;
+    out->color_time_ns = f->color >= 0 ? f->color_time_ns : 0;
+    out->flags = c->def.flags | (c->is_continued ? 0u : (uint32_t)RLF_FRAME_DISCONTINUITY);
+    out->depth_f32 = is_float ? c->depth : NULL;
+    out->depth_u16 = is_float ? NULL : c->depth;
+    out->depth_stride = (ptrdiff_t)c->def.rig.depth.width * (is_float ? 4 : 2);
+    out->depth_units_per_metre = c->def.units_per_metre;
+    out->color = f->color >= 0 ? c->color : (rlf_image_rgba8){0};
+    out->has_pose = f->has_pose;
+    out->T_world_camera = f->pose;
+}
+
+static void count_given(clip *c, const clip_frame *f)
+{
+    if (c->is_continued && f > c->frames) {
+        c->lost += (uint64_t)(f->sequence - f[-1].sequence - 1);
+    }
+    c->unpaired += c->def.color_count > 0 && f->color < 0 ? 1 : 0;
+}
+
+static rlf_result clip_next(void *self, rlf_frame *out)
+{
+    clip *c = self;
+    while (c->next < c->count) {
+        /* A frame that fails is passed over by the next call: the caller may go on. */
+        const clip_frame *f = &c->frames[c->next++];
+        rlf_result result = c->def.read_depth(c->def.self, f->depth, c->depth);
+        if (result == RLF_OK && f->color >= 0) {
+            result = read_color(c, f->color);
+        }
+        if (result == RLF_OK) {
+            count_given(c, f);
+            fill_frame(c, f, out);
+            c->is_continued = true;
+            return RLF_OK;
+        }
+        c->damaged++;
+        if (!c->def.skips_damaged || result == RLF_ERROR_MEMORY) {
+            return result;
+        }
+        if (c->damaged == 1) {
+            rlf_log(RLF_LOG_WARNING, "%s; frames that cannot be read are left out",
+                    rlf_error_text());
+        }
+    }
+    return RLF_END;
+}
+
+static rlf_result clip_seek(void *self, int64_t index)
+{
+    clip *c = self;
+    c->next = (int32_t)index;
+    c->is_continued = index == 0;
+    return RLF_OK;
+}
+
+static rlf_result clip_restart(void *self)
+{
+    return clip_seek(self, 0);
+}
+
+static void clip_status(void *self, rlf_source_status *out)
+{
+    const clip *c = self;
+    out->lost = c->lost;
+    out->doubled = c->doubled;
+    out->unpaired = c->unpaired;
+    out->damaged = c->damaged;
+}
+
+static void free_clip(clip *c)
+{
+    rlf_free(c->frames);
+    rlf_free(c->depth);
+    rlf_free(c->color.data);
+    rlf_free(c);
+}
+
+static void clip_destroy(void *self)
+{
+    clip *c = self;
+    if (c->def.destroy != NULL) {
+        c->def.destroy(c->def.self);
+    }
+    free_clip(c);
+}
+
+/* Of two frames with the same time the first is given. */
+static void list_frames(clip *c, int64_t interval_ns)
+{
+    const io_clip_def *d = &c->def;
+    const int64_t gap_max = d->color_gap_max_ns > 0 ? d->color_gap_max_ns : COLOR_GAP_MAX_NS;
+    int64_t sequence = 0;
+    for (int32_t i = 0; i < d->depth_count; i++) {
+        const int64_t time_ns = d->depth_times[i];
+        if (c->count > 0 && time_ns == c->frames[c->count - 1].time_ns) {
+            c->doubled++;
+            continue;
+        }
+        if (c->count > 0) {
+            sequence += 1 + io_time_lost(time_ns - c->frames[c->count - 1].time_ns, interval_ns);
+        }
+        clip_frame *f = &c->frames[c->count++];
+        f->depth = i;
+        f->time_ns = time_ns;
+        f->sequence = sequence;
+        f->color = io_time_nearest(d->color_times, d->color_count, time_ns, gap_max);
+        f->color_time_ns = f->color >= 0 ? d->color_times[f->color] : 0;
+        f->pose = d->poses != NULL ? d->poses[i] : rlf_pose_identity();
+        const rlf_quat q = f->pose.q;
+        const double square = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+        f->has_pose =
+            d->poses != NULL && fabs(square - 1.0) < 1e-3 && rlf_vec3_is_finite(f->pose.p);
+    }
+    /* The reader's arrays were the caller's. */
+    c->def.depth_times = NULL;
+    c->def.color_times = NULL;
+    c->def.poses = NULL;
+}
+
+static rlf_result allocate(clip *c)
+{
+    const rlf_rig *rig = &c->def.rig;
+    const size_t depth_size = c->def.units_per_metre > 0.0 ? 2 : 4;
+    c->frames = rlf_alloc_array((size_t)c->def.depth_count, sizeof(c->frames[0]));
+    c->depth = rlf_alloc_array((size_t)rig->depth.width * (size_t)rig->depth.height, depth_size);
+    if (c->frames == NULL || c->depth == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    if (rig->has_color) {
+        const int32_t width = rig->color.width;
+        const int32_t height = rig->color.height;
+        uint8_t *data = rlf_alloc_array((size_t)width * (size_t)height, 4);
+        c->color = (rlf_image_rgba8){data, width, height, (ptrdiff_t)width * 4};
+        return data != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+    }
+    return RLF_OK;
+}
+
+static rlf_result interval_of(const int64_t *times, int32_t count, int64_t *out_ns)
+{
+    int64_t *scratch = rlf_alloc_array((size_t)count, sizeof(scratch[0]));
+    *out_ns = scratch != NULL ? io_time_interval(times, count, scratch) : 0;
+    rlf_free(scratch);
+    return scratch != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+}
+
+rlf_result io_clip_rate(const int64_t *times, int32_t count, double *out_frames_per_second)
+{
+    int64_t interval_ns = 0;
+    rlf_result result = interval_of(times, count, &interval_ns);
+    *out_frames_per_second = interval_ns > 0 ? 1e9 / (double)interval_ns : 0.0;
+    return result;
+}
+
+static void describe(const clip *c, int64_t interval_ns, rlf_opened *out)
+{
+    static const rlf_source_methods methods = {.next = clip_next,
+                                               .restart = clip_restart,
+                                               .destroy = clip_destroy,
+                                               .seek = clip_seek,
+                                               .status = clip_status};
+    memset(out, 0, sizeof(*out));
+    out->methods = methods;
+    snprintf(out->info.name, sizeof(out->info.name), "%.127s", c->def.name);
+    out->info.rig = c->def.rig;
+    out->info.frame_count = c->count;
+    out->info.frames_per_second = interval_ns > 0 ? 1e9 / (double)interval_ns : 0.0;
+    out->info.can_seek = true;
+}
+
+static rlf_result check_rig(const io_clip_def *def)
+{
+    rlf_result result = rlf_camera_check(&def->rig.depth, def->name);
+    if (result == RLF_OK && def->rig.has_color && def->color_count > 0) {
+        result = rlf_camera_check(&def->rig.color, def->name);
+    }
+    return result;
+}
+
+rlf_result io_clip_open(const io_clip_def *def, rlf_opened *out)
+{
+    if (def->depth_count < 1) {
+        return rlf_fail(RLF_ERROR_FORMAT, "%s: holds no depth pictures", def->name);
+    }
+    rlf_result result = check_rig(def);
+    if (result != RLF_OK) {
+        return result;
+    }
+    clip *c = rlf_alloc(sizeof(*c));
+    if (c == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    c->def = *def;
+    c->def.rig.has_color = def->rig.has_color && def->color_count > 0;
+    c->def.color_count = c->def.rig.has_color ? def->color_count : 0;
+    snprintf(c->name, sizeof(c->name), "%s", def->name);
+    c->def.name = c->name;
+    c->shown_color = -1;
+    c->is_continued = true;
+    int64_t interval_ns = 0;
+    result = allocate(c);
+    if (result == RLF_OK) {
+        result = interval_of(def->depth_times, def->depth_count, &interval_ns);
+    }
+    if (result != RLF_OK) {
+        free_clip(c);
+        return result;
+    }
+    list_frames(c, interval_ns);
+    describe(c, interval_ns, out);
+    out->self = c;
+    return RLF_OK;
+}

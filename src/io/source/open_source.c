@@ -1,0 +1,92 @@
+/* From the SOURCE of a command line to a source. */
+#include "io/source/backends.h"
+#include "io/source/find_backend.h"
+#include "relief/io.h"
+
+#include <string.h>
+
+static rlf_result open_synthetic(const char *source, rlf_pool *pool, rlf_source **out)
+{
+    rlf_synthetic_def def = rlf_synthetic_def_default();
+    rlf_result result = rlf_synthetic_parse(source, &def);
+    if (result != RLF_OK) {
+        return result;
+    }
+    def.pool = pool;
+    return rlf_synthetic_create(&def, out);
+}
+
+/* Whether the back end's list of keys, words with blanks between, has this one. */
+static bool has_key(const char *list, const char *key)
+{
+    size_t length = strlen(key);
+    for (const char *word = list; word != NULL && *word != '\0'; word += strspn(word, " ")) {
+        size_t size = strcspn(word, " ");
+        if (size == length && strncmp(word, key, size) == 0) {
+            return true;
+        }
+        word += size;
+    }
+    return false;
+}
+
+/* The keys left are the back end's own. */
+static rlf_result give_keys(const rlf_backend *backend, const io_address *parts,
+                            rlf_address *address)
+{
+    for (int32_t i = 0; i < parts->key_count; i++) {
+        if (!has_key(backend->keys, parts->keys[i]) || i >= RLF_ADDRESS_KEYS_MAX) {
+            return rlf_fail(RLF_ERROR_INVALID, "%s: there is no key \"%s\" here: use camera%s%s",
+                            address->source, parts->keys[i], backend->keys != NULL ? " " : "",
+                            backend->keys != NULL ? backend->keys : "");
+        }
+        address->keys[i] = parts->keys[i];
+        address->values[i] = parts->values[i];
+        address->key_count = i + 1;
+    }
+    return RLF_OK;
+}
+
+static rlf_result open_with(const rlf_backend *backend, const char *source, io_address *parts,
+                            rlf_source **out)
+{
+    rlf_address address = {.source = source, .place = parts->place};
+    rlf_rig rig;
+    rlf_result result = RLF_OK;
+    const char *camera_path = io_address_take(parts, "camera");
+    if (camera_path != NULL) {
+        result = rlf_rig_load(camera_path, &rig, &address.units_per_metre);
+        address.rig = &rig;
+    }
+    if (result == RLF_OK) {
+        result = give_keys(backend, parts, &address);
+    }
+    rlf_opened opened;
+    memset(&opened, 0, sizeof(opened));
+    if (result == RLF_OK) {
+        result = backend->open(&address, &opened);
+    }
+    return result == RLF_OK ? io_source_create(&opened, out) : result;
+}
+
+rlf_result rlf_open_source(const char *source, rlf_pool *pool, rlf_source **out)
+{
+    if (!RLF_ASSERT(source != NULL && out != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    *out = NULL;
+    if (source[0] == '\0') {
+        return rlf_fail(RLF_ERROR_INVALID, "the SOURCE is empty: give synthetic:room or a folder "
+                                           "with depth.txt and camera.json");
+    }
+    if (strncmp(source, "synthetic:", strlen("synthetic:")) == 0) {
+        return open_synthetic(source, pool, out);
+    }
+    io_address parts;
+    const rlf_backend *backend = NULL;
+    rlf_result result = io_address_parse(source, &parts);
+    if (result == RLF_OK) {
+        result = io_backend_find(source, &parts, &backend);
+    }
+    return result == RLF_OK ? open_with(backend, source, &parts, out) : result;
+}

@@ -1,0 +1,19 @@
+/* Pairs of depth and colour pictures by their times. */
+#ifndef RLF_IO_SOURCE_PAIRING_H
+#define RLF_IO_SOURCE_PAIRING_H
+
+#include "relief/base.h"
+
+/* Index of the time nearest to time_ns (the earlier of two equally near), or -1 when there is none
+ * or the nearest is more than max_gap_ns away. `times` does not decrease. */
+int32_t io_time_nearest(const int64_t *times, int32_t count, int64_t time_ns, int64_t max_gap_ns);
+
+/* Median interval, nanoseconds; 0 when there are fewer than two times. `scratch` has room for
+ * count - 1. */
+int64_t io_time_interval(const int64_t *times, int32_t count, int64_t *scratch);
+
+/* How many frames are missing between two of them that are `gap_ns` apart: 0 up to one and a half
+ * intervals. */
+int64_t io_time_lost(int64_t gap_ns, int64_t interval_ns);
+
+#endif

@@ -1,0 +1,168 @@
+/* A recorded clip as a source: pairs, counts, seeking, damaged frames. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "io/source/address.h"
+#include "io/source/clip.h"
+
+#include <string.h>
+
+#define MS INT64_C(1000000)
+
+typedef struct reader {
+    int32_t damaged; /* index that cannot be read; -1 = none */
+    int32_t destroyed;
+} reader;
+
+static rlf_result read_depth(void *self, int32_t index, void *out)
+{
+    const reader *r = self;
+    if (index == r->damaged) {
+        return rlf_fail(RLF_ERROR_FORMAT, "frame %d: is damaged", (int)index);
+    }
+    ((uint16_t *)out)[0] = (uint16_t)(1000 + index);
+    return RLF_OK;
+}
+
+static rlf_result read_color(void *self, int32_t index, const rlf_image_rgba8 *out)
+{
+    (void)self;
+    out->data[0] = (uint8_t)index;
+    return RLF_OK;
+}
+
+static void destroy(void *self)
+{
+    ((reader *)self)->destroyed++;
+}
+
+static const int64_t depth_times[6] = {0, 33 * MS, 66 * MS, 66 * MS, 165 * MS, 198 * MS};
+static const int64_t color_times[3] = {2 * MS, 60 * MS, 190 * MS};
+
+static rlf_source *open_clip(reader *r, bool skips)
+{
+    io_clip_def def = {.name = "clip",
+                       .units_per_metre = 1000.0,
+                       .depth_times = depth_times,
+                       .color_times = color_times,
+                       .depth_count = 6,
+                       .color_count = 3,
+                       .color_gap_max_ns = 20 * MS,
+                       .skips_damaged = skips,
+                       .read_depth = read_depth,
+                       .read_color = read_color,
+                       .destroy = destroy,
+                       .self = r};
+    def.rig.depth = (rlf_camera){.width = 2, .height = 2, .fx = 1, .fy = 1};
+    def.rig.color = def.rig.depth;
+    def.rig.has_color = true;
+    rlf_opened opened;
+    rlf_source *source = NULL;
+    assert_int_equal(io_clip_open(&def, &opened), RLF_OK);
+    assert_int_equal(rlf_source_create_custom(&opened.methods, &opened.info, opened.self, &source),
+                     RLF_OK);
+    return source;
+}
+
+static void lost_doubled_and_unpaired_frames_are_counted(void **state)
+{
+    (void)state;
+    reader r = {.damaged = -1};
+    rlf_source *source = open_clip(&r, false);
+    const rlf_source_info *info = rlf_source_get_info(source);
+    assert_int_equal(info->frame_count, 5);
+    assert_true(info->frames_per_second > 30.2 && info->frames_per_second < 30.4);
+    const int depth[5] = {1000, 1001, 1002, 1004, 1005};
+    const int color[5] = {0, -1, 1, -1, 2};
+    const uint64_t sequence[5] = {0, 1, 2, 5, 6}; /* two were lost between 66 and 165 ms */
+    rlf_frame frame;
+    for (int i = 0; i < 5; i++) {
+        assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+        assert_int_equal(frame.depth_u16[0], depth[i]);
+        assert_int_equal(frame.sequence, sequence[i]);
+        assert_int_equal(frame.flags, 0);
+        assert_int_equal(frame.color.data != NULL ? frame.color.data[0] : -1, color[i]);
+    }
+    assert_int_equal(rlf_source_next(source, &frame), RLF_END);
+    const rlf_source_status s = rlf_source_get_status(source);
+    assert_int_equal(s.given, 5);
+    assert_int_equal(s.lost, 2);
+    assert_int_equal(s.doubled, 1);
+    assert_int_equal(s.unpaired, 2);
+    assert_true(s.is_connected);
+    rlf_source_destroy(&source);
+    assert_int_equal(r.destroyed, 1);
+}
+
+static void a_seek_says_that_the_frame_does_not_follow(void **state)
+{
+    (void)state;
+    reader r = {.damaged = -1};
+    rlf_source *source = open_clip(&r, false);
+    rlf_frame frame;
+    assert_int_equal(rlf_source_seek(source, 3), RLF_OK);
+    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    assert_int_equal(frame.depth_u16[0], 1004);
+    assert_int_equal(frame.flags, RLF_FRAME_DISCONTINUITY);
+    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    assert_int_equal(frame.flags, 0);
+    assert_int_equal(rlf_source_seek(source, 5), RLF_ERROR_INVALID);
+    assert_int_equal(rlf_source_seek(source, -1), RLF_ERROR_INVALID);
+    rlf_source_destroy(&source);
+}
+
+static void a_damaged_frame_is_told_or_left_out(void **state)
+{
+    (void)state;
+    reader r = {.damaged = 1};
+    rlf_frame frame;
+    rlf_source *source = open_clip(&r, false);
+    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    assert_int_equal(rlf_source_next(source, &frame), RLF_ERROR_FORMAT);
+    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    assert_int_equal(frame.depth_u16[0], 1002);
+    rlf_source_destroy(&source);
+    rlf_set_log(NULL, NULL);
+    source = open_clip(&r, true);
+    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    assert_int_equal(frame.depth_u16[0], 1002);
+    assert_int_equal(rlf_source_get_status(source).damaged, 1);
+    rlf_source_destroy(&source);
+}
+
+static void addresses_are_taken_apart(void **state)
+{
+    (void)state;
+    io_address a;
+    assert_int_equal(io_address_parse("openni2:1d27?mode=640x480&aligned=1", &a), RLF_OK);
+    assert_string_equal(a.scheme, "openni2");
+    assert_string_equal(a.place, "1d27");
+    assert_string_equal(io_address_take(&a, "mode"), "640x480");
+    assert_null(io_address_take(&a, "mode"));
+    assert_int_equal(a.key_count, 1);
+    assert_int_equal(io_address_parse("some/clip.mcap?loop=1", &a), RLF_OK);
+    assert_string_equal(a.scheme, "");
+    assert_string_equal(a.place, "some/clip.mcap");
+    assert_int_equal(io_address_parse("x:?loop", &a), RLF_ERROR_INVALID);
+    assert_int_equal(io_address_parse("x:?=1", &a), RLF_ERROR_INVALID);
+    assert_int_equal(io_address_parse("x:?a=1&a=2", &a), RLF_ERROR_INVALID);
+    char text[IO_ADDRESS_MAX + 8];
+    memset(text, 'x', sizeof(text));
+    text[sizeof(text) - 1] = '\0';
+    assert_int_equal(io_address_parse(text, &a), RLF_ERROR_INVALID);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lost_doubled_and_unpaired_frames_are_counted),
+        cmocka_unit_test(a_seek_says_that_the_frame_does_not_follow),
+        cmocka_unit_test(a_damaged_frame_is_told_or_left_out),
+        cmocka_unit_test(addresses_are_taken_apart),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
