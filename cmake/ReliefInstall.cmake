@@ -116,6 +116,6 @@ if(TARGET relief_app)
   set_target_properties(relief_app PROPERTIES
                         INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   install(TARGETS relief_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/relief)
+  install(DIRECTORY scenes clips DESTINATION ${CMAKE_INSTALL_DATADIR}/relief)
 endif()
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL)
