@@ -1,5 +1,5 @@
 /* MP4 with H.264 through libavcodec and libavformat (FFmpeg 5.1 or later). */
-#include "io/video.h"
+#include "io/video/video.h"
 
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
@@ -7,14 +7,14 @@
 
 #include <string.h>
 
-struct io_mp4 {
+typedef struct io_mp4 {
     io_out_file file; /* names only; libav opens the part file itself */
     AVFormatContext *format;
     AVCodecContext *codec;
     AVStream *stream;
     AVFrame *frame;
     AVPacket *packet;
-};
+} io_mp4;
 
 static rlf_result fail_av(const io_mp4 *mp4, const char *what, int code)
 {
@@ -55,7 +55,7 @@ static void set_quality(AVCodecContext *codec)
         (int64_t)codec->width * codec->height * codec->framerate.num / codec->framerate.den / 4;
 }
 
-static rlf_result open_codec(io_mp4 *mp4, const io_yuv *size, io_rate rate)
+static rlf_result open_codec(io_mp4 *mp4, const io_video_format *format)
 {
     const AVCodec *encoder = find_codec();
     if (encoder == NULL) {
@@ -69,11 +69,11 @@ static rlf_result open_codec(io_mp4 *mp4, const io_yuv *size, io_rate rate)
         return fail_memory(mp4);
     }
     AVCodecContext *codec = mp4->codec;
-    codec->width = size->width;
-    codec->height = size->height;
+    codec->width = format->width;
+    codec->height = format->height;
     codec->pix_fmt = AV_PIX_FMT_YUV420P;
-    codec->framerate = (AVRational){rate.numerator, rate.denominator};
-    codec->time_base = (AVRational){rate.denominator, rate.numerator};
+    codec->framerate = (AVRational){format->rate.numerator, format->rate.denominator};
+    codec->time_base = (AVRational){format->rate.denominator, format->rate.numerator};
     codec->color_range = AVCOL_RANGE_MPEG;
     codec->colorspace = AVCOL_SPC_SMPTE170M;
     codec->color_primaries = AVCOL_PRI_BT709;
@@ -121,7 +121,7 @@ static rlf_result open_file(io_mp4 *mp4)
     return code < 0 ? fail_av(mp4, "cannot be written", code) : RLF_OK;
 }
 
-static rlf_result open_all(io_mp4 *mp4, const char *path, const io_yuv *size, io_rate rate)
+static rlf_result open_all(io_mp4 *mp4, const char *path, const io_video_format *format)
 {
     rlf_result result = io_out_prepare(&mp4->file, path);
     if (result != RLF_OK) {
@@ -137,30 +137,11 @@ static rlf_result open_all(io_mp4 *mp4, const char *path, const io_yuv *size, io
     if (code < 0) {
         return fail_av(mp4, "the installed libavformat cannot write MP4", code);
     }
-    result = open_codec(mp4, size, rate);
+    result = open_codec(mp4, format);
     if (result == RLF_OK) {
         result = open_stream(mp4);
     }
     return result == RLF_OK ? open_file(mp4) : result;
-}
-
-rlf_result io_mp4_open(const char *path, const io_yuv *size, io_rate rate, io_mp4 **out)
-{
-    *out = NULL;
-    io_mp4 *mp4 = rlf_alloc(sizeof(*mp4));
-    if (mp4 == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
-    /* Encoders and muxers chat at the default level; a level that the program chose stays. */
-    if (av_log_get_level() == AV_LOG_INFO) {
-        av_log_set_level(AV_LOG_FATAL);
-    }
-    rlf_result result = open_all(mp4, path, size, rate);
-    if (result != RLF_OK) {
-        return io_mp4_close(&mp4, result);
-    }
-    *out = mp4;
-    return RLF_OK;
 }
 
 /* Sends a picture (NULL: the end) and writes what the encoder has ready. */
@@ -194,8 +175,10 @@ static void copy_plane(const uint8_t *from, int32_t width, int32_t height, uint8
     }
 }
 
-rlf_result io_mp4_write(io_mp4 *mp4, const io_yuv *picture)
+static rlf_result mp4_write(void *self, const io_yuv *picture, const rlf_image_rgba8 *image)
 {
+    (void)image;
+    io_mp4 *mp4 = self;
     AVFrame *frame = mp4->frame;
     /* The encoder may still hold the last picture's buffer. */
     int code = av_frame_make_writable(frame);
@@ -242,18 +225,32 @@ static rlf_result close_file(io_mp4 *mp4, rlf_result result)
     return result;
 }
 
-rlf_result io_mp4_close(io_mp4 **handle, rlf_result result)
+static rlf_result mp4_close(void *self, rlf_result result)
 {
-    io_mp4 *mp4 = *handle;
-    if (mp4 == NULL) {
-        return result;
-    }
+    io_mp4 *mp4 = self;
     result = close_file(mp4, result);
     av_packet_free(&mp4->packet);
     av_frame_free(&mp4->frame);
     avcodec_free_context(&mp4->codec);
     avformat_free_context(mp4->format);
     rlf_free(mp4);
-    *handle = NULL;
     return result;
+}
+
+rlf_result io_mp4_open(const char *path, const io_video_format *format, io_video_sink *out)
+{
+    io_mp4 *mp4 = rlf_alloc(sizeof(*mp4));
+    if (mp4 == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    /* Encoders and muxers chat at the default level; a level that the program chose stays. */
+    if (av_log_get_level() == AV_LOG_INFO) {
+        av_log_set_level(AV_LOG_FATAL);
+    }
+    rlf_result result = open_all(mp4, path, format);
+    if (result != RLF_OK) {
+        return mp4_close(mp4, result);
+    }
+    *out = (io_video_sink){.write = mp4_write, .close = mp4_close, .self = mp4};
+    return RLF_OK;
 }

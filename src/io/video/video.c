@@ -1,18 +1,21 @@
-/* Videos by their name: MP4, or Y4M to a file or to stdout. */
+/* Videos by their name: a file, standard output or a virtual camera. */
+#define _POSIX_C_SOURCE 200809L
 #include "relief/io.h"
-#include "io/video.h"
+#include "io/video/video.h"
 
-#include <errno.h>
 #include <string.h>
+#include <time.h>
 
 #define RATE_MAX 1000.0
+#define NS_PER_S INT64_C(1000000000)
 
 struct rlf_video {
     int32_t width, height; /* of the pictures given, perhaps odd */
     io_yuv yuv;
     rlf_result result; /* the first error; nothing is written after it */
-    io_mp4 *mp4;       /* either this ... */
-    io_out_file y4m;   /* ... or this, with stream stdout for "-" */
+    io_video_sink sink;
+    int64_t period_ns;
+    int64_t due_ns; /* when a virtual camera's next picture is due */
 };
 
 static bool has_ending(const char *path, const char *ending)
@@ -22,58 +25,39 @@ static bool has_ending(const char *path, const char *ending)
     return length > ending_length && strcmp(path + length - ending_length, ending) == 0;
 }
 
-static rlf_result open_y4m(rlf_video *video, const char *path, io_rate rate)
+static bool has_start(const char *path, const char *start)
 {
-    rlf_result result = RLF_OK;
-    if (strcmp(path, "-") == 0) {
-        video->y4m.stream = stdout;
-        video->y4m.is_direct = true;
-        memcpy(video->y4m.path, "stdout", sizeof("stdout"));
-    } else {
-        result = io_out_open(&video->y4m, path);
-    }
-    if (result != RLF_OK) {
-        return result;
-    }
-    char header[128];
-    int length = snprintf(
-        header, sizeof(header),
-        "YUV4MPEG2 W%d H%d F%d:%d Ip A1:1 C420jpeg XYSCSS=420JPEG XCOLORRANGE=LIMITED\n",
-        (int)video->yuv.width, (int)video->yuv.height, (int)rate.numerator, (int)rate.denominator);
-    return io_out_write(&video->y4m, header, (size_t)length);
-}
-
-static rlf_result close_y4m(rlf_video *video)
-{
-    if (video->y4m.stream != stdout) {
-        return io_out_close(&video->y4m, video->result);
-    }
-    if (fflush(stdout) != 0 && video->result == RLF_OK) {
-        return rlf_fail(RLF_ERROR_IO, "stdout: cannot be written: %s: check what reads the pipe",
-                        strerror(errno));
-    }
-    return video->result;
+    return strncmp(path, start, strlen(start)) == 0;
 }
 
 static rlf_result open_by_name(rlf_video *video, const char *path, double frames_per_second)
 {
-    io_rate rate = io_rate_from(frames_per_second);
+    io_video_format format = {video->yuv.width, video->yuv.height, io_rate_from(frames_per_second)};
     if (strcmp(path, "-") == 0 || has_ending(path, ".y4m")) {
-        return open_y4m(video, path, rate);
+        return io_y4m_open(path, &format, &video->sink);
     }
     if (has_ending(path, ".mp4")) {
-        return io_mp4_open(path, &video->yuv, rate, &video->mp4);
+        return io_mp4_open(path, &format, &video->sink);
+    }
+    if (has_start(path, "/dev/video")) {
+        return io_v4l2_open(path, &format, &video->sink);
+    }
+    if (has_start(path, "pipewire:")) {
+        format.width = video->width;
+        format.height = video->height;
+        return io_pipewire_open(path + strlen("pipewire:"), &format, &video->sink);
     }
     return rlf_fail(RLF_ERROR_INVALID,
                     "%s: is not a known kind of video: end its name in .mp4 or .y4m, or give - for "
-                    "Y4M on stdout",
+                    "Y4M on stdout, pipewire:NAME or /dev/videoN for a virtual camera",
                     path);
 }
 
 static rlf_result finish(rlf_video *video)
 {
-    rlf_result result =
-        video->mp4 != NULL ? io_mp4_close(&video->mp4, video->result) : close_y4m(video);
+    rlf_result result = video->sink.close != NULL
+                            ? video->sink.close(video->sink.self, video->result)
+                            : video->result;
     io_yuv_destroy(&video->yuv);
     rlf_free(video);
     return result;
@@ -98,6 +82,7 @@ rlf_result rlf_video_open(const char *path, int32_t width, int32_t height, doubl
     }
     video->width = width;
     video->height = height;
+    video->period_ns = (int64_t)((double)NS_PER_S / frames_per_second);
     video->result = io_yuv_create(width, height, &video->yuv);
     if (video->result == RLF_OK) {
         video->result = open_by_name(video, path, frames_per_second);
@@ -109,6 +94,19 @@ rlf_result rlf_video_open(const char *path, int32_t width, int32_t height, doubl
     return RLF_OK;
 }
 
+/* Waits until the picture is due. A program that has fallen behind does not race. */
+static void keep_to_the_clock(rlf_video *video)
+{
+    const int64_t now_ns = rlf_clock_ns();
+    if (video->due_ns > now_ns) {
+        const int64_t wait_ns = video->due_ns - now_ns;
+        const struct timespec wait = {(time_t)(wait_ns / NS_PER_S), (long)(wait_ns % NS_PER_S)};
+        nanosleep(&wait, NULL); /* a signal ends it early: so be it */
+    }
+    const int64_t earliest_ns = now_ns - video->period_ns;
+    video->due_ns = (video->due_ns > earliest_ns ? video->due_ns : earliest_ns) + video->period_ns;
+}
+
 rlf_result rlf_video_write(rlf_video *video, const rlf_image_rgba8 *image)
 {
     if (!RLF_ASSERT(video != NULL && image != NULL && image->data != NULL) ||
@@ -118,15 +116,14 @@ rlf_result rlf_video_write(rlf_video *video, const rlf_image_rgba8 *image)
     if (video->result != RLF_OK) {
         return video->result;
     }
-    io_yuv_from_rgba(image, &video->yuv);
-    if (video->mp4 != NULL) {
-        video->result = io_mp4_write(video->mp4, &video->yuv);
-        return video->result;
+    if (video->sink.is_camera) {
+        keep_to_the_clock(video);
     }
-    video->result = io_out_write(&video->y4m, "FRAME\n", strlen("FRAME\n"));
-    if (video->result == RLF_OK) {
-        video->result = io_out_write(&video->y4m, video->yuv.y, io_yuv_size(&video->yuv));
+    if (!video->sink.takes_rgba) {
+        io_yuv_from_rgba(image, &video->yuv);
     }
+    video->result = video->sink.takes_rgba ? video->sink.write(video->sink.self, NULL, image)
+                                           : video->sink.write(video->sink.self, &video->yuv, NULL);
     return video->result;
 }
 
