@@ -1,4 +1,6 @@
 /* From the SOURCE of a command line to a source. */
+#include "io/live/live.h"
+#include "io/simulated/simulated.h"
 #include "io/source/backends.h"
 #include "io/source/find_backend.h"
 #include "relief/io.h"
@@ -64,7 +66,8 @@ static rlf_result open_with(const rlf_backend *backend, const char *source, io_a
     rlf_opened opened;
     memset(&opened, 0, sizeof(opened));
     if (result == RLF_OK) {
-        result = backend->open(&address, &opened);
+        result = backend->is_live ? io_live_open(backend, &address, &opened)
+                                  : backend->open(&address, &opened);
     }
     return result == RLF_OK ? io_source_create(&opened, out) : result;
 }
@@ -82,6 +85,7 @@ rlf_result rlf_open_source(const char *source, rlf_pool *pool, rlf_source **out)
     if (strncmp(source, "synthetic:", strlen("synthetic:")) == 0) {
         return open_synthetic(source, pool, out);
     }
+    io_simulated_lend_open(rlf_open_source);
     io_address parts;
     const rlf_backend *backend = NULL;
     rlf_result result = io_address_parse(source, &parts);

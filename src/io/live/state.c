@@ -1,0 +1,91 @@
+/* What a live source's reader and its capture thread share. */
+#define _POSIX_C_SOURCE 200809L
+#include "io/live/state.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+static rlf_result create_lock(io_live *l)
+{
+    pthread_condattr_t attributes;
+    if (pthread_condattr_init(&attributes) != 0) {
+        return RLF_ERROR_MEMORY;
+    }
+    pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
+    const bool is_good =
+        pthread_mutex_init(&l->mutex, NULL) == 0 && pthread_cond_init(&l->news, &attributes) == 0;
+    pthread_condattr_destroy(&attributes);
+    return is_good ? RLF_OK : RLF_ERROR_MEMORY;
+}
+
+rlf_result live_create(const rlf_backend *backend, const rlf_address *address, io_live **out)
+{
+    io_live *l = rlf_alloc(sizeof(*l));
+    if (l == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    rlf_result result = create_lock(l);
+    if (result == RLF_OK) {
+        result = live_address_copy(address, &l->address);
+    }
+    if (result != RLF_OK) {
+        rlf_free(l);
+        return result;
+    }
+    l->backend = backend;
+    snprintf(l->name, sizeof(l->name), "%.127s", address->source);
+    l->newest = 1;
+    l->given = 2;
+    l->is_connected = true;
+    l->last_frame_ns = rlf_clock_ns();
+    *out = l;
+    return RLF_OK;
+}
+
+void live_free(io_live *l)
+{
+    for (int32_t i = 0; i < LIVE_SLOTS; i++) {
+        live_slot_destroy(&l->slots[i]);
+    }
+    live_address_free(&l->address);
+    pthread_cond_destroy(&l->news);
+    pthread_mutex_destroy(&l->mutex);
+    rlf_free(l);
+}
+
+void live_add_counts(const rlf_source_status *from, rlf_source_status *sum)
+{
+    sum->late += from->late;
+    sum->doubled += from->doubled;
+    sum->unpaired += from->unpaired;
+    sum->damaged += from->damaged;
+}
+
+void live_wait(io_live *l, int64_t until_ns)
+{
+    const struct timespec until = {.tv_sec = (time_t)(until_ns / LIVE_SECOND_NS),
+                                   .tv_nsec = (long)(until_ns % LIVE_SECOND_NS)};
+    pthread_cond_timedwait(&l->news, &l->mutex, &until);
+}
+
+void live_tell_silence(io_live *l, const char *reason)
+{
+    pthread_mutex_lock(&l->mutex);
+    const bool is_new = !l->is_told && !l->is_stopping;
+    l->is_told = l->is_told || is_new;
+    l->is_connected = false;
+    pthread_mutex_unlock(&l->mutex);
+    if (is_new) {
+        rlf_log(RLF_LOG_WARNING, "camera %s: %s: is it unplugged? trying again", l->name, reason);
+    }
+}
+
+void live_finish(io_live *l, rlf_result outcome, const char *line)
+{
+    pthread_mutex_lock(&l->mutex);
+    l->outcome = outcome;
+    snprintf(l->error, sizeof(l->error), "%s", line);
+    pthread_cond_broadcast(&l->news);
+    pthread_mutex_unlock(&l->mutex);
+}
