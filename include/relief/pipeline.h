@@ -76,6 +76,12 @@ typedef struct rlf_pipeline_output {
     double gravity_confidence; /* 0..1; below RLF_UP_SURE it is a guess; 1 when it was given */
     rlf_render_output render;  /* image.data NULL when rendering is off */
     rlf_stage_times times;
+    /* From the frame's arrival at this machine to the finished picture; 0 = unknown, as of files.
+     */
+    double latency_ms;
+    /* The camera has given no frame for a second: surface and bodies are as they were. Set by
+     * rlf_pipeline_redraw. */
+    bool is_stale;
 } rlf_pipeline_output;
 
 typedef struct rlf_pipeline rlf_pipeline;
@@ -106,7 +112,9 @@ RLF_API void rlf_pipeline_set_overlay(rlf_pipeline *pipeline, const char *const 
                                       int32_t count);
 
 /* One frame through all stages. RLF_OK, RLF_NO_FRAME, RLF_END, or an error. Allocates nothing after
- * the first frames. Two frames with the same time: the second advances physics by nothing. */
+ * the first frames. Two frames with the same time: the second advances physics by nothing, and so
+ * does a frame with RLF_FRAME_DISCONTINUITY. While no frame comes physics waits: bodies would rest
+ * on what may have gone meanwhile, and a recording of the run would not give the same bodies. */
 RLF_API rlf_result rlf_pipeline_step(rlf_pipeline *pipeline, rlf_pipeline_output *out);
 /* Draws the last frame again, e.g. after a change of view while paused. */
 RLF_API rlf_result rlf_pipeline_redraw(rlf_pipeline *pipeline, rlf_pipeline_output *out);

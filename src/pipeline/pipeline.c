@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define ADVANCE_MAX_S 1.0 /* a longer gap between frames advances physics by this much only */
+#define STALE_S 1.0       /* without a frame: what is shown is no longer what is there */
 #define GRAVITY_FRAMES 10 /* that are asked at most which way is up */
 #define THROWS_MAX 256    /* bodies that there is room for beside a scene's */
 
@@ -283,7 +284,10 @@ static rlf_result advance_world(rlf_pipeline *p)
     if (result != RLF_OK) {
         return result;
     }
-    double dt = is_first ? 0.0 : (double)(out->frame.time_ns - p->last_time_ns) * 1e-9;
+    /* The surface stage guards itself: it measures nothing over long gaps, and learns the
+     * background anew when the view is another. */
+    bool follows = !is_first && (out->frame.flags & RLF_FRAME_DISCONTINUITY) == 0;
+    double dt = follows ? (double)(out->frame.time_ns - p->last_time_ns) * 1e-9 : 0.0;
     if (dt > 0.0) {
         rlf_world_advance(p->world, &grid, rlf_min(dt, ADVANCE_MAX_S));
     }
@@ -356,6 +360,8 @@ rlf_result rlf_pipeline_step(rlf_pipeline *p, rlf_pipeline_output *out)
         return result;
     }
     last->times.render_ms = elapsed_ms(&clock);
+    last->latency_ms = frame.host_time_ns != 0 ? (double)(clock - frame.host_time_ns) * 1e-6 : 0.0;
+    last->is_stale = false;
     pipeline_note_times(p);
     last->frame_index = p->frame_index++;
     *out = *last;
@@ -371,6 +377,7 @@ rlf_result rlf_pipeline_redraw(rlf_pipeline *p, rlf_pipeline_output *out)
         return RLF_NO_FRAME;
     }
     p->last.snapshot = rlf_world_get_snapshot(p->world);
+    p->last.is_stale = rlf_source_get_status(p->def.source).silence_s > STALE_S;
     rlf_result result = pipeline_draw(p);
     *out = p->last;
     return result;

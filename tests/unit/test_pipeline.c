@@ -19,6 +19,9 @@
 typedef struct plane_source {
     uint16_t depth[WIDTH * HEIGHT];
     int64_t frame, frame_count, step_ns;
+    int64_t jump_frame, jump_ns; /* this frame does not follow the one before: that much later */
+    double silence_s;
+    bool is_live;
 } plane_source;
 
 static rlf_result plane_next(void *self, rlf_frame *out)
@@ -29,7 +32,13 @@ static rlf_result plane_next(void *self, rlf_frame *out)
     }
     memset(out, 0, sizeof(*out));
     out->sequence = (uint64_t)s->frame;
-    out->time_ns = s->frame++ * s->step_ns;
+    out->time_ns = s->frame * s->step_ns;
+    if (s->jump_ns != 0 && s->frame >= s->jump_frame) {
+        out->time_ns += s->jump_ns;
+        out->flags = s->frame == s->jump_frame ? RLF_FRAME_DISCONTINUITY : 0;
+    }
+    out->host_time_ns = s->is_live ? rlf_clock_ns() - 5000000 : 0;
+    s->frame++;
     out->depth_u16 = s->depth;
     out->depth_stride = WIDTH * sizeof(uint16_t);
     out->depth_units_per_metre = 1000;
@@ -42,11 +51,16 @@ static rlf_result plane_restart(void *self)
     return RLF_OK;
 }
 
+static void plane_status(void *self, rlf_source_status *out)
+{
+    out->silence_s = ((plane_source *)self)->silence_s;
+}
+
 static plane_source plane_memory;
 
 static rlf_source *open_plane(int64_t frame_count, int64_t step_ns)
 {
-    plane_memory.frame = 0;
+    plane_memory = (plane_source){.frame = 0};
     plane_memory.frame_count = frame_count;
     plane_memory.step_ns = step_ns;
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
@@ -63,7 +77,8 @@ static rlf_source *open_plane(int64_t frame_count, int64_t step_ns)
     info.rig.noise = (rlf_depth_noise){0.001, 0.0, 0.001};
     info.frame_count = frame_count;
     info.frames_per_second = 30;
-    const rlf_source_methods methods = {.next = plane_next, .restart = plane_restart};
+    const rlf_source_methods methods = {
+        .next = plane_next, .restart = plane_restart, .status = plane_status};
     rlf_source *source = NULL;
     assert_int_equal(rlf_source_create_custom(&methods, &info, &plane_memory, &source), RLF_OK);
     return source;
@@ -185,6 +200,52 @@ static void frames_with_the_same_time_do_not_advance_physics(void **state)
         assert_true(out.snapshot->bodies[0].T_world_body.p.z == 1.4);
         assert_true(out.time_s == 0.0);
     }
+    rlf_pipeline_destroy(&pipeline);
+    rlf_source_destroy(&source);
+}
+
+/* The camera was gone for an hour while the cube fell: it falls on from where it was. */
+static void a_frame_that_does_not_follow_does_not_advance_physics(void **state)
+{
+    (void)state;
+    const int64_t jumps[2] = {INT64_C(3600000000000), -INT64_C(3600000000000)};
+    for (int i = 0; i < 2; i++) {
+        rlf_source *source = open_plane(90, 33333333);
+        rlf_pipeline *pipeline = open_pipeline(source, RLF_PROFILE_LIVE, NULL);
+        rlf_pipeline_output out;
+        plane_memory.jump_frame = 5;
+        plane_memory.jump_ns = jumps[i];
+        rlf_vec3 before = {0, 0, 0};
+        while (rlf_pipeline_step(pipeline, &out) == RLF_OK) {
+            const rlf_vec3 p = out.snapshot->bodies[0].T_world_body.p;
+            const double way = rlf_length(rlf_sub(p, before));
+            assert_true(out.frame_index == 0 || way < 0.12);
+            assert_true(out.frame_index != 5 || way == 0.0);
+            assert_true(out.frame_index != 6 || way > 0.01);
+            before = p;
+        }
+        assert_true(fabs(before.z - 1.9) < 0.005);
+        rlf_pipeline_destroy(&pipeline);
+        rlf_source_destroy(&source);
+    }
+}
+
+static void latency_and_silence_are_told(void **state)
+{
+    (void)state;
+    rlf_source *source = open_plane(2, 33333333);
+    rlf_pipeline *pipeline = open_pipeline(source, RLF_PROFILE_LIVE, NULL);
+    rlf_pipeline_output out;
+    assert_int_equal(rlf_pipeline_step(pipeline, &out), RLF_OK);
+    assert_true(out.latency_ms == 0.0); /* nobody knows when a file's frame came */
+    plane_memory.is_live = true;
+    assert_int_equal(rlf_pipeline_step(pipeline, &out), RLF_OK);
+    assert_true(out.latency_ms >= 5.0);
+    assert_int_equal(rlf_pipeline_redraw(pipeline, &out), RLF_OK);
+    assert_false(out.is_stale);
+    plane_memory.silence_s = 1.5;
+    assert_int_equal(rlf_pipeline_redraw(pipeline, &out), RLF_OK);
+    assert_true(out.is_stale);
     rlf_pipeline_destroy(&pipeline);
     rlf_source_destroy(&source);
 }
@@ -351,6 +412,8 @@ int main(void)
         cmocka_unit_test(frames_allocate_nothing_after_the_first),
         cmocka_unit_test(restart_repeats_the_run_exactly),
         cmocka_unit_test(frames_with_the_same_time_do_not_advance_physics),
+        cmocka_unit_test(a_frame_that_does_not_follow_does_not_advance_physics),
+        cmocka_unit_test(latency_and_silence_are_told),
         cmocka_unit_test(redraw_shows_the_last_frame_in_another_view),
         cmocka_unit_test(a_lost_device_gives_way_to_the_soft_renderer),
         cmocka_unit_test(views_lie_side_by_side),

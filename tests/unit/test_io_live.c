@@ -1,0 +1,583 @@
+/* A live source: newest frame first, counts, unplugging, stalls, drivers that do not return. */
+#define _POSIX_C_SOURCE 200809L
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "io/live/follow.h"
+#include "io/live/live.h"
+#include "io/source/backends.h"
+#include "relief/io.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#define MS INT64_C(1000000)
+#define SECOND (1000 * MS)
+
+static void sleep_ms(int ms)
+{
+    const struct timespec t = {ms / 1000, (long)(ms % 1000) * 1000000};
+    nanosleep(&t, NULL);
+}
+
+/* ---- log ------------------------------------------------------------------------------------ */
+
+#define LINES_MAX 32
+
+static pthread_mutex_t log_mutex = PTHREAD_MUTEX_INITIALIZER;
+static char log_lines[LINES_MAX][256];
+static int64_t log_times[LINES_MAX];
+static int log_count;
+
+static void take_line(void *context, rlf_log_level level, const char *line)
+{
+    (void)context;
+    (void)level;
+    pthread_mutex_lock(&log_mutex);
+    if (log_count < LINES_MAX) {
+        log_times[log_count] = rlf_clock_ns();
+        (void)snprintf(log_lines[log_count++], sizeof(log_lines[0]), "%s", line);
+    }
+    pthread_mutex_unlock(&log_mutex);
+}
+
+/* How many lines have the word; *out_ns is when the first came. */
+static int count_lines(const char *word, int64_t *out_ns)
+{
+    int count = 0;
+    pthread_mutex_lock(&log_mutex);
+    for (int i = 0; i < log_count; i++) {
+        if (strstr(log_lines[i], word) != NULL) {
+            *out_ns = count == 0 ? log_times[i] : *out_ns;
+            count++;
+        }
+    }
+    pthread_mutex_unlock(&log_mutex);
+    return count;
+}
+
+/* ---- a camera of 4 x 2 pixels --------------------------------------------------------------- */
+
+typedef enum behaviour {
+    GIVES,     /* frames */
+    IS_SILENT, /* RLF_NO_FRAME at once */
+    FAILS,     /* RLF_ERROR_DEVICE, also to open */
+    HANGS      /* does not return until told to */
+} behaviour;
+
+static struct camera {
+    _Atomic int next, open, close; /* behaviour */
+    _Atomic int period_ms;
+    _Atomic int calls, opened, closed;
+    _Atomic uint64_t sequence;
+    _Atomic int64_t time_ns, failed_ns;
+    _Atomic uint64_t skip; /* numbers that the next frame leaves out */
+    _Atomic bool repeats;  /* the next frame has the last one's number and time */
+    _Atomic int width;
+    uint16_t depth[2][8]; /* rows are longer than the picture */
+    uint8_t color[16];
+} camera;
+
+static void hang(_Atomic int *state)
+{
+    while (atomic_load(state) == HANGS) {
+        sleep_ms(10);
+    }
+}
+
+static rlf_result camera_next(void *self, rlf_frame *out)
+{
+    (void)self;
+    camera.calls++;
+    hang(&camera.next);
+    switch (atomic_load(&camera.next)) {
+    case IS_SILENT: return RLF_NO_FRAME;
+    case FAILS:
+        atomic_store(&camera.failed_ns, rlf_clock_ns());
+        return rlf_fail(RLF_ERROR_DEVICE, "no such device");
+    default: break;
+    }
+    sleep_ms(camera.period_ms);
+    if (!atomic_exchange(&camera.repeats, false)) {
+        camera.sequence += 1 + atomic_exchange(&camera.skip, 0);
+        camera.time_ns += camera.period_ms * MS;
+    }
+    for (int i = 0; i < 8; i++) {
+        camera.depth[0][i] = camera.depth[1][i] = (uint16_t)camera.sequence;
+    }
+    memset(camera.color, (int)camera.sequence, sizeof(camera.color));
+    out->sequence = camera.sequence;
+    out->time_ns = camera.time_ns;
+    out->depth_u16 = camera.depth[0];
+    out->depth_stride = sizeof(camera.depth[0]);
+    out->depth_units_per_metre = 1000;
+    out->color = (rlf_image_rgba8){camera.color, 2, 2, 8};
+    return RLF_OK;
+}
+
+static void camera_close(void *self)
+{
+    (void)self;
+    hang(&camera.close);
+    camera.closed++;
+}
+
+static rlf_result camera_open(const rlf_address *address, rlf_opened *out)
+{
+    hang(&camera.open);
+    if (camera.open == FAILS || strcmp(rlf_address_get(address, "serial"), "7") != 0) {
+        return rlf_fail(RLF_ERROR_DEVICE, "%s: there is no camera %s", address->source,
+                        address->place);
+    }
+    memset(out, 0, sizeof(*out));
+    out->info.rig.depth =
+        (rlf_camera){.width = camera.width, .height = 2, .fx = 4, .fy = 4, .cx = 1.5, .cy = 0.5};
+    out->info.rig.color = (rlf_camera){.width = 2, .height = 2, .fx = 2, .fy = 2};
+    out->info.rig.has_color = true;
+    (void)snprintf(out->info.name, sizeof(out->info.name), "%s", address->source);
+    out->methods = (rlf_source_methods){.next = camera_next, .destroy = camera_close};
+    camera.opened++;
+    return RLF_OK;
+}
+
+static const rlf_backend backend = {.version = RLF_BACKEND_VERSION,
+                                    .scheme = "test",
+                                    .keys = "serial",
+                                    .is_live = true,
+                                    .open = camera_open};
+
+static int set_up(void **state)
+{
+    (void)state;
+    memset(&camera, 0, sizeof(camera));
+    camera.period_ms = 5;
+    camera.width = 4;
+    log_count = 0;
+    rlf_set_log(take_line, NULL);
+    return 0;
+}
+
+/* The address is gone when the call has returned. */
+static rlf_result open_camera(rlf_source **out)
+{
+    char source[32] = "test:here?serial=7", place[8] = "here", key[8] = "serial", value[4] = "7";
+    rlf_address address = {.source = source, .place = place, .key_count = 1};
+    address.keys[0] = key;
+    address.values[0] = value;
+    rlf_opened opened;
+    const rlf_result result = io_live_open(&backend, &address, &opened);
+    memset(source, '?', sizeof(source) - 1);
+    memset(value, '?', sizeof(value) - 1);
+    return result == RLF_OK ? io_source_create(&opened, out) : result;
+}
+
+static rlf_source *open_good(void)
+{
+    rlf_source *source = NULL;
+    assert_int_equal(open_camera(&source), RLF_OK);
+    return source;
+}
+
+static rlf_frame next_frame(rlf_source *source)
+{
+    rlf_frame frame;
+    rlf_result result = RLF_NO_FRAME;
+    const int64_t end_ns = rlf_clock_ns() + 20 * SECOND;
+    while (result == RLF_NO_FRAME && rlf_clock_ns() < end_ns) {
+        result = rlf_source_next(source, &frame);
+    }
+    assert_int_equal(result, RLF_OK);
+    return frame;
+}
+
+/* ---- frames --------------------------------------------------------------------------------- */
+
+static void the_newest_frame_wins_and_stays_as_it_is(void **state)
+{
+    (void)state;
+    rlf_source *source = open_good();
+    assert_true(rlf_source_get_info(source)->is_live);
+    uint64_t last = 0;
+    for (int i = 0; i < 5; i++) {
+        const int64_t asked_ns = rlf_clock_ns();
+        const rlf_frame frame = next_frame(source);
+        assert_true(frame.sequence > last);
+        assert_true(frame.host_time_ns > asked_ns - 2 * SECOND);
+        assert_true(frame.host_time_ns <= rlf_clock_ns());
+        assert_int_equal(frame.depth_stride, 8);
+        last = frame.sequence;
+        sleep_ms(60); /* the camera goes on; this frame must not change */
+        for (int k = 0; k < 8; k++) {
+            assert_int_equal(frame.depth_u16[k], (uint16_t)last);
+        }
+        assert_int_equal(frame.color.data[15], (uint8_t)last);
+    }
+    const rlf_source_status s = rlf_source_get_status(source);
+    assert_true(s.late >= 5);
+    assert_int_equal(s.given, 5);
+    assert_int_equal(s.lost, 0);
+    assert_true(s.is_connected && s.silence_s < 0.9);
+    assert_true(last <= s.given + s.late + 1);
+    rlf_source_destroy(&source);
+    assert_int_equal(camera.closed, 1);
+}
+
+static void lost_and_doubled_frames_are_counted(void **state)
+{
+    (void)state;
+    rlf_source *source = open_good();
+    (void)next_frame(source);
+    camera.skip = 3;
+    sleep_ms(60);
+    camera.repeats = true;
+    sleep_ms(60);
+    (void)next_frame(source);
+    const rlf_source_status s = rlf_source_get_status(source);
+    assert_int_equal(s.lost, 3);
+    assert_int_equal(s.doubled, 1);
+    rlf_source_destroy(&source);
+}
+
+static void waiting_ends_soon_and_is_no_busy_loop(void **state)
+{
+    (void)state;
+    rlf_source *source = open_good();
+    camera.next = IS_SILENT;
+    sleep_ms(50);
+    rlf_frame frame;
+    (void)rlf_source_next(source, &frame); /* the last one */
+    const int calls = camera.calls;
+    const int64_t start_ns = rlf_clock_ns();
+    assert_int_equal(rlf_source_next(source, &frame), RLF_NO_FRAME);
+    const int64_t waited_ns = rlf_clock_ns() - start_ns;
+    assert_true(waited_ns >= 40 * MS && waited_ns < 500 * MS);
+    assert_true(camera.calls - calls <= waited_ns / (2 * MS) + 2);
+    rlf_source_destroy(&source);
+}
+
+static void frames_allocate_nothing(void **state)
+{
+    (void)state;
+    rlf_source *source = open_good();
+    (void)next_frame(source);
+    const uint64_t before = rlf_alloc_count();
+    for (int i = 0; i < 20; i++) {
+        (void)next_frame(source);
+    }
+    assert_int_equal(rlf_alloc_count(), before);
+    rlf_source_destroy(&source);
+}
+
+/* ---- gone and back -------------------------------------------------------------------------- */
+
+/* Reads until the message has come; returns how long after `since_ns`. */
+static int64_t await_line(rlf_source *source, const char *word, int64_t since_ns)
+{
+    rlf_frame frame;
+    int64_t at_ns = 0;
+    while (count_lines(word, &at_ns) == 0) {
+        assert_true(rlf_clock_ns() - since_ns < 20 * SECOND);
+        assert_true(rlf_source_next(source, &frame) >= 0);
+    }
+    return at_ns - since_ns;
+}
+
+static void check_back(rlf_source *source, int64_t time_ns, uint64_t sequence)
+{
+    int64_t at_ns;
+    const rlf_source_status gone = rlf_source_get_status(source);
+    assert_false(gone.is_connected);
+    camera.sequence = 0; /* a camera that was switched on again counts from one */
+    camera.time_ns = 0;
+    camera.open = GIVES;
+    camera.next = GIVES;
+    const rlf_frame frame = next_frame(source);
+    assert_true((frame.flags & RLF_FRAME_DISCONTINUITY) != 0);
+    assert_true(frame.sequence > sequence);
+    assert_true(frame.time_ns > time_ns && frame.time_ns - time_ns < 30 * SECOND);
+    const rlf_frame after = next_frame(source);
+    assert_true((after.flags & RLF_FRAME_DISCONTINUITY) == 0);
+    assert_true(after.time_ns > frame.time_ns);
+    assert_int_equal(count_lines("trying again", &at_ns), 1);
+    assert_int_equal(count_lines("frames are back", &at_ns), 1);
+    assert_true(rlf_source_get_status(source).is_connected);
+    assert_true(rlf_source_get_status(source).silence_s < 1.0);
+}
+
+static void a_camera_that_is_pulled_out_is_told_and_found_again(void **state)
+{
+    (void)state;
+    rlf_source *source = open_good();
+    const rlf_frame last = next_frame(source);
+    camera.open = FAILS;
+    camera.next = FAILS;
+    const int64_t start_ns = rlf_clock_ns();
+    assert_true(await_line(source, "camera test:here?serial=7: no such device", start_ns) < SECOND);
+    sleep_ms(600); /* it is looked for in vain */
+    check_back(source, last.time_ns, last.sequence);
+    assert_true(camera.opened >= 2 && camera.closed == camera.opened - 1);
+    rlf_source_destroy(&source);
+    assert_int_equal(camera.closed, camera.opened);
+}
+
+static void a_camera_that_falls_silent_is_told_and_opened_again(void **state)
+{
+    (void)state;
+    rlf_source *source = open_good();
+    const rlf_frame last = next_frame(source);
+    const int64_t start_ns = rlf_clock_ns();
+    camera.next = IS_SILENT;
+    const int64_t told_ns = await_line(source, "no frame for 1 s", start_ns);
+    assert_true(told_ns > 900 * MS && told_ns < 3 * SECOND);
+    assert_true(rlf_source_get_status(source).silence_s > 0.9);
+    check_back(source, last.time_ns, last.sequence);
+    assert_int_equal(camera.opened, 2);
+    rlf_source_destroy(&source);
+}
+
+static void another_camera_in_its_place_ends_the_source(void **state)
+{
+    (void)state;
+    rlf_source *source = open_good();
+    camera.width = 8;
+    camera.next = FAILS;
+    rlf_frame frame;
+    rlf_result result = RLF_OK;
+    while (result >= 0) {
+        result = rlf_source_next(source, &frame);
+    }
+    assert_int_equal(result, RLF_ERROR_DEVICE);
+    assert_non_null(strstr(rlf_error_text(), "depth 8 x 2"));
+    assert_int_equal(rlf_source_next(source, &frame), RLF_ERROR_DEVICE);
+    rlf_source_destroy(&source);
+    assert_int_equal(camera.closed, camera.opened);
+}
+
+/* ---- drivers that do not return ------------------------------------------------------------- */
+
+static void end_in_time(rlf_source **source)
+{
+    const int64_t start_ns = rlf_clock_ns();
+    int64_t at_ns;
+    rlf_source_destroy(source);
+    assert_true(rlf_clock_ns() - start_ns < 2 * SECOND);
+    assert_int_equal(count_lines("left alone", &at_ns), 1);
+}
+
+/* The thread that was left alone tidies up when its driver returns after all. */
+static void await_close(void)
+{
+    camera.next = camera.open = camera.close = GIVES;
+    for (int i = 0; i < 1000 && camera.closed != camera.opened; i++) {
+        sleep_ms(10);
+    }
+    sleep_ms(50);
+    assert_int_equal(camera.closed, camera.opened);
+}
+
+static void a_driver_stuck_in_next_is_told_and_left(void **state)
+{
+    (void)state;
+    rlf_source *source = open_good();
+    const int64_t start_ns = rlf_clock_ns();
+    camera.next = HANGS;
+    const int64_t told_ns = await_line(source, "no frame for 1 s", start_ns);
+    assert_true(told_ns > 900 * MS && told_ns < 3 * SECOND);
+    end_in_time(&source);
+    await_close();
+}
+
+static void a_driver_that_returns_after_all_goes_on(void **state)
+{
+    (void)state;
+    rlf_source *source = open_good();
+    const rlf_frame last = next_frame(source);
+    camera.next = HANGS;
+    (void)await_line(source, "no frame for 1 s", rlf_clock_ns());
+    check_back(source, last.time_ns, last.sequence);
+    rlf_source_destroy(&source);
+    assert_int_equal(camera.closed, camera.opened);
+}
+
+static void a_driver_stuck_in_close_is_left(void **state)
+{
+    (void)state;
+    rlf_source *source = open_good();
+    camera.close = HANGS;
+    end_in_time(&source);
+    await_close();
+}
+
+static void a_driver_stuck_in_open_is_told_and_left(void **state)
+{
+    (void)state;
+    rlf_source *source = NULL;
+    int64_t at_ns;
+    camera.open = HANGS;
+    const int64_t start_ns = rlf_clock_ns();
+    assert_int_equal(open_camera(&source), RLF_ERROR_DEVICE);
+    assert_true(rlf_clock_ns() - start_ns < 8 * SECOND);
+    assert_non_null(strstr(rlf_error_text(), "did not open it within 5 s"));
+    assert_int_equal(count_lines("left alone", &at_ns), 1);
+    await_close();
+}
+
+static void a_camera_without_a_first_frame_is_not_opened(void **state)
+{
+    (void)state;
+    rlf_source *source = NULL;
+    camera.next = IS_SILENT;
+    assert_int_equal(open_camera(&source), RLF_ERROR_DEVICE);
+    assert_non_null(strstr(rlf_error_text(), "test:here?serial=7: gave no frame within 5 s"));
+    assert_int_equal(camera.closed, camera.opened);
+    camera.open = FAILS;
+    assert_int_equal(open_camera(&source), RLF_ERROR_DEVICE);
+    assert_string_equal(rlf_error_text(), "test:here?serial=7: there is no camera here");
+}
+
+/* ---- times and numbers ---------------------------------------------------------------------- */
+
+static rlf_frame follow(live_follow *f, uint64_t sequence, int64_t time_ns, int64_t host_ns,
+                        uint64_t lost)
+{
+    rlf_frame frame = {.sequence = sequence, .time_ns = time_ns, .color_time_ns = time_ns + 3 * MS};
+    uint64_t out_lost;
+    assert_true(live_follow_frame(f, host_ns, &frame, &out_lost));
+    assert_int_equal(out_lost, lost);
+    assert_int_equal(frame.color_time_ns, frame.time_ns + 3 * MS);
+    return frame;
+}
+
+static void clocks_and_counters_that_start_anew_go_on(void **state)
+{
+    (void)state;
+    live_follow f = {.has_last = false};
+    uint64_t lost;
+    assert_int_equal(follow(&f, 10, 5 * SECOND, 100 * SECOND, 0).time_ns, 5 * SECOND);
+    rlf_frame frame = follow(&f, 13, 5 * SECOND + 100 * MS, 100 * SECOND + 90 * MS, 2);
+    assert_int_equal(frame.sequence, 13);
+    assert_int_equal(frame.time_ns, 5 * SECOND + 100 * MS); /* the device's own step */
+    rlf_frame twice = {.sequence = 13, .time_ns = 5 * SECOND + 100 * MS};
+    assert_false(live_follow_frame(&f, 100 * SECOND + 95 * MS, &twice, &lost));
+    /* A clock of 32 bits that wraps, and a counter of 16. */
+    frame = follow(&f, 0, 20 * MS, 100 * SECOND + 123 * MS, 0);
+    assert_int_equal(frame.sequence, 14);
+    assert_int_equal(frame.time_ns, 5 * SECOND + 133 * MS);
+    frame = follow(&f, 1, 53 * MS, 100 * SECOND + 160 * MS, 0);
+    assert_int_equal(frame.time_ns, 5 * SECOND + 166 * MS);
+    /* A clock that is set, and a counter that is no counter. */
+    frame = follow(&f, UINT64_MAX, INT64_MAX - 9 * SECOND, 100 * SECOND + 193 * MS, 0);
+    assert_int_equal(frame.sequence, 16);
+    assert_int_equal(frame.time_ns, 5 * SECOND + 199 * MS);
+    frame = follow(&f, 1000000, INT64_MIN, 100 * SECOND + 226 * MS, 0);
+    assert_int_equal(frame.sequence, 17);
+    assert_int_equal(frame.time_ns, 5 * SECOND + 232 * MS);
+    /* Opened again: the same number and time are another frame. */
+    live_follow_reconnect(&f);
+    frame = follow(&f, 1000000, INT64_MIN, 109 * SECOND + 226 * MS, 0);
+    assert_int_equal(frame.sequence, 18);
+    assert_int_equal(frame.time_ns, 14 * SECOND + 232 * MS);
+}
+
+/* ---- the simulated camera ------------------------------------------------------------------- */
+
+#define PLAYED "of=synthetic:empty?color=0"
+
+static rlf_source *open_simulated(const char *source_text)
+{
+    rlf_source *source = NULL;
+    assert_int_equal(rlf_open_source(source_text, NULL, &source), RLF_OK);
+    return source;
+}
+
+static void the_simulated_camera_drops_doubles_and_jumps(void **state)
+{
+    (void)state;
+    rlf_source *source =
+        open_simulated("simulated:a?" PLAYED "&drop=7&doubled=5&jitter=10&time_back=1");
+    const int64_t start_ns = rlf_clock_ns();
+    int64_t time_ns = INT64_MIN;
+    for (int i = 0; i < 50; i++) {
+        const rlf_frame frame = next_frame(source);
+        assert_true(frame.time_ns > time_ns);
+        time_ns = frame.time_ns;
+    }
+    assert_true(rlf_clock_ns() - start_ns > SECOND); /* in real time */
+    const rlf_source_status s = rlf_source_get_status(source);
+    assert_in_range(s.lost, 6, 30);
+    assert_in_range(s.doubled, 7, 40);
+    rlf_source_destroy(&source);
+}
+
+static void the_simulated_camera_is_pulled_out_and_put_back(void **state)
+{
+    (void)state;
+    const int64_t start_ns = rlf_clock_ns();
+    rlf_source *source =
+        open_simulated("simulated:b?" PLAYED "&unplug_after=1&replug_after=1.2&stall=1.5@4");
+    int64_t at_ns = 0;
+    assert_true(await_line(source, "was pulled out", start_ns) < 2 * SECOND);
+    rlf_frame frame = next_frame(source);
+    while ((frame.flags & RLF_FRAME_DISCONTINUITY) == 0) {
+        frame = next_frame(source);
+    }
+    assert_true(rlf_clock_ns() - start_ns > 2 * SECOND);
+    assert_true(await_line(source, "no frame for 1 s", start_ns) > 4 * SECOND);
+    (void)next_frame(source);
+    assert_int_equal(count_lines("frames are back", &at_ns), 2);
+    rlf_source_destroy(&source);
+}
+
+static void wrong_faults_are_told(void **state)
+{
+    (void)state;
+    const char *const wrong[] = {
+        "simulated:?drop=1",     "simulated:?stall=2",   "simulated:?stall=2@",
+        "simulated:?hang=soon",  "simulated:?jitter=-1", "simulated:?of=simulated:",
+        "simulated:?of=nowhere", "simulated:?smell=1",   "simulated:gone?unplug_after=0"};
+    for (size_t i = 0; i < sizeof(wrong) / sizeof(wrong[0]); i++) {
+        rlf_source *source = NULL;
+        assert_true(rlf_open_source(wrong[i], NULL, &source) < 0);
+        assert_null(source);
+    }
+    assert_non_null(strstr(rlf_error_text(), "not plugged in"));
+}
+
+static void all_back_ends_are_asked_what_is_plugged_in(void **state)
+{
+    (void)state;
+    rlf_source_entry entries[4];
+    const int32_t count = rlf_source_list(entries, 4);
+    assert_true(count >= 0 && rlf_source_list(NULL, 0) == count);
+}
+
+int main(void)
+{
+#define TEST(f) cmocka_unit_test_setup(f, set_up)
+    const struct CMUnitTest tests[] = {
+        TEST(the_newest_frame_wins_and_stays_as_it_is),
+        TEST(lost_and_doubled_frames_are_counted),
+        TEST(waiting_ends_soon_and_is_no_busy_loop),
+        TEST(frames_allocate_nothing),
+        TEST(a_camera_that_is_pulled_out_is_told_and_found_again),
+        TEST(a_camera_that_falls_silent_is_told_and_opened_again),
+        TEST(another_camera_in_its_place_ends_the_source),
+        TEST(a_driver_stuck_in_next_is_told_and_left),
+        TEST(a_driver_that_returns_after_all_goes_on),
+        TEST(a_driver_stuck_in_close_is_left),
+        TEST(a_driver_stuck_in_open_is_told_and_left),
+        TEST(a_camera_without_a_first_frame_is_not_opened),
+        TEST(clocks_and_counters_that_start_anew_go_on),
+        TEST(the_simulated_camera_drops_doubles_and_jumps),
+        TEST(the_simulated_camera_is_pulled_out_and_put_back),
+        TEST(wrong_faults_are_told),
+        TEST(all_back_ends_are_asked_what_is_plugged_in),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
