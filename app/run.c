@@ -7,6 +7,8 @@
 #include "relief/gl.h"
 #endif
 #ifdef RLF_HAVE_VIEWER
+#include "recent.h"
+#include "start_page.h"
 #include "viewer/viewer.h"
 #endif
 
@@ -28,46 +30,48 @@ typedef struct run_options {
 
 static void print_help(void)
 {
-    printf("usage: relief run SOURCE [OPTIONS]\n\n"
-           "Runs a source with virtual bodies that collide with what the camera sees.\n"
-           "SOURCE: synthetic:room or a folder with a clip (see `relief sources`).\n\n"
-           "  --scene FILE          bodies and gravity (scene.json); default: two thrown cubes\n"
-           "  --profile NAME        live (default) or thesis\n"
-           "  --renderer NAME       soft or gl; default: gl in a window, soft headless\n"
-           "  --headless            no window: as fast as the machine can, every frame\n"
-           "  --frames N            stop after N frames\n"
-           "  --video FILE          .mp4, .y4m, or - for Y4M on standard output\n"
-           "  --pictures DIR        PNG pictures NNNNNN.png, one every --picture-every frames\n"
-           "  --picture-every N     default 30\n"
-           "  --picture-at LIST     instead: these frames alone, e.g. 60,92\n"
-           "  --picture-shrink N    average N x N pixels of a picture into one\n"
-           "  --log DIR             frames.csv, bodies.csv, contacts.csv\n"
-           "  --view NAME[,NAME...] camera (default), depth, normals, mesh, regions, foreground,\n"
-           "                        background, velocity, thickness, reason, points, contacts,\n"
-           "                        known;\n"
-           "                        up to four of them side by side\n"
-           "  --orbit YAW,PITCH[,ZOOM]   where points are seen from: degrees to the right and\n"
-           "                        up, and the distance, 1 being the camera's\n"
-           "  --gravity X,Y,Z       m/s^2 to the right, down and forward, in place of the\n"
-           "                        scene's; or floor: down is where the first frame's floor,\n"
-           "                        tables and walls say; clips' default if the scene says none\n"
-           "  --light X,Y,Z         where the light shines to: right, down, forward\n"
-           "  --match-light         bodies as dark and as tinted as the camera's picture, and\n"
-           "                        lit from where its shading says; live's default for clips\n"
-           "  --no-match-light      not so\n"
-           "  --no-real-shade       real things keep no light from bodies\n"
-           "  --no-real-ambient     bodies are not darker where they are close to real surfaces\n"
-           "  --occlusion NAME      soft (live's), hard, thesis (thesis's) or off\n"
-           "  --scale N             keep every N-th depth pixel (live 1, thesis 8)\n"
-           "  --set NAME=VALUE      a setting of the surface (see `relief settings`); any number\n"
-           "  --threads N           default: one per processor; results do not depend on it\n"
-           "  --hash                print the hash of all body states at the end\n"
-           "  --quiet               no progress and no summary\n\n"
-           "examples:\n"
-           "  relief run synthetic:room\n"
-           "  relief run synthetic:room --headless --frames 200 --video out.mp4 --log log\n"
-           "  relief run synthetic:thesis --profile thesis --headless --pictures pictures\n"
-           "  relief run path/to/clip --headless --view normals --video - | mpv -\n");
+    printf(
+        "usage: relief run [SOURCE] [OPTIONS]\n\n"
+        "Runs a source with virtual bodies that collide with what the camera sees.\n"
+        "SOURCE: synthetic:room or a folder with a clip (see `relief sources`); without one the\n"
+        "window lists cameras and recent recordings.\n\n"
+        "  --scene FILE          bodies and gravity (scene.json); default: two thrown cubes\n"
+        "  --profile NAME        live (default) or thesis\n"
+        "  --renderer NAME       soft or gl; default: gl in a window, soft headless\n"
+        "  --headless            no window: as fast as the machine can, every frame\n"
+        "  --frames N            stop after N frames\n"
+        "  --video FILE          .mp4, .y4m, or - for Y4M on standard output\n"
+        "  --pictures DIR        PNG pictures NNNNNN.png, one every --picture-every frames\n"
+        "  --picture-every N     default 30\n"
+        "  --picture-at LIST     instead: these frames alone, e.g. 60,92\n"
+        "  --picture-shrink N    average N x N pixels of a picture into one\n"
+        "  --log DIR             frames.csv, bodies.csv, contacts.csv\n"
+        "  --view NAME[,NAME...] camera (default), depth, normals, mesh, regions, foreground,\n"
+        "                        background, velocity, thickness, reason, points, contacts,\n"
+        "                        known;\n"
+        "                        up to four of them side by side\n"
+        "  --orbit YAW,PITCH[,ZOOM]   where points are seen from: degrees to the right and\n"
+        "                        up, and the distance, 1 being the camera's\n"
+        "  --gravity X,Y,Z       m/s^2 to the right, down and forward, in place of the\n"
+        "                        scene's; or floor: down is where the first frame's floor,\n"
+        "                        tables and walls say; clips' default if the scene says none\n"
+        "  --light X,Y,Z         where the light shines to: right, down, forward\n"
+        "  --match-light         bodies as dark and as tinted as the camera's picture, and\n"
+        "                        lit from where its shading says; live's default for clips\n"
+        "  --no-match-light      not so\n"
+        "  --no-real-shade       real things keep no light from bodies\n"
+        "  --no-real-ambient     bodies are not darker where they are close to real surfaces\n"
+        "  --occlusion NAME      soft (live's), hard, thesis (thesis's) or off\n"
+        "  --scale N             keep every N-th depth pixel (live 1, thesis 8)\n"
+        "  --set NAME=VALUE      a setting of the surface (see `relief settings`); any number\n"
+        "  --threads N           default: one per processor; results do not depend on it\n"
+        "  --hash                print the hash of all body states at the end\n"
+        "  --quiet               no progress and no summary\n\n"
+        "examples:\n"
+        "  relief run synthetic:room\n"
+        "  relief run synthetic:room --headless --frames 200 --video out.mp4 --log log\n"
+        "  relief run synthetic:thesis --profile thesis --headless --pictures pictures\n"
+        "  relief run path/to/clip --headless --view normals --video - | mpv -\n");
 }
 
 static bool take_renderer(const char *text, void *out)
@@ -249,14 +253,30 @@ static int parse(int argc, char **argv, run_options *o)
     if (status >= 0) {
         return status;
     }
-    if (argc - optind != 1) {
-        return command_usage("run", argc == optind ? "needs a SOURCE" : "takes one SOURCE only");
+    if (argc - optind > 1) {
+        return command_usage("run", "takes one SOURCE only");
     }
     if (o->output.picture_count > 0 && o->output.picture_folder == NULL) {
         return command_usage("run", "--picture-at needs --pictures DIR");
     }
-    o->session.source = argv[optind];
+    o->session.source = argv[optind]; /* NULL when there is none */
     return -1;
+}
+
+/* Without a SOURCE the window's start page asks for one. */
+static int choose_source(run_options *o)
+{
+    if (o->session.source != NULL) {
+        return -1;
+    }
+#ifdef RLF_HAVE_VIEWER
+    static char source[START_PAGE_SOURCE];
+    if (!o->is_headless) {
+        o->session.source = source;
+        return start_page_choose(source);
+    }
+#endif
+    return command_usage("run", "needs a SOURCE");
 }
 
 /* Falls back to the soft renderer, and says so, when GL is not to be had. */
@@ -330,9 +350,11 @@ static rlf_result run_window(const run_options *o, session *s, run_output *outpu
 {
     const rlf_source_info *info = rlf_source_get_info(s->source);
     viewer_options viewer = viewer_options_default();
+    recent_note(o->session.source);
     viewer.title = "Relief";
     viewer.source_name = info->name;
-    viewer.frames_per_second = info->frames_per_second;
+    viewer.source = s->source;
+    viewer.frames_per_second = info->is_live ? 0.0 : info->frames_per_second;
     viewer.frame_count = o->frame_count;
     viewer.use_gl = o->use_gl || !o->is_renderer_set;
     viewer.avoid_software_gl = !o->is_renderer_set;
@@ -393,7 +415,8 @@ static int run_session(run_options *o, session *s)
     }
     if (status == EXIT_DONE && !o->output.is_quiet) {
         const char *renderer = o->use_gl ? "renderer gl" : "renderer soft";
-        run_output_print_summary(&output, o->is_headless ? renderer : "in a window");
+        const rlf_source_status frames = rlf_source_get_status(s->source);
+        run_output_print_summary(&output, o->is_headless ? renderer : "in a window", &frames);
     }
     return status;
 }
@@ -403,6 +426,7 @@ int run_main(int argc, char **argv)
     run_options options;
     memset(&options, 0, sizeof(options));
     int status = parse(argc, argv, &options);
+    status = status < 0 ? choose_source(&options) : status;
     if (status >= 0) {
         return status;
     }

@@ -112,6 +112,9 @@ rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame)
 {
     const rlf_stage_times *t = &frame->times;
     timing_add_frame(&out->times, t, t->capture_ms + t->surface_ms + t->physics_ms + t->render_ms);
+    if (frame->latency_ms > 0.0) {
+        timing_add(&out->latency_ms, frame->latency_ms);
+    }
     out->frames++;
     out->last_index = frame->frame_index;
     out->moving_frames += frame->surface->camera_moves;
@@ -168,7 +171,31 @@ static void print_stage(FILE *file, const char *name, const timing_series *serie
             timing_percentile(series, 95));
 }
 
-void run_output_print_summary(const run_output *out, const char *how)
+/* Nothing where all is as it should be. */
+static void print_status(FILE *file, const rlf_source_status *s)
+{
+    const struct {
+        uint64_t count;
+        const char *name;
+    } parts[] = {{s->lost, "lost"},
+                 {s->late, "overtaken by newer ones"},
+                 {s->doubled, "came twice"},
+                 {s->unpaired, "without colour"},
+                 {s->damaged, "damaged"}};
+    const char *before = "source:   ";
+    for (size_t i = 0; i < sizeof(parts) / sizeof(parts[0]); i++) {
+        if (parts[i].count > 0) {
+            fprintf(file, "%s%llu %s", before, (unsigned long long)parts[i].count, parts[i].name);
+            before = ", ";
+        }
+    }
+    if (before[0] == ',') {
+        fputc('\n', file);
+    }
+}
+
+void run_output_print_summary(const run_output *out, const char *how,
+                              const rlf_source_status *status)
 {
     const run_output_options *o = &out->options;
     /* A video on stdout must not be mixed with words. */
@@ -182,8 +209,12 @@ void run_output_print_summary(const run_output *out, const char *how)
     print_stage(file, "physics", &t->physics);
     print_stage(file, "render", &t->render);
     print_stage(file, "loop", &t->frame);
+    if (out->latency_ms.count > 0) { /* from a frame's arrival to the finished picture */
+        print_stage(file, "latency", &out->latency_ms);
+    }
     fprintf(file, "  %.1f frames per second (median of the loop, without writing files)\n",
             median > 0.0 ? 1000.0 / median : 0.0);
+    print_status(file, status);
     if (o->finds_gravity) {
         bool is_sure = out->gravity_confidence >= RLF_UP_SURE;
         fprintf(file,

@@ -36,6 +36,7 @@ typedef struct run_output {
     rlf_vec3 light; /* of the last picture: where it shines to; 0 = no picture */
     bool is_light_estimated;
     timing times;
+    timing_series latency_ms; /* of frames whose arrival is known */
 } run_output;
 
 /* Makes the folders and log files. */
@@ -54,7 +55,9 @@ rlf_result run_output_save_scene(const run_output *out, const rlf_known_def *kno
                                  char *out_message, size_t message_size);
 /* Finishes all files, also after an error or Ctrl-C. */
 rlf_result run_output_close(run_output *out);
-/* Where things were written, and the median times; `how` says how frames were shown. */
-void run_output_print_summary(const run_output *out, const char *how);
+/* Where things were written, the median times, and what became of the source's frames; `how` says
+ * how frames were shown. */
+void run_output_print_summary(const run_output *out, const char *how,
+                              const rlf_source_status *status);
 
 #endif

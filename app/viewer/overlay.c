@@ -48,8 +48,11 @@ void viewer_update_overlay(viewer *v)
                    bodies == 1 ? "body" : "bodies");
     (void)snprintf(v->lines[count++], VIEWER_LINE_SIZE,
                    "ms: capture %.1f surface %.1f physics %.1f render %.1f  latency %.1f",
-                   t->capture_ms, t->surface_ms, t->physics_ms, t->render_ms,
-                   t->surface_ms + t->physics_ms + t->render_ms);
+                   t->capture_ms, t->surface_ms, t->physics_ms, t->render_ms, v->latency_ms);
+    if (v->silent_s > 0) {
+        (void)snprintf(v->lines[count++], VIEWER_LINE_SIZE, "no frames from %.60s for %d s",
+                       v->options->source_name, (int)v->silent_s);
+    }
     double drag = viewer_window_get_drag(&v->window);
     if (drag >= 0.0) {
         (void)snprintf(v->lines[count++], VIEWER_LINE_SIZE, "throw %.1f m/s",

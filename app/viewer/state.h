@@ -31,6 +31,8 @@ typedef struct viewer {
     int64_t last_step_ns; /* when the last one was done; 0 = none */
     double fps;
     rlf_stage_times times; /* smoothed */
+    double latency_ms;     /* likewise */
+    int32_t silent_s;      /* whole seconds without a frame; 0 = they come */
     char message[VIEWER_LINE_SIZE];
     int64_t message_end_ns;
     char lines[VIEWER_LINES_MAX][VIEWER_LINE_SIZE];

@@ -44,6 +44,19 @@ static void note_times(viewer *v)
     smooth(&v->times.surface_ms, t->surface_ms, is_first);
     smooth(&v->times.physics_ms, t->physics_ms, is_first);
     smooth(&v->times.render_ms, t->render_ms, is_first);
+    const double computed_ms = t->surface_ms + t->physics_ms + t->render_ms;
+    smooth(&v->latency_ms, v->frame.latency_ms > 0.0 ? v->frame.latency_ms : computed_ms, is_first);
+}
+
+/* The line over the picture counts the seconds without a frame. */
+static void note_silence(viewer *v)
+{
+    if (v->options->source == NULL) {
+        return;
+    }
+    const int32_t silent_s = (int32_t)rlf_source_get_status(v->options->source).silence_s;
+    v->is_redraw_due = v->is_redraw_due || silent_s != v->silent_s;
+    v->silent_s = silent_s;
 }
 
 /* The frame after `due` is one period later; a loop that has fallen behind does not race. */
@@ -60,6 +73,7 @@ static rlf_result step(viewer *v)
     viewer_update_overlay(v);
     rlf_result result = rlf_pipeline_step(v->pipeline, &v->frame);
     if (result == RLF_NO_FRAME) {
+        note_silence(v);
         return RLF_OK;
     }
     if (result == RLF_END) {
@@ -75,6 +89,7 @@ static rlf_result step(viewer *v)
         return result;
     }
     v->has_frame = true;
+    v->silent_s = 0;
     v->is_step_due = false;
     v->is_redraw_due = false;
     v->is_present_due = true;

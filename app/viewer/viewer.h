@@ -19,6 +19,7 @@ typedef rlf_result (*viewer_scene_fn)(void *context, const rlf_known_def *known,
 typedef struct viewer_options {
     const char *title;        /* of the window; required */
     const char *source_name;  /* shown on screen; required */
+    rlf_source *source;       /* asked for the time without frames; NULL = never */
     double frames_per_second; /* of playback; 0 = as frames come */
     int64_t frame_count;      /* stop after so many; -1 = when the user closes the window */
     bool use_gl;              /* draw with OpenGL; the soft renderer otherwise */

@@ -41,7 +41,7 @@ for command in "" run place export info sources settings eval measure bench; do
 done
 expect_done --version
 expect_error 2 "no command 'fly'" fly
-expect_error 2 "needs a SOURCE" run
+expect_error 2 "needs a SOURCE" run --headless
 expect_error 2 "live or thesis" run synthetic:room --profile both
 expect_error 2 "not a list of up to four views" run synthetic:room --headless --view smell
 expect_error 2 "not a list of up to four views" run synthetic:room --view camera,depth,mesh,depth,camera

@@ -7,7 +7,7 @@ pkg_check_modules(glfw3 REQUIRED IMPORTED_TARGET glfw3)
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
 set(app ${PROJECT_SOURCE_DIR}/app)
 add_executable(viewer_test ${CMAKE_CURRENT_LIST_DIR}/viewer_test.c ${app}/viewer/viewer.c ${app}/viewer/overlay.c
-               ${app}/viewer/place.c ${app}/viewer/throw.c ${app}/viewer/window.c ${app}/viewer/wishes.c)
+               ${app}/viewer/place.c ${app}/viewer/start.c ${app}/viewer/throw.c ${app}/viewer/window.c ${app}/viewer/wishes.c)
 relief_settings(viewer_test)
 # setenv is POSIX.
 target_compile_definitions(viewer_test PRIVATE _POSIX_C_SOURCE=200809L)
@@ -17,7 +17,8 @@ target_link_libraries(viewer_test PRIVATE relief_gl relief PkgConfig::glfw3 PkgC
 find_program(RELIEF_XVFB_RUN xvfb-run DOC "Lends the viewer's test a display")
 set(launcher "")
 if(RELIEF_XVFB_RUN)
-  set(launcher ${RELIEF_XVFB_RUN} -a)
+  # A server that starts anew when its last window closes refuses the next one meanwhile.
+  set(launcher ${RELIEF_XVFB_RUN} -a -s "-screen 0 1280x1024x24 -noreset")
 endif()
 add_test(NAME gl.viewer_test COMMAND ${launcher} $<TARGET_FILE:viewer_test>)
 # Window system and driver libraries are unloaded with memory they still hold.

@@ -10,7 +10,7 @@
 
 typedef struct device {
     char name[NAME_SIZE];
-    int64_t plugged_ns;
+    int64_t start_ns;
 } device;
 
 static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
@@ -27,26 +27,31 @@ static device *find(const char *name)
     return NULL;
 }
 
-rlf_result simulated_device_find(const char *name, int64_t *out_plugged_ns)
+int64_t simulated_device_start(const char *name)
+{
+    pthread_mutex_lock(&mutex);
+    const device *d = find(name);
+    const int64_t start_ns = d != NULL ? d->start_ns : rlf_clock_ns();
+    pthread_mutex_unlock(&mutex);
+    return start_ns;
+}
+
+rlf_result simulated_device_note(const char *name)
 {
     if (strlen(name) >= NAME_SIZE) {
         return rlf_fail(RLF_ERROR_INVALID, "simulated:%.20s...: the name is longer than %d bytes",
                         name, NAME_SIZE - 1);
     }
-    rlf_result result = RLF_OK;
     pthread_mutex_lock(&mutex);
-    device *d = find(name);
-    if (d == NULL && device_count < DEVICES_MAX) {
-        d = &devices[device_count++];
+    const bool is_known = find(name) != NULL;
+    const bool has_room = device_count < DEVICES_MAX;
+    if (!is_known && has_room) {
+        device *d = &devices[device_count++];
         (void)snprintf(d->name, sizeof(d->name), "%s", name);
-        d->plugged_ns = rlf_clock_ns();
-    }
-    if (d != NULL) {
-        *out_plugged_ns = d->plugged_ns;
-    } else {
-        result =
-            rlf_fail(RLF_ERROR_CAPACITY, "simulated:%s: more than %d of them", name, DEVICES_MAX);
+        d->start_ns = rlf_clock_ns();
     }
     pthread_mutex_unlock(&mutex);
-    return result;
+    return is_known || has_room ? RLF_OK
+                                : rlf_fail(RLF_ERROR_CAPACITY, "simulated:%s: more than %d of them",
+                                           name, DEVICES_MAX);
 }

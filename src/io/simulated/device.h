@@ -4,7 +4,10 @@
 
 #include "relief/base.h"
 
-/* When the camera of that name was plugged in (rlf_clock_ns): now, if it is new. Thread-safe. */
-rlf_result simulated_device_find(const char *name, int64_t *out_plugged_ns);
+/* When the camera of that name was opened first (rlf_clock_ns), from when its faults are counted;
+ * now, if it never was. Both calls are thread-safe. */
+int64_t simulated_device_start(const char *name);
+/* It was opened; the first time counts. */
+rlf_result simulated_device_note(const char *name);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "relief/backend.h"
 
-/* Times are seconds since the camera was plugged in first; < 0 = never. */
+/* Times are seconds since the camera was opened first; < 0 = never. */
 typedef struct simulated_faults {
     double unplug_s, replug_s;    /* pulled out; put back in that long after */
     double stall_s, stall_from_s; /* no frames for stall_s; stall_s 0 = never */

@@ -19,8 +19,8 @@ typedef struct simulated {
     simulated_faults faults;
     rlf_source *played;
     double period_s;
-    double plugged_s; /* the clock when it was plugged in */
-    double due_s;     /* since then: when the frame that is ready leaves the camera */
+    double start_s; /* the clock when it was opened first */
+    double due_s;   /* since then: when the frame that is ready leaves the camera */
     rlf_frame frame;
     bool is_ready, is_again; /* again: the frame comes twice */
     uint64_t made;           /* frames, with the lost ones */
@@ -99,7 +99,7 @@ static rlf_result simulated_next(void *self, rlf_frame *out)
 {
     simulated *s = self;
     const simulated_faults *f = &s->faults;
-    double now_s = clock_s() - s->plugged_s;
+    double now_s = clock_s() - s->start_s;
     while (f->hang_s >= 0.0 && now_s >= f->hang_s) {
         sleep_s(1.0);
     }
@@ -122,7 +122,7 @@ static rlf_result simulated_next(void *self, rlf_frame *out)
     if (f->time_back_s >= 0.0 && s->due_s >= f->time_back_s) {
         s->epoch_s = f->time_back_s;
     }
-    now_s = clock_s() - s->plugged_s;
+    now_s = clock_s() - s->start_s;
     const double wait_s = s->due_s + f->jitter_s * draw(s->made) - now_s;
     if (wait_s > 0.0) {
         sleep_s(wait_s < WAIT_MAX_S ? wait_s : WAIT_MAX_S);
@@ -159,7 +159,6 @@ static rlf_result describe(const rlf_address *address, simulated *s, rlf_source_
     const rlf_source_info *info = rlf_source_get_info(s->played);
     const double rate = info->frames_per_second > 0.0 ? info->frames_per_second : RATE;
     s->period_s = 1.0 / rate;
-    s->due_s = clock_s() - s->plugged_s;
     memset(out, 0, sizeof(*out));
     snprintf(out->name, sizeof(out->name), "%.127s", address->source);
     snprintf(out->device, sizeof(out->device), "simulated camera that plays %.80s", info->name);
@@ -175,17 +174,19 @@ static rlf_result describe(const rlf_address *address, simulated *s, rlf_source_
     return RLF_OK;
 }
 
+static double start_of(const rlf_address *address)
+{
+    return (double)simulated_device_start(address->place) / NS_PER_S;
+}
+
 static rlf_result simulated_open(const rlf_address *address, rlf_opened *out)
 {
     simulated_faults faults;
-    int64_t plugged_ns;
     rlf_result result = simulated_faults_parse(address, &faults);
-    result = result == RLF_OK ? simulated_device_find(address->place, &plugged_ns) : result;
     if (result != RLF_OK) {
         return result;
     }
-    const double plugged_s = (double)plugged_ns / NS_PER_S;
-    if (!simulated_is_plugged(&faults, clock_s() - plugged_s)) {
+    if (!simulated_is_plugged(&faults, clock_s() - start_of(address))) {
         return rlf_fail(RLF_ERROR_DEVICE, "%s: is not plugged in", address->source);
     }
     simulated *s = rlf_alloc(sizeof(*s));
@@ -193,14 +194,16 @@ static rlf_result simulated_open(const rlf_address *address, rlf_opened *out)
         return RLF_ERROR_MEMORY;
     }
     s->faults = faults;
-    s->plugged_s = plugged_s;
     memset(out, 0, sizeof(*out));
     result = open_played(address, s);
     result = result == RLF_OK ? describe(address, s, &out->info) : result;
+    result = result == RLF_OK ? simulated_device_note(address->place) : result;
     if (result != RLF_OK) {
         simulated_destroy(s);
         return result;
     }
+    s->start_s = start_of(address);
+    s->due_s = clock_s() - s->start_s;
     out->methods = (rlf_source_methods){.next = simulated_next, .destroy = simulated_destroy};
     out->self = s;
     return RLF_OK;

@@ -1,0 +1,22 @@
+/* Recordings that were shown lately, for the window's start page. */
+#ifndef RELIEF_APP_RECENT_H
+#define RELIEF_APP_RECENT_H
+
+#include "relief/base.h"
+
+#define RECENT_MAX 8
+#define RECENT_SIZE 1024
+
+typedef struct recent_list {
+    int32_t count;
+    char paths[RECENT_MAX][RECENT_SIZE]; /* the newest first */
+} recent_list;
+
+/* From $XDG_STATE_HOME/relief/recent, else ~/.local/state/relief/recent; those that are gone are
+ * left out. No such file: none. */
+void recent_load(recent_list *out);
+/* Puts a recording first, if it is a file or folder. A list that cannot be written stays as it was:
+ * it is of use, not of need. */
+void recent_note(const char *source);
+
+#endif

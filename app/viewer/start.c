@@ -1,0 +1,179 @@
+/* The window's start page. */
+#include "viewer/start.h"
+
+#include "relief/gl.h"
+#include "relief/pipeline.h"
+#include "relief/synthetic.h"
+#include "viewer/throw.h"
+#include "viewer/window.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define WIDTH 480 /* of the picture; the window is twice as large */
+#define HEIGHT 270
+#define WAIT_S 0.05
+#define HEAD 2 /* lines over the list */
+#define FOOT 2
+#define LINES_MAX (HEAD + VIEWER_CHOICES_MAX + FOOT)
+#define LINE_SIZE 128
+/* The overlay's layout in a picture of this height: where its lines begin, and how far apart. */
+#define LINE_START 2.0
+#define LINE_PITCH 10.0
+
+typedef struct start_page {
+    viewer_list_fn list;
+    void *context;
+    viewer_choice choices[VIEWER_CHOICES_MAX];
+    int32_t count, selected;
+    int32_t chosen; /* -1 = none yet */
+    char lines[LINES_MAX][LINE_SIZE];
+    viewer_window window;
+    rlf_gl_presenter *presenter;
+    rlf_source *source;
+    rlf_pipeline *pipeline;
+    rlf_pipeline_output frame;
+} start_page;
+
+static rlf_result open_room(start_page *page)
+{
+    rlf_synthetic_def synthetic = rlf_synthetic_def_default();
+    synthetic.enable_truth = false;
+    synthetic.color_width = WIDTH;
+    synthetic.color_height = HEIGHT;
+    rlf_result result = rlf_synthetic_create(&synthetic, &page->source);
+    if (result != RLF_OK) {
+        return result;
+    }
+    rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_THESIS, page->source, NULL);
+    def.compositor.enable_overlay = true;
+    result = rlf_pipeline_create(&def, &page->pipeline);
+    return result == RLF_OK ? rlf_pipeline_step(page->pipeline, &page->frame) : result;
+}
+
+static void look_again(start_page *page)
+{
+    page->count = page->list(page->context, page->choices);
+    page->selected = page->selected < page->count ? page->selected : 0;
+}
+
+static rlf_result draw(start_page *page)
+{
+    const char *pointers[LINES_MAX];
+    int32_t count = 0;
+    (void)snprintf(page->lines[count++], LINE_SIZE, "Relief: what shall be seen?");
+    (void)snprintf(page->lines[count++], LINE_SIZE, " ");
+    for (int32_t i = 0; i < page->count; i++) {
+        char number[4] = " ";
+        (void)snprintf(number, sizeof(number), "%d", (int)(i + 1) % 100);
+        (void)snprintf(page->lines[count++], LINE_SIZE, "%s %s  %s",
+                       i == page->selected ? ">" : " ", i < 9 ? number : " ",
+                       page->choices[i].text);
+    }
+    (void)snprintf(page->lines[count++], LINE_SIZE, " ");
+    (void)snprintf(page->lines[count++], LINE_SIZE,
+                   "arrows and Enter, number or click   R look again   Q quit");
+    for (int32_t i = 0; i < count; i++) {
+        pointers[i] = page->lines[i];
+    }
+    rlf_pipeline_set_overlay(page->pipeline, pointers, count);
+    return rlf_pipeline_redraw(page->pipeline, &page->frame);
+}
+
+static void present(start_page *page)
+{
+    int32_t width;
+    int32_t height;
+    viewer_window_get_framebuffer_size(&page->window, &width, &height);
+    if (width > 0 && height > 0) {
+        rlf_gl_presenter_draw(page->presenter, &page->frame.render.image, width, height);
+        viewer_window_swap(&page->window);
+    }
+}
+
+static void choose(start_page *page, int32_t index)
+{
+    if (index >= 0 && index < page->count) {
+        page->selected = index;
+        page->chosen = index;
+    }
+}
+
+static void click(start_page *page, double x, double y)
+{
+    int32_t width;
+    int32_t height;
+    double u, v;
+    viewer_window_get_size(&page->window, &width, &height);
+    const viewer_fit fit = {width, height, WIDTH, HEIGHT};
+    if (width > 0 && height > 0 && viewer_fit_pick(&fit, x, y, &u, &v) && v >= LINE_START) {
+        choose(page, (int32_t)((v - LINE_START) / LINE_PITCH) - HEAD);
+    }
+}
+
+/* True when the page looks otherwise now. */
+static bool fulfil_wishes(start_page *page)
+{
+    const viewer_wishes wishes = page->window.wishes;
+    page->window.wishes = (viewer_wishes){.view = -1};
+    if (wishes.restart) {
+        look_again(page);
+    }
+    const int32_t selected = page->selected + wishes.nudge_y;
+    page->selected = (int32_t)rlf_clamp(selected, 0, page->count - 1);
+    choose(page, wishes.view);
+    if (wishes.solve_points) {
+        choose(page, page->selected);
+    }
+    if (wishes.throw_body) {
+        click(page, wishes.throw_x, wishes.throw_y);
+    }
+    return wishes.restart || wishes.refresh || wishes.nudge_y != 0;
+}
+
+static rlf_result run(start_page *page, const volatile sig_atomic_t *interrupted)
+{
+    rlf_result result = draw(page);
+    bool is_present_due = true;
+    while (result == RLF_OK && page->chosen < 0) {
+        if (viewer_window_should_close(&page->window) ||
+            (interrupted != NULL && *interrupted != 0)) {
+            return RLF_END;
+        }
+        if (is_present_due) {
+            present(page);
+        }
+        viewer_window_poll(&page->window, WAIT_S);
+        is_present_due = fulfil_wishes(page);
+        result = is_present_due ? draw(page) : RLF_OK;
+    }
+    return result;
+}
+
+rlf_result viewer_choose(viewer_list_fn list, void *context,
+                         const volatile sig_atomic_t *interrupted, viewer_choice *out)
+{
+    static start_page page; /* large: the window's callbacks and all lines */
+    memset(&page, 0, sizeof(page));
+    page.list = list;
+    page.context = context;
+    page.chosen = -1;
+    rlf_result result = viewer_window_open("Relief", 2 * WIDTH, 2 * HEIGHT, &page.window);
+    if (result != RLF_OK) {
+        return result;
+    }
+    result = rlf_gl_presenter_create(&page.presenter);
+    result = result == RLF_OK ? open_room(&page) : result;
+    if (result == RLF_OK) {
+        look_again(&page);
+        result = run(&page, interrupted);
+    }
+    if (result == RLF_OK) {
+        *out = page.choices[page.chosen];
+    }
+    rlf_pipeline_destroy(&page.pipeline);
+    rlf_source_destroy(&page.source);
+    rlf_gl_presenter_destroy(&page.presenter);
+    viewer_window_close(&page.window);
+    return result;
+}
