@@ -186,7 +186,8 @@ static rlf_result simulated_open(const rlf_address *address, rlf_opened *out)
     if (result != RLF_OK) {
         return result;
     }
-    if (!simulated_is_plugged(&faults, clock_s() - start_of(address))) {
+    const double start_s = start_of(address);
+    if (!simulated_is_plugged(&faults, clock_s() - start_s)) {
         return rlf_fail(RLF_ERROR_DEVICE, "%s: is not plugged in", address->source);
     }
     simulated *s = rlf_alloc(sizeof(*s));
