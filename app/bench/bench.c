@@ -1,5 +1,6 @@
 /* `relief bench`: time and memory of every stage of both profiles. */
 #include "bench/bench.h"
+#include "bench/live.h"
 #include "bench/peers.h"
 #include "command.h"
 #include "machine.h"
@@ -22,6 +23,9 @@ static void print_help(void)
         "  --frames N        default 150 (at least 100 for a fair median)\n"
         "  --threads N       default 1; 0 = one per processor\n"
         "  --quick           leave the growth out\n"
+        "  --live            instead: the source as a camera in real time: how late its pictures\n"
+        "                    are, how soon it shows and is missed; default of --source then\n"
+        "                    synthetic:room?color=480x270\n"
         "  --json FILE       write every row as JSON too\n"
         "  --peer-clip FILE  write FILE and FILE.gt, what other libraries are timed on, and stop\n"
         "  --peers FILE      print their results beside ours (script/bench --peers does both)\n"
@@ -33,12 +37,13 @@ static void print_help(void)
 
 static int parse(int argc, char **argv, bench_options *o)
 {
-    *o = (bench_options){.source = "synthetic:room", .frames = 150, .threads = 1};
+    *o = (bench_options){.frames = 150, .threads = 1};
     const option_def options[] = {
         {.name = "source", .kind = OPTION_TEXT, .out = &o->source},
         {.name = "frames", .kind = OPTION_INT64, .out = &o->frames, .low = 1, .high = 100000},
         {.name = "threads", .kind = OPTION_INT32, .out = &o->threads, .low = 0, .high = 64},
         {.name = "quick", .kind = OPTION_FLAG, .out = &o->is_quick},
+        {.name = "live", .kind = OPTION_FLAG, .out = &o->is_live},
         {.name = "json", .kind = OPTION_TEXT, .out = &o->json_path},
         {.name = "peer-clip", .kind = OPTION_TEXT, .out = &o->clip_path},
         {.name = "peers", .kind = OPTION_TEXT, .out = &o->peers_path},
@@ -48,6 +53,9 @@ static int parse(int argc, char **argv, bench_options *o)
     int status = options_parse("bench", argc, argv, options, print_help);
     if (status < 0 && argc != optind) {
         return command_usage("bench", "takes no argument; use --source");
+    }
+    if (o->source == NULL) { /* a small picture: to make it must not be what is measured */
+        o->source = o->is_live ? "synthetic:room?color=480x270" : "synthetic:room";
     }
     return status;
 }
@@ -77,6 +85,9 @@ static rlf_result run(const bench_options *o, bench_table *table)
 {
     if (o->clip_path != NULL) {
         return write_clip(o->clip_path);
+    }
+    if (o->is_live) {
+        return bench_live(o->source, o->threads);
     }
     json_t *peers = NULL;
     rlf_result result = check(o);

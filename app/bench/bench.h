@@ -82,6 +82,7 @@ typedef struct bench_options {
     int32_t threads;
     const char *clip_path;  /* write the peers' clip, nothing else */
     const char *peers_path; /* results of the peers' harness; NULL = none */
+    bool is_live;           /* the live loop alone */
     bool is_quick;          /* no sweeps */
 } bench_options;
 

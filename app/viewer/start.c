@@ -13,8 +13,8 @@
 #define WIDTH 480 /* of the picture; the window is twice as large */
 #define HEIGHT 270
 #define WAIT_S 0.05
-#define HEAD 2 /* lines over the list */
-#define FOOT 2
+#define HEAD 1 /* lines over the list */
+#define FOOT 1
 #define LINES_MAX (HEAD + VIEWER_CHOICES_MAX + FOOT)
 #define LINE_SIZE 128
 /* The overlay's layout in a picture of this height: where its lines begin, and how far apart. */
@@ -61,8 +61,7 @@ static rlf_result draw(start_page *page)
 {
     const char *pointers[LINES_MAX];
     int32_t count = 0;
-    (void)snprintf(page->lines[count++], LINE_SIZE, "Relief: what shall be seen?");
-    (void)snprintf(page->lines[count++], LINE_SIZE, " ");
+    (void)snprintf(page->lines[count++], LINE_SIZE, "Relief: choose a camera or a recording");
     for (int32_t i = 0; i < page->count; i++) {
         char number[4] = " ";
         (void)snprintf(number, sizeof(number), "%d", (int)(i + 1) % 100);
@@ -70,7 +69,6 @@ static rlf_result draw(start_page *page)
                        i == page->selected ? ">" : " ", i < 9 ? number : " ",
                        page->choices[i].text);
     }
-    (void)snprintf(page->lines[count++], LINE_SIZE, " ");
     (void)snprintf(page->lines[count++], LINE_SIZE,
                    "arrows and Enter, number or click   R look again   Q quit");
     for (int32_t i = 0; i < count; i++) {

@@ -466,7 +466,7 @@ static int32_t list_choices(void *context, viewer_choice *out)
         (void)snprintf(out[i].text, sizeof(out[i].text), "text %d", (int)i);
     }
     if (p->click_row >= 0.0) { /* a picture of 480 x 270 that fills the window */
-        const double pixels[2] = {20.0, 2.0 + 10.0 * (2 + p->click_row)};
+        const double pixels[2] = {20.0, 2.0 + 10.0 * (1 + p->click_row)};
         const rlf_image_rgba8 image = {NULL, 480, 270, 0};
         click_pixel(&image, pixels);
     }
