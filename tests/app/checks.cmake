@@ -4,6 +4,10 @@ if(TARGET relief_app)
            COMMAND sh ${PROJECT_SOURCE_DIR}/tests/app/test_command.sh $<TARGET_FILE:relief_app>
                    ${CMAKE_CURRENT_BINARY_DIR}/app_command)
   set_tests_properties(app.command PROPERTIES LABELS app TIMEOUT 3600) # minutes with sanitizers
+  add_test(NAME app.live
+           COMMAND sh ${PROJECT_SOURCE_DIR}/tests/app/test_live.sh $<TARGET_FILE:relief_app>
+                   ${CMAKE_CURRENT_BINARY_DIR}/app_live)
+  set_tests_properties(app.live PROPERTIES LABELS app TIMEOUT 600)
 endif()
 
 # What `relief eval` and its kin count, and what they say about it.
@@ -14,6 +18,12 @@ if(TARGET relief_app)
     target_link_libraries(${name} PRIVATE relief_measures)
     set_tests_properties(app.${name} PROPERTIES TIMEOUT 3600) # minutes with sanitizers
   endforeach()
+endif()
+
+if(TARGET relief_app AND RELIEF_WITH_VIEWER)
+  relief_test(${PROJECT_SOURCE_DIR}/tests/app/test_recent.c app)
+  target_sources(test_recent PRIVATE ${PROJECT_SOURCE_DIR}/app/recent.c)
+  target_include_directories(test_recent PRIVATE ${PROJECT_SOURCE_DIR}/app)
 endif()
 
 # Every figure within its bound, mean of two seeds; one random room, for these have no bounds. Minutes with sanitizers, so only as released.

@@ -1,4 +1,4 @@
-# The viewer's test: its sources are part of the command, so they are built in here, and it needs a
+# The viewer's tests: its sources are part of the command, so they are built in here, and they need a
 # display, which xvfb-run lends.
 if(NOT TARGET relief_gl OR NOT RELIEF_WITH_VIEWER)
   return()
@@ -6,21 +6,24 @@ endif()
 pkg_check_modules(glfw3 REQUIRED IMPORTED_TARGET glfw3)
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
 set(app ${PROJECT_SOURCE_DIR}/app)
-add_executable(viewer_test ${CMAKE_CURRENT_LIST_DIR}/viewer_test.c ${app}/viewer/viewer.c ${app}/viewer/overlay.c
-               ${app}/viewer/place.c ${app}/viewer/start.c ${app}/viewer/throw.c ${app}/viewer/window.c ${app}/viewer/wishes.c)
-relief_settings(viewer_test)
-# setenv is POSIX.
-target_compile_definitions(viewer_test PRIVATE _POSIX_C_SOURCE=200809L)
-target_include_directories(viewer_test PRIVATE ${app})
-target_link_libraries(viewer_test PRIVATE relief_gl relief PkgConfig::glfw3 PkgConfig::epoxy
-                      PkgConfig::cmocka m)
-find_program(RELIEF_XVFB_RUN xvfb-run DOC "Lends the viewer's test a display")
+set(viewer ${app}/viewer/overlay.c ${app}/viewer/place.c ${app}/viewer/start.c ${app}/viewer/throw.c
+           ${app}/viewer/viewer.c ${app}/viewer/window.c ${app}/viewer/wishes.c)
+find_program(RELIEF_XVFB_RUN xvfb-run DOC "Lends the viewer's tests a display")
 set(launcher "")
 if(RELIEF_XVFB_RUN)
   # A server that starts anew when its last window closes refuses the next one meanwhile.
   set(launcher ${RELIEF_XVFB_RUN} -a -s "-screen 0 1280x1024x24 -noreset")
 endif()
-add_test(NAME gl.viewer_test COMMAND ${launcher} $<TARGET_FILE:viewer_test>)
-# Window system and driver libraries are unloaded with memory they still hold.
-set_tests_properties(gl.viewer_test PROPERTIES LABELS gl TIMEOUT 1800
-                     ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0")
+foreach(name viewer_test viewer_live_test)
+  add_executable(${name} ${CMAKE_CURRENT_LIST_DIR}/${name}.c ${viewer})
+  relief_settings(${name})
+  # setenv is POSIX.
+  target_compile_definitions(${name} PRIVATE _POSIX_C_SOURCE=200809L)
+  target_include_directories(${name} PRIVATE ${app})
+  target_link_libraries(${name} PRIVATE relief_gl relief PkgConfig::glfw3 PkgConfig::epoxy
+                        PkgConfig::cmocka m)
+  add_test(NAME gl.${name} COMMAND ${launcher} $<TARGET_FILE:${name}>)
+  # Window system and driver libraries are unloaded with memory they still hold.
+  set_tests_properties(gl.${name} PROPERTIES LABELS gl TIMEOUT 1800
+                       ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0")
+endforeach()

@@ -10,15 +10,10 @@
 #include "relief/synthetic.h"
 #include "viewer/viewer.h"
 #include "viewer/place.h"
-#include "viewer/start.h"
 #include "viewer/throw.h"
 
-#include <epoxy/gl.h>
+#include "viewer_drive.h"
 
-#include <GLFW/glfw3.h>
-
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- mouse ---------------------------------------------------------------------------------- */
@@ -151,15 +146,6 @@ static void test_place(void **state)
 
 /* ---- window --------------------------------------------------------------------------------- */
 
-static bool has_display(void)
-{
-    if (getenv("DISPLAY") == NULL) {
-        print_message("SKIPPED: no display (DISPLAY is not set)\n");
-        return false;
-    }
-    return true;
-}
-
 /* What happened in a run, and what to do at which frame. */
 typedef struct script {
     int64_t frames;
@@ -169,20 +155,6 @@ typedef struct script {
     uint8_t camera_pixel[3], normals_pixel[3];
     bool is_short; /* quit at the fifth frame */
 } script;
-
-static GLFWwindow *window(void)
-{
-    return glfwGetCurrentContext();
-}
-
-/* Presses a key as GLFW would report it. */
-static void press(int key)
-{
-    GLFWkeyfun on_key = glfwSetKeyCallback(window(), NULL);
-    glfwSetKeyCallback(window(), on_key);
-    on_key(window(), key, 0, GLFW_PRESS, 0);
-    on_key(window(), key, 0, GLFW_RELEASE, 0);
-}
 
 static rlf_result play(void *context, const rlf_pipeline_output *frame)
 {
@@ -297,21 +269,6 @@ typedef struct placing {
     int32_t saved_count;
 } placing;
 
-/* Clicks on a pixel of the picture. */
-static void click_pixel(const rlf_image_rgba8 *image, const double pixel[2])
-{
-    int width, height;
-    glfwGetWindowSize(window(), &width, &height);
-    double scale = rlf_min((double)width / image->width, (double)height / image->height);
-    double x = 0.5 * width + scale * (pixel[0] + 0.5 - 0.5 * image->width);
-    double y = 0.5 * height + scale * (pixel[1] + 0.5 - 0.5 * image->height);
-    glfwSetCursorPos(window(), x, y);
-    GLFWmousebuttonfun on_button = glfwSetMouseButtonCallback(window(), NULL);
-    glfwSetMouseButtonCallback(window(), on_button);
-    on_button(window(), GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);
-    on_button(window(), GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, 0);
-}
-
 static rlf_result play_placing(void *context, const rlf_pipeline_output *frame)
 {
     placing *s = context;
@@ -373,141 +330,6 @@ static void test_place_in_window(void **state)
     assert_true(rlf_length(rlf_sub(p, rlf_vec3_make(1.34, 0.455, 2.40))) < 0.005);
     rlf_pipeline_destroy(&pipeline);
     rlf_source_destroy(&source);
-}
-
-/* ---- a camera that stops -------------------------------------------------------------------- */
-
-/* Gives five frames, nothing for six calls, and frames again. */
-typedef struct stopping {
-    rlf_source *room;
-    int calls, silent_calls;
-    int64_t frames;
-} stopping;
-
-static rlf_result stopping_next(void *self, rlf_frame *out)
-{
-    stopping *s = self;
-    const int call = s->calls++;
-    if (call >= 5 && call < 11) {
-        s->silent_calls++;
-        return RLF_NO_FRAME;
-    }
-    s->silent_calls = 0;
-    rlf_result result = rlf_source_next(s->room, out);
-    out->host_time_ns = rlf_clock_ns();
-    return result;
-}
-
-static void stopping_status(void *self, rlf_source_status *out)
-{
-    const stopping *s = self;
-    out->is_connected = s->silent_calls == 0;
-    out->silence_s = s->silent_calls;
-}
-
-static rlf_result play_stopping(void *context, const rlf_pipeline_output *frame)
-{
-    stopping *s = context;
-    assert_true(frame->latency_ms > 0.0);
-    assert_false(frame->is_stale);
-    s->frames++;
-    return RLF_OK;
-}
-
-static void test_camera_stops(void **state)
-{
-    (void)state;
-    if (!has_display()) {
-        skip();
-    }
-    stopping s = {.calls = 0};
-    rlf_source *source = NULL;
-    rlf_pipeline *pipeline = NULL;
-    rlf_synthetic_def synthetic = rlf_synthetic_def_default();
-    synthetic.enable_truth = false;
-    synthetic.enable_color = false;
-    assert_int_equal(rlf_synthetic_create(&synthetic, &s.room), RLF_OK);
-    rlf_source_info info = *rlf_source_get_info(s.room);
-    info.is_live = true;
-    const rlf_source_methods methods = {.next = stopping_next, .status = stopping_status};
-    assert_int_equal(rlf_source_create_custom(&methods, &info, &s, &source), RLF_OK);
-    rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_THESIS, source, NULL);
-    def.compositor.enable_overlay = true;
-    assert_int_equal(rlf_pipeline_create(&def, &pipeline), RLF_OK);
-    viewer_options options = viewer_options_default();
-    options.source_name = "camera";
-    options.source = source;
-    options.frame_count = 10;
-    options.use_gl = false;
-    options.on_frame = play_stopping;
-    options.context = &s;
-    assert_int_equal(viewer_run(pipeline, &options), RLF_OK);
-    assert_int_equal(s.frames, 10);
-    assert_int_equal(s.calls, 16);
-    rlf_pipeline_destroy(&pipeline);
-    rlf_source_destroy(&source);
-    rlf_source_destroy(&s.room);
-}
-
-/* ---- start page ----------------------------------------------------------------------------- */
-
-typedef struct page {
-    int lists;
-    int first_key, second_key; /* pressed while it is listed */
-    double click_row;          /* < 0 = no click */
-} page;
-
-static int32_t list_choices(void *context, viewer_choice *out)
-{
-    page *p = context;
-    const int32_t count = 2 + p->lists++; /* one more camera each time */
-    for (int32_t i = 0; i < count; i++) {
-        (void)snprintf(out[i].source, sizeof(out[i].source), "source %d", (int)i);
-        (void)snprintf(out[i].text, sizeof(out[i].text), "text %d", (int)i);
-    }
-    if (p->click_row >= 0.0) { /* a picture of 480 x 270 that fills the window */
-        const double pixels[2] = {20.0, 2.0 + 10.0 * (1 + p->click_row)};
-        const rlf_image_rgba8 image = {NULL, 480, 270, 0};
-        click_pixel(&image, pixels);
-    }
-    press(p->first_key);
-    p->first_key = p->second_key;
-    return count;
-}
-
-static const char *choose(page p, rlf_result expected)
-{
-    static viewer_choice choice;
-    choice.source[0] = '\0';
-    const rlf_result result = viewer_choose(list_choices, &p, NULL, &choice);
-    if (result != expected) {
-        print_message("%s\n", rlf_error_text());
-    }
-    assert_int_equal(result, expected);
-    return choice.source;
-}
-
-static void test_start_page(void **state)
-{
-    (void)state;
-    if (!has_display()) {
-        skip();
-    }
-    assert_string_equal(choose((page){.first_key = GLFW_KEY_2, .click_row = -1}, RLF_OK),
-                        "source 1");
-    assert_string_equal(choose((page){.first_key = GLFW_KEY_ENTER, .click_row = -1}, RLF_OK),
-                        "source 0");
-    assert_string_equal(choose((page){.first_key = GLFW_KEY_H, .click_row = 1.5}, RLF_OK),
-                        "source 1");
-    /* R looks again: the third is there then. */
-    assert_string_equal(
-        choose((page){.first_key = GLFW_KEY_R, .second_key = GLFW_KEY_3, .click_row = -1}, RLF_OK),
-        "source 2");
-    assert_string_equal(choose((page){.first_key = GLFW_KEY_Q, .click_row = -1}, RLF_END), "");
-    static const volatile sig_atomic_t interrupted = 1;
-    page p = {.first_key = GLFW_KEY_H, .click_row = -1};
-    viewer_choice choice;
-    assert_int_equal(viewer_choose(list_choices, &p, &interrupted, &choice), RLF_END);
 }
 
 static void test_quit(void **state)
@@ -607,8 +429,6 @@ int main(void)
         cmocka_unit_test(test_window_with_gl),
         cmocka_unit_test(test_window_with_soft),
         cmocka_unit_test(test_place_in_window),
-        cmocka_unit_test(test_camera_stops),
-        cmocka_unit_test(test_start_page),
         cmocka_unit_test(test_quit),
         cmocka_unit_test(test_no_display),
         cmocka_unit_test(test_presenter),

@@ -12,6 +12,12 @@ void live_follow_reconnect(live_follow *follow)
     follow->is_connection_new = follow->has_last;
 }
 
+/* Clocks of bad drivers may say anything: what is too far apart wraps around, and is not right. */
+static int64_t gap_between(int64_t before_ns, int64_t after_ns)
+{
+    return (int64_t)((uint64_t)after_ns - (uint64_t)before_ns);
+}
+
 static bool is_time_right(int64_t gap_ns, int64_t host_gap_ns)
 {
     return gap_ns > 0 && gap_ns - host_gap_ns <= CLOCKS_APART_NS &&
@@ -31,8 +37,7 @@ bool live_follow_frame(live_follow *f, int64_t host_ns, rlf_frame *frame, uint64
     *out_lost = 0;
     if (f->has_last) {
         const int64_t host_gap_ns = host_ns > f->host_ns ? host_ns - f->host_ns : 1;
-        /* Unsigned, as clocks of bad drivers may be anything; what wraps around is not right. */
-        const int64_t gap_ns = (int64_t)((uint64_t)device_time_ns - (uint64_t)f->device_time_ns);
+        const int64_t gap_ns = gap_between(f->device_time_ns, device_time_ns);
         const uint64_t step = device_sequence - f->device_sequence;
         if (!f->is_connection_new && step == 0 && gap_ns == 0) {
             return false;
@@ -42,8 +47,10 @@ bool live_follow_frame(live_follow *f, int64_t host_ns, rlf_frame *frame, uint64
         *out_lost = keeps_count ? step - 1 : 0;
         frame->sequence = f->sequence + (keeps_count ? step : 1);
         frame->time_ns = f->time_ns + (keeps_time ? gap_ns : host_gap_ns);
+        const int64_t color_gap_ns = gap_between(device_time_ns, frame->color_time_ns);
         if (frame->color_time_ns != 0) {
-            frame->color_time_ns = frame->time_ns + (frame->color_time_ns - device_time_ns);
+            const bool is_near = color_gap_ns > -CLOCKS_APART_NS && color_gap_ns < CLOCKS_APART_NS;
+            frame->color_time_ns = is_near ? frame->time_ns + color_gap_ns : 0;
         }
     }
     *f = (live_follow){.has_last = true,

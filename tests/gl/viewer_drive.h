@@ -1,0 +1,53 @@
+/* Drives the window as its user would: keys and clicks. Include after cmocka.h. */
+#ifndef RLF_TEST_VIEWER_DRIVE_H
+#define RLF_TEST_VIEWER_DRIVE_H
+
+#include "relief/image.h"
+#include "relief/math.h"
+
+#include <epoxy/gl.h>
+
+#include <GLFW/glfw3.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static inline bool has_display(void)
+{
+    if (getenv("DISPLAY") == NULL) {
+        print_message("SKIPPED: no display (DISPLAY is not set)\n");
+        return false;
+    }
+    return true;
+}
+
+static inline GLFWwindow *window(void)
+{
+    return glfwGetCurrentContext();
+}
+
+/* Presses a key as GLFW would report it. */
+static inline void press(int key)
+{
+    GLFWkeyfun on_key = glfwSetKeyCallback(window(), NULL);
+    glfwSetKeyCallback(window(), on_key);
+    on_key(window(), key, 0, GLFW_PRESS, 0);
+    on_key(window(), key, 0, GLFW_RELEASE, 0);
+}
+
+/* Clicks on a pixel of the picture. */
+static inline void click_pixel(const rlf_image_rgba8 *image, const double pixel[2])
+{
+    int width, height;
+    glfwGetWindowSize(window(), &width, &height);
+    double scale = rlf_min((double)width / image->width, (double)height / image->height);
+    double x = 0.5 * width + scale * (pixel[0] + 0.5 - 0.5 * image->width);
+    double y = 0.5 * height + scale * (pixel[1] + 0.5 - 0.5 * image->height);
+    glfwSetCursorPos(window(), x, y);
+    GLFWmousebuttonfun on_button = glfwSetMouseButtonCallback(window(), NULL);
+    glfwSetMouseButtonCallback(window(), on_button);
+    on_button(window(), GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);
+    on_button(window(), GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, 0);
+}
+
+#endif
