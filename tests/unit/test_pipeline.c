@@ -230,6 +230,26 @@ static void a_frame_that_does_not_follow_does_not_advance_physics(void **state)
     }
 }
 
+/* The camera comes back nearer to the floor: the cube that lay there is lifted, not shot away. */
+static void a_room_that_changed_meanwhile_pushes_gently(void **state)
+{
+    (void)state;
+    rlf_source *source = open_plane(120, 33333333);
+    rlf_pipeline *pipeline = open_pipeline(source, RLF_PROFILE_LIVE, NULL);
+    rlf_pipeline_output out;
+    plane_memory.jump_frame = 60;
+    plane_memory.jump_ns = INT64_C(3600000000000);
+    while (rlf_pipeline_step(pipeline, &out) == RLF_OK) {
+        for (int i = 0; i < WIDTH * HEIGHT && out.frame_index == 59; i++) {
+            plane_memory.depth[i] = PLANE_MM - 200;
+        }
+        assert_true(out.frame_index < 60 || rlf_length(out.snapshot->bodies[0].velocity) < 1.0);
+    }
+    assert_true(fabs(out.snapshot->bodies[0].T_world_body.p.z - 1.7) < 0.01);
+    rlf_pipeline_destroy(&pipeline);
+    rlf_source_destroy(&source);
+}
+
 static void latency_and_silence_are_told(void **state)
 {
     (void)state;
@@ -413,6 +433,7 @@ int main(void)
         cmocka_unit_test(restart_repeats_the_run_exactly),
         cmocka_unit_test(frames_with_the_same_time_do_not_advance_physics),
         cmocka_unit_test(a_frame_that_does_not_follow_does_not_advance_physics),
+        cmocka_unit_test(a_room_that_changed_meanwhile_pushes_gently),
         cmocka_unit_test(latency_and_silence_are_told),
         cmocka_unit_test(redraw_shows_the_last_frame_in_another_view),
         cmocka_unit_test(a_lost_device_gives_way_to_the_soft_renderer),
