@@ -5,8 +5,8 @@
 
 #include "relief/base.h"
 
-/* Plays the source as a simulated camera in real time for some twelve seconds, with a cable that is
- * pulled and put back, and prints. Replaces the log writer. */
+/* Plays the source as a simulated camera in real time for some fourteen seconds, with a cable that
+ * is pulled and put back and a stall, and prints. Replaces the log writer. */
 rlf_result bench_live(const char *source, int32_t threads);
 
 #endif

@@ -9,8 +9,9 @@
 #include <pthread.h>
 
 #define LIVE_SECOND_NS INT64_C(1000000000)
-#define LIVE_SILENCE_NS LIVE_SECOND_NS /* without a frame: something is wrong */
-#define LIVE_SLOTS 3                   /* one being filled, the newest, one that the reader has */
+/* Without a frame: something is wrong. A second, less what the threads take to notice. */
+#define LIVE_SILENCE_NS (LIVE_SECOND_NS * 19 / 20)
+#define LIVE_SLOTS 3 /* one being filled, the newest, one that the reader has */
 #define LIVE_TEXT 512
 
 typedef struct io_live {
