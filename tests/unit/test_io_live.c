@@ -445,6 +445,9 @@ static void a_camera_without_a_first_frame_is_not_opened(void **state)
     assert_int_equal(open_camera(&source), RLF_ERROR_DEVICE);
     assert_non_null(strstr(rlf_error_text(), "test:here?serial=7: gave no frame within 5 s"));
     assert_int_equal(camera.closed, camera.opened);
+    camera.width = -4; /* a driver that says nonsense */
+    assert_true(open_camera(&source) < 0);
+    assert_int_equal(camera.closed, camera.opened);
     camera.open = FAILS;
     assert_int_equal(open_camera(&source), RLF_ERROR_DEVICE);
     assert_string_equal(rlf_error_text(), "test:here?serial=7: there is no camera here");

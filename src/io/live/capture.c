@@ -44,9 +44,13 @@ static bool is_same_rig(const rlf_rig *a, const rlf_rig *b)
 /* Makes the slots for the first frame ever. */
 static rlf_result describe(io_live *l)
 {
-    rlf_result result = RLF_OK;
+    const rlf_rig *rig = &l->device.info.rig;
+    rlf_result result = rlf_camera_check(&rig->depth, l->name);
+    if (result == RLF_OK && rig->has_color) {
+        result = rlf_camera_check(&rig->color, l->name);
+    }
     for (int32_t i = 0; i < LIVE_SLOTS && result == RLF_OK; i++) {
-        result = live_slot_create(&l->device.info.rig, &l->slots[i]);
+        result = live_slot_create(rig, &l->slots[i]);
     }
     if (result == RLF_OK) {
         pthread_mutex_lock(&l->mutex);
