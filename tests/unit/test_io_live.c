@@ -6,61 +6,13 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "io/live/follow.h"
 #include "io/live/live.h"
 #include "io/source/backends.h"
-#include "relief/io.h"
+#include "live_watch.h"
 
-#include <pthread.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
-
-#define MS INT64_C(1000000)
-#define SECOND (1000 * MS)
-
-static void sleep_ms(int ms)
-{
-    const struct timespec t = {ms / 1000, (long)(ms % 1000) * 1000000};
-    nanosleep(&t, NULL);
-}
-
-/* ---- log ------------------------------------------------------------------------------------ */
-
-#define LINES_MAX 32
-
-static pthread_mutex_t log_mutex = PTHREAD_MUTEX_INITIALIZER;
-static char log_lines[LINES_MAX][256];
-static int64_t log_times[LINES_MAX];
-static int log_count;
-
-static void take_line(void *context, rlf_log_level level, const char *line)
-{
-    (void)context;
-    (void)level;
-    pthread_mutex_lock(&log_mutex);
-    if (log_count < LINES_MAX) {
-        log_times[log_count] = rlf_clock_ns();
-        (void)snprintf(log_lines[log_count++], sizeof(log_lines[0]), "%s", line);
-    }
-    pthread_mutex_unlock(&log_mutex);
-}
-
-/* How many lines have the word; *out_ns is when the first came. */
-static int count_lines(const char *word, int64_t *out_ns)
-{
-    int count = 0;
-    pthread_mutex_lock(&log_mutex);
-    for (int i = 0; i < log_count; i++) {
-        if (strstr(log_lines[i], word) != NULL) {
-            *out_ns = count == 0 ? log_times[i] : *out_ns;
-            count++;
-        }
-    }
-    pthread_mutex_unlock(&log_mutex);
-    return count;
-}
 
 /* ---- a camera of 4 x 2 pixels --------------------------------------------------------------- */
 
@@ -158,8 +110,7 @@ static int set_up(void **state)
     memset(&camera, 0, sizeof(camera));
     camera.period_ms = 5;
     camera.width = 4;
-    log_count = 0;
-    rlf_set_log(take_line, NULL);
+    log_start();
     return 0;
 }
 
@@ -182,18 +133,6 @@ static rlf_source *open_good(void)
     rlf_source *source = NULL;
     assert_int_equal(open_camera(&source), RLF_OK);
     return source;
-}
-
-static rlf_frame next_frame(rlf_source *source)
-{
-    rlf_frame frame;
-    rlf_result result = RLF_NO_FRAME;
-    const int64_t end_ns = rlf_clock_ns() + 20 * SECOND;
-    while (result == RLF_NO_FRAME && rlf_clock_ns() < end_ns) {
-        result = rlf_source_next(source, &frame);
-    }
-    assert_int_equal(result, RLF_OK);
-    return frame;
 }
 
 /* ---- frames --------------------------------------------------------------------------------- */
@@ -275,28 +214,6 @@ static void frames_allocate_nothing(void **state)
 }
 
 /* ---- gone and back -------------------------------------------------------------------------- */
-
-/* Reads until the message has come; returns how long after `since_ns`. */
-static int64_t await_line(rlf_source *source, const char *word, int64_t since_ns)
-{
-    rlf_frame frame;
-    int64_t at_ns = 0;
-    while (count_lines(word, &at_ns) == 0) {
-        assert_true(rlf_clock_ns() - since_ns < 20 * SECOND);
-        assert_true(rlf_source_next(source, &frame) >= 0);
-    }
-    return at_ns - since_ns;
-}
-
-/* The line comes a moment after the frame that it tells of. */
-static void await_count(const char *word, int count)
-{
-    int64_t at_ns;
-    for (int i = 0; i < 500 && count_lines(word, &at_ns) < count; i++) {
-        sleep_ms(10);
-    }
-    assert_int_equal(count_lines(word, &at_ns), count);
-}
 
 static void check_back(rlf_source *source, int64_t time_ns, uint64_t sequence)
 {
@@ -453,129 +370,6 @@ static void a_camera_without_a_first_frame_is_not_opened(void **state)
     assert_string_equal(rlf_error_text(), "test:here?serial=7: there is no camera here");
 }
 
-/* ---- times and numbers ---------------------------------------------------------------------- */
-
-static rlf_frame follow(live_follow *f, uint64_t sequence, int64_t time_ns, int64_t host_ns,
-                        uint64_t lost)
-{
-    rlf_frame frame = {.sequence = sequence, .time_ns = time_ns, .color_time_ns = time_ns + 3 * MS};
-    uint64_t out_lost;
-    assert_true(live_follow_frame(f, host_ns, &frame, &out_lost));
-    assert_int_equal(out_lost, lost);
-    assert_int_equal(frame.color_time_ns, frame.time_ns + 3 * MS);
-    return frame;
-}
-
-static void clocks_and_counters_that_start_anew_go_on(void **state)
-{
-    (void)state;
-    live_follow f = {.has_last = false};
-    uint64_t lost;
-    assert_int_equal(follow(&f, 10, 5 * SECOND, 100 * SECOND, 0).time_ns, 5 * SECOND);
-    rlf_frame frame = follow(&f, 13, 5 * SECOND + 100 * MS, 100 * SECOND + 90 * MS, 2);
-    assert_int_equal(frame.sequence, 13);
-    assert_int_equal(frame.time_ns, 5 * SECOND + 100 * MS); /* the device's own step */
-    rlf_frame twice = {.sequence = 13, .time_ns = 5 * SECOND + 100 * MS};
-    assert_false(live_follow_frame(&f, 100 * SECOND + 95 * MS, &twice, &lost));
-    /* A clock of 32 bits that wraps, and a counter of 16. */
-    frame = follow(&f, 0, 20 * MS, 100 * SECOND + 123 * MS, 0);
-    assert_int_equal(frame.sequence, 14);
-    assert_int_equal(frame.time_ns, 5 * SECOND + 133 * MS);
-    frame = follow(&f, 1, 53 * MS, 100 * SECOND + 160 * MS, 0);
-    assert_int_equal(frame.time_ns, 5 * SECOND + 166 * MS);
-    /* A clock that is set, and a counter that is no counter. */
-    frame = follow(&f, UINT64_MAX, INT64_MAX - 9 * SECOND, 100 * SECOND + 193 * MS, 0);
-    assert_int_equal(frame.sequence, 16);
-    assert_int_equal(frame.time_ns, 5 * SECOND + 199 * MS);
-    frame = follow(&f, 1000000, INT64_MIN, 100 * SECOND + 226 * MS, 0);
-    assert_int_equal(frame.sequence, 17);
-    assert_int_equal(frame.time_ns, 5 * SECOND + 232 * MS);
-    /* Opened again: the same number and time are another frame. */
-    live_follow_reconnect(&f);
-    frame = follow(&f, 1000000, INT64_MIN, 109 * SECOND + 226 * MS, 0);
-    assert_int_equal(frame.sequence, 18);
-    assert_int_equal(frame.time_ns, 14 * SECOND + 232 * MS);
-}
-
-/* ---- the simulated camera ------------------------------------------------------------------- */
-
-#define PLAYED "of=synthetic:empty?color=0"
-
-static rlf_source *open_simulated(const char *source_text)
-{
-    rlf_source *source = NULL;
-    assert_int_equal(rlf_open_source(source_text, NULL, &source), RLF_OK);
-    return source;
-}
-
-static void the_simulated_camera_drops_doubles_and_jumps(void **state)
-{
-    (void)state;
-    rlf_source *source =
-        open_simulated("simulated:a?" PLAYED "&drop=7&doubled=5&jitter=10&time_back=1");
-    const int64_t start_ns = rlf_clock_ns();
-    int64_t time_ns = INT64_MIN;
-    for (int i = 0; i < 50; i++) {
-        const rlf_frame frame = next_frame(source);
-        assert_true(frame.time_ns > time_ns);
-        time_ns = frame.time_ns;
-    }
-    assert_true(rlf_clock_ns() - start_ns > SECOND); /* in real time */
-    const rlf_source_status s = rlf_source_get_status(source);
-    assert_in_range(s.lost, 6, 30);
-    assert_in_range(s.doubled, 7, 40);
-    rlf_source_destroy(&source);
-}
-
-static void the_simulated_camera_is_pulled_out_and_put_back(void **state)
-{
-    (void)state;
-    const int64_t start_ns = rlf_clock_ns();
-    rlf_source *source = open_simulated("simulated:b?" PLAYED "&unplug_after=1&replug_after=1.2");
-    assert_true(await_line(source, "was pulled out", start_ns) > SECOND);
-    rlf_frame frame = next_frame(source);
-    while ((frame.flags & RLF_FRAME_DISCONTINUITY) == 0) {
-        frame = next_frame(source);
-    }
-    assert_true(rlf_clock_ns() - start_ns > 2 * SECOND);
-    await_count("frames are back", 1);
-    rlf_source_destroy(&source);
-}
-
-static void the_simulated_camera_stalls(void **state)
-{
-    (void)state;
-    const int64_t start_ns = rlf_clock_ns();
-    rlf_source *source = open_simulated("simulated:c?" PLAYED "&stall=1.5@1");
-    assert_true(await_line(source, "no frame for 1 s", start_ns) > 18 * SECOND / 10);
-    (void)next_frame(source);
-    await_count("frames are back", 1);
-    rlf_source_destroy(&source);
-}
-
-static void wrong_faults_are_told(void **state)
-{
-    (void)state;
-    const char *const wrong[] = {
-        "simulated:?drop=1",     "simulated:?stall=2",   "simulated:?stall=2@",
-        "simulated:?hang=soon",  "simulated:?jitter=-1", "simulated:?of=simulated:",
-        "simulated:?of=nowhere", "simulated:?smell=1",   "simulated:gone?unplug_after=0"};
-    for (size_t i = 0; i < sizeof(wrong) / sizeof(wrong[0]); i++) {
-        rlf_source *source = NULL;
-        assert_true(rlf_open_source(wrong[i], NULL, &source) < 0);
-        assert_null(source);
-    }
-    assert_non_null(strstr(rlf_error_text(), "not plugged in"));
-}
-
-static void all_back_ends_are_asked_what_is_plugged_in(void **state)
-{
-    (void)state;
-    rlf_source_entry entries[4];
-    const int32_t count = rlf_source_list(entries, 4);
-    assert_true(count >= 0 && rlf_source_list(NULL, 0) == count);
-}
-
 int main(void)
 {
 #define TEST(f) cmocka_unit_test_setup(f, set_up)
@@ -592,12 +386,6 @@ int main(void)
         TEST(a_driver_stuck_in_close_is_left),
         TEST(a_driver_stuck_in_open_is_told_and_left),
         TEST(a_camera_without_a_first_frame_is_not_opened),
-        TEST(clocks_and_counters_that_start_anew_go_on),
-        TEST(the_simulated_camera_drops_doubles_and_jumps),
-        TEST(the_simulated_camera_is_pulled_out_and_put_back),
-        TEST(the_simulated_camera_stalls),
-        TEST(wrong_faults_are_told),
-        TEST(all_back_ends_are_asked_what_is_plugged_in),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

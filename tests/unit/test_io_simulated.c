@@ -1,0 +1,155 @@
+/* The simulated camera, and the times and counts of cameras. */
+#define _POSIX_C_SOURCE 200809L
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "io/live/follow.h"
+#include "live_watch.h"
+#include "relief/io.h"
+
+static int set_up(void **state)
+{
+    (void)state;
+    log_start();
+    return 0;
+}
+
+/* ---- times and numbers ---------------------------------------------------------------------- */
+
+static rlf_frame follow(live_follow *f, uint64_t sequence, int64_t time_ns, int64_t host_ns,
+                        uint64_t lost)
+{
+    rlf_frame frame = {.sequence = sequence, .time_ns = time_ns, .color_time_ns = time_ns + 3 * MS};
+    uint64_t out_lost;
+    assert_true(live_follow_frame(f, host_ns, &frame, &out_lost));
+    assert_int_equal(out_lost, lost);
+    assert_int_equal(frame.color_time_ns, frame.time_ns + 3 * MS);
+    return frame;
+}
+
+static void clocks_and_counters_that_start_anew_go_on(void **state)
+{
+    (void)state;
+    live_follow f = {.has_last = false};
+    uint64_t lost;
+    assert_int_equal(follow(&f, 10, 5 * SECOND, 100 * SECOND, 0).time_ns, 5 * SECOND);
+    rlf_frame frame = follow(&f, 13, 5 * SECOND + 100 * MS, 100 * SECOND + 90 * MS, 2);
+    assert_int_equal(frame.sequence, 13);
+    assert_int_equal(frame.time_ns, 5 * SECOND + 100 * MS); /* the device's own step */
+    rlf_frame twice = {.sequence = 13, .time_ns = 5 * SECOND + 100 * MS};
+    assert_false(live_follow_frame(&f, 100 * SECOND + 95 * MS, &twice, &lost));
+    /* A clock of 32 bits that wraps, and a counter of 16. */
+    frame = follow(&f, 0, 20 * MS, 100 * SECOND + 123 * MS, 0);
+    assert_int_equal(frame.sequence, 14);
+    assert_int_equal(frame.time_ns, 5 * SECOND + 133 * MS);
+    frame = follow(&f, 1, 53 * MS, 100 * SECOND + 160 * MS, 0);
+    assert_int_equal(frame.time_ns, 5 * SECOND + 166 * MS);
+    /* A clock that is set, and a counter that is no counter. */
+    frame = follow(&f, UINT64_MAX, INT64_MAX - 9 * SECOND, 100 * SECOND + 193 * MS, 0);
+    assert_int_equal(frame.sequence, 16);
+    assert_int_equal(frame.time_ns, 5 * SECOND + 199 * MS);
+    frame = follow(&f, 1000000, INT64_MIN, 100 * SECOND + 226 * MS, 0);
+    assert_int_equal(frame.sequence, 17);
+    assert_int_equal(frame.time_ns, 5 * SECOND + 232 * MS);
+    /* Opened again: the same number and time are another frame. */
+    live_follow_reconnect(&f);
+    frame = follow(&f, 1000000, INT64_MIN, 109 * SECOND + 226 * MS, 0);
+    assert_int_equal(frame.sequence, 18);
+    assert_int_equal(frame.time_ns, 14 * SECOND + 232 * MS);
+}
+
+/* ---- the simulated camera ------------------------------------------------------------------- */
+
+#define PLAYED "of=synthetic:empty?color=0"
+
+static rlf_source *open_simulated(const char *source_text)
+{
+    rlf_source *source = NULL;
+    assert_int_equal(rlf_open_source(source_text, NULL, &source), RLF_OK);
+    return source;
+}
+
+static void the_simulated_camera_drops_doubles_and_jumps(void **state)
+{
+    (void)state;
+    rlf_source *source =
+        open_simulated("simulated:a?" PLAYED "&drop=7&doubled=5&jitter=10&time_back=1");
+    const int64_t start_ns = rlf_clock_ns();
+    int64_t time_ns = INT64_MIN;
+    for (int i = 0; i < 50; i++) {
+        const rlf_frame frame = next_frame(source);
+        assert_true(frame.time_ns > time_ns);
+        time_ns = frame.time_ns;
+    }
+    assert_true(rlf_clock_ns() - start_ns > SECOND); /* in real time */
+    const rlf_source_status s = rlf_source_get_status(source);
+    assert_in_range(s.lost, 6, 30);
+    assert_in_range(s.doubled, 7, 40);
+    rlf_source_destroy(&source);
+}
+
+static void the_simulated_camera_is_pulled_out_and_put_back(void **state)
+{
+    (void)state;
+    const int64_t start_ns = rlf_clock_ns();
+    rlf_source *source = open_simulated("simulated:b?" PLAYED "&unplug_after=1&replug_after=1.2");
+    assert_true(await_line(source, "was pulled out", start_ns) > SECOND);
+    rlf_frame frame = next_frame(source);
+    while ((frame.flags & RLF_FRAME_DISCONTINUITY) == 0) {
+        frame = next_frame(source);
+    }
+    assert_true(rlf_clock_ns() - start_ns > 2 * SECOND);
+    await_count("frames are back", 1);
+    rlf_source_destroy(&source);
+}
+
+static void the_simulated_camera_stalls(void **state)
+{
+    (void)state;
+    const int64_t start_ns = rlf_clock_ns();
+    rlf_source *source = open_simulated("simulated:c?" PLAYED "&stall=1.5@1");
+    assert_true(await_line(source, "no frame for 1 s", start_ns) > 18 * SECOND / 10);
+    (void)next_frame(source);
+    await_count("frames are back", 1);
+    rlf_source_destroy(&source);
+}
+
+static void wrong_faults_are_told(void **state)
+{
+    (void)state;
+    const char *const wrong[] = {
+        "simulated:?drop=1",     "simulated:?stall=2",   "simulated:?stall=2@",
+        "simulated:?hang=soon",  "simulated:?jitter=-1", "simulated:?of=simulated:",
+        "simulated:?of=nowhere", "simulated:?smell=1",   "simulated:gone?unplug_after=0"};
+    for (size_t i = 0; i < sizeof(wrong) / sizeof(wrong[0]); i++) {
+        rlf_source *source = NULL;
+        assert_true(rlf_open_source(wrong[i], NULL, &source) < 0);
+        assert_null(source);
+    }
+    assert_non_null(strstr(rlf_error_text(), "not plugged in"));
+}
+
+static void all_back_ends_are_asked_what_is_plugged_in(void **state)
+{
+    (void)state;
+    rlf_source_entry entries[4];
+    const int32_t count = rlf_source_list(entries, 4);
+    assert_true(count >= 0 && rlf_source_list(NULL, 0) == count);
+}
+
+int main(void)
+{
+#define TEST(f) cmocka_unit_test_setup(f, set_up)
+    const struct CMUnitTest tests[] = {
+        TEST(clocks_and_counters_that_start_anew_go_on),
+        TEST(the_simulated_camera_drops_doubles_and_jumps),
+        TEST(the_simulated_camera_is_pulled_out_and_put_back),
+        TEST(the_simulated_camera_stalls),
+        TEST(wrong_faults_are_told),
+        TEST(all_back_ends_are_asked_what_is_plugged_in),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
