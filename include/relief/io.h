@@ -6,6 +6,7 @@
 #ifndef RELIEF_IO_H
 #define RELIEF_IO_H
 
+#include "relief/backend.h"
 #include "relief/model.h"
 #include "relief/pipeline.h"
 #include "relief/synthetic.h"
@@ -20,6 +21,10 @@ extern "C" {
 /* Opens any SOURCE of the command line: "synthetic:...", or a folder in the TUM layout with
  * camera.json. `pool` is borrowed (NULL = one thread). */
 RLF_API rlf_result rlf_open_source(const char *source, rlf_pool *pool, rlf_source **out);
+
+/* Cameras that are plugged in now, of all back ends of this build: writes at most `capacity`,
+ * returns how many there are. May take a second: drivers ask the bus. */
+RLF_API int32_t rlf_source_list(rlf_source_entry *out, int32_t capacity);
 
 /* TUM RGB-D folder: depth.txt, rgb.txt (optional), camera.json; see docs/formats.md. Each depth
  * frame is paired with the colour frame nearest in time (at most 50 ms away, else none). */
