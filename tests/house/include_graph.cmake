@@ -53,7 +53,7 @@ set(header_query world)
 set(header_compositor snapshot surface)
 set(header_known snapshot surface)
 set(header_pipeline compositor known reconstruct source world)
-set(header_io model pipeline synthetic)
+set(header_io backend model pipeline synthetic)
 set(header_gl compositor)
 set(header_relief base camera compositor frame image known math model pipeline query reconstruct snapshot source
     surface synthetic world)
