@@ -1,4 +1,4 @@
-/* `relief info SOURCE` and `relief sources`. */
+/* `relief info SOURCE`. */
 #include "command.h"
 #include "relief/io.h"
 
@@ -65,23 +65,5 @@ int info_main(int argc, char **argv)
     }
     print_info(rlf_source_get_info(source));
     rlf_source_destroy(&source);
-    return EXIT_DONE;
-}
-
-int sources_main(int argc, char **argv)
-{
-    static const struct option options[] = {{"help", no_argument, NULL, 'h'}, {0}};
-    if (getopt_long(argc, argv, "h", options, NULL) != -1 || argc != optind) {
-        printf("usage: relief sources\n\nLists the kinds of source that this build can open.\n");
-        return optind > 1 && argc == optind ? EXIT_DONE : EXIT_USAGE;
-    }
-    printf(
-        "synthetic:NAME[?key=value&...]  a simulated room with ground truth\n"
-        "    NAME: room, empty, thesis, chair, book, hand, lift, swipe, carry, crossing, random\n"
-        "    keys: seed, person (who it is; 1 = 1.75 m tall), frames, fps, speed, lamp (X,Y,Z),\n"
-        "    noise (0|1|steps), edge_filter (0|1), color (WxH or 0), push (none|lift|swipe|carry)\n"
-        "    random: room, people, camera and sensor drawn by the seed; with push something\n"
-        "    that stood there is lifted, sweeps or carries at speed instead of people coming\n"
-        "FOLDER                          a clip: depth.txt, rgb.txt, PNG/JPEG, camera.json\n");
     return EXIT_DONE;
 }

@@ -61,6 +61,7 @@ static void print_help(void)
            "  --scale N             keep every N-th depth pixel (live 1, thesis 8)\n"
            "  --set NAME=VALUE      a setting of the surface (see `relief settings`); any number\n"
            "  --threads N           default: one per processor; results do not depend on it\n"
+           "  --plugin FILE         a plug-in that brings a camera or a format; any number\n"
            "  --hash                print the hash of all body states at the end\n"
            "  --quiet               no progress and no summary\n\n"
            "examples:\n"
@@ -231,6 +232,7 @@ static int read_options(int argc, char **argv, run_options *o)
         {.name = "hash", .kind = OPTION_FLAG, .out = &out->print_hash},
         {.name = "quiet", .kind = OPTION_FLAG, .out = &out->is_quiet},
         {.name = "set", .kind = OPTION_SET, .out = &s->settings},
+        {.name = "plugin", .kind = OPTION_PLUGIN},
         {0},
     };
     return options_parse("run", argc, argv, options, print_help);
