@@ -20,7 +20,7 @@ typedef struct replay {
     int64_t interval_ns, last_time_ns;
     uint64_t last_sequence;
     uint64_t dropped, frames_in; /* frames_in counts over all loops */
-    bool is_first, has_jumped;
+    bool is_first, has_jumped, is_at_seam;
     /* Playing at a speed: a frame is read, and given when it is due. */
     bool is_held, is_started;
     rlf_frame held;
@@ -60,6 +60,35 @@ static rlf_result start_again(replay *r)
     return result;
 }
 
+/* Time and count go on over the seam of a loop. */
+static void renumber(replay *r, rlf_frame *f)
+{
+    if (r->is_first && r->has_jumped) {
+        r->time_offset_ns = r->last_time_ns + r->interval_ns - f->time_ns;
+        r->sequence_offset = (int64_t)(r->last_sequence + 1 - f->sequence);
+        r->is_at_seam = true;
+    }
+    f->time_ns += r->time_offset_ns;
+    f->color_time_ns += f->color_time_ns != 0 ? r->time_offset_ns : 0;
+    f->sequence += (uint64_t)r->sequence_offset;
+    if (r->is_first) {
+        f->flags &= ~(uint32_t)RLF_FRAME_DISCONTINUITY; /* of going to `start` */
+    }
+    r->last_time_ns = f->time_ns;
+    r->last_sequence = f->sequence;
+    r->is_first = false;
+}
+
+static void set_flags(replay *r, rlf_frame *f)
+{
+    f->flags |= r->is_at_seam ? (uint32_t)RLF_FRAME_DISCONTINUITY : 0u;
+    r->is_at_seam = false;
+    if (r->keys.aligned >= 0) {
+        f->flags &= ~(uint32_t)RLF_FRAME_ALIGNED;
+        f->flags |= r->keys.aligned != 0 ? (uint32_t)RLF_FRAME_ALIGNED : 0u;
+    }
+}
+
 /* Reads on until there is a frame that is not to be lost. */
 static rlf_result read_on(replay *r, rlf_frame *out)
 {
@@ -77,6 +106,9 @@ static rlf_result read_on(replay *r, rlf_frame *out)
             return result;
         }
         const int64_t index = r->position++;
+        if (result == RLF_OK) {
+            renumber(r, out);
+        }
         if (result != RLF_OK || !is_dropped(r, index)) {
             r->frames_in++;
             return result;
@@ -84,29 +116,6 @@ static rlf_result read_on(replay *r, rlf_frame *out)
         r->frames_in++;
         r->dropped++;
     }
-}
-
-static void renumber(replay *r, rlf_frame *f)
-{
-    const bool is_seam = r->is_first && r->has_jumped;
-    if (is_seam) {
-        r->time_offset_ns = r->last_time_ns + r->interval_ns - f->time_ns;
-        r->sequence_offset = (int64_t)(r->last_sequence + 1 - f->sequence);
-    }
-    f->time_ns += r->time_offset_ns;
-    f->color_time_ns += f->color_time_ns != 0 ? r->time_offset_ns : 0;
-    f->sequence += (uint64_t)r->sequence_offset;
-    r->last_time_ns = f->time_ns;
-    r->last_sequence = f->sequence;
-    if (r->is_first) {
-        f->flags &= ~(uint32_t)RLF_FRAME_DISCONTINUITY; /* of going to `start` */
-        f->flags |= is_seam ? (uint32_t)RLF_FRAME_DISCONTINUITY : 0u;
-    }
-    if (r->keys.aligned >= 0) {
-        f->flags &= ~(uint32_t)RLF_FRAME_ALIGNED;
-        f->flags |= r->keys.aligned != 0 ? (uint32_t)RLF_FRAME_ALIGNED : 0u;
-    }
-    r->is_first = false;
 }
 
 static rlf_result read_frame(replay *r, rlf_frame *out)
@@ -118,7 +127,7 @@ static rlf_result read_frame(replay *r, rlf_frame *out)
         result = result == RLF_OK ? read_on(r, out) : result;
     }
     if (result == RLF_OK) {
-        renumber(r, out);
+        set_flags(r, out);
     }
     return result;
 }
@@ -210,7 +219,7 @@ static rlf_result replay_seek(void *self, int64_t index)
     }
     rlf_result result = r->inner.methods.seek(r->inner.self, r->begin + index);
     r->position = r->begin + index;
-    r->is_held = r->is_started = false;
+    r->is_held = r->is_started = r->is_first = r->is_at_seam = false;
     r->time_offset_ns = r->sequence_offset = 0;
     return result;
 }
@@ -218,7 +227,7 @@ static rlf_result replay_seek(void *self, int64_t index)
 static rlf_result replay_restart(void *self)
 {
     replay *r = self;
-    r->is_held = r->is_started = r->has_jumped = false;
+    r->is_held = r->is_started = r->has_jumped = r->is_at_seam = false;
     r->is_first = true;
     r->time_offset_ns = r->sequence_offset = 0;
     r->frames_in = 0;
