@@ -7,23 +7,19 @@
 
 typedef struct color_fit color_fit;
 
-/* One direction of the offset, colour pixels. */
-typedef struct color_fit_axis {
-    double
-        offset; /* > 0: the colour picture is that far to the right (down) of where it should be */
-    double error;    /* standard error of the offset */
-    double widening; /* depth's edges lie that far outside those of colour, on each side */
-} color_fit_axis;
-
+/* Lengths in colour pixels. */
 typedef struct color_fit_result {
-    int64_t edges; /* edge points used, both directions */
+    int64_t edges; /* edge points used */
     int32_t frames;
-    bool is_known; /* enough edges, and they agree */
-    double pixel;  /* colour pixels that one depth pixel covers, at least 1 */
-    color_fit_axis x, y;
+    bool is_known;    /* enough edges, and they agree */
+    bool is_far_only; /* the farther half of them alone does, and what follows is of it */
+    double pixel;     /* what one depth pixel covers, at least 1 */
+    double x, y;      /* the colour picture is that far right and down of where it should be */
+    double error_x, error_y; /* standard errors of it */
+    double widening;         /* depth's edges lie that far outside those of colour, on each side */
     /* The same from the nearer and the farther half of the edges alone; a transform that is missing
      * or wrong makes them differ. NAN = not known. */
-    double near_x, far_x, near_y, far_y;
+    double near_x, near_y, far_x, far_y;
 } color_fit_result;
 
 /* NULL without memory. The rig must have colour. */
@@ -33,8 +29,9 @@ void color_fit_destroy(color_fit **fit);
 void color_fit_add(color_fit *fit, const float *depth, const rlf_image_rgba8 *color);
 void color_fit_get(const color_fit *fit, color_fit_result *out);
 
-/* Length of the offset, colour pixels. */
+/* Length of the offset and its error. */
 double color_fit_length(const color_fit_result *r);
+double color_fit_error(const color_fit_result *r);
 /* Whether colour is off by more than a pixel of the coarser picture, beyond doubt. */
 bool color_fit_is_off(const color_fit_result *r);
 

@@ -6,8 +6,9 @@
 
 /* Of a range of distances that are told apart. */
 #define INFO_BINS 10
-#define INFO_BIN_M 0.5 /* bin b is from b / 2 to (b + 1) / 2 metres; the last one takes the rest   \
-                        */
+#define INFO_BIN_M                                                                                 \
+    0.5 /* bin b is from b / 2 to (b + 1) / 2 metres; the last one takes the rest                  \
+         */
 
 static inline int32_t info_bin(double z)
 {

@@ -24,8 +24,8 @@ static void print_calibration(const rlf_source_info *info)
         const rlf_vec3 at =
             rlf_rotate(rlf_quat_conjugate(rig->T_color_depth.q), rig->T_color_depth.p);
         print_camera("color", &rig->color);
-        printf("        color camera at (%.4f, %.4f, %.4f) m from the depth camera\n", -at.x, -at.y,
-               -at.z);
+        printf("        color camera at (%.4f, %.4f, %.4f) m from the depth camera\n", 0.0 - at.x,
+               0.0 - at.y, 0.0 - at.z);
     } else {
         printf("color   none\n");
     }
@@ -113,8 +113,8 @@ bool report_says_aligned(const rlf_source_info *info, const survey *s)
 
 static void print_direction(const color_fit_result *r)
 {
-    printf("%.1f %s, %.1f %s", fabs(r->x.offset), r->x.offset >= 0 ? "right" : "left",
-           fabs(r->y.offset), r->y.offset >= 0 ? "down" : "up");
+    printf("%.1f %s, %.1f %s", fabs(r->x), r->x >= 0 ? "right" : "left", fabs(r->y),
+           r->y >= 0 ? "down" : "up");
 }
 
 /* Near and far differ by more than a pixel: the parallax is not what the transform says. */
@@ -129,27 +129,30 @@ static void print_fit(const rlf_source_info *info, const survey *s)
     if (!s->has_fit) {
         return;
     }
+    const double error = color_fit_error(r);
     if (!r->is_known) {
-        printf("fit     colour on depth: cannot be told from %lld edge points\n",
-               (long long)r->edges);
+        printf("fit     colour on depth cannot be told: %lld edge points, whose offsets differ by "
+               "+- %.1f px\n",
+               (long long)r->edges, error);
         return;
     }
-    const double error = sqrt(r->x.error * r->x.error + r->y.error * r->y.error);
     if (color_fit_is_off(r)) {
-        printf("fit     colour is %.1f px off (", color_fit_length(r));
+        printf("fit     colour is %.1f px off%s (", color_fit_length(r),
+               r->is_far_only ? " where things are far" : "");
         print_direction(r);
         printf(", +- %.1f)%s\n", error,
                report_says_aligned(info, s)
                    ? ": it is not aligned with depth though the source says so"
                    : ": check the transform and the colour camera of the calibration");
     } else {
-        printf("fit     colour fits depth to %.1f px (", color_fit_length(r));
+        printf("fit     colour fits depth to %.1f px%s (", color_fit_length(r),
+               r->is_far_only ? " where things are far" : "");
         print_direction(r);
         printf(", +- %.1f)\n", error);
     }
     printf("        %lld edge points of %d frames; depth's are %.1f px %s than colour's\n",
-           (long long)r->edges, (int)r->frames, fabs(r->x.widening),
-           r->x.widening <= 0.0 ? "wider" : "narrower");
+           (long long)r->edges, (int)r->frames, fabs(r->widening),
+           r->widening >= 0.0 ? "wider" : "narrower");
     if (differs(r->near_x, r->far_x, r) || differs(r->near_y, r->far_y, r)) {
         printf("        near things are off by (%.1f, %.1f), far ones by (%.1f, %.1f) px: the "
                "transform from depth to colour is wrong or missing\n",

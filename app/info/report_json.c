@@ -49,23 +49,18 @@ static json_t *stillness_json(const stillness_result *r)
                      "bins", bins);
 }
 
-static json_t *axis_json(const color_fit_axis *a, double near, double far)
-{
-    return json_pack("{s:o, s:o, s:o, s:o, s:o}", "offset", json_file_number(a->offset), "error",
-                     json_file_number(a->error), "widening", json_file_number(a->widening), "near",
-                     json_file_number(near), "far", json_file_number(far));
-}
-
 static json_t *fit_json(const rlf_source_info *info, const survey *s)
 {
     const color_fit_result *r = &s->fit;
     if (!s->has_fit) {
         return json_null();
     }
-    return json_pack("{s:b, s:b, s:b, s:I, s:o, s:o}", "is_known", r->is_known, "is_off",
-                     color_fit_is_off(r), "says_aligned", report_says_aligned(info, s), "edges",
-                     (json_int_t)r->edges, "x", axis_json(&r->x, r->near_x, r->far_x), "y",
-                     axis_json(&r->y, r->near_y, r->far_y));
+    return json_pack("{s:b, s:b, s:b, s:I, s:f, s:f, s:f, s:f, s:f, s:o, s:o, s:o, s:o}",
+                     "is_known", r->is_known, "is_off", color_fit_is_off(r), "says_aligned",
+                     report_says_aligned(info, s), "edges", (json_int_t)r->edges, "x", r->x, "y",
+                     r->y, "error_x", r->error_x, "error_y", r->error_y, "widening", r->widening,
+                     "near_x", json_file_number(r->near_x), "near_y", json_file_number(r->near_y),
+                     "far_x", json_file_number(r->far_x), "far_y", json_file_number(r->far_y));
 }
 
 rlf_result report_write_json(const rlf_source_info *info, const survey *s, const char *path)

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #define INTERVALS_MAX 4096 /* for the median; later ones only count for the longest */
-#define FIT_FRAMES_MAX 12  /* spread over the clip */
+#define FIT_FRAMES_MAX 40  /* spread over the clip */
 #define FAILED_MAX 100     /* a source that fails this often in a row has no more to give */
 
 typedef struct reader {
