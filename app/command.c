@@ -1,6 +1,8 @@
 /* What the subcommands of `relief` share: messages, and numbers read from their options. */
 #include "command.h"
 
+#include "relief/io.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,6 +23,13 @@ int command_set(const char *command, setting_list *s, const char *text)
 {
     return settings_add(s, text) == RLF_OK ? -1
                                            : command_usage(command, "--set %s", rlf_error_text());
+}
+
+void command_load_plugin(const char *path)
+{
+    if (rlf_plugin_load(path) != RLF_OK) {
+        rlf_log(RLF_LOG_WARNING, "%s", rlf_error_text());
+    }
 }
 
 int command_failed(void)

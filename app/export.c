@@ -51,7 +51,7 @@ static void print_help(void)
            "  --profile NAME    live (default) or thesis\n"
            "  --scale N         keep every N-th depth pixel (live 1, thesis 8)\n"
            "  --set NAME=VALUE  a setting of the surface (see `relief settings`); any number\n"
-           "  --threads N       default: one per processor\n\n"
+           "  --threads N       default: one per processor\n" COMMAND_PLUGIN_HELP "\n"
            "examples:\n"
            "  relief export synthetic:room --out out --what depth,normals,true_normals "
            "--frames 0:50\n"
@@ -83,6 +83,7 @@ static int parse(int argc, char **argv, export_options *o)
         {.name = "scale", .kind = OPTION_INT32, .out = &s->scale_factor, .low = 1, .high = 64},
         {.name = "threads", .kind = OPTION_INT32, .out = &s->thread_count, .low = 1, .high = 64},
         {.name = "set", .kind = OPTION_SET, .out = &s->settings},
+        {.name = "plugin", .kind = OPTION_PLUGIN},
         {0},
     };
     int status = options_parse("export", argc, argv, options, print_help);

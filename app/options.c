@@ -36,6 +36,7 @@ static int take(const char *command, const option_def *o)
         return session_parse_profile(optarg, o->out)
                    ? -1
                    : command_usage(command, "--%s '%s': use live or thesis", o->name, optarg);
+    case OPTION_PLUGIN: command_load_plugin(optarg); return -1;
     case OPTION_SET: return command_set(command, o->out, optarg);
     case OPTION_CHOICE:
         return o->take(optarg, o->out)

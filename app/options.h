@@ -12,7 +12,8 @@ typedef enum option_kind {
     OPTION_INT64 = 3,   /* int64_t within [low, high] */
     OPTION_PROFILE = 4, /* rlf_profile: live or thesis */
     OPTION_SET = 5,     /* setting_list: one more "NAME=VALUE" */
-    OPTION_CHOICE = 6   /* read by `take` */
+    OPTION_CHOICE = 6,  /* read by `take` */
+    OPTION_PLUGIN = 7   /* loads a plug-in: `out` is not used */
 } option_kind;
 
 /* A table ends with a NULL name. */

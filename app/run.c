@@ -40,7 +40,8 @@ static void print_help(void)
         "  --renderer NAME       soft or gl; default: gl in a window, soft headless\n"
         "  --headless            no window: as fast as the machine can, every frame\n"
         "  --frames N            stop after N frames\n"
-        "  --video FILE          .mp4, .y4m, or - for Y4M on standard output\n"
+        "  --video FILE          .mp4, .y4m, - for Y4M on standard output, or a virtual camera:\n"
+        "                        pipewire:NAME, or /dev/videoN of v4l2loopback\n"
         "  --pictures DIR        PNG pictures NNNNNN.png, one every --picture-every frames\n"
         "  --picture-every N     default 30\n"
         "  --picture-at LIST     instead: these frames alone, e.g. 60,92\n"
@@ -65,6 +66,7 @@ static void print_help(void)
         "  --scale N             keep every N-th depth pixel (live 1, thesis 8)\n"
         "  --set NAME=VALUE      a setting of the surface (see `relief settings`); any number\n"
         "  --threads N           default: one per processor; results do not depend on it\n"
+        "  --plugin FILE         a plug-in that brings a camera or a format; any number\n"
         "  --hash                print the hash of all body states at the end\n"
         "  --quiet               no progress and no summary\n\n"
         "examples:\n"
@@ -235,6 +237,7 @@ static int read_options(int argc, char **argv, run_options *o)
         {.name = "hash", .kind = OPTION_FLAG, .out = &out->print_hash},
         {.name = "quiet", .kind = OPTION_FLAG, .out = &out->is_quiet},
         {.name = "set", .kind = OPTION_SET, .out = &s->settings},
+        {.name = "plugin", .kind = OPTION_PLUGIN},
         {0},
     };
     return options_parse("run", argc, argv, options, print_help);

@@ -75,6 +75,13 @@ typedef struct rlf_backend {
     rlf_result (*open)(const rlf_address *address, rlf_opened *out);
 } rlf_backend;
 
+/* Before the definition of rlf_backend_entry, so that the program finds it. */
+#if defined(__GNUC__)
+#define RLF_PLUGIN_EXPORT __attribute__((visibility("default")))
+#else
+#define RLF_PLUGIN_EXPORT
+#endif
+
 /* The one symbol that a plug-in exports, under the name "rlf_backend_entry". `host` lives as long
  * as the program. The table must stay valid; NULL = the plug-in cannot be used with this host. */
 typedef const rlf_backend *(*rlf_backend_entry_fn)(const rlf_backend_host *host);

@@ -26,6 +26,29 @@ RLF_API rlf_result rlf_open_source(const char *source, rlf_pool *pool, rlf_sourc
  * returns how many there are. May take a second: drivers ask the bus. */
 RLF_API int32_t rlf_source_list(rlf_source_entry *out, int32_t capacity);
 
+/* A kind of source, for lists. Strings are constant for the program's life; NULL = none. */
+typedef struct rlf_source_kind {
+    const char *scheme;      /* of "scheme:place" */
+    const char *extensions;  /* of its files, e.g. ".oni .mkv" */
+    const char *keys;        /* its own keys of ?key=value */
+    const char *summary;     /* one line */
+    const char *unavailable; /* why it cannot be opened and what to do; NULL = it can be */
+    const char *option;      /* the build was made without it: the option that brings it */
+    const char *plugin;      /* the shared object that it came from; NULL = built in */
+    bool is_live;
+} rlf_source_kind;
+
+/* Kinds of source that this build knows: built-in ones, those of plug-ins, then those that it was
+ * made without. Writes at most `capacity`, returns how many there are. Thread-safety: safe. */
+RLF_API int32_t rlf_source_kind_list(rlf_source_kind *out, int32_t capacity);
+
+/* Loads a plug-in, a shared object that exports rlf_backend_entry (relief/backend.h), so that
+ * rlf_open_source knows its scheme. It stays loaded; loading it again does nothing. Those in the
+ * folders $RELIEF_PLUGIN_PATH (colons between), PREFIX/lib/relief/plugins and
+ * ~/.local/lib/relief/plugins are loaded by themselves, with a warning for each that cannot be.
+ * Thread-safety: safe. */
+RLF_API rlf_result rlf_plugin_load(const char *path);
+
 /* TUM RGB-D folder: depth.txt, rgb.txt (optional), camera.json; see docs/formats.md. Each depth
  * frame is paired with the colour frame nearest in time (at most 50 ms away, else none). */
 RLF_API rlf_result rlf_folder_source_open(const char *path, rlf_source **out);

@@ -19,6 +19,11 @@
  * factor read off recordings of still rooms: 2 mm at 1 m, 6 mm at 2 m, 16 mm at 3.5 m. */
 static const rlf_depth_noise default_noise = {0.0008, 0.0, 0.0012};
 
+io_rig_defaults io_rig_defaults_get(void)
+{
+    return (io_rig_defaults){DEPTH_MIN_DEFAULT_M, DEPTH_MAX_DEFAULT_M, default_noise};
+}
+
 /* Deviation from a rotation that rounding to four decimals can cause. */
 #define ROTATION_TOLERANCE 1e-3
 

@@ -66,6 +66,15 @@ expect_error 2 "a number" eval --set depth_max_m=far
 expect_error 1 "depth_min_m is nan" run synthetic:room --headless --frames 1 --set depth_min_m=nan
 expect_done settings synthetic:thesis
 grep -q "^steadying  *on  *off" stdout.txt || fail "settings: not listed"
+expect_error 2 "needs one SOURCE" info
+expect_error 2 "takes no SOURCE" sources synthetic:room
+expect_error 2 "from 1 to 3600" info synthetic:room --seconds 0
+expect_error 1 "no/such/folder" info synthetic:room --json no/such/folder/info.json
+expect_done info synthetic:room --frames 3 --json info.json
+grep -q '"interval_s": 0.0333' info.json || fail "info --json: $(cat info.json)"
+grep -q "^missing  *[0-9.]* % of the pixels" stdout.txt || fail "info: $(cat stdout.txt)"
+expect_done sources
+grep -q "^  FOLDER " stdout.txt || fail "sources: $(cat stdout.txt)"
 expect_error 2 "needs a SOURCE" place --scene s.json
 expect_error 2 "needs --scene" place synthetic:room
 expect_error 2 "needs --object" place synthetic:room --scene s.json --pick ltn@1,2

@@ -1,11 +1,13 @@
-/* Frames from a folder in the TUM RGB-D layout: depth.txt, rgb.txt, camera.json and pictures. */
+/* Frames from a folder of pictures, in the TUM layout with camera.json or in those of data sets. */
 #define _POSIX_C_SOURCE 200809L
 #include "relief/io.h"
-#include "io/folder/frame_list.h"
+#include "io/folder/layout.h"
+#include "io/camera_json.h"
 #include "io/picture.h"
 #include "io/source/backends.h"
 #include "io/source/clip.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -13,8 +15,8 @@ typedef struct folder {
     char path[IO_PATH_MAX];
     rlf_rig rig;
     double units_per_metre;
-    io_frame_list depth_list;
-    io_frame_list color_list;
+    uint32_t flags;
+    io_layout layout;
     io_buffer file; /* of the picture being decoded */
 } folder;
 
@@ -37,14 +39,22 @@ static rlf_result read_depth(void *context, int32_t index, void *out)
     folder *self = context;
     char path[IO_PATH_MAX];
     io_bytes file;
-    rlf_result result =
-        read_entry(self, &self->depth_list.entries[index], "depth.txt", &file, path);
+    rlf_result result = read_entry(self, &self->layout.depth.entries[index],
+                                   self->layout.depth_list_name, &file, path);
     if (result != RLF_OK) {
         return result;
     }
     io_picture picture = {
         .width = self->rig.depth.width, .height = self->rig.depth.height, .data = out};
-    return io_png_decode_u16(&file, &picture);
+    result = io_png_decode_u16(&file, &picture);
+    if (result == RLF_OK && self->layout.missing != 0) {
+        uint16_t *depth = out;
+        const size_t count = (size_t)picture.width * (size_t)picture.height;
+        for (size_t i = 0; i < count; i++) {
+            depth[i] = depth[i] == self->layout.missing ? 0 : depth[i];
+        }
+    }
+    return result;
 }
 
 static rlf_result read_color(void *context, int32_t index, const rlf_image_rgba8 *out)
@@ -52,7 +62,8 @@ static rlf_result read_color(void *context, int32_t index, const rlf_image_rgba8
     folder *self = context;
     char path[IO_PATH_MAX];
     io_bytes file;
-    rlf_result result = read_entry(self, &self->color_list.entries[index], "rgb.txt", &file, path);
+    rlf_result result = read_entry(self, &self->layout.color.entries[index],
+                                   self->layout.color_list_name, &file, path);
     if (result != RLF_OK) {
         return result;
     }
@@ -64,40 +75,24 @@ static rlf_result read_color(void *context, int32_t index, const rlf_image_rgba8
 static void folder_destroy(void *context)
 {
     folder *self = context;
-    io_frame_list_free(&self->depth_list);
-    io_frame_list_free(&self->color_list);
+    io_layout_free(&self->layout);
     io_buffer_free(&self->file);
     rlf_free(self);
 }
 
-static rlf_result read_list(folder *self, const char *name, const char *cure, io_frame_list *out)
-{
-    char path[IO_PATH_MAX];
-    rlf_result result = io_path_join(self->path, name, path);
-    io_bytes file;
-    if (result == RLF_OK) {
-        result = io_file_read(path, IO_LIST_FILE_MAX, cure, &self->file, &file);
-    }
-    return result == RLF_OK ? io_frame_list_parse(&file, out) : result;
-}
-
 static rlf_result open_depth(folder *self)
 {
-    rlf_result result =
-        read_list(self, "depth.txt", "write one \"SECONDS FILE\" line per depth picture there",
-                  &self->depth_list);
+    rlf_result result = io_layout_read(self->path, &self->layout);
     if (result != RLF_OK) {
         return result;
     }
-    if (self->depth_list.count == 0) {
+    if (self->layout.depth.count == 0) {
         return rlf_fail(RLF_ERROR_FORMAT,
-                        "%s/depth.txt: lists no depth pictures: write one \"SECONDS FILE\" line "
+                        "%s/%s: lists no depth pictures: write one \"SECONDS FILE\" line "
                         "per picture there",
-                        self->path);
+                        self->path, self->layout.depth_list_name);
     }
-    size_t pixels = (size_t)self->rig.depth.width * (size_t)self->rig.depth.height;
-    /* Pictures rarely come out larger than their pixels: one reservation serves the whole clip. */
-    return io_buffer_reserve(&self->file, pixels * 2 + 65536);
+    return io_layout_read_poses(self->path, &self->layout);
 }
 
 static bool exists(const folder *self, const char *name)
@@ -107,27 +102,66 @@ static bool exists(const folder *self, const char *name)
     return io_path_join(self->path, name, path) == RLF_OK && stat(path, &status) == 0;
 }
 
-/* rgb.txt and the colour camera are both optional; one without the other gives no colour. */
-static rlf_result open_color(folder *self)
+/* The pictures and the colour camera are both optional; one without the other gives no colour. */
+static void check_color(folder *self)
 {
-    if (exists(self, "rgb.txt")) {
-        rlf_result result = read_list(self, "rgb.txt", "check the file", &self->color_list);
-        if (result != RLF_OK) {
-            return result;
-        }
-    }
-    bool has_pictures = self->color_list.count > 0;
+    bool has_pictures = self->layout.color.count > 0;
     if (has_pictures && !self->rig.has_color) {
         rlf_log(RLF_LOG_WARNING,
-                "%s/camera.json: has no \"color\" object, so the pictures of rgb.txt are not used",
-                self->path);
+                "%s/camera.json: has no \"color\" object, so the pictures of %s are not used",
+                self->path, self->layout.color_list_name);
     }
     if (!has_pictures && self->rig.has_color) {
-        rlf_log(RLF_LOG_WARNING, "%s/rgb.txt: lists no pictures, so there is no colour",
-                self->path);
+        rlf_log(RLF_LOG_WARNING, "%s/%s: lists no pictures, so there is no colour", self->path,
+                self->layout.color_list_name);
     }
     self->rig.has_color = has_pictures && self->rig.has_color;
-    return RLF_OK;
+}
+
+/* Size of the first picture of a list; nothing stays decoded. */
+static rlf_result picture_size(folder *self, const io_list_entry *entry, bool is_depth,
+                               io_picture *out)
+{
+    char path[IO_PATH_MAX];
+    io_bytes file;
+    memset(out, 0, sizeof(*out));
+    rlf_result result = read_entry(self, entry, "the folder", &file, path);
+    if (result == RLF_OK) {
+        result = is_depth ? io_png_decode_u16(&file, out) : io_picture_decode(&file, out);
+    }
+    if (result == RLF_OK) {
+        rlf_free(out->data);
+        out->data = NULL;
+    }
+    return result;
+}
+
+/* Without camera.json: one camera for both pictures, as all these data sets have them aligned. */
+static rlf_result make_rig(folder *self)
+{
+    const io_rig_defaults defaults = io_rig_defaults_get();
+    io_picture depth;
+    rlf_rig *rig = &self->rig;
+    rlf_result result = picture_size(self, &self->layout.depth.entries[0], true, &depth);
+    if (result == RLF_OK) {
+        result =
+            io_layout_camera(self->path, &self->layout, depth.width, depth.height, &rig->depth);
+    }
+    if (result == RLF_OK && self->layout.color.count > 0) {
+        io_picture color;
+        result = picture_size(self, &self->layout.color.entries[0], false, &color);
+        rig->has_color = result == RLF_OK;
+        if (result == RLF_OK) {
+            rig->color = rlf_camera_resize(&rig->depth, color.width, color.height);
+        }
+    }
+    rig->T_color_depth = rlf_pose_identity();
+    rig->depth_min_m = defaults.depth_min_m;
+    rig->depth_max_m = defaults.depth_max_m;
+    rig->noise = defaults.noise;
+    self->units_per_metre = self->layout.units_per_metre;
+    self->flags = RLF_FRAME_ALIGNED;
+    return result;
 }
 
 static rlf_result load_rig(const rlf_address *address, folder *self)
@@ -136,6 +170,12 @@ static rlf_result load_rig(const rlf_address *address, folder *self)
         self->rig = *address->rig;
         self->units_per_metre = address->units_per_metre;
         return RLF_OK;
+    }
+    /* depth.txt alone is a clip of the user's own: its camera cannot be guessed. */
+    const bool is_data_set = self->layout.kind != IO_LAYOUT_TUM || !exists(self, "depth.txt") ||
+                             strstr(self->path, "freiburg") != NULL;
+    if (is_data_set && !exists(self, "camera.json")) {
+        return make_rig(self);
     }
     char camera_path[IO_PATH_MAX];
     rlf_result result = io_path_join(self->path, "camera.json", camera_path);
@@ -155,8 +195,8 @@ static int64_t *times_of(const io_frame_list *list)
 
 static rlf_result open_clip(folder *self, rlf_opened *out)
 {
-    int64_t *depth_times = times_of(&self->depth_list);
-    int64_t *color_times = times_of(&self->color_list);
+    int64_t *depth_times = times_of(&self->layout.depth);
+    int64_t *color_times = times_of(&self->layout.color);
     rlf_result result = RLF_ERROR_MEMORY;
     if (depth_times != NULL && color_times != NULL) {
         const io_clip_def def = {.name = self->path,
@@ -164,8 +204,10 @@ static rlf_result open_clip(folder *self, rlf_opened *out)
                                  .units_per_metre = self->units_per_metre,
                                  .depth_times = depth_times,
                                  .color_times = color_times,
-                                 .depth_count = self->depth_list.count,
-                                 .color_count = self->color_list.count,
+                                 .depth_count = self->layout.depth.count,
+                                 .color_count = self->layout.color.count,
+                                 .poses = self->layout.poses,
+                                 .flags = self->flags,
                                  .read_depth = read_depth,
                                  .read_color = read_color,
                                  .destroy = folder_destroy,
@@ -179,12 +221,15 @@ static rlf_result open_clip(folder *self, rlf_opened *out)
 
 static rlf_result open_all(const rlf_address *address, folder *self, rlf_opened *out)
 {
-    rlf_result result = load_rig(address, self);
+    rlf_result result = open_depth(self);
     if (result == RLF_OK) {
-        result = open_depth(self);
+        result = load_rig(address, self);
     }
     if (result == RLF_OK) {
-        result = open_color(self);
+        check_color(self);
+        /* Pictures rarely come out larger than their pixels: one reservation serves the clip. */
+        const size_t pixels = (size_t)self->rig.depth.width * (size_t)self->rig.depth.height;
+        result = io_buffer_reserve(&self->file, pixels * 2 + 65536);
     }
     return result == RLF_OK ? open_clip(self, out) : result;
 }
@@ -228,7 +273,7 @@ static rlf_result folder_open(const rlf_address *address, rlf_opened *out)
         folder_destroy(self);
         return result;
     }
-    snprintf(out->info.device, sizeof(out->info.device), "folder in the TUM layout");
+    snprintf(out->info.device, sizeof(out->info.device), "%s", self->layout.description);
     return RLF_OK;
 }
 
@@ -242,7 +287,8 @@ static bool is_folder(const char *path)
 const rlf_backend io_backend_folder = {
     .version = RLF_BACKEND_VERSION,
     .scheme = "folder",
-    .summary = "a clip: depth.txt, rgb.txt, PNG/JPEG, camera.json (TUM layout)",
+    .summary = "a clip of PNG/JPEG: depth.txt, rgb.txt, camera.json (TUM), or as in ICL-NUIM, "
+               "Open3D/Redwood, 7-Scenes",
     .recognises = is_folder,
     .open = folder_open,
 };

@@ -8,7 +8,7 @@ static const rlf_backend *const built_in[] = {
 };
 #define BUILT_IN_COUNT ((int32_t)(sizeof(built_in) / sizeof(built_in[0])))
 
-const rlf_backend *io_backend_at(int32_t index)
+const rlf_backend *io_backend_built_in_at(int32_t index)
 {
     return index >= 0 && index < BUILT_IN_COUNT ? built_in[index] : NULL;
 }

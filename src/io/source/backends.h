@@ -7,8 +7,14 @@
 extern const rlf_backend io_backend_folder;
 extern const rlf_backend io_backend_simulated;
 
-/* Built-in ones first, in the order in which they are asked for a file; NULL past the last. */
+/* Built-in ones first, in the order in which they are asked for a file, then those of plug-ins;
+ * NULL past the last. The folders of plug-ins are searched once, by the first call past the
+ * built-in ones. Thread-safety: safe. */
 const rlf_backend *io_backend_at(int32_t index);
+/* The built-in ones alone. */
+const rlf_backend *io_backend_built_in_at(int32_t index);
+/* The shared object that back end `index` came from; NULL = it is built in. */
+const char *io_backend_plugin_path(int32_t index);
 
 /* A format or a driver that this build was made without. */
 typedef struct io_backend_absent {

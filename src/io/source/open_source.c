@@ -3,8 +3,11 @@
 #include "io/simulated/simulated.h"
 #include "io/source/backends.h"
 #include "io/source/find_backend.h"
+#include "io/source/nearest_word.h"
+#include "io/source/replay.h"
 #include "relief/io.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static rlf_result open_synthetic(const char *source, rlf_pool *pool, rlf_source **out)
@@ -18,18 +21,18 @@ static rlf_result open_synthetic(const char *source, rlf_pool *pool, rlf_source 
     return rlf_synthetic_create(&def, out);
 }
 
-/* Whether the back end's list of keys, words with blanks between, has this one. */
-static bool has_key(const char *list, const char *key)
+static rlf_result fail_key(const rlf_backend *backend, const char *source, const char *key)
 {
-    size_t length = strlen(key);
-    for (const char *word = list; word != NULL && *word != '\0'; word += strspn(word, " ")) {
-        size_t size = strcspn(word, " ");
-        if (size == length && strncmp(word, key, size) == 0) {
-            return true;
-        }
-        word += size;
-    }
-    return false;
+    char keys[512];
+    const char *own = backend->keys != NULL ? backend->keys : "";
+    snprintf(keys, sizeof(keys), "camera %s%s%s",
+             backend->is_live ? IO_REPLAY_LIVE_KEYS : IO_REPLAY_FILE_KEYS,
+             own[0] != '\0' ? " " : "", own);
+    char nearest[32];
+    const bool is_near = io_word_nearest(keys, key, nearest, sizeof(nearest));
+    return rlf_fail(RLF_ERROR_INVALID, "%s: there is no key \"%.40s\" here%s%s%s: use %s", source,
+                    key, is_near ? ", \"" : "", is_near ? nearest : "",
+                    is_near ? "\" may be meant" : "", keys);
 }
 
 /* The keys left are the back end's own. */
@@ -37,16 +40,23 @@ static rlf_result give_keys(const rlf_backend *backend, const io_address *parts,
                             rlf_address *address)
 {
     for (int32_t i = 0; i < parts->key_count; i++) {
-        if (!has_key(backend->keys, parts->keys[i]) || i >= RLF_ADDRESS_KEYS_MAX) {
-            return rlf_fail(RLF_ERROR_INVALID, "%s: there is no key \"%s\" here: use camera%s%s",
-                            address->source, parts->keys[i], backend->keys != NULL ? " " : "",
-                            backend->keys != NULL ? backend->keys : "");
+        if (!io_word_is_in(backend->keys, parts->keys[i]) || i >= RLF_ADDRESS_KEYS_MAX) {
+            return fail_key(backend, address->source, parts->keys[i]);
         }
         address->keys[i] = parts->keys[i];
         address->values[i] = parts->values[i];
         address->key_count = i + 1;
     }
     return RLF_OK;
+}
+
+static rlf_result wrap(const io_replay *replay, const char *source, rlf_opened *inout)
+{
+    rlf_result result = replay->is_wanted ? io_replay_wrap(replay, source, inout) : RLF_OK;
+    if (result != RLF_OK && inout->methods.destroy != NULL) {
+        inout->methods.destroy(inout->self);
+    }
+    return result;
 }
 
 static rlf_result open_with(const rlf_backend *backend, const char *source, io_address *parts,
@@ -60,6 +70,10 @@ static rlf_result open_with(const rlf_backend *backend, const char *source, io_a
         result = rlf_rig_load(camera_path, &rig, &address.units_per_metre);
         address.rig = &rig;
     }
+    io_replay replay = {0};
+    if (result == RLF_OK) {
+        result = io_replay_take(parts, backend, &replay);
+    }
     if (result == RLF_OK) {
         result = give_keys(backend, parts, &address);
     }
@@ -68,6 +82,9 @@ static rlf_result open_with(const rlf_backend *backend, const char *source, io_a
     if (result == RLF_OK) {
         result = backend->is_live ? io_live_open(backend, &address, &opened)
                                   : backend->open(&address, &opened);
+    }
+    if (result == RLF_OK) {
+        result = wrap(&replay, source, &opened);
     }
     return result == RLF_OK ? io_source_create(&opened, out) : result;
 }

@@ -1,0 +1,89 @@
+/* `relief info SOURCE`. */
+#include "command.h"
+#include "info/report.h"
+#include "options.h"
+#include "relief/io.h"
+
+#include <getopt.h>
+#include <stdio.h>
+
+#define ENDLESS_FRAMES 60 /* of a source that has no end and is not live */
+
+typedef struct info_options {
+    const char *source, *json_path;
+    int64_t seconds, frame_limit;
+} info_options;
+
+static void print_help(void)
+{
+    printf("usage: relief info SOURCE [OPTIONS]\n\n"
+           "Tells what a source is: cameras, range, rate, lost frames, missing pixels, noise over\n"
+           "time, poses, and how far colour is off depth at edges. Reads a clip to its end.\n\n"
+           "  --seconds N       of a live source, default 3\n"
+           "  --frames N        read no more than N frames (a source without end: 60)\n"
+           "  --json FILE       the same as numbers\n"
+           "%s\n"
+           "examples:\n  relief info synthetic:room\n  relief info path/to/clip --json clip.json\n",
+           COMMAND_PLUGIN_HELP);
+}
+
+static int parse(int argc, char **argv, info_options *o)
+{
+    o->seconds = 3;
+    const option_def options[] = {
+        {.name = "seconds", .kind = OPTION_INT64, .out = &o->seconds, .low = 1, .high = 3600},
+        {.name = "frames",
+         .kind = OPTION_INT64,
+         .out = &o->frame_limit,
+         .low = 1,
+         .high = 1000000000},
+        {.name = "json", .kind = OPTION_TEXT, .out = &o->json_path},
+        {.name = "plugin", .kind = OPTION_PLUGIN},
+        {0},
+    };
+    int status = options_parse("info", argc, argv, options, print_help);
+    if (status >= 0) {
+        return status;
+    }
+    if (argc - optind != 1) {
+        return command_usage("info", "needs one SOURCE");
+    }
+    o->source = argv[optind];
+    return -1;
+}
+
+static rlf_result tell(const info_options *o, rlf_source *source)
+{
+    const rlf_source_info *info = rlf_source_get_info(source);
+    const bool is_endless = info->frame_count < 0 && !info->is_live;
+    const survey_options limits = {
+        .seconds = (double)o->seconds,
+        .frame_limit = o->frame_limit == 0 && is_endless ? ENDLESS_FRAMES : o->frame_limit,
+    };
+    static survey s;
+    rlf_result result = survey_run(source, &limits, &s);
+    if (result != RLF_OK) {
+        return result;
+    }
+    report_print(info, &s);
+    return o->json_path != NULL ? report_write_json(info, &s, o->json_path) : RLF_OK;
+}
+
+int info_main(int argc, char **argv)
+{
+    info_options o = {0};
+    int status = parse(argc, argv, &o);
+    if (status >= 0) {
+        return status;
+    }
+    if (o.json_path != NULL && rlf_file_check(o.json_path) != RLF_OK) {
+        return command_failed();
+    }
+    rlf_source *source = NULL;
+    rlf_result result = rlf_open_source(o.source, NULL, &source);
+    if (result == RLF_OK) {
+        result = tell(&o, source);
+    }
+    rlf_source_destroy(&source);
+    return result == RLF_OK ? EXIT_DONE : command_failed();
+}

@@ -1,0 +1,159 @@
+/* `relief sources`: what is plugged in, what this build can open, what it was made without. */
+#include "command.h"
+#include "options.h"
+#include "relief/io.h"
+
+#include <getopt.h>
+#include <stdio.h>
+#include <string.h>
+
+#define DEVICES_MAX 64
+#define KINDS_MAX 128
+#define SOURCE_SIZE 64
+
+typedef struct kind_list {
+    rlf_source_kind kinds[KINDS_MAX];
+    int32_t count;
+} kind_list;
+
+static void print_help(void)
+{
+    printf("usage: relief sources [OPTIONS]\n\n"
+           "Lists the cameras that are plugged in and the kinds of source that this build can "
+           "open.\nWhat cannot be opened here is listed with the reason and the cure.\n\n"
+           "%s\n"
+           "examples:\n  relief sources\n  relief sources --plugin ./plugin_camera.so\n",
+           COMMAND_PLUGIN_HELP);
+}
+
+static int longer(size_t a, int b)
+{
+    return (int)a > b ? (int)a : b;
+}
+
+static void print_devices(void)
+{
+    static rlf_source_entry entries[DEVICES_MAX];
+    const int32_t found = rlf_source_list(entries, DEVICES_MAX);
+    const int32_t count = found < DEVICES_MAX ? found : DEVICES_MAX;
+    int width = 0;
+    for (int32_t i = 0; i < count; i++) {
+        width = longer(strlen(entries[i].source), width);
+    }
+    printf("plugged in:\n");
+    for (int32_t i = 0; i < count; i++) {
+        printf("  %-*s  %s\n", width, entries[i].source, entries[i].description);
+    }
+    if (found > count) {
+        printf("  and %d more\n", (int)(found - count));
+    } else if (found == 0) {
+        printf("  no camera that this build can use\n");
+    }
+}
+
+static bool is_openable(const rlf_source_kind *kind)
+{
+    return kind->option == NULL;
+}
+
+static bool is_absent(const rlf_source_kind *kind)
+{
+    return kind->option != NULL;
+}
+
+/* How it is named on a command line. */
+static void name_of(const rlf_source_kind *kind, char out[SOURCE_SIZE])
+{
+    const bool is_folder = strcmp(kind->scheme, "folder") == 0;
+    snprintf(out, SOURCE_SIZE,
+             is_folder       ? "FOLDER"
+             : kind->is_live ? "%s:"
+                             : "%s:FILE",
+             kind->scheme);
+}
+
+static const char *or_dash(const char *text)
+{
+    return text != NULL ? text : "-";
+}
+
+/* Rows of those kinds for which `is_wanted`; what belongs to one row stands below it. */
+static void print_kinds(const kind_list *list, bool (*is_wanted)(const rlf_source_kind *))
+{
+    int widths[2] = {(int)strlen("synthetic:NAME"), 1};
+    char name[SOURCE_SIZE];
+    for (int32_t i = 0; i < list->count; i++) {
+        name_of(&list->kinds[i], name);
+        widths[0] = longer(strlen(name), widths[0]);
+        widths[1] = longer(strlen(or_dash(list->kinds[i].extensions)), widths[1]);
+    }
+    const int indent = 2 + widths[0] + 2 + widths[1] + 2;
+    for (int32_t i = 0; i < list->count; i++) {
+        const rlf_source_kind *k = &list->kinds[i];
+        if (!is_wanted(k)) {
+            continue;
+        }
+        name_of(k, name);
+        printf("  %-*s  %-*s  %s\n", widths[0], name, widths[1], or_dash(k->extensions),
+               or_dash(k->summary));
+        if (k->keys != NULL && k->keys[0] != '\0') {
+            printf("%*skeys: %s\n", indent, "", k->keys);
+        }
+        if (k->plugin != NULL) {
+            printf("%*splug-in %s\n", indent, "", k->plugin);
+        }
+        if (k->unavailable != NULL) {
+            printf("%*snot on this machine: %s\n", indent, "", k->unavailable);
+        }
+        if (k->option != NULL) {
+            printf("%*sconfigure the build with -D%s=ON\n", indent, "", k->option);
+        }
+    }
+}
+
+static bool has_any(const kind_list *list, bool (*is_wanted)(const rlf_source_kind *))
+{
+    for (int32_t i = 0; i < list->count; i++) {
+        if (is_wanted(&list->kinds[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void print_openable(const kind_list *list)
+{
+    printf("\ncan be opened (SOURCE, its files):\n");
+    print_kinds(list, is_openable);
+    printf(
+        "  every recording takes ?key=value&...: camera=FILE (its calibration), loop=1, speed=X,\n"
+        "  start=FRAME, count=N, drop=SHARE and seed=N (frames to lose), aligned=0|1\n"
+        "  synthetic:NAME[?key=value&...]  a simulated room with ground truth\n"
+        "    NAME: room, empty, thesis, chair, book, hand, lift, swipe, carry, crossing, random\n"
+        "    keys: seed, person (who it is; 1 = 1.75 m tall), frames, fps, speed, lamp (X,Y,Z),\n"
+        "    noise (0|1|steps), edge_filter (0|1), color (WxH or 0), push (none|lift|swipe|carry)\n"
+        "    random: room, people, camera and sensor drawn by the seed; with push something\n"
+        "    that stood there is lifted, sweeps or carries at speed instead of people coming\n");
+}
+
+int sources_main(int argc, char **argv)
+{
+    const option_def options[] = {{.name = "plugin", .kind = OPTION_PLUGIN}, {0}};
+    int status = options_parse("sources", argc, argv, options, print_help);
+    if (status >= 0) {
+        return status;
+    }
+    if (argc != optind) {
+        return command_usage("sources", "takes no SOURCE: `relief info SOURCE` tells about one");
+    }
+    static kind_list list;
+    list.count = rlf_source_kind_list(list.kinds, KINDS_MAX);
+    list.count = list.count < KINDS_MAX ? list.count : KINDS_MAX;
+    print_devices();
+    print_openable(&list);
+    if (has_any(&list, is_absent)) {
+        printf("\nthis build was made without:\n");
+        print_kinds(&list, is_absent);
+    }
+    return EXIT_DONE;
+}

@@ -1,0 +1,145 @@
+/* How the pictures of a folder are arranged. */
+#define _POSIX_C_SOURCE 200809L
+#include "io/folder/layout.h"
+
+#include "io/folder/associations.h"
+#include "io/folder/numbered_files.h"
+
+#include <string.h>
+#include <sys/stat.h>
+
+static const char *const depth_endings[] = {".png", NULL};
+static const char *const color_endings[] = {".png", ".jpg", ".jpeg", NULL};
+static const char *const scenes7_depth[] = {".depth.png", NULL};
+static const char *const scenes7_color[] = {".color.png", ".color.jpg", NULL};
+
+static bool exists(const char *folder, const char *name)
+{
+    char path[IO_PATH_MAX];
+    struct stat status;
+    return io_path_join(folder, name, path) == RLF_OK && stat(path, &status) == 0;
+}
+
+static rlf_result read_list(const char *folder, const char *name, const char *cure,
+                            io_frame_list *out)
+{
+    char path[IO_PATH_MAX];
+    rlf_result result = io_path_join(folder, name, path);
+    io_buffer buffer = {0};
+    io_bytes file;
+    if (result == RLF_OK) {
+        result = io_file_read(path, IO_LIST_FILE_MAX, cure, &buffer, &file);
+    }
+    if (result == RLF_OK) {
+        result = io_frame_list_parse(&file, out);
+    }
+    io_buffer_free(&buffer);
+    return result;
+}
+
+static rlf_result read_tum(const char *folder, io_layout *out)
+{
+    out->description = "folder in the TUM layout";
+    out->depth_list_name = "depth.txt";
+    out->color_list_name = "rgb.txt";
+    out->units_per_metre = 5000.0;
+    rlf_result result =
+        read_list(folder, "depth.txt", "write one \"SECONDS FILE\" line per depth picture there",
+                  &out->depth);
+    if (result == RLF_OK && exists(folder, "rgb.txt")) {
+        result = read_list(folder, "rgb.txt", "check the file", &out->color);
+    }
+    return result;
+}
+
+/* ICL-NUIM writes frame numbers where TUM writes seconds. */
+static rlf_result read_associations(const char *folder, const char *name, io_layout *out)
+{
+    char path[IO_PATH_MAX];
+    io_buffer buffer = {0};
+    io_bytes file;
+    bool has_numbers = false;
+    out->depth_list_name = out->color_list_name = name;
+    out->units_per_metre = 5000.0;
+    rlf_result result = io_path_join(folder, name, path);
+    if (result == RLF_OK) {
+        result = io_file_read(path, IO_LIST_FILE_MAX, "check the file", &buffer, &file);
+    }
+    if (result == RLF_OK) {
+        result = io_associations_parse(&file, &out->depth, &out->color, &has_numbers);
+    }
+    io_buffer_free(&buffer);
+    out->kind = has_numbers ? IO_LAYOUT_ICL : IO_LAYOUT_TUM;
+    out->description =
+        has_numbers ? "folder in the ICL-NUIM layout" : "folder in the TUM layout, associated";
+    return result;
+}
+
+static rlf_result read_scenes7(const char *folder, io_layout *out)
+{
+    out->kind = IO_LAYOUT_SCENES7;
+    out->description = "folder in the 7-Scenes layout";
+    out->units_per_metre = 1000.0;
+    out->missing = 65535;
+    rlf_result result = io_numbered_list(folder, "", "frame-", scenes7_depth, &out->depth);
+    return result == RLF_OK ? io_numbered_list(folder, "", "frame-", scenes7_color, &out->color)
+                            : result;
+}
+
+static rlf_result read_redwood(const char *folder, io_layout *out)
+{
+    static const char *const subs[] = {"color", "image", "rgb", NULL};
+    out->kind = IO_LAYOUT_REDWOOD;
+    out->description = "folder in the layout of Open3D and Redwood";
+    out->units_per_metre = 1000.0;
+    rlf_result result = io_numbered_list(folder, "depth", "", depth_endings, &out->depth);
+    for (int i = 0; subs[i] != NULL && result == RLF_OK && out->color.count == 0; i++) {
+        io_frame_list_free(&out->color);
+        result = io_numbered_list(folder, subs[i], "", color_endings, &out->color);
+    }
+    return result;
+}
+
+static const char *associations_name(const char *folder)
+{
+    static const char *const names[] = {"associations.txt", "associated.txt", "association.txt"};
+    for (int i = 0; i < 3; i++) {
+        if (exists(folder, names[i])) {
+            return names[i];
+        }
+    }
+    return NULL;
+}
+
+rlf_result io_layout_read(const char *folder, io_layout *out)
+{
+    memset(out, 0, sizeof(*out));
+    out->depth_list_name = out->color_list_name = "the folder";
+    if (exists(folder, "depth.txt")) {
+        return read_tum(folder, out);
+    }
+    const char *associations = associations_name(folder);
+    if (associations != NULL) {
+        return read_associations(folder, associations, out);
+    }
+    rlf_result result = read_scenes7(folder, out);
+    if (result == RLF_OK && out->depth.count == 0) {
+        io_layout_free(out);
+        result = read_redwood(folder, out);
+    }
+    if (result == RLF_OK && out->depth.count == 0) {
+        io_layout_free(out);
+        result = read_tum(folder, out); /* says that depth.txt is not there */
+    }
+    return result;
+}
+
+void io_layout_free(io_layout *layout)
+{
+    io_frame_list_free(&layout->depth);
+    io_frame_list_free(&layout->color);
+    rlf_free(layout->poses);
+    layout->poses = NULL;
+    layout->missing = 0;
+    layout->depth_list_name = layout->color_list_name = "the folder";
+}

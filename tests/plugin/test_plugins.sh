@@ -1,0 +1,54 @@
+#!/bin/sh
+# The relief command with plug-ins: test_plugins.sh RELIEF GOOD_PLUGIN BAD_FOLDER WORK_FOLDER
+set -u
+relief=$1
+good=$2
+bad=$3
+work=$4
+rm -rf "$work"
+mkdir -p "$work/found"
+cd "$work" || exit 1
+failures=0
+
+fail()
+{
+    echo "FAIL: $*"
+    failures=$((failures + 1))
+}
+
+# A plug-in by name.
+"$relief" run plugin_camera: --plugin "$good" --headless --frames 5 >out.txt 2>err.txt ||
+    fail "run --plugin: $(cat err.txt)"
+grep -q "^5 frames" out.txt || fail "run --plugin: $(cat out.txt)"
+"$relief" info 'plugin_camera:?fps=60' --plugin "$good" --seconds 1 >out.txt 2>err.txt ||
+    fail "info --plugin: $(cat err.txt)"
+grep -q "example of a plug-in" out.txt || fail "info: no device: $(cat out.txt)"
+"$relief" run 'plugin_camera:?fsp=60' --plugin "$good" --headless --frames 1 2>err.txt &&
+    fail "an unknown key is taken"
+grep -q '"fps" may be meant' err.txt || fail "unknown key: $(cat err.txt)"
+
+# Without it there is no such source.
+"$relief" info plugin_camera: 2>err.txt && fail "opened without the plug-in"
+grep -q 'no source "plugin_camera:"' err.txt || fail "$(cat err.txt)"
+
+# What a plug-in folder holds is listed; one that cannot be used is one warning.
+cp "$good" "$bad/unavailable.so" found/
+echo "this is text" >found/garbage.so
+RELIEF_PLUGIN_PATH=/no/such/folder:$work/found "$relief" sources >out.txt 2>err.txt ||
+    fail "sources: $(cat err.txt)"
+[ "$(wc -l <err.txt)" -eq 1 ] || fail "sources: not one warning: $(cat err.txt)"
+grep -q "garbage.so: cannot be loaded" err.txt || fail "sources: $(cat err.txt)"
+grep -q "plugin_camera:  a ball before a wall" out.txt || fail "sources: no device: $(cat out.txt)"
+grep -q "plug-in $work/found/plugin_camera.so" out.txt || fail "sources: no plug-in: $(cat out.txt)"
+grep -q "not on this machine: libnosuch.so is not installed" out.txt ||
+    fail "sources: no reason: $(cat out.txt)"
+RELIEF_PLUGIN_PATH=$work/found "$relief" info nosuch: >out.txt 2>err.txt && fail "opened nosuch:"
+grep -q "apt install nosuch" err.txt || fail "nosuch: $(cat err.txt)"
+
+# A bad one by name is a warning, and the rest goes on.
+"$relief" info synthetic:room --plugin "$bad/version.so" >out.txt 2>err.txt ||
+    fail "info with a bad plug-in: $(cat err.txt)"
+grep -q "version.so: the plug-in is made for version 999" err.txt || fail "$(cat err.txt)"
+
+[ "$failures" -eq 0 ] && echo "plug-ins: all as told"
+exit "$failures"
