@@ -5,6 +5,9 @@
 #include "relief/backend.h"
 
 extern const rlf_backend io_backend_folder;
+extern const rlf_backend io_backend_freenect;
+extern const rlf_backend io_backend_oni;
+extern const rlf_backend io_backend_openni2;
 
 /* Built-in ones first, in the order in which they are asked for a file; NULL past the last. */
 const rlf_backend *io_backend_at(int32_t index);
