@@ -40,7 +40,6 @@ static const struct {
     {"oniStreamReadFrame", offsetof(openni2_api, stream_read)},
     {"oniStreamSetProperty", offsetof(openni2_api, stream_set)},
     {"oniStreamGetProperty", offsetof(openni2_api, stream_get)},
-    {"oniStreamIsPropertySupported", offsetof(openni2_api, stream_supports)},
     {"oniFrameRelease", offsetof(openni2_api, frame_release)},
 };
 

@@ -92,7 +92,6 @@ typedef struct openni2_api {
     int (*stream_read)(void *stream, openni2_frame **out);
     int (*stream_set)(void *stream, int property, const void *data, int size);
     int (*stream_get)(void *stream, int property, void *data, int *size);
-    int (*stream_supports)(void *stream, int property);
     void (*frame_release)(openni2_frame *frame);
 } openni2_api;
 

@@ -12,15 +12,14 @@ bool openni2_is_test_device(const openni2_info *info)
     return strcmp(info->uri, "Dummy") == 0;
 }
 
+/* Players of recordings know properties that they do not name as supported: all are asked. */
 int openni2_stream_int(const openni2_device *device, const openni2_stream *stream, int property,
                        int otherwise)
 {
     int value = 0;
     int size = sizeof(value);
-    const bool is_told = device->api->stream_supports(stream->handle, property) != 0 &&
-                         device->api->stream_get(stream->handle, property, &value, &size) ==
-                             OPENNI2_OK;
-    return is_told ? value : otherwise;
+    const int status = device->api->stream_get(stream->handle, property, &value, &size);
+    return status == OPENNI2_OK ? value : otherwise;
 }
 
 float openni2_stream_float(const openni2_device *device, const openni2_stream *stream,
@@ -28,10 +27,8 @@ float openni2_stream_float(const openni2_device *device, const openni2_stream *s
 {
     float value = 0;
     int size = sizeof(value);
-    const bool is_told = device->api->stream_supports(stream->handle, property) != 0 &&
-                         device->api->stream_get(stream->handle, property, &value, &size) ==
-                             OPENNI2_OK;
-    return is_told ? value : otherwise;
+    const int status = device->api->stream_get(stream->handle, property, &value, &size);
+    return status == OPENNI2_OK ? value : otherwise;
 }
 
 static void read_serial(const openni2_api *api, void *handle, char out[OPENNI2_TEXT_MAX])
@@ -148,8 +145,7 @@ static void set_mirror(const openni2_device *device, const openni2_wish *wish,
                        openni2_stream *stream)
 {
     const int off = 0;
-    if (!wish->is_file && wish->mirror < 0 &&
-        device->api->stream_supports(stream->handle, OPENNI2_STREAM_MIRROR) != 0) {
+    if (!wish->is_file && wish->mirror < 0) {
         (void)device->api->stream_set(stream->handle, OPENNI2_STREAM_MIRROR, &off, sizeof(off));
     }
     const int told = openni2_stream_int(device, stream, OPENNI2_STREAM_MIRROR, 0);
@@ -199,23 +195,26 @@ static rlf_result open_stream(const rlf_address *address, const openni2_wish *wi
 static rlf_result set_aligned(const rlf_address *address, const openni2_wish *wish,
                               openni2_device *device)
 {
-    if (wish->is_file || device->color.handle == NULL) {
-        device->is_aligned = wish->aligned == 1 && device->color.handle != NULL;
+    const bool has_color = device->color.handle != NULL;
+    if (wish->is_file) {
+        device->is_aligned = wish->aligned == 1 && has_color;
         return RLF_OK;
     }
     const bool can = device->api->device_can_register(device->handle, 1) != 0;
-    if (wish->aligned == 1 && !can) {
+    if (wish->aligned == 1 && has_color && !can) {
         return rlf_fail(RLF_ERROR_UNSUPPORTED,
                         "%s: the camera cannot align depth with colour: leave aligned=1 out and "
                         "give a calibration with ?camera=FILE",
                         address->source);
     }
-    const int wanted = wish->aligned >= 0 ? wish->aligned : can && address->rig == NULL;
+    const bool is_best = can && address->rig == NULL;
+    const int wanted = has_color && (wish->aligned >= 0 ? wish->aligned == 1 : is_best) ? 1 : 0;
     if (can && device->api->device_set(device->handle, OPENNI2_DEVICE_REGISTRATION, &wanted,
                                        sizeof(wanted)) != OPENNI2_OK) {
         return rlf_fail(RLF_ERROR_DEVICE, "%s: the camera refuses aligned=%d: %.200s",
                         address->source, wanted, device->api->error());
     }
+    device->can_align = can;
     device->is_aligned = wanted != 0;
     return RLF_OK;
 }

@@ -27,6 +27,7 @@ typedef struct openni2_device {
     openni2_info info;
     char serial[OPENNI2_TEXT_MAX];
     openni2_stream depth, color;
+    bool can_align;
     bool is_aligned; /* depth is warped into the colour camera */
 } openni2_device;
 

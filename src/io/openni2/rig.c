@@ -61,7 +61,7 @@ static void cameras_of(const rlf_address *address, const openni2_device *device,
         rlf_log(RLF_LOG_WARNING,
                 "%s: the depth pictures are not aligned with colour, and OpenNI2 does not tell "
                 "how the two cameras stand: give a calibration with ?camera=FILE%s",
-                address->source, depth->handle != NULL ? ", or aligned=1" : "");
+                address->source, device->can_align ? ", or leave aligned=0 out" : "");
     }
     if (!is_told) {
         rlf_log(RLF_LOG_WARNING,
