@@ -211,16 +211,14 @@ EXPORT freenect_registration freenect_copy_registration(void *device)
     const double f = 120.0 / (2.0 * (double)STUB_PIXEL_MM);
     const double slope = STUB_FX * STUB_COLOR_CM / 100.0; /* pixels times metres */
     for (int mm = 1; mm < FREENECT_MM_COUNT; mm++) {
-        stub.shift[mm] =
-            (int32_t)((slope / 1.2 - slope * 1000.0 / mm) * FREENECT_TABLE_SCALE);
+        stub.shift[mm] = (int32_t)((slope / 1.2 - slope * 1000.0 / mm) * FREENECT_TABLE_SCALE);
     }
     for (int i = 0; i < FREENECT_WIDTH * FREENECT_HEIGHT; i++) {
         const double x = (i % FREENECT_WIDTH - 319.5) / f;
         const double y = (i / FREENECT_WIDTH - 239.5) / f;
         const double far_x = STUB_FX * (STUB_COS * x - STUB_SIN * y) + STUB_CX;
         const double far_y = STUB_FY * (STUB_SIN * x + STUB_COS * y) + STUB_CY;
-        stub.table[i][0] =
-            (int32_t)((far_x + 0.5 - slope / 1.2) * FREENECT_TABLE_SCALE);
+        stub.table[i][0] = (int32_t)((far_x + 0.5 - slope / 1.2) * FREENECT_TABLE_SCALE);
         stub.table[i][1] = far_y > 0.0 ? (int32_t)(far_y + 0.5) : 0;
         if (far_y < 0.0 || far_y >= FREENECT_HEIGHT - 1) {
             stub.table[i][0] = (int32_t)(2 * FREENECT_WIDTH * FREENECT_TABLE_SCALE);

@@ -119,10 +119,12 @@ static void time_goes_on_when_the_counter_wraps(void **state)
 static void lost_pictures_are_counted(void **state)
 {
     (void)state;
-    const freenect_stub_event events[6] = {
-        {true, 0, 0},           {false, 0, 500},
-        {true, 3, 3 * FRAME_TICKS}, {false, 3, 3 * FRAME_TICKS + 500},
-        {true, 4, 4 * FRAME_TICKS}, {true, 5, 5 * FRAME_TICKS}};
+    const freenect_stub_event events[6] = {{true, 0, 0},
+                                           {false, 0, 500},
+                                           {true, 3, 3 * FRAME_TICKS},
+                                           {false, 3, 3 * FRAME_TICKS + 500},
+                                           {true, 4, 4 * FRAME_TICKS},
+                                           {true, 5, 5 * FRAME_TICKS}};
     play(events, 6);
     rlf_source *source = open_source("freenect:");
     rlf_frame f;
@@ -180,11 +182,11 @@ static void what_does_not_open_is_told(void **state)
     test_expect_error(rlf_open_source("freenect:?mirror=yes", NULL, &source), RLF_ERROR_INVALID,
                       "freenect:", "mirror=yes", "0 or 1");
     control->does_not_start = true;
-    test_expect_error(rlf_open_source("freenect:", NULL, &source), RLF_ERROR_DEVICE, "freenect:",
-                      "does not start", "USB");
+    test_expect_error(rlf_open_source("freenect:", NULL, &source), RLF_ERROR_DEVICE,
+                      "freenect:", "does not start", "USB");
     control->is_absent = true;
-    test_expect_error(rlf_open_source("freenect:", NULL, &source), RLF_ERROR_DEVICE, "freenect:",
-                      "no Kinect", "cable");
+    test_expect_error(rlf_open_source("freenect:", NULL, &source), RLF_ERROR_DEVICE,
+                      "freenect:", "no Kinect", "cable");
     assert_null(source);
 }
 

@@ -13,10 +13,10 @@
 #define FREENECT_MM_COUNT 10000 /* entries of depth_to_rgb_shift */
 #define FREENECT_TABLE_SCALE 256.0
 
-enum { FREENECT_MEDIUM = 1 };               /* resolution: 640 x 480 */
-enum { FREENECT_CAMERA = 2 };               /* subdevice */
+enum { FREENECT_MEDIUM = 1 };                          /* resolution: 640 x 480 */
+enum { FREENECT_CAMERA = 2 };                          /* subdevice */
 enum { FREENECT_RAW_11 = 0, FREENECT_REGISTERED = 4 }; /* depth formats */
-enum { FREENECT_RGB = 0 };                  /* video format */
+enum { FREENECT_RGB = 0 };                             /* video format */
 
 /* Layouts of libfreenect 0.5. */
 typedef struct freenect_mode {
@@ -42,7 +42,8 @@ typedef struct freenect_registration {
     double const_shift;
     uint16_t *raw_to_mm;
     int32_t *depth_to_rgb_shift; /* by millimetre: 1/256 colour pixel */
-    int32_t (*table)[2]; /* by depth pixel: x in 1/256 colour pixel without the shift, y in pixels */
+    int32_t (
+        *table)[2]; /* by depth pixel: x in 1/256 colour pixel without the shift, y in pixels */
 } freenect_registration;
 
 typedef void (*freenect_picture_fn)(void *device, void *picture, uint32_t time);

@@ -75,8 +75,8 @@ static parallax parallax_of(const freenect_registration *r)
 
 /* Where the factory's table puts a depth pixel that is infinitely far. The table's numbers are cut
  * down to whole pixels by its users: a pixel's centre is half a pixel lower. */
-static bool far_pixel(const freenect_registration *r, const parallax *p, int x, int y, double *out_x,
-                      double *out_y)
+static bool far_pixel(const freenect_registration *r, const parallax *p, int x, int y,
+                      double *out_x, double *out_y)
 {
     const int32_t *entry = r->table[y * FREENECT_WIDTH + x];
     *out_x = entry[0] / FREENECT_TABLE_SCALE + p->offset - 0.5;
@@ -136,8 +136,7 @@ static double largest_error(const freenect_registration *r, const parallax *p, c
             double px, py, u, v;
             if (!far_pixel(r, p, x, y, &px, &py) ||
                 !rlf_camera_unproject(&rig->depth, x, y, &ray) ||
-                !rlf_camera_project(&rig->color, rlf_rotate(rig->T_color_depth.q, ray), &u,
-                                    &v)) {
+                !rlf_camera_project(&rig->color, rlf_rotate(rig->T_color_depth.q, ray), &u, &v)) {
                 continue;
             }
             const double distance = sqrt((u - px) * (u - px) + (v - py) * (v - py));
@@ -168,9 +167,9 @@ static bool fit_color(const freenect_registration *r, rlf_rig *rig, double *out_
     rig->color.fy = fy;
     rig->color.cx = x[2];
     rig->color.cy = y[2];
-    rig->T_color_depth = (rlf_pose){
-        .p = rlf_vec3_make(-right, 0.0, 0.0),
-        .q = {.x = 0.0, .y = 0.0, .z = rlf_sin(0.5 * angle), .w = rlf_cos(0.5 * angle)}};
+    rig->T_color_depth =
+        (rlf_pose){.p = rlf_vec3_make(-right, 0.0, 0.0),
+                   .q = {.x = 0.0, .y = 0.0, .z = rlf_sin(0.5 * angle), .w = rlf_cos(0.5 * angle)}};
     *out_error = largest_error(r, &p, rig);
     return true;
 }

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WAIT_MS 100   /* a call of next takes at most this long */
-#define EVENTS_MS 20  /* of which so long in the library at a time */
+#define WAIT_MS 100  /* a call of next takes at most this long */
+#define EVENTS_MS 20 /* of which so long in the library at a time */
 #define RATE 30.0
 /* The device counts 60 ticks a microsecond: 50 / 3 nanoseconds a tick. */
 #define NS_NUMERATOR 50
@@ -187,10 +187,9 @@ static rlf_result read_keys(kinect *k, const rlf_address *address)
 static rlf_result use_calibration(kinect *k, const rlf_address *address)
 {
     const rlf_rig *rig = address->rig;
-    const bool fits =
-        rig->depth.width == FREENECT_WIDTH && rig->depth.height == FREENECT_HEIGHT &&
-        (!rig->has_color ||
-         (rig->color.width == FREENECT_WIDTH && rig->color.height == FREENECT_HEIGHT));
+    const bool fits = rig->depth.width == FREENECT_WIDTH && rig->depth.height == FREENECT_HEIGHT &&
+                      (!rig->has_color || (rig->color.width == FREENECT_WIDTH &&
+                                           rig->color.height == FREENECT_HEIGHT));
     if (!fits) {
         return rlf_fail(RLF_ERROR_INVALID,
                         "%s: the calibration is not for 640 x 480, the size of a Kinect's pictures",

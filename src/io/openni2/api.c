@@ -32,7 +32,6 @@ static const struct {
     {"oniDeviceCreateStream", offsetof(openni2_api, device_stream)},
     {"oniDeviceSetProperty", offsetof(openni2_api, device_set)},
     {"oniDeviceGetProperty", offsetof(openni2_api, device_get)},
-    {"oniDeviceInvoke", offsetof(openni2_api, device_invoke)},
     {"oniDeviceIsImageRegistrationModeSupported", offsetof(openni2_api, device_can_register)},
     {"oniStreamDestroy", offsetof(openni2_api, stream_destroy)},
     {"oniStreamStart", offsetof(openni2_api, stream_start)},
@@ -94,26 +93,26 @@ const char *openni2_unavailable(void)
                       "OPENNI2_REDIST to the folder of the vendor's own";
 }
 
-const openni2_api *openni2_begin(const char *who)
+rlf_result openni2_begin(const char *who, const openni2_api **out)
 {
     const char *reason = openni2_unavailable();
     if (reason != NULL) {
-        (void)rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: %s", who, reason);
-        return NULL;
+        return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: %s", who, reason);
     }
     pthread_mutex_lock(&lock);
     const int status = api.initialize(OPENNI2_VERSION);
+    if (status != OPENNI2_OK) {
+        api.shutdown(); /* a failed call was counted all the same */
+    }
     pthread_mutex_unlock(&lock);
     if (status != OPENNI2_OK) {
-        /* A failed call was counted all the same. */
-        openni2_end();
-        (void)rlf_fail(RLF_ERROR_DEVICE,
-                       "%s: OpenNI2 cannot start (status %d): check that its drivers lie in the "
-                       "folder OpenNI2/Drivers beside libOpenNI2.so.0",
-                       who, status);
-        return NULL;
+        return rlf_fail(RLF_ERROR_DEVICE,
+                        "%s: OpenNI2 cannot start (status %d): check that its drivers lie in the "
+                        "folder OpenNI2/Drivers beside libOpenNI2.so.0",
+                        who, status);
     }
-    return &api;
+    *out = &api;
+    return RLF_OK;
 }
 
 void openni2_end(void)

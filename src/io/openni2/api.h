@@ -9,23 +9,19 @@
 enum { OPENNI2_OK = 0, OPENNI2_TIME_OUT = 102 };
 enum { OPENNI2_COLOR = 2, OPENNI2_DEPTH = 3 }; /* sensor types */
 enum { OPENNI2_DEPTH_1_MM = 100, OPENNI2_DEPTH_100_UM = 101, OPENNI2_RGB888 = 200 };
-enum { OPENNI2_STATE_ERROR = 1, OPENNI2_STATE_END_OF_FILE = 3 };
+enum { OPENNI2_STATE_ERROR = 1 };
 
 enum {
     OPENNI2_DEVICE_SERIAL = 3,
-    OPENNI2_DEVICE_REGISTRATION = 5, /* int: 1 = depth warped into the colour camera */
-    OPENNI2_DEVICE_SPEED = 100,      /* float, of a file; -1 = one frame for each that is read */
-    OPENNI2_DEVICE_REPEAT = 101      /* int, of a file */
+    OPENNI2_DEVICE_REGISTRATION = 5 /* int: 1 = depth warped into the colour camera */
 };
 enum {
     OPENNI2_STREAM_FOV_X = 1, /* float, radians */
     OPENNI2_STREAM_FOV_Y = 2,
     OPENNI2_STREAM_MODE = 3,
-    OPENNI2_STREAM_MAX = 4,    /* int, largest depth */
-    OPENNI2_STREAM_MIRROR = 7, /* int */
-    OPENNI2_STREAM_COUNT = 8   /* int, frames of a file */
+    OPENNI2_STREAM_MAX = 4,   /* int, largest depth */
+    OPENNI2_STREAM_MIRROR = 7 /* int */
 };
-enum { OPENNI2_COMMAND_SEEK = 1 };
 
 #define OPENNI2_TEXT_MAX 256
 #define OPENNI2_VERSION 2002 /* 2.2 */
@@ -56,11 +52,6 @@ typedef struct openni2_frame {
     int stride; /* bytes */
 } openni2_frame;
 
-typedef struct openni2_seek {
-    int index;
-    void *stream;
-} openni2_seek;
-
 typedef struct openni2_callbacks {
     void (*connected)(const openni2_info *info, void *cookie);
     void (*disconnected)(const openni2_info *info, void *cookie);
@@ -84,7 +75,6 @@ typedef struct openni2_api {
     int (*device_stream)(void *device, int type, void **out_stream);
     int (*device_set)(void *device, int property, const void *data, int size);
     int (*device_get)(void *device, int property, void *data, int *size);
-    int (*device_invoke)(void *device, int command, void *data, int size);
     int (*device_can_register)(void *device, int mode);
     void (*stream_destroy)(void *stream);
     int (*stream_start)(void *stream);
@@ -98,9 +88,9 @@ typedef struct openni2_api {
 /* Why the library cannot be used and what to do, or NULL when it can. */
 const char *openni2_unavailable(void);
 
-/* Loads the library and looks for devices; NULL when that fails, with an error line that starts
- * with `who`. Each call that succeeds needs one of openni2_end. Thread-safety: safe. */
-const openni2_api *openni2_begin(const char *who);
+/* Loads the library and looks for devices. Error lines start with `who`; on failure *out is left
+ * alone. Each call that succeeds needs one of openni2_end. Thread-safety: safe. */
+rlf_result openni2_begin(const char *who, const openni2_api **out);
 void openni2_end(void);
 
 #endif

@@ -12,7 +12,6 @@ bool openni2_is_test_device(const openni2_info *info)
     return strcmp(info->uri, "Dummy") == 0;
 }
 
-/* Players of recordings know properties that they do not name as supported: all are asked. */
 int openni2_stream_int(const openni2_device *device, const openni2_stream *stream, int property,
                        int otherwise)
 {
@@ -22,8 +21,8 @@ int openni2_stream_int(const openni2_device *device, const openni2_stream *strea
     return status == OPENNI2_OK ? value : otherwise;
 }
 
-float openni2_stream_float(const openni2_device *device, const openni2_stream *stream,
-                           int property, float otherwise)
+float openni2_stream_float(const openni2_device *device, const openni2_stream *stream, int property,
+                           float otherwise)
 {
     float value = 0;
     int size = sizeof(value);
@@ -99,10 +98,9 @@ static bool is_depth(int format)
  * 30 per second is best, in millimetres, which reach farther. */
 static int64_t rate_mode(const openni2_mode *mode, const openni2_wish *wish, bool wants_depth)
 {
-    const bool is_readable =
-        wants_depth ? is_depth(mode->format) : mode->format == OPENNI2_RGB888;
-    if (!is_readable || mode->width < 1 || mode->height < 1 ||
-        mode->width > RLF_IMAGE_SIZE_MAX || mode->height > RLF_IMAGE_SIZE_MAX ||
+    const bool is_readable = wants_depth ? is_depth(mode->format) : mode->format == OPENNI2_RGB888;
+    if (!is_readable || mode->width < 1 || mode->height < 1 || mode->width > RLF_IMAGE_SIZE_MAX ||
+        mode->height > RLF_IMAGE_SIZE_MAX ||
         (wish->width > 0 && (mode->width != wish->width || mode->height != wish->height)) ||
         (wish->fps > 0 && mode->fps != wish->fps)) {
         return -1;
@@ -145,7 +143,7 @@ static void set_mirror(const openni2_device *device, const openni2_wish *wish,
                        openni2_stream *stream)
 {
     const int off = 0;
-    if (!wish->is_file && wish->mirror < 0) {
+    if (wish->mirror < 0) {
         (void)device->api->stream_set(stream->handle, OPENNI2_STREAM_MIRROR, &off, sizeof(off));
     }
     const int told = openni2_stream_int(device, stream, OPENNI2_STREAM_MIRROR, 0);
@@ -165,26 +163,17 @@ static rlf_result open_stream(const rlf_address *address, const openni2_wish *wi
         return rlf_fail(RLF_ERROR_DEVICE, "%s: has no %s stream", address->source, what);
     }
     int size = sizeof(stream->mode);
-    if (wish->is_file) {
-        const openni2_wish any = {0};
-        if (api->stream_get(stream->handle, OPENNI2_STREAM_MODE, &stream->mode, &size) !=
-                OPENNI2_OK ||
-            rate_mode(&stream->mode, &any, wants_depth) < 0) {
-            return rlf_fail(RLF_ERROR_UNSUPPORTED,
-                            "%s: its %s pictures are in a format that is not read (%d)",
-                            address->source, what, stream->mode.format);
-        }
-    } else if (!(wants_depth ? choose_mode(sensor, wish, true, &stream->mode)
-                             : choose_color(sensor, wish, &device->depth.mode, &stream->mode))) {
+    if (!(wants_depth ? choose_mode(sensor, wish, true, &stream->mode)
+                      : choose_color(sensor, wish, &device->depth.mode, &stream->mode))) {
         return rlf_fail(RLF_ERROR_UNSUPPORTED,
                         "%s: the camera has no such %s mode: leave mode= out, or give a size and "
                         "rate that it has",
                         address->source, what);
-    } else if (api->stream_set(stream->handle, OPENNI2_STREAM_MODE, &stream->mode, size) !=
-               OPENNI2_OK) {
+    }
+    if (api->stream_set(stream->handle, OPENNI2_STREAM_MODE, &stream->mode, size) != OPENNI2_OK) {
         return rlf_fail(RLF_ERROR_DEVICE, "%s: the camera refuses %dx%d@%d for %s: %.200s",
-                        address->source, stream->mode.width, stream->mode.height,
-                        stream->mode.fps, what, api->error());
+                        address->source, stream->mode.width, stream->mode.height, stream->mode.fps,
+                        what, api->error());
     }
     set_mirror(device, wish, stream);
     return RLF_OK;
@@ -196,10 +185,6 @@ static rlf_result set_aligned(const rlf_address *address, const openni2_wish *wi
                               openni2_device *device)
 {
     const bool has_color = device->color.handle != NULL;
-    if (wish->is_file) {
-        device->is_aligned = wish->aligned == 1 && has_color;
-        return RLF_OK;
-    }
     const bool can = device->api->device_can_register(device->handle, 1) != 0;
     if (wish->aligned == 1 && has_color && !can) {
         return rlf_fail(RLF_ERROR_UNSUPPORTED,
@@ -237,15 +222,13 @@ rlf_result openni2_device_open(const rlf_address *address, const openni2_wish *w
 {
     const openni2_api *api = device->api;
     char uri[OPENNI2_TEXT_MAX] = "";
-    rlf_result result = wish->is_file ? RLF_OK : find_device(api, address, uri);
+    rlf_result result = find_device(api, address, uri);
     if (result != RLF_OK) {
         return result;
     }
-    if (api->device_open(wish->is_file ? address->place : uri, &device->handle) != OPENNI2_OK) {
+    if (api->device_open(uri, &device->handle) != OPENNI2_OK) {
         device->handle = NULL;
-        return rlf_fail(wish->is_file ? RLF_ERROR_FORMAT : RLF_ERROR_DEVICE,
-                        wish->is_file ? "%s: OpenNI2 cannot read it as a recording: %.300s"
-                                      : "%s: the camera cannot be opened: %.300s",
+        return rlf_fail(RLF_ERROR_DEVICE, "%s: the camera cannot be opened: %.300s",
                         address->source, api->error());
     }
     (void)api->device_info(device->handle, &device->info);

@@ -1,8 +1,6 @@
 /* The cameras of an OpenNI2 device. */
 #include "io/openni2/device.h"
-
-/* Horizontal focal length over width of PrimeSense cameras: 58.5 degrees (Kinect v1, Xtion). */
-#define FOCAL_TYPICAL 0.9
+#include "io/source/field_of_view.h"
 
 /* A camera writes 0 where it is too near to measure: what it did write is believed. */
 #define DEPTH_MIN_M 0.1
@@ -17,32 +15,14 @@ double openni2_units(const openni2_device *device)
     return device->depth.mode.format == OPENNI2_DEPTH_100_UM ? 10000.0 : 1000.0;
 }
 
-static bool is_angle(float radians)
-{
-    return radians > 0.1f && radians < 3.0f;
-}
-
-/* The fields of view cover whole pixels, so the centre lies between the middle ones. Returns
- * whether the stream tells them. */
+/* Returns whether the stream tells its field of view. */
 static bool camera_of(const openni2_device *device, const openni2_stream *stream,
                       const openni2_stream *size, rlf_camera *out)
 {
-    const int w = size->mode.width;
-    const int h = size->mode.height;
-    *out = (rlf_camera){.width = w,
-                        .height = h,
-                        .fx = FOCAL_TYPICAL * w,
-                        .fy = FOCAL_TYPICAL * w,
-                        .cx = 0.5 * (w - 1),
-                        .cy = 0.5 * (h - 1)};
-    const float x = openni2_stream_float(device, stream, OPENNI2_STREAM_FOV_X, 0.0f);
-    const float y = openni2_stream_float(device, stream, OPENNI2_STREAM_FOV_Y, 0.0f);
-    if (!is_angle(x) || !is_angle(y)) {
-        return false;
-    }
-    out->fx = 0.5 * w * rlf_cos(0.5 * x) / rlf_sin(0.5 * x);
-    out->fy = 0.5 * h * rlf_cos(0.5 * y) / rlf_sin(0.5 * y);
-    return true;
+    return io_camera_from_fov(size->mode.width, size->mode.height,
+                              openni2_stream_float(device, stream, OPENNI2_STREAM_FOV_X, 0.0f),
+                              openni2_stream_float(device, stream, OPENNI2_STREAM_FOV_Y, 0.0f),
+                              out);
 }
 
 /* Depth that is warped into the colour camera has the colour camera's lens. */
@@ -71,8 +51,8 @@ static void cameras_of(const rlf_address *address, const openni2_device *device,
     }
 }
 
-static rlf_result check_size(const rlf_address *address, const char *what,
-                             const rlf_camera *camera, const openni2_mode *mode)
+static rlf_result check_size(const rlf_address *address, const char *what, const rlf_camera *camera,
+                             const openni2_mode *mode)
 {
     if (camera->width == mode->width && camera->height == mode->height) {
         return RLF_OK;

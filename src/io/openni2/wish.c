@@ -28,15 +28,16 @@ static rlf_result read_mode(const rlf_address *address, openni2_wish *out)
     const int count =
         sscanf(value, "%5dx%5d%n@%4d%n", &out->width, &out->height, &length, &out->fps, &length);
     if (count < 2 || value[length] != '\0' || out->width < 1 || out->height < 1 || out->fps < 0) {
-        return rlf_fail(RLF_ERROR_INVALID, "%s: mode=%.40s: must be WxH or WxH@FPS, e.g. 640x480@30",
-                        address->source, value);
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "%s: mode=%.40s: must be WxH or WxH@FPS, e.g. 640x480@30", address->source,
+                        value);
     }
     return RLF_OK;
 }
 
-rlf_result openni2_read_wish(const rlf_address *address, bool is_file, openni2_wish *out)
+rlf_result openni2_read_wish(const rlf_address *address, openni2_wish *out)
 {
-    *out = (openni2_wish){.color = 1, .aligned = -1, .mirror = -1, .is_file = is_file};
+    *out = (openni2_wish){.color = 1, .aligned = -1, .mirror = -1};
     if (address->rig != NULL) {
         out->width = address->rig->depth.width;
         out->height = address->rig->depth.height;

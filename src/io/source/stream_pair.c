@@ -184,8 +184,8 @@ static void fill_frame(io_stream_pair *pair, const io_stream_slot *depth, int32_
     out->depth_units_per_metre = pair->units_per_metre;
     if (color >= 0) {
         out->color_time_ns = pair->color[color].time_ns + pair->shift_ns;
-        out->color = (rlf_image_rgba8){pair->color[color].data, rig->color.width,
-                                       rig->color.height, (ptrdiff_t)rig->color.width * 4};
+        out->color = (rlf_image_rgba8){pair->color[color].data, rig->color.width, rig->color.height,
+                                       (ptrdiff_t)rig->color.width * 4};
     }
 }
 

@@ -21,13 +21,13 @@ typedef struct io_stream_pair {
     int64_t interval_ns;
     uint32_t flags; /* rlf_frame_flag of every frame */
     io_stream_slot depth[IO_STREAM_SLOTS], color[IO_STREAM_SLOTS];
-    int32_t shown_depth, shown_color;       /* what the last frame points to; -1 = nothing */
-    int32_t waiting[2], waiting_count;      /* depth pictures not given yet, oldest first */
-    int32_t colors[2], color_count;         /* newest colour pictures, oldest first */
-    int64_t last_time_ns, last_index;       /* of the depth picture pushed last */
-    int64_t shift_ns;                       /* added to the device's time, which may start again */
-    uint64_t sequence;                      /* of the depth picture pushed last */
-    bool has_last, is_broken; /* is_broken: the next frame does not follow */
+    int32_t shown_depth, shown_color;  /* what the last frame points to; -1 = nothing */
+    int32_t waiting[2], waiting_count; /* depth pictures not given yet, oldest first */
+    int32_t colors[2], color_count;    /* newest colour pictures, oldest first */
+    int64_t last_time_ns, last_index;  /* of the depth picture pushed last */
+    int64_t shift_ns;                  /* added to the device's time, which may start again */
+    uint64_t sequence;                 /* of the depth picture pushed last */
+    bool has_last, is_broken;          /* is_broken: the next frame does not follow */
     rlf_source_status status;
 } io_stream_pair;
 

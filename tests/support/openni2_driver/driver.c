@@ -145,9 +145,7 @@ EXPORT int oniDriverInitialize(void (*connected)(const openni2_info *, void *),
     return OPENNI2_OK;
 }
 
-EXPORT void oniDriverDestroy(void)
-{
-}
+EXPORT void oniDriverDestroy(void) {}
 
 EXPORT int oniDriverTryDevice(const char *uri)
 {
