@@ -13,6 +13,10 @@
 #include <string.h>
 
 #define PIXEL_FORMAT_100_UM 101
+
+/* What one byte can stand for at most: packed depth, and JPEG (as its reader takes it). */
+#define DEPTH_PIXELS_PER_BYTE 30
+#define JPEG_PIXELS_PER_BYTE (64 * 8 * 4)
 #define RGB_FORMAT 1
 
 /* A camera writes 0 where it is too near to measure: what it did write is believed. */
@@ -149,10 +153,17 @@ static void oni_destroy(void *self)
     rlf_free(o);
 }
 
-static bool has_size(const oni_node *node)
+/* Whether the size is one, and the node's largest picture can hold so many pixels: a small file
+ * does not make us reserve a gigabyte. */
+static bool has_size(const oni_node *node, int64_t pixels_per_byte)
 {
+    int64_t largest = 0;
+    for (int32_t i = 0; i < node->count; i++) {
+        largest = node->pictures[i].size > largest ? node->pictures[i].size : largest;
+    }
     return node->width >= 1 && node->width <= RLF_IMAGE_SIZE_MAX && node->height >= 1 &&
-           node->height <= RLF_IMAGE_SIZE_MAX;
+           node->height <= RLF_IMAGE_SIZE_MAX &&
+           (int64_t)node->width * node->height <= largest * pixels_per_byte;
 }
 
 static rlf_result check_depth(const oni *o)
@@ -161,8 +172,9 @@ static rlf_result check_depth(const oni *o)
     if (!d->is_there || d->count == 0) {
         return rlf_fail(RLF_ERROR_FORMAT, "%s: holds no depth pictures", o->name);
     }
-    if (!has_size(d)) {
-        return rlf_fail(RLF_ERROR_FORMAT, "%s: says that its depth pictures are %d x %d", o->name,
+    if (!has_size(d, d->codec == ONI_CODEC_NONE ? 1 : DEPTH_PIXELS_PER_BYTE)) {
+        return rlf_fail(RLF_ERROR_FORMAT,
+                        "%s: says that its depth pictures are %d x %d, which cannot be", o->name,
                         (int)d->width, (int)d->height);
     }
     if (d->codec != ONI_CODEC_NONE && d->codec != ONI_CODEC_16Z &&
@@ -181,7 +193,8 @@ static void check_color(oni *o)
     const bool is_rgb = c->codec == ONI_CODEC_NONE && (c->rgb_format <= RGB_FORMAT);
     if (!c->is_there || c->count == 0) {
         c->count = 0;
-    } else if (!has_size(c) || (!is_rgb && c->codec != ONI_CODEC_JPEG)) {
+    } else if (!has_size(c, is_rgb ? 1 : JPEG_PIXELS_PER_BYTE) ||
+               (!is_rgb && c->codec != ONI_CODEC_JPEG)) {
         rlf_log(RLF_LOG_WARNING,
                 "%s: its colour pictures (%d x %d, \"%.4s\", format %d) are not read: there is no "
                 "colour",
