@@ -214,8 +214,11 @@ EXPORT freenect_registration freenect_copy_registration(void *device)
         stub.shift[mm] = (int32_t)((slope / 1.2 - slope * 1000.0 / mm) * FREENECT_TABLE_SCALE);
     }
     for (int i = 0; i < FREENECT_WIDTH * FREENECT_HEIGHT; i++) {
-        const double x = (i % FREENECT_WIDTH - 319.5) / f;
-        const double y = (i / FREENECT_WIDTH - 239.5) / f;
+        const double ray_x = (i % FREENECT_WIDTH - 319.5) / f;
+        const double ray_y = (i / FREENECT_WIDTH - 239.5) / f;
+        const double bend = 1.0 + STUB_K1 * (ray_x * ray_x + ray_y * ray_y);
+        const double x = ray_x * bend;
+        const double y = ray_y * bend;
         const double far_x = STUB_FX * (STUB_COS * x - STUB_SIN * y) + STUB_CX;
         const double far_y = STUB_FY * (STUB_SIN * x + STUB_COS * y) + STUB_CY;
         stub.table[i][0] = (int32_t)((far_x + 0.5 - slope / 1.2) * FREENECT_TABLE_SCALE);

@@ -15,6 +15,7 @@
 #define STUB_CY 246.5
 #define STUB_SIN 0.01
 #define STUB_COS 0.99995
+#define STUB_K1 0.05
 
 typedef struct freenect_stub_event {
     bool is_depth;

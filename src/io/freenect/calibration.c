@@ -23,6 +23,8 @@
 static const rlf_depth_noise structured_light = {0.0008, 0.0, 0.0012};
 
 #define SAMPLE_STEP 16
+#define SAMPLES_MIN 100
+#define FIT_ROUNDS 40
 
 bool freenect_has_reference(const freenect_registration *r)
 {
@@ -84,31 +86,62 @@ static bool far_pixel(const freenect_registration *r, const parallax *p, int x, 
     return entry[0] < FREENECT_WIDTH * FREENECT_TABLE_SCALE && entry[1] < FREENECT_HEIGHT;
 }
 
-/* Sums of a least-squares fit of x and y by a (rx, ry, 1). */
+/* Radial distortion of the colour camera: what both lenses together do. */
+typedef struct radial {
+    double k1, k2;
+} radial;
+
+/* One sample of the tables. */
+typedef struct sample {
+    double x, y;   /* ray of the depth pixel */
+    double px, py; /* where it lands in the colour picture */
+} sample;
+
+/* Samples in turn; `at` starts with 0. False when there are no more. */
+static bool next_sample(const freenect_registration *r, const parallax *p, const rlf_camera *depth,
+                        int *at, sample *out)
+{
+    const int columns = FREENECT_WIDTH / SAMPLE_STEP;
+    while (*at < columns * (FREENECT_HEIGHT / SAMPLE_STEP)) {
+        const int x = *at % columns * SAMPLE_STEP;
+        const int y = *at / columns * SAMPLE_STEP;
+        ++*at;
+        if (far_pixel(r, p, x, y, &out->px, &out->py)) {
+            out->x = (x - depth->cx) / depth->fx;
+            out->y = (y - depth->cy) / depth->fy;
+            return true;
+        }
+    }
+    return false;
+}
+
+static double bend(const radial *k, const sample *s)
+{
+    const double r2 = s->x * s->x + s->y * s->y;
+    return 1.0 + r2 * (k->k1 + r2 * k->k2);
+}
+
+/* Sums of a least-squares fit of px and py by a (x, y, 1), x and y bent by the lens. */
 typedef struct sums {
     double m[3][3], x[3], y[3];
     int count;
 } sums;
 
-static sums sum_up(const freenect_registration *r, const parallax *p, const rlf_camera *depth)
+static sums sum_up(const freenect_registration *r, const parallax *p, const rlf_camera *depth,
+                   const radial *k)
 {
     sums s = {0};
-    for (int y = 0; y < FREENECT_HEIGHT; y += SAMPLE_STEP) {
-        for (int x = 0; x < FREENECT_WIDTH; x += SAMPLE_STEP) {
-            double px, py;
-            if (!far_pixel(r, p, x, y, &px, &py)) {
-                continue;
+    sample t;
+    for (int at = 0; next_sample(r, p, depth, &at, &t);) {
+        const double a[3] = {t.x * bend(k, &t), t.y * bend(k, &t), 1.0};
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j < 3; j++) {
+                s.m[i][j] += a[i] * a[j];
             }
-            const double a[3] = {(x - depth->cx) / depth->fx, (y - depth->cy) / depth->fy, 1.0};
-            for (int i = 0; i < 3; i++) {
-                for (int k = 0; k < 3; k++) {
-                    s.m[i][k] += a[i] * a[k];
-                }
-                s.x[i] += a[i] * px;
-                s.y[i] += a[i] * py;
-            }
-            s.count++;
+            s.x[i] += a[i] * t.px;
+            s.y[i] += a[i] * t.py;
         }
+        s.count++;
     }
     return s;
 }
@@ -127,46 +160,93 @@ static bool solve(const double m[3][3], const double b[3], double out[3])
     return det > 1e-9;
 }
 
+/* Colour pixel = x by (x, y, 1), and so on: the affine part of the mapping. */
+typedef struct affine {
+    double x[3], y[3];
+} affine;
+
+/* Improves the distortion for a given affine part: least squares of what is left by r^2 and r^4
+ * times the linear part. */
+static bool improve_radial(const freenect_registration *r, const parallax *p,
+                           const rlf_camera *depth, const affine *a, radial *k)
+{
+    double m11 = 0.0, m12 = 0.0, m22 = 0.0, b1 = 0.0, b2 = 0.0;
+    sample t;
+    for (int at = 0; next_sample(r, p, depth, &at, &t);) {
+        const double r2 = t.x * t.x + t.y * t.y;
+        const double lx = a->x[0] * t.x + a->x[1] * t.y;
+        const double ly = a->y[0] * t.x + a->y[1] * t.y;
+        const double ex = t.px - a->x[2] - lx * bend(k, &t);
+        const double ey = t.py - a->y[2] - ly * bend(k, &t);
+        const double l2 = lx * lx + ly * ly;
+        m11 += l2 * r2 * r2;
+        m12 += l2 * r2 * r2 * r2;
+        m22 += l2 * r2 * r2 * r2 * r2;
+        b1 += (lx * ex + ly * ey) * r2;
+        b2 += (lx * ex + ly * ey) * r2 * r2;
+    }
+    const double det = m11 * m22 - m12 * m12;
+    if (!(det > 0.0)) {
+        return false;
+    }
+    k->k1 += (b1 * m22 - b2 * m12) / det;
+    k->k2 += (b2 * m11 - b1 * m12) / det;
+    return fabs(k->k1) < 2.0 && fabs(k->k2) < 10.0;
+}
+
+/* The affine part and the distortion in turn: they depend on each other weakly. */
+static bool fit(const freenect_registration *r, const parallax *p, const rlf_camera *depth,
+                affine *out, radial *k)
+{
+    for (int i = 0; i < FIT_ROUNDS; i++) {
+        const sums s = sum_up(r, p, depth, k);
+        if (s.count < SAMPLES_MIN || !solve(s.m, s.x, out->x) || !solve(s.m, s.y, out->y) ||
+            !improve_radial(r, p, depth, out, k)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static double largest_error(const freenect_registration *r, const parallax *p, const rlf_rig *rig)
 {
     double worst = 0.0;
-    for (int y = 0; y < FREENECT_HEIGHT; y += SAMPLE_STEP) {
-        for (int x = 0; x < FREENECT_WIDTH; x += SAMPLE_STEP) {
-            rlf_vec3 ray;
-            double px, py, u, v;
-            if (!far_pixel(r, p, x, y, &px, &py) ||
-                !rlf_camera_unproject(&rig->depth, x, y, &ray) ||
-                !rlf_camera_project(&rig->color, rlf_rotate(rig->T_color_depth.q, ray), &u, &v)) {
-                continue;
-            }
-            const double distance = sqrt((u - px) * (u - px) + (v - py) * (v - py));
-            worst = rlf_max(worst, distance);
+    sample t;
+    for (int at = 0; next_sample(r, p, &rig->depth, &at, &t);) {
+        const rlf_vec3 ray = rlf_rotate(rig->T_color_depth.q, rlf_vec3_make(t.x, t.y, 1.0));
+        double u = 0.0;
+        double v = 0.0;
+        if (rlf_camera_project(&rig->color, ray, &u, &v)) {
+            worst = rlf_max(worst, sqrt((u - t.px) * (u - t.px) + (v - t.py) * (v - t.py)));
         }
     }
     return worst;
 }
 
-/* X = fx (cos rx - sin ry) + cx, Y = fy (sin rx + cos ry) + cy: the part of the factory's mapping
- * that is a turn round the optical axis and a lens without distortion. */
+/* X = fx (cos x - sin y) + cx, Y = fy (sin x + cos y) + cy, x and y bent by the lens: a turn round
+ * the optical axis and the colour camera's lens. */
 static bool fit_color(const freenect_registration *r, rlf_rig *rig, double *out_error)
 {
     const parallax p = parallax_of(r);
-    const sums s = sum_up(r, &p, &rig->depth);
-    double x[3], y[3];
-    if (s.count < 100 || !solve(s.m, s.x, x) || !solve(s.m, s.y, y)) {
+    affine a;
+    radial k = {0.0, 0.0};
+    if (!fit(r, &p, &rig->depth, &a, &k)) {
         return false;
     }
-    const double fx = sqrt(x[0] * x[0] + x[1] * x[1]);
-    const double fy = sqrt(y[0] * y[0] + y[1] * y[1]);
+    const double fx = sqrt(a.x[0] * a.x[0] + a.x[1] * a.x[1]);
+    const double fy = sqrt(a.y[0] * a.y[0] + a.y[1] * a.y[1]);
     const double right = p.slope / fx; /* metres from the depth camera */
     if (!(fx > 200.0 && fx < 2000.0 && fy > 200.0 && fy < 2000.0 && fabs(right) < 0.1)) {
         return false;
     }
-    const double angle = rlf_atan2(y[0] / fy - x[1] / fx, x[0] / fx + y[1] / fy);
+    const double angle = rlf_atan2(a.y[0] / fy - a.x[1] / fx, a.x[0] / fx + a.y[1] / fy);
     rig->color.fx = fx;
     rig->color.fy = fy;
-    rig->color.cx = x[2];
-    rig->color.cy = y[2];
+    rig->color.cx = a.x[2];
+    rig->color.cy = a.y[2];
+    rig->color.distortion_model = RLF_DISTORTION_PLUMB_BOB;
+    rig->color.distortion[0] = k.k1;
+    rig->color.distortion[1] = k.k2;
     rig->T_color_depth =
         (rlf_pose){.p = rlf_vec3_make(-right, 0.0, 0.0),
                    .q = {.x = 0.0, .y = 0.0, .z = rlf_sin(0.5 * angle), .w = rlf_cos(0.5 * angle)}};

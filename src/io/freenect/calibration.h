@@ -17,7 +17,7 @@ void freenect_depth_table(const freenect_registration *registration,
 
 /* The depth camera, the colour camera and the transform between them. Factory tables, where they
  * are, are fitted by a turn round the optical axis, a shift, and the colour camera's lens:
- * *out_error is the largest distance in colour pixels from what the tables say. */
+ * *out_error is the largest distance in colour pixels from what the tables say; -1 = no tables. */
 void freenect_make_rig(const freenect_registration *registration, rlf_rig *out, double *out_error);
 
 #endif
