@@ -24,7 +24,7 @@ static const rlf_depth_noise structured_light = {0.0008, 0.0, 0.0012};
 
 #define SAMPLE_STEP 16
 #define SAMPLES_MIN 100
-#define FIT_ROUNDS 40
+#define FIT_ROUNDS 300
 
 bool freenect_has_reference(const freenect_registration *r)
 {
