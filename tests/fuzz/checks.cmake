@@ -35,6 +35,7 @@ target_link_libraries(relief_io_fuzz PUBLIC ${fuzz_libraries})
 
 set(RELIEF_FUZZ_ITERATIONS 6000 CACHE STRING "Mutations per fuzz test")
 set(fuzz_names camera_json scene_json frame_list picture)
+list(APPEND fuzz_names oni)
 if(RELIEF_WITH_MODELS)
   list(APPEND fuzz_names model)
 endif()

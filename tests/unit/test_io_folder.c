@@ -305,7 +305,7 @@ static void sources_that_cannot_be_opened(void **state)
     } cases[] = {
         {"", RLF_ERROR_INVALID, "empty", "synthetic:room"},
         {"/no/such/place", RLF_ERROR_IO, "no such file or folder", "synthetic:room"},
-        {"openni2:0", RLF_ERROR_UNSUPPORTED, "\"openni2:\"", "relief sources"},
+        {"nosuch:0", RLF_ERROR_UNSUPPORTED, "\"nosuch:\"", "relief sources"},
         {"ros2:/camera", RLF_ERROR_UNSUPPORTED, "\"ros2:\"", "relief sources"},
         {"realsense:", RLF_ERROR_UNSUPPORTED, "\"realsense:\"", "relief sources"},
         {test_path("file.bag"), RLF_ERROR_UNSUPPORTED, "is a file", "give the folder"},

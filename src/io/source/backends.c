@@ -4,6 +4,13 @@
 /* In the order in which they are asked for a file: a folder is asked last, as it takes any. */
 static const rlf_backend *const built_in[] = {
     &io_backend_simulated,
+#ifdef RLF_HAVE_OPENNI2
+    &io_backend_openni2,
+#endif
+#ifdef RLF_HAVE_FREENECT
+    &io_backend_freenect,
+#endif
+    &io_backend_oni,
     &io_backend_folder,
 };
 #define BUILT_IN_COUNT ((int32_t)(sizeof(built_in) / sizeof(built_in[0])))
@@ -14,6 +21,12 @@ const rlf_backend *io_backend_built_in_at(int32_t index)
 }
 
 static const io_backend_absent absent[] = {
+#ifndef RLF_HAVE_OPENNI2
+    {"openni2", NULL, "RELIEF_WITH_OPENNI2", "cameras through OpenNI2"},
+#endif
+#ifndef RLF_HAVE_FREENECT
+    {"freenect", NULL, "RELIEF_WITH_FREENECT", "Kinect v1 through libfreenect"},
+#endif
     {0},
 };
 

@@ -1,0 +1,272 @@
+/* Cameras through OpenNI2: PrimeSense, Asus Xtion, older Orbbec. */
+#include "io/openni2/device.h"
+#include "io/source/backends.h"
+#include "io/source/stream_pair.h"
+
+#include <stdatomic.h>
+#include <stdio.h>
+#include <string.h>
+
+#define WAIT_MS 100 /* a call of next takes at most this long */
+
+typedef struct camera {
+    char source[512]; /* as the user gave it, for error lines */
+    openni2_wish wish;
+    openni2_device device;
+    rlf_rig rig;
+    io_stream_pair pair;
+    void *callbacks;
+    atomic_bool is_gone; /* it was unplugged, or failed */
+} camera;
+
+static void on_disconnected(const openni2_info *info, void *cookie)
+{
+    camera *c = cookie;
+    if (strcmp(info->uri, c->device.info.uri) == 0) {
+        atomic_store(&c->is_gone, true);
+    }
+}
+
+static void on_state(const openni2_info *info, int state, void *cookie)
+{
+    camera *c = cookie;
+    if (strcmp(info->uri, c->device.info.uri) != 0) {
+        return;
+    }
+    if (state == OPENNI2_STATE_ERROR) {
+        atomic_store(&c->is_gone, true);
+    }
+}
+
+/* A frame must have the size that the stream was opened with, and hold all its rows. */
+static bool is_whole(const openni2_frame *f, const openni2_stream *stream, int pixel_size)
+{
+    return f->data != NULL && f->width == stream->mode.width && f->height == stream->mode.height &&
+           f->is_cropped == 0 && f->stride >= f->width * pixel_size &&
+           (int64_t)f->stride * (f->height - 1) + (int64_t)f->width * pixel_size <= f->data_size;
+}
+
+static void push_depth(camera *c, const openni2_frame *f)
+{
+    uint16_t *out = io_stream_pair_depth(&c->pair);
+    for (int y = 0; y < f->height; y++) {
+        const char *row = (const char *)f->data + (ptrdiff_t)y * f->stride;
+        io_depth_row((const void *)row, f->width, c->device.depth.flips,
+                     out + (ptrdiff_t)y * f->width);
+    }
+    io_stream_pair_push_depth(&c->pair, (int64_t)f->time_us * 1000, f->index > 0 ? f->index : -1);
+}
+
+static void push_color(camera *c, const openni2_frame *f)
+{
+    const rlf_image_rgba8 out = io_stream_pair_color(&c->pair);
+    for (int y = 0; y < f->height; y++) {
+        io_rgb_row((const uint8_t *)f->data + (ptrdiff_t)y * f->stride, f->width,
+                   c->device.color.flips, rlf_rgba8_row(&out, y));
+    }
+    io_stream_pair_push_color(&c->pair, (int64_t)f->time_us * 1000);
+}
+
+/* Takes a frame from the stream that has one. */
+static rlf_result read_stream(camera *c, bool is_depth)
+{
+    const openni2_api *api = c->device.api;
+    const openni2_stream *stream = is_depth ? &c->device.depth : &c->device.color;
+    openni2_frame *frame = NULL;
+    if (api->stream_read(stream->handle, &frame) != OPENNI2_OK || frame == NULL) {
+        return rlf_fail(RLF_ERROR_DEVICE, "%s: a frame cannot be read: %.300s", c->source,
+                        api->error());
+    }
+    if (!is_whole(frame, stream, is_depth ? 2 : 3)) {
+        c->pair.status.damaged++;
+    } else if (is_depth) {
+        push_depth(c, frame);
+    } else {
+        push_color(c, frame);
+    }
+    api->frame_release(frame);
+    return RLF_OK;
+}
+
+static rlf_result wait_for_frame(camera *c, int timeout_ms)
+{
+    void *streams[2] = {c->device.depth.handle, c->device.color.handle};
+    const int count = streams[1] != NULL ? 2 : 1;
+    int index = 0;
+    const int status = c->device.api->wait_any(streams, count, &index, timeout_ms);
+    if (status == OPENNI2_TIME_OUT) {
+        return RLF_NO_FRAME;
+    }
+    if (status != OPENNI2_OK || index < 0 || index >= count) {
+        return rlf_fail(RLF_ERROR_DEVICE, "%s: OpenNI2 stops giving frames: %.300s", c->source,
+                        c->device.api->error());
+    }
+    return read_stream(c, index == 0);
+}
+
+static rlf_result fail_gone(camera *c)
+{
+    c->pair.status.is_connected = false;
+    return rlf_fail(RLF_ERROR_DEVICE, "%s: the camera is gone: plug it in again", c->source);
+}
+
+static rlf_result next_frame(void *self, rlf_frame *out)
+{
+    camera *c = self;
+    const int64_t end_ns = rlf_clock_ns() + WAIT_MS * INT64_C(1000000);
+    for (;;) {
+        if (atomic_load(&c->is_gone)) {
+            return fail_gone(c);
+        }
+        if (io_stream_pair_take(&c->pair, false, out)) {
+            return RLF_OK;
+        }
+        const int64_t left_ms = (end_ns - rlf_clock_ns()) / 1000000;
+        if (left_ms <= 0) {
+            return io_stream_pair_take(&c->pair, true, out) ? RLF_OK : RLF_NO_FRAME;
+        }
+        rlf_result result = wait_for_frame(c, (int)left_ms);
+        if (result < 0) {
+            return atomic_load(&c->is_gone) ? fail_gone(c) : result;
+        }
+    }
+}
+
+static void status(void *self, rlf_source_status *out)
+{
+    const camera *c = self;
+    *out = c->pair.status;
+}
+
+static void close_device(camera *c)
+{
+    const openni2_api *api = c->device.api;
+    if (api != NULL) {
+        openni2_device_close(&c->device);
+        if (c->callbacks != NULL) {
+            api->remove_callbacks(c->callbacks);
+            c->callbacks = NULL;
+        }
+        openni2_end();
+        c->device.api = NULL;
+    }
+}
+
+static void destroy(void *self)
+{
+    camera *c = self;
+    close_device(c);
+    io_stream_pair_finish(&c->pair);
+    rlf_free(c);
+}
+
+/* Opens the device and asks to be told when it goes. */
+static rlf_result open_device(camera *c, const rlf_address *address)
+{
+    openni2_callbacks callbacks = {.disconnected = on_disconnected, .state_changed = on_state};
+    rlf_result result = openni2_begin(address->source, &c->device.api);
+    if (result == RLF_OK) {
+        result = openni2_device_open(address, &c->wish, &c->device);
+    }
+    if (result == RLF_OK &&
+        c->device.api->add_callbacks(&callbacks, c, &c->callbacks) != OPENNI2_OK) {
+        c->callbacks = NULL;
+        result = rlf_fail(RLF_ERROR_DEVICE, "%s: OpenNI2 refuses to tell when it is unplugged",
+                          address->source);
+    }
+    return result;
+}
+
+static uint32_t flags_of(const openni2_device *device)
+{
+    const bool flips = device->depth.flips || (device->color.handle != NULL && device->color.flips);
+    return (flips ? (uint32_t)RLF_FRAME_UNMIRRORED : 0u) |
+           (device->is_aligned ? (uint32_t)RLF_FRAME_ALIGNED : 0u);
+}
+
+static rlf_result open_all(camera *c, const rlf_address *address)
+{
+    rlf_result result = open_device(c, address);
+    if (result == RLF_OK) {
+        result = openni2_make_rig(address, &c->device, &c->rig);
+    }
+    if (result == RLF_OK) {
+        result = io_stream_pair_init(&c->pair, &c->rig, openni2_units(&c->device),
+                                     c->device.depth.mode.fps);
+        c->pair.flags = flags_of(&c->device);
+    }
+    return result == RLF_OK ? openni2_device_start(address, &c->device) : result;
+}
+
+static void describe(const camera *c, rlf_source_info *out)
+{
+    const openni2_device *d = &c->device;
+    snprintf(out->name, sizeof(out->name), "%.127s", c->source);
+    snprintf(out->device, sizeof(out->device), "OpenNI2: %.30s %.30s%s%.30s", d->info.vendor,
+             d->info.name, d->serial[0] != '\0' ? ", serial " : "", d->serial);
+    out->rig = c->rig;
+    out->frame_count = -1;
+    out->frames_per_second = d->depth.mode.fps;
+    out->is_live = true;
+}
+
+static rlf_result open_camera(const rlf_address *address, rlf_opened *out)
+{
+    camera *c = rlf_alloc(sizeof(*c));
+    if (c == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    snprintf(c->source, sizeof(c->source), "%.511s", address->source);
+    rlf_result result = openni2_read_wish(address, &c->wish);
+    if (result == RLF_OK) {
+        result = open_all(c, address);
+    }
+    if (result != RLF_OK) {
+        destroy(c);
+        return result;
+    }
+    memset(out, 0, sizeof(*out));
+    out->methods = (rlf_source_methods){.next = next_frame, .destroy = destroy, .status = status};
+    out->self = c;
+    describe(c, &out->info);
+    return RLF_OK;
+}
+
+static int32_t list(rlf_source_entry *out, int32_t capacity)
+{
+    const openni2_api *api = NULL;
+    openni2_info *devices = NULL;
+    int device_count = 0;
+    int32_t count = 0;
+    if (openni2_begin("openni2:", &api) != RLF_OK) {
+        return 0;
+    }
+    if (api->get_devices(&devices, &device_count) == OPENNI2_OK) {
+        for (int i = 0; i < device_count; i++) {
+            if (openni2_is_test_device(&devices[i])) {
+                continue;
+            }
+            if (count < capacity) {
+                rlf_source_entry *e = &out[count];
+                snprintf(e->source, sizeof(e->source), "openni2:%.240s", devices[i].uri);
+                snprintf(e->description, sizeof(e->description), "%.60s %.60s", devices[i].vendor,
+                         devices[i].name);
+            }
+            count++;
+        }
+        api->release_devices(devices);
+    }
+    openni2_end();
+    return count;
+}
+
+const rlf_backend io_backend_openni2 = {
+    .version = RLF_BACKEND_VERSION,
+    .scheme = "openni2",
+    .keys = "mode color aligned mirror",
+    .summary = "a camera of PrimeSense, Asus Xtion or older Orbbec: URI or serial number",
+    .is_live = true,
+    .unavailable = openni2_unavailable,
+    .list = list,
+    .open = open_camera,
+};

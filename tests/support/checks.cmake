@@ -1,0 +1,45 @@
+# Stand-ins for cameras that some tests need: drivers and libraries of our own.
+set(support ${CMAKE_CURRENT_LIST_DIR})
+
+# OpenNI2 looks for drivers beside itself: a folder of links with our driver makes a private set. The
+# library resolves that folder from the path by which it was opened.
+find_file(RELIEF_OPENNI2_LIBRARY libOpenNI2.so.0
+          PATHS /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE} /usr/lib64 /usr/lib NO_DEFAULT_PATH)
+if(RELIEF_WITH_OPENNI2 AND RELIEF_OPENNI2_LIBRARY AND TARGET test_io_openni2)
+  set(place ${CMAKE_CURRENT_BINARY_DIR}/openni2)
+  get_filename_component(system ${RELIEF_OPENNI2_LIBRARY} DIRECTORY)
+  file(MAKE_DIRECTORY ${place}/OpenNI2/Drivers)
+  file(CREATE_LINK ${RELIEF_OPENNI2_LIBRARY} ${place}/libOpenNI2.so.0 SYMBOLIC)
+  file(CREATE_LINK ${system}/OpenNI2/Drivers/libOniFile.so.0
+       ${place}/OpenNI2/Drivers/libOniFile.so.0 SYMBOLIC)
+  add_library(openni2_test_driver MODULE ${support}/openni2_driver/driver.c)
+  relief_settings(openni2_test_driver)
+  target_compile_options(openni2_test_driver PRIVATE -Wno-missing-prototypes)
+  target_include_directories(openni2_test_driver PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(openni2_test_driver PRIVATE relief Threads::Threads)
+  set_target_properties(openni2_test_driver PROPERTIES OUTPUT_NAME ReliefTest SUFFIX .so.0
+                        LIBRARY_OUTPUT_DIRECTORY ${place}/OpenNI2/Drivers)
+  add_dependencies(test_io_openni2 openni2_test_driver)
+  target_compile_definitions(test_io_openni2 PRIVATE RLF_TEST_OPENNI2="${place}")
+endif()
+
+# libfreenect: a stand-in with a factory calibration, and Debian's fakenect, which plays dumps.
+if(RELIEF_WITH_FREENECT AND TARGET test_io_freenect)
+  add_library(freenect_stub MODULE ${support}/freenect_stub.c)
+  relief_settings(freenect_stub)
+  target_compile_options(freenect_stub PRIVATE -Wno-missing-prototypes)
+  target_include_directories(freenect_stub PRIVATE ${PROJECT_SOURCE_DIR}/src ${support})
+  target_link_libraries(freenect_stub PRIVATE relief)
+  set_target_properties(freenect_stub PROPERTIES OUTPUT_NAME freenect SUFFIX .so.0.5
+                        LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/freenect)
+  add_dependencies(test_io_freenect freenect_stub)
+  target_compile_definitions(test_io_freenect PRIVATE
+                             RLF_TEST_FREENECT_STUB="${CMAKE_CURRENT_BINARY_DIR}/freenect")
+  find_file(RELIEF_FAKENECT_LIBRARY libfreenect.so.0.5
+            PATHS /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/fakenect /usr/lib/fakenect
+            NO_DEFAULT_PATH)
+  if(RELIEF_FAKENECT_LIBRARY)
+    get_filename_component(place ${RELIEF_FAKENECT_LIBRARY} DIRECTORY)
+    target_compile_definitions(test_io_fakenect PRIVATE RLF_TEST_FAKENECT="${place}")
+  endif()
+endif()
