@@ -71,9 +71,9 @@ bool io_live_pose(const float rotation[9], const float translation[3], double me
         r.m[i / 3][i % 3] = (double)rotation[i];
     }
     out->q = rlf_quat_normalize(rlf_quat_from_mat3(&r));
-    out->p = rlf_scale(rlf_vec3_make((double)translation[0], (double)translation[1],
-                                     (double)translation[2]),
-                       metres);
+    out->p = rlf_scale(
+        rlf_vec3_make((double)translation[0], (double)translation[1], (double)translation[2]),
+        metres);
     const rlf_mat3 exact = rlf_quat_to_mat3(out->q);
     for (int i = 0; i < 9; i++) {
         if (!(fabs(exact.m[i / 3][i % 3] - r.m[i / 3][i % 3]) < ROTATION_TOLERANCE)) {
@@ -89,8 +89,8 @@ bool io_live_count_frame(io_live_count *c, uint64_t number, int64_t time_ns, rlf
         c->doubled++;
         return false;
     }
-    const bool is_new = c->has_last && (c->is_restarted || number < c->number ||
-                                        time_ns <= c->time_ns);
+    const bool is_new =
+        c->has_last && (c->is_restarted || number < c->number || time_ns <= c->time_ns);
     if (is_new) {
         c->sequence++;
         c->offset_ns += c->time_ns - time_ns + (c->interval_ns > 0 ? c->interval_ns : 1);

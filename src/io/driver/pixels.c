@@ -34,8 +34,8 @@ static uint8_t clamp_8(int32_t scaled)
     return (uint8_t)(value < 0 ? 0 : value > 255 ? 255 : value);
 }
 
-/* Recommendation ITU-R BT.601: coefficients times 2^16 of 255/219 and of 255/224 times 1.402, 0.344,
- * 0.714 and 1.772. */
+/* Recommendation ITU-R BT.601: coefficients times 2^16 of 255/219 and of 255/224 times 1.402,
+ * 0.344, 0.714 and 1.772. */
 static void convert_row_yuyv(const uint8_t *in, uint8_t *out, int32_t width)
 {
     for (int32_t x = 0; x < width; x++, out += 4) {

@@ -1,8 +1,8 @@
 /* Kinect v2: undistortion, depth to colour and the filter of hidden pixels.
  *
- * The order of every float operation is that of libfreenect2, so the results are the same bits. What
- * is different is the order of the work: the two passes over the 8 MB of big depth go along with the
- * rows of the depth picture, while those rows are still in the cache. */
+ * The order of every float operation is that of libfreenect2, so the results are the same bits.
+ * What is different is the order of the work: the two passes over the 8 MB of big depth go along
+ * with the rows of the depth picture, while those rows are still in the cache. */
 #include "io/freenect2/registration.h"
 
 #include <math.h>
@@ -29,7 +29,7 @@ typedef struct reach {
 } reach;
 
 struct kinect2_registration {
-    float fx, cx, shift_m; /* of colour; cx with the half for rounding */
+    float fx, cx, shift_m;                /* of colour; cx with the half for rounding */
     int32_t source[KINECT2_DEPTH_PIXELS]; /* of each undistorted pixel; -1 = outside */
     float map_x[KINECT2_DEPTH_PIXELS];
     int32_t map_y[KINECT2_DEPTH_PIXELS];

@@ -82,7 +82,6 @@ typedef struct rs2_extrinsics {
     F(void, pipeline_stop, (rs2_pipeline *, rs2_error **))                                         \
     F(int, pipeline_try_wait_for_frames,                                                           \
       (rs2_pipeline *, rs2_frame **, unsigned int, rs2_error **))                                  \
-    F(rs2_device *, pipeline_profile_get_device, (rs2_pipeline_profile *, rs2_error **))           \
     F(rs2_stream_profile_list *, pipeline_profile_get_streams,                                     \
       (rs2_pipeline_profile *, rs2_error **))                                                      \
     F(void, delete_pipeline_profile, (rs2_pipeline_profile *))                                     \

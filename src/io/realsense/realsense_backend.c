@@ -48,8 +48,8 @@ static int32_t list_devices(const realsense_api *api, const rs2_device_list *lis
         api->delete_device(device);
         if (found < capacity) {
             snprintf(out[found].source, sizeof(out[found].source), "realsense:%s", serial);
-            snprintf(out[found].description, sizeof(out[found].description), "%.63s, serial %.40s", name,
-                     serial);
+            snprintf(out[found].description, sizeof(out[found].description), "%.63s, serial %.40s",
+                     name, serial);
         }
         found++;
     }
@@ -187,9 +187,8 @@ static rlf_result start(realsense *r, const rlf_address *address)
 static void describe(const realsense *r, rlf_opened *out)
 {
     memset(out, 0, sizeof(*out));
-    out->methods = (rlf_source_methods){.next = io_realsense_next,
-                                        .destroy = realsense_destroy,
-                                        .status = realsense_status};
+    out->methods = (rlf_source_methods){
+        .next = io_realsense_next, .destroy = realsense_destroy, .status = realsense_status};
     snprintf(out->info.name, sizeof(out->info.name), "%.127s", r->source);
     out->info.rig = r->rig;
     out->info.frame_count = -1;

@@ -50,10 +50,9 @@ static bool get_raw(const realsense *r, const rs2_frame *frame, const rlf_camera
                     io_raw_picture *out)
 {
     rs2_error *error = NULL;
-    const bool has_size = r->api->get_frame_width(frame, &error) == camera->width &&
-                          error == NULL &&
-                          r->api->get_frame_height(frame, &error) == camera->height &&
-                          error == NULL;
+    const bool has_size =
+        r->api->get_frame_width(frame, &error) == camera->width && error == NULL &&
+        r->api->get_frame_height(frame, &error) == camera->height && error == NULL;
     const int stride = has_size ? r->api->get_frame_stride_in_bytes(frame, &error) : 0;
     const int size = has_size && error == NULL ? r->api->get_frame_data_size(frame, &error) : 0;
     out->data = has_size && error == NULL ? r->api->get_frame_data(frame, &error) : NULL;

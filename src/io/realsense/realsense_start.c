@@ -250,8 +250,8 @@ static rlf_result read_sensors(realsense *r)
         io_realsense_check(r->api, &error, RLF_ERROR_DEVICE, r->source, "plug it in again");
     return result != RLF_OK || is_found
                ? result
-               : rlf_fail(RLF_ERROR_DEVICE, "%s: the camera does not say its depth unit: use another",
-                          r->source);
+               : rlf_fail(RLF_ERROR_DEVICE,
+                          "%s: the camera does not say its depth unit: use another", r->source);
 }
 
 static rlf_result read_rig(realsense *r, rs2_pipeline_profile *profile)

@@ -5,6 +5,8 @@
 #include "relief/backend.h"
 
 extern const rlf_backend io_backend_folder;
+extern const rlf_backend io_backend_freenect2;
+extern const rlf_backend io_backend_k4a;
 extern const rlf_backend io_backend_realsense;
 
 /* Built-in ones first, in the order in which they are asked for a file; NULL past the last. */
