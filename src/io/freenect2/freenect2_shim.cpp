@@ -2,13 +2,16 @@
 #include "io/freenect2/freenect2_shim.h"
 
 #include <libfreenect2/libfreenect2.hpp>
+#include <libfreenect2/logger.h>
 
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <memory>
 #include <mutex>
+#include <string>
 
 using libfreenect2::Frame;
 using libfreenect2::Freenect2;
@@ -75,6 +78,16 @@ private:
     clock_type::time_point depth_arrival;
 };
 
+// libfreenect2 tells much on the standard output, which belongs to the program.
+void be_quiet()
+{
+    static std::once_flag once;
+    std::call_once(once, [] {
+        libfreenect2::setGlobalLogger(
+            libfreenect2::createConsoleLogger(libfreenect2::Logger::Warning));
+    });
+}
+
 } // namespace
 
 struct relief_freenect2 {
@@ -93,12 +106,14 @@ int relief_freenect2_version(void)
 
 int relief_freenect2_count(void)
 {
+    be_quiet();
     Freenect2 library;
     return library.enumerateDevices();
 }
 
 int relief_freenect2_serial(int index, char *out, size_t size)
 {
+    be_quiet();
     Freenect2 library;
     if (index < 0 || index >= library.enumerateDevices()) {
         return 0;
@@ -109,6 +124,7 @@ int relief_freenect2_serial(int index, char *out, size_t size)
 
 relief_freenect2 *relief_freenect2_open(const char *serial, char *out_cause, size_t size)
 try {
+    be_quiet();
     std::unique_ptr<relief_freenect2> self(new relief_freenect2);
     if (self->library.enumerateDevices() < 1) {
         snprintf(out_cause, size, "no Kinect v2 is plugged in");
