@@ -19,7 +19,8 @@ typedef struct stub_fault {
     int double_at;             /* the last picture comes again */
     int restart_at;            /* count and clock begin anew */
     int no_color_at;
-    int damage_at; /* the colour picture is not whole */
+    int damage_at;       /* the colour picture is not whole */
+    int damage_depth_at; /* nor is the depth picture */
     int hang_at, hang_ms;
     /* Written by the stub. */
     int objects; /* that the user has and must give back */

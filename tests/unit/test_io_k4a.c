@@ -198,6 +198,12 @@ static void tells_faults(void **state)
     assert_int_equal(rlf_source_next(s, &ignored), RLF_ERROR_DEVICE);
     assert_non_null(strstr(rlf_error_text(), "000120 is gone"));
     close_source(s);
+    fault->unplug_at = 0;
+    fault->damage_depth_at = 1;
+    s = stub_open("k4a:");
+    assert_int_equal(rlf_source_next(s, &ignored), RLF_NO_FRAME);
+    assert_int_equal(rlf_source_get_status(s).damaged, 1);
+    close_source(s);
     fault->start_fails = true;
     stub_refuse("k4a:", RLF_ERROR_DEVICE, "does not start");
     fault->open_fails = true;

@@ -231,7 +231,8 @@ static void counts_lost_and_doubled(void **state)
     const rlf_source_status status = rlf_source_get_status(s);
     assert_int_equal(status.lost, 5);
     assert_int_equal(status.doubled, 1);
-    assert_int_equal(status.unpaired, 2);
+    assert_int_equal(status.unpaired, 1);
+    assert_int_equal(status.damaged, 1);
     assert_int_equal(status.given, 7);
     close_source(s);
 }
@@ -304,6 +305,38 @@ static void tells_faults(void **state)
     assert_int_equal(fault->objects, 0);
 }
 
+static void survives_broken_cameras(void **state)
+{
+    (void)state;
+    stub_realsense2 *stub = stub_realsense2_get();
+    stub->fault.damage_depth_at = 2;
+    rlf_source *s = stub_open("realsense:");
+    rlf_frame f = stub_next(s);
+    rlf_frame ignored;
+    assert_int_equal(rlf_source_next(s, &ignored), RLF_NO_FRAME);
+    check_frame(&f, 1);
+    assert_int_equal(stub_next(s).sequence, 2);
+    assert_int_equal(rlf_source_get_status(s).damaged, 1);
+    assert_int_equal(rlf_source_get_status(s).lost, 1);
+    close_source(s);
+    stub->color_coeffs[0] = NAN;
+    stub->color_model = RS2_DISTORTION_INVERSE_BROWN_CONRADY;
+    s = stub_open("realsense:"); /* a pinhole, and a warning */
+    assert_int_equal(rlf_source_get_info(s)->rig.color.distortion_model, RLF_DISTORTION_NONE);
+    close_source(s);
+    stub->color_model = RS2_DISTORTION_BROWN_CONRADY;
+    stub_refuse("realsense:", RLF_ERROR_INVALID, "distortion");
+    stub->color_model = RS2_DISTORTION_NONE;
+    stub->has_bad_turn = true;
+    stub_refuse("realsense:", RLF_ERROR_DEVICE, "no rotation");
+    stub->depth_scale = NAN;
+    stub->has_bad_turn = false;
+    stub_refuse("realsense:", RLF_ERROR_DEVICE, "depth unit");
+    stub->has_bad_numbers = true;
+    stub_refuse("realsense:", RLF_ERROR_INVALID, "fx");
+    assert_int_equal(stub->fault.objects, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -317,6 +350,7 @@ int main(void)
         cmocka_unit_test_setup(keeps_frame_in_silence, set_up),
         cmocka_unit_test_setup(tells_clock_changes, set_up),
         cmocka_unit_test_setup(tells_faults, set_up),
+        cmocka_unit_test_setup(survives_broken_cameras, set_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

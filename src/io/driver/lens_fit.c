@@ -4,6 +4,7 @@
 #include "io/driver/least_squares.h"
 
 #include <math.h>
+#include <string.h>
 
 static void add_sample(io_least_squares *ls, const io_lens_sample *s, const rlf_camera *camera)
 {
@@ -21,35 +22,44 @@ static void add_sample(io_least_squares *ls, const io_lens_sample *s, const rlf_
     io_least_squares_add(ls, row_v, s->v - camera->fy * s->y - camera->cy);
 }
 
+/* Infinity when a ray is not seen at all. */
+static double worst_distance(const io_lens_sample *samples, int32_t count, const rlf_camera *camera)
+{
+    double worst_px = 0.0;
+    for (int32_t i = 0; i < count; i++) {
+        const io_lens_sample *s = &samples[i];
+        double u = NAN;
+        double v = NAN;
+        rlf_camera_project(camera, rlf_vec3_make(s->x, s->y, 1.0), &u, &v);
+        const double off_px = hypot(u - s->u, v - s->v);
+        worst_px = off_px <= worst_px ? worst_px : off_px;
+        if (!isfinite(worst_px)) {
+            return INFINITY;
+        }
+    }
+    return worst_px;
+}
+
 double io_lens_fit(const io_lens_sample *samples, int32_t count, rlf_camera *camera)
 {
     io_least_squares ls = {.count = 5};
     for (int32_t i = 0; i < count; i++) {
         add_sample(&ls, &samples[i], camera);
     }
-    *camera = (rlf_camera){.width = camera->width,
-                           .height = camera->height,
-                           .fx = camera->fx,
-                           .fy = camera->fy,
-                           .cx = camera->cx,
-                           .cy = camera->cy};
+    const rlf_camera pinhole = {.width = camera->width,
+                                .height = camera->height,
+                                .fx = camera->fx,
+                                .fy = camera->fy,
+                                .cx = camera->cx,
+                                .cy = camera->cy};
+    *camera = pinhole;
     double k[5];
     if (!io_least_squares_solve(&ls, k)) {
         return INFINITY;
     }
     camera->distortion_model = RLF_DISTORTION_PLUMB_BOB;
-    for (int32_t i = 0; i < 5; i++) {
-        camera->distortion[i] = k[i];
-    }
-    double worst = 0.0;
-    for (int32_t i = 0; i < count; i++) {
-        double u;
-        double v;
-        const io_lens_sample *s = &samples[i];
-        if (!rlf_camera_project(camera, rlf_vec3_make(s->x, s->y, 1.0), &u, &v)) {
-            return INFINITY;
-        }
-        worst = fmax(worst, hypot(u - s->u, v - s->v));
-    }
-    return worst;
+    memcpy(camera->distortion, k, sizeof(k));
+    const double worst_px = worst_distance(samples, count, camera);
+    *camera = isfinite(worst_px) ? *camera : pinhole;
+    return worst_px;
 }

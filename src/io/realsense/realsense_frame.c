@@ -104,9 +104,12 @@ static rlf_result fill_depth(realsense *r, const rs2_frame *depth, rlf_frame *ou
 static void fill_color(realsense *r, const rs2_frame *color, rlf_frame *out)
 {
     io_raw_picture raw = {.format = r->color_format};
-    if (color == NULL || !get_raw(r, color, &r->rig.color, &raw) ||
-        !io_pixels_to_rgba(&raw, false, &r->color)) {
+    if (color == NULL) {
         r->unpaired++;
+        return;
+    }
+    if (!get_raw(r, color, &r->rig.color, &raw) || !io_pixels_to_rgba(&raw, false, &r->color)) {
+        r->damaged++;
         return;
     }
     out->color = r->color;

@@ -151,7 +151,12 @@ static rlf_result read_camera(const realsense *r, const rs2_stream_profile *prof
         return result;
     }
     const double off_px = io_realsense_lens(r->api, &in, out);
-    if (off_px > LENS_ERROR_TOLD_PX) {
+    if (isinf(off_px)) {
+        rlf_log(RLF_LOG_WARNING,
+                "%s: the %s lens (librealsense2's model %d) is not understood and is left out: "
+                "give a calibration by ?camera=FILE",
+                r->source, which, in.model);
+    } else if (off_px > LENS_ERROR_TOLD_PX) {
         rlf_log(RLF_LOG_WARNING,
                 "%s: the %s lens (librealsense2's model %d) is off by up to %.1f pixels here: give "
                 "a calibration by ?camera=FILE",

@@ -151,6 +151,7 @@ static k4a_image_t make_depth(const k4a_device_t device)
             memcpy(image->data + (ptrdiff_t)v * image->stride + (ptrdiff_t)u * 2, &z, 2);
         }
     }
+    image->size -= stub.fault.waits == stub.fault.damage_depth_at ? 2 : 0;
     return image;
 }
 

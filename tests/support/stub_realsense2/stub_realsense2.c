@@ -4,6 +4,7 @@
 
 #include "io/realsense/realsense_api.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -386,6 +387,9 @@ void rs2_get_video_stream_intrinsics(const rs2_stream_profile *profile, rs2_intr
                             .fx = f,
                             .fy = f + 0.5F,
                             .model = RS2_DISTORTION_BROWN_CONRADY};
+    if (stub.has_bad_numbers) {
+        out->fx = NAN;
+    }
     if (!is_depth) {
         out->model = stub.color_model;
         memcpy(out->coeffs, stub.color_coeffs, sizeof(out->coeffs));
@@ -471,6 +475,7 @@ static rs2_frame *make_set(const rs2_pipeline *pipeline)
     rs2_frame *set = make_frame(NULL, &pipeline->stream, 0);
     set->parts[0] = make_frame(&p[0], &pipeline->stream, 2);
     paint_depth(set->parts[0]);
+    set->parts[0]->size -= f->waits == f->damage_depth_at ? set->parts[0]->stride : 0;
     if (pipeline->streams.count > 1 && f->waits != f->no_color_at) {
         set->parts[1] =
             make_frame(&p[1], &pipeline->stream, p[1].format == RS2_FORMAT_YUYV ? 2 : 3);

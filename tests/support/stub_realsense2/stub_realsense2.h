@@ -16,9 +16,10 @@ typedef struct stub_realsense2 {
     bool has_color, has_big_modes;
     int color_model; /* rs2_distortion */
     float color_coeffs[5];
-    float depth_scale; /* metres */
-    float baseline_mm; /* 0 = the option is not supported */
-    int late_clock_at; /* from this wait on times are of another clock */
+    float depth_scale;                  /* metres */
+    float baseline_mm;                  /* 0 = the option is not supported */
+    bool has_bad_numbers, has_bad_turn; /* calibration of a broken camera */
+    int late_clock_at;                  /* from this wait on times are of another clock */
 } stub_realsense2;
 
 stub_realsense2 *stub_realsense2_get(void);
