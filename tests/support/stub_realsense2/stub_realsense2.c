@@ -406,6 +406,9 @@ void rs2_get_extrinsics(const rs2_stream_profile *from, const rs2_stream_profile
     *out = (rs2_extrinsics){
         {0.9950042F, 0.0998334F, 0.0F, -0.0998334F, 0.9950042F, 0.0F, 0.0F, 0.0F, 1.0F},
         {0.015F, -0.002F, 0.001F}};
+    if (stub.has_bad_turn) {
+        out->rotation[0] = -1.0F;
+    }
 }
 
 /* As later versions of the library do for every Brown-Conrady lens but the plain one: tangential
