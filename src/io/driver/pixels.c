@@ -1,8 +1,6 @@
 /* Raw colour pictures of cameras to RGBA. */
 #include "io/driver/pixels.h"
 
-#include <string.h>
-
 static ptrdiff_t row_size(io_pixel_format format, int32_t width)
 {
     switch (format) {
@@ -16,11 +14,20 @@ static ptrdiff_t row_size(io_pixel_format format, int32_t width)
     return 0;
 }
 
-/* `step` bytes a pixel, red at `red` and blue at `blue`. */
-static void convert_row(const uint8_t *in, int step, int red, uint8_t *out, int32_t width)
+/* Where the pixels of a row go: the first one, and bytes from one to the next, which are fewer than
+ * 0 in a mirrored picture. */
+typedef struct target {
+    uint8_t *first;
+    ptrdiff_t step;
+    int32_t width;
+} target;
+
+/* `step` bytes a pixel, the first of them red (`red` 0) or blue (`red` 2). */
+static void convert_row(const uint8_t *in, int step, int red, target to)
 {
     const int blue = 2 - red;
-    for (int32_t x = 0; x < width; x++, in += step, out += 4) {
+    uint8_t *out = to.first;
+    for (int32_t x = 0; x < to.width; x++, in += step, out += to.step) {
         out[0] = in[red];
         out[1] = in[1];
         out[2] = in[blue];
@@ -34,29 +41,33 @@ static uint8_t clamp_8(int32_t scaled)
     return (uint8_t)(value < 0 ? 0 : value > 255 ? 255 : value);
 }
 
-/* Recommendation ITU-R BT.601: coefficients times 2^16 of 255/219 and of 255/224 times 1.402,
- * 0.344, 0.714 and 1.772. */
-static void convert_row_yuyv(const uint8_t *in, uint8_t *out, int32_t width)
+/* What the chroma of a pair of pixels adds, times 2^16. */
+typedef struct chroma {
+    int32_t red, green, blue;
+} chroma;
+
+static void put(uint8_t *out, uint8_t luma, chroma c)
 {
-    for (int32_t x = 0; x < width; x++, out += 4) {
-        const uint8_t *pair = in + (ptrdiff_t)(x / 2) * 4;
-        const int32_t y = 76309 * (pair[(x & 1) * 2] - 16);
-        const int32_t u = pair[1] - 128;
-        const int32_t v = pair[3] - 128;
-        out[0] = clamp_8(y + 104597 * v);
-        out[1] = clamp_8(y - 25675 * u - 53279 * v);
-        out[2] = clamp_8(y + 132201 * u);
-        out[3] = 255;
-    }
+    const int32_t y = 76309 * (luma - 16);
+    out[0] = clamp_8(y + c.red);
+    out[1] = clamp_8(y + c.green);
+    out[2] = clamp_8(y + c.blue);
+    out[3] = 255;
 }
 
-static void mirror_row(uint8_t *row, int32_t width)
+/* Recommendation ITU-R BT.601: coefficients times 2^16 of 255/219, and of 255/224 times 1.402,
+ * 0.344, 0.714 and 1.772. */
+static void convert_row_yuyv(const uint8_t *in, target to)
 {
-    for (int32_t left = 0, right = width - 1; left < right; left++, right--) {
-        uint8_t pixel[4];
-        memcpy(pixel, row + (ptrdiff_t)left * 4, 4);
-        memcpy(row + (ptrdiff_t)left * 4, row + (ptrdiff_t)right * 4, 4);
-        memcpy(row + (ptrdiff_t)right * 4, pixel, 4);
+    uint8_t *out = to.first;
+    for (int32_t x = 0; x < to.width; x += 2, in += 4, out += 2 * to.step) {
+        const int32_t u = in[1] - 128;
+        const int32_t v = in[3] - 128;
+        const chroma c = {104597 * v, -25675 * u - 53279 * v, 132201 * u};
+        put(out, in[0], c);
+        if (x + 1 < to.width) {
+            put(out + to.step, in[2], c);
+        }
     }
 }
 
@@ -69,17 +80,16 @@ bool io_pixels_to_rgba(const io_raw_picture *raw, bool is_mirrored, const rlf_im
     }
     for (int32_t y = 0; y < out->height; y++) {
         const uint8_t *in = raw->data + (ptrdiff_t)y * raw->stride;
-        uint8_t *to = rlf_rgba8_row(out, y);
+        uint8_t *left = rlf_rgba8_row(out, y);
+        const target to = {is_mirrored ? left + (ptrdiff_t)(out->width - 1) * 4 : left,
+                           is_mirrored ? -4 : 4, out->width};
         switch (raw->format) {
-        case IO_PIXEL_RGB8: convert_row(in, 3, 0, to, out->width); break;
-        case IO_PIXEL_BGR8: convert_row(in, 3, 2, to, out->width); break;
-        case IO_PIXEL_RGBX8: convert_row(in, 4, 0, to, out->width); break;
-        case IO_PIXEL_BGRX8: convert_row(in, 4, 2, to, out->width); break;
-        case IO_PIXEL_YUYV: convert_row_yuyv(in, to, out->width); break;
+        case IO_PIXEL_RGB8: convert_row(in, 3, 0, to); break;
+        case IO_PIXEL_BGR8: convert_row(in, 3, 2, to); break;
+        case IO_PIXEL_RGBX8: convert_row(in, 4, 0, to); break;
+        case IO_PIXEL_BGRX8: convert_row(in, 4, 2, to); break;
+        case IO_PIXEL_YUYV: convert_row_yuyv(in, to); break;
         case IO_PIXEL_NONE: break;
-        }
-        if (is_mirrored) {
-            mirror_row(to, out->width);
         }
     }
     return true;
