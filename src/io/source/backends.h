@@ -9,6 +9,9 @@ extern const rlf_backend io_backend_simulated;
 extern const rlf_backend io_backend_freenect;
 extern const rlf_backend io_backend_oni;
 extern const rlf_backend io_backend_openni2;
+extern const rlf_backend io_backend_freenect2;
+extern const rlf_backend io_backend_k4a;
+extern const rlf_backend io_backend_realsense;
 
 /* Built-in ones first, in the order in which they are asked for a file, then those of plug-ins;
  * NULL past the last. The folders of plug-ins are searched once, by the first call past the

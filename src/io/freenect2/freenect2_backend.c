@@ -1,0 +1,205 @@
+/* Kinect v2 through libfreenect2, behind the C functions of freenect2_shim.h. */
+#include "io/driver/library.h"
+#include "io/freenect2/freenect2.h"
+#include "io/source/backends.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <string.h>
+
+static freenect2_api functions;
+static char reason[256];
+static bool is_loaded;
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+
+static void load(void)
+{
+    static const io_symbol symbols[] = {
+#define SYMBOL(result, name, parameters)                                                           \
+    {"relief_freenect2_" #name, offsetof(freenect2_api, name), false},
+        RELIEF_FREENECT2_FUNCTIONS(SYMBOL)
+#undef SYMBOL
+    };
+    static const char *const names[] = {"librelief_freenect2.so", RLF_FREENECT2_SHIM_PATH, NULL};
+    static const io_library_def def = {
+        .variable = "RELIEF_FREENECT2_LIBRARY",
+        .names = names,
+        .cure = "install libfreenect2 and build Relief again: its shim is then made too",
+        .symbols = symbols,
+        .symbol_count = (int32_t)(sizeof(symbols) / sizeof(symbols[0]))};
+    is_loaded = io_library_load(&def, &functions, reason, sizeof(reason));
+    if (is_loaded && functions.version() != RELIEF_FREENECT2_VERSION) {
+        is_loaded = false;
+        snprintf(reason, sizeof(reason),
+                 "librelief_freenect2.so is of another version of Relief: "
+                 "install both from one build");
+    }
+}
+
+static const freenect2_api *get_api(void)
+{
+    pthread_once(&once, load);
+    return is_loaded ? &functions : NULL;
+}
+
+static const char *freenect2_unavailable(void)
+{
+    return get_api() != NULL ? NULL : reason;
+}
+
+static int32_t freenect2_list(rlf_source_entry *out, int32_t capacity)
+{
+    const freenect2_api *api = get_api();
+    const int count = api != NULL ? api->count() : 0;
+    for (int32_t i = 0; i < count && i < capacity; i++) {
+        char serial[64] = "";
+        api->serial(i, serial, sizeof(serial));
+        snprintf(out[i].source, sizeof(out[i].source), "freenect2:%s", serial);
+        snprintf(out[i].description, sizeof(out[i].description), "Kinect v2, serial %s", serial);
+    }
+    return count;
+}
+
+static void freenect2_status(void *self, rlf_source_status *out)
+{
+    const freenect2 *k = self;
+    out->lost = k->count.lost;
+    out->doubled = k->count.doubled;
+    out->unpaired = k->unpaired;
+}
+
+static void freenect2_destroy(void *self)
+{
+    freenect2 *k = self;
+    if (k->device != NULL) {
+        k->api->close(k->device);
+    }
+    kinect2_registration_destroy(&k->registration);
+    rlf_free(k->depth);
+    rlf_free(k->undistorted);
+    rlf_free(k->registered);
+    rlf_free(k->offset);
+    rlf_free(k->color.data);
+    rlf_free(k);
+}
+
+/* align=factory: the pictures that libfreenect2's Registration makes, for work that is compared
+ * with it. The colour is then that of the depth pixels. */
+static rlf_result read_align(freenect2 *k, const rlf_address *address)
+{
+    const char *align = rlf_address_get(address, "align");
+    k->is_aligned = align != NULL && strcmp(align, "factory") == 0;
+    return align == NULL || k->is_aligned || strcmp(align, "none") == 0
+               ? RLF_OK
+               : rlf_fail(RLF_ERROR_INVALID, "%s: align is \"%.40s\": use none or factory",
+                          address->source, align);
+}
+
+static rlf_result open_device(freenect2 *k, const rlf_address *address)
+{
+    char cause[160] = "";
+    const char *serial = rlf_address_get(address, "serial");
+    serial = serial != NULL ? serial : address->place;
+    k->device = k->api->open(serial, cause, sizeof(cause));
+    if (k->device == NULL) {
+        return rlf_fail(RLF_ERROR_DEVICE,
+                        "%s: %s: plug it into USB 3, close other programs that use it, and see "
+                        "`relief sources`",
+                        address->source, cause);
+    }
+    relief_freenect2_calibration calibration;
+    memset(&calibration, 0, sizeof(calibration));
+    k->api->get_calibration(k->device, &calibration);
+    memcpy(&k->ir, calibration.ir, sizeof(k->ir));
+    memcpy(&k->factory, calibration.color, sizeof(k->factory));
+    return RLF_OK;
+}
+
+static rlf_result make_rig(freenect2 *k, const rlf_address *address)
+{
+    kinect2_fit fit = {0};
+    rlf_result result = kinect2_rig_fit(&k->ir, &k->factory, &k->rig, &fit);
+    if (result != RLF_OK) {
+        return result;
+    }
+    if (k->is_aligned) {
+        k->rig.depth = kinect2_undistorted_camera(&k->ir);
+        k->rig.color = k->rig.depth;
+        k->rig.T_color_depth = rlf_pose_identity();
+        result = kinect2_registration_create(&k->ir, &k->factory, &k->registration);
+    } else {
+        rlf_log(RLF_LOG_INFO,
+                "%s: the colour camera fits the factory's mapping to %.2f pixels rms, %.1f at "
+                "worst",
+                address->source, fit.rms_px, fit.worst_px);
+    }
+    return result == RLF_OK ? io_live_use_rig(address, &k->rig) : result;
+}
+
+static rlf_result allocate(freenect2 *k)
+{
+    const rlf_camera *c = &k->rig.color; /* of the pictures, also where it is not used */
+    k->depth = rlf_alloc_array(KINECT2_DEPTH_PIXELS, sizeof(k->depth[0]));
+    k->color = (rlf_image_rgba8){rlf_alloc_array((size_t)c->width * (size_t)c->height, 4), c->width,
+                                 c->height, (ptrdiff_t)c->width * 4};
+    bool is_complete = k->depth != NULL && k->color.data != NULL;
+    if (k->is_aligned) {
+        k->undistorted = rlf_alloc_array(KINECT2_DEPTH_PIXELS, sizeof(k->undistorted[0]));
+        k->registered = rlf_alloc_array(KINECT2_DEPTH_PIXELS, sizeof(k->registered[0]));
+        k->offset = rlf_alloc_array(KINECT2_DEPTH_PIXELS, sizeof(k->offset[0]));
+        is_complete =
+            is_complete && k->undistorted != NULL && k->registered != NULL && k->offset != NULL;
+    }
+    return is_complete ? RLF_OK : RLF_ERROR_MEMORY;
+}
+
+static void describe(const freenect2 *k, rlf_opened *out)
+{
+    memset(out, 0, sizeof(*out));
+    out->methods = (rlf_source_methods){
+        .next = io_freenect2_next, .destroy = freenect2_destroy, .status = freenect2_status};
+    snprintf(out->info.name, sizeof(out->info.name), "%.127s", k->source);
+    out->info.rig = k->rig;
+    out->info.frame_count = -1;
+    out->info.frames_per_second = 30.0;
+    out->info.is_live = true;
+    snprintf(out->info.device, sizeof(out->info.device), "libfreenect2: Kinect v2");
+}
+
+static rlf_result freenect2_open(const rlf_address *address, rlf_opened *out)
+{
+    const freenect2_api *api = get_api();
+    if (api == NULL) {
+        return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: %s", address->source, reason);
+    }
+    freenect2 *k = rlf_alloc(sizeof(*k));
+    if (k == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    k->api = api;
+    k->count.interval_ns = 1000000000 / 30;
+    snprintf(k->source, sizeof(k->source), "%.255s", address->source);
+    rlf_result result = read_align(k, address);
+    result = result == RLF_OK ? open_device(k, address) : result;
+    result = result == RLF_OK ? make_rig(k, address) : result;
+    result = result == RLF_OK ? allocate(k) : result;
+    if (result != RLF_OK) {
+        freenect2_destroy(k);
+        return result;
+    }
+    k->last_frame_ns = rlf_clock_ns();
+    describe(k, out);
+    out->self = k;
+    return RLF_OK;
+}
+
+const rlf_backend io_backend_freenect2 = {
+    .version = RLF_BACKEND_VERSION,
+    .scheme = "freenect2",
+    .keys = "serial align",
+    .summary = "Kinect v2 through libfreenect2: freenect2:SERIAL?align=factory",
+    .is_live = true,
+    .unavailable = freenect2_unavailable,
+    .list = freenect2_list,
+    .open = freenect2_open,
+};

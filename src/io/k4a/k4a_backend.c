@@ -1,0 +1,167 @@
+/* Azure Kinect and Femto cameras as a back end. */
+#include "io/k4a/k4a.h"
+#include "io/source/backends.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const char *k4a_unavailable(void)
+{
+    const char *reason;
+    io_k4a_api(&reason);
+    return reason;
+}
+
+static void read_serial(const k4a_api *api, k4a_device_t device, char out[64])
+{
+    size_t size = 64;
+    if (api->device_get_serialnum(device, out, &size) != K4A_SUCCEEDED) {
+        out[0] = '\0';
+    }
+    out[63] = '\0';
+}
+
+/* Only an open camera tells its serial number; another program may have it. */
+static int32_t k4a_list(rlf_source_entry *out, int32_t capacity)
+{
+    const char *reason;
+    const k4a_api *api = io_k4a_api(&reason);
+    const uint32_t count = api != NULL ? api->device_get_installed_count() : 0;
+    for (uint32_t i = 0; i < count && (int64_t)i < capacity; i++) {
+        char serial[64] = "";
+        k4a_device_t device = NULL;
+        const bool is_open = api->device_open(i, &device) == K4A_SUCCEEDED;
+        if (is_open) {
+            read_serial(api, device, serial);
+            api->device_close(device);
+        }
+        snprintf(out[i].source, sizeof(out[i].source), "k4a:%s", serial);
+        snprintf(out[i].description, sizeof(out[i].description),
+                 is_open ? "Azure Kinect or Femto, serial %.63s"
+                         : "Azure Kinect or Femto, in use by another program%.63s",
+                 serial);
+    }
+    return (int32_t)count;
+}
+
+static void k4a_status(void *self, rlf_source_status *out)
+{
+    const k4a *k = self;
+    out->lost = k->count.lost;
+    out->doubled = k->count.doubled;
+    out->unpaired = k->unpaired;
+    out->damaged = k->damaged;
+}
+
+static void k4a_destroy(void *self)
+{
+    k4a *k = self;
+    if (k->held != NULL) {
+        k->api->image_release(k->held);
+    }
+    if (k->is_streaming) {
+        k->api->device_stop_cameras(k->device);
+    }
+    if (k->device != NULL) {
+        k->api->device_close(k->device);
+    }
+    rlf_free(k->color.data);
+    rlf_free(k);
+}
+
+/* Opens the camera with this serial number, or the first that can be opened when it is "". */
+static rlf_result open_device(k4a *k, const char *serial)
+{
+    const uint32_t count = k->api->device_get_installed_count();
+    for (uint32_t i = 0; i < count; i++) {
+        if (k->api->device_open(i, &k->device) != K4A_SUCCEEDED) {
+            k->device = NULL;
+            continue;
+        }
+        read_serial(k->api, k->device, k->serial);
+        if (serial[0] == '\0' || strcmp(serial, k->serial) == 0) {
+            return RLF_OK;
+        }
+        k->api->device_close(k->device);
+        k->device = NULL;
+    }
+    return rlf_fail(RLF_ERROR_DEVICE,
+                    "%s: no Azure Kinect or Femto camera%s%.64s can be opened (%u are plugged in): "
+                    "plug it in with its own power, close other programs that use it",
+                    k->source, serial[0] != '\0' ? " with serial number " : "", serial,
+                    (unsigned)count);
+}
+
+static rlf_result start(k4a *k, const rlf_address *address)
+{
+    io_mode depth = {0};
+    io_mode color = {0};
+    const char *serial = rlf_address_get(address, "serial");
+    rlf_result result = io_mode_get(address, "mode", &depth);
+    result = result == RLF_OK ? io_mode_get(address, "color", &color) : result;
+    result = result == RLF_OK ? io_k4a_configure(k, &depth, &color) : result;
+    result = result == RLF_OK ? open_device(k, serial != NULL ? serial : address->place) : result;
+    result = result == RLF_OK ? io_k4a_read_rig(k) : result;
+    result = result == RLF_OK ? io_live_use_rig(address, &k->rig) : result;
+    if (result != RLF_OK) {
+        return result;
+    }
+    if (k->rig.has_color) {
+        const rlf_camera *c = &k->rig.color;
+        uint8_t *data = rlf_alloc_array((size_t)c->width * (size_t)c->height, 4);
+        k->color = (rlf_image_rgba8){data, c->width, c->height, (ptrdiff_t)c->width * 4};
+        if (data == NULL) {
+            return RLF_ERROR_MEMORY;
+        }
+    }
+    /* Depth without colour is a frame too: the colour camera slows down in the dark. */
+    k->is_streaming = k->api->device_start_cameras(k->device, &k->configuration) == K4A_SUCCEEDED;
+    return k->is_streaming
+               ? RLF_OK
+               : rlf_fail(RLF_ERROR_DEVICE,
+                          "%s: the camera %s does not start: plug it into USB 3 with its own "
+                          "power, and see that the depth engine is installed",
+                          k->source, k->serial);
+}
+
+static rlf_result k4a_open(const rlf_address *address, rlf_opened *out)
+{
+    const char *reason;
+    const k4a_api *api = io_k4a_api(&reason);
+    if (api == NULL) {
+        return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: %s", address->source, reason);
+    }
+    k4a *k = rlf_alloc(sizeof(*k));
+    if (k == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    k->api = api;
+    snprintf(k->source, sizeof(k->source), "%.255s", address->source);
+    rlf_result result = start(k, address);
+    if (result != RLF_OK) {
+        k4a_destroy(k);
+        return result;
+    }
+    memset(out, 0, sizeof(*out));
+    out->methods =
+        (rlf_source_methods){.next = io_k4a_next, .destroy = k4a_destroy, .status = k4a_status};
+    snprintf(out->info.name, sizeof(out->info.name), "%.127s", k->source);
+    out->info.rig = k->rig;
+    out->info.frame_count = -1;
+    out->info.frames_per_second = k->frames_per_second;
+    out->info.is_live = true;
+    snprintf(out->info.device, sizeof(out->info.device), "k4a: serial %s", k->serial);
+    out->self = k;
+    return RLF_OK;
+}
+
+const rlf_backend io_backend_k4a = {
+    .version = RLF_BACKEND_VERSION,
+    .scheme = "k4a",
+    .keys = "serial mode color",
+    .summary = "Azure Kinect, Femto Bolt and Mega: k4a:SERIAL?mode=640x576@30&color=1280x720",
+    .is_live = true,
+    .unavailable = k4a_unavailable,
+    .list = k4a_list,
+    .open = k4a_open,
+};

@@ -1,0 +1,119 @@
+/* Frames of an Azure Kinect or Femto camera. */
+#include "io/k4a/k4a.h"
+
+#include "io/driver/pixels.h"
+#include "io/file.h"
+#include "io/picture.h"
+
+#include <string.h>
+
+#define MICROSECOND_NS 1000
+
+static bool has_size(const k4a *k, k4a_image_t image, const rlf_camera *camera)
+{
+    return k->api->image_get_width_pixels(image) == camera->width &&
+           k->api->image_get_height_pixels(image) == camera->height &&
+           k->api->image_get_buffer(image) != NULL;
+}
+
+static int64_t time_of(const k4a *k, k4a_image_t image)
+{
+    return (int64_t)k->api->image_get_device_timestamp_usec(image) * MICROSECOND_NS;
+}
+
+static rlf_result fill_depth(k4a *k, k4a_image_t image, rlf_frame *out)
+{
+    const rlf_camera *camera = &k->rig.depth;
+    const size_t row = (size_t)camera->width * 2;
+    const int stride = has_size(k, image, camera) ? k->api->image_get_stride_bytes(image) : 0;
+    if (stride < (int)row ||
+        k->api->image_get_size(image) < (size_t)stride * (size_t)(camera->height - 1) + row) {
+        k->damaged++;
+        return RLF_NO_FRAME;
+    }
+    out->depth_u16 = (const uint16_t *)(const void *)k->api->image_get_buffer(image);
+    out->depth_stride = stride;
+    out->depth_units_per_metre = 1000.0;
+    return io_live_count_time(&k->count, time_of(k, image), out) ? RLF_OK : RLF_NO_FRAME;
+}
+
+static bool decode(k4a *k, k4a_image_t image)
+{
+    const size_t size = k->api->image_get_size(image);
+    const uint8_t *data = k->api->image_get_buffer(image);
+    const int format = k->api->image_get_format(image);
+    if (format == K4A_FORMAT_COLOR_MJPG) {
+        const io_bytes file = {.name = k->source, .data = data, .size = size};
+        io_picture picture = {.width = k->color.width,
+                              .height = k->color.height,
+                              .data = k->color.data,
+                              .is_opaque = true};
+        return io_jpeg_decode_rgba(&file, &picture) == RLF_OK;
+    }
+    const io_raw_picture raw = {.data = data,
+                                .size = size,
+                                .stride = k->api->image_get_stride_bytes(image),
+                                .format = format == K4A_FORMAT_COLOR_BGRA32 ? IO_PIXEL_BGRX8
+                                          : format == K4A_FORMAT_COLOR_YUY2 ? IO_PIXEL_YUYV
+                                                                            : IO_PIXEL_NONE};
+    return io_pixels_to_rgba(&raw, false, &k->color);
+}
+
+static void fill_color(k4a *k, k4a_image_t image, rlf_frame *out)
+{
+    if (image == NULL) {
+        k->unpaired++;
+        return;
+    }
+    if (!has_size(k, image, &k->rig.color) || !decode(k, image)) {
+        k->damaged++;
+        return;
+    }
+    out->color = k->color;
+    out->color_time_ns = time_of(k, image) + k->count.offset_ns;
+}
+
+static rlf_result fill(k4a *k, k4a_capture_t capture, rlf_frame *out)
+{
+    memset(out, 0, sizeof(*out));
+    k4a_image_t depth = k->api->capture_get_depth_image(capture);
+    if (depth == NULL) {
+        return RLF_NO_FRAME; /* colour alone */
+    }
+    rlf_result result = fill_depth(k, depth, out);
+    if (result == RLF_OK && k->rig.has_color) {
+        k4a_image_t color = k->api->capture_get_color_image(capture);
+        fill_color(k, color, out);
+        if (color != NULL) {
+            k->api->image_release(color);
+        }
+    }
+    k4a_image_t unused = depth;
+    if (result == RLF_OK) {
+        unused = k->held;
+        k->held = depth;
+    }
+    if (unused != NULL) {
+        k->api->image_release(unused);
+    }
+    return result;
+}
+
+rlf_result io_k4a_next(void *self, rlf_frame *out)
+{
+    k4a *k = self;
+    k4a_capture_t capture = NULL;
+    const int state = k->api->device_get_capture(k->device, &capture, IO_LIVE_WAIT_MS);
+    const int64_t host_time_ns = rlf_clock_ns();
+    if (state == K4A_WAIT_TIMEOUT) {
+        return RLF_NO_FRAME;
+    }
+    if (state != K4A_SUCCEEDED || capture == NULL) {
+        return rlf_fail(RLF_ERROR_DEVICE, "%s: the camera %s is gone: plug it in again", k->source,
+                        k->serial);
+    }
+    rlf_result result = fill(k, capture, out);
+    k->api->capture_release(capture);
+    out->host_time_ns = host_time_ns;
+    return result;
+}
