@@ -20,7 +20,7 @@ static const char *plain(const char *frame)
 static const tf_edge *above(const tf_tree *tree, const char *frame)
 {
     for (int32_t i = 0; i < tree->count; i++) {
-        if (strcmp(tree->edges[i].child, plain(frame)) == 0) {
+        if (strcmp(tree->edges[i].child, frame) == 0) {
             return &tree->edges[i];
         }
     }
