@@ -9,7 +9,9 @@
 #include <stdio.h>
 #include <unistd.h>
 
-static inline void fuzz_play(const rlf_backend *backend, const uint8_t *data, size_t size)
+/* `rig` NULL: the file's own calibration. */
+static inline void fuzz_play(const rlf_backend *backend, const rlf_rig *rig, const uint8_t *data,
+                             size_t size)
 {
     char path[64];
     snprintf(path, sizeof(path), "fuzz-%s-%ld", backend->scheme, (long)getpid());
@@ -19,7 +21,8 @@ static inline void fuzz_play(const rlf_backend *backend, const uint8_t *data, si
     }
     fwrite(data, 1, size, file);
     fclose(file);
-    const rlf_address address = {.source = path, .place = path};
+    const rlf_address address = {
+        .source = path, .place = path, .rig = rig, .units_per_metre = 1000.0};
     rlf_opened opened;
     if (backend->open(&address, &opened) == RLF_OK) {
         rlf_frame frame;

@@ -25,6 +25,6 @@ size_t fuzz_seed(int index, uint8_t *out, size_t capacity)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    fuzz_play(&io_backend_rosbag, data, size);
+    fuzz_play(&io_backend_rosbag, NULL, data, size);
     return 0;
 }

@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#define BYTE_FILE_MAX 65536
+#define BYTE_FILE_MAX (1 << 20)
 
 typedef struct byte_file {
     uint8_t data[BYTE_FILE_MAX];

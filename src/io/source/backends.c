@@ -3,6 +3,7 @@
 
 /* In the order in which they are asked for a file: a folder is asked last, as it takes any. */
 static const rlf_backend *const built_in[] = {
+    &io_backend_matroska,
     &io_backend_rosbag,
     &io_backend_folder,
 };
