@@ -34,7 +34,8 @@ get_target_property(fuzz_libraries relief_io LINK_LIBRARIES)
 target_link_libraries(relief_io_fuzz PUBLIC ${fuzz_libraries})
 
 set(RELIEF_FUZZ_ITERATIONS 6000 CACHE STRING "Mutations per fuzz test")
-set(fuzz_names camera_json scene_json frame_list picture rosbag matroska)
+set(fuzz_names camera_json scene_json frame_list picture rosbag matroska
+               log)
 if(RELIEF_WITH_MODELS)
   list(APPEND fuzz_names model)
 endif()

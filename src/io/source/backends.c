@@ -3,9 +3,7 @@
 
 /* In the order in which they are asked for a file: a folder is asked last, as it takes any. */
 static const rlf_backend *const built_in[] = {
-    &io_backend_matroska,
-    &io_backend_rosbag,
-    &io_backend_folder,
+    &io_backend_klg, &io_backend_matroska, &io_backend_rosbag, &io_backend_sens, &io_backend_folder,
 };
 #define BUILT_IN_COUNT ((int32_t)(sizeof(built_in) / sizeof(built_in[0])))
 

@@ -5,8 +5,10 @@
 #include "relief/backend.h"
 
 extern const rlf_backend io_backend_folder;
+extern const rlf_backend io_backend_klg;
 extern const rlf_backend io_backend_matroska;
 extern const rlf_backend io_backend_rosbag;
+extern const rlf_backend io_backend_sens;
 
 /* Built-in ones first, in the order in which they are asked for a file; NULL past the last. */
 const rlf_backend *io_backend_at(int32_t index);

@@ -1,6 +1,6 @@
-/* Bounded reading of little-endian values, as ROS 1 serialises them. */
-#ifndef RLF_IO_ROSBAG_CURSOR_H
-#define RLF_IO_ROSBAG_CURSOR_H
+/* Bounded reading of little-endian values. */
+#ifndef RLF_IO_SOURCE_CURSOR_H
+#define RLF_IO_SOURCE_CURSOR_H
 
 #include "relief/base.h"
 
@@ -36,6 +36,16 @@ static inline uint8_t cursor_u8(cursor *c)
 static inline uint32_t cursor_u32(cursor *c)
 {
     uint32_t value = 0;
+    const uint8_t *at = cursor_take(c, sizeof(value));
+    if (at != NULL) {
+        memcpy(&value, at, sizeof(value));
+    }
+    return value;
+}
+
+static inline uint64_t cursor_u64(cursor *c)
+{
+    uint64_t value = 0;
     const uint8_t *at = cursor_take(c, sizeof(value));
     if (at != NULL) {
         memcpy(&value, at, sizeof(value));
@@ -82,7 +92,7 @@ static inline void cursor_text(cursor *c, char *out, size_t capacity)
     out[size] = '\0';
 }
 
-/* Seconds and nanoseconds. */
+/* Seconds and nanoseconds, as ROS 1 serialises them. */
 static inline int64_t cursor_time(cursor *c)
 {
     const int64_t seconds = cursor_u32(c);
