@@ -19,11 +19,6 @@
  * factor read off recordings of still rooms: 2 mm at 1 m, 6 mm at 2 m, 16 mm at 3.5 m. */
 static const rlf_depth_noise default_noise = {0.0008, 0.0, 0.0012};
 
-io_rig_defaults io_rig_defaults_get(void)
-{
-    return (io_rig_defaults){DEPTH_MIN_DEFAULT_M, DEPTH_MAX_DEFAULT_M, default_noise};
-}
-
 /* Deviation from a rotation that rounding to four decimals can cause. */
 #define ROTATION_TOLERANCE 1e-3
 
@@ -254,6 +249,15 @@ static rlf_result read_depth_to_color(const io_json_object *top, rlf_rig *rig)
     return result;
 }
 
+rlf_rig io_rig_default(void)
+{
+    const rlf_rig rig = {.T_color_depth = rlf_pose_identity(),
+                         .depth_min_m = DEPTH_MIN_DEFAULT_M,
+                         .depth_max_m = DEPTH_MAX_DEFAULT_M,
+                         .noise = default_noise};
+    return rig;
+}
+
 rlf_result io_rig_parse(const io_bytes *file, rlf_rig *out, double *out_units_per_metre)
 {
     static const char *const known[] = {"depth", "color", "depth_to_color", "note"};
@@ -262,10 +266,7 @@ rlf_result io_rig_parse(const io_bytes *file, rlf_rig *out, double *out_units_pe
     if (result != RLF_OK) {
         return result;
     }
-    rlf_rig rig = {.T_color_depth = rlf_pose_identity(),
-                   .depth_min_m = DEPTH_MIN_DEFAULT_M,
-                   .depth_max_m = DEPTH_MAX_DEFAULT_M,
-                   .noise = default_noise};
+    rlf_rig rig = io_rig_default();
     double units = 0.0;
     io_json_object top = io_json_top(file, document);
     result = read_depth(&top, &rig, &units);

@@ -5,13 +5,8 @@
 #include "relief/frame.h"
 #include "io/file.h"
 
-/* What a sensor that says nothing of itself is taken to see. */
-typedef struct io_rig_defaults {
-    double depth_min_m, depth_max_m;
-    rlf_depth_noise noise;
-} io_rig_defaults;
-
-io_rig_defaults io_rig_defaults_get(void);
+/* What holds of a sensor that says nothing about itself: range, noise, no transform, no colour. */
+rlf_rig io_rig_default(void);
 
 rlf_result io_rig_parse(const io_bytes *file, rlf_rig *out, double *out_units_per_metre);
 

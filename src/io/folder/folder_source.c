@@ -139,7 +139,7 @@ static rlf_result picture_size(folder *self, const io_list_entry *entry, bool is
 /* Without camera.json: one camera for both pictures, as all these data sets have them aligned. */
 static rlf_result make_rig(folder *self)
 {
-    const io_rig_defaults defaults = io_rig_defaults_get();
+    const rlf_rig defaults = io_rig_default();
     io_picture depth;
     rlf_rig *rig = &self->rig;
     rlf_result result = picture_size(self, &self->layout.depth.entries[0], true, &depth);

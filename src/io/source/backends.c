@@ -10,11 +10,9 @@ static const rlf_backend *const built_in[] = {
 #ifdef RLF_HAVE_FREENECT
     &io_backend_freenect,
 #endif
-    &io_backend_oni,
-    &io_backend_realsense,
-    &io_backend_k4a,
-    &io_backend_freenect2,
-    &io_backend_folder,
+    &io_backend_realsense, &io_backend_k4a,  &io_backend_freenect2,
+    &io_backend_oni,       &io_backend_klg,  &io_backend_matroska,
+    &io_backend_rosbag,    &io_backend_sens, &io_backend_folder,
 };
 #define BUILT_IN_COUNT ((int32_t)(sizeof(built_in) / sizeof(built_in[0])))
 

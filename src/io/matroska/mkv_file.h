@@ -1,0 +1,56 @@
+/* Matroska: tracks, tags, one attached file, and where each picture is. */
+#ifndef RLF_IO_MATROSKA_MKV_FILE_H
+#define RLF_IO_MATROSKA_MKV_FILE_H
+
+#include "io/file.h"
+
+#define MKV_TRACKS_MAX 16
+#define MKV_TAGS_MAX 64
+
+typedef struct mkv_track {
+    uint64_t number;
+    char name[32];  /* "COLOR", "DEPTH", "IR" in recordings of k4arecorder */
+    char codec[32]; /* "V_MJPEG", "V_MS/VFW/FOURCC", "V_UNCOMPRESSED" */
+    char fourcc[5]; /* of the latter two */
+    int64_t width, height;
+} mkv_track;
+
+typedef struct mkv_tag {
+    char name[40], value[64];
+} mkv_tag;
+
+/* A block: one picture of a track. */
+typedef struct mkv_block {
+    int64_t time_ns;
+    int64_t position; /* of its bytes in the file */
+    uint32_t size;
+    int32_t track; /* index */
+} mkv_block;
+
+typedef struct mkv_file {
+    char path[IO_PATH_MAX];
+    int file; /* descriptor; -1 = none */
+    int64_t file_size;
+    mkv_track tracks[MKV_TRACKS_MAX];
+    int32_t track_count;
+    mkv_tag tags[MKV_TAGS_MAX];
+    int32_t tag_count;
+    char attached_name[64]; /* of the attached JSON file; "" = none */
+    int64_t attached_position, attached_size;
+    mkv_block *blocks; /* as they come */
+    int32_t block_count, block_capacity;
+} mkv_file;
+
+/* Looks through the whole file once, over the pictures. What follows a damaged place is left out,
+ * with a warning. On failure nothing stays open. */
+rlf_result mkv_file_open(const char *path, mkv_file *out);
+void mkv_file_close(mkv_file *self);
+
+/* Value of a tag; NULL when there is none. */
+const char *mkv_file_tag(const mkv_file *self, const char *name);
+
+/* Reads bytes of the file; the name of *out is the path. */
+rlf_result mkv_file_read(const mkv_file *self, int64_t position, int64_t size, io_buffer *buffer,
+                         io_bytes *out);
+
+#endif

@@ -1,0 +1,13 @@
+/* Depth pictures of ROS's compressed_depth_image_transport. */
+#ifndef RLF_IO_COMPRESSED_DEPTH_H
+#define RLF_IO_COMPRESSED_DEPTH_H
+
+#include "io/picture.h"
+
+/* `format` is the message's, e.g. "16UC1; compressedDepth png"; `file` its data, whose first 12
+ * bytes say how floats were quantised. `out` has room for width x height counts; another size is an
+ * error. 16UC1 gives its counts, 1000 per metre; 32FC1 gives IO_PIXELS_FLOAT_UNITS. */
+rlf_result io_compressed_depth_decode(const io_bytes *file, const char *format, int32_t width,
+                                      int32_t height, uint16_t *out, double *out_units_per_metre);
+
+#endif
