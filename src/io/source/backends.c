@@ -3,6 +3,9 @@
 
 /* In the order in which they are asked for a file: a folder is asked last, as it takes any. */
 static const rlf_backend *const built_in[] = {
+#ifdef RLF_HAVE_MCAP
+    &io_backend_mcap,
+#endif
     &io_backend_folder,
 };
 #define BUILT_IN_COUNT ((int32_t)(sizeof(built_in) / sizeof(built_in[0])))
@@ -13,6 +16,9 @@ const rlf_backend *io_backend_at(int32_t index)
 }
 
 static const io_backend_absent absent[] = {
+#ifndef RLF_HAVE_MCAP
+    {"mcap", ".mcap", "RELIEF_WITH_MCAP", "a recording: MCAP with ROS 2 pictures"},
+#endif
     {0},
 };
 

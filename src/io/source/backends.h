@@ -5,6 +5,7 @@
 #include "relief/backend.h"
 
 extern const rlf_backend io_backend_folder;
+extern const rlf_backend io_backend_mcap;
 
 /* Built-in ones first, in the order in which they are asked for a file; NULL past the last. */
 const rlf_backend *io_backend_at(int32_t index);
