@@ -60,15 +60,17 @@ static void print_rig(FILE *file, const folder_sink *s)
             s->units_per_metre, r->depth_min_m, r->depth_max_m, r->noise.c0, r->noise.c1,
             r->noise.c2);
     if (r->has_color) {
-        const rlf_mat3 m = rlf_mat3_from_quat(r->T_color_depth.q);
+        const rlf_quat q = r->T_color_depth.q;
+        const rlf_vec3 x = rlf_rotate(q, rlf_vec3_make(1, 0, 0)); /* the columns */
+        const rlf_vec3 y = rlf_rotate(q, rlf_vec3_make(0, 1, 0));
+        const rlf_vec3 z = rlf_rotate(q, rlf_vec3_make(0, 0, 1));
         const rlf_vec3 t = r->T_color_depth.p;
         fprintf(file, ",\n  \"color\": {");
         print_camera(file, &r->color);
         fprintf(file, "},\n  \"depth_to_color\": {\"rotation\": [");
-        for (int i = 0; i < 3; i++) {
-            fprintf(file, "%s[%.17g, %.17g, %.17g]", i > 0 ? ", " : "", m.m[i][0], m.m[i][1],
-                    m.m[i][2]);
-        }
+        fprintf(file,
+                "[%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g]", x.x, y.x,
+                z.x, x.y, y.y, z.y, x.z, y.z, z.z);
         fprintf(file, "],\n    \"translation\": [%.17g, %.17g, %.17g]}", t.x, t.y, t.z);
     }
     fprintf(file, "\n}\n");
