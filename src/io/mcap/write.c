@@ -10,6 +10,9 @@
 #include <unistd.h>
 #include <zlib.h>
 
+/* Half of the usual time between two chunks, so that each of these reaches the disk. */
+#define SYNC_INTERVAL_NS 500000000
+
 const uint8_t io_mcap_magic[IO_MCAP_MAGIC_SIZE] = {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
 
 /* What the index says about a chunk, and how the file stood behind it. */
@@ -41,6 +44,7 @@ struct io_mcap_writer {
     size_t message_at;         /* where the message being written begins */
     uint16_t message_channel;
     int64_t message_ns;
+    int64_t synced_ns; /* when the disk was last waited for */
     io_byte_buffer out;
     io_byte_buffer entries; /* chunk_entry */
 };
@@ -358,8 +362,12 @@ rlf_result io_mcap_flush(io_mcap_writer *w)
         entry.crc = w->crc;
         io_byte_buffer_add(&w->entries, &entry, sizeof(entry));
     }
-    /* A pipe has no disk behind it: that is no failure. */
-    (void)fdatasync(w->file);
+    /* Turning a clip into another kind writes many chunks a second. */
+    const int64_t now = rlf_clock_ns();
+    if (now - w->synced_ns >= SYNC_INTERVAL_NS) {
+        w->synced_ns = now;
+        (void)fdatasync(w->file); /* a pipe has no disk behind it: that is no failure */
+    }
     return io_byte_buffer_check(&w->entries);
 }
 

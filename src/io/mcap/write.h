@@ -36,7 +36,7 @@ io_byte_buffer *io_mcap_begin(io_mcap_writer *writer, uint16_t channel, int64_t 
 void io_mcap_end(io_mcap_writer *writer, bool is_good);
 /* Bytes of the chunk that is being gathered. */
 size_t io_mcap_gathered(const io_mcap_writer *writer);
-/* Writes the chunk and waits until the disk has it. */
+/* Writes the chunk and waits until the disk has it, unless that was done just before. */
 rlf_result io_mcap_flush(io_mcap_writer *writer);
 
 /* Writes what is gathered, and the summary. When the disk is full what was written before is kept
