@@ -12,7 +12,7 @@ struct recorder {
     rlf_recording *recording;
     record_queue queue;
     pthread_t thread;
-    bool is_live, keeps_bodies;
+    bool is_live, keeps_bodies, tells_at_once;
     int64_t last_ns; /* of the frames in the queue, for sources that start again */
     bool has_last;
     uint64_t dropped;
@@ -69,6 +69,9 @@ static void note(recorder *r, rlf_result result)
         snprintf(r->problem, sizeof(r->problem), "%s", rlf_error_text());
     }
     pthread_mutex_unlock(&r->queue.lock);
+    if (is_first && r->tells_at_once) {
+        rlf_log(RLF_LOG_ERROR, "%s; the run goes on, unrecorded", r->problem);
+    }
 }
 
 static void *write_all(void *context)
@@ -103,6 +106,7 @@ rlf_result recorder_open(const recorder_options *options, const rlf_source_info 
     }
     r->is_live = info->is_live;
     r->keeps_bodies = options->keeps_bodies;
+    r->tells_at_once = options->tells_at_once;
     rlf_result result = rlf_recording_open(options->path, info, &options->def, &r->recording);
     if (result != RLF_OK) {
         rlf_free(r);
@@ -150,11 +154,21 @@ rlf_result recorder_close(recorder **recorder_pointer, recorder_status *out)
         result = rlf_fail(r->result, "%s", r->problem);
     }
     if (out != NULL) {
-        *out = (recorder_status){written, r->dropped, r->cpu_s};
+        *out = (recorder_status){written, r->dropped, r->cpu_s, r->has_failed && r->tells_at_once};
     }
     record_queue_free(&r->queue);
     rlf_free(r);
     return result;
+}
+
+void recorder_print_summary(const recorder_options *options, const recorder_status *status)
+{
+    if (options->path != NULL) {
+        printf("recorded: %s: %llu frames, %.1f MB; %llu dropped since the disk or the processor "
+               "was too slow\n",
+               options->path, (unsigned long long)status->written.frames,
+               1e-6 * (double)status->written.bytes, (unsigned long long)status->dropped);
+    }
 }
 
 /* ---- the loop's side --------------------------------------------------------------------------

@@ -10,12 +10,14 @@ typedef struct recorder_options {
     const char *path; /* NULL = nothing is recorded */
     rlf_recording_def def;
     bool keeps_bodies;
+    bool tells_at_once; /* a failure is logged when it happens: the loop goes on without it */
 } recorder_options;
 
 typedef struct recorder_status {
     rlf_recording_status written;
     uint64_t dropped; /* frames of a live source that found the queue full */
     double cpu_s;     /* of the writing thread */
+    bool is_told;     /* that it failed */
 } recorder_status;
 
 typedef struct recorder recorder;
@@ -62,5 +64,7 @@ bool recorder_has_failed(recorder *recorder);
 recorder_status recorder_get_status(recorder *recorder);
 /* Waits until all is written and finishes the file. The pointer is nulled even when that fails. */
 rlf_result recorder_close(recorder **recorder, recorder_status *out);
+/* One line for people; nothing when nothing was recorded. */
+void recorder_print_summary(const recorder_options *options, const recorder_status *status);
 
 #endif
