@@ -14,6 +14,11 @@ void record_queue_init(record_queue *queue, const rlf_rig *rig)
         rig->has_color ? (size_t)rig->color.width * (size_t)rig->color.height * 4 : 0;
     const size_t fits = RECORD_QUEUE_BYTES / (depth + color + 1);
     queue->capacity = fits < 4 ? 4 : fits > RECORD_QUEUE_MAX ? RECORD_QUEUE_MAX : (int32_t)fits;
+    queue->idle_count = queue->capacity;
+    queue->reserved = -1;
+    for (int32_t i = 0; i < queue->capacity; i++) {
+        queue->idle[i] = i;
+    }
 }
 
 void record_queue_free(record_queue *queue)
@@ -31,11 +36,14 @@ record_item *record_queue_reserve(record_queue *queue, bool waits)
 {
     record_item *item = NULL;
     pthread_mutex_lock(&queue->lock);
-    while (waits && !queue->is_closed && queue->count == queue->capacity) {
+    while (waits && !queue->is_closed && queue->reserved < 0 && queue->idle_count == 0) {
         pthread_cond_wait(&queue->changed, &queue->lock);
     }
-    if (!queue->is_closed && queue->count < queue->capacity) {
-        item = &queue->items[(queue->first + queue->count) % queue->capacity];
+    if (queue->reserved < 0 && queue->idle_count > 0) {
+        queue->reserved = queue->idle[--queue->idle_count];
+    }
+    if (!queue->is_closed && queue->reserved >= 0) {
+        item = &queue->items[queue->reserved];
     }
     pthread_mutex_unlock(&queue->lock);
     return item;
@@ -44,7 +52,8 @@ record_item *record_queue_reserve(record_queue *queue, bool waits)
 void record_queue_push(record_queue *queue)
 {
     pthread_mutex_lock(&queue->lock);
-    queue->count++;
+    queue->waiting[(queue->first + queue->count++) % queue->capacity] = queue->reserved;
+    queue->reserved = -1;
     pthread_cond_broadcast(&queue->changed);
     pthread_mutex_unlock(&queue->lock);
 }
@@ -55,7 +64,7 @@ record_item *record_queue_front(record_queue *queue)
     while (queue->count == 0 && !queue->is_closed) {
         pthread_cond_wait(&queue->changed, &queue->lock);
     }
-    record_item *item = queue->count > 0 ? &queue->items[queue->first] : NULL;
+    record_item *item = queue->count > 0 ? &queue->items[queue->waiting[queue->first]] : NULL;
     pthread_mutex_unlock(&queue->lock);
     return item;
 }
@@ -63,6 +72,7 @@ record_item *record_queue_front(record_queue *queue)
 void record_queue_pop(record_queue *queue)
 {
     pthread_mutex_lock(&queue->lock);
+    queue->idle[queue->idle_count++] = queue->waiting[queue->first];
     queue->first = (queue->first + 1) % queue->capacity;
     queue->count--;
     pthread_cond_broadcast(&queue->changed);

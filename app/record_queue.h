@@ -20,13 +20,17 @@ typedef struct record_item {
     int32_t body_capacity;
 } record_item;
 
-/* A ring; one thread fills, one empties. */
+/* One thread fills, one empties. */
 typedef struct record_queue {
     pthread_mutex_t lock;
     pthread_cond_t changed;
     rlf_rig rig;
     record_item items[RECORD_QUEUE_MAX];
-    int32_t capacity, first, count;
+    int32_t waiting[RECORD_QUEUE_MAX]; /* a ring of items */
+    int32_t idle[RECORD_QUEUE_MAX];    /* a stack of the others: what was used last is used first,
+                                          so that memory is touched only when the queue is long */
+    int32_t capacity, first, count, idle_count;
+    int32_t reserved; /* the item being filled; -1 = none */
     bool is_closed;
 } record_queue;
 
