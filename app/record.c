@@ -53,16 +53,8 @@ static int parse(int argc, char **argv, record_options *o)
     const int32_t quality = o->recorder.def.jpeg_quality;
     o->recorder.def.jpeg_quality = -1; /* not said */
     const option_def options[] = {
-        {.name = "frames",
-         .kind = OPTION_INT64,
-         .out = &o->frames,
-         .low = 1,
-         .high = 1000000000},
-        {.name = "seconds",
-         .kind = OPTION_INT64,
-         .out = &o->seconds,
-         .low = 1,
-         .high = 1000000000},
+        {.name = "frames", .kind = OPTION_INT64, .out = &o->frames, .low = 1, .high = 1000000000},
+        {.name = "seconds", .kind = OPTION_INT64, .out = &o->seconds, .low = 1, .high = 1000000000},
         RECORDER_OPTIONS(&o->recorder),
         {.name = "quiet", .kind = OPTION_FLAG, .out = &o->is_quiet},
         {0},
@@ -97,8 +89,7 @@ static void show_progress(progress *p, recorder *r)
     p->shown_ns = now;
     const double seconds = 1e-9 * (double)(now - p->start_ns);
     const recorder_status s = recorder_get_status(r);
-    fprintf(stderr, "\r%lld frames, %.1f MB", (long long)p->frames,
-            1e-6 * (double)s.written.bytes);
+    fprintf(stderr, "\r%lld frames, %.1f MB", (long long)p->frames, 1e-6 * (double)s.written.bytes);
     if (p->total > 0 && p->frames > 0) {
         const double left = seconds * (double)(p->total - p->frames) / (double)p->frames;
         fprintf(stderr, ", %.0f %%, %.0f s left", 100.0 * (double)p->frames / (double)p->total,
@@ -126,8 +117,7 @@ static int64_t total_of(const record_options *o, const rlf_source_info *info)
     return o->frames >= 0 && (total < 0 || o->frames < total) ? o->frames : total;
 }
 
-static rlf_result copy_frames(const record_options *o, rlf_source *source, recorder *r,
-                              progress *p)
+static rlf_result copy_frames(const record_options *o, rlf_source *source, recorder *r, progress *p)
 {
     rlf_result result = RLF_OK;
     int64_t first_ns = 0;

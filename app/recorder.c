@@ -82,9 +82,9 @@ static void *write_all(void *context)
     while ((item = record_queue_front(&r->queue)) != NULL) {
         if (is_good) {
             const rlf_result result =
-                item->is_bodies ? rlf_recording_add_bodies(r->recording, item->frame.time_ns,
-                                                           &item->snapshot)
-                                : rlf_recording_add(r->recording, &item->frame);
+                item->is_bodies
+                    ? rlf_recording_add_bodies(r->recording, item->frame.time_ns, &item->snapshot)
+                    : rlf_recording_add(r->recording, &item->frame);
             note(r, result);
             is_good = result == RLF_OK;
         }
@@ -180,7 +180,8 @@ static void add_frame(recorder *r, const rlf_frame *frame)
     if (r->has_last && frame->time_ns <= r->last_ns) {
         return;
     }
-    record_item *item = recorder_has_failed(r) ? NULL : record_queue_reserve(&r->queue, !r->is_live);
+    record_item *item =
+        recorder_has_failed(r) ? NULL : record_queue_reserve(&r->queue, !r->is_live);
     if (item == NULL || !record_item_set_frame(item, &r->queue.rig, frame)) {
         r->dropped++;
         return;

@@ -1,5 +1,5 @@
-/* Recording beside a running loop: frames are copied to a queue, and a thread of its own encodes and
- * writes them. */
+/* Recording beside a running loop: frames are copied to a queue, and a thread of its own encodes
+ * and writes them. */
 #ifndef RELIEF_APP_RECORDER_H
 #define RELIEF_APP_RECORDER_H
 
@@ -41,11 +41,10 @@ recorder_options recorder_options_default(void);
          .out = (options),                                                                         \
          .take = recorder_take_color,                                                              \
          .choices = "use color"},                                                                  \
-        {.name = "compression",                                                                    \
-         .kind = OPTION_CHOICE,                                                                    \
-         .out = (options),                                                                         \
-         .take = recorder_take_compression,                                                        \
-         .choices = "use zstd, lz4 or none"}
+    {                                                                                              \
+        .name = "compression", .kind = OPTION_CHOICE, .out = (options),                            \
+        .take = recorder_take_compression, .choices = "use zstd, lz4 or none"                      \
+    }
 
 bool recorder_take_codec(const char *text, void *out);
 bool recorder_take_color(const char *text, void *out);

@@ -52,8 +52,8 @@ static size_t encode(int codec, const uint16_t *depth, int32_t width, int32_t he
         (void)io_png_encode(&def, out);
     } else {
         const size_t bound = ZSTD_compressBound(pixels * 2);
-        io_byte_buffer_grow(out, ZSTD_compress(io_byte_buffer_reserve(out, bound), bound, depth,
-                                               pixels * 2, 1));
+        io_byte_buffer_grow(
+            out, ZSTD_compress(io_byte_buffer_reserve(out, bound), bound, depth, pixels * 2, 1));
     }
     return out->size;
 }
@@ -123,8 +123,7 @@ static bool bench_codecs(const char *name)
     printf("  %-14s %9s %9s %9s\n", "codec", "encode ms", "decode ms", "ratio");
     for (int i = 0; i < 3 && frames > 0; i++) {
         printf("  %-14s %9.2f %9.2f %7.2f:1\n", names[i], times[i].encode_ms / frames,
-               times[i].decode_ms / frames,
-               2.0 * c->width * c->height * frames / times[i].bytes);
+               times[i].decode_ms / frames, 2.0 * c->width * c->height * frames / times[i].bytes);
     }
     rlf_source_destroy(&source);
     return is_good && frames > 0;
@@ -202,8 +201,8 @@ static bool camera_fill(camera *c)
         rlf_frame f;
         c->depth[i] = malloc(depth);
         c->color[i] = malloc(color);
-        is_good = c->depth[i] != NULL && c->color[i] != NULL &&
-                  rlf_source_next(source, &f) == RLF_OK;
+        is_good =
+            c->depth[i] != NULL && c->color[i] != NULL && rlf_source_next(source, &f) == RLF_OK;
         if (is_good) {
             memcpy(c->depth[i], f.depth_u16, depth);
             enlarge(&f.color, &r->color, c->color[i]);
@@ -353,7 +352,9 @@ int main(int argc, char **argv)
     if (!is_good) {
         fprintf(stderr, "bench_recording: %s\n", rlf_error_text());
     }
-    if (getenv("KEEP") == NULL) { remove(path); }
+    if (getenv("KEEP") == NULL) {
+        remove(path);
+    }
     for (int i = 0; i < CLIP_FRAMES; i++) {
         free(c.depth[i]);
         free(c.color[i]);

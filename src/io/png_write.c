@@ -28,7 +28,7 @@ rlf_result rlf_png_write_rgba(const char *path, const rlf_image_rgba8 *image)
         !RLF_ASSERT(is_size_usable(image->width, image->height))) {
         return RLF_ERROR_INVALID;
     }
-    const io_png_def def = {path,           image->data, image->width,     image->height,
+    const io_png_def def = {path,          image->data, image->width,     image->height,
                             image->stride, IO_PNG_RGBA, COMPRESSION_LEVEL};
     return write_picture(&def);
 }
@@ -49,7 +49,7 @@ rlf_result rlf_png_write_u16(const char *path, const uint16_t *data, int32_t wid
     if (!RLF_ASSERT(path != NULL && data != NULL) || !RLF_ASSERT(is_size_usable(width, height))) {
         return RLF_ERROR_INVALID;
     }
-    const io_png_def def = {path,   data, width, height, (ptrdiff_t)width * 2, IO_PNG_GREY_U16,
-                            COMPRESSION_LEVEL};
+    const io_png_def def = {
+        path, data, width, height, (ptrdiff_t)width * 2, IO_PNG_GREY_U16, COMPRESSION_LEVEL};
     return write_picture(&def);
 }

@@ -6,6 +6,14 @@ if(TARGET relief_app)
   set_tests_properties(app.command PROPERTIES LABELS app TIMEOUT 3600) # minutes with sanitizers
 endif()
 
+# Recording as a user meets it.
+if(TARGET relief_app AND RELIEF_WITH_MCAP)
+  add_test(NAME app.record
+           COMMAND sh ${PROJECT_SOURCE_DIR}/tests/app/test_record.sh $<TARGET_FILE:relief_app>
+                   ${CMAKE_CURRENT_BINARY_DIR}/app_record)
+  set_tests_properties(app.record PROPERTIES LABELS app TIMEOUT 3600)
+endif()
+
 # Somebody else's readers read what Relief records.
 if(TARGET relief_app AND RELIEF_WITH_MCAP)
   add_test(NAME app.mcap_reader

@@ -17,7 +17,9 @@ size_t fuzz_seed(int index, uint8_t *out, size_t capacity)
     uint8_t bytes[3 * 1200 + 64];
     io_rvl_init(&rvl);
     for (int i = 0; i < 1200; i++) {
-        depth[i] = (uint16_t)(i % 17 == 0 ? 0 : index == 0 ? 1000 + i % 40 : i * 7919 * (index + 1));
+        depth[i] = (uint16_t)(i % 17 == 0  ? 0
+                              : index == 0 ? 1000 + i % 40
+                                           : i * 7919 * (index + 1));
     }
     const size_t size = io_rvl_encode(&rvl, depth, 1200, bytes);
     if (size > capacity) {
@@ -37,7 +39,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     uint16_t *out = malloc(count * sizeof(out[0]));
     uint8_t *again = malloc(io_rvl_bound(count));
     uint16_t *back = malloc(count * sizeof(back[0]));
-    if (out != NULL && again != NULL && back != NULL && io_rvl_decode(&rvl, data, size, out, count)) {
+    if (out != NULL && again != NULL && back != NULL &&
+        io_rvl_decode(&rvl, data, size, out, count)) {
         /* What was read can be written and read again. */
         const size_t length = io_rvl_encode(&rvl, out, count, again);
         if (!io_rvl_decode(&rvl, again, length, back, count) ||

@@ -20,16 +20,27 @@ static inline rlf_source_info sample_info(void)
     rlf_source_info info;
     memset(&info, 0, sizeof(info));
     strcpy(info.name, "sample");
-    info.rig = (rlf_rig){
-        .depth = {SAMPLE_W, SAMPLE_H, 19.25, 19.5, 9.75, 6.5, RLF_DISTORTION_RATIONAL_POLYNOMIAL,
-                  {0.1, -0.2, 0.001, 0.002, 0.03, 0.04, 0.05, 0.06}},
-        .color = {SAMPLE_CW, SAMPLE_CH, 23.5, 23.75, 11.5, 7.25, RLF_DISTORTION_PLUMB_BOB,
-                  {-0.01, 0.02, 0.0001, 0.0002, -0.003}},
-        .T_color_depth = {.p = {0.05, -0.001, 1.0 / 3.0}, .q = {0, 0, 0.6, 0.8}},
-        .has_color = true,
-        .depth_min_m = 0.17,
-        .depth_max_m = 5.3,
-        .noise = {0.001, 0.0002, 0.003}};
+    info.rig = (rlf_rig){.depth = {SAMPLE_W,
+                                   SAMPLE_H,
+                                   19.25,
+                                   19.5,
+                                   9.75,
+                                   6.5,
+                                   RLF_DISTORTION_RATIONAL_POLYNOMIAL,
+                                   {0.1, -0.2, 0.001, 0.002, 0.03, 0.04, 0.05, 0.06}},
+                         .color = {SAMPLE_CW,
+                                   SAMPLE_CH,
+                                   23.5,
+                                   23.75,
+                                   11.5,
+                                   7.25,
+                                   RLF_DISTORTION_PLUMB_BOB,
+                                   {-0.01, 0.02, 0.0001, 0.0002, -0.003}},
+                         .T_color_depth = {.p = {0.05, -0.001, 1.0 / 3.0}, .q = {0, 0, 0.6, 0.8}},
+                         .has_color = true,
+                         .depth_min_m = 0.17,
+                         .depth_max_m = 5.3,
+                         .noise = {0.001, 0.0002, 0.003}};
     return info;
 }
 

@@ -55,8 +55,8 @@ static void add_image(bag *b, uint16_t topic, const shot *s)
     const int64_t log_ns = image.header.stamp_ns + s->late_ms * INT64_C(1000000);
     io_cdr_writer cdr = io_cdr_begin(io_mcap_begin(b->writer, topic, log_ns));
     const bool is_compressed = s->step == 0;
-    const size_t begin = is_compressed ? io_ros_begin_compressed(&cdr, &image)
-                                       : io_ros_begin_image(&cdr, &image);
+    const size_t begin =
+        is_compressed ? io_ros_begin_compressed(&cdr, &image) : io_ros_begin_image(&cdr, &image);
     io_byte_buffer_add(cdr.buffer, s->data, s->size);
     io_cdr_end_bytes(&cdr, begin);
     io_mcap_end(b->writer, true);
@@ -207,8 +207,11 @@ static void every_kind_of_picture_is_read(void **state)
     static const struct {
         const char *name;
         size_t bytes, red, green, blue;
-    } kinds[] = {{"rgb8", 3, 0, 1, 2},  {"bgr8", 3, 2, 1, 0},  {"rgba8", 4, 0, 1, 2},
-                 {"bgra8", 4, 2, 1, 0}, {"mono8", 1, 0, 0, 0}};
+    } kinds[] = {{"rgb8", 3, 0, 1, 2},
+                 {"bgr8", 3, 2, 1, 0},
+                 {"rgba8", 4, 0, 1, 2},
+                 {"bgra8", 4, 2, 1, 0},
+                 {"mono8", 1, 0, 0, 0}};
     uint8_t bytes[(W * 4 + 5) * H]; /* rows with padding */
     for (size_t i = 0; i < sizeof(bytes); i++) {
         bytes[i] = (uint8_t)(i * 7);
@@ -321,8 +324,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_realsense_recording_is_understood, test_folder_make,
                                         test_folder_remove),
-        cmocka_unit_test_setup_teardown(topics_can_be_chosen, test_folder_make,
-                                        test_folder_remove),
+        cmocka_unit_test_setup_teardown(topics_can_be_chosen, test_folder_make, test_folder_remove),
         cmocka_unit_test_setup_teardown(every_kind_of_picture_is_read, test_folder_make,
                                         test_folder_remove),
         cmocka_unit_test_setup_teardown(metres_are_read, test_folder_make, test_folder_remove),

@@ -1,5 +1,5 @@
-/* PNG to memory through libpng. Its errors come back by longjmp, so everything that must survive one
- * lives in a struct outside the function that calls setjmp. */
+/* PNG to memory through libpng. Its errors come back by longjmp, so everything that must survive
+ * one lives in a struct outside the function that calls setjmp. */
 #include "io/codec/picture_encode.h"
 
 #include <png.h>

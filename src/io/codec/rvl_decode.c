@@ -80,8 +80,7 @@ static bool read_run(const io_rvl *rvl, nibble_reader *reader, uint16_t *out, si
     return true;
 }
 
-bool io_rvl_decode(const io_rvl *rvl, const uint8_t *data, size_t size, uint16_t *out,
-                   size_t count)
+bool io_rvl_decode(const io_rvl *rvl, const uint8_t *data, size_t size, uint16_t *out, size_t count)
 {
     nibble_reader r = {.data = data, .end = data + size};
     uint32_t previous = 0;

@@ -34,7 +34,7 @@ static void put_number(nibble_writer *w, uint32_t value)
 
 static inline uint32_t zigzag(int32_t difference)
 {
-    return (uint32_t)difference << 1 ^ (uint32_t)-(difference < 0);
+    return (uint32_t)difference << 1 ^ (uint32_t) - (difference < 0);
 }
 
 /* First pixel from `begin` on that is missing. */

@@ -79,12 +79,12 @@ rlf_result io_mcap_compress(io_mcap_compressor *c, io_mcap_compression compressi
     if (place == NULL) {
         return io_byte_buffer_check(out);
     }
-    const size_t got = is_zstd
-                           ? ZSTD_compressCCtx(c->zstd, place, bound, data, size, ZSTD_LEVEL)
-                           : LZ4F_compressFrame(place, bound, data, size, &preferences);
+    const size_t got = is_zstd ? ZSTD_compressCCtx(c->zstd, place, bound, data, size, ZSTD_LEVEL)
+                               : LZ4F_compressFrame(place, bound, data, size, &preferences);
     if (is_zstd ? ZSTD_isError(got) : LZ4F_isError(got)) {
-        return rlf_fail(RLF_ERROR_MEMORY, "%s refuses to compress %zu bytes: use --compression "
-                                          "none",
+        return rlf_fail(RLF_ERROR_MEMORY,
+                        "%s refuses to compress %zu bytes: use --compression "
+                        "none",
                         names[compression], size);
     }
     io_byte_buffer_grow(out, got);
@@ -126,8 +126,8 @@ static bool unlz4(LZ4F_dctx *context, const uint8_t *data, size_t size, uint8_t 
     return false;
 }
 
-bool io_mcap_decompress(io_mcap_compressor *c, io_mcap_compression compression,
-                        const uint8_t *data, size_t size, uint8_t *out, size_t out_size)
+bool io_mcap_decompress(io_mcap_compressor *c, io_mcap_compression compression, const uint8_t *data,
+                        size_t size, uint8_t *out, size_t out_size)
 {
     if (compression == IO_MCAP_LZ4) {
         return unlz4(c->unlz4, data, size, out, out_size);

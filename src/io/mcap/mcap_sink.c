@@ -185,7 +185,7 @@ static rlf_result put_counts(mcap_sink *s, const rlf_frame *frame, io_cdr_writer
     if (is_rvl) {
         put_rvl(s, rows, cdr->buffer);
     } else {
-        const io_png_def def = {"depth",  rows, c->width, c->height, (ptrdiff_t)c->width * 2,
+        const io_png_def def = {"depth",         rows, c->width, c->height, (ptrdiff_t)c->width * 2,
                                 IO_PNG_GREY_U16, LEVEL};
         result = io_png_encode(&def, cdr->buffer);
     }
@@ -237,7 +237,7 @@ static rlf_result add_color(mcap_sink *s, const rlf_frame *frame)
     if (is_jpeg) {
         result = io_jpeg_encode(s->jpeg, c, s->def.jpeg_quality, cdr.buffer);
     } else {
-        const io_png_def def = {"colour",  c->data,     c->width, c->height,
+        const io_png_def def = {"colour",  c->data,    c->width, c->height,
                                 c->stride, IO_PNG_RGB, LEVEL};
         result = io_png_encode(&def, cdr.buffer);
     }

@@ -1,4 +1,5 @@
-/* MCAP files as a source: Relief's own recordings, and anybody's ROS 2 recordings of a depth camera.
+/* MCAP files as a source: Relief's own recordings, and anybody's ROS 2 recordings of a depth
+ * camera.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "relief/io.h"
@@ -31,10 +32,9 @@ static rlf_result read_depth(void *self, int32_t index, void *out)
     mcap *m = self;
     io_ros_image image;
     rlf_result result = io_mcap_read_picture(m->reader, &m->depth, index, &image);
-    return result == RLF_OK
-               ? io_ros_decode_depth(&m->decoder, &image, m->depth.pixels, m->depth.width,
-                                     m->depth.height, out)
-               : result;
+    return result == RLF_OK ? io_ros_decode_depth(&m->decoder, &image, m->depth.pixels,
+                                                  m->depth.width, m->depth.height, out)
+                            : result;
 }
 
 static rlf_result read_color(void *self, int32_t index, const rlf_image_rgba8 *out)
@@ -42,9 +42,8 @@ static rlf_result read_color(void *self, int32_t index, const rlf_image_rgba8 *o
     mcap *m = self;
     io_ros_image image;
     rlf_result result = io_mcap_read_picture(m->reader, &m->color, index, &image);
-    return result == RLF_OK
-               ? io_ros_decode_color(&m->decoder, &image, m->color.pixels, out)
-               : result;
+    return result == RLF_OK ? io_ros_decode_color(&m->decoder, &image, m->color.pixels, out)
+                            : result;
 }
 
 static void mcap_destroy(void *self)
@@ -135,17 +134,15 @@ static rlf_pose *poses_of(mcap *m, const int64_t *times, int32_t count)
     const io_mcap_channel *c = io_mcap_channel_at(m->reader, index);
     int32_t at = 0;
     for (int32_t i = 0; i < count; i++) {
-        while (at < c->count &&
-               io_mcap_message_at(m->reader, c->first + at)->time_ns < times[i]) {
+        while (at < c->count && io_mcap_message_at(m->reader, c->first + at)->time_ns < times[i]) {
             at++;
         }
         io_cdr_span bytes;
         io_ros_header header;
-        const bool is_there =
-            at < c->count &&
-            io_mcap_message_at(m->reader, c->first + at)->time_ns == times[i] &&
-            io_mcap_read(m->reader, c->first + at, &bytes) == RLF_OK &&
-            io_ros_read_pose(bytes.data, bytes.size, &header, &poses[i]);
+        const bool is_there = at < c->count &&
+                              io_mcap_message_at(m->reader, c->first + at)->time_ns == times[i] &&
+                              io_mcap_read(m->reader, c->first + at, &bytes) == RLF_OK &&
+                              io_ros_read_pose(bytes.data, bytes.size, &header, &poses[i]);
         if (!is_there) {
             memset(&poses[i], 0, sizeof(poses[i]));
         }
@@ -161,8 +158,8 @@ static void find_camera_file(const char *path, char out[IO_PATH_MAX])
 {
     const char *slash = strrchr(path, '/');
     const char *dot = strrchr(path, '.');
-    const size_t stem = dot != NULL && (slash == NULL || dot > slash) ? (size_t)(dot - path)
-                                                                      : strlen(path);
+    const size_t stem =
+        dot != NULL && (slash == NULL || dot > slash) ? (size_t)(dot - path) : strlen(path);
     const size_t folder = slash != NULL ? (size_t)(slash + 1 - path) : 0;
     out[0] = '\0';
     if (stem + sizeof("camera.json") >= IO_PATH_MAX) {
@@ -282,8 +279,7 @@ static rlf_result prepare(const rlf_address *address, mcap *m)
 {
     const io_mcap_wishes wishes = {rlf_address_get(address, "depth"),
                                    rlf_address_get(address, "color")};
-    rlf_result result =
-        io_mcap_find_streams(m->reader, m->path, &wishes, &m->depth, &m->color);
+    rlf_result result = io_mcap_find_streams(m->reader, m->path, &wishes, &m->depth, &m->color);
     if (result == RLF_OK) {
         result = find_rig(address, m);
     }
@@ -317,21 +313,21 @@ static rlf_result open_clip(mcap *m, rlf_opened *out)
     rlf_pose *poses = depth_times != NULL ? poses_of(m, depth_times, count) : NULL;
     rlf_result result = RLF_ERROR_MEMORY;
     if (depth_times != NULL && color_times != NULL) {
-        const io_clip_def def = {
-            .name = m->path,
-            .rig = m->rig,
-            .units_per_metre = io_ros_is_metres(m->depth.pixels) ? 0.0 : m->units_per_metre,
-            .depth_times = depth_times,
-            .color_times = color_times,
-            .poses = poses,
-            .depth_count = count,
-            .color_count = count_of(m, &m->color),
-            .flags = m->flags,
-            .skips_damaged = true,
-            .read_depth = read_depth,
-            .read_color = read_color,
-            .destroy = mcap_destroy,
-            .self = m};
+        const io_clip_def def = {.name = m->path,
+                                 .rig = m->rig,
+                                 .units_per_metre =
+                                     io_ros_is_metres(m->depth.pixels) ? 0.0 : m->units_per_metre,
+                                 .depth_times = depth_times,
+                                 .color_times = color_times,
+                                 .poses = poses,
+                                 .depth_count = count,
+                                 .color_count = count_of(m, &m->color),
+                                 .flags = m->flags,
+                                 .skips_damaged = true,
+                                 .read_depth = read_depth,
+                                 .read_color = read_color,
+                                 .destroy = mcap_destroy,
+                                 .self = m};
         result = io_clip_open(&def, out);
     }
     rlf_free(depth_times);

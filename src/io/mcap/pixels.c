@@ -146,8 +146,7 @@ static const uint8_t *raw_rows(const io_ros_image *image, int32_t width, int32_t
     const size_t step = image->step > 0 ? image->step : row;
     *out_step = step;
     const bool is_whole = image->width == (uint32_t)width && image->height == (uint32_t)height &&
-                          step >= row &&
-                          image->data.size >= step * (size_t)(height - 1) + row;
+                          step >= row && image->data.size >= step * (size_t)(height - 1) + row;
     return is_whole ? image->data.data : NULL;
 }
 
@@ -184,8 +183,9 @@ static rlf_result decode_rvl(const io_ros_decoder *decoder, const io_ros_image *
     const size_t head = DEPTH_HEAD + RVL_HEAD;
     if (!io_rvl_decode(&decoder->rvl, image->data.data + head, image->data.size - head, out,
                        (size_t)width * (size_t)height)) {
-        return rlf_fail(RLF_ERROR_FORMAT, "%s: the depth picture at %.3f s is damaged (RVL): "
-                                          "record it again",
+        return rlf_fail(RLF_ERROR_FORMAT,
+                        "%s: the depth picture at %.3f s is damaged (RVL): "
+                        "record it again",
                         decoder->name, 1e-9 * (double)image->header.stamp_ns);
     }
     return RLF_OK;
@@ -239,9 +239,9 @@ rlf_result io_ros_decode_color(const io_ros_decoder *decoder, const io_ros_image
             .width = out->width, .height = out->height, .data = out->data, .is_opaque = true};
         return io_picture_decode(&file, &picture);
     }
-    const size_t bytes = pixels == IO_ROS_MONO8                              ? 1
+    const size_t bytes = pixels == IO_ROS_MONO8                           ? 1
                          : pixels == IO_ROS_RGB8 || pixels == IO_ROS_BGR8 ? 3
-                                                                           : 4;
+                                                                          : 4;
     size_t step;
     const uint8_t *rows = raw_rows(image, out->width, out->height, bytes, &step);
     if (rows == NULL) {

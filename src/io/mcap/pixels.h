@@ -36,8 +36,8 @@ bool io_ros_picture_size(const io_ros_image *image, io_ros_pixels pixels, int32_
 /* Work memory for decoding. */
 typedef struct io_ros_decoder {
     io_rvl rvl;
-    const char *name;  /* for error lines */
-    uint16_t *counts;  /* of inverse depth: width x height; NULL = never needed */
+    const char *name; /* for error lines */
+    uint16_t *counts; /* of inverse depth: width x height; NULL = never needed */
 } io_ros_decoder;
 
 /* Depth as uint16_t or float, width x height without padding. */

@@ -261,9 +261,9 @@ static rlf_result list_all(io_mcap_reader *reader)
                 reader->path, IO_MCAP_MESSAGES_MAX);
     }
     io_mcap_sort(reader);
-    return reader->lacks_memory ? rlf_fail(RLF_ERROR_MEMORY, "%s: out of memory for its index",
-                                           reader->path)
-                                : RLF_OK;
+    return reader->lacks_memory
+               ? rlf_fail(RLF_ERROR_MEMORY, "%s: out of memory for its index", reader->path)
+               : RLF_OK;
 }
 
 rlf_result io_mcap_reader_open(const char *path, io_mcap_reader **out)
@@ -334,9 +334,9 @@ void io_mcap_set_time(io_mcap_reader *reader, int32_t index, int64_t time_ns)
 
 static rlf_result fail_message(const io_mcap_reader *reader, const io_mcap_message *m)
 {
-    return rlf_fail(RLF_ERROR_FORMAT,
-                    "%s: a message of %s at %.3f s is damaged: record it again", reader->path,
-                    io_mcap_channel_at(reader, m->channel)->topic, 1e-9 * (double)m->time_ns);
+    return rlf_fail(RLF_ERROR_FORMAT, "%s: a message of %s at %.3f s is damaged: record it again",
+                    reader->path, io_mcap_channel_at(reader, m->channel)->topic,
+                    1e-9 * (double)m->time_ns);
 }
 
 /* Content of a record that is expected to be a message of the channel. */
@@ -358,8 +358,7 @@ static rlf_result take_message(const io_mcap_reader *reader, const io_mcap_messa
 static rlf_result read_loose(io_mcap_reader *reader, const io_mcap_message *m, io_cdr_span *out)
 {
     uint64_t size = 0;
-    if (!io_mcap_read_at(reader, m->offset + 1, &size, sizeof(size)) ||
-        size > IO_MCAP_CHUNK_MAX ||
+    if (!io_mcap_read_at(reader, m->offset + 1, &size, sizeof(size)) || size > IO_MCAP_CHUNK_MAX ||
         io_mcap_read_block(reader, m->offset, size + IO_MCAP_RECORD_HEAD, &reader->loose) !=
             RLF_OK) {
         return fail_message(reader, m);
@@ -378,7 +377,7 @@ rlf_result io_mcap_read(io_mcap_reader *reader, int32_t index, io_cdr_span *out)
     if (chunk == NULL || m->offset > chunk->size) {
         return fail_message(reader, m);
     }
-    const io_mcap_cursor bytes = {chunk->buffer.data + m->offset,
-                                  chunk->size - (size_t)m->offset, false};
+    const io_mcap_cursor bytes = {chunk->buffer.data + m->offset, chunk->size - (size_t)m->offset,
+                                  false};
     return take_message(reader, m, bytes, out);
 }

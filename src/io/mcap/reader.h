@@ -47,8 +47,8 @@ struct io_mcap_reader {
     io_mcap_cached cache[IO_MCAP_CACHED];
     uint64_t calls;
     int32_t bad_chunks;
-    bool is_full;      /* more messages than are listed */
-    bool lacks_memory; /* a list could not grow */
+    bool is_full;                        /* more messages than are listed */
+    bool lacks_memory;                   /* a list could not grow */
     char metadata[IO_MCAP_METADATA_MAX]; /* key, 0, value, 0, ..., 0 */
 };
 

@@ -1,4 +1,5 @@
-/* The ROS 2 messages that a recording has: written and read as CDR, with the text of their types. */
+/* The ROS 2 messages that a recording has: written and read as CDR, with the text of their types.
+ */
 #ifndef RLF_IO_MCAP_ROS_H
 #define RLF_IO_MCAP_ROS_H
 

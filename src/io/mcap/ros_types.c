@@ -1,8 +1,7 @@
 /* The message definitions that go into a file. */
 #include "io/mcap/ros.h"
 
-#define RULE                                                                                       \
-    "================================================================================\n"
+#define RULE "================================================================================\n"
 #define HEADER                                                                                     \
     RULE "MSG: std_msgs/Header\n"                                                                  \
          "builtin_interfaces/Time stamp\nstring frame_id\n" RULE                                   \

@@ -1,8 +1,8 @@
 /* Which topics of a ROS 2 recording are the depth and the colour pictures. */
 #include "io/mcap/topics.h"
 
-rlf_result io_mcap_read_picture(io_mcap_reader *reader, const io_mcap_stream *stream,
-                                int32_t index, io_ros_image *out)
+rlf_result io_mcap_read_picture(io_mcap_reader *reader, const io_mcap_stream *stream, int32_t index,
+                                io_ros_image *out)
 {
     const io_mcap_channel *channel = io_mcap_channel_at(reader, stream->channel);
     io_cdr_span bytes;
@@ -10,12 +10,12 @@ rlf_result io_mcap_read_picture(io_mcap_reader *reader, const io_mcap_stream *st
     if (result != RLF_OK) {
         return result;
     }
-    const bool is_good = stream->is_compressed
-                             ? io_ros_read_compressed(bytes.data, bytes.size, out)
-                             : io_ros_read_image(bytes.data, bytes.size, out);
+    const bool is_good = stream->is_compressed ? io_ros_read_compressed(bytes.data, bytes.size, out)
+                                               : io_ros_read_image(bytes.data, bytes.size, out);
     return is_good ? RLF_OK
-                   : rlf_fail(RLF_ERROR_FORMAT, "%s: a message is not the picture that it should "
-                                                "be: record it again",
+                   : rlf_fail(RLF_ERROR_FORMAT,
+                              "%s: a message is not the picture that it should "
+                              "be: record it again",
                               channel->topic);
 }
 

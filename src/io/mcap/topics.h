@@ -1,4 +1,5 @@
-/* Which topics of a ROS 2 recording are the depth and the colour pictures, and their calibration. */
+/* Which topics of a ROS 2 recording are the depth and the colour pictures, and their calibration.
+ */
 #ifndef RLF_IO_MCAP_TOPICS_H
 #define RLF_IO_MCAP_TOPICS_H
 
@@ -19,8 +20,8 @@ typedef struct io_mcap_wishes {
 } io_mcap_wishes;
 
 /* Reads message `index` of a stream as a picture; its bytes stay valid until the next message. */
-rlf_result io_mcap_read_picture(io_mcap_reader *reader, const io_mcap_stream *stream,
-                                int32_t index, io_ros_image *out);
+rlf_result io_mcap_read_picture(io_mcap_reader *reader, const io_mcap_stream *stream, int32_t index,
+                                io_ros_image *out);
 
 /* Depth: the topic wished for, else the one with most pictures. Colour: the one wished for, else
  * the same, colours before grey. Fails when there is no depth. */

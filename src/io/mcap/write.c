@@ -1,9 +1,6 @@
 /* Writing MCAP files. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/mcap/write.h"
-
-#include "io/file.h"
-#include "io/mcap/compress.h"
+#include "io/mcap/writer.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -15,63 +12,29 @@
 
 const uint8_t io_mcap_magic[IO_MCAP_MAGIC_SIZE] = {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
 
-/* What the index says about a chunk, and how the file stood behind it. */
-typedef struct chunk_entry {
-    uint64_t begin, length, index_length;
-    int64_t first_ns, last_ns;
-    uint64_t compressed, plain;
-    uint64_t index_at[IO_MCAP_CHANNELS_MAX]; /* 0 = none */
-    uint32_t messages[IO_MCAP_CHANNELS_MAX];
-    uint32_t crc; /* of the file up to its end */
-} chunk_entry;
-
-struct io_mcap_writer {
-    char path[IO_PATH_MAX];
-    int file;
-    uint64_t size; /* of what is whole on the disk */
-    uint32_t crc;
-    int write_errno; /* of the first write that failed; 0 = none */
-    io_mcap_compression compression;
-    io_mcap_compressor *compressor;
-    io_byte_buffer head; /* schemas, channels, metadata, until the first chunk takes them */
-    io_byte_buffer schemas, channels, metadata;
-    uint16_t schema_count, channel_count;
-    uint32_t metadata_count;
-    io_byte_buffer chunk;                       /* the records gathered */
-    io_byte_buffer index[IO_MCAP_CHANNELS_MAX]; /* their times and places */
-    uint32_t sequence[IO_MCAP_CHANNELS_MAX];
-    int64_t first_ns, last_ns; /* of them */
-    size_t message_at;         /* where the message being written begins */
-    uint16_t message_channel;
-    int64_t message_ns;
-    int64_t synced_ns; /* when the disk was last waited for */
-    io_byte_buffer out;
-    io_byte_buffer entries; /* chunk_entry */
-};
-
 /* ---- records ----------------------------------------------------------------------------------
  */
 
-static size_t begin_record(io_byte_buffer *b, io_mcap_op op)
+size_t io_mcap_begin_record(io_byte_buffer *b, io_mcap_op op)
 {
     io_put_u8(b, (uint8_t)op);
     io_put_u64(b, 0);
     return b->size;
 }
 
-static void set_u64(io_byte_buffer *b, size_t at, uint64_t value)
+void io_mcap_set_u64(io_byte_buffer *b, size_t at, uint64_t value)
 {
     if (!b->is_short) {
         memcpy(b->data + at, &value, sizeof(value));
     }
 }
 
-static void end_record(io_byte_buffer *b, size_t begin)
+void io_mcap_end_record(io_byte_buffer *b, size_t begin)
 {
-    set_u64(b, begin - 8, b->size - begin);
+    io_mcap_set_u64(b, begin - 8, b->size - begin);
 }
 
-static void put_text(io_byte_buffer *b, const char *text)
+void io_mcap_put_text(io_byte_buffer *b, const char *text)
 {
     io_put_u32(b, (uint32_t)strlen(text));
     io_byte_buffer_add(b, text, strlen(text));
@@ -80,7 +43,7 @@ static void put_text(io_byte_buffer *b, const char *text)
 /* ---- the file ---------------------------------------------------------------------------------
  */
 
-static rlf_result fail_write(const io_mcap_writer *w)
+rlf_result io_mcap_fail_write(const io_mcap_writer *w)
 {
     return rlf_fail(RLF_ERROR_IO,
                     "%s: cannot be written any further: %s: what was recorded before is kept; free "
@@ -88,8 +51,7 @@ static rlf_result fail_write(const io_mcap_writer *w)
                     w->path, strerror(w->write_errno));
 }
 
-/* All of it, or nothing: a half is cut off again. */
-static bool append(io_mcap_writer *w, const io_byte_buffer *b)
+bool io_mcap_append(io_mcap_writer *w, const io_byte_buffer *b)
 {
     size_t done = 0;
     while (done < b->size && w->write_errno == 0) {
@@ -111,7 +73,7 @@ static bool append(io_mcap_writer *w, const io_byte_buffer *b)
     return false;
 }
 
-static void free_writer(io_mcap_writer *w)
+void io_mcap_free_writer(io_mcap_writer *w)
 {
     if (w->file >= 0) {
         close(w->file);
@@ -160,17 +122,17 @@ rlf_result io_mcap_writer_create(const char *path, io_mcap_compression compressi
     rlf_result result = open_file(w, path);
     if (result == RLF_OK) {
         char library[32];
-        snprintf(library, sizeof(library), "relief %d.%d.%d", RLF_VERSION_MAJOR,
-                 RLF_VERSION_MINOR, RLF_VERSION_PATCH);
+        snprintf(library, sizeof(library), "relief %d.%d.%d", RLF_VERSION_MAJOR, RLF_VERSION_MINOR,
+                 RLF_VERSION_PATCH);
         io_byte_buffer_add(&w->head, io_mcap_magic, IO_MCAP_MAGIC_SIZE);
-        const size_t record = begin_record(&w->head, IO_MCAP_HEADER);
-        put_text(&w->head, "ros2");
-        put_text(&w->head, library);
-        end_record(&w->head, record);
+        const size_t record = io_mcap_begin_record(&w->head, IO_MCAP_HEADER);
+        io_mcap_put_text(&w->head, "ros2");
+        io_mcap_put_text(&w->head, library);
+        io_mcap_end_record(&w->head, record);
         result = io_byte_buffer_check(&w->head);
     }
     if (result != RLF_OK) {
-        free_writer(w);
+        io_mcap_free_writer(w);
         return result;
     }
     *out = w;
@@ -191,12 +153,12 @@ static void add_twice(io_mcap_writer *w, const io_byte_buffer *b, size_t from)
 void io_mcap_add_schema(io_mcap_writer *w, const char *name, const char *text)
 {
     const size_t from = w->schemas.size;
-    const size_t record = begin_record(&w->schemas, IO_MCAP_SCHEMA);
+    const size_t record = io_mcap_begin_record(&w->schemas, IO_MCAP_SCHEMA);
     io_put_u16(&w->schemas, ++w->schema_count);
-    put_text(&w->schemas, name);
-    put_text(&w->schemas, "ros2msg");
-    put_text(&w->schemas, text);
-    end_record(&w->schemas, record);
+    io_mcap_put_text(&w->schemas, name);
+    io_mcap_put_text(&w->schemas, "ros2msg");
+    io_mcap_put_text(&w->schemas, text);
+    io_mcap_end_record(&w->schemas, record);
     add_twice(w, &w->schemas, from);
 }
 
@@ -206,16 +168,16 @@ uint16_t io_mcap_add_channel(io_mcap_writer *w, const char *topic, const char *q
         return w->channel_count;
     }
     const size_t from = w->channels.size;
-    const size_t record = begin_record(&w->channels, IO_MCAP_CHANNEL);
+    const size_t record = io_mcap_begin_record(&w->channels, IO_MCAP_CHANNEL);
     io_put_u16(&w->channels, ++w->channel_count);
     io_put_u16(&w->channels, w->schema_count);
-    put_text(&w->channels, topic);
-    put_text(&w->channels, "cdr");
+    io_mcap_put_text(&w->channels, topic);
+    io_mcap_put_text(&w->channels, "cdr");
     static const char key[] = "offered_qos_profiles";
     io_put_u32(&w->channels, (uint32_t)(8 + strlen(key) + strlen(qos)));
-    put_text(&w->channels, key);
-    put_text(&w->channels, qos);
-    end_record(&w->channels, record);
+    io_mcap_put_text(&w->channels, key);
+    io_mcap_put_text(&w->channels, qos);
+    io_mcap_end_record(&w->channels, record);
     add_twice(w, &w->channels, from);
     return w->channel_count;
 }
@@ -225,23 +187,23 @@ void io_mcap_add_metadata(io_mcap_writer *w, const char *name, const io_mcap_pai
 {
     const uint64_t at = w->size + w->head.size;
     const size_t begin = w->head.size;
-    const size_t record = begin_record(&w->head, IO_MCAP_METADATA);
-    put_text(&w->head, name);
+    const size_t record = io_mcap_begin_record(&w->head, IO_MCAP_METADATA);
+    io_mcap_put_text(&w->head, name);
     size_t size = 0;
     for (size_t i = 0; i < count; i++) {
         size += 8 + strlen(pairs[i].key) + strlen(pairs[i].value);
     }
     io_put_u32(&w->head, (uint32_t)size);
     for (size_t i = 0; i < count; i++) {
-        put_text(&w->head, pairs[i].key);
-        put_text(&w->head, pairs[i].value);
+        io_mcap_put_text(&w->head, pairs[i].key);
+        io_mcap_put_text(&w->head, pairs[i].value);
     }
-    end_record(&w->head, record);
-    const size_t index = begin_record(&w->metadata, IO_MCAP_METADATA_INDEX);
+    io_mcap_end_record(&w->head, record);
+    const size_t index = io_mcap_begin_record(&w->metadata, IO_MCAP_METADATA_INDEX);
     io_put_u64(&w->metadata, at);
     io_put_u64(&w->metadata, w->head.size - begin);
-    put_text(&w->metadata, name);
-    end_record(&w->metadata, index);
+    io_mcap_put_text(&w->metadata, name);
+    io_mcap_end_record(&w->metadata, index);
     w->metadata_count++;
 }
 
@@ -254,7 +216,7 @@ io_byte_buffer *io_mcap_begin(io_mcap_writer *w, uint16_t channel, int64_t time_
     w->message_at = w->chunk.size;
     w->message_channel = channel;
     w->message_ns = (int64_t)time;
-    begin_record(&w->chunk, IO_MCAP_MESSAGE);
+    io_mcap_begin_record(&w->chunk, IO_MCAP_MESSAGE);
     io_put_u16(&w->chunk, channel);
     io_put_u32(&w->chunk, w->sequence[channel - 1]);
     io_put_u64(&w->chunk, time);
@@ -268,7 +230,7 @@ void io_mcap_end(io_mcap_writer *w, bool is_good)
         w->chunk.size = w->message_at;
         return;
     }
-    end_record(&w->chunk, w->message_at + IO_MCAP_RECORD_HEAD);
+    io_mcap_end_record(&w->chunk, w->message_at + IO_MCAP_RECORD_HEAD);
     const bool is_first = w->message_at == 0;
     w->first_ns = is_first || w->message_ns < w->first_ns ? w->message_ns : w->first_ns;
     w->last_ns = is_first || w->message_ns > w->last_ns ? w->message_ns : w->last_ns;
@@ -286,19 +248,19 @@ static rlf_result put_chunk(io_mcap_writer *w, chunk_entry *entry)
 {
     io_byte_buffer *b = &w->out;
     entry->begin = w->size + b->size;
-    const size_t record = begin_record(b, IO_MCAP_CHUNK);
+    const size_t record = io_mcap_begin_record(b, IO_MCAP_CHUNK);
     io_put_u64(b, (uint64_t)entry->first_ns);
     io_put_u64(b, (uint64_t)entry->last_ns);
     io_put_u64(b, entry->plain);
     io_put_u32(b, (uint32_t)crc32_z(0, w->chunk.data, w->chunk.size));
-    put_text(b, io_mcap_compression_name(w->compression));
+    io_mcap_put_text(b, io_mcap_compression_name(w->compression));
     io_put_u64(b, 0);
     const size_t begin = b->size;
     rlf_result result =
         io_mcap_compress(w->compressor, w->compression, w->chunk.data, w->chunk.size, b);
     entry->compressed = b->size - begin;
-    set_u64(b, begin - 8, entry->compressed);
-    end_record(b, record);
+    io_mcap_set_u64(b, begin - 8, entry->compressed);
+    io_mcap_end_record(b, record);
     entry->length = w->size + b->size - entry->begin;
     return result;
 }
@@ -313,11 +275,11 @@ static void put_indexes(io_mcap_writer *w, chunk_entry *entry)
         }
         entry->index_at[i] = w->size + b->size;
         entry->messages[i] = (uint32_t)(w->index[i].size / 16);
-        const size_t record = begin_record(b, IO_MCAP_MESSAGE_INDEX);
+        const size_t record = io_mcap_begin_record(b, IO_MCAP_MESSAGE_INDEX);
         io_put_u16(b, (uint16_t)(i + 1));
         io_put_u32(b, (uint32_t)w->index[i].size);
         io_byte_buffer_add(b, w->index[i].data, w->index[i].size);
-        end_record(b, record);
+        io_mcap_end_record(b, record);
         w->index[i].size = 0;
     }
     entry->index_length = b->size - begin;
@@ -342,7 +304,7 @@ static rlf_result put_out(io_mcap_writer *w, chunk_entry *entry)
 rlf_result io_mcap_flush(io_mcap_writer *w)
 {
     if (w->write_errno != 0) {
-        return fail_write(w);
+        return io_mcap_fail_write(w);
     }
     if (w->chunk.size == 0 && w->head.size == 0) {
         return io_byte_buffer_check(&w->chunk);
@@ -354,8 +316,8 @@ rlf_result io_mcap_flush(io_mcap_writer *w)
     if (result != RLF_OK) {
         return result;
     }
-    if (!append(w, &w->out)) {
-        return fail_write(w);
+    if (!io_mcap_append(w, &w->out)) {
+        return io_mcap_fail_write(w);
     }
     w->head.size = 0;
     if (entry.length > 0) {
@@ -369,194 +331,4 @@ rlf_result io_mcap_flush(io_mcap_writer *w)
         (void)fdatasync(w->file); /* a pipe has no disk behind it: that is no failure */
     }
     return io_byte_buffer_check(&w->entries);
-}
-
-/* ---- the end -----------------------------------------------------------------------------------
- */
-
-static size_t entry_count(const io_mcap_writer *w)
-{
-    return w->entries.size / sizeof(chunk_entry);
-}
-
-static chunk_entry *entry_at(const io_mcap_writer *w, size_t index)
-{
-    return (chunk_entry *)(void *)w->entries.data + index;
-}
-
-static void put_chunk_index(io_mcap_writer *w, const chunk_entry *entry)
-{
-    io_byte_buffer *b = &w->out;
-    uint32_t channels = 0;
-    for (int i = 0; i < IO_MCAP_CHANNELS_MAX; i++) {
-        channels += entry->index_at[i] != 0;
-    }
-    const size_t record = begin_record(b, IO_MCAP_CHUNK_INDEX);
-    io_put_u64(b, (uint64_t)entry->first_ns);
-    io_put_u64(b, (uint64_t)entry->last_ns);
-    io_put_u64(b, entry->begin);
-    io_put_u64(b, entry->length);
-    io_put_u32(b, channels * 10);
-    for (uint16_t i = 0; i < IO_MCAP_CHANNELS_MAX; i++) {
-        if (entry->index_at[i] != 0) {
-            io_put_u16(b, (uint16_t)(i + 1));
-            io_put_u64(b, entry->index_at[i]);
-        }
-    }
-    io_put_u64(b, entry->index_length);
-    put_text(b, io_mcap_compression_name(w->compression));
-    io_put_u64(b, entry->compressed);
-    io_put_u64(b, entry->plain);
-    end_record(b, record);
-}
-
-static uint64_t count_messages(const io_mcap_writer *w, uint64_t counts[IO_MCAP_CHANNELS_MAX])
-{
-    uint64_t all = 0;
-    memset(counts, 0, IO_MCAP_CHANNELS_MAX * sizeof(counts[0]));
-    for (size_t i = 0; i < entry_count(w); i++) {
-        for (int c = 0; c < IO_MCAP_CHANNELS_MAX; c++) {
-            counts[c] += entry_at(w, i)->messages[c];
-            all += entry_at(w, i)->messages[c];
-        }
-    }
-    return all;
-}
-
-static void put_statistics(io_mcap_writer *w)
-{
-    io_byte_buffer *b = &w->out;
-    uint64_t counts[IO_MCAP_CHANNELS_MAX];
-    const uint64_t all = count_messages(w, counts);
-    uint64_t first = 0;
-    uint64_t last = 0;
-    for (size_t i = 0; i < entry_count(w); i++) {
-        const chunk_entry *e = entry_at(w, i);
-        first = i == 0 || (uint64_t)e->first_ns < first ? (uint64_t)e->first_ns : first;
-        last = (uint64_t)e->last_ns > last ? (uint64_t)e->last_ns : last;
-    }
-    const size_t record = begin_record(b, IO_MCAP_STATISTICS);
-    io_put_u64(b, all);
-    io_put_u16(b, w->schema_count);
-    io_put_u32(b, w->channel_count);
-    io_put_u32(b, 0);
-    io_put_u32(b, w->metadata_count);
-    io_put_u32(b, (uint32_t)entry_count(w));
-    io_put_u64(b, first);
-    io_put_u64(b, last);
-    io_put_u32(b, w->channel_count * 10u);
-    for (uint16_t i = 0; i < w->channel_count; i++) {
-        io_put_u16(b, (uint16_t)(i + 1));
-        io_put_u64(b, counts[i]);
-    }
-    end_record(b, record);
-}
-
-/* Where a group of the summary is, for readers that look for one kind only. */
-static void put_offset(io_byte_buffer *offsets, io_mcap_op op, uint64_t begin, uint64_t end)
-{
-    if (end > begin) {
-        const size_t record = begin_record(offsets, IO_MCAP_SUMMARY_OFFSET);
-        io_put_u8(offsets, (uint8_t)op);
-        io_put_u64(offsets, begin);
-        io_put_u64(offsets, end - begin);
-        end_record(offsets, record);
-    }
-}
-
-static void put_summary(io_mcap_writer *w, io_byte_buffer *offsets)
-{
-    io_byte_buffer *b = &w->out;
-    uint64_t at = w->size + b->size;
-    io_byte_buffer_add(b, w->schemas.data, w->schemas.size);
-    put_offset(offsets, IO_MCAP_SCHEMA, at, w->size + b->size);
-    at = w->size + b->size;
-    io_byte_buffer_add(b, w->channels.data, w->channels.size);
-    put_offset(offsets, IO_MCAP_CHANNEL, at, w->size + b->size);
-    at = w->size + b->size;
-    put_statistics(w);
-    put_offset(offsets, IO_MCAP_STATISTICS, at, w->size + b->size);
-    at = w->size + b->size;
-    for (size_t i = 0; i < entry_count(w); i++) {
-        put_chunk_index(w, entry_at(w, i));
-    }
-    put_offset(offsets, IO_MCAP_CHUNK_INDEX, at, w->size + b->size);
-    at = w->size + b->size;
-    io_byte_buffer_add(b, w->metadata.data, w->metadata.size);
-    put_offset(offsets, IO_MCAP_METADATA_INDEX, at, w->size + b->size);
-}
-
-/* Everything behind the last chunk. */
-static bool append_end(io_mcap_writer *w)
-{
-    io_byte_buffer *b = &w->out;
-    io_byte_buffer offsets = {0};
-    b->size = 0;
-    size_t record = begin_record(b, IO_MCAP_DATA_END);
-    io_put_u32(b, w->crc);
-    end_record(b, record);
-    const size_t summary = b->size;
-    put_summary(w, &offsets);
-    const uint64_t offsets_at = w->size + b->size;
-    io_byte_buffer_add(b, offsets.data, offsets.size);
-    record = begin_record(b, IO_MCAP_FOOTER);
-    io_put_u64(b, w->size + summary);
-    io_put_u64(b, offsets_at);
-    set_u64(b, record - 8, IO_MCAP_FOOTER_SIZE - IO_MCAP_RECORD_HEAD); /* the CRC covers it */
-    if (!b->is_short) {
-        io_put_u32(b, (uint32_t)crc32_z(0, b->data + summary, b->size - summary));
-    }
-    io_byte_buffer_add(b, io_mcap_magic, IO_MCAP_MAGIC_SIZE);
-    const bool is_whole = !b->is_short && !offsets.is_short;
-    io_byte_buffer_free(&offsets);
-    return is_whole && append(w, b);
-}
-
-/* Takes the last chunk off the file, which makes room for its end. */
-static bool drop_chunk(io_mcap_writer *w)
-{
-    const size_t count = entry_count(w);
-    if (count == 0 || ftruncate(w->file, (off_t)entry_at(w, count - 1)->begin) != 0) {
-        return false;
-    }
-    w->size = entry_at(w, count - 1)->begin;
-    w->crc = count > 1 ? entry_at(w, count - 2)->crc : 0; /* 0 = not known */
-    w->entries.size -= sizeof(chunk_entry);
-    return lseek(w->file, (off_t)w->size, SEEK_SET) >= 0;
-}
-
-rlf_result io_mcap_writer_close(io_mcap_writer **writer, io_mcap_written *out)
-{
-    io_mcap_writer *w = *writer;
-    *writer = NULL;
-    if (w == NULL) {
-        return RLF_OK;
-    }
-    rlf_result result = io_mcap_flush(w);
-    const int first_errno = w->write_errno;
-    bool is_whole = false;
-    do {
-        w->write_errno = 0;
-        is_whole = append_end(w);
-    } while (!is_whole && w->write_errno != 0 && drop_chunk(w));
-    if (!is_whole && result == RLF_OK) {
-        w->write_errno = w->write_errno != 0 ? w->write_errno : ENOMEM;
-        result = fail_write(w);
-    } else if (first_errno != 0) {
-        w->write_errno = first_errno;
-        result = fail_write(w);
-    }
-    if (out != NULL) {
-        uint64_t counts[IO_MCAP_CHANNELS_MAX];
-        *out = (io_mcap_written){w->size, count_messages(w, counts), entry_count(w)};
-    }
-    (void)fdatasync(w->file);
-    const bool is_closed = close(w->file) == 0;
-    w->file = -1;
-    if (!is_closed && result == RLF_OK) {
-        w->write_errno = errno;
-        result = fail_write(w);
-    }
-    free_writer(w);
-    return result;
 }

@@ -68,9 +68,8 @@ static void print_rig(FILE *file, const folder_sink *s)
         fprintf(file, ",\n  \"color\": {");
         print_camera(file, &r->color);
         fprintf(file, "},\n  \"depth_to_color\": {\"rotation\": [");
-        fprintf(file,
-                "[%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g]", x.x, y.x,
-                z.x, x.y, y.y, z.y, x.z, y.z, z.z);
+        fprintf(file, "[%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g]", x.x,
+                y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z);
         fprintf(file, "],\n    \"translation\": [%.17g, %.17g, %.17g]}", t.x, t.y, t.z);
     }
     fprintf(file, "\n}\n");
@@ -160,8 +159,7 @@ static rlf_result add_color(folder_sink *s, const rlf_frame *frame)
     if (is_jpeg) {
         result = io_jpeg_encode(s->jpeg, c, s->jpeg_quality, &s->file);
     } else {
-        const io_png_def def = {name,      c->data,     c->width, c->height,
-                                c->stride, IO_PNG_RGB, LEVEL};
+        const io_png_def def = {name, c->data, c->width, c->height, c->stride, IO_PNG_RGB, LEVEL};
         result = io_png_encode(&def, &s->file);
     }
     if (result == RLF_OK) {

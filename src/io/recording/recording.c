@@ -54,8 +54,9 @@ rlf_result rlf_recording_open(const char *path, const rlf_source_info *info,
     }
     *out = NULL;
     if (def->jpeg_quality < 0 || def->jpeg_quality > 100 || !(def->chunk_s > 0.0)) {
-        return rlf_fail(RLF_ERROR_INVALID, "%s: the quality must be 0 to 100, and a chunk longer "
-                                           "than 0 s",
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "%s: the quality must be 0 to 100, and a chunk longer "
+                        "than 0 s",
                         path);
     }
     rlf_recording *recording = rlf_alloc(sizeof(*recording));

@@ -7,8 +7,9 @@ rlf_result io_mcap_sink_open(const char *path, const rlf_source_info *info,
     (void)info;
     (void)def;
     (void)out;
-    return rlf_fail(RLF_ERROR_UNSUPPORTED,
-                    "%s: this build was made without MCAP: configure it with -DRELIEF_WITH_MCAP=ON "
-                    "(Debian: apt install libzstd-dev liblz4-dev), or record into a folder, FOLDER/",
-                    path);
+    return rlf_fail(
+        RLF_ERROR_UNSUPPORTED,
+        "%s: this build was made without MCAP: configure it with -DRELIEF_WITH_MCAP=ON "
+        "(Debian: apt install libzstd-dev liblz4-dev), or record into a folder, FOLDER/",
+        path);
 }
