@@ -41,6 +41,7 @@ bool command_parse_range(const char *text, int64_t *out_begin, int64_t *out_end)
 
 /* One per subcommand; argv[0] is the subcommand's name. */
 int run_main(int argc, char **argv);
+int record_main(int argc, char **argv);
 int place_main(int argc, char **argv);
 int export_main(int argc, char **argv);
 int info_main(int argc, char **argv);

@@ -24,4 +24,5 @@ void command_catch_interrupts(void)
     memset(&ignore, 0, sizeof(ignore));
     ignore.sa_handler = SIG_IGN; /* a closed pipe is reported by the writer instead */
     sigaction(SIGPIPE, &ignore, NULL);
+    sigaction(SIGXFSZ, &ignore, NULL); /* and so is a file that has grown to its limit */
 }

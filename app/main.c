@@ -12,6 +12,7 @@ typedef struct subcommand {
 
 static const subcommand subcommands[] = {
     {"run", run_main, "run a source with virtual bodies, in a window or headless"},
+    {"record", record_main, "record a camera, or turn a recording into another kind"},
     {"place", place_main, "put models of real things where the things are"},
     {"export", export_main, "write arrays of every frame: depth, normals, labels, truth, ..."},
     {"info", info_main, "tell what a source is"},

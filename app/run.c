@@ -47,6 +47,10 @@ static void print_help(void)
         "  --picture-at LIST     instead: these frames alone, e.g. 60,92\n"
         "  --picture-shrink N    average N x N pixels of a picture into one\n"
         "  --log DIR             frames.csv, bodies.csv, contacts.csv\n"
+        "  --record FILE.mcap    what the source gives, for playing it again (see `relief\n"
+        "                        record`, whose --codec, --jpeg-quality, --lossless and\n"
+        "                        --compression work here, too)\n"
+        "  --record-bodies       the bodies' poses, too, as frames of /tf\n"
         "  --view NAME[,NAME...] camera (default), depth, normals, mesh, regions, foreground,\n"
         "                        background, velocity, thickness, reason, points, contacts,\n"
         "                        known;\n"
@@ -203,6 +207,9 @@ static int read_options(int argc, char **argv, run_options *o)
          .low = 1,
          .high = 64},
         {.name = "log", .kind = OPTION_TEXT, .out = &out->log_folder},
+        {.name = "record", .kind = OPTION_TEXT, .out = &s->record.path},
+        {.name = "record-bodies", .kind = OPTION_FLAG, .out = &s->record.keeps_bodies},
+        RECORDER_OPTIONS(&s->record),
         {.name = "view",
          .kind = OPTION_CHOICE,
          .out = o,
@@ -248,6 +255,7 @@ static int parse(int argc, char **argv, run_options *o)
 {
     o->session = session_options_default();
     o->session.use_default_scene = true;
+    o->session.record.tells_at_once = true;
     o->output.picture_every = 30;
     o->output.picture_shrink = 1;
     o->frame_count = -1;
@@ -405,10 +413,15 @@ static int run_session(run_options *o, session *s)
     }
     static run_output output; /* large: timing samples */
     rlf_result result = run_output_open(&o->output, info, total, &output);
+    output.recorder = s->recorder;
     if (result == RLF_OK) {
         result = run_frames(o, s, &output);
     }
     int status = result == RLF_OK ? EXIT_DONE : command_failed();
+    recorder_status recorded = {0};
+    if (recorder_close(&s->recorder, &recorded) != RLF_OK && status == EXIT_DONE) {
+        status = recorded.is_told ? EXIT_FAILED : command_failed();
+    }
     if (run_output_close(&output) != RLF_OK && status == EXIT_DONE) {
         status = command_failed();
     }
@@ -420,6 +433,7 @@ static int run_session(run_options *o, session *s)
         const char *renderer = o->use_gl ? "renderer gl" : "renderer soft";
         const rlf_source_status frames = rlf_source_get_status(s->source);
         run_output_print_summary(&output, o->is_headless ? renderer : "in a window", &frames);
+        recorder_print_summary(&o->session.record, &recorded);
     }
     return status;
 }

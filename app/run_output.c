@@ -123,6 +123,7 @@ rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame)
     out->light = frame->render.light_direction;
     out->is_light_estimated = frame->render.is_light_estimated;
     print_progress(out);
+    recorder_add_bodies(out->recorder, frame->frame.time_ns, frame->snapshot);
     rlf_result result = RLF_OK;
     if (out->log != NULL) {
         result = rlf_csv_log_write(out->log, frame);

@@ -2,6 +2,7 @@
 #ifndef RELIEF_APP_RUN_OUTPUT_H
 #define RELIEF_APP_RUN_OUTPUT_H
 
+#include "recorder.h"
 #include "relief/io.h"
 #include "timing.h"
 
@@ -27,6 +28,7 @@ typedef struct run_output {
     int64_t frame_total;      /* for progress; -1 = unknown */
     rlf_video *video;
     rlf_csv_log *log;
+    recorder *recorder; /* borrowed; NULL = none */
     int64_t frames, pictures;
     int64_t last_index; /* of the frames */
     int64_t start_ns, last_frame_ns, last_progress_ns;

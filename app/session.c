@@ -9,6 +9,7 @@ session_options session_options_default(void)
     memset(&options, 0, sizeof(options));
     options.profile = RLF_PROFILE_LIVE;
     options.enable_render = true;
+    options.record = recorder_options_default();
     return options;
 }
 
@@ -69,6 +70,13 @@ static void set_gravity(const session_options *options, rlf_scene *scene)
     }
 }
 
+static rlf_result open_recorder(const session_options *options, session *s)
+{
+    rlf_result result =
+        recorder_open(&options->record, rlf_source_get_info(s->source), &s->recorder);
+    return result == RLF_OK ? recorder_tap(s->recorder, &s->source) : result;
+}
+
 static rlf_result open_all(const session_options *options, session *s)
 {
     rlf_result result = rlf_pool_create(options->thread_count, &s->pool);
@@ -80,6 +88,9 @@ static rlf_result open_all(const session_options *options, session *s)
         return result;
     }
     result = open_scene(options, &s->scene);
+    if (result == RLF_OK && options->record.path != NULL) {
+        result = open_recorder(options, s);
+    }
     if (result != RLF_OK) {
         return result;
     }
@@ -119,6 +130,7 @@ rlf_result session_open(const session_options *options, session *out)
 
 void session_close(session *s)
 {
+    recorder_close(&s->recorder, NULL);
     rlf_pipeline_destroy(&s->pipeline);
     rlf_scene_destroy(&s->scene);
     rlf_source_destroy(&s->source);

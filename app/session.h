@@ -2,6 +2,7 @@
 #ifndef RELIEF_APP_SESSION_H
 #define RELIEF_APP_SESSION_H
 
+#include "recorder.h"
 #include "relief/io.h"
 #include "settings.h"
 
@@ -26,6 +27,7 @@ typedef struct session_options {
      * sources but the synthetic room, whose light is the default one. */
     bool matches_light, keeps_light;
     bool no_real_shade, no_real_ambient;
+    recorder_options record; /* of what the source gives; no path = not recorded */
     bool enable_render;
     bool enable_overlay;
 } session_options;
@@ -35,6 +37,7 @@ typedef struct session {
     rlf_source *source;
     rlf_scene scene;
     rlf_pipeline *pipeline;
+    recorder *recorder; /* NULL = nothing is recorded; close it for its status */
 } session;
 
 session_options session_options_default(void);

@@ -56,6 +56,49 @@ RLF_API rlf_result rlf_folder_source_open(const char *path, rlf_source **out);
 /* Reads camera.json. Colour absent: has_color false. depth units go to *out_units_per_metre. */
 RLF_API rlf_result rlf_rig_load(const char *path, rlf_rig *out, double *out_units_per_metre);
 
+/* ---- recordings
+ * ------------------------------------------------------------------------------------- */
+
+typedef enum rlf_depth_codec { RLF_DEPTH_RVL = 0, RLF_DEPTH_PNG = 1 } rlf_depth_codec;
+
+typedef enum rlf_compression {
+    RLF_COMPRESSION_ZSTD = 0,
+    RLF_COMPRESSION_LZ4 = 1,
+    RLF_COMPRESSION_NONE = 2
+} rlf_compression;
+
+typedef struct rlf_recording_def {
+    uint32_t cookie;
+    rlf_depth_codec depth_codec; /* of MCAP files; folders have PNG. Both are lossless */
+    rlf_compression compression; /* of the chunks of an MCAP file */
+    int32_t jpeg_quality;        /* of colour, 1..100, default 90; 0 = PNG, lossless */
+    double chunk_s; /* seconds between two writes of an MCAP file, > 0, default 1: what is lost at
+                       most when the power goes */
+} rlf_recording_def;
+
+typedef struct rlf_recording_status {
+    uint64_t frames; /* added */
+    uint64_t bytes;  /* written so far; about, until it is closed */
+} rlf_recording_status;
+
+typedef struct rlf_recording rlf_recording;
+
+RLF_API rlf_recording_def rlf_recording_def_default(void);
+/* Begins a recording of a source: an MCAP file with ROS 2 messages, or, when the path ends with /
+ * or is a folder, a folder in the TUM layout. What is there of the same name is replaced. The file
+ * can be read at any time, whatever becomes of the program. docs/formats.md has the topics. */
+RLF_API rlf_result rlf_recording_open(const char *path, const rlf_source_info *info,
+                                      const rlf_recording_def *def, rlf_recording **out);
+/* Writes a frame of that source. After a failure, as a full disk, close it: what was written is
+ * kept. Thread-safety: one thread at a time. */
+RLF_API rlf_result rlf_recording_add(rlf_recording *recording, const rlf_frame *frame);
+/* Poses of the bodies, as frames of /tf; folders keep none. After the first frame. */
+RLF_API rlf_result rlf_recording_add_bodies(rlf_recording *recording, int64_t time_ns,
+                                            const rlf_snapshot *snapshot);
+RLF_API rlf_recording_status rlf_recording_get_status(const rlf_recording *recording);
+/* Finishes the file; the pointer is nulled even when it fails. `out` may be NULL. */
+RLF_API rlf_result rlf_recording_close(rlf_recording **recording, rlf_recording_status *out);
+
 /* ---- scenes
  * ----------------------------------------------------------------------------------------- */
 

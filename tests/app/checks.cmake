@@ -10,6 +10,23 @@ if(TARGET relief_app)
   set_tests_properties(app.live PROPERTIES LABELS app TIMEOUT 600)
 endif()
 
+# Recording as a user meets it.
+if(TARGET relief_app AND RELIEF_WITH_MCAP)
+  add_test(NAME app.record
+           COMMAND sh ${PROJECT_SOURCE_DIR}/tests/app/test_record.sh $<TARGET_FILE:relief_app>
+                   ${CMAKE_CURRENT_BINARY_DIR}/app_record)
+  set_tests_properties(app.record PROPERTIES LABELS app TIMEOUT 3600)
+endif()
+
+# Somebody else's readers read what Relief records.
+if(TARGET relief_app AND RELIEF_WITH_MCAP)
+  add_test(NAME app.mcap_reader
+           COMMAND sh ${PROJECT_SOURCE_DIR}/tests/app/test_mcap_reader.sh $<TARGET_FILE:relief_app>
+                   ${PROJECT_SOURCE_DIR}/tests/app/mcap_reader
+                   ${CMAKE_CURRENT_BINARY_DIR}/app_mcap_reader)
+  set_tests_properties(app.mcap_reader PROPERTIES LABELS app SKIP_RETURN_CODE 77 TIMEOUT 3600)
+endif()
+
 # What `relief eval` and its kin count, and what they say about it.
 if(TARGET relief_app)
   foreach(name test_bench test_bench_peers test_measure_noise test_eval test_eval_real test_eval_report test_eval_sections

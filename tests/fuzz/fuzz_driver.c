@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define INPUT_MAX 8192
+#define INPUT_MAX 24576
 #define BATCH 500
 #define BATCH_SECONDS 120 /* a batch that takes longer hangs */
 

@@ -11,6 +11,9 @@ static const rlf_backend *const built_in[] = {
     &io_backend_freenect,
 #endif
     &io_backend_realsense, &io_backend_k4a,  &io_backend_freenect2,
+#ifdef RLF_HAVE_MCAP
+    &io_backend_mcap,
+#endif
     &io_backend_oni,       &io_backend_klg,  &io_backend_matroska,
     &io_backend_rosbag,    &io_backend_sens, &io_backend_folder,
 };
@@ -27,6 +30,9 @@ static const io_backend_absent absent[] = {
 #endif
 #ifndef RLF_HAVE_FREENECT
     {"freenect", NULL, "RELIEF_WITH_FREENECT", "Kinect v1 through libfreenect"},
+#endif
+#ifndef RLF_HAVE_MCAP
+    {"mcap", ".mcap", "RELIEF_WITH_MCAP", "a recording: MCAP with ROS 2 pictures"},
 #endif
     {0},
 };

@@ -1,0 +1,269 @@
+/* Recording beside a running loop. */
+#define _POSIX_C_SOURCE 200809L
+#include "recorder.h"
+
+#include "record_queue.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+struct recorder {
+    rlf_recording *recording;
+    record_queue queue;
+    pthread_t thread;
+    bool is_live, keeps_bodies, tells_at_once;
+    int64_t last_ns; /* of the frames in the queue, for sources that start again */
+    bool has_last;
+    uint64_t dropped;
+    /* What the thread says; under the queue's lock. */
+    rlf_recording_status written;
+    bool has_failed;
+    char problem[1024];
+    rlf_result result;
+    double cpu_s;
+};
+
+recorder_options recorder_options_default(void)
+{
+    return (recorder_options){.def = rlf_recording_def_default()};
+}
+
+bool recorder_take_codec(const char *text, void *out)
+{
+    recorder_options *o = out;
+    o->def.depth_codec = strcmp(text, "png") == 0 ? RLF_DEPTH_PNG : RLF_DEPTH_RVL;
+    return strcmp(text, "png") == 0 || strcmp(text, "rvl") == 0;
+}
+
+bool recorder_take_color(const char *text, void *out)
+{
+    ((recorder_options *)out)->def.jpeg_quality = 0;
+    return strcmp(text, "color") == 0;
+}
+
+bool recorder_take_compression(const char *text, void *out)
+{
+    static const char *const names[3] = {"zstd", "lz4", "none"};
+    for (int i = 0; i < 3; i++) {
+        if (strcmp(text, names[i]) == 0) {
+            ((recorder_options *)out)->def.compression = (rlf_compression)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* ---- the thread -------------------------------------------------------------------------------
+ */
+
+static void note(recorder *r, rlf_result result)
+{
+    const rlf_recording_status written = rlf_recording_get_status(r->recording);
+    pthread_mutex_lock(&r->queue.lock);
+    r->written = written;
+    const bool is_first = result != RLF_OK && !r->has_failed;
+    if (is_first) {
+        r->has_failed = true;
+        r->result = result;
+        snprintf(r->problem, sizeof(r->problem), "%s", rlf_error_text());
+    }
+    pthread_mutex_unlock(&r->queue.lock);
+    if (is_first && r->tells_at_once) {
+        rlf_log(RLF_LOG_ERROR, "%s; the run goes on, unrecorded", r->problem);
+    }
+}
+
+static void *write_all(void *context)
+{
+    recorder *r = context;
+    bool is_good = true;
+    record_item *item;
+    while ((item = record_queue_front(&r->queue)) != NULL) {
+        if (is_good) {
+            const rlf_result result =
+                item->is_bodies
+                    ? rlf_recording_add_bodies(r->recording, item->frame.time_ns, &item->snapshot)
+                    : rlf_recording_add(r->recording, &item->frame);
+            note(r, result);
+            is_good = result == RLF_OK;
+        }
+        record_queue_pop(&r->queue);
+    }
+    struct timespec cpu = {0};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &cpu);
+    r->cpu_s = (double)cpu.tv_sec + 1e-9 * (double)cpu.tv_nsec;
+    return NULL;
+}
+
+rlf_result recorder_open(const recorder_options *options, const rlf_source_info *info,
+                         recorder **out)
+{
+    *out = NULL;
+    recorder *r = rlf_alloc(sizeof(*r));
+    if (r == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    r->is_live = info->is_live;
+    r->keeps_bodies = options->keeps_bodies;
+    r->tells_at_once = options->tells_at_once;
+    rlf_result result = rlf_recording_open(options->path, info, &options->def, &r->recording);
+    if (result != RLF_OK) {
+        rlf_free(r);
+        return result;
+    }
+    record_queue_init(&r->queue, &info->rig);
+    if (pthread_create(&r->thread, NULL, write_all, r) != 0) {
+        rlf_recording_close(&r->recording, NULL);
+        record_queue_free(&r->queue);
+        rlf_free(r);
+        return rlf_fail(RLF_ERROR_MEMORY, "no thread can be started to record: close something");
+    }
+    *out = r;
+    return RLF_OK;
+}
+
+bool recorder_has_failed(recorder *r)
+{
+    pthread_mutex_lock(&r->queue.lock);
+    const bool has_failed = r->has_failed;
+    pthread_mutex_unlock(&r->queue.lock);
+    return has_failed;
+}
+
+recorder_status recorder_get_status(recorder *r)
+{
+    pthread_mutex_lock(&r->queue.lock);
+    const recorder_status status = {.written = r->written, .dropped = r->dropped};
+    pthread_mutex_unlock(&r->queue.lock);
+    return status;
+}
+
+rlf_result recorder_close(recorder **recorder_pointer, recorder_status *out)
+{
+    recorder *r = *recorder_pointer;
+    *recorder_pointer = NULL;
+    if (r == NULL) {
+        return RLF_OK;
+    }
+    record_queue_close(&r->queue);
+    pthread_join(r->thread, NULL);
+    rlf_recording_status written;
+    rlf_result result = rlf_recording_close(&r->recording, &written);
+    if (r->has_failed) {
+        result = rlf_fail(r->result, "%s", r->problem);
+    }
+    if (out != NULL) {
+        *out = (recorder_status){written, r->dropped, r->cpu_s, r->has_failed && r->tells_at_once};
+    }
+    record_queue_free(&r->queue);
+    rlf_free(r);
+    return result;
+}
+
+void recorder_print_summary(const recorder_options *options, const recorder_status *status)
+{
+    if (options->path != NULL) {
+        printf("recorded: %s: %llu frames, %.1f MB; %llu dropped since the disk or the processor "
+               "was too slow\n",
+               options->path, (unsigned long long)status->written.frames,
+               1e-6 * (double)status->written.bytes, (unsigned long long)status->dropped);
+    }
+}
+
+/* ---- the loop's side --------------------------------------------------------------------------
+ */
+
+static void add_frame(recorder *r, const rlf_frame *frame)
+{
+    /* A clip that starts again was recorded already. */
+    if (r->has_last && frame->time_ns <= r->last_ns) {
+        return;
+    }
+    record_item *item =
+        recorder_has_failed(r) ? NULL : record_queue_reserve(&r->queue, !r->is_live);
+    if (item == NULL || !record_item_set_frame(item, &r->queue.rig, frame)) {
+        r->dropped++;
+        return;
+    }
+    r->has_last = true;
+    r->last_ns = frame->time_ns;
+    record_queue_push(&r->queue);
+}
+
+void recorder_add_bodies(recorder *r, int64_t time_ns, const rlf_snapshot *snapshot)
+{
+    if (r == NULL || !r->keeps_bodies || recorder_has_failed(r)) {
+        return;
+    }
+    record_item *item = record_queue_reserve(&r->queue, !r->is_live);
+    if (item != NULL && record_item_set_bodies(item, time_ns, snapshot)) {
+        record_queue_push(&r->queue);
+    }
+}
+
+typedef struct tap {
+    recorder *recorder;
+    rlf_source *source;
+} tap;
+
+static rlf_result tap_next(void *self, rlf_frame *out)
+{
+    tap *t = self;
+    const rlf_result result = rlf_source_next(t->source, out);
+    if (result == RLF_OK) {
+        add_frame(t->recorder, out);
+    }
+    return result;
+}
+
+static rlf_result tap_restart(void *self)
+{
+    return rlf_source_restart(((tap *)self)->source);
+}
+
+static rlf_result tap_seek(void *self, int64_t index)
+{
+    return rlf_source_seek(((tap *)self)->source, index);
+}
+
+static const rlf_truth *tap_truth(void *self)
+{
+    return rlf_source_get_truth(((tap *)self)->source);
+}
+
+static void tap_status(void *self, rlf_source_status *out)
+{
+    *out = rlf_source_get_status(((tap *)self)->source);
+}
+
+static void tap_destroy(void *self)
+{
+    tap *t = self;
+    rlf_source_destroy(&t->source);
+    rlf_free(t);
+}
+
+rlf_result recorder_tap(recorder *r, rlf_source **source)
+{
+    static const rlf_source_methods methods = {.next = tap_next,
+                                               .restart = tap_restart,
+                                               .seek = tap_seek,
+                                               .truth = tap_truth,
+                                               .status = tap_status,
+                                               .destroy = tap_destroy};
+    tap *t = rlf_alloc(sizeof(*t));
+    if (t == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    *t = (tap){r, *source};
+    rlf_source *tapped = NULL;
+    rlf_result result =
+        rlf_source_create_custom(&methods, rlf_source_get_info(*source), t, &tapped);
+    if (result != RLF_OK) {
+        rlf_free(t);
+        return result;
+    }
+    *source = tapped;
+    return RLF_OK;
+}

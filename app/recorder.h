@@ -1,0 +1,69 @@
+/* Recording beside a running loop: frames are copied to a queue, and a thread of its own encodes
+ * and writes them. */
+#ifndef RELIEF_APP_RECORDER_H
+#define RELIEF_APP_RECORDER_H
+
+#include "options.h"
+#include "relief/io.h"
+
+typedef struct recorder_options {
+    const char *path; /* NULL = nothing is recorded */
+    rlf_recording_def def;
+    bool keeps_bodies;
+    bool tells_at_once; /* a failure is logged when it happens: the loop goes on without it */
+} recorder_options;
+
+typedef struct recorder_status {
+    rlf_recording_status written;
+    uint64_t dropped; /* frames of a live source that found the queue full */
+    double cpu_s;     /* of the writing thread */
+    bool is_told;     /* that it failed */
+} recorder_status;
+
+typedef struct recorder recorder;
+
+recorder_options recorder_options_default(void);
+
+/* Rows of an option table that set the codec, the quality and the compression. */
+#define RECORDER_OPTIONS(options)                                                                  \
+    {.name = "codec",                                                                              \
+     .kind = OPTION_CHOICE,                                                                        \
+     .out = (options),                                                                             \
+     .take = recorder_take_codec,                                                                  \
+     .choices = "use rvl or png"},                                                                 \
+        {.name = "jpeg-quality",                                                                   \
+         .kind = OPTION_INT32,                                                                     \
+         .out = &(options)->def.jpeg_quality,                                                      \
+         .low = 1,                                                                                 \
+         .high = 100},                                                                             \
+        {.name = "lossless",                                                                       \
+         .kind = OPTION_CHOICE,                                                                    \
+         .out = (options),                                                                         \
+         .take = recorder_take_color,                                                              \
+         .choices = "use color"},                                                                  \
+    {                                                                                              \
+        .name = "compression", .kind = OPTION_CHOICE, .out = (options),                            \
+        .take = recorder_take_compression, .choices = "use zstd, lz4 or none"                      \
+    }
+
+bool recorder_take_codec(const char *text, void *out);
+bool recorder_take_color(const char *text, void *out);
+bool recorder_take_compression(const char *text, void *out);
+
+/* Begins the file and starts the thread. */
+rlf_result recorder_open(const recorder_options *options, const rlf_source_info *info,
+                         recorder **out);
+/* Puts in place of *source one that gives the same frames and records them; it owns the other.
+ * Frames of a file wait for room in the queue; those of a camera are dropped and counted. */
+rlf_result recorder_tap(recorder *recorder, rlf_source **source);
+/* Bodies after the frame of that time, when the options say so. */
+void recorder_add_bodies(recorder *recorder, int64_t time_ns, const rlf_snapshot *snapshot);
+/* Whether writing has failed, which was told; recorder_close has the line again. */
+bool recorder_has_failed(recorder *recorder);
+recorder_status recorder_get_status(recorder *recorder);
+/* Waits until all is written and finishes the file. The pointer is nulled even when that fails. */
+rlf_result recorder_close(recorder **recorder, recorder_status *out);
+/* One line for people; nothing when nothing was recorded. */
+void recorder_print_summary(const recorder_options *options, const recorder_status *status);
+
+#endif

@@ -1,0 +1,265 @@
+/* Pictures in ROS messages. */
+#include "io/mcap/pixels.h"
+
+#include "io/picture.h"
+
+/* compressed_depth_image_transport: what kind, and two floats that turn counts into inverse depth.
+ * RVL has the width and the height behind it. */
+#define DEPTH_HEAD 12
+#define RVL_HEAD 8
+
+static io_ros_pixels raw_pixels(const char *encoding)
+{
+    static const struct {
+        const char *name;
+        io_ros_pixels pixels;
+    } known[] = {
+        {"16UC1", IO_ROS_DEPTH_U16}, {"mono16", IO_ROS_DEPTH_U16}, {"32FC1", IO_ROS_DEPTH_F32},
+        {"mono8", IO_ROS_MONO8},     {"8UC1", IO_ROS_MONO8},       {"rgb8", IO_ROS_RGB8},
+        {"bgr8", IO_ROS_BGR8},       {"8UC3", IO_ROS_BGR8},        {"rgba8", IO_ROS_RGBA8},
+        {"bgra8", IO_ROS_BGRA8},     {"8UC4", IO_ROS_BGRA8},
+    };
+    for (size_t i = 0; i < sizeof(known) / sizeof(known[0]); i++) {
+        if (strcmp(encoding, known[i].name) == 0) {
+            return known[i].pixels;
+        }
+    }
+    return IO_ROS_UNKNOWN;
+}
+
+/* "16UC1; compressedDepth rvl", "16UC1; compressedDepth", "rgb8; jpeg compressed bgr8", "png". */
+static io_ros_pixels compressed_pixels(const io_ros_image *image)
+{
+    const char *format = image->encoding;
+    const bool is_metres = strncmp(format, "32FC1", 5) == 0;
+    if (strstr(format, "compressedDepth") != NULL) {
+        if (strstr(format, "rvl") != NULL) {
+            return is_metres ? IO_ROS_DEPTH_RVL_F32 : IO_ROS_DEPTH_RVL;
+        }
+        return is_metres ? IO_ROS_DEPTH_PNG_F32 : IO_ROS_DEPTH_PNG;
+    }
+    if (strncmp(format, "16UC1", 5) == 0 || strncmp(format, "mono16", 6) == 0) {
+        return IO_ROS_DEPTH_PNG;
+    }
+    const io_cdr_span *d = &image->data;
+    const bool is_jpeg = d->size >= 2 && d->data[0] == 0xFF && d->data[1] == 0xD8;
+    const io_bytes file = {"", d->data, d->size};
+    return is_jpeg || io_png_is(&file) ? IO_ROS_PICTURE : IO_ROS_UNKNOWN;
+}
+
+io_ros_pixels io_ros_pixels_of(const io_ros_image *image, bool is_compressed)
+{
+    return is_compressed ? compressed_pixels(image) : raw_pixels(image->encoding);
+}
+
+bool io_ros_is_depth(io_ros_pixels pixels)
+{
+    return pixels >= IO_ROS_DEPTH_U16 && pixels <= IO_ROS_DEPTH_PNG_F32;
+}
+
+bool io_ros_is_metres(io_ros_pixels pixels)
+{
+    return pixels == IO_ROS_DEPTH_F32 || pixels == IO_ROS_DEPTH_RVL_F32 ||
+           pixels == IO_ROS_DEPTH_PNG_F32;
+}
+
+/* The bytes of the picture itself: a PNG of compressedDepth begins behind a head. */
+static io_bytes picture_of(const char *name, const io_ros_image *image, io_ros_pixels pixels)
+{
+    const io_cdr_span *d = &image->data;
+    io_bytes file = {name, d->data, d->size};
+    const bool has_head = (pixels == IO_ROS_DEPTH_PNG || pixels == IO_ROS_DEPTH_PNG_F32) &&
+                          !io_png_is(&file) && d->size >= DEPTH_HEAD;
+    if (has_head) {
+        file.data += DEPTH_HEAD;
+        file.size -= DEPTH_HEAD;
+    }
+    return file;
+}
+
+static uint32_t big_endian(const uint8_t *data, size_t bytes)
+{
+    uint32_t value = 0;
+    for (size_t i = 0; i < bytes; i++) {
+        value = value << 8 | data[i];
+    }
+    return value;
+}
+
+/* The start-of-frame segment: its marker, two bytes of length, one of precision, then the size. */
+static bool jpeg_size(const io_bytes *file, uint32_t *out_width, uint32_t *out_height)
+{
+    size_t at = 2;
+    while (at + 9 <= file->size && file->data[at] == 0xFF) {
+        const uint8_t marker = file->data[at + 1];
+        if (marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 &&
+            marker != 0xCC) {
+            *out_height = big_endian(file->data + at + 5, 2);
+            *out_width = big_endian(file->data + at + 7, 2);
+            return true;
+        }
+        at += marker == 0xFF ? 1 : 2 + big_endian(file->data + at + 2, 2);
+    }
+    return false;
+}
+
+bool io_ros_picture_size(const io_ros_image *image, io_ros_pixels pixels, int32_t *out_width,
+                         int32_t *out_height)
+{
+    uint32_t width = image->width;
+    uint32_t height = image->height;
+    if (pixels == IO_ROS_DEPTH_RVL || pixels == IO_ROS_DEPTH_RVL_F32) {
+        if (image->data.size < DEPTH_HEAD + RVL_HEAD) {
+            return false;
+        }
+        memcpy(&width, image->data.data + DEPTH_HEAD, 4);
+        memcpy(&height, image->data.data + DEPTH_HEAD + 4, 4);
+    } else if (width == 0) {
+        const io_bytes file = picture_of("", image, pixels);
+        if (io_png_is(&file) && file.size >= 24) {
+            width = big_endian(file.data + 16, 4);
+            height = big_endian(file.data + 20, 4);
+        } else if (!jpeg_size(&file, &width, &height)) {
+            return false;
+        }
+    }
+    *out_width = (int32_t)(width <= RLF_IMAGE_SIZE_MAX ? width : 0);
+    *out_height = (int32_t)(height <= RLF_IMAGE_SIZE_MAX ? height : 0);
+    return *out_width > 0 && *out_height > 0;
+}
+
+static rlf_result fail_size(const char *name, const io_ros_image *image, int32_t width,
+                            int32_t height)
+{
+    return rlf_fail(RLF_ERROR_FORMAT,
+                    "%s: a picture of %s at %.3f s has another size than the %d x %d of its "
+                    "calibration, or is cut short: give one of its size with ?camera=FILE",
+                    name, image->header.frame_id, 1e-9 * (double)image->header.stamp_ns, (int)width,
+                    (int)height);
+}
+
+/* Rows of `bytes` per pixel, or NULL when they are not all there. */
+static const uint8_t *raw_rows(const io_ros_image *image, int32_t width, int32_t height,
+                               size_t bytes, size_t *out_step)
+{
+    const size_t row = (size_t)width * bytes;
+    const size_t step = image->step > 0 ? image->step : row;
+    *out_step = step;
+    const bool is_whole = image->width == (uint32_t)width && image->height == (uint32_t)height &&
+                          step >= row && image->data.size >= step * (size_t)(height - 1) + row;
+    return is_whole ? image->data.data : NULL;
+}
+
+static rlf_result decode_raw_depth(const char *name, const io_ros_image *image, size_t bytes,
+                                   int32_t width, int32_t height, void *out)
+{
+    size_t step;
+    const uint8_t *rows = raw_rows(image, width, height, bytes, &step);
+    if (rows == NULL) {
+        return fail_size(name, image, width, height);
+    }
+    const size_t row = (size_t)width * bytes;
+    for (int32_t y = 0; y < height; y++) {
+        uint8_t *to = (uint8_t *)out + (size_t)y * row;
+        memcpy(to, rows + (size_t)y * step, row);
+        for (size_t i = 0; image->is_bigendian && i < row; i += bytes) {
+            for (size_t b = 0; b < bytes / 2; b++) {
+                const uint8_t byte = to[i + b];
+                to[i + b] = to[i + bytes - 1 - b];
+                to[i + bytes - 1 - b] = byte;
+            }
+        }
+    }
+    return RLF_OK;
+}
+
+static rlf_result decode_rvl(const io_ros_decoder *decoder, const io_ros_image *image,
+                             int32_t width, int32_t height, uint16_t *out)
+{
+    int32_t w, h;
+    if (!io_ros_picture_size(image, IO_ROS_DEPTH_RVL, &w, &h) || w != width || h != height) {
+        return fail_size(decoder->name, image, width, height);
+    }
+    const size_t head = DEPTH_HEAD + RVL_HEAD;
+    if (!io_rvl_decode(&decoder->rvl, image->data.data + head, image->data.size - head, out,
+                       (size_t)width * (size_t)height)) {
+        return rlf_fail(RLF_ERROR_FORMAT,
+                        "%s: the depth picture at %.3f s is damaged (RVL): "
+                        "record it again",
+                        decoder->name, 1e-9 * (double)image->header.stamp_ns);
+    }
+    return RLF_OK;
+}
+
+static rlf_result decode_counts(const io_ros_decoder *decoder, const io_ros_image *image,
+                                io_ros_pixels pixels, int32_t width, int32_t height, uint16_t *out)
+{
+    if (pixels == IO_ROS_DEPTH_RVL || pixels == IO_ROS_DEPTH_RVL_F32) {
+        return decode_rvl(decoder, image, width, height, out);
+    }
+    const io_bytes file = picture_of(decoder->name, image, pixels);
+    io_picture picture = {.width = width, .height = height, .data = out};
+    return io_png_decode_u16(&file, &picture);
+}
+
+/* depth = a / (count - b) */
+static rlf_result decode_inverse(const io_ros_decoder *decoder, const io_ros_image *image,
+                                 io_ros_pixels pixels, int32_t width, int32_t height, float *out)
+{
+    float parameters[2];
+    if (image->data.size < DEPTH_HEAD || decoder->counts == NULL) {
+        return fail_size(decoder->name, image, width, height);
+    }
+    memcpy(parameters, image->data.data + 4, sizeof(parameters));
+    rlf_result result = decode_counts(decoder, image, pixels, width, height, decoder->counts);
+    for (size_t i = 0; result == RLF_OK && i < (size_t)width * (size_t)height; i++) {
+        const uint16_t count = decoder->counts[i];
+        out[i] = count > 0 ? parameters[0] / ((float)count - parameters[1]) : 0.0f;
+    }
+    return result;
+}
+
+rlf_result io_ros_decode_depth(const io_ros_decoder *decoder, const io_ros_image *image,
+                               io_ros_pixels pixels, int32_t width, int32_t height, void *out)
+{
+    if (pixels == IO_ROS_DEPTH_U16 || pixels == IO_ROS_DEPTH_F32) {
+        return decode_raw_depth(decoder->name, image, pixels == IO_ROS_DEPTH_U16 ? 2 : 4, width,
+                                height, out);
+    }
+    return io_ros_is_metres(pixels) ? decode_inverse(decoder, image, pixels, width, height, out)
+                                    : decode_counts(decoder, image, pixels, width, height, out);
+}
+
+rlf_result io_ros_decode_color(const io_ros_decoder *decoder, const io_ros_image *image,
+                               io_ros_pixels pixels, const rlf_image_rgba8 *out)
+{
+    if (pixels == IO_ROS_PICTURE) {
+        const io_bytes file = picture_of(decoder->name, image, pixels);
+        io_picture picture = {
+            .width = out->width, .height = out->height, .data = out->data, .is_opaque = true};
+        return io_picture_decode(&file, &picture);
+    }
+    const size_t bytes = pixels == IO_ROS_MONO8                           ? 1
+                         : pixels == IO_ROS_RGB8 || pixels == IO_ROS_BGR8 ? 3
+                                                                          : 4;
+    size_t step;
+    const uint8_t *rows = raw_rows(image, out->width, out->height, bytes, &step);
+    if (rows == NULL) {
+        return fail_size(decoder->name, image, out->width, out->height);
+    }
+    const bool is_bgr = pixels == IO_ROS_BGR8 || pixels == IO_ROS_BGRA8;
+    const size_t red = is_bgr ? 2 : 0;
+    const size_t green = bytes > 1 ? 1 : 0;
+    const size_t blue = bytes > 1 ? 2 - red : 0;
+    for (int32_t y = 0; y < out->height; y++) {
+        const uint8_t *from = rows + (size_t)y * step;
+        uint8_t *to = rlf_rgba8_row(out, y);
+        for (int32_t x = 0; x < out->width; x++, from += bytes, to += 4) {
+            to[0] = from[red];
+            to[1] = from[green];
+            to[2] = from[blue];
+            to[3] = 255;
+        }
+    }
+    return RLF_OK;
+}

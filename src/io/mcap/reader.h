@@ -1,0 +1,78 @@
+/* What the parts of the MCAP reader share. */
+#ifndef RLF_IO_MCAP_READER_H
+#define RLF_IO_MCAP_READER_H
+
+#include "io/mcap/compress.h"
+#include "io/mcap/read.h"
+
+/* A list that grows; `size` of an item is given with every call. */
+typedef struct io_mcap_list {
+    void *items;
+    int32_t count, capacity;
+} io_mcap_list;
+
+/* Room for one more at the end (then counted), or NULL. */
+void *io_mcap_list_add(io_mcap_list *list, size_t size);
+
+typedef struct io_mcap_schema {
+    uint16_t id;
+    io_ros_type type;
+} io_mcap_schema;
+
+typedef struct io_mcap_chunk {
+    uint64_t offset; /* of the record */
+    bool is_bad;     /* and was told */
+} io_mcap_chunk;
+
+/* Two, since the depth and the colour of a frame may lie in neighbours. */
+#define IO_MCAP_CACHED 2
+
+typedef struct io_mcap_cached {
+    int32_t chunk; /* -1 = none */
+    uint64_t used; /* when, in calls */
+    io_buffer buffer;
+    size_t size;
+} io_mcap_cached;
+
+#define IO_MCAP_METADATA_MAX 8192
+
+struct io_mcap_reader {
+    char path[IO_PATH_MAX];
+    int file;
+    uint64_t size;
+    io_mcap_compressor *compressor;
+    io_mcap_list schemas, channels, chunks, messages;
+    io_buffer packed; /* a chunk before it is decompressed, a summary, a block of indexes */
+    io_buffer loose;  /* a message outside chunks */
+    io_mcap_cached cache[IO_MCAP_CACHED];
+    uint64_t calls;
+    int32_t bad_chunks;
+    bool is_full;                        /* more messages than are listed */
+    bool lacks_memory;                   /* a list could not grow */
+    char metadata[IO_MCAP_METADATA_MAX]; /* key, 0, value, 0, ..., 0 */
+};
+
+/* Bytes of the file; false when they are not all there. */
+bool io_mcap_read_at(const io_mcap_reader *reader, uint64_t offset, void *out, size_t size);
+/* The same into a buffer of the reader. */
+rlf_result io_mcap_read_block(const io_mcap_reader *reader, uint64_t offset, uint64_t size,
+                              io_buffer *buffer);
+
+/* Records that say what is in the file; others are passed over. `chunk` -1: in the file itself. */
+void io_mcap_take_schema(io_mcap_reader *reader, io_mcap_cursor record);
+void io_mcap_take_channel(io_mcap_reader *reader, io_mcap_cursor record);
+void io_mcap_take_metadata(io_mcap_reader *reader, io_mcap_cursor record);
+void io_mcap_list_message(io_mcap_reader *reader, uint16_t channel_id, uint64_t time, int32_t chunk,
+                          uint64_t offset);
+
+/* Chunk `index` decompressed and checked; NULL when it is damaged, which is told once for all. */
+const io_mcap_cached *io_mcap_load_chunk(io_mcap_reader *reader, int32_t index);
+/* Lists what is in a chunk by looking into it. */
+void io_mcap_walk_chunk(io_mcap_reader *reader, int32_t index);
+
+/* Lists the file from its summary; false when there is none that can be used. */
+bool io_mcap_read_summary(io_mcap_reader *reader);
+/* Lists the file from its beginning. False when it does not begin as one. */
+bool io_mcap_scan(io_mcap_reader *reader);
+
+#endif

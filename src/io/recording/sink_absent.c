@@ -1,0 +1,15 @@
+/* MCAP files in a build without zstd and lz4. */
+#include "io/recording/sink.h"
+
+rlf_result io_mcap_sink_open(const char *path, const rlf_source_info *info,
+                             const rlf_recording_def *def, io_sink *out)
+{
+    (void)info;
+    (void)def;
+    (void)out;
+    return rlf_fail(
+        RLF_ERROR_UNSUPPORTED,
+        "%s: this build was made without MCAP: configure it with -DRELIEF_WITH_MCAP=ON "
+        "(Debian: apt install libzstd-dev liblz4-dev), or record into a folder, FOLDER/",
+        path);
+}

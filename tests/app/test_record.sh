@@ -1,0 +1,80 @@
+#!/bin/sh
+# `relief record` and `relief run --record` as a user meets them: test_record.sh RELIEF WORK_FOLDER.
+set -eu
+
+relief=$1
+work=$2
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work"
+
+fail() {
+    echo "FAILED: $1" >&2
+    exit 1
+}
+
+# expect STATUS WORDS COMMAND...: exit status, and words somewhere in what it prints.
+expect() {
+    wanted=$1
+    words=$2
+    shift 2
+    status=0
+    "$@" >out.txt 2>&1 || status=$?
+    [ "$status" = "$wanted" ] || fail "exit status $status, not $wanted: $* : $(cat out.txt)"
+    grep -q -- "$words" out.txt || fail "no \"$words\" in: $(cat out.txt)"
+}
+
+# One line of error and no more.
+expect_one_line() {
+    [ "$(wc -l <out.txt)" = 1 ] || fail "more than one line: $(cat out.txt)"
+}
+
+expect 0 'usage: relief record' "$relief" record --help
+expect 2 'needs a SOURCE' "$relief" record synthetic:room
+expect 2 'use rvl or png' "$relief" record synthetic:room a.mcap --codec nothing
+expect 1 'cannot be created' "$relief" record synthetic:room no/such/a.mcap
+expect_one_line
+
+# Playing a recording is what was recorded: the same surface, and so the same physics.
+direct=$("$relief" run synthetic:room --headless --frames 12 --hash --quiet --record run.mcap \
+    --record-bodies --lossless color)
+expect 0 '8 frames' "$relief" record synthetic:room all.mcap --frames 8 --lossless color
+again=$("$relief" run run.mcap --headless --hash --quiet --gravity 0,9.81,0)
+[ "$direct" = "$again" ] || fail "$again is not $direct"
+
+# Seconds, and a folder and back.
+expect 0 '31 frames' "$relief" record synthetic:room second.mcap --seconds 1
+expect 0 '8 frames' "$relief" record all.mcap folder/
+[ -f folder/camera.json ] && [ -f folder/depth/000007.png ] && [ -f folder/rgb/000007.png ] ||
+    fail "the folder is not whole"
+expect 0 '8 frames' "$relief" record folder back.mcap --lossless color --compression lz4
+"$relief" run all.mcap --headless --hash --quiet --gravity 0,9.81,0 >one.txt
+"$relief" run back.mcap --headless --hash --quiet --gravity 0,9.81,0 >two.txt
+cmp one.txt two.txt || fail "a clip changed on its way through a folder"
+
+# A disk that is full, for which a limit on the size of files stands.
+status=0
+(ulimit -f 2000 && exec "$relief" record 'synthetic:room?frames=-1' full.mcap --quiet) \
+    >out.txt 2>&1 || status=$?
+[ "$status" = 1 ] || fail "a full disk gives exit status $status: $(cat out.txt)"
+expect_one_line
+grep -q 'free some space' out.txt || fail "a full disk says: $(cat out.txt)"
+expect 0 'frames' "$relief" record full.mcap again.mcap
+grep -q warning out.txt && fail "the file of a full disk was not closed: $(cat out.txt)"
+
+# Ctrl-C closes the file; kill -9 leaves one that is repaired by reading.
+for signal in INT KILL; do
+    "$relief" record 'synthetic:room?frames=-1' "$signal.mcap" --quiet &
+    child=$!
+    while ! [ -s "$signal.mcap" ]; do sleep 0.1; done
+    sleep 1
+    kill -s "$signal" "$child"
+    status=0
+    wait "$child" 2>/dev/null || status=$?
+    [ "$signal" = KILL ] || [ "$status" = 0 ] || fail "Ctrl-C gives exit status $status"
+    expect 0 'frames' "$relief" record "$signal.mcap" again.mcap
+    warnings=$(grep -c warning out.txt || true)
+    [ "$signal" = INT ] && [ "$warnings" = 0 ] || [ "$signal" = KILL ] && [ "$warnings" -le 1 ] ||
+        fail "$signal: $(cat out.txt)"
+done
+echo "recordings are as they should be"
