@@ -307,7 +307,6 @@ static void sources_that_cannot_be_opened(void **state)
         {"/no/such/place", RLF_ERROR_IO, "no such file or folder", "synthetic:room"},
         {"nosuch:0", RLF_ERROR_UNSUPPORTED, "\"nosuch:\"", "relief sources"},
         {"ros2:/camera", RLF_ERROR_UNSUPPORTED, "\"ros2:\"", "relief sources"},
-        {"realsense:", RLF_ERROR_UNSUPPORTED, "\"realsense:\"", "relief sources"},
         {test_path("file.bag"), RLF_ERROR_UNSUPPORTED, "is a file", "give the folder"},
     };
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
