@@ -1,8 +1,6 @@
 /* Frames of a Kinect v2. */
 #include "io/freenect2/freenect2.h"
 
-#include "io/driver/pixels.h"
-
 #include <string.h>
 
 #define TICK_NS 125000 /* of the device's time */
@@ -28,12 +26,20 @@ static void fill_depth(freenect2 *k, const float *depth_mm)
     }
 }
 
-static io_raw_picture raw_color(const void *pixels, int32_t width, int32_t height, int32_t is_rgbx)
+/* BGRX or RGBX of a mirrored picture to RGBA of one that is not. */
+static void fill_color(const rlf_image_rgba8 *out, const uint8_t *color, bool is_rgbx)
 {
-    return (io_raw_picture){.data = pixels,
-                            .size = (size_t)width * (size_t)height * 4,
-                            .stride = (ptrdiff_t)width * 4,
-                            .format = is_rgbx != 0 ? IO_PIXEL_RGBX8 : IO_PIXEL_BGRX8};
+    const int red = is_rgbx ? 0 : 2;
+    for (int32_t v = 0; v < out->height; v++) {
+        const uint8_t *in = color + (ptrdiff_t)v * out->width * 4;
+        uint8_t *to = rlf_rgba8_row(out, v) + (ptrdiff_t)(out->width - 1) * 4;
+        for (int32_t u = 0; u < out->width; u++, in += 4, to -= 4) {
+            to[0] = in[red];
+            to[1] = in[1];
+            to[2] = in[2 - red];
+            to[3] = 255;
+        }
+    }
 }
 
 static void fill_aligned(freenect2 *k, const relief_freenect2_frame *in)
@@ -41,19 +47,15 @@ static void fill_aligned(freenect2 *k, const relief_freenect2_frame *in)
     const kinect2_registered registered = {k->undistorted, k->registered, k->offset};
     kinect2_registration_apply(k->registration, in->depth,
                                (const uint32_t *)(const void *)in->color, &registered);
-    const io_raw_picture raw =
-        raw_color(k->registered, KINECT2_DEPTH_WIDTH, KINECT2_DEPTH_HEIGHT, in->color_is_rgbx);
     fill_depth(k, k->undistorted);
-    io_pixels_to_rgba(&raw, true, &k->color);
+    fill_color(&k->color, (const uint8_t *)k->registered, in->color_is_rgbx != 0);
 }
 
 static void fill_raw(freenect2 *k, const relief_freenect2_frame *in, bool has_color)
 {
     fill_depth(k, in->depth);
     if (has_color) {
-        const io_raw_picture raw =
-            raw_color(in->color, KINECT2_COLOR_WIDTH, KINECT2_COLOR_HEIGHT, in->color_is_rgbx);
-        io_pixels_to_rgba(&raw, true, &k->color);
+        fill_color(&k->color, in->color, in->color_is_rgbx != 0);
     }
 }
 

@@ -1,9 +1,9 @@
 /* Frames of an Azure Kinect or Femto camera. */
 #include "io/k4a/k4a.h"
 
-#include "io/driver/pixels.h"
 #include "io/file.h"
 #include "io/picture.h"
+#include "io/pixels/pixels_check.h"
 
 #include <string.h>
 
@@ -24,15 +24,19 @@ static int64_t time_of(const k4a *k, k4a_image_t image)
 static rlf_result fill_depth(k4a *k, k4a_image_t image, rlf_frame *out)
 {
     const rlf_camera *camera = &k->rig.depth;
-    const size_t row = (size_t)camera->width * 2;
-    const int stride = has_size(k, image, camera) ? k->api->image_get_stride_bytes(image) : 0;
-    if (stride < (int)row ||
-        k->api->image_get_size(image) < (size_t)stride * (size_t)(camera->height - 1) + row) {
+    const io_pixels raw = {.name = k->source,
+                           .width = camera->width,
+                           .height = camera->height,
+                           .step = k->api->image_get_stride_bytes(image),
+                           .data = k->api->image_get_buffer(image),
+                           .size = k->api->image_get_size(image)};
+    if (!has_size(k, image, camera) || raw.step < 1 ||
+        io_pixels_check(&raw, 2, raw.height) != RLF_OK) {
         k->damaged++;
         return RLF_NO_FRAME;
     }
-    out->depth_u16 = (const uint16_t *)(const void *)k->api->image_get_buffer(image);
-    out->depth_stride = stride;
+    out->depth_u16 = (const uint16_t *)(const void *)raw.data;
+    out->depth_stride = (ptrdiff_t)raw.step;
     out->depth_units_per_metre = 1000.0;
     return io_live_count_time(&k->count, time_of(k, image), out) ? RLF_OK : RLF_NO_FRAME;
 }
@@ -50,13 +54,16 @@ static bool decode(k4a *k, k4a_image_t image)
                               .is_opaque = true};
         return io_jpeg_decode_rgba(&file, &picture) == RLF_OK;
     }
-    const io_raw_picture raw = {.data = data,
-                                .size = size,
-                                .stride = k->api->image_get_stride_bytes(image),
-                                .format = format == K4A_FORMAT_COLOR_BGRA32 ? IO_PIXEL_BGRX8
-                                          : format == K4A_FORMAT_COLOR_YUY2 ? IO_PIXEL_YUYV
-                                                                            : IO_PIXEL_NONE};
-    return io_pixels_to_rgba(&raw, false, &k->color);
+    const io_pixels raw = {.name = k->source,
+                           .encoding = format == K4A_FORMAT_COLOR_BGRA32 ? "bgra8"
+                                       : format == K4A_FORMAT_COLOR_YUY2 ? "yuyv"
+                                                                         : "unknown",
+                           .width = k->color.width,
+                           .height = k->color.height,
+                           .step = k->api->image_get_stride_bytes(image),
+                           .data = data,
+                           .size = size};
+    return io_pixels_to_rgba(&raw, &k->color) == RLF_OK;
 }
 
 static void fill_color(k4a *k, k4a_image_t image, rlf_frame *out)

@@ -3,7 +3,7 @@
 #define RLF_IO_REALSENSE_REALSENSE_H
 
 #include "io/driver/live.h"
-#include "io/driver/pixels.h"
+#include "io/pixels/pixels.h"
 #include "io/realsense/realsense_api.h"
 
 typedef struct realsense {
@@ -17,7 +17,7 @@ typedef struct realsense {
     rlf_rig rig;
     double units_per_metre;
     int32_t frames_per_second;
-    io_pixel_format color_format;
+    const char *color_encoding; /* of io/pixels/pixels.h; NULL = one that is not read */
     rlf_image_rgba8 color;
     rs2_frame *held; /* the depth picture that was given last; the library's */
     int32_t domain;  /* clock of its time */

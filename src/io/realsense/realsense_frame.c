@@ -1,4 +1,5 @@
 /* Frames of a RealSense camera. */
+#include "io/pixels/pixels_check.h"
 #include "io/realsense/realsense.h"
 
 #include <math.h>
@@ -46,8 +47,9 @@ static pictures take_apart(const realsense *r, rs2_frame *set)
     return out;
 }
 
-static bool get_raw(const realsense *r, const rs2_frame *frame, const rlf_camera *camera,
-                    io_raw_picture *out)
+/* The frame's bytes; false when it has another size than its camera. */
+static bool get_pixels(const realsense *r, const rs2_frame *frame, const rlf_camera *camera,
+                       io_pixels *out)
 {
     rs2_error *error = NULL;
     const bool has_size =
@@ -55,10 +57,14 @@ static bool get_raw(const realsense *r, const rs2_frame *frame, const rlf_camera
         r->api->get_frame_height(frame, &error) == camera->height && error == NULL;
     const int stride = has_size ? r->api->get_frame_stride_in_bytes(frame, &error) : 0;
     const int size = has_size && error == NULL ? r->api->get_frame_data_size(frame, &error) : 0;
-    out->data = has_size && error == NULL ? r->api->get_frame_data(frame, &error) : NULL;
-    out->stride = stride;
-    out->size = size > 0 ? (size_t)size : 0;
-    return !io_realsense_forget(r->api, &error) && out->data != NULL && stride > 0;
+    const void *data = has_size && error == NULL ? r->api->get_frame_data(frame, &error) : NULL;
+    *out = (io_pixels){.name = r->source,
+                       .width = camera->width,
+                       .height = camera->height,
+                       .step = stride,
+                       .data = data,
+                       .size = size > 0 ? (size_t)size : 0};
+    return !io_realsense_forget(r->api, &error) && data != NULL && stride > 0;
 }
 
 /* Milliseconds as a double to nanoseconds; 0 when the library does not know. */
@@ -79,10 +85,9 @@ static int32_t domain_of(const realsense *r, const rs2_frame *frame)
 
 static rlf_result fill_depth(realsense *r, const rs2_frame *depth, rlf_frame *out)
 {
-    io_raw_picture raw = {0};
-    const size_t row = (size_t)r->rig.depth.width * 2;
-    if (!get_raw(r, depth, &r->rig.depth, &raw) || (size_t)raw.stride < row ||
-        raw.size < (size_t)raw.stride * (size_t)(r->rig.depth.height - 1) + row) {
+    io_pixels raw;
+    if (!get_pixels(r, depth, &r->rig.depth, &raw) ||
+        io_pixels_check(&raw, 2, raw.height) != RLF_OK) {
         r->damaged++;
         return RLF_NO_FRAME;
     }
@@ -96,19 +101,21 @@ static rlf_result fill_depth(realsense *r, const rs2_frame *depth, rlf_frame *ou
     r->count.is_restarted = r->count.is_restarted || domain != r->domain;
     r->domain = domain;
     out->depth_u16 = (const uint16_t *)(const void *)raw.data;
-    out->depth_stride = raw.stride;
+    out->depth_stride = (ptrdiff_t)raw.step;
     out->depth_units_per_metre = r->units_per_metre;
     return io_live_count_frame(&r->count, number, time_of(r, depth), out) ? RLF_OK : RLF_NO_FRAME;
 }
 
 static void fill_color(realsense *r, const rs2_frame *color, rlf_frame *out)
 {
-    io_raw_picture raw = {.format = r->color_format};
+    io_pixels raw;
     if (color == NULL) {
         r->unpaired++;
         return;
     }
-    if (!get_raw(r, color, &r->rig.color, &raw) || !io_pixels_to_rgba(&raw, false, &r->color)) {
+    const bool is_whole = get_pixels(r, color, &r->rig.color, &raw);
+    raw.encoding = r->color_encoding;
+    if (!is_whole || io_pixels_to_rgba(&raw, &r->color) != RLF_OK) {
         r->damaged++;
         return;
     }

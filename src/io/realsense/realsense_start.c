@@ -127,15 +127,15 @@ static rlf_result find_streams(realsense *r, const rs2_stream_profile_list *list
                           r->source);
 }
 
-static io_pixel_format pixels_of(int format)
+static const char *encoding_of(int format)
 {
     switch (format) {
-    case RS2_FORMAT_YUYV: return IO_PIXEL_YUYV;
-    case RS2_FORMAT_RGB8: return IO_PIXEL_RGB8;
-    case RS2_FORMAT_BGR8: return IO_PIXEL_BGR8;
-    case RS2_FORMAT_RGBA8: return IO_PIXEL_RGBX8;
-    case RS2_FORMAT_BGRA8: return IO_PIXEL_BGRX8;
-    default: return IO_PIXEL_NONE;
+    case RS2_FORMAT_YUYV: return "yuyv";
+    case RS2_FORMAT_RGB8: return "rgb8";
+    case RS2_FORMAT_BGR8: return "bgr8";
+    case RS2_FORMAT_RGBA8: return "rgba8";
+    case RS2_FORMAT_BGRA8: return "bgra8";
+    default: return NULL;
     }
 }
 
@@ -190,8 +190,8 @@ static rlf_result read_transform(realsense *r, const streams *s)
 static rlf_result read_cameras(realsense *r, const streams *s)
 {
     rlf_result result = read_camera(r, s->depth, "depth", &r->rig.depth);
-    r->color_format = s->color != NULL ? pixels_of(s->color_format) : IO_PIXEL_NONE;
-    r->rig.has_color = r->color_format != IO_PIXEL_NONE;
+    r->color_encoding = s->color != NULL ? encoding_of(s->color_format) : NULL;
+    r->rig.has_color = r->color_encoding != NULL;
     r->rig.T_color_depth = rlf_pose_identity();
     if (result == RLF_OK && s->color != NULL && !r->rig.has_color) {
         rlf_log(RLF_LOG_WARNING,
