@@ -14,6 +14,7 @@ typedef struct stub_fault {
     bool open_fails, start_fails;
     bool is_paced;             /* pictures come at their rate, else at once */
     int unplug_at;             /* from this wait on the camera is gone */
+    int returns_after;         /* looks for the camera that is gone, until it is back; 0 = never */
     int stall_at, stall_count; /* waits in which nothing comes */
     int drop_at, drop_count;   /* pictures lost before this wait */
     int double_at;             /* the last picture comes again */

@@ -337,6 +337,39 @@ static void survives_broken_cameras(void **state)
     assert_int_equal(stub->fault.objects, 0);
 }
 
+/* As a program opens it: the plug is pulled after some frames and comes back. */
+static void comes_back(void **state)
+{
+    (void)state;
+    stub_fault *fault = &stub_realsense2_get()->fault;
+    fault->is_paced = true;
+    fault->unplug_at = 5;
+    fault->returns_after = 3;
+    const int64_t start = rlf_clock_ns();
+    rlf_source *s = NULL;
+    assert_int_equal(rlf_open_source("realsense:", NULL, &s), RLF_OK);
+    int64_t first = 0;
+    int64_t last_time = -1;
+    int after = 0;
+    while (after < 3 && rlf_clock_ns() - start < INT64_C(20000000000)) {
+        rlf_frame f;
+        const rlf_result result = rlf_source_next(s, &f);
+        assert_true(result == RLF_OK || result == RLF_NO_FRAME);
+        if (result == RLF_NO_FRAME) {
+            continue;
+        }
+        first = first == 0 ? rlf_clock_ns() - start : first;
+        assert_true(f.time_ns > last_time);
+        last_time = f.time_ns;
+        after += after > 0 || (f.flags & RLF_FRAME_DISCONTINUITY) != 0;
+    }
+    print_message("first frame after %.0f ms\n", (double)first / 1e6);
+    assert_int_equal(after, 3);
+    assert_true(first < INT64_C(1500000000));
+    assert_true(rlf_source_get_status(s).is_connected);
+    close_source(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -351,6 +384,7 @@ int main(void)
         cmocka_unit_test_setup(tells_clock_changes, set_up),
         cmocka_unit_test_setup(tells_faults, set_up),
         cmocka_unit_test_setup(survives_broken_cameras, set_up),
+        cmocka_unit_test_setup(comes_back, set_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

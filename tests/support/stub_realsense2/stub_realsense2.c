@@ -127,6 +127,9 @@ rs2_device_list *rs2_query_devices(const rs2_context *context, rs2_error **error
 {
     (void)context;
     (void)error;
+    if (is_gone() && stub.fault.returns_after > 0 && --stub.fault.returns_after == 0) {
+        stub.fault.unplug_at = 0;
+    }
     rs2_device_list *list = make(sizeof(*list));
     list->count = is_gone() ? 0 : stub.fault.devices;
     return list;
