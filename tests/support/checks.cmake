@@ -34,12 +34,12 @@ if(RELIEF_WITH_FREENECT AND TARGET test_io_freenect)
                         LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/freenect)
   add_dependencies(test_io_freenect freenect_stub)
   target_compile_definitions(test_io_freenect PRIVATE
-                             RLF_TEST_FREENECT_STUB="${CMAKE_CURRENT_BINARY_DIR}/freenect")
+                             RLF_TEST_FREENECT_STUB="$<TARGET_FILE:freenect_stub>")
   find_file(RELIEF_FAKENECT_LIBRARY libfreenect.so.0.5
             PATHS /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/fakenect /usr/lib/fakenect
             NO_DEFAULT_PATH)
   if(RELIEF_FAKENECT_LIBRARY)
-    get_filename_component(place ${RELIEF_FAKENECT_LIBRARY} DIRECTORY)
-    target_compile_definitions(test_io_fakenect PRIVATE RLF_TEST_FAKENECT="${place}")
+    target_compile_definitions(test_io_fakenect PRIVATE
+                               RLF_TEST_FAKENECT="${RELIEF_FAKENECT_LIBRARY}")
   endif()
 endif()
