@@ -7,11 +7,8 @@ find_file(RELIEF_OPENNI2_LIBRARY libOpenNI2.so.0
           PATHS /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE} /usr/lib64 /usr/lib NO_DEFAULT_PATH)
 if(RELIEF_WITH_OPENNI2 AND RELIEF_OPENNI2_LIBRARY AND TARGET test_io_openni2)
   set(place ${CMAKE_CURRENT_BINARY_DIR}/openni2)
-  get_filename_component(system ${RELIEF_OPENNI2_LIBRARY} DIRECTORY)
   file(MAKE_DIRECTORY ${place}/OpenNI2/Drivers)
   file(CREATE_LINK ${RELIEF_OPENNI2_LIBRARY} ${place}/libOpenNI2.so.0 SYMBOLIC)
-  file(CREATE_LINK ${system}/OpenNI2/Drivers/libOniFile.so.0
-       ${place}/OpenNI2/Drivers/libOniFile.so.0 SYMBOLIC)
   add_library(openni2_test_driver MODULE ${support}/openni2_driver/driver.c)
   relief_settings(openni2_test_driver)
   target_compile_options(openni2_test_driver PRIVATE -Wno-missing-prototypes)
@@ -21,6 +18,9 @@ if(RELIEF_WITH_OPENNI2 AND RELIEF_OPENNI2_LIBRARY AND TARGET test_io_openni2)
                         LIBRARY_OUTPUT_DIRECTORY ${place}/OpenNI2/Drivers)
   add_dependencies(test_io_openni2 openni2_test_driver)
   target_compile_definitions(test_io_openni2 PRIVATE RLF_TEST_OPENNI2="${place}")
+  # OpenNI2 itself leaks some hundred bytes each time it starts. Nothing else may.
+  set_tests_properties(unit.test_io_openni2 PROPERTIES ENVIRONMENT
+                       "LSAN_OPTIONS=suppressions=${support}/openni2_leaks.txt:print_suppressions=0")
 endif()
 
 # libfreenect: a stand-in with a factory calibration, and Debian's fakenect, which plays dumps.
@@ -34,12 +34,12 @@ if(RELIEF_WITH_FREENECT AND TARGET test_io_freenect)
                         LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/freenect)
   add_dependencies(test_io_freenect freenect_stub)
   target_compile_definitions(test_io_freenect PRIVATE
-                             RLF_TEST_FREENECT_STUB="${CMAKE_CURRENT_BINARY_DIR}/freenect")
+                             RLF_TEST_FREENECT_STUB="$<TARGET_FILE:freenect_stub>")
   find_file(RELIEF_FAKENECT_LIBRARY libfreenect.so.0.5
             PATHS /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/fakenect /usr/lib/fakenect
             NO_DEFAULT_PATH)
   if(RELIEF_FAKENECT_LIBRARY)
-    get_filename_component(place ${RELIEF_FAKENECT_LIBRARY} DIRECTORY)
-    target_compile_definitions(test_io_fakenect PRIVATE RLF_TEST_FAKENECT="${place}")
+    target_compile_definitions(test_io_fakenect PRIVATE
+                               RLF_TEST_FAKENECT="${RELIEF_FAKENECT_LIBRARY}")
   endif()
 endif()

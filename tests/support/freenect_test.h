@@ -1,13 +1,9 @@
-/* What the tests of libfreenect share: the formula, and starting again with another library. */
+/* What the tests of libfreenect share: the formula of depth. */
 #ifndef RLF_TEST_FREENECT_TEST_H
 #define RLF_TEST_FREENECT_TEST_H
 
 #include <math.h>
 #include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
 /* Millimetres of a raw count after libfreenect's formula; 0 = missing. */
 static inline int freenect_test_mm(int raw, double emitter_cm, double reference_cm, double pixel_mm)
@@ -15,20 +11,6 @@ static inline int freenect_test_mm(int raw, double emitter_cm, double reference_
     const double x = ((raw - 4.0 * 200.0) / 4.0 - 0.375) * pixel_mm;
     const double mm = 10.0 * (x * reference_cm / (emitter_cm - x) + reference_cm);
     return raw < 2047 && x < emitter_cm && mm >= 1.0 && mm <= 10000.0 ? (int)lround(mm) : 0;
-}
-
-/* The dynamic linker reads its path at the start only: starts this program again with `folder`
- * first. Returns when it has been. */
-static inline void freenect_test_use(const char *folder, char **argv)
-{
-    const char *path = getenv("LD_LIBRARY_PATH");
-    if (path != NULL && strncmp(path, folder, strlen(folder)) == 0) {
-        return;
-    }
-    setenv("LD_LIBRARY_PATH", folder, 1);
-    execv("/proc/self/exe", argv);
-    perror("execv");
-    exit(1);
 }
 
 #endif

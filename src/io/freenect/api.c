@@ -2,19 +2,16 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/freenect/api.h"
 
-#include <dlfcn.h>
+#include "io/driver/library.h"
+
 #include <pthread.h>
-#include <string.h>
 
 static freenect_api api;
 static bool is_loaded;
-static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static char reason[320];
+static pthread_once_t once = PTHREAD_ONCE_INIT;
 
-static const struct {
-    const char *name;
-    size_t offset;
-    bool is_optional;
-} symbols[] = {
+static const io_symbol symbols[] = {
     {"freenect_init", offsetof(freenect_api, init), false},
     {"freenect_shutdown", offsetof(freenect_api, shutdown), false},
     {"freenect_set_log_callback", offsetof(freenect_api, set_log), false},
@@ -44,40 +41,23 @@ static const struct {
 
 static void load(void)
 {
-    static const char *const names[] = {"libfreenect.so.0.5", "libfreenect.so.0"};
-    void *library = NULL;
-    /* Lazily bound: stand-ins of the library lack functions that it names. */
-    for (size_t i = 0; i < sizeof(names) / sizeof(names[0]) && library == NULL; i++) {
-        library = dlopen(names[i], RTLD_LAZY | RTLD_LOCAL);
-    }
-    if (library == NULL) {
-        return;
-    }
-    for (size_t i = 0; i < sizeof(symbols) / sizeof(symbols[0]); i++) {
-        void *symbol = dlsym(library, symbols[i].name);
-        if (symbol == NULL && !symbols[i].is_optional) {
-            dlclose(library);
-            return;
-        }
-        memcpy((char *)&api + symbols[i].offset, &symbol, sizeof(symbol));
-    }
-    is_loaded = true;
+    static const char *const names[] = {"libfreenect.so.0.5", "libfreenect.so.0", NULL};
+    static const io_library_def def = {
+        .variable = "RELIEF_FREENECT_LIBRARY",
+        .names = names,
+        .cure = "apt install libfreenect0.5, or name its file in RELIEF_FREENECT_LIBRARY",
+        .symbols = symbols,
+        .symbol_count = (int32_t)(sizeof(symbols) / sizeof(symbols[0]))};
+    is_loaded = io_library_load(&def, &api, reason, sizeof(reason));
 }
 
 const freenect_api *freenect_get_api(void)
 {
-    pthread_mutex_lock(&lock);
-    if (!is_loaded) {
-        load();
-    }
-    const bool is_there = is_loaded;
-    pthread_mutex_unlock(&lock);
-    return is_there ? &api : NULL;
+    (void)pthread_once(&once, load);
+    return is_loaded ? &api : NULL;
 }
 
 const char *freenect_unavailable(void)
 {
-    return freenect_get_api() != NULL ? NULL
-                                      : "libfreenect.so.0.5 is not installed: apt install "
-                                        "libfreenect0.5";
+    return freenect_get_api() != NULL ? NULL : reason;
 }

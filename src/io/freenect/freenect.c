@@ -1,4 +1,5 @@
 /* Kinect v1 through libfreenect. */
+#include "io/driver/live.h"
 #include "io/freenect/calibration.h"
 #include "io/source/backends.h"
 #include "io/source/stream_pair.h"
@@ -184,22 +185,6 @@ static rlf_result read_keys(kinect *k, const rlf_address *address)
     return result == RLF_OK ? read_switch(address, "mirror", &k->flips) : result;
 }
 
-static rlf_result use_calibration(kinect *k, const rlf_address *address)
-{
-    const rlf_rig *rig = address->rig;
-    const bool fits = rig->depth.width == FREENECT_WIDTH && rig->depth.height == FREENECT_HEIGHT &&
-                      (!rig->has_color || (rig->color.width == FREENECT_WIDTH &&
-                                           rig->color.height == FREENECT_HEIGHT));
-    if (!fits) {
-        return rlf_fail(RLF_ERROR_INVALID,
-                        "%s: the calibration is not for 640 x 480, the size of a Kinect's pictures",
-                        address->source);
-    }
-    k->rig = *rig;
-    k->rig.has_color = rig->has_color && k->has_color;
-    return RLF_OK;
-}
-
 /* Depth warped by the library lies in the colour camera. */
 static void use_factory(kinect *k, const rlf_address *address, const freenect_registration *r)
 {
@@ -209,6 +194,9 @@ static void use_factory(kinect *k, const rlf_address *address, const freenect_re
     if (k->is_aligned) {
         k->rig.depth = k->rig.color;
         k->rig.T_color_depth = rlf_pose_identity();
+    }
+    if (address->rig != NULL) {
+        return;
     }
     if (error < 0.0) {
         rlf_log(RLF_LOG_WARNING,
@@ -234,16 +222,11 @@ static rlf_result make_rig(kinect *k, const rlf_address *address)
         r = k->api->copy_registration(k->device);
     }
     freenect_depth_table(has ? &r : NULL, k->depth_mm);
-    rlf_result result = RLF_OK;
-    if (address->rig != NULL) {
-        result = use_calibration(k, address);
-    } else {
-        use_factory(k, address, has ? &r : NULL);
-    }
+    use_factory(k, address, has ? &r : NULL);
     if (has) {
         (void)k->api->destroy_registration(&r);
     }
-    return result;
+    return io_live_use_rig(address, &k->rig);
 }
 
 static rlf_result start(kinect *k, const rlf_address *address)

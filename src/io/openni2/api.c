@@ -2,101 +2,77 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/openni2/api.h"
 
-#include <dlfcn.h>
+#include "io/driver/library.h"
+
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-/* The library and its drivers are never unloaded: some leave threads behind. */
 static openni2_api api;
 static bool is_loaded;
+static char reason[320];
+static pthread_once_t once = PTHREAD_ONCE_INIT;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
-static const struct {
-    const char *name;
-    size_t offset;
-} symbols[] = {
-    {"oniInitialize", offsetof(openni2_api, initialize)},
-    {"oniShutdown", offsetof(openni2_api, shutdown)},
-    {"oniGetExtendedError", offsetof(openni2_api, error)},
-    {"oniGetDeviceList", offsetof(openni2_api, get_devices)},
-    {"oniReleaseDeviceList", offsetof(openni2_api, release_devices)},
-    {"oniRegisterDeviceCallbacks", offsetof(openni2_api, add_callbacks)},
-    {"oniUnregisterDeviceCallbacks", offsetof(openni2_api, remove_callbacks)},
-    {"oniWaitForAnyStream", offsetof(openni2_api, wait_any)},
-    {"oniDeviceOpen", offsetof(openni2_api, device_open)},
-    {"oniDeviceClose", offsetof(openni2_api, device_close)},
-    {"oniDeviceGetInfo", offsetof(openni2_api, device_info)},
-    {"oniDeviceGetSensorInfo", offsetof(openni2_api, device_sensor)},
-    {"oniDeviceCreateStream", offsetof(openni2_api, device_stream)},
-    {"oniDeviceSetProperty", offsetof(openni2_api, device_set)},
-    {"oniDeviceGetProperty", offsetof(openni2_api, device_get)},
-    {"oniDeviceIsImageRegistrationModeSupported", offsetof(openni2_api, device_can_register)},
-    {"oniStreamDestroy", offsetof(openni2_api, stream_destroy)},
-    {"oniStreamStart", offsetof(openni2_api, stream_start)},
-    {"oniStreamStop", offsetof(openni2_api, stream_stop)},
-    {"oniStreamReadFrame", offsetof(openni2_api, stream_read)},
-    {"oniStreamSetProperty", offsetof(openni2_api, stream_set)},
-    {"oniStreamGetProperty", offsetof(openni2_api, stream_get)},
-    {"oniFrameRelease", offsetof(openni2_api, frame_release)},
+static const io_symbol symbols[] = {
+    {"oniInitialize", offsetof(openni2_api, initialize), false},
+    {"oniShutdown", offsetof(openni2_api, shutdown), false},
+    {"oniGetExtendedError", offsetof(openni2_api, error), false},
+    {"oniGetDeviceList", offsetof(openni2_api, get_devices), false},
+    {"oniReleaseDeviceList", offsetof(openni2_api, release_devices), false},
+    {"oniRegisterDeviceCallbacks", offsetof(openni2_api, add_callbacks), false},
+    {"oniUnregisterDeviceCallbacks", offsetof(openni2_api, remove_callbacks), false},
+    {"oniWaitForAnyStream", offsetof(openni2_api, wait_any), false},
+    {"oniDeviceOpen", offsetof(openni2_api, device_open), false},
+    {"oniDeviceClose", offsetof(openni2_api, device_close), false},
+    {"oniDeviceGetInfo", offsetof(openni2_api, device_info), false},
+    {"oniDeviceGetSensorInfo", offsetof(openni2_api, device_sensor), false},
+    {"oniDeviceCreateStream", offsetof(openni2_api, device_stream), false},
+    {"oniDeviceSetProperty", offsetof(openni2_api, device_set), false},
+    {"oniDeviceGetProperty", offsetof(openni2_api, device_get), false},
+    {"oniDeviceIsImageRegistrationModeSupported", offsetof(openni2_api, device_can_register),
+     false},
+    {"oniStreamDestroy", offsetof(openni2_api, stream_destroy), false},
+    {"oniStreamStart", offsetof(openni2_api, stream_start), false},
+    {"oniStreamStop", offsetof(openni2_api, stream_stop), false},
+    {"oniStreamReadFrame", offsetof(openni2_api, stream_read), false},
+    {"oniStreamSetProperty", offsetof(openni2_api, stream_set), false},
+    {"oniStreamGetProperty", offsetof(openni2_api, stream_get), false},
+    {"oniFrameRelease", offsetof(openni2_api, frame_release), false},
 };
 
 /* OPENNI2_REDIST is what the installers of vendors set: their folder with the library and the
  * drivers. */
-static void *open_library(void)
+static void load(void)
 {
-    static const char *const names[2] = {"libOpenNI2.so.0", "libOpenNI2.so"};
+    static char paths[2][1024];
     const char *folder = getenv("OPENNI2_REDIST");
-    void *library = NULL;
-    for (int i = 0; i < 2 && library == NULL && folder != NULL; i++) {
-        char path[4096];
-        int length = snprintf(path, sizeof(path), "%s/%s", folder, names[i]);
-        if (length > 0 && (size_t)length < sizeof(path)) {
-            library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    const char *names[5] = {"libOpenNI2.so.0", "libOpenNI2.so", NULL, NULL, NULL};
+    if (folder != NULL && folder[0] != '\0') {
+        for (int i = 0; i < 2; i++) {
+            snprintf(paths[i], sizeof(paths[i]), "%.900s/%s", folder, names[i]);
+            names[i + 2] = names[i];
+            names[i] = paths[i];
         }
     }
-    for (int i = 0; i < 2 && library == NULL; i++) {
-        library = dlopen(names[i], RTLD_NOW | RTLD_LOCAL);
-    }
-    return library;
-}
-
-static bool load(void)
-{
-    if (is_loaded) {
-        return true;
-    }
-    void *library = open_library();
-    if (library == NULL) {
-        return false;
-    }
-    for (size_t i = 0; i < sizeof(symbols) / sizeof(symbols[0]); i++) {
-        void *symbol = dlsym(library, symbols[i].name);
-        if (symbol == NULL) {
-            dlclose(library);
-            return false;
-        }
-        memcpy((char *)&api + symbols[i].offset, &symbol, sizeof(symbol));
-    }
-    is_loaded = true;
-    return true;
+    const io_library_def def = {.variable = "RELIEF_OPENNI2_LIBRARY",
+                                .names = names,
+                                .cure = "apt install libopenni2-0, or set OPENNI2_REDIST to the "
+                                        "folder of the vendor's own",
+                                .symbols = symbols,
+                                .symbol_count = (int32_t)(sizeof(symbols) / sizeof(symbols[0]))};
+    is_loaded = io_library_load(&def, &api, reason, sizeof(reason));
 }
 
 const char *openni2_unavailable(void)
 {
-    pthread_mutex_lock(&lock);
-    const bool is_there = load();
-    pthread_mutex_unlock(&lock);
-    return is_there ? NULL
-                    : "libOpenNI2.so.0 is not installed: apt install libopenni2-0, or set "
-                      "OPENNI2_REDIST to the folder of the vendor's own";
+    (void)pthread_once(&once, load);
+    return is_loaded ? NULL : reason;
 }
 
 rlf_result openni2_begin(const char *who, const openni2_api **out)
 {
-    const char *reason = openni2_unavailable();
-    if (reason != NULL) {
+    if (openni2_unavailable() != NULL) {
         return rlf_fail(RLF_ERROR_UNSUPPORTED, "%s: %s", who, reason);
     }
     pthread_mutex_lock(&lock);

@@ -1,7 +1,7 @@
 /* Keys of an OpenNI2 address. */
+#include "io/driver/live.h"
 #include "io/openni2/device.h"
 
-#include <stdio.h>
 #include <string.h>
 
 static rlf_result read_switch(const rlf_address *address, const char *key, int *out)
@@ -18,23 +18,6 @@ static rlf_result read_switch(const rlf_address *address, const char *key, int *
     return RLF_OK;
 }
 
-static rlf_result read_mode(const rlf_address *address, openni2_wish *out)
-{
-    const char *value = rlf_address_get(address, "mode");
-    if (value == NULL) {
-        return RLF_OK;
-    }
-    int length = 0;
-    const int count =
-        sscanf(value, "%5dx%5d%n@%4d%n", &out->width, &out->height, &length, &out->fps, &length);
-    if (count < 2 || value[length] != '\0' || out->width < 1 || out->height < 1 || out->fps < 0) {
-        return rlf_fail(RLF_ERROR_INVALID,
-                        "%s: mode=%.40s: must be WxH or WxH@FPS, e.g. 640x480@30", address->source,
-                        value);
-    }
-    return RLF_OK;
-}
-
 rlf_result openni2_read_wish(const rlf_address *address, openni2_wish *out)
 {
     *out = (openni2_wish){.color = 1, .aligned = -1, .mirror = -1};
@@ -44,7 +27,11 @@ rlf_result openni2_read_wish(const rlf_address *address, openni2_wish *out)
         out->color_width = address->rig->has_color ? address->rig->color.width : 0;
         out->color_height = address->rig->has_color ? address->rig->color.height : 0;
     }
-    rlf_result result = read_mode(address, out);
+    io_mode mode = {out->width, out->height, 0};
+    rlf_result result = io_mode_get(address, "mode", &mode);
+    out->width = mode.width;
+    out->height = mode.height;
+    out->fps = mode.frames_per_second;
     if (result == RLF_OK) {
         result = read_switch(address, "color", &out->color);
     }
