@@ -244,7 +244,7 @@ static void chunks_that_lie_are_refused(void **state)
         log.last[0] = '\0';
         test_expect_error(rlf_open_source(test_path("clip.bag"), NULL, &source), RLF_ERROR_FORMAT,
                           "clip.bag", "no depth pictures", NULL);
-        assert_non_null(strstr(log.last, "damaged or cut short at byte"));
+        assert_non_null(strstr(log.last, i < 2 ? "damaged or cut short at byte" : "claims to"));
     }
     rlf_set_log(NULL, NULL);
 }

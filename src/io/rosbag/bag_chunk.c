@@ -82,6 +82,11 @@ static rlf_result unpack_into(bag *self, int32_t index, bag_cache *cache)
 {
     const bag_chunk *chunk = &self->chunks[index];
     cache->chunk = -1;
+    if (chunk->size > BAG_CHUNK_MAX) {
+        return rlf_fail(RLF_ERROR_FORMAT,
+                        "%s: a chunk of %u bytes claims to unpack to %u: record in smaller chunks",
+                        self->path, (unsigned)chunk->packed_size, (unsigned)chunk->size);
+    }
     rlf_result result = io_buffer_reserve(&cache->bytes, chunk->size);
     if (result == RLF_OK) {
         result = io_buffer_reserve(&self->packed, chunk->packed_size);

@@ -5,9 +5,9 @@
 #include "io/rosbag/bag.h"
 #include "io/source/cursor.h"
 
-/* An unpacked chunk that is larger is refused: rosbag begins a new one after 768 KiB, so only a
+/* A chunk that unpacks to more is passed over: rosbag begins a new one after 768 KiB, so only a
  * single huge message makes one large. */
-#define BAG_CHUNK_MAX ((uint32_t)256 << 20)
+#define BAG_CHUNK_MAX ((uint32_t)64 << 20)
 
 enum { BAG_OP_MESSAGE = 2, BAG_OP_INDEX = 4, BAG_OP_CHUNK = 5, BAG_OP_CONNECTION = 7 };
 
