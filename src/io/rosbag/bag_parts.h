@@ -76,6 +76,9 @@ rlf_result bag_grow(const bag *self, void **array, int32_t count, int32_t *capac
 /* The unpacked chunk; valid until two others were asked for. */
 rlf_result bag_unpack(bag *self, int32_t chunk, io_bytes *out);
 
+/* Whether this build can unpack such chunks; else RLF_ERROR_UNSUPPORTED with what to do. */
+rlf_result bag_check_packing(const char *path, bag_packing packing);
+
 /* Unpacks `in` into exactly out_size bytes. */
 rlf_result bag_decompress(const io_bytes *in, bag_packing packing, uint8_t *out, size_t out_size);
 
