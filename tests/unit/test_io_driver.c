@@ -122,28 +122,28 @@ static void converts_pixels(void **state)
     rlf_image_rgba8 image = {out, 3, 2, 12};
     const uint8_t rgb[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 0, 11, 12, 13, 14, 15, 16, 17, 18, 19};
     io_raw_picture raw = {rgb, 19, 10, IO_PIXEL_RGB8};
-    assert_true(io_pixels_to_rgba(&raw, false, &image));
+    assert_true(io_raw_picture_to_rgba(&raw, false, &image));
     const uint8_t wanted[12] = {11, 12, 13, 255, 14, 15, 16, 255, 17, 18, 19, 255};
     assert_memory_equal(out + 12, wanted, 12);
     raw.format = IO_PIXEL_BGR8;
-    assert_true(io_pixels_to_rgba(&raw, true, &image));
+    assert_true(io_raw_picture_to_rgba(&raw, true, &image));
     const uint8_t mirrored[12] = {9, 8, 7, 255, 6, 5, 4, 255, 3, 2, 1, 255};
     assert_memory_equal(out, mirrored, 12);
     raw.size = 18;
-    assert_false(io_pixels_to_rgba(&raw, true, &image));
+    assert_false(io_raw_picture_to_rgba(&raw, true, &image));
     /* White, black and red of BT.601; an odd width has half a pair more. */
     const uint8_t yuyv[16] = {235, 128, 16, 128, 81, 90, 81, 240,
                               235, 128, 16, 128, 81, 90, 81, 240};
     raw = (io_raw_picture){yuyv, 16, 8, IO_PIXEL_YUYV};
-    assert_true(io_pixels_to_rgba(&raw, false, &image));
+    assert_true(io_raw_picture_to_rgba(&raw, false, &image));
     const uint8_t colors[12] = {255, 255, 255, 255, 0, 0, 0, 255, 254, 0, 0, 255};
     assert_memory_equal(out, colors, 12);
     raw.stride = 6;
-    assert_false(io_pixels_to_rgba(&raw, false, &image));
+    assert_false(io_raw_picture_to_rgba(&raw, false, &image));
     raw = (io_raw_picture){NULL, 100, 12, IO_PIXEL_RGBX8};
-    assert_false(io_pixels_to_rgba(&raw, false, &image));
+    assert_false(io_raw_picture_to_rgba(&raw, false, &image));
     raw = (io_raw_picture){yuyv, 16, 8, IO_PIXEL_NONE};
-    assert_false(io_pixels_to_rgba(&raw, false, &image));
+    assert_false(io_raw_picture_to_rgba(&raw, false, &image));
 }
 
 /* A plumb_bob lens is found again exactly; one that no sample determines is refused. */

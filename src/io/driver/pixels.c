@@ -71,7 +71,7 @@ static void convert_row_yuyv(const uint8_t *in, target to)
     }
 }
 
-bool io_pixels_to_rgba(const io_raw_picture *raw, bool is_mirrored, const rlf_image_rgba8 *out)
+bool io_raw_picture_to_rgba(const io_raw_picture *raw, bool is_mirrored, const rlf_image_rgba8 *out)
 {
     const ptrdiff_t row = row_size(raw->format, out->width);
     if (raw->data == NULL || row == 0 || raw->stride < row ||

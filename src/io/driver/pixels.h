@@ -22,6 +22,7 @@ typedef struct io_raw_picture {
 
 /* Writes the whole of *out, opaque; `is_mirrored`: left and right change sides. False when the raw
  * picture is smaller than that. */
-bool io_pixels_to_rgba(const io_raw_picture *raw, bool is_mirrored, const rlf_image_rgba8 *out);
+bool io_raw_picture_to_rgba(const io_raw_picture *raw, bool is_mirrored,
+                            const rlf_image_rgba8 *out);
 
 #endif

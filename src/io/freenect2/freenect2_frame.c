@@ -44,7 +44,7 @@ static void fill_aligned(freenect2 *k, const relief_freenect2_frame *in)
     const io_raw_picture raw =
         raw_color(k->registered, KINECT2_DEPTH_WIDTH, KINECT2_DEPTH_HEIGHT, in->color_is_rgbx);
     fill_depth(k, k->undistorted);
-    io_pixels_to_rgba(&raw, true, &k->color);
+    io_raw_picture_to_rgba(&raw, true, &k->color);
 }
 
 static void fill_raw(freenect2 *k, const relief_freenect2_frame *in, bool has_color)
@@ -53,7 +53,7 @@ static void fill_raw(freenect2 *k, const relief_freenect2_frame *in, bool has_co
     if (has_color) {
         const io_raw_picture raw =
             raw_color(in->color, KINECT2_COLOR_WIDTH, KINECT2_COLOR_HEIGHT, in->color_is_rgbx);
-        io_pixels_to_rgba(&raw, true, &k->color);
+        io_raw_picture_to_rgba(&raw, true, &k->color);
     }
 }
 

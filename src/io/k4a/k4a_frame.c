@@ -56,7 +56,7 @@ static bool decode(k4a *k, k4a_image_t image)
                                 .format = format == K4A_FORMAT_COLOR_BGRA32 ? IO_PIXEL_BGRX8
                                           : format == K4A_FORMAT_COLOR_YUY2 ? IO_PIXEL_YUYV
                                                                             : IO_PIXEL_NONE};
-    return io_pixels_to_rgba(&raw, false, &k->color);
+    return io_raw_picture_to_rgba(&raw, false, &k->color);
 }
 
 static void fill_color(k4a *k, k4a_image_t image, rlf_frame *out)

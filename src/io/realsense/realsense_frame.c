@@ -108,7 +108,8 @@ static void fill_color(realsense *r, const rs2_frame *color, rlf_frame *out)
         r->unpaired++;
         return;
     }
-    if (!get_raw(r, color, &r->rig.color, &raw) || !io_pixels_to_rgba(&raw, false, &r->color)) {
+    if (!get_raw(r, color, &r->rig.color, &raw) ||
+        !io_raw_picture_to_rgba(&raw, false, &r->color)) {
         r->damaged++;
         return;
     }
