@@ -30,6 +30,7 @@ static const sample samples[] = {
     {"mono16", 2, 1, 4, {1, 9, 1, 200}, 4, {9, 9, 9}, {200, 200, 200}},
     /* Rows with a gap between them. */
     {"mono8", 1, 2, 3, {9, 0, 0, 200}, 4, {9, 9, 9}, {200, 200, 200}},
+    {"mono8", 2, 1, 0, {9, 200}, 2, {9, 9, 9}, {200, 200, 200}},
     /* White is 235, black is 16; red is (81, 90, 240) by ITU-R BT.601. */
     {"yuv422", 2, 1, 4, {128, 235, 128, 16}, 4, {255, 255, 255}, {0, 0, 0}},
     {"yuv422_yuy2", 2, 1, 4, {81, 90, 81, 240}, 4, {255, 0, 0}, {255, 0, 0}},
@@ -111,6 +112,9 @@ static void sizes_that_lie_are_refused(void **state)
         assert_int_equal(io_pixels_to_depth(&in, depth, &units), RLF_ERROR_FORMAT);
         in = (io_pixels){"topic", "16UC1", 1, sizes[i], 2, false, data, sizeof(data)};
         assert_int_equal(io_pixels_to_depth(&in, depth, &units), RLF_ERROR_FORMAT);
+        if (sizes[i] == 0) {
+            continue; /* no gap */
+        }
         in = (io_pixels){"topic", "16UC1", 2, 2, sizes[i], false, data, sizeof(data)};
         assert_int_equal(io_pixels_to_depth(&in, depth, &units), RLF_ERROR_FORMAT);
     }
@@ -174,17 +178,20 @@ static void compressed_depth_is_read(void **state)
     (void)state;
     /* 1/z = (n - b) / a: with a = 100 and b = 0.5, n = 50 is 100 / 49.5 = 2.0202 m. */
     const uint16_t counts[4] = {50, 0, 100, 65535};
+    static io_rvl rvl;
+    io_rvl_init(&rvl);
     size_t size;
     uint8_t *data = compressed(counts, 100.0f, 0.5f, &size);
     const io_bytes file = {"topic", data, size};
     uint16_t depth[4];
     double units;
     assert_int_equal(
-        io_compressed_depth_decode(&file, "16UC1; compressedDepth", 2, 2, depth, &units), RLF_OK);
+        io_compressed_depth_decode(&rvl, &file, "16UC1; compressedDepth", 2, 2, depth, &units),
+        RLF_OK);
     assert_true(units == 1000.0);
     assert_memory_equal(depth, counts, sizeof(counts));
     assert_int_equal(
-        io_compressed_depth_decode(&file, "32FC1; compressedDepth png", 2, 2, depth, &units),
+        io_compressed_depth_decode(&rvl, &file, "32FC1; compressedDepth png", 2, 2, depth, &units),
         RLF_OK);
     assert_true(units == IO_PIXELS_FLOAT_UNITS);
     const uint16_t wanted[4] = {10101, 0, 5025, 8};
@@ -192,10 +199,35 @@ static void compressed_depth_is_read(void **state)
     for (size_t cut = 0; cut < size; cut++) {
         const io_bytes part = {"topic", data, cut};
         assert_int_equal(
-            io_compressed_depth_decode(&part, "16UC1; compressedDepth", 2, 2, depth, &units),
+            io_compressed_depth_decode(&rvl, &part, "16UC1; compressedDepth", 2, 2, depth, &units),
             RLF_ERROR_FORMAT);
     }
     free(data);
+}
+
+static void rvl_depth_is_read(void **state)
+{
+    (void)state;
+    static io_rvl rvl;
+    io_rvl_init(&rvl);
+    const uint16_t counts[4] = {1500, 0, 1501, 900};
+    const int32_t head[5] = {0, 0, 0, 2, 2};
+    uint8_t data[128];
+    memcpy(data, head, sizeof(head));
+    const size_t size = sizeof(head) + io_rvl_encode(&rvl, counts, 4, data + sizeof(head));
+    const char *format = "16UC1; compressedDepth rvl";
+    const io_bytes file = {"topic", data, size};
+    uint16_t depth[4];
+    double units;
+    assert_int_equal(io_compressed_depth_decode(&rvl, &file, format, 2, 2, depth, &units), RLF_OK);
+    assert_memory_equal(depth, counts, sizeof(counts));
+    test_expect_error(io_compressed_depth_decode(&rvl, &file, format, 4, 1, depth, &units),
+                      RLF_ERROR_FORMAT, "topic", "2 x 2", "camera=FILE");
+    for (size_t cut = 0; cut + 4 < size; cut++) {
+        const io_bytes part = {"topic", data, cut};
+        assert_int_equal(io_compressed_depth_decode(&rvl, &part, format, 2, 2, depth, &units),
+                         RLF_ERROR_FORMAT);
+    }
 }
 
 int main(void)
@@ -206,6 +238,7 @@ int main(void)
         cmocka_unit_test(sizes_that_lie_are_refused),
         cmocka_unit_test(counts_are_taken_as_they_are),
         cmocka_unit_test(metres_become_counts),
+        cmocka_unit_test(rvl_depth_is_read),
         cmocka_unit_test_setup_teardown(compressed_depth_is_read, test_folder_make,
                                         test_folder_remove),
     };

@@ -127,15 +127,15 @@ static void lz4_chunks_are_read(void **state)
     bag_file_finish(b);
     save(b);
     free(packed);
-    rlf_source *source = NULL;
-    rlf_result result = rlf_open_source(test_path("clip.bag"), NULL, &source);
-    if (result == RLF_ERROR_UNSUPPORTED) {
-        test_expect_error(result, RLF_ERROR_UNSUPPORTED, "clip.bag", "lz4", "liblz4-dev");
-        skip();
-    }
-    assert_int_equal(result, RLF_OK);
+#ifdef RLF_HAVE_LZ4
+    rlf_source *source = open_bag("");
     expect_all(source);
     rlf_source_destroy(&source);
+#else
+    rlf_source *source = NULL;
+    test_expect_error(rlf_open_source(test_path("clip.bag"), NULL, &source), RLF_ERROR_UNSUPPORTED,
+                      "clip.bag", "lz4", "liblz4-dev");
+#endif
 }
 
 /* Their times are those of recording: unpacking all of them for the stamps would take too long. */
@@ -232,6 +232,16 @@ static void chunks_that_lie_are_refused(void **state)
     rlf_set_log(test_log_line, &log);
     const char *const kinds[3] = {"none", "lz4", "bz2"};
     for (int i = 0; i < 3; i++) {
+#ifndef RLF_HAVE_LZ4
+        if (i == 1) {
+            continue;
+        }
+#endif
+#ifndef RLF_HAVE_BZ2
+        if (i == 2) {
+            continue;
+        }
+#endif
         bag_file *b = bag_file_new();
         bag_sample_chunk(b, 0);
         byte_file *packed = calloc(1, sizeof(*packed));
@@ -244,7 +254,7 @@ static void chunks_that_lie_are_refused(void **state)
         log.last[0] = '\0';
         test_expect_error(rlf_open_source(test_path("clip.bag"), NULL, &source), RLF_ERROR_FORMAT,
                           "clip.bag", "no depth pictures", NULL);
-        assert_non_null(strstr(log.last, "damaged or cut short at byte"));
+        assert_non_null(strstr(log.last, i < 2 ? "damaged or cut short at byte" : "claims to"));
     }
     rlf_set_log(NULL, NULL);
 }

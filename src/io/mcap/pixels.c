@@ -2,6 +2,8 @@
 #include "io/mcap/pixels.h"
 
 #include "io/picture.h"
+#include "io/pixels/compressed_depth.h"
+#include "io/pixels/pixels.h"
 
 /* compressed_depth_image_transport: what kind, and two floats that turn counts into inverse depth.
  * RVL has the width and the height behind it. */
@@ -10,21 +12,13 @@
 
 static io_ros_pixels raw_pixels(const char *encoding)
 {
-    static const struct {
-        const char *name;
-        io_ros_pixels pixels;
-    } known[] = {
-        {"16UC1", IO_ROS_DEPTH_U16}, {"mono16", IO_ROS_DEPTH_U16}, {"32FC1", IO_ROS_DEPTH_F32},
-        {"mono8", IO_ROS_MONO8},     {"8UC1", IO_ROS_MONO8},       {"rgb8", IO_ROS_RGB8},
-        {"bgr8", IO_ROS_BGR8},       {"8UC3", IO_ROS_BGR8},        {"rgba8", IO_ROS_RGBA8},
-        {"bgra8", IO_ROS_BGRA8},     {"8UC4", IO_ROS_BGRA8},
-    };
-    for (size_t i = 0; i < sizeof(known) / sizeof(known[0]); i++) {
-        if (strcmp(encoding, known[i].name) == 0) {
-            return known[i].pixels;
-        }
+    if (io_pixels_is_depth(encoding)) {
+        return strcmp(encoding, "32FC1") == 0 ? IO_ROS_DEPTH_F32 : IO_ROS_DEPTH_U16;
     }
-    return IO_ROS_UNKNOWN;
+    if (strcmp(encoding, "mono8") == 0 || strcmp(encoding, "8UC1") == 0) {
+        return IO_ROS_MONO8;
+    }
+    return io_pixels_is_picture(encoding) ? IO_ROS_COLOR : IO_ROS_UNKNOWN;
 }
 
 /* "16UC1; compressedDepth rvl", "16UC1; compressedDepth", "rgb8; jpeg compressed bgr8", "png". */
@@ -173,45 +167,23 @@ static rlf_result decode_raw_depth(const char *name, const io_ros_image *image, 
     return RLF_OK;
 }
 
-static rlf_result decode_rvl(const io_ros_decoder *decoder, const io_ros_image *image,
-                             int32_t width, int32_t height, uint16_t *out)
-{
-    int32_t w, h;
-    if (!io_ros_picture_size(image, IO_ROS_DEPTH_RVL, &w, &h) || w != width || h != height) {
-        return fail_size(decoder->name, image, width, height);
-    }
-    const size_t head = DEPTH_HEAD + RVL_HEAD;
-    if (!io_rvl_decode(&decoder->rvl, image->data.data + head, image->data.size - head, out,
-                       (size_t)width * (size_t)height)) {
-        return rlf_fail(RLF_ERROR_FORMAT,
-                        "%s: the depth picture at %.3f s is damaged (RVL): "
-                        "record it again",
-                        decoder->name, 1e-9 * (double)image->header.stamp_ns);
-    }
-    return RLF_OK;
-}
-
 static rlf_result decode_counts(const io_ros_decoder *decoder, const io_ros_image *image,
-                                io_ros_pixels pixels, int32_t width, int32_t height, uint16_t *out)
+                                int32_t width, int32_t height, uint16_t *out)
 {
-    if (pixels == IO_ROS_DEPTH_RVL || pixels == IO_ROS_DEPTH_RVL_F32) {
-        return decode_rvl(decoder, image, width, height, out);
-    }
-    const io_bytes file = picture_of(decoder->name, image, pixels);
-    io_picture picture = {.width = width, .height = height, .data = out};
-    return io_png_decode_u16(&file, &picture);
+    const io_bytes file = {decoder->name, image->data.data, image->data.size};
+    return io_compressed_depth_counts(&decoder->rvl, &file, image->encoding, width, height, out);
 }
 
 /* depth = a / (count - b) */
 static rlf_result decode_inverse(const io_ros_decoder *decoder, const io_ros_image *image,
-                                 io_ros_pixels pixels, int32_t width, int32_t height, float *out)
+                                 int32_t width, int32_t height, float *out)
 {
     float parameters[2];
     if (image->data.size < DEPTH_HEAD || decoder->counts == NULL) {
         return fail_size(decoder->name, image, width, height);
     }
     memcpy(parameters, image->data.data + 4, sizeof(parameters));
-    rlf_result result = decode_counts(decoder, image, pixels, width, height, decoder->counts);
+    rlf_result result = decode_counts(decoder, image, width, height, decoder->counts);
     for (size_t i = 0; result == RLF_OK && i < (size_t)width * (size_t)height; i++) {
         const uint16_t count = decoder->counts[i];
         out[i] = count > 0 ? parameters[0] / ((float)count - parameters[1]) : 0.0f;
@@ -226,8 +198,8 @@ rlf_result io_ros_decode_depth(const io_ros_decoder *decoder, const io_ros_image
         return decode_raw_depth(decoder->name, image, pixels == IO_ROS_DEPTH_U16 ? 2 : 4, width,
                                 height, out);
     }
-    return io_ros_is_metres(pixels) ? decode_inverse(decoder, image, pixels, width, height, out)
-                                    : decode_counts(decoder, image, pixels, width, height, out);
+    return io_ros_is_metres(pixels) ? decode_inverse(decoder, image, width, height, out)
+                                    : decode_counts(decoder, image, width, height, out);
 }
 
 rlf_result io_ros_decode_color(const io_ros_decoder *decoder, const io_ros_image *image,
@@ -239,27 +211,13 @@ rlf_result io_ros_decode_color(const io_ros_decoder *decoder, const io_ros_image
             .width = out->width, .height = out->height, .data = out->data, .is_opaque = true};
         return io_picture_decode(&file, &picture);
     }
-    const size_t bytes = pixels == IO_ROS_MONO8                           ? 1
-                         : pixels == IO_ROS_RGB8 || pixels == IO_ROS_BGR8 ? 3
-                                                                          : 4;
-    size_t step;
-    const uint8_t *rows = raw_rows(image, out->width, out->height, bytes, &step);
-    if (rows == NULL) {
-        return fail_size(decoder->name, image, out->width, out->height);
-    }
-    const bool is_bgr = pixels == IO_ROS_BGR8 || pixels == IO_ROS_BGRA8;
-    const size_t red = is_bgr ? 2 : 0;
-    const size_t green = bytes > 1 ? 1 : 0;
-    const size_t blue = bytes > 1 ? 2 - red : 0;
-    for (int32_t y = 0; y < out->height; y++) {
-        const uint8_t *from = rows + (size_t)y * step;
-        uint8_t *to = rlf_rgba8_row(out, y);
-        for (int32_t x = 0; x < out->width; x++, from += bytes, to += 4) {
-            to[0] = from[red];
-            to[1] = from[green];
-            to[2] = from[blue];
-            to[3] = 255;
-        }
-    }
-    return RLF_OK;
+    const io_pixels raw = {.name = decoder->name,
+                           .encoding = image->encoding,
+                           .width = image->width,
+                           .height = image->height,
+                           .step = image->step,
+                           .is_bigendian = image->is_bigendian,
+                           .data = image->data.data,
+                           .size = image->data.size};
+    return io_pixels_to_rgba(&raw, out);
 }

@@ -16,10 +16,7 @@ typedef enum io_ros_pixels {
     IO_ROS_DEPTH_RVL_F32, /* the same of 32FC1: inverse depth in 16 bits */
     IO_ROS_DEPTH_PNG_F32,
     IO_ROS_MONO8,
-    IO_ROS_RGB8,
-    IO_ROS_BGR8,
-    IO_ROS_RGBA8,
-    IO_ROS_BGRA8,
+    IO_ROS_COLOR,  /* what io_pixels_to_rgba knows */
     IO_ROS_PICTURE /* PNG or JPEG */
 } io_ros_pixels;
 

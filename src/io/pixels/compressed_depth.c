@@ -1,11 +1,13 @@
 /* Depth pictures of ROS's compressed_depth_image_transport. */
 #include "io/pixels/compressed_depth.h"
 
+#include "io/picture.h"
 #include "io/pixels/pixels.h"
 
 #include <string.h>
 
 #define HEADER_SIZE 12 /* int32 kind of quantisation, float a, float b */
+#define RVL_SIZE 8     /* behind it: int32 width and height */
 
 static float float_at(const uint8_t *at)
 {
@@ -26,23 +28,59 @@ static void dequantise(const uint8_t *header, size_t count, uint16_t *depth)
     }
 }
 
-rlf_result io_compressed_depth_decode(const io_bytes *file, const char *format, int32_t width,
-                                      int32_t height, uint16_t *out, double *out_units_per_metre)
+static rlf_result fail_short(const io_bytes *file)
+{
+    return rlf_fail(RLF_ERROR_FORMAT,
+                    "%s: the depth picture is damaged or cut short (%zu bytes): copy or record it "
+                    "again",
+                    file->name, file->size);
+}
+
+static rlf_result decode_rvl(const io_rvl *rvl, const io_bytes *file, int32_t width, int32_t height,
+                             uint16_t *out)
+{
+    int32_t size[2];
+    const size_t head = HEADER_SIZE + RVL_SIZE;
+    if (file->size < head) {
+        return fail_short(file);
+    }
+    memcpy(size, file->data + HEADER_SIZE, sizeof(size));
+    if (size[0] != width || size[1] != height) {
+        return rlf_fail(RLF_ERROR_FORMAT,
+                        "%s: the depth picture is %d x %d but the calibration is for %d x %d: give "
+                        "the right one with ?camera=FILE",
+                        file->name, (int)size[0], (int)size[1], (int)width, (int)height);
+    }
+    const size_t count = (size_t)width * (size_t)height;
+    return io_rvl_decode(rvl, file->data + head, file->size - head, out, count) ? RLF_OK
+                                                                                : fail_short(file);
+}
+
+rlf_result io_compressed_depth_counts(const io_rvl *rvl, const io_bytes *file, const char *format,
+                                      int32_t width, int32_t height, uint16_t *out)
+{
+    if (strstr(format, "rvl") != NULL) {
+        return decode_rvl(rvl, file, width, height, out);
+    }
+    /* The plain compressed transport writes PNG alone. */
+    const size_t head = io_png_is(file) ? 0 : HEADER_SIZE;
+    if (file->size <= head) {
+        return fail_short(file);
+    }
+    const io_bytes png = {file->name, file->data + head, file->size - head};
+    io_picture picture = {.width = width, .height = height, .data = out};
+    return io_png_decode_u16(&png, &picture);
+}
+
+rlf_result io_compressed_depth_decode(const io_rvl *rvl, const io_bytes *file, const char *format,
+                                      int32_t width, int32_t height, uint16_t *out,
+                                      double *out_units_per_metre)
 {
     const bool is_float = strncmp(format, "32FC1", 5) == 0;
     if (file->size <= HEADER_SIZE) {
-        return rlf_fail(RLF_ERROR_FORMAT,
-                        "%s: the picture is cut short (%zu bytes): copy or record it again",
-                        file->name, file->size);
+        return fail_short(file);
     }
-    if (strstr(format, "rvl") != NULL) {
-        return rlf_fail(RLF_ERROR_UNSUPPORTED,
-                        "%s: the depth pictures are \"%.48s\": record them as PNG", file->name,
-                        format);
-    }
-    const io_bytes png = {file->name, file->data + HEADER_SIZE, file->size - HEADER_SIZE};
-    io_picture picture = {.width = width, .height = height, .data = out};
-    rlf_result result = io_png_decode_u16(&png, &picture);
+    rlf_result result = io_compressed_depth_counts(rvl, file, format, width, height, out);
     if (result == RLF_OK && is_float) {
         dequantise(file->data, (size_t)width * (size_t)height, out);
     }

@@ -2,12 +2,18 @@
 #ifndef RLF_IO_COMPRESSED_DEPTH_H
 #define RLF_IO_COMPRESSED_DEPTH_H
 
-#include "io/picture.h"
+#include "io/codec/rvl.h"
+#include "io/file.h"
 
-/* `format` is the message's, e.g. "16UC1; compressedDepth png"; `file` its data, whose first 12
- * bytes say how floats were quantised. `out` has room for width x height counts; another size is an
- * error. 16UC1 gives its counts, 1000 per metre; 32FC1 gives IO_PIXELS_FLOAT_UNITS. */
-rlf_result io_compressed_depth_decode(const io_bytes *file, const char *format, int32_t width,
-                                      int32_t height, uint16_t *out, double *out_units_per_metre);
+/* Counts as they were coded, PNG or RVL. `format` is the message's, e.g. "16UC1; compressedDepth
+ * png"; `file` its data: 12 bytes that say how floats were quantised, then the picture. `out` has
+ * room for width x height counts; another size is an error. */
+rlf_result io_compressed_depth_counts(const io_rvl *rvl, const io_bytes *file, const char *format,
+                                      int32_t width, int32_t height, uint16_t *out);
+
+/* The same in units: 16UC1 gives its counts, 1000 per metre; 32FC1 gives IO_PIXELS_FLOAT_UNITS. */
+rlf_result io_compressed_depth_decode(const io_rvl *rvl, const io_bytes *file, const char *format,
+                                      int32_t width, int32_t height, uint16_t *out,
+                                      double *out_units_per_metre);
 
 #endif

@@ -9,7 +9,7 @@ typedef struct io_pixels {
     const char *name;      /* for error lines: file, topic and number of the frame */
     const char *encoding;  /* as in ROS, sensor_msgs/image_encodings.h: "rgb8", "16UC1" ... */
     int64_t width, height; /* unchecked, as the message says */
-    int64_t step;          /* bytes from row to row */
+    int64_t step;          /* bytes from row to row; 0 = no gap between rows */
     bool is_bigendian;
     const uint8_t *data;
     size_t size;
@@ -21,6 +21,8 @@ typedef struct io_pixels {
 
 /* Whether the encoding holds depth: 16UC1, mono16, 32FC1. */
 bool io_pixels_is_depth(const char *encoding);
+/* Whether io_pixels_to_rgba knows the encoding. */
+bool io_pixels_is_picture(const char *encoding);
 
 /* Colour or grey to RGBA: rgb8 rgba8 bgr8 bgra8 8UC3 8UC4 (as OpenCV: blue first) mono8 8UC1 mono16
  * 16UC1 (high byte) yuv422 uyvy yuv422_yuy2 yuyv nv12 nv21 and the four bayer_*8. `out` has the

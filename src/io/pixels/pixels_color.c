@@ -45,6 +45,11 @@ static const encoding *find_encoding(const char *name)
     return NULL;
 }
 
+bool io_pixels_is_picture(const char *encoding_name)
+{
+    return find_encoding(encoding_name) != NULL;
+}
+
 static void put(uint8_t *out, uint8_t red, uint8_t green, uint8_t blue)
 {
     out[0] = red;
@@ -139,13 +144,15 @@ rlf_result io_pixels_to_rgba(const io_pixels *in, const rlf_image_rgba8 *out)
     if (e.layout == LAYOUT_PACKED && e.pixel_size == 2 && in->is_bigendian) {
         e.a = e.b = e.c = 0;
     }
-    const int64_t planes = e.layout == LAYOUT_YUV_420 ? (in->height + 1) / 2 : 0;
     rlf_result result = check_size(in, out);
+    io_pixels rows = *in;
     if (result == RLF_OK) {
-        result = io_pixels_check(in, e.pixel_size, in->height + planes);
+        rows.step = in->step != 0 ? in->step : in->width * e.pixel_size;
+        const int64_t planes = e.layout == LAYOUT_YUV_420 ? (in->height + 1) / 2 : 0;
+        result = io_pixels_check(&rows, e.pixel_size, in->height + planes);
     }
     for (int32_t y = 0; result == RLF_OK && y < out->height; y++) {
-        convert_row(&e, in, y, rlf_rgba8_row(out, y));
+        convert_row(&e, &rows, y, rlf_rgba8_row(out, y));
     }
     return result;
 }

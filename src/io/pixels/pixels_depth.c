@@ -64,14 +64,19 @@ rlf_result io_pixels_to_depth(const io_pixels *in, uint16_t *out, double *out_un
                         "%s: the depth pictures are \"%.32s\": record them as 16UC1 or 32FC1",
                         in->name, in->encoding);
     }
-    rlf_result result = io_pixels_check(in, is_float ? 4 : 2, in->height);
+    const int64_t most = RLF_IMAGE_SIZE_MAX;
+    io_pixels rows = *in;
+    if (in->step == 0 && in->width > 0 && in->width <= most) {
+        rows.step = in->width * (is_float ? 4 : 2);
+    }
+    rlf_result result = io_pixels_check(&rows, is_float ? 4 : 2, in->height);
     if (result != RLF_OK) {
         return result;
     }
     if (is_float) {
-        round_metres(in, out);
+        round_metres(&rows, out);
     } else {
-        copy_counts(in, out);
+        copy_counts(&rows, out);
     }
     *out_units_per_metre = is_float ? IO_PIXELS_FLOAT_UNITS : 1000.0;
     return RLF_OK;

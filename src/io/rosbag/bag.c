@@ -91,7 +91,7 @@ static rlf_result add_chunk(bag *self, int64_t position, const bag_record *recor
     }
     const bool is_plain = packing == BAG_PACKING_NONE;
     /* LZ4 packs 255 bytes into one at most. */
-    if (record->size > BAG_CHUNK_MAX || (is_plain && record->size != record->data_size) ||
+    if ((is_plain && record->size != record->data_size) ||
         (packing == BAG_PACKING_LZ4 && record->size / 256 > record->data_size)) {
         return rlf_fail(RLF_ERROR_FORMAT,
                         "%s: a chunk of %u bytes claims to hold %u: copy or record it again",
@@ -151,7 +151,9 @@ static rlf_result find_connections(bag *self)
     for (int32_t i = 0; i < self->chunk_count; i++) {
         io_bytes bytes;
         rlf_result result = bag_unpack(self, i, &bytes);
-        if (result != RLF_OK && result != RLF_ERROR_FORMAT) {
+        if (result == RLF_ERROR_FORMAT) {
+            rlf_log(RLF_LOG_WARNING, "%s; what it holds is left out", rlf_error_text());
+        } else if (result != RLF_OK) {
             return result;
         }
         cursor c = {bytes.data, bytes.size, false};

@@ -14,9 +14,11 @@ static rlf_result fail_damaged(const io_bytes *in)
                     in->name);
 }
 
+#ifdef RLF_HAVE_LZ4
+static const bool has_lz4 = true;
+
 static rlf_result unpack_lz4(const io_bytes *in, uint8_t *out, size_t out_size)
 {
-#ifdef RLF_HAVE_LZ4
     LZ4F_dctx *context = NULL;
     if (LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION))) {
         return rlf_fail(RLF_ERROR_MEMORY, "%s: out of memory while reading it", in->name);
@@ -36,32 +38,38 @@ static rlf_result unpack_lz4(const io_bytes *in, uint8_t *out, size_t out_size)
     }
     LZ4F_freeDecompressionContext(context);
     return out_done == out_size ? RLF_OK : fail_damaged(in);
-#else
-    (void)out;
-    (void)out_size;
-    return rlf_fail(RLF_ERROR_UNSUPPORTED,
-                    "%s: is compressed with lz4, which this build was made without: install "
-                    "liblz4-dev and build again, or run rosbag decompress",
-                    in->name);
-#endif
 }
+#else
+static const bool has_lz4 = false;
+#define unpack_lz4(in, out, out_size) fail_damaged(in)
+#endif
+
+#ifdef RLF_HAVE_BZ2
+static const bool has_bz2 = true;
 
 static rlf_result unpack_bz2(const io_bytes *in, uint8_t *out, size_t out_size)
 {
-#ifdef RLF_HAVE_BZ2
     unsigned size = (unsigned)out_size;
     /* The library does not write to its input; its interface is older than const. */
     const int code = BZ2_bzBuffToBuffDecompress((char *)out, &size, (char *)(uintptr_t)in->data,
                                                 (unsigned)in->size, 0, 0);
     return code == BZ_OK && size == out_size ? RLF_OK : fail_damaged(in);
+}
 #else
-    (void)out;
-    (void)out_size;
-    return rlf_fail(RLF_ERROR_UNSUPPORTED,
-                    "%s: is compressed with bz2, which this build was made without: install "
-                    "libbz2-dev and build again, or run rosbag decompress",
-                    in->name);
+static const bool has_bz2 = false;
+#define unpack_bz2(in, out, out_size) fail_damaged(in)
 #endif
+
+rlf_result bag_check_packing(const char *path, bag_packing packing)
+{
+    if ((packing == BAG_PACKING_LZ4 && !has_lz4) || (packing == BAG_PACKING_BZ2 && !has_bz2)) {
+        const char *name = packing == BAG_PACKING_LZ4 ? "lz4" : "bz2";
+        return rlf_fail(RLF_ERROR_UNSUPPORTED,
+                        "%s: is packed with %s, which this build was made without: install "
+                        "lib%s-dev and build again, or run rosbag decompress",
+                        path, name, name);
+    }
+    return RLF_OK;
 }
 
 rlf_result bag_decompress(const io_bytes *in, bag_packing packing, uint8_t *out, size_t out_size)
@@ -82,6 +90,11 @@ static rlf_result unpack_into(bag *self, int32_t index, bag_cache *cache)
 {
     const bag_chunk *chunk = &self->chunks[index];
     cache->chunk = -1;
+    if (chunk->size > BAG_CHUNK_MAX) {
+        return rlf_fail(RLF_ERROR_FORMAT,
+                        "%s: a chunk of %u bytes claims to unpack to %u: record in smaller chunks",
+                        self->path, (unsigned)chunk->packed_size, (unsigned)chunk->size);
+    }
     rlf_result result = io_buffer_reserve(&cache->bytes, chunk->size);
     if (result == RLF_OK) {
         result = io_buffer_reserve(&self->packed, chunk->packed_size);

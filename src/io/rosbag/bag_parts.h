@@ -5,9 +5,9 @@
 #include "io/rosbag/bag.h"
 #include "io/source/cursor.h"
 
-/* An unpacked chunk that is larger is refused: rosbag begins a new one after 768 KiB, so only a
+/* A chunk that unpacks to more is passed over: rosbag begins a new one after 768 KiB, so only a
  * single huge message makes one large. */
-#define BAG_CHUNK_MAX ((uint32_t)256 << 20)
+#define BAG_CHUNK_MAX ((uint32_t)64 << 20)
 
 enum { BAG_OP_MESSAGE = 2, BAG_OP_INDEX = 4, BAG_OP_CHUNK = 5, BAG_OP_CONNECTION = 7 };
 
@@ -75,6 +75,9 @@ rlf_result bag_grow(const bag *self, void **array, int32_t count, int32_t *capac
 
 /* The unpacked chunk; valid until two others were asked for. */
 rlf_result bag_unpack(bag *self, int32_t chunk, io_bytes *out);
+
+/* Whether this build can unpack such chunks; else RLF_ERROR_UNSUPPORTED with what to do. */
+rlf_result bag_check_packing(const char *path, bag_packing packing);
 
 /* Unpacks `in` into exactly out_size bytes. */
 rlf_result bag_decompress(const io_bytes *in, bag_packing packing, uint8_t *out, size_t out_size);

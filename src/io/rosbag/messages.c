@@ -123,11 +123,13 @@ static rlf_result set_lens(const io_bytes *message, const lens *l, rlf_camera *o
     if (is_zero(l)) {
         return RLF_OK;
     }
-    /* The words of ROS, and of librealsense. */
+    /* The words of ROS, and of librealsense, which projects with all three of its Brown models
+     * alike: from the ray to the distorted picture. */
     const bool is_rational = strcmp(l->model, "rational_polynomial") == 0 && l->count >= 8;
     const bool is_brown = strcmp(l->model, "plumb_bob") == 0 || l->model[0] == '\0' ||
                           strcmp(l->model, "Brown Conrady") == 0 ||
-                          strcmp(l->model, "Modified Brown Conrady") == 0;
+                          strcmp(l->model, "Modified Brown Conrady") == 0 ||
+                          strcmp(l->model, "Inverse Brown Conrady") == 0;
     if (!is_rational && !is_brown) {
         return rlf_fail(RLF_ERROR_UNSUPPORTED,
                         "%s: the lens model is \"%s\", which cannot be used: give a calibration "

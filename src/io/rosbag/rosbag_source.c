@@ -1,5 +1,6 @@
 /* Frames from ROS 1 bags, and from the bags that librealsense records. */
 #include "io/number.h"
+#include "io/picture.h"
 #include "io/pixels/compressed_depth.h"
 #include "io/rosbag/bag_rig.h"
 #include "io/source/backends.h"
@@ -26,6 +27,7 @@ typedef struct rosbag {
     stream depth, color;
     rlf_rig rig;
     double units_per_metre;
+    io_rvl rvl;
 } rosbag;
 
 static rlf_result read_image(rosbag *self, const stream *s, int32_t index, message_image *out)
@@ -59,8 +61,9 @@ static rlf_result read_depth(void *context, int32_t index, void *out)
         return result;
     }
     if (image.is_compressed) {
-        return io_compressed_depth_decode(&image.file, image.encoding, self->rig.depth.width,
-                                          self->rig.depth.height, out, &units);
+        return io_compressed_depth_decode(&self->rvl, &image.file, image.encoding,
+                                          self->rig.depth.width, self->rig.depth.height, out,
+                                          &units);
     }
     image.pixels.encoding = image.encoding;
     result = check_size(self, &image.pixels);
@@ -282,6 +285,7 @@ static rlf_result rosbag_open(const rlf_address *address, rlf_opened *out)
     if (self == NULL) {
         return RLF_ERROR_MEMORY;
     }
+    io_rvl_init(&self->rvl);
     rlf_result result = open_all(address, self, out);
     if (result != RLF_OK) {
         rosbag_destroy(self);

@@ -115,7 +115,10 @@ static picture_kind kind_of(bag *b, int32_t connection)
         return PICTURE_OTHER;
     }
     if (image.is_compressed) {
-        return strstr(image.encoding, "compressedDepth") != NULL ? PICTURE_DEPTH : PICTURE_COLOR;
+        const bool is_depth = strstr(image.encoding, "compressedDepth") != NULL ||
+                              strncmp(image.encoding, "16UC1", 5) == 0 ||
+                              strncmp(image.encoding, "mono16", 6) == 0;
+        return is_depth ? PICTURE_DEPTH : PICTURE_COLOR;
     }
     const bool is_grey =
         strcmp(image.encoding, "mono8") == 0 || strcmp(image.encoding, "8UC1") == 0;
