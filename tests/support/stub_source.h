@@ -2,7 +2,7 @@
 #ifndef RLF_TEST_STUB_SOURCE_H
 #define RLF_TEST_STUB_SOURCE_H
 
-#include "relief/io.h"
+#include "direct_source.h"
 #include "stub_camera.h"
 
 #include <string.h>
@@ -10,7 +10,7 @@
 static inline rlf_source *stub_open(const char *source)
 {
     rlf_source *s = NULL;
-    rlf_result result = rlf_open_source(source, NULL, &s);
+    rlf_result result = test_open_direct(source, &s);
     if (result != RLF_OK) {
         print_error("%s\n", rlf_error_text());
     }
@@ -29,7 +29,7 @@ static inline rlf_frame stub_next(rlf_source *s)
 static inline void stub_refuse(const char *source, rlf_result wanted, const char *word)
 {
     rlf_source *s = NULL;
-    assert_int_equal(rlf_open_source(source, NULL, &s), wanted);
+    assert_int_equal(test_open_direct(source, &s), wanted);
     assert_null(s);
     if (strstr(rlf_error_text(), word) == NULL) {
         fail_msg("\"%s\" does not mention \"%s\"", rlf_error_text(), word);

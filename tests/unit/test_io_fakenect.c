@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "freenect_test.h"
+#include "direct_source.h"
 #include "io_support.h"
 #include "relief/io.h"
 
@@ -72,7 +73,7 @@ static void the_dump_is_what_is_seen(void **state)
     test_log log = {0};
     rlf_set_log(test_log_line, &log);
     rlf_source *source = NULL;
-    if (rlf_open_source("freenect:", NULL, &source) != RLF_OK) {
+    if (test_open_direct("freenect:", &source) != RLF_OK) {
         fail_msg("%s", rlf_error_text());
     }
     rlf_set_log(NULL, NULL);

@@ -8,6 +8,7 @@
 
 #include "freenect_stub.h"
 #include "freenect_test.h"
+#include "direct_source.h"
 #include "io_support.h"
 #include "relief/io.h"
 
@@ -31,7 +32,7 @@ static int reset(void **state)
 static rlf_source *open_source(const char *name)
 {
     rlf_source *source = NULL;
-    if (rlf_open_source(name, NULL, &source) != RLF_OK) {
+    if (test_open_direct(name, &source) != RLF_OK) {
         fail_msg("%s: %s", name, rlf_error_text());
     }
     return source;
@@ -178,15 +179,15 @@ static void what_does_not_open_is_told(void **state)
 {
     (void)state;
     rlf_source *source = NULL;
-    test_expect_error(rlf_open_source("freenect:XYZ", NULL, &source), RLF_ERROR_DEVICE,
-                      "freenect:XYZ", "cannot be opened", "serial number");
-    test_expect_error(rlf_open_source("freenect:?mirror=yes", NULL, &source), RLF_ERROR_INVALID,
+    test_expect_error(test_open_direct("freenect:XYZ", &source), RLF_ERROR_DEVICE, "freenect:XYZ",
+                      "cannot be opened", "serial number");
+    test_expect_error(test_open_direct("freenect:?mirror=yes", &source), RLF_ERROR_INVALID,
                       "freenect:", "mirror=yes", "0 or 1");
     control->does_not_start = true;
-    test_expect_error(rlf_open_source("freenect:", NULL, &source), RLF_ERROR_DEVICE,
+    test_expect_error(test_open_direct("freenect:", &source), RLF_ERROR_DEVICE,
                       "freenect:", "does not start", "USB");
     control->is_absent = true;
-    test_expect_error(rlf_open_source("freenect:", NULL, &source), RLF_ERROR_DEVICE,
+    test_expect_error(test_open_direct("freenect:", &source), RLF_ERROR_DEVICE,
                       "freenect:", "no Kinect", "cable");
     assert_null(source);
 }

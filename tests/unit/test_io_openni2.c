@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "io/openni2/api.h"
+#include "direct_source.h"
 #include "io_support.h"
 #include "openni2_driver/control.h"
 #include "relief/io.h"
@@ -38,7 +39,7 @@ static void *symbol(const char *file, const char *name)
 static rlf_source *open_source(const char *name)
 {
     rlf_source *source = NULL;
-    if (rlf_open_source(name, NULL, &source) != RLF_OK) {
+    if (test_open_direct(name, &source) != RLF_OK) {
         fail_msg("%s: %s", name, rlf_error_text());
     }
     return source;
@@ -247,7 +248,7 @@ static void an_unplugged_camera_is_told_and_can_come_back(void **state)
     test_expect_error(rlf_source_next(source, &f), RLF_ERROR_DEVICE, "openni2:", "gone", "plug");
     assert_false(rlf_source_get_status(source).is_connected);
     rlf_source *other = NULL;
-    test_expect_error(rlf_open_source("openni2:", NULL, &other), RLF_ERROR_DEVICE,
+    test_expect_error(test_open_direct("openni2:", &other), RLF_ERROR_DEVICE,
                       "openni2:", "no such camera", "cable");
     rlf_source_destroy(&source);
     source = open_source("openni2:");
@@ -274,14 +275,14 @@ static void what_cannot_be_had_is_told(void **state)
     };
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         rlf_source *source = NULL;
-        test_expect_error(rlf_open_source(cases[i].source, NULL, &source), cases[i].result,
+        test_expect_error(test_open_direct(cases[i].source, &source), cases[i].result,
                           cases[i].source, cases[i].part, cases[i].cure);
         assert_null(source);
         assert_int_equal(control->open_count, 0);
     }
     control->cannot_register = true;
     rlf_source *source = NULL;
-    test_expect_error(rlf_open_source("openni2:?aligned=1", NULL, &source), RLF_ERROR_UNSUPPORTED,
+    test_expect_error(test_open_direct("openni2:?aligned=1", &source), RLF_ERROR_UNSUPPORTED,
                       "openni2:", "cannot align", "camera=FILE");
 }
 
