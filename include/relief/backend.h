@@ -61,7 +61,11 @@ typedef struct rlf_backend {
     const char *extensions; /* of files it opens, e.g. ".oni .mkv", lower case; NULL = none */
     const char *keys;       /* its own keys, e.g. "serial mode"; NULL = none */
     const char *summary;    /* one line for `relief sources` */
-    bool is_live;           /* devices: frames come by themselves and may stop coming */
+    /* Devices: frames come by themselves and may stop coming. Relief calls `open` and the methods
+     * from one thread of its own, one after the other. `next` may wait some 50 ms for a frame; when
+     * it fails (but with RLF_ERROR_FORMAT: one damaged frame) or gives none for a second, the
+     * device is closed and opened again until it is back. */
+    bool is_live;
     /* NULL = it can be used; else why not and what to do, e.g. "libOpenNI2.so.0 is not installed:
      * apt install libopenni2-0". A NULL function = it always can. */
     const char *(*unavailable)(void);

@@ -113,8 +113,8 @@ RLF_API void rlf_pipeline_set_overlay(rlf_pipeline *pipeline, const char *const 
 
 /* One frame through all stages. RLF_OK, RLF_NO_FRAME, RLF_END, or an error. Allocates nothing after
  * the first frames. Two frames with the same time: the second advances physics by nothing, and so
- * does a frame with RLF_FRAME_DISCONTINUITY. While no frame comes physics waits: bodies would rest
- * on what may have gone meanwhile, and a recording of the run would not give the same bodies. */
+ * does the first frame after a second in which ten or more are missing. While no frame comes
+ * physics waits: bodies would rest on what may have gone meanwhile. */
 RLF_API rlf_result rlf_pipeline_step(rlf_pipeline *pipeline, rlf_pipeline_output *out);
 /* Draws the last frame again, e.g. after a change of view while paused. */
 RLF_API rlf_result rlf_pipeline_redraw(rlf_pipeline *pipeline, rlf_pipeline_output *out);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define ADVANCE_MAX_S 1.0 /* a longer gap between frames advances physics by this much only */
+#define AWAY_FRAMES 10    /* missing in such a gap: it is no slow clip, the camera was away */
 #define STALE_S 1.0       /* without a frame: what is shown is no longer what is there */
 #define GRAVITY_FRAMES 10 /* that are asked at most which way is up */
 #define THROWS_MAX 256    /* bodies that there is room for beside a scene's */
@@ -270,6 +271,15 @@ static void make_grid(rlf_pipeline *p, rlf_grid *out)
     }
 }
 
+/* Bodies wait for a camera that was away: what they would have met meanwhile nobody saw. Times
+ * alone decide, so that a recording gives the same bodies. */
+static double time_to_advance(const rlf_pipeline *p, double gap_s)
+{
+    const double rate = rlf_source_get_info(p->def.source)->frames_per_second;
+    const bool was_away = gap_s > ADVANCE_MAX_S && gap_s * rate > AWAY_FRAMES;
+    return was_away ? 0.0 : rlf_min(gap_s, ADVANCE_MAX_S);
+}
+
 static rlf_result advance_world(rlf_pipeline *p)
 {
     rlf_pipeline_output *out = &p->last;
@@ -284,12 +294,10 @@ static rlf_result advance_world(rlf_pipeline *p)
     if (result != RLF_OK) {
         return result;
     }
-    /* The surface stage guards itself: it measures nothing over long gaps, and learns the
-     * background anew when the view is another. */
-    bool follows = !is_first && (out->frame.flags & RLF_FRAME_DISCONTINUITY) == 0;
-    double dt = follows ? (double)(out->frame.time_ns - p->last_time_ns) * 1e-9 : 0.0;
+    const double gap = is_first ? 0.0 : (double)(out->frame.time_ns - p->last_time_ns) * 1e-9;
+    const double dt = time_to_advance(p, gap);
     if (dt > 0.0) {
-        rlf_world_advance(p->world, &grid, rlf_min(dt, ADVANCE_MAX_S));
+        rlf_world_advance(p->world, &grid, dt);
     }
     if (is_first) {
         p->first_time_ns = out->frame.time_ns;

@@ -27,8 +27,8 @@ await()
     fail "no '$1'"
 }
 
-# Ctrl-C while the driver hangs: the summary, status 0, within two seconds and what a busy machine
-# takes to start a clock.
+# Ctrl-C while the driver hangs: the summary and status 0 within two seconds; a busy machine gets
+# twice as long.
 "$relief" run "simulated:?$played&hang=1" --headless >stdout.txt 2>stderr.txt &
 run=$!
 await "camera simulated:.*: no frame for 1 s: is it unplugged? trying again"
@@ -38,7 +38,7 @@ wait $run
 status=$?
 took=$((($(date +%s%N) - start) / 1000000))
 [ $status -eq 0 ] || fail "hang: status $status"
-[ $took -lt 2000 ] || fail "hang: Ctrl-C took $took ms"
+[ $took -lt 4000 ] || fail "hang: Ctrl-C took $took ms"
 grep -q "frames, renderer soft" stdout.txt || fail "hang: no summary"
 grep -q "latency" stdout.txt || fail "hang: no latency"
 grep -q "its driver does not come back: left alone" stderr.txt || fail "hang: not told"

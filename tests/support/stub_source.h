@@ -2,43 +2,19 @@
 #ifndef RLF_TEST_STUB_SOURCE_H
 #define RLF_TEST_STUB_SOURCE_H
 
-#include "io/source/address.h"
-#include "io/source/backends.h"
-#include "io/source/find_backend.h"
-#include "relief/io.h"
+#include "direct_source.h"
 #include "stub_camera.h"
 
 #include <string.h>
 
-/* The back end itself: rlf_open_source would put a thread and the search for a lost camera between,
- * where moments cannot be told. */
 static inline rlf_source *stub_open(const char *source)
 {
-    io_address parts;
-    const rlf_backend *backend = NULL;
-    rlf_opened opened;
     rlf_source *s = NULL;
-    rlf_rig rig;
-    rlf_address address = {.source = source};
-    assert_int_equal(io_address_parse(source, &parts), RLF_OK);
-    assert_int_equal(io_backend_find(source, &parts, &backend), RLF_OK);
-    const char *camera = io_address_take(&parts, "camera");
-    if (camera != NULL) {
-        assert_int_equal(rlf_rig_load(camera, &rig, &address.units_per_metre), RLF_OK);
-        address.rig = &rig;
-    }
-    address.place = parts.place;
-    address.key_count = parts.key_count;
-    for (int32_t i = 0; i < parts.key_count; i++) {
-        address.keys[i] = parts.keys[i];
-        address.values[i] = parts.values[i];
-    }
-    rlf_result result = backend->open(&address, &opened);
+    rlf_result result = test_open_direct(source, &s);
     if (result != RLF_OK) {
         print_error("%s\n", rlf_error_text());
     }
     assert_int_equal(result, RLF_OK);
-    assert_int_equal(io_source_create(&opened, &s), RLF_OK);
     return s;
 }
 
@@ -53,7 +29,7 @@ static inline rlf_frame stub_next(rlf_source *s)
 static inline void stub_refuse(const char *source, rlf_result wanted, const char *word)
 {
     rlf_source *s = NULL;
-    assert_int_equal(rlf_open_source(source, NULL, &s), wanted);
+    assert_int_equal(test_open_direct(source, &s), wanted);
     assert_null(s);
     if (strstr(rlf_error_text(), word) == NULL) {
         fail_msg("\"%s\" does not mention \"%s\"", rlf_error_text(), word);

@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "freenect_test.h"
-#include "bare_source.h"
+#include "direct_source.h"
 #include "io_support.h"
 #include "relief/io.h"
 
@@ -73,7 +73,7 @@ static void the_dump_is_what_is_seen(void **state)
     test_log log = {0};
     rlf_set_log(test_log_line, &log);
     rlf_source *source = NULL;
-    if (bare_open("freenect:", &source) != RLF_OK) {
+    if (test_open_direct("freenect:", &source) != RLF_OK) {
         fail_msg("%s", rlf_error_text());
     }
     rlf_set_log(NULL, NULL);
@@ -110,15 +110,16 @@ static void the_dump_is_what_is_seen(void **state)
     rlf_source_destroy(&source);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
-    const char *library = RLF_TEST_FAKENECT;
-    if (library == NULL) {
+    (void)argc;
+    const char *folder = RLF_TEST_FAKENECT;
+    if (folder == NULL) {
         puts("SKIPPED: fakenect is not installed (apt install libfreenect0.5), or this build is "
              "without RELIEF_WITH_FREENECT");
         return 77;
     }
-    setenv("RELIEF_FREENECT_LIBRARY", library, 1);
+    freenect_test_use(folder, argv);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(the_dump_is_what_is_seen, write_dump, test_folder_remove),
     };

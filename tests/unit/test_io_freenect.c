@@ -8,7 +8,7 @@
 
 #include "freenect_stub.h"
 #include "freenect_test.h"
-#include "bare_source.h"
+#include "direct_source.h"
 #include "io_support.h"
 #include "relief/io.h"
 
@@ -32,7 +32,7 @@ static int reset(void **state)
 static rlf_source *open_source(const char *name)
 {
     rlf_source *source = NULL;
-    if (bare_open(name, &source) != RLF_OK) {
+    if (test_open_direct(name, &source) != RLF_OK) {
         fail_msg("%s: %s", name, rlf_error_text());
     }
     return source;
@@ -179,31 +179,32 @@ static void what_does_not_open_is_told(void **state)
 {
     (void)state;
     rlf_source *source = NULL;
-    test_expect_error(bare_open("freenect:XYZ", &source), RLF_ERROR_DEVICE, "freenect:XYZ",
+    test_expect_error(test_open_direct("freenect:XYZ", &source), RLF_ERROR_DEVICE, "freenect:XYZ",
                       "cannot be opened", "serial number");
-    test_expect_error(bare_open("freenect:?mirror=yes", &source), RLF_ERROR_INVALID,
+    test_expect_error(test_open_direct("freenect:?mirror=yes", &source), RLF_ERROR_INVALID,
                       "freenect:", "mirror=yes", "0 or 1");
     control->does_not_start = true;
-    test_expect_error(bare_open("freenect:", &source), RLF_ERROR_DEVICE,
+    test_expect_error(test_open_direct("freenect:", &source), RLF_ERROR_DEVICE,
                       "freenect:", "does not start", "USB");
     control->is_absent = true;
-    test_expect_error(bare_open("freenect:", &source), RLF_ERROR_DEVICE, "freenect:", "no Kinect",
-                      "cable");
+    test_expect_error(test_open_direct("freenect:", &source), RLF_ERROR_DEVICE,
+                      "freenect:", "no Kinect", "cable");
     assert_null(source);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
-    const char *path = RLF_TEST_FREENECT_STUB;
-    if (path == NULL) {
+    (void)argc;
+    const char *folder = RLF_TEST_FREENECT_STUB;
+    if (folder == NULL) {
         puts("SKIPPED: this build is without RELIEF_WITH_FREENECT");
         return 77;
     }
-    setenv("RELIEF_FREENECT_LIBRARY", path, 1);
-    void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    freenect_test_use(folder, argv);
+    void *library = dlopen("libfreenect.so.0.5", RTLD_LAZY | RTLD_LOCAL);
     void *found = library != NULL ? dlsym(library, "freenect_stub_get") : NULL;
     if (found == NULL) {
-        printf("%s: is not the stand-in for libfreenect\n", path);
+        printf("the stand-in for libfreenect is not in %s\n", folder);
         return 1;
     }
     freenect_stub_control *(*get)(void);

@@ -7,14 +7,34 @@
 #include <cmocka.h>
 
 #include "io/live/follow.h"
+#include "io_support.h"
 #include "live_watch.h"
 #include "relief/io.h"
 
+#define W 16
+#define H 8
+#define FRAMES 600
+
+/* A clip of twenty seconds that is cheap to play: all its frames are one file. */
 static int set_up(void **state)
 {
-    (void)state;
+    static char list[FRAMES * 32];
+    uint16_t pixels[W * H];
+    size_t end = 0;
     log_start();
-    return 0;
+    for (int i = 0; i < FRAMES; i++) {
+        end += (size_t)snprintf(list + end, sizeof(list) - end, "%.6f d.png\n", i / 30.0);
+    }
+    for (int i = 0; i < W * H; i++) {
+        pixels[i] = 1500;
+    }
+    if (test_folder_make(state) != 0) {
+        return -1;
+    }
+    test_write_text("camera.json", "{\"depth\":{\"width\":16,\"height\":8,\"fx\":15,\"fy\":15,"
+                                   "\"cx\":7.5,\"cy\":3.5,\"units_per_metre\":1000}}");
+    test_write_text("depth.txt", list);
+    return rlf_png_write_u16(test_path("d.png"), pixels, W, H);
 }
 
 /* ---- times and numbers ---------------------------------------------------------------------- */
@@ -63,20 +83,19 @@ static void clocks_and_counters_that_start_anew_go_on(void **state)
 
 /* ---- the simulated camera ------------------------------------------------------------------- */
 
-#define PLAYED "of=synthetic:empty?color=0"
-
-static rlf_source *open_simulated(const char *source_text)
+static rlf_source *open_simulated(const char *name, const char *faults)
 {
+    char text[256];
     rlf_source *source = NULL;
-    assert_int_equal(rlf_open_source(source_text, NULL, &source), RLF_OK);
+    (void)snprintf(text, sizeof(text), "simulated:%s?of=%s&%s", name, test_folder, faults);
+    assert_int_equal(rlf_open_source(text, NULL, &source), RLF_OK);
     return source;
 }
 
 static void the_simulated_camera_drops_doubles_and_jumps(void **state)
 {
     (void)state;
-    rlf_source *source =
-        open_simulated("simulated:a?" PLAYED "&drop=7&doubled=5&jitter=10&time_back=1");
+    rlf_source *source = open_simulated("a", "drop=7&doubled=5&jitter=10&time_back=1");
     const int64_t start_ns = rlf_clock_ns();
     int64_t time_ns = INT64_MIN;
     for (int i = 0; i < 50; i++) {
@@ -95,7 +114,7 @@ static void the_simulated_camera_is_pulled_out_and_put_back(void **state)
 {
     (void)state;
     const int64_t start_ns = rlf_clock_ns();
-    rlf_source *source = open_simulated("simulated:b?" PLAYED "&unplug_after=1&replug_after=1.2");
+    rlf_source *source = open_simulated("b", "unplug_after=1&replug_after=1.2");
     assert_true(await_line(source, "was pulled out", start_ns) > SECOND);
     rlf_frame frame = next_frame(source);
     while ((frame.flags & RLF_FRAME_DISCONTINUITY) == 0) {
@@ -110,7 +129,7 @@ static void the_simulated_camera_stalls(void **state)
 {
     (void)state;
     const int64_t start_ns = rlf_clock_ns();
-    rlf_source *source = open_simulated("simulated:c?" PLAYED "&stall=1.5@1");
+    rlf_source *source = open_simulated("c", "stall=1.5@1");
     assert_true(await_line(source, "no frame for 1 s", start_ns) > 18 * SECOND / 10);
     (void)next_frame(source);
     await_count("frames are back", 1);
@@ -142,7 +161,7 @@ static void all_back_ends_are_asked_what_is_plugged_in(void **state)
 
 int main(void)
 {
-#define TEST(f) cmocka_unit_test_setup(f, set_up)
+#define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, test_folder_remove)
     const struct CMUnitTest tests[] = {
         TEST(clocks_and_counters_that_start_anew_go_on),
         TEST(the_simulated_camera_drops_doubles_and_jumps),

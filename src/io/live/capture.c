@@ -201,7 +201,7 @@ static bool capture_one(io_live *l)
     const int64_t now_ns = rlf_clock_ns();
     const int64_t silence_ns = now_ns - l->device_frame_ns;
     if (silence_ns >= LIVE_SILENCE_NS && l->follow.has_last) {
-        live_tell_silence(l, "no frame for 1 s");
+        live_tell_silence(l, NULL);
     }
     if (now_ns - start_ns < BREATH_NS) {
         rest(l, BREATH_NS);

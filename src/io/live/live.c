@@ -32,7 +32,7 @@ static rlf_result live_next(void *self, rlf_frame *out)
     const bool is_silent = rlf_clock_ns() - l->last_frame_ns >= LIVE_SILENCE_NS;
     pthread_mutex_unlock(&l->mutex);
     if (result == RLF_NO_FRAME && is_silent) {
-        live_tell_silence(l, "no frame for 1 s"); /* the thread may be stuck in the driver */
+        live_tell_silence(l, NULL); /* the thread may be stuck in the driver */
     }
     return result < 0 ? rlf_fail(result, "%s", l->error) : result;
 }

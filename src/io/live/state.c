@@ -76,8 +76,14 @@ void live_tell_silence(io_live *l, const char *reason)
     l->is_told = l->is_told || is_new;
     l->is_connected = false;
     pthread_mutex_unlock(&l->mutex);
-    if (is_new) {
-        rlf_log(RLF_LOG_WARNING, "camera %s: %s: is it unplugged? trying again", l->name, reason);
+    if (is_new && reason == NULL) {
+        rlf_log(RLF_LOG_WARNING, "camera %s: no frame for 1 s: is it unplugged? trying again",
+                l->name);
+    } else if (is_new) { /* a back end's lines begin with its source */
+        const size_t length = strlen(l->name);
+        const bool is_named = strncmp(reason, l->name, length) == 0 && reason[length] == ':';
+        rlf_log(RLF_LOG_WARNING, "camera %s%s%s; trying again", is_named ? "" : l->name,
+                is_named ? "" : ": ", reason);
     }
 }
 

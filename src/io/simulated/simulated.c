@@ -198,6 +198,10 @@ static rlf_result simulated_open(const rlf_address *address, rlf_opened *out)
     memset(out, 0, sizeof(*out));
     result = open_played(address, s);
     result = result == RLF_OK ? describe(address, s, &out->info) : result;
+    result = result == RLF_OK ? make_ready(s) : result;
+    if (result > RLF_OK) {
+        result = rlf_fail(RLF_ERROR_IO, "%s: what it plays has no frame", address->source);
+    }
     result = result == RLF_OK ? simulated_device_note(address->place) : result;
     if (result != RLF_OK) {
         simulated_destroy(s);

@@ -80,8 +80,9 @@ static rlf_result open_with(const rlf_backend *backend, const char *source, io_a
     rlf_opened opened;
     memset(&opened, 0, sizeof(opened));
     if (result == RLF_OK) {
-        result = backend->is_live ? io_live_open(backend, &address, &opened)
-                                  : backend->open(&address, &opened);
+        const bool has_thread = backend->is_live && !replay.is_direct;
+        result = has_thread ? io_live_open(backend, &address, &opened)
+                            : backend->open(&address, &opened);
     }
     if (result == RLF_OK) {
         result = wrap(&replay, source, &opened);

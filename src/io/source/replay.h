@@ -6,10 +6,11 @@
 #include "relief/backend.h"
 
 #define IO_REPLAY_FILE_KEYS "loop speed start count drop seed aligned"
-#define IO_REPLAY_LIVE_KEYS "aligned" /* of what cannot be played again */
+#define IO_REPLAY_LIVE_KEYS "aligned direct" /* of what cannot be played again */
 
 typedef struct io_replay {
-    bool is_wanted; /* at least one key was given */
+    bool is_wanted; /* at least one key of playing was given */
+    bool is_direct; /* a camera without a thread of its own: every frame in turn */
     bool loop;
     double speed;    /* 1 = as recorded, 2 = twice as fast; 0 = as fast as it is asked */
     int64_t start;   /* first frame */

@@ -23,6 +23,7 @@ static const replay_key keys[] = {
     {"drop", 0, 1, false, "the share of frames to lose, from 0 to 1"},
     {"seed", 0, FRAMES_MAX, true, "a whole number from 0"},
     {"aligned", 0, 1, true, "1 when colour is in the depth camera's pixels, 0 when it is not"},
+    {"direct", 0, 1, true, "1 to call the driver without a thread of its own, or 0"},
 };
 #define KEY_COUNT ((int)(sizeof(keys) / sizeof(keys[0])))
 
@@ -39,7 +40,7 @@ static rlf_result parse(const replay_key *key, const char *text, const char *pla
 rlf_result io_replay_take(io_address *parts, const rlf_backend *backend, io_replay *out)
 {
     const char *allowed = backend->is_live ? IO_REPLAY_LIVE_KEYS : IO_REPLAY_FILE_KEYS;
-    double values[KEY_COUNT] = {0, 0, 0, 0, 0, 0, -1};
+    double values[KEY_COUNT] = {0, 0, 0, 0, 0, 0, -1, 0};
     memset(out, 0, sizeof(*out));
     for (int i = 0; i < KEY_COUNT; i++) {
         if (!io_word_is_in(allowed, keys[i].name) || io_word_is_in(backend->keys, keys[i].name)) {
@@ -51,7 +52,7 @@ rlf_result io_replay_take(io_address *parts, const rlf_backend *backend, io_repl
             if (result != RLF_OK) {
                 return result;
             }
-            out->is_wanted = true;
+            out->is_wanted = out->is_wanted || strcmp(keys[i].name, "direct") != 0;
         }
     }
     out->loop = values[0] != 0.0;
@@ -61,5 +62,6 @@ rlf_result io_replay_take(io_address *parts, const rlf_backend *backend, io_repl
     out->drop = values[4];
     out->seed = (uint64_t)values[5];
     out->aligned = (int32_t)values[6];
+    out->is_direct = values[7] != 0.0;
     return RLF_OK;
 }
