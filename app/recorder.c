@@ -12,8 +12,10 @@ struct recorder {
     rlf_recording *recording;
     record_queue queue;
     pthread_t thread;
-    bool is_live, keeps_bodies, tells_at_once;
-    int64_t last_ns; /* of the frames in the queue, for sources that start again */
+    bool is_live, keeps_bodies, is_beside_loop;
+    rlf_source *observed;  /* NULL = frames come by the tap */
+    pthread_mutex_t fills; /* held while an item is filled */
+    int64_t last_ns;       /* of the frames in the queue, for sources that start again */
     bool has_last;
     uint64_t dropped;
     /* What the thread says; under the queue's lock. */
@@ -69,7 +71,7 @@ static void note(recorder *r, rlf_result result)
         snprintf(r->problem, sizeof(r->problem), "%s", rlf_error_text());
     }
     pthread_mutex_unlock(&r->queue.lock);
-    if (is_first && r->tells_at_once) {
+    if (is_first && r->is_beside_loop) {
         rlf_log(RLF_LOG_ERROR, "%s; the run goes on, unrecorded", r->problem);
     }
 }
@@ -106,16 +108,18 @@ rlf_result recorder_open(const recorder_options *options, const rlf_source_info 
     }
     r->is_live = info->is_live;
     r->keeps_bodies = options->keeps_bodies;
-    r->tells_at_once = options->tells_at_once;
+    r->is_beside_loop = options->is_beside_loop;
     rlf_result result = rlf_recording_open(options->path, info, &options->def, &r->recording);
     if (result != RLF_OK) {
         rlf_free(r);
         return result;
     }
     record_queue_init(&r->queue, &info->rig);
+    pthread_mutex_init(&r->fills, NULL);
     if (pthread_create(&r->thread, NULL, write_all, r) != 0) {
         rlf_recording_close(&r->recording, NULL);
         record_queue_free(&r->queue);
+        pthread_mutex_destroy(&r->fills);
         rlf_free(r);
         return rlf_fail(RLF_ERROR_MEMORY, "no thread can be started to record: close something");
     }
@@ -146,6 +150,9 @@ rlf_result recorder_close(recorder **recorder_pointer, recorder_status *out)
     if (r == NULL) {
         return RLF_OK;
     }
+    if (r->observed != NULL) {
+        rlf_source_observe(r->observed, NULL, NULL);
+    }
     record_queue_close(&r->queue);
     pthread_join(r->thread, NULL);
     rlf_recording_status written;
@@ -154,9 +161,10 @@ rlf_result recorder_close(recorder **recorder_pointer, recorder_status *out)
         result = rlf_fail(r->result, "%s", r->problem);
     }
     if (out != NULL) {
-        *out = (recorder_status){written, r->dropped, r->cpu_s, r->has_failed && r->tells_at_once};
+        *out = (recorder_status){written, r->dropped, r->cpu_s, r->has_failed && r->is_beside_loop};
     }
     record_queue_free(&r->queue);
+    pthread_mutex_destroy(&r->fills);
     rlf_free(r);
     return result;
 }
@@ -174,7 +182,7 @@ void recorder_print_summary(const recorder_options *options, const recorder_stat
 /* ---- the loop's side --------------------------------------------------------------------------
  */
 
-static void add_frame(recorder *r, const rlf_frame *frame)
+static void fill_frame(recorder *r, const rlf_frame *frame)
 {
     /* A clip that starts again was recorded already. */
     if (r->has_last && frame->time_ns <= r->last_ns) {
@@ -191,27 +199,38 @@ static void add_frame(recorder *r, const rlf_frame *frame)
     record_queue_push(&r->queue);
 }
 
+static void add_frame(void *context, const rlf_frame *frame)
+{
+    recorder *r = context;
+    pthread_mutex_lock(&r->fills);
+    fill_frame(r, frame);
+    pthread_mutex_unlock(&r->fills);
+}
+
 void recorder_add_bodies(recorder *r, int64_t time_ns, const rlf_snapshot *snapshot)
 {
     if (r == NULL || !r->keeps_bodies || recorder_has_failed(r)) {
         return;
     }
+    pthread_mutex_lock(&r->fills);
     record_item *item = record_queue_reserve(&r->queue, !r->is_live);
     if (item != NULL && record_item_set_bodies(item, time_ns, snapshot)) {
         record_queue_push(&r->queue);
     }
+    pthread_mutex_unlock(&r->fills);
 }
 
 typedef struct tap {
     recorder *recorder;
     rlf_source *source;
+    bool is_observed;
 } tap;
 
 static rlf_result tap_next(void *self, rlf_frame *out)
 {
     tap *t = self;
     const rlf_result result = rlf_source_next(t->source, out);
-    if (result == RLF_OK) {
+    if (result == RLF_OK && !t->is_observed) {
         add_frame(t->recorder, out);
     }
     return result;
@@ -256,13 +275,17 @@ rlf_result recorder_tap(recorder *r, rlf_source **source)
     if (t == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    *t = (tap){r, *source};
+    *t = (tap){.recorder = r, .source = *source};
     rlf_source *tapped = NULL;
     rlf_result result =
         rlf_source_create_custom(&methods, rlf_source_get_info(*source), t, &tapped);
     if (result != RLF_OK) {
         rlf_free(t);
         return result;
+    }
+    if (r->is_beside_loop && rlf_source_observe(t->source, add_frame, r)) {
+        t->is_observed = true;
+        r->observed = t->source;
     }
     *source = tapped;
     return RLF_OK;

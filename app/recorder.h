@@ -10,7 +10,9 @@ typedef struct recorder_options {
     const char *path; /* NULL = nothing is recorded */
     rlf_recording_def def;
     bool keeps_bodies;
-    bool tells_at_once; /* a failure is logged when it happens: the loop goes on without it */
+    /* A failure is logged when it happens, and the loop goes on without it; of a camera also those
+     * frames are recorded that the loop is too slow for. */
+    bool is_beside_loop;
 } recorder_options;
 
 typedef struct recorder_status {

@@ -255,7 +255,7 @@ static int parse(int argc, char **argv, run_options *o)
 {
     o->session = session_options_default();
     o->session.use_default_scene = true;
-    o->session.record.tells_at_once = true;
+    o->session.record.is_beside_loop = true;
     o->output.picture_every = 30;
     o->output.picture_shrink = 1;
     o->frame_count = -1;

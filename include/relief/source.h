@@ -56,6 +56,9 @@ typedef struct rlf_truth_pose {
 
 typedef struct rlf_source rlf_source;
 
+/* Is shown a frame; it is good during the call. */
+typedef void (*rlf_frame_fn)(void *context, const rlf_frame *frame);
+
 /* Methods of a custom source; `self` is the context given at creation. */
 typedef struct rlf_source_methods {
     /* Fills *out_frame; its planes stay valid until the next call that returns RLF_OK. Returns
@@ -71,6 +74,10 @@ typedef struct rlf_source_methods {
     rlf_result (*seek)(void *self, int64_t index);
     /* Fills *out, which is zero but for is_connected. NULL = only `given` is known. */
     void (*status)(void *self, rlf_source_status *out);
+    /* Shows every frame that the device makes to `fn`, also those that `next` leaves out, on the
+     * thread on which they come. fn NULL: no more, once the last call of it has returned. NULL =
+     * all frames come by `next`. */
+    void (*observe)(void *self, rlf_frame_fn fn, void *context);
 } rlf_source_methods;
 
 /* Makes a source of caller's methods. Copies both structs. On failure `self` is not destroyed. */
@@ -93,6 +100,11 @@ RLF_API rlf_result rlf_source_restart(rlf_source *source);
 RLF_API rlf_result rlf_source_seek(rlf_source *source, int64_t index);
 /* What became of the frames so far. Thread-safety: as next. */
 RLF_API rlf_source_status rlf_source_get_status(const rlf_source *source);
+/* From now on `fn` is shown every frame that the device makes, also those that overtake each other
+ * before rlf_source_next asks; on the thread on which they come, so it must be quick. NULL ends
+ * that, once the last call has returned. False: all frames come by rlf_source_next, and `fn` is not
+ * used. Thread-safety: as next. */
+RLF_API bool rlf_source_observe(rlf_source *source, rlf_frame_fn fn, void *context);
 /* Truth of the last frame, or NULL when the source knows none. Valid until the next call of next.
  * Thread-safety: as next; the first call for a frame may make the planes. */
 RLF_API const rlf_truth *rlf_source_get_truth(rlf_source *source);

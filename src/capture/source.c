@@ -101,6 +101,15 @@ rlf_result rlf_source_seek(rlf_source *source, int64_t index)
     return source->methods.seek(source->self, index);
 }
 
+bool rlf_source_observe(rlf_source *source, rlf_frame_fn fn, void *context)
+{
+    if (!RLF_ASSERT(source != NULL) || source->methods.observe == NULL) {
+        return false;
+    }
+    source->methods.observe(source->self, fn, context);
+    return true;
+}
+
 rlf_source_status rlf_source_get_status(const rlf_source *source)
 {
     rlf_source_status status = {.is_connected = true};

@@ -370,6 +370,37 @@ static void a_camera_without_a_first_frame_is_not_opened(void **state)
     assert_string_equal(rlf_error_text(), "test:here?serial=7: there is no camera here");
 }
 
+static _Atomic uint64_t shown, shown_last, shown_gaps;
+
+static void on_frame(void *context, const rlf_frame *frame)
+{
+    (void)context;
+    const uint64_t last = atomic_exchange(&shown_last, frame->sequence);
+    shown_gaps += shown > 0 && frame->sequence != last + 1 ? 1 : 0;
+    shown++;
+}
+
+/* As who records does: all frames, however slow the reader is. */
+static void an_observer_is_shown_every_frame(void **state)
+{
+    (void)state;
+    rlf_source *source = open_good();
+    rlf_frame frame;
+    shown = shown_gaps = 0;
+    assert_true(rlf_source_observe(source, on_frame, NULL));
+    for (int i = 0; i < 5; i++) {
+        sleep_ms(60); /* twelve frames */
+        assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    }
+    assert_true(rlf_source_observe(source, NULL, NULL));
+    const uint64_t count = shown;
+    assert_true(count > 8 && rlf_source_get_status(source).late > 3);
+    assert_int_equal(shown_gaps, 0);
+    sleep_ms(50);
+    assert_true(shown == count);
+    rlf_source_destroy(&source);
+}
+
 int main(void)
 {
 #define TEST(f) cmocka_unit_test_setup(f, set_up)
@@ -378,6 +409,7 @@ int main(void)
         TEST(lost_and_doubled_frames_are_counted),
         TEST(waiting_ends_soon_and_is_no_busy_loop),
         TEST(frames_allocate_nothing),
+        TEST(an_observer_is_shown_every_frame),
         TEST(a_camera_that_is_pulled_out_is_told_and_found_again),
         TEST(a_camera_that_falls_silent_is_told_and_opened_again),
         TEST(another_camera_in_its_place_ends_the_source),

@@ -158,6 +158,15 @@ static void publish(io_live *l, int64_t now_ns)
     }
 }
 
+static void show(io_live *l, const rlf_frame *frame)
+{
+    pthread_mutex_lock(&l->observer_mutex);
+    if (l->observer != NULL) {
+        l->observer(l->observer_context, frame);
+    }
+    pthread_mutex_unlock(&l->observer_mutex);
+}
+
 static void take_frame(io_live *l, rlf_frame *frame)
 {
     const int64_t now_ns = rlf_clock_ns();
@@ -173,6 +182,7 @@ static void take_frame(io_live *l, rlf_frame *frame)
     l->counts.damaged += is_new && !is_good ? 1 : 0;
     pthread_mutex_unlock(&l->mutex);
     if (is_good) {
+        show(l, &l->slots[l->filled].frame);
         publish(l, now_ns);
     }
 }

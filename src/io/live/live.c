@@ -49,6 +49,15 @@ static void live_status(void *self, rlf_source_status *out)
     pthread_mutex_unlock(&l->mutex);
 }
 
+static void live_observe(void *self, rlf_frame_fn fn, void *context)
+{
+    io_live *l = self;
+    pthread_mutex_lock(&l->observer_mutex);
+    l->observer = fn;
+    l->observer_context = context;
+    pthread_mutex_unlock(&l->observer_mutex);
+}
+
 /* There is no first frame to go back to: what comes next is as good. */
 static rlf_result live_restart(void *self)
 {
@@ -107,8 +116,11 @@ static rlf_result wait_for_frame(io_live *l)
 
 rlf_result io_live_open(const rlf_backend *backend, const rlf_address *address, rlf_opened *out)
 {
-    static const rlf_source_methods methods = {
-        .next = live_next, .restart = live_restart, .status = live_status, .destroy = live_destroy};
+    static const rlf_source_methods methods = {.next = live_next,
+                                               .restart = live_restart,
+                                               .status = live_status,
+                                               .destroy = live_destroy,
+                                               .observe = live_observe};
     io_live *l = NULL;
     rlf_result result = live_create(backend, address, &l);
     if (result != RLF_OK) {

@@ -13,8 +13,9 @@ static rlf_result create_lock(io_live *l)
         return RLF_ERROR_MEMORY;
     }
     pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
-    const bool is_good =
-        pthread_mutex_init(&l->mutex, NULL) == 0 && pthread_cond_init(&l->news, &attributes) == 0;
+    const bool is_good = pthread_mutex_init(&l->mutex, NULL) == 0 &&
+                         pthread_mutex_init(&l->observer_mutex, NULL) == 0 &&
+                         pthread_cond_init(&l->news, &attributes) == 0;
     pthread_condattr_destroy(&attributes);
     return is_good ? RLF_OK : RLF_ERROR_MEMORY;
 }
@@ -51,6 +52,7 @@ void live_free(io_live *l)
     live_address_free(&l->address);
     pthread_cond_destroy(&l->news);
     pthread_mutex_destroy(&l->mutex);
+    pthread_mutex_destroy(&l->observer_mutex);
     rlf_free(l);
 }
 

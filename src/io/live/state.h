@@ -28,6 +28,11 @@ typedef struct io_live {
     int64_t device_frame_ns; /* when this connection's last frame came, or when it was opened */
     bool has_device_frame;
 
+    /* Who is shown every frame; the lock is held while it is. */
+    pthread_mutex_t observer_mutex;
+    rlf_frame_fn observer;
+    void *observer_context;
+
     /* Shared, guarded by the mutex; a slot belongs to who has its index. */
     pthread_mutex_t mutex;
     pthread_cond_t news;

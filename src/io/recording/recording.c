@@ -2,7 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/recording/sink.h"
 
-#include "io/codec/picture_encode.h"
+#include <string.h>
 
 #include <sys/stat.h>
 
@@ -20,21 +20,6 @@ rlf_recording_def rlf_recording_def_default(void)
                                .compression = RLF_COMPRESSION_ZSTD,
                                .jpeg_quality = 90,
                                .chunk_s = 1.0};
-}
-
-const void *io_depth_rows(const rlf_frame *frame, const rlf_rig *rig, void *scratch)
-{
-    const bool is_float = frame->depth_f32 != NULL;
-    const void *from = is_float ? (const void *)frame->depth_f32 : (const void *)frame->depth_u16;
-    const size_t row = (size_t)rig->depth.width * (is_float ? 4 : 2);
-    if ((size_t)frame->depth_stride == row) {
-        return from;
-    }
-    for (int32_t y = 0; y < rig->depth.height; y++) {
-        memcpy((char *)scratch + (size_t)y * row,
-               (const char *)from + (ptrdiff_t)y * frame->depth_stride, row);
-    }
-    return scratch;
 }
 
 static bool is_folder(const char *path)

@@ -1,0 +1,205 @@
+/* What the MCAP reader knows: lists that grow, and bytes of the file. */
+#define _POSIX_C_SOURCE 200809L
+#include "io/mcap/reader.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#define LIST_FIRST 64
+
+void *io_mcap_list_add(io_mcap_list *list, size_t size)
+{
+    if (list->count == list->capacity) {
+        const int32_t capacity = list->capacity > 0 ? list->capacity * 2 : LIST_FIRST;
+        void *items = rlf_alloc_array((size_t)capacity, size);
+        if (items == NULL) {
+            return NULL;
+        }
+        if (list->count > 0) {
+            memcpy(items, list->items, (size_t)list->count * size);
+        }
+        rlf_free(list->items);
+        list->items = items;
+        list->capacity = capacity;
+    }
+    return (char *)list->items + (size_t)list->count++ * size;
+}
+
+bool io_mcap_read_at(const io_mcap_reader *reader, uint64_t offset, void *out, size_t size)
+{
+    if (offset > reader->size || size > reader->size - offset) {
+        return false;
+    }
+    size_t done = 0;
+    while (done < size) {
+        const ssize_t got =
+            pread(reader->file, (char *)out + done, size - done, (off_t)(offset + done));
+        if (got <= 0 && !(got < 0 && errno == EINTR)) {
+            return false;
+        }
+        done += got > 0 ? (size_t)got : 0;
+    }
+    return true;
+}
+
+rlf_result io_mcap_read_block(const io_mcap_reader *reader, uint64_t offset, uint64_t size,
+                              io_buffer *buffer)
+{
+    if (offset > reader->size || size > reader->size - offset) {
+        return RLF_ERROR_FORMAT;
+    }
+    rlf_result result = io_buffer_reserve(buffer, size > 0 ? (size_t)size : 1);
+    if (result == RLF_OK && !io_mcap_read_at(reader, offset, buffer->data, (size_t)size)) {
+        result = RLF_ERROR_IO;
+    }
+    return result;
+}
+
+/* ---- lists ------------------------------------------------------------------------------------
+ */
+
+void io_mcap_take_schema(io_mcap_reader *reader, io_mcap_cursor record)
+{
+    const uint16_t id = (uint16_t)io_mcap_take_number(&record, 2);
+    const io_mcap_cursor name = io_mcap_take_block(&record);
+    for (int type = IO_ROS_OTHER + 1; type < IO_ROS_TYPE_COUNT && !name.is_bad; type++) {
+        if (io_mcap_equals(&name, io_ros_type_name((io_ros_type)type))) {
+            io_mcap_schema *schema = io_mcap_list_add(&reader->schemas, sizeof(*schema));
+            if (schema != NULL && reader->schemas.count < IO_MCAP_CHANNELS_READ_MAX) {
+                *schema = (io_mcap_schema){id, (io_ros_type)type};
+            } else if (schema != NULL) {
+                reader->schemas.count--;
+            }
+        }
+    }
+}
+
+static io_ros_type type_of_schema(const io_mcap_reader *reader, uint16_t id)
+{
+    const io_mcap_schema *schemas = reader->schemas.items;
+    for (int32_t i = 0; i < reader->schemas.count; i++) {
+        if (schemas[i].id == id) {
+            return schemas[i].type;
+        }
+    }
+    return IO_ROS_OTHER;
+}
+
+static int32_t find_channel(const io_mcap_reader *reader, uint16_t id)
+{
+    const io_mcap_channel *channels = reader->channels.items;
+    for (int32_t i = 0; i < reader->channels.count; i++) {
+        if (channels[i].id == id) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+void io_mcap_take_channel(io_mcap_reader *reader, io_mcap_cursor record)
+{
+    const uint16_t id = (uint16_t)io_mcap_take_number(&record, 2);
+    const io_ros_type type = type_of_schema(reader, (uint16_t)io_mcap_take_number(&record, 2));
+    const io_mcap_cursor topic = io_mcap_take_block(&record);
+    const io_mcap_cursor encoding = io_mcap_take_block(&record);
+    if (record.is_bad || type == IO_ROS_OTHER || !io_mcap_equals(&encoding, "cdr") ||
+        topic.size >= IO_MCAP_TOPIC_MAX || find_channel(reader, id) >= 0 ||
+        reader->channels.count >= IO_MCAP_CHANNELS_READ_MAX) {
+        return;
+    }
+    io_mcap_channel *channel = io_mcap_list_add(&reader->channels, sizeof(*channel));
+    if (channel != NULL) {
+        *channel = (io_mcap_channel){.id = id, .type = type};
+        io_mcap_copy(&topic, channel->topic, sizeof(channel->topic));
+    }
+}
+
+void io_mcap_list_message(io_mcap_reader *reader, uint16_t channel_id, uint64_t time, int32_t chunk,
+                          uint64_t offset)
+{
+    const int32_t channel = find_channel(reader, channel_id);
+    if (channel < 0 || time > INT64_MAX) {
+        return;
+    }
+    if (reader->messages.count >= IO_MCAP_MESSAGES_MAX) {
+        reader->is_full = true;
+        return;
+    }
+    io_mcap_message *message = io_mcap_list_add(&reader->messages, sizeof(*message));
+    if (message == NULL) {
+        reader->lacks_memory = true;
+        return;
+    }
+    *message = (io_mcap_message){(int64_t)time, offset, chunk, channel};
+}
+
+void io_mcap_take_metadata(io_mcap_reader *reader, io_mcap_cursor record)
+{
+    const io_mcap_cursor name = io_mcap_take_block(&record);
+    io_mcap_cursor pairs = io_mcap_take_block(&record);
+    if (record.is_bad || !io_mcap_equals(&name, "relief") ||
+        pairs.size >= sizeof(reader->metadata) - 1) {
+        return;
+    }
+    memset(reader->metadata, 0, sizeof(reader->metadata));
+    char *out = reader->metadata;
+    while (pairs.size > 0) {
+        /* The two lengths of a pair take more room than the two zeros that end its texts. */
+        for (int i = 0; i < 2; i++) {
+            const io_mcap_cursor text = io_mcap_take_block(&pairs);
+            io_mcap_copy(&text, out, text.size + 1);
+            out += text.size + 1;
+        }
+        if (pairs.is_bad) {
+            memset(reader->metadata, 0, sizeof(reader->metadata));
+            return;
+        }
+    }
+}
+
+const char *io_mcap_metadata(const io_mcap_reader *reader, const char *key)
+{
+    for (const char *text = reader->metadata; *text != '\0';) {
+        const char *value = text + strlen(text) + 1;
+        if (strcmp(text, key) == 0) {
+            return value;
+        }
+        text = value + strlen(value) + 1;
+    }
+    return NULL;
+}
+
+static int compare(const void *a, const void *b)
+{
+    const io_mcap_message *x = a;
+    const io_mcap_message *y = b;
+    if (x->channel != y->channel) {
+        return x->channel < y->channel ? -1 : 1;
+    }
+    if (x->time_ns != y->time_ns) {
+        return x->time_ns < y->time_ns ? -1 : 1;
+    }
+    if (x->chunk != y->chunk) {
+        return x->chunk < y->chunk ? -1 : 1;
+    }
+    return (x->offset > y->offset) - (x->offset < y->offset);
+}
+
+void io_mcap_sort(io_mcap_reader *reader)
+{
+    io_mcap_channel *channels = reader->channels.items;
+    const io_mcap_message *messages = reader->messages.items;
+    if (reader->messages.count > 0) {
+        qsort(reader->messages.items, (size_t)reader->messages.count, sizeof(messages[0]), compare);
+    }
+    for (int32_t i = 0; i < reader->channels.count; i++) {
+        channels[i].first = 0;
+        channels[i].count = 0;
+    }
+    for (int32_t i = 0; i < reader->messages.count; i++) {
+        io_mcap_channel *channel = &channels[messages[i].channel];
+        channel->first = channel->count == 0 ? i : channel->first;
+        channel->count++;
+    }
+}
