@@ -194,10 +194,10 @@ static rlf_result check_size(const io_bytes *file, const io_pcd_header *h)
 {
     const size_t count = (size_t)h->width * (size_t)h->height;
     const size_t there = file->size - h->data_offset;
-    const size_t least = h->data == IO_PCD_ASCII    ? 2 * h->point_size
-                         : h->data == IO_PCD_BINARY ? h->point_size
-                                                    : 0;
-    if (least > 0 && (there + 1) / least < count) {
+    if (h->data == IO_PCD_ASCII && (there + 1) / 2 / h->point_size < count) {
+        return fail(file, "is cut short"); /* a word is a digit and what follows it */
+    }
+    if (h->data == IO_PCD_BINARY && there / h->point_size < count) {
         return fail(file, "is cut short");
     }
     return h->data != IO_PCD_COMPRESSED || count * h->point_size / IO_LZF_RATIO_MAX <= there
