@@ -3,6 +3,7 @@
 #include "io/pcd/pcd_lens.h"
 #include "io/source/backends.h"
 #include "io/source/clip.h"
+#include "io/source/rig_beside.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -38,42 +39,46 @@ static void destroy(void *self)
     rlf_free(p);
 }
 
-static rlf_result use_given(const rlf_address *address, pcd *p)
+static rlf_result check_size(const rlf_address *address, const pcd *p)
 {
-    p->rig = *address->rig;
     const rlf_camera *c = &p->rig.depth;
     if (c->width != p->header.width || c->height != p->header.height) {
-        return rlf_fail(
-            RLF_ERROR_INVALID,
-            "%s: has %d x %d points and the calibration given is for %d x %d: give that "
-            "of this camera",
-            address->source, (int)p->header.width, (int)p->header.height, (int)c->width,
-            (int)c->height);
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "%s: has %d x %d points and the calibration is for %d x %d: give that of "
+                        "this camera",
+                        address->source, (int)p->header.width, (int)p->header.height, (int)c->width,
+                        (int)c->height);
     }
     return RLF_OK;
 }
 
+/* The user's calibration, else what the points tell, else a file beside. */
 static rlf_result set_rig(const rlf_address *address, pcd *p)
 {
-    rlf_result result = RLF_OK;
-    if (address->rig != NULL) {
-        result = use_given(address, p);
-    } else if (io_pcd_lens_fit(&p->header, &p->points, &p->rig.depth)) {
-        const io_rig_defaults defaults = io_rig_defaults_get();
-        p->rig.depth_min_m = defaults.depth_min_m;
-        p->rig.depth_max_m = defaults.depth_max_m;
-        p->rig.noise = defaults.noise;
+    double units = 0.0; /* points are in metres */
+    bool is_found = false;
+    rlf_camera lens;
+    p->rig = io_rig_default();
+    if (address->rig == NULL && io_pcd_lens_fit(&p->header, &p->points, &lens)) {
+        p->rig.depth = lens;
+        is_found = true;
     } else {
-        result = rlf_fail(RLF_ERROR_INVALID,
-                          "%s: its points do not lie on the rays of a pinhole camera, x right, y "
-                          "down, z forward: give the calibration, ?camera=FILE",
-                          address->source);
+        rlf_result result = io_rig_beside(address, &p->rig, &units, &is_found);
+        if (result != RLF_OK) {
+            return result;
+        }
+    }
+    if (!is_found) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "%s: its points do not lie on the rays of a pinhole camera, x right, y "
+                        "down, z forward: give the calibration, ?camera=FILE",
+                        address->source);
     }
     /* A point has its colour: one camera for both. */
     p->rig.has_color = p->points.rgba != NULL;
     p->rig.color = p->rig.depth;
     p->rig.T_color_depth = rlf_pose_identity();
-    return result;
+    return check_size(address, p);
 }
 
 static rlf_result read_file(const rlf_address *address, pcd *p)
