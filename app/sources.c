@@ -10,6 +10,7 @@
 #define DEVICES_MAX 64
 #define KINDS_MAX 128
 #define SOURCE_SIZE 64
+#define COLUMNS 100
 
 typedef struct kind_list {
     rlf_source_kind kinds[KINDS_MAX];
@@ -77,10 +78,41 @@ static const char *or_dash(const char *text)
     return text != NULL ? text : "-";
 }
 
+/* Text from column `indent` on, in as many lines as it takes; the first one is begun already. */
+static void print_wrapped(int indent, const char *before, const char *text)
+{
+    int column = indent + (int)strlen(before);
+    printf("%s", before);
+    while (*text != '\0') {
+        const size_t length = strcspn(text, " ");
+        if (column + (int)length > COLUMNS && column > indent) {
+            printf("\n%*s", indent, "");
+            column = indent;
+        }
+        printf("%.*s", (int)length, text);
+        column += (int)length;
+        text += length;
+        if (*text == ' ') {
+            text++;
+            column++;
+            printf(*text != '\0' && column + (int)strcspn(text, " ") <= COLUMNS ? " " : "");
+        }
+    }
+    printf("\n");
+}
+
+static void print_below(int indent, const char *before, const char *text)
+{
+    if (text != NULL && text[0] != '\0') {
+        printf("%*s", indent, "");
+        print_wrapped(indent, before, text);
+    }
+}
+
 /* Rows of those kinds for which `is_wanted`; what belongs to one row stands below it. */
 static void print_kinds(const kind_list *list, bool (*is_wanted)(const rlf_source_kind *))
 {
-    int widths[2] = {(int)strlen("synthetic:NAME"), 1};
+    int widths[2] = {(int)strlen("FOLDER"), 1};
     char name[SOURCE_SIZE];
     for (int32_t i = 0; i < list->count; i++) {
         name_of(&list->kinds[i], name);
@@ -94,20 +126,14 @@ static void print_kinds(const kind_list *list, bool (*is_wanted)(const rlf_sourc
             continue;
         }
         name_of(k, name);
-        printf("  %-*s  %-*s  %s\n", widths[0], name, widths[1], or_dash(k->extensions),
-               or_dash(k->summary));
-        if (k->keys != NULL && k->keys[0] != '\0') {
-            printf("%*skeys: %s\n", indent, "", k->keys);
-        }
+        printf("  %-*s  %-*s  ", widths[0], name, widths[1], or_dash(k->extensions));
+        print_wrapped(indent, "", or_dash(k->summary));
+        print_below(indent, "keys: ", k->keys);
         if (k->plugin != NULL) {
             printf("%*splug-in %s\n", indent, "", k->plugin);
         }
-        if (k->unavailable != NULL) {
-            printf("%*snot on this machine: %s\n", indent, "", k->unavailable);
-        }
-        if (k->option != NULL) {
-            printf("%*sconfigure the build with -D%s=ON\n", indent, "", k->option);
-        }
+        print_below(indent, "NOT HERE: ", k->unavailable);
+        print_below(indent, "made without it: configure with -D", k->option);
     }
 }
 

@@ -17,8 +17,8 @@
 #define TILES 8        /* of the depth picture, 4 x 2 */
 #define TIMES 8
 #define TIME_FRAMES 5 /* frames in a row that count as one time */
-#define EDGES_MIN 200
-#define HOLE_MAX 16 /* missing depth pixels between the near and the far side of an edge */
+#define EDGES_MIN 100 /* of each side */
+#define HOLE_MAX 16   /* missing depth pixels between the near and the far side of an edge */
 
 /* What is left out: a tile, a time, or nothing (both -1). */
 typedef struct omission {
@@ -433,19 +433,22 @@ static offset find_error(const color_fit *fit, unsigned halves)
     return error;
 }
 
-static int64_t count_axis(const color_fit *fit, int first, unsigned halves)
+static int64_t count_side(const color_fit *fit, int side, unsigned halves)
 {
     double unused[SHIFTS];
-    return mean_profile(fit, first, nothing, halves, unused) +
-           mean_profile(fit, first + 1, nothing, halves, unused);
+    return mean_profile(fit, side, nothing, halves, unused);
 }
 
-/* Where the parts of the picture do not agree within a pixel, nothing is known. */
+/* Each side must be there: of one alone an offset cannot be told from a widening. And where the
+ * parts of the picture do not agree within a pixel, nothing is known. */
 static bool is_sure(const color_fit *fit, unsigned halves, const offset *error)
 {
-    return count_axis(fit, SIDE_LEFT, halves) >= EDGES_MIN &&
-           count_axis(fit, SIDE_TOP, halves) >= EDGES_MIN && error->x <= fit->pixel &&
-           error->y <= fit->pixel;
+    for (int side = 0; side < SIDE_COUNT; side++) {
+        if (count_side(fit, side, halves) < EDGES_MIN) {
+            return false;
+        }
+    }
+    return error->x <= fit->pixel && error->y <= fit->pixel;
 }
 
 /* The offset from some of the edges; false = not known. */
@@ -472,7 +475,9 @@ void color_fit_get(const color_fit *fit, color_fit_result *out)
         *out = far;
         out->is_known = out->is_far_only = true;
     }
-    out->edges = count_axis(fit, SIDE_LEFT, 3u) + count_axis(fit, SIDE_TOP, 3u);
+    for (int side = 0; side < SIDE_COUNT; side++) {
+        out->edges += count_side(fit, side, 3u);
+    }
     out->frames = fit->frames;
     out->pixel = fit->pixel;
     out->near_x = is_near_known ? near.x : NAN;

@@ -34,7 +34,7 @@ get_target_property(fuzz_libraries relief_io LINK_LIBRARIES)
 target_link_libraries(relief_io_fuzz PUBLIC ${fuzz_libraries})
 
 set(RELIEF_FUZZ_ITERATIONS 6000 CACHE STRING "Mutations per fuzz test")
-set(fuzz_names camera_json scene_json frame_list picture oni rosbag matroska log rvl)
+set(fuzz_names address camera_json frame_list layout log matroska oni pcd picture rosbag rvl scene_json)
 if(RELIEF_WITH_MCAP)
   list(APPEND fuzz_names mcap)
 endif()

@@ -77,8 +77,6 @@ static void a_camera_comes_with_its_plug_in(void **state)
     assert_int_equal(rlf_source_kind_list(NULL, 0), before + 1);
     assert_string_equal(find_kind("plugin_camera")->plugin, GOOD_PLUGIN);
     assert_null(find_kind("folder")->plugin);
-    rlf_source_entry entry;
-    assert_true(rlf_source_list(&entry, 1) >= 1);
     assert_int_equal(rlf_open_source("plugin_camera:?fps=100", NULL, &source), RLF_OK);
     assert_true(rlf_source_get_info(source)->is_live);
     rlf_frame frame;

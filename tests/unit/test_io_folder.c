@@ -297,7 +297,7 @@ static void half_of_the_color_is_none(void **state)
 static void sources_that_cannot_be_opened(void **state)
 {
     (void)state;
-    test_write_text("file.bag", "x");
+    test_write_text("file.xyz", "x");
     const struct {
         const char *source;
         rlf_result result;
@@ -307,7 +307,8 @@ static void sources_that_cannot_be_opened(void **state)
         {"/no/such/place", RLF_ERROR_IO, "no such file or folder", "synthetic:room"},
         {"nosuch:0", RLF_ERROR_UNSUPPORTED, "\"nosuch:\"", "relief sources"},
         {"ros2:/camera", RLF_ERROR_UNSUPPORTED, "\"ros2:\"", "relief sources"},
-        {test_path("file.bag"), RLF_ERROR_UNSUPPORTED, "is a file", "give the folder"},
+        {"zed:", RLF_ERROR_UNSUPPORTED, "\"zed:\"", "relief sources"},
+        {test_path("file.xyz"), RLF_ERROR_UNSUPPORTED, "is a file", "give the folder"},
     };
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         rlf_source *source = NULL;

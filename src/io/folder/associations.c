@@ -77,7 +77,7 @@ static rlf_result split(const io_bytes *file, halves *h)
         stop = stop != NULL ? stop : end;
         word words[WORDS];
         const int count = cut(at, stop, words);
-        if (count != 0 && count != WORDS) {
+        if ((count != 0 && count != WORDS) || (count == WORDS && words[2].text[0] == '#')) {
             return rlf_fail(RLF_ERROR_FORMAT,
                             "%s:%d: is not \"TIME FILE TIME FILE\": write one depth and one colour "
                             "picture per line",

@@ -14,7 +14,7 @@ static const rlf_backend *const built_in[] = {
 #ifdef RLF_HAVE_MCAP
     &io_backend_mcap,
 #endif
-    &io_backend_oni,       &io_backend_klg,  &io_backend_matroska,
+    &io_backend_oni,       &io_backend_pcd,  &io_backend_klg,       &io_backend_matroska,
     &io_backend_rosbag,    &io_backend_sens, &io_backend_folder,
 };
 #define BUILT_IN_COUNT ((int32_t)(sizeof(built_in) / sizeof(built_in[0])))

@@ -9,6 +9,7 @@ extern const rlf_backend io_backend_simulated;
 extern const rlf_backend io_backend_freenect;
 extern const rlf_backend io_backend_oni;
 extern const rlf_backend io_backend_openni2;
+extern const rlf_backend io_backend_pcd;
 extern const rlf_backend io_backend_freenect2;
 extern const rlf_backend io_backend_k4a;
 extern const rlf_backend io_backend_realsense;
