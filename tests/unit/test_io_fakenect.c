@@ -110,16 +110,15 @@ static void the_dump_is_what_is_seen(void **state)
     rlf_source_destroy(&source);
 }
 
-int main(int argc, char **argv)
+int main(void)
 {
-    (void)argc;
-    const char *folder = RLF_TEST_FAKENECT;
-    if (folder == NULL) {
+    const char *library = RLF_TEST_FAKENECT;
+    if (library == NULL) {
         puts("SKIPPED: fakenect is not installed (apt install libfreenect0.5), or this build is "
              "without RELIEF_WITH_FREENECT");
         return 77;
     }
-    freenect_test_use(folder, argv);
+    setenv("RELIEF_FREENECT_LIBRARY", library, 1);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(the_dump_is_what_is_seen, write_dump, test_folder_remove),
     };

@@ -316,6 +316,35 @@ static void what_the_camera_does_not_tell_is_warned_of(void **state)
     rlf_source_destroy(&source);
 }
 
+/* As programs see it: the driver sends by itself, the camera goes and comes back. */
+static void a_program_sees_it_come_back(void **state)
+{
+    (void)state;
+    setenv("RELIEF_OPENNI2_TEST_RUN", "1", 1);
+    rlf_source *source = NULL;
+    rlf_frame f = {0};
+    int given = 0;
+    if (rlf_open_source("openni2:", NULL, &source) != RLF_OK) {
+        fail_msg("%s", rlf_error_text());
+    }
+    const int64_t end_ns = rlf_clock_ns() + INT64_C(30000000000);
+    bool is_back = false;
+    while (!is_back && rlf_clock_ns() < end_ns) {
+        if (rlf_source_next(source, &f) == RLF_OK) {
+            given++;
+            is_back = given > 10 && (f.flags & RLF_FRAME_DISCONTINUITY) != 0;
+        }
+        if (given == 10) {
+            given++;
+            control->unplug();
+        }
+    }
+    assert_true(is_back);
+    assert_true(rlf_source_get_status(source).is_connected);
+    rlf_source_destroy(&source);
+    unsetenv("RELIEF_OPENNI2_TEST_RUN");
+}
+
 /* ---- recordings ---- */
 
 static void pause_ms(int ms)
@@ -443,6 +472,7 @@ int main(void)
         CAMERA_TEST(what_cannot_be_had_is_told),
         FOLDER_TEST(a_calibration_of_the_users_wins),
         CAMERA_TEST(what_the_camera_does_not_tell_is_warned_of),
+        CAMERA_TEST(a_program_sees_it_come_back),
         FOLDER_TEST(a_recording_is_read_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
