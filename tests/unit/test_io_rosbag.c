@@ -180,7 +180,11 @@ static void topics_can_be_chosen(void **state)
     rlf_source *source = open_bag("?depth=/camera/depth/image_raw&color=none");
     assert_false(rlf_source_get_info(source)->rig.has_color);
     rlf_source_destroy(&source);
+    test_log log = {0};
+    rlf_set_log(test_log_line, &log);
     source = open_bag("?color=/camera/rgb/image_raw&gap=5");
+    assert_non_null(strstr(log.last, "10 ms or more away"));
+    rlf_set_log(NULL, NULL);
     rlf_frame frame;
     assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
     assert_null(frame.color.data); /* 10 ms away */

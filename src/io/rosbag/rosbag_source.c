@@ -5,9 +5,12 @@
 #include "io/rosbag/bag_rig.h"
 #include "io/source/backends.h"
 #include "io/source/clip.h"
+#include "io/source/pairing.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+#define COLOR_GAP_NS 50000000 /* what the clip allows when nothing is said */
 
 /* A picture's entry and its time. */
 typedef struct shot {
@@ -217,11 +220,30 @@ static rlf_result read_gap(const rlf_address *address, int64_t *out_ns)
     return RLF_OK;
 }
 
+/* A recording whose colour is never near its depth would show none, and not say why. */
+static void warn_unpaired(const char *name, const rosbag *self, int64_t gap_ns)
+{
+    int64_t nearest = INT64_MAX;
+    for (int32_t i = 0; i < self->depth.count; i++) {
+        const int64_t time = self->depth.times[i];
+        const int32_t at =
+            io_time_nearest(self->color.times, self->color.count, time, INT64_MAX - 1);
+        const int64_t gap = at >= 0 ? llabs(self->color.times[at] - time) : nearest;
+        nearest = gap < nearest ? gap : nearest;
+    }
+    if (self->color.count > 0 && nearest > gap_ns) {
+        rlf_log(RLF_LOG_WARNING,
+                "%s: the colour pictures are %lld ms or more away from the depth, so none is "
+                "shown: ?gap=MS allows more",
+                name, (long long)(nearest / 1000000));
+    }
+}
+
 static rlf_result open_clip(const rlf_address *address, rosbag *self, bool is_aligned,
                             rlf_opened *out)
 {
     bool is_float = false;
-    int64_t gap_ns = 0;
+    int64_t gap_ns = COLOR_GAP_NS;
     rlf_result result = read_gap(address, &gap_ns);
     if (result == RLF_OK) {
         result = check_first(self, &is_float);
@@ -229,6 +251,7 @@ static rlf_result open_clip(const rlf_address *address, rosbag *self, bool is_al
     if (result != RLF_OK) {
         return result;
     }
+    warn_unpaired(address->source, self, gap_ns);
     const io_clip_def def = {.name = address->place,
                              .rig = self->rig,
                              .units_per_metre =
