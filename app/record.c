@@ -34,7 +34,8 @@ static void print_help(void)
            "  --lossless color      colour as PNG: bit by bit, but slow and large; the default\n"
            "                        of FOLDER/\n"
            "  --compression NAME    of FILE.mcap: zstd (default), lz4 or none\n"
-           "  --quiet               no progress and no summary\n\n"
+           "  --quiet               no progress and no summary\n"
+           "  --plugin FILE         a plug-in that brings a camera or a format; any number\n\n"
            "examples:\n"
            "  relief record path/to/clip clip.mcap\n"
            "  relief record clip.mcap folder/\n"
@@ -57,6 +58,7 @@ static int parse(int argc, char **argv, record_options *o)
         {.name = "seconds", .kind = OPTION_INT64, .out = &o->seconds, .low = 1, .high = 1000000000},
         RECORDER_OPTIONS(&o->recorder),
         {.name = "quiet", .kind = OPTION_FLAG, .out = &o->is_quiet},
+        {.name = "plugin", .kind = OPTION_PLUGIN},
         {0},
     };
     const int status = options_parse("record", argc, argv, options, print_help);

@@ -59,6 +59,12 @@ static void print_frames(const rlf_source_info *info, const survey *s)
     if (s->failed > 0) {
         printf("        %lld frames could not be read: %s\n", (long long)s->failed, s->first_error);
     }
+    if ((s->flags & (RLF_FRAME_ALIGNED | RLF_FRAME_UNMIRRORED)) != 0 || s->with_confidence > 0) {
+        printf("planes %s%s%s\n",
+               (s->flags & RLF_FRAME_ALIGNED) != 0 ? " aligned by the device or the file" : "",
+               (s->flags & RLF_FRAME_UNMIRRORED) != 0 ? " turned back from mirrored" : "",
+               s->with_confidence > 0 ? " with confidence" : "");
+    }
     if (s->with_pose > 0) {
         printf("poses   in %lld of %lld frames\n", (long long)s->with_pose, (long long)s->frames);
     } else {

@@ -67,15 +67,17 @@ rlf_result report_write_json(const rlf_source_info *info, const survey *s, const
 {
     const rlf_rig *rig = &info->rig;
     json_t *root = json_pack(
-        "{s:s, s:s, s:b, s:o, s:o, s:f, s:f, s:I, s:I, s:f, s:f, s:f, s:f, s:I, s:I, s:o, s:o, "
-        "s:o, s:o}",
+        "{s:s, s:s, s:b, s:o, s:o, s:f, s:f, s:I, s:I, s:f, s:f, s:f, s:f, s:I, s:I, s:b, s:b, "
+        "s:o, "
+        "s:o, s:o, s:o}",
         "source", info->name, "device", info->device, "is_live", info->is_live, "depth",
         camera_json(&rig->depth), "color", rig->has_color ? camera_json(&rig->color) : json_null(),
         "depth_min_m", rig->depth_min_m, "depth_max_m", rig->depth_max_m, "frame_count",
         (json_int_t)info->frame_count, "frames", (json_int_t)s->frames, "frames_per_second",
         info->frames_per_second, "duration_s", s->duration_s, "interval_s", s->interval_s,
         "interval_longest_s", s->interval_longest_s, "with_color", (json_int_t)s->with_color,
-        "with_pose", (json_int_t)s->with_pose, "drops", drops_json(s), "missing",
+        "with_pose", (json_int_t)s->with_pose, "is_aligned", (s->flags & RLF_FRAME_ALIGNED) != 0,
+        "is_unmirrored", (s->flags & RLF_FRAME_UNMIRRORED) != 0, "drops", drops_json(s), "missing",
         missing_json(&s->missing), "stillness", stillness_json(&s->stillness), "fit",
         fit_json(info, s));
     return json_file_write(path, root);

@@ -29,6 +29,12 @@ grep -q "example of a plug-in" out.txt || fail "info: no device: $(cat out.txt)"
     fail "an unknown key is taken"
 grep -q '"fps" may be meant' err.txt || fail "unknown key: $(cat err.txt)"
 
+"$relief" record plugin_camera: clip/ --plugin "$good" --frames 3 --quiet 2>err.txt ||
+    fail "record --plugin: $(cat err.txt)"
+"$relief" export 'clip?start=1&count=1' --plugin "$good" --out arrays --what depth >out.txt 2>err.txt ||
+    fail "export --plugin: $(cat err.txt)"
+grep -q "^1 frames" out.txt || fail "export of a part: $(cat out.txt)"
+
 # Without it there is no such source.
 "$relief" info plugin_camera: 2>err.txt && fail "opened without the plug-in"
 grep -q 'no source "plugin_camera:"' err.txt || fail "$(cat err.txt)"

@@ -43,9 +43,10 @@ static rlf_result read_tum(const char *folder, io_layout *out)
     out->depth_list_name = "depth.txt";
     out->color_list_name = "rgb.txt";
     out->units_per_metre = 5000.0;
-    rlf_result result =
-        read_list(folder, "depth.txt", "write one \"SECONDS FILE\" line per depth picture there",
-                  &out->depth);
+    rlf_result result = read_list(
+        folder, "depth.txt",
+        "write one \"SECONDS FILE\" line per depth picture there, and camera.json beside it",
+        &out->depth);
     if (result == RLF_OK && exists(folder, "rgb.txt")) {
         result = read_list(folder, "rgb.txt", "check the file", &out->color);
     }
