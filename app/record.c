@@ -165,7 +165,7 @@ static int record(const record_options *o, rlf_source **source)
     recorder *r = NULL;
     const rlf_source_info *info = rlf_source_get_info(*source);
     progress p = {.start_ns = rlf_clock_ns(), .total = total_of(o, info)};
-    rlf_result result = recorder_open(&o->recorder, info, &r);
+    rlf_result result = recorder_create(&o->recorder, info, &r);
     if (result == RLF_OK) {
         result = recorder_tap(r, source);
     }
@@ -174,7 +174,7 @@ static int record(const record_options *o, rlf_source **source)
     }
     int status = result == RLF_OK ? EXIT_DONE : command_failed();
     recorder_status s = {0};
-    if (recorder_close(&r, &s) != RLF_OK && status == EXIT_DONE) {
+    if (recorder_destroy(&r, &s) != RLF_OK && status == EXIT_DONE) {
         status = command_failed();
     }
     if (!o->is_quiet && isatty(STDERR_FILENO)) {

@@ -9,10 +9,13 @@
 #include <time.h>
 
 struct recorder {
+    recorder_options options;
+    rlf_source_info info;
+    char path[4096];
+    bool is_running; /* set under `fills`; the rest is there while it is */
     rlf_recording *recording;
     record_queue queue;
     pthread_t thread;
-    bool is_live, keeps_bodies, is_beside_loop;
     rlf_source *observed;  /* NULL = frames come by the tap */
     pthread_mutex_t fills; /* held while an item is filled */
     int64_t last_ns;       /* of the frames in the queue, for sources that start again */
@@ -71,7 +74,7 @@ static void note(recorder *r, rlf_result result)
         snprintf(r->problem, sizeof(r->problem), "%s", rlf_error_text());
     }
     pthread_mutex_unlock(&r->queue.lock);
-    if (is_first && r->is_beside_loop) {
+    if (is_first && r->options.is_beside_loop) {
         rlf_log(RLF_LOG_ERROR, "%s; the run goes on, unrecorded", r->problem);
     }
 }
@@ -98,30 +101,45 @@ static void *write_all(void *context)
     return NULL;
 }
 
-rlf_result recorder_open(const recorder_options *options, const rlf_source_info *info,
-                         recorder **out)
+/* The file and its thread; frames come from now on. */
+static rlf_result start(recorder *r, const char *path)
+{
+    snprintf(r->path, sizeof(r->path), "%s", path);
+    rlf_result result = rlf_recording_open(r->path, &r->info, &r->options.def, &r->recording);
+    if (result != RLF_OK) {
+        return result;
+    }
+    r->has_failed = r->has_last = false;
+    r->written = (rlf_recording_status){0};
+    r->dropped = 0;
+    record_queue_init(&r->queue, &r->info.rig);
+    if (pthread_create(&r->thread, NULL, write_all, r) != 0) {
+        rlf_recording_close(&r->recording, NULL);
+        record_queue_free(&r->queue);
+        return rlf_fail(RLF_ERROR_MEMORY, "no thread can be started to record: close something");
+    }
+    pthread_mutex_lock(&r->fills);
+    r->is_running = true;
+    pthread_mutex_unlock(&r->fills);
+    return RLF_OK;
+}
+
+rlf_result recorder_create(const recorder_options *options, const rlf_source_info *info,
+                           recorder **out)
 {
     *out = NULL;
     recorder *r = rlf_alloc(sizeof(*r));
     if (r == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    r->is_live = info->is_live;
-    r->keeps_bodies = options->keeps_bodies;
-    r->is_beside_loop = options->is_beside_loop;
-    rlf_result result = rlf_recording_open(options->path, info, &options->def, &r->recording);
-    if (result != RLF_OK) {
-        rlf_free(r);
-        return result;
-    }
-    record_queue_init(&r->queue, &info->rig);
+    r->options = *options;
+    r->info = *info;
     pthread_mutex_init(&r->fills, NULL);
-    if (pthread_create(&r->thread, NULL, write_all, r) != 0) {
-        rlf_recording_close(&r->recording, NULL);
-        record_queue_free(&r->queue);
+    const rlf_result result = options->path != NULL ? start(r, options->path) : RLF_OK;
+    if (result != RLF_OK) {
         pthread_mutex_destroy(&r->fills);
         rlf_free(r);
-        return rlf_fail(RLF_ERROR_MEMORY, "no thread can be started to record: close something");
+        return result;
     }
     *out = r;
     return RLF_OK;
@@ -143,16 +161,12 @@ recorder_status recorder_get_status(recorder *r)
     return status;
 }
 
-rlf_result recorder_close(recorder **recorder_pointer, recorder_status *out)
+/* Waits until all is written. */
+static rlf_result stop(recorder *r, recorder_status *out)
 {
-    recorder *r = *recorder_pointer;
-    *recorder_pointer = NULL;
-    if (r == NULL) {
-        return RLF_OK;
-    }
-    if (r->observed != NULL) {
-        rlf_source_observe(r->observed, NULL, NULL);
-    }
+    pthread_mutex_lock(&r->fills);
+    r->is_running = false;
+    pthread_mutex_unlock(&r->fills);
     record_queue_close(&r->queue);
     pthread_join(r->thread, NULL);
     rlf_recording_status written;
@@ -160,13 +174,69 @@ rlf_result recorder_close(recorder **recorder_pointer, recorder_status *out)
     if (r->has_failed) {
         result = rlf_fail(r->result, "%s", r->problem);
     }
-    if (out != NULL) {
-        *out = (recorder_status){written, r->dropped, r->cpu_s, r->has_failed && r->is_beside_loop};
-    }
+    *out = (recorder_status){written, r->dropped, r->cpu_s,
+                             r->has_failed && r->options.is_beside_loop};
     record_queue_free(&r->queue);
+    return result;
+}
+
+rlf_result recorder_destroy(recorder **recorder_pointer, recorder_status *out)
+{
+    recorder *r = *recorder_pointer;
+    recorder_status status = {0};
+    *recorder_pointer = NULL;
+    if (r == NULL) {
+        return RLF_OK;
+    }
+    if (r->observed != NULL) {
+        rlf_source_observe(r->observed, NULL, NULL);
+    }
+    const rlf_result result = r->is_running ? stop(r, &status) : RLF_OK;
+    if (out != NULL) {
+        *out = status;
+    }
     pthread_mutex_destroy(&r->fills);
     rlf_free(r);
     return result;
+}
+
+/* A name that no other recording has: the date and the time. */
+static void name_file(char *out, size_t size)
+{
+    struct tm parts;
+    const time_t now = time(NULL);
+    if (localtime_r(&now, &parts) == NULL ||
+        strftime(out, size, "relief-%Y%m%d-%H%M%S.mcap", &parts) == 0) {
+        snprintf(out, size, "relief.mcap");
+    }
+}
+
+rlf_result recorder_toggle(recorder *r, char *out_message, size_t message_size)
+{
+    if (!r->is_running) {
+        char path[64];
+        name_file(path, sizeof(path));
+        const rlf_result result = start(r, path);
+        snprintf(out_message, message_size, "recording %s", path);
+        return result;
+    }
+    recorder_status status;
+    const rlf_result result = stop(r, &status);
+    snprintf(out_message, message_size, "recorded %.200s: %llu frames, %llu dropped", r->path,
+             (unsigned long long)status.written.frames, (unsigned long long)status.dropped);
+    return result;
+}
+
+bool recorder_describe(recorder *r, char *out, size_t size)
+{
+    if (r == NULL || !r->is_running) {
+        return false;
+    }
+    const recorder_status s = recorder_get_status(r);
+    snprintf(out, size, "REC %.60s  %llu frames, %.1f MB, %llu dropped%s", r->path,
+             (unsigned long long)s.written.frames, 1e-6 * (double)s.written.bytes,
+             (unsigned long long)s.dropped, recorder_has_failed(r) ? "  FAILED" : "");
+    return true;
 }
 
 void recorder_print_summary(const recorder_options *options, const recorder_status *status)
@@ -189,7 +259,7 @@ static void fill_frame(recorder *r, const rlf_frame *frame)
         return;
     }
     record_item *item =
-        recorder_has_failed(r) ? NULL : record_queue_reserve(&r->queue, !r->is_live);
+        recorder_has_failed(r) ? NULL : record_queue_reserve(&r->queue, !r->info.is_live);
     if (item == NULL || !record_item_set_frame(item, &r->queue.rig, frame)) {
         r->dropped++;
         return;
@@ -203,17 +273,19 @@ static void add_frame(void *context, const rlf_frame *frame)
 {
     recorder *r = context;
     pthread_mutex_lock(&r->fills);
-    fill_frame(r, frame);
+    if (r->is_running) {
+        fill_frame(r, frame);
+    }
     pthread_mutex_unlock(&r->fills);
 }
 
 void recorder_add_bodies(recorder *r, int64_t time_ns, const rlf_snapshot *snapshot)
 {
-    if (r == NULL || !r->keeps_bodies || recorder_has_failed(r)) {
+    if (r == NULL || !r->options.keeps_bodies || !r->is_running || recorder_has_failed(r)) {
         return;
     }
     pthread_mutex_lock(&r->fills);
-    record_item *item = record_queue_reserve(&r->queue, !r->is_live);
+    record_item *item = record_queue_reserve(&r->queue, !r->info.is_live);
     if (item != NULL && record_item_set_bodies(item, time_ns, snapshot)) {
         record_queue_push(&r->queue);
     }
@@ -283,7 +355,7 @@ rlf_result recorder_tap(recorder *r, rlf_source **source)
         rlf_free(t);
         return result;
     }
-    if (r->is_beside_loop && rlf_source_observe(t->source, add_frame, r)) {
+    if (r->options.is_beside_loop && rlf_source_observe(t->source, add_frame, r)) {
         t->is_observed = true;
         r->observed = t->source;
     }

@@ -13,6 +13,7 @@ typedef struct recorder_options {
     /* A failure is logged when it happens, and the loop goes on without it; of a camera also those
      * frames are recorded that the loop is too slow for. */
     bool is_beside_loop;
+    bool is_switched; /* it may begin later, by recorder_toggle */
 } recorder_options;
 
 typedef struct recorder_status {
@@ -52,19 +53,24 @@ bool recorder_take_codec(const char *text, void *out);
 bool recorder_take_color(const char *text, void *out);
 bool recorder_take_compression(const char *text, void *out);
 
-/* Begins the file and starts the thread. */
-rlf_result recorder_open(const recorder_options *options, const rlf_source_info *info,
-                         recorder **out);
+/* Begins the file and starts the thread; without a path nothing is recorded until
+ * recorder_toggle. */
+rlf_result recorder_create(const recorder_options *options, const rlf_source_info *info,
+                           recorder **out);
 /* Puts in place of *source one that gives the same frames and records them; it owns the other.
  * Frames of a file wait for room in the queue; those of a camera are dropped and counted. */
 rlf_result recorder_tap(recorder *recorder, rlf_source **source);
 /* Bodies after the frame of that time, when the options say so. */
 void recorder_add_bodies(recorder *recorder, int64_t time_ns, const rlf_snapshot *snapshot);
-/* Whether writing has failed, which was told; recorder_close has the line again. */
+/* Whether writing has failed, which was told; recorder_destroy has the line again. */
 bool recorder_has_failed(recorder *recorder);
 recorder_status recorder_get_status(recorder *recorder);
+/* Ends the recording, or begins one with a name of its own here; says which. */
+rlf_result recorder_toggle(recorder *recorder, char *out_message, size_t message_size);
+/* What is being recorded, for the screen; false when nothing is. */
+bool recorder_describe(recorder *recorder, char *out, size_t size);
 /* Waits until all is written and finishes the file. The pointer is nulled even when that fails. */
-rlf_result recorder_close(recorder **recorder, recorder_status *out);
+rlf_result recorder_destroy(recorder **recorder, recorder_status *out);
 /* One line for people; nothing when nothing was recorded. */
 void recorder_print_summary(const recorder_options *options, const recorder_status *status);
 

@@ -357,6 +357,16 @@ static rlf_result on_scene(void *context, const rlf_known_def *known, int32_t co
     return run_output_save_scene(output, known, count, out_message, message_size);
 }
 
+static rlf_result on_record(void *context, char *out_message, size_t message_size)
+{
+    return recorder_toggle(((run_output *)context)->recorder, out_message, message_size);
+}
+
+static bool on_status(void *context, char *out, size_t size)
+{
+    return recorder_describe(((run_output *)context)->recorder, out, size);
+}
+
 static rlf_result run_window(const run_options *o, session *s, run_output *output)
 {
     const rlf_source_info *info = rlf_source_get_info(s->source);
@@ -376,6 +386,8 @@ static rlf_result run_window(const run_options *o, session *s, run_output *outpu
     viewer.on_frame = on_frame;
     viewer.on_picture = on_picture;
     viewer.on_scene = o->session.scene_path != NULL ? on_scene : NULL;
+    viewer.on_record = on_record;
+    viewer.on_status = on_status;
     viewer.context = output;
     viewer.interrupted = &command_interrupted;
     return viewer_run(s->pipeline, &viewer);
@@ -419,7 +431,7 @@ static int run_session(run_options *o, session *s)
     }
     int status = result == RLF_OK ? EXIT_DONE : command_failed();
     recorder_status recorded = {0};
-    if (recorder_close(&s->recorder, &recorded) != RLF_OK && status == EXIT_DONE) {
+    if (recorder_destroy(&s->recorder, &recorded) != RLF_OK && status == EXIT_DONE) {
         status = recorded.is_told ? EXIT_FAILED : command_failed();
     }
     if (run_output_close(&output) != RLF_OK && status == EXIT_DONE) {
@@ -448,6 +460,7 @@ int run_main(int argc, char **argv)
         return status;
     }
     options.session.enable_overlay = !options.is_headless;
+    options.session.record.is_switched = !options.is_headless;
     options.output.scene_path = options.session.scene_path;
     session s;
     if (session_open(&options.session, &s) != RLF_OK) {

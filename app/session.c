@@ -73,7 +73,7 @@ static void set_gravity(const session_options *options, rlf_scene *scene)
 static rlf_result open_recorder(const session_options *options, session *s)
 {
     rlf_result result =
-        recorder_open(&options->record, rlf_source_get_info(s->source), &s->recorder);
+        recorder_create(&options->record, rlf_source_get_info(s->source), &s->recorder);
     return result == RLF_OK ? recorder_tap(s->recorder, &s->source) : result;
 }
 
@@ -88,7 +88,7 @@ static rlf_result open_all(const session_options *options, session *s)
         return result;
     }
     result = open_scene(options, &s->scene);
-    if (result == RLF_OK && options->record.path != NULL) {
+    if (result == RLF_OK && (options->record.path != NULL || options->record.is_switched)) {
         result = open_recorder(options, s);
     }
     if (result != RLF_OK) {
@@ -130,7 +130,7 @@ rlf_result session_open(const session_options *options, session *out)
 
 void session_close(session *s)
 {
-    recorder_close(&s->recorder, NULL);
+    recorder_destroy(&s->recorder, NULL);
     rlf_pipeline_destroy(&s->pipeline);
     rlf_scene_destroy(&s->scene);
     rlf_source_destroy(&s->source);

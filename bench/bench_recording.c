@@ -288,7 +288,7 @@ static bool bench_record(camera *c, const char *path, int64_t frames)
     const double jpeg_ms = jpeg_cpu_ms(c, options.def.jpeg_quality);
     recorder *r = NULL;
     rlf_source *source = make_source(c, frames);
-    if (source == NULL || recorder_open(&options, &c->info, &r) != RLF_OK ||
+    if (source == NULL || recorder_create(&options, &c->info, &r) != RLF_OK ||
         recorder_tap(r, &source) != RLF_OK) {
         return false;
     }
@@ -297,7 +297,7 @@ static bool bench_record(camera *c, const char *path, int64_t frames)
     const int64_t looped = run_loop(c, frames);
     pthread_join(thread, NULL);
     recorder_status status;
-    const bool is_good = recorder_close(&r, &status) == RLF_OK;
+    const bool is_good = recorder_destroy(&r, &status) == RLF_OK;
     rlf_source_destroy(&source);
     const double seconds = 1e-9 * (double)(frames * FRAME_NS);
     const double all = 100.0 * (status.cpu_s + capture_cpu_s) / seconds;

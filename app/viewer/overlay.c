@@ -14,7 +14,7 @@ static const char *const help_lines[] = {
     "V next view   B beside the camera",
     "right drag turns points, wheel zooms",
     "click or T: throw a cube, drag for speed",
-    "P picture   F full screen   H keys   Q quit",
+    "P picture   E record   F full screen   H keys   Q quit",
     "K place models of real things",
 };
 
@@ -52,6 +52,10 @@ void viewer_update_overlay(viewer *v)
     if (v->silent_s > 0) {
         (void)snprintf(v->lines[count++], VIEWER_LINE_SIZE, "no frames from %.60s for %d s",
                        v->options->source_name, (int)v->silent_s);
+    }
+    if (v->options->on_status != NULL &&
+        v->options->on_status(v->options->context, v->lines[count], VIEWER_LINE_SIZE)) {
+        count++;
     }
     double drag = viewer_window_get_drag(&v->window);
     if (drag >= 0.0) {

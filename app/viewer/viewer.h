@@ -16,6 +16,11 @@ typedef rlf_result (*viewer_picture_fn)(void *context, const rlf_image_rgba8 *im
 typedef rlf_result (*viewer_scene_fn)(void *context, const rlf_known_def *known, int32_t count,
                                       char *out_message, size_t message_size);
 
+/* Begins or ends a recording and says so. */
+typedef rlf_result (*viewer_record_fn)(void *context, char *out_message, size_t message_size);
+/* A line about what goes on beside the loop; false = nothing does. */
+typedef bool (*viewer_status_fn)(void *context, char *out, size_t size);
+
 typedef struct viewer_options {
     const char *title;        /* of the window; required */
     const char *source_name;  /* shown on screen; required */
@@ -32,7 +37,9 @@ typedef struct viewer_options {
     viewer_frame_fn on_frame;                 /* NULL = none */
     viewer_picture_fn on_picture;             /* NULL = pictures cannot be saved */
     viewer_scene_fn on_scene;                 /* NULL = scenes cannot be saved */
-    void *context;                            /* of all three */
+    viewer_record_fn on_record;               /* NULL = cannot */
+    viewer_status_fn on_status;               /* NULL = nothing */
+    void *context;                            /* of all of them */
     const volatile sig_atomic_t *interrupted; /* not 0 = stop, e.g. by Ctrl-C; NULL = none */
 } viewer_options;
 

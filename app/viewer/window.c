@@ -83,6 +83,7 @@ static void take_key(viewer_window *window, int key)
     case GLFW_KEY_H: wishes->toggle_help = true; break;
     case GLFW_KEY_V: wishes->next_view = true; break;
     case GLFW_KEY_P: wishes->save_picture = true; break;
+    case GLFW_KEY_E: wishes->toggle_record = true; break;
     case GLFW_KEY_F: toggle_fullscreen(window); break;
     case GLFW_KEY_T:
         glfwGetCursorPos(window->handle, &x, &y);

@@ -8,7 +8,8 @@ typedef struct GLFWwindow GLFWwindow;
 
 /* Wishes since the last look, to be cleared by who fulfils them. */
 typedef struct viewer_wishes {
-    bool toggle_pause, step, restart, toggle_help, next_view, save_picture, throw_body;
+    bool toggle_pause, step, restart, toggle_help, next_view, save_picture, throw_body,
+        toggle_record;
     bool refresh;               /* the window must be drawn again */
     int32_t view;               /* -1 = none */
     double throw_x, throw_y;    /* window position */

@@ -156,6 +156,15 @@ static void save_picture(viewer *v)
     viewer_show_message(v, result == RLF_OK ? text : rlf_error_text());
 }
 
+static void toggle_record(viewer *v)
+{
+    char text[VIEWER_LINE_SIZE];
+    if (v->options->on_record != NULL) {
+        const rlf_result result = v->options->on_record(v->options->context, text, sizeof text);
+        viewer_show_message(v, result == RLF_OK ? text : rlf_error_text());
+    }
+}
+
 static void restart(viewer *v)
 {
     if (rlf_pipeline_restart(v->pipeline) != RLF_OK) {
@@ -204,6 +213,9 @@ void viewer_fulfil_wishes(viewer *v)
     }
     if (wishes.save_picture) {
         save_picture(v);
+    }
+    if (wishes.toggle_record) {
+        toggle_record(v);
     }
     v->is_present_due = v->is_present_due || wishes.refresh;
 }

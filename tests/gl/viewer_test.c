@@ -151,7 +151,7 @@ typedef struct script {
     int64_t frames;
     int32_t bodies_before, bodies_after;
     int64_t index_after_restart;
-    int32_t pictures;
+    int32_t pictures, recordings;
     uint8_t camera_pixel[3], normals_pixel[3];
     bool is_short; /* quit at the fifth frame */
 } script;
@@ -177,6 +177,7 @@ static rlf_result play(void *context, const rlf_pipeline_output *frame)
         glfwSetCursorPos(window(), 150, 250);
         press(GLFW_KEY_T);
         press(GLFW_KEY_P);
+        press(GLFW_KEY_E);
         break;
     case 4:
         s->bodies_after = frame->snapshot->body_count;
@@ -201,6 +202,21 @@ static rlf_result take_picture(void *context, const rlf_image_rgba8 *image, char
     return RLF_OK;
 }
 
+static rlf_result take_recording(void *context, char *out_message, size_t message_size)
+{
+    script *s = context;
+    s->recordings++;
+    (void)snprintf(out_message, message_size, "recording");
+    return RLF_OK;
+}
+
+static bool tell_recording(void *context, char *out, size_t size)
+{
+    const script *s = context;
+    (void)snprintf(out, size, "REC clip.mcap");
+    return s->recordings > 0;
+}
+
 static void run_script(script *s, bool use_gl)
 {
     rlf_synthetic_def synthetic = rlf_synthetic_def_default();
@@ -221,6 +237,8 @@ static void run_script(script *s, bool use_gl)
     options.avoid_software_gl = s->is_short;
     options.on_frame = play;
     options.on_picture = take_picture;
+    options.on_record = take_recording;
+    options.on_status = tell_recording;
     options.context = s;
     rlf_result result = viewer_run(pipeline, &options);
     if (result != RLF_OK) {
@@ -240,6 +258,7 @@ static void check_run(bool use_gl)
     assert_int_equal(s.bodies_before, 0);
     assert_int_equal(s.bodies_after, 1);
     assert_int_equal(s.pictures, 1);
+    assert_int_equal(s.recordings, 1);
     assert_int_equal(s.index_after_restart, 0);
 }
 
