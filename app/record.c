@@ -1,4 +1,5 @@
 /* `relief record`: any source into a file or a folder. */
+#define _POSIX_C_SOURCE 200809L
 #include "command.h"
 #include "options.h"
 #include "recorder.h"
@@ -6,6 +7,7 @@
 #include <getopt.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #define PROGRESS_INTERVAL_NS 200000000
@@ -48,6 +50,19 @@ static bool is_folder_name(const char *path)
     return length > 0 && path[length - 1] == '/';
 }
 
+/* A file that is read must not be emptied to write to it. */
+static bool is_same_file(const char *source, const char *path)
+{
+    char place[4096];
+    struct stat a;
+    struct stat b;
+    const char *colon = strchr(source, ':');
+    snprintf(place, sizeof(place), "%s", colon != NULL ? colon + 1 : source);
+    place[strcspn(place, "?")] = '\0';
+    const bool is_there = stat(source, &a) == 0 || stat(place, &a) == 0;
+    return is_there && stat(path, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
 static int parse(int argc, char **argv, record_options *o)
 {
     *o = (record_options){.recorder = recorder_options_default(), .frames = -1, .seconds = -1};
@@ -71,6 +86,10 @@ static int parse(int argc, char **argv, record_options *o)
     }
     o->source = argv[optind];
     o->recorder.path = argv[optind + 1];
+    if (is_same_file(o->source, o->recorder.path)) {
+        return command_usage("record", "cannot write %s while it reads it: give another name",
+                             o->recorder.path);
+    }
     if (o->recorder.def.jpeg_quality < 0) {
         o->recorder.def.jpeg_quality = is_folder_name(o->recorder.path) ? 0 : quality;
     }

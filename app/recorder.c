@@ -20,7 +20,7 @@ struct recorder {
     pthread_mutex_t fills; /* held while an item is filled */
     int64_t last_ns;       /* of the frames in the queue, for sources that start again */
     bool has_last;
-    uint64_t dropped;
+    _Atomic uint64_t dropped;
     /* What the thread says; under the queue's lock. */
     rlf_recording_status written;
     bool has_failed;

@@ -42,6 +42,13 @@ expect 0 '8 frames' "$relief" record synthetic:room all.mcap --frames 8 --lossle
 again=$("$relief" run run.mcap --headless --hash --quiet --gravity 0,9.81,0)
 [ "$direct" = "$again" ] || fail "$again is not $direct"
 
+# What is read is never written to.
+cp all.mcap same.mcap
+for source in all.mcap mcap:all.mcap 'mcap:all.mcap?depth=x' ./all.mcap; do
+    expect 2 'give another name' "$relief" record "$source" all.mcap
+done
+cmp all.mcap same.mcap || fail "a file that was read has changed"
+
 # Seconds, and a folder and back.
 expect 0 '31 frames' "$relief" record synthetic:room second.mcap --seconds 1
 expect 0 '8 frames' "$relief" record all.mcap folder/
