@@ -261,9 +261,9 @@ static int32_t list_tasks(const eval_options *o, eval_task *tasks)
             tasks[count++] = (eval_task){.section = name, .seed = seed, .options = o};
         }
     }
-    const bool has_rooms = o->section != NULL ? is_random_section(o->section)
-                                              : o->normals_path == NULL &&
-                                                    o->real.folder == NULL && !o->is_bounded;
+    const bool has_rooms =
+        o->section != NULL ? is_random_section(o->section)
+                           : o->normals_path == NULL && o->real.folder == NULL && !o->is_bounded;
     for (int32_t i = 0; has_rooms && i < o->rooms; i++) {
         tasks[count++] = (eval_task){.section = o->section != NULL ? o->section : EVAL_RANDOM,
                                      .seed = eval_random_seed(i, o->is_tuning),

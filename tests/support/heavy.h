@@ -1,5 +1,6 @@
-/* How much a heavy test does. Sanitizers make a test 10 to 20 times as slow, and find what they look
- * for in the first rounds of a loop. The release build does every round, and judges the figures. */
+/* How much a heavy test does. Sanitizers make a test 10 to 20 times as slow, and find what they
+ * look for in the first rounds of a loop. The release build does every round, and judges the
+ * figures. */
 #ifndef RLF_TEST_HEAVY_H
 #define RLF_TEST_HEAVY_H
 

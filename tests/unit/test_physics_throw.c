@@ -178,8 +178,8 @@ static void throws_at(bool is_edge)
         passed += is_through;
         rlf_world_destroy(&world);
     }
-    print_message("%s: %d of %d bounced, %d passed\n", is_edge ? "EDGE" : "BEHIND", bounced,
-                  count, passed);
+    print_message("%s: %d of %d bounced, %d passed\n", is_edge ? "EDGE" : "BEHIND", bounced, count,
+                  passed);
     assert_int_equal(passed, 0);
     assert_true(bounced >= count - 1);
     grid_fixture_destroy(&fixture);
