@@ -258,7 +258,7 @@ static void a_narrow_side_is_found(void **state)
     }
     print_message("%d of %d wrong\n", wrong, count);
     assert_true(count > 300 / 6 * rounds);
-    assert_true(7 * wrong < count);
+    assert_true(!heavy_is_whole() || 7 * wrong < count);
 }
 
 static void what_stands_in_front_has_its_own(void **state)
