@@ -197,6 +197,15 @@ const eval_bound *eval_bound_find(const char *scene, const char *key)
     return NULL;
 }
 
+bool eval_has_bounds(const char *scene)
+{
+    bool has = false;
+    for (int32_t i = 0; i < eval_bound_count; i++) {
+        has = has || strcmp(eval_bounds[i].scene, scene) == 0;
+    }
+    return has;
+}
+
 static bool holds(char relation, double limit, double value)
 {
     return relation == '<' ? value <= limit : value >= limit;

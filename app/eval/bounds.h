@@ -26,6 +26,8 @@ extern const int32_t eval_bound_count;
 
 /* NULL for a figure that has neither. */
 const eval_bound *eval_bound_find(const char *scene, const char *key);
+/* Whether any figure of a scene or section has one. */
+bool eval_has_bounds(const char *scene);
 /* Judges a mean; NAN was not measured. */
 eval_verdict eval_bound_judge(const eval_bound *bound, double mean);
 /* "goal", "bound", "OUTSIDE", "no sample". */

@@ -1,6 +1,7 @@
 /* `relief eval`: every accuracy figure, both profiles side by side, against its goal and its bound.
  */
 #include "command.h"
+#include "eval/bounds.h"
 #include "eval/oracle.h"
 #include "eval/picture.h"
 #include "eval/random/random.h"
@@ -32,6 +33,7 @@ typedef struct eval_options {
     int64_t rooms;    /* drawn at random */
     bool is_random;   /* only these */
     bool is_tuning;   /* their even seeds */
+    bool is_bounded;  /* only what has bounds */
     setting_list settings;
 } eval_options;
 
@@ -44,6 +46,11 @@ typedef struct eval_task {
     rlf_result result;
     char error[256];
 } eval_task;
+
+typedef struct task_list {
+    eval_task *tasks;
+    int32_t count;
+} task_list;
 
 typedef rlf_result (*section_fn)(eval_table *table, int64_t seed, int profile_mask);
 
@@ -101,6 +108,7 @@ static void print_help(void)
         "                      push      in them, what stood there lifts, sweeps and carries\n"
         "  --random          the same as --scene random\n"
         "  --rooms N         drawn at random: seeds 1, 3, 5, ... of N rooms, default 20\n"
+        "  --bounded         only scenes and sections with bounds: no rooms, no start\n"
         "  --tune            seeds 2, 4, 6, ... instead: for tuning, never reported\n"
         "  --normals DIR     clean depth with true normals: folders of depth.bin, normal.png and\n"
         "                    params.txt (docs/measuring.md); only this unless --scene is given\n"
@@ -174,6 +182,7 @@ static int parse(int argc, char **argv, eval_options *o)
         {.name = "seeds", .kind = OPTION_INT64, .out = &o->seeds, .low = 1, .high = EVAL_SEEDS_MAX},
         {.name = "rooms", .kind = OPTION_INT64, .out = &o->rooms, .low = 1, .high = EVAL_SEEDS_MAX},
         {.name = "random", .kind = OPTION_FLAG, .out = &o->is_random},
+        {.name = "bounded", .kind = OPTION_FLAG, .out = &o->is_bounded},
         {.name = "tune", .kind = OPTION_FLAG, .out = &o->is_tuning},
         {.name = "profile",
          .kind = OPTION_CHOICE,
@@ -223,20 +232,22 @@ static rlf_result run_task(const eval_task *task)
     return find_section(task->section)->run(task->table, task->seed, o->profile_mask);
 }
 
+/* From the end of the list, where the longest are, so that no thread is left with one of them. */
 static void run_tasks(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
-    eval_task *tasks = context;
+    const task_list *list = context;
     for (int32_t i = begin; i < end && !command_interrupted; i++) {
-        tasks[i].result = run_task(&tasks[i]);
-        if (tasks[i].result != RLF_OK) { /* the error line is the thread's own */
-            snprintf(tasks[i].error, sizeof(tasks[i].error), "%s", rlf_error_text());
+        eval_task *task = &list->tasks[list->count - 1 - i];
+        task->result = run_task(task);
+        if (task->result != RLF_OK) { /* the error line is the thread's own */
+            snprintf(task->error, sizeof(task->error), "%s", rlf_error_text());
         }
-        fprintf(stderr, "%s, seed %lld done\n", tasks[i].section, (long long)tasks[i].seed);
+        fprintf(stderr, "%s, seed %lld done\n", task->section, (long long)task->seed);
     }
 }
 
-/* The longest first, so that no thread is left with one at the end. */
+/* In the order of the report. */
 static int32_t list_tasks(const eval_options *o, eval_task *tasks)
 {
     int32_t count = 0;
@@ -244,13 +255,15 @@ static int32_t list_tasks(const eval_options *o, eval_task *tasks)
         const char *name =
             s < eval_scene_count ? eval_scenes[s].name : sections[s - eval_scene_count].name;
         bool is_whole = o->normals_path == NULL && o->real.folder == NULL;
-        bool is_wanted = o->section != NULL ? strcmp(o->section, name) == 0 : is_whole;
+        bool is_wanted = o->section != NULL ? strcmp(o->section, name) == 0
+                                            : is_whole && (!o->is_bounded || eval_has_bounds(name));
         for (int64_t seed = 1; is_wanted && seed <= o->seeds; seed++) {
             tasks[count++] = (eval_task){.section = name, .seed = seed, .options = o};
         }
     }
-    const bool has_rooms = o->section != NULL ? is_random_section(o->section)
-                                              : o->normals_path == NULL && o->real.folder == NULL;
+    const bool has_rooms =
+        o->section != NULL ? is_random_section(o->section)
+                           : o->normals_path == NULL && o->real.folder == NULL && !o->is_bounded;
     for (int32_t i = 0; has_rooms && i < o->rooms; i++) {
         tasks[count++] = (eval_task){.section = o->section != NULL ? o->section : EVAL_RANDOM,
                                      .seed = eval_random_seed(i, o->is_tuning),
@@ -268,7 +281,8 @@ static rlf_result run_all(const eval_options *o, eval_task *tasks, int32_t count
         result = tasks[i].table != NULL ? RLF_OK : RLF_ERROR_MEMORY;
     }
     if (result == RLF_OK) {
-        rlf_parallel_for(pool, count, 1, run_tasks, tasks);
+        task_list list = {tasks, count};
+        rlf_parallel_for(pool, count, 1, run_tasks, &list);
     }
     for (int32_t i = 0; i < count; i++) {
         if (result == RLF_OK && tasks[i].result != RLF_OK) {

@@ -45,9 +45,8 @@ rlf_result lost_depth_create(const rlf_registration *registration, const rlf_cam
     out->far_z = rlf_alloc_array(pixels, sizeof(float));
     out->near_z = rlf_alloc_array(pixels, sizeof(float));
     out->nats = rlf_alloc_array(pixels, sizeof(float));
-    out->colors = rlf_alloc(4 * pixels);
     out->nearest = rlf_alloc_array((size_t)out->rows, sizeof(float));
-    has_all = has_all && out->colors != NULL && out->nearest != NULL;
+    has_all = has_all && out->nearest != NULL;
     out->cells = rlf_alloc((size_t)out->columns * (size_t)out->rows);
     out->body_near =
         rlf_alloc_array((size_t)out->columns * (size_t)out->rows, sizeof(*out->body_near));
@@ -71,7 +70,6 @@ void lost_depth_destroy(lost_depth *l)
     rlf_free(l->nats);
     rlf_free(l->near_z);
     rlf_free(l->cells);
-    rlf_free(l->colors);
     rlf_free(l->body_near);
     rlf_free(l->nearest);
     clean_plate_destroy(&l->plate);
@@ -220,38 +218,20 @@ static float depth_of(const hit *hits, int32_t count)
 
 /* ---- colours -------------------------------------------------------------------------------- */
 
-/* Colours of a row of pixels, as far away as they are seen; of lost ones as if a metre away. */
-static void find_colors(const pass *p, rlf_registration *registration, int32_t y)
+/* Colour of pixel i, as far away as it is seen; of a lost one as if a metre away. NULL outside of
+ * the picture. */
+static const uint8_t *color_of(const pass *p, int32_t i)
 {
-    lost_depth *l = p->l;
-    const ptrdiff_t row = (ptrdiff_t)y * l->width;
-    for (int32_t x = 0; x < l->width; x++) {
-        const float z = p->surface->depth[row + x];
-        l->near_z[row + x] = z > 0.0f ? z : 1.0f;
-    }
-    registration_project(registration, l->near_z, y, 0, l->width);
-    const rlf_kernel_points *at = &registration->points;
-    for (int32_t x = 0; x < l->width; x++) {
-        const bool is_seen = at->scale[x] > 0.0f && at->z[x] < RLF_KERNEL_NOTHING;
-        const uint8_t *c =
-            is_seen ? clean_plate_picture(&l->plate, p->color, at->u[x], at->v[x]) : NULL;
-        uint8_t *out = l->colors + 4 * (row + x);
-        out[3] = 0;
-        if (c != NULL) {
-            memcpy(out, c, 3);
-            out[3] = 1;
-        }
-    }
+    const float z = p->surface->depth[i];
+    return clean_plate_color(&p->l->plate, p->registration, p->color, i, z > 0.0f ? z : 1.0f);
 }
 
 /* Colour at lost pixel i, were it at depth z; NULL outside of the picture. */
 static const uint8_t *color_at(const pass *p, int32_t i, float z)
 {
-    const uint8_t *own = p->l->colors + 4 * (ptrdiff_t)i;
-    if (p->registration->parallax_px_m > 0.0) {
-        return clean_plate_color(&p->l->plate, p->registration, p->color, i, z);
-    }
-    return own[3] != 0 ? own : NULL;
+    return p->registration->parallax_px_m > 0.0
+               ? clean_plate_color(&p->l->plate, p->registration, p->color, i, z)
+               : color_of(p, i);
 }
 
 /* Least squared distance of a colour from those of hits; < 0: not known. */
@@ -259,8 +239,8 @@ static float from_hits(const pass *p, const uint8_t *c, const hit *hits, int32_t
 {
     float least = -1.0f;
     for (int32_t k = 0; k < count && c != NULL; k++) {
-        const uint8_t *other = p->l->colors + 4 * (ptrdiff_t)hits[k].inside;
-        const float off = other[3] != 0 ? clean_plate_squared(c, other) : -1.0f;
+        const uint8_t *other = color_of(p, hits[k].inside);
+        const float off = other != NULL ? clean_plate_squared(c, other) : -1.0f;
         least = off >= 0.0f && (least < 0.0f || off < least) ? off : least;
     }
     return least;
@@ -473,15 +453,16 @@ float lost_depth_update(lost_depth *l, rlf_registration *registration,
     }
     pass p = {l, registration, &input->frame->color, surface, depth};
     mark_cells(&p, bodies, needed);
-    lost_depth_find_ways(l, surface->reason);
-    for (int32_t y = 0; y < l->height && p.color->data != NULL; y++) {
-        if (memchr(l->cells + y / CELL * l->columns, 1, (size_t)l->columns) != NULL) {
-            find_colors(&p, registration, y);
-        }
-    }
+    int32_t first = l->height;
+    int32_t end = 0;
     for (int32_t row = 0; row < l->rows; row++) {
         l->nearest[row] = nearest;
+        if (memchr(l->cells + row * l->columns, 1, (size_t)l->columns) != NULL) {
+            first = row * CELL < first ? row * CELL : first;
+            end = (row + 1) * CELL < l->height ? (row + 1) * CELL : l->height;
+        }
     }
+    lost_depth_find_ways(l, surface->reason, first, end);
     rlf_parallel_for(l->pool, l->rows, 1, settle_rows, &p);
     rlf_parallel_for(l->pool, l->rows, 1, vote_rows, &p);
     for (int32_t row = 0; row < l->rows; row++) {

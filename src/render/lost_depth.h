@@ -31,7 +31,6 @@ typedef struct lost_depth {
     float *near_z, *far_z, *nats;   /* both sides, and what speaks for the near one; far_z 0 =
                                        nothing, < 0 = there is no choice */
     uint8_t *cells;                 /* of 8 x 8 pixels: 1 = a picture's window needs it */
-    uint8_t *colors;  /* [pixel][4]: RGB where it is seen, 1; 0 = not in the picture */
     float *body_near; /* of a cell: no body is nearer; SILHOUETTE_FAR = none is there */
     float *nearest;   /* of a row of cells: least depth that was settled */
     int32_t columns, rows;
@@ -51,7 +50,7 @@ float lost_depth_update(lost_depth *l, rlf_registration *registration,
                         const rlf_render_input *input, const silhouette *bodies,
                         const real_windows *needed, float *depth, float nearest);
 
-/* lost_depth_ways.c: fills `away` from a plane of reasons. */
-void lost_depth_find_ways(lost_depth *l, const uint8_t *reason);
+/* lost_depth_ways.c: fills `away` of rows [begin, end) from a plane of reasons. */
+void lost_depth_find_ways(lost_depth *l, const uint8_t *reason, int32_t begin, int32_t end);
 
 #endif

@@ -50,14 +50,18 @@ static void step_along(const uint8_t *reason, int32_t dx, int32_t width, uint8_t
 typedef struct ways_job {
     lost_depth *l;
     const uint8_t *reason;
+    int32_t begin, end; /* rows */
 } ways_job;
 
+/* From the border that a way begins at to the last row that is asked for. */
 static void find_way(const ways_job *job, int32_t k)
 {
     const lost_depth *l = job->l;
     const int32_t dx = lost_depth_way[k][0], dy = lost_depth_way[k][1];
+    const int32_t first = dy == 0 ? job->begin : 0;
+    const int32_t end = dy > 0 ? l->height - job->begin : job->end;
     const uint8_t *before = NULL;
-    for (int32_t n = 0; n < l->height; n++) {
+    for (int32_t n = first; n < end; n++) {
         const ptrdiff_t row = (ptrdiff_t)(dy > 0 ? l->height - 1 - n : n) * l->width;
         uint8_t *out = l->away[k] + row;
         if (dy == 0) {
@@ -79,8 +83,8 @@ static void find_some(void *context, int32_t begin, int32_t end, int32_t worker)
     }
 }
 
-void lost_depth_find_ways(lost_depth *l, const uint8_t *reason)
+void lost_depth_find_ways(lost_depth *l, const uint8_t *reason, int32_t begin, int32_t end)
 {
-    ways_job job = {l, reason};
+    ways_job job = {l, reason, begin, end};
     rlf_parallel_for(l->pool, LOST_DEPTH_WAYS, 1, find_some, &job);
 }

@@ -130,7 +130,9 @@ typedef struct rlf_background {
     int32_t *version;     /* per tile: of the sheet that it was made for */
     int32_t next_version; /* of the next sheet */
     int32_t sheet_age;    /* frames since the newest sheet was finished */
-    bool is_drafting;     /* the next sheet is being made */
+    bool is_drafting;     /* the next sheet is being made, */
+    bool is_made;         /* every tile of it is, */
+    int32_t object_steps; /* and so many steps to its regions are done */
     rlf_background_state state;
     rlf_sheet sheets[RLF_SHEETS];
     int32_t newest;       /* sheet; -1 = none */

@@ -157,6 +157,8 @@ typedef struct rlf_layer_in {
     rlf_segment_method method;
     const float *depth;
     float *const *normal;          /* planes; OBJECTS only */
+    int32_t steps_done;            /* OBJECTS: of rlf_objects_step, with this layer ... */
+    int32_t *kept;                 /* ... and a plane that nobody else wrote meanwhile */
     const uint8_t *mask;           /* members; NULL = every valid pixel */
     const rlf_span *spans;         /* where they are; NULL = anywhere */
     const uint32_t *color;         /* NULL = depth alone tells them apart */

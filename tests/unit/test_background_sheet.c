@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "analytic.h"
+#include "surface/objects/objects.h"
 #include "surface/steps.h"
 
 enum { WIDTH = 330, HEIGHT = 230, COUNT = WIDTH * HEIGHT, TILES = 4 * 3 };
@@ -130,6 +131,30 @@ static void no_frame_makes_more_than_its_share(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
+/* The regions of a sheet cost as much as all its tiles: no frame finds them all, nor makes tiles
+ * beside a part of that. Only what leaves is shown at once. */
+static void regions_take_several_frames(void **state)
+{
+    (void)state;
+    rlf_reconstruct *stage = make_stage();
+    const rlf_background *background = &stage->background;
+    analytic_random random = {11};
+    int32_t before[TILES], sheets = 0;
+    for (int t = 0; t < 90; t++) {
+        int32_t steps = background->object_steps, newest = background->newest;
+        bool is_made = background->is_made;
+        memcpy(before, background->version, sizeof before);
+        step(stage, &random, 0.0, t);
+        bool is_new = newest >= 0 && background->newest != newest;
+        assert_true(!is_new || (is_made && steps == RLF_OBJECT_STEPS));
+        assert_true(is_new || background->object_steps <= steps + 1);
+        assert_true(!is_made || tiles_made(stage, before) == 0);
+        sheets += is_new;
+    }
+    assert_true(sheets >= 2);
+    rlf_reconstruct_destroy(&stage);
+}
+
 static double sum_of(const rlf_surface *s)
 {
     double sum = 0.0;
@@ -225,6 +250,7 @@ int main(void)
         cmocka_unit_test(tiles_make_the_same_normals_as_the_whole),
         cmocka_unit_test(means_get_better_without_a_change),
         cmocka_unit_test(no_frame_makes_more_than_its_share),
+        cmocka_unit_test(regions_take_several_frames),
         cmocka_unit_test(valid_surfaces_keep_their_background),
         cmocka_unit_test(one_tile_changes_alone),
         cmocka_unit_test(a_sheet_is_finished_while_something_changes),

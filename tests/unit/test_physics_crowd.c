@@ -9,6 +9,7 @@
 #include "physics/grid/cast.h"
 
 #include "grid_shared.h"
+#include "heavy.h"
 
 #include <math.h>
 
@@ -65,8 +66,9 @@ static void thousand_bodies_allocate_nothing(void **state)
 {
     (void)state;
     set_floor(1);
-    rlf_world *world = make_world(1000, NULL);
-    add_crowd(world, 1000);
+    const int count = heavy(1000, 300);
+    rlf_world *world = make_world(count, NULL);
+    add_crowd(world, count);
     uint64_t before = rlf_alloc_count();
     for (int k = 0; k < 20; k++) {
         fixture->grid.time_ns++;
@@ -79,10 +81,11 @@ static void thousand_bodies_allocate_nothing(void **state)
 
 static uint64_t hash_of_run(rlf_pool *pool)
 {
-    rlf_world *world = make_world(300, pool);
-    add_crowd(world, 300);
+    const int count = heavy(300, 100);
+    rlf_world *world = make_world(count, pool);
+    add_crowd(world, count);
     uint64_t hash = 0;
-    for (int k = 0; k < 40; k++) {
+    for (int k = 0; k < heavy(40, 20); k++) {
         fixture->grid.time_ns = k + 1;
         rlf_world_advance(world, &fixture->grid, FRAME);
         hash = hash * 31 + rlf_world_hash(world);
@@ -96,7 +99,7 @@ static void workers_do_not_matter(void **state)
     (void)state;
     set_floor(1);
     uint64_t hash = hash_of_run(NULL);
-    for (int32_t workers = 2; workers <= 4; workers++) {
+    for (int32_t workers = 2; workers <= heavy(4, 2); workers++) {
         rlf_pool *pool = NULL;
         assert_int_equal(rlf_pool_create(workers, &pool), RLF_OK);
         assert_true(hash_of_run(pool) == hash);
@@ -104,12 +107,13 @@ static void workers_do_not_matter(void **state)
     }
 }
 
-static void ten_thousand_in_one_place(void **state)
+static void thousands_in_one_place(void **state)
 {
     (void)state;
-    rlf_world *world = make_world(10000, NULL);
+    const int count = heavy(10000, 1000);
+    rlf_world *world = make_world(count, NULL);
     rlf_body_def def = rlf_body_def_default();
-    for (int i = 0; i < 10000; i++) {
+    for (int i = 0; i < count; i++) {
         assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
     }
     for (int k = 0; k < 2; k++) {
@@ -309,7 +313,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(thousand_bodies_allocate_nothing),
         cmocka_unit_test(workers_do_not_matter),
-        cmocka_unit_test(ten_thousand_in_one_place),
+        cmocka_unit_test(thousands_in_one_place),
         cmocka_unit_test(heap_in_one_place_comes_apart_at_bounded_speed),
         cmocka_unit_test(stack_added_from_above),
         cmocka_unit_test(surface_jumps_a_metre),

@@ -10,6 +10,7 @@
 #include "physics/world_state.h"
 
 #include "grid_shared.h"
+#include "heavy.h"
 
 #include <math.h>
 
@@ -79,7 +80,7 @@ static bool is_turned(const flight *f, const rlf_body_def *def)
 static void thin_things_turn_what_hits_their_side(void **state)
 {
     (void)state;
-    for (int i = 0; i < 200; i++) {
+    for (int i = 0; i < heavy(200, 50); i++) {
         double half = 0.003 + 0.0005 * (i % 20), size = 0.02 + 0.02 * (i / 20 % 8);
         set_pole(half, 0.2);
         rlf_body_def def = body_of(i % 2 ? RLF_SHAPE_BOX : RLF_SHAPE_SPHERE, size);
@@ -102,7 +103,7 @@ static void thin_things_give_no_energy(void **state)
 {
     (void)state;
     set_pole(0.012, 0.2);
-    for (int i = 0; i < 200; i++) {
+    for (int i = 0; i < heavy(200, 50); i++) {
         rlf_body_def def = body_of((rlf_shape_type)(i % 4), 0.1 + 0.003 * (i % 21));
         def.friction = 0.1 * (i % 11);
         def.position = rlf_vec3_make(0.45, 0.004 * (i % 41) - 0.08, 2.04 + 0.005 * (i % 23));
@@ -126,7 +127,7 @@ static void backs_turn_small_balls(void **state)
     grid_fixture_set_room(fixture, &wall, 1);
     grid_fixture_set_slab(fixture, grid_wall(2), rlf_vec3_make(0, 0, 2), rlf_vec3_make(0.5, 0.5, 0),
                           0.2, rlf_vec3_make(0, 0, 0));
-    for (int i = 0; i < 300; i++) {
+    for (int i = 0; i < heavy(300, 75); i++) {
         rlf_body_def def = body_of(RLF_SHAPE_SPHERE, 0.02 + 0.001 * (i % 20));
         double speed = 0.5 + 0.13 * (i % 40);
         def.position = rlf_vec3_make(0.03 * (i % 29) - 0.42, 0.028 * (i % 31) - 0.42, 2.6);

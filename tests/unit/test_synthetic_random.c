@@ -9,6 +9,7 @@
 
 #include "capture/synthetic/shape.h"
 #include "relief/base.h"
+#include "heavy.h"
 #include "relief/synthetic.h"
 
 #include <math.h>
@@ -18,7 +19,6 @@
 #define WIDTH 512
 #define HEIGHT 424
 #define PIXELS (WIDTH * HEIGHT)
-#define SEEDS 41
 
 static rlf_source *open_source(const char *text, rlf_pool *pool)
 {
@@ -106,11 +106,11 @@ static void check_rays(rlf_source *source, const rlf_frame *frame)
 static void truth_agrees_with_rays_of_its_own(void **state)
 {
     (void)state;
-    for (int seed = 0; seed < 12; seed += 3) {
+    for (int seed = 0; seed < heavy(12, 4); seed += 3) {
         char text[64];
         snprintf(text, sizeof(text), "synthetic:random?color=0&seed=%d", seed);
         rlf_source *source = open_source(text, NULL);
-        for (uint64_t at = 0; at <= 120; at += 60) {
+        for (uint64_t at = 0; at <= (uint64_t)heavy(120, 60); at += 60) {
             const rlf_frame frame = frame_at(source, at);
             check_rays(source, &frame);
         }
@@ -121,8 +121,9 @@ static void truth_agrees_with_rays_of_its_own(void **state)
 static void every_seed_gives_a_room_that_is_seen(void **state)
 {
     (void)state;
+    const int seeds = heavy(41, 3);
     int with_people = 0;
-    for (int seed = 0; seed < SEEDS; seed++) {
+    for (int seed = 0; seed < seeds; seed++) {
         char text[64];
         snprintf(text, sizeof(text), "synthetic:random?color=0&seed=%d", seed);
         rlf_source *source = open_source(text, NULL);
@@ -146,7 +147,7 @@ static void every_seed_gives_a_room_that_is_seen(void **state)
         assert_float_equal(rlf_length(down), 1.0, 1e-9);
         rlf_source_destroy(&source);
     }
-    assert_true(with_people > 0.8 * SEEDS);
+    assert_true(with_people > 0.8 * seeds);
 }
 
 /* Until it starts it is a part of the room, then it moves at its speed against gravity. */

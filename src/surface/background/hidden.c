@@ -43,16 +43,31 @@ typedef struct hidden_job {
     bool is_learning;
 } hidden_job;
 
+RLF_KERNEL static void mark_empty(const float *restrict depth, const uint8_t *restrict reason,
+                                  int32_t count, uint8_t *restrict empty)
+{
+    for (int32_t i = 0; i < count; i++) {
+        int32_t is_lost = (reason[i] == RLF_REASON_NO_RETURN) | (reason[i] == RLF_REASON_FLYING);
+        empty[i] = (uint8_t)(is_lost & (depth[i] > 0.0f ? 0 : 1));
+    }
+}
+
 static void find_empty(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
     const hidden_job *job = context;
-    ptrdiff_t width = job->stage->grid.width;
-    const float *depth = job->slot->depth;
-    const uint8_t *reason = job->slot->reason;
-    for (ptrdiff_t i = begin * width; i < end * width; i++) {
-        int32_t is_lost = (reason[i] == RLF_REASON_NO_RETURN) | (reason[i] == RLF_REASON_FLYING);
-        job->empty[i] = (uint8_t)(is_lost & (depth[i] > 0.0f ? 0 : 1));
+    int32_t width = job->stage->grid.width;
+    ptrdiff_t at = (ptrdiff_t)begin * width;
+    mark_empty(job->slot->depth + at, job->slot->reason + at, (end - begin) * width,
+               job->empty + at);
+}
+
+/* Where the next row is empty, what is met from there. */
+RLF_KERNEL static void step_row(const uint8_t *restrict empty, const int32_t *restrict beside,
+                                int32_t first, int32_t count, int32_t *restrict hit)
+{
+    for (int32_t x = 0; x < count; x++) {
+        hit[x] = empty[x] != 0 ? beside[x] : first + x;
     }
 }
 
@@ -67,9 +82,9 @@ static void look_beside(const hidden_job *job, int32_t y, ptrdiff_t step, int32_
         }
         return;
     }
-    for (int32_t x = job->area.x0; x < job->area.x1; x++) {
-        hit[row + x] = job->empty[beside + x] != 0 ? hit[beside + x] : (int32_t)beside + x;
-    }
+    int32_t x0 = job->area.x0;
+    step_row(job->empty + beside + x0, hit + beside + x0, (int32_t)beside + x0, job->area.x1 - x0,
+             hit + row + x0);
 }
 
 /* The pixels with depth that are met from an empty one. */
@@ -185,15 +200,12 @@ static bool is_hidden(const hidden_job *job, int32_t i, const hits *h)
 }
 
 /* Where nothing is in front, how often a pixel returns nothing. */
-static void learn_absent(const hidden_job *job, int32_t y)
+RLF_KERNEL static void learn_row(const float *restrict seen, const uint8_t *restrict busy,
+                                 const uint8_t *restrict front, int32_t shift, int32_t count,
+                                 uint8_t *restrict absent)
 {
-    const rlf_grid *grid = &job->stage->grid;
-    ptrdiff_t row = (ptrdiff_t)y * grid->width;
-    uint8_t *absent = job->stage->background.absent + row;
-    const uint8_t *busy = job->busy + row, *front = job->slot->foreground + row;
-    const float *seen = job->seen + row;
-    int32_t shift = job->is_learning ? 1 : LEARN_SHIFT, round = (1 << shift) - 1;
-    for (int32_t x = 0; x < grid->width; x++) {
+    int32_t round = (1 << shift) - 1;
+    for (int32_t x = 0; x < count; x++) {
         int32_t old = absent[x];
         int32_t up = old + ((255 - old + round) >> shift), down = old - ((old + round) >> shift);
         int32_t next = seen[x] > 0.0f ? down : up;
@@ -318,7 +330,10 @@ static void cover_rows(void *context, int32_t begin, int32_t end, int32_t worker
             cover_row(job, y);
         }
         if (job->is_learning || (y - job->stage->background.frames) % LEARN_ROWS == 0) {
-            learn_absent(job, y);
+            ptrdiff_t row = y * width;
+            learn_row(job->seen + row, job->busy + row, job->slot->foreground + row,
+                      job->is_learning ? 1 : LEARN_SHIFT, (int32_t)width,
+                      job->stage->background.absent + row);
         }
     }
 }

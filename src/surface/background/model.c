@@ -32,6 +32,8 @@ void rlf_background_reset(rlf_background *background, const rlf_grid *grid)
     background->changed = 0;
     background->sheet_age = 0;
     background->is_drafting = false;
+    background->is_made = false;
+    background->object_steps = 0;
     background->next_version++; /* newer than that of a sheet that was never published: 0 */
     background->state = RLF_BACKGROUND_NONE;
     background->newest = -1;

@@ -4,6 +4,7 @@
  * are made anew from the model, the most changed first, so many per frame that no frame costs much
  * more than another; a thing that leaves is published at once. A tile is made once more when
  * most of what is new in it has been seen, and when the means of that have got much better. */
+#include "surface/objects/objects.h"
 #include "surface/steps.h"
 
 #include "kernel/kernel.h"
@@ -288,17 +289,18 @@ const rlf_sheet *rlf_sheet_newest(const rlf_reconstruct *stage)
     return none ? NULL : &background->sheets[background->newest];
 }
 
-/* Regions of the finished draft; from now on it is the newest. */
-static void finish(rlf_reconstruct *stage)
+/* The draft as a layer that is segmented. */
+static rlf_layer_in draft_layer(const rlf_reconstruct *stage)
 {
-    rlf_background *background = &stage->background;
+    const rlf_background *background = &stage->background;
     const rlf_sheet *old = rlf_sheet_newest(stage);
-    int32_t next = (background->newest + 1) % RLF_SHEETS;
-    rlf_sheet *sheet = &background->sheets[next];
+    const rlf_sheet *sheet = &background->sheets[(background->newest + 1) % RLF_SHEETS];
     rlf_layer_in in = {.layer = RLF_LAYER_BACKGROUND,
                        .method = stage->def.background_segment,
                        .depth = sheet->depth,
                        .normal = sheet->normal,
+                       .steps_done = background->object_steps,
+                       .kept = sheet->label,
                        .color = stage->has_color ? background->color : NULL};
     if (old != NULL) {
         in.previous_label = old->label;
@@ -309,6 +311,16 @@ static void finish(rlf_reconstruct *stage)
         in.previous = stage->previous->regions;
         in.previous_count = stage->previous->foreground_region_first;
     }
+    return in;
+}
+
+/* Regions of the finished draft; from now on it is the newest. */
+static void finish(rlf_reconstruct *stage)
+{
+    rlf_background *background = &stage->background;
+    int32_t next = (background->newest + 1) % RLF_SHEETS;
+    rlf_sheet *sheet = &background->sheets[next];
+    const rlf_layer_in in = draft_layer(stage);
     rlf_layer_out out = {sheet->regions, sheet->region_points, 0, 0};
     rlf_layer_segment(stage, &in, &out);
     memset(sheet->label, 0, (size_t)stage->grid.count * sizeof *sheet->label);
@@ -319,7 +331,27 @@ static void finish(rlf_reconstruct *stage)
     background->newest = next;
     background->sheet_age = 0;
     background->is_drafting = false;
+    background->is_made = false;
+    background->object_steps = 0;
     background->is_stale = false;
+}
+
+/* The regions of a draft whose tiles are made: each step takes a frame. True when this frame did
+ * one. */
+static bool finish_in_steps(rlf_reconstruct *stage, bool urgent)
+{
+    rlf_background *background = &stage->background;
+    if (!background->is_made || urgent) {
+        return false;
+    }
+    if (background->object_steps == RLF_OBJECT_STEPS) {
+        finish(stage);
+    } else {
+        const rlf_layer_in in = draft_layer(stage);
+        rlf_objects_step(stage, &in);
+        background->object_steps++;
+    }
+    return true;
 }
 
 void rlf_sheet_publish(rlf_reconstruct *stage, const rlf_slot *slot)
@@ -357,9 +389,13 @@ void rlf_sheet_advance(rlf_reconstruct *stage, const rlf_slot *slot)
     if (!background->is_drafting && !urgent && !due) {
         return;
     }
+    if (finish_in_steps(stage, urgent)) {
+        return;
+    }
     if (!background->is_drafting) {
         begin_draft(stage);
     }
+    background->object_steps = 0; /* tiles change */
     rlf_sheet *draft = &background->sheets[(background->newest + 1) % RLF_SHEETS];
     int32_t most = 1 + tiles / (urgent ? PARTS_URGENT : PARTS);
     most = background->depart.is_urgent ? tiles : most;
@@ -368,7 +404,8 @@ void rlf_sheet_advance(rlf_reconstruct *stage, const rlf_slot *slot)
         make_tile(stage, slot, draft, tile);
         tile = next_tile(background, tiles);
     }
-    if (urgent || tile < 0) {
+    background->is_made = tile < 0 && stage->objects != NULL;
+    if (urgent || (tile < 0 && !background->is_made)) {
         finish(stage);
     }
 }

@@ -38,7 +38,7 @@ static void add_border(rlf_reconstruct *stage, const rlf_layer_in *in, int32_t i
     int32_t a = stage->work.component[i], b = stage->work.component[j];
     rlf_border *border = a > 0 && b > 0 ? find_border(o, a < b ? a : b, a < b ? b : a) : NULL;
     if (border != NULL) {
-        bool is_cut = stage->work.links[i] == 0 || stage->work.links[j] == 0;
+        bool is_cut = ((o->links[i] | o->links[j]) & RLF_OBJECT_CUT) != 0;
         border->pixels++;
         border->open += (o->links[i] & bit) != 0 && !is_cut ? 1 : 0;
         border->was_one +=

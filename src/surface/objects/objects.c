@@ -104,18 +104,47 @@ static void grow(rlf_reconstruct *stage, const float *depth, int32_t least)
     }
 }
 
+/* Pixels get the numbers of support planes and of parts of things. */
+static void find_parts(rlf_reconstruct *stage, const rlf_layer_in *in)
+{
+    const rlf_work *work = &stage->work;
+    rlf_objects *o = stage->objects;
+    rlf_segment_links(stage, RLF_SEGMENT_NOISE, in->depth, in->mask, in->spans);
+    memcpy(o->links, work->links, (size_t)stage->grid.count);
+    rlf_contacts_cut(stage, in);
+    rlf_components_find(stage, in->spans);
+    o->components = number_pixels(stage);
+    grow(stage, in->depth, o->count + 1);
+    grow(stage, in->depth, 1);
+    for (int32_t i = 0; i < stage->grid.count; i++) {
+        o->links[i] |= work->links[i] == 0 ? RLF_OBJECT_CUT : 0;
+    }
+    if (in->kept != NULL) {
+        memcpy(in->kept, work->component, (size_t)stage->grid.count * sizeof *in->kept);
+    }
+}
+
+void rlf_objects_step(rlf_reconstruct *stage, const rlf_layer_in *in)
+{
+    if (in->steps_done == 0) {
+        rlf_supports_find(stage, in);
+        rlf_supports_mark(stage, in);
+    } else {
+        find_parts(stage, in);
+    }
+}
+
 int32_t rlf_objects_find(rlf_reconstruct *stage, const rlf_layer_in *in)
 {
     rlf_work *work = &stage->work;
-    rlf_segment_links(stage, RLF_SEGMENT_NOISE, in->depth, in->mask, in->spans);
-    rlf_supports_find(stage, in);
-    rlf_supports_mark(stage, in);
-    memcpy(stage->objects->links, work->links, (size_t)stage->grid.count);
-    rlf_contacts_cut(stage, in);
-    rlf_components_find(stage, in->spans);
-    int32_t components = number_pixels(stage);
-    grow(stage, in->depth, stage->objects->count + 1);
-    grow(stage, in->depth, 1);
+    rlf_layer_in step = *in;
+    for (; step.steps_done < RLF_OBJECT_STEPS; step.steps_done++) {
+        rlf_objects_step(stage, &step);
+    }
+    if (in->steps_done == RLF_OBJECT_STEPS) {
+        memcpy(work->component, in->kept, (size_t)stage->grid.count * sizeof *in->kept);
+    }
+    int32_t components = stage->objects->components;
     rlf_objects_join(stage, in, components);
     rlf_runs_find(stage, work->component);
     memset(work->size, 0, (size_t)(components + 1) * sizeof *work->size);

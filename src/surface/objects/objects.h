@@ -51,6 +51,9 @@ typedef struct rlf_border {
     int32_t was_one; /* ... that had the same label */
 } rlf_border;
 
+/* Beside the RLF_LINK_ bits of a pixel: none was left. */
+enum { RLF_OBJECT_CUT = 128 };
+
 /* Most numbers of things that are looked at so, and most pairs of them. */
 enum { RLF_OBJECTS_SUMMED = 1024, RLF_BORDERS = 4096 };
 
@@ -63,13 +66,14 @@ typedef struct rlf_objects {
     uint32_t *scratch[2]; /* the same */
     int32_t *queue;       /* patches */
     uint8_t *support;     /* plane of pixels: of which support plane, from 1; 0 = of none */
-    uint8_t *links;       /* plane: RLF_LINK_ bits before things are cut */
+    uint8_t *links;       /* plane: RLF_LINK_ bits before things are cut, and RLF_OBJECT_CUT */
     uint8_t *distance;    /* plane: pixels from what has a number */
     rlf_object_sum *sum;  /* RLF_OBJECTS_SUMMED */
     rlf_border *border;   /* RLF_BORDERS */
     rlf_support_plane plane[RLF_SUPPORTS];
     bool is_seen[RLF_SUPPORTS];
-    int32_t count; /* of planes; some may be seen no more */
+    int32_t count;      /* of planes; some may be seen no more */
+    int32_t components; /* numbers of pixels, before things are joined */
 } rlf_objects;
 
 /* objects.c: side and extent of the patches of a grid. */
@@ -94,6 +98,10 @@ void rlf_contacts_cut(rlf_reconstruct *stage, const rlf_layer_in *in);
 /* join.c: gives things that are one the same number, in work.component. */
 void rlf_objects_join(rlf_reconstruct *stage, const rlf_layer_in *in, int32_t components);
 
+/* objects.c: one step of RLF_OBJECT_STEPS that rlf_objects_find begins with: a frame may do each,
+ * and a later one the rest. */
+enum { RLF_OBJECT_STEPS = 2 };
+void rlf_objects_step(rlf_reconstruct *stage, const rlf_layer_in *in);
 /* objects.c: components of a layer into work.runs, as rlf_components_find does. */
 int32_t rlf_objects_find(rlf_reconstruct *stage, const rlf_layer_in *in);
 

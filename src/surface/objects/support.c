@@ -4,6 +4,8 @@
 
 #include "kernel/kernel.h"
 
+#include <string.h>
+
 static const float ON_SIGMAS = 3.0f;     /* off the plane ... */
 static const float WAS_SIGMAS = 4.0f;    /* ... where the sheet before showed it */
 static const float LEAST_COSINE = 0.77f; /* 40 degrees, between a pixel's normal and the plane's */
@@ -73,33 +75,62 @@ typedef struct float_plane {
     float a, b, c, size;
 } float_plane;
 
-/* The plane of `bits` that pixel i is on; 0 = of none. */
-static uint8_t support_of(const rlf_reconstruct *stage, const rlf_layer_in *in,
-                          const float_plane *planes, uint32_t bits, const float *bend, int32_t i)
+enum { RUN = 64 }; /* pixels, at most */
+
+/* Pixels of a row, and the best plane of each so far; `least`: how far off it is at most. */
+typedef struct pixel_run {
+    const float *depth, *normal[3], *ray_x, *ray_y;
+    uint8_t before[RUN]; /* plane of the sheet before */
+    int32_t count;
+    float w[RUN], sigma[RUN], least[RUN];
+    int32_t best[RUN];
+} pixel_run;
+
+RLF_KERNEL_PART void start_run(pixel_run *run, rlf_kernel_noise noise)
 {
-    const rlf_grid *grid = &stage->grid;
-    float w = 1.0f / in->depth[i];
-    float sigma = rlf_kernel_inverse_sigma(rlf_kernel_noise_make(&stage->def.rig.noise), w);
-    float least = WAS_SIGMAS * sigma;
-    int32_t best = 0, before = stage->objects->support[i];
-    for (int32_t k = 0; bits != 0; k++, bits >>= 1) {
-        const float_plane *p = &planes[k];
+    const float *restrict depth = run->depth;
+    for (int32_t i = 0; i < run->count; i++) {
+        float w = 1.0f / depth[i];
+        run->w[i] = w;
+        run->sigma[i] = rlf_kernel_inverse_sigma(noise, w);
+        run->least[i] = WAS_SIGMAS * run->sigma[i];
+        run->best[i] = 0;
+    }
+}
+
+/* Pixels of the run take plane `id` where they are nearer to it, and face its way. */
+RLF_KERNEL_PART void try_plane(pixel_run *run, const float_plane *p, float bend, int32_t id)
+{
+    const float *restrict nx = run->normal[0], *restrict ny = run->normal[1];
+    const float *restrict nz = run->normal[2];
+    const float *restrict ray_x = run->ray_x, *restrict ray_y = run->ray_y;
+    const float_plane plane = *p;
+    for (int32_t i = 0; i < run->count; i++) {
         float off =
-            rlf_kernel_abs(w - p->a * grid->ray_x[i] - p->b * grid->ray_y[i] - p->c - bend[k]);
-        off += before == k + 1 ? 0.0f : (WAS_SIGMAS - ON_SIGMAS) * sigma;
-        if ((bits & 1) == 0 || off > least) {
-            continue;
-        }
-        float cosine =
-            -(in->normal[0][i] * p->a + in->normal[1][i] * p->b + in->normal[2][i] * p->c);
-        bool has_normal =
-            in->normal[0][i] != 0.0f || in->normal[1][i] != 0.0f || in->normal[2][i] != 0.0f;
-        if (!has_normal || cosine >= LEAST_COSINE * p->size) {
-            best = k + 1;
-            least = off;
+            rlf_kernel_abs(run->w[i] - plane.a * ray_x[i] - plane.b * ray_y[i] - plane.c - bend);
+        off += run->before[i] == id ? 0.0f : (WAS_SIGMAS - ON_SIGMAS) * run->sigma[i];
+        float cosine = -(nx[i] * plane.a + ny[i] * plane.b + nz[i] * plane.c);
+        int32_t has_normal = (nx[i] != 0.0f) | (ny[i] != 0.0f) | (nz[i] != 0.0f);
+        int32_t is_facing = (has_normal == 0) | (cosine >= LEAST_COSINE * plane.size);
+        int32_t is_on = (off <= run->least[i]) & is_facing;
+        run->best[i] = is_on != 0 ? id : run->best[i];
+        run->least[i] = is_on != 0 ? off : run->least[i];
+    }
+}
+
+/* The plane of `bits` that each pixel is on; 0 = of none. */
+RLF_KERNEL static void mark_run(pixel_run *run, rlf_kernel_noise noise, const float_plane *planes,
+                                uint32_t bits, const float *bend, uint8_t *restrict support)
+{
+    start_run(run, noise);
+    for (int32_t k = 0; bits >> k != 0; k++) {
+        if ((bits >> k & 1) != 0) {
+            try_plane(run, &planes[k], bend[k], k + 1);
         }
     }
-    return (uint8_t)best;
+    for (int32_t i = 0; i < run->count; i++) {
+        support[i] = (uint8_t)(run->depth[i] > 0.0f ? run->best[i] : 0);
+    }
 }
 
 typedef struct mark_job {
@@ -107,6 +138,30 @@ typedef struct mark_job {
     const rlf_layer_in *in;
     float_plane planes[RLF_SUPPORTS];
 } mark_job;
+
+/* Of `count` pixels from `at` on. */
+static void mark_part(const mark_job *job, ptrdiff_t at, int32_t count, uint32_t bits,
+                      const float *bend)
+{
+    const rlf_grid *grid = &job->stage->grid;
+    const rlf_layer_in *in = job->in;
+    uint8_t *support = job->stage->objects->support + at;
+    if (bits == 0) {
+        memset(support, 0, (size_t)count);
+        return;
+    }
+    pixel_run run;
+    run.depth = in->depth + at;
+    for (int k = 0; k < 3; k++) {
+        run.normal[k] = in->normal[k] + at;
+    }
+    run.ray_x = grid->ray_x + at;
+    run.ray_y = grid->ray_y + at;
+    memcpy(run.before, support, (size_t)count);
+    run.count = count;
+    mark_run(&run, rlf_kernel_noise_make(&job->stage->def.rig.noise), job->planes, bits, bend,
+             support);
+}
 
 static void mark_patch(const mark_job *job, int32_t k)
 {
@@ -120,10 +175,9 @@ static void mark_patch(const mark_job *job, int32_t k)
         bend[p] = o->near[k] >> p & 1 ? bend_at(o, k, p + 1) : 0.0f;
     }
     for (int32_t y = y0; y < y1; y++) {
-        for (int32_t i = y * grid->width + x0; i < y * grid->width + x1; i++) {
-            o->support[i] = job->in->depth[i] > 0.0f && o->near[k] != 0
-                                ? support_of(job->stage, job->in, job->planes, o->near[k], bend, i)
-                                : 0;
+        for (int32_t x = x0; x < x1; x += RUN) {
+            ptrdiff_t at = (ptrdiff_t)y * grid->width + x;
+            mark_part(job, at, x + RUN < x1 ? RUN : x1 - x, o->near[k], bend);
         }
     }
 }
