@@ -26,7 +26,8 @@ typedef struct eval_angles {
 /* Samples inside surfaces, and within 6 pixels (full resolution) of a depth jump. */
 typedef struct eval_normals {
     eval_angles interior, band;
-    eval_angles seen; /* of the band, without filled pixels */
+    eval_angles seen;  /* of the band, without filled pixels */
+    eval_angles shown; /* of the band, against the true surface that the pixel's own depth shows */
 } eval_normals;
 
 /* The thesis's own experiment: the centre (56 x 47 of 64 x 53 points) of its grid of every 8th

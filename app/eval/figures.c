@@ -34,6 +34,7 @@ typedef enum figure_index {
     SEEN_MEAN,
     SEEN_WRONG,
     SEEN_MISSING,
+    SHOWN_WRONG,
     CENTRE_BAD,
     CENTRE_MISSING,
     FOREGROUND_PRECISION,
@@ -109,6 +110,8 @@ static const figure_name names[FIGURE_COUNT] = {
     [SEEN_WRONG] = {"normals_band_seen_over_30_percent",
                     "normals, edge, not filled: > 30 deg off, %"},
     [SEEN_MISSING] = {"normals_band_seen_missing_percent", "  not filled: missing, %"},
+    [SHOWN_WRONG] = {"normals_band_shown_over_30_percent",
+                     "  of the surface that depth shows: > 30 deg off, %"},
     [CENTRE_BAD] = {"centre_bad_percent", "thesis grid's centre: wrong or missing, %"},
     [CENTRE_MISSING] = {"centre_missing_percent", "  missing, %"},
     [FOREGROUND_PRECISION] = {"foreground_precision", "foreground: precision"},
@@ -233,6 +236,7 @@ void eval_figures_get(const eval_measures *m, double *values)
     get_angles(&m->normals.interior, values + INTERIOR_MEDIAN);
     get_angles(&m->normals.band, values + BAND_MEDIAN);
     get_angles(&m->normals.seen, values + SEEN_MEDIAN);
+    values[SHOWN_WRONG] = eval_wrong_percent(&m->normals.shown);
     values[CENTRE_BAD] = eval_percent(m->centre.wrong + m->centre.missing, m->centre.points);
     values[CENTRE_MISSING] = eval_percent(m->centre.missing, m->centre.points);
     const eval_foreground *f = &m->foreground;

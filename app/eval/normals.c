@@ -4,6 +4,9 @@
 #define BAND_PIXELS 6
 #define JUMP_SHARE 0.04
 #define WRONG_DEG 30.0
+#define SHOWN_PIXELS 4
+#define SHOWN_SIGMAS 3.0
+#define SHOWN_SHARE 0.02 /* of the depth */
 
 double eval_mean_deg(const eval_angles *a)
 {
@@ -93,6 +96,42 @@ void eval_mark_band(const float *depth, int32_t width, int32_t height, uint8_t *
     }
 }
 
+static bool is_shown(const rlf_rig *rig, float depth, float truth)
+{
+    double most =
+        rlf_max(SHOWN_SHARE * depth, SHOWN_SIGMAS * rlf_depth_noise_sigma(&rig->noise, depth));
+    double off = (double)depth - truth;
+    return truth > 0.0f && off <= most && off >= -most;
+}
+
+/* The pixel nearest to (x, y) whose true surface a measured depth shows: stereo spreads what is
+ * near over the pixels beside it. (x, y) itself when there is none. */
+static int32_t find_shown(const rlf_truth *truth, const rlf_rig *rig, int32_t x, int32_t y,
+                          float depth)
+{
+    int32_t width = rig->depth.width, height = rig->depth.height;
+    int32_t best = y * width + x, least = 2 * SHOWN_PIXELS * SHOWN_PIXELS + 1;
+    for (int32_t dy = -SHOWN_PIXELS; dy <= SHOWN_PIXELS; dy++) {
+        for (int32_t dx = -SHOWN_PIXELS; dx <= SHOWN_PIXELS; dx++) {
+            int32_t square = dx * dx + dy * dy, at = (y + dy) * width + x + dx;
+            bool inside = x + dx >= 0 && x + dx < width && y + dy >= 0 && y + dy < height;
+            if (inside && square < least && is_shown(rig, depth, truth->depth[at])) {
+                best = at;
+                least = square;
+            }
+        }
+    }
+    return best;
+}
+
+static double off_by(const rlf_surface *s, int32_t i, const rlf_truth *truth, int32_t t)
+{
+    double dot = (double)s->normal_x[i] * truth->normal_x[t] +
+                 (double)s->normal_y[i] * truth->normal_y[t] +
+                 (double)s->normal_z[i] * truth->normal_z[t];
+    return rlf_acos(dot) * 180.0 / RLF_PI;
+}
+
 void eval_normals_add(eval_normals *e, const rlf_surface *s, const rlf_truth *truth,
                       const rlf_rig *rig, const uint8_t *band)
 {
@@ -104,18 +143,18 @@ void eval_normals_add(eval_normals *e, const rlf_surface *s, const rlf_truth *tr
                 continue;
             }
             eval_angles *angles = band[t] ? &e->band : &e->interior;
-            double nx = s->normal_x[i];
-            double ny = s->normal_y[i];
-            double nz = s->normal_z[i];
-            if (nx == 0.0 && ny == 0.0 && nz == 0.0) {
+            if (s->normal_x[i] == 0.0f && s->normal_y[i] == 0.0f && s->normal_z[i] == 0.0f) {
                 angles->missing++;
                 e->seen.missing += band[t] && s->reason[i] == RLF_REASON_OK;
                 continue;
             }
-            double dot =
-                nx * truth->normal_x[t] + ny * truth->normal_y[t] + nz * truth->normal_z[t];
-            double degrees = rlf_acos(dot) * 180.0 / RLF_PI;
+            double degrees = off_by(s, i, truth, t);
             eval_add_angle(angles, degrees);
+            if (band[t]) {
+                int32_t shown =
+                    find_shown(truth, rig, x * s->scale_factor, y * s->scale_factor, s->depth[i]);
+                eval_add_angle(&e->shown, off_by(s, i, truth, shown));
+            }
             if (band[t] && s->reason[i] == RLF_REASON_OK) {
                 eval_add_angle(&e->seen, degrees);
             }

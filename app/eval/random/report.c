@@ -70,6 +70,7 @@ static const headline headlines[] = {
     {"normals, interior: mean, deg", "normals_interior_mean_deg", "room", NULL},
     {"normals, interior: > 30 deg off, %", "normals_interior_over_30_percent", "room", NULL},
     {"normals, edge band: > 30 deg off, %", "normals_band_over_30_percent", "room", NULL},
+    {"  of the surface that depth shows, %", "normals_band_shown_over_30_percent", "room", NULL},
     {"foreground: F", "foreground_f", "room", NULL},
     {"room behind what moves: > 4 cm off, %", "behind_off_percent", "room", NULL},
     {"thickness of people: exit error, cm", "exit_mean_cm", "room", NULL},
