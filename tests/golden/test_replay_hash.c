@@ -14,7 +14,7 @@
 #define EVERY 15
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0xe29f6e376ad3a2f6u, 0x0d900fd8d28bfd04u, 0xf5ccad1f640d69e5u},
+    {RLF_PROFILE_LIVE, 0x5f95d9d8636a75c2u, 0x3aa3471bae4ddda4u, 0xcdb5524a1a2264b8u},
     {RLF_PROFILE_THESIS, 0xa393eb06e579d241u, 0xd84652fb54683851u, 0xc064b44391e1e990u},
 };
 
