@@ -4,7 +4,7 @@
 
 #include "io/source/address.h"
 #include "io/source/nearest_word.h"
-#include "io/source/replay.h"
+#include "io/clip/replay.h"
 
 #include <stdlib.h>
 

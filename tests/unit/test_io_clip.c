@@ -6,7 +6,7 @@
 #include <cmocka.h>
 
 #include "io/source/address.h"
-#include "io/source/clip.h"
+#include "io/clip/clip.h"
 
 #include <string.h>
 

@@ -9,7 +9,7 @@
 
 #include "relief/io.h"
 #include "io/folder/frame_list.h"
-#include "io/source/pairing.h"
+#include "io/clip/pairing.h"
 #include "io_support.h"
 #include "jpeg_sample.h"
 

@@ -1,7 +1,7 @@
 /* What all live cameras need. */
 #include "io/driver/live.h"
 
-#include "io/source/pairing.h"
+#include "io/clip/pairing.h"
 
 #include <math.h>
 #include <stdio.h>

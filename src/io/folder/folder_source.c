@@ -5,7 +5,7 @@
 #include "io/camera_json.h"
 #include "io/picture.h"
 #include "io/source/backends.h"
-#include "io/source/clip.h"
+#include "io/clip/clip.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #include "io/folder/pose_files.h"
 
 #include "io/number.h"
-#include "io/source/pairing.h"
+#include "io/clip/pairing.h"
 
 #include <math.h>
 #include <stdlib.h>

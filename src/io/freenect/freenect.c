@@ -2,7 +2,7 @@
 #include "io/driver/live.h"
 #include "io/freenect/calibration.h"
 #include "io/source/backends.h"
-#include "io/source/stream_pair.h"
+#include "io/driver/stream_pair.h"
 
 #include <stdio.h>
 #include <stdlib.h>

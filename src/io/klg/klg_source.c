@@ -1,9 +1,9 @@
 /* Frames from .klg files, the logs of Kintinuous and ElasticFusion. */
 #include "io/camera_json.h"
 #include "io/source/backends.h"
-#include "io/source/cursor.h"
-#include "io/source/frame_log.h"
-#include "io/source/rig_beside.h"
+#include "io/clip/cursor.h"
+#include "io/clip/frame_log.h"
+#include "io/clip/rig_beside.h"
 
 #include <string.h>
 

@@ -6,8 +6,8 @@
 #include "io/picture.h"
 #include "io/pixels/pixels.h"
 #include "io/source/backends.h"
-#include "io/source/clip.h"
-#include "io/source/rig_beside.h"
+#include "io/clip/clip.h"
+#include "io/clip/rig_beside.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -6,7 +6,7 @@
 #include "io/mcap/recording_format.h"
 #include "io/mcap/topics.h"
 #include "io/source/backends.h"
-#include "io/source/clip.h"
+#include "io/clip/clip.h"
 
 #include <math.h>
 #include <stdlib.h>

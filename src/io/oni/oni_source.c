@@ -5,9 +5,9 @@
 #include "io/oni/oni_index.h"
 #include "io/picture.h"
 #include "io/source/backends.h"
-#include "io/source/clip.h"
-#include "io/source/field_of_view.h"
-#include "io/source/rig_beside.h"
+#include "io/clip/clip.h"
+#include "io/driver/field_of_view.h"
+#include "io/clip/rig_beside.h"
 
 #include <errno.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Cameras through OpenNI2: PrimeSense, Asus Xtion, older Orbbec. */
 #include "io/openni2/device.h"
 #include "io/source/backends.h"
-#include "io/source/stream_pair.h"
+#include "io/driver/stream_pair.h"
 
 #include <stdatomic.h>
 #include <stdio.h>

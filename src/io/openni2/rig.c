@@ -1,7 +1,7 @@
 /* The cameras of an OpenNI2 device. */
 #include "io/driver/live.h"
 #include "io/openni2/device.h"
-#include "io/source/field_of_view.h"
+#include "io/driver/field_of_view.h"
 
 /* A camera writes 0 where it is too near to measure: what it did write is believed. */
 #define DEPTH_MIN_M 0.1

@@ -2,8 +2,8 @@
 #include "io/camera_json.h"
 #include "io/pcd/pcd_lens.h"
 #include "io/source/backends.h"
-#include "io/source/clip.h"
-#include "io/source/rig_beside.h"
+#include "io/clip/clip.h"
+#include "io/clip/rig_beside.h"
 
 #include <stdio.h>
 #include <string.h>

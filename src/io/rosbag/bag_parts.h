@@ -3,7 +3,7 @@
 #define RLF_IO_ROSBAG_BAG_PARTS_H
 
 #include "io/rosbag/bag.h"
-#include "io/source/cursor.h"
+#include "io/clip/cursor.h"
 
 /* A chunk that unpacks to more is passed over: rosbag begins a new one after 768 KiB, so only a
  * single huge message makes one large. */

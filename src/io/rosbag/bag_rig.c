@@ -3,7 +3,7 @@
 
 #include "io/camera_json.h"
 #include "io/rosbag/tf_tree.h"
-#include "io/source/rig_beside.h"
+#include "io/clip/rig_beside.h"
 
 #include <string.h>
 

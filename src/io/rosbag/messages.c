@@ -1,7 +1,7 @@
 /* The messages of ROS 1 that hold pictures and calibrations. */
 #include "io/rosbag/messages.h"
 
-#include "io/source/cursor.h"
+#include "io/clip/cursor.h"
 
 #include <math.h>
 

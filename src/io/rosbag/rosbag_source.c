@@ -4,8 +4,8 @@
 #include "io/pixels/compressed_depth.h"
 #include "io/rosbag/bag_rig.h"
 #include "io/source/backends.h"
-#include "io/source/clip.h"
-#include "io/source/pairing.h"
+#include "io/clip/clip.h"
+#include "io/clip/pairing.h"
 
 #include <stdlib.h>
 #include <string.h>

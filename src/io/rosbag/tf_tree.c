@@ -1,7 +1,7 @@
 /* The tree of coordinate frames that ROS calls tf. */
 #include "io/rosbag/tf_tree.h"
 
-#include "io/source/cursor.h"
+#include "io/clip/cursor.h"
 #include "io/rosbag/messages.h"
 
 #define EDGES_MAX 512

@@ -1,8 +1,8 @@
 /* Frames from ScanNet's .sens files (version 4). */
 #include "io/camera_json.h"
 #include "io/source/backends.h"
-#include "io/source/cursor.h"
-#include "io/source/frame_log.h"
+#include "io/clip/cursor.h"
+#include "io/clip/frame_log.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #include "io/source/backends.h"
 #include "io/source/find_backend.h"
 #include "io/source/nearest_word.h"
-#include "io/source/replay.h"
+#include "io/clip/replay.h"
 #include "relief/io.h"
 
 #include <stdio.h>

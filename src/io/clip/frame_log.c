@@ -1,12 +1,12 @@
 /* Recordings that are one long list of frames. */
 #define _POSIX_C_SOURCE 200809L
-#include "io/source/frame_log.h"
+#include "io/clip/frame_log.h"
 
 #include "io/picture.h"
 #include "io/pixels/inflate.h"
 #include "io/pixels/pixels.h"
-#include "io/source/clip.h"
-#include "io/source/pairing.h"
+#include "io/clip/clip.h"
+#include "io/clip/pairing.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 /* Pairs of depth and colour pictures by their times. */
-#ifndef RLF_IO_SOURCE_PAIRING_H
-#define RLF_IO_SOURCE_PAIRING_H
+#ifndef RLF_IO_CLIP_PAIRING_H
+#define RLF_IO_CLIP_PAIRING_H
 
 #include "relief/base.h"
 

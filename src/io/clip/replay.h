@@ -1,6 +1,6 @@
 /* How a recording is played: keys of a SOURCE that every back end of files understands. */
-#ifndef RLF_IO_SOURCE_REPLAY_H
-#define RLF_IO_SOURCE_REPLAY_H
+#ifndef RLF_IO_CLIP_REPLAY_H
+#define RLF_IO_CLIP_REPLAY_H
 
 #include "io/source/address.h"
 #include "relief/backend.h"

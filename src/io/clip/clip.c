@@ -1,7 +1,7 @@
 /* A recorded clip as a source. */
-#include "io/source/clip.h"
+#include "io/clip/clip.h"
 
-#include "io/source/pairing.h"
+#include "io/clip/pairing.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* Pairs of depth and colour pictures by their times. */
-#include "io/source/pairing.h"
+#include "io/clip/pairing.h"
 
 #include <stdlib.h>
 

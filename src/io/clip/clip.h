@@ -1,7 +1,7 @@
 /* A recorded clip as a source: pairs depth with colour by time, counts what is missing, goes to any
  * frame. Every file format gives its frames through this one. */
-#ifndef RLF_IO_SOURCE_CLIP_H
-#define RLF_IO_SOURCE_CLIP_H
+#ifndef RLF_IO_CLIP_CLIP_H
+#define RLF_IO_CLIP_CLIP_H
 
 #include "relief/backend.h"
 

@@ -1,5 +1,5 @@
 /* A lens model from fields of view. */
-#include "io/source/field_of_view.h"
+#include "io/driver/field_of_view.h"
 
 /* Horizontal focal length over width of PrimeSense cameras: 58.5 degrees (Kinect v1, Xtion). */
 #define FOCAL_TYPICAL 0.9

@@ -1,6 +1,6 @@
 /* Bounded reading of little-endian values. */
-#ifndef RLF_IO_SOURCE_CURSOR_H
-#define RLF_IO_SOURCE_CURSOR_H
+#ifndef RLF_IO_CLIP_CURSOR_H
+#define RLF_IO_CLIP_CURSOR_H
 
 #include "relief/base.h"
 

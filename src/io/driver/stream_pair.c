@@ -1,7 +1,7 @@
 /* Depth and colour pictures of a live device, paired by their times. */
-#include "io/source/stream_pair.h"
+#include "io/driver/stream_pair.h"
 
-#include "io/source/pairing.h"
+#include "io/clip/pairing.h"
 
 #include <string.h>
 

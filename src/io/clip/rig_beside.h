@@ -1,6 +1,6 @@
 /* Calibration of recordings that hold none. */
-#ifndef RLF_IO_SOURCE_RIG_BESIDE_H
-#define RLF_IO_SOURCE_RIG_BESIDE_H
+#ifndef RLF_IO_CLIP_RIG_BESIDE_H
+#define RLF_IO_CLIP_RIG_BESIDE_H
 
 #include "relief/backend.h"
 

@@ -1,6 +1,6 @@
 /* A lens model from the fields of view that a device or a file tells. */
-#ifndef RLF_IO_SOURCE_FIELD_OF_VIEW_H
-#define RLF_IO_SOURCE_FIELD_OF_VIEW_H
+#ifndef RLF_IO_DRIVER_FIELD_OF_VIEW_H
+#define RLF_IO_DRIVER_FIELD_OF_VIEW_H
 
 #include "relief/camera.h"
 

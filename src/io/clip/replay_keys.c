@@ -1,7 +1,7 @@
 /* The keys of playing, read. */
 #include "io/number.h"
 #include "io/source/nearest_word.h"
-#include "io/source/replay.h"
+#include "io/clip/replay.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* Depth and colour pictures that a live device sends as two streams, paired by their times. */
-#ifndef RLF_IO_SOURCE_STREAM_PAIR_H
-#define RLF_IO_SOURCE_STREAM_PAIR_H
+#ifndef RLF_IO_DRIVER_STREAM_PAIR_H
+#define RLF_IO_DRIVER_STREAM_PAIR_H
 
 #include "relief/source.h"
 

@@ -1,7 +1,7 @@
 /* Recordings that are one long list of frames, each a depth and a colour picture with their sizes
  * in front: what .klg and .sens have in common. */
-#ifndef RLF_IO_SOURCE_FRAME_LOG_H
-#define RLF_IO_SOURCE_FRAME_LOG_H
+#ifndef RLF_IO_CLIP_FRAME_LOG_H
+#define RLF_IO_CLIP_FRAME_LOG_H
 
 #include "relief/backend.h"
 #include "io/file.h"
