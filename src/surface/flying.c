@@ -1,14 +1,10 @@
 /* Takes mixed pixels off depth edges, row by row: single ones everywhere, lines of them where
  * something has moved lately. At an edge that rests they are the same in every frame and little
- * off; what would be filled there instead is no truer, and the background would change with it. Of
- * dark cloth the sensor sees single pixels: one with nothing at another depth about it is no mix.
- */
+ * off; what would be filled there instead is no truer, and the background would change with it. */
 #include "surface/steps.h"
 #include "surface/window.h"
 
 #include "kernel/kernel.h"
-
-enum { ABOUT = 2 }; /* pixels on each side */
 
 typedef struct flying_job {
     const rlf_reconstruct *stage;
@@ -44,41 +40,6 @@ static void drop_half_way(const flying_job *job, int32_t y)
     }
 }
 
-/* Something is at the pixel's depth on all four sides of it, in the 5x5 pixels about it, and
- * nothing at another, as kernel/flying_row.c has it. */
-static bool is_scattered(const flying_job *job, int32_t x, int32_t y)
-{
-    int32_t width = job->stage->grid.width, left = 0, right = 0, above = 0, below = 0;
-    float z = row_at(job, y, 0)[x], most = 0.012f * z + 0.004f;
-    for (int32_t step = -ABOUT; step <= ABOUT; step++) {
-        const float *row = row_at(job, y, step);
-        for (int32_t k = x > ABOUT ? x - ABOUT : 0; k <= x + ABOUT && k < width; k++) {
-            bool is_seen = row[k] > 0.0f;
-            if (is_seen && rlf_kernel_abs(row[k] - z) > most) {
-                return false;
-            }
-            left += is_seen && k < x;
-            right += is_seen && k > x;
-            above += is_seen && step < 0;
-            below += is_seen && step > 0;
-        }
-    }
-    return left > 0 && right > 0 && above > 0 && below > 0;
-}
-
-static void keep_scattered(const flying_job *job, int32_t y)
-{
-    int32_t width = job->stage->grid.width;
-    ptrdiff_t offset = (ptrdiff_t)y * width;
-    uint8_t *reason = job->reason + offset;
-    for (int32_t x = 0; (x = rlf_kernel_next_mark(reason, x, width)) < width; x++) {
-        if (reason[x] == RLF_REASON_FLYING && is_scattered(job, x, y)) {
-            job->depth[offset + x] = job->raw[offset + x];
-            reason[x] = RLF_REASON_OK;
-        }
-    }
-}
-
 static void flying_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
@@ -88,7 +49,6 @@ static void flying_rows(void *context, int32_t begin, int32_t end, int32_t worke
         const float *const rows[3] = {row_at(job, y, -1), row_at(job, y, 0), row_at(job, y, 1)};
         ptrdiff_t offset = (ptrdiff_t)y * grid->width;
         rlf_kernel_flying_row(rows, grid->width, job->depth + offset, job->reason + offset);
-        keep_scattered(job, y);
         drop_half_way(job, y);
     }
 }
