@@ -61,7 +61,7 @@ static bool kept_by_definition(float rows[3][LONGEST + 2], int32_t i)
 {
     float z = rows[1][i + 1];
     float tolerance = 0.012f * z + 0.004f;
-    int close = 0, seen = 0, pairs = 0;
+    int close = 0, pairs = 0;
     for (int dy = -1; dy <= 1; dy++) {
         for (int dx = -1; dx <= 1; dx++) {
             if (dx == 0 && dy == 0) {
@@ -69,14 +69,12 @@ static bool kept_by_definition(float rows[3][LONGEST + 2], int32_t i)
             }
             float a = rows[1 + dy][i + 1 + dx], b = rows[1 - dy][i + 1 - dx];
             close += near_enough(a, z, tolerance);
-            seen += a > 0.0f;
             bool first = dy < 0 || (dy == 0 && dx < 0);
             pairs +=
                 first && near_enough(a + b, 2.0f * z, tolerance) && near_enough(a, z, 0.06f * z);
         }
     }
-    bool alone = close < 3 && (close == 0 || close < seen);
-    return !alone || pairs >= 2;
+    return close >= 3 || pairs >= 2;
 }
 
 static void flying_row_is_its_definition(void **state)

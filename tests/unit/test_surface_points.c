@@ -172,38 +172,6 @@ static void mixed_pixels_are_removed_and_planes_kept(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
-/* Of dark cloth one pixel in four has depth: no mixed ones but where it has an edge. */
-static void single_pixels_of_dark_cloth_stay(void **state)
-{
-    (void)state;
-    enum { WIDTH = 64, HEIGHT = 48, EDGE = 40 };
-    static float depth[WIDTH * HEIGHT];
-    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
-    analytic_random random = {7};
-    for (int i = 0; i < WIDTH * HEIGHT; i++) {
-        bool is_cloth = i % WIDTH < EDGE, is_lit = random_uniform(&random) < 0.25;
-        depth[i] = is_cloth ? (is_lit ? 1.5f : 0.0f) : 2.5f;
-        depth[i] = i % WIDTH == EDGE ? 2.0f + 0.04f * (float)(i / WIDTH % 3) : depth[i];
-    }
-    rlf_reconstruct_def def = plain_def(&rig, 1);
-    def.enable_flying_removal = true;
-    rlf_reconstruct *stage;
-    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
-    rlf_frame frame = analytic_frame(&rig, depth, 0);
-    const rlf_surface *s;
-    assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
-    int seen = 0, kept = 0, mixed = 0;
-    for (int i = 0; i < WIDTH * HEIGHT; i++) {
-        bool is_cloth = i % WIDTH < EDGE - 1 && depth[i] > 0.0f;
-        seen += is_cloth;
-        kept += is_cloth && s->depth[i] > 0.0f;
-        mixed += i % WIDTH == EDGE && s->depth[i] > 0.0f;
-    }
-    assert_true(10 * kept > 8 * seen);
-    assert_true(10 * mixed < HEIGHT);
-    rlf_reconstruct_destroy(&stage);
-}
-
 static void small_holes_are_filled_from_the_right_side(void **state)
 {
     (void)state;
@@ -251,7 +219,6 @@ int main(void)
         cmocka_unit_test(missing_depth_is_data_with_a_reason),
         cmocka_unit_test(u16_extremes_have_a_reason),
         cmocka_unit_test(mixed_pixels_are_removed_and_planes_kept),
-        cmocka_unit_test(single_pixels_of_dark_cloth_stay),
         cmocka_unit_test(small_holes_are_filled_from_the_right_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
