@@ -1,7 +1,6 @@
 /* Flying pixels: a sample that mixes a near and a far surface hangs between them and has few
  * neighbours at its own depth. A pixel stays when at least 3 of its 8 neighbours are within
- * 1.2 % + 4 mm, or all of them that have depth at all: of dark cloth the sensor sees single pixels.
- * So it does when at least 2 of the 4 opposite pairs are collinear with it (a steep plane).
+ * 1.2 % + 4 mm, or when at least 2 of the 4 opposite pairs are collinear with it (a steep plane).
  * A pair that spans a real jump is collinear with a mixed pixel by chance only, and is ruled out by
  * a limit on its slope. */
 #include "kernel/kernel.h"
@@ -30,12 +29,11 @@ RLF_KERNEL_PART float tolerance_at(float z)
 
 RLF_KERNEL_PART int32_t is_beside_many(const float n[8], float z)
 {
-    int32_t close = 0, seen = 0;
+    int32_t close = 0;
     for (int k = 0; k < 8; k++) {
         close += is_close(n[k], z, tolerance_at(z));
-        seen += n[k] > 0.0f ? 1 : 0;
     }
-    return (close >= 3) | ((close >= 1) & (close == seen));
+    return close >= 3 ? 1 : 0;
 }
 
 RLF_KERNEL_PART int32_t is_kept(const float n[8], float z)
