@@ -14,7 +14,7 @@
 #define EVERY 15
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0x5f95d9d8636a75c2u, 0x3aa3471bae4ddda4u, 0xcdb5524a1a2264b8u},
+    {RLF_PROFILE_LIVE, 0xbd983cde73fb2f48u, 0x5ad7c98917034a6du, 0x6d96a803ea292587u},
     {RLF_PROFILE_THESIS, 0xa393eb06e579d241u, 0xd84652fb54683851u, 0xc064b44391e1e990u},
 };
 
