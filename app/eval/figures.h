@@ -19,7 +19,7 @@ typedef struct eval_measures {
     eval_distance distance;
 } eval_measures;
 
-#define EVAL_FIGURES_MAX 64
+#define EVAL_FIGURES_MAX 80
 
 /* At most EVAL_FIGURES_MAX. */
 int32_t eval_figure_count(void);

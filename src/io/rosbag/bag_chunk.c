@@ -82,7 +82,9 @@ rlf_result bag_decompress(const io_bytes *in, bag_packing packing, uint8_t *out,
     if (in->size != out_size) {
         return fail_damaged(in);
     }
-    memcpy(out, in->data, out_size);
+    if (out_size > 0) {
+        memcpy(out, in->data, out_size); /* of an empty chunk there are no bytes to point to */
+    }
     return RLF_OK;
 }
 
