@@ -28,7 +28,6 @@ static void find_shell(rlf_world *world, const rlf_grid *grid)
     if (!is_same_pose) {
         memset(&world->shell, 0, sizeof(world->shell));
         memset(&world->levels, 0, sizeof(world->levels));
-        memset(&world->posts, 0, sizeof(world->posts));
     } else if (world->shell.turn > 0 && world->time < world->shell_time + SHELL_PERIOD) {
         return;
     }
@@ -37,7 +36,6 @@ static void find_shell(rlf_world *world, const rlf_grid *grid)
     world->rest_version++;
     grid_shell_update(&world->shell, grid);
     grid_levels_update(&world->levels, &world->shell, grid, up_in_grid(world, grid));
-    grid_posts_update(&world->posts, grid, up_in_grid(world, grid));
 }
 
 /* Whether what stays is that of the last grid. */
@@ -92,7 +90,6 @@ static grid_query query_now(rlf_world *world, const rlf_grid *grid, double h)
     query.background = &world->background_tiles;
     query.shell = phys_world_has_shell(world, grid) ? &world->shell : NULL;
     query.levels = &world->levels;
-    query.posts = &world->posts;
     query.up = up_in_grid(world, grid);
     return query;
 }

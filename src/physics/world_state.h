@@ -6,7 +6,6 @@
 #include "kernel/contact_lanes.h"
 #include "physics/body.h"
 #include "physics/grid/level.h"
-#include "physics/grid/post.h"
 #include "physics/grid/shell.h"
 #include "physics/grid/tiles.h"
 
@@ -157,7 +156,6 @@ struct rlf_world {
     int64_t rest_version; /* while it is the same, what stays does not change under a sleeper */
     grid_shell shell;
     grid_levels levels;
-    grid_posts posts;
     rlf_pose shell_pose; /* of the grid in the world when the shell was found */
     double shell_time;   /* ... and the world's time */
 };

@@ -4,7 +4,6 @@
 
 #include "physics/body.h"
 #include "physics/grid/level.h"
-#include "physics/grid/post.h"
 #include "physics/grid/shell.h"
 #include "physics/grid/tiles.h"
 
@@ -21,7 +20,6 @@ typedef struct grid_query {
     grid_tiles *foreground, *background;
     const grid_shell *shell;   /* NULL: there is nothing where the camera does not look */
     const grid_levels *levels; /* with the shell */
-    const grid_posts *posts;   /* with the shell */
     rlf_vec3 up;               /* unit, against gravity, grid frame; 0 without gravity */
 } grid_query;
 

@@ -1,7 +1,6 @@
 /* Planes that go on unseen, and where each of them counts. */
 #include "physics/grid/hidden.h"
 #include "physics/grid/level.h"
-#include "physics/grid/post_hit.h"
 #include "physics/grid/upright.h"
 
 /* Where a plane counts that the camera does not see. */
@@ -114,7 +113,6 @@ void grid_hidden_collide(grid_job *job, double wide)
     if (find_level(job, wide, &level) && come_near(job, &level) <= job->reach) {
         collide_plane(job, &level, grid_level_is_hidden);
     }
-    grid_posts_collide(job);
 }
 
 double grid_hidden_shell_height(const grid_job *job, double wide)
@@ -129,7 +127,7 @@ double grid_hidden_shell_height(const grid_job *job, double wide)
 double grid_hidden_face_height(const grid_job *job, double wide)
 {
     shell_plane face;
-    double height = grid_posts_distance(job, wide);
+    double height = wide;
     if (find_upright(job, wide, &face)) {
         height = rlf_min(height, height_over(job, &face));
     }

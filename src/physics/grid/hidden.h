@@ -1,5 +1,5 @@
 /* Contacts with what the camera does not see and what is known to be there: the room's shell, what
- * stands behind what hides it, level faces behind what stands on them, and legs of furniture. */
+ * stands behind what hides it, and level faces behind what stands on them. */
 #ifndef RLF_PHYSICS_GRID_HIDDEN_H
 #define RLF_PHYSICS_GRID_HIDDEN_H
 
