@@ -209,10 +209,10 @@ void phys_body_wake(phys_body *body)
 
 int32_t phys_find_body(const rlf_world *world, rlf_body_id id)
 {
-    int32_t index = (int32_t)id.index1 - 1;
-    if (world == NULL || index < 0 || index >= world->body_top) {
+    if (world == NULL || id.index1 < 1 || id.index1 > (uint32_t)world->body_top) {
         return -1;
     }
+    int32_t index = (int32_t)(id.index1 - 1);
     const phys_body *body = &world->bodies[index];
     return body->is_alive && body->generation == id.generation ? index : -1;
 }

@@ -140,8 +140,9 @@ rlf_ray_hit rlf_world_cast_ray(const rlf_world *world, const rlf_grid *grid, rlf
 {
     rlf_ray_hit hit = {.reason = RLF_QUERY_INVALID};
     double norm = rlf_length(direction);
-    if (!RLF_ASSERT(world != NULL) || !rlf_vec3_is_finite(origin) || !rlf_is_finite(norm) ||
-        !(norm > 0.0) || !rlf_is_finite(length) || !(length > 0.0)) {
+    if (!RLF_ASSERT(world != NULL) || !RLF_ASSERT(grid == NULL || grid_is_whole(grid)) ||
+        !rlf_vec3_is_finite(origin) || !rlf_is_finite(norm) || !(norm > 0.0) ||
+        !rlf_is_finite(length) || !(length > 0.0)) {
         return hit;
     }
     const rlf_vec3 ray[2] = {origin, rlf_scale(direction, 1.0 / norm)};
@@ -209,7 +210,8 @@ rlf_overlap rlf_world_overlap_sphere(const rlf_world *world, const rlf_grid *gri
 {
     rlf_overlap overlap = {.reason = RLF_QUERY_INVALID};
     if (!RLF_ASSERT(world != NULL && (ids != NULL || capacity <= 0)) ||
-        !rlf_vec3_is_finite(centre) || !rlf_is_finite(radius) || !(radius > 0.0)) {
+        !RLF_ASSERT(grid == NULL || grid_is_whole(grid)) || !rlf_vec3_is_finite(centre) ||
+        !rlf_is_finite(radius) || !(radius > 0.0)) {
         return overlap;
     }
     overlap.reason = RLF_QUERY_MISS;

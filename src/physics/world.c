@@ -1,4 +1,5 @@
 /* The world's life: making it, adding, finding and changing bodies. */
+#include "physics/grid/field.h"
 #include "physics/pair/search.h"
 #include "physics/world_state.h"
 
@@ -236,7 +237,8 @@ void rlf_world_reset(rlf_world *world)
 
 void rlf_world_advance(rlf_world *world, const rlf_grid *grid, double dt)
 {
-    if (!RLF_ASSERT(world != NULL) || !RLF_ASSERT(dt > 0.0 && dt <= 1.0)) {
+    if (!RLF_ASSERT(world != NULL) || !RLF_ASSERT(dt > 0.0 && dt <= 1.0) ||
+        !RLF_ASSERT(grid == NULL || grid_is_whole(grid))) {
         return;
     }
     world->log_begin += world->log_count;

@@ -82,6 +82,9 @@ static size_t add_square(const rlf_surface *surface, uint32_t n, double max_jump
 size_t rlf_mesh_indices_valid(const rlf_surface *surface, double max_jump, uint32_t *out)
 {
     size_t count = 0;
+    if (!RLF_ASSERT(surface != NULL && surface->depth != NULL && out != NULL)) {
+        return 0;
+    }
     for (int32_t y = 0; y + 1 < surface->height; y++) {
         for (int32_t x = 0; x + 1 < surface->width; x++) {
             uint32_t n = (uint32_t)y * (uint32_t)surface->width + (uint32_t)x;
@@ -95,6 +98,10 @@ size_t rlf_mesh_indices_region(const rlf_surface *surface, const rlf_region *reg
                                double max_jump, uint32_t *out)
 {
     size_t count = 0;
+    if (!RLF_ASSERT(surface != NULL && surface->depth != NULL && surface->label != NULL &&
+                    region != NULL && out != NULL)) {
+        return 0;
+    }
     for (int32_t y = region->y0; y + 1 < region->y1; y++) {
         for (int32_t x = region->x0; x + 1 < region->x1; x++) {
             uint32_t n = (uint32_t)y * (uint32_t)surface->width + (uint32_t)x;

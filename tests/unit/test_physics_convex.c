@@ -160,6 +160,43 @@ static void depth_is_the_shortest_way_out(void **state)
     assert_true(deep > 300 && worst < 2e-4);
 }
 
+static bool count_assert(void *context, const char *condition, const char *file, int line)
+{
+    (void)condition;
+    (void)file;
+    (void)line;
+    ++*(int *)context;
+    return false;
+}
+
+/* No shape, a hull without its mesh and nowhere to write to are told, and nothing is done. */
+static void a_missing_shape_is_refused(void **state)
+{
+    (void)state;
+    const rlf_hull empty = {0};
+    const rlf_shape no_mesh = {.type = RLF_SHAPE_HULL},
+                    no_points = {RLF_SHAPE_HULL, .hull = &empty};
+    const rlf_shape ball = {.type = RLF_SHAPE_SPHERE, .radius = 1.0};
+    const rlf_shape *wrong[3] = {NULL, &no_mesh, &no_points};
+    const rlf_vec3 p = {0, 0, 2}, way = {0, 0, -1};
+    rlf_vec3 gradient;
+    double enter, leave;
+    int told = 0;
+    rlf_set_assert(count_assert, &told);
+    for (int k = 0; k < 3; k++) {
+        assert_true(rlf_shape_distance(wrong[k], p, &gradient) == 0.0);
+        assert_false(rlf_shape_cast(wrong[k], p, way, &enter, &leave));
+        assert_true(rlf_shape_inertia(wrong[k], 1.0).m[0][0] == 0.0);
+        assert_true(rlf_shape_radius(wrong[k]) == 0.0);
+    }
+    assert_int_equal(told, 12);
+    assert_true(rlf_shape_distance(&ball, p, NULL) == 0.0);
+    assert_false(rlf_shape_cast(&ball, p, way, NULL, &leave));
+    assert_false(rlf_shape_cast(&ball, p, way, &enter, NULL));
+    assert_int_equal(told, 15);
+    rlf_set_assert(NULL, NULL);
+}
+
 /* Beyond a hull's tip and edge the nearest point is the tip, or on the edge. */
 static void distance_to_a_hull_is_exact(void **state)
 {
@@ -502,6 +539,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(distance_is_that_of_the_nearest_points),
         cmocka_unit_test(depth_is_the_shortest_way_out),
+        cmocka_unit_test(a_missing_shape_is_refused),
         cmocka_unit_test(distance_to_a_hull_is_exact),
         cmocka_unit_test(edges_meet_edges),
         cmocka_unit_test(nothing_passes_however_fast),

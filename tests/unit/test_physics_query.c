@@ -151,6 +151,43 @@ static void spheres_overlap(void **state)
     assert_int_equal(near(rlf_vec3_make(0, 0, 1), 0, NULL, 0).reason, RLF_QUERY_INVALID);
 }
 
+static bool count_assert(void *context, const char *condition, const char *file, int line)
+{
+    (void)condition;
+    (void)file;
+    (void)line;
+    ++*(int *)context;
+    return false;
+}
+
+/* A grid without a plane or function that is read is told, and nothing is asked of it. */
+static void an_incomplete_grid_is_refused(void **state)
+{
+    (void)state;
+    rlf_grid wrong[4];
+    for (int k = 0; k < 4; k++) {
+        wrong[k] = fixture->grid;
+    }
+    wrong[0].ray_x = NULL;
+    wrong[1].project = NULL;
+    wrong[2].foreground.velocity_y = NULL;
+    wrong[3].background.normal_z = NULL;
+    int told = 0;
+    uint64_t hash = rlf_world_hash(world);
+    const rlf_vec3 at = {0, 0, 1}, ahead = {0, 0, 1};
+    rlf_set_assert(count_assert, &told);
+    for (int k = 0; k < 4; k++) {
+        assert_int_equal(rlf_world_cast_ray(world, &wrong[k], at, ahead, 9.0).reason,
+                         RLF_QUERY_INVALID);
+        assert_int_equal(rlf_world_overlap_sphere(world, &wrong[k], at, 0.1, NULL, 0).reason,
+                         RLF_QUERY_INVALID);
+        rlf_world_advance(world, &wrong[k], 1.0 / 60);
+        assert_int_equal(told, 3 * (k + 1));
+    }
+    rlf_set_assert(NULL, NULL);
+    assert_true(rlf_world_hash(world) == hash);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -158,6 +195,7 @@ int main(void)
         cmocka_unit_test(rays_hit_the_surface),
         cmocka_unit_test(misses_say_why),
         cmocka_unit_test(spheres_overlap),
+        cmocka_unit_test(an_incomplete_grid_is_refused),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -162,6 +162,21 @@ static void handles_go_stale(void **state)
     rlf_world_destroy(&world);
 }
 
+/* An index beyond any that there can be names nothing. */
+static void no_handle_is_out_of_range(void **state)
+{
+    (void)state;
+    rlf_world *world = make_world(RLF_PHYSICS_LIVE, 2, NULL);
+    rlf_body_def def = rlf_body_def_default();
+    assert_int_equal(rlf_world_add_body(world, &def, NULL), RLF_OK);
+    const uint32_t wrong[] = {0, 3, 0x7fffffffu, 0x80000000u, 0xffffffffu};
+    for (int i = 0; i < 5; i++) {
+        rlf_body_id id = {wrong[i], 1};
+        assert_false(rlf_world_has_body(world, id));
+    }
+    rlf_world_destroy(&world);
+}
+
 static void leaves_at_the_bounds(void **state)
 {
     (void)state;
@@ -280,6 +295,7 @@ int main(void)
         cmocka_unit_test(bad_bodies_are_named),
         cmocka_unit_test(bad_worlds_are_named),
         cmocka_unit_test(handles_go_stale),
+        cmocka_unit_test(no_handle_is_out_of_range),
         cmocka_unit_test(leaves_at_the_bounds),
         cmocka_unit_test(odd_time_steps_are_told_and_do_nothing),
         cmocka_unit_test(same_bits_for_any_pool_and_no_allocation),

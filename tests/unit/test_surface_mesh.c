@@ -100,6 +100,32 @@ static void regions_share_out_the_triangles_within_them(void **state)
     assert_int_equal(out[0], 2);
 }
 
+static bool count_assert(void *context, const char *condition, const char *file, int line)
+{
+    (void)condition;
+    (void)file;
+    (void)line;
+    ++*(int *)context;
+    return false;
+}
+
+static void a_missing_surface_has_no_triangles(void **state)
+{
+    (void)state;
+    const rlf_surface blind = {.width = 4, .height = 3};
+    const rlf_region region = {.x1 = 4, .y1 = 3, .label = 1};
+    uint32_t out[36];
+    int told = 0;
+    rlf_set_assert(count_assert, &told);
+    assert_int_equal(rlf_mesh_indices_valid(NULL, 0.05, out), 0);
+    assert_int_equal(rlf_mesh_indices_valid(&blind, 0.05, out), 0);
+    assert_int_equal(rlf_mesh_indices_region(NULL, &region, 0.05, out), 0);
+    assert_int_equal(rlf_mesh_indices_region(&blind, &region, 0.05, out), 0);
+    assert_int_equal(rlf_mesh_indices_region(&blind, NULL, 0.05, out), 0);
+    assert_int_equal(told, 5);
+    rlf_set_assert(NULL, NULL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -108,6 +134,7 @@ int main(void)
         cmocka_unit_test(mesh_is_a_consistent_triangulation),
         cmocka_unit_test(curtains_and_holes_are_left_out),
         cmocka_unit_test(regions_share_out_the_triangles_within_them),
+        cmocka_unit_test(a_missing_surface_has_no_triangles),
         cmocka_unit_test(every_reason_has_a_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

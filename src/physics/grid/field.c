@@ -16,6 +16,25 @@
 /* Farther behind a back it matters to nobody how far, metres. */
 #define FAR_BEHIND 0.05
 
+/* All three planes, or none of them. */
+static bool are_all_or_none(const float *x, const float *y, const float *z)
+{
+    return (x == NULL) == (y == NULL) && (y == NULL) == (z == NULL);
+}
+
+static bool is_sheet_whole(const rlf_grid_sheet *sheet)
+{
+    return are_all_or_none(sheet->normal_x, sheet->normal_y, sheet->normal_z) &&
+           are_all_or_none(sheet->velocity_x, sheet->velocity_y, sheet->velocity_z);
+}
+
+bool grid_is_whole(const rlf_grid *grid)
+{
+    return grid->width > 0 && grid->height > 0 && grid->ray_x != NULL && grid->ray_y != NULL &&
+           grid->project != NULL && is_sheet_whole(&grid->background) &&
+           is_sheet_whole(&grid->foreground);
+}
+
 bool grid_cell_read(const rlf_grid *grid, const rlf_grid_sheet *sheet, int32_t x, int32_t y,
                     field_cell *out)
 {

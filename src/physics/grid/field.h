@@ -30,6 +30,9 @@ typedef struct field_cell {
     double back;      /* z of the back on the query's ray */
 } field_cell;
 
+/* Whether all planes and functions that are read without a further look are there. */
+bool grid_is_whole(const rlf_grid *grid);
+
 /* The pixel on q's ray; false when q is out of view. */
 bool grid_pixel_of(const rlf_grid *grid, rlf_vec3 q, int32_t *x, int32_t *y);
 

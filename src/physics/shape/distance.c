@@ -90,7 +90,8 @@ static double hull_distance(const rlf_hull *hull, const phys_plane *planes, int3
     return best > 0.0 ? outside_hull(hull, planes, count, p, best, gradient) : best;
 }
 
-double rlf_shape_distance(const rlf_shape *s, rlf_vec3 p, rlf_vec3 *out_gradient)
+static double distance_of(const rlf_shape *s, const phys_plane *planes, int32_t plane_count,
+                          rlf_vec3 p, rlf_vec3 *out_gradient)
 {
     switch (s->type) {
     case RLF_SHAPE_BOX: return box_distance(rlf_scale(s->size, 0.5), p, out_gradient);
@@ -101,18 +102,23 @@ double rlf_shape_distance(const rlf_shape *s, rlf_vec3 p, rlf_vec3 *out_gradient
         return ball_distance(s->radius, to_axis, out_gradient);
     }
     case RLF_SHAPE_CYLINDER: return cylinder_distance(s, p, out_gradient);
-    case RLF_SHAPE_HULL:
-        return hull_distance(s->hull, NULL, s->hull->triangle_count, p, out_gradient);
+    case RLF_SHAPE_HULL: return hull_distance(s->hull, planes, plane_count, p, out_gradient);
     }
     return 0.0;
 }
 
+double rlf_shape_distance(const rlf_shape *shape, rlf_vec3 p, rlf_vec3 *out_gradient)
+{
+    if (!RLF_ASSERT(phys_shape_is_whole(shape) && out_gradient != NULL)) {
+        return 0.0;
+    }
+    int32_t triangle_count = shape->type == RLF_SHAPE_HULL ? shape->hull->triangle_count : 0;
+    return distance_of(shape, NULL, triangle_count, p, out_gradient);
+}
+
 double phys_shape_distance(const phys_shape *shape, rlf_vec3 p, rlf_vec3 *out_gradient)
 {
-    const rlf_shape *s = &shape->shape;
-    return s->type == RLF_SHAPE_HULL
-               ? hull_distance(s->hull, shape->planes, shape->plane_count, p, out_gradient)
-               : rlf_shape_distance(s, p, out_gradient);
+    return distance_of(&shape->shape, shape->planes, shape->plane_count, p, out_gradient);
 }
 
 int32_t phys_shape_support(const phys_shape *shape, rlf_vec3 direction, rlf_vec3 out[2],

@@ -98,6 +98,9 @@ bool rlf_shape_cast(const rlf_shape *shape, rlf_vec3 origin, rlf_vec3 direction,
                     double *out_leave)
 {
     span s = NOTHING;
+    if (!RLF_ASSERT(phys_shape_is_whole(shape) && out_enter != NULL && out_leave != NULL)) {
+        return false;
+    }
     switch (shape->type) {
     case RLF_SHAPE_BOX: s = box_span(shape->size, origin, direction); break;
     case RLF_SHAPE_SPHERE: s = ball_span(shape->radius, origin, direction); break;

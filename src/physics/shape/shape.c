@@ -87,9 +87,16 @@ rlf_result phys_shape_check(const rlf_shape *shape)
     return rlf_fail(RLF_ERROR_INVALID, "body def: shape.type: %d is no shape", (int)shape->type);
 }
 
+bool phys_shape_is_whole(const rlf_shape *shape)
+{
+    return shape != NULL && (shape->type != RLF_SHAPE_HULL ||
+                             (shape->hull != NULL && shape->hull->vertices != NULL &&
+                              shape->hull->triangles != NULL));
+}
+
 double rlf_shape_radius(const rlf_shape *shape)
 {
-    if (!RLF_ASSERT(shape != NULL)) {
+    if (!RLF_ASSERT(phys_shape_is_whole(shape))) {
         return 0.0;
     }
     switch (shape->type) {
@@ -103,7 +110,7 @@ double rlf_shape_radius(const rlf_shape *shape)
     case RLF_SHAPE_HULL: break;
     }
     double radius = 0.0;
-    for (int32_t i = 0; shape->hull != NULL && i < shape->hull->vertex_count; i++) {
+    for (int32_t i = 0; i < shape->hull->vertex_count; i++) {
         radius = rlf_max(radius, rlf_length(shape->hull->vertices[i]));
     }
     return radius;
@@ -151,7 +158,7 @@ static rlf_mat3 capsule_inertia(double r, double h, double mass)
 
 rlf_mat3 rlf_shape_inertia(const rlf_shape *shape, double mass)
 {
-    if (!RLF_ASSERT(shape != NULL)) {
+    if (!RLF_ASSERT(phys_shape_is_whole(shape))) {
         return rlf_mat3_diagonal(0, 0, 0);
     }
     double r2 = shape->radius * shape->radius;

@@ -32,6 +32,9 @@ static inline rlf_vec3 phys_to_frame(const rlf_mat3 *R, rlf_vec3 v)
                          R->m[0][2] * v.x + R->m[1][2] * v.y + R->m[2][2] * v.z);
 }
 
+/* Whether there is a shape and, for a hull, its vertices and triangles. */
+bool phys_shape_is_whole(const rlf_shape *shape);
+
 /* RLF_OK or RLF_ERROR_INVALID with a line that names the field. */
 rlf_result phys_shape_check(const rlf_shape *shape);
 
