@@ -227,9 +227,6 @@ typedef struct rlf_family {
 
 /* What was seen and is hidden now: see past.h. */
 typedef struct rlf_past {
-    struct rlf_past_point *points;
-    int32_t count, capacity;
-    uint32_t *behind;     /* plane: a bit per bin of depth behind the front where a point is */
     uint8_t *is_ahead;    /* a bit per pixel: whether something is expected where nothing is seen */
     float *ahead;         /* plane: its depth ... */
     uint8_t *ahead_ticks; /* ... and how long it was not seen */
