@@ -280,7 +280,7 @@ static rlf_layer_in front_layer(const rlf_reconstruct *stage, const rlf_slot *sl
         in.previous_mask = off ? NULL : before->foreground;
         in.previous = before->regions + before->foreground_region_first;
         in.previous_count = before->foreground_region_count;
-        in.elapsed_ns = slot->surface.time_ns - before->surface.time_ns;
+        in.elapsed_ns = rlf_stage_elapsed_ns(stage, slot);
     }
     return in;
 }
@@ -367,7 +367,7 @@ static void segment_first(rlf_reconstruct *stage, rlf_slot *slot)
         in.previous_label = before->label;
         in.previous = before->regions;
         in.previous_count = before->foreground_region_first;
-        in.elapsed_ns = slot->surface.time_ns - before->surface.time_ns;
+        in.elapsed_ns = rlf_stage_elapsed_ns(stage, slot);
     }
     rlf_layer_out out = {slot->regions, slot->region_points, 0, 0};
     rlf_layer_segment(stage, &in, &out);

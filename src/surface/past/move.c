@@ -7,10 +7,8 @@ static const float body_jump_m = 0.04f;
 
 float rlf_past_elapsed(const rlf_reconstruct *stage, const rlf_slot *slot)
 {
-    const rlf_slot *before = stage->previous;
-    double dt =
-        before == NULL ? 0.0 : 1e-9 * (double)(slot->surface.time_ns - before->surface.time_ns);
-    return dt > 0.0 && dt <= longest_gap_s ? (float)dt : 0.0f;
+    double dt = 1e-9 * (double)rlf_stage_elapsed_ns(stage, slot);
+    return dt <= longest_gap_s ? (float)dt : 0.0f;
 }
 
 rlf_kernel_motion rlf_past_motion(const rlf_grid *grid, float dt)
