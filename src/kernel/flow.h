@@ -53,10 +53,6 @@ typedef struct rlf_kernel_moving_row {
  * a plane of the image, has no depth there; else, and for all other pixels, to = -1. */
 void rlf_kernel_move_row(const rlf_kernel_motion *motion, const rlf_kernel_moving_row *in,
                          const float *restrict seen, float *restrict z, int32_t *restrict to);
-/* 1 for the pixels of the foreground that move and whose face has at most that cosine to the ray,
- * else 0; pixels without a normal have normal 0. */
-void rlf_kernel_away_row(const rlf_kernel_moving_row *in, const float *const normal[3],
-                         float cosine, uint8_t *restrict away);
 
 /* ---- flow_batch.c: samples of a surface, a frame ago, see surface/velocity/cells.c
  * --------------------------------------------------- */

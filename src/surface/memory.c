@@ -212,10 +212,7 @@ static void take_past(rlf_reconstruct *stage)
 {
     if (stage->def.enable_coast && stage->def.enable_thickness && stage->def.enable_velocity) {
         rlf_past *past = &stage->past;
-        past->capacity = (int32_t)rlf_past_capacity(&stage->grid);
-        past->points = take(stage, (size_t)past->capacity, sizeof *past->points);
         size_t n = (size_t)stage->grid.count;
-        past->behind = take(stage, n, sizeof *past->behind);
         past->is_ahead = take(stage, n / 8 + 1, 1);
         past->ahead = take(stage, n, sizeof *past->ahead);
         past->ahead_ticks = take(stage, n, 1);

@@ -169,7 +169,7 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
         rlf_flying_remove(stage, raw, kept, slot->reason);
         rlf_stage_add_time(stage, RLF_SURFACE_FLYING);
     }
-    if (stage->past.points != NULL) {
+    if (stage->past.ahead != NULL) {
         rlf_plates_follow(stage, slot, kept);
         rlf_past_predict(stage, slot, kept);
         rlf_plates_expect(stage, kept);
@@ -280,7 +280,7 @@ static rlf_layer_in front_layer(const rlf_reconstruct *stage, const rlf_slot *sl
         in.previous_mask = off ? NULL : before->foreground;
         in.previous = before->regions + before->foreground_region_first;
         in.previous_count = before->foreground_region_count;
-        in.elapsed_ns = slot->surface.time_ns - before->surface.time_ns;
+        in.elapsed_ns = rlf_stage_elapsed_ns(stage, slot);
     }
     return in;
 }
@@ -367,7 +367,7 @@ static void segment_first(rlf_reconstruct *stage, rlf_slot *slot)
         in.previous_label = before->label;
         in.previous = before->regions;
         in.previous_count = before->foreground_region_first;
-        in.elapsed_ns = slot->surface.time_ns - before->surface.time_ns;
+        in.elapsed_ns = rlf_stage_elapsed_ns(stage, slot);
     }
     rlf_layer_out out = {slot->regions, slot->region_points, 0, 0};
     rlf_layer_segment(stage, &in, &out);
@@ -472,15 +472,14 @@ rlf_result rlf_reconstruct_process(rlf_reconstruct *stage, const rlf_frame *fram
     rlf_stage_add_time(stage, RLF_SURFACE_SEGMENT);
     if (stage->def.enable_velocity) {
         rlf_velocity_estimate(stage, slot);
-        if (stage->past.points != NULL) {
+        if (stage->past.ahead != NULL) {
             rlf_past_keep_velocity(stage, slot);
         }
         rlf_stage_add_time(stage, RLF_SURFACE_VELOCITY);
     }
     if (stage->def.enable_thickness) {
         rlf_thickness_estimate(stage, slot);
-        if (stage->past.points != NULL) {
-            rlf_past_thicken(stage, slot);
+        if (stage->past.ahead != NULL) {
             rlf_plates_find(stage, slot);
             rlf_plates_write(stage, slot);
         }

@@ -227,9 +227,6 @@ typedef struct rlf_family {
 
 /* What was seen and is hidden now: see past.h. */
 typedef struct rlf_past {
-    struct rlf_past_point *points;
-    int32_t count, capacity;
-    uint32_t *behind;     /* plane: a bit per bin of depth behind the front where a point is */
     uint8_t *is_ahead;    /* a bit per pixel: whether something is expected where nothing is seen */
     float *ahead;         /* plane: its depth ... */
     uint8_t *ahead_ticks; /* ... and how long it was not seen */
@@ -409,7 +406,10 @@ struct rlf_reconstruct {
 /* def.c */
 rlf_result rlf_reconstruct_def_check(const rlf_reconstruct_def *def);
 
-/* times.c: begins a frame's times; adds the time since the last call to a step. */
+/* times.c: nanoseconds from the frame before to that of the slot, 0 to an hour: 0 at the first and
+ * where time runs backwards. */
+int64_t rlf_stage_elapsed_ns(const rlf_reconstruct *stage, const rlf_slot *slot);
+/* Begins a frame's times; adds the time since the last call to a step. */
 void rlf_stage_start_times(rlf_reconstruct *stage);
 void rlf_stage_add_time(rlf_reconstruct *stage, rlf_surface_step step);
 

@@ -1,4 +1,4 @@
-/* Times of the steps of one frame, for whoever asks. */
+/* Time from frame to frame, and that of the steps of one frame, for whoever asks. */
 #include "surface/stage.h"
 
 #include <string.h>
@@ -16,6 +16,18 @@ void rlf_reconstruct_set_times(rlf_reconstruct *stage, rlf_surface_times *times)
     if (RLF_ASSERT(stage != NULL)) {
         stage->times = times;
     }
+}
+
+int64_t rlf_stage_elapsed_ns(const rlf_reconstruct *stage, const rlf_slot *slot)
+{
+    const int64_t hour = INT64_C(3600000000000);
+    const rlf_slot *before = stage->previous;
+    if (before == NULL || slot->surface.time_ns <= before->surface.time_ns) {
+        return 0;
+    }
+    /* Unsigned, because a difference of any two times may be too large for int64_t. */
+    uint64_t ns = (uint64_t)slot->surface.time_ns - (uint64_t)before->surface.time_ns;
+    return ns < (uint64_t)hour ? (int64_t)ns : hour;
 }
 
 void rlf_stage_start_times(rlf_reconstruct *stage)

@@ -24,6 +24,35 @@ static void draw(const rlf_rig *rig, int32_t number)
     }
 }
 
+/* A ball that moves, in frames from one end of the clock to the other: no step takes the jump for a
+ * short time, and what comes after it is followed again. */
+static void a_clock_that_jumps_shows_no_motion(void **state)
+{
+    (void)state;
+    const int64_t frame_ns = 33333333;
+    rlf_rig rig = analytic_rig(WIDTH, HEIGHT);
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
+    rlf_reconstruct *stage = NULL;
+    assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
+    for (int32_t k = 0; k < 2 * FRAMES; k++) {
+        draw(&rig, k);
+        rlf_frame frame = {.sequence = (uint64_t)k,
+                           .time_ns = k < FRAMES ? INT64_MAX - (FRAMES - 1 - k) * frame_ns
+                                                 : INT64_MIN + (k - FRAMES + 1) * frame_ns,
+                           .rig = &rig,
+                           .depth_f32 = depth,
+                           .depth_stride = WIDTH * (ptrdiff_t)sizeof(float)};
+        const rlf_surface *s = NULL;
+        assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
+        int32_t moving = 0;
+        for (int32_t i = 0; i < WIDTH * HEIGHT; i++) {
+            moving += s->velocity_x[i] != 0.0f;
+        }
+        assert_true(k == FRAMES ? moving == 0 : k < FRAMES - 1 || moving > 100);
+    }
+    rlf_reconstruct_destroy(&stage);
+}
+
 static void times_add_up_and_change_nothing(void **state)
 {
     (void)state;
@@ -101,6 +130,7 @@ static void steps_have_names(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_clock_that_jumps_shows_no_motion),
         cmocka_unit_test(times_add_up_and_change_nothing),
         cmocka_unit_test(steps_that_are_off_take_no_time),
         cmocka_unit_test(steps_have_names),

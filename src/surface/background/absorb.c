@@ -10,11 +10,7 @@ enum { LONGEST_STEP_MS = 200, CHUNK = 128 };
 
 static int32_t step_ms(const rlf_reconstruct *stage, const rlf_slot *slot)
 {
-    if (stage->previous == NULL) {
-        return 0;
-    }
-    int64_t ms = (slot->surface.time_ns - stage->previous->surface.time_ns) / 1000000;
-    ms = ms < 0 ? 0 : ms;
+    int64_t ms = rlf_stage_elapsed_ns(stage, slot) / 1000000;
     return ms > LONGEST_STEP_MS ? LONGEST_STEP_MS : (int32_t)ms;
 }
 

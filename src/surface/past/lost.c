@@ -88,6 +88,15 @@ static void predict_pixels(rlf_reconstruct *stage, const rlf_kernel_moving_row *
     }
 }
 
+void rlf_past_reset(rlf_past *past, const rlf_grid *grid)
+{
+    past->ahead_count = 0;
+    if (past->ahead != NULL) {
+        memset(past->is_ahead, 0, (size_t)grid->count / 8 + 1);
+        memset(past->lost_ticks, 0, (size_t)grid->count);
+    }
+}
+
 void rlf_past_predict(rlf_reconstruct *stage, const rlf_slot *slot, const float *depth)
 {
     const rlf_grid *grid = &stage->grid;

@@ -4,14 +4,11 @@
 static const double longest_gap_s = 0.2;
 static const float least_z = 0.1f;
 static const float body_jump_m = 0.04f;
-static const float drift = 0.05f; /* share of the way that velocity is off */
 
 float rlf_past_elapsed(const rlf_reconstruct *stage, const rlf_slot *slot)
 {
-    const rlf_slot *before = stage->previous;
-    double dt =
-        before == NULL ? 0.0 : 1e-9 * (double)(slot->surface.time_ns - before->surface.time_ns);
-    return dt > 0.0 && dt <= longest_gap_s ? (float)dt : 0.0f;
+    double dt = 1e-9 * (double)rlf_stage_elapsed_ns(stage, slot);
+    return dt <= longest_gap_s ? (float)dt : 0.0f;
 }
 
 rlf_kernel_motion rlf_past_motion(const rlf_grid *grid, float dt)
@@ -37,32 +34,6 @@ rlf_kernel_moving_row rlf_past_row(const rlf_grid *grid, const rlf_slot *slot, i
         .x = x,
         .y = y,
         .count = count};
-}
-
-void rlf_past_advance(const rlf_kernel_motion *motion, rlf_past_point *p)
-{
-    const float *v = p->velocity;
-    float speed = (float)sqrt((double)(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
-    p->at = rlf_kernel_move(motion, p->at, v[0], v[1], v[2]);
-    p->age += motion->dt;
-    p->doubt += drift * motion->dt * speed;
-}
-
-bool rlf_past_move_pixel(const rlf_grid *grid, const rlf_slot *slot, int32_t x, int32_t y,
-                         const rlf_kernel_motion *motion, rlf_past_point *out)
-{
-    ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-    float z = slot->depth[i];
-    if (!(z > least_z)) {
-        return false;
-    }
-    for (int k = 0; k < 3; k++) {
-        out->velocity[k] = slot->velocity[k][i];
-    }
-    out->at = (rlf_kernel_point){z * grid->ray_x[i], z * grid->ray_y[i], z, (float)x, (float)y};
-    out->age = out->doubt = 0.0f;
-    rlf_past_advance(motion, out);
-    return true;
 }
 
 /* Pixels of the same body from k on along `step`, up to `limit`. */

@@ -5,17 +5,8 @@
 #include "kernel/flow.h"
 #include "surface/stage.h"
 
-/* A point of a surface that was seen, where it is now. */
-typedef struct rlf_past_point {
-    rlf_kernel_point at;
-    float velocity[3];
-    float age;   /* s since it was seen */
-    float doubt; /* how far off it may be by now, metres */
-} rlf_past_point;
-
 #define RLF_PAST_PIXELS 128 /* that are looked at together */
 
-size_t rlf_past_capacity(const rlf_grid *grid);
 void rlf_past_reset(rlf_past *past, const rlf_grid *grid);
 
 /* Where what moved in the frame before is expected now though `depth` has nothing there: sets
@@ -34,19 +25,11 @@ void rlf_past_know(rlf_past *past, ptrdiff_t k, float z);
 /* What is lost shows no motion: where none was found it goes on as before. */
 void rlf_past_keep_velocity(const rlf_reconstruct *stage, rlf_slot *slot);
 
-/* Makes thin things as thick as what was seen of them and is behind their front now. */
-void rlf_past_thicken(rlf_reconstruct *stage, rlf_slot *slot);
-
 /* past/move.c: how points go on for dt. */
 rlf_kernel_motion rlf_past_motion(const rlf_grid *grid, float dt);
 /* The slot's pixels from (x, y) on. */
 rlf_kernel_moving_row rlf_past_row(const rlf_grid *grid, const rlf_slot *slot, int32_t x, int32_t y,
                                    int32_t count);
-/* The slot's pixel (x, y) a little later, false when it is too near to be followed. */
-bool rlf_past_move_pixel(const rlf_grid *grid, const rlf_slot *slot, int32_t x, int32_t y,
-                         const rlf_kernel_motion *motion, rlf_past_point *out);
-/* The point a little later by its own velocity. */
-void rlf_past_advance(const rlf_kernel_motion *motion, rlf_past_point *p);
 /* Whether the body that pixel k of the foreground shows is at most so many pixels wide there, along
  * its row or its column. */
 bool rlf_past_is_narrow(const rlf_grid *grid, const rlf_slot *slot, ptrdiff_t k, int32_t most);

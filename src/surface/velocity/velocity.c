@@ -432,8 +432,7 @@ void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot)
 {
     const rlf_slot *before = stage->previous;
     clear_velocity(&stage->grid, slot);
-    double dt =
-        before == NULL ? 0.0 : 1e-9 * (double)(slot->surface.time_ns - before->surface.time_ns);
+    double dt = 1e-9 * (double)rlf_stage_elapsed_ns(stage, slot);
     if (!(dt > 0.0) || dt > longest_gap_s || slot->foreground_region_count == 0) {
         return;
     }
