@@ -273,16 +273,6 @@ void rlf_sheet_advance(rlf_reconstruct *stage, const rlf_slot *slot);
 void rlf_sheet_fit_rims(const rlf_reconstruct *stage, const rlf_slot *slot, const rlf_sheet *old,
                         rlf_sheet *sheet, rlf_rect r);
 
-/* ---- background/low.c ---- */
-/* Adds a frame's depth as it came where `sheet`, the newest, shows a face at a low angle; NULL =
- * there is none yet. After rlf_hold_recall. */
-void rlf_low_add(const rlf_reconstruct *stage, const rlf_sheet *sheet, const float *raw);
-/* Puts pixels of `sheet` within r on the planes of what was added. `slot` and `old` as above. */
-void rlf_low_fit(const rlf_reconstruct *stage, const rlf_slot *slot, const rlf_sheet *old,
-                 rlf_sheet *sheet, rlf_rect r);
-/* Says which pixels of `sheet` within r are added to from now on. */
-void rlf_low_mark(const rlf_reconstruct *stage, const rlf_sheet *sheet, rlf_rect r);
-
 /* ---- velocity/velocity.c, thickness/thickness.c ---- */
 void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot);
 void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot);
