@@ -267,12 +267,6 @@ const rlf_sheet *rlf_sheet_newest(const rlf_reconstruct *stage);
 void rlf_sheet_publish(rlf_reconstruct *stage, const rlf_slot *slot);
 void rlf_sheet_advance(rlf_reconstruct *stage, const rlf_slot *slot);
 
-/* ---- background/rim.c ---- */
-/* Puts pixels of `sheet` within r that `slot` shows, but that were hardly ever seen, on the faces
- * that they have the normals of. `old`: the sheet before; NULL = none. */
-void rlf_sheet_fit_rims(const rlf_reconstruct *stage, const rlf_slot *slot, const rlf_sheet *old,
-                        rlf_sheet *sheet, rlf_rect r);
-
 /* ---- velocity/velocity.c, thickness/thickness.c ---- */
 void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot);
 void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot);
