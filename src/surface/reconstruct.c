@@ -228,7 +228,6 @@ static void make_normals(rlf_reconstruct *stage, rlf_slot *slot)
     if (exact && stage->def.enable_smoothing && job.face_camera) {
         if (stage->steady.settled != NULL) {
             rlf_settle_normals(stage, slot);
-            rlf_settle_agree(stage, slot);
         }
         return; /* the rest was made with the depth */
     }

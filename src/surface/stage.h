@@ -162,7 +162,6 @@ typedef struct rlf_steady {
     uint8_t *calm;     /* per block of RLF_HOLD_BLOCK pixels, frames since something moved there */
     uint8_t *restless; /* per block: 1 where it, or one beside it, is not calm */
     int32_t age;       /* frames that were averaged, up to 255 */
-    int32_t next_row;  /* the first that normals/agree.c asks next */
     rlf_lasting lasting;
 } rlf_steady;
 

@@ -50,9 +50,6 @@ void rlf_settle_lead(const rlf_reconstruct *stage, const rlf_slot *slot);
 /* Normals of the background's watched pixels become those that most frames agree on, and so does
  * the depth of those that were filled on another side. After rlf_background_update. */
 void rlf_settle_normals(const rlf_reconstruct *stage, const rlf_slot *slot);
-/* agree.c: settles the normals that means over time lie on, in some of the rows; after
- * rlf_settle_normals. */
-void rlf_settle_agree(rlf_reconstruct *stage, const rlf_slot *slot);
 /* Watches the pixels from `first` on whose mark is not 0. */
 void rlf_settle_watch(const rlf_reconstruct *stage, ptrdiff_t first, const uint8_t *marks,
                       int32_t count);
