@@ -225,13 +225,6 @@ static void take_past(rlf_reconstruct *stage)
 
 static void take_steady(rlf_reconstruct *stage)
 {
-    bool is_renewed = stage->def.background_method == RLF_BACKGROUND_ADAPTIVE;
-    if (is_renewed && rlf_settle_is_wanted(&stage->def) && stage->def.enable_flying_removal) {
-        stage->background.low.mark = take(stage, (size_t)stage->grid.count, 1);
-        stage->background.low.mean = take(stage, (size_t)stage->grid.count, sizeof(float));
-        stage->background.low.variance = take(stage, (size_t)stage->grid.count, sizeof(float));
-        stage->background.low.samples = take(stage, (size_t)stage->grid.count, sizeof(float));
-    }
     if (stage->def.enable_steadying) {
         stage->steady.mean = take(stage, (size_t)stage->grid.count, sizeof(float));
         stage->steady.frames = take(stage, (size_t)stage->grid.count, sizeof(float));

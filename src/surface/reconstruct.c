@@ -177,9 +177,6 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
     if (stage->def.enable_hold && stage->def.enable_steadying) {
         rlf_hold_recall(stage, flying ? raw : NULL, kept, slot->reason);
     }
-    if (flying) {
-        rlf_low_add(stage, rlf_sheet_newest(stage), raw);
-    }
     if (stage->def.enable_steadying) {
         rlf_steady_update(stage, kept, slot->reason);
         stage->steady.age += stage->steady.age < 255 ? 1 : 0;
@@ -231,7 +228,6 @@ static void make_normals(rlf_reconstruct *stage, rlf_slot *slot)
     if (exact && stage->def.enable_smoothing && job.face_camera) {
         if (stage->steady.settled != NULL) {
             rlf_settle_normals(stage, slot);
-            rlf_settle_agree(stage, slot);
         }
         return; /* the rest was made with the depth */
     }

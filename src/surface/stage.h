@@ -88,14 +88,6 @@ typedef struct rlf_standing {
     int32_t age, round_age;          /* frames since there is a sheet; since the round began */
 } rlf_standing;
 
-/* Means of what was seen of faces at a low angle; NULL planes when they are not wanted: see
- * background/low.c. */
-typedef struct rlf_low {
-    uint8_t *mark;          /* plane: 1 where what was made of a sheet last shows one that ends */
-    float *mean, *variance; /* planes: of inverse depth as it came */
-    float *samples;         /* plane: how many are in them */
-} rlf_low;
-
 /* What starts to move out of the background: see background/depart.c; NULL planes when things are
  * not known. */
 typedef struct rlf_depart {
@@ -139,7 +131,6 @@ typedef struct rlf_background {
     bool is_stale;        /* the newest sheet shows a room that is gone */
     int32_t other_frames; /* ADAPTIVE: frames in a row that showed another room */
     rlf_standing thick;
-    rlf_low low;
     rlf_depart depart;
 } rlf_background;
 
@@ -171,7 +162,6 @@ typedef struct rlf_steady {
     uint8_t *calm;     /* per block of RLF_HOLD_BLOCK pixels, frames since something moved there */
     uint8_t *restless; /* per block: 1 where it, or one beside it, is not calm */
     int32_t age;       /* frames that were averaged, up to 255 */
-    int32_t next_row;  /* the first that normals/agree.c asks next */
     rlf_lasting lasting;
 } rlf_steady;
 

@@ -89,7 +89,6 @@ void rlf_steady_reset(rlf_steady *steady, int32_t count)
         memset(steady->calm, RLF_HOLD_CALM, (size_t)count); /* until something moves */
         memset(steady->restless, 0, (size_t)count);
         steady->age = 0;
-        steady->next_row = 0;
         steady->lasting = (rlf_lasting){.sigma = (float)RLF_LASTING_ALL};
     }
     if (steady->settled != NULL) {

@@ -50,9 +50,6 @@ void rlf_settle_lead(const rlf_reconstruct *stage, const rlf_slot *slot);
 /* Normals of the background's watched pixels become those that most frames agree on, and so does
  * the depth of those that were filled on another side. After rlf_background_update. */
 void rlf_settle_normals(const rlf_reconstruct *stage, const rlf_slot *slot);
-/* agree.c: settles the normals that means over time lie on, in some of the rows; after
- * rlf_settle_normals. */
-void rlf_settle_agree(rlf_reconstruct *stage, const rlf_slot *slot);
 /* Watches the pixels from `first` on whose mark is not 0. */
 void rlf_settle_watch(const rlf_reconstruct *stage, ptrdiff_t first, const uint8_t *marks,
                       int32_t count);
@@ -266,22 +263,6 @@ const rlf_sheet *rlf_sheet_newest(const rlf_reconstruct *stage);
  */
 void rlf_sheet_publish(rlf_reconstruct *stage, const rlf_slot *slot);
 void rlf_sheet_advance(rlf_reconstruct *stage, const rlf_slot *slot);
-
-/* ---- background/rim.c ---- */
-/* Puts pixels of `sheet` within r that `slot` shows, but that were hardly ever seen, on the faces
- * that they have the normals of. `old`: the sheet before; NULL = none. */
-void rlf_sheet_fit_rims(const rlf_reconstruct *stage, const rlf_slot *slot, const rlf_sheet *old,
-                        rlf_sheet *sheet, rlf_rect r);
-
-/* ---- background/low.c ---- */
-/* Adds a frame's depth as it came where `sheet`, the newest, shows a face at a low angle; NULL =
- * there is none yet. After rlf_hold_recall. */
-void rlf_low_add(const rlf_reconstruct *stage, const rlf_sheet *sheet, const float *raw);
-/* Puts pixels of `sheet` within r on the planes of what was added. `slot` and `old` as above. */
-void rlf_low_fit(const rlf_reconstruct *stage, const rlf_slot *slot, const rlf_sheet *old,
-                 rlf_sheet *sheet, rlf_rect r);
-/* Says which pixels of `sheet` within r are added to from now on. */
-void rlf_low_mark(const rlf_reconstruct *stage, const rlf_sheet *sheet, rlf_rect r);
 
 /* ---- velocity/velocity.c, thickness/thickness.c ---- */
 void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot);

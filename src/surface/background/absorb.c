@@ -22,9 +22,6 @@ static void replace(rlf_reconstruct *stage, int32_t i, float z)
     background->weight[i] = RLF_STILL_WEIGHT;
     background->beyond[i] = 0;
     background->still_ms[i] = 0;
-    if (background->low.samples != NULL) {
-        background->low.samples[i] = 0.0f;
-    }
     rlf_sheet_changed(background, &stage->grid, i % stage->grid.width, i / stage->grid.width, 1);
 }
 

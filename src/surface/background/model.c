@@ -17,10 +17,6 @@ void rlf_background_reset(rlf_background *background, const rlf_grid *grid)
     memset(background->standing, 0, (size_t)grid->height * sizeof *background->standing);
     memset(background->color, 0, n * sizeof *background->color);
     memset(background->hides, 0, (size_t)grid->height);
-    if (background->low.mark != NULL) {
-        memset(background->low.mark, 0, n);
-        memset(background->low.samples, 0, n * sizeof *background->low.samples);
-    }
     if (background->depart.thing != NULL) {
         memset(background->depart.thing, 0, n);
         memset(background->depart.left, 0, n);

@@ -217,9 +217,6 @@ static void make_tile(rlf_reconstruct *stage, const rlf_slot *slot, rlf_sheet *s
     const rlf_sheet *newest = &stage->background.sheets[stage->background.newest];
     take_sides(stage, slot, newest, sheet, r);
     sharpen(stage, slot, newest, sheet, r);
-    rlf_sheet_fit_rims(stage, slot, newest, sheet, r);
-    rlf_low_fit(stage, slot, newest, sheet, r);
-    rlf_low_mark(stage, sheet, r);
     clear_left(stage, sheet, r);
     tile_is_made(&stage->background, tile, stage->background.changes[tile] >= CHANGES);
 }
@@ -274,9 +271,6 @@ static void make_all(rlf_reconstruct *stage, const rlf_slot *slot, rlf_sheet *sh
     const rlf_rect all = {0, 0, stage->grid.width, stage->grid.height};
     take_sides(stage, slot, NULL, sheet, all);
     sharpen(stage, slot, NULL, sheet, all);
-    rlf_sheet_fit_rims(stage, slot, NULL, sheet, all);
-    rlf_low_fit(stage, slot, NULL, sheet, all);
-    rlf_low_mark(stage, sheet, all);
     for (int32_t tile = 0; tile < tiles; tile++) {
         tile_is_made(background, tile, true);
     }
