@@ -77,7 +77,6 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
     stage->family.count = 0;
     rlf_past_reset(&stage->past, &stage->grid);
     stage->plates = (rlf_plates){.count = 0};
-    stage->torsos.count = 0;
     rlf_color_side_reset(stage);
     rlf_ego_motion_reset(&stage->ego);
     rlf_shadow_reset(&stage->shadow);

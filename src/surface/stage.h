@@ -4,7 +4,7 @@
 
 #include "relief/reconstruct.h"
 
-#include "kernel/touch.h"
+#include "kernel/kernel.h"
 
 /* The planes of a grid that every step reads. */
 typedef struct rlf_grid {
@@ -246,49 +246,6 @@ typedef struct rlf_plates {
     int32_t region; /* of the foreground at which the next search begins */
 } rlf_plates;
 
-/* The trunk of a person, as a solid under the head: see torso.h. */
-enum { RLF_TORSOS = 16 };
-
-/* A leg of a person, as a chain of solids below the torso: see legs.h. */
-typedef struct rlf_leg {
-    double unknown[RLF_LEG_UNKNOWNS];
-    double doubt[RLF_LEG_UNKNOWNS][RLF_LEG_UNKNOWNS]; /* covariance of them */
-    double speed[RLF_LEG_UNKNOWNS];                   /* of them, 1/s */
-    double area_m2;                                   /* of what is seen and fits */
-} rlf_leg;
-
-/* The head of a person, an ellipsoid: see skull.c. */
-typedef struct rlf_skull {
-    double measure[2], doubt[2][2]; /* half its breadth and length; covariance of them */
-    double way_x, way_z;            /* level unit vector from the camera to its middle */
-    double far, down;               /* of the middle, metres along that and downwards */
-    double half_width, half_depth;  /* of it as it is seen */
-    double face; /* how much of what is seen is its face, 0..1; the rest is its side */
-    bool is_seen;
-} rlf_skull;
-
-typedef struct rlf_torso {
-    int32_t label;         /* of its region */
-    bool is_seen;          /* in the frame that is being made */
-    rlf_vec3 head;         /* its middle, but y is of its top; camera frame */
-    double side_x, side_z; /* level unit vector from the trunk's axis to one of the shoulders */
-    double spin;           /* of it, rad/s */
-    double unknown[RLF_TORSO_UNKNOWNS];
-    double doubt[RLF_TORSO_UNKNOWNS][RLF_TORSO_UNKNOWNS]; /* covariance of them */
-    double misfit;                                        /* of what is seen, 0..1 */
-    double area_m2;                                       /* of what is seen and fits */
-    double age_s, unseen_s;
-    rlf_skull skull;
-    rlf_leg leg[2];
-    double facing; /* < 0: the toes point against `ahead`; seen, forgotten slowly */
-    bool has_legs;
-} rlf_torso;
-
-typedef struct rlf_torsos {
-    rlf_torso item[RLF_TORSOS];
-    int32_t count;
-} rlf_torsos;
-
 /* How the colour picture lies beside depth at edges: see color_side.c. */
 typedef struct rlf_color_sum {
     double square[9], value[3]; /* normal equations of the offset */
@@ -379,7 +336,6 @@ struct rlf_reconstruct {
     rlf_family family; /* of the foreground */
     rlf_past past;     /* of the foreground */
     rlf_plates plates; /* of the foreground */
-    rlf_torsos torsos; /* of the foreground */
     rlf_color_side side;
     struct rlf_objects *objects; /* see objects/objects.h; NULL = they are not wanted */
     rlf_ego_motion ego;

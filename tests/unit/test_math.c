@@ -10,7 +10,6 @@
 
 #include "math/eigen.h"
 #include "math/inverse.h"
-#include "math/observe.h"
 
 #include <math.h>
 
@@ -103,18 +102,6 @@ static void model_matrix_scales_then_rotates_then_translates(void **state)
     assert_true(fabs(m.m[2][0] + m.m[2][3] - 3.0) < 1e-14);
 }
 
-/* Two values that go together: what is seen of one moves the other, and both are surer. */
-static void an_observation_corrects_all(void **state)
-{
-    (void)state;
-    double value[2] = {1.0, 5.0}, covariance[4] = {4.0, 2.0, 2.0, 3.0};
-    const math_observation seen = {0, 3.0, 4.0};
-    math_observe(value, covariance, 2, &seen);
-    assert_true(fabs(value[0] - 2.0) < 1e-12 && fabs(value[1] - 5.5) < 1e-12);
-    assert_true(fabs(covariance[0] - 2.0) < 1e-12 && fabs(covariance[3] - 2.5) < 1e-12);
-    assert_true(fabs(covariance[1] - 1.0) < 1e-12 && fabs(covariance[2] - 1.0) < 1e-12);
-}
-
 /* A v = value v, and the vectors are square to each other: of a plate seen aslant, of a needle, of
  * one whose values are the same, and of nothing. */
 static void eigenvectors_are_only_scaled(void **state)
@@ -148,7 +135,6 @@ int main(void)
         cmocka_unit_test(elementary_functions_agree_with_libm),
         cmocka_unit_test(poses_compose_and_invert),
         cmocka_unit_test(inverse_of_a_matrix),
-        cmocka_unit_test(an_observation_corrects_all),
         cmocka_unit_test(eigenvectors_are_only_scaled),
         cmocka_unit_test(inverse_of_a_covariance),
         cmocka_unit_test(model_matrix_scales_then_rotates_then_translates),

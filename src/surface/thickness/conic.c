@@ -76,7 +76,6 @@ bool rlf_chord_measure(const rlf_chord_job *job, const rlf_line *line, rlf_chord
     c->inverse = 1.0f / z;
     c->metres = z * line->angle;
     c->beside = (rlf_chord_middle){0.0f, 0.0f};
-    c->share = 1.0f;
     c->is_of_people = job->is_of_people;
     rlf_kernel_chord_sums t = sum_samples(job, line, c, z);
     expect_ball(job, line, i, c);
@@ -291,7 +290,7 @@ void rlf_chord_paint(const rlf_chord_job *job, const rlf_line *line, const rlf_c
         .job = job,
         .line = line,
         .chord = {c->begin, c->end, c->apex, c->apex >= c->begin},
-        .solid = {.share = c->share * trust(&f) / (c->metres * c->metres),
+        .solid = {.share = trust(&f) / (c->metres * c->metres),
                   .middle = c->inverse - w2 * f.middle - slope * 0.5f * (c->begin + c->end),
                   .slope = slope,
                   .half = w2 * f.ratio * c->metres}};

@@ -7,9 +7,7 @@
  * behind it. */
 #include "surface/thickness/thickness.h"
 
-#include "surface/past/past.h"
 #include "surface/steps.h"
-#include "surface/thickness/torso.h"
 
 #include <string.h>
 
@@ -73,9 +71,6 @@ static void resolve_rows(void *context, int32_t begin, int32_t end, int32_t work
             job->thickness[row + x] = front > 0.0f ? back_of(job, row + x) - front : 0.0f;
         }
     }
-    if (job->is_of_people) {
-        rlf_torsos_thicken(job, y0, y1);
-    }
 }
 
 /* Between a plate's thickness and the room behind. */
@@ -124,7 +119,6 @@ void rlf_thickness_fit(rlf_chord_job *job, const rlf_block *block)
         rlf_chords_pool(job, count);
         if (job->dy == 0 && job->is_of_people) {
             rlf_chords_align(job, count);
-            rlf_chords_head(job, count);
         }
         rlf_parallel_for(pool, count, RLF_ROW_GRAIN, paint_lines, job);
     }
@@ -198,7 +192,6 @@ rlf_chord_job rlf_chord_job_make(rlf_reconstruct *stage, const rlf_slot *slot)
                            .raw = kept ? work->depth[1] : slot->depth,
                            .behind = stage->background.mean,
                            .is_plate = work->map,
-                           .torsos = &stage->torsos,
                            .step = step,
                            .pitch = (ptrdiff_t)grid->width + RLF_CHORD_PAD,
                            .front = work->depth[0],
@@ -243,7 +236,6 @@ void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot)
     find_plates(stage, slot, stage->work.map);
     rlf_chord_job job = rlf_chord_job_make(stage, slot);
     int32_t count = find_blocks(&job, stage->work.blocks);
-    rlf_torsos_expect(&stage->torsos, rlf_past_elapsed(stage, slot));
     for (int32_t i = 0; i < count; i++) {
         rlf_thickness_fit(&job, &stage->work.blocks[i]);
     }

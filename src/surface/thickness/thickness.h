@@ -46,7 +46,6 @@ typedef struct rlf_chord {
     rlf_chord_moments own, pooled, running;
     rlf_chord_middle seen, told; /* by the chord alone; with all lines before it */
     rlf_chord_middle beside;     /* by the lines on both sides, without its own */
-    float share;                 /* how much more it counts than by what it shows */
 } rlf_chord;
 
 /* y = middle + slope s - ratio h, in metres about the reference depth. */
@@ -79,7 +78,6 @@ typedef struct rlf_block {
 typedef struct rlf_chord_job {
     const rlf_reconstruct *stage;
     const rlf_slot *slot;
-    rlf_torsos *torsos;      /* followed below the heads that are found */
     bool is_of_people;       /* what bodies are usually like counts: else things */
     const float *raw;        /* depth that is fitted: as the sensor gave it */
     const float *behind;     /* nothing reaches farther; NULL = nothing is known to be there */
@@ -141,10 +139,6 @@ int32_t rlf_chords_cut(const rlf_chord_job *job, const rlf_line *line, rlf_chord
 /* ---- thickness/axis.c ---- */
 /* Tells each chord where the rows above and below have the middle of its body. */
 void rlf_chords_align(const rlf_chord_job *job, int32_t row_count);
-
-/* ---- thickness/head.c ---- */
-/* Tells the rows of trunks where the middle of the head above them is. */
-void rlf_chords_head(const rlf_chord_job *job, int32_t row_count);
 
 /* ---- thickness/conic.c ---- */
 /* Fills the sums of a chord whose ends and parts are known; false when it shows nothing. */
