@@ -44,6 +44,7 @@ typedef enum figure_index {
     FOREGROUND_FALSE,
     EXIT_MEAN,
     EXIT_CLOSE,
+    UNLIKE_EXIT_MEAN,
     BOOK_EXIT_MEAN,
     STANDING_EXIT_MEAN,
     STANDING_EXIT_CLOSE,
@@ -121,6 +122,8 @@ static const figure_name names[FIGURE_COUNT] = {
     [FOREGROUND_FALSE] = {"foreground_false_percent", "background taken for foreground, %"},
     [EXIT_MEAN] = {"exit_mean_cm", "thickness of people: exit error, cm"},
     [EXIT_CLOSE] = {"exit_within_5_cm_percent", "thickness of people: within 5 cm, %"},
+    [UNLIKE_EXIT_MEAN] = {"unlike_exit_mean_cm",
+                          "  children, coats, skirts, backpacks: exit error, cm"},
     [BOOK_EXIT_MEAN] = {"book_exit_mean_cm", "thickness of a held book: exit error, cm"},
     [STANDING_EXIT_MEAN] = {"standing_exit_mean_cm", "thickness of what stands: exit error, cm"},
     [STANDING_EXIT_CLOSE] = {"standing_within_5_cm_percent",
@@ -194,6 +197,7 @@ static void get_solid(const eval_solid *s, double *v)
 {
     v[EXIT_MEAN] = eval_exit_mean_cm(&s->body);
     v[EXIT_CLOSE] = eval_exit_close_percent(&s->body);
+    v[UNLIKE_EXIT_MEAN] = eval_exit_mean_cm(&s->unlike);
     v[BOOK_EXIT_MEAN] = eval_exit_mean_cm(&s->book);
     v[STANDING_EXIT_MEAN] = eval_exit_mean_cm(&s->standing);
     v[STANDING_EXIT_CLOSE] = eval_exit_close_percent(&s->standing);

@@ -2,6 +2,7 @@
 #include "eval/solid.h"
 
 #include <math.h>
+#include <string.h>
 
 #define CLOSE_M 0.05
 #define FAST_M_PER_S 0.2
@@ -120,8 +121,49 @@ static void add_standing(eval_solid *e, const rlf_surface *s, int32_t i, const r
     e->standing_known += thickness > 0.0;
 }
 
+/* Whether it is a part of a person by which he is no adult in plain clothes. */
+static bool is_unlike(const char *part)
+{
+    static const char *const parts[] = {"child's head", "coat", "skirt", "backpack"};
+    for (size_t k = 0; k < sizeof(parts) / sizeof(parts[0]); k++) {
+        if (strcmp(part, parts[k]) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Labels of the people who are no adults in plain clothes, as bits. */
+static uint32_t find_unlike(const rlf_truth *truth)
+{
+    uint32_t labels = 0;
+    for (int32_t i = 0; i < truth->pose_count; i++) {
+        const rlf_truth_pose *pose = &truth->poses[i];
+        if (pose->label < RLF_SYNTHETIC_LABEL_THING && is_unlike(pose->name)) {
+            labels |= 1u << pose->label;
+        }
+    }
+    return labels;
+}
+
+/* Of what moves. */
+static void add_moving(eval_solid *e, const rlf_surface *s, int32_t i, const rlf_truth *truth,
+                       int32_t t, uint32_t unlike)
+{
+    int32_t label = truth->label[t];
+    if (!truth->foreground[t] || !s->foreground[i] || !(s->depth[i] > 0.0f)) {
+        return;
+    }
+    double error = s->depth[i] + s->thickness[i] - (truth->depth[t] + truth->thickness[t]);
+    add_exit(label == RLF_SYNTHETIC_LABEL_BOOK ? &e->book : &e->body, error);
+    if (label < RLF_SYNTHETIC_LABEL_THING && (unlike >> label & 1) != 0) {
+        add_exit(&e->unlike, error);
+    }
+}
+
 void eval_solid_add(eval_solid *e, const rlf_surface *s, const rlf_truth *truth, const rlf_rig *rig)
 {
+    const uint32_t unlike = find_unlike(truth);
     for (int32_t y = 0; y < s->height; y++) {
         for (int32_t x = 0; x < s->width; x++) {
             int32_t i = y * s->width + x;
@@ -129,11 +171,7 @@ void eval_solid_add(eval_solid *e, const rlf_surface *s, const rlf_truth *truth,
             add_phantom(&e->phantoms, s, i, truth, t);
             add_velocity(e, s, i, truth, t);
             add_standing(e, s, i, truth, t);
-            if (truth->foreground[t] && s->foreground[i] && s->depth[i] > 0.0f) {
-                bool book = truth->label[t] == RLF_SYNTHETIC_LABEL_BOOK;
-                add_exit(book ? &e->book : &e->body,
-                         s->depth[i] + s->thickness[i] - (truth->depth[t] + truth->thickness[t]));
-            }
+            add_moving(e, s, i, truth, t, unlike);
         }
     }
     e->phantoms.has_background = true;

@@ -31,6 +31,7 @@ typedef struct eval_phantoms {
 
 typedef struct eval_solid {
     eval_exit body, book;   /* people and hands; the held book */
+    eval_exit unlike;       /* of the people: children, coats, skirts, backpacks */
     eval_exit standing;     /* furniture that stands */
     int64_t standing_known; /* of its pixels those whose thickness is no guess */
     eval_speed normal;      /* along the true normal */

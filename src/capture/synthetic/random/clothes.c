@@ -3,20 +3,20 @@
 #include "capture/synthetic/random/plan.h"
 
 /* Sizes are those of an adult of 1.75 m, bone frame. */
-static synth_flesh *wear(synth_individual *p, int bone, synth_material material,
+static synth_flesh *wear(synth_individual *p, const char *name, int bone, synth_material material,
                          synth_shape_type type, rlf_vec3 at)
 {
     synth_flesh *f = &p->flesh[p->flesh_count++];
-    *f = (synth_flesh){
-        .name = "clothes", .bone = bone, .material = material, .type = type, .offset = at};
+    *f =
+        (synth_flesh){.name = name, .bone = bone, .material = material, .type = type, .offset = at};
     f->axis = 'y';
     return f;
 }
 
-static void wear_round(synth_individual *p, int bone, synth_material material, rlf_vec3 at,
-                       double length, double above, double below)
+static void wear_round(synth_individual *p, const char *name, int bone, synth_material material,
+                       rlf_vec3 at, double length, double above, double below)
 {
-    synth_flesh *f = wear(p, bone, material, SYNTH_FRUSTUM, at);
+    synth_flesh *f = wear(p, name, bone, material, SYNTH_FRUSTUM, at);
     f->length = length;
     f->radius_a = above;
     f->radius_b = below;
@@ -25,7 +25,7 @@ static void wear_round(synth_individual *p, int bone, synth_material material, r
 static void wear_coat(synth_individual *p, synth_draw *d)
 {
     const double s = p->figure.leg, wide = p->figure.flesh[0].size.x;
-    wear_round(p, SYNTH_PELVIS, SYNTH_SHIRT, rlf_vec3_make(0, -0.34 * s, 0),
+    wear_round(p, "coat", SYNTH_PELVIS, SYNTH_SHIRT, rlf_vec3_make(0, -0.34 * s, 0),
                s * synth_draw_range(d, 0.6, 0.85), 0.84 * wide,
                wide + s * synth_draw_range(d, 0.06, 0.14));
 }
@@ -33,7 +33,7 @@ static void wear_coat(synth_individual *p, synth_draw *d)
 static void wear_skirt(synth_individual *p, synth_draw *d)
 {
     const double s = p->figure.leg, wide = p->figure.flesh[0].size.x;
-    wear_round(p, SYNTH_PELVIS, SYNTH_TROUSERS, rlf_vec3_make(0, -0.1 * s, 0),
+    wear_round(p, "skirt", SYNTH_PELVIS, SYNTH_TROUSERS, rlf_vec3_make(0, -0.1 * s, 0),
                s * synth_draw_range(d, 0.4, 0.75), 0.88 * wide,
                wide + s * synth_draw_range(d, 0.05, 0.18));
 }
@@ -43,15 +43,15 @@ static void wear_hat(synth_individual *p, synth_draw *d)
     const rlf_vec3 head = p->figure.flesh[5].size;
     const double top = -p->figure.flesh[5].offset.y + 0.6 * head.y;
     const double brim = head.z * synth_draw_range(d, 1.1, 2.0);
-    wear_round(p, SYNTH_HEAD, SYNTH_BALL, rlf_vec3_make(0, -top, 0.01), 0.012, brim, brim);
-    wear_round(p, SYNTH_HEAD, SYNTH_BALL, rlf_vec3_make(0, -top - 0.1, 0.01), 0.1, 0.95 * head.z,
-               1.08 * head.z);
+    wear_round(p, "hat", SYNTH_HEAD, SYNTH_BALL, rlf_vec3_make(0, -top, 0.01), 0.012, brim, brim);
+    wear_round(p, "hat", SYNTH_HEAD, SYNTH_BALL, rlf_vec3_make(0, -top - 0.1, 0.01), 0.1,
+               0.95 * head.z, 1.08 * head.z);
 }
 
 static void wear_long_hair(synth_individual *p)
 {
     const rlf_vec3 head = p->figure.flesh[5].size;
-    synth_flesh *f = wear(p, SYNTH_HEAD, SYNTH_HAIR, SYNTH_ELLIPSOID,
+    synth_flesh *f = wear(p, "long hair", SYNTH_HEAD, SYNTH_HAIR, SYNTH_ELLIPSOID,
                           rlf_vec3_make(0, -0.8 * head.y, -0.45 * head.z));
     f->size = rlf_vec3_make(1.15 * head.x, 1.6 * head.y, 0.75 * head.z);
 }
@@ -60,7 +60,7 @@ static void wear_backpack(synth_individual *p, synth_draw *d)
 {
     const double s = p->figure.trunk, back = p->figure.flesh[2].size.z;
     const double thick = s * synth_draw_range(d, 0.06, 0.11);
-    synth_flesh *f = wear(p, SYNTH_CHEST, SYNTH_CUPBOARD,
+    synth_flesh *f = wear(p, "backpack", SYNTH_CHEST, SYNTH_CUPBOARD,
                           synth_draw_chance(d, 0.5) ? SYNTH_BOX : SYNTH_ELLIPSOID,
                           rlf_vec3_make(0, -0.32 * s, -back - 0.6 * thick));
     f->size = rlf_vec3_make(0.15 * s, 0.21 * s, thick);
@@ -76,8 +76,9 @@ static void spread_fingers(synth_individual *p)
         for (int32_t i = 0; i < 4; i++) {
             const double across = (side == 0 ? 1.0 : -1.0) * (0.033 - 0.022 * i) * s;
             const rlf_vec3 at = {across, 0.088 * s, -0.004 * s};
-            synth_flesh *f =
-                i == 0 ? &p->flesh[from] : wear(p, SYNTH_PALM + side, SYNTH_SKIN, SYNTH_CONE, at);
+            synth_flesh *f = i == 0
+                                 ? &p->flesh[from]
+                                 : wear(p, "finger", SYNTH_PALM + side, SYNTH_SKIN, SYNTH_CONE, at);
             f->type = SYNTH_CONE;
             f->offset = at;
             f->length = s * length[i];

@@ -163,6 +163,7 @@ static void make_child(synth_figure *f, double scale)
         part->radius_a *= by;
         part->radius_b *= by;
     }
+    f->flesh[5].name = "child's head";
 }
 
 static void draw_individual(synth_plan *plan, synth_individual *person, uint64_t seed, int32_t i)
