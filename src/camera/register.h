@@ -2,6 +2,7 @@
 #ifndef RLF_CAMERA_REGISTER_H
 #define RLF_CAMERA_REGISTER_H
 
+#include "camera/pixel_rect.h"
 #include "kernel/kernel.h"
 #include "relief/camera.h"
 
@@ -44,17 +45,11 @@ rlf_result registration_make_lens(rlf_registration *r, registration_shift *shift
 /* register_size.c: r->size. Tables and rectangles must be there. */
 rlf_result registration_make_sizes(rlf_registration *r);
 
-/* Pixels x0 <= x < x1, y0 <= y < y1. */
-typedef struct registration_window {
-    int32_t x0, y0, x1, y1;
-} registration_window;
-
 /* register_window.c: column_low to half_px. Tables, rectangles and sizes must be there. */
 void registration_make_columns(rlf_registration *r, const registration_shift *shift);
 /* The part of the picture without which pixels of a window cannot be told: no depth is nearer than
  * `nearest` metres, 0 = not known. */
-registration_window registration_widen(const rlf_registration *r, const registration_window *window,
-                                       double nearest);
+pixel_rect registration_widen(const rlf_registration *r, const pixel_rect *window, double nearest);
 /* Columns [out[0], out[1]) of the depth grid, all that may land in columns x0 <= x < x1 of the
  * picture; out[1] <= out[0]: none. `nearest` as above. */
 void registration_columns(const rlf_registration *r, int32_t x0, int32_t x1, double nearest,
@@ -66,9 +61,9 @@ void registration_project(rlf_registration *r, const float *depth, int32_t y, in
 
 /* rlf_registration_apply for pixels in `wanted`: of the others nothing is known afterwards. No
  * depth is nearer than `nearest` metres; 0 = not known. */
-void registration_apply_window(rlf_registration *r, const float *depth,
-                               const registration_window *wanted, double nearest,
-                               const rlf_plane_f32 *out_depth, const rlf_plane_u8 *out_state);
+void registration_apply_window(rlf_registration *r, const float *depth, const pixel_rect *wanted,
+                               double nearest, const rlf_plane_f32 *out_depth,
+                               const rlf_plane_u8 *out_state);
 
 /* Where pixel i of the depth grid is in the picture if it is `z` metres away: (u, v), or a place
  * far outside when it cannot be seen. */
@@ -76,7 +71,7 @@ void registration_pixel(const rlf_registration *r, int32_t i, float z, float out
 
 /* register_fill.c: gaps and parallax shadows, and their pixels' state, in a window that is all of
  * the picture where r->fills_columns. What is beyond its left and right ends is not looked at. */
-void registration_fill_holes(const rlf_registration *r, const registration_window *window,
+void registration_fill_holes(const rlf_registration *r, const pixel_rect *window,
                              const rlf_plane_f32 *depth, const rlf_plane_u8 *state);
 
 #endif

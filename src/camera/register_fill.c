@@ -86,7 +86,7 @@ static void fill_line_holes(const rlf_registration *r, const fill_line *line)
     }
 }
 
-static void fill_row(const rlf_registration *r, int32_t y, const registration_window *window,
+static void fill_row(const rlf_registration *r, int32_t y, const pixel_rect *window,
                      const rlf_plane_f32 *depth, const rlf_plane_u8 *state)
 {
     const fill_line line = {.depth = (char *)rlf_f32_row(depth, y),
@@ -109,7 +109,7 @@ static void fill_column(const rlf_registration *r, int32_t x, const rlf_plane_f3
     fill_line_holes(r, &line);
 }
 
-void registration_fill_holes(const rlf_registration *r, const registration_window *window,
+void registration_fill_holes(const rlf_registration *r, const pixel_rect *window,
                              const rlf_plane_f32 *depth, const rlf_plane_u8 *state)
 {
     const int32_t x0 = window->x0;

@@ -47,7 +47,7 @@ static void draw_run(const rlf_registration *r, int32_t begin, int32_t end, int3
 /* Pixels of the picture that are wanted, how many rows are drawn into, and how many are done: each
  * while it is in the processor's cache. */
 typedef struct wanted_rows {
-    registration_window window;
+    pixel_rect window;
     int32_t drawn, done;
     const rlf_plane_f32 *depth;
     const rlf_plane_u8 *state;
@@ -67,7 +67,7 @@ static void finish_up_to(const rlf_registration *r, wanted_rows *rows, int32_t e
     end = end < rows->window.y1 ? end : rows->window.y1;
     if (rows->done < end) {
         clear_up_to(rows, end);
-        const registration_window done = {rows->window.x0, rows->done, rows->window.x1, end};
+        const pixel_rect done = {rows->window.x0, rows->done, rows->window.x1, end};
         registration_fill_holes(r, &done, rows->depth, rows->state);
         rows->done = end;
     }
@@ -77,7 +77,7 @@ static void finish_up_to(const rlf_registration *r, wanted_rows *rows, int32_t e
 static void put_row(const rlf_registration *r, int32_t x0, int32_t x1, wanted_rows *rows)
 {
     float *out = rlf_f32_row(rows->depth, rows->drawn);
-    const registration_window *window = &rows->window;
+    const pixel_rect *window = &rows->window;
     rlf_kernel_clear_row(x0 - window->x0, out + window->x0);
     memcpy(out + x0, r->line + x0, (size_t)(x1 - x0) * sizeof(*out));
     rlf_kernel_clear_row(window->x1 - x1, out + x1);
@@ -91,7 +91,7 @@ static int32_t clamp(int32_t x, int32_t low, int32_t high)
 
 static void put_line(const rlf_registration *r, const int32_t x[2], int32_t y, wanted_rows *rows)
 {
-    const registration_window *window = &rows->window;
+    const pixel_rect *window = &rows->window;
     const int32_t first = y / RLF_KERNEL_ROWS;
     const int32_t last = y % RLF_KERNEL_ROWS < window->y1 ? y % RLF_KERNEL_ROWS : window->y1 - 1;
     const int32_t x0 = clamp(x[0], window->x0, window->x1);
@@ -170,9 +170,9 @@ static void draw_row(rlf_registration *r, const float *depth, int32_t y, const i
     splat(r, x[0], x[1], rows);
 }
 
-void registration_apply_window(rlf_registration *r, const float *depth,
-                               const registration_window *wanted, double nearest,
-                               const rlf_plane_f32 *out_depth, const rlf_plane_u8 *out_state)
+void registration_apply_window(rlf_registration *r, const float *depth, const pixel_rect *wanted,
+                               double nearest, const rlf_plane_f32 *out_depth,
+                               const rlf_plane_u8 *out_state)
 {
     wanted_rows rows = {registration_widen(r, wanted, nearest), wanted->y0, wanted->y0, out_depth,
                         out_state};
@@ -201,7 +201,7 @@ void rlf_registration_apply_rows(rlf_registration *r, const float *depth, int32_
         !RLF_ASSERT(begin >= 0 && end <= r->color.height)) {
         return;
     }
-    const registration_window rows = {0, begin, r->color.width, end};
+    const pixel_rect rows = {0, begin, r->color.width, end};
     registration_apply_window(r, depth, &rows, 0.0, out_depth, out_state);
 }
 

@@ -47,13 +47,12 @@ static double least_z(const rlf_registration *r, double nearest)
     return nearest > 0.0 && z > LEAST_C * nearest ? z : 0.0;
 }
 
-registration_window registration_widen(const rlf_registration *r, const registration_window *window,
-                                       double nearest)
+pixel_rect registration_widen(const rlf_registration *r, const pixel_rect *window, double nearest)
 {
     const double z = least_z(r, nearest);
-    registration_window out = *window;
+    pixel_rect out = *window;
     if (r->fills_columns) {
-        return (registration_window){0, 0, r->color.width, r->color.height};
+        return (pixel_rect){0, 0, r->color.width, r->color.height};
     }
     /* A hole that reaches further than it may be filled is one, wherever it ends. */
     const double hole =

@@ -58,38 +58,13 @@ static bool reserve_models(known_layer *l, int32_t count)
     return fresh != NULL;
 }
 
-/* Where a ball about `center` may be; a lens bends by less than the margin, and what reaches behind
- * the camera may be anywhere. */
-static known_rect bound(const rlf_camera *camera, rlf_vec3 center, double radius)
-{
-    const double margin = 0.1;
-    known_rect all = {0, 0, camera->width, camera->height};
-    double z = center.z - radius;
-    if (!(z > KNOWN_NEAREST_Z)) {
-        return all;
-    }
-    double x[2] = {(center.x - radius) / (center.x < radius ? z : center.z + radius),
-                   (center.x + radius) / (center.x > -radius ? z : center.z + radius)};
-    double y[2] = {(center.y - radius) / (center.y < radius ? z : center.z + radius),
-                   (center.y + radius) / (center.y > -radius ? z : center.z + radius)};
-    for (int i = 0; i < 2; i++) {
-        double sign = i == 0 ? -1.0 : 1.0;
-        double lens = camera->distortion_model == RLF_DISTORTION_NONE ? 0.0 : margin;
-        x[i] = camera->cx + camera->fx * (x[i] + sign * lens) + 2.0 * sign;
-        y[i] = camera->cy + camera->fy * (y[i] + sign * lens) + 2.0 * sign;
-        x[i] = rlf_clamp(x[i], 0, camera->width);
-        y[i] = rlf_clamp(y[i], 0, camera->height);
-    }
-    return (known_rect){(int32_t)x[0], (int32_t)y[0], (int32_t)x[1], (int32_t)y[1]};
-}
-
 static double tolerance_at(const known_layer *layer, double z)
 {
     return TOLERANCE_M + TOLERANCE_SIGMAS * rlf_depth_noise_sigma(&layer->noise, z);
 }
 
 /* One model's pixels, also into `at`. */
-static bool add_pixels(known_layer *layer, const known_form *form, known_rect r)
+static bool add_pixels(known_layer *layer, const known_form *form, pixel_rect r)
 {
     for (int32_t y = r.y0; y < r.y1; y++) {
         if (!reserve_pixels(layer, r.x1 - r.x0 + 1)) {
@@ -188,7 +163,8 @@ static bool add_model(known_layer *layer, const rlf_body_state *model,
     }
     int32_t first = layer->count;
     const known_form form = known_form_make(model, mesh, &T);
-    known_rect r = bound(&layer->camera, T.p, radius);
+    pixel_rect r;
+    (void)pixel_rect_of_ball(&layer->camera, T.p, radius, &r);
     bool is_done = add_pixels(layer, &form, r);
     if (is_done && layer->count > first) {
         set_fronts(layer, first);

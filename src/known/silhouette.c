@@ -156,7 +156,7 @@ static void find_behind(const known_layer *layer, const way_out *way, known_rim 
 
 /* The pixels around a model and its own last ones, each with the depths of the covered pixel next
  * to it, and two pixels farther out, where sensors no longer show the model. */
-bool known_add_rims(known_layer *layer, known_rect r)
+bool known_add_rims(known_layer *layer, pixel_rect r)
 {
     const rlf_camera *camera = &layer->camera;
     int32_t w = camera->width, h = camera->height, reach = layer->reach;
@@ -196,10 +196,10 @@ static uint8_t share_of(const known_layer *layer, const known_form *form, int32_
 }
 
 /* The pixels that a model's silhouette cuts. */
-bool known_add_edges(known_layer *layer, const known_form *form, known_rect r)
+bool known_add_edges(known_layer *layer, const known_form *form, pixel_rect r)
 {
     const rlf_camera *camera = &layer->camera;
-    known_rect wide = {r.x0 > 0 ? r.x0 - 1 : 0, r.y0 > 0 ? r.y0 - 1 : 0,
+    pixel_rect wide = {r.x0 > 0 ? r.x0 - 1 : 0, r.y0 > 0 ? r.y0 - 1 : 0,
                        r.x1 < camera->width ? r.x1 + 1 : r.x1,
                        r.y1 < camera->height ? r.y1 + 1 : r.y1};
     for (int32_t y = wide.y0; y < wide.y1; y++) {

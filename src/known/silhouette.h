@@ -3,13 +3,9 @@
 #ifndef RLF_KNOWN_SILHOUETTE_H
 #define RLF_KNOWN_SILHOUETTE_H
 
+#include "camera/pixel_rect.h"
 #include "known/form.h"
 #include "known/layer.h"
-
-/* Pixels x0 <= x < x1, y0 <= y < y1. */
-typedef struct known_rect {
-    int32_t x0, y0, x1, y1;
-} known_rect;
 
 /* The array with room for `more` further entries: it may move. NULL when there is no memory; the
  * old one is then still there. */
@@ -17,7 +13,7 @@ void *known_reserve(void *array, int32_t count, int32_t more, int32_t *capacity,
 
 /* Both of the model whose pixels are in `at`, all of them within the rectangle. False when there is
  * no memory. */
-bool known_add_rims(known_layer *layer, known_rect r);
-bool known_add_edges(known_layer *layer, const known_form *form, known_rect r);
+bool known_add_rims(known_layer *layer, pixel_rect r);
+bool known_add_edges(known_layer *layer, const known_form *form, pixel_rect r);
 
 #endif

@@ -1,7 +1,6 @@
 /* Contact darkening and shadows of bodies. */
 #include "caster.h"
 
-#define BALL_MARGIN 1.05    /* of a ball's bounds, for what the lens bends between corners */
 #define REACH_MARGIN 1.001f /* rounding */
 #define NEAREST_M 0.1       /* bodies around the camera would darken everything or nothing */
 
@@ -84,45 +83,16 @@ bool caster_make(const rlf_body_state *body, const rlf_pose *T_picture_world, rl
 
 /* ---- reach ---------------------------------------------------------------------------------- */
 
-bool caster_rect_of_ball(const rlf_camera *camera, rlf_vec3 center, double radius, caster_rect *out)
-{
-    double low[2] = {camera->width, camera->height};
-    double high[2] = {-1.0, -1.0};
-    double reach = BALL_MARGIN * radius;
-    *out = (caster_rect){0, 0, camera->width, camera->height};
-    if (!rlf_vec3_is_finite(center) || !rlf_is_finite(radius) || center.z + radius < 0.0) {
-        return false;
-    }
-    for (int i = 0; i < 8; i++) {
-        rlf_vec3 corner = {center.x + ((i & 1) != 0 ? reach : -reach),
-                           center.y + ((i & 2) != 0 ? reach : -reach),
-                           center.z + ((i & 4) != 0 ? reach : -reach)};
-        double u, v;
-        if (corner.z < 0.01 || !rlf_camera_project(camera, corner, &u, &v)) {
-            return true; /* around the camera or beyond its lens: anywhere */
-        }
-        low[0] = rlf_min(low[0], u);
-        low[1] = rlf_min(low[1], v);
-        high[0] = rlf_max(high[0], u);
-        high[1] = rlf_max(high[1], v);
-    }
-    out->x0 = (int32_t)rlf_clamp(low[0] - 1.0, 0.0, camera->width);
-    out->y0 = (int32_t)rlf_clamp(low[1] - 1.0, 0.0, camera->height);
-    out->x1 = (int32_t)rlf_clamp(high[0] + 2.0, 0.0, camera->width);
-    out->y1 = (int32_t)rlf_clamp(high[1] + 2.0, 0.0, camera->height);
-    return out->x0 < out->x1 && out->y0 < out->y1;
-}
-
-bool caster_reach(const caster *c, const rlf_camera *camera, rlf_vec3 to_light, caster_rect *out)
+bool caster_reach(const caster *c, const rlf_camera *camera, rlf_vec3 to_light, pixel_rect *out)
 {
     rlf_vec3 center = {(double)c->center[0], (double)c->center[1], (double)c->center[2]};
     rlf_vec3 end = rlf_mad(center, to_light, -(double)c->length_m);
     double edge = 0.5 * (double)c->penumbra;
     double wide = (double)c->radius + edge + 0.5 * CASTER_SPREAD * (double)c->length_m;
     double near_reach = (double)c->radius + rlf_max((double)c->near_m, edge);
-    caster_rect far_end;
-    (void)caster_rect_of_ball(camera, center, near_reach, out);
-    (void)caster_rect_of_ball(camera, end, wide, &far_end);
+    pixel_rect far_end;
+    (void)pixel_rect_of_ball(camera, center, near_reach, out);
+    (void)pixel_rect_of_ball(camera, end, wide, &far_end);
     out->x0 = far_end.x0 < out->x0 ? far_end.x0 : out->x0;
     out->y0 = far_end.y0 < out->y0 ? far_end.y0 : out->y0;
     out->x1 = far_end.x1 > out->x1 ? far_end.x1 : out->x1;

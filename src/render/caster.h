@@ -3,6 +3,7 @@
 #ifndef RLF_RENDER_CASTER_H
 #define RLF_RENDER_CASTER_H
 
+#include "camera/pixel_rect.h"
 #include "kernel/kernel.h"
 #include "relief/compositor.h"
 
@@ -37,20 +38,12 @@ typedef struct caster {
     float reach;       /* of a ball about the rounded box */
 } caster;
 
-/* Pixels that something may reach. */
-typedef struct caster_rect {
-    int32_t x0, y0, x1, y1; /* x0 <= x < x1, y0 <= y < y1 */
-} caster_rect;
-
 /* False (and near_m 0) when the body casts nothing: not finite, or around the camera. to_light:
  * unit, picture camera frame. */
 bool caster_make(const rlf_body_state *body, const rlf_pose *T_picture_world, rlf_vec3 to_light,
                  caster *out);
-/* Where a ball in the picture camera's frame may be; false when it is not in the picture. */
-bool caster_rect_of_ball(const rlf_camera *camera, rlf_vec3 center, double radius,
-                         caster_rect *out);
 /* Where the light of surfaces can be changed. */
-bool caster_reach(const caster *c, const rlf_camera *camera, rlf_vec3 to_light, caster_rect *out);
+bool caster_reach(const caster *c, const rlf_camera *camera, rlf_vec3 to_light, pixel_rect *out);
 enum { CASTER_TAKES_NOTHING = 0, CASTER_TAKES_AMBIENT = 1, CASTER_TAKES_DIRECT = 2 };
 /* Sum of the above: what light may be taken within `radius` of p (picture camera frame). */
 int32_t caster_may_take(const caster *c, const float p[3], float radius);

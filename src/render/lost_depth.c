@@ -397,7 +397,7 @@ static void vote_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 static bool is_in_window(const real_windows *windows, const float at[2])
 {
     for (int32_t k = 0; k < windows->count; k++) {
-        const registration_window *w = &windows->window[k];
+        const pixel_rect *w = &windows->window[k];
         if (at[0] >= (float)w->x0 && at[1] >= (float)w->y0 && at[0] < (float)w->x1 &&
             at[1] < (float)w->y1) {
             return true;

@@ -1,12 +1,12 @@
 /* Windows that grow together. */
 #include "render/real_windows.h"
 
-static bool meet(const registration_window *a, const registration_window *b)
+static bool meet(const pixel_rect *a, const pixel_rect *b)
 {
     return a->x0 < b->x1 && b->x0 < a->x1 && a->y0 < b->y1 && b->y0 < a->y1;
 }
 
-static void widen(registration_window *window, const registration_window *by)
+static void widen(pixel_rect *window, const pixel_rect *by)
 {
     window->x0 = by->x0 < window->x0 ? by->x0 : window->x0;
     window->y0 = by->y0 < window->y0 ? by->y0 : window->y0;
@@ -14,7 +14,7 @@ static void widen(registration_window *window, const registration_window *by)
     window->y1 = by->y1 > window->y1 ? by->y1 : window->y1;
 }
 
-void real_windows_add(real_windows *windows, const registration_window *more)
+void real_windows_add(real_windows *windows, const pixel_rect *more)
 {
     int32_t i = 0;
     while (i < windows->count && !meet(&windows->window[i], more)) {
@@ -33,7 +33,7 @@ void real_windows_add(real_windows *windows, const registration_window *more)
 static bool find_pair(const real_windows *windows, const rlf_registration *registration,
                       double nearest, int32_t pair[2])
 {
-    registration_window drawn[REAL_WINDOWS_MOST];
+    pixel_rect drawn[REAL_WINDOWS_MOST];
     for (int32_t i = 0; i < windows->count; i++) {
         drawn[i] = registration_widen(registration, &windows->window[i], nearest);
         for (int32_t k = 0; k < i; k++) {

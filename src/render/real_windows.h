@@ -7,12 +7,12 @@
 #define REAL_WINDOWS_MOST 4 /* what is between bodies far apart is not registered */
 
 typedef struct real_windows {
-    registration_window window[REAL_WINDOWS_MOST];
+    pixel_rect window[REAL_WINDOWS_MOST];
     int32_t count;
 } real_windows;
 
 /* Adds a window to the one that it meets, to none or, when there are enough, to the last. */
-void real_windows_add(real_windows *windows, const registration_window *more);
+void real_windows_add(real_windows *windows, const pixel_rect *more);
 
 /* Joins those of which one would be drawn into what another one needs, with no depth nearer than
  * `nearest` metres; 0 = not known. */

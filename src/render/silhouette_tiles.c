@@ -22,7 +22,7 @@ static bool is_used(const silhouette_tile *tile)
     return tile->far_z >= tile->near_z;
 }
 
-static void add_body(silhouette *s, const caster_rect *rect, const silhouette_tile *range)
+static void add_body(silhouette *s, const pixel_rect *rect, const silhouette_tile *range)
 {
     for (int32_t y = rect->y0 / SILHOUETTE_TILE; y * SILHOUETTE_TILE < rect->y1; y++) {
         for (int32_t x = rect->x0 / SILHOUETTE_TILE; x * SILHOUETTE_TILE < rect->x1; x++) {
@@ -58,8 +58,8 @@ void silhouette_place(silhouette *s, const rlf_camera *camera, const rlf_pose *T
         rlf_vec3 center = rlf_transform(T_picture_world, state->T_world_body.p);
         double radius = body_look_radius(state);
         const silhouette_tile range = {(float)(center.z - radius), (float)(center.z + radius)};
-        caster_rect rect;
-        if (caster_rect_of_ball(camera, center, radius, &rect)) {
+        pixel_rect rect;
+        if (pixel_rect_of_ball(camera, center, radius, &rect)) {
             add_body(s, &rect, &range);
         }
     }

@@ -85,7 +85,7 @@ static void fill_depth(rig *g, float nearest)
     rlf_registration_apply(g->registration, g->z, &g->whole, &g->whole_state);
 }
 
-static void check_window(rig *g, registration_window window, double nearest)
+static void check_window(rig *g, pixel_rect window, double nearest)
 {
     const size_t count = (size_t)(window.x1 - window.x0);
     const size_t pixels = (size_t)g->color.width * (size_t)g->color.height;
@@ -115,8 +115,8 @@ static void windows_are_parts_of_the_picture(void **state)
         for (int k = 0; k < 20; k++) {
             const int32_t x0 = rand() % g.color.width;
             const int32_t y0 = rand() % g.color.height;
-            const registration_window window = {x0, y0, x0 + 1 + rand() % (g.color.width - x0),
-                                                y0 + 1 + rand() % (g.color.height - y0)};
+            const pixel_rect window = {x0, y0, x0 + 1 + rand() % (g.color.width - x0),
+                                       y0 + 1 + rand() % (g.color.height - y0)};
             check_window(&g, window, (double)nearest[i / 8]);
             check_window(&g, window, 0.0);
         }

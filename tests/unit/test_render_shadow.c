@@ -116,7 +116,7 @@ static void bounds_leave_nothing_out(void **state)
         rlf_pose T = {{0.01 * (rand() % 100) - 0.5, 0.01 * (rand() % 100) - 0.5, 2.0},
                       rlf_quat_from_rotation_vector(unit(rand() % 9 - 4, rand() % 9 - 4, 1.5))};
         caster c = make(shape, T, l);
-        caster_rect rect;
+        pixel_rect rect;
         (void)caster_reach(&c, &k, l, &rect);
         for (int n = 0; n < 300; n++) {
             rlf_vec3 p = {0.01 * (rand() % 300 - 150), 0.01 * (rand() % 240 - 120),

@@ -14,12 +14,12 @@
 static void windows_that_meet_grow_together(void **state)
 {
     (void)state;
-    const registration_window given[3] = {{0, 0, 100, 80}, {400, 0, 500, 80}, {90, 70, 200, 150}};
+    const pixel_rect given[3] = {{0, 0, 100, 80}, {400, 0, 500, 80}, {90, 70, 200, 150}};
     real_windows windows = {.count = 0};
     for (int i = 0; i < 3; i++) {
         real_windows_add(&windows, &given[i]);
     }
-    const registration_window both = {0, 0, 200, 150};
+    const pixel_rect both = {0, 0, 200, 150};
     assert_int_equal(windows.count, 2);
     assert_memory_equal(&windows.window[0], &both, sizeof(both));
     assert_memory_equal(&windows.window[1], &given[1], sizeof(both));
@@ -30,7 +30,7 @@ static void there_are_never_too_many(void **state)
     (void)state;
     real_windows windows = {.count = 0};
     for (int i = 0; i < 2 * REAL_WINDOWS_MOST; i++) {
-        const registration_window one = {50 * i, 0, 50 * i + 20, 20};
+        const pixel_rect one = {50 * i, 0, 50 * i + 20, 20};
         real_windows_add(&windows, &one);
     }
     assert_int_equal(windows.count, REAL_WINDOWS_MOST);
@@ -62,7 +62,7 @@ static int32_t compare_to_whole(int32_t gap)
     float *all = plane_of(&s->rig.color, &whole);
     float *some = plane_of(&s->rig.color, &parts);
     const rlf_plane_u8 no_state = {NULL, whole.width, whole.height, whole.width};
-    const registration_window everything = {0, 0, whole.width, whole.height};
+    const pixel_rect everything = {0, 0, whole.width, whole.height};
     registration_apply_window(registration, s->planes[PLANE_DEPTH], &everything, 0.0, &whole,
                               &no_state);
     real_windows_join(&windows, registration, NEAREST_M);
@@ -71,7 +71,7 @@ static int32_t compare_to_whole(int32_t gap)
                                   NEAREST_M, &parts, &no_state);
     }
     for (int32_t i = 0; i < windows.count; i++) {
-        const registration_window *w = &windows.window[i];
+        const pixel_rect *w = &windows.window[i];
         for (int32_t y = w->y0; y < w->y1; y++) {
             assert_memory_equal(rlf_f32_row(&parts, y) + w->x0, rlf_f32_row(&whole, y) + w->x0,
                                 (size_t)(w->x1 - w->x0) * sizeof(float));

@@ -168,7 +168,7 @@ void gl_backdrop_draw_shadows(const gl_backdrop *backdrop, const gl_backdrop_sha
     glBlendFunc(GL_ZERO, GL_SRC_COLOR);
     for (int32_t i = 0; i < shadows->caster_count; i++) {
         const caster *c = &shadows->casters[i];
-        caster_rect r;
+        pixel_rect r;
         if (c->near_m > 0.0f && caster_reach(c, k, shadows->to_light, &r)) {
             glScissor(r.x0, r.y0, r.x1 - r.x0, r.y1 - r.y0);
             gl_caster_set_uniforms(&backdrop->uniforms.caster, c);

@@ -1,6 +1,8 @@
 /* Stencil-limited layers, one per body. */
 #include "gl_thesis.h"
 
+#include "camera/pixel_rect.h"
+
 rlf_result gl_thesis_create(int32_t width, int32_t height, gl_thesis *out)
 {
     const GLenum none = GL_NONE;
@@ -44,13 +46,13 @@ void gl_thesis_draw(const gl_thesis *thesis, const gl_thesis_pass *pass,
     /* Clearing and layering the whole picture once per body would cost bodies times pixels. */
     const gl_view *view = pass->body_pass.view;
     rlf_vec3 center = rlf_transform(&view->T_picture_world, snapshot->bodies[index].T_world_body.p);
-    gl_view_rect rect =
-        gl_view_bound_sphere(view, center, rlf_shape_radius(&snapshot->bodies[index].shape));
-    if (rect.width == 0 || rect.height == 0) {
+    const double radius = rlf_shape_radius(&snapshot->bodies[index].shape);
+    pixel_rect rect;
+    if (!pixel_rect_of_ball(&view->camera, center, radius, &rect)) {
         return;
     }
     glEnable(GL_SCISSOR_TEST);
-    glScissor(rect.x, rect.y, rect.width, rect.height);
+    glScissor(rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0);
 
     /* The body's z per pixel, for the layer's comparison. */
     glBindFramebuffer(GL_FRAMEBUFFER, thesis->framebuffer);

@@ -62,38 +62,6 @@ void gl_view_place(gl_view *view, const rlf_pose *T_world_camera)
     view->T_picture_world = rlf_pose_mul(&view->T_picture_camera, &view->T_camera_world);
 }
 
-/* Smallest and largest pixel of one axis: x / z of a point of the sphere lies between the extremes
- * of (c_x - r) / z and (c_x + r) / z for z from c_z - r to c_z + r. */
-static void bound_axis(double focal, double principal, const double center[2], double radius,
-                       double out[2])
-{
-    double near_z = center[1] - radius;
-    double far_z = center[1] + radius;
-    double low = center[0] - radius;
-    double high = center[0] + radius;
-    out[0] = focal * rlf_min(low / near_z, low / far_z) + principal;
-    out[1] = focal * rlf_max(high / near_z, high / far_z) + principal;
-}
-
-gl_view_rect gl_view_bound_sphere(const gl_view *view, rlf_vec3 center, double radius)
-{
-    const rlf_camera *k = &view->camera;
-    gl_view_rect all = {0, 0, k->width, k->height};
-    if (view->lens_limit2 > 0.0 || !(center.z - radius > VIEW_NEAR_M)) {
-        return all;
-    }
-    double u[2];
-    double v[2];
-    bound_axis(k->fx, k->cx, (const double[2]){center.x, center.z}, radius, u);
-    bound_axis(k->fy, k->cy, (const double[2]){center.y, center.z}, radius, v);
-    GLint x0 = (GLint)rlf_clamp(u[0] - 2.0, 0, k->width);
-    GLint y0 = (GLint)rlf_clamp(v[0] - 2.0, 0, k->height);
-    GLint x1 = (GLint)rlf_clamp(u[1] + 4.0, 0, k->width);
-    GLint y1 = (GLint)rlf_clamp(v[1] + 4.0, 0, k->height);
-    gl_view_rect rect = {x0, y0, x1 - x0, y1 - y0};
-    return rect;
-}
-
 gl_view_uniforms gl_view_find_uniforms(GLuint program)
 {
     gl_view_uniforms uniforms = {glGetUniformLocation(program, "u_projection"),

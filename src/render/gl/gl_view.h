@@ -24,12 +24,6 @@ typedef struct gl_view {
 gl_view gl_view_make(const rlf_camera *picture, const rlf_pose *T_picture_camera);
 void gl_view_place(gl_view *view, const rlf_pose *T_world_camera);
 
-/* Pixels that a sphere (centre in the picture camera's frame) can touch, and one more around. */
-typedef struct gl_view_rect {
-    GLint x, y, width, height;
-} gl_view_rect;
-gl_view_rect gl_view_bound_sphere(const gl_view *view, rlf_vec3 center, double radius);
-
 /* GLSL: uniforms and `vec4 clip_of(vec3 p)`, p in the picture camera's frame. Distortion moves
  * vertices only, so long edges stay straight. */
 extern const char gl_view_glsl[];

@@ -1,7 +1,7 @@
 /* Lines and rectangles. */
 #include "render/soft/soft.h"
 
-void soft_fill_rect(const rlf_image_rgba8 *image, soft_rect rect, soft_color color, int32_t alpha)
+void soft_fill_rect(const rlf_image_rgba8 *image, pixel_rect rect, soft_color color, int32_t alpha)
 {
     int32_t x0 = rect.x0 > 0 ? rect.x0 : 0;
     int32_t y0 = rect.y0 > 0 ? rect.y0 : 0;

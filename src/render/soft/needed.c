@@ -5,14 +5,14 @@
  * beyond that. */
 #define MARGIN (3 * SILHOUETTE_TILE)
 
-static void add(const soft *s, const caster_rect *rect, real_windows *out)
+static void add(const soft *s, const pixel_rect *rect, real_windows *out)
 {
     const int32_t width = s->camera.width;
     const int32_t height = s->camera.height;
-    const registration_window window = {rect->x0 > MARGIN ? rect->x0 - MARGIN : 0,
-                                        rect->y0 > MARGIN ? rect->y0 - MARGIN : 0,
-                                        rect->x1 + MARGIN < width ? rect->x1 + MARGIN : width,
-                                        rect->y1 + MARGIN < height ? rect->y1 + MARGIN : height};
+    const pixel_rect window = {rect->x0 > MARGIN ? rect->x0 - MARGIN : 0,
+                               rect->y0 > MARGIN ? rect->y0 - MARGIN : 0,
+                               rect->x1 + MARGIN < width ? rect->x1 + MARGIN : width,
+                               rect->y1 + MARGIN < height ? rect->y1 + MARGIN : height};
     if (window.x0 < window.x1 && window.y0 < window.y1) {
         real_windows_add(out, &window);
     }
@@ -34,8 +34,8 @@ static void add_tiles(const soft *s, real_windows *out)
             while (end < l->columns && has_bodies(&own[end])) {
                 end++;
             }
-            const caster_rect run = {first * SILHOUETTE_TILE, row * SILHOUETTE_TILE,
-                                     end * SILHOUETTE_TILE, (row + 1) * SILHOUETTE_TILE};
+            const pixel_rect run = {first * SILHOUETTE_TILE, row * SILHOUETTE_TILE,
+                                    end * SILHOUETTE_TILE, (row + 1) * SILHOUETTE_TILE};
             if (first < end) {
                 add(s, &run, out);
             }
@@ -48,8 +48,8 @@ static void add_bodies(const soft *s, real_windows *out)
 {
     for (int32_t i = 0; i < s->scene.body_count; i++) {
         const soft_body *body = &s->scene.bodies[i];
-        caster_rect rect;
-        if (caster_rect_of_ball(&s->camera, body->center, body->radius, &rect)) {
+        pixel_rect rect;
+        if (pixel_rect_of_ball(&s->camera, body->center, body->radius, &rect)) {
             rect.y0 = body->y0;
             rect.y1 = body->y1;
             add(s, &rect, out);
@@ -67,7 +67,7 @@ real_windows soft_needed_depth(const soft *s, const rlf_render_input *input)
     add_bodies(s, &windows);
     add_tiles(s, &windows);
     for (int32_t i = 0; i < scene->caster_count; i++) {
-        const caster_rect *reach = &scene->reach[i];
+        const pixel_rect *reach = &scene->reach[i];
         if (scene->casters[i].near_m > 0.0f && reach->x0 < reach->x1 && reach->y0 < reach->y1) {
             add(s, reach, &windows);
         }

@@ -33,15 +33,15 @@ static int32_t height_of(const rlf_plot *plot, float value, int32_t full)
 }
 
 static void draw_bar(const rlf_image_rgba8 *image, const rlf_plot *plot, int32_t frame,
-                     soft_rect place)
+                     pixel_rect place)
 {
     float sum = 0.0f;
     int32_t full = place.y1 - place.y0;
     for (int32_t i = 0; i < plot->series_count; i++) {
         int32_t from = height_of(plot, sum, full);
         sum += plot->values[frame * plot->series_count + i];
-        soft_rect part = {place.x0, place.y1 - height_of(plot, sum, full), place.x1,
-                          place.y1 - from};
+        pixel_rect part = {place.x0, place.y1 - height_of(plot, sum, full), place.x1,
+                           place.y1 - from};
         soft_fill_rect(image, part, series_color(i), 230);
     }
 }
@@ -51,18 +51,18 @@ void soft_draw_plot(const rlf_image_rgba8 *image, const rlf_plot *plot)
     int32_t scale = soft_text_scale(image->height);
     int32_t bar = (BAR * scale + 1) / 2;
     int32_t bottom = image->height - (LEGEND + MARGIN) * scale;
-    soft_rect box = {MARGIN * scale, bottom - HEIGHT * scale, MARGIN * scale + plot->count * bar,
-                     bottom};
+    pixel_rect box = {MARGIN * scale, bottom - HEIGHT * scale, MARGIN * scale + plot->count * bar,
+                      bottom};
     if (!(plot->line > 0.0f) || plot->count < 1) {
         return;
     }
     soft_fill_rect(image, box, soft_rgb(0, 0, 0), 150);
     for (int32_t i = 0; i < plot->count; i++) {
-        soft_rect place = {box.x0 + i * bar, box.y0, box.x0 + (i + 1) * bar, box.y1};
+        pixel_rect place = {box.x0 + i * bar, box.y0, box.x0 + (i + 1) * bar, box.y1};
         draw_bar(image, plot, i, place);
     }
     int32_t middle = box.y1 - height_of(plot, plot->line, box.y1 - box.y0);
-    soft_rect line = {box.x0, middle, box.x1, middle + (scale + 1) / 2};
+    pixel_rect line = {box.x0, middle, box.x1, middle + (scale + 1) / 2};
     soft_fill_rect(image, line, soft_rgb(255, 255, 255), 150);
     draw_legend(image, plot, scale);
 }

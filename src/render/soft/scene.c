@@ -241,7 +241,7 @@ static void place_casters(soft *s, const rlf_snapshot *snapshot, const rlf_pose 
         caster *c = &scene->casters[i];
         bool is_caster = caster_make(&snapshot->bodies[i], T_picture_world, s->to_light, c);
         if (is_caster && !caster_reach(c, &s->camera, s->to_light, &scene->reach[i])) {
-            scene->reach[i] = (caster_rect){0, 0, 0, 0};
+            scene->reach[i] = (pixel_rect){0, 0, 0, 0};
         }
     }
     for (int32_t i = 0; has_shadows && i < scene->body_count; i += CASTER_LANES) {

@@ -150,7 +150,7 @@ static void shade_tile(const caster *c, int32_t takes, soft_shade_tile *tile)
     tile->is_shaded = true;
 }
 
-static void shade_by(shade_band *b, const caster *c, const caster_rect *r)
+static void shade_by(shade_band *b, const caster *c, const pixel_rect *r)
 {
     int32_t takes[CASTER_LANES];
     if (r->y0 >= b->end || r->y1 <= b->begin) {

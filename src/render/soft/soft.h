@@ -100,7 +100,7 @@ typedef struct soft_scene {
     soft_body *bodies; /* those in the picture, nearest first */
     int32_t body_count;
     caster *casters; /* as the snapshot's bodies; none without shadows */
-    caster_rect *reach;
+    pixel_rect *reach;
     int32_t caster_count;
     soft_skin *skins; /* entry 0 is not used */
     int32_t skin_count, skin_capacity;
@@ -340,11 +340,8 @@ soft_color soft_color_label(int32_t label);           /* neighbours differ; 0 is
 typedef struct soft_point {
     double x, y;
 } soft_point;
-typedef struct soft_rect {
-    int32_t x0, y0, x1, y1;
-} soft_rect;
 void soft_draw_line(const rlf_image_rgba8 *image, soft_point from, soft_point to, soft_color color);
-void soft_fill_rect(const rlf_image_rgba8 *image, soft_rect rect, soft_color color, int32_t alpha);
+void soft_fill_rect(const rlf_image_rgba8 *image, pixel_rect rect, soft_color color, int32_t alpha);
 
 /* text.c: letters of 5 x 7 dots, `scale` pixels a dot. */
 typedef struct soft_text {

@@ -30,8 +30,8 @@ static void draw_letter(const rlf_image_rgba8 *image, const soft_text *style, in
     for (int32_t row = 0; row < HEIGHT; row++) {
         for (int32_t column = 0; column < LETTER; column++) {
             if ((rows[row] >> (LETTER - 1 - column) & 1) != 0) {
-                soft_rect dot = {x + column * scale, style->y + row * scale,
-                                 x + (column + 1) * scale, style->y + (row + 1) * scale};
+                pixel_rect dot = {x + column * scale, style->y + row * scale,
+                                  x + (column + 1) * scale, style->y + (row + 1) * scale};
                 soft_fill_rect(image, dot, style->color, 256);
             }
         }
@@ -42,9 +42,9 @@ void soft_draw_text(const rlf_image_rgba8 *image, const soft_text *style, const 
 {
     int32_t scale = style->scale;
     if (style->has_backing) {
-        soft_rect strip = {style->x - MARGIN * scale, style->y - MARGIN * scale,
-                           style->x + soft_text_width(line, scale) + scale,
-                           style->y + (HEIGHT + 1) * scale};
+        pixel_rect strip = {style->x - MARGIN * scale, style->y - MARGIN * scale,
+                            style->x + soft_text_width(line, scale) + scale,
+                            style->y + (HEIGHT + 1) * scale};
         soft_fill_rect(image, strip, soft_rgb(0, 0, 0), 150);
     }
     int32_t x = style->x;

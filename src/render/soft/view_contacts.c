@@ -45,7 +45,7 @@ static void draw_contact(const soft *s, const rlf_pose *T_picture_world, const r
     }
     int32_t x = (int32_t)from.x;
     int32_t y = (int32_t)from.y;
-    soft_rect dot = {x - DOT_PX, y - DOT_PX, x + DOT_PX + 1, y + DOT_PX + 1};
+    pixel_rect dot = {x - DOT_PX, y - DOT_PX, x + DOT_PX + 1, y + DOT_PX + 1};
     soft_fill_rect(&s->image, dot, color_of(c->other), 256);
     if (place(s, rlf_mad(p, n, length), &to)) {
         draw_thick_arrow(s, from, to, color_of(c->other));

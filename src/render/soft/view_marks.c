@@ -120,7 +120,7 @@ void soft_draw_reason_legend(soft *s)
         int32_t y = s->image.height - (RLF_REASON_COUNT - i) * 11 * scale;
         soft_text style = {16 * scale, y, scale, soft_rgb(255, 255, 255), true};
         soft_draw_text(&s->image, &style, rlf_reason_name((rlf_reason)i));
-        soft_rect swatch = {4 * scale, y - scale, 12 * scale, y + 7 * scale};
+        pixel_rect swatch = {4 * scale, y - scale, 12 * scale, y + 7 * scale};
         soft_fill_rect(&s->image, swatch, soft_color_reason((rlf_reason)i), 256);
     }
 }
