@@ -4,7 +4,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/codec/picture_encode.h"
 #include "io/codec/rvl.h"
-#include "io/picture.h"
+#include "io/picture/picture.h"
 #include "recorder.h"
 
 #include <pthread.h>

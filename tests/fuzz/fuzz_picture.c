@@ -2,7 +2,7 @@
 #include "fuzz.h"
 
 #include "relief/io.h"
-#include "io/picture.h"
+#include "io/picture/picture.h"
 #include "jpeg_sample.h"
 
 #include <stdio.h>

@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "relief/io.h"
-#include "io/scene_json.h"
+#include "io/scene/scene.h"
 #include "io_support.h"
 
 static rlf_result parse(const char *text, rlf_scene *scene)

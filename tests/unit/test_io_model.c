@@ -10,7 +10,7 @@
 #include <math.h>
 
 #include "relief/io.h"
-#include "io/scene_json.h"
+#include "io/scene/scene.h"
 #include "io_support.h"
 #include "model_file.h"
 

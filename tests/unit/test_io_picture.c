@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "relief/io.h"
-#include "io/picture.h"
+#include "io/picture/picture.h"
 #include "io_support.h"
 #include "jpeg_sample.h"
 

@@ -8,8 +8,8 @@
 #include <cmocka.h>
 
 #include "relief/io.h"
-#include "io/hull_obj.h"
-#include "io/scene_json.h"
+#include "io/hull/hull.h"
+#include "io/scene/scene.h"
 #include "io_support.h"
 
 static rlf_result parse(const char *text, rlf_scene *scene)

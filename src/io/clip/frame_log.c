@@ -2,7 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/clip/frame_log.h"
 
-#include "io/picture.h"
+#include "io/picture/picture.h"
 #include "io/pixels/inflate.h"
 #include "io/pixels/pixels.h"
 #include "io/clip/clip.h"

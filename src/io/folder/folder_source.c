@@ -3,7 +3,7 @@
 #include "relief/io.h"
 #include "io/folder/layout.h"
 #include "io/camera_json.h"
-#include "io/picture.h"
+#include "io/picture/picture.h"
 #include "io/source/backends.h"
 #include "io/clip/clip.h"
 

@@ -2,7 +2,7 @@
 #include "io/k4a/k4a.h"
 
 #include "io/file.h"
-#include "io/picture.h"
+#include "io/picture/picture.h"
 #include "io/pixels/pixels_check.h"
 
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "io/json.h"
 #include "io/matroska/k4a_calibration.h"
 #include "io/matroska/mkv_file.h"
-#include "io/picture.h"
+#include "io/picture/picture.h"
 #include "io/pixels/pixels.h"
 #include "io/source/backends.h"
 #include "io/clip/clip.h"

@@ -1,7 +1,7 @@
 /* Pictures in ROS messages. */
 #include "io/mcap/pixels.h"
 
-#include "io/picture.h"
+#include "io/picture/picture.h"
 #include "io/pixels/compressed_depth.h"
 #include "io/pixels/pixels.h"
 

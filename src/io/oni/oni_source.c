@@ -3,7 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/oni/depth_codec.h"
 #include "io/oni/oni_index.h"
-#include "io/picture.h"
+#include "io/picture/picture.h"
 #include "io/source/backends.h"
 #include "io/clip/clip.h"
 #include "io/driver/field_of_view.h"

@@ -1,7 +1,7 @@
 /* Depth pictures of ROS's compressed_depth_image_transport. */
 #include "io/pixels/compressed_depth.h"
 
-#include "io/picture.h"
+#include "io/picture/picture.h"
 #include "io/pixels/pixels.h"
 
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Frames from ROS 1 bags, and from the bags that librealsense records. */
 #include "io/number.h"
-#include "io/picture.h"
+#include "io/picture/picture.h"
 #include "io/pixels/compressed_depth.h"
 #include "io/rosbag/bag_rig.h"
 #include "io/source/backends.h"

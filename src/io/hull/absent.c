@@ -1,0 +1,13 @@
+/* Stands in for qhull.c where it is not built. */
+#include "io/hull/hull.h"
+
+rlf_result io_hull_wrap(const char *name, const rlf_vec3 *points, int32_t count, io_mesh *out)
+{
+    (void)points;
+    (void)count;
+    *out = (io_mesh){0};
+    return rlf_fail(RLF_ERROR_UNSUPPORTED,
+                    "%s: no hull can be made around points by this build: install libqhull-dev and "
+                    "configure with -DRELIEF_WITH_QHULL=ON, or give a convex OBJ",
+                    name);
+}

@@ -1,0 +1,113 @@
+/* scene.json: gravity, border, and what else there is to start with. */
+#include "relief/io.h"
+#include "io/scene/reader.h"
+
+#include <string.h>
+
+static rlf_result read_border(const io_json_object *top, rlf_border *out)
+{
+    static const io_json_field field = {"border", "\"open\" or \"extend\"", 0, 0, false};
+    const char *name = "open";
+    rlf_result result = io_json_get_text(top, &field, &name);
+    if (result != RLF_OK) {
+        return result;
+    }
+    bool is_extended = strcmp(name, "extend") == 0;
+    if (!is_extended && strcmp(name, "open") != 0) {
+        char printable[64];
+        io_json_printable(name, printable, sizeof(printable));
+        return io_json_fail(top, "border", "is \"%s\": it must be %s", printable, field.meaning);
+    }
+    *out = is_extended ? RLF_BORDER_EXTEND : RLF_BORDER_OPEN;
+    return RLF_OK;
+}
+
+/* Three numbers, or "floor". */
+static rlf_result read_gravity(const io_json_object *top, rlf_scene *scene)
+{
+    static const io_json_field field = {
+        "gravity", "three numbers of m/s^2, each from -1000 to 1000, or \"floor\"", -1000, 1000,
+        false};
+    const json_t *value = json_object_get(top->value, "gravity");
+    scene->gravity = rlf_world_def_default().gravity;
+    scene->is_gravity_given = value != NULL;
+    scene->finds_gravity = json_is_string(value) && strcmp(json_string_value(value), "floor") == 0;
+    return scene->finds_gravity ? RLF_OK : io_scene_read_vec3(top, &field, &scene->gravity);
+}
+
+static rlf_result read_all_bodies(const io_json_object *top, const char *folder, rlf_scene *scene)
+{
+    io_scene_reader reader = {
+        .folder = folder, .bodies = json_array(), .names = json_object(), .scene = scene};
+    rlf_result result = RLF_ERROR_MEMORY;
+    if (reader.bodies != NULL && reader.names != NULL) {
+        result = io_scene_read_bodies(top, &reader);
+    }
+    if (result == RLF_OK) {
+        result = io_spawn_read(top, &reader);
+    }
+    json_decref(reader.bodies);
+    json_decref(reader.names);
+    return result;
+}
+
+static rlf_result read_scene(const io_json_object *top, const char *folder, rlf_scene *scene)
+{
+    static const char *const known[] = {"gravity", "border", "bodies", "spawn", "known_objects"};
+    const char *unknown = io_json_unknown_key(top, known, 5);
+    if (unknown != NULL) {
+        return io_json_fail(top, unknown,
+                            "is not a known key: a scene has \"gravity\", \"border\", \"bodies\", "
+                            "\"spawn\" and \"known_objects\"");
+    }
+    rlf_result result = read_gravity(top, scene);
+    if (result == RLF_OK) {
+        result = read_border(top, &scene->border);
+    }
+    if (result == RLF_OK) {
+        result = read_all_bodies(top, folder, scene);
+    }
+    return result == RLF_OK ? io_known_read(top, folder, scene) : result;
+}
+
+rlf_result io_scene_parse(const io_bytes *file, const char *folder, rlf_scene *out)
+{
+    memset(out, 0, sizeof(*out));
+    json_t *document = NULL;
+    rlf_result result = io_json_parse(file, &document);
+    if (result != RLF_OK) {
+        return result;
+    }
+    io_json_object top = io_json_top(file, document);
+    result = read_scene(&top, folder, out);
+    json_decref(document);
+    if (result != RLF_OK) {
+        rlf_scene_destroy(out);
+    }
+    return result;
+}
+
+rlf_result rlf_scene_load(const char *path, rlf_scene *out)
+{
+    if (!RLF_ASSERT(path != NULL && out != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    memset(out, 0, sizeof(*out));
+    io_buffer buffer = {0};
+    io_bytes file;
+    rlf_result result =
+        io_file_read(path, IO_JSON_FILE_MAX,
+                     "check the name of the scene, docs/formats.md shows one", &buffer, &file);
+    if (result == RLF_OK) {
+        char folder[IO_PATH_MAX] = ".";
+        const char *slash = strrchr(path, '/');
+        if (slash != NULL && (size_t)(slash - path) + 1 < IO_PATH_MAX) {
+            size_t length = (size_t)(slash - path) + 1;
+            memcpy(folder, path, length);
+            folder[length] = '\0';
+        }
+        result = io_scene_parse(&file, folder, out);
+    }
+    io_buffer_free(&buffer);
+    return result;
+}

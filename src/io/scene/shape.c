@@ -1,0 +1,94 @@
+/* Shapes of scene.json. */
+#include "io/scene/reader.h"
+
+#include <string.h>
+
+#define SIZE_MAX_M 100.0
+
+/* Name and keys of a shape; which of size, radius and height it takes. */
+typedef struct shape_keys {
+    const char *name;
+    rlf_shape_type type;
+    bool has_size, has_radius, has_height;
+} shape_keys;
+
+static const shape_keys shapes[] = {{"box", RLF_SHAPE_BOX, true, false, false},
+                                    {"sphere", RLF_SHAPE_SPHERE, false, true, false},
+                                    {"capsule", RLF_SHAPE_CAPSULE, false, true, true},
+                                    {"cylinder", RLF_SHAPE_CYLINDER, false, true, true},
+                                    {"hull", RLF_SHAPE_HULL, true, false, false}};
+
+static rlf_result find_shape(const io_json_object *body, const shape_keys **out)
+{
+    static const io_json_field field = {
+        "shape", "\"box\", \"sphere\", \"capsule\", \"cylinder\" or \"hull\"", 0, 0, false};
+    const char *name = "box";
+    rlf_result result = io_json_get_text(body, &field, &name);
+    if (result != RLF_OK) {
+        return result;
+    }
+    for (size_t i = 0; i < sizeof(shapes) / sizeof(shapes[0]); i++) {
+        if (strcmp(name, shapes[i].name) == 0) {
+            *out = &shapes[i];
+            return RLF_OK;
+        }
+    }
+    char printable[64];
+    io_json_printable(name, printable, sizeof(printable));
+    return io_json_fail(body, "shape", "is \"%s\": it must be %s", printable, field.meaning);
+}
+
+/* A key that belongs to another shape would be ignored silently. */
+static rlf_result check_shape_keys(const io_json_object *body, const shape_keys *shape)
+{
+    const struct {
+        const char *key;
+        bool is_used;
+    } keys[4] = {{"size", shape->has_size},
+                 {"radius", shape->has_radius},
+                 {"height", shape->has_height},
+                 {"vertices", shape->type == RLF_SHAPE_HULL}};
+    for (int i = 0; i < 4; i++) {
+        if (!keys[i].is_used && json_object_get(body->value, keys[i].key) != NULL) {
+            return io_json_fail(body, keys[i].key,
+                                "does not belong to the shape \"%s\": take it out", shape->name);
+        }
+    }
+    return RLF_OK;
+}
+
+rlf_result io_scene_read_shape(const io_json_object *body, const io_scene_reader *reader,
+                               rlf_shape *out, rlf_look *out_look)
+{
+    static const io_json_field size = {"size",
+                                       "three full extents in metres, each > 0 and at most 100",
+                                       IO_POSITIVE, SIZE_MAX_M, false};
+    static const io_json_field radius = {"radius", "a number of metres, > 0 and at most 100",
+                                         IO_POSITIVE, SIZE_MAX_M, true};
+    static const io_json_field height = {"height", "a number of metres, > 0 and at most 100",
+                                         IO_POSITIVE, SIZE_MAX_M, true};
+    const shape_keys *shape = NULL;
+    rlf_result result = find_shape(body, &shape);
+    if (result == RLF_OK) {
+        result = check_shape_keys(body, shape);
+    }
+    if (result != RLF_OK) {
+        return result;
+    }
+    out->type = shape->type;
+    rlf_vec3 extents = shape->type == RLF_SHAPE_HULL ? rlf_vec3_make(0, 0, 0) : out->size;
+    if (shape->has_size) {
+        result = io_scene_read_vec3(body, &size, &extents);
+    }
+    if (result == RLF_OK && shape->has_radius) {
+        result = io_json_get_number(body, &radius, &out->radius);
+    }
+    if (result == RLF_OK && shape->has_height) {
+        result = io_json_get_number(body, &height, &out->height);
+    }
+    if (result == RLF_OK && shape->type == RLF_SHAPE_HULL) {
+        return io_scene_read_hull(body, reader, extents, out, out_look);
+    }
+    out->size = extents;
+    return result == RLF_OK ? io_scene_read_look(body, reader, out, out_look) : result;
+}
