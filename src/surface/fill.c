@@ -9,13 +9,13 @@
  * (where nothing moves without a third surface, as there is at corners), or the background's own
  * where that goes on there. A gap between two near ends that is wider than a driver's band shows
  * the background in its middle; one between two far ends may hide a thin thing that is expected
- * there (past/lost.c). The outermost pixels, which drivers' filters leave
+ * there (thin/thin.h). The outermost pixels, which drivers' filters leave
  * empty, go on as the two inside of them. A hole about as wide as the widest that is filled is
  * filled in some rows and not in others: what is left of it then is closed. */
 #include "surface/color_side.h"
-#include "surface/past/past.h"
 #include "surface/shadow.h"
 #include "surface/steps.h"
+#include "surface/thin/thin.h"
 #include "surface/window.h"
 
 #include "kernel/batch.h"
@@ -243,8 +243,8 @@ static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps
     q->ends.most_apart[lane] = rlf_hold_may_move(job->stage, x, y) ? MOVING_CHANGE : MOST_CHANGE;
     const int32_t to_ends[2] = {gaps->to_before[k], gaps->to_after[k]};
     float before = q->ends.before[lane], after = q->ends.after[lane];
-    q->lost[lane] = rlf_past_find_lost(job->stage, at - job->depth, step, to_ends,
-                                       before < after ? before : after);
+    q->lost[lane] = thin_find_lost(&job->stage->thin, at - job->depth, step, to_ends,
+                                   before < after ? before : after);
     rlf_windows_read(job->depth, grid->width, grid->height, x, y, lane, &q->depth);
     if (q->count == RLF_BATCH) {
         fill_batch(job, q);

@@ -6,8 +6,8 @@
  * something moves about it: so nothing that has left can stay, and nothing hangs in the air. A
  * pixel that was taken for a mixed one for want of neighbours, in a slit between two things, is
  * believed where the memory has it at the same depth. */
-#include "surface/past/past.h"
 #include "surface/steps.h"
+#include "surface/thin/thin.h"
 #include "surface/window.h"
 
 #include "kernel/batch.h"
@@ -221,9 +221,7 @@ static bool is_confirmed(const hold_job *job, ptrdiff_t i)
 static void recall_pixel(const hold_job *job, int32_t x, int32_t y, hold_queue *q)
 {
     ptrdiff_t i = (ptrdiff_t)y * job->stage->grid.width + x;
-    const rlf_past *past = &job->stage->past;
-    bool is_expected = past->ahead_count > 0 && rlf_past_is_ahead(past, i);
-    if (is_expected || !is_calm(job->stage, x, y)) {
+    if (thin_is_expected(&job->stage->thin, i) || !is_calm(job->stage, x, y)) {
         forget(job, i);
         return;
     }

@@ -3,7 +3,6 @@
 
 #include "base/guard.h"
 #include "surface/objects/objects.h"
-#include "surface/past/past.h"
 #include "surface/steps.h"
 #include "surface/thickness/thickness.h"
 #include "surface/velocity/velocity.h"
@@ -208,18 +207,16 @@ static void take_family(rlf_reconstruct *stage)
     family->origin = take(stage, (size_t)stage->def.region_capacity, sizeof *family->origin);
 }
 
-static void take_past(rlf_reconstruct *stage)
+static void take_thin(rlf_reconstruct *stage)
 {
     if (stage->def.enable_coast && stage->def.enable_thickness && stage->def.enable_velocity) {
-        rlf_past *past = &stage->past;
+        thin *state = &stage->thin;
         size_t n = (size_t)stage->grid.count;
-        past->is_ahead = take(stage, n / 8 + 1, 1);
-        past->ahead = take(stage, n, sizeof *past->ahead);
-        past->ahead_ticks = take(stage, n, 1);
-        past->ahead_pixel = take(stage, n, sizeof *past->ahead_pixel);
-        past->ahead_from = take(stage, n, sizeof *past->ahead_from);
-        past->lost_ticks = take(stage, n, 1);
-        past->lost_from = take(stage, n, sizeof *past->lost_from);
+        state->patch = take(stage, SLAB_PATCH, sizeof *state->patch);
+        state->expected = take(stage, n, sizeof *state->expected);
+        state->expected_pixel = take(stage, n, sizeof *state->expected_pixel);
+        state->lost_ticks = take(stage, n, 1);
+        state->lost_from = take(stage, n, sizeof *state->lost_from);
     }
 }
 
@@ -287,7 +284,7 @@ static void take_all(rlf_reconstruct *stage)
     take_wide(stage);
     take_family(stage);
     take_objects(stage);
-    take_past(stage);
+    take_thin(stage);
     take_color_side(stage);
     take_work(stage);
 }

@@ -2,11 +2,10 @@
 #include "surface/color_side.h"
 #include "surface/ego_motion.h"
 #include "surface/objects/objects.h"
-#include "surface/past/past.h"
-#include "surface/plate/plate.h"
 #include "surface/shadow.h"
 #include "surface/standing/standing.h"
 #include "surface/steps.h"
+#include "surface/thin/thin.h"
 
 #include "base/cookie.h"
 
@@ -75,8 +74,7 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
     rlf_steady_reset(&stage->steady, stage->grid.count);
     rlf_objects_reset(stage->objects, stage->grid.count);
     stage->family.count = 0;
-    rlf_past_reset(&stage->past, &stage->grid);
-    stage->plates = (rlf_plates){.count = 0};
+    thin_reset(&stage->thin, &stage->grid);
     rlf_color_side_reset(stage);
     rlf_ego_motion_reset(&stage->ego);
     rlf_shadow_reset(&stage->shadow);
@@ -168,10 +166,14 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
         rlf_flying_remove(stage, raw, kept, slot->reason);
         rlf_stage_add_time(stage, RLF_SURFACE_FLYING);
     }
-    if (stage->past.ahead != NULL) {
-        rlf_plates_follow(stage, slot, kept);
-        rlf_past_predict(stage, slot, kept);
-        rlf_plates_expect(stage, kept);
+    if (stage->thin.expected != NULL) {
+        const thin_in in = {.grid = &stage->grid,
+                            .noise = &stage->def.rig.noise,
+                            .before = stage->previous,
+                            .dt = rlf_stage_elapsed_s(stage, slot),
+                            .depth = kept,
+                            .visited = stage->work.mask[0]};
+        thin_track(&in, &stage->thin);
     }
     if (stage->def.enable_hold && stage->def.enable_steadying) {
         rlf_hold_recall(stage, flying ? raw : NULL, kept, slot->reason);
@@ -467,17 +469,12 @@ rlf_result rlf_reconstruct_process(rlf_reconstruct *stage, const rlf_frame *fram
     rlf_stage_add_time(stage, RLF_SURFACE_SEGMENT);
     if (stage->def.enable_velocity) {
         rlf_velocity_estimate(stage, slot);
-        if (stage->past.ahead != NULL) {
-            rlf_past_keep_velocity(stage, slot);
-        }
+        thin_keep_velocity(&stage->thin, stage->previous, &stage->grid, slot);
         rlf_stage_add_time(stage, RLF_SURFACE_VELOCITY);
     }
     if (stage->def.enable_thickness) {
         rlf_thickness_estimate(stage, slot);
-        if (stage->past.ahead != NULL) {
-            rlf_plates_find(stage, slot);
-            rlf_plates_write(stage, slot);
-        }
+        thin_write(&stage->thin, &stage->grid, stage->background.mean, slot);
         rlf_standing_advance(stage);
         rlf_stage_add_time(stage, RLF_SURFACE_THICKNESS);
     }

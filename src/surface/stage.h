@@ -215,36 +215,38 @@ typedef struct rlf_family {
     int32_t count, capacity;
 } rlf_family;
 
-/* What was seen and is hidden now: see past.h. */
-typedef struct rlf_past {
-    uint8_t *is_ahead;    /* a bit per pixel: whether something is expected where nothing is seen */
-    float *ahead;         /* plane: its depth ... */
-    uint8_t *ahead_ticks; /* ... and how long it was not seen */
-    int32_t *ahead_from;  /* ... and its pixel in the frame before */
-    int32_t *ahead_pixel; /* where that is */
-    int32_t ahead_count;
-    uint8_t *lost_ticks; /* plane: how long what a gap was filled with was not seen, 1/100 s */
-    int32_t *lost_from;  /* plane: its pixel in the frame before */
-} rlf_past;
+/* A thin flat thing that moves, as a box: see thin/slab.h. */
+enum { SLAB_UNKNOWNS = 9, SLABS = 4, SLAB_PATCH = 4096 };
 
-/* A thin flat thing that moves, as a box: see plate.h. */
-typedef struct rlf_plate {
-    rlf_pose pose;                  /* T_camera_plate; its face is square to z */
-    double half[3];                 /* half its extents, metres */
-    rlf_vec3 speed, spin;           /* m/s, rad/s */
-    double doubt[9][9];             /* covariance of the pose's place and rotation and of `half` */
-    double age_s, lost_s, passed_s; /* since it was found; since it was seen; how
-                                       long the camera has seen past it */
-} rlf_plate;
+typedef struct slab {
+    rlf_pose pose;                              /* T_camera_slab; its face is square to z */
+    double half[3];                             /* half its extents, metres */
+    rlf_vec3 speed, spin;                       /* m/s, rad/s */
+    double doubt[SLAB_UNKNOWNS][SLAB_UNKNOWNS]; /* covariance of place, rotation and `half` */
+    double age_s, lost_s, passed_s; /* since it was found; since it was seen; how long the camera
+                                       has seen past it */
+} slab;
 
-enum { RLF_PLATES = 4 };
+/* A thing that must be where nothing is seen. */
+typedef struct thin_expected {
+    float depth;   /* 0 = none */
+    int32_t from;  /* its pixel in the frame before */
+    int32_t ticks; /* 1/100 s in which it was not seen */
+} thin_expected;
 
-typedef struct rlf_plates {
-    rlf_plate item[RLF_PLATES];
+/* See thin/thin.h; NULL planes when they are not wanted. */
+typedef struct thin {
+    slab item[SLABS];
     int32_t count;
-    int32_t frame;  /* of some, see plate/find.c */
-    int32_t region; /* of the foreground at which the next search begins */
-} rlf_plates;
+    int32_t frame;           /* of some, see thin/find.c */
+    int32_t region;          /* of the foreground at which the next search begins */
+    int32_t *patch;          /* SLAB_PATCH pixels */
+    thin_expected *expected; /* plane */
+    int32_t *expected_pixel; /* where there is something in it */
+    int32_t expected_count;
+    uint8_t *lost_ticks; /* plane: `ticks` of what a gap was filled with */
+    int32_t *lost_from;  /* plane: and `from` */
+} thin;
 
 /* How the colour picture lies beside depth at edges: see color_side.c. */
 typedef struct rlf_color_sum {
@@ -334,8 +336,7 @@ struct rlf_reconstruct {
     rlf_steady steady;
     rlf_wide wide[RLF_WIDE_LEVELS];
     rlf_family family; /* of the foreground */
-    rlf_past past;     /* of the foreground */
-    rlf_plates plates; /* of the foreground */
+    thin thin;         /* of the foreground */
     rlf_color_side side;
     struct rlf_objects *objects; /* see objects/objects.h; NULL = they are not wanted */
     rlf_ego_motion ego;
@@ -355,6 +356,8 @@ rlf_result rlf_reconstruct_def_check(const rlf_reconstruct_def *def);
 /* times.c: nanoseconds from the frame before to that of the slot, 0 to an hour: 0 at the first and
  * where time runs backwards. */
 int64_t rlf_stage_elapsed_ns(const rlf_reconstruct *stage, const rlf_slot *slot);
+/* The same in seconds; 0 when it is too long to follow anything, too. */
+float rlf_stage_elapsed_s(const rlf_reconstruct *stage, const rlf_slot *slot);
 /* Begins a frame's times; adds the time since the last call to a step. */
 void rlf_stage_start_times(rlf_reconstruct *stage);
 void rlf_stage_add_time(rlf_reconstruct *stage, rlf_surface_step step);

@@ -30,6 +30,13 @@ int64_t rlf_stage_elapsed_ns(const rlf_reconstruct *stage, const rlf_slot *slot)
     return ns < (uint64_t)hour ? (int64_t)ns : hour;
 }
 
+float rlf_stage_elapsed_s(const rlf_reconstruct *stage, const rlf_slot *slot)
+{
+    const double longest_s = 0.2;
+    double dt = 1e-9 * (double)rlf_stage_elapsed_ns(stage, slot);
+    return dt <= longest_s ? (float)dt : 0.0f;
+}
+
 void rlf_stage_start_times(rlf_reconstruct *stage)
 {
     if (stage->times != NULL) {

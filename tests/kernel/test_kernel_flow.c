@@ -8,7 +8,6 @@
 
 #include "analytic.h"
 #include "kernel/flow.h"
-#include "kernel/plate.h"
 
 #include <math.h>
 
@@ -341,66 +340,6 @@ static void knots_are_their_definition(void **state)
     }
 }
 
-/* How far p = z (u, v, 1) is beyond the faces of the box along each axis, metres. */
-static void beyond_faces(const rlf_kernel_plate *box, double u, double v, double z, double out[3])
-{
-    for (int k = 0; k < 3; k++) {
-        double along = box->axis[k][0] * u + box->axis[k][1] * v + box->axis[k][2];
-        out[k] = fabs(z * along - box->from[k]) - box->half[k];
-    }
-}
-
-static double most(const double v[3])
-{
-    return fmax(fmax(v[0], v[1]), v[2]);
-}
-
-/* Where a ray leaves a box it is on a face, and outside a millimetre farther on. What is near it is
- * no farther from it than that. */
-static void plate_row_is_its_definition(void **state)
-{
-    (void)state;
-    const float reach = 0.03f;
-    analytic_random r = {11};
-    int32_t met = 0, near = 0;
-    for (int t = 0; t < 200; t++) {
-        double a = 6.3 * random_uniform(&r), c = cos(a), s = sin(a);
-        rlf_kernel_plate box = {
-            .axis = {{(float)c, 0.0f, (float)s}, {0.0f, 1.0f, 0.0f}, {(float)-s, 0.0f, (float)c}},
-            .half = {0.2f, 0.1f, 0.01f + 0.1f * (float)random_uniform(&r)}};
-        for (int k = 0; k < 3; k++) {
-            box.from[k] = 0.1f * box.axis[k][0] - 0.05f * box.axis[k][1] + 2.0f * box.axis[k][2];
-        }
-        float x[LONGEST], y[LONGEST], z[LONGEST], leave[LONGEST];
-        int32_t is_near[LONGEST];
-        for (int k = 0; k < LONGEST; k++) {
-            x[k] = (float)(0.4 * random_uniform(&r) - 0.15);
-            y[k] = (float)(0.3 * random_uniform(&r) - 0.15);
-            z[k] = k % 7 == 0 ? 0.0f : (float)(1.6 + 0.8 * random_uniform(&r));
-        }
-        rlf_kernel_plate_row(&box, reach, x, y, z, LONGEST, leave, is_near);
-        for (int k = 0; k < LONGEST; k++) {
-            double at[3], on[3], square = 0.0;
-            beyond_faces(&box, x[k], y[k], z[k], at);
-            for (int n = 0; n < 3; n++) {
-                square += at[n] > 0.0 ? at[n] * at[n] : 0.0;
-            }
-            bool is_at_bound = fabs(sqrt(square) - reach) < 1e-5;
-            assert_true(is_at_bound || is_near[k] == (z[k] > 0.0f && square < reach * reach));
-            near += is_near[k];
-            met += leave[k] > 0.0f;
-            if (leave[k] > 0.0f) {
-                beyond_faces(&box, x[k], y[k], leave[k], on);
-                assert_true(fabs(most(on)) < 1e-5);
-                beyond_faces(&box, x[k], y[k], leave[k] + 0.001, on);
-                assert_true(most(on) > 0.0);
-            }
-            assert_true(most(at) > 1e-5 || z[k] == 0.0f || leave[k] >= z[k] - 1e-5f);
-        }
-    }
-    assert_true(met > 1000 && near > 500);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -411,7 +350,6 @@ int main(void)
         cmocka_unit_test(rest_count_is_its_definition),
         cmocka_unit_test(knots_are_their_definition),
         cmocka_unit_test(flow_residuals_are_distances),
-        cmocka_unit_test(plate_row_is_its_definition),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,7 +10,7 @@
 
 #include "heavy.h"
 #include "seen_view.h"
-#include "surface/plate/plate.h"
+#include "surface/thin/slab.h"
 
 #include <math.h>
 #include <string.h>
@@ -182,27 +182,71 @@ static void a_frame_places_a_plate_and_does_not_move_it_again(void **state)
     const double pixel_m = middle_z / f->view.rig.depth.fx;
     start(f);
     draw(f, &seen);
+    const thin_in in = {
+        .grid = &f->stage->grid, .noise = &f->view.rig.noise, .depth = f->view.truth};
     for (int k = 0; k < 20; k++) {
-        rlf_plate box = {.half = {0.122, 0.092, 0.011}};
+        slab box = {.half = {0.122, 0.092, 0.011}};
         box.pose.p = rlf_vec3_make(0.05 + 0.0007 * k, 0.004, middle_z - 0.003);
         box.pose.q = rlf_quat_from_rotation_vector(rlf_vec3_make(0.0, 0.0, RLF_PI / 2.0));
-        for (int u = 0; u < RLF_PLATE_UNKNOWNS; u++) {
+        for (int u = 0; u < SLAB_UNKNOWNS; u++) {
             box.doubt[u][u] = 0.02 * 0.02;
         }
-        rlf_plate_improve(f->stage, f->view.truth, &box);
+        slab_improve(&in, &box);
         assert_true(fabs(box.pose.p.x - seen.x) < pixel_m);
         assert_true(fabs(box.pose.p.y) < pixel_m);
         assert_true(fabs(box.half[0] - seen.half[1]) < pixel_m);
         assert_true(fabs(box.half[1] - seen.half[2]) < pixel_m);
-        const rlf_plate before = box;
-        rlf_plate_improve(f->stage, f->view.truth, &box);
+        const slab before = box;
+        slab_improve(&in, &box);
         assert_true(rlf_length(rlf_sub(box.pose.p, before.pose.p)) < 0.0005);
     }
+}
+
+static double most(const double v[3])
+{
+    return fmax(fmax(v[0], v[1]), v[2]);
+}
+
+/* How far p = z (u, v, 1) is beyond the faces of the box along each axis, metres. */
+static double beyond_faces(const slab_view *box, double u, double v, double z)
+{
+    const rlf_vec3 at = slab_local(box, rlf_vec3_make(z * u, z * v, z));
+    const double beyond[3] = {fabs(at.x) - box->half[0], fabs(at.y) - box->half[1],
+                              fabs(at.z) - box->half[2]};
+    return most(beyond);
+}
+
+/* Where a ray enters or leaves a box it is on a face, and outside a millimetre beyond. */
+static void a_ray_is_cut_where_it_meets_the_faces(void **state)
+{
+    (void)state;
+    analytic_random r = {11};
+    int32_t met = 0;
+    for (int t = 0; t < 5000; t++) {
+        const rlf_vec3 turn = {random_uniform(&r), random_uniform(&r), random_uniform(&r)};
+        const slab box = {
+            .pose = {rlf_vec3_make(0.1, -0.05, 2.0), rlf_quat_from_rotation_vector(turn)},
+            .half = {0.2, 0.1, 0.01 + 0.1 * random_uniform(&r)}};
+        const slab_view view = slab_look(&box);
+        double u = 0.3 * random_uniform(&r) - 0.1, v = 0.3 * random_uniform(&r) - 0.15;
+        double enter, leave;
+        if (slab_cut_ray(&view, u, v, &enter, &leave)) {
+            met++;
+            assert_true(fabs(beyond_faces(&view, u, v, enter)) < 1e-9);
+            assert_true(fabs(beyond_faces(&view, u, v, leave)) < 1e-9);
+            assert_true(beyond_faces(&view, u, v, enter - 0.001) > 0.0);
+            assert_true(beyond_faces(&view, u, v, leave + 0.001) > 0.0);
+            rlf_vec3 middle = rlf_scale(rlf_vec3_make(u, v, 1.0), 0.5 * (enter + leave));
+            assert_true(slab_is_near(&view, middle, 1e-9));
+        }
+    }
+    assert_true(met > 500);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_ray_is_cut_where_it_meets_the_faces),
         cmocka_unit_test(a_plate_edge_on_is_as_deep_as_its_face_was_wide),
         cmocka_unit_test(a_barrel_is_no_plate),
         cmocka_unit_test(a_frame_places_a_plate_and_does_not_move_it_again),

@@ -1,12 +1,12 @@
 /* The box that explains a frame: its faces where they are seen, its outline where depth steps. */
-#include "surface/plate/plate.h"
+#include "surface/thin/slab.h"
 
 #include "math/inverse.h"
 
 #include <string.h>
 
 enum {
-    N = RLF_PLATE_UNKNOWNS,
+    N = SLAB_UNKNOWNS,
     PASSES = 5,       /* at most; */
     LOOSE_PASSES = 3, /* of these with a wide scale for places of the outline */
     REACH_PX = 6,
@@ -32,11 +32,10 @@ static const double settled = 0.5; /* of its sigma moves no unknown: a sixth of 
 
 /* Normal equations of the correction x: J x = e. */
 typedef struct equations {
-    const rlf_reconstruct *stage;
-    const float *depth;
-    rlf_plate_view view;
+    const thin_in *in;
+    slab_view view;
     double a[N][N], b[N];
-    rlf_plate_fit fit;
+    slab_fit fit;
     double loose_px; /* scale of Geman and McClure's weight */
     int32_t stride;  /* of the pixels that are looked at */
 } equations;
@@ -74,9 +73,9 @@ typedef struct in_box {
     double square;    /* of the distance to it */
 } in_box;
 
-static in_box look_from_box(const rlf_plate_view *view, rlf_vec3 p)
+static in_box look_from_box(const slab_view *view, rlf_vec3 p)
 {
-    const rlf_vec3 local = rlf_plate_local(view, p);
+    const rlf_vec3 local = slab_local(view, p);
     in_box at = {.q = {local.x, local.y, local.z}};
     for (int k = 0; k < 3; k++) {
         at.beyond[k] = rlf_max((at.q[k] < 0.0 ? -at.q[k] : at.q[k]) - view->half[k], 0.0);
@@ -85,7 +84,7 @@ static in_box look_from_box(const rlf_plate_view *view, rlf_vec3 p)
     return at;
 }
 
-static void look_along_view(const rlf_plate_view *view, rlf_vec3 p, in_box *at)
+static void look_along_view(const slab_view *view, rlf_vec3 p, in_box *at)
 {
     const rlf_vec3 way = rlf_normalize(p);
     for (int k = 0; k < 3; k++) {
@@ -94,7 +93,7 @@ static void look_along_view(const rlf_plate_view *view, rlf_vec3 p, in_box *at)
 }
 
 /* The nearest among those that the camera sees at an angle whose sine is between the bounds. */
-static on_face nearest_face(const rlf_plate_view *view, const in_box *at, double least, double most)
+static on_face nearest_face(const slab_view *view, const in_box *at, double least, double most)
 {
     on_face best = {.axis = -1, .off = 1e9};
     for (int k = 0; k < 3; k++) {
@@ -113,7 +112,7 @@ static on_face nearest_face(const rlf_plate_view *view, const in_box *at, double
 
 /* Noise puts points of the other faces on a face that is seen at a low angle, or is about to come
  * into view: those that are far behind these are on it. */
-static on_face face_of(const rlf_plate_view *view, const in_box *at)
+static on_face face_of(const slab_view *view, const in_box *at)
 {
     const double low = 0.15, hidden = -0.2, far_m = 0.02;
     on_face face = nearest_face(view, at, low, 1.0);
@@ -127,8 +126,8 @@ static on_face face_of(const rlf_plate_view *view, const in_box *at)
 
 static void add_pixel(equations *sum, ptrdiff_t i)
 {
-    const rlf_grid *grid = &sum->stage->grid;
-    double z = sum->depth[i], x = grid->ray_x[i], y = grid->ray_y[i], row[N];
+    const rlf_grid *grid = sum->in->grid;
+    double z = sum->in->depth[i], x = grid->ray_x[i], y = grid->ray_y[i], row[N];
     rlf_vec3 p = rlf_vec3_make(z * x, z * y, z);
     in_box at = look_from_box(&sum->view, p);
     if (!(z > 0.0) || at.square > thing_m * thing_m) {
@@ -141,7 +140,7 @@ static void add_pixel(equations *sum, ptrdiff_t i)
     }
     rlf_vec3 n = rlf_scale(sum->view.axis[face.axis], face.sign);
     double facing = -face.sign * at.facing[face.axis];
-    double sigma = rlf_depth_noise_sigma(&sum->stage->def.rig.noise, z) * rlf_max(facing, 0.0) +
+    double sigma = rlf_depth_noise_sigma(sum->in->noise, z) * rlf_max(facing, 0.0) +
                    beside_px * z / grid->camera.fx * sqrt(rlf_max(1.0 - facing * facing, 0.0)) +
                    least_sigma_m;
     double robust = 1.0 / (1.0 + face.error * face.error / (robust_m * robust_m));
@@ -165,7 +164,7 @@ typedef struct sight {
 static sight look_at(const equations *sum, const double at[2], const double out[2], int32_t k,
                      double z)
 {
-    const rlf_grid *grid = &sum->stage->grid;
+    const rlf_grid *grid = sum->in->grid;
     const double u = at[0] + k * out[0], v = at[1] + k * out[1];
     sight s = {.kind = BEFORE};
     if (!(u > -0.5) || !(v > -0.5) || !(u < grid->width - 0.5) || !(v < grid->height - 0.5)) {
@@ -173,12 +172,12 @@ static sight look_at(const equations *sum, const double at[2], const double out[
     }
     int32_t x = (int32_t)(u + 0.5), y = (int32_t)(v + 0.5);
     ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-    s.seen = sum->depth[i];
+    s.seen = sum->in->depth[i];
     s.offset = (x - at[0]) * out[0] + (y - at[1]) * out[1];
     rlf_vec3 p = rlf_vec3_make(s.seen * grid->ray_x[i], s.seen * grid->ray_y[i], s.seen);
     if (!(s.seen > 0.0)) {
         s.kind = NOTHING;
-    } else if (rlf_plate_is_near(&sum->view, p, outline_m)) {
+    } else if (slab_is_near(&sum->view, p, outline_m)) {
         s.kind = THING;
     } else {
         s.kind = s.seen > z + step_m ? BEYOND : BEFORE;
@@ -187,7 +186,7 @@ static sight look_at(const equations *sum, const double at[2], const double out[
 }
 
 /* Pixels from `at`, outwards along `out`, to where depth steps for the last time; false when it
- * does not, as where something else begins that goes on behind. What is beyond a narrow plate is
+ * does not, as where something else begins that goes on behind. What is beyond a narrow slab is
  * seen on its other side, too. */
 static bool find_step(const equations *sum, const double at[2], const double out[2], double z,
                       double *offset, double *sigma)
@@ -218,7 +217,7 @@ typedef struct place {
 static bool look_at_place(const equations *sum, rlf_vec3 p, int32_t axis, const double sign[3],
                           place *found)
 {
-    const rlf_camera *camera = &sum->stage->grid.camera;
+    const rlf_camera *camera = &sum->in->grid->camera;
     const double fx = camera->fx, fy = camera->fy;
     const rlf_vec3 along = sum->view.axis[axis];
     double at[2];
@@ -278,7 +277,7 @@ static int32_t count_on_line(const place *places, int32_t count, double slope, d
 }
 
 /* A straight edge steps along the line on which most of its places are: others show what holds the
- * plate. */
+ * slab. */
 static void add_places(equations *sum, const place *places, int32_t count)
 {
     static const double slopes[] = {0.0, 1.5, -1.5, 3.0, -3.0, 4.5, -4.5};
@@ -305,7 +304,7 @@ static void add_places(equations *sum, const place *places, int32_t count)
 }
 
 /* Edges of the outline lie between a face that the camera sees and one that it does not. */
-static bool is_outline(const rlf_plate_view *view, int32_t axis, const double sign[3])
+static bool is_outline(const slab_view *view, int32_t axis, const double sign[3])
 {
     int32_t seen = 0;
     for (int k = 0; k < 3; k++) {
@@ -331,13 +330,13 @@ static double length_in_pixels(const rlf_camera *camera, rlf_vec3 a, rlf_vec3 b)
 
 static void add_edge(equations *sum, int32_t axis, const double sign[3])
 {
-    const rlf_plate_view *view = &sum->view;
+    const slab_view *view = &sum->view;
     rlf_vec3 middle = view->centre, half = rlf_scale(view->axis[axis], view->half[axis]);
     for (int k = 0; k < 3; k++) {
         middle = k == axis ? middle : rlf_mad(middle, view->axis[k], sign[k] * view->half[k]);
     }
     double pixels =
-        length_in_pixels(&sum->stage->grid.camera, rlf_sub(middle, half), rlf_add(middle, half));
+        length_in_pixels(&sum->in->grid->camera, rlf_sub(middle, half), rlf_add(middle, half));
     int32_t count = (int32_t)rlf_min(pixels / spacing_px + 0.5, MOST_PLACES), found = 0;
     place places[MOST_PLACES];
     for (int32_t k = 0; k < count; k++) {
@@ -351,9 +350,9 @@ static void add_edge(equations *sum, int32_t axis, const double sign[3])
 
 static void measure(equations *sum)
 {
-    const rlf_grid *grid = &sum->stage->grid;
-    rlf_plate_window w = rlf_plate_window_of(grid, &sum->view, MARGIN_PX);
-    sum->stride = rlf_plate_stride(&w, MOST_PIXELS);
+    const rlf_grid *grid = sum->in->grid;
+    const rlf_rect w = slab_window(grid, &sum->view, MARGIN_PX);
+    sum->stride = slab_stride(&w, MOST_PIXELS);
     for (int32_t y = w.y0; y < w.y1; y += sum->stride) {
         for (int32_t x = w.x0; x < w.x1; x += sum->stride) {
             add_pixel(sum, (ptrdiff_t)y * grid->width + x);
@@ -371,13 +370,13 @@ static void measure(equations *sum)
     }
 }
 
-static void apply(const double x[N], rlf_plate *plate)
+static void apply(const double x[N], slab *s)
 {
-    plate->pose.p = rlf_add(plate->pose.p, rlf_vec3_make(x[0], x[1], x[2]));
+    s->pose.p = rlf_add(s->pose.p, rlf_vec3_make(x[0], x[1], x[2]));
     rlf_quat turn = rlf_quat_from_rotation_vector(rlf_vec3_make(x[3], x[4], x[5]));
-    plate->pose.q = rlf_quat_normalize(rlf_quat_mul(turn, plate->pose.q));
+    s->pose.q = rlf_quat_normalize(rlf_quat_mul(turn, s->pose.q));
     for (int k = 0; k < 3; k++) {
-        plate->half[k] = rlf_max(plate->half[k] + x[6 + k], 0.002);
+        s->half[k] = rlf_max(s->half[k] + x[6 + k], 0.002);
     }
 }
 
@@ -406,24 +405,22 @@ static bool solve(double prior[N][N], double gone[N], equations *sum, double x[N
     return is_settled;
 }
 
-rlf_plate_fit rlf_plate_improve(const rlf_reconstruct *stage, const float *depth, rlf_plate *plate)
+slab_fit slab_improve(const thin_in *in, slab *s)
 {
     double prior[N][N], gone[N] = {0.0}, x[N];
     equations sum;
-    memcpy(prior, plate->doubt, sizeof prior);
+    memcpy(prior, s->doubt, sizeof prior);
     math_invert(&prior[0][0], N);
     for (int pass = 0; pass < PASSES; pass++) {
-        sum = (equations){.stage = stage,
-                          .depth = depth,
-                          .view = rlf_plate_look(plate),
-                          .loose_px = pass < LOOSE_PASSES ? 4.0 : 1.2};
+        sum = (equations){
+            .in = in, .view = slab_look(s), .loose_px = pass < LOOSE_PASSES ? 4.0 : 1.2};
         measure(&sum);
         bool is_settled = solve(prior, gone, &sum, x);
-        apply(x, plate);
+        apply(x, s);
         if (is_settled) {
             pass = pass < LOOSE_PASSES ? LOOSE_PASSES - 1 : PASSES;
         }
     }
-    memcpy(plate->doubt, sum.a, sizeof plate->doubt);
+    memcpy(s->doubt, sum.a, sizeof s->doubt);
     return sum.fit;
 }

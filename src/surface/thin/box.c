@@ -1,54 +1,49 @@
 /* Boxes and rays. */
-#include "surface/plate/plate.h"
+#include "surface/thin/slab.h"
 
 static const double least_z = 0.1;
 
-rlf_plate_view rlf_plate_look(const rlf_plate *plate)
+slab_view slab_look(const slab *s)
 {
-    rlf_plate_view view = {.centre = plate->pose.p};
+    slab_view view = {.centre = s->pose.p};
     for (int k = 0; k < 3; k++) {
-        view.axis[k] = rlf_rotate(plate->pose.q, rlf_vec3_make(k == 0, k == 1, k == 2));
-        view.half[k] = plate->half[k];
+        view.axis[k] = rlf_rotate(s->pose.q, rlf_vec3_make(k == 0, k == 1, k == 2));
+        view.half[k] = s->half[k];
     }
     return view;
 }
 
-rlf_vec3 rlf_plate_local(const rlf_plate_view *view, rlf_vec3 p)
+rlf_vec3 slab_local(const slab_view *view, rlf_vec3 p)
 {
     rlf_vec3 d = rlf_sub(p, view->centre);
     return rlf_vec3_make(rlf_dot(d, view->axis[0]), rlf_dot(d, view->axis[1]),
                          rlf_dot(d, view->axis[2]));
 }
 
-bool rlf_plate_cut_ray(const rlf_plate_view *view, double x, double y, rlf_plate_cut *out)
+bool slab_cut_ray(const slab_view *view, double x, double y, double *enter, double *leave)
 {
-    const double parallel = 1e-9;
-    rlf_vec3 ray = rlf_vec3_make(x, y, 1.0);
-    *out = (rlf_plate_cut){.enter = least_z, .leave = 1e9, .face = -1};
+    const double parallel = 1e-9, far_m = 1e9;
+    const rlf_vec3 ray = rlf_vec3_make(x, y, 1.0);
+    *enter = least_z;
+    *leave = far_m;
     for (int k = 0; k < 3; k++) {
         double along = rlf_dot(ray, view->axis[k]), from = rlf_dot(view->centre, view->axis[k]);
-        double sign = along > 0.0 ? -1.0 : 1.0;
+        double half = along > 0.0 ? view->half[k] : -view->half[k];
         if (along < parallel && along > -parallel) {
             if (from > view->half[k] || from < -view->half[k]) {
                 return false;
             }
             continue;
         }
-        double enter = (from + sign * view->half[k]) / along;
-        double leave = (from - sign * view->half[k]) / along;
-        if (enter > out->enter) {
-            out->enter = enter;
-            out->face = k;
-            out->sign = sign;
-        }
-        out->leave = leave < out->leave ? leave : out->leave;
+        *enter = rlf_max(*enter, (from - half) / along);
+        *leave = rlf_min(*leave, (from + half) / along);
     }
-    return out->face >= 0 && out->enter < out->leave;
+    return *enter > least_z && *enter < *leave;
 }
 
-bool rlf_plate_is_near(const rlf_plate_view *view, rlf_vec3 p, double metres)
+bool slab_is_near(const slab_view *view, rlf_vec3 p, double metres)
 {
-    rlf_vec3 local = rlf_plate_local(view, p);
+    rlf_vec3 local = slab_local(view, p);
     const double q[3] = {local.x, local.y, local.z};
     double square = 0.0;
     for (int k = 0; k < 3; k++) {
@@ -58,10 +53,9 @@ bool rlf_plate_is_near(const rlf_plate_view *view, rlf_vec3 p, double metres)
     return square < metres * metres;
 }
 
-rlf_plate_window rlf_plate_window_of(const rlf_grid *grid, const rlf_plate_view *view,
-                                     int32_t margin)
+rlf_rect slab_window(const rlf_grid *grid, const slab_view *view, int32_t margin)
 {
-    const rlf_plate_window none = {0, 0, 0, 0};
+    const rlf_rect none = {0, 0, 0, 0};
     double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};
     for (int corner = 0; corner < 8; corner++) {
         rlf_vec3 p = view->centre;
@@ -81,10 +75,10 @@ rlf_plate_window rlf_plate_window_of(const rlf_grid *grid, const rlf_plate_view 
     double y0 = rlf_clamp(low[1] - margin, 0.0, grid->height);
     double x1 = rlf_clamp(high[0] + margin + 1.0, 0.0, grid->width);
     double y1 = rlf_clamp(high[1] + margin + 1.0, 0.0, grid->height);
-    return (rlf_plate_window){(int32_t)x0, (int32_t)y0, (int32_t)x1, (int32_t)y1};
+    return (rlf_rect){(int32_t)x0, (int32_t)y0, (int32_t)x1, (int32_t)y1};
 }
 
-int32_t rlf_plate_stride(const rlf_plate_window *window, int32_t most)
+int32_t slab_stride(const rlf_rect *window, int32_t most)
 {
     int32_t area = (window->x1 - window->x0) * (window->y1 - window->y0), stride = 1;
     while (area > most * stride * stride) {

@@ -2,8 +2,8 @@
  *
  * A patch grows over the pixels that a plane explains, refitted as it grows. What is round, a chest
  * or a limb, has flat patches too, but they end where it bends, not where depth steps; so most of
- * a plate's outline is a step, and on one side at most it ends at a narrow face beside it. */
-#include "surface/plate/plate.h"
+ * a slab's outline is a step, and on one side at most it ends at a narrow face beside it. */
+#include "surface/thin/slab.h"
 
 #include "math/eigen.h"
 
@@ -15,7 +15,7 @@ enum {
     ARM_PX = 3,  /* normals so far from a seed are its own */
     STEP_PX = 2, /* patches are grown over every second pixel of every second row */
     LEAST = 24,  /* pixels of a patch, of those */
-    MOST = 4096,
+    MOST = SLAB_PATCH,
     MOST_LOOKED_AT = 2048, /* of a frame; the next one begins where that was reached */
     A_PATCH = 64,          /* its planes cost as much as so many pixels */
     FIRST_FIT = 12,
@@ -32,11 +32,11 @@ static const double least_area_m2 = 0.015, least_full = 0.7;
 static const double least_half_m = 0.04;
 static const double least_facing = 0.2; /* sine of the angle between the face and the ray */
 static const double least_steps = 0.4, least_ends = 0.8;
-static const double first_half_m = 0.01; /* half a plate's thickness, before it is seen */
+static const double first_half_m = 0.01; /* half a slab's thickness, before it is seen */
 
 /* A patch of one region. */
 typedef struct patch {
-    const rlf_reconstruct *stage;
+    const rlf_grid *grid;
     const rlf_slot *slot;
     int32_t label, count, fitted;
     int32_t *pixel;
@@ -45,10 +45,10 @@ typedef struct patch {
     double rms;
 } patch;
 
-static rlf_vec3 point_at(const rlf_reconstruct *stage, const rlf_slot *slot, ptrdiff_t i)
+static rlf_vec3 point_at(const rlf_grid *grid, const rlf_slot *slot, ptrdiff_t i)
 {
     double z = slot->depth[i];
-    return rlf_vec3_make(z * stage->grid.ray_x[i], z * stage->grid.ray_y[i], z);
+    return rlf_vec3_make(z * grid->ray_x[i], z * grid->ray_y[i], z);
 }
 
 static rlf_vec3 normal_at(const rlf_slot *slot, ptrdiff_t i)
@@ -56,11 +56,9 @@ static rlf_vec3 normal_at(const rlf_slot *slot, ptrdiff_t i)
     return rlf_vec3_make(slot->normal[0][i], slot->normal[1][i], slot->normal[2][i]);
 }
 
-static bool is_seed(const rlf_reconstruct *stage, const rlf_slot *slot, int32_t label, int32_t x,
-                    int32_t y)
+static bool is_seed(const rlf_grid *grid, const rlf_slot *slot, int32_t label, int32_t x, int32_t y)
 {
     static const int32_t arm[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
-    const rlf_grid *grid = &stage->grid;
     ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
     if (x < ARM_PX || y < ARM_PX || x + ARM_PX >= grid->width || y + ARM_PX >= grid->height ||
         slot->label[i] != label || slot->reason[i] != RLF_REASON_OK) {
@@ -78,7 +76,7 @@ static bool is_seed(const rlf_reconstruct *stage, const rlf_slot *slot, int32_t 
 
 static void add(patch *p, ptrdiff_t i)
 {
-    rlf_vec3 q = point_at(p->stage, p->slot, i);
+    rlf_vec3 q = point_at(p->grid, p->slot, i);
     const double at[3] = {q.x, q.y, q.z};
     p->pixel[p->count++] = (int32_t)i;
     for (int r = 0; r < 3; r++) {
@@ -114,7 +112,7 @@ static void fit(patch *p)
 /* What was filled has the normal of what was seen beside it. */
 static bool is_on_plane(const patch *p, ptrdiff_t i)
 {
-    double off = rlf_dot(p->normal, rlf_sub(point_at(p->stage, p->slot, i), p->centre));
+    double off = rlf_dot(p->normal, rlf_sub(point_at(p->grid, p->slot, i), p->centre));
     bool is_like = p->slot->reason[i] != RLF_REASON_OK ||
                    rlf_dot(p->normal, normal_at(p->slot, i)) > like_plane;
     return off < flat_m && off > -flat_m && is_like;
@@ -123,9 +121,9 @@ static bool is_on_plane(const patch *p, ptrdiff_t i)
 static void grow(patch *p, uint8_t *visited, int32_t x, int32_t y)
 {
     static const int32_t way[4][2] = {{-STEP_PX, 0}, {STEP_PX, 0}, {0, -STEP_PX}, {0, STEP_PX}};
-    const rlf_grid *grid = &p->stage->grid;
+    const rlf_grid *grid = p->grid;
     ptrdiff_t seed = (ptrdiff_t)y * grid->width + x;
-    p->centre = point_at(p->stage, p->slot, seed);
+    p->centre = point_at(p->grid, p->slot, seed);
     p->normal = normal_at(p->slot, seed);
     visited[seed] = 1;
     add(p, seed);
@@ -151,7 +149,7 @@ static void grow(patch *p, uint8_t *visited, int32_t x, int32_t y)
 
 static double depth_of_plane(const patch *p, ptrdiff_t i)
 {
-    const rlf_grid *grid = &p->stage->grid;
+    const rlf_grid *grid = p->grid;
     double along = p->normal.x * grid->ray_x[i] + p->normal.y * grid->ray_y[i] + p->normal.z;
     return rlf_dot(p->normal, p->centre) / along;
 }
@@ -160,7 +158,7 @@ static double depth_of_plane(const patch *p, ptrdiff_t i)
 static void look_out(const patch *p, int32_t i, int32_t dx, int32_t dy, int32_t *steps,
                      int32_t *sides)
 {
-    const rlf_grid *grid = &p->stage->grid;
+    const rlf_grid *grid = p->grid;
     int32_t x = i % grid->width, y = i / grid->width;
     double before = p->slot->depth[i], plane_before = depth_of_plane(p, i);
     int32_t reach = EDGE_PX + (int32_t)(side_m * grid->camera.fx / before);
@@ -188,7 +186,7 @@ static void look_out(const patch *p, int32_t i, int32_t dx, int32_t dy, int32_t 
 static bool has_outline(const patch *p, const uint8_t *mine)
 {
     static const int32_t way[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
-    const rlf_grid *grid = &p->stage->grid;
+    const rlf_grid *grid = p->grid;
     int32_t ends = 0, steps = 0, sides = 0;
     for (int32_t n = 0; n < p->count; n++) {
         int32_t i = p->pixel[n], x = i % grid->width, y = i / grid->width;
@@ -226,7 +224,7 @@ static rectangle surround(const patch *p)
         r.axis[0] = rlf_add(rlf_scale(u, c), rlf_scale(v, s));
         r.axis[1] = rlf_sub(rlf_scale(v, c), rlf_scale(u, s));
         for (int32_t n = 0; n < p->count; n++) {
-            rlf_vec3 d = rlf_sub(point_at(p->stage, p->slot, p->pixel[n]), p->centre);
+            rlf_vec3 d = rlf_sub(point_at(p->grid, p->slot, p->pixel[n]), p->centre);
             for (int k = 0; k < 2; k++) {
                 double at = rlf_dot(d, r.axis[k]);
                 r.low[k] = rlf_min(r.low[k], at);
@@ -240,7 +238,7 @@ static rectangle surround(const patch *p)
 
 static double patch_area(const patch *p)
 {
-    const rlf_grid *grid = &p->stage->grid;
+    const rlf_grid *grid = p->grid;
     rlf_vec3 c = p->centre;
     double facing = -rlf_dot(p->normal, c) / rlf_length(c), cell = STEP_PX * c.z;
     return facing > least_facing
@@ -248,28 +246,28 @@ static double patch_area(const patch *p)
                : 0.0;
 }
 
-static rlf_plate make_plate(const patch *p, const rectangle *r)
+static slab make_slab(const patch *p, const rectangle *r)
 {
-    double pixel = p->centre.z / p->stage->grid.camera.fx;
+    double pixel = p->centre.z / p->grid->camera.fx;
     double facing = -rlf_dot(p->normal, rlf_normalize(p->centre));
-    rlf_plate plate = {.half = {0.5 * (r->high[0] - r->low[0]) + 0.5 * pixel,
-                                0.5 * (r->high[1] - r->low[1]) + 0.5 * pixel, first_half_m}};
-    plate.pose.p = rlf_mad(p->centre, p->normal, -first_half_m);
+    slab s = {.half = {0.5 * (r->high[0] - r->low[0]) + 0.5 * pixel,
+                       0.5 * (r->high[1] - r->low[1]) + 0.5 * pixel, first_half_m}};
+    s.pose.p = rlf_mad(p->centre, p->normal, -first_half_m);
     for (int k = 0; k < 2; k++) {
-        plate.pose.p = rlf_mad(plate.pose.p, r->axis[k], 0.5 * (r->low[k] + r->high[k]));
+        s.pose.p = rlf_mad(s.pose.p, r->axis[k], 0.5 * (r->low[k] + r->high[k]));
     }
     rlf_vec3 z = rlf_cross(r->axis[0], r->axis[1]);
     const rlf_mat3 m = {{{r->axis[0].x, r->axis[1].x, z.x},
                          {r->axis[0].y, r->axis[1].y, z.y},
                          {r->axis[0].z, r->axis[1].z, z.z}}};
-    plate.pose.q = rlf_quat_from_mat3(&m);
+    s.pose.q = rlf_quat_from_mat3(&m);
     double across = 1.5 * pixel / facing;
     const double sigma[9] = {
         across, across, across, 0.05, 0.05, 0.05, across, across, 0.5 * first_half_m};
     for (int k = 0; k < 9; k++) {
-        plate.doubt[k][k] = sigma[k] * sigma[k];
+        s.doubt[k][k] = sigma[k] * sigma[k];
     }
-    return plate;
+    return s;
 }
 
 static void mark(const patch *p, uint8_t *visited, uint8_t as)
@@ -279,7 +277,7 @@ static void mark(const patch *p, uint8_t *visited, uint8_t as)
     }
 }
 
-static bool take(const patch *p, uint8_t *visited, rlf_plate *out)
+static bool take(const patch *p, uint8_t *visited, slab *out)
 {
     double area = patch_area(p);
     if (p->count < LEAST || area < least_area_m2 || p->rms > flat_rms_m) {
@@ -291,10 +289,10 @@ static bool take(const patch *p, uint8_t *visited, rlf_plate *out)
         return false;
     }
     mark(p, visited, 2);
-    bool is_plate = has_outline(p, visited);
+    bool is_slab = has_outline(p, visited);
     mark(p, visited, 1);
-    *out = make_plate(p, &r);
-    return is_plate;
+    *out = make_slab(p, &r);
+    return is_slab;
 }
 
 /* Mean over the patch. */
@@ -309,66 +307,65 @@ static rlf_vec3 speed_of(const patch *p)
     return rlf_scale(rlf_vec3_make(sum[0], sum[1], sum[2]), 1.0 / p->count);
 }
 
-/* What the plates explain is no seed. Patches lie on every second row. */
-static void mark_known(const rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *visited)
+/* What the slabs explain is no seed. Patches lie on every second row. */
+static void mark_known(const thin_in *in, const thin *state)
 {
-    const rlf_grid *grid = &stage->grid;
-    for (int32_t k = 0; k < stage->plates.count; k++) {
-        const rlf_plate_view view = rlf_plate_look(&stage->plates.item[k]);
-        rlf_plate_window w = rlf_plate_window_of(grid, &view, EDGE_PX);
+    const rlf_grid *grid = in->grid;
+    for (int32_t k = 0; k < state->count; k++) {
+        const slab_view view = slab_look(&state->item[k]);
+        const rlf_rect w = slab_window(grid, &view, EDGE_PX);
         for (int32_t y = w.y0 + w.y0 % STEP_PX; y < w.y1; y += STEP_PX) {
             for (int32_t x = w.x0; x < w.x1; x++) {
                 ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-                bool is_near = rlf_plate_is_near(&view, point_at(stage, slot, i), side_m);
-                visited[i] = is_near ? 1 : visited[i];
+                bool is_near = slab_is_near(&view, point_at(grid, in->before, i), side_m);
+                in->visited[i] = is_near ? 1 : in->visited[i];
             }
         }
     }
 }
 
 /* Returns the pixels that it has looked at. */
-static int32_t find_in(rlf_reconstruct *stage, const rlf_slot *slot, const rlf_region *region,
-                       uint8_t *visited)
+static int32_t find_in(const thin_in *in, const rlf_region *region, thin *state)
 {
-    rlf_plates *plates = &stage->plates;
     int32_t first = (region->y0 / SEED_PX + 1) * SEED_PX, looked_at = 0;
     for (int32_t y = first; y < region->y1; y += SEED_PX) {
-        if ((y / SEED_PX + plates->frame) % FRAMES != 0) {
+        if ((y / SEED_PX + state->frame) % FRAMES != 0) {
             continue;
         }
         for (int32_t x = region->x0; x < region->x1; x += SEED_PX) {
-            if (plates->count == RLF_PLATES || visited[(ptrdiff_t)y * stage->grid.width + x] != 0 ||
-                !is_seed(stage, slot, region->label, x, y)) {
+            if (state->count == SLABS || in->visited[(ptrdiff_t)y * in->grid->width + x] != 0 ||
+                !is_seed(in->grid, in->before, region->label, x, y)) {
                 continue;
             }
-            patch p = {
-                .stage = stage, .slot = slot, .label = region->label, .pixel = stage->work.vote[0]};
-            grow(&p, visited, x, y);
+            patch p = {.grid = in->grid,
+                       .slot = in->before,
+                       .label = region->label,
+                       .pixel = state->patch};
+            grow(&p, in->visited, x, y);
             looked_at += p.count + A_PATCH;
-            rlf_plate *next = &plates->item[plates->count];
-            if (take(&p, visited, next)) {
+            slab *next = &state->item[state->count];
+            if (take(&p, in->visited, next)) {
                 next->speed = speed_of(&p);
-                plates->count++;
+                state->count++;
             }
         }
     }
     return looked_at;
 }
 
-void rlf_plates_find(rlf_reconstruct *stage, const rlf_slot *slot)
+void slab_find(const thin_in *in, thin *state)
 {
-    uint8_t *visited = stage->work.mask[0];
-    stage->plates.frame = (stage->plates.frame + 1) % FRAMES;
-    if (slot->foreground_region_count == 0 || stage->plates.count == RLF_PLATES) {
+    const rlf_slot *slot = in->before;
+    state->frame = (state->frame + 1) % FRAMES;
+    if (slot->foreground_region_count == 0 || state->count == SLABS) {
         return;
     }
-    memset(visited, 0, (size_t)stage->grid.count);
-    mark_known(stage, slot, visited);
-    int32_t count = slot->foreground_region_count, begin = stage->plates.region % count;
+    memset(in->visited, 0, (size_t)in->grid->count);
+    mark_known(in, state);
+    int32_t count = slot->foreground_region_count, begin = state->region % count;
     for (int32_t k = 0, looked_at = 0; k < count && looked_at < MOST_LOOKED_AT; k++) {
         int32_t r = (begin + k) % count;
-        looked_at +=
-            find_in(stage, slot, &slot->regions[slot->foreground_region_first + r], visited);
-        stage->plates.region = (r + 1) % count;
+        looked_at += find_in(in, &slot->regions[slot->foreground_region_first + r], state);
+        state->region = (r + 1) % count;
     }
 }
