@@ -139,9 +139,10 @@ static void complete_planes(rlf_reconstruct *stage, rlf_slot *slot)
         rlf_settle_lead(stage, slot);
     }
     if (stage->def.enable_fill && stage->def.enable_edge_normals) {
-        const uint8_t *rounded = rlf_normals_rounded_front(stage);
-        rlf_normals_turn(stage, slot, rounded);
-        rlf_normals_outline(stage, slot, rounded);
+        const rlf_work *work = &stage->work;
+        const contour_scratch scratch = {
+            {work->depth[0], work->sum[0], work->sum[1]}, work->mask[1], work->links};
+        rlf_normals_contour(stage, slot, work->mask[0], &scratch);
     }
     rlf_normals_job job = rlf_normals_job_make(stage, slot->depth, slot->normal);
     rlf_normals_plane_complete(&job);

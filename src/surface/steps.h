@@ -101,16 +101,14 @@ void rlf_normals_slope_pixel(const rlf_normals_job *job, int32_t x, int32_t y);
 /* The normal that those about a pixel have for it; false, and nothing is written, when none. */
 bool rlf_normals_near_pixel(const rlf_normals_job *job, int32_t x, int32_t y, float out[3]);
 
-/* Plane: where something that is not flat was in front a frame ago; NULL = there was no frame.
- * Holds until links are made. */
-const uint8_t *rlf_normals_rounded_front(const rlf_reconstruct *stage);
-
-/* Normals of seen pixels near the outlines of what moves; after rlf_fill_holes. */
-void rlf_normals_turn(const rlf_reconstruct *stage, const rlf_slot *slot, const uint8_t *rounded);
-
-/* Normals of filled pixels at the outlines of things; after rlf_fill_holes. */
-void rlf_normals_outline(const rlf_reconstruct *stage, const rlf_slot *slot,
-                         const uint8_t *rounded);
+/* normals/contour.c: normals of pixels that were filled beside depth contours, and of seen ones
+ * near contours of what moves; after rlf_fill_holes. `known`: 1 where depth was not filled. */
+typedef struct contour_scratch { /* planes, free meanwhile */
+    float *normal[3];            /* where it is marked */
+    uint8_t *mark, *front;
+} contour_scratch;
+void rlf_normals_contour(const rlf_reconstruct *stage, const rlf_slot *slot, const uint8_t *known,
+                         const contour_scratch *scratch);
 
 /* Normals of seen and recalled pixels at creases, from the faces that meet there; after
  * rlf_fill_holes. */
