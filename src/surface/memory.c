@@ -105,21 +105,21 @@ static void take_background(rlf_reconstruct *stage)
     }
 }
 
-static void take_standing(rlf_reconstruct *stage)
+static void take_static(rlf_reconstruct *stage)
 {
-    rlf_standing *standing = &stage->background.thick;
+    static_thickness *state = &stage->background.thick;
     size_t n = (size_t)stage->grid.count;
     if (stage->def.enable_thickness && stage->def.background_method != RLF_BACKGROUND_OFF) {
-        standing->depth = take(stage, n, sizeof(float));
-        standing->thickness = take(stage, n, sizeof(float));
-        standing->done_depth = take(stage, n, sizeof(float));
-        standing->done = take(stage, n, sizeof(float));
-        standing->piece = take(stage, n, 1);
+        state->depth = take(stage, n, sizeof(float));
+        state->thickness = take(stage, n, sizeof(float));
+        state->done_depth = take(stage, n, sizeof(float));
+        state->done = take(stage, n, sizeof(float));
+        state->piece = take(stage, n, 1);
         stage->background.depart.thing = take(stage, n, 1);
         stage->background.depart.depth = take(stage, n, sizeof(float));
         stage->background.depart.left = take(stage, n, 1);
         for (int k = 0; k < RLF_SHEETS; k++) {
-            standing->published[k] = take(stage, n, sizeof(float));
+            state->published[k] = take(stage, n, sizeof(float));
         }
     }
 }
@@ -279,7 +279,7 @@ static void take_all(rlf_reconstruct *stage)
         take_slot(stage, &stage->ring[i]);
     }
     take_background(stage);
-    take_standing(stage);
+    take_static(stage);
     take_steady(stage);
     take_wide(stage);
     take_family(stage);

@@ -3,7 +3,7 @@
 #include "surface/ego_motion.h"
 #include "surface/objects/objects.h"
 #include "surface/shadow.h"
-#include "surface/standing/standing.h"
+#include "surface/thickness/static.h"
 #include "surface/steps.h"
 #include "surface/thin/thin.h"
 
@@ -70,7 +70,7 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
         return;
     }
     rlf_background_reset(&stage->background, &stage->grid);
-    rlf_standing_reset(&stage->background.thick);
+    static_reset(&stage->background.thick);
     rlf_steady_reset(&stage->steady, stage->grid.count);
     rlf_objects_reset(stage->objects, stage->grid.count);
     stage->family.count = 0;
@@ -432,7 +432,7 @@ static void publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *sl
     s->background_normal_y = sheet == NULL ? none : sheet->normal[1];
     s->background_normal_z = sheet == NULL ? none : sheet->normal[2];
     s->background_label = sheet == NULL ? stage->work.zero_labels : sheet->label;
-    const float *thickness = rlf_standing_newest(stage);
+    const float *thickness = static_newest(stage);
     int32_t publications = stage->background.thick.publications;
     s->background_thickness = thickness == NULL ? none : thickness;
     s->background_version = sheet == NULL ? 0 : (int64_t)sheet->version + publications;
@@ -474,9 +474,10 @@ rlf_result rlf_reconstruct_process(rlf_reconstruct *stage, const rlf_frame *fram
         rlf_stage_add_time(stage, RLF_SURFACE_VELOCITY);
     }
     if (stage->def.enable_thickness) {
-        rlf_thickness_estimate(stage, slot);
+        const bool is_kept = stage->def.enable_fill || stage->def.enable_smoothing;
+        rlf_thickness_estimate(stage, slot, is_kept ? stage->work.depth[1] : slot->depth);
         thin_write(&stage->thin, &stage->grid, stage->background.mean, slot);
-        rlf_standing_advance(stage);
+        static_advance(stage);
         rlf_stage_add_time(stage, RLF_SURFACE_THICKNESS);
     }
     rlf_ego_motion_remember(stage, slot);

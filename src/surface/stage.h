@@ -71,22 +71,22 @@ typedef struct rlf_rect {
 /* At most so many pieces of the background are looked at. */
 enum { RLF_PIECES = 255 };
 
-/* The thickness of what stands: see standing.h; NULL planes when it is not wanted. */
-typedef struct rlf_standing {
-    float *depth, *thickness;        /* planes: what was fitted in this round, and found */
+/* The thickness of static things: see thickness/static.h; NULL planes when it is not wanted. */
+typedef struct static_thickness {
+    float *depth, *thickness;        /* planes: what is fitted in this round, and found */
     float *done_depth, *done;        /* the same of the last round that came to its end */
     float *published[RLF_SHEETS];    /* planes: `done` where the newest sheet has that depth */
     uint8_t *piece;                  /* plane: of which piece; 0 = of none */
     rlf_rect window[RLF_PIECES + 1]; /* of each piece, from 1; empty = it is not looked at */
     int32_t piece_count, next_piece; /* next_piece 0: they are still being found ... */
     int32_t step;                    /* ... in this step */
-    bool is_round, is_settled;       /* a round goes on; the last one began with good means */
+    bool is_round;                   /* one goes on */
+    int32_t rounds, round_age;       /* begun so far, up to a few; frames since the last began */
     int32_t newest;                  /* of `published`; -1 = none */
     int32_t publications;            /* so far; never less than before */
     int32_t sheet_version;           /* of the sheet that it was published for */
     int32_t changed;                 /* pixels of that sheet that are not as they were fitted */
-    int32_t age, round_age;          /* frames since there is a sheet; since the round began */
-} rlf_standing;
+} static_thickness;
 
 /* What starts to move out of the background: see background/depart.c; NULL planes when things are
  * not known. */
@@ -130,7 +130,7 @@ typedef struct rlf_background {
     int32_t newest;       /* sheet; -1 = none */
     bool is_stale;        /* the newest sheet shows a room that is gone */
     int32_t other_frames; /* ADAPTIVE: frames in a row that showed another room */
-    rlf_standing thick;
+    static_thickness thick;
     rlf_depart depart;
 } rlf_background;
 

@@ -264,6 +264,7 @@ void rlf_sheet_advance(rlf_reconstruct *stage, const rlf_slot *slot);
 
 /* ---- velocity/velocity.c, thickness/thickness.c ---- */
 void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot);
-void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot);
+/* `raw`: depth as the sensor gave it. */
+void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot, const float *raw);
 
 #endif

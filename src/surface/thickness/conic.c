@@ -75,6 +75,8 @@ bool rlf_chord_measure(const rlf_chord_job *job, const rlf_line *line, rlf_chord
     RLF_KERNEL_SOON(&job->stage->grid.ray_y[i]);
     c->inverse = 1.0f / z;
     c->metres = z * line->angle;
+    float sigma = rlf_kernel_sigma(job->noise, z);
+    c->noise = sigma * sigma;
     c->beside = (rlf_chord_middle){0.0f, 0.0f};
     c->is_of_people = job->is_of_people;
     rlf_kernel_chord_sums t = sum_samples(job, line, c, z);
@@ -125,7 +127,8 @@ static void fatten(const rlf_chord *c, rlf_conic *f)
     bool is_conic =
         c->is_of_people && c->apex < c->begin && width > wide_m && f->ratio > plate_ratio;
     if (is_conic && (f->ratio < usual || is_broad)) {
-        float share = f->variance / (f->variance + unlike_conic_m * unlike_conic_m);
+        float excess = f->variance > c->noise ? f->variance - c->noise : 0.0f;
+        float share = excess / (excess + unlike_conic_m * unlike_conic_m);
         f->ratio += share * (usual - f->ratio);
         f->variance = left_over(c, f);
     }
@@ -232,10 +235,11 @@ void rlf_chords_pool(const rlf_chord_job *job, int32_t line_count)
 
 /* What is straight along the chord may be any depth (a cylinder cut lengthwise), and what is not a
  * conic has no back that we know. */
-static float trust(const rlf_conic *f)
+static float trust(const rlf_chord *c, const rlf_conic *f)
 {
     float bent = f->ratio < 1.0f ? f->ratio : 1.0f;
-    float rest = 1.0f + f->variance / (trusted_rest_m * trusted_rest_m);
+    float excess = f->variance > c->noise ? f->variance - c->noise : 0.0f;
+    float rest = 1.0f + excess / (trusted_rest_m * trusted_rest_m);
     return (bent * bent + straight_trust) / (rest * rest);
 }
 
@@ -290,7 +294,7 @@ void rlf_chord_paint(const rlf_chord_job *job, const rlf_line *line, const rlf_c
         .job = job,
         .line = line,
         .chord = {c->begin, c->end, c->apex, c->apex >= c->begin},
-        .solid = {.share = trust(&f) / (c->metres * c->metres),
+        .solid = {.share = trust(c, &f) / (c->metres * c->metres),
                   .middle = c->inverse - w2 * f.middle - slope * 0.5f * (c->begin + c->end),
                   .slope = slope,
                   .half = w2 * f.ratio * c->metres}};

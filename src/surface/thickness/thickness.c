@@ -11,7 +11,6 @@
 
 #include <string.h>
 
-static const float plate_m = 0.02f, thickest_m = 0.50f;
 static const float farthest_w = 0.05f; /* 1/m; keeps what cannot be from infinity */
 
 static void cut_lines(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -79,7 +78,7 @@ static void write_run(const rlf_chord_job *job, const rlf_run *run, int32_t y)
     const rlf_slot *slot = job->slot;
     ptrdiff_t first = (ptrdiff_t)y * job->stage->grid.width + run->x0;
     bool is_plate = job->is_plate[run->component] != 0;
-    const rlf_kernel_thickness limits = {plate_m, is_plate ? plate_m : thickest_m};
+    const rlf_kernel_thickness limits = {RLF_THINNEST_M, is_plate ? RLF_THINNEST_M : RLF_THICKEST_M};
     if (!is_plate) {
         rlf_knots_spread(job, run, y);
     }
@@ -133,8 +132,7 @@ void rlf_thickness_write(const rlf_chord_job *job)
                      &copy);
 }
 
-/* The region's pixels and the knots around; begins with a knot. */
-static rlf_block block_of(const rlf_grid *grid, const rlf_region *region, int32_t step)
+rlf_block rlf_block_of(const rlf_grid *grid, const rlf_region *region, int32_t step)
 {
     int32_t x0 = region->x0 > step ? (region->x0 - 1) / step * step : 0;
     int32_t y0 = region->y0 > step ? (region->y0 - 1) / step * step : 0;
@@ -152,7 +150,7 @@ static int32_t find_blocks(const rlf_chord_job *job, rlf_block *blocks)
         if (job->is_plate[r + 1]) {
             continue;
         }
-        rlf_block b = block_of(&job->stage->grid, &slot->regions[slot->foreground_region_first + r],
+        rlf_block b = rlf_block_of(&job->stage->grid, &slot->regions[slot->foreground_region_first + r],
                                job->step);
         for (int32_t k = 0; k < count;) {
             rlf_block *o = &blocks[k];
@@ -180,16 +178,15 @@ static void find_plates(const rlf_reconstruct *stage, const rlf_slot *slot, int3
     }
 }
 
-rlf_chord_job rlf_chord_job_make(rlf_reconstruct *stage, const rlf_slot *slot)
+rlf_chord_job rlf_chord_job_make(rlf_reconstruct *stage, const rlf_slot *slot, const float *raw)
 {
     const rlf_work *work = &stage->work;
     const rlf_grid *grid = &stage->grid;
     int32_t step = rlf_knot_step(grid), columns = (grid->width + step - 1) / step;
-    bool kept = stage->def.enable_fill || stage->def.enable_smoothing;
     return (rlf_chord_job){.stage = stage,
                            .slot = slot,
                            .is_of_people = true,
-                           .raw = kept ? work->depth[1] : slot->depth,
+                           .raw = raw,
                            .behind = stage->background.mean,
                            .is_plate = work->map,
                            .step = step,
@@ -230,11 +227,11 @@ static void clear_thickness(const rlf_grid *grid, rlf_slot *slot)
     }
 }
 
-void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot)
+void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot, const float *raw)
 {
     clear_thickness(&stage->grid, slot);
     find_plates(stage, slot, stage->work.map);
-    rlf_chord_job job = rlf_chord_job_make(stage, slot);
+    rlf_chord_job job = rlf_chord_job_make(stage, slot, raw);
     int32_t count = find_blocks(&job, stage->work.blocks);
     for (int32_t i = 0; i < count; i++) {
         rlf_thickness_fit(&job, &stage->work.blocks[i]);

@@ -38,6 +38,7 @@ typedef struct rlf_chord {
     float apex;       /* of a wedge, steps; < begin: it is a conic */
     float metres;     /* per step, at the reference depth */
     float inverse;    /* of the reference depth */
+    float noise;      /* variance of depth there, m^2 */
     float expected_slope, expected_ratio;
     int32_t label, part_count;
     bool is_of_people;
@@ -53,6 +54,10 @@ typedef struct rlf_conic {
     float middle, slope, ratio;
     float variance; /* of what is left of y, m^2 */
 } rlf_conic;
+
+/* Nothing is taken to be thinner, or thicker. */
+#define RLF_THINNEST_M 0.02f
+#define RLF_THICKEST_M 0.6f
 
 /* Rows of the planes below are this much longer than the grid's: pixels below each other, a power
  * of two apart, would push each other out of the cache. */
@@ -113,7 +118,9 @@ typedef struct rlf_line {
 /* ---- thickness/thickness.c ---- */
 /* For the regions of the slot's foreground that are in work.runs; work.map says which are plates.
  */
-rlf_chord_job rlf_chord_job_make(rlf_reconstruct *stage, const rlf_slot *slot);
+rlf_chord_job rlf_chord_job_make(rlf_reconstruct *stage, const rlf_slot *slot, const float *raw);
+/* The region's pixels and the knots around. */
+rlf_block rlf_block_of(const rlf_grid *grid, const rlf_region *region, int32_t step);
 /* Fits what is in the block, and writes the thickness of all runs. */
 void rlf_thickness_fit(rlf_chord_job *job, const rlf_block *block);
 void rlf_thickness_write(const rlf_chord_job *job);

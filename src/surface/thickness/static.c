@@ -1,0 +1,183 @@
+/* Rounds over the background's pieces. */
+#include "surface/thickness/static.h"
+
+#include "surface/steps.h"
+#include "surface/thickness/thickness.h"
+
+#include <string.h>
+
+enum {
+    FIRST_ROUNDS = 2, /* the means get better in the meantime; then only what changes counts */
+    CHANGED = 100,    /* pixels that are not as they were fitted */
+    PAUSE = 60,       /* frames from one round's begin to the next one's */
+    AT_FIRST = 5      /* steps per frame of the first round */
+};
+
+static const float same_m = 0.03f; /* less is no other depth */
+
+void static_reset(static_thickness *state)
+{
+    state->newest = -1;
+    state->is_round = false;
+    state->rounds = state->changed = state->sheet_version = 0;
+}
+
+const float *static_newest(const rlf_reconstruct *stage)
+{
+    const static_thickness *state = &stage->background.thick;
+    bool none = state->newest < 0 || rlf_sheet_newest(stage) == NULL;
+    return none ? NULL : state->published[state->newest];
+}
+
+static void begin_round(rlf_reconstruct *stage, const rlf_sheet *sheet)
+{
+    static_thickness *state = &stage->background.thick;
+    size_t size = (size_t)stage->grid.count * sizeof(float);
+    memcpy(state->depth, sheet->depth, size);
+    memset(state->thickness, 0, size);
+    state->is_round = true;
+    state->step = state->next_piece = state->round_age = 0;
+    state->rounds += state->rounds < FIRST_ROUNDS ? 1 : 0;
+}
+
+/* The piece's runs, as those of one region, to work.runs. */
+static void make_runs(const rlf_reconstruct *stage, const rlf_block *b, int32_t piece)
+{
+    rlf_runs runs = stage->work.runs;
+    int32_t count = 0;
+    for (int32_t y = 0; y < stage->grid.height; y++) {
+        const uint8_t *row = stage->background.thick.piece + (ptrdiff_t)y * stage->grid.width;
+        runs.first[y] = count;
+        for (int32_t x = b->x0; x < b->x1 && y >= b->y0 && y < b->y1; x++) {
+            int32_t begin = x;
+            while (x < b->x1 && row[x] == piece) {
+                x++;
+            }
+            if (x > begin) {
+                runs.run[count++] = (rlf_run){begin, x, 1};
+            }
+        }
+    }
+    runs.first[stage->grid.height] = count;
+}
+
+static void fit_box(const rlf_reconstruct *stage, int32_t piece, const static_box *box)
+{
+    const static_thickness *state = &stage->background.thick;
+    const rlf_grid *grid = &stage->grid;
+    const rlf_rect *w = &state->window[piece];
+    for (int32_t y = w->y0; y < w->y1; y++) {
+        for (int32_t x = w->x0; x < w->x1; x++) {
+            ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
+            if (state->piece[i] == piece) {
+                const rlf_vec3 ray = {grid->ray_x[i], grid->ray_y[i], 1.0};
+                state->thickness[i] = (float)rlf_clamp(
+                    static_box_exit(box, ray) - (double)state->depth[i], RLF_THINNEST_M,
+                    RLF_THICKEST_M);
+            }
+        }
+    }
+}
+
+static void fit_conics(rlf_reconstruct *stage, int32_t piece)
+{
+    static_thickness *state = &stage->background.thick;
+    const rlf_rect *w = &state->window[piece];
+    rlf_region region = {.label = piece, .x0 = w->x0, .y0 = w->y0, .x1 = w->x1, .y1 = w->y1};
+    const rlf_slot slot = {.depth = state->depth,
+                           .thickness = state->thickness,
+                           .regions = &region,
+                           .foreground_region_count = 1};
+    rlf_chord_job job = rlf_chord_job_make(stage, &slot, state->depth);
+    const rlf_block block = rlf_block_of(&stage->grid, &region, job.step);
+    job.is_of_people = false;
+    job.behind = NULL;
+    stage->work.map[1] = 0; /* no plate */
+    make_runs(stage, &block, piece);
+    rlf_thickness_fit(&job, &block);
+    rlf_thickness_write(&job);
+}
+
+static void fit(rlf_reconstruct *stage, const rlf_sheet *sheet, int32_t piece)
+{
+    static_box box;
+    switch (static_find_shape(stage, sheet->normal, piece, &box)) {
+    case STATIC_BOX: fit_box(stage, piece, &box); break;
+    case STATIC_ROUND: fit_conics(stage, piece); break;
+    default: break;
+    }
+}
+
+static void swap(float **a, float **b)
+{
+    float *c = *a;
+    *a = *b;
+    *b = c;
+}
+
+/* What is known of the newest sheet: a front that has moved back leaves the back where it is. */
+static void publish(rlf_reconstruct *stage, const rlf_sheet *sheet)
+{
+    static_thickness *state = &stage->background.thick;
+    state->newest = (state->newest + 1) % RLF_SHEETS;
+    float *out = state->published[state->newest];
+    state->changed = 0;
+    for (int32_t i = 0; i < stage->grid.count; i++) {
+        float off = sheet->depth[i] - state->done_depth[i], deep = state->done[i];
+        bool is_same = rlf_kernel_abs(off) < same_m, is_left = off > 0.0f && off < deep;
+        float left = deep - off > RLF_THINNEST_M ? deep - off : RLF_THINNEST_M;
+        out[i] = is_same ? deep : is_left ? left : 0.0f;
+        state->changed += is_same ? 0 : 1;
+    }
+    state->sheet_version = sheet->version;
+    state->publications++;
+}
+
+/* The next step of a round. */
+static void go_on(rlf_reconstruct *stage, const rlf_sheet *sheet)
+{
+    static_thickness *state = &stage->background.thick;
+    if (state->next_piece == 0) {
+        if (static_find_pieces(stage, sheet->normal, state->step++)) {
+            state->next_piece = 1;
+            rlf_depart_take(stage);
+        }
+        return;
+    }
+    int32_t k = state->next_piece;
+    while (k <= state->piece_count && state->window[k].x1 == 0) {
+        k++;
+    }
+    state->next_piece = k + 1;
+    if (k <= state->piece_count) {
+        fit(stage, sheet, k);
+        return;
+    }
+    swap(&state->depth, &state->done_depth);
+    swap(&state->thickness, &state->done);
+    state->is_round = false;
+    publish(stage, sheet);
+}
+
+void static_advance(rlf_reconstruct *stage)
+{
+    static_thickness *state = &stage->background.thick;
+    const rlf_sheet *sheet = rlf_sheet_newest(stage);
+    if (sheet == NULL || state->depth == NULL) {
+        static_reset(state); /* the room is not known, or it is another one */
+        return;
+    }
+    bool is_first = state->newest < 0;
+    if (!is_first && sheet->version > state->sheet_version) {
+        publish(stage, sheet);
+    }
+    state->round_age++;
+    bool is_due = state->round_age >= PAUSE &&
+                  (state->changed >= CHANGED || state->rounds < FIRST_ROUNDS);
+    if (!state->is_round && (is_first || is_due)) {
+        begin_round(stage, sheet);
+    }
+    for (int k = 0; k < (is_first ? AT_FIRST : 1) && state->is_round; k++) {
+        go_on(stage, sheet);
+    }
+}
