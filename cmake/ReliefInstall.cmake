@@ -11,10 +11,8 @@ string(REGEX REPLACE "/$" "" relief_pc_to_prefix "${relief_pc_to_prefix}")
 # needs on to whoever links it; a shared one keeps them to itself.
 function(relief_pkg_config name requires libs description)
   set(private "")
-  set(define "")
   if(BUILD_SHARED_LIBS)
     set(private ".private")
-    set(define " -DRLF_SHARED")
   endif()
   set(base "")
   if(NOT name STREQUAL "relief")
@@ -40,7 +38,7 @@ function(relief_pkg_config name requires libs description)
     "Name: ${name}\nDescription: ${description}\nVersion: ${PROJECT_VERSION}\n"
     "${base}${needs}${own_libs}"
     "Libs: -L\${libdir} -l${name} ${libs}\n"
-    "Cflags: -I\${includedir}${define}\n")
+    "Cflags: -I\${includedir}\n")
   install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${relief_pc_folder})
 endfunction()
 
@@ -66,22 +64,28 @@ function(relief_packages target out_finds out_modules)
 endfunction()
 
 # ---- libraries and headers -----------------------------------------------------------------------
-set(relief_libraries relief)
+# relief_install(TARGET NAME): relief::NAME with its part of the CMake package.
+function(relief_install target name)
+  install(TARGETS ${target}_public EXPORT ${target}_targets
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT ${target}_targets NAMESPACE relief:: FILE ${target}_targets.cmake
+          DESTINATION ${relief_package_folder})
+endfunction()
+
 set(relief_absent_headers io.h gl.h)
-set(relief_has_io NO)
-set(relief_has_gl NO)
-set(relief_io_finds "")
-set(relief_gl_finds "")
+relief_install(relief relief)
 relief_pkg_config(relief "" "-lm -lpthread" "Virtual things touch what a depth camera sees: the core")
 foreach(component io gl)
   if(NOT TARGET relief_${component})
     continue()
   endif()
-  list(APPEND relief_libraries relief_${component})
   list(REMOVE_ITEM relief_absent_headers ${component}.h)
-  set(relief_has_${component} YES)
-  set_target_properties(relief_${component} PROPERTIES EXPORT_NAME ${component})
-  relief_packages(relief_${component} relief_${component}_finds modules)
+  relief_install(relief_${component} ${component})
+  relief_packages(relief_${component} relief_finds modules)
+  configure_file(cmake/relief_component.cmake.in
+                 ${PROJECT_BINARY_DIR}/relief_${component}.cmake @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/relief_${component}.cmake
+          DESTINATION ${relief_package_folder})
   get_target_property(libs relief_${component} RELIEF_LIBS)
   if(NOT libs)
     set(libs "")
@@ -89,15 +93,7 @@ foreach(component io gl)
   list(JOIN libs " " libs)
   relief_pkg_config(relief_${component} "${modules}" "${libs}" "Relief, component ${component}")
 endforeach()
-if(BUILD_SHARED_LIBS)
-  foreach(library IN LISTS relief_libraries)
-    target_compile_definitions(${library} PUBLIC RLF_SHARED)
-    set_target_properties(${library} PROPERTIES INSTALL_RPATH "$ORIGIN")
-  endforeach()
-endif()
 
-install(TARGETS ${relief_libraries} EXPORT relief_targets
-        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 set(exclude "")
 foreach(header IN LISTS relief_absent_headers)
   list(APPEND exclude PATTERN ${header} EXCLUDE)
@@ -105,8 +101,6 @@ endforeach()
 install(DIRECTORY include/relief DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${exclude})
 
 # ---- the CMake package ---------------------------------------------------------------------------
-install(EXPORT relief_targets NAMESPACE relief:: FILE reliefTargets.cmake
-        DESTINATION ${relief_package_folder})
 configure_package_config_file(cmake/reliefConfig.cmake.in ${PROJECT_BINARY_DIR}/reliefConfig.cmake
                               INSTALL_DESTINATION ${relief_package_folder}
                               NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)

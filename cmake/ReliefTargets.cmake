@@ -11,6 +11,9 @@ function(relief_settings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wvla -Wundef
                          -Wstrict-prototypes -Wmissing-prototypes -ffp-contract=off
                          $<$<CONFIG:Release>:-O3 -fno-math-errno -fno-trapping-math>)
+  # No path of the machine that builds it ends up in what is shipped.
+  target_compile_options(${target} PRIVATE -ffile-prefix-map=${PROJECT_BINARY_DIR}/=build/
+                         -ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
   if(RELIEF_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
@@ -68,4 +71,55 @@ function(relief_optional option help)
     endif()
   endif()
   set(${option} ${is_found} CACHE BOOL "${help}")
+endfunction()
+
+# Before 1.0 a new minor version may change the API, so its number is part of the soname.
+set(relief_soversion ${PROJECT_VERSION_MAJOR})
+if(PROJECT_VERSION_MAJOR EQUAL 0)
+  set(relief_soversion 0.${PROJECT_VERSION_MINOR})
+endif()
+
+# relief_one_object(TARGET OUT): the objects of a static library as one, in which only what RLF_API
+# marks is global. A user's program may then define any name without rlf_. Functions that exist once
+# per instruction set are named here: gcc shows them whatever the visibility says.
+function(relief_one_object target out)
+  set(object ${CMAKE_CURRENT_BINARY_DIR}/${target}_public.o)
+  add_custom_command(OUTPUT ${object}
+    COMMAND ${CMAKE_C_COMPILER} -r -nostdlib -o ${object} -Wl,--whole-archive
+            $<TARGET_FILE:${target}> -Wl,--no-whole-archive
+    COMMAND ${CMAKE_OBJCOPY} --localize-hidden --wildcard --keep-global-symbol=rlf_*
+            --localize-symbol=rlf_kernel_* --localize-symbol=*.resolver ${object}
+    DEPENDS ${target} VERBATIM)
+  set_source_files_properties(${object} PROPERTIES EXTERNAL_OBJECT TRUE GENERATED TRUE)
+  set(${out} ${object} PARENT_SCOPE)
+endfunction()
+
+# relief_publish(TARGET NAME): makes relief::NAME, which users link and which is installed, of the
+# static library TARGET: a shared library, or an archive of one object.
+function(relief_publish target name)
+  set(public ${target}_public)
+  relief_one_object(${target} object)
+  add_library(${public} ${object}) # shared or static: BUILD_SHARED_LIBS
+  if(BUILD_SHARED_LIBS)
+    target_link_options(${public} PRIVATE LINKER:-Bsymbolic-functions)
+  endif()
+  add_library(relief::${name} ALIAS ${public})
+  set_target_properties(${public} PROPERTIES LINKER_LANGUAGE C EXPORT_NAME ${name}
+                        OUTPUT_NAME ${target} VERSION ${PROJECT_VERSION}
+                        SOVERSION ${relief_soversion} INSTALL_RPATH "$ORIGIN")
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME ${target}_inside)
+  target_include_directories(${public} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                             $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  get_target_property(definitions ${target} INTERFACE_COMPILE_DEFINITIONS)
+  if(definitions)
+    target_compile_definitions(${public} INTERFACE ${definitions})
+  endif()
+  get_target_property(libraries ${target} LINK_LIBRARIES)
+  foreach(library IN LISTS libraries)
+    if(library STREQUAL "relief")
+      target_link_libraries(${public} PUBLIC relief_public)
+    else()
+      target_link_libraries(${public} PRIVATE ${library})
+    endif()
+  endforeach()
 endfunction()

@@ -17,7 +17,8 @@ extern "C" {
 #define RLF_VERSION_MINOR 1
 #define RLF_VERSION_PATCH 0
 
-#if defined(RLF_SHARED) && defined(__GNUC__)
+/* Marks what the libraries show; everything else in them is hidden. */
+#if defined(__GNUC__)
 #define RLF_API __attribute__((visibility("default")))
 #else
 #define RLF_API

@@ -6,6 +6,7 @@
 #ifndef RLF_RENDER_BODY_TEXTURE_H
 #define RLF_RENDER_BODY_TEXTURE_H
 
+#include "base/inside.h"
 #include "relief/image.h"
 #include "relief/snapshot.h"
 
@@ -27,17 +28,19 @@ typedef enum body_texture_kind {
     BODY_TEXTURE_KINDS = 2
 } body_texture_kind;
 
-body_texture_kind body_texture_kind_of(rlf_shape_type type);
+body_texture_kind body_texture_kind_of(rlf_shape_type type) RLF_INSIDE(body_texture_kind_of);
 
 /* Writes all levels one after the other, RGBA8, row 0 is v = 0, each level the mean of 2x2 of the
  * level before. */
-void body_texture_fill(body_texture_kind kind, uint8_t out[BODY_TEXTURE_BYTES]);
+void body_texture_fill(body_texture_kind kind, uint8_t out[BODY_TEXTURE_BYTES])
+    RLF_INSIDE(body_texture_fill);
 /* Byte offset of a level. */
-size_t body_texture_level_offset(int32_t level);
+size_t body_texture_level_offset(int32_t level) RLF_INSIDE(body_texture_level_offset);
 
 /* The level to sample (bilinear, repeating) for a whole body: about one texel per pixel. One level
  * per body, so that every renderer takes the same. z is the depth of the body's centre in the
  * picture's camera, focal its focal length in pixels. */
-int32_t body_texture_level_of(const rlf_shape *shape, double z, double focal);
+int32_t body_texture_level_of(const rlf_shape *shape, double z, double focal)
+    RLF_INSIDE(body_texture_level_of);
 
 #endif

@@ -3,6 +3,7 @@
 #ifndef RLF_RENDER_CASTER_H
 #define RLF_RENDER_CASTER_H
 
+#include "base/inside.h"
 #include "camera/pixel_rect.h"
 #include "kernel/kernel.h"
 #include "relief/compositor.h"
@@ -41,9 +42,10 @@ typedef struct caster {
 /* False (and near_m 0) when the body casts nothing: not finite, or around the camera. to_light:
  * unit, picture camera frame. */
 bool caster_make(const rlf_body_state *body, const rlf_pose *T_picture_world, rlf_vec3 to_light,
-                 caster *out);
+                 caster *out) RLF_INSIDE(caster_make);
 /* Where the light of surfaces can be changed. */
-bool caster_reach(const caster *c, const rlf_camera *camera, rlf_vec3 to_light, pixel_rect *out);
+bool caster_reach(const caster *c, const rlf_camera *camera, rlf_vec3 to_light, pixel_rect *out)
+    RLF_INSIDE(caster_reach);
 enum { CASTER_TAKES_NOTHING = 0, CASTER_TAKES_AMBIENT = 1, CASTER_TAKES_DIRECT = 2 };
 /* Sum of the above: what light may be taken within `radius` of p (picture camera frame). */
 int32_t caster_may_take(const caster *c, const float p[3], float radius);
@@ -56,7 +58,7 @@ void caster_may_take_balls(const caster *c, const caster_balls *balls, int32_t c
 /* Indices of the nearest bodies that may take light from body `index`, which is within `radius` of
  * its centre; returns how many. A caster with near_m 0 is none. */
 int32_t caster_choose(const caster *casters, int32_t count, int32_t index,
-                      int32_t out[CASTER_BODIES]);
+                      int32_t out[CASTER_BODIES]) RLF_INSIDE(caster_choose);
 
 /* The same for `bodies` many at once, of these indices, into out[i]. */
 typedef struct caster_choice {

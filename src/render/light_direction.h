@@ -3,6 +3,7 @@
 #ifndef RLF_RENDER_LIGHT_DIRECTION_H
 #define RLF_RENDER_LIGHT_DIRECTION_H
 
+#include "base/inside.h"
 #include "relief/compositor.h"
 
 /* A point of the surface, and its colour. */
@@ -25,10 +26,12 @@ typedef struct light_direction {
     rlf_vec3 now;  /* from the light into the scene, unit, depth camera frame */
 } light_direction;
 
-rlf_result light_direction_create(const rlf_compositor_def *def, light_direction *out);
-void light_direction_destroy(light_direction *l);
+rlf_result light_direction_create(const rlf_compositor_def *def, light_direction *out)
+    RLF_INSIDE(light_direction_create);
+void light_direction_destroy(light_direction *l) RLF_INSIDE(light_direction_destroy);
 /* Takes a frame in, when it is another one and has colour, and sets now. */
 void light_direction_update(light_direction *l, const rlf_compositor_def *def,
-                            const rlf_frame *frame, const rlf_surface *surface);
+                            const rlf_frame *frame, const rlf_surface *surface)
+    RLF_INSIDE(light_direction_update);
 
 #endif

@@ -7,6 +7,7 @@
 #ifndef RLF_RENDER_OBSCURANCE_H
 #define RLF_RENDER_OBSCURANCE_H
 
+#include "base/inside.h"
 #include "render/caster.h"
 
 #define OBSCURANCE_SHARE 0.8 /* of the light around that can be lost: a surface gives some back */
@@ -24,7 +25,7 @@ typedef struct obscurance {
 
 /* The surfaces near a body; none without normals. A caster with near_m 0 is no body. */
 void obscurance_find(const rlf_surface *surface, const rlf_pose *T_depth_picture,
-                     const caster *body, obscurance *out);
+                     const caster *body, obscurance *out) RLF_INSIDE(obscurance_find);
 
 /* Share of the light around that an endless plane keeps from a point `height` reaches above it,
  * 0..1, when what is lost from distance d is 1 - d / reach. `facing` is the cosine between the

@@ -2,6 +2,7 @@
 #ifndef RLF_RENDER_REAL_DEPTH_H
 #define RLF_RENDER_REAL_DEPTH_H
 
+#include "base/inside.h"
 #include "known/layer.h"
 #include "relief/compositor.h"
 #include "render/lost_depth.h"
@@ -32,22 +33,25 @@ typedef struct real_depth {
 
 /* Camera that a def's picture is drawn with, and its pose: the colour camera's or, without one, the
  * depth camera's, resized to the def's picture. */
-rlf_camera real_depth_picture_camera(const rlf_compositor_def *def);
-rlf_pose real_depth_picture_pose(const rlf_compositor_def *def); /* T_picture_depth */
+rlf_camera real_depth_picture_camera(const rlf_compositor_def *def)
+    RLF_INSIDE(real_depth_picture_camera);
+rlf_pose real_depth_picture_pose(const rlf_compositor_def *def)
+    RLF_INSIDE(real_depth_picture_pose); /* T_picture_depth */
 
 /* `camera` is the picture's. Allocates everything. */
 rlf_result real_depth_create(const rlf_compositor_def *def, const rlf_camera *camera,
-                             real_depth *out);
+                             real_depth *out) RLF_INSIDE(real_depth_create);
 /* As silhouette_update's `known`. */
-const known_layer *real_depth_known(const real_depth *real);
-void real_depth_destroy(real_depth *real);
+const known_layer *real_depth_known(const real_depth *real) RLF_INSIDE(real_depth_known);
+void real_depth_destroy(real_depth *real) RLF_INSIDE(real_depth_destroy);
 /* Reads the depth that is to be registered, and fills `seen`. */
-void real_depth_read(real_depth *real, const rlf_render_input *input);
+void real_depth_read(real_depth *real, const rlf_render_input *input) RLF_INSIDE(real_depth_read);
 /* Fills windows of z with what was read last; of other pixels nothing is known. Pixels without
  * depth take the background's, when the surface knows it; `settles`: what is around them and what
  * the picture shows decides (lost_depth.h). Models of real things take their place.
  * RLF_ERROR_MEMORY as known_layer_place. */
 rlf_result real_depth_update(real_depth *real, const rlf_render_input *input,
-                             const silhouette *bodies, const real_windows *needed);
+                             const silhouette *bodies, const real_windows *needed)
+    RLF_INSIDE(real_depth_update);
 
 #endif

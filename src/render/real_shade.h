@@ -5,6 +5,7 @@
 #ifndef RLF_RENDER_REAL_SHADE_H
 #define RLF_RENDER_REAL_SHADE_H
 
+#include "base/inside.h"
 #include "render/caster.h"
 
 enum { REAL_SHADE_SIDE = 13, REAL_SHADE_CELLS = REAL_SHADE_SIDE * REAL_SHADE_SIDE };
@@ -46,7 +47,8 @@ typedef struct real_shade_world {
  * anything: no light is lost. The world must have its grid. */
 bool real_shade_may_lose(const real_shade_world *world, const float center[3], float radius,
                          const float to_light[3]);
-void real_shade_make(const real_shade_world *world, const caster *body, real_shade *out);
+void real_shade_make(const real_shade_world *world, const caster *body, real_shade *out)
+    RLF_INSIDE(real_shade_make);
 /* Multiplies `left` by what is left of the directed light, 1 - share * (lost part). */
 void real_shade_take(const real_shade *shade, const caster_points *points, float share,
                      float *left);

@@ -2,6 +2,7 @@
 #ifndef RLF_RENDER_ROOM_LIGHT_H
 #define RLF_RENDER_ROOM_LIGHT_H
 
+#include "base/inside.h"
 #include "relief/compositor.h"
 
 typedef struct room_light {
@@ -13,6 +14,7 @@ typedef struct room_light {
 
 /* Takes a frame in, and sets color. Frames without colour, and one that was taken in already,
  * change no level. */
-void room_light_update(room_light *l, const rlf_compositor_def *def, const rlf_frame *frame);
+void room_light_update(room_light *l, const rlf_compositor_def *def, const rlf_frame *frame)
+    RLF_INSIDE(room_light_update);
 
 #endif

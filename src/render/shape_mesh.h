@@ -7,6 +7,7 @@
 #ifndef RLF_RENDER_SHAPE_MESH_H
 #define RLF_RENDER_SHAPE_MESH_H
 
+#include "base/inside.h"
 #include "relief/snapshot.h"
 
 enum {
@@ -47,15 +48,15 @@ typedef struct shape_mesh_scale {
     double half_height;
 } shape_mesh_scale;
 
-void shape_mesh_set_build(shape_mesh_set *out);
+void shape_mesh_set_build(shape_mesh_set *out) RLF_INSIDE(shape_mesh_set_build);
 /* Half as many slices and stacks, for bodies that are small in the picture. */
 void shape_mesh_set_build_coarse(shape_mesh_set *out);
-shape_mesh_scale shape_mesh_scale_of(const rlf_shape *shape);
+shape_mesh_scale shape_mesh_scale_of(const rlf_shape *shape) RLF_INSIDE(shape_mesh_scale_of);
 
 /* Corners of a hull's triangle in metres, flat shaded, with texture coordinates from the plane that
  * the triangle faces most (the texture spans the hull's diameter). `radius` is
  * rlf_shape_radius of the shape. False for a triangle without area. */
 bool shape_mesh_hull_triangle(const rlf_hull *hull, int32_t triangle, double radius,
-                              shape_vertex out[3]);
+                              shape_vertex out[3]) RLF_INSIDE(shape_mesh_hull_triangle);
 
 #endif

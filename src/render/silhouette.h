@@ -8,6 +8,7 @@
 #ifndef RLF_RENDER_SILHOUETTE_H
 #define RLF_RENDER_SILHOUETTE_H
 
+#include "base/inside.h"
 #include "known/layer.h"
 #include "relief/compositor.h"
 
@@ -71,18 +72,18 @@ typedef struct silhouette {
 
 /* `camera` is the picture's, `depth` the one that was registered. */
 rlf_result silhouette_create(const rlf_camera *camera, const rlf_camera *depth, rlf_pool *pool,
-                             silhouette *out);
-void silhouette_destroy(silhouette *s);
+                             silhouette *out) RLF_INSIDE(silhouette_create);
+void silhouette_destroy(silhouette *s) RLF_INSIDE(silhouette_destroy);
 
 /* Takes the bodies of a snapshot (NULL = none) in place of the last picture's. `camera` is the
  * picture's. */
 void silhouette_place(silhouette *s, const rlf_camera *camera, const rlf_pose *T_picture_world,
-                      const rlf_snapshot *snapshot);
+                      const rlf_snapshot *snapshot) RLF_INSIDE(silhouette_place);
 /* Fills near_z, far_z and cover where a body may meet an edge. z is the registered depth; the
  * frame's colour may be missing. `known`, of the picture's camera, has covered z: its models' edges
  * are exact. NULL = none. */
 void silhouette_update(silhouette *s, const rlf_plane_f32 *z, const known_layer *known,
-                       const rlf_frame *frame);
+                       const rlf_frame *frame) RLF_INSIDE(silhouette_update);
 
 /* silhouette_line.c: a row or a column of the picture; all steps are to the next pixel of it. */
 typedef struct silhouette_line {

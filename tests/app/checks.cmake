@@ -32,7 +32,7 @@ if(TARGET relief_app)
   foreach(name test_bench test_bench_peers test_measure_noise test_eval test_eval_real test_eval_report test_eval_sections
           test_eval_sensed test_info test_settings)
     relief_test(${PROJECT_SOURCE_DIR}/tests/app/${name}.c app)
-    target_link_libraries(${name} PRIVATE relief_measures)
+    target_link_libraries(${name} PRIVATE relief_measures relief_io relief)
     set_tests_properties(app.${name} PROPERTIES TIMEOUT 3600) # minutes with sanitizers
   endforeach()
 endif()

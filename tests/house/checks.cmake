@@ -20,13 +20,15 @@ house_check(scripts ${house}/scripts.sh ${PROJECT_SOURCE_DIR})
 house_check(thresholds ${house}/thresholds.sh ${PROJECT_SOURCE_DIR}
             ${CMAKE_CURRENT_BINARY_DIR}/thresholds)
 
-get_target_property(relief_type relief TYPE)
-if(relief_type STREQUAL "STATIC_LIBRARY" AND NOT RELIEF_SANITIZE)
+if(NOT RELIEF_SANITIZE)
   house_check(symbols ${CMAKE_COMMAND} -DLIBRARY=$<TARGET_FILE:relief> -DNM=${CMAKE_NM}
               -P ${house}/symbols.cmake)
   house_check(symbols_rejects ${CMAKE_COMMAND} -DCHECK=${house}/symbols.cmake
               -DWORK=${CMAKE_CURRENT_BINARY_DIR}/symbols -DCC=${CMAKE_C_COMPILER} -DAR=${CMAKE_AR}
               -DNM=${CMAKE_NM} -P ${house}/symbols_rejects.cmake)
+  house_check(exports_rejects ${CMAKE_COMMAND} -DCHECK=${house}/exports.cmake
+              -DWORK=${CMAKE_CURRENT_BINARY_DIR}/exports -DCC=${CMAKE_C_COMPILER} -DAR=${CMAKE_AR}
+              -DNM=${CMAKE_NM} -P ${house}/exports_rejects.cmake)
 endif()
 
 if(NOT RELIEF_SANITIZE)
@@ -50,12 +52,13 @@ endif()
 
 # A sanitized library would ask the stranger's program for the same sanitizers.
 if(NOT RELIEF_SANITIZE)
-  house_check(install ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR}
+  house_check(install ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -DBUILD=${PROJECT_BINARY_DIR}
+              -DNM=${CMAKE_NM}
               -DWORK=${CMAKE_CURRENT_BINARY_DIR}/install\ here -DCONSUMER=${house}/consumer
               -DCC=${CMAKE_C_COMPILER} -DGENERATOR=${CMAKE_GENERATOR} -DCONFIG=$<CONFIG>
               -DWITH_IO=$<TARGET_EXISTS:relief_io> -DWITH_GL=$<TARGET_EXISTS:relief_gl>
               -DWITH_APP=$<TARGET_EXISTS:relief_app> -P ${house}/install.cmake)
-  house_check(shared ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}
+  house_check(shared ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -DNM=${CMAKE_NM}
               -DWORK=${CMAKE_CURRENT_BINARY_DIR}/shared -DCONSUMER=${house}/consumer
               -DCC=${CMAKE_C_COMPILER} -DGENERATOR=${CMAKE_GENERATOR}
               -DWITH_IO=$<TARGET_EXISTS:relief_io> -DWITH_GL=$<TARGET_EXISTS:relief_gl>

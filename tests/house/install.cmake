@@ -1,7 +1,7 @@
-# Installs into a fresh folder (whose name has a blank in it) and builds a stranger's program against
-# it twice, with find_package and with pkg-config, and runs both.
-# cmake -DBUILD= -DWORK= -DCONSUMER= -DCC= -DGENERATOR= -DCONFIG= -DWITH_IO= -DWITH_GL= -DWITH_APP=
-#       -P install.cmake
+# Installs into a fresh folder (whose name has a blank in it), looks at what the libraries show, and
+# builds a stranger's program against them, with find_package and with pkg-config, and runs it.
+# cmake -DROOT= -DBUILD= -DWORK= -DCONSUMER= -DCC= -DNM= -DGENERATOR= -DCONFIG= -DWITH_IO= -DWITH_GL=
+#       -DWITH_APP= -P install.cmake
 cmake_minimum_required(VERSION 3.25)
 
 function(run)
@@ -45,6 +45,27 @@ if(WITH_APP)
   expect_file("${prefix}/share/relief/scenes/two_cubes.json")
   run("${prefix}/bin/relief" --version)
 endif()
+
+# Only public names, and no path of the machine that built them.
+file(GLOB_RECURSE libraries "${prefix}/*/librelief*.a" "${prefix}/*/librelief*.so")
+foreach(library IN LISTS libraries)
+  if(NOT library MATCHES "freenect2") # a plug-in: opened by path
+    run(${CMAKE_COMMAND} "-DLIBRARY=${library}" "-DINCLUDE=${prefix}/include" -DNM=${NM}
+        -P ${CMAKE_CURRENT_LIST_DIR}/exports.cmake)
+    message("install: ${run_output}")
+  endif()
+endforeach()
+execute_process(COMMAND grep -rlF -e "${ROOT}/" -e "${BUILD}/" "${prefix}" OUTPUT_VARIABLE leaks)
+if(leaks)
+  message(FATAL_ERROR "install: these files tell where they were built:\n${leaks}")
+endif()
+
+# find_package of the core alone: nothing but a C compiler
+run(${CMAKE_COMMAND} -S ${CONSUMER} -B "${WORK}/core" -G ${GENERATOR} -DCMAKE_C_COMPILER=${CC}
+    "-DCMAKE_PREFIX_PATH=${prefix}" -DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON)
+run(${CMAKE_COMMAND} --build "${WORK}/core")
+run("${WORK}/core/consumer")
+message("install: core: ${run_output}")
 
 # find_package
 run(${CMAKE_COMMAND} -S ${CONSUMER} -B "${WORK}/with_cmake" -G ${GENERATOR}

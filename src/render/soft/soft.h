@@ -10,6 +10,7 @@
 #ifndef RLF_RENDER_SOFT_H
 #define RLF_RENDER_SOFT_H
 
+#include "base/inside.h"
 #include "kernel/kernel.h"
 #include "relief/model.h"
 #include "render/body_texture.h"
@@ -332,7 +333,8 @@ static inline void soft_blend(uint8_t *pixel, soft_color c, int32_t alpha)
 }
 
 /* palette.c */
-soft_color soft_color_near_far(double t); /* 0 near, bright and warm .. 1 far, dark and cold */
+soft_color soft_color_near_far(double t)
+    RLF_INSIDE(soft_color_near_far); /* 0 near, bright and warm .. 1 far, dark and cold */
 soft_color soft_color_hue(double turn, double value); /* turn 0..1 round the wheel, value 0..1 */
 soft_color soft_color_label(int32_t label);           /* neighbours differ; 0 is black */
 
@@ -354,7 +356,8 @@ int32_t soft_text_scale(int32_t picture_height);
 int32_t soft_text_width(const char *line, int32_t scale);
 void soft_draw_text(const rlf_image_rgba8 *image, const soft_text *style, const char *line);
 /* Lines and plot of an input; shared with the GL renderer. */
-void soft_draw_overlay(const rlf_image_rgba8 *image, const rlf_render_input *input);
+void soft_draw_overlay(const rlf_image_rgba8 *image, const rlf_render_input *input)
+    RLF_INSIDE(soft_draw_overlay);
 /* plot.c: at the bottom left. */
 void soft_draw_plot(const rlf_image_rgba8 *image, const rlf_plot *plot);
 extern const uint8_t soft_font[95][7]; /* font.c: ' ' to '~', rows from the top, bit 4 is left */

@@ -1,0 +1,40 @@
+# What a library that users link gives away: global names that a public header declares, and what
+# base/inside.h shows to the OpenGL renderer. Any other name is the user's.
+# cmake -DLIBRARY=librelief.a or librelief.so -DINCLUDE=<public headers> -DNM=nm -P exports.cmake
+cmake_minimum_required(VERSION 3.25)
+
+set(dynamic "")
+if(LIBRARY MATCHES "\\.so")
+  set(dynamic -D)
+endif()
+execute_process(COMMAND ${NM} -P -g --defined-only ${dynamic} ${LIBRARY}
+                OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
+file(GLOB headers ${INCLUDE}/relief/*.h)
+set(declared "")
+foreach(header IN LISTS headers)
+  file(READ ${header} text)
+  string(APPEND declared "${text}")
+endforeach()
+
+string(REGEX MATCHALL "[^\n]+" lines "${output}")
+set(count 0)
+set(problems "")
+foreach(line IN LISTS lines)
+  if(line MATCHES ":$" OR NOT line MATCHES "^([^ ]+) [A-Za-z] ?") # the name of a member
+    continue()
+  endif()
+  set(name ${CMAKE_MATCH_1})
+  math(EXPR count "${count} + 1")
+  string(FIND "${declared}" "${name}(" place)
+  if(place EQUAL -1 AND NOT name MATCHES "^rlf_inside_[a-z0-9_]+$")
+    string(APPEND problems "  ${name}\n")
+  endif()
+endforeach()
+get_filename_component(library ${LIBRARY} NAME)
+if(count EQUAL 0)
+  message(FATAL_ERROR "exports: ${library} shows nothing")
+endif()
+if(problems)
+  message(FATAL_ERROR "exports: ${library} shows what no public header declares:\n${problems}")
+endif()
+message("exports: ${library}: ${count} names, all public")
