@@ -1,6 +1,6 @@
 /* Relief: files and devices (librelief_io). Every reader names the file and the cure when it fails.
  *
- * Writers that make one file write FILE.part and rename it when it is whole, so nothing
+ * Writers that make one file write FILE.PID-N.part and rename it when it is whole, so nothing
  * half-written looks finished. Thread-safety: distinct objects and paths may be used from distinct
  * threads. SPDX-License-Identifier: MIT */
 #ifndef RELIEF_IO_H

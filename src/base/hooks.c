@@ -1,6 +1,7 @@
 /* Log, assert and allocator hooks: the only global state of the library. */
 #define _DEFAULT_SOURCE
 #include "relief/base.h"
+#include "base/line.h"
 
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -84,6 +85,7 @@ void rlf_log(rlf_log_level level, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(line, sizeof(line), format, arguments);
     va_end(arguments);
+    rlf_line_clean(line);
     log_fn(log_context, level, line);
 }
 

@@ -1,8 +1,10 @@
 /* Result names and the calling thread's error line. */
 #include "relief/base.h"
+#include "base/line.h"
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #define ERROR_TEXT_SIZE 1024
 
@@ -33,12 +35,8 @@ rlf_result rlf_fail(rlf_result result, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof(text), format, arguments);
     va_end(arguments);
-    for (int i = 0; i < ERROR_TEXT_SIZE; i++) {
-        error_text[i] = text[i] == '\n' ? ' ' : text[i];
-        if (text[i] == '\0') {
-            break;
-        }
-    }
+    rlf_line_clean(text);
+    memcpy(error_text, text, sizeof(error_text));
     return result;
 }
 

@@ -26,10 +26,8 @@ static void warn_unknown(const io_json_object *object, const char *const *known,
 {
     const char *key = io_json_unknown_key(object, known, count);
     if (key != NULL) {
-        char name[64];
-        io_json_printable(key, name, sizeof(name));
-        rlf_log(RLF_LOG_WARNING, "%s: %s%s%s is not a known key and is not used", object->file,
-                object->path, object->path[0] != '\0' ? "." : "", name);
+        rlf_log(RLF_LOG_WARNING, "%s: %s%s%.60s is not a known key and is not used", object->file,
+                object->path, object->path[0] != '\0' ? "." : "", key);
     }
 }
 
@@ -65,9 +63,7 @@ static rlf_result read_distortion(const io_json_object *object, rlf_camera *came
         camera->distortion_model = RLF_DISTORTION_RATIONAL_POLYNOMIAL;
         return io_json_get_numbers(object, &rational_field, camera->distortion, 8);
     }
-    char name[64];
-    io_json_printable(model, name, sizeof(name));
-    return io_json_fail(object, "distortion_model", "is \"%s\": it must be %s", name,
+    return io_json_fail(object, "distortion_model", "is \"%.60s\": it must be %s", model,
                         model_field.meaning);
 }
 

@@ -102,12 +102,17 @@ static rlf_result open_all(rlf_csv_log *log, const char *folder)
     return result;
 }
 
-/* Closes all three; when one fails, all are removed unless they were whole already. */
+/* Closes all three; they appear together or, when one cannot be written, not at all. */
 static rlf_result close_all(rlf_csv_log *log, rlf_result result)
 {
-    result = io_out_close(&log->frames, result);
-    result = io_out_close(&log->bodies, result);
-    return io_out_close(&log->contacts, result);
+    io_out_file *const files[3] = {&log->frames, &log->bodies, &log->contacts};
+    for (int i = 0; i < 3; i++) {
+        result = io_out_finish(files[i], result);
+    }
+    for (int i = 0; i < 3; i++) {
+        result = io_out_settle(files[i], result);
+    }
+    return result;
 }
 
 rlf_result rlf_csv_log_open(const char *folder, rlf_csv_log **out)

@@ -29,16 +29,31 @@ typedef struct io_buffer {
 rlf_result io_buffer_reserve(io_buffer *buffer, size_t size);
 void io_buffer_free(io_buffer *buffer);
 
-/* Reads a regular file of at most `limit` bytes. *out points into the buffer and has the name
- * `path`. `cure` ends the error line when the file is not there. */
+/* A regular file that is read here and there. */
+typedef struct io_file {
+    char path[IO_PATH_MAX];
+    int descriptor; /* -1 = none */
+    int64_t size;   /* bytes */
+} io_file;
+
+/* Opens a regular file; pipes and devices, which could keep the caller waiting, are refused. `cure`
+ * ends the error line when the file is not there. On failure nothing is open. */
+rlf_result io_file_open(io_file *file, const char *path, const char *cure);
+void io_file_close(io_file *file);
+/* At most `size` bytes from `position` on; returns how many there were. Thread-safe. */
+size_t io_file_read_at(const io_file *file, int64_t position, void *out, size_t size);
+
+/* Reads a whole regular file of at most `limit` bytes. *out points into the buffer and has the name
+ * `path`. `cure` as above. */
 rlf_result io_file_read(const char *path, size_t limit, const char *cure, io_buffer *buffer,
                         io_bytes *out);
 
 /* folder/name, or name alone when it is absolute. */
 rlf_result io_path_join(const char *folder, const char *name, char out[IO_PATH_MAX]);
 
-/* A file being written: FILE.part until it is whole. A target that exists and is no regular file
- * (a pipe, /dev/null) is written directly, because renaming onto it would replace the device. */
+/* A file being written, under a name of its own until it is whole: FILE.PID-N.part, which nobody
+ * else has and which follows no link. A target that exists and is no regular file (a pipe,
+ * /dev/null) is written directly, because renaming onto it would replace the device. */
 typedef struct io_out_file {
     FILE *stream;
     int write_errno; /* of the first failed write; 0 = none */
@@ -47,16 +62,20 @@ typedef struct io_out_file {
     char part[IO_PATH_MAX]; /* what is written to; equals path when is_direct */
 } io_out_file;
 
-/* Sets path and part, and refuses folders. */
-rlf_result io_out_prepare(io_out_file *file, const char *path);
-/* Prepares and opens. */
+/* Opens; refuses folders. */
 rlf_result io_out_open(io_out_file *file, const char *path);
 rlf_result io_out_write(io_out_file *file, const void *data, size_t size);
 /* RLF_OK given: flushes, closes and gives the file its name. An error given, or met: removes the
  * part file. Returns the first error. */
 rlf_result io_out_close(io_out_file *file, rlf_result result);
-/* The last step alone, for a file that somebody else closed. */
-rlf_result io_out_commit(const io_out_file *file);
-void io_out_discard(const io_out_file *file);
+
+/* The two steps of closing, for files that shall appear together or not at all: all are finished,
+ * and then all get their names or all are removed. */
+rlf_result io_out_finish(io_out_file *file, rlf_result result);
+rlf_result io_out_settle(const io_out_file *file, rlf_result result);
+
+/* Opens a file that is written in place, so that what was written is kept when the program is
+ * killed, and empties it. An error while another program writes it. */
+rlf_result io_out_open_in_place(const char *path, int *out_descriptor);
 
 #endif

@@ -19,16 +19,6 @@ static const char *type_name(const json_t *value)
     return "unknown";
 }
 
-void io_json_printable(const char *text, char *out, size_t size)
-{
-    size_t length = 0;
-    for (; text[length] != '\0' && length + 1 < size; length++) {
-        unsigned char c = (unsigned char)text[length];
-        out[length] = c < 0x20 || c == 0x7f ? '?' : text[length];
-    }
-    out[length] = '\0';
-}
-
 rlf_result io_json_fail(const io_json_object *object, const char *key, const char *format, ...)
 {
     char problem[512];
@@ -36,10 +26,8 @@ rlf_result io_json_fail(const io_json_object *object, const char *key, const cha
     va_start(arguments, format);
     vsnprintf(problem, sizeof(problem), format, arguments);
     va_end(arguments);
-    char name[64];
-    io_json_printable(key, name, sizeof(name));
-    const char *dot = object->path[0] != '\0' && name[0] != '\0' ? "." : "";
-    return rlf_fail(RLF_ERROR_INVALID, "%s: %s%s%s %s", object->file, object->path, dot, name,
+    const char *dot = object->path[0] != '\0' && key[0] != '\0' ? "." : "";
+    return rlf_fail(RLF_ERROR_INVALID, "%s: %s%s%.60s %s", object->file, object->path, dot, key,
                     problem);
 }
 
@@ -59,11 +47,9 @@ rlf_result io_json_parse(const io_bytes *file, json_t **out)
     json_error_t error;
     json_t *document = json_loadb((const char *)data, size, JSON_REJECT_DUPLICATES, &error);
     if (document == NULL) {
-        char text[JSON_ERROR_TEXT_LENGTH];
-        io_json_printable(error.text, text, sizeof(text));
         return rlf_fail(RLF_ERROR_FORMAT,
                         "%s:%d:%d: is not valid JSON: %s: correct it as in docs/formats.md",
-                        file->name, error.line, error.column, text);
+                        file->name, error.line, error.column, error.text);
     }
     if (!json_is_object(document)) {
         json_decref(document);

@@ -53,7 +53,5 @@ const char *io_json_unknown_key(const io_json_object *object, const char *const 
 /* Fails with "FILE: PATH.KEY PROBLEM". */
 rlf_result io_json_fail(const io_json_object *object, const char *key, const char *format, ...)
     RLF_PRINTF(3, 4);
-/* Copy of untrusted text for an error line: at most size - 1 bytes, control characters as '?'. */
-void io_json_printable(const char *text, char *out, size_t size);
 
 #endif

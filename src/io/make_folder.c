@@ -16,10 +16,13 @@ static bool is_folder(const char *path)
 /* mkdir that is content with a folder that is there, also when another process just made it. */
 static rlf_result make_one(const char *path)
 {
-    if (mkdir(path, 0777) == 0 || is_folder(path)) {
+    if (mkdir(path, 0777) == 0) {
         return RLF_OK;
     }
-    int code = errno;
+    const int code = errno; /* before is_folder has one of its own */
+    if (is_folder(path)) {
+        return RLF_OK;
+    }
     return rlf_fail(RLF_ERROR_IO,
                     "%s: the folder cannot be made: %s: choose a place that you may "
                     "write to",

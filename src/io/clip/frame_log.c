@@ -1,5 +1,4 @@
 /* Recordings that are one long list of frames. */
-#define _POSIX_C_SOURCE 200809L
 #include "io/clip/frame_log.h"
 
 #include "io/picture/picture.h"
@@ -8,12 +7,8 @@
 #include "io/clip/clip.h"
 #include "io/clip/pairing.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #define FRAMES_MAX (4 << 20) /* nearly two days at 30 per second */
 #define NS_PER_S 1000000000
@@ -22,24 +17,15 @@
 rlf_result io_log_open(const char *path, io_log **out)
 {
     *out = NULL;
-    if (strlen(path) >= IO_PATH_MAX) {
-        return rlf_fail(RLF_ERROR_INVALID, "%.100s...: the path is too long: use a shorter one",
-                        path);
-    }
     io_log *log = rlf_alloc(sizeof(*log));
     if (log == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    memcpy(log->path, path, strlen(path) + 1);
-    log->file = open(path, O_RDONLY | O_CLOEXEC);
-    struct stat status;
-    if (log->file < 0 || fstat(log->file, &status) != 0) {
-        rlf_result result = rlf_fail(RLF_ERROR_IO, "%s: cannot be opened: %s: check the name", path,
-                                     strerror(errno));
-        io_log_free(log);
+    rlf_result result = io_file_open(&log->file, path, "check the name");
+    if (result != RLF_OK) {
+        rlf_free(log);
         return result;
     }
-    log->file_size = S_ISREG(status.st_mode) ? (int64_t)status.st_size : 0;
     *out = log;
     return RLF_OK;
 }
@@ -47,9 +33,7 @@ rlf_result io_log_open(const char *path, io_log **out)
 void io_log_free(void *context)
 {
     io_log *log = context;
-    if (log->file >= 0) {
-        close(log->file);
-    }
+    io_file_close(&log->file);
     rlf_free(log->frames);
     rlf_free(log->colored);
     io_buffer_free(&log->buffer);
@@ -58,20 +42,7 @@ void io_log_free(void *context)
 
 bool io_log_read(const io_log *log, int64_t position, void *out, size_t size)
 {
-    uint8_t *to = out;
-    while (size > 0) {
-        const ssize_t got = pread(log->file, to, size, (off_t)position);
-        if (got < 0 && errno == EINTR) {
-            continue;
-        }
-        if (got <= 0) {
-            return false;
-        }
-        to += got;
-        position += got;
-        size -= (size_t)got;
-    }
-    return true;
+    return io_file_read_at(&log->file, position, out, size) == size;
 }
 
 static rlf_result grow(io_log *log)
@@ -80,7 +51,7 @@ static rlf_result grow(io_log *log)
         return RLF_OK;
     }
     if (log->count >= FRAMES_MAX) {
-        return rlf_fail(RLF_ERROR_CAPACITY, "%s: holds more than %d frames: cut it", log->path,
+        return rlf_fail(RLF_ERROR_CAPACITY, "%s: holds more than %d frames: cut it", log->file.path,
                         FRAMES_MAX);
     }
     const int32_t capacity = log->capacity < 64 ? 64 : log->capacity * 2;
@@ -101,7 +72,7 @@ rlf_result io_log_add(io_log *log, const io_log_frame *frame, int64_t position, 
                       int64_t *out_end)
 {
     const int64_t size = (int64_t)frame->depth_size + frame->color_size;
-    if (size > log->file_size - position) {
+    if (size > log->file.size - position) {
         return RLF_END;
     }
     rlf_result result = grow(log);
@@ -121,9 +92,9 @@ static rlf_result read_bytes(io_log *log, int64_t position, uint32_t size, io_by
 {
     rlf_result result = io_buffer_reserve(&log->buffer, size);
     if (result == RLF_OK && !io_log_read(log, position, log->buffer.data, size)) {
-        return rlf_fail(RLF_ERROR_IO, "%s: cannot be read: check the disk", log->path);
+        return rlf_fail(RLF_ERROR_IO, "%s: cannot be read: check the disk", log->file.path);
     }
-    *out = (io_bytes){log->path, log->buffer.data, size};
+    *out = (io_bytes){log->file.path, log->buffer.data, size};
     return result;
 }
 
@@ -136,7 +107,7 @@ static rlf_result read_depth(void *context, int32_t index, void *out)
     if (f->depth_size == size) {
         return io_log_read(log, f->depth_position, out, size)
                    ? RLF_OK
-                   : rlf_fail(RLF_ERROR_IO, "%s: cannot be read: check the disk", log->path);
+                   : rlf_fail(RLF_ERROR_IO, "%s: cannot be read: check the disk", log->file.path);
     }
     rlf_result result = read_bytes(log, f->depth_position, f->depth_size, &bytes);
     return result == RLF_OK ? io_inflate(&bytes, out, size) : result;
@@ -218,7 +189,7 @@ static void set_times(io_log *log, int64_t *ticks, int64_t *scratch)
             rlf_log(RLF_LOG_WARNING,
                     "%s: frame %d: the time goes back: the frames are sorted by "
                     "time",
-                    log->path, (int)i);
+                    log->file.path, (int)i);
             qsort(log->frames, (size_t)log->count, sizeof(log->frames[0]), compare_frames);
             break;
         }
@@ -234,7 +205,7 @@ static void set_times(io_log *log, int64_t *ticks, int64_t *scratch)
         rlf_log(RLF_LOG_WARNING,
                 "%s: its times are none of a camera: %d frames per second are "
                 "taken",
-                log->path, RATE_DEFAULT);
+                log->file.path, RATE_DEFAULT);
     }
     for (int32_t i = 0; i < log->count; i++) {
         log->frames[i].time_ns =
@@ -265,7 +236,7 @@ static void fill_lists(io_log *log, lists *out)
 
 static rlf_result make_clip(io_log *log, const lists *l, rlf_opened *out)
 {
-    const io_clip_def def = {.name = log->path,
+    const io_clip_def def = {.name = log->file.path,
                              .rig = log->rig,
                              .units_per_metre = log->units_per_metre,
                              .depth_times = l->times,

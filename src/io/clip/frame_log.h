@@ -14,9 +14,7 @@ typedef struct io_log_frame {
 } io_log_frame;
 
 typedef struct io_log {
-    char path[IO_PATH_MAX];
-    int file; /* descriptor; -1 = none */
-    int64_t file_size;
+    io_file file;
     io_log_frame *frames;
     int32_t count, capacity;
     int32_t *colored; /* frames that have colour */

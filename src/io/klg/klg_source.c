@@ -22,14 +22,15 @@ static void set_default_rig(io_log *log)
     rlf_log(RLF_LOG_WARNING,
             "%s: holds no calibration: 640 x 480 with fx 528, fy 528, cx 320, cy 240 is taken, as "
             "its programs do: give the right one with ?camera=FILE",
-            log->path);
+            log->file.path);
 }
 
 static rlf_result read_frames(io_log *log)
 {
     int32_t promised = 0;
     if (!io_log_read(log, 0, &promised, sizeof(promised)) || promised < 0) {
-        return rlf_fail(RLF_ERROR_FORMAT, "%s: is no .klg file: give the right file", log->path);
+        return rlf_fail(RLF_ERROR_FORMAT, "%s: is no .klg file: give the right file",
+                        log->file.path);
     }
     int64_t position = sizeof(promised);
     rlf_result result = RLF_OK;
@@ -49,10 +50,10 @@ static rlf_result read_frames(io_log *log)
     if (result != RLF_OK && result != RLF_END) {
         return result;
     }
-    if (log->count < promised || position < log->file_size) {
+    if (log->count < promised || position < log->file.size) {
         rlf_log(RLF_LOG_WARNING,
-                "%s: is damaged or cut short: says %d frames, and %d of them are whole", log->path,
-                (int)promised, (int)log->count);
+                "%s: is damaged or cut short: says %d frames, and %d of them are whole",
+                log->file.path, (int)promised, (int)log->count);
     }
     return RLF_OK;
 }

@@ -138,7 +138,7 @@ static rlf_result find_tracks(matroska *self)
     if (self->depth.track < 0) {
         return rlf_fail(RLF_ERROR_FORMAT,
                         "%s: has no depth track (16-bit grey b16g): record with a depth mode",
-                        self->file.path);
+                        self->file.file.path);
     }
     return RLF_OK;
 }
@@ -207,13 +207,13 @@ static rlf_result read_attached(matroska *self)
         return rlf_fail(RLF_ERROR_FORMAT,
                         "%s: has no attached calibration.json: give the calibration with "
                         "?camera=FILE",
-                        f->path);
+                        f->file.path);
     }
     if (f->attached_size > (int64_t)IO_JSON_FILE_MAX) {
         return rlf_fail(RLF_ERROR_FORMAT,
                         "%s: the attached calibration has %lld bytes: give one "
                         "with ?camera=FILE",
-                        f->path, (long long)f->attached_size);
+                        f->file.path, (long long)f->attached_size);
     }
     io_bytes bytes;
     rlf_result result =
@@ -239,7 +239,7 @@ static rlf_result read_rig(const rlf_address *address, matroska *self)
         return rlf_fail(RLF_ERROR_FORMAT,
                         "%s: the depth pictures are %lld x %lld but the calibration is for %d x "
                         "%d: give the right one with ?camera=FILE",
-                        self->file.path, (long long)depth->width, (long long)depth->height,
+                        self->file.file.path, (long long)depth->width, (long long)depth->height,
                         (int)self->rig.depth.width, (int)self->rig.depth.height);
     }
     self->rig.has_color = self->rig.has_color && self->color.track >= 0;

@@ -1,14 +1,9 @@
 /* Matroska: one walk through a file. */
-#define _POSIX_C_SOURCE 200809L
 #include "io/matroska/mkv_file.h"
 
 #include "io/matroska/ebml.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #define BLOCKS_MAX (8 << 20)
 #define SMALL_MAX 256 /* bytes of an element that is read whole */
@@ -66,24 +61,6 @@ static bool is_container(uint32_t id)
         }
     }
     return false;
-}
-
-/* At most `size` bytes; returns how many there were. */
-static size_t read_some(const mkv_file *self, int64_t position, uint8_t *out, size_t size)
-{
-    size_t done = 0;
-    while (done < size) {
-        const ssize_t got =
-            pread(self->file, out + done, size - done, (off_t)(position + (int64_t)done));
-        if (got < 0 && errno == EINTR) {
-            continue;
-        }
-        if (got <= 0) {
-            break;
-        }
-        done += (size_t)got;
-    }
-    return done;
 }
 
 static void enter(walk *w, uint32_t id)
@@ -191,7 +168,7 @@ static rlf_result grow(mkv_file *f)
         return RLF_OK;
     }
     if (f->block_count >= BLOCKS_MAX) {
-        return rlf_fail(RLF_ERROR_CAPACITY, "%s: holds more than %d pictures: cut it", f->path,
+        return rlf_fail(RLF_ERROR_CAPACITY, "%s: holds more than %d pictures: cut it", f->file.path,
                         BLOCKS_MAX);
     }
     const int32_t capacity = f->block_capacity < 64 ? 64 : f->block_capacity * 2;
@@ -215,7 +192,7 @@ static rlf_result add_block(walk *w, int64_t position, int64_t size)
     uint8_t head[EBML_HEADER_MAX];
     uint64_t number = 0;
     bool is_unknown = false;
-    const size_t got = read_some(f, position, head, sizeof(head));
+    const size_t got = io_file_read_at(&f->file, position, head, sizeof(head));
     const int32_t length = ebml_number(head, got, &number, &is_unknown);
     if (length == 0 || (size_t)length + 3 > got || size < length + 3 || size > UINT32_MAX) {
         return RLF_OK;
@@ -252,7 +229,7 @@ static rlf_result take(walk *w, const ebml_element *e, int64_t position)
     }
     uint8_t data[SMALL_MAX];
     const size_t wanted = e->size < SMALL_MAX ? (size_t)e->size : SMALL_MAX;
-    take_small(w, e->id, data, read_some(w->file, position, data, wanted));
+    take_small(w, e->id, data, io_file_read_at(&w->file->file, position, data, wanted));
     return RLF_OK;
 }
 
@@ -261,17 +238,17 @@ static rlf_result look_through(walk *w)
     mkv_file *f = w->file;
     rlf_result result = RLF_OK;
     int64_t position = 0;
-    while (result == RLF_OK && position < f->file_size) {
+    while (result == RLF_OK && position < f->file.size) {
         uint8_t head[EBML_HEADER_MAX];
         ebml_element e;
-        const size_t got = read_some(f, position, head, sizeof(head));
+        const size_t got = io_file_read_at(&f->file, position, head, sizeof(head));
         const bool is_read = ebml_read(head, got, &e);
         const bool is_master = is_read && is_container(e.id);
         const int64_t data = position + (is_read ? e.header_size : 0);
-        if (!is_read || (!is_master && (e.size < 0 || e.size > f->file_size - data))) {
+        if (!is_read || (!is_master && (e.size < 0 || e.size > f->file.size - data))) {
             rlf_log(RLF_LOG_WARNING,
                     "%s: is damaged or cut short at byte %lld of %lld: what is before is read",
-                    f->path, (long long)position, (long long)f->file_size);
+                    f->file.path, (long long)position, (long long)f->file.size);
             break;
         }
         if (is_master) {
@@ -285,21 +262,14 @@ static rlf_result look_through(walk *w)
     return result;
 }
 
-static rlf_result open_file(mkv_file *self)
+static rlf_result check_head(const mkv_file *self)
 {
-    self->file = open(self->path, O_RDONLY | O_CLOEXEC);
-    struct stat status;
-    if (self->file < 0 || fstat(self->file, &status) != 0) {
-        return rlf_fail(RLF_ERROR_IO, "%s: cannot be opened: %s: check the name", self->path,
-                        strerror(errno));
-    }
-    self->file_size = S_ISREG(status.st_mode) ? (int64_t)status.st_size : 0;
     uint8_t head[EBML_HEADER_MAX];
     ebml_element e;
-    const size_t got = read_some(self, 0, head, sizeof(head));
+    const size_t got = io_file_read_at(&self->file, 0, head, sizeof(head));
     if (!ebml_read(head, got, &e) || e.id != ID_EBML) {
         return rlf_fail(RLF_ERROR_FORMAT, "%s: is no Matroska file: give the right file",
-                        self->path);
+                        self->file.path);
     }
     return RLF_OK;
 }
@@ -307,14 +277,11 @@ static rlf_result open_file(mkv_file *self)
 rlf_result mkv_file_open(const char *path, mkv_file *out)
 {
     memset(out, 0, sizeof(*out));
-    out->file = -1;
-    if (strlen(path) >= IO_PATH_MAX) {
-        return rlf_fail(RLF_ERROR_INVALID, "%.100s...: the path is too long: use a shorter one",
-                        path);
-    }
-    memcpy(out->path, path, strlen(path) + 1);
     walk w = {.file = out, .scale_ns = 1000000};
-    rlf_result result = open_file(out);
+    rlf_result result = io_file_open(&out->file, path, "check the name");
+    if (result == RLF_OK) {
+        result = check_head(out);
+    }
     if (result == RLF_OK) {
         result = look_through(&w);
     }
@@ -326,10 +293,7 @@ rlf_result mkv_file_open(const char *path, mkv_file *out)
 
 void mkv_file_close(mkv_file *self)
 {
-    if (self->file >= 0) {
-        close(self->file);
-    }
-    self->file = -1;
+    io_file_close(&self->file);
     rlf_free(self->blocks);
     self->blocks = NULL;
 }
@@ -351,9 +315,9 @@ rlf_result mkv_file_read(const mkv_file *self, int64_t position, int64_t size, i
     if (result != RLF_OK) {
         return result;
     }
-    if (read_some(self, position, buffer->data, (size_t)size) != (size_t)size) {
-        return rlf_fail(RLF_ERROR_IO, "%s: cannot be read: check the disk", self->path);
+    if (io_file_read_at(&self->file, position, buffer->data, (size_t)size) != (size_t)size) {
+        return rlf_fail(RLF_ERROR_IO, "%s: cannot be read: check the disk", self->file.path);
     }
-    *out = (io_bytes){self->path, buffer->data, (size_t)size};
+    *out = (io_bytes){self->file.path, buffer->data, (size_t)size};
     return RLF_OK;
 }

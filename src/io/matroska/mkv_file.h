@@ -28,9 +28,7 @@ typedef struct mkv_block {
 } mkv_block;
 
 typedef struct mkv_file {
-    char path[IO_PATH_MAX];
-    int file; /* descriptor; -1 = none */
-    int64_t file_size;
+    io_file file;
     mkv_track tracks[MKV_TRACKS_MAX];
     int32_t track_count;
     mkv_tag tags[MKV_TAGS_MAX];

@@ -77,7 +77,7 @@ static void tell(io_mcap_reader *reader, io_mcap_chunk *chunk, const char *probl
     if (reader->bad_chunks++ == 0) {
         rlf_log(RLF_LOG_WARNING,
                 "%s: the chunk at byte %llu is left out: %s; the same goes for others like it",
-                reader->path, (unsigned long long)chunk->offset, problem);
+                reader->file.path, (unsigned long long)chunk->offset, problem);
     }
 }
 

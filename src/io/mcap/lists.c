@@ -1,10 +1,7 @@
 /* What the MCAP reader knows: lists that grow, and bytes of the file. */
-#define _POSIX_C_SOURCE 200809L
 #include "io/mcap/reader.h"
 
-#include <errno.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #define LIST_FIRST 64
 
@@ -28,19 +25,8 @@ void *io_mcap_list_add(io_mcap_list *list, size_t size)
 
 bool io_mcap_read_at(const io_mcap_reader *reader, uint64_t offset, void *out, size_t size)
 {
-    if (offset > reader->size || size > reader->size - offset) {
-        return false;
-    }
-    size_t done = 0;
-    while (done < size) {
-        const ssize_t got =
-            pread(reader->file, (char *)out + done, size - done, (off_t)(offset + done));
-        if (got <= 0 && !(got < 0 && errno == EINTR)) {
-            return false;
-        }
-        done += got > 0 ? (size_t)got : 0;
-    }
-    return true;
+    return offset <= reader->size && size <= reader->size - offset &&
+           io_file_read_at(&reader->file, (int64_t)offset, out, size) == size;
 }
 
 rlf_result io_mcap_read_block(const io_mcap_reader *reader, uint64_t offset, uint64_t size,

@@ -1,34 +1,8 @@
 /* Reading MCAP files: opening, and messages out of them. */
-#define _POSIX_C_SOURCE 200809L
 #include "io/mcap/reader.h"
-
-#include <errno.h>
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 /* ---- open and close ---------------------------------------------------------------------------
  */
-
-static rlf_result open_file(io_mcap_reader *reader, const char *path)
-{
-    struct stat status;
-    if (strlen(path) >= sizeof(reader->path)) {
-        return rlf_fail(RLF_ERROR_INVALID, "%.100s...: the path is too long: use a shorter one",
-                        path);
-    }
-    memcpy(reader->path, path, strlen(path) + 1);
-    reader->file = open(path, O_RDONLY | O_CLOEXEC);
-    if (reader->file < 0 || fstat(reader->file, &status) != 0) {
-        return rlf_fail(RLF_ERROR_IO, "%s: cannot be opened: %s: check the name", path,
-                        strerror(errno));
-    }
-    if (!S_ISREG(status.st_mode)) {
-        return rlf_fail(RLF_ERROR_IO, "%s: is not a regular file: give the name of a file", path);
-    }
-    reader->size = (uint64_t)status.st_size;
-    return io_mcap_compressor_create(&reader->compressor);
-}
 
 static void forget(io_mcap_reader *reader)
 {
@@ -50,20 +24,20 @@ static rlf_result list_all(io_mcap_reader *reader)
             return rlf_fail(RLF_ERROR_FORMAT,
                             "%s: is not an MCAP file, or has less than its first bytes: record it "
                             "again",
-                            reader->path);
+                            reader->file.path);
         }
         rlf_log(RLF_LOG_WARNING,
                 "%s: was not closed as it should have been, or has no index: its %d whole chunks "
                 "were found by reading all of it",
-                reader->path, (int)(reader->chunks.count - reader->bad_chunks));
+                reader->file.path, (int)(reader->chunks.count - reader->bad_chunks));
     }
     if (reader->is_full) {
         rlf_log(RLF_LOG_WARNING, "%s: has more than %d messages: the rest is left out",
-                reader->path, IO_MCAP_MESSAGES_MAX);
+                reader->file.path, IO_MCAP_MESSAGES_MAX);
     }
     io_mcap_sort(reader);
     return reader->lacks_memory
-               ? rlf_fail(RLF_ERROR_MEMORY, "%s: out of memory for its index", reader->path)
+               ? rlf_fail(RLF_ERROR_MEMORY, "%s: out of memory for its index", reader->file.path)
                : RLF_OK;
 }
 
@@ -74,8 +48,11 @@ rlf_result io_mcap_reader_open(const char *path, io_mcap_reader **out)
     if (reader == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    reader->file = -1;
-    rlf_result result = open_file(reader, path);
+    rlf_result result = io_file_open(&reader->file, path, "check the name");
+    reader->size = (uint64_t)reader->file.size;
+    if (result == RLF_OK) {
+        result = io_mcap_compressor_create(&reader->compressor);
+    }
     if (result == RLF_OK) {
         result = list_all(reader);
     }
@@ -94,9 +71,7 @@ void io_mcap_reader_close(io_mcap_reader **reader)
     if (r == NULL) {
         return;
     }
-    if (r->file >= 0) {
-        close(r->file);
-    }
+    io_file_close(&r->file);
     io_mcap_compressor_destroy(&r->compressor);
     rlf_free(r->schemas.items);
     rlf_free(r->channels.items);
@@ -136,7 +111,7 @@ void io_mcap_set_time(io_mcap_reader *reader, int32_t index, int64_t time_ns)
 static rlf_result fail_message(const io_mcap_reader *reader, const io_mcap_message *m)
 {
     return rlf_fail(RLF_ERROR_FORMAT, "%s: a message of %s at %.3f s is damaged: record it again",
-                    reader->path, io_mcap_channel_at(reader, m->channel)->topic,
+                    reader->file.path, io_mcap_channel_at(reader, m->channel)->topic,
                     1e-9 * (double)m->time_ns);
 }
 

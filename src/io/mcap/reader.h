@@ -37,9 +37,8 @@ typedef struct io_mcap_cached {
 #define IO_MCAP_METADATA_MAX 8192
 
 struct io_mcap_reader {
-    char path[IO_PATH_MAX];
-    int file;
-    uint64_t size;
+    io_file file;
+    uint64_t size; /* of the file */
     io_mcap_compressor *compressor;
     io_mcap_list schemas, channels, chunks, messages;
     io_buffer packed; /* a chunk before it is decompressed, a summary, a block of indexes */

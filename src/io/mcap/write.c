@@ -3,7 +3,6 @@
 #include "io/mcap/writer.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -99,14 +98,8 @@ static rlf_result open_file(io_mcap_writer *w, const char *path)
                         path);
     }
     memcpy(w->path, path, strlen(path) + 1);
-    w->file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (w->file < 0) {
-        return rlf_fail(RLF_ERROR_IO,
-                        "%s: cannot be created: %s: choose a folder that exists and "
-                        "that you may write to",
-                        path, strerror(errno));
-    }
-    return io_mcap_compressor_create(&w->compressor);
+    rlf_result result = io_out_open_in_place(path, &w->file);
+    return result == RLF_OK ? io_mcap_compressor_create(&w->compressor) : result;
 }
 
 rlf_result io_mcap_writer_create(const char *path, io_mcap_compression compression,

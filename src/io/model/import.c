@@ -18,11 +18,9 @@ static pthread_mutex_t assimp_lock = PTHREAD_MUTEX_INITIALIZER;
 
 static rlf_result fail_import(const char *name)
 {
-    char text[256];
-    io_json_printable(aiGetErrorString(), text, sizeof(text));
     return rlf_fail(RLF_ERROR_FORMAT,
-                    "%s: cannot be read as a model (%s): export it again as glTF 2.0 or OBJ", name,
-                    text);
+                    "%s: cannot be read as a model (%.200s): export it again as glTF 2.0 or OBJ",
+                    name, aiGetErrorString());
 }
 
 static bool is_usable(const struct aiVector3D *v)

@@ -4,8 +4,6 @@
  * Record: "NIR\0", type, node, size of header and fields, size of payload, each u32; the place of
  *         the record that this one replaces, u64 (u32 in the oldest files); fields; payload.
  * All numbers are little-endian, and so are the machines that this is built for. */
-#define _FILE_OFFSET_BITS 64
-#define _POSIX_C_SOURCE 200809L
 #include "io/oni/oni_index.h"
 
 #include "io/file.h"
@@ -182,34 +180,38 @@ static rlf_result use_record(oni_index *index, const char *name, const record *r
     }
 }
 
-/* Reads a record's header and fields, and goes behind them. False at the end of what is whole. */
-static bool read_record(FILE *file, uint32_t header_size, record *out, fields *f)
+static bool read_at(const io_file *file, int64_t position, void *out, size_t size)
 {
-    uint8_t rest[HEADER_64 - sizeof(record)];
+    return io_file_read_at(file, position, out, size) == size;
+}
+
+/* Reads a record's header and fields; *position goes behind them. False at the end of what is
+ * whole. */
+static bool read_record(const io_file *file, int64_t *position, uint32_t header_size, record *out,
+                        fields *f)
+{
     f->size = 0;
     f->at = 0;
-    if (fread(out, sizeof(*out), 1, file) != 1 || out->magic != RECORD_MAGIC ||
-        out->fields_size < header_size || fread(rest, header_size - sizeof(*out), 1, file) != 1) {
+    if (!read_at(file, *position, out, sizeof(*out)) || out->magic != RECORD_MAGIC ||
+        out->fields_size < header_size) {
         return false;
     }
+    const int64_t begin = *position + header_size;
     const uint32_t size = out->fields_size - header_size;
-    if (size > FIELDS_MAX) {
-        return fseeko(file, (off_t)size, SEEK_CUR) == 0;
-    }
-    f->size = size;
-    return size == 0 || fread(f->data, size, 1, file) == 1;
+    f->size = size <= FIELDS_MAX ? size : 0;
+    *position = begin + size;
+    return *position <= file->size && read_at(file, begin, f->data, f->size);
 }
 
 /* In the oldest files the length of the first node's name stands where newer ones have the upper
  * half of a place, which is 0. */
-static rlf_result read_file_header(FILE *file, const char *name, uint32_t *out_header_size)
+static rlf_result read_file_header(const io_file *file, uint32_t *out_header_size)
 {
     uint8_t head[FILE_HEADER + HEADER_64];
     uint32_t upper = 0;
-    if (fread(head, sizeof(head), 1, file) != 1 || memcmp(head, "NI10", 4) != 0 ||
-        fseeko(file, FILE_HEADER, SEEK_SET) != 0) {
+    if (!read_at(file, 0, head, sizeof(head)) || memcmp(head, "NI10", 4) != 0) {
         return rlf_fail(RLF_ERROR_FORMAT,
-                        "%s: is no OpenNI recording (it does not start with NI10)", name);
+                        "%s: is no OpenNI recording (it does not start with NI10)", file->path);
     }
     memcpy(&upper, head + FILE_HEADER + HEADER_32, 4);
     *out_header_size = upper == 0 ? HEADER_64 : HEADER_32;
@@ -238,48 +240,40 @@ static void sort_by_time(oni_node *node, const char *name)
     }
 }
 
-static rlf_result walk(FILE *file, const char *name, int64_t file_size, uint32_t header_size,
-                       oni_index *out)
+static rlf_result walk(const io_file *file, uint32_t header_size, oni_index *out)
 {
     record r = {0};
     fields f;
+    int64_t position = FILE_HEADER;
     out->is_cut = true;
-    while (read_record(file, header_size, &r, &f)) {
+    while (read_record(file, &position, header_size, &r, &f)) {
         if (r.type == RECORD_END) {
             out->is_cut = false;
             break;
         }
-        const int64_t offset = ftello(file);
-        if (offset < 0 || offset > file_size || file_size - offset < (int64_t)r.payload_size) {
+        if (file->size - position < (int64_t)r.payload_size) {
             break;
         }
-        rlf_result result = use_record(out, name, &r, &f, offset);
+        rlf_result result = use_record(out, file->path, &r, &f, position);
         if (result != RLF_OK) {
             return result;
         }
-        if (fseeko(file, (off_t)r.payload_size, SEEK_CUR) != 0) {
-            break;
-        }
+        position += r.payload_size;
     }
     return RLF_OK;
 }
 
-rlf_result oni_index_read(FILE *file, const char *name, oni_index *out)
+rlf_result oni_index_read(const io_file *file, oni_index *out)
 {
     memset(out, 0, sizeof(*out));
     uint32_t header_size = 0;
-    if (fseeko(file, 0, SEEK_END) != 0) {
-        return rlf_fail(RLF_ERROR_IO, "%s: cannot be read at any place: give a regular file", name);
-    }
-    const int64_t file_size = ftello(file);
-    rewind(file);
-    rlf_result result = read_file_header(file, name, &header_size);
+    rlf_result result = read_file_header(file, &header_size);
     if (result == RLF_OK) {
-        result = walk(file, name, file_size, header_size, out);
+        result = walk(file, header_size, out);
     }
     if (result == RLF_OK) {
-        sort_by_time(&out->depth, name);
-        sort_by_time(&out->color, name);
+        sort_by_time(&out->depth, file->path);
+        sort_by_time(&out->color, file->path);
     }
     return result;
 }

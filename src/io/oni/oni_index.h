@@ -2,9 +2,7 @@
 #ifndef RLF_IO_ONI_ONI_INDEX_H
 #define RLF_IO_ONI_ONI_INDEX_H
 
-#include "relief/base.h"
-
-#include <stdio.h>
+#include "io/file.h"
 
 #define ONI_CODEC(a, b, c, d)                                                                      \
     ((uint32_t)(a) | (uint32_t)(b) << 8 | (uint32_t)(c) << 16 | (uint32_t)(d) << 24)
@@ -38,8 +36,8 @@ typedef struct oni_index {
     bool is_cut; /* ends without an end record: what is whole was found */
 } oni_index;
 
-/* Walks over the file. `name` is for error lines. Free the index even when this fails. */
-rlf_result oni_index_read(FILE *file, const char *name, oni_index *out);
+/* Walks over the file. Free the index even when this fails. */
+rlf_result oni_index_read(const io_file *file, oni_index *out);
 void oni_index_free(oni_index *index);
 
 #endif

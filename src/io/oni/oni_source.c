@@ -1,6 +1,4 @@
 /* .oni recordings of OpenNI and OpenNI2, read without their libraries. */
-#define _FILE_OFFSET_BITS 64
-#define _POSIX_C_SOURCE 200809L
 #include "io/oni/depth_codec.h"
 #include "io/oni/oni_index.h"
 #include "io/picture/picture.h"
@@ -9,7 +7,6 @@
 #include "io/driver/field_of_view.h"
 #include "io/clip/rig_beside.h"
 
-#include <errno.h>
 #include <string.h>
 
 #define PIXEL_FORMAT_100_UM 101
@@ -27,8 +24,7 @@
 static const rlf_depth_noise structured_light = {0.0008, 0.0, 0.0012};
 
 typedef struct oni {
-    FILE *file;
-    char name[IO_PATH_MAX];
+    io_file file;
     oni_index index;
     rlf_rig rig;
     double units_per_metre;
@@ -43,25 +39,24 @@ static rlf_result read_packed(oni *o, const oni_node *node, int32_t index, io_by
     const int64_t limit = (int64_t)node->width * node->height * 4 + (1 << 18);
     if ((int64_t)p->size > limit) {
         return rlf_fail(RLF_ERROR_FORMAT, "%s: the picture at byte %lld says that it has %u bytes",
-                        o->name, (long long)p->offset, (unsigned)p->size);
+                        o->file.path, (long long)p->offset, (unsigned)p->size);
     }
     rlf_result result = io_buffer_reserve(&o->buffer, p->size);
     if (result != RLF_OK) {
         return result;
     }
-    if (fseeko(o->file, (off_t)p->offset, SEEK_SET) != 0 ||
-        fread(o->buffer.data, p->size, 1, o->file) != 1) {
-        return rlf_fail(RLF_ERROR_IO, "%s: the picture at byte %lld cannot be read", o->name,
+    if (io_file_read_at(&o->file, p->offset, o->buffer.data, p->size) != p->size) {
+        return rlf_fail(RLF_ERROR_IO, "%s: the picture at byte %lld cannot be read", o->file.path,
                         (long long)p->offset);
     }
-    *out = (io_bytes){o->name, o->buffer.data, p->size};
+    *out = (io_bytes){o->file.path, o->buffer.data, p->size};
     return RLF_OK;
 }
 
 static rlf_result fail_damaged(const oni *o, const oni_node *node, int32_t index, const char *what)
 {
-    return rlf_fail(RLF_ERROR_FORMAT, "%s: the %s picture at byte %lld is damaged", o->name, what,
-                    (long long)node->pictures[index].offset);
+    return rlf_fail(RLF_ERROR_FORMAT, "%s: the %s picture at byte %lld is damaged", o->file.path,
+                    what, (long long)node->pictures[index].offset);
 }
 
 static void flip_rows_u16(uint16_t *data, int32_t width, int32_t height)
@@ -145,9 +140,7 @@ static rlf_result read_color(void *self, int32_t index, const rlf_image_rgba8 *o
 static void oni_destroy(void *self)
 {
     oni *o = self;
-    if (o->file != NULL) {
-        fclose(o->file);
-    }
+    io_file_close(&o->file);
     oni_index_free(&o->index);
     io_buffer_free(&o->buffer);
     rlf_free(o);
@@ -170,17 +163,17 @@ static rlf_result check_depth(const oni *o)
 {
     const oni_node *d = &o->index.depth;
     if (!d->is_there || d->count == 0) {
-        return rlf_fail(RLF_ERROR_FORMAT, "%s: holds no depth pictures", o->name);
+        return rlf_fail(RLF_ERROR_FORMAT, "%s: holds no depth pictures", o->file.path);
     }
     if (!has_size(d, d->codec == ONI_CODEC_NONE ? 1 : DEPTH_PIXELS_PER_BYTE)) {
         return rlf_fail(RLF_ERROR_FORMAT,
-                        "%s: says that its depth pictures are %d x %d, which cannot be", o->name,
-                        (int)d->width, (int)d->height);
+                        "%s: says that its depth pictures are %d x %d, which cannot be",
+                        o->file.path, (int)d->width, (int)d->height);
     }
     if (d->codec != ONI_CODEC_NONE && d->codec != ONI_CODEC_16Z &&
         d->codec != ONI_CODEC_16Z_TABLE) {
         return rlf_fail(RLF_ERROR_UNSUPPORTED,
-                        "%s: its depth is packed with \"%.4s\", which is not read", o->name,
+                        "%s: its depth is packed with \"%.4s\", which is not read", o->file.path,
                         (const char *)&d->codec);
     }
     return RLF_OK;
@@ -198,7 +191,7 @@ static void check_color(oni *o)
         rlf_log(RLF_LOG_WARNING,
                 "%s: its colour pictures (%d x %d, \"%.4s\", format %d) are not read: there is no "
                 "colour",
-                o->name, (int)c->width, (int)c->height, (const char *)&c->codec,
+                o->file.path, (int)c->width, (int)c->height, (const char *)&c->codec,
                 (int)c->rgb_format);
         c->count = 0;
     }
@@ -256,13 +249,13 @@ static void rig_of_file(oni *o)
         rlf_log(RLF_LOG_WARNING,
                 "%s: does not say that depth was aligned with colour, nor how the cameras stood: "
                 "give ?aligned=1 if it was, or a calibration with ?camera=FILE",
-                o->name);
+                o->file.path);
     }
     if (!is_told) {
         rlf_log(RLF_LOG_WARNING,
                 "%s: does not tell the field of view: 58 degrees are taken; give a calibration "
                 "with ?camera=FILE",
-                o->name);
+                o->file.path);
     }
 }
 
@@ -290,7 +283,7 @@ static rlf_result make_rig(oni *o, const rlf_address *address)
         return rlf_fail(RLF_ERROR_INVALID,
                         "%s: the calibration is for pictures of another size: depth is %d x %d, "
                         "colour %d x %d here",
-                        o->name, (int)o->index.depth.width, (int)o->index.depth.height,
+                        o->file.path, (int)o->index.depth.width, (int)o->index.depth.height,
                         (int)o->index.color.width, (int)o->index.color.height);
     }
     return RLF_OK;
@@ -314,7 +307,7 @@ static rlf_result open_clip(oni *o, rlf_opened *out)
     rlf_result result = RLF_ERROR_MEMORY;
     if (depth_times != NULL && color_times != NULL) {
         const io_clip_def def = {
-            .name = o->name,
+            .name = o->file.path,
             .rig = o->rig,
             .units_per_metre = o->units_per_metre,
             .depth_times = depth_times,
@@ -337,11 +330,10 @@ static rlf_result open_clip(oni *o, rlf_opened *out)
 
 static rlf_result open_all(oni *o, const rlf_address *address, rlf_opened *out)
 {
-    o->file = fopen(o->name, "rb");
-    if (o->file == NULL) {
-        return rlf_fail(RLF_ERROR_IO, "%s: %s: check the path", o->name, strerror(errno));
+    rlf_result result = io_file_open(&o->file, address->place, "check the name");
+    if (result == RLF_OK) {
+        result = oni_index_read(&o->file, &o->index);
     }
-    rlf_result result = oni_index_read(o->file, o->name, &o->index);
     if (result == RLF_OK) {
         result = check_depth(o);
     }
@@ -351,7 +343,7 @@ static rlf_result open_all(oni *o, const rlf_address *address, rlf_opened *out)
     if (o->index.is_cut) {
         rlf_log(RLF_LOG_WARNING,
                 "%s: is cut short or damaged: the %d depth pictures before that place are read",
-                o->name, (int)o->index.depth.count);
+                o->file.path, (int)o->index.depth.count);
     }
     check_color(o);
     result = read_keys(o, address);
@@ -363,15 +355,10 @@ static rlf_result open_all(oni *o, const rlf_address *address, rlf_opened *out)
 
 static rlf_result oni_open(const rlf_address *address, rlf_opened *out)
 {
-    if (strlen(address->place) >= IO_PATH_MAX) {
-        return rlf_fail(RLF_ERROR_INVALID, "%.100s...: the path is too long: use a shorter one",
-                        address->place);
-    }
     oni *o = rlf_alloc(sizeof(*o));
     if (o == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    memcpy(o->name, address->place, strlen(address->place) + 1);
     rlf_result result = open_all(o, address, out);
     if (result != RLF_OK) {
         oni_destroy(o);

@@ -1,4 +1,5 @@
 /* Recording into a folder in the TUM RGB-D layout. */
+#define _POSIX_C_SOURCE 200809L
 #include "io/recording/sink.h"
 
 #include "io/codec/picture_encode.h"
@@ -7,6 +8,7 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
+#include <unistd.h>
 
 #define LEVEL 3               /* of zlib, as rlf_png_write has it */
 #define FLOAT_COUNTS 5000.0   /* per metre, as TUM has it: up to 13.1 m */
@@ -80,8 +82,16 @@ static rlf_result open_in(const folder_sink *s, const char *name, FILE **out)
 {
     char path[IO_PATH_MAX];
     rlf_result result = io_path_join(s->path, name, path);
-    *out = result == RLF_OK ? fopen(path, "w") : NULL;
-    return result == RLF_OK && *out == NULL ? fail_write(s) : result;
+    int descriptor = -1;
+    *out = NULL;
+    if (result == RLF_OK) {
+        result = io_out_open_in_place(path, &descriptor);
+    }
+    if (result == RLF_OK && (*out = fdopen(descriptor, "w")) == NULL) {
+        result = fail_write(s);
+        close(descriptor);
+    }
+    return result;
 }
 
 static rlf_result write_camera(const folder_sink *s)

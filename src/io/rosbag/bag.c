@@ -1,11 +1,5 @@
 /* ROS 1 bags: opening and messages. */
-#define _POSIX_C_SOURCE 200809L
 #include "io/rosbag/bag_parts.h"
-
-#include <errno.h>
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #define MAGIC "#ROSBAG V2.0\n"
 #define CHUNKS_MAX (4 << 20)
@@ -21,7 +15,7 @@ rlf_result bag_grow(const bag *self, void **array, int32_t count, int32_t *capac
         return rlf_fail(RLF_ERROR_CAPACITY,
                         "%s: holds more than %d records: cut it with rosbag "
                         "filter",
-                        self->path, (int)limit);
+                        self->file.path, (int)limit);
     }
     const int32_t wanted = count < 64 ? 64 : (count < limit / 2 ? count * 2 : limit);
     void *grown = rlf_alloc_array((size_t)wanted, size);
@@ -86,8 +80,8 @@ static rlf_result add_chunk(bag *self, int64_t position, const bag_record *recor
         packing = BAG_PACKING_BZ2;
     } else if (strcmp(record->compression, "none") != 0) {
         return rlf_fail(RLF_ERROR_UNSUPPORTED,
-                        "%s: a chunk is compressed with \"%s\": run rosbag decompress", self->path,
-                        record->compression);
+                        "%s: a chunk is compressed with \"%s\": run rosbag decompress",
+                        self->file.path, record->compression);
     }
     const bool is_plain = packing == BAG_PACKING_NONE;
     /* LZ4 packs 255 bytes into one at most. */
@@ -95,7 +89,7 @@ static rlf_result add_chunk(bag *self, int64_t position, const bag_record *recor
         (packing == BAG_PACKING_LZ4 && record->size / 256 > record->data_size)) {
         return rlf_fail(RLF_ERROR_FORMAT,
                         "%s: a chunk of %u bytes claims to hold %u: copy or record it again",
-                        self->path, (unsigned)record->data_size, (unsigned)record->size);
+                        self->file.path, (unsigned)record->data_size, (unsigned)record->size);
     }
     rlf_result result = bag_grow(self, (void **)&self->chunks, self->chunk_count,
                                  &self->chunk_capacity, sizeof(self->chunks[0]), CHUNKS_MAX);
@@ -175,7 +169,7 @@ static rlf_result scan(bag *self)
 {
     int64_t position = (int64_t)strlen(MAGIC);
     bool is_indexed = false;
-    while (position < self->file_size) {
+    while (position < self->file.size) {
         bag_record record;
         rlf_result result = RLF_ERROR_FORMAT;
         if (bag_read_record(self, position, &record)) {
@@ -189,7 +183,7 @@ static rlf_result scan(bag *self)
         if (result != RLF_OK) {
             rlf_log(RLF_LOG_WARNING,
                     "%s: is damaged or cut short at byte %lld of %lld: what is before is read",
-                    self->path, (long long)position, (long long)self->file_size);
+                    self->file.path, (long long)position, (long long)self->file.size);
             break;
         }
         position += record.data + record.data_size;
@@ -197,20 +191,13 @@ static rlf_result scan(bag *self)
     return is_indexed ? RLF_OK : find_connections(self);
 }
 
-static rlf_result open_file(bag *self)
+static rlf_result check_magic(bag *self)
 {
-    self->file = open(self->path, O_RDONLY | O_CLOEXEC);
-    struct stat status;
-    if (self->file < 0 || fstat(self->file, &status) != 0) {
-        return rlf_fail(RLF_ERROR_IO, "%s: cannot be opened: %s: check the name", self->path,
-                        strerror(errno));
-    }
     char magic[sizeof(MAGIC) - 1];
-    self->file_size = S_ISREG(status.st_mode) ? (int64_t)status.st_size : 0;
     if (!bag_read_at(self, 0, magic, sizeof(magic)) || memcmp(magic, MAGIC, sizeof(magic)) != 0) {
         return rlf_fail(RLF_ERROR_FORMAT,
                         "%s: is no ROS bag of version 2.0: run rosbag fix, or give the right file",
-                        self->path);
+                        self->file.path);
     }
     return RLF_OK;
 }
@@ -218,17 +205,15 @@ static rlf_result open_file(bag *self)
 rlf_result bag_open(const char *path, bag **out)
 {
     *out = NULL;
-    if (strlen(path) >= IO_PATH_MAX) {
-        return rlf_fail(RLF_ERROR_INVALID, "%.100s...: the path is too long: use a shorter one",
-                        path);
-    }
     bag *self = rlf_alloc(sizeof(*self));
     if (self == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    memcpy(self->path, path, strlen(path) + 1);
     self->caches[0].chunk = self->caches[1].chunk = -1;
-    rlf_result result = open_file(self);
+    rlf_result result = io_file_open(&self->file, path, "check the name");
+    if (result == RLF_OK) {
+        result = check_magic(self);
+    }
     if (result == RLF_OK) {
         result = scan(self);
     }
@@ -246,9 +231,7 @@ void bag_close(bag **handle)
     if (self == NULL) {
         return;
     }
-    if (self->file >= 0) {
-        close(self->file);
-    }
+    io_file_close(&self->file);
     rlf_free(self->chunks);
     rlf_free(self->connections);
     rlf_free(self->entries);
@@ -294,7 +277,8 @@ bool bag_is_fast(const bag *self)
 static rlf_result fail_message(const bag *self)
 {
     return rlf_fail(RLF_ERROR_FORMAT,
-                    "%s: a message is damaged or cut short: copy or record it again", self->path);
+                    "%s: a message is damaged or cut short: copy or record it again",
+                    self->file.path);
 }
 
 static bool is_message_of(const bag *self, const bag_entry *entry, const bag_record *record)
@@ -318,7 +302,7 @@ static rlf_result read_plain(bag *self, const bag_entry *entry, io_bytes *out)
         !bag_read_at(self, position + record.data, self->message.data, record.data_size)) {
         return fail_message(self);
     }
-    *out = (io_bytes){self->path, self->message.data, record.data_size};
+    *out = (io_bytes){self->file.path, self->message.data, record.data_size};
     return result;
 }
 
@@ -341,6 +325,6 @@ rlf_result bag_message(bag *self, const bag_entry *entry, io_bytes *out)
     if (!bag_parse_record(&c, &record, &data) || !is_message_of(self, entry, &record)) {
         return fail_message(self);
     }
-    *out = (io_bytes){self->path, data.data, data.left};
+    *out = (io_bytes){self->file.path, data.data, data.left};
     return RLF_OK;
 }

@@ -95,7 +95,7 @@ static rlf_result unpack_into(bag *self, int32_t index, bag_cache *cache)
     if (chunk->size > BAG_CHUNK_MAX) {
         return rlf_fail(RLF_ERROR_FORMAT,
                         "%s: a chunk of %u bytes claims to unpack to %u: record in smaller chunks",
-                        self->path, (unsigned)chunk->packed_size, (unsigned)chunk->size);
+                        self->file.path, (unsigned)chunk->packed_size, (unsigned)chunk->size);
     }
     rlf_result result = io_buffer_reserve(&cache->bytes, chunk->size);
     if (result == RLF_OK) {
@@ -105,9 +105,9 @@ static rlf_result unpack_into(bag *self, int32_t index, bag_cache *cache)
         return result;
     }
     if (!bag_read_at(self, chunk->position, self->packed.data, chunk->packed_size)) {
-        return rlf_fail(RLF_ERROR_IO, "%s: cannot be read: check the disk", self->path);
+        return rlf_fail(RLF_ERROR_IO, "%s: cannot be read: check the disk", self->file.path);
     }
-    const io_bytes in = {self->path, self->packed.data, chunk->packed_size};
+    const io_bytes in = {self->file.path, self->packed.data, chunk->packed_size};
     result = bag_decompress(&in, chunk->packing, cache->bytes.data, chunk->size);
     if (result == RLF_OK) {
         cache->chunk = index;
@@ -131,6 +131,6 @@ rlf_result bag_unpack(bag *self, int32_t chunk, io_bytes *out)
         result = unpack_into(self, chunk, found);
     }
     found->used = ++self->clock;
-    *out = (io_bytes){self->path, found->bytes.data, result == RLF_OK ? found->size : 0};
+    *out = (io_bytes){self->file.path, found->bytes.data, result == RLF_OK ? found->size : 0};
     return result;
 }

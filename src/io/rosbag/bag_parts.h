@@ -29,9 +29,7 @@ typedef struct bag_cache {
 } bag_cache;
 
 struct bag {
-    char path[IO_PATH_MAX];
-    int file; /* descriptor; -1 = none */
-    int64_t file_size;
+    io_file file;
     bag_chunk *chunks;
     int32_t chunk_count, chunk_capacity;
     bag_connection *connections;

@@ -1,9 +1,5 @@
 /* Records of a bag: a header of named fields, then data. */
-#define _POSIX_C_SOURCE 200809L
 #include "io/rosbag/bag_parts.h"
-
-#include <errno.h>
-#include <unistd.h>
 
 /* Headers hold a topic's name and a few numbers. */
 #define HEADER_MAX 65536u
@@ -65,20 +61,7 @@ bool bag_parse_record(cursor *c, bag_record *out, cursor *out_data)
 
 bool bag_read_at(const bag *self, int64_t position, void *out, size_t size)
 {
-    uint8_t *to = out;
-    while (size > 0) {
-        const ssize_t got = pread(self->file, to, size, (off_t)position);
-        if (got <= 0) {
-            if (got < 0 && errno == EINTR) {
-                continue;
-            }
-            return false;
-        }
-        to += got;
-        position += got;
-        size -= (size_t)got;
-    }
-    return true;
+    return io_file_read_at(&self->file, position, out, size) == size;
 }
 
 bool bag_read_record(bag *self, int64_t position, bag_record *out)
@@ -92,5 +75,5 @@ bool bag_read_record(bag *self, int64_t position, bag_record *out)
     bag_parse_header((cursor){self->message.data, header_size, false}, out);
     memcpy(&out->data_size, self->message.data + header_size, 4);
     out->data = 8 + (int64_t)header_size;
-    return out->data_size <= self->file_size - position - out->data;
+    return out->data_size <= self->file.size - position - out->data;
 }

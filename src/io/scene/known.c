@@ -15,12 +15,10 @@ static rlf_result read_model_point(const io_json_object *point, const rlf_shape 
         return io_scene_read_vec3(point, &numbers, out);
     }
     if (!rlf_known_name_point(shape, json_string_value(value), out)) {
-        char printable[32];
-        io_json_printable(json_string_value(value), printable, sizeof(printable));
         return io_json_fail(point, "model",
-                            "is \"%s\", which the shape does not have: use three letters like "
+                            "is \"%.30s\", which the shape does not have: use three letters like "
                             "\"ltn\" (a hull: \"v\" and a vertex), or x, y, z",
-                            printable);
+                            json_string_value(value));
     }
     return RLF_OK;
 }

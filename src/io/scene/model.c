@@ -20,9 +20,7 @@ static rlf_result get_name(const io_json_object *body, const char **out)
 /* The error of a file, with where it was named before it. */
 static rlf_result fail_key(const io_json_object *body, const char *key, rlf_result result)
 {
-    char text[768];
-    io_json_printable(rlf_error_text(), text, sizeof(text));
-    return rlf_fail(result, "%s: %s.%s: %s", body->file, body->path, key, text);
+    return rlf_fail(result, "%s: %s.%s: %.760s", body->file, body->path, key, rlf_error_text());
 }
 
 /* The last body before this one that has the same model, and is a hull of the same size when

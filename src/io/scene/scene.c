@@ -14,9 +14,7 @@ static rlf_result read_border(const io_json_object *top, rlf_border *out)
     }
     bool is_extended = strcmp(name, "extend") == 0;
     if (!is_extended && strcmp(name, "open") != 0) {
-        char printable[64];
-        io_json_printable(name, printable, sizeof(printable));
-        return io_json_fail(top, "border", "is \"%s\": it must be %s", printable, field.meaning);
+        return io_json_fail(top, "border", "is \"%.60s\": it must be %s", name, field.meaning);
     }
     *out = is_extended ? RLF_BORDER_EXTEND : RLF_BORDER_OPEN;
     return RLF_OK;

@@ -33,9 +33,7 @@ static rlf_result find_shape(const io_json_object *body, const shape_keys **out)
             return RLF_OK;
         }
     }
-    char printable[64];
-    io_json_printable(name, printable, sizeof(printable));
-    return io_json_fail(body, "shape", "is \"%s\": it must be %s", printable, field.meaning);
+    return io_json_fail(body, "shape", "is \"%.60s\": it must be %s", name, field.meaning);
 }
 
 /* A key that belongs to another shape would be ignored silently. */

@@ -56,9 +56,7 @@ static rlf_result read_kind(const io_json_object *entry, io_pattern_kind *out)
             return check_pattern_keys(entry, name, patterns[i].key);
         }
     }
-    char printable[64];
-    io_json_printable(name, printable, sizeof(printable));
-    return io_json_fail(entry, "pattern", "is \"%s\": it must be %s", printable, field.meaning);
+    return io_json_fail(entry, "pattern", "is \"%.60s\": it must be %s", name, field.meaning);
 }
 
 /* A grid's three numbers, or one. */

@@ -55,11 +55,12 @@ static rlf_result read_header(const io_log *log, sens_header *out, int64_t *out_
     uint8_t data[HEADER_SIZE];
     if (!io_log_read(log, 0, &version, 4) || version != VERSION) {
         return rlf_fail(RLF_ERROR_FORMAT, "%s: is no .sens file of version %d: give the right file",
-                        log->path, VERSION);
+                        log->file.path, VERSION);
     }
     if (!io_log_read(log, 4, &length, 8) || length > NAME_MAX_BYTES ||
         !io_log_read(log, 12 + (int64_t)length, data, sizeof(data))) {
-        return rlf_fail(RLF_ERROR_FORMAT, "%s: its header is cut short: copy it again", log->path);
+        return rlf_fail(RLF_ERROR_FORMAT, "%s: its header is cut short: copy it again",
+                        log->file.path);
     }
     cursor c = {data, sizeof(data), false};
     parse_header(&c, out);
@@ -116,7 +117,7 @@ static rlf_result set_rig(const rlf_address *address, const sens_header *h, io_l
         return rlf_fail(RLF_ERROR_FORMAT,
                         "%s: has a depth shift of %g counts per metre: give the calibration with "
                         "?camera=FILE",
-                        log->path, log->units_per_metre);
+                        log->file.path, log->units_per_metre);
     }
     /* Both are poses of a camera in the device. */
     rlf_pose T_device_color;
@@ -135,7 +136,7 @@ static rlf_result check_header(const sens_header *h, const io_log *log)
         return rlf_fail(RLF_ERROR_UNSUPPORTED,
                         "%s: its depth is packed in a way (%d) that cannot be read: convert it to "
                         "zlib with ScanNet's tools",
-                        log->path, (int)h->depth_packing);
+                        log->file.path, (int)h->depth_packing);
     }
     return RLF_OK;
 }
@@ -174,7 +175,7 @@ static rlf_result read_frames(io_log *log, uint64_t promised, int64_t position)
     if ((uint64_t)log->count < promised) {
         rlf_log(RLF_LOG_WARNING,
                 "%s: is damaged or cut short: says %llu frames, and %d of them are whole",
-                log->path, (unsigned long long)promised, (int)log->count);
+                log->file.path, (unsigned long long)promised, (int)log->count);
     }
     return RLF_OK;
 }

@@ -8,7 +8,7 @@
 #include <string.h>
 
 typedef struct io_mp4 {
-    io_out_file file; /* names only; libav opens the part file itself */
+    io_out_file file; /* names and an empty file, which libav opens itself */
     AVFormatContext *format;
     AVCodecContext *codec;
     AVStream *stream;
@@ -123,7 +123,7 @@ static rlf_result open_file(io_mp4 *mp4)
 
 static rlf_result open_all(io_mp4 *mp4, const char *path, const io_video_format *format)
 {
-    rlf_result result = io_out_prepare(&mp4->file, path);
+    rlf_result result = io_out_finish(&mp4->file, io_out_open(&mp4->file, path));
     if (result != RLF_OK) {
         return result;
     }
@@ -211,18 +211,13 @@ static rlf_result close_file(io_mp4 *mp4, rlf_result result)
     if (result == RLF_OK) {
         result = finish_file(mp4);
     }
-    if (mp4->format == NULL || mp4->format->pb == NULL) {
-        return result;
+    if (mp4->format != NULL && mp4->format->pb != NULL) {
+        int code = avio_closep(&mp4->format->pb);
+        if (code < 0 && result == RLF_OK) {
+            result = fail_av(mp4, "cannot be finished", code);
+        }
     }
-    int code = avio_closep(&mp4->format->pb);
-    if (code < 0 && result == RLF_OK) {
-        result = fail_av(mp4, "cannot be finished", code);
-    }
-    if (result == RLF_OK) {
-        return io_out_commit(&mp4->file);
-    }
-    io_out_discard(&mp4->file);
-    return result;
+    return io_out_settle(&mp4->file, result);
 }
 
 static rlf_result mp4_close(void *self, rlf_result result)
