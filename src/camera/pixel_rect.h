@@ -2,6 +2,7 @@
 #ifndef RLF_CAMERA_PIXEL_RECT_H
 #define RLF_CAMERA_PIXEL_RECT_H
 
+#include "base/inside.h"
 #include "relief/camera.h"
 
 /* Pixels x0 <= x < x1, y0 <= y < y1. */
@@ -10,6 +11,7 @@ typedef struct pixel_rect {
 } pixel_rect;
 
 /* Where a ball in the camera's frame may be seen; false when it is not in the picture. */
-bool pixel_rect_of_ball(const rlf_camera *camera, rlf_vec3 center, double radius, pixel_rect *out);
+bool pixel_rect_of_ball(const rlf_camera *camera, rlf_vec3 center, double radius, pixel_rect *out)
+    RLF_INSIDE(pixel_rect_of_ball);
 
 #endif

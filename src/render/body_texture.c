@@ -1,5 +1,5 @@
 /* Procedural textures in integer arithmetic: the same bytes everywhere. */
-#include "body_texture.h"
+#include "render/body_texture.h"
 
 body_texture_kind body_texture_kind_of(rlf_shape_type type)
 {

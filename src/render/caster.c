@@ -1,5 +1,5 @@
 /* Contact darkening and shadows of bodies. */
-#include "caster.h"
+#include "render/caster.h"
 
 #define REACH_MARGIN 1.001f /* rounding */
 #define NEAREST_M 0.1       /* bodies around the camera would darken everything or nothing */

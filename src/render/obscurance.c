@@ -1,9 +1,47 @@
 /* Light around that planes keep from points: see obscurance.h. */
-#include "obscurance.h"
+#include "render/obscurance.h"
 
 static float dot3(const float a[3], const float b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* The body in the depth camera's frame. */
+static near_planes_body body_of(const caster *from, const rlf_pose *T_depth_picture)
+{
+    near_planes_body body = {.round = from->round, .reach = from->reach};
+    caster_to_floats(rlf_transform(T_depth_picture, caster_from_floats(from->center)), body.center);
+    for (int i = 0; i < 3; i++) {
+        caster_to_floats(rlf_rotate(T_depth_picture->q, caster_from_floats(from->axis[i])),
+                         body.axis[i]);
+        body.half[i] = from->half[i];
+    }
+    return body;
+}
+
+void obscurance_find(const rlf_surface *surface, const rlf_pose *T_depth_picture,
+                     const caster *body, obscurance *out)
+{
+    out->count = 0;
+    if (!(body->near_m > 0.0f)) {
+        return;
+    }
+    const rlf_pose *T = T_depth_picture;
+    const near_planes_body in_depth = body_of(body, T);
+    near_planes near_by;
+    near_planes_find(surface, &in_depth, &near_by);
+    for (int32_t i = 0; i < near_by.count; i++) {
+        const near_plane *from = &near_by.plane[i];
+        if (from->presence > 0.0f) {
+            const rlf_vec3 p = rlf_transform_inverse(T, caster_from_floats(from->p));
+            const rlf_vec3 turned =
+                rlf_rotate(rlf_quat_conjugate(T->q), caster_from_floats(from->normal));
+            caster_to_floats(turned, out->normal[out->count]);
+            out->offset[out->count] = (float)-rlf_dot(turned, p);
+            out->presence[out->count++] = from->presence;
+        }
+    }
+    out->per_reach = near_by.count > 0 ? 1.0f / near_by.reach : 0.0f;
 }
 
 /* What is lost is at most (1 - height)^2 (1 - facing) / 2. */

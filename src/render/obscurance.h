@@ -2,25 +2,24 @@
  * and Kronin 1998). Of the light around a point of a body, weighted by the cosine to its normal,
  * that is lost which comes from a real surface less than a reach away, the less the further it is;
  * the reach is as long as the body is wide, for beyond that the surface is lit as if the body were
- * not there. Per body the real surfaces are at most three planes, found in the depth image. Shared
+ * not there. Per body the real surfaces are at most three planes (near_planes.h). Shared
  * by both renderers. */
 #ifndef RLF_RENDER_OBSCURANCE_H
 #define RLF_RENDER_OBSCURANCE_H
 
 #include "base/inside.h"
+#include "environment/near_planes.h"
 #include "render/caster.h"
 
 #define OBSCURANCE_SHARE 0.8 /* of the light around that can be lost: a surface gives some back */
 #define OBSCURANCE_HARDLY 0.005f /* less than this share lost is not seen */
 
-enum { OBSCURANCE_PLANES = 3 };
-
 typedef struct obscurance {
     int32_t count;
-    float normal[OBSCURANCE_PLANES][3]; /* unit, towards the body; picture camera frame */
-    float offset[OBSCURANCE_PLANES];    /* height of p above a plane: normal . p + offset, metres */
-    float presence[OBSCURANCE_PLANES];  /* share of the plane that is there below the body, 0..1 */
-    float per_reach;                    /* one over the reach, metres */
+    float normal[NEAR_PLANES_MOST][3]; /* unit, towards the body; picture camera frame */
+    float offset[NEAR_PLANES_MOST];    /* height of p above a plane: normal . p + offset, metres */
+    float presence[NEAR_PLANES_MOST];  /* share of the plane that is there below the body, 0..1 */
+    float per_reach;                   /* one over the reach, metres */
 } obscurance;
 
 /* The surfaces near a body; none without normals. A caster with near_m 0 is no body. */

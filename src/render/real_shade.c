@@ -1,7 +1,5 @@
 /* What real things keep of the directed light from a body, as a map. */
-#include "real_shade.h"
-
-#include "real_shade_ray.h"
+#include "render/real_shade.h"
 
 #include <string.h>
 
@@ -34,7 +32,7 @@ RLF_KERNEL_PART void distances_to(const shade_job *j, const float *restrict x,
     const shade_job job = *j;
     const caster body = *j->body;
     RLF_KERNEL_WHOLE
-    for (int32_t i = 0; i < REAL_SHADE_RAYS; i++) {
+    for (int32_t i = 0; i < LIGHT_PATH_RAYS; i++) {
         float sum = 0.0f;
         for (int k = 0; k < 3; k++) {
             const float *axis = job.axis[k];
@@ -49,22 +47,22 @@ RLF_KERNEL_PART void distances_to(const shade_job *j, const float *restrict x,
 RLF_KERNEL_PART void step_back(const float *restrict gap, float along, float *restrict v)
 {
     RLF_KERNEL_WHOLE
-    for (int32_t i = 0; i < REAL_SHADE_RAYS; i++) {
+    for (int32_t i = 0; i < LIGHT_PATH_RAYS; i++) {
         v[i] = gap[i] > 0.0f ? v[i] - gap[i] * along : v[i];
     }
 }
 
 /* Where the light of cells first meets the body, into `out`; those that it passes by are none. */
 RLF_KERNEL static void find_lit(const shade_job *j, const float *restrict x,
-                                const float *restrict y, real_shade_points *out)
+                                const float *restrict y, light_path_points *out)
 {
     const float radius = j->body->radius;
-    float gap[REAL_SHADE_RAYS];
+    float gap[LIGHT_PATH_RAYS];
     for (int k = 0; k < 3; k++) {
         const float from = radius * j->to_light[k];
         float *restrict v = out->p[k];
         RLF_KERNEL_WHOLE
-        for (int32_t i = 0; i < REAL_SHADE_RAYS; i++) {
+        for (int32_t i = 0; i < LIGHT_PATH_RAYS; i++) {
             v[i] = x[i] * j->across[k] + y[i] * j->down[k] + from;
         }
     }
@@ -76,7 +74,7 @@ RLF_KERNEL static void find_lit(const shade_job *j, const float *restrict x,
         distances_to(j, out->p[0], out->p[1], out->p[2], gap);
     }
     RLF_KERNEL_WHOLE
-    for (int32_t i = 0; i < REAL_SHADE_RAYS; i++) {
+    for (int32_t i = 0; i < LIGHT_PATH_RAYS; i++) {
         bool is_met =
             (x[i] * x[i] + y[i] * y[i] <= radius * radius) & (gap[i] < NEAR_BODY * radius);
         out->is_some[i] = is_met ? 1 : 0;
@@ -94,20 +92,20 @@ typedef struct cell_list {
 
 static void follow(const shade_job *j, const cell_list *list, real_shade *out)
 {
-    for (int32_t first = 0; first < list->count; first += REAL_SHADE_RAYS) {
-        float x[REAL_SHADE_RAYS];
-        float y[REAL_SHADE_RAYS];
-        float lost[REAL_SHADE_RAYS];
-        real_shade_points points;
+    for (int32_t first = 0; first < list->count; first += LIGHT_PATH_RAYS) {
+        float x[LIGHT_PATH_RAYS];
+        float y[LIGHT_PATH_RAYS];
+        float lost[LIGHT_PATH_RAYS];
+        light_path_points points;
         const int32_t left = list->count - first;
-        const int32_t count = left < REAL_SHADE_RAYS ? left : REAL_SHADE_RAYS;
-        for (int32_t i = 0; i < REAL_SHADE_RAYS; i++) {
+        const int32_t count = left < LIGHT_PATH_RAYS ? left : LIGHT_PATH_RAYS;
+        for (int32_t i = 0; i < LIGHT_PATH_RAYS; i++) {
             const int32_t cell = list->cell[first + (i < count ? i : 0)];
             x[i] = ((float)(cell % REAL_SHADE_SIDE) - MIDDLE) * j->spacing;
             y[i] = ((float)(cell / REAL_SHADE_SIDE) - MIDDLE) * j->spacing;
         }
         find_lit(j, x, y, &points);
-        real_shade_lost(j->surface, &points, j->to_light, count, lost);
+        light_path_lost(j->surface, &points, j->to_light, count, lost);
         for (int32_t i = 0; i < count; i++) {
             out->left[list->cell[first + i]] = points.is_some[i] != 0 ? 1.0f - lost[i] : UNKNOWN;
         }
@@ -258,8 +256,10 @@ void real_shade_make(const real_shade_world *world, const caster *body, real_sha
     }
     shade_job job;
     place_map(world, body, &job, out);
-    const float reach = body->reach + NEAR_BODY * body->radius;
-    if (world->grid != NULL && !real_shade_may_lose(world, job.center, reach, job.to_light)) {
+    const light_path_ball ball = {{job.center[0], job.center[1], job.center[2]},
+                                  body->reach + NEAR_BODY * body->radius};
+    if (world->tiles != NULL &&
+        !light_path_may_lose(world->surface, world->tiles, &ball, job.to_light)) {
         return;
     }
     double radius_px = world->focal_px * (double)body->radius / (double)body->center[2];

@@ -1,5 +1,5 @@
 /* Builds the unit meshes of the body shapes. */
-#include "shape_mesh.h"
+#include "render/shape_mesh.h"
 
 static int32_t add_vertex(shape_mesh_set *set, rlf_vec3 p, double shift, rlf_vec3 normal,
                           const double uv[2])

@@ -4,6 +4,8 @@
 # A module is a folder of src/. It may include the public headers of its line below, its own headers
 # and the internal headers ("module/x.h") of the modules named there. Whoever adds an edge adds it
 # here, in the open. Capture, surface, physics and render never meet but in pipeline.
+# Environment learns from frames and surfaces; render alone reads what it learnt, and it knows nothing
+# of the compositor.
 cmake_minimum_required(VERSION 3.25)
 
 set(public_base base)
@@ -15,6 +17,7 @@ set(public_capture base math image camera frame source synthetic)
 set(public_surface base math image camera frame surface reconstruct)
 set(public_physics base math snapshot world query)
 set(public_known base math image camera frame surface snapshot model known)
+set(public_environment base math image camera frame surface snapshot)
 set(public_render base math image camera frame surface snapshot model compositor)
 set(public_render_gl ${public_render} gl)
 set(public_pipeline base math image camera frame surface snapshot source synthetic reconstruct world query
@@ -30,8 +33,9 @@ set(internal_capture base math camera kernel)
 set(internal_surface base math camera kernel)
 set(internal_physics base math kernel)
 set(internal_known base math camera)
-set(internal_render base math camera kernel known)
-set(internal_render_gl base math camera known render)
+set(internal_environment base math camera kernel known)
+set(internal_render base math camera kernel known environment)
+set(internal_render_gl base math camera known environment render)
 set(internal_pipeline base math camera known)
 set(internal_io base math camera)
 
@@ -76,7 +80,8 @@ set(owner_backend io)
 set(system_base sys/mman sanitizer/asan_interface)
 set(system_core assert errno float inttypes limits math pthread signal stdalign stdarg stdatomic
     stdbool stddef stdint stdio stdlib string time unistd)
-set(core_modules base math image camera kernel known capture surface physics render pipeline)
+set(core_modules base math image camera kernel known capture surface physics environment render
+    pipeline)
 
 set(problems "")
 set(edges "")

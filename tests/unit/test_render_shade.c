@@ -115,15 +115,15 @@ static void a_cupboard_shades_what_is_before_it(void **state)
     scene_free(s);
 }
 
-/* A body whose way to the light is free by the grid loses none by its rays. */
-static void what_the_grid_leaves_out_is_lit(void **state)
+/* A body whose way to the light is free by the tiles loses none by its rays. */
+static void what_the_tiles_leave_out_is_lit(void **state)
 {
     (void)state;
     render_scene *s = make_table();
     scene_add_strip(s, 220, 280, 1.4);
-    real_shade_grid grid;
-    assert_int_equal(real_shade_grid_create(s->grid.width, s->grid.height, &grid), RLF_OK);
-    real_shade_grid_update(&grid, &s->surface, NULL, NULL);
+    depth_tiles tiles;
+    assert_int_equal(depth_tiles_create(s->grid.width, s->grid.height, &tiles), RLF_OK);
+    depth_tiles_update(&tiles, &s->surface, NULL, NULL);
     srand(5);
     int32_t free_count = 0;
     for (int i = 0; i < 2000; i++) {
@@ -131,18 +131,16 @@ static void what_the_grid_leaves_out_is_lit(void **state)
                       0.01 * (rand() % 200 - 100)};
         rlf_vec3 p = {0.01 * (rand() % 300 - 150), 0.01 * (rand() % 200 - 100),
                       0.5 + 0.01 * (rand() % 400)};
-        const real_shade_world world = {&s->surface, &grid, rlf_pose_identity(), rlf_normalize(l),
-                                        540.0};
-        const float center[3] = {(float)p.x, (float)p.y, (float)p.z};
-        const float to_light[3] = {(float)world.to_light.x, (float)world.to_light.y,
-                                   (float)world.to_light.z};
-        if (!real_shade_may_lose(&world, center, 0.1f, to_light)) {
+        const light_path_ball ball = {{(float)p.x, (float)p.y, (float)p.z}, 0.1f};
+        const rlf_vec3 unit = rlf_normalize(l);
+        const float to_light[3] = {(float)unit.x, (float)unit.y, (float)unit.z};
+        if (!light_path_may_lose(&s->surface, &tiles, &ball, to_light)) {
             check_lit(s, p, l); /* a ball of 8 cm */
             free_count++;
         }
     }
     assert_true(free_count > 300);
-    real_shade_grid_destroy(&grid);
+    depth_tiles_destroy(&tiles);
     scene_free(s);
 }
 
@@ -202,7 +200,7 @@ int main(void)
         cmocka_unit_test(a_table_shades_what_is_under_it),
         cmocka_unit_test(a_person_is_no_endless_slab),
         cmocka_unit_test(a_cupboard_shades_what_is_before_it),
-        cmocka_unit_test(what_the_grid_leaves_out_is_lit),
+        cmocka_unit_test(what_the_tiles_leave_out_is_lit),
         cmocka_unit_test(nothing_known_shades_nothing),
         cmocka_unit_test(a_ball_under_a_table_is_dark),
     };

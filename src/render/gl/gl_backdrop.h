@@ -3,9 +3,9 @@
 #ifndef RLF_RENDER_GL_BACKDROP_H
 #define RLF_RENDER_GL_BACKDROP_H
 
-#include "gl_caster.h"
-#include "gl_texture.h"
-#include "gl_view.h"
+#include "render/gl/gl_caster.h"
+#include "render/gl/gl_texture.h"
+#include "render/gl/gl_view.h"
 
 typedef struct gl_backdrop {
     GLuint framebuffer, empty_array;

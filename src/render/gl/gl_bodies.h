@@ -2,12 +2,12 @@
 #ifndef RLF_RENDER_GL_BODIES_H
 #define RLF_RENDER_GL_BODIES_H
 
-#include "gl_caster.h"
-#include "gl_models.h"
-#include "gl_obscurance.h"
-#include "gl_shade.h"
-#include "gl_texture.h"
-#include "gl_view.h"
+#include "render/gl/gl_caster.h"
+#include "render/gl/gl_models.h"
+#include "render/gl/gl_obscurance.h"
+#include "render/gl/gl_shade.h"
+#include "render/gl/gl_texture.h"
+#include "render/gl/gl_view.h"
 
 #include "relief/frame.h"
 #include "render/shape_mesh.h"
@@ -30,7 +30,7 @@ typedef struct gl_bodies {
     shape_vertex *hull_vertices; /* a batch on its way to hull_buffer */
 } gl_bodies;
 
-/* The real world of soft occlusion: see silhouette.h. */
+/* The real world of soft occlusion: see environment/edge_matte.h. */
 typedef struct gl_soft_real {
     const gl_texture *near_z, *far_z, *cover;
     const rlf_depth_noise *noise;

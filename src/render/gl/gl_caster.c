@@ -1,5 +1,5 @@
 /* Light that bodies take, in GLSL. */
-#include "gl_caster.h"
+#include "render/gl/gl_caster.h"
 
 #include <stdio.h>
 

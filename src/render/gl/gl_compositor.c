@@ -2,20 +2,21 @@
  *
  * The camera and mesh views are drawn here; every other view is a picture of a plane, which the
  * soft renderer inside paints as well without a GPU. */
-#include "gl_compositor.h"
+#include "render/gl/gl_compositor.h"
 
-#include "gl_backdrop.h"
-#include "gl_bodies.h"
-#include "gl_layers.h"
-#include "gl_target.h"
-#include "gl_thesis.h"
-#include "gl_wireframe.h"
+#include "render/gl/gl_backdrop.h"
+#include "render/gl/gl_bodies.h"
+#include "render/gl/gl_layers.h"
+#include "render/gl/gl_target.h"
+#include "render/gl/gl_thesis.h"
+#include "render/gl/gl_wireframe.h"
 
 #include "base/cookie.h"
-#include "render/light_direction.h"
-#include "render/real_depth.h"
-#include "render/room_light.h"
-#include "render/silhouette.h"
+#include "environment/light_direction.h"
+#include "environment/real_depth.h"
+#include "environment/room_light.h"
+#include "environment/edge_matte.h"
+#include "render/render.h"
 #include "render/soft/soft.h"
 
 typedef struct gl_compositor {
@@ -25,8 +26,8 @@ typedef struct gl_compositor {
     real_depth real;
     room_light lamp;
     light_direction direction;
-    silhouette silhouette; /* RLF_OCCLUSION_SOFT only */
-    caster *casters;       /* as the snapshot's bodies */
+    edge_matte edges; /* RLF_OCCLUSION_SOFT only */
+    caster *casters;  /* as the snapshot's bodies */
     int32_t caster_capacity;
     gl_shade shade;        /* of what real things take */
     gl_obscurance near_by; /* of the light around */
@@ -69,7 +70,7 @@ static void free_planes(gl_compositor *c)
 {
     real_depth_destroy(&c->real);
     light_direction_destroy(&c->direction);
-    silhouette_destroy(&c->silhouette);
+    edge_matte_destroy(&c->edges);
     rlf_compositor_destroy(&c->soft);
     gl_obscurance_destroy(&c->near_by);
     rlf_free(c->casters);
@@ -92,8 +93,8 @@ static void destroy(void *self)
 
 static rlf_result create_planes(gl_compositor *c)
 {
-    rlf_camera picture = real_depth_picture_camera(&c->def);
-    rlf_pose T_picture_camera = real_depth_picture_pose(&c->def);
+    rlf_camera picture = render_camera(&c->def);
+    rlf_pose T_picture_camera = render_pose(&c->def);
     int32_t w = picture.width;
     int32_t h = picture.height;
     size_t count = (size_t)w * (size_t)h;
@@ -104,15 +105,16 @@ static rlf_result create_planes(gl_compositor *c)
         return RLF_ERROR_MEMORY;
     }
     if (c->def.occlusion == RLF_OCCLUSION_SOFT) {
-        rlf_result result =
-            silhouette_create(&picture, &c->def.rig.depth, c->def.pool, &c->silhouette);
+        rlf_result result = edge_matte_create(&picture, &c->def.rig.depth, c->def.pool, &c->edges);
         if (result != RLF_OK) {
             return result;
         }
-        c->silhouette.fills_all = true;
+        c->edges.fills_all = true;
     }
-    rlf_result result = light_direction_create(&c->def, &c->direction);
-    return result == RLF_OK ? real_depth_create(&c->def, &picture, &c->real) : result;
+    rlf_result result = light_direction_create(
+        c->def.light_direction, c->def.estimates_light_direction, &c->def.grid, &c->direction);
+    const real_depth_def real = render_depth_def(&c->def);
+    return result == RLF_OK ? real_depth_create(&real, &c->real) : result;
 }
 
 static rlf_result fail_lost(void)
@@ -265,24 +267,25 @@ static bool has_edges(const gl_compositor *c, const rlf_render_input *input)
 
 static rlf_result update_real_depth(gl_compositor *c, const rlf_render_input *input)
 {
-    silhouette *s = has_edges(c, input) ? &c->silhouette : NULL;
+    edge_matte *s = has_edges(c, input) ? &c->edges : NULL;
     if (s != NULL) {
-        silhouette_place(s, &c->view.camera, &c->view.T_picture_world, input->snapshot);
+        render_place_bodies(s, &c->view.camera, &c->view.T_picture_world, input->snapshot);
     }
     const real_windows all = {{{0, 0, c->real.z.width, c->real.z.height}}, 1};
-    real_depth_read(&c->real, input);
-    rlf_result result = real_depth_update(&c->real, input, s, &all);
+    const observation now = render_observation(input);
+    real_depth_read(&c->real, &now);
+    rlf_result result = real_depth_update(&c->real, &now, s, &all);
     gl_texture_upload_f32(&c->depth_texture, c->real.z.data, c->real.z.width, c->real.z.height);
     return result;
 }
 
 /* What the real world is like where the bodies are, as the soft renderer works it out. */
-static void update_silhouette(gl_compositor *c, const rlf_render_input *input)
+static void update_edges(gl_compositor *c, const rlf_render_input *input)
 {
-    silhouette *s = &c->silhouette;
+    edge_matte *s = &c->edges;
     int32_t width = s->cover.width;
     int32_t height = s->cover.height;
-    silhouette_update(s, &c->real.z, real_depth_known(&c->real), input->frame);
+    edge_matte_update(s, &c->real.z, real_depth_known(&c->real), input->frame);
     gl_texture_upload_f32(&c->near_texture, s->near_z.data, width, height);
     gl_texture_upload_f32(&c->far_texture, s->far_z.data, width, height);
     gl_texture_upload_u8(&c->cover_texture, s->cover.data, width, height);
@@ -352,7 +355,7 @@ static rlf_result draw_backdrop(gl_compositor *c, const rlf_render_input *input)
                               has_range ? rig->depth_max_m : 4.5);
     }
     if (has_edges(c, input)) {
-        update_silhouette(c, input);
+        update_edges(c, input);
     }
     if (has_bodies(input) && has_shadows(c)) {
         rlf_vec3 light = rlf_rotate(c->view.T_picture_camera.q, c->direction.now);
@@ -455,8 +458,8 @@ static rlf_result draw(gl_compositor *c, const rlf_render_input *input)
 {
     rlf_result result = RLF_OK;
     gl_view_place(&c->view, &input->T_world_camera);
-    room_light_update(&c->lamp, &c->def, input->frame);
-    light_direction_update(&c->direction, &c->def, input->frame, input->surface);
+    room_light_update(&c->lamp, c->def.light_color, c->def.estimates_light, input->frame);
+    light_direction_update(&c->direction, &c->def.rig, input->frame, input->surface);
     reset_state();
     result = draw_backdrop(c, input);
     if (result != RLF_OK) {

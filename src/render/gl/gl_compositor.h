@@ -2,7 +2,7 @@
 #ifndef RLF_RENDER_GL_COMPOSITOR_H
 #define RLF_RENDER_GL_COMPOSITOR_H
 
-#include "gl_context.h"
+#include "render/gl/gl_context.h"
 
 #include "relief/gl.h"
 

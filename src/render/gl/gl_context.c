@@ -1,5 +1,5 @@
 /* EGL contexts without a display, and adoption of a window's context. */
-#include "gl_context.h"
+#include "render/gl/gl_context.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,9 +1,9 @@
 /* Full-screen layers. */
-#include "gl_layers.h"
+#include "render/gl/gl_layers.h"
 
-#include "gl_occlusion.h"
-#include "gl_program.h"
-#include "gl_view.h"
+#include "render/gl/gl_occlusion.h"
+#include "render/gl/gl_program.h"
+#include "render/gl/gl_view.h"
 
 enum { UNIT_BACKDROP = 0, UNIT_REAL_DEPTH = 1, UNIT_BODY_DEPTH = 2 };
 

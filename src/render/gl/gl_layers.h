@@ -3,7 +3,7 @@
 #ifndef RLF_RENDER_GL_LAYERS_H
 #define RLF_RENDER_GL_LAYERS_H
 
-#include "gl_texture.h"
+#include "render/gl/gl_texture.h"
 
 typedef struct gl_layers {
     GLuint backdrop_program, occlusion_program;

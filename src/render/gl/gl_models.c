@@ -1,5 +1,5 @@
 /* Uploads of models, and who stays. */
-#include "gl_models.h"
+#include "render/gl/gl_models.h"
 
 #include <stddef.h>
 

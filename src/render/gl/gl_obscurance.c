@@ -1,5 +1,5 @@
 /* The planes near each body as uniforms. */
-#include "gl_obscurance.h"
+#include "render/gl/gl_obscurance.h"
 
 void gl_obscurance_destroy(gl_obscurance *near_by)
 {
@@ -41,9 +41,9 @@ void gl_obscurance_set(const gl_obscurance_uniforms *uniforms, const gl_obscuran
                        int32_t index)
 {
     const int32_t count = near_by != NULL ? near_by->bodies[index].count : 0;
-    GLfloat planes[OBSCURANCE_PLANES][4] = {{0}};
-    GLfloat normals[OBSCURANCE_PLANES][3] = {{0}};
-    GLfloat shares[OBSCURANCE_PLANES] = {0};
+    GLfloat planes[NEAR_PLANES_MOST][4] = {{0}};
+    GLfloat normals[NEAR_PLANES_MOST][3] = {{0}};
+    GLfloat shares[NEAR_PLANES_MOST] = {0};
     glUniform1i(uniforms->count, count);
     if (count == 0) {
         return;
@@ -62,8 +62,8 @@ void gl_obscurance_set(const gl_obscurance_uniforms *uniforms, const gl_obscuran
         planes[i][3] = o->offset[i];
         shares[i] = (GLfloat)OBSCURANCE_SHARE * o->presence[i];
     }
-    glUniform4fv(uniforms->planes, OBSCURANCE_PLANES, planes[0]);
-    glUniform3fv(uniforms->normals, OBSCURANCE_PLANES, normals[0]);
+    glUniform4fv(uniforms->planes, NEAR_PLANES_MOST, planes[0]);
+    glUniform3fv(uniforms->normals, NEAR_PLANES_MOST, normals[0]);
     glUniform3fv(uniforms->shares, 1, shares);
     glUniform1f(uniforms->per_reach, o->per_reach);
 }

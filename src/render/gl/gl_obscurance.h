@@ -2,7 +2,7 @@
 #ifndef RLF_RENDER_GL_OBSCURANCE_H
 #define RLF_RENDER_GL_OBSCURANCE_H
 
-#include "gl_context.h"
+#include "render/gl/gl_context.h"
 
 #include "render/obscurance.h"
 

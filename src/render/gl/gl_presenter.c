@@ -1,6 +1,6 @@
 /* Shows an image in a window: one textured rectangle with black bars. */
-#include "gl_program.h"
-#include "gl_texture.h"
+#include "render/gl/gl_program.h"
+#include "render/gl/gl_texture.h"
 
 #include "relief/gl.h"
 

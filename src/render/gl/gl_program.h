@@ -2,7 +2,7 @@
 #ifndef RLF_RENDER_GL_PROGRAM_H
 #define RLF_RENDER_GL_PROGRAM_H
 
-#include "gl_context.h"
+#include "render/gl/gl_context.h"
 
 enum { GL_PROGRAM_PIECES = 3 };
 

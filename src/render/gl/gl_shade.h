@@ -2,7 +2,7 @@
 #ifndef RLF_RENDER_GL_SHADE_H
 #define RLF_RENDER_GL_SHADE_H
 
-#include "gl_texture.h"
+#include "render/gl/gl_texture.h"
 
 #include "render/real_shade.h"
 

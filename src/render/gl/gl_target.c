@@ -1,5 +1,5 @@
 /* Framebuffer objects and read back. */
-#include "gl_target.h"
+#include "render/gl/gl_target.h"
 
 static void make_buffers(gl_target *target)
 {

@@ -3,7 +3,7 @@
 #ifndef RLF_RENDER_GL_TARGET_H
 #define RLF_RENDER_GL_TARGET_H
 
-#include "gl_context.h"
+#include "render/gl/gl_context.h"
 
 #include "relief/image.h"
 

@@ -1,5 +1,5 @@
 /* Stencil-limited layers, one per body. */
-#include "gl_thesis.h"
+#include "render/gl/gl_thesis.h"
 
 #include "camera/pixel_rect.h"
 

@@ -2,9 +2,9 @@
 #ifndef RLF_RENDER_GL_THESIS_H
 #define RLF_RENDER_GL_THESIS_H
 
-#include "gl_bodies.h"
-#include "gl_layers.h"
-#include "gl_target.h"
+#include "render/gl/gl_bodies.h"
+#include "render/gl/gl_layers.h"
+#include "render/gl/gl_target.h"
 
 typedef struct gl_thesis {
     GLuint framebuffer;    /* depth only */

@@ -1,5 +1,5 @@
 /* Matrices and lens of a picture. */
-#include "gl_view.h"
+#include "render/gl/gl_view.h"
 
 const char gl_view_glsl[] =
     "uniform mat4 u_projection;\n"

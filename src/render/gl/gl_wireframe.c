@@ -1,7 +1,7 @@
 /* The triangle mesh as lines: points by eq. 4.1, placed by A.4. */
-#include "gl_wireframe.h"
+#include "render/gl/gl_wireframe.h"
 
-#include "gl_program.h"
+#include "render/gl/gl_program.h"
 
 #include "render/soft/soft.h"
 

@@ -2,7 +2,7 @@
 #ifndef RLF_RENDER_GL_WIREFRAME_H
 #define RLF_RENDER_GL_WIREFRAME_H
 
-#include "gl_view.h"
+#include "render/gl/gl_view.h"
 
 #include "relief/surface.h"
 

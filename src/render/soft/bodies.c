@@ -178,10 +178,10 @@ static soft_real_row real_row(const soft *s, const soft_depth_range *tiles, int3
     real.above = rlf_f32_row(&s->real.z, y > 0 ? y - 1 : y);
     real.below = rlf_f32_row(&s->real.z, y < last ? y + 1 : y);
     if (s->def.occlusion == RLF_OCCLUSION_SOFT) {
-        real.near_z = rlf_f32_row(&s->silhouette.near_z, y);
-        real.far_z = rlf_f32_row(&s->silhouette.far_z, y);
-        real.cover = rlf_u8_row(&s->silhouette.cover, y);
-        real.marks = s->silhouette.marks + y / SILHOUETTE_TILE * s->silhouette.columns;
+        real.near_z = rlf_f32_row(&s->edges.near_z, y);
+        real.far_z = rlf_f32_row(&s->edges.far_z, y);
+        real.cover = rlf_u8_row(&s->edges.cover, y);
+        real.marks = s->edges.marks + y / EDGE_MATTE_TILE * s->edges.columns;
         real.tiles = tiles;
         real.noise = rlf_kernel_noise_make(&s->def.rig.noise);
     }
@@ -190,31 +190,31 @@ static soft_real_row real_row(const soft *s, const soft_depth_range *tiles, int3
 
 RLF_KERNEL_PART float here_or_far(float z)
 {
-    return z > 0.0f ? z : SILHOUETTE_FAR;
+    return z > 0.0f ? z : EDGE_MATTE_FAR;
 }
 
-/* Depths of pixels [x0, x0 + SILHOUETTE_TILE) of rows [begin, end). */
+/* Depths of pixels [x0, x0 + EDGE_MATTE_TILE) of rows [begin, end). */
 RLF_KERNEL_PART soft_depth_range range_of(const rlf_plane_f32 *near_z, const rlf_plane_f32 *far_z,
                                           int32_t x0, int32_t begin, int32_t end)
 {
-    float nearest[SILHOUETTE_TILE];
-    float farthest[SILHOUETTE_TILE] = {0};
-    soft_depth_range range = {SILHOUETTE_FAR, 0.0f};
-    for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
-        nearest[i] = SILHOUETTE_FAR;
+    float nearest[EDGE_MATTE_TILE];
+    float farthest[EDGE_MATTE_TILE] = {0};
+    soft_depth_range range = {EDGE_MATTE_FAR, 0.0f};
+    for (int32_t i = 0; i < EDGE_MATTE_TILE; i++) {
+        nearest[i] = EDGE_MATTE_FAR;
     }
     for (int32_t y = begin; y < end; y++) {
         const float *a = rlf_f32_row(near_z, y) + x0;
         const float *b = rlf_f32_row(far_z, y) + x0;
         RLF_KERNEL_WHOLE
-        for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
+        for (int32_t i = 0; i < EDGE_MATTE_TILE; i++) {
             float here = here_or_far(a[i]);
             float beyond = here_or_far(b[i]);
             nearest[i] = here < nearest[i] ? here : nearest[i];
             farthest[i] = beyond > farthest[i] ? beyond : farthest[i];
         }
     }
-    for (int32_t i = 0; i < SILHOUETTE_TILE; i++) {
+    for (int32_t i = 0; i < EDGE_MATTE_TILE; i++) {
         range.near_z = nearest[i] < range.near_z ? nearest[i] : range.near_z;
         range.far_z = farthest[i] > range.far_z ? farthest[i] : range.far_z;
     }
@@ -224,14 +224,14 @@ RLF_KERNEL_PART soft_depth_range range_of(const rlf_plane_f32 *near_z, const rlf
 /* Of a row of tiles; where no bodies are, any depth there is. */
 RLF_KERNEL static void find_ranges(const soft *s, int32_t begin, int32_t end, soft_depth_range *out)
 {
-    const silhouette *l = &s->silhouette;
-    const int32_t first = begin / SILHOUETTE_TILE * l->columns;
+    const edge_matte *l = &s->edges;
+    const int32_t first = begin / EDGE_MATTE_TILE * l->columns;
     for (int32_t k = 0; k < l->columns; k++) {
-        const silhouette_tile *own = &l->own[first + k];
-        const int32_t x0 = k * SILHOUETTE_TILE;
+        const edge_matte_tile *own = &l->own[first + k];
+        const int32_t x0 = k * EDGE_MATTE_TILE;
         if (own->far_z < own->near_z) {
-            out[k] = (soft_depth_range){0.0f, SILHOUETTE_FAR};
-        } else if ((l->marks[first + k] & SILHOUETTE_EDGE) != 0) {
+            out[k] = (soft_depth_range){0.0f, EDGE_MATTE_FAR};
+        } else if ((l->marks[first + k] & EDGE_MATTE_EDGE) != 0) {
             out[k] = range_of(&l->near_z, &l->far_z, x0, begin, end);
         } else {
             out[k] = (soft_depth_range){l->real[first + k].near_z, l->real[first + k].far_z};

@@ -1,9 +1,9 @@
 /* Which part of the registered depth a picture needs. */
 #include "render/soft/soft.h"
 
-/* A tile beside one with bodies may have an edge, and silhouette_settle looks less than two tiles
+/* A tile beside one with bodies may have an edge, and edge_matte_settle looks less than two tiles
  * beyond that. */
-#define MARGIN (3 * SILHOUETTE_TILE)
+#define MARGIN (3 * EDGE_MATTE_TILE)
 
 static void add(const soft *s, const pixel_rect *rect, real_windows *out)
 {
@@ -18,7 +18,7 @@ static void add(const soft *s, const pixel_rect *rect, real_windows *out)
     }
 }
 
-static bool has_bodies(const silhouette_tile *own)
+static bool has_bodies(const edge_matte_tile *own)
 {
     return own->far_z >= own->near_z;
 }
@@ -26,16 +26,16 @@ static bool has_bodies(const silhouette_tile *own)
 /* Tiles with bodies, run by run: all that are drawn there, and what silhouettes look at. */
 static void add_tiles(const soft *s, real_windows *out)
 {
-    const silhouette *l = &s->silhouette;
+    const edge_matte *l = &s->edges;
     for (int32_t row = 0; row < l->rows; row++) {
-        const silhouette_tile *own = l->own + row * l->columns;
+        const edge_matte_tile *own = l->own + row * l->columns;
         for (int32_t end = 0; end < l->columns; end++) {
             const int32_t first = end;
             while (end < l->columns && has_bodies(&own[end])) {
                 end++;
             }
-            const pixel_rect run = {first * SILHOUETTE_TILE, row * SILHOUETTE_TILE,
-                                    end * SILHOUETTE_TILE, (row + 1) * SILHOUETTE_TILE};
+            const pixel_rect run = {first * EDGE_MATTE_TILE, row * EDGE_MATTE_TILE,
+                                    end * EDGE_MATTE_TILE, (row + 1) * EDGE_MATTE_TILE};
             if (first < end) {
                 add(s, &run, out);
             }
@@ -43,7 +43,7 @@ static void add_tiles(const soft *s, real_windows *out)
     }
 }
 
-/* Where bodies are when no silhouette knows. */
+/* Where bodies are when no matte knows. */
 static void add_bodies(const soft *s, real_windows *out)
 {
     for (int32_t i = 0; i < s->scene.body_count; i++) {

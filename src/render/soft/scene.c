@@ -272,7 +272,7 @@ static void place_real_shades(soft *s, const rlf_surface *surface)
     bool has_grid = s->scene.body_count >= BODIES_FOR_GRID && surface->depth != NULL;
     shade_bodies_job job = {s,
                             {.surface = surface,
-                             .grid = has_grid ? &s->real.seen : NULL,
+                             .tiles = has_grid ? &s->real.seen : NULL,
                              .T_depth_picture = rlf_pose_invert(&s->T_picture_depth),
                              .to_light = s->to_light,
                              .focal_px = 0.5 * (s->camera.fx + s->camera.fy)}};

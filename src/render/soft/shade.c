@@ -195,7 +195,7 @@ RLF_KERNEL_PART bool is_hidden(const shading *job, int32_t x, int32_t end)
 {
     const soft_real_row *real = &job->group->rows[0].real;
     int32_t shown = real->tiles == NULL ? 1 : 0;
-    for (int32_t i = x / SILHOUETTE_TILE; shown == 0 && i * SILHOUETTE_TILE < end; i++) {
+    for (int32_t i = x / EDGE_MATTE_TILE; shown == 0 && i * EDGE_MATTE_TILE < end; i++) {
         shown |= real->tiles[i].far_z > job->fading.near_z ? 1 : 0;
     }
     return shown == 0;

@@ -2,6 +2,7 @@
  *
  * Where the real depth is smooth the light is worked out every few pixels and is linear between;
  * around edges every CASTER_BLOCK pixels have their own. */
+#include "environment/depth_edge.h"
 #include "kernel/kernel.h"
 #include "render/soft/soft.h"
 
@@ -65,7 +66,7 @@ RLF_KERNEL_PART int32_t count_jumps(const float *restrict a, const float *restri
 {
     int32_t sum = 0;
     for (int32_t i = 0; i < count; i++) {
-        sum += silhouette_jumps(a[i], b[i]) ? 1 : 0;
+        sum += depth_steps(a[i], b[i]) ? 1 : 0;
     }
     return sum;
 }

@@ -2,6 +2,7 @@
 #include "render/soft/soft.h"
 
 #include "base/cookie.h"
+#include "render/render.h"
 
 #include <string.h>
 
@@ -13,7 +14,7 @@ static void destroy(void *self)
     soft *s = self;
     real_depth_destroy(&s->real);
     light_direction_destroy(&s->direction);
-    silhouette_destroy(&s->silhouette);
+    edge_matte_destroy(&s->edges);
     for (int32_t i = 0; s->workers != NULL && i < s->worker_count; i++) {
         soft_group *group = &s->workers[i];
         for (int k = 0; k < SOFT_GROUP_ROWS; k++) {
@@ -84,7 +85,7 @@ static rlf_result allocate_workers(soft *s)
         soft_group *group = &s->workers[i];
         group->width = s->camera.width;
         group->stride = (ptrdiff_t)stride;
-        group->tiles = rlf_alloc_array(stride / SILHOUETTE_TILE, sizeof(*group->tiles));
+        group->tiles = rlf_alloc_array(stride / EDGE_MATTE_TILE, sizeof(*group->tiles));
         group->crowd = rlf_alloc(stride / SOFT_CROWD_PX);
         result = group->tiles != NULL && group->crowd != NULL ? result : RLF_ERROR_MEMORY;
         for (int k = 0; k < SOFT_GROUP_ROWS && result == RLF_OK; k++) {
@@ -184,11 +185,11 @@ static void clear_matte(soft *s)
     memset(s->matte.data, 0, (size_t)s->matte.width * (size_t)s->matte.height);
 }
 
-static void place_silhouette(soft *s, const rlf_render_input *input)
+static void place_bodies(soft *s, const rlf_render_input *input)
 {
     rlf_pose T_camera_world = rlf_pose_invert(&input->T_world_camera);
     rlf_pose T_picture_world = rlf_pose_mul(&s->T_picture_depth, &T_camera_world);
-    silhouette_place(&s->silhouette, &s->camera, &T_picture_world, input->snapshot);
+    render_place_bodies(&s->edges, &s->camera, &T_picture_world, input->snapshot);
 }
 
 static void draw_background_rows(void *context, int32_t begin, int32_t end, int32_t worker)
@@ -206,20 +207,21 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
     bool has_bodies = s->scene.body_count > 0;
     bool has_edges = has_bodies && s->def.occlusion == RLF_OCCLUSION_SOFT;
     if (has_edges) {
-        place_silhouette(s, input);
+        place_bodies(s, input);
     }
     if (input->frame->color.data == NULL || has_bodies) {
         const real_windows needed = soft_needed_depth(s, input);
-        real_depth_read(&s->real, input);
+        const observation now = render_observation(input);
+        real_depth_read(&s->real, &now);
         soft_scene_light(s, input);
-        result = real_depth_update(&s->real, input, has_edges ? &s->silhouette : NULL, &needed);
+        result = real_depth_update(&s->real, &now, has_edges ? &s->edges : NULL, &needed);
     }
     if (result != RLF_OK) {
         return result;
     }
     soft_set_background(s, &input->frame->color);
     if (has_edges) {
-        silhouette_update(&s->silhouette, &s->real.z, real_depth_known(&s->real), input->frame);
+        edge_matte_update(&s->edges, &s->real.z, real_depth_known(&s->real), input->frame);
     }
     if (has_bodies) {
         soft_draw_bodies(s, true);
@@ -233,8 +235,9 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
 static rlf_result see_real(soft *s, const rlf_render_input *input)
 {
     const real_windows all = {{{0, 0, s->camera.width, s->camera.height}}, 1};
-    real_depth_read(&s->real, input);
-    return real_depth_update(&s->real, input, NULL, &all);
+    const observation now = render_observation(input);
+    real_depth_read(&s->real, &now);
+    return real_depth_update(&s->real, &now, NULL, &all);
 }
 
 static rlf_result draw_mesh(soft *s, const rlf_render_input *input)
@@ -259,8 +262,8 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
                         (int)input->surface->width, (int)input->surface->height,
                         (int)s->def.grid.width, (int)s->def.grid.height);
     }
-    room_light_update(&s->lamp, &s->def, input->frame);
-    light_direction_update(&s->direction, &s->def, input->frame, input->surface);
+    room_light_update(&s->lamp, s->def.light_color, s->def.estimates_light, input->frame);
+    light_direction_update(&s->direction, &s->def.rig, input->frame, input->surface);
     soft_set_viewpoint(s, &s->camera, &s->T_picture_depth);
     rlf_result result = soft_view_has_colors(input) ? see_real(s, input) : RLF_OK;
     if (result != RLF_OK) {
@@ -331,12 +334,13 @@ static rlf_result make_textures(soft *s)
 
 static rlf_result prepare(soft *s)
 {
-    rlf_result result = light_direction_create(&s->def, &s->direction);
+    rlf_result result = light_direction_create(
+        s->def.light_direction, s->def.estimates_light_direction, &s->def.grid, &s->direction);
     if (result != RLF_OK) {
         return result;
     }
-    const rlf_camera camera = real_depth_picture_camera(&s->def);
-    const rlf_pose T_picture_depth = real_depth_picture_pose(&s->def);
+    const rlf_camera camera = render_camera(&s->def);
+    const rlf_pose T_picture_depth = render_pose(&s->def);
     soft_set_viewpoint(s, &camera, &T_picture_depth);
     shape_mesh_set_build(&s->meshes);
     shape_mesh_set_build_coarse(&s->coarse_meshes);
@@ -345,10 +349,11 @@ static rlf_result prepare(soft *s)
         result = allocate(s);
     }
     if (result == RLF_OK) {
-        result = real_depth_create(&s->def, &s->camera, &s->real);
+        const real_depth_def real = render_depth_def(&s->def);
+        result = real_depth_create(&real, &s->real);
     }
     if (result == RLF_OK && s->def.occlusion == RLF_OCCLUSION_SOFT) {
-        result = silhouette_create(&s->camera, &s->def.rig.depth, s->def.pool, &s->silhouette);
+        result = edge_matte_create(&s->camera, &s->def.rig.depth, s->def.pool, &s->edges);
     }
     return result;
 }

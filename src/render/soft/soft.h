@@ -15,13 +15,13 @@
 #include "relief/model.h"
 #include "render/body_texture.h"
 #include "render/caster.h"
-#include "render/light_direction.h"
+#include "environment/light_direction.h"
 #include "render/obscurance.h"
-#include "render/room_light.h"
-#include "render/real_depth.h"
+#include "environment/room_light.h"
+#include "environment/real_depth.h"
 #include "render/real_shade.h"
 #include "render/shape_mesh.h"
-#include "render/silhouette.h"
+#include "environment/edge_matte.h"
 
 #define SOFT_SAMPLES 4    /* per pixel, against jagged edges */
 #define SOFT_BAND_ROWS 16 /* rows that one worker draws at a time */
@@ -138,8 +138,8 @@ typedef struct soft_depth_range {
  * nothing; with soft occlusion near_z, far_z and cover in the tiles that are marked. */
 typedef struct soft_real_row {
     const float *near_z, *far_z;
-    const uint8_t *cover, *marks;  /* of silhouette; marks NULL = hard occlusion */
-    const soft_depth_range *tiles; /* of silhouette's tiles */
+    const uint8_t *cover, *marks;  /* of edge_matte; marks NULL = hard occlusion */
+    const soft_depth_range *tiles; /* of edge_matte's tiles */
     rlf_kernel_noise noise;
     const float *row, *above, *below;
     int32_t width;
@@ -198,7 +198,7 @@ typedef struct soft {
     rlf_image_rgba8 image;
     rlf_plane_u8 matte;
     real_depth real;
-    silhouette silhouette; /* RLF_OCCLUSION_SOFT only */
+    edge_matte edges; /* RLF_OCCLUSION_SOFT only */
 
     shape_mesh_set meshes;
     shape_mesh_set coarse_meshes; /* for bodies below SOFT_COARSE_PX */
@@ -225,7 +225,7 @@ typedef struct soft {
 /* soft.c: what the picture is seen from. */
 void soft_set_viewpoint(soft *s, const rlf_camera *camera, const rlf_pose *T_picture_depth);
 
-/* needed.c: what is looked at of the registered depth. Scene and silhouette's bodies must be in
+/* needed.c: what is looked at of the registered depth. Scene and edge_matte's bodies must be in
  * place. */
 real_windows soft_needed_depth(const soft *s, const rlf_render_input *input);
 

@@ -76,7 +76,7 @@ RLF_KERNEL_PART void filter(int32_t count, const uint32_t *restrict texels,
 
 /* ---- what hides a body ---------------------------------------------------------------------- */
 
-/* Soft: see silhouette.h; a body fades over +- 2 sigma(z) where it meets a surface. */
+/* Soft: see edge_matte.h; a body fades over +- 2 sigma(z) where it meets a surface. */
 RLF_KERNEL_PART void share_soft(const float *restrict near_z, const float *restrict far_z,
                                 const uint8_t *restrict cover, rlf_kernel_noise noise,
                                 const float *restrict z, float *restrict share)
@@ -102,7 +102,7 @@ RLF_KERNEL_PART void share_plain(const float *restrict real_z, rlf_kernel_noise 
 {
     RLF_KERNEL_WHOLE
     for (int32_t i = 0; i < SOFT_LANES; i++) {
-        float here = real_z[i] > 0.0f ? real_z[i] : SILHOUETTE_FAR;
+        float here = real_z[i] > 0.0f ? real_z[i] : EDGE_MATTE_FAR;
         float fade = 0.25f / rlf_kernel_sigma(noise, z[i]);
         share[i] = stream_clamp(0.5f + (here - z[i]) * fade, 0.0f, 1.0f);
     }
@@ -146,13 +146,13 @@ RLF_KERNEL_PART void hide(const soft_real_row *real, const stream_segment *part,
     if (real->marks == NULL) {
         share_hard(real, x, z, share);
     } else {
-        const int32_t first = x / SILHOUETTE_TILE;
-        const int32_t last = (x + part->count - 1) / SILHOUETTE_TILE;
+        const int32_t first = x / EDGE_MATTE_TILE;
+        const int32_t last = (x + part->count - 1) / EDGE_MATTE_TILE;
         const soft_depth_range *tiles = real->tiles;
         if (tiles[first].near_z >= part->clear_z && tiles[last].near_z >= part->clear_z) {
             return;
         }
-        if (((real->marks[first] | real->marks[last]) & SILHOUETTE_EDGE) == 0) {
+        if (((real->marks[first] | real->marks[last]) & EDGE_MATTE_EDGE) == 0) {
             share_plain(real->row + x, real->noise, z, share);
         } else {
             share_soft(real->near_z + x, real->far_z + x, real->cover + x, real->noise, z, share);

@@ -1,0 +1,22 @@
+/* What both renderers ask of a def and its inputs. */
+#ifndef RLF_RENDER_RENDER_H
+#define RLF_RENDER_RENDER_H
+
+#include "base/inside.h"
+#include "environment/edge_matte.h"
+#include "environment/real_depth.h"
+#include "relief/compositor.h"
+
+/* Camera that a def's picture is drawn with, and its pose: the colour camera's or, without one, the
+ * depth camera's, resized to the def's picture. */
+rlf_camera render_camera(const rlf_compositor_def *def) RLF_INSIDE(render_camera);
+rlf_pose render_pose(const rlf_compositor_def *def) RLF_INSIDE(render_pose); /* T_picture_depth */
+
+real_depth_def render_depth_def(const rlf_compositor_def *def) RLF_INSIDE(render_depth_def);
+observation render_observation(const rlf_render_input *input) RLF_INSIDE(render_observation);
+/* Tells the matte where the bodies of a snapshot are; NULL = none. */
+void render_place_bodies(edge_matte *edges, const rlf_camera *camera,
+                         const rlf_pose *T_picture_world, const rlf_snapshot *snapshot)
+    RLF_INSIDE(render_place_bodies);
+
+#endif
