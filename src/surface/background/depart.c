@@ -1,6 +1,7 @@
 /* What stood since the first frame and starts to move. Most of it shows the background's depth
  * still: a box that is pushed differs at two of its edges alone, one that is lifted by less than
- * the noise of a pixel. So it is decided for a whole thing of the background (thickness/static_pieces.c):
+ * the noise of a pixel. So it is decided for a whole thing of the background
+ * (thickness/static_pieces.c):
  *
  * - it went aside: something farther is seen where it was, and something nearer beside it, which
  *   goes on with it;

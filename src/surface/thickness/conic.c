@@ -8,8 +8,6 @@ static const float correlated_samples = 2.0f;
 static const float shape_error_m = 0.003f; /* real bodies are not quite conics */
 /* Before anything is seen, bodies are taken for balls, give or take. */
 static const float ratio_deviation = 0.6f, slope_deviation = 0.2f;
-static const float pooled_share = 0.6f; /* of the sums of a line a pixel away */
-static const float alike = 0.7f;        /* overlap of chords of one body on neighbouring lines */
 static const float straight_trust = 0.1f;
 static const float trusted_rest_m = 0.003f; /* what a conic may leave and still be trusted */
 /* A wide thing that is no conic, and no plate either, is seldom flatter than a trunk, and what is
@@ -161,76 +159,6 @@ rlf_chord_middle rlf_chord_middle_seen(const rlf_chord *c)
     float variance = correlated_samples * (1.0f / c->weight + spread) +
                      middle_error_m * middle_error_m + f.variance;
     return (rlf_chord_middle){1.0f / c->inverse + f.middle, 1.0f / variance};
-}
-
-/* The chord of the neighbouring line that is most like this one. */
-static const rlf_chord *counterpart(const rlf_chord *c, const rlf_chord *of, int32_t count,
-                                    float shift)
-{
-    const rlf_chord *best = NULL;
-    float best_share = alike;
-    for (int32_t i = 0; i < count; i++) {
-        float begin = of[i].begin + shift, end = of[i].end + shift;
-        float shared = (end < c->end ? end : c->end) - (begin > c->begin ? begin : c->begin);
-        float whole = (end > c->end ? end : c->end) - (begin < c->begin ? begin : c->begin);
-        if (of[i].label == c->label && (of[i].apex < of[i].begin) == (c->apex < c->begin) &&
-            shared > best_share * whole) {
-            best_share = shared / whole;
-            best = &of[i];
-        }
-    }
-    return best;
-}
-
-static void add_moments(rlf_chord_moments *to, const rlf_chord_moments *m, float share)
-{
-    to->ss += share * m->ss;
-    to->hh += share * m->hh;
-    to->sh += share * m->sh;
-    to->sy += share * m->sy;
-    to->hy += share * m->hy;
-}
-
-/* One pass over the lines, each taking from the one before; forgets exponentially. */
-static void sweep(const rlf_chord_job *job, int32_t from, int32_t to, int32_t step)
-{
-    const float q = pooled_share;
-    bool is_every = job->step == 1;
-    float share = is_every ? q : q * q;
-    /* a line stands for half of those beside it that are left out */
-    float beside = is_every ? q : (0.5f * q + q * q + 0.5f * q * q * q) / (1.0f + q);
-    for (int32_t line = from; line != to; line += step) {
-        rlf_chord *chords = &job->chords[(ptrdiff_t)line * RLF_CHORDS_PER_LINE];
-        int32_t before = line - step;
-        float shift = 0.0f;
-        if (line != from) {
-            shift = rlf_line_origin(job, before) - rlf_line_origin(job, line);
-        }
-        for (int32_t i = 0; i < job->counts[line]; i++) {
-            rlf_chord *c = &chords[i];
-            const rlf_chord *other =
-                line == from ? NULL
-                             : counterpart(c, &job->chords[(ptrdiff_t)before * RLF_CHORDS_PER_LINE],
-                                           job->counts[before], shift);
-            c->running = c->own;
-            if (other != NULL) {
-                add_moments(&c->running, &other->running, share);
-                add_moments(&c->pooled, &other->running, beside);
-            }
-        }
-    }
-}
-
-void rlf_chords_pool(const rlf_chord_job *job, int32_t line_count)
-{
-    for (int32_t line = 0; line < line_count; line++) {
-        for (int32_t i = 0; i < job->counts[line]; i++) {
-            rlf_chord *c = &job->chords[(ptrdiff_t)line * RLF_CHORDS_PER_LINE + i];
-            c->pooled = c->own;
-        }
-    }
-    sweep(job, 0, line_count, 1);
-    sweep(job, line_count - 1, -1, -1);
 }
 
 /* What is straight along the chord may be any depth (a cylinder cut lengthwise), and what is not a

@@ -10,7 +10,6 @@
 
 enum { PIECES = 48, CREASE_ARM = 3, LEAST_SPLIT = 8, MOST_SPLITS = 8, MOST_HIDDEN = 200 };
 
-static const float body_jump_m = 0.04f; /* of depth between neighbours: one hides the other */
 static const float crease_jump_m = 0.15f;
 static const float crease_least = 1.0f; /* sum of the slopes on both sides */
 static const float rim_slope = 0.5f;    /* a side as steep as this ends at the crease */
@@ -52,7 +51,7 @@ static void look_beside(const pieces *p, piece *s, int32_t side)
 {
     const rlf_grid *grid = &p->job->stage->grid;
     int32_t k = side == 0 ? s->begin : s->end - 1, step = side == 0 ? -1 : 1;
-    float nearer = front_at(p, k) - body_jump_m;
+    float nearer = front_at(p, k) - RLF_BODY_STEP_M;
     int32_t x = p->line->x + k * p->line->dx, y = p->line->y + k * p->line->dy;
     for (s->reach[side] = 0; s->reach[side] < MOST_HIDDEN; s->reach[side]++) {
         x += step * p->line->dx;
@@ -226,7 +225,7 @@ static int32_t next_part(const pieces *p, int32_t from)
             rlf_kernel_abs(step) < link_jump_m && gap < link_gap_m) {
             return i;
         }
-        if (step > body_jump_m) {
+        if (step > RLF_BODY_STEP_M) {
             return -1;
         }
         covered = next->end > covered ? next->end : covered;
@@ -277,7 +276,7 @@ static int32_t piece_end_from(const rlf_chord_job *job, const rlf_line *line, in
     for (k++; k < line->count; k++) {
         i += line->stride;
         float next = job->front[i];
-        if (rlf_kernel_abs(next - z) > body_jump_m || job->label[i] != label) {
+        if (rlf_kernel_abs(next - z) > RLF_BODY_STEP_M || job->label[i] != label) {
             break;
         }
         z = next;

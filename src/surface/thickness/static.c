@@ -71,9 +71,9 @@ static void fit_box(const rlf_reconstruct *stage, int32_t piece, const static_bo
             ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
             if (state->piece[i] == piece) {
                 const rlf_vec3 ray = {grid->ray_x[i], grid->ray_y[i], 1.0};
-                state->thickness[i] = (float)rlf_clamp(
-                    static_box_exit(box, ray) - (double)state->depth[i], RLF_THINNEST_M,
-                    RLF_THICKEST_M);
+                state->thickness[i] =
+                    (float)rlf_clamp(static_box_exit(box, ray) - (double)state->depth[i],
+                                     RLF_THINNEST_M, RLF_THICKEST_M);
             }
         }
     }
@@ -124,7 +124,7 @@ static void publish(rlf_reconstruct *stage, const rlf_sheet *sheet)
     state->changed = 0;
     for (int32_t i = 0; i < stage->grid.count; i++) {
         float off = sheet->depth[i] - state->done_depth[i], deep = state->done[i];
-        bool is_same = rlf_kernel_abs(off) < same_m, is_left = off > 0.0f && off < deep;
+        bool is_same = rlf_kernel_abs(off)<same_m, is_left = off> 0.0f && off < deep;
         float left = deep - off > RLF_THINNEST_M ? deep - off : RLF_THINNEST_M;
         out[i] = is_same ? deep : is_left ? left : 0.0f;
         state->changed += is_same ? 0 : 1;
@@ -172,8 +172,8 @@ void static_advance(rlf_reconstruct *stage)
         publish(stage, sheet);
     }
     state->round_age++;
-    bool is_due = state->round_age >= PAUSE &&
-                  (state->changed >= CHANGED || state->rounds < FIRST_ROUNDS);
+    bool is_due =
+        state->round_age >= PAUSE && (state->changed >= CHANGED || state->rounds < FIRST_ROUNDS);
     if (!state->is_round && (is_first || is_due)) {
         begin_round(stage, sheet);
     }

@@ -78,7 +78,8 @@ static void write_run(const rlf_chord_job *job, const rlf_run *run, int32_t y)
     const rlf_slot *slot = job->slot;
     ptrdiff_t first = (ptrdiff_t)y * job->stage->grid.width + run->x0;
     bool is_plate = job->is_plate[run->component] != 0;
-    const rlf_kernel_thickness limits = {RLF_THINNEST_M, is_plate ? RLF_THINNEST_M : RLF_THICKEST_M};
+    const rlf_kernel_thickness limits = {RLF_THINNEST_M,
+                                         is_plate ? RLF_THINNEST_M : RLF_THICKEST_M};
     if (!is_plate) {
         rlf_knots_spread(job, run, y);
     }
@@ -150,8 +151,8 @@ static int32_t find_blocks(const rlf_chord_job *job, rlf_block *blocks)
         if (job->is_plate[r + 1]) {
             continue;
         }
-        rlf_block b = rlf_block_of(&job->stage->grid, &slot->regions[slot->foreground_region_first + r],
-                               job->step);
+        rlf_block b = rlf_block_of(&job->stage->grid,
+                                   &slot->regions[slot->foreground_region_first + r], job->step);
         for (int32_t k = 0; k < count;) {
             rlf_block *o = &blocks[k];
             if (o->x0 >= b.x1 || b.x0 >= o->x1 || o->y0 >= b.y1 || b.y0 >= o->y1) {

@@ -45,8 +45,8 @@ typedef struct rlf_chord {
     rlf_chord_part part[RLF_CHORD_PARTS];
     float weight, s, h, y, yy; /* sum of weights, means, variance sum of y */
     rlf_chord_moments own, pooled, running;
-    rlf_chord_middle seen, told; /* by the chord alone; with all lines before it */
-    rlf_chord_middle beside;     /* by the lines on both sides, without its own */
+    rlf_chord_middle seen, filtered; /* by the chord alone; with all lines before it */
+    rlf_chord_middle beside;         /* by the lines on both sides, without its own */
 } rlf_chord;
 
 /* y = middle + slope s - ratio h, in metres about the reference depth. */
@@ -54,6 +54,9 @@ typedef struct rlf_conic {
     float middle, slope, ratio;
     float variance; /* of what is left of y, m^2 */
 } rlf_conic;
+
+/* Pixels whose depth differs by more show two bodies, be they a trunk and an arm on it. */
+#define RLF_BODY_STEP_M 0.04f
 
 /* Nothing is taken to be thinner, or thicker. */
 #define RLF_THINNEST_M 0.02f
@@ -132,8 +135,6 @@ int32_t rlf_knot_step(const rlf_grid *grid);
 void rlf_chords_prepare(rlf_chord_job *job);
 /* Thickness of the run's pixels from that of the knots around. */
 void rlf_knots_spread(const rlf_chord_job *job, const rlf_run *run, int32_t y);
-
-/* ---- thickness/lines.c ---- */
 int32_t rlf_line_count(const rlf_chord_job *job);
 rlf_line rlf_line_at(const rlf_chord_job *job, int32_t index);
 /* Steps from the block's corner along the lines to the line's first pixel. */
@@ -143,15 +144,15 @@ float rlf_line_origin(const rlf_chord_job *job, int32_t index);
 /* Finds the chords of the line and measures them. Returns their number. */
 int32_t rlf_chords_cut(const rlf_chord_job *job, const rlf_line *line, rlf_chord *out);
 
-/* ---- thickness/axis.c ---- */
+/* ---- thickness/pool.c ---- */
+/* Adds to each chord what its neighbours on the lines beside it say about its shape. */
+void rlf_chords_pool(const rlf_chord_job *job, int32_t line_count);
 /* Tells each chord where the rows above and below have the middle of its body. */
 void rlf_chords_align(const rlf_chord_job *job, int32_t row_count);
 
 /* ---- thickness/conic.c ---- */
 /* Fills the sums of a chord whose ends and parts are known; false when it shows nothing. */
 bool rlf_chord_measure(const rlf_chord_job *job, const rlf_line *line, rlf_chord *chord);
-/* Adds to each chord what its neighbours on the lines beside it say about its shape. */
-void rlf_chords_pool(const rlf_chord_job *job, int32_t line_count);
 rlf_conic rlf_chord_solve(const rlf_chord *chord, const rlf_chord_moments *moments);
 /* What the pooled sums of the chord say about its middle. */
 rlf_chord_middle rlf_chord_middle_seen(const rlf_chord *chord);
