@@ -228,10 +228,10 @@ static void take_steady(rlf_reconstruct *stage)
         stage->steady.calm = take(stage, (size_t)stage->grid.count, 1);
         stage->steady.restless = take(stage, (size_t)stage->grid.count, 1);
     }
-    if (rlf_settle_is_wanted(&stage->def)) {
-        stage->steady.settled = take(stage, (size_t)stage->grid.count, sizeof(rlf_settled));
-        stage->steady.mark = take(stage, (size_t)stage->grid.count, 1);
-        stage->steady.overruled = take(stage, (size_t)stage->grid.count, 1);
+    if (vote_is_wanted(&stage->def)) {
+        stage->steady.votes = take(stage, (size_t)stage->grid.count, sizeof(rlf_vote));
+        stage->steady.watch = take(stage, (size_t)stage->grid.count, 1);
+        stage->steady.outvoted = take(stage, (size_t)stage->grid.count, 1);
     }
 }
 

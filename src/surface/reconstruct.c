@@ -135,8 +135,8 @@ static void complete_planes(rlf_reconstruct *stage, rlf_slot *slot)
     if (stage->def.enable_edge_normals) {
         rlf_normals_crease(stage, slot);
     }
-    if (stage->steady.settled != NULL) {
-        rlf_settle_lead(stage, slot);
+    if (stage->steady.votes != NULL) {
+        vote_lead(stage, slot, stage->work.mask[0]);
     }
     if (stage->def.enable_fill && stage->def.enable_edge_normals) {
         const rlf_work *work = &stage->work;
@@ -228,8 +228,8 @@ static void make_normals(rlf_reconstruct *stage, rlf_slot *slot)
     rlf_normals_job job = rlf_normals_job_make(stage, slot->depth, slot->normal);
     bool exact = stage->def.normal_method == RLF_NORMALS_INVERSE_DEPTH;
     if (exact && stage->def.enable_smoothing && job.face_camera) {
-        if (stage->steady.settled != NULL) {
-            rlf_settle_normals(stage, slot);
+        if (stage->steady.votes != NULL) {
+            vote_normals(stage, slot);
         }
         return; /* the rest was made with the depth */
     }

@@ -134,14 +134,14 @@ typedef struct rlf_background {
     rlf_depart depart;
 } rlf_background;
 
-enum { RLF_SETTLE_MOST_VOTES = 32 }; /* a second: as long may what was stay */
+enum { RLF_VOTE_MOST = 32 }; /* a second: as long may what was stay */
 
-/* The normal that most frames agree on at a pixel that is watched: see normals/settle.c. */
-typedef struct rlf_settled {
-    float normal[3], depth;
-    float own[3];  /* what the newest frame found where it was overruled */
-    int32_t votes; /* 0 = no normal yet */
-} rlf_settled;
+/* The normal that most frames agree on at a pixel: see normals/vote.c. */
+typedef struct rlf_vote {
+    float normal[3], depth; /* the candidate */
+    float own[3];           /* what the newest frame found where it was outvoted */
+    int32_t count;          /* votes for the candidate, less those against it; 0 = there is none */
+} rlf_vote;
 
 /* How much of the noise stays in any mean: see normals/lasting.c. */
 enum { RLF_LASTING_BINS = 64, RLF_LASTING_ALL = 1000 };
@@ -156,9 +156,9 @@ typedef struct rlf_lasting {
 /* Means of inverse depth over time; NULL planes when they are not wanted. */
 typedef struct rlf_steady {
     float *mean, *frames;
-    rlf_settled *settled; /* plane; NULL when normals at edges are not wanted */
-    uint8_t *mark;        /* plane: not 0 where one is watched, see normals/settle.c */
-    uint8_t *overruled;   /* plane: not 0 where the newest frame's own normal is another */
+    rlf_vote *votes;   /* plane; NULL when normals at edges are not wanted */
+    uint8_t *watch;    /* plane: frames that a pixel votes in from now on */
+    uint8_t *outvoted; /* plane: 1 where the newest frame's own normal is another */
     uint8_t *calm;     /* per block of RLF_HOLD_BLOCK pixels, frames since something moved there */
     uint8_t *restless; /* per block: 1 where it, or one beside it, is not calm */
     int32_t age;       /* frames that were averaged, up to 255 */

@@ -39,25 +39,23 @@ void rlf_steady_reset(rlf_steady *steady, int32_t count);
 void rlf_bridge_undo(const rlf_reconstruct *stage, const float *seen, float *smooth,
                      float *const normal[3]);
 
-/* ---- normals/settle.c ---- */
-bool rlf_settle_is_wanted(const rlf_reconstruct_def *def);
+/* ---- normals/vote.c ---- */
+bool vote_is_wanted(const rlf_reconstruct_def *def);
 /* What frames agree on at pixel i; NULL = nothing. */
-const rlf_settled *rlf_settle_at(const rlf_reconstruct *stage, ptrdiff_t i);
-/* What follows is not called when steady.settled is NULL. */
-/* Seen pixels that are watched take what has been settled, before others are completed from them;
+const rlf_vote *vote_at(const rlf_reconstruct *stage, ptrdiff_t i);
+/* What follows is not called when steady.votes is NULL. */
+/* Seen pixels (`known` is 1) that vote take what leads, before others are completed from them;
  * after rlf_normals_crease. */
-void rlf_settle_lead(const rlf_reconstruct *stage, const rlf_slot *slot);
-/* Normals of the background's watched pixels become those that most frames agree on, and so does
- * the depth of those that were filled on another side. After rlf_background_update. */
-void rlf_settle_normals(const rlf_reconstruct *stage, const rlf_slot *slot);
-/* Watches the pixels from `first` on whose mark is not 0. */
-void rlf_settle_watch(const rlf_reconstruct *stage, ptrdiff_t first, const uint8_t *marks,
-                      int32_t count);
-/* Seen pixel i has another normal than when it took what was settled. */
-void rlf_settle_ask(const rlf_reconstruct *stage, ptrdiff_t i);
-/* Lags of a row by the normals that the frame before found itself, where they were overruled. */
-void rlf_settle_lags(const rlf_reconstruct *stage, ptrdiff_t row, const rlf_kernel_lag_in *in,
-                     int8_t *lag);
+void vote_lead(const rlf_reconstruct *stage, const rlf_slot *slot, const uint8_t *known);
+/* Counts this frame's votes. Normals of the background's pixels that vote become those that most
+ * frames agree on, and so does the depth of those that were filled on another side. After
+ * rlf_background_update. */
+void vote_normals(const rlf_reconstruct *stage, const rlf_slot *slot);
+/* The pixels from `first` on whose mark is not 0 vote from now on. */
+void vote_watch(const rlf_reconstruct *stage, ptrdiff_t first, const uint8_t *marks, int32_t count);
+/* Lags of a row by the normals that the frame before found itself, where they were outvoted. */
+void vote_lags(const rlf_reconstruct *stage, ptrdiff_t row, const rlf_kernel_lag_in *in,
+               int8_t *lag);
 
 /* ---- normals ---- */
 typedef struct rlf_normals_job {

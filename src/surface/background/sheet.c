@@ -120,10 +120,9 @@ static bool is_near(float depth, float other)
 
 /* Something hides pixel i, of which the sheet before showed what was settled, and the model is not
  * newer than that: the proof that a thing has left takes fewer frames than its votes. */
-static bool was_on_side(const rlf_reconstruct *stage, const rlf_settled *settled, float was,
-                        int32_t i)
+static bool was_on_side(const rlf_reconstruct *stage, const rlf_vote *settled, float was, int32_t i)
 {
-    return is_near(was, settled->depth) && stage->background.weight[i] >= settled->votes;
+    return is_near(was, settled->depth) && stage->background.weight[i] >= settled->count;
 }
 
 /* The model's mean does not tell on which side of an outline a pixel is: it is of whatever was seen
@@ -134,7 +133,7 @@ static void take_sides(const rlf_reconstruct *stage, const rlf_slot *slot, const
     for (int32_t y = r.y0; y < r.y1 && slot != NULL; y++) {
         for (int32_t x = r.x0; x < r.x1; x++) {
             int32_t i = y * stage->grid.width + x;
-            const rlf_settled *settled = rlf_settle_at(stage, i);
+            const rlf_vote *settled = vote_at(stage, i);
             if (settled == NULL || !(sheet->depth[i] > 0.0f) ||
                 is_near(sheet->depth[i], settled->depth)) {
                 continue;
@@ -163,7 +162,7 @@ static void sharpen(const rlf_reconstruct *stage, const rlf_slot *slot, const rl
         for (int32_t x = r.x0; x < r.x1; x++) {
             int32_t i = y * stage->grid.width + x;
             bool is_seen = slot->foreground[i] == 0 && is_of_model(stage, slot->depth, i);
-            const rlf_settled *settled = rlf_settle_at(stage, i);
+            const rlf_vote *settled = vote_at(stage, i);
             if (settled != NULL && is_near(sheet->depth[i], settled->depth)) {
                 take_normal(settled->normal, most, i, sheet->normal);
             } else if (is_seen) {
