@@ -204,10 +204,9 @@ void rlf_region_measure(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_laye
 /* Whether it is a plane up to noise. */
 bool rlf_region_is_flat(const rlf_reconstruct *stage, const rlf_region *region);
 
-/* ---- background/background.c, background/average.c, background/adaptive.c ---- */
+/* ---- background/background.c, background/adaptive.c ---- */
 /* Updates the model with slot->depth and writes slot->foreground. */
 void rlf_background_update(rlf_reconstruct *stage, rlf_slot *slot);
-void rlf_background_average_update(rlf_reconstruct *stage, rlf_slot *slot);
 void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot);
 /* ---- background/depart.c: what stood and starts to move; all do nothing without its planes ----
  */
@@ -238,7 +237,7 @@ float rlf_background_gate(const rlf_reconstruct_def *def, float z);
 /* Where the first and the last foreground pixel of a row are. */
 rlf_span rlf_background_span(const uint8_t *foreground, int32_t width);
 void rlf_background_reset(rlf_background *background, const rlf_grid *grid);
-/* background/cut.c: depth and those of the frames before it show another room than the model. */
+/* Depth and those of the frames before it show another room than the model. */
 bool rlf_background_is_cut(rlf_reconstruct *stage, const float *depth);
 
 /* ---- background/sheet.c ---- */
