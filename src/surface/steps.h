@@ -240,24 +240,24 @@ void rlf_background_reset(rlf_background *background, const rlf_grid *grid);
 /* Depth and those of the frames before it show another room than the model. */
 bool rlf_background_is_cut(rlf_reconstruct *stage, const float *depth);
 
-/* ---- background/sheet.c ---- */
+/* ---- background/image.c ---- */
 /* Tiles of a grid, the last of a row or column cut short. */
-static inline int32_t rlf_sheet_tiles(const rlf_grid *grid)
+static inline int32_t background_image_tiles(const rlf_grid *grid)
 {
-    return ((grid->width + RLF_SHEET_TILE - 1) / RLF_SHEET_TILE) *
-           ((grid->height + RLF_SHEET_TILE - 1) / RLF_SHEET_TILE);
+    return ((grid->width + BACKGROUND_TILE - 1) / BACKGROUND_TILE) *
+           ((grid->height + BACKGROUND_TILE - 1) / BACKGROUND_TILE);
 }
-size_t rlf_sheet_crop_size(void);
+size_t background_image_crop_size(void);
 /* Pixels of the tile at (x, y) were replaced. */
-void rlf_sheet_changed(rlf_background *background, const rlf_grid *grid, int32_t x, int32_t y,
-                       int32_t count);
-/* The sheet that surfaces refer to; NULL while the background is being learnt. */
-const rlf_sheet *rlf_sheet_newest(const rlf_reconstruct *stage);
-/* Makes a new sheet from the model: depth, normals, regions; at once, or when it is due a part of
+void background_image_changed(rlf_background *background, const rlf_grid *grid, int32_t x,
+                              int32_t y, int32_t count);
+/* The image that surfaces refer to; NULL while the background is being learnt. */
+const background_image *background_image_newest(const rlf_reconstruct *stage);
+/* Makes a new image from the model: depth, normals, regions; at once, or when it is due a part of
  * it per frame. Where `slot`, which may be NULL, shows the background, edges are as sharp as there.
  */
-void rlf_sheet_publish(rlf_reconstruct *stage, const rlf_slot *slot);
-void rlf_sheet_advance(rlf_reconstruct *stage, const rlf_slot *slot);
+void background_image_publish(rlf_reconstruct *stage, const rlf_slot *slot);
+void background_image_advance(rlf_reconstruct *stage, const rlf_slot *slot);
 
 /* ---- velocity/velocity.c, thickness/thickness.c ---- */
 void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot);

@@ -37,15 +37,16 @@ void rlf_background_reset(rlf_background *background, const rlf_grid *grid)
         memset(background->depart.left, 0, n);
     }
     background->frames = 0;
-    memset(background->changes, 0, (size_t)rlf_sheet_tiles(grid) * sizeof *background->changes);
-    memset(background->age, 0, (size_t)rlf_sheet_tiles(grid));
-    memset(background->is_better, 0, (size_t)rlf_sheet_tiles(grid));
+    memset(background->changes, 0,
+           (size_t)background_image_tiles(grid) * sizeof *background->changes);
+    memset(background->age, 0, (size_t)background_image_tiles(grid));
+    memset(background->is_better, 0, (size_t)background_image_tiles(grid));
     background->changed = 0;
-    background->sheet_age = 0;
+    background->image_age = 0;
     background->is_drafting = false;
     background->is_made = false;
     background->object_steps = 0;
-    background->next_version++; /* newer than that of a sheet that was never published: 0 */
+    background->next_version++; /* newer than that of an image that was never published: 0 */
     background->state = RLF_BACKGROUND_NONE;
     background->newest = -1;
     background->is_stale = false;
@@ -95,8 +96,8 @@ static tally count(const rlf_reconstruct *stage, const float *depth)
 }
 
 /* A thing that comes or goes changes pixels in one direction: it is nearer than the background, or
- * the background is seen where it was. Where the recording was cut or the camera was moved, the room
- * is nearer in some places and farther in others, nearly everywhere, from then on. */
+ * the background is seen where it was. Where the recording was cut or the camera was moved, the
+ * room is nearer in some places and farther in others, nearly everywhere, from then on. */
 bool rlf_background_is_cut(rlf_reconstruct *stage, const float *depth)
 {
     tally sum = count(stage, depth);
@@ -137,7 +138,7 @@ static void update_average(rlf_reconstruct *stage, rlf_slot *slot)
         if (background->frames == stage->def.background_frames) {
             divide(background, count);
             background->state = RLF_BACKGROUND_READY;
-            rlf_sheet_publish(stage, NULL);
+            background_image_publish(stage, NULL);
         }
         return;
     }
