@@ -31,7 +31,7 @@ enum { ABOUT_BEHIND = 3, LONGEST_HOLE = 3 * RLF_FILL_GAP };
 
 typedef struct fill_job {
     const rlf_reconstruct *stage;
-    const rlf_sheet *behind; /* the background; NULL = unknown */
+    const background_image *behind; /* the background; NULL = unknown */
     float *const *normal;    /* NULL = not wanted */
     float *depth;
     uint8_t *has; /* plane: 1 where `depth` has one that was not filled here */
@@ -393,7 +393,7 @@ void rlf_fill_holes(const rlf_reconstruct *stage, rlf_slot *slot)
     rlf_pool *pool = stage->def.pool;
     int32_t height = stage->grid.height;
     fill_job job = {.stage = stage,
-                    .behind = rlf_sheet_newest(stage),
+                    .behind = background_image_newest(stage),
                     .normal = stage->def.enable_smoothing ? slot->normal : NULL,
                     .depth = slot->depth,
                     .has = stage->work.mask[0],

@@ -85,22 +85,22 @@ static void take_background(rlf_reconstruct *stage)
     background->standing = take(stage, (size_t)stage->grid.height, sizeof(rlf_span));
     background->color = take(stage, n, sizeof(uint32_t));
     background->hides = take(stage, (size_t)stage->grid.height, 1);
-    size_t tiles = (size_t)rlf_sheet_tiles(&stage->grid);
-    background->row_changes = take(stage, tiles * RLF_SHEET_TILE, sizeof(int32_t));
+    size_t tiles = (size_t)background_image_tiles(&stage->grid);
+    background->row_changes = take(stage, tiles * BACKGROUND_TILE, sizeof(int32_t));
     background->changes = take(stage, tiles, sizeof(int32_t));
     background->age = take(stage, tiles, 1);
     background->is_better = take(stage, tiles, 1);
     background->version = take(stage, tiles, sizeof(int32_t));
-    for (int i = 0; i < RLF_SHEETS; i++) {
-        rlf_sheet *sheet = &background->sheets[i];
-        sheet->depth = take(stage, n, sizeof(float));
+    for (int i = 0; i < BACKGROUND_IMAGES; i++) {
+        background_image *image = &background->images[i];
+        image->depth = take(stage, n, sizeof(float));
         for (int k = 0; k < 3; k++) {
-            sheet->normal[k] = take(stage, n, sizeof(float));
+            image->normal[k] = take(stage, n, sizeof(float));
         }
-        sheet->label = take(stage, n, sizeof(int32_t));
-        sheet->regions = take(stage, (size_t)stage->def.region_capacity, sizeof(rlf_region));
+        image->label = take(stage, n, sizeof(int32_t));
+        image->regions = take(stage, (size_t)stage->def.region_capacity, sizeof(rlf_region));
         if (stage->def.keep_region_points) {
-            sheet->region_points = take(stage, n, sizeof(int32_t));
+            image->region_points = take(stage, n, sizeof(int32_t));
         }
     }
 }
@@ -118,7 +118,7 @@ static void take_static(rlf_reconstruct *stage)
         stage->background.depart.thing = take(stage, n, 1);
         stage->background.depart.depth = take(stage, n, sizeof(float));
         stage->background.depart.left = take(stage, n, 1);
-        for (int k = 0; k < RLF_SHEETS; k++) {
+        for (int k = 0; k < BACKGROUND_IMAGES; k++) {
             state->published[k] = take(stage, n, sizeof(float));
         }
     }
@@ -136,7 +136,7 @@ static void take_work(rlf_reconstruct *stage)
         work->vote[k] = take(stage, n + 1, sizeof(int32_t));
     }
     for (int k = 0; k < 6; k++) {
-        work->crop[k] = take(stage, rlf_sheet_crop_size(), sizeof(float));
+        work->crop[k] = take(stage, background_image_crop_size(), sizeof(float));
     }
     work->seen = take(stage, n, sizeof(float));
     work->color = take(stage, n, sizeof(uint32_t));
@@ -228,10 +228,10 @@ static void take_steady(rlf_reconstruct *stage)
         stage->steady.calm = take(stage, (size_t)stage->grid.count, 1);
         stage->steady.restless = take(stage, (size_t)stage->grid.count, 1);
     }
-    if (rlf_settle_is_wanted(&stage->def)) {
-        stage->steady.settled = take(stage, (size_t)stage->grid.count, sizeof(rlf_settled));
-        stage->steady.mark = take(stage, (size_t)stage->grid.count, 1);
-        stage->steady.overruled = take(stage, (size_t)stage->grid.count, 1);
+    if (vote_is_wanted(&stage->def)) {
+        stage->steady.votes = take(stage, (size_t)stage->grid.count, sizeof(rlf_vote));
+        stage->steady.watch = take(stage, (size_t)stage->grid.count, 1);
+        stage->steady.outvoted = take(stage, (size_t)stage->grid.count, 1);
     }
 }
 

@@ -135,8 +135,8 @@ static void complete_planes(rlf_reconstruct *stage, rlf_slot *slot)
     if (stage->def.enable_edge_normals) {
         rlf_normals_crease(stage, slot);
     }
-    if (stage->steady.settled != NULL) {
-        rlf_settle_lead(stage, slot);
+    if (stage->steady.votes != NULL) {
+        vote_lead(stage, slot, stage->work.mask[0]);
     }
     if (stage->def.enable_fill && stage->def.enable_edge_normals) {
         const rlf_work *work = &stage->work;
@@ -207,7 +207,7 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
  * cloud has normals computed, by itself. */
 static void make_layered_normals(rlf_reconstruct *stage, rlf_normals_job *job, rlf_slot *slot)
 {
-    const rlf_sheet *sheet = rlf_sheet_newest(stage);
+    const background_image *image = background_image_newest(stage);
     float *front = stage->work.depth[0];
     int32_t count = stage->grid.count;
     for (int32_t i = 0; i < count; i++) {
@@ -218,7 +218,7 @@ static void make_layered_normals(rlf_reconstruct *stage, rlf_normals_job *job, r
     for (int k = 0; k < 3; k++) {
         for (int32_t i = 0; i < count; i++) {
             bool behind = !slot->foreground[i] && slot->depth[i] > 0.0f;
-            slot->normal[k][i] = behind ? sheet->normal[k][i] : slot->normal[k][i];
+            slot->normal[k][i] = behind ? image->normal[k][i] : slot->normal[k][i];
         }
     }
 }
@@ -228,8 +228,8 @@ static void make_normals(rlf_reconstruct *stage, rlf_slot *slot)
     rlf_normals_job job = rlf_normals_job_make(stage, slot->depth, slot->normal);
     bool exact = stage->def.normal_method == RLF_NORMALS_INVERSE_DEPTH;
     if (exact && stage->def.enable_smoothing && job.face_camera) {
-        if (stage->steady.settled != NULL) {
-            rlf_settle_normals(stage, slot);
+        if (stage->steady.votes != NULL) {
+            vote_normals(stage, slot);
         }
         return; /* the rest was made with the depth */
     }
@@ -239,7 +239,7 @@ static void make_normals(rlf_reconstruct *stage, rlf_slot *slot)
         job.filled = slot->depth;
     }
     bool layered = stage->def.background_method == RLF_BACKGROUND_AVERAGE && !exact &&
-                   rlf_sheet_newest(stage) != NULL;
+                   background_image_newest(stage) != NULL;
     if (layered) {
         make_layered_normals(stage, &job, slot);
     } else {
@@ -248,16 +248,16 @@ static void make_normals(rlf_reconstruct *stage, rlf_slot *slot)
 }
 
 /* Puts the background's regions first, so that the foreground's follow. */
-static void copy_background_regions(const rlf_sheet *sheet, rlf_slot *slot)
+static void copy_background_regions(const background_image *image, rlf_slot *slot)
 {
-    slot->foreground_region_first = sheet == NULL ? 0 : sheet->region_count;
-    if (sheet == NULL) {
+    slot->foreground_region_first = image == NULL ? 0 : image->region_count;
+    if (image == NULL) {
         return;
     }
-    memcpy(slot->regions, sheet->regions, (size_t)sheet->region_count * sizeof *slot->regions);
+    memcpy(slot->regions, image->regions, (size_t)image->region_count * sizeof *slot->regions);
     if (slot->region_points != NULL) {
-        memcpy(slot->region_points, sheet->region_points,
-               (size_t)sheet->point_count * sizeof *slot->region_points);
+        memcpy(slot->region_points, image->region_points,
+               (size_t)image->point_count * sizeof *slot->region_points);
     }
 }
 
@@ -300,8 +300,8 @@ static void drop_pieces(const rlf_reconstruct *stage, rlf_slot *slot)
 
 static rlf_layer_out segment_front(rlf_reconstruct *stage, rlf_slot *slot)
 {
-    const rlf_sheet *sheet = rlf_sheet_newest(stage);
-    int32_t offset = sheet == NULL ? 0 : sheet->point_count;
+    const background_image *image = background_image_newest(stage);
+    int32_t offset = image == NULL ? 0 : image->point_count;
     rlf_layer_in in = front_layer(stage, slot);
     rlf_layer_out out = {slot->regions + slot->foreground_region_first,
                          slot->region_points == NULL ? NULL : slot->region_points + offset, 0, 0};
@@ -340,9 +340,9 @@ static void label_rows(void *context, int32_t begin, int32_t end, int32_t worker
 /* Labels where the front sheet shows the background, and how much it shows. */
 static void label_background(rlf_reconstruct *stage, rlf_slot *slot)
 {
-    const rlf_sheet *sheet = rlf_sheet_newest(stage);
+    const background_image *image = background_image_newest(stage);
     label_job job = {.stage = stage,
-                     .background = sheet != NULL ? sheet->label : stage->work.zero_labels,
+                     .background = image != NULL ? image->label : stage->work.zero_labels,
                      .slot = slot};
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, label_rows, &job);
     slot->surface.valid_count = 0;
@@ -378,7 +378,7 @@ static void segment_first(rlf_reconstruct *stage, rlf_slot *slot)
 
 static void make_regions(rlf_reconstruct *stage, rlf_slot *slot)
 {
-    copy_background_regions(rlf_sheet_newest(stage), slot);
+    copy_background_regions(background_image_newest(stage), slot);
     bool off = stage->def.background_method == RLF_BACKGROUND_OFF;
     bool has_front = off || stage->background.state == RLF_BACKGROUND_READY;
     rlf_layer_out out = {NULL, NULL, 0, 0};
@@ -405,7 +405,7 @@ static int32_t count_foreground(const rlf_reconstruct *stage, const rlf_slot *sl
 
 static void publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot)
 {
-    const rlf_sheet *sheet = rlf_sheet_newest(stage);
+    const background_image *image = background_image_newest(stage);
     rlf_surface *s = &slot->surface;
     s->sequence = frame->sequence;
     s->width = stage->grid.width;
@@ -427,15 +427,15 @@ static void publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *sl
     s->reason = slot->reason;
     s->foreground = slot->foreground;
     const float *none = stage->work.zero_plane;
-    s->background_depth = sheet == NULL ? none : sheet->depth;
-    s->background_normal_x = sheet == NULL ? none : sheet->normal[0];
-    s->background_normal_y = sheet == NULL ? none : sheet->normal[1];
-    s->background_normal_z = sheet == NULL ? none : sheet->normal[2];
-    s->background_label = sheet == NULL ? stage->work.zero_labels : sheet->label;
+    s->background_depth = image == NULL ? none : image->depth;
+    s->background_normal_x = image == NULL ? none : image->normal[0];
+    s->background_normal_y = image == NULL ? none : image->normal[1];
+    s->background_normal_z = image == NULL ? none : image->normal[2];
+    s->background_label = image == NULL ? stage->work.zero_labels : image->label;
     const float *thickness = static_newest(stage);
     int32_t publications = stage->background.thick.publications;
     s->background_thickness = thickness == NULL ? none : thickness;
-    s->background_version = sheet == NULL ? 0 : (int64_t)sheet->version + publications;
+    s->background_version = image == NULL ? 0 : (int64_t)image->version + publications;
     s->background_state = stage->background.state;
     s->camera_moves = stage->ego.moves;
     s->regions = slot->regions;

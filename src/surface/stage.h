@@ -47,7 +47,7 @@ typedef struct rlf_slot {
 } rlf_slot;
 
 /* One published state of the background. It never changes while a surface refers to it. */
-typedef struct rlf_sheet {
+typedef struct background_image {
     float *depth;
     float *normal[3];
     int32_t *label;
@@ -55,13 +55,13 @@ typedef struct rlf_sheet {
     int32_t *region_points;
     int32_t region_count, point_count;
     int32_t version;
-} rlf_sheet;
+} background_image;
 
-/* Surfaces refer to at most RLF_RECONSTRUCT_SURFACES sheets while the next one is made. */
-enum { RLF_SHEETS = RLF_RECONSTRUCT_SURFACES + 1 };
+/* Surfaces refer to at most RLF_RECONSTRUCT_SURFACES images while the next one is made. */
+enum { BACKGROUND_IMAGES = RLF_RECONSTRUCT_SURFACES + 1 };
 
-/* A sheet is made in tiles of so many pixels on a side. */
-enum { RLF_SHEET_TILE = 104 };
+/* A image is made in tiles of so many pixels on a side. */
+enum { BACKGROUND_TILE = 104 };
 
 /* Pixels x0 <= x < x1, y0 <= y < y1. */
 typedef struct rlf_rect {
@@ -73,19 +73,19 @@ enum { RLF_PIECES = 255 };
 
 /* The thickness of static things: see thickness/static.h; NULL planes when it is not wanted. */
 typedef struct static_thickness {
-    float *depth, *thickness;        /* planes: what is fitted in this round, and found */
-    float *done_depth, *done;        /* the same of the last round that came to its end */
-    float *published[RLF_SHEETS];    /* planes: `done` where the newest sheet has that depth */
-    uint8_t *piece;                  /* plane: of which piece; 0 = of none */
-    rlf_rect window[RLF_PIECES + 1]; /* of each piece, from 1; empty = it is not looked at */
-    int32_t piece_count, next_piece; /* next_piece 0: they are still being found ... */
-    int32_t step;                    /* ... in this step */
-    bool is_round;                   /* one goes on */
-    int32_t rounds, round_age;       /* begun so far, up to a few; frames since the last began */
-    int32_t newest;                  /* of `published`; -1 = none */
-    int32_t publications;            /* so far; never less than before */
-    int32_t sheet_version;           /* of the sheet that it was published for */
-    int32_t changed;                 /* pixels of that sheet that are not as they were fitted */
+    float *depth, *thickness;            /* planes: what is fitted in this round, and found */
+    float *done_depth, *done;            /* the same of the last round that came to its end */
+    float *published[BACKGROUND_IMAGES]; /* planes: `done` where the newest image has that depth */
+    uint8_t *piece;                      /* plane: of which piece; 0 = of none */
+    rlf_rect window[RLF_PIECES + 1];     /* of each piece, from 1; empty = it is not looked at */
+    int32_t piece_count, next_piece;     /* next_piece 0: they are still being found ... */
+    int32_t step;                        /* ... in this step */
+    bool is_round;                       /* one goes on */
+    int32_t rounds, round_age; /* begun so far, up to a few; frames since the last began */
+    int32_t newest;            /* of `published`; -1 = none */
+    int32_t publications;      /* so far; never less than before */
+    int32_t image_version;     /* of the image that it was published for */
+    int32_t changed;           /* pixels of that image that are not as they were fitted */
 } static_thickness;
 
 /* What starts to move out of the background: see background/depart.c; NULL planes when things are
@@ -119,29 +119,29 @@ typedef struct rlf_background {
     int32_t changed;      /* their sum */
     uint8_t *age;         /* per tile: frames since it was made of new pixels */
     uint8_t *is_better;   /* per tile: 1 when its means are better than when it was made */
-    int32_t *version;     /* per tile: of the sheet that it was made for */
-    int32_t next_version; /* of the next sheet */
-    int32_t sheet_age;    /* frames since the newest sheet was finished */
-    bool is_drafting;     /* the next sheet is being made, */
+    int32_t *version;     /* per tile: of the image that it was made for */
+    int32_t next_version; /* of the next image */
+    int32_t image_age;    /* frames since the newest image was finished */
+    bool is_drafting;     /* the next image is being made, */
     bool is_made;         /* every tile of it is, */
     int32_t object_steps; /* and so many steps to its regions are done */
     rlf_background_state state;
-    rlf_sheet sheets[RLF_SHEETS];
-    int32_t newest;       /* sheet; -1 = none */
-    bool is_stale;        /* the newest sheet shows a room that is gone */
+    background_image images[BACKGROUND_IMAGES];
+    int32_t newest;       /* image; -1 = none */
+    bool is_stale;        /* the newest image shows a room that is gone */
     int32_t other_frames; /* ADAPTIVE: frames in a row that showed another room */
     static_thickness thick;
     rlf_depart depart;
 } rlf_background;
 
-enum { RLF_SETTLE_MOST_VOTES = 32 }; /* a second: as long may what was stay */
+enum { RLF_VOTE_MOST = 32 }; /* a second: as long may what was stay */
 
-/* The normal that most frames agree on at a pixel that is watched: see normals/settle.c. */
-typedef struct rlf_settled {
-    float normal[3], depth;
-    float own[3];  /* what the newest frame found where it was overruled */
-    int32_t votes; /* 0 = no normal yet */
-} rlf_settled;
+/* The normal that most frames agree on at a pixel: see normals/vote.c. */
+typedef struct rlf_vote {
+    float normal[3], depth; /* the candidate */
+    float own[3];           /* what the newest frame found where it was outvoted */
+    int32_t count;          /* votes for the candidate, less those against it; 0 = there is none */
+} rlf_vote;
 
 /* How much of the noise stays in any mean: see normals/lasting.c. */
 enum { RLF_LASTING_BINS = 64, RLF_LASTING_ALL = 1000 };
@@ -156,9 +156,9 @@ typedef struct rlf_lasting {
 /* Means of inverse depth over time; NULL planes when they are not wanted. */
 typedef struct rlf_steady {
     float *mean, *frames;
-    rlf_settled *settled; /* plane; NULL when normals at edges are not wanted */
-    uint8_t *mark;        /* plane: not 0 where one is watched, see normals/settle.c */
-    uint8_t *overruled;   /* plane: not 0 where the newest frame's own normal is another */
+    rlf_vote *votes;   /* plane; NULL when normals at edges are not wanted */
+    uint8_t *watch;    /* plane: frames that a pixel votes in from now on */
+    uint8_t *outvoted; /* plane: 1 where the newest frame's own normal is another */
     uint8_t *calm;     /* per block of RLF_HOLD_BLOCK pixels, frames since something moved there */
     uint8_t *restless; /* per block: 1 where it, or one beside it, is not calm */
     int32_t age;       /* frames that were averaged, up to 255 */
@@ -316,7 +316,7 @@ typedef struct rlf_work {
     int32_t *zero_labels;
     struct rlf_region_sum *region_sums; /* region_capacity */
     int32_t *heirs;                     /* label table of segment/region_track.c */
-    float *crop[6];                     /* of background/sheet.c */
+    float *crop[6];                     /* of background/image.c */
     struct rlf_cell *cells;             /* of velocity/cells.c */
     struct rlf_block *blocks;           /* region_capacity */
     float *knot;                        /* padded plane, see thickness.h */

@@ -31,8 +31,8 @@ static void lag_row(const steady_job *job, int32_t y)
     }
     rlf_kernel_lag_row(rlf_kernel_noise_make(&stage->def.rig.noise), &in, grid->width,
                        job->lag + row);
-    if (stage->steady.settled != NULL) {
-        rlf_settle_lags(stage, row, &in, job->lag + row);
+    if (stage->steady.votes != NULL) {
+        vote_lags(stage, row, &in, job->lag + row);
     }
 }
 
@@ -91,9 +91,9 @@ void rlf_steady_reset(rlf_steady *steady, int32_t count)
         steady->age = 0;
         steady->lasting = (rlf_lasting){.sigma = (float)RLF_LASTING_ALL};
     }
-    if (steady->settled != NULL) {
-        memset(steady->settled, 0, (size_t)count * sizeof *steady->settled);
-        memset(steady->mark, 0, (size_t)count);
-        memset(steady->overruled, 0, (size_t)count);
+    if (steady->votes != NULL) {
+        memset(steady->votes, 0, (size_t)count * sizeof *steady->votes);
+        memset(steady->watch, 0, (size_t)count);
+        memset(steady->outvoted, 0, (size_t)count);
     }
 }

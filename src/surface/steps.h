@@ -39,25 +39,23 @@ void rlf_steady_reset(rlf_steady *steady, int32_t count);
 void rlf_bridge_undo(const rlf_reconstruct *stage, const float *seen, float *smooth,
                      float *const normal[3]);
 
-/* ---- normals/settle.c ---- */
-bool rlf_settle_is_wanted(const rlf_reconstruct_def *def);
+/* ---- normals/vote.c ---- */
+bool vote_is_wanted(const rlf_reconstruct_def *def);
 /* What frames agree on at pixel i; NULL = nothing. */
-const rlf_settled *rlf_settle_at(const rlf_reconstruct *stage, ptrdiff_t i);
-/* What follows is not called when steady.settled is NULL. */
-/* Seen pixels that are watched take what has been settled, before others are completed from them;
+const rlf_vote *vote_at(const rlf_reconstruct *stage, ptrdiff_t i);
+/* What follows is not called when steady.votes is NULL. */
+/* Seen pixels (`known` is 1) that vote take what leads, before others are completed from them;
  * after rlf_normals_crease. */
-void rlf_settle_lead(const rlf_reconstruct *stage, const rlf_slot *slot);
-/* Normals of the background's watched pixels become those that most frames agree on, and so does
- * the depth of those that were filled on another side. After rlf_background_update. */
-void rlf_settle_normals(const rlf_reconstruct *stage, const rlf_slot *slot);
-/* Watches the pixels from `first` on whose mark is not 0. */
-void rlf_settle_watch(const rlf_reconstruct *stage, ptrdiff_t first, const uint8_t *marks,
-                      int32_t count);
-/* Seen pixel i has another normal than when it took what was settled. */
-void rlf_settle_ask(const rlf_reconstruct *stage, ptrdiff_t i);
-/* Lags of a row by the normals that the frame before found itself, where they were overruled. */
-void rlf_settle_lags(const rlf_reconstruct *stage, ptrdiff_t row, const rlf_kernel_lag_in *in,
-                     int8_t *lag);
+void vote_lead(const rlf_reconstruct *stage, const rlf_slot *slot, const uint8_t *known);
+/* Counts this frame's votes. Normals of the background's pixels that vote become those that most
+ * frames agree on, and so does the depth of those that were filled on another side. After
+ * rlf_background_update. */
+void vote_normals(const rlf_reconstruct *stage, const rlf_slot *slot);
+/* The pixels from `first` on whose mark is not 0 vote from now on. */
+void vote_watch(const rlf_reconstruct *stage, ptrdiff_t first, const uint8_t *marks, int32_t count);
+/* Lags of a row by the normals that the frame before found itself, where they were outvoted. */
+void vote_lags(const rlf_reconstruct *stage, ptrdiff_t row, const rlf_kernel_lag_in *in,
+               int8_t *lag);
 
 /* ---- normals ---- */
 typedef struct rlf_normals_job {
@@ -206,10 +204,9 @@ void rlf_region_measure(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_laye
 /* Whether it is a plane up to noise. */
 bool rlf_region_is_flat(const rlf_reconstruct *stage, const rlf_region *region);
 
-/* ---- background/background.c, background/average.c, background/adaptive.c ---- */
+/* ---- background/background.c, background/adaptive.c ---- */
 /* Updates the model with slot->depth and writes slot->foreground. */
 void rlf_background_update(rlf_reconstruct *stage, rlf_slot *slot);
-void rlf_background_average_update(rlf_reconstruct *stage, rlf_slot *slot);
 void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot);
 /* ---- background/depart.c: what stood and starts to move; all do nothing without its planes ----
  */
@@ -240,27 +237,27 @@ float rlf_background_gate(const rlf_reconstruct_def *def, float z);
 /* Where the first and the last foreground pixel of a row are. */
 rlf_span rlf_background_span(const uint8_t *foreground, int32_t width);
 void rlf_background_reset(rlf_background *background, const rlf_grid *grid);
-/* background/cut.c: depth and those of the frames before it show another room than the model. */
+/* Depth and those of the frames before it show another room than the model. */
 bool rlf_background_is_cut(rlf_reconstruct *stage, const float *depth);
 
-/* ---- background/sheet.c ---- */
+/* ---- background/image.c ---- */
 /* Tiles of a grid, the last of a row or column cut short. */
-static inline int32_t rlf_sheet_tiles(const rlf_grid *grid)
+static inline int32_t background_image_tiles(const rlf_grid *grid)
 {
-    return ((grid->width + RLF_SHEET_TILE - 1) / RLF_SHEET_TILE) *
-           ((grid->height + RLF_SHEET_TILE - 1) / RLF_SHEET_TILE);
+    return ((grid->width + BACKGROUND_TILE - 1) / BACKGROUND_TILE) *
+           ((grid->height + BACKGROUND_TILE - 1) / BACKGROUND_TILE);
 }
-size_t rlf_sheet_crop_size(void);
+size_t background_image_crop_size(void);
 /* Pixels of the tile at (x, y) were replaced. */
-void rlf_sheet_changed(rlf_background *background, const rlf_grid *grid, int32_t x, int32_t y,
-                       int32_t count);
-/* The sheet that surfaces refer to; NULL while the background is being learnt. */
-const rlf_sheet *rlf_sheet_newest(const rlf_reconstruct *stage);
-/* Makes a new sheet from the model: depth, normals, regions; at once, or when it is due a part of
+void background_image_changed(rlf_background *background, const rlf_grid *grid, int32_t x,
+                              int32_t y, int32_t count);
+/* The image that surfaces refer to; NULL while the background is being learnt. */
+const background_image *background_image_newest(const rlf_reconstruct *stage);
+/* Makes a new image from the model: depth, normals, regions; at once, or when it is due a part of
  * it per frame. Where `slot`, which may be NULL, shows the background, edges are as sharp as there.
  */
-void rlf_sheet_publish(rlf_reconstruct *stage, const rlf_slot *slot);
-void rlf_sheet_advance(rlf_reconstruct *stage, const rlf_slot *slot);
+void background_image_publish(rlf_reconstruct *stage, const rlf_slot *slot);
+void background_image_advance(rlf_reconstruct *stage, const rlf_slot *slot);
 
 /* ---- velocity/velocity.c, thickness/thickness.c ---- */
 void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot);

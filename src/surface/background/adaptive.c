@@ -22,14 +22,14 @@ static void model_rows(void *context, int32_t begin, int32_t end, int32_t worker
     const rlf_background *background = &job->stage->background;
     int32_t width = job->stage->grid.width;
     for (int32_t y = begin; y < end; y++) {
-        for (int32_t x = 0; x < width; x += RLF_SHEET_TILE) {
+        for (int32_t x = 0; x < width; x += BACKGROUND_TILE) {
             ptrdiff_t at = (ptrdiff_t)y * width + x;
-            int32_t count = x + RLF_SHEET_TILE < width ? RLF_SHEET_TILE : width - x;
+            int32_t count = x + BACKGROUND_TILE < width ? BACKGROUND_TILE : width - x;
             const rlf_kernel_model model = {background->mean + at, background->deviation + at,
                                             background->weight + at, background->beyond + at};
             int32_t changed = rlf_kernel_background_row(&job->params, job->slot->depth + at, count,
                                                         &model, job->seen + at);
-            background->row_changes[y * job->tile_columns + x / RLF_SHEET_TILE] = changed;
+            background->row_changes[y * job->tile_columns + x / BACKGROUND_TILE] = changed;
         }
     }
 }
@@ -41,7 +41,8 @@ static void count_changes(rlf_reconstruct *stage, int32_t tile_columns)
         for (int32_t k = 0; k < tile_columns; k++) {
             int32_t changed = stage->background.row_changes[y * tile_columns + k];
             if (changed > 0) {
-                rlf_sheet_changed(&stage->background, &stage->grid, k * RLF_SHEET_TILE, y, changed);
+                background_image_changed(&stage->background, &stage->grid, k * BACKGROUND_TILE, y,
+                                         changed);
             }
         }
     }
@@ -65,7 +66,7 @@ static void majority_rows(void *context, int32_t begin, int32_t end, int32_t wor
     }
 }
 
-/* The sheet of the background is made by now: it needs the same memory. */
+/* The image of the background is made by now: it needs the same memory. */
 static void find_front(rlf_reconstruct *stage, rlf_slot *slot)
 {
     const rlf_span *spans = stage->work.front;
@@ -75,7 +76,7 @@ static void find_front(rlf_reconstruct *stage, rlf_slot *slot)
     rlf_background_decide_unknown(stage, slot);
 }
 
-/* Keeps the newest sheet: surfaces may still refer to it. */
+/* Keeps the newest image: surfaces may still refer to it. */
 static void start_anew(rlf_reconstruct *stage)
 {
     int32_t newest = stage->background.newest;
@@ -99,7 +100,7 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot)
                                 (float)def->foreground_sigmas, (float)def->foreground_min_m,
                                 learning},
                      .seen = stage->work.mask[0],
-                     .tile_columns = (stage->grid.width + RLF_SHEET_TILE - 1) / RLF_SHEET_TILE};
+                     .tile_columns = (stage->grid.width + BACKGROUND_TILE - 1) / BACKGROUND_TILE};
     rlf_parallel_for(def->pool, stage->grid.height, RLF_ROW_GRAIN, model_rows, &job);
     count_changes(stage, job.tile_columns);
     if (background->frames < INT32_MAX) {
@@ -121,7 +122,7 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot)
         rlf_background_restore(stage, slot);
         rlf_depart_find(stage, slot);
     }
-    rlf_sheet_advance(stage, slot);
+    background_image_advance(stage, slot);
     if (!learning) {
         rlf_background_reveal(stage, slot);
     }

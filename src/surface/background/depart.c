@@ -113,12 +113,12 @@ void rlf_depart_follow(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *se
 }
 
 /* Metres that pixel i came nearer along the normal that it had, from depth `from`. */
-static float way_from(const rlf_reconstruct *stage, const rlf_sheet *sheet, int32_t i, float from,
+static float way_from(const rlf_reconstruct *stage, const background_image *image, int32_t i, float from,
                       float to)
 {
     const rlf_grid *grid = &stage->grid;
-    float facing = -(sheet->normal[0][i] * grid->ray_x[i] + sheet->normal[1][i] * grid->ray_y[i] +
-                     sheet->normal[2][i]);
+    float facing = -(image->normal[0][i] * grid->ray_x[i] + image->normal[1][i] * grid->ray_y[i] +
+                     image->normal[2][i]);
     return (from - to) * facing;
 }
 
@@ -126,13 +126,13 @@ static void add_risen(const rlf_reconstruct *stage, const rlf_slot *slot, int32_
 {
     float z = slot->depth[i], stood = stage->background.depart.depth[i];
     const rlf_slot *before = stage->previous;
-    float way = way_from(stage, rlf_sheet_newest(stage), i, stood, z);
+    float way = way_from(stage, background_image_newest(stage), i, stood, z);
     t->risen++;
     t->fresh += before->foreground[i] == 0;
     t->way += way;
     t->square += way * way;
     if (before->depth[i] > 0.0f) {
-        t->step += way_from(stage, rlf_sheet_newest(stage), i, before->depth[i], z);
+        t->step += way_from(stage, background_image_newest(stage), i, before->depth[i], z);
     }
 }
 
@@ -301,7 +301,7 @@ static void leave(rlf_reconstruct *stage, rlf_slot *slot, int32_t i)
     background->deviation[i] = 0.0f;
     background->beyond[i] = 0;
     background->beneath[i] = 0.0f;
-    rlf_sheet_changed(background, &stage->grid, i % width, i / width, 1);
+    background_image_changed(background, &stage->grid, i % width, i / width, 1);
     slot->foreground[i] = !is_lost && z > 0.0f ? RLF_SEEN_FOREGROUND : slot->foreground[i];
 }
 
@@ -343,7 +343,7 @@ void rlf_depart_find(rlf_reconstruct *stage, rlf_slot *slot)
     tally tallies[RLF_PIECES + 1] = {0};
     uint8_t departed[RLF_PIECES + 1] = {0};
     depart->is_urgent = false;
-    if (depart->thing == NULL || rlf_sheet_newest(stage) == NULL) {
+    if (depart->thing == NULL || background_image_newest(stage) == NULL) {
         return;
     }
     count_things(stage, slot, tallies);

@@ -48,7 +48,7 @@ static void learn_hole(rlf_reconstruct *stage, int32_t i, float z, bool front)
         background->mean[i] = z;
         background->deviation[i] = 0.0f;
         background->weight[i] = 1;
-        rlf_sheet_changed(background, &stage->grid, i % stage->grid.width, i / stage->grid.width,
+        background_image_changed(background, &stage->grid, i % stage->grid.width, i / stage->grid.width,
                           1);
         age = 0;
     }
@@ -58,7 +58,7 @@ static void learn_hole(rlf_reconstruct *stage, int32_t i, float z, bool front)
 typedef struct reveal_job {
     const rlf_reconstruct *stage;
     const rlf_slot *slot;
-    const rlf_sheet *sheet;
+    const background_image *image;
 } reveal_job;
 
 /* Pixel i is on the plane of background pixel `at`, `steps` away, which is seen now. */
@@ -69,7 +69,7 @@ static bool goes_on(const reveal_job *job, ptrdiff_t i, ptrdiff_t at, int32_t st
     bool is_seen =
         job->slot->foreground[at] == RLF_SEEN_BACKGROUND &&
         rlf_kernel_abs(job->slot->depth[at] - mean) < rlf_background_gate(&job->stage->def, mean);
-    rlf_read_normal(job->sheet->normal, at, n);
+    rlf_read_normal(job->image->normal, at, n);
     float here = rlf_facing(grid, n, i), there = rlf_facing(grid, n, at);
     if (!is_seen || !(here < -rlf_least_facing) || !(there < -rlf_least_facing)) {
         return false;
@@ -121,8 +121,8 @@ static void reveal_rows(void *context, int32_t begin, int32_t end, int32_t worke
 void rlf_background_reveal(rlf_reconstruct *stage, const rlf_slot *slot)
 {
     const rlf_grid *grid = &stage->grid;
-    reveal_job job = {stage, slot, rlf_sheet_newest(stage)};
-    if (job.sheet == NULL) {
+    reveal_job job = {stage, slot, background_image_newest(stage)};
+    if (job.image == NULL) {
         return;
     }
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, reveal_rows, &job);

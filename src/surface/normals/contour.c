@@ -217,8 +217,7 @@ static void write_rows(void *context, int32_t begin, int32_t end, int32_t worker
     }
 }
 
-/* The pixels of a side from its outermost one, pixel i, inwards. Their normals were settled for
- * another face, maybe. */
+/* The pixels of a side from its outermost one, pixel i, inwards. */
 static void spread_side(const contour_job *job, ptrdiff_t i)
 {
     int32_t offset = job->out.mark[i] - SIDE;
@@ -227,7 +226,6 @@ static void spread_side(const contour_job *job, ptrdiff_t i)
     int32_t steps = across > down ? across : down;
     for (int32_t k = 1; k <= steps; k++) {
         ptrdiff_t at = i + (ptrdiff_t)(dy * k / steps) * job->sides.planes.width + dx * k / steps;
-        rlf_settle_ask(job->sides.stage, at);
         for (int32_t n = 0; n < 3; n++) {
             job->sides.planes.normal[n][at] = job->out.normal[n][i];
         }

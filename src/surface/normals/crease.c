@@ -66,8 +66,8 @@ static void mark_rows(void *context, int32_t begin, int32_t end, int32_t worker)
             rows[k] = row_at(job, (inside ? row : y) * width);
         }
         rlf_kernel_bend_row(rows, job->width, job->bent + y * width);
-        if (job->stage->steady.settled != NULL) {
-            rlf_settle_watch(job->stage, y * width, job->bent + y * width, job->width);
+        if (job->stage->steady.votes != NULL) {
+            vote_watch(job->stage, y * width, job->bent + y * width, job->width);
         }
     }
 }

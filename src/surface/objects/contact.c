@@ -7,7 +7,7 @@
 
 static const float SIGMAS = 4.0f;       /* in front of the other's tangent plane ... */
 static const float LEAST_SLOPE = 0.25f; /* ... and by this much of the way between them */
-/* What was one thing, or two, in the sheet before needs more to become another. */
+/* What was one thing, or two, in the image before needs more to become another. */
 static const float WAS_ONE = 1.4f, WAS_TWO = 0.7f;
 
 /* Pixels i and j, on both sides of a third, are of two things. */

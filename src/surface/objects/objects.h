@@ -26,11 +26,11 @@ typedef struct rlf_patch {
     double sigma;     /* of the sensor's inverse depth here */
     double off;       /* inverse depth of its middle, off its support plane */
     int32_t plane_id; /* its support plane, from 1; 0 = none */
-    int32_t was;      /* the same in the sheet before */
+    int32_t was;      /* the same in the image before */
     bool is_flat, is_used;
 } rlf_patch;
 
-/* Most support planes of one sheet, and rows of patches per chunk of a parallel loop. */
+/* Most support planes of one image, and rows of patches per chunk of a parallel loop. */
 enum { RLF_SUPPORTS = 16, RLF_PATCH_GRAIN = 4 };
 
 /* What is known of a thing. */
@@ -78,7 +78,7 @@ typedef struct rlf_objects {
 
 /* objects.c: side and extent of the patches of a grid. */
 rlf_objects rlf_objects_layout(const rlf_grid *grid);
-/* Forgets the sheet before, of `count` pixels. */
+/* Forgets the image before, of `count` pixels. */
 void rlf_objects_reset(rlf_objects *objects, int32_t count);
 
 /* planes.c */

@@ -215,7 +215,7 @@ static bool settle(rlf_reconstruct *stage, int32_t id, int32_t count, double lea
     return is_support;
 }
 
-/* The planes of the sheet before, as far as they are seen still. */
+/* The planes of the image before, as far as they are seen still. */
 static void follow(rlf_reconstruct *stage)
 {
     rlf_objects *o = stage->objects;

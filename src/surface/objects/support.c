@@ -7,7 +7,7 @@
 #include <string.h>
 
 static const float ON_SIGMAS = 3.0f;     /* off the plane ... */
-static const float WAS_SIGMAS = 4.0f;    /* ... where the sheet before showed it */
+static const float WAS_SIGMAS = 4.0f;    /* ... where the image before showed it */
 static const float LEAST_COSINE = 0.77f; /* 40 degrees, between a pixel's normal and the plane's */
 
 /* Sets the bits of a line of patches between the first and the last that has them. */
@@ -80,7 +80,7 @@ enum { RUN = 64 }; /* pixels, at most */
 /* Pixels of a row, and the best plane of each so far; `least`: how far off it is at most. */
 typedef struct pixel_run {
     const float *depth, *normal[3], *ray_x, *ray_y;
-    uint8_t before[RUN]; /* plane of the sheet before */
+    uint8_t before[RUN]; /* plane of the image before */
     int32_t count;
     float w[RUN], sigma[RUN], least[RUN];
     int32_t best[RUN];

@@ -19,21 +19,21 @@ void static_reset(static_thickness *state)
 {
     state->newest = -1;
     state->is_round = false;
-    state->rounds = state->changed = state->sheet_version = 0;
+    state->rounds = state->changed = state->image_version = 0;
 }
 
 const float *static_newest(const rlf_reconstruct *stage)
 {
     const static_thickness *state = &stage->background.thick;
-    bool none = state->newest < 0 || rlf_sheet_newest(stage) == NULL;
+    bool none = state->newest < 0 || background_image_newest(stage) == NULL;
     return none ? NULL : state->published[state->newest];
 }
 
-static void begin_round(rlf_reconstruct *stage, const rlf_sheet *sheet)
+static void begin_round(rlf_reconstruct *stage, const background_image *image)
 {
     static_thickness *state = &stage->background.thick;
     size_t size = (size_t)stage->grid.count * sizeof(float);
-    memcpy(state->depth, sheet->depth, size);
+    memcpy(state->depth, image->depth, size);
     memset(state->thickness, 0, size);
     state->is_round = true;
     state->step = state->next_piece = state->round_age = 0;
@@ -98,10 +98,10 @@ static void fit_conics(rlf_reconstruct *stage, int32_t piece)
     rlf_thickness_write(&job);
 }
 
-static void fit(rlf_reconstruct *stage, const rlf_sheet *sheet, int32_t piece)
+static void fit(rlf_reconstruct *stage, const background_image *image, int32_t piece)
 {
     static_box box;
-    switch (static_find_shape(stage, sheet->normal, piece, &box)) {
+    switch (static_find_shape(stage, image->normal, piece, &box)) {
     case STATIC_BOX: fit_box(stage, piece, &box); break;
     case STATIC_ROUND: fit_conics(stage, piece); break;
     default: break;
@@ -115,30 +115,30 @@ static void swap(float **a, float **b)
     *b = c;
 }
 
-/* What is known of the newest sheet: a front that has moved back leaves the back where it is. */
-static void publish(rlf_reconstruct *stage, const rlf_sheet *sheet)
+/* What is known of the newest image: a front that has moved back leaves the back where it is. */
+static void publish(rlf_reconstruct *stage, const background_image *image)
 {
     static_thickness *state = &stage->background.thick;
-    state->newest = (state->newest + 1) % RLF_SHEETS;
+    state->newest = (state->newest + 1) % BACKGROUND_IMAGES;
     float *out = state->published[state->newest];
     state->changed = 0;
     for (int32_t i = 0; i < stage->grid.count; i++) {
-        float off = sheet->depth[i] - state->done_depth[i], deep = state->done[i];
+        float off = image->depth[i] - state->done_depth[i], deep = state->done[i];
         bool is_same = rlf_kernel_abs(off)<same_m, is_left = off> 0.0f && off < deep;
         float left = deep - off > RLF_THINNEST_M ? deep - off : RLF_THINNEST_M;
         out[i] = is_same ? deep : is_left ? left : 0.0f;
         state->changed += is_same ? 0 : 1;
     }
-    state->sheet_version = sheet->version;
+    state->image_version = image->version;
     state->publications++;
 }
 
 /* The next step of a round. */
-static void go_on(rlf_reconstruct *stage, const rlf_sheet *sheet)
+static void go_on(rlf_reconstruct *stage, const background_image *image)
 {
     static_thickness *state = &stage->background.thick;
     if (state->next_piece == 0) {
-        if (static_find_pieces(stage, sheet->normal, state->step++)) {
+        if (static_find_pieces(stage, image->normal, state->step++)) {
             state->next_piece = 1;
             rlf_depart_take(stage);
         }
@@ -150,34 +150,34 @@ static void go_on(rlf_reconstruct *stage, const rlf_sheet *sheet)
     }
     state->next_piece = k + 1;
     if (k <= state->piece_count) {
-        fit(stage, sheet, k);
+        fit(stage, image, k);
         return;
     }
     swap(&state->depth, &state->done_depth);
     swap(&state->thickness, &state->done);
     state->is_round = false;
-    publish(stage, sheet);
+    publish(stage, image);
 }
 
 void static_advance(rlf_reconstruct *stage)
 {
     static_thickness *state = &stage->background.thick;
-    const rlf_sheet *sheet = rlf_sheet_newest(stage);
-    if (sheet == NULL || state->depth == NULL) {
+    const background_image *image = background_image_newest(stage);
+    if (image == NULL || state->depth == NULL) {
         static_reset(state); /* the room is not known, or it is another one */
         return;
     }
     bool is_first = state->newest < 0;
-    if (!is_first && sheet->version > state->sheet_version) {
-        publish(stage, sheet);
+    if (!is_first && image->version > state->image_version) {
+        publish(stage, image);
     }
     state->round_age++;
     bool is_due =
         state->round_age >= PAUSE && (state->changed >= CHANGED || state->rounds < FIRST_ROUNDS);
     if (!state->is_round && (is_first || is_due)) {
-        begin_round(stage, sheet);
+        begin_round(stage, image);
     }
     for (int k = 0; k < (is_first ? AT_FIRST : 1) && state->is_round; k++) {
-        go_on(stage, sheet);
+        go_on(stage, image);
     }
 }

@@ -13,8 +13,8 @@
 /* ---- thickness/static.c ---- */
 /* One step of a round, if there is anything to do; after the frame's own thickness. */
 void static_advance(rlf_reconstruct *stage);
-/* The thickness of the newest sheet, metres along z, 0 = not known; NULL when it is not wanted or
- * there is no sheet. */
+/* The thickness of the newest image, metres along z, 0 = not known; NULL when it is not wanted or
+ * there is no image. */
 const float *static_newest(const rlf_reconstruct *stage);
 void static_reset(static_thickness *state);
 

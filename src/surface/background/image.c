@@ -1,6 +1,6 @@
-/* How the background's model becomes a published, unchanging sheet, a few tiles at a time.
+/* How the background's model becomes a published, unchanging image, a few tiles at a time.
  *
- * A draft is the oldest sheet, which no valid surface refers to. Tiles whose pixels were replaced
+ * A draft is the oldest image, which no valid surface refers to. Tiles whose pixels were replaced
  * are made anew from the model, the most changed first, so many per frame that no frame costs much
  * more than another; a thing that leaves is published at once. A tile is made once more when
  * most of what is new in it has been seen, and when the means of that have got much better. */
@@ -13,10 +13,10 @@
 
 enum {
     MARGIN = 12, /* pixels around a tile that its normals depend on; even */
-    CROP = RLF_SHEET_TILE + 2 * MARGIN,
+    CROP = BACKGROUND_TILE + 2 * MARGIN,
     PARTS = 24,           /* of the tiles are made per frame, one ... */
     PARTS_URGENT = 5,     /* ... or, when a thing has left, one of so many */
-    CHANGES = 30,         /* replaced pixels that make a new sheet ... */
+    CHANGES = 30,         /* replaced pixels that make a new image ... */
     FRAMES = 10,          /* ... after at least this many frames */
     CHANGES_URGENT = 400, /* replaced pixels that make one at once: a thing has left */
     FRAMES_LONG = 30,     /* after this many any change does */
@@ -33,26 +33,26 @@ static const float SIDE = 0.04f;
 
 static int32_t tile_columns(const rlf_grid *grid)
 {
-    return (grid->width + RLF_SHEET_TILE - 1) / RLF_SHEET_TILE;
+    return (grid->width + BACKGROUND_TILE - 1) / BACKGROUND_TILE;
 }
 
-size_t rlf_sheet_crop_size(void)
+size_t background_image_crop_size(void)
 {
     return (size_t)CROP * CROP;
 }
 
-void rlf_sheet_changed(rlf_background *background, const rlf_grid *grid, int32_t x, int32_t y,
-                       int32_t count)
+void background_image_changed(rlf_background *background, const rlf_grid *grid, int32_t x,
+                              int32_t y, int32_t count)
 {
-    background->changes[y / RLF_SHEET_TILE * tile_columns(grid) + x / RLF_SHEET_TILE] += count;
+    background->changes[y / BACKGROUND_TILE * tile_columns(grid) + x / BACKGROUND_TILE] += count;
     background->changed += count;
 }
 
 static rlf_rect tile_at(const rlf_grid *grid, int32_t tile)
 {
-    int32_t x0 = tile % tile_columns(grid) * RLF_SHEET_TILE;
-    int32_t y0 = tile / tile_columns(grid) * RLF_SHEET_TILE;
-    int32_t x1 = x0 + RLF_SHEET_TILE, y1 = y0 + RLF_SHEET_TILE;
+    int32_t x0 = tile % tile_columns(grid) * BACKGROUND_TILE;
+    int32_t y0 = tile / tile_columns(grid) * BACKGROUND_TILE;
+    int32_t x1 = x0 + BACKGROUND_TILE, y1 = y0 + BACKGROUND_TILE;
     const rlf_rect r = {x0, y0, x1 < grid->width ? x1 : grid->width,
                         y1 < grid->height ? y1 : grid->height};
     return r;
@@ -86,7 +86,7 @@ static void tile_is_made(rlf_background *background, int32_t tile, bool is_new)
     background->age[tile] = is_new ? 0 : background->age[tile];
 }
 
-/* The sheet's depth of pixel i, as far as it is the model's still. */
+/* The image's depth of pixel i, as far as it is the model's still. */
 static bool is_of_model(const rlf_reconstruct *stage, const float *depth, int32_t i)
 {
     float z = stage->background.mean[i];
@@ -118,31 +118,30 @@ static bool is_near(float depth, float other)
     return rlf_kernel_abs(depth - other) < SIDE * other;
 }
 
-/* Something hides pixel i, of which the sheet before showed what was settled, and the model is not
+/* Something hides pixel i, of which the image before showed what was settled, and the model is not
  * newer than that: the proof that a thing has left takes fewer frames than its votes. */
-static bool was_on_side(const rlf_reconstruct *stage, const rlf_settled *settled, float was,
-                        int32_t i)
+static bool was_on_side(const rlf_reconstruct *stage, const rlf_vote *settled, float was, int32_t i)
 {
-    return is_near(was, settled->depth) && stage->background.weight[i] >= settled->votes;
+    return is_near(was, settled->depth) && stage->background.weight[i] >= settled->count;
 }
 
 /* The model's mean does not tell on which side of an outline a pixel is: it is of whatever was seen
  * first. What frames agree on does, where this frame agrees, too, or something hides it. */
-static void take_sides(const rlf_reconstruct *stage, const rlf_slot *slot, const rlf_sheet *old,
-                       rlf_sheet *sheet, rlf_rect r)
+static void take_sides(const rlf_reconstruct *stage, const rlf_slot *slot,
+                       const background_image *old, background_image *image, rlf_rect r)
 {
     for (int32_t y = r.y0; y < r.y1 && slot != NULL; y++) {
         for (int32_t x = r.x0; x < r.x1; x++) {
             int32_t i = y * stage->grid.width + x;
-            const rlf_settled *settled = rlf_settle_at(stage, i);
-            if (settled == NULL || !(sheet->depth[i] > 0.0f) ||
-                is_near(sheet->depth[i], settled->depth)) {
+            const rlf_vote *settled = vote_at(stage, i);
+            if (settled == NULL || !(image->depth[i] > 0.0f) ||
+                is_near(image->depth[i], settled->depth)) {
                 continue;
             }
             bool is_on = slot->foreground[i] == 0
                              ? is_near(slot->depth[i], settled->depth)
                              : old != NULL && was_on_side(stage, settled, old->depth[i], i);
-            sheet->depth[i] = is_on ? settled->depth : sheet->depth[i];
+            image->depth[i] = is_on ? settled->depth : image->depth[i];
         }
     }
 }
@@ -150,8 +149,8 @@ static void take_sides(const rlf_reconstruct *stage, const rlf_slot *slot, const
 /* What a frame knows of edges, the model's depth alone does not tell: creases are sharp there, and
  * sides that nothing was seen of have their normals. A pixel whose normal there, or the one that
  * frames agree on, is another one takes it; one that something hides keeps what it had. */
-static void sharpen(const rlf_reconstruct *stage, const rlf_slot *slot, const rlf_sheet *old,
-                    rlf_sheet *sheet, rlf_rect r)
+static void sharpen(const rlf_reconstruct *stage, const rlf_slot *slot, const background_image *old,
+                    background_image *image, rlf_rect r)
 {
     const rlf_reconstruct_def *def = &stage->def;
     if (slot == NULL || !def->enable_smoothing || !def->enable_edge_normals ||
@@ -163,28 +162,28 @@ static void sharpen(const rlf_reconstruct *stage, const rlf_slot *slot, const rl
         for (int32_t x = r.x0; x < r.x1; x++) {
             int32_t i = y * stage->grid.width + x;
             bool is_seen = slot->foreground[i] == 0 && is_of_model(stage, slot->depth, i);
-            const rlf_settled *settled = rlf_settle_at(stage, i);
-            if (settled != NULL && is_near(sheet->depth[i], settled->depth)) {
-                take_normal(settled->normal, most, i, sheet->normal);
+            const rlf_vote *settled = vote_at(stage, i);
+            if (settled != NULL && is_near(image->depth[i], settled->depth)) {
+                take_normal(settled->normal, most, i, image->normal);
             } else if (is_seen) {
-                take_normal_of(slot->normal, most, i, sheet->normal);
+                take_normal_of(slot->normal, most, i, image->normal);
             } else if (old != NULL && is_of_model(stage, old->depth, i)) {
-                take_normal_of(old->normal, most, i, sheet->normal);
+                take_normal_of(old->normal, most, i, image->normal);
             }
         }
     }
 }
 
 /* What has left is no background. */
-static void clear_left(const rlf_reconstruct *stage, rlf_sheet *sheet, rlf_rect r)
+static void clear_left(const rlf_reconstruct *stage, background_image *image, rlf_rect r)
 {
     const uint8_t *left = stage->background.depart.left;
     for (int32_t y = r.y0; y < r.y1 && left != NULL; y++) {
         int32_t row = y * stage->grid.width;
         for (int32_t x = r.x0; (x = rlf_kernel_next_mark(left + row, x, r.x1)) < r.x1; x++) {
-            sheet->depth[row + x] = 0.0f;
+            image->depth[row + x] = 0.0f;
             for (int k = 0; k < 3; k++) {
-                sheet->normal[k][row + x] = 0.0f;
+                image->normal[k][row + x] = 0.0f;
             }
         }
     }
@@ -193,7 +192,8 @@ static void clear_left(const rlf_reconstruct *stage, rlf_sheet *sheet, rlf_rect 
 /* A tile from the model; its normals are those of a part of the image that holds all they depend
  * on.
  */
-static void make_tile(rlf_reconstruct *stage, const rlf_slot *slot, rlf_sheet *sheet, int32_t tile)
+static void make_tile(rlf_reconstruct *stage, const rlf_slot *slot, background_image *image,
+                      int32_t tile)
 {
     const rlf_grid *grid = &stage->grid;
     const rlf_rect r = tile_at(grid, tile), wide = widen(grid, r);
@@ -210,25 +210,25 @@ static void make_tile(rlf_reconstruct *stage, const rlf_slot *slot, rlf_sheet *s
     job.ray_y = crop[2];
     job.pool = NULL;
     rlf_normals_compute(&job);
-    copy_part(r, stage->background.mean, 0, 0, grid->width, sheet->depth, 0, 0, grid->width);
+    copy_part(r, stage->background.mean, 0, 0, grid->width, image->depth, 0, 0, grid->width);
     for (int k = 0; k < 3; k++) {
-        copy_part(r, crop[3 + k], wide.x0, wide.y0, width, sheet->normal[k], 0, 0, grid->width);
+        copy_part(r, crop[3 + k], wide.x0, wide.y0, width, image->normal[k], 0, 0, grid->width);
     }
-    const rlf_sheet *newest = &stage->background.sheets[stage->background.newest];
-    take_sides(stage, slot, newest, sheet, r);
-    sharpen(stage, slot, newest, sheet, r);
-    clear_left(stage, sheet, r);
+    const background_image *newest = &stage->background.images[stage->background.newest];
+    take_sides(stage, slot, newest, image, r);
+    sharpen(stage, slot, newest, image, r);
+    clear_left(stage, image, r);
     tile_is_made(&stage->background, tile, stage->background.changes[tile] >= CHANGES);
 }
 
-/* Brings the oldest sheet up to the newest. */
+/* Brings the oldest image up to the newest. */
 static void begin_draft(rlf_reconstruct *stage)
 {
     rlf_background *background = &stage->background;
     const rlf_grid *grid = &stage->grid;
-    const rlf_sheet *newest = &background->sheets[background->newest];
-    rlf_sheet *draft = &background->sheets[(background->newest + 1) % RLF_SHEETS];
-    for (int32_t tile = 0; tile < rlf_sheet_tiles(grid); tile++) {
+    const background_image *newest = &background->images[background->newest];
+    background_image *draft = &background->images[(background->newest + 1) % BACKGROUND_IMAGES];
+    for (int32_t tile = 0; tile < background_image_tiles(grid); tile++) {
         if (background->version[tile] > draft->version) {
             const rlf_rect r = tile_at(grid, tile);
             copy_part(r, newest->depth, 0, 0, grid->width, draft->depth, 0, 0, grid->width);
@@ -242,7 +242,7 @@ static void begin_draft(rlf_reconstruct *stage)
 }
 
 /* How much a tile needs to be made: its replaced pixels, or that its means are better. Once for
- * each sheet: where somebody walks about there is no end of changes. */
+ * each image: where somebody walks about there is no end of changes. */
 static int32_t need_of(const rlf_background *background, int32_t tile)
 {
     bool is_made = background->version[tile] == background->next_version;
@@ -261,40 +261,41 @@ static int32_t next_tile(const rlf_background *background, int32_t tiles)
     return best;
 }
 
-static void make_all(rlf_reconstruct *stage, const rlf_slot *slot, rlf_sheet *sheet)
+static void make_all(rlf_reconstruct *stage, const rlf_slot *slot, background_image *image)
 {
     rlf_background *background = &stage->background;
-    int32_t tiles = rlf_sheet_tiles(&stage->grid);
-    memcpy(sheet->depth, background->mean, (size_t)stage->grid.count * sizeof *sheet->depth);
-    rlf_normals_job normals = rlf_normals_job_make(stage, sheet->depth, sheet->normal);
+    int32_t tiles = background_image_tiles(&stage->grid);
+    memcpy(image->depth, background->mean, (size_t)stage->grid.count * sizeof *image->depth);
+    rlf_normals_job normals = rlf_normals_job_make(stage, image->depth, image->normal);
     rlf_normals_compute(&normals);
     const rlf_rect all = {0, 0, stage->grid.width, stage->grid.height};
-    take_sides(stage, slot, NULL, sheet, all);
-    sharpen(stage, slot, NULL, sheet, all);
+    take_sides(stage, slot, NULL, image, all);
+    sharpen(stage, slot, NULL, image, all);
     for (int32_t tile = 0; tile < tiles; tile++) {
         tile_is_made(background, tile, true);
     }
 }
 
-const rlf_sheet *rlf_sheet_newest(const rlf_reconstruct *stage)
+const background_image *background_image_newest(const rlf_reconstruct *stage)
 {
     const rlf_background *background = &stage->background;
     bool none = background->newest < 0 || background->is_stale;
-    return none ? NULL : &background->sheets[background->newest];
+    return none ? NULL : &background->images[background->newest];
 }
 
 /* The draft as a layer that is segmented. */
 static rlf_layer_in draft_layer(const rlf_reconstruct *stage)
 {
     const rlf_background *background = &stage->background;
-    const rlf_sheet *old = rlf_sheet_newest(stage);
-    const rlf_sheet *sheet = &background->sheets[(background->newest + 1) % RLF_SHEETS];
+    const background_image *old = background_image_newest(stage);
+    const background_image *image =
+        &background->images[(background->newest + 1) % BACKGROUND_IMAGES];
     rlf_layer_in in = {.layer = RLF_LAYER_BACKGROUND,
                        .method = stage->def.background_segment,
-                       .depth = sheet->depth,
-                       .normal = sheet->normal,
+                       .depth = image->depth,
+                       .normal = image->normal,
                        .steps_done = background->object_steps,
-                       .kept = sheet->label,
+                       .kept = image->label,
                        .color = stage->has_color ? background->color : NULL};
     if (old != NULL) {
         in.previous_label = old->label;
@@ -312,18 +313,18 @@ static rlf_layer_in draft_layer(const rlf_reconstruct *stage)
 static void finish(rlf_reconstruct *stage)
 {
     rlf_background *background = &stage->background;
-    int32_t next = (background->newest + 1) % RLF_SHEETS;
-    rlf_sheet *sheet = &background->sheets[next];
+    int32_t next = (background->newest + 1) % BACKGROUND_IMAGES;
+    background_image *image = &background->images[next];
     const rlf_layer_in in = draft_layer(stage);
-    rlf_layer_out out = {sheet->regions, sheet->region_points, 0, 0};
+    rlf_layer_out out = {image->regions, image->region_points, 0, 0};
     rlf_layer_segment(stage, &in, &out);
-    memset(sheet->label, 0, (size_t)stage->grid.count * sizeof *sheet->label);
-    rlf_region_write_labels(stage, &out, sheet->label);
-    sheet->region_count = out.region_count;
-    sheet->point_count = out.point_count;
-    sheet->version = background->next_version++;
+    memset(image->label, 0, (size_t)stage->grid.count * sizeof *image->label);
+    rlf_region_write_labels(stage, &out, image->label);
+    image->region_count = out.region_count;
+    image->point_count = out.point_count;
+    image->version = background->next_version++;
     background->newest = next;
-    background->sheet_age = 0;
+    background->image_age = 0;
     background->is_drafting = false;
     background->is_made = false;
     background->object_steps = 0;
@@ -348,10 +349,10 @@ static bool finish_in_steps(rlf_reconstruct *stage, bool urgent)
     return true;
 }
 
-void rlf_sheet_publish(rlf_reconstruct *stage, const rlf_slot *slot)
+void background_image_publish(rlf_reconstruct *stage, const rlf_slot *slot)
 {
     rlf_background *background = &stage->background;
-    make_all(stage, slot, &background->sheets[(background->newest + 1) % RLF_SHEETS]);
+    make_all(stage, slot, &background->images[(background->newest + 1) % BACKGROUND_IMAGES]);
     finish(stage);
 }
 
@@ -365,17 +366,17 @@ static bool is_due(rlf_background *background, int32_t tiles)
         background->is_better[tile] |= age == SHOWN_FRAMES || age == REFINED_FRAMES;
         better = better || background->is_better[tile] != 0;
     }
-    background->sheet_age++;
-    return better || (background->changed >= CHANGES && background->sheet_age >= FRAMES) ||
-           (background->changed > 0 && background->sheet_age >= FRAMES_LONG);
+    background->image_age++;
+    return better || (background->changed >= CHANGES && background->image_age >= FRAMES) ||
+           (background->changed > 0 && background->image_age >= FRAMES_LONG);
 }
 
-void rlf_sheet_advance(rlf_reconstruct *stage, const rlf_slot *slot)
+void background_image_advance(rlf_reconstruct *stage, const rlf_slot *slot)
 {
     rlf_background *background = &stage->background;
-    int32_t tiles = rlf_sheet_tiles(&stage->grid);
-    if (rlf_sheet_newest(stage) == NULL) {
-        rlf_sheet_publish(stage, slot);
+    int32_t tiles = background_image_tiles(&stage->grid);
+    if (background_image_newest(stage) == NULL) {
+        background_image_publish(stage, slot);
         return;
     }
     bool due = is_due(background, tiles);
@@ -390,7 +391,7 @@ void rlf_sheet_advance(rlf_reconstruct *stage, const rlf_slot *slot)
         begin_draft(stage);
     }
     background->object_steps = 0; /* tiles change */
-    rlf_sheet *draft = &background->sheets[(background->newest + 1) % RLF_SHEETS];
+    background_image *draft = &background->images[(background->newest + 1) % BACKGROUND_IMAGES];
     int32_t most = 1 + tiles / (urgent ? PARTS_URGENT : PARTS);
     most = background->depart.is_urgent ? tiles : most;
     int32_t tile = next_tile(background, tiles);

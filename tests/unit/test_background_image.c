@@ -20,7 +20,7 @@ static rlf_reconstruct *make_stage(void)
     rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, &rig);
     rlf_reconstruct *stage = NULL;
     assert_int_equal(rlf_reconstruct_create(&def, &stage), RLF_OK);
-    assert_int_equal(rlf_sheet_tiles(&stage->grid), TILES);
+    assert_int_equal(background_image_tiles(&stage->grid), TILES);
     return stage;
 }
 
@@ -74,7 +74,7 @@ static void tiles_make_the_same_normals_as_the_whole(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
-/* The first sheet is the mean of five frames; the last one of many. */
+/* The first image is the mean of five frames; the last one of many. */
 static void means_get_better_without_a_change(void **state)
 {
     (void)state;
@@ -131,7 +131,7 @@ static void no_frame_makes_more_than_its_share(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
-/* The regions of a sheet cost as much as all its tiles: no frame finds them all, nor makes tiles
+/* The regions of a image cost as much as all its tiles: no frame finds them all, nor makes tiles
  * beside a part of that. Only what leaves is shown at once. */
 static void regions_take_several_frames(void **state)
 {
@@ -139,7 +139,7 @@ static void regions_take_several_frames(void **state)
     rlf_reconstruct *stage = make_stage();
     const rlf_background *background = &stage->background;
     analytic_random random = {11};
-    int32_t before[TILES], sheets = 0;
+    int32_t before[TILES], images = 0;
     for (int t = 0; t < 90; t++) {
         int32_t steps = background->object_steps, newest = background->newest;
         bool is_made = background->is_made;
@@ -149,9 +149,9 @@ static void regions_take_several_frames(void **state)
         assert_true(!is_new || (is_made && steps == RLF_OBJECT_STEPS));
         assert_true(is_new || background->object_steps <= steps + 1);
         assert_true(!is_made || tiles_made(stage, before) == 0);
-        sheets += is_new;
+        images += is_new;
     }
-    assert_true(sheets >= 2);
+    assert_true(images >= 2);
     rlf_reconstruct_destroy(&stage);
 }
 
@@ -165,7 +165,7 @@ static double sum_of(const rlf_surface *s)
     return sum;
 }
 
-/* Tiles are made in a sheet that no valid surface shows. */
+/* Tiles are made in a image that no valid surface shows. */
 static void valid_surfaces_keep_their_background(void **state)
 {
     (void)state;
@@ -184,7 +184,7 @@ static void valid_surfaces_keep_their_background(void **state)
     rlf_reconstruct_destroy(&stage);
 }
 
-/* Early on, something small leaves: one tile changes, and the others stay in the new sheet. */
+/* Early on, something small leaves: one tile changes, and the others stay in the new image. */
 static void one_tile_changes_alone(void **state)
 {
     (void)state;
@@ -192,7 +192,7 @@ static void one_tile_changes_alone(void **state)
     analytic_random random = {9};
     const rlf_vec3 left = {0.6, 0.0, -0.8}, right = {-0.6, 0.0, -0.8};
     const rlf_rig *rig = &stage->def.rig;
-    int32_t sheets = 0;
+    int32_t images = 0;
     for (int t = 0; t < 38; t++) {
         for (int i = 0; i < COUNT; i++) {
             double x = (i % WIDTH - rig->depth.cx) / rig->depth.fx;
@@ -208,12 +208,12 @@ static void one_tile_changes_alone(void **state)
         int32_t newest = stage->background.newest;
         const rlf_surface *s = NULL;
         assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
-        sheets += stage->background.newest != newest;
+        images += stage->background.newest != newest;
         for (int i = 0; i < COUNT && s->background_state == RLF_BACKGROUND_READY; i++) {
             assert_true(s->background_depth[i] > 0.0f);
         }
     }
-    assert_true(sheets >= 2); /* the first one, and one without the thing */
+    assert_true(images >= 2); /* the first one, and one without the thing */
     rlf_reconstruct_destroy(&stage);
 }
 
@@ -225,11 +225,11 @@ static void a_sheet_is_finished_while_something_changes(void **state)
     rlf_reconstruct *stage = make_stage();
     const rlf_rig *rig = &stage->def.rig;
     analytic_random random = {10};
-    int32_t sheets = 0;
+    int32_t images = 0;
     for (int t = 0; t < 80; t++) {
         for (int i = 0; i < COUNT; i++) {
-            int x = i % WIDTH - 40, y = i / WIDTH - 40, patch = x / RLF_SHEET_TILE;
-            bool is_patch = x >= 0 && y >= 0 && y < SIDE && patch < 3 && x % RLF_SHEET_TILE < SIDE;
+            int x = i % WIDTH - 40, y = i / WIDTH - 40, patch = x / BACKGROUND_TILE;
+            bool is_patch = x >= 0 && y >= 0 && y < SIDE && patch < 3 && x % BACKGROUND_TILE < SIDE;
             double z = 1.5 + (is_patch && t > 8 ? 0.1 * ((t + patch) / 3) : 0.0);
             depth[i] = (float)(z + rlf_depth_noise_sigma(&rig->noise, z) * random_normal(&random));
         }
@@ -238,9 +238,9 @@ static void a_sheet_is_finished_while_something_changes(void **state)
         int32_t newest = stage->background.newest;
         const rlf_surface *s = NULL;
         assert_int_equal(rlf_reconstruct_process(stage, &frame, &s), RLF_OK);
-        sheets += stage->background.newest != newest;
+        images += stage->background.newest != newest;
     }
-    assert_true(sheets >= 4); /* one of five frames, and better ones */
+    assert_true(images >= 4); /* one of five frames, and better ones */
     rlf_reconstruct_destroy(&stage);
 }
 
