@@ -27,7 +27,6 @@ static const double beside_px = 0.4;   /* a pixel shows what is so far beside it
 static const double least_sigma_m = 0.0005;
 static const double beside_m = 0.008; /* a point so far beside a face may be on it */
 static const double spacing_px = 1.5;
-static const double most_ragged_px = 1.5; /* of a straight edge */
 static const double settled = 0.5; /* of its sigma moves no unknown: a sixth of that is left */
 
 /* Normal equations of the correction x: J x = e. */
@@ -209,7 +208,6 @@ static bool find_step(const equations *sum, const double at[2], const double out
 /* A place on an edge of the outline: depth steps `offset` pixels farther out. */
 typedef struct place {
     double row[N], offset, sigma;
-    double along; /* where it is on the edge */
 } place;
 
 /* On the edge between the faces `sign` of the axes other than `axis`; false where nothing shows it.
@@ -246,63 +244,6 @@ static bool look_at_place(const equations *sum, rlf_vec3 p, int32_t axis, const 
     return find_step(sum, at, out, p.z, &found->offset, &found->sigma);
 }
 
-static double median(double *values, int32_t count)
-{
-    for (int32_t n = 1; n < count; n++) {
-        double value = values[n];
-        int32_t k = n;
-        for (; k > 0 && values[k - 1] > value; k--) {
-            values[k] = values[k - 1];
-        }
-        values[k] = value;
-    }
-    return count > 0 ? values[count / 2] : 0.0;
-}
-
-/* Places within most_ragged_px of the line slope * along + *middle, whose middle is their median.
- */
-static int32_t count_on_line(const place *places, int32_t count, double slope, double *middle)
-{
-    double values[MOST_PLACES];
-    int32_t on = 0;
-    for (int32_t n = 0; n < count; n++) {
-        values[n] = places[n].offset - slope * places[n].along;
-    }
-    *middle = median(values, count);
-    for (int32_t n = 0; n < count; n++) {
-        double off = values[n] - *middle;
-        on += off < most_ragged_px && off > -most_ragged_px;
-    }
-    return on;
-}
-
-/* A straight edge steps along the line on which most of its places are: others show what holds the
- * slab. */
-static void add_places(equations *sum, const place *places, int32_t count)
-{
-    static const double slopes[] = {0.0, 1.5, -1.5, 3.0, -3.0, 4.5, -4.5};
-    int32_t most = 0;
-    double slope = 0.0, middle = 0.0, share = rlf_max(shared, count > 0 ? 1.0 / count : 0.0);
-    for (int32_t k = 0; k < 7; k++) {
-        double at;
-        int32_t on = count_on_line(places, count, slopes[k], &at);
-        if (on > most) {
-            most = on;
-            slope = slopes[k];
-            middle = at;
-        }
-    }
-    for (int32_t n = 0; n < count; n++) {
-        const place *p = &places[n];
-        double off = p->offset - slope * p->along - middle, loose = p->offset / sum->loose_px;
-        if (off < most_ragged_px && off > -most_ragged_px) {
-            double robust = 1.0 / (1.0 + loose * loose);
-            add_row(sum, p->row, p->offset, share * robust * robust / (p->sigma * p->sigma));
-            sum->fit.outline++;
-        }
-    }
-}
-
 /* Edges of the outline lie between a face that the camera sees and one that it does not. */
 static bool is_outline(const slab_view *view, int32_t axis, const double sign[3])
 {
@@ -337,15 +278,18 @@ static void add_edge(equations *sum, int32_t axis, const double sign[3])
     }
     double pixels =
         length_in_pixels(&sum->in->grid->camera, rlf_sub(middle, half), rlf_add(middle, half));
-    int32_t count = (int32_t)rlf_min(pixels / spacing_px + 0.5, MOST_PLACES), found = 0;
-    place places[MOST_PLACES];
+    const int32_t count = (int32_t)rlf_min(pixels / spacing_px + 0.5, MOST_PLACES);
     for (int32_t k = 0; k < count; k++) {
-        places[found].along = (k + 0.5) / count - 0.5;
-        rlf_vec3 p = rlf_mad(middle, half, 2.0 * places[found].along);
-        found += look_at_place(sum, p, axis, sign, &places[found]);
+        const double along = (2.0 * k + 1.0) / count - 1.0;
+        place at;
+        sum->fit.places++;
+        if (look_at_place(sum, rlf_mad(middle, half, along), axis, sign, &at)) {
+            const double loose = at.offset / sum->loose_px, robust = 1.0 / (1.0 + loose * loose);
+            const double share = rlf_max(shared, 1.0 / count);
+            add_row(sum, at.row, at.offset, share * robust * robust / (at.sigma * at.sigma));
+            sum->fit.outline++;
+        }
     }
-    sum->fit.places += count;
-    add_places(sum, places, found);
 }
 
 static void measure(equations *sum)

@@ -64,23 +64,6 @@ void thin_expect_slab(thin *state, ptrdiff_t k, float z)
     put(state, k, (thin_expected){z, (int32_t)k, SLAB_TICKS});
 }
 
-/* Whether pixel i, or one of its body beside it, was seen itself: a band beside an edge was not. */
-static bool was_seen(const rlf_grid *grid, const rlf_slot *before, int32_t x, int32_t y)
-{
-    const int32_t steps[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-    ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-    bool is_seen = before->reason[i] == RLF_REASON_OK;
-    for (int32_t k = 0; k < 4 * EDGE_PX && !is_seen; k++) {
-        int32_t u = x + steps[k % 4][0] * (1 + k / 4), v = y + steps[k % 4][1] * (1 + k / 4);
-        ptrdiff_t n = (ptrdiff_t)v * grid->width + u;
-        bool is_inside = u >= 0 && v >= 0 && u < grid->width && v < grid->height;
-        is_seen = is_inside && before->foreground[n] != 0 && before->depth[n] > 0.0f &&
-                  before->reason[n] == RLF_REASON_OK &&
-                  rlf_kernel_abs(before->depth[n] - before->depth[i]) < body_jump_m;
-    }
-    return is_seen;
-}
-
 /* Some pixels of a row of the frame before, at most CHUNK. */
 static void expect_pixels(const thin_in *in, thin *state, int32_t first, int32_t y, int32_t count)
 {
@@ -105,11 +88,9 @@ static void expect_pixels(const thin_in *in, thin *state, int32_t first, int32_t
         if (to[k] < 0 || !is_narrow(grid, before, first + k, y)) {
             continue;
         }
-        bool is_seen = was_seen(grid, before, first + k, y);
-        int32_t lost = is_seen ? 0 : state->lost_ticks[at + k];
+        const int32_t lost = state->lost_ticks[at + k];
         const thin_expected *there = &state->expected[to[k]];
-        if ((is_seen || lost > 0) && lost + ticks <= LONGEST_TICKS &&
-            (!(there->depth > 0.0f) || z[k] < there->depth)) {
+        if (lost + ticks <= LONGEST_TICKS && (!(there->depth > 0.0f) || z[k] < there->depth)) {
             put(state, to[k], (thin_expected){z[k], (int32_t)(at + k), lost + ticks});
         }
     }
