@@ -82,6 +82,9 @@ static size_t add_square(const rlf_surface *surface, uint32_t n, double max_jump
 size_t rlf_mesh_indices_valid(const rlf_surface *surface, double max_jump, uint32_t *out)
 {
     size_t count = 0;
+    if (!RLF_ASSERT(surface != NULL && out != NULL)) {
+        return 0;
+    }
     for (int32_t y = 0; y + 1 < surface->height; y++) {
         for (int32_t x = 0; x + 1 < surface->width; x++) {
             uint32_t n = (uint32_t)y * (uint32_t)surface->width + (uint32_t)x;
