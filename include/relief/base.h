@@ -13,6 +13,8 @@
 extern "C" {
 #endif
 
+/* Version of these headers; the libraries' sonames carry as much of it as may break: before 1.0
+ * major and minor, then major. CMake reads it from here. */
 #define RLF_VERSION_MAJOR 0
 #define RLF_VERSION_MINOR 1
 #define RLF_VERSION_PATCH 0
@@ -57,16 +59,20 @@ RLF_API const char *rlf_result_name(rlf_result result);
  * Thread-safety: safe, the line belongs to the calling thread. */
 RLF_API rlf_result rlf_fail(rlf_result result, const char *format, ...) RLF_PRINTF(2, 3);
 
-/* This thread's last error line, without a newline; "" when there was none. Valid until the next
- * failing call on this thread. */
+/* This thread's error line, without a newline: that of the last call on this thread that failed, a
+ * broken contract included; "" when none has. Every call that returns an error (< 0), and every one
+ * that returns NULL or false where its comment names errors, replaces it as a whole; calls that
+ * succeed leave it or not, so look at the result first. Valid until the next call of Relief on this
+ * thread: copy what is to stay. Never NULL. */
 RLF_API const char *rlf_error_text(void);
 
 /* ---- hooks: set them before anything else, from one thread ------------------------------- */
 
+/* How much a log line matters. */
 typedef enum rlf_log_level {
-    RLF_LOG_ERROR = 0,
-    RLF_LOG_WARNING = 1,
-    RLF_LOG_INFO = 2
+    RLF_LOG_ERROR = 0,   /* something does not work */
+    RLF_LOG_WARNING = 1, /* it works, but not as asked for */
+    RLF_LOG_INFO = 2     /* of interest when looking for a cause; not written by default */
 } rlf_log_level;
 
 /* Receives every log line, without a newline. Called from any thread. */
@@ -74,11 +80,15 @@ typedef void (*rlf_log_fn)(void *context, rlf_log_level level, const char *line)
 
 /* Replaces the log writer (default: warnings and errors to stderr). NULL silences. */
 RLF_API void rlf_set_log(rlf_log_fn fn, void *context);
+/* Writes a line (printf-like, without a newline, cut at 1023 bytes) to the log. Allocates nothing.
+ * Thread-safety: safe, if the writer is. */
 RLF_API void rlf_log(rlf_log_level level, const char *format, ...) RLF_PRINTF(2, 3);
 
-/* Called when RLF_ASSERT fails. Return true to abort(), false to go on (the call is then a safe
- * no-op). The default prints the place and aborts in builds without NDEBUG, logs once with it. */
+/* Called when RLF_ASSERT fails, on the thread that called. Return true to abort(), false to go on:
+ * the call is then a safe no-op that returns RLF_ERROR_INVALID, NULL, false or 0, and the error
+ * line names the condition. The default logs the place and aborts in builds without NDEBUG. */
 typedef bool (*rlf_assert_fn)(void *context, const char *condition, const char *file, int line);
+/* Replaces the handler; NULL brings back the default. */
 RLF_API void rlf_set_assert(rlf_assert_fn fn, void *context);
 
 /* Reports a failed assertion through the handler. Always returns false. Used by RLF_ASSERT. */
@@ -117,7 +127,8 @@ RLF_API const char *rlf_isa_name(void);
 
 /* ---- clock ----------------------------------------------------------------------------------- */
 
-/* Monotonic time in nanoseconds; only differences mean anything. */
+/* Monotonic time in nanoseconds (CLOCK_MONOTONIC: stands still while the machine sleeps); only
+ * differences mean anything. Thread-safety: safe. */
 RLF_API int64_t rlf_clock_ns(void);
 
 /* ---- worker pool ----------------------------------------------------------------------------- */

@@ -12,16 +12,16 @@ extern "C" {
 
 /* What the picture shows. */
 typedef enum rlf_view {
-    RLF_VIEW_CAMERA = 0,  /* colour with the bodies composited: the main view */
-    RLF_VIEW_DEPTH = 1,   /* depth, near warm to far cold */
-    RLF_VIEW_NORMALS = 2, /* rgb = (n_x, -n_y, -n_z) / 2 + 1/2 */
-    RLF_VIEW_MESH = 3,    /* wireframe of the triangle mesh over the colour image (fig. 4.5) */
-    RLF_VIEW_REGIONS = 4, /* one colour per region, with boxes (fig. 4.18) */
-    RLF_VIEW_FOREGROUND = 5,
+    RLF_VIEW_CAMERA = 0,     /* colour with the bodies composited: the main view */
+    RLF_VIEW_DEPTH = 1,      /* depth, near warm to far cold */
+    RLF_VIEW_NORMALS = 2,    /* rgb = (n_x, -n_y, -n_z) / 2 + 1/2 */
+    RLF_VIEW_MESH = 3,       /* wireframe of the triangle mesh over the colour image (fig. 4.5) */
+    RLF_VIEW_REGIONS = 4,    /* one colour per region, with boxes (fig. 4.18) */
+    RLF_VIEW_FOREGROUND = 5, /* what moves or was not there at the start */
     RLF_VIEW_BACKGROUND = 6, /* the background model's depth */
-    RLF_VIEW_VELOCITY = 7,
-    RLF_VIEW_THICKNESS = 8,
-    RLF_VIEW_REASON = 9,  /* reason codes, one colour each */
+    RLF_VIEW_VELOCITY = 7,   /* of the surface */
+    RLF_VIEW_THICKNESS = 8,  /* of the solid behind it */
+    RLF_VIEW_REASON = 9,     /* reason codes, one colour each */
     RLF_VIEW_POINTS = 10, /* the surface's points, in colour, and the bodies from anywhere: orbit */
     RLF_VIEW_CONTACTS = 11, /* camera, with an arrow along each contact's normal, longer the larger
                                its impulse */
@@ -31,7 +31,7 @@ typedef enum rlf_view {
 
 /* Name as in `--view`, e.g. "normals"; NULL outside the range. */
 RLF_API const char *rlf_view_name(rlf_view view);
-/* False when no view has that name. */
+/* View of a name as in `--view`. False, and *out as it was, when no view has that name. */
 RLF_API bool rlf_view_parse(const char *name, rlf_view *out);
 
 /* Where RLF_VIEW_POINTS is seen from: the camera turned about a point in front of it, in the middle
@@ -50,6 +50,8 @@ typedef struct rlf_plot {
     float line; /* a value to mark, > 0; the plot ends at twice as much */
 } rlf_plot;
 
+/* How the picture decides which pixels of a body real things hide. Sources: the thesis, section
+ * 4.2.2 for the layers; docs/how-it-works.md tells how the others do it. */
 typedef enum rlf_occlusion {
     RLF_OCCLUSION_DEPTH = 0, /* hard: every pixel's depth against the registered real depth */
     RLF_OCCLUSION_THESIS =
@@ -60,8 +62,10 @@ typedef enum rlf_occlusion {
                               over +-2 sigma(z) of the sensor where it meets a surface */
 } rlf_occlusion;
 
+/* What a renderer is made for. From rlf_compositor_def_default or, with rig, grid, rays and size
+ * filled in, rlf_pipeline_get_compositor_def; then change what shall differ. */
 typedef struct rlf_compositor_def {
-    uint32_t cookie;
+    uint32_t cookie; /* set by rlf_compositor_def_default */
     rlf_rig rig;     /* the source's; must be set. Without colour the depth camera is used */
     rlf_camera grid; /* the surface's camera */
     const float *ray_x, *ray_y; /* the surface's rays; borrowed for the compositor's life */
@@ -82,6 +86,7 @@ typedef struct rlf_compositor_def {
     rlf_pool *pool;                 /* borrowed; NULL = one thread */
 } rlf_compositor_def;
 
+/* All fields at the defaults that they name. `rig`, `grid` and the rays are still to be set. */
 RLF_API rlf_compositor_def rlf_compositor_def_default(void);
 
 /* Everything one picture is made of; all borrowed for the call. */
@@ -90,13 +95,14 @@ typedef struct rlf_render_input {
     const rlf_surface *surface;   /* required */
     const rlf_snapshot *snapshot; /* NULL = no bodies */
     rlf_pose T_world_camera;      /* depth camera in the world */
-    rlf_view view;
-    rlf_orbit orbit;            /* of RLF_VIEW_POINTS */
-    const char *const *overlay; /* text lines, top left; used with enable_overlay */
+    rlf_view view;                /* what the picture shows */
+    rlf_orbit orbit;              /* of RLF_VIEW_POINTS */
+    const char *const *overlay;   /* text lines, top left; used with enable_overlay */
     int32_t overlay_count;
     const rlf_plot *plot; /* bottom left; used with enable_overlay; NULL = none */
 } rlf_render_input;
 
+/* One picture. All is the compositor's and stays valid until its next render or its end. */
 typedef struct rlf_render_output {
     rlf_image_rgba8
         image;          /* the composite (or the view); the compositor's, valid until next render */
@@ -105,20 +111,29 @@ typedef struct rlf_render_output {
     bool is_light_estimated;  /* by the picture; else light_direction of the def */
 } rlf_render_output;
 
+/* A renderer with its buffers: what it learnt of light and silhouettes goes on from picture to
+ * picture, so one compositor belongs to one sequence of frames. */
 typedef struct rlf_compositor rlf_compositor;
 
-/* Methods of a renderer; used by librelief_gl and by anyone's own. */
+/* Methods of a renderer; used by librelief_gl and by anyone's own. `self` is the context given at
+ * creation. `render` returns RLF_OK or an error with its line set (rlf_fail), and allocates nothing
+ * once it runs; RLF_ERROR_DEVICE makes a pipeline go on with the soft renderer. `destroy` frees the
+ * context, NULL = nothing to free; `name` lives as long as the compositor. */
 typedef struct rlf_compositor_methods {
     rlf_result (*render)(void *self, const rlf_render_input *input, rlf_render_output *out);
     void (*destroy)(void *self);
     const char *name; /* "soft", "gl" */
 } rlf_compositor_methods;
 
+/* Makes a compositor of caller's methods, which are copied. On failure `self` is not destroyed. */
 RLF_API rlf_result rlf_compositor_create_custom(const rlf_compositor_methods *methods, void *self,
                                                 rlf_compositor **out);
-/* The CPU renderer: pure C, same bits everywhere. */
+/* The CPU renderer: pure C, same bits everywhere. Allocates all it needs for the def's sizes.
+ * RLF_ERROR_INVALID names the def's field that is wrong. */
 RLF_API rlf_result rlf_compositor_create_soft(const rlf_compositor_def *def, rlf_compositor **out);
+/* Frees it with its method and nulls the pointer. NULL and a NULL compositor are allowed. */
 RLF_API void rlf_compositor_destroy(rlf_compositor **compositor);
+/* Its method's name, "soft", "gl" or another one's own. */
 RLF_API const char *rlf_compositor_name(const rlf_compositor *compositor);
 /* Draws one picture. Allocates nothing after the first call, but for bodies that together have more
  * triangles than any picture before. Thread-safety: one call at a time. */

@@ -11,21 +11,24 @@
 extern "C" {
 #endif
 
-/* Standard deviation of depth along z: sigma(z) = c0 + c1 z + c2 z^2, metres, z in metres.
- * Defaults: Kinect v2 after Fankhauser et al. 2015 (frontal surfaces). */
+/* Standard deviation of depth along z: sigma(z) = c0 + c1 z + c2 z^2, metres, z in metres, of one
+ * pixel from frame to frame on a still surface. Tolerances everywhere are multiples of it.
+ * Defaults: Kinect v2 after Fankhauser et al. 2015 (frontal surfaces); `relief measure --noise`
+ * fits it to a camera of your own. */
 typedef struct rlf_depth_noise {
-    double c0, c1, c2;
+    double c0, c1, c2; /* metres, 1, 1/metre */
 } rlf_depth_noise;
 
-/* sigma at depth z, metres; never below 0.3 mm. */
+/* sigma at depth z, metres; never below 0.3 mm, which is less than any sensor's step, so that
+ * nothing is divided by nothing. */
 static inline double rlf_depth_noise_sigma(const rlf_depth_noise *noise, double z)
 {
     return rlf_max(noise->c0 + z * (noise->c1 + z * noise->c2), 0.0003);
 }
 
-/* The cameras of a sensor, fixed for a source's life. */
+/* The cameras of a sensor, fixed for a source's life: stages size their planes by it once. */
 typedef struct rlf_rig {
-    rlf_camera depth;
+    rlf_camera depth;       /* intrinsics, lens and size of the depth pictures */
     rlf_camera color;       /* used when has_color; size of the colour frames */
     rlf_pose T_color_depth; /* p_color = T p_depth; identity when depth is already aligned */
     bool has_color;
@@ -45,6 +48,8 @@ typedef enum rlf_frame_flag {
     RLF_FRAME_DISCONTINUITY = 4
 } rlf_frame_flag;
 
+/* One depth picture, with colour where the source has it. The planes are the source's, read only,
+ * and stay valid until its next frame: who needs them for longer copies them. */
 typedef struct rlf_frame {
     uint64_t sequence; /* counts up by one per frame that the device made; gaps are lost frames */
     int64_t time_ns;   /* device time, nanoseconds; increases from frame to frame */
@@ -52,7 +57,7 @@ typedef struct rlf_frame {
                               files */
     int64_t color_time_ns; /* device time of the colour picture; 0 = as time_ns */
     uint32_t flags;        /* rlf_frame_flag */
-    const rlf_rig *rig;
+    const rlf_rig *rig;    /* the source's, for its life */
 
     /* Depth along z (not along the ray), rig->depth.width x height. Exactly one of the two is set.
      */
@@ -69,7 +74,7 @@ typedef struct rlf_frame {
     ptrdiff_t confidence_stride; /* bytes */
 
     /* Where the device or the file says the depth camera was; the world is the source's own. */
-    bool has_pose;
+    bool has_pose; /* false: T_world_camera means nothing */
     rlf_pose T_world_camera;
 } rlf_frame;
 

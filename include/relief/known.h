@@ -14,6 +14,7 @@
 extern "C" {
 #endif
 
+/* How many points give a pose: three fix it, more average what picking by hand is off. */
 #define RLF_KNOWN_POINTS_MIN 3
 #define RLF_KNOWN_POINTS_MAX 6
 
@@ -41,6 +42,8 @@ typedef struct rlf_known_def {
     double friction;     /* >= 0, default 0.5 */
 } rlf_known_def;
 
+/* A box of 0.1 m at the origin, placed, without points. Thread-safety of all here: safe, the calls
+ * keep nothing. */
 RLF_API rlf_known_def rlf_known_def_default(void);
 
 /* A point of a shape by name: three letters for left, centre or right (l, c, r), top, centre or

@@ -32,10 +32,14 @@ typedef struct rlf_scene {
     int32_t model_count;
 } rlf_scene;
 
+/* Most models of real things in one scene. */
 #define RLF_KNOWN_MAX 64
 
-/* The thesis's two cubes: one thrown from the camera, one from the right. Destroy it. */
+/* The thesis's two cubes: one thrown from the camera, one from the right. *out owns its arrays:
+ * destroy it. RLF_ERROR_MEMORY. */
 RLF_API rlf_result rlf_scene_create_two_cubes(rlf_scene *out);
+/* Frees what the scene owns and zeroes it. NULL and a zeroed scene are allowed. Worlds that borrow
+ * its hulls and models must be gone; a pipeline has copies of its own. */
 RLF_API void rlf_scene_destroy(rlf_scene *scene);
 
 /* A stage of the caller's own between surface and physics: returns what physics and the picture get
@@ -43,6 +47,8 @@ RLF_API void rlf_scene_destroy(rlf_scene *scene);
  * with it: RLF_ERROR_INVALID. */
 typedef const rlf_surface *(*rlf_surface_fn)(void *context, const rlf_surface *sensed);
 
+/* All that a pipeline is made of. From rlf_pipeline_def_default, for the settings of the stages
+ * depend on profile and source; then change what shall differ. */
 typedef struct rlf_pipeline_def {
     uint32_t cookie;
     rlf_profile profile;
@@ -58,10 +64,12 @@ typedef struct rlf_pipeline_def {
     rlf_pool *pool; /* borrowed; NULL = one thread */
 } rlf_pipeline_def;
 
-/* Settings of a profile for a source. */
+/* Settings of a profile for a source, which must be open, since sizes and noise come from its rig.
+ * The pool is borrowed; NULL = one thread. Any number of threads gives the same bits. */
 RLF_API rlf_pipeline_def rlf_pipeline_def_default(rlf_profile profile, rlf_source *source,
                                                   rlf_pool *pool);
 
+/* Wall time of the stages of one frame, milliseconds. Capture is the wait for the source. */
 typedef struct rlf_stage_times {
     double capture_ms, surface_ms, physics_ms, render_ms;
 } rlf_stage_times;
@@ -84,9 +92,14 @@ typedef struct rlf_pipeline_output {
     bool is_stale;
 } rlf_pipeline_output;
 
+/* The frame loop. Not copied, and used from one thread at a time; any number live side by side. */
 typedef struct rlf_pipeline rlf_pipeline;
 
+/* Makes all stages and copies the scene. RLF_ERROR_INVALID names the def's field that is wrong,
+ * RLF_ERROR_MEMORY; *out is then NULL. */
 RLF_API rlf_result rlf_pipeline_create(const rlf_pipeline_def *def, rlf_pipeline **out);
+/* Frees it with all stages and nulls the pointer. The source and the pool stay the caller's. NULL
+ * and a NULL pipeline are allowed. */
 RLF_API void rlf_pipeline_destroy(rlf_pipeline **pipeline);
 
 /* Replaces the renderer (takes ownership). NULL goes back to the soft one, and so does the pipeline
@@ -106,8 +119,11 @@ RLF_API void rlf_pipeline_set_orbit(rlf_pipeline *pipeline, const rlf_orbit *orb
  */
 RLF_API void rlf_pipeline_set_plot(rlf_pipeline *pipeline, bool is_shown);
 
-/* View and overlay lines of the next pictures (lines are copied, at most 32 of 127 bytes). */
+/* View of the next pictures: a single one. RLF_VIEW_CAMERA at the start. A value that is no view
+ * breaks the contract and leaves it as it was. */
 RLF_API void rlf_pipeline_set_view(rlf_pipeline *pipeline, rlf_view view);
+/* Overlay lines of the next pictures, copied, at most 32 of 127 bytes; a NULL line is an empty one.
+ * Shown where the compositor's def enables them. */
 RLF_API void rlf_pipeline_set_overlay(rlf_pipeline *pipeline, const char *const *lines,
                                       int32_t count);
 
@@ -120,7 +136,8 @@ RLF_API rlf_result rlf_pipeline_step(rlf_pipeline *pipeline, rlf_pipeline_output
 RLF_API rlf_result rlf_pipeline_redraw(rlf_pipeline *pipeline, rlf_pipeline_output *out);
 /* Times of the surface stage's steps; see rlf_reconstruct_set_times. */
 RLF_API void rlf_pipeline_set_surface_times(rlf_pipeline *pipeline, rlf_surface_times *times);
-/* First frame, empty background, the scene's bodies again. */
+/* First frame, empty background, the scene's bodies again: as after rlf_pipeline_create, so the
+ * same frames give the same bits. RLF_ERROR_UNSUPPORTED when the source cannot start again. */
 RLF_API rlf_result rlf_pipeline_restart(rlf_pipeline *pipeline);
 /* Adds a model of a real thing, or moves the one of that name, from the next frame on. Picked
  * pixels are looked up in the last frame: rlf_known_solve has the errors, and out_fit (may be NULL)

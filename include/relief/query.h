@@ -1,5 +1,7 @@
 /* Relief: questions to a world and to the real surface: what does a ray meet, what is near a point?
- * They change nothing and allocate nothing. SPDX-License-Identifier: MIT */
+ * They change nothing and allocate nothing, so threads may ask at once while nobody changes the
+ * world or the grid. Values that are not finite and radii <= 0 give RLF_QUERY_INVALID.
+ * SPDX-License-Identifier: MIT */
 #ifndef RELIEF_QUERY_H
 #define RELIEF_QUERY_H
 
@@ -20,6 +22,7 @@ typedef enum rlf_query_reason {
     RLF_QUERY_INVALID         /* an argument is not finite or not positive */
 } rlf_query_reason;
 
+/* What a ray met first. */
 typedef struct rlf_ray_hit {
     rlf_query_reason reason;
     rlf_contact_other other; /* what was hit; this and all below only when reason is HIT */
@@ -37,21 +40,25 @@ typedef struct rlf_ray_hit {
 RLF_API rlf_ray_hit rlf_world_cast_ray(const rlf_world *world, const rlf_grid *grid,
                                        rlf_vec3 origin, rlf_vec3 direction, double length);
 
+/* What a sphere holds. The real surface counts where a part of it, or of the solid behind it, lies
+ * within the sphere. */
 typedef struct rlf_overlap {
     rlf_query_reason reason; /* HIT when anything overlaps */
     int32_t body_count;      /* bodies that overlap; may be more than the list holds */
-    bool touches_background, touches_foreground;
+    bool touches_background, touches_foreground; /* the real surface's two sheets */
 } rlf_overlap;
 
 /* What overlaps the sphere of `radius` metres at `centre` (world). The ids of the first `capacity`
- * bodies, in the order of their slots, go to `ids`, which may be NULL when capacity is 0. */
+ * bodies, in the order of their slots, go to `ids`, which may be NULL when capacity is 0. The
+ * cost grows with the pixels that the sphere covers. */
 RLF_API rlf_overlap rlf_world_overlap_sphere(const rlf_world *world, const rlf_grid *grid,
                                              rlf_vec3 centre, double radius, rlf_body_id *ids,
                                              int32_t capacity);
 
 /* HIT when two shapes in the given poses overlap or touch, MISS when there is a gap between them,
- * INVALID for a shape that a body def could not have or a pose that is not finite. Exact to 1e-7 m
- * for any two kinds of shapes. Thread-safety: safe. */
+ * INVALID for NULL, a shape that a body def could not have or a pose that is not finite. Exact to
+ * 1e-7 m for any two kinds of shapes. Source: GJK (Gilbert, Johnson and Keerthi 1988). Thread-
+ * safety: safe. */
 RLF_API rlf_query_reason rlf_shapes_overlap(const rlf_shape *a, const rlf_pose *T_world_a,
                                             const rlf_shape *b, const rlf_pose *T_world_b);
 

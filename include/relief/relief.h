@@ -1,5 +1,24 @@
-/* Relief: everything of the core library (librelief). Files and devices are in relief/io.h, OpenGL
- * in relief/gl.h. SPDX-License-Identifier: MIT */
+/* Relief: everything of the core library (librelief). Files and devices are in relief/io.h
+ * (librelief_io), OpenGL is in relief/gl.h (librelief_gl); who writes a camera's driver needs
+ * relief/backend.h alone. What is in which header, in the order of the data:
+ *
+ *   base.h         results, the error line, log, memory, clock, worker pool: all others need it
+ *   math.h         vectors, quaternions, poses, boxes
+ *   image.h        views of picture planes
+ *   camera.h       lenses and the registration of one camera's picture to another's
+ *   frame.h        a depth picture with its colour, and the rig that took it
+ *   source.h       where frames come from; synthetic.h: the simulated room
+ *   surface.h      the real surface of a frame; reconstruct.h: the stage that makes it
+ *   snapshot.h     shapes, bodies, contacts; world.h: the physics stage; query.h: rays and overlaps
+ *   model.h        what bodies look like; known.h: models of real things
+ *   compositor.h   the render stage
+ *   pipeline.h     all stages as one object: where most programs begin
+ *
+ * Conventions, unless a comment says otherwise: metres, seconds, kilograms, radians; the camera's
+ * frame is x right, y down, z forward; planes are row-major from the top. A def comes from its
+ * _default function. A _create gives an object that its _destroy frees; NULL may be destroyed.
+ * Objects share nothing, so each may be used from any one thread at a time.
+ * SPDX-License-Identifier: MIT */
 #ifndef RELIEF_RELIEF_H
 #define RELIEF_RELIEF_H
 

@@ -10,6 +10,7 @@
 extern "C" {
 #endif
 
+/* What is known of a source when it is open. Constant from then on. */
 typedef struct rlf_source_info {
     char name[128]; /* as the user gave it, e.g. "synthetic:room" */
     rlf_rig rig;
@@ -54,9 +55,12 @@ typedef struct rlf_truth_pose {
     rlf_pose T_camera_object;
 } rlf_truth_pose;
 
+/* Something that gives frames, one after the other. One thread at a time; a live camera has a
+ * thread of its own behind it. */
 typedef struct rlf_source rlf_source;
 
-/* Is shown a frame; it is good during the call. */
+/* Is shown a frame, maybe on a thread of the source's; frame and planes are good during the
+ * call. */
 typedef void (*rlf_frame_fn)(void *context, const rlf_frame *frame);
 
 /* Methods of a custom source; `self` is the context given at creation. */
@@ -87,13 +91,15 @@ RLF_API rlf_result rlf_source_create_custom(const rlf_source_methods *methods,
 /* Closes and nulls. NULL and a NULL source are allowed. */
 RLF_API void rlf_source_destroy(rlf_source **source);
 
-/* Constant for the source's life. */
+/* What the source is: size of the pictures, rate, device. The pointer and what it points to are
+ * constant for the source's life. */
 RLF_API const rlf_source_info *rlf_source_get_info(const rlf_source *source);
 /* Next frame; its planes are the source's and stay valid until the next call that returns RLF_OK:
  * a call that gives no frame leaves the last one alone.
  * Thread-safety: one thread at a time. */
 RLF_API rlf_result rlf_source_next(rlf_source *source, rlf_frame *out_frame);
-/* RLF_ERROR_UNSUPPORTED when the source cannot start again. */
+/* The first frame is the next one again. RLF_ERROR_UNSUPPORTED when the source cannot, as a
+ * camera. */
 RLF_API rlf_result rlf_source_restart(rlf_source *source);
 /* Makes frame `index` (0 .. frame_count - 1) the next one. RLF_ERROR_UNSUPPORTED when the source
  * cannot, RLF_ERROR_INVALID when there is no such frame. */

@@ -61,6 +61,8 @@ typedef enum rlf_synthetic_label {
     RLF_SYNTHETIC_LABEL_THING = 32          /* from here on: what stands in a random room */
 } rlf_synthetic_label;
 
+/* Which room, and what the sensor is like. From rlf_synthetic_def_default or rlf_synthetic_parse.
+ */
 typedef struct rlf_synthetic_def {
     uint32_t cookie;
     rlf_synthetic_scene scene; /* default room */
@@ -83,9 +85,12 @@ typedef struct rlf_synthetic_def {
     rlf_pool *pool;                    /* borrowed; NULL = one thread */
 } rlf_synthetic_def;
 
+/* The defaults that the fields name. */
 RLF_API rlf_synthetic_def rlf_synthetic_def_default(void);
 
-/* Same def, same bits, on every machine and for every pool size. */
+/* Opens the room: an rlf_source that can restart and seek. Same def, same bits, on every machine
+ * and for every pool size. RLF_ERROR_INVALID names the def's field that is wrong; RLF_ERROR_MEMORY.
+ */
 RLF_API rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source **out);
 
 /* Reads "synthetic:NAME[?key=value[&key=value...]]" into *def: NAME one of room, empty, thesis,

@@ -43,9 +43,12 @@ typedef struct rlf_grid_region {
     int32_t point_count;
 } rlf_grid_region;
 
-/* Projects a point of the grid frame to grid pixel coordinates; false when not visible. */
+/* Projects a point of the grid frame to grid pixel coordinates, (0, 0) being the centre of the
+ * first pixel; false when not visible. Called from worker threads: changes nothing. */
 typedef bool (*rlf_project_fn)(const void *context, rlf_vec3 p, double *out_u, double *out_v);
 
+/* The real surface of one moment. All planes are borrowed for the advance; `rays` and `project`
+ * must be there whenever a sheet has depth. */
 typedef struct rlf_grid {
     int32_t width, height;
     const float *ray_x, *ray_y; /* point = depth * (ray_x, ray_y, 1) */
@@ -63,6 +66,7 @@ typedef struct rlf_grid {
 /* ---- world
  * ------------------------------------------------------------------------------------------ */
 
+/* Which physics runs: ours, or the thesis's for comparison. */
 typedef enum rlf_physics_method {
     RLF_PHYSICS_LIVE = 0, /* substeps, grid collider on both sheets with surface velocity */
     RLF_PHYSICS_THESIS =
@@ -84,8 +88,10 @@ typedef struct rlf_world_def {
     rlf_pool *pool;            /* borrowed; NULL = one thread */
 } rlf_world_def;
 
+/* The defaults that the fields name. */
 RLF_API rlf_world_def rlf_world_def_default(void);
 
+/* A body to add; copied but for its hull and model, which are borrowed. */
 typedef struct rlf_body_def {
     uint32_t cookie;
     char name[RLF_NAME_MAX];   /* default "" = "body-N" */
@@ -113,12 +119,16 @@ typedef struct rlf_body_def {
     float color[3];            /* sRGB 0..1, default orange; multiplies a model's own colours */
 } rlf_body_def;
 
+/* The defaults that the fields name: an orange box of 0.1 m a metre before the camera. */
 RLF_API rlf_body_def rlf_body_def_default(void);
 
+/* Bodies and the solver. One thread at a time; the pool's workers are used within an advance
+ * only. */
 typedef struct rlf_world rlf_world;
 
 /* Allocates everything. RLF_ERROR_INVALID names the def's field that is wrong. */
 RLF_API rlf_result rlf_world_create(const rlf_world_def *def, rlf_world **out);
+/* Frees it and nulls the pointer. NULL and a NULL world are allowed. */
 RLF_API void rlf_world_destroy(rlf_world **world);
 
 /* Adds a body (between advances). RLF_ERROR_INVALID names the field: non-finite numbers, mass <= 0,

@@ -97,6 +97,7 @@ void rlf_set_assert(rlf_assert_fn fn, void *context)
 
 bool rlf_assert_failed(const char *condition, const char *file, int line)
 {
+    rlf_fail(RLF_ERROR_INVALID, "%s:%d: the call breaks its contract: %s", file, line, condition);
     if (assert_fn(assert_context, condition, file, line)) {
         abort();
     }

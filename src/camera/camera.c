@@ -47,6 +47,9 @@ static bool is_inside_model(const double k[8], double x, double y)
 
 rlf_result rlf_camera_check(const rlf_camera *camera, const char *who)
 {
+    if (!RLF_ASSERT(camera != NULL && who != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
     if (camera->width < 1 || camera->height < 1 || camera->width > RLF_IMAGE_SIZE_MAX ||
         camera->height > RLF_IMAGE_SIZE_MAX) {
         return rlf_fail(RLF_ERROR_INVALID, "%s: width x height is %d x %d; use 1 to %d", who,
@@ -80,7 +83,7 @@ rlf_result rlf_camera_check(const rlf_camera *camera, const char *who)
 
 bool rlf_camera_project(const rlf_camera *camera, rlf_vec3 p, double *out_u, double *out_v)
 {
-    if (!(p.z > 0.0)) {
+    if (!RLF_ASSERT(camera != NULL && out_u != NULL && out_v != NULL) || !(p.z > 0.0)) {
         return false;
     }
     double x = p.x / p.z;
@@ -100,6 +103,9 @@ bool rlf_camera_project(const rlf_camera *camera, rlf_vec3 p, double *out_u, dou
 
 bool rlf_camera_unproject(const rlf_camera *camera, double u, double v, rlf_vec3 *out_ray)
 {
+    if (!RLF_ASSERT(camera != NULL && out_ray != NULL)) {
+        return false;
+    }
     double xd = (u - camera->cx) / camera->fx;
     double yd = (v - camera->cy) / camera->fy;
     *out_ray = rlf_vec3_make(xd, yd, 1.0);
@@ -130,6 +136,9 @@ bool rlf_camera_unproject(const rlf_camera *camera, double u, double v, rlf_vec3
 
 rlf_camera rlf_camera_decimate(const rlf_camera *camera, int32_t factor)
 {
+    if (!RLF_ASSERT(camera != NULL && factor >= 1)) {
+        return (rlf_camera){.width = 0};
+    }
     rlf_camera r = *camera;
     r.width = (camera->width - 1) / factor + 1;
     r.height = (camera->height - 1) / factor + 1;
@@ -142,6 +151,9 @@ rlf_camera rlf_camera_decimate(const rlf_camera *camera, int32_t factor)
 
 rlf_camera rlf_camera_resize(const rlf_camera *camera, int32_t width, int32_t height)
 {
+    if (!RLF_ASSERT(camera != NULL && camera->width >= 1 && camera->height >= 1)) {
+        return (rlf_camera){.width = 0};
+    }
     rlf_camera r = *camera;
     double sx = (double)width / camera->width;
     double sy = (double)height / camera->height;
@@ -156,6 +168,9 @@ rlf_camera rlf_camera_resize(const rlf_camera *camera, int32_t width, int32_t he
 
 rlf_mat4 rlf_camera_projection(const rlf_camera *camera, double near_z, double far_z)
 {
+    if (!RLF_ASSERT(camera != NULL)) {
+        return (rlf_mat4){{{0}}};
+    }
     /* Pixel u spans clip x = 2 (u + 0.5) / width - 1, because pixel centres are integers. */
     double w = camera->width;
     double h = camera->height;

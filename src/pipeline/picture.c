@@ -23,7 +23,7 @@ rlf_result rlf_pipeline_set_compositor(rlf_pipeline *p, rlf_compositor *composit
 
 rlf_compositor_def rlf_pipeline_get_compositor_def(const rlf_pipeline *p)
 {
-    return p->compositor_def;
+    return RLF_ASSERT(p != NULL) ? p->compositor_def : (rlf_compositor_def){.cookie = 0};
 }
 
 void rlf_pipeline_set_view(rlf_pipeline *p, rlf_view view)
@@ -65,12 +65,12 @@ void rlf_pipeline_set_plot(rlf_pipeline *p, bool is_shown)
 
 void rlf_pipeline_set_overlay(rlf_pipeline *p, const char *const *lines, int32_t count)
 {
-    if (!RLF_ASSERT(p != NULL && (lines != NULL || count == 0))) {
+    if (!RLF_ASSERT(p != NULL && count >= 0 && (lines != NULL || count == 0))) {
         return;
     }
     p->overlay_count = count < OVERLAY_LINES_MAX ? count : OVERLAY_LINES_MAX;
     for (int32_t i = 0; i < p->overlay_count; i++) {
-        size_t length = strlen(lines[i]);
+        size_t length = lines[i] != NULL ? strlen(lines[i]) : 0;
         length = length < OVERLAY_LINE_SIZE ? length : OVERLAY_LINE_SIZE - 1;
         memcpy(p->overlay[i], lines[i], length);
         p->overlay[i][length] = '\0';

@@ -433,11 +433,14 @@ rlf_result rlf_pipeline_set_known(rlf_pipeline *p, const rlf_known_def *def, rlf
 
 const rlf_known_def *rlf_pipeline_get_known(const rlf_pipeline *p, int32_t *out_count)
 {
+    if (!RLF_ASSERT(p != NULL && out_count != NULL)) {
+        return NULL;
+    }
     *out_count = p->known.count;
     return p->known.defs;
 }
 
 rlf_world *rlf_pipeline_get_world(rlf_pipeline *p)
 {
-    return p->world;
+    return RLF_ASSERT(p != NULL) ? p->world : NULL;
 }

@@ -20,6 +20,9 @@ static rlf_body_def cube(const char *name, rlf_vec3 position, rlf_vec3 velocity,
 
 rlf_result rlf_scene_create_two_cubes(rlf_scene *out)
 {
+    if (!RLF_ASSERT(out != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
     memset(out, 0, sizeof(*out));
     out->gravity = rlf_world_def_default().gravity;
     out->border = RLF_BORDER_EXTEND;

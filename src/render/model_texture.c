@@ -29,6 +29,9 @@ size_t rlf_model_texture_level(const rlf_model_texture *texture, int32_t level, 
                                int32_t *out_height)
 {
     size_t offset = 0;
+    if (!RLF_ASSERT(texture != NULL && out_width != NULL && out_height != NULL)) {
+        return 0;
+    }
     int32_t w = texture->width;
     int32_t h = texture->height;
     for (int32_t i = 0; i < level; i++) {

@@ -102,6 +102,9 @@ double rlf_surface_find_up(const rlf_surface *surface, rlf_vec3 *out_up)
     rlf_up_samples samples;
     rlf_vec3 axes[RLF_UP_AXES];
     guess_list list = {.count = 0};
+    if (!RLF_ASSERT(surface != NULL && out_up != NULL)) {
+        return 0.0;
+    }
     rlf_up_samples_take(surface, &samples);
     int32_t axis_count = rlf_up_axes(&samples, axes), best = 0;
     for (int32_t k = 0; k < axis_count; k++) {
