@@ -41,7 +41,12 @@ int command_failed(void)
 int command_stopped(const char *command)
 {
     fprintf(stderr, "relief %s: stopped before the end; nothing was written\n", command);
-    return EXIT_FAILED;
+    return 128 + command_interrupted;
+}
+
+int command_not_opened(const char *command)
+{
+    return command_interrupted ? command_stopped(command) : command_failed();
 }
 
 bool command_parse_int(const char *text, int64_t low, int64_t high, int64_t *out)

@@ -1,6 +1,7 @@
 /* What the subcommands of `relief` share: the table, messages and exit statuses.
  *
- * Exit status: 0 done, 1 the input or the machine failed, 2 wrong usage. */
+ * Exit status: 0 done, 1 the input or the machine failed, 2 wrong usage, 128 and the signal's
+ * number when one stopped the command before there was anything to write. */
 #ifndef RELIEF_APP_COMMAND_H
 #define RELIEF_APP_COMMAND_H
 
@@ -12,7 +13,8 @@
 #define EXIT_FAILED 1
 #define EXIT_USAGE 2
 
-/* Set by Ctrl-C and SIGTERM; loops look at it once per frame and then close their files. */
+/* The signal's number after Ctrl-C, SIGTERM or SIGHUP; loops look at it once per frame and then
+ * close their files. */
 extern volatile sig_atomic_t command_interrupted;
 void command_catch_interrupts(void);
 
@@ -27,8 +29,11 @@ void command_load_plugin(const char *path);
     "  --plugin FILE     a plug-in that brings a camera or a format; any number\n"
 /* Prints the library's error line and returns EXIT_FAILED. */
 int command_failed(void);
-/* After Ctrl-C, for commands of which half a result is none: prints that nothing was written and
- * returns EXIT_FAILED. */
+/* After a source that could not be opened: as command_failed, or as command_stopped when the user
+ * was tired of waiting for it. */
+int command_not_opened(const char *command);
+/* After Ctrl-C, when there is no result or half of one, which is none: prints that nothing was
+ * written and returns 128 and the signal's number. */
 int command_stopped(const char *command);
 
 /* Whole-string numbers; false when the text is not one or is out of [low, high]. */

@@ -4,6 +4,7 @@
 #include "options.h"
 #include "session.h"
 
+#include <errno.h>
 #include <getopt.h>
 #include <stdio.h>
 #include <string.h>
@@ -197,7 +198,8 @@ static rlf_result open_poses(exporter *e)
     }
     e->poses = fopen(path, "w");
     if (e->poses == NULL) {
-        return rlf_fail(RLF_ERROR_IO, "%s: cannot be written; choose another --out", path);
+        return rlf_fail(RLF_ERROR_IO, "%s: cannot be written: %s: choose another --out", path,
+                        strerror(errno));
     }
     fprintf(e->poses, "frame,time_s,name,label,px,py,pz,qx,qy,qz,qw\n");
     return RLF_OK;
@@ -219,6 +221,10 @@ static rlf_result make_scratch(exporter *e, const rlf_rig *rig)
 
 static rlf_result write_poses(exporter *e, const rlf_pipeline_output *output)
 {
+    rlf_result result = e->poses == NULL ? open_poses(e) : RLF_OK;
+    if (result != RLF_OK) {
+        return result;
+    }
     const rlf_truth *truth = e->frame.truth;
     for (int32_t i = 0; i < truth->pose_count; i++) {
         const rlf_truth_pose *pose = &truth->poses[i];
@@ -300,9 +306,6 @@ static rlf_result export_frames(exporter *e, session *s, int64_t *out_written)
     if (result == RLF_OK) {
         result = make_folders(e);
     }
-    if (result == RLF_OK && e->write_poses) {
-        result = open_poses(e);
-    }
     while (result == RLF_OK && !command_interrupted) {
         rlf_pipeline_output output;
         result = rlf_pipeline_step(s->pipeline, &output);
@@ -339,7 +342,7 @@ int export_main(int argc, char **argv)
     options.session.enable_render = options.session.scene_path != NULL;
     session s;
     if (session_open(&options.session, &s) != RLF_OK) {
-        return command_failed();
+        return command_not_opened("export");
     }
     int64_t written = 0;
     rlf_result result = export_frames(&e, &s, &written);
@@ -353,7 +356,9 @@ int export_main(int argc, char **argv)
                  options.out_folder);
         status = command_failed();
     }
-    if (status == EXIT_DONE) {
+    if (status == EXIT_DONE && written == 0) {
+        status = command_stopped("export");
+    } else if (status == EXIT_DONE) {
         printf("%lld frames in %s\n", (long long)written, options.out_folder);
     }
     rlf_free(e.frame.scratch);

@@ -1,4 +1,4 @@
-/* Ctrl-C and SIGTERM. */
+/* Ctrl-C, SIGTERM and SIGHUP. */
 #define _POSIX_C_SOURCE 200809L
 #include "command.h"
 
@@ -8,8 +8,7 @@ volatile sig_atomic_t command_interrupted;
 
 static void on_interrupt(int signal_number)
 {
-    (void)signal_number;
-    command_interrupted = 1;
+    command_interrupted = signal_number;
 }
 
 void command_catch_interrupts(void)
@@ -20,6 +19,10 @@ void command_catch_interrupts(void)
     action.sa_flags = (int)SA_RESETHAND; /* a second Ctrl-C ends at once */
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    struct sigaction before;
+    if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) { /* nohup */
+        sigaction(SIGHUP, &action, NULL); /* the terminal was closed */
+    }
     struct sigaction ignore;
     memset(&ignore, 0, sizeof(ignore));
     ignore.sa_handler = SIG_IGN; /* a closed pipe is reported by the writer instead */

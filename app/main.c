@@ -1,5 +1,6 @@
 /* The `relief` command: finds the subcommand. */
 #include "command.h"
+#include "streams.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -36,10 +37,11 @@ static void print_help(FILE *file)
             "  relief run synthetic:room                      a window, no camera needed\n"
             "  relief run synthetic:room --headless --video out.mp4\n"
             "  relief run path/to/clip --scene scenes/rain.json\n\n"
-            "`relief COMMAND --help` tells more. Exit status: 0 done, 1 failed, 2 wrong usage.\n");
+            "`relief COMMAND --help` tells more. Exit status: 0 done, 1 failed, 2 wrong usage,\n"
+            "128 and more: stopped by a signal before there was anything to write.\n");
 }
 
-int main(int argc, char **argv)
+static int run(int argc, char **argv)
 {
     if (argc < 2) {
         print_help(stderr);
@@ -62,4 +64,10 @@ int main(int argc, char **argv)
     }
     fprintf(stderr, "relief: there is no command '%s' (see `relief --help`)\n", name);
     return EXIT_USAGE;
+}
+
+int main(int argc, char **argv)
+{
+    streams_open();
+    return streams_end(run(argc, argv));
 }

@@ -192,6 +192,11 @@ static int record(const record_options *o, rlf_source **source)
         result = copy_frames(o, *source, r, &p);
     }
     int status = result == RLF_OK ? EXIT_DONE : command_failed();
+    if (status == EXIT_DONE && command_interrupted && p.frames == 0) {
+        fprintf(stderr, "relief record: stopped before the first frame; %s holds none\n",
+                o->recorder.path);
+        status = 128 + command_interrupted;
+    }
     recorder_status s = {0};
     if (recorder_destroy(&r, &s) != RLF_OK && status == EXIT_DONE) {
         status = command_failed();
@@ -215,7 +220,7 @@ int record_main(int argc, char **argv)
     }
     rlf_source *source = NULL;
     if (rlf_open_source(options.source, NULL, &source) != RLF_OK) {
-        return command_failed();
+        return command_not_opened("record");
     }
     const int done = record(&options, &source);
     rlf_source_destroy(&source);

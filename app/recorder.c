@@ -239,13 +239,15 @@ bool recorder_describe(recorder *r, char *out, size_t size)
     return true;
 }
 
-void recorder_print_summary(const recorder_options *options, const recorder_status *status)
+void recorder_print_summary(FILE *file, const recorder_options *options,
+                            const recorder_status *status)
 {
     if (options->path != NULL) {
-        printf("recorded: %s: %llu frames, %.1f MB; %llu dropped since the disk or the processor "
-               "was too slow\n",
-               options->path, (unsigned long long)status->written.frames,
-               1e-6 * (double)status->written.bytes, (unsigned long long)status->dropped);
+        fprintf(file,
+                "recorded: %s: %llu frames, %.1f MB; %llu dropped since the disk or the processor "
+                "was too slow\n",
+                options->path, (unsigned long long)status->written.frames,
+                1e-6 * (double)status->written.bytes, (unsigned long long)status->dropped);
     }
 }
 

@@ -6,6 +6,8 @@
 #include "options.h"
 #include "relief/io.h"
 
+#include <stdio.h>
+
 typedef struct recorder_options {
     const char *path; /* NULL = nothing is recorded */
     rlf_recording_def def;
@@ -72,6 +74,7 @@ bool recorder_describe(recorder *recorder, char *out, size_t size);
 /* Waits until all is written and finishes the file. The pointer is nulled even when that fails. */
 rlf_result recorder_destroy(recorder **recorder, recorder_status *out);
 /* One line for people; nothing when nothing was recorded. */
-void recorder_print_summary(const recorder_options *options, const recorder_status *status);
+void recorder_print_summary(FILE *file, const recorder_options *options,
+                            const recorder_status *status);
 
 #endif

@@ -331,7 +331,8 @@ static rlf_result run_headless(const run_options *o, session *s, run_output *out
         }
     }
     if (output->frames == 0 && !command_interrupted) {
-        return rlf_fail(RLF_ERROR_IO, "%s: has no frame with depth; check its depth.txt",
+        return rlf_fail(RLF_ERROR_IO,
+                        "%s: has no frame with depth: check what `relief info` says of it",
                         o->session.source);
     }
     return command_interrupted ? RLF_OK : run_output_check(output);
@@ -430,6 +431,9 @@ static int run_session(run_options *o, session *s)
         result = run_frames(o, s, &output);
     }
     int status = result == RLF_OK ? EXIT_DONE : command_failed();
+    if (status == EXIT_DONE && command_interrupted && output.frames == 0) {
+        status = command_stopped("run");
+    }
     recorder_status recorded = {0};
     if (recorder_destroy(&s->recorder, &recorded) != RLF_OK && status == EXIT_DONE) {
         status = recorded.is_told ? EXIT_FAILED : command_failed();
@@ -438,14 +442,14 @@ static int run_session(run_options *o, session *s)
         status = command_failed();
     }
     if (status == EXIT_DONE && o->output.print_hash) {
-        printf("hash %016llx\n",
-               (unsigned long long)rlf_world_hash(rlf_pipeline_get_world(s->pipeline)));
+        fprintf(run_output_words(&o->output), "hash %016llx\n",
+                (unsigned long long)rlf_world_hash(rlf_pipeline_get_world(s->pipeline)));
     }
     if (status == EXIT_DONE && !o->output.is_quiet) {
         const char *renderer = o->use_gl ? "renderer gl" : "renderer soft";
         const rlf_source_status frames = rlf_source_get_status(s->source);
         run_output_print_summary(&output, o->is_headless ? renderer : "in a window", &frames);
-        recorder_print_summary(&o->session.record, &recorded);
+        recorder_print_summary(run_output_words(&o->output), &o->session.record, &recorded);
     }
     return status;
 }
@@ -464,7 +468,7 @@ int run_main(int argc, char **argv)
     options.output.scene_path = options.session.scene_path;
     session s;
     if (session_open(&options.session, &s) != RLF_OK) {
-        return command_failed();
+        return command_not_opened("run");
     }
     options.output.finds_gravity = s.scene.finds_gravity;
     status = run_session(&options, &s);

@@ -25,10 +25,16 @@ rlf_result run_output_open(const run_output_options *options, const rlf_source_i
             return result;
         }
     }
-    if (options->log_folder != NULL) {
-        return rlf_csv_log_open(options->log_folder, &out->log);
+    return options->log_folder != NULL ? rlf_make_folder(options->log_folder) : RLF_OK;
+}
+
+static rlf_result write_log(run_output *out, const rlf_pipeline_output *frame)
+{
+    rlf_result result = RLF_OK;
+    if (out->log == NULL) {
+        result = rlf_csv_log_open(out->options.log_folder, &out->log);
     }
-    return RLF_OK;
+    return result == RLF_OK ? rlf_csv_log_write(out->log, frame) : result;
 }
 
 static rlf_result write_video(run_output *out, const rlf_image_rgba8 *image)
@@ -125,8 +131,8 @@ rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame)
     print_progress(out);
     recorder_add_bodies(out->recorder, frame->frame.time_ns, frame->snapshot);
     rlf_result result = RLF_OK;
-    if (out->log != NULL) {
-        result = rlf_csv_log_write(out->log, frame);
+    if (out->options.log_folder != NULL) {
+        result = write_log(out, frame);
     }
     if (result == RLF_OK && out->options.video_path != NULL) {
         result = write_video(out, &frame->render.image);
@@ -195,12 +201,16 @@ static void print_status(FILE *file, const rlf_source_status *s)
     }
 }
 
+FILE *run_output_words(const run_output_options *o)
+{
+    return o->video_path != NULL && strcmp(o->video_path, "-") == 0 ? stderr : stdout;
+}
+
 void run_output_print_summary(const run_output *out, const char *how,
                               const rlf_source_status *status)
 {
     const run_output_options *o = &out->options;
-    /* A video on stdout must not be mixed with words. */
-    FILE *file = o->video_path != NULL && strcmp(o->video_path, "-") == 0 ? stderr : stdout;
+    FILE *file = run_output_words(o);
     const timing *t = &out->times;
     double median = timing_percentile(&t->frame, 50);
     fprintf(file, "%lld frames, %s\n", (long long)out->frames, how);

@@ -6,6 +6,8 @@
 #include "relief/io.h"
 #include "timing.h"
 
+#include <stdio.h>
+
 #define RUN_PICTURES_MAX 16
 
 typedef struct run_output_options {
@@ -41,7 +43,8 @@ typedef struct run_output {
     timing_series latency_ms; /* of frames whose arrival is known */
 } run_output;
 
-/* Makes the folders and log files. */
+/* Makes the folders. Files are opened with the first frame, so that a run that has none leaves
+ * those of an earlier one alone. */
 rlf_result run_output_open(const run_output_options *options, const rlf_source_info *info,
                            int64_t frame_total, run_output *out);
 /* Takes one frame: writes what was asked for and notes the times. */
@@ -57,6 +60,8 @@ rlf_result run_output_save_scene(const run_output *out, const rlf_known_def *kno
                                  char *out_message, size_t message_size);
 /* Finishes all files, also after an error or Ctrl-C. */
 rlf_result run_output_close(run_output *out);
+/* Where words go: standard output, unless the video is written there. */
+FILE *run_output_words(const run_output_options *options);
 /* Where things were written, the median times, and what became of the source's frames; `how` says
  * how frames were shown. */
 void run_output_print_summary(const run_output *out, const char *how,

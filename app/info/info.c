@@ -52,6 +52,7 @@ static int parse(int argc, char **argv, info_options *o)
     return -1;
 }
 
+/* RLF_NO_FRAME: stopped before there was one. */
 static rlf_result tell(const info_options *o, rlf_source *source)
 {
     const rlf_source_info *info = rlf_source_get_info(source);
@@ -64,6 +65,9 @@ static rlf_result tell(const info_options *o, rlf_source *source)
     rlf_result result = survey_run(source, &limits, &s);
     if (result != RLF_OK) {
         return result;
+    }
+    if (command_interrupted && s.frames == 0) {
+        return RLF_NO_FRAME;
     }
     report_print(info, &s);
     return o->json_path != NULL ? report_write_json(info, &s, o->json_path) : RLF_OK;
@@ -80,10 +84,13 @@ int info_main(int argc, char **argv)
         return command_failed();
     }
     rlf_source *source = NULL;
-    rlf_result result = rlf_open_source(o.source, NULL, &source);
-    if (result == RLF_OK) {
-        result = tell(&o, source);
+    if (rlf_open_source(o.source, NULL, &source) != RLF_OK) {
+        return command_not_opened("info");
     }
+    rlf_result result = tell(&o, source);
     rlf_source_destroy(&source);
+    if (result == RLF_NO_FRAME) {
+        return command_stopped("info");
+    }
     return result == RLF_OK ? EXIT_DONE : command_failed();
 }

@@ -264,12 +264,76 @@ for command in "eval --scene room" "bench --frames 100000" "measure synthetic:ro
     sleep 2
     kill -INT $pid
     wait $pid
-    [ $? -eq 1 ] || fail "interrupted $command: status is not 1"
+    [ $? -eq 130 ] || fail "interrupted $command: status is not 130"
     tail -n 1 stderr.txt | grep -q "nothing was written" || fail "interrupted $command: $(cat stderr.txt)"
     [ "$(cat kept.json)" = "{}" ] && ! ls ./*.part >/dev/null 2>&1 || fail "interrupted $command: kept.json"
 done
 
+# Before the first frame there is nothing to write, and what an earlier run wrote stays.
+mkdir early && echo old >early/frames.csv
+"$relief" run "simulated:?of=synthetic:empty&stall=60@0" --headless --video early.y4m --log early --hash \
+    >stdout.txt 2>stderr.txt &
+pid=$!
+sleep 2
+kill -INT $pid
+wait $pid
+[ $? -eq 130 ] || fail "interrupted before the first frame: status is not 130"
+tail -n 1 stderr.txt | grep -q "nothing was written" || fail "interrupted before the first frame: $(cat stderr.txt)"
+[ -s stdout.txt ] && fail "interrupted before the first frame: says $(cat stdout.txt)"
+[ "$(cat early/frames.csv)" = old ] && [ ! -e early.y4m ] || fail "interrupted before the first frame: $(ls early)"
+
+# A terminal that is closed ends a run as Ctrl-C does; nohup keeps it from that.
+"$relief" run "synthetic:room?frames=-1" --headless --video hup.y4m --log hup_log --quiet &
+pid=$!
+for wait in 1 2 3 4 5 6 7 8 9 10; do
+    ls hup.y4m.*.part >/dev/null 2>&1 && break
+    sleep 1
+done
+kill -HUP $pid
+wait $pid || fail "SIGHUP: status $?"
+[ -s hup.y4m ] && [ -s hup_log/frames.csv ] || fail "SIGHUP: files are missing"
+ls ./*.part hup_log/*.part >/dev/null 2>&1 && fail "SIGHUP: .part left"
+
+# A limit on the size of files is a full disk.
+(ulimit -f 4 && exec "$relief" run "synthetic:room?frames=8" --headless --quiet --video limit.y4m) 2>stderr.txt
+[ $? -eq 1 ] || fail "ulimit -f: status is not 1"
+grep -q "File too large" stderr.txt || fail "ulimit -f: $(cat stderr.txt)"
+ls ./*.part >/dev/null 2>&1 && fail "ulimit -f: .part left"
+
+# What a caller closed is nobody's file.
+"$relief" run "synthetic:room?frames=2" --headless --log closed --set smell=1 0<&- 1>&- 2>&-
+"$relief" run "synthetic:room?frames=2" --headless --gravity floor --log closed 0<&- 1>&- 2>&- || fail "closed streams: status $?"
+head -n 1 closed/frames.csv | grep -q "^frame," || fail "closed streams: $(head -n 1 closed/frames.csv)"
+head -n 1 closed/contacts.csv | grep -q "^frame," || fail "closed streams: $(head -n 1 closed/contacts.csv)"
+
+# A video on standard output is a video from its first byte to its last.
+"$relief" run "synthetic:room?frames=2&color=64x36" --headless --video - --hash --record both.mcap >video.y4m 2>stderr.txt ||
+    fail "video on stdout: status $?"
+grep -q "^hash [0-9a-f]\{16\}$" stderr.txt || fail "video on stdout: no hash: $(cat stderr.txt)"
+header=$(head -n 1 video.y4m | wc -c)
+[ "$(wc -c <video.y4m)" -eq $((header + 2 * (6 + 64 * 36 * 3 / 2))) ] || fail "video on stdout: $(wc -c <video.y4m) bytes"
+
+# Two runs into one folder: every log is one run's.
+for run in 1 2 3; do
+    "$relief" run "synthetic:room?frames=$((2 * run))" --headless --quiet --threads 1 --log shared --video shared.y4m &
+    eval "pid$run=$!"
+done
+# shellcheck disable=SC2154 # set by eval
+for pid in $pid1 $pid2 $pid3; do
+    wait "$pid" || fail "one of three runs into one folder: status $?"
+done
+for log in frames bodies contacts; do
+    [ "$(awk -F, '{ print NF }' shared/$log.csv | sort -u | wc -l)" -eq 1 ] || fail "three runs into one folder: $log.csv is ragged"
+done
+[ "$(ls shared | wc -l)" -eq 3 ] || fail "three runs into one folder: $(ls shared)"
+
 if [ -e /dev/full ]; then
+    for command in "run synthetic:empty?frames=1 --headless --quiet --hash" settings "info synthetic:empty --frames 1" --help "run --help"; do
+        # shellcheck disable=SC2086 # words
+        "$relief" $command >/dev/full 2>stderr.txt
+        [ $? -eq 1 ] || fail "$command >/dev/full: status is not 1"
+        [ "$(wc -l <stderr.txt)" -eq 1 ] && grep -q "No space left" stderr.txt || fail "$command >/dev/full: $(cat stderr.txt)"
+    done
     "$relief" run "synthetic:room?frames=8" --headless --quiet --video - >/dev/full 2>stderr.txt
     [ $? -eq 1 ] || fail "full disk: status is not 1"
     [ "$(wc -l <stderr.txt)" -eq 1 ] || fail "full disk: $(cat stderr.txt)"

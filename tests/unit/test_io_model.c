@@ -8,8 +8,10 @@
 #include <cmocka.h>
 
 #include <math.h>
+#include <unistd.h>
 
 #include "relief/io.h"
+#include "io/picture/picture.h"
 #include "io/scene/scene.h"
 #include "io_support.h"
 #include "model_file.h"
@@ -251,6 +253,134 @@ static void truncated_gltf_fails(void **state)
     }
 }
 
+/* A file made of a text that is there many times. */
+static void write_repeated(const char *name, const char *head, const char *piece, int count,
+                           const char *tail)
+{
+    FILE *file = fopen(test_path(name), "wb");
+    assert_non_null(file);
+    fputs(head, file);
+    for (int i = 0; i < count; i++) {
+        fprintf(file, piece, i + 1, i + 1);
+    }
+    fputs(tail, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+#define ASSET "{\"asset\":{\"version\":\"2.0\"},"
+#define ROOT ASSET "\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":["
+
+/* What would take all memory or the stack is refused before it is read: each in no time. */
+static void bombs_are_refused(void **state)
+{
+    (void)state;
+    alarm(60);
+    write_repeated("twice.gltf", ROOT, "{\"children\":[%d,%d]},", 40, "{}]}");
+    fail_load("twice.gltf", RLF_ERROR_FORMAT, "more than one parent");
+    write_repeated("chain.gltf", ROOT, "{\"children\":[%d]},", 20000, "{}]}");
+    fail_load("chain.gltf", RLF_ERROR_FORMAT, "nested more than 256 deep");
+    write_repeated("circle.gltf", ROOT, "{\"children\":[%d]},", 3, "{\"children\":[0]}]}");
+    fail_load("circle.gltf", RLF_ERROR_FORMAT, "nested more than 256 deep");
+    write_repeated("roots.gltf", ASSET "\"nodes\":[{}],\"scenes\":[{\"nodes\":[0", ",0", 9, "]}]}");
+    fail_load("roots.gltf", RLF_ERROR_FORMAT, "in a scene more than once");
+    write_repeated("deep.gltf", ASSET "\"x\":", "[", 200000, "");
+    fail_load("deep.gltf", RLF_ERROR_FORMAT, "nested deeper");
+    write_repeated("wide.gltf", ASSET "\"x\":[0", ",0", 2000000, "]}");
+    fail_load("wide.gltf", RLF_ERROR_FORMAT, "too many values");
+    write_repeated("meshes.gltf",
+                   ASSET "\"accessors\":[{\"count\":200000}],\"meshes\":[{\"primitives\":[{}",
+                   ",{\"attributes\":{\"POSITION\":0}}", 1000, "]}]}");
+    fail_load("meshes.gltf", RLF_ERROR_FORMAT, "simplify it");
+    write_repeated("count.gltf",
+                   ASSET "\"accessors\":[{\"count\":9000000000}],\"meshes\":[{\"primi",
+                   "tives\":[{\"indices\":0}]}]", 1, "}");
+    fail_load("count.gltf", RLF_ERROR_FORMAT, "simplify it");
+    write_repeated("materials.gltf", ASSET "\"materials\":[{}", ",{}", 2000, "]}");
+    fail_load("materials.gltf", RLF_ERROR_FORMAT, "2001 materials, at most 1024");
+    write_repeated("old.gltf", "{\"asset\":{\"version\":\"1.0\"},", "\"x\":1", 1, "}");
+    fail_load("old.gltf", RLF_ERROR_FORMAT, "asset.version is 1.0");
+    test_write_text("cut.glb", "glTF\2\0\0\0");
+    fail_load("cut.glb", RLF_ERROR_FORMAT, "cut short");
+    write_repeated("uses.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "usemtl m%d\nf 1 2 3\n", 60000, "");
+    fail_load("uses.obj", RLF_ERROR_FORMAT, "more than 1024 materials");
+    write_repeated("groups.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "g m%d\n", 70000, "");
+    fail_load("groups.obj", RLF_ERROR_FORMAT, "more than 65536 objects");
+    write_repeated("round.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf", " 1 \\\n 2 3", 2000, "\n");
+    fail_load("round.obj", RLF_ERROR_FORMAT, "6000 corners, at most 1024");
+    write_repeated("many.mtl", "", "newmtl m%d\n", 2000, "");
+    test_write_text("many.obj", "mtllib many.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    rlf_model *model = NULL;
+    test_expect_error(rlf_model_load(test_path("many.obj"), &model), RLF_ERROR_FORMAT, "many.mtl",
+                      "more than 1024 materials", NULL);
+    alarm(0);
+}
+
+/* Not "file is too small", without saying which. */
+static void odd_materials_are_named(void **state)
+{
+    (void)state;
+    test_write_text("odd.mtl", "Kd");
+    test_write_text("odd.obj", "mtllib odd.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    rlf_model *model = NULL;
+    assert_int_equal(rlf_model_load(test_path("odd.obj"), &model), RLF_OK);
+    assert_int_equal(warning_count, 1);
+    assert_non_null(strstr(warning, "odd.mtl"));
+    rlf_model_destroy(&model);
+}
+
+static void pictures_have_a_budget(void **state)
+{
+    (void)state;
+    write_paint(100, 20);
+    size_t size;
+    char *data = test_read(test_path("paint.png"), &size);
+    const io_bytes file = {"paint.png", (const uint8_t *)data, size};
+    io_picture picture = {.pixels_max = 1999};
+    test_expect_error(io_picture_decode(&file, &picture), RLF_ERROR_FORMAT, "paint.png",
+                      "100 x 20, too large beside the others", "make them smaller");
+    assert_null(picture.data);
+    picture = (io_picture){.pixels_max = 2000};
+    assert_int_equal(io_picture_decode(&file, &picture), RLF_OK);
+    rlf_free(picture.data);
+    free(data);
+}
+
+static int64_t allocations_left;
+
+static void *short_alloc(void *context, size_t size)
+{
+    return allocations_left-- == 0 ? NULL : rlf_default_alloc(context, size);
+}
+
+/* Whichever allocation fails, the error is that memory is short, and nothing is left out. */
+static void short_memory_is_the_error(void **state)
+{
+    (void)state;
+    write_paint(8, 8);
+    model_write(&text, &model_textured);
+    test_write("box.gltf", text.text, text.length);
+    test_write_text("flag.mtl", "newmtl cloth\nKd 1 0.5 0.25\nmap_Kd paint.png\n");
+    test_write_text("flag.obj", "mtllib flag.mtl\nusemtl cloth\nv 0 0 0\nv 1 0 0\nv 1 2 0\n"
+                                "vt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n");
+    for (int i = 0; i < 2; i++) {
+        const char *path = test_path(i == 0 ? "box.gltf" : "flag.obj");
+        rlf_result result = RLF_ERROR_MEMORY;
+        for (int64_t n = 0; result != RLF_OK; n++) {
+            rlf_model *model = NULL;
+            allocations_left = n;
+            rlf_set_allocator(short_alloc, rlf_default_free, NULL);
+            result = rlf_model_load(path, &model);
+            rlf_set_allocator(NULL, NULL, NULL);
+            if (allocations_left < 0) {
+                assert_int_equal(result, RLF_ERROR_MEMORY);
+                assert_null(model);
+            }
+            rlf_model_destroy(&model);
+        }
+    }
+    assert_int_equal(warning_count, 0);
+}
+
 /* More triangles than are drawn, and a file that need not be read to know. */
 static void too_many_triangles_fail(void **state)
 {
@@ -336,6 +466,10 @@ int main(void)
         cmocka_unit_test_setup_teardown(bad_files_fail_in_one_line, set_up, test_folder_remove),
         cmocka_unit_test_setup_teardown(bad_numbers_name_the_vertex, set_up, test_folder_remove),
         cmocka_unit_test_setup_teardown(truncated_gltf_fails, set_up, test_folder_remove),
+        cmocka_unit_test_setup_teardown(bombs_are_refused, set_up, test_folder_remove),
+        cmocka_unit_test_setup_teardown(odd_materials_are_named, set_up, test_folder_remove),
+        cmocka_unit_test_setup_teardown(pictures_have_a_budget, set_up, test_folder_remove),
+        cmocka_unit_test_setup_teardown(short_memory_is_the_error, set_up, test_folder_remove),
         cmocka_unit_test_setup_teardown(too_many_triangles_fail, set_up, test_folder_remove),
         cmocka_unit_test_setup_teardown(id_tells_models_apart, set_up, test_folder_remove),
         cmocka_unit_test_setup_teardown(a_shape_wears_a_model, set_up, test_folder_remove),

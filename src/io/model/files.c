@@ -1,9 +1,11 @@
 /* Assimp's file hooks over whole files in memory. */
 #include "io/model/files.h"
-#include "io/model/model.h"
+#include "io/model/import.h"
 
 #include <stdint.h>
 #include <string.h>
+
+#define TEXT_MIN 8 /* bytes of a text that assimp reads */
 
 /* One open file; aiFile's user data points back to it. */
 typedef struct open_file {
@@ -67,20 +69,50 @@ static enum aiReturn seek(struct aiFile *file, size_t offset, enum aiOrigin orig
     return aiReturn_SUCCESS;
 }
 
+static rlf_result check_mtl(const io_bytes *file)
+{
+    return file->size >= TEXT_MIN ? io_model_check_obj(file) : RLF_ERROR_IO;
+}
+
+/* Another file than the model's own, checked as that one was. */
+static rlf_result read_other(io_model_files *files, const char *path, open_file *f)
+{
+    rlf_result result = io_file_read(path, files->left, "check the model", &f->buffer, &f->bytes);
+    if (result == RLF_OK) {
+        files->left -= f->bytes.size;
+        (void)snprintf(files->last, sizeof(files->last), "%s", path);
+        result = files->is_obj ? check_mtl(&f->bytes) : RLF_OK;
+    }
+    if (result != RLF_OK) {
+        io_buffer_free(&f->buffer);
+    }
+    return result;
+}
+
+/* Assimp is told no more than that the file is not there. */
+static void note_failure(io_model_files *files, const char *path, rlf_result result)
+{
+    if (result == RLF_ERROR_IO && files->missing[0] == '\0') {
+        (void)snprintf(files->missing, sizeof(files->missing), "%s", path);
+    }
+    if (result != RLF_ERROR_IO && files->result == RLF_OK) {
+        files->result = result;
+        (void)snprintf(files->problem, sizeof(files->problem), "%s", rlf_error_text());
+    }
+}
+
 static struct aiFile *open_named(struct aiFileIO *io, const char *path, const char *mode)
 {
     io_model_files *files = (io_model_files *)(void *)io->UserData;
     open_file *f = mode[0] == 'r' ? rlf_alloc(sizeof(*f)) : NULL;
-    if (f == NULL) {
-        return NULL;
-    }
-    if (strcmp(path, files->main->name) == 0) {
+    rlf_result result = mode[0] == 'r' && f == NULL ? RLF_ERROR_MEMORY : RLF_OK;
+    if (f != NULL && strcmp(path, files->main->name) == 0) {
         f->bytes = *files->main;
-    } else if (files->is_alone || io_file_read(path, IO_MODEL_FILE_MAX, "check the model",
-                                               &f->buffer, &f->bytes) != RLF_OK) {
-        if (files->missing[0] == '\0') {
-            (void)snprintf(files->missing, sizeof(files->missing), "%s", path);
-        }
+    } else if (f != NULL) {
+        result = files->is_alone ? RLF_ERROR_IO : read_other(files, path, f);
+    }
+    if (f == NULL || result != RLF_OK) {
+        note_failure(files, path, result);
         rlf_free(f);
         return NULL;
     }
@@ -97,8 +129,9 @@ static void close_file(struct aiFileIO *io, struct aiFile *file)
     rlf_free(f);
 }
 
-void io_model_files_init(io_model_files *files, const io_bytes *main, bool is_alone)
+void io_model_files_init(io_model_files *files, const io_bytes *main, bool is_alone, bool is_obj)
 {
-    *files = (io_model_files){.main = main, .is_alone = is_alone};
+    *files = (io_model_files){
+        .main = main, .is_alone = is_alone, .is_obj = is_obj, .left = IO_MODEL_FILE_MAX};
     files->hooks = (struct aiFileIO){open_named, close_file, (aiUserData)(void *)files};
 }

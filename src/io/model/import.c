@@ -1,13 +1,13 @@
 /* glTF 2.0 and OBJ by assimp. */
 #include "io/model/import.h"
 #include "base/cookie.h"
-#include "io/json.h"
 #include "io/model/files.h"
 
 #include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <pthread.h>
+#include <string.h>
 
 /* Corners that turn by more keep their edge when a file has no normals. */
 #define SMOOTH_MAX_DEG 50.0f
@@ -16,11 +16,20 @@
 /* Assimp keeps the last error in a global of its own. */
 static pthread_mutex_t assimp_lock = PTHREAD_MUTEX_INITIALIZER;
 
-static rlf_result fail_import(const char *name)
+/* What went wrong beside assimp comes first: it saw only what followed from that. */
+static rlf_result fail_import(const io_model_files *files, const char *name)
 {
-    return rlf_fail(RLF_ERROR_FORMAT,
-                    "%s: cannot be read as a model (%.200s): export it again as glTF 2.0 or OBJ",
-                    name, aiGetErrorString());
+    if (files->result != RLF_OK) {
+        return rlf_fail(files->result, "%s", files->problem);
+    }
+    if (strstr(aiGetErrorString(), "bad_alloc") != NULL) {
+        return rlf_fail(RLF_ERROR_MEMORY, "%s: not enough memory for the model", name);
+    }
+    return rlf_fail(
+        RLF_ERROR_FORMAT,
+        "%s: cannot be read as a model (%.200s%s%.200s): export it again as glTF 2.0 or "
+        "OBJ",
+        name, aiGetErrorString(), files->last[0] != '\0' ? "; it names " : "", files->last);
 }
 
 static bool is_usable(const struct aiVector3D *v)
@@ -65,7 +74,8 @@ static rlf_result check_scene(const char *name, const struct aiScene *scene)
 }
 
 /* Joins and smooths what is known to be sound and small enough. */
-static rlf_result prepare(io_model_draft *d, const struct aiScene **scene)
+static rlf_result prepare(io_model_draft *d, const io_model_files *files,
+                          const struct aiScene **scene)
 {
     rlf_result result = check_scene(d->name, *scene);
     if (result != RLF_OK) {
@@ -77,7 +87,7 @@ static rlf_result prepare(io_model_draft *d, const struct aiScene **scene)
                     aiProcess_JoinIdenticalVertices);
     if (prepared == NULL) {
         *scene = NULL; /* it is gone */
-        return fail_import(d->name);
+        return fail_import(files, d->name);
     }
     *scene = prepared;
     return RLF_OK;
@@ -112,6 +122,9 @@ static const struct aiScene *import(io_model_files *files)
 {
     struct aiPropertyStore *settings = aiCreatePropertyStore();
     if (settings == NULL) {
+        files->result =
+            rlf_fail(RLF_ERROR_MEMORY, "%s: not enough memory for the model", files->main->name);
+        (void)snprintf(files->problem, sizeof(files->problem), "%s", rlf_error_text());
         return NULL;
     }
     aiSetImportPropertyFloat(settings, AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, SMOOTH_MAX_DEG);
@@ -124,16 +137,20 @@ static const struct aiScene *import(io_model_files *files)
 static rlf_result import_locked(const io_bytes *file, io_model_draft *d, rlf_model **out)
 {
     io_model_files files;
-    io_model_files_init(&files, file, d->is_alone);
+    io_model_files_init(&files, file, d->is_alone, d->format == IO_MODEL_OBJ);
     const struct aiScene *scene = import(&files);
     if (scene == NULL) {
-        return fail_import(file->name);
+        return fail_import(&files, file->name);
+    }
+    if (files.result != RLF_OK) {
+        aiReleaseImport(scene);
+        return fail_import(&files, file->name);
     }
     if (files.missing[0] != '\0') {
         rlf_log(RLF_LOG_WARNING, "%s: names %s, which cannot be read: drawn without it", file->name,
                 files.missing);
     }
-    rlf_result result = prepare(d, &scene);
+    rlf_result result = prepare(d, &files, &scene);
     if (result == RLF_OK) {
         d->scene = scene;
         result = build(d, out);
@@ -152,15 +169,17 @@ rlf_result io_model_import(const io_bytes *file, io_model_format format, bool is
         return rlf_fail(RLF_ERROR_FORMAT, "%s: is empty (0 bytes): export the model again",
                         file->name);
     }
-    io_model_draft *draft = rlf_alloc(sizeof(*draft));
+    rlf_result result =
+        format == IO_MODEL_OBJ ? io_model_check_obj(file) : io_model_check_gltf(file);
+    io_model_draft *draft = result == RLF_OK ? rlf_alloc(sizeof(*draft)) : NULL;
     if (draft == NULL) {
-        return RLF_ERROR_MEMORY;
+        return result == RLF_OK ? RLF_ERROR_MEMORY : result;
     }
     draft->name = file->name;
     draft->format = format;
     draft->is_alone = is_alone;
     (void)pthread_mutex_lock(&assimp_lock);
-    rlf_result result = import_locked(file, draft, out);
+    result = import_locked(file, draft, out);
     (void)pthread_mutex_unlock(&assimp_lock);
     rlf_free(draft);
     return result;

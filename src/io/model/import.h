@@ -7,6 +7,14 @@
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
+/* Of nodes. */
+#define IO_MODEL_DEPTH_MAX 256
+
+/* check.c, check_obj.c: refuses what would cost assimp more memory, time or stack than a model that
+ * can be drawn needs. glTF is the text or the binary kind; OBJ or its MTL. */
+rlf_result io_model_check_gltf(const io_bytes *file);
+rlf_result io_model_check_obj(const io_bytes *file);
+
 typedef struct io_affine {
     double m[3][4];
 } io_affine;
@@ -34,11 +42,13 @@ typedef struct io_model_draft {
     int32_t image_count;
     int32_t image_slot[RLF_MODEL_TEXTURES_MAX]; /* of the images that there are; -1 = warned of */
     int32_t slot_count;
+    int64_t pixels; /* of all images */
 } io_model_draft;
 
-/* material.c: colour and texture of a material. What is missing is warned of, once. */
-void io_model_material(io_model_draft *draft, const struct aiMaterial *material,
-                       rlf_model_part *out);
+/* material.c: colour and texture of a material. What is missing is warned of, once; what memory
+ * does not suffice for is an error. */
+rlf_result io_model_material(io_model_draft *draft, const struct aiMaterial *material,
+                             rlf_model_part *out);
 bool io_model_is_two_sided(const io_model_draft *draft, const struct aiMesh *mesh);
 
 /* mesh.c: fills vertices, triangles and parts. */

@@ -5,6 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Of all textures before they are made smaller: 32 of the largest size that is kept. */
+#define PIXELS_MAX ((int64_t)32 * RLF_MODEL_TEXTURE_MAX * RLF_MODEL_TEXTURE_MAX)
+
 /* IEC 61966-2-1. */
 static float srgb_of_linear(float linear)
 {
@@ -91,37 +94,44 @@ static rlf_result decode_file(const io_model_draft *d, const char *name, io_pict
     return result;
 }
 
-/* Index of the texture of that name, which is decoded when it is new; -1 = it cannot be had. */
-static int32_t find_texture(io_model_draft *d, const char *name)
+/* *out is the index of the texture of that name, which is decoded when it is new; -1 = it cannot be
+ * had, which was warned of. */
+static rlf_result find_texture(io_model_draft *d, const char *name, int32_t *out)
 {
+    *out = -1;
     for (int32_t i = 0; i < d->slot_count; i++) {
         if (strcmp(d->image_names[i], name) == 0) {
-            return d->image_slot[i];
+            *out = d->image_slot[i];
+            return RLF_OK;
         }
     }
     if (d->slot_count == RLF_MODEL_TEXTURES_MAX || strlen(name) >= sizeof(d->image_names[0])) {
         rlf_log(RLF_LOG_WARNING, "%s: more than %d textures: the others are left out", d->name,
                 RLF_MODEL_TEXTURES_MAX);
-        return -1;
+        return RLF_OK;
     }
     int32_t slot = d->slot_count++;
     (void)snprintf(d->image_names[slot], sizeof(d->image_names[slot]), "%s", name);
-    io_picture picture = {.size_max = RLF_MODEL_IMAGE_MAX};
+    d->image_slot[slot] = -1;
+    io_picture picture = {.size_max = RLF_MODEL_IMAGE_MAX,
+                          .pixels_max = PIXELS_MAX + 1 - d->pixels};
     rlf_result result =
         name[0] == '*' ? decode_embedded(d, name, &picture) : decode_file(d, name, &picture);
     if (result != RLF_OK) {
-        rlf_log(RLF_LOG_WARNING, "%s: its texture is left out: %s", d->name, rlf_error_text());
-        d->image_slot[slot] = -1;
-        return -1;
+        if (result != RLF_ERROR_MEMORY) {
+            rlf_log(RLF_LOG_WARNING, "%s: its texture is left out: %s", d->name, rlf_error_text());
+        }
+        return result == RLF_ERROR_MEMORY ? result : RLF_OK;
     }
-    d->image_slot[slot] = d->image_count;
+    d->pixels += (int64_t)picture.width * picture.height;
     d->images[d->image_count] = (rlf_image_rgba8){picture.data, picture.width, picture.height,
                                                   4 * (ptrdiff_t)picture.width};
-    return d->image_count++;
+    *out = d->image_slot[slot] = d->image_count++;
+    return RLF_OK;
 }
 
-void io_model_material(io_model_draft *draft, const struct aiMaterial *material,
-                       rlf_model_part *out)
+rlf_result io_model_material(io_model_draft *draft, const struct aiMaterial *material,
+                             rlf_model_part *out)
 {
     struct aiString path;
     read_color(draft, material, out->color);
@@ -129,5 +139,6 @@ void io_model_material(io_model_draft *draft, const struct aiMaterial *material,
                                             NULL, NULL, NULL, NULL, NULL) == aiReturn_SUCCESS ||
                        aiGetMaterialTexture(material, aiTextureType_DIFFUSE, 0, &path, NULL, NULL,
                                             NULL, NULL, NULL, NULL) == aiReturn_SUCCESS;
-    out->texture = has_texture && path.length > 0 ? find_texture(draft, path.data) : -1;
+    out->texture = -1;
+    return has_texture && path.length > 0 ? find_texture(draft, path.data, &out->texture) : RLF_OK;
 }

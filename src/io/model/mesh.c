@@ -2,7 +2,6 @@
 #include "io/model/import.h"
 
 #define MESHES_MAX 65536
-#define DEPTH_MAX 256
 
 static io_affine multiply(const io_affine *a, const struct aiMatrix4x4 *b)
 {
@@ -21,24 +20,19 @@ static io_affine multiply(const io_affine *a, const struct aiMatrix4x4 *b)
     return out;
 }
 
-/* Meshes of the node and its children; those deeper than DEPTH_MAX do not count. */
-static int64_t count_meshes(const struct aiNode *node, int depth)
+/* Meshes of the node and its children, which are IO_MODEL_DEPTH_MAX deep at most. */
+static int64_t count_meshes(const struct aiNode *node)
 {
     int64_t count = node->mNumMeshes;
-    for (unsigned i = 0; i < node->mNumChildren && depth < DEPTH_MAX; i++) {
-        count += count_meshes(node->mChildren[i], depth + 1);
+    for (unsigned i = 0; i < node->mNumChildren; i++) {
+        count += count_meshes(node->mChildren[i]);
     }
     return count;
 }
 
 /* Adds the node's meshes and its children's. */
-static rlf_result add_node(io_model_draft *d, const struct aiNode *node, const io_affine *parent,
-                           int depth)
+static rlf_result add_node(io_model_draft *d, const struct aiNode *node, const io_affine *parent)
 {
-    if (depth > DEPTH_MAX) {
-        return rlf_fail(RLF_ERROR_FORMAT, "%s: its parts are nested more than %d deep", d->name,
-                        DEPTH_MAX);
-    }
     const io_affine here = multiply(parent, &node->mTransformation);
     for (unsigned i = 0; i < node->mNumMeshes; i++) {
         if (node->mMeshes[i] >= d->scene->mNumMeshes) {
@@ -49,7 +43,7 @@ static rlf_result add_node(io_model_draft *d, const struct aiNode *node, const i
         instance->place = here;
     }
     for (unsigned i = 0; i < node->mNumChildren; i++) {
-        rlf_result result = add_node(d, node->mChildren[i], &here, depth + 1);
+        rlf_result result = add_node(d, node->mChildren[i], &here);
         if (result != RLF_OK) {
             return result;
         }
@@ -174,7 +168,10 @@ static rlf_result add_part(io_model_draft *d, unsigned material)
             continue;
         }
         if (!is_known) {
-            io_model_material(d, d->scene->mMaterials[material], &part);
+            rlf_result result = io_model_material(d, d->scene->mMaterials[material], &part);
+            if (result != RLF_OK) {
+                return result;
+            }
             is_known = true;
         }
         rlf_result result = add_instance(d, instance, part.texture >= 0);
@@ -195,7 +192,7 @@ rlf_result io_model_collect(io_model_draft *d)
      * about x lets a model stand upright and face the camera. */
     double flip = d->format == IO_MODEL_OBJ ? 1.0 : -1.0;
     const io_affine root = {{{1, 0, 0, 0}, {0, flip, 0, 0}, {0, 0, flip, 0}}};
-    const int64_t count = count_meshes(d->scene->mRootNode, 0);
+    const int64_t count = count_meshes(d->scene->mRootNode);
     if (count > MESHES_MAX) {
         return rlf_fail(RLF_ERROR_FORMAT, "%s: has %lld meshes, at most %d: join some", d->name,
                         (long long)count, MESHES_MAX);
@@ -204,7 +201,7 @@ rlf_result io_model_collect(io_model_draft *d)
     if (d->instances == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    rlf_result result = add_node(d, d->scene->mRootNode, &root, 0);
+    rlf_result result = add_node(d, d->scene->mRootNode, &root);
     int64_t vertices = 0;
     int64_t triangles = 0;
     if (result == RLF_OK) {

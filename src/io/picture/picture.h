@@ -13,8 +13,9 @@ typedef struct io_picture {
     int32_t width, height; /* given: the only size allowed; 0: any, and set to what it is */
     void *data; /* given: rows without padding; NULL: allocated with rlf_alloc. Pixels are RGBA or
                    uint16_t, as the function says */
-    bool is_opaque;   /* in: replace alpha by 255 */
-    int32_t size_max; /* in: largest width and height; 0 = RLF_IMAGE_SIZE_MAX */
+    bool is_opaque;     /* in: replace alpha by 255 */
+    int32_t size_max;   /* in: largest width and height; 0 = RLF_IMAGE_SIZE_MAX */
+    int64_t pixels_max; /* in: largest width times height; 0 = any */
 } io_picture;
 
 bool io_png_is(const io_bytes *file);

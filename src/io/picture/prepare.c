@@ -9,6 +9,12 @@ rlf_result io_picture_prepare(const io_bytes *file, io_picture *picture, int64_t
         return rlf_fail(RLF_ERROR_FORMAT, "%s: the picture is %lld x %lld: use sizes of 1 to %d",
                         file->name, (long long)width, (long long)height, (int)most);
     }
+    if (picture->pixels_max > 0 && width * height > picture->pixels_max) {
+        return rlf_fail(RLF_ERROR_FORMAT,
+                        "%s: the picture is %lld x %lld, too large beside the others: make them "
+                        "smaller",
+                        file->name, (long long)width, (long long)height);
+    }
     bool is_wanted = (picture->width == 0 || picture->width == width) &&
                      (picture->height == 0 || picture->height == height);
     if (!is_wanted) {
