@@ -14,6 +14,7 @@
  * filled in some rows and not in others: what is left of it then is closed. */
 #include "surface/color_side.h"
 #include "surface/shadow.h"
+#include "surface/depth/depth.h"
 #include "surface/steps.h"
 #include "surface/thin/thin.h"
 #include "surface/window.h"
@@ -32,7 +33,7 @@ enum { ABOUT_BEHIND = 3, LONGEST_HOLE = 3 * RLF_FILL_GAP };
 typedef struct fill_job {
     const rlf_reconstruct *stage;
     const background_image *behind; /* the background; NULL = unknown */
-    float *const *normal;    /* NULL = not wanted */
+    float *const *normal;           /* NULL = not wanted */
     float *depth;
     uint8_t *has; /* plane: 1 where `depth` has one that was not filled here */
     float *found; /* plane: depths for each chunk of rows, in the order of its pixels */
@@ -158,7 +159,7 @@ static bool may_ask(const fill_job *job, const fill_queue *q, int32_t k)
     float near_end = before < after ? before : after;
     int32_t steps = (int32_t)(before < after ? -ends->to_before[k] : ends->to_after[k]);
     if (!rlf_gap_is_edge(before, after, ends->to_before[k] + ends->to_after[k]) ||
-        !rlf_hold_may_move(job->stage, q->x[k], q->y[k])) {
+        !temporal_may_move(job->stage, q->x[k], q->y[k])) {
         return false;
     }
     float behind = depth_behind(job, q->x[k] + steps * line[0], q->y[k] + steps * line[1]);
@@ -240,7 +241,7 @@ static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps
     q->ends.after[lane] = at[(ptrdiff_t)gaps->to_after[k] * step];
     q->ends.to_before[lane] = (float)gaps->to_before[k];
     q->ends.to_after[lane] = (float)gaps->to_after[k];
-    q->ends.most_apart[lane] = rlf_hold_may_move(job->stage, x, y) ? MOVING_CHANGE : MOST_CHANGE;
+    q->ends.most_apart[lane] = temporal_may_move(job->stage, x, y) ? MOVING_CHANGE : MOST_CHANGE;
     const int32_t to_ends[2] = {gaps->to_before[k], gaps->to_after[k]};
     float before = q->ends.before[lane], after = q->ends.after[lane];
     q->lost[lane] = thin_find_lost(&job->stage->thin, at - job->depth, step, to_ends,
@@ -396,8 +397,8 @@ void rlf_fill_holes(const rlf_reconstruct *stage, rlf_slot *slot)
                     .behind = background_image_newest(stage),
                     .normal = stage->def.enable_smoothing ? slot->normal : NULL,
                     .depth = slot->depth,
-                    .has = stage->work.mask[0],
-                    .found = stage->work.depth[0],
+                    .has = stage->work.was_seen,
+                    .found = stage->scratch.fill.found,
                     .reason = slot->reason};
     rlf_parallel_for(pool, height, RLF_ROW_GRAIN, find_holes, &job);
     rlf_parallel_for(pool, height, RLF_ROW_GRAIN, fill_rows, &job);

@@ -34,6 +34,22 @@ static void *take(rlf_reconstruct *stage, size_t count, size_t size)
     return arena->memory + begin;
 }
 
+/* The same from what owners of scratch share. Where memory is guarded each has its own. */
+static void *lend(rlf_reconstruct *stage, size_t count, size_t size)
+{
+    rlf_arena *arena = &stage->arena;
+#ifdef RLF_GUARDS_MEMORY
+    return take(stage, count, size);
+#endif
+    size_t begin = (arena->shared_used + PAGE - 1) / PAGE * PAGE +
+                   (size_t)(arena->blocks++ * LINES_APART) % (PAGE / LINE) * LINE;
+    arena->shared_used = begin + (count * size + LINE - 1) / LINE * LINE + LINE;
+    if (arena->shared_size < arena->shared_used) {
+        arena->shared_size = arena->shared_used;
+    }
+    return arena->memory == NULL ? NULL : arena->shared + begin;
+}
+
 static void take_grid(rlf_reconstruct *stage)
 {
     rlf_grid *grid = &stage->grid;
@@ -129,10 +145,11 @@ static void take_work(rlf_reconstruct *stage)
     rlf_work *work = &stage->work;
     size_t n = (size_t)stage->grid.count;
     size_t padded = n + (size_t)stage->grid.height * RLF_CHORD_PAD;
+    work->raw = take(stage, n, sizeof(float));
+    work->kept = take(stage, n, sizeof(float));
+    work->was_seen = take(stage, n, 1);
+    work->covered = take(stage, n, 1);
     for (int k = 0; k < 2; k++) {
-        work->depth[k] = take(stage, padded, sizeof(float));
-        work->sum[k] = take(stage, padded, sizeof(float));
-        work->mask[k] = take(stage, n, 1);
         work->vote[k] = take(stage, n + 1, sizeof(int32_t));
     }
     for (int k = 0; k < 6; k++) {
@@ -141,7 +158,7 @@ static void take_work(rlf_reconstruct *stage)
     work->seen = take(stage, n, sizeof(float));
     work->color = take(stage, n, sizeof(uint32_t));
     work->links = take(stage, n, 1);
-    work->component = take(stage, padded, sizeof(int32_t));
+    work->component = take(stage, n, sizeof(int32_t));
     work->front = take(stage, (size_t)stage->grid.height, sizeof(rlf_span));
     work->runs.run = take(stage, n, sizeof(rlf_run));
     work->runs.first = take(stage, (size_t)stage->grid.height + 1, sizeof(int32_t));
@@ -171,6 +188,64 @@ static void take_work(rlf_reconstruct *stage)
         size_t columns = (size_t)stage->grid.width / RLF_CHORD_SQUARE + 1;
         work->squares =
             take(stage, columns * ((size_t)stage->grid.height / RLF_CHORD_SQUARE + 1), 1);
+    }
+}
+
+/* Of the depth and its normals. */
+static void lend_depth(rlf_reconstruct *stage)
+{
+    rlf_scratch *scratch = &stage->scratch;
+    size_t n = (size_t)stage->grid.count;
+    scratch->thin.visited = lend(stage, n, 1);
+    stage->arena.shared_used = 0;
+    scratch->temporal.change = lend(stage, n, 1);
+    scratch->temporal.lag = lend(stage, n, 1);
+    stage->arena.shared_used = 0;
+    scratch->fill.found = lend(stage, n, sizeof(float));
+    stage->arena.shared_used = 0;
+    scratch->crease.bent = lend(stage, n, 1);
+    stage->arena.shared_used = 0;
+    for (int k = 0; k < 3; k++) {
+        scratch->contour.normal[k] = lend(stage, n, sizeof(float));
+    }
+    scratch->contour.mark = lend(stage, n, 1);
+    scratch->contour.front = lend(stage, n, 1);
+    stage->arena.shared_used = 0;
+    scratch->layered.front = lend(stage, n, sizeof(float));
+    stage->arena.shared_used = 0;
+}
+
+static void lend_scratch(rlf_reconstruct *stage)
+{
+    rlf_scratch *scratch = &stage->scratch;
+    size_t n = (size_t)stage->grid.count;
+    size_t padded = n + (size_t)stage->grid.height * RLF_CHORD_PAD;
+    lend_depth(stage);
+    scratch->background.seen = lend(stage, n, 1);
+    scratch->background.lost = lend(stage, n, 1);
+    stage->arena.shared_used = 0;
+    scratch->hidden.empty = lend(stage, n, 1);
+    scratch->hidden.up = lend(stage, n, sizeof(int32_t));
+    stage->arena.shared_used = 0;
+    scratch->segment.bits = lend(stage, n, 1);
+    stage->arena.shared_used = 0;
+    scratch->velocity.is_steady = lend(stage, n, 1);
+    scratch->velocity.is_rim = lend(stage, n, 1);
+    stage->arena.shared_used = 0;
+    scratch->chords.front = lend(stage, padded, sizeof(float));
+    scratch->chords.inverse = lend(stage, padded, sizeof(float));
+    scratch->chords.thickness = lend(stage, padded, sizeof(float));
+    scratch->chords.label = lend(stage, padded, sizeof(int32_t));
+    stage->arena.shared_used = 0;
+    scratch->pieces.smooth = lend(stage, n, sizeof(float));
+    scratch->pieces.before = lend(stage, n, 1);
+    stage->arena.shared_used = 0;
+}
+
+void rlf_stage_spoil(rlf_reconstruct *stage)
+{
+    if (stage->arena.is_spoiled && stage->arena.shared != NULL) {
+        memset(stage->arena.shared, 0xa5, stage->arena.shared_size);
     }
 }
 
@@ -274,6 +349,13 @@ static void take_all(rlf_reconstruct *stage)
 {
     stage->arena.used = 0;
     stage->arena.blocks = 0;
+    if (stage->arena.memory != NULL) {
+        stage->arena.shared = take(stage, stage->arena.shared_size, 1);
+    }
+    lend_scratch(stage);
+    if (stage->arena.memory == NULL) {
+        take(stage, stage->arena.shared_size, 1);
+    }
     take_grid(stage);
     for (int i = 0; i < RLF_RECONSTRUCT_SURFACES; i++) {
         take_slot(stage, &stage->ring[i]);

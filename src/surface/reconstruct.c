@@ -4,6 +4,7 @@
 #include "surface/objects/objects.h"
 #include "surface/shadow.h"
 #include "surface/thickness/static.h"
+#include "surface/depth/depth.h"
 #include "surface/steps.h"
 #include "surface/thin/thin.h"
 
@@ -71,7 +72,7 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
     }
     rlf_background_reset(&stage->background, &stage->grid);
     static_reset(&stage->background.thick);
-    rlf_steady_reset(&stage->steady, stage->grid.count);
+    temporal_reset(&stage->steady, stage->grid.count);
     rlf_objects_reset(stage->objects, stage->grid.count);
     stage->family.count = 0;
     thin_reset(&stage->thin, &stage->grid);
@@ -136,69 +137,89 @@ static void complete_planes(rlf_reconstruct *stage, rlf_slot *slot)
         rlf_normals_crease(stage, slot);
     }
     if (stage->steady.votes != NULL) {
-        vote_lead(stage, slot, stage->work.mask[0]);
+        vote_lead(stage, slot, stage->work.was_seen);
     }
     if (stage->def.enable_fill && stage->def.enable_edge_normals) {
-        const rlf_work *work = &stage->work;
-        const contour_scratch scratch = {
-            {work->depth[0], work->sum[0], work->sum[1]}, work->mask[1], work->links};
-        rlf_normals_contour(stage, slot, work->mask[0], &scratch);
+        const contour_scratch scratch = {{stage->scratch.contour.normal[0],
+                                          stage->scratch.contour.normal[1],
+                                          stage->scratch.contour.normal[2]},
+                                         stage->scratch.contour.mark,
+                                         stage->scratch.contour.front};
+        rlf_normals_contour(stage, slot, stage->work.was_seen, &scratch);
     }
     rlf_normals_job job = rlf_normals_job_make(stage, slot->depth, slot->normal);
     rlf_normals_plane_complete(&job);
     rlf_stage_add_time(stage, RLF_SURFACE_COMPLETE);
 }
 
-/* Depth of the slot: read, mixed pixels off, dropped pixels recalled, noise averaged over time and
- * within planes, small holes filled; each step may be switched off. */
-static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot)
+/* Depth as it came, and without mixed pixels. */
+static void read_depth(rlf_reconstruct *stage, const rlf_frame *frame, uint8_t *reason)
 {
-    bool flying = stage->def.enable_flying_removal;
-    bool fill = stage->def.enable_fill;
-    bool smooth = stage->def.enable_smoothing;
-    float *kept = fill || smooth ? stage->work.depth[1] : slot->depth;
-    float *raw = flying ? stage->work.depth[0] : kept;
-    rlf_points_read(stage, frame, raw, slot->reason);
+    rlf_work *work = &stage->work;
+    depth_read(stage, frame, work->raw, reason);
     if (stage->def.background_method == RLF_BACKGROUND_ADAPTIVE) {
-        rlf_ego_motion_watch(stage, raw);
+        rlf_ego_motion_watch(stage, work->raw);
     }
     rlf_stage_add_time(stage, RLF_SURFACE_READ);
-    if (flying) {
-        rlf_flying_remove(stage, raw, kept, slot->reason);
+    if (stage->def.enable_flying_removal) {
+        flying_remove(stage, work->raw, work->kept, reason);
         rlf_stage_add_time(stage, RLF_SURFACE_FLYING);
+    } else {
+        memcpy(work->kept, work->raw, (size_t)stage->grid.count * sizeof *work->kept);
     }
+}
+
+/* Says where thin things must be though nothing is seen. */
+static void track_thin(rlf_reconstruct *stage, const rlf_slot *slot)
+{
+    const thin_in in = {.grid = &stage->grid,
+                        .noise = &stage->def.rig.noise,
+                        .before = stage->previous,
+                        .dt = rlf_stage_elapsed_s(stage, slot),
+                        .depth = stage->work.kept,
+                        .visited = stage->scratch.thin.visited};
     if (stage->thin.expected != NULL) {
-        const thin_in in = {.grid = &stage->grid,
-                            .noise = &stage->def.rig.noise,
-                            .before = stage->previous,
-                            .dt = rlf_stage_elapsed_s(stage, slot),
-                            .depth = kept,
-                            .visited = stage->work.mask[0]};
         thin_track(&in, &stage->thin);
     }
-    if (stage->def.enable_hold && stage->def.enable_steadying) {
-        rlf_hold_recall(stage, flying ? raw : NULL, kept, slot->reason);
-    }
+}
+
+/* Dropped pixels are recalled, noise is averaged over time. */
+static void average_over_time(rlf_reconstruct *stage, uint8_t *reason)
+{
+    rlf_work *work = &stage->work;
     if (stage->def.enable_steadying) {
-        rlf_steady_update(stage, kept, slot->reason);
-        stage->steady.age += stage->steady.age < 255 ? 1 : 0;
+        if (stage->def.enable_hold) {
+            temporal_recall(stage, work->raw, work->kept, reason, stage->scratch.temporal.change);
+        }
+        temporal_mean(stage, work->kept, reason, stage->scratch.temporal.lag);
         rlf_stage_add_time(stage, RLF_SURFACE_STEADY);
     }
-    if (smooth) {
+}
+
+/* Noise is averaged within planes, which have normals. */
+static void smooth(rlf_reconstruct *stage, rlf_slot *slot)
+{
+    const float *kept = stage->work.kept;
+    if (stage->def.enable_smoothing) {
         make_planes(stage, kept, slot->depth, slot);
-        rlf_bridge_undo(stage, kept, slot->depth, slot->normal);
+        oversmooth_undo(stage, kept, slot->depth, slot->normal);
         rlf_stage_add_time(stage, RLF_SURFACE_SMOOTH);
-    } else if (fill) {
+    } else {
         memcpy(slot->depth, kept, (size_t)stage->grid.count * sizeof *kept);
     }
-    if (fill) {
-        rlf_shadow_learn(stage, kept);
+}
+
+/* Small holes are filled; what was filled, and what no plane explains, gets normals. */
+static void fill(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot)
+{
+    if (stage->def.enable_fill) {
+        rlf_shadow_learn(stage, stage->work.kept);
         rlf_color_side_start(stage, frame);
         rlf_fill_holes(stage, slot);
         rlf_color_side_learn(stage);
         rlf_stage_add_time(stage, RLF_SURFACE_FILL);
     }
-    if (smooth) {
+    if (stage->def.enable_smoothing) {
         complete_planes(stage, slot);
     }
 }
@@ -208,7 +229,7 @@ static void make_depth(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot 
 static void make_layered_normals(rlf_reconstruct *stage, rlf_normals_job *job, rlf_slot *slot)
 {
     const background_image *image = background_image_newest(stage);
-    float *front = stage->work.depth[0];
+    float *front = stage->scratch.layered.front;
     int32_t count = stage->grid.count;
     for (int32_t i = 0; i < count; i++) {
         front[i] = slot->foreground[i] ? slot->depth[i] : 0.0f;
@@ -235,7 +256,7 @@ static void make_normals(rlf_reconstruct *stage, rlf_slot *slot)
     }
     if (stage->def.enable_fill &&
         exact) { /* what was filled must not shape the normals of what was seen */
-        job.depth = stage->work.depth[1];
+        job.depth = stage->work.kept;
         job.filled = slot->depth;
     }
     bool layered = stage->def.background_method == RLF_BACKGROUND_AVERAGE && !exact &&
@@ -459,7 +480,11 @@ rlf_result rlf_reconstruct_process(rlf_reconstruct *stage, const rlf_frame *fram
     rlf_slot *slot = &stage->ring[stage->current];
     slot->surface.time_ns = frame->time_ns;
     rlf_stage_start_times(stage);
-    make_depth(stage, frame, slot);
+    read_depth(stage, frame, slot->reason);
+    track_thin(stage, slot);
+    average_over_time(stage, slot->reason);
+    smooth(stage, slot);
+    fill(stage, frame, slot);
     rlf_color_sample(stage, frame, slot->depth);
     rlf_background_update(stage, slot);
     rlf_color_learn(stage, slot->foreground);
@@ -474,8 +499,7 @@ rlf_result rlf_reconstruct_process(rlf_reconstruct *stage, const rlf_frame *fram
         rlf_stage_add_time(stage, RLF_SURFACE_VELOCITY);
     }
     if (stage->def.enable_thickness) {
-        const bool is_kept = stage->def.enable_fill || stage->def.enable_smoothing;
-        rlf_thickness_estimate(stage, slot, is_kept ? stage->work.depth[1] : slot->depth);
+        rlf_thickness_estimate(stage, slot, stage->work.kept);
         thin_write(&stage->thin, &stage->grid, stage->background.mean, slot);
         static_advance(stage);
         rlf_stage_add_time(stage, RLF_SURFACE_THICKNESS);

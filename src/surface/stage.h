@@ -182,8 +182,11 @@ enum { RLF_HOLD_BLOCK = 8, RLF_HOLD_CALM = 8 };
 /* All memory of a stage. */
 typedef struct rlf_arena {
     unsigned char *memory;
-    size_t used;    /* bytes */
-    int32_t blocks; /* handed out so far */
+    size_t used;           /* bytes */
+    int32_t blocks;        /* handed out so far */
+    unsigned char *shared; /* what owners of scratch share */
+    size_t shared_used, shared_size;
+    bool is_spoiled; /* for tests: `shared` is overwritten after each step */
 } rlf_arena;
 
 /* A run of linked pixels of one row, the unit of segmentation. */
@@ -294,12 +297,59 @@ typedef struct rlf_shadow {
     int32_t next_row;               /* the first that is asked next */
 } rlf_shadow;
 
-/* Memory that is free between steps. */
+/* Planes that a step needs for itself, by whose they are. Owners share memory: nothing in them
+ * outlives the step. */
+typedef struct rlf_scratch {
+    struct {
+        uint8_t *visited;
+    } thin;
+    struct {
+        uint8_t *change;
+        int8_t *lag;
+    } temporal;
+    struct {
+        float *found;
+    } fill;
+    struct {
+        uint8_t *bent;
+    } crease;
+    struct {
+        float *normal[3];
+        uint8_t *mark, *front;
+    } contour;
+    struct {
+        float *front;
+    } layered;
+    struct {
+        uint8_t *seen, *lost;
+    } background;
+    struct {
+        uint8_t *empty;
+        int32_t *up;
+    } hidden;
+    struct {
+        uint8_t *bits;
+    } segment;
+    struct {
+        uint8_t *is_steady, *is_rim;
+    } velocity;
+    struct { /* rows are padded by RLF_CHORD_PAD */
+        float *front, *inverse, *thickness;
+        int32_t *label;
+    } chords;
+    struct {
+        float *smooth;
+        uint8_t *before;
+    } pieces;
+} rlf_scratch;
+
+/* What later steps of a frame, or those of the next one, go on with. */
 typedef struct rlf_work {
-    float *depth[2];    /* planes; these, sum and component have room for RLF_CHORD_PAD */
-    float *sum[2];      /* planes: velocity sums, thickness */
+    float *raw;         /* plane: depth as it came */
+    float *kept;        /* plane: as planes are fitted to it: recalled, averaged, with holes */
+    uint8_t *was_seen;  /* plane: 1 where that had a depth before holes were filled */
+    uint8_t *covered;   /* plane: RLF_COVERED where a hole is hidden by a thing */
     float *seen;        /* plane of velocity.c; 0 between its frames */
-    uint8_t *mask[2];   /* planes */
     uint32_t *color;    /* plane: of the frame, see segment/color.c */
     uint8_t *links;     /* plane of RLF_LINK_ bits */
     int32_t *component; /* plane */
@@ -342,6 +392,7 @@ struct rlf_reconstruct {
     rlf_ego_motion ego;
     rlf_shadow shadow;
     rlf_work work;
+    rlf_scratch scratch;
     bool has_color;      /* work.color holds the frame's */
     bool has_components; /* work.runs holds the front sheet's, so many: */
     int32_t component_count;
@@ -365,6 +416,8 @@ void rlf_stage_add_time(rlf_reconstruct *stage, rlf_surface_step step);
 /* memory.c: allocates all buffers of a stage whose def is set; false when memory is short. */
 bool rlf_stage_allocate(rlf_reconstruct *stage);
 void rlf_stage_release(rlf_reconstruct *stage);
+/* Overwrites all scratch planes, if a test asks for it. */
+void rlf_stage_spoil(rlf_reconstruct *stage);
 
 /* grid.c */
 void rlf_grid_fill_rays(const rlf_grid *grid, float *ray_x, float *ray_y, uint8_t *has_ray);

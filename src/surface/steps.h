@@ -6,38 +6,11 @@
 #include "kernel/batch.h"
 #include "surface/stage.h"
 
-/* ---- points.c: eq. 4.1 ---- */
-/* Raw depth of the frame, every factor-th pixel, to metres with reasons. */
-void rlf_points_read(const rlf_reconstruct *stage, const rlf_frame *frame, float *depth,
-                     uint8_t *reason);
-
-/* ---- flying.c, fill.c ---- */
-void rlf_flying_remove(const rlf_reconstruct *stage, const float *raw, float *depth,
-                       uint8_t *reason);
+/* ---- fill.c ---- */
 /* Fills gaps of at most RLF_FILL_GAP pixels between valid ones of the slot's depth. What shows the
  * background takes its normal too, where planes have been fitted to the others. Leaves
- * work.mask[0]: 1 where there was a depth before. */
+ * work.was_seen: 1 where there was a depth before. */
 void rlf_fill_holes(const rlf_reconstruct *stage, rlf_slot *slot);
-
-/* ---- hold.c: dropped pixels from memory; `depth` holds what was seen ---- */
-/* Something has moved about pixel (x, y) lately, up to the frame before; false in the first frames,
- * which cannot tell, and always true without averaging over time. */
-bool rlf_hold_may_move(const rlf_reconstruct *stage, int32_t x, int32_t y);
-/* The next pixels of row y, from x on, of which that is true; x0 = x1 when there are none. */
-rlf_span rlf_hold_next_moving(const rlf_reconstruct *stage, int32_t x, int32_t y);
-/* `raw`: the depth as it came; NULL = nothing was taken from it. Pixels that are not recalled but
- * believed after all are OK again. */
-void rlf_hold_recall(const rlf_reconstruct *stage, const float *raw, float *depth, uint8_t *reason);
-
-/* ---- steady.c: depth that does not change is averaged over time ---- */
-void rlf_steady_update(const rlf_reconstruct *stage, float *depth, const uint8_t *reason);
-void rlf_steady_reset(rlf_steady *steady, int32_t count);
-
-/* ---- bridge.c ---- */
-/* Takes back where a plane has put pixels of `smooth` away from what was `seen` there and about
- * them, and their normals: in blocks that may move. */
-void rlf_bridge_undo(const rlf_reconstruct *stage, const float *seen, float *smooth,
-                     float *const normal[3]);
 
 /* ---- normals/vote.c ---- */
 bool vote_is_wanted(const rlf_reconstruct_def *def);
@@ -214,7 +187,7 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot);
 void rlf_depart_take(rlf_reconstruct *stage);
 /* What has left and is seen is FOREGROUND in `seen`; its model follows it. */
 void rlf_depart_follow(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *seen);
-/* Makes foreground of things that start to move; after the 3x3 majority. Uses work.mask[0]. */
+/* Makes foreground of things that start to move; after the 3x3 majority. */
 void rlf_depart_find(rlf_reconstruct *stage, rlf_slot *slot);
 
 /* Takes still foreground into the model; slot->foreground is finished. */
@@ -228,7 +201,7 @@ void rlf_background_reveal(rlf_reconstruct *stage, const rlf_slot *slot);
 void rlf_background_decide_unknown(rlf_reconstruct *stage, const rlf_slot *slot);
 /* background/hidden.c: pixels without depth that a thing hides become foreground and get its depth
  * and normal; learns which return nothing by themselves. While the background is learnt, that only.
- * Before the pixels of slot->foreground are linked. Leaves work.mask[1]: RLF_COVERED where it was
+ * Before the pixels of slot->foreground are linked. Leaves work.covered: RLF_COVERED where it was
  * done. */
 enum { RLF_COVERED = 2 };
 void rlf_background_cover(rlf_reconstruct *stage, const rlf_slot *slot, bool is_learning);

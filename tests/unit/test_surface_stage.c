@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "analytic.h"
+#include "surface/stage.h"
 #include "surface_check.h"
 
 #include <math.h>
@@ -102,6 +103,33 @@ static void results_do_not_depend_on_workers(void **state)
     assert_memory_equal(hash[0], hash[1], sizeof hash[0]);
     assert_memory_equal(hash[0], hash[2], sizeof hash[0]);
     assert_true(hash[0][7] != hash[0][13]);
+}
+
+/* Nothing that a step leaves in its scratch planes is read by a later one. */
+static void scratch_holds_for_its_step_only(void **state)
+{
+    (void)state;
+    enum { W = 161, H = 121, FRAMES = 40 };
+    static float depth[W * H];
+    rlf_rig rig = analytic_rig(W, H);
+    for (int profile = 0; profile < 2; profile++) {
+        rlf_reconstruct *stages[2];
+        for (int k = 0; k < 2; k++) {
+            stages[k] = make_stage(&rig, (rlf_profile)profile, NULL);
+            stages[k]->arena.is_spoiled = k == 1;
+        }
+        for (int32_t t = 0; t < FRAMES; t++) {
+            draw(&rig, depth, t, 77);
+            rlf_frame frame = analytic_frame(&rig, depth, t);
+            const rlf_surface *s[2];
+            for (int k = 0; k < 2; k++) {
+                assert_int_equal(rlf_reconstruct_process(stages[k], &frame, &s[k]), RLF_OK);
+            }
+            assert_true(hash_surface(s[0]) == hash_surface(s[1]));
+        }
+        rlf_reconstruct_destroy(&stages[0]);
+        rlf_reconstruct_destroy(&stages[1]);
+    }
 }
 
 static void processing_allocates_nothing(void **state)
@@ -361,6 +389,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(results_do_not_depend_on_workers),
+        cmocka_unit_test(scratch_holds_for_its_step_only),
         cmocka_unit_test(processing_allocates_nothing),
         cmocka_unit_test(surfaces_stay_as_they_were_published),
         cmocka_unit_test(every_size_and_every_rubbish_is_survived),

@@ -99,7 +99,7 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot)
                      .params = {rlf_kernel_noise_make(&def->rig.noise),
                                 (float)def->foreground_sigmas, (float)def->foreground_min_m,
                                 learning},
-                     .seen = stage->work.mask[0],
+                     .seen = stage->scratch.background.seen,
                      .tile_columns = (stage->grid.width + BACKGROUND_TILE - 1) / BACKGROUND_TILE};
     rlf_parallel_for(def->pool, stage->grid.height, RLF_ROW_GRAIN, model_rows, &job);
     count_changes(stage, job.tile_columns);

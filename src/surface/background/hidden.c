@@ -369,12 +369,12 @@ void rlf_background_cover(rlf_reconstruct *stage, const rlf_slot *slot, bool is_
     }
     hidden_job job = {.stage = stage,
                       .slot = slot,
-                      .seen = stage->work.depth[1],
+                      .seen = stage->work.kept,
                       .area = is_learning ? (rlf_rect){0, 0, 0, 0} : find_area(stage),
-                      .empty = stage->work.links,
-                      .up = stage->work.component,
+                      .empty = stage->scratch.hidden.empty,
+                      .up = stage->scratch.hidden.up,
                       .down = stage->work.map,
-                      .busy = stage->work.mask[1],
+                      .busy = stage->work.covered,
                       .is_learning = is_learning};
     if (job.area.y0 < job.area.y1) {
         rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, find_empty, &job);

@@ -6,6 +6,7 @@
  * the background is known and seen now: then it is background. What does not go on is foreground
  * when it hangs together with foreground or is large. */
 #include "surface/background/facing.h"
+#include "surface/depth/depth.h"
 #include "surface/steps.h"
 #include "surface/window.h"
 
@@ -29,7 +30,7 @@ static void count_seeds(const rlf_reconstruct *stage, const uint8_t *mask, int32
     memset(covered, 0, (size_t)(components + 1) * sizeof *covered);
     for (int32_t y = 0; y < stage->grid.height; y++) {
         const uint8_t *row = mask + (ptrdiff_t)y * stage->grid.width;
-        const uint8_t *cover = stage->work.mask[1] + (ptrdiff_t)y * stage->grid.width;
+        const uint8_t *cover = stage->work.covered + (ptrdiff_t)y * stage->grid.width;
         for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
             const rlf_run *run = &runs->run[r];
             for (int32_t x = run->x0; x < run->x1; x++) {
@@ -88,7 +89,7 @@ static bool is_revealed(const reveal_job *job, int32_t x, int32_t y)
     const int32_t room[4] = {x, grid->width - 1 - x, y, grid->height - 1 - y};
     const ptrdiff_t step[4] = {-1, 1, -grid->width, grid->width};
     ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
-    bool may_move = rlf_hold_may_move(job->stage, x, y), is_there[4];
+    bool may_move = temporal_may_move(job->stage, x, y), is_there[4];
     for (int k = 0; k < 4; k++) {
         int32_t steps = 1, most = rlf_least(room[k], REACH);
         while (steps <= most && !(mean[i + steps * step[k]] > 0.0f)) {
@@ -110,7 +111,7 @@ static void reveal_rows(void *context, int32_t begin, int32_t end, int32_t worke
     for (int32_t y = begin; y < end; y++) {
         const rlf_span span = job->stage->work.front[y];
         const uint8_t *front = job->slot->foreground + (ptrdiff_t)y * grid->width;
-        uint8_t *mark = job->stage->work.mask[1] + (ptrdiff_t)y * grid->width;
+        uint8_t *mark = job->stage->work.covered + (ptrdiff_t)y * grid->width;
         memset(mark, 0, (size_t)grid->width);
         for (int32_t x = span.x0; (x = rlf_kernel_next_mark(front, x, span.x1)) < span.x1; x++) {
             mark[x] = front[x] == RLF_SEEN_UNKNOWN && is_revealed(job, x, y);
@@ -126,7 +127,7 @@ void rlf_background_reveal(rlf_reconstruct *stage, const rlf_slot *slot)
         return;
     }
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, reveal_rows, &job);
-    const uint8_t *mark = stage->work.mask[1];
+    const uint8_t *mark = stage->work.covered;
     for (int32_t i = 0; (i = rlf_kernel_next_mark(mark, i, grid->count)) < grid->count; i++) {
         learn_hole(stage, i, slot->depth[i], false);
         slot->foreground[i] = RLF_SEEN_BACKGROUND;
@@ -150,7 +151,7 @@ static void decide_pixel(rlf_reconstruct *stage, const rlf_slot *slot, int32_t i
     if (slot->foreground[i] == RLF_SEEN_UNKNOWN) {
         learn_hole(stage, i, slot->depth[i], front);
     }
-    if (!front && stage->work.mask[1][i] == RLF_COVERED) {
+    if (!front && stage->work.covered[i] == RLF_COVERED) {
         slot->depth[i] = 0.0f;
         slot->reason[i] = RLF_REASON_NO_RETURN;
         for (int k = 0; k < 3; k++) {

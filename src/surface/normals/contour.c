@@ -11,6 +11,7 @@
  *
  * Narrow faces that no window fits are told by what the means over time show (contour_side.c).
  * Where the contour is, is seen within two pixels, and of what moves within four. */
+#include "surface/depth/depth.h"
 #include "surface/normals/contour.h"
 #include "surface/window.h"
 
@@ -47,7 +48,7 @@ static bool may_move(const contour_job *job, int32_t x, int32_t y, ptrdiff_t i, 
 {
     const rlf_slot *before = job->sides.stage->previous;
     return before != NULL && (before->foreground[i] != 0 || before->foreground[inner] != 0 ||
-                              rlf_hold_may_move(job->sides.stage, x, y));
+                              temporal_may_move(job->sides.stage, x, y));
 }
 
 static void lean_found(const contour_job *job, contour_batch *found)

@@ -11,6 +11,7 @@
  * Of a side that is one pixel wide nothing is ever seen. A thing that is no wider than a leg or a
  * pole is then taken to be as deep as it is wide: if its side would reach the outermost pixel's
  * ray, that pixel is on it. */
+#include "surface/depth/depth.h"
 #include "surface/normals/contour.h"
 
 static const double LEAST_FLAT = 0.985;  /* cosine between two normals of a front */
@@ -175,7 +176,7 @@ bool contour_side_find(const contour_sides *job, int32_t x, int32_t y, float out
     place at = {x, y, out_x, out_y, (ptrdiff_t)y * job->planes.width + x, 0, 0};
     front f;
     rlf_vec3 side;
-    if (job->mean == NULL || rlf_hold_may_move(job->stage, x, y) || !find_seen(job, &at) ||
+    if (job->mean == NULL || temporal_may_move(job->stage, x, y) || !find_seen(job, &at) ||
         !find_front(job, &at, &f) || !find_side(job, &at, &f, &side)) {
         return false;
     }

@@ -236,11 +236,11 @@ void rlf_normals_crease(const rlf_reconstruct *stage, const rlf_slot *slot)
                       .ray_x = grid->ray_x,
                       .ray_y = grid->ray_y,
                       .depth = slot->depth,
-                      .known = stage->def.enable_fill ? stage->work.mask[0] : NULL,
+                      .known = stage->def.enable_fill ? stage->work.was_seen : NULL,
                       .mean = stage->steady.mean,
                       .frames = stage->steady.frames,
                       .normal = slot->normal,
-                      .bent = stage->work.mask[1],
+                      .bent = stage->scratch.crease.bent,
                       .stage = stage,
                       .noise = rlf_kernel_noise_make(&stage->def.rig.noise)};
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, mark_rows, &job);

@@ -370,7 +370,7 @@ static const uint8_t *front_before(const rlf_reconstruct *stage, int32_t y, rlf_
     const uint8_t *left = stage->background.depart.left;
     const uint8_t *front = is_all_front ? stage->work.ones : foreground;
     if (!is_all_front && left != NULL && rlf_kernel_next_mark(left + row, 0, width) < width) {
-        uint8_t *both = stage->work.mask[0] + row;
+        uint8_t *both = stage->scratch.velocity.is_steady + row;
         for (int32_t x = 0; x < width; x++) {
             both[x] = foreground[x] | left[row + x];
         }

@@ -1,11 +1,12 @@
 /* Recalls pixels that the sensor has dropped from what the frames before have seen there.
  *
  * Near depth edges a driver drops most pixels, others at random in each frame; where nothing moves,
- * what was seen there is still there. The memory is the steadied depth (steady.c). It is recalled
- * where a pixel seen now, within two pixels, continues it, and it is forgotten for good when
- * something moves about it: so nothing that has left can stay, and nothing hangs in the air. A
+ * what was seen there is still there. The memory is the steadied depth (temporal_mean.c). It is
+ * recalled where a pixel seen now, within two pixels, continues it, and it is forgotten for good
+ * when something moves about it: so nothing that has left can stay, and nothing hangs in the air. A
  * pixel that was taken for a mixed one for want of neighbours, in a slit between two things, is
  * believed where the memory has it at the same depth. */
+#include "surface/depth/depth.h"
 #include "surface/steps.h"
 #include "surface/thin/thin.h"
 #include "surface/window.h"
@@ -24,18 +25,18 @@ enum {
 
 static const float MOST_SIGMAS = 3.0f; /* from the memory to what confirms it */
 
-typedef struct hold_job {
+typedef struct recall_job {
     const rlf_reconstruct *stage;
     rlf_kernel_noise noise;
     uint8_t *change; /* plane of RLF_CHANGE_ */
     int32_t blocks_x, blocks_y;
-    const float *raw; /* as it came; NULL = as `depth` */
+    const float *raw; /* as it came */
     float *depth;
     uint8_t *reason;
-} hold_job;
+} recall_job;
 
 /* The pixels of a block that have moved: eight bytes of a row together, where it is whole. */
-static int32_t count_moved(const hold_job *job, int32_t bx, int32_t by)
+static int32_t count_moved(const recall_job *job, int32_t bx, int32_t by)
 {
     const uint64_t ones = UINT64_C(0x0101010101010101);
     const rlf_grid *grid = &job->stage->grid;
@@ -54,7 +55,7 @@ static int32_t count_moved(const hold_job *job, int32_t bx, int32_t by)
     return moved + (int32_t)((columns * ones) >> 56);
 }
 
-static void update_calm(const hold_job *job, int32_t bx, int32_t by)
+static void update_calm(const recall_job *job, int32_t bx, int32_t by)
 {
     uint8_t *calm = &job->stage->steady.calm[by * job->blocks_x + bx];
     int32_t moved = count_moved(job, bx, by);
@@ -64,7 +65,7 @@ static void update_calm(const hold_job *job, int32_t bx, int32_t by)
 static void mark_blocks(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
-    const hold_job *job = context;
+    const recall_job *job = context;
     const rlf_steady *steady = &job->stage->steady;
     ptrdiff_t width = job->stage->grid.width;
     for (int32_t by = begin; by < end; by++) {
@@ -80,14 +81,14 @@ static void mark_blocks(void *context, int32_t begin, int32_t end, int32_t worke
     }
 }
 
-static bool is_lost(const hold_job *job, ptrdiff_t i)
+static bool is_lost(const recall_job *job, ptrdiff_t i)
 {
     bool dropped = job->reason[i] == RLF_REASON_NO_RETURN || job->reason[i] == RLF_REASON_FLYING;
     return dropped && job->stage->steady.frames[i] > 0.0f;
 }
 
 /* Marks the blocks about those that are not calm, and these. */
-static void mark_restless(const hold_job *job)
+static void mark_restless(const recall_job *job)
 {
     const rlf_steady *steady = &job->stage->steady;
     memset(steady->restless, 0, (size_t)job->blocks_x * (size_t)job->blocks_y);
@@ -111,13 +112,13 @@ static bool is_calm(const rlf_reconstruct *stage, int32_t x, int32_t y)
     return stage->steady.restless[y / BLOCK * blocks_x + x / BLOCK] == 0;
 }
 
-bool rlf_hold_may_move(const rlf_reconstruct *stage, int32_t x, int32_t y)
+bool temporal_may_move(const rlf_reconstruct *stage, int32_t x, int32_t y)
 {
     bool unknown = stage->steady.calm == NULL;
     return unknown || (stage->steady.age >= RLF_HOLD_CALM && !is_calm(stage, x, y));
 }
 
-rlf_span rlf_hold_next_moving(const rlf_reconstruct *stage, int32_t x, int32_t y)
+rlf_span temporal_next_moving(const rlf_reconstruct *stage, int32_t x, int32_t y)
 {
     int32_t width = stage->grid.width, blocks_x = (width + BLOCK - 1) / BLOCK;
     if (stage->steady.calm == NULL || stage->steady.age < RLF_HOLD_CALM) {
@@ -132,20 +133,20 @@ rlf_span rlf_hold_next_moving(const rlf_reconstruct *stage, int32_t x, int32_t y
 }
 
 /* Lost pixels about which nothing moves, that wait until there are enough of them for a kernel. */
-typedef struct hold_queue {
+typedef struct recall_queue {
     int32_t count;
     ptrdiff_t pixel[RLF_BATCH];
     float inverse[RLF_BATCH];
     rlf_windows seen;
-} hold_queue;
+} recall_queue;
 
 /* What is seen next is new. */
-static void forget(const hold_job *job, ptrdiff_t i)
+static void forget(const recall_job *job, ptrdiff_t i)
 {
     job->stage->steady.frames[i] = -job->stage->steady.frames[i];
 }
 
-static void recall_batch(const hold_job *job, hold_queue *q)
+static void recall_batch(const recall_job *job, recall_queue *q)
 {
     uint8_t about[RLF_BATCH];
     rlf_kernel_recall_batch(&q->seen, q->inverse, about);
@@ -163,7 +164,7 @@ static void recall_batch(const hold_job *job, hold_queue *q)
 
 /* Depth about a pixel as it was seen in this frame, negative where that moved. What was not seen is
  * not read: another worker may be recalling it. */
-static void read_seen(const hold_job *job, int32_t x, int32_t y, int32_t lane,
+static void read_seen(const recall_job *job, int32_t x, int32_t y, int32_t lane,
                       rlf_windows *restrict out)
 {
     enum { ABOUT = RLF_WINDOW_ABOUT, SIDE = RLF_WINDOW_SIDE };
@@ -207,9 +208,9 @@ static float slant_at(const rlf_reconstruct *stage, ptrdiff_t i)
 }
 
 /* What was taken for a mixed pixel is where it was before. */
-static bool is_confirmed(const hold_job *job, ptrdiff_t i)
+static bool is_confirmed(const recall_job *job, ptrdiff_t i)
 {
-    float z = job->raw != NULL && job->reason[i] == RLF_REASON_FLYING ? job->raw[i] : 0.0f;
+    float z = job->reason[i] == RLF_REASON_FLYING ? job->raw[i] : 0.0f;
     if (!(z > 0.0f)) {
         return false;
     }
@@ -218,7 +219,7 @@ static bool is_confirmed(const hold_job *job, ptrdiff_t i)
     return off * z < MOST_SIGMAS * sigma;
 }
 
-static void recall_pixel(const hold_job *job, int32_t x, int32_t y, hold_queue *q)
+static void recall_pixel(const recall_job *job, int32_t x, int32_t y, recall_queue *q)
 {
     ptrdiff_t i = (ptrdiff_t)y * job->stage->grid.width + x;
     if (thin_is_expected(&job->stage->thin, i) || !is_calm(job->stage, x, y)) {
@@ -242,9 +243,9 @@ static void recall_pixel(const hold_job *job, int32_t x, int32_t y, hold_queue *
 static void recall_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
-    const hold_job *job = context;
+    const recall_job *job = context;
     int32_t width = job->stage->grid.width;
-    hold_queue queue = {0};
+    recall_queue queue = {0};
     for (int32_t y = begin; y < end; y++) {
         ptrdiff_t row = (ptrdiff_t)y * width;
         const uint8_t *reason = job->reason + row; /* 0 = OK */
@@ -257,17 +258,18 @@ static void recall_rows(void *context, int32_t begin, int32_t end, int32_t worke
     recall_batch(job, &queue);
 }
 
-void rlf_hold_recall(const rlf_reconstruct *stage, const float *raw, float *depth, uint8_t *reason)
+void temporal_recall(const rlf_reconstruct *stage, const float *raw, float *depth, uint8_t *reason,
+                     uint8_t *change)
 {
     const rlf_grid *grid = &stage->grid;
-    hold_job job = {.stage = stage,
-                    .noise = rlf_kernel_noise_make(&stage->def.rig.noise),
-                    .change = stage->work.mask[0],
-                    .blocks_x = (grid->width + BLOCK - 1) / BLOCK,
-                    .blocks_y = (grid->height + BLOCK - 1) / BLOCK,
-                    .raw = raw,
-                    .depth = depth,
-                    .reason = reason};
+    recall_job job = {.stage = stage,
+                      .noise = rlf_kernel_noise_make(&stage->def.rig.noise),
+                      .change = change,
+                      .blocks_x = (grid->width + BLOCK - 1) / BLOCK,
+                      .blocks_y = (grid->height + BLOCK - 1) / BLOCK,
+                      .raw = raw,
+                      .depth = depth,
+                      .reason = reason};
     rlf_parallel_for(stage->def.pool, job.blocks_y, RLF_ROW_GRAIN / BLOCK, mark_blocks, &job);
     mark_restless(&job);
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, recall_rows, &job);

@@ -1,4 +1,5 @@
-/* Steadies depth that does not change: a gated mean per pixel over time (kernel/steady_row.c). */
+/* The mean over time of depth that does not change, gated per pixel (kernel/steady_row.c). */
+#include "surface/depth/depth.h"
 #include "surface/steps.h"
 
 #include "kernel/kernel.h"
@@ -7,14 +8,14 @@
 
 static const float most_frames = 32.0f;
 
-typedef struct steady_job {
+typedef struct mean_job {
     const rlf_reconstruct *stage;
     float *depth;
     const uint8_t *reason;
     int8_t *lag; /* plane */
-} steady_job;
+} mean_job;
 
-static void lag_row(const steady_job *job, int32_t y)
+static void lag_row(const mean_job *job, int32_t y)
 {
     const rlf_reconstruct *stage = job->stage;
     const rlf_grid *grid = &stage->grid;
@@ -36,7 +37,7 @@ static void lag_row(const steady_job *job, int32_t y)
     }
 }
 
-static void steady_row(const steady_job *job, int32_t y)
+static void mean_row(const mean_job *job, int32_t y)
 {
     const rlf_grid *grid = &job->stage->grid;
     const int8_t *outside = (const int8_t *)job->stage->work.zeros;
@@ -63,25 +64,26 @@ static void lag_outer_rows(void *context, int32_t begin, int32_t end, int32_t wo
 }
 
 /* What a row's lags were found from is near at hand when it is averaged. */
-static void steady_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+static void mean_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
     for (int32_t y = begin; y < end; y++) {
         if (y + 1 < end - 1) {
             lag_row(context, y + 1);
         }
-        steady_row(context, y);
+        mean_row(context, y);
     }
 }
 
-void rlf_steady_update(const rlf_reconstruct *stage, float *depth, const uint8_t *reason)
+void temporal_mean(rlf_reconstruct *stage, float *depth, const uint8_t *reason, int8_t *lag)
 {
-    steady_job job = {stage, depth, reason, (int8_t *)stage->work.mask[1]};
+    mean_job job = {stage, depth, reason, lag};
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, lag_outer_rows, &job);
-    rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, steady_rows, &job);
+    rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, mean_rows, &job);
+    stage->steady.age += stage->steady.age < 255 ? 1 : 0;
 }
 
-void rlf_steady_reset(rlf_steady *steady, int32_t count)
+void temporal_reset(rlf_steady *steady, int32_t count)
 {
     if (steady->frames != NULL) {
         memset(steady->frames, 0, (size_t)count * sizeof *steady->frames);

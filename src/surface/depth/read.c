@@ -1,6 +1,6 @@
 /* Point cloud (thesis 4.1, eq. 4.1): keeps every factor-th pixel, in metres, with a reason for each
  * one without depth. The point itself is depth times the pixel's ray. */
-#include "surface/steps.h"
+#include "surface/depth/depth.h"
 
 #include "kernel/kernel.h"
 
@@ -33,15 +33,14 @@ static void read_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     }
 }
 
-void rlf_points_read(const rlf_reconstruct *stage, const rlf_frame *frame, float *depth,
-                     uint8_t *reason)
+void depth_read(const rlf_reconstruct *stage, const rlf_frame *frame, float *raw, uint8_t *reason)
 {
     double units = frame->depth_u16 != NULL ? frame->depth_units_per_metre : 1.0;
     read_job job = {
         stage,
         frame,
         {(float)stage->def.depth_min_m, (float)stage->def.depth_max_m, (float)(1.0 / units)},
-        depth,
+        raw,
         reason};
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, read_rows, &job);
 }

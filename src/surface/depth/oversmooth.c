@@ -5,6 +5,7 @@
  * two surfaces, where nothing is. But there the pixel is alone: those about it are at the depth
  * that it was seen at. Where something has moved lately, and no mean over time says better, such a
  * pixel goes back to where it was seen, and has no normal of its own. */
+#include "surface/depth/depth.h"
 #include "surface/steps.h"
 #include "surface/window.h"
 
@@ -16,15 +17,15 @@ enum { SPAN = 128, LEAST_BESIDE = 2 };
 static const float far_share = 0.012f, far_m = 0.004f;
 static const float near_share = 0.008f, near_m = 0.0025f;
 
-typedef struct bridge_job {
+typedef struct oversmooth_job {
     const rlf_reconstruct *stage;
     const float *seen;
     float *smooth;
     float *const *normal;
-} bridge_job;
+} oversmooth_job;
 
 /* Of the eight about pixel i. */
-static int32_t count_near(const bridge_job *job, ptrdiff_t i, float z, float most)
+static int32_t count_near(const oversmooth_job *job, ptrdiff_t i, float z, float most)
 {
     ptrdiff_t width = job->stage->grid.width;
     int32_t count = 0;
@@ -36,7 +37,7 @@ static int32_t count_near(const bridge_job *job, ptrdiff_t i, float z, float mos
     return count;
 }
 
-static void look_at_pixel(const bridge_job *job, ptrdiff_t i)
+static void look_at_pixel(const oversmooth_job *job, ptrdiff_t i)
 {
     float seen = job->seen[i], most = near_share * seen + near_m;
     int32_t beside = count_near(job, i, seen, most);
@@ -49,7 +50,7 @@ static void look_at_pixel(const bridge_job *job, ptrdiff_t i)
 }
 
 /* Pixels of a row, `count` of them from x on. */
-static void look_at_run(const bridge_job *job, int32_t x, int32_t y, int32_t count)
+static void look_at_run(const oversmooth_job *job, int32_t x, int32_t y, int32_t count)
 {
     ptrdiff_t first = (ptrdiff_t)y * job->stage->grid.width + x;
     uint8_t moved[SPAN];
@@ -62,12 +63,12 @@ static void look_at_run(const bridge_job *job, int32_t x, int32_t y, int32_t cou
 static void look_at_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
-    const bridge_job *job = context;
+    const oversmooth_job *job = context;
     const rlf_grid *grid = &job->stage->grid;
     int32_t first = begin > 1 ? begin : 1, last = rlf_least(end, grid->height - 1);
     for (int32_t y = first; y < last; y++) {
         for (int32_t x = 0; x < grid->width;) {
-            rlf_span moving = rlf_hold_next_moving(job->stage, x, y);
+            rlf_span moving = temporal_next_moving(job->stage, x, y);
             int32_t x0 = moving.x0 > 1 ? moving.x0 : 1, x1 = rlf_least(moving.x1, grid->width - 1);
             for (; x0 < x1; x0 += SPAN) {
                 look_at_run(job, x0, y, x1 - x0 < SPAN ? x1 - x0 : SPAN);
@@ -77,9 +78,9 @@ static void look_at_rows(void *context, int32_t begin, int32_t end, int32_t work
     }
 }
 
-void rlf_bridge_undo(const rlf_reconstruct *stage, const float *seen, float *smooth,
+void oversmooth_undo(const rlf_reconstruct *stage, const float *seen, float *smooth,
                      float *const normal[3])
 {
-    bridge_job job = {stage, seen, smooth, normal};
+    oversmooth_job job = {stage, seen, smooth, normal};
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, look_at_rows, &job);
 }

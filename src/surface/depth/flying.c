@@ -1,6 +1,7 @@
 /* Takes mixed pixels off depth edges, row by row: single ones everywhere, lines of them where
  * something has moved lately. At an edge that rests they are the same in every frame and little
  * off; what would be filled there instead is no truer, and the background would change with it. */
+#include "surface/depth/depth.h"
 #include "surface/steps.h"
 #include "surface/window.h"
 
@@ -31,7 +32,7 @@ static void drop_half_way(const flying_job *job, int32_t y)
     ptrdiff_t offset = (ptrdiff_t)y * stage->grid.width;
     int32_t first = 2, last = stage->grid.width - 2;
     for (int32_t x = 0; x < last;) {
-        rlf_span moving = rlf_hold_next_moving(stage, x, y);
+        rlf_span moving = temporal_next_moving(stage, x, y);
         int32_t begin = moving.x0 > first ? moving.x0 : first, end = rlf_least(moving.x1, last);
         if (begin < end) {
             rlf_kernel_half_way_row(rows, begin, end, job->depth + offset, job->reason + offset);
@@ -53,8 +54,7 @@ static void flying_rows(void *context, int32_t begin, int32_t end, int32_t worke
     }
 }
 
-void rlf_flying_remove(const rlf_reconstruct *stage, const float *raw, float *depth,
-                       uint8_t *reason)
+void flying_remove(const rlf_reconstruct *stage, const float *raw, float *depth, uint8_t *reason)
 {
     flying_job job = {stage, raw, depth, reason};
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, flying_rows, &job);

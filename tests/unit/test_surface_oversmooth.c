@@ -7,6 +7,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "surface/depth/depth.h"
 #include "surface/steps.h"
 
 #include <string.h>
@@ -37,7 +38,7 @@ static int set_up(void **state)
 static void undo(fixture *f)
 {
     float *const normal[3] = {f->normal[0], f->normal[1], f->normal[2]};
-    rlf_bridge_undo(&f->stage, f->seen, f->smooth, normal);
+    oversmooth_undo(&f->stage, f->seen, f->smooth, normal);
 }
 
 static void what_was_moved_between_two_surfaces_goes_back(void **state)
