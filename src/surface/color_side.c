@@ -15,6 +15,8 @@
  * when the picture is late or of something else, it is not asked: trust falls to 0. */
 #include "surface/color_side.h"
 
+#include "surface/stage.h"
+
 #include "kernel/color.h"
 #include "math/inverse.h"
 #include "surface/window.h"
@@ -289,4 +291,13 @@ void rlf_color_side_learn(rlf_reconstruct *stage)
     double asked = side->sum.asked, differ = asked - side->sum.agree;
     double trust = (bad_differ * asked - differ) / ((bad_differ - good_differ) * (asked + 1e-9));
     side->trust = asked < least_sure ? 0.0f : (float)rlf_clamp(trust, 0.0, 1.0);
+}
+
+void color_side_allocate(rlf_color_side *state, rlf_arena *arena, const rlf_reconstruct_def *def,
+                         const rlf_grid *grid)
+{
+    if (def->enable_color_sides && def->enable_fill && def->rig.has_color) {
+        state->parts = (grid->height + RLF_ROW_GRAIN - 1) / RLF_ROW_GRAIN;
+        state->part = arena_take(arena, (size_t)state->parts, sizeof *state->part);
+    }
 }

@@ -4,7 +4,26 @@
 #define RLF_SURFACE_COLOR_SIDE_H
 
 #include "kernel/batch.h"
-#include "surface/stage.h"
+#include "surface/arena.h"
+#include "surface/frame.h"
+
+/* How the colour picture lies beside depth at edges: see color_side.c. */
+typedef struct rlf_color_sum {
+    double square[9], value[3]; /* normal equations of the offset */
+    double agree, asked;        /* pixels */
+} rlf_color_sum;
+
+typedef struct rlf_color_side {
+    rlf_image_rgba8 image; /* of the frame that is being made; data NULL = is not asked */
+    bool can_tell;         /* the rig has a picture that shows what depth shows */
+    float step[2][2];      /* colour pixels, of u and of v, per column and row of the grid */
+    float reach;           /* colour pixels that are read about one */
+    float offset[3];       /* pixels of the grid: columns, rows, and towards the nearer side */
+    float trust;           /* 0..1 */
+    rlf_color_sum sum;     /* of the frames before, older ones counting less */
+    rlf_color_sum *part;   /* of this frame, per chunk of rows; NULL = colour is not wanted */
+    int32_t parts;
+} rlf_color_side;
 
 /* Columns and rows from a pixel to the next of a line of gap_patch.c. */
 extern const int32_t rlf_line_step[RLF_LINE_NONE][2];
@@ -28,5 +47,7 @@ void rlf_color_side_vote(const rlf_reconstruct *stage, const rlf_side_cases *c,
 /* Learns from the chunks' sums how the picture is to be read from the next frame on. */
 void rlf_color_side_learn(rlf_reconstruct *stage);
 void rlf_color_side_reset(rlf_reconstruct *stage);
+void color_side_allocate(rlf_color_side *state, rlf_arena *arena, const rlf_reconstruct_def *def,
+                         const rlf_grid *grid);
 
 #endif

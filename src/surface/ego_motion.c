@@ -6,6 +6,8 @@
  * rest. Somebody who walks by, however large, leaves the room behind him at rest. */
 #include "surface/ego_motion.h"
 
+#include "surface/stage.h"
+
 #include "kernel/kernel.h"
 #include "math/solve_six.h"
 

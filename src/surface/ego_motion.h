@@ -2,7 +2,25 @@
 #ifndef RLF_SURFACE_EGO_MOTION_H
 #define RLF_SURFACE_EGO_MOTION_H
 
-#include "surface/stage.h"
+#include "surface/arena.h"
+#include "surface/frame.h"
+
+/* What is seen of an earlier frame, see ego_motion.c. */
+enum { RLF_EGO_POINTS = 640 };
+
+typedef struct rlf_ego_point {
+    rlf_vec3 point, normal;
+    int32_t pixel;
+} rlf_ego_point;
+
+typedef struct rlf_ego_motion {
+    rlf_ego_point points[RLF_EGO_POINTS];
+    int32_t count, age;  /* age: frames since they were seen */
+    rlf_pose pose, step; /* their motion since then, and that of the last frame */
+    int32_t seen_frames; /* in a row in which the camera moved */
+    int32_t hold;        /* frames for which it is still taken to move */
+    bool moves;
+} rlf_ego_motion;
 
 void rlf_ego_motion_reset(rlf_ego_motion *ego);
 

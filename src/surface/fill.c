@@ -389,7 +389,7 @@ static void close_gaps(const fill_job *job)
     }
 }
 
-void rlf_fill_holes(const rlf_reconstruct *stage, rlf_slot *slot)
+void rlf_fill_holes(const rlf_reconstruct *stage, rlf_slot *slot, uint8_t *was_seen)
 {
     rlf_pool *pool = stage->def.pool;
     int32_t height = stage->grid.height;
@@ -397,8 +397,8 @@ void rlf_fill_holes(const rlf_reconstruct *stage, rlf_slot *slot)
                     .behind = background_image_newest(stage),
                     .normal = stage->def.enable_smoothing ? slot->normal : NULL,
                     .depth = slot->depth,
-                    .has = stage->work.was_seen,
-                    .found = stage->scratch.fill.found,
+                    .has = was_seen,
+                    .found = stage->work.found,
                     .reason = slot->reason};
     rlf_parallel_for(pool, height, RLF_ROW_GRAIN, find_holes, &job);
     rlf_parallel_for(pool, height, RLF_ROW_GRAIN, fill_rows, &job);

@@ -72,7 +72,8 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
     }
     rlf_background_reset(&stage->background, &stage->grid);
     static_reset(&stage->background.thick);
-    temporal_reset(&stage->steady, stage->grid.count);
+    temporal_reset(&stage->temporal, &stage->grid);
+    normals_reset(&stage->normals, &stage->grid);
     rlf_objects_reset(stage->objects, stage->grid.count);
     stage->family.count = 0;
     thin_reset(&stage->thin, &stage->grid);
@@ -114,355 +115,62 @@ static rlf_result check_frame(const rlf_reconstruct *stage, const rlf_frame *fra
     return RLF_OK;
 }
 
-/* Depth and, with them, normals of the planes that explain the pixels. */
-static void make_planes(rlf_reconstruct *stage, const float *depth, float *smooth, rlf_slot *slot)
+/* What the background is, and with it the foreground. */
+static void find_background(rlf_reconstruct *stage, const rlf_frame *frame, const float *kept,
+                            rlf_slot *slot)
 {
-    rlf_normals_job job = rlf_normals_job_make(stage, depth, slot->normal);
-    job.smooth = smooth;
-    job.frames = stage->work.zero_plane; /* less than one is one */
-    if (stage->steady.frames != NULL) {
-        rlf_lasting_measure(stage, depth);
-        job.frames = stage->steady.frames;
-        job.lasting = stage->steady.lasting.sigma;
-    }
-    rlf_normals_plane_fit(&job);
-    rlf_normals_widen(stage, &job);
+    rlf_color_sample(stage, frame, slot->depth);
+    rlf_background_update(stage, kept, slot);
+    rlf_color_learn(stage, slot->foreground);
+    rlf_stage_add_time(stage, RLF_SURFACE_BACKGROUND);
 }
 
-/* Normals at creases, of what no plane explains and of what was filled: outlines and what is beside
- * them go on from sharp creases, not from blended ones. */
-static void complete_planes(rlf_reconstruct *stage, rlf_slot *slot)
+static void find_motion(rlf_reconstruct *stage, rlf_slot *slot)
 {
-    if (stage->def.enable_edge_normals) {
-        rlf_normals_crease(stage, slot);
+    if (stage->def.enable_velocity) {
+        rlf_velocity_estimate(stage, slot);
+        thin_keep_velocity(&stage->thin, stage->previous, &stage->grid, slot);
+        rlf_stage_add_time(stage, RLF_SURFACE_VELOCITY);
     }
-    if (stage->steady.votes != NULL) {
-        vote_lead(stage, slot, stage->work.was_seen);
-    }
-    if (stage->def.enable_fill && stage->def.enable_edge_normals) {
-        const contour_scratch scratch = {{stage->scratch.contour.normal[0],
-                                          stage->scratch.contour.normal[1],
-                                          stage->scratch.contour.normal[2]},
-                                         stage->scratch.contour.mark,
-                                         stage->scratch.contour.front};
-        rlf_normals_contour(stage, slot, stage->work.was_seen, &scratch);
-    }
-    rlf_normals_job job = rlf_normals_job_make(stage, slot->depth, slot->normal);
-    rlf_normals_plane_complete(&job);
-    rlf_stage_add_time(stage, RLF_SURFACE_COMPLETE);
 }
 
-/* Depth as it came, and without mixed pixels. */
-static void read_depth(rlf_reconstruct *stage, const rlf_frame *frame, uint8_t *reason)
+static void find_thickness(rlf_reconstruct *stage, const float *kept, rlf_slot *slot)
+{
+    if (stage->def.enable_thickness) {
+        rlf_thickness_estimate(stage, slot, kept);
+        thin_write(&stage->thin, &stage->grid, stage->background.mean, slot);
+        static_advance(stage);
+        rlf_stage_add_time(stage, RLF_SURFACE_THICKNESS);
+    }
+}
+
+/* The surface in ten sentences. Each step reads what those before it have finished. */
+static void make_surface(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot)
 {
     rlf_work *work = &stage->work;
-    depth_read(stage, frame, work->raw, reason);
-    if (stage->def.background_method == RLF_BACKGROUND_ADAPTIVE) {
-        rlf_ego_motion_watch(stage, work->raw);
-    }
-    rlf_stage_add_time(stage, RLF_SURFACE_READ);
-    if (stage->def.enable_flying_removal) {
-        flying_remove(stage, work->raw, work->kept, reason);
-        rlf_stage_add_time(stage, RLF_SURFACE_FLYING);
-    } else {
-        memcpy(work->kept, work->raw, (size_t)stage->grid.count * sizeof *work->kept);
-    }
-}
-
-/* Says where thin things must be though nothing is seen. */
-static void track_thin(rlf_reconstruct *stage, const rlf_slot *slot)
-{
-    const thin_in in = {.grid = &stage->grid,
-                        .noise = &stage->def.rig.noise,
-                        .before = stage->previous,
-                        .dt = rlf_stage_elapsed_s(stage, slot),
-                        .depth = stage->work.kept,
-                        .visited = stage->scratch.thin.visited};
-    if (stage->thin.expected != NULL) {
-        thin_track(&in, &stage->thin);
-    }
-}
-
-/* Dropped pixels are recalled, noise is averaged over time. */
-static void average_over_time(rlf_reconstruct *stage, uint8_t *reason)
-{
-    rlf_work *work = &stage->work;
-    if (stage->def.enable_steadying) {
-        if (stage->def.enable_hold) {
-            temporal_recall(stage, work->raw, work->kept, reason, stage->scratch.temporal.change);
-        }
-        temporal_mean(stage, work->kept, reason, stage->scratch.temporal.lag);
-        rlf_stage_add_time(stage, RLF_SURFACE_STEADY);
-    }
-}
-
-/* Noise is averaged within planes, which have normals. */
-static void smooth(rlf_reconstruct *stage, rlf_slot *slot)
-{
-    const float *kept = stage->work.kept;
-    if (stage->def.enable_smoothing) {
-        make_planes(stage, kept, slot->depth, slot);
-        oversmooth_undo(stage, kept, slot->depth, slot->normal);
-        rlf_stage_add_time(stage, RLF_SURFACE_SMOOTH);
-    } else {
-        memcpy(slot->depth, kept, (size_t)stage->grid.count * sizeof *kept);
-    }
-}
-
-/* Small holes are filled; what was filled, and what no plane explains, gets normals. */
-static void fill(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot)
-{
-    if (stage->def.enable_fill) {
-        rlf_shadow_learn(stage, stage->work.kept);
-        rlf_color_side_start(stage, frame);
-        rlf_fill_holes(stage, slot);
-        rlf_color_side_learn(stage);
-        rlf_stage_add_time(stage, RLF_SURFACE_FILL);
-    }
-    if (stage->def.enable_smoothing) {
-        complete_planes(stage, slot);
-    }
-}
-
-/* Thesis 4.4.1: the background's normals are computed once; per frame only the foreground's point
- * cloud has normals computed, by itself. */
-static void make_layered_normals(rlf_reconstruct *stage, rlf_normals_job *job, rlf_slot *slot)
-{
-    const background_image *image = background_image_newest(stage);
-    float *front = stage->scratch.layered.front;
-    int32_t count = stage->grid.count;
-    for (int32_t i = 0; i < count; i++) {
-        front[i] = slot->foreground[i] ? slot->depth[i] : 0.0f;
-    }
-    job->depth = front;
-    rlf_normals_compute(job);
-    for (int k = 0; k < 3; k++) {
-        for (int32_t i = 0; i < count; i++) {
-            bool behind = !slot->foreground[i] && slot->depth[i] > 0.0f;
-            slot->normal[k][i] = behind ? image->normal[k][i] : slot->normal[k][i];
-        }
-    }
-}
-
-static void make_normals(rlf_reconstruct *stage, rlf_slot *slot)
-{
-    rlf_normals_job job = rlf_normals_job_make(stage, slot->depth, slot->normal);
-    bool exact = stage->def.normal_method == RLF_NORMALS_INVERSE_DEPTH;
-    if (exact && stage->def.enable_smoothing && job.face_camera) {
-        if (stage->steady.votes != NULL) {
-            vote_normals(stage, slot);
-        }
-        return; /* the rest was made with the depth */
-    }
-    if (stage->def.enable_fill &&
-        exact) { /* what was filled must not shape the normals of what was seen */
-        job.depth = stage->work.kept;
-        job.filled = slot->depth;
-    }
-    bool layered = stage->def.background_method == RLF_BACKGROUND_AVERAGE && !exact &&
-                   background_image_newest(stage) != NULL;
-    if (layered) {
-        make_layered_normals(stage, &job, slot);
-    } else {
-        rlf_normals_compute(&job);
-    }
-}
-
-/* Puts the background's regions first, so that the foreground's follow. */
-static void copy_background_regions(const background_image *image, rlf_slot *slot)
-{
-    slot->foreground_region_first = image == NULL ? 0 : image->region_count;
-    if (image == NULL) {
-        return;
-    }
-    memcpy(slot->regions, image->regions, (size_t)image->region_count * sizeof *slot->regions);
-    if (slot->region_points != NULL) {
-        memcpy(slot->region_points, image->region_points,
-               (size_t)image->point_count * sizeof *slot->region_points);
-    }
-}
-
-static rlf_layer_in front_layer(const rlf_reconstruct *stage, const rlf_slot *slot)
-{
-    const rlf_slot *before = stage->previous;
-    bool off = stage->def.background_method == RLF_BACKGROUND_OFF;
-    rlf_layer_in in = {.layer = RLF_LAYER_FOREGROUND,
-                       .method = stage->def.foreground_segment,
-                       .depth = slot->depth,
-                       .mask = off ? NULL : slot->foreground,
-                       .spans = off ? NULL : stage->work.front,
-                       .color = stage->has_color ? stage->work.color : NULL,
-                       .has_components = stage->has_components,
-                       .component_count = stage->component_count};
-    if (before != NULL) {
-        in.previous_label = before->label;
-        in.previous_mask = off ? NULL : before->foreground;
-        in.previous = before->regions + before->foreground_region_first;
-        in.previous_count = before->foreground_region_count;
-        in.elapsed_ns = rlf_stage_elapsed_ns(stage, slot);
-    }
-    return in;
-}
-
-/* What belongs to no region is noise. */
-static void drop_pieces(const rlf_reconstruct *stage, rlf_slot *slot)
-{
-    const rlf_runs *runs = &stage->work.runs;
-    for (int32_t y = 0; y < stage->grid.height; y++) {
-        uint8_t *row = slot->foreground + (ptrdiff_t)y * stage->grid.width;
-        for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
-            const rlf_run *run = &runs->run[r];
-            if (run->component <= 0) {
-                memset(row + run->x0, 0, (size_t)(run->x1 - run->x0));
-            }
-        }
-    }
-}
-
-static rlf_layer_out segment_front(rlf_reconstruct *stage, rlf_slot *slot)
-{
-    const background_image *image = background_image_newest(stage);
-    int32_t offset = image == NULL ? 0 : image->point_count;
-    rlf_layer_in in = front_layer(stage, slot);
-    rlf_layer_out out = {slot->regions + slot->foreground_region_first,
-                         slot->region_points == NULL ? NULL : slot->region_points + offset, 0, 0};
-    rlf_layer_segment(stage, &in, &out);
-    for (int32_t r = 0; r < out.region_count && out.points != NULL; r++) {
-        out.regions[r].first_point += offset;
-    }
-    if (in.method == RLF_SEGMENT_NOISE && in.mask != NULL) {
-        if (out.points == NULL) { /* lists are complete already */
-            rlf_region_adopt(stage, slot->depth, &out);
-        }
-        drop_pieces(stage, slot);
-    }
-    return out;
-}
-
-typedef struct label_job {
-    const rlf_reconstruct *stage;
-    const int32_t *background;
-    rlf_slot *slot;
-    int32_t valid[RLF_IMAGE_SIZE_MAX / RLF_ROW_GRAIN]; /* per chunk */
-} label_job;
-
-static void label_rows(void *context, int32_t begin, int32_t end, int32_t worker)
-{
-    (void)worker;
-    label_job *job = context;
-    const rlf_slot *slot = job->slot;
-    int32_t width = job->stage->grid.width;
-    ptrdiff_t at = (ptrdiff_t)begin * width;
-    job->valid[begin / RLF_ROW_GRAIN] =
-        rlf_kernel_label_row(slot->depth + at, slot->foreground + at, job->background + at,
-                             (end - begin) * width, slot->label + at);
-}
-
-/* Labels where the front sheet shows the background, and how much it shows. */
-static void label_background(rlf_reconstruct *stage, rlf_slot *slot)
-{
-    const background_image *image = background_image_newest(stage);
-    label_job job = {.stage = stage,
-                     .background = image != NULL ? image->label : stage->work.zero_labels,
-                     .slot = slot};
-    rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, label_rows, &job);
-    slot->surface.valid_count = 0;
-    for (int32_t y = 0; y < stage->grid.height; y += RLF_ROW_GRAIN) {
-        slot->surface.valid_count += job.valid[y / RLF_ROW_GRAIN];
-    }
-}
-
-/* While the background is learnt, what is seen is taken to be it: regions from the first frame on.
- */
-static void segment_first(rlf_reconstruct *stage, rlf_slot *slot)
-{
-    const rlf_slot *before = stage->previous;
-    rlf_layer_in in = {.layer = RLF_LAYER_BACKGROUND,
-                       .method = stage->def.background_segment,
-                       .depth = slot->depth,
-                       .normal = slot->normal,
-                       .color = stage->has_color ? stage->work.color : NULL};
-    if (before != NULL) {
-        in.previous_label = before->label;
-        in.previous = before->regions;
-        in.previous_count = before->foreground_region_first;
-        in.elapsed_ns = rlf_stage_elapsed_ns(stage, slot);
-    }
-    rlf_layer_out out = {slot->regions, slot->region_points, 0, 0};
-    rlf_layer_segment(stage, &in, &out);
-    slot->foreground_region_first = out.region_count;
-    rlf_region_write_labels(stage, &out, slot->label);
-    /* The steps that follow read the runs as the foreground's, and there is none. */
-    memset(stage->work.runs.first, 0,
-           (size_t)(stage->grid.height + 1) * sizeof *stage->work.runs.first);
-}
-
-static void make_regions(rlf_reconstruct *stage, rlf_slot *slot)
-{
-    copy_background_regions(background_image_newest(stage), slot);
-    bool off = stage->def.background_method == RLF_BACKGROUND_OFF;
-    bool has_front = off || stage->background.state == RLF_BACKGROUND_READY;
-    rlf_layer_out out = {NULL, NULL, 0, 0};
-    if (has_front) {
-        out = segment_front(stage, slot);
-    }
-    slot->foreground_region_count = out.region_count;
-    label_background(stage, slot);
-    if (has_front) {
-        rlf_region_write_labels(stage, &out, slot->label);
-    } else if (stage->objects != NULL) {
-        segment_first(stage, slot);
-    }
-}
-
-static int32_t count_foreground(const rlf_reconstruct *stage, const rlf_slot *slot)
-{
-    int32_t count = 0;
-    for (int32_t i = 0; i < stage->grid.count; i++) {
-        count += slot->foreground[i];
-    }
-    return count;
-}
-
-static void publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot)
-{
-    const background_image *image = background_image_newest(stage);
-    rlf_surface *s = &slot->surface;
-    s->sequence = frame->sequence;
-    s->width = stage->grid.width;
-    s->height = stage->grid.height;
-    s->scale_factor = stage->grid.factor;
-    s->camera = stage->grid.camera;
-    s->noise = stage->def.rig.noise;
-    s->ray_x = stage->grid.ray_x;
-    s->ray_y = stage->grid.ray_y;
-    s->depth = slot->depth;
-    s->normal_x = slot->normal[0];
-    s->normal_y = slot->normal[1];
-    s->normal_z = slot->normal[2];
-    s->velocity_x = slot->velocity[0];
-    s->velocity_y = slot->velocity[1];
-    s->velocity_z = slot->velocity[2];
-    s->thickness = slot->thickness;
-    s->label = slot->label;
-    s->reason = slot->reason;
-    s->foreground = slot->foreground;
-    const float *none = stage->work.zero_plane;
-    s->background_depth = image == NULL ? none : image->depth;
-    s->background_normal_x = image == NULL ? none : image->normal[0];
-    s->background_normal_y = image == NULL ? none : image->normal[1];
-    s->background_normal_z = image == NULL ? none : image->normal[2];
-    s->background_label = image == NULL ? stage->work.zero_labels : image->label;
-    const float *thickness = static_newest(stage);
-    int32_t publications = stage->background.thick.publications;
-    s->background_thickness = thickness == NULL ? none : thickness;
-    s->background_version = image == NULL ? 0 : (int64_t)image->version + publications;
-    s->background_state = stage->background.state;
-    s->camera_moves = stage->ego.moves;
-    s->regions = slot->regions;
-    s->region_count = slot->foreground_region_first + slot->foreground_region_count;
-    s->region_points = slot->region_points;
-    s->foreground_count = count_foreground(stage, slot);
+    /* Depth is read, and mixed pixels are taken off. */
+    depth_read_frame(stage, frame, work->raw, work->kept, slot->reason);
+    /* Thin things are followed to where they must be. */
+    depth_track_thin(stage, work->kept, slot);
+    /* What was dropped is recalled, and noise is averaged over time. */
+    depth_average(stage, work->raw, work->kept, slot->reason);
+    /* Noise is averaged within planes, which have normals. */
+    normals_smooth(stage, work->kept, slot);
+    /* Small holes are filled; they, creases and contours get normals from beside them. */
+    depth_fill(stage, frame, work->kept, slot, work->was_seen);
+    normals_complete(stage, slot, work->was_seen);
+    /* What is not the background is the foreground; normals that differ by layer are known now. */
+    find_background(stage, frame, work->kept, slot);
+    normals_finish(stage, work->kept, slot);
+    /* Both layers fall into regions with labels that last. */
+    segment_frame(stage, slot);
+    /* Regions of the foreground move. */
+    find_motion(stage, slot);
+    /* They have a back, and so have things that stand. */
+    find_thickness(stage, work->kept, slot);
+    /* All of it is published. */
+    rlf_ego_motion_remember(stage, slot);
+    surface_publish(stage, frame, slot);
 }
 
 rlf_result rlf_reconstruct_process(rlf_reconstruct *stage, const rlf_frame *frame,
@@ -480,33 +188,7 @@ rlf_result rlf_reconstruct_process(rlf_reconstruct *stage, const rlf_frame *fram
     rlf_slot *slot = &stage->ring[stage->current];
     slot->surface.time_ns = frame->time_ns;
     rlf_stage_start_times(stage);
-    read_depth(stage, frame, slot->reason);
-    track_thin(stage, slot);
-    average_over_time(stage, slot->reason);
-    smooth(stage, slot);
-    fill(stage, frame, slot);
-    rlf_color_sample(stage, frame, slot->depth);
-    rlf_background_update(stage, slot);
-    rlf_color_learn(stage, slot->foreground);
-    rlf_stage_add_time(stage, RLF_SURFACE_BACKGROUND);
-    make_normals(stage, slot);
-    rlf_stage_add_time(stage, RLF_SURFACE_NORMALS);
-    make_regions(stage, slot);
-    rlf_stage_add_time(stage, RLF_SURFACE_SEGMENT);
-    if (stage->def.enable_velocity) {
-        rlf_velocity_estimate(stage, slot);
-        thin_keep_velocity(&stage->thin, stage->previous, &stage->grid, slot);
-        rlf_stage_add_time(stage, RLF_SURFACE_VELOCITY);
-    }
-    if (stage->def.enable_thickness) {
-        rlf_thickness_estimate(stage, slot, stage->work.kept);
-        thin_write(&stage->thin, &stage->grid, stage->background.mean, slot);
-        static_advance(stage);
-        rlf_stage_add_time(stage, RLF_SURFACE_THICKNESS);
-    }
-    rlf_ego_motion_remember(stage, slot);
-    publish(stage, frame, slot);
-    rlf_stage_add_time(stage, RLF_SURFACE_PUBLISH);
+    make_surface(stage, frame, slot);
     stage->previous = slot;
     *out_surface = &slot->surface;
     return RLF_OK;

@@ -2,7 +2,19 @@
 #ifndef RLF_SURFACE_SHADOW_H
 #define RLF_SURFACE_SHADOW_H
 
-#include "surface/stage.h"
+#include "surface/arena.h"
+#include "surface/frame.h"
+
+/* The shadow that the sensor's projector leaves beside near things: see shadow.h. Two sides of a
+ * thing: left, right. */
+enum { RLF_SHADOW_BINS = 32 };
+
+typedef struct rlf_shadow {
+    float told[2][RLF_SHADOW_BINS]; /* by how many runs without depth, per baseline */
+    float baseline[2];              /* metres; 0 = none there */
+    bool is_known;                  /* enough was told */
+    int32_t next_row;               /* the first that is asked next */
+} rlf_shadow;
 
 /* The side of a near thing on which it lies. */
 typedef enum rlf_shadow_side { RLF_SHADOW_LEFT = 0, RLF_SHADOW_RIGHT = 1 } rlf_shadow_side;

@@ -8,15 +8,24 @@
 
 /* ---- fill.c ---- */
 /* Fills gaps of at most RLF_FILL_GAP pixels between valid ones of the slot's depth. What shows the
- * background takes its normal too, where planes have been fitted to the others. Leaves
- * work.was_seen: 1 where there was a depth before. */
-void rlf_fill_holes(const rlf_reconstruct *stage, rlf_slot *slot);
+ * background takes its normal too, where planes have been fitted to the others. `was_seen`:
+ * 1 where there was a depth before. */
+void rlf_fill_holes(const rlf_reconstruct *stage, rlf_slot *slot, uint8_t *was_seen);
+
+/* ---- normals/frame.c: the steps in their order ---- */
+/* The slot's depth is `kept` with its noise averaged within planes, and has their normals. */
+void normals_smooth(rlf_reconstruct *stage, const float *kept, rlf_slot *slot);
+/* Normals at creases, of what no plane explains and of what was filled: contours and what is beside
+ * them go on from sharp creases, not from blended ones. */
+void normals_complete(rlf_reconstruct *stage, rlf_slot *slot, const uint8_t *was_seen);
+/* Normals that need to know what moves, and all by the methods that fit no planes. */
+void normals_finish(rlf_reconstruct *stage, const float *kept, rlf_slot *slot);
 
 /* ---- normals/vote.c ---- */
 bool vote_is_wanted(const rlf_reconstruct_def *def);
 /* What frames agree on at pixel i; NULL = nothing. */
 const rlf_vote *vote_at(const rlf_reconstruct *stage, ptrdiff_t i);
-/* What follows is not called when steady.votes is NULL. */
+/* What follows is not called when normals.vote.votes is NULL. */
 /* Seen pixels (`known` is 1) that vote take what leads, before others are completed from them;
  * after rlf_normals_crease. */
 void vote_lead(const rlf_reconstruct *stage, const rlf_slot *slot, const uint8_t *known);
@@ -74,16 +83,12 @@ bool rlf_normals_near_pixel(const rlf_normals_job *job, int32_t x, int32_t y, fl
 
 /* normals/contour.c: normals of pixels that were filled beside depth contours, and of seen ones
  * near contours of what moves; after rlf_fill_holes. `known`: 1 where depth was not filled. */
-typedef struct contour_scratch { /* planes, free meanwhile */
-    float *normal[3];            /* where it is marked */
-    uint8_t *mark, *front;
-} contour_scratch;
 void rlf_normals_contour(const rlf_reconstruct *stage, const rlf_slot *slot, const uint8_t *known,
                          const contour_scratch *scratch);
 
 /* Normals of seen and recalled pixels at creases, from the faces that meet there; after
  * rlf_fill_holes. */
-void rlf_normals_crease(const rlf_reconstruct *stage, const rlf_slot *slot);
+void rlf_normals_crease(const rlf_reconstruct *stage, const rlf_slot *slot, const uint8_t *known);
 
 /* ---- segment/components.c ---- */
 /* Connected components of the members of work.links, over their links, into work.runs; numbered
@@ -179,8 +184,8 @@ bool rlf_region_is_flat(const rlf_reconstruct *stage, const rlf_region *region);
 
 /* ---- background/background.c, background/adaptive.c ---- */
 /* Updates the model with slot->depth and writes slot->foreground. */
-void rlf_background_update(rlf_reconstruct *stage, rlf_slot *slot);
-void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot);
+void rlf_background_update(rlf_reconstruct *stage, const float *kept, rlf_slot *slot);
+void rlf_background_adaptive_update(rlf_reconstruct *stage, const float *kept, rlf_slot *slot);
 /* ---- background/depart.c: what stood and starts to move; all do nothing without its planes ----
  */
 /* The things of the background are those that standing/pieces.c has just found. */
@@ -201,10 +206,11 @@ void rlf_background_reveal(rlf_reconstruct *stage, const rlf_slot *slot);
 void rlf_background_decide_unknown(rlf_reconstruct *stage, const rlf_slot *slot);
 /* background/hidden.c: pixels without depth that a thing hides become foreground and get its depth
  * and normal; learns which return nothing by themselves. While the background is learnt, that only.
- * Before the pixels of slot->foreground are linked. Leaves work.covered: RLF_COVERED where it was
- * done. */
+ * Before the pixels of slot->foreground are linked. Leaves background.covered: RLF_COVERED where it
+ * was done. */
 enum { RLF_COVERED = 2 };
-void rlf_background_cover(rlf_reconstruct *stage, const rlf_slot *slot, bool is_learning);
+void rlf_background_cover(rlf_reconstruct *stage, const float *kept, const rlf_slot *slot,
+                          bool is_learning);
 /* How far from z counts as another depth, metres. */
 float rlf_background_gate(const rlf_reconstruct_def *def, float z);
 /* Where the first and the last foreground pixel of a row are. */
@@ -236,5 +242,12 @@ void background_image_advance(rlf_reconstruct *stage, const rlf_slot *slot);
 void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot);
 /* `raw`: depth as the sensor gave it. */
 void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot, const float *raw);
+
+/* ---- segment/frame.c ---- */
+/* Labels and regions of both layers of the slot. */
+void segment_frame(rlf_reconstruct *stage, rlf_slot *slot);
+
+/* ---- publish.c ---- */
+void surface_publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot);
 
 #endif

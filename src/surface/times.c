@@ -47,7 +47,7 @@ void rlf_stage_start_times(rlf_reconstruct *stage)
 
 void rlf_stage_add_time(rlf_reconstruct *stage, rlf_surface_step step)
 {
-    rlf_stage_spoil(stage);
+    arena_spoil(&stage->arena);
     if (stage->times != NULL) {
         int64_t now = rlf_clock_ns();
         stage->times->step_ms[step] += (double)(now - stage->clock_ns) * 1e-6;

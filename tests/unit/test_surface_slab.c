@@ -10,6 +10,7 @@
 
 #include "heavy.h"
 #include "seen_view.h"
+#include "surface/stage.h"
 #include "surface/thin/slab.h"
 
 #include <math.h>

@@ -22,7 +22,8 @@ static void replace(rlf_reconstruct *stage, int32_t i, float z)
     background->weight[i] = RLF_STILL_WEIGHT;
     background->beyond[i] = 0;
     background->still_ms[i] = 0;
-    background_image_changed(background, &stage->grid, i % stage->grid.width, i / stage->grid.width, 1);
+    background_image_changed(background, &stage->grid, i % stage->grid.width, i / stage->grid.width,
+                             1);
 }
 
 static rlf_kernel_still still_of(const rlf_reconstruct *stage, const rlf_slot *slot)

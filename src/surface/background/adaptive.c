@@ -85,7 +85,7 @@ static void start_anew(rlf_reconstruct *stage)
     stage->background.is_stale = newest >= 0;
 }
 
-void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot)
+void rlf_background_adaptive_update(rlf_reconstruct *stage, const float *kept, rlf_slot *slot)
 {
     rlf_background *background = &stage->background;
     const rlf_reconstruct_def *def = &stage->def;
@@ -99,7 +99,7 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot)
                      .params = {rlf_kernel_noise_make(&def->rig.noise),
                                 (float)def->foreground_sigmas, (float)def->foreground_min_m,
                                 learning},
-                     .seen = stage->scratch.background.seen,
+                     .seen = stage->background.seen,
                      .tile_columns = (stage->grid.width + BACKGROUND_TILE - 1) / BACKGROUND_TILE};
     rlf_parallel_for(def->pool, stage->grid.height, RLF_ROW_GRAIN, model_rows, &job);
     count_changes(stage, job.tile_columns);
@@ -111,7 +111,7 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot)
         memset(stage->work.front, 0, (size_t)stage->grid.height * sizeof *stage->work.front);
     }
     if (learning && background->frames < def->background_frames) {
-        rlf_background_cover(stage, slot, true);
+        rlf_background_cover(stage, kept, slot, true);
         background->state = RLF_BACKGROUND_LEARNING;
         return;
     }
@@ -126,7 +126,7 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, rlf_slot *slot)
     if (!learning) {
         rlf_background_reveal(stage, slot);
     }
-    rlf_background_cover(stage, slot, learning);
+    rlf_background_cover(stage, kept, slot, learning);
     if (!learning) {
         find_front(stage, slot);
         rlf_background_absorb(stage, slot);

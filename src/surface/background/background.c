@@ -154,12 +154,67 @@ static void update_average(rlf_reconstruct *stage, rlf_slot *slot)
     }
 }
 
-void rlf_background_update(rlf_reconstruct *stage, rlf_slot *slot)
+void rlf_background_update(rlf_reconstruct *stage, const float *kept, rlf_slot *slot)
 {
     stage->has_components = false;
     switch (stage->def.background_method) {
     case RLF_BACKGROUND_OFF: memset(slot->foreground, 0, (size_t)stage->grid.count); break;
     case RLF_BACKGROUND_AVERAGE: update_average(stage, slot); break;
-    case RLF_BACKGROUND_ADAPTIVE: rlf_background_adaptive_update(stage, slot); break;
+    case RLF_BACKGROUND_ADAPTIVE: rlf_background_adaptive_update(stage, kept, slot); break;
+    }
+}
+
+static void take_image(background_image *image, rlf_arena *arena, const rlf_reconstruct_def *def,
+                       size_t n)
+{
+    image->depth = arena_take(arena, n, sizeof(float));
+    for (int k = 0; k < 3; k++) {
+        image->normal[k] = arena_take(arena, n, sizeof(float));
+    }
+    image->label = arena_take(arena, n, sizeof(int32_t));
+    image->regions = arena_take(arena, (size_t)def->region_capacity, sizeof(rlf_region));
+    if (def->keep_region_points) {
+        image->region_points = arena_take(arena, n, sizeof(int32_t));
+    }
+}
+
+void background_allocate(rlf_background *background, rlf_arena *arena,
+                         const rlf_reconstruct_def *def, const rlf_grid *grid)
+{
+    size_t n = (size_t)grid->count;
+    background->mean = arena_take(arena, n, sizeof(float));
+    background->deviation = arena_take(arena, n, sizeof(float));
+    background->weight = arena_take(arena, n, 1);
+    background->beyond = arena_take(arena, n, 1);
+    background->absent = arena_take(arena, n, 1);
+    background->unknown_age = arena_take(arena, n, 1);
+    background->still = arena_take(arena, n, sizeof(float));
+    background->still_ms = arena_take(arena, n, sizeof(uint16_t));
+    background->beneath = arena_take(arena, n, sizeof(float));
+    background->standing = arena_take(arena, (size_t)grid->height, sizeof(rlf_span));
+    background->color = arena_take(arena, n, sizeof(uint32_t));
+    background->hides = arena_take(arena, (size_t)grid->height, 1);
+    size_t tiles = (size_t)background_image_tiles(grid);
+    background->row_changes = arena_take(arena, tiles * BACKGROUND_TILE, sizeof(int32_t));
+    background->changes = arena_take(arena, tiles, sizeof(int32_t));
+    background->age = arena_take(arena, tiles, 1);
+    background->is_better = arena_take(arena, tiles, 1);
+    background->version = arena_take(arena, tiles, sizeof(int32_t));
+    background->covered = arena_take(arena, n, 1);
+    for (int k = 0; k < 6; k++) {
+        background->crop[k] = arena_take(arena, background_image_crop_size(), sizeof(float));
+    }
+    arena_next_owner(arena);
+    background->seen = arena_lend(arena, n, 1);
+    background->empty = arena_lend(arena, n, 1);
+    background->up = arena_lend(arena, n, sizeof(int32_t));
+    background->depart.lost = arena_lend(arena, n, 1);
+    if (static_is_wanted(def)) {
+        background->depart.thing = arena_take(arena, n, 1);
+        background->depart.depth = arena_take(arena, n, sizeof(float));
+        background->depart.left = arena_take(arena, n, 1);
+    }
+    for (int i = 0; i < BACKGROUND_IMAGES; i++) {
+        take_image(&background->images[i], arena, def, n);
     }
 }

@@ -113,8 +113,8 @@ void rlf_depart_follow(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *se
 }
 
 /* Metres that pixel i came nearer along the normal that it had, from depth `from`. */
-static float way_from(const rlf_reconstruct *stage, const background_image *image, int32_t i, float from,
-                      float to)
+static float way_from(const rlf_reconstruct *stage, const background_image *image, int32_t i,
+                      float from, float to)
 {
     const rlf_grid *grid = &stage->grid;
     float facing = -(image->normal[0][i] * grid->ray_x[i] + image->normal[1][i] * grid->ray_y[i] +
@@ -150,7 +150,7 @@ static uint8_t thing_on(const rlf_reconstruct *stage, const float *depth, int32_
             return 0;
         }
         if (thing[j] != 0 && thing[j] != thing[i]) {
-            bool is_there = depth[j] > 0.0f && stage->scratch.background.lost[j] != LOST;
+            bool is_there = depth[j] > 0.0f && stage->background.depart.lost[j] != LOST;
             float off = rlf_kernel_abs(depth[j] - depth[i]);
             return is_there && off < beside_m * (float)r ? thing[j] : 0;
         }
@@ -196,7 +196,7 @@ static void count_things(const rlf_reconstruct *stage, const rlf_slot *slot, tal
 {
     const rlf_depart *depart = &stage->background.depart;
     int32_t count = stage->grid.count;
-    uint8_t *mark = stage->scratch.background.lost;
+    uint8_t *mark = stage->background.depart.lost;
     mark_row(slot->depth, depart->depth, depart->thing, slot->foreground, slot->reason,
              (float)stage->def.foreground_min_m, count, mark);
     for (int32_t i = 0; (i = rlf_kernel_next_mark(mark, i, count)) < count; i++) {
@@ -219,7 +219,7 @@ static void add_edge(edge_tally *edge, int32_t x, int32_t y)
 static bool count_lost(const rlf_reconstruct *stage, tally *tallies)
 {
     const rlf_grid *grid = &stage->grid;
-    const uint8_t *lost = stage->scratch.background.lost, *thing = stage->background.depart.thing;
+    const uint8_t *lost = stage->background.depart.lost, *thing = stage->background.depart.thing;
     bool is_enough = false;
     for (int32_t i = grid->width; (i = rlf_kernel_next_mark(lost, i, grid->count)) < grid->count;
          i++) {
@@ -294,7 +294,7 @@ static void leave(rlf_reconstruct *stage, rlf_slot *slot, int32_t i)
     rlf_background *background = &stage->background;
     int32_t width = stage->grid.width;
     float z = slot->depth[i];
-    bool is_lost = stage->scratch.background.lost[i] == LOST;
+    bool is_lost = stage->background.depart.lost[i] == LOST;
     background->depart.left[i] = !is_lost;
     background->mean[i] = z > 0.0f ? z : background->mean[i];
     background->weight[i] = is_lost ? 1 : LEFT_WEIGHT;

@@ -361,7 +361,8 @@ static rlf_rect find_area(const rlf_reconstruct *stage)
                       rlf_least(area.y1 + reach, grid->height)};
 }
 
-void rlf_background_cover(rlf_reconstruct *stage, const rlf_slot *slot, bool is_learning)
+void rlf_background_cover(rlf_reconstruct *stage, const float *kept, const rlf_slot *slot,
+                          bool is_learning)
 {
     const rlf_grid *grid = &stage->grid;
     if (!stage->def.enable_fill) {
@@ -369,12 +370,12 @@ void rlf_background_cover(rlf_reconstruct *stage, const rlf_slot *slot, bool is_
     }
     hidden_job job = {.stage = stage,
                       .slot = slot,
-                      .seen = stage->work.kept,
+                      .seen = kept,
                       .area = is_learning ? (rlf_rect){0, 0, 0, 0} : find_area(stage),
-                      .empty = stage->scratch.hidden.empty,
-                      .up = stage->scratch.hidden.up,
+                      .empty = stage->background.empty,
+                      .up = stage->background.up,
                       .down = stage->work.map,
-                      .busy = stage->work.covered,
+                      .busy = stage->background.covered,
                       .is_learning = is_learning};
     if (job.area.y0 < job.area.y1) {
         rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, find_empty, &job);

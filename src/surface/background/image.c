@@ -157,7 +157,7 @@ static void sharpen(const rlf_reconstruct *stage, const rlf_slot *slot, const ba
         def->normal_method != RLF_NORMALS_INVERSE_DEPTH || !def->normals_face_camera) {
         return; /* the frame has no such normals, or not yet */
     }
-    const float most = stage->wide[0].depth != NULL ? ANY : SHARP;
+    const float most = stage->normals.wide[0].depth != NULL ? ANY : SHARP;
     for (int32_t y = r.y0; y < r.y1; y++) {
         for (int32_t x = r.x0; x < r.x1; x++) {
             int32_t i = y * stage->grid.width + x;
@@ -198,7 +198,7 @@ static void make_tile(rlf_reconstruct *stage, const rlf_slot *slot, background_i
     const rlf_grid *grid = &stage->grid;
     const rlf_rect r = tile_at(grid, tile), wide = widen(grid, r);
     int32_t width = wide.x1 - wide.x0;
-    float *const *crop = stage->work.crop;
+    float *const *crop = stage->background.crop;
     const float *const from[3] = {stage->background.mean, grid->ray_x, grid->ray_y};
     for (int k = 0; k < 3; k++) {
         copy_part(wide, from[k], 0, 0, grid->width, crop[k], wide.x0, wide.y0, width);

@@ -30,7 +30,7 @@ static void count_seeds(const rlf_reconstruct *stage, const uint8_t *mask, int32
     memset(covered, 0, (size_t)(components + 1) * sizeof *covered);
     for (int32_t y = 0; y < stage->grid.height; y++) {
         const uint8_t *row = mask + (ptrdiff_t)y * stage->grid.width;
-        const uint8_t *cover = stage->work.covered + (ptrdiff_t)y * stage->grid.width;
+        const uint8_t *cover = stage->background.covered + (ptrdiff_t)y * stage->grid.width;
         for (int32_t r = runs->first[y]; r < runs->first[y + 1]; r++) {
             const rlf_run *run = &runs->run[r];
             for (int32_t x = run->x0; x < run->x1; x++) {
@@ -49,8 +49,8 @@ static void learn_hole(rlf_reconstruct *stage, int32_t i, float z, bool front)
         background->mean[i] = z;
         background->deviation[i] = 0.0f;
         background->weight[i] = 1;
-        background_image_changed(background, &stage->grid, i % stage->grid.width, i / stage->grid.width,
-                          1);
+        background_image_changed(background, &stage->grid, i % stage->grid.width,
+                                 i / stage->grid.width, 1);
         age = 0;
     }
     background->unknown_age[i] = (uint8_t)age;
@@ -111,7 +111,7 @@ static void reveal_rows(void *context, int32_t begin, int32_t end, int32_t worke
     for (int32_t y = begin; y < end; y++) {
         const rlf_span span = job->stage->work.front[y];
         const uint8_t *front = job->slot->foreground + (ptrdiff_t)y * grid->width;
-        uint8_t *mark = job->stage->work.covered + (ptrdiff_t)y * grid->width;
+        uint8_t *mark = job->stage->background.covered + (ptrdiff_t)y * grid->width;
         memset(mark, 0, (size_t)grid->width);
         for (int32_t x = span.x0; (x = rlf_kernel_next_mark(front, x, span.x1)) < span.x1; x++) {
             mark[x] = front[x] == RLF_SEEN_UNKNOWN && is_revealed(job, x, y);
@@ -127,7 +127,7 @@ void rlf_background_reveal(rlf_reconstruct *stage, const rlf_slot *slot)
         return;
     }
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, reveal_rows, &job);
-    const uint8_t *mark = stage->work.covered;
+    const uint8_t *mark = stage->background.covered;
     for (int32_t i = 0; (i = rlf_kernel_next_mark(mark, i, grid->count)) < grid->count; i++) {
         learn_hole(stage, i, slot->depth[i], false);
         slot->foreground[i] = RLF_SEEN_BACKGROUND;
@@ -151,7 +151,7 @@ static void decide_pixel(rlf_reconstruct *stage, const rlf_slot *slot, int32_t i
     if (slot->foreground[i] == RLF_SEEN_UNKNOWN) {
         learn_hole(stage, i, slot->depth[i], front);
     }
-    if (!front && stage->work.covered[i] == RLF_COVERED) {
+    if (!front && stage->background.covered[i] == RLF_COVERED) {
         slot->depth[i] = 0.0f;
         slot->reason[i] = RLF_REASON_NO_RETURN;
         for (int k = 0; k < 3; k++) {

@@ -24,15 +24,15 @@ static void lag_row(const mean_job *job, int32_t y)
                             grid->ray_x + row,
                             grid->ray_y + row,
                             job->depth + row,
-                            stage->steady.mean + row,
-                            stage->steady.frames + row};
+                            stage->temporal.mean + row,
+                            stage->temporal.frames + row};
     for (int k = 0; k < 3; k++) {
         in.normal[k] =
             (stage->previous != NULL ? stage->previous->normal[k] : stage->work.zero_plane) + row;
     }
     rlf_kernel_lag_row(rlf_kernel_noise_make(&stage->def.rig.noise), &in, grid->width,
                        job->lag + row);
-    if (stage->steady.votes != NULL) {
+    if (stage->normals.vote.votes != NULL) {
         vote_lags(stage, row, &in, job->lag + row);
     }
 }
@@ -48,8 +48,8 @@ static void mean_row(const mean_job *job, int32_t y)
                                job->reason + row,
                                most_frames,
                                grid->width};
-    rlf_kernel_steady_row(&in, job->depth + row, job->stage->steady.mean + row,
-                          job->stage->steady.frames + row);
+    rlf_kernel_steady_row(&in, job->depth + row, job->stage->temporal.mean + row,
+                          job->stage->temporal.frames + row);
 }
 
 /* Lags of the rows that the chunks beside these rows need as well, while no depth is another yet.
@@ -75,27 +75,37 @@ static void mean_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     }
 }
 
-void temporal_mean(rlf_reconstruct *stage, float *depth, const uint8_t *reason, int8_t *lag)
+void temporal_mean(rlf_reconstruct *stage, float *depth, const uint8_t *reason)
 {
-    mean_job job = {stage, depth, reason, lag};
+    mean_job job = {stage, depth, reason, stage->temporal.lag};
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, lag_outer_rows, &job);
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, mean_rows, &job);
-    stage->steady.age += stage->steady.age < 255 ? 1 : 0;
+    stage->temporal.age += stage->temporal.age < 255 ? 1 : 0;
 }
 
-void temporal_reset(rlf_steady *steady, int32_t count)
+void temporal_allocate(temporal *state, rlf_arena *arena, const rlf_reconstruct_def *def,
+                       const rlf_grid *grid)
 {
-    if (steady->frames != NULL) {
-        memset(steady->frames, 0, (size_t)count * sizeof *steady->frames);
-        memset(steady->mean, 0, (size_t)count * sizeof *steady->mean);
-        memset(steady->calm, RLF_HOLD_CALM, (size_t)count); /* until something moves */
-        memset(steady->restless, 0, (size_t)count);
-        steady->age = 0;
-        steady->lasting = (rlf_lasting){.sigma = (float)RLF_LASTING_ALL};
+    size_t n = (size_t)grid->count;
+    arena_next_owner(arena);
+    if (def->enable_steadying) {
+        state->mean = arena_take(arena, n, sizeof(float));
+        state->frames = arena_take(arena, n, sizeof(float));
+        state->calm = arena_take(arena, n, 1);
+        state->restless = arena_take(arena, n, 1);
+        state->change = arena_lend(arena, n, 1);
+        state->lag = arena_lend(arena, n, 1);
     }
-    if (steady->votes != NULL) {
-        memset(steady->votes, 0, (size_t)count * sizeof *steady->votes);
-        memset(steady->watch, 0, (size_t)count);
-        memset(steady->outvoted, 0, (size_t)count);
+}
+
+void temporal_reset(temporal *state, const rlf_grid *grid)
+{
+    size_t n = (size_t)grid->count;
+    if (state->frames != NULL) {
+        memset(state->frames, 0, n * sizeof *state->frames);
+        memset(state->mean, 0, n * sizeof *state->mean);
+        memset(state->calm, RLF_TEMPORAL_CALM, n); /* until something moves */
+        memset(state->restless, 0, n);
+        state->age = 0;
     }
 }

@@ -1,7 +1,7 @@
 /* Recalls pixels that the sensor has dropped from what the frames before have seen there.
  *
  * Near depth edges a driver drops most pixels, others at random in each frame; where nothing moves,
- * what was seen there is still there. The memory is the steadied depth (temporal_mean.c). It is
+ * what was seen there is still there. The memory is the mean over time (temporal_mean.c). It is
  * recalled where a pixel seen now, within two pixels, continues it, and it is forgotten for good
  * when something moves about it: so nothing that has left can stay, and nothing hangs in the air. A
  * pixel that was taken for a mixed one for want of neighbours, in a slit between two things, is
@@ -17,7 +17,7 @@
 #include <string.h>
 
 enum {
-    BLOCK = RLF_HOLD_BLOCK,
+    BLOCK = RLF_TEMPORAL_BLOCK,
     LEAST_MOVED = 2,  /* pixels of a block that make a movement: single ones may be mixed */
     LEAST_FRAMES = 2, /* that have seen what is recalled */
     MOST_CALM = 255
@@ -57,7 +57,7 @@ static int32_t count_moved(const recall_job *job, int32_t bx, int32_t by)
 
 static void update_calm(const recall_job *job, int32_t bx, int32_t by)
 {
-    uint8_t *calm = &job->stage->steady.calm[by * job->blocks_x + bx];
+    uint8_t *calm = &job->stage->temporal.calm[by * job->blocks_x + bx];
     int32_t moved = count_moved(job, bx, by);
     *calm = (uint8_t)(moved >= LEAST_MOVED ? 0 : rlf_least(*calm + 1, MOST_CALM));
 }
@@ -66,13 +66,13 @@ static void mark_blocks(void *context, int32_t begin, int32_t end, int32_t worke
 {
     (void)worker;
     const recall_job *job = context;
-    const rlf_steady *steady = &job->stage->steady;
+    const temporal *state = &job->stage->temporal;
     ptrdiff_t width = job->stage->grid.width;
     for (int32_t by = begin; by < end; by++) {
         for (int32_t y = by * BLOCK; y < rlf_least((by + 1) * BLOCK, job->stage->grid.height);
              y++) {
-            rlf_kernel_change_row(job->noise, job->depth + y * width, steady->mean + y * width,
-                                  steady->frames + y * width, (int32_t)width,
+            rlf_kernel_change_row(job->noise, job->depth + y * width, state->mean + y * width,
+                                  state->frames + y * width, (int32_t)width,
                                   job->change + y * width);
         }
         for (int32_t bx = 0; bx < job->blocks_x; bx++) {
@@ -84,23 +84,23 @@ static void mark_blocks(void *context, int32_t begin, int32_t end, int32_t worke
 static bool is_lost(const recall_job *job, ptrdiff_t i)
 {
     bool dropped = job->reason[i] == RLF_REASON_NO_RETURN || job->reason[i] == RLF_REASON_FLYING;
-    return dropped && job->stage->steady.frames[i] > 0.0f;
+    return dropped && job->stage->temporal.frames[i] > 0.0f;
 }
 
 /* Marks the blocks about those that are not calm, and these. */
 static void mark_restless(const recall_job *job)
 {
-    const rlf_steady *steady = &job->stage->steady;
-    memset(steady->restless, 0, (size_t)job->blocks_x * (size_t)job->blocks_y);
+    const temporal *state = &job->stage->temporal;
+    memset(state->restless, 0, (size_t)job->blocks_x * (size_t)job->blocks_y);
     for (int32_t by = 0; by < job->blocks_y; by++) {
         int32_t y0 = by > 0 ? by - 1 : 0, y1 = rlf_least(by + 1, job->blocks_y - 1);
         for (int32_t bx = 0; bx < job->blocks_x; bx++) {
-            if (steady->calm[by * job->blocks_x + bx] >= RLF_HOLD_CALM) {
+            if (state->calm[by * job->blocks_x + bx] >= RLF_TEMPORAL_CALM) {
                 continue;
             }
             int32_t x0 = bx > 0 ? bx - 1 : 0, x1 = rlf_least(bx + 1, job->blocks_x - 1);
             for (int32_t y = y0; y <= y1; y++) {
-                memset(steady->restless + y * job->blocks_x + x0, 1, (size_t)(x1 - x0 + 1));
+                memset(state->restless + y * job->blocks_x + x0, 1, (size_t)(x1 - x0 + 1));
             }
         }
     }
@@ -109,22 +109,22 @@ static void mark_restless(const recall_job *job)
 static bool is_calm(const rlf_reconstruct *stage, int32_t x, int32_t y)
 {
     int32_t blocks_x = (stage->grid.width + BLOCK - 1) / BLOCK;
-    return stage->steady.restless[y / BLOCK * blocks_x + x / BLOCK] == 0;
+    return stage->temporal.restless[y / BLOCK * blocks_x + x / BLOCK] == 0;
 }
 
 bool temporal_may_move(const rlf_reconstruct *stage, int32_t x, int32_t y)
 {
-    bool unknown = stage->steady.calm == NULL;
-    return unknown || (stage->steady.age >= RLF_HOLD_CALM && !is_calm(stage, x, y));
+    bool unknown = stage->temporal.calm == NULL;
+    return unknown || (stage->temporal.age >= RLF_TEMPORAL_CALM && !is_calm(stage, x, y));
 }
 
 rlf_span temporal_next_moving(const rlf_reconstruct *stage, int32_t x, int32_t y)
 {
     int32_t width = stage->grid.width, blocks_x = (width + BLOCK - 1) / BLOCK;
-    if (stage->steady.calm == NULL || stage->steady.age < RLF_HOLD_CALM) {
-        return (rlf_span){stage->steady.calm == NULL ? x : width, width};
+    if (stage->temporal.calm == NULL || stage->temporal.age < RLF_TEMPORAL_CALM) {
+        return (rlf_span){stage->temporal.calm == NULL ? x : width, width};
     }
-    const uint8_t *restless = stage->steady.restless + y / BLOCK * blocks_x;
+    const uint8_t *restless = stage->temporal.restless + y / BLOCK * blocks_x;
     int32_t first = rlf_kernel_next_mark(restless, (x + BLOCK - 1) / BLOCK, blocks_x), end = first;
     while (end < blocks_x && restless[end] != 0) {
         end++;
@@ -143,7 +143,7 @@ typedef struct recall_queue {
 /* What is seen next is new. */
 static void forget(const recall_job *job, ptrdiff_t i)
 {
-    job->stage->steady.frames[i] = -job->stage->steady.frames[i];
+    job->stage->temporal.frames[i] = -job->stage->temporal.frames[i];
 }
 
 static void recall_batch(const recall_job *job, recall_queue *q)
@@ -154,7 +154,7 @@ static void recall_batch(const recall_job *job, recall_queue *q)
         ptrdiff_t i = q->pixel[k];
         if ((about[k] & RLF_ABOUT_MOVED) != 0) {
             forget(job, i);
-        } else if (about[k] != 0 && job->stage->steady.frames[i] >= LEAST_FRAMES) {
+        } else if (about[k] != 0 && job->stage->temporal.frames[i] >= LEAST_FRAMES) {
             job->depth[i] = 1.0f / q->inverse[k];
             job->reason[i] = RLF_REASON_FILLED;
         }
@@ -214,7 +214,7 @@ static bool is_confirmed(const recall_job *job, ptrdiff_t i)
     if (!(z > 0.0f)) {
         return false;
     }
-    float off = rlf_kernel_abs(z * job->stage->steady.mean[i] - 1.0f); /* share of the depth */
+    float off = rlf_kernel_abs(z * job->stage->temporal.mean[i] - 1.0f); /* share of the depth */
     float sigma = rlf_kernel_sigma(job->noise, z) * slant_at(job->stage, i);
     return off * z < MOST_SIGMAS * sigma;
 }
@@ -233,7 +233,7 @@ static void recall_pixel(const recall_job *job, int32_t x, int32_t y, recall_que
     }
     int32_t lane = q->count++;
     q->pixel[lane] = i;
-    q->inverse[lane] = job->stage->steady.mean[i];
+    q->inverse[lane] = job->stage->temporal.mean[i];
     read_seen(job, x, y, lane, &q->seen);
     if (q->count == RLF_BATCH) {
         recall_batch(job, q);
@@ -258,13 +258,12 @@ static void recall_rows(void *context, int32_t begin, int32_t end, int32_t worke
     recall_batch(job, &queue);
 }
 
-void temporal_recall(const rlf_reconstruct *stage, const float *raw, float *depth, uint8_t *reason,
-                     uint8_t *change)
+void temporal_recall(const rlf_reconstruct *stage, const float *raw, float *depth, uint8_t *reason)
 {
     const rlf_grid *grid = &stage->grid;
     recall_job job = {.stage = stage,
                       .noise = rlf_kernel_noise_make(&stage->def.rig.noise),
-                      .change = change,
+                      .change = stage->temporal.change,
                       .blocks_x = (grid->width + BLOCK - 1) / BLOCK,
                       .blocks_y = (grid->height + BLOCK - 1) / BLOCK,
                       .raw = raw,

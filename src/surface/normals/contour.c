@@ -286,8 +286,8 @@ void rlf_normals_contour(const rlf_reconstruct *stage, const rlf_slot *slot, con
                                    slot->depth, known,        slot->normal};
     const contour_sides sides = {.stage = stage,
                                  .planes = planes,
-                                 .mean = stage->steady.mean,
-                                 .frames = stage->steady.frames,
+                                 .mean = stage->temporal.mean,
+                                 .frames = stage->temporal.frames,
                                  .step = depth_step_make(&stage->def.rig.noise, grid->camera.fx)};
     contour_job job = {.sides = sides,
                        .reason = slot->reason,

@@ -66,7 +66,7 @@ static void mark_rows(void *context, int32_t begin, int32_t end, int32_t worker)
             rows[k] = row_at(job, (inside ? row : y) * width);
         }
         rlf_kernel_bend_row(rows, job->width, job->bent + y * width);
-        if (job->stage->steady.votes != NULL) {
+        if (job->stage->normals.vote.votes != NULL) {
             vote_watch(job->stage, y * width, job->bent + y * width, job->width);
         }
     }
@@ -228,7 +228,7 @@ static void sharpen_rows(void *context, int32_t begin, int32_t end, int32_t work
     }
 }
 
-void rlf_normals_crease(const rlf_reconstruct *stage, const rlf_slot *slot)
+void rlf_normals_crease(const rlf_reconstruct *stage, const rlf_slot *slot, const uint8_t *known)
 {
     const rlf_grid *grid = &stage->grid;
     crease_job job = {.width = grid->width,
@@ -236,11 +236,11 @@ void rlf_normals_crease(const rlf_reconstruct *stage, const rlf_slot *slot)
                       .ray_x = grid->ray_x,
                       .ray_y = grid->ray_y,
                       .depth = slot->depth,
-                      .known = stage->def.enable_fill ? stage->work.was_seen : NULL,
-                      .mean = stage->steady.mean,
-                      .frames = stage->steady.frames,
+                      .known = known,
+                      .mean = stage->temporal.mean,
+                      .frames = stage->temporal.frames,
                       .normal = slot->normal,
-                      .bent = stage->scratch.crease.bent,
+                      .bent = stage->normals.bent,
                       .stage = stage,
                       .noise = rlf_kernel_noise_make(&stage->def.rig.noise)};
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, mark_rows, &job);

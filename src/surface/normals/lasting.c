@@ -37,7 +37,7 @@ static rlf_plane_moments sum_window(const rlf_reconstruct *stage, const float *d
     for (int32_t y = 0; y < SIDE; y += APART) {
         for (int32_t x = 0; x < SIDE; x += APART) {
             ptrdiff_t i = corner + (ptrdiff_t)y * grid->width + x;
-            sum = rlf_plane_add(sum, rlf_plane_pixel(depth[i], stage->steady.frames[i],
+            sum = rlf_plane_add(sum, rlf_plane_pixel(depth[i], stage->temporal.frames[i],
                                                      grid->ray_x[i], grid->ray_y[i], ref));
         }
     }
@@ -107,7 +107,7 @@ static int32_t quartile(const int32_t count[RLF_LASTING_BINS])
  */
 void rlf_lasting_measure(rlf_reconstruct *stage, const float *depth)
 {
-    rlf_lasting *lasting = &stage->steady.lasting;
+    rlf_lasting *lasting = &stage->normals.lasting;
     bool is_known = lasting->sigma < (float)RLF_LASTING_ALL;
     lasting->frame = (lasting->frame + 1) % REST;
     if (is_known && lasting->frame != 0) {

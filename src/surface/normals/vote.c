@@ -198,9 +198,9 @@ static vote_job make_job(const rlf_reconstruct *stage, const rlf_slot *slot)
                       .foreground = slot->foreground,
                       .depth = slot->depth,
                       .normal = slot->normal,
-                      .votes = stage->steady.votes,
-                      .watch = stage->steady.watch,
-                      .outvoted = stage->steady.outvoted,
+                      .votes = stage->normals.vote.votes,
+                      .watch = stage->normals.vote.watch,
+                      .outvoted = stage->normals.vote.outvoted,
                       .step = depth_step_make(&stage->def.rig.noise, stage->grid.camera.fx)};
 }
 
@@ -229,14 +229,14 @@ bool vote_is_wanted(const rlf_reconstruct_def *def)
 
 const rlf_vote *vote_at(const rlf_reconstruct *stage, ptrdiff_t i)
 {
-    const rlf_steady *steady = &stage->steady;
-    bool any = steady->votes != NULL && steady->watch[i] != 0;
-    return any && steady->votes[i].count >= LEAST_VOTES ? &steady->votes[i] : NULL;
+    const normals_votes *state = &stage->normals.vote;
+    bool any = state->votes != NULL && state->watch[i] != 0;
+    return any && state->votes[i].count >= LEAST_VOTES ? &state->votes[i] : NULL;
 }
 
 void vote_watch(const rlf_reconstruct *stage, ptrdiff_t first, const uint8_t *marks, int32_t count)
 {
-    uint8_t *restrict watch = stage->steady.watch + first; /* no byte of the marks */
+    uint8_t *restrict watch = stage->normals.vote.watch + first; /* no byte of the marks */
     for (int32_t k = 0; k < count; k++) {
         watch[k] = marks[k] != 0 ? WATCHED : watch[k];
     }
@@ -246,7 +246,7 @@ void vote_watch(const rlf_reconstruct *stage, ptrdiff_t first, const uint8_t *ma
  * frames take for the front beside it is as noisy as a side. */
 static const float *steeper(const rlf_reconstruct *stage, ptrdiff_t i)
 {
-    const rlf_vote *v = &stage->steady.votes[i];
+    const rlf_vote *v = &stage->normals.vote.votes[i];
     const float ray[3] = {stage->grid.ray_x[i], stage->grid.ray_y[i], 1.0f};
     bool leads = v->count > LEADING_VOTES && dot(v->normal, ray) > dot(v->own, ray);
     return leads ? v->normal : v->own;
@@ -255,7 +255,7 @@ static const float *steeper(const rlf_reconstruct *stage, ptrdiff_t i)
 void vote_lags(const rlf_reconstruct *stage, ptrdiff_t row, const rlf_kernel_lag_in *in,
                int8_t *lag)
 {
-    const uint8_t *outvoted = stage->steady.outvoted + row;
+    const uint8_t *outvoted = stage->normals.vote.outvoted + row;
     int32_t width = stage->grid.width;
     rlf_kernel_noise noise = rlf_kernel_noise_make(&stage->def.rig.noise);
     for (int32_t x = 0; (x = rlf_kernel_next_mark(outvoted, x, width)) < width; x++) {

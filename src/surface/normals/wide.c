@@ -128,7 +128,7 @@ static void widen(const rlf_normals_job *whole, const rlf_wide *half, int32_t le
 
 void rlf_normals_widen(const rlf_reconstruct *stage, const rlf_normals_job *job)
 {
-    if (stage->wide[0].depth != NULL) {
-        widen(job, stage->wide, RLF_WIDE_LEVELS, stage->grid.camera.fx);
+    if (stage->normals.wide[0].depth != NULL) {
+        widen(job, stage->normals.wide, RLF_WIDE_LEVELS, stage->grid.camera.fx);
     }
 }

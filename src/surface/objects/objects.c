@@ -153,3 +153,29 @@ int32_t rlf_objects_find(rlf_reconstruct *stage, const rlf_layer_in *in)
     }
     return components;
 }
+
+rlf_objects *objects_allocate(rlf_arena *arena, const rlf_reconstruct_def *def,
+                              const rlf_grid *grid)
+{
+    if (def->background_segment != RLF_SEGMENT_OBJECTS ||
+        def->background_method == RLF_BACKGROUND_OFF) {
+        return NULL;
+    }
+    rlf_objects o = rlf_objects_layout(grid);
+    size_t n = (size_t)grid->count, patches = (size_t)(o.width * o.height);
+    rlf_objects *objects = arena_take(arena, 1, sizeof *objects);
+    o.patch = arena_take(arena, patches, sizeof *o.patch);
+    o.near = arena_take(arena, patches, sizeof *o.near);
+    o.scratch[0] = arena_take(arena, patches, sizeof *o.scratch[0]);
+    o.scratch[1] = arena_take(arena, patches, sizeof *o.scratch[1]);
+    o.queue = arena_take(arena, patches, sizeof *o.queue);
+    o.sum = arena_take(arena, RLF_OBJECTS_SUMMED, sizeof *o.sum);
+    o.border = arena_take(arena, RLF_BORDERS, sizeof *o.border);
+    o.support = arena_take(arena, n, 1);
+    o.links = arena_take(arena, n, 1);
+    o.distance = arena_take(arena, n, 1);
+    if (objects != NULL) {
+        *objects = o;
+    }
+    return objects;
+}

@@ -162,3 +162,10 @@ int32_t rlf_region_fresh_label(rlf_reconstruct *stage)
     stage->next_label = stage->next_label < LABEL_LIMIT ? stage->next_label + 1 : 1;
     return stage->next_label;
 }
+
+void family_allocate(rlf_family *state, rlf_arena *arena, const rlf_reconstruct_def *def)
+{
+    state->capacity = 2 * def->region_capacity;
+    state->kin = arena_take(arena, (size_t)state->capacity, sizeof *state->kin);
+    state->origin = arena_take(arena, (size_t)def->region_capacity, sizeof *state->origin);
+}

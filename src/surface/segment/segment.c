@@ -44,7 +44,7 @@ static void thesis_links(const rlf_reconstruct *stage, const float *depth, const
 {
     const rlf_grid *grid = &stage->grid;
     bool diagonals = stage->def.segment_diagonals;
-    uint8_t *bits = stage->scratch.segment.bits;
+    uint8_t *bits = stage->work.bits;
     rlf_segment_thesis_bits(grid, stage->def.segment_tau_m, diagonals, depth, mask, bits);
     for (int32_t y = 0; y < grid->height; y++) {
         for (int32_t x = 0; x < grid->width; x++) {

@@ -42,7 +42,7 @@ static void prepare_knots(const rlf_chord_job *job, int32_t y)
     rlf_kernel_knot_row(job->front + from + first, depth + first, job->step, x1 - x0,
                         job->knot + to + x0);
     for (int k = 0; k < 6; k++) {
-        memset(job->stage->work.solid[k] + to + x0, 0, (size_t)(x1 - x0) * sizeof(float));
+        memset(job->stage->chords.solid[k] + to + x0, 0, (size_t)(x1 - x0) * sizeof(float));
     }
     job->knot[to - 1] = job->knot[to + job->columns] = 0.0f;
     job->thickness[to - 1] = job->thickness[to + job->columns] = 0.0f;

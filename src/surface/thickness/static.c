@@ -181,3 +181,27 @@ void static_advance(rlf_reconstruct *stage)
         go_on(stage, image);
     }
 }
+
+bool static_is_wanted(const rlf_reconstruct_def *def)
+{
+    return def->enable_thickness && def->background_method != RLF_BACKGROUND_OFF;
+}
+
+void static_allocate(static_thickness *state, rlf_arena *arena, const rlf_reconstruct_def *def,
+                     const rlf_grid *grid)
+{
+    size_t n = (size_t)grid->count;
+    arena_next_owner(arena);
+    if (static_is_wanted(def)) {
+        state->depth = arena_take(arena, n, sizeof(float));
+        state->thickness = arena_take(arena, n, sizeof(float));
+        state->done_depth = arena_take(arena, n, sizeof(float));
+        state->done = arena_take(arena, n, sizeof(float));
+        state->piece = arena_take(arena, n, 1);
+        state->smooth = arena_lend(arena, n, sizeof(float));
+        state->before = arena_lend(arena, n, 1);
+        for (int k = 0; k < BACKGROUND_IMAGES; k++) {
+            state->published[k] = arena_take(arena, n, sizeof(float));
+        }
+    }
+}

@@ -75,7 +75,7 @@ static void separate(rlf_reconstruct *stage)
     static_thickness *state = &stage->background.thick;
     const rlf_runs *runs = &stage->work.runs;
     int32_t *number = stage->work.map;
-    float *smooth = stage->scratch.pieces.smooth;
+    float *smooth = stage->background.thick.smooth;
     for (int32_t i = 0; i < stage->grid.count; i++) {
         smooth[i] = state->piece[i] != 0 ? 0.0f : state->depth[i];
     }
@@ -102,7 +102,7 @@ static void grow(rlf_reconstruct *stage, float *const normal[3])
     static const int32_t ways[4][2] = {{0, -1}, {-1, 0}, {1, 0}, {0, 1}};
     static_thickness *state = &stage->background.thick;
     const rlf_grid *grid = &stage->grid;
-    uint8_t *before = stage->scratch.pieces.before;
+    uint8_t *before = stage->background.thick.before;
     memcpy(before, state->piece, (size_t)grid->count);
     for (int32_t i = 0; i < grid->count; i++) {
         float nearest = beside_m, square;

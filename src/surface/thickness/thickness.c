@@ -184,29 +184,30 @@ rlf_chord_job rlf_chord_job_make(rlf_reconstruct *stage, const rlf_slot *slot, c
     const rlf_work *work = &stage->work;
     const rlf_grid *grid = &stage->grid;
     int32_t step = rlf_knot_step(grid), columns = (grid->width + step - 1) / step;
-    return (rlf_chord_job){.stage = stage,
-                           .slot = slot,
-                           .is_of_people = true,
-                           .raw = raw,
-                           .behind = stage->background.mean,
-                           .is_plate = work->map,
-                           .step = step,
-                           .pitch = (ptrdiff_t)grid->width + RLF_CHORD_PAD,
-                           .front = stage->scratch.chords.front,
-                           .inverse = stage->scratch.chords.inverse,
-                           .label = stage->scratch.chords.label,
-                           .squares = work->squares,
-                           .square_pitch = grid->width / RLF_CHORD_SQUARE + 1,
-                           .columns = columns,
-                           .rows = (grid->height + step - 1) / step,
-                           .knot_pitch = (ptrdiff_t)columns + RLF_CHORD_PAD,
-                           .knot = work->knot + RLF_CHORD_PAD / 2,
-                           .thickness = stage->scratch.chords.thickness + RLF_CHORD_PAD / 2,
-                           .own = {work->solid[0], work->solid[1], work->solid[2]},
-                           .hidden = {work->solid[3], work->solid[4], work->solid[5]},
-                           .chords = work->chords,
-                           .counts = work->size,
-                           .noise = rlf_kernel_noise_make(&stage->def.rig.noise)};
+    return (rlf_chord_job){
+        .stage = stage,
+        .slot = slot,
+        .is_of_people = true,
+        .raw = raw,
+        .behind = stage->background.mean,
+        .is_plate = work->map,
+        .step = step,
+        .pitch = (ptrdiff_t)grid->width + RLF_CHORD_PAD,
+        .front = stage->chords.front,
+        .inverse = stage->chords.inverse,
+        .label = stage->chords.label,
+        .squares = stage->chords.squares,
+        .square_pitch = grid->width / RLF_CHORD_SQUARE + 1,
+        .columns = columns,
+        .rows = (grid->height + step - 1) / step,
+        .knot_pitch = (ptrdiff_t)columns + RLF_CHORD_PAD,
+        .knot = stage->chords.knot + RLF_CHORD_PAD / 2,
+        .thickness = stage->chords.thickness + RLF_CHORD_PAD / 2,
+        .own = {stage->chords.solid[0], stage->chords.solid[1], stage->chords.solid[2]},
+        .hidden = {stage->chords.solid[3], stage->chords.solid[4], stage->chords.solid[5]},
+        .chords = stage->chords.chord,
+        .counts = work->size,
+        .noise = rlf_kernel_noise_make(&stage->def.rig.noise)};
 }
 
 /* The published plane holds only what was written into the slot three frames ago. Only foreground
@@ -233,9 +234,31 @@ void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot, const float 
     clear_thickness(&stage->grid, slot);
     find_plates(stage, slot, stage->work.map);
     rlf_chord_job job = rlf_chord_job_make(stage, slot, raw);
-    int32_t count = find_blocks(&job, stage->work.blocks);
+    int32_t count = find_blocks(&job, stage->chords.blocks);
     for (int32_t i = 0; i < count; i++) {
-        rlf_thickness_fit(&job, &stage->work.blocks[i]);
+        rlf_thickness_fit(&job, &stage->chords.blocks[i]);
     }
     rlf_thickness_write(&job);
+}
+
+void chords_allocate(chord_planes *state, rlf_arena *arena, const rlf_reconstruct_def *def,
+                     const rlf_grid *grid)
+{
+    size_t width = (size_t)grid->width, height = (size_t)grid->height;
+    size_t padded = height * (width + RLF_CHORD_PAD), lines = width + height;
+    arena_next_owner(arena);
+    if (def->enable_thickness) {
+        state->blocks = arena_take(arena, (size_t)def->region_capacity, sizeof *state->blocks);
+        for (int k = 0; k < 6; k++) {
+            state->solid[k] = arena_take(arena, padded, sizeof(float));
+        }
+        state->knot = arena_take(arena, padded, sizeof(float));
+        state->chord = arena_take(arena, lines * RLF_CHORDS_PER_LINE, sizeof *state->chord);
+        state->squares =
+            arena_take(arena, (width / RLF_CHORD_SQUARE + 1) * (height / RLF_CHORD_SQUARE + 1), 1);
+        state->front = arena_lend(arena, padded, sizeof(float));
+        state->inverse = arena_lend(arena, padded, sizeof(float));
+        state->thickness = arena_lend(arena, padded, sizeof(float));
+        state->label = arena_lend(arena, padded, sizeof(int32_t));
+    }
 }

@@ -308,7 +308,7 @@ static rlf_vec3 speed_of(const patch *p)
 }
 
 /* What the slabs explain is no seed. Patches lie on every second row. */
-static void mark_known(const thin_in *in, const thin *state)
+static void mark_known(const thin_in *in, thin *state)
 {
     const rlf_grid *grid = in->grid;
     for (int32_t k = 0; k < state->count; k++) {
@@ -318,7 +318,7 @@ static void mark_known(const thin_in *in, const thin *state)
             for (int32_t x = w.x0; x < w.x1; x++) {
                 ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
                 bool is_near = slab_is_near(&view, point_at(grid, in->before, i), side_m);
-                in->visited[i] = is_near ? 1 : in->visited[i];
+                state->visited[i] = is_near ? 1 : state->visited[i];
             }
         }
     }
@@ -333,7 +333,7 @@ static int32_t find_in(const thin_in *in, const rlf_region *region, thin *state)
             continue;
         }
         for (int32_t x = region->x0; x < region->x1; x += SEED_PX) {
-            if (state->count == SLABS || in->visited[(ptrdiff_t)y * in->grid->width + x] != 0 ||
+            if (state->count == SLABS || state->visited[(ptrdiff_t)y * in->grid->width + x] != 0 ||
                 !is_seed(in->grid, in->before, region->label, x, y)) {
                 continue;
             }
@@ -341,10 +341,10 @@ static int32_t find_in(const thin_in *in, const rlf_region *region, thin *state)
                        .slot = in->before,
                        .label = region->label,
                        .pixel = state->patch};
-            grow(&p, in->visited, x, y);
+            grow(&p, state->visited, x, y);
             looked_at += p.count + A_PATCH;
             slab *next = &state->item[state->count];
-            if (take(&p, in->visited, next)) {
+            if (take(&p, state->visited, next)) {
                 next->speed = speed_of(&p);
                 state->count++;
             }
@@ -360,7 +360,7 @@ void slab_find(const thin_in *in, thin *state)
     if (slot->foreground_region_count == 0 || state->count == SLABS) {
         return;
     }
-    memset(in->visited, 0, (size_t)in->grid->count);
+    memset(state->visited, 0, (size_t)in->grid->count);
     mark_known(in, state);
     int32_t count = slot->foreground_region_count, begin = state->region % count;
     for (int32_t k = 0, looked_at = 0; k < count && looked_at < MOST_LOOKED_AT; k++) {

@@ -8,7 +8,42 @@
 #ifndef RLF_SURFACE_THIN_THIN_H
 #define RLF_SURFACE_THIN_THIN_H
 
-#include "surface/stage.h"
+#include "surface/arena.h"
+#include "surface/frame.h"
+
+/* A thin flat thing that moves, as a box: see slab.h. */
+enum { SLAB_UNKNOWNS = 9, SLABS = 4, SLAB_PATCH = 4096 };
+
+typedef struct slab {
+    rlf_pose pose;                              /* T_camera_slab; its face is square to z */
+    double half[3];                             /* half its extents, metres */
+    rlf_vec3 speed, spin;                       /* m/s, rad/s */
+    double doubt[SLAB_UNKNOWNS][SLAB_UNKNOWNS]; /* covariance of place, rotation and `half` */
+    double age_s, lost_s, passed_s; /* since it was found; since it was seen; how long the camera
+                                       has seen past it */
+} slab;
+
+/* A thing that must be where nothing is seen. */
+typedef struct thin_expected {
+    float depth;   /* 0 = none */
+    int32_t from;  /* its pixel in the frame before */
+    int32_t ticks; /* 1/100 s in which it was not seen */
+} thin_expected;
+
+/* NULL planes when they are not wanted. */
+typedef struct thin {
+    slab item[SLABS];
+    int32_t count;
+    int32_t frame;           /* of some, see thin/find.c */
+    int32_t region;          /* of the foreground at which the next search begins */
+    int32_t *patch;          /* SLAB_PATCH pixels */
+    thin_expected *expected; /* plane */
+    int32_t *expected_pixel; /* where there is something in it */
+    int32_t expected_count;
+    uint8_t *lost_ticks; /* plane: `ticks` of what a gap was filled with */
+    int32_t *lost_from;  /* plane: and `from` */
+    uint8_t *visited;    /* plane, scratch of thin/find.c */
+} thin;
 
 /* What a frame is tracked from. Depth as the sensor gave it, mixed pixels off. */
 typedef struct thin_in {
@@ -17,7 +52,6 @@ typedef struct thin_in {
     const rlf_slot *before; /* the surface of the frame before; NULL = there is none */
     float dt;               /* s since then; 0 = too long to follow anything */
     const float *depth;     /* plane */
-    uint8_t *visited;       /* plane, scratch */
 } thin_in;
 
 /* Finds, follows and forgets slabs; says where they and what else is narrow must be. */
@@ -37,6 +71,8 @@ void thin_keep_velocity(const thin *state, const rlf_slot *before, const rlf_gri
  * of the background, a plane. */
 void thin_write(const thin *state, const rlf_grid *grid, const float *behind, rlf_slot *slot);
 
+void thin_allocate(thin *state, rlf_arena *arena, const rlf_reconstruct_def *def,
+                   const rlf_grid *grid);
 void thin_reset(thin *state, const rlf_grid *grid);
 
 /* Whether something is expected at pixel k. */

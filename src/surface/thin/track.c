@@ -152,3 +152,18 @@ void thin_reset(thin *state, const rlf_grid *grid)
         memset(state->lost_ticks, 0, (size_t)grid->count);
     }
 }
+
+void thin_allocate(thin *state, rlf_arena *arena, const rlf_reconstruct_def *def,
+                   const rlf_grid *grid)
+{
+    size_t n = (size_t)grid->count;
+    arena_next_owner(arena);
+    if (def->enable_coast && def->enable_thickness && def->enable_velocity) {
+        state->patch = arena_take(arena, SLAB_PATCH, sizeof *state->patch);
+        state->expected = arena_take(arena, n, sizeof *state->expected);
+        state->expected_pixel = arena_take(arena, n, sizeof *state->expected_pixel);
+        state->lost_ticks = arena_take(arena, n, 1);
+        state->lost_from = arena_take(arena, n, sizeof *state->lost_from);
+        state->visited = arena_lend(arena, n, 1);
+    }
+}

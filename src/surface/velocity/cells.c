@@ -499,7 +499,7 @@ void rlf_velocity_cells(const rlf_flow *job, const rlf_region *region, const rlf
                        .region = region,
                        .twist = twist,
                        .moves = moves,
-                       .cells = job->stage->work.cells};
+                       .cells = job->stage->velocity.cells};
     g.number = (int32_t)(region - &job->now->regions[job->now->foreground_region_first]) + 1;
     g.size = (int32_t)rlf_clamp(size, LEAST_SIZE, 1024.0);
     g.columns = (region->x1 - region->x0 + g.size - 1) / g.size;

@@ -78,7 +78,7 @@ static void mark_rows(void *context, int32_t begin, int32_t end, int32_t worker)
         const rlf_kernel_rim_in row = {job->now->foreground + i, job->now->depth + i, width,
                                        least_step_m};
         if (span.x0 < span.x1) {
-            rlf_kernel_rim_row(&row, span.x1 - span.x0, job->stage->scratch.velocity.is_rim + i);
+            rlf_kernel_rim_row(&row, span.x1 - span.x0, job->stage->velocity.is_rim + i);
         }
     }
 }
@@ -121,7 +121,7 @@ void rlf_rims_find(const rlf_flow *job, const rlf_region *region, rlf_rims *out)
     }
     for (int32_t y = y0; y < y1; y++) {
         ptrdiff_t row = (ptrdiff_t)y * grid->width;
-        const uint8_t *is_rim = job->stage->scratch.velocity.is_rim + row;
+        const uint8_t *is_rim = job->stage->velocity.is_rim + row;
         const int32_t *label = job->now->label + row;
         fetch_row(job, row, span);
         for (int32_t x = span.x0; (x = rlf_kernel_next_mark(is_rim, x, span.x1)) < span.x1; x++) {

@@ -370,7 +370,7 @@ static const uint8_t *front_before(const rlf_reconstruct *stage, int32_t y, rlf_
     const uint8_t *left = stage->background.depart.left;
     const uint8_t *front = is_all_front ? stage->work.ones : foreground;
     if (!is_all_front && left != NULL && rlf_kernel_next_mark(left + row, 0, width) < width) {
-        uint8_t *both = stage->scratch.velocity.is_steady + row;
+        uint8_t *both = stage->velocity.is_steady + row;
         for (int32_t x = 0; x < width; x++) {
             both[x] = foreground[x] | left[row + x];
         }
@@ -385,7 +385,7 @@ static rlf_kernel_flow_view look_back(const rlf_reconstruct *stage)
 {
     const rlf_grid *grid = &stage->grid;
     const rlf_slot *before = stage->previous;
-    float *seen = stage->work.seen;
+    float *seen = stage->velocity.seen;
     for (int32_t y = 0; y < grid->height; y++) {
         rlf_span span;
         const uint8_t *front = front_before(stage, y, &span);
@@ -408,7 +408,7 @@ static rlf_kernel_flow_view look_back(const rlf_reconstruct *stage)
 /* Leaves the plane as it was, 0: what was written is still near at hand. */
 static void look_away(const rlf_reconstruct *stage)
 {
-    float *seen = stage->work.seen;
+    float *seen = stage->velocity.seen;
     for (int32_t y = 0; y < stage->grid.height; y++) {
         rlf_span span;
         front_before(stage, y, &span);
@@ -448,4 +448,14 @@ void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot)
         rlf_velocity_cells(&job, region, &twist, moves);
     }
     look_away(stage);
+}
+
+void velocity_allocate(velocity_planes *state, rlf_arena *arena, const rlf_grid *grid)
+{
+    size_t n = (size_t)grid->count;
+    state->seen = arena_take(arena, n, sizeof(float));
+    state->cells = arena_take(arena, rlf_cell_capacity(grid), sizeof *state->cells);
+    arena_next_owner(arena);
+    state->is_steady = arena_lend(arena, n, 1);
+    state->is_rim = arena_lend(arena, n, 1);
 }

@@ -91,7 +91,8 @@ typedef struct rlf_rims {
     int32_t seen, step; /* pixels of the outline; every step-th is taken */
 } rlf_rims;
 
-/* Marks in scratch.velocity.is_rim what may be the regions' outlines, within the rows' spans slot->moved. */
+/* Marks in velocity.is_rim what may be the regions' outlines, within the rows' spans slot->moved.
+ */
 void rlf_rims_mark(const rlf_flow *job);
 /* Some of the region's outline, evenly; from the marks. */
 void rlf_rims_find(const rlf_flow *job, const rlf_region *region, rlf_rims *out);

@@ -1,0 +1,62 @@
+/* The background model and the images that are published of it. */
+#ifndef RLF_SURFACE_BACKGROUND_STATE_H
+#define RLF_SURFACE_BACKGROUND_STATE_H
+
+#include "surface/thickness/state.h"
+
+/* What starts to move out of the background: see background/depart.c; NULL planes when things are
+ * not known. */
+typedef struct rlf_depart {
+    uint8_t *thing; /* plane: of which of the background's things; 0 = of none */
+    float *depth;   /* plane: of it as it stood */
+    uint8_t *left;  /* plane: 1 where the mean is of something that moves: no background */
+    rlf_rect extent[RLF_PIECES + 1]; /* of each thing, from 1 ... */
+    int32_t size[RLF_PIECES + 1];    /* ... and its pixels */
+    uint8_t *lost;                   /* plane, scratch: a thing may have left here */
+    bool is_urgent;                  /* something has left in this frame */
+} rlf_depart;
+
+/* The background model. AVERAGE: mean holds sums until it is ready. */
+typedef struct rlf_background {
+    float *mean;
+    float *deviation;     /* ADAPTIVE: mean absolute difference from the mean */
+    uint8_t *weight;      /* samples in the mean */
+    uint8_t *beyond;      /* ADAPTIVE: frames in a row that saw past the mean */
+    uint8_t *absent;      /* ADAPTIVE: share of the frames without depth, of 255 */
+    uint8_t *unknown_age; /* ADAPTIVE: frames in a row that a hole had a background sample */
+    float *still;         /* ADAPTIVE: depth of what stands in front */
+    uint16_t *still_ms;   /* ADAPTIVE: how long it has not moved */
+    float *beneath;       /* ADAPTIVE: the background that an absorbed thing hides; 0 = none */
+    rlf_span *standing;   /* ADAPTIVE: per row, where still_ms is not 0 */
+    uint32_t *color;      /* see segment/color.c; 0 = not seen */
+    uint8_t *hides;       /* ADAPTIVE: per row, whether there is anything beneath */
+    int32_t frames;
+    int32_t *row_changes; /* ADAPTIVE: pixels replaced in this frame, per row and tile column */
+    int32_t *changes;     /* per tile: pixels replaced since it was made */
+    int32_t changed;      /* their sum */
+    uint8_t *age;         /* per tile: frames since it was made of new pixels */
+    uint8_t *is_better;   /* per tile: 1 when its means are better than when it was made */
+    int32_t *version;     /* per tile: of the image that it was made for */
+    int32_t next_version; /* of the next image */
+    int32_t image_age;    /* frames since the newest image was finished */
+    bool is_drafting;     /* the next image is being made, */
+    bool is_made;         /* every tile of it is, */
+    int32_t object_steps; /* and so many steps to its regions are done */
+    rlf_background_state state;
+    background_image images[BACKGROUND_IMAGES];
+    int32_t newest;       /* image; -1 = none */
+    bool is_stale;        /* the newest image shows a room that is gone */
+    int32_t other_frames; /* ADAPTIVE: frames in a row that showed another room */
+    static_thickness thick;
+    rlf_depart depart;
+    uint8_t *seen;    /* plane, scratch of background/adaptive.c */
+    uint8_t *empty;   /* plane, scratch of background/hidden.c ... */
+    int32_t *up;      /* ... as this one */
+    uint8_t *covered; /* plane: RLF_COVERED where a hole is hidden by a thing */
+    float *crop[6];   /* of background/image.c */
+} rlf_background;
+
+void background_allocate(rlf_background *state, rlf_arena *arena, const rlf_reconstruct_def *def,
+                         const rlf_grid *grid);
+
+#endif

@@ -1,0 +1,52 @@
+/* The planes of a frame, which every step reads and some write. */
+#ifndef RLF_SURFACE_FRAME_H
+#define RLF_SURFACE_FRAME_H
+
+#include "relief/reconstruct.h"
+
+/* Pixels x0 <= x < x1, y0 <= y < y1. */
+typedef struct rlf_rect {
+    int32_t x0, y0, x1, y1;
+} rlf_rect;
+
+/* The planes of a grid that every step reads. */
+typedef struct rlf_grid {
+    int32_t width, height, count;
+    int32_t factor;
+    rlf_camera camera;
+    const float *ray_x, *ray_y;
+    const uint8_t *has_ray;
+} rlf_grid;
+
+/* Pixels x0 <= x < x1 of one row. */
+typedef struct rlf_span {
+    int32_t x0, x1;
+} rlf_span;
+
+/* The smallest that holds both. */
+static inline rlf_span rlf_span_unite(rlf_span a, rlf_span b)
+{
+    if (a.x0 >= a.x1 || b.x0 >= b.x1) {
+        return a.x0 >= a.x1 ? b : a;
+    }
+    const rlf_span both = {a.x0 < b.x0 ? a.x0 : b.x0, a.x1 > b.x1 ? a.x1 : b.x1};
+    return both;
+}
+
+/* The buffers of one published surface. */
+typedef struct rlf_slot {
+    rlf_surface surface;
+    float *depth;
+    float *normal[3];
+    float *velocity[3];
+    float *thickness;
+    int32_t *label;
+    uint8_t *reason, *foreground;
+    rlf_span *moved; /* per row, where the velocity planes were written */
+    rlf_span *thick; /* the same of thickness */
+    rlf_region *regions;
+    int32_t *region_points;
+    int32_t foreground_region_first, foreground_region_count; /* in regions */
+} rlf_slot;
+
+#endif
