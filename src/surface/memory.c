@@ -163,7 +163,6 @@ static void take_work(rlf_reconstruct *stage)
     }
     if (stage->def.enable_thickness) {
         size_t lines = (size_t)(stage->grid.width + stage->grid.height);
-        work->blocks = take(stage, (size_t)stage->def.region_capacity, sizeof(rlf_block));
         for (int k = 0; k < 6; k++) {
             work->solid[k] = take(stage, padded, sizeof(float));
         }

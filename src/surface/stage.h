@@ -316,7 +316,6 @@ typedef struct rlf_work {
     int32_t *heirs;                     /* label table of segment/region_track.c */
     float *crop[6];                     /* of background/sheet.c */
     struct rlf_cell *cells;             /* of velocity/cells.c */
-    struct rlf_block *blocks;           /* region_capacity */
     float *knot;                        /* padded plane, see thickness.h */
     float *solid[6];                    /* padded planes: own and hidden, see thickness.h */
     struct rlf_chord *chords;           /* of the lines in one direction */
