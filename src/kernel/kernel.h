@@ -501,8 +501,16 @@ int32_t rlf_kernel_find_seen(const float *z, int32_t begin, int32_t count, int32
 /* Keeps the smaller value of each. */
 void rlf_kernel_nearer_row(const float *restrict line, int32_t count, float *restrict out);
 
-/* ---- spread_row.c: from every second pixel to all, see surface/thickness/knots.c
+/* ---- knot_row.c: between pixels and knots, see surface/thickness/knots.c
  * --------------------------------------------------- */
+
+/* Of a region's pixels: their depth, the inverse of what was sensed, 0 = nothing, and the label. */
+void rlf_kernel_chord_front(const float *restrict raw, const float *restrict depth, int32_t label,
+                            int32_t count, float *restrict front, float *restrict inverse,
+                            int32_t *restrict labels);
+/* Of every step-th pixel the front, or less than 0 where there is none: -depth. */
+void rlf_kernel_knot_row(const float *restrict front, const float *restrict depth, int32_t step,
+                         int32_t count, float *restrict knot);
 
 /* Three rows of knots: depth (of the bodies' knots; of others it is negative, 0 = unknown), a value
  * and the row's weight. */
@@ -519,16 +527,15 @@ void rlf_kernel_spread_row(const rlf_kernel_knots *in, int32_t count, float jump
                            const float *restrict at, const float *restrict right,
                            float *restrict out_at, float *restrict out_right);
 
-/* ---- knot_row.c: what chords are cut in, see surface/thickness/knots.c
- * --------------------------------------------------- */
+/* Least and most, metres. */
+typedef struct rlf_kernel_thickness {
+    float least, most;
+} rlf_kernel_thickness;
 
-/* Of a region's pixels: their depth, the inverse of what was sensed, 0 = nothing, and the label. */
-void rlf_kernel_chord_front(const float *restrict raw, const float *restrict depth, int32_t label,
-                            int32_t count, float *restrict front, float *restrict inverse,
-                            int32_t *restrict labels);
-/* Of every step-th pixel the front, or less than 0 where there is none: -depth. */
-void rlf_kernel_knot_row(const float *restrict front, const float *restrict depth, int32_t step,
-                         int32_t count, float *restrict knot);
+/* Keeps thickness within its limits, and before the background `behind`, 0 = unknown. */
+void rlf_kernel_thickness_row(const rlf_kernel_thickness *limits, const float *restrict depth,
+                              const float *restrict behind, int32_t count,
+                              float *restrict thickness);
 
 /* ---- chord_row.c: chords of the foreground, see surface/thickness/thickness.h
  * --------------------------------------------------- */
@@ -570,23 +577,5 @@ typedef struct rlf_kernel_chord_solid {
 void rlf_kernel_chord_solid_run(const rlf_kernel_chord *chord, const rlf_kernel_chord_solid *solid,
                                 int32_t first, int32_t step, int32_t count, float *restrict weight,
                                 float *restrict middle, float *restrict half);
-
-/* ---- body_mean_row.c ---------------------------------------------------------------------------
- */
-
-/* Least and most, metres. */
-typedef struct rlf_kernel_thickness {
-    float least, most;
-} rlf_kernel_thickness;
-
-/* Keeps thickness within its limits, and before the background `behind`, 0 = unknown. */
-void rlf_kernel_thickness_row(const rlf_kernel_thickness *limits, const float *restrict depth,
-                              const float *restrict behind, int32_t count,
-                              float *restrict thickness);
-
-/* 3x3 mean of a value over the pixels whose depth is within `jump` of the centre's. rows[0..2] are
- * the rows above, at and below; out[1 .. count - 2] are written. */
-void rlf_kernel_body_mean_row(const float *const depth[3], const float *const value[3],
-                              int32_t count, float jump, float *restrict out);
 
 #endif

@@ -287,38 +287,6 @@ static void plane_tile_stays_in_its_tile(void **state)
     }
 }
 
-static void body_mean_row_is_its_definition(void **state)
-{
-    (void)state;
-    analytic_random r = {5};
-    const float jump = 0.04f;
-    for (int32_t count = 3; count <= LONGEST; count++) {
-        float depth[3][LONGEST], value[3][LONGEST], out[LONGEST];
-        for (int32_t row = 0; row < 3; row++) {
-            random_depth(&r, depth[row], count);
-            for (int32_t i = 0; i < count; i++) {
-                value[row][i] = (float)random_uniform(&r);
-            }
-        }
-        out[0] = out[count - 1] = -7.0f;
-        const float *const depths[3] = {depth[0], depth[1], depth[2]};
-        const float *const values[3] = {value[0], value[1], value[2]};
-        rlf_kernel_body_mean_row(depths, values, count, jump, out);
-        assert_true(out[0] == -7.0f && out[count - 1] == -7.0f);
-        for (int32_t i = 1; i < count - 1; i++) {
-            double sum = 0.0, members = 0.0;
-            for (int32_t k = 0; k < 9; k++) {
-                int32_t row = k / 3, x = i + k % 3 - 1;
-                if (near_enough(depth[row][x], depth[1][i], 0.9999f * jump)) {
-                    sum += value[row][x];
-                    members += 1.0;
-                }
-            }
-            assert_true(rlf_max(out[i] - sum / members, sum / members - out[i]) < 1e-6);
-        }
-    }
-}
-
 static void near_normal_is_its_definition(void **state)
 {
     (void)state;
@@ -561,7 +529,6 @@ int main(void)
         cmocka_unit_test(background_row_follows_the_evidence),
         cmocka_unit_test(still_row_is_its_definition),
         cmocka_unit_test(plane_tile_stays_in_its_tile),
-        cmocka_unit_test(body_mean_row_is_its_definition),
         cmocka_unit_test(near_normal_is_its_definition),
         cmocka_unit_test(chord_sums_are_their_definition),
         cmocka_unit_test(chord_solid_is_its_definition),

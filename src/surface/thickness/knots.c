@@ -87,22 +87,6 @@ void rlf_chords_prepare(rlf_chord_job *job)
     rlf_parallel_for(job->stage->def.pool, job->height, RLF_ROW_GRAIN, prepare_rows, job);
 }
 
-/* Mean over the pixels around, every one a knot; the image's first and last row stay as they are.
- */
-static void spread_pixels(const rlf_chord_job *job, const rlf_run *run, int32_t y, float *out)
-{
-    ptrdiff_t pitch = job->knot_pitch, first = y * pitch + run->x0 - 1;
-    const float *value = job->thickness + first, *front = job->knot + first;
-    int32_t count = run->x1 - run->x0;
-    if (y > 0 && y + 1 < job->rows) {
-        const float *const depths[3] = {front - pitch, front, front + pitch};
-        const float *const values[3] = {value - pitch, value, value + pitch};
-        rlf_kernel_body_mean_row(depths, values, count + 2, RLF_BODY_STEP_M, out - 1);
-    } else {
-        memcpy(out, value + 1, (size_t)count * sizeof *out);
-    }
-}
-
 /* The rows of knots around row y, from column x on. */
 static rlf_kernel_knots knots_around(const rlf_chord_job *job, int32_t x, int32_t y)
 {
@@ -143,8 +127,9 @@ static void spread_part(const rlf_chord_job *job, const rlf_run *run, int32_t y,
 void rlf_knots_spread(const rlf_chord_job *job, const rlf_run *run, int32_t y)
 {
     if (job->step == 1) {
-        ptrdiff_t first = (ptrdiff_t)y * job->stage->grid.width + run->x0;
-        spread_pixels(job, run, y, job->slot->thickness + first);
+        const float *at_knots = job->thickness + y * job->knot_pitch + run->x0;
+        memcpy(job->slot->thickness + (ptrdiff_t)y * job->stage->grid.width + run->x0, at_knots,
+               (size_t)(run->x1 - run->x0) * sizeof *at_knots);
         return;
     }
     int32_t end = (run->x1 + 1) / 2;

@@ -50,7 +50,6 @@ void static_allocate(static_thickness *state, rlf_arena *arena, const rlf_recons
 
 /* Planes of the chords, padded rows, see thickness.h; NULL when thickness is not wanted. */
 typedef struct chord_planes {
-    struct rlf_block *blocks; /* region_capacity */
     float *knot;
     float *solid[6];                    /* own and hidden */
     struct rlf_chord *chord;            /* of the lines in one direction */

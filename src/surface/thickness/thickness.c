@@ -142,31 +142,22 @@ rlf_block rlf_block_of(const rlf_grid *grid, const rlf_region *region, int32_t s
                        y1 < grid->height ? y1 : grid->height};
 }
 
-/* Rectangles of the regions that are no plates, those that overlap as one. */
-static int32_t find_blocks(const rlf_chord_job *job, rlf_block *blocks)
+/* The block of all regions that are no plates; false when there are none. */
+static bool find_block(const rlf_chord_job *job, rlf_block *block)
 {
     const rlf_slot *slot = job->slot;
-    int32_t count = 0;
+    rlf_region all = {.x0 = INT32_MAX, .y0 = INT32_MAX};
     for (int32_t r = 0; r < slot->foreground_region_count; r++) {
-        if (job->is_plate[r + 1]) {
-            continue;
+        const rlf_region *region = &slot->regions[slot->foreground_region_first + r];
+        if (!job->is_plate[r + 1]) {
+            all.x0 = region->x0 < all.x0 ? region->x0 : all.x0;
+            all.y0 = region->y0 < all.y0 ? region->y0 : all.y0;
+            all.x1 = region->x1 > all.x1 ? region->x1 : all.x1;
+            all.y1 = region->y1 > all.y1 ? region->y1 : all.y1;
         }
-        rlf_block b = rlf_block_of(&job->stage->grid,
-                                   &slot->regions[slot->foreground_region_first + r], job->step);
-        for (int32_t k = 0; k < count;) {
-            rlf_block *o = &blocks[k];
-            if (o->x0 >= b.x1 || b.x0 >= o->x1 || o->y0 >= b.y1 || b.y0 >= o->y1) {
-                k++;
-                continue;
-            }
-            b = (rlf_block){o->x0 < b.x0 ? o->x0 : b.x0, o->y0 < b.y0 ? o->y0 : b.y0,
-                            o->x1 > b.x1 ? o->x1 : b.x1, o->y1 > b.y1 ? o->y1 : b.y1};
-            *o = blocks[--count];
-            k = 0; /* it has grown */
-        }
-        blocks[count++] = b;
     }
-    return count;
+    *block = rlf_block_of(&job->stage->grid, &all, job->step);
+    return all.x1 > 0;
 }
 
 /* Which regions are flat up to noise; all, where nothing is known to be behind. */
@@ -234,9 +225,9 @@ void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot, const float 
     clear_thickness(&stage->grid, slot);
     find_plates(stage, slot, stage->work.map);
     rlf_chord_job job = rlf_chord_job_make(stage, slot, raw);
-    int32_t count = find_blocks(&job, stage->chords.blocks);
-    for (int32_t i = 0; i < count; i++) {
-        rlf_thickness_fit(&job, &stage->chords.blocks[i]);
+    rlf_block block;
+    if (find_block(&job, &block)) {
+        rlf_thickness_fit(&job, &block);
     }
     rlf_thickness_write(&job);
 }
@@ -248,7 +239,6 @@ void chords_allocate(chord_planes *state, rlf_arena *arena, const rlf_reconstruc
     size_t padded = height * (width + RLF_CHORD_PAD), lines = width + height;
     arena_next_owner(arena);
     if (def->enable_thickness) {
-        state->blocks = arena_take(arena, (size_t)def->region_capacity, sizeof *state->blocks);
         for (int k = 0; k < 6; k++) {
             state->solid[k] = arena_take(arena, padded, sizeof(float));
         }
