@@ -5,7 +5,6 @@
  * that leaves, or the sensor sees past it, such a pixel shows a face that goes on beside it, where
  * the background is known and seen now: then it is background. What does not go on is foreground
  * when it hangs together with foreground or is large. */
-#include "surface/background/facing.h"
 #include "surface/depth/depth.h"
 #include "surface/steps.h"
 #include "surface/window.h"
@@ -18,7 +17,8 @@ enum {
     REACH = 64               /* pixels to where the background is known */
 };
 
-static const float slant = 0.05f; /* radians: error of the background's normals */
+static const float slant = 0.05f;        /* radians: error of the background's normals */
+static const float LEAST_FACING = 0.02f; /* a face may be seen edge-on, not from behind */
 
 /* vote[0][c]: pixels of component c that are in front of a known background; vote[1][c]: those that
  * were covered (hidden.c). */
@@ -62,17 +62,24 @@ typedef struct reveal_job {
     const background_image *image;
 } reveal_job;
 
+/* Of the face at pixel `at`, along the ray of pixel i; < 0 where it faces the camera. */
+static float facing(const reveal_job *job, ptrdiff_t at, ptrdiff_t i)
+{
+    const rlf_grid *grid = &job->stage->grid;
+    float *const *n = job->image->normal;
+    return n[0][at] * grid->ray_x[i] + n[1][at] * grid->ray_y[i] + n[2][at];
+}
+
 /* Pixel i is on the plane of background pixel `at`, `steps` away, which is seen now. */
 static bool goes_on(const reveal_job *job, ptrdiff_t i, ptrdiff_t at, int32_t steps)
 {
     const rlf_grid *grid = &job->stage->grid;
-    float mean = job->stage->background.mean[at], z = job->slot->depth[i], n[3];
+    float mean = job->stage->background.mean[at], z = job->slot->depth[i];
     bool is_seen =
         job->slot->foreground[at] == RLF_SEEN_BACKGROUND &&
         rlf_kernel_abs(job->slot->depth[at] - mean) < rlf_background_gate(&job->stage->def, mean);
-    rlf_read_normal(job->image->normal, at, n);
-    float here = rlf_facing(grid, n, i), there = rlf_facing(grid, n, at);
-    if (!is_seen || !(here < -rlf_least_facing) || !(there < -rlf_least_facing)) {
+    float here = facing(job, at, i), there = facing(job, at, at);
+    if (!is_seen || !(here < -LEAST_FACING) || !(there < -LEAST_FACING)) {
         return false;
     }
     float turned = slant * (float)steps * z / (float)grid->camera.fx;
