@@ -6,6 +6,7 @@
  * the background is known and seen now: then it is background. What does not go on is foreground
  * when it hangs together with foreground or is large. */
 #include "surface/depth/depth.h"
+#include "surface/normals/face.h"
 #include "surface/steps.h"
 #include "surface/window.h"
 
@@ -17,8 +18,7 @@ enum {
     REACH = 64               /* pixels to where the background is known */
 };
 
-static const float slant = 0.05f;        /* radians: error of the background's normals */
-static const float LEAST_FACING = 0.02f; /* a face may be seen edge-on, not from behind */
+static const float slant = 0.05f; /* radians: error of the background's normals */
 
 /* vote[0][c]: pixels of component c that are in front of a known background; vote[1][c]: those that
  * were covered (hidden.c). */
@@ -62,29 +62,19 @@ typedef struct reveal_job {
     const background_image *image;
 } reveal_job;
 
-/* Of the face at pixel `at`, along the ray of pixel i; < 0 where it faces the camera. */
-static float facing(const reveal_job *job, ptrdiff_t at, ptrdiff_t i)
-{
-    const rlf_grid *grid = &job->stage->grid;
-    float *const *n = job->image->normal;
-    return n[0][at] * grid->ray_x[i] + n[1][at] * grid->ray_y[i] + n[2][at];
-}
-
 /* Pixel i is on the plane of background pixel `at`, `steps` away, which is seen now. */
 static bool goes_on(const reveal_job *job, ptrdiff_t i, ptrdiff_t at, int32_t steps)
 {
-    const rlf_grid *grid = &job->stage->grid;
-    float mean = job->stage->background.mean[at], z = job->slot->depth[i];
+    const rlf_reconstruct *stage = job->stage;
+    const rlf_grid *grid = &stage->grid;
+    const rlf_faces faces = {grid->ray_x, grid->ray_y, stage->background.mean, job->image->normal};
+    float mean = stage->background.mean[at], z = job->slot->depth[i];
     bool is_seen =
         job->slot->foreground[at] == RLF_SEEN_BACKGROUND &&
-        rlf_kernel_abs(job->slot->depth[at] - mean) < rlf_background_gate(&job->stage->def, mean);
-    float here = facing(job, at, i), there = facing(job, at, at);
-    if (!is_seen || !(here < -LEAST_FACING) || !(there < -LEAST_FACING)) {
-        return false;
-    }
+        rlf_kernel_abs(job->slot->depth[at] - mean) < rlf_background_gate(&stage->def, mean);
     float turned = slant * (float)steps * z / (float)grid->camera.fx;
-    return rlf_kernel_abs(mean * there / here - z) <
-           rlf_background_gate(&job->stage->def, z) + turned;
+    float plane = is_seen ? rlf_face_depth(&faces, at, i) : 0.0f;
+    return plane > 0.0f && rlf_kernel_abs(plane - z) < rlf_background_gate(&stage->def, z) + turned;
 }
 
 /* The next known pixels of the background go on at (x, y): on both sides along its row or its
