@@ -195,10 +195,6 @@ void rlf_depart_follow(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *se
 /* Makes foreground of things that start to move; after the 3x3 majority. */
 void rlf_depart_find(rlf_reconstruct *stage, rlf_slot *slot);
 
-/* Takes still foreground into the model; slot->foreground is finished. */
-void rlf_background_absorb(rlf_reconstruct *stage, const rlf_slot *slot);
-/* Takes it back out where what it hides is seen again. */
-void rlf_background_restore(rlf_reconstruct *stage, const rlf_slot *slot);
 /* background/unknown.c: pixels of slot->foreground that are RLF_SEEN_UNKNOWN become background
  * where they go on what is seen of it; the others are decided when work.runs holds the foreground's
  * components, stage->component_count of them. */

@@ -10,6 +10,7 @@
  *
  * All of it becomes foreground at once, and the background has nothing there until it is seen past:
  * no solid stays where it was. */
+#include "surface/depth_step.h"
 #include "surface/steps.h"
 
 #include "kernel/kernel.h"
@@ -30,7 +31,6 @@ enum {
 
 static const float own_sigmas = 1.2533141f; /* per mean deviation: sqrt(pi / 2) */
 static const float opposite = 0.7f;         /* of the thing's extent: from one side to the other */
-static const float beside_m = 0.03f;        /* from pixel to pixel of one thing */
 static const float risen_share = 0.3f;      /* of a thing's pixels, and of them in this frame */
 static const float even = 0.3f;        /* of the mean way along the normals: standard deviation */
 static const float slowest = 0.05f;    /* of that way: in this frame */
@@ -143,6 +143,7 @@ static uint8_t thing_on(const rlf_reconstruct *stage, const float *depth, int32_
     const rlf_grid *grid = &stage->grid;
     const uint8_t *thing = stage->background.depart.thing;
     static const int32_t ways[4][2] = {{0, -1}, {-1, 0}, {1, 0}, {0, 1}};
+    const depth_step step = depth_step_make(&stage->def.rig.noise, grid->camera.fx);
     for (int32_t r = 1; r <= GAP; r++) {
         int32_t x = i % grid->width + r * ways[way][0], y = i / grid->width + r * ways[way][1];
         int32_t j = y * grid->width + x;
@@ -151,8 +152,8 @@ static uint8_t thing_on(const rlf_reconstruct *stage, const float *depth, int32_
         }
         if (thing[j] != 0 && thing[j] != thing[i]) {
             bool is_there = depth[j] > 0.0f && stage->background.depart.lost[j] != LOST;
-            float off = rlf_kernel_abs(depth[j] - depth[i]);
-            return is_there && off < beside_m * (float)r ? thing[j] : 0;
+            bool is_one = !depth_step_is(&step, depth[j], depth[i], DEPTH_STEP_STEEPEST, (float)r);
+            return is_there && is_one ? thing[j] : 0;
         }
     }
     return 0;

@@ -8,6 +8,7 @@
  *
  * Its depth and normal are those of the thing's pixels that the row and the column meet, the nearer
  * ones counting more. */
+#include "surface/depth_step.h"
 #include "surface/shadow.h"
 #include "surface/steps.h"
 #include "surface/window.h"
@@ -29,8 +30,7 @@ enum {
     LEAST_SEEN = 3 /* samples of a background pixel that is known */
 };
 
-static const float reach_m = 0.25f;   /* from what was seen of a thing: the hair of a head */
-static const float ONE_THING = 0.05f; /* share of the depth */
+static const float reach_m = 0.25f; /* from what was seen of a thing: the hair of a head */
 
 typedef struct hidden_job {
     const rlf_reconstruct *stage;
@@ -40,6 +40,7 @@ typedef struct hidden_job {
     uint8_t *empty;     /* plane: 1 where there is no depth */
     int32_t *up, *down; /* planes: nearest pixel with depth in the column, < 0 = none */
     uint8_t *busy;      /* plane: not 0 where a thing may be why nothing returns */
+    depth_step step;
     bool is_learning;
 } hidden_job;
 
@@ -121,27 +122,6 @@ static hits look_about(const hidden_job *job, int32_t x, int32_t y, rlf_span run
     return h;
 }
 
-/* Between two pixels of the background, in a run of empty ones: what is hidden begins the run, and
- * its shadow ends it. Or as far to the side as a shadow falls is the thing that throws it. */
-static bool is_in_shadow_apart(const hidden_job *job, int32_t i, const hits *h)
-{
-    int32_t width = job->stage->grid.width, x = i % width;
-    float behind = job->stage->background.mean[i], z = job->slot->depth[h->at[h->nearest]];
-    for (int32_t k = LEFT; k <= RIGHT; k++) {
-        float wide = rlf_shadow_width(job->stage, (rlf_shadow_side)k, z, behind);
-        int32_t away = (int32_t)(wide + 0.5f), from = k == RIGHT ? x - away : x + away;
-        if (away == 0 || from < 0 || from >= width) {
-            continue;
-        }
-        bool within = (float)away < h->away[LEFT + RIGHT - k];
-        bool is_thrown = is_front(job, i - x + from) || (!within && job->empty[i - x + from] != 0);
-        if (is_thrown || (within && h->away[k] <= wide)) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /* The shadow of what is seen on one side of it, foreground or not, explains that nothing is
  * returned. Of a run that is wider than the shadow, the part beside the background is the shadow.
  */
@@ -149,7 +129,6 @@ static bool is_in_shadow(const hidden_job *job, int32_t i, const hits *h)
 {
     const float mixed = 1.0f; /* pixels: half of what drivers drop at an edge */
     float behind = job->stage->background.mean[i];
-    bool is_beside = false;
     for (int32_t k = LEFT; k <= RIGHT; k++) {
         int32_t other = LEFT + RIGHT - k, at = h->at[k];
         float z = at >= 0 ? job->slot->depth[at] : behind;
@@ -160,9 +139,8 @@ static bool is_in_shadow(const hidden_job *job, int32_t i, const hits *h)
         if (throws && (is_open ? h->away[other] : h->away[k]) <= wide + mixed) {
             return true;
         }
-        is_beside = is_beside || throws;
     }
-    return !is_beside && is_in_shadow_apart(job, i, h);
+    return false;
 }
 
 /* As a rule the background is seen at pixel i. */
@@ -221,7 +199,7 @@ static void cover(const hidden_job *job, int32_t i, const hits *h)
     rlf_vec3 normal = {0.0, 0.0, 0.0};
     for (int32_t k = 0; k < WAYS; k++) {
         int32_t at = h->at[k];
-        if (!is_front(job, at) || rlf_kernel_abs(slot->depth[at] - nearest) > ONE_THING * nearest) {
+        if (!is_front(job, at) || depth_step_between(&job->step, slot->depth[at], nearest)) {
             continue;
         }
         float weight = 1.0f / h->away[k];
@@ -296,26 +274,6 @@ static void cover_row(const hidden_job *job, int32_t y)
     }
 }
 
-/* What is left in a row between pixels that are hidden, no wider than drivers drop at an edge, is.
- */
-static void close_row(const hidden_job *job, int32_t y)
-{
-    int32_t width = job->stage->grid.width, last = -1;
-    uint8_t *busy = job->busy + (ptrdiff_t)y * width;
-    const uint8_t *front = job->slot->foreground + (ptrdiff_t)y * width;
-    for (int32_t x = 0; (x = rlf_kernel_next_mark(busy, x, width)) < width; x++) {
-        bool begins = x > 0 && front[x - 1] == RLF_SEEN_FOREGROUND;
-        last = begins ? x - 1 : last;
-        if (busy[x] != HIDDEN) {
-            continue;
-        }
-        for (int32_t k = last + 1; last >= 0 && x - last <= MIXED + 1 && k < x; k++) {
-            busy[k] = busy[k] == BUSY ? HIDDEN : busy[k];
-        }
-        last = x;
-    }
-}
-
 /* In each frame a fourth of the rows is learnt, while the background is learnt all. */
 static void cover_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
@@ -326,7 +284,6 @@ static void cover_rows(void *context, int32_t begin, int32_t end, int32_t worker
         memset(job->busy + y * width, 0, (size_t)width);
         if (y >= job->area.y0 && y < job->area.y1) {
             decide_row(job, y);
-            close_row(job, y);
             cover_row(job, y);
         }
         if (job->is_learning || (y - job->stage->background.frames) % LEARN_ROWS == 0) {
@@ -376,6 +333,7 @@ void rlf_background_cover(rlf_reconstruct *stage, const float *kept, const rlf_s
                       .up = stage->background.up,
                       .down = stage->work.map,
                       .busy = stage->background.covered,
+                      .step = depth_step_make(&stage->def.rig.noise, grid->camera.fx),
                       .is_learning = is_learning};
     if (job.area.y0 < job.area.y1) {
         rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, find_empty, &job);

@@ -4,6 +4,7 @@
  * are made anew from the model, the most changed first, so many per frame that no frame costs much
  * more than another; a thing that leaves is published at once. A tile is made once more when
  * most of what is new in it has been seen, and when the means of that have got much better. */
+#include "surface/depth_step.h"
 #include "surface/objects/objects.h"
 #include "surface/steps.h"
 
@@ -24,12 +25,18 @@ enum {
     REFINED_FRAMES = 40   /* ... and so many make a mean much better */
 };
 
-/* Cosine: the angle to another normal that is no noise. A rough sensor's normals are of wider
- * planes (normals/wide.c) than fit in a tile: there all are another one. */
-static const float SHARP = 0.99f, ANY = 2.0f;
+const background_image *background_image_newest(const rlf_reconstruct *stage)
+{
+    const rlf_background *background = &stage->background;
+    bool none = background->newest < 0 || background->is_stale;
+    return none ? NULL : &background->images[background->newest];
+}
 
-/* Share of the depth, from one side of an outline to the other. */
-static const float SIDE = 0.04f;
+/* The oldest one, which no valid surface refers to. */
+static background_image *draft_of(rlf_background *background)
+{
+    return &background->images[(background->newest + 1) % BACKGROUND_IMAGES];
+}
 
 static int32_t tile_columns(const rlf_grid *grid)
 {
@@ -94,82 +101,69 @@ static bool is_of_model(const rlf_reconstruct *stage, const float *depth, int32_
     return z > 0.0f && depth[i] > 0.0f && rlf_kernel_abs(depth[i] - z) <= gate;
 }
 
-/* A normal, where it is known and has a cosine below `most` to that of pixel i of `to`. */
-static void take_normal(const float normal[3], float most, int32_t i, float *const to[3])
+/* What the frame, or the image before, knows of pixels that the model does not. */
+typedef struct edges {
+    const rlf_reconstruct *stage;
+    const rlf_slot *slot;
+    const background_image *old; /* NULL = none */
+    depth_step step;
+} edges;
+
+static void take_normal(float *const from[3], int32_t i, float *const to[3])
 {
-    float cosine = 0.0f, size = 0.0f;
-    for (int k = 0; k < 3; k++) {
-        cosine += normal[k] * to[k][i];
-        size += normal[k] * normal[k];
+    float square = from[0][i] * from[0][i] + from[1][i] * from[1][i] + from[2][i] * from[2][i];
+    for (int k = 0; k < 3 && square > 0.5f; k++) {
+        to[k][i] = from[k][i];
     }
-    for (int k = 0; k < 3 && size > 0.5f && cosine < most; k++) {
-        to[k][i] = normal[k];
+}
+
+/* The model's mean does not tell on which side of a contour a pixel is: it is of whatever was seen
+ * first. What frames agree on does, where this frame agrees, too. Or something hides the pixel, the
+ * image before showed that side, and the model is not newer than the votes. */
+static bool is_on_side(const edges *e, const rlf_vote *vote, int32_t i)
+{
+    if (e->slot->foreground[i] == 0) {
+        return !depth_step_between(&e->step, e->slot->depth[i], vote->depth);
     }
-}
-
-static void take_normal_of(float *const from[3], float most, int32_t i, float *const to[3])
-{
-    const float normal[3] = {from[0][i], from[1][i], from[2][i]};
-    take_normal(normal, most, i, to);
-}
-
-static bool is_near(float depth, float other)
-{
-    return rlf_kernel_abs(depth - other) < SIDE * other;
-}
-
-/* Something hides pixel i, of which the image before showed what was settled, and the model is not
- * newer than that: the proof that a thing has left takes fewer frames than its votes. */
-static bool was_on_side(const rlf_reconstruct *stage, const rlf_vote *settled, float was, int32_t i)
-{
-    return is_near(was, settled->depth) && stage->background.weight[i] >= settled->count;
-}
-
-/* The model's mean does not tell on which side of an outline a pixel is: it is of whatever was seen
- * first. What frames agree on does, where this frame agrees, too, or something hides it. */
-static void take_sides(const rlf_reconstruct *stage, const rlf_slot *slot,
-                       const background_image *old, background_image *image, rlf_rect r)
-{
-    for (int32_t y = r.y0; y < r.y1 && slot != NULL; y++) {
-        for (int32_t x = r.x0; x < r.x1; x++) {
-            int32_t i = y * stage->grid.width + x;
-            const rlf_vote *settled = vote_at(stage, i);
-            if (settled == NULL || !(image->depth[i] > 0.0f) ||
-                is_near(image->depth[i], settled->depth)) {
-                continue;
-            }
-            bool is_on = slot->foreground[i] == 0
-                             ? is_near(slot->depth[i], settled->depth)
-                             : old != NULL && was_on_side(stage, settled, old->depth[i], i);
-            image->depth[i] = is_on ? settled->depth : image->depth[i];
-        }
-    }
+    return e->old != NULL && !depth_step_between(&e->step, e->old->depth[i], vote->depth) &&
+           e->stage->background.weight[i] >= vote->count;
 }
 
 /* What a frame knows of edges, the model's depth alone does not tell: creases are sharp there, and
- * sides that nothing was seen of have their normals. A pixel whose normal there, or the one that
- * frames agree on, is another one takes it; one that something hides keeps what it had. */
-static void sharpen(const rlf_reconstruct *stage, const rlf_slot *slot, const background_image *old,
-                    background_image *image, rlf_rect r)
+ * sides that nothing was seen of have their normals. What frames agree on comes first, and what
+ * something hides keeps what it had. */
+static void sharpen_pixel(const edges *e, int32_t i, background_image *image)
+{
+    const rlf_vote *vote = vote_at(e->stage, i);
+    if (vote != NULL && depth_step_between(&e->step, image->depth[i], vote->depth)) {
+        bool is_on = image->depth[i] > 0.0f && is_on_side(e, vote, i);
+        image->depth[i] = is_on ? vote->depth : image->depth[i];
+        vote = is_on ? vote : NULL;
+    }
+    if (vote != NULL) {
+        for (int k = 0; k < 3; k++) {
+            image->normal[k][i] = vote->normal[k];
+        }
+    } else if (e->slot->foreground[i] == 0 && is_of_model(e->stage, e->slot->depth, i)) {
+        take_normal(e->slot->normal, i, image->normal);
+    } else if (e->old != NULL && is_of_model(e->stage, e->old->depth, i)) {
+        take_normal(e->old->normal, i, image->normal);
+    }
+}
+
+static void sharpen(const rlf_reconstruct *stage, const rlf_slot *slot, background_image *image,
+                    rlf_rect r)
 {
     const rlf_reconstruct_def *def = &stage->def;
     if (slot == NULL || !def->enable_smoothing || !def->enable_edge_normals ||
         def->normal_method != RLF_NORMALS_INVERSE_DEPTH || !def->normals_face_camera) {
         return; /* the frame has no such normals, or not yet */
     }
-    const float most = stage->normals.wide[0].depth != NULL ? ANY : SHARP;
+    const edges e = {stage, slot, background_image_newest(stage),
+                     depth_step_make(&def->rig.noise, stage->grid.camera.fx)};
     for (int32_t y = r.y0; y < r.y1; y++) {
         for (int32_t x = r.x0; x < r.x1; x++) {
-            int32_t i = y * stage->grid.width + x;
-            bool is_seen = slot->foreground[i] == 0 && is_of_model(stage, slot->depth, i);
-            const rlf_vote *settled = vote_at(stage, i);
-            if (settled != NULL && is_near(image->depth[i], settled->depth)) {
-                take_normal(settled->normal, most, i, image->normal);
-            } else if (is_seen) {
-                take_normal_of(slot->normal, most, i, image->normal);
-            } else if (old != NULL && is_of_model(stage, old->depth, i)) {
-                take_normal_of(old->normal, most, i, image->normal);
-            }
+            sharpen_pixel(&e, y * stage->grid.width + x, image);
         }
     }
 }
@@ -214,9 +208,7 @@ static void make_tile(rlf_reconstruct *stage, const rlf_slot *slot, background_i
     for (int k = 0; k < 3; k++) {
         copy_part(r, crop[3 + k], wide.x0, wide.y0, width, image->normal[k], 0, 0, grid->width);
     }
-    const background_image *newest = &stage->background.images[stage->background.newest];
-    take_sides(stage, slot, newest, image, r);
-    sharpen(stage, slot, newest, image, r);
+    sharpen(stage, slot, image, r);
     clear_left(stage, image, r);
     tile_is_made(&stage->background, tile, stage->background.changes[tile] >= CHANGES);
 }
@@ -227,7 +219,7 @@ static void begin_draft(rlf_reconstruct *stage)
     rlf_background *background = &stage->background;
     const rlf_grid *grid = &stage->grid;
     const background_image *newest = &background->images[background->newest];
-    background_image *draft = &background->images[(background->newest + 1) % BACKGROUND_IMAGES];
+    background_image *draft = draft_of(background);
     for (int32_t tile = 0; tile < background_image_tiles(grid); tile++) {
         if (background->version[tile] > draft->version) {
             const rlf_rect r = tile_at(grid, tile);
@@ -261,28 +253,6 @@ static int32_t next_tile(const rlf_background *background, int32_t tiles)
     return best;
 }
 
-static void make_all(rlf_reconstruct *stage, const rlf_slot *slot, background_image *image)
-{
-    rlf_background *background = &stage->background;
-    int32_t tiles = background_image_tiles(&stage->grid);
-    memcpy(image->depth, background->mean, (size_t)stage->grid.count * sizeof *image->depth);
-    rlf_normals_job normals = rlf_normals_job_make(stage, image->depth, image->normal);
-    rlf_normals_compute(&normals);
-    const rlf_rect all = {0, 0, stage->grid.width, stage->grid.height};
-    take_sides(stage, slot, NULL, image, all);
-    sharpen(stage, slot, NULL, image, all);
-    for (int32_t tile = 0; tile < tiles; tile++) {
-        tile_is_made(background, tile, true);
-    }
-}
-
-const background_image *background_image_newest(const rlf_reconstruct *stage)
-{
-    const rlf_background *background = &stage->background;
-    bool none = background->newest < 0 || background->is_stale;
-    return none ? NULL : &background->images[background->newest];
-}
-
 /* The draft as a layer that is segmented. */
 static rlf_layer_in draft_layer(const rlf_reconstruct *stage)
 {
@@ -313,8 +283,7 @@ static rlf_layer_in draft_layer(const rlf_reconstruct *stage)
 static void finish(rlf_reconstruct *stage)
 {
     rlf_background *background = &stage->background;
-    int32_t next = (background->newest + 1) % BACKGROUND_IMAGES;
-    background_image *image = &background->images[next];
+    background_image *image = draft_of(background);
     const rlf_layer_in in = draft_layer(stage);
     rlf_layer_out out = {image->regions, image->region_points, 0, 0};
     rlf_layer_segment(stage, &in, &out);
@@ -323,7 +292,7 @@ static void finish(rlf_reconstruct *stage)
     image->region_count = out.region_count;
     image->point_count = out.point_count;
     image->version = background->next_version++;
-    background->newest = next;
+    background->newest = (background->newest + 1) % BACKGROUND_IMAGES;
     background->image_age = 0;
     background->is_drafting = false;
     background->is_made = false;
@@ -352,7 +321,10 @@ static bool finish_in_steps(rlf_reconstruct *stage, bool urgent)
 void background_image_publish(rlf_reconstruct *stage, const rlf_slot *slot)
 {
     rlf_background *background = &stage->background;
-    make_all(stage, slot, &background->images[(background->newest + 1) % BACKGROUND_IMAGES]);
+    for (int32_t tile = 0; tile < background_image_tiles(&stage->grid); tile++) {
+        make_tile(stage, slot, draft_of(background), tile);
+        background->age[tile] = 0;
+    }
     finish(stage);
 }
 
@@ -391,7 +363,7 @@ void background_image_advance(rlf_reconstruct *stage, const rlf_slot *slot)
         begin_draft(stage);
     }
     background->object_steps = 0; /* tiles change */
-    background_image *draft = &background->images[(background->newest + 1) % BACKGROUND_IMAGES];
+    background_image *draft = draft_of(background);
     int32_t most = 1 + tiles / (urgent ? PARTS_URGENT : PARTS);
     most = background->depart.is_urgent ? tiles : most;
     int32_t tile = next_tile(background, tiles);

@@ -5,8 +5,8 @@
  * that leaves, or the sensor sees past it, such a pixel shows a face that goes on beside it, where
  * the background is known and seen now: then it is background. What does not go on is foreground
  * when it hangs together with foreground or is large. */
-#include "surface/background/facing.h"
 #include "surface/depth/depth.h"
+#include "surface/normals/face.h"
 #include "surface/steps.h"
 #include "surface/window.h"
 
@@ -65,19 +65,16 @@ typedef struct reveal_job {
 /* Pixel i is on the plane of background pixel `at`, `steps` away, which is seen now. */
 static bool goes_on(const reveal_job *job, ptrdiff_t i, ptrdiff_t at, int32_t steps)
 {
-    const rlf_grid *grid = &job->stage->grid;
-    float mean = job->stage->background.mean[at], z = job->slot->depth[i], n[3];
+    const rlf_reconstruct *stage = job->stage;
+    const rlf_grid *grid = &stage->grid;
+    const rlf_faces faces = {grid->ray_x, grid->ray_y, stage->background.mean, job->image->normal};
+    float mean = stage->background.mean[at], z = job->slot->depth[i];
     bool is_seen =
         job->slot->foreground[at] == RLF_SEEN_BACKGROUND &&
-        rlf_kernel_abs(job->slot->depth[at] - mean) < rlf_background_gate(&job->stage->def, mean);
-    rlf_read_normal(job->image->normal, at, n);
-    float here = rlf_facing(grid, n, i), there = rlf_facing(grid, n, at);
-    if (!is_seen || !(here < -rlf_least_facing) || !(there < -rlf_least_facing)) {
-        return false;
-    }
+        rlf_kernel_abs(job->slot->depth[at] - mean) < rlf_background_gate(&stage->def, mean);
     float turned = slant * (float)steps * z / (float)grid->camera.fx;
-    return rlf_kernel_abs(mean * there / here - z) <
-           rlf_background_gate(&job->stage->def, z) + turned;
+    float plane = is_seen ? rlf_face_depth(&faces, at, i) : 0.0f;
+    return plane > 0.0f && rlf_kernel_abs(plane - z) < rlf_background_gate(&stage->def, z) + turned;
 }
 
 /* The next known pixels of the background go on at (x, y): on both sides along its row or its

@@ -5,6 +5,7 @@
  * concave corner the one that it meets first. So the crease lies where the planes meet, to a small
  * part of a pixel, whatever the noise of the pixels on it. Unless that is small: a narrow face is
  * known less well than a pixel that has been averaged for a while, which then decides. */
+#include "surface/depth_step.h"
 #include "surface/normals/face.h"
 #include "surface/steps.h"
 #include "surface/window.h"
@@ -14,7 +15,6 @@
 enum { MOST_STEPS = 6 };
 
 static const float CREASE = 0.9f;      /* of the normals of two faces that meet in one */
-static const float MOST_SLOPE = 0.04f; /* share of the depth per pixel: no edge between */
 static const float MOST_SIGMAS = 8.0f; /* of the pixel's depth from the face; grazing is noisier */
 static const float LEAST_APART = 2.0f; /* sigmas of depth from one face to the other */
 /* A pixel's own depth speaks for the other face than the planes choose when it is the mean of at
@@ -32,7 +32,7 @@ typedef struct crease_job {
     float *const *normal;
     uint8_t *bent; /* plane of RLF_BEND_; pixels where it is 0 are only read */
     const rlf_reconstruct *stage;
-    rlf_kernel_noise noise;
+    depth_step step;
 } crease_job;
 
 static bool is_known(const crease_job *job, ptrdiff_t i)
@@ -101,7 +101,7 @@ static ptrdiff_t find_face(const crease_job *job, ptrdiff_t i, ptrdiff_t step, i
     float z = job->depth[i];
     for (int32_t k = 1; k <= room; k++) {
         i += step;
-        if (!(rlf_kernel_abs(job->depth[i] - z) <= MOST_SLOPE * z)) {
+        if (depth_step_between(&job->step, job->depth[i], z)) {
             return -1;
         }
         z = job->depth[i];
@@ -123,7 +123,7 @@ static bool is_apart(const crease_job *job, ptrdiff_t a, float b_at_a)
 {
     float z = job->depth[a];
     return !(b_at_a > 0.0f) ||
-           rlf_kernel_abs(b_at_a - z) >= LEAST_APART * rlf_kernel_sigma(job->noise, z);
+           rlf_kernel_abs(b_at_a - z) >= LEAST_APART * rlf_kernel_sigma(job->step.noise, z);
 }
 
 /* What has been seen of pixel i over time is at the depth `other`, not where it would be by the
@@ -134,7 +134,7 @@ static bool is_elsewhere(const crease_job *job, ptrdiff_t i, float z, float othe
         return false;
     }
     float own = 1.0f / job->mean[i], apart = other - z;
-    float sigma = OWN_SIGMAS * rlf_kernel_sigma(job->noise, own);
+    float sigma = OWN_SIGMAS * rlf_kernel_sigma(job->step.noise, own);
     float left = 1.0f / job->frames[i] + PLANE_SIGMAS * PLANE_SIGMAS;
     bool matters = apart * apart > sigma * sigma * left;
     return matters && (own - z) * apart > OWN_SHARE * apart * apart;
@@ -157,7 +157,7 @@ static ptrdiff_t choose_face(const crease_job *job, ptrdiff_t i, ptrdiff_t a, pt
     bool first = convex ? za > zb : za < zb;
     first = first != is_elsewhere(job, i, first ? za : zb, first ? zb : za);
     float z = first ? za : zb;
-    float most = MOST_SIGMAS * rlf_kernel_sigma(job->noise, z);
+    float most = MOST_SIGMAS * rlf_kernel_sigma(job->step.noise, z);
     return rlf_kernel_abs(z - job->depth[i]) <= most ? (first ? a : b) : -1;
 }
 
@@ -242,7 +242,7 @@ void rlf_normals_crease(const rlf_reconstruct *stage, const rlf_slot *slot, cons
                       .normal = slot->normal,
                       .bent = stage->normals.bent,
                       .stage = stage,
-                      .noise = rlf_kernel_noise_make(&stage->def.rig.noise)};
+                      .step = depth_step_make(&stage->def.rig.noise, grid->camera.fx)};
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, mark_rows, &job);
     rlf_parallel_for(stage->def.pool, grid->height, RLF_ROW_GRAIN, sharpen_rows, &job);
 }
