@@ -69,7 +69,7 @@ typedef struct phys_body {
     int64_t surface_version;       /* ... and what stays, 0 = something moved near it */
     rlf_vec3 surface_v, surface_w; /* v and w then */
     rlf_vec3 surface_flow;         /* velocity of the foreground near it, grid frame */
-    uint8_t home[2]; /* field_state: which side of foreground and background it belongs to */
+    uint8_t side[2]; /* field_state: which side of foreground and background it belongs to */
 
     char name[RLF_NAME_MAX];
     float color[3];

@@ -1,7 +1,7 @@
 /* Islands, and what happens to one in a substep. No two islands share a body that moves, so they
  * may be worked on in any order. */
 #include "physics/fetch.h"
-#include "physics/grid/guard.h"
+#include "physics/grid/contact/contact.h"
 #include "physics/integrate.h"
 #include "physics/solver.h"
 

@@ -1,7 +1,7 @@
 /* One frame by the live method: equal substeps of at most 1 / step_hz, in groups of up to
  * PHYS_PERIOD_MAX between searches for pairs and islands. */
 #include "physics/fetch.h"
-#include "physics/grid/collide.h"
+#include "physics/grid/contact/contact.h"
 #include "physics/integrate.h"
 #include "physics/pair/search.h"
 #include "physics/sleep.h"
@@ -12,7 +12,7 @@
 /* Extrapolating the surface along its velocity is trusted this long, s: with 10 m/s^2 the error is
  * then 12 mm. */
 #define EXTRAPOLATION_MAX 0.05
-#define SHELL_PERIOD 0.25 /* s between searches for the room's shell */
+#define ROOM_PERIOD 0.25 /* s between searches for the room's shell */
 
 /* Unit, against gravity, grid frame; 0 without gravity. */
 static rlf_vec3 up_in_grid(const rlf_world *world, const rlf_grid *grid)
@@ -22,20 +22,18 @@ static rlf_vec3 up_in_grid(const rlf_world *world, const rlf_grid *grid)
 }
 
 /* The shell is a part of the room: it is looked for now and then, and anew for a moved camera. */
-static void find_shell(rlf_world *world, const rlf_grid *grid)
+static void find_room(rlf_world *world, const rlf_grid *grid)
 {
-    bool is_same_pose = memcmp(&world->shell_pose, &grid->T_world_grid, sizeof(rlf_pose)) == 0;
+    bool is_same_pose = memcmp(&world->room_pose, &grid->T_world_grid, sizeof(rlf_pose)) == 0;
     if (!is_same_pose) {
-        memset(&world->shell, 0, sizeof(world->shell));
-        memset(&world->levels, 0, sizeof(world->levels));
-    } else if (world->shell.turn > 0 && world->time < world->shell_time + SHELL_PERIOD) {
+        memset(&world->room, 0, sizeof(world->room));
+    } else if (world->room.turn > 0 && world->time < world->room_time + ROOM_PERIOD) {
         return;
     }
-    world->shell_pose = grid->T_world_grid;
-    world->shell_time = world->time;
+    world->room_pose = grid->T_world_grid;
+    world->room_time = world->time;
     world->rest_version++;
-    grid_shell_update(&world->shell, grid);
-    grid_levels_update(&world->levels, &world->shell, grid, up_in_grid(world, grid));
+    room_planes_update(&world->room, grid);
 }
 
 /* Whether what stays is that of the last grid. */
@@ -69,9 +67,9 @@ static bool start_surface(rlf_world *world, const rlf_grid *grid, double dt)
     world->rest_version += has_changed;
     grid_tiles_start(&world->foreground_tiles, grid, &grid->foreground, is_new);
     grid_tiles_start(&world->background_tiles, grid, &grid->background, has_changed);
-    if (is_new && phys_world_has_shell(world, grid)) {
-        world->rest_version += grid_shell_glide(&world->shell, dt);
-        find_shell(world, grid);
+    if (is_new && phys_world_has_room(world, grid)) {
+        world->rest_version += room_planes_glide(&world->room, dt);
+        find_room(world, grid);
     }
     world->has_grid = true;
     world->grid_time_ns = grid->time_ns;
@@ -88,8 +86,7 @@ static grid_query query_now(rlf_world *world, const rlf_grid *grid, double h)
     query.rest_version = world->rest_version;
     query.foreground = &world->foreground_tiles;
     query.background = &world->background_tiles;
-    query.shell = phys_world_has_shell(world, grid) ? &world->shell : NULL;
-    query.levels = &world->levels;
+    query.room = phys_world_has_room(world, grid) ? &world->room : NULL;
     query.up = up_in_grid(world, grid);
     return query;
 }
@@ -121,7 +118,7 @@ RLF_KERNEL_PART void fetch_due(const rlf_world *world, int32_t k)
 {
     const phys_body *body = &world->bodies[world->due_bodies[k]];
     phys_fetch_body(body);
-    phys_fetch(&body->surface_time, offsetof(phys_body, home) - offsetof(phys_body, surface_time));
+    phys_fetch(&body->surface_time, offsetof(phys_body, side) - offsetof(phys_body, surface_time));
     phys_fetch(body->surface, (size_t)body->surface_count * sizeof(phys_contact));
 }
 

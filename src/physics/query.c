@@ -65,7 +65,7 @@ static void cast_at_sheet(const rlf_grid *grid, rlf_contact_other other, const r
         set_surface_hit(grid, other, &inside, 0.0, hit);
         return;
     }
-    const field_home nowhere = {.side = FIELD_NONE};
+    const field_side nowhere = {.state = FIELD_NONE};
     double t = 0.0;
     for (int32_t i = 0; i < PIECES_MAX && t < hit->distance; i++) {
         rlf_vec3 q = rlf_mad(ray[0], ray[1], t);
@@ -84,28 +84,28 @@ static void cast_at_sheet(const rlf_grid *grid, rlf_contact_other other, const r
 }
 
 /* The shell of the last advance, where the camera does not see. Grid frame. */
-static void cast_at_shell(const rlf_world *world, const rlf_grid *grid, const rlf_vec3 ray[2],
-                          rlf_ray_hit *hit)
+static void cast_at_room(const rlf_world *world, const rlf_grid *grid, const rlf_vec3 ray[2],
+                         rlf_ray_hit *hit)
 {
-    for (int32_t i = 0; phys_world_has_shell(world, grid) && i < world->shell.count; i++) {
-        const shell_plane *plane = &world->shell.planes[i];
+    for (int32_t i = 0; phys_world_has_room(world, grid) && i < world->room.count; i++) {
+        const room_plane *plane = &world->room.planes[i];
         double height = rlf_dot(plane->normal, ray[0]) - plane->offset;
         double slope = rlf_dot(plane->normal, ray[1]);
         double t = slope < 0.0 ? rlf_max(height, 0.0) / -slope : 1e30;
-        if (t < hit->distance && grid_shell_is_hidden(grid, rlf_mad(ray[0], ray[1], t))) {
+        if (t < hit->distance && room_is_hidden(grid, rlf_mad(ray[0], ray[1], t))) {
             field_hit found = {.normal = plane->normal};
             set_surface_hit(grid, RLF_CONTACT_BACKGROUND, &found, t, hit);
         }
     }
 }
 
-static bool overlaps_shell(const rlf_world *world, const rlf_grid *grid, rlf_vec3 q, double radius)
+static bool overlaps_room(const rlf_world *world, const rlf_grid *grid, rlf_vec3 q, double radius)
 {
-    for (int32_t i = 0; phys_world_has_shell(world, grid) && i < world->shell.count; i++) {
-        const shell_plane *plane = &world->shell.planes[i];
+    for (int32_t i = 0; phys_world_has_room(world, grid) && i < world->room.count; i++) {
+        const room_plane *plane = &world->room.planes[i];
         double height = rlf_dot(plane->normal, q) - plane->offset;
         rlf_vec3 foot = rlf_mad(q, plane->normal, -rlf_max(height, 0.0));
-        if (height <= radius && grid_shell_is_hidden(grid, foot)) {
+        if (height <= radius && room_is_hidden(grid, foot)) {
             return true;
         }
     }
@@ -159,7 +159,7 @@ rlf_ray_hit rlf_world_cast_ray(const rlf_world *world, const rlf_grid *grid, rlf
                                    rlf_rotate(T_grid_world.q, ray[1])};
         cast_at_sheet(grid, RLF_CONTACT_FOREGROUND, local, &hit);
         cast_at_sheet(grid, RLF_CONTACT_BACKGROUND, local, &hit);
-        cast_at_shell(world, grid, local, &hit);
+        cast_at_room(world, grid, local, &hit);
         if (hit.reason != RLF_QUERY_HIT) {
             hit.reason = reason_at(grid, rlf_mad(local[0], local[1], length));
         }
@@ -233,7 +233,7 @@ rlf_overlap rlf_world_overlap_sphere(const rlf_world *world, const rlf_grid *gri
         rlf_pose T_grid_world = rlf_pose_invert(&grid->T_world_grid);
         q = rlf_transform(&T_grid_world, centre);
         overlap.touches_background = overlaps_sheet(grid, &grid->background, q, radius) ||
-                                     overlaps_shell(world, grid, q, radius);
+                                     overlaps_room(world, grid, q, radius);
         overlap.touches_foreground = overlaps_sheet(grid, &grid->foreground, q, radius);
     }
     if (overlap.body_count > 0 || overlap.touches_background || overlap.touches_foreground) {

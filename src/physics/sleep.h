@@ -2,7 +2,7 @@
 #ifndef RLF_PHYSICS_SLEEP_H
 #define RLF_PHYSICS_SLEEP_H
 
-#include "physics/grid/collide.h"
+#include "physics/grid/contact/contact.h"
 #include "physics/world_state.h"
 
 /* Ends the sleep of bodies whose surface moved, came closer or went away, or

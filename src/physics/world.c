@@ -166,7 +166,7 @@ bool rlf_world_set_body(rlf_world *world, rlf_body_id id, const rlf_pose *T_worl
         body->w = angular_velocity;
     }
     body->surface_count = 0;
-    body->home[0] = body->home[1] = 0;
+    body->side[0] = body->side[1] = 0;
     body->turned += RLF_PI; /* whatever the turn was: its contacts are void */
     phys_body_orient(body);
     wake_near(world, body);
@@ -231,7 +231,7 @@ void rlf_world_reset(rlf_world *world)
     world->time = 0.0;
     world->frame = 0;
     world->has_grid = false;
-    memset(&world->shell, 0, sizeof(world->shell));
+    memset(&world->room, 0, sizeof(world->room));
     phys_world_publish(world);
 }
 

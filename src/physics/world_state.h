@@ -5,8 +5,7 @@
 #include "kernel/box_lanes.h"
 #include "kernel/contact_lanes.h"
 #include "physics/body.h"
-#include "physics/grid/level.h"
-#include "physics/grid/shell.h"
+#include "physics/grid/unseen/room_planes.h"
 #include "physics/grid/tiles.h"
 
 /* Substeps between searches for pairs. */
@@ -154,10 +153,9 @@ struct rlf_world {
     int64_t background_version;
     rlf_pose grid_pose;
     int64_t rest_version; /* while it is the same, what stays does not change under a sleeper */
-    grid_shell shell;
-    grid_levels levels;
-    rlf_pose shell_pose; /* of the grid in the world when the shell was found */
-    double shell_time;   /* ... and the world's time */
+    room_planes room;
+    rlf_pose room_pose; /* of the grid in the world when its planes were found */
+    double room_time;   /* ... and the world's time */
 };
 
 /* Gets all memory as the def asks; false when there is too little. phys_world_free gives it back.
@@ -202,7 +200,7 @@ void phys_live_advance(rlf_world *world, const rlf_grid *grid, double dt);
 void phys_thesis_advance(rlf_world *world, const rlf_grid *grid, double dt);
 
 /* Whether the grid's room goes on where the camera does not look. */
-static inline bool phys_world_has_shell(const rlf_world *world, const rlf_grid *grid)
+static inline bool phys_world_has_room(const rlf_world *world, const rlf_grid *grid)
 {
     const rlf_grid_sheet *sheet = &grid->background;
     return sheet->depth != NULL && sheet->normal_x != NULL &&

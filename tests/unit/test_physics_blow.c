@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "physics/grid/guard.h"
+#include "physics/grid/contact/contact.h"
 
 #include "grid_room.h"
 

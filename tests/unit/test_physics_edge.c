@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "physics/grid/edge.h"
+#include "physics/grid/contour.h"
 
 #include <math.h>
 
@@ -83,7 +83,7 @@ static double depth_at(const rlf_grid *grid, int32_t x)
 {
     field_cell cell;
     assert_true(grid_cell_read(grid, &grid->background, x, HEIGHT / 2, &cell));
-    return grid_edge_depth(grid, &grid->background, &cell, LIMIT);
+    return grid_guess_depth(grid, &grid->background, &cell, LIMIT);
 }
 
 static void what_is_round_is_as_deep_as_wide(void **state)

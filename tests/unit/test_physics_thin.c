@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "physics/grid/guard.h"
+#include "physics/grid/contact/contact.h"
 #include "physics/world_state.h"
 
 #include "grid_shared.h"

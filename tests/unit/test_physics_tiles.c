@@ -7,8 +7,8 @@
 
 #include "grid_fixture.h"
 #include "physics/grid/cast.h"
-#include "physics/grid/near.h"
-#include "physics/grid/pixels.h"
+#include "physics/grid/contact/search.h"
+#include "physics/grid/contact/pixels.h"
 #include "physics/grid/tiles.h"
 
 #include <math.h>
@@ -136,18 +136,18 @@ static void throw_cube(grid_job *job, const grid_query *query, phys_body *body)
     job->sheet = query->background->sheet;
     job->tiles = query->background;
     job->body = body;
-    job->centre = next_place();
-    job->centre.z = next(1.4, 2.3);
-    job->v = rlf_vec3_make(next(-2, 2), next(-2, 2), next(-2, 2));
-    job->w = rlf_vec3_make(next(-4, 4), next(-4, 4), next(-4, 4));
-    job->speed = rlf_length(job->v);
-    job->spin = rlf_length(job->w);
-    job->R_grid_body = rlf_quat_to_mat3(rlf_quat_from_rotation_vector(turn));
-    job->R_body_grid = rlf_mat3_transpose(&job->R_grid_body);
-    job->horizon = 2.0 * query->step;
-    job->reach = body->shape.radius + GRID_MARGIN + job->horizon * job->speed;
-    job->home = (field_home){FIELD_NONE, job->centre, true};
-    job->is_listed = true;
+    job->motion.centre = next_place();
+    job->motion.centre.z = next(1.4, 2.3);
+    job->motion.v = rlf_vec3_make(next(-2, 2), next(-2, 2), next(-2, 2));
+    job->motion.w = rlf_vec3_make(next(-4, 4), next(-4, 4), next(-4, 4));
+    job->motion.speed = rlf_length(job->motion.v);
+    job->motion.spin = rlf_length(job->motion.w);
+    job->motion.R_grid_body = rlf_quat_to_mat3(rlf_quat_from_rotation_vector(turn));
+    job->motion.R_body_grid = rlf_mat3_transpose(&job->motion.R_grid_body);
+    job->window.horizon = 2.0 * query->step;
+    job->window.reach = body->shape.radius + GRID_MARGIN + job->window.horizon * job->motion.speed;
+    job->side = (field_side){FIELD_NONE, job->motion.centre, true};
+    job->scan.is_listed = true;
     grid_scan_footprint(job);
 }
 
@@ -169,13 +169,14 @@ static void what_touches_is_told_to_be_near(void **state)
     for (int32_t k = 0; k < 3000; k++) {
         grid_job job;
         throw_cube(&job, &query, &body);
-        for (int32_t i = 0; i < body.shape.point_count && job.is_near; i++) {
+        for (int32_t i = 0; i < body.shape.point_count && job.scan.is_near; i++) {
             field_hit hit;
-            rlf_vec3 r = rlf_mat3_mul_vec(&job.R_grid_body, points[i]);
-            rlf_vec3 way = rlf_scale(rlf_add(job.v, rlf_cross(job.w, r)), job.horizon);
+            rlf_vec3 r = rlf_mat3_mul_vec(&job.motion.R_grid_body, points[i]);
+            rlf_vec3 way =
+                rlf_scale(rlf_add(job.motion.v, rlf_cross(job.motion.w, r)), job.window.horizon);
             bool is_near = (grid_points_near(&job, &points[i], 1) & 1u) != 0;
-            bool does = grid_cast(&f->grid, job.sheet, rlf_add(job.centre, r), way, GRID_MARGIN,
-                                  &job.home, &hit);
+            bool does = grid_cast(&f->grid, job.sheet, rlf_add(job.motion.centre, r), way,
+                                  GRID_MARGIN, &job.side, &hit);
             assert_true(!does || is_near);
             touches += does;
             told += is_near;

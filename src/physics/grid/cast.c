@@ -1,6 +1,6 @@
 /* The way of a point into the solid, and out of it: through the front, the back or a side. */
 #include "physics/grid/cast.h"
-#include "physics/grid/edge.h"
+#include "physics/grid/contour.h"
 
 #define NO_HEIGHT 1e9
 
@@ -18,10 +18,10 @@ static bool is_shut(const rlf_grid *grid, const rlf_grid_sheet *sheet, const fie
 }
 
 /* A point more than half way into a thin solid is no nearer to its own side than to the other. */
-static bool looks_home(const field_home *home, rlf_vec3 q, rlf_vec3 direction)
+static bool looks_back(const field_side *side, rlf_vec3 q, rlf_vec3 direction)
 {
-    return home->side != FIELD_NONE || !home->has_centre ||
-           rlf_dot(direction, rlf_sub(home->centre, q)) > 0.0;
+    return side->state != FIELD_NONE || !side->has_centre ||
+           rlf_dot(direction, rlf_sub(side->centre, q)) > 0.0;
 }
 
 /* How far from q the solid ends between `inside` and `outside`, metres along `direction`: to a
@@ -50,11 +50,11 @@ static bool is_one_slanted_face(const field_cell *cell, const field_cell *inside
            -rlf_dot(cell->normal, rlf_normalize(q)) < LOW;
 }
 
-/* Outline of the solid around q, as seen in the image, on the sides that look to the home's centre
+/* Outline of the solid around q, as seen in the image, on the sides that look to the body's centre
  * if it has one: unit direction out of the solid, square to the view ray, and the distance to the
  * free side, metres. False when none is within `radius_px`. */
 static bool find_side(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
-                      const field_home *home, int32_t radius_px, rlf_vec3 *out_normal,
+                      const field_side *side, int32_t radius_px, rlf_vec3 *out_normal,
                       double *out_distance)
 {
     double pixel = q.z * grid->pixel_angle;
@@ -65,12 +65,12 @@ static bool find_side(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec
         double angle = k * (RLF_PI / 4.0);
         rlf_vec3 direction = rlf_vec3_make(rlf_cos(angle), rlf_sin(angle), 0.0);
         field_cell inside = {0};
-        bool is_sought = looks_home(home, q, direction);
+        bool is_sought = looks_back(side, q, direction);
         for (int32_t r = 0; is_sought && r <= radius_px && (r - 1) * pixel < best; r++) {
             field_cell cell;
             field_state state = grid_field_at(grid, sheet, rlf_mad(q, direction, r * pixel), &cell);
             is_sought = r == 0 || state == FIELD_INSIDE;
-            if (state == FIELD_BEHIND && home->side == FIELD_FRONT &&
+            if (state == FIELD_BEHIND && side->state == FIELD_FRONT &&
                 is_one_slanted_face(&cell, &inside, q)) {
                 break; /* the solid ends there, but not the face */
             }
@@ -90,7 +90,7 @@ static bool find_side(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec
         }
     }
     rlf_vec3 refined; /* eight directions are coarse; the outline itself knows better */
-    if (is_found && last.point.z > 0.0 && grid_edge_normal(grid, sheet, &last, &refined) &&
+    if (is_found && last.point.z > 0.0 && grid_contour_normal(grid, sheet, &last, &refined) &&
         rlf_dot(refined, *out_normal) > 0.5) {
         *out_distance *= rlf_dot(refined, *out_normal);
         *out_normal = refined;
@@ -133,28 +133,28 @@ static void hit_back(const rlf_grid *grid, const rlf_grid_sheet *sheet, const fi
     set_hit(hit, cell, grid_back_point(cell), grid_back_normal(grid, sheet, cell));
 }
 
-/* Through the nearest of front, back and side, or the home's face and side. */
+/* Through the nearest of front, back and side, or the body's own face and side. */
 static void leave_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
-                        const field_cell *cell, const field_home *home, field_hit *hit)
+                        const field_cell *cell, const field_side *side, field_hit *hit)
 {
     hit_front(grid, sheet, cell, hit);
     hit->separation = rlf_dot(hit->normal, rlf_sub(q, hit->point));
-    if (cell->thickness < FIELD_ENDLESS && home->side != FIELD_FRONT &&
-        home->side != FIELD_INSIDE && !is_shut(grid, sheet, cell)) {
+    if (cell->thickness < FIELD_ENDLESS && side->state != FIELD_FRONT &&
+        side->state != FIELD_INSIDE && !is_shut(grid, sheet, cell)) {
         field_hit back;
         hit_back(grid, sheet, cell, &back);
         back.separation = rlf_dot(back.normal, rlf_sub(q, back.point));
-        if (home->side == FIELD_BEHIND || back.separation > hit->separation) {
+        if (side->state == FIELD_BEHIND || back.separation > hit->separation) {
             *hit = back;
         }
     }
     const double SHALLOW = 0.01;
-    if (hit->separation < -SHALLOW && home->side != FIELD_INSIDE) {
+    if (hit->separation < -SHALLOW && side->state != FIELD_INSIDE) {
         double pixel = q.z * grid->pixel_angle;
         int32_t radius = (int32_t)rlf_min(-hit->separation / pixel, 24.0);
         rlf_vec3 normal;
         double distance;
-        if (find_side(grid, sheet, q, home, radius, &normal, &distance)) {
+        if (find_side(grid, sheet, q, side, radius, &normal, &distance)) {
             set_hit(hit, cell, rlf_mad(q, normal, distance), normal);
             hit->separation = -distance;
         }
@@ -164,19 +164,19 @@ static void leave_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_v
 /* Whether the solid is between q, behind this face, and the body's centre, before it: the body has
  * sunk into something thin, and belongs before it. */
 static bool is_pierced(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
-                       const field_cell *cell, const field_home *home)
+                       const field_cell *cell, const field_side *side)
 {
     const double DEPTH = 0.005, SAME = 0.9; /* m below the face; cosine */
-    if (home->side != FIELD_FRONT || !home->has_centre) {
+    if (side->state != FIELD_FRONT || !side->has_centre) {
         return false;
     }
-    double above = rlf_dot(cell->normal, rlf_sub(home->centre, cell->point));
+    double above = rlf_dot(cell->normal, rlf_sub(side->centre, cell->point));
     double below = -rlf_dot(cell->normal, rlf_sub(q, cell->point));
     if (above <= 0.0 || below <= DEPTH) {
         return false;
     }
     double share = (above + DEPTH) / (above + below);
-    rlf_vec3 between = rlf_mad(home->centre, rlf_sub(q, home->centre), share);
+    rlf_vec3 between = rlf_mad(side->centre, rlf_sub(q, side->centre), share);
     field_cell there;
     return grid_field_at(grid, sheet, between, &there) == FIELD_INSIDE &&
            rlf_dot(there.normal, cell->normal) > SAME;
@@ -185,7 +185,7 @@ static bool is_pierced(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_ve
 /* The path entered the solid at p: through which face? `step` is the last stretch. */
 static void enter_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 p,
                         rlf_vec3 step, field_state from, const field_cell *cell,
-                        const field_home *home, field_hit *hit)
+                        const field_side *side, field_hit *hit)
 {
     const double SLACK = 0.01;
     field_hit back = {0};
@@ -204,7 +204,7 @@ static void enter_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_v
     }
     rlf_vec3 normal;
     double distance;
-    if (find_side(grid, sheet, p, home, 4, &normal, &distance)) {
+    if (find_side(grid, sheet, p, side, 4, &normal, &distance)) {
         set_hit(hit, cell, rlf_mad(p, normal, distance), normal);
     }
 }
@@ -220,13 +220,13 @@ static bool is_through(const field_cell *cell, field_state before, field_state n
 }
 
 bool grid_cast(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q, rlf_vec3 path,
-               double margin, const field_home *home, field_hit *out)
+               double margin, const field_side *side, field_hit *out)
 {
     field_cell cell;
     bool is_before = grid_field_is_well_before(grid, sheet, q, 2.0 * margin);
     field_state state = is_before ? FIELD_FRONT : grid_field_at(grid, sheet, q, &cell);
-    if (state == FIELD_INSIDE || (state == FIELD_BEHIND && home->side == FIELD_INSIDE)) {
-        leave_solid(grid, sheet, q, &cell, home, out);
+    if (state == FIELD_INSIDE || (state == FIELD_BEHIND && side->state == FIELD_INSIDE)) {
+        leave_solid(grid, sheet, q, &cell, side, out);
         return true;
     }
     if (state == FIELD_FRONT && !is_before &&
@@ -236,7 +236,7 @@ bool grid_cast(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q, rl
         if (out->separation < margin) {
             return true;
         }
-    } else if (state == FIELD_BEHIND && is_pierced(grid, sheet, q, &cell, home)) {
+    } else if (state == FIELD_BEHIND && is_pierced(grid, sheet, q, &cell, side)) {
         hit_front(grid, sheet, &cell, out);
         out->separation = rlf_dot(out->normal, rlf_sub(q, out->point));
         return true;
@@ -259,7 +259,7 @@ bool grid_cast(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q, rl
         }
         field_state next = grid_field_at(grid, sheet, p, &cell);
         if (next == FIELD_INSIDE || is_through(&cell, state, next, p.z - step.z)) {
-            enter_solid(grid, sheet, p, step, state, &cell, home, out);
+            enter_solid(grid, sheet, p, step, state, &cell, side, out);
             out->separation = rlf_dot(out->normal, rlf_sub(q, out->point));
             return true;
         }

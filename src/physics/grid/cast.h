@@ -14,19 +14,19 @@ typedef struct field_hit {
 } field_hit;
 
 /* Where the body is that a point is of. */
-typedef struct field_home {
-    field_state side; /* of the sheet that it belongs to; FIELD_INSIDE: the solid swept over it */
-    rlf_vec3 centre;  /* while side is FIELD_NONE and has_centre: there is nothing on its ray */
+typedef struct field_side {
+    field_state state; /* of the sheet that it belongs to; FIELD_INSIDE: the solid swept over it */
+    rlf_vec3 centre;   /* while state is FIELD_NONE and has_centre: there is nothing on its ray */
     bool has_centre;
-} field_home;
+} field_side;
 
 /* First contact of a point that moves from q by `path`: within `margin` of the surface at q, inside
  * the solid, or entering it on the way. The separation is that of q. False when it stays free.
- * A point inside a solid leaves it towards its body's home, not through the other face: on the
- * home's side; from FIELD_NONE by the shortest way, of the sides of a thin solid by one that looks
+ * A point inside a solid leaves it towards its body's side, not through the other face: on the
+ * own side; from FIELD_NONE by the shortest way, of the sides of a thin solid by one that looks
  * to the body's centre; from FIELD_INSIDE through the front even from behind; never through a back
  * that leaves no room before the background. */
 bool grid_cast(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q, rlf_vec3 path,
-               double margin, const field_home *home, field_hit *out);
+               double margin, const field_side *side, field_hit *out);
 
 #endif

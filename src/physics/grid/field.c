@@ -1,6 +1,6 @@
 /* Reading one sheet of the grid: where a point stands to the solid. */
 #include "physics/grid/field.h"
-#include "physics/grid/edge.h"
+#include "physics/grid/contour.h"
 
 /* What is not below these is no measurement, m and m/s. */
 #define FARTHEST 1e6
@@ -188,7 +188,7 @@ static inline field_state state_at(const rlf_grid *grid, const rlf_grid_sheet *s
         bool is_told = q.z <= front + THICKNESS_MIN || q.z > out->back;
         if (is_whole || !is_told) {
             /* How thick it is was never seen: no thicker than it is wide (a table's leg). */
-            out->thickness = grid_edge_depth(grid, sheet, out, out->thickness);
+            out->thickness = grid_guess_depth(grid, sheet, out, out->thickness);
             out->thickness = rlf_max(out->thickness, THICKNESS_MIN);
             out->back = front + out->thickness;
         }
@@ -222,8 +222,9 @@ static bool read_back(const rlf_grid *grid, const rlf_grid_sheet *sheet, const f
 {
     field_cell near;
     int32_t x = cell->x + offset[0], y = cell->y + offset[1];
-    if (!grid_cell_read(grid, sheet, x, y, &near) || grid_edge_end(grid, sheet, cell, x, y) > 0.0 ||
-        grid_edge_end(grid, sheet, &near, cell->x, cell->y) > 0.0) {
+    if (!grid_cell_read(grid, sheet, x, y, &near) ||
+        grid_contour_end(grid, sheet, cell, x, y) > 0.0 ||
+        grid_contour_end(grid, sheet, &near, cell->x, cell->y) > 0.0) {
         return false;
     }
     *out = grid_back_point(&near);

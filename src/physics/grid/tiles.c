@@ -1,6 +1,6 @@
 /* Making tiles. */
 #include "physics/grid/tiles.h"
-#include "physics/grid/edge.h"
+#include "physics/grid/contour.h"
 #include "physics/grid/field.h"
 
 #define SIZE_MIN 16
@@ -257,7 +257,7 @@ static bool ends_towards(const rlf_grid_sheet *sheet, int32_t i, int32_t next)
 {
     double z = sheet->depth[i];
     return (sheet->mask != NULL && sheet->mask[next] == 0) ||
-           (double)sheet->depth[next] > z + grid_edge_step(z);
+           (double)sheet->depth[next] > z + grid_depth_step(z);
 }
 
 /* Length of the shortest run of pixels with an end on both sides, of those on a line of `count`

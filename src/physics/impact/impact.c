@@ -5,7 +5,7 @@
  * acts at the speed and the place of the impact (no height is lost to the step), and a row of
  * touching balls passes a blow on ball by ball. Slow contacts are left to the solver. */
 #include "physics/fetch.h"
-#include "physics/grid/scan.h"
+#include "physics/grid/job.h"
 #include "physics/impact/answer.h"
 #include "physics/solver.h"
 

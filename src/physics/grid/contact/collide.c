@@ -1,0 +1,354 @@
+/* Contacts of one body with the grid: its own surface points against the sheets, and the sheets'
+ * outlines and bumps against it. Costs per body, not per pixel; nothing is built per frame. */
+#include "physics/grid/ball/ball.h"
+#include "physics/grid/contact/search.h"
+#include "physics/grid/unseen/unseen.h"
+
+/* Most substeps between two queries: a body that falls from rest must not fall through the margin;
+ * one that lies on something does not fall. */
+#define PERIOD_MAX 4.0
+#define PERIOD_AT_REST 8.0
+/* A surface that moves may come so much nearer until the next query, metres. */
+#define APPROACH_M 0.05
+/* A body that moved less than this share of the margin keeps its contacts. */
+#define SETTLED_SHARE 0.5
+/* m of free way beyond that to the next query, looked for so that a blow does not ask for one. */
+#define FREE_WAY 0.02
+/* Touches with what goes on beyond the picture. */
+#define OUT_OF_VIEW_MAX 16
+
+static void set_up(grid_job *job, const grid_query *query, const phys_body *body)
+{
+    rlf_quat q_grid_body = rlf_quat_mul(query->T_grid_world.q, body->q);
+    job->query = query;
+    job->body = body;
+    job->motion.centre = rlf_transform(&query->T_grid_world, body->x);
+    job->motion.v = rlf_rotate(query->T_grid_world.q, body->v);
+    job->motion.w = rlf_rotate(query->T_grid_world.q, body->w);
+    job->motion.speed = rlf_length(job->motion.v);
+    job->motion.spin = rlf_length(job->motion.w);
+    job->motion.R_grid_body = rlf_quat_to_mat3(q_grid_body);
+    job->motion.R_body_grid = rlf_mat3_transpose(&job->motion.R_grid_body);
+}
+
+/* How far a sheet may come by itself until the next query, metres. */
+static double approach_margin_of(const grid_tiles *tiles)
+{
+    return tiles->sheet->velocity_x != NULL ? APPROACH_M : 0.0;
+}
+
+/* How far from the body's centre anything that stays can matter until its contacts are asked for
+ * again. */
+static double reach_of(const grid_query *query, const phys_body *body, int32_t period)
+{
+    double speed = rlf_length(body->v) + 0.5 * rlf_length(body->w) * body->shape.radius;
+    return body->shape.radius + GRID_MARGIN + speed * (period + 1) * query->step;
+}
+
+/* A bump counts only where no contact plane explains it: noise on a flat surface is no bump. */
+static void add_bumps(grid_job *job)
+{
+    const double NOISE = 0.01;
+    int32_t plane_count = job->hit_count;
+    for (int32_t i = 0; i < job->scan.bump_count && job->hit_count < GRID_HITS_MAX; i++) {
+        const grid_hit *bump = &job->scan.bumps[i];
+        bool is_explained = false;
+        for (int32_t k = 0; k < plane_count && !is_explained; k++) {
+            const grid_hit *hit = &job->hits[k];
+            double off = rlf_dot(hit->normal, rlf_sub(bump->point, hit->point));
+            is_explained = rlf_dot(hit->normal, bump->facing) > 0.7 && off < NOISE;
+        }
+        if (!is_explained) {
+            job->hits[job->hit_count++] = *bump;
+        }
+    }
+}
+
+static void clear(grid_job *job)
+{
+    job->scan.surface_velocity = rlf_vec3_make(0, 0, 0);
+    job->scan.nearest2 = job->window.reach * job->window.reach;
+    job->scan.stride = 0;
+    job->scan.is_near = job->scan.is_flat = false;
+    job->scan.flat_count = 0;
+    job->scan.normal_count = 0;
+    job->scan.bump_count = 0;
+    job->touch_count = 0;
+    job->hit_count = 0;
+    job->scan.solid_count = 0;
+    job->scan.is_listed = true;
+}
+
+/* Whether the surface's plane had not yet passed the body's centre, which is behind it now, when
+ * the body's contacts were last asked for: frames were lost, or it is fast. */
+static bool is_swept(const grid_job *job, const field_cell *cell, rlf_vec3 seen)
+{
+    double since = job->query->time - job->window.asked_before + job->query->lag;
+    double height = rlf_dot(cell->normal, rlf_sub(seen, cell->point));
+    return height + rlf_dot(cell->normal, cell->velocity) * since > 0.0;
+}
+
+/* Inside a solid a body still belongs to the side from which it came. True when it is inside, or
+ * the solid swept over it. */
+static bool update_side(grid_job *job, uint8_t *side)
+{
+    field_cell cell;
+    rlf_vec3 seen = rlf_mad(job->motion.centre, job->scan.surface_velocity, -job->query->tau);
+    field_state state = FIELD_NONE;
+    if (job->scan.is_near) {
+        state = grid_field_state(job->query->grid, job->sheet, seen, &cell);
+    }
+    if (state == FIELD_BEHIND && *side == FIELD_FRONT && is_swept(job, &cell, seen)) {
+        *side = FIELD_INSIDE;
+    } else if (state != FIELD_INSIDE && !(state == FIELD_BEHIND && *side == FIELD_INSIDE)) {
+        *side = (uint8_t)state;
+    }
+    job->side = (field_side){(field_state)*side, seen, true};
+    return state == FIELD_INSIDE || *side == FIELD_INSIDE;
+}
+
+static void collide_layer(grid_job *job, const grid_tiles *tiles, uint8_t *side)
+{
+    job->tiles = tiles;
+    job->sheet = tiles->sheet;
+    job->window.reach =
+        reach_of(job->query, job->body, job->body->surface_period) + approach_margin_of(tiles);
+    clear(job);
+    if (job->sheet->depth == NULL || job->sheet->normal_x == NULL) {
+        return;
+    }
+    job->is_ball = job->body->shape.shape.type == RLF_SHAPE_SPHERE;
+    grid_scan_footprint(job);
+    bool is_inside = update_side(job, side);
+    if (job->is_ball && is_inside) { /* no touch, but a way out: by the points of its surface */
+        clear(job);
+        job->is_ball = false;
+        grid_scan_footprint(job);
+    }
+    if (job->is_ball) {
+        grid_ball_add_hits(job);
+    } else if (job->scan.is_near) {
+        grid_cast_points(job);
+        add_bumps(job);
+    }
+}
+
+/* Touches of the body with what goes on beyond the picture, from a look at it moved into view. */
+typedef struct unseen_hits {
+    grid_hit hits[OUT_OF_VIEW_MAX];
+    int32_t count;
+    double nearest2;
+} unseen_hits;
+
+static void collide_out_of_view(grid_job *job, grid_shift shift, unseen_hits *beyond)
+{
+    const grid_query *query = job->query;
+    beyond->count = 0;
+    beyond->nearest2 = 1e18;
+    if (!(shift.length > 0.0)) {
+        return;
+    }
+    rlf_vec3 centre = job->motion.centre;
+    uint8_t side = FIELD_NONE;
+    job->motion.centre = rlf_mad(centre, shift.way, shift.length);
+    collide_layer(job, query->background, &side);
+    job->motion.centre = centre;
+    beyond->nearest2 = job->scan.nearest2;
+    for (int32_t i = 0; i < job->hit_count && beyond->count < OUT_OF_VIEW_MAX; i++) {
+        if (grid_goes_on(query, &shift, &job->hits[i])) {
+            grid_hit *hit = &beyond->hits[beyond->count++];
+            *hit = job->hits[i];
+            hit->point = rlf_mad(hit->point, shift.way, -shift.length);
+        }
+    }
+}
+
+static void add_out_of_view(grid_job *job, const unseen_hits *beyond)
+{
+    job->scan.nearest2 = rlf_min(job->scan.nearest2, beyond->nearest2);
+    for (int32_t i = 0; i < beyond->count && job->hit_count < GRID_HITS_MAX; i++) {
+        job->hits[job->hit_count++] = beyond->hits[i];
+    }
+}
+
+/* How many substeps this body's contacts stay good: it must not travel far in that time. */
+static int32_t query_period(const phys_body *body, double step, double most)
+{
+    double travel = (rlf_length(body->v) + rlf_length(body->w) * body->shape.radius) * step;
+    double period = 0.2 * body->shape.inner_radius / rlf_max(travel, 1e-9);
+    return (int32_t)rlf_clamp(period, 1.0, most);
+}
+
+/* Where nothing is within this, nothing is asked for again until the most substeps are over. */
+static double wide_reach_of(const grid_query *query, const phys_body *body)
+{
+    return reach_of(query, body, (int32_t)PERIOD_MAX) + FREE_WAY;
+}
+
+static void set_period(grid_job *job, phys_body *body, double most)
+{
+    body->surface_period = query_period(body, job->query->step, most);
+    job->window.horizon = (body->surface_period + 1) * job->query->step;
+}
+
+/* How far from the centre anything that goes on beyond the picture is, no less than this. */
+static double free_out_of_view(grid_job *job, grid_shift shift, double reach, double least)
+{
+    const grid_query *query = job->query;
+    if (!(shift.length > 0.0)) {
+        return reach;
+    }
+    rlf_vec3 centre = job->motion.centre;
+    job->motion.centre = rlf_mad(centre, shift.way, shift.length);
+    double distance = grid_scan_distance(job, query->background, reach, least);
+    job->motion.centre = centre;
+    return distance;
+}
+
+/* How far the body may go before it comes to anything, wherever the camera looks, by tiles and
+ * planes alone. What is not above `least` need not be told apart. */
+static double free_way(grid_job *job, grid_shift shift, double least)
+{
+    const grid_query *query = job->query;
+    double wide = wide_reach_of(query, job->body);
+    double approaching = approach_margin_of(query->foreground);
+    double beside = job->body->shape.radius + GRID_MARGIN;
+    double way = grid_unseen_height(job, wide) - beside;
+    double limit = least + beside;
+    way = rlf_min(way, grid_scan_distance(job, query->background, wide, limit) - beside);
+    if (way <= least) {
+        return way;
+    }
+    double front =
+        grid_scan_distance(job, query->foreground, wide + approaching, limit + approaching) -
+        approaching;
+    way = rlf_min(way, front - beside);
+    return way > least ? rlf_min(way, free_out_of_view(job, shift, wide, limit) - beside) : way;
+}
+
+/* How far the body may go before it comes to what the last scan saw. */
+static double clearance_of(const grid_job *job)
+{
+    double approaching = approach_margin_of(job->tiles);
+    double gaps = job->scan.stride * job->motion.centre.z * job->query->grid->pixel_angle;
+    double beside = job->body->shape.radius + GRID_MARGIN + approaching + gaps;
+    return rlf_max(0.0, sqrt(job->scan.nearest2) - beside);
+}
+
+bool grid_collide_prepare(const grid_query *query, const phys_body *body)
+{
+    int32_t rect[4], stride;
+    double reach = reach_of(query, body, query_period(body, query->step, PERIOD_AT_REST));
+    reach = rlf_max(reach, wide_reach_of(query, body)) + approach_margin_of(query->foreground);
+    rlf_vec3 centre = rlf_transform(&query->T_grid_world, body->x);
+    grid_shift shift = grid_out_of_view(query, centre, body->shape.radius);
+    rlf_vec3 moved = rlf_mad(centre, shift.way, shift.length);
+    if (shift.length > 0.0 && grid_footprint(query->grid, moved, reach, rect, &stride)) {
+        grid_tiles_make(query->background, query->grid, rect);
+    }
+    if (!grid_footprint(query->grid, centre, reach, rect, &stride)) {
+        return false;
+    }
+    grid_tiles_make(query->background, query->grid, rect);
+    return grid_tiles_make(query->foreground, query->grid, rect);
+}
+
+static void start_contacts(const grid_query *query, phys_body *body)
+{
+    body->stance.is_set = false;
+    body->is_restless = false;
+    body->surface_count = 0;
+    body->surface_flow = rlf_vec3_make(0, 0, 0);
+    body->surface_age = 0;
+    body->surface_time = query->time;
+    body->surface_x = body->x;
+    body->surface_turned = body->turned;
+    body->surface_version = 0;
+}
+
+/* Whether nothing of the foreground can come near the body before the next query. */
+static bool is_alone(const grid_job *job, double period)
+{
+    double reach = reach_of(job->query, job->body, (int32_t)period);
+    reach += approach_margin_of(job->query->foreground);
+    return grid_scan_distance(job, job->query->foreground, reach, 0.99 * reach) >= reach;
+}
+
+/* Whether a search would find what the last one found: what stays is the same, nothing else is
+ * near, and the body has hardly moved. All that was within the margin is known. */
+static bool is_settled(const grid_job *job)
+{
+    const grid_query *query = job->query;
+    const phys_body *body = job->body;
+    double moved = rlf_length(rlf_sub(body->x, body->surface_x)) +
+                   (body->turned - body->surface_turned) * body->shape.radius;
+    double coming = phys_body_speed(body) * (PERIOD_AT_REST + 1.0) * query->step;
+    return body->surface_version != 0 && body->surface_version == query->rest_version &&
+           moved + coming < SETTLED_SHARE * GRID_MARGIN && is_alone(job, PERIOD_AT_REST);
+}
+
+static void keep_contacts(const grid_query *query, phys_body *body)
+{
+    body->is_restless = false;
+    body->surface_age = 0;
+    body->surface_time = query->time;
+    body->surface_period =
+        query_period(body, query->step, body->is_pressed ? PERIOD_AT_REST : PERIOD_MAX);
+}
+
+/* Both sheets, the nearer first. */
+static void collide_layers(grid_job *job, grid_shift shift, phys_body *body, int32_t body_index)
+{
+    const grid_query *query = job->query;
+    set_period(job, body, PERIOD_MAX);
+    collide_layer(job, query->foreground, &body->side[0]);
+    body->surface_flow = job->scan.surface_velocity;
+    body->surface_clear = clearance_of(job);
+    grid_reduce(job, body, body_index, RLF_CONTACT_FOREGROUND);
+    if (!job->scan.is_near && body->is_pressed) {
+        set_period(job, body, PERIOD_AT_REST);
+    }
+    unseen_hits beyond;
+    collide_out_of_view(job, shift, &beyond);
+    collide_layer(job, query->background, &body->side[1]);
+    add_out_of_view(job, &beyond);
+    grid_unseen_collide(job);
+    body->surface_clear = rlf_min(body->surface_clear, clearance_of(job));
+    grid_reduce(job, body, body_index, RLF_CONTACT_BACKGROUND);
+}
+
+void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
+{
+    double swept_from = body->surface_time;
+    int32_t old_count = body->surface_count;
+    phys_trace old[PHYS_SURFACE_CONTACTS];
+    grid_job job;
+    set_up(&job, query, body);
+    if (is_settled(&job)) {
+        keep_contacts(query, body);
+        return;
+    }
+    start_contacts(query, body);
+    grid_shift shift = grid_out_of_view(query, job.motion.centre, body->shape.radius);
+    double least = phys_body_way(body, query->step), way = free_way(&job, shift, least);
+    if (way > least) {
+        body->side[0] = body->side[1] = FIELD_NONE;
+        body->surface_period = 1;
+        body->surface_clear = way;
+        return;
+    }
+    for (int32_t i = 0; i < old_count; i++) {
+        old[i] = phys_trace_of(&body->surface[i]);
+    }
+    job.window.asked_before = swept_from;
+    collide_layers(&job, shift, body, body_index);
+    if (query->background->sheet->velocity_x == NULL && is_alone(&job, body->surface_period)) {
+        body->surface_version = query->rest_version;
+    }
+    if (body->surface_count == 0) {
+        body->surface_period++; /* all of the horizon is free */
+    } else {
+        body->surface_clear = 0.0;
+    }
+    grid_keep_impulses(body, old, old_count);
+}

@@ -1,0 +1,129 @@
+/* Contact reduction and persistence. */
+#include "physics/grid/contact/search.h"
+
+/* The deepest; among equals (a face lying flat) always the same corner, so that contacts persist.
+ */
+static int32_t deepest(const grid_job *job, const bool *is_used)
+{
+    const rlf_vec3 LEAN = {0.0028, 0.0033, 0.0025};
+    int32_t best = -1;
+    double best_value = 0.0;
+    for (int32_t i = 0; i < job->hit_count; i++) {
+        const grid_hit *hit = &job->hits[i];
+        double value = hit->separation - rlf_dot(hit->anchor, LEAN);
+        if (!is_used[i] && (best < 0 || value < best_value)) {
+            best_value = value;
+            best = i;
+        }
+    }
+    return best;
+}
+
+static rlf_vec3 point_of(const grid_job *job, int32_t i)
+{
+    return job->hits[i].anchor;
+}
+
+/* How much choosing hit i widens the support that `chosen` gives: distance, then area. */
+static double spread(const grid_job *job, const int32_t *chosen, int32_t count, int32_t i)
+{
+    rlf_vec3 d = rlf_sub(point_of(job, i), point_of(job, chosen[0]));
+    if (count == 1) {
+        return rlf_dot(d, d);
+    }
+    rlf_vec3 e = rlf_sub(point_of(job, chosen[1]), point_of(job, chosen[0]));
+    rlf_vec3 area = rlf_cross(e, d);
+    if (count == 2) {
+        return rlf_dot(area, area);
+    }
+    rlf_vec3 f = rlf_sub(point_of(job, chosen[2]), point_of(job, chosen[0]));
+    return -rlf_dot(area, rlf_cross(e, f)); /* on the other side of the line */
+}
+
+/* Up to four hits of one direction; all of that direction are marked as used. */
+static int32_t choose_cluster(const grid_job *job, bool *is_used, int32_t chosen[4])
+{
+    bool is_member[GRID_HITS_MAX] = {false};
+    double radius = job->body->shape.radius;
+    chosen[0] = deepest(job, is_used);
+    if (chosen[0] < 0) {
+        return 0;
+    }
+    const grid_hit *first = &job->hits[chosen[0]];
+    for (int32_t i = 0; i < job->hit_count; i++) {
+        is_member[i] = !is_used[i] && rlf_dot(job->hits[i].normal, first->normal) > 0.9;
+        is_used[i] = is_used[i] || is_member[i];
+    }
+    is_member[chosen[0]] = false;
+    int32_t count = 1;
+    while (count < 4) {
+        int32_t best = -1;
+        double best_value = 1e-6 * radius * radius * (count > 1 ? radius * radius : 1.0);
+        for (int32_t i = 0; i < job->hit_count; i++) {
+            double value = is_member[i] ? spread(job, chosen, count, i) : 0.0;
+            if (value > best_value) {
+                best_value = value;
+                best = i;
+            }
+        }
+        if (best < 0) {
+            break;
+        }
+        is_member[best] = false;
+        chosen[count++] = best;
+    }
+    return count;
+}
+
+static void add_contact(const grid_job *job, const grid_hit *hit, phys_body *body,
+                        phys_contact *prototype)
+{
+    const rlf_pose *T_world_grid = &job->query->grid->T_world_grid;
+    phys_contact *contact = &body->surface[body->surface_count++];
+    *contact = *prototype;
+    contact->label = hit->label;
+    contact->anchor_a = hit->anchor;
+    contact->rounding_a = hit->rounding;
+    contact->anchor_b = rlf_transform(T_world_grid, hit->point);
+    contact->normal = rlf_rotate(T_world_grid->q, hit->normal);
+    if (job->query->is_moving) {
+        contact->surface_velocity = rlf_rotate(T_world_grid->q, hit->velocity);
+    }
+}
+
+void grid_reduce(grid_job *job, phys_body *body, int32_t body_index, rlf_contact_other other)
+{
+    bool is_used[GRID_HITS_MAX] = {false};
+    phys_contact prototype = {.a = body_index, .b = -1, .other = other, .log = -1};
+    prototype.surface_time = job->query->time;
+    for (int32_t cluster = 0; cluster < 3; cluster++) {
+        int32_t chosen[4];
+        int32_t count = choose_cluster(job, is_used, chosen);
+        for (int32_t i = 0; i < count && body->surface_count < PHYS_SURFACE_CONTACTS; i++) {
+            add_contact(job, &job->hits[chosen[i]], body, &prototype);
+        }
+    }
+}
+
+void grid_keep_impulses(phys_body *body, const phys_trace *old, int32_t old_count)
+{
+    bool is_taken[PHYS_SURFACE_CONTACTS] = {false};
+    double limit = 0.3 * body->shape.radius;
+    for (int32_t i = 0; i < body->surface_count; i++) {
+        phys_contact *contact = &body->surface[i];
+        int32_t best = -1;
+        double best2 = limit * limit;
+        for (int32_t k = 0; k < old_count; k++) {
+            rlf_vec3 d = rlf_sub(old[k].anchor_a, contact->anchor_a);
+            if (!is_taken[k] && old[k].other == contact->other && rlf_dot(d, d) < best2 &&
+                rlf_dot(old[k].normal, contact->normal) > 0.8) {
+                best2 = rlf_dot(d, d);
+                best = k;
+            }
+        }
+        if (best >= 0) {
+            is_taken[best] = true;
+            phys_trace_follow(&old[best], contact);
+        }
+    }
+}
