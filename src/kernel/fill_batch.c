@@ -1,4 +1,4 @@
-/* Depth of holes, from the right side of an edge: see surface/fill.c. */
+/* Depth of holes, from the right side of an edge: see surface/depth/fill.c. */
 #include "kernel/batch.h"
 
 /* What a pixel at an offset counts: less the farther it is. */

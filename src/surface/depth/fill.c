@@ -12,8 +12,8 @@
  * there (thin/thin.h). The outermost pixels, which drivers' filters leave
  * empty, go on as the two inside of them. A hole about as wide as the widest that is filled is
  * filled in some rows and not in others: what is left of it then is closed. */
-#include "surface/color_side.h"
-#include "surface/shadow.h"
+#include "surface/depth/color_guide.h"
+#include "surface/depth/shadow.h"
 #include "surface/depth/depth.h"
 #include "surface/steps.h"
 #include "surface/thin/thin.h"
@@ -173,14 +173,14 @@ static void ask_picture(const fill_job *job, fill_queue *q, float votes[RLF_BATC
     for (int32_t k = 0; k < q->count; k++) {
         may[k] = may_ask(job, q, k);
     }
-    const rlf_side_cases cases = {.count = q->count,
-                                  .x = q->x,
-                                  .y = q->y,
-                                  .line = q->line,
-                                  .ends = &q->ends,
-                                  .depth = &q->depth,
-                                  .votes = votes};
-    rlf_color_side_vote(job->stage, &cases, may, q->sum);
+    const rlf_guide_cases cases = {.count = q->count,
+                                   .x = q->x,
+                                   .y = q->y,
+                                   .line = q->line,
+                                   .ends = &q->ends,
+                                   .depth = &q->depth,
+                                   .votes = votes};
+    rlf_color_guide_vote(job->stage, &cases, may, q->sum);
 }
 
 static void fill_batch(const fill_job *job, fill_queue *q)
@@ -188,7 +188,7 @@ static void fill_batch(const fill_job *job, fill_queue *q)
     float filled[RLF_BATCH], votes[RLF_BATCH];
     uint8_t kind[RLF_BATCH];
     rlf_kernel_fill_votes(&q->depth, &q->ends, votes);
-    if (job->stage->side.image.data != NULL) {
+    if (job->stage->guide.image.data != NULL) {
         ask_picture(job, q, votes);
     }
     vote_by_shadow(job, q, votes);
@@ -282,7 +282,7 @@ static void fill_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     (void)worker;
     const fill_job *job = context;
     int32_t width = job->stage->grid.width;
-    const rlf_color_side *side = &job->stage->side;
+    const rlf_color_guide *side = &job->stage->guide;
     fill_queue queue = {.sum = side->part != NULL ? side->part + begin / RLF_ROW_GRAIN : NULL,
                         .found = job->found + (ptrdiff_t)begin * width};
     for (int32_t y = begin; y < end; y++) {
