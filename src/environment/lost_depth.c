@@ -110,9 +110,10 @@ static int32_t rims_of(const lost_depth *l, int32_t x, int32_t y)
     static const int inward[4] = {4, 5, 0, 1};
     int32_t rims = 0;
     for (int k = 0; k < 4; k++) {
-        const bool is_rim = to_border[k] < RIM && l->away[outward[k]][i] == LOST_DEPTH_NOTHING &&
-                            to_border[k] + l->away[inward[k]][i] <= RIM;
-        rims |= is_rim ? 1 << k : 0;
+        const bool is_contour = to_border[k] < RIM &&
+                                l->away[outward[k]][i] == LOST_DEPTH_NOTHING &&
+                                to_border[k] + l->away[inward[k]][i] <= RIM;
+        rims |= is_contour ? 1 << k : 0;
     }
     return rims;
 }

@@ -1,4 +1,5 @@
-/* The sides of edges by a colour picture: see surface/color_side.c. Batches as in batch.h. */
+/* The sides of edges by a colour picture: see surface/depth/color_guide.c. Batches as in batch.h.
+ */
 #ifndef RLF_KERNEL_COLOR_H
 #define RLF_KERNEL_COLOR_H
 

@@ -54,7 +54,7 @@ typedef struct rlf_kernel_moving_row {
 void rlf_kernel_move_row(const rlf_kernel_motion *motion, const rlf_kernel_moving_row *in,
                          const float *restrict seen, float *restrict z, int32_t *restrict to);
 
-/* ---- flow_batch.c: samples of a surface, a frame ago, see surface/velocity/cells.c
+/* ---- flow_batch.c: samples of a surface, a frame ago, see surface/motion/cells.c
  * --------------------------------------------------- */
 
 #define RLF_FLOW_BATCH 64 /* most samples */
@@ -87,7 +87,7 @@ void rlf_kernel_flow_residuals(const rlf_kernel_flow_view *view,
                                int32_t first, int32_t count, float *restrict out,
                                int32_t *restrict is_seen);
 
-/* ---- flow_row.c: velocity of pixels, see surface/velocity/write.c
+/* ---- flow_row.c: velocity of pixels, see surface/motion/write.c
  * --------------------------------------------------- */
 
 /* A rigid motion: m/s at the centre (metres), radians per second. */
@@ -117,29 +117,30 @@ void rlf_kernel_flow_row(const rlf_kernel_flow *restrict flow, const float *rest
                          const float *restrict ray_x, const float *restrict ray_y, int32_t count,
                          float *const velocity[3]);
 
-/* ---- rim_window.c: outlines of regions, see surface/velocity/outline.c
+/* ---- contour_window.c: outlines of regions, see surface/motion/contour.c
  * --------------------------------------------------- */
 
-#define RLF_RIM_RADIUS 3 /* of a window, pixels */
-#define RLF_RIM_SIDE (1 + 2 * RLF_RIM_RADIUS)
+#define RLF_CONTOUR_RADIUS 3 /* of a window, pixels */
+#define RLF_CONTOUR_SIDE (1 + 2 * RLF_CONTOUR_RADIUS)
 
 /* Planes of an image from a row's first pixel on; the rows above and below are inside. */
-typedef struct rlf_kernel_rim_in {
+typedef struct rlf_kernel_contour_in {
     const uint8_t *foreground;
     const float *depth;
     ptrdiff_t width; /* of the image */
     float least;     /* metres from a pixel to what is behind it */
-} rlf_kernel_rim_in;
+} rlf_kernel_contour_in;
 
 /* Not 0 for pixels beside one that shows the background behind them; reads a pixel more on both
  * sides. */
-void rlf_kernel_rim_row(const rlf_kernel_rim_in *in, int32_t count, uint8_t *restrict is_rim);
+void rlf_kernel_contour_row(const rlf_kernel_contour_in *in, int32_t count,
+                            uint8_t *restrict is_contour);
 /* The region's pixels in the window about (x, y), which is inside the image of labels, at least
- * RLF_RIM_SIDE + 1 pixels wide, and the sums of their steps from there: count, x, y. */
-void rlf_kernel_rim_window(const int32_t *label, int32_t width, int32_t own, int32_t x, int32_t y,
-                           int32_t out[3]);
+ * RLF_CONTOUR_SIDE + 1 pixels wide, and the sums of their steps from there: count, x, y. */
+void rlf_kernel_contour_window(const int32_t *label, int32_t width, int32_t own, int32_t x,
+                               int32_t y, int32_t out[3]);
 
-/* ---- rest_count.c: regions that rest, see surface/velocity/velocity.c
+/* ---- rest_count.c: regions that rest, see surface/motion/rigid.c
  * --------------------------------------------------- */
 
 /* Planes of an image; a rectangle of it, every stride-th pixel of every stride-th row. */

@@ -1,4 +1,4 @@
-/* Where samples of a surface were a frame ago: see surface/velocity/cells.c. */
+/* Where samples of a surface were a frame ago: see surface/motion/cells.c. */
 #include "kernel/flow.h"
 
 #include "relief/surface.h"
@@ -33,7 +33,7 @@ RLF_KERNEL_PART void find_places(const rlf_kernel_flow_view *view,
     for (int32_t k = 0; k < count; k++) {
         int32_t i = first + k;
         float x = samples->x[i] - sx, y = samples->y[i] - sy, z = samples->z[i] - sz;
-        bool is_before = z > 0.01f;
+        bool is_before = z > 0.0f;
         float divisor = is_before ? z : 1.0f;
         float u = samples->column[i] + (x / divisor - samples->ray_x[i]) * w.fx;
         float v = samples->row[i] + (y / divisor - samples->ray_y[i]) * w.fy;

@@ -1,4 +1,4 @@
-/* Velocity of pixels from that of the cells around: see surface/velocity/write.c. */
+/* Velocity of pixels from that of the cells around: see surface/motion/write.c. */
 #include "kernel/flow.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Gaps between pixels with depth: see surface/fill.c. */
+/* Gaps between pixels with depth: see surface/depth/fill.c. */
 #include "kernel/batch.h"
 
 enum { DIAGONAL_GAP = 4 }; /* a wide hole must not be crossed from corner to corner */

@@ -386,11 +386,11 @@ enum {
     RLF_LINK_UP_RIGHT = 16
 };
 
-/* Neighbours belong together when their depths differ by at most 8.5 sigma(z) + slope z + step_m;
- * diagonal ones may differ by sqrt(2) times the slope's part. */
+/* Neighbours belong together when their depths differ by at most sigmas sigma(z) + slope z +
+ * step_m; diagonal ones may differ by sqrt(2) times the slope's part. */
 typedef struct rlf_kernel_links {
     rlf_kernel_noise noise;
-    float slope, step_m;
+    float sigmas, slope, step_m;
     bool diagonals;
 } rlf_kernel_links;
 

@@ -1,4 +1,4 @@
-/* How many of a region's pixels are where they were: see surface/velocity/velocity.c. What rests
+/* How many of a region's pixels are where they were: see surface/motion/rigid.c. What rests
  * stays on its ray, and its slope has no say. */
 #include "kernel/flow.h"
 

@@ -1,7 +1,6 @@
 /* Which neighbouring pixels belong together: one row against the one above it. */
 #include "kernel/kernel.h"
 
-static const float sigmas = 8.5f; /* 6 sqrt(2): of the difference of two samples */
 static const float diagonal = 1.4142136f;
 
 RLF_KERNEL_PART int32_t is_member(const float *depth, const uint8_t *mask, int32_t i)
@@ -18,7 +17,7 @@ RLF_KERNEL_PART uint8_t link_pixel(const rlf_kernel_links *p, const rlf_kernel_l
                                    int32_t i, int32_t left)
 {
     float z = in->depth[i];
-    float limit = sigmas * rlf_kernel_sigma(p->noise, z) + p->slope * z + p->step_m;
+    float limit = p->sigmas * rlf_kernel_sigma(p->noise, z) + p->slope * z + p->step_m;
     int32_t own = is_member(in->depth, in->mask, i);
     int32_t beside = is_member(in->depth, in->mask, left) & is_near(z, in->depth[left], limit) &
                      (left != i ? 1 : 0);
@@ -33,7 +32,7 @@ RLF_KERNEL_PART uint8_t link_diagonals(const rlf_kernel_links *p, const rlf_kern
         return 0;
     }
     float z = in->depth[i];
-    float limit = sigmas * rlf_kernel_sigma(p->noise, z) + diagonal * p->slope * z + p->step_m;
+    float limit = p->sigmas * rlf_kernel_sigma(p->noise, z) + diagonal * p->slope * z + p->step_m;
     int32_t links = 0;
     if (i > 0 && is_member(in->above, in->mask_above, i - 1)) {
         links |= is_near(z, in->above[i - 1], limit) ? RLF_LINK_UP_LEFT : 0;

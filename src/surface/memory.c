@@ -62,7 +62,7 @@ static void take_work(rlf_work *work, rlf_arena *arena, const rlf_reconstruct_de
     work->zero_plane = arena_take(arena, n, sizeof(float));
     work->zero_labels = arena_take(arena, n, sizeof(int32_t));
     work->region_sums = arena_take(arena, (size_t)def->region_capacity + 1, sizeof(rlf_region_sum));
-    work->heirs = arena_take(arena, 4 * (size_t)def->region_capacity, sizeof(int32_t));
+    work->label_table = arena_take(arena, 4 * (size_t)def->region_capacity, sizeof(int32_t));
     work->zeros = arena_take(arena, width, sizeof(float));
     work->ones = arena_take(arena, width, 1);
     work->missing = arena_take(arena, width, 1);
@@ -90,10 +90,10 @@ static void take_all(void *context)
     static_allocate(&stage->background.thick, arena, def, grid);
     temporal_allocate(&stage->temporal, arena, def, grid);
     normals_allocate(&stage->normals, arena, def, grid);
-    family_allocate(&stage->family, arena, def);
+    tracks_allocate(&stage->tracks, arena, def);
     stage->objects = objects_allocate(arena, def, grid);
     thin_allocate(&stage->thin, arena, def, grid);
-    color_side_allocate(&stage->side, arena, def, grid);
+    color_guide_allocate(&stage->guide, arena, def, grid);
     velocity_allocate(&stage->velocity, arena, grid);
     chords_allocate(&stage->chords, arena, def, grid);
     take_work(&stage->work, arena, def, grid);

@@ -1,8 +1,8 @@
 /* The surface stage: one frame through all steps into the next slot of the ring. */
-#include "surface/color_side.h"
-#include "surface/ego_motion.h"
+#include "surface/depth/color_guide.h"
+#include "surface/motion/ego_motion.h"
 #include "surface/objects/objects.h"
-#include "surface/shadow.h"
+#include "surface/depth/shadow.h"
 #include "surface/thickness/static.h"
 #include "surface/depth/depth.h"
 #include "surface/steps.h"
@@ -75,9 +75,9 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
     temporal_reset(&stage->temporal, &stage->grid);
     normals_reset(&stage->normals, &stage->grid);
     rlf_objects_reset(stage->objects, stage->grid.count);
-    stage->family.count = 0;
+    stage->tracks.count = 0;
     thin_reset(&stage->thin, &stage->grid);
-    rlf_color_side_reset(stage);
+    rlf_color_guide_reset(stage);
     rlf_ego_motion_reset(&stage->ego);
     rlf_shadow_reset(&stage->shadow);
     stage->previous = NULL;

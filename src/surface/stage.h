@@ -7,14 +7,14 @@
 
 #include "kernel/kernel.h"
 #include "surface/background/state.h"
-#include "surface/color_side.h"
+#include "surface/depth/color_guide.h"
 #include "surface/depth/state.h"
-#include "surface/ego_motion.h"
+#include "surface/motion/ego_motion.h"
 #include "surface/normals/state.h"
 #include "surface/segment/state.h"
-#include "surface/shadow.h"
+#include "surface/depth/shadow.h"
 #include "surface/thin/thin.h"
-#include "surface/velocity/state.h"
+#include "surface/motion/state.h"
 
 /* What later steps of a frame, or those of the next one, go on with. */
 typedef struct rlf_work {
@@ -30,7 +30,7 @@ typedef struct rlf_work {
     int32_t *size;      /* count + 1 */
     int32_t *map;       /* count + 1 */
     int32_t *vote[2];   /* count + 1 */
-    float *found;       /* plane, scratch of fill.c */
+    float *found;       /* plane, scratch of depth/fill.c */
     uint8_t *bits;      /* plane, scratch of segment.c */
     float *zeros;       /* one row */
     uint8_t *ones;      /* one row */
@@ -38,7 +38,7 @@ typedef struct rlf_work {
     float *zero_plane;  /* published where there is no background */
     int32_t *zero_labels;
     struct rlf_region_sum *region_sums; /* region_capacity */
-    int32_t *heirs;                     /* label table of segment/region_track.c */
+    int32_t *label_table;               /* label table of segment/region_track.c */
 } rlf_work;
 
 struct rlf_reconstruct {
@@ -51,9 +51,9 @@ struct rlf_reconstruct {
     rlf_background background;
     temporal temporal;
     normals_state normals;
-    rlf_family family; /* of the foreground */
+    rlf_tracks tracks; /* of the foreground */
     thin thin;         /* of the foreground */
-    rlf_color_side side;
+    rlf_color_guide guide;
     struct rlf_objects *objects; /* see objects/objects.h; NULL = they are not wanted */
     rlf_ego_motion ego;
     rlf_shadow shadow;

@@ -6,7 +6,7 @@
 #include "kernel/batch.h"
 #include "surface/stage.h"
 
-/* ---- fill.c ---- */
+/* ---- depth/fill.c ---- */
 /* Fills gaps of at most RLF_FILL_GAP pixels between valid ones of the slot's depth. What shows the
  * background takes its normal too, where planes have been fitted to the others. `was_seen`:
  * 1 where there was a depth before. */
@@ -123,6 +123,10 @@ void rlf_segment_dilate(const rlf_grid *grid, double tau, const float *depth, co
                         int32_t *label);
 
 /* ---- segment/region.c ---- */
+/* Metres: chin and neck, arm and chest, a foot behind a table's leg are one person. In the
+ * foreground, steps of a hand's breadth do not separate. */
+#define RLF_PERSON_STEP_M 0.12f
+
 typedef struct rlf_layer_in {
     rlf_layer layer;
     rlf_segment_method method;
@@ -162,14 +166,9 @@ void rlf_region_write_labels(const rlf_reconstruct *stage, const rlf_layer_out *
                              int32_t *label);
 
 /* ---- segment/region_track.c ---- */
-/* Gives each region the label it had, by largest overlap, or a new one. */
+/* Gives each region the label it had, by largest overlap; that of something hidden that it is a
+ * part of; or a new one. */
 void rlf_region_track(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out);
-
-int32_t rlf_region_fresh_label(rlf_reconstruct *stage);
-
-/* ---- segment/region_family.c ---- */
-/* Labels for the regions that have none: that of what they are the visible part of, or new ones. */
-void rlf_region_name(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out);
 
 /* ---- segment/region_stats.c ---- */
 typedef struct rlf_region_sum {
@@ -234,7 +233,7 @@ const background_image *background_image_newest(const rlf_reconstruct *stage);
 void background_image_publish(rlf_reconstruct *stage, const rlf_slot *slot);
 void background_image_advance(rlf_reconstruct *stage, const rlf_slot *slot);
 
-/* ---- velocity/velocity.c, thickness/thickness.c ---- */
+/* ---- motion/rigid.c, thickness/thickness.c ---- */
 void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot);
 /* `raw`: depth as the sensor gave it. */
 void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot, const float *raw);

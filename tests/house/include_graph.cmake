@@ -15,6 +15,7 @@ set(public_camera base math image camera)
 set(public_kernel base math image camera frame surface) # of the values: noise and reason codes
 set(public_capture base math image camera frame source synthetic)
 set(public_surface base math image camera frame surface reconstruct)
+set(public_query base math image camera frame surface)
 set(public_physics base math snapshot world query)
 set(public_known base math image camera frame surface snapshot model known)
 set(public_environment base math image camera frame surface snapshot)
@@ -31,6 +32,7 @@ set(internal_camera base math kernel)
 set(internal_kernel base math)
 set(internal_capture base math camera kernel)
 set(internal_surface base math camera kernel)
+set(internal_query base math)
 set(internal_physics base math kernel)
 set(internal_known base math camera)
 set(internal_environment base math camera kernel known)
@@ -80,7 +82,7 @@ set(owner_backend io)
 set(system_base sys/mman sanitizer/asan_interface)
 set(system_core assert errno float inttypes limits math pthread signal stdalign stdarg stdatomic
     stdbool stddef stdint stdio stdlib string time unistd)
-set(core_modules base math image camera kernel known capture surface physics environment render
+set(core_modules base math image camera kernel known capture surface query physics environment render
     pipeline)
 
 set(problems "")

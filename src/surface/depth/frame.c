@@ -51,8 +51,8 @@ void depth_fill(rlf_reconstruct *stage, const rlf_frame *frame, const float *kep
         return;
     }
     rlf_shadow_learn(stage, kept);
-    rlf_color_side_start(stage, frame);
+    rlf_color_guide_start(stage, frame);
     rlf_fill_holes(stage, slot, was_seen);
-    rlf_color_side_learn(stage);
+    rlf_color_guide_learn(stage);
     rlf_stage_add_time(stage, RLF_SURFACE_FILL);
 }

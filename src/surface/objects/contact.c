@@ -7,8 +7,8 @@
 
 static const float SIGMAS = 4.0f;       /* in front of the other's tangent plane ... */
 static const float LEAST_SLOPE = 0.25f; /* ... and by this much of the way between them */
-/* What was one thing, or two, in the image before needs more to become another. */
-static const float WAS_ONE = 1.4f, WAS_TWO = 0.7f;
+/* What was one thing, or two, in the image before needs so many times as much to become another. */
+static const float STAYS = 1.4f;
 
 /* Pixels i and j, on both sides of a third, are of two things. */
 static bool is_contact(const rlf_grid *grid, const rlf_layer_in *in, rlf_kernel_noise noise,
@@ -28,7 +28,7 @@ static bool is_contact(const rlf_grid *grid, const rlf_layer_in *in, rlf_kernel_
     }
     float above = above_i > above_j ? above_i : above_j;
     if (in->previous_label != NULL) {
-        above /= in->previous_label[i] == in->previous_label[j] ? WAS_ONE : WAS_TWO;
+        above *= in->previous_label[i] == in->previous_label[j] ? 1.0f / STAYS : STAYS;
     }
     return above > SIGMAS * rlf_kernel_sigma(noise, zi) &&
            above * above > LEAST_SLOPE * LEAST_SLOPE * way;

@@ -10,9 +10,9 @@
 
 static const double LEAST_OPEN = 0.5;   /* of a border, where nothing parts two that are one */
 static const double LEAST_SHARE = 0.25; /* of what is about a hollow thing, its outside's */
-/* Convexity of an inside, that was parted from its outside or not, and of an outside. It is 0.6 of
- * half a ball, and as much below 0 inside of it. */
-static const double HOLLOW = -0.2, WAS_HOLLOW = -0.1, OUTSIDE = 0.1;
+/* Convexity of an outside, and of an inside below 0: of one that was parted from its outside twice
+ * as much. It is 0.6 of half a ball. */
+static const double CURVED = 0.1;
 
 /* The entry of things a < b; NULL = there is no room. Open addressing. */
 static rlf_border *find_border(rlf_objects *o, int32_t a, int32_t b)
@@ -170,9 +170,9 @@ static void join_hollow(rlf_reconstruct *stage, int32_t components)
         const rlf_object_sum *s = c < RLF_OBJECTS_SUMMED ? &o->sum[c] : &o->sum[0];
         bool has_outside = s->shared > 0 && s->neighbour < RLF_OBJECTS_SUMMED &&
                            s->shared >= LEAST_SHARE * s->border &&
-                           convexity(&o->sum[s->neighbour]) > OUTSIDE;
+                           convexity(&o->sum[s->neighbour]) > CURVED;
         bool was_one = 2 * s->was_one > s->shared;
-        bool is_inside = has_outside && convexity(s) < (was_one ? WAS_HOLLOW : HOLLOW);
+        bool is_inside = has_outside && convexity(s) < (was_one ? -CURVED : -2.0 * CURVED);
         stage->work.map[c] = is_inside ? s->neighbour : c;
     }
     renumber(stage, components);

@@ -177,13 +177,12 @@ void rlf_region_write_labels(const rlf_reconstruct *stage, const rlf_layer_out *
 /* The region in whose box (and a hand's breadth around it) a point lies; 0 = none. */
 static int32_t region_around(const rlf_layer_out *out, rlf_vec3 p)
 {
-    const double around_m = 0.1;
     for (int32_t r = 0; r < out->region_count; r++) {
         const rlf_aabb *box = &out->regions[r].box;
         rlf_vec3 low = rlf_sub(p, box->min), high = rlf_sub(box->max, p);
         double outside = rlf_min(rlf_min(low.x, rlf_min(low.y, low.z)),
                                  rlf_min(high.x, rlf_min(high.y, high.z)));
-        if (outside > -around_m) {
+        if (outside > -(double)RLF_PERSON_STEP_M) {
             return r + 1;
         }
     }

@@ -1,10 +1,27 @@
-/* Stable labels: a region keeps the label that most of its pixels had.
+/* Stable labels: tracks of regions by overlap, and by prediction while they are hidden.
  *
- * The candidate of each region is found by majority vote in one pass (Boyer and Moore 1981); of
- * regions with the same candidate the largest keeps it. */
+ * A region keeps the label that most of its pixels had. The candidate of each region is found by
+ * majority vote in one pass (Boyer and Moore 1981); of regions with the same candidate the largest
+ * keeps it.
+ *
+ * A person behind another is seen in parts, or not at all. His track moves on as he did. When no
+ * region has its label any more, the largest young region where he is expected takes the label: a
+ * part that was cut off from him, or what comes out on the other side. It is younger than he. */
 #include "surface/steps.h"
 
+#include <math.h>
 #include <string.h>
+
+enum { LABEL_LIMIT = 1 << 30 };
+
+/* So long a track is remembered that nobody sees, and so long a region is young: two people who
+ * walk past each other are apart again. */
+static const int64_t MEMORY_NS = 1000000000;
+/* Half of a person's breadth: so far is a part of him from where he is expected. */
+static const double ABOUT_M = 0.3;
+/* Share of a track's points: with less it is seen in part, and its box and velocity are not its
+ * own. */
+static const double WHOLE = 0.75;
 
 /* Which of the previous regions has a label: open addressing, at most half full. Entries are
  * indices + 1, 0 = free. */
@@ -29,7 +46,7 @@ static label_table make_table(const rlf_reconstruct *stage, const rlf_layer_in *
     while (size < 2 * (uint32_t)in->previous_count) {
         size *= 2;
     }
-    label_table table = {in->previous, stage->work.heirs, size - 1};
+    label_table table = {in->previous, stage->work.label_table, size - 1};
     memset(table.entry, 0, size * sizeof *table.entry);
     for (int32_t k = 0; k < in->previous_count; k++) {
         table.entry[find_entry(&table, in->previous[k].label)] = k + 1;
@@ -92,46 +109,185 @@ static void vote(rlf_reconstruct *stage, const rlf_layer_in *in, int32_t region_
 }
 
 /* vote[1][k] = the largest region whose candidate is the previous region k, + 1. */
-static void find_heirs(rlf_reconstruct *stage, const rlf_layer_in *in, const label_table *table,
-                       const rlf_layer_out *out)
+static void find_successors(rlf_reconstruct *stage, const rlf_layer_in *in,
+                            const label_table *table, const rlf_layer_out *out)
 {
     const int32_t *candidate = stage->work.vote[0];
-    int32_t *heir = stage->work.vote[1];
-    memset(heir, 0, (size_t)in->previous_count * sizeof *heir);
+    int32_t *successor = stage->work.vote[1];
+    memset(successor, 0, (size_t)in->previous_count * sizeof *successor);
     for (int32_t r = 0; r < out->region_count; r++) {
         int32_t k = table->entry[find_entry(table, candidate[r])] - 1;
         if (k < 0) {
             continue;
         }
-        bool larger =
-            heir[k] == 0 || out->regions[r].point_count > out->regions[heir[k] - 1].point_count;
-        heir[k] = larger ? r + 1 : heir[k];
+        bool larger = successor[k] == 0 ||
+                      out->regions[r].point_count > out->regions[successor[k] - 1].point_count;
+        successor[k] = larger ? r + 1 : successor[k];
+    }
+}
+
+/* The region with a label; NULL = none. */
+static const rlf_region *find_label(const rlf_region *regions, int32_t count, int32_t label)
+{
+    for (int32_t r = 0; r < count; r++) {
+        if (regions[r].label == label) {
+            return &regions[r];
+        }
+    }
+    return NULL;
+}
+
+static rlf_track *find_track(const rlf_tracks *tracks, int32_t label)
+{
+    for (int32_t k = 0; k < tracks->count; k++) {
+        if (tracks->item[k].label == label) {
+            return &tracks->item[k];
+        }
+    }
+    return NULL;
+}
+
+/* Brings a track from one surface ago up to now; `before`: its region there, NULL = hidden. */
+static void predict(rlf_track *track, const rlf_region *before, int64_t elapsed_ns)
+{
+    track->points *= 1.0 - rlf_min((double)elapsed_ns / (double)MEMORY_NS, 1.0);
+    if (before != NULL) {
+        track->age_ns = before->age_ns;
+        track->hidden_ns = 0;
+    }
+    if (before != NULL && before->point_count >= WHOLE * track->points) {
+        track->velocity = before->linear_velocity;
+        track->box = before->box;
+        track->depth = before->centroid.z;
+        track->points = rlf_max(track->points, before->point_count);
+    }
+    track->hidden_ns += elapsed_ns;
+    rlf_vec3 way = rlf_scale(track->velocity, 1e-9 * (double)elapsed_ns);
+    track->box = (rlf_aabb){rlf_add(track->box.min, way), rlf_add(track->box.max, way)};
+    track->depth += way.z;
+}
+
+static void predict_all(rlf_tracks *tracks, const rlf_layer_in *in)
+{
+    int32_t kept = 0;
+    for (int32_t k = 0; k < tracks->count; k++) {
+        rlf_track track = tracks->item[k];
+        predict(&track, find_label(in->previous, in->previous_count, track.label), in->elapsed_ns);
+        if (track.hidden_ns <= MEMORY_NS) {
+            tracks->item[kept++] = track;
+        }
+    }
+    tracks->count = kept;
+}
+
+/* Not by the box's depth, which a few stray pixels make too long. */
+static bool is_expected_at(const rlf_track *track, rlf_vec3 p)
+{
+    double x = rlf_max(track->box.min.x - p.x, p.x - track->box.max.x);
+    double y = rlf_max(track->box.min.y - p.y, p.y - track->box.max.y);
+    double z = rlf_max(track->depth - p.z, p.z - track->depth);
+    return rlf_max(x, rlf_max(y, z)) <= ABOUT_M;
+}
+
+/* The largest young region where a track is expected; NULL = none. */
+static rlf_region *find_part(const rlf_track *track, const rlf_layer_out *out)
+{
+    rlf_region *largest = NULL;
+    for (int32_t r = 0; r < out->region_count; r++) {
+        rlf_region *region = &out->regions[r];
+        bool is_larger = largest == NULL || region->point_count > largest->point_count;
+        bool is_young = region->age_ns <= MEMORY_NS && region->age_ns < track->age_ns;
+        if (is_larger && is_young && is_expected_at(track, region->centroid)) {
+            largest = region;
+        }
+    }
+    return largest;
+}
+
+/* The track that its part was followed as has ended with that. */
+static void take_over(rlf_tracks *tracks, int32_t k, rlf_region *part)
+{
+    rlf_track *track = &tracks->item[k], *as_part = find_track(tracks, part->label);
+    part->label = track->label;
+    part->age_ns = track->age_ns + track->hidden_ns;
+    if (as_part != NULL) {
+        *as_part = tracks->item[--tracks->count];
+    }
+}
+
+/* Labels that no region has any more go to parts of what had them. */
+static void find_hidden(rlf_tracks *tracks, const rlf_layer_out *out)
+{
+    for (int32_t k = 0; k < tracks->count; k++) {
+        const rlf_track *track = &tracks->item[k];
+        if (find_label(out->regions, out->region_count, track->label) == NULL) {
+            rlf_region *part = find_part(track, out);
+            if (part != NULL) {
+                take_over(tracks, k, part);
+            }
+        }
+    }
+}
+
+/* Begins tracks of regions that have none. */
+static void add_tracks(rlf_tracks *tracks, const rlf_layer_out *out)
+{
+    for (int32_t r = 0; r < out->region_count && tracks->count < tracks->capacity; r++) {
+        const rlf_region *region = &out->regions[r];
+        if (find_track(tracks, region->label) == NULL) {
+            tracks->item[tracks->count++] = (rlf_track){.label = region->label,
+                                                        .box = region->box,
+                                                        .depth = region->centroid.z,
+                                                        .points = region->point_count};
+        }
+    }
+}
+
+static int32_t fresh_label(rlf_reconstruct *stage)
+{
+    stage->next_label = stage->next_label < LABEL_LIMIT ? stage->next_label + 1 : 1;
+    return stage->next_label;
+}
+
+/* By overlap with the regions of one surface ago. */
+static void track_by_overlap(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out)
+{
+    vote(stage, in, out->region_count);
+    label_table table = make_table(stage, in);
+    find_successors(stage, in, &table, out);
+    for (int32_t k = 0; k < in->previous_count; k++) {
+        int32_t successor = stage->work.vote[1][k];
+        if (successor > 0) {
+            out->regions[successor - 1].label = in->previous[k].label;
+            out->regions[successor - 1].age_ns = in->previous[k].age_ns + in->elapsed_ns;
+        }
     }
 }
 
 void rlf_region_track(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_layer_out *out)
 {
+    bool is_front = in->layer == RLF_LAYER_FOREGROUND;
     for (int32_t r = 0; r < out->region_count; r++) {
         out->regions[r].label = 0;
     }
     if (in->previous_label != NULL) {
-        vote(stage, in, out->region_count);
-        label_table table = make_table(stage, in);
-        find_heirs(stage, in, &table, out);
-        for (int32_t k = 0; k < in->previous_count; k++) {
-            int32_t heir = stage->work.vote[1][k];
-            if (heir > 0) {
-                out->regions[heir - 1].label = in->previous[k].label;
-                out->regions[heir - 1].age_ns = in->previous[k].age_ns + in->elapsed_ns;
-            }
-        }
+        track_by_overlap(stage, in, out);
     }
-    if (in->layer == RLF_LAYER_FOREGROUND) {
-        rlf_region_name(stage, in, out);
-        return;
+    if (is_front) {
+        predict_all(&stage->tracks, in);
+        find_hidden(&stage->tracks, out);
     }
     for (int32_t r = 0; r < out->region_count; r++) {
         rlf_region *region = &out->regions[r];
-        region->label = region->label != 0 ? region->label : rlf_region_fresh_label(stage);
+        region->label = region->label != 0 ? region->label : fresh_label(stage);
     }
+    if (is_front) {
+        add_tracks(&stage->tracks, out);
+    }
+}
+
+void tracks_allocate(rlf_tracks *state, rlf_arena *arena, const rlf_reconstruct_def *def)
+{
+    state->capacity = 2 * def->region_capacity;
+    state->item = arena_take(arena, (size_t)state->capacity, sizeof *state->item);
 }

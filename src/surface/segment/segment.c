@@ -1,4 +1,5 @@
 /* Which neighbouring pixels belong together: eq. 4.4, or the noise-scaled criterion. */
+#include "surface/depth_step.h"
 #include "surface/steps.h"
 
 static inline bool is_member(const float *depth, const uint8_t *mask, ptrdiff_t i)
@@ -69,12 +70,6 @@ typedef struct links_job {
     rlf_kernel_links params;
 } links_job;
 
-/* Chin and neck, arm and chest are one person: in the foreground, steps of a hand's breadth do not
- * separate. */
-static const float body_step_m = 0.12f;
-/* tan of the steepest incidence under which a surface hangs together: 80 degrees. */
-static const double steepest = 5.67;
-
 static void noise_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
@@ -102,10 +97,12 @@ void rlf_segment_links(const rlf_reconstruct *stage, rlf_segment_method method, 
         return;
     }
     links_job job = {.stage = stage, .depth = depth, .mask = mask, .spans = spans};
-    job.params.noise = rlf_kernel_noise_make(&stage->def.rig.noise);
-    job.params.slope = (float)(steepest / stage->grid.camera.fx);
+    const depth_step step = depth_step_make(&stage->def.rig.noise, stage->grid.camera.fx);
+    job.params.noise = step.noise;
+    job.params.sigmas = DEPTH_STEP_DIFFERENCE;
+    job.params.slope = DEPTH_STEP_STEEPEST * step.footprint;
     job.params.diagonals = stage->def.segment_diagonals;
-    job.params.step_m = mask != NULL ? body_step_m : 0.0f;
+    job.params.step_m = mask != NULL ? RLF_PERSON_STEP_M : 0.0f;
     rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, noise_rows, &job);
 }
 

@@ -17,23 +17,21 @@ typedef struct rlf_runs {
     int32_t *first; /* height + 1 */
 } rlf_runs;
 
-/* A label that is in the picture or was until lately. */
-typedef struct rlf_kin {
+/* A label that is in the picture or was until lately: see segment/region_track.c. */
+typedef struct rlf_track {
     int32_t label;
-    int32_t origin; /* label of what it came out of lately; 0 = of nothing */
-    rlf_aabb box;   /* where it is expected: as large as when it was last seen whole */
+    rlf_aabb box; /* where it is expected: as large as when it was last seen whole */
     rlf_vec3 velocity;
     double depth;              /* of its centroid */
     double points;             /* of it then, a little less each frame */
     int64_t age_ns, hidden_ns; /* how long it was followed; how long it has not been seen */
-} rlf_kin;
+} rlf_track;
 
-typedef struct rlf_family {
-    rlf_kin *kin;
-    int32_t *origin; /* per region that is being named */
+typedef struct rlf_tracks {
+    rlf_track *item;
     int32_t count, capacity;
-} rlf_family;
+} rlf_tracks;
 
-void family_allocate(rlf_family *state, rlf_arena *arena, const rlf_reconstruct_def *def);
+void tracks_allocate(rlf_tracks *state, rlf_arena *arena, const rlf_reconstruct_def *def);
 
 #endif

@@ -112,8 +112,8 @@ static void add_pixel(const rlf_reconstruct *stage, ptrdiff_t i, rlf_vec3 normal
     const uint8_t *piece = stage->background.thick.piece + i;
     int32_t x = (int32_t)(i % grid->width), y = (int32_t)(i / grid->width), on = 0;
     bool is_border = x == 0 || y == 0 || x + 1 == grid->width || y + 1 == grid->height;
-    bool is_rim = is_border || piece[-1] != piece[0] || piece[1] != piece[0] ||
-                  piece[-grid->width] != piece[0] || piece[grid->width] != piece[0];
+    bool is_contour = is_border || piece[-1] != piece[0] || piece[1] != piece[0] ||
+                      piece[-grid->width] != piece[0] || piece[grid->width] != piece[0];
     const rlf_vec3 p = rlf_scale(ray_of(grid, i), stage->background.thick.depth[i]);
     for (int k = 1; k < 3; k++) {
         double best = rlf_dot(box->axis[on], normal), cosine = rlf_dot(box->axis[k], normal);
@@ -126,7 +126,7 @@ static void add_pixel(const rlf_reconstruct *stage, ptrdiff_t i, rlf_vec3 normal
         double along = rlf_dot(box->axis[k], p) / p.z, at = rlf_dot(box->axis[k], p);
         double u = p.z / grid->camera.fx * (box->axis[k].x - along * n.x / slope);
         double v = p.z / grid->camera.fy * (box->axis[k].y - along * n.y / slope);
-        double half = is_rim ? 0.5 * (fabs(u) + fabs(v)) : 0.0;
+        double half = is_contour ? 0.5 * (fabs(u) + fabs(v)) : 0.0;
         for (int e = 0; e < 2; e++) {
             double off = at + (e == 0 ? -half : half) - middle[k];
             int32_t b = (int32_t)rlf_clamp(off / bin_m + 0.5 * BINS, 0.0, BINS - 1.0);

@@ -5,7 +5,7 @@
  * The baseline, and the side, are read off the picture: every run without depth between a near and
  * a far end says how long its baseline would be. On the shadow's side many are about as long, and
  * their median is the sensor's; on the other side, and with a sensor that has none, few are. */
-#include "surface/shadow.h"
+#include "surface/depth/shadow.h"
 
 #include "surface/steps.h"
 
@@ -15,17 +15,15 @@ enum {
     ROWS_APART = 8,  /* of those that a frame is asked about */
     WIDEST = 64,     /* pixels without depth; what is wider is a hole */
     MIXED = 2,       /* pixels at an edge that drivers drop without a shadow */
-    FIRST_BIN = 2,   /* of a run that a shadow is in */
+    FIRST_BIN = 4,   /* of a run that a shadow is in: less is what drivers drop at edges */
     LEAST_TOLD = 50, /* runs, so that their median counts */
     PLAIN_STEP = 4   /* pixels of shadow that a step would have to throw by `plain_m` */
 };
 
 static const float bin_m = 0.005f;     /* of a baseline */
-static const float plain_m = 0.05f;    /* a baseline of most sensors */
-static const float default_m = 0.04f;  /* on both sides, until it is known */
+static const float plain_m = 0.05f;    /* a baseline of most sensors, until this one's is known */
 static const float least_share = 0.3f; /* of the runs on a shadow's side are long ... */
 static const float least_more = 1.5f;  /* ... and so many times as many as on the other */
-static const float least_m = 0.02f;    /* less is what drivers drop at edges */
 static const float kept = 0.98f;       /* of what was told, from frame to frame */
 
 static void tell(rlf_reconstruct *stage, float left, float right, int32_t wide)
@@ -84,8 +82,7 @@ static void find_baseline(rlf_shadow *shadow)
     float all = sum_from(shadow->told[side], 0);
     shadow->is_known = all + sum_from(shadow->told[1 - side], 0) >= (float)LEAST_TOLD;
     bool is_there = plain[side] >= least_share * all && plain[side] >= least_more * plain[1 - side];
-    float baseline = is_there ? median_of(shadow->told[side]) : 0.0f;
-    shadow->baseline[side] = baseline >= least_m ? baseline : 0.0f;
+    shadow->baseline[side] = is_there ? median_of(shadow->told[side]) : 0.0f;
     shadow->baseline[1 - side] = 0.0f;
 }
 
@@ -114,5 +111,5 @@ float rlf_shadow_width(const rlf_reconstruct *stage, rlf_shadow_side side, float
 {
     float baseline = stage->shadow.baseline[side];
     float apart = near_z < far_z ? 1.0f / near_z - 1.0f / far_z : 0.0f;
-    return (float)stage->grid.camera.fx * (stage->shadow.is_known ? baseline : default_m) * apart;
+    return (float)stage->grid.camera.fx * (stage->shadow.is_known ? baseline : plain_m) * apart;
 }

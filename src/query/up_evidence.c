@@ -1,7 +1,7 @@
 /* What speaks for a direction being up. Floors, tables and seats look up and are seen from above.
  * What stands on one is seen against it, nearer to the camera, and touches it at its foot; before
  * a wall things hang in the air, and their outlines are jumps of depth all around. */
-#include "surface/up/up.h"
+#include "query/up.h"
 
 enum { BINS = 256 };
 

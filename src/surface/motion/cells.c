@@ -4,15 +4,14 @@
  * (the region's motion, the frame before's, the neighbour's, none) are tried against the frame
  * before, and the best is improved by Gauss and Newton. A guess matters because a limb that crosses
  * the picture moves by as much as its own width from frame to frame. */
-#include "surface/velocity/velocity.h"
+#include "surface/motion/motion.h"
 
 #include "surface/window.h"
 
 #include <math.h>
 
 enum {
-    LEAST_SIZE = 8,                /* pixels */
-    SIDE_SAMPLES = 8,              /* in a cell */
+    SIDE_SAMPLES = 8,              /* in a cell, and its least side in pixels */
     MOST_SAMPLES = RLF_FLOW_BATCH, /* SIDE_SAMPLES squared */
     LEAST_SAMPLES = 6,             /* that must agree */
     PASSES = 3,
@@ -20,12 +19,9 @@ enum {
     SEARCH = 4 /* steps to each side */
 };
 
-static const float cell_m = 0.09f;  /* of a limb */
-static const float step_m = 0.045f; /* of the search: a limb half beside where it was still fits */
 static const float reach_m = 0.01f; /* beyond the noise: from here on a residual is all wrong */
 /* Squared sum of 3 normal variables that chance exceeds once in 400 times. */
 static const float significant_3 = 14.2f;
-static const float prior_share = 0.01f; /* ridge, of the mean diagonal */
 
 /* The pixels of a cell that show its limb. */
 typedef struct samples {
@@ -54,7 +50,7 @@ typedef struct velocity_guess {
 
 size_t rlf_cell_capacity(const rlf_grid *grid)
 {
-    return ((size_t)grid->width / LEAST_SIZE + 1) * ((size_t)grid->height / LEAST_SIZE + 1);
+    return ((size_t)grid->width / SIDE_SAMPLES + 1) * ((size_t)grid->height / SIDE_SAMPLES + 1);
 }
 
 static float depth_of(const rlf_cell_grid *g, int32_t x, int32_t y)
@@ -173,7 +169,7 @@ typedef struct normal_equations {
 /* (A + ridge) v = b by Cramer's rule. */
 static void solve(const normal_equations *e, float v[3])
 {
-    float ridge = prior_share * (float)e->count;
+    float ridge = rlf_flow_ridge * (float)e->count;
     float xx = e->xx + ridge, yy = e->yy + ridge, zz = e->zz + ridge;
     float cxx = yy * zz - e->yz * e->yz, cxy = e->xz * e->yz - e->xy * zz;
     float cxz = e->xy * e->yz - e->xz * yy, cyy = xx * zz - e->xz * e->xz;
@@ -333,7 +329,7 @@ static void search(const rlf_cell_grid *g, const samples *all, cell_fit *fit)
     velocity_guess guess[2 * SEARCH];
     int32_t count = 0;
     for (int32_t k = -SEARCH; k <= SEARCH; k++) {
-        const float v[3] = {(float)k * step_m / g->job->dt, 0.0f, 0.0f};
+        const float v[3] = {(float)k * rlf_flow_limb_m / g->job->dt, 0.0f, 0.0f};
         if (k != 0) {
             guess[count++] = guess_of(v, -1.0f);
         }
@@ -494,14 +490,15 @@ void rlf_velocity_cells(const rlf_flow *job, const rlf_region *region, const rlf
                         bool moves)
 {
     const rlf_grid *grid = &job->stage->grid;
-    double size = (double)cell_m * grid->camera.fx / rlf_max(region->centroid.z, 0.1);
+    double size =
+        2.0 * (double)rlf_flow_limb_m * grid->camera.fx / rlf_max(region->centroid.z, 0.1);
     rlf_cell_grid g = {.job = job,
                        .region = region,
                        .twist = twist,
                        .moves = moves,
                        .cells = job->stage->velocity.cells};
     g.number = (int32_t)(region - &job->now->regions[job->now->foreground_region_first]) + 1;
-    g.size = (int32_t)rlf_clamp(size, LEAST_SIZE, 1024.0);
+    g.size = (int32_t)rlf_clamp(size, SIDE_SAMPLES, RLF_IMAGE_SIZE_MAX);
     g.columns = (region->x1 - region->x0 + g.size - 1) / g.size;
     g.rows = (region->y1 - region->y0 + g.size - 1) / g.size;
     rlf_parallel_for(job->stage->def.pool, g.rows, 1, fit_rows, &g);

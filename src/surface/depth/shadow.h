@@ -1,11 +1,11 @@
 /* Where the sensor's own shadow lies beside near things: see shadow.c. */
-#ifndef RLF_SURFACE_SHADOW_H
-#define RLF_SURFACE_SHADOW_H
+#ifndef RLF_SURFACE_DEPTH_SHADOW_H
+#define RLF_SURFACE_DEPTH_SHADOW_H
 
 #include "surface/arena.h"
 #include "surface/frame.h"
 
-/* The shadow that the sensor's projector leaves beside near things: see shadow.h. Two sides of a
+/* The shadow that the sensor's projector leaves beside near things: see shadow.c. Two sides of a
  * thing: left, right. */
 enum { RLF_SHADOW_BINS = 32 };
 

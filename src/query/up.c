@@ -2,7 +2,7 @@
  * as logarithms of odds. The answer takes into account that cameras are seldom rolled. Whether it
  * is sure must not hang on that alone, or a rolled camera would be told a wall for sure: confidence
  * believes in it less (Berger 1985: robust Bayesian analysis). */
-#include "surface/up/up.h"
+#include "query/up.h"
 
 enum { PICTURE_WAYS = 4, GUESSES = 2 * RLF_UP_AXES + PICTURE_WAYS };
 
@@ -18,10 +18,9 @@ typedef struct guess_list {
     int32_t count;
 } guess_list;
 
-static const double same_cos = 0.98480775; /* 10 degrees */
-static const double nothing_fits = -8.0;   /* the odds that none of the guesses is right */
-static const double least_share = 0.03;    /* of normals along up: fewer are chance */
-static const double doubted_roll = 0.15;   /* of the roll's odds that confidence believes */
+static const double nothing_fits = -8.0; /* the odds that none of the guesses is right */
+static const double least_share = 0.03;  /* of normals along up: fewer are chance */
+static const double doubted_roll = 0.15; /* of the roll's odds that confidence believes */
 
 /* Cameras stand upright, or nearly so, far more often than not. The nearer to straight down one
  * looks, the less a picture's up means. */
@@ -55,7 +54,7 @@ static double evidence_odds(const rlf_up_evidence *e)
 static void add_guess(guess_list *list, const rlf_up_samples *samples, rlf_vec3 up)
 {
     for (int32_t k = 0; k < list->count; k++) {
-        if (rlf_dot(list->at[k].up, up) > same_cos) {
+        if (rlf_dot(list->at[k].up, up) > RLF_UP_SAME) {
             return;
         }
     }

@@ -1,10 +1,10 @@
 /* Where a region ends, and how much of a window it fills. */
 #include "kernel/flow.h"
 
-enum { LANES = RLF_RIM_SIDE + 1, CHUNK = 256, LEFT = 1, RIGHT = 2, ABOVE = 4, BELOW = 8 };
+enum { LANES = RLF_CONTOUR_SIDE + 1, CHUNK = 256, LEFT = 1, RIGHT = 2, ABOVE = 4, BELOW = 8 };
 
 /* On which sides of pixels i .. i + size - 1 something lies behind them. */
-RLF_KERNEL_PART void find_behind(const rlf_kernel_rim_in *in, int32_t i, int32_t size,
+RLF_KERNEL_PART void find_behind(const rlf_kernel_contour_in *in, int32_t i, int32_t size,
                                  int32_t *restrict sides)
 {
     const float *restrict at = in->depth + i;
@@ -19,8 +19,8 @@ RLF_KERNEL_PART void find_behind(const rlf_kernel_rim_in *in, int32_t i, int32_t
     }
 }
 
-RLF_KERNEL void rlf_kernel_rim_row(const rlf_kernel_rim_in *in, int32_t count,
-                                   uint8_t *restrict is_rim)
+RLF_KERNEL void rlf_kernel_contour_row(const rlf_kernel_contour_in *in, int32_t count,
+                                       uint8_t *restrict is_contour)
 {
     int32_t sides[CHUNK];
     for (int32_t first = 0; first < count; first += CHUNK) {
@@ -33,32 +33,33 @@ RLF_KERNEL void rlf_kernel_rim_row(const rlf_kernel_rim_in *in, int32_t count,
             uint8_t left = front[k - 1] == 0 ? LEFT : 0, right = front[k + 1] == 0 ? RIGHT : 0;
             uint8_t above = up[k] == 0 ? ABOVE : 0, below = down[k] == 0 ? BELOW : 0;
             uint8_t background = (uint8_t)(left | right | above | below);
-            is_rim[first + k] = (uint8_t)(background & (uint8_t)sides[k]);
+            is_contour[first + k] = (uint8_t)(background & (uint8_t)sides[k]);
         }
     }
 }
 
-RLF_KERNEL void rlf_kernel_rim_window(const int32_t *label, int32_t width, int32_t own, int32_t x,
-                                      int32_t y, int32_t out[3])
+RLF_KERNEL void rlf_kernel_contour_window(const int32_t *label, int32_t width, int32_t own,
+                                          int32_t x, int32_t y, int32_t out[3])
 {
     int32_t column[LANES] = {0}, down[LANES] = {0};
-    int32_t first = x + RLF_RIM_RADIUS + 1 < width ? 0 : 1; /* a lane more is read than counts */
+    int32_t first =
+        x + RLF_CONTOUR_RADIUS + 1 < width ? 0 : 1; /* a lane more is read than counts */
     const int32_t *corner =
-        label + (ptrdiff_t)(y - RLF_RIM_RADIUS) * width + (x - RLF_RIM_RADIUS - first);
-    for (int32_t row = 0; row < RLF_RIM_SIDE; row++) {
+        label + (ptrdiff_t)(y - RLF_CONTOUR_RADIUS) * width + (x - RLF_CONTOUR_RADIUS - first);
+    for (int32_t row = 0; row < RLF_CONTOUR_SIDE; row++) {
         const int32_t *restrict at = corner + (ptrdiff_t)row * width;
         RLF_KERNEL_WHOLE
         for (int32_t k = 0; k < LANES; k++) {
             int32_t is = at[k] == own ? 1 : 0;
             column[k] += is;
-            down[k] += is * (row - RLF_RIM_RADIUS);
+            down[k] += is * (row - RLF_CONTOUR_RADIUS);
         }
     }
     int32_t count = 0, across = 0, along = 0;
     RLF_KERNEL_WHOLE
     for (int32_t k = 0; k < LANES; k++) {
-        int32_t step = k - first - RLF_RIM_RADIUS;
-        int32_t counts = (step >= -RLF_RIM_RADIUS) & (step <= RLF_RIM_RADIUS) ? -1 : 0;
+        int32_t step = k - first - RLF_CONTOUR_RADIUS;
+        int32_t counts = (step >= -RLF_CONTOUR_RADIUS) & (step <= RLF_CONTOUR_RADIUS) ? -1 : 0;
         count += column[k] & counts;
         across += (column[k] & counts) * step;
         along += down[k] & counts;

@@ -1,6 +1,6 @@
 /* From the velocities of cells to those of pixels: the mean of the cells around a pixel, weighted
  * by nearness, of those with the same limb. */
-#include "surface/velocity/velocity.h"
+#include "surface/motion/motion.h"
 
 /* Column of the cell whose middle is at pixel x or before it; -1 = before the first. */
 static int32_t column_before(const rlf_cell_grid *g, int32_t x, float inverse)

@@ -1,6 +1,6 @@
 /* What lies must not roll: `up` is made to stand on floors and tables, by chords between points of
  * one height, which noise turns less than normals the longer they are. */
-#include "surface/up/up.h"
+#include "query/up.h"
 
 enum { STEP = 4 }; /* pixels between samples, both ways */
 

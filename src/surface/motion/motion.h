@@ -1,6 +1,6 @@
 /* What the two ways to find velocity share. */
-#ifndef RLF_SURFACE_VELOCITY_VELOCITY_H
-#define RLF_SURFACE_VELOCITY_VELOCITY_H
+#ifndef RLF_SURFACE_MOTION_MOTION_H
+#define RLF_SURFACE_MOTION_MOTION_H
 
 #include "kernel/flow.h"
 #include "surface/steps.h"
@@ -23,8 +23,8 @@ typedef struct rlf_twist {
     double explained, noise; /* squared speeds */
     int32_t stride;          /* every stride-th pixel of every stride-th row is looked at */
     int32_t samples, inliers;
-    int32_t rim_samples, rim_inliers; /* of the outline */
-    double rim_excess;                /* sum of squares in units of their sigma */
+    int32_t contour_samples, contour_inliers; /* of the contour */
+    double contour_excess;                    /* sum of squares in units of their sigma */
 } rlf_twist;
 
 /* Angular velocity, and with it the velocity at p. */
@@ -44,7 +44,7 @@ static inline rlf_vec3 rlf_twist_velocity(const rlf_twist *t, rlf_vec3 p)
     return rlf_twist_at(t, rlf_twist_spin(t), p);
 }
 
-/* A square of the image in one region: see velocity/cells.c. */
+/* A square of the image in one region: see motion/cells.c. */
 typedef struct rlf_cell {
     float velocity[3];
     float depth; /* of the limb that it holds, metres; 0 = none of the region */
@@ -71,41 +71,46 @@ size_t rlf_cell_capacity(const rlf_grid *grid);
 void rlf_velocity_cells(const rlf_flow *job, const rlf_region *region, const rlf_twist *twist,
                         bool moves);
 
-/* velocity/write.c: writes the velocity of the region's pixels. */
+/* motion/write.c: writes the velocity of the region's pixels. */
 void rlf_cells_write(rlf_cell_grid *g);
 
-/* A pixel at a region's outline before a background that is farther: see velocity/outline.c. */
-typedef struct rlf_rim {
+/* A pixel at a region's contour before a background that is farther: see motion/contour.c. */
+typedef struct rlf_contour_point {
     ptrdiff_t i;
     int32_t count;                            /* of the region's pixels in a window about it */
     float out_x, out_y;                       /* unit, in the image, out of the region */
     float per_pixel;                          /* change of count for a pixel's step outwards */
     int32_t before_x, before_y, before_count; /* the window a frame ago that was asked for last */
-} rlf_rim;
+} rlf_contour_point;
 
-enum { RLF_RIMS_MAX = 128 };
+enum { RLF_CONTOUR_MAX = 128 };
 
-typedef struct rlf_rims {
-    rlf_rim rim[RLF_RIMS_MAX];
+typedef struct rlf_contour {
+    rlf_contour_point point[RLF_CONTOUR_MAX];
     int32_t count;
-    int32_t seen, step; /* pixels of the outline; every step-th is taken */
-} rlf_rims;
+    int32_t seen, step; /* pixels of the contour; every step-th is taken */
+} rlf_contour;
 
-/* Marks in velocity.is_rim what may be the regions' outlines, within the rows' spans slot->moved.
+/* Marks in velocity.is_contour what may be the regions' outlines, within the rows' spans
+ * slot->moved.
  */
-void rlf_rims_mark(const rlf_flow *job);
+void rlf_contour_mark(const rlf_flow *job);
 /* Some of the region's outline, evenly; from the marks. */
-void rlf_rims_find(const rlf_flow *job, const rlf_region *region, rlf_rims *out);
-/* Speed of the outline at p, the rim's point, beyond v along rlf_rim_direction. False out of view.
+void rlf_contour_find(const rlf_flow *job, const rlf_region *region, rlf_contour *out);
+/* Speed of the outline at p, the rim's point, beyond v along rlf_contour_direction. False out of
+ * view.
  */
-bool rlf_rim_beyond(const rlf_flow *job, int32_t label, rlf_rim *rim, rlf_vec3 p, rlf_vec3 v,
-                    double *out);
-/* Unit, square to the outline and to the ray. */
-rlf_vec3 rlf_rim_direction(const rlf_rim *rim, rlf_vec3 p);
+bool rlf_contour_beyond(const rlf_flow *job, int32_t label, rlf_contour_point *point, rlf_vec3 p,
+                        rlf_vec3 v, double *out);
+/* Unit, square to the contour and to the ray. */
+rlf_vec3 rlf_contour_direction(const rlf_contour_point *point, rlf_vec3 p);
 
 static const float rlf_flow_fastest = 5.0f; /* m/s */
-/* Within a window: farther pixels are another limb. */
+/* Half of a limb's breadth: within a window, what is farther off is another limb; a limb that is so
+ * far beside where it was still fits it. */
 static const float rlf_flow_limb_m = 0.05f;
+/* Share of the mean diagonal of normal equations: what nothing is seen of is 0. */
+static const float rlf_flow_ridge = 0.01f;
 /* Noise of neighbouring pixels is correlated by the drivers' 3x3 filters: 2 of every second pixel
  * count as one. */
 static const float rlf_flow_correlated = 2.0f;
@@ -128,7 +133,7 @@ static inline ptrdiff_t rlf_flow_pixel_before(const rlf_flow *job, ptrdiff_t i, 
                                               float z)
 {
     const rlf_kernel_flow_view *w = &job->view;
-    if (!(z > 0.01f)) {
+    if (!(z > 0.0f)) {
         return -1;
     }
     float u = (float)(i % w->width) + (x / z - w->ray_x[i]) * w->fx;

@@ -1,12 +1,12 @@
 /* Velocity of the front sheet from the change of depth.
  *
  * A surface that moves with velocity v meets the frame before, taken back by v dt: along the normal
- * n the two must not differ. What moves along itself shows that at its outline only
- * (velocity/outline.c). Over a region that moves as one rigid thing this gives all six
+ * n the two must not differ. What moves along itself shows that at its contour only
+ * (motion/contour.c). Over a region that moves as one rigid thing this gives all six
  * unknowns of its twist (least squares with a weak prior). A region that is not rigid is fitted
- * cell by cell (velocity/cells.c). What is not significant against the sensor's noise is exactly 0.
+ * cell by cell (motion/cells.c). What is not significant against the sensor's noise is exactly 0.
  */
-#include "surface/velocity/velocity.h"
+#include "surface/motion/motion.h"
 
 #include "math/solve_six.h"
 
@@ -15,16 +15,17 @@
 enum { STRIDE = 2, PASSES = 4, LEAST_REGION_SAMPLES = 30, MOST_SAMPLES = 400 };
 
 static const double longest_gap_s = 0.2;
+/* Share of a motion by which the normal's error makes it another. */
+static const double normal_error = 0.05;
 /* Squared sum of 6 normal variables that chance exceeds once in 400 times. */
 static const float significant_6 = 20.1f;
-/* How well a window's pixels place an outline, pixels; of two in a row with the same errors. */
-static const double rim_sigma_px = 0.4;
-static const double rim_weight = 0.5;
+/* How well a window's pixels place a contour, pixels. */
+static const double contour_sigma_px = 0.4;
+/* Where contours count the ridge is less: few pixels of them tell all that is known. */
+static const double contour_ridge = 0.002;
 /* Of squares in units of that sigma: a straight edge along the pixels is off by up to half a pixel,
  * now and before. */
-static const double rim_excess = 1.5;
-/* Of the mean diagonal: depth alone shall make up little, the outline little knows. */
-static const double depth_ridge = 0.01, rim_ridge = 0.002;
+static const double contour_excess = 1.5;
 
 /* The published planes hold only what was written into the slot three frames ago. */
 static void clear_velocity(const rlf_grid *grid, rlf_slot *slot)
@@ -66,26 +67,26 @@ static void twist_row(const rlf_twist *t, rlf_vec3 p, rlf_vec3 n, double row[6])
     row[5] = turn.z / t->length;
 }
 
-/* What the sensor's noise makes of a speed, and the normal's error: 5 % of the motion. */
+/* What the sensor's noise makes of a speed, and the normal's error of the motion. */
 static double tolerated(const rlf_flow *job, ptrdiff_t i, double facing, double speed)
 {
     double sigma = rlf_kernel_sigma(job->noise, job->now->depth[i]) / job->dt;
-    return 3.0 * 1.41421356 * sigma * facing + 0.05 * speed;
+    return 3.0 * 1.41421356 * sigma * facing + normal_error * speed;
 }
 
 static int32_t agreeing(const rlf_twist *t)
 {
-    return t->inliers + t->rim_inliers;
+    return t->inliers + t->contour_inliers;
 }
 
 /* Normal equations of a step of Gauss and Newton. */
 typedef struct twist_sum {
     const rlf_flow *job;
     const rlf_region *region;
-    rlf_rims *rims;
-    double slack;      /* widens what agrees while the motion is still far off */
-    double rim_weight; /* 0: the outline only says how far off it is */
-    double speed;      /* of the motion so far */
+    rlf_contour *contour;
+    double slack;          /* widens what agrees while the motion is still far off */
+    double contour_weight; /* 0: the contour only says how far off it is */
+    double speed;          /* of the motion so far */
     double a[6][6], b[6];
 } twist_sum;
 
@@ -123,32 +124,32 @@ static void add_pixel(twist_sum *sum, rlf_twist *t, ptrdiff_t i)
     }
 }
 
-static void add_rim(twist_sum *sum, rlf_twist *t, rlf_rim *rim)
+static void add_contour_point(twist_sum *sum, rlf_twist *t, rlf_contour_point *point)
 {
     const rlf_flow *job = sum->job;
-    rlf_vec3 p = rlf_flow_point(&job->stage->grid, job->now->depth, rim->i);
+    rlf_vec3 p = rlf_flow_point(&job->stage->grid, job->now->depth, point->i);
     double off;
-    t->rim_samples++;
-    if (!rlf_rim_beyond(job, sum->region->label, rim, p, rlf_twist_velocity(t, p), &off)) {
+    t->contour_samples++;
+    if (!rlf_contour_beyond(job, sum->region->label, point, p, rlf_twist_velocity(t, p), &off)) {
         return;
     }
-    double depth_sigma = rlf_kernel_sigma(job->noise, job->now->depth[rim->i]);
-    double sigma = rim_sigma_px * p.z / job->stage->grid.camera.fx;
-    double weight = sum->rim_weight * depth_sigma * depth_sigma / (sigma * sigma);
-    t->rim_excess += rlf_min(off * off * job->dt * job->dt / (sigma * sigma), 9.0);
+    double depth_sigma = rlf_kernel_sigma(job->noise, job->now->depth[point->i]);
+    double sigma = contour_sigma_px * p.z / job->stage->grid.camera.fx;
+    double weight = sum->contour_weight * depth_sigma * depth_sigma / (sigma * sigma);
+    t->contour_excess += rlf_min(off * off * job->dt * job->dt / (sigma * sigma), 9.0);
     sigma *= 1.41421356 / job->dt;
-    double bound = sum->slack + 3.0 * sigma + 0.05 * sum->speed;
+    double bound = sum->slack + 3.0 * sigma + normal_error * sum->speed;
     if (off <= bound && off >= -bound) {
-        t->rim_inliers++;
+        t->contour_inliers++;
         if (weight > 0.0) {
-            add_row(sum, t, p, rlf_rim_direction(rim, p), off, sigma, weight);
+            add_row(sum, t, p, rlf_contour_direction(point, p), off, sigma, weight);
         }
     }
 }
 
 static void step(twist_sum *sum, rlf_twist *t)
 {
-    double x[6], ridge = sum->rim_weight > 0.0 ? rim_ridge : depth_ridge;
+    double x[6], ridge = sum->contour_weight > 0.0 ? contour_ridge : (double)rlf_flow_ridge;
     for (int k = 0; k < 6; k++) {
         sum->a[k][k] += ridge * (agreeing(t) + 1);
     }
@@ -158,16 +159,17 @@ static void step(twist_sum *sum, rlf_twist *t)
     }
 }
 
-static void add_rims(twist_sum *sum, rlf_twist *t)
+static void add_contour(twist_sum *sum, rlf_twist *t)
 {
-    t->rim_samples = t->rim_inliers = 0;
-    t->rim_excess = 0.0;
-    for (int32_t k = 0; k < sum->rims->count; k++) {
-        add_rim(sum, t, &sum->rims->rim[k]);
+    t->contour_samples = t->contour_inliers = 0;
+    t->contour_excess = 0.0;
+    for (int32_t k = 0; k < sum->contour->count; k++) {
+        add_contour_point(sum, t, &sum->contour->point[k]);
     }
 }
 
-/* One step of Gauss and Newton over the pixels and rims that agree with the motion so far. */
+/* One step of Gauss and Newton over the pixels and contour points that agree with the motion so
+ * far. */
 static void fit_pass(const twist_sum *start, double slack, rlf_twist *t)
 {
     twist_sum sum = *start;
@@ -185,7 +187,7 @@ static void fit_pass(const twist_sum *start, double slack, rlf_twist *t)
             }
         }
     }
-    add_rims(&sum, t);
+    add_contour(&sum, t);
     step(&sum, t);
 }
 
@@ -214,7 +216,7 @@ static void count_rest(const twist_sum *start, rlf_twist *t)
                                    .noise = job->noise,
                                    .reach = 2.0f * rlf_flow_limb_m};
     rlf_kernel_rest_count(&in, &t->samples, &t->inliers);
-    add_rims(&sum, t);
+    add_contour(&sum, t);
 }
 
 static rlf_twist start_from(const rlf_region *region, rlf_vec3 velocity)
@@ -239,10 +241,10 @@ static rlf_twist fit_from(const twist_sum *start, rlf_vec3 velocity)
     return t;
 }
 
-/* Whether the outline is farther off than the width of its pixels explains. */
-static bool is_outline_off(const rlf_twist *t)
+/* Whether the contour is farther off than the width of its pixels explains. */
+static bool is_contour_off(const rlf_twist *t)
 {
-    return t->rim_samples > 0 && t->rim_excess > rim_excess * t->rim_samples;
+    return t->contour_samples > 0 && t->contour_excess > contour_excess * t->contour_samples;
 }
 
 /* More than chance, and more than a share of one pixel's noise. */
@@ -258,9 +260,9 @@ static bool is_significant(const rlf_twist *t, double least)
 static bool is_rest_as_likely(const rlf_twist *rest, const rlf_twist *t)
 {
     bool depth_rests = 10 * rest->inliers >= 9 * t->inliers;
-    bool outline_rests = 10 * rest->rim_inliers >= 9 * t->rim_inliers &&
-                         !(is_outline_off(rest) && 2.0 * t->rim_excess < rest->rim_excess);
-    return (depth_rests && outline_rests) || 9 * agreeing(rest) > 10 * agreeing(t);
+    bool contour_rests = 10 * rest->contour_inliers >= 9 * t->contour_inliers &&
+                         !(is_contour_off(rest) && 2.0 * t->contour_excess < rest->contour_excess);
+    return (depth_rests && contour_rests) || 9 * agreeing(rest) > 10 * agreeing(t);
 }
 
 /* The centroid moves when pieces join or leave a region, too: then its step says nothing. */
@@ -282,15 +284,14 @@ static const rlf_region *find_before(const rlf_flow *job, const rlf_region *regi
     return NULL;
 }
 
-/* Velocity of the visible part's centroid. A silhouette that flickers moves the centroid a little,
- * so small steps do not count. */
+/* Velocity of the visible part's centroid. A contour that flickers moves it by less than a pixel,
+ * which does not count. */
 static rlf_vec3 centroid_velocity(const rlf_flow *job, const rlf_region *region)
 {
-    const double least_step_m = 0.005;
     const rlf_region *old = find_before(job, region);
     if (old != NULL && is_same_shape(old, region)) {
         rlf_vec3 step = rlf_sub(region->centroid, old->centroid);
-        if (rlf_length(step) > least_step_m) {
+        if (rlf_length(step) > region->centroid.z / job->stage->grid.camera.fx) {
             return rlf_scale(step, 1.0 / (double)job->dt);
         }
     }
@@ -307,28 +308,28 @@ static bool goes_on(const twist_sum *sum, const rlf_twist *rest)
     }
     rlf_twist same = start_from(sum->region, before->linear_velocity);
     fit_pass(sum, 0.0, &same);
-    return agreeing(&same) >= agreeing(rest) && same.rim_excess < rest->rim_excess;
+    return agreeing(&same) >= agreeing(rest) && same.contour_excess < rest->contour_excess;
 }
 
 /* Whether the region moves as one. Tried from rest and from the centroid's motion; what more pixels
  * agree with is right. */
 static bool is_moving(const rlf_flow *job, const rlf_region *region, rlf_vec3 seen, rlf_twist *out)
 {
-    rlf_rims rims;
-    rlf_rims_find(job, region, &rims);
-    twist_sum sum = {.job = job, .region = region, .rims = &rims};
+    rlf_contour contour;
+    rlf_contour_find(job, region, &contour);
+    twist_sum sum = {.job = job, .region = region, .contour = &contour};
     const rlf_vec3 none = {0, 0, 0};
     rlf_twist rest = start_from(region, none);
     count_rest(&sum, &rest);
-    const rlf_twist all = {.inliers = rest.samples, .rim_inliers = rest.rim_samples};
+    const rlf_twist all = {.inliers = rest.samples, .contour_inliers = rest.contour_samples};
     bool is_going_on = goes_on(&sum, &rest);
     bool rests = is_rest_as_likely(&rest, &all);
     if (rests && !is_going_on) {
         return false; /* whatever the motion */
     }
     *out = fit_from(&sum, none);
-    if ((rests && !is_significant(out, 0.0)) || is_outline_off(out)) {
-        sum.rim_weight = rim_weight;
+    if ((rests && !is_significant(out, 0.0)) || is_contour_off(out)) {
+        sum.contour_weight = 1.0 / (double)rlf_flow_correlated;
         *out = fit_from(&sum, none);
     }
     if (rlf_length(seen) > 0.0 && 5 * agreeing(out) < 4 * agreeing(&all)) {
@@ -440,7 +441,7 @@ void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot)
         stage,           before, slot, (float)dt, rlf_kernel_noise_make(&stage->def.rig.noise),
         look_back(stage)};
     unite_spans(slot);
-    rlf_rims_mark(&job);
+    rlf_contour_mark(&job);
     for (int32_t r = 0; r < slot->foreground_region_count; r++) {
         rlf_region *region = &slot->regions[slot->foreground_region_first + r];
         rlf_twist twist;
@@ -457,5 +458,5 @@ void velocity_allocate(velocity_planes *state, rlf_arena *arena, const rlf_grid 
     state->cells = arena_take(arena, rlf_cell_capacity(grid), sizeof *state->cells);
     arena_next_owner(arena);
     state->is_steady = arena_lend(arena, n, 1);
-    state->is_rim = arena_lend(arena, n, 1);
+    state->is_contour = arena_lend(arena, n, 1);
 }

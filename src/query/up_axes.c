@@ -2,7 +2,7 @@
  * Perceptual organization and recognition of indoor scenes from RGB-D images: the gravity
  * direction). Floors and tables lie across up, walls and upright sides along it; so do a room's
  * other axes fit, and several starts are followed. */
-#include "surface/up/up.h"
+#include "query/up.h"
 
 #include "math/eigen.h"
 
@@ -11,7 +11,6 @@ enum { ROUNDS = 5, STARTS = 25 };
 
 static const double along_cos[2] = {0.70710678, RLF_UP_ALONG};
 static const double across_cos[2] = {0.70710678, RLF_UP_ACROSS};
-static const double same_cos = 0.98480775; /* 10 degrees: axes that are nearer are one */
 static const double sure_share = 0.01; /* a direction must beat the next by this share of normals */
 
 /* Of n n^T of the normals across, minus of those along. */
@@ -75,7 +74,7 @@ static bool is_known(const rlf_vec3 *axes, int32_t count, rlf_vec3 axis)
 {
     for (int32_t k = 0; k < count; k++) {
         double c = rlf_dot(axes[k], axis);
-        if (c > same_cos || c < -same_cos) {
+        if (c > RLF_UP_SAME || -c > RLF_UP_SAME) {
             return true;
         }
     }

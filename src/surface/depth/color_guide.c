@@ -13,7 +13,7 @@
  * them, two components and how much wider it shows what is nearer, is estimated by least squares
  * over the edges of the last frames. Where the two do not agree on pixels that depth is sure of, as
  * when the picture is late or of something else, it is not asked: trust falls to 0. */
-#include "surface/color_side.h"
+#include "surface/depth/color_guide.h"
 
 #include "surface/stage.h"
 
@@ -29,11 +29,10 @@ const int32_t rlf_line_step[RLF_LINE_NONE][2] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}
 
 static const float most_votes = 5.0f; /* more against it need not be asked about */
 
-static const double kept = 0.95, kept_trust = 0.9; /* of the sums, from frame to frame */
-static const double ridge = 50.0;                  /* pixels; a frame has some hundreds */
-static const float widest_learnt = 5.0f;           /* pixels without depth */
+static const double kept = 0.95;         /* of the sums, from frame to frame */
+static const double least_pixels = 50.0; /* a frame has some hundreds; fewer tell little */
+static const float widest_learnt = 5.0f; /* pixels without depth */
 static const float least_vote = 0.05f, sure_votes = 3.0f, sure_share = 0.2f, sure_weight = 0.5f;
-static const double least_sure = 50.0;                     /* pixels */
 static const double good_differ = 0.03, bad_differ = 0.05; /* share of them */
 
 static void read_between(const rlf_image_rgba8 *image, float u, float v, float out[3])
@@ -54,7 +53,7 @@ typedef struct towards {
     float x, y;
 } towards;
 
-static towards towards_near(const rlf_side_cases *c, int32_t k)
+static towards towards_near(const rlf_guide_cases *c, int32_t k)
 {
     const int32_t *line = rlf_line_step[c->line[k]];
     float sign = c->ends->before[k] < c->ends->after[k] ? -1.0f : 1.0f;
@@ -63,10 +62,10 @@ static towards towards_near(const rlf_side_cases *c, int32_t k)
 
 /* Where the picture shows the pixel if it is at the nearer end's depth. False where it does not, or
  * not all about it. */
-static bool find_place(const rlf_reconstruct *stage, const rlf_side_cases *c, int32_t k,
+static bool find_place(const rlf_reconstruct *stage, const rlf_guide_cases *c, int32_t k,
                        rlf_color_places *out)
 {
-    const rlf_color_side *side = &stage->side;
+    const rlf_color_guide *side = &stage->guide;
     const rlf_rig *rig = &stage->def.rig;
     ptrdiff_t i = (ptrdiff_t)c->y[k] * stage->grid.width + c->x[k];
     float before = c->ends->before[k], after = c->ends->after[k];
@@ -97,8 +96,9 @@ static bool find_place(const rlf_reconstruct *stage, const rlf_side_cases *c, in
 }
 
 /* Reads the picture for those that are asked. */
-static void read_samples(const rlf_color_side *side, const rlf_side_cases *c, const bool *is_asked,
-                         const rlf_color_places *places, rlf_color_samples *out)
+static void read_samples(const rlf_color_guide *side, const rlf_guide_cases *c,
+                         const bool *is_asked, const rlf_color_places *places,
+                         rlf_color_samples *out)
 {
     int32_t offset[RLF_COLOR_SAMPLES][RLF_BATCH];
     rlf_kernel_color_offsets(places, c->ends, offset);
@@ -122,7 +122,7 @@ static void read_samples(const rlf_color_side *side, const rlf_side_cases *c, co
 
 /* Unit vector towards the nearer side of what is about the pixel, times `along` the line; false
  * where that is no direction across the line's edge. */
-static bool find_across(const rlf_side_cases *c, int32_t k, const rlf_color_shares *shares,
+static bool find_across(const rlf_guide_cases *c, int32_t k, const rlf_color_shares *shares,
                         double out[OFFSETS])
 {
     towards near_end = towards_near(c, k);
@@ -139,7 +139,7 @@ static bool find_across(const rlf_side_cases *c, int32_t k, const rlf_color_shar
 
 /* A line across an edge has as many pixels more of the nearer side, by the picture than by depth,
  * as the outline is off along it. */
-static void note(const rlf_color_side *side, const rlf_side_cases *c, int32_t k,
+static void note(const rlf_color_guide *side, const rlf_guide_cases *c, int32_t k,
                  const rlf_color_shares *shares, rlf_color_sum *sum)
 {
     double across[OFFSETS];
@@ -167,10 +167,10 @@ static void note(const rlf_color_side *side, const rlf_side_cases *c, int32_t k,
     }
 }
 
-void rlf_color_side_vote(const rlf_reconstruct *stage, const rlf_side_cases *c,
-                         const bool may_ask[RLF_BATCH], rlf_color_sum *sum)
+void rlf_color_guide_vote(const rlf_reconstruct *stage, const rlf_guide_cases *c,
+                          const bool may_ask[RLF_BATCH], rlf_color_sum *sum)
 {
-    const rlf_color_side *side = &stage->side;
+    const rlf_color_guide *side = &stage->guide;
     rlf_color_places places;
     rlf_color_samples samples;
     rlf_color_shares shares;
@@ -199,7 +199,7 @@ void rlf_color_side_vote(const rlf_reconstruct *stage, const rlf_side_cases *c,
 }
 
 /* Colour pixels from one pixel of the grid to the next, where both cameras look. */
-static bool find_steps(const rlf_reconstruct *stage, rlf_color_side *side)
+static bool find_steps(const rlf_reconstruct *stage, rlf_color_guide *side)
 {
     const rlf_camera *grid = &stage->grid.camera;
     const rlf_rig *rig = &stage->def.rig;
@@ -222,10 +222,10 @@ static bool find_steps(const rlf_reconstruct *stage, rlf_color_side *side)
     return true;
 }
 
-void rlf_color_side_start(rlf_reconstruct *stage, const rlf_frame *frame)
+void rlf_color_guide_start(rlf_reconstruct *stage, const rlf_frame *frame)
 {
     const rlf_rig *rig = &stage->def.rig;
-    rlf_color_side *side = &stage->side;
+    rlf_color_guide *side = &stage->guide;
     bool is_it = frame->color.data != NULL && side->can_tell &&
                  frame->color.width == rig->color.width && frame->color.height == rig->color.height;
     side->image = is_it ? frame->color : (rlf_image_rgba8){.data = NULL};
@@ -234,20 +234,20 @@ void rlf_color_side_start(rlf_reconstruct *stage, const rlf_frame *frame)
     }
 }
 
-void rlf_color_side_reset(rlf_reconstruct *stage)
+void rlf_color_guide_reset(rlf_reconstruct *stage)
 {
-    rlf_color_side *side = &stage->side;
+    rlf_color_guide *side = &stage->guide;
     side->can_tell = side->part != NULL && find_steps(stage, side);
     side->sum = (rlf_color_sum){.asked = 0.0};
     memset(side->offset, 0, sizeof side->offset);
     side->trust = 0.0f;
 }
 
-static void add_parts(rlf_color_side *side)
+static void add_parts(rlf_color_guide *side)
 {
     rlf_color_sum *sum = &side->sum;
-    sum->agree *= kept_trust;
-    sum->asked *= kept_trust;
+    sum->agree *= kept;
+    sum->asked *= kept;
     for (int32_t k = 0; k < OFFSETS * OFFSETS; k++) {
         sum->square[k] *= kept;
     }
@@ -267,9 +267,9 @@ static void add_parts(rlf_color_side *side)
     }
 }
 
-void rlf_color_side_learn(rlf_reconstruct *stage)
+void rlf_color_guide_learn(rlf_reconstruct *stage)
 {
-    rlf_color_side *side = &stage->side;
+    rlf_color_guide *side = &stage->guide;
     double inverse[OFFSETS * OFFSETS];
     if (side->image.data == NULL) {
         return;
@@ -278,7 +278,7 @@ void rlf_color_side_learn(rlf_reconstruct *stage)
     side->image.data = NULL; /* the caller's */
     memcpy(inverse, side->sum.square, sizeof inverse);
     for (int32_t k = 0; k < OFFSETS; k++) {
-        inverse[k * OFFSETS + k] += ridge;
+        inverse[k * OFFSETS + k] += least_pixels;
     }
     math_invert(inverse, OFFSETS);
     for (int32_t k = 0; k < OFFSETS; k++) {
@@ -290,11 +290,11 @@ void rlf_color_side_learn(rlf_reconstruct *stage)
     }
     double asked = side->sum.asked, differ = asked - side->sum.agree;
     double trust = (bad_differ * asked - differ) / ((bad_differ - good_differ) * (asked + 1e-9));
-    side->trust = asked < least_sure ? 0.0f : (float)rlf_clamp(trust, 0.0, 1.0);
+    side->trust = asked < least_pixels ? 0.0f : (float)rlf_clamp(trust, 0.0, 1.0);
 }
 
-void color_side_allocate(rlf_color_side *state, rlf_arena *arena, const rlf_reconstruct_def *def,
-                         const rlf_grid *grid)
+void color_guide_allocate(rlf_color_guide *state, rlf_arena *arena, const rlf_reconstruct_def *def,
+                          const rlf_grid *grid)
 {
     if (def->enable_color_sides && def->enable_fill && def->rig.has_color) {
         state->parts = (grid->height + RLF_ROW_GRAIN - 1) / RLF_ROW_GRAIN;

@@ -1,34 +1,34 @@
-/* What a region's outline in the image says of its motion.
+/* What a region's contour in the image says of its motion.
  *
  * Depth shows motion along the normal only: a level tray that slides to the side looks the same.
- * Its outline does not. Where a thing ends before a background that is farther, the outline moves
- * in the image as the thing does, square to itself: the plane through the eye and the outline's
+ * Its contour does not. Where a thing ends before a background that is farther, the contour moves
+ * in the image as the thing does, square to itself: the plane through the eye and the contour's
  * tangent touches the thing, and m.v of that plane's normal m is seen. This holds for edges and for
- * the rims of round things alike (Cipolla and Giblin 2000, Visual Motion of Curves and Surfaces).
+ * those of round things alike (Cipolla and Giblin 2000, Visual Motion of Curves and Surfaces).
  *
  * How far it moved is read from the number of the region's pixels in a window about it, now and in
- * the frame before: along an outline that runs slantwise to the pixels these are parts of a pixel.
+ * the frame before: along a contour that runs slantwise to the pixels these are parts of a pixel.
  */
-#include "surface/velocity/velocity.h"
+#include "surface/motion/motion.h"
 #include "surface/window.h"
 
 #include <math.h>
 
 enum {
-    RADIUS = RLF_RIM_RADIUS,
-    SIDE = RLF_RIM_SIDE,
-    FIRST_STEP = 2 /* along the outline: the windows of two neighbours are almost the same */
+    RADIUS = RLF_CONTOUR_RADIUS,
+    SIDE = RLF_CONTOUR_SIDE,
+    FIRST_STEP = 2 /* along the contour: the windows of two neighbours are almost the same */
 };
 
-static const float least_step_m = 0.05f; /* to the background: else the outline is but a guess */
-static const float least_pull = 0.5f;    /* of a straight outline's: else it is a corner */
+static const float least_pull = 0.5f; /* of a straight contour's: else it is a corner */
 
-/* Of a straight outline through the middle of a window: pixels that come in per pixel of motion,
+/* Of a straight contour through the middle of a window: pixels that come in per pixel of motion,
  * and how strongly they pull to one side. */
-static bool measure(const rlf_flow *job, int32_t label, int32_t x, int32_t y, rlf_rim *out)
+static bool measure(const rlf_flow *job, int32_t label, int32_t x, int32_t y,
+                    rlf_contour_point *out)
 {
     int32_t window[3], width = job->stage->grid.width;
-    rlf_kernel_rim_window(job->now->label, width, label, x, y, window);
+    rlf_kernel_contour_window(job->now->label, width, label, x, y, window);
     out->i = (ptrdiff_t)y * width + x;
     out->count = window[0];
     out->before_x = out->before_y = -1;
@@ -43,20 +43,21 @@ static bool measure(const rlf_flow *job, int32_t label, int32_t x, int32_t y, rl
     return true;
 }
 
-/* Takes every step-th of the region's outline; twice that step where they become too many. */
-static void add_rim(const rlf_flow *job, int32_t label, int32_t x, int32_t y, rlf_rims *out)
+/* Takes every step-th of the region's contour; twice that step where they become too many. */
+static void add_contour_point(const rlf_flow *job, int32_t label, int32_t x, int32_t y,
+                              rlf_contour *out)
 {
     if (out->seen++ % out->step != 0) {
         return;
     }
-    if (out->count == RLF_RIMS_MAX) { /* every second one is enough */
-        for (int32_t k = 0; k < RLF_RIMS_MAX / 2; k++) {
-            out->rim[k] = out->rim[2 * k];
+    if (out->count == RLF_CONTOUR_MAX) { /* every second one is enough */
+        for (int32_t k = 0; k < RLF_CONTOUR_MAX / 2; k++) {
+            out->point[k] = out->point[2 * k];
         }
-        out->count = RLF_RIMS_MAX / 2;
+        out->count = RLF_CONTOUR_MAX / 2;
         out->step *= 2;
     }
-    out->count += measure(job, label, x, y, &out->rim[out->count]);
+    out->count += measure(job, label, x, y, &out->point[out->count]);
 }
 
 /* Pixels of the span that a window fits about. */
@@ -75,15 +76,15 @@ static void mark_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     for (int32_t y = begin + RADIUS; y < end + RADIUS; y++) {
         rlf_span span = inside(&job->stage->grid, job->now->moved[y]);
         ptrdiff_t i = (ptrdiff_t)y * width + span.x0;
-        const rlf_kernel_rim_in row = {job->now->foreground + i, job->now->depth + i, width,
-                                       least_step_m};
+        const rlf_kernel_contour_in row = {job->now->foreground + i, job->now->depth + i, width,
+                                           rlf_flow_limb_m};
         if (span.x0 < span.x1) {
-            rlf_kernel_rim_row(&row, span.x1 - span.x0, job->stage->velocity.is_rim + i);
+            rlf_kernel_contour_row(&row, span.x1 - span.x0, job->stage->velocity.is_contour + i);
         }
     }
 }
 
-void rlf_rims_mark(const rlf_flow *job)
+void rlf_contour_mark(const rlf_flow *job)
 {
     rlf_flow copy = *job;
     const rlf_grid *grid = &job->stage->grid;
@@ -108,7 +109,7 @@ RLF_KERNEL_PART void fetch_row(const rlf_flow *job, ptrdiff_t row, rlf_span span
     }
 }
 
-void rlf_rims_find(const rlf_flow *job, const rlf_region *region, rlf_rims *out)
+void rlf_contour_find(const rlf_flow *job, const rlf_region *region, rlf_contour *out)
 {
     const rlf_grid *grid = &job->stage->grid;
     rlf_span span = inside(grid, (rlf_span){region->x0, region->x1});
@@ -121,12 +122,13 @@ void rlf_rims_find(const rlf_flow *job, const rlf_region *region, rlf_rims *out)
     }
     for (int32_t y = y0; y < y1; y++) {
         ptrdiff_t row = (ptrdiff_t)y * grid->width;
-        const uint8_t *is_rim = job->stage->velocity.is_rim + row;
+        const uint8_t *is_contour = job->stage->velocity.is_contour + row;
         const int32_t *label = job->now->label + row;
         fetch_row(job, row, span);
-        for (int32_t x = span.x0; (x = rlf_kernel_next_mark(is_rim, x, span.x1)) < span.x1; x++) {
+        for (int32_t x = span.x0; (x = rlf_kernel_next_mark(is_contour, x, span.x1)) < span.x1;
+             x++) {
             if (label[x] == region->label) {
-                add_rim(job, region->label, x, y, out);
+                add_contour_point(job, region->label, x, y, out);
             }
         }
     }
@@ -134,44 +136,45 @@ void rlf_rims_find(const rlf_flow *job, const rlf_region *region, rlf_rims *out)
 
 /* The region's pixels in the window about (x, y) a frame ago. Passes that improve a motion ask for
  * the same place again. */
-static int32_t count_before(const rlf_flow *job, int32_t label, int32_t x, int32_t y, rlf_rim *rim)
+static int32_t count_before(const rlf_flow *job, int32_t label, int32_t x, int32_t y,
+                            rlf_contour_point *point)
 {
-    if (rim->before_x != x || rim->before_y != y) {
+    if (point->before_x != x || point->before_y != y) {
         int32_t window[3];
-        rlf_kernel_rim_window(job->before->label, job->stage->grid.width, label, x, y, window);
-        rim->before_x = x;
-        rim->before_y = y;
-        rim->before_count = window[0];
+        rlf_kernel_contour_window(job->before->label, job->stage->grid.width, label, x, y, window);
+        point->before_x = x;
+        point->before_y = y;
+        point->before_count = window[0];
     }
-    return rim->before_count;
+    return point->before_count;
 }
 
-bool rlf_rim_beyond(const rlf_flow *job, int32_t label, rlf_rim *rim, rlf_vec3 p, rlf_vec3 v,
-                    double *out)
+bool rlf_contour_beyond(const rlf_flow *job, int32_t label, rlf_contour_point *point, rlf_vec3 p,
+                        rlf_vec3 v, double *out)
 {
     const rlf_grid *grid = &job->stage->grid;
     rlf_vec3 q = rlf_mad(p, v, -(double)job->dt);
-    if (!(q.z > 0.01)) {
+    if (!(q.z > 0.0)) {
         return false;
     }
-    double du = (q.x / q.z - grid->ray_x[rim->i]) * grid->camera.fx;
-    double dv = (q.y / q.z - grid->ray_y[rim->i]) * grid->camera.fy;
-    double u = (double)(rim->i % grid->width) + du, w = (double)(rim->i / grid->width) + dv;
+    double du = (q.x / q.z - grid->ray_x[point->i]) * grid->camera.fx;
+    double dv = (q.y / q.z - grid->ray_y[point->i]) * grid->camera.fy;
+    double u = (double)(point->i % grid->width) + du, w = (double)(point->i / grid->width) + dv;
     if (!(u >= RADIUS) || !(w >= RADIUS) || !(u < grid->width - RADIUS - 1) ||
         !(w < grid->height - RADIUS - 1)) {
         return false;
     }
     int32_t x = (int32_t)(u + 0.5), y = (int32_t)(w + 0.5);
-    int32_t before = count_before(job, label, x, y, rim);
-    double part = (u - x) * (double)rim->out_x + (w - y) * (double)rim->out_y;
-    double pixels = part - (double)(before - rim->count) / (double)rim->per_pixel;
+    int32_t before = count_before(job, label, x, y, point);
+    double part = (u - x) * (double)point->out_x + (w - y) * (double)point->out_y;
+    double pixels = part - (double)(before - point->count) / (double)point->per_pixel;
     *out = pixels * p.z / (grid->camera.fx * (double)job->dt);
     return true;
 }
 
-rlf_vec3 rlf_rim_direction(const rlf_rim *rim, rlf_vec3 p)
+rlf_vec3 rlf_contour_direction(const rlf_contour_point *point, rlf_vec3 p)
 {
     rlf_vec3 ray = rlf_normalize(p);
-    rlf_vec3 m = rlf_vec3_make(rim->out_x, rim->out_y, 0.0);
+    rlf_vec3 m = rlf_vec3_make(point->out_x, point->out_y, 0.0);
     return rlf_normalize(rlf_mad(m, ray, -rlf_dot(m, ray)));
 }

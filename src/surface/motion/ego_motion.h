@@ -1,6 +1,6 @@
 /* Whether the camera itself moves. */
-#ifndef RLF_SURFACE_EGO_MOTION_H
-#define RLF_SURFACE_EGO_MOTION_H
+#ifndef RLF_SURFACE_MOTION_EGO_MOTION_H
+#define RLF_SURFACE_MOTION_EGO_MOTION_H
 
 #include "surface/arena.h"
 #include "surface/frame.h"

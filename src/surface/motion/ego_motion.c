@@ -4,7 +4,7 @@
  * point-to-plane distances (Chen and Medioni 1992) under Tukey's weights. The camera moves when
  * most of the points at which that motion can be told from rest agree with it and hardly any with
  * rest. Somebody who walks by, however large, leaves the room behind him at rest. */
-#include "surface/ego_motion.h"
+#include "surface/motion/ego_motion.h"
 
 #include "surface/stage.h"
 
@@ -13,19 +13,17 @@
 
 enum {
     PASSES = 5,
-    MOST_AGE = 8,    /* frames that slow motion may take to be seen */
-    HOLD = 8,        /* frames for which a camera that moved is taken to move on */
-    SURE_FRAMES = 2, /* in a row */
-    FEWEST_OF_PART = 8,
-    FEWEST = 60, /* points that tell anything */
+    MOST_AGE = 8,      /* frames that slow motion may take to be seen, and is taken to go on */
+    SURE_FRAMES = 2,   /* in a row */
+    FEWEST_OF_PART = 8 /* points that tell anything */
 };
 
 static const double gates_m[PASSES] = {0.3, 0.15, 0.05, 0.0, 0.0};
-static const double tukey = 4.685;      /* sigmas; 95 % efficient (Holland and Welsch 1977) */
-static const double rest_square = 1.5;  /* of sigmas, mean: 1 is noise alone */
-static const double told_square = 64.0; /* sigmas of a part's motion, squared */
-static const double off_share = 0.25;   /* of the motion that a point may be off: it is curved */
-static const double least_moving = 0.6, most_moving = 1.4;
+static const double tukey = 4.685;       /* sigmas; 95 % efficient (Holland and Welsch 1977) */
+static const double rest_square = 1.5;   /* of sigmas, mean: 1 is noise alone */
+static const double told_square = 64.0;  /* sigmas of a part's motion, squared */
+static const double off_share = 0.25;    /* of the motion that a point may be off: it is curved */
+static const double moving_off = 0.4;    /* share of its motion that a part may be off */
 static const double least_parts = 0.75;  /* of the parts move, and more */
 static const double least_facing = 0.25; /* cosine: depth of a grazing face says little */
 static const double ridge = 1e-3;
@@ -113,7 +111,7 @@ typedef struct ego_part {
     double square, product; /* of said motions; of said and seen ones; in sigmas */
 } ego_part;
 
-enum { PARTS_X = 4, PARTS_Y = 3, PARTS = PARTS_X * PARTS_Y };
+enum { PARTS_X = 4, PARTS_Y = 3, PARTS = PARTS_X * PARTS_Y, FEWEST = PARTS / 2 * FEWEST_OF_PART };
 
 static void ask(const ego_job *job, const rlf_pose *pose, ego_part parts[PARTS])
 {
@@ -148,8 +146,8 @@ static bool is_everywhere(const ego_part parts[PARTS])
         if (part->points >= FEWEST_OF_PART) {
             bool is_told = part->square > told_square && 2 * part->fitting > part->points;
             asked++;
-            moving += is_told && part->product > least_moving * part->square &&
-                      part->product < most_moving * part->square;
+            moving += is_told && part->product > (1.0 - moving_off) * part->square &&
+                      part->product < (1.0 + moving_off) * part->square;
         }
     }
     return asked >= PARTS / 2 && moving > least_parts * asked;
@@ -210,7 +208,7 @@ void rlf_ego_motion_watch(rlf_reconstruct *stage, const float *depth)
     ego->seen_frames = has ? ego->seen_frames + 1 : 0;
     if (has && (ego->moves || ego->seen_frames >= SURE_FRAMES)) {
         ego->moves = true;
-        ego->hold = HOLD;
+        ego->hold = MOST_AGE;
         ego->age = MOST_AGE;
     } else if (ego->moves) {
         ego->hold--;
