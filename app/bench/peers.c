@@ -1,9 +1,11 @@
 /* Our stages on the peers' clip, beside the results of their harness. */
 #include "bench/peers.h"
+
 #include "bench/peers_results.h"
 #include "bench/peers_table.h"
 #include "command.h"
 #include "eval/sections.h"
+#include "eval/table.h"
 
 #include <math.h>
 #include <stdio.h>

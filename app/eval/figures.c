@@ -1,6 +1,14 @@
 /* Names of the figures and where each comes from. */
 #include "eval/figures.h"
 
+#include "eval/measures/angles.h"
+#include "eval/measures/behind.h"
+#include "eval/measures/collisions.h"
+#include "eval/measures/depth.h"
+#include "eval/measures/foreground.h"
+#include "eval/measures/percent.h"
+#include "eval/measures/solid.h"
+
 #include <math.h>
 
 typedef enum figure_index {

@@ -2,10 +2,14 @@
 #ifndef RELIEF_APP_EVAL_FIGURES_H
 #define RELIEF_APP_EVAL_FIGURES_H
 
-#include "eval/behind.h"
-#include "eval/distance.h"
-#include "eval/eval.h"
-#include "eval/solid.h"
+#include "eval/measures/behind.h"
+#include "eval/measures/centre.h"
+#include "eval/measures/collisions.h"
+#include "eval/measures/depth.h"
+#include "eval/measures/distance.h"
+#include "eval/measures/foreground.h"
+#include "eval/measures/normals.h"
+#include "eval/measures/solid.h"
 
 /* Everything measured for one profile. */
 typedef struct eval_measures {

@@ -1,8 +1,10 @@
 /* Planes without noise, of which every normal is known: any slope, anywhere in the view; and a
  * plane of which one pixel in a hundred is missing. */
-#include "eval/eval.h"
 #include "eval/analytic.h"
+#include "eval/measures/angles.h"
+#include "eval/measures/percent.h"
 #include "eval/sections.h"
+#include "eval/table.h"
 
 #include <string.h>
 

@@ -1,8 +1,9 @@
 /* A plate of half a metre that moves along its normal at 0.5 m/s, 2 m away, before a still wall,
  * seen with a Kinect's noise: its velocity, and that of the wall. */
-#include "eval/eval.h"
 #include "eval/analytic.h"
+#include "eval/measures/percent.h"
 #include "eval/sections.h"
+#include "eval/table.h"
 
 #define SPEED 0.5 /* m/s */
 #define WALL_M 3.2

@@ -1,6 +1,9 @@
 /* Goal, bound, mean with its confidence interval, and the thesis beside it. */
 #include "eval/report.h"
 
+#include "eval/bounds.h"
+#include "eval/real/real.h"
+#include "eval/table.h"
 #include "json_file.h"
 #include "machine.h"
 #include "statistics.h"

@@ -4,6 +4,7 @@
 
 #include "eval/bounds.h"
 #include "eval/real/real.h"
+#include "eval/table.h"
 
 typedef struct eval_report_options {
     bool print_all;        /* every figure; else those with a goal or a bound */

@@ -3,6 +3,15 @@
 
 #include "command.h"
 #include "eval/figures.h"
+#include "eval/measures/behind.h"
+#include "eval/measures/centre.h"
+#include "eval/measures/collisions.h"
+#include "eval/measures/depth.h"
+#include "eval/measures/distance.h"
+#include "eval/measures/foreground.h"
+#include "eval/measures/normals.h"
+#include "eval/measures/solid.h"
+#include "eval/table.h"
 
 #include <math.h>
 #include <stdio.h>

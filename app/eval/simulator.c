@@ -1,7 +1,8 @@
 /* Is the simulated sensor the thesis's? Its missing points in the four cases of table 5.1. They
  * belong to the frames, not to a profile: both columns have them. */
 #include "eval/sections.h"
-#include "eval/sensed.h"
+#include "eval/sensed/room.h"
+#include "eval/table.h"
 #include "measure/points.h"
 
 #include <math.h>

@@ -6,9 +6,12 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "eval/eval.h"
+#include "eval/measures/angles.h"
+#include "eval/measures/centre.h"
+#include "eval/measures/collisions.h"
+#include "eval/measures/foreground.h"
+#include "eval/measures/normals.h"
 #include "measure/points.h"
-
 #include "relief/synthetic.h"
 
 #include <math.h>

@@ -6,10 +6,12 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "eval/real/clip.h"
 #include "eval/real/fit.h"
 #include "eval/real/mask.h"
 #include "eval/real/real.h"
 #include "eval/report.h"
+#include "eval/table.h"
 
 #include <math.h>
 #include <stdlib.h>

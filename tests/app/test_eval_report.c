@@ -6,9 +6,11 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "eval/bounds.h"
 #include "eval/figures.h"
 #include "eval/report.h"
 #include "eval/run.h"
+#include "eval/table.h"
 #include "statistics.h"
 
 #include <jansson.h>

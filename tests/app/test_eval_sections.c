@@ -8,8 +8,9 @@
 #include <cmocka.h>
 
 #include "eval/bounds.h"
+#include "eval/physics/sheet.h"
 #include "eval/sections.h"
-#include "eval/sheet.h"
+#include "eval/table.h"
 #include "io_support.h"
 
 #include <math.h>

@@ -6,7 +6,9 @@
 #include <cmocka.h>
 
 #include "eval/ball.h"
-#include "eval/sensed.h"
+#include "eval/sensed/hold.h"
+#include "eval/sensed/throw.h"
+#include "relief/io.h"
 
 #include <math.h>
 

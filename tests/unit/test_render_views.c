@@ -10,7 +10,9 @@
 
 #include <math.h>
 
-#include "render/soft/soft.h"
+#include "render/soft/font.h"
+#include "render/soft/palette.h"
+#include "render/soft/text.h"
 #include "render_scene.h"
 
 static rlf_compositor *create(const rlf_compositor_def *def)

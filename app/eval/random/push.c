@@ -1,8 +1,8 @@
 /* LIFT, SWIPE and CARRY of a thing that stood since the first frame, in random rooms. */
+#include "eval/measures/percent.h"
 #include "eval/random/random.h"
-
-#include "eval/eval.h"
-#include "eval/sensed.h"
+#include "eval/sensed/room.h"
+#include "eval/table.h"
 
 #include <stdio.h>
 #include <string.h>

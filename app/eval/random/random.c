@@ -1,9 +1,10 @@
 /* One room drawn at random: surface, throws, pushes. */
 #include "eval/random/random.h"
 
-#include "eval/eval.h"
+#include "eval/measures/percent.h"
 #include "eval/run.h"
-#include "eval/sensed.h"
+#include "eval/sensed/throw.h"
+#include "eval/table.h"
 
 #include <stdio.h>
 

@@ -1,6 +1,6 @@
 /* Rooms drawn at random: the same figures as of the old room, over many rooms. */
-#ifndef RELIEF_APP_EVAL_RANDOM_H
-#define RELIEF_APP_EVAL_RANDOM_H
+#ifndef RELIEF_APP_EVAL_RANDOM_RANDOM_H
+#define RELIEF_APP_EVAL_RANDOM_RANDOM_H
 
 #include "eval/table.h"
 #include "settings.h"

@@ -1,6 +1,6 @@
 /* Mean, interval and the worst room; and the three columns. */
 #include "eval/random/random.h"
-
+#include "eval/table.h"
 #include "statistics.h"
 
 #include <math.h>

@@ -1,7 +1,9 @@
 /* Filled pixels, left out on purpose: what a still camera sees beside depth steps is hidden in
  * every frame, and what is filled in is compared with it. */
 #include "command.h"
-#include "eval/eval.h"
+#include "eval/measures/depth.h"
+#include "eval/measures/percent.h"
+#include "eval/real/clip.h"
 #include "eval/real/real.h"
 
 #include <math.h>

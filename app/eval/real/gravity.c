@@ -1,6 +1,8 @@
 /* Gravity from the first frame alone, on every clip, with the camera rolled and mirrored. */
 #include "command.h"
-#include "eval/eval.h"
+#include "eval/measures/depth.h"
+#include "eval/measures/percent.h"
+#include "eval/real/clip.h"
 #include "eval/real/fit.h"
 #include "eval/real/real.h"
 

@@ -1,6 +1,8 @@
 /* Masks compared. */
 #include "eval/real/mask.h"
 
+#include "eval/measures/foreground.h"
+
 #include <string.h>
 
 #define CLOSE_PX 4    /* to each side: 9 x 9 */

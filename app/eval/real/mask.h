@@ -2,7 +2,7 @@
 #ifndef RELIEF_APP_EVAL_REAL_MASK_H
 #define RELIEF_APP_EVAL_REAL_MASK_H
 
-#include "eval/eval.h"
+#include "eval/measures/foreground.h"
 
 #define REAL_INSIDE 255
 #define REAL_UNJUDGED 128

@@ -1,6 +1,8 @@
 /* The slab is no body of physics: it only is in the picture. */
 #include "eval/real/matte.h"
 
+#include "eval/real/clip.h"
+
 #include <string.h>
 
 #define SLAB_WIDE 8.0 /* times its depth */

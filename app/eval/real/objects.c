@@ -2,6 +2,8 @@
  * OBJECT_PASSES times, so that the background is there and what is averaged over time settles. */
 #define _POSIX_C_SOURCE 200809L
 #include "command.h"
+#include "eval/measures/depth.h"
+#include "eval/real/clip.h"
 #include "eval/real/fit.h"
 #include "eval/real/mask.h"
 #include "eval/real/real.h"

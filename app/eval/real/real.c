@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "eval/real/real.h"
 
+#include "eval/table.h"
 #include "json_file.h"
 
 #include <math.h>

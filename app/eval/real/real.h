@@ -1,6 +1,6 @@
 /* `relief eval --real DIR`: figures on real recordings, each beside a baseline of a few lines. */
-#ifndef RELIEF_APP_EVAL_REAL_H
-#define RELIEF_APP_EVAL_REAL_H
+#ifndef RELIEF_APP_EVAL_REAL_REAL_H
+#define RELIEF_APP_EVAL_REAL_REAL_H
 
 #include "eval/real/clip.h"
 #include "eval/table.h"

@@ -1,6 +1,9 @@
 /* Foreground and matte against silhouettes of people, which script/silhouettes cuts. The matte is
  * that of a slab behind the person and before the room. */
 #include "command.h"
+#include "eval/measures/foreground.h"
+#include "eval/measures/percent.h"
+#include "eval/real/clip.h"
 #include "eval/real/mask.h"
 #include "eval/real/matte.h"
 #include "eval/real/real.h"

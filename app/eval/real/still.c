@@ -1,6 +1,9 @@
 /* Still clips: how steady normals and matte are, and how true normals are to large planes. */
 #include "command.h"
-#include "eval/eval.h"
+#include "eval/measures/depth.h"
+#include "eval/measures/normals.h"
+#include "eval/measures/percent.h"
+#include "eval/real/clip.h"
 #include "eval/real/fit.h"
 #include "eval/real/matte.h"
 #include "eval/real/real.h"

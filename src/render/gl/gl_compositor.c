@@ -17,7 +17,7 @@
 #include "environment/room_light.h"
 #include "environment/edge_matte.h"
 #include "render/render.h"
-#include "render/soft/soft.h"
+#include "render/soft/overlay.h"
 
 typedef struct gl_compositor {
     rlf_compositor_def def;

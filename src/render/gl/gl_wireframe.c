@@ -3,7 +3,7 @@
 
 #include "render/gl/gl_program.h"
 
-#include "render/soft/soft.h"
+#include "render/soft/palette.h"
 
 #include <stddef.h>
 

@@ -1,4 +1,7 @@
 /* What the bodies are put into: the colour picture, resized when it has to be, or grey depth. */
+#include "render/soft/background.h"
+
+#include "render/soft/draw.h"
 #include "render/soft/soft.h"
 
 #include <string.h>

@@ -1,5 +1,9 @@
 /* What other bodies and real things leave of the light on a body, at nodes a few pixels apart. */
+#include "render/soft/body_light.h"
+
 #include "kernel/kernel.h"
+#include "render/soft/obscure.h"
+#include "render/soft/soft.h"
 #include "render/soft/stream.h"
 
 /* A ball about four corners. */

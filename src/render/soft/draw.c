@@ -1,5 +1,5 @@
 /* Lines and rectangles. */
-#include "render/soft/soft.h"
+#include "render/soft/draw.h"
 
 void soft_fill_rect(const rlf_image_rgba8 *image, pixel_rect rect, soft_color color, int32_t alpha)
 {
@@ -70,5 +70,20 @@ void soft_draw_line(const rlf_image_rgba8 *image, soft_point from, soft_point to
                 blend_at(image, along, cell + side, color, alpha);
             }
         }
+    }
+}
+
+void soft_draw_arrow(const rlf_image_rgba8 *image, soft_point from, soft_point to, soft_color color)
+{
+    double dx = to.x - from.x;
+    double dy = to.y - from.y;
+    if (dx * dx + dy * dy < 4.0) {
+        return;
+    }
+    soft_draw_line(image, from, to, color);
+    for (int side = -1; side <= 1; side += 2) {
+        soft_point barb = {to.x - 0.25 * (dx + 0.6 * side * dy),
+                           to.y - 0.25 * (dy - 0.6 * side * dx)};
+        soft_draw_line(image, to, barb, color);
     }
 }

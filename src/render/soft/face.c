@@ -1,4 +1,6 @@
 /* From camera space to screen faces: near clipping, projection, culling and plane equations. */
+#include "render/soft/face.h"
+
 #include "render/soft/soft.h"
 
 #include <string.h>

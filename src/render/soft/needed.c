@@ -1,4 +1,6 @@
 /* Which part of the registered depth a picture needs. */
+#include "render/soft/needed.h"
+
 #include "render/soft/soft.h"
 
 /* A tile beside one with bodies may have an edge, and edge_matte_settle looks less than two tiles

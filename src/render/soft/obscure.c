@@ -1,6 +1,9 @@
 /* Real surfaces near a body keep light around from it: where the bodies are, and at nodes of their
  * faces. */
+#include "render/soft/obscure.h"
+
 #include "kernel/kernel.h"
+#include "render/soft/soft.h"
 #include "render/soft/stream.h"
 
 #define BODIES_AT_ONCE 8 /* per worker */

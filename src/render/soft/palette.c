@@ -1,5 +1,7 @@
 /* Colours that mean something. */
-#include "render/soft/soft.h"
+#include "render/soft/palette.h"
+
+#include "render/soft/draw.h"
 
 /* From pale yellow over orange and purple to dark blue: lightness falls all the way, so that the
  * order of depths is seen without a legend, in grey too. */

@@ -1,11 +1,17 @@
 /* Bodies of a snapshot as faces in the picture, nearest body first. */
+#include "render/soft/scene.h"
+
 #include "render/body_look.h"
+#include "render/soft/face.h"
+#include "render/soft/obscure.h"
+#include "render/soft/scene_model.h"
 #include "render/soft/soft.h"
 
 #include <string.h>
 
-#define BODIES_AT_ONCE 8   /* per worker */
-#define BODIES_FOR_GRID 16 /* of fewer each is looked at sooner than the whole surface */
+#define BODIES_AT_ONCE 8    /* per worker */
+#define BODIES_FOR_GRID 16  /* of fewer each is looked at sooner than the whole surface */
+#define FINE_FOCAL_PX 800.0 /* from here on shadows are as coarse as on half as many pixels */
 
 /* What one body's vertices go through. */
 typedef struct body_transform {
@@ -310,4 +316,16 @@ void soft_scene_light(soft *s, const rlf_render_input *input)
         place_real_shades(s, input->surface);
         soft_place_obscurances(s, input);
     }
+}
+
+void soft_set_viewpoint(soft *s, const rlf_camera *camera, const rlf_pose *T_picture_depth)
+{
+    s->camera = *camera;
+    s->T_picture_depth = *T_picture_depth;
+    s->to_light = rlf_neg(rlf_rotate(T_picture_depth->q, s->direction.now));
+    s->shade_px = camera->fx > FINE_FOCAL_PX ? 8 : 4;
+    s->ray_x0 = (float)(-camera->cx / camera->fx);
+    s->ray_y0 = (float)(-camera->cy / camera->fy);
+    s->ray_step_x = (float)(1.0 / camera->fx);
+    s->ray_step_y = (float)(1.0 / camera->fy);
 }

@@ -1,5 +1,8 @@
 /* Bodies that are drawn as models: their triangles as faces, each with a skin. */
+#include "render/soft/scene_model.h"
+
 #include "render/body_look.h"
+#include "render/soft/face.h"
 #include "render/soft/soft.h"
 
 #include <string.h>

@@ -3,6 +3,17 @@
 
 #include "base/cookie.h"
 #include "render/render.h"
+#include "render/soft/background.h"
+#include "render/soft/bodies.h"
+#include "render/soft/face.h"
+#include "render/soft/needed.h"
+#include "render/soft/overlay.h"
+#include "render/soft/scene.h"
+#include "render/soft/view_contacts.h"
+#include "render/soft/view_known.h"
+#include "render/soft/view_mesh.h"
+#include "render/soft/view_points.h"
+#include "render/soft/views.h"
 
 #include <string.h>
 

@@ -1,4 +1,5 @@
-/* Inside the CPU renderer: the values its files share.
+/* Inside the CPU renderer: the values its files share. What a file does for others is in the header
+ * of its name.
  *
  *   picture = background (colour, or depth in grey)
  *           + shadows of the bodies on it
@@ -10,7 +11,6 @@
 #ifndef RLF_RENDER_SOFT_H
 #define RLF_RENDER_SOFT_H
 
-#include "base/inside.h"
 #include "kernel/kernel.h"
 #include "relief/model.h"
 #include "render/body_texture.h"
@@ -113,6 +113,8 @@ typedef struct soft_scene {
 /* ---- the renderer --------------------------------------------------------------------------- */
 
 #define SOFT_LANES 16 /* pixels worked on at once; rows have room for so many beyond their end */
+/* Light is taken at nodes 4 or 8 pixels apart (soft.shade_px): of a row so many, or half. */
+#define ROW_NODES SOFT_LANES
 enum { SOFT_COVERED = 4, SOFT_SUMS = 5 };
 
 #define SOFT_GROUP_ROWS 4 /* rows whose ends of a face are found at once */
@@ -221,173 +223,5 @@ typedef struct soft {
     int32_t *column_weight;
     rlf_image_rgba8 grid_image; /* views are drawn here, then enlarged into the picture */
 } soft;
-
-/* soft.c: what the picture is seen from. */
-void soft_set_viewpoint(soft *s, const rlf_camera *camera, const rlf_pose *T_picture_depth);
-
-/* needed.c: what is looked at of the registered depth. Scene and edge_matte's bodies must be in
- * place. */
-real_windows soft_needed_depth(const soft *s, const rlf_render_input *input);
-
-/* background.c: the colour picture, or, when it has no data, registered depth in grey. */
-void soft_set_background(soft *s, const rlf_image_rgba8 *color);
-/* Rows [begin, end) of it; the matte there becomes 0. Real depth must be up to date if it is grey.
- */
-void soft_draw_background(const soft *s, int32_t begin, int32_t end);
-
-/* scene.c: all bodies in the picture as faces; then, with what is real read, what takes light from
- * them. */
-rlf_result soft_scene_build(soft *s, const rlf_render_input *input);
-void soft_scene_light(soft *s, const rlf_render_input *input);
-
-/* obscure.c: which real surfaces the bodies of the scene are near. */
-void soft_place_obscurances(soft *s, const rlf_render_input *input);
-
-/* face.c: room for so many faces, here and with every worker. */
-rlf_result soft_scene_reserve(soft *s, int32_t face_count);
-/* Clips at the near plane, drops what faces away or lies outside, and adds the rest; 3 or 4 corners
- * in one plane. */
-void soft_scene_add_face(soft *s, const soft_corner *corners, int32_t corner_count, int32_t body);
-
-/* scene_model.c: the faces of a body that is drawn as a model; its colour is that of the body. */
-rlf_result soft_scene_add_model(soft *s, const rlf_look *look, const rlf_pose *T_picture_body,
-                                int32_t body);
-
-/* crowd.c: which of the group's first `count` faces are alone. */
-void soft_find_alone(const soft_scene *scene, int32_t count, soft_group *group);
-
-/* raster.c: where the face begins and ends in the group's rows; false when it touches no sample. */
-bool soft_find_ends(const soft_face *face, const soft_group *group, soft_ends *out);
-/* Lets the face win the samples of the group's rows where it is nearest so far, unless it is alone;
- * marks the parts of rows that it touches. */
-void soft_raster_face(const soft_face *face, const soft_ends *ends, soft_group *group);
-
-/* shade.c: adds what the samples see of the faces to the sums of the group's rows. */
-void soft_shade_faces(const soft *s, const soft_ends *ends, int32_t count, const soft_group *group);
-/* skin.c: shares of red, green and blue that the skin's texture shows in SOFT_LANES pixels of row y
- * from x on, of which `count` count; z are their depths. */
-typedef struct soft_lanes_at {
-    int32_t x, y, count;
-} soft_lanes_at;
-void soft_skin_colors(const soft_skin *skin, const soft_face *face, soft_lanes_at at,
-                      const float *z, float rgb[3][SOFT_LANES]);
-/* compose.c: puts sums (red, green, blue, shown; whole lanes) over `count` pixels. */
-void soft_compose_row(float *const sum[4], int32_t count, uint8_t *restrict pixels,
-                      uint8_t *restrict matte);
-
-/* The lowest byte of a pixel is red, whatever the machine's order. */
-RLF_KERNEL_PART void soft_load_pixels(const uint8_t *bytes, int32_t count, uint32_t *out)
-{
-#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-    memcpy(out, bytes, 4 * (size_t)count);
-#else
-    for (int32_t i = 0; i < count; i++) {
-        const uint8_t *p = bytes + 4 * (ptrdiff_t)i;
-        out[i] = (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
-    }
-#endif
-}
-
-RLF_KERNEL_PART void soft_store_pixels(const uint32_t *pixels, int32_t count, uint8_t *out)
-{
-#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-    memcpy(out, pixels, 4 * (size_t)count);
-#else
-    for (int32_t i = 0; i < 4 * count; i++) {
-        out[i] = (uint8_t)(pixels[i / 4] >> 8 * (i % 4));
-    }
-#endif
-}
-
-/* bodies.c: draws the scene over the image and writes the matte; with_background: first the
- * background, in the same go through memory. */
-void soft_draw_bodies(soft *s, bool with_background);
-
-/* shadow.c: darkens the real surfaces of rows [begin, end) that the bodies keep the light from. */
-void soft_draw_shadows(const soft *s, soft_shade_tile *tiles, int32_t begin, int32_t end);
-
-/* ---- drawing tools -------------------------------------------------------------------------- */
-
-typedef struct soft_color {
-    uint8_t r, g, b;
-} soft_color;
-
-static inline soft_color soft_rgb(int32_t r, int32_t g, int32_t b)
-{
-    soft_color c = {(uint8_t)r, (uint8_t)g, (uint8_t)b};
-    return c;
-}
-static inline void soft_put(uint8_t *pixel, soft_color c)
-{
-    pixel[0] = c.r;
-    pixel[1] = c.g;
-    pixel[2] = c.b;
-    pixel[3] = 255;
-}
-/* Blends c over the pixel; alpha 0..256. */
-static inline void soft_blend(uint8_t *pixel, soft_color c, int32_t alpha)
-{
-    pixel[0] = (uint8_t)(pixel[0] + (c.r - pixel[0]) * alpha / 256);
-    pixel[1] = (uint8_t)(pixel[1] + (c.g - pixel[1]) * alpha / 256);
-    pixel[2] = (uint8_t)(pixel[2] + (c.b - pixel[2]) * alpha / 256);
-}
-
-/* palette.c */
-soft_color soft_color_near_far(double t)
-    RLF_INSIDE(soft_color_near_far); /* 0 near, bright and warm .. 1 far, dark and cold */
-soft_color soft_color_hue(double turn, double value); /* turn 0..1 round the wheel, value 0..1 */
-soft_color soft_color_label(int32_t label);           /* neighbours differ; 0 is black */
-
-/* draw.c: all clipped to the image. Points are pixels; rectangles x0 <= x < x1, y0 <= y < y1. */
-typedef struct soft_point {
-    double x, y;
-} soft_point;
-void soft_draw_line(const rlf_image_rgba8 *image, soft_point from, soft_point to, soft_color color);
-void soft_fill_rect(const rlf_image_rgba8 *image, pixel_rect rect, soft_color color, int32_t alpha);
-
-/* text.c: letters of 5 x 7 dots, `scale` pixels a dot. */
-typedef struct soft_text {
-    int32_t x, y; /* top left, pixels */
-    int32_t scale;
-    soft_color color;
-    bool has_backing; /* a dark translucent strip behind it */
-} soft_text;
-int32_t soft_text_scale(int32_t picture_height);
-int32_t soft_text_width(const char *line, int32_t scale);
-void soft_draw_text(const rlf_image_rgba8 *image, const soft_text *style, const char *line);
-/* Lines and plot of an input; shared with the GL renderer. */
-void soft_draw_overlay(const rlf_image_rgba8 *image, const rlf_render_input *input)
-    RLF_INSIDE(soft_draw_overlay);
-/* plot.c: at the bottom left. */
-void soft_draw_plot(const rlf_image_rgba8 *image, const rlf_plot *plot);
-extern const uint8_t soft_font[95][7]; /* font.c: ' ' to '~', rows from the top, bit 4 is left */
-
-/* views.c: everything but camera and mesh, in the grid's own image. */
-void soft_draw_view(soft *s, const rlf_render_input *input);
-/* view_marks.c: boxes, labels, arrows and legends over an enlarged grid image. */
-typedef struct soft_fit {
-    double scale;   /* picture pixels per grid pixel */
-    int32_t x0, y0; /* of the grid image in the picture */
-    int32_t width, height;
-} soft_fit;
-void soft_draw_region_marks(soft *s, const rlf_surface *surface, const soft_fit *fit);
-void soft_draw_velocity_marks(soft *s, const rlf_surface *surface, const soft_fit *fit);
-void soft_draw_reason_legend(soft *s);
-soft_color soft_color_reason(rlf_reason reason);
-void soft_draw_arrow(const rlf_image_rgba8 *image, soft_point from, soft_point to,
-                     soft_color color);
-/* Whether a view shows the camera's colours at the surface's pixels: s->real is read then. */
-bool soft_view_has_colors(const rlf_render_input *input);
-/* Colour of the camera's picture where grid point i lies at depth z; grey depth without one, and
- * where something nearer hides it from the colour camera. s->real must be read. */
-soft_color soft_grid_color(const soft *s, const rlf_render_input *input, int32_t i, float z);
-/* view_points.c */
-rlf_result soft_draw_points(soft *s, const rlf_render_input *input);
-/* view_contacts.c: over the camera's picture. */
-void soft_draw_contacts(soft *s, const rlf_render_input *input);
-/* view_known.c: alike. */
-void soft_draw_known(soft *s, const rlf_render_input *input);
-/* view_mesh.c */
-void soft_draw_mesh(soft *s, const rlf_surface *surface);
 
 #endif

@@ -1,8 +1,11 @@
 /* Colour of waiting pixels: body colour * texture * light, as far as the samples see it and the
  * real world leaves it. One step for all of them after the other: none waits for the last one's
  * values to reach memory. */
-#include "kernel/kernel.h"
 #include "render/soft/stream.h"
+
+#include "kernel/kernel.h"
+#include "render/soft/skin.h"
+#include "render/soft/soft.h"
 
 #include <string.h>
 

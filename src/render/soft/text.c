@@ -1,5 +1,8 @@
 /* Letters of a fixed font. */
-#include "render/soft/soft.h"
+#include "render/soft/text.h"
+
+#include "render/soft/draw.h"
+#include "render/soft/font.h"
 
 #include <string.h>
 

@@ -1,5 +1,10 @@
 /* Boxes, labels, arrows and legends over the views. */
+#include "render/soft/view_marks.h"
+
+#include "render/soft/draw.h"
+#include "render/soft/palette.h"
 #include "render/soft/soft.h"
+#include "render/soft/text.h"
 
 #include <stdio.h>
 
@@ -74,21 +79,6 @@ void soft_draw_region_marks(soft *s, const rlf_surface *surface, const soft_fit 
         soft_text style = {(int32_t)(middle_x * fit->scale) - soft_text_width(line, scale) / 2,
                            (int32_t)(middle_y * fit->scale), scale, soft_rgb(255, 255, 255), true};
         soft_draw_text(&part, &style, line);
-    }
-}
-
-void soft_draw_arrow(const rlf_image_rgba8 *image, soft_point from, soft_point to, soft_color color)
-{
-    double dx = to.x - from.x;
-    double dy = to.y - from.y;
-    if (dx * dx + dy * dy < 4.0) {
-        return;
-    }
-    soft_draw_line(image, from, to, color);
-    for (int side = -1; side <= 1; side += 2) {
-        soft_point barb = {to.x - 0.25 * (dx + 0.6 * side * dy),
-                           to.y - 0.25 * (dy - 0.6 * side * dx)};
-        soft_draw_line(image, to, barb, color);
     }
 }
 

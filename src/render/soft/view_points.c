@@ -2,7 +2,13 @@
  *
  * Points are drawn as squares as large as the surface between them, into a depth buffer; then the
  * bodies as in the main view, with that buffer for the real world. */
+#include "render/soft/view_points.h"
+
+#include "render/soft/bodies.h"
+#include "render/soft/draw.h"
+#include "render/soft/scene.h"
 #include "render/soft/soft.h"
+#include "render/soft/views.h"
 
 #define PITCH_MAX 1.5
 #define ZOOM_MIN 0.1

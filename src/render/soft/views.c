@@ -1,5 +1,10 @@
 /* Views of the surface's planes, in the grid's own image, enlarged into the picture. */
+#include "render/soft/views.h"
+
+#include "render/soft/draw.h"
+#include "render/soft/palette.h"
 #include "render/soft/soft.h"
+#include "render/soft/view_marks.h"
 
 #include <string.h>
 
