@@ -84,8 +84,9 @@ endif()
 # per instruction set are named here: gcc shows them whatever the visibility says.
 function(relief_one_object target out)
   set(object ${CMAKE_CURRENT_BINARY_DIR}/${target}_public.o)
+  separate_arguments(flags NATIVE_COMMAND "${CMAKE_C_FLAGS}") # the target machine's
   add_custom_command(OUTPUT ${object}
-    COMMAND ${CMAKE_C_COMPILER} -r -nostdlib -o ${object} -Wl,--whole-archive
+    COMMAND ${CMAKE_C_COMPILER} ${flags} -r -nostdlib -o ${object} -Wl,--whole-archive
             $<TARGET_FILE:${target}> -Wl,--no-whole-archive
     COMMAND ${CMAKE_OBJCOPY} --localize-hidden --wildcard --keep-global-symbol=rlf_*
             --localize-symbol=rlf_kernel_* --localize-symbol=*.resolver ${object}

@@ -21,6 +21,9 @@ static square square_at(uint32_t n, uint32_t w)
 
 void rlf_mesh_indices(int32_t width, int32_t height, uint32_t *out)
 {
+    if (!RLF_ASSERT(out != NULL)) {
+        return;
+    }
     for (int32_t y = 0; y + 1 < height; y++) {
         for (int32_t x = 0; x + 1 < width; x++) {
             square s = square_at((uint32_t)y * (uint32_t)width + (uint32_t)x, (uint32_t)width);

@@ -15,6 +15,7 @@ if(RELIEF_XVFB_RUN)
   set(launcher ${RELIEF_XVFB_RUN} -a -s "-screen 0 1280x1024x24 -noreset")
 endif()
 foreach(name viewer_test viewer_live_test)
+  string(REGEX REPLACE "_test$" "" what ${name})
   add_executable(${name} ${CMAKE_CURRENT_LIST_DIR}/${name}.c ${viewer})
   relief_settings(${name})
   # setenv is POSIX.
@@ -22,8 +23,8 @@ foreach(name viewer_test viewer_live_test)
   target_include_directories(${name} PRIVATE ${app})
   target_link_libraries(${name} PRIVATE relief_gl relief PkgConfig::glfw3 PkgConfig::epoxy
                         PkgConfig::cmocka m)
-  add_test(NAME gl.${name} COMMAND ${launcher} $<TARGET_FILE:${name}>)
+  add_test(NAME gl.${what} COMMAND ${launcher} $<TARGET_FILE:${name}>)
   # Window system and driver libraries are unloaded with memory they still hold.
-  set_tests_properties(gl.${name} PROPERTIES LABELS gl TIMEOUT 1800
+  set_tests_properties(gl.${what} PROPERTIES LABELS gl TIMEOUT 1800
                        ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0")
 endforeach()

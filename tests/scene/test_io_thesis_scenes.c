@@ -155,7 +155,7 @@ static void visitor_hides_the_farther_of_two_cubes(void **state)
         rlf_pipeline_output out;
         int hidden = 0, shown = 0;
         double front_min = 1.0;
-        for (int i = 0; i < 150 && rlf_pipeline_step(r.pipeline, &out) == RLF_OK; i++) {
+        for (int i = 0; i < heavy(150, 40) && rlf_pipeline_step(r.pipeline, &out) == RLF_OK; i++) {
             front_min = rlf_min(front_min, alpha_at(&out, 0));
             double behind = alpha_at(&out, 1);
             hidden += behind < 0.02;
@@ -164,7 +164,7 @@ static void visitor_hides_the_farther_of_two_cubes(void **state)
         print_message("profile %d: the farther cube hidden in %d, shown in %d of 150 frames\n",
                       profile, hidden, shown);
         assert_true(front_min > 0.98);
-        assert_true(hidden >= 5 && shown >= 60);
+        assert_true(!heavy_is_whole() || (hidden >= 5 && shown >= 60));
         close_run(&r);
     }
 }

@@ -19,7 +19,7 @@ if(RELIEF_WITH_OPENNI2 AND RELIEF_OPENNI2_LIBRARY AND TARGET test_io_openni2)
   add_dependencies(test_io_openni2 openni2_test_driver)
   target_compile_definitions(test_io_openni2 PRIVATE RLF_TEST_OPENNI2="${place}")
   # OpenNI2 itself leaks some hundred bytes each time it starts. Nothing else may.
-  set_tests_properties(unit.test_io_openni2 PROPERTIES ENVIRONMENT
+  set_tests_properties(unit.io_openni2 PROPERTIES ENVIRONMENT
                        "LSAN_OPTIONS=suppressions=${support}/openni2_leaks.txt:print_suppressions=0")
 endif()
 

@@ -144,17 +144,22 @@ static errors errors_of(const rlf_surface *f, int k, int first, int last)
     return e;
 }
 
+/* Of body k. Bodies that are measured one after the other are shown once. */
 static errors measure(int count, const body *bodies, int k)
 {
-    rlf_reconstruct *stage = NULL;
-    shown_count = count;
-    for (int i = 0; i < count; i++) {
-        shown[i] = &bodies[i];
+    static rlf_reconstruct *stage;
+    static const rlf_surface *f;
+    static const body *last;
+    if (bodies != last) {
+        rlf_reconstruct_destroy(&stage);
+        last = bodies;
+        shown_count = count;
+        for (int i = 0; i < count; i++) {
+            shown[i] = &bodies[i];
+        }
+        f = show(&stage, NULL);
     }
-    const rlf_surface *f = show(&stage, NULL);
-    errors e = errors_of(f, k, 0, HEIGHT);
-    rlf_reconstruct_destroy(&stage);
-    return e;
+    return errors_of(f, k, 0, HEIGHT);
 }
 
 #define ENDLESS 50.0
