@@ -9,6 +9,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+io_bytes io_bytes_unmarked(const io_bytes *text)
+{
+    const size_t mark = text->size >= 3 && memcmp(text->data, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
+    return mark == 0 ? *text : (io_bytes){text->name, text->data + mark, text->size - mark};
+}
+
 rlf_result io_buffer_reserve(io_buffer *buffer, size_t size)
 {
     if (size <= buffer->capacity) {

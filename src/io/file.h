@@ -19,6 +19,9 @@ typedef struct io_bytes {
     size_t size;
 } io_bytes;
 
+/* A text without the mark that some editors put before it (EF BB BF). */
+io_bytes io_bytes_unmarked(const io_bytes *text);
+
 /* Memory that grows to the largest file read so far. Free with io_buffer_free. */
 typedef struct io_buffer {
     uint8_t *data;

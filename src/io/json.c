@@ -33,19 +33,14 @@ rlf_result io_json_fail(const io_json_object *object, const char *key, const cha
 
 rlf_result io_json_parse(const io_bytes *file, json_t **out)
 {
-    static const uint8_t byte_order_mark[3] = {0xEF, 0xBB, 0xBF};
-    const uint8_t *data = file->data;
-    size_t size = file->size;
-    if (size >= 3 && memcmp(data, byte_order_mark, 3) == 0) {
-        data += 3;
-        size -= 3;
-    }
-    if (size == 0) {
+    const io_bytes text = io_bytes_unmarked(file);
+    if (text.size == 0) {
         return rlf_fail(RLF_ERROR_FORMAT, "%s: is empty: write a JSON object as in docs/formats.md",
                         file->name);
     }
     json_error_t error;
-    json_t *document = json_loadb((const char *)data, size, JSON_REJECT_DUPLICATES, &error);
+    json_t *document =
+        json_loadb((const char *)text.data, text.size, JSON_REJECT_DUPLICATES, &error);
     if (document == NULL) {
         return rlf_fail(RLF_ERROR_FORMAT,
                         "%s:%d:%d: is not valid JSON: %s: correct it as in docs/formats.md",

@@ -3,6 +3,8 @@
 
 #include "base/cookie.h"
 
+#define LENGTH_MAX 1000.0 /* metres, of any setting */
+
 /* tan of the steepest incidence that the thesis's threshold still joins: 60 degrees. */
 static const double joined_slope = 1.7320508;
 
@@ -13,7 +15,8 @@ static double default_tau(const rlf_reconstruct_def *def)
 {
     double z = 0.5 * (def->depth_min_m + def->depth_max_m);
     double step = def->scale_factor * z / rlf_max(def->rig.depth.fx, 1e-9);
-    return 6.0 * rlf_depth_noise_sigma(&def->rig.noise, z) + joined_slope * step;
+    return rlf_min(6.0 * rlf_depth_noise_sigma(&def->rig.noise, z) + joined_slope * step,
+                   LENGTH_MAX);
 }
 
 /* 6 sigma of the difference between one sample and the mean of n, at the far end of the range; at
@@ -21,7 +24,7 @@ static double default_tau(const rlf_reconstruct_def *def)
 static double default_foreground_threshold(const rlf_reconstruct_def *def)
 {
     double sigma = rlf_depth_noise_sigma(&def->rig.noise, def->depth_max_m);
-    return rlf_max(6.0 * sigma * sqrt(1.0 + 1.0 / def->background_frames), 0.05);
+    return rlf_clamp(6.0 * sigma * sqrt(1.0 + 1.0 / def->background_frames), 0.05, LENGTH_MAX);
 }
 
 static void set_thesis(rlf_reconstruct_def *def)

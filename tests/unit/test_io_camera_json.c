@@ -42,6 +42,26 @@ static void smallest_file_gets_the_defaults(void **state)
     assert_true(sigma > 0.003 && sigma < 0.008);
 }
 
+/* What may be said of a camera gives settings that may be used. */
+static void the_farthest_range_can_be_run(void **state)
+{
+    (void)state;
+    rlf_rig rig;
+    double units = 0;
+    assert_int_equal(parse("{\"depth\":{" SIZE LENS
+                           ",\"units_per_metre\":1000,\"depth_max_m\":1000}}",
+                           &rig, &units),
+                     RLF_OK);
+    for (int profile = 0; profile < 2; profile++) {
+        const rlf_reconstruct_def def = rlf_reconstruct_def_default((rlf_profile)profile, &rig);
+        rlf_reconstruct *reconstruct = NULL;
+        if (rlf_reconstruct_create(&def, &reconstruct) != RLF_OK) {
+            fail_msg("%s", rlf_error_text());
+        }
+        rlf_reconstruct_destroy(&reconstruct);
+    }
+}
+
 static void every_key_is_read(void **state)
 {
     (void)state;
@@ -194,6 +214,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(smallest_file_gets_the_defaults),
+        cmocka_unit_test(the_farthest_range_can_be_run),
         cmocka_unit_test(every_key_is_read),
         cmocka_unit_test(broken_files_are_refused_with_one_clear_line),
         cmocka_unit_test(misspelt_keys_are_told),

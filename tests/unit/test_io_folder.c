@@ -154,7 +154,8 @@ static void times_that_go_back_are_sorted_with_a_warning(void **state)
 static void unix_times_keep_their_nanoseconds(void **state)
 {
     (void)state;
-    const char text[] = "1305031229.528784123 a\n1305031229.5287841239 b\n.5 c\n7 d e \n";
+    const char text[] = "\xEF\xBB\xBF"
+                        "1305031229.528784123 a\n1305031229.5287841239 b\n.5 c\n7 d e \n";
     io_bytes file = {"depth.txt", (const uint8_t *)text, strlen(text)};
     io_frame_list list;
     test_log log = {0};
@@ -184,7 +185,8 @@ static void broken_lists_are_refused(void **state)
         {"-1.0 d0.png\n", "depth.txt:1", "time in seconds"},
         {"1.0x d0.png\n", "depth.txt:1", "time in seconds"},
         {"nan d0.png\n", "depth.txt:1", "time in seconds"},
-        {"99999999999999999999 d0.png\n", "depth.txt:1", "time in seconds"},
+        {"99999999999999999999 d0.png\n", "depth.txt:1: its time is more than", "write seconds"},
+        {"1700000000000.5 d0.png\n", "depth.txt:1: its time is more than", "not milliseconds"},
     };
     for (size_t i = 0; i < sizeof(lists) / sizeof(lists[0]); i++) {
         test_write_text("depth.txt", lists[i].text);
@@ -194,6 +196,18 @@ static void broken_lists_are_refused(void **state)
     expect_open_error(RLF_ERROR_FORMAT, "depth.txt", "not a text file", "SECONDS FILE");
     remove(test_path("depth.txt"));
     expect_open_error(RLF_ERROR_IO, "depth.txt", "No such file", "SECONDS FILE");
+}
+
+/* Before memory is asked for a camera that is many times as large as its pictures. */
+static void the_camera_has_the_size_of_its_pictures(void **state)
+{
+    (void)state;
+    test_write_text(
+        "camera.json",
+        "{\"depth\":{\"width\":4096,\"height\":4096,\"fx\":3000,\"fy\":3000,\"cx\":2048,"
+        "\"cy\":2048,\"units_per_metre\":1000}}");
+    expect_open_error(RLF_ERROR_FORMAT, "d0.png", "but camera.json says 4096 x 4096",
+                      "correct camera.json");
 }
 
 static void missing_and_broken_camera_json(void **state)
@@ -421,6 +435,7 @@ int main(void)
         CLIP_TEST(times_that_go_back_are_sorted_with_a_warning),
         cmocka_unit_test(unix_times_keep_their_nanoseconds),
         CLIP_TEST(broken_lists_are_refused),
+        CLIP_TEST(the_camera_has_the_size_of_its_pictures),
         CLIP_TEST(missing_and_broken_camera_json),
         CLIP_TEST(broken_color_list_is_refused),
         CLIP_TEST(bad_depth_picture_in_the_middle),

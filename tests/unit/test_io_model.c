@@ -392,7 +392,7 @@ static void too_many_triangles_fail(void **state)
         fputs("f 1 2 3\n", file);
     }
     fclose(file);
-    fail_load("many.obj", RLF_ERROR_FORMAT, "200001 faces, at most 200000");
+    fail_load("many.obj", RLF_ERROR_FORMAT, "200001 triangles, at most 200000");
     assert_int_equal(truncate(test_path("many.obj"), 8L * 10000000), 0);
     fail_load("many.obj", RLF_ERROR_FORMAT, "");
 }

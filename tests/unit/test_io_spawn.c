@@ -259,7 +259,7 @@ static const struct {
     {ENTRY("\"body\":{\"masss\":1},\"pattern\":\"ring\",\"count\":2,\"radius\":1"),
      "spawn[0].body.masss is not a known key", "formats.md"},
     {ENTRY("\"body\":{\"mass\":0},\"pattern\":\"ring\",\"count\":2,\"radius\":1"),
-     "spawn[0].body.mass is 0", "> 0"},
+     "spawn[0].body.mass is 0", "from 1e-6"},
     {ENTRY("\"body\":{\"name\":\"a\"},\"pattern\":\"ring\",\"count\":2,\"radius\":1"),
      "spawn[0].body.name is \"a_0002\" like that of bodies[0]", "choose another"},
     {ENTRY("\"body\":{\"name\":\"a123456789b123456789c123456789d123456789e123456789f12\"},"

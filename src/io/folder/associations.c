@@ -70,8 +70,9 @@ static void append(halves *h, int which, const word *time, const word *name)
 
 static rlf_result split(const io_bytes *file, halves *h)
 {
-    const char *at = (const char *)file->data;
-    const char *end = at + file->size;
+    const io_bytes text = io_bytes_unmarked(file);
+    const char *at = (const char *)text.data;
+    const char *end = at + text.size;
     for (int32_t number = 1; at < end; number++) {
         const char *stop = memchr(at, '\n', (size_t)(end - at));
         stop = stop != NULL ? stop : end;

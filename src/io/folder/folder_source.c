@@ -118,6 +118,31 @@ static void check_color(folder *self)
     self->rig.has_color = has_pictures && self->rig.has_color;
 }
 
+/* The first picture tells whether the camera's size is right, before memory is asked for that is
+ * many times as large. One that cannot be read is told when its frame comes. */
+static rlf_result check_size(folder *self, const io_frame_list *list, const rlf_camera *camera)
+{
+    char path[IO_PATH_MAX];
+    io_bytes file;
+    int32_t width = 0;
+    int32_t height = 0;
+    if (list->count == 0 ||
+        read_entry(self, &list->entries[0], "the folder", &file, path) != RLF_OK ||
+        !io_picture_size(&file, &width, &height) ||
+        (width == camera->width && height == camera->height)) {
+        return RLF_OK;
+    }
+    return io_picture_fail_size(path, width, height, camera->width, camera->height);
+}
+
+static rlf_result check_sizes(folder *self)
+{
+    rlf_result result = check_size(self, &self->layout.depth, &self->rig.depth);
+    return result == RLF_OK && self->rig.has_color
+               ? check_size(self, &self->layout.color, &self->rig.color)
+               : result;
+}
+
 /* Size of the first picture of a list; nothing stays decoded. */
 static rlf_result picture_size(folder *self, const io_list_entry *entry, bool is_depth,
                                io_picture *out)
@@ -227,6 +252,9 @@ static rlf_result open_all(const rlf_address *address, folder *self, rlf_opened 
     }
     if (result == RLF_OK) {
         check_color(self);
+        result = check_sizes(self);
+    }
+    if (result == RLF_OK) {
         /* Pictures rarely come out larger than their pixels: one reservation serves the clip. */
         const size_t pixels = (size_t)self->rig.depth.width * (size_t)self->rig.depth.height;
         result = io_buffer_reserve(&self->file, pixels * 2 + 65536);

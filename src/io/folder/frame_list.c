@@ -21,6 +21,7 @@ static const char *parse_seconds(const char *text, int64_t *out_ns)
     for (; *text >= '0' && *text <= '9'; text++, digits++) {
         seconds = seconds * 10 + (*text - '0');
         if (seconds > SECONDS_MAX) {
+            *out_ns = INT64_MAX;
             return NULL;
         }
     }
@@ -51,6 +52,12 @@ static rlf_result parse_line(const char *file, int32_t number, char *line, io_li
         return RLF_NO_FRAME;
     }
     const char *rest = parse_seconds(line, &out->time_ns);
+    if (rest == NULL && out->time_ns == INT64_MAX) {
+        return rlf_fail(RLF_ERROR_FORMAT,
+                        "%s:%d: its time is more than %lld seconds: write seconds, not "
+                        "milliseconds or less",
+                        file, (int)number, (long long)SECONDS_MAX);
+    }
     if (rest == NULL || (!is_blank(*rest) && *rest != '\0')) {
         return rlf_fail(RLF_ERROR_FORMAT,
                         "%s:%d: does not start with a time in seconds, like 12.345678: write one "
@@ -111,8 +118,10 @@ static rlf_result parse_lines(const char *file, io_frame_list *list)
     return RLF_OK;
 }
 
-rlf_result io_frame_list_parse(const io_bytes *file, io_frame_list *out)
+rlf_result io_frame_list_parse(const io_bytes *marked, io_frame_list *out)
 {
+    const io_bytes text = io_bytes_unmarked(marked);
+    const io_bytes *file = &text;
     memset(out, 0, sizeof(*out));
     if (file->size > 0 && memchr(file->data, '\0', file->size) != NULL) {
         return rlf_fail(RLF_ERROR_FORMAT,

@@ -44,9 +44,13 @@ static rlf_result read_whole(const char *folder, const char *name, io_buffer *bu
                              char path[IO_PATH_MAX])
 {
     rlf_result result = io_path_join(folder, name, path);
-    return result == RLF_OK
-               ? io_file_read(path, IO_POSE_FILE_MAX, "put the file there", buffer, out)
-               : result;
+    if (result == RLF_OK) {
+        result = io_file_read(path, IO_POSE_FILE_MAX, "put the file there", buffer, out);
+    }
+    if (result == RLF_OK) {
+        *out = io_bytes_unmarked(out);
+    }
+    return result;
 }
 
 /* groundtruth.txt, or what ICL-NUIM calls traj0.gt.freiburg. */

@@ -9,7 +9,7 @@
 
 typedef struct counts {
     const char *name;
-    int64_t faces, groups, materials, corners_most;
+    int64_t triangles, groups, materials, corners_most;
     uint64_t hashes[HASHES]; /* of the materials' names; 0 = free */
 } counts;
 
@@ -85,7 +85,7 @@ static void take_line(counts *c, const line *l)
     line rest;
     if (has_word(l, "f", &rest) || has_word(l, "l", &rest) || has_word(l, "p", &rest)) {
         const int64_t corners = count_words(&rest);
-        c->faces++;
+        c->triangles += corners > 3 ? corners - 2 : 1;
         c->corners_most = corners > c->corners_most ? corners : c->corners_most;
     } else if (has_word(l, "usemtl", &rest) || has_word(l, "newmtl", &rest)) {
         c->groups++;
@@ -97,10 +97,10 @@ static void take_line(counts *c, const line *l)
 
 static rlf_result check_counts(const counts *c)
 {
-    if (c->faces > RLF_MODEL_TRIANGLES_MAX) {
+    if (c->triangles > RLF_MODEL_TRIANGLES_MAX) {
         return rlf_fail(RLF_ERROR_FORMAT,
-                        "%s: the model has %lld faces, at most %d are drawn: simplify it", c->name,
-                        (long long)c->faces, RLF_MODEL_TRIANGLES_MAX);
+                        "%s: the model has %lld triangles, at most %d are drawn: simplify it",
+                        c->name, (long long)c->triangles, RLF_MODEL_TRIANGLES_MAX);
     }
     if (c->corners_most > CORNERS_MAX) {
         return rlf_fail(RLF_ERROR_FORMAT,

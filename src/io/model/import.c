@@ -161,6 +161,23 @@ static rlf_result import_locked(const io_bytes *file, io_model_draft *d, rlf_mod
     return result;
 }
 
+static rlf_result import_checked(const io_bytes *file, io_model_format format, bool is_alone,
+                                 rlf_model **out)
+{
+    io_model_draft *draft = rlf_alloc(sizeof(*draft));
+    if (draft == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    draft->name = file->name;
+    draft->format = format;
+    draft->is_alone = is_alone;
+    (void)pthread_mutex_lock(&assimp_lock);
+    rlf_result result = import_locked(file, draft, out);
+    (void)pthread_mutex_unlock(&assimp_lock);
+    rlf_free(draft);
+    return result;
+}
+
 rlf_result io_model_import(const io_bytes *file, io_model_format format, bool is_alone,
                            rlf_model **out)
 {
@@ -169,18 +186,13 @@ rlf_result io_model_import(const io_bytes *file, io_model_format format, bool is
         return rlf_fail(RLF_ERROR_FORMAT, "%s: is empty (0 bytes): export the model again",
                         file->name);
     }
-    rlf_result result =
-        format == IO_MODEL_OBJ ? io_model_check_obj(file) : io_model_check_gltf(file);
-    io_model_draft *draft = result == RLF_OK ? rlf_alloc(sizeof(*draft)) : NULL;
-    if (draft == NULL) {
-        return result == RLF_OK ? RLF_ERROR_MEMORY : result;
+    io_buffer buffer = {0};
+    io_bytes reduced = *file;
+    rlf_result result = format == IO_MODEL_OBJ ? io_model_check_obj(file)
+                                               : io_model_reduce_gltf(file, &buffer, &reduced);
+    if (result == RLF_OK) {
+        result = import_checked(&reduced, format, is_alone, out);
     }
-    draft->name = file->name;
-    draft->format = format;
-    draft->is_alone = is_alone;
-    (void)pthread_mutex_lock(&assimp_lock);
-    result = import_locked(file, draft, out);
-    (void)pthread_mutex_unlock(&assimp_lock);
-    rlf_free(draft);
+    io_buffer_free(&buffer);
     return result;
 }

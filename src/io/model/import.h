@@ -10,9 +10,10 @@
 /* Of nodes. */
 #define IO_MODEL_DEPTH_MAX 256
 
-/* check.c, check_obj.c: refuses what would cost assimp more memory, time or stack than a model that
- * can be drawn needs. glTF is the text or the binary kind; OBJ or its MTL. */
-rlf_result io_model_check_gltf(const io_bytes *file);
+/* check_gltf.c, check_obj.c: refuses what would cost assimp more memory, time or stack than a model
+ * that can be drawn needs. glTF is the text or the binary kind; *out, in the buffer, is what of it
+ * is drawn. OBJ or its MTL. */
+rlf_result io_model_reduce_gltf(const io_bytes *file, io_buffer *buffer, io_bytes *out);
 rlf_result io_model_check_obj(const io_bytes *file);
 
 typedef struct io_affine {

@@ -62,6 +62,20 @@ static rlf_result decode(tjhandle handle, const io_bytes *file, io_picture *pict
     return fail_damaged(handle, file);
 }
 
+bool io_jpeg_size(const io_bytes *file, int32_t *out_width, int32_t *out_height)
+{
+    int subsampling = 0;
+    int colorspace = 0;
+    tjhandle handle = file->size > 0 ? tjInitDecompress() : NULL;
+    const bool is_read = handle != NULL &&
+                         tjDecompressHeader3(handle, file->data, (unsigned long)file->size,
+                                             out_width, out_height, &subsampling, &colorspace) == 0;
+    if (handle != NULL) {
+        tjDestroy(handle);
+    }
+    return is_read;
+}
+
 rlf_result io_jpeg_decode_rgba(const io_bytes *file, io_picture *picture)
 {
     tjhandle handle = tjInitDecompress();

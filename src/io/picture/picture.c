@@ -20,6 +20,25 @@ rlf_result io_picture_decode(const io_bytes *file, io_picture *picture)
                     file->name);
 }
 
+static int32_t number_at(const uint8_t *data)
+{
+    return (int32_t)((uint32_t)data[0] << 24 | (uint32_t)data[1] << 16 | (uint32_t)data[2] << 8 |
+                     data[3]);
+}
+
+bool io_picture_size(const io_bytes *file, int32_t *out_width, int32_t *out_height)
+{
+    if (!io_png_is(file)) {
+        return io_jpeg_size(file, out_width, out_height);
+    }
+    if (file->size < 24) { /* the signature, a chunk's length and name, width and height */
+        return false;
+    }
+    *out_width = number_at(file->data + 16);
+    *out_height = number_at(file->data + 20);
+    return true;
+}
+
 rlf_result rlf_picture_read(const char *path, rlf_image_rgba8 *out)
 {
     if (!RLF_ASSERT(path != NULL && out != NULL)) {

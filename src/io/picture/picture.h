@@ -31,6 +31,14 @@ rlf_result io_jpeg_decode_rgba(const io_bytes *file, io_picture *picture);
 /* PNG or JPEG to RGBA, told apart by their first bytes. */
 rlf_result io_picture_decode(const io_bytes *file, io_picture *picture);
 
+/* What a PNG or JPEG says of its size; false when it cannot be told. */
+bool io_picture_size(const io_bytes *file, int32_t *out_width, int32_t *out_height);
+bool io_jpeg_size(const io_bytes *file, int32_t *out_width, int32_t *out_height);
+
+/* The error for a picture of another size than its camera's. */
+rlf_result io_picture_fail_size(const char *name, int64_t width, int64_t height,
+                                int32_t wanted_width, int32_t wanted_height);
+
 /* Checks the size found in a file against the wanted one and the limits, and whether `file_size`
  * bytes can hold so many pixels at `pixels_per_byte`; then allocates when data is NULL. */
 rlf_result io_picture_prepare(const io_bytes *file, io_picture *picture, int64_t width,

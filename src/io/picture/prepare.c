@@ -1,6 +1,16 @@
 /* Room for a picture, once its header has been read and believed. */
 #include "io/picture/picture.h"
 
+rlf_result io_picture_fail_size(const char *name, int64_t width, int64_t height,
+                                int32_t wanted_width, int32_t wanted_height)
+{
+    return rlf_fail(RLF_ERROR_FORMAT,
+                    "%s: the picture is %lld x %lld but camera.json says %d x %d: correct "
+                    "camera.json, or take the picture out",
+                    name, (long long)width, (long long)height, (int)wanted_width,
+                    (int)wanted_height);
+}
+
 rlf_result io_picture_prepare(const io_bytes *file, io_picture *picture, int64_t width,
                               int64_t height, int64_t pixels_per_byte, size_t pixel_size)
 {
@@ -18,11 +28,7 @@ rlf_result io_picture_prepare(const io_bytes *file, io_picture *picture, int64_t
     bool is_wanted = (picture->width == 0 || picture->width == width) &&
                      (picture->height == 0 || picture->height == height);
     if (!is_wanted) {
-        return rlf_fail(RLF_ERROR_FORMAT,
-                        "%s: the picture is %lld x %lld but camera.json says %d x %d: correct "
-                        "camera.json, or take the picture out",
-                        file->name, (long long)width, (long long)height, (int)picture->width,
-                        (int)picture->height);
+        return io_picture_fail_size(file->name, width, height, picture->width, picture->height);
     }
     /* A few bytes that claim a huge picture must not cost a huge allocation. */
     if (width * height / pixels_per_byte > (int64_t)file->size) {

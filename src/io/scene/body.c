@@ -29,7 +29,7 @@ static rlf_result read_motion(const io_json_object *body, rlf_body_def *def)
 static rlf_result read_material(const io_json_object *body, rlf_body_def *def)
 {
     static const io_json_field fields[8] = {
-        {"mass", "a number of kg, > 0 and at most 1e6", IO_POSITIVE, 1e6, false},
+        {"mass", "a number of kg, from 1e-6 to 1e6", 1e-6, 1e6, false},
         {"restitution", "a number from 0 to 1", 0, 1, false},
         {"friction", "a number >= 0 and at most 1000", 0, 1000, false},
         {"rolling_resistance", "a number >= 0 and at most 1000", 0, 1000, false},

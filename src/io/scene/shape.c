@@ -3,7 +3,9 @@
 
 #include <string.h>
 
+#define SIZE_MIN_M 1e-6 /* so that squares of squares stay numbers */
 #define SIZE_MAX_M 100.0
+#define SIZE_MEANING "metres, from 1e-6 to 100"
 
 /* Name and keys of a shape; which of size, radius and height it takes. */
 typedef struct shape_keys {
@@ -58,13 +60,12 @@ static rlf_result check_shape_keys(const io_json_object *body, const shape_keys 
 rlf_result io_scene_read_shape(const io_json_object *body, const io_scene_reader *reader,
                                rlf_shape *out, rlf_look *out_look)
 {
-    static const io_json_field size = {"size",
-                                       "three full extents in metres, each > 0 and at most 100",
-                                       IO_POSITIVE, SIZE_MAX_M, false};
-    static const io_json_field radius = {"radius", "a number of metres, > 0 and at most 100",
-                                         IO_POSITIVE, SIZE_MAX_M, true};
-    static const io_json_field height = {"height", "a number of metres, > 0 and at most 100",
-                                         IO_POSITIVE, SIZE_MAX_M, true};
+    static const io_json_field size = {"size", "three full extents in " SIZE_MEANING, SIZE_MIN_M,
+                                       SIZE_MAX_M, false};
+    static const io_json_field radius = {"radius", "a number of " SIZE_MEANING, SIZE_MIN_M,
+                                         SIZE_MAX_M, true};
+    static const io_json_field height = {"height", "a number of " SIZE_MEANING, SIZE_MIN_M,
+                                         SIZE_MAX_M, true};
     const shape_keys *shape = NULL;
     rlf_result result = find_shape(body, &shape);
     if (result == RLF_OK) {

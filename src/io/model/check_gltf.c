@@ -1,5 +1,6 @@
-/* Looks through a model's file before assimp does, which takes memory and stack without a limit:
- * a few bytes must not ask for more than a model that can be drawn needs. */
+/* Looks through a glTF before assimp does, which takes memory and stack without a limit: a few
+ * bytes must not ask for more than a model that can be drawn needs. Assimp is then given only what
+ * is drawn: its readers of bones, keys, morph targets and cameras crash on damaged files. */
 #include "io/model/import.h"
 #include "io/json.h"
 
@@ -8,7 +9,6 @@
 #define NESTING_MAX 128
 #define VALUES_MAX (1 << 20)
 #define ENTRIES_MAX 65536 /* of a list at the top: nodes, meshes, accessors, ... */
-#define BONES_MAX 65536
 #define ELEMENTS_MAX                                                                               \
     ((int64_t)16 * RLF_MODEL_VERTICES_MAX) /* positions, normals, corners, keys                    \
                                             */
@@ -18,8 +18,8 @@
 typedef struct gltf {
     const char *name;
     json_t *top;
-    json_t *nodes, *meshes, *accessors, *skins, *views;
-    int64_t elements, bones, image_bytes;
+    json_t *nodes, *meshes, *accessors, *views;
+    int64_t elements, image_bytes;
 } gltf;
 
 /* ---- the text --------------------------------------------------------------------------------
@@ -97,6 +97,86 @@ static rlf_result parse(const io_bytes *text, json_t **out)
                         "%s: cannot be read as a model (asset.version is %.20s): export it again "
                         "as glTF 2.0",
                         text->name, version != NULL ? version : "missing");
+    }
+    return RLF_OK;
+}
+
+/* ---- what is drawn ----------------------------------------------------------------------------
+ */
+
+static void keep(json_t *object, const char *const *keys)
+{
+    const char *key;
+    json_t *value;
+    void *next;
+    json_object_foreach_safe(object, next, key, value)
+    {
+        int i = 0;
+        while (keys[i] != NULL && strcmp(key, keys[i]) != 0) {
+            i++;
+        }
+        if (keys[i] == NULL) {
+            json_object_del(object, key);
+        }
+    }
+}
+
+static void keep_drawn(json_t *top)
+{
+    static const char *const tops[] = {
+        "asset",  "scene",    "scenes",    "nodes",       "meshes",  "materials",      "textures",
+        "images", "samplers", "accessors", "bufferViews", "buffers", "extensionsUsed", NULL};
+    static const char *const nodes[] = {"mesh",     "children", "matrix", "translation",
+                                        "rotation", "scale",    NULL};
+    static const char *const meshes[] = {"primitives", NULL};
+    static const char *const primitives[] = {"attributes", "indices",    "material",
+                                             "mode",       "extensions", NULL};
+    static const char *const packings[] = {"KHR_draco_mesh_compression", NULL};
+    static const char *const attributes[] = {"POSITION", "NORMAL", "TEXCOORD_0", NULL};
+    size_t i, k;
+    json_t *node, *mesh, *primitive;
+    keep(top, tops);
+    json_array_foreach(json_object_get(top, "nodes"), i, node)
+    {
+        keep(node, nodes);
+    }
+    json_array_foreach(json_object_get(top, "meshes"), i, mesh)
+    {
+        keep(mesh, meshes);
+        json_array_foreach(json_object_get(mesh, "primitives"), k, primitive)
+        {
+            keep(primitive, primitives);
+            json_t *extensions = json_object_get(primitive, "extensions");
+            json_t *packed = json_object_get(extensions, packings[0]);
+            keep(extensions, packings);
+            keep(json_object_get(packed, "attributes"), attributes);
+            keep(json_object_get(primitive, "attributes"), attributes);
+        }
+    }
+}
+
+/* The file again, with the JSON that is left; `text` was its JSON. */
+static rlf_result write_reduced(const io_bytes *file, const io_bytes *text, const json_t *top,
+                                io_buffer *buffer, io_bytes *out)
+{
+    const size_t flags = JSON_COMPACT | JSON_REAL_PRECISION(17);
+    const size_t head = (size_t)(text->data - file->data);
+    const size_t rest = file->size - head - text->size;
+    const size_t size = json_dumpb(top, NULL, 0, flags);
+    const size_t padded = (size + 3) / 4 * 4;
+    if (size == 0 || io_buffer_reserve(buffer, head + padded + rest) != RLF_OK) {
+        return RLF_ERROR_MEMORY;
+    }
+    uint8_t *to = buffer->data;
+    memcpy(to, file->data, head);
+    memset(to + head, ' ', padded);
+    (void)json_dumpb(top, (char *)to + head, size, flags);
+    memcpy(to + head + padded, text->data + text->size, rest);
+    *out = (io_bytes){file->name, to, head + padded + rest};
+    if (head == GLB_HEAD) {
+        const uint32_t lengths[2] = {(uint32_t)out->size, (uint32_t)padded};
+        memcpy(to + 8, &lengths[0], 4);
+        memcpy(to + 12, &lengths[1], 4);
     }
     return RLF_OK;
 }
@@ -223,48 +303,9 @@ static void add_meshes(gltf *g)
         const json_t *primitives = json_object_get(json_array_get(g->meshes, m), "primitives");
         for (size_t p = 0; p < json_array_size(primitives); p++) {
             const json_t *primitive = json_array_get(primitives, p);
-            const json_t *targets = json_object_get(primitive, "targets");
             add_members(g, json_object_get(primitive, "attributes"));
             add_accessor(g, json_object_get(primitive, "indices"));
-            for (size_t t = 0; t < json_array_size(targets); t++) {
-                add_members(g, json_array_get(targets, t));
-            }
         }
-    }
-}
-
-static void add_animations(gltf *g)
-{
-    const json_t *animations = json_object_get(g->top, "animations");
-    for (size_t a = 0; a < json_array_size(animations); a++) {
-        const json_t *animation = json_array_get(animations, a);
-        const json_t *samplers = json_object_get(animation, "samplers");
-        const json_t *channels = json_object_get(animation, "channels");
-        for (size_t c = 0; c < json_array_size(channels); c++) {
-            const json_t *channel = json_array_get(channels, c);
-            const int64_t index = index_in(json_object_get(channel, "sampler"), samplers);
-            const json_t *sampler = index >= 0 ? json_array_get(samplers, (size_t)index) : NULL;
-            add_accessor(g, json_object_get(sampler, "input"));
-            add_accessor(g, json_object_get(sampler, "output"));
-        }
-    }
-}
-
-static void add_bones(gltf *g)
-{
-    for (size_t n = 0; n < json_array_size(g->nodes); n++) {
-        const json_t *node = json_array_get(g->nodes, n);
-        const int64_t skin = index_in(json_object_get(node, "skin"), g->skins);
-        const int64_t mesh = index_in(json_object_get(node, "mesh"), g->meshes);
-        if (skin < 0 || mesh < 0) {
-            continue;
-        }
-        const json_t *primitives =
-            json_object_get(json_array_get(g->meshes, (size_t)mesh), "primitives");
-        const json_t *object = json_array_get(g->skins, (size_t)skin);
-        const int64_t joints = (int64_t)json_array_size(json_object_get(object, "joints"));
-        g->bones += joints * (int64_t)json_array_size(primitives);
-        add_accessor(g, json_object_get(object, "inverseBindMatrices"));
     }
 }
 
@@ -304,14 +345,12 @@ static rlf_result check_lists(const gltf *g)
 static rlf_result check_budget(gltf *g)
 {
     add_meshes(g);
-    add_animations(g);
-    add_bones(g);
     add_images(g);
-    if (g->elements > ELEMENTS_MAX || g->bones > BONES_MAX) {
+    if (g->elements > ELEMENTS_MAX) {
         return rlf_fail(RLF_ERROR_FORMAT,
-                        "%s: its meshes name %lld vertices, corners and bones in all, at most %lld "
+                        "%s: its meshes name %lld vertices and corners in all, at most %lld "
                         "are read: simplify it",
-                        g->name, (long long)(g->elements + g->bones), (long long)ELEMENTS_MAX);
+                        g->name, (long long)g->elements, (long long)ELEMENTS_MAX);
     }
     if (g->image_bytes > (int64_t)IO_MODEL_FILE_MAX) {
         return rlf_fail(RLF_ERROR_FORMAT,
@@ -326,7 +365,6 @@ static rlf_result check_parts(gltf *g)
     g->nodes = json_object_get(g->top, "nodes");
     g->meshes = json_object_get(g->top, "meshes");
     g->accessors = json_object_get(g->top, "accessors");
-    g->skins = json_object_get(g->top, "skins");
     g->views = json_object_get(g->top, "bufferViews");
     rlf_result result = check_lists(g);
     if (result == RLF_OK) {
@@ -335,7 +373,7 @@ static rlf_result check_parts(gltf *g)
     return result == RLF_OK ? check_budget(g) : result;
 }
 
-rlf_result io_model_check_gltf(const io_bytes *file)
+rlf_result io_model_reduce_gltf(const io_bytes *file, io_buffer *buffer, io_bytes *out)
 {
     io_bytes text;
     gltf g = {.name = file->name};
@@ -347,7 +385,11 @@ rlf_result io_model_check_gltf(const io_bytes *file)
         result = parse(&text, &g.top);
     }
     if (result == RLF_OK) {
+        keep_drawn(g.top);
         result = check_parts(&g);
+    }
+    if (result == RLF_OK) {
+        result = write_reduced(file, &text, g.top, buffer, out);
     }
     json_decref(g.top);
     return result;
