@@ -204,6 +204,19 @@ static void boxes_show_what_they_can(void **state)
     assert_true(e.mean < 0.03);
 }
 
+/* A bag at the side of a trunk shows one face: it is as deep as things of its width, no plate. */
+static void a_flat_part_of_a_body_is_no_plate(void **state)
+{
+    (void)state;
+    static const body bodies[] = {
+        {.centre = {-0.1, 0.0, 2.5}, .half = {0.17, 0.35, 0.12}, .top = -9},
+        {.is_box = true, .centre = {0.15, 0.0, 2.495}, .half = {0.15, 0.2, 0.09}, .top = -9},
+    };
+    errors bag = measure(2, bodies, 1);
+    print_message("exit of a bag: %.1f cm off\n", 100.0 * bag.mean);
+    assert_true(bag.mean < 0.06);
+}
+
 /* Each of two bodies has its own back, with air between. */
 static void a_limb_before_a_trunk(void **state)
 {
@@ -366,6 +379,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(quadrics_have_their_back),
         cmocka_unit_test(boxes_show_what_they_can),
+        cmocka_unit_test(a_flat_part_of_a_body_is_no_plate),
         cmocka_unit_test(a_limb_before_a_trunk),
         cmocka_unit_test(a_limb_on_a_trunk),
         cmocka_unit_test(a_limb_on_the_side_of_a_trunk),

@@ -10,12 +10,11 @@ static const float shape_error_m = 0.003f; /* real bodies are not quite conics *
 static const float ratio_deviation = 0.6f, slope_deviation = 0.2f;
 static const float straight_trust = 0.1f;
 static const float trusted_rest_m = 0.003f; /* what a conic may leave and still be trusted */
-/* A wide thing that is no conic, and no plate either, is seldom flatter than a trunk, and what is
- * as wide as trunk and arms together is as deep as a trunk is: chest, waist and buttocks are 23 to
- * 25 cm deep on average, by both sexes' means in ANSUR II (Gordon et al. 2014, Natick/TR-15/007).
- */
-static const float usual_ratio = 0.7f, plate_ratio = 0.15f, trunk_depth_m = 0.25f;
-static const float wide_m = 0.12f, trunk_and_arms_m = 0.3f, unlike_conic_m = 0.003f;
+/* What is wide is seldom flatter than a trunk, and what is as wide as trunk and arms together is as
+ * deep as a trunk is: chest, waist and buttocks are 23 to 25 cm deep on average, by both sexes'
+ * means in ANSUR II (Gordon et al. 2014, Natick/TR-15/007). */
+static const float usual_ratio = 0.7f, flat_ratio = 0.15f, trunk_depth_m = 0.25f;
+static const float wide_m = 0.12f, unlike_conic_m = 0.003f;
 static const float covered_m = 0.085f;      /* half of an arm, and of its clothes */
 static const float middle_error_m = 0.006f; /* of a conic that leaves nothing */
 
@@ -116,22 +115,6 @@ static float left_over(const rlf_chord *c, const rlf_conic *f)
     return rest > 0.0f ? rest / c->weight : 0.0f;
 }
 
-/* The worse a conic fits, the more counts what bodies are usually like. */
-static void fatten(const rlf_chord *c, rlf_conic *f)
-{
-    float width = (c->end - c->begin) * c->metres;
-    bool is_broad = width > trunk_and_arms_m;
-    float usual = is_broad ? trunk_depth_m / width : usual_ratio;
-    bool is_conic =
-        c->is_of_people && c->apex < c->begin && width > wide_m && f->ratio > plate_ratio;
-    if (is_conic && (f->ratio < usual || is_broad)) {
-        float excess = f->variance > c->noise ? f->variance - c->noise : 0.0f;
-        float share = excess / (excess + unlike_conic_m * unlike_conic_m);
-        f->ratio += share * (usual - f->ratio);
-        f->variance = left_over(c, f);
-    }
-}
-
 /* Solves the equations. */
 static rlf_conic solve(const rlf_chord *c, const rlf_chord_moments *e)
 {
@@ -140,7 +123,6 @@ static rlf_conic solve(const rlf_chord *c, const rlf_chord_moments *e)
                    .ratio = (e->sy * e->sh - e->hy * e->ss) / det};
     f.ratio = f.ratio > 0.0f ? f.ratio : 0.0f;
     f.variance = left_over(c, &f);
-    fatten(c, &f);
     f.middle = c->y - f.slope * c->s + f.ratio * c->h;
     return f;
 }
@@ -151,10 +133,30 @@ rlf_conic rlf_chord_solve(const rlf_chord *c, const rlf_chord_moments *m)
     return solve(c, &e);
 }
 
+/* The conic of a chord with all that is known of it. The worse it fits, the more counts what bodies
+ * are usually like. So it does where the front is flat, which says nothing about the back of what
+ * is a part of a body: a bag, a stiff coat. */
+static rlf_conic solve_body(const rlf_chord *c, const rlf_chord_moments *e)
+{
+    rlf_conic f = solve(c, e);
+    float width = (c->end - c->begin) * c->metres, of_trunk = trunk_depth_m / width;
+    bool is_broad = of_trunk < usual_ratio, is_flat = f.ratio <= flat_ratio;
+    float usual = is_broad ? of_trunk : usual_ratio;
+    bool is_conic = c->is_of_people && c->apex < c->begin && width > wide_m;
+    if (is_conic && (f.ratio < usual || is_broad)) {
+        float excess = f.variance > c->noise ? f.variance - c->noise : 0.0f;
+        float share = is_flat ? 1.0f : excess / (excess + unlike_conic_m * unlike_conic_m);
+        f.ratio += share * (usual - f.ratio);
+        f.variance = is_flat ? f.variance : left_over(c, &f);
+        f.middle = c->y - f.slope * c->s + f.ratio * c->h;
+    }
+    return f;
+}
+
 rlf_chord_middle rlf_chord_middle_seen(const rlf_chord *c)
 {
     rlf_chord_moments e = equations(c, &c->pooled);
-    rlf_conic f = solve(c, &e);
+    rlf_conic f = solve_body(c, &e);
     float spread = (c->h * c->h * e.ss + c->s * c->s * e.hh) / (e.ss * e.hh - e.sh * e.sh);
     float variance = correlated_samples * (1.0f / c->weight + spread) +
                      middle_error_m * middle_error_m + f.variance;
@@ -215,7 +217,8 @@ static int32_t steps_behind(const rlf_chord *c, int32_t side)
 /* Short chords know best: weights are 1 / (l r). */
 void rlf_chord_paint(const rlf_chord_job *job, const rlf_line *line, const rlf_chord *c)
 {
-    rlf_conic f = rlf_chord_solve(c, &c->pooled);
+    rlf_chord_moments e = equations(c, &c->pooled);
+    rlf_conic f = solve_body(c, &e);
     float w2 = c->inverse * c->inverse;
     float slope = -w2 * f.slope * c->metres;
     const painting p = {
