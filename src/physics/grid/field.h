@@ -7,7 +7,6 @@
 #ifndef RLF_PHYSICS_GRID_FIELD_H
 #define RLF_PHYSICS_GRID_FIELD_H
 
-#include "kernel/kernel.h"
 #include "relief/world.h"
 
 /* Thickness of a solid that never ends, metres. */
@@ -39,25 +38,6 @@ bool grid_pixel_of(const rlf_grid *grid, rlf_vec3 q, int32_t *x, int32_t *y);
 /* Reads pixel (x, y); false when the sheet has no surface there. */
 bool grid_cell_read(const rlf_grid *grid, const rlf_grid_sheet *sheet, int32_t x, int32_t y,
                     field_cell *out);
-
-/* Fetches what grid_cell_read reads of pixel i beside its point and normal. */
-RLF_KERNEL_PART void grid_cell_fetch(const rlf_grid_sheet *sheet, int32_t i)
-{
-    if (sheet->velocity_x != NULL) {
-        RLF_KERNEL_SOON(&sheet->velocity_x[i]);
-        RLF_KERNEL_SOON(&sheet->velocity_y[i]);
-        RLF_KERNEL_SOON(&sheet->velocity_z[i]);
-    }
-    if (sheet->thickness != NULL) {
-        RLF_KERNEL_SOON(&sheet->thickness[i]);
-    }
-    if (sheet->label != NULL) {
-        RLF_KERNEL_SOON(&sheet->label[i]);
-    }
-    if (sheet->mask != NULL) {
-        RLF_KERNEL_SOON(&sheet->mask[i]);
-    }
-}
 
 /* Where q stands to the sheet; *out is set unless FIELD_NONE. */
 field_state grid_field_at(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,

@@ -1,5 +1,6 @@
 /* Making tiles. */
 #include "physics/grid/tiles.h"
+#include "kernel/kernel.h"
 #include "physics/grid/contour.h"
 #include "physics/grid/field.h"
 
@@ -107,7 +108,20 @@ RLF_KERNEL_PART void fetch_row(const rlf_grid_sheet *sheet, int32_t i)
     RLF_KERNEL_SOON(&sheet->normal_x[i]);
     RLF_KERNEL_SOON(&sheet->normal_y[i]);
     RLF_KERNEL_SOON(&sheet->normal_z[i]);
-    grid_cell_fetch(sheet, i);
+    if (sheet->velocity_x != NULL) {
+        RLF_KERNEL_SOON(&sheet->velocity_x[i]);
+        RLF_KERNEL_SOON(&sheet->velocity_y[i]);
+        RLF_KERNEL_SOON(&sheet->velocity_z[i]);
+    }
+    if (sheet->thickness != NULL) {
+        RLF_KERNEL_SOON(&sheet->thickness[i]);
+    }
+    if (sheet->label != NULL) {
+        RLF_KERNEL_SOON(&sheet->label[i]);
+    }
+    if (sheet->mask != NULL) {
+        RLF_KERNEL_SOON(&sheet->mask[i]);
+    }
 }
 
 /* The boxes about the solids behind the pixels, and their highest speed. */
@@ -120,7 +134,6 @@ static void bound(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet *s
         solids[block] = none;
     }
     tile->is_endless = false;
-    tile->is_guess = true;
     tile->speed = tile->deepest = 0.0;
     for (int32_t y = rect[1]; y < rect[3]; y++) {
         rlf_aabb *row = &solids[((y - rect[1]) >> shift) * TILE_BLOCKS];
@@ -130,7 +143,6 @@ static void bound(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet *s
             if (grid_cell_read(grid, sheet, x, y, &cell)) {
                 extend(&row[(x - rect[0]) >> shift], &cell);
                 tile->is_endless = tile->is_endless || cell.thickness >= FIELD_ENDLESS;
-                tile->is_guess = tile->is_guess && cell.is_guess;
                 tile->deepest = rlf_max(tile->deepest, depth_of(&cell));
                 tile->speed = rlf_max(tile->speed, rlf_dot(cell.velocity, cell.velocity));
             }
@@ -147,15 +159,14 @@ static void bound(grid_tile *tile, const rlf_grid *grid, const rlf_grid_sheet *s
     }
 }
 
-/* Squares of the distances from p to the blocks' boxes. */
-static void measure_blocks(const grid_blocks *blocks, rlf_vec3 p, float *distance2)
+uint32_t grid_tile_blocks_near(const grid_tile *tile, rlf_vec3 p, double reach)
 {
+    const float reach2 = (float)(reach * reach * (1.0 + ROUNDING));
     const float at[3] = {(float)p.x, (float)p.y, (float)p.z};
-    for (int32_t block = 0; block < BLOCKS; block++) {
-        distance2[block] = 0.0f;
-    }
+    float distance2[BLOCKS] = {0.0f};
+    uint32_t near = 0;
     for (int32_t k = 0; k < 3; k++) {
-        const float *low = blocks->low[k], *high = blocks->high[k];
+        const float *low = tile->blocks.low[k], *high = tile->blocks.high[k];
         for (int32_t block = 0; block < BLOCKS; block++) {
             float before = low[block] - at[k], beyond = at[k] - high[block];
             float off = before > beyond ? before : beyond;
@@ -163,29 +174,10 @@ static void measure_blocks(const grid_blocks *blocks, rlf_vec3 p, float *distanc
             distance2[block] += off * off;
         }
     }
-}
-
-uint32_t grid_tile_blocks_near(const grid_tile *tile, rlf_vec3 p, double reach)
-{
-    const float reach2 = (float)(reach * reach * (1.0 + ROUNDING));
-    float distance2[BLOCKS];
-    uint32_t near = 0;
-    measure_blocks(&tile->blocks, p, distance2);
     for (int32_t block = 0; block < BLOCKS; block++) {
         near |= (uint32_t)(distance2[block] <= reach2) << block;
     }
     return near;
-}
-
-double grid_tile_distance(const grid_tile *tile, rlf_vec3 p)
-{
-    float distance2[BLOCKS];
-    measure_blocks(&tile->blocks, p, distance2);
-    float least = distance2[0];
-    for (int32_t block = 1; block < BLOCKS; block++) {
-        least = distance2[block] < least ? distance2[block] : least;
-    }
-    return sqrt((double)least) * (1.0 - ROUNDING);
 }
 
 static bool is_masked_out(const rlf_grid *grid, const uint8_t *mask, const int32_t rect[4])

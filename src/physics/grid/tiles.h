@@ -26,7 +26,6 @@ typedef struct grid_tile {
     double speed;    /* no pixel is faster, m/s */
     rlf_aabb solid;  /* the box about its solid, unless ... */
     bool is_endless; /* ... that never ends */
-    bool is_guess;   /* so is the thickness of all its pixels */
     int32_t count;   /* its pixels that have a surface */
     int32_t narrow; /* pixels across what is narrowest in a rough one, as far as it is seen in it */
     double deepest; /* no solid of its pixels goes farther below its face, metres */
@@ -63,8 +62,5 @@ bool grid_tiles_make(grid_tiles *tiles, const rlf_grid *grid, const int32_t rect
 
 /* The blocks of a tile of which something may be within `reach` of p, as bits: row by row. */
 uint32_t grid_tile_blocks_near(const grid_tile *tile, rlf_vec3 p, double reach);
-
-/* No block of the tile is nearer to p, metres. */
-double grid_tile_distance(const grid_tile *tile, rlf_vec3 p);
 
 #endif

@@ -12,8 +12,6 @@
 #define APPROACH_M 0.05
 /* A body that moved less than this share of the margin keeps its contacts. */
 #define SETTLED_SHARE 0.5
-/* m of free way beyond that to the next query, looked for so that a blow does not ask for one. */
-#define FREE_WAY 0.02
 /* Touches with what goes on beyond the picture. */
 #define OUT_OF_VIEW_MAX 16
 
@@ -179,51 +177,10 @@ static int32_t query_period(const phys_body *body, double step, double most)
     return (int32_t)rlf_clamp(period, 1.0, most);
 }
 
-/* Where nothing is within this, nothing is asked for again until the most substeps are over. */
-static double wide_reach_of(const grid_query *query, const phys_body *body)
-{
-    return reach_of(query, body, (int32_t)PERIOD_MAX) + FREE_WAY;
-}
-
 static void set_period(grid_job *job, phys_body *body, double most)
 {
     body->surface_period = query_period(body, job->query->step, most);
     job->window.horizon = (body->surface_period + 1) * job->query->step;
-}
-
-/* How far from the centre anything that goes on beyond the picture is, no less than this. */
-static double free_out_of_view(grid_job *job, grid_shift shift, double reach, double least)
-{
-    const grid_query *query = job->query;
-    if (!(shift.length > 0.0)) {
-        return reach;
-    }
-    rlf_vec3 centre = job->motion.centre;
-    job->motion.centre = rlf_mad(centre, shift.way, shift.length);
-    double distance = grid_scan_distance(job, query->background, reach, least);
-    job->motion.centre = centre;
-    return distance;
-}
-
-/* How far the body may go before it comes to anything, wherever the camera looks, by tiles and
- * planes alone. What is not above `least` need not be told apart. */
-static double free_way(grid_job *job, grid_shift shift, double least)
-{
-    const grid_query *query = job->query;
-    double wide = wide_reach_of(query, job->body);
-    double approaching = approach_margin_of(query->foreground);
-    double beside = job->body->shape.radius + GRID_MARGIN;
-    double way = grid_unseen_height(job, wide) - beside;
-    double limit = least + beside;
-    way = rlf_min(way, grid_scan_distance(job, query->background, wide, limit) - beside);
-    if (way <= least) {
-        return way;
-    }
-    double front =
-        grid_scan_distance(job, query->foreground, wide + approaching, limit + approaching) -
-        approaching;
-    way = rlf_min(way, front - beside);
-    return way > least ? rlf_min(way, free_out_of_view(job, shift, wide, limit) - beside) : way;
 }
 
 /* How far the body may go before it comes to what the last scan saw. */
@@ -239,7 +196,8 @@ bool grid_collide_prepare(const grid_query *query, const phys_body *body)
 {
     int32_t rect[4], stride;
     double reach = reach_of(query, body, query_period(body, query->step, PERIOD_AT_REST));
-    reach = rlf_max(reach, wide_reach_of(query, body)) + approach_margin_of(query->foreground);
+    reach = rlf_max(reach, reach_of(query, body, (int32_t)PERIOD_MAX));
+    reach += approach_margin_of(query->foreground);
     rlf_vec3 centre = rlf_transform(&query->T_grid_world, body->x);
     grid_shift shift = grid_out_of_view(query, centre, body->shape.radius);
     rlf_vec3 moved = rlf_mad(centre, shift.way, shift.length);
@@ -271,7 +229,7 @@ static bool is_alone(const grid_job *job, double period)
 {
     double reach = reach_of(job->query, job->body, (int32_t)period);
     reach += approach_margin_of(job->query->foreground);
-    return grid_scan_distance(job, job->query->foreground, reach, 0.99 * reach) >= reach;
+    return grid_is_free(job, job->query->foreground, reach);
 }
 
 /* Whether a search would find what the last one found: what stays is the same, nothing else is
@@ -330,13 +288,6 @@ void grid_collide(const grid_query *query, phys_body *body, int32_t body_index)
     }
     start_contacts(query, body);
     grid_shift shift = grid_out_of_view(query, job.motion.centre, body->shape.radius);
-    double least = phys_body_way(body, query->step), way = free_way(&job, shift, least);
-    if (way > least) {
-        body->side[0] = body->side[1] = FIELD_NONE;
-        body->surface_period = 1;
-        body->surface_clear = way;
-        return;
-    }
     for (int32_t i = 0; i < old_count; i++) {
         old[i] = phys_trace_of(&body->surface[i]);
     }

@@ -1,7 +1,6 @@
 /* Walks the pixels under a body's footprint, thinned to a bounded number: they give the surface's
  * directions and bumps, and its outlines the walls. */
 #include "physics/grid/ball/ball.h"
-#include "physics/grid/contact/pixels.h"
 #include "physics/grid/contact/search.h"
 
 #define SAMPLES_PER_SIDE 20
@@ -183,27 +182,6 @@ static bool is_out_of_reach(const grid_job *job, const grid_tile *tile, double r
     return rlf_aabb_distance2(&tile->solid, job->motion.centre) > wide * wide;
 }
 
-/* Looks at those of the pixels that may be within reach. */
-static void look_at_batch(grid_job *job, const grid_tile *tile, grid_pixels *pixels, int32_t stride,
-                          flow_sum *flow)
-{
-    const double UNKNOWN = -1.0;
-    const rlf_grid_sheet *sheet = job->sheet;
-    double thickness = tile->is_guess ? sheet->default_thickness : UNKNOWN;
-    grid_pixels_read(pixels, job->query->grid, sheet);
-    if (thickness > 0.0) {
-        grid_pixels_keep_near(pixels, job->motion.centre, thickness,
-                              wide_reach(job, tile, job->window.reach));
-    }
-    for (int32_t k = 0; k < pixels->count; k++) {
-        grid_cell_fetch(sheet, pixels->y[k] * job->query->grid->width + pixels->x[k]);
-    }
-    for (int32_t k = 0; k < pixels->count; k++) {
-        look_at_pixel(job, pixels->x[k], pixels->y[k], stride, flow);
-    }
-    pixels->count = 0;
-}
-
 /* Lists the boxes of those blocks of a tile. */
 static void list_solids(grid_job *job, const grid_tile *tile, uint32_t blocks)
 {
@@ -234,7 +212,6 @@ static void look_at_rough(grid_job *job, const grid_tile *tile, const int32_t re
     int32_t size = job->tiles->size, shift = job->tiles->block_shift;
     int32_t stride = tile->narrow < job->scan.stride ? tile->narrow : job->scan.stride;
     int32_t begin[2], end[2];
-    grid_pixels pixels;
     uint32_t near = ~(uint32_t)0;
     if (!tile->is_endless) {
         near = grid_tile_blocks_near(tile, job->motion.centre,
@@ -246,54 +223,41 @@ static void look_at_rough(grid_job *job, const grid_tile *tile, const int32_t re
         begin[k] = rect[k] + skipped * stride;
         end[k] = corner[k] + size < rect[k + 2] ? corner[k] + size : rect[k + 2];
     }
-    pixels.count = 0;
     for (int32_t y = begin[1]; y < end[1]; y += stride) {
         uint32_t row = near >> (((y - corner[1]) >> shift) * TILE_BLOCKS);
         for (int32_t x = begin[0]; x < end[0]; x += stride) {
             if ((row >> ((x - corner[0]) >> shift) & 1u) != 0) {
-                pixels.x[pixels.count] = x;
-                pixels.y[pixels.count++] = y;
-            }
-            if (pixels.count == GRID_PIXELS_MAX) {
-                look_at_batch(job, tile, &pixels, stride, flow);
+                look_at_pixel(job, x, y, stride, flow);
             }
         }
     }
-    look_at_batch(job, tile, &pixels, stride, flow);
 }
 
-/* The least distance of the tile's blocks at this time, but no more than `reach`. */
-static double tile_distance(const grid_job *job, const grid_tile *tile, double reach)
+/* Whether no block of the tile is within `reach` at this time. */
+static bool is_tile_free(const grid_job *job, const grid_tile *tile, double reach)
 {
-    if (is_out_of_reach(job, tile, reach)) {
-        return reach;
-    }
-    double slip = wide_reach(job, tile, 0.0);
-    return tile->is_endless ? 0.0
-                            : rlf_min(reach, grid_tile_distance(tile, job->motion.centre) - slip);
+    return is_out_of_reach(job, tile, reach) ||
+           (!tile->is_endless &&
+            grid_tile_blocks_near(tile, job->motion.centre, wide_reach(job, tile, reach)) == 0);
 }
 
-double grid_scan_distance(const grid_job *job, const grid_tiles *tiles, double reach, double least)
+bool grid_is_free(const grid_job *job, const grid_tiles *tiles, double reach)
 {
     int32_t rect[4], stride;
     if (tiles->sheet->depth == NULL || tiles->sheet->normal_x == NULL ||
         !grid_footprint(job->query->grid, job->motion.centre, reach, rect, &stride)) {
-        return reach;
+        return true;
     }
-    double nearest = reach;
     for (int32_t y = rect[1] / tiles->size; y * tiles->size < rect[3]; y++) {
         for (int32_t x = rect[0] / tiles->size; x * tiles->size < rect[2]; x++) {
             int32_t i = y * tiles->columns + x;
-            if (grid_tiles_kind(tiles, i) == TILE_EMPTY) {
-                continue;
-            }
-            nearest = tile_distance(job, &tiles->tiles[i], nearest);
-            if (nearest <= least) {
-                return nearest;
+            if (grid_tiles_kind(tiles, i) != TILE_EMPTY &&
+                !is_tile_free(job, &tiles->tiles[i], reach)) {
+                return false;
             }
         }
     }
-    return nearest;
+    return true;
 }
 
 void grid_scan_footprint(grid_job *job)

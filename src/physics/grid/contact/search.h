@@ -12,9 +12,8 @@
 bool grid_footprint(const rlf_grid *grid, rlf_vec3 centre, double reach, int32_t rect[4],
                     int32_t *stride);
 
-/* How far the layer's solids are from the body's centre, by its tiles alone: no less than this, or
- * beyond `reach`. A distance up to `least` need not be exact. */
-double grid_scan_distance(const grid_job *job, const grid_tiles *tiles, double reach, double least);
+/* Whether nothing of the layer is within `reach` of the body's centre, by its tiles alone. */
+bool grid_is_free(const grid_job *job, const grid_tiles *tiles, double reach);
 
 /* Reads the pixels under the body's footprint: fills `scan`, a ball's touches, and hits with side
  * walls. */

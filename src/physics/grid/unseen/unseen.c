@@ -72,12 +72,3 @@ void grid_unseen_collide(grid_job *job)
         }
     }
 }
-
-double grid_unseen_height(const grid_job *job, double reach)
-{
-    const room_planes *room = job->query->room;
-    for (int32_t i = 0; room != NULL && i < room->count; i++) {
-        reach = rlf_min(reach, room_plane_height(&room->planes[i], job->motion.centre));
-    }
-    return reach;
-}

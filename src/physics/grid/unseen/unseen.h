@@ -7,9 +7,6 @@
 /* Adds contacts with the room's planes, and brings scan.nearest2 down. */
 void grid_unseen_collide(grid_job *job);
 
-/* The centre's least height over the room's planes, metres; no more than `reach`. */
-double grid_unseen_height(const grid_job *job, double reach);
-
 /* A way into view. */
 typedef struct grid_shift {
     rlf_vec3 way;   /* grid frame, unit: up or down, or along the picture's rows */
