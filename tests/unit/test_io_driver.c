@@ -11,6 +11,7 @@
 #include "io/driver/live.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 typedef struct table {
@@ -41,6 +42,25 @@ static void loads_libraries(void **state)
     assert_string_equal(reason, "libm.so.6 has no function no_such_function: install it");
     assert_false(load("libno-such-thing.so", "cos", "cos", false, &t, reason));
     assert_string_equal(reason, "libno-such-thing.so is not installed: install it");
+}
+
+/* dlopen would map it and end the program. */
+static void a_library_cut_short_is_refused(void **state)
+{
+    (void)state;
+    static char part[8192];
+    table t = {0};
+    char reason[160];
+    FILE *self = fopen("/proc/self/exe", "rb");
+    FILE *file = fopen("./cut-driver.so", "wb");
+    assert_true(self != NULL && file != NULL);
+    assert_int_equal(fread(part, 1, sizeof(part), self), sizeof(part));
+    assert_int_equal(fwrite(part, 1, sizeof(part), file), sizeof(part));
+    fclose(self);
+    fclose(file);
+    assert_false(load("./cut-driver.so", "cos", "cos", false, &t, reason));
+    assert_non_null(strstr(reason, "it is cut short"));
+    remove("./cut-driver.so");
 }
 
 static void counts_frames(void **state)
@@ -146,9 +166,9 @@ static void fits_lenses(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(loads_libraries), cmocka_unit_test(counts_frames),
-        cmocka_unit_test(reads_modes),     cmocka_unit_test(checks_transforms),
-        cmocka_unit_test(fits_lenses),
+        cmocka_unit_test(loads_libraries),   cmocka_unit_test(a_library_cut_short_is_refused),
+        cmocka_unit_test(counts_frames),     cmocka_unit_test(reads_modes),
+        cmocka_unit_test(checks_transforms), cmocka_unit_test(fits_lenses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

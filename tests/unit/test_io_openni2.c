@@ -248,8 +248,8 @@ static void an_unplugged_camera_is_told_and_can_come_back(void **state)
     test_expect_error(rlf_source_next(source, &f), RLF_ERROR_DEVICE, "openni2:", "gone", "plug");
     assert_false(rlf_source_get_status(source).is_connected);
     rlf_source *other = NULL;
-    test_expect_error(test_open_direct("openni2:", &other), RLF_ERROR_DEVICE,
-                      "openni2:", "no such camera", "cable");
+    test_expect_error(rlf_open_source("openni2:", NULL, &other), RLF_ERROR_DEVICE,
+                      "openni2: no such camera", NULL, "cable");
     rlf_source_destroy(&source);
     source = open_source("openni2:");
     send(true, 9, 0);

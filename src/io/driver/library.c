@@ -1,30 +1,33 @@
 /* Driver libraries that are opened at run time. */
 #include "io/driver/library.h"
 
+#include "io/source/object_file.h"
+
 #include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static void *open_first(const io_library_def *def, const char **out_name)
+static void *open_first(const io_library_def *def, const char **out_name, const char **out_fault)
 {
     const char *chosen = getenv(def->variable);
     if (chosen != NULL && chosen[0] != '\0') {
         *out_name = chosen;
-        return dlopen(chosen, RTLD_NOW | RTLD_LOCAL);
+        return io_object_open(chosen, out_fault);
     }
     void *library = NULL;
     for (int32_t i = 0; library == NULL && def->names[i] != NULL; i++) {
         *out_name = def->names[i];
-        library = dlopen(def->names[i], RTLD_NOW | RTLD_LOCAL);
+        library = io_object_open(def->names[i], out_fault);
     }
     return library;
 }
 
-static void say_absent(const io_library_def *def, const char *name, char *out, size_t size)
+static void say_absent(const io_library_def *def, const char *name, const char *cause, char *out,
+                       size_t size)
 {
-    const char *cause = dlerror();
-    const bool is_missing = cause == NULL || strstr(cause, "cannot open shared object") != NULL;
+    const bool is_missing = cause == NULL || strstr(cause, "cannot open shared object") != NULL ||
+                            strstr(cause, "No such file") != NULL;
     if (is_missing) {
         snprintf(out, size, "%s is not installed: %s", name, def->cure);
     } else {
@@ -35,9 +38,10 @@ static void say_absent(const io_library_def *def, const char *name, char *out, s
 bool io_library_load(const io_library_def *def, void *table, char *out_reason, size_t reason_size)
 {
     const char *name = "";
-    void *library = open_first(def, &name);
+    const char *fault = NULL;
+    void *library = open_first(def, &name, &fault);
     if (library == NULL) {
-        say_absent(def, name, out_reason, reason_size);
+        say_absent(def, name, fault, out_reason, reason_size);
         return false;
     }
     for (int32_t i = 0; i < def->symbol_count; i++) {

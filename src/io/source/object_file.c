@@ -1,8 +1,9 @@
-/* Whether a file is a whole shared object. */
+/* Shared objects, looked at before they are mapped. */
 #define _POSIX_C_SOURCE 200809L
 #define _FILE_OFFSET_BITS 64
 #include "io/source/object_file.h"
 
+#include <dlfcn.h>
 #include <elf.h>
 #include <errno.h>
 #include <stdio.h>
@@ -35,7 +36,8 @@ static bool has_segments(FILE *file, const elf_header *header, uint64_t size)
     return true;
 }
 
-const char *io_object_file_fault(const char *path)
+/* NULL = the file looks whole; else what is wrong. */
+static const char *fault_of(const char *path)
 {
     struct stat status;
     if (stat(path, &status) != 0) {
@@ -58,4 +60,14 @@ const char *io_object_file_fault(const char *path)
     }
     fclose(file);
     return fault;
+}
+
+void *io_object_open(const char *path, const char **out_fault)
+{
+    *out_fault = strchr(path, '/') != NULL ? fault_of(path) : NULL;
+    void *object = *out_fault == NULL ? dlopen(path, RTLD_NOW | RTLD_LOCAL) : NULL;
+    if (object == NULL && *out_fault == NULL) {
+        *out_fault = dlerror();
+    }
+    return object;
 }

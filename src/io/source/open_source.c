@@ -62,7 +62,9 @@ static rlf_result wrap(const io_replay *replay, const char *source, rlf_opened *
 static rlf_result open_with(const rlf_backend *backend, const char *source, io_address *parts,
                             rlf_source **out)
 {
-    rlf_address address = {.source = source, .place = parts->place};
+    /* Error lines put a colon behind it: "openni2: no such camera", not "openni2::". */
+    const bool is_bare = parts->place[0] == '\0' && parts->key_count == 0;
+    rlf_address address = {.source = is_bare ? parts->scheme : source, .place = parts->place};
     rlf_rig rig;
     rlf_result result = RLF_OK;
     const char *camera_path = io_address_take(parts, "camera");

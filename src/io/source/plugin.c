@@ -78,10 +78,9 @@ rlf_result io_plugin_open(const char *path, const rlf_backend **out)
     }
     memcpy(place, "./", 3);
     memcpy(place + (strchr(path, '/') != NULL ? 0 : 2), path, length + 1);
-    const char *reason = io_object_file_fault(place);
-    void *object = reason == NULL ? dlopen(place, RTLD_NOW | RTLD_LOCAL) : NULL;
+    const char *reason = NULL;
+    void *object = io_object_open(place, &reason);
     if (object == NULL) {
-        reason = reason != NULL ? reason : dlerror();
         return rlf_fail(RLF_ERROR_IO, "%s: cannot be loaded as a plug-in: %s", path,
                         reason != NULL ? reason : "no reason is known");
     }
