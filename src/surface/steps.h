@@ -187,7 +187,7 @@ void rlf_background_update(rlf_reconstruct *stage, const float *kept, rlf_slot *
 void rlf_background_adaptive_update(rlf_reconstruct *stage, const float *kept, rlf_slot *slot);
 /* ---- background/depart.c: what stood and starts to move; all do nothing without its planes ----
  */
-/* The things of the background are those that standing/pieces.c has just found. */
+/* The things of the background are those that thickness/static_pieces.c has just found. */
 void rlf_depart_take(rlf_reconstruct *stage);
 /* What has left and is seen is FOREGROUND in `seen`; its model follows it. */
 void rlf_depart_follow(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *seen);
