@@ -8,13 +8,13 @@
  * on the floor. Then nothing gets out of the solid that way. */
 static bool is_shut(const rlf_grid *grid, const rlf_grid_sheet *sheet, const field_cell *cell)
 {
-    const double ROOM = 0.02, FACING = -0.7; /* m; cosine */
     field_cell behind;
     return sheet == &grid->foreground && grid->background.depth != NULL &&
            grid->background.normal_x != NULL &&
            grid_cell_read(grid, &grid->background, cell->x, cell->y, &behind) &&
-           rlf_dot(behind.normal, rlf_sub(grid_back_point(cell), behind.point)) < ROOM &&
-           rlf_dot(behind.normal, grid_back_normal(grid, sheet, cell)) < FACING;
+           rlf_dot(behind.normal, rlf_sub(grid_back_point(cell), behind.point)) <
+               2.0 * GRID_NOISE_M &&
+           rlf_dot(behind.normal, grid_back_normal(grid, sheet, cell)) < -APART_COS;
 }
 
 /* A point more than half way into a thin solid is no nearer to its own side than to the other. */
@@ -45,8 +45,8 @@ static double end_between(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf
  * there its solid, along the ray, is thin. */
 static bool is_one_slanted_face(const field_cell *cell, const field_cell *inside, rlf_vec3 q)
 {
-    const double SAME = 0.95, LOW = 0.5; /* cosines */
-    return rlf_dot(cell->normal, inside->normal) > SAME &&
+    const double LOW = 0.5; /* cosine */
+    return rlf_dot(cell->normal, inside->normal) > ONE_FACE_COS &&
            -rlf_dot(cell->normal, rlf_normalize(q)) < LOW;
 }
 
@@ -115,9 +115,9 @@ static void hit_front(const rlf_grid *grid, const rlf_grid_sheet *sheet, const f
     for (int32_t i = 0; i < 9; i++) {
         field_cell near;
         if (grid_cell_read(grid, sheet, cell->x + i % 3 - 1, cell->y + i / 3 - 1, &near) &&
-            rlf_dot(near.normal, cell->normal) > 0.95) {
+            rlf_dot(near.normal, cell->normal) > ONE_FACE_COS) {
             double off = rlf_dot(cell->normal, rlf_sub(near.point, cell->point));
-            if (off < 0.02 && off > -0.02) {
+            if (off < 2.0 * GRID_NOISE_M && off > -2.0 * GRID_NOISE_M) {
                 points = rlf_add(points, near.point);
                 normals = rlf_add(normals, near.normal);
                 count += 1.0;
@@ -148,8 +148,7 @@ static void leave_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_v
             *hit = back;
         }
     }
-    const double SHALLOW = 0.01;
-    if (hit->separation < -SHALLOW && side->state != FIELD_INSIDE) {
+    if (hit->separation < -GRID_NOISE_M && side->state != FIELD_INSIDE) {
         double pixel = q.z * grid->pixel_angle;
         int32_t radius = (int32_t)rlf_min(-hit->separation / pixel, 24.0);
         rlf_vec3 normal;
@@ -166,7 +165,7 @@ static void leave_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_v
 static bool is_pierced(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_vec3 q,
                        const field_cell *cell, const field_side *side)
 {
-    const double DEPTH = 0.005, SAME = 0.9; /* m below the face; cosine */
+    const double DEPTH = 0.5 * GRID_NOISE_M; /* below the face */
     if (side->state != FIELD_FRONT || !side->has_centre) {
         return false;
     }
@@ -179,7 +178,7 @@ static bool is_pierced(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_ve
     rlf_vec3 between = rlf_mad(side->centre, rlf_sub(q, side->centre), share);
     field_cell there;
     return grid_field_at(grid, sheet, between, &there) == FIELD_INSIDE &&
-           rlf_dot(there.normal, cell->normal) > SAME;
+           rlf_dot(there.normal, cell->normal) > SAME_FACE_COS;
 }
 
 /* The path entered the solid at p: through which face? `step` is the last stretch. */
@@ -187,11 +186,10 @@ static void enter_solid(const rlf_grid *grid, const rlf_grid_sheet *sheet, rlf_v
                         rlf_vec3 step, field_state from, const field_cell *cell,
                         const field_side *side, field_hit *hit)
 {
-    const double SLACK = 0.01;
     field_hit back = {0};
     hit_front(grid, sheet, cell, hit);
     double in_front = -rlf_dot(hit->normal, rlf_sub(p, hit->point));
-    double moved = rlf_length(step) + SLACK;
+    double moved = rlf_length(step) + GRID_NOISE_M;
     if (from != FIELD_BEHIND && in_front <= moved) {
         return;
     }

@@ -2,9 +2,6 @@
 #include "physics/grid/contour.h"
 
 #define WINDOW_PX 3
-/* A guess is made no thinner than this by what is hidden: so far a body moves at 10 m/s
- * from one step to the next, and some, metres. */
-#define LEAST_DEEP 0.05
 
 double grid_depth_step(double z)
 {
@@ -25,7 +22,7 @@ double grid_contour_end(const rlf_grid *grid, const rlf_grid_sheet *sheet, const
     double other = sheet->depth[i];
     rlf_vec3 ray = rlf_vec3_make(grid->ray_x[i], grid->ray_y[i], 1.0);
     double slope = rlf_dot(cell->normal, ray);
-    double expected = slope < -0.02 ? rlf_dot(cell->normal, cell->point) / slope : z;
+    double expected = slope < -GRAZING_COS ? rlf_dot(cell->normal, cell->point) / slope : z;
     if (other > rlf_max(z, expected) + grid_depth_step(z)) {
         return rlf_min(other, z + cell->thickness);
     }
@@ -84,12 +81,11 @@ static int32_t run_length(const rlf_grid *grid, const rlf_grid_sheet *sheet, con
 static double depth_beside(const rlf_grid *grid, const rlf_grid_sheet *sheet,
                            const field_cell *cell, const int32_t way[2], int32_t run, double limit)
 {
-    const double LEAST_SLOPE = 0.02;
     int32_t x = cell->x + way[0] * run, y = cell->y + way[1] * run, i = y * grid->width + x;
     double z = sheet->depth[i], ray_x = grid->ray_x[i], ray_y = grid->ray_y[i];
     rlf_vec3 end = rlf_vec3_make(z * ray_x, z * ray_y, z), inward = grid_cell_inward(cell);
     double slope = way[0] * (inward.x - ray_x * inward.z) + way[1] * (inward.y - ray_y * inward.z);
-    if (slope < LEAST_SLOPE || sheet->mask != NULL || !(z > 0.0)) {
+    if (slope < GRAZING_COS || sheet->mask != NULL || !(z > 0.0)) {
         return limit;
     }
     /* the last pixels of a run may be the side's */
@@ -117,7 +113,6 @@ static double depth_beside(const rlf_grid *grid, const rlf_grid_sheet *sheet,
 static int32_t pixels_aside(const rlf_grid *grid, const rlf_grid_sheet *sheet,
                             const field_cell *cell, const int32_t way[2], int32_t run)
 {
-    const double SAME_FACE = 0.9;
     rlf_vec3 last = {0, 0, 0};
     int32_t count = 0;
     for (int32_t k = run; k > 0; k--) {
@@ -128,7 +123,7 @@ static int32_t pixels_aside(const rlf_grid *grid, const rlf_grid_sheet *sheet,
             continue;
         }
         last = count == 0 ? n : last;
-        if (rlf_dot(n, cell->normal) > SAME_FACE || !(rlf_dot(n, last) > SAME_FACE)) {
+        if (rlf_dot(n, cell->normal) > SAME_FACE_COS || !(rlf_dot(n, last) > SAME_FACE_COS)) {
             break;
         }
         count++;
@@ -161,7 +156,7 @@ double grid_guess_depth(const rlf_grid *grid, const rlf_grid_sheet *sheet, const
             deep = rlf_min(deep, depth_beside(grid, sheet, cell, WAYS[k], run[k], limit));
         }
     }
-    deep = rlf_min(rlf_max(deep, LEAST_DEEP), limit);
+    deep = rlf_min(rlf_max(deep, GRID_THIN_M), limit);
     for (int32_t k = 0; k < 4; k += 2) {
         int32_t all = run[k] + 1 + run[k + 1];
         if (0.5 * all * pixel < deep) { /* else the front is wider, whatever is beside it */

@@ -6,15 +6,15 @@
 #define FARTHEST 1e6
 #define FASTEST 1e3
 /* A sheet is taken to be at least this thick, so that a point cannot sit on both its sides. */
-#define THICKNESS_MIN 0.01
+#define THICKNESS_MIN GRID_NOISE_M
 /* Missing pixels are bridged from neighbours up to this many pixels away. */
 #define BRIDGE_PX 2
 /* A point this far before what is seen on its ray is in free space: noise and slanted pixels, m. */
-#define SEEN_BEHIND 0.03
+#define SEEN_BEHIND (3.0 * GRID_NOISE_M)
 /* The plane of a pixel is taken to be nowhere nearer than this share of its depth. */
 #define NEAREST_SHARE 0.95
 /* Farther behind a back it matters to nobody how far, metres. */
-#define FAR_BEHIND 0.05
+#define FAR_BEHIND GRID_THIN_M
 
 /* All three planes, or none of them. */
 static bool are_all_or_none(const float *x, const float *y, const float *z)
@@ -117,7 +117,7 @@ static double plane_depth(const field_cell *cell, rlf_vec3 q)
 {
     double slope = rlf_dot(cell->normal, q) / q.z;
     double z = cell->point.z;
-    if (slope > -0.02) {
+    if (slope > -GRAZING_COS) {
         return z;
     }
     double on_ray = rlf_dot(cell->normal, cell->point) / slope;

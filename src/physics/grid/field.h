@@ -7,6 +7,7 @@
 #ifndef RLF_PHYSICS_GRID_FIELD_H
 #define RLF_PHYSICS_GRID_FIELD_H
 
+#include "physics/grid/tolerance.h"
 #include "relief/world.h"
 
 /* Thickness of a solid that never ends, metres. */
@@ -53,7 +54,7 @@ field_state grid_field_state(const rlf_grid *grid, const rlf_grid_sheet *sheet, 
 static inline rlf_vec3 grid_cell_inward(const field_cell *cell)
 {
     double facing = rlf_dot(cell->normal, cell->point) / cell->point.z;
-    if (!cell->is_guess || facing > -0.02) {
+    if (!cell->is_guess || facing > -GRAZING_COS) {
         return rlf_scale(cell->point, 1.0 / cell->point.z);
     }
     return rlf_scale(cell->normal, facing);

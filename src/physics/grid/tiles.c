@@ -11,8 +11,6 @@
 #define RIM_PX 2
 /* Beyond the tile's own pixels, too: so far the width of what is narrow is followed. */
 #define NARROW_PX 8
-/* What stays within this of the plane is noise, m; see add_bumps in grid/collide.c. */
-#define EVEN 0.008
 /* Far more than a float of some metres is rounded by: metres, and a share. */
 #define ROUNDING 1e-5
 #define NOWHERE 1e30
@@ -225,7 +223,7 @@ static bool is_even(const grid_tile *tile, const rlf_grid *grid, const rlf_grid_
                     const int32_t rect[4])
 {
     const float nx = (float)tile->normal.x, ny = (float)tile->normal.y, nz = (float)tile->normal.z;
-    const float offset = (float)tile->offset, even = (float)EVEN;
+    const float offset = (float)tile->offset, even = (float)(2.0 * GRID_MARGIN);
     for (int32_t y = rect[1]; y < rect[3]; y++) {
         int32_t row = y * grid->width;
         int32_t uneven = 0;

@@ -10,7 +10,6 @@
 #define TRIALS 64     /* lines that are tried for one edge */
 #define REACH_PX 7.0  /* about the nearest place, in steps */
 #define AGREEMENT 0.8 /* of places on one line, in steps */
-#define OFF 0.01      /* farther below the face is off it, metres */
 #define CREASE 1.5    /* pitches: neighbours on two faces that meet are no farther apart */
 
 static double off_face(const patch_mean *mean, rlf_vec3 p)
@@ -30,7 +29,7 @@ rlf_vec3 face_contour_on_face(const grid_patch *p, const patch_mean *mean, doubl
     rlf_vec3 shift = rlf_scale(mean->velocity, tau);
     rlf_vec3 point = rlf_sub(mean->point, shift);
     double slope = rlf_dot(mean->normal, ray), z = point.z;
-    if (slope < -0.02) {
+    if (slope < -GRAZING_COS) {
         z = rlf_clamp(rlf_dot(mean->normal, point) / slope, 0.9 * z, 1.1 * z);
     }
     return rlf_mad(shift, ray, z);
@@ -95,7 +94,8 @@ static void add_point(const grid_patch *p, const patch_mean *mean, const patch_s
 static bool is_on_face(const patch_mean *mean, const patch_sample *s)
 {
     double off = off_face(mean, s->point);
-    return off < OFF && off > -OFF && patch_is_of_face(s->cell.normal, mean->normal);
+    return off < GRID_NOISE_M && off > -GRID_NOISE_M &&
+           patch_is_of_face(s->cell.normal, mean->normal);
 }
 
 /* Whether the patch's pixel at column u and row v is off the face. */
@@ -109,7 +109,8 @@ static bool is_free(const grid_patch *p, const patch_mean *mean, int32_t u, int3
         return true;
     }
     double off = off_face(mean, s->point);
-    return off < -OFF || (off < 0.3 * OFF && !patch_is_of_face(s->cell.normal, mean->normal));
+    return off < -GRID_NOISE_M ||
+           (off < 0.3 * GRID_NOISE_M && !patch_is_of_face(s->cell.normal, mean->normal));
 }
 
 void face_contour_find(const grid_patch *p, const patch_mean *mean, face_contour *contour)

@@ -7,9 +7,7 @@
 #include "physics/grid/ball/boundary.h"
 
 #define TRIES 4         /* planes that are looked for */
-#define NEAR_M 0.05     /* the planes pass the nearest sample no farther off */
 #define BESIDE_PX 2     /* of the place that is touched the faces are seen, steps */
-#define BENT 0.7        /* cosine: what bends less may be round */
 #define INSIDE_M 1e-6   /* rounding, metres */
 #define INDEPENDENT 0.1 /* least sine of an angle between planes that meet */
 
@@ -21,7 +19,7 @@ static double height_over(const patch_plane *plane, rlf_vec3 p)
 /* Whether two faces bend away from each other: each is seen below the other's plane. */
 static bool is_convex(const patch_plane *a, const patch_plane *b)
 {
-    return rlf_dot(a->normal, b->normal) < BENT && height_over(a, b->point) < 0.0 &&
+    return rlf_dot(a->normal, b->normal) < APART_COS && height_over(a, b->point) < 0.0 &&
            height_over(b, a->point) < 0.0;
 }
 
@@ -33,7 +31,7 @@ static void find_faces(const grid_patch *p, const patch_mean *face, patch_corner
     out->count = 1;
     for (int32_t i = 1; i < TRIES && out->count < CORNER_FACES; i++) {
         patch_plane *plane = &out->faces[out->count];
-        if (!plane_find(p, p->samples[p->nearest].point, NEAR_M, tried, i, any, plane)) {
+        if (!plane_find(p, p->samples[p->nearest].point, GRID_THIN_M, tried, i, any, plane)) {
             return;
         }
         tried[i] = plane->normal;

@@ -9,8 +9,7 @@
 #include "physics/grid/ball/boundary.h"
 
 #define EDGE_MOVES 6
-#define MOVES 4            /* of the patch to the pixel that is touched first */
-#define SAME_DIRECTION 0.9 /* cosine of two touches that are one */
+#define MOVES 4 /* of the patch to the pixel that is touched first */
 
 /* Pixels this far apart span the patch that a ball all but touches: radius sqrt(2 r band). */
 static int32_t patch_step(const grid_job *job, double z)
@@ -95,7 +94,7 @@ static bool is_supported(const grid_patch *p, const patch_mean *mean)
 static bool is_known(const grid_job *job, rlf_vec3 normal)
 {
     for (int32_t i = 0; i < job->hit_count; i++) {
-        if (rlf_dot(job->hits[i].normal, normal) > SAME_DIRECTION) {
+        if (rlf_dot(job->hits[i].normal, normal) > SAME_FACE_COS) {
             return true;
         }
     }
@@ -163,11 +162,10 @@ static void look_closer(grid_patch *p, const patch_mean *face)
  * cannot meet it. */
 static bool face_back(const grid_patch *p, patch_mean *touched)
 {
-    const double LIKELY = 0.7; /* cosine */
     const patch_sample *nearest = &p->samples[p->nearest];
     rlf_vec3 direction = rlf_normalize(rlf_sub(p->centre, nearest->point));
     touched->normal = grid_back_normal(p->job->query->grid, p->job->sheet, &nearest->cell);
-    if (rlf_dot(touched->normal, direction) < LIKELY) {
+    if (rlf_dot(touched->normal, direction) < APART_COS) {
         touched->normal = direction;
         touched->point = nearest->point;
     }

@@ -33,7 +33,7 @@ typedef struct patch_mean {
 /* Whether a pixel's normal is that of the face, up to noise and its curvature. */
 static inline bool patch_is_of_face(rlf_vec3 normal, rlf_vec3 face)
 {
-    return rlf_dot(normal, face) > 0.8;
+    return rlf_dot(normal, face) > NOISY_FACE_COS;
 }
 
 /* Distance beyond the nearest pixel's at which a pixel's weight has fallen to 0: some sigma. */
@@ -71,7 +71,7 @@ typedef struct patch_plane {
     double support; /* samples on it */
 } patch_plane;
 
-#define PLANE_NEAR 0.008 /* metres: a plane through q, up to noise */
+#define PLANE_NEAR (2.0 * GRID_MARGIN) /* metres: a plane through q, up to noise */
 
 /* The plane that passes q no farther off than `near` metres and holds most samples, of those that
  * bend away from all `count` normals of `others`, and hold a direction `along` (0: any). False when

@@ -72,12 +72,12 @@ static void refine_plane(const grid_patch *p, patch_plane *plane)
 static bool is_sought(const patch_plane *plane, rlf_vec3 q, double near, const rlf_vec3 *others,
                       int32_t count, rlf_vec3 along)
 {
-    const double BENT = 0.9, ASLANT = 0.4; /* cosines */
+    const double ASLANT = 0.4; /* cosine */
     double off = rlf_dot(plane->normal, rlf_sub(q, plane->point));
     double slope = rlf_dot(plane->normal, along);
     bool is_good = off < near && off > -near && slope < ASLANT && slope > -ASLANT;
     for (int32_t i = 0; i < count; i++) {
-        is_good = is_good && rlf_dot(plane->normal, others[i]) < BENT;
+        is_good = is_good && rlf_dot(plane->normal, others[i]) < SAME_FACE_COS;
     }
     return is_good;
 }

@@ -4,8 +4,6 @@
 #include "physics/grid/contour.h"
 #include "physics/grid/ball/patch.h"
 
-#define SAME_DIRECTION 0.9 /* cosine of two touches that are one */
-
 bool grid_ball_time(const grid_job *job, rlf_vec3 p, rlf_vec3 velocity, double wider, double *out)
 {
     double radius = job->body->shape.shape.radius + wider;
@@ -40,7 +38,7 @@ static void note(grid_job *job, const grid_touch *touch)
 {
     int32_t slot = -1;
     for (int32_t i = 0; i < job->touch_count; i++) {
-        if (rlf_dot(job->touches[i].direction, touch->direction) > SAME_DIRECTION) {
+        if (rlf_dot(job->touches[i].direction, touch->direction) > SAME_FACE_COS) {
             if (job->touches[i].time <= touch->time) {
                 return;
             }
@@ -222,7 +220,7 @@ void grid_ball_look_contour(grid_job *job, const field_cell *cell, rlf_vec3 shif
         int32_t edge = share <= 0.0 ? -1 : share >= deep ? 1 : 0;
         face_wall(job, cell, side, edge, &touch);
     }
-    if (rlf_dot(touch.direction, direction) > 0.3) {
+    if (rlf_dot(touch.direction, direction) > ASIDE_COS) {
         note(job, &touch);
     }
 }

@@ -9,7 +9,7 @@
 #define PERIOD_MAX 4.0
 #define PERIOD_AT_REST 8.0
 /* A surface that moves may come so much nearer until the next query, metres. */
-#define APPROACH_M 0.05
+#define APPROACH_M GRID_THIN_M
 /* A body that moved less than this share of the margin keeps its contacts. */
 #define SETTLED_SHARE 0.5
 /* Touches with what goes on beyond the picture. */
@@ -46,7 +46,6 @@ static double reach_of(const grid_query *query, const phys_body *body, int32_t p
 /* A bump counts only where no contact plane explains it: noise on a flat surface is no bump. */
 static void add_bumps(grid_job *job)
 {
-    const double NOISE = 0.01;
     int32_t plane_count = job->hit_count;
     for (int32_t i = 0; i < job->scan.bump_count && job->hit_count < GRID_HITS_MAX; i++) {
         const grid_hit *bump = &job->scan.bumps[i];
@@ -54,7 +53,7 @@ static void add_bumps(grid_job *job)
         for (int32_t k = 0; k < plane_count && !is_explained; k++) {
             const grid_hit *hit = &job->hits[k];
             double off = rlf_dot(hit->normal, rlf_sub(bump->point, hit->point));
-            is_explained = rlf_dot(hit->normal, bump->facing) > 0.7 && off < NOISE;
+            is_explained = rlf_dot(hit->normal, bump->facing) > APART_COS && off < GRID_NOISE_M;
         }
         if (!is_explained) {
             job->hits[job->hit_count++] = *bump;

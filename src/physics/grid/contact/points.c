@@ -7,7 +7,8 @@
 /* Whether the point at `anchor` can come to one of the flat tiles. */
 static bool is_over_flat(const grid_job *job, rlf_vec3 anchor)
 {
-    const double BAND = 0.02; /* a tile's plane is that of its pixels up to noise and relief */
+    const double BAND =
+        2.0 * GRID_NOISE_M; /* a tile's plane is that of its pixels up to noise and relief */
     rlf_vec3 r = rlf_mat3_mul_vec(&job->motion.R_grid_body, anchor);
     rlf_vec3 v = rlf_add(job->motion.v, rlf_cross(job->motion.w, r));
     rlf_vec3 q = rlf_add(job->motion.centre, r);

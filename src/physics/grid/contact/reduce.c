@@ -51,7 +51,7 @@ static int32_t choose_cluster(const grid_job *job, bool *is_used, int32_t chosen
     }
     const grid_hit *first = &job->hits[chosen[0]];
     for (int32_t i = 0; i < job->hit_count; i++) {
-        is_member[i] = !is_used[i] && rlf_dot(job->hits[i].normal, first->normal) > 0.9;
+        is_member[i] = !is_used[i] && rlf_dot(job->hits[i].normal, first->normal) > SAME_FACE_COS;
         is_used[i] = is_used[i] || is_member[i];
     }
     is_member[chosen[0]] = false;
@@ -116,7 +116,7 @@ void grid_keep_impulses(phys_body *body, const phys_trace *old, int32_t old_coun
         for (int32_t k = 0; k < old_count; k++) {
             rlf_vec3 d = rlf_sub(old[k].anchor_a, contact->anchor_a);
             if (!is_taken[k] && old[k].other == contact->other && rlf_dot(d, d) < best2 &&
-                rlf_dot(old[k].normal, contact->normal) > 0.8) {
+                rlf_dot(old[k].normal, contact->normal) > NOISY_FACE_COS) {
                 best2 = rlf_dot(d, d);
                 best = k;
             }

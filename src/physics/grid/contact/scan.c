@@ -5,12 +5,11 @@
 
 #define SAMPLES_PER_SIDE 20
 #define ROUNDING 1e-6 /* m, far more than distances are rounded by */
-#define ASIDE 0.3     /* cosine between a side of the body and a face that it pushes */
 
 static void note_normal(grid_job *job, rlf_vec3 normal)
 {
     for (int32_t i = 0; i < job->scan.normal_count; i++) {
-        if (rlf_dot(job->scan.normals[i], normal) > 0.97) {
+        if (rlf_dot(job->scan.normals[i], normal) > ONE_PLANE_COS) {
             return;
         }
     }
@@ -55,12 +54,12 @@ static void look_at_interior(grid_job *job, const field_cell *cell, rlf_vec3 p)
         return;
     }
     double agreement = rlf_dot(outward, cell->normal);
-    if (distance > 0.0 && agreement < -ASIDE) {
+    if (distance > 0.0 && agreement < -ASIDE_COS) {
         return; /* it is beside the face, below its plane */
     }
     grid_hit hit = {.point = p, .velocity = cell->velocity, .label = cell->label};
     hit.normal = cell->normal;
-    if (agreement > -ASIDE && agreement < ASIDE) {
+    if (agreement > -ASIDE_COS && agreement < ASIDE_COS) {
         /* A feature that pokes into a side of the body pushes that side, never into the solid. */
         rlf_vec3 aside = rlf_mad(outward, cell->normal, rlf_max(0.0, -agreement));
         hit.normal = rlf_normalize(aside);

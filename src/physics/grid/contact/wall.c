@@ -3,8 +3,6 @@
 #include "physics/grid/contact/search.h"
 #include "physics/grid/contour.h"
 
-#define FLAT_ON_WALL 0.9 /* cosine between a body's face and the side wall on which it lies */
-
 /* A neighbour that is neither missing from the mask nor farther is over no step; see
  * grid_contour_end. */
 static bool may_end(const grid_job *job, double z, int32_t x, int32_t y)
@@ -132,9 +130,9 @@ static void look_at_contour(grid_job *job, const field_cell *cell, rlf_vec3 shif
     line.inward = grid_cell_inward(cell);
     double depth = line_nearest(job, line.front, line.inward, deep);
     double inner = 0.5 * job->body->shape.inner_radius;
-    touch_line(job, &line, depth, 0.3);
-    touch_line(job, &line, rlf_max(depth - inner, 0.0), FLAT_ON_WALL);
-    touch_line(job, &line, rlf_min(depth + inner, line.deep), FLAT_ON_WALL);
+    touch_line(job, &line, depth, ASIDE_COS);
+    touch_line(job, &line, rlf_max(depth - inner, 0.0), SAME_FACE_COS);
+    touch_line(job, &line, rlf_min(depth + inner, line.deep), SAME_FACE_COS);
 }
 
 /* Whether the sheet may end on the way from `cell` to the pixel `stride` on, by depths alone: the

@@ -2,7 +2,6 @@
 #include "physics/grid/unseen/unseen.h"
 
 #define FARTHEST 0.25 /* m that a place is moved until it is in view */
-#define ALONG 0.3     /* sine of the angle between a side and the way along it */
 #define SAME_SIDE 0.1 /* m beside a touch that its side may be at the border */
 #define BESIDE_PX 1   /* an outline's place is that far off */
 #define RING_SHARE 8  /* missing pixels at the border are no wider than the picture by this */
@@ -96,7 +95,7 @@ grid_shift grid_out_of_view(const grid_query *query, rlf_vec3 q, double radius)
 static bool is_along(const grid_shift *shift, rlf_vec3 normal)
 {
     double slope = rlf_dot(normal, shift->way);
-    return slope < ALONG && slope > -ALONG;
+    return slope < ASIDE_COS && slope > -ASIDE_COS;
 }
 
 /* The pixel next to the border, of those of a row or column out to (x, y), that shows anything. */

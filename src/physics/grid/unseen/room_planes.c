@@ -8,14 +8,12 @@
 #define REFINEMENTS 3
 #define TRIES_FIRST 96 /* pixels to begin at, in the first search and in each later one */
 #define TRIES 12
-#define SHARE_MIN 0.03   /* of the samples lie on a plane of the shell ... */
-#define BEYOND_MAX 0.01  /* ... and at most so many beyond it; more than twice that ends it */
-#define SAME_NORMAL 0.97 /* cosine */
-#define SAME_OFFSET 0.1  /* m */
-#define AGREEMENT 0.95   /* cosine between a plane and the normals of its samples */
-#define GLIDE_S 2.0      /* time constant of a plane on its way to a new fit ... */
-#define REACHED 0.0005   /* ... where it is no farther off than this at ... */
-#define REACH 3.0        /* ... so far from the camera, m */
+#define SHARE_MIN 0.03  /* of the samples lie on a plane of the shell ... */
+#define BEYOND_MAX 0.01 /* ... and at most so many beyond it; more than twice that ends it */
+#define SAME_OFFSET 0.1 /* m */
+#define GLIDE_S 2.0     /* time constant of a plane on its way to a new fit ... */
+#define REACHED 0.0005  /* ... where it is no farther off than this at ... */
+#define REACH 3.0       /* ... so far from the camera, m */
 
 typedef struct room_sample {
     rlf_vec3 point, normal;
@@ -65,7 +63,7 @@ static room_support look_at_plane(const room_search *search, const room_plane *p
         double tolerance = tolerance_at(sample->point.z);
         support.beyond += height < -tolerance;
         if (height <= tolerance && height >= -tolerance &&
-            rlf_dot(sample->normal, plane->normal) > AGREEMENT) {
+            rlf_dot(sample->normal, plane->normal) > ONE_FACE_COS) {
             support.on++;
             normals = rlf_add(normals, sample->normal);
             points = rlf_add(points, sample->point);
@@ -84,7 +82,7 @@ static bool is_known(const room_planes *shell, const room_plane *plane)
     for (int32_t i = 0; i < shell->count; i++) {
         const room_plane *known = &shell->fitted[i];
         double off = known->offset - plane->offset;
-        if (rlf_dot(known->normal, plane->normal) > SAME_NORMAL && off < SAME_OFFSET &&
+        if (rlf_dot(known->normal, plane->normal) > ONE_PLANE_COS && off < SAME_OFFSET &&
             off > -SAME_OFFSET) {
             return true;
         }
