@@ -243,25 +243,6 @@ typedef struct rlf_kernel_tile {
 
 void rlf_kernel_plane_tile(const rlf_kernel_tile *tile);
 
-/* ---- near_normal.c: normals of what no plane explains
- * --------------------------------------------------- */
-
-#define RLF_NEAR_LANES 8 /* columns that are read, the first 5 of them count */
-
-/* Corner of the 5x5 pixels about one: of planes whose rows are `stride` apart. Missing normals are
- * 0. */
-typedef struct rlf_kernel_near {
-    const float *depth, *normal[3];
-    ptrdiff_t stride;
-} rlf_kernel_near;
-
-/* Sum of the normals at the same depth, weighted by the inverse fourth power of distance: x, y, z;
- * and the sum of the squares of their lengths, weighted alike. */
-void rlf_kernel_near_normal(const rlf_kernel_near *restrict about, float *restrict out);
-/* 1 where there is a depth but, as far as z can tell, no normal, else 0. */
-void rlf_kernel_bare_row(const float *restrict depth, const float *restrict normal_z, int32_t count,
-                         uint8_t *restrict bare);
-
 /* ---- steady_row.c: gated mean over time
  * --------------------------------------------------------- */
 

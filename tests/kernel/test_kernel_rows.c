@@ -287,41 +287,6 @@ static void plane_tile_stays_in_its_tile(void **state)
     }
 }
 
-static void near_normal_is_its_definition(void **state)
-{
-    (void)state;
-    static const double nearness[9] = {0, 1, 0.25, 0, 0.0625, 0.04, 0, 0, 0.015625};
-    analytic_random r = {12};
-    for (int t = 0; t < 200; t++) {
-        float depth[5][RLF_NEAR_LANES], normal[3][5][RLF_NEAR_LANES], out[4];
-        for (int32_t k = 0; k < 5 * RLF_NEAR_LANES; k++) {
-            double u = random_uniform(&r);
-            depth[k / RLF_NEAR_LANES][k % RLF_NEAR_LANES] = (float)(u < 0.6 ? 2.0 + 0.01 * u : 3.0);
-            for (int n = 0; n < 3; n++) {
-                normal[n][k / RLF_NEAR_LANES][k % RLF_NEAR_LANES] =
-                    (float)(random_uniform(&r) - 0.5);
-            }
-        }
-        const rlf_kernel_near about = {
-            depth[0], {normal[0][0], normal[1][0], normal[2][0]}, RLF_NEAR_LANES};
-        rlf_kernel_near_normal(&about, out);
-        double squares = 0.0;
-        for (int n = 0; n < 3; n++) {
-            double sum = 0.0;
-            for (int k = 0; k < 25; k++) {
-                int dx = k % 5 - 2, dy = k / 5 - 2;
-                bool same = near_enough(depth[k / 5][k % 5], depth[2][2], 0.02f * depth[2][2]);
-                double weight = same ? nearness[dx * dx + dy * dy] : 0.0;
-                double value = normal[n][k / 5][k % 5];
-                sum += weight * value;
-                squares += weight * value * value;
-            }
-            assert_true(rlf_max(out[n] - sum, sum - out[n]) < 1e-6);
-        }
-        assert_true(rlf_max(out[3] - squares, squares - out[3]) < 1e-5);
-    }
-}
-
 /* One pixel by itself: what is off the mean by more than the gate begins again, what is not seen in
  * front any more is forgotten as soon as something farther is seen. */
 static void still_row_is_its_definition(void **state)
@@ -529,7 +494,6 @@ int main(void)
         cmocka_unit_test(background_row_follows_the_evidence),
         cmocka_unit_test(still_row_is_its_definition),
         cmocka_unit_test(plane_tile_stays_in_its_tile),
-        cmocka_unit_test(near_normal_is_its_definition),
         cmocka_unit_test(chord_sums_are_their_definition),
         cmocka_unit_test(chord_solid_is_its_definition),
         cmocka_unit_test(thickness_ends_at_the_background),

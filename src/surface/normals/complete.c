@@ -77,6 +77,17 @@ static void complete_rest(const rlf_normals_job *job, int32_t x, int32_t y)
     }
 }
 
+/* 1 where there is a depth and no normal, else 0. */
+RLF_KERNEL static void find_bare(const float *restrict depth, const float *restrict normal_z,
+                                 int32_t count, uint8_t *restrict bare)
+{
+    for (int32_t i = 0; i < count; i++) {
+        float z = depth[i], n = normal_z[i];
+        bool is_bare = (z > 0.0f) & (n == 0.0f);
+        bare[i] = is_bare ? 1 : 0;
+    }
+}
+
 /* How many pixels still have none. `to` is NULL when these are to be completed by all means. */
 static int32_t complete_row(const rlf_normals_job *job, int32_t y, aside *to)
 {
@@ -86,7 +97,7 @@ static int32_t complete_row(const rlf_normals_job *job, int32_t y, aside *to)
     for (int32_t begin = 0; begin < job->width; begin += SPAN) {
         uint8_t bare[SPAN];
         int32_t count = begin + SPAN < job->width ? SPAN : job->width - begin;
-        rlf_kernel_bare_row(job->filled + row + begin, job->out[2] + row + begin, count, bare);
+        find_bare(job->filled + row + begin, job->out[2] + row + begin, count, bare);
         for (int32_t k = 0; (k = rlf_kernel_next_mark(bare, k, count)) < count; k++) {
             int32_t x = begin + k;
             if (!is_without(job, row + x)) {

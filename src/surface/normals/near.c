@@ -11,18 +11,27 @@
 #include <math.h>
 #include <string.h>
 
-enum { REACH = 2 };
+enum { REACH = 2, SIDE = 1 + 2 * REACH, LANES = 8 /* the first five count */ };
 
 static const double AGREED = 0.84;     /* length of a mean of normals of one face */
 static const float TURNED = 0.85f;     /* cosine between the normals of two faces */
+static const float ONE_DEPTH = 0.02f;  /* share of the depth: pixels of one surface */
 static const float MOST_APART = 0.03f; /* share of the depth, of what is about the pixel */
 
-/* The pixels about one at the image's border, 0 outside. */
-typedef struct near_copy {
-    float depth[5][RLF_NEAR_LANES], normal[3][5][RLF_NEAR_LANES];
-} near_copy;
+/* Inverse fourth power of the distance: beside a crease the nearest pixels are most likely of the
+ * same face. 0 beyond the window, and for the pixel itself. */
+static const float nearness[SIDE][LANES] = {{0.015625f, 0.04f, 0.0625f, 0.04f, 0.015625f},
+                                            {0.04f, 0.25f, 1.0f, 0.25f, 0.04f},
+                                            {0.0625f, 1.0f, 0.0f, 1.0f, 0.0625f},
+                                            {0.04f, 0.25f, 1.0f, 0.25f, 0.04f},
+                                            {0.015625f, 0.04f, 0.0625f, 0.04f, 0.015625f}};
 
-static void copy_near(const rlf_normals_job *job, int32_t x, int32_t y, near_copy *out)
+/* The pixels about one, 0 outside of the image. */
+typedef struct near_window {
+    float depth[SIDE][LANES], normal[3][SIDE][LANES];
+} near_window;
+
+static void read_near(const rlf_normals_job *job, int32_t x, int32_t y, near_window *out)
 {
     rlf_window w = rlf_window_at(job->width, job->height, x, y, REACH);
     memset(out, 0, sizeof *out);
@@ -31,39 +40,39 @@ static void copy_near(const rlf_normals_job *job, int32_t x, int32_t y, near_cop
         for (int32_t dx = w.x0; dx <= w.x1; dx++) {
             int32_t v = dy + REACH, u = dx + REACH;
             out->depth[v][u] = job->filled[row + dx];
-            out->normal[0][v][u] = job->out[0][row + dx];
-            out->normal[1][v][u] = job->out[1][row + dx];
-            out->normal[2][v][u] = job->out[2][row + dx];
+            for (int k = 0; k < 3; k++) {
+                out->normal[k][v][u] = job->out[k][row + dx];
+            }
         }
     }
 }
 
-/* The kernel reads RLF_NEAR_LANES pixels of each row: at its end those of the next one. */
-static bool is_inside(const rlf_normals_job *job, int32_t x, int32_t y)
-{
-    rlf_window w = rlf_window_at(job->width, job->height, x, y, REACH);
-    int32_t room = job->width - (x - REACH) - RLF_NEAR_LANES;
-    return rlf_window_is_whole(w, REACH) && (room >= 0 || y + REACH + 1 < job->height);
-}
-
 /* Of the normals within two pixels at the same depth: x, y, z and how many, weighted. */
-static void sum_near(const rlf_normals_job *job, int32_t x, int32_t y, float sum[4])
+RLF_KERNEL static void sum_near(const near_window *restrict about, float sum[4])
 {
-    ptrdiff_t corner = (ptrdiff_t)(y - 2) * job->width + x - 2;
-    rlf_kernel_near about;
-    near_copy copy;
-    if (is_inside(job, x, y)) {
-        about =
-            (rlf_kernel_near){job->filled + corner,
-                              {job->out[0] + corner, job->out[1] + corner, job->out[2] + corner},
-                              job->width};
-    } else {
-        copy_near(job, x, y, &copy);
-        about = (rlf_kernel_near){copy.depth[0],
-                                  {copy.normal[0][0], copy.normal[1][0], copy.normal[2][0]},
-                                  RLF_NEAR_LANES};
+    float lanes[4][LANES];
+    float middle = about->depth[REACH][REACH], most = ONE_DEPTH * middle;
+    for (int32_t c = 0; c < LANES; c++) {
+        float x = 0.0f, y = 0.0f, z = 0.0f, w = 0.0f;
+        for (int32_t r = 0; r < SIDE; r++) {
+            float nx = about->normal[0][r][c], ny = about->normal[1][r][c];
+            float nz = about->normal[2][r][c];
+            float apart = rlf_kernel_abs(about->depth[r][c] - middle);
+            float weight = apart <= most ? nearness[r][c] : 0.0f;
+            x += weight * nx;
+            y += weight * ny;
+            z += weight * nz;
+            w += weight * (nx * nx + ny * ny + nz * nz);
+        }
+        lanes[0][c] = x;
+        lanes[1][c] = y;
+        lanes[2][c] = z;
+        lanes[3][c] = w;
     }
-    rlf_kernel_near_normal(&about, sum);
+    for (int32_t k = 0; k < 4; k++) {
+        const float *of = lanes[k];
+        sum[k] = ((of[0] + of[4]) + (of[1] + of[3])) + of[2];
+    }
 }
 
 static float cosine(const rlf_normals_job *job, ptrdiff_t a, ptrdiff_t b)
@@ -116,8 +125,10 @@ static ptrdiff_t find_face(const rlf_normals_job *job, int32_t x, int32_t y)
 bool rlf_normals_near_pixel(const rlf_normals_job *job, int32_t x, int32_t y, float out[3])
 {
     ptrdiff_t i = (ptrdiff_t)y * job->width + x;
+    near_window about;
     float sum[4];
-    sum_near(job, x, y, sum);
+    read_near(job, x, y, &about);
+    sum_near(&about, sum);
     rlf_vec3 whole = rlf_vec3_make(sum[0], sum[1], sum[2]), mean = rlf_normalize(whole);
     rlf_vec3 ray = {job->ray_x[i], job->ray_y[i], 1.0};
     if (!(rlf_dot(mean, ray) < 0.0)) {
