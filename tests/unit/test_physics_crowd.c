@@ -226,7 +226,7 @@ static void bad_thickness_is_as_thin_as_can_be(void **state)
     const float bad[5] = {NAN, INFINITY, -INFINITY, 1e30f, -1.0f};
     grid_fixture_set_slab(fixture, grid_wall(2), rlf_vec3_make(0, 0, 2), rlf_vec3_make(0.4, 0.4, 0),
                           0.05, rlf_vec3_make(0, 0, 0));
-    const field_side nowhere = {.side = FIELD_NONE};
+    const field_side nowhere = {.state = FIELD_NONE};
     for (int k = 0; k < 5; k++) {
         for (int i = 0; i < GRID_W * GRID_H; i++) {
             fixture->planes[13][i] = bad[k];
