@@ -1,12 +1,8 @@
 /* The surface stage: one frame through all steps into the next slot of the ring. */
-#include "surface/depth/color_guide.h"
-#include "surface/motion/ego_motion.h"
-#include "surface/objects/objects.h"
-#include "surface/depth/shadow.h"
-#include "surface/thickness/static.h"
 #include "surface/depth/depth.h"
+#include "surface/objects/objects.h"
 #include "surface/steps.h"
-#include "surface/thin/thin.h"
+#include "surface/thickness/static.h"
 
 #include "base/cookie.h"
 

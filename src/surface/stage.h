@@ -8,13 +8,14 @@
 #include "kernel/kernel.h"
 #include "surface/background/state.h"
 #include "surface/depth/color_guide.h"
+#include "surface/depth/shadow.h"
 #include "surface/depth/state.h"
 #include "surface/motion/ego_motion.h"
+#include "surface/motion/state.h"
 #include "surface/normals/state.h"
 #include "surface/segment/state.h"
-#include "surface/depth/shadow.h"
+#include "surface/thickness/state.h"
 #include "surface/thin/thin.h"
-#include "surface/motion/state.h"
 
 /* What later steps of a frame, or those of the next one, go on with. */
 typedef struct rlf_work {
@@ -61,7 +62,7 @@ struct rlf_reconstruct {
     chord_planes chords;
     rlf_work work;
     bool has_color;      /* work.color holds the frame's */
-    bool has_components; /* work.runs holds the front sheet's, so many: */
+    bool has_components; /* work.runs holds the foreground's, so many: */
     int32_t component_count;
     rlf_surface_times *times; /* borrowed; NULL = not measured */
     int64_t clock_ns;         /* end of the last step that was timed */
