@@ -10,13 +10,13 @@ typedef struct rlf_rect {
 } rlf_rect;
 
 /* The planes of a grid that every step reads. */
-typedef struct rlf_grid {
+typedef struct image_grid {
     int32_t width, height, count;
     int32_t factor;
     rlf_camera camera;
     const float *ray_x, *ray_y;
     const uint8_t *has_ray;
-} rlf_grid;
+} image_grid;
 
 /* Pixels x0 <= x < x1 of one row. */
 typedef struct rlf_span {

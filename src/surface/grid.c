@@ -1,7 +1,7 @@
 /* The rays of the kept pixels: eq. 4.1 without the factor z, undistorted, once per source. */
 #include "surface/stage.h"
 
-void rlf_grid_fill_rays(const rlf_grid *grid, float *ray_x, float *ray_y, uint8_t *has_ray)
+void image_grid_fill_rays(const image_grid *grid, float *ray_x, float *ray_y, uint8_t *has_ray)
 {
     for (int32_t y = 0; y < grid->height; y++) {
         for (int32_t x = 0; x < grid->width; x++) {

@@ -4,14 +4,14 @@
 
 #include <string.h>
 
-static void take_grid(rlf_grid *grid, rlf_arena *arena)
+static void take_grid(image_grid *grid, rlf_arena *arena)
 {
     size_t n = (size_t)grid->count;
     float *ray_x = arena_take(arena, n, sizeof(float));
     float *ray_y = arena_take(arena, n, sizeof(float));
     uint8_t *has_ray = arena_take(arena, n, 1);
     if (has_ray != NULL) {
-        rlf_grid_fill_rays(grid, ray_x, ray_y, has_ray);
+        image_grid_fill_rays(grid, ray_x, ray_y, has_ray);
     }
     grid->ray_x = ray_x;
     grid->ray_y = ray_y;
@@ -19,7 +19,7 @@ static void take_grid(rlf_grid *grid, rlf_arena *arena)
 }
 
 static void take_slot(rlf_slot *slot, rlf_arena *arena, const rlf_reconstruct_def *def,
-                      const rlf_grid *grid)
+                      const image_grid *grid)
 {
     size_t n = (size_t)grid->count;
     slot->depth = arena_take(arena, n, sizeof(float));
@@ -41,7 +41,7 @@ static void take_slot(rlf_slot *slot, rlf_arena *arena, const rlf_reconstruct_de
 
 /* What more than one module goes on with. */
 static void take_work(rlf_work *work, rlf_arena *arena, const rlf_reconstruct_def *def,
-                      const rlf_grid *grid)
+                      const image_grid *grid)
 {
     size_t n = (size_t)grid->count, width = (size_t)grid->width;
     work->raw = arena_take(arena, n, sizeof(float));
@@ -81,7 +81,7 @@ static void take_all(void *context)
     rlf_reconstruct *stage = context;
     rlf_arena *arena = &stage->arena;
     const rlf_reconstruct_def *def = &stage->def;
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     take_grid(&stage->grid, arena);
     for (int i = 0; i < RLF_RECONSTRUCT_SURFACES; i++) {
         take_slot(&stage->ring[i], arena, def, grid);

@@ -14,7 +14,7 @@ enum { LEAST_SHARED = 8192 };
 
 static void set_grid(rlf_reconstruct *stage)
 {
-    rlf_grid *grid = &stage->grid;
+    image_grid *grid = &stage->grid;
     grid->factor = stage->def.scale_factor;
     grid->camera = rlf_camera_decimate(&stage->def.rig.depth, grid->factor);
     grid->width = grid->camera.width;

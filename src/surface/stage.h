@@ -44,7 +44,7 @@ typedef struct rlf_work {
 
 struct rlf_reconstruct {
     rlf_reconstruct_def def;
-    rlf_grid grid;
+    image_grid grid;
     rlf_slot ring[RLF_RECONSTRUCT_SURFACES];
     int32_t current;          /* slot being made or last made */
     const rlf_slot *previous; /* slot of the frame before, NULL at the first */
@@ -86,7 +86,7 @@ bool rlf_stage_allocate(rlf_reconstruct *stage);
 void rlf_stage_release(rlf_reconstruct *stage);
 
 /* grid.c */
-void rlf_grid_fill_rays(const rlf_grid *grid, float *ray_x, float *ray_y, uint8_t *has_ray);
+void image_grid_fill_rays(const image_grid *grid, float *ray_x, float *ray_y, uint8_t *has_ray);
 
 /* Rows per chunk of a parallel loop: even, and a multiple of the normal tiles. */
 enum { RLF_ROW_GRAIN = 16 };

@@ -70,7 +70,7 @@ void rlf_normals_plane_complete(const rlf_normals_job *job);
 /* normals/wide.c: whether a sensor is so rough that it needs wider planes; the rays of a coarser
  * picture, from those of the one before, which is `width` wide; and after rlf_normals_plane_fit
  * planes from 20 and 40 pixels where they agree with its own, in job->out and job->smooth. */
-bool rlf_wide_is_wanted(const rlf_reconstruct_def *def, const rlf_grid *grid);
+bool rlf_wide_is_wanted(const rlf_reconstruct_def *def, const image_grid *grid);
 void rlf_wide_fill_rays(const float *ray_x, const float *ray_y, int32_t width, rlf_wide *out);
 void rlf_normals_widen(const rlf_reconstruct *stage, const rlf_normals_job *job);
 /* normals/lasting.c: measures how much of the noise stays in the means over time. */
@@ -104,7 +104,7 @@ void rlf_segment_links(const rlf_reconstruct *stage, rlf_segment_method method, 
                        const uint8_t *mask, const rlf_span *spans);
 /* Eq. 4.4: 1 where a pixel is valid and within tau of its right and lower neighbours, and when
  * asked of the two lower diagonal ones. */
-void rlf_segment_thesis_bits(const rlf_grid *grid, double tau, bool diagonals, const float *depth,
+void rlf_segment_thesis_bits(const image_grid *grid, double tau, bool diagonals, const float *depth,
                              const uint8_t *mask, uint8_t *bits);
 /* ---- segment/color.c ---- */
 /* Writes work.color, when colour is wanted and the frame has it. */
@@ -119,7 +119,7 @@ void rlf_color_cut_links(const rlf_reconstruct *stage, const uint32_t *color,
 
 /* ---- segment/segment.c ---- */
 /* Fig. 4.12: grows labels to the left and top over valid members without a label. */
-void rlf_segment_dilate(const rlf_grid *grid, double tau, const float *depth, const uint8_t *mask,
+void rlf_segment_dilate(const image_grid *grid, double tau, const float *depth, const uint8_t *mask,
                         int32_t *label);
 
 /* ---- segment/region.c ---- */
@@ -210,20 +210,20 @@ void rlf_background_cover(rlf_reconstruct *stage, const float *kept, const rlf_s
 float rlf_background_gate(const rlf_reconstruct_def *def, float z);
 /* Where the first and the last foreground pixel of a row are. */
 rlf_span rlf_background_span(const uint8_t *foreground, int32_t width);
-void rlf_background_reset(rlf_background *background, const rlf_grid *grid);
+void rlf_background_reset(rlf_background *background, const image_grid *grid);
 /* Depth and those of the frames before it show another room than the model. */
 bool rlf_background_is_cut(rlf_reconstruct *stage, const float *depth);
 
 /* ---- background/image.c ---- */
 /* Tiles of a grid, the last of a row or column cut short. */
-static inline int32_t background_image_tiles(const rlf_grid *grid)
+static inline int32_t background_image_tiles(const image_grid *grid)
 {
     return ((grid->width + BACKGROUND_TILE - 1) / BACKGROUND_TILE) *
            ((grid->height + BACKGROUND_TILE - 1) / BACKGROUND_TILE);
 }
 size_t background_image_crop_size(void);
 /* Pixels of the tile at (x, y) were replaced. */
-void background_image_changed(rlf_background *background, const rlf_grid *grid, int32_t x,
+void background_image_changed(rlf_background *background, const image_grid *grid, int32_t x,
                               int32_t y, int32_t count);
 /* The image that surfaces refer to; NULL while the background is being learnt. */
 const background_image *background_image_newest(const rlf_reconstruct *stage);

@@ -47,7 +47,7 @@ static void bits_are_the_and_of_both_directions(void **state)
                                   1, 0, 0, 0, /* */
                                   1, 0, 1, 1, /* */
                                   0, 0, 1, 1};
-    rlf_grid grid = {.width = 4, .height = 4, .count = 16};
+    image_grid grid = {.width = 4, .height = 4, .count = 16};
     uint8_t bits[16];
     rlf_segment_thesis_bits(&grid, 0.1, false, depth, NULL, bits);
     assert_memory_equal(bits, expected, 16);
@@ -308,7 +308,7 @@ static void diagonals_join_and_are_compared(void **state)
         }
     }
     const float corner[4] = {1.0f, 1.0f, 2.0f, 1.0f};
-    rlf_grid grid = {.width = 2, .height = 2, .count = 4};
+    image_grid grid = {.width = 2, .height = 2, .count = 4};
     uint8_t bits[2][4];
     rlf_segment_thesis_bits(&grid, 0.1, false, corner, NULL, bits[0]);
     rlf_segment_thesis_bits(&grid, 0.1, true, corner, NULL, bits[1]);

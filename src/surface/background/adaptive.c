@@ -59,7 +59,7 @@ static void majority_rows(void *context, int32_t begin, int32_t end, int32_t wor
 {
     (void)worker;
     const model_job *job = context;
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     for (int32_t y = begin; y < end; y++) {
         const uint8_t *rows[3];
         for (int32_t k = 0; k < 3; k++) {

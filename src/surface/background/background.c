@@ -79,7 +79,7 @@ static void take_image(background_image *image, rlf_arena *arena, const rlf_reco
 }
 
 void background_allocate(rlf_background *background, rlf_arena *arena,
-                         const rlf_reconstruct_def *def, const rlf_grid *grid)
+                         const rlf_reconstruct_def *def, const image_grid *grid)
 {
     size_t n = (size_t)grid->count;
     background->mean = arena_take(arena, n, sizeof(float));

@@ -55,7 +55,7 @@ static void widen(rlf_rect *w, int32_t x, int32_t y)
 }
 
 /* Extent and size of each thing. */
-static void measure_things(const rlf_grid *grid, rlf_depart *depart)
+static void measure_things(const image_grid *grid, rlf_depart *depart)
 {
     for (int32_t k = 0; k <= RLF_PIECES; k++) {
         depart->extent[k] = (rlf_rect){grid->width, grid->height, 0, 0};
@@ -116,7 +116,7 @@ void rlf_depart_follow(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *se
 static float way_from(const rlf_reconstruct *stage, const background_image *image, int32_t i,
                       float from, float to)
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     float facing = -(image->normal[0][i] * grid->ray_x[i] + image->normal[1][i] * grid->ray_y[i] +
                      image->normal[2][i]);
     return (from - to) * facing;
@@ -140,7 +140,7 @@ static void add_risen(const rlf_reconstruct *stage, const rlf_slot *slot, int32_
  * there are pixels of none. */
 static uint8_t thing_on(const rlf_reconstruct *stage, const float *depth, int32_t i, int32_t way)
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     const uint8_t *thing = stage->background.depart.thing;
     static const int32_t ways[4][2] = {{0, -1}, {-1, 0}, {1, 0}, {0, 1}};
     const depth_step step = depth_step_make(&stage->def.rig.noise, grid->camera.fx);
@@ -219,7 +219,7 @@ static void add_edge(edge_tally *edge, int32_t x, int32_t y)
 /* What went, at the edges: no single pixels, which noise makes. True when it is enough of one. */
 static bool count_lost(const rlf_reconstruct *stage, tally *tallies)
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     const uint8_t *lost = stage->background.depart.lost, *thing = stage->background.depart.thing;
     bool is_enough = false;
     for (int32_t i = grid->width; (i = rlf_kernel_next_mark(lost, i, grid->count)) < grid->count;
@@ -237,7 +237,7 @@ static bool count_lost(const rlf_reconstruct *stage, tally *tallies)
 /* What came beside them. */
 static void count_gained(const rlf_reconstruct *stage, const rlf_slot *slot, tally *tallies)
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     const uint8_t *front = slot->foreground;
     for (int32_t i = grid->width; (i = rlf_kernel_next_mark(front, i, grid->count)) < grid->count;
          i++) {
@@ -322,7 +322,7 @@ static bool is_outline(const rlf_reconstruct *stage, const uint8_t *departed, in
 /* The spans of rows are those of the foreground as it is then. */
 static void leave_all(rlf_reconstruct *stage, rlf_slot *slot, const uint8_t *departed)
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     uint8_t *thing = stage->background.depart.thing;
     for (int32_t i = 0; i < grid->count; i++) {
         if (departed[thing[i]] || (thing[i] == 0 && is_outline(stage, departed, i))) {

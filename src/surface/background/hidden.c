@@ -75,7 +75,7 @@ RLF_KERNEL static void step_row(const uint8_t *restrict empty, const int32_t *re
 /* Finds `hit` of a row from the row `step` pixels away, which is done; outside there is none. */
 static void look_beside(const hidden_job *job, int32_t y, ptrdiff_t step, int32_t *hit)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     ptrdiff_t row = (ptrdiff_t)y * grid->width, beside = row + step;
     if (beside < 0 || beside >= grid->count) {
         for (int32_t x = job->area.x0; x < job->area.x1; x++) {
@@ -298,7 +298,7 @@ static void cover_rows(void *context, int32_t begin, int32_t end, int32_t worker
 /* About what is in front, as far as it may hide something when it is a metre away. */
 static rlf_rect find_area(const rlf_reconstruct *stage)
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     rlf_rect area = {grid->width, grid->height, 0, 0};
     for (int32_t y = 0; y < grid->height; y++) {
         const rlf_span span = stage->work.front[y];
@@ -321,7 +321,7 @@ static rlf_rect find_area(const rlf_reconstruct *stage)
 void rlf_background_cover(rlf_reconstruct *stage, const float *kept, const rlf_slot *slot,
                           bool is_learning)
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     if (!stage->def.enable_fill) {
         return;
     }

@@ -38,7 +38,7 @@ static background_image *draft_of(rlf_background *background)
     return &background->images[(background->newest + 1) % BACKGROUND_IMAGES];
 }
 
-static int32_t tile_columns(const rlf_grid *grid)
+static int32_t tile_columns(const image_grid *grid)
 {
     return (grid->width + BACKGROUND_TILE - 1) / BACKGROUND_TILE;
 }
@@ -48,14 +48,14 @@ size_t background_image_crop_size(void)
     return (size_t)CROP * CROP;
 }
 
-void background_image_changed(rlf_background *background, const rlf_grid *grid, int32_t x,
+void background_image_changed(rlf_background *background, const image_grid *grid, int32_t x,
                               int32_t y, int32_t count)
 {
     background->changes[y / BACKGROUND_TILE * tile_columns(grid) + x / BACKGROUND_TILE] += count;
     background->changed += count;
 }
 
-static rlf_rect tile_at(const rlf_grid *grid, int32_t tile)
+static rlf_rect tile_at(const image_grid *grid, int32_t tile)
 {
     int32_t x0 = tile % tile_columns(grid) * BACKGROUND_TILE;
     int32_t y0 = tile / tile_columns(grid) * BACKGROUND_TILE;
@@ -65,7 +65,7 @@ static rlf_rect tile_at(const rlf_grid *grid, int32_t tile)
     return r;
 }
 
-static rlf_rect widen(const rlf_grid *grid, rlf_rect r)
+static rlf_rect widen(const image_grid *grid, rlf_rect r)
 {
     const rlf_rect wide = {r.x0 > MARGIN ? r.x0 - MARGIN : 0, r.y0 > MARGIN ? r.y0 - MARGIN : 0,
                            r.x1 + MARGIN < grid->width ? r.x1 + MARGIN : grid->width,
@@ -189,7 +189,7 @@ static void clear_left(const rlf_reconstruct *stage, background_image *image, rl
 static void make_tile(rlf_reconstruct *stage, const rlf_slot *slot, background_image *image,
                       int32_t tile)
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     const rlf_rect r = tile_at(grid, tile), wide = widen(grid, r);
     int32_t width = wide.x1 - wide.x0;
     float *const *crop = stage->background.crop;
@@ -217,7 +217,7 @@ static void make_tile(rlf_reconstruct *stage, const rlf_slot *slot, background_i
 static void begin_draft(rlf_reconstruct *stage)
 {
     rlf_background *background = &stage->background;
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     const background_image *newest = &background->images[background->newest];
     background_image *draft = draft_of(background);
     for (int32_t tile = 0; tile < background_image_tiles(grid); tile++) {

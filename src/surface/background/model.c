@@ -12,7 +12,7 @@ enum {
     EITHER_OF_10 = 1   /* and at least so many are nearer, and as many farther */
 };
 
-void rlf_background_reset(rlf_background *background, const rlf_grid *grid)
+void rlf_background_reset(rlf_background *background, const image_grid *grid)
 {
     size_t n = (size_t)grid->count;
     memset(background->mean, 0, n * sizeof *background->mean);
@@ -70,7 +70,7 @@ typedef struct tally {
 
 static tally count(const rlf_reconstruct *stage, const float *depth)
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     const float *mean = stage->background.mean;
     tally sum = {0, 0, 0};
     int32_t step = grid->width > SAMPLES ? grid->width / SAMPLES : 1;

@@ -57,6 +57,6 @@ typedef struct rlf_background {
 } rlf_background;
 
 void background_allocate(rlf_background *state, rlf_arena *arena, const rlf_reconstruct_def *def,
-                         const rlf_grid *grid);
+                         const image_grid *grid);
 
 #endif

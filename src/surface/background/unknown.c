@@ -66,7 +66,7 @@ typedef struct reveal_job {
 static bool goes_on(const reveal_job *job, ptrdiff_t i, ptrdiff_t at, int32_t steps)
 {
     const rlf_reconstruct *stage = job->stage;
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     const rlf_faces faces = {grid->ray_x, grid->ray_y, stage->background.mean, job->image->normal};
     float mean = stage->background.mean[at], z = job->slot->depth[i];
     bool is_seen =
@@ -81,7 +81,7 @@ static bool goes_on(const reveal_job *job, ptrdiff_t i, ptrdiff_t at, int32_t st
  * column, or on one side of what does not move. */
 static bool is_revealed(const reveal_job *job, int32_t x, int32_t y)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     const float *mean = job->stage->background.mean;
     const int32_t room[4] = {x, grid->width - 1 - x, y, grid->height - 1 - y};
     const ptrdiff_t step[4] = {-1, 1, -grid->width, grid->width};
@@ -104,7 +104,7 @@ static void reveal_rows(void *context, int32_t begin, int32_t end, int32_t worke
 {
     (void)worker;
     const reveal_job *job = context;
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     for (int32_t y = begin; y < end; y++) {
         const rlf_span span = job->stage->work.front[y];
         const uint8_t *front = job->slot->foreground + (ptrdiff_t)y * grid->width;
@@ -118,7 +118,7 @@ static void reveal_rows(void *context, int32_t begin, int32_t end, int32_t worke
 
 void rlf_background_reveal(rlf_reconstruct *stage, const rlf_slot *slot)
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     reveal_job job = {stage, slot, background_image_newest(stage)};
     if (job.image == NULL) {
         return;

@@ -294,7 +294,7 @@ void rlf_color_guide_learn(rlf_reconstruct *stage)
 }
 
 void color_guide_allocate(rlf_color_guide *state, rlf_arena *arena, const rlf_reconstruct_def *def,
-                          const rlf_grid *grid)
+                          const image_grid *grid)
 {
     if (def->enable_color_sides && def->enable_fill && def->rig.has_color) {
         state->parts = (grid->height + RLF_ROW_GRAIN - 1) / RLF_ROW_GRAIN;

@@ -48,6 +48,6 @@ void rlf_color_guide_vote(const rlf_reconstruct *stage, const rlf_guide_cases *c
 void rlf_color_guide_learn(rlf_reconstruct *stage);
 void rlf_color_guide_reset(rlf_reconstruct *stage);
 void color_guide_allocate(rlf_color_guide *state, rlf_arena *arena, const rlf_reconstruct_def *def,
-                          const rlf_grid *grid);
+                          const image_grid *grid);
 
 #endif

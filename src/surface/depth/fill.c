@@ -39,7 +39,7 @@ typedef struct fill_job {
 /* Slope of what has a normal at pixel i; the steepest where there is none. */
 static float slope_at(const fill_job *job, float *const normal[3], ptrdiff_t i)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     return depth_step_slope(normal[0][i], normal[1][i], normal[2][i], grid->ray_x[i],
                             grid->ray_y[i]);
 }
@@ -47,7 +47,7 @@ static float slope_at(const fill_job *job, float *const normal[3], ptrdiff_t i)
 /* The background has no outline about a pixel, where its own normals would be guesses too. */
 static bool is_whole(const fill_job *job, int32_t x, int32_t y)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     ptrdiff_t i = (ptrdiff_t)y * grid->width + x, row = (ptrdiff_t)ABOUT_BEHIND * grid->width;
     const float *at = job->behind->depth + i;
     float slope = slope_at(job, job->behind->normal, i);
@@ -95,7 +95,7 @@ typedef struct fill_queue {
 static bool meets_near(const fill_job *job, int32_t x, int32_t y, int32_t dx, int32_t dy,
                        float farthest)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     for (int32_t steps = 0; steps < LONGEST_HOLE; steps++) {
         x += dx;
         y += dy;
@@ -219,7 +219,7 @@ static void fill_batch(const fill_job *job, fill_queue *q)
 /* What a batch will read of the pixel is brought near. */
 RLF_KERNEL_PART void look_ahead(const fill_job *job, ptrdiff_t i)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     RLF_KERNEL_SOON(&grid->ray_x[i]);
     RLF_KERNEL_SOON(&grid->ray_y[i]);
     if (job->behind != NULL) {
@@ -254,7 +254,7 @@ static float most_step(const fill_job *job, ptrdiff_t i, ptrdiff_t step, const r
 static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps, int32_t k,
                  fill_queue *q)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     const float *at = job->depth + (ptrdiff_t)y * grid->width + x;
     const int32_t *line = rlf_line_step[gaps->line[k]];
     ptrdiff_t step = line[0] + (ptrdiff_t)line[1] * grid->width;
@@ -283,7 +283,7 @@ static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps
  * or must not have one. */
 static void find_gaps(const fill_job *job, int32_t x, int32_t y, fill_queue *q)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     const uint8_t *reason = job->reason + (ptrdiff_t)y * grid->width + x;
     rlf_gap_patch patch;
     rlf_gaps gaps;
@@ -357,7 +357,7 @@ static void go_on(const fill_job *job, ptrdiff_t i, ptrdiff_t step)
 /* Rows first; the corners then have theirs. */
 static void fill_border(const fill_job *job)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     ptrdiff_t width = grid->width, last = (ptrdiff_t)(grid->height - 1) * width;
     if (grid->width < 3 || grid->height < 3) {
         return;
@@ -403,7 +403,7 @@ static bool close_gap(const fill_job *job, ptrdiff_t i, ptrdiff_t step, int32_t 
 /* In raster order, by one thread: what was closed may be an end of what follows. */
 static void close_gaps(const fill_job *job)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     int32_t width = grid->width;
     for (int32_t y = 1; y + 1 < grid->height; y++) {
         ptrdiff_t row = (ptrdiff_t)y * width;

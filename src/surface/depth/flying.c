@@ -17,7 +17,7 @@ typedef struct flying_job {
 /* Row y + step as seen; zeros beyond the image. */
 static const float *row_at(const flying_job *job, int32_t y, int32_t step)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     int32_t row = y + step;
     bool inside = row >= 0 && row < grid->height;
     return inside ? job->raw + (ptrdiff_t)row * grid->width : job->stage->work.zeros;
@@ -45,7 +45,7 @@ static void flying_rows(void *context, int32_t begin, int32_t end, int32_t worke
 {
     (void)worker;
     const flying_job *job = context;
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     for (int32_t y = begin; y < end; y++) {
         const float *const rows[3] = {row_at(job, y, -1), row_at(job, y, 0), row_at(job, y, 1)};
         ptrdiff_t offset = (ptrdiff_t)y * grid->width;

@@ -64,7 +64,7 @@ static void look_at_rows(void *context, int32_t begin, int32_t end, int32_t work
 {
     (void)worker;
     const oversmooth_job *job = context;
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     int32_t first = begin > 1 ? begin : 1, last = rlf_least(end, grid->height - 1);
     for (int32_t y = first; y < last; y++) {
         for (int32_t x = 0; x < grid->width;) {

@@ -17,7 +17,7 @@ static void read_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     (void)worker;
     const read_job *job = context;
     const rlf_frame *frame = job->frame;
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     for (int32_t y = begin; y < end; y++) {
         ptrdiff_t skip = (ptrdiff_t)y * grid->factor * frame->depth_stride;
         float *depth = job->depth + (ptrdiff_t)y * grid->width;

@@ -19,7 +19,7 @@ typedef struct temporal {
 } temporal;
 
 void temporal_allocate(temporal *state, rlf_arena *arena, const rlf_reconstruct_def *def,
-                       const rlf_grid *grid);
-void temporal_reset(temporal *state, const rlf_grid *grid);
+                       const image_grid *grid);
+void temporal_reset(temporal *state, const image_grid *grid);
 
 #endif

@@ -18,7 +18,7 @@ typedef struct mean_job {
 static void lag_row(const mean_job *job, int32_t y)
 {
     const rlf_reconstruct *stage = job->stage;
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     ptrdiff_t row = (ptrdiff_t)y * grid->width;
     rlf_kernel_lag_in in = {{0},
                             grid->ray_x + row,
@@ -39,7 +39,7 @@ static void lag_row(const mean_job *job, int32_t y)
 
 static void mean_row(const mean_job *job, int32_t y)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     const int8_t *outside = (const int8_t *)job->stage->work.zeros;
     ptrdiff_t row = (ptrdiff_t)y * grid->width;
     const int8_t *lag = job->lag + row;
@@ -84,7 +84,7 @@ void temporal_mean(rlf_reconstruct *stage, float *depth, const uint8_t *reason)
 }
 
 void temporal_allocate(temporal *state, rlf_arena *arena, const rlf_reconstruct_def *def,
-                       const rlf_grid *grid)
+                       const image_grid *grid)
 {
     size_t n = (size_t)grid->count;
     arena_next_owner(arena);
@@ -98,7 +98,7 @@ void temporal_allocate(temporal *state, rlf_arena *arena, const rlf_reconstruct_
     }
 }
 
-void temporal_reset(temporal *state, const rlf_grid *grid)
+void temporal_reset(temporal *state, const image_grid *grid)
 {
     size_t n = (size_t)grid->count;
     if (state->frames != NULL) {

@@ -39,7 +39,7 @@ typedef struct recall_job {
 static int32_t count_moved(const recall_job *job, int32_t bx, int32_t by)
 {
     const uint64_t ones = UINT64_C(0x0101010101010101);
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     int32_t moved = 0, x0 = bx * BLOCK, x1 = rlf_least(x0 + BLOCK, grid->width);
     uint64_t columns = 0;
     for (int32_t y = by * BLOCK; y < rlf_least((by + 1) * BLOCK, grid->height); y++) {
@@ -170,7 +170,7 @@ static void read_seen(const recall_job *job, int32_t x, int32_t y, int32_t lane,
     enum { ABOUT = RLF_WINDOW_ABOUT, SIDE = RLF_WINDOW_SIDE };
     static const float sign[3] = {
         [RLF_CHANGE_UNSEEN] = 0.0f, [RLF_CHANGE_STILL] = 1.0f, [RLF_CHANGE_MOVED] = -1.0f};
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     ptrdiff_t middle = (ptrdiff_t)y * grid->width + x;
     const float *depth = job->depth + middle;
     const uint8_t *change = job->change + middle;
@@ -260,7 +260,7 @@ static void recall_rows(void *context, int32_t begin, int32_t end, int32_t worke
 
 void temporal_recall(const rlf_reconstruct *stage, const float *raw, float *depth, uint8_t *reason)
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     recall_job job = {.stage = stage,
                       .noise = rlf_kernel_noise_make(&stage->def.rig.noise),
                       .change = stage->temporal.change,

@@ -48,7 +48,7 @@ typedef struct velocity_guess {
     float cost; /* < 0: not yet known */
 } velocity_guess;
 
-size_t rlf_cell_capacity(const rlf_grid *grid)
+size_t rlf_cell_capacity(const image_grid *grid)
 {
     return ((size_t)grid->width / SIDE_SAMPLES + 1) * ((size_t)grid->height / SIDE_SAMPLES + 1);
 }
@@ -84,7 +84,7 @@ static float limb_depth(const rlf_cell_grid *g, int32_t x0, int32_t y0, int32_t 
 
 static void add_sample(const rlf_cell_grid *g, int32_t x, int32_t y, samples *out)
 {
-    const rlf_grid *grid = &g->job->stage->grid;
+    const image_grid *grid = &g->job->stage->grid;
     const rlf_slot *now = g->job->now;
     ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
     float z = now->depth[i], x_ray = grid->ray_x[i], y_ray = grid->ray_y[i];
@@ -239,7 +239,7 @@ static void whole_velocity(const rlf_cell_grid *g, const float p[3], float out[3
  * cell or two around, from where a limb may have come. Returns their number. */
 static int32_t make_guesses(const rlf_cell_grid *g, ptrdiff_t middle, velocity_guess *guess)
 {
-    const rlf_grid *grid = &g->job->stage->grid;
+    const image_grid *grid = &g->job->stage->grid;
     const rlf_slot *before = g->job->before;
     const int32_t around[7][2] = {{0, 0}, {-1, 0}, {1, 0}, {-2, 0}, {2, 0}, {0, -1}, {0, 1}};
     int32_t x0 = (int32_t)(middle % grid->width), y0 = (int32_t)(middle / grid->width);
@@ -441,7 +441,7 @@ static void relax(const rlf_cell_grid *g)
 RLF_KERNEL_PART void fetch_cell(const rlf_cell_grid *g, int32_t x0, int32_t y0)
 {
     enum { LINE = 16 };
-    const rlf_grid *grid = &g->job->stage->grid;
+    const image_grid *grid = &g->job->stage->grid;
     const rlf_slot *now = g->job->now;
     int32_t step = (g->size + SIDE_SAMPLES - 1) / SIDE_SAMPLES;
     int32_t x1 = rlf_least(x0 + g->size, g->region->x1),
@@ -489,7 +489,7 @@ static void fit_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 void rlf_velocity_cells(const rlf_flow *job, const rlf_region *region, const rlf_twist *twist,
                         bool moves)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     double size =
         2.0 * (double)rlf_flow_limb_m * grid->camera.fx / rlf_max(region->centroid.z, 0.1);
     rlf_cell_grid g = {.job = job,

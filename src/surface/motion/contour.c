@@ -61,7 +61,7 @@ static void add_contour_point(const rlf_flow *job, int32_t label, int32_t x, int
 }
 
 /* Pixels of the span that a window fits about. */
-static rlf_span inside(const rlf_grid *grid, rlf_span span)
+static rlf_span inside(const image_grid *grid, rlf_span span)
 {
     return (rlf_span){span.x0 > RADIUS ? span.x0 : RADIUS,
                       rlf_least(span.x1, grid->width - RADIUS)};
@@ -87,7 +87,7 @@ static void mark_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 void rlf_contour_mark(const rlf_flow *job)
 {
     rlf_flow copy = *job;
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     if (grid->width > SIDE && grid->height > SIDE) {
         rlf_parallel_for(job->stage->def.pool, grid->height - 2 * RADIUS, RLF_ROW_GRAIN, mark_rows,
                          &copy);
@@ -111,7 +111,7 @@ RLF_KERNEL_PART void fetch_row(const rlf_flow *job, ptrdiff_t row, rlf_span span
 
 void rlf_contour_find(const rlf_flow *job, const rlf_region *region, rlf_contour *out)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     rlf_span span = inside(grid, (rlf_span){region->x0, region->x1});
     int32_t y0 = region->y0 > RADIUS ? region->y0 : RADIUS;
     int32_t y1 = region->y1 < grid->height - RADIUS ? region->y1 : grid->height - RADIUS;
@@ -152,7 +152,7 @@ static int32_t count_before(const rlf_flow *job, int32_t label, int32_t x, int32
 bool rlf_contour_beyond(const rlf_flow *job, int32_t label, rlf_contour_point *point, rlf_vec3 p,
                         rlf_vec3 v, double *out)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     rlf_vec3 q = rlf_mad(p, v, -(double)job->dt);
     if (!(q.z > 0.0)) {
         return false;

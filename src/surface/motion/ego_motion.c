@@ -29,7 +29,7 @@ static const double least_facing = 0.25; /* cosine: depth of a grazing face says
 static const double ridge = 1e-3;
 
 typedef struct ego_job {
-    const rlf_grid *grid;
+    const image_grid *grid;
     const float *depth;
     rlf_kernel_noise noise;
     const rlf_ego_motion *ego;
@@ -40,7 +40,7 @@ typedef struct ego_job {
 static bool distance_to(const ego_job *job, int32_t k, const rlf_pose *pose, rlf_vec3 *out_point,
                         rlf_vec3 *out_normal, double *out)
 {
-    const rlf_grid *grid = job->grid;
+    const image_grid *grid = job->grid;
     const rlf_ego_point *from = &job->ego->points[k];
     rlf_vec3 p = rlf_transform(pose, from->point);
     if (!(p.z > 0.05)) {
@@ -115,7 +115,7 @@ enum { PARTS_X = 4, PARTS_Y = 3, PARTS = PARTS_X * PARTS_Y, FEWEST = PARTS / 2 *
 
 static void ask(const ego_job *job, const rlf_pose *pose, ego_part parts[PARTS])
 {
-    const rlf_grid *grid = job->grid;
+    const image_grid *grid = job->grid;
     for (int32_t k = 0; k < job->ego->count; k++) {
         const rlf_ego_point *from = &job->ego->points[k];
         rlf_vec3 p, n;
@@ -219,7 +219,7 @@ void rlf_ego_motion_watch(rlf_reconstruct *stage, const float *depth)
 void rlf_ego_motion_remember(rlf_reconstruct *stage, const rlf_slot *slot)
 {
     rlf_ego_motion *ego = &stage->ego;
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     if (ego->count >= FEWEST && ego->age < MOST_AGE) {
         return;
     }

@@ -66,7 +66,7 @@ typedef struct rlf_cell_grid {
     int32_t number; /* of the region, in the runs */
 } rlf_cell_grid;
 
-size_t rlf_cell_capacity(const rlf_grid *grid);
+size_t rlf_cell_capacity(const image_grid *grid);
 /* Velocity of a region's pixels; `twist` is its motion as a whole, 0 unless it `moves`. */
 void rlf_velocity_cells(const rlf_flow *job, const rlf_region *region, const rlf_twist *twist,
                         bool moves);
@@ -115,7 +115,7 @@ static const float rlf_flow_ridge = 0.01f;
  * count as one. */
 static const float rlf_flow_correlated = 2.0f;
 
-static inline rlf_vec3 rlf_flow_point(const rlf_grid *grid, const float *depth, ptrdiff_t i)
+static inline rlf_vec3 rlf_flow_point(const image_grid *grid, const float *depth, ptrdiff_t i)
 {
     double z = depth[i];
     return rlf_vec3_make(z * grid->ray_x[i], z * grid->ray_y[i], z);

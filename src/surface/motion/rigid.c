@@ -28,7 +28,7 @@ static const double contour_ridge = 0.002;
 static const double contour_excess = 1.5;
 
 /* The published planes hold only what was written into the slot three frames ago. */
-static void clear_velocity(const rlf_grid *grid, rlf_slot *slot)
+static void clear_velocity(const image_grid *grid, rlf_slot *slot)
 {
     for (int32_t y = 0; y < grid->height; y++) {
         const rlf_span *span = &slot->moved[y];
@@ -45,7 +45,7 @@ static void clear_velocity(const rlf_grid *grid, rlf_slot *slot)
 static bool speed_beyond(const rlf_flow *job, ptrdiff_t i, rlf_vec3 p, rlf_vec3 n, rlf_vec3 v,
                          double *out)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     rlf_vec3 q = rlf_mad(p, v, -(double)job->dt);
     ptrdiff_t k = rlf_flow_pixel_before(job, i, (float)q.x, (float)q.y, (float)q.z);
     if (k < 0) {
@@ -196,7 +196,7 @@ static void count_rest(const twist_sum *start, rlf_twist *t)
 {
     twist_sum sum = *start;
     const rlf_flow *job = sum.job;
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     const rlf_slot *now = job->now;
     const rlf_region *region = sum.region;
     const rlf_kernel_rest_in in = {.label = now->label,
@@ -384,7 +384,7 @@ static const uint8_t *front_before(const rlf_reconstruct *stage, int32_t y, rlf_
 /* The frame before as the samples of this one look at it. */
 static rlf_kernel_flow_view look_back(const rlf_reconstruct *stage)
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     const rlf_slot *before = stage->previous;
     float *seen = stage->velocity.seen;
     for (int32_t y = 0; y < grid->height; y++) {
@@ -451,7 +451,7 @@ void rlf_velocity_estimate(rlf_reconstruct *stage, rlf_slot *slot)
     look_away(stage);
 }
 
-void velocity_allocate(velocity_planes *state, rlf_arena *arena, const rlf_grid *grid)
+void velocity_allocate(velocity_planes *state, rlf_arena *arena, const image_grid *grid)
 {
     size_t n = (size_t)grid->count;
     state->seen = arena_take(arena, n, sizeof(float));

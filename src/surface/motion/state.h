@@ -12,6 +12,6 @@ typedef struct velocity_planes {
     uint8_t *is_contour;    /* plane, scratch: a region's outline may be here */
 } velocity_planes;
 
-void velocity_allocate(velocity_planes *state, rlf_arena *arena, const rlf_grid *grid);
+void velocity_allocate(velocity_planes *state, rlf_arena *arena, const image_grid *grid);
 
 #endif

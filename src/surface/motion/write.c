@@ -43,7 +43,7 @@ static bool is_still(const rlf_cell_grid *g, int32_t y, int32_t x)
 static void write_part(const rlf_cell_grid *g, rlf_kernel_flow *flow, int32_t y, int32_t x0,
                        int32_t x1)
 {
-    const rlf_grid *grid = &g->job->stage->grid;
+    const image_grid *grid = &g->job->stage->grid;
     rlf_slot *now = g->job->now;
     ptrdiff_t i = (ptrdiff_t)y * grid->width + x0;
     float *const velocity[3] = {now->velocity[0] + i, now->velocity[1] + i, now->velocity[2] + i};

@@ -281,7 +281,7 @@ static const uint8_t *find_front(const rlf_reconstruct *stage, uint8_t *plane)
 void rlf_normals_contour(const rlf_reconstruct *stage, const rlf_slot *slot, const uint8_t *known,
                          const contour_scratch *scratch)
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     const contour_planes planes = {grid->width, grid->height, grid->ray_x, grid->ray_y,
                                    slot->depth, known,        slot->normal};
     const contour_sides sides = {.stage = stage,

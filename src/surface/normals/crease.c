@@ -230,7 +230,7 @@ static void sharpen_rows(void *context, int32_t begin, int32_t end, int32_t work
 
 void rlf_normals_crease(const rlf_reconstruct *stage, const rlf_slot *slot, const uint8_t *known)
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     crease_job job = {.width = grid->width,
                       .height = grid->height,
                       .ray_x = grid->ray_x,

@@ -93,7 +93,7 @@ void normals_finish(rlf_reconstruct *stage, const float *kept, rlf_slot *slot)
 }
 
 static void take_wide(normals_state *state, rlf_arena *arena, const rlf_reconstruct_def *def,
-                      const rlf_grid *grid)
+                      const image_grid *grid)
 {
     const float *ray_x = grid->ray_x, *ray_y = grid->ray_y;
     int32_t width = grid->width, height = grid->height;
@@ -119,7 +119,7 @@ static void take_wide(normals_state *state, rlf_arena *arena, const rlf_reconstr
 }
 
 void normals_allocate(normals_state *state, rlf_arena *arena, const rlf_reconstruct_def *def,
-                      const rlf_grid *grid)
+                      const image_grid *grid)
 {
     size_t n = (size_t)grid->count;
     arena_next_owner(arena);
@@ -140,7 +140,7 @@ void normals_allocate(normals_state *state, rlf_arena *arena, const rlf_reconstr
     take_wide(state, arena, def, grid);
 }
 
-void normals_reset(normals_state *state, const rlf_grid *grid)
+void normals_reset(normals_state *state, const image_grid *grid)
 {
     size_t n = (size_t)grid->count;
     state->lasting = (rlf_lasting){.sigma = (float)RLF_LASTING_ALL};

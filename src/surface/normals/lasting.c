@@ -32,7 +32,7 @@ static const float UPPER = 1.7320508f;
 static rlf_plane_moments sum_window(const rlf_reconstruct *stage, const float *depth,
                                     ptrdiff_t corner, rlf_plane_reference ref)
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     rlf_plane_moments sum = {0};
     for (int32_t y = 0; y < SIDE; y += APART) {
         for (int32_t x = 0; x < SIDE; x += APART) {
@@ -77,7 +77,7 @@ static float step_of(const rlf_reconstruct *stage)
 static void look_at_rows(const rlf_reconstruct *stage, const float *depth, int32_t phase,
                          int32_t count[RLF_LASTING_BINS])
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     float step = step_of(stage);
     for (int32_t y = PITCH * phase; y + SIDE <= grid->height; y += PITCH * PHASES) {
         for (int32_t x = 0; x + SIDE <= grid->width; x += PITCH) {

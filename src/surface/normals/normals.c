@@ -49,7 +49,7 @@ void rlf_normals_compute(const rlf_normals_job *job)
 rlf_normals_job rlf_normals_job_make(const rlf_reconstruct *stage, const float *depth,
                                      float *const out[3])
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     rlf_normals_job job = {.method = stage->def.normal_method,
                            .face_camera = stage->def.normals_face_camera,
                            .width = grid->width,

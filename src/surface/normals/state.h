@@ -58,7 +58,7 @@ typedef struct normals_state {
 } normals_state;
 
 void normals_allocate(normals_state *state, rlf_arena *arena, const rlf_reconstruct_def *def,
-                      const rlf_grid *grid);
-void normals_reset(normals_state *state, const rlf_grid *grid);
+                      const image_grid *grid);
+void normals_reset(normals_state *state, const image_grid *grid);
 
 #endif

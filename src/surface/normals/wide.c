@@ -17,7 +17,7 @@ static const double tilt_per_sigma = 0.0346;
 /* A sensor is rough when that makes more than 1.15 degrees at 2 m. */
 static const double most_tilt = 0.02, rough_at = 2.0;
 
-bool rlf_wide_is_wanted(const rlf_reconstruct_def *def, const rlf_grid *grid)
+bool rlf_wide_is_wanted(const rlf_reconstruct_def *def, const image_grid *grid)
 {
     const rlf_depth_noise *noise = &def->rig.noise;
     double sigma = noise->c0 + rough_at * (noise->c1 + rough_at * noise->c2);

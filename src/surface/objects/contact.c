@@ -11,7 +11,7 @@ static const float LEAST_SLOPE = 0.25f; /* ... and by this much of the way betwe
 static const float STAYS = 1.4f;
 
 /* Pixels i and j, on both sides of a third, are of two things. */
-static bool is_contact(const rlf_grid *grid, const rlf_layer_in *in, rlf_kernel_noise noise,
+static bool is_contact(const image_grid *grid, const rlf_layer_in *in, rlf_kernel_noise noise,
                        int32_t i, int32_t j)
 {
     float zi = in->depth[i], zj = in->depth[j];
@@ -63,7 +63,7 @@ typedef struct contact_job {
 /* Two things meet at pixel i = (x, y), across or down. */
 static bool is_cut(const contact_job *job, int32_t i, int32_t x, int32_t y)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     const uint8_t *support = job->stage->objects->support;
     int32_t across = job->reach, down = job->reach * grid->width;
     bool is_wide = x >= job->reach && x + job->reach < grid->width &&

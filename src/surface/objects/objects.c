@@ -5,7 +5,7 @@
 
 enum { PATCHES = 80 }; /* in a row of a grid */
 
-rlf_objects rlf_objects_layout(const rlf_grid *grid)
+rlf_objects rlf_objects_layout(const image_grid *grid)
 {
     rlf_objects o = {.side = 2 * ((grid->width + 2 * PATCHES - 1) / (2 * PATCHES))};
     o.side = o.side < 4 ? 4 : o.side;
@@ -155,7 +155,7 @@ int32_t rlf_objects_find(rlf_reconstruct *stage, const rlf_layer_in *in)
 }
 
 rlf_objects *objects_allocate(rlf_arena *arena, const rlf_reconstruct_def *def,
-                              const rlf_grid *grid)
+                              const image_grid *grid)
 {
     if (def->background_segment != RLF_SEGMENT_OBJECTS ||
         def->background_method == RLF_BACKGROUND_OFF) {

@@ -77,10 +77,10 @@ typedef struct rlf_objects {
 } rlf_objects;
 
 /* objects.c: side and extent of the patches of a grid. */
-rlf_objects rlf_objects_layout(const rlf_grid *grid);
+rlf_objects rlf_objects_layout(const image_grid *grid);
 /* NULL when they are not wanted. */
 rlf_objects *objects_allocate(rlf_arena *arena, const rlf_reconstruct_def *def,
-                              const rlf_grid *grid);
+                              const image_grid *grid);
 /* Forgets the image before, of `count` pixels. */
 void rlf_objects_reset(rlf_objects *objects, int32_t count);
 

@@ -53,7 +53,7 @@ double rlf_support_cosine(const rlf_support_plane *p, const rlf_support_plane *q
 }
 
 /* Of every `stride`-th pixel both ways; *asked is how many these are. */
-static rlf_plane_sum sum_patch(const rlf_grid *grid, const float *depth, rlf_rect r, int32_t stride,
+static rlf_plane_sum sum_patch(const image_grid *grid, const float *depth, rlf_rect r, int32_t stride,
                                int32_t *asked)
 {
     rlf_plane_sum sum = {0};
@@ -75,7 +75,7 @@ static rlf_plane_sum sum_patch(const rlf_grid *grid, const float *depth, rlf_rec
 static void fit_patch(rlf_reconstruct *stage, const float *depth, int32_t k)
 {
     const rlf_objects *o = stage->objects;
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     rlf_patch *p = &o->patch[k];
     int32_t x = k % o->width * o->side, y = k / o->width * o->side, asked = 0;
     const rlf_rect r = {x, y, x + o->side < grid->width ? x + o->side : grid->width,

@@ -143,7 +143,7 @@ typedef struct mark_job {
 static void mark_part(const mark_job *job, ptrdiff_t at, int32_t count, uint32_t bits,
                       const float *bend)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     const rlf_layer_in *in = job->in;
     uint8_t *support = job->stage->objects->support + at;
     if (bits == 0) {
@@ -166,7 +166,7 @@ static void mark_part(const mark_job *job, ptrdiff_t at, int32_t count, uint32_t
 static void mark_patch(const mark_job *job, int32_t k)
 {
     const rlf_objects *o = job->stage->objects;
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     int32_t x0 = k % o->width * o->side, y0 = k / o->width * o->side;
     int32_t x1 = x0 + o->side < grid->width ? x0 + o->side : grid->width;
     int32_t y1 = y0 + o->side < grid->height ? y0 + o->side : grid->height;

@@ -18,7 +18,7 @@ typedef struct color_job {
 /* Nearest pixel of the colour image where a point of the depth camera is seen. */
 static uint32_t color_of(const color_job *job, ptrdiff_t i)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     const rlf_rig *rig = &job->stage->def.rig;
     double z = job->depth[i], u, v;
     rlf_vec3 p = {z * grid->ray_x[i], z * grid->ray_y[i], z};
@@ -86,7 +86,7 @@ bool rlf_color_is_near(uint32_t a, uint32_t b, double tau)
 
 void rlf_color_cut_links(const rlf_reconstruct *stage, const uint32_t *color, const rlf_span *spans)
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     double tau = stage->def.segment_color_tau;
     const int32_t bits[4] = {RLF_LINK_LEFT, RLF_LINK_UP, RLF_LINK_UP_LEFT, RLF_LINK_UP_RIGHT};
     const ptrdiff_t step[4] = {-1, -grid->width, -grid->width - 1, -grid->width + 1};

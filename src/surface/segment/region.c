@@ -198,7 +198,7 @@ static void grow(rlf_region *region, const rlf_run *run, int32_t y)
     region->y1 = y + 1 > region->y1 ? y + 1 : region->y1;
 }
 
-static rlf_vec3 point_at(const rlf_grid *grid, const float *depth, int32_t i)
+static rlf_vec3 point_at(const image_grid *grid, const float *depth, int32_t i)
 {
     double z = depth[i];
     return rlf_vec3_make(z * grid->ray_x[i], z * grid->ray_y[i], z);

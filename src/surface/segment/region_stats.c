@@ -10,7 +10,7 @@ static void clear_extents(rlf_region_lanes *lanes)
 }
 
 static void clear_region(rlf_region *region, rlf_region_sum *sum, const rlf_layer_in *in,
-                         const rlf_grid *grid)
+                         const image_grid *grid)
 {
     *region = (rlf_region){0};
     region->layer = in->layer;
@@ -23,7 +23,7 @@ static void clear_region(rlf_region *region, rlf_region_sum *sum, const rlf_laye
     clear_extents(&sum->points);
 }
 
-static void add_run(rlf_region *region, rlf_region_sum *sum, const rlf_grid *grid,
+static void add_run(rlf_region *region, rlf_region_sum *sum, const image_grid *grid,
                     const float *depth, const rlf_run *run, int32_t y)
 {
     int32_t count = run->x1 - run->x0;
@@ -130,7 +130,7 @@ static void finish_region(rlf_region *region, rlf_region_sum *sum)
     clear_extents(&sum->points);
 }
 
-static void add_extents(rlf_region_sum *sum, const rlf_grid *grid, const float *depth,
+static void add_extents(rlf_region_sum *sum, const image_grid *grid, const float *depth,
                         const rlf_run *run, int32_t y)
 {
     ptrdiff_t i = (ptrdiff_t)y * grid->width + run->x0;

@@ -21,7 +21,7 @@ static bool agrees(bool inside, float tau, const float *depth, const uint8_t *ma
     return !inside || (is_member(depth, mask, next) && is_near(depth[i], depth[next], tau));
 }
 
-void rlf_segment_thesis_bits(const rlf_grid *grid, double tau, bool diagonals, const float *depth,
+void rlf_segment_thesis_bits(const image_grid *grid, double tau, bool diagonals, const float *depth,
                              const uint8_t *mask, uint8_t *bits)
 {
     float limit = (float)tau;
@@ -43,7 +43,7 @@ void rlf_segment_thesis_bits(const rlf_grid *grid, double tau, bool diagonals, c
 
 static void thesis_links(const rlf_reconstruct *stage, const float *depth, const uint8_t *mask)
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     bool diagonals = stage->def.segment_diagonals;
     uint8_t *bits = stage->work.bits;
     rlf_segment_thesis_bits(grid, stage->def.segment_tau_m, diagonals, depth, mask, bits);
@@ -74,7 +74,7 @@ static void noise_rows(void *context, int32_t begin, int32_t end, int32_t worker
 {
     (void)worker;
     const links_job *job = context;
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     const rlf_work *work = &job->stage->work;
     for (int32_t y = begin; y < end; y++) {
         const rlf_span span = job->spans != NULL ? job->spans[y] : (rlf_span){0, grid->width};
@@ -108,7 +108,7 @@ void rlf_segment_links(const rlf_reconstruct *stage, rlf_segment_method method, 
 
 /* Label that a lost pixel takes: of its right, lower or lower right neighbour, one within tau
  * first. 0 when none has a label. */
-static int32_t grown_label(const rlf_grid *grid, float tau, const float *depth,
+static int32_t grown_label(const image_grid *grid, float tau, const float *depth,
                            const int32_t *label, ptrdiff_t i)
 {
     int32_t x = (int32_t)(i % grid->width), y = (int32_t)(i / grid->width);
@@ -128,7 +128,7 @@ static int32_t grown_label(const rlf_grid *grid, float tau, const float *depth,
 
 /* In raster order: the neighbours that a pixel reads have not grown yet, so that labels grow by one
  * pixel only. */
-void rlf_segment_dilate(const rlf_grid *grid, double tau, const float *depth, const uint8_t *mask,
+void rlf_segment_dilate(const image_grid *grid, double tau, const float *depth, const uint8_t *mask,
                         int32_t *label)
 {
     for (int32_t i = 0; i < grid->count; i++) {

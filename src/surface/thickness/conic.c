@@ -23,7 +23,7 @@ static const float middle_error_m = 0.006f; /* of a conic that leaves nothing */
  * sqrt(r^2 - (r.t)^2) wide. */
 static void expect_ball(const rlf_chord_job *job, const rlf_line *line, ptrdiff_t i, rlf_chord *c)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     float tx = (float)line->dx / ((float)grid->camera.fx * line->angle);
     float ty = (float)line->dy / ((float)grid->camera.fy * line->angle);
     float x = grid->ray_x[i], y = grid->ray_y[i];

@@ -49,7 +49,7 @@ static float front_at(const pieces *p, int32_t k)
 /* How the piece ends at its pixel k, towards `side` (0 = back along the line, 1 = on). */
 static void look_beside(const pieces *p, piece *s, int32_t side)
 {
-    const rlf_grid *grid = &p->job->stage->grid;
+    const image_grid *grid = &p->job->stage->grid;
     int32_t k = side == 0 ? s->begin : s->end - 1, step = side == 0 ? -1 : 1;
     float nearer = front_at(p, k) - RLF_BODY_STEP_M;
     int32_t x = p->line->x + k * p->line->dx, y = p->line->y + k * p->line->dy;

@@ -12,7 +12,7 @@ static const double fine_pixel_rad = 0.004;
 
 enum { CHUNK = 64, LINE = 16 /* of the cache, in floats */ };
 
-int32_t rlf_knot_step(const rlf_grid *grid)
+int32_t rlf_knot_step(const image_grid *grid)
 {
     return grid->camera.fx * fine_pixel_rad >= 1.0 ? 2 : 1;
 }
@@ -169,7 +169,7 @@ float rlf_line_origin(const rlf_chord_job *job, int32_t index)
 
 rlf_line rlf_line_at(const rlf_chord_job *job, int32_t index)
 {
-    const rlf_grid *grid = &job->stage->grid;
+    const image_grid *grid = &job->stage->grid;
     int32_t x, y;
     first_pixel(job, index, &x, &y);
     int32_t down = job->dy < 0 ? y + 1 : job->height - y;

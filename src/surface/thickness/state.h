@@ -46,7 +46,7 @@ typedef struct static_thickness {
 
 bool static_is_wanted(const rlf_reconstruct_def *def);
 void static_allocate(static_thickness *state, rlf_arena *arena, const rlf_reconstruct_def *def,
-                     const rlf_grid *grid);
+                     const image_grid *grid);
 
 /* Planes of the chords, padded rows, see thickness.h; NULL when thickness is not wanted. */
 typedef struct chord_planes {
@@ -59,6 +59,6 @@ typedef struct chord_planes {
 } chord_planes;
 
 void chords_allocate(chord_planes *state, rlf_arena *arena, const rlf_reconstruct_def *def,
-                     const rlf_grid *grid);
+                     const image_grid *grid);
 
 #endif

@@ -64,7 +64,7 @@ static void make_runs(const rlf_reconstruct *stage, const rlf_block *b, int32_t 
 static void fit_box(const rlf_reconstruct *stage, int32_t piece, const static_box *box)
 {
     const static_thickness *state = &stage->background.thick;
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     const rlf_rect *w = &state->window[piece];
     for (int32_t y = w->y0; y < w->y1; y++) {
         for (int32_t x = w->x0; x < w->x1; x++) {
@@ -188,7 +188,7 @@ bool static_is_wanted(const rlf_reconstruct_def *def)
 }
 
 void static_allocate(static_thickness *state, rlf_arena *arena, const rlf_reconstruct_def *def,
-                     const rlf_grid *grid)
+                     const image_grid *grid)
 {
     size_t n = (size_t)grid->count;
     arena_next_owner(arena);

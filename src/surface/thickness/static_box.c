@@ -33,7 +33,7 @@ typedef struct face {
     int32_t count;
 } face;
 
-static rlf_vec3 ray_of(const rlf_grid *grid, ptrdiff_t i)
+static rlf_vec3 ray_of(const image_grid *grid, ptrdiff_t i)
 {
     return rlf_vec3_make(grid->ray_x[i], grid->ray_y[i], 1.0);
 }
@@ -108,7 +108,7 @@ typedef struct end_bins {
 static void add_pixel(const rlf_reconstruct *stage, ptrdiff_t i, rlf_vec3 normal,
                       const static_box *box, const double middle[3], end_bins bins[3][2])
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     const uint8_t *piece = stage->background.thick.piece + i;
     int32_t x = (int32_t)(i % grid->width), y = (int32_t)(i / grid->width), on = 0;
     bool is_border = x == 0 || y == 0 || x + 1 == grid->width || y + 1 == grid->height;

@@ -18,7 +18,7 @@ static const float even_m = 0.003f;     /* ... unless it is noise */
 static const float beside_m = 0.02f;    /* off the plane of the neighbour */
 static const float flat_length = 0.95f; /* of the mean of unit normals: more is one face */
 
-static bool is_in(const rlf_grid *grid, int32_t x, int32_t y)
+static bool is_in(const image_grid *grid, int32_t x, int32_t y)
 {
     return x >= 0 && y >= 0 && x < grid->width && y < grid->height;
 }
@@ -27,7 +27,7 @@ static bool is_in(const rlf_grid *grid, int32_t x, int32_t y)
 static float before_plane(const rlf_reconstruct *stage, float *const normal[3], ptrdiff_t i,
                           ptrdiff_t j, float *square)
 {
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     const float *depth = stage->background.thick.depth;
     const float way[3] = {depth[i] * grid->ray_x[i] - depth[j] * grid->ray_x[j],
                           depth[i] * grid->ray_y[i] - depth[j] * grid->ray_y[j],
@@ -52,7 +52,7 @@ static bool is_concave(const rlf_reconstruct *stage, float *const normal[3], ptr
 static void mark_creases(const rlf_reconstruct *stage, float *const normal[3], int32_t band)
 {
     static const int32_t ways[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     for (int32_t y = band * grid->height / BANDS; y < (band + 1) * grid->height / BANDS; y++) {
         for (int32_t x = 0; x < grid->width; x++) {
             ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
@@ -101,7 +101,7 @@ static void grow(rlf_reconstruct *stage, float *const normal[3])
 {
     static const int32_t ways[4][2] = {{0, -1}, {-1, 0}, {1, 0}, {0, 1}};
     static_thickness *state = &stage->background.thick;
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     uint8_t *before = stage->background.thick.before;
     memcpy(before, state->piece, (size_t)grid->count);
     for (int32_t i = 0; i < grid->count; i++) {
@@ -130,7 +130,7 @@ static void widen(rlf_rect *w, int32_t x, int32_t y)
 static void find_windows(rlf_reconstruct *stage, float *const normal[3])
 {
     static_thickness *state = &stage->background.thick;
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     float sum[RLF_PIECES + 1][4] = {{0.0f}}; /* of normals; and how many */
     for (int32_t k = 0; k <= RLF_PIECES; k++) {
         state->window[k] = (rlf_rect){grid->width, grid->height, 0, 0};

@@ -133,7 +133,7 @@ void rlf_thickness_write(const rlf_chord_job *job)
                      &copy);
 }
 
-rlf_block rlf_block_of(const rlf_grid *grid, const rlf_region *region, int32_t step)
+rlf_block rlf_block_of(const image_grid *grid, const rlf_region *region, int32_t step)
 {
     int32_t x0 = region->x0 > step ? (region->x0 - 1) / step * step : 0;
     int32_t y0 = region->y0 > step ? (region->y0 - 1) / step * step : 0;
@@ -173,7 +173,7 @@ static void find_plates(const rlf_reconstruct *stage, const rlf_slot *slot, int3
 rlf_chord_job rlf_chord_job_make(rlf_reconstruct *stage, const rlf_slot *slot, const float *raw)
 {
     const rlf_work *work = &stage->work;
-    const rlf_grid *grid = &stage->grid;
+    const image_grid *grid = &stage->grid;
     int32_t step = rlf_knot_step(grid), columns = (grid->width + step - 1) / step;
     return (rlf_chord_job){
         .stage = stage,
@@ -203,7 +203,7 @@ rlf_chord_job rlf_chord_job_make(rlf_reconstruct *stage, const rlf_slot *slot, c
 
 /* The published plane holds only what was written into the slot three frames ago. Only foreground
  * and regions are given a thickness. */
-static void clear_thickness(const rlf_grid *grid, rlf_slot *slot)
+static void clear_thickness(const image_grid *grid, rlf_slot *slot)
 {
     for (int32_t y = 0; y < grid->height; y++) {
         ptrdiff_t row = (ptrdiff_t)y * grid->width;
@@ -233,7 +233,7 @@ void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot, const float 
 }
 
 void chords_allocate(chord_planes *state, rlf_arena *arena, const rlf_reconstruct_def *def,
-                     const rlf_grid *grid)
+                     const image_grid *grid)
 {
     size_t width = (size_t)grid->width, height = (size_t)grid->height;
     size_t padded = height * (width + RLF_CHORD_PAD), lines = width + height;

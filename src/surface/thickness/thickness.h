@@ -123,14 +123,14 @@ typedef struct rlf_line {
  */
 rlf_chord_job rlf_chord_job_make(rlf_reconstruct *stage, const rlf_slot *slot, const float *raw);
 /* The region's pixels and the knots around. */
-rlf_block rlf_block_of(const rlf_grid *grid, const rlf_region *region, int32_t step);
+rlf_block rlf_block_of(const image_grid *grid, const rlf_region *region, int32_t step);
 /* Fits what is in the block, and writes the thickness of all runs. */
 void rlf_thickness_fit(rlf_chord_job *job, const rlf_block *block);
 void rlf_thickness_write(const rlf_chord_job *job);
 
 /* ---- thickness/knots.c ---- */
 /* Pixels from knot to knot: one, or two where they are fine. */
-int32_t rlf_knot_step(const rlf_grid *grid);
+int32_t rlf_knot_step(const image_grid *grid);
 /* Fills the planes of the block's pixels. */
 void rlf_chords_prepare(rlf_chord_job *job);
 /* Thickness of the run's pixels from that of the knots around. */

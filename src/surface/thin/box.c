@@ -53,7 +53,7 @@ bool slab_is_near(const slab_view *view, rlf_vec3 p, double metres)
     return square < metres * metres;
 }
 
-rlf_rect slab_window(const rlf_grid *grid, const slab_view *view, int32_t margin)
+rlf_rect slab_window(const image_grid *grid, const slab_view *view, int32_t margin)
 {
     const rlf_rect none = {0, 0, 0, 0};
     double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};

@@ -36,7 +36,7 @@ static const double first_half_m = 0.01; /* half a slab's thickness, before it i
 
 /* A patch of one region. */
 typedef struct patch {
-    const rlf_grid *grid;
+    const image_grid *grid;
     const rlf_slot *slot;
     int32_t label, count, fitted;
     int32_t *pixel;
@@ -45,7 +45,7 @@ typedef struct patch {
     double rms;
 } patch;
 
-static rlf_vec3 point_at(const rlf_grid *grid, const rlf_slot *slot, ptrdiff_t i)
+static rlf_vec3 point_at(const image_grid *grid, const rlf_slot *slot, ptrdiff_t i)
 {
     double z = slot->depth[i];
     return rlf_vec3_make(z * grid->ray_x[i], z * grid->ray_y[i], z);
@@ -56,7 +56,7 @@ static rlf_vec3 normal_at(const rlf_slot *slot, ptrdiff_t i)
     return rlf_vec3_make(slot->normal[0][i], slot->normal[1][i], slot->normal[2][i]);
 }
 
-static bool is_seed(const rlf_grid *grid, const rlf_slot *slot, int32_t label, int32_t x, int32_t y)
+static bool is_seed(const image_grid *grid, const rlf_slot *slot, int32_t label, int32_t x, int32_t y)
 {
     static const int32_t arm[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
@@ -121,7 +121,7 @@ static bool is_on_plane(const patch *p, ptrdiff_t i)
 static void grow(patch *p, uint8_t *visited, int32_t x, int32_t y)
 {
     static const int32_t way[4][2] = {{-STEP_PX, 0}, {STEP_PX, 0}, {0, -STEP_PX}, {0, STEP_PX}};
-    const rlf_grid *grid = p->grid;
+    const image_grid *grid = p->grid;
     ptrdiff_t seed = (ptrdiff_t)y * grid->width + x;
     p->centre = point_at(p->grid, p->slot, seed);
     p->normal = normal_at(p->slot, seed);
@@ -149,7 +149,7 @@ static void grow(patch *p, uint8_t *visited, int32_t x, int32_t y)
 
 static double depth_of_plane(const patch *p, ptrdiff_t i)
 {
-    const rlf_grid *grid = p->grid;
+    const image_grid *grid = p->grid;
     double along = p->normal.x * grid->ray_x[i] + p->normal.y * grid->ray_y[i] + p->normal.z;
     return rlf_dot(p->normal, p->centre) / along;
 }
@@ -158,7 +158,7 @@ static double depth_of_plane(const patch *p, ptrdiff_t i)
 static void look_out(const patch *p, int32_t i, int32_t dx, int32_t dy, int32_t *steps,
                      int32_t *sides)
 {
-    const rlf_grid *grid = p->grid;
+    const image_grid *grid = p->grid;
     int32_t x = i % grid->width, y = i / grid->width;
     double before = p->slot->depth[i], plane_before = depth_of_plane(p, i);
     int32_t reach = EDGE_PX + (int32_t)(side_m * grid->camera.fx / before);
@@ -186,7 +186,7 @@ static void look_out(const patch *p, int32_t i, int32_t dx, int32_t dy, int32_t 
 static bool has_outline(const patch *p, const uint8_t *mine)
 {
     static const int32_t way[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
-    const rlf_grid *grid = p->grid;
+    const image_grid *grid = p->grid;
     int32_t ends = 0, steps = 0, sides = 0;
     for (int32_t n = 0; n < p->count; n++) {
         int32_t i = p->pixel[n], x = i % grid->width, y = i / grid->width;
@@ -238,7 +238,7 @@ static rectangle surround(const patch *p)
 
 static double patch_area(const patch *p)
 {
-    const rlf_grid *grid = p->grid;
+    const image_grid *grid = p->grid;
     rlf_vec3 c = p->centre;
     double facing = -rlf_dot(p->normal, c) / rlf_length(c), cell = STEP_PX * c.z;
     return facing > least_facing
@@ -310,7 +310,7 @@ static rlf_vec3 speed_of(const patch *p)
 /* What the slabs explain is no seed. Patches lie on every second row. */
 static void mark_known(const thin_in *in, thin *state)
 {
-    const rlf_grid *grid = in->grid;
+    const image_grid *grid = in->grid;
     for (int32_t k = 0; k < state->count; k++) {
         const slab_view view = slab_look(&state->item[k]);
         const rlf_rect w = slab_window(grid, &view, EDGE_PX);

@@ -125,7 +125,7 @@ static on_face face_of(const slab_view *view, const in_box *at)
 
 static void add_pixel(equations *sum, ptrdiff_t i)
 {
-    const rlf_grid *grid = sum->in->grid;
+    const image_grid *grid = sum->in->grid;
     double z = sum->in->depth[i], x = grid->ray_x[i], y = grid->ray_y[i], row[N];
     rlf_vec3 p = rlf_vec3_make(z * x, z * y, z);
     in_box at = look_from_box(&sum->view, p);
@@ -163,7 +163,7 @@ typedef struct sight {
 static sight look_at(const equations *sum, const double at[2], const double out[2], int32_t k,
                      double z)
 {
-    const rlf_grid *grid = sum->in->grid;
+    const image_grid *grid = sum->in->grid;
     const double u = at[0] + k * out[0], v = at[1] + k * out[1];
     sight s = {.kind = BEFORE};
     if (!(u > -0.5) || !(v > -0.5) || !(u < grid->width - 0.5) || !(v < grid->height - 0.5)) {
@@ -294,7 +294,7 @@ static void add_edge(equations *sum, int32_t axis, const double sign[3])
 
 static void measure(equations *sum)
 {
-    const rlf_grid *grid = sum->in->grid;
+    const image_grid *grid = sum->in->grid;
     const rlf_rect w = slab_window(grid, &sum->view, MARGIN_PX);
     sum->stride = slab_stride(&w, MOST_PIXELS);
     for (int32_t y = w.y0; y < w.y1; y += sum->stride) {

@@ -40,7 +40,7 @@ static int32_t run_length(const rlf_slot *slot, ptrdiff_t k, ptrdiff_t step, int
 }
 
 /* Whether the body that the pixel shows is narrow there, along its row or its column. */
-static bool is_narrow(const rlf_grid *grid, const rlf_slot *slot, int32_t x, int32_t y)
+static bool is_narrow(const image_grid *grid, const rlf_slot *slot, int32_t x, int32_t y)
 {
     const int32_t most = WIDEST_PX, w = grid->width;
     const ptrdiff_t k = (ptrdiff_t)y * w + x;
@@ -67,7 +67,7 @@ void thin_expect_slab(thin *state, ptrdiff_t k, float z)
 /* Some pixels of a row of the frame before, at most CHUNK. */
 static void expect_pixels(const thin_in *in, thin *state, int32_t first, int32_t y, int32_t count)
 {
-    const rlf_grid *grid = in->grid;
+    const image_grid *grid = in->grid;
     const rlf_slot *before = in->before;
     const ptrdiff_t at = (ptrdiff_t)y * grid->width + first;
     const rlf_kernel_motion motion = {
@@ -148,7 +148,7 @@ float thin_find_lost(const thin *state, ptrdiff_t i, ptrdiff_t step, const int32
     return 0.0f;
 }
 
-void thin_keep_velocity(const thin *state, const rlf_slot *before, const rlf_grid *grid,
+void thin_keep_velocity(const thin *state, const rlf_slot *before, const image_grid *grid,
                         rlf_slot *slot)
 {
     for (int32_t y = 0; y < grid->height && state->expected_count > 0; y++) {

@@ -26,7 +26,7 @@ rlf_vec3 slab_local(const slab_view *view, rlf_vec3 p);
 bool slab_is_near(const slab_view *view, rlf_vec3 p, double metres);
 /* The pixels that it covers and `margin` around; none when part of it is beside or behind the
  * camera. */
-rlf_rect slab_window(const rlf_grid *grid, const slab_view *view, int32_t margin);
+rlf_rect slab_window(const image_grid *grid, const slab_view *view, int32_t margin);
 /* Of at most so many of its pixels, those of every stride-th row and column are looked at. */
 int32_t slab_stride(const rlf_rect *window, int32_t most);
 

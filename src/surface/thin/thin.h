@@ -47,7 +47,7 @@ typedef struct thin {
 
 /* What a frame is tracked from. Depth as the sensor gave it, mixed pixels off. */
 typedef struct thin_in {
-    const rlf_grid *grid;
+    const image_grid *grid;
     const rlf_depth_noise *noise;
     const rlf_slot *before; /* the surface of the frame before; NULL = there is none */
     float dt;               /* s since then; 0 = too long to follow anything */
@@ -65,15 +65,15 @@ float thin_find_lost(const thin *state, ptrdiff_t i, ptrdiff_t step, const int32
                      float nearest);
 
 /* What is lost shows no motion: where none was found it goes on as `before`. */
-void thin_keep_velocity(const thin *state, const rlf_slot *before, const rlf_grid *grid,
+void thin_keep_velocity(const thin *state, const rlf_slot *before, const image_grid *grid,
                         rlf_slot *slot);
 /* Makes the pixels of the slabs as thick as these are there and, edge-on, as fast. `behind`: depth
  * of the background, a plane. */
-void thin_write(const thin *state, const rlf_grid *grid, const float *behind, rlf_slot *slot);
+void thin_write(const thin *state, const image_grid *grid, const float *behind, rlf_slot *slot);
 
 void thin_allocate(thin *state, rlf_arena *arena, const rlf_reconstruct_def *def,
-                   const rlf_grid *grid);
-void thin_reset(thin *state, const rlf_grid *grid);
+                   const image_grid *grid);
+void thin_reset(thin *state, const image_grid *grid);
 
 /* Whether something is expected at pixel k. */
 static inline bool thin_is_expected(const thin *state, ptrdiff_t k)

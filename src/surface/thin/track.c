@@ -59,7 +59,7 @@ static void follow_motion(const rlf_pose *before, const double expected[3], doub
 /* Whether the camera sees through most of it. */
 static bool is_passed(const thin_in *in, const slab *s)
 {
-    const rlf_grid *grid = in->grid;
+    const image_grid *grid = in->grid;
     const slab_view view = slab_look(s);
     const rlf_rect w = slab_window(grid, &view, 0);
     int32_t seen = 0, beyond = 0, stride = slab_stride(&w, MOST_PIXELS);
@@ -110,7 +110,7 @@ static bool follow(const thin_in *in, slab *s)
 /* Where the slab is though `depth` has nothing. */
 static void expect(const thin_in *in, const slab *s, thin *state)
 {
-    const rlf_grid *grid = in->grid;
+    const image_grid *grid = in->grid;
     const slab_view view = slab_look(s);
     const rlf_rect w = slab_window(grid, &view, 0);
     for (int32_t y = w.y0; y < w.y1; y++) {
@@ -144,7 +144,7 @@ void thin_track(const thin_in *in, thin *state)
     }
 }
 
-void thin_reset(thin *state, const rlf_grid *grid)
+void thin_reset(thin *state, const image_grid *grid)
 {
     state->count = state->expected_count = state->frame = state->region = 0;
     if (state->expected != NULL) {
@@ -154,7 +154,7 @@ void thin_reset(thin *state, const rlf_grid *grid)
 }
 
 void thin_allocate(thin *state, rlf_arena *arena, const rlf_reconstruct_def *def,
-                   const rlf_grid *grid)
+                   const image_grid *grid)
 {
     size_t n = (size_t)grid->count;
     arena_next_owner(arena);

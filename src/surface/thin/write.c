@@ -8,7 +8,7 @@ static const float least_m = 0.02f; /* as of all else: thickness/thickness.c */
 
 /* One slab and the frame that it is written to. */
 typedef struct writer {
-    const rlf_grid *grid;
+    const image_grid *grid;
     const slab *slab;
     slab_view view, wide; /* `wide`: by a pixel, as outlines are seen */
     const float *behind;
@@ -51,7 +51,7 @@ static void write_pixel(const writer *w, int32_t x, int32_t y)
     }
 }
 
-void thin_write(const thin *state, const rlf_grid *grid, const float *behind, rlf_slot *slot)
+void thin_write(const thin *state, const image_grid *grid, const float *behind, rlf_slot *slot)
 {
     for (int32_t k = 0; k < state->count; k++) {
         const slab *s = &state->item[k];
