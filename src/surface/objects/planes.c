@@ -53,8 +53,8 @@ double rlf_support_cosine(const rlf_support_plane *p, const rlf_support_plane *q
 }
 
 /* Of every `stride`-th pixel both ways; *asked is how many these are. */
-static rlf_plane_sum sum_patch(const image_grid *grid, const float *depth, rlf_rect r, int32_t stride,
-                               int32_t *asked)
+static rlf_plane_sum sum_patch(const image_grid *grid, const float *depth, rlf_rect r,
+                               int32_t stride, int32_t *asked)
 {
     rlf_plane_sum sum = {0};
     *asked = 0;

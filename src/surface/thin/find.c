@@ -56,7 +56,8 @@ static rlf_vec3 normal_at(const rlf_slot *slot, ptrdiff_t i)
     return rlf_vec3_make(slot->normal[0][i], slot->normal[1][i], slot->normal[2][i]);
 }
 
-static bool is_seed(const image_grid *grid, const rlf_slot *slot, int32_t label, int32_t x, int32_t y)
+static bool is_seed(const image_grid *grid, const rlf_slot *slot, int32_t label, int32_t x,
+                    int32_t y)
 {
     static const int32_t arm[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     ptrdiff_t i = (ptrdiff_t)y * grid->width + x;
