@@ -106,12 +106,12 @@ void rlf_kernel_gap_patch(const rlf_gap_patch *restrict patch, rlf_gaps *restric
 
 /* ---- fill_batch.c: depth of holes ---- */
 
-/* The two ends of each pixel's gap: their depths, the steps to them, the most by which they differ
- * as long as they show one surface, metres, and 1 where something may move, else 0. */
+/* The two ends of each pixel's gap: their depths, the steps to them, and the share of its depth by
+ * which what is about the pixel may differ from an end to be of its side. */
 typedef struct rlf_gap_ends {
     float before[RLF_BATCH], after[RLF_BATCH];
     float to_before[RLF_BATCH], to_after[RLF_BATCH];
-    float most_step[RLF_BATCH], moves[RLF_BATCH];
+    float most_apart[RLF_BATCH];
 } rlf_gap_ends;
 
 /* What a depth is: between two ends of one surface, or that of the nearer or the farther side of an
@@ -122,6 +122,13 @@ enum { RLF_FILL_BETWEEN, RLF_FILL_NEAR, RLF_FILL_FAR };
 static inline float rlf_gap_middle(float before, float after)
 {
     return 2.0f / (1.0f / before + 1.0f / after);
+}
+
+/* `span`: steps from one to the other. */
+static inline bool rlf_gap_is_edge(float before, float after, float span)
+{
+    float nearest = before < after ? before : after;
+    return rlf_kernel_abs(before - after) > (0.01f * span + 0.01f) * nearest;
 }
 
 /* Votes of the pixels about each for the nearer side of its gap, less those for the farther one. */

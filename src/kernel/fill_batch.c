@@ -11,8 +11,8 @@ static const float votes_at[RLF_WINDOW_SIDE][RLF_WINDOW_SIDE] = {{0.2f, 0.3f, 0.
 /* Votes that differ by less are a tie, which is half of the least difference. */
 static const float tie = 0.05f;
 
-/* Metres: beyond any range. */
-static const float no_end = 1e6f;
+/* Share of the depth, from a side's end to a hole pixel. */
+static const float most_change = 0.05f;
 
 RLF_KERNEL_PART void count_votes(const rlf_windows *restrict depth, const float *restrict middle,
                                  float *restrict balance)
@@ -91,7 +91,7 @@ RLF_KERNEL_PART void add_side_row(const float (*restrict row)[RLF_BATCH], float 
 
 /* The side's plane at the pixel itself, above its end. The ridge keeps it level across a direction
  * in which the side has hardly an extent. */
-RLF_KERNEL_PART float continue_side(const side *restrict s, int32_t i, float end, float limit)
+RLF_KERNEL_PART float continue_side(const side *restrict s, int32_t i, float end)
 {
     const float ridge = 0.5f;
     float n = s->n[i], inv = n > 0.0f ? 1.0f / (n > 0.0f ? n : 1.0f) : 0.0f;
@@ -102,6 +102,7 @@ RLF_KERNEL_PART float continue_side(const side *restrict s, int32_t i, float end
     float inv_det = 1.0f / (xx * yy - xy * xy);
     float b = (xz * yy - yz * xy) * inv_det, c = (yz * xx - xz * xy) * inv_det;
     float z = mz - b * mx - c * my;
+    float limit = most_change * end;
     z = z > limit ? limit : z;
     return end + (z < -limit ? -limit : z);
 }
@@ -124,12 +125,11 @@ RLF_KERNEL_PART void choose_sides(const rlf_gap_ends *restrict ends, const float
         int32_t before_is_near = before < after ? 1 : 0;
         int32_t by_steps = ends->to_before[i] <= ends->to_after[i] ? 1 : 0;
         int32_t by_votes = (votes[i] > 0.0f ? 1 : 0) ^ before_is_near ^ 1;
-        int32_t of_tie = ends->moves[i] == 0.0f ? before_is_near : by_steps;
+        int32_t of_tie = ends->most_apart[i] < 1.0f ? before_is_near : by_steps;
         int32_t first = rlf_kernel_abs(votes[i]) < tie ? of_tie : by_votes;
         int32_t is_far = first ^ before_is_near;
         float end = first != 0 ? before : after;
-        float apart = ends->most_step[i] + ends->moves[i] * no_end;
-        float least = end - apart, most = end + apart;
+        float apart = ends->most_apart[i] * end, least = end - apart, most = end + apart;
         out->end[i] = end;
         out->least[i] = is_far != 0 && least < middle ? middle : least;
         out->most[i] = is_far == 0 && most > middle ? middle : most;
@@ -154,9 +154,9 @@ RLF_KERNEL void rlf_kernel_fill_batch(const rlf_windows *restrict depth,
     for (int32_t i = 0; i < RLF_BATCH; i++) {
         float before = ends->before[i], after = ends->after[i];
         float to_before = ends->to_before[i], span = to_before + ends->to_after[i];
-        bool is_edge = rlf_kernel_abs(before - after) > ends->most_step[i];
+        bool is_edge = rlf_gap_is_edge(before, after, span);
         float t = to_before / span, between = 1.0f / ((1.0f - t) / before + t / after);
-        float beside = continue_side(&s, i, chosen.end[i], ends->most_step[i]);
+        float beside = continue_side(&s, i, chosen.end[i]);
         int32_t side_kind = chosen.is_far[i] != 0 ? RLF_FILL_FAR : RLF_FILL_NEAR;
         out[i] = is_edge ? beside : between;
         kinds[i] = is_edge ? side_kind : RLF_FILL_BETWEEN;

@@ -136,8 +136,7 @@ static void fill_column(float right, float out[RLF_BATCH], uint8_t kind[RLF_BATC
         ends.before[i] = 3.0f;
         ends.after[i] = right;
         ends.to_before[i] = ends.to_after[i] = 1.0f;
-        ends.most_step[i] = 0.1f;
-        ends.moves[i] = 0.0f;
+        ends.most_apart[i] = 0.05f;
     }
     rlf_kernel_fill_votes(&depth, &ends, votes);
     rlf_kernel_fill_batch(&depth, &ends, votes, out, kind);
@@ -176,8 +175,7 @@ static void fill_batch_gives_a_tie_to_the_nearer_side(void **state)
         ends.before[i] = left;
         ends.after[i] = right;
         ends.to_before[i] = ends.to_after[i] = 1.0f;
-        ends.most_step[i] = 0.1f;
-        ends.moves[i] = 0.0f;
+        ends.most_apart[i] = 0.05f;
     }
     rlf_kernel_fill_votes(&depth, &ends, votes);
     rlf_kernel_fill_batch(&depth, &ends, votes, out, kind);
@@ -205,8 +203,7 @@ static void fill_batch_leaves_a_third_surface_out(void **state)
         ends.before[i] = 2.0f;
         ends.after[i] = 4.0f;
         ends.to_before[i] = ends.to_after[i] = 1.0f;
-        ends.most_step[i] = 0.1f;
-        ends.moves[i] = 0.0f;
+        ends.most_apart[i] = 0.05f;
     }
     rlf_kernel_fill_votes(&depth, &ends, votes);
     rlf_kernel_fill_batch(&depth, &ends, votes, out, kind);

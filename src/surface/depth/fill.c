@@ -13,7 +13,6 @@
  * empty, go on as the two inside of them. A hole about as wide as the widest that is filled is
  * filled in some rows and not in others: what is left of it then is closed. */
 #include "surface/depth/color_guide.h"
-#include "surface/depth_step.h"
 #include "surface/depth/shadow.h"
 #include "surface/depth/depth.h"
 #include "surface/steps.h"
@@ -22,12 +21,17 @@
 
 #include "kernel/batch.h"
 
+/* Share of the depth, from a side's end to a hole pixel. */
+static const float MOST_CHANGE = 0.05f;
+
+/* The same for what moves: all that is on its side of the middle. Arms and trunks are round. */
+static const float MOVING_CHANGE = 1e6f;
+
 /* Pixels from one to where the background must go on; from a hole's pixel to its end. */
 enum { ABOUT_BEHIND = 3, LONGEST_HOLE = 3 * RLF_FILL_GAP };
 
 typedef struct fill_job {
     const rlf_reconstruct *stage;
-    depth_step step;
     const background_image *behind; /* the background; NULL = unknown */
     float *const *normal;           /* NULL = not wanted */
     float *depth;
@@ -36,22 +40,13 @@ typedef struct fill_job {
     uint8_t *reason;
 } fill_job;
 
-/* Slope of what has a normal at pixel i; the steepest where there is none. */
-static float slope_at(const fill_job *job, float *const normal[3], ptrdiff_t i)
-{
-    const image_grid *grid = &job->stage->grid;
-    return depth_step_slope(normal[0][i], normal[1][i], normal[2][i], grid->ray_x[i],
-                            grid->ray_y[i]);
-}
-
 /* The background has no outline about a pixel, where its own normals would be guesses too. */
 static bool is_whole(const fill_job *job, int32_t x, int32_t y)
 {
     const image_grid *grid = &job->stage->grid;
-    ptrdiff_t i = (ptrdiff_t)y * grid->width + x, row = (ptrdiff_t)ABOUT_BEHIND * grid->width;
-    const float *at = job->behind->depth + i;
-    float slope = slope_at(job, job->behind->normal, i);
-    float most = depth_step_most(&job->step, at[0], slope, ABOUT_BEHIND);
+    const float *at = job->behind->depth + (ptrdiff_t)y * grid->width + x;
+    ptrdiff_t row = (ptrdiff_t)ABOUT_BEHIND * grid->width;
+    float most = MOST_CHANGE * at[0];
     return x >= ABOUT_BEHIND && y >= ABOUT_BEHIND && x + ABOUT_BEHIND < grid->width &&
            y + ABOUT_BEHIND < grid->height && rlf_kernel_abs(at[-ABOUT_BEHIND] - at[0]) < most &&
            rlf_kernel_abs(at[ABOUT_BEHIND] - at[0]) < most &&
@@ -121,15 +116,10 @@ static bool is_slit(const fill_job *job, const fill_queue *q, int32_t k)
     int32_t x = q->x[k], y = q->y[k];
     float farthest = ends->before[k] > ends->after[k] ? ends->before[k] : ends->after[k];
     bool wide = ends->to_before[k] > edge_width && ends->to_after[k] > edge_width;
-    float most = farthest + depth_step_most(&job->step, farthest, DEPTH_STEP_STEEPEST, 1.0f);
+    float most = (1.0f + MOST_CHANGE) * farthest;
     return wide && depth_behind(job, x, y) > most &&
            !(meets_near(job, x, y, -line[1], line[0], most) &&
              meets_near(job, x, y, line[1], -line[0], most));
-}
-
-static bool is_edge(const rlf_gap_ends *ends, int32_t k)
-{
-    return rlf_kernel_abs(ends->before[k] - ends->after[k]) > ends->most_step[k];
 }
 
 /* Between a near end and a far one on the side where the sensor's shadow lies, the pixels beside
@@ -141,7 +131,7 @@ static void vote_by_shadow(const fill_job *job, const fill_queue *q, float votes
     for (int32_t k = 0; k < q->count && job->stage->shadow.is_known; k++) {
         float before = ends->before[k], after = ends->after[k];
         int32_t along = rlf_line_step[q->line[k]][0]; /* columns, from before to after */
-        if (along == 0 || !is_edge(ends, k)) {
+        if (along == 0 || !rlf_gap_is_edge(before, after, ends->to_before[k] + ends->to_after[k])) {
             continue;
         }
         bool is_after = before < after; /* the far end is */
@@ -162,17 +152,18 @@ static bool may_fill(uint8_t reason)
  * the pixels that were seen are recalled. */
 static bool may_ask(const fill_job *job, const fill_queue *q, int32_t k)
 {
+    const float least_before = 1.02f;
     const rlf_gap_ends *ends = &q->ends;
     const int32_t *line = rlf_line_step[q->line[k]];
     float before = ends->before[k], after = ends->after[k];
     float near_end = before < after ? before : after;
     int32_t steps = (int32_t)(before < after ? -ends->to_before[k] : ends->to_after[k]);
-    if (!is_edge(ends, k) || ends->moves[k] == 0.0f) {
+    if (!rlf_gap_is_edge(before, after, ends->to_before[k] + ends->to_after[k]) ||
+        !temporal_may_move(job->stage, q->x[k], q->y[k])) {
         return false;
     }
     float behind = depth_behind(job, q->x[k] + steps * line[0], q->y[k] + steps * line[1]);
-    return !(behind > 0.0f) ||
-           (behind > near_end && depth_step_since(&job->step, behind, near_end));
+    return !(behind > 0.0f) || behind > least_before * near_end;
 }
 
 /* Adds what the colour picture says. */
@@ -206,9 +197,9 @@ static void fill_batch(const fill_job *job, fill_queue *q)
         int32_t x = q->x[k], y = q->y[k];
         ptrdiff_t i = (ptrdiff_t)y * job->stage->grid.width + x;
         float z = filled[k];
-        bool behind = is_slit(job, q, k) ||
-                      (kind[k] == RLF_FILL_FAR &&
-                       rlf_kernel_abs(depth_behind(job, x, y) - z) < q->ends.most_step[k]);
+        bool behind =
+            is_slit(job, q, k) || (kind[k] == RLF_FILL_FAR &&
+                                   rlf_kernel_abs(depth_behind(job, x, y) - z) < MOST_CHANGE * z);
         bool lost = q->lost[k] > 0.0f;
         *q->found++ = lost ? q->lost[k] : behind ? show_behind(job, x, y) : z;
         job->reason[i] = RLF_REASON_FILLED;
@@ -234,23 +225,6 @@ RLF_KERNEL_PART void look_ahead(const fill_job *job, ptrdiff_t i)
     }
 }
 
-/* Most by which the ends of pixel i's gap along `step` differ as long as they are one surface: as
- * steep as the steeper of the two. */
-static float most_step(const fill_job *job, ptrdiff_t i, ptrdiff_t step, const rlf_gaps *gaps,
-                       int32_t k)
-{
-    ptrdiff_t before = i - gaps->to_before[k] * step, after = i + gaps->to_after[k] * step;
-    float farther = job->depth[before], slope = DEPTH_STEP_STEEPEST;
-    farther = job->depth[after] > farther ? job->depth[after] : farther;
-    if (job->normal != NULL) {
-        float other = slope_at(job, job->normal, after);
-        slope = slope_at(job, job->normal, before);
-        slope = other > slope ? other : slope;
-    }
-    return depth_step_most(&job->step, farther, slope,
-                           (float)(gaps->to_before[k] + gaps->to_after[k]));
-}
-
 static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps, int32_t k,
                  fill_queue *q)
 {
@@ -267,8 +241,7 @@ static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps
     q->ends.after[lane] = at[(ptrdiff_t)gaps->to_after[k] * step];
     q->ends.to_before[lane] = (float)gaps->to_before[k];
     q->ends.to_after[lane] = (float)gaps->to_after[k];
-    q->ends.most_step[lane] = most_step(job, at - job->depth, step, gaps, k);
-    q->ends.moves[lane] = temporal_may_move(job->stage, x, y) ? 1.0f : 0.0f;
+    q->ends.most_apart[lane] = temporal_may_move(job->stage, x, y) ? MOVING_CHANGE : MOST_CHANGE;
     const int32_t to_ends[2] = {gaps->to_before[k], gaps->to_after[k]};
     float before = q->ends.before[lane], after = q->ends.after[lane];
     q->lost[lane] = thin_find_lost(&job->stage->thin, at - job->depth, step, to_ends,
@@ -349,7 +322,7 @@ static void go_on(const fill_job *job, ptrdiff_t i, ptrdiff_t step)
     if (job->depth[i] > 0.0f || !(z > 0.0f) || !may_fill(job->reason[i])) {
         return;
     }
-    bool one_surface = next > 0.0f && !depth_step_between(&job->step, z, next);
+    bool one_surface = next > 0.0f && rlf_kernel_abs(next - z) < MOST_CHANGE * z;
     job->depth[i] = one_surface ? z * next / (2.0f * next - z) : z; /* inverse depth is linear */
     job->reason[i] = RLF_REASON_FILLED;
 }
@@ -389,7 +362,7 @@ static bool close_gap(const fill_job *job, ptrdiff_t i, ptrdiff_t step, int32_t 
     bool was_filled =
         job->reason[i - step] == RLF_REASON_FILLED || job->reason[end] == RLF_REASON_FILLED;
     if (!was_filled || !(z > 0.0f) || !(next > 0.0f) ||
-        depth_step_is(&job->step, z, next, DEPTH_STEP_STEEPEST, (float)(wide + 1))) {
+        !(rlf_kernel_abs(next - z) < MOST_CHANGE * z)) {
         return false;
     }
     for (int32_t k = 0; k < wide; k++) { /* inverse depth is linear */
@@ -421,7 +394,6 @@ void rlf_fill_holes(const rlf_reconstruct *stage, rlf_slot *slot, uint8_t *was_s
     rlf_pool *pool = stage->def.pool;
     int32_t height = stage->grid.height;
     fill_job job = {.stage = stage,
-                    .step = depth_step_make(&stage->def.rig.noise, stage->grid.camera.fx),
                     .behind = background_image_newest(stage),
                     .normal = stage->def.enable_smoothing ? slot->normal : NULL,
                     .depth = slot->depth,
