@@ -11,7 +11,7 @@ cd "$work"
 # compile NAME TEXT
 compile() {
     printf '%b' "$2" >"src/$1.c"
-    "$cc" -Isrc -c "src/$1.c" -o "src/$1.o"
+    "$cc" -Isrc -c "src/$1.c" -o "src/$1.c.o"
 }
 
 # passes WHAT OBJECT...
@@ -44,17 +44,17 @@ fails() {
 compile a 'int b(void); int a(void); int a(void) { return b(); }'
 compile b 'int c(void); int b(void); int b(void) { return c(); }'
 compile c 'int c(void); int c(void) { return 1; }'
-passes "a tree of files" src/a.o src/b.o src/c.o
+passes "a tree of files" src/a.c.o src/b.c.o src/c.c.o
 compile c 'int a(void); int c(void); int c(void) { return a(); }'
-fails "a circle of three files" "in a circle" src/a.o src/b.o src/c.o
-fails "one file alone, which says nothing" "no calls" src/c.o
+fails "a circle of three files" "in a circle" src/a.c.o src/b.c.o src/c.c.o
+fails "one file alone, which says nothing" "no calls" src/c.c.o
 
 # Nine files that each need a type, from a header that has the functions of all of them.
 objects=
 doors=
 for i in 1 2 3 4 5 6 7 8 9; do
     doors="${doors}int part_$i(item *i);\\n"
-    objects="$objects src/part_$i.o"
+    objects="$objects src/part_$i.c.o"
 done
 printf 'typedef struct item { int n; } item;\n%b' "$doors" >src/all.h
 for i in 1 2 3 4 5 6 7 8 9; do
@@ -62,10 +62,10 @@ for i in 1 2 3 4 5 6 7 8 9; do
 done
 compile main '#include "all.h"\nint main(void) { item i = {0}; return part_1(&i); }\n'
 # shellcheck disable=SC2086
-fails "types and doors in one header" "tie these 9 files" src/main.o $objects
+fails "types and doors in one header" "tie these 9 files" src/main.c.o $objects
 # The types apart: what is left is a list of doors.
 printf 'typedef struct item { int n; } item;\n' >src/item.h
 printf '#include "item.h"\n%b' "$doors" >src/all.h
 # shellcheck disable=SC2086
-passes "a header of types and one of doors" src/main.o $objects
+passes "a header of types and one of doors" src/main.c.o $objects
 rm -rf "$work"
