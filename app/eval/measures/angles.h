@@ -6,7 +6,6 @@
 
 #define EVAL_ANGLE_BINS 18000 /* 0.01 degrees each */
 
-
 typedef struct eval_angles {
     int64_t bins[EVAL_ANGLE_BINS];
     double sum_deg;

@@ -4,7 +4,7 @@
 
 #include "eval/picture/truth.h"
 
-#define PICTURE_BINS 640   /* of displacement, 1/40 pixel each: to 16 pixels */
+#define PICTURE_BINS 640 /* of displacement, 1/40 pixel each: to 16 pixels */
 
 /* Distances between edges, in bins of 1/40 pixel. */
 typedef struct picture_distances {
