@@ -1,4 +1,4 @@
-/* What the subcommands of `relief` share: the table, messages and exit statuses.
+/* What the subcommands of `relief` share: messages and exit statuses.
  *
  * Exit status: 0 done, 1 the input or the machine failed, 2 wrong usage, 128 and the signal's
  * number when one stopped the command before there was anything to write. */
@@ -43,17 +43,5 @@ bool command_parse_list(const char *text, int64_t low, int64_t high, int capacit
                         int *out_count);
 /* "A:B", "A:", ":B" or "N" (= ":N"): frames A <= i < B. */
 bool command_parse_range(const char *text, int64_t *out_begin, int64_t *out_end);
-
-/* One per subcommand; argv[0] is the subcommand's name. */
-int run_main(int argc, char **argv);
-int record_main(int argc, char **argv);
-int place_main(int argc, char **argv);
-int export_main(int argc, char **argv);
-int info_main(int argc, char **argv);
-int sources_main(int argc, char **argv);
-int eval_main(int argc, char **argv);
-int bench_main(int argc, char **argv);
-int measure_main(int argc, char **argv);
-int settings_main(int argc, char **argv);
 
 #endif

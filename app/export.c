@@ -1,5 +1,6 @@
 /* `relief export`: arrays of every frame as NPY, meshes as PLY, true poses as CSV. */
 #include "command.h"
+#include "commands.h"
 #include "export_arrays.h"
 #include "options.h"
 #include "session.h"

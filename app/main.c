@@ -1,5 +1,6 @@
 /* The `relief` command: finds the subcommand. */
 #include "command.h"
+#include "commands.h"
 #include "streams.h"
 
 #include <stdio.h>

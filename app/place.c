@@ -1,5 +1,6 @@
 /* `relief place`: poses of known objects from picked points, without a window. */
 #include "command.h"
+#include "commands.h"
 #include "options.h"
 #include "picture_file.h"
 #include "session.h"

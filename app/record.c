@@ -1,6 +1,7 @@
 /* `relief record`: any source into a file or a folder. */
 #define _POSIX_C_SOURCE 200809L
 #include "command.h"
+#include "commands.h"
 #include "options.h"
 #include "recorder.h"
 

@@ -1,5 +1,6 @@
 /* `relief run`: frames through the whole pipeline, in a window or headless. */
 #include "command.h"
+#include "commands.h"
 #include "options.h"
 #include "run_output.h"
 #include "session.h"

@@ -1,5 +1,6 @@
 /* `relief settings`: what `--set` takes. */
 #include "command.h"
+#include "commands.h"
 #include "relief/io.h"
 #include "settings.h"
 

@@ -1,5 +1,6 @@
 /* `relief sources`: what is plugged in, what this build can open, what it was made without. */
 #include "command.h"
+#include "commands.h"
 #include "options.h"
 #include "relief/io.h"
 

@@ -3,6 +3,7 @@
 #include "bench/live.h"
 #include "bench/peers.h"
 #include "command.h"
+#include "commands.h"
 #include "machine.h"
 #include "options.h"
 

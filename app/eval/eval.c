@@ -1,11 +1,13 @@
 /* `relief eval`: every accuracy figure, both profiles side by side, against its goal and its bound.
  */
 #include "command.h"
+#include "commands.h"
 #include "eval/bounds.h"
 #include "eval/oracle.h"
 #include "eval/picture/picture.h"
 #include "eval/random/random.h"
 #include "eval/real/real.h"
+#include "eval/real/run.h"
 #include "eval/report.h"
 #include "eval/run.h"
 #include "eval/sections.h"

@@ -1,5 +1,6 @@
 /* `relief info SOURCE`. */
 #include "command.h"
+#include "commands.h"
 #include "info/report.h"
 #include "options.h"
 #include "relief/io.h"

@@ -1,5 +1,6 @@
 /* `relief measure SOURCE`: thesis table 5.1 for any source. */
 #include "command.h"
+#include "commands.h"
 #include "measure/noise.h"
 #include "measure/table.h"
 #include "measure/up.h"

@@ -10,6 +10,7 @@
 #include "eval/real/fit.h"
 #include "eval/real/mask.h"
 #include "eval/real/real.h"
+#include "eval/real/run.h"
 #include "eval/report.h"
 #include "eval/table.h"
 

@@ -38,7 +38,7 @@ if(NOT RELIEF_SANITIZE)
       list(APPEND objects $<TARGET_OBJECTS:${part}>)
     endif()
   endforeach()
-  add_test(NAME house.circles COMMAND ${house}/circles.sh ${CMAKE_NM} ${objects}
+  add_test(NAME house.circles COMMAND ${house}/circles.sh ${CMAKE_NM} ${PROJECT_SOURCE_DIR} ${objects}
            COMMAND_EXPAND_LISTS)
   set_tests_properties(house.circles PROPERTIES LABELS house TIMEOUT 1800)
   house_check(circles_rejects ${house}/circles_rejects.sh ${house}/circles.sh

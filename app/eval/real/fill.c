@@ -4,6 +4,7 @@
 #include "eval/measures/depth.h"
 #include "eval/measures/percent.h"
 #include "eval/real/clip.h"
+#include "eval/real/parts.h"
 #include "eval/real/real.h"
 
 #include <math.h>

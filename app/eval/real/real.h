@@ -1,8 +1,7 @@
-/* `relief eval --real DIR`: figures on real recordings, each beside a baseline of a few lines. */
+/* Figures on real recordings, each beside a baseline of a few lines: the rows of the table. */
 #ifndef RELIEF_APP_EVAL_REAL_REAL_H
 #define RELIEF_APP_EVAL_REAL_REAL_H
 
-#include "eval/real/clip.h"
 #include "eval/table.h"
 
 #include <jansson.h>
@@ -33,10 +32,6 @@ typedef struct real_options {
 /* Takes the row over unless the table is full. */
 void real_add(real_table *table, const char *part, const real_row *row);
 
-/* Measures everything that is there; what is not is said on stderr and has no rows. A missing
- * folder is not an error: it is skipped. */
-rlf_result real_run(real_table *table, const real_options *options);
-
 /* False when the folder is not there, after saying SKIPPED. */
 bool real_is_there(const char *path);
 /* Joins two names; false when the path is too long. */
@@ -49,12 +44,5 @@ void real_add_headlines(const real_table *table, eval_table *out);
 void real_print(const real_table *table);
 /* An array of objects: part, key, title, relation, goal, relief, baseline, baseline_name. */
 json_t *real_json(const real_table *table);
-
-/* The parts; each says on stderr what it is at. */
-rlf_result real_objects_run(real_table *table, const real_options *options);
-rlf_result real_still_run(real_table *table, const real_options *options);
-rlf_result real_fill_run(real_table *table, const real_options *options);
-rlf_result real_silhouettes_run(real_table *table, const real_options *options);
-rlf_result real_gravity_run(real_table *table, const real_options *options);
 
 #endif

@@ -1,6 +1,8 @@
 /* The run over all parts. */
+#include "eval/real/run.h"
+
 #include "command.h"
-#include "eval/real/real.h"
+#include "eval/real/parts.h"
 
 #include <stdio.h>
 

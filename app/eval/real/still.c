@@ -6,6 +6,7 @@
 #include "eval/real/clip.h"
 #include "eval/real/fit.h"
 #include "eval/real/matte.h"
+#include "eval/real/parts.h"
 #include "eval/real/real.h"
 
 #include <math.h>

@@ -28,14 +28,6 @@ const rlf_backend *io_backend_built_in_at(int32_t index);
 /* The shared object that back end `index` came from; NULL = it is built in. */
 const char *io_backend_plugin_path(int32_t index);
 
-/* A format or a driver that this build was made without. */
-typedef struct io_backend_absent {
-    const char *scheme, *extensions, *option, *summary;
-} io_backend_absent;
-
-/* NULL past the last. */
-const io_backend_absent *io_backend_absent_at(int32_t index);
-
 /* Makes a source of its parts; they are destroyed when that fails. */
 rlf_result io_source_create(const rlf_opened *opened, rlf_source **out);
 

@@ -3,6 +3,7 @@
 #include "io/source/find_backend.h"
 
 #include "io/source/backends.h"
+#include "io/source/absent.h"
 
 #include <string.h>
 #include <strings.h>

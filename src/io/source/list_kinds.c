@@ -1,5 +1,6 @@
 /* What kinds of source this build can open, and why not the others. */
 #include "io/source/backends.h"
+#include "io/source/absent.h"
 #include "relief/io.h"
 
 static void put(rlf_source_kind *out, int32_t capacity, int32_t *count, const rlf_source_kind *kind)

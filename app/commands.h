@@ -1,0 +1,17 @@
+/* The subcommands of `relief`. */
+#ifndef RELIEF_APP_COMMANDS_H
+#define RELIEF_APP_COMMANDS_H
+
+/* One per subcommand; argv[0] is the subcommand's name. */
+int run_main(int argc, char **argv);
+int record_main(int argc, char **argv);
+int place_main(int argc, char **argv);
+int export_main(int argc, char **argv);
+int info_main(int argc, char **argv);
+int sources_main(int argc, char **argv);
+int eval_main(int argc, char **argv);
+int bench_main(int argc, char **argv);
+int measure_main(int argc, char **argv);
+int settings_main(int argc, char **argv);
+
+#endif

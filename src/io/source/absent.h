@@ -1,0 +1,15 @@
+/* What this build was made without. */
+#ifndef RLF_IO_SOURCE_ABSENT_H
+#define RLF_IO_SOURCE_ABSENT_H
+
+#include <stdint.h>
+
+/* A format or a driver that this build was made without. */
+typedef struct io_backend_absent {
+    const char *scheme, *extensions, *option, *summary;
+} io_backend_absent;
+
+/* NULL past the last. */
+const io_backend_absent *io_backend_absent_at(int32_t index);
+
+#endif
