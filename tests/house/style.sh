@@ -1,7 +1,7 @@
 #!/bin/sh
 # Style that a machine can see: tests/house/style.sh FOLDER. Tabs, blanks at line ends, a missing
-# final newline, lines over 100 columns, functions over 80 lines, files over 600 lines, and marks of
-# unfinished work. Prints file:line and the rule; exit status 1 when there is any.
+# final newline, lines over 100 columns, functions over 80 lines, files over 600 lines, marks of
+# unfinished work, and includes in src that are not "module/file.h". Prints file:line and the rule; exit status 1 when there is any.
 set -eu
 
 root=$1
@@ -33,6 +33,9 @@ problems=$(list_files | sort | while IFS= read -r file; do
         /[ \t]$/ { say("blank at the end of the line") }
         $0 ~ "(^|[^A-Za-z_])(" marks ")([^A-Za-z_]|$)" { say("mark of unfinished work") }
         file ~ /\.[ch]$/ && length($0) > 100 { say("longer than 100 columns") }
+        file ~ /^src\/.*\.[ch]$/ && /^[ \t]*#[ \t]*include[ \t]*("[^\/]*"|<relief\/)/ {
+            say("include it as \"module/file.h\", from src/")
+        }
         file ~ /\.c$/ && /^[A-Za-z_].*\)[ \t]*\{?$/ { name = $0; start = FNR }
         file ~ /\.c$/ && /^\}/ {
             if (start && FNR - start + 1 > 80) {

@@ -29,6 +29,8 @@ printf '\tint a;\n' >"$file"
 expect "src/a.c:1: tab"
 printf 'int a; \n' >"$file"
 expect "blank at the end"
+printf '#include "a.h"\n' >"$file"
+expect 'include it as "module/file.h"'
 printf 'int a;' >"$file"
 expect "no newline at the end"
 printf '/* %s: later */\n' "TO""DO" >"$file"
