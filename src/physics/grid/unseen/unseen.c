@@ -7,8 +7,13 @@
  * 3. The room's planes (room_planes.c) are solid without end where nothing is seen, and behind what
  *    hides them. A plane wins over the back of a layer there: what a thin wall would push out
  * behind the plane stays in the room. All hits go through one reduction, so that the deepest of a
- * direction counts. Without RLF_BORDER_EXTEND 2 and 3 are off. */
+ * direction counts.
+ * 4. An upright face goes on downwards behind what hides it (upright_face.c), as a room's plane
+ * does.
+ *
+ * Without RLF_BORDER_EXTEND 2 to 4 are off. */
 #include "physics/grid/unseen/unseen.h"
+#include "physics/grid/unseen/upright_face.h"
 
 /* The body's point against a plane where the camera does not see it. */
 static void touch_plane(grid_job *job, const room_plane *plane, rlf_vec3 anchor, double rounding)
@@ -60,15 +65,43 @@ static void collide_plane(grid_job *job, const room_plane *plane)
     }
 }
 
+/* An upright face under which the body is, in the middle or at one of its sides. */
+static bool find_upright(const grid_job *job, room_plane *out)
+{
+    const grid_query *query = job->query;
+    if (query->room == NULL || !(rlf_dot(query->up, query->up) > 0.0)) {
+        return false;
+    }
+    rlf_vec3 side = rlf_normalize(rlf_cross(query->up, job->motion.centre));
+    for (int32_t k = -1; k <= 1; k++) {
+        rlf_vec3 q = rlf_mad(job->motion.centre, side, k * job->body->shape.radius);
+        if (room_is_hidden(query->grid, q) &&
+            upright_face_find(query->grid, q, query->up, job->window.reach, out)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* A plane against the body, when it is within reach. */
+static void meet_plane(grid_job *job, const room_plane *plane)
+{
+    double height = room_plane_height(plane, job->motion.centre);
+    double gap = rlf_max(height, 0.0);
+    job->scan.nearest2 = rlf_min(job->scan.nearest2, gap * gap);
+    if (height <= job->window.reach) {
+        collide_plane(job, plane);
+    }
+}
+
 void grid_unseen_collide(grid_job *job)
 {
     const room_planes *room = job->query->room;
     for (int32_t i = 0; room != NULL && i < room->count; i++) {
-        double height = room_plane_height(&room->planes[i], job->motion.centre);
-        double gap = rlf_max(height, 0.0);
-        job->scan.nearest2 = rlf_min(job->scan.nearest2, gap * gap);
-        if (height <= job->window.reach) {
-            collide_plane(job, &room->planes[i]);
-        }
+        meet_plane(job, &room->planes[i]);
+    }
+    room_plane upright;
+    if (find_upright(job, &upright)) {
+        meet_plane(job, &upright);
     }
 }

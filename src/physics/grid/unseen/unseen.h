@@ -4,7 +4,7 @@
 
 #include "physics/grid/job.h"
 
-/* Adds contacts with the room's planes, and brings scan.nearest2 down. */
+/* Adds contacts with the room's planes and with upright faces, and brings scan.nearest2 down. */
 void grid_unseen_collide(grid_job *job);
 
 /* A way into view. */
