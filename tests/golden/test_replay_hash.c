@@ -14,8 +14,8 @@
 #define EVERY 15
 
 static const golden goldens[] = {
-    {RLF_PROFILE_LIVE, 0xbd983cde73fb2f48u, 0x5ad7c98917034a6du, 0x6d96a803ea292587u},
-    {RLF_PROFILE_THESIS, 0xa393eb06e579d241u, 0xd84652fb54683851u, 0xc064b44391e1e990u},
+    {RLF_PROFILE_LIVE, 0xba99f3c976261986u, 0x5934e3cee0fba0f2u, 0x64c4e7281965bfa6u},
+    {RLF_PROFILE_THESIS, 0x661dc320eb5b2361u, 0xd84652fb54683851u, 0xc064b44391e1e990u},
 };
 
 static void live_profile_replays_exactly(void **state)
