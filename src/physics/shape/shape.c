@@ -96,7 +96,7 @@ bool phys_shape_is_whole(const rlf_shape *shape)
 
 double rlf_shape_radius(const rlf_shape *shape)
 {
-    if (!RLF_ASSERT(phys_shape_is_whole(shape))) {
+    if (!RLF_ASSERT(shape != NULL)) {
         return 0.0;
     }
     switch (shape->type) {
@@ -110,7 +110,7 @@ double rlf_shape_radius(const rlf_shape *shape)
     case RLF_SHAPE_HULL: break;
     }
     double radius = 0.0;
-    for (int32_t i = 0; i < shape->hull->vertex_count; i++) {
+    for (int32_t i = 0; phys_shape_is_whole(shape) && i < shape->hull->vertex_count; i++) {
         radius = rlf_max(radius, rlf_length(shape->hull->vertices[i]));
     }
     return radius;
