@@ -51,7 +51,7 @@ typedef struct rlf_plot {
 } rlf_plot;
 
 /* How the picture decides which pixels of a body real things hide. Sources: the thesis, section
- * 4.2.2 for the layers; docs/how-it-works.md tells how the others do it. */
+ * 4.2.2 for the layers; docs/guide.md tells how the others do it. */
 typedef enum rlf_occlusion {
     RLF_OCCLUSION_DEPTH = 0, /* hard: every pixel's depth against the registered real depth */
     RLF_OCCLUSION_THESIS =

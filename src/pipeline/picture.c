@@ -70,9 +70,10 @@ void rlf_pipeline_set_overlay(rlf_pipeline *p, const char *const *lines, int32_t
     }
     p->overlay_count = count < OVERLAY_LINES_MAX ? count : OVERLAY_LINES_MAX;
     for (int32_t i = 0; i < p->overlay_count; i++) {
-        size_t length = lines[i] != NULL ? strlen(lines[i]) : 0;
+        const char *line = lines[i] != NULL ? lines[i] : "";
+        size_t length = strlen(line);
         length = length < OVERLAY_LINE_SIZE ? length : OVERLAY_LINE_SIZE - 1;
-        memcpy(p->overlay[i], lines[i], length);
+        memcpy(p->overlay[i], line, length);
         p->overlay[i][length] = '\0';
     }
 }

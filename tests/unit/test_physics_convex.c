@@ -189,11 +189,11 @@ static void a_missing_shape_is_refused(void **state)
         assert_true(rlf_shape_inertia(wrong[k], 1.0).m[0][0] == 0.0);
         assert_true(rlf_shape_radius(wrong[k]) == 0.0);
     }
-    assert_int_equal(told, 12);
+    assert_int_equal(told, 10); /* a radius of 0 is right for no hull */
     assert_true(rlf_shape_distance(&ball, p, NULL) == 0.0);
     assert_false(rlf_shape_cast(&ball, p, way, NULL, &leave));
     assert_false(rlf_shape_cast(&ball, p, way, &enter, NULL));
-    assert_int_equal(told, 15);
+    assert_int_equal(told, 13);
     rlf_set_assert(NULL, NULL);
 }
 
