@@ -1,6 +1,9 @@
-# The documents: every command in them runs, every link leads somewhere.
+# The documents: every command in them runs, every link leads somewhere, sentences are short.
 add_test(NAME docs.links COMMAND ${CMAKE_CURRENT_LIST_DIR}/links.sh ${PROJECT_SOURCE_DIR})
 set_tests_properties(docs.links PROPERTIES LABELS docs TIMEOUT 60)
+add_test(NAME docs.sentences COMMAND ${CMAKE_CURRENT_LIST_DIR}/sentences.sh ${PROJECT_SOURCE_DIR}
+         ${CMAKE_CURRENT_BINARY_DIR}/sentences)
+set_tests_properties(docs.sentences PROPERTIES LABELS docs TIMEOUT 60)
 if(TARGET relief_app)
   add_test(NAME docs.commands COMMAND ${CMAKE_CURRENT_LIST_DIR}/commands.sh ${PROJECT_SOURCE_DIR}
            ${PROJECT_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR}/docs)
