@@ -25,51 +25,95 @@ static const float beside =
 
 /* ---- where the contour is ---- */
 
-/* Offsets of what is behind a pixel and of what is not, summed. */
+/* Offsets of what is behind each pixel and of what is not, summed. */
 typedef struct sides {
-    float far_x, far_y, far_n, near_x, near_y, near_n;
-    float nearest; /* squared distance of what is behind */
+    float far_x[RLF_BATCH], far_y[RLF_BATCH], far_n[RLF_BATCH];
+    float near_x[RLF_BATCH], near_y[RLF_BATCH], near_n[RLF_BATCH];
+    float nearest[RLF_BATCH]; /* squared distance of what is behind */
 } sides;
+
+/* What lies farther than `behind` is behind a pixel, what lies farther than `before` is not. */
+typedef struct limits {
+    float behind[RLF_BATCH], before[RLF_BATCH];
+} limits;
+
+/* A pixel's own surface is taken to go on as near as anything of it in the window. */
+RLF_KERNEL_PART void find_limits(const depth_step *step, const contour_batch *restrict b,
+                                 limits *restrict out)
+{
+    const float(*restrict at)[RLF_BATCH] = b->depth.at;
+    const float *restrict own = at[RLF_WINDOW_SIZE / 2];
+    float least[RLF_BATCH], nearest[RLF_BATCH];
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        float pixels = RLF_WINDOW_ABOUT * b->spacing[i];
+        least[i] = own[i] - depth_step_most(step, own[i], DEPTH_STEP_STEEPEST, pixels);
+        nearest[i] = own[i];
+    }
+    for (int32_t k = 0; k < RLF_WINDOW_SIZE; k++) {
+        RLF_KERNEL_WHOLE
+        for (int32_t i = 0; i < RLF_BATCH; i++) {
+            float z = at[k][i] > least[i] ? at[k][i] : own[i];
+            nearest[i] = z < nearest[i] ? z : nearest[i];
+        }
+    }
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        float pixels = RLF_WINDOW_ABOUT * b->spacing[i];
+        out->behind[i] = contour_behind(step, own[i], own[i] - nearest[i], pixels);
+        out->before[i] = own[i] - depth_step_most(step, own[i], 0.0f, 0.0f);
+    }
+}
+
+/* A row of the windows, dy pixels below the middle. */
+RLF_KERNEL_PART void add_row(const float (*restrict row)[RLF_BATCH], float dy,
+                             const limits *restrict limit, sides *restrict s)
+{
+    for (int32_t i = 0; i < RLF_BATCH; i++) {
+        float far_n = 0.0f, far_x = 0.0f, near_n = 0.0f, near_x = 0.0f, nearest = s->nearest[i];
+        for (int32_t k = 0; k < RLF_WINDOW_SIDE; k++) {
+            float z = row[k][i], dx = (float)(k - RLF_WINDOW_ABOUT), square = dx * dx + dy * dy;
+            bool is_far = z > limit->behind[i], is_near = (z > limit->before[i]) & !is_far;
+            float far = is_far ? 1.0f : 0.0f, near = is_near ? 1.0f : 0.0f;
+            float to_far = is_far ? square : nearest;
+            far_n += far;
+            far_x += far * dx;
+            near_n += near;
+            near_x += near * dx;
+            nearest = to_far < nearest ? to_far : nearest;
+        }
+        s->far_n[i] += far_n;
+        s->far_x[i] += far_x;
+        s->far_y[i] += far_n * dy;
+        s->near_n[i] += near_n;
+        s->near_x[i] += near_x;
+        s->near_y[i] += near_n * dy;
+        s->nearest[i] = nearest;
+    }
+}
 
 RLF_KERNEL void contour_find(const depth_step *step, contour_batch *restrict b)
 {
-    enum { ABOUT = RLF_WINDOW_ABOUT, SIDE = RLF_WINDOW_SIDE };
-    float(*restrict at)[RLF_BATCH] = b->depth.at;
-    float behind[RLF_BATCH], before[RLF_BATCH];
-    RLF_KERNEL_WHOLE
+    limits limit;
+    sides s;
+    find_limits(step, b, &limit);
     for (int32_t i = 0; i < RLF_BATCH; i++) {
-        float own = at[ABOUT * SIDE + ABOUT][i], nearest = own, pixels = ABOUT * b->spacing[i];
-        float least = own - depth_step_most(step, own, DEPTH_STEP_STEEPEST, pixels);
-        for (int32_t k = 0; k < RLF_WINDOW_SIZE; k++) {
-            float z = at[k][i] > least ? at[k][i] : own;
-            nearest = z < nearest ? z : nearest;
-        }
-        behind[i] = contour_behind(step, own, own - nearest, pixels);
-        before[i] = own - depth_step_most(step, own, 0.0f, 0.0f);
+        s.far_x[i] = s.far_y[i] = s.far_n[i] = s.near_x[i] = s.near_y[i] = s.near_n[i] = 0.0f;
+        s.nearest[i] = 99.0f;
+    }
+    for (int32_t k = 0; k < RLF_WINDOW_SIDE; k++) {
+        add_row((const float(*)[RLF_BATCH]) & b->depth.at[k * RLF_WINDOW_SIDE],
+                (float)(k - RLF_WINDOW_ABOUT), &limit, &s);
     }
     for (int32_t i = 0; i < RLF_BATCH; i++) {
-        sides s = {.nearest = 99.0f};
-        for (int32_t k = 0; k < RLF_WINDOW_SIZE; k++) {
-            float dx = (float)(k % SIDE - ABOUT), dy = (float)(k / SIDE - ABOUT);
-            float square = dx * dx + dy * dy, z = at[k][i];
-            float far = z > behind[i] ? 1.0f : 0.0f, near = z > before[i] ? 1.0f - far : 0.0f;
-            float to_far = far > 0.0f ? square : s.nearest;
-            s.far_x += far * dx;
-            s.far_y += far * dy;
-            s.far_n += far;
-            s.near_x += near * dx;
-            s.near_y += near * dy;
-            s.near_n += near;
-            s.nearest = to_far < s.nearest ? to_far : s.nearest;
-        }
-        float far_n = s.far_n > 1.0f ? s.far_n : 1.0f, near_n = s.near_n > 1.0f ? s.near_n : 1.0f;
-        float x = s.far_x / far_n - s.near_x / near_n, y = s.far_y / far_n - s.near_y / near_n;
+        float far_n = s.far_n[i] > 1.0f ? s.far_n[i] : 1.0f;
+        float near_n = s.near_n[i] > 1.0f ? s.near_n[i] : 1.0f;
+        float x = s.far_x[i] / far_n - s.near_x[i] / near_n;
+        float y = s.far_y[i] / far_n - s.near_y[i] / near_n;
         float length = sqrtf(x * x + y * y);
-        bool is_sure = (s.far_n > 1.5f) & (length >= 0.5f);
+        bool is_sure = (s.far_n[i] > 1.5f) & (length >= 0.5f);
         float whole = is_sure ? length : 1.0f;
         b->out_x[i] = x / whole;
         b->out_y[i] = y / whole;
-        b->distance[i] = is_sure ? b->spacing[i] * (sqrtf(s.nearest) - 0.5f) : 0.0f;
+        b->distance[i] = is_sure ? b->spacing[i] * (sqrtf(s.nearest[i]) - 0.5f) : 0.0f;
     }
 }
 

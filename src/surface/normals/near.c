@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { REACH = 2, SIDE = 1 + 2 * REACH, LANES = 8 /* the first five count */ };
+enum { REACH = 2, SIDE = 1 + 2 * REACH, LANES = 8 /* of which SIDE count */ };
 
 static const double AGREED = 0.84;     /* length of a mean of normals of one face */
 static const float TURNED = 0.85f;     /* cosine between the normals of two faces */
@@ -26,12 +26,18 @@ static const float nearness[SIDE][LANES] = {{0.015625f, 0.04f, 0.0625f, 0.04f, 0
                                             {0.04f, 0.25f, 1.0f, 0.25f, 0.04f},
                                             {0.015625f, 0.04f, 0.0625f, 0.04f, 0.015625f}};
 
-/* The pixels about one, 0 outside of the image. */
-typedef struct near_window {
-    float depth[SIDE][LANES], normal[3][SIDE][LANES];
-} near_window;
+/* The pixels about one from the corner of their window, LANES of each row, where they lie. */
+typedef struct near_rows {
+    const float *depth, *normal[3];
+    ptrdiff_t stride;
+} near_rows;
 
-static void read_near(const rlf_normals_job *job, int32_t x, int32_t y, near_window *out)
+/* The same of a pixel at the image's border, 0 outside. */
+typedef struct near_copy {
+    float depth[SIDE][LANES], normal[3][SIDE][LANES];
+} near_copy;
+
+static void copy_near(const rlf_normals_job *job, int32_t x, int32_t y, near_copy *out)
 {
     rlf_window w = rlf_window_at(job->width, job->height, x, y, REACH);
     memset(out, 0, sizeof *out);
@@ -47,17 +53,28 @@ static void read_near(const rlf_normals_job *job, int32_t x, int32_t y, near_win
     }
 }
 
+/* LANES pixels of each row are in the planes: at a row's end those of the next one. */
+static bool is_inside(const rlf_normals_job *job, int32_t x, int32_t y)
+{
+    rlf_window w = rlf_window_at(job->width, job->height, x, y, REACH);
+    bool has_lanes = x - REACH + LANES <= job->width || y + REACH + 1 < job->height;
+    return rlf_window_is_whole(w, REACH) && has_lanes;
+}
+
 /* Of the normals within two pixels at the same depth: x, y, z and how many, weighted. */
-RLF_KERNEL static void sum_near(const near_window *restrict about, float sum[4])
+RLF_KERNEL static void sum_rows(const near_rows *restrict about, float *restrict sum)
 {
     float lanes[4][LANES];
-    float middle = about->depth[REACH][REACH], most = ONE_DEPTH * middle;
+    const float *restrict depth = about->depth, *restrict normal_x = about->normal[0];
+    const float *restrict normal_y = about->normal[1], *restrict normal_z = about->normal[2];
+    ptrdiff_t stride = about->stride;
+    float middle = depth[REACH * stride + REACH], most = ONE_DEPTH * middle;
     for (int32_t c = 0; c < LANES; c++) {
         float x = 0.0f, y = 0.0f, z = 0.0f, w = 0.0f;
         for (int32_t r = 0; r < SIDE; r++) {
-            float nx = about->normal[0][r][c], ny = about->normal[1][r][c];
-            float nz = about->normal[2][r][c];
-            float apart = rlf_kernel_abs(about->depth[r][c] - middle);
+            ptrdiff_t i = r * stride + c;
+            float nx = normal_x[i], ny = normal_y[i], nz = normal_z[i];
+            float apart = rlf_kernel_abs(depth[i] - middle);
             float weight = apart <= most ? nearness[r][c] : 0.0f;
             x += weight * nx;
             y += weight * ny;
@@ -72,6 +89,22 @@ RLF_KERNEL static void sum_near(const near_window *restrict about, float sum[4])
     for (int32_t k = 0; k < 4; k++) {
         const float *of = lanes[k];
         sum[k] = ((of[0] + of[4]) + (of[1] + of[3])) + of[2];
+    }
+}
+
+static void sum_near(const rlf_normals_job *job, int32_t x, int32_t y, float sum[4])
+{
+    ptrdiff_t at = (ptrdiff_t)(y - REACH) * job->width + x - REACH;
+    if (is_inside(job, x, y)) {
+        const near_rows rows = {
+            job->filled + at, {job->out[0] + at, job->out[1] + at, job->out[2] + at}, job->width};
+        sum_rows(&rows, sum);
+    } else {
+        near_copy copy;
+        copy_near(job, x, y, &copy);
+        const near_rows rows = {
+            copy.depth[0], {copy.normal[0][0], copy.normal[1][0], copy.normal[2][0]}, LANES};
+        sum_rows(&rows, sum);
     }
 }
 
@@ -125,10 +158,8 @@ static ptrdiff_t find_face(const rlf_normals_job *job, int32_t x, int32_t y)
 bool rlf_normals_near_pixel(const rlf_normals_job *job, int32_t x, int32_t y, float out[3])
 {
     ptrdiff_t i = (ptrdiff_t)y * job->width + x;
-    near_window about;
     float sum[4];
-    read_near(job, x, y, &about);
-    sum_near(&about, sum);
+    sum_near(job, x, y, sum);
     rlf_vec3 whole = rlf_vec3_make(sum[0], sum[1], sum[2]), mean = rlf_normalize(whole);
     rlf_vec3 ray = {job->ray_x[i], job->ray_y[i], 1.0};
     if (!(rlf_dot(mean, ray) < 0.0)) {

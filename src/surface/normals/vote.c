@@ -29,7 +29,8 @@ static const float AGREED = 0.94f; /* cosine: 20 degrees */
 enum {
     LEAST_VOTES = 3,    /* for the published background */
     LEADING_VOTES = 16, /* for what filled pixels are completed from: half of the most */
-    WATCHED = 9         /* frames that a pixel votes in after one that gave reason to */
+    WATCHED = 9,        /* frames that a pixel votes in after one that gave reason to */
+    AHEAD = 8           /* pixels from one that votes to one whose vote is fetched */
 };
 
 typedef struct vote_job {
@@ -64,6 +65,26 @@ static void write_normal(const vote_job *job, ptrdiff_t i, const float normal[3]
 static bool is_there(const vote_job *job, const rlf_vote *v, ptrdiff_t i)
 {
     return !depth_step_between(&job->step, job->depth[i], v->depth);
+}
+
+/* Brings near what a pixel's vote reads: votes are far apart in memory. */
+RLF_KERNEL_PART void fetch(const vote_job *job, ptrdiff_t i)
+{
+    RLF_KERNEL_SOON(&job->votes[i]);
+    for (int32_t k = 0; k < 3; k++) {
+        RLF_KERNEL_SOON(&job->normal[k][i]);
+    }
+}
+
+/* The next pixel of a row that votes, from x on; what the one AHEAD pixels on reads is fetched. */
+static int32_t next_voter(const vote_job *job, ptrdiff_t row, int32_t x, int32_t width)
+{
+    x = rlf_kernel_next_mark(job->watch + row, x, width);
+    int32_t ahead = x + AHEAD;
+    if (ahead < width && job->watch[row + ahead] != 0) {
+        fetch(job, row + ahead);
+    }
+    return x;
 }
 
 /* ---- the vote ---- */
@@ -161,8 +182,7 @@ static void vote_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     for (int32_t y = begin; y < end; y++) {
         ptrdiff_t row = (ptrdiff_t)y * width;
         watch_filled(job, row, width);
-        const uint8_t *watch = job->watch + row;
-        for (int32_t x = 0; (x = rlf_kernel_next_mark(watch, x, width)) < width; x++) {
+        for (int32_t x = 0; (x = next_voter(job, row, x, width)) < width; x++) {
             vote_pixel(job, row + x);
         }
     }
@@ -178,8 +198,7 @@ static void lead_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     for (int32_t y = begin; y < end; y++) {
         ptrdiff_t row = (ptrdiff_t)y * width;
         memset(job->outvoted + row, 0, (size_t)width);
-        const uint8_t *watch = job->watch + row;
-        for (int32_t x = 0; (x = rlf_kernel_next_mark(watch, x, width)) < width; x++) {
+        for (int32_t x = 0; (x = next_voter(job, row, x, width)) < width; x++) {
             const rlf_vote *v = &job->votes[row + x];
             float own[3];
             read_normal(job, row + x, own);
