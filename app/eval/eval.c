@@ -31,12 +31,13 @@ typedef struct eval_options {
     real_options real; /* folder NULL = not asked for */
     int64_t frames;    /* 0 = each scene's own */
     int64_t seeds, threads;
-    int profile_mask; /* bit of each rlf_profile */
-    int32_t oracle;   /* bits of eval_oracle_part */
-    int64_t rooms;    /* drawn at random */
-    bool is_random;   /* only these */
-    bool is_tuning;   /* their even seeds */
-    bool is_bounded;  /* only what has bounds */
+    int profile_mask;     /* bit of each rlf_profile */
+    int32_t oracle;       /* bits of eval_oracle_part */
+    int64_t rooms;        /* drawn at random */
+    bool is_random;       /* only these */
+    bool is_tuning;       /* their even seeds */
+    bool is_bounded;      /* only what has bounds */
+    const char *left_out; /* a scene or section; NULL = none */
     setting_list settings;
 } eval_options;
 
@@ -112,6 +113,7 @@ static void print_help(void)
         "  --random          the same as --scene random\n"
         "  --rooms N         drawn at random: seeds 1, 3, 5, ... of N rooms, default 20\n"
         "  --bounded         only scenes and sections with bounds: no rooms, no start\n"
+        "  --without NAME    leave that scene or section out\n"
         "  --tune            seeds 2, 4, 6, ... instead: for tuning, never reported\n"
         "  --normals DIR     clean depth with true normals: folders of depth.bin, normal.png and\n"
         "                    params.txt (docs/measuring.md); only this unless --scene is given\n"
@@ -176,6 +178,11 @@ static int parse(int argc, char **argv, eval_options *o)
         {.name = "scene",
          .kind = OPTION_CHOICE,
          .out = &o->section,
+         .take = take_scene,
+         .choices = "is not one of them"},
+        {.name = "without",
+         .kind = OPTION_CHOICE,
+         .out = &o->left_out,
          .take = take_scene,
          .choices = "is not one of them"},
         {.name = "normals", .kind = OPTION_TEXT, .out = &o->normals_path},
@@ -260,6 +267,7 @@ static int32_t list_tasks(const eval_options *o, eval_task *tasks)
         bool is_whole = o->normals_path == NULL && o->real.folder == NULL;
         bool is_wanted = o->section != NULL ? strcmp(o->section, name) == 0
                                             : is_whole && (!o->is_bounded || eval_has_bounds(name));
+        is_wanted = is_wanted && (o->left_out == NULL || strcmp(o->left_out, name) != 0);
         for (int64_t seed = 1; is_wanted && seed <= o->seeds; seed++) {
             tasks[count++] = (eval_task){.section = name, .seed = seed, .options = o};
         }

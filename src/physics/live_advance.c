@@ -9,9 +9,10 @@
 
 #include <string.h>
 
-/* Extrapolating the surface along its velocity is trusted this long, s: with 10 m/s^2 the error is
- * then 12 mm. */
-#define EXTRAPOLATION_MAX 0.05
+/* The surface goes on along its velocity this long without a frame, s: two lost frames of 30 a
+ * second, or one interval of a camera with 10. A foot that stood still after half of that was
+ * overrun. */
+#define EXTRAPOLATION_MAX 0.1
 #define ROOM_PERIOD 0.25 /* s between searches for the room's shell */
 
 /* Unit, against gravity, grid frame; 0 without gravity. */
