@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "count_assert.h"
 #include "relief/base.h"
 
 #include <stdlib.h>
@@ -36,20 +37,11 @@ static void allocations_are_aligned_zeroed_and_counted(void **state)
     assert_int_equal(rlf_alloc_count() - before, 1);
 }
 
-static bool note_assert(void *context, const char *condition, const char *file, int line)
-{
-    (void)condition;
-    (void)file;
-    (void)line;
-    ++*(int *)context;
-    return false;
-}
-
 static void failed_assertion_is_a_safe_no_op(void **state)
 {
     (void)state;
     int count = 0;
-    rlf_set_assert(note_assert, &count);
+    rlf_set_assert(count_assert, &count);
     rlf_parallel_for(NULL, 10, 0, NULL, NULL);
     assert_int_equal(count, 1);
     rlf_set_assert(NULL, NULL);

@@ -8,6 +8,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "count_assert.h"
 #include "relief/relief.h"
 
 #include <string.h>
@@ -161,20 +162,11 @@ static const struct {
     {"synthetic_nearest", synthetic_nearest},
 };
 
-static bool note_assert(void *context, const char *condition, const char *file, int line)
-{
-    (void)condition;
-    (void)file;
-    (void)line;
-    ++*(int *)context;
-    return false;
-}
-
 static void calls_with_null_are_safe_and_say_so(void **state)
 {
     (void)state;
     int count = 0, wrong = 0;
-    rlf_set_assert(note_assert, &count);
+    rlf_set_assert(count_assert, &count);
     for (size_t i = 0; i < sizeof(calls) / sizeof(calls[0]); i++) {
         count = 0;
         result = RLF_ERROR_INVALID;
@@ -212,7 +204,7 @@ static void pipeline_refuses_views_that_are_none(void **state)
     rlf_pipeline *pipeline = make_pipeline(&source);
     const int none[] = {-7, 99, RLF_VIEW_COUNT};
     int count = 0;
-    rlf_set_assert(note_assert, &count);
+    rlf_set_assert(count_assert, &count);
     for (int i = 0; i < 3; i++) {
         const rlf_view view = (rlf_view)none[i];
         rlf_pipeline_set_view(pipeline, view);

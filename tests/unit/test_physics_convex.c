@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "count_assert.h"
 #include "physics/shape/convex.h"
 #include "physics/shape/shape.h"
 #include "relief/query.h"
@@ -158,15 +159,6 @@ static void depth_is_the_shortest_way_out(void **state)
     }
     print_message("depth: %d pairs, at most %.2e m short of the way out\n", deep, worst);
     assert_true(deep > 300 && worst < 2e-4);
-}
-
-static bool count_assert(void *context, const char *condition, const char *file, int line)
-{
-    (void)condition;
-    (void)file;
-    (void)line;
-    ++*(int *)context;
-    return false;
 }
 
 /* No shape, a hull without its mesh and nowhere to write to are told, and nothing is done. */

@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "count_assert.h"
 #include "relief/query.h"
 
 #include "grid_fixture.h"
@@ -149,15 +150,6 @@ static void spheres_overlap(void **state)
     o = near(rlf_vec3_make(-5, 0, 2), 0.05, NULL, 0);
     assert_int_equal(o.reason, RLF_QUERY_OUTSIDE_VIEW);
     assert_int_equal(near(rlf_vec3_make(0, 0, 1), 0, NULL, 0).reason, RLF_QUERY_INVALID);
-}
-
-static bool count_assert(void *context, const char *condition, const char *file, int line)
-{
-    (void)condition;
-    (void)file;
-    (void)line;
-    ++*(int *)context;
-    return false;
 }
 
 /* A grid without a plane or function that is read is told, and nothing is asked of it. */

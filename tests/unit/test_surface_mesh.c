@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "count_assert.h"
 #include "relief/surface.h"
 
 static void count_is_six_per_square(void **state)
@@ -98,15 +99,6 @@ static void regions_share_out_the_triangles_within_them(void **state)
     assert_memory_equal(out, expected, sizeof expected);
     assert_int_equal(rlf_mesh_indices_region(&surface, &right, 0.05, out), 12);
     assert_int_equal(out[0], 2);
-}
-
-static bool count_assert(void *context, const char *condition, const char *file, int line)
-{
-    (void)condition;
-    (void)file;
-    (void)line;
-    ++*(int *)context;
-    return false;
 }
 
 static void a_missing_surface_has_no_triangles(void **state)

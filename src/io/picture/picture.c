@@ -39,29 +39,37 @@ bool io_picture_size(const io_bytes *file, int32_t *out_width, int32_t *out_heig
     return true;
 }
 
+typedef rlf_result (*decode_fn)(const io_bytes *file, io_picture *picture);
+
+/* A picture of up to IO_PICTURE_FILE_MAX bytes; the caller frees its data. */
+static rlf_result read_with(decode_fn decode, const char *path, io_picture *out)
+{
+    io_buffer buffer = {0};
+    io_bytes file;
+    *out = (io_picture){0};
+    rlf_result result =
+        io_file_read(path, IO_PICTURE_FILE_MAX, "check the name of the picture", &buffer, &file);
+    if (result == RLF_OK) {
+        result = decode(&file, out);
+    }
+    io_buffer_free(&buffer);
+    return result;
+}
+
 rlf_result rlf_picture_read(const char *path, rlf_image_rgba8 *out)
 {
     if (!RLF_ASSERT(path != NULL && out != NULL)) {
         return RLF_ERROR_INVALID;
     }
     memset(out, 0, sizeof(*out));
-    io_buffer buffer = {0};
-    io_bytes file;
-    io_picture picture = {0};
-    rlf_result result =
-        io_file_read(path, IO_PICTURE_FILE_MAX, "check the name of the picture", &buffer, &file);
-    if (result == RLF_OK) {
-        result = io_picture_decode(&file, &picture);
-    }
-    io_buffer_free(&buffer);
+    io_picture picture;
+    rlf_result result = read_with(io_picture_decode, path, &picture);
     if (result == RLF_OK) {
         *out = (rlf_image_rgba8){picture.data, picture.width, picture.height,
                                  (ptrdiff_t)picture.width * 4};
     }
     return result;
 }
-
-typedef rlf_result (*decode_fn)(const io_bytes *file, io_picture *picture);
 
 static rlf_result read_u16(const char *path, decode_fn decode, uint16_t **out, int32_t *out_width,
                            int32_t *out_height)
@@ -70,15 +78,8 @@ static rlf_result read_u16(const char *path, decode_fn decode, uint16_t **out, i
         return RLF_ERROR_INVALID;
     }
     *out = NULL;
-    io_buffer buffer = {0};
-    io_bytes file;
-    io_picture picture = {0};
-    rlf_result result =
-        io_file_read(path, IO_PICTURE_FILE_MAX, "check the name of the picture", &buffer, &file);
-    if (result == RLF_OK) {
-        result = decode(&file, &picture);
-    }
-    io_buffer_free(&buffer);
+    io_picture picture;
+    rlf_result result = read_with(decode, path, &picture);
     if (result == RLF_OK) {
         *out = picture.data;
         *out_width = picture.width;
