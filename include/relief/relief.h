@@ -12,6 +12,7 @@
  *   snapshot.h     shapes, bodies, contacts; world.h: the physics stage; query.h: rays and overlaps
  *   model.h        what bodies look like; known.h: models of real things
  *   compositor.h   the render stage
+ *   prediction.h   what a camera would see of the static room from a pose
  *   pipeline.h     all stages as one object: where most programs begin
  *
  * Conventions, unless a comment says otherwise: metres, seconds, kilograms, radians; the camera's
@@ -31,6 +32,7 @@
 #include "relief/math.h"
 #include "relief/model.h"
 #include "relief/pipeline.h"
+#include "relief/prediction.h"
 #include "relief/query.h"
 #include "relief/reconstruct.h"
 #include "relief/snapshot.h"
