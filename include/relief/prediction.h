@@ -12,8 +12,11 @@ extern "C" {
 
 /* Planes of camera.width x camera.height without padding, index = y * width + x. Whoever predicts
  * owns them; they stay as they are until the next prediction from the same place. A pixel of which
- * nothing is known has depth 0, normal (0, 0, 0) and grey 0. There is no NaN. The value is plain
- * data: threads may read it at the same time as long as nobody predicts into its planes.
+ * nothing is known has depth 0, normal (0, 0, 0) and grey 0. There is no NaN.
+ *
+ * The value is plain data: threads may read it at the same time as long as nobody predicts into its
+ * planes.
+ *
  * Source: Newcombe et al. 2011, KinectFusion, section 3.4 (the surface prediction). */
 typedef struct rlf_prediction {
     /* Without distortion: pixel (u, v) looks along ((u - cx) / fx, (v - cy) / fy, 1). */
