@@ -1,0 +1,68 @@
+/* On each board: what depth says minus where the plane through the corners is (as iai_kinect2 has
+ * it). The pixel's own ray is used, so a slanted board is as good as a frontal one. */
+#include "calibrate/depth_offset.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Depth of the board's plane along the pixel's ray, where the ray meets the lattice; else 0. */
+static double plane_depth(const rlf_pose *T_camera_board, const double half[2], rlf_vec3 ray)
+{
+    const rlf_vec3 normal = rlf_rotate(T_camera_board->q, rlf_vec3_make(0, 0, 1));
+    const double across = rlf_dot(normal, ray);
+    const double z = across != 0.0 ? rlf_dot(normal, T_camera_board->p) / across : 0.0;
+    const rlf_vec3 at = rlf_transform_inverse(T_camera_board, rlf_scale(ray, z));
+    return z > 0.0 && fabs(at.x) <= half[0] && fabs(at.y) <= half[1] ? z : 0.0;
+}
+
+double depth_offset_on(const calibrate_view *view, const calibrate_board *board,
+                       const rlf_camera *camera, const float *depth)
+{
+    const double half[2] = {0.5 * (board->columns - 1) * board->square_m,
+                            0.5 * (board->rows - 1) * board->square_m};
+    const size_t size = (size_t)camera->width * (size_t)camera->height;
+    double *values = rlf_alloc_array(size, sizeof(*values));
+    size_t count = 0, inside = 0;
+    for (size_t i = 0; values != NULL && i < size; i++) {
+        rlf_vec3 ray;
+        const double u = (double)(i % (size_t)camera->width);
+        const double v = (double)(i / (size_t)camera->width);
+        const bool has_ray = rlf_camera_unproject(camera, u, v, &ray);
+        const double z = has_ray ? plane_depth(&view->T_first_board, half, ray) : 0.0;
+        inside += z > 0.0;
+        if (z > 0.0 && depth[i] > 0.0F) {
+            values[count++] = depth[i] - z;
+        }
+    }
+    double median = NAN;
+    if (count > 0 && 2 * count >= inside) {
+        qsort(values, count, sizeof(*values), by_value);
+        median = values[count / 2];
+    }
+    rlf_free(values);
+    return median;
+}
+
+void depth_offset_combine(calibration *c)
+{
+    double sum = 0.0, squares = 0.0;
+    int32_t n = 0;
+    for (int32_t i = 0; i < c->views.count; i++) {
+        const calibrate_view *view = &c->views.views[i];
+        if (view->is_used && !isnan(view->offset_m)) {
+            sum += view->offset_m;
+            squares += view->offset_m * view->offset_m;
+            n++;
+        }
+    }
+    c->offset_boards = n;
+    c->offset_m = n > 0 ? sum / n : NAN;
+    c->offset_deviation_m =
+        n > 1 ? sqrt(rlf_max(squares - sum * sum / n, 0.0) / (n - 1) / n) : NAN;
+}
