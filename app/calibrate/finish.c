@@ -153,7 +153,8 @@ static rlf_result measure(calibration *c)
     }
     const bool has_both = c->views.camera_count == CALIBRATE_CAMERAS;
     c->epipolar = has_both ? calibrate_epipolar(&c->views, &c->model) : NAN;
-    c->mapping_p95 = has_both ? calibrate_map_deviation(&c->model, &c->fit) : NAN;
+    c->mapping_p95 =
+        has_both ? calibrate_map_deviation(&c->model, &c->fit, calibrate_distance(&c->views)) : NAN;
     return result;
 }
 

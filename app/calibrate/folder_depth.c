@@ -6,7 +6,6 @@
 
 #include "relief/io.h"
 
-#include <stdio.h>
 
 /* The picture of the view's number, or NULL. */
 static const char *find_name(const calibrate_pictures *p, const calibrate_view *view)
@@ -20,14 +19,12 @@ static const char *find_name(const calibrate_pictures *p, const calibrate_view *
     return NULL;
 }
 
-static rlf_result measure(const calibrate_options *o, calibration *c, const char *name,
+static rlf_result measure(const calibrate_options *o, calibration *c, const char *path,
                           calibrate_view *view)
 {
-    char path[4096];
     uint16_t *counts = NULL;
     int32_t width, height;
     const rlf_camera *camera = &c->model.camera[0];
-    snprintf(path, sizeof(path), "%s/%s", o->depth, name);
     rlf_result result = rlf_png_read_u16(path, &counts, &width, &height);
     if (result != RLF_OK) {
         return result;
@@ -60,7 +57,9 @@ rlf_result calibrate_folder_depth(const calibrate_options *options, calibration 
         calibrate_view *view = &c->views.views[i];
         const char *name = find_name(&pictures, view);
         if (view->is_used && view->sight[0].count > 0 && name != NULL) {
-            result = measure(options, c, name, view);
+            char path[CALIBRATE_PATH_SIZE];
+            calibrate_pictures_path(&pictures, name, path);
+            result = measure(options, c, path, view);
         }
     }
     calibrate_pictures_free(&pictures);

@@ -11,7 +11,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define PATH_SIZE 4096
 #define HINTS 3 /* pictures that are looked at for a board of another size */
 
 typedef struct folders {
@@ -21,11 +20,6 @@ typedef struct folders {
     calibrate_pictures pictures[CALIBRATE_CAMERAS];
     calibration *calibration;
 } folders;
-
-static void join(char path[PATH_SIZE], const char *folder, const char *name)
-{
-    snprintf(path, PATH_SIZE, "%s/%s", folder, name);
-}
 
 /* The first picture says how large a camera's pictures are. */
 static rlf_result check_size(folders *f, int c, const char *name, const calibrate_gray *gray)
@@ -38,7 +32,7 @@ static rlf_result check_size(folders *f, int c, const char *name, const calibrat
     return v->width[c] == gray->width && v->height[c] == gray->height
                ? RLF_OK
                : rlf_fail(RLF_ERROR_INVALID,
-                          "%s/%s: is %dx%d, but those before it are %dx%d; all pictures of one "
+                          "%s: %s is %dx%d, but those before it are %dx%d; all pictures of one "
                           "camera need one size",
                           f->folder[c], name, (int)gray->width, (int)gray->height, (int)v->width[c],
                           (int)v->height[c]);
@@ -47,9 +41,9 @@ static rlf_result check_size(folders *f, int c, const char *name, const calibrat
 /* Looks for the board in one picture; what is wrong with the picture alone goes to the log. */
 static rlf_result look(folders *f, int c, const char *name, calibrate_view *view)
 {
-    char path[PATH_SIZE];
+    char path[CALIBRATE_PATH_SIZE];
     calibrate_gray gray;
-    join(path, f->folder[c], name);
+    calibrate_pictures_path(&f->pictures[c], name, path);
     if (calibrate_gray_read(path, &gray) != RLF_OK) {
         rlf_log(RLF_LOG_WARNING, "%s", rlf_error_text());
         return RLF_OK;
@@ -100,11 +94,11 @@ static void hint_other(const folders *f, int c, char *out, size_t size)
 {
     out[0] = '\0';
     for (int32_t i = 0; i < f->pictures[c].count && i < HINTS && out[0] == '\0'; i++) {
-        char path[PATH_SIZE];
+        char path[CALIBRATE_PATH_SIZE];
         calibrate_gray gray;
         int32_t columns, rows;
         const char *name = f->pictures[c].names[i];
-        join(path, f->folder[c], name);
+        calibrate_pictures_path(&f->pictures[c], name, path);
         if (calibrate_gray_read(path, &gray) == RLF_OK) {
             if (calibrate_find_other(f->api, &gray, &f->options->board, &columns, &rows)) {
                 snprintf(out, size, ", but %s shows one of %dx%d: try --board %dx%d", name,
@@ -121,13 +115,13 @@ static rlf_result check_board(const folders *f, int c)
     const calibrate_board *board = &f->options->board;
     const calibrate_views *v = &f->calibration->views;
     for (int32_t i = 0; i < v->count; i++) {
-        char path[PATH_SIZE];
+        char path[CALIBRATE_PATH_SIZE];
         calibrate_gray gray;
         int32_t columns, rows;
         if (v->views[i].sight[c].count == 0) {
             continue;
         }
-        join(path, f->folder[c], v->views[i].name[c]);
+        calibrate_pictures_path(&f->pictures[c], v->views[i].name[c], path);
         rlf_result result = calibrate_gray_read(path, &gray);
         if (result != RLF_OK) {
             return result;

@@ -4,6 +4,7 @@
 
 #include <ctype.h>
 #include <dirent.h>
+#include <fnmatch.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,13 +24,13 @@ int64_t calibrate_picture_number(const char *name)
     return begin < end ? strtoll(begin, NULL, 10) : -1;
 }
 
-static int is_picture(const struct dirent *entry)
+static bool is_picture(const char *name, const char *pattern)
 {
-    const char *end = strrchr(entry->d_name, '.');
-    return entry->d_name[0] != '.' && end != NULL &&
-           strlen(entry->d_name) < CALIBRATE_NAME_SIZE &&
+    const char *end = strrchr(name, '.');
+    return name[0] != '.' && end != NULL && strlen(name) < CALIBRATE_NAME_SIZE &&
            (strcasecmp(end, ".png") == 0 || strcasecmp(end, ".jpg") == 0 ||
-            strcasecmp(end, ".jpeg") == 0);
+            strcasecmp(end, ".jpeg") == 0) &&
+           fnmatch(pattern, name, 0) == 0;
 }
 
 static int by_number(const void *a, const void *b)
@@ -38,18 +39,34 @@ static int by_number(const void *a, const void *b)
     return x != y ? (x > y) - (x < y) : strcmp(a, b);
 }
 
-rlf_result calibrate_pictures_list(const char *folder, calibrate_pictures *out)
+/* "FOLDER/PATTERN" or "FOLDER" into folder; returns the pattern. */
+static const char *split(const char *place, char folder[CALIBRATE_PATH_SIZE])
+{
+    const char *slash = strrchr(place, '/');
+    const char *last = slash != NULL ? slash + 1 : place;
+    if (strpbrk(last, "*?[") == NULL) {
+        snprintf(folder, CALIBRATE_PATH_SIZE, "%s", place);
+        return "*";
+    }
+    snprintf(folder, CALIBRATE_PATH_SIZE, "%.*s", slash != NULL ? (int)(slash - place) : 1,
+             slash != NULL ? place : ".");
+    return last;
+}
+
+rlf_result calibrate_pictures_list(const char *place, calibrate_pictures *out)
 {
     struct dirent **entries = NULL;
     *out = (calibrate_pictures){.names = NULL};
-    const int count = scandir(folder, &entries, is_picture, NULL);
+    const char *pattern = split(place, out->folder);
+    const int count = scandir(out->folder, &entries, NULL, NULL);
     if (count < 0) {
-        return rlf_fail(RLF_ERROR_IO, "%s: is not a folder that can be read", folder);
+        return rlf_fail(RLF_ERROR_IO, "%s: is not a folder that can be read", out->folder);
     }
     out->names = rlf_alloc_array((size_t)count + 1, sizeof(*out->names));
     for (int i = 0; i < count; i++) {
-        if (out->names != NULL) {
-            memcpy(out->names[i], entries[i]->d_name, strlen(entries[i]->d_name) + 1);
+        const char *name = entries[i]->d_name;
+        if (out->names != NULL && is_picture(name, pattern)) {
+            memcpy(out->names[out->count++], name, strlen(name) + 1);
         }
         free(entries[i]);
     }
@@ -57,10 +74,15 @@ rlf_result calibrate_pictures_list(const char *folder, calibrate_pictures *out)
     if (out->names == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    out->count = count;
-    qsort(out->names, (size_t)count, sizeof(*out->names), by_number);
-    return count > 0 ? RLF_OK
-                     : rlf_fail(RLF_ERROR_IO, "%s: holds no .png, .jpg or .jpeg pictures", folder);
+    qsort(out->names, (size_t)out->count, sizeof(*out->names), by_number);
+    return out->count > 0 ? RLF_OK
+                          : rlf_fail(RLF_ERROR_IO, "%s: no .png, .jpg or .jpeg pictures", place);
+}
+
+void calibrate_pictures_path(const calibrate_pictures *p, const char *name,
+                             char out[CALIBRATE_PATH_SIZE])
+{
+    snprintf(out, CALIBRATE_PATH_SIZE, "%.3900s/%.120s", p->folder, name);
 }
 
 void calibrate_pictures_free(calibrate_pictures *p)

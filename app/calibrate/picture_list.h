@@ -4,14 +4,21 @@
 
 #include "calibrate/views.h"
 
+#define CALIBRATE_PATH_SIZE 4096
+
 typedef struct calibrate_pictures {
+    char folder[CALIBRATE_PATH_SIZE];
     char (*names)[CALIBRATE_NAME_SIZE]; /* sorted by number, then by name */
     int32_t count;
 } calibrate_pictures;
 
-/* Names of the PNG and JPEG files of a folder; RLF_ERROR_IO when there are none. */
-rlf_result calibrate_pictures_list(const char *folder, calibrate_pictures *out);
+/* Names of the PNG and JPEG files of a folder, or of those that fit a pattern: "boards/left*".
+ * RLF_ERROR_IO when there are none. */
+rlf_result calibrate_pictures_list(const char *place, calibrate_pictures *out);
 void calibrate_pictures_free(calibrate_pictures *p);
+/* The whole path of picture `index`. */
+void calibrate_pictures_path(const calibrate_pictures *p, const char *name,
+                             char out[CALIBRATE_PATH_SIZE]);
 /* The last number in a file's name; -1 = none. */
 int64_t calibrate_picture_number(const char *name);
 

@@ -138,23 +138,23 @@ bool calibrate_map(const calibrate_model *model, double u, double v, double dept
     return rlf_camera_project(&model->camera[1], p, &out_pixel[0], &out_pixel[1]);
 }
 
-void calibrate_map_point(const rlf_camera *camera, int32_t index, double *out_u, double *out_v,
-                         double *out_depth_m)
+void calibrate_map_point(const rlf_camera *camera, double distance_m, int32_t index, double *out_u,
+                         double *out_v, double *out_depth_m)
 {
-    static const double depths[3] = {0.8, 1.5, 3.0};
+    static const double shares[3] = {0.6, 1.0, 2.0};
     const int32_t cell = index / 3;
     *out_u = (cell % 16 + 0.5) * camera->width / 16.0 - 0.5;
     *out_v = (cell / 16 % 12 + 0.5) * camera->height / 12.0 - 0.5;
-    *out_depth_m = depths[index % 3];
+    *out_depth_m = shares[index % 3] * distance_m;
 }
 
 /* Variance of the mapped pixel: trace of J C J^T, with J by differences of a tenth of a standard
  * deviation. False where nothing is seen by both. */
-static bool map_variance(const calibrate_model *model, const calibrate_fit *fit, int32_t index,
-                         double *out)
+static bool map_variance(const calibrate_model *model, const calibrate_fit *fit, double distance_m,
+                         int32_t index, double *out)
 {
     double u, v, z, jacobian[CALIBRATE_SHARED][2] = {{0}};
-    calibrate_map_point(&model->camera[0], index, &u, &v, &z);
+    calibrate_map_point(&model->camera[0], distance_m, index, &u, &v, &z);
     for (int i = 0; i < CALIBRATE_SHARED; i++) {
         double step[CALIBRATE_SHARED] = {0}, plus[2], minus[2];
         const double h = 0.1 * calibrate_deviation(fit, i);
@@ -190,13 +190,27 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-double calibrate_map_deviation(const calibrate_model *model, const calibrate_fit *fit)
+double calibrate_distance(const calibrate_views *views)
+{
+    double values[CALIBRATE_VIEWS_MAX];
+    int32_t count = 0;
+    for (int32_t i = 0; i < views->count; i++) {
+        if (views->views[i].is_used) {
+            values[count++] = views->views[i].T_first_board.p.z;
+        }
+    }
+    qsort(values, (size_t)count, sizeof(values[0]), by_value);
+    return count > 0 ? values[count / 2] : 0.0;
+}
+
+double calibrate_map_deviation(const calibrate_model *model, const calibrate_fit *fit,
+                               double distance_m)
 {
     double values[CALIBRATE_MAP_POINTS];
     int32_t count = 0;
     for (int32_t i = 0; i < CALIBRATE_MAP_POINTS; i++) {
         double variance;
-        if (map_variance(model, fit, i, &variance)) {
+        if (map_variance(model, fit, distance_m, i, &variance)) {
             values[count++] = sqrt(rlf_max(variance, 0.0));
         }
     }
