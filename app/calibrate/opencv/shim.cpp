@@ -172,6 +172,8 @@ cv::Mat matrix(const relief_opencv_lens *lens)
             1);
 }
 
+/* calibrate only seeds an optimisation, stereo is compared with its end. */
+const cv::TermCriteria rough(cv::TermCriteria::EPS + cv::TermCriteria::MAX_ITER, 30, 1e-4);
 const cv::TermCriteria converged(cv::TermCriteria::EPS + cv::TermCriteria::MAX_ITER, 200, 1e-12);
 } // namespace
 
@@ -230,7 +232,7 @@ int relief_opencv_calibrate(const relief_opencv_views *views, relief_opencv_lens
         cv::Mat k, distortion;
         std::vector<cv::Mat> rotations, translations;
         *out_rms = cv::calibrateCamera(p.board, p.pixel, cv::Size(views->width, views->height), k,
-                                       distortion, rotations, translations, 0, converged);
+                                       distortion, rotations, translations, 0, rough);
         give_lens(k, distortion, out);
         for (size_t i = 0; i < rotations.size(); i++) {
             for (int a = 0; a < 3; a++) {

@@ -1,5 +1,5 @@
 /* Monte Carlo of a Kinect v2: 20 views of a 9x6 board of 30 mm squares, 0.6 to 1.5 m away, tilted
- * by up to 40 degrees, corners found to 0.1 px. */
+ * by up to 40 degrees, corners found to 0.1 px, the outline's corners in depth to 1 px. */
 #include "eval/calibration/calibration.h"
 
 #include "calibrate/quality.h"
@@ -21,9 +21,16 @@
 static const calibrate_board board = {
     .columns = 9, .rows = 6, .square_m = 0.03, .outline_m = {0.3, 0.21}};
 
+/* How the depth camera sees the board. */
+typedef enum way {
+    WAY_CORNERS = 0, /* inner corners in infrared pictures */
+    WAY_OUTLINE = 1, /* the outline's corners in depth, in one optimisation with colour */
+    WAY_THESIS = 2   /* the same corners, each camera by itself */
+} way;
+
 /* Sums over the trials of one way. */
 typedef struct errors {
-    double focal, motion; /* squares: relative, metres */
+    double focal, baseline, motion; /* squares: relative, metres, metres */
     double map[TRIALS * CALIBRATE_MAP_POINTS];
     int32_t map_count, trials;
 } errors;
@@ -127,12 +134,13 @@ static rlf_result add_view(const calibrate_model *model, bool is_outline, eval_r
 
 static void add_errors(const calibrate_model *truth, const calibrate_model *found, errors *e)
 {
-    for (int c = 0; c < CALIBRATE_CAMERAS; c++) {
-        const double share = found->camera[c].fx / truth->camera[c].fx - 1.0;
-        e->focal = c == 0 ? e->focal + share * share : e->focal;
-    }
-    const rlf_vec3 d = rlf_sub(found->T_second_first.p, truth->T_second_first.p);
-    e->motion += rlf_dot(d, d);
+    const double focal = found->camera[0].fx / truth->camera[0].fx - 1.0;
+    const rlf_vec3 should_be = truth->T_second_first.p, is_at = found->T_second_first.p;
+    const rlf_vec3 off = rlf_sub(is_at, should_be);
+    const double longer = rlf_length(is_at) - rlf_length(should_be);
+    e->focal += focal * focal;
+    e->motion += rlf_dot(off, off);
+    e->baseline += longer * longer;
     e->trials++;
     for (int32_t i = 0; i < CALIBRATE_MAP_POINTS; i++) {
         double u, v, z, is[2], should[2];
@@ -146,22 +154,43 @@ static void add_errors(const calibrate_model *truth, const calibrate_model *foun
     }
 }
 
-/* The thesis's way begins at the truth, with the lenses known to be free of distortion: what is
- * left is what four corners cannot tell. */
-static rlf_result solve(const relief_opencv_api *api, bool is_outline, const calibrate_model *truth,
+static void fix(calibrate_model *model, int32_t begin, int32_t end)
+{
+    for (int32_t i = begin; i < end; i++) {
+        model->is_fixed[i] = true;
+    }
+}
+
+static void hide_second(calibrate_views *views, int32_t count)
+{
+    for (int32_t i = 0; i < views->count; i++) {
+        views->views[i].sight[1].count = count;
+    }
+}
+
+/* The ways by the outline begin at the truth and know that lens's distortion: what is left is what
+ * four corners cannot tell. */
+static rlf_result solve(const relief_opencv_api *api, way w, const calibrate_model *truth,
                         calibrate_views *views, calibrate_model *found)
 {
     calibrate_fit fit;
     *found = *truth;
-    for (int i = 4; i < CALIBRATE_LENS && is_outline; i++) {
-        found->is_fixed[i] = true;
+    rlf_result result = RLF_OK;
+    if (w == WAY_CORNERS) {
+        result = calibrate_seed(api, views, found);
+    } else {
+        fix(found, 4, CALIBRATE_LENS);
     }
-    rlf_result result = is_outline ? RLF_OK : calibrate_seed(api, views, found);
+    if (w == WAY_THESIS) {
+        hide_second(views, 0);
+        result = calibrate_solve(views, found, &fit);
+        hide_second(views, board.columns * board.rows);
+        fix(found, 0, CALIBRATE_LENS);
+    }
     return result == RLF_OK ? calibrate_solve(views, found, &fit) : result;
 }
 
-static rlf_result run_trial(const relief_opencv_api *api, bool is_outline, eval_random *r,
-                            errors *e)
+static rlf_result run_trial(const relief_opencv_api *api, way w, eval_random *r, errors *e)
 {
     const calibrate_model truth = true_model();
     calibrate_model found;
@@ -174,10 +203,10 @@ static rlf_result run_trial(const relief_opencv_api *api, bool is_outline, eval_
         views.camera_name[c] = c == 0 ? "depth" : "color";
     }
     for (int i = 0; i < VIEWS && result == RLF_OK; i++) {
-        result = add_view(&truth, is_outline, r, &views);
+        result = add_view(&truth, w != WAY_CORNERS, r, &views);
     }
     if (result == RLF_OK) {
-        result = solve(api, is_outline, &truth, &views, &found);
+        result = solve(api, w, &truth, &views, &found);
     }
     if (result == RLF_OK) {
         add_errors(&truth, &found, e);
@@ -192,21 +221,57 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static void report(eval_table *table, errors *e, rlf_profile profile)
+typedef struct figure {
+    const char *key, *title;
+} figure;
+
+static void report(eval_table *table, errors *e, const figure figures[5], rlf_profile profile)
 {
     double sum = 0.0;
     for (int32_t i = 0; i < e->map_count; i++) {
         sum += e->map[i];
     }
     qsort(e->map, (size_t)e->map_count, sizeof(e->map[0]), by_value);
-    eval_table_add(table, SCENE, "map_mean_px", "20 views: depth in colour, mean error, px",
-                   profile, sum / e->map_count);
-    eval_table_add(table, SCENE, "map_p95_px", "20 views: depth in colour, error p95, px", profile,
-                   e->map[(int32_t)(0.95 * (e->map_count - 1))]);
-    eval_table_add(table, SCENE, "baseline_mm", "20 views: error of the baseline, mm", profile,
-                   1e3 * sqrt(e->motion / e->trials));
-    eval_table_add(table, SCENE, "focal_percent", "20 views: error of the focal length, %", profile,
-                   100.0 * sqrt(e->focal / e->trials));
+    const int32_t n = e->map_count;
+    const double values[5] = {n > 0 ? sum / n : NAN, n > 0 ? e->map[(int32_t)(0.95 * (n - 1))] : NAN,
+                              1e3 * sqrt(e->baseline / e->trials),
+                              1e3 * sqrt(e->motion / e->trials),
+                              100.0 * sqrt(e->focal / e->trials)};
+    for (int i = 0; i < 5; i++) {
+        eval_table_add(table, SCENE, figures[i].key, figures[i].title, profile, values[i]);
+    }
+}
+
+static rlf_result run_way(eval_table *table, const relief_opencv_api *api, way w, int64_t seed)
+{
+    static const figure by_corners[5] = {
+        {"map_mean_px", "20 views: depth in colour, mean error, px"},
+        {"map_p95_px", "20 views: depth in colour, error p95, px"},
+        {"baseline_mm", "20 views: error of the baseline, mm"},
+        {"motion_mm", "20 views: error of the camera's place, mm"},
+        {"focal_percent", "20 views: error of the focal length, %"}};
+    static const figure by_outline[5] = {
+        {"outline_map_mean_px", "by outline in depth: depth in colour, mean error, px"},
+        {"outline_map_p95_px", "by outline in depth: depth in colour, error p95, px"},
+        {"outline_baseline_mm", "by outline in depth: error of the baseline, mm"},
+        {"outline_motion_mm", "by outline in depth: error of the place, mm"},
+        {"outline_focal_percent", "by outline in depth: error of the focal length, %"}};
+    errors *e = rlf_alloc(sizeof(*e));
+    if (e == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    memset(e, 0, sizeof(*e));
+    eval_random random = eval_random_start((uint64_t)seed);
+    rlf_result result = RLF_OK;
+    for (int i = 0; i < TRIALS && result == RLF_OK; i++) {
+        result = run_trial(api, w, &random, e);
+    }
+    if (result == RLF_OK) {
+        report(table, e, w == WAY_CORNERS ? by_corners : by_outline,
+               w == WAY_THESIS ? RLF_PROFILE_THESIS : RLF_PROFILE_LIVE);
+    }
+    rlf_free(e);
+    return result;
 }
 
 rlf_result eval_calibration_run(eval_table *table, int64_t seed, int profile_mask)
@@ -216,21 +281,12 @@ rlf_result eval_calibration_run(eval_table *table, int64_t seed, int profile_mas
         rlf_log(RLF_LOG_WARNING, "calibration is not measured: %s", rlf_error_text());
         return RLF_OK;
     }
-    errors *e = rlf_alloc(sizeof(*e));
-    rlf_result result = e != NULL ? RLF_OK : RLF_ERROR_MEMORY;
-    for (int profile = 0; profile < EVAL_PROFILES && result == RLF_OK; profile++) {
-        if (!(profile_mask & (1 << profile))) {
-            continue;
-        }
-        memset(e, 0, sizeof(*e));
-        eval_random random = eval_random_start((uint64_t)seed);
-        for (int i = 0; i < TRIALS && result == RLF_OK; i++) {
-            result = run_trial(api, profile == RLF_PROFILE_THESIS, &random, e);
-        }
-        if (result == RLF_OK) {
-            report(table, e, (rlf_profile)profile);
+    rlf_result result = RLF_OK;
+    for (int w = WAY_CORNERS; w <= WAY_THESIS && result == RLF_OK; w++) {
+        const int profile = w == WAY_THESIS ? RLF_PROFILE_THESIS : RLF_PROFILE_LIVE;
+        if (profile_mask & (1 << profile)) {
+            result = run_way(table, api, (way)w, seed);
         }
     }
-    rlf_free(e);
     return result;
 }
