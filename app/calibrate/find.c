@@ -83,7 +83,8 @@ static relief_opencv_board board_of(const calibrate_board *board)
                                  .square = board->square_m,
                                  .marker = board->marker_m,
                                  .is_charuco = board->is_charuco,
-                                 .dictionary = board->dictionary};
+                                 .dictionary = board->dictionary,
+                                 .is_quick = board->is_quick};
 }
 
 static relief_opencv_gray gray_of(const calibrate_gray *gray)

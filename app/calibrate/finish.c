@@ -165,12 +165,12 @@ rlf_result calibrate_finish(const calibrate_options *options, calibration *c)
         return RLF_ERROR_UNSUPPORTED;
     }
     leave_doubles(&c->views);
-    rlf_result result = calibrate_judge_views(&c->views);
+    rlf_result result = calibrate_judge_views(&c->views, &c->model);
     if (result == RLF_OK) {
         result = fit_without_outliers(options, api, c);
     }
     if (result == RLF_OK) {
-        result = calibrate_judge_views(&c->views);
+        result = calibrate_judge_views(&c->views, &c->model);
     }
     if (result == RLF_OK) {
         result = calibrate_judge_fit(&c->views, &c->model, &c->fit);

@@ -72,11 +72,11 @@ double calibrate_tilt_spread(const calibrate_views *views)
     return DEGREES * rlf_acos(rlf_clamp(least, -1.0, 1.0));
 }
 
-rlf_result calibrate_judge_views(const calibrate_views *views)
+rlf_result calibrate_judge_views(const calibrate_views *views, const calibrate_model *model)
 {
     for (int32_t c = 0; c < views->camera_count; c++) {
         const int32_t used = calibrate_views_used(views, c);
-        if (used < CALIBRATE_VIEWS_LEAST) {
+        if (!model->is_fixed[CALIBRATE_LENS * c] && used < CALIBRATE_VIEWS_LEAST) {
             return rlf_fail(RLF_ERROR_INVALID,
                             "too few views: %d different pictures of the %s camera show the whole "
                             "board, and %d are needed; 15 to 20 are good",
@@ -139,7 +139,7 @@ rlf_result calibrate_judge_fit(const calibrate_views *views, const calibrate_mod
     }
     for (int32_t c = 0; c < views->camera_count; c++) {
         const double limit = rlf_max(1.0, RMS_MAX_SHARE * views->width[c]);
-        if (!(fit->rms_of[c] <= limit)) {
+        if (fit->rms_of[c] > limit) {
             return rlf_fail(RLF_ERROR_INVALID,
                             "the corners fit no rigid %dx%d board: %.1f pixels off in the %s "
                             "camera's pictures. Is --board right, is the board flat, are the "

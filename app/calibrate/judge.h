@@ -21,7 +21,7 @@ void calibrate_cover(const calibrate_views *views, int32_t camera, calibrate_cov
 /* Largest angle between the normals of two used boards, degrees. */
 double calibrate_tilt_spread(const calibrate_views *views);
 /* Before anything is solved: enough views that differ. */
-rlf_result calibrate_judge_views(const calibrate_views *views);
+rlf_result calibrate_judge_views(const calibrate_views *views, const calibrate_model *model);
 /* After: RLF_ERROR_INVALID with the reason when the fit is not to be trusted. Warnings go to the
  * log. */
 rlf_result calibrate_judge_fit(const calibrate_views *views, const calibrate_model *model,

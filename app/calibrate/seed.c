@@ -176,9 +176,10 @@ static void agree(calibrate_view *view, const calibrate_model *model)
     }
 }
 
+/* OpenCV seeds all of a lens or nothing of it. */
 static bool is_lens_fixed(const calibrate_model *model, int32_t camera)
 {
-    return model->is_fixed[camera * CALIBRATE_LENS];
+    return model->is_fixed[camera * CALIBRATE_LENS + 4];
 }
 
 static rlf_result seed_poses(calibrate_views *views, calibrate_model *model,

@@ -6,7 +6,7 @@
 #include "calibrate/solve.h"
 
 /* Sets lenses that are not fixed, the motion between the cameras and the views' poses. A camera
- * whose lens is fixed (all of it) keeps it, and its views get their poses from the other camera.
+ * whose distortion is fixed keeps its lens, and its views get their poses from the other camera.
  * Boards that one camera saw turned by half a turn are turned back. */
 rlf_result calibrate_seed(const relief_opencv_api *api, calibrate_views *views,
                           calibrate_model *model);

@@ -15,6 +15,7 @@ typedef struct calibrate_board {
     bool is_charuco;
     double marker_m;        /* of ChArUco */
     int32_t dictionary;     /* of ChArUco: OpenCV's number */
+    bool is_quick;          /* pictures of a video: many, and most without a board */
     double outline_m[2];    /* width and height of the whole board, its middle that of the lattice;
                                0 = unknown */
 } calibrate_board;

@@ -88,10 +88,12 @@ int find_chessboard(const cv::Mat &image, const relief_opencv_board *board,
 {
     const cv::Size size(board->columns, board->rows);
     std::vector<cv::Point2f> corners;
+    const int quick = board->is_quick ? cv::CALIB_CB_FAST_CHECK : 0;
     bool is_found = cv::findChessboardCorners(
-        image, size, corners, cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE);
-    is_found = is_found ||
-               cv::findChessboardCornersSB(image, size, corners, cv::CALIB_CB_NORMALIZE_IMAGE);
+        image, size, corners, cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | quick);
+    is_found = is_found || (!board->is_quick && cv::findChessboardCornersSB(
+                                                    image, size, corners,
+                                                    cv::CALIB_CB_NORMALIZE_IMAGE));
     if (!is_found) {
         return 0;
     }

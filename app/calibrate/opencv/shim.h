@@ -25,6 +25,7 @@ typedef struct relief_opencv_board {
     double square, marker; /* side lengths, metres; marker only of ChArUco */
     int32_t is_charuco;
     int32_t dictionary; /* of the markers: OpenCV's number, 0 = DICT_4X4_50 */
+    int32_t is_quick;   /* for video: give up at once where nothing looks like a board */
 } relief_opencv_board;
 
 /* Inner corners in a picture; corner id = row * columns + column. */
