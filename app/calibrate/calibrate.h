@@ -2,6 +2,7 @@
 #ifndef RELIEF_APP_CALIBRATE_CALIBRATE_H
 #define RELIEF_APP_CALIBRATE_CALIBRATE_H
 
+#include "calibrate/find.h"
 #include "calibrate/solve.h"
 #include "relief/frame.h"
 
@@ -34,7 +35,12 @@ typedef struct calibration {
     double units_per_metre;
     rlf_depth_noise noise; /* all 0 = unknown */
     bool is_thesis_way;    /* the depth camera by the board's outline */
+    calibrate_gray sample; /* of a source: one view in colour and depth, for the report */
+    float *sample_depth;   /* metres; NULL = a calibration of folders */
+    calibrate_model before; /* of a source: as it was */
 } calibration;
+
+void calibration_free(calibration *c);
 
 /* Solves, leaves outliers out and judges: RLF_ERROR_INVALID with the reason when the views cannot
  * determine the cameras. */

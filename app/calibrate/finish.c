@@ -158,6 +158,13 @@ static rlf_result measure(calibration *c)
     return result;
 }
 
+void calibration_free(calibration *c)
+{
+    calibrate_views_destroy(&c->views);
+    rlf_free(c->sample.data);
+    rlf_free(c->sample_depth);
+}
+
 rlf_result calibrate_finish(const calibrate_options *options, calibration *c)
 {
     const relief_opencv_api *api = opencv_get();

@@ -170,7 +170,7 @@ int calibrate_main(int argc, char **argv)
     }
     calibration c = {.offset_m = NAN, .offset_deviation_m = NAN};
     rlf_result result = run(&options, &c);
-    calibrate_views_destroy(&c.views);
+    calibration_free(&c);
     if (command_interrupted) {
         return command_stopped("calibrate");
     }

@@ -50,6 +50,24 @@ static void tell(const gatherer *g)
     }
 }
 
+/* One view is kept for the report: the first, and then one from the middle. */
+static rlf_result keep_sample(gatherer *g, const rlf_frame *frame)
+{
+    calibration *c = g->c;
+    const size_t size = (size_t)g->rig->depth.width * (size_t)g->rig->depth.height;
+    if (c->views.count != 1 && c->views.count != g->options->views / 2) {
+        return RLF_OK;
+    }
+    rlf_free(c->sample.data);
+    c->sample.data = NULL;
+    c->sample_depth = c->sample_depth != NULL ? c->sample_depth : rlf_alloc_array(size, sizeof(float));
+    if (c->sample_depth == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    info_depth_plane(frame, c->sample_depth);
+    return calibrate_gray_from_rgba(&frame->color, &c->sample);
+}
+
 /* Takes the sight over. */
 static rlf_result take(gatherer *g, const rlf_frame *frame, calibrate_sight *sight)
 {
@@ -65,7 +83,7 @@ static rlf_result take(gatherer *g, const rlf_frame *frame, calibrate_sight *sig
     calibrate_picker_took(&g->picker, views, &view->sight[1]);
     rlf_result result = keep_depth(g, frame, views->count - 1);
     tell(g);
-    return result;
+    return result == RLF_OK ? keep_sample(g, frame) : result;
 }
 
 static rlf_result look(gatherer *g, const rlf_frame *frame)
@@ -135,6 +153,9 @@ static void start_model(gatherer *g)
     c->depth_max_m = g->rig->depth_max_m;
     c->noise = g->rig->noise;
     c->model.camera[0] = g->rig->depth;
+    c->before.camera[0] = g->rig->depth;
+    c->before.camera[1] = g->rig->color;
+    c->before.T_second_first = g->rig->T_color_depth;
     c->model.camera[0].distortion_model = RLF_DISTORTION_NONE;
     memset(c->model.camera[0].distortion, 0, sizeof(c->model.camera[0].distortion));
     c->model.T_second_first = g->rig->T_color_depth;

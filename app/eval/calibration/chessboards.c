@@ -58,6 +58,6 @@ rlf_result eval_chessboards_run(eval_table *table, const char *folder)
         add(table, "epipolar_px", "mean distance from the epipolar line, px", c.epipolar);
         add(table, "opencv_apart_px", "focal lengths, away from OpenCV's optimum, px", apart);
     }
-    calibrate_views_destroy(&c.views);
+    calibration_free(&c);
     return result;
 }
