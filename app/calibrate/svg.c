@@ -84,19 +84,16 @@ void svg_residuals(FILE *out, const calibration *c, int camera)
 static void draw_dot(FILE *out, const calibrate_point *p, const double e[2], double scale)
 {
     (void)p;
-    fprintf(out, "<circle cx=\"%.4f\" cy=\"%.4f\" r=\"%.4f\" class=\"corner\"/>", -e[0], -e[1],
-            scale);
+    fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"1.2\" class=\"corner\"/>", -scale * e[0],
+            -scale * e[1]);
 }
 
 void svg_scatter(FILE *out, const calibration *c, int camera)
 {
-    const double reach = 4.0 * rlf_max(c->fit.rms_of[camera], 1e-6);
-    begin(out, -reach, -reach, 2.0 * reach, 2.0 * reach);
-    fprintf(out,
-            "<path d=\"M%g 0H%gM0 %gV%g\" class=\"axis\"/>"
-            "<circle cx=\"0\" cy=\"0\" r=\"%g\" class=\"axis\"/>",
-            -reach, reach, -reach, reach, c->fit.rms_of[camera]);
-    for_errors(out, c, camera, draw_dot, 0.012 * reach);
+    begin(out, -100, -100, 200, 200);
+    fprintf(out, "<path d=\"M-100 0H100M0 -100V100\" class=\"axis\"/>"
+                 "<circle cx=\"0\" cy=\"0\" r=\"25\" class=\"axis\"/>");
+    for_errors(out, c, camera, draw_dot, 25.0 / rlf_max(c->fit.rms_of[camera], 1e-6));
     fprintf(out, "</svg>\n");
 }
 
