@@ -3,6 +3,7 @@
 #include "calibrate/depth_offset.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 
 static int by_value(const void *a, const void *b)
@@ -21,23 +22,55 @@ static double plane_depth(const rlf_pose *T_camera_board, const double half[2], 
     return z > 0.0 && fabs(at.x) <= half[0] && fabs(at.y) <= half[1] ? z : 0.0;
 }
 
+/* Pixels that the lattice can cover: left, top, right, bottom, inclusive; false when it is not all in
+ * the picture. */
+static bool find_box(const rlf_pose *T, const double half[2], const rlf_camera *camera,
+                     int32_t box[4])
+{
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (int i = 0; i < 4; i++) {
+        const rlf_vec3 corner = {i % 2 == 0 ? -half[0] : half[0], i < 2 ? -half[1] : half[1], 0.0};
+        double at[2];
+        if (!rlf_camera_project(camera, rlf_transform(T, corner), &at[0], &at[1])) {
+            return false;
+        }
+        for (int k = 0; k < 2; k++) {
+            low[k] = rlf_min(low[k], at[k]);
+            high[k] = rlf_max(high[k], at[k]);
+        }
+    }
+    if (low[0] < 0.0 || low[1] < 0.0 || high[0] > camera->width - 1 ||
+        high[1] > camera->height - 1) {
+        return false;
+    }
+    for (int k = 0; k < 2; k++) {
+        box[k] = (int32_t)low[k];
+        box[2 + k] = (int32_t)high[k];
+    }
+    return true;
+}
+
 double depth_offset_on(const calibrate_view *view, const calibrate_board *board,
                        const rlf_camera *camera, const float *depth)
 {
     const double half[2] = {0.5 * (board->columns - 1) * board->square_m,
                             0.5 * (board->rows - 1) * board->square_m};
-    const size_t size = (size_t)camera->width * (size_t)camera->height;
-    double *values = rlf_alloc_array(size, sizeof(*values));
+    int32_t box[4];
+    if (!find_box(&view->T_first_board, half, camera, box)) {
+        return NAN;
+    }
+    const int32_t width = box[2] - box[0] + 1, height = box[3] - box[1] + 1;
+    double *values = rlf_alloc_array((size_t)width * (size_t)height, sizeof(*values));
     size_t count = 0, inside = 0;
-    for (size_t i = 0; values != NULL && i < size; i++) {
+    for (int32_t i = 0; values != NULL && i < width * height; i++) {
         rlf_vec3 ray;
-        const double u = (double)(i % (size_t)camera->width);
-        const double v = (double)(i / (size_t)camera->width);
+        const int32_t u = box[0] + i % width, v = box[1] + i / width;
         const bool has_ray = rlf_camera_unproject(camera, u, v, &ray);
         const double z = has_ray ? plane_depth(&view->T_first_board, half, ray) : 0.0;
+        const double measured = depth[(int64_t)v * camera->width + u];
         inside += z > 0.0;
-        if (z > 0.0 && depth[i] > 0.0F) {
-            values[count++] = depth[i] - z;
+        if (z > 0.0 && measured > 0.0) {
+            values[count++] = measured - z;
         }
     }
     double median = NAN;

@@ -137,5 +137,11 @@ bool calibrate_find_other(const relief_opencv_api *api, const calibrate_gray *gr
     least.is_charuco = false;
     least.columns = 3;
     least.rows = 3;
-    return calibrate_find_larger(api, gray, &least, out_columns, out_rows);
+    const bool is_found = calibrate_find_larger(api, gray, &least, out_columns, out_rows);
+    if (is_found && *out_columns < *out_rows) { /* a turned board is the same board */
+        const int32_t columns = *out_rows;
+        *out_rows = *out_columns;
+        *out_columns = columns;
+    }
+    return is_found;
 }

@@ -10,6 +10,7 @@
 
 #define SAME_PX 1.0      /* boards whose corners moved less than this are one view */
 #define OUTLIER_RATIO 3.0 /* of a view's error to the median view's */
+#define GROSS_RATIO 10.0  /* the same before anything is solved together */
 #define OUTLIER_SHARE 3   /* at most one in so many views is left out */
 
 /* Mean distance of the corners of two sights, pixels; INFINITY when they are not the same ones. */
@@ -50,31 +51,6 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The used view with the largest error; out_ratio is that to the median. */
-static int32_t worst_view(const calibration *c, double *out_ratio)
-{
-    double errors[CALIBRATE_VIEWS_MAX], sorted[CALIBRATE_VIEWS_MAX];
-    int32_t worst = -1, count = 0;
-    for (int32_t i = 0; i < c->views.count; i++) {
-        if (!c->views.views[i].is_used) {
-            continue;
-        }
-        errors[i] = calibrate_view_rms(&c->views.views[i], &c->model);
-        sorted[count++] = errors[i];
-        worst = worst < 0 || errors[i] > errors[worst] ? i : worst;
-    }
-    qsort(sorted, (size_t)count, sizeof(sorted[0]), by_value);
-    *out_ratio = worst >= 0 ? errors[worst] / rlf_max(sorted[count / 2], 1e-6) : 0.0;
-    return worst;
-}
-
-static void mirror(calibrate_sight *sight, int32_t width)
-{
-    for (int32_t i = 0; i < sight->count; i++) {
-        sight->points[i].u = width - 1 - sight->points[i].u;
-    }
-}
-
 /* Error of one view with its own pose solved anew. */
 static double pose_rms(calibration *c, int32_t index)
 {
@@ -87,6 +63,37 @@ static double pose_rms(calibration *c, int32_t index)
     return calibrate_solve(&alone, &model, &fit) == RLF_OK ? fit.rms : INFINITY;
 }
 
+/* The used view with the largest error, its pose solved anew by the lenses as they are, or as it is;
+ * out_ratio is that to the median. */
+static int32_t worst_view(calibration *c, bool by_pose, double *out_ratio)
+{
+    double errors[CALIBRATE_VIEWS_MAX], sorted[CALIBRATE_VIEWS_MAX];
+    int32_t worst = -1, count = 0;
+    for (int32_t i = 0; i < c->views.count; i++) {
+        if (!c->views.views[i].is_used) {
+            continue;
+        }
+        errors[i] = by_pose ? pose_rms(c, i) : calibrate_view_rms(&c->views.views[i], &c->model);
+        sorted[count++] = errors[i];
+        worst = worst < 0 || errors[i] > errors[worst] ? i : worst;
+    }
+    qsort(sorted, (size_t)count, sizeof(sorted[0]), by_value);
+    *out_ratio = worst >= 0 ? errors[worst] / rlf_max(sorted[count / 2], 1e-6) : 0.0;
+    return worst;
+}
+
+/* The sight in a mirrored picture. There OpenCV numbers the corners from the other side, left to
+ * right or top to bottom. */
+static void mirror(calibrate_sight *sight, int32_t width, bool is_by_rows)
+{
+    for (int32_t i = 0; i < sight->count; i++) {
+        calibrate_point *p = &sight->points[i];
+        p->u = width - 1 - p->u;
+        p->x = is_by_rows ? p->x : -p->x;
+        p->y = is_by_rows ? -p->y : p->y;
+    }
+}
+
 /* The camera whose picture of this view fits when it is mirrored, or -1. */
 static int mirrored_camera(calibration *c, int32_t index)
 {
@@ -94,11 +101,12 @@ static int mirrored_camera(calibration *c, int32_t index)
     const rlf_pose kept = view->T_first_board;
     const double as_is = pose_rms(c, index);
     int found = -1;
-    for (int k = 0; k < CALIBRATE_CAMERAS; k++) {
-        mirror(&view->sight[k], c->views.width[k]);
+    for (int way = 0; way < 2 * CALIBRATE_CAMERAS; way++) {
+        calibrate_sight *sight = &view->sight[way / 2];
+        mirror(sight, c->views.width[way / 2], way % 2 == 1);
         view->T_first_board = kept;
-        found = view->sight[k].count > 0 && pose_rms(c, index) < 0.2 * as_is ? k : found;
-        mirror(&view->sight[k], c->views.width[k]);
+        found = sight->count > 0 && pose_rms(c, index) < 0.2 * as_is ? way / 2 : found;
+        mirror(sight, c->views.width[way / 2], way % 2 == 1);
     }
     view->T_first_board = kept;
     return found;
@@ -119,25 +127,37 @@ static void leave_outlier(calibration *c, int32_t index, double ratio)
     }
 }
 
-static rlf_result fit_once(const relief_opencv_api *api, calibration *c)
+/* Seeds, and leaves out what is far off already: the motion that most views agree on does not know
+ * of it, whereas least squares would spread its error over all views. */
+static rlf_result seed(const calibrate_options *o, const relief_opencv_api *api, calibration *c,
+                       int32_t *most)
 {
     rlf_result result = calibrate_seed(api, &c->views, &c->model);
-    return result == RLF_OK ? calibrate_solve(&c->views, &c->model, &c->fit) : result;
+    for (; result == RLF_OK && *most > 0 && !o->keeps_outliers; --*most) {
+        double ratio;
+        const int32_t worst = worst_view(c, true, &ratio);
+        if (ratio < GROSS_RATIO) {
+            break;
+        }
+        leave_outlier(c, worst, ratio);
+        result = calibrate_seed(api, &c->views, &c->model);
+    }
+    return result;
 }
 
 static rlf_result fit_without_outliers(const calibrate_options *o, const relief_opencv_api *api,
                                        calibration *c)
 {
-    const int32_t most = calibrate_views_used(&c->views, -1) / OUTLIER_SHARE;
-    rlf_result result = fit_once(api, c);
-    for (int32_t left = 0; result == RLF_OK && left < most && !o->keeps_outliers; left++) {
+    int32_t most = calibrate_views_used(&c->views, -1) / OUTLIER_SHARE;
+    rlf_result result = seed(o, api, c, &most);
+    for (; result == RLF_OK; --most) {
         double ratio;
-        const int32_t worst = worst_view(c, &ratio);
-        if (ratio < OUTLIER_RATIO) {
+        result = calibrate_solve(&c->views, &c->model, &c->fit);
+        const int32_t worst = worst_view(c, false, &ratio);
+        if (ratio < OUTLIER_RATIO || most == 0 || o->keeps_outliers) {
             break;
         }
         leave_outlier(c, worst, ratio);
-        result = fit_once(api, c);
     }
     return result;
 }

@@ -77,29 +77,37 @@ static inline int board_brightness(const rlf_pose *T, rlf_vec3 ray)
     return is_inside && ((int)x + (int)y) % 2 == 0 ? 30 : 220;
 }
 
-/* Grey picture of the board at T (in the camera's frame), 3 x 3 rays a pixel. */
-static inline void board_draw(const rlf_camera *camera, const rlf_pose *T, uint8_t *out)
+#define BOARD_RAYS 4 /* of a pixel */
+
+/* Rays of every pixel, BOARD_RAYS each, for board_draw; the caller has the room. */
+static inline void board_rays(const rlf_camera *camera, rlf_vec3 *out)
 {
-    for (int32_t i = 0; i < camera->width * camera->height; i++) {
-        int sum = 4;
-        for (int k = 0; k < 9; k++) {
-            rlf_vec3 ray;
-            rlf_camera_unproject(camera, i % camera->width + (k % 3 - 1) / 3.0,
-                                 i / camera->width + (k / 3 - 1) / 3.0, &ray);
-            sum += board_brightness(T, ray);
-        }
-        out[i] = (uint8_t)(sum / 9);
+    for (int32_t i = 0; i < camera->width * camera->height * BOARD_RAYS; i++) {
+        const int32_t p = i / BOARD_RAYS, k = i % BOARD_RAYS;
+        rlf_camera_unproject(camera, p % camera->width + (k % 2 - 0.5) / 2.0,
+                             p / camera->width + (k / 2 - 0.5) / 2.0, &out[i]);
     }
 }
 
-/* Depth of the board before the wall, millimetres. */
-static inline void board_depth(const rlf_camera *camera, const rlf_pose *T, double offset_m,
-                               uint16_t *out)
+/* Grey picture of the board at T (in the camera's frame). */
+static inline void board_draw(int32_t pixels, const rlf_vec3 *rays, const rlf_pose *T, uint8_t *out)
 {
-    for (int32_t i = 0; i < camera->width * camera->height; i++) {
-        rlf_vec3 ray, at;
-        rlf_camera_unproject(camera, i % camera->width, i / camera->width, &ray);
-        const double z = board_hit(T, ray, &at);
+    for (int32_t i = 0; i < pixels; i++) {
+        int sum = BOARD_RAYS / 2;
+        for (int k = 0; k < BOARD_RAYS; k++) {
+            sum += board_brightness(T, rays[BOARD_RAYS * i + k]);
+        }
+        out[i] = (uint8_t)(sum / BOARD_RAYS);
+    }
+}
+
+/* Depth of the board before the wall, millimetres, along each pixel's ray. */
+static inline void board_depth(int32_t pixels, const rlf_vec3 *rays, const rlf_pose *T,
+                               double offset_m, uint16_t *out)
+{
+    for (int32_t i = 0; i < pixels; i++) {
+        rlf_vec3 at;
+        const double z = board_hit(T, rays[i], &at);
         out[i] = (uint16_t)(1000.0 * ((z > 0.0 ? z : BOARD_WALL_M) + offset_m) + 0.5);
     }
 }
