@@ -5,6 +5,7 @@
 #include "calibrate/seed.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -162,6 +163,42 @@ static rlf_result fit_without_outliers(const calibrate_options *o, const relief_
     return result;
 }
 
+/* After a fit that is off everywhere: whether it is good once all pictures of the second camera are
+ * mirrored. */
+static bool is_all_mirrored(const relief_opencv_api *api, calibration *c)
+{
+    const double as_is = c->fit.rms;
+    bool is_mirrored = false;
+    for (int way = 0; way < 2 && c->views.camera_count == 2 && !is_mirrored; way++) {
+        for (int32_t i = 0; i < c->views.count; i++) {
+            mirror(&c->views.views[i].sight[1], c->views.width[1], way == 1);
+        }
+        is_mirrored = calibrate_seed(api, &c->views, &c->model) == RLF_OK &&
+                      calibrate_solve(&c->views, &c->model, &c->fit) == RLF_OK &&
+                      c->fit.rms < 0.2 * as_is;
+        for (int32_t i = 0; i < c->views.count; i++) {
+            mirror(&c->views.views[i].sight[1], c->views.width[1], way == 1);
+        }
+    }
+    return is_mirrored;
+}
+
+/* The reason of a refusal, better where it is known better. */
+static rlf_result explain(const relief_opencv_api *api, calibration *c, rlf_result result)
+{
+    if (result == RLF_OK || c->fit.rms < 2.0) {
+        return result;
+    }
+    char reason[512];
+    snprintf(reason, sizeof(reason), "%s", rlf_error_text());
+    return is_all_mirrored(api, c)
+               ? rlf_fail(RLF_ERROR_INVALID,
+                          "the pictures of one camera are mirrored: those of both fit once the %s "
+                          "ones are mirrored",
+                          c->views.camera_name[1])
+               : rlf_fail(result, "%s", reason);
+}
+
 static rlf_result measure(calibration *c)
 {
     rlf_result result = RLF_OK;
@@ -200,7 +237,7 @@ rlf_result calibrate_finish(const calibrate_options *options, calibration *c)
         result = calibrate_judge_views(&c->views, &c->model);
     }
     if (result == RLF_OK) {
-        result = calibrate_judge_fit(&c->views, &c->model, &c->fit);
+        result = explain(api, c, calibrate_judge_fit(&c->views, &c->model, &c->fit));
     }
     return result == RLF_OK ? measure(c) : result;
 }

@@ -73,7 +73,8 @@ void calibrate_print_views(const calibrate_views *views)
 {
     for (int32_t i = 0; i < views->count; i++) {
         const calibrate_view *view = &views->views[i];
-        if (!view->is_used) {
+        const bool has_board = view->sight[0].count + view->sight[1].count > 0;
+        if (!view->is_used && has_board) { /* a warning has named the others */
             printf("  left out: %s: %s\n", calibrate_view_name(view), view->reason);
         }
     }
