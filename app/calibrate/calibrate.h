@@ -26,17 +26,17 @@ typedef struct calibration {
     calibrate_model model;
     calibrate_fit fit;
     double leave_one_out[CALIBRATE_CAMERAS]; /* pixels; NAN = not seen */
-    double epipolar;        /* mean distance to the epipolar line, pixels; NAN = one camera */
-    double mapping_p95;     /* standard deviation of where depth lands in colour, 95 % of the
-                               picture, pixels; NAN = one camera */
+    double epipolar;    /* mean distance to the epipolar line, pixels; NAN = one camera */
+    double mapping_p95; /* standard deviation of where depth lands in colour, 95 % of the
+                           picture, pixels; NAN = one camera */
     double offset_m, offset_deviation_m; /* depth is too far by this much; NAN = not measured */
     int32_t offset_boards;
     double depth_min_m, depth_max_m; /* 0 = unknown */
     double units_per_metre;
-    rlf_depth_noise noise; /* all 0 = unknown */
-    bool is_thesis_way;    /* the depth camera by the board's outline */
-    calibrate_gray sample; /* of a source: one view in colour and depth, for the report */
-    float *sample_depth;   /* metres; NULL = a calibration of folders */
+    rlf_depth_noise noise;  /* all 0 = unknown */
+    bool is_thesis_way;     /* the depth camera by the board's outline */
+    calibrate_gray sample;  /* of a source: one view in colour and depth, for the report */
+    float *sample_depth;    /* metres; NULL = a calibration of folders */
     calibrate_model before; /* of a source: as it was */
 } calibration;
 

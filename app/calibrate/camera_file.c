@@ -44,17 +44,17 @@ static json_t *note_json(const calibration *c)
     int length = snprintf(text, sizeof(text), "relief calibrate: %d views, RMS %.4f px",
                           (int)calibrate_views_used(&c->views, -1), c->fit.rms);
     for (int k = 0; k < c->views.camera_count && length < (int)sizeof(text); k++) {
-        length += snprintf(text + length, sizeof(text) - (size_t)length, ", %s leave-one-out %.4f px",
-                           c->views.camera_name[k], c->leave_one_out[k]);
+        length +=
+            snprintf(text + length, sizeof(text) - (size_t)length, ", %s leave-one-out %.4f px",
+                     c->views.camera_name[k], c->leave_one_out[k]);
     }
     if (c->views.camera_count == 2 && length < (int)sizeof(text)) {
         length += snprintf(text + length, sizeof(text) - (size_t)length,
                            ", depth in colour +- %.2f px", c->mapping_p95);
     }
     if (c->offset_boards > 0 && length < (int)sizeof(text)) {
-        snprintf(text + length, sizeof(text) - (size_t)length,
-                 ", depth too far by %.2f +- %.2f mm", 1e3 * c->offset_m,
-                 1e3 * c->offset_deviation_m);
+        snprintf(text + length, sizeof(text) - (size_t)length, ", depth too far by %.2f +- %.2f mm",
+                 1e3 * c->offset_m, 1e3 * c->offset_deviation_m);
     }
     return json_string(text);
 }

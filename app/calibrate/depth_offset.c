@@ -22,8 +22,8 @@ static double plane_depth(const rlf_pose *T_camera_board, const double half[2], 
     return z > 0.0 && fabs(at.x) <= half[0] && fabs(at.y) <= half[1] ? z : 0.0;
 }
 
-/* Pixels that the lattice can cover: left, top, right, bottom, inclusive; false when it is not all in
- * the picture. */
+/* Pixels that the lattice can cover: left, top, right, bottom, inclusive; false when it is not all
+ * in the picture. */
 static bool find_box(const rlf_pose *T, const double half[2], const rlf_camera *camera,
                      int32_t box[4])
 {
@@ -96,6 +96,5 @@ void depth_offset_combine(calibration *c)
     }
     c->offset_boards = n;
     c->offset_m = n > 0 ? sum / n : NAN;
-    c->offset_deviation_m =
-        n > 1 ? sqrt(rlf_max(squares - sum * sum / n, 0.0) / (n - 1) / n) : NAN;
+    c->offset_deviation_m = n > 1 ? sqrt(rlf_max(squares - sum * sum / n, 0.0) / (n - 1) / n) : NAN;
 }

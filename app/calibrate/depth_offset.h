@@ -5,7 +5,8 @@
 #include "calibrate/calibrate.h"
 
 /* Median over the board's pixels of measured depth minus that of its plane, metres; NAN where less
- * than half of the lattice has depth or it is not all in the picture. `depth` is the first camera's picture, metres, 0 = missing. */
+ * than half of the lattice has depth or it is not all in the picture. `depth` is the first camera's
+ * picture, metres, 0 = missing. */
 double depth_offset_on(const calibrate_view *view, const calibrate_board *board,
                        const rlf_camera *camera, const float *depth);
 /* Mean of the views' offsets and its standard deviation into the calibration. */

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SAME_PX 1.0      /* boards whose corners moved less than this are one view */
+#define SAME_PX 1.0       /* boards whose corners moved less than this are one view */
 #define OUTLIER_RATIO 3.0 /* of a view's error to the median view's */
 #define GROSS_RATIO 10.0  /* the same before anything is solved together */
 #define OUTLIER_SHARE 3   /* at most one in so many views is left out */
@@ -64,8 +64,8 @@ static double pose_rms(calibration *c, int32_t index)
     return calibrate_solve(&alone, &model, &fit) == RLF_OK ? fit.rms : INFINITY;
 }
 
-/* The used view with the largest error, its pose solved anew by the lenses as they are, or as it is;
- * out_ratio is that to the median. */
+/* The used view with the largest error, its pose solved anew by the lenses as they are, or as it
+ * is; out_ratio is that to the median. */
 static int32_t worst_view(calibration *c, bool by_pose, double *out_ratio)
 {
     double errors[CALIBRATE_VIEWS_MAX], sorted[CALIBRATE_VIEWS_MAX];
@@ -119,8 +119,9 @@ static void leave_outlier(calibration *c, int32_t index, double ratio)
     const double rms = calibrate_view_rms(view, &c->model);
     const int camera = mirrored_camera(c, index);
     if (camera >= 0) {
-        calibrate_view_leave(view, "does not fit the others (%.1f px), but would if the %s picture "
-                                   "were mirrored",
+        calibrate_view_leave(view,
+                             "does not fit the others (%.1f px), but would if the %s picture "
+                             "were mirrored",
                              rms, c->views.camera_name[camera]);
     } else {
         calibrate_view_leave(view, "does not fit the others: %.2f px, %.1f times the median", rms,

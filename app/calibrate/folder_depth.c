@@ -6,7 +6,6 @@
 
 #include "relief/io.h"
 
-
 /* The picture of the view's number, or NULL. */
 static const char *find_name(const calibrate_pictures *p, const calibrate_view *view)
 {

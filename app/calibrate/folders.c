@@ -137,11 +137,10 @@ static rlf_result check_board(const folders *f, int c)
     }
     char hint[256];
     hint_other(f, c, hint, sizeof(hint));
-    return rlf_fail(RLF_ERROR_INVALID,
-                    "%s: none of the %d pictures shows a whole %s of %dx%d inner corners%s",
-                    f->folder[c], (int)f->pictures[c].count,
-                    board->is_charuco ? "ChArUco board" : "chessboard", (int)board->columns,
-                    (int)board->rows, hint);
+    return rlf_fail(
+        RLF_ERROR_INVALID, "%s: none of the %d pictures shows a whole %s of %dx%d inner corners%s",
+        f->folder[c], (int)f->pictures[c].count, board->is_charuco ? "ChArUco board" : "chessboard",
+        (int)board->columns, (int)board->rows, hint);
 }
 
 static rlf_result look_at_all(folders *f)

@@ -7,9 +7,10 @@
 
 #define FOCAL_DEVIATION_MAX 0.02 /* of the focal length */
 #define BOX_LEAST 0.25           /* of the picture's area that all corners together span */
-#define TILT_LEAST_DEG 15.0      /* less perspective than this leaves focal length and distance one */
-#define SIGMA_LEAST_PX 0.1       /* corners are not found better than this */
-#define RMS_MAX_SHARE 0.004      /* of the picture's width: the corners fit no board */
+#define TILT_LEAST_DEG 15.0 /* less perspective than this leaves focal length and distance one */
+#define SIGMA_LEAST_PX 0.1  /* corners are not found better than this */
+#define RMS_GOOD_PX 0.5
+#define RMS_MAX_SHARE 0.004 /* of the picture's width: the corners fit no board */
 #define DEGREES 57.29577951308232
 
 static const char *ninth_name(int row, int column)
@@ -39,8 +40,10 @@ void calibrate_cover(const calibrate_views *views, int32_t camera, calibrate_cov
     for (int32_t i = 0; i < views->count; i++) {
         const calibrate_sight *sight = &views->views[i].sight[camera];
         for (int32_t k = 0; views->views[i].is_used && k < sight->count; k++) {
-            const double x = rlf_clamp((sight->points[k].u + 0.5) / views->width[camera], 0, 0.9999);
-            const double y = rlf_clamp((sight->points[k].v + 0.5) / views->height[camera], 0, 0.9999);
+            const double x =
+                rlf_clamp((sight->points[k].u + 0.5) / views->width[camera], 0, 0.9999);
+            const double y =
+                rlf_clamp((sight->points[k].v + 0.5) / views->height[camera], 0, 0.9999);
             out->cells[(int)(y * COVERAGE_ROWS)][(int)(x * COVERAGE_COLUMNS)] = true;
             ninths[(int)(y * 3)][(int)(x * 3)] = true;
             out->box[0] = rlf_min(out->box[0], x);
@@ -117,6 +120,12 @@ static rlf_result judge_camera(const calibrate_views *views, const calibrate_mod
                         "the views leave the %s camera's focal length open by %.1f %%: add views, "
                         "nearer, and tilted by 20 to 40 degrees to all sides",
                         name, 100.0 * deviation);
+    }
+    if (fit->rms_of[c] > RMS_GOOD_PX) {
+        rlf_log(RLF_LOG_WARNING,
+                "corners of the %s camera are %.2f px off, where sharp pictures of a flat board "
+                "give 0.1 to 0.3",
+                name, fit->rms_of[c]);
     }
     if (cover.missing[0] != '\0') {
         rlf_log(RLF_LOG_WARNING, "the board was never in this part of the %s camera's picture: %s",

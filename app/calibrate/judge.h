@@ -12,8 +12,8 @@
 /* Where in one camera's picture corners were seen. */
 typedef struct calibrate_coverage {
     bool cells[COVERAGE_ROWS][COVERAGE_COLUMNS];
-    double share;   /* of the cells */
-    double box[4];  /* left, top, right, bottom of all corners, as shares of the picture */
+    double share;     /* of the cells */
+    double box[4];    /* left, top, right, bottom of all corners, as shares of the picture */
     char missing[96]; /* ninths of the picture without any, in words: "upper left, right" */
 } calibrate_coverage;
 

@@ -35,10 +35,12 @@ static void print_help(void)
         "  --dictionary N    of its markers: OpenCV's number, default 0 (4x4, 50 markers)\n"
         "  --outline WxH     size of the whole board in metres. Of a SOURCE: the depth camera is\n"
         "                    found by the board's outline in depth, as there is no infrared\n"
-        "  --depth-lens      of a SOURCE with --outline: find its lens too (rough); else it is kept\n"
+        "  --depth-lens      of a SOURCE with --outline: find its lens too (rough); else it is "
+        "kept\n"
         "  --keep-outliers   leave no view out because it does not fit\n"
         "  --out FILE        write camera.json; else the result is only printed\n"
-        "  --report DIR      write DIR/index.html: coverage, residuals, pictures before and after\n\n"
+        "  --report DIR      write DIR/index.html: coverage, residuals, pictures before and "
+        "after\n\n"
         "examples:\n"
         "  relief calibrate --left ir --right color --board 9x6 --square 0.025 --out camera.json\n"
         "  relief calibrate freenect2: --board 9x6 --square 0.025 --report report\n"
@@ -105,30 +107,50 @@ static int check(const calibrate_options *o, int arguments)
 static int parse(int argc, char **argv, calibrate_options *o)
 {
     int_pair board = {9, 6}, charuco = {0, 0};
-    *o = (calibrate_options){
-        .board = {.square_m = 0.025}, .units_per_metre = 1000.0, .views = 20};
+    *o = (calibrate_options){.board = {.square_m = 0.025}, .units_per_metre = 1000.0, .views = 20};
     const option_def options[] = {
         {.name = "left", .kind = OPTION_TEXT, .out = &o->left},
         {.name = "right", .kind = OPTION_TEXT, .out = &o->right},
         {.name = "depth", .kind = OPTION_TEXT, .out = &o->depth},
         {.name = "out", .kind = OPTION_TEXT, .out = &o->out_path},
         {.name = "report", .kind = OPTION_TEXT, .out = &o->report},
-        {.name = "units", .kind = OPTION_CHOICE, .out = &o->units_per_metre, .take = take_number,
+        {.name = "units",
+         .kind = OPTION_CHOICE,
+         .out = &o->units_per_metre,
+         .take = take_number,
          .choices = "is no number of counts a metre, as 1000"},
-        {.name = "board", .kind = OPTION_CHOICE, .out = &board, .take = take_size,
+        {.name = "board",
+         .kind = OPTION_CHOICE,
+         .out = &board,
+         .take = take_size,
          .choices = "use COLUMNSxROWS of inner corners, 3x3 to 64x16, as 9x6"},
-        {.name = "charuco", .kind = OPTION_CHOICE, .out = &charuco, .take = take_size,
+        {.name = "charuco",
+         .kind = OPTION_CHOICE,
+         .out = &charuco,
+         .take = take_size,
          .choices = "use COLUMNSxROWS of squares, 3x3 to 64x16, as 11x8"},
-        {.name = "square", .kind = OPTION_CHOICE, .out = &o->board.square_m, .take = take_number,
+        {.name = "square",
+         .kind = OPTION_CHOICE,
+         .out = &o->board.square_m,
+         .take = take_number,
          .choices = "is no length in metres, as 0.025"},
-        {.name = "marker", .kind = OPTION_CHOICE, .out = &o->board.marker_m, .take = take_number,
+        {.name = "marker",
+         .kind = OPTION_CHOICE,
+         .out = &o->board.marker_m,
+         .take = take_number,
          .choices = "is no length in metres, as 0.018"},
         {.name = "dictionary", .kind = OPTION_INT32, .out = &o->board.dictionary, .high = 20},
-        {.name = "outline", .kind = OPTION_CHOICE, .out = o->board.outline_m, .take = take_outline,
+        {.name = "outline",
+         .kind = OPTION_CHOICE,
+         .out = o->board.outline_m,
+         .take = take_outline,
          .choices = "use WIDTHxHEIGHT in metres, as 0.30x0.21"},
         {.name = "depth-lens", .kind = OPTION_FLAG, .out = &o->finds_depth_lens},
         {.name = "keep-outliers", .kind = OPTION_FLAG, .out = &o->keeps_outliers},
-        {.name = "views", .kind = OPTION_INT32, .out = &o->views, .low = 5,
+        {.name = "views",
+         .kind = OPTION_INT32,
+         .out = &o->views,
+         .low = 5,
          .high = CALIBRATE_VIEWS_MAX},
         {.name = "seconds", .kind = OPTION_INT32, .out = &o->seconds, .low = 1, .high = 86400},
         {.name = "plugin", .kind = OPTION_PLUGIN},

@@ -3,12 +3,12 @@
 
 #include <math.h>
 
-#define SAMPLES 64        /* along a side */
-#define SIDE_MARGIN 0.08  /* of a side's ends are left out: corners are round in depth */
-#define SEARCH_SHARE 0.2  /* of the board's smaller side, on both sides of where it should be */
-#define SAMPLES_LEAST 24  /* of a side's samples that must have an edge */
+#define SAMPLES 64       /* along a side */
+#define SIDE_MARGIN 0.08 /* of a side's ends are left out: corners are round in depth */
+#define SEARCH_SHARE 0.2 /* of the board's smaller side, on both sides of where it should be */
+#define SAMPLES_LEAST 24 /* of a side's samples that must have an edge */
 #define TRIM_ROUNDS 3
-#define TRIM_RATIO 2.5    /* of the RMS: places beyond belong to something else */
+#define TRIM_RATIO 2.5     /* of the RMS: places beyond belong to something else */
 #define SIGMA_LEAST_PX 0.3 /* an edge between two pixels */
 
 typedef struct board_plane {
@@ -72,8 +72,8 @@ static bool find_end(const rlf_rig *rig, const rlf_pose *T, const board_plane *p
                               &ray)) {
         return false;
     }
-    *out = (place){rig->depth.fx * ray.x + rig->depth.cx, rig->depth.fy * ray.y + rig->depth.cy,
-                   true};
+    *out =
+        (place){rig->depth.fx * ray.x + rig->depth.cx, rig->depth.fy * ray.y + rig->depth.cy, true};
     return true;
 }
 
@@ -100,8 +100,8 @@ static double fit_line(const place *places, int32_t count, line *out)
     out->n[0] = -rlf_sin(angle);
     out->n[1] = rlf_cos(angle);
     out->d = out->n[0] * su + out->n[1] * sv;
-    const double across = out->n[0] * out->n[0] * uu + 2.0 * out->n[0] * out->n[1] * uv +
-                          out->n[1] * out->n[1] * vv;
+    const double across =
+        out->n[0] * out->n[0] * uu + 2.0 * out->n[0] * out->n[1] * uv + out->n[1] * out->n[1] * vv;
     return sqrt(rlf_max(across, 0.0) / n);
 }
 
@@ -159,8 +159,8 @@ static board_plane find_plane(const rlf_rig *rig, const rlf_pose *T, const doubl
     double sum = 0.0;
     int32_t count = 0;
     for (int i = 0; i < 100; i++) {
-        const rlf_vec3 p = rlf_transform(T, rlf_vec3_make((i % 10 - 4.5) * 0.05 * size[0],
-                                                          (i / 10 - 4.5) * 0.05 * size[1], 0));
+        const rlf_vec3 p = rlf_transform(
+            T, rlf_vec3_make((i % 10 - 4.5) * 0.05 * size[0], (i / 10 - 4.5) * 0.05 * size[1], 0));
         double u, v;
         rlf_vec3 ray;
         if (!rlf_camera_project(&rig->depth, p, &u, &v) || u < 0 || v < 0 ||

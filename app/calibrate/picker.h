@@ -14,8 +14,8 @@ typedef enum calibrate_side {
 #define CALIBRATE_SIDES 4
 
 typedef struct calibrate_picker {
-    calibrate_sight last;    /* the board in the picture before; count 0 = none */
-    int32_t still;           /* pictures in a row in which it has not moved */
+    calibrate_sight last;        /* the board in the picture before; count 0 = none */
+    int32_t still;               /* pictures in a row in which it has not moved */
     bool tilts[CALIBRATE_SIDES]; /* sides that were nearer in some view */
 } calibrate_picker;
 

@@ -96,8 +96,7 @@ static bool is_numbered(const calibrate_pictures *p)
     bool is = true;
     for (int32_t i = 0; i < p->count; i++) {
         const int64_t number = calibrate_picture_number(p->names[i]);
-        is = is && number >= 0 &&
-             (i == 0 || number > calibrate_picture_number(p->names[i - 1]));
+        is = is && number >= 0 && (i == 0 || number > calibrate_picture_number(p->names[i - 1]));
     }
     return is;
 }

@@ -11,7 +11,8 @@ static void print_number(const char *name, double value, double deviation, const
                          bool is_fixed)
 {
     if (is_fixed) {
-        printf("    %-10s %11.5g          kept%s%s\n", name, value, *unit != '\0' ? ", " : "", unit);
+        printf("    %-10s %11.5g          kept%s%s\n", name, value, *unit != '\0' ? ", " : "",
+               unit);
     } else {
         printf("    %-10s %11.5g +- %-8.2g %s\n", name, value, deviation, unit);
     }
@@ -55,14 +56,12 @@ static void print_motion(const calibration *c)
     printf("  from the %s camera to the %s one: baseline %.3f mm, mean epipolar error %.4f px\n",
            c->views.camera_name[0], c->views.camera_name[1], 1e3 * rlf_length(p), c->epipolar);
     for (int i = 0; i < 3; i++) {
-        print_number(names[i], mm[i],
-                     1e3 * calibrate_deviation(&c->fit, CALIBRATE_MOTION + 3 + i), "mm",
-                     c->model.is_fixed[CALIBRATE_MOTION + 3 + i]);
+        print_number(names[i], mm[i], 1e3 * calibrate_deviation(&c->fit, CALIBRATE_MOTION + 3 + i),
+                     "mm", c->model.is_fixed[CALIBRATE_MOTION + 3 + i]);
     }
     for (int i = 0; i < 3; i++) {
-        print_number(names[i], deg[i],
-                     DEGREES * calibrate_deviation(&c->fit, CALIBRATE_MOTION + i), "deg",
-                     c->model.is_fixed[CALIBRATE_MOTION + i]);
+        print_number(names[i], deg[i], DEGREES * calibrate_deviation(&c->fit, CALIBRATE_MOTION + i),
+                     "deg", c->model.is_fixed[CALIBRATE_MOTION + i]);
     }
     printf("  where depth lands in colour: standard deviation below %.2f px in 95 %% of the "
            "picture\n",

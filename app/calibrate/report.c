@@ -46,10 +46,11 @@ static void print_summary(FILE *out, const calibration *c)
             (int)calibrate_views_used(&c->views, -1), (int)c->views.board.columns,
             (int)c->views.board.rows, c->views.board.square_m, c->fit.rms);
     if (c->views.camera_count == CALIBRATE_CAMERAS) {
-        fprintf(out,
-                "<p>Baseline %.3f mm. Mean distance from the epipolar line %.4f px. Depth lands in "
-                "colour with a standard deviation of at most %.2f px in 95 %% of the picture.</p>\n",
-                1e3 * rlf_length(c->model.T_second_first.p), c->epipolar, c->mapping_p95);
+        fprintf(
+            out,
+            "<p>Baseline %.3f mm. Mean distance from the epipolar line %.4f px. Depth lands in "
+            "colour with a standard deviation of at most %.2f px in 95 %% of the picture.</p>\n",
+            1e3 * rlf_length(c->model.T_second_first.p), c->epipolar, c->mapping_p95);
     }
     if (c->offset_boards > 0) {
         fprintf(out, "<p>Depth is too far by %.2f &plusmn; %.2f mm (%d boards).</p>\n",
@@ -95,8 +96,9 @@ static void print_parameters(FILE *out, const calibration *c)
     if (c->views.camera_count == CALIBRATE_CAMERAS) {
         const rlf_vec3 p = c->model.T_second_first.p;
         const double values[3] = {p.x, p.y, p.z};
-        fprintf(out, "<table><tr><th>from %s to %s</th><th>value</th><th>standard deviation</th>"
-                     "</tr>\n",
+        fprintf(out,
+                "<table><tr><th>from %s to %s</th><th>value</th><th>standard deviation</th>"
+                "</tr>\n",
                 c->views.camera_name[0], c->views.camera_name[1]);
         for (int i = 0; i < 3; i++) {
             print_unknown(out, c, place[i], CALIBRATE_MOTION + 3 + i, values[i]);
@@ -166,8 +168,9 @@ static rlf_result write_page(const calibrate_options *o, const calibration *c, i
     print_summary(out, c);
     if (pictures > 0) {
         const bool is_pair = o->source == NULL;
-        fprintf(out, "<h2>Before and after</h2>\n<p>%s</p>\n<img src=\"before.png\" alt=\"before\">"
-                     "<img src=\"after.png\" alt=\"after\">\n",
+        fprintf(out,
+                "<h2>Before and after</h2>\n<p>%s</p>\n<img src=\"before.png\" alt=\"before\">"
+                "<img src=\"after.png\" alt=\"after\">\n",
                 is_pair ? "One pair as it is, and rectified: what is on a line in one picture is "
                           "on it in the other."
                         : "Edges of depth (red) in colour, as the source had it and now.");

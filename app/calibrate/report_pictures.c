@@ -11,9 +11,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#define LINES 16          /* level lines through a pair */
-#define WIDTH_MOST 640    /* of one picture of a pair */
-#define EDGE_SHARE 0.05   /* of the depth: a step beyond this is drawn */
+#define LINES 16        /* level lines through a pair */
+#define WIDTH_MOST 640  /* of one picture of a pair */
+#define EDGE_SHARE 0.05 /* of the depth: a step beyond this is drawn */
 
 static rlf_result canvas_create(int32_t width, int32_t height, rlf_image_rgba8 *out)
 {
@@ -53,7 +53,8 @@ static rlf_mat3 rectifying(const rlf_pose *T)
     const rlf_quat back = rlf_quat_conjugate(T->q);
     rlf_vec3 x = rlf_normalize(rlf_neg(rlf_rotate(back, T->p)));
     x = x.x < 0.0 ? rlf_neg(x) : x;
-    const rlf_vec3 ahead = rlf_add(rlf_vec3_make(0, 0, 1), rlf_rotate(back, rlf_vec3_make(0, 0, 1)));
+    const rlf_vec3 ahead =
+        rlf_add(rlf_vec3_make(0, 0, 1), rlf_rotate(back, rlf_vec3_make(0, 0, 1)));
     const rlf_vec3 y = rlf_normalize(rlf_cross(ahead, x));
     const rlf_vec3 z = rlf_cross(x, y);
     return (rlf_mat3){{{x.x, x.y, x.z}, {y.x, y.y, y.z}, {z.x, z.y, z.z}}};
@@ -82,8 +83,7 @@ static void draw_pair(const calibration *c, const calibrate_gray gray[2], const 
             const double u = x % flat->width;
             double at[2] = {(u + 0.5) * gray[k].width / flat->width - 0.5,
                             (y + 0.5) * gray[k].height / flat->height - 0.5};
-            const bool is_seen =
-                !is_rectified || rectified_source(c, &to_first, flat, k, u, y, at);
+            const bool is_seen = !is_rectified || rectified_source(c, &to_first, flat, k, u, y, at);
             const uint8_t value = is_seen ? sample(&gray[k], at[0], at[1]) : 0;
             put(canvas, x, y, is_line ? 255 : value, is_line ? value / 2 : value,
                 is_line ? value / 2 : value);

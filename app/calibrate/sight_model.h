@@ -5,9 +5,9 @@
 #include "calibrate/solve.h"
 
 typedef struct sight_term {
-    double error[2];                     /* predicted minus seen, pixels */
-    double shared[2][CALIBRATE_SHARED];  /* d error / d shared unknown */
-    double own[2][6];                    /* d error / d rotation, translation of the board */
+    double error[2];                    /* predicted minus seen, pixels */
+    double shared[2][CALIBRATE_SHARED]; /* d error / d shared unknown */
+    double own[2][6];                   /* d error / d rotation, translation of the board */
 } sight_term;
 
 /* Term of corner `index` of a camera's sight; where the board is behind the camera, the error is

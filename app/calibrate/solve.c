@@ -92,8 +92,7 @@ static void build(const calibrate_views *views, const calibrate_model *model, eq
                 sight_linearise(view, model, c, i, &term);
                 const double weight = 1.0 / (sigma * sigma);
                 add_term(&term, model->is_fixed, weight, e, &blocks[v]);
-                e->cost += weight * (term.error[0] * term.error[0] +
-                                     term.error[1] * term.error[1]);
+                e->cost += weight * (term.error[0] * term.error[0] + term.error[1] * term.error[1]);
                 e->numbers += 2;
             }
         }

@@ -18,9 +18,9 @@ typedef struct calibrate_model {
 } calibrate_model;
 
 typedef struct calibrate_fit {
-    double rms;                    /* sqrt(sum |e|^2 / corners), pixels, both cameras */
+    double rms;                       /* sqrt(sum |e|^2 / corners), pixels, both cameras */
     double rms_of[CALIBRATE_CAMERAS]; /* of one; NAN = it sees nothing */
-    double sigma; /* of one pixel coordinate, from the residuals and the degrees of freedom */
+    double sigma;       /* of one pixel coordinate, from the residuals and the degrees of freedom */
     bool is_determined; /* the views settle every unknown, and the covariance is set */
     double covariance[CALIBRATE_SHARED][CALIBRATE_SHARED]; /* of the shared; 0 where fixed */
 } calibrate_fit;

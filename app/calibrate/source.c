@@ -60,7 +60,8 @@ static rlf_result keep_sample(gatherer *g, const rlf_frame *frame)
     }
     rlf_free(c->sample.data);
     c->sample.data = NULL;
-    c->sample_depth = c->sample_depth != NULL ? c->sample_depth : rlf_alloc_array(size, sizeof(float));
+    c->sample_depth =
+        c->sample_depth != NULL ? c->sample_depth : rlf_alloc_array(size, sizeof(float));
     if (c->sample_depth == NULL) {
         return RLF_ERROR_MEMORY;
     }
@@ -253,10 +254,9 @@ static rlf_result run(gatherer *g, rlf_source *source)
         return result;
     }
     if (g->c->views.count == 0) {
-        return rlf_fail(RLF_ERROR_INVALID,
-                        "%s: no frame shows a whole %dx%d board that is held still",
-                        g->options->source, (int)g->options->board.columns,
-                        (int)g->options->board.rows);
+        return rlf_fail(
+            RLF_ERROR_INVALID, "%s: no frame shows a whole %dx%d board that is held still",
+            g->options->source, (int)g->options->board.columns, (int)g->options->board.rows);
     }
     const bool has_outline = g->options->board.outline_m[0] > 0.0;
     result = has_outline && g->c->views.count >= CALIBRATE_VIEWS_LEAST ? find_outlines(g) : result;

@@ -29,8 +29,8 @@ calibrate_view *calibrate_views_add(calibrate_views *v)
         return NULL;
     }
     calibrate_view *view = &v->views[v->count++];
-    *view = (calibrate_view){
-        .is_used = true, .T_first_board = rlf_pose_identity(), .offset_m = NAN};
+    *view =
+        (calibrate_view){.is_used = true, .T_first_board = rlf_pose_identity(), .offset_m = NAN};
     return view;
 }
 

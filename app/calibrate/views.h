@@ -13,11 +13,11 @@ typedef struct calibrate_board {
     int32_t columns, rows; /* of inner corners */
     double square_m;
     bool is_charuco;
-    double marker_m;        /* of ChArUco */
-    int32_t dictionary;     /* of ChArUco: OpenCV's number */
-    bool is_quick;          /* pictures of a video: many, and most without a board */
-    double outline_m[2];    /* width and height of the whole board, its middle that of the lattice;
-                               0 = unknown */
+    double marker_m;     /* of ChArUco */
+    int32_t dictionary;  /* of ChArUco: OpenCV's number */
+    bool is_quick;       /* pictures of a video: many, and most without a board */
+    double outline_m[2]; /* width and height of the whole board, its middle that of the lattice;
+                            0 = unknown */
 } calibrate_board;
 
 /* A point of the board, metres in its plane, and the pixel where a camera sees it. */

@@ -120,7 +120,8 @@ static void print_help(void)
         "  --tune            seeds 2, 4, 6, ... instead: for tuning, never reported\n"
         "  --normals DIR     clean depth with true normals: folders of depth.bin, normal.png and\n"
         "                    params.txt (docs/measuring.md); only this unless --scene is given\n"
-        "  --chessboards DIR left*.jpg and right*.jpg of a 9x6 board (OpenCV's 13 pairs); only this\n"
+        "  --chessboards DIR left*.jpg and right*.jpg of a 9x6 board (OpenCV's 13 pairs); only "
+        "this\n"
         "                    unless --scene is given\n"
         "  --real DIR        real recordings, each figure beside a simple baseline; only this\n"
         "                    unless --scene is given; skipped where there is no DIR\n"
@@ -285,8 +286,7 @@ static int32_t list_tasks(const eval_options *o, eval_task *tasks)
         }
     }
     const bool has_rooms =
-        o->section != NULL ? is_random_section(o->section)
-                           : !has_pictures(o) && !o->is_bounded;
+        o->section != NULL ? is_random_section(o->section) : !has_pictures(o) && !o->is_bounded;
     for (int32_t i = 0; has_rooms && i < o->rooms; i++) {
         tasks[count++] = (eval_task){.section = o->section != NULL ? o->section : EVAL_RANDOM,
                                      .seed = eval_random_seed(i, o->is_tuning),

@@ -44,12 +44,12 @@ static inline rlf_pose board_pose(int i)
         {0.0, 0.0, 0.4},      {-0.12, 0.0, 0.6},    {0.14, 0.02, 0.6},  {0.02, -0.08, 0.6},
         {0.0, 0.09, 0.6},     {-0.12, -0.09, 0.65}, {0.13, 0.09, 0.66}, {0.01, 0.01, 0.7}};
     static const double tilt[BOARD_VIEWS][3] = {
-        {0.4, 0.1, 0.1},   {-0.4, 0.2, 0.0},  {0.1, 0.45, -0.1}, {0.1, -0.45, 0.0},
-        {0.3, 0.3, 0.05},  {-0.3, -0.35, 0},  {0.35, -0.3, 0.1}, {-0.5, 0.1, 0.0},
-        {0.5, -0.1, -0.1}, {0.2, 0.5, 0.0},   {-0.2, -0.5, 0.1}, {0.0, 0.1, 0.2}};
-    return (rlf_pose){.q = rlf_quat_from_rotation_vector(
-                          rlf_vec3_make(tilt[i][0], tilt[i][1], tilt[i][2])),
-                      .p = rlf_vec3_make(place[i][0], place[i][1], place[i][2])};
+        {0.4, 0.1, 0.1},   {-0.4, 0.2, 0.0}, {0.1, 0.45, -0.1}, {0.1, -0.45, 0.0},
+        {0.3, 0.3, 0.05},  {-0.3, -0.35, 0}, {0.35, -0.3, 0.1}, {-0.5, 0.1, 0.0},
+        {0.5, -0.1, -0.1}, {0.2, 0.5, 0.0},  {-0.2, -0.5, 0.1}, {0.0, 0.1, 0.2}};
+    return (rlf_pose){
+        .q = rlf_quat_from_rotation_vector(rlf_vec3_make(tilt[i][0], tilt[i][1], tilt[i][2])),
+        .p = rlf_vec3_make(place[i][0], place[i][1], place[i][2])};
 }
 
 /* Depth of the board along a ray; 0 where it misses, *at is the place on the board. */
@@ -58,7 +58,8 @@ static inline double board_hit(const rlf_pose *T, rlf_vec3 ray, rlf_vec3 *at)
     const rlf_vec3 n = rlf_rotate(T->q, rlf_vec3_make(0, 0, 1));
     const double z = rlf_dot(n, T->p) / rlf_dot(n, ray);
     *at = rlf_transform_inverse(T, rlf_scale(ray, z));
-    const bool is_on = z > 0.0 && at->x * at->x < 0.25 * test_board.outline_m[0] * test_board.outline_m[0] &&
+    const bool is_on = z > 0.0 &&
+                       at->x * at->x < 0.25 * test_board.outline_m[0] * test_board.outline_m[0] &&
                        at->y * at->y < 0.25 * test_board.outline_m[1] * test_board.outline_m[1];
     return is_on ? z : 0.0;
 }

@@ -43,8 +43,9 @@ static void load(void)
     }
     is_loaded = load_all(object) && functions.version() == RELIEF_OPENCV_VERSION;
     if (!is_loaded) {
-        snprintf(reason, sizeof(reason), "librelief_opencv.so is of another version of Relief: "
-                                         "install both from one build");
+        snprintf(reason, sizeof(reason),
+                 "librelief_opencv.so is of another version of Relief: "
+                 "install both from one build");
     }
 }
 

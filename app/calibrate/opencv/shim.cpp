@@ -91,9 +91,9 @@ int find_chessboard(const cv::Mat &image, const relief_opencv_board *board,
     const int quick = board->is_quick ? cv::CALIB_CB_FAST_CHECK : 0;
     bool is_found = cv::findChessboardCorners(
         image, size, corners, cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | quick);
-    is_found = is_found || (!board->is_quick && cv::findChessboardCornersSB(
-                                                    image, size, corners,
-                                                    cv::CALIB_CB_NORMALIZE_IMAGE));
+    is_found = is_found ||
+               (!board->is_quick &&
+                cv::findChessboardCornersSB(image, size, corners, cv::CALIB_CB_NORMALIZE_IMAGE));
     if (!is_found) {
         return 0;
     }
@@ -110,16 +110,15 @@ int find_chessboard(const cv::Mat &image, const relief_opencv_board *board,
 int find_charuco(const cv::Mat &image, const relief_opencv_board *board, relief_opencv_corners *out)
 {
     auto dictionary = cv::aruco::getPredefinedDictionary(board->dictionary);
-    auto charuco = cv::aruco::CharucoBoard::create(board->columns + 1, board->rows + 1,
-                                                   float(board->square), float(board->marker),
-                                                   dictionary);
+    auto charuco =
+        cv::aruco::CharucoBoard::create(board->columns + 1, board->rows + 1, float(board->square),
+                                        float(board->marker), dictionary);
     std::vector<std::vector<cv::Point2f>> markers;
     std::vector<int> marker_ids, ids;
     std::vector<cv::Point2f> corners;
     cv::aruco::detectMarkers(image, dictionary, markers, marker_ids);
-    if (marker_ids.empty() ||
-        cv::aruco::interpolateCornersCharuco(markers, marker_ids, image, charuco, corners, ids) <
-            6) {
+    if (marker_ids.empty() || cv::aruco::interpolateCornersCharuco(markers, marker_ids, image,
+                                                                   charuco, corners, ids) < 6) {
         return 0;
     }
     const double pitch = refine(image, corners);
@@ -256,10 +255,10 @@ int relief_opencv_stereo(const relief_opencv_views *first, const relief_opencv_v
             k[i] = matrix(&lenses[i]);
             distortion[i] = cv::Mat(1, 5, CV_64F, lenses[i].k).clone();
         }
-        *out_rms = cv::stereoCalibrate(a.board, a.pixel, b.pixel, k[0], distortion[0], k[1],
-                                       distortion[1], cv::Size(first->width, first->height),
-                                       rotation, translation, essential, fundamental,
-                                       cv::CALIB_USE_INTRINSIC_GUESS, converged);
+        *out_rms =
+            cv::stereoCalibrate(a.board, a.pixel, b.pixel, k[0], distortion[0], k[1], distortion[1],
+                                cv::Size(first->width, first->height), rotation, translation,
+                                essential, fundamental, cv::CALIB_USE_INTRINSIC_GUESS, converged);
         cv::Rodrigues(rotation, vector);
         for (int i = 0; i < 3; i++) {
             motion[i] = vector.at<double>(i);

@@ -68,7 +68,7 @@ typedef struct relief_opencv_lens {
       (const relief_opencv_gray *gray, const relief_opencv_board *board, int32_t *out_columns,     \
        int32_t *out_rows))                                                                         \
     F(int, calibrate,                                                                              \
-      (const relief_opencv_views *views, relief_opencv_lens *out, double (*poses)[6],              \
+      (const relief_opencv_views *views, relief_opencv_lens *out, double(*poses)[6],               \
        double *out_rms))                                                                           \
     F(int, stereo,                                                                                 \
       (const relief_opencv_views *first, const relief_opencv_views *second,                        \

@@ -113,8 +113,7 @@ static rlf_result add_view(const calibrate_model *model, bool is_outline, eval_r
 {
     calibrate_view *view = calibrate_views_add(views);
     const int32_t corners = board.columns * board.rows;
-    rlf_result result =
-        calibrate_sight_resize(&view->sight[0], is_outline ? 4 : corners);
+    rlf_result result = calibrate_sight_resize(&view->sight[0], is_outline ? 4 : corners);
     if (result == RLF_OK) {
         result = calibrate_sight_resize(&view->sight[1], corners);
     }
@@ -233,10 +232,10 @@ static void report(eval_table *table, errors *e, const figure figures[5], rlf_pr
     }
     qsort(e->map, (size_t)e->map_count, sizeof(e->map[0]), by_value);
     const int32_t n = e->map_count;
-    const double values[5] = {n > 0 ? sum / n : NAN, n > 0 ? e->map[(int32_t)(0.95 * (n - 1))] : NAN,
-                              1e3 * sqrt(e->baseline / e->trials),
-                              1e3 * sqrt(e->motion / e->trials),
-                              100.0 * sqrt(e->focal / e->trials)};
+    const double values[5] = {
+        n > 0 ? sum / n : NAN, n > 0 ? e->map[(int32_t)(0.95 * (n - 1))] : NAN,
+        1e3 * sqrt(e->baseline / e->trials), 1e3 * sqrt(e->motion / e->trials),
+        100.0 * sqrt(e->focal / e->trials)};
     for (int i = 0; i < 5; i++) {
         eval_table_add(table, SCENE, figures[i].key, figures[i].title, profile, values[i]);
     }
