@@ -44,6 +44,9 @@ static json_t *note_json(const calibration *c)
     int length = snprintf(text, sizeof(text), "relief calibrate: %d views, RMS %.4f px",
                           (int)calibrate_views_used(&c->views, -1), c->fit.rms);
     for (int k = 0; k < c->views.camera_count && length < (int)sizeof(text); k++) {
+        if (isnan(c->leave_one_out[k])) {
+            continue;
+        }
         length +=
             snprintf(text + length, sizeof(text) - (size_t)length, ", %s leave-one-out %.4f px",
                      c->views.camera_name[k], c->leave_one_out[k]);

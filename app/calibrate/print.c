@@ -18,6 +18,14 @@ static void print_number(const char *name, double value, double deviation, const
     }
 }
 
+/* Nothing where it was not measured. */
+static void print_pixels(const char *name, double value)
+{
+    if (!isnan(value)) {
+        printf(" %s %.4f px,", name, value);
+    }
+}
+
 static void print_camera(const calibration *c, int k)
 {
     static const char *const names[CALIBRATE_LENS] = {"fx", "fy", "cx", "cy", "k1",
@@ -34,10 +42,10 @@ static void print_camera(const calibration *c, int k)
                                            m->distortion[4]};
     calibrate_coverage cover;
     calibrate_cover(&c->views, k, &cover);
-    printf("  %s camera, %dx%d: RMS %.4f px, leave-one-out %.4f px, %.0f %% of the picture "
-           "covered\n",
-           c->views.camera_name[k], (int)m->width, (int)m->height, c->fit.rms_of[k],
-           c->leave_one_out[k], 100.0 * cover.share);
+    printf("  %s camera, %dx%d:", c->views.camera_name[k], (int)m->width, (int)m->height);
+    print_pixels("RMS", c->fit.rms_of[k]);
+    print_pixels("leave-one-out", c->leave_one_out[k]);
+    printf(" %.0f %% of the picture covered\n", 100.0 * cover.share);
     for (int i = 0; i < CALIBRATE_LENS; i++) {
         const int index = k * CALIBRATE_LENS + i;
         print_number(names[i], values[i], calibrate_deviation(&c->fit, index), i < 4 ? "px" : "",
@@ -53,8 +61,9 @@ static void print_motion(const calibration *c)
     const double s = 2.0 * (q.w < 0.0 ? -1.0 : 1.0) * DEGREES; /* small turns: 2 sin(a/2) */
     const double deg[3] = {s * q.x, s * q.y, s * q.z};
     static const char *const names[3] = {"x", "y", "z"};
-    printf("  from the %s camera to the %s one: baseline %.3f mm, mean epipolar error %.4f px\n",
-           c->views.camera_name[0], c->views.camera_name[1], 1e3 * rlf_length(p), c->epipolar);
+    printf("  from the %s camera to the %s one:", c->views.camera_name[0], c->views.camera_name[1]);
+    print_pixels("mean epipolar error", c->epipolar);
+    printf(" baseline %.3f mm\n", 1e3 * rlf_length(p));
     for (int i = 0; i < 3; i++) {
         print_number(names[i], mm[i], 1e3 * calibrate_deviation(&c->fit, CALIBRATE_MOTION + 3 + i),
                      "mm", c->model.is_fixed[CALIBRATE_MOTION + 3 + i]);
@@ -96,7 +105,7 @@ void calibrate_print(const calibration *c)
                1e3 * c->offset_deviation_m, (int)c->offset_boards);
     }
     if (c->is_thesis_way) {
-        printf("  the depth camera was found by the board's outline in depth: about a hundred "
-               "times\n  less exact than inner corners in infrared pictures\n");
+        printf("  the depth camera was found by the board's outline in depth; infrared pictures "
+               "are more exact\n");
     }
 }

@@ -46,19 +46,22 @@ static void print_summary(FILE *out, const calibration *c)
             (int)calibrate_views_used(&c->views, -1), (int)c->views.board.columns,
             (int)c->views.board.rows, c->views.board.square_m, c->fit.rms);
     if (c->views.camera_count == CALIBRATE_CAMERAS) {
-        fprintf(
-            out,
-            "<p>Baseline %.3f mm. Mean distance from the epipolar line %.4f px. Depth lands in "
-            "colour with a standard deviation of at most %.2f px in 95 %% of the picture.</p>\n",
-            1e3 * rlf_length(c->model.T_second_first.p), c->epipolar, c->mapping_p95);
+        fprintf(out,
+                "<p>Baseline %.3f mm. Depth lands in colour with a standard deviation of at most "
+                "%.2f px in 95 %% of the picture.",
+                1e3 * rlf_length(c->model.T_second_first.p), c->mapping_p95);
+        if (!isnan(c->epipolar)) {
+            fprintf(out, " Mean distance from the epipolar line: %.4f px.", c->epipolar);
+        }
+        fprintf(out, "</p>\n");
     }
     if (c->offset_boards > 0) {
         fprintf(out, "<p>Depth is too far by %.2f &plusmn; %.2f mm (%d boards).</p>\n",
                 1e3 * c->offset_m, 1e3 * c->offset_deviation_m, (int)c->offset_boards);
     }
     if (c->is_thesis_way) {
-        fprintf(out, "<p>The depth camera was found by the board's outline in depth. That is far "
-                     "less exact than inner corners in infrared pictures.</p>\n");
+        fprintf(out, "<p>The depth camera was found by the board's outline in depth; infrared "
+                     "pictures are more exact.</p>\n");
     }
 }
 
@@ -70,6 +73,14 @@ static void print_unknown(FILE *out, const calibration *c, const char *name, int
     } else {
         fprintf(out, "<tr><td>%s</td><td>%.6g</td><td>%.2g</td></tr>\n", name, value,
                 calibrate_deviation(&c->fit, index));
+    }
+}
+
+/* Nothing where it was not measured. */
+static void print_pixels(FILE *out, const char *name, double value)
+{
+    if (!isnan(value)) {
+        fprintf(out, "<tr><td>%s</td><td>%.4f</td><td></td></tr>\n", name, value);
     }
 }
 
@@ -89,9 +100,9 @@ static void print_parameters(FILE *out, const calibration *c)
         for (int i = 0; i < CALIBRATE_LENS; i++) {
             print_unknown(out, c, lens[i], k * CALIBRATE_LENS + i, values[i]);
         }
-        fprintf(out, "<tr><td>RMS, px</td><td>%.4f</td><td></td></tr>\n", c->fit.rms_of[k]);
-        fprintf(out, "<tr><td>leave-one-out, px</td><td>%.4f</td><td></td></tr></table>\n",
-                c->leave_one_out[k]);
+        print_pixels(out, "RMS, px", c->fit.rms_of[k]);
+        print_pixels(out, "leave-one-out, px", c->leave_one_out[k]);
+        fprintf(out, "</table>\n");
     }
     if (c->views.camera_count == CALIBRATE_CAMERAS) {
         const rlf_vec3 p = c->model.T_second_first.p;
