@@ -1,4 +1,5 @@
-/* Opens the shim by its name: the command's run path leads to it, built or installed. */
+/* Opens the shim by its name, to which the command's run path leads, built or installed; or by the
+ * path in $RELIEF_OPENCV_LIBRARY. */
 #include "calibrate/opencv/opencv.h"
 
 #include "relief/base.h"
@@ -6,6 +7,7 @@
 #include <dlfcn.h>
 #include <pthread.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define CURE                                                                                       \
@@ -33,7 +35,8 @@ static bool load_all(void *object)
 
 static void load(void)
 {
-    void *object = dlopen("librelief_opencv.so", RTLD_NOW | RTLD_LOCAL);
+    const char *named = getenv("RELIEF_OPENCV_LIBRARY");
+    void *object = dlopen(named != NULL ? named : "librelief_opencv.so", RTLD_NOW | RTLD_LOCAL);
     if (object == NULL) {
         const char *fault = dlerror();
         const bool is_absent = strstr(fault, "librelief_opencv.so: cannot open") != NULL;
