@@ -31,6 +31,7 @@ typedef struct calibration {
                            picture, pixels; NAN = one camera */
     double offset_m, offset_deviation_m; /* depth is too far by this much; NAN = not measured */
     int32_t offset_boards;
+    double offset_before_m;          /* that the source has taken away already */
     double depth_min_m, depth_max_m; /* 0 = unknown */
     double units_per_metre;
     rlf_depth_noise noise;  /* all 0 = unknown */

@@ -1,5 +1,6 @@
 /* The calibration as camera.json (docs/formats.md). */
 #include "calibrate/calibrate.h"
+#include "calibrate/judge.h"
 #include "json_file.h"
 
 #include <math.h>
@@ -31,6 +32,12 @@ static void add_depth_keys(const calibration *c, json_t *depth)
     if (c->depth_max_m > 0.0) {
         json_object_set_new(depth, "depth_min_m", json_real(c->depth_min_m));
         json_object_set_new(depth, "depth_max_m", json_real(c->depth_max_m));
+    }
+    /* Where the motion was kept, its own error along z would look like an offset. */
+    if (c->offset_boards >= CALIBRATE_VIEWS_LEAST && !c->model.is_fixed[CALIBRATE_MOTION]) {
+        json_object_set_new(depth, "depth_offset_m", json_real(c->offset_before_m + c->offset_m));
+    } else if (c->offset_before_m != 0.0) {
+        json_object_set_new(depth, "depth_offset_m", json_real(c->offset_before_m));
     }
     if (c->noise.c0 != 0.0 || c->noise.c1 != 0.0 || c->noise.c2 != 0.0) {
         json_object_set_new(depth, "noise",

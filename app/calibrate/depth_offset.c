@@ -97,4 +97,8 @@ void depth_offset_combine(calibration *c)
     c->offset_boards = n;
     c->offset_m = n > 0 ? sum / n : NAN;
     c->offset_deviation_m = n > 1 ? sqrt(rlf_max(squares - sum * sum / n, 0.0) / (n - 1) / n) : NAN;
+    if (c->is_thesis_way) { /* the boards come from colour, through a motion that is not sure */
+        const double z = calibrate_deviation(&c->fit, CALIBRATE_MOTION + 5);
+        c->offset_deviation_m = sqrt(c->offset_deviation_m * c->offset_deviation_m + z * z);
+    }
 }

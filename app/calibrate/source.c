@@ -234,6 +234,7 @@ static void settle_depth(gatherer *g)
         }
     }
     depth_offset_combine(c);
+    c->offset_before_m = g->rig->depth_offset_m;
     c->units_per_metre = g->units;
 }
 
