@@ -2,6 +2,8 @@
  * it). The pixel's own ray is used, so a slanted board is as good as a frontal one. */
 #include "calibrate/depth_offset.h"
 
+#include "calibrate/quality.h"
+
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -82,6 +84,18 @@ double depth_offset_on(const calibrate_view *view, const calibrate_board *board,
     return median;
 }
 
+/* What the boards' scatter does not show, as it is the same for all: their distance is as sure as
+ * the focal length, and, where colour found them, as the motion from colour to depth. */
+static double pose_variance(const calibration *c)
+{
+    const int camera = c->is_thesis_way || c->model.is_fixed[0] ? 1 : 0;
+    const double share = calibrate_deviation(&c->fit, CALIBRATE_LENS * camera) /
+                         rlf_max(c->model.camera[camera].fx, 1.0);
+    const double by_focal = calibrate_distance(&c->views) * share;
+    const double by_motion = camera == 1 ? calibrate_deviation(&c->fit, CALIBRATE_MOTION + 5) : 0.0;
+    return by_focal * by_focal + by_motion * by_motion;
+}
+
 void depth_offset_combine(calibration *c)
 {
     double sum = 0.0, squares = 0.0;
@@ -96,9 +110,6 @@ void depth_offset_combine(calibration *c)
     }
     c->offset_boards = n;
     c->offset_m = n > 0 ? sum / n : NAN;
-    c->offset_deviation_m = n > 1 ? sqrt(rlf_max(squares - sum * sum / n, 0.0) / (n - 1) / n) : NAN;
-    if (c->is_thesis_way) { /* the boards come from colour, through a motion that is not sure */
-        const double z = calibrate_deviation(&c->fit, CALIBRATE_MOTION + 5);
-        c->offset_deviation_m = sqrt(c->offset_deviation_m * c->offset_deviation_m + z * z);
-    }
+    c->offset_deviation_m =
+        n > 1 ? sqrt(rlf_max(squares - sum * sum / n, 0.0) / (n - 1) / n + pose_variance(c)) : NAN;
 }

@@ -442,6 +442,7 @@ static void test_depth_offset(void **state)
     assert_int_equal(c.offset_boards, BOARD_VIEWS);
     print_message("offset %.3f +- %.3f mm\n", 1e3 * c.offset_m, 1e3 * c.offset_deviation_m);
     assert_true(fabs(c.offset_m - 0.024) < 0.002);
+    assert_true(fabs(c.offset_m - 0.024) < 3.0 * c.offset_deviation_m);
     o.out_path = FOLDER "/camera.json";
     assert_int_equal(calibrate_camera_write(&o, &c), RLF_OK);
     rlf_rig read;

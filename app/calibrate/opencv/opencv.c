@@ -36,7 +36,8 @@ static bool load_all(void *object)
 static void load(void)
 {
     const char *named = getenv("RELIEF_OPENCV_LIBRARY");
-    void *object = dlopen(named != NULL ? named : "librelief_opencv.so", RTLD_NOW | RTLD_LOCAL);
+    void *object = dlopen(named != NULL && *named != '\0' ? named : "librelief_opencv.so",
+                          RTLD_NOW | RTLD_LOCAL);
     if (object == NULL) {
         const char *fault = dlerror();
         const bool is_absent = strstr(fault, "librelief_opencv.so: cannot open") != NULL;
