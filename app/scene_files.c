@@ -26,8 +26,9 @@ static bool is_file(const char *path)
     return stat(path, &status) == 0 && !S_ISDIR(status.st_mode);
 }
 
-/* PREFIX/share/relief/scenes of a command that is PREFIX/bin/relief. */
-static bool installed_folder(char out[SCENE_PATH])
+/* PREFIX/share/relief/scenes of a command that is PREFIX/bin/relief; a build tree is like that,
+ * too. */
+static bool find_folder(char out[SCENE_PATH])
 {
     char exe[SCENE_PATH];
     const ssize_t length = readlink("/proc/self/exe", exe, sizeof(exe) - 1);
@@ -41,15 +42,6 @@ static bool installed_folder(char out[SCENE_PATH])
     }
     const int wanted = snprintf(out, SCENE_PATH, "%s/" RELIEF_DATA_FOLDER "/scenes", exe);
     return wanted < SCENE_PATH && is_folder(out);
-}
-
-static bool find_folder(char out[SCENE_PATH])
-{
-    if (installed_folder(out)) {
-        return true;
-    }
-    (void)snprintf(out, SCENE_PATH, "%s", RELIEF_SOURCE_FOLDER "/scenes");
-    return is_folder(out);
 }
 
 static void copy_text(const json_t *top, const char *key, char out[SCENE_TEXT])

@@ -1,5 +1,4 @@
-/* The scenes that come with Relief: beside the command where it is installed, else in the source
- * tree that it was built from. */
+/* The scenes that come with Relief, in the folder share/relief/scenes beside the command's own. */
 #ifndef RELIEF_APP_SCENE_FILES_H
 #define RELIEF_APP_SCENE_FILES_H
 
