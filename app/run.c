@@ -176,14 +176,20 @@ static bool take_picture_frames(const char *text, void *out)
                               &o->picture_count);
 }
 
+/* Of all views, ended with NULL. */
+static const char *const *view_names(void)
+{
+    static const char *names[RLF_VIEW_COUNT + 1];
+    for (int i = 0; i < RLF_VIEW_COUNT; i++) {
+        names[i] = rlf_view_name((rlf_view)i);
+    }
+    return names;
+}
+
 static int read_options(int argc, char **argv, run_options *o)
 {
     session_options *s = &o->session;
     run_output_options *out = &o->output;
-    const char *view_names[RLF_VIEW_COUNT + 1] = {NULL};
-    for (int i = 0; i < RLF_VIEW_COUNT; i++) {
-        view_names[i] = rlf_view_name((rlf_view)i);
-    }
     const option_def options[] = {
         {.name = "scene", .kind = OPTION_SCENE, .out = &s->scene_path},
         {.name = "profile", .kind = OPTION_PROFILE, .out = &s->profile},
@@ -224,7 +230,7 @@ static int read_options(int argc, char **argv, run_options *o)
          .out = o,
          .take = take_views,
          .choices = "is not a list of up to four views",
-         .names = view_names},
+         .names = view_names()},
         {.name = "legend", .kind = OPTION_FLAG, .out = &o->shows_legend},
         {.name = "orbit",
          .kind = OPTION_CHOICE,
