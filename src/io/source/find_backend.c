@@ -89,12 +89,12 @@ static void guess_scheme(const char *text, char out[GUESS_TEXT])
     }
 }
 
-static rlf_result fail_scheme(const char *scheme)
+static rlf_result fail_scheme(const char *source, const char *scheme)
 {
     const io_backend_absent *a;
     for (int32_t i = 0; (a = io_backend_absent_at(i)) != NULL; i++) {
         if (strcmp(a->scheme, scheme) == 0) {
-            return fail_absent(scheme, a);
+            return fail_absent(source, a);
         }
     }
     char words[KINDS_TEXT];
@@ -102,9 +102,9 @@ static rlf_result fail_scheme(const char *scheme)
     join_schemes(words);
     guess_scheme(scheme, guess);
     return rlf_fail(RLF_ERROR_UNSUPPORTED,
-                    "there is no kind of source \"%.40s:\"%s This build has %s (see `relief "
+                    "'%s': there is no kind of source \"%.40s:\"%s This build has %s (see `relief "
                     "sources`)",
-                    scheme, guess[0] != '\0' ? guess : ".", words);
+                    source, scheme, guess[0] != '\0' ? guess : ".", words);
 }
 
 static rlf_result fail_path(const char *source, const char *path)
@@ -135,7 +135,7 @@ rlf_result io_backend_find(const char *source, const io_address *address, const 
     const bool is_path = address->scheme[0] == '\0';
     *out = is_path ? by_path(address->place) : by_scheme(address->scheme);
     if (*out == NULL) {
-        return is_path ? fail_path(source, address->place) : fail_scheme(address->scheme);
+        return is_path ? fail_path(source, address->place) : fail_scheme(source, address->scheme);
     }
     const char *reason = (*out)->unavailable != NULL ? (*out)->unavailable() : NULL;
     return reason == NULL
