@@ -249,7 +249,7 @@ static void the_nearest_word_is_found(void **state)
     assert_false(rlf_word_nearest("loop speed start", "resolution", word, sizeof(word)));
     assert_false(rlf_word_nearest(NULL, "loop", word, sizeof(word)));
     assert_false(rlf_word_nearest("loop", "a word that is longer than any key of a source", word,
-                                 sizeof(word)));
+                                  sizeof(word)));
     assert_true(io_word_is_in("loop speed", "speed"));
     assert_false(io_word_is_in("loop speeds", "speed"));
 }
