@@ -78,6 +78,7 @@ static const section sections[] = {
     {"calibration", eval_calibration_run, "cameras from pictures of a board, where they are known"},
     {SENSED, eval_sensed_run, "the same on what the sensor shows, against the true scene"},
 };
+#define SECTION_NAMES_MAX 64
 #define SECTION_COUNT ((int)(sizeof(sections) / sizeof(sections[0])))
 
 /* Rooms drawn at random: each is a task, with a seed of its own. */
@@ -176,8 +177,24 @@ static int check_oracle(const eval_options *o)
                                        " (depth, background, camera, pixels)");
 }
 
+/* Names of all scenes and sections, ended with NULL. */
+static const char *const *section_names(void)
+{
+    static const char *names[SECTION_NAMES_MAX];
+    int count = 0;
+    for (int32_t i = 0; i < eval_scene_count && count < SECTION_NAMES_MAX - 2; i++) {
+        names[count++] = eval_scenes[i].name;
+    }
+    for (int i = 0; i < SECTION_COUNT && count < SECTION_NAMES_MAX - 2; i++) {
+        names[count++] = sections[i].name;
+    }
+    names[count++] = "random";
+    return names;
+}
+
 static int parse(int argc, char **argv, eval_options *o)
 {
+    const char *const *names = section_names();
     *o = (eval_options){
         .seeds = 3, .profile_mask = 3, .rooms = 20, .real = {.silhouettes = "out/silhouettes"}};
     const option_def options[] = {
@@ -185,12 +202,14 @@ static int parse(int argc, char **argv, eval_options *o)
          .kind = OPTION_CHOICE,
          .out = &o->section,
          .take = take_scene,
-         .choices = "is not one of them"},
+         .choices = "is not one of them",
+         .names = names},
         {.name = "without",
          .kind = OPTION_CHOICE,
          .out = &o->left_out,
          .take = take_scene,
-         .choices = "is not one of them"},
+         .choices = "is not one of them",
+         .names = names},
         {.name = "normals", .kind = OPTION_TEXT, .out = &o->normals_path},
         {.name = "chessboards", .kind = OPTION_TEXT, .out = &o->chessboards},
         {.name = "real", .kind = OPTION_TEXT, .out = &o->real.folder},
