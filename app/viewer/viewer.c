@@ -13,7 +13,8 @@ viewer_options viewer_options_default(void)
 {
     viewer_options options = {0};
     options.title = "Relief";
-    options.source_name = "";
+    options.stage.source_name = "";
+    options.stage.scene_name = "";
     options.frame_count = -1;
     options.use_gl = true;
     options.show_help = true;
@@ -51,10 +52,10 @@ static void note_times(viewer *v)
 /* The line over the picture counts the seconds without a frame. */
 static void note_silence(viewer *v)
 {
-    if (v->options->source == NULL) {
+    if (v->stage.source == NULL) {
         return;
     }
-    const int32_t silent_s = (int32_t)rlf_source_get_status(v->options->source).silence_s;
+    const int32_t silent_s = (int32_t)rlf_source_get_status(v->stage.source).silence_s;
     v->is_redraw_due = v->is_redraw_due || silent_s != v->silent_s;
     v->silent_s = silent_s;
 }
@@ -62,28 +63,36 @@ static void note_silence(viewer *v)
 /* The frame after `due` is one period later; a loop that has fallen behind does not race. */
 static void schedule_next(viewer *v, int64_t now_ns)
 {
-    double fps = v->options->frames_per_second;
+    double fps = v->stage.frames_per_second;
     int64_t period = fps > 0.0 ? (int64_t)(VIEWER_NS_PER_S / fps) : 0;
     v->due_ns = v->due_ns + period > now_ns - period ? v->due_ns + period : now_ns;
+}
+
+/* The time that the next frame will advance the bodies by, as far as one can know. */
+static double period_of(const viewer *v)
+{
+    const double rate = v->stage.frames_per_second > 0.0 ? v->stage.frames_per_second : v->fps;
+    return 1.0 / rlf_clamp(rate, 5.0, 240.0);
 }
 
 static rlf_result step(viewer *v)
 {
     schedule_next(v, rlf_clock_ns());
-    viewer_update_overlay(v);
-    rlf_result result = rlf_pipeline_step(v->pipeline, &v->frame);
+    viewer_grab_pull(&v->grab, rlf_pipeline_get_world(v->stage.pipeline), period_of(v));
+    rlf_result result = rlf_pipeline_step(v->stage.pipeline, &v->frame);
     if (result == RLF_NO_FRAME) {
         note_silence(v);
         return RLF_OK;
     }
     if (result == RLF_END) {
         v->is_at_end = true;
-        v->is_redraw_due = v->has_frame;
+        v->is_step_due = false;
+        v->is_present_due = v->has_frame;
         return v->has_frame ? RLF_OK
                             : rlf_fail(RLF_ERROR_IO,
                                        "%s: has no frame with depth; check its "
                                        "depth.txt",
-                                       v->options->source_name);
+                                       v->stage.source_name);
     }
     if (result != RLF_OK) {
         return result;
@@ -94,6 +103,7 @@ static rlf_result step(viewer *v)
     v->is_redraw_due = false;
     v->is_present_due = true;
     note_times(v);
+    viewer_note_plot(v);
     v->frames_done++;
     return v->options->on_frame != NULL ? v->options->on_frame(v->options->context, &v->frame)
                                         : RLF_OK;
@@ -101,23 +111,50 @@ static rlf_result step(viewer *v)
 
 static rlf_result redraw(viewer *v)
 {
-    viewer_update_overlay(v);
     v->is_redraw_due = false;
     v->is_present_due = true;
-    return rlf_pipeline_redraw(v->pipeline, &v->frame);
+    return rlf_pipeline_redraw(v->stage.pipeline, &v->frame);
+}
+
+void viewer_get_area(const viewer *v, int32_t *out_width, int32_t *out_height)
+{
+    viewer_window_get_size(&v->window, out_width, out_height);
+    const int32_t panel =
+        v->shows_panel && !viewer_screen_is_full(&v->window) ? viewer_panel_get_width(v->panel) : 0;
+    *out_width -= panel < *out_width ? panel : 0;
+}
+
+static void draw_panel(viewer *v)
+{
+    const bool is_shown = v->panel != NULL && v->shows_panel && !viewer_screen_is_full(&v->window);
+    v->window.follows_mouse = is_shown;
+    if (!is_shown) {
+        v->window.is_mouse_taken = v->window.is_key_taken = false;
+        return;
+    }
+    const int64_t before = rlf_clock_ns();
+    viewer_panel_draw(v->panel);
+    const double ms = 1e-6 * (double)(rlf_clock_ns() - before);
+    smooth(&v->panel_ms, ms, v->panel_ms == 0.0);
 }
 
 static void present(viewer *v)
 {
-    int32_t width;
-    int32_t height;
+    int32_t width, height, window_width, window_height, area_width;
     viewer_window_get_framebuffer_size(&v->window, &width, &height);
+    viewer_window_get_size(&v->window, &window_width, &window_height);
+    viewer_get_area(v, &area_width, &window_height);
     v->is_present_due = false;
-    if (width > 0 && height > 0 && v->frame.render.image.data != NULL) {
-        viewer_place_draw(&v->place, &v->frame.render.image);
-        rlf_gl_presenter_draw(v->presenter, &v->frame.render.image, width, height);
-        viewer_window_swap(&v->window);
+    if (width < 1 || height < 1 || window_width < 1 || v->frame.render.image.data == NULL) {
+        return;
     }
+    const int32_t shown = (int32_t)((int64_t)width * area_width / window_width);
+    viewer_place_draw(&v->place, &v->frame.render.image);
+    rlf_gl_presenter_set_mirror(v->presenter, v->is_mirrored);
+    rlf_gl_presenter_draw(v->presenter, &v->frame.render.image, shown, height);
+    viewer_draw_overlay(v, shown, height);
+    draw_panel(v);
+    viewer_window_swap(&v->window);
 }
 
 static bool is_done(const viewer *v)
@@ -154,7 +191,7 @@ static rlf_result run_loop(viewer *v)
         if (v->is_step_due || (is_playing && now >= v->due_ns)) {
             result = step(v);
         } else if (v->window.is_dragging && !is_playing && v->has_frame) {
-            v->is_redraw_due = true; /* the speed of the throw changes with the mouse */
+            v->is_present_due = true; /* the speed of the throw changes with the mouse */
         }
         if (result == RLF_OK && v->is_redraw_due && v->has_frame) {
             result = redraw(v);
@@ -166,18 +203,18 @@ static rlf_result run_loop(viewer *v)
     return result;
 }
 
-static void choose_renderer(viewer *v)
+void viewer_choose_renderer(viewer *v)
 {
     const viewer_options *o = v->options;
     v->renderer = "soft";
     if (!o->use_gl || (o->avoid_software_gl && viewer_window_is_software_gl(&v->window))) {
         return;
     }
-    rlf_compositor_def def = rlf_pipeline_get_compositor_def(v->pipeline);
+    rlf_compositor_def def = rlf_pipeline_get_compositor_def(v->stage.pipeline);
     rlf_compositor *compositor = NULL;
     rlf_result result = rlf_gl_compositor_create(&def, true, &compositor);
     if (result == RLF_OK) {
-        result = rlf_pipeline_set_compositor(v->pipeline, compositor);
+        result = rlf_pipeline_set_compositor(v->stage.pipeline, compositor);
     }
     if (result == RLF_OK) {
         v->renderer = "gl";
@@ -186,39 +223,74 @@ static void choose_renderer(viewer *v)
     }
 }
 
-rlf_result viewer_run(rlf_pipeline *pipeline, const viewer_options *options)
+/* The picture's size, and room for the panel. */
+static void first_size(const viewer *v, int32_t *out_width, int32_t *out_height)
 {
-    viewer v;
-    memset(&v, 0, sizeof v);
-    v.pipeline = pipeline;
-    v.options = options;
-    v.shows_help = options->show_help;
-    v.view = options->views[options->view_count > 1 ? options->view_count - 1 : 0];
-    v.is_beside = options->view_count == 2 && options->views[0] == RLF_VIEW_CAMERA;
-    v.orbit = options->orbit;
-    rlf_compositor_def def = rlf_pipeline_get_compositor_def(pipeline);
+    rlf_compositor_def def = rlf_pipeline_get_compositor_def(v->stage.pipeline);
     const rlf_camera *camera = def.rig.has_color ? &def.rig.color : &def.rig.depth;
-    int32_t width = def.width > 0 ? def.width : camera->width;
-    int32_t height = def.height > 0 ? def.height : camera->height;
-    while (width < WINDOW_WIDTH_MIN) {
-        width *= 2;
-        height *= 2;
+    *out_width = def.width > 0 ? def.width : camera->width;
+    *out_height = def.height > 0 ? def.height : camera->height;
+    while (*out_width < WINDOW_WIDTH_MIN) {
+        *out_width *= 2;
+        *out_height *= 2;
     }
-    rlf_result result = viewer_window_open(options->title, width, height, &v.window);
+}
+
+static void begin(viewer *v, rlf_pipeline *pipeline, const viewer_options *options)
+{
+    memset(v, 0, sizeof *v);
+    v->stage = options->stage;
+    v->stage.pipeline = pipeline;
+    v->options = options;
+    v->shows_help = options->show_help;
+    v->shows_overlay = !options->hides_overlay;
+    v->shows_overlay_in_full = options->overlay_everywhere;
+    v->shows_panel = !options->hides_panel;
+    v->is_mirrored = options->is_mirrored;
+    v->view = options->views[options->view_count > 1 ? options->view_count - 1 : 0];
+    v->is_beside = options->view_count == 2 && options->views[0] == RLF_VIEW_CAMERA;
+    v->orbit = options->orbit;
+    v->thrown = viewer_throw_def_default();
+}
+
+static rlf_result run_in_window(viewer *v)
+{
+    rlf_result result = viewer_screen_choose(&v->window, v->options->monitor);
+    if (result == RLF_OK && v->options->is_fullscreen) {
+        viewer_screen_toggle(&v->window);
+    }
+    if (result == RLF_OK) {
+        result = rlf_gl_presenter_create(&v->presenter);
+    }
     if (result != RLF_OK) {
         return result;
     }
-    result = rlf_gl_presenter_create(&v.presenter);
-    if (result == RLF_OK) {
-        choose_renderer(&v);
-        rlf_pipeline_set_plot(pipeline, true);
-        v.due_ns = rlf_clock_ns();
-        result = run_loop(&v);
-        /* The GL renderer lives in the window's context and must go before it. */
-        rlf_result soft_result = rlf_pipeline_set_compositor(pipeline, NULL);
-        result = result == RLF_OK ? soft_result : result;
+    v->panel = viewer_panel_create(v);
+    viewer_choose_renderer(v);
+    v->due_ns = rlf_clock_ns();
+    result = run_loop(v);
+    if (v->options->out_panel_ms != NULL) {
+        *v->options->out_panel_ms = v->panel_ms;
     }
-    rlf_gl_presenter_destroy(&v.presenter);
-    viewer_window_close(&v.window);
+    viewer_panel_destroy(&v->panel);
+    /* The GL renderer lives in the window's context and must go before it. */
+    rlf_result soft_result = rlf_pipeline_set_compositor(v->stage.pipeline, NULL);
+    return result == RLF_OK ? soft_result : result;
+}
+
+rlf_result viewer_run(rlf_pipeline *pipeline, const viewer_options *options)
+{
+    static viewer v; /* large: all lines */
+    int32_t width, height;
+    begin(&v, pipeline, options);
+    first_size(&v, &width, &height);
+    rlf_result result = viewer_window_open(options->title, width, height, &v.window);
+    if (result == RLF_OK) {
+        result = run_in_window(&v);
+        rlf_gl_presenter_destroy(&v.presenter);
+        viewer_window_close(&v.window);
+    }
+    rlf_free(v.text.data);
+    rlf_free(v.marks.data);
     return result;
 }

@@ -6,8 +6,11 @@ endif()
 pkg_check_modules(glfw3 REQUIRED IMPORTED_TARGET glfw3)
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
 set(app ${PROJECT_SOURCE_DIR}/app)
-set(viewer ${app}/viewer/overlay.c ${app}/viewer/place.c ${app}/viewer/start.c ${app}/viewer/throw.c
-           ${app}/viewer/viewer.c ${app}/viewer/window.c ${app}/viewer/wishes.c)
+set(viewer ${app}/playback.c)
+foreach(part grab input marks mouse open overlay panel_none place screen start throw viewer window
+             wishes)
+  list(APPEND viewer ${app}/viewer/${part}.c)
+endforeach()
 find_program(RELIEF_XVFB_RUN xvfb-run DOC "Lends the viewer's tests a display")
 set(launcher "")
 if(RELIEF_XVFB_RUN)

@@ -1,0 +1,32 @@
+/* No panel: the build found no Dear ImGui. */
+#include "viewer/panel.h"
+
+#include <stddef.h>
+
+viewer_panel *viewer_panel_create(struct viewer *v)
+{
+    (void)v;
+    return NULL;
+}
+
+void viewer_panel_destroy(viewer_panel **panel)
+{
+    *panel = NULL;
+}
+
+void viewer_panel_draw(viewer_panel *panel)
+{
+    (void)panel;
+}
+
+int32_t viewer_panel_get_width(const viewer_panel *panel)
+{
+    (void)panel;
+    return 0;
+}
+
+void viewer_panel_tell(viewer_panel *panel, const char *text)
+{
+    (void)panel;
+    (void)text;
+}
