@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define OPTIONS_MAX 48
+#define OPTIONS_MAX 64
 
 static int take_int(const char *command, const option_def *o)
 {

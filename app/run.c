@@ -50,6 +50,7 @@ static void print_help(void)
         "                        background, velocity, thickness, reason, points, contacts,\n"
         "                        known;\n"
         "                        up to four of them side by side\n"
+        "  --legend              what the colours of every view mean, with units, in the picture\n"
         "  --orbit YAW,PITCH[,ZOOM]   where points are seen from: degrees to the right and\n"
         "                        up, and the distance, 1 being the camera's\n"
         "  --gravity X,Y,Z       m/s^2 to the right, down and forward, in place of the\n"
@@ -239,6 +240,7 @@ static int read_options(int argc, char **argv, run_options *o)
          .out = o,
          .take = take_views,
          .choices = "is not a list of up to four views"},
+        {.name = "legend", .kind = OPTION_FLAG, .out = &o->shows_legend},
         {.name = "orbit",
          .kind = OPTION_CHOICE,
          .out = &o->orbit,
@@ -379,6 +381,7 @@ void run_window_end(void)
 static rlf_result run_frames(run_options *o, session *s, run_output *output)
 {
     rlf_pipeline_set_orbit(s->pipeline, &o->orbit);
+    rlf_pipeline_set_legend(s->pipeline, o->shows_legend);
     rlf_result result = rlf_pipeline_set_views(s->pipeline, o->views, o->view_count);
     if (result != RLF_OK) {
         return result;

@@ -22,6 +22,7 @@ typedef struct run_options {
     int64_t frame_count; /* -1 = all */
     rlf_view views[RLF_PIPELINE_VIEWS];
     int32_t view_count;
+    bool shows_legend;
     rlf_orbit orbit;
     run_window_options window;
 } run_options;
