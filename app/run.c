@@ -373,9 +373,7 @@ rlf_result run_window(const run_options *o, session *s, run_output *output)
     return rlf_fail(RLF_ERROR_UNSUPPORTED, "this build has no window; add --headless");
 }
 
-void run_window_end(void)
-{
-}
+void run_window_end(void) {}
 #endif
 
 static rlf_result run_frames(run_options *o, session *s, run_output *output)

@@ -80,6 +80,7 @@ static void fill_stage(const session *s, const run_options *o, viewer_stage *out
     *out = (viewer_stage){.pipeline = s->pipeline,
                           .source = s->source,
                           .playback = s->playback,
+                          .reconstruct = &s->reconstruct,
                           .source_name = info->name,
                           .frames_per_second = info->is_live ? 0.0 : info->frames_per_second,
                           .scene_name = o->session.scene_path != NULL ? o->session.scene_path : ""};

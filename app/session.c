@@ -99,6 +99,7 @@ static rlf_result create_pipeline(const session_options *options, session *s)
     def.compositor.estimates_light_direction = matches && !options->is_light_set;
     def.compositor.enable_real_shade = !options->no_real_shade;
     def.compositor.enable_real_ambient = !options->no_real_ambient;
+    s->reconstruct = def.reconstruct;
     return rlf_pipeline_create(&def, &s->pipeline);
 }
 

@@ -39,8 +39,9 @@ typedef struct session {
     rlf_source *source;
     rlf_scene scene;
     rlf_pipeline *pipeline;
-    playback *playback; /* the source's; NULL = it is not played */
-    recorder *recorder; /* NULL = nothing is recorded; close it for its status */
+    rlf_reconstruct_def reconstruct; /* that the pipeline was made with */
+    playback *playback;              /* the source's; NULL = it is not played */
+    recorder *recorder;              /* NULL = nothing is recorded; close it for its status */
 } session;
 
 session_options session_options_default(void);

@@ -5,11 +5,11 @@
 #include <string.h>
 
 #define PLOT_HEIGHT 40 /* dots */
-#define PLOT_BAR 1
+#define PLOT_WIDTH 220
 #define PLOT_MS 66.7f /* that the plot's height stands for: two frames of a camera */
 #define MARGIN 4
 #define LEGEND 10
-#define SEEK_HEIGHT 0.03 /* of the window */
+#define SEEK_HEIGHT 0.045 /* of the window */
 #define SEEK_MARGIN 0.02
 
 typedef struct mark_rect {
@@ -58,8 +58,7 @@ static void draw_plot(viewer *v, int32_t width, int32_t height, int32_t bottom, 
 {
     const uint8_t back[4] = {0, 0, 0, 150};
     const uint8_t line[4] = {255, 255, 255, 150};
-    const int32_t bar = PLOT_BAR * scale;
-    const int32_t w = 200 * scale < width ? 200 * scale : width;
+    const int32_t w = PLOT_WIDTH * scale < width ? PLOT_WIDTH * scale : width;
     const int32_t h =
         (PLOT_HEIGHT + LEGEND) * scale < bottom ? (PLOT_HEIGHT + LEGEND) * scale : bottom;
     const int32_t base = PLOT_HEIGHT * scale;
@@ -73,13 +72,13 @@ static void draw_plot(viewer *v, int32_t width, int32_t height, int32_t bottom, 
         for (int k = 0; k < VIEWER_PLOT_STAGES; k++) {
             const int32_t from = base - (int32_t)((float)base * sum / PLOT_MS);
             sum += v->plot[i][k];
-            const mark_rect part = {i * bar, base - (int32_t)((float)base * sum / PLOT_MS),
-                                    (i + 1) * bar, from};
+            const mark_rect part = {i * w / VIEWER_PLOT_FRAMES,
+                                    base - (int32_t)((float)base * sum / PLOT_MS),
+                                    (i + 1) * w / VIEWER_PLOT_FRAMES, from};
             fill(&v->marks, part, stage_colors[k]);
         }
     }
-    fill(&v->marks, (mark_rect){0, base / 2, VIEWER_PLOT_FRAMES * bar, base / 2 + (scale + 1) / 2},
-         line);
+    fill(&v->marks, (mark_rect){0, base / 2, w, base / 2 + (scale + 1) / 2}, line);
     draw_legend(&v->marks, base + 2 * scale, scale);
     rlf_gl_presenter_draw_over(v->presenter, &v->marks, 0, bottom - h, height);
 }

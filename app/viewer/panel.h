@@ -12,6 +12,11 @@ extern "C" {
 struct viewer;
 typedef struct viewer_panel viewer_panel;
 
+/* Of the panel, at 100 % scale. */
+#define VIEWER_PANEL_WIDTH 340
+
+/* Whether this build has one. */
+bool viewer_panel_is_built(void);
 /* NULL: this build has none, or this context cannot have one. After the window is open. */
 viewer_panel *viewer_panel_create(struct viewer *v);
 void viewer_panel_destroy(viewer_panel **panel);

@@ -45,7 +45,8 @@ typedef struct viewer {
     int32_t silent_s;    /* whole seconds without a frame; 0 = they come */
     viewer_panel *panel; /* NULL = none */
     bool shows_panel;
-    double panel_ms; /* cost of the last picture's */
+    int32_t extra_presents; /* the panel shows what it was told one picture later */
+    double panel_ms;        /* cost of the last picture's */
     char message[VIEWER_LINE_SIZE];
     int64_t message_end_ns;
     char lines[VIEWER_LINES_MAX][VIEWER_LINE_SIZE];

@@ -144,7 +144,8 @@ static void present(viewer *v)
     viewer_window_get_framebuffer_size(&v->window, &width, &height);
     viewer_window_get_size(&v->window, &window_width, &window_height);
     viewer_get_area(v, &area_width, &window_height);
-    v->is_present_due = false;
+    v->is_present_due = v->extra_presents > 0;
+    v->extra_presents -= v->extra_presents > 0 ? 1 : 0;
     if (width < 1 || height < 1 || window_width < 1 || v->frame.render.image.data == NULL) {
         return;
     }
@@ -234,6 +235,7 @@ static void first_size(const viewer *v, int32_t *out_width, int32_t *out_height)
         *out_width *= 2;
         *out_height *= 2;
     }
+    *out_width += v->shows_panel && viewer_panel_is_built() ? VIEWER_PANEL_WIDTH : 0;
 }
 
 static void begin(viewer *v, rlf_pipeline *pipeline, const viewer_options *options)

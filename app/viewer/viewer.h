@@ -33,6 +33,7 @@ typedef struct viewer_stage {
     const char *source_name;  /* shown on screen; required */
     double frames_per_second; /* of playback; 0 = as frames come */
     const char *scene_name;   /* "" = none */
+    const rlf_reconstruct_def *reconstruct; /* settings of the surface; NULL = not shown */
 } viewer_stage;
 
 /* What to open in place of what is shown. */

@@ -191,6 +191,8 @@ static void fulfil_switches(viewer *v, const viewer_wishes *wishes)
         viewer_show_message(v, "the monitor is gone: the window is here again");
     }
     v->is_present_due = v->is_present_due || wishes->refresh;
+    v->extra_presents =
+        wishes->refresh && v->shows_panel && v->panel != NULL ? 2 : v->extra_presents;
 }
 
 static void fulfil_views(viewer *v, const viewer_wishes *wishes)
