@@ -128,11 +128,46 @@ static void draw_seek_bar(viewer *v, int32_t width, int32_t height, int32_t scal
     rlf_gl_presenter_draw_over(v->presenter, &v->marks, r.x0, r.y0, height);
 }
 
+/* What the view's colours mean, at the lower right. The panel has it, too. */
+static void draw_view_legend(viewer *v, int32_t width, int32_t height, int32_t bottom,
+                             int32_t scale)
+{
+    const uint8_t back[4] = {0, 0, 0, 150};
+    const rlf_image_rgba8 none = {0};
+    rlf_compositor_def def = rlf_pipeline_get_compositor_def(v->stage.pipeline);
+    const rlf_legend legend = rlf_view_legend(v->view, &def.rig);
+    int32_t widest = legend.title != NULL ? rlf_draw_text(&none, 0, 0, scale, legend.title) : 0;
+    for (int32_t i = 0; i < legend.row_count; i++) {
+        const int32_t row = rlf_draw_text(&none, 0, 0, scale, legend.rows[i].text) + 10 * scale;
+        widest = row > widest ? row : widest;
+    }
+    const int32_t w = widest + 2 * MARGIN * scale;
+    const int32_t h = (LEGEND * (legend.row_count + 1) + MARGIN) * scale;
+    if (legend.row_count < 1 || w > width || h > bottom ||
+        !viewer_clear_image(&v->marks, &v->marks_size, w, h)) {
+        return;
+    }
+    fill(&v->marks, (mark_rect){0, 0, w, h}, back);
+    (void)rlf_draw_text(&v->marks, MARGIN * scale, MARGIN * scale, scale, legend.title);
+    for (int32_t i = 0; i < legend.row_count; i++) {
+        const rlf_legend_row *row = &legend.rows[i];
+        const uint8_t color[4] = {row->r, row->g, row->b, 255};
+        const int32_t x = MARGIN * scale;
+        const int32_t y = (MARGIN + LEGEND * (i + 1)) * scale;
+        fill(&v->marks, (mark_rect){x, y, x + 7 * scale, y + 7 * scale}, color);
+        (void)rlf_draw_text(&v->marks, x + 10 * scale, y, scale, row->text);
+    }
+    rlf_gl_presenter_draw_over(v->presenter, &v->marks, width - w, bottom - h, height);
+}
+
 void viewer_draw_marks(viewer *v, int32_t width, int32_t height, int32_t scale)
 {
     const bool has_bar = has_seek_bar(v);
     const int32_t bottom = has_bar ? seek_rect(width, height).y0 - MARGIN : height;
     draw_plot(v, width, height, bottom, scale);
+    if (!v->shows_panel || v->panel == NULL) {
+        draw_view_legend(v, width, height, bottom, scale);
+    }
     if (has_bar) {
         draw_seek_bar(v, width, height, scale);
     }

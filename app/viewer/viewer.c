@@ -244,10 +244,11 @@ static void begin(viewer *v, rlf_pipeline *pipeline, const viewer_options *optio
     v->stage = options->stage;
     v->stage.pipeline = pipeline;
     v->options = options;
-    v->shows_help = options->show_help;
     v->shows_overlay = !options->hides_overlay;
     v->shows_overlay_in_full = options->overlay_everywhere;
     v->shows_panel = !options->hides_panel;
+    /* The panel says more, and hides nothing of the picture. */
+    v->shows_help = options->show_help && !(v->shows_panel && viewer_panel_is_built());
     v->is_mirrored = options->is_mirrored;
     v->view = options->views[options->view_count > 1 ? options->view_count - 1 : 0];
     v->is_beside = options->view_count == 2 && options->views[0] == RLF_VIEW_CAMERA;
