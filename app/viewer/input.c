@@ -87,6 +87,9 @@ static void on_key(GLFWwindow *handle, int key, int scancode, int action, int mo
     viewer_window *window = glfwGetWindowUserPointer(handle);
     bool is_other_command = (modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0;
     window->wishes.refresh = true;
+    if (action == GLFW_PRESS && window->tap_count < VIEWER_TAPS_MAX) {
+        window->taps[window->tap_count++] = key;
+    }
     if (!is_other_command && !window->is_key_taken &&
         (action == GLFW_PRESS || (action == GLFW_REPEAT && repeats(key)))) {
         window->wishes.is_fine = (modifiers & GLFW_MOD_SHIFT) != 0;

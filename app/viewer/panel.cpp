@@ -109,6 +109,20 @@ static void draw_told(viewer_panel *p)
     ImGui::Separator();
 }
 
+/* A key that went up before the next picture was still pressed: imgui alone would not know. */
+static void press_taps(viewer_panel *p, bool is_before)
+{
+    viewer_window *window = &p->v->window;
+    ImGuiIO &io = ImGui::GetIO();
+    for (int32_t i = 0; i < window->tap_count; i++) {
+        const int key = window->taps[i];
+        if (key >= 0 && key < IM_ARRAYSIZE(io.KeysDown)) {
+            io.KeysDown[key] = is_before || glfwGetKey(window->handle, key) == GLFW_PRESS;
+        }
+    }
+    window->tap_count = is_before ? window->tap_count : 0;
+}
+
 static void draw_all(viewer_panel *p)
 {
     const struct {
@@ -156,6 +170,7 @@ void viewer_panel_draw(viewer_panel *p)
     }
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    press_taps(p, true);
     ImGui::NewFrame();
     ImGui::SetNextWindowPos(ImVec2((float)(width - own), 0.0f));
     ImGui::SetNextWindowSize(ImVec2((float)own, (float)height));
@@ -168,6 +183,7 @@ void viewer_panel_draw(viewer_panel *p)
     ImGui::End();
     ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    press_taps(p, false);
     p->v->window.is_mouse_taken = ImGui::GetIO().WantCaptureMouse;
     p->v->window.is_key_taken = ImGui::GetIO().WantTextInput;
     fulfil(p);

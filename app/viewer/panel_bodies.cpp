@@ -87,7 +87,7 @@ void panel_draw_gravity(viewer_panel *p)
     const struct {
         const char *name;
         double strength;
-    } places[] = {{"none", 0.0}, {"moon", 1.62}, {"earth", 9.81}, {"up", -9.81}};
+    } places[] = {{"none", 0.0}, {"moon", 1.62}, {"earth", 9.81}, {"turned", -9.81}};
     for (const auto &place : places) {
         if (ImGui::Button(place.name)) {
             set_gravity(p, place.strength);

@@ -8,6 +8,7 @@ typedef struct GLFWwindow GLFWwindow;
 typedef struct GLFWmonitor GLFWmonitor;
 
 #define VIEWER_PATH_SIZE 1024
+#define VIEWER_TAPS_MAX 8
 
 /* Wishes since the last look, to be cleared by who fulfils them. */
 typedef struct viewer_wishes {
@@ -45,7 +46,9 @@ typedef struct viewer_window {
     int32_t screen_number;     /* of the monitor for full screen, from 1; 0 = the primary one */
     GLFWmonitor *screen;       /* that the full screen is on; NULL = none */
     bool is_mouse_taken, is_key_taken; /* by the panel */
-    bool follows_mouse;                /* what is shown changes with the mouse: the panel is open */
+    int taps[VIEWER_TAPS_MAX];         /* keys that went down since the panel was drawn */
+    int32_t tap_count;
+    bool follows_mouse; /* what is shown changes with the mouse: the panel is open */
 } viewer_window;
 
 /* Opens a window and makes its context current: OpenGL 3.3, else ES 3.0. `out` must stay where it
