@@ -33,7 +33,6 @@ typedef struct run_output {
     recorder *recorder; /* borrowed; NULL = none */
     int64_t frames, pictures;
     int64_t last_index; /* of the frames */
-    double panel_ms;    /* mean cost of the window's panel a picture; 0 = it had none */
     int64_t start_ns, last_frame_ns, last_progress_ns;
     int64_t moving_frames; /* in which the camera moved */
     rlf_vec3 gravity;      /* of the last frame */
@@ -42,6 +41,7 @@ typedef struct run_output {
     bool is_light_estimated;
     timing times;
     timing_series latency_ms; /* of frames whose arrival is known */
+    timing_series panel_ms;   /* of pictures of the window with its panel */
 } run_output;
 
 /* Makes the folders. Files are opened with the first frame, so that a run that has none leaves

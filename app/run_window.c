@@ -61,6 +61,11 @@ static rlf_result on_model(void *context, const char *path, double size_m, rlf_s
     return body_models_load(&((run_stage *)context)->models, path, size_m, out_shape, out_look);
 }
 
+static void on_panel_ms(void *context, double ms)
+{
+    timing_add(&((run_stage *)context)->output->panel_ms, ms);
+}
+
 static int32_t on_scenes(void *context, viewer_choice *out)
 {
     return scene_list(((run_stage *)context)->options.session.scene_path, out);
@@ -216,6 +221,7 @@ static void set_callbacks(viewer_options *viewer, run_stage *stage)
     viewer->on_model = on_model;
     viewer->on_sources = on_sources;
     viewer->on_scenes = on_scenes;
+    viewer->on_panel_ms = on_panel_ms;
     viewer->context = stage;
     viewer->interrupted = &command_interrupted;
 }
@@ -251,7 +257,6 @@ rlf_result run_window(const run_options *o, session *s, run_output *output)
     viewer.overlay_everywhere = o->window.shows_overlay;
     viewer.hides_panel = o->window.hides_panel;
     viewer.monitor = o->window.monitor;
-    viewer.out_panel_ms = &output->panel_ms;
     set_callbacks(&viewer, &stage);
     return viewer_run(s->pipeline, &viewer);
 }

@@ -128,7 +128,7 @@ static void draw_seek_bar(viewer *v, int32_t width, int32_t height, int32_t scal
     rlf_gl_presenter_draw_over(v->presenter, &v->marks, r.x0, r.y0, height);
 }
 
-/* What the view's colours mean, at the lower right. The panel has it, too. */
+/* What the view's colours mean, at the lower right. */
 static void draw_view_legend(viewer *v, int32_t width, int32_t height, int32_t bottom,
                              int32_t scale)
 {
@@ -165,9 +165,7 @@ void viewer_draw_marks(viewer *v, int32_t width, int32_t height, int32_t scale)
     const bool has_bar = has_seek_bar(v);
     const int32_t bottom = has_bar ? seek_rect(width, height).y0 - MARGIN : height;
     draw_plot(v, width, height, bottom, scale);
-    if (!v->shows_panel || v->panel == NULL) {
-        draw_view_legend(v, width, height, bottom, scale);
-    }
+    draw_view_legend(v, width, height, bottom, scale);
     if (has_bar) {
         draw_seek_bar(v, width, height, scale);
     }

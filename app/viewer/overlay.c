@@ -6,9 +6,11 @@
 #include <string.h>
 
 #define MESSAGE_S 3.0 /* how long a message stays */
-#define ROW 10        /* dots from line to line */
-#define MARGIN 4      /* dots */
-#define BACKING 130   /* alpha of what is behind text */
+#define MESSAGE_COLUMNS 72
+#define MESSAGE_LINES 4
+#define ROW 10      /* dots from line to line */
+#define MARGIN 4    /* dots */
+#define BACKING 130 /* alpha of what is behind text */
 
 static const char *const help_lines[] = {
     "Space pause   N or . one frame   R restart   L at the end",
@@ -108,6 +110,23 @@ static void add_help(viewer *v)
     }
 }
 
+/* A message is an error's whole line: on as many lines as it needs, broken at blanks. */
+static void add_message(viewer *v)
+{
+    const char *text = v->message;
+    for (int line = 0; line < MESSAGE_LINES && *text != '\0'; line++) {
+        size_t length = strlen(text);
+        if (length > MESSAGE_COLUMNS) {
+            length = MESSAGE_COLUMNS;
+            while (length > MESSAGE_COLUMNS / 2 && text[length] != ' ') {
+                length--;
+            }
+        }
+        (void)snprintf(new_line(v), VIEWER_LINE_SIZE, "%.*s", (int)length, text);
+        text += length + strspn(text + length, " ");
+    }
+}
+
 static void make_lines(viewer *v)
 {
     const bool is_shown = viewer_is_overlay_shown(v);
@@ -117,7 +136,7 @@ static void make_lines(viewer *v)
         add_news(v);
     }
     if (v->message[0] != '\0' && (is_shown || !viewer_screen_is_full(&v->window))) {
-        (void)snprintf(new_line(v), VIEWER_LINE_SIZE, "%s", v->message);
+        add_message(v);
     }
     if (is_shown || v->place.is_on) {
         add_help(v);

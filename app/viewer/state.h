@@ -11,8 +11,9 @@
 #include "relief/gl.h"
 
 #define VIEWER_NS_PER_S 1000000000.0
-#define VIEWER_LINES_MAX 24 /* of text over the picture */
+#define VIEWER_LINES_MAX 32 /* of text over the picture */
 #define VIEWER_LINE_SIZE 128
+#define VIEWER_MESSAGE_SIZE 288
 #define VIEWER_PLOT_FRAMES 120
 #define VIEWER_PLOT_STAGES 4
 
@@ -47,7 +48,7 @@ typedef struct viewer {
     bool shows_panel;
     int32_t extra_presents; /* the panel shows what it was told one picture later */
     double panel_ms;        /* cost of the last picture's */
-    char message[VIEWER_LINE_SIZE];
+    char message[VIEWER_MESSAGE_SIZE];
     int64_t message_end_ns;
     char lines[VIEWER_LINES_MAX][VIEWER_LINE_SIZE];
     int32_t line_count;

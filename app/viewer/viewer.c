@@ -136,6 +136,9 @@ static void draw_panel(viewer *v)
     viewer_panel_draw(v->panel);
     const double ms = 1e-6 * (double)(rlf_clock_ns() - before);
     smooth(&v->panel_ms, ms, v->panel_ms == 0.0);
+    if (v->options->on_panel_ms != NULL) {
+        v->options->on_panel_ms(v->options->context, ms);
+    }
 }
 
 static void present(viewer *v)
@@ -272,9 +275,6 @@ static rlf_result run_in_window(viewer *v)
     viewer_choose_renderer(v);
     v->due_ns = rlf_clock_ns();
     result = run_loop(v);
-    if (v->options->out_panel_ms != NULL) {
-        *v->options->out_panel_ms = v->panel_ms;
-    }
     viewer_panel_destroy(&v->panel);
     /* The GL renderer lives in the window's context and must go before it. */
     rlf_result soft_result = rlf_pipeline_set_compositor(v->stage.pipeline, NULL);

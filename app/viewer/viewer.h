@@ -51,6 +51,9 @@ typedef rlf_result (*viewer_open_fn)(void *context, viewer_open what, const char
 typedef rlf_result (*viewer_model_fn)(void *context, const char *path, double size_m,
                                       rlf_shape *out_shape, rlf_look *out_look);
 
+/* Is told what the panel cost in a picture, milliseconds of the loop. */
+typedef void (*viewer_cost_fn)(void *context, double ms);
+
 typedef struct viewer_options {
     const char *title;       /* of the window; required */
     viewer_stage stage;      /* to start with; the pipeline is viewer_run's argument */
@@ -76,7 +79,7 @@ typedef struct viewer_options {
     viewer_model_fn on_model;                 /* NULL = cannot */
     viewer_list_fn on_sources, on_scenes;     /* for the panel; NULL = it lists none */
     void *context;                            /* of all of them */
-    double *out_panel_ms;                     /* mean cost of the panel a picture; NULL = untold */
+    viewer_cost_fn on_panel_ms;               /* NULL = untold */
     const volatile sig_atomic_t *interrupted; /* not 0 = stop, e.g. by Ctrl-C; NULL = none */
 } viewer_options;
 

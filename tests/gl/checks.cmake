@@ -34,7 +34,7 @@ endforeach()
 # The tasks of docs/window.md, with the command itself.
 if(TARGET relief_app AND RELIEF_XVFB_RUN)
   add_test(NAME gl.window_tasks
-           COMMAND ${RELIEF_XVFB_RUN} -a -s "-screen 0 1920x1080x24 -noreset"
+           COMMAND ${RELIEF_XVFB_RUN} -a -s "-screen 0 1480x900x24 -noreset"
                    ${CMAKE_CURRENT_LIST_DIR}/window_tasks.sh $<TARGET_FILE:relief_app>
                    ${CMAKE_CURRENT_BINARY_DIR}/window_tasks)
   set_tests_properties(gl.window_tasks PROPERTIES LABELS "gl;slow" TIMEOUT 600 SKIP_RETURN_CODE 77
