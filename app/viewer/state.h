@@ -38,6 +38,7 @@ typedef struct viewer {
     viewer_place place;
     int64_t due_ns;       /* of the next frame */
     int64_t last_step_ns; /* when the last one was done; 0 = none */
+    double gap_s;         /* between the last two frames, by their own times */
     double fps;
     rlf_stage_times times;                              /* smoothed */
     float plot[VIEWER_PLOT_FRAMES][VIEWER_PLOT_STAGES]; /* ms, the oldest first */

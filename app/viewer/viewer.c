@@ -6,8 +6,10 @@
 #include <string.h>
 
 #define IDLE_WAIT_S 0.05     /* longest sleep, so that Ctrl-C is noticed */
-#define WINDOW_WIDTH_MIN 640 /* smaller pictures start enlarged */
-#define SMOOTHING 0.1        /* of figures on screen: weight of the newest frame */
+#define WINDOW_WIDTH_MIN 960 /* smaller pictures start enlarged */
+#define GAP_S (1.0 / 30.0)   /* between frames, before two are known */
+#define GAP_MAX_S 0.25
+#define SMOOTHING 0.1 /* of figures on screen: weight of the newest frame */
 
 viewer_options viewer_options_default(void)
 {
@@ -68,17 +70,21 @@ static void schedule_next(viewer *v, int64_t now_ns)
     v->due_ns = v->due_ns + period > now_ns - period ? v->due_ns + period : now_ns;
 }
 
-/* The time that the next frame will advance the bodies by, as far as one can know. */
-static double period_of(const viewer *v)
+/* What bodies were advanced by is what the next frame will advance them by, as far as one knows.
+ * A gap says nothing of the next one. */
+static void note_gap(viewer *v, int64_t before_ns)
 {
-    const double rate = v->stage.frames_per_second > 0.0 ? v->stage.frames_per_second : v->fps;
-    return 1.0 / rlf_clamp(rate, 5.0, 240.0);
+    const double gap_s = (double)(v->frame.frame.time_ns - before_ns) / VIEWER_NS_PER_S;
+    if (v->has_frame && gap_s > 0.0 && gap_s < GAP_MAX_S) {
+        v->gap_s = gap_s;
+    }
 }
 
 static rlf_result step(viewer *v)
 {
     schedule_next(v, rlf_clock_ns());
-    viewer_grab_pull(&v->grab, rlf_pipeline_get_world(v->stage.pipeline), period_of(v));
+    viewer_grab_pull(&v->grab, rlf_pipeline_get_world(v->stage.pipeline), v->gap_s);
+    const int64_t before_ns = v->frame.frame.time_ns;
     rlf_result result = rlf_pipeline_step(v->stage.pipeline, &v->frame);
     if (result == RLF_NO_FRAME) {
         note_silence(v);
@@ -97,6 +103,7 @@ static rlf_result step(viewer *v)
     if (result != RLF_OK) {
         return result;
     }
+    note_gap(v, before_ns);
     v->has_frame = true;
     v->silent_s = 0;
     v->is_step_due = false;
@@ -257,6 +264,7 @@ static void begin(viewer *v, rlf_pipeline *pipeline, const viewer_options *optio
     v->is_beside = options->view_count == 2 && options->views[0] == RLF_VIEW_CAMERA;
     v->orbit = options->orbit;
     v->thrown = viewer_throw_def_default();
+    v->gap_s = GAP_S;
 }
 
 static rlf_result run_in_window(viewer *v)
