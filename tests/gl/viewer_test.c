@@ -428,6 +428,15 @@ static void test_presenter(void **state)
     check_pixel(20, 60, (const uint8_t[3]){250, 200, 90});
     check_pixel(180, 60, (const uint8_t[3]){30, 200, 90});
     check_pixel(20, 140, (const uint8_t[3]){250, 10, 90});
+    const rlf_image_rgba8 corner = {data, 1, 1, 4}; /* half a pixel of it over the black bar */
+    data[3] = 128;
+    rlf_gl_presenter_draw_over(presenter, &corner, 100, 20, 200);
+    check_pixel(100, 20, (const uint8_t[3]){125, 100, 45});
+    check_pixel(101, 20, (const uint8_t[3]){0, 0, 0});
+    rlf_gl_presenter_set_mirror(presenter, true);
+    rlf_gl_presenter_draw(presenter, &image, 200, 200);
+    check_pixel(180, 60, (const uint8_t[3]){250, 200, 90});
+    check_pixel(20, 60, (const uint8_t[3]){30, 200, 90});
     rlf_gl_presenter_draw(presenter, &image, 1, 1);       /* a window of one pixel */
     rlf_gl_presenter_draw(presenter, &image, 7680, 4320); /* and one of 8K */
     rlf_gl_presenter_draw(presenter, &image, 0, 0);       /* minimised */
