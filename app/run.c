@@ -182,6 +182,29 @@ static bool take_picture_frames(const char *text, void *out)
                               &o->picture_count);
 }
 
+/* Rows of the table that are for the window alone. */
+#define WINDOW_OPTIONS(o)                                                                          \
+    {.name = "end",                                                                                \
+     .kind = OPTION_CHOICE,                                                                        \
+     .out = (o),                                                                                   \
+     .take = take_end,                                                                             \
+     .choices = "use loop, hold or stop"},                                                         \
+        {.name = "fullscreen", .kind = OPTION_FLAG, .out = &(o)->window.is_fullscreen},            \
+        {.name = "monitor",                                                                        \
+         .kind = OPTION_INT32,                                                                     \
+         .out = &(o)->window.monitor,                                                              \
+         .low = 1,                                                                                 \
+         .high = 16},                                                                              \
+        {.name = "mirror", .kind = OPTION_FLAG, .out = &(o)->window.is_mirrored},                  \
+        {.name = "overlay",                                                                        \
+         .kind = OPTION_CHOICE,                                                                    \
+         .out = &(o)->window,                                                                      \
+         .take = take_overlay,                                                                     \
+         .choices = "use on, off or full"},                                                        \
+    {                                                                                              \
+        .name = "no-panel", .kind = OPTION_FLAG, .out = &(o)->window.hides_panel                   \
+    }
+
 static int read_options(int argc, char **argv, run_options *o)
 {
     session_options *s = &o->session;
@@ -195,20 +218,7 @@ static int read_options(int argc, char **argv, run_options *o)
          .take = take_renderer,
          .choices = "use soft or gl"},
         {.name = "headless", .kind = OPTION_FLAG, .out = &o->is_headless},
-        {.name = "end",
-         .kind = OPTION_CHOICE,
-         .out = o,
-         .take = take_end,
-         .choices = "use loop, hold or stop"},
-        {.name = "fullscreen", .kind = OPTION_FLAG, .out = &o->window.is_fullscreen},
-        {.name = "monitor", .kind = OPTION_INT32, .out = &o->window.monitor, .low = 1, .high = 16},
-        {.name = "mirror", .kind = OPTION_FLAG, .out = &o->window.is_mirrored},
-        {.name = "overlay",
-         .kind = OPTION_CHOICE,
-         .out = &o->window,
-         .take = take_overlay,
-         .choices = "use on, off or full"},
-        {.name = "no-panel", .kind = OPTION_FLAG, .out = &o->window.hides_panel},
+        WINDOW_OPTIONS(o),
         {.name = "frames",
          .kind = OPTION_INT64,
          .out = &o->frame_count,

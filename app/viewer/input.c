@@ -2,6 +2,7 @@
 #include "viewer/window.h"
 
 #include <GLFW/glfw3.h>
+#include <math.h>
 #include <stdio.h>
 
 static void wish_throw(viewer_window *window, double x, double y, double drag_fraction)
@@ -79,6 +80,22 @@ static void take_key(viewer_window *window, int key)
         }
         break;
     }
+}
+
+double viewer_window_get_drag(const viewer_window *window)
+{
+    int width = 0;
+    int height = 0;
+    glfwGetWindowSize(window->handle, &width, &height);
+    if (!window->is_dragging || height < 1) {
+        return -1.0;
+    }
+    double x;
+    double y;
+    glfwGetCursorPos(window->handle, &x, &y);
+    double dx = x - window->press_x;
+    double dy = y - window->press_y;
+    return sqrt(dx * dx + dy * dy) / height;
 }
 
 static void on_key(GLFWwindow *handle, int key, int scancode, int action, int modifiers)

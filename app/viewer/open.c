@@ -1,4 +1,4 @@
-/* Other sources, scenes and models while the window is open, and other places in a recording. */
+/* Other sources, scenes and models while the window is open. */
 #include "viewer/state.h"
 
 #include <stdio.h>
@@ -43,10 +43,10 @@ bool viewer_open_stage(viewer *v, viewer_open what, const char *text)
     }
     if (v->options->on_open(v->options->context, what, text, &stage) != RLF_OK) {
         viewer_show_message(v, rlf_error_text());
-        viewer_panel_tell(v->panel, rlf_error_text());
+        (void)snprintf(v->told, sizeof v->told, "%s", rlf_error_text());
         return false;
     }
-    viewer_panel_tell(v->panel, "");
+    v->told[0] = '\0';
     begin_stage(v, &stage);
     return true;
 }
@@ -61,7 +61,7 @@ static void open_model(viewer *v, const char *path)
                              &thrown.look) != RLF_OK) {
         viewer_show_message(v, v->options->on_model != NULL ? rlf_error_text()
                                                             : "models cannot be opened here");
-        viewer_panel_tell(v->panel, v->message);
+        (void)snprintf(v->told, sizeof v->told, "%s", v->message);
         return;
     }
     (void)snprintf(thrown.model, sizeof thrown.model, "%s", path);
@@ -79,24 +79,4 @@ void viewer_open_path(viewer *v, const char *path)
         const bool is_scene = ends_with(path, ".json");
         (void)viewer_open_stage(v, is_scene ? VIEWER_OPEN_SCENE : VIEWER_OPEN_SOURCE, path);
     }
-}
-
-void viewer_seek_to(viewer *v, double share)
-{
-    playback *p = v->stage.playback;
-    const int64_t count = p != NULL ? playback_get_count(p) : -1;
-    if (count < 2) {
-        viewer_show_message(v, "this source has no other places to go to");
-        return;
-    }
-    const int64_t index = (int64_t)(rlf_clamp(share, 0.0, 1.0) * (double)(count - 1) + 0.5);
-    if (index == playback_get_index(p)) {
-        return;
-    }
-    if (playback_seek(p, index) != RLF_OK) {
-        viewer_show_message(v, rlf_error_text());
-        return;
-    }
-    v->is_at_end = false;
-    v->is_step_due = true; /* shows it also while paused */
 }

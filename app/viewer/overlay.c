@@ -47,11 +47,6 @@ void viewer_forget_old_message(viewer *v, int64_t now_ns)
     }
 }
 
-bool viewer_is_overlay_shown(const viewer *v)
-{
-    return viewer_screen_is_full(&v->window) ? v->shows_overlay_in_full : v->shows_overlay;
-}
-
 static const char *state_text(const viewer *v)
 {
     return v->is_at_end ? "  end: R restarts" : (v->is_paused ? "  paused" : "");
@@ -157,22 +152,6 @@ static int32_t text_scale(const viewer *v, int32_t width, int32_t height)
         scale--;
     }
     return scale > 1 ? scale : 1;
-}
-
-bool viewer_clear_image(rlf_image_rgba8 *image, size_t *room, int32_t width, int32_t height)
-{
-    const size_t size = 4 * (size_t)width * (size_t)height;
-    if (size > *room) {
-        rlf_free(image->data);
-        image->data = rlf_alloc(size);
-        *room = image->data != NULL ? size : 0;
-    }
-    if (image->data == NULL) {
-        return false;
-    }
-    *image = (rlf_image_rgba8){image->data, width, height, 4 * (ptrdiff_t)width};
-    memset(image->data, 0, size);
-    return true;
 }
 
 /* A dark translucent strip behind a line. */

@@ -75,13 +75,6 @@ int32_t viewer_panel_get_width(const viewer_panel *panel)
     return width >= 2 * own && height >= 100 ? own : 0;
 }
 
-void viewer_panel_tell(viewer_panel *panel, const char *text)
-{
-    if (panel != nullptr) {
-        snprintf(panel->told, sizeof panel->told, "%s", text);
-    }
-}
-
 void panel_wish_for(viewer_panel *p, panel_wish wish, const char *text)
 {
     p->wish = wish;
@@ -97,14 +90,14 @@ void panel_note(const char *text)
 
 static void draw_told(viewer_panel *p)
 {
-    if (p->told[0] == '\0') {
+    if (p->v->told[0] == '\0') {
         return;
     }
     ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.5f, 0.4f, 1.0f));
-    ImGui::TextWrapped("%s", p->told);
+    ImGui::TextWrapped("%s", p->v->told);
     ImGui::PopStyleColor();
     if (ImGui::SmallButton("seen")) {
-        p->told[0] = '\0';
+        p->v->told[0] = '\0';
     }
     ImGui::Separator();
 }

@@ -24,8 +24,6 @@ void viewer_panel_destroy(viewer_panel **panel);
 void viewer_panel_draw(viewer_panel *panel);
 /* Part of the window that it takes, in the unit of mouse positions. */
 int32_t viewer_panel_get_width(const viewer_panel *panel);
-/* An error that stays in the panel; "" = none. */
-void viewer_panel_tell(viewer_panel *panel, const char *text);
 
 #ifdef __cplusplus
 }

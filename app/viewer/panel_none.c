@@ -29,9 +29,3 @@ int32_t viewer_panel_get_width(const viewer_panel *panel)
     (void)panel;
     return 0;
 }
-
-void viewer_panel_tell(viewer_panel *panel, const char *text)
-{
-    (void)panel;
-    (void)text;
-}

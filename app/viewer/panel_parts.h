@@ -9,15 +9,12 @@ extern "C" {
 #include "viewer/state.h"
 }
 
-#define PANEL_TEXT 512
-
 /* Something to do once the picture is drawn: it may replace what the parts look at. */
 enum panel_wish { PANEL_NOTHING, PANEL_SOURCE, PANEL_SCENE, PANEL_SETTING, PANEL_MODEL };
 
 struct viewer_panel {
     viewer *v;
     float scale; /* of fine screens */
-    char told[PANEL_TEXT];
     viewer_choice sources[VIEWER_CHOICES_MAX], scenes[VIEWER_CHOICES_MAX];
     int source_count, scene_count;
     bool has_lists;

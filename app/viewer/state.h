@@ -47,8 +47,10 @@ typedef struct viewer {
     int32_t silent_s;    /* whole seconds without a frame; 0 = they come */
     viewer_panel *panel; /* NULL = none */
     bool shows_panel;
-    int32_t extra_presents; /* the panel shows what it was told one picture later */
-    double panel_ms;        /* cost of the last picture's */
+    int32_t panel_width;            /* in the unit of mouse positions; 0 = it is not shown */
+    char told[VIEWER_MESSAGE_SIZE]; /* an error that the panel shows until it was seen */
+    int32_t extra_presents;         /* the panel shows what it was told one picture later */
+    double panel_ms;                /* cost of the last picture's */
     char message[VIEWER_MESSAGE_SIZE];
     int64_t message_end_ns;
     char lines[VIEWER_LINES_MAX][VIEWER_LINE_SIZE];
@@ -63,24 +65,35 @@ void viewer_show_message(viewer *v, const char *text);
 /* Takes the line away when its time is over. */
 void viewer_forget_old_message(viewer *v, int64_t now_ns);
 
-/* overlay.c: lines of text and marks, at the window's resolution, over what was drawn. */
-void viewer_draw_overlay(viewer *v, int32_t width, int32_t height);
+/* area.c: the window's part for the picture, in the unit of mouse positions. */
+void viewer_get_area(const viewer *v, int32_t *out_width, int32_t *out_height);
 bool viewer_is_overlay_shown(const viewer *v);
+/* Makes an overlay image of that size, clear; false without memory. */
+bool viewer_clear_image(rlf_image_rgba8 *image, size_t *room, int32_t width, int32_t height);
 
-/* marks.c: plot of the stages' times, and the seek bar. */
+/* marks.c: plot of the stages' times, seek bar and legend. */
 void viewer_note_plot(viewer *v);
 void viewer_draw_marks(viewer *v, int32_t width, int32_t height, int32_t scale);
 /* Place on the seek bar, 0 to 1, of a window position; false beside it. `is_held`: the mouse began
  * there, and may be anywhere now. */
 bool viewer_seek_pick(const viewer *v, double x, double y, bool is_held, double *out);
-/* Makes an overlay image of that size, clear; false without memory. */
-bool viewer_clear_image(rlf_image_rgba8 *image, size_t *room, int32_t width, int32_t height);
 
-/* Window's part for the picture, in the unit of mouse positions. */
-void viewer_get_area(const viewer *v, int32_t *out_width, int32_t *out_height);
+/* overlay.c: lines of text and marks, at the window's resolution, over what was drawn. */
+void viewer_draw_overlay(viewer *v, int32_t width, int32_t height);
 
-/* Does what keys and mouse asked for since the last call. */
-void viewer_fulfil_wishes(viewer *v);
+/* act.c: what keys, mouse and panel may all ask for. */
+void viewer_choose_renderer(viewer *v); /* of a new pipeline */
+void viewer_set_view(viewer *v, rlf_view view);
+void viewer_set_end(viewer *v, playback_end end);
+void viewer_restart(viewer *v);
+void viewer_toggle_pause(viewer *v);
+void viewer_save_picture(viewer *v); /* without the lines of text */
+void viewer_toggle_record(viewer *v);
+void viewer_seek_to(viewer *v, double share);
+
+/* open.c: what was dropped, or chosen in the panel. */
+void viewer_open_path(viewer *v, const char *path);
+bool viewer_open_stage(viewer *v, viewer_open what, const char *text);
 
 /* mouse.c: throws, picks up, deletes. */
 void viewer_press(viewer *v, viewer_wishes *wishes);
@@ -88,18 +101,7 @@ void viewer_follow_mouse(viewer *v);
 void viewer_click(viewer *v, const viewer_wishes *wishes);
 void viewer_delete(viewer *v);
 
-/* open.c: what was dropped, or chosen in the panel. */
-void viewer_open_path(viewer *v, const char *path);
-bool viewer_open_stage(viewer *v, viewer_open what, const char *text);
-void viewer_seek_to(viewer *v, double share);
-
-/* viewer.c: goes on with the renderer of the stage's pipeline. */
-void viewer_choose_renderer(viewer *v);
-void viewer_set_view(viewer *v, rlf_view view);
-void viewer_set_end(viewer *v, playback_end end);
-void viewer_restart(viewer *v);
-void viewer_toggle_pause(viewer *v);
-void viewer_save_picture(viewer *v);
-void viewer_toggle_record(viewer *v);
+/* wishes.c: does what keys and mouse asked for since the last call. */
+void viewer_fulfil_wishes(viewer *v);
 
 #endif

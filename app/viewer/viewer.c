@@ -123,17 +123,15 @@ static rlf_result redraw(viewer *v)
     return rlf_pipeline_redraw(v->stage.pipeline, &v->frame);
 }
 
-void viewer_get_area(const viewer *v, int32_t *out_width, int32_t *out_height)
+static void measure_panel(viewer *v)
 {
-    viewer_window_get_size(&v->window, out_width, out_height);
-    const int32_t panel =
-        v->shows_panel && !viewer_screen_is_full(&v->window) ? viewer_panel_get_width(v->panel) : 0;
-    *out_width -= panel < *out_width ? panel : 0;
+    const bool is_wanted = v->shows_panel && !viewer_screen_is_full(&v->window);
+    v->panel_width = is_wanted ? viewer_panel_get_width(v->panel) : 0;
 }
 
 static void draw_panel(viewer *v)
 {
-    const bool is_shown = v->panel != NULL && v->shows_panel && !viewer_screen_is_full(&v->window);
+    const bool is_shown = v->panel_width > 0;
     v->window.follows_mouse = is_shown;
     if (!is_shown) {
         v->window.is_mouse_taken = v->window.is_key_taken = false;
@@ -195,7 +193,9 @@ static rlf_result run_loop(viewer *v)
     while (result == RLF_OK && !is_done(v)) {
         bool is_playing = !v->is_paused && !v->is_at_end;
         wait_for_events(v, is_playing);
+        measure_panel(v);
         viewer_fulfil_wishes(v);
+        measure_panel(v);
         int64_t now = rlf_clock_ns();
         viewer_forget_old_message(v, now);
         is_playing = !v->is_paused && !v->is_at_end;
@@ -212,26 +212,6 @@ static rlf_result run_loop(viewer *v)
         }
     }
     return result;
-}
-
-void viewer_choose_renderer(viewer *v)
-{
-    const viewer_options *o = v->options;
-    v->renderer = "soft";
-    if (!o->use_gl || (o->avoid_software_gl && viewer_window_is_software_gl(&v->window))) {
-        return;
-    }
-    rlf_compositor_def def = rlf_pipeline_get_compositor_def(v->stage.pipeline);
-    rlf_compositor *compositor = NULL;
-    rlf_result result = rlf_gl_compositor_create(&def, true, &compositor);
-    if (result == RLF_OK) {
-        result = rlf_pipeline_set_compositor(v->stage.pipeline, compositor);
-    }
-    if (result == RLF_OK) {
-        v->renderer = "gl";
-    } else {
-        rlf_log(RLF_LOG_WARNING, "%s; going on with the soft renderer", rlf_error_text());
-    }
 }
 
 /* The picture's size, and room for the panel. */

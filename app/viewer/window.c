@@ -141,22 +141,6 @@ void viewer_window_get_size(const viewer_window *window, int32_t *out_width, int
     *out_height = height;
 }
 
-double viewer_window_get_drag(const viewer_window *window)
-{
-    int width = 0;
-    int height = 0;
-    glfwGetWindowSize(window->handle, &width, &height);
-    if (!window->is_dragging || height < 1) {
-        return -1.0;
-    }
-    double x;
-    double y;
-    glfwGetCursorPos(window->handle, &x, &y);
-    double dx = x - window->press_x;
-    double dy = y - window->press_y;
-    return sqrt(dx * dx + dy * dy) / height;
-}
-
 void viewer_window_get_cursor(const viewer_window *window, double *out_x, double *out_y)
 {
     glfwGetCursorPos(window->handle, out_x, out_y);

@@ -3,16 +3,6 @@
 
 #include <stdio.h>
 
-void viewer_set_view(viewer *v, rlf_view view)
-{
-    const rlf_view views[2] = {v->is_beside ? RLF_VIEW_CAMERA : view, view};
-    v->view = view;
-    if (rlf_pipeline_set_views(v->stage.pipeline, views, v->is_beside ? 2 : 1) != RLF_OK) {
-        viewer_show_message(v, rlf_error_text());
-    }
-    v->is_redraw_due = true;
-}
-
 /* Half a turn for the window's height. */
 static void turn(viewer *v, const viewer_wishes *wishes)
 {
@@ -87,60 +77,6 @@ static void fulfil_place_wishes(viewer *v, const viewer_wishes *wishes)
     if (wishes->save_scene && v->place.is_on) {
         save_scene(v);
     }
-}
-
-/* The picture without the lines of text. */
-void viewer_save_picture(viewer *v)
-{
-    char text[VIEWER_LINE_SIZE] = "";
-    if (v->options->on_picture == NULL || !v->has_frame) {
-        viewer_show_message(v, "no place to save pictures to");
-        return;
-    }
-    rlf_result result =
-        v->options->on_picture(v->options->context, &v->frame.render.image, text, sizeof text);
-    viewer_show_message(v, result == RLF_OK ? text : rlf_error_text());
-}
-
-void viewer_toggle_record(viewer *v)
-{
-    char text[VIEWER_LINE_SIZE];
-    if (v->options->on_record != NULL) {
-        const rlf_result result = v->options->on_record(v->options->context, text, sizeof text);
-        viewer_show_message(v, result == RLF_OK ? text : rlf_error_text());
-    }
-}
-
-void viewer_restart(viewer *v)
-{
-    if (rlf_pipeline_restart(v->stage.pipeline) != RLF_OK) {
-        viewer_show_message(v, rlf_error_text());
-        return;
-    }
-    v->is_at_end = false;
-    v->is_step_due = true; /* shows the first frame also while paused */
-    v->due_ns = rlf_clock_ns();
-}
-
-void viewer_toggle_pause(viewer *v)
-{
-    v->is_paused = !v->is_paused;
-    v->due_ns = rlf_clock_ns();
-    v->last_step_ns = 0;
-    v->is_present_due = true;
-}
-
-void viewer_set_end(viewer *v, playback_end end)
-{
-    char text[VIEWER_LINE_SIZE];
-    if (v->stage.playback == NULL) {
-        viewer_show_message(v, "a camera has no end");
-        return;
-    }
-    playback_set_end(v->stage.playback, end);
-    v->is_at_end = false;
-    (void)snprintf(text, sizeof text, "at the end: %s", playback_name(end));
-    viewer_show_message(v, text);
 }
 
 static void next_shape(viewer *v)

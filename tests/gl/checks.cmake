@@ -7,7 +7,7 @@ pkg_check_modules(glfw3 REQUIRED IMPORTED_TARGET glfw3)
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
 set(app ${PROJECT_SOURCE_DIR}/app)
 set(viewer ${app}/playback.c)
-foreach(part grab input marks mouse open overlay panel_none place screen start throw viewer window
+foreach(part act area grab input marks mouse open overlay panel_none place screen start throw viewer window
              wishes)
   list(APPEND viewer ${app}/viewer/${part}.c)
 endforeach()
