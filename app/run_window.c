@@ -92,22 +92,22 @@ static void fill_stage(const session *s, const run_options *o, viewer_stage *out
 }
 
 /* Files have the size and the order of the source that they were begun with. */
-static rlf_result check_files(const run_output *output)
+static rlf_result check_files(const run_stage *stage)
 {
-    const run_output_options *o = &output->options;
-    const bool is_writing =
-        o->video_path != NULL || o->picture_folder != NULL || o->log_folder != NULL;
-    return is_writing ? rlf_fail(RLF_ERROR_UNSUPPORTED,
-                                 "no other source while a video, pictures or logs are written")
-                      : RLF_OK;
+    const run_output_options *o = &stage->output->options;
+    const bool is_writing = o->video_path != NULL || o->picture_folder != NULL ||
+                            o->log_folder != NULL || stage->options.session.record.path != NULL;
+    return is_writing
+               ? rlf_fail(RLF_ERROR_UNSUPPORTED, "no other source while --video, --pictures, "
+                                                 "--log or --record write this one")
+               : RLF_OK;
 }
 
 static rlf_result open_source(run_stage *stage, const char *text)
 {
     session_options wanted = stage->options.session;
     wanted.source = text;
-    wanted.record.path = NULL;
-    rlf_result result = check_files(stage->output);
+    rlf_result result = check_files(stage);
     if (result == RLF_OK) {
         result = session_replace(stage->session, &wanted);
     }
@@ -116,7 +116,6 @@ static rlf_result open_source(run_stage *stage, const char *text)
     }
     (void)snprintf(stage->source, sizeof stage->source, "%s", text);
     stage->options.session.source = stage->source;
-    stage->options.session.record.path = NULL;
     stage->output->recorder = stage->session->recorder;
     recent_note(stage->source);
     return RLF_OK;
