@@ -2,33 +2,17 @@
 #include "command.h"
 #include "commands.h"
 #include "options.h"
-#include "run_output.h"
-#include "session.h"
+#include "run.h"
 #ifdef RLF_HAVE_GL
 #include "relief/gl.h"
 #endif
 #ifdef RLF_HAVE_VIEWER
-#include "recent.h"
 #include "start_page.h"
-#include "viewer/viewer.h"
 #endif
 
 #include <getopt.h>
 #include <stdio.h>
 #include <string.h>
-
-typedef struct run_options {
-    session_options session;
-    run_output_options output;
-    bool is_headless;
-    bool use_gl;
-    bool is_renderer_set;
-    int64_t frame_count; /* -1 = all */
-    rlf_view views[RLF_PIPELINE_VIEWS];
-    int32_t view_count;
-    bool shows_legend;
-    rlf_orbit orbit;
-} run_options;
 
 static void print_help(void)
 {
@@ -43,6 +27,15 @@ static void print_help(void)
         "  --profile NAME        live (default) or thesis\n"
         "  --renderer NAME       soft or gl; default: gl in a window, soft headless\n"
         "  --headless            no window: as fast as the machine can, every frame\n"
+        "  --end WHAT            in the window, after a recording: loop (default), hold (bodies\n"
+        "                        fall on over the last frame) or stop (default where frames are\n"
+        "                        written or counted)\n"
+        "  --fullscreen          the picture alone, without text\n"
+        "  --monitor N           the window and its full screen on the N-th monitor, from 1\n"
+        "  --mirror              as in a mirror: the window, not what is written\n"
+        "  --overlay NAME        text over the window's picture: on, off, or full: also in full\n"
+        "                        screen; never in what is written\n"
+        "  --no-panel            the window without its panel\n"
         "  --frames N            stop after N frames\n"
         "  --video FILE          .mp4, .y4m, - for Y4M on standard output, or a virtual camera:\n"
         "                        pipewire:NAME, or /dev/videoN of v4l2loopback\n"
@@ -154,6 +147,21 @@ static bool take_gravity(const char *text, void *out)
                                 rlf_vec3_is_finite(*g) && rlf_length(*g) <= 1000.0);
 }
 
+static bool take_end(const char *text, void *out)
+{
+    run_options *o = out;
+    o->window.is_end_set = true;
+    return playback_parse(text, &o->session.end);
+}
+
+static bool take_overlay(const char *text, void *out)
+{
+    run_window_options *o = out;
+    o->hides_overlay = strcmp(text, "off") == 0;
+    o->shows_overlay = strcmp(text, "full") == 0;
+    return o->hides_overlay || o->shows_overlay || strcmp(text, "on") == 0;
+}
+
 static bool take_occlusion(const char *text, void *out)
 {
     static const char *const names[4] = {"hard", "thesis", "off", "soft"};
@@ -185,6 +193,28 @@ static const char *const *view_names(void)
     }
     return names;
 }
+/* Rows of the table that are for the window alone. */
+#define WINDOW_OPTIONS(o)                                                                          \
+    {.name = "end",                                                                                \
+     .kind = OPTION_CHOICE,                                                                        \
+     .out = (o),                                                                                   \
+     .take = take_end,                                                                             \
+     .choices = "use loop, hold or stop"},                                                         \
+        {.name = "fullscreen", .kind = OPTION_FLAG, .out = &(o)->window.is_fullscreen},            \
+        {.name = "monitor",                                                                        \
+         .kind = OPTION_INT32,                                                                     \
+         .out = &(o)->window.monitor,                                                              \
+         .low = 1,                                                                                 \
+         .high = 16},                                                                              \
+        {.name = "mirror", .kind = OPTION_FLAG, .out = &(o)->window.is_mirrored},                  \
+        {.name = "overlay",                                                                        \
+         .kind = OPTION_CHOICE,                                                                    \
+         .out = &(o)->window,                                                                      \
+         .take = take_overlay,                                                                     \
+         .choices = "use on, off or full"},                                                        \
+    {                                                                                              \
+        .name = "no-panel", .kind = OPTION_FLAG, .out = &(o)->window.hides_panel                   \
+    }
 
 static int read_options(int argc, char **argv, run_options *o)
 {
@@ -199,6 +229,7 @@ static int read_options(int argc, char **argv, run_options *o)
          .take = take_renderer,
          .choices = "use soft or gl"},
         {.name = "headless", .kind = OPTION_FLAG, .out = &o->is_headless},
+        WINDOW_OPTIONS(o),
         {.name = "frames",
          .kind = OPTION_INT64,
          .out = &o->frame_count,
@@ -355,69 +386,16 @@ static rlf_result run_headless(const run_options *o, session *s, run_output *out
     return command_interrupted ? RLF_OK : run_output_check(output);
 }
 
-#ifdef RLF_HAVE_VIEWER
-static rlf_result on_frame(void *context, const rlf_pipeline_output *frame)
-{
-    return run_output_add(context, frame);
-}
-
-static rlf_result on_picture(void *context, const rlf_image_rgba8 *image, char *out_message,
-                             size_t message_size)
-{
-    return run_output_save(context, image, out_message, message_size);
-}
-
-/* Beside the pictures, so that the scene itself stays as it was written. */
-static rlf_result on_scene(void *context, const rlf_known_def *known, int32_t count,
-                           char *out_message, size_t message_size)
-{
-    const run_output *output = context;
-    return run_output_save_scene(output, known, count, out_message, message_size);
-}
-
-static rlf_result on_record(void *context, char *out_message, size_t message_size)
-{
-    return recorder_toggle(((run_output *)context)->recorder, out_message, message_size);
-}
-
-static bool on_status(void *context, char *out, size_t size)
-{
-    return recorder_describe(((run_output *)context)->recorder, out, size);
-}
-
-static rlf_result run_window(const run_options *o, session *s, run_output *output)
-{
-    const rlf_source_info *info = rlf_source_get_info(s->source);
-    viewer_options viewer = viewer_options_default();
-    recent_note(o->session.source);
-    viewer.title = "Relief";
-    viewer.source_name = info->name;
-    viewer.source = s->source;
-    viewer.frames_per_second = info->is_live ? 0.0 : info->frames_per_second;
-    viewer.frame_count = o->frame_count;
-    viewer.use_gl = o->use_gl || !o->is_renderer_set;
-    viewer.avoid_software_gl = !o->is_renderer_set;
-    memcpy(viewer.views, o->views, sizeof(viewer.views));
-    viewer.view_count = o->view_count;
-    viewer.orbit = o->orbit;
-    viewer.show_help = o->output.video_path == NULL;
-    viewer.on_frame = on_frame;
-    viewer.on_picture = on_picture;
-    viewer.on_scene = o->session.scene_path != NULL ? on_scene : NULL;
-    viewer.on_record = on_record;
-    viewer.on_status = on_status;
-    viewer.context = output;
-    viewer.interrupted = &command_interrupted;
-    return viewer_run(s->pipeline, &viewer);
-}
-#else
-static rlf_result run_window(const run_options *o, session *s, run_output *output)
+#ifndef RLF_HAVE_VIEWER
+rlf_result run_window(const run_options *o, session *s, run_output *output)
 {
     (void)o;
     (void)s;
     (void)output;
     return rlf_fail(RLF_ERROR_UNSUPPORTED, "this build has no window; add --headless");
 }
+
+void run_window_end(void) {}
 #endif
 
 static rlf_result run_frames(run_options *o, session *s, run_output *output)
@@ -479,6 +457,16 @@ static bool writes_something(const run_options *o)
            o->session.record.path != NULL || out->print_hash;
 }
 
+/* What is written or counted ends with the recording, unless one asks for more. */
+static void choose_end(run_options *o)
+{
+    const bool is_kept = writes_something(o) || o->frame_count >= 0;
+    o->session.is_played = !o->is_headless;
+    if (!o->window.is_end_set) {
+        o->session.end = is_kept ? PLAYBACK_STOP : PLAYBACK_LOOP;
+    }
+}
+
 int run_main(int argc, char **argv)
 {
     run_options options;
@@ -488,7 +476,7 @@ int run_main(int argc, char **argv)
     if (status >= 0) {
         return status;
     }
-    options.session.enable_overlay = !options.is_headless;
+    choose_end(&options);
     options.session.record.is_switched = !options.is_headless;
     options.output.scene_path = options.session.scene_path;
     session s;
@@ -503,5 +491,6 @@ int run_main(int argc, char **argv)
     options.output.is_light_given = options.session.is_light_set;
     status = run_session(&options, &s);
     session_close(&s);
+    run_window_end();
     return status;
 }

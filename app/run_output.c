@@ -224,6 +224,9 @@ void run_output_print_summary(const run_output *out, const char *how,
     if (out->latency_ms.count > 0) { /* from a frame's arrival to the finished picture */
         print_stage(file, "latency", &out->latency_ms);
     }
+    if (out->panel_ms.count > 0) {
+        print_stage(file, "panel", &out->panel_ms);
+    }
     fprintf(file, "  %.1f frames per second (median of the loop, without writing files)\n",
             median > 0.0 ? 1000.0 / median : 0.0);
     print_status(file, status);

@@ -42,6 +42,7 @@ typedef struct run_output {
     bool is_light_estimated;
     timing times;
     timing_series latency_ms; /* of frames whose arrival is known */
+    timing_series panel_ms;   /* of pictures of the window with its panel */
 } run_output;
 
 /* Makes the folders. Files are opened with the first frame, so that a run that has none leaves

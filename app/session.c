@@ -77,23 +77,8 @@ static rlf_result open_recorder(const session_options *options, session *s)
     return result == RLF_OK ? recorder_tap(s->recorder, &s->source) : result;
 }
 
-static rlf_result open_all(const session_options *options, session *s)
+static rlf_result create_pipeline(const session_options *options, session *s)
 {
-    rlf_result result = rlf_pool_create(options->thread_count, &s->pool);
-    if (result != RLF_OK) {
-        return result;
-    }
-    result = rlf_open_source(options->source, s->pool, &s->source);
-    if (result != RLF_OK) {
-        return result;
-    }
-    result = open_scene(options, &s->scene);
-    if (result == RLF_OK && (options->record.path != NULL || options->record.is_switched)) {
-        result = open_recorder(options, s);
-    }
-    if (result != RLF_OK) {
-        return result;
-    }
     set_gravity(options, &s->scene);
     rlf_pipeline_def def = rlf_pipeline_def_default(options->profile, s->source, s->pool);
     def.scene = &s->scene;
@@ -114,8 +99,26 @@ static rlf_result open_all(const session_options *options, session *s)
     def.compositor.estimates_light_direction = matches && !options->is_light_set;
     def.compositor.enable_real_shade = !options->no_real_shade;
     def.compositor.enable_real_ambient = !options->no_real_ambient;
-    def.compositor.enable_overlay = options->enable_overlay;
+    s->reconstruct = def.reconstruct;
     return rlf_pipeline_create(&def, &s->pipeline);
+}
+
+static rlf_result open_all(const session_options *options, session *s)
+{
+    rlf_result result = rlf_pool_create(options->thread_count, &s->pool);
+    if (result == RLF_OK) {
+        result = rlf_open_source(options->source, s->pool, &s->source);
+    }
+    if (result == RLF_OK) {
+        result = open_scene(options, &s->scene);
+    }
+    if (result == RLF_OK && (options->record.path != NULL || options->record.is_switched)) {
+        result = open_recorder(options, s);
+    }
+    if (result == RLF_OK && options->is_played) {
+        result = playback_wrap(&s->source, options->end, &s->playback);
+    }
+    return result == RLF_OK ? create_pipeline(options, s) : result;
 }
 
 rlf_result session_open(const session_options *options, session *out)
@@ -135,4 +138,35 @@ void session_close(session *s)
     rlf_scene_destroy(&s->scene);
     rlf_source_destroy(&s->source);
     rlf_pool_destroy(&s->pool);
+}
+
+rlf_result session_replace(session *s, const session_options *options)
+{
+    session fresh;
+    rlf_result result = session_open(options, &fresh);
+    if (result == RLF_OK) {
+        session_close(s);
+        *s = fresh;
+    }
+    return result;
+}
+
+rlf_result session_renew(session *s, const session_options *options)
+{
+    session fresh = *s;
+    fresh.pipeline = NULL;
+    memset(&fresh.scene, 0, sizeof(fresh.scene));
+    rlf_result result = open_scene(options, &fresh.scene);
+    if (result == RLF_OK) {
+        result = create_pipeline(options, &fresh);
+    }
+    rlf_scene *unused = result == RLF_OK ? &s->scene : &fresh.scene;
+    if (result == RLF_OK) {
+        rlf_pipeline_destroy(&s->pipeline);
+    }
+    rlf_scene_destroy(unused);
+    if (result == RLF_OK) {
+        *s = fresh;
+    }
+    return result;
 }

@@ -2,6 +2,7 @@
 #ifndef RELIEF_APP_SESSION_H
 #define RELIEF_APP_SESSION_H
 
+#include "playback.h"
 #include "recorder.h"
 #include "relief/io.h"
 #include "settings.h"
@@ -28,8 +29,9 @@ typedef struct session_options {
     bool matches_light, keeps_light;
     bool no_real_shade, no_real_ambient;
     recorder_options record; /* of what the source gives; no path = not recorded */
+    bool is_played;          /* by a playback, with this after the end */
+    playback_end end;
     bool enable_render;
-    bool enable_overlay;
 } session_options;
 
 typedef struct session {
@@ -37,13 +39,19 @@ typedef struct session {
     rlf_source *source;
     rlf_scene scene;
     rlf_pipeline *pipeline;
-    recorder *recorder; /* NULL = nothing is recorded; close it for its status */
+    rlf_reconstruct_def reconstruct; /* that the pipeline was made with */
+    playback *playback;              /* the source's; NULL = it is not played */
+    recorder *recorder;              /* NULL = nothing is recorded; close it for its status */
 } session;
 
 session_options session_options_default(void);
 /* Opens all four; on failure everything is closed again. */
 rlf_result session_open(const session_options *options, session *out);
 void session_close(session *s);
+/* Opens all four anew and then closes the old ones; on failure they go on as they were. */
+rlf_result session_replace(session *s, const session_options *options);
+/* Scene and pipeline alone, for the same source and pool; on failure the old ones go on. */
+rlf_result session_renew(session *s, const session_options *options);
 
 /* Sets the scale factor. Regions keep their size in the world: their least number of points follows
  * the grid's spacing. */

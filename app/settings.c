@@ -318,3 +318,22 @@ void settings_print(const rlf_rig *rig)
         printf("\n");
     }
 }
+
+int32_t settings_count(void)
+{
+    return SETTING_COUNT;
+}
+
+void settings_look(int32_t index, const rlf_reconstruct_def *def, setting_view *out)
+{
+    const setting *t = &table[index];
+    char text[64];
+    char value[32];
+    *out = (setting_view){.name = t->name,
+                          .meaning = t->meaning,
+                          .words = t->words,
+                          .is_switch = t->kind == KIND_SWITCH};
+    snprintf(out->value, sizeof(out->value), "%s", get(t, def, value));
+    snprintf(text, sizeof(text), "%s=", t->name);
+    out->need = settings_need(text, def);
+}

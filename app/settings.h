@@ -25,6 +25,19 @@ const char *settings_need(const char *text, const rlf_reconstruct_def *def);
 /* One line for each that has no effect with a def to which they were applied. */
 void settings_warn(const setting_list *s, const rlf_reconstruct_def *def);
 
+/* A setting for people: its name, what it means, what it may be and what it is in a def. */
+typedef struct setting_view {
+    const char *name, *meaning;
+    const char *const *words; /* ends with NULL; a switch has "off" and "on". NULL = a number */
+    bool is_switch;
+    char value[32];   /* as `--set` takes it */
+    const char *need; /* what the def lacks for it to have an effect; NULL = nothing */
+} setting_view;
+
+int32_t settings_count(void);
+/* `index` from 0 to settings_count() - 1, in the order of `relief settings`. */
+void settings_look(int32_t index, const rlf_reconstruct_def *def, setting_view *out);
+
 /* Prints every setting with the values of both profiles for a camera. */
 void settings_print(const rlf_rig *rig);
 

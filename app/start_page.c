@@ -4,7 +4,6 @@
 #include "command.h"
 #include "recent.h"
 #include "relief/io.h"
-#include "viewer/start.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -19,9 +18,8 @@ static const char *end_of(const char *path)
     return length > most ? path + (length - most) : path;
 }
 
-static int32_t list_choices(void *context, viewer_choice *out)
+int32_t start_page_list(viewer_choice *out)
 {
-    (void)context;
     int32_t count = 0;
     rlf_source_entry cameras[CAMERAS_MAX];
     const int32_t found = rlf_source_list(cameras, CAMERAS_MAX);
@@ -42,6 +40,12 @@ static int32_t list_choices(void *context, viewer_choice *out)
         (void)snprintf(c->text, sizeof(c->text), "recent: %s", end_of(recent.paths[i]));
     }
     return count;
+}
+
+static int32_t list_choices(void *context, viewer_choice *out)
+{
+    (void)context;
+    return start_page_list(out);
 }
 
 int start_page_choose(char out[START_PAGE_SOURCE])

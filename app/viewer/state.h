@@ -2,6 +2,8 @@
 #ifndef RELIEF_APP_VIEWER_STATE_H
 #define RELIEF_APP_VIEWER_STATE_H
 
+#include "viewer/grab.h"
+#include "viewer/panel.h"
 #include "viewer/place.h"
 #include "viewer/viewer.h"
 #include "viewer/window.h"
@@ -9,11 +11,14 @@
 #include "relief/gl.h"
 
 #define VIEWER_NS_PER_S 1000000000.0
-#define VIEWER_LINES_MAX 20 /* of text over the picture */
+#define VIEWER_LINES_MAX 32 /* of text over the picture */
 #define VIEWER_LINE_SIZE 128
+#define VIEWER_MESSAGE_SIZE 288
+#define VIEWER_PLOT_FRAMES 120
+#define VIEWER_PLOT_STAGES 4
 
 typedef struct viewer {
-    rlf_pipeline *pipeline;
+    viewer_stage stage;
     const viewer_options *options;
     rlf_gl_presenter *presenter;
     viewer_window window;
@@ -21,21 +26,37 @@ typedef struct viewer {
     rlf_pipeline_output frame;
     bool has_frame, is_paused, is_at_end, shows_help;
     bool is_step_due, is_redraw_due, is_present_due;
+    bool shows_overlay, shows_overlay_in_full; /* in a window; in full screen */
+    bool is_mirrored, is_seeking;
     rlf_view view;
     bool is_beside; /* the camera's picture is beside the view */
     rlf_orbit orbit;
     int64_t frames_done;
+    viewer_throw_def thrown;
     int32_t thrown_count;
+    viewer_grab grab;
     viewer_place place;
     int64_t due_ns;       /* of the next frame */
     int64_t last_step_ns; /* when the last one was done; 0 = none */
+    double gap_s;         /* between the last two frames, by their own times */
     double fps;
-    rlf_stage_times times; /* smoothed */
-    double latency_ms;     /* likewise */
-    int32_t silent_s;      /* whole seconds without a frame; 0 = they come */
-    char message[VIEWER_LINE_SIZE];
+    rlf_stage_times times;                              /* smoothed */
+    float plot[VIEWER_PLOT_FRAMES][VIEWER_PLOT_STAGES]; /* ms, the oldest first */
+    int32_t plot_count;
+    double latency_ms;   /* smoothed */
+    int32_t silent_s;    /* whole seconds without a frame; 0 = they come */
+    viewer_panel *panel; /* NULL = none */
+    bool shows_panel;
+    int32_t panel_width;            /* in the unit of mouse positions; 0 = it is not shown */
+    char told[VIEWER_MESSAGE_SIZE]; /* an error that the panel shows until it was seen */
+    int32_t extra_presents;         /* the panel shows what it was told one picture later */
+    double panel_ms;                /* cost of the last picture's */
+    char message[VIEWER_MESSAGE_SIZE];
     int64_t message_end_ns;
     char lines[VIEWER_LINES_MAX][VIEWER_LINE_SIZE];
+    int32_t line_count;
+    rlf_image_rgba8 text, marks; /* over the picture; grow with the window */
+    size_t text_size, marks_size;
 } viewer;
 
 /* Puts a line over the picture for three seconds. */
@@ -44,10 +65,43 @@ void viewer_show_message(viewer *v, const char *text);
 /* Takes the line away when its time is over. */
 void viewer_forget_old_message(viewer *v, int64_t now_ns);
 
-/* Hands the lines over the picture to the pipeline, for the next picture that it draws. */
-void viewer_update_overlay(viewer *v);
+/* area.c: the window's part for the picture, in the unit of mouse positions. */
+void viewer_get_area(const viewer *v, int32_t *out_width, int32_t *out_height);
+bool viewer_is_overlay_shown(const viewer *v);
+/* Makes an overlay image of that size, clear; false without memory. */
+bool viewer_clear_image(rlf_image_rgba8 *image, size_t *room, int32_t width, int32_t height);
 
-/* Does what keys and mouse asked for since the last call. */
+/* marks.c: plot of the stages' times, seek bar and legend. */
+void viewer_note_plot(viewer *v);
+void viewer_draw_marks(viewer *v, int32_t width, int32_t height, int32_t scale);
+/* Place on the seek bar, 0 to 1, of a window position; false beside it. `is_held`: the mouse began
+ * there, and may be anywhere now. */
+bool viewer_seek_pick(const viewer *v, double x, double y, bool is_held, double *out);
+
+/* overlay.c: lines of text and marks, at the window's resolution, over what was drawn. */
+void viewer_draw_overlay(viewer *v, int32_t width, int32_t height);
+
+/* act.c: what keys, mouse and panel may all ask for. */
+void viewer_choose_renderer(viewer *v); /* of a new pipeline */
+void viewer_set_view(viewer *v, rlf_view view);
+void viewer_set_end(viewer *v, playback_end end);
+void viewer_restart(viewer *v);
+void viewer_toggle_pause(viewer *v);
+void viewer_save_picture(viewer *v); /* without the lines of text */
+void viewer_toggle_record(viewer *v);
+void viewer_seek_to(viewer *v, double share);
+
+/* open.c: what was dropped, or chosen in the panel. */
+void viewer_open_path(viewer *v, const char *path);
+bool viewer_open_stage(viewer *v, viewer_open what, const char *text);
+
+/* mouse.c: throws, picks up, deletes. */
+void viewer_press(viewer *v, viewer_wishes *wishes);
+void viewer_follow_mouse(viewer *v);
+void viewer_click(viewer *v, const viewer_wishes *wishes);
+void viewer_delete(viewer *v);
+
+/* wishes.c: does what keys and mouse asked for since the last call. */
 void viewer_fulfil_wishes(viewer *v);
 
 #endif

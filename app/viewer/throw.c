@@ -1,7 +1,7 @@
-/* Mouse positions, rays and thrown cubes. */
+/* Mouse positions, rays and thrown bodies. */
 #include "viewer/throw.h"
 
-#define START_M 0.35 /* ahead of the camera, so that the cube does not fill the picture */
+#define START_M 0.29 /* ahead of the camera, so that the body does not fill the picture */
 
 bool viewer_fit_pick(const viewer_fit *fit, double window_x, double window_y, double *out_u,
                      double *out_v)
@@ -43,20 +43,53 @@ double viewer_throw_speed(double drag_fraction)
                      VIEWER_THROW_SPEED_MAX);
 }
 
-rlf_body_def viewer_throw_body(const viewer_ray *ray, double speed, int32_t index)
+viewer_throw_def viewer_throw_def_default(void)
+{
+    return (viewer_throw_def){.size_m = 0.12, .restitution = 0.5};
+}
+
+const char *viewer_throw_name(viewer_throw_kind kind)
+{
+    static const char *const names[VIEWER_THROW_KINDS] = {"cube", "ball", "capsule", "cylinder",
+                                                          "model"};
+    return names[kind];
+}
+
+static rlf_shape shape_of(const viewer_throw_def *thrown)
+{
+    const double size = thrown->size_m;
+    rlf_shape shape = {.type = RLF_SHAPE_BOX, .size = rlf_vec3_make(size, size, size)};
+    switch (thrown->kind) {
+    case VIEWER_THROW_BALL: return (rlf_shape){.type = RLF_SHAPE_SPHERE, .radius = 0.5 * size};
+    case VIEWER_THROW_CAPSULE:
+        return (rlf_shape){.type = RLF_SHAPE_CAPSULE, .radius = 0.25 * size, .height = 0.5 * size};
+    case VIEWER_THROW_CYLINDER:
+        return (rlf_shape){.type = RLF_SHAPE_CYLINDER, .radius = 0.3 * size, .height = size};
+    case VIEWER_THROW_MODEL: return thrown->shape;
+    case VIEWER_THROW_CUBE:
+    case VIEWER_THROW_KINDS: break;
+    }
+    return shape;
+}
+
+rlf_body_def viewer_throw_body(const viewer_throw_def *thrown, const viewer_ray *ray, double speed,
+                               int32_t index)
 {
     static const float colors[6][3] = {{0.95f, 0.55f, 0.15f}, {0.25f, 0.65f, 0.95f},
                                        {0.45f, 0.85f, 0.35f}, {0.90f, 0.30f, 0.40f},
                                        {0.75f, 0.50f, 0.95f}, {0.95f, 0.85f, 0.30f}};
+    const double density = 115.0; /* kg/m^3, of the box around it: balsa */
+    const bool is_model = thrown->kind == VIEWER_THROW_MODEL;
     rlf_body_def def = rlf_body_def_default();
-    def.shape.type = RLF_SHAPE_BOX;
-    def.shape.size = rlf_vec3_make(0.12, 0.12, 0.12);
-    def.mass = 0.2;
-    def.position = rlf_mad(ray->origin, ray->direction, START_M);
+    def.shape = shape_of(thrown);
+    def.mass = density * thrown->size_m * thrown->size_m * thrown->size_m;
+    def.restitution = thrown->restitution;
+    def.position = rlf_mad(ray->origin, ray->direction, START_M + 0.5 * thrown->size_m);
     def.velocity = rlf_scale(ray->direction, speed);
     def.angular_velocity = rlf_vec3_make(2.0, 3.0, -1.0);
+    def.look = is_model ? thrown->look : def.look;
     for (int i = 0; i < 3; i++) {
-        def.color[i] = colors[index % 6][i];
+        def.color[i] = is_model ? 1.0f : colors[index % 6][i];
     }
     return def;
 }

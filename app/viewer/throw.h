@@ -29,7 +29,33 @@ viewer_ray viewer_ray_make(const rlf_compositor_def *def, const rlf_pose *T_worl
 /* m/s of a drag over a part of the window's height; a click (under 2 %) has VIEWER_THROW_SPEED. */
 double viewer_throw_speed(double drag_fraction);
 
-/* A spinning cube that starts on the ray; `index` varies its colour. */
-rlf_body_def viewer_throw_body(const viewer_ray *ray, double speed, int32_t index);
+typedef enum viewer_throw_kind {
+    VIEWER_THROW_CUBE,
+    VIEWER_THROW_BALL,
+    VIEWER_THROW_CAPSULE,
+    VIEWER_THROW_CYLINDER,
+    VIEWER_THROW_MODEL,
+    VIEWER_THROW_KINDS
+} viewer_throw_kind;
+
+/* What is thrown. */
+typedef struct viewer_throw_def {
+    viewer_throw_kind kind;
+    double size_m; /* along its longest side */
+    double restitution;
+    char model[1024]; /* its file; "" = none, and then no body is a model */
+    rlf_shape shape;  /* of a model */
+    rlf_look look;
+} viewer_throw_def;
+
+#define VIEWER_THROW_SIZE_MIN 0.03
+#define VIEWER_THROW_SIZE_MAX 0.6
+
+viewer_throw_def viewer_throw_def_default(void);
+const char *viewer_throw_name(viewer_throw_kind kind);
+
+/* A spinning body that starts on the ray; `index` varies its colour. As heavy as light wood. */
+rlf_body_def viewer_throw_body(const viewer_throw_def *thrown, const viewer_ray *ray, double speed,
+                               int32_t index);
 
 #endif

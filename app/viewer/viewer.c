@@ -6,14 +6,17 @@
 #include <string.h>
 
 #define IDLE_WAIT_S 0.05     /* longest sleep, so that Ctrl-C is noticed */
-#define WINDOW_WIDTH_MIN 640 /* smaller pictures start enlarged */
-#define SMOOTHING 0.1        /* of figures on screen: weight of the newest frame */
+#define WINDOW_WIDTH_MIN 960 /* smaller pictures start enlarged */
+#define GAP_S (1.0 / 30.0)   /* between frames, before two are known */
+#define GAP_MAX_S 0.25
+#define SMOOTHING 0.1 /* of figures on screen: weight of the newest frame */
 
 viewer_options viewer_options_default(void)
 {
     viewer_options options = {0};
     options.title = "Relief";
-    options.source_name = "";
+    options.stage.source_name = "";
+    options.stage.scene_name = "";
     options.frame_count = -1;
     options.use_gl = true;
     options.show_help = true;
@@ -51,10 +54,10 @@ static void note_times(viewer *v)
 /* The line over the picture counts the seconds without a frame. */
 static void note_silence(viewer *v)
 {
-    if (v->options->source == NULL) {
+    if (v->stage.source == NULL) {
         return;
     }
-    const int32_t silent_s = (int32_t)rlf_source_get_status(v->options->source).silence_s;
+    const int32_t silent_s = (int32_t)rlf_source_get_status(v->stage.source).silence_s;
     v->is_redraw_due = v->is_redraw_due || silent_s != v->silent_s;
     v->silent_s = silent_s;
 }
@@ -62,38 +65,52 @@ static void note_silence(viewer *v)
 /* The frame after `due` is one period later; a loop that has fallen behind does not race. */
 static void schedule_next(viewer *v, int64_t now_ns)
 {
-    double fps = v->options->frames_per_second;
+    double fps = v->stage.frames_per_second;
     int64_t period = fps > 0.0 ? (int64_t)(VIEWER_NS_PER_S / fps) : 0;
     v->due_ns = v->due_ns + period > now_ns - period ? v->due_ns + period : now_ns;
+}
+
+/* What bodies were advanced by is what the next frame will advance them by, as far as one knows.
+ * A gap says nothing of the next one. */
+static void note_gap(viewer *v, int64_t before_ns)
+{
+    const double gap_s = (double)(v->frame.frame.time_ns - before_ns) / VIEWER_NS_PER_S;
+    if (v->has_frame && gap_s > 0.0 && gap_s < GAP_MAX_S) {
+        v->gap_s = gap_s;
+    }
 }
 
 static rlf_result step(viewer *v)
 {
     schedule_next(v, rlf_clock_ns());
-    viewer_update_overlay(v);
-    rlf_result result = rlf_pipeline_step(v->pipeline, &v->frame);
+    viewer_grab_pull(&v->grab, rlf_pipeline_get_world(v->stage.pipeline), v->gap_s);
+    const int64_t before_ns = v->frame.frame.time_ns;
+    rlf_result result = rlf_pipeline_step(v->stage.pipeline, &v->frame);
     if (result == RLF_NO_FRAME) {
         note_silence(v);
         return RLF_OK;
     }
     if (result == RLF_END) {
         v->is_at_end = true;
-        v->is_redraw_due = v->has_frame;
+        v->is_step_due = false;
+        v->is_present_due = v->has_frame;
         return v->has_frame ? RLF_OK
                             : rlf_fail(RLF_ERROR_IO,
                                        "%s: has no frame with depth; check its "
                                        "depth.txt",
-                                       v->options->source_name);
+                                       v->stage.source_name);
     }
     if (result != RLF_OK) {
         return result;
     }
+    note_gap(v, before_ns);
     v->has_frame = true;
     v->silent_s = 0;
     v->is_step_due = false;
     v->is_redraw_due = false;
     v->is_present_due = true;
     note_times(v);
+    viewer_note_plot(v);
     v->frames_done++;
     return v->options->on_frame != NULL ? v->options->on_frame(v->options->context, &v->frame)
                                         : RLF_OK;
@@ -101,23 +118,52 @@ static rlf_result step(viewer *v)
 
 static rlf_result redraw(viewer *v)
 {
-    viewer_update_overlay(v);
     v->is_redraw_due = false;
     v->is_present_due = true;
-    return rlf_pipeline_redraw(v->pipeline, &v->frame);
+    return rlf_pipeline_redraw(v->stage.pipeline, &v->frame);
+}
+
+static void measure_panel(viewer *v)
+{
+    const bool is_wanted = v->shows_panel && !viewer_screen_is_full(&v->window);
+    v->panel_width = is_wanted ? viewer_panel_get_width(v->panel) : 0;
+}
+
+static void draw_panel(viewer *v)
+{
+    const bool is_shown = v->panel_width > 0;
+    v->window.follows_mouse = is_shown;
+    if (!is_shown) {
+        v->window.is_mouse_taken = v->window.is_key_taken = false;
+        return;
+    }
+    const int64_t before = rlf_clock_ns();
+    viewer_panel_draw(v->panel);
+    const double ms = 1e-6 * (double)(rlf_clock_ns() - before);
+    smooth(&v->panel_ms, ms, v->panel_ms == 0.0);
+    if (v->options->on_panel_ms != NULL) {
+        v->options->on_panel_ms(v->options->context, ms);
+    }
 }
 
 static void present(viewer *v)
 {
-    int32_t width;
-    int32_t height;
+    int32_t width, height, window_width, window_height, area_width;
     viewer_window_get_framebuffer_size(&v->window, &width, &height);
-    v->is_present_due = false;
-    if (width > 0 && height > 0 && v->frame.render.image.data != NULL) {
-        viewer_place_draw(&v->place, &v->frame.render.image);
-        rlf_gl_presenter_draw(v->presenter, &v->frame.render.image, width, height);
-        viewer_window_swap(&v->window);
+    viewer_window_get_size(&v->window, &window_width, &window_height);
+    viewer_get_area(v, &area_width, &window_height);
+    v->is_present_due = v->extra_presents > 0;
+    v->extra_presents -= v->extra_presents > 0 ? 1 : 0;
+    if (width < 1 || height < 1 || window_width < 1 || v->frame.render.image.data == NULL) {
+        return;
     }
+    const int32_t shown = (int32_t)((int64_t)width * area_width / window_width);
+    viewer_place_draw(&v->place, &v->frame.render.image);
+    rlf_gl_presenter_set_mirror(v->presenter, v->is_mirrored);
+    rlf_gl_presenter_draw(v->presenter, &v->frame.render.image, shown, height);
+    viewer_draw_overlay(v, shown, height);
+    draw_panel(v);
+    viewer_window_swap(&v->window);
 }
 
 static bool is_done(const viewer *v)
@@ -147,14 +193,16 @@ static rlf_result run_loop(viewer *v)
     while (result == RLF_OK && !is_done(v)) {
         bool is_playing = !v->is_paused && !v->is_at_end;
         wait_for_events(v, is_playing);
+        measure_panel(v);
         viewer_fulfil_wishes(v);
+        measure_panel(v);
         int64_t now = rlf_clock_ns();
         viewer_forget_old_message(v, now);
         is_playing = !v->is_paused && !v->is_at_end;
         if (v->is_step_due || (is_playing && now >= v->due_ns)) {
             result = step(v);
         } else if (v->window.is_dragging && !is_playing && v->has_frame) {
-            v->is_redraw_due = true; /* the speed of the throw changes with the mouse */
+            v->is_present_due = true; /* the speed of the throw changes with the mouse */
         }
         if (result == RLF_OK && v->is_redraw_due && v->has_frame) {
             result = redraw(v);
@@ -166,59 +214,74 @@ static rlf_result run_loop(viewer *v)
     return result;
 }
 
-static void choose_renderer(viewer *v)
+/* The picture's size, and room for the panel. */
+static void first_size(const viewer *v, int32_t *out_width, int32_t *out_height)
 {
-    const viewer_options *o = v->options;
-    v->renderer = "soft";
-    if (!o->use_gl || (o->avoid_software_gl && viewer_window_is_software_gl(&v->window))) {
-        return;
+    rlf_compositor_def def = rlf_pipeline_get_compositor_def(v->stage.pipeline);
+    const rlf_camera *camera = def.rig.has_color ? &def.rig.color : &def.rig.depth;
+    *out_width = def.width > 0 ? def.width : camera->width;
+    *out_height = def.height > 0 ? def.height : camera->height;
+    while (*out_width < WINDOW_WIDTH_MIN) {
+        *out_width *= 2;
+        *out_height *= 2;
     }
-    rlf_compositor_def def = rlf_pipeline_get_compositor_def(v->pipeline);
-    rlf_compositor *compositor = NULL;
-    rlf_result result = rlf_gl_compositor_create(&def, true, &compositor);
+    *out_width += v->shows_panel && viewer_panel_is_built() ? VIEWER_PANEL_WIDTH : 0;
+}
+
+static void begin(viewer *v, rlf_pipeline *pipeline, const viewer_options *options)
+{
+    memset(v, 0, sizeof *v);
+    v->stage = options->stage;
+    v->stage.pipeline = pipeline;
+    v->options = options;
+    v->shows_overlay = !options->hides_overlay;
+    v->shows_overlay_in_full = options->overlay_everywhere;
+    v->shows_panel = !options->hides_panel;
+    /* The panel says more, and hides nothing of the picture. */
+    v->shows_help = options->show_help && !(v->shows_panel && viewer_panel_is_built());
+    v->is_mirrored = options->is_mirrored;
+    v->view = options->views[options->view_count > 1 ? options->view_count - 1 : 0];
+    v->is_beside = options->view_count == 2 && options->views[0] == RLF_VIEW_CAMERA;
+    v->orbit = options->orbit;
+    v->thrown = viewer_throw_def_default();
+    v->gap_s = GAP_S;
+}
+
+static rlf_result run_in_window(viewer *v)
+{
+    rlf_result result = viewer_screen_choose(&v->window, v->options->monitor);
+    if (result == RLF_OK && v->options->is_fullscreen) {
+        viewer_screen_toggle(&v->window);
+    }
     if (result == RLF_OK) {
-        result = rlf_pipeline_set_compositor(v->pipeline, compositor);
+        result = rlf_gl_presenter_create(&v->presenter);
     }
-    if (result == RLF_OK) {
-        v->renderer = "gl";
-    } else {
-        rlf_log(RLF_LOG_WARNING, "%s; going on with the soft renderer", rlf_error_text());
+    if (result != RLF_OK) {
+        return result;
     }
+    v->panel = viewer_panel_create(v);
+    viewer_choose_renderer(v);
+    v->due_ns = rlf_clock_ns();
+    result = run_loop(v);
+    viewer_panel_destroy(&v->panel);
+    /* The GL renderer lives in the window's context and must go before it. */
+    rlf_result soft_result = rlf_pipeline_set_compositor(v->stage.pipeline, NULL);
+    return result == RLF_OK ? soft_result : result;
 }
 
 rlf_result viewer_run(rlf_pipeline *pipeline, const viewer_options *options)
 {
-    viewer v;
-    memset(&v, 0, sizeof v);
-    v.pipeline = pipeline;
-    v.options = options;
-    v.shows_help = options->show_help;
-    v.view = options->views[options->view_count > 1 ? options->view_count - 1 : 0];
-    v.is_beside = options->view_count == 2 && options->views[0] == RLF_VIEW_CAMERA;
-    v.orbit = options->orbit;
-    rlf_compositor_def def = rlf_pipeline_get_compositor_def(pipeline);
-    const rlf_camera *camera = def.rig.has_color ? &def.rig.color : &def.rig.depth;
-    int32_t width = def.width > 0 ? def.width : camera->width;
-    int32_t height = def.height > 0 ? def.height : camera->height;
-    while (width < WINDOW_WIDTH_MIN) {
-        width *= 2;
-        height *= 2;
-    }
+    static viewer v; /* large: all lines */
+    int32_t width, height;
+    begin(&v, pipeline, options);
+    first_size(&v, &width, &height);
     rlf_result result = viewer_window_open(options->title, width, height, &v.window);
-    if (result != RLF_OK) {
-        return result;
-    }
-    result = rlf_gl_presenter_create(&v.presenter);
     if (result == RLF_OK) {
-        choose_renderer(&v);
-        rlf_pipeline_set_plot(pipeline, true);
-        v.due_ns = rlf_clock_ns();
-        result = run_loop(&v);
-        /* The GL renderer lives in the window's context and must go before it. */
-        rlf_result soft_result = rlf_pipeline_set_compositor(pipeline, NULL);
-        result = result == RLF_OK ? soft_result : result;
+        result = run_in_window(&v);
+        rlf_gl_presenter_destroy(&v.presenter);
+        viewer_window_close(&v.window);
     }
-    rlf_gl_presenter_destroy(&v.presenter);
-    viewer_window_close(&v.window);
+    rlf_free(v.text.data);
+    rlf_free(v.marks.data);
     return result;
 }

@@ -5,19 +5,30 @@
 #include "relief/base.h"
 
 typedef struct GLFWwindow GLFWwindow;
+typedef struct GLFWmonitor GLFWmonitor;
+
+#define VIEWER_PATH_SIZE 1024
+#define VIEWER_TAPS_MAX 8
 
 /* Wishes since the last look, to be cleared by who fulfils them. */
 typedef struct viewer_wishes {
     bool toggle_pause, step, restart, toggle_help, next_view, save_picture, throw_body,
         toggle_record;
-    bool refresh;               /* the window must be drawn again */
-    int32_t view;               /* -1 = none */
-    double throw_x, throw_y;    /* window position */
-    double throw_drag_fraction; /* of the window's height */
-    double turn_x, turn_y;      /* dragged with the right button, of the window's height */
-    double zoom;                /* steps of the wheel, > 0: nearer */
-    bool toggle_beside;         /* the camera's picture beside the view */
-    bool toggle_place;          /* placing models; the rest is for that */
+    bool refresh;            /* the window must be drawn again */
+    bool press;              /* the left button went down */
+    double press_x, press_y; /* where, window position */
+    bool delete_body;        /* the one under the mouse */
+    bool toggle_overlay, toggle_mirror, toggle_panel, next_end, next_shape;
+    bool is_screen_lost; /* the monitor of the full screen was unplugged */
+    bool has_drop;
+    char drop[VIEWER_PATH_SIZE]; /* a file or folder dropped on the window */
+    int32_t view;                /* -1 = none */
+    double throw_x, throw_y;     /* window position */
+    double throw_drag_fraction;  /* of the window's height */
+    double turn_x, turn_y;       /* dragged with the right button, of the window's height */
+    double zoom;                 /* steps of the wheel, > 0: nearer */
+    bool toggle_beside;          /* the camera's picture beside the view */
+    bool toggle_place;           /* placing models; the rest is for that */
     bool next_object, skip_point, undo_points, solve_points, save_scene;
     int32_t nudge_x, nudge_y, nudge_z, nudge_turn; /* steps; y down, z away */
     bool is_fine;                                  /* with shift: small steps */
@@ -27,10 +38,17 @@ typedef struct viewer_window {
     GLFWwindow *handle;
     viewer_wishes wishes;
     bool is_dragging;
+    bool is_held; /* the left button is down on something: no throw */
     double press_x, press_y;
     bool is_turning;
     double turned_x, turned_y; /* the mouse's last position while turning */
     int32_t windowed[4];       /* x, y, width, height before full screen */
+    int32_t screen_number;     /* of the monitor for full screen, from 1; 0 = the primary one */
+    GLFWmonitor *screen;       /* that the full screen is on; NULL = none */
+    bool is_mouse_taken, is_key_taken; /* by the panel */
+    int taps[VIEWER_TAPS_MAX];         /* keys that went down since the panel was drawn */
+    int32_t tap_count;
+    bool follows_mouse; /* what is shown changes with the mouse: the panel is open */
 } viewer_window;
 
 /* Opens a window and makes its context current: OpenGL 3.3, else ES 3.0. `out` must stay where it
@@ -51,6 +69,22 @@ void viewer_window_get_framebuffer_size(const viewer_window *window, int32_t *ou
 void viewer_window_get_size(const viewer_window *window, int32_t *out_width, int32_t *out_height);
 /* Drag of the button that is down now as a part of the window's height; < 0 when none is. */
 double viewer_window_get_drag(const viewer_window *window);
+/* Where the mouse is. */
+void viewer_window_get_cursor(const viewer_window *window, double *out_x, double *out_y);
 void viewer_window_swap(viewer_window *window);
+
+/* input.c: keys, mouse and dropped files become wishes. */
+void viewer_window_take_input(viewer_window *window);
+
+/* screen.c: chooses the monitor for full screen, from 1 in the order of `relief run --monitor`; 0 =
+ * the primary one. A window goes there, too. RLF_ERROR_INVALID lists them when there is none. */
+rlf_result viewer_screen_choose(viewer_window *window, int32_t number);
+void viewer_screen_toggle(viewer_window *window);
+bool viewer_screen_is_full(const viewer_window *window);
+/* Watches monitors: when the one of the full screen is unplugged, the window is as it was before.
+ */
+void viewer_screen_watch(viewer_window *window);
+/* Leaves no trace of the window in GLFW's callback. */
+void viewer_screen_forget(void);
 
 #endif

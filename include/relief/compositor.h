@@ -66,6 +66,13 @@ typedef struct rlf_orbit {
     double zoom;  /* distance to that point over the camera's, 0.1 to 10; 0 = 1 */
 } rlf_orbit;
 
+/* Writes a line of text in warm white, letters of 5 x 7 dots, from (x, y), the top left corner;
+ * `scale` >= 1 pixels a dot. Its dots become opaque, all else stays. What is outside the image is
+ * left out, and what is not ASCII is '?'. Returns the width in pixels, also for an image without
+ * data, which measures. Thread-safety: safe on different images. */
+RLF_API int32_t rlf_draw_text(const rlf_image_rgba8 *image, int32_t x, int32_t y, int32_t scale,
+                              const char *line);
+
 /* A small plot under the overlay's lines: for each frame a stacked bar. */
 typedef struct rlf_plot {
     const char *const *names; /* series_count of them */

@@ -33,6 +33,14 @@ RLF_API void rlf_gl_presenter_destroy(rlf_gl_presenter **presenter);
  * is more than a window's size on screens with fine pixels. Does not swap buffers. */
 RLF_API void rlf_gl_presenter_draw(rlf_gl_presenter *presenter, const rlf_image_rgba8 *image,
                                    int32_t framebuffer_width, int32_t framebuffer_height);
+/* True: images are shown as in a mirror, left and right changed; those over them are not. default
+ * false */
+RLF_API void rlf_gl_presenter_set_mirror(rlf_gl_presenter *presenter, bool is_mirrored);
+/* Blends an image over what was drawn, pixel by pixel, by its alpha (not premultiplied). (x, y) is
+ * where its top left corner goes, from the top left of a framebuffer of that height; what reaches
+ * beyond is cut. For text and marks at the window's own resolution. */
+RLF_API void rlf_gl_presenter_draw_over(rlf_gl_presenter *presenter, const rlf_image_rgba8 *image,
+                                        int32_t x, int32_t y, int32_t framebuffer_height);
 
 #ifdef __cplusplus
 }

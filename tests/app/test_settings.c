@@ -7,6 +7,7 @@
 
 #include "settings.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static rlf_reconstruct_def def_of(rlf_profile profile)
@@ -92,6 +93,26 @@ static void there_is_an_end_to_them(void **state)
     assert_int_equal(settings_add(&list, "fill=on"), RLF_ERROR_INVALID);
 }
 
+/* What `relief settings` and the window's panel show can be given back. */
+static void every_setting_shows_what_it_is(void **state)
+{
+    (void)state;
+    const rlf_reconstruct_def live = def_of(RLF_PROFILE_LIVE);
+    for (int32_t i = 0; i < settings_count(); i++) {
+        setting_view view;
+        char text[96];
+        setting_list list = {0};
+        rlf_reconstruct_def def = live;
+        settings_look(i, &live, &view);
+        (void)snprintf(text, sizeof(text), "%s=%s", view.name, view.value);
+        assert_int_equal(settings_add(&list, text), RLF_OK);
+        settings_apply(&list, &def);
+        assert_true(strlen(view.meaning) > 5);
+        assert_int_equal(view.is_switch && strcmp(view.words[1], "on") != 0, 0);
+        assert_true(view.need == settings_need(text, &live));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -100,6 +121,7 @@ int main(void)
         cmocka_unit_test(what_has_no_effect_is_told),
         cmocka_unit_test(what_is_no_setting_is_refused),
         cmocka_unit_test(there_is_an_end_to_them),
+        cmocka_unit_test(every_setting_shows_what_it_is),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,15 +6,18 @@ endif()
 pkg_check_modules(glfw3 REQUIRED IMPORTED_TARGET glfw3)
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
 set(app ${PROJECT_SOURCE_DIR}/app)
-set(viewer ${app}/viewer/overlay.c ${app}/viewer/place.c ${app}/viewer/start.c ${app}/viewer/throw.c
-           ${app}/viewer/viewer.c ${app}/viewer/window.c ${app}/viewer/wishes.c)
+set(viewer ${app}/playback.c)
+foreach(part act area grab input marks mouse open overlay panel_none place screen start throw viewer window
+             wishes)
+  list(APPEND viewer ${app}/viewer/${part}.c)
+endforeach()
 find_program(RELIEF_XVFB_RUN xvfb-run DOC "Lends the viewer's tests a display")
 set(launcher "")
 if(RELIEF_XVFB_RUN)
   # A server that starts anew when its last window closes refuses the next one meanwhile.
   set(launcher ${RELIEF_XVFB_RUN} -a -s "-screen 0 1280x1024x24 -noreset")
 endif()
-foreach(name viewer_test viewer_live_test)
+foreach(name viewer_test viewer_live_test viewer_play_test)
   string(REGEX REPLACE "_test$" "" what ${name})
   add_executable(${name} ${CMAKE_CURRENT_LIST_DIR}/${name}.c ${viewer})
   relief_settings(${name})
@@ -28,3 +31,12 @@ foreach(name viewer_test viewer_live_test)
   set_tests_properties(gl.${what} PROPERTIES LABELS gl TIMEOUT 1800
                        ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0")
 endforeach()
+# The tasks of docs/window.md, with the command itself.
+if(TARGET relief_app AND RELIEF_XVFB_RUN)
+  add_test(NAME gl.window_tasks
+           COMMAND ${RELIEF_XVFB_RUN} -a -s "-screen 0 1480x900x24 -noreset"
+                   ${CMAKE_CURRENT_LIST_DIR}/window_tasks.sh $<TARGET_FILE:relief_app>
+                   ${CMAKE_CURRENT_BINARY_DIR}/window_tasks)
+  set_tests_properties(gl.window_tasks PROPERTIES LABELS "gl;slow" TIMEOUT 600 SKIP_RETURN_CODE 77
+                       ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0")
+endif()

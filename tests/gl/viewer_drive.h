@@ -50,4 +50,29 @@ static inline void click_pixel(const rlf_image_rgba8 *image, const double pixel[
     on_button(window(), GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, 0);
 }
 
+/* Where a pixel of the picture is in the window. */
+static inline void point_at(const rlf_image_rgba8 *image, const double pixel[2])
+{
+    int width, height;
+    glfwGetWindowSize(window(), &width, &height);
+    double scale = rlf_min((double)width / image->width, (double)height / image->height);
+    glfwSetCursorPos(window(), 0.5 * width + scale * (pixel[0] + 0.5 - 0.5 * image->width),
+                     0.5 * height + scale * (pixel[1] + 0.5 - 0.5 * image->height));
+}
+
+static inline void button(int action)
+{
+    GLFWmousebuttonfun on_button = glfwSetMouseButtonCallback(window(), NULL);
+    glfwSetMouseButtonCallback(window(), on_button);
+    on_button(window(), GLFW_MOUSE_BUTTON_LEFT, action, 0);
+}
+
+/* Drops a file on the window. */
+static inline void drop(const char *path)
+{
+    GLFWdropfun on_drop = glfwSetDropCallback(window(), NULL);
+    glfwSetDropCallback(window(), on_drop);
+    on_drop(window(), 1, &path);
+}
+
 #endif

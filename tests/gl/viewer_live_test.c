@@ -67,11 +67,10 @@ static void test_camera_stops(void **state)
     const rlf_source_methods methods = {.next = stopping_next, .status = stopping_status};
     assert_int_equal(rlf_source_create_custom(&methods, &info, &s, &source), RLF_OK);
     rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_THESIS, source, NULL);
-    def.compositor.enable_overlay = true;
     assert_int_equal(rlf_pipeline_create(&def, &pipeline), RLF_OK);
     viewer_options options = viewer_options_default();
-    options.source_name = "camera";
-    options.source = source;
+    options.stage.source_name = "camera";
+    options.stage.source = source;
     options.frame_count = 10;
     options.use_gl = false;
     options.on_frame = play_stopping;

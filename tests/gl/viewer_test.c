@@ -68,7 +68,8 @@ static void test_throw(void **state)
     assert_true(viewer_throw_speed(0.1) < viewer_throw_speed(0.5));
     assert_float_equal(viewer_throw_speed(5.0), VIEWER_THROW_SPEED_MAX, 0.0);
     const viewer_ray ray = {{0, 0, 0}, {0, 0, 1}};
-    rlf_body_def body = viewer_throw_body(&ray, 3.0, 7);
+    const viewer_throw_def thrown = viewer_throw_def_default();
+    rlf_body_def body = viewer_throw_body(&thrown, &ray, 3.0, 7);
     assert_float_equal(body.velocity.z, 3.0, 1e-12);
     assert_true(body.position.z > 0.2 && body.position.z < 0.6);
 }
@@ -227,11 +228,10 @@ static void run_script(script *s, bool use_gl)
     rlf_pipeline *pipeline = NULL;
     assert_int_equal(rlf_synthetic_create(&synthetic, &source), RLF_OK);
     rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_THESIS, source, NULL);
-    def.compositor.enable_overlay = true;
     assert_int_equal(rlf_pipeline_create(&def, &pipeline), RLF_OK);
     viewer_options options = viewer_options_default();
     options.title = "Relief viewer test";
-    options.source_name = "synthetic:room";
+    options.stage.source_name = "synthetic:room";
     options.frame_count = 8;
     options.use_gl = use_gl;
     options.avoid_software_gl = s->is_short;
@@ -335,7 +335,7 @@ static void test_place_in_window(void **state)
     assert_int_equal(rlf_pipeline_create(&pipeline_def, &pipeline), RLF_OK);
     placing s = {.frames = 0};
     viewer_options options = viewer_options_default();
-    options.source_name = "synthetic:room";
+    options.stage.source_name = "synthetic:room";
     options.frame_count = 15;
     options.use_gl = false;
     options.on_frame = play_placing;
@@ -428,6 +428,15 @@ static void test_presenter(void **state)
     check_pixel(20, 60, (const uint8_t[3]){250, 200, 90});
     check_pixel(180, 60, (const uint8_t[3]){30, 200, 90});
     check_pixel(20, 140, (const uint8_t[3]){250, 10, 90});
+    const rlf_image_rgba8 corner = {data, 1, 1, 4}; /* half a pixel of it over the black bar */
+    data[3] = 128;
+    rlf_gl_presenter_draw_over(presenter, &corner, 100, 20, 200);
+    check_pixel(100, 20, (const uint8_t[3]){125, 100, 45});
+    check_pixel(101, 20, (const uint8_t[3]){0, 0, 0});
+    rlf_gl_presenter_set_mirror(presenter, true);
+    rlf_gl_presenter_draw(presenter, &image, 200, 200);
+    check_pixel(180, 60, (const uint8_t[3]){250, 200, 90});
+    check_pixel(20, 60, (const uint8_t[3]){30, 200, 90});
     rlf_gl_presenter_draw(presenter, &image, 1, 1);       /* a window of one pixel */
     rlf_gl_presenter_draw(presenter, &image, 7680, 4320); /* and one of 8K */
     rlf_gl_presenter_draw(presenter, &image, 0, 0);       /* minimised */

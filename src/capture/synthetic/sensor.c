@@ -134,6 +134,14 @@ static rlf_result sensor_restart(void *self)
     return RLF_OK;
 }
 
+/* Every frame depends on its number alone. */
+static rlf_result sensor_seek(void *self, int64_t index)
+{
+    synth_sensor *sensor = self;
+    sensor->next_frame = index;
+    return RLF_OK;
+}
+
 static const rlf_truth *sensor_truth(void *self)
 {
     synth_sensor *sensor = self;
@@ -220,7 +228,8 @@ rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source **out)
         return result;
     }
     rlf_source_info info = {.frame_count = def->frame_count,
-                            .frames_per_second = def->frames_per_second};
+                            .frames_per_second = def->frames_per_second,
+                            .can_seek = true};
     (void)snprintf(info.name, sizeof(info.name), "synthetic:%s", synth_scene_name(def->scene));
     synth_sensor *sensor = NULL;
     result = sensor_create(def, &info.rig, &sensor);
@@ -230,7 +239,8 @@ rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source **out)
     static const rlf_source_methods methods = {.next = sensor_next,
                                                .restart = sensor_restart,
                                                .truth = sensor_truth,
-                                               .destroy = sensor_destroy};
+                                               .destroy = sensor_destroy,
+                                               .seek = sensor_seek};
     result = rlf_source_create_custom(&methods, &info, sensor, out);
     if (result != RLF_OK) {
         sensor_destroy(sensor);

@@ -4,6 +4,8 @@
 #include "render/soft/draw.h"
 #include "render/soft/font.h"
 
+#include "relief/compositor.h"
+
 #include <string.h>
 
 #define ADVANCE 6 /* dots from letter to letter */
@@ -55,4 +57,28 @@ void soft_draw_text(const rlf_image_rgba8 *image, const soft_text *style, const 
         draw_letter(image, style, x, line[i]);
         x += ADVANCE * scale;
     }
+}
+
+int32_t rlf_draw_text(const rlf_image_rgba8 *image, int32_t x, int32_t y, int32_t scale,
+                      const char *line)
+{
+    if (!RLF_ASSERT(image != NULL && line != NULL && scale >= 1)) {
+        return 0;
+    }
+    const int32_t width = soft_text_width(line, scale);
+    const soft_text style = {x, y, scale, soft_rgb(245, 245, 235), false};
+    if (image->data == NULL) {
+        return width;
+    }
+    soft_draw_text(image, &style, line);
+    const int32_t x1 = x + width < image->width ? x + width : image->width;
+    const int32_t y1 = y + HEIGHT * scale < image->height ? y + HEIGHT * scale : image->height;
+    for (int32_t row = y > 0 ? y : 0; row < y1; row++) {
+        uint8_t *pixels = rlf_rgba8_row(image, row);
+        for (int32_t i = x > 0 ? x : 0; i < x1; i++) {
+            uint8_t *p = pixels + 4 * (ptrdiff_t)i;
+            p[3] = p[0] == 245 && p[1] == 245 && p[2] == 235 ? 255 : p[3];
+        }
+    }
+    return width;
 }

@@ -1,0 +1,32 @@
+# The window's panel: C++ where Dear ImGui and a C++ compiler are there, else nothing.
+include(CheckLanguage)
+set(has_panel OFF)
+if(RELIEF_WITH_IMGUI)
+  pkg_check_modules(imgui QUIET IMPORTED_TARGET imgui)
+  check_language(CXX)
+  if(imgui_FOUND AND CMAKE_CXX_COMPILER)
+    set(has_panel ON)
+  elseif(NOT RELIEF_WITH_IMGUI STREQUAL "AUTO")
+    message(FATAL_ERROR "RELIEF_WITH_IMGUI is ON, but it needs imgui (libimgui-dev) and a C++ compiler")
+  else()
+    message(STATUS "imgui: not installed, the window has no panel")
+  endif()
+endif()
+if(NOT has_panel)
+  target_sources(relief_app PRIVATE viewer/panel_none.c)
+  return()
+endif()
+enable_language(CXX)
+add_library(relief_panel STATIC viewer/panel.cpp viewer/panel_bodies.cpp viewer/panel_source.cpp
+                                viewer/panel_view.cpp)
+set_target_properties(relief_panel PROPERTIES CXX_STANDARD 17 CXX_STANDARD_REQUIRED ON
+                                              CXX_EXTENSIONS OFF)
+target_compile_options(relief_panel PRIVATE -Wall -Wextra -fno-exceptions
+                       -ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
+if(RELIEF_WERROR)
+  target_compile_options(relief_panel PRIVATE -Werror)
+endif()
+target_include_directories(relief_panel PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}
+                                                ${PROJECT_SOURCE_DIR}/include)
+target_link_libraries(relief_panel PRIVATE PkgConfig::imgui PkgConfig::glfw3)
+target_link_libraries(relief_app PRIVATE relief_panel)

@@ -1,0 +1,82 @@
+/* Other sources, scenes and models while the window is open. */
+#include "viewer/state.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static bool ends_with(const char *text, const char *end)
+{
+    const size_t length = strlen(text);
+    const size_t tail = strlen(end);
+    return length >= tail && strcmp(text + length - tail, end) == 0;
+}
+
+/* Looks at what was opened from its first frame on. */
+static void begin_stage(viewer *v, const viewer_stage *stage)
+{
+    const playback_end end =
+        v->stage.playback != NULL ? playback_get_end(v->stage.playback) : PLAYBACK_LOOP;
+    v->stage = *stage;
+    if (stage->playback != NULL) {
+        playback_set_end(stage->playback, end);
+    }
+    memset(&v->frame, 0, sizeof v->frame);
+    v->has_frame = false;
+    v->is_at_end = false;
+    v->is_step_due = true;
+    v->silent_s = 0;
+    v->grab.is_on = false;
+    v->place.is_on = false;
+    v->due_ns = rlf_clock_ns();
+    v->last_step_ns = 0;
+    viewer_choose_renderer(v);
+    rlf_pipeline_set_orbit(stage->pipeline, &v->orbit);
+    viewer_set_view(v, v->view);
+}
+
+bool viewer_open_stage(viewer *v, viewer_open what, const char *text)
+{
+    viewer_stage stage = v->stage;
+    if (v->options->on_open == NULL) {
+        viewer_show_message(v, "nothing else can be opened here");
+        return false;
+    }
+    if (v->options->on_open(v->options->context, what, text, &stage) != RLF_OK) {
+        viewer_show_message(v, rlf_error_text());
+        (void)snprintf(v->told, sizeof v->told, "%s", rlf_error_text());
+        return false;
+    }
+    v->told[0] = '\0';
+    begin_stage(v, &stage);
+    return true;
+}
+
+static void open_model(viewer *v, const char *path)
+{
+    char text[VIEWER_LINE_SIZE];
+    viewer_throw_def thrown = v->thrown;
+    const char *name = strrchr(path, '/');
+    if (v->options->on_model == NULL ||
+        v->options->on_model(v->options->context, path, thrown.size_m, &thrown.shape,
+                             &thrown.look) != RLF_OK) {
+        viewer_show_message(v, v->options->on_model != NULL ? rlf_error_text()
+                                                            : "models cannot be opened here");
+        (void)snprintf(v->told, sizeof v->told, "%s", v->message);
+        return;
+    }
+    (void)snprintf(thrown.model, sizeof thrown.model, "%s", path);
+    thrown.kind = VIEWER_THROW_MODEL;
+    v->thrown = thrown;
+    (void)snprintf(text, sizeof text, "click throws %.80s", name != NULL ? name + 1 : path);
+    viewer_show_message(v, text);
+}
+
+void viewer_open_path(viewer *v, const char *path)
+{
+    if (ends_with(path, ".gltf") || ends_with(path, ".glb") || ends_with(path, ".obj")) {
+        open_model(v, path);
+    } else {
+        const bool is_scene = ends_with(path, ".json");
+        (void)viewer_open_stage(v, is_scene ? VIEWER_OPEN_SCENE : VIEWER_OPEN_SOURCE, path);
+    }
+}

@@ -1,0 +1,183 @@
+/* The panel: its life, its place and what it asks for. */
+#include "viewer/panel_parts.h"
+
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+
+#include <new>
+#include <stdio.h>
+#include <string.h>
+
+bool viewer_panel_is_built(void)
+{
+    return true;
+}
+
+static void set_style(float scale)
+{
+    ImGuiStyle &style = ImGui::GetStyle();
+    ImGui::StyleColorsDark();
+    style.WindowRounding = 0.0f;
+    style.WindowBorderSize = 0.0f;
+    style.ScaleAllSizes(scale);
+    ImGui::GetIO().FontGlobalScale = scale;
+    ImGui::GetIO().IniFilename = nullptr; /* nothing is written where the user works */
+}
+
+viewer_panel *viewer_panel_create(struct viewer *v)
+{
+    GLFWwindow *window = v->window.handle;
+    if (glfwGetWindowAttrib(window, GLFW_CLIENT_API) != GLFW_OPENGL_API) {
+        return nullptr; /* imgui's loader knows desktop OpenGL alone */
+    }
+    viewer_panel *p = new (std::nothrow) viewer_panel();
+    if (p == nullptr) {
+        return nullptr;
+    }
+    p->v = v;
+    p->down = rlf_vec3_make(0.0, 1.0, 0.0);
+    float scale_y = 1.0f;
+    glfwGetWindowContentScale(window, &p->scale, &scale_y);
+    p->scale = p->scale >= 1.0f && p->scale <= 4.0f ? p->scale : 1.0f;
+    ImGui::CreateContext();
+    ImGui_ImplGlfw_InitForOpenGL(window, true);
+    if (!ImGui_ImplOpenGL3_Init("#version 330")) {
+        ImGui_ImplGlfw_Shutdown();
+        ImGui::DestroyContext();
+        delete p;
+        return nullptr;
+    }
+    set_style(p->scale);
+    return p;
+}
+
+void viewer_panel_destroy(viewer_panel **panel)
+{
+    if (*panel == nullptr) {
+        return;
+    }
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+    delete *panel;
+    *panel = nullptr;
+}
+
+int32_t viewer_panel_get_width(const viewer_panel *panel)
+{
+    int32_t width, height;
+    if (panel == nullptr) {
+        return 0;
+    }
+    viewer_window_get_size(&panel->v->window, &width, &height);
+    const int32_t own = (int32_t)(VIEWER_PANEL_WIDTH * panel->scale);
+    return width >= 2 * own && height >= 100 ? own : 0;
+}
+
+void panel_wish_for(viewer_panel *p, panel_wish wish, const char *text)
+{
+    p->wish = wish;
+    snprintf(p->wished, sizeof p->wished, "%s", text);
+}
+
+void panel_note(const char *text)
+{
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TextWrapped("%s", text);
+    ImGui::PopStyleColor();
+}
+
+static void draw_told(viewer_panel *p)
+{
+    if (p->v->told[0] == '\0') {
+        return;
+    }
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.5f, 0.4f, 1.0f));
+    ImGui::TextWrapped("%s", p->v->told);
+    ImGui::PopStyleColor();
+    if (ImGui::SmallButton("seen")) {
+        p->v->told[0] = '\0';
+    }
+    ImGui::Separator();
+}
+
+/* A key that went up before the next picture was still pressed: imgui alone would not know. */
+static void press_taps(viewer_panel *p, bool is_before)
+{
+    viewer_window *window = &p->v->window;
+    ImGuiIO &io = ImGui::GetIO();
+    for (int32_t i = 0; i < window->tap_count; i++) {
+        const int key = window->taps[i];
+        if (key >= 0 && key < IM_ARRAYSIZE(io.KeysDown)) {
+            io.KeysDown[key] = is_before || glfwGetKey(window->handle, key) == GLFW_PRESS;
+        }
+    }
+    window->tap_count = is_before ? window->tap_count : 0;
+}
+
+static void draw_all(viewer_panel *p)
+{
+    const struct {
+        const char *title;
+        void (*draw)(viewer_panel *p);
+        bool is_open;
+    } parts[] = {{"Source and scene", panel_draw_source, true},
+                 {"Bodies", panel_draw_bodies, true},
+                 {"Gravity", panel_draw_gravity, true},
+                 {"View", panel_draw_view, true},
+                 {"Record", panel_draw_record, true},
+                 {"Stage times", panel_draw_times, true},
+                 {"Surface settings", panel_draw_settings, false}};
+    draw_told(p);
+    for (const auto &part : parts) {
+        const ImGuiTreeNodeFlags flags = part.is_open ? ImGuiTreeNodeFlags_DefaultOpen : 0;
+        if (ImGui::CollapsingHeader(part.title, flags)) {
+            part.draw(p);
+        }
+    }
+}
+
+/* What was asked for replaces what the parts look at, so it comes after them. */
+static void fulfil(viewer_panel *p)
+{
+    const panel_wish wish = p->wish;
+    p->wish = PANEL_NOTHING;
+    switch (wish) {
+    case PANEL_NOTHING: break;
+    case PANEL_SOURCE: (void)viewer_open_stage(p->v, VIEWER_OPEN_SOURCE, p->wished); break;
+    case PANEL_SCENE: (void)viewer_open_stage(p->v, VIEWER_OPEN_SCENE, p->wished); break;
+    case PANEL_SETTING: (void)viewer_open_stage(p->v, VIEWER_OPEN_SETTING, p->wished); break;
+    case PANEL_MODEL: viewer_open_path(p->v, p->wished); break;
+    }
+}
+
+void viewer_panel_draw(viewer_panel *p)
+{
+    int32_t width, height;
+    const int32_t own = viewer_panel_get_width(p);
+    viewer_window_get_size(&p->v->window, &width, &height);
+    if (own == 0) {
+        p->v->window.is_mouse_taken = p->v->window.is_key_taken = false;
+        return;
+    }
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    press_taps(p, true);
+    ImGui::NewFrame();
+    ImGui::SetNextWindowPos(ImVec2((float)(width - own), 0.0f));
+    ImGui::SetNextWindowSize(ImVec2((float)own, (float)height));
+    ImGui::Begin("panel", nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings);
+    ImGui::PushItemWidth(0.52f * (float)own);
+    draw_all(p);
+    ImGui::PopItemWidth();
+    ImGui::End();
+    ImGui::Render();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    press_taps(p, false);
+    p->v->window.is_mouse_taken = ImGui::GetIO().WantCaptureMouse;
+    p->v->window.is_key_taken = ImGui::GetIO().WantTextInput;
+    fulfil(p);
+}

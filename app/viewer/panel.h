@@ -1,0 +1,31 @@
+/* The panel beside the picture, drawn by Dear ImGui where the build has it. */
+#ifndef RELIEF_APP_VIEWER_PANEL_H
+#define RELIEF_APP_VIEWER_PANEL_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct viewer;
+typedef struct viewer_panel viewer_panel;
+
+/* Of the panel, at 100 % scale. */
+#define VIEWER_PANEL_WIDTH 340
+
+/* Whether this build has one. */
+bool viewer_panel_is_built(void);
+/* NULL: this build has none, or this context cannot have one. After the window is open. */
+viewer_panel *viewer_panel_create(struct viewer *v);
+void viewer_panel_destroy(viewer_panel **panel);
+/* Draws it at the right of the window and does what its user asks for. Before the swap. */
+void viewer_panel_draw(viewer_panel *panel);
+/* Part of the window that it takes, in the unit of mouse positions. */
+int32_t viewer_panel_get_width(const viewer_panel *panel);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

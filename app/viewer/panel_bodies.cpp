@@ -1,0 +1,98 @@
+/* The panel's bodies and gravity. */
+#include "viewer/panel_parts.h"
+
+#include <stdio.h>
+
+/* The hull of a model has the size it was made for. */
+static void remake_model(viewer_panel *p)
+{
+    const viewer *v = p->v;
+    if (v->thrown.kind == VIEWER_THROW_MODEL) {
+        panel_wish_for(p, PANEL_MODEL, v->thrown.model);
+    }
+}
+
+static void draw_shape(viewer_panel *p)
+{
+    viewer_throw_def *thrown = &p->v->thrown;
+    if (!ImGui::BeginCombo("shape", viewer_throw_name(thrown->kind))) {
+        return;
+    }
+    const int count = thrown->model[0] != '\0' ? VIEWER_THROW_KINDS : VIEWER_THROW_MODEL;
+    for (int i = 0; i < count; i++) {
+        if (ImGui::Selectable(viewer_throw_name((viewer_throw_kind)i), i == thrown->kind)) {
+            thrown->kind = (viewer_throw_kind)i;
+            remake_model(p);
+        }
+    }
+    ImGui::EndCombo();
+}
+
+static void delete_all(viewer *v)
+{
+    rlf_world *world = rlf_pipeline_get_world(v->stage.pipeline);
+    for (int32_t left = rlf_world_get_snapshot(world)->body_count; left > 0; left--) {
+        const rlf_snapshot *s = rlf_world_get_snapshot(world);
+        if (s->body_count > 0) {
+            rlf_world_remove_body(world, s->bodies[s->body_count - 1].id);
+        }
+    }
+    v->is_redraw_due = true;
+}
+
+void panel_draw_bodies(viewer_panel *p)
+{
+    viewer *v = p->v;
+    viewer_throw_def *thrown = &v->thrown;
+    float size_cm = (float)(100.0 * thrown->size_m);
+    float restitution = (float)thrown->restitution;
+    draw_shape(p);
+    if (ImGui::SliderFloat("size, cm", &size_cm, (float)(100.0 * VIEWER_THROW_SIZE_MIN),
+                           (float)(100.0 * VIEWER_THROW_SIZE_MAX), "%.0f")) {
+        thrown->size_m = rlf_clamp(0.01 * size_cm, VIEWER_THROW_SIZE_MIN, VIEWER_THROW_SIZE_MAX);
+    }
+    if (ImGui::IsItemDeactivatedAfterEdit()) {
+        remake_model(p);
+    }
+    if (ImGui::SliderFloat("bounce, 0 to 1", &restitution, 0.0f, 1.0f, "%.2f")) {
+        thrown->restitution = rlf_clamp(restitution, 0.0, 1.0);
+    }
+    if (ImGui::InputTextWithHint("model", ".glb, .gltf, .obj", p->model, sizeof p->model,
+                                 ImGuiInputTextFlags_EnterReturnsTrue) &&
+        p->model[0] != '\0') {
+        panel_wish_for(p, PANEL_MODEL, p->model);
+    }
+    if (ImGui::Button("Delete all bodies")) {
+        delete_all(v);
+    }
+    panel_note("Click throws one. Drag a body to carry it; let go to throw it.");
+}
+
+static void set_gravity(viewer_panel *p, double strength)
+{
+    rlf_world_set_gravity(rlf_pipeline_get_world(p->v->stage.pipeline),
+                          rlf_scale(p->down, strength));
+}
+
+void panel_draw_gravity(viewer_panel *p)
+{
+    const rlf_vec3 now =
+        rlf_world_get_snapshot(rlf_pipeline_get_world(p->v->stage.pipeline))->gravity;
+    const double length = rlf_length(now);
+    float strength = (float)length;
+    p->down = length > 1e-6 ? rlf_normalize(now) : p->down;
+    if (ImGui::SliderFloat("m/s^2", &strength, 0.0f, 25.0f, "%.2f")) {
+        set_gravity(p, rlf_clamp(strength, 0.0, 25.0));
+    }
+    const struct {
+        const char *name;
+        double strength;
+    } places[] = {{"none", 0.0}, {"moon", 1.62}, {"earth", 9.81}, {"turned", -9.81}};
+    for (const auto &place : places) {
+        if (ImGui::Button(place.name)) {
+            set_gravity(p, place.strength);
+        }
+        ImGui::SameLine();
+    }
+    ImGui::NewLine();
+}

@@ -1,0 +1,39 @@
+/* What the parts of the panel share. C++, for Dear ImGui. */
+#ifndef RELIEF_APP_VIEWER_PANEL_PARTS_H
+#define RELIEF_APP_VIEWER_PANEL_PARTS_H
+
+#include <imgui.h>
+
+extern "C" {
+#include "settings.h"
+#include "viewer/state.h"
+}
+
+/* Something to do once the picture is drawn: it may replace what the parts look at. */
+enum panel_wish { PANEL_NOTHING, PANEL_SOURCE, PANEL_SCENE, PANEL_SETTING, PANEL_MODEL };
+
+struct viewer_panel {
+    viewer *v;
+    float scale; /* of fine screens */
+    viewer_choice sources[VIEWER_CHOICES_MAX], scenes[VIEWER_CHOICES_MAX];
+    int source_count, scene_count;
+    bool has_lists;
+    char source[VIEWER_CHOICE_SOURCE], scene[VIEWER_CHOICE_SOURCE], model[VIEWER_CHOICE_SOURCE];
+    rlf_vec3 down; /* unit; where gravity pulls to, also while it is off */
+    panel_wish wish;
+    char wished[VIEWER_CHOICE_SOURCE];
+};
+
+void panel_wish_for(viewer_panel *p, panel_wish wish, const char *text);
+/* Grey text in as many lines as it takes. */
+void panel_note(const char *text);
+
+void panel_draw_source(viewer_panel *p);
+void panel_draw_bodies(viewer_panel *p);
+void panel_draw_gravity(viewer_panel *p);
+void panel_draw_view(viewer_panel *p);
+void panel_draw_settings(viewer_panel *p);
+void panel_draw_record(viewer_panel *p);
+void panel_draw_times(viewer_panel *p);
+
+#endif

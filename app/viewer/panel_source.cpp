@@ -1,0 +1,105 @@
+/* The panel's source, scene and recording. */
+#include "viewer/panel_parts.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static void look(viewer_panel *p)
+{
+    const viewer_options *o = p->v->options;
+    p->source_count = o->on_sources != nullptr ? o->on_sources(o->context, p->sources) : 0;
+    p->scene_count = o->on_scenes != nullptr ? o->on_scenes(o->context, p->scenes) : 0;
+    p->has_lists = true;
+}
+
+/* A list to choose from; what is typed below may be any other. */
+static void draw_choices(viewer_panel *p, const char *label, const char *now,
+                         const viewer_choice *choices, int count, panel_wish wish)
+{
+    if (!ImGui::BeginCombo(label, now)) {
+        return;
+    }
+    if (ImGui::IsWindowAppearing()) {
+        look(p);
+    }
+    for (int i = 0; i < count; i++) {
+        ImGui::PushID(i);
+        if (ImGui::Selectable(choices[i].text)) {
+            panel_wish_for(p, wish, choices[i].source);
+        }
+        ImGui::PopID();
+    }
+    ImGui::EndCombo();
+}
+
+static void draw_path(viewer_panel *p, const char *label, const char *hint, char *text,
+                      panel_wish wish)
+{
+    if (ImGui::InputTextWithHint(label, hint, text, VIEWER_CHOICE_SOURCE,
+                                 ImGuiInputTextFlags_EnterReturnsTrue) &&
+        text[0] != '\0') {
+        panel_wish_for(p, wish, text);
+    }
+}
+
+static const char *name_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash != nullptr && slash[1] != '\0' ? slash + 1 : path;
+}
+
+static void draw_playing(viewer_panel *p)
+{
+    viewer *v = p->v;
+    static const char *const ends[] = {"stop", "loop", "hold"};
+    if (ImGui::Button(v->is_paused ? "Go on" : "Pause")) {
+        viewer_toggle_pause(v);
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Start again")) {
+        viewer_restart(v);
+    }
+    playback *played = v->stage.playback;
+    if (played == nullptr) {
+        return;
+    }
+    int end = playback_get_end(played);
+    if (ImGui::Combo("at the end", &end, ends, 3)) {
+        viewer_set_end(v, (playback_end)end);
+    }
+    const int64_t count = playback_get_count(played);
+    int index = (int)playback_get_index(played);
+    if (count > 1 && ImGui::SliderInt("frame", &index, 0, (int)count - 1)) {
+        viewer_seek_to(v, (double)index / (double)(count - 1));
+    }
+}
+
+void panel_draw_source(viewer_panel *p)
+{
+    const viewer_stage *stage = &p->v->stage;
+    const char *scene = stage->scene_name[0] != '\0' ? name_of(stage->scene_name) : "two cubes";
+    if (!p->has_lists) {
+        look(p);
+    }
+    draw_choices(p, "source", name_of(stage->source_name), p->sources, p->source_count,
+                 PANEL_SOURCE);
+    draw_path(p, "other source", "file, folder, camera", p->source, PANEL_SOURCE);
+    draw_choices(p, "scene", scene, p->scenes, p->scene_count, PANEL_SCENE);
+    draw_path(p, "other scene", "scene.json", p->scene, PANEL_SCENE);
+    draw_playing(p);
+}
+
+void panel_draw_record(viewer_panel *p)
+{
+    const viewer_options *o = p->v->options;
+    char text[VIEWER_LINE_SIZE];
+    const bool is_on = o->on_status != nullptr && o->on_status(o->context, text, sizeof text);
+    if (ImGui::Button(is_on ? "Stop recording" : "Record")) {
+        viewer_toggle_record(p->v);
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Save picture")) {
+        viewer_save_picture(p->v);
+    }
+    panel_note(is_on ? text : "What the camera gives goes to a file that plays again.");
+}

@@ -1,0 +1,179 @@
+#!/bin/sh
+# The tasks of docs/window.md as their user does them, with keys and the mouse, on a display that
+# xvfb-run lends (1480 x 900): tests/gl/window_tasks.sh RELIEF WORK. Looks at the screen and at the
+# files. Exit status 77: a tool is missing, and that is said.
+set -eu
+
+relief=$1
+work=$2
+for tool in xdotool import convert; do
+    if ! command -v "$tool" >/dev/null 2>&1; then
+        echo "window tasks: SKIPPED, no $tool here (xdotool, imagemagick)"
+        exit 77
+    fi
+done
+if [ -z "${DISPLAY:-}" ]; then
+    echo "window tasks: SKIPPED, no display (xvfb)"
+    exit 77
+fi
+
+rm -rf "$work"
+mkdir -p "$work/state"
+cd "$work"
+export XDG_STATE_HOME="$work/state"
+pid=
+trap '[ -z "$pid" ] || kill "$pid" 2>/dev/null || true' EXIT
+
+fail() {
+    echo "window tasks: $1 (see $work)" >&2
+    exit 1
+}
+
+# The whole screen, as NAME.ppm.
+shot() {
+    import -window root "$1.ppm"
+}
+
+# Pixels of exactly one colour in a part of a picture: count PICTURE WxH+X+Y COLOUR.
+count() {
+    convert "$1" -crop "$2" +repage -alpha off -fill black +opaque "$3" -fill white -opaque "$3" \
+        -format '%[fx:int(mean*w*h+0.5)]' info:
+}
+
+# Repeats a check for 20 seconds: until_true MESSAGE COMMAND...
+until_true() {
+    message=$1
+    shift
+    tries=0
+    until "$@"; do
+        tries=$((tries + 1))
+        [ "$tries" -lt 80 ] || fail "$message"
+        sleep 0.25
+    done
+}
+
+letters='rgb(245,245,235)' # of text over the picture; the room has nothing like it
+picture=960x540+0+0        # of the window, whose corner is that of the screen
+
+has_window() { xdotool search --name '^Relief$' >/dev/null 2>&1; }
+has_text() { shot look && [ "$(count look.ppm 600x100+0+0 "$letters")" -gt 500 ]; }
+has_no_text() { shot look && [ "$(count look.ppm 600x100+0+0 "$letters")" -eq 0 ]; }
+is_bright() { shot look && [ "$(convert look.ppm -crop $1 +repage -format '%[fx:int(100*mean)]' info:)" -gt 20 ]; }
+is_moving() {
+    shot one
+    sleep 0.3
+    shot two
+    ! cmp -s one.ppm two.ppm
+}
+
+start() {
+    "$relief" run "$@" >run.log 2>&1 &
+    pid=$!
+    until_true "no window: $(cat run.log)" has_window
+}
+
+quit() {
+    xdotool key q
+    status=0
+    wait "$pid" || status=$?
+    pid=
+    [ "$status" -eq 0 ] || fail "exit status $status: $(cat run.log)"
+}
+
+# 1. The demo.
+room='synthetic:room?color=480x270'
+fast='--scale 4 --threads 1' # the tasks are the window's
+# shellcheck disable=SC2086
+start "$room" --log log --end loop $fast
+until_true "the room is not there" has_text
+is_bright "$picture" || fail "the picture is dark"
+echo "1 the demo runs"
+
+# 2. A ball.
+xdotool key g mousemove 500 200 click 1
+until_true "nothing moves" is_moving
+echo "2 a ball is thrown"
+
+# 3. Nothing over the picture.
+xdotool key i
+until_true "I leaves text" has_no_text
+echo "3 the text is hidden"
+
+# 4. A saved picture has no text, even while the window has.
+xdotool key i
+until_true "I brings no text back" has_text
+xdotool key p
+until_true "P saves no picture" sh -c 'ls relief-*.png >/dev/null 2>&1'
+sleep 0.5
+mv relief-*.png saved.png
+[ "$(count saved.png 960x540+0+0 "$letters")" -eq 0 ] || fail "the saved picture has text"
+echo "4 a picture is saved without text"
+
+# 5. Gravity up, in the panel, where the build has one: its window is wider than the picture.
+width=$(xdotool getwindowgeometry --shell "$(xdotool search --name '^Relief$' | head -1)" | sed -n 's/^WIDTH=//p')
+has_panel=no
+[ "$width" -gt 1000 ] && has_panel=yes
+if [ "$has_panel" = yes ]; then
+    xdotool mousemove 1124 416 sleep 0.3 mousedown 1 sleep 0.3 mouseup 1
+    sleep 1
+    echo "5 gravity is turned round in the panel"
+fi
+
+# 6. A recording.
+xdotool key e
+sleep 1
+xdotool key e
+until_true "E records nothing" sh -c 'ls *.mcap >/dev/null 2>&1 || ls -d relief-*/ >/dev/null 2>&1'
+echo "6 what the camera gives is recorded"
+
+# 7. Full screen, the picture alone.
+xdotool key f
+until_true "full screen is not full" is_bright 1200x500+140+200
+until_true "full screen has text" has_no_text
+xdotool key f
+until_true "F does not come back" has_text
+echo "7 full screen has the picture alone"
+
+# 8. Why pixels are missing: the view and its legend.
+xdotool key 0
+has_legend() { shot look && [ "$(count look.ppm 300x250+650+240 "$letters")" -gt 200 ]; }
+until_true "the view of reasons has no legend" has_legend
+xdotool key 1
+echo "8 the reasons of missing pixels are shown"
+
+# 9. A scene with an error: told, and what was there goes on.
+if [ "$has_panel" = yes ]; then
+    echo '{"bodies": [{"shape": "cube"}]}' >bad.json
+    xdotool mousemove 1050 110 click 1 sleep 0.3 type "$work/bad.json"
+    sleep 0.3
+    xdotool key Return
+    sleep 1
+    shot bad
+    until_true "the room stopped at a bad scene" is_moving
+    red=$(convert bad.ppm -crop 330x60+970+0 +repage -alpha off -fuzz 20% -fill black +opaque 'rgb(255,128,102)' \
+        -format '%[fx:int(mean*w*h+0.5)]' info:)
+    [ "$red" -gt 50 ] || fail "the panel does not tell the scene's error"
+    xdotool mousemove 500 300
+    echo "9 a scene with an error is told, the old one goes on"
+fi
+quit
+
+bodies=$(awk -F, 'NR > 1 { names[$3] = 1 } END { n = 0; for (b in names) n++; print n }' log/bodies.csv)
+[ "$bodies" -ge 3 ] || fail "$bodies bodies in the log: no ball was thrown"
+if [ "$has_panel" = yes ]; then
+    awk -F, 'NR > 1 && $12 < -2 { up = 1 } END { exit up ? 0 : 1 }' log/bodies.csv ||
+        fail "no body fell up"
+    grep -q '  panel ' run.log || fail "the summary does not tell what the panel costs"
+    grep '  panel ' run.log
+fi
+
+# 10. A clip of one's own, which loops.
+"$relief" record "$room" own/ --frames 20 --quiet
+# shellcheck disable=SC2086
+start own $fast
+until_true "the clip is not there" has_text
+sleep 2
+until_true "the clip stops at its end" is_moving
+quit
+[ -s state/relief/recent ] || fail "the clip is not among the recent ones"
+echo "10 a clip of one's own plays and loops"
