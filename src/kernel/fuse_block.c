@@ -149,7 +149,8 @@ RLF_KERNEL_PART uint8_t mixed(uint8_t old, int32_t seen, float old_weight, float
 }
 
 /* The weights are those before this view. */
-static void mix_color(const rlf_fuse_view *view, const lanes *l, int32_t row, rlf_fuse_block *block)
+RLF_KERNEL_PART void mix_color(const rlf_fuse_view *view, const lanes *l, int32_t row,
+                               rlf_fuse_block *block)
 {
     const bool has_chroma = (row & 1) == 0 && ((row >> 3) & 1) == 0;
     for (int32_t i = 0; i < LANES; i++) {
