@@ -12,7 +12,7 @@ enum { MARGINS = sizeof(margins) / sizeof(margins[0]) };
 
 enum {
     SPACING = 4,      /* pixels between those that look for blocks; in 16 frames all do */
-    CARVE_FRAMES = 8, /* in which every block is asked once whether it is seen through */
+    CARVE_FRAMES = 4, /* in which every block is asked once whether it is seen through */
     GRAIN = 32        /* blocks */
 };
 
@@ -155,7 +155,7 @@ static void choose_seen(fuse_job *job)
     }
 }
 
-/* Whether some of a block may be in front of what its middle's pixel sees. */
+/* Whether a block's middle is in front of what its pixel sees. */
 static bool is_seen_through(const fuse_job *job, int32_t block)
 {
     const rlf_map *map = job->map;
@@ -175,7 +175,7 @@ static bool is_seen_through(const fuse_job *job, int32_t block)
     int32_t pixel = (int32_t)v * c->width + (int32_t)u;
     pixel = map->source_of != NULL ? map->source_of[pixel] : pixel;
     const double depth = pixel >= 0 ? map->clean[pixel] : 0.0;
-    return depth > p.z - side;
+    return depth > p.z;
 }
 
 static void choose_carved(fuse_job *job)

@@ -163,7 +163,7 @@ static rlf_result run_room(eval_table *table, int64_t seed)
 
 /* Points on the person, as the frames with him show him. */
 typedef struct person_points {
-    rlf_vec3 at[PERSON_POINTS];
+    rlf_vec3 at[PERSON_POINTS], way[PERSON_POINTS]; /* way: the ray's, unit */
     int32_t count;
 } person_points;
 
@@ -173,9 +173,17 @@ static void take_points(const map_camera *camera, person_points *points)
     for (int32_t i = 0; i < n && points->count < PERSON_POINTS; i += 3 * SPACING) {
         rlf_vec3 p;
         if (camera->label[i] == RLF_SYNTHETIC_LABEL_PERSON && map_camera_point(camera, i, &p)) {
+            points->way[points->count] = rlf_normalize(camera->ways[i]);
             points->at[points->count++] = p;
         }
     }
+}
+
+/* Whether there is matter right behind a point. */
+static bool is_solid(const rlf_map *map, const person_points *points, int32_t i)
+{
+    const rlf_vec3 behind = rlf_mad(points->at[i], points->way[i], TRUE_M);
+    return rlf_map_sample(map, behind).state == RLF_MAP_INSIDE;
 }
 
 static double share_left(const rlf_map *map, const person_points *points, const map_camera *empty)
@@ -187,7 +195,7 @@ static double share_left(const rlf_map *map, const person_points *points, const 
         int32_t label;
         (void)rlf_synthetic_distance(empty->source, points->at[i], &distance, &normal, &label);
         if (distance > 2.0 * TRUE_M) { /* his soles stood on what is really there */
-            left += is_there(map, points->at[i]) ? 1.0 : 0.0;
+            left += is_solid(map, points, i) ? 1.0 : 0.0;
             count += 1.0;
         }
     }
