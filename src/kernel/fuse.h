@@ -51,7 +51,12 @@ typedef struct rlf_fuse_place {
  * distance, steps; 32767 where nothing is known. */
 typedef struct rlf_fuse_summary {
     int32_t nearest, lowest;
+    /* Of each 4 x 4 x 4 voxels (bits x = 1, y = 2, z = 4) the one right in front of the surface, by
+     * less than one voxel; RLF_FUSE_NO_VOXEL: none is. */
+    uint16_t front[8];
 } rlf_fuse_summary;
+
+#define RLF_FUSE_NO_VOXEL 0xffffu
 
 void rlf_kernel_fuse_block(const rlf_fuse_view *view, const rlf_fuse_place *place,
                            rlf_fuse_block *restrict block);

@@ -200,6 +200,23 @@ RLF_KERNEL void rlf_kernel_fuse_block(const rlf_fuse_view *view, const rlf_fuse_
     }
 }
 
+/* Of each half row the least distance in front, with the voxel that has it in the low bits. */
+RLF_KERNEL_PART void find_front(const rlf_fuse_block *block, int32_t least[4][LANES])
+{
+    for (int32_t row = 0; row < LANES * LANES; row++) {
+        int32_t *best = least[(row >> 2 & 1) | (row >> 5) << 1];
+        const int32_t at = row * LANES;
+        RLF_KERNEL_WHOLE
+        for (int32_t i = 0; i < LANES; i++) {
+            int32_t d = block->distance[at + i], w = block->weight[at + i];
+            int32_t key = d * RLF_FUSE_VOXELS + (at + i);
+            key = d > 0 ? key : INT32_MAX;
+            key = w > 0 ? key : INT32_MAX;
+            best[i] = key < best[i] ? key : best[i];
+        }
+    }
+}
+
 RLF_KERNEL rlf_fuse_summary rlf_kernel_fuse_summary(const rlf_fuse_block *block)
 {
     int32_t nearest = INT16_MAX, lowest = INT16_MAX;
@@ -209,6 +226,20 @@ RLF_KERNEL rlf_fuse_summary rlf_kernel_fuse_summary(const rlf_fuse_block *block)
         nearest = size < nearest ? size : nearest;
         lowest = d < lowest ? d : lowest;
     }
-    const rlf_fuse_summary out = {nearest, lowest};
+    rlf_fuse_summary out = {.nearest = nearest, .lowest = lowest};
+    int32_t least[4][LANES];
+    for (int32_t i = 0; i < 4 * LANES; i++) {
+        least[i / LANES][i % LANES] = INT32_MAX;
+    }
+    find_front(block, least);
+    for (int32_t k = 0; k < 8; k++) {
+        int32_t best = INT32_MAX;
+        for (int32_t i = 0; i < 4; i++) {
+            int32_t key = least[k >> 1][4 * (k & 1) + i];
+            best = key < best ? key : best;
+        }
+        bool has_one = best < (int32_t)RLF_FUSE_STEPS * RLF_FUSE_VOXELS;
+        out.front[k] = has_one ? (uint16_t)(best % RLF_FUSE_VOXELS) : RLF_FUSE_NO_VOXEL;
+    }
     return out;
 }

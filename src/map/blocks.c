@@ -47,10 +47,11 @@ bool map_volume_create(map_volume *v, int32_t capacity)
     v->marked = rlf_alloc_array(n, sizeof(uint32_t));
     v->kept = rlf_alloc_array(n, sizeof(uint32_t));
     v->flags = rlf_alloc_array(n, 1);
+    v->front = rlf_alloc_array(n, sizeof(v->front[0]));
     v->free_list = rlf_alloc_array(n, sizeof(int32_t));
     v->table = rlf_alloc_array(size, sizeof(map_entry));
     bool is_whole = v->slabs.slab != NULL && v->place != NULL && v->after != NULL &&
-                    v->marked != NULL && v->kept != NULL && v->flags != NULL &&
+                    v->marked != NULL && v->kept != NULL && v->flags != NULL && v->front != NULL &&
                     v->free_list != NULL && v->table != NULL;
     if (is_whole) {
         map_volume_clear(v);
@@ -66,6 +67,7 @@ void map_volume_destroy(map_volume *v)
     rlf_free(v->marked);
     rlf_free(v->kept);
     rlf_free(v->flags);
+    rlf_free(v->front);
     rlf_free(v->free_list);
     rlf_free(v->table);
     memset(v, 0, sizeof(*v));
@@ -99,6 +101,11 @@ int32_t map_volume_find(const map_volume *v, int32_t x, int32_t y, int32_t z)
         return -1; /* keys have 16 bits for each */
     }
     return v->table[slot_of(v, map_key(x, y, z))].block;
+}
+
+void map_volume_soon(const map_volume *v, int32_t x, int32_t y, int32_t z)
+{
+    RLF_KERNEL_SOON(&v->table[home(v, map_key(x, y, z))]);
 }
 
 /* Tells a block's neighbours of it (`self` is its index) or that it is gone (-1). */
@@ -170,6 +177,7 @@ void map_block_look(map_volume *v, int32_t block)
     /* A surface passes a cell only when a corner of it is within its diagonal. */
     const int32_t diagonal = (int32_t)(1.74f * RLF_FUSE_STEPS);
     rlf_fuse_summary s = rlf_kernel_fuse_summary(map_block_at(v, block));
+    memcpy(v->front[block], s.front, sizeof(s.front));
     /* More than the margin in front of a surface, or blocks would come and go. */
     const int32_t free = (int32_t)(0.65f * (float)MAP_TRUNCATION_LEAST * RLF_FUSE_STEPS);
     v->flags[block] = (uint8_t)((v->flags[block] & MAP_IS_NEW) | MAP_LIVE |

@@ -90,32 +90,34 @@ static void mark(fuse_job *job, const int32_t at[3])
     }
 }
 
-/* The blocks about one pixel's point. `last` are those of the pixel before. */
-static void mark_pixel(fuse_job *job, int32_t pixel, int32_t last[MARGINS][3])
+/* The places, in blocks, about the points of a row's pixels. */
+typedef struct row_places {
+    int32_t at[(RLF_IMAGE_SIZE_MAX / SPACING + 1) * MARGINS][3];
+    int32_t count;
+} row_places;
+
+static void add_places(const fuse_job *job, int32_t pixel, row_places *out)
 {
     const rlf_map *map = job->map;
-    if (!(map->planes[pixel].offset < 0.0f)) {
-        return;
-    }
-    const rlf_pose *T = &job->T_world_camera;
+    const rlf_mat3 *R = &job->R_camera_world;
+    const rlf_vec3 eye = job->T_world_camera.p;
     const double scale = 1.0 / (map->def.voxel_m * MAP_SIDE);
-    const rlf_vec3 ray = {map->ray_x[pixel], map->ray_y[pixel], 1.0};
-    const double length = rlf_length(ray);
+    const rlf_vec3 ray = {(double)map->ray_x[pixel], (double)map->ray_y[pixel], 1.0};
+    const double step = map->def.voxel_m / rlf_length(ray);
     for (int32_t k = 0; k < MARGINS; k++) {
-        const double z = map->clean[pixel] + margins[k] * map->def.voxel_m / length;
-        const rlf_mat3 *R = &job->R_camera_world;
-        const rlf_vec3 p = rlf_scale(ray, z);
-        const double x = (R->m[0][0] * p.x + R->m[1][0] * p.y + R->m[2][0] * p.z + T->p.x) * scale;
-        const double y = (R->m[0][1] * p.x + R->m[1][1] * p.y + R->m[2][1] * p.z + T->p.y) * scale;
-        const double w = (R->m[0][2] * p.x + R->m[1][2] * p.y + R->m[2][2] * p.z + T->p.z) * scale;
-        if (!(x > -32000.0 && x < 32000.0 && y > -32000.0 && y < 32000.0 && w > -32000.0 &&
-              w < 32000.0)) {
-            continue;
+        const rlf_vec3 p = rlf_scale(ray, (double)map->clean[pixel] + (double)margins[k] * step);
+        int32_t at[3];
+        bool is_in = true;
+        for (int32_t r = 0; r < 3; r++) {
+            const double world = R->m[0][r] * p.x + R->m[1][r] * p.y + R->m[2][r] * p.z +
+                                 (r == 0 ? eye.x : (r == 1 ? eye.y : eye.z));
+            is_in = is_in && world * scale > -32000.0 && world * scale < 32000.0;
+            at[r] = is_in ? floor_block(world * scale) : 0;
         }
-        const int32_t at[3] = {floor_block(x), floor_block(y), floor_block(w)};
-        if (memcmp(at, last[k], sizeof(at)) != 0) {
-            memcpy(last[k], at, sizeof(at));
-            mark(job, at);
+        const int32_t before = out->count - MARGINS; /* the same of the pixel before */
+        if (is_in && (before < 0 || memcmp(at, out->at[before], sizeof(at)) != 0)) {
+            map_volume_soon(&map->volume, at[0], at[1], at[2]);
+            memcpy(out->at[out->count++], at, sizeof(at));
         }
     }
 }
@@ -126,14 +128,17 @@ static void mark_all(fuse_job *job)
     const int32_t width = map->pinhole.width, height = map->pinhole.height;
     /* The pixels that look move by one from frame to frame, in an order that skips about. */
     const int32_t phase = (int32_t)((map->frames * 7) % (SPACING * SPACING));
-    int32_t last[MARGINS][3];
-    for (int32_t k = 0; k < MARGINS; k++) {
-        last[k][0] = INT32_MAX;
-    }
+    row_places places;
     map->seen_count = 0;
     for (int32_t y = phase / SPACING; y < height; y += SPACING) {
+        places.count = 0;
         for (int32_t x = phase % SPACING; x < width; x += SPACING) {
-            mark_pixel(job, y * width + x, last);
+            if (map->planes[y * width + x].offset < 0.0f) {
+                add_places(job, y * width + x, &places);
+            }
+        }
+        for (int32_t i = 0; i < places.count; i++) {
+            mark(job, places.at[i]);
         }
     }
 }

@@ -138,7 +138,7 @@ static bool refine(ray *r, float start, hit *out)
         z -= d / slope;
     }
     const float off = (z - start) * r->length, size2 = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
-    if (!(d < 0.5f && d > -0.5f && off > -4.0f && off < 4.0f && size2 > 0.04f && z > 0.0f)) {
+    if (!(d < 0.5f && d > -0.5f && off > -6.0f && off < 6.0f && size2 > 0.04f && z > 0.0f)) {
         return false;
     }
     const float scale = 1.0f / sqrtf(size2);
@@ -216,6 +216,16 @@ static void put(const map_caster *c, int32_t i, const hit *h)
     }
 }
 
+/* The block that is drawn at a pixel is likely the one to look at. */
+static void begin_at(ray *r, int32_t block)
+{
+    const int16_t *at = r->v->place[block];
+    r->block = block;
+    for (int32_t k = 0; k < 3; k++) {
+        r->block_at[k] = at[k];
+    }
+}
+
 /* The plane of depth holds where the nearest voxel in front of a surface is: there the ray is
  * looked at first. At outlines it passes by that surface, and goes on. */
 static void cast_pixel(const map_caster *c, int32_t x, int32_t y, ray *r)
@@ -226,6 +236,7 @@ static void cast_pixel(const map_caster *c, int32_t x, int32_t y, ray *r)
     hit h = none;
     if (start < MAP_NOTHING) {
         const float far_z = c->out->tile_far[(y / MAP_TILE) * c->tile_columns + x / MAP_TILE];
+        begin_at(r, c->out->start[i]);
         ray_make(c, x, y, r);
         if (!refine(r, start, &h) && !cast(r, start - 1.5f / r->length, far_z, &h)) {
             h = none;

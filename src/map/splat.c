@@ -44,43 +44,43 @@ static void widen(map_caster *caster, const pixel_box *box)
     }
 }
 
+/* A square of `size` pixels at depth z. */
+typedef struct splat {
+    float u, v, z, size;
+    int32_t block;
+} splat;
+
 static float least_of(float a, float b)
 {
     return a < b ? a : b;
 }
 
-/* A square of pixels as large as a voxel, so that near surfaces have no holes. */
-static void draw_point(map_caster *caster, float u, float v, float z, float voxel_f)
+/* At least one pixel, the nearest. */
+static void draw_point(map_caster *caster, const splat *p)
 {
     const int32_t width = caster->camera.width, height = caster->camera.height;
-    const float size = voxel_f / z;
-    float *depth = caster->out->depth;
-    if (size <= 1.0f) { /* one pixel, the nearest */
-        if (u > -0.5f && v > -0.5f && u < (float)width - 0.5f && v < (float)height - 0.5f) {
-            float *at = &depth[(ptrdiff_t)(int32_t)(v + 0.5f) * width + (int32_t)(u + 0.5f)];
-            *at = z < *at ? z : *at;
-        }
-        return;
-    }
-    const float half = 0.5f * size;
-    const float right = least_of(u + half, (float)(width - 1));
-    const float bottom = least_of(v + half, (float)(height - 1));
-    const int32_t x0 = u - half > 0.0f ? (int32_t)(u - half) + 1 : 0;
-    const int32_t y0 = v - half > 0.0f ? (int32_t)(v - half) + 1 : 0;
+    const float half = 0.5f * (p->size > 1.0f ? p->size : 1.0f);
+    const float right = least_of(p->u + half, (float)width - 0.5f);
+    const float bottom = least_of(p->v + half, (float)height - 0.5f);
+    const int32_t x0 = p->u - half > -1.0f ? (int32_t)(p->u - half + 1.0f) : 0;
+    const int32_t y0 = p->v - half > -1.0f ? (int32_t)(p->v - half + 1.0f) : 0;
     for (int32_t y = y0; (float)y <= bottom; y++) {
-        float *row = &depth[(ptrdiff_t)y * width];
+        const ptrdiff_t row = (ptrdiff_t)y * width;
         for (int32_t x = x0; (float)x <= right; x++) {
-            row[x] = z < row[x] ? z : row[x];
+            if (p->z < caster->out->depth[row + x]) {
+                caster->out->depth[row + x] = p->z;
+                caster->out->start[row + x] = p->block;
+            }
         }
     }
 }
 
-static void draw_block(map_caster *caster, int32_t block, rlf_vec3 corner)
+/* All voxels in front of the surface, as large as they are: near surfaces have no holes then. */
+static void draw_voxels(map_caster *caster, int32_t block, rlf_vec3 corner, float voxel_f)
 {
     const rlf_camera *c = &caster->camera;
     const double voxel = caster->map->def.voxel_m;
     const rlf_splat_camera camera = {(float)c->fx, (float)c->fy, (float)c->cx, (float)c->cy};
-    const float voxel_f = (float)(voxel * rlf_max(c->fx, c->fy));
     rlf_fuse_place place = {.origin = {(float)corner.x, (float)corner.y, (float)corner.z}};
     for (int32_t k = 0; k < 3; k++) {
         for (int32_t r = 0; r < 3; r++) {
@@ -91,9 +91,46 @@ static void draw_block(map_caster *caster, int32_t block, rlf_vec3 corner)
     const map_block *b = map_block_at(&caster->map->volume, block);
     const int32_t count = rlf_kernel_splat_block(b, &place, &camera, &points);
     for (int32_t i = 0; i < count; i++) {
-        if (points.z[i] > 0.0f) {
-            draw_point(caster, points.u[i], points.v[i], points.z[i], voxel_f);
+        const float z = points.z[i];
+        if (z > 0.0f) {
+            const splat p = {points.u[i], points.v[i], z, voxel_f / z, block};
+            draw_point(caster, &p);
         }
+    }
+}
+
+/* One voxel for each eighth of the block, as large as that. */
+static void draw_eighths(map_caster *caster, int32_t block, rlf_vec3 corner, float voxel_f)
+{
+    const rlf_camera *c = &caster->camera;
+    const rlf_mat3 *R = &caster->R_camera_world;
+    const double voxel = caster->map->def.voxel_m;
+    const uint16_t *front = caster->map->volume.front[block];
+    for (int32_t k = 0; k < 8; k++) {
+        if (front[k] == RLF_FUSE_NO_VOXEL) {
+            continue;
+        }
+        const rlf_vec3 in = {(front[k] & 7) * voxel, (front[k] >> 3 & 7) * voxel,
+                             (front[k] >> 6) * voxel};
+        const rlf_vec3 at = rlf_add(corner, rlf_mat3_mul_vec(R, in));
+        if (at.z > NEAREST_M) {
+            const splat p = {(float)(c->fx * at.x / at.z + c->cx),
+                             (float)(c->fy * at.y / at.z + c->cy), (float)at.z,
+                             4.0f * voxel_f / (float)at.z, block};
+            draw_point(caster, &p);
+        }
+    }
+}
+
+/* Where a voxel is less than half a pixel, four of them are less than two. */
+static void draw_block(map_caster *caster, int32_t block, rlf_vec3 corner)
+{
+    const rlf_camera *c = &caster->camera;
+    const float voxel_f = (float)(caster->map->def.voxel_m * rlf_max(c->fx, c->fy));
+    if (voxel_f < 0.5f * (float)corner.z) {
+        draw_eighths(caster, block, corner, voxel_f);
+    } else {
+        draw_voxels(caster, block, corner, voxel_f);
     }
 }
 

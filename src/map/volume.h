@@ -47,6 +47,7 @@ typedef struct map_volume {
     uint32_t *marked;    /* the frame that saw it last */
     uint32_t *kept;      /* the epoch in which the journal took it */
     uint8_t *flags;
+    uint16_t (*front)[8]; /* as rlf_fuse_summary has it */
     int32_t *free_list;
     int32_t free_count;
     map_entry *table;
@@ -75,6 +76,7 @@ typedef struct map_view_planes {
     float *depth, *normal[3];
     uint8_t *grey;
     uint8_t *rgba;
+    int32_t *start;  /* block of the voxel drawn at a pixel */
     float *tile_far; /* per tile of a prediction, the depth beyond which there is no surface */
     rlf_prediction last;
 } map_view_planes;
@@ -120,6 +122,8 @@ void map_volume_destroy(map_volume *v);
 void map_volume_clear(map_volume *v);
 /* -1 = none. */
 int32_t map_volume_find(const map_volume *v, int32_t x, int32_t y, int32_t z);
+/* Before it is looked for: brings its entry near. */
+void map_volume_soon(const map_volume *v, int32_t x, int32_t y, int32_t z);
 /* A new, empty block at a place where there is none; -1: no room, or no memory. */
 int32_t map_volume_add(map_volume *v, int32_t x, int32_t y, int32_t z);
 void map_volume_remove(map_volume *v, int32_t block);
