@@ -188,7 +188,7 @@ static void choose_carved(fuse_job *job)
     rlf_map *map = job->map;
     const map_volume *v = &map->volume;
     const int32_t budget =
-        map->def.blocks_per_frame > 0 ? map->def.blocks_per_frame / 4 + 1 : v->capacity;
+        map->def.blocks_per_frame > 0 ? map->def.blocks_per_frame / 2 + 1 : v->capacity;
     const int32_t share = v->high / CARVE_FRAMES + 1;
     int32_t cursor = map->carve_cursor < v->high ? map->carve_cursor : 0;
     int32_t end = cursor + share < v->high ? cursor + share : v->high;

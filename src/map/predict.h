@@ -12,7 +12,8 @@ typedef struct map_caster {
     const rlf_map *map;
     rlf_camera camera;
     rlf_mat3 R_world_camera, R_camera_world;
-    rlf_vec3 eye; /* world, metres */
+    rlf_vec3 eye;          /* world, metres */
+    rlf_vec3 to_eighth[8]; /* from a block's corner to the middles of its eighths, camera frame */
     map_view_planes *out;
     int32_t tile_columns;
 } map_caster;

@@ -99,24 +99,26 @@ static void draw_voxels(map_caster *caster, int32_t block, rlf_vec3 corner, floa
     }
 }
 
-/* One voxel for each eighth of the block, as large as that. */
+/* One square for each eighth of the block, about its middle, wide enough from any side, and as far
+ * as its voxel in front of the surface. */
 static void draw_eighths(map_caster *caster, int32_t block, rlf_vec3 corner, float voxel_f)
 {
     const rlf_camera *c = &caster->camera;
-    const rlf_mat3 *R = &caster->R_camera_world;
-    const double voxel = caster->map->def.voxel_m;
+    const double *ahead = caster->R_camera_world.m[2], voxel = caster->map->def.voxel_m;
     const uint16_t *front = caster->map->volume.front[block];
     for (int32_t k = 0; k < 8; k++) {
         if (front[k] == RLF_FUSE_NO_VOXEL) {
             continue;
         }
-        const rlf_vec3 in = {(front[k] & 7) * voxel, (front[k] >> 3 & 7) * voxel,
-                             (front[k] >> 6) * voxel};
-        const rlf_vec3 at = rlf_add(corner, rlf_mat3_mul_vec(R, in));
-        if (at.z > NEAREST_M) {
-            const splat p = {(float)(c->fx * at.x / at.z + c->cx),
-                             (float)(c->fy * at.y / at.z + c->cy), (float)at.z,
-                             4.0f * voxel_f / (float)at.z, block};
+        const rlf_vec3 at = rlf_add(corner, caster->to_eighth[k]);
+        const double z =
+            corner.z + voxel * (ahead[0] * (front[k] & 7) + ahead[1] * (front[k] >> 3 & 7) +
+                                ahead[2] * (front[k] >> 6));
+        if (at.z > NEAREST_M && z > NEAREST_M) {
+            const double inverse = 1.0 / at.z;
+            const splat p = {(float)(c->fx * at.x * inverse + c->cx),
+                             (float)(c->fy * at.y * inverse + c->cy), (float)z,
+                             6.0f * voxel_f * (float)inverse, block};
             draw_point(caster, &p);
         }
     }
@@ -166,6 +168,12 @@ void map_splat(map_caster *caster)
     }
     const rlf_vec3 half = half_extent(caster), diagonal = {0.5 * side, 0.5 * side, 0.5 * side};
     const rlf_vec3 to_middle = rlf_mat3_mul_vec(R, diagonal);
+    for (int32_t k = 0; k < 8; k++) {
+        const double low = 0.25 * side, high = 0.75 * side;
+        const rlf_vec3 middle = {(k & 1) != 0 ? high : low, (k & 2) != 0 ? high : low,
+                                 (k & 4) != 0 ? high : low};
+        caster->to_eighth[k] = rlf_mat3_mul_vec(R, middle);
+    }
     for (int32_t i = 0; i < v->high; i++) {
         if ((v->flags[i] & MAP_HAS_SURFACE) == 0) {
             continue;
