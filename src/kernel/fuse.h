@@ -7,6 +7,8 @@
 
 enum { RLF_FUSE_SIDE = 8, RLF_FUSE_VOXELS = 512, RLF_FUSE_CHROMA = 64 };
 
+/* Nothing nearer is fused or drawn, metres. */
+#define RLF_FUSE_NEAREST_M 0.05f
 /* Distances are kept in steps of 1 / 1024 of a voxel. */
 #define RLF_FUSE_STEPS 1024.0f
 /* Weight of a frame at the noise of the nearest depths; what is noisier has less, at least 1. */

@@ -7,9 +7,6 @@
 
 enum { LANES = RLF_FUSE_SIDE };
 
-/* Nothing nearer is fused, metres. */
-static const float nearest_m = 0.05f;
-
 /* Eight voxels in a row. */
 typedef struct lanes {
     float x[LANES], y[LANES], z[LANES];
@@ -32,8 +29,8 @@ RLF_KERNEL_PART void project(const rlf_fuse_view *view, const float start[3], co
         l->x[i] = start[0] + along * step[0];
         l->y[i] = start[1] + along * step[1];
         l->z[i] = start[2] + along * step[2];
-        int32_t is_ahead = l->z[i] > nearest_m ? 1 : 0;
-        float inverse = 1.0f / (l->z[i] > nearest_m ? l->z[i] : nearest_m);
+        int32_t is_ahead = l->z[i] > RLF_FUSE_NEAREST_M ? 1 : 0;
+        float inverse = 1.0f / (l->z[i] > RLF_FUSE_NEAREST_M ? l->z[i] : RLF_FUSE_NEAREST_M);
         float u = view->fx * l->x[i] * inverse + (view->cx + 0.5f);
         float v = view->fy * l->y[i] * inverse + (view->cy + 0.5f);
         int32_t right = u >= 0.0f ? 1 : 0, left = u < width ? 1 : 0;
@@ -95,7 +92,7 @@ RLF_KERNEL_PART bool observe(const rlf_fuse_view *view, lanes *restrict l)
         float near = (size <= t ? 1.0f : 0.0f) * (offset[i] < 0.0f ? 1.0f : 0.0f) * l->is_in[i];
         float far = (least[i] - z > t ? 1.0f : 0.0f) * (1.0f - near) * l->is_in[i];
         /* Slanted pixels say less: a cosine of the angle, but for the ray's own slant. */
-        float facing = -offset[i] / (z > nearest_m ? z : nearest_m);
+        float facing = -offset[i] / (z > RLF_FUSE_NEAREST_M ? z : RLF_FUSE_NEAREST_M);
         facing = facing > 1.0f ? 1.0f : facing;
         float weight = l->weight[i] * (1.0f - near + near * facing);
         weight = weight < 1.0f ? 1.0f : weight;

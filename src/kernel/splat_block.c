@@ -26,10 +26,10 @@ RLF_KERNEL int32_t rlf_kernel_splat_block(const rlf_fuse_block *restrict block,
                   c * place->step[2][1];
         float z = place->origin[2] + a * place->step[0][2] + b * place->step[1][2] +
                   c * place->step[2][2];
-        float inverse = 1.0f / (z > 0.05f ? z : 0.05f);
+        float inverse = 1.0f / (z > RLF_FUSE_NEAREST_M ? z : RLF_FUSE_NEAREST_M);
         out->u[i] = camera->fx * x * inverse + camera->cx;
         out->v[i] = camera->fy * y * inverse + camera->cy;
-        out->z[i] = z > 0.05f ? z : 0.0f;
+        out->z[i] = z > RLF_FUSE_NEAREST_M ? z : 0.0f;
     }
     return count;
 }

@@ -3,8 +3,6 @@
  * surface. */
 #include "map/predict.h"
 
-#define NEAREST_M 0.05
-
 /* What a block covers of the picture. */
 typedef struct pixel_box {
     double x0, y0, x1, y1, far_z;
@@ -14,8 +12,9 @@ typedef struct pixel_box {
  * the camera's axes. */
 static bool cover(const rlf_camera *c, rlf_vec3 middle, rlf_vec3 half, pixel_box *out)
 {
-    const double far_z = middle.z + half.z, near_z = rlf_max(middle.z - half.z, NEAREST_M);
-    if (!(far_z > NEAREST_M)) {
+    const double far_z = middle.z + half.z,
+                 near_z = rlf_max(middle.z - half.z, (double)RLF_FUSE_NEAREST_M);
+    if (!(far_z > (double)RLF_FUSE_NEAREST_M)) {
         return false;
     }
     const double left = middle.x - half.x, right = middle.x + half.x;
@@ -114,7 +113,7 @@ static void draw_eighths(map_caster *caster, int32_t block, rlf_vec3 corner, flo
         const double z =
             corner.z + voxel * (ahead[0] * (front[k] & 7) + ahead[1] * (front[k] >> 3 & 7) +
                                 ahead[2] * (front[k] >> 6));
-        if (at.z > NEAREST_M && z > NEAREST_M) {
+        if (at.z > (double)RLF_FUSE_NEAREST_M && z > (double)RLF_FUSE_NEAREST_M) {
             const double inverse = 1.0 / at.z;
             const splat p = {(float)(c->fx * at.x * inverse + c->cx),
                              (float)(c->fy * at.y * inverse + c->cy), (float)z,

@@ -10,12 +10,12 @@
 #include <string.h>
 
 enum {
-    FRAMES = 60,       /* of the whole path */
-    WITH_PERSON = 20,  /* frames with the person in view, before he is gone */
-    AFTER_PERSON = 60, /* frames of the empty room then */
-    SPACING = 7,       /* pixels between those that are looked at for what is missing */
-    LOOKS = 6,         /* views for that */
-    MIN_WEIGHT = 32,   /* as `relief fuse` */
+    FRAMES = 60,        /* of the whole path */
+    WITH_PERSON = 20,   /* frames with the person in view, before he is gone */
+    AFTER_PERSON = 150, /* frames of the empty room then */
+    SPACING = 7,        /* pixels between those that are looked at for what is missing */
+    LOOKS = 6,          /* views for that */
+    MIN_WEIGHT = 32,    /* as `relief fuse` */
     PERSON_POINTS = 4096
 };
 
@@ -230,7 +230,7 @@ static rlf_result run_person(eval_table *table, int64_t seed)
         result = fuse_one(run, &empty, WITH_PERSON + i);
     }
     if (result == RLF_OK) {
-        add(table, "person_left", "  left when he has gone, %",
+        add(table, "person_left", "  left five seconds after he has gone, %",
             share_left(run->fuser.map, points, &empty));
     }
     map_camera_close(&empty);
