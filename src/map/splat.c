@@ -3,6 +3,9 @@
  * surface. */
 #include "map/predict.h"
 
+/* A cube's width from any side, in its edges: neighbours that touch leave no hole. */
+#define DIAGONAL 1.7321f
+
 /* What a block covers of the picture. */
 typedef struct pixel_box {
     double x0, y0, x1, y1, far_z;
@@ -92,7 +95,7 @@ static void draw_voxels(map_caster *caster, int32_t block, rlf_vec3 corner, floa
     for (int32_t i = 0; i < count; i++) {
         const float z = points.z[i];
         if (z > 0.0f) {
-            const splat p = {points.u[i], points.v[i], z, voxel_f / z, block};
+            const splat p = {points.u[i], points.v[i], z, DIAGONAL * voxel_f / z, block};
             draw_point(caster, &p);
         }
     }
@@ -117,7 +120,7 @@ static void draw_eighths(map_caster *caster, int32_t block, rlf_vec3 corner, flo
             const double inverse = 1.0 / at.z;
             const splat p = {(float)(c->fx * at.x * inverse + c->cx),
                              (float)(c->fy * at.y * inverse + c->cy), (float)z,
-                             6.0f * voxel_f * (float)inverse, block};
+                             4.0f * DIAGONAL * voxel_f * (float)inverse, block};
             draw_point(caster, &p);
         }
     }
