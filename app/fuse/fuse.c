@@ -116,7 +116,8 @@ static rlf_result open_all(fuse_run *run)
         result = rlf_open_source(o->source, run->pool, &run->source);
     }
     if (result == RLF_OK) {
-        const fuser_options options = {.voxel_m = o->voxel_mm * 0.001, .memory_mb = o->memory_mb};
+        const fuser_options options = {
+            .voxel_m = o->voxel_mm * 0.001, .memory_mb = o->memory_mb, .has_time = true};
         result =
             fuser_open(&run->fuser, &rlf_source_get_info(run->source)->rig, &options, run->pool);
     }

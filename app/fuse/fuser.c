@@ -32,6 +32,7 @@ rlf_result fuser_open(fuser *f, const rlf_rig *rig, const fuser_options *options
     def.pool = pool;
     def.voxel_m = options->voxel_m > 0.0 ? options->voxel_m : def.voxel_m;
     def.memory_mb = options->memory_mb > 0 ? options->memory_mb : def.memory_mb;
+    def.blocks_per_frame = options->has_time ? 0 : def.blocks_per_frame;
     rlf_result result = rlf_map_create(&def, &f->map);
     if (result == RLF_OK) {
         const rlf_reconstruct_def stage = stage_def(rig, pool);

@@ -8,6 +8,7 @@
 typedef struct fuser_options {
     double voxel_m;    /* 0 = the map's default */
     int32_t memory_mb; /* 0 = the map's default */
+    bool has_time;     /* every frame into all of its blocks, as nobody waits */
 } fuser_options;
 
 typedef struct fuser {
