@@ -18,6 +18,7 @@ static const subcommand subcommands[] = {
     {"record", record_main, "record a camera, or turn a recording into another kind"},
     {"place", place_main, "put models of real things where the things are"},
     {"export", export_main, "write arrays of every frame: depth, normals, labels, truth, ..."},
+    {"fuse", fuse_main, "fuse the frames of a moving camera into a mesh and a map of the room"},
     {"info", info_main, "tell what a source is"},
     {"calibrate", calibrate_main, "lenses and poses of the cameras, from pictures of a chessboard"},
     {"sources", sources_main, "list cameras, and the kinds of source that this build can open"},
