@@ -13,6 +13,7 @@
  *   model.h        what bodies look like; known.h: models of real things
  *   compositor.h   the render stage
  *   prediction.h   what a camera would see of the static room from a pose
+ *   track.h        a moving camera's pose, frame by frame
  *   pipeline.h     all stages as one object: where most programs begin
  *
  * Conventions, unless a comment says otherwise: metres, seconds, kilograms, radians; the camera's
@@ -39,6 +40,7 @@
 #include "relief/source.h"
 #include "relief/surface.h"
 #include "relief/synthetic.h"
+#include "relief/track.h"
 #include "relief/world.h"
 
 #endif
