@@ -162,9 +162,10 @@ typedef struct rlf_map_mesh {
 } rlf_map_mesh;
 
 /* Marching cubes over all blocks (Lorensen and Cline 1987; ambiguous faces are parted the same way
- * on both sides, so that there are no cracks). Voxels seen by fewer than about `min_frames` frames
- * (>= 1) are left out. Free with rlf_map_mesh_destroy. */
-RLF_API rlf_result rlf_map_mesh_create(const rlf_map *map, int32_t min_frames, rlf_map_mesh *out);
+ * on both sides, so that there are no cracks). Voxels of less than min_weight (1..255) are left
+ * out: a frame from near by adds 16, one from far or aslant down to 1. Free with
+ * rlf_map_mesh_destroy. Thread-safety: as a const map. */
+RLF_API rlf_result rlf_map_mesh_create(const rlf_map *map, int32_t min_weight, rlf_map_mesh *out);
 /* Frees the arrays and zeroes the struct. A zeroed one is allowed. */
 RLF_API void rlf_map_mesh_destroy(rlf_map_mesh *mesh);
 
