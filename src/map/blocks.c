@@ -170,7 +170,8 @@ void map_block_look(map_volume *v, int32_t block)
     /* A surface passes a cell only when a corner of it is within its diagonal. */
     const int32_t diagonal = (int32_t)(1.74f * RLF_FUSE_STEPS);
     rlf_fuse_summary s = rlf_kernel_fuse_summary(map_block_at(v, block));
-    const int32_t free = (int32_t)(0.95f * (float)MAP_TRUNCATION_LEAST * RLF_FUSE_STEPS);
+    /* More than the margin in front of a surface, or blocks would come and go. */
+    const int32_t free = (int32_t)(0.65f * (float)MAP_TRUNCATION_LEAST * RLF_FUSE_STEPS);
     v->flags[block] = (uint8_t)((v->flags[block] & MAP_IS_NEW) | MAP_LIVE |
                                 (s.nearest <= diagonal ? MAP_HAS_SURFACE : 0) |
                                 (s.lowest >= free ? MAP_IS_EMPTY : 0));

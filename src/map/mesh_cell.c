@@ -3,7 +3,7 @@
  * either side of it, so neighbouring cells always agree. */
 #include "map/mesh_cell.h"
 
-/* Counter-clockwise as seen from outside of the cell; x right, y down, z away. */
+/* Corners one after the other, all faces the same way round as seen from outside of the cell. */
 static const uint8_t faces[6][4] = {
     {0, 4, 6, 2}, {1, 3, 7, 5}, /* x = 0, 1 */
     {0, 1, 5, 4}, {2, 6, 7, 3}, /* y = 0, 1 */
@@ -53,8 +53,8 @@ int32_t map_cell_triangles(uint32_t inside, uint8_t edges[3 * MAP_CELL_TRIANGLES
         next[b] = -1;
         while (c != i) {
             edges[3 * count] = (uint8_t)i;
-            edges[3 * count + 1] = (uint8_t)b;
-            edges[3 * count + 2] = (uint8_t)c;
+            edges[3 * count + 1] = (uint8_t)c;
+            edges[3 * count + 2] = (uint8_t)b;
             count++;
             b = c;
             const int32_t after = next[c];

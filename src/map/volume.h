@@ -15,7 +15,7 @@
 
 typedef struct rlf_fuse_block map_block;
 
-enum { MAP_SIDE = RLF_MAP_BLOCK, MAP_VOXELS = RLF_FUSE_VOXELS, MAP_SLAB = 1024 };
+enum { MAP_SIDE = RLF_MAP_BLOCK, MAP_VOXELS = RLF_FUSE_VOXELS, MAP_SLAB = 256 };
 
 /* Memory that grows in slabs of MAP_SLAB blocks. */
 typedef struct map_slabs {
