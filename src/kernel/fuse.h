@@ -1,4 +1,5 @@
-/* fuse_block.c, fuse_view.c: a view of the room into blocks of a signed distance volume. */
+/* fuse_block.c, fuse_view.c: a view of the room into blocks of a signed distance volume.
+ * splat_block.c: out of them again. */
 #ifndef RLF_KERNEL_FUSE_H
 #define RLF_KERNEL_FUSE_H
 
@@ -55,6 +56,24 @@ typedef struct rlf_fuse_summary {
 void rlf_kernel_fuse_block(const rlf_fuse_view *view, const rlf_fuse_place *place,
                            rlf_fuse_block *restrict block);
 rlf_fuse_summary rlf_kernel_fuse_summary(const rlf_fuse_block *block);
+
+/* ---- splat_block.c */
+
+/* Focal lengths and principal point, pixels. */
+typedef struct rlf_splat_camera {
+    float fx, fy, cx, cy;
+} rlf_splat_camera;
+
+/* Where a voxel is seen; z 0 = behind the camera. */
+typedef struct rlf_splat_point {
+    float u, v, z;
+    int32_t voxel;
+} rlf_splat_point;
+
+/* Voxels in front of the surface, by less than one voxel; returns how many. `out` has room for all
+ * of a block. */
+int32_t rlf_kernel_splat_block(const rlf_fuse_block *block, const rlf_fuse_place *place,
+                               const rlf_splat_camera *camera, rlf_splat_point *restrict out);
 
 /* ---- fuse_view.c */
 

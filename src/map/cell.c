@@ -36,23 +36,6 @@ bool map_cell_read(const map_volume *v, int32_t block, int32_t i, int32_t j, int
     return known != 0;
 }
 
-float map_cell_value(const map_cell *c, float x, float y, float z, float gradient[3])
-{
-    const float *d = c->distance;
-    /* Along x, then y, then z. */
-    const float a0 = d[0] + x * (d[1] - d[0]), a1 = d[2] + x * (d[3] - d[2]);
-    const float a2 = d[4] + x * (d[5] - d[4]), a3 = d[6] + x * (d[7] - d[6]);
-    const float b0 = a0 + y * (a1 - a0), b1 = a2 + y * (a3 - a2);
-    if (gradient != NULL) {
-        const float x0 = (d[1] - d[0]) + y * ((d[3] - d[2]) - (d[1] - d[0]));
-        const float x1 = (d[5] - d[4]) + y * ((d[7] - d[6]) - (d[5] - d[4]));
-        gradient[0] = x0 + z * (x1 - x0);
-        gradient[1] = (a1 - a0) + z * ((a3 - a2) - (a1 - a0));
-        gradient[2] = b1 - b0;
-    }
-    return b0 + z * (b1 - b0);
-}
-
 static uint8_t clamped(int32_t x)
 {
     return (uint8_t)(x < 0 ? 0 : (x > 255 ? 255 : x));

@@ -104,13 +104,13 @@ static bool take_planes(rlf_map *map)
     }
     out->grey = rlf_alloc_array(n, 1);
     out->rgba = rlf_alloc_array(n, 4);
-    out->tiles = rlf_alloc_array(tiles, sizeof(map_tile));
+    out->tile_far = rlf_alloc_array(tiles, sizeof(float));
     return (map->source_of != NULL || !is_bent) && map->ray_x != NULL && map->ray_y != NULL &&
            map->planes != NULL && map->clean != NULL && map->scratch != NULL &&
            map->row_least != NULL && map->least != NULL && map->seen != NULL &&
            map->chosen != NULL && out->depth != NULL && out->normal[0] != NULL &&
            out->normal[1] != NULL && out->normal[2] != NULL && out->grey != NULL &&
-           out->rgba != NULL && out->tiles != NULL;
+           out->rgba != NULL && out->tile_far != NULL;
 }
 
 static bool take_memory(rlf_map *map)
@@ -161,7 +161,7 @@ void rlf_map_destroy(rlf_map **pointer)
                          map->clean,         map->scratch,       map->row_least, map->least,
                          map->seen,          map->chosen,        map->out.depth, map->out.normal[0],
                          map->out.normal[1], map->out.normal[2], map->out.grey,  map->out.rgba,
-                         map->out.tiles};
+                         map->out.tile_far};
     for (size_t i = 0; i < sizeof(all) / sizeof(all[0]); i++) {
         rlf_free(all[i]);
     }

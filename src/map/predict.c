@@ -1,22 +1,18 @@
-/* What a camera sees of the room: rays through the volume. Every second pixel of every second row
- * is cast; those between are, too, unless what is on both sides of them is one plane. */
+/* What a camera sees of the room: for each pixel the zero along its ray, found from the voxel that
+ * is drawn there. */
 #include "map/predict.h"
 
 #include <string.h>
 
-/* Rows of a job: pairs of rows share the blocks that they pass. */
-#define GRAIN 8
-
-/* Pixels between two of one plane are taken from it: their normals less than 18 degrees apart, and
- * each on the other's plane to a quarter of a voxel. */
-static const float same_way = 0.95f, same_plane = 0.25f;
+#define GRAIN 8 /* rows */
 
 /* One ray, in voxels: at + z way, z metres along the camera's axis. */
 typedef struct ray {
     const map_volume *v;
     float at[3], way[3], length; /* of way */
     int32_t block_at[3], block;  /* the block looked at last */
-    float z0, d0;                /* the last place in front of a surface; d0 < 0: there is none */
+    bool has_grey;
+    float z0, d0; /* the last place in front of a surface; d0 < 0: there is none */
 } ray;
 
 static int32_t floored(float x)
@@ -53,17 +49,51 @@ static float leave(const ray *r)
     return least;
 }
 
-/* The cell about the ray's point at depth z, and where in it that is. */
-static bool cell_at(ray *r, float z, map_cell *cell, float in[3])
+/* The corners of a cell, and what is read of them. */
+typedef struct corners {
+    float distance[8]; /* voxels */
+    int32_t block;     /* of the first */
+    int32_t voxel[3];  /* the first, in its block */
+    float in[3];       /* place in the cell, 0..1 */
+} corners;
+
+/* Of a cell that is whole in one block. */
+static bool read_inner(const map_block *b, int32_t first, float distance[8])
+{
+    enum { Y = MAP_SIDE, Z = MAP_SIDE * MAP_SIDE };
+    static const int32_t at[8] = {0, 1, Y, Y + 1, Z, Z + 1, Z + Y, Z + Y + 1};
+    const int16_t *d = &b->distance[first];
+    const uint8_t *w = &b->weight[first];
+    for (int32_t k = 0; k < 8; k++) {
+        distance[k] = (float)d[at[k]] * (1.0f / RLF_FUSE_STEPS);
+    }
+    return (w[0] != 0) & (w[1] != 0) & (w[Y] != 0) & (w[Y + 1] != 0) & (w[Z] != 0) &
+           (w[Z + 1] != 0) & (w[Z + Y] != 0) & (w[Z + Y + 1] != 0);
+}
+
+/* The cell about the ray's point at depth z. */
+static bool corners_at(ray *r, float z, corners *out)
 {
     int32_t voxel[3];
     for (int32_t k = 0; k < 3; k++) {
         const float p = r->at[k] + z * r->way[k];
         voxel[k] = floored(p);
-        in[k] = p - (float)voxel[k];
+        out->in[k] = p - (float)voxel[k];
+        out->voxel[k] = voxel[k] & 7;
     }
-    const int32_t block = find_block(r, voxel);
-    return block >= 0 && map_cell_read(r->v, block, voxel[0] & 7, voxel[1] & 7, voxel[2] & 7, cell);
+    out->block = find_block(r, voxel);
+    if (out->block < 0) {
+        return false;
+    }
+    const int32_t i = out->voxel[0], j = out->voxel[1], k = out->voxel[2];
+    if ((i < 7) & (j < 7) & (k < 7)) {
+        return read_inner(map_block_at(r->v, out->block), (k * MAP_SIDE + j) * MAP_SIDE + i,
+                          out->distance);
+    }
+    map_cell cell;
+    const bool is_known = map_cell_read(r->v, out->block, i, j, k, &cell);
+    memcpy(out->distance, cell.distance, sizeof(out->distance));
+    return is_known;
 }
 
 /* What a ray met: normal in the world. */
@@ -72,32 +102,35 @@ typedef struct hit {
     uint8_t grey;
 } hit;
 
-static uint8_t mean_grey(const map_cell *c, const float in[3])
+static uint8_t mean_grey(const ray *r, const corners *c)
 {
     float sum = 0.0f, weights = 0.0f;
     for (int32_t k = 0; k < 8; k++) {
-        const float x = (k & 1) != 0 ? in[0] : 1.0f - in[0];
-        const float y = (k & 2) != 0 ? in[1] : 1.0f - in[1];
-        const float z = (k & 4) != 0 ? in[2] : 1.0f - in[2];
-        const uint8_t grey = c->block[k]->grey[c->voxel[k]];
-        const float weight = grey > 0 ? x * y * z : 0.0f;
-        sum += weight * (float)grey;
-        weights += weight;
+        const int32_t dx = k & 1, dy = k >> 1 & 1, dz = k >> 2;
+        const int32_t x = c->voxel[0] + dx, y = c->voxel[1] + dy, z = c->voxel[2] + dz;
+        const int32_t owner = r->v->after[c->block][(x >> 3) | (y >> 3) << 1 | (z >> 3) << 2];
+        const int32_t voxel = ((z & 7) * MAP_SIDE + (y & 7)) * MAP_SIDE + (x & 7);
+        const uint8_t grey = map_block_at(r->v, owner)->grey[voxel];
+        const float weight = (dx != 0 ? c->in[0] : 1.0f - c->in[0]) *
+                             (dy != 0 ? c->in[1] : 1.0f - c->in[1]) *
+                             (dz != 0 ? c->in[2] : 1.0f - c->in[2]);
+        sum += grey > 0 ? weight * (float)grey : 0.0f;
+        weights += grey > 0 ? weight : 0.0f;
     }
     return weights > 0.0f ? (uint8_t)(sum / weights + 0.5f) : 0;
 }
 
-/* From a place in front (z0, d0) and one behind (z1, d1) to the zero between: twice Newton. */
-static bool refine(ray *r, float z1, float d1, hit *out)
+/* Newton's method from `start`: where the ray meets the surface about there. Within an eighth of a
+ * voxel its next step is the last: the field is nearly flat. */
+static bool refine(ray *r, float start, hit *out)
 {
-    const float start = r->z0 + (z1 - r->z0) * (r->d0 / (r->d0 - d1));
-    float z = start, in[3], g[3] = {0, 0, 0};
-    map_cell cell;
-    for (int32_t i = 0; i < 2; i++) {
-        if (!cell_at(r, z, &cell, in)) {
+    float z = start, g[3] = {0, 0, 0}, d = 1.0f;
+    corners c;
+    for (int32_t i = 0; i < 4 && (d > 0.125f || d < -0.125f); i++) {
+        if (!corners_at(r, z, &c)) {
             return false;
         }
-        const float d = map_cell_value(&cell, in[0], in[1], in[2], g);
+        d = map_cell_value(c.distance, c.in, g);
         const float slope = g[0] * r->way[0] + g[1] * r->way[1] + g[2] * r->way[2];
         if (!(slope < -0.05f * r->length)) {
             return false;
@@ -105,12 +138,12 @@ static bool refine(ray *r, float z1, float d1, hit *out)
         z -= d / slope;
     }
     const float off = (z - start) * r->length, size2 = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
-    if (!(off > -3.0f && off < 3.0f && size2 > 0.04f && z > 0.0f)) {
+    if (!(d < 0.5f && d > -0.5f && off > -4.0f && off < 4.0f && size2 > 0.04f && z > 0.0f)) {
         return false;
     }
     const float scale = 1.0f / sqrtf(size2);
     out->z = z;
-    out->grey = mean_grey(&cell, in);
+    out->grey = r->has_grey ? mean_grey(r, &c) : 0;
     for (int32_t k = 0; k < 3; k++) {
         out->normal[k] = g[k] * scale;
     }
@@ -146,7 +179,7 @@ static bool cast(ray *r, float z, float far_z, hit *out)
             r->d0 = d;
             z += (d > 1.4f ? d - 0.9f : 0.5f) * voxel;
         } else if (r->d0 > 0.0f) {
-            return refine(r, z, d, out);
+            return refine(r, r->z0 + (z - r->z0) * (r->d0 / (r->d0 - d)), out);
         } else if (d < -1.0f) {
             return false; /* the back of something */
         } else {
@@ -183,65 +216,22 @@ static void put(const map_caster *c, int32_t i, const hit *h)
     }
 }
 
+/* The plane of depth holds where the nearest voxel in front of a surface is: there the ray is
+ * looked at first. At outlines it passes by that surface, and goes on. */
 static void cast_pixel(const map_caster *c, int32_t x, int32_t y, ray *r)
 {
     const hit none = {0};
-    const map_tile *tile = &c->out->tiles[(y / MAP_TILE) * c->tile_columns + x / MAP_TILE];
+    const int32_t i = y * c->camera.width + x;
+    const float start = c->out->depth[i];
     hit h = none;
-    if (tile->near_z < tile->far_z) {
+    if (start > 0.0f) {
+        const float far_z = c->out->tile_far[(y / MAP_TILE) * c->tile_columns + x / MAP_TILE];
         ray_make(c, x, y, r);
-        if (!cast(r, tile->near_z, tile->far_z, &h)) {
+        if (!refine(r, start, &h) && !cast(r, start - 1.5f / r->length, far_z, &h)) {
             h = none;
         }
     }
-    put(c, y * c->camera.width + x, &h);
-}
-
-/* Grey of the room at a pixel whose depth is known. */
-static uint8_t grey_at(const map_caster *c, int32_t x, int32_t y, float z, ray *r)
-{
-    map_cell cell;
-    float in[3];
-    ray_make(c, x, y, r);
-    return cell_at(r, z, &cell, in) ? mean_grey(&cell, in) : 0;
-}
-
-/* The pixel half way between a and b, when those are of one plane. */
-static bool between(const map_caster *c, int32_t x, int32_t y, int32_t step, ray *r)
-{
-    map_view_planes *out = c->out;
-    const int32_t i = y * c->camera.width + x, a = i - step, b = i + step;
-    const float za = out->depth[a], zb = out->depth[b];
-    if (!(za > 0.0f && zb > 0.0f)) {
-        return false;
-    }
-    float n[3], along = 0.0f;
-    for (int32_t k = 0; k < 3; k++) {
-        n[k] = out->normal[k][a] + out->normal[k][b];
-        along += out->normal[k][a] * out->normal[k][b];
-    }
-    if (!(along > same_way)) {
-        return false;
-    }
-    const int32_t dx = step == 1 ? 1 : 0, dy = 1 - dx;
-    const float fx = (float)c->camera.fx, fy = (float)c->camera.fy;
-    const float ax = ((float)(x - dx) - (float)c->camera.cx) / fx;
-    const float ay = ((float)(y - dy) - (float)c->camera.cy) / fy;
-    const float bx = ax + (float)(2 * dx) / fx, by = ay + (float)(2 * dy) / fy;
-    /* The distance of b's point from the mean plane through a's. */
-    const float off = n[0] * (zb * bx - za * ax) + n[1] * (zb * by - za * ay) + n[2] * (zb - za);
-    const float most = 2.0f * same_plane * (float)c->map->def.voxel_m;
-    if (!(off < most && off > -most)) {
-        return false;
-    }
-    const float z = 2.0f * za * zb / (za + zb);
-    const float scale = 1.0f / sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    out->depth[i] = z;
-    out->grey[i] = grey_at(c, x, y, z, r);
-    for (int32_t k = 0; k < 3; k++) {
-        out->normal[k][i] = n[k] * scale;
-    }
-    return true;
+    put(c, i, &h);
 }
 
 static void ray_begin(const map_caster *c, ray *r)
@@ -250,42 +240,18 @@ static void ray_begin(const map_caster *c, ray *r)
     r->v = &c->map->volume;
     r->block_at[0] = INT32_MAX;
     r->block = -1;
+    r->has_grey = c->map->def.keep_color;
 }
 
-/* Even rows: even pixels first, then those between them. */
-static void even_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+static void cast_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     const map_caster *c = context;
-    const int32_t width = c->camera.width;
     ray r;
     (void)worker;
     ray_begin(c, &r);
-    for (int32_t half = begin; half < end; half++) {
-        const int32_t y = 2 * half;
-        for (int32_t x = 0; x < width; x += 2) {
+    for (int32_t y = begin; y < end; y++) {
+        for (int32_t x = 0; x < c->camera.width; x++) {
             cast_pixel(c, x, y, &r);
-        }
-        for (int32_t x = 1; x < width; x += 2) {
-            if (x + 1 == width || !between(c, x, y, 1, &r)) {
-                cast_pixel(c, x, y, &r);
-            }
-        }
-    }
-}
-
-static void odd_rows(void *context, int32_t begin, int32_t end, int32_t worker)
-{
-    const map_caster *c = context;
-    const int32_t width = c->camera.width;
-    ray r;
-    (void)worker;
-    ray_begin(c, &r);
-    for (int32_t half = begin; half < end; half++) {
-        const int32_t y = 2 * half + 1;
-        for (int32_t x = 0; x < width; x++) {
-            if (y + 1 == c->camera.height || !between(c, x, y, width, &r)) {
-                cast_pixel(c, x, y, &r);
-            }
         }
     }
 }
@@ -330,12 +296,22 @@ rlf_result rlf_map_predict(rlf_map *map, const rlf_camera *camera, const rlf_pos
     memset(c.camera.distortion, 0, sizeof(c.camera.distortion));
     c.R_world_camera = rlf_quat_to_mat3(rlf_quat_normalize(T_world_camera->q));
     c.R_camera_world = rlf_mat3_transpose(&c.R_world_camera);
-    map_tiles_fill(&c);
-    rlf_parallel_for(map->def.pool, (camera->height + 1) / 2, GRAIN, even_rows, &c);
-    rlf_parallel_for(map->def.pool, camera->height / 2, GRAIN, odd_rows, &c);
+    map_splat(&c);
+    rlf_parallel_for(map->def.pool, camera->height, GRAIN, cast_rows, &c);
     finish(map, &c.camera, T_world_camera);
     *out = map->out.last;
     return RLF_OK;
+}
+
+static void nearest_color(const ray *r, const corners *c, uint8_t rgba[4])
+{
+    int32_t at[3];
+    for (int32_t k = 0; k < 3; k++) {
+        at[k] = c->voxel[k] + (c->in[k] > 0.5f ? 1 : 0);
+    }
+    const int32_t side = (at[0] >> 3) | (at[1] >> 3) << 1 | (at[2] >> 3) << 2;
+    const int32_t voxel = ((at[2] & 7) * MAP_SIDE + (at[1] & 7)) * MAP_SIDE + (at[0] & 7);
+    map_voxel_color(map_block_at(r->v, r->v->after[c->block][side]), voxel, rgba);
 }
 
 const uint8_t *rlf_map_predict_color(rlf_map *map)
@@ -352,14 +328,11 @@ const uint8_t *rlf_map_predict_color(rlf_map *map)
         for (int32_t x = 0; x < p->camera.width; x++) {
             const int32_t i = y * p->camera.width + x;
             uint8_t *rgba = &map->out.rgba[4 * (ptrdiff_t)i];
-            map_cell cell;
-            float in[3];
+            corners at;
             memset(rgba, 0, 4);
             ray_make(&c, x, y, &r);
-            if (p->depth[i] > 0.0f && cell_at(&r, p->depth[i], &cell, in)) {
-                const int32_t nearest =
-                    (in[0] > 0.5f ? 1 : 0) | (in[1] > 0.5f ? 2 : 0) | (in[2] > 0.5f ? 4 : 0);
-                map_voxel_color(cell.block[nearest], cell.voxel[nearest], rgba);
+            if (p->depth[i] > 0.0f && corners_at(&r, p->depth[i], &at)) {
+                nearest_color(&r, &at, rgba);
             }
         }
     }

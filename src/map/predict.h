@@ -1,4 +1,4 @@
-/* Ray casting of a view, with the blocks' own depths as the range of every ray. */
+/* A view of the volume: voxels drawn as points say where each ray begins. */
 #ifndef RLF_MAP_PREDICT_H
 #define RLF_MAP_PREDICT_H
 
@@ -16,7 +16,8 @@ typedef struct map_caster {
     int32_t tile_columns;
 } map_caster;
 
-/* Nearest and farthest depth of the blocks with a surface, per tile. */
-void map_tiles_fill(map_caster *caster);
+/* Draws the blocks with a surface: farthest depth per tile, and per pixel the depth of the nearest
+ * voxel that is right in front of a surface (0 = there is none) into the plane of depth. */
+void map_splat(map_caster *caster);
 
 #endif

@@ -53,7 +53,8 @@ rlf_map_point rlf_map_sample(const rlf_map *map, rlf_vec3 p_world)
         return nearest_voxel(map, &cell, at);
     }
     float g[3];
-    const double d = (double)map_cell_value(&cell, (float)at[0], (float)at[1], (float)at[2], g);
+    const float in[3] = {(float)at[0], (float)at[1], (float)at[2]};
+    const double d = (double)map_cell_value(cell.distance, in, g);
     out.state = d > 0.0 ? RLF_MAP_FREE : RLF_MAP_INSIDE;
     out.distance = d * map->def.voxel_m;
     out.is_far = d >= 0.95 * MAP_TRUNCATION_LEAST || d <= -0.95 * MAP_TRUNCATION_LEAST;

@@ -70,17 +70,12 @@ typedef struct map_journal {
     bool has_moved; /* the fence had to move by itself */
 } map_journal;
 
-/* One tile of a prediction: the depths between which there may be a surface. */
-typedef struct map_tile {
-    float near_z, far_z;
-} map_tile;
-
 /* Planes of the last prediction. */
 typedef struct map_view_planes {
     float *depth, *normal[3];
     uint8_t *grey;
     uint8_t *rgba;
-    map_tile *tiles;
+    float *tile_far; /* per tile of a prediction, the depth beyond which there is no surface */
     rlf_prediction last;
 } map_view_planes;
 
@@ -157,8 +152,21 @@ typedef struct map_cell {
 /* False when one of its voxels is unknown. */
 bool map_cell_read(const map_volume *v, int32_t block, int32_t i, int32_t j, int32_t k,
                    map_cell *out);
-/* Trilinear value at (x, y, z) in 0..1 within the cell, voxels; gradient when not NULL. */
-float map_cell_value(const map_cell *c, float x, float y, float z, float gradient[3]);
+/* Trilinear value of a cell's corners at a place in 0..1 within it, and its gradient. */
+static inline float map_cell_value(const float d[8], const float in[3], float gradient[3])
+{
+    const float x = in[0], y = in[1], z = in[2];
+    /* Along x, then y, then z. */
+    const float a0 = d[0] + x * (d[1] - d[0]), a1 = d[2] + x * (d[3] - d[2]);
+    const float a2 = d[4] + x * (d[5] - d[4]), a3 = d[6] + x * (d[7] - d[6]);
+    const float b0 = a0 + y * (a1 - a0), b1 = a2 + y * (a3 - a2);
+    const float x0 = (d[1] - d[0]) + y * ((d[3] - d[2]) - (d[1] - d[0]));
+    const float x1 = (d[5] - d[4]) + y * ((d[7] - d[6]) - (d[5] - d[4]));
+    gradient[0] = x0 + z * (x1 - x0);
+    gradient[1] = (a1 - a0) + z * ((a3 - a2) - (a1 - a0));
+    gradient[2] = b1 - b0;
+    return b0 + z * (b1 - b0);
+}
 /* Grey and colour of a voxel; A = 0 when it has none. */
 void map_voxel_color(const map_block *block, int32_t voxel, uint8_t rgba[4]);
 
