@@ -64,16 +64,17 @@ typedef struct rlf_splat_camera {
     float fx, fy, cx, cy;
 } rlf_splat_camera;
 
-/* Where a voxel is seen; z 0 = behind the camera. */
-typedef struct rlf_splat_point {
-    float u, v, z;
-    int32_t voxel;
-} rlf_splat_point;
+/* Where voxels are seen; z 0 = behind the camera. */
+typedef struct rlf_splat_points {
+    float u[RLF_FUSE_VOXELS], v[RLF_FUSE_VOXELS], z[RLF_FUSE_VOXELS];
+    int32_t voxel[RLF_FUSE_VOXELS];
+} rlf_splat_points;
 
-/* Voxels in front of the surface, by less than one voxel; returns how many. `out` has room for all
- * of a block. */
-int32_t rlf_kernel_splat_block(const rlf_fuse_block *block, const rlf_fuse_place *place,
-                               const rlf_splat_camera *camera, rlf_splat_point *restrict out);
+/* Voxels in front of the surface, by less than one voxel; returns how many. */
+int32_t rlf_kernel_splat_block(const rlf_fuse_block *restrict block,
+                               const rlf_fuse_place *restrict place,
+                               const rlf_splat_camera *restrict camera,
+                               rlf_splat_points *restrict out);
 
 /* ---- fuse_view.c */
 

@@ -7,6 +7,9 @@
 
 enum { LANES = RLF_FUSE_SIDE };
 
+/* Nothing nearer is fused, metres. */
+static const float nearest_m = 0.05f;
+
 /* Eight voxels in a row. */
 typedef struct lanes {
     float x[LANES], y[LANES], z[LANES];
@@ -23,20 +26,26 @@ RLF_KERNEL_PART void project(const rlf_fuse_view *view, const float start[3], co
                              lanes *restrict l)
 {
     const float width = (float)view->width, height = (float)view->height;
-    float u[LANES], v[LANES];
     RLF_KERNEL_WHOLE
     for (int32_t i = 0; i < LANES; i++) {
         float along = (float)i;
         l->x[i] = start[0] + along * step[0];
         l->y[i] = start[1] + along * step[1];
         l->z[i] = start[2] + along * step[2];
-        bool is_ahead = l->z[i] > 0.05f;
-        float inverse = 1.0f / (is_ahead ? l->z[i] : 1.0f);
-        u[i] = view->fx * l->x[i] * inverse + (view->cx + 0.5f);
-        v[i] = view->fy * l->y[i] * inverse + (view->cy + 0.5f);
-        bool is_in = is_ahead & (u[i] >= 0.0f) & (u[i] < width) & (v[i] >= 0.0f) & (v[i] < height);
-        l->is_in[i] = is_in ? 1.0f : 0.0f;
-        l->pixel[i] = is_in ? (int32_t)v[i] * view->width + (int32_t)u[i] : 0;
+        int32_t is_ahead = l->z[i] > nearest_m ? 1 : 0;
+        float inverse = 1.0f / (l->z[i] > nearest_m ? l->z[i] : nearest_m);
+        float u = view->fx * l->x[i] * inverse + (view->cx + 0.5f);
+        float v = view->fy * l->y[i] * inverse + (view->cy + 0.5f);
+        int32_t right = u >= 0.0f ? 1 : 0, left = u < width ? 1 : 0;
+        int32_t below = v >= 0.0f ? 1 : 0, above = v < height ? 1 : 0;
+        int32_t is_in = is_ahead & right & left & below & above;
+        /* Clamped, for a number that is too large has no integer. */
+        u = u >= 0.0f ? u : 0.0f;
+        v = v >= 0.0f ? v : 0.0f;
+        u = u < width ? u : 0.0f;
+        v = v < height ? v : 0.0f;
+        l->is_in[i] = is_in != 0 ? 1.0f : 0.0f;
+        l->pixel[i] = is_in * ((int32_t)v * view->width + (int32_t)u);
     }
 }
 
@@ -76,27 +85,29 @@ RLF_KERNEL_PART bool observe(const rlf_fuse_view *view, lanes *restrict l)
         offset[i] = plane->offset;
         least[i] = view->least[l->pixel[i]];
     }
-    int32_t any = 0;
+    float any = 0.0f;
     RLF_KERNEL_WHOLE
     for (int32_t i = 0; i < LANES; i++) {
-        float t = l->truncation[i];
-        float distance = nx[i] * l->x[i] + ny[i] * l->y[i] + nz[i] * l->z[i] - offset[i];
-        float size = distance < 0.0f ? -distance : distance;
-        bool is_in = l->is_in[i] > 0.0f;
-        bool is_near = is_in & (offset[i] < 0.0f) & (size <= t);
-        bool is_free = is_in & (least[i] - l->z[i] > t) & !is_near;
+        float t = l->truncation[i], z = l->z[i];
+        float distance = nx[i] * l->x[i] + ny[i] * l->y[i] + nz[i] * z - offset[i];
+        float size = rlf_kernel_abs(distance);
+        /* Ones and noughts: choices within choices would not be vectorised. */
+        float near = (size <= t ? 1.0f : 0.0f) * (offset[i] < 0.0f ? 1.0f : 0.0f) * l->is_in[i];
+        float far = (least[i] - z > t ? 1.0f : 0.0f) * (1.0f - near) * l->is_in[i];
         /* Slanted pixels say less: a cosine of the angle, but for the ray's own slant. */
-        float facing = -offset[i] / (l->z[i] > 0.05f ? l->z[i] : 1.0f);
+        float facing = -offset[i] / (z > nearest_m ? z : nearest_m);
         facing = facing > 1.0f ? 1.0f : facing;
-        float weight = l->weight[i] * (is_near ? facing : 1.0f);
+        float weight = l->weight[i] * (1.0f - near + near * facing);
         weight = weight < 1.0f ? 1.0f : weight;
-        l->most_kept[i] = is_near ? RLF_FUSE_WEIGHT_MOST : view->carve_weight * weight;
-        l->seen[i] = is_near ? distance : t;
-        l->is_near[i] = is_near ? 1.0f : 0.0f;
-        l->weight[i] = (is_near | is_free) ? weight : 0.0f;
-        any |= is_near | is_free;
+        l->most_kept[i] = near * RLF_FUSE_WEIGHT_MOST + far * (view->carve_weight * weight);
+        l->seen[i] = near * distance + far * t;
+        l->is_near[i] = near;
+        l->weight[i] = weight * (near + far);
     }
-    return any != 0;
+    for (int32_t i = 0; i < LANES; i++) {
+        any += l->weight[i];
+    }
+    return any > 0.0f;
 }
 
 RLF_KERNEL_PART void mix_distance(const rlf_fuse_view *view, const lanes *restrict l,

@@ -1,33 +1,35 @@
 /* The voxels right in front of the surface of a block, as a camera sees them. */
 #include "kernel/fuse.h"
 
-RLF_KERNEL int32_t rlf_kernel_splat_block(const rlf_fuse_block *block, const rlf_fuse_place *place,
-                                          const rlf_splat_camera *camera,
-                                          rlf_splat_point *restrict out)
+RLF_KERNEL int32_t rlf_kernel_splat_block(const rlf_fuse_block *restrict block,
+                                          const rlf_fuse_place *restrict place,
+                                          const rlf_splat_camera *restrict camera,
+                                          rlf_splat_points *restrict out)
 {
     uint8_t is_front[RLF_FUSE_VOXELS];
-    const int32_t most = (int32_t)RLF_FUSE_STEPS;
+    const int16_t most = (int16_t)RLF_FUSE_STEPS;
     for (int32_t i = 0; i < RLF_FUSE_VOXELS; i++) {
-        int32_t d = block->distance[i];
-        is_front[i] = (uint8_t)((d > 0) & (d <= most) & (block->weight[i] > 0));
+        int16_t d = block->distance[i], w = block->weight[i];
+        is_front[i] = (uint8_t)((d > 0) & (d <= most) & (w > 0));
     }
     int32_t count = 0;
     for (int32_t i = rlf_kernel_next_mark(is_front, 0, RLF_FUSE_VOXELS); i < RLF_FUSE_VOXELS;
          i = rlf_kernel_next_mark(is_front, i + 1, RLF_FUSE_VOXELS)) {
-        out[count++].voxel = i;
+        out->voxel[count++] = i;
     }
     for (int32_t i = 0; i < count; i++) {
-        float at[3], in[3] = {(float)(out[i].voxel & 7), (float)(out[i].voxel >> 3 & 7),
-                              (float)(out[i].voxel >> 6)};
-        for (int32_t k = 0; k < 3; k++) {
-            at[k] = place->origin[k] + in[0] * place->step[0][k] + in[1] * place->step[1][k] +
-                    in[2] * place->step[2][k];
-        }
-        bool is_ahead = at[2] > 0.05f;
-        float inverse = 1.0f / (is_ahead ? at[2] : 1.0f);
-        out[i].u = camera->fx * at[0] * inverse + camera->cx;
-        out[i].v = camera->fy * at[1] * inverse + camera->cy;
-        out[i].z = is_ahead ? at[2] : 0.0f;
+        int32_t voxel = out->voxel[i];
+        float a = (float)(voxel & 7), b = (float)(voxel >> 3 & 7), c = (float)(voxel >> 6);
+        float x = place->origin[0] + a * place->step[0][0] + b * place->step[1][0] +
+                  c * place->step[2][0];
+        float y = place->origin[1] + a * place->step[0][1] + b * place->step[1][1] +
+                  c * place->step[2][1];
+        float z = place->origin[2] + a * place->step[0][2] + b * place->step[1][2] +
+                  c * place->step[2][2];
+        float inverse = 1.0f / (z > 0.05f ? z : 0.05f);
+        out->u[i] = camera->fx * x * inverse + camera->cx;
+        out->v[i] = camera->fy * y * inverse + camera->cy;
+        out->z[i] = z > 0.05f ? z : 0.0f;
     }
     return count;
 }

@@ -224,7 +224,7 @@ static void cast_pixel(const map_caster *c, int32_t x, int32_t y, ray *r)
     const int32_t i = y * c->camera.width + x;
     const float start = c->out->depth[i];
     hit h = none;
-    if (start > 0.0f) {
+    if (start < MAP_NOTHING) {
         const float far_z = c->out->tile_far[(y / MAP_TILE) * c->tile_columns + x / MAP_TILE];
         ray_make(c, x, y, r);
         if (!refine(r, start, &h) && !cast(r, start - 1.5f / r->length, far_z, &h)) {

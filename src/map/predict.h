@@ -4,7 +4,8 @@
 
 #include "map/volume.h"
 
-#define MAP_TILE 8 /* pixels */
+#define MAP_TILE 8       /* pixels */
+#define MAP_NOTHING 1e9f /* depth, metres, where nothing is drawn */
 
 /* A camera that casts: world to voxels. */
 typedef struct map_caster {
@@ -17,7 +18,8 @@ typedef struct map_caster {
 } map_caster;
 
 /* Draws the blocks with a surface: farthest depth per tile, and per pixel the depth of the nearest
- * voxel that is right in front of a surface (0 = there is none) into the plane of depth. */
+ * voxel that is right in front of a surface (MAP_NOTHING where there is none) into the plane of
+ * depth. */
 void map_splat(map_caster *caster);
 
 #endif

@@ -44,25 +44,33 @@ static void widen(map_caster *caster, const pixel_box *box)
     }
 }
 
+static float least_of(float a, float b)
+{
+    return a < b ? a : b;
+}
+
 /* A square of pixels as large as a voxel, so that near surfaces have no holes. */
-static void draw_point(map_caster *caster, const rlf_splat_point *p, float voxel_f)
+static void draw_point(map_caster *caster, float u, float v, float z, float voxel_f)
 {
     const int32_t width = caster->camera.width, height = caster->camera.height;
-    const float half = 0.5f * voxel_f / p->z + 0.5f; /* rounding out by half a pixel */
-    const float left = p->u - half, right = p->u + half;
-    const float top = p->v - half, bottom = p->v + half;
-    if (!(right >= 0.0f && bottom >= 0.0f && left <= (float)(width - 1) &&
-          top <= (float)(height - 1))) {
+    const float size = voxel_f / z;
+    float *depth = caster->out->depth;
+    if (size <= 1.0f) { /* one pixel, the nearest */
+        if (u > -0.5f && v > -0.5f && u < (float)width - 0.5f && v < (float)height - 0.5f) {
+            float *at = &depth[(ptrdiff_t)(int32_t)(v + 0.5f) * width + (int32_t)(u + 0.5f)];
+            *at = z < *at ? z : *at;
+        }
         return;
     }
-    const int32_t x0 = left > 0.0f ? (int32_t)left + 1 : 0;
-    const int32_t y0 = top > 0.0f ? (int32_t)top + 1 : 0;
-    const int32_t x1 = right < (float)(width - 1) ? (int32_t)right : width - 1;
-    const int32_t y1 = bottom < (float)(height - 1) ? (int32_t)bottom : height - 1;
-    for (int32_t y = y0; y <= y1; y++) {
-        float *row = &caster->out->depth[(ptrdiff_t)y * width];
-        for (int32_t x = x0; x <= x1; x++) {
-            row[x] = (row[x] == 0.0f || p->z < row[x]) ? p->z : row[x];
+    const float half = 0.5f * size;
+    const float right = least_of(u + half, (float)(width - 1));
+    const float bottom = least_of(v + half, (float)(height - 1));
+    const int32_t x0 = u - half > 0.0f ? (int32_t)(u - half) + 1 : 0;
+    const int32_t y0 = v - half > 0.0f ? (int32_t)(v - half) + 1 : 0;
+    for (int32_t y = y0; (float)y <= bottom; y++) {
+        float *row = &depth[(ptrdiff_t)y * width];
+        for (int32_t x = x0; (float)x <= right; x++) {
+            row[x] = z < row[x] ? z : row[x];
         }
     }
 }
@@ -79,12 +87,12 @@ static void draw_block(map_caster *caster, int32_t block, rlf_vec3 corner)
             place.step[k][r] = (float)(caster->R_camera_world.m[r][k] * voxel);
         }
     }
-    rlf_splat_point points[MAP_VOXELS];
+    rlf_splat_points points;
     const map_block *b = map_block_at(&caster->map->volume, block);
     const int32_t count = rlf_kernel_splat_block(b, &place, &camera, points);
     for (int32_t i = 0; i < count; i++) {
-        if (points[i].z > 0.0f) {
-            draw_point(caster, &points[i], voxel_f);
+        if (points.z[i] > 0.0f) {
+            draw_point(caster, points.u[i], points.v[i], points.z[i], voxel_f);
         }
     }
 }
@@ -117,7 +125,7 @@ void map_splat(map_caster *caster)
         caster->out->tile_far[i] = 0.0f;
     }
     for (int32_t i = 0; i < c->width * c->height; i++) {
-        caster->out->depth[i] = 0.0f;
+        caster->out->depth[i] = MAP_NOTHING;
     }
     const rlf_vec3 half = half_extent(caster), diagonal = {0.5 * side, 0.5 * side, 0.5 * side};
     const rlf_vec3 to_middle = rlf_mat3_mul_vec(R, diagonal);
