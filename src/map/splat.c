@@ -89,7 +89,7 @@ static void draw_block(map_caster *caster, int32_t block, rlf_vec3 corner)
     }
     rlf_splat_points points;
     const map_block *b = map_block_at(&caster->map->volume, block);
-    const int32_t count = rlf_kernel_splat_block(b, &place, &camera, points);
+    const int32_t count = rlf_kernel_splat_block(b, &place, &camera, &points);
     for (int32_t i = 0; i < count; i++) {
         if (points.z[i] > 0.0f) {
             draw_point(caster, points.u[i], points.v[i], points.z[i], voxel_f);
