@@ -17,6 +17,7 @@ rlf_result camera_pose_open(camera_pose *c, const rlf_rig *rig, rlf_pool *pool)
     camera.distortion_model = RLF_DISTORTION_NONE;
     memset(camera.distortion, 0, sizeof(camera.distortion));
     c->camera = rlf_camera_decimate(&camera, 2);
+    c->noise = rig->noise;
     c->is_static = rlf_alloc((size_t)rig->depth.width * (size_t)rig->depth.height);
     return c->is_static != NULL ? rlf_tracker_create(&def, &c->tracker) : RLF_ERROR_MEMORY;
 }
@@ -112,6 +113,6 @@ rlf_result camera_pose_find(camera_pose *c, rlf_map *map, const rlf_surface *sur
     }
     c->lost_count += c->last.health == RLF_TRACK_LOST;
     rlf_tracker_accept(c->tracker, &view, time_ns, &c->last);
-    mark_static(c, surface, &prediction, &surface->rig->noise);
+    mark_static(c, surface, &prediction, &c->noise);
     return RLF_OK;
 }
