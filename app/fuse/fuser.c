@@ -39,8 +39,14 @@ rlf_result fuser_open(fuser *f, const rlf_rig *rig, const fuser_options *options
         result = rlf_reconstruct_create(&stage, &f->stage);
     }
     if (result == RLF_OK && rig->has_color) {
-        f->rgba = rlf_alloc_array((size_t)rig->depth.width * (size_t)rig->depth.height, 4);
-        result = f->rgba != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+        const size_t pixels = (size_t)rig->depth.width * (size_t)rig->depth.height;
+        f->rgba = rlf_alloc_array(pixels, 4);
+        f->grey = rlf_alloc(pixels);
+        result = f->rgba != NULL && f->grey != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+    }
+    f->is_tracked = options->is_tracked;
+    if (result == RLF_OK && f->is_tracked) {
+        result = camera_pose_open(&f->pose, rig, pool);
     }
     return result;
 }
@@ -69,10 +75,12 @@ static bool color_view(const fuser *f, const rlf_frame *frame, const rlf_surface
         ptrdiff_t pixel = s->depth[i] > 0.0f ? color_pixel(f->rig, rlf_surface_point(s, i)) : -1;
         uint8_t *out = &f->rgba[4 * (ptrdiff_t)i];
         memset(out, 0, 4);
+        f->grey[i] = 0;
         if (pixel >= 0) {
             const ptrdiff_t y = pixel / color->width, x = pixel % color->width;
             memcpy(out, (const uint8_t *)color->data + y * color->stride + 4 * x, 3);
             out[3] = 255;
+            f->grey[i] = (uint8_t)(1 + (77 * out[0] + 150 * out[1] + 29 * out[2]) / 257);
         }
     }
     return true;
@@ -96,12 +104,20 @@ rlf_result fuser_add(fuser *f, const rlf_frame *frame, const rlf_pose *T_world_c
     start = rlf_clock_ns();
     const bool has_color = color_view(f, frame, s);
     f->color_ms = ms_since(start);
+    if (f->is_tracked) {
+        result = camera_pose_find(&f->pose, f->map, s, has_color ? f->grey : NULL, frame->time_ns);
+        if (result != RLF_OK || f->pose.last.health != RLF_TRACK_GOOD) {
+            return result;
+        }
+        T_world_camera = &f->pose.last.T_world_camera;
+    }
     start = rlf_clock_ns();
     const rlf_map_view view = {
         .depth = s->depth,
         .normal_x = s->normal_x,
         .normal_y = s->normal_y,
         .normal_z = s->normal_z,
+        .is_static = f->is_tracked ? f->pose.is_static : NULL,
         .rgba = has_color ? f->rgba : NULL,
     };
     result = rlf_map_integrate(f->map, &view, T_world_camera, out_change);
@@ -113,6 +129,8 @@ void fuser_close(fuser *f)
 {
     rlf_map_destroy(&f->map);
     rlf_reconstruct_destroy(&f->stage);
+    camera_pose_close(&f->pose);
     rlf_free(f->rgba);
-    f->rgba = NULL;
+    rlf_free(f->grey);
+    f->rgba = f->grey = NULL;
 }

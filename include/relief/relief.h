@@ -14,6 +14,7 @@
  *   compositor.h   the render stage
  *   prediction.h   what a camera would see of the static room from a pose
  *   map.h          that room: views fused into a signed distance volume, predictions, mesh
+ *   track.h        a moving camera's pose, frame by frame
  *   pipeline.h     all stages as one object: where most programs begin
  *
  * Conventions, unless a comment says otherwise: metres, seconds, kilograms, radians; the camera's
@@ -41,6 +42,7 @@
 #include "relief/source.h"
 #include "relief/surface.h"
 #include "relief/synthetic.h"
+#include "relief/track.h"
 #include "relief/world.h"
 
 #endif
