@@ -10,13 +10,15 @@ static synth_part *add(synth_scene *scene, int32_t label, synth_material materia
     return part;
 }
 
-/* Solid beyond p; `axis` and `angle` turn "below" (+y) to the outside. */
-static void add_wall(synth_scene *scene, rlf_vec3 p, rlf_vec3 axis, double angle)
+/* Solid beyond p: the wall ahead, turned about the vertical. */
+static void add_wall(synth_scene *scene, rlf_vec3 p, double yaw)
 {
     synth_part *part = add(scene, RLF_SYNTHETIC_LABEL_WALL, SYNTH_WALL, "wall");
+    const rlf_quat ahead = rlf_quat_from_axis_angle(rlf_vec3_make(1, 0, 0), 0.5 * RLF_PI);
+    const rlf_quat turn = rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), yaw);
     part->shape.type = SYNTH_HALF_SPACE;
     part->shape.T_camera_shape.p = p;
-    part->shape.T_camera_shape.q = rlf_quat_from_axis_angle(axis, angle);
+    part->shape.T_camera_shape.q = rlf_quat_mul(turn, ahead);
 }
 
 /* A box on the floor, its middle at x, z. */
@@ -38,9 +40,9 @@ void synth_path_close_room(synth_scene *scene)
         taken[i] = scene->statics[first_taken + i];
     }
     scene->static_count = first_taken;
-    add_wall(scene, rlf_vec3_make(3.0, 0, 0), rlf_vec3_make(0, 0, 1), -0.5 * RLF_PI);
-    add_wall(scene, rlf_vec3_make(-3.2, 0, 0), rlf_vec3_make(0, 0, 1), 0.5 * RLF_PI);
-    add_wall(scene, rlf_vec3_make(0, 0, -1.6), rlf_vec3_make(1, 0, 0), -0.5 * RLF_PI);
+    add_wall(scene, rlf_vec3_make(3.0, 0, 0), 0.5 * RLF_PI);
+    add_wall(scene, rlf_vec3_make(-3.2, 0, 0), -0.5 * RLF_PI);
+    add_wall(scene, rlf_vec3_make(0, 0, -1.6), RLF_PI);
     add_block(scene, SYNTH_CUPBOARD, 2.8, 0.6, rlf_vec3_make(0.4, 1.6, 0.8));
     add_block(scene, SYNTH_CARDBOARD, 2.5, -0.4, rlf_vec3_make(0.5, 0.5, 0.4));
     add_block(scene, SYNTH_TABLE, -2.9, 0.9, rlf_vec3_make(0.5, 0.8, 1.1));
