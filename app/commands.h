@@ -7,6 +7,7 @@ int run_main(int argc, char **argv);
 int record_main(int argc, char **argv);
 int place_main(int argc, char **argv);
 int export_main(int argc, char **argv);
+int fuse_main(int argc, char **argv);
 int info_main(int argc, char **argv);
 int sources_main(int argc, char **argv);
 int eval_main(int argc, char **argv);

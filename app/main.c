@@ -17,6 +17,7 @@ static const subcommand subcommands[] = {
     {"record", record_main, "record a camera, or turn a recording into another kind"},
     {"place", place_main, "put models of real things where the things are"},
     {"export", export_main, "write arrays of every frame: depth, normals, labels, truth, ..."},
+    {"fuse", fuse_main, "fuse the frames of a moving camera into a mesh and a map of the room"},
     {"info", info_main, "tell what a source is"},
     {"sources", sources_main, "list the kinds of source that this build can open"},
     {"settings", settings_main, "list the settings of the surface stage, for --set"},

@@ -7,6 +7,7 @@
 #define RELIEF_IO_H
 
 #include "relief/backend.h"
+#include "relief/map.h"
 #include "relief/model.h"
 #include "relief/pipeline.h"
 #include "relief/synthetic.h"
@@ -159,6 +160,20 @@ RLF_API rlf_result rlf_ply_write(const char *path, const rlf_surface *surface,
 RLF_API rlf_result rlf_ply_write_region(const char *path, const rlf_surface *surface,
                                         const rlf_region *region, const uint32_t *indices,
                                         size_t index_count);
+
+/* ---- maps of rooms
+ * ------------------------------------------------------------------------------------------- */
+
+/* Writes a map of a room as a file (docs/map.md has the layout). */
+RLF_API rlf_result rlf_map_write_file(const rlf_map *map, const char *path);
+/* Replaces what a map holds by a file's. What is wrong with the file is told; the map is then
+ * empty. */
+RLF_API rlf_result rlf_map_read_file(rlf_map *map, const char *path);
+/* Whether a mesh can be written under that name: it ends with .ply, .obj or .glb. */
+RLF_API rlf_result rlf_map_mesh_check_name(const char *path);
+/* Writes a mesh with normals and colours, by its name: .ply (binary), .obj (colours after the
+ * places, as most programs read them), .glb (glTF 2.0, turned half round x, so that y is up). */
+RLF_API rlf_result rlf_map_mesh_write(const char *path, const rlf_map_mesh *mesh);
 
 /* ---- video
  * ------------------------------------------------------------------------------------------ */

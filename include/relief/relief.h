@@ -13,6 +13,8 @@
  *   model.h        what bodies look like; known.h: models of real things
  *   compositor.h   the render stage
  *   prediction.h   what a camera would see of the static room from a pose
+ *   map.h          that room: views fused into a signed distance volume, predictions, mesh
+ *   track.h        a moving camera's pose, frame by frame
  *   pipeline.h     all stages as one object: where most programs begin
  *
  * Conventions, unless a comment says otherwise: metres, seconds, kilograms, radians; the camera's
@@ -29,6 +31,7 @@
 #include "relief/frame.h"
 #include "relief/image.h"
 #include "relief/known.h"
+#include "relief/map.h"
 #include "relief/math.h"
 #include "relief/model.h"
 #include "relief/pipeline.h"
@@ -39,6 +42,7 @@
 #include "relief/source.h"
 #include "relief/surface.h"
 #include "relief/synthetic.h"
+#include "relief/track.h"
 #include "relief/world.h"
 
 #endif

@@ -69,7 +69,7 @@ set(header_map frame prediction surface)
 set(header_track frame prediction surface)
 set(header_hands frame surface)
 set(header_pipeline compositor hands known map reconstruct source track world)
-set(header_io backend model pipeline synthetic)
+set(header_io backend map model pipeline synthetic)
 set(header_gl compositor)
 set(header_relief base camera compositor frame hands image known map math model pipeline prediction query
     reconstruct snapshot source surface synthetic track world)

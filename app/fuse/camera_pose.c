@@ -1,0 +1,118 @@
+/* Predict, align, accept; after a lost track, poses that looked alike. */
+#include "fuse/camera_pose.h"
+
+#include <string.h>
+
+#define STARTS 4            /* keyframes that are tried after a lost track, one a frame each */
+#define IN_FRONT_M 0.05     /* what is nearer than the room by more than this moves, */
+#define IN_FRONT_SIGMAS 6.0 /* and by more than this */
+
+rlf_result camera_pose_open(camera_pose *c, const rlf_rig *rig, rlf_pool *pool)
+{
+    memset(c, 0, sizeof(*c));
+    rlf_tracker_def def = rlf_tracker_def_default();
+    def.rig = *rig;
+    def.pool = pool;
+    rlf_camera camera = rig->depth;
+    camera.distortion_model = RLF_DISTORTION_NONE;
+    memset(camera.distortion, 0, sizeof(camera.distortion));
+    c->camera = rlf_camera_decimate(&camera, 2);
+    c->noise = rig->noise;
+    c->is_static = rlf_alloc((size_t)rig->depth.width * (size_t)rig->depth.height);
+    return c->is_static != NULL ? rlf_tracker_create(&def, &c->tracker) : RLF_ERROR_MEMORY;
+}
+
+void camera_pose_close(camera_pose *c)
+{
+    rlf_tracker_destroy(&c->tracker);
+    rlf_free(c->is_static);
+    c->is_static = NULL;
+}
+
+static double ms_since(int64_t start_ns)
+{
+    return (double)(rlf_clock_ns() - start_ns) * 1e-6;
+}
+
+static rlf_result try_start(camera_pose *c, rlf_map *map, const rlf_track_view *view,
+                            const rlf_pose *start, rlf_prediction *prediction,
+                            rlf_track_result *out)
+{
+    int64_t begin = rlf_clock_ns();
+    rlf_result result = rlf_map_predict(map, &c->camera, start, prediction);
+    c->predict_ms += ms_since(begin);
+    if (result != RLF_OK) {
+        return result;
+    }
+    begin = rlf_clock_ns();
+    result = rlf_tracker_align(c->tracker, view, prediction, start, out);
+    c->align_ms += ms_since(begin);
+    return result;
+}
+
+/* The keyframes that look alike, the likeliest first, until one fits. */
+static rlf_result find_again(camera_pose *c, rlf_map *map, const rlf_track_view *view,
+                             rlf_prediction *prediction)
+{
+    rlf_pose starts[STARTS];
+    const int32_t count = rlf_tracker_recall(c->tracker, view, starts, STARTS);
+    rlf_result result = RLF_OK;
+    for (int32_t i = 0; i < count && result == RLF_OK && c->last.health == RLF_TRACK_LOST; i++) {
+        result = try_start(c, map, view, &starts[i], prediction, &c->last);
+    }
+    return result;
+}
+
+/* Pixels in front of the room that is known are not static. */
+static void mark_static(camera_pose *c, const rlf_surface *s, const rlf_prediction *p,
+                        const rlf_depth_noise *noise)
+{
+    const rlf_pose T_predicted_world = rlf_pose_invert(&p->T_world_camera);
+    const rlf_pose T = rlf_pose_mul(&T_predicted_world, &c->last.T_world_camera);
+    for (int32_t i = 0; i < s->width * s->height; i++) {
+        c->is_static[i] = 1;
+        if (!(s->depth[i] > 0.0f)) {
+            continue;
+        }
+        double u, v;
+        const rlf_vec3 q = rlf_transform(&T, rlf_surface_point(s, i));
+        if (!rlf_camera_project(&p->camera, q, &u, &v) || u < 0.0 || v < 0.0 ||
+            u + 0.5 >= p->camera.width || v + 0.5 >= p->camera.height) {
+            continue;
+        }
+        const double room =
+            (double)p->depth[(int32_t)(v + 0.5) * p->camera.width + (int32_t)(u + 0.5)];
+        const double nearer =
+            rlf_max(IN_FRONT_M, IN_FRONT_SIGMAS * rlf_depth_noise_sigma(noise, q.z));
+        c->is_static[i] = !(room > 0.0 && q.z < room - nearer);
+    }
+}
+
+rlf_result camera_pose_find(camera_pose *c, rlf_map *map, const rlf_surface *surface,
+                            const uint8_t *grey, int64_t time_ns)
+{
+    c->predict_ms = c->align_ms = 0.0;
+    const rlf_track_view view = {.depth = surface->depth, .grey = grey};
+    if (!c->has_first) {
+        c->has_first = true;
+        c->last = (rlf_track_result){.T_world_camera = rlf_tracker_guess(c->tracker, time_ns),
+                                     .health = RLF_TRACK_GOOD,
+                                     .overlap = 1.0};
+        memset(c->is_static, 1, (size_t)surface->width * (size_t)surface->height);
+        rlf_tracker_accept(c->tracker, &view, time_ns, &c->last);
+        return RLF_OK;
+    }
+    const rlf_pose start = rlf_tracker_guess(c->tracker, time_ns);
+    rlf_prediction prediction;
+    rlf_result result = try_start(c, map, &view, &start, &prediction, &c->last);
+    if (result == RLF_OK && c->last.health == RLF_TRACK_LOST) {
+        result = find_again(c, map, &view, &prediction);
+    }
+    if (result != RLF_OK) {
+        return result;
+    }
+    c->lost_count += c->last.health == RLF_TRACK_LOST;
+    rlf_tracker_accept(c->tracker, &view, time_ns, &c->last);
+    mark_static(c, surface, &prediction, &c->noise);
+    return RLF_OK;
+}

@@ -1,0 +1,27 @@
+/* The camera's pose of each frame, tracked against the map that the frames before it made. */
+#ifndef RELIEF_APP_FUSE_CAMERA_POSE_H
+#define RELIEF_APP_FUSE_CAMERA_POSE_H
+
+#include "relief/map.h"
+#include "relief/track.h"
+
+typedef struct camera_pose {
+    rlf_tracker *tracker;
+    rlf_camera camera;     /* that is predicted for: half the depth camera's size */
+    rlf_depth_noise noise; /* of the depth camera */
+    uint8_t *is_static;    /* 0 = in front of the room that is known; a pixel each */
+    rlf_track_result last; /* of the last frame */
+    bool has_first;
+    int64_t lost_count;          /* frames */
+    double predict_ms, align_ms; /* of the last frame */
+} camera_pose;
+
+/* Close what was opened, also after an error. */
+rlf_result camera_pose_open(camera_pose *c, const rlf_rig *rig, rlf_pool *pool);
+/* Finds the pose of a frame whose depth is `surface`'s; `grey` may be NULL. The first frame's is
+ * the identity. Fills c->is_static. */
+rlf_result camera_pose_find(camera_pose *c, rlf_map *map, const rlf_surface *surface,
+                            const uint8_t *grey, int64_t time_ns);
+void camera_pose_close(camera_pose *c);
+
+#endif

@@ -1,0 +1,305 @@
+/* `relief fuse`: a source with poses becomes a mesh of the room, and a map. */
+#define _POSIX_C_SOURCE 200809L
+#include "command.h"
+#include "commands.h"
+#include "fuse/fuser.h"
+#include "fuse/trajectory.h"
+#include "options.h"
+
+#include <getopt.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#define PROGRESS_INTERVAL_NS 500000000
+
+typedef struct fuse_options {
+    const char *source, *out_path, *map_path, *trajectory_path;
+    int64_t frame_limit;
+    int32_t voxel_mm, memory_mb, thread_count, min_weight;
+    bool is_quiet, use_source_poses;
+} fuse_options;
+
+typedef struct fuse_run {
+    const fuse_options *options;
+    rlf_pool *pool;
+    rlf_source *source;
+    fuser fuser;
+    bool has_first;
+    rlf_pose T_first_source; /* the first camera's frame is the world */
+    int64_t seen, fused, without_pose;
+    trajectory trajectory;
+    double predict_ms, align_ms, integrate_ms;
+    int64_t last_progress_ns;
+} fuse_run;
+
+static void print_help(void)
+{
+    printf(
+        "usage: relief fuse SOURCE --out ROOM.ply|.obj|.glb [OPTIONS]\n\n"
+        "Fuses the frames of a moving camera into one mesh of the room, with normals and\n"
+        "colours. The world is the first camera's frame: x right, y down, z forward.\n\n"
+        "  --out FILE        the mesh: .ply, .obj or .glb\n"
+        "  --save FILE       the map itself, to start in a known room\n"
+        "  --trajectory FILE the camera's way: time tx ty tz qx qy qz qw, as TUM's tools read it\n"
+        "  --poses NAME      tracked (default), or source: the source's own, as groundtruth.txt\n"
+        "  --frames N        at most so many frames\n"
+        "  --voxel MM        edge of a voxel, 2..50 mm, default 6\n"
+        "  --memory MB       most memory of the map, default 288; the farthest leaves first\n"
+        "  --min-weight N    leaves out what was seen less; a near frame adds 16, default 32\n"
+        "  --quiet           no progress, no summary\n"
+        "  --threads N       default: one per processor\n" COMMAND_PLUGIN_HELP "\n"
+        "examples:\n"
+        "  relief fuse path/to/clip --out room.ply --trajectory way.txt\n"
+        "  relief fuse path/to/clip --out room.glb --save room.map --voxel 8\n");
+}
+
+static bool take_poses(const char *text, void *out)
+{
+    fuse_options *o = out;
+    o->use_source_poses = strcmp(text, "source") == 0;
+    return o->use_source_poses || strcmp(text, "tracked") == 0;
+}
+
+static int parse(int argc, char **argv, fuse_options *o)
+{
+    *o = (fuse_options){.frame_limit = INT64_MAX, .min_weight = 32};
+    const option_def options[] = {
+        {.name = "out", .kind = OPTION_TEXT, .out = &o->out_path},
+        {.name = "save", .kind = OPTION_TEXT, .out = &o->map_path},
+        {.name = "trajectory", .kind = OPTION_TEXT, .out = &o->trajectory_path},
+        {.name = "poses",
+         .kind = OPTION_CHOICE,
+         .out = o,
+         .take = take_poses,
+         .choices = "use tracked or source"},
+        {.name = "frames",
+         .kind = OPTION_INT64,
+         .out = &o->frame_limit,
+         .low = 1,
+         .high = INT64_MAX},
+        {.name = "voxel", .kind = OPTION_INT32, .out = &o->voxel_mm, .low = 2, .high = 50},
+        {.name = "memory", .kind = OPTION_INT32, .out = &o->memory_mb, .low = 8, .high = 16384},
+        {.name = "min-weight", .kind = OPTION_INT32, .out = &o->min_weight, .low = 1, .high = 255},
+        {.name = "threads", .kind = OPTION_INT32, .out = &o->thread_count, .low = 1, .high = 64},
+        {.name = "quiet", .kind = OPTION_FLAG, .out = &o->is_quiet},
+        {.name = "plugin", .kind = OPTION_PLUGIN},
+        {0},
+    };
+    int status = options_parse("fuse", argc, argv, options, print_help);
+    if (status >= 0) {
+        return status;
+    }
+    if (argc - optind != 1) {
+        return command_usage("fuse", "needs one SOURCE");
+    }
+    if (o->out_path == NULL && o->map_path == NULL && o->trajectory_path == NULL) {
+        return command_usage("fuse", "needs --out FILE, --save FILE or --trajectory FILE");
+    }
+    if (o->out_path != NULL && rlf_map_mesh_check_name(o->out_path) != RLF_OK) {
+        return command_usage("fuse", "--out '%s': a mesh's name ends with .ply, .obj or .glb",
+                             o->out_path);
+    }
+    o->source = argv[optind];
+    return -1;
+}
+
+/* Both files can be written: told before the work, not after it. */
+static rlf_result check_files(const fuse_options *o)
+{
+    rlf_result result = o->out_path != NULL ? rlf_file_check(o->out_path) : RLF_OK;
+    if (result == RLF_OK && o->map_path != NULL) {
+        result = rlf_file_check(o->map_path);
+    }
+    return result == RLF_OK && o->trajectory_path != NULL ? rlf_file_check(o->trajectory_path)
+                                                          : result;
+}
+
+static rlf_result open_all(fuse_run *run)
+{
+    const fuse_options *o = run->options;
+    rlf_result result = check_files(o);
+    if (result == RLF_OK) {
+        result = rlf_pool_create(o->thread_count, &run->pool);
+    }
+    if (result == RLF_OK) {
+        result = rlf_open_source(o->source, run->pool, &run->source);
+    }
+    if (result == RLF_OK) {
+        const fuser_options options = {.voxel_m = o->voxel_mm * 0.001,
+                                       .memory_mb = o->memory_mb,
+                                       .is_tracked = !o->use_source_poses};
+        result =
+            fuser_open(&run->fuser, &rlf_source_get_info(run->source)->rig, &options, run->pool);
+    }
+    return result;
+}
+
+static void print_progress(fuse_run *run)
+{
+    const int64_t now = rlf_clock_ns();
+    if (run->options->is_quiet || now - run->last_progress_ns < PROGRESS_INTERVAL_NS ||
+        !isatty(STDERR_FILENO)) {
+        return;
+    }
+    run->last_progress_ns = now;
+    const rlf_map_status s = rlf_map_get_status(run->fuser.map);
+    const long long count = rlf_source_get_info(run->source)->frame_count;
+    fprintf(stderr, "\rframe %lld of %lld, %d blocks, %.0f MB, %.1f ms ", (long long)run->fused,
+            count, (int)s.block_count, (double)s.bytes * 1e-6, run->fuser.integrate_ms);
+}
+
+/* The source's pose, in the first camera's frame. A frame without one is counted. */
+static bool source_pose(fuse_run *run, const rlf_frame *frame, rlf_pose *out)
+{
+    if (!frame->has_pose) {
+        run->without_pose++;
+        return false;
+    }
+    if (!run->has_first) {
+        run->T_first_source = rlf_pose_invert(&frame->T_world_camera);
+        run->has_first = true;
+    }
+    *out = rlf_pose_mul(&run->T_first_source, &frame->T_world_camera);
+    return true;
+}
+
+/* A pose that is none is left out, and so is a frame that cannot be placed. */
+static rlf_result add_frame(fuse_run *run, const rlf_frame *frame)
+{
+    rlf_pose T;
+    const bool has_pose = source_pose(run, frame, &T);
+    const bool is_tracked = !run->options->use_source_poses;
+    run->seen++;
+    if (!is_tracked && !has_pose) {
+        return RLF_OK;
+    }
+    rlf_result result = fuser_add(&run->fuser, frame, is_tracked ? NULL : &T, NULL);
+    if (result == RLF_ERROR_INVALID) {
+        run->without_pose++;
+        return RLF_OK;
+    }
+    if (result != RLF_OK) {
+        return result;
+    }
+    run->predict_ms += run->fuser.pose.predict_ms;
+    run->align_ms += run->fuser.pose.align_ms;
+    if (is_tracked && run->fuser.pose.last.health == RLF_TRACK_LOST) {
+        return RLF_OK;
+    }
+    run->fused++;
+    run->integrate_ms += run->fuser.integrate_ms;
+    return trajectory_add(&run->trajectory, frame->time_ns,
+                          is_tracked ? &run->fuser.pose.last.T_world_camera : &T,
+                          has_pose ? &T : NULL);
+}
+
+static rlf_result fuse_frames(fuse_run *run)
+{
+    while (!command_interrupted && run->seen < run->options->frame_limit) {
+        rlf_frame frame;
+        rlf_result result = rlf_source_next(run->source, &frame);
+        if (result == RLF_NO_FRAME) {
+            continue;
+        }
+        if (result == RLF_OK) {
+            result = add_frame(run, &frame);
+        }
+        if (result != RLF_OK) {
+            return result == RLF_END ? RLF_OK : result;
+        }
+        print_progress(run);
+    }
+    return RLF_OK;
+}
+
+static void print_summary(const fuse_run *run, const rlf_map_mesh *mesh)
+{
+    const rlf_map_status s = rlf_map_get_status(run->fuser.map);
+    const double per_frame = 1.0 / (double)run->seen;
+    printf("%lld frames of %lld fused; %d blocks, %.0f MB\n", (long long)run->fused,
+           (long long)run->seen, (int)s.block_count, (double)s.bytes * 1e-6);
+    printf("a frame: predict %.1f ms, align %.1f ms, integrate %.1f ms\n",
+           run->predict_ms * per_frame, run->align_ms * per_frame, run->integrate_ms * per_frame);
+    if (!run->options->use_source_poses && run->without_pose == 0) {
+        const double error = trajectory_error(&run->trajectory);
+        printf("trajectory: %lld frames lost", (long long)run->fuser.pose.lost_count);
+        if (error >= 0.0) {
+            printf("; %.1f mm RMS from the source's own", 1000.0 * error);
+        }
+        printf("\n");
+    }
+    if (run->options->out_path != NULL) {
+        printf("%zu vertices, %zu triangles in %s\n", mesh->vertex_count, mesh->triangle_count,
+               run->options->out_path);
+    }
+}
+
+static rlf_result write_files(fuse_run *run)
+{
+    const fuse_options *o = run->options;
+    rlf_map_mesh mesh = {.vertex_count = 0};
+    rlf_result result = RLF_OK;
+    if (o->out_path != NULL) {
+        result = rlf_map_mesh_create(run->fuser.map, o->min_weight, &mesh);
+        if (result == RLF_OK) {
+            result = rlf_map_mesh_write(o->out_path, &mesh);
+        }
+    }
+    if (result == RLF_OK && o->map_path != NULL) {
+        result = rlf_map_write_file(run->fuser.map, o->map_path);
+    }
+    if (result == RLF_OK && o->trajectory_path != NULL) {
+        result = trajectory_write(&run->trajectory, o->trajectory_path);
+    }
+    if (result == RLF_OK && !o->is_quiet) {
+        print_summary(run, &mesh);
+    }
+    rlf_map_mesh_destroy(&mesh);
+    return result;
+}
+
+static void close_all(fuse_run *run)
+{
+    trajectory_free(&run->trajectory);
+    fuser_close(&run->fuser);
+    rlf_source_destroy(&run->source);
+    rlf_pool_destroy(&run->pool);
+}
+
+static int finish(fuse_run *run, rlf_result result)
+{
+    if (!run->options->is_quiet && run->last_progress_ns != 0) {
+        fprintf(stderr, "\n");
+    }
+    if (result == RLF_OK && run->fused == 0 && command_interrupted) {
+        return command_stopped("fuse");
+    }
+    if (result == RLF_OK && run->fused == 0) {
+        result = rlf_fail(RLF_ERROR_INVALID,
+                          "%s: no frame could be placed in %lld; with --poses source a clip needs "
+                          "groundtruth.txt",
+                          run->options->source, (long long)run->seen);
+    }
+    if (result == RLF_OK) {
+        result = write_files(run);
+    }
+    return result == RLF_OK ? EXIT_DONE : command_failed();
+}
+
+int fuse_main(int argc, char **argv)
+{
+    fuse_options options;
+    int status = parse(argc, argv, &options);
+    if (status >= 0) {
+        return status;
+    }
+    fuse_run run = {.options = &options};
+    if (open_all(&run) != RLF_OK) {
+        status = command_not_opened("fuse");
+    } else {
+        status = finish(&run, fuse_frames(&run));
+    }
+    close_all(&run);
+    return status;
+}

@@ -1,0 +1,135 @@
+/* One frame after the other into the map. */
+#include "fuse/fuser.h"
+
+#include <string.h>
+
+/* What the map needs of a frame is what the sensor saw now: no filling, no memory of earlier frames
+ * (the map is that), no regions. */
+static rlf_reconstruct_def stage_def(const rlf_rig *rig, rlf_pool *pool)
+{
+    rlf_reconstruct_def def = rlf_reconstruct_def_default(RLF_PROFILE_LIVE, rig);
+    def.background_method = RLF_BACKGROUND_OFF;
+    def.background_segment = RLF_SEGMENT_OFF;
+    def.foreground_segment = RLF_SEGMENT_OFF;
+    def.enable_fill = false;
+    def.enable_steadying = false;
+    def.enable_hold = false;
+    def.enable_edge_normals = false;
+    def.enable_velocity = false;
+    def.enable_thickness = false;
+    def.enable_coast = false;
+    def.enable_color_sides = false;
+    def.pool = pool;
+    return def;
+}
+
+rlf_result fuser_open(fuser *f, const rlf_rig *rig, const fuser_options *options, rlf_pool *pool)
+{
+    memset(f, 0, sizeof(*f));
+    f->rig = rig;
+    rlf_map_def def = rlf_map_def_default();
+    def.rig = *rig;
+    def.pool = pool;
+    def.voxel_m = options->voxel_m > 0.0 ? options->voxel_m : def.voxel_m;
+    def.memory_mb = options->memory_mb > 0 ? options->memory_mb : def.memory_mb;
+    rlf_result result = rlf_map_create(&def, &f->map);
+    if (result == RLF_OK) {
+        const rlf_reconstruct_def stage = stage_def(rig, pool);
+        result = rlf_reconstruct_create(&stage, &f->stage);
+    }
+    if (result == RLF_OK && rig->has_color) {
+        const size_t pixels = (size_t)rig->depth.width * (size_t)rig->depth.height;
+        f->rgba = rlf_alloc_array(pixels, 4);
+        f->grey = rlf_alloc(pixels);
+        result = f->rgba != NULL && f->grey != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+    }
+    f->is_tracked = options->is_tracked;
+    if (result == RLF_OK && f->is_tracked) {
+        result = camera_pose_open(&f->pose, rig, pool);
+    }
+    return result;
+}
+
+/* Where a colour camera sees a point; -1 when it does not. */
+static ptrdiff_t color_pixel(const rlf_rig *rig, rlf_vec3 p_depth)
+{
+    double u, v;
+    const rlf_vec3 p = rlf_transform(&rig->T_color_depth, p_depth);
+    if (!rlf_camera_project(&rig->color, p, &u, &v) || !(u > -0.5 && v > -0.5) ||
+        !(u < rig->color.width - 0.5 && v < rig->color.height - 0.5)) {
+        return -1;
+    }
+    return (ptrdiff_t)(int32_t)(v + 0.5) * rig->color.width + (int32_t)(u + 0.5);
+}
+
+/* What is behind a nearer surface gets that one's colour: the parallax of a rig is small, and other
+ * views tell. */
+static bool color_view(const fuser *f, const rlf_frame *frame, const rlf_surface *s)
+{
+    const rlf_image_rgba8 *color = &frame->color;
+    if (f->rgba == NULL || color->data == NULL) {
+        return false;
+    }
+    for (int32_t i = 0; i < s->width * s->height; i++) {
+        ptrdiff_t pixel = s->depth[i] > 0.0f ? color_pixel(f->rig, rlf_surface_point(s, i)) : -1;
+        uint8_t *out = &f->rgba[4 * (ptrdiff_t)i];
+        memset(out, 0, 4);
+        f->grey[i] = 0;
+        if (pixel >= 0) {
+            const ptrdiff_t y = pixel / color->width, x = pixel % color->width;
+            memcpy(out, (const uint8_t *)color->data + y * color->stride + 4 * x, 3);
+            out[3] = 255;
+            f->grey[i] = (uint8_t)(1 + (77 * out[0] + 150 * out[1] + 29 * out[2]) / 257);
+        }
+    }
+    return true;
+}
+
+static double ms_since(int64_t start_ns)
+{
+    return (double)(rlf_clock_ns() - start_ns) * 1e-6;
+}
+
+rlf_result fuser_add(fuser *f, const rlf_frame *frame, const rlf_pose *T_world_camera,
+                     rlf_map_change *out_change)
+{
+    const rlf_surface *s = NULL;
+    int64_t start = rlf_clock_ns();
+    rlf_result result = rlf_reconstruct_process(f->stage, frame, &s);
+    if (result != RLF_OK) {
+        return result;
+    }
+    f->surface_ms = ms_since(start);
+    start = rlf_clock_ns();
+    const bool has_color = color_view(f, frame, s);
+    f->color_ms = ms_since(start);
+    if (f->is_tracked) {
+        result = camera_pose_find(&f->pose, f->map, s, has_color ? f->grey : NULL, frame->time_ns);
+        if (result != RLF_OK || f->pose.last.health != RLF_TRACK_GOOD) {
+            return result;
+        }
+        T_world_camera = &f->pose.last.T_world_camera;
+    }
+    start = rlf_clock_ns();
+    const rlf_map_view view = {
+        .depth = s->depth,
+        .normal_x = s->normal_x,
+        .normal_y = s->normal_y,
+        .normal_z = s->normal_z,
+        .is_static = f->is_tracked ? f->pose.is_static : NULL,
+        .rgba = has_color ? f->rgba : NULL,
+    };
+    result = rlf_map_integrate(f->map, &view, T_world_camera, out_change);
+    f->integrate_ms = ms_since(start);
+    return result;
+}
+
+void fuser_close(fuser *f)
+{
+    rlf_map_destroy(&f->map);
+    rlf_reconstruct_destroy(&f->stage);
+    camera_pose_close(&f->pose);
+    rlf_free(f->rgba);
+    rlf_free(f->grey);
+    f->rgba = f->grey = NULL;
+}

@@ -1,0 +1,205 @@
+/* Maps as bytes. Layout, little endian (docs/map.md):
+ *
+ *   8 bytes "RLFMAP\r\n", u32 version, f64 voxel_m, u32 blocks, then each block by rising key:
+ *   i16 x, y, z; u8 kind; kind 1: 512 x (i16 distance, u8 weight, u8 grey), 128 x u8 chroma
+ *   u64 checksum of all before it (FNV-1a of 64 bits) */
+#include "map/volume.h"
+
+#include <string.h>
+
+#define FILE_VERSION 1u
+#define HEAD_SIZE 24
+#define BLOCK_SIZE (7 + 4 * MAP_VOXELS + 2 * RLF_FUSE_CHROMA)
+
+static const uint8_t magic[8] = {'R', 'L', 'F', 'M', 'A', 'P', '\r', '\n'};
+
+static uint64_t checksum(uint64_t sum, const uint8_t *data, size_t size)
+{
+    for (size_t i = 0; i < size; i++) {
+        sum = (sum ^ data[i]) * 0x100000001b3u;
+    }
+    return sum;
+}
+
+#define CHECKSUM_BEGIN 0xcbf29ce484222325u
+
+static void put(uint8_t *out, uint64_t value, int32_t bytes)
+{
+    for (int32_t i = 0; i < bytes; i++) {
+        out[i] = (uint8_t)(value >> (8 * i));
+    }
+}
+
+static uint64_t get(const uint8_t *in, int32_t bytes)
+{
+    uint64_t value = 0;
+    for (int32_t i = 0; i < bytes; i++) {
+        value |= (uint64_t)in[i] << (8 * i);
+    }
+    return value;
+}
+
+static int16_t get_i16(const uint8_t *in)
+{
+    const int32_t value = (int32_t)get(in, 2);
+    return (int16_t)(value > 32767 ? value - 65536 : value);
+}
+
+static void pack(const int16_t place[4], const map_block *b, uint8_t out[BLOCK_SIZE])
+{
+    for (int32_t k = 0; k < 3; k++) {
+        put(out + 2 * k, (uint16_t)place[k], 2);
+    }
+    out[6] = 1;
+    uint8_t *at = out + 7;
+    for (int32_t i = 0; i < MAP_VOXELS; i++, at += 4) {
+        put(at, (uint16_t)b->distance[i], 2);
+        at[2] = b->weight[i];
+        at[3] = b->grey[i];
+    }
+    memcpy(at, b->chroma, sizeof(b->chroma));
+}
+
+static void unpack(const uint8_t in[BLOCK_SIZE], map_block *b)
+{
+    const uint8_t *at = in + 7;
+    for (int32_t i = 0; i < MAP_VOXELS; i++, at += 4) {
+        b->distance[i] = get_i16(at);
+        b->weight[i] = at[2];
+        b->grey[i] = at[3];
+    }
+    memcpy(b->chroma, at, sizeof(b->chroma));
+}
+
+static bool write_all(const rlf_map *map, const int32_t *order, rlf_map_write_fn write,
+                      void *context)
+{
+    uint8_t head[HEAD_SIZE], block[BLOCK_SIZE], tail[8];
+    uint64_t voxel_bits;
+    memcpy(&voxel_bits, &map->def.voxel_m, sizeof(voxel_bits));
+    memcpy(head, magic, sizeof(magic));
+    put(head + 8, FILE_VERSION, 4);
+    put(head + 12, voxel_bits, 8);
+    put(head + 20, (uint32_t)map->volume.count, 4);
+    uint64_t sum = checksum(CHECKSUM_BEGIN, head, sizeof(head));
+    bool is_written = write(context, head, sizeof(head));
+    for (int32_t i = 0; is_written && i < map->volume.count; i++) {
+        pack(map->volume.place[order[i]], map_block_at(&map->volume, order[i]), block);
+        sum = checksum(sum, block, sizeof(block));
+        is_written = write(context, block, sizeof(block));
+    }
+    put(tail, sum, 8);
+    return is_written && write(context, tail, sizeof(tail));
+}
+
+rlf_result rlf_map_save(const rlf_map *map, rlf_map_write_fn write, void *context)
+{
+    if (!RLF_ASSERT(map != NULL && write != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    int32_t *order = rlf_alloc_array((size_t)map->volume.count + 1, sizeof(int32_t));
+    rlf_result result = RLF_ERROR_MEMORY;
+    if (order != NULL && map_volume_sorted(&map->volume, order)) {
+        result = write_all(map, order, write, context)
+                     ? RLF_OK
+                     : rlf_fail(RLF_ERROR_IO, "map: could not be written whole");
+    }
+    rlf_free(order);
+    return result;
+}
+
+static rlf_result damaged(const char *what)
+{
+    return rlf_fail(RLF_ERROR_FORMAT, "map: %s: make it again, or take a copy", what);
+}
+
+/* The head: the number of blocks, or an error. */
+static rlf_result read_head(rlf_map *map, const uint8_t head[HEAD_SIZE], uint32_t *out_count)
+{
+    if (memcmp(head, magic, sizeof(magic)) != 0) {
+        return rlf_fail(RLF_ERROR_FORMAT, "map: this is not a map (it does not begin with RLFMAP)");
+    }
+    const uint32_t version = (uint32_t)get(head + 8, 4);
+    if (version != FILE_VERSION) {
+        return rlf_fail(RLF_ERROR_FORMAT, "map: version %lu, this program reads version %u",
+                        (unsigned long)version, FILE_VERSION);
+    }
+    const uint64_t voxel_bits = get(head + 12, 8);
+    double voxel_m;
+    memcpy(&voxel_m, &voxel_bits, sizeof(voxel_m));
+    if (!(voxel_m >= 0.002 && voxel_m <= 0.05)) {
+        return damaged("its voxel size is not within 2..50 mm");
+    }
+    *out_count = (uint32_t)get(head + 20, 4);
+    if (*out_count > (uint32_t)map->volume.capacity) {
+        return rlf_fail(
+            RLF_ERROR_CAPACITY, "map: has %lu blocks, memory_mb %d holds %d: give it more memory",
+            (unsigned long)*out_count, (int)map->def.memory_mb, (int)map->volume.capacity);
+    }
+    map->def.voxel_m = voxel_m;
+    return RLF_OK;
+}
+
+static rlf_result read_block(rlf_map *map, const uint8_t data[BLOCK_SIZE], uint64_t *last_key)
+{
+    int16_t place[3];
+    for (int32_t k = 0; k < 3; k++) {
+        place[k] = get_i16(data + 2 * k);
+    }
+    const uint64_t key = map_key(place[0], place[1], place[2]) + 1;
+    if (data[6] != 1 || key <= *last_key) {
+        return damaged("a block is of an unknown kind or out of order");
+    }
+    *last_key = key;
+    const int32_t block = map_volume_add(&map->volume, place[0], place[1], place[2]);
+    if (block < 0) {
+        return map->volume.count < map->volume.capacity
+                   ? damaged("a block is out of range, or memory is short")
+                   : RLF_ERROR_CAPACITY;
+    }
+    unpack(data, map_block_at(&map->volume, block));
+    map_block_look(&map->volume, block);
+    return RLF_OK;
+}
+
+static rlf_result read_all(rlf_map *map, rlf_map_read_fn read, void *context)
+{
+    uint8_t head[HEAD_SIZE], block[BLOCK_SIZE], tail[8];
+    uint32_t count = 0;
+    if (!read(context, head, sizeof(head))) {
+        return damaged("it is cut short");
+    }
+    rlf_result result = read_head(map, head, &count);
+    uint64_t sum = checksum(CHECKSUM_BEGIN, head, sizeof(head)), last_key = 0;
+    for (uint32_t i = 0; result == RLF_OK && i < count; i++) {
+        if (!read(context, block, sizeof(block))) {
+            return damaged("it is cut short");
+        }
+        sum = checksum(sum, block, sizeof(block));
+        result = read_block(map, block, &last_key);
+    }
+    if (result != RLF_OK) {
+        return result;
+    }
+    if (!read(context, tail, sizeof(tail)) || get(tail, 8) != sum) {
+        return damaged("it is cut short or damaged (its checksum is another)");
+    }
+    return RLF_OK;
+}
+
+rlf_result rlf_map_load(rlf_map *map, rlf_map_read_fn read, void *context)
+{
+    if (!RLF_ASSERT(map != NULL && read != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    const double voxel_m = map->def.voxel_m;
+    rlf_map_clear(map);
+    rlf_result result = read_all(map, read, context);
+    if (result != RLF_OK) {
+        rlf_map_clear(map);
+        map->def.voxel_m = voxel_m;
+        return result;
+    }
+    rlf_map_fence(map);
+    return RLF_OK;
+}

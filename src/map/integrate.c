@@ -1,0 +1,272 @@
+/* A view into the volume: the blocks near what it sees, then those that it sees through. */
+#include "map/evict.h"
+#include "map/volume.h"
+
+#include <string.h>
+
+/* Blocks are made for what is this near to a surface, voxels: in front of it enough for the cells
+ * of the surface, behind it the whole of the least truncation, so that bodies find their way out.
+ */
+static const float margins[] = {-2.0f, 1.0f, 4.0f};
+enum { MARGINS = sizeof(margins) / sizeof(margins[0]) };
+
+enum {
+    SPACING = 4,      /* pixels between those that look for blocks; in 16 frames all do */
+    CARVE_FRAMES = 8, /* in which every block is asked once whether it is seen through */
+    GRAIN = 32        /* blocks */
+};
+
+typedef struct fuse_job {
+    rlf_map *map;
+    rlf_mat3 R_camera_world;
+    rlf_pose T_world_camera;
+    rlf_fuse_view view;
+    rlf_map_change change;
+} fuse_job;
+
+static rlf_fuse_view view_make(const rlf_map *map, const rlf_map_view *in)
+{
+    const rlf_camera *c = &map->pinhole;
+    const rlf_map_def *def = &map->def;
+    const float voxel = (float)def->voxel_m;
+    const rlf_fuse_view view = {
+        .width = c->width,
+        .height = c->height,
+        .fx = (float)c->fx,
+        .fy = (float)c->fy,
+        .cx = (float)c->cx,
+        .cy = (float)c->cy,
+        .planes = map->planes,
+        .least = map->least,
+        .rgba = def->keep_color ? in->rgba : NULL,
+        .source_of = map->source_of,
+        .noise = rlf_kernel_noise_make(&def->rig.noise),
+        .sigmas = (float)def->truncation_sigmas,
+        .truncation_least = (float)MAP_TRUNCATION_LEAST * voxel,
+        .truncation_most = (float)MAP_TRUNCATION_MOST * voxel,
+        .voxel = voxel,
+        .nearest_sigma = (float)rlf_depth_noise_sigma(&def->rig.noise, 1.0),
+        /* A mean of c parts old and one part new passes zero after (c + 1/2) ln 2 frames. */
+        .carve_weight = 1.4427f * (float)def->carve_after - 0.5f,
+    };
+    return view;
+}
+
+static int32_t floor_block(double x)
+{
+    int32_t i = (int32_t)x;
+    return x < (double)i ? i - 1 : i;
+}
+
+/* The block at a world place, in blocks; made when there is none. */
+static void mark(fuse_job *job, const int32_t at[3])
+{
+    rlf_map *map = job->map;
+    map_volume *v = &map->volume;
+    int32_t block = map_volume_find(v, at[0], at[1], at[2]);
+    if (block < 0) {
+        const double side = map->def.voxel_m * MAP_SIDE;
+        const rlf_vec3 eye = job->T_world_camera.p;
+        const rlf_vec3 d = {(at[0] + 0.5) * side - eye.x, (at[1] + 0.5) * side - eye.y,
+                            (at[2] + 0.5) * side - eye.z};
+        if (v->count == v->capacity && map->is_full && rlf_dot(d, d) >= map->reach2) {
+            return;
+        }
+        block = map_volume_add(v, at[0], at[1], at[2]);
+        if (block < 0) {
+            job->change.blocks_evicted += map_evict(map, eye);
+            block = map_volume_add(v, at[0], at[1], at[2]);
+        }
+        if (block < 0) {
+            return;
+        }
+        map_journal_keep(map, block, true);
+        job->change.blocks_new++;
+        v->flags[block] |= MAP_IS_NEW;
+    }
+    if (v->marked[block] != map->tick) {
+        v->marked[block] = map->tick;
+        map->seen[map->seen_count++] = block;
+    }
+}
+
+/* The blocks about one pixel's point. `last` are those of the pixel before. */
+static void mark_pixel(fuse_job *job, int32_t pixel, int32_t last[MARGINS][3])
+{
+    const rlf_map *map = job->map;
+    if (!(map->planes[pixel].offset < 0.0f)) {
+        return;
+    }
+    const rlf_pose *T = &job->T_world_camera;
+    const double scale = 1.0 / (map->def.voxel_m * MAP_SIDE);
+    const rlf_vec3 ray = {map->ray_x[pixel], map->ray_y[pixel], 1.0};
+    const double length = rlf_length(ray);
+    for (int32_t k = 0; k < MARGINS; k++) {
+        const double z = map->clean[pixel] + margins[k] * map->def.voxel_m / length;
+        const rlf_mat3 *R = &job->R_camera_world;
+        const rlf_vec3 p = rlf_scale(ray, z);
+        const double x = (R->m[0][0] * p.x + R->m[1][0] * p.y + R->m[2][0] * p.z + T->p.x) * scale;
+        const double y = (R->m[0][1] * p.x + R->m[1][1] * p.y + R->m[2][1] * p.z + T->p.y) * scale;
+        const double w = (R->m[0][2] * p.x + R->m[1][2] * p.y + R->m[2][2] * p.z + T->p.z) * scale;
+        if (!(x > -32000.0 && x < 32000.0 && y > -32000.0 && y < 32000.0 && w > -32000.0 &&
+              w < 32000.0)) {
+            continue;
+        }
+        const int32_t at[3] = {floor_block(x), floor_block(y), floor_block(w)};
+        if (memcmp(at, last[k], sizeof(at)) != 0) {
+            memcpy(last[k], at, sizeof(at));
+            mark(job, at);
+        }
+    }
+}
+
+static void mark_all(fuse_job *job)
+{
+    rlf_map *map = job->map;
+    const int32_t width = map->pinhole.width, height = map->pinhole.height;
+    /* The pixels that look move by one from frame to frame, in an order that skips about. */
+    const int32_t phase = (int32_t)((map->frames * 7) % (SPACING * SPACING));
+    int32_t last[MARGINS][3];
+    for (int32_t k = 0; k < MARGINS; k++) {
+        last[k][0] = INT32_MAX;
+    }
+    map->seen_count = 0;
+    for (int32_t y = phase / SPACING; y < height; y += SPACING) {
+        for (int32_t x = phase % SPACING; x < width; x += SPACING) {
+            mark_pixel(job, y * width + x, last);
+        }
+    }
+}
+
+/* Those that are new, and as many of the others as there is time for, in turn. */
+static void choose_seen(fuse_job *job)
+{
+    rlf_map *map = job->map;
+    const int32_t budget = map->def.blocks_per_frame;
+    const int32_t turns = budget > 0 ? (map->seen_count + budget - 1) / budget : 1;
+    const int32_t turn = turns > 1 ? (int32_t)(map->frames % turns) : 0;
+    map->chosen_count = 0;
+    for (int32_t i = 0; i < map->seen_count; i++) {
+        const int32_t block = map->seen[i];
+        const bool is_new = (map->volume.flags[block] & MAP_IS_NEW) != 0;
+        if (is_new || turns <= 1 || block % turns == turn) {
+            map->chosen[map->chosen_count++] = block;
+        }
+    }
+}
+
+/* Whether some of a block may be in front of what its middle's pixel sees. */
+static bool is_seen_through(const fuse_job *job, int32_t block)
+{
+    const rlf_map *map = job->map;
+    const double side = map->def.voxel_m * MAP_SIDE;
+    const int16_t *at = map->volume.place[block];
+    const rlf_vec3 middle = {(at[0] + 0.5) * side, (at[1] + 0.5) * side, (at[2] + 0.5) * side};
+    const rlf_vec3 p =
+        rlf_mat3_mul_vec(&job->R_camera_world, rlf_sub(middle, job->T_world_camera.p));
+    const rlf_camera *c = &map->pinhole;
+    if (!(p.z > 0.1)) {
+        return false;
+    }
+    const double u = c->fx * p.x / p.z + c->cx + 0.5, v = c->fy * p.y / p.z + c->cy + 0.5;
+    if (!(u >= 0.0 && v >= 0.0 && u < c->width && v < c->height)) {
+        return false;
+    }
+    int32_t pixel = (int32_t)v * c->width + (int32_t)u;
+    pixel = map->source_of != NULL ? map->source_of[pixel] : pixel;
+    const double depth = pixel >= 0 ? map->clean[pixel] : 0.0;
+    return depth > p.z - side;
+}
+
+static void choose_carved(fuse_job *job)
+{
+    rlf_map *map = job->map;
+    const map_volume *v = &map->volume;
+    const int32_t budget =
+        map->def.blocks_per_frame > 0 ? map->def.blocks_per_frame / 4 + 1 : v->capacity;
+    const int32_t share = v->high / CARVE_FRAMES + 1;
+    int32_t cursor = map->carve_cursor < v->high ? map->carve_cursor : 0;
+    int32_t end = cursor + share < v->high ? cursor + share : v->high;
+    const int32_t most = map->chosen_count + budget;
+    for (; cursor < end && map->chosen_count < most; cursor++) {
+        if ((v->flags[cursor] & MAP_LIVE) && v->marked[cursor] != map->tick &&
+            is_seen_through(job, cursor)) {
+            map->chosen[map->chosen_count++] = cursor;
+        }
+    }
+    map->carve_cursor = cursor;
+}
+
+static void fuse_blocks(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    const fuse_job *job = context;
+    rlf_map *map = job->map;
+    const double voxel = map->def.voxel_m;
+    const rlf_mat3 *R = &job->R_camera_world;
+    (void)worker;
+    for (int32_t i = begin; i < end; i++) {
+        const int32_t block = map->chosen[i];
+        const int16_t *at = map->volume.place[block];
+        const double side = voxel * MAP_SIDE;
+        const rlf_vec3 corner = {at[0] * side, at[1] * side, at[2] * side};
+        const rlf_vec3 p = rlf_mat3_mul_vec(R, rlf_sub(corner, job->T_world_camera.p));
+        rlf_fuse_place place = {.origin = {(float)p.x, (float)p.y, (float)p.z}};
+        for (int32_t k = 0; k < 3; k++) {
+            for (int32_t r = 0; r < 3; r++) {
+                place.step[k][r] = (float)(R->m[r][k] * voxel);
+            }
+        }
+        rlf_kernel_fuse_block(&job->view, &place, map_block_at(&map->volume, block));
+        map_block_look(&map->volume, block);
+    }
+}
+
+/* Blocks that are nothing but free space, or of which nothing became known, are given back. */
+static void give_back_empty(fuse_job *job)
+{
+    rlf_map *map = job->map;
+    for (int32_t i = 0; i < map->chosen_count; i++) {
+        const int32_t block = map->chosen[i];
+        const uint8_t flags = map->volume.flags[block];
+        map->volume.flags[block] = flags & (uint8_t)~MAP_IS_NEW;
+        if ((flags & MAP_IS_EMPTY) != 0) {
+            job->change.blocks_carved += (flags & MAP_IS_NEW) != 0 ? 0 : 1;
+            map_volume_remove(&map->volume, block);
+        }
+    }
+}
+
+rlf_result rlf_map_integrate(rlf_map *map, const rlf_map_view *view, const rlf_pose *T_world_camera,
+                             rlf_map_change *out)
+{
+    if (!RLF_ASSERT(map != NULL && view != NULL && T_world_camera != NULL) ||
+        !RLF_ASSERT(view->depth != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    if (!map_pose_is_sound(T_world_camera)) {
+        return rlf_fail(RLF_ERROR_INVALID, "map: the camera's pose is not finite or its quaternion "
+                                           "is not of unit length: the frame is left out");
+    }
+    fuse_job job = {.map = map, .T_world_camera = *T_world_camera};
+    job.T_world_camera.q = rlf_quat_normalize(T_world_camera->q);
+    job.R_camera_world = rlf_quat_to_mat3(rlf_quat_conjugate(job.T_world_camera.q));
+    map->tick++;
+    map_view_prepare(map, view);
+    job.view = view_make(map, view);
+    mark_all(&job);
+    choose_seen(&job);
+    choose_carved(&job);
+    map_journal_expect(map, map->chosen_count);
+    for (int32_t i = 0; i < map->chosen_count; i++) {
+        map_journal_keep(map, map->chosen[i], false);
+    }
+    rlf_parallel_for(map->def.pool, map->chosen_count, GRAIN, fuse_blocks, &job);
+    give_back_empty(&job);
+    map->frames++;
+    job.change.blocks_seen = map->seen_count;
+    job.change.blocks_fused = map->chosen_count;
+    if (out != NULL) {
+        *out = job.change;
+    }
+    return RLF_OK;
+}

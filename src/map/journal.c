@@ -1,0 +1,123 @@
+/* What the blocks were at the last fence: each is copied when it is first touched after it. */
+#include "map/volume.h"
+
+#include <string.h>
+
+bool map_journal_create(map_journal *j, int32_t slot_capacity, int32_t block_capacity)
+{
+    j->epoch = 1;
+    j->slot_capacity = slot_capacity;
+    j->memo_capacity = slot_capacity + block_capacity;
+    j->memo = rlf_alloc_array((size_t)j->memo_capacity, sizeof(map_memo));
+    j->slabs.slab_capacity = (slot_capacity + MAP_SLAB - 1) / MAP_SLAB;
+    j->slabs.slab = rlf_alloc_array((size_t)j->slabs.slab_capacity, sizeof(map_block *));
+    return j->memo != NULL && j->slabs.slab != NULL;
+}
+
+void map_journal_destroy(map_journal *j)
+{
+    map_slabs_free(&j->slabs);
+    rlf_free(j->memo);
+    memset(j, 0, sizeof(*j));
+}
+
+static void begin_epoch(rlf_map *map)
+{
+    map->journal.epoch++;
+    map->journal.memo_count = 0;
+    map->journal.slot_count = 0;
+    map->journal.frames = map->frames;
+}
+
+void rlf_map_fence(rlf_map *map)
+{
+    if (!RLF_ASSERT(map != NULL)) {
+        return;
+    }
+    begin_epoch(map);
+    map->journal.has_moved = false;
+}
+
+void map_journal_expect(rlf_map *map, int32_t count)
+{
+    map_journal *j = &map->journal;
+    if (j->slot_count + count > j->slot_capacity && j->memo_count > 0) {
+        begin_epoch(map);
+        j->has_moved = true;
+    }
+}
+
+void map_journal_keep(rlf_map *map, int32_t block, bool is_new)
+{
+    map_journal *j = &map->journal;
+    if (map->volume.kept[block] == j->epoch) {
+        return;
+    }
+    bool is_full = j->memo_count == j->memo_capacity || j->slot_count == j->slot_capacity ||
+                   !map_slabs_reserve(&j->slabs, j->slot_count + 1);
+    if (is_full) {
+        begin_epoch(map);
+        j->has_moved = true;
+    }
+    map->volume.kept[block] = j->epoch;
+    map_memo *memo = &j->memo[j->memo_count];
+    memcpy(memo->place, map->volume.place[block], sizeof(memo->place));
+    memo->slot = -1;
+    if (!is_new && map_slabs_reserve(&j->slabs, j->slot_count + 1)) {
+        memo->slot = j->slot_count++;
+        *map_slabs_at(&j->slabs, memo->slot) = *map_block_at(&map->volume, block);
+    } else if (!is_new) {
+        return; /* no memory for a single slab: this block cannot be taken back */
+    }
+    j->memo_count++;
+}
+
+/* New blocks go first, so that there is room for those that come back. A block that left and came
+ * again is there twice: first as what it was, then as new. */
+static void restore(rlf_map *map)
+{
+    map_journal *j = &map->journal;
+    map_volume *v = &map->volume;
+    for (int32_t i = 0; i < j->memo_count; i++) {
+        const int16_t *p = j->memo[i].place;
+        int32_t block = j->memo[i].slot < 0 ? map_volume_find(v, p[0], p[1], p[2]) : -1;
+        if (block >= 0) {
+            map_volume_remove(v, block);
+        }
+    }
+    for (int32_t i = 0; i < j->memo_count; i++) {
+        const map_memo *memo = &j->memo[i];
+        const int16_t *p = memo->place;
+        if (memo->slot < 0) {
+            continue;
+        }
+        int32_t block = map_volume_find(v, p[0], p[1], p[2]);
+        if (block < 0) {
+            block = map_volume_add(v, p[0], p[1], p[2]);
+        }
+        if (block >= 0) {
+            *map_block_at(v, block) = *map_slabs_at(&j->slabs, memo->slot);
+            map_block_look(v, block);
+        }
+    }
+}
+
+bool rlf_map_take_back(rlf_map *map)
+{
+    if (!RLF_ASSERT(map != NULL)) {
+        return false;
+    }
+    map_journal *j = &map->journal;
+    const bool was_whole = !j->has_moved;
+    if (!was_whole) {
+        rlf_log(RLF_LOG_WARNING,
+                "map: more changed than can be taken back: only the last %d "
+                "frames are; fence more often",
+                (int)(map->frames - j->frames));
+    }
+    restore(map);
+    map->frames = j->frames;
+    begin_epoch(map);
+    j->has_moved = false;
+    return was_whole;
+}

@@ -1,0 +1,340 @@
+/* What a camera sees of the room: for each pixel the zero along its ray, found from the voxel that
+ * is drawn there. */
+#include "map/predict.h"
+
+#include <string.h>
+
+#define GRAIN 8 /* rows */
+
+/* One ray, in voxels: at + z way, z metres along the camera's axis. */
+typedef struct ray {
+    const map_volume *v;
+    float at[3], way[3], length; /* of way */
+    int32_t block_at[3], block;  /* the block looked at last */
+    bool has_grey;
+    float z0, d0; /* the last place in front of a surface; d0 < 0: there is none */
+} ray;
+
+static int32_t floored(float x)
+{
+    int32_t i = (int32_t)x;
+    return x < (float)i ? i - 1 : i;
+}
+
+/* The block with voxel (i, j, k), or -1. */
+static int32_t find_block(ray *r, const int32_t voxel[3])
+{
+    int32_t at[3];
+    for (int32_t k = 0; k < 3; k++) {
+        at[k] = (voxel[k] - (voxel[k] & 7)) / MAP_SIDE;
+    }
+    if (at[0] != r->block_at[0] || at[1] != r->block_at[1] || at[2] != r->block_at[2]) {
+        memcpy(r->block_at, at, sizeof(at));
+        r->block = map_volume_find(r->v, at[0], at[1], at[2]);
+    }
+    return r->block;
+}
+
+/* Depth at which the ray leaves the block looked at last. */
+static float leave(const ray *r)
+{
+    float least = 1e30f;
+    for (int32_t k = 0; k < 3; k++) {
+        if (r->way[k] * r->way[k] > 1e-6f) {
+            const float side = r->way[k] > 0.0f ? 7.5f : -0.5f;
+            const float z = ((float)(r->block_at[k] * MAP_SIDE) + side - r->at[k]) / r->way[k];
+            least = z < least ? z : least;
+        }
+    }
+    return least;
+}
+
+/* The corners of a cell, and what is read of them. */
+typedef struct corners {
+    float distance[8]; /* voxels */
+    int32_t block;     /* of the first */
+    int32_t voxel[3];  /* the first, in its block */
+    float in[3];       /* place in the cell, 0..1 */
+} corners;
+
+/* Of a cell that is whole in one block. */
+static bool read_inner(const map_block *b, int32_t first, float distance[8])
+{
+    enum { Y = MAP_SIDE, Z = MAP_SIDE * MAP_SIDE };
+    static const int32_t at[8] = {0, 1, Y, Y + 1, Z, Z + 1, Z + Y, Z + Y + 1};
+    const int16_t *d = &b->distance[first];
+    const uint8_t *w = &b->weight[first];
+    for (int32_t k = 0; k < 8; k++) {
+        distance[k] = (float)d[at[k]] * (1.0f / RLF_FUSE_STEPS);
+    }
+    return (w[0] != 0) & (w[1] != 0) & (w[Y] != 0) & (w[Y + 1] != 0) & (w[Z] != 0) &
+           (w[Z + 1] != 0) & (w[Z + Y] != 0) & (w[Z + Y + 1] != 0);
+}
+
+/* The cell about the ray's point at depth z. */
+static bool corners_at(ray *r, float z, corners *out)
+{
+    int32_t voxel[3];
+    for (int32_t k = 0; k < 3; k++) {
+        const float p = r->at[k] + z * r->way[k];
+        voxel[k] = floored(p);
+        out->in[k] = p - (float)voxel[k];
+        out->voxel[k] = voxel[k] & 7;
+    }
+    out->block = find_block(r, voxel);
+    if (out->block < 0) {
+        return false;
+    }
+    const int32_t i = out->voxel[0], j = out->voxel[1], k = out->voxel[2];
+    if ((i < 7) & (j < 7) & (k < 7)) {
+        return read_inner(map_block_at(r->v, out->block), (k * MAP_SIDE + j) * MAP_SIDE + i,
+                          out->distance);
+    }
+    map_cell cell;
+    const bool is_known = map_cell_read(r->v, out->block, i, j, k, &cell);
+    memcpy(out->distance, cell.distance, sizeof(out->distance));
+    return is_known;
+}
+
+/* What a ray met: normal in the world. */
+typedef struct hit {
+    float z, normal[3];
+    uint8_t grey;
+} hit;
+
+static uint8_t mean_grey(const ray *r, const corners *c)
+{
+    float sum = 0.0f, weights = 0.0f;
+    for (int32_t k = 0; k < 8; k++) {
+        const int32_t dx = k & 1, dy = k >> 1 & 1, dz = k >> 2;
+        const int32_t x = c->voxel[0] + dx, y = c->voxel[1] + dy, z = c->voxel[2] + dz;
+        const int32_t owner = r->v->after[c->block][(x >> 3) | (y >> 3) << 1 | (z >> 3) << 2];
+        const int32_t voxel = ((z & 7) * MAP_SIDE + (y & 7)) * MAP_SIDE + (x & 7);
+        const uint8_t grey = map_block_at(r->v, owner)->grey[voxel];
+        const float weight = (dx != 0 ? c->in[0] : 1.0f - c->in[0]) *
+                             (dy != 0 ? c->in[1] : 1.0f - c->in[1]) *
+                             (dz != 0 ? c->in[2] : 1.0f - c->in[2]);
+        sum += grey > 0 ? weight * (float)grey : 0.0f;
+        weights += grey > 0 ? weight : 0.0f;
+    }
+    return weights > 0.0f ? (uint8_t)(sum / weights + 0.5f) : 0;
+}
+
+/* Newton's method from `start`: where the ray meets the surface about there. Within an eighth of a
+ * voxel its next step is the last: the field is nearly flat. */
+static bool refine(ray *r, float start, hit *out)
+{
+    float z = start, g[3] = {0, 0, 0}, d = 1.0f;
+    corners c;
+    for (int32_t i = 0; i < 4 && (d > 0.125f || d < -0.125f); i++) {
+        if (!corners_at(r, z, &c)) {
+            return false;
+        }
+        d = map_cell_value(c.distance, c.in, g);
+        const float slope = g[0] * r->way[0] + g[1] * r->way[1] + g[2] * r->way[2];
+        if (!(slope < -0.05f * r->length)) {
+            return false;
+        }
+        z -= d / slope;
+    }
+    const float off = (z - start) * r->length, size2 = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+    if (!(d < 0.5f && d > -0.5f && off > -4.0f && off < 4.0f && size2 > 0.04f && z > 0.0f)) {
+        return false;
+    }
+    const float scale = 1.0f / sqrtf(size2);
+    out->z = z;
+    out->grey = r->has_grey ? mean_grey(r, &c) : 0;
+    for (int32_t k = 0; k < 3; k++) {
+        out->normal[k] = g[k] * scale;
+    }
+    return true;
+}
+
+/* Walks from z to far_z. */
+static bool cast(ray *r, float z, float far_z, hit *out)
+{
+    const float voxel = 1.0f / r->length; /* metres of depth */
+    r->d0 = -1.0f;
+    while (z < far_z) {
+        int32_t voxel_at[3];
+        for (int32_t k = 0; k < 3; k++) {
+            voxel_at[k] = floored(r->at[k] + z * r->way[k] + 0.5f);
+        }
+        const int32_t block = find_block(r, voxel_at);
+        if (block < 0) {
+            r->d0 = -1.0f;
+            const float next = leave(r);
+            z = (next > z ? next : z) + 0.01f * voxel;
+            continue;
+        }
+        const int32_t i =
+            ((voxel_at[2] & 7) * MAP_SIDE + (voxel_at[1] & 7)) * MAP_SIDE + (voxel_at[0] & 7);
+        const map_block *b = map_block_at(r->v, block);
+        const float d = (float)b->distance[i] * (1.0f / RLF_FUSE_STEPS);
+        if (b->weight[i] == 0) {
+            r->d0 = -1.0f;
+            z += voxel;
+        } else if (d > 0.0f) {
+            r->z0 = z;
+            r->d0 = d;
+            z += (d > 1.4f ? d - 0.9f : 0.5f) * voxel;
+        } else if (r->d0 > 0.0f) {
+            return refine(r, r->z0 + (z - r->z0) * (r->d0 / (r->d0 - d)), out);
+        } else if (d < -1.0f) {
+            return false; /* the back of something */
+        } else {
+            z += 0.5f * voxel;
+        }
+    }
+    return false;
+}
+
+static void ray_make(const map_caster *c, int32_t x, int32_t y, ray *out)
+{
+    const double scale = 1.0 / c->map->def.voxel_m;
+    const rlf_vec3 straight = {(x - c->camera.cx) / c->camera.fx, (y - c->camera.cy) / c->camera.fy,
+                               1.0};
+    const rlf_vec3 way = rlf_scale(rlf_mat3_mul_vec(&c->R_world_camera, straight), scale);
+    out->way[0] = (float)way.x;
+    out->way[1] = (float)way.y;
+    out->way[2] = (float)way.z;
+    out->at[0] = (float)(c->eye.x * scale);
+    out->at[1] = (float)(c->eye.y * scale);
+    out->at[2] = (float)(c->eye.z * scale);
+    out->length = (float)rlf_length(way);
+}
+
+static void put(const map_caster *c, int32_t i, const hit *h)
+{
+    const rlf_mat3 *R = &c->R_camera_world;
+    map_view_planes *out = c->out;
+    out->depth[i] = h->z;
+    out->grey[i] = h->grey;
+    for (int32_t k = 0; k < 3; k++) {
+        out->normal[k][i] = (float)R->m[k][0] * h->normal[0] + (float)R->m[k][1] * h->normal[1] +
+                            (float)R->m[k][2] * h->normal[2];
+    }
+}
+
+/* The plane of depth holds where the nearest voxel in front of a surface is: there the ray is
+ * looked at first. At outlines it passes by that surface, and goes on. */
+static void cast_pixel(const map_caster *c, int32_t x, int32_t y, ray *r)
+{
+    const hit none = {0};
+    const int32_t i = y * c->camera.width + x;
+    const float start = c->out->depth[i];
+    hit h = none;
+    if (start < MAP_NOTHING) {
+        const float far_z = c->out->tile_far[(y / MAP_TILE) * c->tile_columns + x / MAP_TILE];
+        ray_make(c, x, y, r);
+        if (!refine(r, start, &h) && !cast(r, start - 1.5f / r->length, far_z, &h)) {
+            h = none;
+        }
+    }
+    put(c, i, &h);
+}
+
+static void ray_begin(const map_caster *c, ray *r)
+{
+    memset(r, 0, sizeof(*r));
+    r->v = &c->map->volume;
+    r->block_at[0] = INT32_MAX;
+    r->block = -1;
+    r->has_grey = c->map->def.keep_color;
+}
+
+static void cast_rows(void *context, int32_t begin, int32_t end, int32_t worker)
+{
+    const map_caster *c = context;
+    ray r;
+    (void)worker;
+    ray_begin(c, &r);
+    for (int32_t y = begin; y < end; y++) {
+        for (int32_t x = 0; x < c->camera.width; x++) {
+            cast_pixel(c, x, y, &r);
+        }
+    }
+}
+
+static void finish(rlf_map *map, const rlf_camera *camera, const rlf_pose *T)
+{
+    map_view_planes *out = &map->out;
+    out->last = (rlf_prediction){
+        .camera = *camera,
+        .T_world_camera = *T,
+        .depth = out->depth,
+        .normal_x = out->normal[0],
+        .normal_y = out->normal[1],
+        .normal_z = out->normal[2],
+        .grey = map->def.keep_color ? out->grey : NULL,
+    };
+}
+
+rlf_result rlf_map_predict(rlf_map *map, const rlf_camera *camera, const rlf_pose *T_world_camera,
+                           rlf_prediction *out)
+{
+    if (!RLF_ASSERT(map != NULL && camera != NULL && T_world_camera != NULL && out != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    rlf_result result = rlf_camera_check(camera, "rlf_map_predict: camera");
+    if (result != RLF_OK) {
+        return result;
+    }
+    if (camera->width > map->pinhole.width || camera->height > map->pinhole.height) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "rlf_map_predict: camera: %d x %d is larger than the "
+                        "rig's %d x %d",
+                        (int)camera->width, (int)camera->height, (int)map->pinhole.width,
+                        (int)map->pinhole.height);
+    }
+    if (!map_pose_is_sound(T_world_camera)) {
+        return rlf_fail(RLF_ERROR_INVALID, "rlf_map_predict: the pose is not finite or its "
+                                           "quaternion is not of unit length");
+    }
+    map_caster c = {.map = map, .camera = *camera, .eye = T_world_camera->p, .out = &map->out};
+    c.camera.distortion_model = RLF_DISTORTION_NONE;
+    memset(c.camera.distortion, 0, sizeof(c.camera.distortion));
+    c.R_world_camera = rlf_quat_to_mat3(rlf_quat_normalize(T_world_camera->q));
+    c.R_camera_world = rlf_mat3_transpose(&c.R_world_camera);
+    map_splat(&c);
+    rlf_parallel_for(map->def.pool, camera->height, GRAIN, cast_rows, &c);
+    finish(map, &c.camera, T_world_camera);
+    *out = map->out.last;
+    return RLF_OK;
+}
+
+static void nearest_color(const ray *r, const corners *c, uint8_t rgba[4])
+{
+    int32_t at[3];
+    for (int32_t k = 0; k < 3; k++) {
+        at[k] = c->voxel[k] + (c->in[k] > 0.5f ? 1 : 0);
+    }
+    const int32_t side = (at[0] >> 3) | (at[1] >> 3) << 1 | (at[2] >> 3) << 2;
+    const int32_t voxel = ((at[2] & 7) * MAP_SIDE + (at[1] & 7)) * MAP_SIDE + (at[0] & 7);
+    map_voxel_color(map_block_at(r->v, r->v->after[c->block][side]), voxel, rgba);
+}
+
+const uint8_t *rlf_map_predict_color(rlf_map *map)
+{
+    if (!RLF_ASSERT(map != NULL) || !map->def.keep_color || map->out.last.depth == NULL) {
+        return NULL;
+    }
+    const rlf_prediction *p = &map->out.last;
+    map_caster c = {.map = map, .camera = p->camera, .eye = p->T_world_camera.p, .out = &map->out};
+    c.R_world_camera = rlf_quat_to_mat3(rlf_quat_normalize(p->T_world_camera.q));
+    ray r;
+    ray_begin(&c, &r);
+    for (int32_t y = 0; y < p->camera.height; y++) {
+        for (int32_t x = 0; x < p->camera.width; x++) {
+            const int32_t i = y * p->camera.width + x;
+            uint8_t *rgba = &map->out.rgba[4 * (ptrdiff_t)i];
+            corners at;
+            memset(rgba, 0, 4);
+            ray_make(&c, x, y, &r);
+            if (p->depth[i] > 0.0f && corners_at(&r, p->depth[i], &at)) {
+                nearest_color(&r, &at, rgba);
+            }
+        }
+    }
+    return map->out.rgba;
+}

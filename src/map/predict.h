@@ -1,0 +1,25 @@
+/* A view of the volume: voxels drawn as points say where each ray begins. */
+#ifndef RLF_MAP_PREDICT_H
+#define RLF_MAP_PREDICT_H
+
+#include "map/volume.h"
+
+#define MAP_TILE 8       /* pixels */
+#define MAP_NOTHING 1e9f /* depth, metres, where nothing is drawn */
+
+/* A camera that casts: world to voxels. */
+typedef struct map_caster {
+    const rlf_map *map;
+    rlf_camera camera;
+    rlf_mat3 R_world_camera, R_camera_world;
+    rlf_vec3 eye; /* world, metres */
+    map_view_planes *out;
+    int32_t tile_columns;
+} map_caster;
+
+/* Draws the blocks with a surface: farthest depth per tile, and per pixel the depth of the nearest
+ * voxel that is right in front of a surface (MAP_NOTHING where there is none) into the plane of
+ * depth. */
+void map_splat(map_caster *caster);
+
+#endif

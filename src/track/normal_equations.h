@@ -1,0 +1,36 @@
+/* Normal equations of a small motion that lays points on predicted surfaces. */
+#ifndef RLF_TRACK_NORMAL_EQUATIONS_H
+#define RLF_TRACK_NORMAL_EQUATIONS_H
+
+#include "track/points.h"
+
+/* Residuals over their expected deviation are counted in bins of 1 / TRACK_BINS_PER_SIGMA. */
+#define TRACK_BINS 128
+#define TRACK_BINS_PER_SIGMA 8
+
+/* Sums over points. Unknowns: rotation vector, then translation, in the prediction's frame. */
+typedef struct track_sums {
+    double a[21], b[6]; /* lower triangle by rows; right side */
+    double information; /* sum of the weights */
+    double squared;     /* of weighted residuals over their deviation */
+    double weight;      /* sum of the robust weights */
+    int32_t tried;      /* points of the frame that fall on a known part of the prediction, or
+                           into its picture where nothing is known */
+    int32_t matched;    /* points within the gate */
+    int32_t bins[TRACK_BINS];
+} track_sums;
+
+/* How points count. */
+typedef struct track_gate {
+    double metres; /* farther ones do not count */
+    double cut;    /* Tukey's limit, in expected deviations */
+} track_gate;
+
+/* Adds the points of row `row`, every `stride`-th column. T: the frame's camera to the
+ * prediction's. */
+void track_sums_add_row(track_sums *sums, const track_points *points, int32_t row, int32_t stride,
+                        const rlf_prediction *prediction, const rlf_pose *T, track_gate gate);
+/* sums += part. */
+void track_sums_add(track_sums *sums, const track_sums *part);
+
+#endif
