@@ -131,6 +131,7 @@ static bool align_level(row_job *job, const level *l, double least, track_sums *
             return false;
         }
         job->gate.cut = rlf_max(TUKEY * MEDIAN_TO_SIGMA * median_of(sums), 2.0);
+        job->gate.grey = sums->grey_weight > 0.0 ? sums->grey_residual / sums->grey_weight : 0.0;
         const double small = 1e-5; /* radians, metres */
         if (x[0] * x[0] + x[1] * x[1] + x[2] * x[2] < small * small &&
             x[3] * x[3] + x[4] * x[4] + x[5] * x[5] < small * small) {

@@ -3,8 +3,12 @@
 
 #include "kernel/kernel.h"
 
-#define MODEL_SIGMA 0.001 /* metres: of the prediction's surface */
-#define LEAST_COSINE 0.1  /* at lower angles depth says little about the distance to the plane */
+/* Metres per square metre of depth: errors that neighbours share, so that no mean takes them out. A
+ * sensor that measures disparity has them grow with the square. */
+#define SHARED_SIGMA 0.002
+#define LEAST_COSINE 0.1 /* at lower angles depth says little about the distance to the plane */
+#define GREY_SIGMA 5.0   /* levels: of a picture against the map's mean of many */
+#define GREY_CUT 6.0     /* Tukey's limit, in those */
 
 /* A rotation and a translation in single precision. */
 typedef struct motion {
@@ -33,6 +37,19 @@ typedef struct match {
     double deviation;  /* that is expected of it */
 } match;
 
+/* Adds the square of `residual` with its derivative, times w. */
+static void add_equation(track_sums *sums, const double j[6], double residual, double w)
+{
+    int32_t k = 0;
+    for (int r = 0; r < 6; r++) {
+        const double wj = w * j[r];
+        for (int c = 0; c <= r; c++) {
+            sums->a[k++] += wj * j[c];
+        }
+        sums->b[r] -= wj * residual;
+    }
+}
+
 static void add_match(track_sums *sums, const match *m, double cut)
 {
     const double u = m->residual / m->deviation;
@@ -53,17 +70,40 @@ static void add_match(track_sums *sums, const match *m, double cut)
                          n[0],
                          n[1],
                          n[2]};
-    int32_t k = 0;
-    for (int r = 0; r < 6; r++) {
-        const double wj = w * j[r];
-        for (int c = 0; c <= r; c++) {
-            sums->a[k++] += wj * j[c];
-        }
-        sums->b[r] -= wj * m->residual;
-    }
+    add_equation(sums, j, m->residual, w);
     sums->information += w;
     sums->squared += robust * u * u;
     sums->weight += robust;
+}
+
+/* Brightness: the prediction at the moved point, against the frame's (Kerl et al. 2013). It tells
+ * what planes cannot: how far the camera slid along them. du, dv: from the pixel's middle. */
+static void add_grey(track_sums *sums, const rlf_prediction *prediction, size_t at, float du,
+                     float dv, const double p[3], double frame_grey, double offset)
+{
+    const size_t width = (size_t)prediction->camera.width;
+    const uint8_t *g = &prediction->grey[at];
+    if (g[0] == 0 || *(g - 1) == 0 || g[1] == 0 || *(g - width) == 0 || g[width] == 0) {
+        return;
+    }
+    const double gu = 0.5 * (g[1] - *(g - 1)), gv = 0.5 * (g[width] - *(g - width));
+    const double r = g[0] + gu * (double)du + gv * (double)dv - frame_grey - offset;
+    const double u = r / (GREY_SIGMA * GREY_CUT);
+    if (!(u > -1.0 && u < 1.0)) {
+        return;
+    }
+    const double robust = (1.0 - u * u) * (1.0 - u * u);
+    const double a = gu * prediction->camera.fx / p[2], b = gv * prediction->camera.fy / p[2];
+    const double n[3] = {a, b, -(a * p[0] + b * p[1]) / p[2]};
+    const double j[6] = {p[1] * n[2] - p[2] * n[1],
+                         p[2] * n[0] - p[0] * n[2],
+                         p[0] * n[1] - p[1] * n[0],
+                         n[0],
+                         n[1],
+                         n[2]};
+    add_equation(sums, j, r, robust / (GREY_SIGMA * GREY_SIGMA));
+    sums->grey_residual += robust * (r + offset);
+    sums->grey_weight += robust;
 }
 
 void track_sums_add_row(track_sums *sums, const track_points *points, int32_t row, int32_t stride,
@@ -108,13 +148,20 @@ void track_sums_add_row(track_sums *sums, const track_points *points, int32_t ro
             continue;
         }
         /* Depth moves a point along its ray: so much of that is across the plane. */
+        const double shared = SHARED_SIGMA * (double)z * (double)z;
         const double across =
             (double)points->sigma[i] * (double)(nx * x + ny * y + nz * z) / (double)z;
         const match m = {{(double)x, (double)y, (double)z},
                          {(double)nx, (double)ny, (double)nz},
                          (double)residual,
-                         sqrt(across * across + MODEL_SIGMA * MODEL_SIGMA)};
+                         sqrt(across * across + shared * shared)};
         add_match(sums, &m, gate.cut);
+        const int32_t ui = (int32_t)u, vi = (int32_t)v;
+        if (prediction->grey != NULL && points->grey[i] != 0 && ui > 0 && vi > 0 &&
+            ui + 1 < c->width && vi + 1 < c->height) {
+            add_grey(sums, prediction, at, u - (float)ui - 0.5f, v - (float)vi - 0.5f, m.p,
+                     points->grey[i], gate.grey);
+        }
     }
 }
 
@@ -129,6 +176,8 @@ void track_sums_add(track_sums *sums, const track_sums *part)
     sums->information += part->information;
     sums->squared += part->squared;
     sums->weight += part->weight;
+    sums->grey_residual += part->grey_residual;
+    sums->grey_weight += part->grey_weight;
     sums->tried += part->tried;
     sums->matched += part->matched;
     for (int i = 0; i < TRACK_BINS; i++) {

@@ -18,12 +18,14 @@ typedef struct track_sums {
                            into its picture where nothing is known */
     int32_t matched;    /* points within the gate */
     int32_t bins[TRACK_BINS];
+    double grey_residual, grey_weight; /* sums: the pictures' mean difference, levels */
 } track_sums;
 
 /* How points count. */
 typedef struct track_gate {
     double metres; /* farther ones do not count */
     double cut;    /* Tukey's limit, in expected deviations */
+    double grey;   /* levels by which the prediction is brighter than the frame */
 } track_gate;
 
 /* Adds the points of row `row`, every `stride`-th column. T: the frame's camera to the
