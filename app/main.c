@@ -20,6 +20,7 @@ static const subcommand subcommands[] = {
     {"fuse", fuse_main, "fuse the frames of a moving camera into a mesh and a map of the room"},
     {"info", info_main, "tell what a source is"},
     {"sources", sources_main, "list the kinds of source that this build can open"},
+    {"calibrate", calibrate_main, "lenses and poses of the cameras, from pictures of a chessboard"},
     {"settings", settings_main, "list the settings of the surface stage, for --set"},
     {"eval", eval_main, "measure accuracy where the truth is known, against goals and bounds"},
     {"measure", measure_main, "missing points and wrong normals: table 5.1 of the thesis"},
@@ -32,7 +33,7 @@ static void print_help(FILE *file)
     fprintf(file, "Relief lets virtual things touch the real world that a depth camera sees.\n\n"
                   "usage: relief COMMAND [OPTIONS]\n\ncommands:\n");
     for (int i = 0; i < SUBCOMMAND_COUNT; i++) {
-        fprintf(file, "  %-8s %s\n", subcommands[i].name, subcommands[i].summary);
+        fprintf(file, "  %-9s %s\n", subcommands[i].name, subcommands[i].summary);
     }
     fprintf(file,
             "\nexamples:\n"
