@@ -40,6 +40,21 @@ typedef enum rlf_synthetic_push {
     RLF_SYNTHETIC_PUSH_CARRY = 3  /* "tray", as the plate, moves along a circle of 0.25 m radius */
 } rlf_synthetic_push;
 
+/* How the camera moves. Every path begins at rest, is smooth and the same for every seed; nothing
+ * is blurred. The pictures are cast anew for every frame, which costs tenths of a second; colour is
+ * lit without shadows. rlf_frame.T_world_camera is the true pose, the world is the first camera's
+ * frame, and all truth is in the frame of the camera as it stands at that frame. Rooms but thesis
+ * and random get walls and things to the sides and behind. */
+typedef enum rlf_synthetic_path {
+    RLF_SYNTHETIC_PATH_NONE = 0,
+    RLF_SYNTHETIC_PATH_ORBIT = 1,     /* about a point 2 m ahead, 29 degrees to both sides */
+    RLF_SYNTHETIC_PATH_WALK = 2,      /* 1 m forward and back, with the bob of steps */
+    RLF_SYNTHETIC_PATH_HANDHELD = 3,  /* sways by 0.2 m and 7 degrees, up to 6 mm a frame */
+    RLF_SYNTHETIC_PATH_LOOK_AWAY = 4, /* as handheld; turns by 100 degrees for 1 s at t = 2 s + 8 n
+                                         and back */
+    RLF_SYNTHETIC_PATH_FAST = 5       /* shaken: up to 1.3 m/s, 100 degrees a second */
+} rlf_synthetic_path;
+
 /* Values of rlf_truth.label. The first four are the room's shell: endlessly thick, thickness 0. */
 typedef enum rlf_synthetic_label {
     RLF_SYNTHETIC_LABEL_WALL = 1,
@@ -73,6 +88,7 @@ typedef struct rlf_synthetic_def {
     int64_t frame_count;       /* default 300 (10 s); -1 = endless */
     double speed;              /* of the tray or board, m/s, above 0, at most 10; default 0.5 */
     rlf_synthetic_push push;   /* of a random room only; default none */
+    rlf_synthetic_path path;   /* of the camera; not with push; default none */
     rlf_vec3 lamp;             /* a wide lamp's middle, metres, camera frame, at most 20 m away;
                                   default (-0.7, -1.85, 1.5): under the ceiling, left */
     bool enable_noise;         /* default true: axial noise, dropout, flying pixels, edge filter */
@@ -96,8 +112,9 @@ RLF_API rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source
 /* Reads "synthetic:NAME[?key=value[&key=value...]]" into *def: NAME one of room, empty, thesis,
  * chair, book, hand, lift, swipe, carry, crossing, random; keys seed, person, frames, fps, speed,
  * lamp (X,Y,Z), noise (0|1|steps), edge_filter (0|1), color (WxH or 0), push
- * (none|lift|swipe|carry). A random room draws its sensor and its lamp itself: of noise only 0 has
- * an effect there. RLF_ERROR_INVALID names the part that is wrong and what is allowed. */
+ * (none|lift|swipe|carry), path (none|orbit|walk|handheld|look_away|fast). A random room draws its
+ * sensor and its lamp itself: of noise only 0 has an effect there. RLF_ERROR_INVALID names the part
+ * that is wrong and what is allowed. */
 RLF_API rlf_result rlf_synthetic_parse(const char *source, rlf_synthetic_def *def);
 
 /* True surface point nearest along the true scene at this instant of a source made by
@@ -116,8 +133,9 @@ RLF_API rlf_result rlf_synthetic_cast(rlf_source *source, rlf_vec3 origin,
                                       const rlf_vec3 *directions, int32_t count,
                                       float *out_distance, int32_t *out_label);
 
-/* Unit vector towards the floor, camera frame: (0, 1, 0) but in random rooms, whose cameras are
- * tilted. RLF_ERROR_INVALID when the source is not a synthetic one. */
+/* Unit vector towards the floor, frame of the camera as it stands now: (0, 1, 0) but in random
+ * rooms, whose cameras are tilted, and on a path. RLF_ERROR_INVALID when the source is not a
+ * synthetic one. */
 RLF_API rlf_result rlf_synthetic_get_down(const rlf_source *source, rlf_vec3 *out);
 
 /* What rlf_synthetic_nearest found. */

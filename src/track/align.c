@@ -7,6 +7,9 @@
 #define TUKEY 4.685
 #define MEDIAN_TO_SIGMA 1.4826
 #define LEAST_POINTS 200 /* at the finest level */
+/* Share of the whole information: a hundredth of the least that a direction must have, so that it
+ * costs the determined ones one hundredth of a step. */
+#define DAMPING 1e-4
 
 /* Every so many points, and so many rounds. */
 typedef struct level {
@@ -82,7 +85,10 @@ static void solve(const track_sums *sums, double least, double x[6])
         for (int c = 0; c <= r; c++) {
             a[r][c] = a[c][r] = sums->a[k++];
         }
-        a[r][r] *= 1.0 + 1e-9;
+    }
+    const double turning = a[0][0] + a[1][1] + a[2][2];
+    for (int i = 0; i < 6; i++) { /* Levenberg: a way without information is not gone */
+        a[i][i] += DAMPING * (i < 3 ? turning : sums->information);
     }
     math_solve_six(a, sums->b, x);
     const track_constraint constraint = track_constraint_of(sums);

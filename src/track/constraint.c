@@ -18,6 +18,10 @@ track_constraint track_constraint_of(const track_sums *sums)
             turn.m[r][c] = entry(sums, r, c);
         }
     }
+    const double turning = turn.m[0][0] + turn.m[1][1] + turn.m[2][2];
+    for (int i = 0; i < 3; i++) { /* a turn that nothing tells, as a wall's about its normal */
+        turn.m[i][i] += 1e-6 * turning;
+    }
     if (!(sums->information > 0.0) || !rlf_mat3_invert(&turn, &inverse)) {
         return out;
     }

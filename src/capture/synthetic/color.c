@@ -269,7 +269,9 @@ void synth_color_render(synth_color *color, int32_t room_index)
         color->dirty = (synth_rect){0, 0, camera->width, camera->height};
     }
     synth_canvas_place(&color->canvas, color->scene);
-    synth_shadow_place(&color->shadow, color->scene, &color->view);
+    if (!color->scene->is_moving) {
+        synth_shadow_place(&color->shadow, color->scene, &color->view);
+    }
     rlf_parallel_for(color->pool, camera->height, ROWS_PER_CHUNK, draw_rows, color);
     rlf_parallel_for(color->pool, camera->height, ROWS_PER_CHUNK, blend_rows, color);
     color->dirty =

@@ -31,6 +31,8 @@ typedef struct synth_color {
 
 /* `color` is zeroed, with view and pool set. Casts and lights the room. */
 rlf_result synth_color_create(synth_color *color, const synth_scene *scene);
+/* Casts that state of the room anew, for a camera that has moved. */
+void synth_color_cast_room(synth_color *color, int32_t state);
 void synth_color_destroy(synth_color *color);
 
 /* Paints the scene as it stands now; room_index says which state of the room. */

@@ -2,6 +2,8 @@
 #include "capture/synthetic/color.h"
 #include "capture/synthetic/light.h"
 
+#include <string.h>
+
 typedef struct job {
     synth_color *color;
     const synth_scene *scene;
@@ -25,6 +27,9 @@ typedef struct lit {
 
 static lit light_at(const job *j, const synth_site *site)
 {
+    if (j->scene->is_moving) { /* shadows cost a second a frame */
+        return (lit){synth_light(j->scene->lamp, j->scene->down, site, 1.0, 1.0), 0.0};
+    }
     double lamp = synth_lamp_share(j->scene, j->static_count, site);
     double sky = synth_sky_share(j->scene, j->static_count, site);
     lit result = {synth_light(j->scene->lamp, j->scene->down, site, lamp, sky), 0.0};
@@ -160,6 +165,27 @@ static void cast_tiles(void *context, int32_t begin, int32_t end, int32_t worker
     }
 }
 
+static void cast_room(synth_color *color, const synth_scene *scene, int32_t state)
+{
+    job j = {color, scene, &color->room[state],
+             scene->static_count - (state == 1 ? scene->removed_count : 0)};
+    const int32_t tile_rows = (color->view.camera.height + SYNTH_TILE - 1) / SYNTH_TILE;
+    rlf_parallel_for(color->pool, tile_rows, 1, cast_tiles, &j);
+}
+
+void synth_color_cast_room(synth_color *color, int32_t state)
+{
+    const rlf_camera *camera = &color->view.camera;
+    const size_t pixels = (size_t)camera->width * (size_t)camera->height;
+    synth_color_planes *planes = &color->room[state];
+    memset(planes->rgba, 0, 4 * pixels);
+    memset(planes->front, 0, 4 * pixels);
+    memset(planes->z, 0, pixels * sizeof(float));
+    memset(planes->lamp, 0, pixels);
+    cast_room(color, color->scene, state);
+    color->room_index = -1; /* nothing of the last frame holds */
+}
+
 static rlf_result create_room(synth_color *color, const synth_scene *scene, int32_t state)
 {
     const rlf_camera *camera = &color->view.camera;
@@ -173,9 +199,7 @@ static rlf_result create_room(synth_color *color, const synth_scene *scene, int3
         planes->lamp == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    job j = {color, scene, planes, scene->static_count - (state == 1 ? scene->removed_count : 0)};
-    int32_t tile_rows = (camera->height + SYNTH_TILE - 1) / SYNTH_TILE;
-    rlf_parallel_for(color->pool, tile_rows, 1, cast_tiles, &j);
+    cast_room(color, scene, state);
     return RLF_OK;
 }
 

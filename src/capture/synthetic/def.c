@@ -10,11 +10,30 @@
 
 static const char *const scene_names[] = {"room", "empty", "thesis", "chair",    "book",  "hand",
                                           "lift", "swipe", "carry",  "crossing", "random"};
+static const char *const path_names[] = {"none", "orbit", "walk", "handheld", "look_away", "fast"};
+#define PATH_COUNT ((int)(sizeof(path_names) / sizeof(path_names[0])))
 #define SCENE_COUNT ((int)(sizeof(scene_names) / sizeof(scene_names[0])))
 
 const char *synth_scene_name(rlf_synthetic_scene scene)
 {
     return (int)scene >= 0 && (int)scene < SCENE_COUNT ? scene_names[scene] : NULL;
+}
+
+const char *synth_path_name(rlf_synthetic_path path)
+{
+    return (int)path >= 0 && (int)path < PATH_COUNT ? path_names[path] : NULL;
+}
+
+static rlf_result check_path(const rlf_synthetic_def *def)
+{
+    if (synth_path_name(def->path) == NULL) {
+        return rlf_fail(RLF_ERROR_INVALID, "synthetic: path is %d; use an rlf_synthetic_path",
+                        (int)def->path);
+    }
+    if (def->path != RLF_SYNTHETIC_PATH_NONE && def->push != RLF_SYNTHETIC_PUSH_NONE) {
+        return rlf_fail(RLF_ERROR_INVALID, "synthetic: path and push do not go together");
+    }
+    return RLF_OK;
 }
 
 rlf_synthetic_def rlf_synthetic_def_default(void)
@@ -73,5 +92,5 @@ rlf_result synth_def_check(const rlf_synthetic_def *def)
     if (def->push != RLF_SYNTHETIC_PUSH_NONE && def->scene != RLF_SYNTHETIC_RANDOM) {
         return rlf_fail(RLF_ERROR_INVALID, "synthetic: push is for scene random only");
     }
-    return RLF_OK;
+    return check_path(def);
 }

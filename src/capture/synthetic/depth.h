@@ -45,6 +45,8 @@ static inline bool synth_depth_is_stereo(const synth_depth *depth)
 
 /* `depth` is zeroed, with view, noise and pool set. Casts the room. */
 rlf_result synth_depth_create(synth_depth *depth, const synth_scene *scene, bool enable_truth);
+/* Casts that state of the room anew, for a camera that has moved. */
+void synth_depth_cast_room(synth_depth *depth, int32_t state);
 void synth_depth_destroy(synth_depth *depth);
 
 /* Makes the frame of the scene as it stands now; room_index says which state of the room. */

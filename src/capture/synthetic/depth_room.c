@@ -2,6 +2,8 @@
 #include "capture/synthetic/depth.h"
 #include "capture/synthetic/material.h"
 
+#include <string.h>
+
 #define PIXELS ((size_t)SYNTH_DEPTH_WIDTH * SYNTH_DEPTH_HEIGHT)
 
 /* One state of the room being cast. */
@@ -138,6 +140,38 @@ static rlf_result create_frame(synth_depth *depth, bool enable_truth)
     return result == RLF_OK ? create_planes(&depth->now, enable_truth) : result;
 }
 
+static void cast_room(synth_depth *depth, int32_t state)
+{
+    const synth_scene *scene = depth->scene;
+    job j = {depth, scene, &depth->room[state],
+             scene->static_count - (state == 1 ? scene->removed_count : 0)};
+    const int32_t tile_rows = (SYNTH_DEPTH_HEIGHT + SYNTH_TILE - 1) / SYNTH_TILE;
+    rlf_parallel_for(depth->pool, tile_rows, 1, cast_tiles, &j);
+    find_jumps(&depth->room[state]);
+}
+
+static void clear_planes(synth_depth_planes *planes)
+{
+    memset(planes->z, 0, PIXELS * sizeof(float));
+    memset(planes->sigma, 0, PIXELS * sizeof(float));
+    memset(planes->margin, 0, PIXELS * sizeof(float));
+    if (planes->label == NULL) {
+        return;
+    }
+    memset(planes->thickness, 0, PIXELS * sizeof(float));
+    memset(planes->label, 0, PIXELS * sizeof(int32_t));
+    for (int k = 0; k < 3; k++) {
+        memset(planes->normal[k], 0, PIXELS * sizeof(float));
+    }
+}
+
+void synth_depth_cast_room(synth_depth *depth, int32_t state)
+{
+    clear_planes(&depth->room[state]);
+    cast_room(depth, state);
+    depth->room_index = depth->truth_room_index = -1; /* nothing of the last frame holds */
+}
+
 rlf_result synth_depth_create(synth_depth *depth, const synth_scene *scene, bool enable_truth)
 {
     depth->scene = scene;
@@ -147,11 +181,7 @@ rlf_result synth_depth_create(synth_depth *depth, const synth_scene *scene, bool
     for (int32_t k = 0; k < states && result == RLF_OK; k++) {
         result = create_planes(&depth->room[k], enable_truth);
         if (result == RLF_OK) {
-            job j = {depth, scene, &depth->room[k],
-                     scene->static_count - (k == 1 ? scene->removed_count : 0)};
-            int32_t tile_rows = (SYNTH_DEPTH_HEIGHT + SYNTH_TILE - 1) / SYNTH_TILE;
-            rlf_parallel_for(depth->pool, tile_rows, 1, cast_tiles, &j);
-            find_jumps(&depth->room[k]);
+            cast_room(depth, k);
         }
     }
     return result;

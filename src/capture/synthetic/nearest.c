@@ -60,7 +60,7 @@ rlf_result rlf_synthetic_nearest(rlf_source *source, double time_s, rlf_vec3 p,
     }
     if (time_s != sensor->asked_time) {
         sensor->asked_time = time_s;
-        synth_scene_move(&sensor->asked, time_s);
+        synth_sensor_see(sensor, time_s, &sensor->asked);
     }
     find(&sensor->asked, time_s, p, out);
     return RLF_OK;

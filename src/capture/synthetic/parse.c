@@ -5,7 +5,7 @@
 
 #define PREFIX "synthetic:"
 #define SCENES "room, empty, thesis, chair, book, hand, lift, swipe, carry, crossing, random"
-#define KEYS "seed, person, frames, fps, speed, lamp, noise, edge_filter, color, push"
+#define KEYS "seed, person, frames, fps, speed, lamp, noise, edge_filter, color, push, path"
 
 /* A piece of the source string. */
 typedef struct piece {
@@ -136,6 +136,18 @@ static bool read_push(piece p, rlf_synthetic_push *out)
     return i < 4;
 }
 
+static bool read_path(piece p, rlf_synthetic_path *out)
+{
+    int i = 0;
+    while (synth_path_name((rlf_synthetic_path)i) != NULL &&
+           !is_word(p, synth_path_name((rlf_synthetic_path)i))) {
+        i++;
+    }
+    const bool is_name = synth_path_name((rlf_synthetic_path)i) != NULL;
+    *out = (rlf_synthetic_path)(is_name ? i : 0);
+    return is_name;
+}
+
 /* What a key's value must be, in words; NULL when no such key exists. `is_good` says whether it is,
  * and then it has been set in *def. */
 static const char *set_value(piece key, piece value, rlf_synthetic_def *def, bool *is_good)
@@ -180,6 +192,10 @@ static const char *set_value(piece key, piece value, rlf_synthetic_def *def, boo
     if (is_word(key, "push")) {
         *is_good = read_push(value, &def->push);
         return "none, lift, swipe or carry";
+    }
+    if (is_word(key, "path")) {
+        *is_good = read_path(value, &def->path);
+        return "none, orbit, walk, handheld, look_away or fast";
     }
     if (is_word(key, "color")) {
         *is_good = read_size(value, def);

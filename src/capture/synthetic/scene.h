@@ -58,7 +58,8 @@ typedef struct synth_scene {
     int32_t removed_count;             /* so many of the last statics go at removal_time */
     synth_part movers[SYNTH_PART_MAX];
     int32_t mover_count;
-    synth_figure person, second;       /* the second is in scene "crossing" */
+    synth_figure person, second; /* the second is in scene "crossing" */
+    bool is_moving; /* the camera moves: the room is lit without shadows, cast for every frame */
     const struct synth_random *random; /* borrowed: a room drawn at random; NULL in the others */
 } synth_scene;
 

@@ -95,6 +95,33 @@ static void fill_truth(synth_sensor *sensor)
     }
 }
 
+void synth_sensor_see(synth_sensor *sensor, double t, synth_scene *scene)
+{
+    if (sensor->path.kind == RLF_SYNTHETIC_PATH_NONE) {
+        synth_scene_move(scene, t);
+        return;
+    }
+    const rlf_pose pose = synth_path_pose(&sensor->path, t);
+    synth_scene_move(&sensor->rest, t);
+    synth_path_see(&sensor->rest, &pose, scene);
+}
+
+/* The scene at a frame's time, and what of the pictures a camera that moves must cast anew. */
+static void move_to(synth_sensor *sensor, double t)
+{
+    sensor->time = t;
+    synth_sensor_see(sensor, t, &sensor->scene);
+    const synth_scene *scene = &sensor->scene;
+    const int32_t state = synth_scene_static_count(scene, t) < scene->static_count ? 1 : 0;
+    if (scene->is_moving) {
+        sensor->T_world_camera = synth_path_pose(&sensor->path, t);
+        synth_depth_cast_room(&sensor->depth, state);
+        if (sensor->def.enable_color) {
+            synth_color_cast_room(&sensor->color, state);
+        }
+    }
+}
+
 static rlf_result sensor_next(void *self, rlf_frame *out)
 {
     synth_sensor *sensor = self;
@@ -103,9 +130,8 @@ static rlf_result sensor_next(void *self, rlf_frame *out)
         return RLF_END;
     }
     int64_t frame = sensor->next_frame++;
-    sensor->time = (double)frame / def->frames_per_second;
+    move_to(sensor, (double)frame / def->frames_per_second);
     sensor->has_frame = true;
-    synth_scene_move(&sensor->scene, sensor->time);
     bool is_removed =
         synth_scene_static_count(&sensor->scene, sensor->time) < sensor->scene.static_count;
     synth_depth_render(&sensor->depth, (uint32_t)frame, is_removed ? 1 : 0);
@@ -121,6 +147,8 @@ static rlf_result sensor_next(void *self, rlf_frame *out)
     out->depth_u16 = sensor->depth.out;
     out->depth_stride = SYNTH_DEPTH_WIDTH * (ptrdiff_t)sizeof(uint16_t);
     out->depth_units_per_metre = 1000.0;
+    out->has_pose = sensor->scene.is_moving;
+    out->T_world_camera = sensor->T_world_camera;
     return RLF_OK;
 }
 
@@ -130,7 +158,7 @@ static rlf_result sensor_restart(void *self)
     sensor->next_frame = 0;
     sensor->time = 0.0;
     sensor->has_frame = false;
-    synth_scene_move(&sensor->scene, 0.0);
+    synth_sensor_see(sensor, 0.0, &sensor->scene);
     return RLF_OK;
 }
 
@@ -169,6 +197,15 @@ static void build_scene(synth_sensor *sensor)
         synth_scene_set_people(&sensor->scene, def->person);
         sensor->scene.speed = def->speed;
         sensor->scene.lamp = def->lamp;
+    }
+    sensor->T_world_camera = rlf_pose_identity();
+    if (def->path != RLF_SYNTHETIC_PATH_NONE) {
+        if (def->scene != RLF_SYNTHETIC_RANDOM && def->scene != RLF_SYNTHETIC_THESIS) {
+            synth_path_close_room(&sensor->scene);
+        }
+        sensor->scene.is_moving = true;
+        sensor->rest = sensor->scene;
+        synth_path_make(&sensor->path, def->path, &sensor->rest);
     }
     sensor->asked = sensor->scene;
 }

@@ -4,11 +4,15 @@
 
 #include "capture/synthetic/color.h"
 #include "capture/synthetic/depth.h"
+#include "capture/synthetic/path.h"
 #include "capture/synthetic/random/random.h"
 
 typedef struct synth_sensor {
     rlf_synthetic_def def;
-    synth_scene scene;
+    synth_scene scene; /* in the frame of the camera as it stands now */
+    synth_scene rest;  /* in the first camera's frame, when the camera moves */
+    synth_path path;   /* likewise */
+    rlf_pose T_world_camera;
     synth_random random; /* the scene's, if it is a random one */
     synth_depth depth;
     synth_color color;
@@ -21,12 +25,18 @@ typedef struct synth_sensor {
     rlf_truth_pose poses[SYNTH_PART_MAX + SYNTH_THING_MAX];
 } synth_sensor;
 
+/* *scene = the true scene at time t in the frame of the camera at t. */
+void synth_sensor_see(synth_sensor *sensor, double t, synth_scene *scene);
+
 #define SYNTH_FRAME_COUNT_MAX 4294967295 /* the noise is keyed by a 32-bit frame number */
 
 /* Whether the settings can be used; an error line when not. */
 rlf_result synth_def_check(const rlf_synthetic_def *def);
 /* Name of a scene as in "synthetic:NAME"; NULL outside the range. */
 const char *synth_scene_name(rlf_synthetic_scene scene);
+
+/* Name of a path as in path=NAME; NULL outside the range. */
+const char *synth_path_name(rlf_synthetic_path path);
 
 /* The sensor behind a source; NULL when the source is another kind. */
 synth_sensor *synth_sensor_of(const rlf_source *source);

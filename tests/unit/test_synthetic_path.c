@@ -1,0 +1,128 @@
+/* A synthetic camera that moves: its poses and its pictures tell the same story. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "relief/synthetic.h"
+
+#include <string.h>
+
+#define WIDTH 512
+#define HEIGHT 424
+
+static rlf_source *open_source(const char *text)
+{
+    rlf_synthetic_def def = rlf_synthetic_def_default();
+    rlf_source *source = NULL;
+    assert_int_equal(rlf_synthetic_parse(text, &def), RLF_OK);
+    assert_int_equal(rlf_synthetic_create(&def, &source), RLF_OK);
+    return source;
+}
+
+static rlf_frame next_of(rlf_source *source)
+{
+    rlf_frame frame;
+    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    assert_true(frame.has_pose);
+    return frame;
+}
+
+/* Points of the room that a frame's true depth shows, put into the world, lie on the room's
+ * surfaces as they stand in the next frame. */
+static void check_pair(rlf_source *source)
+{
+    enum { STEP = 37, MOST = WIDTH * HEIGHT / STEP + 1 };
+    static rlf_vec3 world[MOST];
+    int32_t count = 0;
+    rlf_frame frame = next_of(source);
+    const rlf_truth *truth = rlf_source_get_truth(source);
+    const rlf_camera *c = &frame.rig->depth;
+    for (int32_t i = 0; i < WIDTH * HEIGHT; i += STEP) {
+        if (truth->depth[i] > 0.0f && truth->foreground[i] == 0) {
+            const double z = (double)truth->depth[i];
+            const rlf_vec3 p = {(i % WIDTH - c->cx) / c->fx * z, (i / WIDTH - c->cy) / c->fy * z,
+                                z};
+            world[count++] = rlf_transform(&frame.T_world_camera, p);
+        }
+    }
+    assert_true(count > 4000);
+    frame = next_of(source);
+    for (int32_t i = 0; i < count; i++) {
+        const rlf_vec3 p = rlf_transform_inverse(&frame.T_world_camera, world[i]);
+        double distance;
+        assert_int_equal(rlf_synthetic_distance(source, p, &distance, NULL, NULL), RLF_OK);
+        assert_true(distance < 2e-4); /* a person may stand there by now: then it is less */
+    }
+}
+
+static void test_pictures_agree_with_poses(void **state)
+{
+    static const char *const sources[] = {"synthetic:empty?path=handheld&color=0&noise=0&fps=2",
+                                          "synthetic:room?path=look_away&color=0&noise=0&fps=0.5",
+                                          "synthetic:random?path=walk&color=0&seed=3&fps=1"};
+    (void)state;
+    for (size_t i = 0; i < sizeof(sources) / sizeof(sources[0]); i++) {
+        rlf_source *source = open_source(sources[i]);
+        check_pair(source);
+        check_pair(source);
+        rlf_source_destroy(&source);
+    }
+}
+
+/* Every path begins where a camera at rest is, and is smooth: no more than the paths promise. */
+static void test_paths_begin_at_rest(void **state)
+{
+    static const char *const names[] = {"orbit", "walk", "handheld", "look_away", "fast"};
+    (void)state;
+    for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++) {
+        char text[80] = "synthetic:empty?color=0&fps=30&frames=6&path=";
+        strncat(text, names[i], sizeof(text) - strlen(text) - 1);
+        rlf_source *source = open_source(text);
+        rlf_pose last = next_of(source).T_world_camera;
+        assert_true(rlf_length(last.p) == 0.0 && last.q.w == 1.0);
+        for (int k = 1; k < 6; k++) {
+            const rlf_pose pose = next_of(source).T_world_camera;
+            assert_true(rlf_length(rlf_sub(pose.p, last.p)) < 0.06);
+            assert_true(rlf_vec3_is_finite(pose.p));
+            last = pose;
+        }
+        rlf_source_destroy(&source);
+    }
+}
+
+static void test_a_restart_gives_the_same_bits(void **state)
+{
+    static uint16_t first[WIDTH * HEIGHT];
+    (void)state;
+    rlf_source *source = open_source("synthetic:room?path=fast&color=64x36&fps=2");
+    (void)next_of(source);
+    memcpy(first, next_of(source).depth_u16, sizeof(first));
+    assert_int_equal(rlf_source_restart(source), RLF_OK);
+    (void)next_of(source);
+    assert_memory_equal(next_of(source).depth_u16, first, sizeof(first));
+    rlf_source_destroy(&source);
+}
+
+static void test_hostile_settings(void **state)
+{
+    rlf_synthetic_def def = rlf_synthetic_def_default();
+    (void)state;
+    assert_int_equal(rlf_synthetic_parse("synthetic:room?path=sideways", &def), RLF_ERROR_INVALID);
+    assert_int_equal(rlf_synthetic_parse("synthetic:random?path=walk&push=lift", &def), RLF_OK);
+    rlf_source *source = NULL;
+    assert_int_equal(rlf_synthetic_create(&def, &source), RLF_ERROR_INVALID);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_pictures_agree_with_poses),
+        cmocka_unit_test(test_paths_begin_at_rest),
+        cmocka_unit_test(test_a_restart_gives_the_same_bits),
+        cmocka_unit_test(test_hostile_settings),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

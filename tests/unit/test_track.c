@@ -1,0 +1,238 @@
+/* The tracker against rooms of planes, of which everything is known. */
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "relief/track.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { WIDTH = 256, HEIGHT = 212, PIXELS = WIDTH * HEIGHT };
+
+/* n . p = d in the world; the normal towards the camera. */
+typedef struct plane {
+    rlf_vec3 n;
+    double d;
+} plane;
+
+/* A wall ahead, a wall to the right and a floor. */
+static const plane corner[] = {{{0, 0, -1}, -3.0}, {{-0.8, 0, -0.6}, -2.2}, {{0, -1, 0}, -1.0}};
+
+typedef struct fixture {
+    rlf_rig rig;
+    float depth[PIXELS], seen[PIXELS], normal[3][PIXELS];
+    uint8_t is_static[PIXELS];
+    rlf_prediction prediction;
+    rlf_tracker *tracker;
+} fixture;
+
+static fixture f;
+
+static rlf_vec3 ray_of(int32_t i)
+{
+    const rlf_camera *c = &f.rig.depth;
+    return rlf_vec3_make((i % WIDTH - c->cx) / c->fx, (i / WIDTH - c->cy) / c->fy, 1.0);
+}
+
+/* What a camera at the pose sees; `normal` may be NULL. */
+static void render(const plane *planes, int count, const rlf_pose *T, float *depth,
+                   float (*normal)[PIXELS])
+{
+    for (int32_t i = 0; i < PIXELS; i++) {
+        const rlf_vec3 way = rlf_rotate(T->q, ray_of(i));
+        double best = 0.0;
+        rlf_vec3 n = {0, 0, 0};
+        for (int k = 0; k < count; k++) {
+            const double z = (planes[k].d - rlf_dot(planes[k].n, T->p)) / rlf_dot(planes[k].n, way);
+            if (z > 0.0 && (best == 0.0 || z < best)) {
+                best = z;
+                n = rlf_rotate(rlf_quat_conjugate(T->q), planes[k].n);
+            }
+        }
+        depth[i] = best < 8.0 ? (float)best : 0.0f;
+        if (normal != NULL) {
+            normal[0][i] = (float)n.x;
+            normal[1][i] = (float)n.y;
+            normal[2][i] = (float)n.z;
+        }
+    }
+}
+
+/* The room is predicted from the identity, and seen from `T`. */
+static void begin(const plane *planes, int count, const rlf_pose *T)
+{
+    const rlf_pose identity = rlf_pose_identity();
+    memset(&f, 0, sizeof(f));
+    f.rig.depth = (rlf_camera){
+        .width = WIDTH, .height = HEIGHT, .fx = 183.0, .fy = 183.0, .cx = 127.5, .cy = 105.5};
+    f.rig.depth_min_m = 0.3;
+    f.rig.depth_max_m = 8.0;
+    f.rig.noise = (rlf_depth_noise){0.0015, -0.0005, 0.0003};
+    memset(f.is_static, 1, sizeof(f.is_static));
+    render(planes, count, &identity, f.depth, f.normal);
+    render(planes, count, T, f.seen, NULL);
+    f.prediction = (rlf_prediction){f.rig.depth, identity,    f.depth, f.normal[0],
+                                    f.normal[1], f.normal[2], NULL};
+    rlf_tracker_def def = rlf_tracker_def_default();
+    def.rig = f.rig;
+    assert_int_equal(rlf_tracker_create(&def, &f.tracker), RLF_OK);
+}
+
+static rlf_track_result align(void)
+{
+    const rlf_track_view view = {f.seen, f.is_static, NULL};
+    const rlf_pose start = rlf_pose_identity();
+    rlf_track_result result;
+    assert_int_equal(rlf_tracker_align(f.tracker, &view, &f.prediction, &start, &result), RLF_OK);
+    assert_true(rlf_vec3_is_finite(result.T_world_camera.p));
+    return result;
+}
+
+static rlf_pose moved(void)
+{
+    return (rlf_pose){{0.021, -0.012, 0.017},
+                      rlf_quat_from_rotation_vector(rlf_vec3_make(0.008, -0.012, 0.005))};
+}
+
+static double turn_between(rlf_quat a, rlf_quat b)
+{
+    const rlf_quat q = rlf_quat_mul(rlf_quat_conjugate(a), b);
+    return 2.0 * rlf_length(rlf_vec3_make(q.x, q.y, q.z)) * 180.0 / RLF_PI;
+}
+
+static void test_a_corner_gives_the_pose(void **state)
+{
+    const rlf_pose T = moved();
+    (void)state;
+    begin(corner, 3, &T);
+    const rlf_track_result found = align();
+    assert_int_equal(found.health, RLF_TRACK_GOOD);
+    assert_true(rlf_length(rlf_sub(found.T_world_camera.p, T.p)) < 1e-4);
+    assert_true(turn_between(found.T_world_camera.q, T.q) < 0.01);
+    assert_true(found.overlap > 0.9);
+    const rlf_track_result again = align();
+    assert_memory_equal(&again.T_world_camera, &found.T_world_camera, sizeof(rlf_pose));
+    rlf_tracker_destroy(&f.tracker);
+}
+
+/* A blank wall says nothing of the ways along it, and the pose stays where it was in them. */
+static void test_a_plane_alone_is_weak(void **state)
+{
+    const rlf_pose T = {{0.03, 0.0, 0.02}, rlf_quat_identity()};
+    (void)state;
+    begin(corner, 1, &T);
+    const rlf_track_result found = align();
+    assert_int_equal(found.health, RLF_TRACK_WEAK);
+    assert_true(fabs(found.weak_way.z) < 0.05);
+    assert_float_equal(found.T_world_camera.p.z, 0.02, 2e-4);
+    assert_true(fabs(found.T_world_camera.p.x) < 1e-3);
+    rlf_tracker_destroy(&f.tracker);
+}
+
+/* A seventh of the view goes to the side and nearer, as a person does. With the mask it does not
+ * pull at all; without, what is far in front of the room is left out. */
+static void test_a_mover_does_not_pull(void **state)
+{
+    const rlf_pose T = moved();
+    (void)state;
+    for (int is_masked = 0; is_masked < 2; is_masked++) {
+        begin(corner, 3, &T);
+        for (int32_t i = 0; i < PIXELS; i++) {
+            if (i % WIDTH > 100 && i % WIDTH < 140) {
+                f.seen[i] -= 0.5f;
+                f.is_static[i] = is_masked != 0 ? 0 : 1;
+            }
+        }
+        const rlf_track_result found = align();
+        assert_int_equal(found.health, RLF_TRACK_GOOD);
+        assert_true(rlf_length(rlf_sub(found.T_world_camera.p, T.p)) < 1e-3);
+        rlf_tracker_destroy(&f.tracker);
+    }
+}
+
+static void test_nothing_seen_is_lost(void **state)
+{
+    const rlf_pose T = moved();
+    (void)state;
+    begin(corner, 3, &T);
+    memset(f.seen, 0, sizeof(f.seen));
+    assert_int_equal(align().health, RLF_TRACK_LOST);
+    for (int32_t i = 0; i < PIXELS; i++) {
+        f.seen[i] = i % 2 != 0 ? NAN : INFINITY;
+    }
+    assert_int_equal(align().health, RLF_TRACK_LOST);
+    rlf_tracker_destroy(&f.tracker);
+}
+
+static void test_no_pose_is_refused(void **state)
+{
+    const rlf_pose T = moved();
+    (void)state;
+    begin(corner, 3, &T);
+    const rlf_track_view view = {f.seen, NULL, NULL};
+    const rlf_pose bad[] = {{{NAN, 0, 0}, rlf_quat_identity()}, {{0, 0, 0}, {0, 0, 0, 0}}};
+    for (size_t i = 0; i < sizeof(bad) / sizeof(bad[0]); i++) {
+        rlf_track_result result;
+        assert_int_equal(rlf_tracker_align(f.tracker, &view, &f.prediction, &bad[i], &result),
+                         RLF_ERROR_INVALID);
+    }
+    rlf_tracker_destroy(&f.tracker);
+}
+
+/* Two views that do not look alike: each is recalled by itself. */
+static void test_a_view_is_recalled(void **state)
+{
+    const rlf_pose T = moved();
+    (void)state;
+    begin(corner, 3, &T);
+    rlf_track_result at = {.T_world_camera = rlf_pose_identity(), .health = RLF_TRACK_GOOD};
+    rlf_track_view view = {f.depth, NULL, NULL};
+    rlf_tracker_accept(f.tracker, &view, 0, &at);
+    for (int32_t i = 0; i < PIXELS; i++) {
+        f.seen[i] = 1.0f + (float)(i % WIDTH) / WIDTH;
+    }
+    at.T_world_camera.p.x = 5.0;
+    view.depth = f.seen;
+    rlf_tracker_accept(f.tracker, &view, 33000000, &at);
+    rlf_pose poses[4];
+    assert_int_equal(rlf_tracker_recall(f.tracker, &view, poses, 4), 2);
+    assert_true(poses[0].p.x == 5.0);
+    view.depth = f.depth;
+    assert_int_equal(rlf_tracker_recall(f.tracker, &view, poses, 4), 2);
+    assert_true(poses[0].p.x == 0.0);
+    rlf_tracker_destroy(&f.tracker);
+}
+
+/* Constant velocity, but not over a jump in time. */
+static void test_the_camera_goes_on_as_it_did(void **state)
+{
+    const rlf_pose T = moved();
+    (void)state;
+    begin(corner, 3, &T);
+    rlf_track_result at = {.T_world_camera = rlf_pose_identity(), .health = RLF_TRACK_WEAK};
+    rlf_tracker_accept(f.tracker, NULL, 0, &at);
+    at.T_world_camera.p.x = 0.01;
+    rlf_tracker_accept(f.tracker, NULL, 33000000, &at);
+    assert_float_equal(rlf_tracker_guess(f.tracker, 66000000).p.x, 0.02, 1e-9);
+    assert_float_equal(rlf_tracker_guess(f.tracker, 5000000000).p.x, 0.01, 1e-9);
+    assert_float_equal(rlf_tracker_guess(f.tracker, 0).p.x, 0.01, 1e-9);
+    rlf_tracker_destroy(&f.tracker);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_corner_gives_the_pose),
+        cmocka_unit_test(test_a_plane_alone_is_weak),
+        cmocka_unit_test(test_a_mover_does_not_pull),
+        cmocka_unit_test(test_nothing_seen_is_lost),
+        cmocka_unit_test(test_no_pose_is_refused),
+        cmocka_unit_test(test_a_view_is_recalled),
+        cmocka_unit_test(test_the_camera_goes_on_as_it_did),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
