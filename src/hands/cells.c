@@ -10,6 +10,8 @@
 #define BODY_RADIUS_M 0.11f  /* no limb, no hand and no head has a disc as large in it */
 #define PIECE_LEAST_M2 0.002 /* a smaller piece is no hand: one seen edge-on has 30 cm^2 */
 #define BRIDGE_M 0.2f        /* a hand hides the forearm that it is before by as much */
+#define FOREARM_FROM_M 0.2f  /* from the root on there may be forearm */
+#define HAND_MOST_M2 0.03    /* a spread hand and its wrist */
 #define LESS_M 0.001f        /* a way that is shorter by less changes nothing */
 #define MARGIN_SHARE 10      /* depth may begin this share of the picture inside its border */
 
@@ -345,6 +347,11 @@ static void spread_from(hand_cells *c, int32_t cell)
     hand_cells_spread(c, c->reach, 1, CELL_FAR);
 }
 
+static bool hides_forearm(const hand_cells *c, int32_t edge, int32_t behind)
+{
+    return edge >= 0 && c->z[behind] - c->z[edge] < BRIDGE_M && c->reach[behind] > FOREARM_FROM_M;
+}
+
 /* A piece that no root reaches is the hand before its arm, or it hangs on its furthest end. */
 static void root_piece(hand_cells *c, int32_t first)
 {
@@ -365,7 +372,7 @@ static void root_piece(hand_cells *c, int32_t first)
     if (area < PIECE_LEAST_M2) {
         return;
     }
-    if (edge >= 0 && c->z[behind] - c->z[edge] < BRIDGE_M && c->bridge_count < BRIDGES_MAX) {
+    if (area < HAND_MOST_M2 && hides_forearm(c, edge, behind) && c->bridge_count < BRIDGES_MAX) {
         c->bridge[c->bridge_count][0] = behind;
         c->bridge[c->bridge_count++][1] = edge;
         spread_from(c, behind);
