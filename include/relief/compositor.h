@@ -51,11 +51,16 @@ typedef struct rlf_plot {
     float line; /* a value to mark, > 0; the plot ends at twice as much */
 } rlf_plot;
 
-/* A line over the picture, or a text. What it stands for is the caller's business. */
+/* A line over the picture, or a text. What it stands for is the caller's business: the compositor
+ * knows no hands. Nothing hides a mark; what is behind the camera or far outside the picture is
+ * left out. Marks are borrowed for one call, and there may be any number of them. */
 typedef struct rlf_mark {
-    rlf_vec3 from, to; /* depth camera's frame, metres */
-    uint8_t color[3];  /* red, green, blue */
-    const char *text;  /* NULL = the line; else this instead of it, beside `from` */
+    /* Ends of the line in the depth camera's frame, metres. They must be finite. */
+    rlf_vec3 from, to;
+    /* Red, green, blue, 0..255. */
+    uint8_t color[3];
+    /* NULL = the line; else this one line of text instead of it, beside `from`. */
+    const char *text;
 } rlf_mark;
 
 /* How the picture decides which pixels of a body real things hide. Sources: the thesis, section

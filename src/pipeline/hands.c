@@ -1,6 +1,7 @@
 /* The tracker of hands within the frame loop, and what a scene does on their events. */
 #include "pipeline/hands.h"
 
+#include "pipeline/state.h"
 #include "relief/query.h"
 
 #define THROW_M_S 3.0
@@ -103,4 +104,15 @@ bool hand_stage_answer(const hand_stage *stage, const hand_answer *a)
         }
     }
     return starts_anew;
+}
+
+rlf_result rlf_pipeline_set_hands(rlf_pipeline *p, bool is_on)
+{
+    return RLF_ASSERT(p != NULL) ? hand_stage_set(&p->hands, &p->compositor_def.grid, is_on)
+                                 : RLF_ERROR_INVALID;
+}
+
+const rlf_hands *rlf_pipeline_hands(const rlf_pipeline *p)
+{
+    return RLF_ASSERT(p != NULL) ? p->hands.last : NULL;
 }
