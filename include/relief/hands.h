@@ -38,8 +38,8 @@ typedef enum rlf_hand_side {
     RLF_HAND_RIGHT = 2
 } rlf_hand_side;
 
-/* What a pixel's footprint allows to tell. A finger is 16 mm wide: with three pixels across, at 1.2
- * to 1.5 m from a Kinect, its tip can be seen; beyond, up to 3 m, only how large the blob is. */
+/* What a pixel's footprint allows to tell. A finger is 16 mm wide: with four pixels across, up
+ * to 1.5 m from a Kinect v2, its tip can be seen; beyond, up to 3 m, only how large the blob is. */
 typedef enum rlf_hand_detail {
     RLF_HAND_PALM_ONLY = 0, /* palm, open or closed; tip_count is 0, no pinch, no pointing */
     RLF_HAND_TIPS = 1       /* tips, pinch and pointing, too */
@@ -98,7 +98,7 @@ typedef enum rlf_hand_event_kind {
     RLF_HAND_EVENT_FIST = 3,        /* the gesture became a fist */
     RLF_HAND_EVENT_POINT_BEGIN = 4, /* with the ray: position, direction */
     RLF_HAND_EVENT_POINT_END = 5,
-    RLF_HAND_EVENT_PUSH = 6,        /* the palm went away from the camera, fast, and stopped */
+    RLF_HAND_EVENT_PUSH = 6,        /* the palm went along its arm, fast, and stopped */
     RLF_HAND_EVENT_SWIPE_LEFT = 7,  /* as the camera sees it */
     RLF_HAND_EVENT_SWIPE_RIGHT = 8, /* as the camera sees it */
     RLF_HAND_EVENT_WAVE = 9,        /* to and fro three times, not going away */

@@ -21,6 +21,9 @@ const char *rlf_hand_event_name(rlf_hand_event_kind kind)
 
 bool rlf_hand_event_parse(const char *name, rlf_hand_event_kind *out)
 {
+    if (!RLF_ASSERT(name != NULL && out != NULL)) {
+        return false;
+    }
     for (int32_t k = 0; k < RLF_HAND_EVENT_COUNT; k++) {
         if (strcmp(name, rlf_hand_event_name((rlf_hand_event_kind)k)) == 0) {
             *out = (rlf_hand_event_kind)k;
