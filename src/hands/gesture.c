@@ -129,8 +129,8 @@ static double within(double x, double a, double b, double c, double d)
  * leg is 0.9 m and longer. */
 static double leg_likeness(const hand_limb *limb)
 {
-    const double is_long = rlf_clamp(((double)limb->length - 0.75) / 0.20, 0.0, 1.0);
-    const double is_thick = rlf_clamp(((double)limb->width - 0.042) / 0.014, 0.0, 1.0);
+    const double is_long = rlf_clamp(((double)limb->length - 0.72) / 0.13, 0.0, 1.0);
+    const double is_thick = rlf_clamp(((double)limb->width - 0.040) / 0.010, 0.0, 1.0);
     const double is_longer = rlf_clamp(((double)limb->length - 0.95) / 0.10, 0.0, 1.0);
     return rlf_max(is_long * is_thick, is_longer);
 }
