@@ -26,7 +26,8 @@ typedef enum rlf_view {
     RLF_VIEW_CONTACTS = 11, /* camera, with an arrow along each contact's normal, longer the larger
                                its impulse */
     RLF_VIEW_KNOWN = 12,    /* camera, with the models of real things as wireframes */
-    RLF_VIEW_COUNT = 13
+    RLF_VIEW_HANDS = 13,    /* camera, with the marks of the input: palms, finger tips, gestures */
+    RLF_VIEW_COUNT = 14
 } rlf_view;
 
 /* Name as in `--view`, e.g. "normals"; NULL outside the range. */
@@ -81,6 +82,18 @@ typedef struct rlf_plot {
     float line; /* a value to mark, > 0; the plot ends at twice as much */
 } rlf_plot;
 
+/* A line over the picture, or a text. What it stands for is the caller's business: the compositor
+ * knows no hands. Nothing hides a mark; what is behind the camera or far outside the picture is
+ * left out. Marks are borrowed for one call, and there may be any number of them. */
+typedef struct rlf_mark {
+    /* Ends of the line in the depth camera's frame, metres. They must be finite. */
+    rlf_vec3 from, to;
+    /* Red, green, blue, 0..255. */
+    uint8_t color[3];
+    /* NULL = the line; else this one line of text instead of it, beside `from`. */
+    const char *text;
+} rlf_mark;
+
 /* How the picture decides which pixels of a body real things hide. Sources: the thesis, section
  * 4.2.2 for the layers; docs/guide.md tells how the others do it. */
 typedef enum rlf_occlusion {
@@ -130,7 +143,9 @@ typedef struct rlf_render_input {
     rlf_orbit orbit;              /* of RLF_VIEW_POINTS */
     const char *const *overlay;   /* text lines, top left; used with enable_overlay */
     int32_t overlay_count;
-    const rlf_plot *plot; /* bottom left; used with enable_overlay; NULL = none */
+    const rlf_plot *plot;  /* bottom left; used with enable_overlay; NULL = none */
+    const rlf_mark *marks; /* over RLF_VIEW_HANDS, in this order */
+    int32_t mark_count;
 } rlf_render_input;
 
 /* One picture. All is the compositor's and stays valid until its next render or its end. */

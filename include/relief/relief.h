@@ -12,6 +12,7 @@
  *   snapshot.h     shapes, bodies, contacts; world.h: the physics stage; query.h: rays and overlaps
  *   model.h        what bodies look like; known.h: models of real things
  *   compositor.h   the render stage
+ *   hands.h        hands in the surface's foreground, their gestures and events
  *   prediction.h   what a camera would see of the static room from a pose
  *   map.h          that room: views fused into a signed distance volume, predictions, mesh
  *   track.h        a moving camera's pose, frame by frame
@@ -29,6 +30,7 @@
 #include "relief/camera.h"
 #include "relief/compositor.h"
 #include "relief/frame.h"
+#include "relief/hands.h"
 #include "relief/image.h"
 #include "relief/known.h"
 #include "relief/map.h"

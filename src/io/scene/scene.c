@@ -63,12 +63,12 @@ static rlf_result check_words(const io_json_object *top)
 static rlf_result read_scene(const io_json_object *top, const char *folder, rlf_scene *scene)
 {
     static const char *const known[] = {"about",  "source", "gravity",      "border",
-                                        "bodies", "spawn",  "known_objects"};
-    const char *unknown = io_json_unknown_key(top, known, 7);
+                                        "bodies", "spawn",  "known_objects", "on"};
+    const char *unknown = io_json_unknown_key(top, known, 8);
     if (unknown != NULL) {
         return io_json_fail(top, unknown,
                             "is not a known key: a scene has \"about\", \"source\", \"gravity\", "
-                            "\"border\", \"bodies\", \"spawn\" and \"known_objects\"");
+                            "\"border\", \"bodies\", \"spawn\", \"known_objects\" and \"on\"");
     }
     rlf_result result = check_words(top);
     if (result == RLF_OK) {
@@ -79,6 +79,9 @@ static rlf_result read_scene(const io_json_object *top, const char *folder, rlf_
     }
     if (result == RLF_OK) {
         result = read_all_bodies(top, folder, scene);
+    }
+    if (result == RLF_OK) {
+        result = io_on_read(top, scene);
     }
     return result == RLF_OK ? io_known_read(top, folder, scene) : result;
 }
