@@ -68,7 +68,8 @@ static rlf_vec3 place_camera(synth_hands *hands, synth_draw *d)
                                rlf_quat_from_mat3(&m)};
     hands->T_camera_stage = rlf_pose_invert(&T_stage_camera);
     hands->across = x;
-    hands->enter = rlf_scale(x, turn * COME_FROM);
+    /* from behind the table, over which nobody walks */
+    hands->enter = rlf_scale(x, x.z < 0.0 ? -COME_FROM : COME_FROM);
     return level;
 }
 
@@ -117,7 +118,7 @@ rlf_quat synth_hands_turn(rlf_vec3 fingers, rlf_vec3 back)
 rlf_pose synth_hands_home(const synth_hands *hands, int32_t track)
 {
     double side = hands->tracks[track].form.is_left ? 1.0 : -1.0;
-    rlf_pose home = {{0.36 * side, -0.09, 0.30}, rlf_quat_identity()};
+    rlf_pose home = {{0.34 * side, -0.28, 0.38}, rlf_quat_identity()};
     home.q = synth_hands_turn(rlf_vec3_make(-0.2 * side, 0.15, -0.95), rlf_vec3_make(0, -1, 0));
     return home;
 }
