@@ -1,14 +1,15 @@
 /* Mask, holes and discs of a limb's end. */
 #include "hands/patch.h"
 
-#define PIXEL_M 0.0015       /* finer pixels tell nothing more of a hand */
-#define PIXELS_LEAST 24      /* of a hand */
-#define SAME_SIGMAS 6.0f     /* of noise; beyond it and SAME_M a pixel is not what its cell is */
-#define SAME_M 0.03f         /* two cells' slant */
-#define BEHIND_M 0.03f       /* what a ring shows is behind the fingers at least this much */
-#define RING_LEAST_M2 0.0001 /* a finger's cross section: what is smaller is a hole in the depth   \
-                              */
-#define RING_MOST_M2 0.0060  /* no hand makes a larger one (Wilson 2006) */
+#define PIXEL_M 0.0015   /* finer pixels tell nothing more of a hand */
+#define PIXELS_LEAST 24  /* of a hand */
+#define SAME_SIGMAS 6.0f /* of noise; beyond it and SAME_M a pixel is not what its cell is */
+#define SAME_M 0.03f     /* two cells' slant */
+#define BEHIND_M 0.03f   /* what a ring shows is behind the fingers at least this much */
+#define RING_LEAST_M2                                                                              \
+    0.0001                  /* a finger's cross section: what is smaller is a hole in the depth    \
+                             */
+#define RING_MOST_M2 0.0060 /* no hand makes a larger one (Wilson 2006) */
 #define MASK_OUTSIDE 0
 #define MASK_LIMB 1
 #define MASK_FILLED 2
