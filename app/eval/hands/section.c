@@ -8,5 +8,6 @@ rlf_result eval_hands_run(eval_table *table, int64_t seed, int profile_mask)
         return RLF_OK;
     }
     rlf_result result = hands_grasp_run(table, seed);
-    return result == RLF_OK ? hands_pass_run(table, seed) : result;
+    result = result == RLF_OK ? hands_pass_run(table, seed) : result;
+    return result == RLF_OK ? hands_track_run(table, seed) : result;
 }
