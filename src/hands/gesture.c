@@ -9,6 +9,7 @@
 #define OPEN_TIPS 3
 #define CLOSED_REACH 1.75    /* a fist's knuckles end before */
 #define POINT_LONGER 1.35    /* a pointing index goes further than the thumb beside it */
+#define FORWARD 0.5f         /* of its length: an arm towards the camera comes so much nearer */
 #define PINCH_BEYOND_M 0.012 /* from the ring's edge to the middle of the fingers that close it */
 
 static bool has_tips(const hand_patch *p, const hand_palm *palm)
@@ -134,7 +135,9 @@ double hand_confidence(const hand_limb *limb, const hand_palm *palm, const hand_
     const bool is_from_body = limb->root == HAND_ROOT_BODY;
     const double longest = is_from_body ? 0.85 : 1.2;
     c *= within((double)limb->length, 0.10, 0.18, longest, longest + 0.2);
-    c *= limb->root == HAND_ROOT_ALONE ? 0.4 : 1.0;
+    const bool hangs = limb->root == HAND_ROOT_BORDER || limb->root == HAND_ROOT_BODY ||
+                       (limb->root == HAND_ROOT_FRONT && limb->rise > FORWARD * limb->length);
+    c *= hangs ? 1.0 : 0.4;
     /* Nearly nothing but palm: a rod's end or a ball, no hand with a wrist. */
     c *= palm->has_wrist || f->reach > 1.2 ? 1.0 : 0.8;
     return c;

@@ -102,7 +102,8 @@ static void try_seed(hand_limbs *l, hand_cells *c, int32_t seed)
     *limb = (hand_limb){.tip = seed,
                         .root = hand_cells_root(c, seed),
                         .source = c->source[seed],
-                        .length = c->reach[seed]};
+                        .length = c->reach[seed],
+                        .rise = c->z[c->source[seed]] - c->z[seed]};
     l->from_tip[seed] = 0.0f;
     c->queue[0] = seed;
     c->touched_count = 0;

@@ -13,6 +13,7 @@ typedef struct hand_limb {
     hand_root root;         /* what it hangs on, */
     int32_t source;         /* and by which cell */
     float length;           /* from the root to the tip, metres */
+    float rise;             /* how much nearer than its root the tip is, metres */
     float width;            /* mean half width behind the hand, metres; < 0 = not seen */
     int32_t x0, y0, x1, y1; /* cells of its end: x0 <= x < x1 */
 } hand_limb;

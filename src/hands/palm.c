@@ -8,6 +8,7 @@
 #define NEARLY 0.92           /* discs of one palm are as large as this share of the largest */
 #define WRIST_SHARE 0.88      /* of the palm, that a wrist is narrower than */
 #define WRIST_TO_PALM_BINS 11 /* most between them: half a hand */
+#define PALM_BINS 4           /* from where it is nearly as wide to its middle */
 #define RADIUS_LEAST_M 0.010  /* a hand seen edge-on is 25 mm thick */
 #define ARM_FROM_M 0.055      /* behind the palm's centre there is the wrist, */
 #define ARM_TO_M 0.17         /* and forearm up to here */
@@ -64,7 +65,7 @@ static int32_t beyond_wrist(const profile *f)
         while (first > palm && f->radius[first] < NEARLY * f->radius[palm]) {
             first--;
         }
-        return first;
+        return widest(f, first > PALM_BINS ? first - PALM_BINS : 0, first + 1);
     }
     return -1;
 }
