@@ -77,9 +77,9 @@ typedef struct rlf_synthetic_def {
                                   default 0.5 */
     rlf_synthetic_push push;   /* of a random room only; default none */
     rlf_synthetic_hands_def hands; /* of scene "hands" only */
-    rlf_vec3 lamp;             /* a wide lamp's middle, metres, camera frame, at most 20 m away;
-                                  default (-0.7, -1.85, 1.5): under the ceiling, left */
-    bool enable_noise;         /* default true: axial noise, dropout, flying pixels, edge filter */
+    rlf_vec3 lamp;                 /* a wide lamp's middle, metres, camera frame, at most 20 m away;
+                                      default (-0.7, -1.85, 1.5): under the ceiling, left */
+    bool enable_noise; /* default true: axial noise, dropout, flying pixels, edge filter */
     bool enable_structured_light; /* default false; true: depth in steps, noise that is alike in
                                      neighbouring pixels, as a Kinect v1's; needs enable_noise */
     bool enable_edge_filter;      /* default true: the driver's invalid band at silhouettes */
@@ -98,8 +98,8 @@ RLF_API rlf_synthetic_def rlf_synthetic_def_default(void);
 RLF_API rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source **out);
 
 /* Reads "synthetic:NAME[?key=value[&key=value...]]" into *def: NAME one of room, empty, thesis,
- * chair, book, hand, lift, swipe, carry, crossing, random, hands; keys seed, person, frames, fps, speed,
- * lamp (X,Y,Z), noise (0|1|steps), edge_filter (0|1), color (WxH or 0), push
+ * chair, book, hand, lift, swipe, carry, crossing, random, hands; keys seed, person, frames, fps,
+ * speed, lamp (X,Y,Z), noise (0|1|steps), edge_filter (0|1), color (WxH or 0), push
  * (none|lift|swipe|carry); of scene "hands" also grasp or gesture (an act's name), view, body,
  * distance, size and hold. A random room draws its sensor and its lamp itself: of noise only 0 has
  * an effect there. RLF_ERROR_INVALID names the part that is wrong and what is allowed. */

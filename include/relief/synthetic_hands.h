@@ -1,9 +1,9 @@
 /* Relief: hands of the synthetic room that grasp and gesture by a script, with the truth of them.
  *
  * Scene "hands": a table, a person behind it, and one or two hands of true proportion (Buryanov
- * and Kotiuk 2010, Proportions of hand segments) that do one act. The body to be grasped is virtual,
- * so no depth picture shows it: the fingers close on where it stands. Who puts it there reads
- * rlf_synthetic_get_task. SPDX-License-Identifier: MIT */
+ * and Kotiuk 2010, Proportions of hand segments) that do one act. The body to be grasped is
+ * virtual, so no depth picture shows it: the fingers close on where it stands. Who puts it there
+ * reads rlf_synthetic_get_task. SPDX-License-Identifier: MIT */
 #ifndef RELIEF_SYNTHETIC_HANDS_H
 #define RELIEF_SYNTHETIC_HANDS_H
 
@@ -73,14 +73,14 @@ typedef enum rlf_synthetic_gesture {
 /* One hand in truth; points in the depth camera's frame, metres. Fingers count from the thumb. */
 typedef struct rlf_synthetic_hand {
     bool is_left;
-    double length;             /* wrist to the end of the middle finger, stretched: 0.160..0.205 */
-    rlf_pose T_camera_hand;    /* origin at the wrist, y to the fingers, z out of the back */
-    rlf_vec3 palm;             /* the palm's middle, inside the hand */
-    rlf_vec3 palm_normal;      /* unit, out of the palm */
-    double palm_half;          /* from there to the skin along the normal, both ways */
-    rlf_vec3 velocity;         /* of palm, m/s */
-    rlf_vec3 joints[5][4];     /* inside the hand: root, two more, middle of the round tip */
-    double tip_radius[5];      /* of the round tips */
+    double length;          /* wrist to the end of the middle finger, stretched: 0.160..0.205 */
+    rlf_pose T_camera_hand; /* origin at the wrist, y to the fingers, z out of the back */
+    rlf_vec3 palm;          /* the palm's middle, inside the hand */
+    rlf_vec3 palm_normal;   /* unit, out of the palm */
+    double palm_half;       /* from there to the skin along the normal, both ways */
+    rlf_vec3 velocity;      /* of palm, m/s */
+    rlf_vec3 joints[5][4];  /* inside the hand: root, two more, middle of the round tip */
+    double tip_radius[5];   /* of the round tips */
     rlf_synthetic_gesture gesture;
     double pinch_width; /* gap between the skin of thumb and index tip, >= 0 */
 } rlf_synthetic_hand;

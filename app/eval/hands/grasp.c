@@ -4,13 +4,13 @@
 #include "eval/measures/percent.h"
 
 #define GRASPS 6
-#define RISEN 0.7     /* of the hand's rise */
-#define HELD 0.04     /* metres from its place in the hand: it is carried */
-#define DROPPED 0.05  /* metres under the place where the hand opened ... */
-#define ASIDE 0.08    /* ... and so far aside at most */
-#define LET_GO_S 0.6  /* s after the hand opens */
+#define RISEN 0.7    /* of the hand's rise */
+#define HELD 0.04    /* metres from its place in the hand: it is carried */
+#define DROPPED 0.05 /* metres under the place where the hand opened ... */
+#define ASIDE 0.08   /* ... and so far aside at most */
+#define LET_GO_S 0.6 /* s after the hand opens */
 #define STILL_S 10.0
-#define FLIGHT_S 0.2  /* s after a throw: the fingers are open */
+#define FLIGHT_S 0.2 /* s after a throw: the fingers are open */
 
 typedef struct grasp_result {
     bool is_lifted, is_carried, is_let_go;
@@ -78,9 +78,8 @@ static void add(eval_table *table, const char *key, const char *title, double va
 
 static rlf_result still_run(eval_table *table, int64_t seed)
 {
-    static const rlf_synthetic_act acts[3] = {RLF_SYNTHETIC_ACT_PINCH_ABOVE,
-                                              RLF_SYNTHETIC_ACT_PINCH_SIDE,
-                                              RLF_SYNTHETIC_ACT_TWO_HANDS};
+    static const rlf_synthetic_act acts[3] = {
+        RLF_SYNTHETIC_ACT_PINCH_ABOVE, RLF_SYNTHETIC_ACT_PINCH_SIDE, RLF_SYNTHETIC_ACT_TWO_HANDS};
     eval_random r = eval_random_start((uint64_t)(seed * 1000 + 900));
     rlf_synthetic_def def = hands_draw(acts[seed % 3], &r, (uint64_t)(seed * 100 + 90));
     grasp_result g = {.slip = NAN, .slip_still = NAN};

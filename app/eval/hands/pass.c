@@ -1,9 +1,9 @@
 /* A hand that moves among bodies and grasps none: how often is one of them in the air? */
 #include "eval/hands/hands.h"
 
-#define AIR_M 0.03   /* over its place: it is held ... */
+#define AIR_M 0.03    /* over its place: it is held ... */
 #define AIR_FRAMES 10 /* ... for so long */
-#define FIRST_S 1.6  /* the hand begins to move */
+#define FIRST_S 1.6   /* the hand begins to move */
 
 rlf_result hands_pass_run(eval_table *table, int64_t seed)
 {

@@ -77,8 +77,7 @@ rlf_result hands_step_until(hands_run *run, double time_s)
     rlf_result result = RLF_OK;
     while (result == RLF_OK && (run->frame.surface == NULL || run->frame.time_s < time_s - 1e-6)) {
         result = command_interrupted ? RLF_END : rlf_pipeline_step(run->pipeline, &run->frame);
-        if (result == RLF_OK && run->frame.snapshot->body_count == 0 &&
-            run->frame.time_s > PUT_S) {
+        if (result == RLF_OK && run->frame.snapshot->body_count == 0 && run->frame.time_s > PUT_S) {
             result = put_bodies(run);
         }
     }

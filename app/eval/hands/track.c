@@ -2,10 +2,10 @@
 #include "eval/hands/hands.h"
 #include "eval/measures/percent.h"
 
-#define SEEN_S 2.6     /* the hand is raised */
-#define NEAR_M 0.15    /* from the true palm: it is this hand */
-#define FRAMES_LATE 4  /* a gesture may be so late */
-#define TIP_M 0.03     /* from a true tip: it is that one */
+#define SEEN_S 2.6    /* the hand is raised */
+#define NEAR_M 0.15   /* from the true palm: it is this hand */
+#define FRAMES_LATE 4 /* a gesture may be so late */
+#define TIP_M 0.03    /* from a true tip: it is that one */
 #define FAR_M 2.5
 #define FARTHEST_M 3.0
 
@@ -184,8 +184,7 @@ static rlf_result run_near(eval_table *table, int64_t seed)
          act++) {
         int64_t before = all.right, judged = all.judged;
         result = run_act(seed, (rlf_synthetic_act)act, 0.0, &all);
-        right[act - RLF_SYNTHETIC_ACT_OPEN] =
-            eval_percent(all.right - before, all.judged - judged);
+        right[act - RLF_SYNTHETIC_ACT_OPEN] = eval_percent(all.right - before, all.judged - judged);
     }
     if (result == RLF_OK) {
         report_near(table, &all);

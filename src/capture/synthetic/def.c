@@ -8,9 +8,8 @@
 #define SPEED_MAX 10.0
 #define LAMP_MAX 20.0 /* metres from the camera */
 
-static const char *const scene_names[] = {"room", "empty", "thesis", "chair",    "book",  "hand",
-                                          "lift", "swipe", "carry",  "crossing", "random",
-                                          "hands"};
+static const char *const scene_names[] = {"room", "empty", "thesis", "chair",    "book",   "hand",
+                                          "lift", "swipe", "carry",  "crossing", "random", "hands"};
 #define SCENE_COUNT ((int)(sizeof(scene_names) / sizeof(scene_names[0])))
 
 const char *synth_scene_name(rlf_synthetic_scene scene)

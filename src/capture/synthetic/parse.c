@@ -6,7 +6,8 @@
 #define PREFIX "synthetic:"
 #define SCENES "room, empty, thesis, chair, book, hand, lift, swipe, carry, crossing, random, hands"
 #define KEYS                                                                                       \
-    "seed, person, frames, fps, speed, lamp, noise, edge_filter, color, push, grasp, gesture, view, "  \
+    "seed, person, frames, fps, speed, lamp, noise, edge_filter, color, push, grasp, gesture, "    \
+    "view, "                                                                                       \
     "distance, body, size, hold"
 
 /* A piece of the source string. */

@@ -3,7 +3,7 @@
 #include "capture/synthetic/bones.h"
 #include "capture/synthetic/hands/hands.h"
 
-#define STANDARD 0.180 /* metres */
+#define STANDARD 0.180  /* metres */
 #define PALM_SHARE 0.55 /* of the way from the wrist to the middle finger's root */
 
 /* Of a left hand, whose thumb is on the side of +x. */
@@ -54,8 +54,9 @@ static void set_palm(const synth_hand_form *form, synth_hand_shape *out)
     *middle = (synth_shape){.type = SYNTH_ELLIPSOID, .T_camera_shape = rlf_pose_identity()};
     middle->T_camera_shape.p = sized(form, rlf_vec3_make(0.001, 0.050, -0.002));
     middle->size = rlf_vec3_make(0.036 * s, 0.048 * s, 0.0145 * s);
-    out->solids[5] = cone(sized(form, rlf_vec3_make(-0.021, 0.016, -0.006)),
-                          sized(form, rlf_vec3_make(-0.029, 0.062, -0.006)), 0.0145 * s, 0.0125 * s);
+    out->solids[5] =
+        cone(sized(form, rlf_vec3_make(-0.021, 0.016, -0.006)),
+             sized(form, rlf_vec3_make(-0.029, 0.062, -0.006)), 0.0145 * s, 0.0125 * s);
 }
 
 /* Unit directions of a finger's three bones, left hand. */
@@ -69,7 +70,8 @@ static void find_directions(const synth_grip *grip, int finger, rlf_vec3 out[3])
     }
     const double *bend = grip->bend[finger - 1];
     const double angles[3] = {bend[0], bend[0] + bend[1], bend[0] + bend[1] * (5.0 / 3.0)};
-    const double aside = grip->spread * (2.2 - finger); /* the middle finger stays nearly straight */
+    const double aside =
+        grip->spread * (2.2 - finger); /* the middle finger stays nearly straight */
     for (int k = 0; k < 3; k++) {
         double along = rlf_cos(angles[k]);
         out[k] = rlf_vec3_make(rlf_sin(aside) * along, rlf_cos(aside) * along, -rlf_sin(angles[k]));
@@ -88,9 +90,8 @@ void synth_hand_form_shape(const synth_hand_form *form, const synth_grip *grip,
         for (int k = 0; k < 3; k++) {
             at = rlf_mad(at, directions[k], lengths[f][k]);
             out->joints[f][k + 1] = sized(form, at);
-            out->solids[SYNTH_HAND_PALM + 3 * f + k] =
-                cone(out->joints[f][k], out->joints[f][k + 1], radii[f][k] * s,
-                     radii[f][k + 1] * s);
+            out->solids[SYNTH_HAND_PALM + 3 * f + k] = cone(
+                out->joints[f][k], out->joints[f][k + 1], radii[f][k] * s, radii[f][k + 1] * s);
         }
         out->tip_radius[f] = radii[f][3] * s;
     }

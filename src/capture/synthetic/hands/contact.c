@@ -1,9 +1,9 @@
 /* How fingers meet a body: they close until they touch it. */
 #include "capture/synthetic/hands/hands.h"
 
-#define STEPS 48   /* of a finger's way, before the bisection */
+#define STEPS 48 /* of a finger's way, before the bisection */
 #define HALVINGS 16
-#define SAMPLES 5  /* spheres along a bone */
+#define SAMPLES 5 /* spheres along a bone */
 
 /* A round cone, or the palm's ellipsoid as three spheres, against the body. */
 static double solid_distance(const synth_shape *solid, const synth_shape *body)
@@ -75,8 +75,7 @@ static double close_finger(const finger_way *way, double gap, double most)
 }
 
 void synth_hand_close(const synth_hand_form *form, const synth_grip *a, const synth_grip *b,
-                      const synth_shape *body, double gap, double most,
-                      double share[SYNTH_FINGERS])
+                      const synth_shape *body, double gap, double most, double share[SYNTH_FINGERS])
 {
     for (int f = 0; f < SYNTH_FINGERS; f++) {
         const finger_way way = {form, a, b, body, f};

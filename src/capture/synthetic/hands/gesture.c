@@ -27,10 +27,11 @@ static rlf_pose raised(const synth_hands *hands, synth_draw *d)
     double lean = synth_draw_range(d, -tilt, tilt);
     rlf_vec3 fingers = {rlf_sin(lean), -rlf_cos(lean), synth_draw_range(d, -0.3, 0.1)};
     rlf_vec3 back = {rlf_sin(turn), 0, rlf_cos(turn)};
-    rlf_pose at = {{0.08 * side, -0.08, 0.02}, rlf_quat_identity()};
+    rlf_pose at = {{0.20 * side, -0.22, 0.10}, rlf_quat_identity()};
     if (hands->def.view == RLF_SYNTHETIC_VIEW_ABOVE) {
         fingers = rlf_vec3_make(rlf_sin(lean), -0.15, -rlf_cos(lean));
-        back = rlf_vec3_make(rlf_sin(turn), -1, 0.15);
+        bool is_ring = hands->def.act == RLF_SYNTHETIC_ACT_PINCH; /* on edge, so that it shows */
+        back = rlf_vec3_make((is_ring ? 1.2 * side : 0.0) + rlf_sin(turn), -1, 0.15);
         at.p = rlf_vec3_make(0.08 * side, -0.14, 0.10);
     } else if (hands->def.view == RLF_SYNTHETIC_VIEW_SIDE) {
         rlf_vec3 to_camera = rlf_transform_inverse(&hands->T_camera_stage, rlf_vec3_make(0, 0, 0));

@@ -3,20 +3,21 @@
 #include "capture/synthetic/random/draw.h"
 
 #define DEGREE (RLF_PI / 180.0)
-#define RISE 0.15      /* metres */
-#define CARRY 0.5      /* metres, across */
-#define BACK_OFF 0.10  /* metres before the body */
+#define RISE 0.15     /* metres */
+#define CARRY 0.5     /* metres, across */
+#define BACK_OFF 0.10 /* metres before the body */
 #define OVER_TABLE 0.012
+#define PAD 0.018        /* metres that finger tips reach over a flat side */
 #define PALM_CLEAR 0.006 /* metres between palm and body in a pinch */
 #define THROW_UP_S 0.35  /* s of speeding up */
 #define THROW_OPEN_S 0.12
 
 /* How one hand takes the body. */
 typedef struct hold {
-    rlf_pose at;          /* of the hand, stage frame */
-    rlf_vec3 approach;    /* unit: how it comes there */
+    rlf_pose at;       /* of the hand, stage frame */
+    rlf_vec3 approach; /* unit: how it comes there */
     synth_grip open, closed;
-    rlf_quat away;        /* how it is turned to let go; as `at` when fingers do that */
+    rlf_quat away; /* how it is turned to let go; as `at` when fingers do that */
 } hold;
 
 typedef struct plan {
@@ -65,6 +66,17 @@ static void aim_pinch(const plan *p, const synth_hand_form *form, rlf_vec3 axis,
     h->at.p = rlf_sub(p->body.p, rlf_rotate(h->at.q, middle));
 }
 
+/* From the body's middle back to where the tips meet it: flat sides are held near their end, what
+ * is round at its widest. */
+static double held_back(const plan *p, rlf_vec3 approach)
+{
+    const rlf_synthetic_task *task = &p->hands->task;
+    const bool is_above = approach.y > 0.9;
+    const bool is_round = task->body == RLF_SYNTHETIC_BODY_BALL ||
+                          (task->body == RLF_SYNTHETIC_BODY_CAN && !is_above);
+    return is_round ? 0.0 : rlf_max(0.0, 0.5 * (is_above ? task->size.y : task->size.z) - PAD);
+}
+
 /* Thumb against fingers along `axis`, level. */
 static hold pinch(const plan *p, const synth_hand_form *form, rlf_vec3 axis, rlf_vec3 approach)
 {
@@ -73,6 +85,7 @@ static hold pinch(const plan *p, const synth_hand_form *form, rlf_vec3 axis, rlf
     hold h = {.approach = approach};
     rlf_vec3 middle, a;
     aim_pinch(p, form, axis, &h);
+    h.at.p = rlf_mad(h.at.p, approach, -held_back(p, approach));
     double common = synth_hand_span(form, p->hands->task.size.x, &middle, &a);
     synth_hand_shape hand;
     synth_grip grip = synth_grip_mix(&wide, &shut, common);

@@ -6,8 +6,8 @@
 #include "capture/synthetic/scene.h"
 #include "relief/synthetic_hands.h"
 
-#define SYNTH_FINGERS 5    /* thumb, index, middle, ring, little */
-#define SYNTH_HAND_PALM 6  /* the first solids: the palm; then three of each finger */
+#define SYNTH_FINGERS 5   /* thumb, index, middle, ring, little */
+#define SYNTH_HAND_PALM 6 /* the first solids: the palm; then three of each finger */
 #define SYNTH_HAND_SOLIDS (SYNTH_HAND_PALM + 3 * SYNTH_FINGERS)
 #define SYNTH_KEYS_MAX 40
 
@@ -20,9 +20,9 @@ typedef struct synth_hand_form {
 
 /* How far the fingers are bent. */
 typedef struct synth_grip {
-    rlf_vec3 thumb[3];  /* directions of its bones, hand frame of a left hand */
-    double bend[4][2];  /* first and middle joint, radians; the last follows by two thirds */
-    double spread;      /* radians between neighbours */
+    rlf_vec3 thumb[3]; /* directions of its bones, hand frame of a left hand */
+    double bend[4][2]; /* first and middle joint, radians; the last follows by two thirds */
+    double spread;     /* radians between neighbours */
 } synth_grip;
 
 /* Solids and joints of a hand, in its frame. */
@@ -61,9 +61,9 @@ typedef struct synth_hands {
     rlf_synthetic_hands_def def;
     double speed;
     rlf_pose T_camera_stage;
-    rlf_vec3 centre;   /* what the camera looks at, stage frame */
-    rlf_vec3 enter;    /* where the person comes from, stage frame */
-    rlf_vec3 across;   /* level, unit: across the picture */
+    rlf_vec3 centre; /* what the camera looks at, stage frame */
+    rlf_vec3 enter;  /* where the person comes from, stage frame */
+    rlf_vec3 across; /* level, unit: across the picture */
     synth_track tracks[RLF_SYNTHETIC_HANDS_MAX];
     int32_t track_count;
     rlf_synthetic_task task; /* poses in the stage frame */
@@ -91,9 +91,9 @@ typedef enum synth_grip_name {
     SYNTH_GRIP_FIST,
     SYNTH_GRIP_POINT,
     SYNTH_GRIP_CUP,
-    SYNTH_GRIP_WIDE,  /* thumb and fingers as far apart as they go ... */
+    SYNTH_GRIP_WIDE,   /* thumb and fingers as far apart as they go ... */
     SYNTH_GRIP_CLOSED, /* ... and where they meet */
-    SYNTH_GRIP_ROUND, /* from WIDE around a bar */
+    SYNTH_GRIP_ROUND,  /* from WIDE around a bar */
     SYNTH_GRIP_COUNT
 } synth_grip_name;
 synth_grip synth_grip_named(synth_grip_name name);

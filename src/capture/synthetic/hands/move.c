@@ -35,8 +35,8 @@ static synth_shape cone(rlf_vec3 a, rlf_vec3 b, double radius_a, double radius_b
 
 static synth_shape egg(rlf_vec3 at, rlf_vec3 size)
 {
-    return (synth_shape){.type = SYNTH_ELLIPSOID, .T_camera_shape = {at, rlf_quat_identity()},
-                         .size = size};
+    return (synth_shape){
+        .type = SYNTH_ELLIPSOID, .T_camera_shape = {at, rlf_quat_identity()}, .size = size};
 }
 
 static rlf_vec3 shoulder_of(bool is_left)
@@ -57,7 +57,8 @@ static rlf_vec3 add_arm(figures *f, const synth_hand_form *form, rlf_vec3 wrist)
     const double s = form->length / 0.18;
     add(f, "upper arm", RLF_SYNTHETIC_LABEL_PERSON, SYNTH_SHIRT,
         cone(shoulder, elbow, 0.055 * s, 0.043 * s));
-    add(f, "forearm", RLF_SYNTHETIC_LABEL_HAND, SYNTH_SKIN, cone(elbow, wrist, 0.042 * s, 0.027 * s));
+    add(f, "forearm", RLF_SYNTHETIC_LABEL_HAND, SYNTH_SKIN,
+        cone(elbow, wrist, 0.042 * s, 0.027 * s));
     return lean;
 }
 

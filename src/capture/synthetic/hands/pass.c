@@ -2,9 +2,9 @@
 #include "capture/synthetic/hands/hands.h"
 #include "capture/synthetic/random/draw.h"
 
-#define LEGS 12     /* ways of the hand ... */
-#define LEG_S 0.75  /* ... in seconds each */
-#define APART 0.22  /* metres between the bodies */
+#define LEGS 12    /* ways of the hand ... */
+#define LEG_S 0.75 /* ... in seconds each */
+#define APART 0.22 /* metres between the bodies */
 #define SIZE 0.07
 
 static void put_bodies(synth_hands *hands, synth_draw *d)
@@ -32,7 +32,8 @@ static rlf_pose draw_place(const synth_hands *hands, synth_draw *d)
     rlf_vec3 palm = synth_hand_palm(form, &half);
     rlf_vec3 fingers = {synth_draw_range(d, -0.5, 0.5), 0.1, -1};
     rlf_pose at;
-    at.q = synth_hands_turn(fingers, is_edge ? rlf_vec3_make(-side, 0, 0) : rlf_vec3_make(0, -1, 0));
+    at.q =
+        synth_hands_turn(fingers, is_edge ? rlf_vec3_make(-side, 0, 0) : rlf_vec3_make(0, -1, 0));
     rlf_vec3 middle = rlf_scale(hands->across, synth_draw_range(d, -1.6, 1.6) * APART);
     middle.z += synth_draw_range(d, -0.05, 0.12);
     middle.y = is_low ? -synth_draw_range(d, 0.055, 0.075) : -synth_draw_range(d, 0.10, 0.16);

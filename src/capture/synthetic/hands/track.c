@@ -44,8 +44,8 @@ static rlf_quat turn_between(rlf_quat a, rlf_quat b, double share)
 {
     double dot = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w, sign = dot < 0.0 ? -1.0 : 1.0;
     double u = 1.0 - share, v = sign * share;
-    return rlf_quat_normalize((rlf_quat){u * a.x + v * b.x, u * a.y + v * b.y, u * a.z + v * b.z,
-                                         u * a.w + v * b.w});
+    return rlf_quat_normalize(
+        (rlf_quat){u * a.x + v * b.x, u * a.y + v * b.y, u * a.z + v * b.z, u * a.w + v * b.w});
 }
 
 synth_key synth_track_at(const synth_track *track, double t)

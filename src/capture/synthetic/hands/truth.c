@@ -45,7 +45,8 @@ static void find(const synth_hands *hands, int32_t i, double t, rlf_synthetic_ha
     const double h = SYNTH_DIFFERENCE_S;
     synth_hand_shape shape;
     synth_hand_form_shape(&track->form, &key.grip, &shape);
-    *out = (rlf_synthetic_hand){.is_left = track->form.is_left, .gesture = (rlf_synthetic_gesture)key.gesture};
+    *out = (rlf_synthetic_hand){.is_left = track->form.is_left,
+                                .gesture = (rlf_synthetic_gesture)key.gesture};
     out->length = track->form.length;
     out->T_camera_hand = hand_pose(hands, i, t);
     out->palm = palm_at(hands, i, t, &out->palm_half);
@@ -92,8 +93,7 @@ rlf_result rlf_synthetic_get_task(const rlf_source *source, rlf_synthetic_task *
     *out = hands->task;
     out->thrown = rlf_rotate(hands->T_camera_stage.q, hands->task.thrown);
     for (int32_t i = 0; i < out->body_count; i++) {
-        out->T_camera_body[i] =
-            rlf_pose_mul(&hands->T_camera_stage, &hands->task.T_camera_body[i]);
+        out->T_camera_body[i] = rlf_pose_mul(&hands->T_camera_stage, &hands->task.T_camera_body[i]);
     }
     return RLF_OK;
 }
