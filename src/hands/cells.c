@@ -80,7 +80,9 @@ float hand_cells_way(const hand_cells *c, int32_t a, int32_t b, float cells)
         return -1.0f;
     }
     const float across = cells * c->spacing * nearer;
-    return sqrtf(across * across + rise * rise);
+    const float noise = 2.0f * (float)rlf_depth_noise_sigma(&c->noise, (double)nearer);
+    const float climb = rise > noise ? rise - noise : 0.0f; /* noise makes no way longer */
+    return sqrtf(across * across + climb * climb);
 }
 
 /* The neighbour in this direction or, over one cell without foreground, the next one, and the way
