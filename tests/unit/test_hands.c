@@ -183,8 +183,8 @@ static void draw_person(hand_scene *s, double x, double z, scene_hand *hands)
     scene_ball(s, rlf_vec3_make(x, -0.60, z), 0.085);
     for (int side = -1; side <= 1; side += 2) {
         const rlf_vec3 knee = {x + side * 0.12, 0.55, z}, foot = {x + side * 0.14, 0.95, z};
-        scene_rod(s, rlf_vec3_make(x + side * 0.09, 0.15, z), knee, 0.085, 0.065);
-        scene_rod(s, knee, foot, 0.065, 0.045);
+        scene_rod(s, rlf_vec3_make(x + side * 0.09, 0.15, z), knee, 0.09, 0.075);
+        scene_rod(s, knee, foot, 0.075, 0.055);
         scene_rod(s, foot, rlf_vec3_make(foot.x + side * 0.05, 0.98, z - 0.18), 0.045, 0.04);
         scene_hand *h = &hands[(side + 1) / 2];
         *h = (scene_hand){.palm = {x + side * 0.48, -0.35, z - 0.15},
