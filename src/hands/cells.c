@@ -9,6 +9,7 @@
 #define NOISE_SIGMAS 4.0     /* beyond that two depths differ */
 #define BODY_RADIUS_M 0.11f  /* no limb, no hand and no head has a disc as large in it */
 #define PIECE_LEAST_M2 0.002 /* a smaller piece is no hand: one seen edge-on has 30 cm^2 */
+#define BRIDGE_M 0.2f        /* a hand hides the forearm that it is before by as much */
 #define MARGIN_SHARE 10      /* depth may begin this share of the picture inside its border */
 
 static int32_t near_one(double x)
@@ -80,7 +81,9 @@ float hand_cells_way(const hand_cells *c, int32_t a, int32_t b, float cells)
         return -1.0f;
     }
     const float across = cells * c->spacing * nearer;
-    return sqrtf(across * across + rise * rise);
+    const float noise = 2.0f * (float)rlf_depth_noise_sigma(&c->noise, (double)nearer);
+    const float climb = rise > noise ? rise - noise : 0.0f; /* noise makes no way longer */
+    return sqrtf(across * across + climb * climb);
 }
 
 /* The neighbour in this direction or, over one cell without foreground, the next one, and the way
@@ -109,10 +112,9 @@ static int32_t neighbour(const hand_cells *c, int32_t from, int32_t k_of_nine, f
 
 #define NINE_MIDDLE 4
 
-static void relax(hand_cells *c, float *distance, int32_t from, int32_t k, int32_t *tail)
+static void relax(hand_cells *c, float *distance, int32_t from, int32_t to, float way,
+                  int32_t *tail)
 {
-    float way;
-    const int32_t to = neighbour(c, from, k, &way);
     if (to < 0 || distance[from] + way >= distance[to] - 1e-4f) {
         return;
     }
@@ -130,6 +132,17 @@ static void relax(hand_cells *c, float *distance, int32_t from, int32_t k, int32
     }
 }
 
+static void relax_bridges(hand_cells *c, float *distance, int32_t from, int32_t *tail)
+{
+    for (int32_t k = 0; k < c->bridge_count; k++) {
+        const int32_t *ends = c->bridge[k];
+        const float z = c->z[ends[0]] - c->z[ends[1]];
+        if (from == ends[0] || from == ends[1]) {
+            relax(c, distance, from, from == ends[0] ? ends[1] : ends[0], z < 0.0f ? -z : z, tail);
+        }
+    }
+}
+
 void hand_cells_spread(hand_cells *c, float *distance, int32_t queued, float limit)
 {
     int32_t head = 0;
@@ -139,9 +152,12 @@ void hand_cells_spread(hand_cells *c, float *distance, int32_t queued, float lim
         head = head == c->count ? 0 : head + 1;
         c->queued[from] = 0;
         for (int32_t k = 0; k < 9 && distance[from] < limit; k++) {
-            if (k != NINE_MIDDLE) {
-                relax(c, distance, from, k, &tail);
-            }
+            float way = 0.0f;
+            const int32_t to = k != NINE_MIDDLE ? neighbour(c, from, k, &way) : -1;
+            relax(c, distance, from, to, way, &tail);
+        }
+        if (distance[from] < limit) {
+            relax_bridges(c, distance, from, &tail);
         }
     }
 }
@@ -243,11 +259,12 @@ static int32_t add_roots(hand_cells *c)
     return queued;
 }
 
-/* A rooted piece that is not nearer begins within four cells of this one. */
-static bool is_before_another(const hand_cells *c, int32_t cell)
+/* The rooted cell within four cells of this one that is least far behind it; -1 = none. */
+static int32_t behind_cell(const hand_cells *c, int32_t cell)
 {
     const int32_t x = cell % c->width;
     const int32_t y = cell / c->width;
+    int32_t best = -1;
     for (int32_t k = 1; k <= 4; k++) {
         const int32_t at[4] = {x >= k ? cell - k : cell, x + k < c->width ? cell + k : cell,
                                y >= k ? cell - k * c->width : cell,
@@ -255,12 +272,12 @@ static bool is_before_another(const hand_cells *c, int32_t cell)
         for (int32_t side = 0; side < 4; side++) {
             const int32_t i = at[side];
             if (c->reach[i] < CELL_FAR && hand_cells_root(c, i) <= HAND_ROOT_BODY &&
-                c->z[i] > c->z[cell] - 0.02f) {
-                return true;
+                c->z[i] > c->z[cell] && (best < 0 || c->z[i] < c->z[best])) {
+                best = i;
             }
         }
     }
-    return false;
+    return best;
 }
 
 /* Lists a piece in the queue, from its first cell on, and returns how many cells it has. */
@@ -282,27 +299,42 @@ static int32_t list_piece(hand_cells *c, int32_t first)
     return count;
 }
 
-/* A piece that no root reaches hangs on its furthest end. */
+static void spread_from(hand_cells *c, int32_t cell)
+{
+    c->queue[0] = cell;
+    hand_cells_spread(c, c->reach, 1, CELL_FAR);
+}
+
+/* A piece that no root reaches is the hand before its arm, or it hangs on its furthest end. */
 static void root_piece(hand_cells *c, int32_t first)
 {
     const int32_t count = list_piece(c, first);
-    int32_t deepest = first;
-    bool is_front = false;
+    int32_t deepest = first, edge = -1, behind = -1;
     double area = 0.0;
     for (int32_t k = 0; k < count; k++) {
         const int32_t i = c->queue[k];
         const double side = (double)(c->spacing * c->z[i]);
+        const int32_t other = behind_cell(c, i);
         area += side * side;
         deepest = c->z[i] > c->z[deepest] ? i : deepest;
-        is_front = is_front || is_before_another(c, i);
+        if (other >= 0 && (edge < 0 || c->z[other] - c->z[i] < c->z[behind] - c->z[edge])) {
+            edge = i;
+            behind = other;
+        }
     }
-    if (area >= PIECE_LEAST_M2) {
-        c->source[deepest] = deepest;
-        c->root[deepest] = (uint8_t)(is_front ? HAND_ROOT_FRONT : HAND_ROOT_ALONE);
-        c->reach[deepest] = 0.0f;
-        c->queue[0] = deepest;
-        hand_cells_spread(c, c->reach, 1, CELL_FAR);
+    if (area < PIECE_LEAST_M2) {
+        return;
     }
+    if (edge >= 0 && c->z[behind] - c->z[edge] < BRIDGE_M && c->bridge_count < BRIDGES_MAX) {
+        c->bridge[c->bridge_count][0] = behind;
+        c->bridge[c->bridge_count++][1] = edge;
+        spread_from(c, behind);
+        return;
+    }
+    c->source[deepest] = deepest;
+    c->root[deepest] = (uint8_t)(edge >= 0 ? HAND_ROOT_FRONT : HAND_ROOT_ALONE);
+    c->reach[deepest] = 0.0f;
+    spread_from(c, deepest);
 }
 
 bool hand_cells_read(hand_cells *c, const rlf_surface *s)
@@ -320,6 +352,7 @@ bool hand_cells_read(hand_cells *c, const rlf_surface *s)
     }
     measure_discs(c);
     c->touched_count = 0;
+    c->bridge_count = 0;
     hand_cells_spread(c, c->reach, add_roots(c), CELL_FAR);
     for (int32_t i = 0; i < c->count; i++) {
         if (c->z[i] > 0.0f && c->reach[i] >= CELL_FAR && c->root[i] == HAND_ROOT_NONE) {

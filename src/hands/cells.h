@@ -5,7 +5,8 @@
 #include "relief/surface.h"
 
 #define CELL_FAR 1e9f /* no way leads there */
-#define CHAMFER 5     /* units of hand_cells.disc in one cell */
+#define BRIDGES_MAX 16
+#define CHAMFER 5 /* units of hand_cells.disc in one cell */
 
 /* What a limb hangs on. */
 typedef enum hand_root {
@@ -32,6 +33,8 @@ typedef struct hand_cells {
     int32_t *touched; /* cells that hand_cells_spread gave a distance, in that order */
     int32_t touched_count;
     rlf_depth_noise noise;
+    int32_t bridge[BRIDGES_MAX][2]; /* cells at both sides of a depth step within one limb */
+    int32_t bridge_count;
 } hand_cells;
 
 /* Reads the surface's foreground and fills all planes. False when there is none. */

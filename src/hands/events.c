@@ -7,11 +7,11 @@
 #define SILENCE_NS INT64_C(700000000) /* after one: the hand goes back */
 #define SWIPE_M 0.22
 #define PUSH_M 0.15
-#define STROKE_SLANT 0.5            /* most motion across a stroke, of its length */
-#define STROKE_M_S 0.5              /* mean speed of a stroke */
-#define WAVE_M 0.05                 /* least way between two turns */
-#define WAVE_NS INT64_C(2000000000) /* all turns of a wave */
-#define TURN_NS INT64_C(500000000)  /* a stroke right after a turn is a wave's */
+#define STROKE_SLANT 0.5                  /* most motion across a stroke, of its length */
+#define STROKE_M_S 0.5                    /* mean speed of a stroke */
+#define WAVE_M 0.05                       /* least way between two turns */
+#define WAVE_NS INT64_C(2000000000)       /* all turns of a wave */
+#define TO_AND_FRO_NS INT64_C(1000000000) /* two turns within it are a wave's */
 
 void hand_event_add(rlf_hands *out, const rlf_hand *hand, rlf_hand_event_kind kind)
 {
@@ -56,23 +56,26 @@ static void remember(hand_motion *m, int64_t time_ns, rlf_vec3 palm)
     m->past[m->count++] = (hand_moment){time_ns, palm};
 }
 
-/* A turn counts when the hand has come back by WAVE_M. */
+/* A turn counts when the hand has come back by WAVE_M. True: it is the last turn of a wave. */
 static bool note_turn(hand_motion *m, double x, int64_t now_ns)
 {
-    const double back = m->sense >= 0 ? m->extreme - x : x - m->extreme;
-    if (m->sense == 0) {
+    const double way = x - m->extreme;
+    const bool is_first = m->count == 1;
+    if (is_first || (m->sense > 0 && way > 0.0) || (m->sense < 0 && way < 0.0)) {
         m->extreme = x;
-        m->sense = 1;
-    } else if (back < 0.0) {
-        m->extreme = x;
-    } else if (back > WAVE_M) {
-        m->sense = -m->sense;
-        m->extreme = x;
+        return false;
+    }
+    if (way < WAVE_M && way > -WAVE_M) {
+        return false;
+    }
+    const bool has_turned = m->sense != 0;
+    m->sense = way > 0.0 ? 1 : -1;
+    m->extreme = x;
+    if (has_turned) {
         memmove(m->turn_ns, m->turn_ns + 1, sizeof(m->turn_ns) - sizeof(m->turn_ns[0]));
         m->turn_ns[HAND_TURNS - 1] = now_ns;
-        return m->turn_ns[0] > 0 && now_ns - m->turn_ns[0] < WAVE_NS;
     }
-    return false;
+    return has_turned && m->turn_ns[0] > 0 && now_ns - m->turn_ns[0] < WAVE_NS;
 }
 
 /* A straight way of at least `length` along `axis` that ends now; its sense, or 0. */
@@ -101,14 +104,14 @@ void hand_events_of_motion(rlf_hands *out, const rlf_hand *hand, hand_motion *m)
     const int64_t now_ns = out->time_ns;
     const rlf_vec3 right = {1, 0, 0};
     remember(m, now_ns, hand->palm);
-    const int64_t before_ns = m->turn_ns[HAND_TURNS - 1];
-    const bool has_turned = before_ns > 0 && now_ns - before_ns < TURN_NS;
+    const int64_t before_ns = m->turn_ns[HAND_TURNS - 2];
+    const bool is_to_and_fro = before_ns > 0 && now_ns - before_ns < TO_AND_FRO_NS;
     if (note_turn(m, hand->palm.x, now_ns)) {
         hand_event_add(out, hand, RLF_HAND_EVENT_WAVE);
         memset(m->turn_ns, 0, sizeof(m->turn_ns));
         m->silent_until_ns = now_ns + SILENCE_NS;
     }
-    if (now_ns < m->silent_until_ns || has_turned) {
+    if (now_ns < m->silent_until_ns || is_to_and_fro) {
         return;
     }
     const int32_t swipe = stroke(m, right, SWIPE_M);

@@ -125,19 +125,44 @@ static double within(double x, double a, double b, double c, double d)
     return rlf_clamp(rlf_min((x - a) / (b - a), (d - x) / (d - c)), 0.0, 1.0);
 }
 
+/* From the middle of the body an arm is 0.6 to 0.9 m long and thinner than a calf in trousers; a
+ * leg is 0.9 m and longer. */
+static double leg_likeness(const hand_limb *limb)
+{
+    const double is_long = rlf_clamp(((double)limb->length - 0.75) / 0.20, 0.0, 1.0);
+    const double is_thick = rlf_clamp(((double)limb->width - 0.042) / 0.014, 0.0, 1.0);
+    const double is_longer = rlf_clamp(((double)limb->length - 0.95) / 0.10, 0.0, 1.0);
+    return rlf_max(is_long * is_thick, is_longer);
+}
+
+/* An arm towards the camera: what is behind the hand is hidden by it, and no leg rises so. */
+static bool is_forward(const hand_limb *limb)
+{
+    return limb->rise > FORWARD * limb->length;
+}
+
+static double hangs_well(const hand_limb *limb)
+{
+    switch (limb->root) {
+    case HAND_ROOT_BORDER: return 1.0;
+    case HAND_ROOT_BODY: return is_forward(limb) ? 1.0 : 1.0 - leg_likeness(limb);
+    case HAND_ROOT_FRONT: return is_forward(limb) ? 1.0 : 0.65;
+    case HAND_ROOT_ALONE:
+    case HAND_ROOT_NONE: break;
+    }
+    return 0.4;
+}
+
 double hand_confidence(const hand_limb *limb, const hand_palm *palm, const hand_fingers *f)
 {
     /* Half a palm's breadth is 35 to 50 mm (5th to 95th percentile), edge-on 12; heads have 75. */
-    double c = within(palm->radius, 0.010, 0.020, 0.055, 0.068);
+    double c = within(palm->radius, 0.010, 0.020, 0.050, 0.062);
     /* Forearms, sleeves too, against thighs, trunks and rods. */
-    c *= limb->width < 0.0f ? 0.8 : within((double)limb->width, 0.012, 0.020, 0.062, 0.080);
-    /* An arm from the body is 0.5 to 0.8 m long, a leg longer. */
-    const bool is_from_body = limb->root == HAND_ROOT_BODY;
-    const double longest = is_from_body ? 0.85 : 1.2;
-    c *= within((double)limb->length, 0.10, 0.18, longest, longest + 0.2);
-    const bool hangs = limb->root == HAND_ROOT_BORDER || limb->root == HAND_ROOT_BODY ||
-                       (limb->root == HAND_ROOT_FRONT && limb->rise > FORWARD * limb->length);
-    c *= hangs ? 1.0 : 0.4;
+    c *= limb->width < 0.0f || is_forward(limb)
+             ? 0.8
+             : within((double)limb->width, 0.012, 0.020, 0.050, 0.066);
+    c *= within((double)limb->length, 0.10, 0.18, 1.2, 1.4);
+    c *= hangs_well(limb);
     /* Nearly nothing but palm: a rod's end or a ball, no hand with a wrist. */
     c *= palm->has_wrist || f->reach > 1.2 ? 1.0 : 0.8;
     return c;

@@ -7,6 +7,7 @@
 #define PALM_TO_M 0.14        /* and at most this far: the longest hands */
 #define NEARLY 0.92           /* discs of one palm are as large as this share of the largest */
 #define WRIST_SHARE 0.88      /* of the palm, that a wrist is narrower than */
+#define WRIST_BIN_MAX 24      /* the patch ends at BINS and cuts the discs before */
 #define WRIST_TO_PALM_BINS 11 /* most between them: half a hand */
 #define PALM_BINS 4           /* from where it is nearly as wide to its middle */
 #define RADIUS_LEAST_M 0.010  /* a hand seen edge-on is 25 mm thick */
@@ -40,32 +41,41 @@ static void read_profile(profile *f, const hand_patch *p)
 
 static int32_t widest(const profile *f, int32_t begin, int32_t end)
 {
-    int32_t best = begin;
-    for (int32_t b = begin; b < end && b < BINS; b++) {
+    int32_t best = begin > 0 ? begin : 0;
+    for (int32_t b = best; b < end && b < BINS; b++) {
         best = f->radius[b] > f->radius[best] ? b : best;
     }
     return best;
+}
+
+/* Bins cut discs: each takes the larger of its neighbours'. */
+static profile widened(const profile *f)
+{
+    profile w;
+    for (int32_t b = 0; b < BINS; b++) {
+        const int32_t k = widest(f, b - 1, b + 2);
+        w.radius[b] = f->radius[k];
+        w.pixel[b] = f->pixel[k];
+    }
+    return w;
 }
 
 /* From the arm towards the tip: the limb narrows to the wrist and widens to the palm. What the hand
  * holds lies beyond and may be wider. Returns the palm's bin, or -1 without a wrist. */
 static int32_t beyond_wrist(const profile *f)
 {
-    for (int32_t wrist = BINS - 3; wrist > 4; wrist--) {
-        const int32_t begin = wrist > WRIST_TO_PALM_BINS ? wrist - WRIST_TO_PALM_BINS : 2;
-        const int32_t palm = widest(f, begin, wrist - 2);
-        const int32_t arm = widest(f, wrist + 1, wrist + 8);
+    for (int32_t wrist = WRIST_BIN_MAX; wrist > 4; wrist--) {
+        const int32_t palm = widest(f, wrist - WRIST_TO_PALM_BINS, wrist - 2);
         const bool is_narrow = f->radius[wrist] > 0.0 &&
                                f->radius[wrist] < WRIST_SHARE * f->radius[palm] &&
-                               f->radius[wrist] <= f->radius[arm];
-        if (!is_narrow) {
-            continue;
+                               f->radius[wrist] <= f->radius[wrist + 1];
+        if (is_narrow) {
+            int32_t first = wrist - 1;
+            while (first > palm && f->radius[first] < NEARLY * f->radius[palm]) {
+                first--;
+            }
+            return widest(f, first - PALM_BINS, first + 1);
         }
-        int32_t first = wrist - 1;
-        while (first > palm && f->radius[first] < NEARLY * f->radius[palm]) {
-            first--;
-        }
-        return widest(f, first > PALM_BINS ? first - PALM_BINS : 0, first + 1);
     }
     return -1;
 }
@@ -155,30 +165,27 @@ static void find_arm(hand_palm *palm, const hand_patch *p)
     palm->arm_y = has_none ? -1.0 : palm->arm_y / length;
 }
 
+/* The first disc from the tip that is nearly as large as the largest that a palm may be. */
+static int32_t first_wide(const profile *f)
+{
+    const int32_t from = (int32_t)(PALM_FROM_M / BIN_M), to = (int32_t)(PALM_TO_M / BIN_M);
+    const int32_t largest = widest(f, from, to);
+    int32_t bin = from;
+    while (bin < largest && f->radius[bin] < NEARLY * f->radius[largest]) {
+        bin++;
+    }
+    return widest(f, bin, bin + PALM_BINS < to ? bin + PALM_BINS : to);
+}
+
 bool hand_palm_find(hand_palm *palm, const hand_patch *p)
 {
-    profile f;
-    read_profile(&f, p);
+    profile read;
+    read_profile(&read, p);
+    const profile f = widened(&read);
     *palm = (hand_palm){.x = 0};
     int32_t bin = beyond_wrist(&f);
     palm->has_wrist = bin >= 0;
-    if (bin < 0) {
-        const int32_t from = (int32_t)(PALM_FROM_M / BIN_M), to = (int32_t)(PALM_TO_M / BIN_M);
-        bin = widest(&f, from, to);
-        for (int32_t b = from; b < bin; b++) {
-            if (f.radius[b] > NEARLY * f.radius[bin]) {
-                bin = b;
-            }
-        }
-    }
-    /* On to the middle of that disc: bins cut it. */
-    while (bin > 1 && f.radius[bin - 1] > f.radius[bin]) {
-        bin--;
-    }
-    while (bin < BINS - 1 && !palm->has_wrist && f.radius[bin + 1] > f.radius[bin] &&
-           (bin + 1) * BIN_M < PALM_TO_M) {
-        bin++;
-    }
+    bin = bin >= 0 ? bin : first_wide(&f);
     if (f.radius[bin] < RADIUS_LEAST_M) {
         return false;
     }

@@ -2,10 +2,10 @@
  * the camera: whoever turns the back to it is taken for the other way round. */
 #include "hands/side.h"
 
-#define BODY_NEAR_M 0.6  /* cells of one body are this close to where its arm leaves it */
-#define BODY_SIDE_M 0.05 /* an arm leaves its body at least so far from the middle */
-#define LEAN_SIN 0.17    /* 10 degrees: a forearm leans towards the middle of its body */
-#define PAIR_M 1.2       /* two arms of one owner come in this close to each other */
+#define BODY_NEAR_M 0.6 /* cells of one body are this close to where its arm leaves it */
+#define BODY_SIDE_M 0.1 /* a hand is at least so far from its body's middle */
+#define LEAN_SIN 0.17   /* 10 degrees: a forearm leans towards the middle of its body */
+#define PAIR_M 1.2      /* two arms of one owner come in this close to each other */
 #define PAIR_LEAST_M 0.1
 #define PAIR_WEIGHT 2.0
 #define BODY_WEIGHT 1.5
@@ -66,8 +66,8 @@ static double by_lean(const entry *e, rlf_vec3 arm)
     return cross < -LEAN_SIN ? LEAN_WEIGHT : (cross > LEAN_SIN ? -LEAN_WEIGHT : 0.0);
 }
 
-/* Of someone who faces the camera: the right arm leaves the body on the picture's left. */
-static double by_body(const entry *e, const hand_cells *c)
+/* Of someone who faces the camera the right hand is mostly on the picture's left. */
+static double by_body(const entry *e, const hand_cells *c, int32_t tip)
 {
     double sum = 0.0;
     int32_t count = 0;
@@ -75,7 +75,7 @@ static double by_body(const entry *e, const hand_cells *c)
         const double dx = i % c->width - e->x, dy = (double)(i / c->width) - e->y;
         if (c->root[i] == HAND_ROOT_BODY &&
             (dx * dx + dy * dy) * e->cell_m * e->cell_m < BODY_NEAR_M * BODY_NEAR_M) {
-            sum += dx * e->cell_m;
+            sum += (i % c->width - tip % c->width) * e->cell_m;
             count++;
         }
     }
@@ -92,7 +92,7 @@ void hand_sides_tell(hand_seen *seen, int32_t count, const hand_cells *c, const 
             seen[i].right = by_pair(&e, seen, count, i, c, l);
             seen[i].right += by_lean(&e, seen[i].hand.arm_direction);
         } else if (l->limb[seen[i].limb].root == HAND_ROOT_BODY) {
-            seen[i].right = by_body(&e, c);
+            seen[i].right = by_body(&e, c, l->limb[seen[i].limb].tip);
         }
     }
 }

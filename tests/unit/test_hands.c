@@ -174,11 +174,298 @@ static void test_gestures(void **state)
     }
 }
 
+/* Stands at `x` and looks at the camera: arms to the sides and forward, head and legs. */
+static void draw_person(hand_scene *s, double x, double z, scene_hand *hands)
+{
+    const rlf_vec3 hip = {x, 0.15, z}, chest = {x, -0.25, z};
+    scene_rod(s, hip, chest, 0.14, 0.16);
+    scene_rod(s, chest, rlf_vec3_make(x, -0.50, z), 0.06, 0.06);
+    scene_ball(s, rlf_vec3_make(x, -0.60, z), 0.085);
+    for (int side = -1; side <= 1; side += 2) {
+        const rlf_vec3 knee = {x + side * 0.12, 0.55, z}, foot = {x + side * 0.14, 0.95, z};
+        scene_rod(s, rlf_vec3_make(x + side * 0.09, 0.15, z), knee, 0.09, 0.075);
+        scene_rod(s, knee, foot, 0.075, 0.055);
+        scene_rod(s, foot, rlf_vec3_make(foot.x + side * 0.05, 0.98, z - 0.18), 0.045, 0.04);
+        scene_hand *h = &hands[(side + 1) / 2];
+        *h = (scene_hand){.palm = {x + side * 0.48, -0.35, z - 0.15},
+                          .turn = side * 0.6,
+                          .fingers = FINGERS_ALL,
+                          .arm = 0.15};
+        scene_draw_hand(s, h);
+        const rlf_vec3 elbow = scene_hand_point(h, 0.0, -0.26);
+        scene_rod(s, elbow, rlf_vec3_make(x + side * 0.17, -0.36, z - 0.02), 0.045, 0.055);
+    }
+}
+
+/* Two people at 2.4 m have four hands; heads and feet are none. */
+static void test_people(void **state)
+{
+    (void)state;
+    bench b = bench_create();
+    scene_hand hands[4];
+    const rlf_hands *out = NULL;
+    for (int k = 0; k < 6; k++) {
+        b.time_ns += FRAME_NS;
+        scene_clear(b.scene, 4.0, b.time_ns);
+        draw_person(b.scene, -0.75, 2.4, hands);
+        draw_person(b.scene, 0.75, 2.4, hands + 2);
+        scene_noise(b.scene);
+        out = rlf_hand_tracker_update(b.tracker, &b.scene->surface);
+        check_finite(out);
+    }
+    for (int i = 0; i < out->count; i++) {
+        const rlf_hand *h = &out->hand[i];
+        print_message("at %.2f %.2f %.2f radius %.0f mm: %.2f side %d %s\n", h->palm.x, h->palm.y,
+                      h->palm.z, 1000.0 * h->palm_radius, h->confidence, (int)h->side,
+                      rlf_gesture_name(h->gesture));
+    }
+    assert_int_equal(count_sure(out), 4);
+    for (int k = 0; k < 4; k++) {
+        const rlf_hand *seen = near_point(out, hands[k].palm);
+        assert_non_null(seen);
+        print_message("palm off %.1f mm\n", 1000.0 * off(seen->palm, hands[k].palm));
+        assert_true(off(seen->palm, hands[k].palm) < 0.012);
+        assert_int_equal(seen->detail, RLF_HAND_PALM_ONLY);
+        assert_int_equal(seen->gesture, RLF_GESTURE_OPEN);
+        assert_int_equal(seen->side, k % 2 == 0 ? RLF_HAND_RIGHT : RLF_HAND_LEFT);
+    }
+    bench_destroy(&b);
+}
+
+/* An arm that points at the camera hides its shoulder: it hangs in front of the body. */
+static void test_arm_forward(void **state)
+{
+    (void)state;
+    bench b = bench_create();
+    const rlf_hands *out = NULL;
+    const rlf_vec3 palm = {0.05, -0.1, 1.3};
+    for (int k = 0; k < 4; k++) {
+        b.time_ns += FRAME_NS;
+        scene_clear(b.scene, 4.0, b.time_ns);
+        scene_rod(b.scene, rlf_vec3_make(0, 0.15, 2.0), rlf_vec3_make(0, -0.25, 2.0), 0.14, 0.16);
+        scene_rod(b.scene, rlf_vec3_make(0.17, -0.3, 1.9), rlf_vec3_make(0.05, -0.05, 1.32), 0.05,
+                  0.028);
+        scene_hand h = {.palm = palm, .fingers = 0, .arm = 0.0};
+        scene_draw_hand(b.scene, &h);
+        scene_noise(b.scene);
+        out = rlf_hand_tracker_update(b.tracker, &b.scene->surface);
+        check_finite(out);
+    }
+    for (int i = 0; i < out->count; i++) {
+        print_message("at %.2f %.2f %.2f: %.2f\n", out->hand[i].palm.x, out->hand[i].palm.y,
+                      out->hand[i].palm.z, out->hand[i].confidence);
+    }
+    assert_int_equal(count_sure(out), 1);
+    const rlf_hand *seen = near_point(out, palm);
+    assert_non_null(seen);
+    assert_true(off(seen->palm, palm) < 0.015);
+    bench_destroy(&b);
+}
+
+/* A leg from below with its shoe, a head from above, a chair's back and leg, a ball in the air. */
+static void test_no_hands(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        bench b = bench_create();
+        const rlf_hands *out = NULL;
+        for (int frame = 0; frame < 4; frame++) {
+            hand_scene *s = b.scene;
+            b.time_ns += FRAME_NS;
+            scene_clear(s, 3.0, b.time_ns);
+            if (k == 0) {
+                scene_rod(s, rlf_vec3_make(0, 1.2, 1.5), rlf_vec3_make(0, 0.6, 1.5), 0.09, 0.085);
+                scene_rod(s, rlf_vec3_make(0, 0.6, 1.5), rlf_vec3_make(0.1, 0.0, 1.5), 0.08, 0.06);
+                scene_rod(s, rlf_vec3_make(0.1, 0.0, 1.5), rlf_vec3_make(0.3, -0.02, 1.5), 0.05,
+                          0.05);
+            } else if (k == 1) {
+                scene_rod(s, rlf_vec3_make(0, 0.9, 1.2), rlf_vec3_make(0, 0.1, 1.2), 0.06, 0.06);
+                scene_ball(s, rlf_vec3_make(0, 0.0, 1.2), 0.095);
+            } else if (k == 2) {
+                for (double x = -0.2; x <= 0.2; x += 0.02) {
+                    scene_rod(s, rlf_vec3_make(x, 0.9, 1.2), rlf_vec3_make(x, 0.0, 1.2), 0.015,
+                              0.015);
+                }
+                scene_rod(s, rlf_vec3_make(-0.5, 0.9, 1.2), rlf_vec3_make(-0.5, 0.0, 1.2), 0.011,
+                          0.011);
+            } else {
+                scene_ball(s, rlf_vec3_make(0, 0, 1.0), 0.04);
+                scene_rod(s, rlf_vec3_make(0.2, 0, 1.0), rlf_vec3_make(0.5, 0, 1.0), 0.03, 0.03);
+            }
+            scene_noise(s);
+            out = rlf_hand_tracker_update(b.tracker, &s->surface);
+            check_finite(out);
+        }
+        for (int i = 0; i < out->count; i++) {
+            print_message("case %d at %.2f %.2f %.2f radius %.0f mm: %.2f\n", k,
+                          out->hand[i].palm.x, out->hand[i].palm.y, out->hand[i].palm.z,
+                          1000.0 * out->hand[i].palm_radius, out->hand[i].confidence);
+        }
+        assert_int_equal(count_sure(out), 0);
+        bench_destroy(&b);
+    }
+}
+
+/* Two arms from below; they cross the picture, keep their ids, and nothing is allocated. */
+static void test_follows(void **state)
+{
+    (void)state;
+    bench b = bench_create();
+    scene_hand h[2] = {{.palm = {-0.25, 0.1, 0.9}, .turn = 0.2, .fingers = FINGERS_ALL, .arm = 0.8},
+                       {.palm = {0.25, 0.1, 1.0}, .turn = -0.2, .fingers = 0, .arm = 0.8}};
+    const rlf_hands *out = show_for(&b, h, 2, 4);
+    assert_int_equal(count_sure(out), 2);
+    const int32_t left = near_point(out, h[0].palm)->id, right = near_point(out, h[1].palm)->id;
+    const uint64_t allocated = rlf_alloc_count();
+    double most = 0.0;
+    for (int k = 0; k < 30; k++) {
+        h[0].palm.y -= 0.6 / 30.0;
+        h[1].palm.x += 0.3 / 30.0;
+        h[0].palm.y += k < 15 ? 0.0 : 1.2 / 30.0;
+        out = show(&b, h, 2, true);
+        const rlf_hand *a = near_point(out, h[0].palm), *c = near_point(out, h[1].palm);
+        assert_true(a != NULL && c != NULL && a->id == left && c->id == right);
+        most = rlf_max(most, off(a->palm, h[0].palm));
+        most = rlf_max(most, off(c->palm, h[1].palm));
+        if (k == 12) {
+            assert_true(rlf_length(rlf_sub(a->velocity, rlf_vec3_make(0, -0.6, 0))) < 0.12);
+        }
+    }
+    print_message("at 0.6 m/s palms are off %.1f mm at most\n", 1000.0 * most);
+    assert_true(most < 0.012);
+    assert_true(rlf_alloc_count() == allocated);
+    assert_int_equal(near_point(out, h[0].palm)->side, RLF_HAND_LEFT);
+    assert_int_equal(near_point(out, h[1].palm)->side, RLF_HAND_RIGHT);
+    scene_hand none[1];
+    out = show(&b, none, 0, true);
+    assert_int_equal(out->count, 0);
+    out = show_for(&b, h, 2, 3); /* a gap of one frame */
+    assert_int_equal(near_point(out, h[0].palm)->id, left);
+    show_for(&b, none, 0, 12); /* 0.4 s: a new hand */
+    out = show_for(&b, h, 2, 3);
+    assert_true(near_point(out, h[0].palm)->id > right);
+    bench_destroy(&b);
+}
+
+static int count_events(const rlf_hands *hands, rlf_hand_event_kind kind)
+{
+    int count = 0;
+    for (int i = 0; i < hands->event_count; i++) {
+        count += hands->event[i].kind == kind;
+    }
+    return count;
+}
+
+/* How often each kind of event comes while the hand goes `way` and back, `times` times. */
+static void move_hand(rlf_vec3 way, int times, int frames, int counts[RLF_HAND_EVENT_COUNT])
+{
+    bench b = bench_create();
+    scene_hand h = {.palm = {0.0, 0.1, 1.0}, .fingers = FINGERS_ALL, .arm = 0.8};
+    memset(counts, 0, RLF_HAND_EVENT_COUNT * sizeof(counts[0]));
+    const rlf_vec3 start = rlf_mad(h.palm, way, -0.5);
+    for (int k = -8; k < times * frames + 8; k++) {
+        const int stroke = k < 0 ? 0 : (k >= times * frames ? times - 1 : k / frames);
+        const double t = rlf_clamp((double)(k - stroke * frames) / frames, 0.0, 1.0);
+        h.palm = rlf_mad(start, way, stroke % 2 == 0 ? t : 1.0 - t);
+        const rlf_hands *out = show(&b, &h, 1, true);
+        for (int kind = 0; kind < RLF_HAND_EVENT_COUNT; kind++) {
+            counts[kind] += count_events(out, (rlf_hand_event_kind)kind);
+        }
+    }
+    bench_destroy(&b);
+}
+
+static void test_motions(void **state)
+{
+    (void)state;
+    int n[RLF_HAND_EVENT_COUNT];
+    move_hand(rlf_vec3_make(0.4, 0, 0), 1, 10, n);
+    assert_int_equal(n[RLF_HAND_EVENT_SWIPE_RIGHT], 1);
+    assert_int_equal(n[RLF_HAND_EVENT_SWIPE_LEFT] + n[RLF_HAND_EVENT_WAVE], 0);
+    assert_int_equal(n[RLF_HAND_EVENT_OPEN], 1);
+    move_hand(rlf_vec3_make(-0.4, 0, 0), 1, 10, n);
+    assert_int_equal(n[RLF_HAND_EVENT_SWIPE_LEFT], 1);
+    move_hand(rlf_vec3_make(0.12, 0, 0), 8, 7, n);
+    assert_int_equal(n[RLF_HAND_EVENT_WAVE], 1);
+    assert_int_equal(n[RLF_HAND_EVENT_SWIPE_LEFT] + n[RLF_HAND_EVENT_SWIPE_RIGHT], 0);
+    move_hand(rlf_vec3_make(0, -0.25, 0), 1, 9, n);
+    assert_int_equal(n[RLF_HAND_EVENT_PUSH], 1);
+    move_hand(rlf_vec3_make(0.1, -0.05, 0), 1, 30, n);
+    for (int kind = RLF_HAND_EVENT_PUSH; kind < RLF_HAND_EVENT_COUNT; kind++) {
+        assert_int_equal(n[kind], 0);
+    }
+}
+
+/* The same frames give the same bits; a tracker that was reset is as a new one. */
+static void test_same_bits(void **state)
+{
+    (void)state;
+    bench a = bench_create(), b = bench_create();
+    scene_hand h = {.palm = {0.1, 0.0, 0.8}, .turn = 0.5, .fingers = FINGERS_ALL, .arm = 0.8};
+    show_for(&b, &h, 1, 3);
+    rlf_hand_tracker_reset(b.tracker);
+    b.time_ns = a.time_ns;
+    b.scene->noise = a.scene->noise;
+    for (int k = 0; k < 5; k++) {
+        h.palm.x += 0.01;
+        const rlf_hands *x = show(&a, &h, 1, true), *y = show(&b, &h, 1, true);
+        assert_int_equal(x->count, y->count);
+        assert_memory_equal(x->hand, y->hand, (size_t)x->count * sizeof(x->hand[0]));
+        assert_memory_equal(x->owner, y->owner, SCENE_N);
+    }
+    bench_destroy(&a);
+    bench_destroy(&b);
+}
+
+static void test_empty_and_odd(void **state)
+{
+    (void)state;
+    bench b = bench_create();
+    scene_clear(b.scene, 0.0, 5); /* no depth at all */
+    assert_int_equal(rlf_hand_tracker_update(b.tracker, &b.scene->surface)->count, 0);
+    memset(b.scene->foreground, 1, sizeof(b.scene->foreground)); /* but all of it foreground */
+    assert_int_equal(rlf_hand_tracker_update(b.tracker, &b.scene->surface)->count, 0);
+    for (int i = 0; i < SCENE_N; i++) { /* speckle */
+        b.scene->noise = b.scene->noise * 1664525u + 1013904223u;
+        b.scene->depth[i] = (float)(0.5 + (double)(b.scene->noise >> 8) / 8388608.0);
+        b.scene->foreground[i] = (b.scene->noise >> 30) == 0;
+    }
+    const rlf_hands *out = rlf_hand_tracker_update(b.tracker, &b.scene->surface);
+    check_finite(out);
+    assert_int_equal(count_sure(out), 0);
+    bench_destroy(&b);
+    rlf_hand_tracker_def def = rlf_hand_tracker_def_default(0, 4);
+    rlf_hand_tracker *tracker = NULL;
+    assert_int_equal(rlf_hand_tracker_create(&def, &tracker), RLF_ERROR_INVALID);
+    def = rlf_hand_tracker_def_default(3, 2);
+    def.smooth_hz = 0.0;
+    assert_int_equal(rlf_hand_tracker_create(&def, &tracker), RLF_ERROR_INVALID);
+    assert_null(tracker);
+}
+
+static void test_names(void **state)
+{
+    (void)state;
+    for (int k = 0; k < RLF_HAND_EVENT_COUNT; k++) {
+        rlf_hand_event_kind kind = RLF_HAND_EVENT_COUNT;
+        assert_true(rlf_hand_event_parse(rlf_hand_event_name((rlf_hand_event_kind)k), &kind));
+        assert_int_equal(kind, k);
+    }
+    rlf_hand_event_kind kind = RLF_HAND_EVENT_WAVE;
+    assert_false(rlf_hand_event_parse("clap", &kind));
+    assert_int_equal(kind, RLF_HAND_EVENT_WAVE);
+    assert_string_equal(rlf_gesture_name(RLF_GESTURE_FIST), "fist");
+    assert_null(rlf_gesture_name((rlf_gesture)9));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_open_hand),
-        cmocka_unit_test(test_gestures),
+        cmocka_unit_test(test_open_hand),     cmocka_unit_test(test_gestures),
+        cmocka_unit_test(test_people),        cmocka_unit_test(test_arm_forward),
+        cmocka_unit_test(test_no_hands),      cmocka_unit_test(test_follows),
+        cmocka_unit_test(test_motions),       cmocka_unit_test(test_same_bits),
+        cmocka_unit_test(test_empty_and_odd), cmocka_unit_test(test_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
