@@ -6,7 +6,8 @@
 #include "physics/grab/hand.h"
 
 #define PASSES 4
-/* Residuals count in full up to here and hardly beyond: noise, metres. */
+/* Residuals count in full up to here and hardly beyond: noise, metres. The first pass is as many
+ * times more tolerant as there are passes, since the hand may have stopped or started. */
 #define SOFT_M (0.4 * GRID_NOISE_M)
 /* What is farther from where it should be is something else, metres. */
 #define FAR_M (3.0 * GRID_NOISE_M)
@@ -18,6 +19,7 @@
 typedef struct follow_fit {
     double A[6][6], b[6]; /* of turn and shift about `pivot`, grid frame */
     rlf_vec3 pivot;
+    double soft; /* of residuals, metres */
     double weight;
     rlf_vec3 flow; /* sum of velocities, weighted */
     double flow_weight;
@@ -28,7 +30,7 @@ static void add_row(follow_fit *fit, rlf_vec3 point, rlf_vec3 n, double residual
 {
     rlf_vec3 turn = rlf_cross(rlf_sub(point, fit->pivot), n);
     const double row[6] = {turn.x, turn.y, turn.z, n.x, n.y, n.z};
-    double soft = 1.0 + residual * residual / (SOFT_M * SOFT_M);
+    double soft = 1.0 + residual * residual / (fit->soft * fit->soft);
     weight /= soft * soft;
     for (int32_t i = 0; i < 6; i++) {
         for (int32_t k = 0; k <= i; k++) {
@@ -102,9 +104,9 @@ static void add_rim(follow_fit *fit, const rlf_grid *grid, const rlf_pose *T_gri
 }
 
 static void collect(follow_fit *fit, const rlf_grid *grid, const phys_grab *grab,
-                    const rlf_pose *T_grid_hand)
+                    const rlf_pose *T_grid_hand, double soft)
 {
-    *fit = (follow_fit){.pivot = T_grid_hand->p};
+    *fit = (follow_fit){.pivot = T_grid_hand->p, .soft = soft};
     for (int32_t i = 0; i < grab->point_count; i++) {
         add_point(fit, grid, T_grid_hand, grab->points[i]);
     }
@@ -157,7 +159,7 @@ bool grab_follow_hand(const grid_query *query, phys_grab *grab, double dt)
     follow_fit fit;
     for (int32_t pass = 0; pass < PASSES; pass++) {
         double step[6];
-        collect(&fit, grid, grab, &T);
+        collect(&fit, grid, grab, &T, SOFT_M * (PASSES - pass));
         if (fit.seen < SEEN_SHARE * grab->point_count) {
             return false;
         }

@@ -7,8 +7,8 @@
 #define OPEN_FRAMES 2
 /* The hand may be lost for so many frames: noise, or something passes before it. */
 #define LOST_FRAMES 3
-/* Of the joint, rad/s: errors fade within a tenth of a second, without a swing. */
-#define JOINT_OMEGA 25.0
+/* Of the joint, rad/s: errors fade within two frames, without a swing. */
+#define JOINT_OMEGA 50.0
 /* Sides that move apart, or past each other, faster are no grip, m/s. */
 #define APART_SPEED 0.15
 #define PAST_SPEED 0.3
