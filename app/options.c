@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define OPTIONS_MAX 32
+#define OPTIONS_MAX 40
 
 static int take_int(const char *command, const option_def *o)
 {

@@ -47,14 +47,15 @@ static void print_help(void)
         "  --picture-every N     default 30\n"
         "  --picture-at LIST     instead: these frames alone, e.g. 60,92\n"
         "  --picture-shrink N    average N x N pixels of a picture into one\n"
-        "  --log DIR             frames.csv, bodies.csv, contacts.csv\n"
+        "  --log DIR             frames.csv, bodies.csv, contacts.csv, hands.csv\n"
+        "  --hands               look for hands, for hands.csv\n"
         "  --record FILE.mcap    what the source gives, for playing it again (see `relief\n"
         "                        record`, whose --codec, --jpeg-quality, --lossless and\n"
         "                        --compression work here, too)\n"
         "  --record-bodies       the bodies' poses, too, as frames of /tf\n"
         "  --view NAME[,NAME...] camera (default), depth, normals, mesh, regions, foreground,\n"
         "                        background, velocity, thickness, reason, points, contacts,\n"
-        "                        known;\n"
+        "                        known, hands;\n"
         "                        up to four of them side by side\n"
         "  --orbit YAW,PITCH[,ZOOM]   where points are seen from: degrees to the right and\n"
         "                        up, and the distance, 1 being the camera's\n"
@@ -207,6 +208,7 @@ static int read_options(int argc, char **argv, run_options *o)
          .out = &out->picture_shrink,
          .low = 1,
          .high = 64},
+        {.name = "hands", .kind = OPTION_FLAG, .out = &s->enable_hands},
         {.name = "log", .kind = OPTION_TEXT, .out = &out->log_folder},
         {.name = "record", .kind = OPTION_TEXT, .out = &s->record.path},
         {.name = "record-bodies", .kind = OPTION_FLAG, .out = &s->record.keeps_bodies},

@@ -249,6 +249,6 @@ void run_output_print_summary(const run_output *out, const char *how,
         fprintf(file, "pictures: %s (%lld)\n", o->picture_folder, (long long)out->pictures);
     }
     if (o->log_folder != NULL) {
-        fprintf(file, "logs:     %s/frames.csv, bodies.csv, contacts.csv\n", o->log_folder);
+        fprintf(file, "logs:     %s/frames.csv, bodies.csv, contacts.csv, hands.csv\n", o->log_folder);
     }
 }

@@ -103,6 +103,7 @@ static rlf_result open_all(const session_options *options, session *s)
     settings_apply(&options->settings, &def.reconstruct);
     settings_warn(&options->settings, &def.reconstruct);
     def.enable_render = options->enable_render;
+    def.enable_hands = options->enable_hands;
     if (options->is_occlusion_set) {
         def.compositor.occlusion = options->occlusion;
     }

@@ -29,6 +29,7 @@ typedef struct session_options {
     bool no_real_shade, no_real_ambient;
     recorder_options record; /* of what the source gives; no path = not recorded */
     bool enable_render;
+    bool enable_hands;
     bool enable_overlay;
 } session_options;
 

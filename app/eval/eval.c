@@ -73,6 +73,7 @@ static const section sections[] = {
     {"physics", eval_physics_run, "bodies in free flight, at rest, pushed and thrown"},
     {"known", eval_known_run, "models of known things: poses, what they hide, what hits them"},
     {"start", eval_start_run, "what stood starts to move, and carries or pushes bodies"},
+    {"hands", eval_hands_run, "scripted hands grasp, carry, throw and gesture"},
     {SENSED, eval_sensed_run, "the same on what the sensor shows, against the true scene"},
 };
 #define SECTION_COUNT ((int)(sizeof(sections) / sizeof(sections[0])))

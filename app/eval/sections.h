@@ -22,5 +22,7 @@ rlf_result eval_sensed_run(eval_table *table, int64_t seed, int profile_mask);
 rlf_result eval_sensed_run_oracle(eval_table *table, int64_t seed, int32_t oracle);
 /* Models of known real things in the synthetic room. */
 rlf_result eval_known_run(eval_table *table, int64_t seed, int profile_mask);
+/* Scripted hands of the simulator: grasps, throws, false grabs. */
+rlf_result eval_hands_run(eval_table *table, int64_t seed, int profile_mask);
 
 #endif

@@ -26,7 +26,8 @@ typedef enum rlf_view {
     RLF_VIEW_CONTACTS = 11, /* camera, with an arrow along each contact's normal, longer the larger
                                its impulse */
     RLF_VIEW_KNOWN = 12,    /* camera, with the models of real things as wireframes */
-    RLF_VIEW_COUNT = 13
+    RLF_VIEW_HANDS = 13,    /* camera, with the marks of the input: palms, finger tips, gestures */
+    RLF_VIEW_COUNT = 14
 } rlf_view;
 
 /* Name as in `--view`, e.g. "normals"; NULL outside the range. */
@@ -49,6 +50,13 @@ typedef struct rlf_plot {
     int32_t series_count, count;
     float line; /* a value to mark, > 0; the plot ends at twice as much */
 } rlf_plot;
+
+/* A line over the picture, or a text. What it stands for is the caller's business. */
+typedef struct rlf_mark {
+    rlf_vec3 from, to; /* depth camera's frame, metres */
+    uint8_t color[3];  /* red, green, blue */
+    const char *text;  /* NULL = the line; else this instead of it, beside `from` */
+} rlf_mark;
 
 /* How the picture decides which pixels of a body real things hide. Sources: the thesis, section
  * 4.2.2 for the layers; docs/guide.md tells how the others do it. */
@@ -99,7 +107,9 @@ typedef struct rlf_render_input {
     rlf_orbit orbit;              /* of RLF_VIEW_POINTS */
     const char *const *overlay;   /* text lines, top left; used with enable_overlay */
     int32_t overlay_count;
-    const rlf_plot *plot; /* bottom left; used with enable_overlay; NULL = none */
+    const rlf_plot *plot;  /* bottom left; used with enable_overlay; NULL = none */
+    const rlf_mark *marks; /* over RLF_VIEW_HANDS, in this order */
+    int32_t mark_count;
 } rlf_render_input;
 
 /* One picture. All is the compositor's and stays valid until its next render or its end. */

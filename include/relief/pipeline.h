@@ -4,6 +4,7 @@
 #define RELIEF_PIPELINE_H
 
 #include "relief/compositor.h"
+#include "relief/hands.h"
 #include "relief/known.h"
 #include "relief/reconstruct.h"
 #include "relief/source.h"
@@ -12,6 +13,17 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* What an event of a hand does in a scene. */
+typedef enum rlf_hand_action {
+    RLF_HAND_ACTION_NONE = 0,
+    RLF_HAND_ACTION_SPAWN = 1,  /* one more of the scene's first body, where the event is */
+    RLF_HAND_ACTION_THROW = 2,  /* the same, with 3 m/s along the event's direction */
+    RLF_HAND_ACTION_REMOVE = 3, /* the body that the ray of a pointing hand meets, or that is within
+                                   0.25 m of another event */
+    RLF_HAND_ACTION_RESET = 4,  /* all bodies as at the start */
+    RLF_HAND_ACTION_COUNT = 5
+} rlf_hand_action;
 
 /* Bodies and gravity to start with; see io.h for reading one from scene.json. */
 typedef struct rlf_scene {
@@ -30,6 +42,7 @@ typedef struct rlf_scene {
     int32_t known_count;       /* at most RLF_KNOWN_MAX */
     struct rlf_model **models; /* what the bodies' looks borrow; owned as the bodies are */
     int32_t model_count;
+    rlf_hand_action on[RLF_HAND_EVENT_COUNT]; /* by rlf_hand_event_kind; default: none */
 } rlf_scene;
 
 /* Most models of real things in one scene. */
@@ -58,6 +71,7 @@ typedef struct rlf_pipeline_def {
     rlf_compositor_def compositor;
     const rlf_scene *scene;         /* copied; NULL = no bodies */
     bool enable_render;             /* default true; false: no picture is made */
+    bool enable_hands;              /* default false; true where the scene binds their events */
     rlf_pose T_world_camera;        /* mount pose; default identity */
     rlf_surface_fn replace_surface; /* default NULL: physics gets what was sensed */
     void *replace_context;
@@ -72,6 +86,7 @@ RLF_API rlf_pipeline_def rlf_pipeline_def_default(rlf_profile profile, rlf_sourc
 /* Wall time of the stages of one frame, milliseconds. Capture is the wait for the source. */
 typedef struct rlf_stage_times {
     double capture_ms, surface_ms, physics_ms, render_ms;
+    double hands_ms; /* of surface_ms; 0 when no hands are looked for */
 } rlf_stage_times;
 
 /* All values of one frame; valid until the next step. */
@@ -80,6 +95,8 @@ typedef struct rlf_pipeline_output {
     double time_s;       /* since the first frame */
     rlf_frame frame;
     const rlf_surface *surface;
+    rlf_pose T_world_camera; /* depth camera in the world */
+    const rlf_hands *hands;  /* NULL when none are looked for; see rlf_pipeline_set_hands */
     const rlf_snapshot *snapshot;
     double gravity_confidence; /* 0..1; below RLF_UP_SURE it is a guess; 1 when it was given */
     rlf_render_output render;  /* image.data NULL when rendering is off */
@@ -149,6 +166,12 @@ RLF_API rlf_result rlf_pipeline_set_known(rlf_pipeline *pipeline, const rlf_know
  * points to be placed. Valid until the next call that changes them. */
 RLF_API const rlf_known_def *rlf_pipeline_get_known(const rlf_pipeline *pipeline,
                                                     int32_t *out_count);
+/* Looks for hands from the next frame on, or no longer. RLF_VIEW_HANDS and a scene that binds their
+ * events turn it on by themselves. May allocate: RLF_ERROR_MEMORY. */
+RLF_API rlf_result rlf_pipeline_set_hands(rlf_pipeline *pipeline, bool is_on);
+/* The hands of the last frame, in the depth camera's frame; NULL when none are looked for, and
+ * before the first frame. Valid until the next step. */
+RLF_API const rlf_hands *rlf_pipeline_hands(const rlf_pipeline *pipeline);
 /* The world, to add or throw bodies between steps. */
 RLF_API rlf_world *rlf_pipeline_get_world(rlf_pipeline *pipeline);
 

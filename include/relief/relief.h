@@ -12,6 +12,7 @@
  *   snapshot.h     shapes, bodies, contacts; world.h: the physics stage; query.h: rays and overlaps
  *   model.h        what bodies look like; known.h: models of real things
  *   compositor.h   the render stage
+ *   hands.h        hands in the surface's foreground, their gestures and events
  *   prediction.h   what a camera would see of the static room from a pose
  *   pipeline.h     all stages as one object: where most programs begin
  *
@@ -27,6 +28,7 @@
 #include "relief/camera.h"
 #include "relief/compositor.h"
 #include "relief/frame.h"
+#include "relief/hands.h"
 #include "relief/image.h"
 #include "relief/known.h"
 #include "relief/math.h"

@@ -1,4 +1,4 @@
-/* The three logs of a run: frames.csv, bodies.csv and contacts.csv. */
+/* The logs of a run: frames.csv, bodies.csv, contacts.csv and hands.csv. */
 #include "relief/io.h"
 #include "io/file.h"
 #include "io/number.h"
@@ -13,7 +13,7 @@ typedef struct row {
 } row;
 
 struct rlf_csv_log {
-    io_out_file frames, bodies, contacts;
+    io_out_file frames, bodies, contacts, hands;
 };
 
 static void add_bytes(row *r, const char *text, size_t length)
@@ -99,17 +99,21 @@ static rlf_result open_all(rlf_csv_log *log, const char *folder)
                           "frame,time_s,body,other,px,py,pz,nx,ny,nz,separation,impulse,"
                           "surface_speed\n");
     }
+    if (result == RLF_OK) {
+        result = open_one(&log->hands, folder, "hands.csv",
+                          "frame,time_s,hand,side,px,py,pz,vx,vy,vz,gesture,pinch_m,holding\n");
+    }
     return result;
 }
 
-/* Closes all three; they appear together or, when one cannot be written, not at all. */
+/* Closes all; they appear together or, when one cannot be written, not at all. */
 static rlf_result close_all(rlf_csv_log *log, rlf_result result)
 {
-    io_out_file *const files[3] = {&log->frames, &log->bodies, &log->contacts};
-    for (int i = 0; i < 3; i++) {
+    io_out_file *const files[4] = {&log->frames, &log->bodies, &log->contacts, &log->hands};
+    for (int i = 0; i < 4; i++) {
         result = io_out_finish(files[i], result);
     }
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 4; i++) {
         result = io_out_settle(files[i], result);
     }
     return result;
@@ -234,6 +238,39 @@ static rlf_result write_contacts(rlf_csv_log *log, const rlf_pipeline_output *ou
     return result;
 }
 
+static const char *held_name(const rlf_snapshot *snapshot, uint64_t holding)
+{
+    const rlf_body_id id = {(uint32_t)holding, (uint32_t)(holding >> 32)};
+    return id.index1 != 0 ? name_of(snapshot, id) : "";
+}
+
+/* In the world's frame, as the bodies are; only what is rather a hand than not. */
+static rlf_result write_hands(rlf_csv_log *log, const rlf_pipeline_output *output)
+{
+    static const char *const sides[] = {"unknown", "left", "right"};
+    const int32_t count = output->hands != NULL ? output->hands->count : 0;
+    const rlf_pose *T = &output->T_world_camera;
+    rlf_result result = RLF_OK;
+    for (int32_t i = 0; i < count && result == RLF_OK; i++) {
+        const rlf_hand *hand = &output->hands->hand[i];
+        if (hand->confidence < RLF_HAND_SURE) {
+            continue;
+        }
+        row r = {.length = 0};
+        add_integer(&r, output->frame_index);
+        add_number(&r, output->time_s);
+        add_integer(&r, hand->id);
+        add_name(&r, sides[hand->side]);
+        add_vec3(&r, rlf_transform(T, hand->palm));
+        add_vec3(&r, rlf_rotate(T->q, hand->velocity));
+        add_name(&r, rlf_gesture_name(hand->gesture));
+        add_number(&r, hand->pinch_width);
+        add_name(&r, held_name(output->snapshot, hand->holding));
+        result = end_row(&log->hands, &r);
+    }
+    return result;
+}
+
 rlf_result rlf_csv_log_write(rlf_csv_log *log, const rlf_pipeline_output *output)
 {
     if (!RLF_ASSERT(log != NULL && output != NULL) ||
@@ -244,7 +281,10 @@ rlf_result rlf_csv_log_write(rlf_csv_log *log, const rlf_pipeline_output *output
     if (result == RLF_OK) {
         result = write_bodies(log, output);
     }
-    return result == RLF_OK ? write_contacts(log, output) : result;
+    if (result == RLF_OK) {
+        result = write_contacts(log, output);
+    }
+    return result == RLF_OK ? write_hands(log, output) : result;
 }
 
 rlf_result rlf_csv_log_close(rlf_csv_log **log)

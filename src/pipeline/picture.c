@@ -29,8 +29,7 @@ rlf_compositor_def rlf_pipeline_get_compositor_def(const rlf_pipeline *p)
 void rlf_pipeline_set_view(rlf_pipeline *p, rlf_view view)
 {
     if (RLF_ASSERT(p != NULL && view >= 0 && view < RLF_VIEW_COUNT)) {
-        p->views[0] = view;
-        p->view_count = 1;
+        (void)rlf_pipeline_set_views(p, &view, 1); /* without memory for hands: without hands */
     }
 }
 
@@ -43,10 +42,16 @@ rlf_result rlf_pipeline_set_views(rlf_pipeline *p, const rlf_view *views, int32_
         if (!RLF_ASSERT((int)views[i] >= 0 && views[i] < RLF_VIEW_COUNT)) {
             return RLF_ERROR_INVALID;
         }
+    }
+    rlf_result result = RLF_OK;
+    for (int32_t i = 0; i < count; i++) {
         p->views[i] = views[i];
+        if (views[i] == RLF_VIEW_HANDS && result == RLF_OK) {
+            result = rlf_pipeline_set_hands(p, true);
+        }
     }
     p->view_count = count;
-    return RLF_OK;
+    return result;
 }
 
 void rlf_pipeline_set_orbit(rlf_pipeline *p, const rlf_orbit *orbit)
@@ -165,6 +170,7 @@ rlf_result pipeline_draw(rlf_pipeline *p)
     if (!p->def.enable_render) {
         return RLF_OK;
     }
+    hand_stage_draw(&p->hands);
     rlf_render_input input = {
         .frame = &p->last.frame,
         .surface = p->last.surface,
@@ -174,6 +180,8 @@ rlf_result pipeline_draw(rlf_pipeline *p)
         .overlay = p->overlay_lines,
         .overlay_count = p->overlay_count,
         .plot = p->shows_plot ? &plot : NULL,
+        .marks = p->hands.marks,
+        .mark_count = p->hands.mark_count,
     };
     return render_views(p, &input);
 }

@@ -48,6 +48,7 @@ static rlf_result copy_scene(rlf_pipeline *p, const rlf_scene *scene)
     p->scene.gravity = scene->gravity;
     p->scene.finds_gravity = scene->finds_gravity;
     p->scene.border = scene->border;
+    memcpy(p->scene.on, scene->on, sizeof(p->scene.on));
     p->scene.body_count = scene->body_count;
     p->scene.bodies = rlf_alloc_array((size_t)scene->body_count, sizeof(*scene->bodies));
     if (p->scene.bodies == NULL) {
@@ -132,6 +133,9 @@ static rlf_result create_stages(rlf_pipeline *p)
         const rlf_camera *seen = &p->compositor_def.grid;
         result = far_side_create(seen->width, seen->height, &p->far);
     }
+    if (result == RLF_OK && (p->def.enable_hands || hand_scene_binds(&p->scene))) {
+        result = rlf_pipeline_set_hands(p, true);
+    }
     if (result != RLF_OK || !p->def.enable_render) {
         return result;
     }
@@ -187,6 +191,7 @@ void rlf_pipeline_destroy(rlf_pipeline **pipeline)
     rlf_reconstruct_destroy(&p->reconstruct);
     rlf_free(p->sheet.data);
     far_side_destroy(&p->far);
+    hand_stage_destroy(&p->hands);
     rlf_free(p->regions);
     rlf_free(p->ray_x);
     rlf_free(p->ray_y);
@@ -320,6 +325,26 @@ static void tell_motion(rlf_pipeline *p)
     }
 }
 
+static void find_hands(rlf_pipeline *p)
+{
+    int64_t clock = rlf_clock_ns();
+    hand_stage_update(&p->hands, p->last.surface);
+    p->last.hands = p->hands.last;
+    p->last.times.hands_ms = p->hands.is_on ? elapsed_ms(&clock) : 0.0;
+}
+
+static rlf_result answer_hands(rlf_pipeline *p)
+{
+    const hand_answer answer = {&p->scene, p->world, p->def.T_world_camera};
+    if (!hand_stage_answer(&p->hands, &answer)) {
+        return RLF_OK;
+    }
+    const rlf_vec3 gravity = rlf_world_get_snapshot(p->world)->gravity;
+    rlf_world_reset(p->world);
+    rlf_world_set_gravity(p->world, gravity);
+    return add_bodies(p);
+}
+
 static rlf_result make_surface(rlf_pipeline *p)
 {
     const rlf_surface *surface;
@@ -331,6 +356,8 @@ static rlf_result make_surface(rlf_pipeline *p)
     if (result == RLF_OK) {
         p->last.surface = surface;
         tell_motion(p);
+        find_hands(p);
+        result = answer_hands(p);
     }
     return result;
 }
@@ -352,6 +379,7 @@ rlf_result rlf_pipeline_step(rlf_pipeline *p, rlf_pipeline_output *out)
         return result;
     }
     last->frame = frame;
+    last->T_world_camera = p->def.T_world_camera;
     last->times.capture_ms = elapsed_ms(&clock);
     result = make_surface(p);
     if (result != RLF_OK) {
@@ -402,6 +430,7 @@ rlf_result rlf_pipeline_restart(rlf_pipeline *p)
     }
     rlf_reconstruct_reset(p->reconstruct);
     rlf_world_reset(p->world);
+    hand_stage_restart(&p->hands);
     p->frame_index = 0;
     p->has_moved = false;
     return add_bodies(p);
@@ -443,4 +472,15 @@ const rlf_known_def *rlf_pipeline_get_known(const rlf_pipeline *p, int32_t *out_
 rlf_world *rlf_pipeline_get_world(rlf_pipeline *p)
 {
     return RLF_ASSERT(p != NULL) ? p->world : NULL;
+}
+
+rlf_result rlf_pipeline_set_hands(rlf_pipeline *p, bool is_on)
+{
+    return RLF_ASSERT(p != NULL) ? hand_stage_set(&p->hands, &p->compositor_def.grid, is_on)
+                                 : RLF_ERROR_INVALID;
+}
+
+const rlf_hands *rlf_pipeline_hands(const rlf_pipeline *p)
+{
+    return RLF_ASSERT(p != NULL) ? p->hands.last : NULL;
 }

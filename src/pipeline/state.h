@@ -5,6 +5,7 @@
 #include "relief/pipeline.h"
 
 #include "pipeline/far_side.h"
+#include "pipeline/hands.h"
 #include "pipeline/known.h"
 
 #define OVERLAY_LINES_MAX 32
@@ -25,6 +26,7 @@ struct rlf_pipeline {
     rlf_grid_region *regions;
     int32_t region_capacity;
     far_side far;
+    hand_stage hands;
 
     rlf_view views[RLF_PIPELINE_VIEWS];
     int32_t view_count;

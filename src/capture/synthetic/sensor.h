@@ -4,12 +4,14 @@
 
 #include "capture/synthetic/color.h"
 #include "capture/synthetic/depth.h"
+#include "capture/synthetic/hands/hands.h"
 #include "capture/synthetic/random/random.h"
 
 typedef struct synth_sensor {
     rlf_synthetic_def def;
     synth_scene scene;
     synth_random random; /* the scene's, if it is a random one */
+    synth_hands hands;   /* the scene's, if it is "hands" */
     synth_depth depth;
     synth_color color;
     int64_t next_frame;

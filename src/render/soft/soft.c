@@ -9,6 +9,7 @@
 #include "render/soft/needed.h"
 #include "render/soft/overlay.h"
 #include "render/soft/scene.h"
+#include "render/soft/marks.h"
 #include "render/soft/view_contacts.h"
 #include "render/soft/view_known.h"
 #include "render/soft/view_mesh.h"
@@ -288,6 +289,9 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
     } else if (input->view == RLF_VIEW_KNOWN) {
         result = draw_camera(s, input);
         soft_draw_known(s, input);
+    } else if (input->view == RLF_VIEW_HANDS) {
+        result = draw_camera(s, input);
+        soft_draw_marks(s, input);
     } else if (input->view == RLF_VIEW_POINTS) {
         clear_matte(s);
         result = soft_draw_points(s, input);

@@ -1,0 +1,330 @@
+/* Cells of the foreground, their roots and the way from them. */
+#include "hands/cells.h"
+
+#include <string.h>
+
+#define CELL_M 0.011         /* side of a cell at the foreground's mean depth, metres */
+#define CELLS_ACROSS 256     /* at most, along the picture's longer side */
+#define SLANT_MAX 2.5f       /* depth over width of a surface that goes on: 68 degrees */
+#define NOISE_SIGMAS 4.0     /* beyond that two depths differ */
+#define BODY_RADIUS_M 0.11f  /* no limb, no hand and no head has a disc as large in it */
+#define PIECE_LEAST_M2 0.002 /* a smaller piece is no hand: one seen edge-on has 30 cm^2 */
+#define MARGIN_SHARE 10      /* depth may begin this share of the picture inside its border */
+
+static int32_t near_one(double x)
+{
+    return (int32_t)(x + 0.5);
+}
+
+/* Mean depth of a sample of the foreground; 0 when there is none. */
+static double mean_depth(const rlf_surface *s)
+{
+    double sum = 0.0;
+    int32_t count = 0;
+    for (int32_t y = 0; y < s->height; y += 4) {
+        for (int32_t i = y * s->width; i < (y + 1) * s->width; i += 4) {
+            const bool counts = s->foreground[i] != 0 && s->depth[i] > 0.0f;
+            sum += counts ? (double)s->depth[i] : 0.0;
+            count += counts;
+        }
+    }
+    return count > 0 ? sum / count : 0.0;
+}
+
+static void choose_step(hand_cells *c, const rlf_surface *s, double depth)
+{
+    const int32_t longer = s->width > s->height ? s->width : s->height;
+    const double fx = rlf_max(s->camera.fx, 1.0);
+    const int32_t least = (longer + CELLS_ACROSS - 1) / CELLS_ACROSS;
+    const int32_t wanted = near_one(rlf_min(CELL_M * fx / depth, 16.0));
+    c->step = wanted > least ? wanted : least;
+    c->width = s->width / c->step;
+    c->height = s->height / c->step;
+    c->count = c->width * c->height;
+    c->spacing = (float)(c->step / fx);
+    c->noise = s->noise;
+}
+
+/* The nearest of up to nine samples: a finger counts against what is behind it. */
+static void read_cell(hand_cells *c, const rlf_surface *s, int32_t cell_x, int32_t cell_y)
+{
+    const int32_t stride = c->step > 2 ? (c->step + 1) / 3 : 1;
+    const int32_t cell = cell_y * c->width + cell_x;
+    float nearest = 0.0f;
+    bool is_valid = false;
+    for (int32_t y = 0; y < c->step; y += stride) {
+        const int32_t row = (cell_y * c->step + y) * s->width + cell_x * c->step;
+        for (int32_t x = 0; x < c->step; x += stride) {
+            const float z = s->depth[row + x];
+            is_valid = is_valid || z > 0.0f;
+            if (s->foreground[row + x] != 0 && z > 0.0f && (nearest == 0.0f || z < nearest)) {
+                nearest = z;
+            }
+        }
+    }
+    c->z[cell] = nearest;
+    c->valid[cell] = is_valid;
+}
+
+static float step_limit(const hand_cells *c, float z, float cells)
+{
+    return cells * SLANT_MAX * c->spacing * z +
+           (float)(NOISE_SIGMAS * rlf_depth_noise_sigma(&c->noise, (double)z));
+}
+
+float hand_cells_way(const hand_cells *c, int32_t a, int32_t b, float cells)
+{
+    const float nearer = c->z[a] < c->z[b] ? c->z[a] : c->z[b];
+    const float rise = c->z[a] < c->z[b] ? c->z[b] - c->z[a] : c->z[a] - c->z[b];
+    if (!(nearer > 0.0f) || rise > step_limit(c, nearer, cells)) {
+        return -1.0f;
+    }
+    const float across = cells * c->spacing * nearer;
+    return sqrtf(across * across + rise * rise);
+}
+
+/* The neighbour in this direction or, over one cell without foreground, the next one, and the way
+ * there; -1 when there is none or a depth step lies between. */
+static int32_t neighbour(const hand_cells *c, int32_t from, int32_t k_of_nine, float *out_way)
+{
+    const int32_t dx = k_of_nine % 3 - 1;
+    const int32_t dy = k_of_nine / 3 - 1;
+    const float length = dx != 0 && dy != 0 ? 1.41421356f : 1.0f;
+    int32_t x = from % c->width;
+    int32_t y = from / c->width;
+    for (int32_t k = 1; k <= 2; k++) {
+        x += dx;
+        y += dy;
+        if (x < 0 || y < 0 || x >= c->width || y >= c->height) {
+            return -1;
+        }
+        const int32_t to = y * c->width + x;
+        if (c->z[to] > 0.0f) {
+            *out_way = hand_cells_way(c, from, to, (float)k * length);
+            return *out_way >= 0.0f ? to : -1;
+        }
+    }
+    return -1;
+}
+
+#define NINE_MIDDLE 4
+
+static void relax(hand_cells *c, float *distance, int32_t from, int32_t k, int32_t *tail)
+{
+    float way;
+    const int32_t to = neighbour(c, from, k, &way);
+    if (to < 0 || distance[from] + way >= distance[to] - 1e-4f) {
+        return;
+    }
+    if (distance[to] >= CELL_FAR) {
+        c->touched[c->touched_count++] = to;
+    }
+    distance[to] = distance[from] + way;
+    if (distance == c->reach) {
+        c->source[to] = c->source[from];
+    }
+    if (c->queued[to] == 0) {
+        c->queued[to] = 1;
+        c->queue[*tail] = to;
+        *tail = *tail == c->count ? 0 : *tail + 1;
+    }
+}
+
+void hand_cells_spread(hand_cells *c, float *distance, int32_t queued, float limit)
+{
+    int32_t head = 0;
+    int32_t tail = queued;
+    while (head != tail) {
+        const int32_t from = c->queue[head];
+        head = head == c->count ? 0 : head + 1;
+        c->queued[from] = 0;
+        for (int32_t k = 0; k < 9 && distance[from] < limit; k++) {
+            if (k != NINE_MIDDLE) {
+                relax(c, distance, from, k, &tail);
+            }
+        }
+    }
+}
+
+static int32_t least(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Both passes of the 5-7 chamfer: within 5 % of the true distance (Borgefors 1986). */
+void hand_chamfer(int32_t *d, int32_t width, int32_t height)
+{
+    for (int32_t i = 0; i < width * height; i++) {
+        const int32_t x = i % width;
+        int32_t v = d[i];
+        v = x > 0 ? least(v, d[i - 1] + 5) : v;
+        if (i >= width) {
+            v = least(v, d[i - width] + 5);
+            v = x > 0 ? least(v, d[i - width - 1] + 7) : v;
+            v = x < width - 1 ? least(v, d[i - width + 1] + 7) : v;
+        }
+        d[i] = v;
+    }
+    for (int32_t i = width * height - 1; i >= 0; i--) {
+        const int32_t x = i % width;
+        int32_t v = d[i];
+        v = x < width - 1 ? least(v, d[i + 1] + 5) : v;
+        if (i < width * (height - 1)) {
+            v = least(v, d[i + width] + 5);
+            v = x > 0 ? least(v, d[i + width - 1] + 7) : v;
+            v = x < width - 1 ? least(v, d[i + width + 1] + 7) : v;
+        }
+        d[i] = v;
+    }
+}
+
+/* Edges are cells without foreground, and both sides of a depth step. */
+static void measure_discs(hand_cells *c)
+{
+    for (int32_t i = 0; i < c->count; i++) {
+        const bool has_right = i % c->width < c->width - 1;
+        const bool has_below = i < c->count - c->width;
+        c->disc[i] = c->z[i] > 0.0f ? INT32_MAX / 2 : 0;
+        if (c->z[i] > 0.0f &&
+            ((has_right && c->z[i + 1] > 0.0f && hand_cells_way(c, i, i + 1, 1.0f) < 0.0f) ||
+             (has_below && c->z[i + c->width] > 0.0f &&
+              hand_cells_way(c, i, i + c->width, 1.0f) < 0.0f))) {
+            c->disc[i] = CHAMFER / 2;
+        }
+    }
+    hand_chamfer(c->disc, c->width, c->height);
+}
+
+static int32_t add_root(hand_cells *c, int32_t cell, hand_root root, int32_t queued)
+{
+    if (c->z[cell] <= 0.0f || c->queued[cell] != 0) {
+        return queued;
+    }
+    c->root[cell] = (uint8_t)root;
+    c->source[cell] = cell;
+    c->reach[cell] = 0.0f;
+    c->queued[cell] = 1;
+    c->queue[queued] = cell;
+    return queued + 1;
+}
+
+/* The first cell with depth of a row or column, when it is foreground and near the border: cameras
+ * have margins without depth. */
+static int32_t add_border(hand_cells *c, int32_t first, int32_t stride, int32_t length,
+                          int32_t queued)
+{
+    for (int32_t k = 0; k <= length / MARGIN_SHARE; k++) {
+        const int32_t cell = first + k * stride;
+        if (c->valid[cell] != 0) {
+            return add_root(c, cell, HAND_ROOT_BORDER, queued);
+        }
+    }
+    return queued;
+}
+
+static int32_t add_roots(hand_cells *c)
+{
+    int32_t queued = 0;
+    for (int32_t y = 0; y < c->height; y++) {
+        const int32_t row = y * c->width;
+        queued = add_border(c, row, 1, c->width, queued);
+        queued = add_border(c, row + c->width - 1, -1, c->width, queued);
+    }
+    for (int32_t x = 0; x < c->width; x++) {
+        queued = add_border(c, x, c->width, c->height, queued);
+        queued = add_border(c, c->count - c->width + x, -c->width, c->height, queued);
+    }
+    for (int32_t i = 0; i < c->count; i++) {
+        const float radius = (float)c->disc[i] / CHAMFER * c->spacing * c->z[i];
+        if (radius >= BODY_RADIUS_M) {
+            queued = add_root(c, i, HAND_ROOT_BODY, queued);
+        }
+    }
+    return queued;
+}
+
+/* A rooted piece that is not nearer begins within four cells of this one. */
+static bool is_before_another(const hand_cells *c, int32_t cell)
+{
+    const int32_t x = cell % c->width;
+    const int32_t y = cell / c->width;
+    for (int32_t k = 1; k <= 4; k++) {
+        const int32_t at[4] = {x >= k ? cell - k : cell, x + k < c->width ? cell + k : cell,
+                               y >= k ? cell - k * c->width : cell,
+                               y + k < c->height ? cell + k * c->width : cell};
+        for (int32_t side = 0; side < 4; side++) {
+            const int32_t i = at[side];
+            if (c->reach[i] < CELL_FAR && hand_cells_root(c, i) <= HAND_ROOT_BODY &&
+                c->z[i] > c->z[cell] - 0.02f) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/* Lists a piece in the queue, from its first cell on, and returns how many cells it has. */
+static int32_t list_piece(hand_cells *c, int32_t first)
+{
+    int32_t count = 1;
+    c->queue[0] = first;
+    c->root[first] = HAND_ROOT_ALONE;
+    for (int32_t head = 0; head < count; head++) {
+        for (int32_t k = 0; k < 9; k++) {
+            float way;
+            const int32_t to = k != NINE_MIDDLE ? neighbour(c, c->queue[head], k, &way) : -1;
+            if (to >= 0 && c->root[to] == HAND_ROOT_NONE) {
+                c->root[to] = HAND_ROOT_ALONE;
+                c->queue[count++] = to;
+            }
+        }
+    }
+    return count;
+}
+
+/* A piece that no root reaches hangs on its furthest end. */
+static void root_piece(hand_cells *c, int32_t first)
+{
+    const int32_t count = list_piece(c, first);
+    int32_t deepest = first;
+    bool is_front = false;
+    double area = 0.0;
+    for (int32_t k = 0; k < count; k++) {
+        const int32_t i = c->queue[k];
+        const double side = (double)(c->spacing * c->z[i]);
+        area += side * side;
+        deepest = c->z[i] > c->z[deepest] ? i : deepest;
+        is_front = is_front || is_before_another(c, i);
+    }
+    if (area >= PIECE_LEAST_M2) {
+        c->source[deepest] = deepest;
+        c->root[deepest] = (uint8_t)(is_front ? HAND_ROOT_FRONT : HAND_ROOT_ALONE);
+        c->reach[deepest] = 0.0f;
+        c->queue[0] = deepest;
+        hand_cells_spread(c, c->reach, 1, CELL_FAR);
+    }
+}
+
+bool hand_cells_read(hand_cells *c, const rlf_surface *s)
+{
+    const double depth = mean_depth(s);
+    if (!(depth > 0.0)) {
+        return false;
+    }
+    choose_step(c, s, depth);
+    for (int32_t i = 0; i < c->count; i++) {
+        read_cell(c, s, i % c->width, i / c->width);
+        c->reach[i] = CELL_FAR;
+        c->queued[i] = 0;
+        c->root[i] = HAND_ROOT_NONE;
+    }
+    measure_discs(c);
+    c->touched_count = 0;
+    hand_cells_spread(c, c->reach, add_roots(c), CELL_FAR);
+    for (int32_t i = 0; i < c->count; i++) {
+        if (c->z[i] > 0.0f && c->reach[i] >= CELL_FAR && c->root[i] == HAND_ROOT_NONE) {
+            root_piece(c, i);
+        }
+    }
+    return true;
+}

@@ -1,0 +1,189 @@
+/* Where the palm is, how it lies and where its arm comes from. */
+#include "hands/palm.h"
+
+#define BIN_M 0.01            /* of the profile along the limb */
+#define BINS 31               /* LIMB_PART_M */
+#define PALM_FROM_M 0.02      /* a palm's centre is at least this far from the tip, */
+#define PALM_TO_M 0.14        /* and at most this far: the longest hands */
+#define NEARLY 0.92           /* discs of one palm are as large as this share of the largest */
+#define WRIST_SHARE 0.88      /* of the palm, that a wrist is narrower than */
+#define WRIST_TO_PALM_BINS 11 /* most between them: half a hand */
+#define PALM_BINS 4           /* from where it is nearly as wide to its middle */
+#define RADIUS_LEAST_M 0.010  /* a hand seen edge-on is 25 mm thick */
+#define ARM_FROM_M 0.055      /* behind the palm's centre there is the wrist, */
+#define ARM_TO_M 0.17         /* and forearm up to here */
+
+typedef struct profile {
+    double radius[BINS]; /* of the largest disc this far along the limb */
+    int32_t pixel[BINS];
+} profile;
+
+static bool is_limb(const hand_patch *p, int32_t i)
+{
+    return p->disc[i] > 0;
+}
+
+static void read_profile(profile *f, const hand_patch *p)
+{
+    *f = (profile){{0}, {0}};
+    for (int32_t i = 0; i < p->width * p->height; i++) {
+        const int32_t bin = is_limb(p, i) ? (int32_t)((double)p->along[i] / BIN_M) : BINS;
+        if (bin < BINS) {
+            const double r = hand_patch_radius(p, i);
+            if (r > f->radius[bin]) {
+                f->radius[bin] = r;
+                f->pixel[bin] = i;
+            }
+        }
+    }
+}
+
+static int32_t widest(const profile *f, int32_t begin, int32_t end)
+{
+    int32_t best = begin;
+    for (int32_t b = begin; b < end && b < BINS; b++) {
+        best = f->radius[b] > f->radius[best] ? b : best;
+    }
+    return best;
+}
+
+/* From the arm towards the tip: the limb narrows to the wrist and widens to the palm. What the hand
+ * holds lies beyond and may be wider. Returns the palm's bin, or -1 without a wrist. */
+static int32_t beyond_wrist(const profile *f)
+{
+    for (int32_t wrist = BINS - 3; wrist > 4; wrist--) {
+        const int32_t begin = wrist > WRIST_TO_PALM_BINS ? wrist - WRIST_TO_PALM_BINS : 2;
+        const int32_t palm = widest(f, begin, wrist - 2);
+        const int32_t arm = widest(f, wrist + 1, wrist + 8);
+        const bool is_narrow = f->radius[wrist] > 0.0 &&
+                               f->radius[wrist] < WRIST_SHARE * f->radius[palm] &&
+                               f->radius[wrist] <= f->radius[arm];
+        if (!is_narrow) {
+            continue;
+        }
+        int32_t first = wrist - 1;
+        while (first > palm && f->radius[first] < NEARLY * f->radius[palm]) {
+            first--;
+        }
+        return widest(f, first > PALM_BINS ? first - PALM_BINS : 0, first + 1);
+    }
+    return -1;
+}
+
+/* The middle of the discs that are nearly as large as the one at `seed`: it moves by less than a
+ * pixel when the mask's edge flickers. */
+static void centre_disc(hand_palm *palm, const hand_patch *p, int32_t seed)
+{
+    const double radius = hand_patch_radius(p, seed);
+    const double pixel = (double)(p->spacing * p->z[seed]);
+    const double seed_x = seed % p->width, seed_y = (double)(seed / p->width);
+    double sum = 0.0, x = 0.0, y = 0.0;
+    for (int32_t i = 0; i < p->width * p->height; i++) {
+        const double dx = i % p->width - seed_x, dy = (double)(i / p->width) - seed_y;
+        const double r = is_limb(p, i) ? hand_patch_radius(p, i) : 0.0;
+        const double apart = (dx * dx + dy * dy) * pixel * pixel;
+        if (r > NEARLY * radius && apart < 0.5 * radius * radius) {
+            const double weight = r - NEARLY * radius;
+            sum += weight;
+            x += weight * dx;
+            y += weight * dy;
+        }
+    }
+    palm->x = seed_x + (sum > 0.0 ? x / sum : 0.0);
+    palm->y = seed_y + (sum > 0.0 ? y / sum : 0.0);
+    palm->radius = radius;
+    palm->along = (double)p->along[seed];
+}
+
+/* Depth, normal and centre from the inner half of the disc, where all pixels are the palm's. */
+static void fit_palm(hand_palm *palm, const hand_patch *p, int32_t seed)
+{
+    const rlf_surface *s = p->surface;
+    const double pixel = (double)(p->spacing * p->z[seed]);
+    const double reach = 0.6 * palm->radius / pixel;
+    rlf_vec3 sum = {0, 0, 0}, normal = {0, 0, 0};
+    int32_t count = 0;
+    for (int32_t i = 0; i < p->width * p->height; i++) {
+        const double dx = i % p->width - palm->x, dy = (double)(i / p->width) - palm->y;
+        if (p->mask[i] == 1 && dx * dx + dy * dy <= reach * reach + 1.0) {
+            const int32_t k = hand_patch_pixel(p, i);
+            sum = rlf_add(sum, hand_patch_point(p, i));
+            normal = rlf_add(normal, rlf_vec3_make((double)s->normal_x[k], (double)s->normal_y[k],
+                                                   (double)s->normal_z[k]));
+            count++;
+        }
+    }
+    palm->centre = count > 0 ? rlf_scale(sum, 1.0 / count) : hand_patch_point(p, seed);
+    palm->z = palm->centre.z;
+    palm->normal = rlf_length(normal) > 0.1 * count ? rlf_normalize(normal)
+                                                    : rlf_normalize(rlf_neg(palm->centre));
+}
+
+/* From the middle of the forearm; without one from the tip through the palm, backwards. */
+static void find_arm(hand_palm *palm, const hand_patch *p)
+{
+    rlf_vec3 arm = {0, 0, 0}, end = {0, 0, 0};
+    double x = 0.0, y = 0.0, end_x = 0.0, end_y = 0.0;
+    int32_t arms = 0, ends = 0;
+    for (int32_t i = 0; i < p->width * p->height; i++) {
+        const double behind = is_limb(p, i) ? (double)p->along[i] - palm->along : 0.0;
+        if (behind > ARM_FROM_M && behind < ARM_TO_M) {
+            arm = rlf_add(arm, hand_patch_point(p, i));
+            x += i % p->width;
+            y += (double)(i / p->width);
+            arms++;
+        } else if (is_limb(p, i) && behind < -0.5 * palm->along) {
+            end = rlf_add(end, hand_patch_point(p, i));
+            end_x += i % p->width;
+            end_y += (double)(i / p->width);
+            ends++;
+        }
+    }
+    if (arms >= 8) {
+        palm->arm = rlf_normalize(rlf_sub(palm->centre, rlf_scale(arm, 1.0 / arms)));
+        palm->arm_x = palm->x - x / arms;
+        palm->arm_y = palm->y - y / arms;
+    } else if (ends > 0) {
+        palm->arm = rlf_normalize(rlf_sub(rlf_scale(end, 1.0 / ends), palm->centre));
+        palm->arm_x = end_x / ends - palm->x;
+        palm->arm_y = end_y / ends - palm->y;
+    }
+    const double length = sqrt(palm->arm_x * palm->arm_x + palm->arm_y * palm->arm_y);
+    const bool has_none = !(length > 0.1) || !(rlf_length(palm->arm) > 0.5);
+    palm->arm = has_none ? rlf_vec3_make(0, -1, 0) : palm->arm;
+    palm->arm_x = has_none ? 0.0 : palm->arm_x / length;
+    palm->arm_y = has_none ? -1.0 : palm->arm_y / length;
+}
+
+bool hand_palm_find(hand_palm *palm, const hand_patch *p)
+{
+    profile f;
+    read_profile(&f, p);
+    *palm = (hand_palm){.x = 0};
+    int32_t bin = beyond_wrist(&f);
+    palm->has_wrist = bin >= 0;
+    if (bin < 0) {
+        const int32_t from = (int32_t)(PALM_FROM_M / BIN_M), to = (int32_t)(PALM_TO_M / BIN_M);
+        bin = widest(&f, from, to);
+        for (int32_t b = from; b < bin; b++) {
+            if (f.radius[b] > NEARLY * f.radius[bin]) {
+                bin = b;
+            }
+        }
+    }
+    /* On to the middle of that disc: bins cut it. */
+    while (bin > 1 && f.radius[bin - 1] > f.radius[bin]) {
+        bin--;
+    }
+    while (bin < BINS - 1 && !palm->has_wrist && f.radius[bin + 1] > f.radius[bin] &&
+           (bin + 1) * BIN_M < PALM_TO_M) {
+        bin++;
+    }
+    if (f.radius[bin] < RADIUS_LEAST_M) {
+        return false;
+    }
+    centre_disc(palm, p, f.pixel[bin]);
+    fit_palm(palm, p, f.pixel[bin]);
+    find_arm(palm, p);
+    return true;
+}

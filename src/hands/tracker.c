@@ -1,0 +1,213 @@
+/* The stage: from a surface to its hands. */
+#include "base/cookie.h"
+#include "hands/follow.h"
+#include "hands/side.h"
+
+#include <string.h>
+
+#define CONFIDENCE_LEAST 0.05 /* below it nobody asks */
+#define OWNED_BEHIND_M 0.07   /* of the palm's centre: to the wrist */
+#define OWNED_AHEAD_M 0.13    /* to the finger tips; what is held lies beyond */
+
+struct rlf_hand_tracker {
+    rlf_hand_tracker_def def;
+    hand_cells cells;
+    hand_limbs limbs;
+    hand_patch *patch;
+    hand_follow follow;
+    hand_seen seen[LIMBS_MAX];
+    uint8_t *owner;
+    rlf_hands out;
+};
+
+rlf_hand_tracker_def rlf_hand_tracker_def_default(int32_t width, int32_t height)
+{
+    rlf_hand_tracker_def def = {.cookie = RLF_DEF_COOKIE};
+    def.width = width;
+    def.height = height;
+    def.smooth_hz = 1.0;
+    def.smooth_opening = 20.0;
+    return def;
+}
+
+static rlf_result check(const rlf_hand_tracker_def *def)
+{
+    if (def->width < 1 || def->height < 1 || def->width > 16384 || def->height > 16384) {
+        return rlf_fail(RLF_ERROR_INVALID, "hand tracker def: width x height is %d x %d",
+                        (int)def->width, (int)def->height);
+    }
+    if (!(def->smooth_hz > 0.0 && def->smooth_hz < 1e6)) {
+        return rlf_fail(RLF_ERROR_INVALID, "hand tracker def: smooth_hz is %g, not > 0",
+                        def->smooth_hz);
+    }
+    if (!(def->smooth_opening >= 0.0 && def->smooth_opening < 1e6)) {
+        return rlf_fail(RLF_ERROR_INVALID, "hand tracker def: smooth_opening is %g, not >= 0",
+                        def->smooth_opening);
+    }
+    return RLF_OK;
+}
+
+static bool allocate(rlf_hand_tracker *t)
+{
+    const size_t n = (size_t)t->def.width * (size_t)t->def.height;
+    hand_cells *c = &t->cells;
+    hand_limbs *l = &t->limbs;
+    c->z = rlf_alloc_array(n, sizeof(float));
+    c->reach = rlf_alloc_array(n, sizeof(float));
+    c->root = rlf_alloc_array(n, 1);
+    c->source = rlf_alloc_array(n, sizeof(int32_t));
+    c->valid = rlf_alloc_array(n, 1);
+    c->disc = rlf_alloc_array(n, sizeof(int32_t));
+    c->queue = rlf_alloc_array(n + 1, sizeof(int32_t));
+    c->queued = rlf_alloc_array(n, 1);
+    c->touched = rlf_alloc_array(n, sizeof(int32_t));
+    l->owner = rlf_alloc_array(n, 1);
+    l->along = rlf_alloc_array(n, sizeof(float));
+    l->from_tip = rlf_alloc_array(n, sizeof(float));
+    t->owner = rlf_alloc_array(n, 1);
+    t->patch = rlf_alloc(sizeof(*t->patch));
+    return c->z != NULL && c->reach != NULL && c->root != NULL && c->source != NULL &&
+           c->valid != NULL && c->disc != NULL && c->queue != NULL && c->queued != NULL &&
+           c->touched != NULL && l->owner != NULL && l->along != NULL && l->from_tip != NULL &&
+           t->owner != NULL && t->patch != NULL;
+}
+
+rlf_result rlf_hand_tracker_create(const rlf_hand_tracker_def *def, rlf_hand_tracker **out)
+{
+    if (!RLF_ASSERT(out != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    *out = NULL;
+    if (!RLF_ASSERT(def != NULL && def->cookie == RLF_DEF_COOKIE)) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "hand tracker def: start from rlf_hand_tracker_def_default");
+    }
+    const rlf_result result = check(def);
+    if (result != RLF_OK) {
+        return result;
+    }
+    rlf_hand_tracker *t = rlf_alloc(sizeof(*t));
+    if (t == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    t->def = *def;
+    if (!allocate(t)) {
+        rlf_hand_tracker_destroy(&t);
+        return RLF_ERROR_MEMORY;
+    }
+    t->out.owner = t->owner;
+    t->out.width = def->width;
+    t->out.height = def->height;
+    rlf_hand_tracker_reset(t);
+    *out = t;
+    return RLF_OK;
+}
+
+void rlf_hand_tracker_destroy(rlf_hand_tracker **tracker)
+{
+    if (tracker == NULL || *tracker == NULL) {
+        return;
+    }
+    rlf_hand_tracker *t = *tracker;
+    *tracker = NULL;
+    void *const memory[] = {t->cells.z,       t->cells.reach, t->cells.root,  t->cells.source,
+                            t->cells.valid,   t->cells.disc,  t->cells.queue, t->cells.queued,
+                            t->cells.touched, t->limbs.owner, t->limbs.along, t->limbs.from_tip,
+                            t->owner,         t->patch};
+    for (size_t k = 0; k < sizeof(memory) / sizeof(memory[0]); k++) {
+        rlf_free(memory[k]);
+    }
+    rlf_free(t);
+}
+
+void rlf_hand_tracker_reset(rlf_hand_tracker *t)
+{
+    if (!RLF_ASSERT(t != NULL)) {
+        return;
+    }
+    memset(&t->follow, 0, sizeof(t->follow));
+    t->follow.smooth_hz = t->def.smooth_hz;
+    t->follow.smooth_opening = t->def.smooth_opening;
+    t->out.count = 0;
+    t->out.event_count = 0;
+}
+
+/* Marks the hand's pixels of the surface with 1 + the index of its limb. */
+static void own(rlf_hand_tracker *t, const hand_palm *palm, int32_t limb)
+{
+    const hand_patch *p = t->patch;
+    const float from = (float)(palm->along - OWNED_AHEAD_M);
+    const float to = (float)(palm->along + OWNED_BEHIND_M);
+    for (int32_t i = 0; i < p->width * p->height; i++) {
+        if (p->disc[i] <= 0 || p->along[i] < from || p->along[i] > to) {
+            continue;
+        }
+        const int32_t x0 = p->x0 + i % p->width * p->step;
+        const int32_t y0 = p->y0 + i / p->width * p->step;
+        for (int32_t y = y0; y < y0 + p->step && y < t->def.height; y++) {
+            for (int32_t x = x0; x < x0 + p->step && x < t->def.width; x++) {
+                t->owner[y * t->def.width + x] = (uint8_t)(limb + 1);
+            }
+        }
+    }
+}
+
+static int32_t see_all(rlf_hand_tracker *t, const rlf_surface *surface)
+{
+    int32_t count = 0;
+    for (int32_t k = 0; k < t->limbs.count; k++) {
+        hand_palm palm;
+        hand_fingers fingers;
+        hand_seen *seen = &t->seen[count];
+        if (!hand_patch_read(t->patch, surface, &t->cells, &t->limbs, k) ||
+            !hand_palm_find(&palm, t->patch)) {
+            continue;
+        }
+        hand_fingers_find(&fingers, t->patch, &palm);
+        hand_gesture_see(seen, t->patch, &palm, &fingers);
+        seen->limb = k;
+        seen->hand.confidence = hand_confidence(&t->limbs.limb[k], &palm, &fingers);
+        if (seen->hand.confidence >= CONFIDENCE_LEAST) {
+            own(t, &palm, k);
+            count++;
+        }
+    }
+    hand_sides_tell(t->seen, count, &t->cells, &t->limbs);
+    return count;
+}
+
+/* From indices of limbs to those of hands. */
+static void rename_owners(rlf_hand_tracker *t)
+{
+    uint8_t name[LIMBS_MAX + 1] = {0};
+    for (int32_t k = 0; k < RLF_HANDS_MAX; k++) {
+        const hand_track *track = &t->follow.track[k];
+        for (int32_t i = 0; i < t->out.count; i++) {
+            if (track->hand.id > 0 && track->is_seen && t->out.hand[i].id == track->hand.id) {
+                name[track->limb + 1] = (uint8_t)(i + 1);
+            }
+        }
+    }
+    for (int32_t i = 0; i < t->def.width * t->def.height; i++) {
+        t->owner[i] = name[t->owner[i]];
+    }
+}
+
+const rlf_hands *rlf_hand_tracker_update(rlf_hand_tracker *t, const rlf_surface *surface)
+{
+    if (!RLF_ASSERT(t != NULL && surface != NULL && surface->width == t->def.width &&
+                    surface->height == t->def.height)) {
+        return NULL;
+    }
+    int32_t count = 0;
+    t->out.sequence = surface->sequence;
+    t->out.time_ns = surface->time_ns;
+    memset(t->owner, 0, (size_t)t->def.width * (size_t)t->def.height);
+    if (hand_cells_read(&t->cells, surface)) {
+        hand_limbs_find(&t->limbs, &t->cells);
+        count = see_all(t, surface);
+    }
+    hand_follow_update(&t->follow, t->seen, count, &t->out);
+    rename_owners(t);
+    return &t->out;
+}
