@@ -156,7 +156,7 @@ static double hangs_well(const hand_limb *limb)
 double hand_confidence(const hand_limb *limb, const hand_palm *palm, const hand_fingers *f)
 {
     /* Half a palm's breadth is 35 to 50 mm (5th to 95th percentile), edge-on 12; heads have 75. */
-    double c = within(palm->radius, 0.010, 0.020, 0.050, 0.062);
+    double c = within(palm->radius, 0.010, 0.026, 0.050, 0.062);
     /* Forearms, sleeves too, against thighs, trunks and rods. */
     const bool shows_arm = limb->width >= 0.0f && !is_forward(limb);
     c *= shows_arm ? within((double)limb->width, 0.012, 0.020, 0.050, 0.066) : 0.8;

@@ -10,6 +10,7 @@
 #define WRIST_BIN_MAX 24      /* the patch ends at BINS and cuts the discs before */
 #define WRIST_TO_PALM_BINS 13 /* most between them: half a hand and the narrow part */
 #define PALM_BINS 4           /* from where it is nearly as wide to its middle */
+#define WRIST_LEAST_M 0.018   /* half of a wrist seen edge-on; less is a neck of what is held */
 #define RADIUS_LEAST_M 0.010  /* a hand seen edge-on is 25 mm thick */
 #define ARM_FROM_M 0.055      /* behind the palm's centre there is the wrist, */
 #define ARM_TO_M 0.17         /* and forearm up to here */
@@ -78,14 +79,14 @@ static int32_t hump(const profile *f, int32_t wrist)
     return f->radius[peak] > wide && !still_rises ? peak : -1;
 }
 
-/* From the arm towards the tip: the limb narrows to the wrist and widens to the palm. What the hand
- * holds lies beyond and may be wider. Returns the palm's bin, or -1 without a wrist. */
+/* From the tip on: the first narrow place that is as wide as a wrist, with a hump before it.
+ * Further ones are cuffs and sleeves. Returns the palm's bin, or -1 without a wrist. */
 static int32_t beyond_wrist(const profile *f)
 {
-    for (int32_t wrist = WRIST_BIN_MAX; wrist > 4; wrist--) {
-        const int32_t palm = f->radius[wrist] > 0.0 && f->radius[wrist] <= f->radius[wrist + 1]
-                                 ? hump(f, wrist)
-                                 : -1;
+    for (int32_t wrist = 5; wrist <= WRIST_BIN_MAX; wrist++) {
+        const bool is_narrow =
+            f->radius[wrist] > WRIST_LEAST_M && f->radius[wrist] <= f->radius[wrist + 1];
+        const int32_t palm = is_narrow ? hump(f, wrist) : -1;
         if (palm >= 0) {
             return palm;
         }
