@@ -10,7 +10,10 @@
 #define VELOCITY_HZ 6.0              /* cut-off of the velocity */
 #define TURN_SHARE 0.5               /* of a new direction, each frame */
 #define FRAMES_TO_TELL 3             /* that agree on a gesture */
-#define SURER 0.3                    /* of a new confidence, each frame */
+#define SURER 0.3                    /* of a higher confidence, each frame, */
+#define LESS_SURE 0.1                /* and of a lower one: a hand may turn its edge */
+#define MOVED_M 0.05                 /* what has not come so far since it was first seen */
+#define UNMOVED 0.7                  /* is less sure: hands come into view by moving */
 #define SIDE_LEAST 4.0               /* frames that tell one side more than the other */
 #define SIDE_MOST 30.0
 
@@ -43,7 +46,14 @@ static void smooth(const hand_follow *f, rlf_hand *h, const rlf_hand *seen, doub
     const rlf_vec3 flat = rlf_mad(ahead, h->normal, -rlf_dot(ahead, h->normal));
     h->direction = rlf_length(flat) > 0.1 ? rlf_normalize(flat) : rlf_perpendicular(h->normal);
     h->palm_radius += share_of(f->smooth_hz, dt) * (seen->palm_radius - h->palm_radius);
-    h->confidence += SURER * (seen->confidence - h->confidence);
+}
+
+static void note_confidence(hand_track *t, double seen)
+{
+    t->has_moved = t->has_moved || rlf_length(rlf_sub(t->hand.palm, t->first_palm)) > MOVED_M;
+    const double sure = t->has_moved ? seen : UNMOVED * seen;
+    const double share = sure > t->hand.confidence ? SURER : LESS_SURE;
+    t->hand.confidence += share * (sure - t->hand.confidence);
 }
 
 static void hold_gesture(hand_track *t, rlf_gesture seen)
@@ -85,6 +95,7 @@ static void see_again(const hand_follow *f, hand_track *t, const hand_seen *seen
     if (dt > 0.0 && dt <= GAP_MAX_S) {
         smooth(f, &t->hand, &seen->hand, dt);
     }
+    note_confidence(t, seen->hand.confidence);
     hold_gesture(t, seen->hand.gesture);
     take_frame(t, &seen->hand);
     note_side(t, seen->right);
@@ -104,6 +115,8 @@ static void begin(hand_follow *f, hand_track *t, const hand_seen *seen, int64_t 
     t->hand = seen->hand;
     t->hand.id = ++f->next_id;
     t->hand.gesture = RLF_GESTURE_NONE;
+    t->hand.confidence *= UNMOVED;
+    t->first_palm = t->hand.palm;
     t->first_ns = t->last_ns = now_ns;
     t->is_seen = true;
     t->limb = seen->limb;

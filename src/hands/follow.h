@@ -29,6 +29,8 @@ typedef struct hand_track {
     bool is_seen;  /* in this frame */
     int32_t limb;
     int64_t first_ns, last_ns;
+    rlf_vec3 first_palm;
+    bool has_moved;     /* since then */
     rlf_gesture wished; /* seen but not yet told, */
     int32_t wishes;     /* in so many frames in a row */
     double right;       /* sum of hand_seen.right */

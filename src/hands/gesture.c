@@ -9,7 +9,7 @@
 #define OPEN_TIPS 3
 #define CLOSED_REACH 1.75    /* a fist's knuckles end before */
 #define POINT_LONGER 1.35    /* a pointing index goes further than the thumb beside it */
-#define FORWARD 0.5f         /* of its length: an arm towards the camera comes so much nearer */
+#define FORWARD 0.4f         /* of its length, that an arm towards the camera comes nearer */
 #define PINCH_BEYOND_M 0.012 /* from the ring's edge to the middle of the fingers that close it */
 
 static bool has_tips(const hand_patch *p, const hand_palm *palm)
@@ -156,11 +156,10 @@ static double hangs_well(const hand_limb *limb)
 double hand_confidence(const hand_limb *limb, const hand_palm *palm, const hand_fingers *f)
 {
     /* Half a palm's breadth is 35 to 50 mm (5th to 95th percentile), edge-on 12; heads have 75. */
-    double c = within(palm->radius, 0.010, 0.020, 0.050, 0.062);
+    double c = within(palm->radius, 0.010, 0.026, 0.050, 0.062);
     /* Forearms, sleeves too, against thighs, trunks and rods. */
-    c *= limb->width < 0.0f || is_forward(limb)
-             ? 0.8
-             : within((double)limb->width, 0.012, 0.020, 0.050, 0.066);
+    const bool shows_arm = limb->width >= 0.0f && !is_forward(limb);
+    c *= shows_arm ? within((double)limb->width, 0.012, 0.020, 0.050, 0.066) : 0.8;
     c *= within((double)limb->length, 0.10, 0.18, 1.2, 1.4);
     c *= hangs_well(limb);
     /* Nearly nothing but palm: a rod's end or a ball, no hand with a wrist. */

@@ -8,8 +8,9 @@
 #define NEARLY 0.92           /* discs of one palm are as large as this share of the largest */
 #define WRIST_SHARE 0.88      /* of the palm, that a wrist is narrower than */
 #define WRIST_BIN_MAX 24      /* the patch ends at BINS and cuts the discs before */
-#define WRIST_TO_PALM_BINS 11 /* most between them: half a hand */
+#define WRIST_TO_PALM_BINS 13 /* most between them: half a hand and the narrow part */
 #define PALM_BINS 4           /* from where it is nearly as wide to its middle */
+#define WRIST_LEAST_M 0.018   /* half of a wrist seen edge-on; less is a neck of what is held */
 #define RADIUS_LEAST_M 0.010  /* a hand seen edge-on is 25 mm thick */
 #define ARM_FROM_M 0.055      /* behind the palm's centre there is the wrist, */
 #define ARM_TO_M 0.17         /* and forearm up to here */
@@ -60,21 +61,34 @@ static profile widened(const profile *f)
     return w;
 }
 
-/* From the arm towards the tip: the limb narrows to the wrist and widens to the palm. What the hand
- * holds lies beyond and may be wider. Returns the palm's bin, or -1 without a wrist. */
+/* The first hump from the wrist towards the tip. */
+static int32_t hump(const profile *f, int32_t wrist)
+{
+    const double wide = f->radius[wrist] / WRIST_SHARE;
+    const int32_t end = wrist > WRIST_TO_PALM_BINS ? wrist - WRIST_TO_PALM_BINS : 0;
+    int32_t peak = wrist;
+    for (int32_t b = wrist - 1; b >= end; b--) {
+        if (f->radius[b] > f->radius[peak]) {
+            peak = b;
+        } else if (f->radius[peak] > wide && f->radius[b] < NEARLY * f->radius[peak]) {
+            break;
+        }
+    }
+    const bool still_rises =
+        f->radius[widest(f, end - 3, wrist)] > f->radius[peak] && peak <= end + 2;
+    return f->radius[peak] > wide && !still_rises ? peak : -1;
+}
+
+/* From the tip on: the first narrow place that is as wide as a wrist, with a hump before it.
+ * Further ones are cuffs and sleeves. Returns the palm's bin, or -1 without a wrist. */
 static int32_t beyond_wrist(const profile *f)
 {
-    for (int32_t wrist = WRIST_BIN_MAX; wrist > 4; wrist--) {
-        const int32_t palm = widest(f, wrist - WRIST_TO_PALM_BINS, wrist - 2);
-        const bool is_narrow = f->radius[wrist] > 0.0 &&
-                               f->radius[wrist] < WRIST_SHARE * f->radius[palm] &&
-                               f->radius[wrist] <= f->radius[wrist + 1];
-        if (is_narrow) {
-            int32_t first = wrist - 1;
-            while (first > palm && f->radius[first] < NEARLY * f->radius[palm]) {
-                first--;
-            }
-            return widest(f, first - PALM_BINS, first + 1);
+    for (int32_t wrist = 5; wrist <= WRIST_BIN_MAX; wrist++) {
+        const bool is_narrow =
+            f->radius[wrist] > WRIST_LEAST_M && f->radius[wrist] <= f->radius[wrist + 1];
+        const int32_t palm = is_narrow ? hump(f, wrist) : -1;
+        if (palm >= 0) {
+            return palm;
         }
     }
     return -1;

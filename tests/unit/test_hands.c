@@ -238,13 +238,15 @@ static void test_arm_forward(void **state)
     (void)state;
     bench b = bench_create();
     const rlf_hands *out = NULL;
-    const rlf_vec3 palm = {0.05, -0.1, 1.3};
-    for (int k = 0; k < 4; k++) {
+    rlf_vec3 palm = {0.1, -0.2, 1.3};
+    for (int k = 0; k < 12; k++) {
         b.time_ns += FRAME_NS;
         scene_clear(b.scene, 4.0, b.time_ns);
         scene_rod(b.scene, rlf_vec3_make(0, 0.15, 2.0), rlf_vec3_make(0, -0.25, 2.0), 0.14, 0.16);
-        scene_rod(b.scene, rlf_vec3_make(0.17, -0.3, 1.9), rlf_vec3_make(0.05, -0.05, 1.32), 0.05,
-                  0.028);
+        palm.y += 0.01; /* hands move */
+        const rlf_vec3 elbow = {0.32, palm.y + 0.22, 1.75}, wrist = {0.1, palm.y + 0.1, 1.36};
+        scene_rod(b.scene, rlf_vec3_make(0.2, -0.2, 1.95), elbow, 0.055, 0.05);
+        scene_rod(b.scene, elbow, wrist, 0.048, 0.028);
         scene_hand h = {.palm = palm, .fingers = 0, .arm = 0.0};
         scene_draw_hand(b.scene, &h);
         scene_noise(b.scene);

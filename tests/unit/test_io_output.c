@@ -112,12 +112,23 @@ static rlf_pipeline_output sample_output(rlf_surface *surface, rlf_snapshot *sna
         {.body = {2, 1}, .other = RLF_CONTACT_BODY, .other_body = {1, 1}, .separation = -0.001},
         {.body = {2, 1}, .other = RLF_CONTACT_FOREGROUND, .impulse = 0.5, .surface_speed = 2},
         {.body = {9, 1}, .other = RLF_CONTACT_BACKGROUND, .normal = {0, -1, 0}}};
+    static const rlf_hands hands = {.count = 2,
+                                    .hand = {{.id = 3, .confidence = 0.4},
+                                             {.id = 4,
+                                              .side = RLF_HAND_RIGHT,
+                                              .confidence = 0.9,
+                                              .palm = {1, 2, 3},
+                                              .velocity = {0, 0, 0.5},
+                                              .gesture = RLF_GESTURE_PINCH,
+                                              .holding = 2 | UINT64_C(1) << 32}}};
     *surface = small_surface();
     *snapshot =
         (rlf_snapshot){.bodies = bodies, .body_count = 2, .contacts = contacts, .contact_count = 3};
     rlf_pipeline_output output = {.frame_index = 7,
                                   .time_s = 1.0 / 3.0,
                                   .surface = surface,
+                                  .T_world_camera = {{0, 0, 1}, {0, 0, 0, 1}},
+                                  .hands = &hands,
                                   .snapshot = snapshot,
                                   .times = {1, 2.5, 3, 4}};
     return output;
@@ -139,7 +150,7 @@ static void logs_have_the_fixed_columns(void **state)
     assert_null(log);
     const struct {
         const char *name, *text;
-    } files[3] = {
+    } files[4] = {
         {"log/deep/frames.csv", "frame,time_s,valid,missing,foreground,regions,capture_ms,"
                                 "surface_ms,physics_ms,render_ms\n"
                                 "7,0.333333333,3,1,2,5,1,2.5,3,4\n"},
@@ -151,8 +162,10 @@ static void logs_have_the_fixed_columns(void **state)
          "7,0.333333333,ball,\"a,b\"\"c\",0,0,0,0,0,0,-0.001,0,0\n"
          "7,0.333333333,ball,foreground,0,0,0,0,0,0,0,0.5,2\n"
          "7,0.333333333,removed,background,0,0,0,0,-1,0,0,0,0\n"},
+        {"log/deep/hands.csv", "frame,time_s,hand,side,px,py,pz,vx,vy,vz,gesture,pinch_m,holding\n"
+                               "7,0.333333333,4,right,1,2,4,0,0,0.5,pinch,0,ball\n"},
     };
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 4; i++) {
         size_t size;
         char *text = test_read(test_path(files[i].name), &size);
         assert_string_equal(text, files[i].text);

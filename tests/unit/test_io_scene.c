@@ -37,6 +37,26 @@ static void empty_scene_has_default_gravity(void **state)
     rlf_scene_destroy(&scene);
 }
 
+static void events_of_hands_are_bound(void **state)
+{
+    (void)state;
+    rlf_scene scene;
+    assert_int_equal(parse("{\"on\":{\"pinch\":\"spawn\",\"swipe_left\":\"reset\"}}", &scene),
+                     RLF_OK);
+    for (int k = 0; k < RLF_HAND_EVENT_COUNT; k++) {
+        const rlf_hand_action wanted = k == RLF_HAND_EVENT_PINCH_BEGIN  ? RLF_HAND_ACTION_SPAWN
+                                       : k == RLF_HAND_EVENT_SWIPE_LEFT ? RLF_HAND_ACTION_RESET
+                                                                        : RLF_HAND_ACTION_NONE;
+        assert_int_equal(scene.on[k], wanted);
+    }
+    rlf_scene_destroy(&scene);
+    test_expect_error(parse("{\"on\":{\"clap\":\"spawn\"}}", &scene), RLF_ERROR_INVALID, "on.clap",
+                      "not an event", "swipe_left");
+    test_expect_error(parse("{\"on\":{\"fist\":\"eat\"}}", &scene), RLF_ERROR_INVALID, "on.fist",
+                      "eat", "remove");
+    test_expect_error(parse("{\"on\":[]}", &scene), RLF_ERROR_INVALID, "on", "must be", "object");
+}
+
 static void every_key_is_read(void **state)
 {
     (void)state;
@@ -236,6 +256,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(empty_scene_has_default_gravity),
+        cmocka_unit_test(events_of_hands_are_bound),
         cmocka_unit_test(every_key_is_read),
         cmocka_unit_test(broken_scenes_are_refused_with_one_clear_line),
         cmocka_unit_test(hull_is_centred_and_faces_outwards),

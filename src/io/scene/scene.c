@@ -51,12 +51,13 @@ static rlf_result read_all_bodies(const io_json_object *top, const char *folder,
 
 static rlf_result read_scene(const io_json_object *top, const char *folder, rlf_scene *scene)
 {
-    static const char *const known[] = {"gravity", "border", "bodies", "spawn", "known_objects"};
-    const char *unknown = io_json_unknown_key(top, known, 5);
+    static const char *const known[] = {"gravity", "border",        "bodies",
+                                        "spawn",   "known_objects", "on"};
+    const char *unknown = io_json_unknown_key(top, known, 6);
     if (unknown != NULL) {
         return io_json_fail(top, unknown,
                             "is not a known key: a scene has \"gravity\", \"border\", \"bodies\", "
-                            "\"spawn\" and \"known_objects\"");
+                            "\"spawn\", \"known_objects\" and \"on\"");
     }
     rlf_result result = read_gravity(top, scene);
     if (result == RLF_OK) {
@@ -64,6 +65,9 @@ static rlf_result read_scene(const io_json_object *top, const char *folder, rlf_
     }
     if (result == RLF_OK) {
         result = read_all_bodies(top, folder, scene);
+    }
+    if (result == RLF_OK) {
+        result = io_on_read(top, scene);
     }
     return result == RLF_OK ? io_known_read(top, folder, scene) : result;
 }
