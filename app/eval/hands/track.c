@@ -6,6 +6,7 @@
 #define NEAR_M 0.15   /* from the true palm: it is this hand */
 #define FRAMES_LATE 4 /* a gesture may be so late */
 #define TIP_M 0.03    /* from a true tip: it is that one */
+#define COVER_M 0.08  /* what is nearer hides the hand */
 #define FAR_M 2.5
 #define FARTHEST_M 3.0
 
@@ -26,11 +27,14 @@ static rlf_vec3 seen_tip(const rlf_synthetic_hand *hand, int finger)
     return rlf_mad(end, side, hand->tip_radius[finger]);
 }
 
-/* The palm's middle on the side that is seen. */
-static rlf_vec3 seen_palm(const rlf_synthetic_hand *hand)
+/* What is seen in the direction of the palm's middle: its skin, or fingers that are folded over it.
+ */
+static rlf_vec3 seen_palm(const hands_run *run, const rlf_synthetic_hand *hand)
 {
-    double facing = rlf_dot(hand->palm_normal, hand->palm) < 0.0 ? 1.0 : -1.0;
-    return rlf_mad(hand->palm, hand->palm_normal, facing * hand->palm_half);
+    const rlf_vec3 eye = {0, 0, 0}, ray = rlf_scale(hand->palm, 1.0 / hand->palm.z);
+    float z = 0.0f;
+    (void)rlf_synthetic_cast(run->source, eye, &ray, 1, &z, NULL);
+    return hand->palm.z - (double)z < COVER_M ? rlf_scale(ray, (double)z) : hand->palm;
 }
 
 static const rlf_hand *nearest_hand(const rlf_hands *found, rlf_vec3 palm)
@@ -89,7 +93,7 @@ static void add_events(const rlf_hands *found, track_sums *sums)
 static void add_frame(const hands_run *run, const rlf_synthetic_hand *truth, int32_t age,
                       track_sums *sums)
 {
-    rlf_vec3 palm = seen_palm(truth);
+    rlf_vec3 palm = seen_palm(run, truth);
     const rlf_hand *hand = nearest_hand(run->frame.hands, palm);
     sums->frames++;
     sums->ms += run->frame.times.hands_ms;

@@ -8,6 +8,8 @@
 #define BACK_OFF 0.10 /* metres before the body */
 #define OVER_TABLE 0.012
 #define PAD 0.018        /* metres that finger tips reach over a flat side */
+#define UPPER 0.2        /* of its height: so far over the middle two hands hold a box */
+#define HOLLOW 0.6       /* of the way from a flat hand to a cup */
 #define PALM_CLEAR 0.006 /* metres between palm and body in a pinch */
 #define THROW_UP_S 0.35  /* s of speeding up */
 #define THROW_OPEN_S 0.12
@@ -16,7 +18,7 @@
 typedef struct hold {
     rlf_pose at;       /* of the hand, stage frame */
     rlf_vec3 approach; /* unit: how it comes there */
-    synth_grip open, closed;
+    synth_grip open, closed, let_go;
     rlf_quat away; /* how it is turned to let go; as `at` when fingers do that */
 } hold;
 
@@ -52,6 +54,7 @@ static void set_grips(const plan *p, const synth_hand_form *form, const synth_gr
     h->closed = synth_grip_mix_each(a, b, share);
     synth_hand_close(form, a, b, &body, p->clear, most, share);
     h->open = synth_grip_mix_each(a, b, share);
+    h->let_go = h->open;
 }
 
 /* The hand's rotation and place: its span's middle on the body, its axis along `axis`. */
@@ -100,7 +103,7 @@ static hold pinch(const plan *p, const synth_hand_form *form, rlf_vec3 axis, rlf
 
 /* The palm against the body: comes along its own normal until it touches. */
 static void press_palm(const plan *p, const synth_hand_form *form, const synth_grip *grip,
-                       rlf_vec3 middle, hold *h)
+                       rlf_vec3 middle, double press, hold *h)
 {
     rlf_vec3 normal = rlf_rotate(h->at.q, rlf_vec3_make(0, 0, -1));
     synth_hand_shape hand;
@@ -110,7 +113,7 @@ static void press_palm(const plan *p, const synth_hand_form *form, const synth_g
     for (int k = 0; k < 12; k++) { /* convex solids: sphere tracing cannot pass the surface */
         synth_shape body = body_in_hand(p, &h->at);
         double room = synth_hand_distance(&hand, 0, SYNTH_HAND_SOLIDS, &body);
-        h->at.p = rlf_mad(h->at.p, normal, room + 0.5 * p->press);
+        h->at.p = rlf_mad(h->at.p, normal, room + press);
     }
 }
 
@@ -125,9 +128,9 @@ static hold bar(const plan *p, const synth_hand_form *form)
     h.at.q = synth_hands_turn(turned(p, 0, 0, -1), turned(p, -side, 0, 0));
     palm.y += 0.3 * palm.y; /* at the roots of the fingers */
     open.spread = 0.0;
-    press_palm(p, form, &open, palm, &h);
+    press_palm(p, form, &open, palm, 0.5 * p->press, &h);
     set_grips(p, form, &wide, &shut, 1.0, &h);
-    h.open = open;
+    h.open = h.let_go = open;
     h.away = h.at.q;
     return h;
 }
@@ -137,23 +140,30 @@ static hold flat_side(const plan *p, const synth_hand_form *form)
     const synth_grip flat = synth_grip_named(SYNTH_GRIP_FLAT);
     double half, side = form->is_left ? -1.0 : 1.0;
     rlf_vec3 palm = synth_hand_palm(form, &half);
-    hold h = {.approach = turned(p, side, 0, 0), .open = flat, .closed = flat};
-    h.at.q = synth_hands_turn(turned(p, 0, 0.25, -1), turned(p, -side, 0, 0));
+    hold h = {.approach = turned(p, side, 0, 0), .open = flat, .closed = flat, .let_go = flat};
+    h.at.q = synth_hands_turn(turned(p, 0, 0.1, -1), turned(p, -side, 0, 0));
     palm.y *= 1.7; /* fingers and palm share the load */
-    press_palm(p, form, &flat, palm, &h);
+    /* flat sides are held over their middle, where hands have room over the table */
+    bool is_ball = p->hands->task.body == RLF_SYNTHETIC_BODY_BALL;
+    rlf_vec3 up = {0, is_ball ? 0.0 : -UPPER * p->hands->task.size.y, 0};
+    palm = rlf_sub(palm, rlf_rotate(rlf_quat_conjugate(h.at.q), up));
+    press_palm(p, form, &flat, palm, p->press, &h);
     h.away = h.at.q;
     return h;
 }
 
-static hold under(const plan *p, const synth_hand_form *form, synth_grip_name name)
+static hold under(const plan *p, const synth_hand_form *form, double hollow)
 {
-    const synth_grip grip = synth_grip_named(name);
+    const synth_grip flat = synth_grip_named(SYNTH_GRIP_FLAT);
+    const synth_grip cup = synth_grip_named(SYNTH_GRIP_CUP);
+    const synth_grip grip = synth_grip_mix(&flat, &cup, hollow);
     double half, side = form->is_left ? -1.0 : 1.0;
     rlf_vec3 palm = synth_hand_palm(form, &half);
     hold h = {.approach = turned(p, 0.3 * side, 0, -1), .open = grip, .closed = grip};
+    h.let_go = synth_grip_named(SYNTH_GRIP_OPEN);
     h.at.q = synth_hands_turn(turned(p, 0, 0, -1), rlf_vec3_make(0, 1, 0));
     palm.y *= 1.25;
-    press_palm(p, form, &grip, palm, &h);
+    press_palm(p, form, &grip, palm, 0.0, &h);
     rlf_quat roll =
         rlf_quat_from_axis_angle(rlf_rotate(h.at.q, rlf_vec3_make(0, 1, 0)), -side * 2.3);
     h.away = rlf_quat_mul(roll, h.at.q);
@@ -169,8 +179,9 @@ static hold take(const plan *p, int32_t track)
         return pinch(p, form, turned(p, 0, 0, -1), rlf_vec3_make(0, 1, 0));
     case RLF_SYNTHETIC_ACT_FIST_BAR: return bar(p, form);
     case RLF_SYNTHETIC_ACT_TWO_HANDS: return flat_side(p, form);
-    case RLF_SYNTHETIC_ACT_SCOOP: return under(p, form, SYNTH_GRIP_CUP);
-    case RLF_SYNTHETIC_ACT_UNDER: return under(p, form, SYNTH_GRIP_FLAT);
+    case RLF_SYNTHETIC_ACT_SCOOP: return under(p, form, 1.0);
+    case RLF_SYNTHETIC_ACT_UNDER: /* no ball stays on a flat hand */
+        return under(p, form, p->hands->task.body == RLF_SYNTHETIC_BODY_BALL ? HOLLOW : 0.0);
     default: return pinch(p, form, turned(p, side, 0, 0), turned(p, 0, 0.25, -1));
     }
 }
@@ -269,10 +280,10 @@ static void add_release(const synth_hands *hands, synth_track *track, const hold
     synth_track_add(track, task->opened, &at, &h->closed, 0, SYNTH_EASE_SMOOTH);
     at.q = h->away;
     at.p = is_two ? rlf_mad(at.p, h->approach, -0.06) : at.p;
-    synth_track_add(track, task->opened + 0.3, &at, &h->open, 0, SYNTH_EASE_SMOOTH);
-    synth_track_add(track, task->opened + 0.6, &at, &h->open, 0, SYNTH_EASE_SMOOTH);
+    synth_track_add(track, task->opened + 0.3, &at, &h->let_go, 0, SYNTH_EASE_SMOOTH);
+    synth_track_add(track, task->opened + 0.6, &at, &h->let_go, 0, SYNTH_EASE_SMOOTH);
     at.p = rlf_mad(at.p, h->approach, -BACK_OFF);
-    synth_track_add(track, task->end, &at, &h->open, 0, SYNTH_EASE_SMOOTH);
+    synth_track_add(track, task->end, &at, &h->let_go, 0, SYNTH_EASE_SMOOTH);
 }
 
 static void add_keys(const synth_hands *hands, synth_track *track, const rlf_pose *home,
