@@ -10,6 +10,7 @@
 #define BODY_RADIUS_M 0.11f  /* no limb, no hand and no head has a disc as large in it */
 #define PIECE_LEAST_M2 0.002 /* a smaller piece is no hand: one seen edge-on has 30 cm^2 */
 #define BRIDGE_M 0.2f        /* a hand hides the forearm that it is before by as much */
+#define LESS_M 0.001f        /* a way that is shorter by less changes nothing */
 #define MARGIN_SHARE 10      /* depth may begin this share of the picture inside its border */
 
 static int32_t near_one(double x)
@@ -46,76 +47,97 @@ static void choose_step(hand_cells *c, const rlf_surface *s, double depth)
     c->noise = s->noise;
 }
 
-/* The nearest of up to nine samples: a finger counts against what is behind it. */
-static void read_cell(hand_cells *c, const rlf_surface *s, int32_t cell_x, int32_t cell_y)
+/* The nearest foreground pixel makes a cell: a finger counts against what is behind it. */
+static void read_row(hand_cells *c, const rlf_surface *s, int32_t y)
 {
-    const int32_t stride = c->step > 2 ? (c->step + 1) / 3 : 1;
-    const int32_t cell = cell_y * c->width + cell_x;
-    float nearest = 0.0f;
-    bool is_valid = false;
-    for (int32_t y = 0; y < c->step; y += stride) {
-        const int32_t row = (cell_y * c->step + y) * s->width + cell_x * c->step;
-        for (int32_t x = 0; x < c->step; x += stride) {
-            const float z = s->depth[row + x];
-            is_valid = is_valid || z > 0.0f;
-            if (s->foreground[row + x] != 0 && z > 0.0f && (nearest == 0.0f || z < nearest)) {
-                nearest = z;
-            }
+    const uint8_t *foreground = s->foreground + (ptrdiff_t)y * s->width;
+    const float *depth = s->depth + (ptrdiff_t)y * s->width;
+    float *z = c->z + (ptrdiff_t)(y / c->step) * c->width;
+    const int32_t end = c->width * c->step;
+    for (int32_t x = 0; x < end; x++) {
+        uint64_t eight = 1;
+        if (x + 8 <= end) {
+            memcpy(&eight, foreground + x, sizeof(eight));
+        }
+        if (eight == 0) {
+            x += 7;
+            continue;
+        }
+        float *cell = &z[x / c->step];
+        if (foreground[x] != 0 && depth[x] > 0.0f && (*cell == 0.0f || depth[x] < *cell)) {
+            *cell = depth[x];
         }
     }
-    c->z[cell] = nearest;
-    c->valid[cell] = is_valid;
 }
 
-static float step_limit(const hand_cells *c, float z, float cells)
+static void read_cells(hand_cells *c, const rlf_surface *s)
 {
-    return cells * SLANT_MAX * c->spacing * z +
-           (float)(NOISE_SIGMAS * rlf_depth_noise_sigma(&c->noise, (double)z));
+    const size_t n = (size_t)c->count;
+    memset(c->z, 0, n * sizeof(*c->z));
+    memset(c->queued, 0, n);
+    memset(c->root, HAND_ROOT_NONE, n);
+    for (int32_t y = 0; y < c->height * c->step; y++) {
+        read_row(c, s, y);
+    }
+    for (int32_t i = 0; i < c->count; i++) {
+        c->reach[i] = CELL_FAR;
+        if (c->z[i] > 0.0f) {
+            c->noise_of[i] =
+                (float)(NOISE_SIGMAS * rlf_depth_noise_sigma(&c->noise, (double)c->z[i]));
+        }
+    }
 }
 
 float hand_cells_way(const hand_cells *c, int32_t a, int32_t b, float cells)
 {
-    const float nearer = c->z[a] < c->z[b] ? c->z[a] : c->z[b];
-    const float rise = c->z[a] < c->z[b] ? c->z[b] - c->z[a] : c->z[a] - c->z[b];
-    if (!(nearer > 0.0f) || rise > step_limit(c, nearer, cells)) {
+    const int32_t near = c->z[a] < c->z[b] ? a : b;
+    const float nearer = c->z[near];
+    const float rise = c->z[a] < c->z[b] ? c->z[b] - nearer : c->z[a] - nearer;
+    const float across = cells * c->spacing * nearer;
+    if (!(nearer > 0.0f) || rise > SLANT_MAX * across + c->noise_of[near]) {
         return -1.0f;
     }
-    const float across = cells * c->spacing * nearer;
-    const float noise = 2.0f * (float)rlf_depth_noise_sigma(&c->noise, (double)nearer);
-    const float climb = rise > noise ? rise - noise : 0.0f; /* noise makes no way longer */
-    return sqrtf(across * across + climb * climb);
+    const float noise = 0.5f * c->noise_of[near]; /* it makes no way longer */
+    const float climb = rise > noise ? rise - noise : 0.0f;
+    return climb > 0.0f ? sqrtf(across * across + climb * climb) : across;
 }
 
-/* The neighbour in this direction or, over one cell without foreground, the next one, and the way
- * there; -1 when there is none or a depth step lies between. */
-static int32_t neighbour(const hand_cells *c, int32_t from, int32_t k_of_nine, float *out_way)
+/* A cell and its place. */
+typedef struct place {
+    int32_t cell, x, y;
+} place;
+
+static place place_of(const hand_cells *c, int32_t cell)
 {
-    const int32_t dx = k_of_nine % 3 - 1;
-    const int32_t dy = k_of_nine / 3 - 1;
-    const float length = dx != 0 && dy != 0 ? 1.41421356f : 1.0f;
-    int32_t x = from % c->width;
-    int32_t y = from / c->width;
-    for (int32_t k = 1; k <= 2; k++) {
-        x += dx;
-        y += dy;
+    return (place){cell, cell % c->width, cell / c->width};
+}
+
+/* The neighbour in direction k of eight or, over one cell without foreground, the next one, and the
+ * way there; -1 when there is none or a depth step lies between. */
+static int32_t neighbour(const hand_cells *c, place from, int32_t k, float *out_way)
+{
+    static const int32_t DX[8] = {1, -1, 0, 0, 1, -1, 1, -1}, DY[8] = {0, 0, 1, -1, 1, 1, -1, -1};
+    const float length = k < 4 ? 1.0f : 1.41421356f;
+    int32_t x = from.x, y = from.y;
+    for (int32_t n = 1; n <= 2; n++) {
+        x += DX[k];
+        y += DY[k];
         if (x < 0 || y < 0 || x >= c->width || y >= c->height) {
             return -1;
         }
         const int32_t to = y * c->width + x;
         if (c->z[to] > 0.0f) {
-            *out_way = hand_cells_way(c, from, to, (float)k * length);
+            *out_way = hand_cells_way(c, from.cell, to, (float)n * length);
             return *out_way >= 0.0f ? to : -1;
         }
     }
     return -1;
 }
 
-#define NINE_MIDDLE 4
-
 static void relax(hand_cells *c, float *distance, int32_t from, int32_t to, float way,
                   int32_t *tail)
 {
-    if (to < 0 || distance[from] + way >= distance[to] - 1e-4f) {
+    if (to < 0 || distance[from] + way >= distance[to] - LESS_M) {
         return;
     }
     if (distance[to] >= CELL_FAR) {
@@ -151,9 +173,10 @@ void hand_cells_spread(hand_cells *c, float *distance, int32_t queued, float lim
         const int32_t from = c->queue[head];
         head = head == c->count ? 0 : head + 1;
         c->queued[from] = 0;
-        for (int32_t k = 0; k < 9 && distance[from] < limit; k++) {
+        const place at = place_of(c, from);
+        for (int32_t k = 0; k < 8 && distance[from] < limit; k++) {
             float way = 0.0f;
-            const int32_t to = k != NINE_MIDDLE ? neighbour(c, from, k, &way) : -1;
+            const int32_t to = neighbour(c, at, k, &way);
             relax(c, distance, from, to, way, &tail);
         }
         if (distance[from] < limit) {
@@ -171,8 +194,11 @@ static int32_t least(int32_t a, int32_t b)
 void hand_chamfer(int32_t *d, int32_t width, int32_t height)
 {
     for (int32_t i = 0; i < width * height; i++) {
-        const int32_t x = i % width;
         int32_t v = d[i];
+        if (v == 0) {
+            continue;
+        }
+        const int32_t x = i % width;
         v = x > 0 ? least(v, d[i - 1] + 5) : v;
         if (i >= width) {
             v = least(v, d[i - width] + 5);
@@ -182,8 +208,11 @@ void hand_chamfer(int32_t *d, int32_t width, int32_t height)
         d[i] = v;
     }
     for (int32_t i = width * height - 1; i >= 0; i--) {
-        const int32_t x = i % width;
         int32_t v = d[i];
+        if (v == 0) {
+            continue;
+        }
+        const int32_t x = i % width;
         v = x < width - 1 ? least(v, d[i + 1] + 5) : v;
         if (i < width * (height - 1)) {
             v = least(v, d[i + width] + 5);
@@ -198,11 +227,14 @@ void hand_chamfer(int32_t *d, int32_t width, int32_t height)
 static void measure_discs(hand_cells *c)
 {
     for (int32_t i = 0; i < c->count; i++) {
+        c->disc[i] = 0;
+        if (c->z[i] <= 0.0f) {
+            continue;
+        }
         const bool has_right = i % c->width < c->width - 1;
         const bool has_below = i < c->count - c->width;
-        c->disc[i] = c->z[i] > 0.0f ? INT32_MAX / 2 : 0;
-        if (c->z[i] > 0.0f &&
-            ((has_right && c->z[i + 1] > 0.0f && hand_cells_way(c, i, i + 1, 1.0f) < 0.0f) ||
+        c->disc[i] = INT32_MAX / 2;
+        if (((has_right && c->z[i + 1] > 0.0f && hand_cells_way(c, i, i + 1, 1.0f) < 0.0f) ||
              (has_below && c->z[i + c->width] > 0.0f &&
               hand_cells_way(c, i, i + c->width, 1.0f) < 0.0f))) {
             c->disc[i] = CHAMFER / 2;
@@ -224,6 +256,13 @@ static int32_t add_root(hand_cells *c, int32_t cell, hand_root root, int32_t que
     return queued + 1;
 }
 
+static bool has_depth(const hand_cells *c, int32_t cell)
+{
+    const int32_t x = cell % c->width * c->step + c->step / 2;
+    const int32_t y = cell / c->width * c->step + c->step / 2;
+    return c->z[cell] > 0.0f || c->surface->depth[y * c->surface->width + x] > 0.0f;
+}
+
 /* The first cell with depth of a row or column, when it is foreground and near the border: cameras
  * have margins without depth. */
 static int32_t add_border(hand_cells *c, int32_t first, int32_t stride, int32_t length,
@@ -231,7 +270,7 @@ static int32_t add_border(hand_cells *c, int32_t first, int32_t stride, int32_t 
 {
     for (int32_t k = 0; k <= length / MARGIN_SHARE; k++) {
         const int32_t cell = first + k * stride;
-        if (c->valid[cell] != 0) {
+        if (has_depth(c, cell)) {
             return add_root(c, cell, HAND_ROOT_BORDER, queued);
         }
     }
@@ -287,9 +326,10 @@ static int32_t list_piece(hand_cells *c, int32_t first)
     c->queue[0] = first;
     c->root[first] = HAND_ROOT_ALONE;
     for (int32_t head = 0; head < count; head++) {
-        for (int32_t k = 0; k < 9; k++) {
+        const place at = place_of(c, c->queue[head]);
+        for (int32_t k = 0; k < 8; k++) {
             float way;
-            const int32_t to = k != NINE_MIDDLE ? neighbour(c, c->queue[head], k, &way) : -1;
+            const int32_t to = neighbour(c, at, k, &way);
             if (to >= 0 && c->root[to] == HAND_ROOT_NONE) {
                 c->root[to] = HAND_ROOT_ALONE;
                 c->queue[count++] = to;
@@ -344,12 +384,8 @@ bool hand_cells_read(hand_cells *c, const rlf_surface *s)
         return false;
     }
     choose_step(c, s, depth);
-    for (int32_t i = 0; i < c->count; i++) {
-        read_cell(c, s, i % c->width, i / c->width);
-        c->reach[i] = CELL_FAR;
-        c->queued[i] = 0;
-        c->root[i] = HAND_ROOT_NONE;
-    }
+    c->surface = s;
+    read_cells(c, s);
     measure_discs(c);
     c->touched_count = 0;
     c->bridge_count = 0;

@@ -19,14 +19,15 @@ typedef enum hand_root {
 
 /* Planes have room for one cell per pixel; `width` x `height` cells are in use, row by row. */
 typedef struct hand_cells {
-    int32_t step; /* pixels of the surface along a cell's side */
+    const rlf_surface *surface; /* that they were read from */
+    int32_t step;               /* pixels of the surface along a cell's side */
     int32_t width, height, count;
     float spacing;   /* metres between neighbours at 1 m */
     float *z;        /* nearest foreground in the cell, metres; 0 = none */
+    float *noise_of; /* NOISE_SIGMAS of the sensor at z, metres */
     float *reach;    /* along the foreground from the root, metres; CELL_FAR = none */
     uint8_t *root;   /* hand_root of a cell that is one; see hand_cells_root */
     int32_t *source; /* the root's cell that it is reached from */
-    uint8_t *valid;  /* 1 = the cell has depth */
     int32_t *disc;   /* to the nearest edge, in cells / CHAMFER */
     int32_t *queue;  /* of cells, count + 1 */
     uint8_t *queued;

@@ -1,9 +1,11 @@
 /* Extrema of the way from the roots (Plagemann et al. 2010). */
 #include "hands/limbs.h"
 
-#define REACH_LEAST_M 0.12f /* a shorter bump is no limb */
+#define REACH_LEAST_M 0.12f /* a shorter bump is no limb, */
+#define FROM_BODY_M 0.25f   /* nor is one of the body */
 #define SEEDS_MAX 96        /* the furthest local maxima */
 #define APART_M 0.25f       /* fingers of one hand are closer to each other */
+#define BUMP_M 0.06f        /* a first look */
 #define BEHIND_HAND_M 0.21f /* from the tip on there is no hand, but forearm, */
 #define BEHIND_END_M 0.36f  /* up to here */
 
@@ -24,12 +26,17 @@ static bool is_maximum(const hand_cells *c, int32_t i)
     return true;
 }
 
+static float least_reach(const hand_cells *c, int32_t i)
+{
+    return hand_cells_root(c, i) == HAND_ROOT_BODY ? FROM_BODY_M : REACH_LEAST_M;
+}
+
 /* The furthest first; of equal ones the first in the picture. */
 static int32_t find_seeds(const hand_cells *c, int32_t *seeds)
 {
     int32_t count = 0;
     for (int32_t i = 0; i < c->count; i++) {
-        if (c->z[i] <= 0.0f || c->reach[i] >= CELL_FAR || c->reach[i] < REACH_LEAST_M ||
+        if (c->z[i] <= 0.0f || c->reach[i] >= CELL_FAR || c->reach[i] < least_reach(c, i) ||
             (count == SEEDS_MAX && c->reach[i] <= c->reach[seeds[count - 1]]) ||
             !is_maximum(c, i)) {
             continue;
@@ -96,6 +103,23 @@ static void take_end(hand_limbs *l, const hand_cells *c, hand_limb *limb)
     limb->width = bins >= 4 ? sum / (float)bins : -1.0f;
 }
 
+static void spread_from(hand_limbs *l, hand_cells *c, int32_t seed, float limit)
+{
+    l->from_tip[seed] = 0.0f;
+    c->queue[0] = seed;
+    c->touched_count = 0;
+    hand_cells_spread(c, l->from_tip, 1, limit);
+}
+
+static void clear_spread(hand_limbs *l, const hand_cells *c, int32_t seed)
+{
+    l->from_tip[seed] = CELL_FAR;
+    for (int32_t k = 0; k < c->touched_count; k++) {
+        l->from_tip[c->touched[k]] = CELL_FAR;
+    }
+}
+
+/* Most seeds are bumps, which a small surrounding tells. */
 static void try_seed(hand_limbs *l, hand_cells *c, int32_t seed)
 {
     hand_limb *limb = &l->limb[l->count];
@@ -104,18 +128,18 @@ static void try_seed(hand_limbs *l, hand_cells *c, int32_t seed)
                         .source = c->source[seed],
                         .length = c->reach[seed],
                         .rise = c->z[c->source[seed]] - c->z[seed]};
-    l->from_tip[seed] = 0.0f;
-    c->queue[0] = seed;
-    c->touched_count = 0;
-    hand_cells_spread(c, l->from_tip, 1, BEHIND_END_M);
+    spread_from(l, c, seed, BUMP_M);
+    const bool is_bump = goes_on(l, c, seed);
+    clear_spread(l, c, seed);
+    if (is_bump) {
+        return;
+    }
+    spread_from(l, c, seed, BEHIND_END_M);
     if (!goes_on(l, c, seed)) {
         take_end(l, c, limb);
         l->count++;
     }
-    l->from_tip[seed] = CELL_FAR;
-    for (int32_t k = 0; k < c->touched_count; k++) {
-        l->from_tip[c->touched[k]] = CELL_FAR;
-    }
+    clear_spread(l, c, seed);
 }
 
 void hand_limbs_find(hand_limbs *l, hand_cells *c)

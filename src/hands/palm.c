@@ -7,7 +7,7 @@
 #define PALM_TO_M 0.14        /* and at most this far: the longest hands */
 #define NEARLY 0.92           /* discs of one palm are as large as this share of the largest */
 #define WRIST_SHARE 0.88      /* of the palm, that a wrist is narrower than */
-#define WRIST_BIN_MAX 24      /* the patch ends at BINS and cuts the discs before */
+#define CUT_BINS 7            /* where the patch or the limb ends, discs are cut so far before */
 #define WRIST_TO_PALM_BINS 13 /* most between them: half a hand and the narrow part */
 #define PALM_BINS 4           /* from where it is nearly as wide to its middle */
 #define WRIST_LEAST_M 0.018   /* half of a wrist seen edge-on; less is a neck of what is held */
@@ -79,11 +79,13 @@ static int32_t hump(const profile *f, int32_t wrist)
     return f->radius[peak] > wide && !still_rises ? peak : -1;
 }
 
-/* From the tip on: the first narrow place that is as wide as a wrist, with a hump before it.
- * Further ones are cuffs and sleeves. Returns the palm's bin, or -1 without a wrist. */
-static int32_t beyond_wrist(const profile *f)
+/* From the arm towards the tip: the first narrow place that is as wide as a wrist, with a hump
+ * beyond it. What the hand holds lies further on and may be wider. Returns the palm's bin, or -1
+ * without a wrist. */
+static int32_t beyond_wrist(const profile *f, double length)
 {
-    for (int32_t wrist = 5; wrist <= WRIST_BIN_MAX; wrist++) {
+    const int32_t end = (int32_t)rlf_min(length / BIN_M, BINS) - CUT_BINS;
+    for (int32_t wrist = end; wrist > 4; wrist--) {
         const bool is_narrow =
             f->radius[wrist] > WRIST_LEAST_M && f->radius[wrist] <= f->radius[wrist + 1];
         const int32_t palm = is_narrow ? hump(f, wrist) : -1;
@@ -197,7 +199,7 @@ bool hand_palm_find(hand_palm *palm, const hand_patch *p)
     read_profile(&read, p);
     const profile f = widened(&read);
     *palm = (hand_palm){.x = 0};
-    int32_t bin = beyond_wrist(&f);
+    int32_t bin = beyond_wrist(&f, p->length);
     palm->has_wrist = bin >= 0;
     bin = bin >= 0 ? bin : first_wide(&f);
     if (f.radius[bin] < RADIUS_LEAST_M) {

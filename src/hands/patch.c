@@ -34,6 +34,7 @@ static void place(hand_patch *p, const rlf_surface *s, const hand_cells *c, cons
     const int32_t room = (longer + PATCH_SIDE - 3) / (PATCH_SIDE - 2);
     const int32_t fine = (int32_t)rlf_min(PIXEL_M / pixel, 64.0);
     p->surface = s;
+    p->length = (double)limb->length;
     p->step = room > fine ? room : fine;
     p->step = p->step > 1 ? p->step : 1;
     p->x0 = limb->x0 * c->step - p->step;

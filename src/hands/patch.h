@@ -18,6 +18,7 @@ typedef struct hand_ring {
 typedef struct hand_patch {
     const rlf_surface *surface;
     int32_t x0, y0, step, width, height;
+    double length;              /* of the limb from its root to the tip, metres */
     float spacing;              /* metres between pixels at 1 m */
     uint8_t mask[PATCH_COUNT];  /* 1 = of the limb, 2 = filled hole; 0 = outside, 3 = a ring */
     float z[PATCH_COUNT];       /* metres; of a filled hole as of its neighbour */

@@ -53,10 +53,10 @@ static bool allocate(rlf_hand_tracker *t)
     hand_cells *c = &t->cells;
     hand_limbs *l = &t->limbs;
     c->z = rlf_alloc_array(n, sizeof(float));
+    c->noise_of = rlf_alloc_array(n, sizeof(float));
     c->reach = rlf_alloc_array(n, sizeof(float));
     c->root = rlf_alloc_array(n, 1);
     c->source = rlf_alloc_array(n, sizeof(int32_t));
-    c->valid = rlf_alloc_array(n, 1);
     c->disc = rlf_alloc_array(n, sizeof(int32_t));
     c->queue = rlf_alloc_array(n + 1, sizeof(int32_t));
     c->queued = rlf_alloc_array(n, 1);
@@ -66,8 +66,8 @@ static bool allocate(rlf_hand_tracker *t)
     l->from_tip = rlf_alloc_array(n, sizeof(float));
     t->owner = rlf_alloc_array(n, 1);
     t->patch = rlf_alloc(sizeof(*t->patch));
-    return c->z != NULL && c->reach != NULL && c->root != NULL && c->source != NULL &&
-           c->valid != NULL && c->disc != NULL && c->queue != NULL && c->queued != NULL &&
+    return c->z != NULL && c->noise_of != NULL && c->reach != NULL && c->root != NULL &&
+           c->source != NULL && c->disc != NULL && c->queue != NULL && c->queued != NULL &&
            c->touched != NULL && l->owner != NULL && l->along != NULL && l->from_tip != NULL &&
            t->owner != NULL && t->patch != NULL;
 }
@@ -110,9 +110,9 @@ void rlf_hand_tracker_destroy(rlf_hand_tracker **tracker)
     }
     rlf_hand_tracker *t = *tracker;
     *tracker = NULL;
-    void *const memory[] = {t->cells.z,       t->cells.reach, t->cells.root,  t->cells.source,
-                            t->cells.valid,   t->cells.disc,  t->cells.queue, t->cells.queued,
-                            t->cells.touched, t->limbs.owner, t->limbs.along, t->limbs.from_tip,
+    void *const memory[] = {t->cells.z,       t->cells.noise_of, t->cells.reach, t->cells.root,
+                            t->cells.source,  t->cells.disc,     t->cells.queue, t->cells.queued,
+                            t->cells.touched, t->limbs.owner,    t->limbs.along, t->limbs.from_tip,
                             t->owner,         t->patch};
     for (size_t k = 0; k < sizeof(memory) / sizeof(memory[0]); k++) {
         rlf_free(memory[k]);
