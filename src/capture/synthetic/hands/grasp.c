@@ -324,8 +324,10 @@ void synth_hands_script_grasp(synth_hands *hands, synth_draw *d)
     take_all(&p, holds);
     find_times(hands);
     double speed = synth_draw_range(d, 0.8, 2.0), up = synth_draw_range(d, 20.0, 40.0) * DEGREE;
-    hands->task.thrown = rlf_scale(hands->across, speed * rlf_cos(up));
-    hands->task.thrown.y = -speed * rlf_sin(up);
+    if (hands->def.act == RLF_SYNTHETIC_ACT_THROW) {
+        hands->task.thrown = rlf_scale(hands->across, speed * rlf_cos(up));
+        hands->task.thrown.y = -speed * rlf_sin(up);
+    }
     for (int32_t i = 0; i < hands->track_count; i++) {
         rlf_pose home = synth_hands_home(hands, i);
         add_keys(hands, &hands->tracks[i], &home, &holds[i]);
