@@ -22,7 +22,7 @@ int command_usage(const char *command, const char *format, ...)
 int command_set(const char *command, setting_list *s, const char *text)
 {
     return settings_add(s, text) == RLF_OK ? -1
-                                           : command_usage(command, "--set %s", rlf_error_text());
+                                           : command_usage(command, "--set: %s", rlf_error_text());
 }
 
 void command_load_plugin(const char *path)
@@ -42,6 +42,25 @@ int command_stopped(const char *command)
 {
     fprintf(stderr, "relief %s: stopped before the end; nothing was written\n", command);
     return 128 + command_interrupted;
+}
+
+int command_done(void)
+{
+    return command_interrupted ? 128 + command_interrupted : EXIT_DONE;
+}
+
+const char *command_frames(int64_t count)
+{
+    return count == 1 ? "frame" : "frames";
+}
+
+double command_tidy(double value, int decimals)
+{
+    double half = 0.5;
+    for (int i = 0; i < decimals; i++) {
+        half *= 0.1;
+    }
+    return value <= 0.0 && value >= -half ? 0.0 : value;
 }
 
 int command_not_opened(const char *command)

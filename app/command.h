@@ -1,7 +1,7 @@
 /* What the subcommands of `relief` share: messages and exit statuses.
  *
  * Exit status: 0 done, 1 the input or the machine failed, 2 wrong usage, 128 and the signal's
- * number when one stopped the command before there was anything to write. */
+ * number when one stopped the command: 130 for Ctrl-C. Files that it has begun are whole then. */
 #ifndef RELIEF_APP_COMMAND_H
 #define RELIEF_APP_COMMAND_H
 
@@ -35,6 +35,13 @@ int command_not_opened(const char *command);
 /* After Ctrl-C, when there is no result or half of one, which is none: prints that nothing was
  * written and returns 128 and the signal's number. */
 int command_stopped(const char *command);
+/* EXIT_DONE, or 128 and the signal's number when one ended a command whose files are whole. */
+int command_done(void);
+
+/* "frame" or "frames". */
+const char *command_frames(int64_t count);
+/* The value, or 0 for one that would be printed as -0 with so many decimals. */
+double command_tidy(double value, int decimals);
 
 /* Whole-string numbers; false when the text is not one or is out of [low, high]. */
 bool command_parse_int(const char *text, int64_t low, int64_t high, int64_t *out);

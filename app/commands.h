@@ -9,9 +9,11 @@ int place_main(int argc, char **argv);
 int export_main(int argc, char **argv);
 int info_main(int argc, char **argv);
 int sources_main(int argc, char **argv);
+int scenes_main(int argc, char **argv);
 int eval_main(int argc, char **argv);
 int bench_main(int argc, char **argv);
 int measure_main(int argc, char **argv);
+int calibrate_main(int argc, char **argv);
 int settings_main(int argc, char **argv);
 
 #endif

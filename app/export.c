@@ -4,6 +4,7 @@
 #include "export_arrays.h"
 #include "options.h"
 #include "session.h"
+#include "suggest.h"
 
 #include <errno.h>
 #include <getopt.h>
@@ -49,7 +50,7 @@ static void print_help(void)
            "  %-20s true_poses.csv: poses of the moving objects\n"
            "true_* need a synthetic source and have the depth camera's full resolution.\n\n"
            "  --frames A:B      frames A <= i < B (earlier ones are processed, not written)\n"
-           "  --scene FILE      put bodies in (scene.json)\n"
+           "  --scene NAME      put bodies in: a scene of `relief scenes`, or a file scene.json\n"
            "  --profile NAME    live (default) or thesis\n"
            "  --scale N         keep every N-th depth pixel (live 1, thesis 8)\n"
            "  --set NAME=VALUE  a setting of the surface (see `relief settings`); any number\n"
@@ -80,7 +81,7 @@ static int parse(int argc, char **argv, export_options *o)
          .out = &o->frames,
          .take = take_range,
          .choices = "use A:B with A < B"},
-        {.name = "scene", .kind = OPTION_TEXT, .out = &s->scene_path},
+        {.name = "scene", .kind = OPTION_SCENE, .out = &s->scene_path},
         {.name = "profile", .kind = OPTION_PROFILE, .out = &s->profile},
         {.name = "scale", .kind = OPTION_INT32, .out = &s->scale_factor, .low = 1, .high = 64},
         {.name = "threads", .kind = OPTION_INT32, .out = &s->thread_count, .low = 1, .high = 64},
@@ -102,6 +103,17 @@ static int parse(int argc, char **argv, export_options *o)
     return -1;
 }
 
+static int refuse_kind(const char *name)
+{
+    const char *names[EXPORT_KINDS_MAX + 4] = {"mesh", "regions", "true_poses"};
+    for (int i = 0; i < export_kind_count; i++) {
+        names[3 + i] = export_kinds[i].name;
+    }
+    char nearest[SUGGEST_TEXT];
+    return command_usage("export", "--what '%s' is not an array: %s", name,
+                         suggest_text(name, names, false, nearest));
+}
+
 /* Adds one name of the list; an exit status when it cannot be written. */
 static int add_kind(exporter *e, const char *name)
 {
@@ -119,7 +131,7 @@ static int add_kind(exporter *e, const char *name)
     }
     const export_kind *kind = export_kind_find(name);
     if (kind == NULL) {
-        return command_usage("export", "--what '%s' is not an array", name);
+        return refuse_kind(name);
     }
     if (kind->need == EXPORT_NEEDS_RENDER && e->options->session.scene_path == NULL) {
         return command_usage("export", "--what %s needs --scene FILE", name);
@@ -360,11 +372,11 @@ int export_main(int argc, char **argv)
     if (status == EXIT_DONE && written == 0) {
         status = command_stopped("export");
     } else if (status == EXIT_DONE) {
-        printf("%lld frames in %s\n", (long long)written, options.out_folder);
+        printf("%lld %s in %s\n", (long long)written, command_frames(written), options.out_folder);
     }
     rlf_free(e.frame.scratch);
     rlf_free(e.frame.scratch_u8);
     rlf_free(e.indices);
     session_close(&s);
-    return status;
+    return status == EXIT_DONE ? command_done() : status;
 }

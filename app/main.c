@@ -2,6 +2,7 @@
 #include "command.h"
 #include "commands.h"
 #include "streams.h"
+#include "suggest.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -13,33 +14,94 @@ typedef struct subcommand {
 } subcommand;
 
 static const subcommand subcommands[] = {
-    {"run", run_main, "run a source with virtual bodies, in a window or headless"},
+    {"run", run_main, "show a source with virtual bodies, in a window or headless"},
     {"record", record_main, "record a camera, or turn a recording into another kind"},
     {"place", place_main, "put models of real things where the things are"},
     {"export", export_main, "write arrays of every frame: depth, normals, labels, truth, ..."},
     {"info", info_main, "tell what a source is"},
-    {"sources", sources_main, "list the kinds of source that this build can open"},
+    {"calibrate", calibrate_main, "lenses and poses of the cameras, from pictures of a chessboard"},
+    {"sources", sources_main, "list cameras, and the kinds of source that this build can open"},
+    {"scenes", scenes_main, "list the scenes that come with Relief, for --scene"},
     {"settings", settings_main, "list the settings of the surface stage, for --set"},
-    {"eval", eval_main, "measure accuracy where the truth is known, against goals and bounds"},
+    {"eval", eval_main, "accuracy where the truth is known, against goals and bounds"},
     {"measure", measure_main, "missing points and wrong normals: table 5.1 of the thesis"},
     {"bench", bench_main, "time and memory of every stage, and how they grow"},
 };
 #define SUBCOMMAND_COUNT ((int)(sizeof(subcommands) / sizeof(subcommands[0])))
 
+/* Listed apart: they tell what Relief is worth, and do nothing for a user. */
+static bool is_measuring(const subcommand *s)
+{
+    return s->main == eval_main || s->main == measure_main || s->main == bench_main;
+}
+
+static void print_commands(FILE *file, bool measures)
+{
+    for (int i = 0; i < SUBCOMMAND_COUNT; i++) {
+        if (is_measuring(&subcommands[i]) == measures) {
+            fprintf(file, "  %-9s %s\n", subcommands[i].name, subcommands[i].summary);
+        }
+    }
+}
+
 static void print_help(FILE *file)
 {
     fprintf(file, "Relief lets virtual things touch the real world that a depth camera sees.\n\n"
                   "usage: relief COMMAND [OPTIONS]\n\ncommands:\n");
-    for (int i = 0; i < SUBCOMMAND_COUNT; i++) {
-        fprintf(file, "  %-8s %s\n", subcommands[i].name, subcommands[i].summary);
-    }
+    print_commands(file, false);
+    fprintf(file, "\nto measure Relief itself:\n");
+    print_commands(file, true);
     fprintf(file,
             "\nexamples:\n"
             "  relief run synthetic:room                      a window, no camera needed\n"
             "  relief run synthetic:room --headless --video out.mp4\n"
-            "  relief run path/to/clip --scene scenes/rain.json\n\n"
-            "`relief COMMAND --help` tells more. Exit status: 0 done, 1 failed, 2 wrong usage,\n"
-            "128 and more: stopped by a signal before there was anything to write.\n");
+            "  relief run path/to/clip --scene rain\n\n"
+            "`relief help COMMAND` tells more. Exit status: 0 done, 1 failed, 2 wrong usage,\n"
+            "130 stopped by Ctrl-C, in general 128 and the signal's number.\n");
+}
+
+static const subcommand *find(const char *name)
+{
+    for (int i = 0; i < SUBCOMMAND_COUNT; i++) {
+        if (strcmp(name, subcommands[i].name) == 0) {
+            return &subcommands[i];
+        }
+    }
+    return NULL;
+}
+
+static int refuse(const char *name)
+{
+    const char *names[SUBCOMMAND_COUNT + 2] = {"help"};
+    for (int i = 0; i < SUBCOMMAND_COUNT; i++) {
+        names[i + 1] = subcommands[i].name;
+    }
+    char nearest[SUGGEST_TEXT];
+    fprintf(stderr, "relief: there is no command '%s': %s (see `relief --help`)\n", name,
+            suggest_text(name, names, false, nearest));
+    return EXIT_USAGE;
+}
+
+/* `relief help` and `relief help COMMAND`. */
+static int help(int argc, char **argv)
+{
+    const bool is_asked = argc > 2 && argv[2][0] != '-';
+    const subcommand *found = is_asked ? find(argv[2]) : NULL;
+    if (is_asked && found == NULL) {
+        return refuse(argv[2]);
+    }
+    if (found != NULL) {
+        char asked[] = "--help";
+        char *arguments[] = {argv[2], asked, NULL};
+        return found->main(2, arguments);
+    }
+    print_help(stdout);
+    return EXIT_DONE;
+}
+
+static bool is_either(const char *text, const char *a, const char *b)
+{
+    return strcmp(text, a) == 0 || strcmp(text, b) == 0;
 }
 
 static int run(int argc, char **argv)
@@ -49,22 +111,23 @@ static int run(int argc, char **argv)
         return EXIT_USAGE;
     }
     const char *name = argv[1];
-    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
+    if (strcmp(name, "help") == 0) {
+        return help(argc, argv);
+    }
+    if (is_either(name, "--help", "-h")) {
         print_help(stdout);
         return EXIT_DONE;
     }
-    if (strcmp(name, "--version") == 0) {
+    if (is_either(name, "--version", "-V")) {
         printf("relief %d.%d.%d\n", RLF_VERSION_MAJOR, RLF_VERSION_MINOR, RLF_VERSION_PATCH);
         return EXIT_DONE;
     }
-    for (int i = 0; i < SUBCOMMAND_COUNT; i++) {
-        if (strcmp(name, subcommands[i].name) == 0) {
-            command_catch_interrupts();
-            return subcommands[i].main(argc - 1, argv + 1);
-        }
+    const subcommand *found = find(name);
+    if (found == NULL) {
+        return refuse(name);
     }
-    fprintf(stderr, "relief: there is no command '%s' (see `relief --help`)\n", name);
-    return EXIT_USAGE;
+    command_catch_interrupts();
+    return found->main(argc - 1, argv + 1);
 }
 
 int main(int argc, char **argv)

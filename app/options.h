@@ -13,7 +13,8 @@ typedef enum option_kind {
     OPTION_PROFILE = 4, /* rlf_profile: live or thesis */
     OPTION_SET = 5,     /* setting_list: one more "NAME=VALUE" */
     OPTION_CHOICE = 6,  /* read by `take` */
-    OPTION_PLUGIN = 7   /* loads a plug-in: `out` is not used */
+    OPTION_PLUGIN = 7,  /* loads a plug-in: `out` is not used */
+    OPTION_SCENE = 8 /* const char *: path of a scene, given as a file or by a shipped one's name */
 } option_kind;
 
 /* A table ends with a NULL name. */
@@ -25,6 +26,9 @@ typedef struct option_def {
     /* Reads the text into `out`; false when it is none of `choices`. */
     bool (*take)(const char *text, void *out);
     const char *choices; /* for the message: "use live, thesis or both" */
+    /* Words of which the text has one, or several with commas between: the message lists them, or
+     * tells the nearest one. NULL = `choices` says it all; ends with NULL. */
+    const char *const *names;
 } option_def;
 
 /* Reads the options of argv and leaves getopt's `optind` at the first argument. --help and -h print

@@ -59,7 +59,7 @@ static int parse(int argc, char **argv, place_options *o)
 {
     *o = (place_options){.session = session_options_default(), .frames = 15};
     const option_def options[] = {
-        {.name = "scene", .kind = OPTION_TEXT, .out = &o->session.scene_path},
+        {.name = "scene", .kind = OPTION_SCENE, .out = &o->session.scene_path},
         {.name = "object", .kind = OPTION_TEXT, .out = &o->object},
         {.name = "pick", .kind = OPTION_CHOICE, .out = o, .take = take_pick, .choices = ""},
         {.name = "no-refine", .kind = OPTION_FLAG, .out = &o->keeps_picks},
@@ -155,7 +155,9 @@ static void print_fit(const rlf_known_def *def, const rlf_known_fit *fit)
 {
     const rlf_pose *T = &fit->T_world_model;
     printf("%s\n  position     %.4f %.4f %.4f\n  orientation  %.5f %.5f %.5f %.5f\n", def->name,
-           T->p.x, T->p.y, T->p.z, T->q.x, T->q.y, T->q.z, T->q.w);
+           command_tidy(T->p.x, 4), command_tidy(T->p.y, 4), command_tidy(T->p.z, 4),
+           command_tidy(T->q.x, 5), command_tidy(T->q.y, 5), command_tidy(T->q.z, 5),
+           command_tidy(T->q.w, 5));
     if (fit->depth_count > 0) {
         printf("  picks        %d of %d with depth, off by %.1f mm, %.1f px\n",
                (int)fit->depth_count, (int)def->point_count, 1000.0 * fit->pick_rms,

@@ -166,8 +166,9 @@ static rlf_result copy_frames(const record_options *o, rlf_source *source, recor
 static void print_summary(const record_options *o, const recorder_status *s, double seconds,
                           const rlf_source_status *source)
 {
-    printf("%s: %llu frames, %.1f MB in %.1f s\n", o->recorder.path,
-           (unsigned long long)s->written.frames, 1e-6 * (double)s->written.bytes, seconds);
+    printf("%s: %llu %s, %.1f MB in %.1f s\n", o->recorder.path,
+           (unsigned long long)s->written.frames, command_frames((int64_t)s->written.frames),
+           1e-6 * (double)s->written.bytes, seconds);
     if (s->dropped > 0) {
         printf("%llu frames were dropped: the disk or the processor is too slow for them\n",
                (unsigned long long)s->dropped);

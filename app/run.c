@@ -26,6 +26,7 @@ typedef struct run_options {
     int64_t frame_count; /* -1 = all */
     rlf_view views[RLF_PIPELINE_VIEWS];
     int32_t view_count;
+    bool shows_legend;
     rlf_orbit orbit;
 } run_options;
 
@@ -36,7 +37,9 @@ static void print_help(void)
         "Runs a source with virtual bodies that collide with what the camera sees.\n"
         "SOURCE: synthetic:room or a folder with a clip (see `relief sources`); without one the\n"
         "window lists cameras and recent recordings.\n\n"
-        "  --scene FILE          bodies and gravity (scene.json); default: two thrown cubes\n"
+        "  --scene NAME          bodies and gravity: a scene that `relief scenes` lists, or a "
+        "file\n"
+        "                        scene.json; default: two thrown cubes\n"
         "  --profile NAME        live (default) or thesis\n"
         "  --renderer NAME       soft or gl; default: gl in a window, soft headless\n"
         "  --headless            no window: as fast as the machine can, every frame\n"
@@ -57,6 +60,7 @@ static void print_help(void)
         "                        background, velocity, thickness, reason, points, contacts,\n"
         "                        known, hands;\n"
         "                        up to four of them side by side\n"
+        "  --legend              what the colours of every view mean, with units, in the picture\n"
         "  --orbit YAW,PITCH[,ZOOM]   where points are seen from: degrees to the right and\n"
         "                        up, and the distance, 1 being the camera's\n"
         "  --gravity X,Y,Z       m/s^2 to the right, down and forward, in place of the\n"
@@ -173,12 +177,22 @@ static bool take_picture_frames(const char *text, void *out)
                               &o->picture_count);
 }
 
+/* Of all views, ended with NULL. */
+static const char *const *view_names(void)
+{
+    static const char *names[RLF_VIEW_COUNT + 1];
+    for (int i = 0; i < RLF_VIEW_COUNT; i++) {
+        names[i] = rlf_view_name((rlf_view)i);
+    }
+    return names;
+}
+
 static int read_options(int argc, char **argv, run_options *o)
 {
     session_options *s = &o->session;
     run_output_options *out = &o->output;
     const option_def options[] = {
-        {.name = "scene", .kind = OPTION_TEXT, .out = &s->scene_path},
+        {.name = "scene", .kind = OPTION_SCENE, .out = &s->scene_path},
         {.name = "profile", .kind = OPTION_PROFILE, .out = &s->profile},
         {.name = "renderer",
          .kind = OPTION_CHOICE,
@@ -217,7 +231,9 @@ static int read_options(int argc, char **argv, run_options *o)
          .kind = OPTION_CHOICE,
          .out = o,
          .take = take_views,
-         .choices = "is not a list of up to four views"},
+         .choices = "is not a list of up to four views",
+         .names = view_names()},
+        {.name = "legend", .kind = OPTION_FLAG, .out = &o->shows_legend},
         {.name = "orbit",
          .kind = OPTION_CHOICE,
          .out = &o->orbit,
@@ -409,6 +425,7 @@ static rlf_result run_window(const run_options *o, session *s, run_output *outpu
 static rlf_result run_frames(run_options *o, session *s, run_output *output)
 {
     rlf_pipeline_set_orbit(s->pipeline, &o->orbit);
+    rlf_pipeline_set_legend(s->pipeline, o->shows_legend);
     rlf_result result = rlf_pipeline_set_views(s->pipeline, o->views, o->view_count);
     if (result != RLF_OK) {
         return result;
@@ -454,7 +471,14 @@ static int run_session(run_options *o, session *s)
         run_output_print_summary(&output, o->is_headless ? renderer : "in a window", &frames);
         recorder_print_summary(run_output_words(&o->output), &o->session.record, &recorded);
     }
-    return status;
+    return status == EXIT_DONE ? command_done() : status;
+}
+
+static bool writes_something(const run_options *o)
+{
+    const run_output_options *out = &o->output;
+    return out->video_path != NULL || out->picture_folder != NULL || out->log_folder != NULL ||
+           o->session.record.path != NULL || out->print_hash;
 }
 
 int run_main(int argc, char **argv)
@@ -473,7 +497,12 @@ int run_main(int argc, char **argv)
     if (session_open(&options.session, &s) != RLF_OK) {
         return command_not_opened("run");
     }
+    if (options.is_headless && !options.output.is_quiet && !writes_something(&options)) {
+        fprintf(stderr, "relief run: nothing will be kept: add --video FILE, --pictures DIR or "
+                        "--log DIR\n");
+    }
     options.output.finds_gravity = s.scene.finds_gravity;
+    options.output.is_light_given = options.session.is_light_set;
     status = run_session(&options, &s);
     session_close(&s);
     return status;

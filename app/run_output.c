@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "run_output.h"
 
+#include "command.h"
 #include "picture_file.h"
 
 #include <stdio.h>
@@ -213,7 +214,7 @@ void run_output_print_summary(const run_output *out, const char *how,
     FILE *file = run_output_words(o);
     const timing *t = &out->times;
     double median = timing_percentile(&t->frame, 50);
-    fprintf(file, "%lld frames, %s\n", (long long)out->frames, how);
+    fprintf(file, "%lld %s, %s\n", (long long)out->frames, command_frames(out->frames), how);
     fprintf(file, "  ms        median     p95\n");
     print_stage(file, "capture", &t->capture);
     print_stage(file, "surface", &t->surface);
@@ -230,17 +231,21 @@ void run_output_print_summary(const run_output *out, const char *how,
         bool is_sure = out->gravity_confidence >= RLF_UP_SURE;
         fprintf(file,
                 "gravity:  %.2f, %.2f, %.2f m/s^2 (right, down, forward), confidence %.2f%s\n",
-                out->gravity.x, out->gravity.y, out->gravity.z, out->gravity_confidence,
+                command_tidy(out->gravity.x, 2), command_tidy(out->gravity.y, 2),
+                command_tidy(out->gravity.z, 2), out->gravity_confidence,
                 is_sure ? "" : ": not sure; if it is wrong, pass --gravity X,Y,Z");
     }
     if (out->moving_frames > 0) {
-        fprintf(file, "camera:   moved in %lld frames; put it still (it is not tracked)\n",
-                (long long)out->moving_frames);
+        fprintf(file, "camera:   moved in %lld %s; put it still (it is not tracked)\n",
+                (long long)out->moving_frames, command_frames(out->moving_frames));
     }
     if (rlf_length(out->light) > 0.0) {
-        fprintf(file, "light:    to %.2f, %.2f, %.2f (right, down, forward), %s\n", out->light.x,
-                out->light.y, out->light.z,
-                out->is_light_estimated ? "found in the picture" : "given");
+        fprintf(file, "light:    to %.2f, %.2f, %.2f (right, down, forward), %s\n",
+                command_tidy(out->light.x, 2), command_tidy(out->light.y, 2),
+                command_tidy(out->light.z, 2),
+                out->is_light_estimated ? "found in the picture"
+                : o->is_light_given     ? "given"
+                                        : "the default");
     }
     if (o->video_path != NULL && file == stdout) {
         fprintf(file, "video:    %s\n", o->video_path);

@@ -21,6 +21,7 @@ typedef struct run_output_options {
     bool is_quiet;                        /* no progress, no summary */
     const char *scene_path;               /* of the run; NULL = none */
     bool finds_gravity;                   /* so the summary tells it */
+    bool is_light_given;                  /* by the user; else an unknown one is the default */
     bool print_hash;                      /* print the hash of all body states at the end */
 } run_output_options;
 

@@ -1,6 +1,8 @@
 /* Settings of the surface stage by name: the table and their text forms. */
 #include "settings.h"
 
+#include "relief/io.h"
+
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -132,13 +134,44 @@ static rlf_result refuse_value(const setting *t, const char *value)
                     t->kind == KIND_COUNT ? "a count" : allowed);
 }
 
+/* The names with `between` them, into `out`. */
+static void join_names(const char *between, char out[1024])
+{
+    out[0] = '\0';
+    for (int i = 0; i < SETTING_COUNT; i++) {
+        const size_t used = strlen(out);
+        (void)snprintf(out + used, 1024 - used, "%s%s", i > 0 ? between : "", table[i].name);
+    }
+}
+
+static rlf_result refuse_name(const char *text)
+{
+    char name[64];
+    char nearest[64];
+    char names[1024];
+    const size_t length = strcspn(text, "=");
+    if (text[length] == '\0') {
+        return rlf_fail(RLF_ERROR_INVALID, "'%s': use NAME=VALUE, as `relief settings` lists them",
+                        text);
+    }
+    (void)snprintf(name, sizeof(name), "%.*s", (int)length, text);
+    join_names(" ", names);
+    if (rlf_word_nearest(names, name, nearest, sizeof(nearest))) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "there is no setting '%s': did you mean '%s'? `relief settings` lists all",
+                        name, nearest);
+    }
+    join_names(", ", names);
+    return rlf_fail(RLF_ERROR_INVALID, "there is no setting '%s': `relief settings` tells of %s",
+                    name, names);
+}
+
 rlf_result settings_add(setting_list *s, const char *text)
 {
     const char *equals = strchr(text, '=');
     const setting *t = equals != NULL ? find(text, (size_t)(equals - text)) : NULL;
     if (t == NULL) {
-        return rlf_fail(RLF_ERROR_INVALID,
-                        "'%s': use NAME=VALUE with a name that `relief settings` lists", text);
+        return refuse_name(text);
     }
     rlf_reconstruct_def scratch;
     if (!put(t, equals + 1, &scratch)) {

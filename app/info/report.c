@@ -1,6 +1,8 @@
 /* The text of `relief info`. */
 #include "info/report.h"
 
+#include "command.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -24,8 +26,8 @@ static void print_calibration(const rlf_source_info *info)
         const rlf_vec3 at =
             rlf_rotate(rlf_quat_conjugate(rig->T_color_depth.q), rig->T_color_depth.p);
         print_camera("color", &rig->color);
-        printf("        color camera at (%.4f, %.4f, %.4f) m from the depth camera\n", 0.0 - at.x,
-               0.0 - at.y, 0.0 - at.z);
+        printf("        color camera at (%.4f, %.4f, %.4f) m from the depth camera\n",
+               command_tidy(-at.x, 4), command_tidy(-at.y, 4), command_tidy(-at.z, 4));
     } else {
         printf("color   none\n");
     }

@@ -38,8 +38,9 @@ static bool is_empty(const measure_noise *noise, int32_t bin)
 
 static void print_table(const char *name, const rlf_rig *rig, const measure_noise *noise)
 {
-    printf("%s: %lld frames, %.2f %% of the pixels missing\n", name,
-           (long long)measure_noise_frames(noise), measure_noise_missing(noise));
+    printf("%s: %lld %s, %.2f %% of the pixels missing\n", name,
+           (long long)measure_noise_frames(noise), command_frames(measure_noise_frames(noise)),
+           measure_noise_missing(noise));
     printf(
         "standard deviation of depth in mm, along rows at steps of 1, 2, 4 pixels and from frame "
         "to frame\n%10s %8s %8s %8s %8s %8s %8s\n",

@@ -184,14 +184,14 @@ static rlf_result read_frames(rlf_source *source, int64_t frames, const turn *t,
 /* Without a minus before a zero. */
 static double tenths(const timing_series *degrees)
 {
-    double value = timing_percentile(degrees, 50);
-    return value > -0.05 && value < 0.05 ? 0.0 : value;
+    return command_tidy(timing_percentile(degrees, 50), 1);
 }
 
 static void print(const char *name, const up_tally *t)
 {
-    printf("%s: sure of up in %lld of %lld frames (confidence %.2f, median)\n", name,
-           (long long)t->sure, (long long)t->frames, timing_percentile(&t->confidence, 50));
+    printf("%s: sure of up in %lld of %lld %s (confidence %.2f, median)\n", name,
+           (long long)t->sure, (long long)t->frames, command_frames(t->frames),
+           timing_percentile(&t->confidence, 50));
     printf("the camera looks down by %.1f degrees and is rolled by %.1f (medians)\n",
            tenths(&t->down), tenths(&t->roll));
     if (t->judged > 0) {

@@ -35,6 +35,30 @@ RLF_API const char *rlf_view_name(rlf_view view);
 /* View of a name as in `--view`. False, and *out as it was, when no view has that name. */
 RLF_API bool rlf_view_parse(const char *name, rlf_view *out);
 
+/* One row of a legend: a colour of the view and what it means, with its unit. Of a scale the rows
+ * are single values; colours between two of them mean what is between. */
+typedef struct rlf_legend_row {
+    uint8_t r, g, b; /* sRGB, as in the picture */
+    char text[44];   /* ASCII, e.g. "1.50 m" */
+} rlf_legend_row;
+
+/* What the colours of a view mean, to be drawn by rlf_legend_draw or in a window of one's own. A
+ * value: it borrows nothing that can go away. */
+#define RLF_LEGEND_ROWS 9
+typedef struct rlf_legend {
+    const char *title; /* what is shown and in which unit, e.g. "depth, m"; lives for ever */
+    rlf_legend_row rows[RLF_LEGEND_ROWS]; /* from the top down */
+    int32_t row_count;                    /* 0 to RLF_LEGEND_ROWS; 0: the view explains itself */
+} rlf_legend;
+
+/* Legend of a view of a rig, whose range [depth_min_m, depth_max_m] is the scale of depths; title
+ * NULL for what is no view. Thread-safety: any. */
+RLF_API rlf_legend rlf_view_legend(rlf_view view, const rlf_rig *rig);
+/* Draws a legend into the lower left corner of a picture, in letters of 7 pixels for every 300 of
+ * its height. What has no room is cut. Allocates nothing. Thread-safety: one call at a time a
+ * picture. */
+RLF_API void rlf_legend_draw(const rlf_legend *legend, const rlf_image_rgba8 *image);
+
 /* Where RLF_VIEW_POINTS is seen from: the camera turned about a point in front of it, in the middle
  * of the sensor's range. All zero = from where the camera is. */
 typedef struct rlf_orbit {

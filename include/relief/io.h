@@ -38,6 +38,11 @@ typedef struct rlf_source_kind {
     bool is_live;
 } rlf_source_kind;
 
+/* Copies into `out` the word of `list`, words with blanks between, that takes the fewest edits
+ * (Levenshtein 1966) to make of `word`: what a message asks "did you mean" of. False, and `out` as
+ * it was, when none is within a third of its letters. Thread-safety: safe. */
+RLF_API bool rlf_word_nearest(const char *list, const char *word, char *out, size_t size);
+
 /* Kinds of source that this build knows: built-in ones, those of plug-ins, then those that it was
  * made without. Writes at most `capacity`, returns how many there are. Thread-safety: safe. */
 RLF_API int32_t rlf_source_kind_list(rlf_source_kind *out, int32_t capacity);

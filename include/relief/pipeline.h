@@ -136,6 +136,10 @@ RLF_API void rlf_pipeline_set_orbit(rlf_pipeline *pipeline, const rlf_orbit *orb
  */
 RLF_API void rlf_pipeline_set_plot(rlf_pipeline *pipeline, bool is_shown);
 
+/* True: every view of the next pictures has its legend (rlf_view_legend) in its lower left corner.
+ * default false */
+RLF_API void rlf_pipeline_set_legend(rlf_pipeline *pipeline, bool is_shown);
+
 /* View of the next pictures: a single one. RLF_VIEW_CAMERA at the start. A value that is no view
  * breaks the contract and leaves it as it was. */
 RLF_API void rlf_pipeline_set_view(rlf_pipeline *pipeline, rlf_view view);

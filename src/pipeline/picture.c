@@ -68,6 +68,13 @@ void rlf_pipeline_set_plot(rlf_pipeline *p, bool is_shown)
     }
 }
 
+void rlf_pipeline_set_legend(rlf_pipeline *p, bool is_shown)
+{
+    if (RLF_ASSERT(p != NULL)) {
+        p->shows_legend = is_shown;
+    }
+}
+
 void rlf_pipeline_set_overlay(rlf_pipeline *p, const char *const *lines, int32_t count)
 {
     if (!RLF_ASSERT(p != NULL && count >= 0 && (lines != NULL || count == 0))) {
@@ -148,6 +155,10 @@ static rlf_result render_views(rlf_pipeline *p, rlf_render_input *input)
             input->plot = NULL;
         }
         result = render_one(p, input, out);
+        if (result == RLF_OK && p->shows_legend) {
+            const rlf_legend legend = rlf_view_legend(input->view, &p->compositor_def.rig);
+            rlf_legend_draw(&legend, &out->image);
+        }
         if (result == RLF_OK && p->view_count > 1) {
             result = reserve_sheet(p, &out->image);
         }

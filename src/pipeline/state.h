@@ -32,7 +32,7 @@ struct rlf_pipeline {
     int32_t view_count;
     rlf_image_rgba8 sheet; /* several views side by side */
     rlf_orbit orbit;
-    bool shows_plot;
+    bool shows_plot, shows_legend;
     float plot_values[PLOT_FRAMES * PLOT_STAGES]; /* ms, the oldest first */
     int32_t plot_count;                           /* frames */
     char overlay[OVERLAY_LINES_MAX][OVERLAY_LINE_SIZE];

@@ -34,13 +34,78 @@ expect_done()
 }
 
 # ---- help and usage ---------------------------------------------------------------------------------
-for command in "" run place export info sources settings eval measure bench; do
+for command in "" run record place export info sources scenes settings calibrate eval measure bench; do
     # shellcheck disable=SC2086 # the empty one must vanish
     "$relief" $command --help >stdout.txt 2>stderr.txt || fail "$command --help: status $?"
     grep -q "usage: relief" stdout.txt || fail "$command --help: no usage"
 done
 expect_done --version
-expect_error 2 "no command 'fly'" fly
+cp stdout.txt version.txt
+expect_done -V
+cmp -s stdout.txt version.txt || fail "-V is not --version: $(cat stdout.txt)"
+for command in run record place export info sources scenes settings calibrate eval measure bench; do
+    expect_done "$command" --help
+    cp stdout.txt help.txt
+    expect_done help "$command"
+    cmp -s stdout.txt help.txt || fail "help $command: $(head -n 1 stdout.txt)"
+done
+expect_done help
+awk '/^to measure/ { measures = 1 } /^  (run|record|scenes) / && !measures { user++ }
+    /^  (eval|measure|bench) / && measures { other++ } END { exit user != 3 || other != 3 }' stdout.txt ||
+    fail "help: what users need is not first: $(cat stdout.txt)"
+
+# A wrong name: the near one, and what there is.
+expect_error 2 "no command 'fly': there are help, run, " fly
+expect_error 2 "no command 'rnu': did you mean 'run'" rnu
+expect_error 2 "did you mean 'export'" help exprt
+expect_error 2 "'--viw': did you mean '--view'" run synthetic:room --viw camera
+expect_error 2 "'--pict' may be one of --pictures --picture-every" run synthetic:room --pict here
+expect_error 2 "unknown option '-x'" run -xyz
+expect_error 2 "headless takes no value" run synthetic:room --headless=1
+expect_error 2 "did you mean 'normals'? there are camera, depth" run synthetic:room --view depth,noraml
+expect_error 2 "views: there are camera, depth" run synthetic:room --view smell
+expect_error 2 "did you mean 'fill'" run synthetic:room --set fil=on
+expect_error 2 "of flying_removal, fill, " run synthetic:room --set smell=on
+expect_error 2 "did you mean 'depth'" export synthetic:room --out o --what dept
+expect_error 2 "there are .*matte, .*true_depth" export synthetic:room --out o --what smell
+expect_error 2 "did you mean 'rain'? there are bounce, " run synthetic:room --scene rian
+expect_error 2 "there are room, empty, " eval --scene xyzzy
+expect_error 1 "use room, empty, thesis" run synthetic:moon --headless
+expect_error 1 'did you mean "realsense:"' run realsens
+expect_error 1 'no kind of source "nope:". This build has synthetic ' run nope:
+
+# Shipped scenes by name; a file goes first.
+expect_done scenes
+grep -q "^rain  *synthetic:room  *all shapes rain" stdout.txt || fail "scenes: $(cat stdout.txt)"
+grep -q "^thesis/arm  *synthetic:room  *a cube" stdout.txt || fail "scenes: $(cat stdout.txt)"
+[ "$(awk '{ print (NF >= 4) }' stdout.txt | sort -u)" = 1 ] || fail "scenes: one line tells nothing: $(cat stdout.txt)"
+expect_done run synthetic:empty --scene stack --headless --frames 1 --quiet --log by_name
+grep -c . by_name/bodies.csv | grep -qx 11 || fail "--scene stack: $(cat by_name/bodies.csv)"
+expect_done run synthetic:empty --scene thesis/arm --headless --frames 1 --quiet
+echo '{"about":"mine","source":"synthetic:empty","bodies":[]}' >stack
+expect_done run synthetic:empty --scene stack --headless --frames 1 --quiet --log by_file
+grep -c . by_file/bodies.csv | grep -qx 1 || fail "--scene stack, a file: $(cat by_file/bodies.csv)"
+rm stack
+
+# What is not kept is said to be, once, and not to those who want quiet.
+expect_done run synthetic:empty --headless --frames 1
+[ "$(wc -l <stderr.txt)" -eq 1 ] && grep -q "nothing will be kept: add --video" stderr.txt ||
+    fail "headless without output: $(cat stderr.txt)"
+grep -q "^1 frame, renderer soft" stdout.txt || fail "one frame: $(cat stdout.txt)"
+grep -q "^light: .* the default$" stdout.txt || fail "no light was given: $(cat stdout.txt)"
+grep -q -- "-0\.0*[, )]" stdout.txt && fail "minus nothing: $(cat stdout.txt)"
+for quiet in --quiet --hash "--log kept" "--pictures kept"; do
+    # shellcheck disable=SC2086 # words
+    expect_done run synthetic:empty --headless --frames 1 $quiet
+    [ -s stderr.txt ] && fail "headless with $quiet: $(cat stderr.txt)"
+done
+expect_done run synthetic:empty --headless --frames 1 --light 0,1,0 --hash
+grep -q "^light: .* given$" stdout.txt || fail "a light was given: $(cat stdout.txt)"
+
+# A legend is in the picture that asked for one, and in no other.
+expect_done run synthetic:empty --headless --frames 1 --quiet --view depth --pictures plain
+expect_done run synthetic:empty --headless --frames 1 --quiet --view depth --pictures legend --legend
+cmp -s plain/000000.png legend/000000.png && fail "--legend draws nothing"
 expect_error 2 "needs a SOURCE" run --headless
 expect_error 2 "live or thesis" run synthetic:room --profile both
 expect_error 2 "not a list of up to four views" run synthetic:room --headless --view smell
@@ -59,6 +124,12 @@ expect_error 1 "no picture of frame 2: the last one was 1" run synthetic:room --
 [ "$(ls late)" = 000001.png ] || fail "run --picture-at 1,2: $(ls late)"
 expect_error 2 "frames" run synthetic:room --headless --frames ten
 expect_error 2 "relief settings" run synthetic:room --set smell=on
+expect_error 2 "needs --left DIR" calibrate
+expect_error 2 "COLUMNSxROWS" calibrate --left here --board 9
+expect_error 2 "not both" calibrate --left here synthetic:room
+export RELIEF_OPENCV_LIBRARY=/nowhere
+expect_error 1 "libopencv-calib3d-dev" calibrate synthetic:room
+unset RELIEF_OPENCV_LIBRARY
 expect_error 2 "off or on" run synthetic:room --set fill=maybe
 expect_error 2 "off or average or adaptive" measure synthetic:room --set background_method=lucky
 expect_error 2 "a count" export synthetic:room --set min_region_points=1.5
@@ -250,7 +321,8 @@ for wait in 1 2 3 4 5 6 7 8 9 10; do # until it is at work
     sleep 1
 done
 kill -INT $pid
-wait $pid || fail "interrupted run: status $?"
+wait $pid
+[ $? -eq 130 ] || fail "interrupted run: status is not 130"
 [ -s long.y4m ] || fail "interrupted run: no video"
 ls ./*.part >/dev/null 2>&1 && fail "interrupted run: .part left"
 tail -c 1 long_log/frames.csv | od -c | grep -q '\\n' || fail "interrupted run: log cut short"
@@ -290,7 +362,8 @@ for wait in 1 2 3 4 5 6 7 8 9 10; do
     sleep 1
 done
 kill -HUP $pid
-wait $pid || fail "SIGHUP: status $?"
+wait $pid
+[ $? -eq 129 ] || fail "SIGHUP: status is not 129"
 [ -s hup.y4m ] && [ -s hup_log/frames.csv ] || fail "SIGHUP: files are missing"
 ls ./*.part hup_log/*.part >/dev/null 2>&1 && fail "SIGHUP: .part left"
 

@@ -27,7 +27,7 @@ await()
     fail "no '$1'"
 }
 
-# Ctrl-C while the driver hangs: the summary and status 0 within two seconds; a busy machine gets
+# Ctrl-C while the driver hangs: the summary and status 130 within two seconds; a busy machine gets
 # twice as long.
 "$relief" run "simulated:?$played&hang=1" --headless >stdout.txt 2>stderr.txt &
 run=$!
@@ -37,9 +37,9 @@ kill -INT $run
 wait $run
 status=$?
 took=$((($(date +%s%N) - start) / 1000000))
-[ $status -eq 0 ] || fail "hang: status $status"
+[ $status -eq 130 ] || fail "hang: status $status"
 [ $took -lt 4000 ] || fail "hang: Ctrl-C took $took ms"
-grep -q "frames, renderer soft" stdout.txt || fail "hang: no summary"
+grep -q "frames\{0,1\}, renderer soft" stdout.txt || fail "hang: no summary"
 grep -q "latency" stdout.txt || fail "hang: no latency"
 grep -q "its driver does not come back: left alone" stderr.txt || fail "hang: not told"
 

@@ -66,7 +66,7 @@ status=0
 [ "$status" = 1 ] || fail "a full disk gives exit status $status: $(cat out.txt)"
 expect_one_line
 grep -q 'free some space' out.txt || fail "a full disk says: $(cat out.txt)"
-expect 0 'frames' "$relief" record full.mcap again.mcap
+expect 0 'frame' "$relief" record full.mcap again.mcap
 grep -q warning out.txt && fail "the file of a full disk was not closed: $(cat out.txt)"
 
 # Ctrl-C closes the file; kill -9 leaves one that is repaired by reading.
@@ -79,7 +79,7 @@ for signal in INT KILL; do
     status=0
     wait "$child" 2>/dev/null || status=$?
     [ "$signal" = KILL ] || [ "$status" = 0 ] || fail "Ctrl-C gives exit status $status"
-    expect 0 'frames' "$relief" record "$signal.mcap" again.mcap
+    expect 0 'frame' "$relief" record "$signal.mcap" again.mcap
     warnings=$(grep -c warning out.txt || true)
     [ "$signal" = INT ] && [ "$warnings" = 0 ] || [ "$signal" = KILL ] && [ "$warnings" -le 1 ] ||
         fail "$signal: $(cat out.txt)"

@@ -35,7 +35,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         if (address.keys[i][0] == '\0' || address.values[i] == NULL) {
             abort();
         }
-        io_word_nearest("loop speed start count", address.keys[i], nearest, sizeof(nearest));
+        rlf_word_nearest("loop speed start count", address.keys[i], nearest, sizeof(nearest));
     }
     io_replay replay;
     if (io_replay_take(&address, &backend, &replay) == RLF_OK &&

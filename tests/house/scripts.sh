@@ -27,6 +27,12 @@ for name in bootstrap bench peers report format silhouettes thresholds sentences
     fi
 done
 "$root/script/bootstrap" --list | grep -qx cmake
+"$root/script/bootstrap" --list | grep -qx libglfw3-dev
+"$root/script/bootstrap" --small --list | grep -qx libpng-dev
+if "$root/script/bootstrap" --small --list | grep -q 'gl\|av\|assimp\|cmocka\|++'; then
+    echo "scripts: bootstrap --small installs what a window, MP4, models or tests need" >&2
+    exit 1
+fi
 if command -v shellcheck >/dev/null 2>&1; then
     shellcheck "$root"/script/* "$root"/.ci/run "$root"/tests/house/*.sh
 else

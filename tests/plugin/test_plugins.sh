@@ -33,11 +33,11 @@ grep -q '"fps" may be meant' err.txt || fail "unknown key: $(cat err.txt)"
     fail "record --plugin: $(cat err.txt)"
 "$relief" export 'clip?start=1&count=1' --plugin "$good" --out arrays --what depth >out.txt 2>err.txt ||
     fail "export --plugin: $(cat err.txt)"
-grep -q "^1 frames" out.txt || fail "export of a part: $(cat out.txt)"
+grep -q "^1 frame " out.txt || fail "export of a part: $(cat out.txt)"
 
 # Without it there is no such source.
 "$relief" info plugin_camera: 2>err.txt && fail "opened without the plug-in"
-grep -q 'no source "plugin_camera:"' err.txt || fail "$(cat err.txt)"
+grep -q 'no kind of source "plugin_camera:"' err.txt || fail "$(cat err.txt)"
 
 # What a plug-in folder holds is listed; one that cannot be used is one warning.
 cp "$good" "$bad/unavailable.so" found/

@@ -243,13 +243,13 @@ static void the_nearest_word_is_found(void **state)
 {
     (void)state;
     char word[32];
-    assert_true(io_word_nearest("loop speed start", "statr", word, sizeof(word)));
+    assert_true(rlf_word_nearest("loop speed start", "statr", word, sizeof(word)));
     assert_string_equal(word, "start");
-    assert_true(io_word_nearest("loop speed start", "LOOP", word, sizeof(word)) == false);
-    assert_false(io_word_nearest("loop speed start", "resolution", word, sizeof(word)));
-    assert_false(io_word_nearest(NULL, "loop", word, sizeof(word)));
-    assert_false(io_word_nearest("loop", "a word that is longer than any key of a source", word,
-                                 sizeof(word)));
+    assert_true(rlf_word_nearest("loop speed start", "LOOP", word, sizeof(word)) == false);
+    assert_false(rlf_word_nearest("loop speed start", "resolution", word, sizeof(word)));
+    assert_false(rlf_word_nearest(NULL, "loop", word, sizeof(word)));
+    assert_false(rlf_word_nearest("loop", "a word that is longer than any key of a source", word,
+                                  sizeof(word)));
     assert_true(io_word_is_in("loop speed", "speed"));
     assert_false(io_word_is_in("loop speeds", "speed"));
 }

@@ -57,6 +57,7 @@ CALL(pipeline_get_compositor_def, (void)rlf_pipeline_get_compositor_def(NULL))
 CALL(pipeline_set_views, result = rlf_pipeline_set_views(NULL, NULL, 1))
 CALL(pipeline_set_orbit, (void)rlf_pipeline_set_orbit(NULL, NULL))
 CALL(pipeline_set_plot, (void)rlf_pipeline_set_plot(NULL, true))
+CALL(pipeline_set_legend, rlf_pipeline_set_legend(NULL, true))
 CALL(pipeline_set_view, (void)rlf_pipeline_set_view(NULL, RLF_VIEW_DEPTH))
 CALL(pipeline_set_overlay, (void)rlf_pipeline_set_overlay(NULL, NULL, 0))
 CALL(pipeline_step, result = rlf_pipeline_step(NULL, NULL))
@@ -71,6 +72,8 @@ CALL(compositor_create_soft, result = rlf_compositor_create_soft(NULL, NULL))
 CALL(compositor_name, (void)rlf_compositor_name(NULL))
 CALL(compositor_render, result = rlf_compositor_render(NULL, NULL, NULL))
 CALL(view_parse, (void)rlf_view_parse(NULL, NULL))
+CALL(view_legend, (void)rlf_view_legend(RLF_VIEW_DEPTH, NULL))
+CALL(legend_draw, rlf_legend_draw(NULL, NULL))
 CALL(source_create_custom, result = rlf_source_create_custom(NULL, NULL, NULL, NULL))
 CALL(source_get_info, (void)rlf_source_get_info(NULL))
 CALL(source_next, result = rlf_source_next(NULL, NULL))
@@ -126,6 +129,7 @@ static const struct {
     {"pipeline_set_views", pipeline_set_views},
     {"pipeline_set_orbit", pipeline_set_orbit},
     {"pipeline_set_plot", pipeline_set_plot},
+    {"pipeline_set_legend", pipeline_set_legend},
     {"pipeline_set_view", pipeline_set_view},
     {"pipeline_set_overlay", pipeline_set_overlay},
     {"pipeline_step", pipeline_step},
@@ -140,6 +144,8 @@ static const struct {
     {"compositor_name", compositor_name},
     {"compositor_render", compositor_render},
     {"view_parse", view_parse},
+    {"view_legend", view_legend},
+    {"legend_draw", legend_draw},
     {"source_create_custom", source_create_custom},
     {"source_get_info", source_get_info},
     {"source_next", source_next},

@@ -9,6 +9,7 @@
 #include "relief/compositor.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "render/soft/font.h"
 #include "render/soft/palette.h"
@@ -59,6 +60,60 @@ static void names_go_there_and_back(void **state)
     assert_false(rlf_view_parse("dept", &view));
     assert_null(rlf_view_name(RLF_VIEW_COUNT));
     assert_null(rlf_view_name((rlf_view)-1));
+}
+
+/* The row of a legend whose text begins so. */
+static rlf_legend_row row_of(const rlf_legend *legend, const char *text)
+{
+    for (int32_t i = 0; i < legend->row_count; i++) {
+        if (strncmp(legend->rows[i].text, text, strlen(text)) == 0) {
+            return legend->rows[i];
+        }
+    }
+    fail_msg("%s: no row '%s'", legend->title, text);
+    return legend->rows[0];
+}
+
+static void every_view_has_a_legend(void **state)
+{
+    (void)state;
+    rlf_rig rig = {.depth_min_m = 0.5, .depth_max_m = 4.5};
+    for (int i = 0; i < RLF_VIEW_COUNT; i++) {
+        const rlf_legend legend = rlf_view_legend((rlf_view)i, &rig);
+        assert_non_null(legend.title);
+        assert_in_range(legend.row_count, i == RLF_VIEW_CAMERA ? 0 : 1, RLF_LEGEND_ROWS);
+    }
+    rlf_legend legend = rlf_view_legend(RLF_VIEW_DEPTH, &rig);
+    soft_color two_and_a_half = soft_color_near_far(0.5);
+    rlf_legend_row row = row_of(&legend, "2.50 m");
+    assert_memory_equal(&row, &two_and_a_half, 3);
+    legend = rlf_view_legend(RLF_VIEW_REASON, &rig);
+    soft_color flying = soft_color_reason(RLF_REASON_FLYING);
+    row = row_of(&legend, "flying");
+    assert_memory_equal(&row, &flying, 3);
+    legend = rlf_view_legend(RLF_VIEW_THICKNESS, &rig);
+    (void)row_of(&legend, "0.50 m and more");
+}
+
+static void a_legend_stays_in_its_corner(void **state)
+{
+    (void)state;
+    enum { W = 320, H = 200 };
+    static uint8_t data[H][4 * W];
+    rlf_rig rig = {.depth_min_m = 0.5, .depth_max_m = 4.5};
+    for (int32_t size = 1; size <= H; size += 33) {
+        memset(data, 9, sizeof(data));
+        const rlf_image_rgba8 image = {&data[0][0], size, size, 4 * (ptrdiff_t)W};
+        const rlf_legend legend = rlf_view_legend(RLF_VIEW_REASON, &rig);
+        rlf_legend_draw(&legend, &image);
+        for (int32_t y = 0; y < H; y++) {
+            for (int32_t x = y < size ? size : 0; x < W; x++) {
+                assert_int_equal(data[y][4 * x], 9);
+            }
+        }
+    }
+    soft_color last = soft_color_reason((rlf_reason)(RLF_REASON_COUNT - 1));
+    assert_memory_equal(&data[199 - 8][4 * 8], &last, 3);
 }
 
 static void near_is_lighter_than_far(void **state)
@@ -419,6 +474,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_go_there_and_back),
+        cmocka_unit_test(every_view_has_a_legend),
+        cmocka_unit_test(a_legend_stays_in_its_corner),
         cmocka_unit_test(near_is_lighter_than_far),
         cmocka_unit_test(planes_have_their_colors),
         cmocka_unit_test(foreground_is_tinted_and_motion_colored),

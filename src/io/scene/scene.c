@@ -49,17 +49,31 @@ static rlf_result read_all_bodies(const io_json_object *top, const char *folder,
     return result;
 }
 
+/* What lists of scenes show: nothing happens by it. */
+static rlf_result check_words(const io_json_object *top)
+{
+    static const io_json_field about = {"about", "a line of text", 0, 0, false};
+    static const io_json_field source = {"source", "a SOURCE, e.g. \"synthetic:room\"", 0, 0,
+                                         false};
+    const char *text = NULL;
+    rlf_result result = io_json_get_text(top, &about, &text);
+    return result == RLF_OK ? io_json_get_text(top, &source, &text) : result;
+}
+
 static rlf_result read_scene(const io_json_object *top, const char *folder, rlf_scene *scene)
 {
-    static const char *const known[] = {"gravity", "border",        "bodies",
-                                        "spawn",   "known_objects", "on"};
-    const char *unknown = io_json_unknown_key(top, known, 6);
+    static const char *const known[] = {"about", "source",        "gravity", "border", "bodies",
+                                        "spawn", "known_objects", "on"};
+    const char *unknown = io_json_unknown_key(top, known, 8);
     if (unknown != NULL) {
         return io_json_fail(top, unknown,
-                            "is not a known key: a scene has \"gravity\", \"border\", \"bodies\", "
-                            "\"spawn\", \"known_objects\" and \"on\"");
+                            "is not a known key: a scene has \"about\", \"source\", \"gravity\", "
+                            "\"border\", \"bodies\", \"spawn\", \"known_objects\" and \"on\"");
     }
-    rlf_result result = read_gravity(top, scene);
+    rlf_result result = check_words(top);
+    if (result == RLF_OK) {
+        result = read_gravity(top, scene);
+    }
     if (result == RLF_OK) {
         result = read_border(top, &scene->border);
     }

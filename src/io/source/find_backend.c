@@ -4,10 +4,15 @@
 
 #include "io/source/backends.h"
 #include "io/source/absent.h"
+#include "relief/io.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+
+#define GUESS_TEXT 64
+#define KINDS_TEXT 512 /* all kinds of source, with blanks between */
 
 /* Whether `list`, words with blanks between, has the extension of `path`. */
 static bool has_extension(const char *path, const char *list)
@@ -61,6 +66,29 @@ static rlf_result fail_absent(const char *source, const io_backend_absent *a)
                     a->scheme, a->option);
 }
 
+/* All kinds with blanks between; "synthetic" is opened before any back end is asked. */
+static void join_schemes(char out[KINDS_TEXT])
+{
+    const rlf_backend *b;
+    (void)snprintf(out, KINDS_TEXT, "synthetic");
+    for (int32_t i = 0; (b = io_backend_at(i)) != NULL; i++) {
+        const size_t used = strlen(out);
+        (void)snprintf(out + used, KINDS_TEXT - used, " %s", b->scheme);
+    }
+}
+
+/* ": did you mean \"freenect:\"?" or nothing. */
+static void guess_scheme(const char *text, char out[GUESS_TEXT])
+{
+    char words[KINDS_TEXT];
+    char nearest[32];
+    join_schemes(words);
+    out[0] = '\0';
+    if (rlf_word_nearest(words, text, nearest, sizeof(nearest))) {
+        (void)snprintf(out, GUESS_TEXT, ": did you mean \"%s:\"?", nearest);
+    }
+}
+
 static rlf_result fail_scheme(const char *source, const char *scheme)
 {
     const io_backend_absent *a;
@@ -69,20 +97,26 @@ static rlf_result fail_scheme(const char *source, const char *scheme)
             return fail_absent(source, a);
         }
     }
+    char words[KINDS_TEXT];
+    char guess[GUESS_TEXT];
+    join_schemes(words);
+    guess_scheme(scheme, guess);
     return rlf_fail(RLF_ERROR_UNSUPPORTED,
-                    "%s: this build has no source \"%.40s:\": `relief sources` lists what it can "
-                    "open, e.g. synthetic:room or a folder with depth.txt and camera.json",
-                    source, scheme);
+                    "'%s': there is no kind of source \"%.40s:\"%s This build has %s (see `relief "
+                    "sources`)",
+                    source, scheme, guess[0] != '\0' ? guess : ".", words);
 }
 
 static rlf_result fail_path(const char *source, const char *path)
 {
     struct stat status;
     if (stat(path, &status) != 0) {
+        char guess[GUESS_TEXT];
+        guess_scheme(path, guess);
         return rlf_fail(RLF_ERROR_IO,
-                        "%s: no such file or folder: give a folder with depth.txt and "
+                        "%s: no such file or folder%s A SOURCE is a folder with depth.txt and "
                         "camera.json, a recording, or synthetic:room",
-                        source);
+                        source, guess[0] != '\0' ? guess : ".");
     }
     const io_backend_absent *a;
     for (int32_t i = 0; (a = io_backend_absent_at(i)) != NULL; i++) {

@@ -1,5 +1,6 @@
 /* Which word of a list was meant. */
 #include "io/source/nearest_word.h"
+#include "relief/io.h"
 
 #include <string.h>
 
@@ -44,8 +45,11 @@ static size_t edits(const char *a, size_t a_length, const char *b, size_t b_leng
     return row[b_length];
 }
 
-bool io_word_nearest(const char *list, const char *word, char *out, size_t size)
+bool rlf_word_nearest(const char *list, const char *word, char *out, size_t size)
 {
+    if (!RLF_ASSERT(word != NULL && out != NULL)) {
+        return false;
+    }
     const size_t length = strlen(word);
     size_t best = length / 3 + 1 + 1; /* one more than what is allowed */
     bool is_found = false;

@@ -29,7 +29,7 @@ static rlf_result fail_key(const rlf_backend *backend, const char *source, const
              backend->is_live ? IO_REPLAY_LIVE_KEYS : IO_REPLAY_FILE_KEYS,
              own[0] != '\0' ? " " : "", own);
     char nearest[32];
-    const bool is_near = io_word_nearest(keys, key, nearest, sizeof(nearest));
+    const bool is_near = rlf_word_nearest(keys, key, nearest, sizeof(nearest));
     return rlf_fail(RLF_ERROR_INVALID, "%s: there is no key \"%.40s\" here%s%s%s: use %s", source,
                     key, is_near ? ", \"" : "", is_near ? nearest : "",
                     is_near ? "\" may be meant" : "", keys);

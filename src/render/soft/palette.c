@@ -56,3 +56,53 @@ soft_color soft_color_reason(rlf_reason reason)
     int i = (int)reason >= 0 && reason < RLF_REASON_COUNT ? (int)reason : 0;
     return soft_rgb(colors[i][0], colors[i][1], colors[i][2]);
 }
+
+static int32_t unit_to_byte(double x)
+{
+    return (int32_t)(rlf_clamp(0.5 + 0.5 * x, 0.0, 1.0) * 255.0 + 0.5);
+}
+
+soft_color soft_color_normal(rlf_vec3 n)
+{
+    if (n.x == 0.0 && n.y == 0.0 && n.z == 0.0) {
+        return soft_rgb(0, 0, 0);
+    }
+    return soft_rgb(unit_to_byte(n.x), unit_to_byte(-n.y), unit_to_byte(-n.z));
+}
+
+soft_color soft_color_velocity(rlf_vec3 v)
+{
+    double turn = rlf_atan2(v.y, v.x) / (2.0 * RLF_PI) + 1.0;
+    double share = rlf_clamp(rlf_length(v) / SOFT_SPEED_FULL_M_S, 0.0, 1.0);
+    return soft_color_hue(turn, 0.35 + 0.65 * share);
+}
+
+soft_color soft_color_thickness(double metres)
+{
+    return soft_color_near_far(1.0 - metres / SOFT_THICKNESS_FULL_M);
+}
+
+soft_color soft_color_contact(rlf_contact_other other)
+{
+    switch (other) {
+    case RLF_CONTACT_BODY: return soft_rgb(90, 220, 255);
+    case RLF_CONTACT_FOREGROUND: return soft_rgb(120, 255, 120);
+    case RLF_CONTACT_BACKGROUND: break;
+    }
+    return soft_rgb(255, 220, 60);
+}
+
+soft_color soft_color_foreground(void)
+{
+    return soft_rgb(60, 230, 120);
+}
+
+soft_color soft_color_unseen(void)
+{
+    return soft_rgb(70, 72, 78);
+}
+
+soft_color soft_color_known(void)
+{
+    return soft_rgb(90, 255, 160);
+}

@@ -2,22 +2,13 @@
 #include "render/soft/view_contacts.h"
 
 #include "render/soft/draw.h"
+#include "render/soft/palette.h"
 #include "render/soft/soft.h"
 
 #define LENGTH_LEAST_M 0.03  /* of an arrow without impulse */
 #define LENGTH_MORE_M 0.30   /* that a large impulse adds */
 #define IMPULSE_HALF_N_S 0.2 /* adds half of that */
 #define DOT_PX 2
-
-static soft_color color_of(rlf_contact_other other)
-{
-    switch (other) {
-    case RLF_CONTACT_BODY: return soft_rgb(90, 220, 255);
-    case RLF_CONTACT_FOREGROUND: return soft_rgb(120, 255, 120);
-    case RLF_CONTACT_BACKGROUND: break;
-    }
-    return soft_rgb(255, 220, 60);
-}
 
 static bool place(const soft *s, rlf_vec3 p, soft_point *out)
 {
@@ -49,9 +40,9 @@ static void draw_contact(const soft *s, const rlf_pose *T_picture_world, const r
     int32_t x = (int32_t)from.x;
     int32_t y = (int32_t)from.y;
     pixel_rect dot = {x - DOT_PX, y - DOT_PX, x + DOT_PX + 1, y + DOT_PX + 1};
-    soft_fill_rect(&s->image, dot, color_of(c->other), 256);
+    soft_fill_rect(&s->image, dot, soft_color_contact(c->other), 256);
     if (place(s, rlf_mad(p, n, length), &to)) {
-        draw_thick_arrow(s, from, to, color_of(c->other));
+        draw_thick_arrow(s, from, to, soft_color_contact(c->other));
     }
 }
 

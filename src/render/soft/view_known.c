@@ -3,6 +3,7 @@
 
 #include "render/body_look.h"
 #include "render/soft/draw.h"
+#include "render/soft/palette.h"
 #include "render/soft/soft.h"
 
 #define CIRCLE 32 /* corners */
@@ -116,7 +117,7 @@ void soft_draw_known(soft *s, const rlf_render_input *input)
     rlf_pose T_picture_world = rlf_pose_mul(&s->T_picture_depth, &T_camera_world);
     for (int32_t i = 0; input->snapshot != NULL && i < input->snapshot->known_count; i++) {
         const rlf_body_state *model = &input->snapshot->known[i];
-        wire w = {s, rlf_pose_mul(&T_picture_world, &model->T_world_body), soft_rgb(90, 255, 160)};
+        wire w = {s, rlf_pose_mul(&T_picture_world, &model->T_world_body), soft_color_known()};
         if (model->look.model != NULL) {
             draw_triangles(&w, &model->look);
         } else {

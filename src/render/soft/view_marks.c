@@ -1,4 +1,4 @@
-/* Boxes, labels, arrows and legends over the views. */
+/* Boxes, labels and arrows over the views. */
 #include "render/soft/view_marks.h"
 
 #include "render/soft/draw.h"
@@ -8,8 +8,7 @@
 
 #include <stdio.h>
 
-#define ARROW_STEP_PX 16   /* grid pixels between arrows */
-#define ARROW_SECONDS 0.25 /* an arrow shows where a point will be */
+#define ARROW_STEP_PX 16 /* grid pixels between arrows */
 
 /* The part of the picture that the enlarged grid image fills: marks do not leave it. */
 static rlf_image_rgba8 fitted_part(const soft *s, const soft_fit *fit)
@@ -96,21 +95,9 @@ void soft_draw_velocity_marks(soft *s, const rlf_surface *surface, const soft_fi
                 continue;
             }
             rlf_vec3 p = rlf_surface_point(surface, i);
-            if (place(s, fit, p, &from) && place(s, fit, rlf_mad(p, v, ARROW_SECONDS), &to)) {
+            if (place(s, fit, p, &from) && place(s, fit, rlf_mad(p, v, SOFT_ARROW_S), &to)) {
                 soft_draw_arrow(&part, from, to, soft_rgb(255, 255, 255));
             }
         }
-    }
-}
-
-void soft_draw_reason_legend(soft *s)
-{
-    int32_t scale = soft_text_scale(s->image.height);
-    for (int32_t i = 0; i < RLF_REASON_COUNT; i++) {
-        int32_t y = s->image.height - (RLF_REASON_COUNT - i) * 11 * scale;
-        soft_text style = {16 * scale, y, scale, soft_rgb(255, 255, 255), true};
-        soft_draw_text(&s->image, &style, rlf_reason_name((rlf_reason)i));
-        pixel_rect swatch = {4 * scale, y - scale, 12 * scale, y + 7 * scale};
-        soft_fill_rect(&s->image, swatch, soft_color_reason((rlf_reason)i), 256);
     }
 }

@@ -1,4 +1,4 @@
-/* Boxes, labels, arrows and legends over an enlarged grid image. */
+/* Boxes, labels and arrows over an enlarged grid image. */
 #ifndef RLF_RENDER_SOFT_VIEW_MARKS_H
 #define RLF_RENDER_SOFT_VIEW_MARKS_H
 
@@ -12,6 +12,5 @@ typedef struct soft_fit {
 
 void soft_draw_region_marks(soft *s, const rlf_surface *surface, const soft_fit *fit);
 void soft_draw_velocity_marks(soft *s, const rlf_surface *surface, const soft_fit *fit);
-void soft_draw_reason_legend(soft *s);
 
 #endif

@@ -6,6 +6,7 @@
 
 #include "render/soft/bodies.h"
 #include "render/soft/draw.h"
+#include "render/soft/palette.h"
 #include "render/soft/scene.h"
 #include "render/soft/soft.h"
 #include "render/soft/views.h"
@@ -95,7 +96,7 @@ static void draw_all_points(soft *s, const rlf_render_input *input)
             draw_point(s, input, i, z, soft_grid_color(s, input, i, z));
         }
         if (behind > 0.0f && (!(z > 0.0f) || behind > 1.05f * z)) {
-            draw_point(s, input, i, behind, soft_rgb(70, 72, 78));
+            draw_point(s, input, i, behind, soft_color_unseen());
         }
     }
 }

@@ -8,9 +8,7 @@
 
 #include <string.h>
 
-#define THICKNESS_FULL_M 0.5 /* the palette's end */
-#define SPEED_FULL_M_S 1.0   /* full brightness */
-#define NEARER 0.98          /* of a point's depth: what is nearer hides it */
+#define NEARER 0.98 /* of a point's depth: what is nearer hides it */
 
 typedef struct grid_view {
     const soft *s;
@@ -106,22 +104,10 @@ static void draw_background_depth(const grid_view *view, int32_t i, uint8_t *out
     soft_put(out, depth_color(view, z != NULL ? z[i] : 0.0f));
 }
 
-static int32_t unit_to_byte(double x)
-{
-    return (int32_t)(rlf_clamp(0.5 + 0.5 * x, 0.0, 1.0) * 255.0 + 0.5);
-}
-
 static void draw_normal(const grid_view *view, int32_t i, uint8_t *out)
 {
     const rlf_surface *s = view->input->surface;
-    float x = s->normal_x[i];
-    float y = s->normal_y[i];
-    float z = s->normal_z[i];
-    if (x == 0.0f && y == 0.0f && z == 0.0f) {
-        soft_put(out, soft_rgb(0, 0, 0));
-        return;
-    }
-    soft_put(out, soft_rgb(unit_to_byte(x), unit_to_byte(-y), unit_to_byte(-z)));
+    soft_put(out, soft_color_normal(rlf_vec3_make(s->normal_x[i], s->normal_y[i], s->normal_z[i])));
 }
 
 static void draw_region(const grid_view *view, int32_t i, uint8_t *out)
@@ -143,7 +129,7 @@ static void draw_foreground(const grid_view *view, int32_t i, uint8_t *out)
 {
     soft_put(out, camera_color(view, i));
     if (view->input->surface->foreground[i] != 0) {
-        soft_blend(out, soft_rgb(60, 230, 120), 120);
+        soft_blend(out, soft_color_foreground(), 120);
     } else {
         soft_blend(out, soft_rgb(0, 0, 0), 110);
     }
@@ -153,13 +139,8 @@ static void draw_velocity(const grid_view *view, int32_t i, uint8_t *out)
 {
     const rlf_surface *s = view->input->surface;
     rlf_vec3 v = {s->velocity_x[i], s->velocity_y[i], s->velocity_z[i]};
-    double speed = rlf_length(v);
-    soft_put(out, dim_depth(view, s->depth[i]));
-    if (speed > 0.0) {
-        double turn = rlf_atan2(v.y, v.x) / (2.0 * RLF_PI) + 1.0;
-        double value = 0.35 + 0.65 * rlf_clamp(speed / SPEED_FULL_M_S, 0.0, 1.0);
-        soft_put(out, soft_color_hue(turn, value));
-    }
+    bool moves = rlf_dot(v, v) > 0.0;
+    soft_put(out, moves ? soft_color_velocity(v) : dim_depth(view, s->depth[i]));
 }
 
 static void draw_thickness(const grid_view *view, int32_t i, uint8_t *out)
@@ -167,11 +148,8 @@ static void draw_thickness(const grid_view *view, int32_t i, uint8_t *out)
     const rlf_surface *s = view->input->surface;
     bool stands = s->background_thickness != NULL && s->foreground[i] == 0;
     float thickness = stands ? s->background_thickness[i] : s->thickness[i];
-    if (thickness > 0.0f) {
-        soft_put(out, soft_color_near_far(1.0 - thickness / THICKNESS_FULL_M));
-    } else {
-        soft_put(out, dim_depth(view, s->depth[i]));
-    }
+    soft_put(out,
+             thickness > 0.0f ? soft_color_thickness(thickness) : dim_depth(view, s->depth[i]));
 }
 
 static void draw_reason(const grid_view *view, int32_t i, uint8_t *out)
@@ -249,7 +227,5 @@ void soft_draw_view(soft *s, const rlf_render_input *input)
         soft_draw_region_marks(s, input->surface, &fit);
     } else if (input->view == RLF_VIEW_VELOCITY) {
         soft_draw_velocity_marks(s, input->surface, &fit);
-    } else if (input->view == RLF_VIEW_REASON) {
-        soft_draw_reason_legend(s);
     }
 }
