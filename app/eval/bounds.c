@@ -180,6 +180,18 @@ const eval_bound eval_bounds[] = {
     {"sensed", "realism_percent", '>', 99.5, 92, "9 of 10 at best", ""},
     {"sensed", "realism_phantom_percent", '<', NAN, 1, "", ""},
     {"sensed", "realism_missed_percent", '<', NAN, 1, "", ""},
+    {"hands", "grasps_percent", '>', 95, NAN, "", ""},
+    {"hands", "slip_carried_mm", '<', 5, NAN, "", ""},
+    {"hands", "slip_still_mm", '<', 3, NAN, "", ""},
+    {"hands", "throw_speed_percent", '<', 10, NAN, "", ""},
+    {"hands", "throw_direction_deg", '<', 8, NAN, "", ""},
+    {"hands", "false_per_minute", '<', 0.5, NAN, "", ""},
+    {"hands", "palm_mm", '<', 8, NAN, "", ""},
+    {"hands", "tip_mm", '<', 10, NAN, "", "a network on HandNet 9.9"},
+    {"hands", "gestures_percent", '>', 95, NAN, "", ""},
+    {"hands", "hands_ms", '<', 1, NAN, "", "MediaPipe 11"},
+    {"hands", "far_open_fist_percent", '>', 95, NAN, "", ""},
+    {"hands", "far_palm_mm", '<', 12, NAN, "", ""},
     {"android", "normals_mean_deg", '<', 0.81, 0.81, "", "D2NT v3 1.240"},
     {"android", "normals_over_30_percent", '<', NAN, 0.2, "", ""},
     {"android", "normals_missing_percent", '<', NAN, 0.01, "", ""},
@@ -208,7 +220,8 @@ bool eval_has_bounds(const char *scene)
 {
     bool has = false;
     for (int32_t i = 0; i < eval_bound_count; i++) {
-        has = has || strcmp(eval_bounds[i].scene, scene) == 0;
+        bool is_bounded = !isnan(eval_bounds[i].bound);
+        has = has || (is_bounded && strcmp(eval_bounds[i].scene, scene) == 0);
     }
     return has;
 }
@@ -226,7 +239,8 @@ eval_verdict eval_bound_judge(const eval_bound *bound, double mean)
     if (!isnan(bound->goal) && holds(bound->relation, bound->goal, mean)) {
         return EVAL_GOAL_MET;
     }
-    return holds(bound->relation, bound->bound, mean) ? EVAL_WITHIN_BOUND : EVAL_OUTSIDE;
+    bool is_within = isnan(bound->bound) || holds(bound->relation, bound->bound, mean);
+    return is_within ? EVAL_WITHIN_BOUND : EVAL_OUTSIDE;
 }
 
 const char *eval_verdict_name(eval_verdict verdict)

@@ -8,7 +8,7 @@ typedef struct eval_bound {
     const char *scene, *key;
     char relation; /* '<': at most, '>': at least */
     double goal;   /* of the design; NAN = none */
-    double bound;  /* the mean over seeds must keep it, else the command fails */
+    double bound;  /* the mean over seeds must keep it, else the command fails; NAN = a goal only */
     /* For the reader: what the thesis reports, or what its method was measured to reach, and what
      * other systems reach; "" = nobody measured it. */
     const char *thesis, *others;
@@ -26,7 +26,7 @@ extern const int32_t eval_bound_count;
 
 /* NULL for a figure that has neither. */
 const eval_bound *eval_bound_find(const char *scene, const char *key);
-/* Whether any figure of a scene or section has one. */
+/* Whether any figure of a scene or section has a bound. */
 bool eval_has_bounds(const char *scene);
 /* Judges a mean; NAN was not measured. */
 eval_verdict eval_bound_judge(const eval_bound *bound, double mean);

@@ -62,9 +62,10 @@ static void print_row(const eval_row *row, const eval_bound *bound, bool is_whol
     if (bound != NULL && row->count[RLF_PROFILE_LIVE] > 0) {
         eval_verdict verdict = judge(row, bound);
         bool is_short = verdict == EVAL_WITHIN_BOUND && !isnan(bound->goal);
-        mark = is_outside(verdict, is_whole) ? eval_verdict_name(EVAL_OUTSIDE)
-               : is_short                    ? "SHORT of the goal"
-                                             : eval_verdict_name(verdict);
+        mark = is_outside(verdict, is_whole && !isnan(bound->bound))
+                   ? eval_verdict_name(EVAL_OUTSIDE)
+               : is_short ? "SHORT of the goal"
+                          : eval_verdict_name(verdict);
     }
     printf("  %-54s %10s  %-18s %-18s %10s %s\n", row->title, goal, live, thesis, limit, mark);
 }
@@ -148,7 +149,7 @@ rlf_result eval_report(const eval_table *table, const eval_report_options *optio
     for (int32_t i = 0; i < table->count; i++) {
         const eval_row *row = &table->rows[i];
         const eval_bound *bound = eval_bound_find(row->scene, row->key);
-        if (bound != NULL && row->count[RLF_PROFILE_LIVE] > 0) {
+        if (bound != NULL && !isnan(bound->bound) && row->count[RLF_PROFILE_LIVE] > 0) {
             outside += is_outside(judge(row, bound), options->is_whole);
             judged++;
         }

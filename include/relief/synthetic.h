@@ -9,6 +9,7 @@
 #define RELIEF_SYNTHETIC_H
 
 #include "relief/source.h"
+#include "relief/synthetic_hands.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -26,7 +27,8 @@ typedef enum rlf_synthetic_scene {
     RLF_SYNTHETIC_SWIPE = 7,    /* an upright board moves 1.1 m along the floor from t = 3 s on */
     RLF_SYNTHETIC_CARRY = 8,    /* a tray comes in and moves along a circle from t = 3 s on */
     RLF_SYNTHETIC_CROSSING = 9, /* bare room; two people walk past each other, 0.8 m apart */
-    RLF_SYNTHETIC_RANDOM = 10   /* room, people, camera and sensor drawn by the seed */
+    RLF_SYNTHETIC_RANDOM = 10,  /* room, people, camera and sensor drawn by the seed */
+    RLF_SYNTHETIC_HANDS = 11    /* hands grasp and gesture by a script: see synthetic_hands.h */
 } rlf_synthetic_scene;
 
 /* What happens in a random room instead of people who come: something that stood there since the
@@ -86,12 +88,14 @@ typedef struct rlf_synthetic_def {
                                   someone else in size, build, clothes and pace */
     double frames_per_second;  /* default 30 */
     int64_t frame_count;       /* default 300 (10 s); -1 = endless */
-    double speed;              /* of the tray or board, m/s, above 0, at most 10; default 0.5 */
+    double speed;              /* of the tray, board or carrying hand, m/s, above 0, at most 10;
+                                  default 0.5 */
     rlf_synthetic_push push;   /* of a random room only; default none */
     rlf_synthetic_path path;   /* of the camera; not with push; default none */
-    rlf_vec3 lamp;             /* a wide lamp's middle, metres, camera frame, at most 20 m away;
-                                  default (-0.7, -1.85, 1.5): under the ceiling, left */
-    bool enable_noise;         /* default true: axial noise, dropout, flying pixels, edge filter */
+    rlf_synthetic_hands_def hands; /* of scene "hands" only */
+    rlf_vec3 lamp;                 /* a wide lamp's middle, metres, camera frame, at most 20 m away;
+                                      default (-0.7, -1.85, 1.5): under the ceiling, left */
+    bool enable_noise; /* default true: axial noise, dropout, flying pixels, edge filter */
     bool enable_structured_light; /* default false; true: depth in steps, noise that is alike in
                                      neighbouring pixels, as a Kinect v1's; needs enable_noise */
     bool enable_edge_filter;      /* default true: the driver's invalid band at silhouettes */
@@ -110,9 +114,10 @@ RLF_API rlf_synthetic_def rlf_synthetic_def_default(void);
 RLF_API rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source **out);
 
 /* Reads "synthetic:NAME[?key=value[&key=value...]]" into *def: NAME one of room, empty, thesis,
- * chair, book, hand, lift, swipe, carry, crossing, random; keys seed, person, frames, fps, speed,
- * lamp (X,Y,Z), noise (0|1|steps), edge_filter (0|1), color (WxH or 0), push
- * (none|lift|swipe|carry), path (none|orbit|walk|handheld|look_away|fast). A random room draws its
+ * chair, book, hand, lift, swipe, carry, crossing, random, hands; keys seed, person, frames, fps,
+ * speed, lamp (X,Y,Z), noise (0|1|steps), edge_filter (0|1), color (WxH or 0), push
+ * (none|lift|swipe|carry), path (none|orbit|walk|handheld|look_away|fast); of scene "hands" also
+ * grasp or gesture (an act's name), view, body, distance, size and hold. A random room draws its
  * sensor and its lamp itself: of noise only 0 has an effect there. RLF_ERROR_INVALID names the part
  * that is wrong and what is allowed. */
 RLF_API rlf_result rlf_synthetic_parse(const char *source, rlf_synthetic_def *def);

@@ -71,6 +71,9 @@ typedef struct phys_body {
     rlf_vec3 surface_flow;         /* velocity of the foreground near it, grid frame */
     uint8_t side[2]; /* field_state: which side of foreground and background it belongs to */
 
+    struct phys_grab *grab; /* the hand that holds it, or NULL; see grab/grab.h */
+    int32_t grip_frames;    /* in a row in which it was gripped and not yet held */
+
     char name[RLF_NAME_MAX];
     float color[3];
     rlf_look look;

@@ -1,6 +1,7 @@
 /* Islands, and what happens to one in a substep. No two islands share a body that moves, so they
  * may be worked on in any order. */
 #include "physics/fetch.h"
+#include "physics/grab/grab.h"
 #include "physics/grid/contact/contact.h"
 #include "physics/integrate.h"
 #include "physics/solver.h"
@@ -163,6 +164,9 @@ static void start_body(const rlf_world *world, phys_body *body)
     body->acceleration = rlf_mad(gravity, body->force, body->inverse_mass);
     body->pull = rlf_length(body->acceleration);
     body->angular_acceleration = rlf_mat3_mul_vec(&body->inverse_inertia_world, body->torque);
+    if (body->grab != NULL) {
+        phys_grab_pull(world, body);
+    }
 }
 
 static void limit_speed(phys_body *body, double max_speed, double h)

@@ -1,6 +1,7 @@
 /* One frame by the live method: equal substeps of at most 1 / step_hz, in groups of up to
  * PHYS_PERIOD_MAX between searches for pairs and islands. */
 #include "physics/fetch.h"
+#include "physics/grab/grab.h"
 #include "physics/grid/contact/contact.h"
 #include "physics/integrate.h"
 #include "physics/pair/search.h"
@@ -277,6 +278,15 @@ static void greet_surface(rlf_world *world, const rlf_grid *grid, double dt)
     phys_wake_by_surface(world, &query, dt);
 }
 
+/* Hands take hold of bodies, carry them and let go. */
+static void grab(rlf_world *world, const rlf_grid *grid, double dt)
+{
+    if (world->def.enable_grab) {
+        grid_query query = query_now(world, grid, dt);
+        phys_grab_update(world, &query, dt);
+    }
+}
+
 void phys_live_advance(rlf_world *world, const rlf_grid *grid, double dt)
 {
     int32_t count = (int32_t)(dt * world->def.step_hz + 1.0 - 1e-6);
@@ -286,6 +296,11 @@ void phys_live_advance(rlf_world *world, const rlf_grid *grid, double dt)
     int64_t clock = rlf_clock_ns();
     if (start_surface(world, grid, dt)) {
         greet_surface(world, grid, dt);
+        if (grid != NULL) {
+            grab(world, grid, dt);
+        } else {
+            phys_grab_release_all(world);
+        }
     }
     phys_clock(&clock, &world->times.wake_ms);
     for (int32_t done = 0; done < count; done += PHYS_PERIOD_MAX) {

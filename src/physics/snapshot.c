@@ -17,6 +17,7 @@ static void write_state(const rlf_world *world, int32_t index, rlf_body_state *s
     memcpy(state->color, body->color, sizeof(state->color));
     state->is_held = body->is_held;
     state->is_asleep = body->is_asleep;
+    state->is_grabbed = body->grab != NULL;
 }
 
 void phys_world_publish_last(rlf_world *world)

@@ -1,4 +1,5 @@
 /* The world's life: making it, adding, finding and changing bodies. */
+#include "physics/grab/grab.h"
 #include "physics/grid/field.h"
 #include "physics/pair/search.h"
 #include "physics/world_state.h"
@@ -17,6 +18,7 @@ rlf_world_def rlf_world_def_default(void)
         .contact_capacity = 16384,
         .step_hz = 240,
         .max_speed = 50,
+        .enable_grab = true,
         .bounds = {{-20, -20, -20}, {20, 20, 20}},
     };
     return def;
@@ -117,6 +119,7 @@ static void remove_body(rlf_world *world, int32_t index)
     phys_body *body = &world->bodies[index];
     wake_near(world, body);
     phys_shape_finish(&body->shape);
+    phys_grab_forget(body);
     body->is_alive = false;
     world->has_free_slot = true;
     body->generation++;
@@ -157,6 +160,7 @@ bool rlf_world_set_body(rlf_world *world, rlf_body_id id, const rlf_pose *T_worl
     }
     phys_body *body = &world->bodies[index];
     wake_near(world, body);
+    phys_grab_forget(body);
     body->x = T_world_body->p;
     body->q = rlf_quat_normalize(q);
     body->throw_v = velocity;

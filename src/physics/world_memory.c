@@ -1,5 +1,5 @@
 /* A world's memory: all of it is there from the start. */
-#include "physics/world_state.h"
+#include "physics/grab/grab.h"
 
 #include <string.h>
 
@@ -8,6 +8,9 @@ typedef struct memory_plan {
     void *place;
     size_t count, size;
 } memory_plan;
+
+/* Bodies that are held at once. */
+#define GRABS_MAX 16
 
 #define PLANS_MAX 64
 #define PLAN(field, number)                                                                        \
@@ -58,6 +61,7 @@ static int32_t plan_memory(rlf_world *w, memory_plan plans[PLANS_MAX])
         PLAN(pending, bodies + pairs),
         PLAN(first_link, bodies),
         PLAN(next_link, 2 * (bodies + pairs)),
+        PLAN(grabs, (size_t)w->grab_count),
         PLAN(log, contacts),
         PLAN(states, bodies),
         PLAN(touches, contacts + bodies),
@@ -82,6 +86,7 @@ static void choose_sizes(rlf_world *world)
     int32_t crowd = 6 * world->def.body_capacity;
     world->pair_capacity = listed > crowd ? listed : crowd;
     world->bin_count = world->def.body_capacity;
+    world->grab_count = world->def.body_capacity < GRABS_MAX ? world->def.body_capacity : GRABS_MAX;
 }
 
 bool phys_world_allocate(rlf_world *world)

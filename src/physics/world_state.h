@@ -75,6 +75,8 @@ typedef struct phys_touch {
     rlf_body_id body, other_body;
 } phys_touch;
 
+typedef struct phys_grab phys_grab;
+
 struct rlf_world {
     rlf_world_def def;
     phys_body *bodies;
@@ -131,6 +133,9 @@ struct rlf_world {
     int32_t touch_count, old_touch_count;
     rlf_contact_event *events; /* of this advance */
     int32_t event_count;
+
+    phys_grab *grabs; /* as many as hands hold bodies at once */
+    int32_t grab_count;
 
     rlf_contact *log; /* contacts of this frame; capacity def.contact_capacity */
     int32_t log_count;

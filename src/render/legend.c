@@ -119,6 +119,7 @@ static void add_rows(rlf_legend *legend, rlf_view view, const rlf_rig *rig)
     case RLF_VIEW_CONTACTS: add_contacts(legend); break;
     case RLF_VIEW_KNOWN: add(legend, soft_color_known(), "model of a real thing"); break;
     case RLF_VIEW_CAMERA:
+    case RLF_VIEW_HANDS:
     case RLF_VIEW_COUNT: break;
     }
 }
@@ -139,6 +140,7 @@ rlf_legend rlf_view_legend(rlf_view view, const rlf_rig *rig)
         "points of the surface, from anywhere",
         "contacts: arrow along the normal, length by impulse, N s",
         "known: models of real things",
+        "hands: palms, finger tips, gestures",
     };
     rlf_legend legend;
     memset(&legend, 0, sizeof(legend));

@@ -51,6 +51,10 @@ void synth_hand_bones(const synth_scene *scene, double t, rlf_pose bones[SYNTH_B
 /* Bones of the tray (SYNTH_BOOK_BONE) and the arm that holds it at time t. */
 void synth_tray_bones(const synth_scene *scene, double t, rlf_pose bones[SYNTH_BONE_COUNT]);
 
+/* Middle joint of a chain of two bones from `root` towards `target`, bent towards `pole`. The end
+ * joint, which is the target where the chain is long enough, goes to *target. */
+rlf_vec3 synth_bend(rlf_vec3 root, rlf_vec3 *target, double upper, double lower, rlf_vec3 pole);
+
 /* Pose at `origin` with y along `direction` and z as near to `forward` as possible. */
 rlf_pose synth_bone_pose(rlf_vec3 origin, rlf_vec3 direction, rlf_vec3 forward);
 

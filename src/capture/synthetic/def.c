@@ -8,8 +8,8 @@
 #define SPEED_MAX 10.0
 #define LAMP_MAX 20.0 /* metres from the camera */
 
-static const char *const scene_names[] = {"room", "empty", "thesis", "chair",    "book",  "hand",
-                                          "lift", "swipe", "carry",  "crossing", "random"};
+static const char *const scene_names[] = {"room", "empty", "thesis", "chair",    "book",   "hand",
+                                          "lift", "swipe", "carry",  "crossing", "random", "hands"};
 static const char *const path_names[] = {"none", "orbit", "walk", "handheld", "look_away", "fast"};
 #define PATH_COUNT ((int)(sizeof(path_names) / sizeof(path_names[0])))
 #define SCENE_COUNT ((int)(sizeof(scene_names) / sizeof(scene_names[0])))
@@ -51,8 +51,33 @@ rlf_synthetic_def rlf_synthetic_def_default(void)
                              .enable_color = true,
                              .enable_truth = true,
                              .color_width = 960,
-                             .color_height = 540};
+                             .color_height = 540,
+                             .hands = {.distance = 0.9, .hold = 0.5}};
     return def;
+}
+
+static rlf_result check_hands(const rlf_synthetic_hands_def *hands)
+{
+    if (rlf_synthetic_act_name(hands->act) == NULL || (int)hands->view < 0 ||
+        hands->view > RLF_SYNTHETIC_VIEW_SIDE || (int)hands->body < 0 ||
+        hands->body > RLF_SYNTHETIC_BODY_CAN) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "synthetic: hands.act, view and body are %d, %d and %d; use their enums",
+                        (int)hands->act, (int)hands->view, (int)hands->body);
+    }
+    if (!(hands->distance >= 0.6 && hands->distance <= 3.0)) {
+        return rlf_fail(RLF_ERROR_INVALID, "synthetic: hands.distance is %g m; use 0.6 to 3",
+                        hands->distance);
+    }
+    if (!(hands->size == 0.0 || (hands->size >= 0.03 && hands->size <= 0.2))) {
+        return rlf_fail(RLF_ERROR_INVALID, "synthetic: hands.size is %g m; use 0 or 0.03 to 0.2",
+                        hands->size);
+    }
+    if (!(hands->hold >= 0.0 && hands->hold <= 60.0)) {
+        return rlf_fail(RLF_ERROR_INVALID, "synthetic: hands.hold is %g s; use 0 to 60",
+                        hands->hold);
+    }
+    return RLF_OK;
 }
 
 rlf_result synth_def_check(const rlf_synthetic_def *def)
@@ -92,5 +117,6 @@ rlf_result synth_def_check(const rlf_synthetic_def *def)
     if (def->push != RLF_SYNTHETIC_PUSH_NONE && def->scene != RLF_SYNTHETIC_RANDOM) {
         return rlf_fail(RLF_ERROR_INVALID, "synthetic: push is for scene random only");
     }
-    return check_path(def);
+    rlf_result result = check_path(def);
+    return result == RLF_OK ? check_hands(&def->hands) : result;
 }

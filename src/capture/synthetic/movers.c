@@ -1,5 +1,6 @@
 /* Who moves in which scene. */
 #include "capture/synthetic/bones.h"
+#include "capture/synthetic/hands/hands.h"
 #include "capture/synthetic/random/random.h"
 
 typedef void (*bones_fn)(const synth_scene *, double, rlf_pose[SYNTH_BONE_COUNT]);
@@ -51,6 +52,10 @@ void synth_scene_move(synth_scene *scene, double t)
     scene->mover_count = 0;
     if (scene->random != NULL) {
         synth_random_move(scene, t);
+        return;
+    }
+    if (scene->hands != NULL) {
+        synth_hands_move(scene, t);
         return;
     }
     if (scene->kind == RLF_SYNTHETIC_EMPTY) {

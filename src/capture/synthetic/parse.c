@@ -4,8 +4,11 @@
 #include <string.h>
 
 #define PREFIX "synthetic:"
-#define SCENES "room, empty, thesis, chair, book, hand, lift, swipe, carry, crossing, random"
-#define KEYS "seed, person, frames, fps, speed, lamp, noise, edge_filter, color, push, path"
+#define SCENES "room, empty, thesis, chair, book, hand, lift, swipe, carry, crossing, random, hands"
+#define KEYS                                                                                       \
+    "seed, person, frames, fps, speed, lamp, noise, edge_filter, color, push, grasp, gesture, "    \
+    "view, "                                                                                       \
+    "distance, body, size, hold, path"
 
 /* A piece of the source string. */
 typedef struct piece {
@@ -125,15 +128,77 @@ static bool read_switch(piece p, bool *out)
     return is_word(p, "0") || is_word(p, "1");
 }
 
+/* The index of one of `count` names. */
+static bool read_name(piece p, const char *const *names, int count, int *out)
+{
+    int i = 0;
+    while (i < count && !is_word(p, names[i])) {
+        i++;
+    }
+    *out = i < count ? i : 0;
+    return i < count;
+}
+
 static bool read_push(piece p, rlf_synthetic_push *out)
 {
     static const char *const names[4] = {"none", "lift", "swipe", "carry"};
     int i = 0;
-    while (i < 4 && !is_word(p, names[i])) {
-        i++;
+    bool is_good = read_name(p, names, 4, &i);
+    *out = (rlf_synthetic_push)i;
+    return is_good;
+}
+
+/* A grasp or a gesture, whose acts are those from `first` to `last`. */
+static bool read_act(piece p, int first, int last, rlf_synthetic_act *out)
+{
+    for (int i = first; i <= last; i++) {
+        if (is_word(p, rlf_synthetic_act_name((rlf_synthetic_act)i))) {
+            *out = (rlf_synthetic_act)i;
+            return true;
+        }
     }
-    *out = (rlf_synthetic_push)(i < 4 ? i : 0);
-    return i < 4;
+    return false;
+}
+
+/* As set_value, of scene "hands". */
+static const char *set_hands(piece key, piece value, rlf_synthetic_hands_def *hands, bool *is_good)
+{
+    static const char *const views[3] = {"front", "above", "side"};
+    static const char *const bodies[3] = {"cube", "ball", "can"};
+    int i = 0;
+    if (is_word(key, "grasp")) {
+        *is_good = read_act(value, 0, RLF_SYNTHETIC_ACT_PASS, &hands->act);
+        return "pinch_above, pinch_side, fist_bar, two_hands, scoop, under, throw or pass";
+    }
+    if (is_word(key, "gesture")) {
+        *is_good = read_act(value, RLF_SYNTHETIC_ACT_OPEN, RLF_SYNTHETIC_ACT_WAVE, &hands->act);
+        return "open, fist, pinch, point, flat, swipe or wave";
+    }
+    if (is_word(key, "view")) {
+        *is_good = read_name(value, views, 3, &i);
+        hands->view = (rlf_synthetic_view)i;
+        return "front, above or side";
+    }
+    if (is_word(key, "body")) {
+        *is_good = read_name(value, bodies, 3, &i);
+        hands->body = (rlf_synthetic_body)i;
+        return "cube, ball or can";
+    }
+    if (is_word(key, "distance")) {
+        *is_good = read_decimal(value, &hands->distance) && hands->distance >= 0.6 &&
+                   hands->distance <= 3.0;
+        return "metres, 0.6 to 3";
+    }
+    if (is_word(key, "size")) {
+        *is_good = read_decimal(value, &hands->size) &&
+                   (hands->size == 0.0 || (hands->size >= 0.03 && hands->size <= 0.2));
+        return "metres, 0.03 to 0.2, or 0";
+    }
+    if (is_word(key, "hold")) {
+        *is_good = read_decimal(value, &hands->hold) && hands->hold <= 60.0;
+        return "seconds, 0 to 60";
+    }
+    return NULL;
 }
 
 static bool read_path(piece p, rlf_synthetic_path *out)
@@ -201,7 +266,7 @@ static const char *set_value(piece key, piece value, rlf_synthetic_def *def, boo
         *is_good = read_size(value, def);
         return "WIDTHxHEIGHT, 1 to 4096 each, or 0 for none";
     }
-    return NULL;
+    return set_hands(key, value, &def->hands, is_good);
 }
 
 static rlf_result parse_option(const char *source, piece option, rlf_synthetic_def *def)

@@ -24,9 +24,7 @@ rlf_pose synth_bone_pose(rlf_vec3 origin, rlf_vec3 direction, rlf_vec3 forward)
     return pose;
 }
 
-/* Middle joint of a chain of two bones from `root` towards `target`, bent towards `pole`. The end
- * joint, which is the target where the chain is long enough, goes to *target. */
-static rlf_vec3 bend(rlf_vec3 root, rlf_vec3 *target, double upper, double lower, rlf_vec3 pole)
+rlf_vec3 synth_bend(rlf_vec3 root, rlf_vec3 *target, double upper, double lower, rlf_vec3 pole)
 {
     rlf_vec3 to_target = rlf_sub(*target, root);
     double length = rlf_length(to_target);
@@ -103,7 +101,7 @@ static void set_leg(const synth_figure *figure, const rlf_pose *body, const synt
     double offset = side == 0 ? -figure->hip : figure->hip;
     rlf_vec3 hip = rlf_transform(&bones[SYNTH_PELVIS], rlf_vec3_make(offset, 0.0, 0.0));
     rlf_vec3 forward = rlf_rotate(ground.q, rlf_vec3_make(0, 0, 1));
-    rlf_vec3 knee = bend(hip, &ankle, s * THIGH_LENGTH, s * SHIN_LENGTH, forward);
+    rlf_vec3 knee = synth_bend(hip, &ankle, s * THIGH_LENGTH, s * SHIN_LENGTH, forward);
     bones[SYNTH_THIGH + side] = synth_bone_pose(hip, rlf_sub(knee, hip), forward);
     bones[SYNTH_SHIN + side] = synth_bone_pose(knee, rlf_sub(ankle, knee), forward);
     bones[SYNTH_FOOT + side] = (rlf_pose){ankle, rolled.q};
@@ -142,7 +140,7 @@ static void set_arm(const synth_scene *scene, const synth_figure *figure, const 
         wrist = rlf_add(rlf_mad(wrist, rlf_sub(target, wrist), reach), arc);
     }
     rlf_vec3 pole = rlf_rotate(body->q, rlf_vec3_make(sign * 0.35, 0.25, -1.0));
-    rlf_vec3 elbow = bend(shoulder, &wrist, s * UPPER_ARM_LENGTH, s * FOREARM_LENGTH, pole);
+    rlf_vec3 elbow = synth_bend(shoulder, &wrist, s * UPPER_ARM_LENGTH, s * FOREARM_LENGTH, pole);
     rlf_vec3 forward = rlf_neg(pole);
     rlf_vec3 forearm = rlf_normalize(rlf_sub(wrist, elbow));
     rlf_vec3 back = rlf_rotate(body->q, rlf_vec3_make(sign, -0.6 * reach * side, 0.0));

@@ -28,6 +28,7 @@ typedef struct synth_look {
 } synth_look;
 
 struct synth_random;
+struct synth_hands;
 
 typedef struct synth_part {
     synth_shape shape;
@@ -61,6 +62,8 @@ typedef struct synth_scene {
     synth_figure person, second; /* the second is in scene "crossing" */
     bool is_moving; /* the camera moves: the room is lit without shadows, cast for every frame */
     const struct synth_random *random; /* borrowed: a room drawn at random; NULL in the others */
+    const struct synth_hands *hands;   /* borrowed: of scene "hands"; NULL in the others */
+    const rlf_quat *q_camera_level;    /* borrowed: a camera that is tilted; NULL = it is level */
 } synth_scene;
 
 /* A scene with a tray, see tray.c. */

@@ -192,6 +192,8 @@ static void build_scene(synth_sensor *sensor)
     const rlf_synthetic_def *def = &sensor->def;
     if (def->scene == RLF_SYNTHETIC_RANDOM) {
         synth_random_build(&sensor->scene, &sensor->random, def);
+    } else if (def->scene == RLF_SYNTHETIC_HANDS) {
+        synth_hands_build(&sensor->scene, &sensor->hands, def);
     } else {
         synth_scene_build(&sensor->scene, def->scene);
         synth_scene_set_people(&sensor->scene, def->person);

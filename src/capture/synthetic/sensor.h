@@ -5,6 +5,7 @@
 #include "capture/synthetic/color.h"
 #include "capture/synthetic/depth.h"
 #include "capture/synthetic/path.h"
+#include "capture/synthetic/hands/hands.h"
 #include "capture/synthetic/random/random.h"
 
 typedef struct synth_sensor {
@@ -14,6 +15,7 @@ typedef struct synth_sensor {
     synth_path path;   /* likewise */
     rlf_pose T_world_camera;
     synth_random random; /* the scene's, if it is a random one */
+    synth_hands hands;   /* the scene's, if it is "hands" */
     synth_depth depth;
     synth_color color;
     int64_t next_frame;

@@ -2,7 +2,6 @@
  * the floor, so the ellipses are drawn row by row. */
 #include "capture/synthetic/shadow.h"
 #include "capture/synthetic/light.h"
-#include "capture/synthetic/random/random.h"
 #include "kernel/kernel.h"
 
 #define ROW_MAX 4096
@@ -104,9 +103,9 @@ void synth_shadow_place(synth_shadow *shadow, const synth_scene *scene, const sy
 {
     shadow->blob_count = 0;
     shadow->rect = (synth_rect){0, 0, 0, 0};
-    shadow->is_tilted = scene->random != NULL;
+    shadow->is_tilted = scene->q_camera_level != NULL;
     if (shadow->is_tilted) {
-        shadow->q_level_camera = rlf_quat_conjugate(scene->random->q_camera_level);
+        shadow->q_level_camera = rlf_quat_conjugate(*scene->q_camera_level);
     }
     for (int32_t i = 0; i < scene->mover_count; i++) {
         add_part(shadow, scene, &scene->movers[i].shape);

@@ -62,7 +62,7 @@ static rlf_result check_words(const io_json_object *top)
 
 static rlf_result read_scene(const io_json_object *top, const char *folder, rlf_scene *scene)
 {
-    static const char *const known[] = {"about",  "source", "gravity",      "border",
+    static const char *const known[] = {"about",  "source", "gravity",       "border",
                                         "bodies", "spawn",  "known_objects", "on"};
     const char *unknown = io_json_unknown_key(top, known, 8);
     if (unknown != NULL) {

@@ -90,7 +90,10 @@ void synth_random_build(synth_scene *scene, synth_random *random, const rlf_synt
 {
     for (uint32_t attempt = 0; attempt < ATTEMPTS; attempt++) {
         *random = (synth_random){.people_count = 0};
-        *scene = (synth_scene){.kind = RLF_SYNTHETIC_RANDOM, .speed = def->speed, .random = random};
+        *scene = (synth_scene){.kind = RLF_SYNTHETIC_RANDOM,
+                               .speed = def->speed,
+                               .random = random,
+                               .q_camera_level = &random->q_camera_level};
         synth_plan plan = {.draw = synth_draw_start(def->seed, 16 + attempt),
                            .scene = scene,
                            .random = random,

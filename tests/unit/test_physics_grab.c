@@ -1,0 +1,131 @@
+/* Bodies held between sensed fingers: grasped, lifted, carried, let go, thrown; and not grabbed by
+ * what only pushes, passes or rests beside. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "grid_hand.h"
+
+#include <math.h>
+
+#define FRAME (1.0 / 30)
+#define TABLE 0.30 /* y of its top, metres: y is down */
+
+typedef struct grasp {
+    const char *name;
+    rlf_vec3 along;  /* fingers point this way, unit */
+    rlf_vec3 across; /* from one finger to the other, unit */
+    rlf_shape shape;
+    double width; /* between the fingers when they touch */
+    double noise; /* m of depth */
+} grasp;
+
+static rlf_world *make_world(const rlf_shape *shape, rlf_vec3 at, rlf_body_id *id)
+{
+    rlf_world_def def = rlf_world_def_default();
+    def.body_capacity = 8;
+    rlf_world *world = NULL;
+    assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
+    rlf_body_def body = rlf_body_def_default();
+    body.shape = *shape;
+    body.position = at;
+    body.restitution = 0.1;
+    assert_int_equal(rlf_world_add_body(world, &body, id), RLF_OK);
+    return world;
+}
+
+static double ramp(double t, double begin, double end)
+{
+    return rlf_clamp((t - begin) / (end - begin), 0.0, 1.0);
+}
+
+/* Where the hand is off its start at time t, and how far open, 0..1. */
+static rlf_vec3 way_at(double t, double *open)
+{
+    *open = 1.0 - ramp(t, 0.3, 0.6) + ramp(t, 4.0, 4.2);
+    return rlf_vec3_make(0.5 * ramp(t, 1.6, 2.9), -0.2 * ramp(t, 0.8, 1.5), 0.0);
+}
+
+static const rlf_body_state *state_of(const rlf_world *world)
+{
+    return &rlf_world_get_snapshot(world)->bodies[0];
+}
+
+/* Grasps, lifts by 0.2 m, carries by 0.5 m, stays a second, opens. */
+static void run_grasp(const grasp *g)
+{
+    grid_fixture *fixture = grid_fixture_create();
+    grid_plane room[2] = {grid_floor(TABLE), grid_wall(2)};
+    grid_fixture_set_room(fixture, room, 2);
+    rlf_vec3 start = {-0.25, TABLE - 0.5 * g->shape.size.y, 1.0};
+    rlf_world *world = make_world(&g->shape, start, NULL);
+    double slip = 0, drop = 0;
+    rlf_vec3 off = {0, 0, 0}, last = {0, 0, 0};
+    int held = 0, first = -1;
+    for (int frame = 0; frame < 150; frame++) {
+        double open, open_before;
+        rlf_vec3 way = way_at(frame * FRAME, &open);
+        rlf_vec3 before = way_at((frame - 1) * FRAME, &open_before);
+        grid_hand hand = {.place = rlf_add(start, way), .along = g->along, .across = g->across};
+        hand.velocity = rlf_scale(rlf_sub(way, before), 1.0 / FRAME);
+        hand.gap = g->width - 0.002 + 0.06 * open;
+        hand.closing = 0.06 * (open - open_before) / FRAME;
+        hand.noise = g->noise;
+        grid_hand_see(fixture, &hand, frame);
+        rlf_world_advance(world, &fixture->grid, FRAME);
+        const rlf_body_state *body = state_of(world);
+        rlf_vec3 now = rlf_sub(body->T_world_body.p, hand.place);
+        if (getenv("GRAB_TRACE")) {
+            print_message(
+                "%3d open %.2f gap %.3f held %d off %6.1f %6.1f %6.1f mm v %.2f %.2f %.2f\n", frame,
+                open, hand.gap, body->is_grabbed, 1e3 * now.x, 1e3 * now.y, 1e3 * now.z,
+                body->velocity.x, body->velocity.y, body->velocity.z);
+        }
+        held += body->is_grabbed;
+        first = first < 0 && body->is_grabbed ? frame : first;
+        if (frame == 22) {
+            off = now;
+        }
+        if (frame > 22 && frame <= 119) {
+            slip = rlf_max(slip, rlf_length(rlf_sub(now, off)));
+        }
+        last = now;
+    }
+    drop = last.y;
+    print_message("GRASP %s: held %d frames from %d, slip %.1f mm, fell %.2f m\n", g->name, held,
+                  first, 1e3 * slip, drop);
+    assert_true(slip < 0.005);
+    assert_true(!state_of(world)->is_grabbed);
+    assert_true(drop > 0.15);
+    rlf_world_destroy(&world);
+    grid_fixture_destroy(&fixture);
+}
+
+static void hands_lift_carry_and_let_go(void **state)
+{
+    (void)state;
+    const rlf_shape cube = {.type = RLF_SHAPE_BOX, .size = {0.06, 0.06, 0.06}};
+    const rlf_shape large = {.type = RLF_SHAPE_BOX, .size = {0.12, 0.12, 0.12}};
+    const rlf_vec3 down = {0, 1, 0}, left = {-1, 0, 0}, right = {1, 0, 0}, away = {0, 0, 1};
+    const grasp all[] = {
+        {"from above", down, right, cube, 0.06, 0.0},
+        {"from above, noisy", down, right, cube, 0.06, 0.0015},
+        {"from above, thumb before it", down, away, cube, 0.06, 0.0015},
+        {"from the right, thumb before it", left, away, cube, 0.06, 0.0015},
+        {"from the camera", away, right, cube, 0.06, 0.0015},
+        {"large, from above", down, right, large, 0.12, 0.0015},
+    };
+    for (size_t i = 0; i < sizeof(all) / sizeof(all[0]); i++) {
+        run_grasp(&all[i]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hands_lift_carry_and_let_go),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
