@@ -19,7 +19,7 @@ static grab_patch mean_of(const grab_patch *sum)
 {
     double scale = 1.0 / rlf_max(sum->weight, 1.0);
     grab_patch mean = {rlf_scale(sum->point, scale), rlf_scale(sum->normal, scale),
-                       rlf_scale(sum->velocity, scale), sum->weight};
+                       rlf_scale(sum->velocity, scale), scale * sum->off, sum->weight};
     return mean;
 }
 
@@ -33,6 +33,7 @@ grab_patch grab_side(const grab_touches *touches, rlf_vec3 axis, double sign)
             sum.point = rlf_add(sum.point, patch->point);
             sum.normal = rlf_add(sum.normal, patch->normal);
             sum.velocity = rlf_add(sum.velocity, patch->velocity);
+            sum.off += patch->off;
             sum.weight += patch->weight;
         }
     }
