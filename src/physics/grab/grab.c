@@ -15,7 +15,9 @@
 /* A body that passes the sides faster is not held by them yet, m/s. */
 #define CATCH_SPEED 0.6
 /* A side that is so much farther off than it was has let go, metres. */
-#define OPEN_M (2.0 * GRID_MARGIN)
+#define OPEN_M GRID_NOISE_M
+/* A side that comes nearer is believed so far in one frame: a share. */
+#define TRUST 0.25
 /* Fingers that come nearer by more in a frame are not closed yet, metres. */
 #define CLOSING_M (0.5 * GRID_MARGIN)
 #define KEEP_PIXELS 2.0
@@ -96,7 +98,8 @@ static bool is_side_open(const grid_query *query, phys_grab *grab, const grab_to
     grab_patch patch = grab_side(touches, grab->axis, side == 0 ? -1.0 : 1.0);
     if (patch.weight >= KEEP_PIXELS) {
         grab->ends[side] = patch.point;
-        grab->off[side] = rlf_min(grab->off[side], patch.off);
+        double nearer = rlf_min(patch.off - grab->off[side], 0.0);
+        grab->off[side] += TRUST * nearer; /* one pixel that flies is no finger */
         return patch.off > grab->off[side] + OPEN_M;
     }
     return grab_is_seen_through(query, grab, grab->ends[side], tolerance);

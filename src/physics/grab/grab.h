@@ -44,7 +44,7 @@ struct phys_grab {
  * frame. */
 typedef struct grab_patch {
     rlf_vec3 point, normal, velocity; /* normal: the body's, outward */
-    double off; /* metres from the body */
+    double off; /* m from the body, of the pixel that is nearest */
     double weight;
 } grab_patch;
 

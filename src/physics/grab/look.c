@@ -6,7 +6,7 @@
 /* A finger, or a hand laid flat, is no thicker, whatever the guess, metres. */
 #define FINGER_M 0.03
 /* The camera loses so much of an outline, pixels. */
-#define RIM_PX 1.5
+#define RIM_PX 3.0
 /* What is seen so deep in a body, a share of its inner radius, goes through it. */
 #define DEEP_SHARE 0.6
 /* Places on a body that are one patch: cosine between normals, and share of the radius. */
@@ -24,7 +24,7 @@ typedef struct look_job {
 double grab_tolerance(const grid_query *query, rlf_vec3 x)
 {
     rlf_vec3 p = rlf_transform(&query->T_grid_world, x);
-    return GRID_NOISE_M + RIM_PX * rlf_max(p.z, 0.0) * query->grid->pixel_angle;
+    return GRID_MARGIN + RIM_PX * rlf_max(p.z, 0.0) * query->grid->pixel_angle;
 }
 
 static void add_touch(look_job *job, rlf_vec3 point, rlf_vec3 normal, double distance,
@@ -46,12 +46,12 @@ static void add_touch(look_job *job, rlf_vec3 point, rlf_vec3 normal, double dis
     }
     if (patch == NULL) {
         patch = &out->patches[out->count++];
-        *patch = (grab_patch){.weight = 0.0};
+        *patch = (grab_patch){.off = distance};
     }
     patch->point = rlf_add(patch->point, point);
     patch->normal = rlf_add(patch->normal, normal);
     patch->velocity = rlf_add(patch->velocity, velocity);
-    patch->off += distance;
+    patch->off = rlf_min(patch->off, distance);
     patch->weight += 1.0;
 }
 
