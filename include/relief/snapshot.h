@@ -82,7 +82,7 @@ typedef struct rlf_body_state {
     float color[3];            /* linear-free sRGB 0..1; multiplies a model's own */
     bool is_held;              /* waiting for its release time */
     bool is_asleep;            /* at rest and not simulated until something touches it */
-    bool is_grabbed;           /* live: real fingers or hands hold it between them; it follows them */
+    bool is_grabbed; /* live: real fingers or hands hold it between them; it follows them */
 } rlf_body_state;
 
 /* What a body touched: another body, what stays of the real room, or what moves in it. */

@@ -85,9 +85,9 @@ typedef struct rlf_world_def {
     rlf_aabb bounds;           /* bodies whose centre leaves it are removed from the simulation
                                   (Algorithm 1: "while x(t) is within the scene"); default +-20 m */
     rlf_border border;         /* live: what the background is beyond the view; default open */
-    bool enable_grab;          /* live: bodies between fingers, or hands, that close on them are held
-                                  until these open; default true */
-    rlf_pool *pool;            /* borrowed; NULL = one thread */
+    bool enable_grab; /* live: bodies between fingers, or hands, that close on them are held
+                         until these open; default true */
+    rlf_pool *pool;   /* borrowed; NULL = one thread */
 } rlf_world_def;
 
 /* The defaults that the fields name. */

@@ -23,7 +23,7 @@ typedef struct follow_fit {
     double weight;
     rlf_vec3 flow; /* sum of velocities, weighted */
     double flow_weight;
-    double seen;   /* points found again */
+    double seen; /* points found again */
 } follow_fit;
 
 static void add_row(follow_fit *fit, rlf_vec3 point, rlf_vec3 n, double residual, double weight)
@@ -47,8 +47,7 @@ static void add_point(follow_fit *fit, const rlf_grid *grid, const rlf_pose *T_g
     rlf_vec3 p = rlf_transform(T_grid_hand, place);
     int32_t x, y;
     field_cell cell;
-    if (!grid_pixel_of(grid, p, &x, &y) ||
-        !grid_cell_read(grid, &grid->foreground, x, y, &cell)) {
+    if (!grid_pixel_of(grid, p, &x, &y) || !grid_cell_read(grid, &grid->foreground, x, y, &cell)) {
         return;
     }
     double residual = rlf_dot(cell.normal, rlf_sub(cell.point, p));

@@ -14,9 +14,9 @@
 #define PAST_SPEED 0.3
 /* A body that passes the sides faster is not held by them yet, m/s. */
 #define CATCH_SPEED 0.6
-/* A side that is so much farther off than it was has let go, metres. */
+/* Sides that are so much farther apart than they were have let go, metres. */
 #define OPEN_M GRID_NOISE_M
-/* A side that comes nearer is believed so far in one frame: a share. */
+/* Sides that come nearer are believed so far in one frame: a share. */
 #define TRUST 0.25
 /* Fingers that come nearer by more in a frame are not closed yet, metres. */
 #define CLOSING_M (0.5 * GRID_MARGIN)
@@ -31,8 +31,7 @@ static bool moves_as_one(const grab_grip *grip, rlf_vec3 body_v)
     double opening = rlf_dot(apart, grip->axis);
     rlf_vec3 past = rlf_mad(apart, grip->axis, -opening);
     rlf_vec3 slip = rlf_mad(body_v, rlf_add(a, b), -0.5);
-    return opening < APART_SPEED && rlf_length(past) < PAST_SPEED &&
-           rlf_length(slip) < CATCH_SPEED;
+    return opening < APART_SPEED && rlf_length(past) < PAST_SPEED && rlf_length(slip) < CATCH_SPEED;
 }
 
 static phys_grab *free_grab(rlf_world *world)
@@ -59,8 +58,7 @@ static void begin(rlf_world *world, const grid_query *query, phys_body *body, co
     grab->axis = grip->axis;
     grab->ends[0] = grip->sides[0].point;
     grab->ends[1] = grip->sides[1].point;
-    grab->off[0] = grip->sides[0].off;
-    grab->off[1] = grip->sides[1].off;
+    grab->width = grip->sides[0].off + grip->sides[1].off;
     grab_learn_hand(query, body, grab);
     grab->is_used = grab->point_count >= HAND_POINTS_MIN;
     if (grab->is_used) {
@@ -91,18 +89,23 @@ static void seek(rlf_world *world, const grid_query *query, phys_body *body)
     }
 }
 
-/* Whether a side that does not touch any more was seen to go. */
-static bool is_side_open(const grid_query *query, phys_grab *grab, const grab_touches *touches,
-                         int32_t side, double tolerance)
+/* Whether the hand is seen to be open: its sides are farther apart than they were, or one that does
+ * not touch any more is not hidden. A body that is off the hand's middle is nearer to one side and
+ * farther from the other. */
+static bool is_open(const grid_query *query, phys_grab *grab, const grab_touches *touches,
+                    double tolerance)
 {
-    grab_patch patch = grab_side(touches, grab->axis, side == 0 ? -1.0 : 1.0);
-    if (patch.weight >= KEEP_PIXELS) {
+    double width = 0.0;
+    for (int32_t side = 0; side < 2; side++) {
+        grab_patch patch = grab_side(touches, grab->axis, side == 0 ? -1.0 : 1.0);
+        if (patch.weight < KEEP_PIXELS) {
+            return grab_is_seen_through(query, grab, grab->ends[side], tolerance);
+        }
         grab->ends[side] = patch.point;
-        double nearer = rlf_min(patch.off - grab->off[side], 0.0);
-        grab->off[side] += TRUST * nearer; /* one pixel that flies is no finger */
-        return patch.off > grab->off[side] + OPEN_M;
+        width += patch.off;
     }
-    return grab_is_seen_through(query, grab, grab->ends[side], tolerance);
+    grab->width += TRUST * rlf_min(width - grab->width, 0.0); /* a flying pixel is no finger */
+    return width > grab->width + OPEN_M;
 }
 
 static void note_past(phys_grab *grab)
@@ -128,10 +131,9 @@ static bool hold(const grid_query *query, phys_body *body, double dt)
     double tolerance = OPEN_M + grab_tolerance(query, grab->T_world_hand.p);
     grab_touches touches;
     grab_look(query, body, &grab->T_world_hand, 0.0, tolerance, &touches);
-    bool is_open = is_side_open(query, grab, &touches, 0, tolerance);
-    is_open = is_side_open(query, grab, &touches, 1, tolerance) || is_open;
-    grab->open_frames = is_open ? grab->open_frames + 1 : 0;
-    if (!is_open) {
+    bool has_opened = is_open(query, grab, &touches, tolerance);
+    grab->open_frames = has_opened ? grab->open_frames + 1 : 0;
+    if (!has_opened) {
         note_past(grab);
     }
     /* What does not come along is held by something stronger. */
@@ -213,8 +215,8 @@ void phys_grab_pull(const rlf_world *world, phys_body *body)
     double sign = turn.w < 0.0 ? -2.0 : 2.0;
     rlf_vec3 angle = rlf_vec3_make(sign * turn.x, sign * turn.y, sign * turn.z);
     const double spring = JOINT_OMEGA * JOINT_OMEGA, damper = 2.0 * JOINT_OMEGA;
-    body->acceleration = rlf_mad(rlf_scale(rlf_sub(place, body->x), spring),
-                                 rlf_sub(grab->v, body->v), damper);
+    body->acceleration =
+        rlf_mad(rlf_scale(rlf_sub(place, body->x), spring), rlf_sub(grab->v, body->v), damper);
     body->angular_acceleration =
         rlf_mad(rlf_scale(angle, spring), rlf_sub(grab->w, body->w), damper);
 }

@@ -53,7 +53,8 @@ static bool try_pair(const grab_touches *touches, int32_t i, int32_t k, grab_gri
     out->sides[1] = grab_side(touches, axis, 1.0);
     line = rlf_sub(out->sides[1].point, out->sides[0].point);
     out->axis = rlf_normalize(line);
-    return is_in_cone(rlf_neg(out->sides[0].normal), line) && is_in_cone(out->sides[1].normal, line);
+    return is_in_cone(rlf_neg(out->sides[0].normal), line) &&
+           is_in_cone(out->sides[1].normal, line);
 }
 
 bool grab_find_grip(const grab_touches *touches, grab_grip *out)
