@@ -24,6 +24,7 @@ static rlf_world *make_world(const rlf_shape *shape, rlf_vec3 at, rlf_body_id *i
 {
     rlf_world_def def = rlf_world_def_default();
     def.body_capacity = 8;
+    def.enable_grab = true;
     rlf_world *world = NULL;
     assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
     rlf_body_def body = rlf_body_def_default();

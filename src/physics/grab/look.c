@@ -55,6 +55,14 @@ static void add_touch(look_job *job, rlf_vec3 point, rlf_vec3 normal, double dis
     patch->weight += 1.0;
 }
 
+/* Whether all of the body is before the face that is seen there: what it lies on presses on it
+ * squarely, even beside its edge. */
+static bool bears(const look_job *job, const field_cell *cell, rlf_vec3 p)
+{
+    rlf_vec3 normal = rlf_rotate(rlf_quat_conjugate(job->T_grid_body.q), cell->normal);
+    return -rlf_dot(normal, p) >= job->shape->inner_radius - job->tolerance;
+}
+
 /* The seen point itself touches, or the solid behind it does: its place nearest to the body, or
  * where the ray enters it. */
 static void look_at(look_job *job, const field_cell *cell)
@@ -80,6 +88,9 @@ static void look_at(look_job *job, const field_cell *cell)
         }
         p = rlf_mad(p, way, level);
         distance = phys_shape_distance(shape, p, &gradient);
+    }
+    if (distance <= job->tolerance && bears(job, cell, p)) {
+        gradient = rlf_neg(rlf_rotate(to_body, cell->normal));
     }
     if (distance <= job->tolerance) {
         add_touch(job, rlf_mad(p, gradient, -distance), gradient, distance, velocity);
