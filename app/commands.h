@@ -12,6 +12,7 @@ int sources_main(int argc, char **argv);
 int eval_main(int argc, char **argv);
 int bench_main(int argc, char **argv);
 int measure_main(int argc, char **argv);
+int calibrate_main(int argc, char **argv);
 int settings_main(int argc, char **argv);
 
 #endif

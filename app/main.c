@@ -19,6 +19,7 @@ static const subcommand subcommands[] = {
     {"export", export_main, "write arrays of every frame: depth, normals, labels, truth, ..."},
     {"info", info_main, "tell what a source is"},
     {"sources", sources_main, "list the kinds of source that this build can open"},
+    {"calibrate", calibrate_main, "lenses and poses of the cameras, from pictures of a chessboard"},
     {"settings", settings_main, "list the settings of the surface stage, for --set"},
     {"eval", eval_main, "measure accuracy where the truth is known, against goals and bounds"},
     {"measure", measure_main, "missing points and wrong normals: table 5.1 of the thesis"},
@@ -31,7 +32,7 @@ static void print_help(FILE *file)
     fprintf(file, "Relief lets virtual things touch the real world that a depth camera sees.\n\n"
                   "usage: relief COMMAND [OPTIONS]\n\ncommands:\n");
     for (int i = 0; i < SUBCOMMAND_COUNT; i++) {
-        fprintf(file, "  %-8s %s\n", subcommands[i].name, subcommands[i].summary);
+        fprintf(file, "  %-9s %s\n", subcommands[i].name, subcommands[i].summary);
     }
     fprintf(file,
             "\nexamples:\n"

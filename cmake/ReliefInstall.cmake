@@ -113,7 +113,7 @@ install(FILES ${PROJECT_BINARY_DIR}/reliefConfig.cmake
 # ---- the command ---------------------------------------------------------------------------------
 if(TARGET relief_app)
   set_target_properties(relief_app PROPERTIES
-                        INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+                        INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR};$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/relief")
   install(TARGETS relief_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(DIRECTORY scenes clips DESTINATION ${CMAKE_INSTALL_DATADIR}/relief)
 endif()

@@ -3,6 +3,15 @@ include(GNUInstallDirs)
 find_package(Threads REQUIRED)
 find_package(PkgConfig)
 
+# A test of a sanitizer build is linked in a fifth of the time.
+if(RELIEF_SANITIZE)
+  include(CheckLinkerFlag)
+  check_linker_flag(C -fuse-ld=gold RELIEF_HAS_GOLD)
+  if(RELIEF_HAS_GOLD)
+    add_link_options(-fuse-ld=gold)
+  endif()
+endif()
+
 # relief_settings(TARGET): C17 without extensions, warnings, and exact floating point: no contraction
 # into fused multiply-adds and no fast-math, so results are the same bits everywhere.
 function(relief_settings target)

@@ -3,6 +3,7 @@
 #include "command.h"
 #include "commands.h"
 #include "eval/bounds.h"
+#include "eval/calibration/calibration.h"
 #include "eval/oracle.h"
 #include "eval/picture/picture.h"
 #include "eval/random/random.h"
@@ -27,6 +28,7 @@
 typedef struct eval_options {
     const char *section; /* NULL = all of them */
     const char *normals_path;
+    const char *chessboards; /* folder; NULL = not asked for */
     const char *json_path;
     real_options real; /* folder NULL = not asked for */
     int64_t frames;    /* 0 = each scene's own */
@@ -74,6 +76,7 @@ static const section sections[] = {
     {"known", eval_known_run, "models of known things: poses, what they hide, what hits them"},
     {"start", eval_start_run, "what stood starts to move, and carries or pushes bodies"},
     {"hands", eval_hands_run, "scripted hands grasp, carry, throw and gesture"},
+    {"calibration", eval_calibration_run, "cameras from pictures of a board, where they are known"},
     {SENSED, eval_sensed_run, "the same on what the sensor shows, against the true scene"},
 };
 #define SECTION_COUNT ((int)(sizeof(sections) / sizeof(sections[0])))
@@ -103,10 +106,10 @@ static void print_help(void)
         "live is outside its bound.\n\n"
         "  --scene NAME      only this one, with every figure:\n");
     for (int32_t i = 0; i < eval_scene_count; i++) {
-        printf("                      %-9s %s\n", eval_scenes[i].name, eval_scenes[i].title);
+        printf("                      %-11s %s\n", eval_scenes[i].name, eval_scenes[i].title);
     }
     for (int i = 0; i < SECTION_COUNT; i++) {
-        printf("                      %-9s %s\n", sections[i].name, sections[i].title);
+        printf("                      %-11s %s\n", sections[i].name, sections[i].title);
     }
     printf(
         "                      random    rooms, people and sensors drawn at random\n"
@@ -118,6 +121,9 @@ static void print_help(void)
         "  --tune            seeds 2, 4, 6, ... instead: for tuning, never reported\n"
         "  --normals DIR     clean depth with true normals: folders of depth.bin, normal.png and\n"
         "                    params.txt (docs/measuring.md); only this unless --scene is given\n"
+        "  --chessboards DIR left*.jpg and right*.jpg of a 9x6 board (OpenCV's 13 pairs); only "
+        "this\n"
+        "                    unless --scene is given\n"
         "  --real DIR        real recordings, each figure beside a simple baseline; only this\n"
         "                    unless --scene is given; skipped where there is no DIR\n"
         "  --silhouettes DIR what script/silhouettes made; default out/silhouettes\n"
@@ -187,6 +193,7 @@ static int parse(int argc, char **argv, eval_options *o)
          .take = take_scene,
          .choices = "is not one of them"},
         {.name = "normals", .kind = OPTION_TEXT, .out = &o->normals_path},
+        {.name = "chessboards", .kind = OPTION_TEXT, .out = &o->chessboards},
         {.name = "real", .kind = OPTION_TEXT, .out = &o->real.folder},
         {.name = "silhouettes", .kind = OPTION_TEXT, .out = &o->real.silhouettes},
         {.name = "frames", .kind = OPTION_INT64, .out = &o->frames, .low = 20, .high = 100000},
@@ -258,6 +265,12 @@ static void run_tasks(void *context, int32_t begin, int32_t end, int32_t worker)
     }
 }
 
+/* Files are measured by themselves. */
+static bool has_pictures(const eval_options *o)
+{
+    return o->normals_path != NULL || o->real.folder != NULL || o->chessboards != NULL;
+}
+
 /* In the order of the report. */
 static int32_t list_tasks(const eval_options *o, eval_task *tasks)
 {
@@ -265,7 +278,7 @@ static int32_t list_tasks(const eval_options *o, eval_task *tasks)
     for (int32_t s = 0; s < eval_scene_count + SECTION_COUNT; s++) {
         const char *name =
             s < eval_scene_count ? eval_scenes[s].name : sections[s - eval_scene_count].name;
-        bool is_whole = o->normals_path == NULL && o->real.folder == NULL;
+        bool is_whole = !has_pictures(o);
         bool is_wanted = o->section != NULL ? strcmp(o->section, name) == 0
                                             : is_whole && (!o->is_bounded || eval_has_bounds(name));
         is_wanted = is_wanted && (o->left_out == NULL || strcmp(o->left_out, name) != 0);
@@ -274,8 +287,7 @@ static int32_t list_tasks(const eval_options *o, eval_task *tasks)
         }
     }
     const bool has_rooms =
-        o->section != NULL ? is_random_section(o->section)
-                           : o->normals_path == NULL && o->real.folder == NULL && !o->is_bounded;
+        o->section != NULL ? is_random_section(o->section) : !has_pictures(o) && !o->is_bounded;
     for (int32_t i = 0; has_rooms && i < o->rooms; i++) {
         tasks[count++] = (eval_task){.section = o->section != NULL ? o->section : EVAL_RANDOM,
                                      .seed = eval_random_seed(i, o->is_tuning),
@@ -321,6 +333,9 @@ static rlf_result measure(const eval_options *o, eval_table *table)
     rlf_free(tasks);
     if (result == RLF_OK && o->normals_path != NULL) {
         result = eval_public_run(table, o->normals_path, o->profile_mask);
+    }
+    if (result == RLF_OK && o->chessboards != NULL) {
+        result = eval_chessboards_run(table, o->chessboards);
     }
     return result;
 }

@@ -35,6 +35,8 @@ typedef struct rlf_rig {
     double depth_min_m;    /* nearest depth the sensor reports, metres (Kinect v2: 0.5) */
     double depth_max_m;    /* farthest (Kinect v2: 4.5); libraries keep what is beyond as missing */
     rlf_depth_noise noise; /* of the raw depth */
+    double depth_offset_m; /* the sensor measures too far by this, metres: rlf_source_next and
+                              rlf_source_observe give depth from which it is taken away */
 } rlf_rig;
 
 /* What a source says about a frame, bits of rlf_frame.flags. */

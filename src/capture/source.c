@@ -1,11 +1,16 @@
 /* The source object: caller's methods plus what is constant about them. */
 #include "capture/source_object.h"
 
+#include "capture/depth_offset.h"
+
 struct rlf_source {
     rlf_source_methods methods;
     rlf_source_info info;
     void *self;
     uint64_t given;
+    char *corrected;      /* two planes of depth without its offset: of next, and of observe */
+    rlf_frame_fn watcher; /* what observe calls when there is an offset */
+    void *watcher_context;
 };
 
 static rlf_result check_info(const rlf_source_info *info)
@@ -29,11 +34,14 @@ rlf_result rlf_source_create_custom(const rlf_source_methods *methods, const rlf
         return result;
     }
     rlf_source *source = rlf_alloc(sizeof(*source));
-    if (source == NULL) {
+    const size_t plane = depth_offset_size(&info->rig);
+    char *corrected = plane > 0 ? rlf_alloc_array(2, plane) : NULL;
+    if (source == NULL || (plane > 0 && corrected == NULL)) {
+        rlf_free(corrected);
+        rlf_free(source);
         return RLF_ERROR_MEMORY;
     }
-    source->methods = *methods;
-    source->info = *info;
+    *source = (rlf_source){.methods = *methods, .info = *info, .corrected = corrected};
     source->info.name[sizeof(source->info.name) - 1] = '\0';
     source->self = self;
     *out = source;
@@ -48,6 +56,7 @@ void rlf_source_destroy(rlf_source **source)
     if ((*source)->methods.destroy != NULL) {
         (*source)->methods.destroy((*source)->self);
     }
+    rlf_free((*source)->corrected);
     rlf_free(*source);
     *source = NULL;
 }
@@ -66,6 +75,9 @@ rlf_result rlf_source_next(rlf_source *source, rlf_frame *out_frame)
     rlf_result result = source->methods.next(source->self, &frame);
     frame.rig = &source->info.rig;
     if (result == RLF_OK) {
+        if (source->corrected != NULL) {
+            depth_offset_take(&source->info.rig, source->corrected, &frame);
+        }
         *out_frame = frame;
         source->given++;
     }
@@ -101,12 +113,30 @@ rlf_result rlf_source_seek(rlf_source *source, int64_t index)
     return source->methods.seek(source->self, index);
 }
 
+static void watch(void *context, const rlf_frame *frame)
+{
+    const rlf_source *source = context;
+    rlf_frame corrected = *frame;
+    depth_offset_take(&source->info.rig, source->corrected + depth_offset_size(&source->info.rig),
+                      &corrected);
+    source->watcher(source->watcher_context, &corrected);
+}
+
 bool rlf_source_observe(rlf_source *source, rlf_frame_fn fn, void *context)
 {
     if (!RLF_ASSERT(source != NULL) || source->methods.observe == NULL) {
         return false;
     }
-    source->methods.observe(source->self, fn, context);
+    if (source->corrected == NULL) {
+        source->methods.observe(source->self, fn, context);
+        return true;
+    }
+    source->methods.observe(source->self, NULL, NULL); /* nobody reads what changes now */
+    source->watcher = fn;
+    source->watcher_context = context;
+    if (fn != NULL) {
+        source->methods.observe(source->self, watch, source);
+    }
     return true;
 }
 

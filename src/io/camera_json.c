@@ -109,7 +109,8 @@ static rlf_result read_depth(const io_json_object *top, rlf_rig *rig, double *ou
                                         "units_per_metre",
                                         "depth_min_m",
                                         "depth_max_m",
-                                        "noise"};
+                                        "noise",
+                                        "depth_offset_m"};
     static const io_json_field field = {"depth", "an object with the depth camera's intrinsics", 0,
                                         0, true};
     static const io_json_field units = {
@@ -143,6 +144,12 @@ static rlf_result read_depth(const io_json_object *top, rlf_rig *rig, double *ou
         return result;
     }
     rig->noise = (rlf_depth_noise){c[0], c[1], c[2]};
+    static const io_json_field offset = {
+        "depth_offset_m", "by how many metres depth is too far, -0.5 to 0.5", -0.5, 0.5, false};
+    result = io_json_get_number(&depth, &offset, &rig->depth_offset_m);
+    if (result != RLF_OK) {
+        return result;
+    }
     if (rig->depth_max_m <= rig->depth_min_m) {
         return io_json_fail(&depth, "depth_max_m", "is %g: it must be %s", rig->depth_max_m,
                             range[1].meaning);

@@ -29,13 +29,20 @@ endif()
 
 # What `relief eval` and its kin count, and what they say about it.
 if(TARGET relief_app)
-  foreach(name test_bench test_bench_peers test_measure_noise test_eval test_eval_real test_eval_report test_eval_sections
+  foreach(name test_bench test_bench_peers test_calibrate test_measure_noise test_eval test_eval_real test_eval_report test_eval_sections
           test_eval_sensed test_info test_settings)
     relief_test(${PROJECT_SOURCE_DIR}/tests/app/${name}.c app)
     target_link_libraries(${name} PRIVATE relief_measures relief_io relief)
     string(REGEX REPLACE "^test_" "" what ${name})
     set_tests_properties(app.${what} PROPERTIES TIMEOUT 3600) # minutes with sanitizers
   endforeach()
+endif()
+
+if(TARGET relief_opencv)
+  # By its path: a sanitizer's dlopen does not know the program's run path.
+  set_property(TEST app.calibrate PROPERTY ENVIRONMENT
+               RELIEF_OPENCV_LIBRARY=$<TARGET_FILE:relief_opencv>)
+  add_dependencies(test_calibrate relief_opencv)
 endif()
 
 if(TARGET relief_app AND RELIEF_WITH_VIEWER)

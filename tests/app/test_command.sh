@@ -34,7 +34,7 @@ expect_done()
 }
 
 # ---- help and usage ---------------------------------------------------------------------------------
-for command in "" run place export info sources settings eval measure bench; do
+for command in "" run place export info sources settings calibrate eval measure bench; do
     # shellcheck disable=SC2086 # the empty one must vanish
     "$relief" $command --help >stdout.txt 2>stderr.txt || fail "$command --help: status $?"
     grep -q "usage: relief" stdout.txt || fail "$command --help: no usage"
@@ -59,6 +59,12 @@ expect_error 1 "no picture of frame 2: the last one was 1" run synthetic:room --
 [ "$(ls late)" = 000001.png ] || fail "run --picture-at 1,2: $(ls late)"
 expect_error 2 "frames" run synthetic:room --headless --frames ten
 expect_error 2 "relief settings" run synthetic:room --set smell=on
+expect_error 2 "needs --left DIR" calibrate
+expect_error 2 "COLUMNSxROWS" calibrate --left here --board 9
+expect_error 2 "not both" calibrate --left here synthetic:room
+export RELIEF_OPENCV_LIBRARY=/nowhere
+expect_error 1 "libopencv-calib3d-dev" calibrate synthetic:room
+unset RELIEF_OPENCV_LIBRARY
 expect_error 2 "off or on" run synthetic:room --set fill=maybe
 expect_error 2 "off or average or adaptive" measure synthetic:room --set background_method=lucky
 expect_error 2 "a count" export synthetic:room --set min_region_points=1.5

@@ -36,21 +36,6 @@ static void true_ball_bounces_exactly(void **state)
     rlf_source_destroy(&room);
 }
 
-static void throws_into_the_still_room_stay_in_it(void **state)
-{
-    (void)state;
-    for (int32_t lost = 0; lost <= 4; lost += 4) {
-        eval_throw_def def = {
-            .source = "synthetic:empty?color=0&frames=-1", .throws = 80, .lost = lost, .seed = 9};
-        eval_throws o;
-        assert_int_equal(eval_sensed_throw(&def, &o), RLF_OK);
-        assert_int_equal(o.thrown, 80);
-        assert_int_equal(o.tunnelled, 0);
-        assert_int_equal(o.not_finite, 0);
-        assert_true(o.fastest < 15.0);
-    }
-}
-
 /* The person is in the middle of the view from 1.5 s on. The thesis's method shows that there is
  * something to go wrong. */
 static void lost_frames_of_a_walking_person_let_nothing_through(void **state)
@@ -94,29 +79,6 @@ static void balls_bounce_as_they_truly_would(void **state)
     assert_true(thesis.right_nearby < 0.5 * (double)thesis.bounces);
 }
 
-static void backs_and_book_edges_turn_most_back(void **state)
-{
-    (void)state;
-    eval_throw_def behind = {.source = "synthetic:room?color=0&frames=-1",
-                             .aim = EVAL_AIM_BEHIND,
-                             .throws = 120,
-                             .seed = 9};
-    eval_throw_def edge = {.source = "synthetic:book?color=0&frames=-1",
-                           .aim = EVAL_AIM_EDGE,
-                           .throws = 120,
-                           .seed = 9};
-    eval_throws o;
-    assert_int_equal(eval_sensed_throw(&behind, &o), RLF_OK);
-    print_message("behind: %d of 120 bounced, %d passed\n", (int)o.bounced, (int)o.passed);
-    assert_true(o.bounced >= 114);
-    assert_int_equal(eval_sensed_throw(&edge, &o), RLF_OK);
-    print_message("edge: %d of 120 bounced, %d passed\n", (int)o.bounced, (int)o.passed);
-    assert_true(o.bounced >= 116);
-    edge.profile = RLF_PROFILE_THESIS;
-    assert_int_equal(eval_sensed_throw(&edge, &o), RLF_OK);
-    assert_true(o.bounced < 30);
-}
-
 static void trays_lift_and_boards_push(void **state)
 {
     (void)state;
@@ -152,10 +114,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(true_ball_bounces_exactly),
-        cmocka_unit_test(throws_into_the_still_room_stay_in_it),
         cmocka_unit_test(lost_frames_of_a_walking_person_let_nothing_through),
         cmocka_unit_test(balls_bounce_as_they_truly_would),
-        cmocka_unit_test(backs_and_book_edges_turn_most_back),
         cmocka_unit_test(trays_lift_and_boards_push),
         cmocka_unit_test(rest_is_rest_and_lost_support_is_lost),
     };

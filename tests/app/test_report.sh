@@ -25,7 +25,7 @@ opencv B_normals_FALS_w5 512 424 1 900 900 900 30
 Q opencv B_normals_FALS_w5 512 424 1 interior_wrong_over30deg_pct 15.5
 END
 "$relief" eval --scene planes --seeds 2 --json data/eval.json >/dev/null 2>&1
-"$relief" bench --quick --frames 6 --peers peers.txt --json data/bench.json >/dev/null 2>&1
+"$relief" bench --source "synthetic:room?color=96x54" --quick --frames 6 --peers peers.txt --json data/bench.json >/dev/null 2>&1
 "$relief" measure "synthetic:thesis?frames=12" --json data/table.json >/dev/null
 "$relief" measure synthetic:empty --noise --frames 2 --json data/noise_0.json >/dev/null
 "$relief" run synthetic:room --headless --quiet --frames 16 --log data/log --picture-at 7 \

@@ -62,16 +62,5 @@ if(NOT RELIEF_SANITIZE)
               -DWORK=${CMAKE_CURRENT_BINARY_DIR}/shared -DCONSUMER=${house}/consumer
               -DCC=${CMAKE_C_COMPILER} -DGENERATOR=${CMAKE_GENERATOR}
               -DWITH_IO=$<TARGET_EXISTS:relief_io> -DWITH_GL=$<TARGET_EXISTS:relief_gl>
-              -DWITH_APP=$<TARGET_EXISTS:relief_app> -P ${house}/shared.cmake)
+              -DWITH_APP=NO -P ${house}/shared.cmake)
 endif()
-
-# The core needs a C compiler and nothing else: built without pkg-config and with every option off;
-# not optimised, which takes a third of the time.
-house_check(minimal ${CMAKE_CTEST_COMMAND} --build-and-test ${PROJECT_SOURCE_DIR}
-            ${CMAKE_CURRENT_BINARY_DIR}/minimal --build-generator ${CMAKE_GENERATOR}
-            --build-options -DCMAKE_C_COMPILER=${CMAKE_C_COMPILER} -DCMAKE_BUILD_TYPE=Debug
-            -DCMAKE_C_FLAGS_DEBUG=-O0
-            -DPKG_CONFIG_EXECUTABLE=PKG_CONFIG_EXECUTABLE-NOTFOUND -DRELIEF_WITH_IO=OFF
-            -DRELIEF_WITH_VIDEO=OFF -DRELIEF_WITH_GL=OFF -DRELIEF_WITH_VIEWER=OFF
-            -DRELIEF_BUILD_APP=OFF -DRELIEF_BUILD_BENCH=OFF -DRELIEF_BUILD_TESTS=OFF
-            -DRELIEF_WERROR=${RELIEF_WERROR} --test-command examples/hello_bounce)

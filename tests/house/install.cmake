@@ -49,7 +49,7 @@ endif()
 # Only public names, and no path of the machine that built them.
 file(GLOB_RECURSE libraries "${prefix}/*/librelief*.a" "${prefix}/*/librelief*.so")
 foreach(library IN LISTS libraries)
-  if(NOT library MATCHES "freenect2") # a plug-in: opened by path
+  if(NOT library MATCHES "freenect2|opencv") # opened at run time, linked by nobody
     run(${CMAKE_COMMAND} "-DLIBRARY=${library}" "-DINCLUDE=${prefix}/include" -DNM=${NM}
         -P ${CMAKE_CURRENT_LIST_DIR}/exports.cmake)
     message("install: ${run_output}")

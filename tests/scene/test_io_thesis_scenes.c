@@ -78,8 +78,8 @@ static outcome play(const char *room, const char *scene, rlf_profile profile, in
 static void hand_and_arm_turn_a_thrown_cube_back(void **state)
 {
     (void)state;
-    outcome hand = play("synthetic:room?color=0", "hand", RLF_PROFILE_LIVE, 170);
-    assert_true(hand.high.z < 2.6 && hand.foreground_contacts > 0);
+    outcome hand = play("synthetic:room?color=0", "hand", RLF_PROFILE_LIVE, heavy(170, 60));
+    assert_true(!heavy_is_whole() || (hand.high.z < 2.6 && hand.foreground_contacts > 0));
     if (!heavy_is_whole()) {
         return;
     }
@@ -155,7 +155,7 @@ static void visitor_hides_the_farther_of_two_cubes(void **state)
         rlf_pipeline_output out;
         int hidden = 0, shown = 0;
         double front_min = 1.0;
-        for (int i = 0; i < heavy(150, 40) && rlf_pipeline_step(r.pipeline, &out) == RLF_OK; i++) {
+        for (int i = 0; i < heavy(150, 20) && rlf_pipeline_step(r.pipeline, &out) == RLF_OK; i++) {
             front_min = rlf_min(front_min, alpha_at(&out, 0));
             double behind = alpha_at(&out, 1);
             hidden += behind < 0.02;

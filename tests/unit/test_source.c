@@ -25,6 +25,8 @@ static rlf_result counter_next(void *self, rlf_frame *out)
     }
     out->sequence = (uint64_t)c->frame++;
     out->depth_u16 = c->depth;
+    out->depth_stride = 4;
+    out->depth_units_per_metre = 1000;
     return RLF_OK;
 }
 
@@ -119,10 +121,54 @@ static void a_bad_camera_is_named_and_self_is_kept(void **state)
     assert_int_equal(c.destroyed, 0);
 }
 
+static uint16_t seen_depth[4];
+
+static void see(void *context, const rlf_frame *frame)
+{
+    (void)context;
+    memcpy(seen_depth, frame->depth_u16, sizeof(seen_depth));
+}
+
+static rlf_frame_fn observer;
+static void *observer_context;
+
+static void counter_observe(void *self, rlf_frame_fn fn, void *context)
+{
+    (void)self;
+    observer = fn;
+    observer_context = context;
+}
+
+/* A sensor that measures 24 mm too far: frames come without them, missing stays missing, and the
+ * device's own plane stays as it is. */
+static void the_depth_offset_is_taken_away(void **state)
+{
+    (void)state;
+    counter c = {.limit = 3, .depth = {1000, 0, 10, 65535}};
+    rlf_source_info info = make_info();
+    info.rig.depth_offset_m = 0.024;
+    rlf_source_methods methods = {.next = counter_next, .observe = counter_observe};
+    rlf_source *source = NULL;
+    assert_int_equal(rlf_source_create_custom(&methods, &info, &c, &source), RLF_OK);
+    rlf_frame frame;
+    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    const uint16_t expected[4] = {976, 0, 0, 65511};
+    assert_memory_equal(frame.depth_u16, expected, sizeof(expected));
+    assert_int_equal(c.depth[0], 1000);
+    assert_true(rlf_source_observe(source, see, NULL));
+    const rlf_frame raw = {.depth_u16 = c.depth, .depth_stride = 4, .depth_units_per_metre = 1000};
+    observer(observer_context, &raw);
+    assert_memory_equal(seen_depth, expected, sizeof(expected));
+    assert_true(rlf_source_observe(source, NULL, NULL));
+    assert_null(observer);
+    rlf_source_destroy(&source);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_come_in_order_with_the_rig),
+        cmocka_unit_test(the_depth_offset_is_taken_away),
         cmocka_unit_test(optional_methods_may_be_missing),
         cmocka_unit_test(a_bad_camera_is_named_and_self_is_kept),
     };

@@ -81,24 +81,35 @@ static void add_sample(const job *j, const synth_candidates *candidates, const s
     p->own_count += is_own;
 }
 
-/* A pixel all of whose corners show the part that its middle shows. */
-static bool is_whole(const job *j, const synth_candidates *candidates, int32_t x, int32_t y,
-                     int32_t part)
+/* The parts that the corners of a tile's pixels show: four pixels share a corner. */
+typedef struct corners {
+    int32_t part[SYNTH_TILE + 1][SYNTH_TILE + 1];
+} corners;
+
+static void cast_corners(const job *j, const synth_candidates *candidates, synth_rect tile,
+                         corners *out)
 {
-    for (int k = 0; k < 4; k++) {
-        const synth_ray corner = synth_view_ray(&j->color->view, x + ((k & 1) != 0 ? 0.5 : -0.5),
-                                                y + ((k & 2) != 0 ? 0.5 : -0.5));
-        if (synth_cast(j->scene, candidates, &corner).part != part) {
-            return false;
+    for (int32_t y = 0; y <= tile.y1 - tile.y0; y++) {
+        for (int32_t x = 0; x <= tile.x1 - tile.x0; x++) {
+            const synth_ray ray =
+                synth_view_ray(&j->color->view, tile.x0 + x - 0.5, tile.y0 + y - 0.5);
+            out->part[y][x] = synth_cast(j->scene, candidates, &ray).part;
         }
     }
-    return true;
+}
+
+/* Do all corners of pixel x, y of the tile show the part? */
+static bool is_whole(const corners *c, int32_t x, int32_t y, int32_t part)
+{
+    return c->part[y][x] == part && c->part[y][x + 1] == part && c->part[y + 1][x] == part &&
+           c->part[y + 1][x + 1] == part;
 }
 
 /* Depth and floor light come from the pixel's middle; the colour is the mean of 2 x 2 samples, and
  * of 16 in different rows and columns where an edge runs through. What sees the same part shares
  * its light. */
-static void cast_pixel(const job *j, const synth_candidates *candidates, int32_t x, int32_t y)
+static void cast_pixel(const job *j, const synth_candidates *candidates, const corners *c,
+                       synth_rect tile, int32_t x, int32_t y)
 {
     synth_ray middle = synth_view_ray(&j->color->view, x, y);
     pixel p = {.hit = synth_cast(j->scene, candidates, &middle), .own_count = 1, .other = {-1, 0}};
@@ -111,7 +122,7 @@ static void cast_pixel(const job *j, const synth_candidates *candidates, int32_t
     synth_site site = site_of(part, &middle, p.hit.t);
     p.light = light_at(j, &site);
     p.own = multiply(p.light.light, albedo_at(part, &middle, p.hit.t));
-    const int32_t side = is_whole(j, candidates, x, y, p.hit.part) ? 2 : 4;
+    const int32_t side = is_whole(c, x - tile.x0, y - tile.y0, p.hit.part) ? 2 : 4;
     for (int32_t k = 0; k < side * side; k++) {
         const double u = (k % side + 0.5) / side - 0.5;
         const double v = (k / side + 0.5) / side - 0.5;
@@ -138,9 +149,11 @@ static void cast_tiles(void *context, int32_t begin, int32_t end, int32_t worker
             tile = synth_rect_grow(tile, 0, camera);
             synth_candidates candidates;
             synth_tile_candidates(j->scene, j->static_count, &j->color->view, tile, &candidates);
+            corners shown;
+            cast_corners(j, &candidates, tile, &shown);
             for (int32_t y = tile.y0; y < tile.y1; y++) {
                 for (int32_t x = tile.x0; x < tile.x1; x++) {
-                    cast_pixel(j, &candidates, x, y);
+                    cast_pixel(j, &candidates, &shown, tile, x, y);
                 }
             }
         }
