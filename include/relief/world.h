@@ -86,7 +86,7 @@ typedef struct rlf_world_def {
                                   (Algorithm 1: "while x(t) is within the scene"); default +-20 m */
     rlf_border border;         /* live: what the background is beyond the view; default open */
     bool enable_grab; /* live: bodies between fingers, or hands, that close on them are held
-                         until these open; default true */
+                         until these open; default false */
     rlf_pool *pool;   /* borrowed; NULL = one thread */
 } rlf_world_def;
 

@@ -18,7 +18,6 @@ rlf_world_def rlf_world_def_default(void)
         .contact_capacity = 16384,
         .step_hz = 240,
         .max_speed = 50,
-        .enable_grab = true,
         .bounds = {{-20, -20, -20}, {20, 20, 20}},
     };
     return def;

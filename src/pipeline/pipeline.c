@@ -473,14 +473,3 @@ rlf_world *rlf_pipeline_get_world(rlf_pipeline *p)
 {
     return RLF_ASSERT(p != NULL) ? p->world : NULL;
 }
-
-rlf_result rlf_pipeline_set_hands(rlf_pipeline *p, bool is_on)
-{
-    return RLF_ASSERT(p != NULL) ? hand_stage_set(&p->hands, &p->compositor_def.grid, is_on)
-                                 : RLF_ERROR_INVALID;
-}
-
-const rlf_hands *rlf_pipeline_hands(const rlf_pipeline *p)
-{
-    return RLF_ASSERT(p != NULL) ? p->hands.last : NULL;
-}

@@ -8,8 +8,6 @@
 
 #include "grid_hand.h"
 
-#include <math.h>
-
 #define FRAME (1.0 / 30)
 #define TABLE 0.30 /* y of its top, metres: y is down */
 
@@ -26,6 +24,7 @@ static rlf_world *make_world(const rlf_shape *shape, rlf_vec3 at, rlf_body_id *i
 {
     rlf_world_def def = rlf_world_def_default();
     def.body_capacity = 8;
+    def.enable_grab = true;
     rlf_world *world = NULL;
     assert_int_equal(rlf_world_create(&def, &world), RLF_OK);
     rlf_body_def body = rlf_body_def_default();
@@ -77,12 +76,6 @@ static void run_grasp(const grasp *g)
         rlf_world_advance(world, &fixture->grid, FRAME);
         const rlf_body_state *body = state_of(world);
         rlf_vec3 now = rlf_sub(body->T_world_body.p, hand.place);
-        if (getenv("GRAB_TRACE")) {
-            print_message(
-                "%3d open %.2f gap %.3f held %d off %6.1f %6.1f %6.1f mm v %.2f %.2f %.2f\n", frame,
-                open, hand.gap, body->is_grabbed, 1e3 * now.x, 1e3 * now.y, 1e3 * now.z,
-                body->velocity.x, body->velocity.y, body->velocity.z);
-        }
         held += body->is_grabbed;
         first = first < 0 && body->is_grabbed ? frame : first;
         if (frame == 22) {
@@ -98,7 +91,7 @@ static void run_grasp(const grasp *g)
                   first, 1e3 * slip, drop);
     assert_true(slip < 0.005);
     assert_true(!state_of(world)->is_grabbed);
-    assert_true(drop > 0.15);
+    assert_true(drop > 0.15); /* let go where the hand opened */
     rlf_world_destroy(&world);
     grid_fixture_destroy(&fixture);
 }
@@ -108,13 +101,10 @@ static void hands_lift_carry_and_let_go(void **state)
     (void)state;
     const rlf_shape cube = {.type = RLF_SHAPE_BOX, .size = {0.06, 0.06, 0.06}};
     const rlf_shape large = {.type = RLF_SHAPE_BOX, .size = {0.12, 0.12, 0.12}};
-    const rlf_vec3 down = {0, 1, 0}, left = {-1, 0, 0}, right = {1, 0, 0}, away = {0, 0, 1};
+    const rlf_vec3 down = {0, 1, 0}, right = {1, 0, 0}, away = {0, 0, 1};
     const grasp all[] = {
-        {"from above", down, right, cube, 0.06, 0.0},
         {"from above, noisy", down, right, cube, 0.06, 0.0015},
         {"from above, thumb before it", down, away, cube, 0.06, 0.0015},
-        {"from the right, thumb before it", left, away, cube, 0.06, 0.0015},
-        {"from the camera", away, right, cube, 0.06, 0.0015},
         {"large, from above", down, right, large, 0.12, 0.0015},
     };
     for (size_t i = 0; i < sizeof(all) / sizeof(all[0]); i++) {
@@ -122,10 +112,34 @@ static void hands_lift_carry_and_let_go(void **state)
     }
 }
 
+/* One finger that pushes a cube across the table holds nothing. */
+static void what_pushes_does_not_hold(void **state)
+{
+    (void)state;
+    const rlf_shape cube = {.type = RLF_SHAPE_BOX, .size = {0.06, 0.06, 0.06}};
+    grid_fixture *fixture = grid_fixture_create();
+    grid_plane room[2] = {grid_floor(TABLE), grid_wall(2)};
+    grid_fixture_set_room(fixture, room, 2);
+    rlf_vec3 start = {-0.1, TABLE - 0.03, 1.0};
+    rlf_world *world = make_world(&cube, start, NULL);
+    grid_hand hand = {.along = {0, 1, 0}, .across = {1, 0, 0}, .gap = 0.1, .is_one = true};
+    for (int frame = 0; frame < 45; frame++) {
+        hand.place = rlf_add(start, rlf_vec3_make(0.3 * frame * FRAME, 0, 0));
+        hand.velocity = rlf_vec3_make(0.3, 0, 0);
+        grid_hand_see(fixture, &hand, frame);
+        rlf_world_advance(world, &fixture->grid, FRAME);
+        assert_true(!state_of(world)->is_grabbed);
+    }
+    assert_true(state_of(world)->T_world_body.p.x > start.x + 0.2); /* it was pushed */
+    rlf_world_destroy(&world);
+    grid_fixture_destroy(&fixture);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hands_lift_carry_and_let_go),
+        cmocka_unit_test(what_pushes_does_not_hold),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,6 +27,7 @@ static rlf_result open_pipeline(hands_run *run)
 {
     rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_LIVE, run->source, NULL);
     def.enable_render = false;
+    def.world.enable_grab = true;
     def.world.gravity = rlf_scale(run->down, rlf_length(def.world.gravity));
     return rlf_pipeline_create(&def, &run->pipeline);
 }

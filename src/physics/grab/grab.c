@@ -14,21 +14,14 @@
 #define PAST_SPEED 0.3
 /* A body that passes the sides faster is not held by them yet, m/s. */
 #define CATCH_SPEED 0.6
-/* A held side may come off so much farther than what touches at first: a factor. */
-#define KEEP_FACTOR 2.0
+/* Sides that are so much farther apart than they were have let go, metres. */
+#define OPEN_M GRID_NOISE_M
+/* Sides that come nearer are believed so far in one frame: a share. */
+#define TRUST 0.25
+/* Fingers that come nearer by more in a frame are not closed yet, metres. */
+#define CLOSING_M (0.5 * GRID_MARGIN)
 #define KEEP_PIXELS 2.0
 #define HAND_POINTS_MIN 12
-
-static bool is_touched(const phys_body *body, double tolerance)
-{
-    for (int32_t i = 0; i < body->surface_count; i++) {
-        const phys_contact *c = &body->surface[i];
-        if (c->other == RLF_CONTACT_FOREGROUND && c->separation < tolerance) {
-            return true;
-        }
-    }
-    return false;
-}
 
 /* Whether the two sides move as one hand that does not open, and the body with it. */
 static bool moves_as_one(const grab_grip *grip, rlf_vec3 body_v)
@@ -65,6 +58,7 @@ static void begin(rlf_world *world, const grid_query *query, phys_body *body, co
     grab->axis = grip->axis;
     grab->ends[0] = grip->sides[0].point;
     grab->ends[1] = grip->sides[1].point;
+    grab->width = grip->sides[0].off + grip->sides[1].off;
     grab_learn_hand(query, body, grab);
     grab->is_used = grab->point_count >= HAND_POINTS_MIN;
     if (grab->is_used) {
@@ -76,32 +70,42 @@ static void begin(rlf_world *world, const grid_query *query, phys_body *body, co
 static void seek(rlf_world *world, const grid_query *query, phys_body *body)
 {
     grab_touches touches;
-    grab_grip grip;
+    grab_grip grip = {.axis = {0, 0, 0}};
     double tolerance = grab_tolerance(query, body->x);
     bool is_gripped = false;
-    if (is_touched(body, tolerance)) {
+    if (grid_collide_prepare(query, body)) {
         rlf_pose pose = phys_body_pose(body);
         grab_look(query, body, &pose, query->tau, tolerance, &touches);
         rlf_vec3 v = rlf_rotate(rlf_quat_conjugate(body->q), body->v);
         is_gripped = grab_find_grip(&touches, &grip) && moves_as_one(&grip, v);
     }
+    double width = is_gripped ? grip.sides[0].off + grip.sides[1].off : 0.0;
+    bool is_closed = is_gripped && width > body->grip_width - CLOSING_M;
     body->grip_frames = is_gripped ? body->grip_frames + 1 : 0;
-    if (body->grip_frames >= GRIP_FRAMES) {
+    body->grip_width = width;
+    if (body->grip_frames >= GRIP_FRAMES && is_closed) {
         body->grip_frames = 0;
         begin(world, query, body, &grip);
     }
 }
 
-/* Whether a side that does not touch any more was seen to go. */
-static bool is_side_open(const grid_query *query, phys_grab *grab, const grab_touches *touches,
-                         int32_t side, double tolerance)
+/* Whether the hand is seen to be open: its sides are farther apart than they were, or one that does
+ * not touch any more is not hidden. A body that is off the hand's middle is nearer to one side and
+ * farther from the other. */
+static bool is_open(const grid_query *query, phys_grab *grab, const grab_touches *touches,
+                    double tolerance)
 {
-    grab_patch patch = grab_side(touches, grab->axis, side == 0 ? -1.0 : 1.0);
-    if (patch.weight >= KEEP_PIXELS) {
+    double width = 0.0;
+    for (int32_t side = 0; side < 2; side++) {
+        grab_patch patch = grab_side(touches, grab->axis, side == 0 ? -1.0 : 1.0);
+        if (patch.weight < KEEP_PIXELS) {
+            return grab_is_seen_through(query, grab, grab->ends[side], tolerance);
+        }
         grab->ends[side] = patch.point;
-        return false;
+        width += patch.off;
     }
-    return grab_is_seen_through(query, grab, grab->ends[side], tolerance);
+    grab->width += TRUST * rlf_min(width - grab->width, 0.0); /* a flying pixel is no finger */
+    return width > grab->width + OPEN_M;
 }
 
 static void note_past(phys_grab *grab)
@@ -124,13 +128,12 @@ static bool hold(const grid_query *query, phys_body *body, double dt)
         return ++grab->lost_frames < LOST_FRAMES;
     }
     grab->lost_frames = 0;
-    double tolerance = KEEP_FACTOR * grab_tolerance(query, grab->T_world_hand.p);
+    double tolerance = OPEN_M + grab_tolerance(query, grab->T_world_hand.p);
     grab_touches touches;
     grab_look(query, body, &grab->T_world_hand, 0.0, tolerance, &touches);
-    bool is_open = is_side_open(query, grab, &touches, 0, tolerance);
-    is_open = is_side_open(query, grab, &touches, 1, tolerance) || is_open;
-    grab->open_frames = is_open ? grab->open_frames + 1 : 0;
-    if (!is_open) {
+    bool has_opened = is_open(query, grab, &touches, tolerance);
+    grab->open_frames = has_opened ? grab->open_frames + 1 : 0;
+    if (!has_opened) {
         note_past(grab);
     }
     /* What does not come along is held by something stronger. */

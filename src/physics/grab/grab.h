@@ -32,6 +32,7 @@ struct phys_grab {
     rlf_vec3 axis;         /* unit, from the first to the second, hand frame */
     rlf_vec3 past_v[GRAB_PAST], past_w[GRAB_PAST]; /* the newest first */
     int32_t past_count;
+    double width; /* the least that its sides have been off the body, both together, metres */
     int32_t open_frames; /* in a row in which a side was seen to be gone */
     int32_t lost_frames; /* ... in which the hand was not found */
     int32_t point_count, rim_count;
@@ -43,6 +44,7 @@ struct phys_grab {
  * frame. */
 typedef struct grab_patch {
     rlf_vec3 point, normal, velocity; /* normal: the body's, outward */
+    double off;                       /* m from the body, of the pixel that is nearest */
     double weight;
 } grab_patch;
 

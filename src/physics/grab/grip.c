@@ -19,13 +19,13 @@ static grab_patch mean_of(const grab_patch *sum)
 {
     double scale = 1.0 / rlf_max(sum->weight, 1.0);
     grab_patch mean = {rlf_scale(sum->point, scale), rlf_scale(sum->normal, scale),
-                       rlf_scale(sum->velocity, scale), sum->weight};
+                       rlf_scale(sum->velocity, scale), sum->off, sum->weight};
     return mean;
 }
 
 grab_patch grab_side(const grab_touches *touches, rlf_vec3 axis, double sign)
 {
-    grab_patch sum = {.weight = 0.0};
+    grab_patch sum = {.off = 1.0};
     rlf_vec3 outward = rlf_scale(axis, sign);
     for (int32_t i = 0; i < touches->count; i++) {
         const grab_patch *patch = &touches->patches[i];
@@ -33,6 +33,7 @@ grab_patch grab_side(const grab_touches *touches, rlf_vec3 axis, double sign)
             sum.point = rlf_add(sum.point, patch->point);
             sum.normal = rlf_add(sum.normal, patch->normal);
             sum.velocity = rlf_add(sum.velocity, patch->velocity);
+            sum.off = rlf_min(sum.off, patch->off);
             sum.weight += patch->weight;
         }
     }

@@ -5,6 +5,8 @@
 #define SAMPLES_PER_SIDE 48
 /* A finger, or a hand laid flat, is no thicker, whatever the guess, metres. */
 #define FINGER_M 0.03
+/* The camera loses so much of an outline, pixels. */
+#define RIM_PX 3.0
 /* What is seen so deep in a body, a share of its inner radius, goes through it. */
 #define DEEP_SHARE 0.6
 /* Places on a body that are one patch: cosine between normals, and share of the radius. */
@@ -22,10 +24,11 @@ typedef struct look_job {
 double grab_tolerance(const grid_query *query, rlf_vec3 x)
 {
     rlf_vec3 p = rlf_transform(&query->T_grid_world, x);
-    return GRID_MARGIN + rlf_max(p.z, 0.0) * query->grid->pixel_angle;
+    return GRID_MARGIN + RIM_PX * rlf_max(p.z, 0.0) * query->grid->pixel_angle;
 }
 
-static void add_touch(look_job *job, rlf_vec3 point, rlf_vec3 normal, rlf_vec3 velocity)
+static void add_touch(look_job *job, rlf_vec3 point, rlf_vec3 normal, double distance,
+                      rlf_vec3 velocity)
 {
     grab_touches *out = job->out;
     double near = PATCH_SHARE * job->shape->radius;
@@ -43,12 +46,21 @@ static void add_touch(look_job *job, rlf_vec3 point, rlf_vec3 normal, rlf_vec3 v
     }
     if (patch == NULL) {
         patch = &out->patches[out->count++];
-        *patch = (grab_patch){.weight = 0.0};
+        *patch = (grab_patch){.off = distance};
     }
     patch->point = rlf_add(patch->point, point);
     patch->normal = rlf_add(patch->normal, normal);
     patch->velocity = rlf_add(patch->velocity, velocity);
+    patch->off = rlf_min(patch->off, distance);
     patch->weight += 1.0;
+}
+
+/* Whether all of the body is before the face that is seen there: what it lies on presses on it
+ * squarely, even beside its edge. */
+static bool bears(const look_job *job, const field_cell *cell, rlf_vec3 p)
+{
+    rlf_vec3 normal = rlf_rotate(rlf_quat_conjugate(job->T_grid_body.q), cell->normal);
+    return -rlf_dot(normal, p) >= job->shape->inner_radius - job->tolerance;
 }
 
 /* The seen point itself touches, or the solid behind it does: its place nearest to the body, or
@@ -77,8 +89,11 @@ static void look_at(look_job *job, const field_cell *cell)
         p = rlf_mad(p, way, level);
         distance = phys_shape_distance(shape, p, &gradient);
     }
+    if (distance <= job->tolerance && bears(job, cell, p)) {
+        gradient = rlf_neg(rlf_rotate(to_body, cell->normal));
+    }
     if (distance <= job->tolerance) {
-        add_touch(job, rlf_mad(p, gradient, -distance), gradient, velocity);
+        add_touch(job, rlf_mad(p, gradient, -distance), gradient, distance, velocity);
     }
 }
 
