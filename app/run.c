@@ -217,6 +217,24 @@ static const char *const *view_names(void)
         .name = "no-panel", .kind = OPTION_FLAG, .out = &(o)->window.hides_panel                   \
     }
 
+/* Rows of the table that say which pictures are kept. */
+#define PICTURE_OPTIONS(out)                                                                       \
+    {.name = "pictures", .kind = OPTION_TEXT, .out = &(out)->picture_folder},                      \
+        {.name = "picture-every",                                                                  \
+         .kind = OPTION_INT64,                                                                     \
+         .out = &(out)->picture_every,                                                             \
+         .low = 1,                                                                                 \
+         .high = 1000000},                                                                         \
+        {.name = "picture-at",                                                                     \
+         .kind = OPTION_CHOICE,                                                                    \
+         .out = (out),                                                                             \
+         .take = take_picture_frames,                                                              \
+         .choices = "use up to 16 frame numbers"},                                                 \
+    {                                                                                              \
+        .name = "picture-shrink", .kind = OPTION_INT32, .out = &(out)->picture_shrink, .low = 1,   \
+        .high = 64                                                                                 \
+    }
+
 static int read_options(int argc, char **argv, run_options *o)
 {
     session_options *s = &o->session;
@@ -237,22 +255,7 @@ static int read_options(int argc, char **argv, run_options *o)
          .low = 1,
          .high = 1000000000},
         {.name = "video", .kind = OPTION_TEXT, .out = &out->video_path},
-        {.name = "pictures", .kind = OPTION_TEXT, .out = &out->picture_folder},
-        {.name = "picture-every",
-         .kind = OPTION_INT64,
-         .out = &out->picture_every,
-         .low = 1,
-         .high = 1000000},
-        {.name = "picture-at",
-         .kind = OPTION_CHOICE,
-         .out = out,
-         .take = take_picture_frames,
-         .choices = "use up to 16 frame numbers"},
-        {.name = "picture-shrink",
-         .kind = OPTION_INT32,
-         .out = &out->picture_shrink,
-         .low = 1,
-         .high = 64},
+        PICTURE_OPTIONS(out),
         {.name = "hands", .kind = OPTION_FLAG, .out = &s->enable_hands},
         {.name = "log", .kind = OPTION_TEXT, .out = &out->log_folder},
         {.name = "record", .kind = OPTION_TEXT, .out = &s->record.path},

@@ -118,8 +118,13 @@ static void add_rows(rlf_legend *legend, rlf_view view, const rlf_rig *rig)
         break;
     case RLF_VIEW_CONTACTS: add_contacts(legend); break;
     case RLF_VIEW_KNOWN: add(legend, soft_color_known(), "model of a real thing"); break;
-    case RLF_VIEW_CAMERA:
     case RLF_VIEW_HANDS:
+        add(legend, soft_rgb(120, 255, 120), "palm of a hand");
+        add(legend, soft_rgb(150, 150, 150), "rather no hand");
+        add(legend, soft_rgb(255, 90, 90), "finger tip");
+        add(legend, soft_rgb(255, 230, 60), "pinch");
+        break;
+    case RLF_VIEW_CAMERA:
     case RLF_VIEW_COUNT: break;
     }
 }

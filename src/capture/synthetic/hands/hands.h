@@ -129,6 +129,7 @@ void synth_hands_script_grasp(synth_hands *hands, synth_draw *d);
 void synth_hands_script_gesture(synth_hands *hands, synth_draw *d);
 /* pass.c */
 void synth_hands_script_pass(synth_hands *hands, synth_draw *d);
+/* pose.c */
 /* Where a hand waits before and after: beside the body. */
 rlf_pose synth_hands_home(const synth_hands *hands, int32_t track);
 /* The body of the task as a solid, in the frame that T_body maps to. */

@@ -1,17 +1,8 @@
-/* What is true of the hands and their script, and the names of acts. */
+/* What is true of the hands and their script. */
 #include "capture/synthetic/bones.h"
 #include "capture/synthetic/sensor.h"
 
 #include <stddef.h>
-
-static const char *const act_names[RLF_SYNTHETIC_ACT_COUNT] = {
-    "pinch_above", "pinch_side", "fist_bar", "two_hands", "scoop", "under", "throw", "pass",
-    "open",        "fist",       "pinch",    "point",     "flat",  "swipe", "wave"};
-
-const char *rlf_synthetic_act_name(rlf_synthetic_act act)
-{
-    return (int)act >= 0 && act < RLF_SYNTHETIC_ACT_COUNT ? act_names[act] : NULL;
-}
 
 static const synth_hands *hands_of(const rlf_source *source)
 {
