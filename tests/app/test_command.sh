@@ -61,7 +61,7 @@ expect_error 2 "did you mean 'export'" help exprt
 expect_error 2 "'--viw': did you mean '--view'" run synthetic:room --viw camera
 expect_error 2 "'--pict' may be one of --pictures --picture-every" run synthetic:room --pict here
 expect_error 2 "unknown option '-x'" run -xyz
-expect_error 2 "headless takes no value" run synthetic:room --headless=1
+expect_error 2 "headless takes no value" run "synthetic:room?color=96x54" --headless=1
 expect_error 2 "did you mean 'normals'? there are camera, depth" run synthetic:room --view depth,noraml
 expect_error 2 "views: there are camera, depth" run synthetic:room --view smell
 expect_error 2 "did you mean 'fill'" run synthetic:room --set fil=on
@@ -108,21 +108,21 @@ expect_done run synthetic:empty --headless --frames 1 --quiet --view depth --pic
 cmp -s plain/000000.png legend/000000.png && fail "--legend draws nothing"
 expect_error 2 "needs a SOURCE" run --headless
 expect_error 2 "live or thesis" run synthetic:room --profile both
-expect_error 2 "not a list of up to four views" run synthetic:room --headless --view smell
+expect_error 2 "not a list of up to four views" run "synthetic:room?color=96x54" --headless --view smell
 expect_error 2 "not a list of up to four views" run synthetic:room --view camera,depth,mesh,depth,camera
-expect_error 2 "YAW,PITCH" run synthetic:room --headless --view points --orbit 30
-expect_error 2 "YAW,PITCH" run synthetic:room --headless --view points --orbit 30,99
-expect_error 2 "X,Y,Z" run synthetic:room --headless --light 0,0,0
-expect_error 2 "use floor" run synthetic:room --headless --gravity down
-expect_done run synthetic:room --headless --frames 2 --gravity floor
+expect_error 2 "YAW,PITCH" run "synthetic:room?color=96x54" --headless --view points --orbit 30
+expect_error 2 "YAW,PITCH" run "synthetic:room?color=96x54" --headless --view points --orbit 30,99
+expect_error 2 "X,Y,Z" run "synthetic:room?color=96x54" --headless --light 0,0,0
+expect_error 2 "use floor" run "synthetic:room?color=96x54" --headless --gravity down
+expect_done run "synthetic:room?color=96x54" --headless --frames 2 --gravity floor
 grep -q "^gravity:  -\\?0.0[0-9], 9.81, -\\?0.0[0-9]" stdout.txt || fail "run --gravity floor: $(cat stdout.txt)"
-expect_error 2 "soft, hard, thesis or off" run synthetic:room --headless --occlusion maybe
-expect_error 2 "frames" run synthetic:room --headless --frames 0
-expect_error 2 "needs --pictures" run synthetic:room --headless --frames 2 --picture-at 1
-expect_error 1 "no picture of frame 2: the last one was 1" run synthetic:room --headless --frames 2 \
+expect_error 2 "soft, hard, thesis or off" run "synthetic:room?color=96x54" --headless --occlusion maybe
+expect_error 2 "frames" run "synthetic:room?color=96x54" --headless --frames 0
+expect_error 2 "needs --pictures" run "synthetic:room?color=96x54" --headless --frames 2 --picture-at 1
+expect_error 1 "no picture of frame 2: the last one was 1" run "synthetic:room?color=96x54" --headless --frames 2 \
     --picture-at 1,2 --pictures late
 [ "$(ls late)" = 000001.png ] || fail "run --picture-at 1,2: $(ls late)"
-expect_error 2 "frames" run synthetic:room --headless --frames ten
+expect_error 2 "frames" run "synthetic:room?color=96x54" --headless --frames ten
 expect_error 2 "relief settings" run synthetic:room --set smell=on
 expect_error 2 "needs --left DIR" calibrate
 expect_error 2 "COLUMNSxROWS" calibrate --left here --board 9
@@ -134,7 +134,7 @@ expect_error 2 "off or on" run synthetic:room --set fill=maybe
 expect_error 2 "off or average or adaptive" measure synthetic:room --set background_method=lucky
 expect_error 2 "a count" export synthetic:room --set min_region_points=1.5
 expect_error 2 "a number" eval --set depth_max_m=far
-expect_error 1 "depth_min_m is nan" run synthetic:room --headless --frames 1 --set depth_min_m=nan
+expect_error 1 "depth_min_m is nan" run "synthetic:room?color=96x54" --headless --frames 1 --set depth_min_m=nan
 expect_done settings synthetic:thesis
 grep -q "^steadying  *on  *off" stdout.txt || fail "settings: not listed"
 expect_error 2 "needs one SOURCE" info
@@ -162,13 +162,13 @@ expect_error 2 "A:B" export synthetic:room --out o --what depth --frames 5:3
 expect_error 1 "no_such_folder" run no_such_folder --headless
 expect_error 1 "synthetic" run synthetic:moon --headless
 expect_error 1 "seed" run "synthetic:room?seed=x" --headless
-expect_error 1 "missing.json" run synthetic:room --headless --scene missing.json
+expect_error 1 "missing.json" run "synthetic:room?color=96x54" --headless --scene missing.json
 printf '{"bodies": [{"shape": "box", "mass": NaN}]}' >nan.json
-expect_error 1 "nan.json" run synthetic:room --headless --scene nan.json
+expect_error 1 "nan.json" run "synthetic:room?color=96x54" --headless --scene nan.json
 printf '{"bodies": [{"shape": "box", "colour": [1, 0, 0]}]}' >unknown.json
-expect_error 1 "colour" run synthetic:room --headless --scene unknown.json
+expect_error 1 "colour" run "synthetic:room?color=96x54" --headless --scene unknown.json
 printf '{"spawn": [{"body": {}, "pattern": "heap", "count": 3}]}' >heap.json
-expect_error 1 "heap.json: spawn\[0\].pattern is \"heap\"" run synthetic:room --headless --scene heap.json
+expect_error 1 "heap.json: spawn\[0\].pattern is \"heap\"" run "synthetic:room?color=96x54" --headless --scene heap.json
 : >file
 echo '{"known_objects":[{"name":"crate","shape":"box","size":[0.34,0.22,0.26]}]}' >known.json
 room=synthetic:empty
@@ -187,17 +187,17 @@ expect_done place $room --scene known.json --object crate --out placed.json --pi
 grep -q "position     1.3[34]" stdout.txt || fail "place: the crate is elsewhere"
 expect_done run $room --scene placed.json --headless --frames 3 --view known --quiet
 expect_error 1 "profile live" run $room --scene placed.json --headless --frames 3 --profile thesis
-expect_error 1 "file" run synthetic:room --headless --frames 3 --log file/log
-expect_error 1 "file" run synthetic:room --headless --frames 3 --video file/video.y4m
+expect_error 1 "file" run "synthetic:room?color=96x54" --headless --frames 3 --log file/log
+expect_error 1 "file" run "synthetic:room?color=96x54" --headless --frames 3 --video file/video.y4m
 expect_error 1 "file" export synthetic:room --frames 0:2 --out file/out --what depth
 mkdir empty_folder
 expect_error 1 "camera.json" run empty_folder --headless
-expect_error 1 "frame 7" export "synthetic:room?frames=5" --frames 7:9 --out o --what depth
+expect_error 1 "frame 7" export "synthetic:room?color=96x54&frames=5" --frames 7:9 --out o --what depth
 find . -name '*.part' | grep -q . && fail "a .part file was left behind"
 
 # ---- what must come out ---------------------------------------------------------------------------------
 for profile in live thesis; do
-    expect_done run "synthetic:room?frames=12" --profile $profile --headless --video $profile.y4m \
+    expect_done run "synthetic:room?color=96x54&frames=12" --profile $profile --headless --video $profile.y4m \
         --pictures pictures_$profile --picture-every 5 --log log_$profile --hash
     [ -s $profile.y4m ] || fail "$profile: no video"
     [ "$(ls pictures_$profile)" = "000000.png
@@ -231,8 +231,8 @@ expect_done run synthetic:empty --scene spawn.json --headless --frames 2 --quiet
 [ "$(grep -c '^[01],[^,]*,n_[0-9]*,' log_spawn/bodies.csv)" -eq 3000 ] || fail "spawn: $(tail -n 1 log_spawn/bodies.csv)"
 
 # Without OpenGL, or a build without it, the soft renderer draws the same pictures and one line says so.
-expect_done run "synthetic:room?frames=4" --headless --renderer soft --quiet --pictures soft --picture-every 1
-__EGL_VENDOR_LIBRARY_DIRS=/nonexistent "$relief" run "synthetic:room?frames=4" --headless --renderer gl \
+expect_done run "synthetic:room?color=96x54&frames=4" --headless --renderer soft --quiet --pictures soft --picture-every 1
+__EGL_VENDOR_LIBRARY_DIRS=/nonexistent "$relief" run "synthetic:room?color=96x54&frames=4" --headless --renderer gl \
     --quiet --pictures no_gl --picture-every 1 >stdout.txt 2>stderr.txt || fail "no OpenGL: status $?"
 [ "$(wc -l <stderr.txt)" -eq 1 ] || fail "no OpenGL: not one line: $(cat stderr.txt)"
 grep -q "going on with the soft" stderr.txt || fail "no OpenGL: $(cat stderr.txt)"
@@ -244,7 +244,7 @@ expect_error 1 "has no end" measure "synthetic:thesis?frames=-1"
 expect_error 1 "too few frames" measure "synthetic:thesis?frames=4"
 expect_error 1 "no/table.json" measure synthetic:thesis --json no/table.json
 expect_error 1 "no/table.csv" measure synthetic:thesis --csv no/table.csv
-expect_error 1 "has no frames" measure "synthetic:room?frames=0" --noise
+expect_error 1 "has no frames" measure "synthetic:room?color=96x54&frames=0" --noise
 expect_done measure "synthetic:thesis?frames=12" --csv table.csv --json table.json
 [ "$(wc -l <table.csv)" -eq 9 ] || fail "measure: table.csv rows"
 grep -q '"cpu"' table.json || fail "measure: table.json names no machine"
@@ -253,7 +253,7 @@ grep -q "3392" stdout.txt || fail "measure: no full 64x53 grid"
 grep -q "2632" stdout.txt || fail "measure: no 56x47 centre"
 expect_error 2 "use 6 or more" measure synthetic:thesis --frames 5
 expect_error 2 "goes without" measure synthetic:empty --up --noise
-expect_error 1 "has no frames" measure "synthetic:room?frames=0" --up
+expect_error 1 "has no frames" measure "synthetic:room?color=96x54&frames=0" --up
 expect_done measure synthetic:empty --up --frames 2
 grep -q "looks down by 0.0 degrees" stdout.txt || fail "measure --up: $(cat stdout.txt)"
 expect_done measure synthetic:empty --noise --frames 2 --json noise.json
@@ -283,11 +283,11 @@ expect_error 1 "no_such.json" bench --compare no_such.json
 printf '{"rows": [{"group": "live_1", "na' >cut.json
 expect_error 1 "cut.json: is damaged" bench --compare cut.json
 expect_error 1 "peers.txt" bench --peers peers.txt
-expect_done bench --frames 2 --quick --json bench.json
+expect_done bench --source "synthetic:room?color=96x54" --frames 2 --quick --json bench.json
 grep -q "surface / floor" stdout.txt || fail "bench: $(cat stdout.txt)"
 grep -q '"isa"' bench.json || fail "bench: bench.json names no machine"
 grep -q '"surface/background"' bench.json || fail "bench: bench.json"
-expect_done bench --frames 1 --quick --compare bench.json
+expect_done bench --source "synthetic:room?color=96x54" --frames 1 --quick --compare bench.json
 grep -q "memory/whole .* 1.00$" stdout.txt || fail "bench --compare: $(cat stdout.txt)"
 
 expect_error 1 "no/clip.raw" bench --peer-clip no/clip.raw
@@ -296,13 +296,13 @@ head -n 1 clip.raw | head -c 11 | grep -q "512 424 60 " || fail "bench --peer-cl
 rm -f clip.raw clip.raw.gt
 
 # Same input, same bits, whatever the number of threads.
-"$relief" run "synthetic:room?frames=20" --headless --hash --threads 1 --quiet >hash1.txt
-"$relief" run "synthetic:room?frames=20" --headless --hash --threads 3 --quiet >hash3.txt
+"$relief" run "synthetic:room?color=96x54&frames=20" --headless --hash --threads 1 --quiet >hash1.txt
+"$relief" run "synthetic:room?color=96x54&frames=20" --headless --hash --threads 3 --quiet >hash3.txt
 grep -q "^hash [0-9a-f]\{16\}$" hash1.txt || fail "no hash: $(cat hash1.txt)"
 cmp -s hash1.txt hash3.txt || fail "hashes differ: $(cat hash1.txt hash3.txt)"
 
 printf '{"bodies": [{"name": "a", "shape": "sphere", "radius": 0.1, "position": [0, 0, 1.5]}]}' >one.json
-expect_done export "synthetic:room?frames=8" --scene one.json --frames 6:8 --out arrays --what \
+expect_done export "synthetic:room?color=96x54&frames=8" --scene one.json --frames 6:8 --out arrays --what \
     depth,points,normals,labels,foreground,velocity,thickness,reason,color,matte,composite,mesh,regions,true_depth,true_normals,true_labels,true_foreground,true_thickness,true_velocity,true_background,true_poses
 for name in depth points normals labels foreground velocity thickness reason color matte composite \
     true_depth true_normals true_labels true_foreground true_thickness true_velocity true_background; do
@@ -314,7 +314,7 @@ ls arrays/regions/000006_*.ply >/dev/null || fail "export: regions"
 [ -s arrays/true_poses.csv ] || fail "export: true_poses.csv"
 
 # Ctrl-C ends a run with whole files.
-"$relief" run "synthetic:room?frames=-1" --headless --video long.y4m --log long_log --quiet &
+"$relief" run "synthetic:room?color=96x54&frames=-1" --headless --video long.y4m --log long_log --quiet &
 pid=$!
 for wait in 1 2 3 4 5 6 7 8 9 10; do # until it is at work
     ls long.y4m.*.part >/dev/null 2>&1 && break
@@ -355,7 +355,7 @@ tail -n 1 stderr.txt | grep -q "nothing was written" || fail "interrupted before
 [ "$(cat early/frames.csv)" = old ] && [ ! -e early.y4m ] || fail "interrupted before the first frame: $(ls early)"
 
 # A terminal that is closed ends a run as Ctrl-C does; nohup keeps it from that.
-"$relief" run "synthetic:room?frames=-1" --headless --video hup.y4m --log hup_log --quiet &
+"$relief" run "synthetic:room?color=96x54&frames=-1" --headless --video hup.y4m --log hup_log --quiet &
 pid=$!
 for wait in 1 2 3 4 5 6 7 8 9 10; do
     ls hup.y4m.*.part >/dev/null 2>&1 && break
@@ -368,19 +368,19 @@ wait $pid
 ls ./*.part hup_log/*.part >/dev/null 2>&1 && fail "SIGHUP: .part left"
 
 # A limit on the size of files is a full disk.
-(ulimit -f 4 && exec "$relief" run "synthetic:room?frames=8" --headless --quiet --video limit.y4m) 2>stderr.txt
+(ulimit -f 4 && exec "$relief" run "synthetic:room?color=96x54&frames=8" --headless --quiet --video limit.y4m) 2>stderr.txt
 [ $? -eq 1 ] || fail "ulimit -f: status is not 1"
 grep -q "File too large" stderr.txt || fail "ulimit -f: $(cat stderr.txt)"
 ls ./*.part >/dev/null 2>&1 && fail "ulimit -f: .part left"
 
 # What a caller closed is nobody's file.
-"$relief" run "synthetic:room?frames=2" --headless --log closed --set smell=1 0<&- 1>&- 2>&-
-"$relief" run "synthetic:room?frames=2" --headless --gravity floor --log closed 0<&- 1>&- 2>&- || fail "closed streams: status $?"
+"$relief" run "synthetic:room?color=96x54&frames=2" --headless --log closed --set smell=1 0<&- 1>&- 2>&-
+"$relief" run "synthetic:room?color=96x54&frames=2" --headless --gravity floor --log closed 0<&- 1>&- 2>&- || fail "closed streams: status $?"
 head -n 1 closed/frames.csv | grep -q "^frame," || fail "closed streams: $(head -n 1 closed/frames.csv)"
 head -n 1 closed/contacts.csv | grep -q "^frame," || fail "closed streams: $(head -n 1 closed/contacts.csv)"
 
 # A video on standard output is a video from its first byte to its last.
-"$relief" run "synthetic:room?frames=2&color=64x36" --headless --video - --hash --record both.mcap >video.y4m 2>stderr.txt ||
+"$relief" run "synthetic:room?color=96x54&frames=2&color=64x36" --headless --video - --hash --record both.mcap >video.y4m 2>stderr.txt ||
     fail "video on stdout: status $?"
 grep -q "^hash [0-9a-f]\{16\}$" stderr.txt || fail "video on stdout: no hash: $(cat stderr.txt)"
 header=$(head -n 1 video.y4m | wc -c)
@@ -388,17 +388,17 @@ header=$(head -n 1 video.y4m | wc -c)
 
 # Two runs into one folder: every log is one run's.
 for run in 1 2 3; do
-    "$relief" run "synthetic:room?frames=$((2 * run))" --headless --quiet --threads 1 --log shared --video shared.y4m &
+    "$relief" run "synthetic:room?color=96x54&frames=$((2 * run))" --headless --quiet --threads 1 --log shared --video shared.y4m &
     eval "pid$run=$!"
 done
 # shellcheck disable=SC2154 # set by eval
 for pid in $pid1 $pid2 $pid3; do
     wait "$pid" || fail "one of three runs into one folder: status $?"
 done
-for log in frames bodies contacts; do
+for log in frames bodies contacts hands; do
     [ "$(awk -F, '{ print NF }' shared/$log.csv | sort -u | wc -l)" -eq 1 ] || fail "three runs into one folder: $log.csv is ragged"
 done
-[ "$(ls shared | wc -l)" -eq 3 ] || fail "three runs into one folder: $(ls shared)"
+[ "$(ls shared | wc -l)" -eq 4 ] || fail "three runs into one folder: $(ls shared)"
 
 if [ -e /dev/full ]; then
     for command in "run synthetic:empty?frames=1 --headless --quiet --hash" settings "info synthetic:empty --frames 1" --help "run --help"; do
@@ -407,7 +407,7 @@ if [ -e /dev/full ]; then
         [ $? -eq 1 ] || fail "$command >/dev/full: status is not 1"
         [ "$(wc -l <stderr.txt)" -eq 1 ] && grep -q "No space left" stderr.txt || fail "$command >/dev/full: $(cat stderr.txt)"
     done
-    "$relief" run "synthetic:room?frames=8" --headless --quiet --video - >/dev/full 2>stderr.txt
+    "$relief" run "synthetic:room?color=96x54&frames=8" --headless --quiet --video - >/dev/full 2>stderr.txt
     [ $? -eq 1 ] || fail "full disk: status is not 1"
     [ "$(wc -l <stderr.txt)" -eq 1 ] || fail "full disk: $(cat stderr.txt)"
 fi
