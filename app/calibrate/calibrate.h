@@ -11,7 +11,9 @@ typedef struct calibrate_options {
     const char *left, *right; /* folders of pictures; NULL = a source */
     const char *depth;        /* folder of depth pictures that go with `left`; NULL = none */
     const char *source;       /* NULL = folders */
+    const char *convert;      /* calibration file to write in another format; NULL = none */
     const char *out_path;     /* camera.json; NULL = only printed */
+    int32_t format;           /* of out_path, rlf_rig_format; -1 = by its name */
     const char *report;       /* folder; NULL = none */
     double units_per_metre;   /* of the depth pictures of folders */
     int32_t views;            /* of a source: enough */
@@ -49,6 +51,9 @@ rlf_result calibrate_finish(const calibrate_options *options, calibration *c);
 rlf_result calibrate_folders(const calibrate_options *options, calibration *c);
 rlf_result calibrate_source(const calibrate_options *options, calibration *c);
 rlf_result calibrate_camera_write(const calibrate_options *options, const calibration *c);
+/* Reads options->convert, writes options->out_path. */
+rlf_result calibrate_convert(const calibrate_options *options);
+bool calibrate_take_format(const char *text, void *out_int32);
 rlf_result calibrate_report(const calibrate_options *options, const calibration *c);
 void calibrate_print(const calibration *c);
 /* Only the views that are left out, and why. */

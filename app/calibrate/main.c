@@ -15,7 +15,8 @@ static void print_help(void)
 {
     printf(
         "usage: relief calibrate --left DIR [--right DIR] [OPTIONS]\n"
-        "       relief calibrate SOURCE [OPTIONS]\n\n"
+        "       relief calibrate SOURCE [OPTIONS]\n"
+        "       relief calibrate --convert FILE --out FILE [--as FORMAT]\n\n"
         "Finds focal lengths, principal points and lens distortion of both cameras, and where one\n"
         "is in the other's frame, from pictures of a flat board. 15 to 20 views are good: the\n"
         "board in every part of the picture, tilted by 20 to 40 degrees to all sides.\n\n"
@@ -39,6 +40,10 @@ static void print_help(void)
         "kept\n"
         "  --keep-outliers   leave no view out because it does not fit\n"
         "  --out FILE        write camera.json; else the result is only printed\n"
+        "  --convert FILE    read camera.json, or a calibration of ROS, OpenCV, Open3D or mrcal,\n"
+        "                    and write it as --out; \"DEPTH,COLOR\" are two files\n"
+        "  --as FORMAT       of --out: relief, ros, opencv, open3d or mrcal; else .yaml is ros,\n"
+        "                    .yml opencv, .cameramodel mrcal, and the rest camera.json\n"
         "  --report DIR      write DIR/index.html: coverage, residuals, pictures before and "
         "after\n\n"
         "examples:\n"
@@ -89,6 +94,11 @@ static int settle_board(calibrate_options *o, int_pair board, int_pair charuco)
 
 static int check(const calibrate_options *o, int arguments)
 {
+    if (o->convert != NULL) {
+        return o->out_path != NULL && o->left == NULL && arguments == 0
+                   ? -1
+                   : command_usage("calibrate", "--convert needs --out FILE, and no pictures");
+    }
     const bool has_folders = o->left != NULL || o->right != NULL;
     if (has_folders && o->left == NULL) {
         return command_usage("calibrate", "--right needs --left");
@@ -107,12 +117,19 @@ static int check(const calibrate_options *o, int arguments)
 static int parse(int argc, char **argv, calibrate_options *o)
 {
     int_pair board = {9, 6}, charuco = {0, 0};
-    *o = (calibrate_options){.board = {.square_m = 0.025}, .units_per_metre = 1000.0, .views = 20};
+    *o = (calibrate_options){
+        .board = {.square_m = 0.025}, .units_per_metre = 1000.0, .views = 20, .format = -1};
     const option_def options[] = {
         {.name = "left", .kind = OPTION_TEXT, .out = &o->left},
         {.name = "right", .kind = OPTION_TEXT, .out = &o->right},
         {.name = "depth", .kind = OPTION_TEXT, .out = &o->depth},
         {.name = "out", .kind = OPTION_TEXT, .out = &o->out_path},
+        {.name = "convert", .kind = OPTION_TEXT, .out = &o->convert},
+        {.name = "as",
+         .kind = OPTION_CHOICE,
+         .out = &o->format,
+         .take = calibrate_take_format,
+         .choices = "use relief, ros, opencv, open3d or mrcal"},
         {.name = "report", .kind = OPTION_TEXT, .out = &o->report},
         {.name = "units",
          .kind = OPTION_CHOICE,
@@ -189,6 +206,9 @@ int calibrate_main(int argc, char **argv)
     int status = parse(argc, argv, &options);
     if (status >= 0) {
         return status;
+    }
+    if (options.convert != NULL) {
+        return calibrate_convert(&options) == RLF_OK ? EXIT_DONE : command_failed();
     }
     calibration c = {.offset_m = NAN, .offset_deviation_m = NAN};
     rlf_result result = run(&options, &c);

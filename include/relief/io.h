@@ -59,8 +59,26 @@ RLF_API rlf_result rlf_plugin_load(const char *path);
  * frame is paired with the colour frame nearest in time (at most 50 ms away, else none). */
 RLF_API rlf_result rlf_folder_source_open(const char *path, rlf_source **out);
 
-/* Reads camera.json. Colour absent: has_color false. depth units go to *out_units_per_metre. */
+/* Reads camera.json, or a calibration of ROS (camera_info YAML), OpenCV (YAML), Open3D (pinhole
+ * JSON) or mrcal (.cameramodel); docs/calibration.md. "DEPTH,COLOR" are two files. Colour absent:
+ * has_color false. Counts a metre of the depth pictures go to *out_units_per_metre: 1000 where the
+ * file does not say. */
 RLF_API rlf_result rlf_rig_load(const char *path, rlf_rig *out, double *out_units_per_metre);
+
+/* Kinds of calibration file. */
+typedef enum rlf_rig_format {
+    RLF_RIG_RELIEF = 0, /* camera.json */
+    RLF_RIG_ROS = 1,    /* camera_info YAML; of a pair two files */
+    RLF_RIG_OPENCV = 2, /* YAML of FileStorage */
+    RLF_RIG_OPEN3D = 3, /* PinholeCameraIntrinsic; of a pair two files. Lens distortion is lost */
+    RLF_RIG_MRCAL = 4   /* .cameramodel; of a pair two files */
+} rlf_rig_format;
+
+/* Writes a calibration. Of a pair in two files STEM_depth.EXT and STEM_color.EXT are written for
+ * STEM.EXT. units_per_metre, the range (depth_max_m 0 = unknown), noise (all 0 = unknown) and
+ * `note` (NULL = none) go into camera.json only. */
+RLF_API rlf_result rlf_rig_save(const char *path, rlf_rig_format format, const rlf_rig *rig,
+                                double units_per_metre, const char *note);
 
 /* ---- recordings
  * ------------------------------------------------------------------------------------- */

@@ -1,5 +1,4 @@
 /* camera.json: the intrinsics of the depth and colour cameras and the transform between them. */
-#include "relief/io.h"
 #include "io/camera_json.h"
 #include "io/json.h"
 
@@ -227,7 +226,7 @@ static rlf_result read_rotation(const io_json_object *object, rlf_quat *out)
     return RLF_OK;
 }
 
-static rlf_result read_depth_to_color(const io_json_object *top, rlf_rig *rig)
+rlf_result io_rig_read_motion(const io_json_object *top, rlf_rig *rig)
 {
     static const char *const known[] = {"rotation", "translation"};
     static const io_json_field field = {
@@ -261,47 +260,34 @@ rlf_rig io_rig_default(void)
     return rig;
 }
 
-rlf_result io_rig_parse(const io_bytes *file, rlf_rig *out, double *out_units_per_metre)
+rlf_result io_rig_from_json(const io_json_object *top, rlf_rig *out, double *out_units_per_metre)
 {
     static const char *const known[] = {"depth", "color", "depth_to_color", "note"};
-    json_t *document = NULL;
-    rlf_result result = io_json_parse(file, &document);
-    if (result != RLF_OK) {
-        return result;
-    }
     rlf_rig rig = io_rig_default();
     double units = 0.0;
-    io_json_object top = io_json_top(file, document);
-    result = read_depth(&top, &rig, &units);
+    rlf_result result = read_depth(top, &rig, &units);
     if (result == RLF_OK) {
-        result = read_color(&top, &rig);
+        result = read_color(top, &rig);
     }
     if (result == RLF_OK) {
-        result = read_depth_to_color(&top, &rig);
+        result = io_rig_read_motion(top, &rig);
     }
     if (result == RLF_OK) {
-        warn_unknown(&top, known, sizeof(known) / sizeof(known[0]));
+        warn_unknown(top, known, sizeof(known) / sizeof(known[0]));
         *out = rig;
         *out_units_per_metre = units;
     }
-    json_decref(document);
     return result;
 }
 
-rlf_result rlf_rig_load(const char *path, rlf_rig *out, double *out_units_per_metre)
+rlf_result io_rig_parse(const io_bytes *file, rlf_rig *out, double *out_units_per_metre)
 {
-    if (!RLF_ASSERT(path != NULL && out != NULL && out_units_per_metre != NULL)) {
-        return RLF_ERROR_INVALID;
-    }
-    io_buffer buffer = {0};
-    io_bytes file;
-    rlf_result result = io_file_read(path, IO_JSON_FILE_MAX,
-                                     "write the camera's intrinsics there, docs/formats.md shows "
-                                     "how",
-                                     &buffer, &file);
+    json_t *document = NULL;
+    rlf_result result = io_json_parse(file, &document);
     if (result == RLF_OK) {
-        result = io_rig_parse(&file, out, out_units_per_metre);
+        const io_json_object top = io_json_top(file, document);
+        result = io_rig_from_json(&top, out, out_units_per_metre);
     }
-    io_buffer_free(&buffer);
+    json_decref(document);
     return result;
 }

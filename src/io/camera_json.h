@@ -4,10 +4,16 @@
 
 #include "relief/frame.h"
 #include "io/file.h"
+#include "io/json.h"
 
 /* What holds of a sensor that says nothing about itself: range, noise, no transform, no colour. */
 rlf_rig io_rig_default(void);
 
 rlf_result io_rig_parse(const io_bytes *file, rlf_rig *out, double *out_units_per_metre);
+
+/* The same of a parsed document. */
+rlf_result io_rig_from_json(const io_json_object *top, rlf_rig *out, double *out_units_per_metre);
+/* Only its depth_to_color, into rig->T_color_depth; left as it is where there is none. */
+rlf_result io_rig_read_motion(const io_json_object *top, rlf_rig *rig);
 
 #endif

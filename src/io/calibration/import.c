@@ -1,0 +1,231 @@
+/* Any calibration file as a rig. */
+#include "relief/io.h"
+#include "io/calibration/lens.h"
+#include "io/calibration/text.h"
+#include "io/camera_json.h"
+
+#include <string.h>
+#include <sys/stat.h>
+
+#define UNITS_DEFAULT 1000.0 /* counts a metre: what most cameras store */
+
+/* What one file tells. */
+typedef struct part {
+    rlf_rig rig; /* a file with one camera: it is rig.depth */
+    double units_per_metre;
+    bool has_motion;    /* rig.T_color_depth was read */
+    bool has_reference; /* mrcal: cameras of one rig share it */
+    rlf_pose T_camera_reference;
+    bool has_shift; /* ROS: of a rectified pair */
+    rlf_quat to_rectified;
+    double shift_m; /* of the other camera's points along x, rectified */
+} part;
+
+static bool has_key(const io_json_object *top, const char *key)
+{
+    return json_object_get(top->value, key) != NULL;
+}
+
+static bool ends_with(const char *text, const char *end)
+{
+    const size_t length = strlen(text), end_length = strlen(end);
+    return length >= end_length && strcmp(text + length - end_length, end) == 0;
+}
+
+/* By the name; else JSON begins with a bracket, and mrcal's files name a lens model. */
+static bool is_json(const io_bytes *file)
+{
+    static const char model[] = "lensmodel";
+    if (ends_with(file->name, ".json") || file->size == 0) {
+        return true;
+    }
+    if (ends_with(file->name, ".yaml") || ends_with(file->name, ".yml") ||
+        ends_with(file->name, ".cameramodel")) {
+        return false;
+    }
+    size_t i = 0;
+    while (i < file->size && strchr(" \t\r\n\xEF\xBB\xBF", file->data[i]) != NULL) {
+        i++;
+    }
+    bool has_model = false;
+    for (size_t k = i; k + sizeof(model) < file->size && k < i + 4096; k++) {
+        has_model = has_model || memcmp(file->data + k, model, sizeof(model) - 1) == 0;
+    }
+    return i < file->size && (file->data[i] == '{' || file->data[i] == '[') && !has_model;
+}
+
+/* R and T of OpenCV's stereo calibration: p2 = R p1 + T. */
+static rlf_result read_stereo(const io_json_object *top, part *out)
+{
+    static const char *const rotations[] = {"R", NULL};
+    static const char *const translations[] = {"T", NULL};
+    double r[9], t[3];
+    size_t count[2] = {0, 0};
+    rlf_result result = io_calibration_numbers(top, rotations, r, 9, &count[0]);
+    result = result == RLF_OK ? io_calibration_numbers(top, translations, t, 3, &count[1]) : result;
+    if (result != RLF_OK) {
+        return result;
+    }
+    if (count[0] != 9 || count[1] != 3) {
+        return io_json_fail(top, "R",
+                            "and T are missing: a pair needs p2 = R p1 + T, 9 and 3 "
+                            "numbers");
+    }
+    /* camera.json's own check of rotations and of metres. */
+    json_t *motion =
+        json_pack("{s:{s:[[f,f,f],[f,f,f],[f,f,f]],s:[f,f,f]}}", "depth_to_color", "rotation", r[0],
+                  r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], "translation", t[0], t[1], t[2]);
+    io_json_object object = *top;
+    object.value = motion;
+    result = motion != NULL ? io_rig_read_motion(&object, &out->rig) : RLF_ERROR_MEMORY;
+    out->has_motion = true;
+    json_decref(motion);
+    return result;
+}
+
+/* ROS has a rectified pair's baseline in P: P[3] = -fx baseline, and R turns into that frame. */
+static rlf_result read_shift(const io_json_object *top, part *out)
+{
+    static const char *const rotations[] = {"rectification_matrix", "R", "r", NULL};
+    static const char *const projections[] = {"projection_matrix", "P", "p", NULL};
+    double p[12], r[9];
+    size_t count[2] = {0, 0};
+    rlf_result result = io_calibration_numbers(top, projections, p, 12, &count[0]);
+    result = result == RLF_OK ? io_calibration_numbers(top, rotations, r, 9, &count[1]) : result;
+    if (result != RLF_OK || count[0] != 12 || count[1] != 9 || !(p[0] > 0.0)) {
+        return result;
+    }
+    rlf_mat3 m;
+    memcpy(m.m, r, sizeof(r));
+    out->has_shift = true;
+    out->to_rectified = rlf_quat_normalize(rlf_quat_from_mat3(&m));
+    out->shift_m = p[3] / p[0];
+    return RLF_OK;
+}
+
+static rlf_result read_yaml(const io_json_object *top, part *out)
+{
+    static const char *const seconds[] = {"M2", "K2", "cameraMatrix2"};
+    rlf_result result = io_calibration_read_matrix(top, false, &out->rig.depth);
+    for (int i = 0; i < 3 && result == RLF_OK; i++) {
+        if (has_key(top, seconds[i])) {
+            out->rig.has_color = true;
+            result = io_calibration_read_matrix(top, true, &out->rig.color);
+            return result == RLF_OK ? read_stereo(top, out) : result;
+        }
+    }
+    return result == RLF_OK ? read_shift(top, out) : result;
+}
+
+static rlf_result read_part(const io_json_object *top, part *out)
+{
+    if (has_key(top, "lensmodel")) {
+        out->has_reference = true;
+        return io_calibration_read_mrcal(top, &out->rig.depth, &out->T_camera_reference);
+    }
+    const bool is_open3d = has_key(top, "intrinsic_matrix") || has_key(top, "intrinsic");
+    rlf_result result =
+        is_open3d ? io_calibration_read_open3d(top, &out->rig.depth) : read_yaml(top, out);
+    if (result == RLF_OK && has_key(top, "depth_to_color")) {
+        out->has_motion = true;
+        result = io_rig_read_motion(top, &out->rig);
+    }
+    return result;
+}
+
+static rlf_result parse(const io_bytes *file, part *out)
+{
+    *out = (part){.rig = io_rig_default(), .units_per_metre = UNITS_DEFAULT};
+    json_t *document = NULL;
+    const bool is_text = !is_json(file);
+    rlf_result result =
+        is_text ? io_calibration_text_parse(file, &document) : io_json_parse(file, &document);
+    if (result == RLF_OK) {
+        const io_json_object top = io_json_top(file, document);
+        const bool is_foreign = is_text || has_key(&top, "intrinsic_matrix") ||
+                                has_key(&top, "intrinsic") || has_key(&top, "lensmodel");
+        result = is_foreign ? read_part(&top, out)
+                            : io_rig_from_json(&top, &out->rig, &out->units_per_metre);
+    }
+    json_decref(document);
+    return result;
+}
+
+static rlf_result load(const char *path, part *out)
+{
+    io_buffer buffer = {0};
+    io_bytes file;
+    rlf_result result = io_file_read(path, IO_JSON_FILE_MAX,
+                                     "write the camera's intrinsics there, docs/formats.md shows "
+                                     "how",
+                                     &buffer, &file);
+    if (result == RLF_OK) {
+        result = parse(&file, out);
+    }
+    io_buffer_free(&buffer);
+    return result;
+}
+
+/* ---- two files ------------------------------------------------------------------------------ */
+
+static rlf_result join(const char *path, const part *depth, const part *color, rlf_rig *out)
+{
+    if (depth->rig.has_color || color->rig.has_color) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "%s: one of the two files holds two cameras: give it "
+                        "alone",
+                        path);
+    }
+    *out = depth->rig;
+    out->has_color = true;
+    out->color = color->rig.depth;
+    if (color->has_motion) {
+        out->T_color_depth = color->rig.T_color_depth;
+    } else if (depth->has_reference && color->has_reference) {
+        const rlf_pose back = rlf_pose_invert(&depth->T_camera_reference);
+        out->T_color_depth = rlf_pose_mul(&color->T_camera_reference, &back);
+    } else if (depth->has_shift && color->has_shift && color->shift_m != depth->shift_m) {
+        const rlf_quat back = rlf_quat_conjugate(color->to_rectified);
+        const rlf_vec3 shift = rlf_vec3_make(color->shift_m - depth->shift_m, 0.0, 0.0);
+        out->T_color_depth.q = rlf_quat_mul(back, depth->to_rectified);
+        out->T_color_depth.p = rlf_rotate(back, shift);
+    } else {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "%s: neither file tells where the second camera is: add depth_to_color to "
+                        "it, as in docs/calibration.md",
+                        path);
+    }
+    return RLF_OK;
+}
+
+static bool exists(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) == 0;
+}
+
+rlf_result rlf_rig_load(const char *path, rlf_rig *out, double *out_units_per_metre)
+{
+    if (!RLF_ASSERT(path != NULL && out != NULL && out_units_per_metre != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    char first[IO_PATH_MAX];
+    part depth, color;
+    const char *comma = strchr(path, ',');
+    const size_t length = comma != NULL ? (size_t)(comma - path) : 0;
+    const bool is_pair = comma != NULL && length < sizeof(first) && !exists(path);
+    if (is_pair) {
+        memcpy(first, path, length);
+        first[length] = '\0';
+    }
+    rlf_result result = load(is_pair ? first : path, &depth);
+    if (result == RLF_OK && is_pair) {
+        result = load(comma + 1, &color);
+        result = result == RLF_OK ? join(path, &depth, &color, &depth.rig) : result;
+    }
+    if (result == RLF_OK) {
+        *out = depth.rig;
+        *out_units_per_metre = depth.units_per_metre;
+    }
+    return result;
+}
