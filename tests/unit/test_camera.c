@@ -45,8 +45,8 @@ static void distortion_round_trip_is_exact(void **state)
         cameras[c].distortion_model =
             c == 2 ? RLF_DISTORTION_RATIONAL_POLYNOMIAL : RLF_DISTORTION_PLUMB_BOB;
         int outside = 0;
-        for (int v = 0; v < 424; v += 7) {
-            for (int u = 0; u < 512; u += 7) {
+        for (int v = 0; v < 424; v++) {
+            for (int u = 0; u < 512; u++) {
                 rlf_vec3 ray;
                 if (!rlf_camera_unproject(&cameras[c], u, v, &ray)) {
                     outside++;
@@ -55,9 +55,14 @@ static void distortion_round_trip_is_exact(void **state)
                 double pu, pv;
                 assert_true(rlf_camera_project(&cameras[c], rlf_scale(ray, 2.7), &pu, &pv));
                 assert_true(fabs(pu - u) < 1e-8 && fabs(pv - v) < 1e-8);
+                /* As the tables keep it. */
+                ray = rlf_vec3_make((float)ray.x, (float)ray.y, 1.0);
+                if (rlf_camera_project(&cameras[c], ray, &pu, &pv)) {
+                    assert_true(fabs(pu - u) < 1e-4 && fabs(pv - v) < 1e-4);
+                }
             }
         }
-        assert_in_range(outside, 0, 10);
+        assert_in_range(outside, 0, 490);
     }
 }
 

@@ -275,6 +275,9 @@ static rlf_result run_way(eval_table *table, const relief_opencv_api *api, way w
 
 rlf_result eval_calibration_run(eval_table *table, int64_t seed, int profile_mask)
 {
+    if (profile_mask & (1 << RLF_PROFILE_LIVE)) {
+        eval_calibration_lenses(table);
+    }
     const relief_opencv_api *api = opencv_get();
     if (api == NULL) {
         rlf_log(RLF_LOG_WARNING, "calibration is not measured: %s", rlf_error_text());
