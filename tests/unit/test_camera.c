@@ -56,7 +56,8 @@ static void distortion_round_trip_is_exact(void **state)
                 assert_true(rlf_camera_project(&cameras[c], rlf_scale(ray, 2.7), &pu, &pv));
                 assert_true(fabs(pu - u) < 1e-8 && fabs(pv - v) < 1e-8);
                 /* As the tables keep it. */
-                ray = rlf_vec3_make((float)ray.x, (float)ray.y, 1.0);
+                const volatile float kept[2] = {(float)ray.x, (float)ray.y};
+                ray = rlf_vec3_make(kept[0], kept[1], 1.0);
                 if (rlf_camera_project(&cameras[c], ray, &pu, &pv)) {
                     assert_true(fabs(pu - u) < 1e-4 && fabs(pv - v) < 1e-4);
                 }

@@ -56,7 +56,9 @@ static void measure(const rlf_camera *c, double *out_exact, double *out_float)
         const double u = i % c->width, v = i / c->width;
         rlf_vec3 ray;
         const bool is_inside = rlf_camera_unproject(c, u, v, &ray);
-        const rlf_vec3 rounded = {(float)ray.x, (float)ray.y, 1.0};
+        /* Through memory: with -fno-trapping-math GCC drops a cast to float and back. */
+        const volatile float kept[2] = {(float)ray.x, (float)ray.y};
+        const rlf_vec3 rounded = {kept[0], kept[1], 1.0};
         *out_exact = fmax(*out_exact, is_inside ? off(c, ray, u, v) : INFINITY);
         *out_float = fmax(*out_float, is_inside ? off(c, rounded, u, v) : INFINITY);
     }
