@@ -11,6 +11,7 @@ typedef struct calibrate_options {
     const char *left, *right; /* folders of pictures; NULL = a source */
     const char *depth;        /* folder of depth pictures that go with `left`; NULL = none */
     const char *source;       /* NULL = folders */
+    const char *check;        /* source to check; NULL = none */
     const char *convert;      /* calibration file to write in another format; NULL = none */
     const char *out_path;     /* camera.json; NULL = only printed */
     int32_t format;           /* of out_path, rlf_rig_format; -1 = by its name */

@@ -1,5 +1,6 @@
 /* `relief calibrate`: lenses and the motion between the cameras, from pictures of a chessboard. */
 #include "calibrate/calibrate.h"
+#include "calibrate/check.h"
 #include "calibrate/opencv/opencv.h"
 #include "command.h"
 #include "commands.h"
@@ -16,6 +17,7 @@ static void print_help(void)
     printf(
         "usage: relief calibrate --left DIR [--right DIR] [OPTIONS]\n"
         "       relief calibrate SOURCE [OPTIONS]\n"
+        "       relief calibrate --check SOURCE\n"
         "       relief calibrate --convert FILE --out FILE [--as FORMAT]\n\n"
         "Finds focal lengths, principal points and lens distortion of both cameras, and where one\n"
         "is in the other's frame, from pictures of a flat board. 15 to 20 views are good: the\n"
@@ -40,6 +42,9 @@ static void print_help(void)
         "kept\n"
         "  --keep-outliers   leave no view out because it does not fit\n"
         "  --out FILE        write camera.json; else the result is only printed\n"
+        "  --check SOURCE    without any board: how far colour's edges are off depth's, the floor\n"
+        "                    and how the camera stands; exit status 1 when the calibration is "
+        "stale\n"
         "  --convert FILE    read camera.json, or a calibration of ROS, OpenCV, Open3D or mrcal,\n"
         "                    and write it as --out; \"DEPTH,COLOR\" are two files\n"
         "  --as FORMAT       of --out: relief, ros, opencv, open3d or mrcal; else .yaml is ros,\n"
@@ -99,6 +104,11 @@ static int check(const calibrate_options *o, int arguments)
                    ? -1
                    : command_usage("calibrate", "--convert needs --out FILE, and no pictures");
     }
+    if (o->check != NULL) {
+        return o->left == NULL && arguments == 0
+                   ? -1
+                   : command_usage("calibrate", "--check takes one SOURCE and no pictures");
+    }
     const bool has_folders = o->left != NULL || o->right != NULL;
     if (has_folders && o->left == NULL) {
         return command_usage("calibrate", "--right needs --left");
@@ -124,6 +134,7 @@ static int parse(int argc, char **argv, calibrate_options *o)
         {.name = "right", .kind = OPTION_TEXT, .out = &o->right},
         {.name = "depth", .kind = OPTION_TEXT, .out = &o->depth},
         {.name = "out", .kind = OPTION_TEXT, .out = &o->out_path},
+        {.name = "check", .kind = OPTION_TEXT, .out = &o->check},
         {.name = "convert", .kind = OPTION_TEXT, .out = &o->convert},
         {.name = "as",
          .kind = OPTION_CHOICE,
@@ -200,12 +211,29 @@ static rlf_result run(const calibrate_options *o, calibration *c)
     return result == RLF_OK && o->out_path != NULL ? calibrate_camera_write(o, c) : result;
 }
 
+/* Stale and failed are one exit status; only a failure has an error line. */
+static int check_source(const char *source)
+{
+    bool is_stale = false;
+    rlf_result result = calibrate_check(source, &is_stale);
+    if (command_interrupted) {
+        return command_stopped("calibrate");
+    }
+    if (result != RLF_OK) {
+        return command_failed();
+    }
+    return is_stale ? EXIT_FAILED : EXIT_DONE;
+}
+
 int calibrate_main(int argc, char **argv)
 {
     calibrate_options options;
     int status = parse(argc, argv, &options);
     if (status >= 0) {
         return status;
+    }
+    if (options.check != NULL) {
+        return check_source(options.check);
     }
     if (options.convert != NULL) {
         return calibrate_convert(&options) == RLF_OK ? EXIT_DONE : command_failed();

@@ -500,3 +500,10 @@ bool color_fit_is_off(const color_fit_result *r)
 {
     return r->is_known && color_fit_length(r) > r->pixel + 2.0 * color_fit_error(r);
 }
+
+bool color_fit_is_parallax_wrong(const color_fit_result *r)
+{
+    /* NAN: false */
+    return r->is_known && (fabs(r->near_x - r->far_x) > 2.0 * r->pixel ||
+                           fabs(r->near_y - r->far_y) > 2.0 * r->pixel);
+}

@@ -34,5 +34,8 @@ double color_fit_length(const color_fit_result *r);
 double color_fit_error(const color_fit_result *r);
 /* Whether colour is off by more than a pixel of the coarser picture, beyond doubt. */
 bool color_fit_is_off(const color_fit_result *r);
+/* Near and far things are off by more than two pixels' difference: the parallax is not what the
+ * transform says. */
+bool color_fit_is_parallax_wrong(const color_fit_result *r);
 
 #endif

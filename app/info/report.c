@@ -125,12 +125,6 @@ static void print_direction(const color_fit_result *r)
            r->y >= 0 ? "down" : "up");
 }
 
-/* Near and far differ by more than a pixel: the parallax is not what the transform says. */
-static bool differs(double near, double far, const color_fit_result *r)
-{
-    return r->is_known && fabs(near - far) > 2.0 * r->pixel; /* NAN: false */
-}
-
 static void print_fit(const rlf_source_info *info, const survey *s)
 {
     const color_fit_result *r = &s->fit;
@@ -161,7 +155,7 @@ static void print_fit(const rlf_source_info *info, const survey *s)
     printf("        %lld edge points of %d frames; depth's are %.1f px %s than colour's\n",
            (long long)r->edges, (int)r->frames, fabs(r->widening),
            r->widening >= 0.0 ? "wider" : "narrower");
-    if (differs(r->near_x, r->far_x, r) || differs(r->near_y, r->far_y, r)) {
+    if (color_fit_is_parallax_wrong(r)) {
         printf("        near things are off by (%.1f, %.1f), far ones by (%.1f, %.1f) px: the "
                "transform from depth to colour is wrong or missing\n",
                r->near_x, r->near_y, r->far_x, r->far_y);
