@@ -11,15 +11,16 @@ typedef struct calibrate_options {
     const char *left, *right; /* folders of pictures; NULL = a source */
     const char *depth;        /* folder of depth pictures that go with `left`; NULL = none */
     const char *source;       /* NULL = folders */
-    const char *check;        /* source to check; NULL = none */
-    const char *convert;      /* calibration file to write in another format; NULL = none */
-    const char *out_path;     /* camera.json; NULL = only printed */
-    int32_t format;           /* of out_path, rlf_rig_format; -1 = by its name */
-    const char *report;       /* folder; NULL = none */
-    double units_per_metre;   /* of the depth pictures of folders */
-    int32_t views;            /* of a source: enough */
-    int32_t seconds;          /* of a camera: give up after; 0 = never */
-    bool finds_depth_lens;    /* of a source: by the board's outline, else the source's is kept */
+    bool prints_board, is_letter;
+    const char *check;      /* source to check; NULL = none */
+    const char *convert;    /* calibration file to write in another format; NULL = none */
+    const char *out_path;   /* camera.json; NULL = only printed */
+    int32_t format;         /* of out_path, rlf_rig_format; -1 = by its name */
+    const char *report;     /* folder; NULL = none */
+    double units_per_metre; /* of the depth pictures of folders */
+    int32_t views;          /* of a source: enough */
+    int32_t seconds;        /* of a camera: give up after; 0 = never */
+    bool finds_depth_lens;  /* of a source: by the board's outline, else the source's is kept */
     bool keeps_outliers;
 } calibrate_options;
 

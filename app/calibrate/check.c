@@ -41,9 +41,13 @@ void calibrate_stand_add(calibrate_stand *s, const rlf_surface *surface)
 {
     rlf_vec3 up;
     const double confidence = rlf_surface_find_up(surface, &up);
+    const bool is_sure = confidence >= RLF_UP_SURE;
+    if (is_sure && s->sure == 0) { /* what guesses gave is worth nothing any more */
+        *s = (calibrate_stand){.frames = s->frames};
+    }
     s->frames++;
-    if (confidence >= RLF_UP_SURE) {
-        s->sure++;
+    if (is_sure || (s->sure == 0 && confidence > 0.0)) {
+        s->sure += is_sure ? 1 : 0;
         s->up = rlf_add(s->up, up);
         add_level(s, surface, up);
     }
@@ -103,12 +107,17 @@ static void print_fit(const survey *s, bool is_stale)
                fabs(r->x), r->x >= 0.0 ? "right" : "left", fabs(r->y),
                r->y >= 0.0 ? "below" : "above", color_fit_length(r), color_fit_error(r),
                (long long)r->edges, (int)r->frames);
+        if (isfinite(r->near_x) && isfinite(r->far_x)) {
+            printf("        near things by (%.1f, %.1f), far ones by (%.1f, %.1f) px; their "
+                   "difference is sure to (%.1f, %.1f)\n",
+                   r->near_x, r->near_y, r->far_x, r->far_y, r->apart_x, r->apart_y);
+        }
+    }
+    if (s->has_fit && color_fit_is_parallax_wrong(r)) {
+        printf("        that they differ speaks against the transform from depth to colour\n");
     }
     if (is_stale) {
-        printf("stale   the calibration no longer fits%s: calibrate again\n",
-               color_fit_is_parallax_wrong(r) ? "; near and far things are off differently, so "
-                                                "the transform from depth to colour is wrong"
-                                              : "");
+        printf("stale   the calibration no longer fits: calibrate again\n");
     } else if (s->has_fit && r->is_known) {
         printf("holds   within a pixel of the coarser picture (%.1f px) and what is sure\n",
                r->pixel);
@@ -124,13 +133,14 @@ static double tidy(double x)
 static void print_stand(const calibrate_stand *s)
 {
     double below = 0.0;
-    if (s->sure == 0) {
-        printf("mount   cannot be told: no floor, table or wall says for sure which way is up\n");
+    if (!(rlf_length(s->up) > 0.0)) {
+        printf("mount   cannot be told: no floor, table or wall is seen\n");
         return;
     }
     const rlf_vec3 up = rlf_normalize(s->up);
-    printf("gravity (%.3f, %.3f, %.3f) in the depth camera's frame, sure in %d of %d frames\n",
-           0.0 - up.x, 0.0 - up.y, 0.0 - up.z, (int)s->sure, (int)s->frames);
+    printf("gravity (%.3f, %.3f, %.3f) in the depth camera's frame, %s (sure in %d of %d frames)\n",
+           0.0 - up.x, 0.0 - up.y, 0.0 - up.z, s->sure > 0 ? "as the room tells" : "only a guess",
+           (int)s->sure, (int)s->frames);
     const bool has_floor = calibrate_stand_floor(s, &below);
     if (has_floor) {
         printf("floor   %.3f x + %.3f y + %.3f z + %.3f = 0, the lowest level face seen\n", up.x,
@@ -167,8 +177,7 @@ rlf_result calibrate_check(const char *name, bool *out_is_stale)
     }
     result = result == RLF_OK ? look(source, &stand) : result;
     if (result == RLF_OK && !command_interrupted) {
-        *out_is_stale =
-            s.has_fit && (color_fit_is_off(&s.fit) || color_fit_is_parallax_wrong(&s.fit));
+        *out_is_stale = s.has_fit && color_fit_is_off(&s.fit);
         print_fit(&s, *out_is_stale);
         print_stand(&stand);
     }

@@ -9,7 +9,7 @@
 /* What frames say about up and about level faces; all 0 to begin with. */
 typedef struct calibrate_stand {
     int32_t frames, sure;
-    rlf_vec3 up; /* sum over the frames that are sure */
+    rlf_vec3 up; /* sum over the frames that are sure, or of guesses while none is */
     int64_t level, count[CALIBRATE_STAND_BINS];
     double below_m[CALIBRATE_STAND_BINS]; /* sums */
 } calibrate_stand;

@@ -1,4 +1,5 @@
 /* `relief calibrate`: lenses and the motion between the cameras, from pictures of a chessboard. */
+#include "calibrate/board.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/check.h"
 #include "calibrate/opencv/opencv.h"
@@ -17,6 +18,7 @@ static void print_help(void)
     printf(
         "usage: relief calibrate --left DIR [--right DIR] [OPTIONS]\n"
         "       relief calibrate SOURCE [OPTIONS]\n"
+        "       relief calibrate --print-board CxR --square M --out FILE.pdf|.svg\n"
         "       relief calibrate --check SOURCE\n"
         "       relief calibrate --convert FILE --out FILE [--as FORMAT]\n\n"
         "Finds focal lengths, principal points and lens distortion of both cameras, and where one\n"
@@ -31,8 +33,9 @@ static void print_help(void)
         "                    picked from it, until there are enough\n"
         "  --views N         of a SOURCE: enough, default 20\n"
         "  --seconds N       of a camera: go on with what there is after so long\n"
-        "  --board CxR       inner corners of the chessboard, default 9x6\n"
-        "  --square M        side of one square in metres, default 0.025\n"
+        "  --board CxR       inner corners of the chessboard, default 9x6; or the\n"
+        "                    file that --print-board wrote\n"
+        "  --square M        side of one square in metres (from 1 on: millimetres), default 0.025\n"
         "  --charuco CxR     a ChArUco board of so many squares instead\n"
         "  --marker M        side of its markers, default 0.75 squares\n"
         "  --dictionary N    of its markers: OpenCV's number, default 0 (4x4, 50 markers)\n"
@@ -42,6 +45,7 @@ static void print_help(void)
         "kept\n"
         "  --keep-outliers   leave no view out because it does not fit\n"
         "  --out FILE        write camera.json; else the result is only printed\n"
+        "  --print-board CxR write a board to print on A4 as --out; --letter: on Letter\n"
         "  --check SOURCE    without any board: how far colour's edges are off depth's, the floor\n"
         "                    and how the camera stands; exit status 1 when the calibration is "
         "stale\n"
@@ -69,6 +73,23 @@ static bool take_size(const char *text, void *out)
            p->a <= 64 && p->b <= 64 && p->a * p->b <= RELIEF_OPENCV_CORNERS_MAX;
 }
 
+/* A board's size, or the file of one that was printed. */
+typedef struct board_option {
+    int_pair size;
+    const char *path;
+} board_option;
+
+static bool take_board(const char *text, void *out)
+{
+    board_option *b = out;
+    const char *dot = strrchr(text, '.');
+    if (dot != NULL && (strcmp(dot, ".pdf") == 0 || strcmp(dot, ".svg") == 0)) {
+        b->path = text;
+        return true;
+    }
+    return take_size(text, &b->size);
+}
+
 static bool take_outline(const char *text, void *out)
 {
     double *size = out;
@@ -84,9 +105,33 @@ static bool take_number(const char *text, void *out)
     return sscanf(text, "%lf%c", number, &rest) == 1 && *number > 0.0 && *number <= 1e6;
 }
 
-/* What the boards' options say together; an exit status, or -1. */
-static int settle_board(calibrate_options *o, int_pair board, int_pair charuco)
+/* Nobody has squares of a metre: those are millimetres. */
+static bool take_square(const char *text, void *out)
 {
+    double *square = out;
+    const bool is_number = take_number(text, square) && *square <= 1000.0;
+    *square *= *square >= 1.0 ? 1e-3 : 1.0;
+    return is_number;
+}
+
+/* What the boards' options say together; an exit status, or -1. */
+static int settle_board(calibrate_options *o, const board_option *option, int_pair charuco)
+{
+    int_pair board = option->size;
+    if (option->path != NULL) {
+        board_size read = {0};
+        char text[32];
+        if (board_read(option->path, &read) != RLF_OK) {
+            return command_failed();
+        }
+        snprintf(text, sizeof(text), "%dx%d", (int)read.columns, (int)read.rows);
+        if (!take_size(text, &board)) {
+            return command_usage("calibrate", "%s: is of a board of %s, which is not usable",
+                                 option->path, text);
+        }
+        o->board.square_m = o->board.square_m > 0.0 ? o->board.square_m : read.square_m;
+    }
+    o->board.square_m = o->board.square_m > 0.0 ? o->board.square_m : 0.025;
     o->board.is_charuco = charuco.a > 0;
     o->board.columns = o->board.is_charuco ? charuco.a - 1 : board.a;
     o->board.rows = o->board.is_charuco ? charuco.b - 1 : board.b;
@@ -103,6 +148,11 @@ static int check(const calibrate_options *o, int arguments)
         return o->out_path != NULL && o->left == NULL && arguments == 0
                    ? -1
                    : command_usage("calibrate", "--convert needs --out FILE, and no pictures");
+    }
+    if (o->prints_board) {
+        return o->out_path != NULL && o->left == NULL && arguments == 0
+                   ? -1
+                   : command_usage("calibrate", "--print-board needs --out FILE.pdf or FILE.svg");
     }
     if (o->check != NULL) {
         return o->left == NULL && arguments == 0
@@ -126,9 +176,9 @@ static int check(const calibrate_options *o, int arguments)
 
 static int parse(int argc, char **argv, calibrate_options *o)
 {
-    int_pair board = {9, 6}, charuco = {0, 0};
-    *o = (calibrate_options){
-        .board = {.square_m = 0.025}, .units_per_metre = 1000.0, .views = 20, .format = -1};
+    board_option board = {.size = {9, 6}};
+    int_pair charuco = {0, 0}, printed = {0, 0};
+    *o = (calibrate_options){.units_per_metre = 1000.0, .views = 20, .format = -1};
     const option_def options[] = {
         {.name = "left", .kind = OPTION_TEXT, .out = &o->left},
         {.name = "right", .kind = OPTION_TEXT, .out = &o->right},
@@ -150,8 +200,14 @@ static int parse(int argc, char **argv, calibrate_options *o)
         {.name = "board",
          .kind = OPTION_CHOICE,
          .out = &board,
+         .take = take_board,
+         .choices = "use COLUMNSxROWS of inner corners, 3x3 to 64x16, as 9x6"},
+        {.name = "print-board",
+         .kind = OPTION_CHOICE,
+         .out = &printed,
          .take = take_size,
          .choices = "use COLUMNSxROWS of inner corners, 3x3 to 64x16, as 9x6"},
+        {.name = "letter", .kind = OPTION_FLAG, .out = &o->is_letter},
         {.name = "charuco",
          .kind = OPTION_CHOICE,
          .out = &charuco,
@@ -160,7 +216,7 @@ static int parse(int argc, char **argv, calibrate_options *o)
         {.name = "square",
          .kind = OPTION_CHOICE,
          .out = &o->board.square_m,
-         .take = take_number,
+         .take = take_square,
          .choices = "is no length in metres, as 0.025"},
         {.name = "marker",
          .kind = OPTION_CHOICE,
@@ -185,9 +241,13 @@ static int parse(int argc, char **argv, calibrate_options *o)
         {0},
     };
     int status = options_parse("calibrate", argc, argv, options, print_help);
+    if (printed.a > 0) {
+        board.size = printed;
+        o->prints_board = true;
+    }
     status = status < 0 ? check(o, argc - optind) : status;
     o->source = o->left == NULL && optind < argc ? argv[optind] : NULL;
-    return status < 0 ? settle_board(o, board, charuco) : status;
+    return status < 0 ? settle_board(o, &board, charuco) : status;
 }
 
 static rlf_result run(const calibrate_options *o, calibration *c)
@@ -211,6 +271,16 @@ static rlf_result run(const calibrate_options *o, calibration *c)
     return result == RLF_OK && o->out_path != NULL ? calibrate_camera_write(o, c) : result;
 }
 
+static int print_board(const calibrate_options *o)
+{
+    const board_size board = {o->board.columns, o->board.rows, o->board.square_m};
+    if (board_print(o->out_path, &board, o->is_letter) != RLF_OK) {
+        return command_failed();
+    }
+    printf("written: %s\n", o->out_path);
+    return EXIT_DONE;
+}
+
 /* Stale and failed are one exit status; only a failure has an error line. */
 static int check_source(const char *source)
 {
@@ -231,6 +301,9 @@ int calibrate_main(int argc, char **argv)
     int status = parse(argc, argv, &options);
     if (status >= 0) {
         return status;
+    }
+    if (options.prints_board) {
+        return print_board(&options);
     }
     if (options.check != NULL) {
         return check_source(options.check);

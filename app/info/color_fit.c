@@ -480,6 +480,8 @@ void color_fit_get(const color_fit *fit, color_fit_result *out)
     }
     out->frames = fit->frames;
     out->pixel = fit->pixel;
+    out->apart_x = hypot(near.error_x, far.error_x);
+    out->apart_y = hypot(near.error_y, far.error_y);
     out->near_x = is_near_known ? near.x : NAN;
     out->near_y = is_near_known ? near.y : NAN;
     out->far_x = is_far_known ? far.x : NAN;
@@ -501,9 +503,14 @@ bool color_fit_is_off(const color_fit_result *r)
     return r->is_known && color_fit_length(r) > r->pixel + 2.0 * color_fit_error(r);
 }
 
+static bool is_apart(double near, double far, double error, double pixel)
+{
+    const double apart = fabs(near - far); /* NAN: false */
+    return apart > 2.0 * pixel && apart > pixel + 2.0 * error;
+}
+
 bool color_fit_is_parallax_wrong(const color_fit_result *r)
 {
-    /* NAN: false */
-    return r->is_known && (fabs(r->near_x - r->far_x) > 2.0 * r->pixel ||
-                           fabs(r->near_y - r->far_y) > 2.0 * r->pixel);
+    return r->is_known && (is_apart(r->near_x, r->far_x, r->apart_x, r->pixel) ||
+                           is_apart(r->near_y, r->far_y, r->apart_y, r->pixel));
 }

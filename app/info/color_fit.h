@@ -20,6 +20,7 @@ typedef struct color_fit_result {
     /* The same from the nearer and the farther half of the edges alone; a transform that is missing
      * or wrong makes them differ. NAN = not known. */
     double near_x, near_y, far_x, far_y;
+    double apart_x, apart_y; /* standard errors of near minus far */
 } color_fit_result;
 
 /* NULL without memory. The rig must have colour. */
@@ -34,8 +35,8 @@ double color_fit_length(const color_fit_result *r);
 double color_fit_error(const color_fit_result *r);
 /* Whether colour is off by more than a pixel of the coarser picture, beyond doubt. */
 bool color_fit_is_off(const color_fit_result *r);
-/* Near and far things are off by more than two pixels' difference: the parallax is not what the
- * transform says. */
+/* Near and far things are off by more than two pixels' difference, beyond doubt: the parallax is
+ * not what the transform says. */
 bool color_fit_is_parallax_wrong(const color_fit_result *r);
 
 #endif
