@@ -124,10 +124,10 @@ static void print_fit(const survey *s, bool is_stale)
     }
 }
 
-/* Without a minus before a zero. */
-static double tidy(double x)
+/* Without a minus before a zero, at so many decimals. */
+static double tidy(double x, int decimals)
 {
-    return fabs(x) < 0.05 ? 0.0 : x;
+    return fabs(x) < 0.5 * pow(10.0, -decimals) ? 0.0 : x;
 }
 
 static void print_stand(const calibrate_stand *s)
@@ -139,19 +139,19 @@ static void print_stand(const calibrate_stand *s)
     }
     const rlf_vec3 up = rlf_normalize(s->up);
     printf("gravity (%.3f, %.3f, %.3f) in the depth camera's frame, %s (sure in %d of %d frames)\n",
-           0.0 - up.x, 0.0 - up.y, 0.0 - up.z, s->sure > 0 ? "as the room tells" : "only a guess",
-           (int)s->sure, (int)s->frames);
+           tidy(-up.x, 3), tidy(-up.y, 3), tidy(-up.z, 3),
+           s->sure > 0 ? "as the room tells" : "only a guess", (int)s->sure, (int)s->frames);
     const bool has_floor = calibrate_stand_floor(s, &below);
     if (has_floor) {
-        printf("floor   %.3f x + %.3f y + %.3f z + %.3f = 0, the lowest level face seen\n", up.x,
-               up.y, up.z, below);
+        printf("floor   %.3f x + %.3f y + %.3f z + %.3f = 0, the lowest level face seen\n",
+               tidy(up.x, 3), tidy(up.y, 3), tidy(up.z, 3), below);
     } else {
         printf("floor   none is seen\n");
     }
     printf("mount   ");
     printf(has_floor ? "%.2f m above the floor, " : "", below);
-    printf("looks down by %.1f degrees, rolled by %.1f\n", tidy(DEGREES * rlf_atan2(-up.z, -up.y)),
-           tidy(DEGREES * rlf_atan2(up.x, -up.y)));
+    printf("looks down by %.1f degrees, rolled by %.1f\n",
+           tidy(DEGREES * rlf_atan2(-up.z, -up.y), 1), tidy(DEGREES * rlf_atan2(up.x, -up.y), 1));
 }
 
 rlf_result calibrate_check(const char *name, bool *out_is_stale)

@@ -1,6 +1,8 @@
 /* `relief calibrate` on boards that the test draws, with cameras that it knows. */
 #include "board_scene.h"
+#include "calibrate/board.h"
 #include "calibrate/calibrate.h"
+#include "calibrate/check.h"
 #include "calibrate/judge.h"
 #include "calibrate/quality.h"
 #include "calibrate/seed.h"
@@ -452,6 +454,48 @@ static void test_depth_offset(void **state)
     calibration_free(&c);
 }
 
+/* A printed board says what it is; other files do not. */
+static void test_printed_board(void **state)
+{
+    (void)state;
+    make_folder(FOLDER);
+    const char *const paths[] = {FOLDER "/board.pdf", FOLDER "/board.svg"};
+    for (int i = 0; i < 4; i++) {
+        const board_size board = {9, 6, 0.0251};
+        board_size read = {0};
+        assert_int_equal(board_print(paths[i % 2], &board, i >= 2), RLF_OK);
+        assert_int_equal(board_read(paths[i % 2], &read), RLF_OK);
+        assert_true(read.columns == 9 && read.rows == 6);
+        assert_true(fabs(read.square_m - 0.0251) < 1e-9);
+    }
+    const board_size large = {20, 14, 0.025};
+    board_size read = {0};
+    assert_int_equal(board_print(FOLDER "/large.pdf", &large, false), RLF_ERROR_INVALID);
+    assert_non_null(strstr(rlf_error_text(), "does not fit on A4"));
+    assert_int_equal(rlf_file_write(FOLDER "/cat.pdf", "relief-board 9x", 15), RLF_OK);
+    assert_int_equal(board_read(FOLDER "/cat.pdf", &read), RLF_ERROR_FORMAT);
+    assert_int_equal(board_read(FOLDER "/none.pdf", &read), RLF_ERROR_IO);
+}
+
+/* The floor is the lowest level face that is large, not the lowest pixel or the largest table. */
+static void test_floor_is_the_lowest(void **state)
+{
+    (void)state;
+    static calibrate_stand s = {.level = 1000};
+    double below = 0.0;
+    assert_false(calibrate_stand_floor(&s, &below));
+    const struct {
+        int bin;
+        int64_t count;
+    } faces[] = {{35, 700}, {65, 280}, {90, 20}};
+    for (int i = 0; i < 3; i++) {
+        s.count[faces[i].bin] = faces[i].count;
+        s.below_m[faces[i].bin] = (0.02 * faces[i].bin + 0.005) * (double)faces[i].count;
+    }
+    assert_true(calibrate_stand_floor(&s, &below));
+    assert_true(fabs(below - 1.305) < 1e-9);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -465,6 +509,8 @@ int main(void)
         cmocka_unit_test(test_blurred),
         cmocka_unit_test(test_source),
         cmocka_unit_test(test_depth_offset),
+        cmocka_unit_test(test_printed_board),
+        cmocka_unit_test(test_floor_is_the_lowest),
     };
     return cmocka_run_group_tests(tests, draw_all, NULL);
 }

@@ -127,6 +127,20 @@ expect_error 2 "relief settings" run synthetic:room --set smell=on
 expect_error 2 "needs --left DIR" calibrate
 expect_error 2 "COLUMNSxROWS" calibrate --left here --board 9
 expect_error 2 "not both" calibrate --left here synthetic:room
+expect_error 2 "needs --out" calibrate --convert camera.json
+expect_error 2 "needs --out" calibrate --print-board 9x6
+expect_error 2 "one SOURCE" calibrate --check here there
+expect_error 1 "does not fit on A4" calibrate --print-board 9x6 --square 40 --out board.pdf
+"$relief" record synthetic:room checked/ --frames 4 >stdout.txt 2>&1 || fail "record checked/"
+"$relief" calibrate --convert checked/camera.json --out checked.yml >stdout.txt 2>&1 ||
+    fail "calibrate --convert: $(cat stdout.txt)"
+"$relief" calibrate --check "checked?camera=checked.yml" >stdout.txt 2>&1 ||
+    fail "calibrate --check: $(cat stdout.txt)"
+grep -q "1.30 m above the floor" stdout.txt || fail "calibrate --check: $(cat stdout.txt)"
+sed '/^T:/,$s/data: \[[^,]*/data: [-0.04/' checked.yml >moved.yml
+"$relief" calibrate --check "checked?camera=moved.yml" >stdout.txt 2>&1
+[ $? -eq 1 ] || fail "calibrate --check of a moved camera: $(cat stdout.txt)"
+grep -q "no longer fits" stdout.txt || fail "calibrate --check of a moved camera: $(cat stdout.txt)"
 export RELIEF_OPENCV_LIBRARY=/nowhere
 expect_error 1 "libopencv-calib3d-dev" calibrate synthetic:room
 unset RELIEF_OPENCV_LIBRARY
