@@ -98,9 +98,9 @@ static void print_fit(const survey *s, bool is_stale)
         printf("edges   there is no colour to compare depth with\n");
     } else if (!r->is_known) {
         printf(
-            "edges   cannot be told: %lld edge points do not agree (+- %.1f px): show a room with "
-            "clear steps in depth on all four sides of things\n",
-            (long long)r->edges, color_fit_error(r));
+            "edges   cannot be told: %lld edge points do not agree (+- %.1f px). Colour is off by "
+            "more than %.0f px, or the room has too few clear steps in depth\n",
+            (long long)r->edges, color_fit_error(r), COLOR_FIT_REACH * r->pixel);
     } else {
         printf("edges   colour is %.1f px %s and %.1f px %s of where depth puts it (together %.1f "
                "+- %.1f px; %lld edge points of %d frames)\n",

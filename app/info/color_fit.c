@@ -10,7 +10,6 @@
 #include <math.h>
 #include <string.h>
 
-#define SHIFT_MAX 16.0 /* pixels of the coarser picture */
 #define SHIFTS 65      /* half a pixel apart */
 #define WIDENING_MAX 6 /* places: three pixels on each side */
 #define HILL 10        /* places on each side: five pixels */
@@ -101,7 +100,7 @@ static bool sample(const color_fit *fit, double u, double v, double *out)
 
 static double shift_at(const color_fit *fit, double place)
 {
-    return (place / (SHIFTS - 1) * 2.0 - 1.0) * SHIFT_MAX * fit->pixel;
+    return (place / (SHIFTS - 1) * 2.0 - 1.0) * COLOR_FIT_REACH * fit->pixel;
 }
 
 /* Gradients across the edge at every shift; false when one of them lies outside the picture. */
@@ -392,7 +391,7 @@ static offset find_offset(const color_fit *fit, omission without, unsigned halve
     }
     const offset result = {shift_at(fit, refine(&x, best_x, best_w)),
                            shift_at(fit, refine(&y, best_y, best_w)),
-                           -best_w * SHIFT_MAX * fit->pixel * 2.0 / (SHIFTS - 1)};
+                           -best_w * COLOR_FIT_REACH * fit->pixel * 2.0 / (SHIFTS - 1)};
     return result;
 }
 

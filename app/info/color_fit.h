@@ -5,6 +5,9 @@
 
 #include "relief/frame.h"
 
+/* How far off edges are looked for: pixels of the coarser picture. */
+#define COLOR_FIT_REACH 16.0
+
 typedef struct color_fit color_fit;
 
 /* Lengths in colour pixels. */
