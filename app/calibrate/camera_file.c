@@ -79,9 +79,11 @@ static rlf_rig_format format_of(const calibrate_options *o)
 static rlf_result save(const calibrate_options *o, const rlf_rig *rig, double units,
                        const char *text)
 {
-    rlf_result result = rlf_rig_save(o->out_path, format_of(o), rig, units, text);
+    const rlf_rig_format format = format_of(o);
+    const bool is_two = rig->has_color && format != RLF_RIG_RELIEF && format != RLF_RIG_OPENCV;
+    rlf_result result = rlf_rig_save(o->out_path, format, rig, units, text);
     if (result == RLF_OK) {
-        printf("written: %s\n", o->out_path);
+        printf("written: %s%s\n", o->out_path, is_two ? ", as _depth and _color" : "");
     }
     return result;
 }
