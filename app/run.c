@@ -45,6 +45,7 @@ static void print_help(void)
         "  --picture-shrink N    average N x N pixels of a picture into one\n"
         "  --log DIR             frames.csv, bodies.csv, contacts.csv, hands.csv\n"
         "  --hands               look for hands, for hands.csv\n"
+        "  --grab                real fingers can hold bodies (experimental)\n"
         "  --record FILE.mcap    what the source gives, for playing it again (see `relief\n"
         "                        record`, whose --codec, --jpeg-quality, --lossless and\n"
         "                        --compression work here, too)\n"
@@ -257,6 +258,7 @@ static int read_options(int argc, char **argv, run_options *o)
         {.name = "video", .kind = OPTION_TEXT, .out = &out->video_path},
         PICTURE_OPTIONS(out),
         {.name = "hands", .kind = OPTION_FLAG, .out = &s->enable_hands},
+        {.name = "grab", .kind = OPTION_FLAG, .out = &s->enable_grab},
         {.name = "log", .kind = OPTION_TEXT, .out = &out->log_folder},
         {.name = "record", .kind = OPTION_TEXT, .out = &s->record.path},
         {.name = "record-bodies", .kind = OPTION_FLAG, .out = &s->record.keeps_bodies},

@@ -89,6 +89,7 @@ static rlf_result create_pipeline(const session_options *options, session *s)
     settings_warn(&options->settings, &def.reconstruct);
     def.enable_render = options->enable_render;
     def.enable_hands = options->enable_hands;
+    def.world.enable_grab = options->enable_grab;
     if (options->is_occlusion_set) {
         def.compositor.occlusion = options->occlusion;
     }

@@ -32,7 +32,7 @@ typedef struct session_options {
     bool is_played;          /* by a playback, with this after the end */
     playback_end end;
     bool enable_render;
-    bool enable_hands;
+    bool enable_hands, enable_grab;
 } session_options;
 
 typedef struct session {

@@ -6,6 +6,7 @@
 
 #define THROW_M_S 3.0
 #define NEAR_M 0.25        /* a body so close to an event is meant by it */
+#define HAND_M 0.2         /* a palm is no farther from what its fingers hold */
 #define POINT_RANGE_M 10.0 /* of a pointing hand */
 #define SPAWN_SIZE_M 0.06  /* of a body where the scene has none */
 #define SPAWN_MASS_KG 0.1
@@ -41,7 +42,32 @@ void hand_stage_restart(hand_stage *stage)
 
 void hand_stage_update(hand_stage *stage, const rlf_surface *surface)
 {
-    stage->last = stage->is_on ? rlf_hand_tracker_update(stage->tracker, surface) : NULL;
+    const rlf_hands *found = stage->is_on ? rlf_hand_tracker_update(stage->tracker, surface) : NULL;
+    if (found != NULL) {
+        stage->now = *found;
+    }
+    stage->last = found != NULL ? &stage->now : NULL;
+}
+
+void hand_stage_hold(hand_stage *stage, const rlf_snapshot *snapshot,
+                     const rlf_pose *T_world_camera)
+{
+    double nearest[RLF_HANDS_MAX];
+    for (int32_t h = 0; h < stage->now.count; h++) {
+        nearest[h] = HAND_M;
+    }
+    for (int32_t i = 0; stage->last != NULL && i < snapshot->body_count; i++) {
+        const rlf_body_state *body = &snapshot->bodies[i];
+        const rlf_vec3 p = rlf_transform_inverse(T_world_camera, body->T_world_body.p);
+        for (int32_t h = 0; body->is_grabbed && h < stage->now.count; h++) {
+            rlf_hand *hand = &stage->now.hand[h];
+            const double way = rlf_length(rlf_sub(p, hand->palm)) - rlf_shape_radius(&body->shape);
+            if (way < nearest[h]) {
+                nearest[h] = way;
+                hand->holding = (uint64_t)body->id.generation << 32 | body->id.index1;
+            }
+        }
+    }
 }
 
 bool hand_scene_binds(const rlf_scene *scene)

@@ -11,7 +11,8 @@
 typedef struct hand_stage {
     rlf_hand_tracker *tracker; /* made when first wanted */
     bool is_on;
-    const rlf_hands *last; /* NULL = none yet, or off */
+    rlf_hands now;
+    const rlf_hands *last; /* `now`; NULL = none yet, or off */
     rlf_mark marks[RLF_HANDS_MAX * HAND_MARKS_EACH];
     int32_t mark_count;
     char words[RLF_HANDS_MAX][HAND_WORD_SIZE];
@@ -23,6 +24,9 @@ void hand_stage_destroy(hand_stage *stage);
 void hand_stage_restart(hand_stage *stage);
 /* Finds the hands of a surface, if they are wanted. */
 void hand_stage_update(hand_stage *stage, const rlf_surface *surface);
+/* Tells which hand holds which of the bodies that are grabbed: the nearest one. */
+void hand_stage_hold(hand_stage *stage, const rlf_snapshot *snapshot,
+                     const rlf_pose *T_world_camera);
 /* True when a scene does something on an event of a hand. */
 bool hand_scene_binds(const rlf_scene *scene);
 /* Palm discs, finger tips and what is recognised, as marks. */

@@ -390,6 +390,7 @@ rlf_result rlf_pipeline_step(rlf_pipeline *p, rlf_pipeline_output *out)
     if (result != RLF_OK) {
         return result;
     }
+    hand_stage_hold(&p->hands, last->snapshot, &last->T_world_camera);
     last->times.physics_ms = elapsed_ms(&clock);
     result = pipeline_draw(p);
     if (result != RLF_OK) {
