@@ -58,7 +58,7 @@ if(TARGET relief_app AND CMAKE_BUILD_TYPE STREQUAL Release)
   add_test(NAME app.eval_bounds
            COMMAND relief_app eval --bounded --without picture --profile live --seeds 1)
   add_test(NAME app.eval_picture COMMAND relief_app eval --scene picture --profile live --seeds 2)
-  add_test(NAME app.eval_room COMMAND relief_app eval --random --rooms 1 --frames 20 --threads 1)
+  add_test(NAME app.eval_room COMMAND relief_app eval --random --rooms 1 --frames 20 --threads 1 --profile live)
   set_tests_properties(app.eval_bounds app.eval_picture app.eval_room PROPERTIES LABELS app TIMEOUT 3600)
 endif()
 

@@ -6,7 +6,6 @@
 #include <cmocka.h>
 
 #include "eval/ball.h"
-#include "eval/sensed/hold.h"
 #include "eval/sensed/throw.h"
 #include "relief/io.h"
 
@@ -79,45 +78,12 @@ static void balls_bounce_as_they_truly_would(void **state)
     assert_true(thesis.right_nearby < 0.5 * (double)thesis.bounces);
 }
 
-static void trays_lift_and_boards_push(void **state)
-{
-    (void)state;
-    const rlf_shape_type shapes[3] = {RLF_SHAPE_SPHERE, RLF_SHAPE_BOX, RLF_SHAPE_HULL};
-    for (int i = 0; i < 3; i++) {
-        bool is_lifted, is_pushed;
-        double error;
-        double speed = 0.25 * (1 << i);
-        assert_int_equal(eval_sensed_lift(RLF_PROFILE_LIVE, shapes[i], speed, &is_lifted, &error),
-                         RLF_OK);
-        assert_int_equal(eval_sensed_swipe(RLF_PROFILE_LIVE, shapes[i], speed, &is_pushed), RLF_OK);
-        assert_true(is_lifted && is_pushed);
-    }
-}
-
-static void rest_is_rest_and_lost_support_is_lost(void **state)
-{
-    (void)state;
-    eval_rest rest;
-    assert_int_equal(eval_sensed_rest(RLF_PROFILE_LIVE, 8.0, &rest), RLF_OK);
-    assert_true(rest.jitter_mm > 0.0 && rest.jitter_mm <= 0.5); /* there are samples */
-    assert_true(rest.awake_mm > 0.0 && rest.awake_mm <= 0.5);
-    assert_true(rest.asleep_s <= 1.0);
-    assert_int_equal(rest.wakes, 0);
-    double frames;
-    assert_int_equal(eval_sensed_chair(RLF_PROFILE_LIVE, &frames), RLF_OK);
-    assert_true(frames <= 4.0);
-    assert_int_equal(eval_sensed_rest(RLF_PROFILE_THESIS, 3.0, &rest), RLF_OK);
-    assert_true(isnan(rest.jitter_mm) && isnan(rest.awake_mm)); /* it falls through the table */
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(true_ball_bounces_exactly),
         cmocka_unit_test(lost_frames_of_a_walking_person_let_nothing_through),
         cmocka_unit_test(balls_bounce_as_they_truly_would),
-        cmocka_unit_test(trays_lift_and_boards_push),
-        cmocka_unit_test(rest_is_rest_and_lost_support_is_lost),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

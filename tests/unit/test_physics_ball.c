@@ -363,7 +363,7 @@ static void bounces_off_a_side_one_pixel_wide(void **state)
 {
     (void)state;
     const double radius = 0.02;
-    const int count = heavy(400, 40);
+    const int count = heavy(400, 15);
     int off = 0;
     for (int i = 0; i < count; i++) {
         const double side_x = 0.58 + 0.0035 * (i % 20);

@@ -66,7 +66,7 @@ static void thousand_bodies_allocate_nothing(void **state)
 {
     (void)state;
     set_floor(1);
-    const int count = heavy(1000, 150);
+    const int count = heavy(1000, 60);
     rlf_world *world = make_world(count, NULL);
     add_crowd(world, count);
     uint64_t before = rlf_alloc_count();
@@ -81,11 +81,11 @@ static void thousand_bodies_allocate_nothing(void **state)
 
 static uint64_t hash_of_run(rlf_pool *pool)
 {
-    const int count = heavy(300, 60);
+    const int count = heavy(300, 40);
     rlf_world *world = make_world(count, pool);
     add_crowd(world, count);
     uint64_t hash = 0;
-    for (int k = 0; k < heavy(40, 12); k++) {
+    for (int k = 0; k < heavy(40, 6); k++) {
         fixture->grid.time_ns = k + 1;
         rlf_world_advance(world, &fixture->grid, FRAME);
         hash = hash * 31 + rlf_world_hash(world);
@@ -110,7 +110,7 @@ static void workers_do_not_matter(void **state)
 static void thousands_in_one_place(void **state)
 {
     (void)state;
-    const int count = heavy(10000, 500);
+    const int count = heavy(10000, 200);
     rlf_world *world = make_world(count, NULL);
     rlf_body_def def = rlf_body_def_default();
     for (int i = 0; i < count; i++) {

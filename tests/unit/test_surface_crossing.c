@@ -66,7 +66,10 @@ static void check_seed(uint64_t seed)
 static void each_keeps_his_label(void **state)
 {
     (void)state;
-    for (uint64_t seed = 1; seed <= (uint64_t)heavy(2, 1); seed++) {
+    if (!heavy_is_whole()) {
+        skip(); /* unit.surface_person runs the same code */
+    }
+    for (uint64_t seed = 1; seed <= 2; seed++) {
         check_seed(seed);
     }
 }

@@ -180,7 +180,7 @@ static void quadrics_have_their_back(void **state)
         {.centre = {0.1, 0.0, 2.0}, .half = {0.09, ENDLESS, 0.09}, .top = -0.3},
     };
     const size_t count = sizeof bodies / sizeof bodies[0];
-    for (size_t i = 0; i < count; i += (size_t)heavy(1, 3)) {
+    for (size_t i = 0; i < count; i += (size_t)heavy(1, 6)) {
         errors e = measure(1, &bodies[i], 0);
         assert_true(e.mean < 0.012);
         assert_true(e.close > 0.97);
