@@ -138,6 +138,9 @@ static double moving_energy(const rlf_world *world)
 static void heap_in_one_place_comes_apart_at_bounded_speed(void **state)
 {
     (void)state;
+    if (!heavy_is_whole()) {
+        skip(); /* thousands_in_one_place runs the same code */
+    }
     rlf_world *world = make_world(300, NULL);
     assert_true(rlf_world_set_gravity(world, rlf_vec3_make(0, 0, 0)));
     rlf_body_def def = rlf_body_def_default();
