@@ -27,7 +27,7 @@ typedef struct lit {
 
 static lit light_at(const job *j, const synth_site *site)
 {
-    if (j->scene->is_moving) { /* shadows cost a second a frame */
+    if (j->scene->is_moving) { /* cast anew in each frame: shadows and nearness are left out */
         return (lit){synth_light(j->scene->lamp, j->scene->down, site, 1.0, 1.0), 0.0};
     }
     double lamp = synth_lamp_share(j->scene, j->static_count, site);
