@@ -1,7 +1,11 @@
-/* The compositor's values as the environment takes them. */
+/* The compositor's values as the environment takes them, and where its views are seen from. */
 #include "render/render.h"
 
 #include "render/body_look.h"
+
+#define PITCH_MAX 1.5
+#define ZOOM_MIN 0.1
+#define ZOOM_MAX 10.0
 
 rlf_camera render_camera(const rlf_compositor_def *def)
 {
@@ -42,4 +46,25 @@ void render_place_bodies(edge_matte *edges, const rlf_camera *camera,
                             body_look_radius(body));
     }
     edge_matte_spread_bodies(edges);
+}
+
+static double finite_or(double value, double otherwise)
+{
+    return rlf_is_finite(value) ? value : otherwise;
+}
+
+rlf_pose rlf_orbit_pose(const rlf_orbit *orbit, double pivot_m)
+{
+    if (!RLF_ASSERT(orbit != NULL)) {
+        return rlf_pose_identity();
+    }
+    double zoom = finite_or(orbit->zoom, 0.0);
+    zoom = zoom > 0.0 ? rlf_clamp(zoom, ZOOM_MIN, ZOOM_MAX) : 1.0;
+    double pitch = rlf_clamp(finite_or(orbit->pitch, 0.0), -PITCH_MAX, PITCH_MAX);
+    rlf_quat yaw = rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), finite_or(orbit->yaw, 0.0));
+    rlf_quat up = rlf_quat_from_axis_angle(rlf_vec3_make(1, 0, 0), pitch);
+    rlf_pose T = {{0, 0, 0}, rlf_quat_mul(up, yaw)};
+    rlf_vec3 pivot = rlf_rotate(T.q, rlf_vec3_make(0, 0, pivot_m));
+    T.p = rlf_vec3_make(-pivot.x, -pivot.y, pivot_m * zoom - pivot.z);
+    return T;
 }
