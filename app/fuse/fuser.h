@@ -3,7 +3,7 @@
 #ifndef RELIEF_APP_FUSE_FUSER_H
 #define RELIEF_APP_FUSE_FUSER_H
 
-#include "fuse/camera_pose.h"
+#include "pipeline/camera_pose.h"
 #include "relief/io.h"
 
 typedef struct fuser_options {
