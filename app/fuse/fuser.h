@@ -17,6 +17,7 @@ typedef struct fuser {
     rlf_map *map;
     rlf_reconstruct *stage;
     const rlf_rig *rig;
+    const rlf_surface *surface; /* of the last frame; NULL before the first */
     uint8_t *rgba, *grey; /* a depth pixel each */
     bool is_tracked;
     camera_pose pose;

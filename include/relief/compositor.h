@@ -70,10 +70,6 @@ typedef struct rlf_orbit {
     double zoom;  /* distance to that point over the camera's, 0.1 to 10; 0 = 1 */
 } rlf_orbit;
 
-/* T_view_base of an orbit: the base looks along z at a point `pivot_m` metres before it, and the view
- * is turned about that. Angles that are not finite are 0. Thread-safety: any. */
-RLF_API rlf_pose rlf_orbit_pose(const rlf_orbit *orbit, double pivot_m);
-
 /* The static room as RLF_VIEW_MAP shows it. All is borrowed for one call. */
 typedef struct rlf_room_sight {
     /* From where the picture is seen, e.g. by rlf_map_predict. Of any size; its camera, resized,
@@ -151,6 +147,14 @@ typedef struct rlf_compositor_def {
 
 /* All fields at the defaults that they name. `rig`, `grid` and the rays are still to be set. */
 RLF_API rlf_compositor_def rlf_compositor_def_default(void);
+
+/* Where RLF_VIEW_MAP is seen from: behind the room's `box` and somewhat above it, as `T_world_base`
+ * looks, usually the first camera; far enough to see all, and turned by the orbit about the box's
+ * middle. out_camera is the picture's without its lens, no larger than the depth camera, as
+ * rlf_map_predict takes it. Thread-safety: any. */
+RLF_API void rlf_room_look(const rlf_compositor_def *def, const rlf_aabb *box,
+                           const rlf_pose *T_world_base, const rlf_orbit *orbit,
+                           rlf_camera *out_camera, rlf_pose *out_T_world_view);
 
 /* Everything one picture is made of; all borrowed for the call. */
 typedef struct rlf_render_input {

@@ -190,6 +190,7 @@ void rlf_pipeline_destroy(rlf_pipeline **pipeline)
     known_models_destroy(&p->known);
     rlf_reconstruct_destroy(&p->reconstruct);
     rlf_free(p->sheet.data);
+    room_view_destroy(&p->room);
     far_side_destroy(&p->far);
     hand_stage_destroy(&p->hands);
     rlf_free(p->regions);
@@ -392,7 +393,10 @@ rlf_result rlf_pipeline_step(rlf_pipeline *p, rlf_pipeline_output *out)
     }
     hand_stage_hold(&p->hands, last->snapshot, &last->T_world_camera);
     last->times.physics_ms = elapsed_ms(&clock);
-    result = pipeline_draw(p);
+    result = pipeline_see_room(p);
+    if (result == RLF_OK) {
+        result = pipeline_draw(p);
+    }
     if (result != RLF_OK) {
         return result;
     }
@@ -432,6 +436,7 @@ rlf_result rlf_pipeline_restart(rlf_pipeline *p)
     rlf_reconstruct_reset(p->reconstruct);
     rlf_world_reset(p->world);
     hand_stage_restart(&p->hands);
+    room_view_clear(&p->room);
     p->frame_index = 0;
     p->has_moved = false;
     return add_bodies(p);

@@ -7,6 +7,7 @@
 #include "pipeline/far_side.h"
 #include "pipeline/hands.h"
 #include "pipeline/known.h"
+#include "pipeline/room_view.h"
 
 #define OVERLAY_LINES_MAX 32
 #define OVERLAY_LINE_SIZE 128
@@ -27,6 +28,7 @@ struct rlf_pipeline {
     int32_t region_capacity;
     far_side far;
     hand_stage hands;
+    room_view room;
 
     rlf_view views[RLF_PIPELINE_VIEWS];
     int32_t view_count;
@@ -46,6 +48,9 @@ struct rlf_pipeline {
     rlf_pipeline_output last;
 };
 
+/* picture.c: takes over what the frame's prediction of the room says, before a view needs another.
+ * Once a frame, when its pose is known. */
+rlf_result pipeline_see_room(rlf_pipeline *p);
 /* picture.c: p->last.render from the rest of p->last; nothing when the pipeline draws nothing. */
 rlf_result pipeline_draw(rlf_pipeline *p);
 /* One more frame in the plot, from p->last.times. */

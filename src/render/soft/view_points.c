@@ -4,6 +4,7 @@
  * bodies as in the main view, with that buffer for the real world. */
 #include "render/soft/view_points.h"
 
+#include "render/render.h"
 #include "render/soft/bodies.h"
 #include "render/soft/draw.h"
 #include "render/soft/palette.h"
@@ -116,7 +117,7 @@ rlf_result soft_draw_points(soft *s, const rlf_render_input *input)
     const rlf_occlusion occlusion = s->def.occlusion;
     rlf_camera pinhole = camera;
     pinhole.distortion_model = RLF_DISTORTION_NONE;
-    rlf_pose T_view_depth = rlf_orbit_pose(&input->orbit, pivot_of(&s->def.rig));
+    rlf_pose T_view_depth = render_orbit_pose(&input->orbit, pivot_of(&s->def.rig));
     soft_set_viewpoint(s, &pinhole, &T_view_depth);
     s->def.occlusion = RLF_OCCLUSION_DEPTH;
     soft_clear_view(s);
