@@ -8,8 +8,8 @@
 #define PITCH_MAX 1.5
 #define ZOOM_MIN 0.1
 #define ZOOM_MAX 10.0
-#define ROOM_DIAGONALS 0.9 /* a room's box is seen from so far off its middle, */
-#define ROOM_PITCH 0.4     /* and from so much further up than its base looks, radians */
+#define ROOM_SHARE 0.5 /* half a picture at a room's middle is as wide as this part of its diagonal */
+#define ROOM_PITCH 0.4 /* and it is seen from so much further up than its base looks, radians */
 
 rlf_camera render_camera(const rlf_compositor_def *def)
 {
@@ -92,7 +92,8 @@ void rlf_room_look(const rlf_compositor_def *def, const rlf_aabb *box, const rlf
         return;
     }
     const rlf_vec3 size = rlf_sub(box->max, box->min);
-    const double away = ROOM_DIAGONALS * rlf_length(size);
+    const rlf_camera picture = render_camera(def);
+    const double away = ROOM_SHARE * rlf_length(size) * 2.0 * picture.fx / picture.width;
     const rlf_vec3 ahead = rlf_rotate(T_world_base->q, rlf_vec3_make(0, 0, 1));
     const rlf_pose T_world_base_away = {rlf_mad(rlf_mad(box->min, size, 0.5), ahead, -away),
                                         T_world_base->q};
@@ -100,7 +101,6 @@ void rlf_room_look(const rlf_compositor_def *def, const rlf_aabb *box, const rlf
     raised.pitch = finite_or(orbit->pitch, 0.0) + ROOM_PITCH;
     const rlf_pose T_view_base = render_orbit_pose(&raised, away);
     const rlf_pose T_base_view = rlf_pose_invert(&T_view_base);
-    const rlf_camera picture = render_camera(def);
     *out_camera = shrink(&picture, &def->rig.depth);
     *out_T_world_view = rlf_pose_mul(&T_world_base_away, &T_base_view);
 }
