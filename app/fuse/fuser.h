@@ -4,6 +4,7 @@
 #define RELIEF_APP_FUSE_FUSER_H
 
 #include "pipeline/camera_pose.h"
+#include "pipeline/color_view.h"
 #include "relief/io.h"
 
 typedef struct fuser_options {
@@ -18,7 +19,7 @@ typedef struct fuser {
     rlf_reconstruct *stage;
     const rlf_rig *rig;
     const rlf_surface *surface; /* of the last frame; NULL before the first */
-    uint8_t *rgba, *grey; /* a depth pixel each */
+    color_view color;
     bool is_tracked;
     camera_pose pose;
     double surface_ms, color_ms, integrate_ms; /* of the last frame */

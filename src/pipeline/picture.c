@@ -141,12 +141,6 @@ static rlf_result render_one(rlf_pipeline *p, const rlf_render_input *input, rlf
     return result == RLF_OK ? rlf_compositor_render(p->compositor, input, out) : result;
 }
 
-rlf_result pipeline_see_room(rlf_pipeline *p)
-{
-    const rlf_pipeline_output *last = &p->last;
-    return room_view_see(&p->room, last->surface, &last->T_world_camera, last->room, p->def.pool);
-}
-
 /* The room from the orbit. The map then no longer holds what it predicted for the frame. */
 static const rlf_room_sight *look_at_room(rlf_pipeline *p)
 {
@@ -195,12 +189,15 @@ rlf_result pipeline_draw(rlf_pipeline *p)
     if (!p->def.enable_render) {
         return RLF_OK;
     }
+    if (p->last.track == NULL || p->last.track->health != RLF_TRACK_LOST) {
+        room_view_pass(&p->room, &p->last.T_world_camera);
+    }
     hand_stage_draw(&p->hands);
     rlf_render_input input = {
         .frame = &p->last.frame,
-        .surface = room_view_surface(&p->room, p->last.surface),
+        .surface = p->last.surface,
         .snapshot = p->last.snapshot,
-        .T_world_camera = p->last.T_world_camera,
+        .T_world_camera = p->camera.T_world,
         .orbit = p->orbit,
         .overlay = p->overlay_lines,
         .overlay_count = p->overlay_count,
