@@ -34,15 +34,16 @@ static rlf_result draw_way(const fuser *f, const trajectory *way, rlf_vec3 *path
                            const rlf_orbit *orbit, rlf_pool *pool, const char *to)
 {
     const rlf_compositor_def def = picture_def(f, pool);
-    const rlf_map_status status = rlf_map_get_status(f->map);
+    rlf_aabb box = rlf_map_get_status(f->map).box;
     const rlf_frame no_frame = {.sequence = 0};
     rlf_camera camera;
     rlf_pose T_world_view;
     rlf_prediction seen;
     for (int32_t i = 0; i < way->count; i++) {
         path[i] = way->found[i].p;
+        rlf_aabb_extend(&box, path[i]);
     }
-    rlf_room_look(&def, &status.box, &way->found[0], orbit, &camera, &T_world_view);
+    rlf_room_look(&def, &box, &way->found[0], orbit, &camera, &T_world_view);
     rlf_result result = rlf_map_predict(f->map, &camera, &T_world_view, &seen);
     if (result != RLF_OK) {
         return result;

@@ -35,7 +35,11 @@ const rlf_room_sight *room_view_look(room_view *v, rlf_map *map, const rlf_compo
     const rlf_pose base = v->path_count > 0 ? v->T_world_first : rlf_pose_identity();
     rlf_camera camera;
     rlf_pose T_world_view;
-    rlf_room_look(def, &status.box, &base, orbit, &camera, &T_world_view);
+    rlf_aabb box = status.box;
+    for (int32_t i = 0; i < v->path_count; i++) {
+        rlf_aabb_extend(&box, v->path[i]);
+    }
+    rlf_room_look(def, &box, &base, orbit, &camera, &T_world_view);
     if (rlf_map_predict(map, &camera, &T_world_view, &v->prediction) != RLF_OK) {
         return NULL;
     }

@@ -8,7 +8,7 @@
 #define PITCH_MAX 1.5
 #define ZOOM_MIN 0.1
 #define ZOOM_MAX 10.0
-#define ROOM_SHARE 0.5 /* half a picture at a room's middle is as wide as this part of its diagonal */
+#define ROOM_SHARE 0.6 /* half a picture at a room's middle is as wide as this part of its diagonal */
 #define ROOM_PITCH 0.4 /* and it is seen from so much further up than its base looks, radians */
 
 rlf_camera render_camera(const rlf_compositor_def *def)

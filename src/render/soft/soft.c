@@ -233,6 +233,9 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
         return result;
     }
     soft_set_background(s, &input->frame->color);
+    if (has_edges && s->real.has_moved) {
+        edge_matte_forget(&s->edges);
+    }
     if (has_edges) {
         edge_matte_update(&s->edges, &s->real.z, real_depth_known(&s->real), input->frame);
     }
