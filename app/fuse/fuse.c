@@ -31,6 +31,7 @@ typedef struct fuse_run {
     rlf_pose T_first_source; /* the first camera's frame is the world */
     int64_t seen, fused, without_pose;
     trajectory trajectory;
+    room_view room;
     double predict_ms, align_ms, integrate_ms;
     int64_t last_progress_ns;
 } fuse_run;
@@ -202,9 +203,9 @@ static rlf_result add_frame(fuse_run *run, const rlf_frame *frame)
     }
     run->fused++;
     run->integrate_ms += run->fuser.integrate_ms;
-    return trajectory_add(&run->trajectory, frame->time_ns,
-                          is_tracked ? &run->fuser.pose.last.T_world_camera : &T,
-                          has_pose ? &T : NULL);
+    const rlf_pose *found = is_tracked ? &run->fuser.pose.last.T_world_camera : &T;
+    room_view_pass(&run->room, found, run->fuser.surface);
+    return trajectory_add(&run->trajectory, frame->time_ns, found, has_pose ? &T : NULL);
 }
 
 static rlf_result fuse_frames(fuse_run *run)
@@ -266,8 +267,7 @@ static rlf_result write_files(fuse_run *run)
         result = trajectory_write(&run->trajectory, o->trajectory_path);
     }
     if (result == RLF_OK && o->picture_path != NULL) {
-        result = fuse_picture_write(o->picture_path, &run->fuser, &run->trajectory, &o->orbit,
-                                    run->pool);
+        result = fuse_picture_write(o->picture_path, &run->fuser, &run->room, &o->orbit, run->pool);
     }
     if (result == RLF_OK && !o->is_quiet) {
         print_summary(run, &mesh);

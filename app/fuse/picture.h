@@ -3,10 +3,10 @@
 #define RELIEF_APP_FUSE_PICTURE_H
 
 #include "fuse/fuser.h"
-#include "fuse/trajectory.h"
+#include "pipeline/room_view.h"
 
-/* After at least one frame. */
-rlf_result fuse_picture_write(const char *path, const fuser *f, const trajectory *way,
+/* After at least one frame, all of which `view` has passed. */
+rlf_result fuse_picture_write(const char *path, const fuser *f, room_view *view,
                               const rlf_orbit *orbit, rlf_pool *pool);
 
 #endif

@@ -2,7 +2,6 @@
 #ifndef RLF_ENVIRONMENT_SIGHT_CHANGE_H
 #define RLF_ENVIRONMENT_SIGHT_CHANGE_H
 
-#include "base/inside.h"
 #include "relief/camera.h"
 
 /* A zeroed one remembers nothing. */
@@ -15,6 +14,6 @@ typedef struct sight_change {
  * where it was when the memory began; it then begins anew here. The first pose is no change, and a
  * standing camera's never is. */
 bool sight_change_update(sight_change *c, const rlf_pose *T_world_camera, const rlf_camera *camera,
-                         double nearest_m) RLF_INSIDE(sight_change_update);
+                         double nearest_m);
 
 #endif

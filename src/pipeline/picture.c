@@ -190,7 +190,7 @@ rlf_result pipeline_draw(rlf_pipeline *p)
         return RLF_OK;
     }
     if (p->last.track == NULL || p->last.track->health != RLF_TRACK_LOST) {
-        room_view_pass(&p->room, &p->last.T_world_camera);
+        room_view_pass(&p->room, &p->last.T_world_camera, p->last.surface);
     }
     hand_stage_draw(&p->hands);
     rlf_render_input input = {
