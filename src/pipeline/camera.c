@@ -17,8 +17,9 @@ rlf_result camera_start(rlf_pipeline *p)
     const rlf_pipeline_def *def = &p->def;
     camera_stop(p);
     p->camera.T_world = def->T_world_camera;
-    if (def->camera == RLF_CAMERA_MOVING || (def->camera == RLF_CAMERA_AUTO && def->map != NULL)) {
-        return moving_start(&p->camera.moving, def, NULL, 0);
+    const bool is_known = def->map != NULL && rlf_map_get_status(def->map).block_count > 0;
+    if (def->camera == RLF_CAMERA_MOVING || (def->camera == RLF_CAMERA_AUTO && is_known)) {
+        return moving_start(&p->camera.moving, def, NULL);
     }
     const rlf_reconstruct_def *surface = &def->reconstruct;
     p->camera.is_watched = def->camera == RLF_CAMERA_AUTO && surface->scale_factor == 1 &&
@@ -66,13 +67,14 @@ static rlf_result see_moving(rlf_pipeline *p, const rlf_surface **out)
 }
 
 /* From now on it moves. */
-static rlf_result begin_to_move(rlf_pipeline *p)
+static rlf_result begin_to_move(rlf_pipeline *p, const rlf_surface *s)
 {
     camera *c = &p->camera;
     rlf_log(RLF_LOG_INFO, "the camera moves (frame %lld): it is tracked from now on",
             (long long)p->frame_index);
     c->is_watched = false;
-    return moving_start(&c->moving, &p->def, c->has_still ? c->still : NULL, c->still_ns);
+    const moving_from from = {c->still, s->time_ns, s->T_now_before};
+    return moving_start(&c->moving, &p->def, c->has_still ? &from : NULL);
 }
 
 static rlf_result see_standing(rlf_pipeline *p, const rlf_surface **out)
@@ -88,7 +90,7 @@ static rlf_result see_standing(rlf_pipeline *p, const rlf_surface **out)
         keep_still(&p->camera, *out);
         return RLF_OK;
     }
-    result = begin_to_move(p);
+    result = begin_to_move(p, *out);
     return result == RLF_OK ? see_moving(p, out) : result;
 }
 

@@ -31,27 +31,28 @@ static rlf_result open_map(moving *m, const rlf_pipeline_def *def)
     return rlf_map_create(&map, &m->map);
 }
 
-/* The pose is the camera's, of a map that has been seen from there: later frames are placed in it.
- */
-static void take_start(moving *m, const rlf_pose *T_world_camera, const float *still,
-                       int64_t time_ns)
+/* The map begins with what was seen before the camera moved. It is a keyframe, and the first guess
+ * is where the camera has come to since. */
+static rlf_result fuse_still(moving *m, const rlf_pose *T_world_camera, const moving_from *from)
 {
-    const rlf_track_view view = {.depth = still};
-    m->pose.last = (rlf_track_result){
-        .T_world_camera = *T_world_camera, .health = RLF_TRACK_GOOD, .overlap = 1.0};
-    m->pose.has_first = true;
-    rlf_tracker_accept(m->pose.tracker, &view, time_ns, &m->pose.last);
-}
-
-static rlf_result fuse_still(moving *m, const rlf_pose *T_world_camera, const float *still,
-                             int64_t time_ns)
-{
-    const rlf_map_view view = {.depth = still};
+    const rlf_map_view room = {.depth = from->still};
+    const rlf_track_view view = {.depth = from->still};
     rlf_result result = RLF_OK;
     for (int32_t k = 0; k < STILL_WEIGHT && result == RLF_OK; k++) {
-        result = rlf_map_integrate(m->map, &view, T_world_camera, NULL);
+        result = moving_fuse_whole(m, &room, T_world_camera);
     }
-    take_start(m, T_world_camera, still, time_ns);
+    rlf_track_result *last = &m->pose.last;
+    *last = (rlf_track_result){
+        .T_world_camera = *T_world_camera, .health = RLF_TRACK_GOOD, .overlap = 1.0};
+    rlf_tracker_accept(m->pose.tracker, &view, from->time_ns, last);
+    const rlf_pose T_before_now = rlf_pose_invert(&from->T_now_before);
+    last->T_world_camera = rlf_pose_mul(T_world_camera, &T_before_now);
+    last->health = RLF_TRACK_WEAK;
+    rlf_tracker_accept(m->pose.tracker, &view, from->time_ns, last);
+    m->pose.has_first = true;
+    rlf_map_fence(m->map);
+    m->fence_ns = from->time_ns;
+    m->has_fence = true;
     return result;
 }
 
@@ -88,7 +89,7 @@ static rlf_result check(const rlf_pipeline_def *def)
                                (int)def->reconstruct.scale_factor);
 }
 
-rlf_result moving_start(moving *m, const rlf_pipeline_def *def, const float *still, int64_t time_ns)
+rlf_result moving_start(moving *m, const rlf_pipeline_def *def, const moving_from *from)
 {
     memset(m, 0, sizeof(*m));
     rlf_result result = check(def);
@@ -106,8 +107,8 @@ rlf_result moving_start(moving *m, const rlf_pipeline_def *def, const float *sti
         m->is_known_room = rlf_map_get_status(m->map).block_count > 0;
         m->pose.has_first = m->is_known_room;
     }
-    if (result == RLF_OK && still != NULL) {
-        result = fuse_still(m, &def->T_world_camera, still, time_ns);
+    if (result == RLF_OK && from != NULL) {
+        result = fuse_still(m, &def->T_world_camera, from);
     }
     m->is_on = result == RLF_OK;
     if (result != RLF_OK) {

@@ -32,18 +32,28 @@ typedef struct moving {
     rlf_track_result track;
     rlf_track_health told;
     bool is_known_room; /* the map was not empty at the start, and the camera is not found yet */
-    int64_t fence_ns;   /* when the map was said to be right last */
+    bool has_fence;
+    int64_t fence_ns; /* when the map was said to be right last */
     rlf_result result;
 } moving;
 
-/* Begins, with the camera at a pose. `still`: the background that a standing camera saw from there,
- * a plane; NULL = none. May allocate. */
-rlf_result moving_start(moving *m, const rlf_pipeline_def *def, const float *still,
-                        int64_t time_ns);
+/* What a camera has seen that stood until now. */
+typedef struct moving_from {
+    const float *still;    /* the background: a plane */
+    int64_t time_ns;       /* of this frame */
+    rlf_pose T_now_before; /* how far it has moved already */
+} moving_from;
+
+/* Begins at the def's pose; `from` may be NULL: the first frame is seen from there. May allocate.
+ */
+rlf_result moving_start(moving *m, const rlf_pipeline_def *def, const moving_from *from);
 /* The surface of a frame, m->T_world_camera and m->track. */
 rlf_result moving_process(moving *m, const rlf_frame *frame, const rlf_surface **out);
 /* moving_frame.c: the surface stage asks it for the room; context = the moving. */
 bool moving_give(void *context, const rlf_surface *seen, rlf_given_background *out);
+/* Fuses a view into all of its blocks, however long it takes: the first one, which all others are
+ * placed by. */
+rlf_result moving_fuse_whole(moving *m, const rlf_map_view *view, const rlf_pose *T_world_camera);
 /* False while the camera's pose is not known: then nothing is known of what bodies could meet. */
 static inline bool moving_is_placed(const moving *m)
 {

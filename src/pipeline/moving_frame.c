@@ -134,6 +134,18 @@ static void mark_static(moving *m, const rlf_surface *s)
     }
 }
 
+rlf_result moving_fuse_whole(moving *m, const rlf_map_view *view, const rlf_pose *T_world_camera)
+{
+    rlf_map_change change;
+    int64_t fused = 0;
+    rlf_result result;
+    do {
+        result = rlf_map_integrate(m->map, view, T_world_camera, &change);
+        fused += change.blocks_fused;
+    } while (result == RLF_OK && change.blocks_fused > 0 && fused < change.blocks_seen);
+    return result;
+}
+
 static rlf_result fuse(moving *m, const rlf_surface *s)
 {
     const rlf_map_view view = {
@@ -144,12 +156,19 @@ static rlf_result fuse(moving *m, const rlf_surface *s)
         .is_static = m->is_static,
         .rgba = m->has_color ? m->color.rgba : NULL,
     };
-    if (s->time_ns - m->fence_ns >= FENCE_NS || s->time_ns < m->fence_ns) {
-        rlf_map_fence(m->map);
-        m->fence_ns = s->time_ns;
-    }
     mark_static(m, s);
-    return rlf_map_integrate(m->map, &view, &m->T_world_camera, NULL);
+    if (m->has_fence) {
+        if (s->time_ns - m->fence_ns >= FENCE_NS) {
+            rlf_map_fence(m->map);
+            m->fence_ns = s->time_ns;
+        }
+        return rlf_map_integrate(m->map, &view, &m->T_world_camera, NULL);
+    }
+    rlf_result result = moving_fuse_whole(m, &view, &m->T_world_camera);
+    rlf_map_fence(m->map); /* where the first frame was seen from is what the world is */
+    m->fence_ns = s->time_ns;
+    m->has_fence = true;
+    return result;
 }
 
 /* What was fused since the last fence may have been put in the wrong place. A frame that shows next
