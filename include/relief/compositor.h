@@ -28,7 +28,7 @@ typedef enum rlf_view {
                                its impulse */
     RLF_VIEW_KNOWN = 12,    /* camera, with the models of real things as wireframes */
     RLF_VIEW_HANDS = 13,    /* camera, with the marks of the input: palms, finger tips, gestures */
-    RLF_VIEW_MAP = 14,      /* the fused room and the bodies from anywhere: orbit; the camera's way */
+    RLF_VIEW_MAP = 14, /* the fused room and the bodies from anywhere: orbit; the camera's way */
     RLF_VIEW_COUNT = 15
 } rlf_view;
 
@@ -148,10 +148,10 @@ typedef struct rlf_compositor_def {
 /* All fields at the defaults that they name. `rig`, `grid` and the rays are still to be set. */
 RLF_API rlf_compositor_def rlf_compositor_def_default(void);
 
-/* Where RLF_VIEW_MAP is seen from: behind and somewhat above a `box` about the room and the camera's
- * way, as `T_world_base` looks, usually the first camera; far enough to see all, and turned by the
- * orbit about the box's middle. out_camera is the picture's without its lens, no larger than the depth camera, as
- * rlf_map_predict takes it. Thread-safety: any. */
+/* Where RLF_VIEW_MAP is seen from: behind and somewhat above a `box` about the room and the
+ * camera's way, as `T_world_base` looks, usually the first camera; far enough to see all, and
+ * turned by the orbit about the box's middle. out_camera is the picture's without its lens, no
+ * larger than the depth camera, as rlf_map_predict takes it. Thread-safety: any. */
 RLF_API void rlf_room_look(const rlf_compositor_def *def, const rlf_aabb *box,
                            const rlf_pose *T_world_base, const rlf_orbit *orbit,
                            rlf_camera *out_camera, rlf_pose *out_T_world_view);

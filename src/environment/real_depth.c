@@ -138,8 +138,8 @@ const known_layer *real_depth_known(const real_depth *real)
 static void follow_camera(real_depth *real, const rlf_pose *T_world_camera)
 {
     const double nearest = real->seen.least > 0.0f ? (double)real->seen.least : 1.0;
-    real->has_moved = sight_change_update(&real->sight, T_world_camera, &real->registration->color,
-                                          nearest);
+    real->has_moved =
+        sight_change_update(&real->sight, T_world_camera, &real->registration->color, nearest);
     if (real->has_moved && !real->uses_frame) {
         background_color_forget(&real->lost.background);
     }

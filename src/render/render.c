@@ -8,8 +8,8 @@
 #define PITCH_MAX 1.5
 #define ZOOM_MIN 0.1
 #define ZOOM_MAX 10.0
-#define ROOM_SHARE 0.6 /* half a picture at a room's middle is as wide as this part of its diagonal */
-#define ROOM_PITCH 0.4 /* and it is seen from so much further up than its base looks, radians */
+#define ROOM_SHARE 0.6 /* of a room's diagonal is half as wide as a picture of its middle, */
+#define ROOM_PITCH 0.4 /* which is taken from so much further up than its base looks, radians */
 
 rlf_camera render_camera(const rlf_compositor_def *def)
 {
@@ -73,8 +73,8 @@ rlf_pose render_orbit_pose(const rlf_orbit *orbit, double pivot_m)
 /* The picture's camera, no larger than another. */
 static rlf_camera shrink(const rlf_camera *picture, const rlf_camera *most)
 {
-    double scale = rlf_min((double)most->width / picture->width,
-                           (double)most->height / picture->height);
+    double scale =
+        rlf_min((double)most->width / picture->width, (double)most->height / picture->height);
     scale = rlf_min(scale, 1.0);
     rlf_camera camera = *picture;
     camera.distortion_model = RLF_DISTORTION_NONE;

@@ -85,7 +85,7 @@ static void room_bodies_and_way_are_where_they_are(void **state)
     assert_int_equal(pixel(&out, 100, 400)[0], 0);
     assert_int_equal(pixel(&out, 800, 400)[0], 210); /* grey, square to the view */
     assert_true(pixel(&out, 800, 535)[0] < 30);      /* not seen */
-    assert_true(pixel(&out, 480, 161)[0] > 230); /* the way: orange */
+    assert_true(pixel(&out, 480, 161)[0] > 230);     /* the way: orange */
     assert_true(pixel(&out, 480, 161)[2] < 80);
     rlf_compositor_destroy(&compositor);
     free(w);

@@ -106,8 +106,7 @@ static void draw_path(const soft *s, const rlf_room_sight *room)
     for (int32_t i = 0; i < room->path_count; i++) {
         const rlf_vec3 p = rlf_transform(&T_view_world, room->path[i]);
         soft_point at;
-        const bool is_seen =
-            p.z > SOFT_NEAR_Z && rlf_camera_project(&s->camera, p, &at.x, &at.y);
+        const bool is_seen = p.z > SOFT_NEAR_Z && rlf_camera_project(&s->camera, p, &at.x, &at.y);
         for (int32_t k = 0; is_seen && has_last && k < thick; k++) {
             const soft_point from = {last.x, last.y + k}, to = {at.x, at.y + k};
             soft_draw_line(&s->image, from, to, soft_color_path());
@@ -156,8 +155,7 @@ rlf_result soft_draw_map(soft *s, const rlf_render_input *input)
     const rlf_camera camera = s->camera;
     const rlf_pose T_picture_depth = s->T_picture_depth;
     const rlf_occlusion occlusion = s->def.occlusion;
-    const rlf_camera pinhole =
-        rlf_camera_resize(&seen->camera, s->image.width, s->image.height);
+    const rlf_camera pinhole = rlf_camera_resize(&seen->camera, s->image.width, s->image.height);
     const rlf_pose T_view_world = rlf_pose_invert(&seen->T_world_camera);
     const rlf_pose T_view_depth = rlf_pose_mul(&T_view_world, &input->T_world_camera);
     soft_set_viewpoint(s, &pinhole, &T_view_depth);
