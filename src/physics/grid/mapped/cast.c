@@ -10,6 +10,8 @@
 #define STRIDE_LEAST 0.125 /* about half a voxel */
 /* A way along a surface, up to the map's noise, does not enter it. */
 #define ALONG_COS 0.05
+/* No back that is guessed is farther behind a face, metres. */
+#define OPEN_FAR 0.5
 
 bool mapped_is_seen(const rlf_grid *grid, rlf_vec3 q)
 {
@@ -27,13 +29,31 @@ bool mapped_is_seen(const rlf_grid *grid, rlf_vec3 q)
     return rlf_dot(cell.normal, rlf_sub(q, cell.point)) > -GRID_NOISE_M;
 }
 
+/* A map keeps no space that is far from any surface. It is free if the way from there towards the
+ * camera comes to what is known to be free, and in the solid if it comes to a face's back. */
+static bool is_open_space(const grid_query *query, rlf_vec3 q)
+{
+    double truncation = rlf_map_truncation(query->map), distance = rlf_length(q);
+    rlf_vec3 way = rlf_scale(q, -1.0 / rlf_max(distance, 1e-9));
+    double most = rlf_min(OPEN_FAR, distance);
+    for (double gone = truncation; gone < most; gone += truncation) {
+        rlf_vec3 p = rlf_mad(q, way, gone);
+        rlf_map_point there =
+            rlf_map_sample(query->map, rlf_transform(&query->grid->T_world_grid, p));
+        if (there.state != RLF_MAP_UNKNOWN) {
+            return there.state == RLF_MAP_FREE;
+        }
+    }
+    return false;
+}
+
 bool mapped_answers(const grid_query *query, rlf_vec3 q)
 {
     if (query->map == NULL || mapped_is_seen(query->grid, q)) {
         return false;
     }
     rlf_vec3 p = rlf_transform(&query->grid->T_world_grid, q);
-    return rlf_map_sample(query->map, p).state != RLF_MAP_UNKNOWN;
+    return rlf_map_sample(query->map, p).state != RLF_MAP_UNKNOWN || is_open_space(query, q);
 }
 
 static bool has_direction(const rlf_map_point *there)
