@@ -4,6 +4,7 @@
 #include <string.h>
 
 #define KEEP_NS 1000000000 /* a standing camera's background is kept so often */
+#define TOLD_NS 500000000  /* within which it is told that the camera moves */
 
 void camera_stop(rlf_pipeline *p)
 {
@@ -27,7 +28,7 @@ rlf_result camera_start(rlf_pipeline *p)
     if (p->camera.is_watched) {
         const rlf_camera *depth = &surface->rig.depth;
         p->camera.still =
-            rlf_alloc_array((size_t)depth->width * (size_t)depth->height, sizeof(float));
+            rlf_alloc_array(2 * (size_t)depth->width * (size_t)depth->height, sizeof(float));
     }
     return p->camera.is_watched && p->camera.still == NULL ? RLF_ERROR_MEMORY : RLF_OK;
 }
@@ -35,13 +36,24 @@ rlf_result camera_start(rlf_pipeline *p)
 /* What the room looked like from where the camera stood: the map begins with it. */
 static void keep_still(camera *c, const rlf_surface *s)
 {
-    const bool is_due = !c->has_still || s->time_ns - c->still_ns >= KEEP_NS;
+    const int32_t last = (c->still_count + 1) % 2, next = c->still_count % 2;
+    const bool is_due = c->still_count == 0 || s->time_ns - c->still_ns[last] >= KEEP_NS;
     if (is_due && s->background_state == RLF_BACKGROUND_READY) {
-        memcpy(c->still, s->background_depth,
-               (size_t)s->width * (size_t)s->height * sizeof(*c->still));
-        c->has_still = true;
-        c->still_ns = s->time_ns;
+        const size_t count = (size_t)s->width * (size_t)s->height;
+        memcpy(c->still + (size_t)next * count, s->background_depth, count * sizeof(*c->still));
+        c->still_ns[next] = s->time_ns;
+        c->still_count++;
     }
+}
+
+/* The newest that was kept before the camera can have begun to move; NULL = none was. */
+static const float *find_still(const camera *c, const rlf_surface *s)
+{
+    const size_t count = (size_t)s->width * (size_t)s->height;
+    const int32_t last = (c->still_count + 1) % 2;
+    const bool is_old = s->time_ns - c->still_ns[last] >= TOLD_NS || c->still_count == 1;
+    const int32_t chosen = is_old ? last : 1 - last;
+    return c->still_count > 0 ? c->still + (size_t)chosen * count : NULL;
 }
 
 /* One line when it begins. */
@@ -73,8 +85,8 @@ static rlf_result begin_to_move(rlf_pipeline *p, const rlf_surface *s)
     rlf_log(RLF_LOG_INFO, "the camera moves (frame %lld): it is tracked from now on",
             (long long)p->frame_index);
     c->is_watched = false;
-    const moving_from from = {c->still, s->time_ns, s->T_now_before};
-    return moving_start(&c->moving, &p->def, c->has_still ? &from : NULL);
+    const moving_from from = {find_still(c, s), s->time_ns, s->T_now_before};
+    return moving_start(&c->moving, &p->def, from.still != NULL ? &from : NULL);
 }
 
 static rlf_result see_standing(rlf_pipeline *p, const rlf_surface **out)

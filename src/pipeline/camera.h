@@ -7,11 +7,11 @@
 typedef struct camera {
     rlf_pose T_world; /* of the newest frame */
     moving moving;
-    bool is_watched;  /* it may begin to move */
-    float *still;     /* AUTO: the background of a standing camera, a plane; NULL = not asked for */
-    bool has_still;   /* it holds one */
-    int64_t still_ns; /* when it was kept */
-    bool has_told;    /* that it moves, though it is to stand */
+    bool is_watched;     /* it may begin to move */
+    float *still;        /* AUTO: two planes, the background of a standing camera; else NULL */
+    int64_t still_ns[2]; /* when each was kept */
+    int32_t still_count; /* so often one was; they take turns */
+    bool has_told;       /* that it moves, though it is to stand */
 } camera;
 
 #endif

@@ -1,7 +1,8 @@
-/* From the smaller, undistorted picture of a prediction to the grid's pixels. */
+/* From the smaller, undistorted picture of a prediction to the grid's pixels: the planes of the
+ * four about a ray are continued to it, and the nearest counts. */
 #include "pipeline/room_planes.h"
 
-static const float step_share = 0.02f; /* of depth: more between two pixels is a step */
+static const float longest = 0.2f; /* share of depth that a plane is continued by */
 
 rlf_result room_planes_open(room_planes *r, size_t pixels)
 {
@@ -29,49 +30,44 @@ typedef struct room_job {
     const rlf_surface *s;
 } room_job;
 
-/* Depth between the four pixels about (u, v): 1 / z is linear on planes. */
-static float depth_at(const rlf_prediction *p, float u, float v, int32_t x, int32_t y)
+/* Where the plane of the prediction's pixel k meets a ray; 0 = nothing is known there. */
+static float plane_depth(const rlf_prediction *p, int32_t k, float ray_x, float ray_y)
 {
-    const float *at = p->depth + (ptrdiff_t)y * p->camera.width + x;
-    const float z[4] = {at[0], at[1], at[p->camera.width], at[p->camera.width + 1]};
-    float low = z[0], high = z[0];
-    for (int k = 1; k < 4; k++) {
-        low = z[k] < low ? z[k] : low;
-        high = z[k] > high ? z[k] : high;
-    }
-    if (low > 0.0f && high - low < step_share * low) {
-        const float a = u - (float)x, b = v - (float)y;
-        const float top = (1.0f - a) / z[0] + a / z[1], bottom = (1.0f - a) / z[2] + a / z[3];
-        return 1.0f / ((1.0f - b) * top + b * bottom);
-    }
-    if (!(at[(v - (float)y < 0.5f ? 0 : p->camera.width) + (u - (float)x < 0.5f ? 0 : 1)] > 0.0f)) {
-        return 0.0f;
-    }
-    for (int k = 0; k < 4; k++) {
-        low = z[k] > 0.0f && (z[k] < low || !(low > 0.0f)) ? z[k] : low;
-    }
-    return low;
+    const float z = p->depth[k];
+    const float x = (float)((k % p->camera.width - p->camera.cx) / p->camera.fx);
+    const float y = (float)((k / p->camera.width - p->camera.cy) / p->camera.fy);
+    const float *const n[3] = {p->normal_x + k, p->normal_y + k, p->normal_z + k};
+    const float own = *n[0] * x + *n[1] * y + *n[2];
+    const float other = *n[0] * ray_x + *n[1] * ray_y + *n[2];
+    const float share = other != 0.0f ? own / other : 0.0f;
+    return share > 1.0f - longest && share < 1.0f + longest ? z * share : z;
 }
 
 static void take_pixel(const room_job *job, int32_t i)
 {
     const rlf_prediction *p = job->p;
     const rlf_surface *s = job->s;
-    const float u = (float)(s->ray_x[i] * p->camera.fx + p->camera.cx);
-    const float v = (float)(s->ray_y[i] * p->camera.fy + p->camera.cy);
+    const float ray_x = s->ray_x[i], ray_y = s->ray_y[i];
+    const double u = ray_x * p->camera.fx + p->camera.cx, v = ray_y * p->camera.fy + p->camera.cy;
+    const int32_t width = p->camera.width;
     float z = 0.0f;
-    int32_t nearest = -1;
-    if (u > -0.5f && v > -0.5f && u < (float)p->camera.width - 0.5f &&
-        v < (float)p->camera.height - 0.5f) {
-        const float x = rlf_clamp(u, 0.0, p->camera.width - 1.001);
-        const float y = rlf_clamp(v, 0.0, p->camera.height - 1.001);
-        z = depth_at(p, x, y, (int32_t)x, (int32_t)y);
-        nearest = (int32_t)(y + 0.5f) * p->camera.width + (int32_t)(x + 0.5f);
+    int32_t from = 0;
+    if (u > -0.5 && v > -0.5 && u < width - 0.5 && v < p->camera.height - 0.5) {
+        const int32_t x = (int32_t)rlf_clamp(u, 0.0, width - 2.0);
+        const int32_t y = (int32_t)rlf_clamp(v, 0.0, p->camera.height - 2.0);
+        const int32_t about[4] = {y * width + x, y * width + x + 1, (y + 1) * width + x,
+                                  (y + 1) * width + x + 1};
+        const int32_t nearest = (int32_t)(v + 0.5) * width + (int32_t)(u + 0.5);
+        for (int k = 0; k < 4 && p->depth[nearest] > 0.0f; k++) {
+            const float plane = plane_depth(p, about[k], ray_x, ray_y);
+            from = plane > 0.0f && (plane < z || !(z > 0.0f)) ? about[k] : from;
+            z = plane > 0.0f && (plane < z || !(z > 0.0f)) ? plane : z;
+        }
     }
-    const float *const from[3] = {p->normal_x, p->normal_y, p->normal_z};
+    const float *const normal[3] = {p->normal_x, p->normal_y, p->normal_z};
     job->planes->depth[i] = z;
     for (int k = 0; k < 3; k++) {
-        job->planes->normal[k][i] = z > 0.0f ? from[k][nearest] : 0.0f;
+        job->planes->normal[k][i] = z > 0.0f ? normal[k][from] : 0.0f;
     }
 }
 

@@ -16,7 +16,7 @@ set(public_kernel base math image camera frame surface) # of the values: noise a
 set(public_capture base math image camera frame source synthetic synthetic_hands)
 set(public_surface base math image camera frame surface reconstruct)
 set(public_query base math image camera frame surface)
-set(public_physics base math snapshot world query)
+set(public_physics base math snapshot world query map) # of the map only what it answers
 set(public_known base math image camera frame surface snapshot model known)
 set(public_environment base math image camera frame surface snapshot)
 set(public_map base math image camera frame surface prediction map)
