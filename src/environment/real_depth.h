@@ -60,10 +60,9 @@ void real_depth_destroy(real_depth *real) RLF_INSIDE(real_depth_destroy);
 /* Reads the depth that is to be registered, and fills `seen`. */
 void real_depth_read(real_depth *real, const observation *now) RLF_INSIDE(real_depth_read);
 /* Fills windows of z with what was read last; of other pixels nothing is known. Pixels without
- * depth take the background's, when the surface knows it; with `bodies` what is around them and what
- * the picture shows decides (lost_depth.h). Models of real things take their place. has_moved says
- * then whether to edge_matte_forget, too.
- * RLF_ERROR_MEMORY as known_layer_place. */
+ * depth take the background's, when the surface knows it; with `bodies` what is around them and
+ * what the picture shows decides (lost_depth.h), and has_moved says whether the matte is to forget.
+ * Models of real things take their place. RLF_ERROR_MEMORY as known_layer_place. */
 rlf_result real_depth_update(real_depth *real, const observation *now, const edge_matte *bodies,
                              const real_windows *needed) RLF_INSIDE(real_depth_update);
 
