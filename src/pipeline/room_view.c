@@ -5,8 +5,7 @@
 
 #define EVERY 8 /* pixel of a surface tells how far away it is */
 
-/* Harmonic mean of a surface's depths: few that are far, or wrong, hardly count. 0 = there is none.
- */
+/* Mean of a surface's depths: few that are wrong hardly count. 0 = there is none. */
 static double mean_depth(const rlf_surface *s)
 {
     double sum = 0.0;
@@ -14,11 +13,11 @@ static double mean_depth(const rlf_surface *s)
     for (int32_t y = 0; y < s->height; y += EVERY) {
         for (int32_t x = 0; x < s->width; x += EVERY) {
             const float z = s->depth[y * s->width + x];
-            sum += z > 0.0f ? 1.0 / (double)z : 0.0;
+            sum += z > 0.0f ? (double)z : 0.0;
             count += z > 0.0f;
         }
     }
-    return count > 0 ? count / sum : 0.0;
+    return count > 0 ? sum / count : 0.0;
 }
 
 /* By the picture's corners at that depth. */
