@@ -15,9 +15,12 @@ enum { RLF_FUSE_SIDE = 8, RLF_FUSE_VOXELS = 512, RLF_FUSE_CHROMA = 64 };
 #define RLF_FUSE_WEIGHT 16.0f
 #define RLF_FUSE_WEIGHT_MOST 255.0f
 
+/* Distance of a voxel that nobody saw: farther than any. */
+#define RLF_FUSE_UNKNOWN INT16_MAX
+
 /* 8 x 8 x 8 voxels, x fastest. */
 typedef struct rlf_fuse_block {
-    int16_t distance[RLF_FUSE_VOXELS];  /* steps; means nothing where the weight is 0 */
+    int16_t distance[RLF_FUSE_VOXELS];  /* steps; RLF_FUSE_UNKNOWN where the weight is 0 */
     uint8_t weight[RLF_FUSE_VOXELS];    /* 0 = nobody looked there */
     uint8_t grey[RLF_FUSE_VOXELS];      /* luma; 0 = no colour yet */
     uint8_t chroma[2][RLF_FUSE_CHROMA]; /* Cb and Cr of 2 x 2 x 2 voxels, 128 = grey */
@@ -60,7 +63,8 @@ typedef struct rlf_fuse_summary {
 
 #define RLF_FUSE_NO_VOXEL 0xffffu
 
-void rlf_kernel_fuse_block(const rlf_fuse_view *view, const rlf_fuse_place *place,
+/* False when it sees nothing of the block, which then stays as it is. */
+bool rlf_kernel_fuse_block(const rlf_fuse_view *view, const rlf_fuse_place *place,
                            rlf_fuse_block *restrict block);
 rlf_fuse_summary rlf_kernel_fuse_summary(const rlf_fuse_block *block);
 

@@ -221,8 +221,10 @@ static void fuse_blocks(void *context, int32_t begin, int32_t end, int32_t worke
                 place.step[k][r] = (float)(R->m[r][k] * voxel);
             }
         }
-        rlf_kernel_fuse_block(&job->view, &place, map_block_at(&map->volume, block));
-        map_block_look(&map->volume, block);
+        if (rlf_kernel_fuse_block(&job->view, &place, map_block_at(&map->volume, block)) ||
+            (map->volume.flags[block] & MAP_IS_NEW) != 0) {
+            map_block_look(&map->volume, block);
+        }
     }
 }
 
