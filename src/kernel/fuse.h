@@ -39,6 +39,7 @@ typedef struct rlf_fuse_view {
     const rlf_fuse_plane *planes; /* of the source's pixels */
     const float *least;           /* least depth of 3 x 3 pixels, 0 where one is missing */
     const uint8_t *rgba;          /* NULL = none */
+    int32_t color_turn;           /* 0..3: which row of four gets its colour again */
     const int32_t *source_of; /* pixel of the planes above per pinhole pixel, -1 = none; or NULL */
     rlf_kernel_noise noise;
     float sigmas;                                   /* of truncation */

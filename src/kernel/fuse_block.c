@@ -6,7 +6,7 @@
  * of voxels, two by two: the plane is as true for them as for the line in their middle. */
 #include "kernel/fuse.h"
 
-enum { LANES = RLF_FUSE_SIDE };
+enum { LANES = RLF_FUSE_SIDE, PAIR = 2 * LANES };
 
 /* Colour is kept this near to a surface, voxels: what its cells reach. */
 #define COLOR_REACH 2.0f
@@ -25,11 +25,11 @@ typedef struct lanes {
     float carving[LANES];    /* of free space that is seen; 0 = none is */
 } lanes;
 
-/* Eight voxels in a row. */
+/* Sixteen voxels: two rows, one after the other in memory. */
 typedef struct row_lanes {
-    float seen[LANES];      /* observed distance, steps, cut at the truncation */
-    float weight[LANES];    /* of the observation; 0 = none */
-    float most_kept[LANES]; /* weight that what was there may have beside it */
+    float seen[PAIR];      /* observed distance, steps, cut at the truncation */
+    float weight[PAIR];    /* of the observation; 0 = none */
+    float most_kept[PAIR]; /* weight that what was there may have beside it */
 } row_lanes;
 
 RLF_KERNEL_PART void project(const rlf_fuse_view *view, const float start[3], const float step[3],
@@ -115,7 +115,7 @@ RLF_KERNEL_PART bool observe(const rlf_fuse_view *view, const rlf_fuse_place *pl
         float facing = -offset[i] / (z > RLF_FUSE_NEAREST_M ? z : RLF_FUSE_NEAREST_M);
         facing = facing > 1.0f ? 1.0f : facing;
         float weight = l->weight[i], slanted = weight * facing;
-        l->distance[i] = has_plane > 0.0f ? distance : NO_PLANE;
+        l->distance[i] = has_plane * distance + (1.0f - has_plane) * NO_PLANE;
         l->way[0][i] = wy;
         l->way[1][i] = wz;
         l->carving[i] = far * (weight < 1.0f ? 1.0f : weight);
@@ -127,26 +127,34 @@ RLF_KERNEL_PART bool observe(const rlf_fuse_view *view, const rlf_fuse_place *pl
     return any > 0.0f;
 }
 
-/* What is seen at the row `up` and `back` voxels from the middle along y and z. */
-RLF_KERNEL_PART void observe_row(const rlf_fuse_view *view, const lanes *restrict l, float up,
-                                 float back, row_lanes *restrict r)
+/* What is seen at the two rows that are `back` voxels from the middle along z. */
+RLF_KERNEL_PART void observe_pair(const rlf_fuse_view *view, const lanes *restrict l, float back,
+                                  row_lanes *restrict r)
 {
-    RLF_KERNEL_WHOLE
-    for (int32_t i = 0; i < LANES; i++) {
-        float t = l->truncation[i];
-        float distance = l->distance[i] + up * l->way[0][i] + back * l->way[1][i];
-        float near = rlf_kernel_abs(distance) <= t ? 1.0f : 0.0f;
-        r->seen[i] = near > 0.0f ? distance : t;
-        r->weight[i] = near > 0.0f ? l->weight[i] : l->carving[i];
-        r->most_kept[i] = near > 0.0f ? RLF_FUSE_WEIGHT_MOST : view->carve_weight * l->carving[i];
+    const float carve_weight = view->carve_weight;
+    RLF_KERNEL_UNROLLED(2)
+    for (int32_t k = 0; k < 2; k++) {
+        const float up = (float)k - 0.5f;
+        RLF_KERNEL_WHOLE
+        for (int32_t i = 0; i < LANES; i++) {
+            float t = l->truncation[i];
+            float distance = l->distance[i] + up * l->way[0][i] + back * l->way[1][i];
+            /* A number, not a choice: that would not be vectorised. */
+            int32_t is_near = rlf_kernel_abs(distance) <= t;
+            float near = (float)is_near, far = 1.0f - near;
+            r->seen[k * LANES + i] = near * distance + far * t;
+            r->weight[k * LANES + i] = near * l->weight[i] + far * l->carving[i];
+            r->most_kept[k * LANES + i] =
+                near * RLF_FUSE_WEIGHT_MOST + far * (carve_weight * l->carving[i]);
+        }
     }
 }
 
-RLF_KERNEL_PART void mix(const row_lanes *restrict r, int16_t *restrict distance,
-                         uint8_t *restrict weight)
+RLF_KERNEL_PART void mix_distance(const row_lanes *restrict r, int16_t *restrict distance,
+                                  const uint8_t *restrict weight)
 {
     RLF_KERNEL_WHOLE
-    for (int32_t i = 0; i < LANES; i++) {
+    for (int32_t i = 0; i < PAIR; i++) {
         float old = (float)weight[i], add = r->weight[i];
         old = old > r->most_kept[i] ? r->most_kept[i] : old;
         float sum = old + add;
@@ -154,8 +162,18 @@ RLF_KERNEL_PART void mix(const row_lanes *restrict r, int16_t *restrict distance
         /* Rounded to the nearest by a cut: nothing is below -32 voxels. */
         int32_t rounded = (int32_t)(mean + 32768.5f) - 32768;
         distance[i] = (int16_t)(add > 0.0f ? rounded : distance[i]);
+    }
+}
+
+RLF_KERNEL_PART void mix_weight(const row_lanes *restrict r, uint8_t *restrict weight)
+{
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < PAIR; i++) {
+        float old_weight = (float)weight[i];
+        float kept = old_weight > r->most_kept[i] ? r->most_kept[i] : old_weight;
+        float sum = kept + r->weight[i];
         sum = sum > RLF_FUSE_WEIGHT_MOST ? RLF_FUSE_WEIGHT_MOST : sum;
-        weight[i] = (uint8_t)(add > 0.0f ? (int32_t)(sum + 0.5f) : weight[i]);
+        weight[i] = (uint8_t)(r->weight[i] > 0.0f ? (int32_t)(sum + 0.5f) : weight[i]);
     }
 }
 
@@ -170,14 +188,14 @@ RLF_KERNEL_PART uint8_t mixed(uint8_t old, int32_t seen, float old_weight, float
 
 /* Of the voxels of one row that are near a surface; `l` is the row itself. The weights are those
  * before this view. */
-RLF_KERNEL_PART void mix_color(const rlf_fuse_view *view, const lanes *l, const row_lanes *r,
-                               int32_t row, rlf_fuse_block *block)
+RLF_KERNEL_PART void mix_color(const rlf_fuse_view *view, const lanes *l, const float *seen,
+                               const float *weight, int32_t row, rlf_fuse_block *block)
 {
     const bool has_chroma = (row & 1) == 0 && ((row >> 3) & 1) == 0;
     for (int32_t i = 0; i < LANES; i++) {
         const uint8_t *c = &view->rgba[4 * (ptrdiff_t)l->pixel[i]];
-        const bool is_near = rlf_kernel_abs(r->seen[i]) < COLOR_REACH * RLF_FUSE_STEPS;
-        if (!is_near || r->weight[i] == 0.0f || l->is_in[i] == 0.0f || c[3] == 0) {
+        const bool is_near = rlf_kernel_abs(seen[i]) < COLOR_REACH * RLF_FUSE_STEPS;
+        if (!is_near || weight[i] == 0.0f || l->is_in[i] == 0.0f || c[3] == 0) {
             continue;
         }
         const int32_t at = row * LANES + i;
@@ -185,24 +203,27 @@ RLF_KERNEL_PART void mix_color(const rlf_fuse_view *view, const lanes *l, const 
         luma = luma < 1 ? 1 : luma;
         const bool is_first = block->grey[at] == 0;
         const float old = is_first ? 0.0f : (float)block->weight[at];
-        block->grey[at] = mixed(block->grey[at], luma, old, r->weight[i]);
+        block->grey[at] = mixed(block->grey[at], luma, old, weight[i]);
         if (has_chroma && (i & 1) == 0) {
             const int32_t cell = (row >> 4) * 16 + ((row & 7) >> 1) * 4 + (i >> 1);
             const int32_t blue = (c[2] - luma + 256) >> 1, red = (c[0] - luma + 256) >> 1;
-            block->chroma[0][cell] = mixed(block->chroma[0][cell], blue, old, r->weight[i]);
-            block->chroma[1][cell] = mixed(block->chroma[1][cell], red, old, r->weight[i]);
+            block->chroma[0][cell] = mixed(block->chroma[0][cell], blue, old, weight[i]);
+            block->chroma[1][cell] = mixed(block->chroma[1][cell], red, old, weight[i]);
         }
     }
 }
 
-RLF_KERNEL_PART bool is_near_surface(const row_lanes *r)
+/* Whether a row has voxels near to a surface; in `missing`, whether one of these has no colour. */
+RLF_KERNEL_PART bool is_near_surface(const float seen[LANES], const uint8_t *grey, bool *missing)
 {
-    float nearest = NO_PLANE;
+    int32_t near = 0, bare = 0;
     for (int32_t i = 0; i < LANES; i++) {
-        float size = rlf_kernel_abs(r->seen[i]);
-        nearest = size < nearest ? size : nearest;
+        int32_t is_near = rlf_kernel_abs(seen[i]) < COLOR_REACH * RLF_FUSE_STEPS;
+        near |= is_near;
+        bare |= is_near & (grey[i] == 0);
     }
-    return nearest < COLOR_REACH * RLF_FUSE_STEPS;
+    *missing = bare != 0;
+    return near != 0;
 }
 
 /* The pixels along a line at (y, z) of the block. */
@@ -219,6 +240,23 @@ RLF_KERNEL_PART void find_pixels(const rlf_fuse_view *view, const rlf_fuse_place
     }
 }
 
+/* One row of four at a time, in turn: colours change less than what a frame costs. */
+RLF_KERNEL_PART void color_pair(const rlf_fuse_view *view, const rlf_fuse_place *place,
+                                const row_lanes *r, int32_t row, rlf_fuse_block *block)
+{
+    for (int32_t k = 0; k < 2; k++, row++) {
+        const float *seen = &r->seen[k * LANES], *weight = &r->weight[k * LANES];
+        const int32_t turn = (row & 1) | (row >> 2 & 2);
+        bool missing;
+        if (is_near_surface(seen, &block->grey[row * LANES], &missing) &&
+            (missing || turn == view->color_turn)) {
+            lanes l;
+            find_pixels(view, place, (float)(row % LANES), (float)(row / LANES), &l);
+            mix_color(view, &l, seen, weight, row, block);
+        }
+    }
+}
+
 RLF_KERNEL bool rlf_kernel_fuse_block(const rlf_fuse_view *view, const rlf_fuse_place *place,
                                       rlf_fuse_block *restrict block)
 {
@@ -232,16 +270,15 @@ RLF_KERNEL bool rlf_kernel_fuse_block(const rlf_fuse_view *view, const rlf_fuse_
             continue;
         }
         any = true;
-        for (int32_t k = 0; k < 4; k++) {
-            const int32_t dy = k & 1, dz = k >> 1, row = (z + dz) * LANES + y + dy;
+        for (int32_t k = 0; k < 2; k++) {
+            const int32_t row = (z + k) * LANES + y;
             row_lanes r;
-            observe_row(view, &l, (float)dy - 0.5f, (float)dz - 0.5f, &r);
-            if (view->rgba != NULL && is_near_surface(&r)) {
-                lanes own;
-                find_pixels(view, place, (float)(y + dy), (float)(z + dz), &own);
-                mix_color(view, &own, &r, row, block);
+            observe_pair(view, &l, (float)k - 0.5f, &r);
+            if (view->rgba != NULL) {
+                color_pair(view, place, &r, row, block);
             }
-            mix(&r, &block->distance[row * LANES], &block->weight[row * LANES]);
+            mix_distance(&r, &block->distance[row * LANES], &block->weight[row * LANES]);
+            mix_weight(&r, &block->weight[row * LANES]);
         }
     }
     return any;
@@ -251,7 +288,7 @@ RLF_KERNEL bool rlf_kernel_fuse_block(const rlf_fuse_view *view, const rlf_fuse_
  * bits: numbers of 16 bits, so that a register has eight. */
 RLF_KERNEL_PART void find_front(const rlf_fuse_block *block, uint16_t least[4][LANES])
 {
-    enum { EIGHTH = RLF_FUSE_VOXELS / 8 };
+    enum { EIGHTH = RLF_FUSE_VOXELS / 8, NEAR = 1023 };
     for (int32_t row = 0; row < LANES * LANES; row++) {
         uint16_t *best = least[(row >> 2 & 1) | (row >> 5) << 1];
         const int16_t *distance = &block->distance[row * LANES];
@@ -260,7 +297,8 @@ RLF_KERNEL_PART void find_front(const rlf_fuse_block *block, uint16_t least[4][L
         for (int32_t i = 0; i < LANES; i++) {
             uint16_t d = (uint16_t)distance[i];
             uint16_t key = (uint16_t)(d * EIGHTH + first + (i & 3));
-            key = (uint16_t)(d - 1) < (uint16_t)(RLF_FUSE_STEPS - 1) ? key : RLF_FUSE_NO_VOXEL;
+            uint16_t none = (uint16_t)(d - 1) < NEAR ? 0 : RLF_FUSE_NO_VOXEL;
+            key |= none;
             best[i] = key < best[i] ? key : best[i];
         }
     }

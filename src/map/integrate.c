@@ -21,10 +21,11 @@ typedef struct fuse_job {
     rlf_mat3 R_camera_world;
     rlf_pose T_world_camera;
     rlf_fuse_view view;
+    int32_t turns; /* frames in which each block that is seen is fused once */
     rlf_map_change change;
 } fuse_job;
 
-static rlf_fuse_view view_make(const rlf_map *map, const rlf_map_view *in)
+static rlf_fuse_view view_make(const rlf_map *map, const rlf_map_view *in, int32_t turns)
 {
     const rlf_camera *c = &map->pinhole;
     const rlf_map_def *def = &map->def;
@@ -39,6 +40,7 @@ static rlf_fuse_view view_make(const rlf_map *map, const rlf_map_view *in)
         .planes = map->planes,
         .least = map->least,
         .rgba = def->keep_color ? in->rgba : NULL,
+        .color_turn = (int32_t)(map->frames / turns & 3),
         .source_of = map->source_of,
         .noise = rlf_kernel_noise_make(&def->rig.noise),
         .sigmas = (float)def->truncation_sigmas,
@@ -143,18 +145,24 @@ static void mark_all(fuse_job *job)
     }
 }
 
+/* Frames in which each block that is seen has its turn. */
+static int32_t turns_for(const rlf_map *map)
+{
+    const int32_t budget = map->def.blocks_per_frame;
+    const int32_t turns = budget > 0 ? (map->seen_count + budget - 1) / budget : 1;
+    return turns > 1 ? turns : 1;
+}
+
 /* Those that are new, and as many of the others as there is time for, in turn. */
 static void choose_seen(fuse_job *job)
 {
     rlf_map *map = job->map;
-    const int32_t budget = map->def.blocks_per_frame;
-    const int32_t turns = budget > 0 ? (map->seen_count + budget - 1) / budget : 1;
-    const int32_t turn = turns > 1 ? (int32_t)(map->frames % turns) : 0;
+    const int32_t turns = job->turns, turn = (int32_t)(map->frames % turns);
     map->chosen_count = 0;
     for (int32_t i = 0; i < map->seen_count; i++) {
         const int32_t block = map->seen[i];
         const bool is_new = (map->volume.flags[block] & MAP_IS_NEW) != 0;
-        if (is_new || turns <= 1 || block % turns == turn) {
+        if (is_new || block % turns == turn) {
             map->chosen[map->chosen_count++] = block;
         }
     }
@@ -259,8 +267,9 @@ rlf_result rlf_map_integrate(rlf_map *map, const rlf_map_view *view, const rlf_p
     job.R_camera_world = rlf_quat_to_mat3(rlf_quat_conjugate(job.T_world_camera.q));
     map->tick++;
     map_view_prepare(map, view);
-    job.view = view_make(map, view);
     mark_all(&job);
+    job.turns = turns_for(map);
+    job.view = view_make(map, view, job.turns);
     choose_seen(&job);
     choose_carved(&job);
     map_journal_expect(map, map->chosen_count);
