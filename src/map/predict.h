@@ -12,10 +12,15 @@ typedef struct map_caster {
     const rlf_map *map;
     rlf_camera camera;
     rlf_mat3 R_world_camera, R_camera_world;
-    rlf_vec3 eye;          /* world, metres */
-    rlf_vec3 to_eighth[8]; /* from a block's corner to the middles of its eighths, camera frame */
+    rlf_vec3 eye; /* world, metres */
+    /* In voxels: the eye, the way of pixel (0, 0)'s ray for a metre of depth, and what it gains
+     * from pixel to pixel. */
+    float at[3], way[3], way_x[3], way_y[3];
+    float to_eighth[8][3]; /* from a block's corner to the middles of its eighths, camera frame */
+    float ahead[3];        /* what a voxel's step gains in depth, metres */
     map_view_planes *out;
     int32_t tile_columns;
+    float slack; /* metres behind a drawn voxel where its surface still may be */
 } map_caster;
 
 /* Draws the blocks with a surface: farthest depth per tile, and per pixel the depth of the nearest
