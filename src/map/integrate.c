@@ -11,8 +11,8 @@ static const float margins[] = {-2.0f, 1.0f, 4.0f};
 enum { MARGINS = sizeof(margins) / sizeof(margins[0]) };
 
 enum {
-    SPACING = 4,      /* pixels between those that look for blocks; in 16 frames all do */
-    CARVE_FRAMES = 4, /* in which every block is asked once whether it is seen through */
+    SPACING = 6,      /* pixels between those that look for blocks; in 36 frames all do */
+    CARVE_FRAMES = 8, /* in which every block is asked once whether it is seen through */
     GRAIN = 32        /* blocks */
 };
 
@@ -196,7 +196,7 @@ static void choose_carved(fuse_job *job)
     rlf_map *map = job->map;
     const map_volume *v = &map->volume;
     const int32_t budget =
-        map->def.blocks_per_frame > 0 ? map->def.blocks_per_frame / 2 + 1 : v->capacity;
+        map->def.blocks_per_frame > 0 ? map->def.blocks_per_frame / 4 + 1 : v->capacity;
     const int32_t share = v->high / CARVE_FRAMES + 1;
     int32_t cursor = map->carve_cursor < v->high ? map->carve_cursor : 0;
     int32_t end = cursor + share < v->high ? cursor + share : v->high;

@@ -227,6 +227,35 @@ static void begin_at(ray *r, int32_t block)
     }
 }
 
+#define AHEAD 6 /* pixels that memory has to answer in */
+
+/* Brings near what a pixel of the row will read first. */
+static void look_ahead(const map_caster *c, int32_t x, int32_t y, ray *r)
+{
+    const int32_t i = y * c->camera.width + x;
+    const float start = x < c->camera.width ? c->out->depth[i] : MAP_NOTHING;
+    if (!(start < MAP_NOTHING)) {
+        return;
+    }
+    ray_make(c, x, y, r);
+    const int32_t block = c->out->start[i];
+    int32_t voxel[3], at[3];
+    bool is_in = true;
+    for (int32_t k = 0; k < 3; k++) {
+        voxel[k] = floored(r->at[k] + start * r->way[k]);
+        at[k] = (voxel[k] - (voxel[k] & 7)) / MAP_SIDE;
+        is_in &= at[k] == r->v->place[block][k];
+    }
+    if (is_in) {
+        const int16_t *d = map_block_at(r->v, block)->distance;
+        d += ((voxel[2] & 7) * MAP_SIDE + (voxel[1] & 7)) * MAP_SIDE;
+        RLF_KERNEL_SOON(d);
+        RLF_KERNEL_SOON(d + MAP_SIDE * MAP_SIDE);
+    } else {
+        map_volume_soon(r->v, at[0], at[1], at[2]);
+    }
+}
+
 /* The plane of depth holds where the nearest voxel in front of a surface is: there the ray is
  * looked at first. At outlines it passes by that surface, and goes on. */
 static void cast_pixel(const map_caster *c, int32_t x, int32_t y, ray *r)
@@ -263,6 +292,7 @@ static void cast_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     ray_begin(c, &r);
     for (int32_t y = begin; y < end; y++) {
         for (int32_t x = 0; x < c->camera.width; x++) {
+            look_ahead(c, x + AHEAD, y, &r);
             cast_pixel(c, x, y, &r);
         }
     }

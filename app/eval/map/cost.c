@@ -21,6 +21,9 @@ enum {
     BOXES = 7
 };
 
+/* The tracker starts from where a camera of 30 Hz was a frame ago. */
+#define BETWEEN (1.0 / 6.0)
+
 typedef enum series { ALIGN, INTEGRATE, PREDICT, SUM, SERIES } series;
 
 /* x right, y down, z forward, metres. The first is the room, seen from within. */
@@ -53,9 +56,9 @@ static double cpu_ms(void)
 }
 
 /* Round the middle of the room, up and down, once round each loop and twice about oneself. */
-static rlf_pose pose_at(int32_t i)
+static rlf_pose pose_at(double frame)
 {
-    const double t = 2.0 * RLF_PI * (i % LOOP) / LOOP;
+    const double t = 2.0 * RLF_PI * frame / LOOP;
     const rlf_quat yaw = rlf_quat_from_rotation_vector(rlf_vec3_make(0, 2.0 * t, 0));
     const rlf_quat pitch =
         rlf_quat_from_rotation_vector(rlf_vec3_make(0.6 * rlf_sin(5.0 * t), 0, 0));
@@ -122,7 +125,7 @@ static void see_pixel(walk *w, const rlf_mat3 *R, rlf_vec3 eye, int32_t i)
 
 static rlf_result step(walk *w, int32_t i)
 {
-    const rlf_pose T = pose_at(i), start = pose_at(i > 0 ? i - 1 : 0);
+    const rlf_pose T = pose_at(i % LOOP), start = pose_at(i % LOOP - BETWEEN);
     const rlf_mat3 R = rlf_quat_to_mat3(T.q);
     const int32_t n = w->rig.depth.width * w->rig.depth.height;
     for (int32_t k = 0; k < n; k++) {
