@@ -53,16 +53,22 @@ typedef struct rlf_fuse_place {
     float origin[3], step[3][3];
 } rlf_fuse_place;
 
+/* The surface in one eighth of a block: the voxel right in front of it, by less than a voxel, its
+ * distance, and the way out of the surface, which is 127 long; all 0 where that is not known. */
+typedef struct rlf_fuse_patch {
+    uint16_t voxel; /* RLF_FUSE_NO_VOXEL: there is none */
+    uint8_t ahead;  /* 1/256 voxel */
+    int8_t normal[3];
+} rlf_fuse_patch;
+
+#define RLF_FUSE_NO_VOXEL 0xffffu
+
 /* What a block is after it: its least distance from any surface (magnitude), and its least signed
  * distance, steps; 32767 where nothing is known. */
 typedef struct rlf_fuse_summary {
     int32_t nearest, lowest;
-    /* Of each 4 x 4 x 4 voxels (bits x = 1, y = 2, z = 4) the one right in front of the surface, by
-     * less than one voxel; RLF_FUSE_NO_VOXEL: none is. */
-    uint16_t front[8];
+    rlf_fuse_patch front[8]; /* of each 4 x 4 x 4 voxels (bits x = 1, y = 2, z = 4) */
 } rlf_fuse_summary;
-
-#define RLF_FUSE_NO_VOXEL 0xffffu
 
 /* False when it sees nothing of the block, which then stays as it is. */
 bool rlf_kernel_fuse_block(const rlf_fuse_view *view, const rlf_fuse_place *place,

@@ -304,6 +304,41 @@ RLF_KERNEL_PART void find_front(const rlf_fuse_block *block, uint16_t least[4][L
     }
 }
 
+/* How many voxels one may go from `d` by `step`: two, for noise counts less over a longer way. */
+RLF_KERNEL_PART int32_t reach(const int16_t *d, int32_t step, int32_t room)
+{
+    const bool has_one = room > 0 && d[step] != RLF_FUSE_UNKNOWN;
+    const bool has_two = has_one && room > 1 && d[2 * step] != RLF_FUSE_UNKNOWN;
+    return (has_one ? 1 : 0) + (has_two ? 1 : 0);
+}
+
+/* What the distance gains along an axis, steps a voxel. */
+RLF_KERNEL_PART float slope(const rlf_fuse_block *block, int32_t voxel, int32_t axis)
+{
+    const int32_t step = 1 << (3 * axis), at = voxel >> (3 * axis) & 7;
+    const int16_t *d = &block->distance[voxel];
+    const int32_t low = reach(d, -step, at), high = reach(d, step, 7 - at);
+    const int32_t way = low + high;
+    return (float)(d[high * step] - d[-low * step]) / (float)(way > 0 ? way : 1);
+}
+
+RLF_KERNEL_PART rlf_fuse_patch patch_at(const rlf_fuse_block *block, int32_t voxel)
+{
+    rlf_fuse_patch out = {.voxel = (uint16_t)voxel,
+                          .ahead = (uint8_t)(block->distance[voxel] >> 2)};
+    float g[3], size2 = 0.0f;
+    for (int32_t k = 0; k < 3; k++) {
+        g[k] = slope(block, voxel, k);
+        size2 += g[k] * g[k];
+    }
+    const float least = 0.3f * RLF_FUSE_STEPS;
+    const float scale = size2 > least * least ? 127.0f / sqrtf(size2) : 0.0f;
+    for (int32_t k = 0; k < 3; k++) {
+        out.normal[k] = (int8_t)(g[k] * scale);
+    }
+    return out;
+}
+
 RLF_KERNEL rlf_fuse_summary rlf_kernel_fuse_summary(const rlf_fuse_block *block)
 {
     int16_t nearest = INT16_MAX, lowest = INT16_MAX;
@@ -325,8 +360,10 @@ RLF_KERNEL rlf_fuse_summary rlf_kernel_fuse_summary(const rlf_fuse_block *block)
         const int32_t at = best & 63;
         const int32_t x = 4 * (k & 1) + (at & 3), y = 4 * (k >> 1 & 1) + (at >> 2 & 3);
         const int32_t z = 4 * (k >> 2) + (at >> 4);
-        const bool has_one = best != RLF_FUSE_NO_VOXEL;
-        out.front[k] = has_one ? (uint16_t)((z * LANES + y) * LANES + x) : RLF_FUSE_NO_VOXEL;
+        out.front[k] = (rlf_fuse_patch){.voxel = RLF_FUSE_NO_VOXEL};
+        if (best != RLF_FUSE_NO_VOXEL) {
+            out.front[k] = patch_at(block, (z * LANES + y) * LANES + x);
+        }
     }
     return out;
 }

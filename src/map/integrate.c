@@ -2,6 +2,7 @@
 #include "map/evict.h"
 #include "map/volume.h"
 
+#include <stddef.h>
 #include <string.h>
 
 /* Blocks are made for what is this near to a surface, voxels: in front of it enough for the cells
@@ -210,6 +211,16 @@ static void choose_carved(fuse_job *job)
     map->carve_cursor = cursor;
 }
 
+/* Brings a block's distances and weights near. */
+static void look_ahead(const map_block *block)
+{
+    const char *at = (const char *)block;
+    const ptrdiff_t size = offsetof(map_block, grey);
+    for (ptrdiff_t i = 0; i < size; i += 64) {
+        RLF_KERNEL_SOON(at + i);
+    }
+}
+
 static void fuse_blocks(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     const fuse_job *job = context;
@@ -219,6 +230,9 @@ static void fuse_blocks(void *context, int32_t begin, int32_t end, int32_t worke
     (void)worker;
     for (int32_t i = begin; i < end; i++) {
         const int32_t block = map->chosen[i];
+        if (i + 1 < end) {
+            look_ahead(map_block_at(&map->volume, map->chosen[i + 1]));
+        }
         const int16_t *at = map->volume.place[block];
         const double side = voxel * MAP_SIDE;
         const rlf_vec3 corner = {at[0] * side, at[1] * side, at[2] * side};

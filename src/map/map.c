@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* Bytes that a block costs beside its voxels: tables, and its share of the journal. */
-#define TABLE_BYTES 136
+#define TABLE_BYTES 168
 
 rlf_map_def rlf_map_def_default(void)
 {

@@ -110,13 +110,13 @@ static int32_t nearest_voxel(const corners *c)
     return (at[2] * MAP_SIDE + at[1]) * MAP_SIDE + at[0];
 }
 
-/* Newton's method from `start`: where the ray meets the surface about there. Within an eighth of a
+/* Newton's method from `start`: where the ray meets the surface about there. Within a quarter of a
  * voxel its next step is the last: the field is nearly flat. */
 static bool refine(ray *r, float start, hit *out)
 {
     float z = start, g[3] = {0, 0, 0}, d = 1.0f;
     corners c;
-    for (int32_t i = 0; i < 4 && (d > 0.125f || d < -0.125f); i++) {
+    for (int32_t i = 0; i < 4 && (d > 0.25f || d < -0.25f); i++) {
         if (!corners_at(r, z, &c)) {
             return false;
         }
@@ -233,10 +233,11 @@ static void begin_at(ray *r, int32_t block)
 static void look_ahead(const map_caster *c, int32_t x, int32_t y, ray *r)
 {
     const int32_t i = y * c->camera.width + x;
-    const float start = x < c->camera.width ? c->out->depth[i] : MAP_NOTHING;
-    if (!(start < MAP_NOTHING)) {
+    const float inverse = x < c->camera.width ? c->out->depth[i] : 0.0f;
+    if (!(inverse > 0.0f)) {
         return;
     }
+    const float start = 1.0f / inverse;
     ray_make(c, x, y, r);
     const int32_t block = c->out->start[i];
     int32_t voxel[3], at[3];
@@ -256,15 +257,16 @@ static void look_ahead(const map_caster *c, int32_t x, int32_t y, ray *r)
     }
 }
 
-/* The plane of depth holds where the nearest voxel in front of a surface is: there the ray is
- * looked at first. At outlines it passes by that surface, and goes on. */
+/* The plane of depth holds where the ray may meet the nearest surface: there it is looked at first.
+ * At outlines it passes by that surface, and goes on. */
 static void cast_pixel(const map_caster *c, int32_t x, int32_t y, ray *r)
 {
     const hit none = {0};
     const int32_t i = y * c->camera.width + x;
-    const float start = c->out->depth[i];
+    const float inverse = c->out->depth[i];
     hit h = none;
-    if (start < MAP_NOTHING) {
+    if (inverse > 0.0f) {
+        const float start = 1.0f / inverse;
         const float far_z = c->out->tile_far[(y / MAP_TILE) * c->tile_columns + x / MAP_TILE];
         begin_at(r, c->out->start[i]);
         ray_make(c, x, y, r);

@@ -4,8 +4,7 @@
 
 #include "map/volume.h"
 
-#define MAP_TILE 8       /* pixels */
-#define MAP_NOTHING 1e9f /* depth, metres, where nothing is drawn */
+#define MAP_TILE 8 /* pixels */
 
 /* A camera that casts: world to voxels. */
 typedef struct map_caster {
@@ -17,15 +16,15 @@ typedef struct map_caster {
      * from pixel to pixel. */
     float at[3], way[3], way_x[3], way_y[3];
     float to_eighth[8][3]; /* from a block's corner to the middles of its eighths, camera frame */
-    float ahead[3];        /* what a voxel's step gains in depth, metres */
+    float step[3][3];      /* by voxels along x, y, z, camera frame, metres */
     map_view_planes *out;
+    float per_metre; /* voxels */
     int32_t tile_columns;
     float slack; /* metres behind a drawn voxel where its surface still may be */
 } map_caster;
 
-/* Draws the blocks with a surface: farthest depth per tile, and per pixel the depth of the nearest
- * voxel that is right in front of a surface (MAP_NOTHING where there is none) into the plane of
- * depth. */
+/* Draws the blocks with a surface: farthest depth per tile, and into the plane of depth, per pixel,
+ * one over the depth at which its ray may meet the nearest surface; 0 where there is none. */
 void map_splat(map_caster *caster);
 
 #endif

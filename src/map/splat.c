@@ -3,12 +3,16 @@
  * surface. */
 #include "map/predict.h"
 
+#include <string.h>
+
 /* A cube's width from any side, in its edges: neighbours that touch leave no hole. */
 #define DIAGONAL 1.7321f
 
-/* A square of `size` pixels at depth z. */
+/* A square of `size` pixels. One over the depth is linear in the picture on a plane, and is cut at
+ * what the square's surface can have. */
 typedef struct splat {
-    float u, v, z, size;
+    float u, v, size;
+    float inverse, by_x, by_y, least, most;
     int32_t block;
 } splat;
 
@@ -41,12 +45,14 @@ static void draw_point(map_caster *caster, const splat *p)
         return;
     }
     const int32_t x1 = (int32_t)right, y1 = (int32_t)bottom;
-    widen(caster, x0, y0, x1, y1, p->z + caster->slack);
+    widen(caster, x0, y0, x1, y1, 1.0f / p->least + caster->slack);
     for (int32_t y = y0; y <= y1; y++) {
         const ptrdiff_t row = (ptrdiff_t)y * width;
         for (int32_t x = x0; x <= x1; x++) {
-            if (p->z < caster->out->depth[row + x]) {
-                caster->out->depth[row + x] = p->z;
+            float inverse = p->inverse + ((float)x - p->u) * p->by_x + ((float)y - p->v) * p->by_y;
+            inverse = inverse > p->least ? least_of(inverse, p->most) : p->least;
+            if (inverse > caster->out->depth[row + x]) {
+                caster->out->depth[row + x] = inverse;
                 caster->out->start[row + x] = p->block;
             }
         }
@@ -57,47 +63,84 @@ static void draw_point(map_caster *caster, const splat *p)
 static void draw_voxels(map_caster *caster, int32_t block, const float corner[3], float voxel_f)
 {
     const rlf_camera *c = &caster->camera;
-    const double voxel = caster->map->def.voxel_m;
     const rlf_splat_camera camera = {(float)c->fx, (float)c->fy, (float)c->cx, (float)c->cy};
     rlf_fuse_place place = {.origin = {corner[0], corner[1], corner[2]}};
-    for (int32_t k = 0; k < 3; k++) {
-        for (int32_t r = 0; r < 3; r++) {
-            place.step[k][r] = (float)(caster->R_camera_world.m[r][k] * voxel);
-        }
-    }
+    memcpy(place.step, caster->step, sizeof(place.step));
     rlf_splat_points points;
     const map_block *b = map_block_at(&caster->map->volume, block);
     const int32_t count = rlf_kernel_splat_block(b, &place, &camera, &points);
     for (int32_t i = 0; i < count; i++) {
         const float z = points.z[i];
         if (z > 0.0f) {
-            const splat p = {points.u[i], points.v[i], z, DIAGONAL * voxel_f / z, block};
+            const float inverse = 1.0f / z;
+            const splat p = {.u = points.u[i],
+                             .v = points.v[i],
+                             .size = DIAGONAL * voxel_f * inverse,
+                             .inverse = inverse,
+                             .least = inverse,
+                             .most = inverse,
+                             .block = block};
             draw_point(caster, &p);
         }
     }
 }
 
-/* One square for each eighth of the block, about its middle, wide enough from any side, and as far
- * as its voxel in front of the surface. */
+/* The plane of a patch whose voxel is at q: one over depth at the square's middle, and its slopes.
+ * False on faces that look away. */
+static bool lay_plane(const map_caster *caster, const rlf_fuse_patch *patch, const float q[3],
+                      splat *p)
+{
+    const float scale = caster->per_metre / 127.0f; /* steps are a voxel long */
+    float n[3], offset = 0.0f, way2 = 0.0f;
+    for (int32_t r = 0; r < 3; r++) {
+        n[r] = scale * (caster->step[0][r] * (float)patch->normal[0] +
+                        caster->step[1][r] * (float)patch->normal[1] +
+                        caster->step[2][r] * (float)patch->normal[2]);
+        offset += n[r] * q[r];
+        way2 += q[r] * q[r];
+    }
+    if (offset > 0.0f && offset * offset > 0.1f * way2) {
+        return false;
+    }
+    offset -= (float)patch->ahead / (256.0f * caster->per_metre);
+    if (offset * offset > 0.01f * way2 && offset < 0.0f) {
+        const float inverse = 1.0f / offset;
+        p->by_x = n[0] * inverse / (float)caster->camera.fx;
+        p->by_y = n[1] * inverse / (float)caster->camera.fy;
+        p->inverse = n[2] * inverse + (p->u - (float)caster->camera.cx) * p->by_x +
+                     (p->v - (float)caster->camera.cy) * p->by_y;
+    }
+    return true;
+}
+
+/* One square for each eighth of the block, about its middle, wide enough from any side, on the
+ * plane of its surface. */
 static void draw_eighths(map_caster *caster, int32_t block, const float corner[3], float voxel_f)
 {
-    const float fx = (float)caster->camera.fx, fy = (float)caster->camera.fy;
-    const float cx = (float)caster->camera.cx, cy = (float)caster->camera.cy;
-    const float *ahead = caster->ahead;
-    const uint16_t *front = caster->map->volume.front[block];
+    const rlf_camera *c = &caster->camera;
+    const rlf_fuse_patch *front = caster->map->volume.front[block];
+    const float reach = 2.0f * DIAGONAL / caster->per_metre; /* half of the eighth's diagonal */
     for (int32_t k = 0; k < 8; k++) {
-        if (front[k] == RLF_FUSE_NO_VOXEL) {
+        const int32_t voxel = front[k].voxel;
+        const float *to = caster->to_eighth[k], z = corner[2] + to[2];
+        if (voxel == RLF_FUSE_NO_VOXEL || !(z > RLF_FUSE_NEAREST_M + reach)) {
             continue;
         }
-        const float *to = caster->to_eighth[k];
-        const float middle_z = corner[2] + to[2];
-        const float z = corner[2] + ahead[0] * (float)(front[k] & 7) +
-                        ahead[1] * (float)(front[k] >> 3 & 7) + ahead[2] * (float)(front[k] >> 6);
-        if (middle_z > RLF_FUSE_NEAREST_M && z > RLF_FUSE_NEAREST_M) {
-            const float inverse = 1.0f / middle_z;
-            const splat p = {fx * (corner[0] + to[0]) * inverse + cx,
-                             fy * (corner[1] + to[1]) * inverse + cy, z,
-                             4.0f * DIAGONAL * voxel_f * inverse, block};
+        const float inverse = 1.0f / z;
+        float q[3];
+        for (int32_t r = 0; r < 3; r++) {
+            q[r] = corner[r] + caster->step[0][r] * (float)(voxel & 7) +
+                   caster->step[1][r] * (float)(voxel >> 3 & 7) +
+                   caster->step[2][r] * (float)(voxel >> 6);
+        }
+        splat p = {.u = (float)c->fx * (corner[0] + to[0]) * inverse + (float)c->cx,
+                   .v = (float)c->fy * (corner[1] + to[1]) * inverse + (float)c->cy,
+                   .size = 4.0f * DIAGONAL * voxel_f * inverse,
+                   .inverse = 1.0f / q[2],
+                   .least = 1.0f / (z + reach),
+                   .most = 1.0f / (z - reach),
+                   .block = block};
+        if (lay_plane(caster, &front[k], q, &p)) {
             draw_point(caster, &p);
         }
     }
@@ -157,7 +200,7 @@ static void begin(map_caster *caster)
         caster->out->tile_far[i] = 0.0f;
     }
     for (int32_t i = 0; i < c->width * c->height; i++) {
-        caster->out->depth[i] = MAP_NOTHING;
+        caster->out->depth[i] = 0.0f;
     }
     for (int32_t k = 0; k < 8; k++) {
         const double low = 0.25 * side, high = 0.75 * side;
@@ -168,8 +211,9 @@ static void begin(map_caster *caster)
         caster->to_eighth[k][1] = (float)middle.y;
         caster->to_eighth[k][2] = (float)middle.z;
     }
-    for (int32_t k = 0; k < 3; k++) {
-        caster->ahead[k] = (float)(R->m[2][k] * voxel);
+    caster->per_metre = (float)(1.0 / voxel);
+    for (int32_t k = 0; k < 9; k++) {
+        caster->step[k / 3][k % 3] = (float)(R->m[k % 3][k / 3] * voxel);
     }
 }
 
