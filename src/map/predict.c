@@ -110,6 +110,26 @@ static int32_t nearest_voxel(const corners *c)
     return (at[2] * MAP_SIDE + at[1]) * MAP_SIDE + at[0];
 }
 
+/* Trilinear, of the corners that have one. */
+static uint8_t mean_grey(const map_block *b, const corners *c)
+{
+    const int32_t first = (c->voxel[2] * MAP_SIDE + c->voxel[1]) * MAP_SIDE + c->voxel[0];
+    float share[3], sum = 0.0f, weights = 0.0f;
+    for (int32_t k = 0; k < 3; k++) {
+        share[k] = c->in[k] < 1.0f ? c->in[k] : 1.0f;
+    }
+    for (int32_t k = 0; k < 8; k++) {
+        const int32_t dx = k & 1, dy = k >> 1 & 1, dz = k >> 2;
+        const uint8_t grey = b->grey[first + (dz * MAP_SIDE + dy) * MAP_SIDE + dx];
+        const float weight = (dx != 0 ? share[0] : 1.0f - share[0]) *
+                             (dy != 0 ? share[1] : 1.0f - share[1]) *
+                             (dz != 0 ? share[2] : 1.0f - share[2]);
+        sum += grey > 0 ? weight * (float)grey : 0.0f;
+        weights += grey > 0 ? weight : 0.0f;
+    }
+    return weights > 0.0f ? (uint8_t)(sum / weights + 0.5f) : 0;
+}
+
 /* Newton's method from `start`: where the ray meets the surface about there. Within a quarter of a
  * voxel its next step is the last: the field is nearly flat. */
 static bool refine(ray *r, float start, hit *out)
@@ -133,7 +153,7 @@ static bool refine(ray *r, float start, hit *out)
     }
     const float scale = 1.0f / sqrtf(size2);
     out->z = z;
-    out->grey = r->has_grey ? map_block_at(r->v, c.block)->grey[nearest_voxel(&c)] : 0;
+    out->grey = r->has_grey ? mean_grey(map_block_at(r->v, c.block), &c) : 0;
     for (int32_t k = 0; k < 3; k++) {
         out->normal[k] = g[k] * scale;
     }
