@@ -16,7 +16,7 @@ rlf_result camera_pose_open(camera_pose *c, const rlf_rig *rig, rlf_pool *pool)
     rlf_camera camera = rig->depth;
     camera.distortion_model = RLF_DISTORTION_NONE;
     memset(camera.distortion, 0, sizeof(camera.distortion));
-    c->camera = rlf_camera_decimate(&camera, 2);
+    c->camera = rlf_camera_decimate(&camera, 4);
     c->noise = rig->noise;
     c->is_static = rlf_alloc((size_t)rig->depth.width * (size_t)rig->depth.height);
     return c->is_static != NULL ? rlf_tracker_create(&def, &c->tracker) : RLF_ERROR_MEMORY;

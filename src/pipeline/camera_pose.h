@@ -7,7 +7,7 @@
 
 typedef struct camera_pose {
     rlf_tracker *tracker;
-    rlf_camera camera;     /* that is predicted for: half the depth camera's size */
+    rlf_camera camera;     /* that is predicted for: a quarter of the depth camera's size */
     rlf_depth_noise noise; /* of the depth camera */
     uint8_t *is_static;    /* 0 = in front of the room that is known; a pixel each */
     rlf_track_result last; /* of the last frame */
