@@ -143,7 +143,8 @@ static rlf_result cover_lens(run *r, const rlf_rig *rig)
                                 .sequence = (uint64_t)r->seen++,
                                 .time_ns = r->time_ns,
                                 .depth_u16 = r->dark,
-                                .depth_stride = rig->depth.width * (ptrdiff_t)sizeof(uint16_t)};
+                                .depth_stride = rig->depth.width * (ptrdiff_t)sizeof(uint16_t),
+                                .depth_units_per_metre = 1000.0};
         result = fuser_add(&r->fuser, &dark, NULL, NULL);
     }
     return result;
