@@ -79,6 +79,7 @@ static const section sections[] = {
     {"hands", eval_hands_run, "scripted hands grasp, carry, throw and gesture"},
     {"calibration", eval_calibration_run, "cameras from pictures of a board, where they are known"},
     {"map", eval_map_run, "the room fused from a moving camera, against the true one"},
+    {"map_cost", eval_map_cost_run, "CPU time of tracking and fusing a frame, memory of a room"},
     {SENSED, eval_sensed_run, "the same on what the sensor shows, against the true scene"},
 };
 #define SECTION_NAMES_MAX 64
