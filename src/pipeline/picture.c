@@ -186,7 +186,7 @@ rlf_result pipeline_draw(rlf_pipeline *p)
         .frame = &p->last.frame,
         .surface = p->last.surface,
         .snapshot = p->last.snapshot,
-        .T_world_camera = p->def.T_world_camera,
+        .T_world_camera = p->camera.T_world,
         .orbit = p->orbit,
         .overlay = p->overlay_lines,
         .overlay_count = p->overlay_count,
