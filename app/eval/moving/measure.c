@@ -74,9 +74,9 @@ static void add_drift(run *r, const rlf_pose *found, const rlf_pose *truth)
     add(r, DRIFT_RAD, turn_of(off.q));
 }
 
-static double off_by(const run *r, const rlf_pose *truth)
+static double off_by(const run *r, const rlf_pose *from)
 {
-    return rlf_length(rlf_sub(r->fuser.pose.last.T_world_camera.p, truth->p));
+    return rlf_length(rlf_sub(r->fuser.pose.last.T_world_camera.p, from->p));
 }
 
 /* `truth` is in the world of the first camera. */
@@ -94,7 +94,7 @@ static rlf_result judge(run *r, const rlf_pose *truth)
     r->has_last = !is_lost;
     r->last_found = found->T_world_camera;
     r->last_true = *truth;
-    return is_lost ? RLF_OK : trajectory_add(&r->path, r->time_ns, &found->T_world_camera, truth);
+    return trajectory_add(&r->path, r->time_ns, &found->T_world_camera, truth);
 }
 
 /* The next frame with a true pose into tracker and map: a frame without the truth tells nothing. */
@@ -150,7 +150,8 @@ static rlf_result cover_lens(run *r, const rlf_rig *rig)
     return result;
 }
 
-/* The lens is covered, and the camera is elsewhere on its way when it sees again. */
+/* The lens is covered, and the camera is elsewhere on its way when it sees again. It is found when
+ * it is where it was found at first: what the whole way is off is told by itself. */
 static rlf_result run_covers(run *r, rlf_source *source)
 {
     const rlf_source_info *info = rlf_source_get_info(source);
@@ -160,15 +161,17 @@ static rlf_result run_covers(run *r, rlf_source *source)
     r->is_covered = true;
     for (int64_t i = 0; i < count && result == RLF_OK && frames > 0; i++) {
         result = cover_lens(r, &info->rig);
-        if (result == RLF_OK) { /* 7 has no factor in common with 20: far and near in turn */
-            result = rlf_source_seek(source, i * 7 % count * frames / count);
+        /* 7 has no factor in common with 20: far and near in turn. */
+        const int64_t first = i * 7 % count * frames / count;
+        if (result == RLF_OK) {
+            result = rlf_source_seek(source, first);
         }
         bool is_found = false;
         for (int k = 0; k < FOUND_WITHIN && result == RLF_OK && !is_found; k++) {
             rlf_pose truth;
             result = next_frame(r, source, &truth);
             is_found = result == RLF_OK && r->fuser.pose.last.health == RLF_TRACK_GOOD &&
-                       off_by(r, &truth) < WRONG_M;
+                       off_by(r, &r->path.found[first + k]) < WRONG_M;
         }
         r->found_again += is_found;
     }

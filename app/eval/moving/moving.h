@@ -17,7 +17,8 @@ typedef struct moving_figures {
     double drift_deg;   /* likewise, its turn */
     double lost_share;  /* percent of the frames */
     double wrong_good;  /* percent of the frames said to be good that are more than 5 cm off */
-    double found_again; /* percent of the covers: good and within 5 cm 10 frames later */
+    double found_again; /* percent of the covers: good and within 5 cm of where that frame was
+                           found at first, 10 frames later */
     double track_ms, predict_ms, integrate_ms; /* medians */
 } moving_figures;
 

@@ -14,13 +14,12 @@ typedef struct moving_clip {
     const char *source; /* without its seed */
 } moving_clip;
 
-/* Ten frames a second where the camera is slow: the whole way at a third of the cost. */
 static const moving_clip clips[] = {
-    {"moving empty", "synthetic:empty?path=handheld&color=320x180&fps=10&frames=100"},
-    {"moving person", "synthetic:room?path=handheld&color=320x180&fps=10&frames=100"},
-    {"moving walk", "synthetic:room?path=walk&color=320x180&fps=15&frames=45"},
-    {"moving orbit", "synthetic:room?path=orbit&color=320x180&fps=10&frames=45"},
-    {"moving look_away", "synthetic:room?path=look_away&color=320x180&fps=15&frames=105"},
+    {"moving empty", "synthetic:empty?path=handheld&color=320x180&frames=90"},
+    {"moving person", "synthetic:room?path=handheld&color=320x180&frames=90"},
+    {"moving walk", "synthetic:room?path=walk&color=320x180&frames=45"},
+    {"moving orbit", "synthetic:room?path=orbit&color=320x180&frames=45"},
+    {"moving look_away", "synthetic:room?path=look_away&color=320x180&frames=105"},
     {"moving fast", "synthetic:room?path=fast&color=320x180&frames=45"},
 };
 
