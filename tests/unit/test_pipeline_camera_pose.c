@@ -152,7 +152,7 @@ static void begin(void)
     assert_int_equal(rlf_map_create(&def, &f.map), RLF_OK);
     assert_int_equal(camera_pose_open(&f.camera, &f.rig, NULL), RLF_OK);
     for (int i = 0; i < LEARNED; i++) {
-        const rlf_pose T = turned(0.03 * i);
+        const rlf_pose T = turned(0.02 * i);
         look(&T);
         assert_int_equal(feed(), RLF_TRACK_GOOD);
     }
@@ -179,7 +179,7 @@ static void test_a_camera_that_was_blind_is_found_again(void **state)
         memset(f.grey, 0, sizeof(f.grey));
         assert_int_equal(feed(), RLF_TRACK_LOST);
         f.time_ns += 1000000000;
-        rlf_pose T = turned(0.05 + 0.1 * k);
+        rlf_pose T = turned(0.05 + 0.07 * k);
         T.p.y -= 0.04;
         T.q = rlf_quat_mul(T.q, rlf_quat_from_rotation_vector(rlf_vec3_make(0.08, -0.12, 0.0)));
         look(&T);
@@ -240,7 +240,7 @@ static void test_what_was_fused_before_the_loss_is_taken_back(void **state)
     rlf_map_fence(f.map);
     f.camera.since_fence = 0;
     const double before = told();
-    const rlf_pose T = turned(0.03 * (LEARNED - 1));
+    const rlf_pose T = turned(0.02 * (LEARNED - 1));
     for (int k = 0; k < 3; k++) {
         look(&T);
         for (int32_t i = 0; i < PIXELS; i++) {
