@@ -331,7 +331,7 @@ RLF_KERNEL_PART rlf_fuse_patch patch_at(const rlf_fuse_block *block, int32_t vox
         g[k] = slope(block, voxel, k);
         size2 += g[k] * g[k];
     }
-    const float least = 0.3f * RLF_FUSE_STEPS;
+    const float least = RLF_FUSE_STEPS / 4;
     const float scale = size2 > least * least ? 127.0f / sqrtf(size2) : 0.0f;
     for (int32_t k = 0; k < 3; k++) {
         out.normal[k] = (int8_t)(g[k] * scale);
