@@ -37,7 +37,9 @@ static int32_t read_outline(outline *o, const hand_patch *p, const hand_palm *pa
         const double x = i % p->width - palm->x, y = (double)(i / p->width) - palm->y;
         const double square = x * x + y * y;
         const double forward = x * palm->arm_x + y * palm->arm_y;
-        const bool is_arm = forward < 0.0 && forward * forward > ARM_COS * ARM_COS * square &&
+        const bool is_behind = forward * forward > ARM_COS * ARM_COS * square ||
+                               (double)p->along[i] > palm->along + palm->radius;
+        const bool is_arm = forward < 0.0 && is_behind &&
                             square * pixel * pixel > palm->radius * palm->radius;
         if (p->disc[i] <= 0 || is_arm) {
             continue;
