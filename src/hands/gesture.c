@@ -9,6 +9,7 @@
 #define OPEN_TIPS 3
 #define CLOSED_REACH 1.75    /* a fist's knuckles end before */
 #define POINT_LONGER 1.35    /* a pointing index goes further than the thumb beside it */
+#define FORWARD_COS 0.6 /* of the forearm with the way to the camera: 53 degrees */
 #define FORWARD_SURE 0.8 /* of a hand whose forearm is hidden by it */
 #define FORWARD 0.4f         /* of its length, that an arm towards the camera comes nearer */
 #define PINCH_BEYOND_M 0.012 /* from the ring's edge to the middle of the fingers that close it */
@@ -142,11 +143,11 @@ static bool is_forward(const hand_limb *limb)
     return limb->rise > FORWARD * limb->length;
 }
 
-static double hangs_well(const hand_limb *limb, double half)
+static double hangs_well(const hand_limb *limb, const hand_palm *palm)
 {
     switch (limb->root) {
     case HAND_ROOT_BORDER: return 1.0;
-    case HAND_ROOT_BODY: return is_forward(limb) ? 1.0 : 1.0 - leg_likeness(limb, half);
+    case HAND_ROOT_BODY: return is_forward(limb) ? 1.0 : 1.0 - leg_likeness(limb, palm->forearm_half);
     case HAND_ROOT_FRONT: return is_forward(limb) ? 1.0 : 0.65;
     case HAND_ROOT_ALONE:
     case HAND_ROOT_NONE: break;
@@ -165,10 +166,11 @@ static double forearm_likeness(const hand_palm *palm)
 double hand_confidence(const hand_limb *limb, const hand_palm *palm, const hand_fingers *f)
 {
     /* Half a palm's breadth is 35 to 50 mm (5th to 95th percentile), edge-on 12; heads have 75. */
-    double c = within(palm->radius, 0.010, 0.026, 0.050, 0.062);
-    c *= is_forward(limb) ? FORWARD_SURE : forearm_likeness(palm);
+    double c = within(palm->radius, 0.010, 0.026, 0.047, 0.056);
+    const bool is_foreshortened = is_forward(limb) || palm->arm.z < -FORWARD_COS;
+    c *= is_foreshortened ? FORWARD_SURE : forearm_likeness(palm);
     c *= within((double)limb->length, 0.10, 0.18, 1.2, 1.4);
-    c *= hangs_well(limb, palm->forearm_half);
+    c *= hangs_well(limb, palm);
     /* Nearly nothing but palm: a rod's end or a ball, no hand with a wrist. */
     c *= palm->has_wrist || f->reach > 1.2 ? 1.0 : 0.8;
     return c;

@@ -2,7 +2,7 @@
 #include "hands/palm.h"
 
 #define BIN_M 0.01            /* of the profile along the limb */
-#define BINS 37               /* LIMB_PART_M */
+#define BINS 32               /* LIMB_PART_M */
 #define PALM_FROM_M 0.02      /* a palm's centre is at least this far from the tip, */
 #define PALM_TO_M 0.14        /* and at most this far: the longest hands */
 #define NEARLY 0.92           /* discs of one palm are as large as this share of the largest */
@@ -107,10 +107,12 @@ static void centre_disc(hand_palm *palm, const hand_patch *p, int32_t seed)
     const double seed_x = seed % p->width, seed_y = (double)(seed / p->width);
     double sum = 0.0, x = 0.0, y = 0.0;
     for (int32_t i = 0; i < p->width * p->height; i++) {
-        const double dx = i % p->width - seed_x, dy = (double)(i / p->width) - seed_y;
         const double r = is_limb(p, i) ? hand_patch_radius(p, i) : 0.0;
-        const double apart = (dx * dx + dy * dy) * pixel * pixel;
-        if (r > NEARLY * radius && apart < 0.5 * radius * radius) {
+        if (r <= NEARLY * radius) {
+            continue;
+        }
+        const double dx = i % p->width - seed_x, dy = (double)(i / p->width) - seed_y;
+        if ((dx * dx + dy * dy) * pixel * pixel < 0.5 * radius * radius) {
             const double weight = r - NEARLY * radius;
             sum += weight;
             x += weight * dx;
@@ -132,8 +134,11 @@ static void fit_palm(hand_palm *palm, const hand_patch *p, int32_t seed)
     rlf_vec3 sum = {0, 0, 0}, normal = {0, 0, 0};
     int32_t count = 0;
     for (int32_t i = 0; i < p->width * p->height; i++) {
+        if (p->mask[i] != 1) {
+            continue;
+        }
         const double dx = i % p->width - palm->x, dy = (double)(i / p->width) - palm->y;
-        if (p->mask[i] == 1 && dx * dx + dy * dy <= reach * reach + 1.0) {
+        if (dx * dx + dy * dy <= reach * reach + 1.0) {
             const int32_t k = hand_patch_pixel(p, i);
             sum = rlf_add(sum, hand_patch_point(p, i));
             normal = rlf_add(normal, rlf_vec3_make((double)s->normal_x[k], (double)s->normal_y[k],
