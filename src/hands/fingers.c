@@ -42,8 +42,8 @@ static int32_t read_outline(outline *o, const hand_patch *p, const hand_palm *pa
         const double forward = x * palm->arm_x + y * palm->arm_y;
         const bool is_behind = forward * forward > ARM_COS * ARM_COS * square ||
                                (double)p->along[i] > palm->along + palm->radius;
-        const bool is_arm = forward < 0.0 && is_behind &&
-                            square * pixel * pixel > palm->radius * palm->radius;
+        const bool is_arm =
+            forward < 0.0 && is_behind && square * pixel * pixel > palm->radius * palm->radius;
         if (is_arm) {
             continue;
         }

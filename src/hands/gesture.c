@@ -9,8 +9,8 @@
 #define OPEN_TIPS 3
 #define CLOSED_REACH 1.75    /* a fist's knuckles end before */
 #define POINT_LONGER 1.35    /* a pointing index goes further than the thumb beside it */
-#define FORWARD_COS 0.6 /* of the forearm with the way to the camera: 53 degrees */
-#define FORWARD_SURE 0.8 /* of a hand whose forearm is hidden by it */
+#define FORWARD_COS 0.6      /* of the forearm with the way to the camera: 53 degrees */
+#define FORWARD_SURE 0.8     /* of a hand whose forearm is hidden by it */
 #define FORWARD 0.4f         /* of its length, that an arm towards the camera comes nearer */
 #define PINCH_BEYOND_M 0.012 /* from the ring's edge to the middle of the fingers that close it */
 
@@ -147,7 +147,8 @@ static double hangs_well(const hand_limb *limb, const hand_palm *palm)
 {
     switch (limb->root) {
     case HAND_ROOT_BORDER: return 1.0;
-    case HAND_ROOT_BODY: return is_forward(limb) ? 1.0 : 1.0 - leg_likeness(limb, palm->forearm_half);
+    case HAND_ROOT_BODY:
+        return is_forward(limb) ? 1.0 : 1.0 - leg_likeness(limb, palm->forearm_half);
     case HAND_ROOT_FRONT: return is_forward(limb) ? 1.0 : 0.65;
     case HAND_ROOT_ALONE:
     case HAND_ROOT_NONE: break;
