@@ -5,8 +5,7 @@
 #include "hands/cells.h"
 
 #define LIMBS_MAX 16      /* more than hands: feet, heads and chairs compete */
-#define LIMB_PART_M 0.31f /* of a limb's end that is looked at: a hand and a decimetre of forearm  \
-                           */
+#define LIMB_PART_M 0.31f /* of its end that is looked at: a hand and a decimetre of forearm */
 
 /* One end. */
 typedef struct hand_limb {
