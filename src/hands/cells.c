@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-#define CELL_M 0.011         /* side of a cell at the foreground's mean depth, metres */
-#define CELLS_ACROSS 256     /* at most, along the picture's longer side */
+#define CELL_M 0.014         /* side of a cell at the foreground's mean depth, metres */
+#define CELLS_ACROSS 176     /* at most, along the picture's longer side */
 #define SLANT_MAX 2.5f       /* depth over width of a surface that goes on: 68 degrees */
 #define NOISE_SIGMAS 4.0     /* beyond that two depths differ */
 #define BODY_RADIUS_M 0.11f  /* no limb, no hand and no head has a disc as large in it */
@@ -12,6 +12,7 @@
 #define BRIDGE_M 0.2f        /* a hand hides the forearm that it is before by as much */
 #define FOREARM_FROM_M 0.2f  /* from the root on there may be forearm */
 #define HAND_MOST_M2 0.03    /* a spread hand and its wrist */
+#define ARM_MOST_M2 0.09     /* a whole arm with its sleeve; what is larger has a body */
 #define LESS_M 0.001f        /* a way that is shorter by less changes nothing */
 #define MARGIN_SHARE 10      /* depth may begin this share of the picture inside its border */
 
@@ -352,11 +353,12 @@ static bool hides_forearm(const hand_cells *c, int32_t edge, int32_t behind)
     return edge >= 0 && c->z[behind] - c->z[edge] < BRIDGE_M && c->reach[behind] > FOREARM_FROM_M;
 }
 
-/* A piece that no root reaches is the hand before its arm, or it hangs on its furthest end. */
+/* A piece that no root reaches is the hand before its arm, or a body by its size, which arms may
+ * hide the middle of, or it hangs on its furthest end. */
 static void root_piece(hand_cells *c, int32_t first)
 {
     const int32_t count = list_piece(c, first);
-    int32_t deepest = first, edge = -1, behind = -1;
+    int32_t deepest = first, thickest = first, edge = -1, behind = -1;
     double area = 0.0;
     for (int32_t k = 0; k < count; k++) {
         const int32_t i = c->queue[k];
@@ -364,6 +366,7 @@ static void root_piece(hand_cells *c, int32_t first)
         const int32_t other = behind_cell(c, i);
         area += side * side;
         deepest = c->z[i] > c->z[deepest] ? i : deepest;
+        thickest = c->disc[i] > c->disc[thickest] ? i : thickest;
         if (other >= 0 && (edge < 0 || c->z[other] - c->z[i] < c->z[behind] - c->z[edge])) {
             edge = i;
             behind = other;
@@ -378,10 +381,12 @@ static void root_piece(hand_cells *c, int32_t first)
         spread_from(c, behind);
         return;
     }
-    c->source[deepest] = deepest;
-    c->root[deepest] = (uint8_t)(edge >= 0 ? HAND_ROOT_FRONT : HAND_ROOT_ALONE);
-    c->reach[deepest] = 0.0f;
-    spread_from(c, deepest);
+    const hand_root alone = edge >= 0 ? HAND_ROOT_FRONT : HAND_ROOT_ALONE;
+    const int32_t root = area > ARM_MOST_M2 ? thickest : deepest;
+    c->source[root] = root;
+    c->root[root] = (uint8_t)(area > ARM_MOST_M2 ? HAND_ROOT_BODY : alone);
+    c->reach[root] = 0.0f;
+    spread_from(c, root);
 }
 
 bool hand_cells_read(hand_cells *c, const rlf_surface *s)

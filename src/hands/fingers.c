@@ -4,7 +4,7 @@
 #include <string.h>
 
 #define DIRECTIONS 128
-#define ARM_COS 0.6          /* directions this close to the arm's are the arm: 53 degrees */
+#define ARM_COS 0.5          /* directions this close to the arm's are the arm: 60 degrees */
 #define FINGER_REACH 1.55    /* a finger ends beyond so many palm radii from its centre */
 #define PROMINENCE_M 0.014   /* and sticks out of what is beside it by its own width */
 #define FINGER_END_M 0.018   /* its last joint is so long */
@@ -34,12 +34,17 @@ static int32_t read_outline(outline *o, const hand_patch *p, const hand_palm *pa
     int32_t area = 0;
     memset(o, 0, sizeof(*o));
     for (int32_t i = 0; i < p->width * p->height; i++) {
+        if (p->disc[i] <= 0) {
+            continue;
+        }
         const double x = i % p->width - palm->x, y = (double)(i / p->width) - palm->y;
         const double square = x * x + y * y;
         const double forward = x * palm->arm_x + y * palm->arm_y;
-        const bool is_arm = forward < 0.0 && forward * forward > ARM_COS * ARM_COS * square &&
-                            square * pixel * pixel > palm->radius * palm->radius;
-        if (p->disc[i] <= 0 || is_arm) {
+        const bool is_behind = forward * forward > ARM_COS * ARM_COS * square ||
+                               (double)p->along[i] > palm->along + palm->radius;
+        const bool is_arm =
+            forward < 0.0 && is_behind && square * pixel * pixel > palm->radius * palm->radius;
+        if (is_arm) {
             continue;
         }
         const double rise = (double)p->z[i] - palm->z;

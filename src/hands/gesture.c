@@ -9,6 +9,8 @@
 #define OPEN_TIPS 3
 #define CLOSED_REACH 1.75    /* a fist's knuckles end before */
 #define POINT_LONGER 1.35    /* a pointing index goes further than the thumb beside it */
+#define FORWARD_COS 0.6      /* of the forearm with the way to the camera: 53 degrees */
+#define FORWARD_SURE 0.8     /* of a hand whose forearm is hidden by it */
 #define FORWARD 0.4f         /* of its length, that an arm towards the camera comes nearer */
 #define PINCH_BEYOND_M 0.012 /* from the ring's edge to the middle of the fingers that close it */
 
@@ -127,10 +129,10 @@ static double within(double x, double a, double b, double c, double d)
 
 /* From the middle of the body an arm is 0.6 to 0.9 m long and thinner than a calf in trousers; a
  * leg is 0.9 m and longer. */
-static double leg_likeness(const hand_limb *limb)
+static double leg_likeness(const hand_limb *limb, double half)
 {
     const double is_long = rlf_clamp(((double)limb->length - 0.72) / 0.13, 0.0, 1.0);
-    const double is_thick = rlf_clamp(((double)limb->width - 0.040) / 0.010, 0.0, 1.0);
+    const double is_thick = rlf_clamp((half - 0.040) / 0.010, 0.0, 1.0);
     const double is_longer = rlf_clamp(((double)limb->length - 0.95) / 0.10, 0.0, 1.0);
     return rlf_max(is_long * is_thick, is_longer);
 }
@@ -141,11 +143,12 @@ static bool is_forward(const hand_limb *limb)
     return limb->rise > FORWARD * limb->length;
 }
 
-static double hangs_well(const hand_limb *limb)
+static double hangs_well(const hand_limb *limb, const hand_palm *palm)
 {
     switch (limb->root) {
     case HAND_ROOT_BORDER: return 1.0;
-    case HAND_ROOT_BODY: return is_forward(limb) ? 1.0 : 1.0 - leg_likeness(limb);
+    case HAND_ROOT_BODY:
+        return is_forward(limb) ? 1.0 : 1.0 - leg_likeness(limb, palm->forearm_half);
     case HAND_ROOT_FRONT: return is_forward(limb) ? 1.0 : 0.65;
     case HAND_ROOT_ALONE:
     case HAND_ROOT_NONE: break;
@@ -153,15 +156,22 @@ static double hangs_well(const hand_limb *limb)
     return 0.4;
 }
 
+/* A forearm, its sleeve too, is 35 to 100 mm wide, and at least a decimetre of it is seen. */
+static double forearm_likeness(const hand_palm *palm)
+{
+    const double is_even = rlf_clamp((0.30 - palm->forearm_spread) / 0.15, 0.0, 1.0);
+    const double is_long = rlf_clamp((palm->forearm - 0.03) / 0.07, 0.0, 1.0);
+    return is_even * is_long * within(palm->forearm_half, 0.012, 0.018, 0.050, 0.064);
+}
+
 double hand_confidence(const hand_limb *limb, const hand_palm *palm, const hand_fingers *f)
 {
     /* Half a palm's breadth is 35 to 50 mm (5th to 95th percentile), edge-on 12; heads have 75. */
-    double c = within(palm->radius, 0.010, 0.026, 0.050, 0.062);
-    /* Forearms, sleeves too, against thighs, trunks and rods. */
-    const bool shows_arm = limb->width >= 0.0f && !is_forward(limb);
-    c *= shows_arm ? within((double)limb->width, 0.012, 0.020, 0.050, 0.066) : 0.8;
+    double c = within(palm->radius, 0.010, 0.026, 0.047, 0.056);
+    const bool is_foreshortened = is_forward(limb) || palm->arm.z < -FORWARD_COS;
+    c *= is_foreshortened ? FORWARD_SURE : forearm_likeness(palm);
     c *= within((double)limb->length, 0.10, 0.18, 1.2, 1.4);
-    c *= hangs_well(limb);
+    c *= hangs_well(limb, palm);
     /* Nearly nothing but palm: a rod's end or a ball, no hand with a wrist. */
     c *= palm->has_wrist || f->reach > 1.2 ? 1.0 : 0.8;
     return c;

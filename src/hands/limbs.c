@@ -6,8 +6,6 @@
 #define SEEDS_MAX 96        /* the furthest local maxima */
 #define APART_M 0.25f       /* fingers of one hand are closer to each other */
 #define BUMP_M 0.06f        /* a first look */
-#define BEHIND_HAND_M 0.21f /* from the tip on there is no hand, but forearm, */
-#define BEHIND_END_M 0.36f  /* up to here */
 
 static bool is_maximum(const hand_cells *c, int32_t i)
 {
@@ -74,33 +72,18 @@ static void take_cell(hand_limbs *l, const hand_cells *c, hand_limb *limb, int32
     limb->y1 = y + 1 > limb->y1 ? y + 1 : limb->y1;
 }
 
-/* Takes the cells of an end that belong to no other, and measures how thick it is behind the hand:
- * by the largest disc at each distance, which lies across the limb. */
+/* Takes the cells of an end that belong to no other. */
 static void take_end(hand_limbs *l, const hand_cells *c, hand_limb *limb)
 {
-    float widest[16] = {0};
     limb->x0 = limb->y0 = INT32_MAX;
     limb->x1 = limb->y1 = 0;
     take_cell(l, c, limb, limb->tip);
     for (int32_t k = 0; k < c->touched_count; k++) {
         const int32_t i = c->touched[k];
-        const float d = l->from_tip[i];
-        if (l->owner[i] == 0 && d > BEHIND_HAND_M && d < BEHIND_END_M) {
-            const int32_t bin = (int32_t)((d - BEHIND_HAND_M) * 100.0f) & 15;
-            const float r = (float)c->disc[i] / CHAMFER * c->spacing * c->z[i];
-            widest[bin] = r > widest[bin] ? r : widest[bin];
-        }
-        if (l->owner[i] == 0 && d <= LIMB_PART_M) {
+        if (l->owner[i] == 0 && l->from_tip[i] <= LIMB_PART_M) {
             take_cell(l, c, limb, i);
         }
     }
-    float sum = 0.0f;
-    int32_t bins = 0;
-    for (int32_t k = 0; k < 16; k++) {
-        sum += widest[k];
-        bins += widest[k] > 0.0f;
-    }
-    limb->width = bins >= 4 ? sum / (float)bins : -1.0f;
 }
 
 static void spread_from(hand_limbs *l, hand_cells *c, int32_t seed, float limit)
@@ -134,7 +117,7 @@ static void try_seed(hand_limbs *l, hand_cells *c, int32_t seed)
     if (is_bump) {
         return;
     }
-    spread_from(l, c, seed, BEHIND_END_M);
+    spread_from(l, c, seed, LIMB_PART_M);
     if (!goes_on(l, c, seed)) {
         take_end(l, c, limb);
         l->count++;

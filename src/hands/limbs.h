@@ -5,7 +5,7 @@
 #include "hands/cells.h"
 
 #define LIMBS_MAX 16      /* more than hands: feet, heads and chairs compete */
-#define LIMB_PART_M 0.30f /* of a limb's end that is looked at: a hand and half a forearm */
+#define LIMB_PART_M 0.31f /* of its end that is looked at: a hand and a decimetre of forearm */
 
 /* One end. */
 typedef struct hand_limb {
@@ -14,7 +14,6 @@ typedef struct hand_limb {
     int32_t source;         /* and by which cell */
     float length;           /* from the root to the tip, metres */
     float rise;             /* how much nearer than its root the tip is, metres */
-    float width;            /* mean half width behind the hand, metres; < 0 = not seen */
     int32_t x0, y0, x1, y1; /* cells of its end: x0 <= x < x1 */
 } hand_limb;
 

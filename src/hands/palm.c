@@ -2,7 +2,7 @@
 #include "hands/palm.h"
 
 #define BIN_M 0.01            /* of the profile along the limb */
-#define BINS 31               /* LIMB_PART_M */
+#define BINS 32               /* LIMB_PART_M */
 #define PALM_FROM_M 0.02      /* a palm's centre is at least this far from the tip, */
 #define PALM_TO_M 0.14        /* and at most this far: the longest hands */
 #define NEARLY 0.92           /* discs of one palm are as large as this share of the largest */
@@ -12,6 +12,8 @@
 #define PALM_BINS 4           /* from where it is nearly as wide to its middle */
 #define WRIST_LEAST_M 0.018   /* half of a wrist seen edge-on; less is a neck of what is held */
 #define RADIUS_LEAST_M 0.010  /* a hand seen edge-on is 25 mm thick */
+#define FOREARM_BINS 9        /* behind the palm's centre the wrist is over, */
+#define FOREARM_MOST 14       /* and so much of the forearm is compared */
 #define ARM_FROM_M 0.055      /* behind the palm's centre there is the wrist, */
 #define ARM_TO_M 0.17         /* and forearm up to here */
 
@@ -105,10 +107,12 @@ static void centre_disc(hand_palm *palm, const hand_patch *p, int32_t seed)
     const double seed_x = seed % p->width, seed_y = (double)(seed / p->width);
     double sum = 0.0, x = 0.0, y = 0.0;
     for (int32_t i = 0; i < p->width * p->height; i++) {
-        const double dx = i % p->width - seed_x, dy = (double)(i / p->width) - seed_y;
         const double r = is_limb(p, i) ? hand_patch_radius(p, i) : 0.0;
-        const double apart = (dx * dx + dy * dy) * pixel * pixel;
-        if (r > NEARLY * radius && apart < 0.5 * radius * radius) {
+        if (r <= NEARLY * radius) {
+            continue;
+        }
+        const double dx = i % p->width - seed_x, dy = (double)(i / p->width) - seed_y;
+        if ((dx * dx + dy * dy) * pixel * pixel < 0.5 * radius * radius) {
             const double weight = r - NEARLY * radius;
             sum += weight;
             x += weight * dx;
@@ -130,8 +134,11 @@ static void fit_palm(hand_palm *palm, const hand_patch *p, int32_t seed)
     rlf_vec3 sum = {0, 0, 0}, normal = {0, 0, 0};
     int32_t count = 0;
     for (int32_t i = 0; i < p->width * p->height; i++) {
+        if (p->mask[i] != 1) {
+            continue;
+        }
         const double dx = i % p->width - palm->x, dy = (double)(i / p->width) - palm->y;
-        if (p->mask[i] == 1 && dx * dx + dy * dy <= reach * reach + 1.0) {
+        if (dx * dx + dy * dy <= reach * reach + 1.0) {
             const int32_t k = hand_patch_pixel(p, i);
             sum = rlf_add(sum, hand_patch_point(p, i));
             normal = rlf_add(normal, rlf_vec3_make((double)s->normal_x[k], (double)s->normal_y[k],
@@ -193,6 +200,34 @@ static int32_t first_wide(const profile *f)
     return widest(f, bin, bin + PALM_BINS < to ? bin + PALM_BINS : to);
 }
 
+/* How wide the forearm is, and how far from a straight taper: what holds a hand up is a smooth
+ * cone; a hand behind a thing, or a trunk with limbs of its own, is none. */
+static void measure_forearm(hand_palm *palm, const profile *f, double length)
+{
+    const int32_t from = (int32_t)(palm->along / BIN_M) + FOREARM_BINS;
+    const int32_t limit = (int32_t)rlf_min(length / BIN_M, BINS) - 1;
+    const int32_t to = from + FOREARM_MOST < limit ? from + FOREARM_MOST : limit;
+    double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+    for (int32_t b = from; b < to; b++) {
+        if (f->radius[b] <= 0.0) {
+            continue;
+        }
+        n += 1.0;
+        x += b;
+        y += f->radius[b];
+        xx += (double)b * b;
+        xy += b * f->radius[b];
+        yy += f->radius[b] * f->radius[b];
+    }
+    if (n < 3.0) {
+        return;
+    }
+    const double sxx = xx - x * x / n, sxy = xy - x * y / n, syy = yy - y * y / n;
+    palm->forearm = n * BIN_M;
+    palm->forearm_half = y / n;
+    palm->forearm_spread = sqrt(rlf_max(syy - sxy * sxy / sxx, 0.0) / n) / palm->forearm_half;
+}
+
 bool hand_palm_find(hand_palm *palm, const hand_patch *p)
 {
     profile read;
@@ -208,5 +243,6 @@ bool hand_palm_find(hand_palm *palm, const hand_patch *p)
     centre_disc(palm, p, f.pixel[bin]);
     fit_palm(palm, p, f.pixel[bin]);
     find_arm(palm, p);
+    measure_forearm(palm, &f, p->length);
     return true;
 }

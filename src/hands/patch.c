@@ -44,22 +44,24 @@ static void place(hand_patch *p, const rlf_surface *s, const hand_cells *c, cons
     p->spacing = (float)(p->step / rlf_max(s->camera.fx, 1.0));
 }
 
+/* Patch pixel i, which is (x, y) of the surface. Returns 1 when it is the limb's. */
 static int32_t read_pixel(hand_patch *p, const hand_cells *c, const hand_limbs *l, int32_t owner,
-                          int32_t i)
+                          int32_t i, int32_t x, int32_t y)
 {
-    const int32_t x = p->x0 + i % p->width * p->step;
-    const int32_t y = p->y0 + i / p->width * p->step;
     p->mask[i] = MASK_UNKNOWN;
     p->z[i] = 0.0f;
     p->along[i] = CELL_FAR;
-    if (x < 0 || y < 0 || x / c->step >= c->width || y / c->step >= c->height) {
+    if (x < 0 || y < 0 || x >= c->width * c->step || y >= c->height * c->step) {
         return 0;
     }
-    const int32_t cell = y / c->step * c->width + x / c->step;
     const int32_t pixel = y * p->surface->width + x;
     const float z = p->surface->depth[pixel];
     p->z[i] = z;
-    if (l->owner[cell] != owner || z <= 0.0f || p->surface->foreground[pixel] == 0) {
+    if (z <= 0.0f || p->surface->foreground[pixel] == 0) {
+        return 0;
+    }
+    const int32_t cell = y / c->step * c->width + x / c->step;
+    if (l->owner[cell] != owner) {
         return 0;
     }
     const float sigma = (float)rlf_depth_noise_sigma(&c->noise, (double)z);
@@ -145,10 +147,13 @@ static void find_holes(hand_patch *p)
 bool hand_patch_read(hand_patch *p, const rlf_surface *s, const hand_cells *c, const hand_limbs *l,
                      int32_t k)
 {
+    const int32_t owner = k + 1;
     int32_t pixels = 0;
     place(p, s, c, &l->limb[k]);
-    for (int32_t i = 0; i < p->width * p->height; i++) {
-        pixels += read_pixel(p, c, l, k + 1, i);
+    for (int32_t row = 0; row < p->height; row++) {
+        for (int32_t i = row * p->width, x = p->x0; i < (row + 1) * p->width; i++, x += p->step) {
+            pixels += read_pixel(p, c, l, owner, i, x, p->y0 + row * p->step);
+        }
     }
     if (pixels < PIXELS_LEAST) {
         return false;

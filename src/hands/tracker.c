@@ -188,8 +188,17 @@ static void rename_owners(rlf_hand_tracker *t)
             }
         }
     }
-    for (int32_t i = 0; i < t->def.width * t->def.height; i++) {
-        t->owner[i] = name[t->owner[i]];
+    const int32_t count = t->def.width * t->def.height;
+    for (int32_t i = 0; i < count; i++) {
+        uint64_t eight = 1;
+        if (i + 8 <= count) {
+            memcpy(&eight, t->owner + i, sizeof(eight));
+        }
+        if (eight == 0) { /* most of a picture is nobody's */
+            i += 7;
+        } else {
+            t->owner[i] = name[t->owner[i]];
+        }
     }
 }
 

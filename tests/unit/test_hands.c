@@ -264,11 +264,21 @@ static void test_arm_forward(void **state)
     bench_destroy(&b);
 }
 
+/* An arm that ends in a doll: its head is as large as a palm, but what is behind it is no forearm.
+ */
+static void draw_doll(hand_scene *s)
+{
+    scene_rod(s, rlf_vec3_make(0, 0.9, 1.0), rlf_vec3_make(0, 0.22, 1.0), 0.04, 0.03);
+    scene_ball(s, rlf_vec3_make(0, 0.15, 1.0), 0.065);
+    scene_rod(s, rlf_vec3_make(0, 0.08, 1.0), rlf_vec3_make(0, 0.02, 1.0), 0.03, 0.025);
+    scene_ball(s, rlf_vec3_make(0, -0.02, 1.0), 0.042);
+}
+
 /* A leg from below with its shoe, a head from above, a chair's back and leg, a ball in the air. */
 static void test_no_hands(void **state)
 {
     (void)state;
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 5; k++) {
         bench b = bench_create();
         const rlf_hands *out = NULL;
         for (int frame = 0; frame < 4; frame++) {
@@ -290,6 +300,8 @@ static void test_no_hands(void **state)
                 }
                 scene_rod(s, rlf_vec3_make(-0.5, 0.9, 1.2), rlf_vec3_make(-0.5, 0.0, 1.2), 0.011,
                           0.011);
+            } else if (k == 4) {
+                draw_doll(s);
             } else {
                 scene_ball(s, rlf_vec3_make(0, 0, 1.0), 0.04);
                 scene_rod(s, rlf_vec3_make(0.2, 0, 1.0), rlf_vec3_make(0.5, 0, 1.0), 0.03, 0.03);

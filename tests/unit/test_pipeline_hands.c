@@ -109,6 +109,53 @@ static void a_pinch_spawns_a_body(void **state)
     free(memory.scene);
 }
 
+/* One body, and what a pinch does; the state of all bodies after the last frame. */
+static rlf_snapshot run_bound(rlf_hand_action action, const rlf_body_def *body,
+                              rlf_body_state *out_first)
+{
+    hand_source memory;
+    rlf_source *source = open_hand(&memory);
+    rlf_body_def bodies[1] = {*body};
+    rlf_scene scene = {.gravity = {0, 0, 0}, .bodies = bodies, .body_count = 1};
+    scene.on[RLF_HAND_EVENT_PINCH_BEGIN] = action;
+    rlf_pipeline_def def = rlf_pipeline_def_default(RLF_PROFILE_LIVE, source, NULL);
+    def.scene = &scene;
+    def.enable_render = false;
+    rlf_pipeline *pipeline = NULL;
+    assert_int_equal(rlf_pipeline_create(&def, &pipeline), RLF_OK);
+    rlf_pipeline_output out;
+    rlf_snapshot last = {.body_count = -1};
+    while (rlf_pipeline_step(pipeline, &out) == RLF_OK) {
+        last = *out.snapshot;
+        if (last.body_count > 0) {
+            *out_first = last.bodies[last.body_count - 1];
+        }
+    }
+    rlf_pipeline_destroy(&pipeline);
+    rlf_source_destroy(&source);
+    free(memory.scene);
+    return last;
+}
+
+/* A pinch throws a second body, takes the near one away, or lets all start anew. */
+static void a_pinch_throws_removes_and_resets(void **state)
+{
+    (void)state;
+    rlf_body_state body;
+    rlf_body_def def = rlf_body_def_default();
+    def.shape = (rlf_shape){.type = RLF_SHAPE_SPHERE, .radius = 0.02};
+    def.position = rlf_vec3_make(0.5, -0.3, 0.9);
+    assert_int_equal(run_bound(RLF_HAND_ACTION_THROW, &def, &body).body_count, 2);
+    assert_true(rlf_length(body.velocity) > 2.0);
+    def.velocity = rlf_vec3_make(0.0, -0.3, 0.0);
+    const double way = 0.3 * 1e-9 * (double)(ALL_FRAMES * FRAME_NS); /* without a pinch */
+    assert_int_equal(run_bound(RLF_HAND_ACTION_RESET, &def, &body).body_count, 1);
+    assert_true(def.position.y - body.T_world_body.p.y < 0.6 * way);
+    def.velocity = rlf_vec3_make(0, 0, 0);
+    def.position = rlf_vec3_make(-0.15, -0.2, 0.9); /* beside the ring, a hand's breadth away */
+    assert_int_equal(run_bound(RLF_HAND_ACTION_REMOVE, &def, &body).body_count, 0);
+}
+
 /* Off, nobody looks for hands; the view turns them on and draws them. */
 static void the_view_turns_them_on(void **state)
 {
@@ -146,6 +193,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_pinch_spawns_a_body),
+        cmocka_unit_test(a_pinch_throws_removes_and_resets),
         cmocka_unit_test(the_view_turns_them_on),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

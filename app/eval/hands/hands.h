@@ -8,6 +8,7 @@
 #include "relief/synthetic.h"
 
 #define HANDS_SECTION "hands"
+#define GESTURES_SECTION "gestures"
 #define HANDS_SAMPLES_MAX 8192
 
 /* A scripted hand, the pipeline that sees it, and the virtual bodies of its task. The world's frame

@@ -140,7 +140,7 @@ static rlf_result track(const rlf_synthetic_def *def, track_sums *sums)
 
 static void add(eval_table *table, const char *key, const char *title, double value)
 {
-    eval_table_add(table, HANDS_SECTION, key, title, RLF_PROFILE_LIVE, value);
+    eval_table_add(table, GESTURES_SECTION, key, title, RLF_PROFILE_LIVE, value);
 }
 
 static double mean(double sum, int64_t count, double scale)
