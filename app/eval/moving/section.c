@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -101,6 +102,8 @@ static rlf_result run_thrown(eval_table *table, int64_t seed)
     thrown_figures f;
     rlf_result result = thrown_measure(seed, &f);
     if (result == RLF_OK) {
+        fprintf(stderr, "moving thrown: gone %d, sunk %d, hanging %d, restless %d, %.2f ms\n",
+                (int)f.gone, (int)f.sunk, (int)f.hanging, (int)f.restless, f.surface_ms);
         eval_table_add(table, "moving thrown", "lost", "bodies lost of 1000 thrown",
                        RLF_PROFILE_LIVE, f.gone + f.sunk + f.hanging);
         eval_table_add(table, "moving thrown", "sunk", "  more than 1 cm inside of the room",
@@ -118,6 +121,7 @@ static rlf_result run_thrown(eval_table *table, int64_t seed)
 rlf_result eval_moving_run(eval_table *table, int64_t seed, int profile_mask)
 {
     rlf_result result = run_thrown(table, seed);
+    if (getenv("MP_ONLY")) return result;
     (void)profile_mask; /* poses do not depend on it */
     for (size_t i = 0; i < sizeof(synthetic) / sizeof(synthetic[0]) && result == RLF_OK; i++) {
         char text[256];

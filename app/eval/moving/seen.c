@@ -1,7 +1,7 @@
 /* True depth and normals of a still room from any place. */
 #include "eval/moving/seen.h"
 
-#define FOCAL 91.0 /* pixels: the view of a Kinect v2 */
+#define FOCAL 68.5 /* pixels: the view of a Kinect v2 */
 
 static bool project(const void *context, rlf_vec3 p, double *u, double *v)
 {
@@ -9,6 +9,16 @@ static bool project(const void *context, rlf_vec3 p, double *u, double *v)
     *u = FOCAL * p.x / p.z + 0.5 * (SEEN_W - 1);
     *v = FOCAL * p.y / p.z + 0.5 * (SEEN_H - 1);
     return p.z > 1e-6 && *u > -0.5 && *v > -0.5 && *u < SEEN_W - 0.5 && *v < SEEN_H - 0.5;
+}
+
+rlf_camera seen_room_camera(void)
+{
+    return (rlf_camera){.width = SEEN_W,
+                        .height = SEEN_H,
+                        .fx = FOCAL,
+                        .fy = FOCAL,
+                        .cx = 0.5 * (SEEN_W - 1),
+                        .cy = 0.5 * (SEEN_H - 1)};
 }
 
 void seen_room_start(seen_room *seen, rlf_source *source, const rlf_pose *T_world_source)

@@ -106,9 +106,28 @@ static void meet_supports(grid_job *job, const mapped_normals *normals)
     }
 }
 
+/* Whether all that the body can come to is in the picture, and before what that shows. */
+static bool is_all_seen(const grid_job *job)
+{
+    const double AROUND = 1.5; /* of the reach: what is aside looks wider the nearer it is */
+    rlf_vec3 centre = job->motion.centre;
+    double r = AROUND * job->window.reach;
+    if (job->scan.is_near || centre.z < 2.0 * r || !mapped_is_seen(job->query->grid, centre)) {
+        return false;
+    }
+    for (int32_t k = 0; k < 4; k++) {
+        int32_t x, y;
+        rlf_vec3 corner = rlf_vec3_make(k & 1 ? r : -r, k & 2 ? r : -r, 0);
+        if (!grid_pixel_of(job->query->grid, rlf_add(centre, corner), &x, &y)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 void mapped_collide(grid_job *job)
 {
-    if (job->query->map == NULL) {
+    if (job->query->map == NULL || is_all_seen(job)) {
         return;
     }
     rlf_vec3 centre = rlf_transform(&job->query->grid->T_world_grid, job->motion.centre);
