@@ -8,7 +8,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -110,8 +109,8 @@ static rlf_result run_thrown(eval_table *table, int64_t seed)
                        RLF_PROFILE_LIVE, f.sunk);
         eval_table_add(table, "moving thrown", "hanging", "  more than 1 cm over it",
                        RLF_PROFILE_LIVE, f.hanging);
-        eval_table_add(table, "moving thrown", "restless", "not asleep after all",
-                       RLF_PROFILE_LIVE, f.restless);
+        eval_table_add(table, "moving thrown", "restless", "not asleep after all", RLF_PROFILE_LIVE,
+                       f.restless);
         eval_table_add(table, "moving thrown", "surface_ms", "contacts with grid and map, mean, ms",
                        RLF_PROFILE_LIVE, f.surface_ms);
     }
@@ -121,7 +120,6 @@ static rlf_result run_thrown(eval_table *table, int64_t seed)
 rlf_result eval_moving_run(eval_table *table, int64_t seed, int profile_mask)
 {
     rlf_result result = run_thrown(table, seed);
-    if (getenv("MP_ONLY")) return result;
     (void)profile_mask; /* poses do not depend on it */
     for (size_t i = 0; i < sizeof(synthetic) / sizeof(synthetic[0]) && result == RLF_OK; i++) {
         char text[256];

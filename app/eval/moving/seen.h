@@ -5,7 +5,7 @@
 #include "relief/synthetic.h"
 #include "relief/world.h"
 
-enum { SEEN_W = 96, SEEN_H = 80, SEEN_PIXELS = SEEN_W * SEEN_H };
+enum { SEEN_W = 192, SEEN_H = 160, SEEN_PIXELS = SEEN_W * SEEN_H };
 
 typedef struct seen_room {
     rlf_source *source;      /* borrowed; nothing may move in it */

@@ -1,7 +1,7 @@
 /* Bodies thrown about a room while the camera turns away from them and back: where they are then.
  *
- * A camera looks about from two places, with a sensor's noise and true poses: that is the map. Then
- * it turns over the room and back, and bodies are thrown into what it sees. */
+ * A camera looks about from some places, with a sensor's noise and true poses: that is the map.
+ * Then it turns over the room and back, and bodies are thrown into what it sees. */
 #include "eval/moving/thrown.h"
 
 #include "eval/analytic.h"
@@ -16,10 +16,11 @@
 #define SOURCE "synthetic:empty?path=walk&color=0&noise=0&frames=1"
 #define BODIES 1000
 #define VOXEL_M 0.01
+#define EYES 5      /* places from which the map is made */
 #define TURNS 10    /* views a turn */
 #define PANNING 100 /* steps that the camera takes over the room and back */
 #define THROWING 80 /* steps in which bodies are thrown */
-#define STANDING 60 /* steps in which the camera stands at the end */
+#define STANDING 90 /* steps in which the camera stands at the end */
 #define STEP_S (1.0 / 30)
 #define AT_REST_M 0.01
 
@@ -72,7 +73,8 @@ static rlf_result fuse_view(throwing *t, const rlf_depth_noise *noise, rlf_pose 
 
 static rlf_result make_map(throwing *t)
 {
-    const rlf_vec3 eyes[3] = {{0, 0, 0}, {-1.2, 0, 1.2}, {1.2, 0, 1.6}};
+    const rlf_vec3 eyes[EYES] = {
+        {0, 0, 0}, {-1.2, 0, 1.2}, {1.2, 0, 1.6}, {1.9, 0, -0.2}, {-2.2, 0, 0.2}};
     const double pitches[3] = {-0.3, 0.3, 0.9};
     rlf_map_def def = rlf_map_def_default();
     def.rig = eval_kinect_rig();
@@ -82,7 +84,7 @@ static rlf_result make_map(throwing *t)
     def.blocks_per_frame = 0;
     def.keep_color = false;
     rlf_result result = rlf_map_create(&def, &t->map);
-    for (int32_t i = 0; i < 3 * 3 * TURNS && result == RLF_OK; i++) {
+    for (int32_t i = 0; i < EYES * 3 * TURNS && result == RLF_OK; i++) {
         double yaw = 2.0 * RLF_PI / TURNS * (i % TURNS);
         rlf_pose T = pose_of(eyes[i / TURNS / 3], yaw, pitches[i / TURNS % 3]);
         result = fuse_view(t, &def.rig.noise, T);
@@ -122,7 +124,8 @@ static rlf_result throw_body(throwing *t)
         p.y = eval_random_range(&t->random, -0.4, 0.4) * p.z;
         def.position = rlf_transform(&t->seen.grid.T_world_grid, p);
     } while (seen_room_distance(&t->seen, def.position) < size);
-    def.velocity = eval_random_in_box(&t->random, rlf_vec3_make(-4, -2, -4), rlf_vec3_make(4, 2, 4));
+    def.velocity =
+        eval_random_in_box(&t->random, rlf_vec3_make(-4, -2, -4), rlf_vec3_make(4, 2, 4));
     def.angular_velocity =
         eval_random_in_box(&t->random, rlf_vec3_make(-5, -5, -5), rlf_vec3_make(5, 5, 5));
     return rlf_world_add_body(t->world, &def, NULL);
@@ -182,12 +185,6 @@ static void judge(const throwing *t, thrown_figures *out)
         resting += body->is_asleep;
         out->sunk += is_off && gap < 0.0;
         out->hanging += is_off && gap > 0.0;
-        if (is_off) {
-            rlf_vec3 p = body->T_world_body.p;
-            rlf_map_point m = rlf_map_sample(t->map, p);
-            fprintf(stderr, "  thrown %d: %.3f m over the room at %.2f %.2f %.2f%s shape %d size %.3f map %d %.3f v %.2f\n", (int)k, gap,
-                    p.x, p.y, p.z, body->is_asleep ? ", asleep" : "", body->shape.type, body->shape.radius, m.state, m.distance, rlf_length(body->velocity));
-        }
     }
     out->restless = snapshot->body_count - resting;
     out->surface_ms = t->surface_ms / t->steps;
