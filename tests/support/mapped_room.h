@@ -99,8 +99,7 @@ static inline void mapped_room_look(mapped_room *room, const rlf_pose *T_world_c
         double t = mapped_room_meet(&shell, true, T_world_camera->p, way, &normal);
         for (int32_t k = 0; k < room->solid_count; k++) {
             rlf_vec3 face;
-            double near =
-                mapped_room_meet(&room->solids[k], false, T_world_camera->p, way, &face);
+            double near = mapped_room_meet(&room->solids[k], false, T_world_camera->p, way, &face);
             normal = near < t ? face : normal;
             t = rlf_min(t, near);
         }
@@ -129,8 +128,8 @@ static inline void mapped_room_fuse(mapped_room *room, rlf_map *map, rlf_vec3 ey
     for (int32_t i = 0; i < 18; i++) {
         rlf_pose T = mapped_room_pose(eye, (i % 8) * (RLF_PI / 4.0), pitches[i / 8]);
         mapped_room_look(room, &T);
-        const rlf_map_view view = {room->depth, room->normal[0], room->normal[1],
-                                   room->normal[2], NULL, NULL};
+        const rlf_map_view view = {
+            room->depth, room->normal[0], room->normal[1], room->normal[2], NULL, NULL};
         (void)rlf_map_integrate(map, &view, &T, NULL);
     }
 }

@@ -107,7 +107,9 @@ static void pan(double from, double to, int32_t frames)
 static void what_falls_out_of_view_lies_on_the_floor(void **state)
 {
     (void)state;
-    const rlf_shape shapes[5] = {cube(0.1), ball(0.06), ball(0.2),
+    const rlf_shape shapes[5] = {cube(0.1),
+                                 ball(0.06),
+                                 ball(0.2),
                                  {.type = RLF_SHAPE_CAPSULE, .radius = 0.05, .height = 0.1},
                                  {.type = RLF_SHAPE_CYLINDER, .radius = 0.05, .height = 0.1}};
     for (int32_t k = 0; k < 5; k++) {
@@ -216,7 +218,8 @@ static void real_backs_replace_guesses(void **state)
     look(0.0, 1.5);
     rlf_vec3 p = body(0)->T_world_body.p, b = body(1)->T_world_body.p;
     if (!(p.z > 0.74 && p.z < 0.9)) {
-        print_message("cube at %.3f %.3f %.3f, ball %.3f %.3f %.3f\n", p.x, p.y, p.z, b.x, b.y, b.z);
+        print_message("cube at %.3f %.3f %.3f, ball %.3f %.3f %.3f\n", p.x, p.y, p.z, b.x, b.y,
+                      b.z);
     }
     assert_true(p.y > 0.94 && p.y < 0.96);
     assert_true(p.z > 0.74 && p.z < 0.9);
@@ -250,9 +253,11 @@ static void where_nobody_looked_there_is_nothing(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        TEST(what_falls_out_of_view_lies_on_the_floor), TEST(nothing_tunnels_at_10_m_s),
-        TEST(border_is_no_seam), TEST(a_stack_sleeps_while_nobody_looks),
-        TEST(real_backs_replace_guesses), TEST(where_nobody_looked_there_is_nothing)};
+    const struct CMUnitTest tests[] = {TEST(what_falls_out_of_view_lies_on_the_floor),
+                                       TEST(nothing_tunnels_at_10_m_s),
+                                       TEST(border_is_no_seam),
+                                       TEST(a_stack_sleeps_while_nobody_looks),
+                                       TEST(real_backs_replace_guesses),
+                                       TEST(where_nobody_looked_there_is_nothing)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

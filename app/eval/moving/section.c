@@ -72,14 +72,16 @@ static rlf_result run_thrown(eval_table *table, int64_t seed)
     thrown_figures f;
     rlf_result result = thrown_measure(seed, &f);
     if (result == RLF_OK) {
+        fprintf(stderr, "moving thrown: gone %d, sunk %d, hanging %d, restless %d, %.2f ms\n",
+                (int)f.gone, (int)f.sunk, (int)f.hanging, (int)f.restless, f.surface_ms);
         eval_table_add(table, "moving thrown", "lost", "bodies lost of 1000 thrown",
                        RLF_PROFILE_LIVE, f.gone + f.sunk + f.hanging);
         eval_table_add(table, "moving thrown", "sunk", "  more than 1 cm inside of the room",
                        RLF_PROFILE_LIVE, f.sunk);
         eval_table_add(table, "moving thrown", "hanging", "  more than 1 cm over it",
                        RLF_PROFILE_LIVE, f.hanging);
-        eval_table_add(table, "moving thrown", "restless", "not asleep after all",
-                       RLF_PROFILE_LIVE, f.restless);
+        eval_table_add(table, "moving thrown", "restless", "not asleep after all", RLF_PROFILE_LIVE,
+                       f.restless);
         eval_table_add(table, "moving thrown", "surface_ms", "contacts with grid and map, mean, ms",
                        RLF_PROFILE_LIVE, f.surface_ms);
     }

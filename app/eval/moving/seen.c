@@ -1,7 +1,7 @@
 /* True depth and normals of a still room from any place. */
 #include "eval/moving/seen.h"
 
-#define FOCAL 91.0 /* pixels: the view of a Kinect v2 */
+#define FOCAL 137.0 /* pixels: the view of a Kinect v2 */
 
 static bool project(const void *context, rlf_vec3 p, double *u, double *v)
 {
@@ -9,6 +9,16 @@ static bool project(const void *context, rlf_vec3 p, double *u, double *v)
     *u = FOCAL * p.x / p.z + 0.5 * (SEEN_W - 1);
     *v = FOCAL * p.y / p.z + 0.5 * (SEEN_H - 1);
     return p.z > 1e-6 && *u > -0.5 && *v > -0.5 && *u < SEEN_W - 0.5 && *v < SEEN_H - 0.5;
+}
+
+rlf_camera seen_room_camera(void)
+{
+    return (rlf_camera){.width = SEEN_W,
+                        .height = SEEN_H,
+                        .fx = FOCAL,
+                        .fy = FOCAL,
+                        .cx = 0.5 * (SEEN_W - 1),
+                        .cy = 0.5 * (SEEN_H - 1)};
 }
 
 void seen_room_start(seen_room *seen, rlf_source *source, const rlf_pose *T_world_source)
@@ -43,8 +53,7 @@ static rlf_result find_normals(seen_room *seen, const rlf_pose *T_source_camera)
             double distance;
             int32_t label;
             rlf_vec3 p = rlf_mad(T_source_camera->p, seen->ways[i], (double)seen->depth[i]);
-            rlf_result result =
-                rlf_synthetic_distance(seen->source, p, &distance, &normal, &label);
+            rlf_result result = rlf_synthetic_distance(seen->source, p, &distance, &normal, &label);
             if (result != RLF_OK) {
                 return result;
             }
@@ -62,8 +71,8 @@ rlf_result seen_room_look(seen_room *seen, const rlf_pose *T_world_camera)
     const rlf_pose T_source_world = rlf_pose_invert(&seen->T_world_source);
     const rlf_pose T = rlf_pose_mul(&T_source_world, T_world_camera);
     for (int32_t i = 0; i < SEEN_PIXELS; i++) {
-        seen->ways[i] = rlf_rotate(
-            T.q, rlf_vec3_make((double)seen->ray_x[i], (double)seen->ray_y[i], 1.0));
+        seen->ways[i] =
+            rlf_rotate(T.q, rlf_vec3_make((double)seen->ray_x[i], (double)seen->ray_y[i], 1.0));
     }
     rlf_result result =
         rlf_synthetic_cast(seen->source, T.p, seen->ways, SEEN_PIXELS, seen->depth, NULL);

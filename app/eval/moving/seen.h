@@ -5,7 +5,7 @@
 #include "relief/synthetic.h"
 #include "relief/world.h"
 
-enum { SEEN_W = 128, SEEN_H = 106, SEEN_PIXELS = SEEN_W * SEEN_H };
+enum { SEEN_W = 192, SEEN_H = 160, SEEN_PIXELS = SEEN_W * SEEN_H };
 
 typedef struct seen_room {
     rlf_source *source;      /* borrowed; nothing may move in it */
@@ -20,6 +20,8 @@ typedef struct seen_room {
 void seen_room_start(seen_room *seen, rlf_source *source, const rlf_pose *T_world_source);
 /* The grid of a camera at that pose, a thirtieth of a second after the last. */
 rlf_result seen_room_look(seen_room *seen, const rlf_pose *T_world_camera);
+/* The depth camera that sees so. */
+rlf_camera seen_room_camera(void);
 /* Distance of a world point to the true room, metres; negative inside. */
 double seen_room_distance(const seen_room *seen, rlf_vec3 p);
 

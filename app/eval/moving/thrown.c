@@ -1,57 +1,95 @@
 /* Bodies thrown about a room while the camera turns away from them and back: where they are then.
  *
- * The room is fused from the noisy frames of a path, with true poses. Then the camera goes the same
- * way again, bodies are thrown into what it sees, and it stands still until all of them lie. */
+ * A camera looks about from some places, with a sensor's noise and true poses: that is the map.
+ * Then it turns over the room and back, and bodies are thrown into what it sees. */
 #include "eval/moving/thrown.h"
 
 #include "eval/analytic.h"
 #include "eval/moving/seen.h"
-#include "fuse/fuser.h"
 
 #include "relief/io.h"
+#include "relief/map.h"
 
 #include <stdio.h>
 
-#define SOURCE "synthetic:empty?path=look_away&color=320x180&fps=10&frames=62&seed=%lld"
+/* Some path: then the room has walls on all sides. */
+#define SOURCE "synthetic:empty?path=walk&color=0&noise=0&frames=1"
 #define BODIES 1000
-#define POSES_MAX 128
-#define STEPS 3     /* of physics between two poses, a thirtieth of a second each */
-#define THROWING 40 /* poses during which bodies are thrown */
-#define STANDING 60 /* steps in which the camera stands at the end */
+#define VOXEL_M 0.01
+#define EYES 5      /* places from which the map is made */
+#define TURNS 10    /* views a turn */
+#define PANNING 100 /* steps that the camera takes over the room and back */
+#define THROWING 80 /* steps in which bodies are thrown */
+#define STANDING 90 /* steps in which the camera stands at the end */
 #define STEP_S (1.0 / 30)
 #define AT_REST_M 0.01
 
 typedef struct throwing {
     rlf_source *source;
-    fuser fuser;
+    rlf_map *map;
     rlf_pool *pool;
-    rlf_pose poses[POSES_MAX];
-    int32_t pose_count;
     seen_room seen;
     rlf_world *world;
+    rlf_vec3 down;
     eval_random random;
     int32_t steps;
     double surface_ms;
 } throwing;
 
-static rlf_result fuse(throwing *t, int64_t seed)
+static rlf_pose pose_of(rlf_vec3 eye, double yaw, double pitch)
 {
-    const fuser_options options = {.has_time = true};
-    char text[160];
-    (void)snprintf(text, sizeof(text), SOURCE, (long long)seed);
-    rlf_result result = rlf_open_source(text, t->pool, &t->source);
+    rlf_quat turn = rlf_quat_from_rotation_vector(rlf_vec3_make(0, yaw, 0));
+    rlf_quat nod = rlf_quat_from_rotation_vector(rlf_vec3_make(-pitch, 0, 0));
+    return (rlf_pose){eye, rlf_quat_mul(turn, nod)};
+}
+
+static rlf_result open_room(throwing *t)
+{
+    rlf_frame frame;
+    rlf_result result = rlf_open_source(SOURCE, t->pool, &t->source);
     if (result == RLF_OK) {
-        result = fuser_open(&t->fuser, &rlf_source_get_info(t->source)->rig, &options, t->pool);
-    }
-    while (result == RLF_OK && t->pose_count < POSES_MAX) {
-        rlf_frame frame;
         result = rlf_source_next(t->source, &frame);
-        if (result == RLF_OK) {
-            t->poses[t->pose_count++] = frame.T_world_camera;
-            result = fuser_add(&t->fuser, &frame, &frame.T_world_camera, NULL);
-        }
     }
-    return result == RLF_END ? RLF_OK : result;
+    if (result == RLF_OK) {
+        result = rlf_synthetic_get_down(t->source, &t->down);
+        seen_room_start(&t->seen, t->source, &frame.T_world_camera);
+    }
+    return result;
+}
+
+/* One view with a Kinect's noise. */
+static rlf_result fuse_view(throwing *t, const rlf_depth_noise *noise, rlf_pose T)
+{
+    float depth[SEEN_PIXELS];
+    rlf_result result = seen_room_look(&t->seen, &T);
+    for (int32_t i = 0; i < SEEN_PIXELS; i++) {
+        double z = (double)t->seen.depth[i];
+        double sigma = rlf_depth_noise_sigma(noise, z);
+        depth[i] = (float)(z > 0.0 ? z + sigma * eval_random_normal(&t->random) : 0.0);
+    }
+    const rlf_map_view view = {.depth = depth};
+    return result == RLF_OK ? rlf_map_integrate(t->map, &view, &T, NULL) : result;
+}
+
+static rlf_result make_map(throwing *t)
+{
+    const rlf_vec3 eyes[EYES] = {
+        {0, 0, 0}, {-1.2, 0, 1.2}, {1.2, 0, 1.6}, {1.9, 0, -0.2}, {-2.2, 0, 0.2}};
+    const double pitches[3] = {-0.3, 0.3, 0.9};
+    rlf_map_def def = rlf_map_def_default();
+    def.rig = eval_kinect_rig();
+    def.rig.depth = seen_room_camera();
+    def.rig.depth_max_m = 8.0;
+    def.voxel_m = VOXEL_M;
+    def.blocks_per_frame = 0;
+    def.keep_color = false;
+    rlf_result result = rlf_map_create(&def, &t->map);
+    for (int32_t i = 0; i < EYES * 3 * TURNS && result == RLF_OK; i++) {
+        double yaw = 2.0 * RLF_PI / TURNS * (i % TURNS);
+        rlf_pose T = pose_of(eyes[i / TURNS / 3], yaw, pitches[i / TURNS % 3]);
+        result = fuse_view(t, &def.rig.noise, T);
+    }
+    return result;
 }
 
 static rlf_result make_world(throwing *t)
@@ -60,16 +98,10 @@ static rlf_result make_world(throwing *t)
     def.body_capacity = BODIES;
     def.border = RLF_BORDER_EXTEND;
     def.pool = t->pool;
-    rlf_vec3 down;
-    rlf_result result = rlf_synthetic_get_down(t->source, &down);
-    const rlf_pose *last = &t->poses[t->pose_count - 1];
-    def.gravity = rlf_scale(rlf_rotate(last->q, down), 9.81);
+    def.gravity = rlf_scale(t->down, 9.81);
+    rlf_result result = rlf_world_create(&def, &t->world);
     if (result == RLF_OK) {
-        result = rlf_world_create(&def, &t->world);
-    }
-    if (result == RLF_OK) {
-        rlf_world_set_room(t->world, t->fuser.map);
-        seen_room_start(&t->seen, t->source, last);
+        rlf_world_set_room(t->world, t->map);
     }
     return result;
 }
@@ -92,32 +124,30 @@ static rlf_result throw_body(throwing *t)
         p.y = eval_random_range(&t->random, -0.4, 0.4) * p.z;
         def.position = rlf_transform(&t->seen.grid.T_world_grid, p);
     } while (seen_room_distance(&t->seen, def.position) < size);
-    def.velocity = eval_random_in_box(&t->random, rlf_vec3_make(-4, -2, -4), rlf_vec3_make(4, 2, 4));
+    def.velocity =
+        eval_random_in_box(&t->random, rlf_vec3_make(-4, -2, -4), rlf_vec3_make(4, 2, 4));
     def.angular_velocity =
         eval_random_in_box(&t->random, rlf_vec3_make(-5, -5, -5), rlf_vec3_make(5, 5, 5));
     return rlf_world_add_body(t->world, &def, NULL);
 }
 
-/* Between two poses of the path. */
-static rlf_pose pose_at(const throwing *t, int32_t step)
+/* Over half of the room and back, then still. */
+static rlf_pose pose_at(int32_t step)
 {
-    int32_t last = t->pose_count - 1, k = step / STEPS < last ? step / STEPS : last;
-    const rlf_pose *a = &t->poses[k], *b = &t->poses[k < last ? k + 1 : last];
-    double share = (double)(step % STEPS) / STEPS;
-    rlf_quat q = {a->q.x + share * (b->q.x - a->q.x), a->q.y + share * (b->q.y - a->q.y),
-                  a->q.z + share * (b->q.z - a->q.z), a->q.w + share * (b->q.w - a->q.w)};
-    return (rlf_pose){rlf_mad(a->p, rlf_sub(b->p, a->p), share), rlf_quat_normalize(q)};
+    double share = step < PANNING ? (double)step / PANNING : 1.0;
+    double yaw = 0.5 * RLF_PI * (1.0 - rlf_cos(2.0 * RLF_PI * share));
+    return pose_of(rlf_vec3_make(0, 0, 0), yaw, 0.2);
 }
 
 static rlf_result play(throwing *t)
 {
-    int32_t thrown = 0, moving = (t->pose_count - 1) * STEPS;
+    int32_t thrown = 0;
     rlf_result result = RLF_OK;
-    for (int32_t step = 0; step < moving + STANDING && result == RLF_OK; step++) {
-        const rlf_pose pose = pose_at(t, step);
+    for (int32_t step = 0; step < PANNING + STANDING && result == RLF_OK; step++) {
+        const rlf_pose pose = pose_at(step);
         result = seen_room_look(&t->seen, &pose);
-        int32_t due = (step + 1) * BODIES / (THROWING * STEPS);
-        for (due = due < BODIES ? due : BODIES; thrown < due && result == RLF_OK; thrown++) {
+        int32_t due = step < THROWING ? (step + 1) * BODIES / THROWING : BODIES;
+        for (; thrown < due && result == RLF_OK; thrown++) {
             result = throw_body(t);
         }
         rlf_world_advance(t->world, &t->seen.grid, STEP_S);
@@ -155,11 +185,6 @@ static void judge(const throwing *t, thrown_figures *out)
         resting += body->is_asleep;
         out->sunk += is_off && gap < 0.0;
         out->hanging += is_off && gap > 0.0;
-        if (is_off) {
-            rlf_vec3 p = body->T_world_body.p;
-            fprintf(stderr, "  thrown %d: %.3f m over the room at %.2f %.2f %.2f%s\n", (int)k, gap,
-                    p.x, p.y, p.z, body->is_asleep ? ", asleep" : "");
-        }
     }
     out->restless = snapshot->body_count - resting;
     out->surface_ms = t->surface_ms / t->steps;
@@ -174,7 +199,10 @@ rlf_result thrown_measure(int64_t seed, thrown_figures *out)
     t->random = eval_random_start((uint64_t)seed);
     rlf_result result = rlf_pool_create(1, &t->pool);
     if (result == RLF_OK) {
-        result = fuse(t, seed);
+        result = open_room(t);
+    }
+    if (result == RLF_OK) {
+        result = make_map(t);
     }
     if (result == RLF_OK) {
         result = make_world(t);
@@ -186,7 +214,7 @@ rlf_result thrown_measure(int64_t seed, thrown_figures *out)
         judge(t, out);
     }
     rlf_world_destroy(&t->world);
-    fuser_close(&t->fuser);
+    rlf_map_destroy(&t->map);
     rlf_source_destroy(&t->source);
     rlf_pool_destroy(&t->pool);
     rlf_free(t);

@@ -4,7 +4,7 @@
 
 #include "relief/base.h"
 
-/* Of 1000 bodies, two seconds after the last was thrown and the camera is back. */
+/* Of 1000 bodies, three seconds after the camera is back. */
 typedef struct thrown_figures {
     int32_t gone;          /* left the world */
     int32_t sunk, hanging; /* more than 1 cm inside of the true room, or over it */

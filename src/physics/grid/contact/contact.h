@@ -18,8 +18,8 @@ typedef struct grid_query {
     int64_t rest_version; /* of what stays */
     grid_tiles *foreground, *background;
     const struct rlf_map *map; /* the room where the grid does not see, NULL = none is known */
-    const room_planes *room; /* NULL: there is nothing where the camera does not look */
-    rlf_vec3 up;             /* unit, against gravity, grid frame; 0 without gravity */
+    const room_planes *room;   /* NULL: there is nothing where the camera does not look */
+    rlf_vec3 up;               /* unit, against gravity, grid frame; 0 without gravity */
 } grid_query;
 
 /* Makes the tiles that grid_collide will read for this body. Returns whether any of them has

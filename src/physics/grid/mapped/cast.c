@@ -36,7 +36,7 @@ static bool is_open_space(const grid_query *query, rlf_vec3 q)
     double truncation = rlf_map_truncation(query->map), distance = rlf_length(q);
     rlf_vec3 way = rlf_scale(q, -1.0 / rlf_max(distance, 1e-9));
     double most = rlf_min(OPEN_FAR, distance);
-    for (double gone = truncation; gone < most; gone += truncation) {
+    for (double gone = 0.5 * truncation; gone < most; gone += 0.5 * truncation) {
         rlf_vec3 p = rlf_mad(q, way, gone);
         rlf_map_point there =
             rlf_map_sample(query->map, rlf_transform(&query->grid->T_world_grid, p));

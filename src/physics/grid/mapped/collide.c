@@ -32,8 +32,8 @@ void mapped_drop_guesses(grid_job *job)
     int32_t kept = 0;
     for (int32_t i = 0; job->query->map != NULL && i < job->hit_count; i++) {
         const grid_hit *hit = &job->hits[i];
-        rlf_vec3 q = rlf_add(job->motion.centre,
-                             arm_of(job, hit->anchor, hit->rounding, hit->normal));
+        rlf_vec3 q =
+            rlf_add(job->motion.centre, arm_of(job, hit->anchor, hit->rounding, hit->normal));
         if (!mapped_answers(job->query, q) && !mapped_answers(job->query, hit->point)) {
             job->hits[kept++] = *hit;
         }
@@ -89,6 +89,36 @@ static void meet_samples(grid_job *job, bool is_round, mapped_normals *normals)
     }
 }
 
+/* The face that the map knows about a place of the body, against the body's points: those may be
+ * deeper in the solid than the map knows. */
+static void meet_face_at(grid_job *job, rlf_vec3 anchor, double rounding)
+{
+    const phys_shape *shape = &job->body->shape;
+    rlf_vec3 arm = rlf_mat3_mul_vec(&job->motion.R_grid_body, anchor);
+    rlf_vec3 q = rlf_add(job->motion.centre, arm);
+    rlf_vec3 p = rlf_transform(&job->query->grid->T_world_grid, q);
+    rlf_map_point there = rlf_map_sample(job->query->map, p);
+    if (there.state == RLF_MAP_UNKNOWN || rlf_dot(there.gradient, there.gradient) < 0.5 ||
+        there.distance > rounding || mapped_is_seen(job->query->grid, q)) {
+        return;
+    }
+    mapped_touch touch = {.normal = there.gradient};
+    touch.point = rlf_mad(p, there.gradient, -there.distance);
+    rlf_vec3 normal = rlf_rotate(job->query->T_grid_world.q, there.gradient);
+    if (rounding > 0.0) {
+        add_touch(job, &touch, anchor, rounding, normal);
+        return;
+    }
+    for (int32_t i = 0; i < shape->vertex_count; i++) {
+        rlf_vec3 to = rlf_sub(shape->points[i], anchor);
+        to = rlf_mat3_mul_vec(&job->motion.R_grid_body, to);
+        touch.separation = there.distance + rlf_dot(normal, to);
+        if (touch.separation < 0.0) {
+            add_touch(job, &touch, shape->points[i], 0.0, normal);
+        }
+    }
+}
+
 /* The points that a shape names for each of those directions. */
 static void meet_supports(grid_job *job, const mapped_normals *normals)
 {
@@ -99,6 +129,9 @@ static void meet_supports(grid_job *job, const mapped_normals *normals)
         int32_t count = phys_shape_support(&job->body->shape, down, core, &rounding);
         for (int32_t k = 0; k < count; k++) {
             mapped_touch touch;
+            if (rounding > 0.0) {
+                meet_face_at(job, core[k], rounding);
+            }
             if (cast_arm(job, arm_of(job, core[k], rounding, normal), GRID_MARGIN, &touch)) {
                 add_touch(job, &touch, core[k], rounding, normal);
             }
@@ -106,9 +139,28 @@ static void meet_supports(grid_job *job, const mapped_normals *normals)
     }
 }
 
+/* Whether all that the body can come to is in the picture, and before what that shows. */
+static bool is_all_seen(const grid_job *job)
+{
+    const double AROUND = 1.5; /* of the reach: what is aside looks wider the nearer it is */
+    rlf_vec3 centre = job->motion.centre;
+    double r = AROUND * job->window.reach;
+    if (job->scan.is_near || centre.z < 2.0 * r || !mapped_is_seen(job->query->grid, centre)) {
+        return false;
+    }
+    for (int32_t k = 0; k < 4; k++) {
+        int32_t x, y;
+        rlf_vec3 corner = rlf_vec3_make(k & 1 ? r : -r, k & 2 ? r : -r, 0);
+        if (!grid_pixel_of(job->query->grid, rlf_add(centre, corner), &x, &y)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 void mapped_collide(grid_job *job)
 {
-    if (job->query->map == NULL) {
+    if (job->query->map == NULL || is_all_seen(job)) {
         return;
     }
     rlf_vec3 centre = rlf_transform(&job->query->grid->T_world_grid, job->motion.centre);
@@ -126,4 +178,6 @@ void mapped_collide(grid_job *job)
     }
     meet_samples(job, is_round, &normals);
     meet_supports(job, &normals);
+    const rlf_vec3 middle = {0, 0, 0};
+    meet_face_at(job, middle, 0.0);
 }
