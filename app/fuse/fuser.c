@@ -67,7 +67,8 @@ rlf_result fuser_add(fuser *f, const rlf_frame *frame, const rlf_pose *T_world_c
     const bool has_color = color_view_take(&f->color, f->rig, frame, s);
     f->color_ms = ms_since(start);
     if (f->is_tracked) {
-        result = camera_pose_find(&f->pose, f->map, s, has_color ? f->color.grey : NULL, frame->time_ns);
+        result =
+            camera_pose_find(&f->pose, f->map, s, has_color ? f->color.grey : NULL, frame->time_ns);
         if (result != RLF_OK || f->pose.last.health != RLF_TRACK_GOOD) {
             return result;
         }
