@@ -65,11 +65,11 @@ static void print_help(void)
     printf(
         "  --view NAME[,NAME...] camera (default), depth, normals, mesh, regions, foreground,\n"
         "                        background, velocity, thickness, reason, points, contacts,\n"
-        "                        known, hands;\n"
+        "                        known, hands, map;\n"
         "                        up to four of them side by side\n"
         "  --legend              what the colours of every view mean, with units, in the picture\n"
-        "  --orbit YAW,PITCH[,ZOOM]   where points are seen from: degrees to the right and\n"
-        "                        up, and the distance, 1 being the camera's\n"
+        "  --orbit YAW,PITCH[,ZOOM]   where points and map are seen from: degrees to the\n"
+        "                        right and up, and the distance, 1 being the camera's\n"
         "  --gravity X,Y,Z       m/s^2 to the right, down and forward, in place of the\n"
         "                        scene's; or floor: down is where the first frame's floor,\n"
         "                        tables and walls say; clips' default if the scene says none\n"
@@ -124,19 +124,6 @@ static bool take_views(const char *text, void *out)
         text += length + 1;
     }
     return false;
-}
-
-static bool take_orbit(const char *text, void *out)
-{
-    rlf_orbit *orbit = out;
-    double yaw_deg, pitch_deg;
-    double zoom = 1.0;
-    char rest;
-    int count = sscanf(text, "%lf,%lf,%lf%c", &yaw_deg, &pitch_deg, &zoom, &rest);
-    bool is_good = (count == 2 || count == 3) && yaw_deg >= -360.0 && yaw_deg <= 360.0 &&
-                   pitch_deg >= -85.0 && pitch_deg <= 85.0 && zoom >= 0.1 && zoom <= 10.0;
-    *orbit = (rlf_orbit){yaw_deg * RLF_PI / 180.0, pitch_deg * RLF_PI / 180.0, zoom};
-    return is_good && (count == 3 || strchr(strchr(text, ',') + 1, ',') == NULL);
 }
 
 static bool take_light(const char *text, void *out)
@@ -324,8 +311,8 @@ static int read_options(int argc, char **argv, run_options *o)
         {.name = "orbit",
          .kind = OPTION_CHOICE,
          .out = &o->orbit,
-         .take = take_orbit,
-         .choices = "use YAW,PITCH or YAW,PITCH,ZOOM: within 360, 85 degrees, 0.1 to 10"},
+         .take = options_take_orbit,
+         .choices = OPTIONS_ORBIT},
         {.name = "gravity",
          .kind = OPTION_CHOICE,
          .out = s,

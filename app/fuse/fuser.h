@@ -18,6 +18,7 @@ typedef struct fuser {
     rlf_map *map;
     rlf_reconstruct *stage;
     const rlf_rig *rig;
+    const rlf_surface *surface; /* of the last frame; NULL before the first */
     color_view color;
     bool is_tracked;
     camera_pose pose;

@@ -120,7 +120,9 @@ typedef struct rlf_pipeline_output {
     const rlf_surface *surface;
     rlf_pose T_world_camera;       /* depth camera in the world */
     const rlf_track_result *track; /* how sure a moving camera's pose is; NULL while it stands */
-    const rlf_prediction *room;    /* what the map shows from about there; NULL = nothing known */
+    /* What the map shows from about there; NULL = nothing known, or RLF_VIEW_MAP was drawn, which
+     * has the map predict for its own camera. */
+    const rlf_prediction *room;
     const rlf_hands *hands;        /* NULL when none are looked for; see rlf_pipeline_set_hands */
     const rlf_snapshot *snapshot;
     double gravity_confidence; /* 0..1; below RLF_UP_SURE it is a guess; 1 when it was given */
@@ -155,7 +157,7 @@ RLF_API rlf_compositor_def rlf_pipeline_get_compositor_def(const rlf_pipeline *p
 #define RLF_PIPELINE_VIEWS 4
 RLF_API rlf_result rlf_pipeline_set_views(rlf_pipeline *pipeline, const rlf_view *views,
                                           int32_t count);
-/* Where RLF_VIEW_POINTS is seen from in the next pictures. */
+/* Where RLF_VIEW_POINTS and RLF_VIEW_MAP are seen from in the next pictures. */
 RLF_API void rlf_pipeline_set_orbit(rlf_pipeline *pipeline, const rlf_orbit *orbit);
 /* True: a plot of the milliseconds per stage of the last frames, with overlay lines. default false
  */

@@ -230,6 +230,7 @@ rlf_result rlf_pipeline_restart(rlf_pipeline *p)
     rlf_reconstruct_reset(p->reconstruct);
     rlf_world_reset(p->world);
     hand_stage_restart(&p->hands);
+    p->room.path_count = 0;
     p->frame_index = 0;
     result = camera_start(p);
     return result == RLF_OK ? pipeline_add_bodies(p) : result;

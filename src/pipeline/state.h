@@ -8,6 +8,7 @@
 #include "pipeline/far_side.h"
 #include "pipeline/hands.h"
 #include "pipeline/known.h"
+#include "pipeline/room_view.h"
 
 #define OVERLAY_LINES_MAX 32
 #define OVERLAY_LINE_SIZE 128
@@ -29,6 +30,7 @@ struct rlf_pipeline {
     int32_t region_capacity;
     far_side far;
     hand_stage hands;
+    room_view room;
 
     rlf_view views[RLF_PIPELINE_VIEWS];
     int32_t view_count;
