@@ -62,7 +62,6 @@ rlf_result fuser_add(fuser *f, const rlf_frame *frame, const rlf_pose *T_world_c
     if (result != RLF_OK) {
         return result;
     }
-    f->surface = s;
     f->surface_ms = ms_since(start);
     start = rlf_clock_ns();
     const bool has_color = color_view_take(&f->color, f->rig, frame, s);
@@ -70,7 +69,7 @@ rlf_result fuser_add(fuser *f, const rlf_frame *frame, const rlf_pose *T_world_c
     if (f->is_tracked) {
         result =
             camera_pose_find(&f->pose, f->map, s, has_color ? f->color.grey : NULL, frame->time_ns);
-        if (result != RLF_OK || f->pose.last.health != RLF_TRACK_GOOD) {
+        if (result != RLF_OK || !f->pose.may_fuse) {
             return result;
         }
         T_world_camera = &f->pose.last.T_world_camera;

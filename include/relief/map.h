@@ -41,7 +41,7 @@ typedef struct rlf_map_def {
     double truncation_sigmas; /* distances are true up to this many sigma(z) of a surface, and to 4
                                  voxels at least, 8 at most; default 4 */
     int32_t blocks_per_frame; /* most blocks that one frame is fused into; the others have their
-                                 turn in the next ones. 0 = all. Default 2048 */
+                                 turn in the next ones. 0 = all. Default 768 */
     int32_t carve_after;      /* frames that must see through a voxel before what was there is gone,
                                  1..16; default 4 */
     bool keep_color;          /* default true; false: no grey or colour, the same geometry */

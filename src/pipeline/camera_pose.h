@@ -12,7 +12,11 @@ typedef struct camera_pose {
     uint8_t *is_static;    /* 0 = in front of the room that is known; a pixel each */
     rlf_track_result last; /* of the last frame */
     bool has_first;
-    int64_t lost_count;          /* frames */
+    bool may_fuse;       /* the last pose is trusted: good, and for a while after a lost track */
+    int32_t proven;      /* good frames since the track was lost, at most PROOF_FRAMES */
+    int32_t since_fence; /* good frames */
+    int64_t time_ns;     /* of the last frame */
+    int64_t lost_count;  /* frames */
     double predict_ms, align_ms; /* of the last frame */
 } camera_pose;
 

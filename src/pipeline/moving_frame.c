@@ -26,6 +26,7 @@ static void take_source_pose(moving *m)
     const bool has = frame->has_pose && is_pose(&frame->T_world_camera);
     m->pose.last.T_world_camera = m->T_world_camera;
     m->pose.last.health = has ? RLF_TRACK_GOOD : RLF_TRACK_LOST;
+    m->pose.may_fuse = has;
     if (!has && !m->has_told_source) {
         m->has_told_source = true;
         rlf_log(RLF_LOG_WARNING, "poses of the source: frame %llu has %s; such frames are left out",
@@ -193,7 +194,7 @@ rlf_result moving_process(moving *m, const rlf_frame *frame, const rlf_surface *
     const bool is_placed = moving_is_placed(m);
     if (!is_placed) {
         take_back(m, *out);
-    } else if (m->track.health == RLF_TRACK_GOOD) {
+    } else if (m->pose.may_fuse) {
         result = fuse(m, *out);
     }
     m->T_world_before = m->T_world_camera;
