@@ -98,7 +98,7 @@ static rlf_result begin_to_move(rlf_pipeline *p, const rlf_surface *s)
             (long long)p->frame_index);
     c->is_watched = false;
     const moving_from from = {find_still(c, s), s->time_ns, s->T_now_before};
-    return start_moving(p, from.still != NULL ? &from : NULL);
+    return start_moving(p, &from);
 }
 
 static rlf_result see_standing(rlf_pipeline *p, const rlf_surface **out)
