@@ -8,9 +8,21 @@
 
 void camera_stop(rlf_pipeline *p)
 {
+    if (p->world != NULL) {
+        rlf_world_set_room(p->world, NULL);
+    }
     moving_stop(&p->camera.moving);
     rlf_free(p->camera.still);
     memset(&p->camera, 0, sizeof(p->camera));
+}
+
+static rlf_result start_moving(rlf_pipeline *p, const moving_from *from)
+{
+    rlf_result result = moving_start(&p->camera.moving, &p->def, from);
+    if (result == RLF_OK && p->def.world.method == RLF_PHYSICS_LIVE) {
+        rlf_world_set_room(p->world, p->camera.moving.map);
+    }
+    return result;
 }
 
 rlf_result camera_start(rlf_pipeline *p)
@@ -20,7 +32,7 @@ rlf_result camera_start(rlf_pipeline *p)
     p->camera.T_world = def->T_world_camera;
     const bool is_known = def->map != NULL && rlf_map_get_status(def->map).block_count > 0;
     if (def->camera == RLF_CAMERA_MOVING || (def->camera == RLF_CAMERA_AUTO && is_known)) {
-        return moving_start(&p->camera.moving, def, NULL);
+        return start_moving(p, NULL);
     }
     const rlf_reconstruct_def *surface = &def->reconstruct;
     p->camera.is_watched = def->camera == RLF_CAMERA_AUTO && surface->scale_factor == 1 &&
@@ -86,7 +98,7 @@ static rlf_result begin_to_move(rlf_pipeline *p, const rlf_surface *s)
             (long long)p->frame_index);
     c->is_watched = false;
     const moving_from from = {find_still(c, s), s->time_ns, s->T_now_before};
-    return moving_start(&c->moving, &p->def, from.still != NULL ? &from : NULL);
+    return start_moving(p, &from);
 }
 
 static rlf_result see_standing(rlf_pipeline *p, const rlf_surface **out)

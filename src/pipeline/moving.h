@@ -39,7 +39,7 @@ typedef struct moving {
 
 /* What a camera has seen that stood until now. */
 typedef struct moving_from {
-    const float *still;    /* the background: a plane */
+    const float *still;    /* the background: a plane; NULL = none is known */
     int64_t time_ns;       /* of this frame */
     rlf_pose T_now_before; /* how far it has moved already */
 } moving_from;

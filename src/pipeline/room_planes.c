@@ -31,15 +31,12 @@ typedef struct room_job {
 } room_job;
 
 /* Where the plane of the prediction's pixel k meets a ray; 0 = nothing is known there. */
-static float plane_depth(const rlf_prediction *p, int32_t k, float ray_x, float ray_y)
+static float plane_depth(const rlf_prediction *p, int32_t k, const float own[2], const float ray[2])
 {
     const float z = p->depth[k];
-    const float x = (float)((k % p->camera.width - p->camera.cx) / p->camera.fx);
-    const float y = (float)((k / p->camera.width - p->camera.cy) / p->camera.fy);
-    const float *const n[3] = {p->normal_x + k, p->normal_y + k, p->normal_z + k};
-    const float own = *n[0] * x + *n[1] * y + *n[2];
-    const float other = *n[0] * ray_x + *n[1] * ray_y + *n[2];
-    const float share = other != 0.0f ? own / other : 0.0f;
+    const float x = p->normal_x[k], y = p->normal_y[k], n = p->normal_z[k];
+    const float along = x * ray[0] + y * ray[1] + n;
+    const float share = along != 0.0f ? (x * own[0] + y * own[1] + n) / along : 0.0f;
     return share > 1.0f - longest && share < 1.0f + longest ? z * share : z;
 }
 
@@ -47,20 +44,24 @@ static void take_pixel(const room_job *job, int32_t i)
 {
     const rlf_prediction *p = job->p;
     const rlf_surface *s = job->s;
-    const float ray_x = s->ray_x[i], ray_y = s->ray_y[i];
-    const double u = ray_x * p->camera.fx + p->camera.cx, v = ray_y * p->camera.fy + p->camera.cy;
+    const float ray[2] = {s->ray_x[i], s->ray_y[i]};
+    const double u = ray[0] * p->camera.fx + p->camera.cx, v = ray[1] * p->camera.fy + p->camera.cy;
     const int32_t width = p->camera.width;
     float z = 0.0f;
     int32_t from = 0;
     if (u > -0.5 && v > -0.5 && u < width - 0.5 && v < p->camera.height - 0.5) {
         const int32_t x = (int32_t)rlf_clamp(u, 0.0, width - 2.0);
         const int32_t y = (int32_t)rlf_clamp(v, 0.0, p->camera.height - 2.0);
-        const int32_t about[4] = {y * width + x, y * width + x + 1, (y + 1) * width + x,
-                                  (y + 1) * width + x + 1};
+        const float step[2] = {(float)(1.0 / p->camera.fx), (float)(1.0 / p->camera.fy)};
+        const float first[2] = {(x - (float)p->camera.cx) * step[0],
+                                (y - (float)p->camera.cy) * step[1]};
         const int32_t nearest = (int32_t)(v + 0.5) * width + (int32_t)(u + 0.5);
         for (int k = 0; k < 4 && p->depth[nearest] > 0.0f; k++) {
-            const float plane = plane_depth(p, about[k], ray_x, ray_y);
-            from = plane > 0.0f && (plane < z || !(z > 0.0f)) ? about[k] : from;
+            const int32_t at = (y + k / 2) * width + x + k % 2;
+            const float own[2] = {first[0] + (k % 2 ? step[0] : 0.0f),
+                                  first[1] + (k / 2 ? step[1] : 0.0f)};
+            const float plane = plane_depth(p, at, own, ray);
+            from = plane > 0.0f && (plane < z || !(z > 0.0f)) ? at : from;
             z = plane > 0.0f && (plane < z || !(z > 0.0f)) ? plane : z;
         }
     }

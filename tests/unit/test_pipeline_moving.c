@@ -48,15 +48,14 @@ static double to_box(const rlf_aabb *box, rlf_vec3 p, rlf_vec3 d)
 static double to_room(rlf_vec3 p, rlf_vec3 d, bool has_thing)
 {
     static const rlf_aabb things[] = {
-        {{-0.9, 0.6, 1.9}, {-0.5, FLOOR_Y, 2.3}},
-        {{0.5, 0.4, 2.2}, {0.8, FLOOR_Y, 2.6}},
-        {{0.0, 0.0, 2.8}, {0.3, 0.3, 3.0}},
-        {{-0.2, 0.3, 1.5}, {0.1, 0.7, 1.6}},
+        {{-0.75, 0.6, 1.2}, {-0.5, FLOOR_Y, 1.6}}, {{0.45, 0.7, 1.2}, {0.75, FLOOR_Y, 1.5}},
+        {{-0.9, 0.6, 1.9}, {-0.5, FLOOR_Y, 2.3}},  {{0.5, 0.4, 2.2}, {0.8, FLOOR_Y, 2.6}},
+        {{0.0, 0.0, 2.8}, {0.3, 0.3, 3.0}},        {{-0.2, 0.3, 1.5}, {0.1, 0.7, 1.6}},
     };
     double t = d.y > 0.0 ? (FLOOR_Y - p.y) / d.y : 1e9;
     t = d.z > 0.0 ? fmin(t, (3.0 - p.z) / d.z) : t;
     t = fmin(t, d.x < 0.0 ? (-1.0 - p.x) / d.x : d.x > 0.0 ? (1.1 - p.x) / d.x : 1e9);
-    for (int i = 0; i < (has_thing ? 4 : 3); i++) {
+    for (int i = 0; i < (has_thing ? 6 : 5); i++) {
         t = fmin(t, to_box(&things[i], p, d));
     }
     return t;
