@@ -16,8 +16,9 @@
 #define CATCH_SPEED 0.6
 /* Sides that are so much farther apart than they were have let go, metres. */
 #define OPEN_M GRID_NOISE_M
-/* Sides that come nearer are believed so far in one frame: a share. */
-#define TRUST 0.25
+/* Shares of what is seen that are believed in one frame: of how the body sits, and of the gap. */
+#define SETTLE 0.1
+#define SMOOTH 0.4
 /* Fingers that come nearer by more in a frame are not closed yet, metres. */
 #define CLOSING_M (0.5 * GRID_MARGIN)
 #define KEEP_PIXELS 2.0
@@ -58,7 +59,7 @@ static void begin(rlf_world *world, const grid_query *query, phys_body *body, co
     grab->axis = grip->axis;
     grab->ends[0] = grip->sides[0].point;
     grab->ends[1] = grip->sides[1].point;
-    grab->width = grip->sides[0].off + grip->sides[1].off;
+    grab->width = grab->gap = grip->sides[0].off + grip->sides[1].off;
     grab_learn_hand(query, body, grab);
     grab->is_used = grab->point_count >= HAND_POINTS_MIN;
     if (grab->is_used) {
@@ -83,29 +84,30 @@ static void seek(rlf_world *world, const grid_query *query, phys_body *body)
     bool is_closed = is_gripped && width > body->grip_width - CLOSING_M;
     body->grip_frames = is_gripped ? body->grip_frames + 1 : 0;
     body->grip_width = width;
-    if (body->grip_frames >= GRIP_FRAMES && is_closed) {
+    if (body->grip_frames >= GRIP_FRAMES && is_closed && !phys_body_is_fixed(body)) {
         body->grip_frames = 0;
         begin(world, query, body, &grip);
     }
 }
 
 /* Whether the hand is seen to be open: its sides are farther apart than they were, or one that does
- * not touch any more is not hidden. A body that is off the hand's middle is nearer to one side and
- * farther from the other. */
+ * not touch any more is not hidden. The body settles in the middle between them. */
 static bool is_open(const grid_query *query, phys_grab *grab, const grab_touches *touches,
                     double tolerance)
 {
-    double width = 0.0;
+    double off[2];
     for (int32_t side = 0; side < 2; side++) {
         grab_patch patch = grab_side(touches, grab->axis, side == 0 ? -1.0 : 1.0);
         if (patch.weight < KEEP_PIXELS) {
             return grab_is_seen_through(query, grab, grab->ends[side], tolerance);
         }
-        grab->ends[side] = patch.point;
-        width += patch.off;
+        grab->ends[side] = rlf_add(grab->seat, patch.point);
+        off[side] = patch.off;
     }
-    grab->width += TRUST * rlf_min(width - grab->width, 0.0); /* a flying pixel is no finger */
-    return width > grab->width + OPEN_M;
+    grab->seat = rlf_mad(grab->seat, grab->axis, SETTLE * 0.5 * (off[1] - off[0]));
+    grab->gap += SMOOTH * (off[0] + off[1] - grab->gap); /* a flying pixel is no finger */
+    grab->width += SETTLE * rlf_min(grab->gap - grab->width, 0.0);
+    return grab->gap > grab->width + OPEN_M;
 }
 
 static void note_past(phys_grab *grab)
@@ -130,14 +132,16 @@ static bool hold(const grid_query *query, phys_body *body, double dt)
     grab->lost_frames = 0;
     double tolerance = OPEN_M + grab_tolerance(query, grab->T_world_hand.p);
     grab_touches touches;
-    grab_look(query, body, &grab->T_world_hand, 0.0, tolerance, &touches);
+    rlf_pose pose = grab->T_world_hand;
+    pose.p = rlf_transform(&grab->T_world_hand, grab->seat);
+    grab_look(query, body, &pose, 0.0, tolerance, &touches);
     bool has_opened = is_open(query, grab, &touches, tolerance);
     grab->open_frames = has_opened ? grab->open_frames + 1 : 0;
     if (!has_opened) {
         note_past(grab);
     }
     /* What does not come along is held by something stronger. */
-    double left = rlf_length(rlf_sub(grab->T_world_hand.p, body->x)) - rlf_length(grab->v) * dt;
+    double left = rlf_length(rlf_sub(pose.p, body->x)) - rlf_length(grab->v) * dt;
     return grab->open_frames < OPEN_FRAMES && left < body->shape.radius;
 }
 
@@ -149,7 +153,7 @@ void phys_grab_update(rlf_world *world, const grid_query *query, double dt)
     }
     for (int32_t i = 0; i < world->body_top; i++) {
         phys_body *body = &world->bodies[i];
-        if (!body->is_alive || phys_body_is_fixed(body)) {
+        if (!body->is_alive || (phys_body_is_fixed(body) && !body->is_held)) {
             continue;
         }
         if (body->grab == NULL) {
@@ -209,7 +213,7 @@ void phys_grab_pull(const rlf_world *world, phys_body *body)
 {
     const phys_grab *grab = body->grab;
     double tau = rlf_clamp(world->grid_tau, -1.0, 0.1);
-    rlf_vec3 place = rlf_mad(grab->T_world_hand.p, grab->v, tau);
+    rlf_vec3 place = rlf_mad(rlf_transform(&grab->T_world_hand, grab->seat), grab->v, tau);
     rlf_quat turn = rlf_quat_from_rotation_vector(rlf_scale(grab->w, tau));
     turn = rlf_quat_mul(rlf_quat_mul(turn, grab->T_world_hand.q), rlf_quat_conjugate(body->q));
     double sign = turn.w < 0.0 ? -2.0 : 2.0;

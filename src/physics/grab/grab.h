@@ -32,7 +32,9 @@ struct phys_grab {
     rlf_vec3 axis;         /* unit, from the first to the second, hand frame */
     rlf_vec3 past_v[GRAB_PAST], past_w[GRAB_PAST]; /* the newest first */
     int32_t past_count;
-    double width; /* the least that its sides have been off the body, both together, metres */
+    rlf_vec3 seat; /* where the body sits between the sides, hand frame */
+    double width;  /* the least that its sides have been off the body, both together, metres ... */
+    double gap;    /* ... and how far they are now, smoothed */
     int32_t open_frames; /* in a row in which a side was seen to be gone */
     int32_t lost_frames; /* ... in which the hand was not found */
     int32_t point_count, rim_count;
