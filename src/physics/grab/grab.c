@@ -14,13 +14,10 @@
 #define PAST_SPEED 0.3
 /* A body that passes the sides faster is not held by them yet, m/s. */
 #define CATCH_SPEED 0.6
-/* Sides that are so much farther apart than they were have let go, metres. */
-#define OPEN_M GRID_NOISE_M
-/* Shares of what is seen that are believed in one frame: of how the body sits, and of the gap. */
-#define SETTLE 0.1
-#define SMOOTH 0.4
-/* Fingers that come nearer by more in a frame are not closed yet, metres. */
-#define CLOSING_M (0.5 * GRID_MARGIN)
+/* Of the pixels that touched, fewer than this share still do: the hand is open. */
+#define OPEN_SHARE 0.35
+/* Of what is seen, so much is believed in one frame: a share. */
+#define SETTLE 0.05
 #define KEEP_PIXELS 2.0
 #define HAND_POINTS_MIN 12
 
@@ -45,7 +42,8 @@ static phys_grab *free_grab(rlf_world *world)
     return NULL;
 }
 
-static void begin(rlf_world *world, const grid_query *query, phys_body *body, const grab_grip *grip)
+static void begin(rlf_world *world, const grid_query *query, phys_body *body, const grab_grip *grip,
+                  double weight)
 {
     phys_grab *grab = free_grab(world);
     if (grab == NULL) {
@@ -57,9 +55,7 @@ static void begin(rlf_world *world, const grid_query *query, phys_body *body, co
     grab->T_world_hand = phys_body_pose(body); /* now; the grid shows the hand -tau later */
     grab->T_world_hand.p = rlf_mad(grab->T_world_hand.p, grab->v, -query->tau);
     grab->axis = grip->axis;
-    grab->ends[0] = grip->sides[0].point;
-    grab->ends[1] = grip->sides[1].point;
-    grab->width = grab->gap = grip->sides[0].off + grip->sides[1].off;
+    grab->weight = weight;
     grab_learn_hand(query, body, grab);
     grab->is_used = grab->point_count >= HAND_POINTS_MIN;
     if (grab->is_used) {
@@ -80,34 +76,30 @@ static void seek(rlf_world *world, const grid_query *query, phys_body *body)
         rlf_vec3 v = rlf_rotate(rlf_quat_conjugate(body->q), body->v);
         is_gripped = grab_find_grip(&touches, &grip) && moves_as_one(&grip, v);
     }
-    double width = is_gripped ? grip.sides[0].off + grip.sides[1].off : 0.0;
-    bool is_closed = is_gripped && width > body->grip_width - CLOSING_M;
-    body->grip_frames = is_gripped ? body->grip_frames + 1 : 0;
-    body->grip_width = width;
-    if (body->grip_frames >= GRIP_FRAMES && is_closed && !phys_body_is_fixed(body)) {
+    body->grip_frames = is_gripped ? body->grip_frames + 1 : body->grip_frames / 2;
+    if (is_gripped && body->grip_frames >= GRIP_FRAMES && !phys_body_is_fixed(body)) {
         body->grip_frames = 0;
-        begin(world, query, body, &grip);
+        begin(world, query, body, &grip, touches.weight + touches.deep);
     }
 }
 
-/* Whether the hand is seen to be open: its sides are farther apart than they were, or one that does
- * not touch any more is not hidden. The body settles in the middle between them. */
-static bool is_open(const grid_query *query, phys_grab *grab, const grab_touches *touches,
-                    double tolerance)
+/* Whether the hand is seen to be open: much less of it touches than when it closed. */
+static bool is_open(phys_grab *grab, const grab_touches *touches)
 {
-    double off[2];
-    for (int32_t side = 0; side < 2; side++) {
-        grab_patch patch = grab_side(touches, grab->axis, side == 0 ? -1.0 : 1.0);
-        if (patch.weight < KEEP_PIXELS) {
-            return grab_is_seen_through(query, grab, grab->ends[side], tolerance);
-        }
-        grab->ends[side] = rlf_add(grab->seat, patch.point);
-        off[side] = patch.off;
+    double weight = touches->weight + touches->deep;
+    bool has_left = weight < OPEN_SHARE * grab->weight;
+    grab->weight += has_left ? 0.0 : SETTLE * (weight - grab->weight);
+    return has_left;
+}
+
+/* The body settles in the middle between its two sides, where both touch. */
+static void settle(phys_grab *grab, const grab_touches *touches)
+{
+    grab_patch a = grab_side(touches, grab->axis, -1.0);
+    grab_patch b = grab_side(touches, grab->axis, 1.0);
+    if (rlf_min(a.weight, b.weight) >= KEEP_PIXELS) {
+        grab->seat = rlf_mad(grab->seat, grab->axis, SETTLE * 0.5 * (b.off - a.off));
     }
-    grab->seat = rlf_mad(grab->seat, grab->axis, SETTLE * 0.5 * (off[1] - off[0]));
-    grab->gap += SMOOTH * (off[0] + off[1] - grab->gap); /* a flying pixel is no finger */
-    grab->width += SETTLE * rlf_min(grab->gap - grab->width, 0.0);
-    return grab->gap > grab->width + OPEN_M;
 }
 
 static void note_past(phys_grab *grab)
@@ -130,12 +122,12 @@ static bool hold(const grid_query *query, phys_body *body, double dt)
         return ++grab->lost_frames < LOST_FRAMES;
     }
     grab->lost_frames = 0;
-    double tolerance = OPEN_M + grab_tolerance(query, grab->T_world_hand.p);
-    grab_touches touches;
     rlf_pose pose = grab->T_world_hand;
+    grab_touches touches;
     pose.p = rlf_transform(&grab->T_world_hand, grab->seat);
-    grab_look(query, body, &pose, 0.0, tolerance, &touches);
-    bool has_opened = is_open(query, grab, &touches, tolerance);
+    grab_look(query, body, &pose, 0.0, grab_tolerance(query, pose.p), &touches);
+    bool has_opened = is_open(grab, &touches);
+    settle(grab, &touches);
     grab->open_frames = has_opened ? grab->open_frames + 1 : 0;
     if (!has_opened) {
         note_past(grab);

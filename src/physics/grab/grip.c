@@ -9,7 +9,7 @@
  * behind it they leave it no way out. */
 #define OPPOSED_COS (-0.35)
 /* A side is touched by so many pixels, or it is noise. */
-#define PIXELS_MIN 4.0
+#define PIXELS_MIN 6.0
 /* More pixels deep in the body than this share of those that touch it: it is passed through. */
 #define DEEP_SHARE 0.5
 
@@ -54,7 +54,8 @@ static bool try_pair(const grab_touches *touches, int32_t i, int32_t k, grab_gri
     out->axis = rlf_normalize(rlf_sub(b, a));
     out->sides[0] = grab_side(touches, out->axis, -1.0);
     out->sides[1] = grab_side(touches, out->axis, 1.0);
-    return rlf_dot(rlf_sub(out->sides[1].point, out->sides[0].point), out->axis) > 0.0;
+    rlf_vec3 line = rlf_sub(out->sides[1].point, out->sides[0].point);
+    return is_in_cone(out->axis, line);
 }
 
 bool grab_find_grip(const grab_touches *touches, grab_grip *out)
