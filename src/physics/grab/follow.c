@@ -175,3 +175,18 @@ bool grab_follow_hand(const grid_query *query, phys_grab *grab, double dt)
     grab->T_world_hand = T_world_hand;
     return true;
 }
+
+bool grab_is_seen_through(const grid_query *query, const phys_grab *grab, rlf_vec3 place,
+                          double tolerance)
+{
+    const rlf_grid *grid = query->grid;
+    const rlf_grid_sheet *sheet = &grid->foreground;
+    rlf_vec3 p = rlf_transform(&query->T_grid_world, rlf_transform(&grab->T_world_hand, place));
+    int32_t x, y;
+    if (!grid_pixel_of(grid, p, &x, &y)) {
+        return false;
+    }
+    int32_t i = y * grid->width + x;
+    bool is_there = (sheet->mask == NULL || sheet->mask[i] != 0) && sheet->depth[i] > 0.0f;
+    return !is_there || (double)sheet->depth[i] > p.z + tolerance;
+}

@@ -55,6 +55,8 @@ static void begin(rlf_world *world, const grid_query *query, phys_body *body, co
     grab->T_world_hand = phys_body_pose(body); /* now; the grid shows the hand -tau later */
     grab->T_world_hand.p = rlf_mad(grab->T_world_hand.p, grab->v, -query->tau);
     grab->axis = grip->axis;
+    grab->ends[0] = grip->sides[0].point;
+    grab->ends[1] = grip->sides[1].point;
     grab->weight = weight;
     grab_learn_hand(query, body, grab);
     grab->is_used = grab->point_count >= HAND_POINTS_MIN;
@@ -83,11 +85,21 @@ static void seek(rlf_world *world, const grid_query *query, phys_body *body)
     }
 }
 
-/* Whether the hand is seen to be open: much less of it touches than when it closed. */
-static bool is_open(phys_grab *grab, const grab_touches *touches)
+/* Whether the hand is seen to be open: much less of it touches than when it closed, or nothing on
+ * one side, and the camera sees beyond where that was. */
+static bool is_open(const grid_query *query, phys_grab *grab, const grab_touches *touches)
 {
     double weight = touches->weight + touches->deep;
+    double tolerance = GRID_NOISE_M + grab_tolerance(query, grab->T_world_hand.p);
     bool has_left = weight < OPEN_SHARE * grab->weight;
+    for (int32_t side = 0; side < 2; side++) {
+        grab_patch patch = grab_side(touches, grab->axis, side == 0 ? -1.0 : 1.0);
+        if (patch.weight >= KEEP_PIXELS) {
+            grab->ends[side] = rlf_add(grab->seat, patch.point);
+        } else if (grab_is_seen_through(query, grab, grab->ends[side], tolerance)) {
+            has_left = true;
+        }
+    }
     grab->weight += has_left ? 0.0 : SETTLE * (weight - grab->weight);
     return has_left;
 }
@@ -126,7 +138,7 @@ static bool hold(const grid_query *query, phys_body *body, double dt)
     grab_touches touches;
     pose.p = rlf_transform(&grab->T_world_hand, grab->seat);
     grab_look(query, body, &pose, 0.0, grab_tolerance(query, pose.p), &touches);
-    bool has_opened = is_open(grab, &touches);
+    bool has_opened = is_open(query, grab, &touches);
     settle(grab, &touches);
     grab->open_frames = has_opened ? grab->open_frames + 1 : 0;
     if (!has_opened) {

@@ -28,6 +28,7 @@ struct phys_grab {
     int32_t body;
     rlf_pose T_world_hand; /* when the newest grid was seen */
     rlf_vec3 v, w;         /* of the hand then, world */
+    rlf_vec3 ends[2];      /* where the two sides touched last, hand frame */
     rlf_vec3 axis;         /* unit, from the first to the second, hand frame */
     rlf_vec3 past_v[GRAB_PAST], past_w[GRAB_PAST]; /* the newest first */
     int32_t past_count;
@@ -80,6 +81,10 @@ void grab_learn_hand(const struct grid_query *query, const phys_body *body, phys
 /* Moves the hand's frame to where the grid shows the hand dt seconds later. False when it is not
  * found. */
 bool grab_follow_hand(const struct grid_query *query, phys_grab *grab, double dt);
+
+/* Whether the camera sees beyond this place of the hand's frame, so that nothing is there. */
+bool grab_is_seen_through(const struct grid_query *query, const phys_grab *grab, rlf_vec3 place,
+                          double tolerance);
 
 /* A new grid: bodies are grabbed, follow their hands and are let go. */
 void phys_grab_update(rlf_world *world, const struct grid_query *query, double dt);
