@@ -4,7 +4,7 @@
 /* Frames in a row in which the sides grip before the body is held: one may be noise. */
 #define GRIP_FRAMES 2
 /* Frames in a row in which a side is seen to be gone before the body is let go. */
-#define OPEN_FRAMES 2
+#define OPEN_FRAMES 4
 /* The hand may be lost for so many frames: noise, or something passes before it. */
 #define LOST_FRAMES 3
 /* Of the joint, rad/s: errors fade within two frames, without a swing. */
