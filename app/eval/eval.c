@@ -75,10 +75,11 @@ static const section sections[] = {
     {"physics", eval_physics_run, "bodies in free flight, at rest, pushed and thrown"},
     {"known", eval_known_run, "models of known things: poses, what they hide, what hits them"},
     {"start", eval_start_run, "what stood starts to move, and carries or pushes bodies"},
-    {"moving", eval_moving_run, "the camera moves: its pose against the map, and real clips"},
+    {"moving", eval_moving_run, "the camera moves: its pose against the map"},
     {"hands", eval_hands_run, "scripted hands grasp, carry, throw and gesture"},
     {"calibration", eval_calibration_run, "cameras from pictures of a board, where they are known"},
     {"map", eval_map_run, "the room fused from a moving camera, against the true one"},
+    {"map_cost", eval_map_cost_run, "CPU time of tracking and fusing a frame, memory of a room"},
     {SENSED, eval_sensed_run, "the same on what the sensor shows, against the true scene"},
 };
 #define SECTION_NAMES_MAX 64

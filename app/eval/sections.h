@@ -24,7 +24,9 @@ rlf_result eval_sensed_run_oracle(eval_table *table, int64_t seed, int32_t oracl
 rlf_result eval_known_run(eval_table *table, int64_t seed, int profile_mask);
 /* A moving camera's map of the synthetic room against the true one; poses are true. */
 rlf_result eval_map_run(eval_table *table, int64_t seed, int profile_mask);
-/* Poses of a camera that moves, found against the map; real clips too where they are. */
+/* What tracking and fusing a frame costs, and the memory of a room of 5 x 5 x 3 m. */
+rlf_result eval_map_cost_run(eval_table *table, int64_t seed, int profile_mask);
+/* Poses of a camera that moves, found against the map. */
 rlf_result eval_moving_run(eval_table *table, int64_t seed, int profile_mask);
 /* Scripted hands of the simulator: grasps, throws, false grabs. */
 rlf_result eval_hands_run(eval_table *table, int64_t seed, int profile_mask);

@@ -98,7 +98,8 @@ RLF_API void rlf_tracker_accept(rlf_tracker *tracker, const rlf_track_view *view
                                 const rlf_track_result *result);
 
 /* Poses of the keyframes that look most like the view, the likeliest first; at most `max`. Returns
- * how many. Each is a start for rlf_map_predict and rlf_tracker_align. Source: small thumbnails
+ * how many. Each is a start for rlf_map_predict and rlf_tracker_align. A keyframe is turned, by up
+ * to a quarter of the picture, to where it looks most like the view. Source: small thumbnails
  * compared as a whole, Klein and Murray 2008. */
 RLF_API int32_t rlf_tracker_recall(rlf_tracker *tracker, const rlf_track_view *view,
                                    rlf_pose *out_poses, int32_t max);

@@ -15,9 +15,12 @@ enum { RLF_FUSE_SIDE = 8, RLF_FUSE_VOXELS = 512, RLF_FUSE_CHROMA = 64 };
 #define RLF_FUSE_WEIGHT 16.0f
 #define RLF_FUSE_WEIGHT_MOST 255.0f
 
+/* Distance of a voxel that nobody saw: farther than any. */
+#define RLF_FUSE_UNKNOWN INT16_MAX
+
 /* 8 x 8 x 8 voxels, x fastest. */
 typedef struct rlf_fuse_block {
-    int16_t distance[RLF_FUSE_VOXELS];  /* steps; means nothing where the weight is 0 */
+    int16_t distance[RLF_FUSE_VOXELS];  /* steps; RLF_FUSE_UNKNOWN where the weight is 0 */
     uint8_t weight[RLF_FUSE_VOXELS];    /* 0 = nobody looked there */
     uint8_t grey[RLF_FUSE_VOXELS];      /* luma; 0 = no colour yet */
     uint8_t chroma[2][RLF_FUSE_CHROMA]; /* Cb and Cr of 2 x 2 x 2 voxels, 128 = grey */
@@ -36,6 +39,7 @@ typedef struct rlf_fuse_view {
     const rlf_fuse_plane *planes; /* of the source's pixels */
     const float *least;           /* least depth of 3 x 3 pixels, 0 where one is missing */
     const uint8_t *rgba;          /* NULL = none */
+    int32_t color_turn;           /* 0..3: which row of four gets its colour again */
     const int32_t *source_of; /* pixel of the planes above per pinhole pixel, -1 = none; or NULL */
     rlf_kernel_noise noise;
     float sigmas;                                   /* of truncation */
@@ -49,18 +53,25 @@ typedef struct rlf_fuse_place {
     float origin[3], step[3][3];
 } rlf_fuse_place;
 
+/* The surface in one eighth of a block: the voxel right in front of it, by less than a voxel, its
+ * distance, and the way out of the surface, which is 127 long; all 0 where that is not known. */
+typedef struct rlf_fuse_patch {
+    uint16_t voxel; /* RLF_FUSE_NO_VOXEL: there is none */
+    uint8_t ahead;  /* 1/256 voxel */
+    int8_t normal[3];
+} rlf_fuse_patch;
+
+#define RLF_FUSE_NO_VOXEL 0xffffu
+
 /* What a block is after it: its least distance from any surface (magnitude), and its least signed
  * distance, steps; 32767 where nothing is known. */
 typedef struct rlf_fuse_summary {
     int32_t nearest, lowest;
-    /* Of each 4 x 4 x 4 voxels (bits x = 1, y = 2, z = 4) the one right in front of the surface, by
-     * less than one voxel; RLF_FUSE_NO_VOXEL: none is. */
-    uint16_t front[8];
+    rlf_fuse_patch front[8]; /* of each 4 x 4 x 4 voxels (bits x = 1, y = 2, z = 4) */
 } rlf_fuse_summary;
 
-#define RLF_FUSE_NO_VOXEL 0xffffu
-
-void rlf_kernel_fuse_block(const rlf_fuse_view *view, const rlf_fuse_place *place,
+/* False when it sees nothing of the block, which then stays as it is. */
+bool rlf_kernel_fuse_block(const rlf_fuse_view *view, const rlf_fuse_place *place,
                            rlf_fuse_block *restrict block);
 rlf_fuse_summary rlf_kernel_fuse_summary(const rlf_fuse_block *block);
 

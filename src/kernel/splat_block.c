@@ -9,8 +9,8 @@ RLF_KERNEL int32_t rlf_kernel_splat_block(const rlf_fuse_block *restrict block,
     uint8_t is_front[RLF_FUSE_VOXELS];
     const int16_t most = (int16_t)RLF_FUSE_STEPS;
     for (int32_t i = 0; i < RLF_FUSE_VOXELS; i++) {
-        int16_t d = block->distance[i], w = block->weight[i];
-        is_front[i] = (uint8_t)((d > 0) & (d <= most) & (w > 0));
+        int16_t d = block->distance[i];
+        is_front[i] = (uint8_t)((d > 0) & (d <= most));
     }
     int32_t count = 0;
     for (int32_t i = rlf_kernel_next_mark(is_front, 0, RLF_FUSE_VOXELS); i < RLF_FUSE_VOXELS;

@@ -145,6 +145,9 @@ int32_t map_volume_add(map_volume *v, int32_t x, int32_t y, int32_t z)
     v->kept[block] = 0;
     map_block *b = map_block_at(v, block);
     memset(b, 0, sizeof(*b));
+    for (int32_t i = 0; i < MAP_VOXELS; i++) {
+        b->distance[i] = RLF_FUSE_UNKNOWN;
+    }
     memset(b->chroma, 128, sizeof(b->chroma));
     const uint64_t key = map_key(x, y, z);
     v->table[slot_of(v, key)] = (map_entry){.key = key, .block = block};

@@ -64,8 +64,11 @@ static void unpack(const uint8_t in[BLOCK_SIZE], map_block *b)
 {
     const uint8_t *at = in + 7;
     for (int32_t i = 0; i < MAP_VOXELS; i++, at += 4) {
-        b->distance[i] = get_i16(at);
+        const int16_t distance = get_i16(at);
         b->weight[i] = at[2];
+        b->distance[i] = at[2] == 0              ? RLF_FUSE_UNKNOWN
+                         : distance < -INT16_MAX ? -INT16_MAX
+                                                 : distance;
         b->grey[i] = at[3];
     }
     memcpy(b->chroma, at, sizeof(b->chroma));

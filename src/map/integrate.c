@@ -2,6 +2,7 @@
 #include "map/evict.h"
 #include "map/volume.h"
 
+#include <stddef.h>
 #include <string.h>
 
 /* Blocks are made for what is this near to a surface, voxels: in front of it enough for the cells
@@ -11,8 +12,8 @@ static const float margins[] = {-2.0f, 1.0f, 4.0f};
 enum { MARGINS = sizeof(margins) / sizeof(margins[0]) };
 
 enum {
-    SPACING = 4,      /* pixels between those that look for blocks; in 16 frames all do */
-    CARVE_FRAMES = 4, /* in which every block is asked once whether it is seen through */
+    SPACING = 6,      /* pixels between those that look for blocks; in 36 frames all do */
+    CARVE_FRAMES = 8, /* in which every block is asked once whether it is seen through */
     GRAIN = 32        /* blocks */
 };
 
@@ -21,10 +22,11 @@ typedef struct fuse_job {
     rlf_mat3 R_camera_world;
     rlf_pose T_world_camera;
     rlf_fuse_view view;
+    int32_t turns; /* frames in which each block that is seen is fused once */
     rlf_map_change change;
 } fuse_job;
 
-static rlf_fuse_view view_make(const rlf_map *map, const rlf_map_view *in)
+static rlf_fuse_view view_make(const rlf_map *map, const rlf_map_view *in, int32_t turns)
 {
     const rlf_camera *c = &map->pinhole;
     const rlf_map_def *def = &map->def;
@@ -39,6 +41,7 @@ static rlf_fuse_view view_make(const rlf_map *map, const rlf_map_view *in)
         .planes = map->planes,
         .least = map->least,
         .rgba = def->keep_color ? in->rgba : NULL,
+        .color_turn = (int32_t)(map->frames / turns & 3),
         .source_of = map->source_of,
         .noise = rlf_kernel_noise_make(&def->rig.noise),
         .sigmas = (float)def->truncation_sigmas,
@@ -143,18 +146,24 @@ static void mark_all(fuse_job *job)
     }
 }
 
+/* Frames in which each block that is seen has its turn. */
+static int32_t turns_for(const rlf_map *map)
+{
+    const int32_t budget = map->def.blocks_per_frame;
+    const int32_t turns = budget > 0 ? (map->seen_count + budget - 1) / budget : 1;
+    return turns > 1 ? turns : 1;
+}
+
 /* Those that are new, and as many of the others as there is time for, in turn. */
 static void choose_seen(fuse_job *job)
 {
     rlf_map *map = job->map;
-    const int32_t budget = map->def.blocks_per_frame;
-    const int32_t turns = budget > 0 ? (map->seen_count + budget - 1) / budget : 1;
-    const int32_t turn = turns > 1 ? (int32_t)(map->frames % turns) : 0;
+    const int32_t turns = job->turns, turn = (int32_t)(map->frames % turns);
     map->chosen_count = 0;
     for (int32_t i = 0; i < map->seen_count; i++) {
         const int32_t block = map->seen[i];
         const bool is_new = (map->volume.flags[block] & MAP_IS_NEW) != 0;
-        if (is_new || turns <= 1 || block % turns == turn) {
+        if (is_new || block % turns == turn) {
             map->chosen[map->chosen_count++] = block;
         }
     }
@@ -188,7 +197,7 @@ static void choose_carved(fuse_job *job)
     rlf_map *map = job->map;
     const map_volume *v = &map->volume;
     const int32_t budget =
-        map->def.blocks_per_frame > 0 ? map->def.blocks_per_frame / 2 + 1 : v->capacity;
+        map->def.blocks_per_frame > 0 ? map->def.blocks_per_frame / 4 + 1 : v->capacity;
     const int32_t share = v->high / CARVE_FRAMES + 1;
     int32_t cursor = map->carve_cursor < v->high ? map->carve_cursor : 0;
     int32_t end = cursor + share < v->high ? cursor + share : v->high;
@@ -202,6 +211,16 @@ static void choose_carved(fuse_job *job)
     map->carve_cursor = cursor;
 }
 
+/* Brings a block's distances and weights near. */
+static void look_ahead(const map_block *block)
+{
+    const char *at = (const char *)block;
+    const ptrdiff_t size = offsetof(map_block, grey);
+    for (ptrdiff_t i = 0; i < size; i += 64) {
+        RLF_KERNEL_SOON(at + i);
+    }
+}
+
 static void fuse_blocks(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     const fuse_job *job = context;
@@ -211,6 +230,9 @@ static void fuse_blocks(void *context, int32_t begin, int32_t end, int32_t worke
     (void)worker;
     for (int32_t i = begin; i < end; i++) {
         const int32_t block = map->chosen[i];
+        if (i + 1 < end) {
+            look_ahead(map_block_at(&map->volume, map->chosen[i + 1]));
+        }
         const int16_t *at = map->volume.place[block];
         const double side = voxel * MAP_SIDE;
         const rlf_vec3 corner = {at[0] * side, at[1] * side, at[2] * side};
@@ -221,8 +243,10 @@ static void fuse_blocks(void *context, int32_t begin, int32_t end, int32_t worke
                 place.step[k][r] = (float)(R->m[r][k] * voxel);
             }
         }
-        rlf_kernel_fuse_block(&job->view, &place, map_block_at(&map->volume, block));
-        map_block_look(&map->volume, block);
+        if (rlf_kernel_fuse_block(&job->view, &place, map_block_at(&map->volume, block)) ||
+            (map->volume.flags[block] & MAP_IS_NEW) != 0) {
+            map_block_look(&map->volume, block);
+        }
     }
 }
 
@@ -257,8 +281,9 @@ rlf_result rlf_map_integrate(rlf_map *map, const rlf_map_view *view, const rlf_p
     job.R_camera_world = rlf_quat_to_mat3(rlf_quat_conjugate(job.T_world_camera.q));
     map->tick++;
     map_view_prepare(map, view);
-    job.view = view_make(map, view);
     mark_all(&job);
+    job.turns = turns_for(map);
+    job.view = view_make(map, view, job.turns);
     choose_seen(&job);
     choose_carved(&job);
     map_journal_expect(map, map->chosen_count);

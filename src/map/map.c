@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* Bytes that a block costs beside its voxels: tables, and its share of the journal. */
-#define TABLE_BYTES 136
+#define TABLE_BYTES 168
 
 rlf_map_def rlf_map_def_default(void)
 {
@@ -16,7 +16,7 @@ rlf_map_def rlf_map_def_default(void)
     def.voxel_m = 0.006;
     def.memory_mb = 288;
     def.truncation_sigmas = 4.0;
-    def.blocks_per_frame = 2048;
+    def.blocks_per_frame = 768;
     def.carve_after = 4;
     def.keep_color = true;
     return def;

@@ -52,26 +52,27 @@ static float leave(const ray *r)
 /* The corners of a cell, and what is read of them. */
 typedef struct corners {
     float distance[8]; /* voxels */
-    int32_t block;     /* of the first */
-    int32_t voxel[3];  /* the first, in its block */
-    float in[3];       /* place in the cell, 0..1 */
+    int32_t block;
+    int32_t voxel[3]; /* the first corner, in the block */
+    float in[3];      /* place in the cell, 0..1; up to 2 beyond the last of a block */
 } corners;
 
-/* Of a cell that is whole in one block. */
-static bool read_inner(const map_block *b, int32_t first, float distance[8])
+/* False when one of them is unknown. */
+static bool read_corners(const map_block *b, int32_t first, float distance[8])
 {
     enum { Y = MAP_SIDE, Z = MAP_SIDE * MAP_SIDE };
     static const int32_t at[8] = {0, 1, Y, Y + 1, Z, Z + 1, Z + Y, Z + Y + 1};
     const int16_t *d = &b->distance[first];
-    const uint8_t *w = &b->weight[first];
+    bool is_known = true;
     for (int32_t k = 0; k < 8; k++) {
+        is_known &= d[at[k]] != RLF_FUSE_UNKNOWN;
         distance[k] = (float)d[at[k]] * (1.0f / RLF_FUSE_STEPS);
     }
-    return (w[0] != 0) & (w[1] != 0) & (w[Y] != 0) & (w[Y + 1] != 0) & (w[Z] != 0) &
-           (w[Z + 1] != 0) & (w[Z + Y] != 0) & (w[Z + Y + 1] != 0);
+    return is_known;
 }
 
-/* The cell about the ray's point at depth z. */
+/* The cell about the ray's point at depth z. Between two blocks the last cell of the first goes on:
+ * a distance is nearly flat, and one block is read in place of up to eight. */
 static bool corners_at(ray *r, float z, corners *out)
 {
     int32_t voxel[3];
@@ -79,21 +80,18 @@ static bool corners_at(ray *r, float z, corners *out)
         const float p = r->at[k] + z * r->way[k];
         voxel[k] = floored(p);
         out->in[k] = p - (float)voxel[k];
-        out->voxel[k] = voxel[k] & 7;
     }
     out->block = find_block(r, voxel);
     if (out->block < 0) {
         return false;
     }
-    const int32_t i = out->voxel[0], j = out->voxel[1], k = out->voxel[2];
-    if ((i < 7) & (j < 7) & (k < 7)) {
-        return read_inner(map_block_at(r->v, out->block), (k * MAP_SIDE + j) * MAP_SIDE + i,
-                          out->distance);
+    for (int32_t k = 0; k < 3; k++) {
+        const int32_t i = voxel[k] & 7, beyond = i == 7 ? 1 : 0;
+        out->voxel[k] = i - beyond;
+        out->in[k] += (float)beyond;
     }
-    map_cell cell;
-    const bool is_known = map_cell_read(r->v, out->block, i, j, k, &cell);
-    memcpy(out->distance, cell.distance, sizeof(out->distance));
-    return is_known;
+    const int32_t first = (out->voxel[2] * MAP_SIDE + out->voxel[1]) * MAP_SIDE + out->voxel[0];
+    return read_corners(map_block_at(r->v, out->block), first, out->distance);
 }
 
 /* What a ray met: normal in the world. */
@@ -102,31 +100,43 @@ typedef struct hit {
     uint8_t grey;
 } hit;
 
-static uint8_t mean_grey(const ray *r, const corners *c)
+/* In its block, nearest to the ray's point. */
+static int32_t nearest_voxel(const corners *c)
 {
-    float sum = 0.0f, weights = 0.0f;
+    int32_t at[3];
+    for (int32_t k = 0; k < 3; k++) {
+        at[k] = c->voxel[k] + (c->in[k] > 0.5f ? 1 : 0);
+    }
+    return (at[2] * MAP_SIDE + at[1]) * MAP_SIDE + at[0];
+}
+
+/* Trilinear, of the corners that have one. */
+static uint8_t mean_grey(const map_block *b, const corners *c)
+{
+    const int32_t first = (c->voxel[2] * MAP_SIDE + c->voxel[1]) * MAP_SIDE + c->voxel[0];
+    float share[3], sum = 0.0f, weights = 0.0f;
+    for (int32_t k = 0; k < 3; k++) {
+        share[k] = c->in[k] < 1.0f ? c->in[k] : 1.0f;
+    }
     for (int32_t k = 0; k < 8; k++) {
         const int32_t dx = k & 1, dy = k >> 1 & 1, dz = k >> 2;
-        const int32_t x = c->voxel[0] + dx, y = c->voxel[1] + dy, z = c->voxel[2] + dz;
-        const int32_t owner = r->v->after[c->block][(x >> 3) | (y >> 3) << 1 | (z >> 3) << 2];
-        const int32_t voxel = ((z & 7) * MAP_SIDE + (y & 7)) * MAP_SIDE + (x & 7);
-        const uint8_t grey = map_block_at(r->v, owner)->grey[voxel];
-        const float weight = (dx != 0 ? c->in[0] : 1.0f - c->in[0]) *
-                             (dy != 0 ? c->in[1] : 1.0f - c->in[1]) *
-                             (dz != 0 ? c->in[2] : 1.0f - c->in[2]);
+        const uint8_t grey = b->grey[first + (dz * MAP_SIDE + dy) * MAP_SIDE + dx];
+        const float weight = (dx != 0 ? share[0] : 1.0f - share[0]) *
+                             (dy != 0 ? share[1] : 1.0f - share[1]) *
+                             (dz != 0 ? share[2] : 1.0f - share[2]);
         sum += grey > 0 ? weight * (float)grey : 0.0f;
         weights += grey > 0 ? weight : 0.0f;
     }
     return weights > 0.0f ? (uint8_t)(sum / weights + 0.5f) : 0;
 }
 
-/* Newton's method from `start`: where the ray meets the surface about there. Within an eighth of a
+/* Newton's method from `start`: where the ray meets the surface about there. Within a quarter of a
  * voxel its next step is the last: the field is nearly flat. */
 static bool refine(ray *r, float start, hit *out)
 {
     float z = start, g[3] = {0, 0, 0}, d = 1.0f;
     corners c;
-    for (int32_t i = 0; i < 4 && (d > 0.125f || d < -0.125f); i++) {
+    for (int32_t i = 0; i < 4 && (d > 0.25f || d < -0.25f); i++) {
         if (!corners_at(r, z, &c)) {
             return false;
         }
@@ -143,7 +153,7 @@ static bool refine(ray *r, float start, hit *out)
     }
     const float scale = 1.0f / sqrtf(size2);
     out->z = z;
-    out->grey = r->has_grey ? mean_grey(r, &c) : 0;
+    out->grey = r->has_grey ? mean_grey(map_block_at(r->v, c.block), &c) : 0;
     for (int32_t k = 0; k < 3; k++) {
         out->normal[k] = g[k] * scale;
     }
@@ -189,19 +199,30 @@ static bool cast(ray *r, float z, float far_z, hit *out)
     return false;
 }
 
-static void ray_make(const map_caster *c, int32_t x, int32_t y, ray *out)
+/* All rays: the eye, and how the way changes from pixel to pixel. */
+static void prepare_rays(map_caster *c)
 {
     const double scale = 1.0 / c->map->def.voxel_m;
-    const rlf_vec3 straight = {(x - c->camera.cx) / c->camera.fx, (y - c->camera.cy) / c->camera.fy,
-                               1.0};
-    const rlf_vec3 way = rlf_scale(rlf_mat3_mul_vec(&c->R_world_camera, straight), scale);
-    out->way[0] = (float)way.x;
-    out->way[1] = (float)way.y;
-    out->way[2] = (float)way.z;
-    out->at[0] = (float)(c->eye.x * scale);
-    out->at[1] = (float)(c->eye.y * scale);
-    out->at[2] = (float)(c->eye.z * scale);
-    out->length = (float)rlf_length(way);
+    const double fx = c->camera.fx, fy = c->camera.fy;
+    const double eye[3] = {c->eye.x, c->eye.y, c->eye.z};
+    for (int32_t k = 0; k < 3; k++) {
+        const double *m = c->R_world_camera.m[k];
+        c->at[k] = (float)(eye[k] * scale);
+        c->way[k] = (float)(scale * (m[2] - m[0] * c->camera.cx / fx - m[1] * c->camera.cy / fy));
+        c->way_x[k] = (float)(scale * m[0] / fx);
+        c->way_y[k] = (float)(scale * m[1] / fy);
+    }
+}
+
+static void ray_make(const map_caster *c, int32_t x, int32_t y, ray *out)
+{
+    float length2 = 0.0f;
+    for (int32_t k = 0; k < 3; k++) {
+        out->at[k] = c->at[k];
+        out->way[k] = c->way[k] + ((float)x * c->way_x[k] + (float)y * c->way_y[k]);
+        length2 += out->way[k] * out->way[k];
+    }
+    out->length = sqrtf(length2);
 }
 
 static void put(const map_caster *c, int32_t i, const hit *h)
@@ -226,15 +247,46 @@ static void begin_at(ray *r, int32_t block)
     }
 }
 
-/* The plane of depth holds where the nearest voxel in front of a surface is: there the ray is
- * looked at first. At outlines it passes by that surface, and goes on. */
+#define AHEAD 6 /* pixels that memory has to answer in */
+
+/* Brings near what a pixel of the row will read first. */
+static void look_ahead(const map_caster *c, int32_t x, int32_t y, ray *r)
+{
+    const int32_t i = y * c->camera.width + x;
+    const float inverse = x < c->camera.width ? c->out->depth[i] : 0.0f;
+    if (!(inverse > 0.0f)) {
+        return;
+    }
+    const float start = 1.0f / inverse;
+    ray_make(c, x, y, r);
+    const int32_t block = c->out->start[i];
+    int32_t voxel[3], at[3];
+    bool is_in = true;
+    for (int32_t k = 0; k < 3; k++) {
+        voxel[k] = floored(r->at[k] + start * r->way[k]);
+        at[k] = (voxel[k] - (voxel[k] & 7)) / MAP_SIDE;
+        is_in &= at[k] == r->v->place[block][k];
+    }
+    if (is_in) {
+        const int16_t *d = map_block_at(r->v, block)->distance;
+        d += ((voxel[2] & 7) * MAP_SIDE + (voxel[1] & 7)) * MAP_SIDE;
+        RLF_KERNEL_SOON(d);
+        RLF_KERNEL_SOON(d + MAP_SIDE * MAP_SIDE);
+    } else {
+        map_volume_soon(r->v, at[0], at[1], at[2]);
+    }
+}
+
+/* The plane of depth holds where the ray may meet the nearest surface: there it is looked at first.
+ * At outlines it passes by that surface, and goes on. */
 static void cast_pixel(const map_caster *c, int32_t x, int32_t y, ray *r)
 {
     const hit none = {0};
     const int32_t i = y * c->camera.width + x;
-    const float start = c->out->depth[i];
+    const float inverse = c->out->depth[i];
     hit h = none;
-    if (start < MAP_NOTHING) {
+    if (inverse > 0.0f) {
+        const float start = 1.0f / inverse;
         const float far_z = c->out->tile_far[(y / MAP_TILE) * c->tile_columns + x / MAP_TILE];
         begin_at(r, c->out->start[i]);
         ray_make(c, x, y, r);
@@ -262,6 +314,7 @@ static void cast_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     ray_begin(c, &r);
     for (int32_t y = begin; y < end; y++) {
         for (int32_t x = 0; x < c->camera.width; x++) {
+            look_ahead(c, x + AHEAD, y, &r);
             cast_pixel(c, x, y, &r);
         }
     }
@@ -307,22 +360,12 @@ rlf_result rlf_map_predict(rlf_map *map, const rlf_camera *camera, const rlf_pos
     memset(c.camera.distortion, 0, sizeof(c.camera.distortion));
     c.R_world_camera = rlf_quat_to_mat3(rlf_quat_normalize(T_world_camera->q));
     c.R_camera_world = rlf_mat3_transpose(&c.R_world_camera);
+    prepare_rays(&c);
     map_splat(&c);
     rlf_parallel_for(map->def.pool, camera->height, GRAIN, cast_rows, &c);
     finish(map, &c.camera, T_world_camera);
     *out = map->out.last;
     return RLF_OK;
-}
-
-static void nearest_color(const ray *r, const corners *c, uint8_t rgba[4])
-{
-    int32_t at[3];
-    for (int32_t k = 0; k < 3; k++) {
-        at[k] = c->voxel[k] + (c->in[k] > 0.5f ? 1 : 0);
-    }
-    const int32_t side = (at[0] >> 3) | (at[1] >> 3) << 1 | (at[2] >> 3) << 2;
-    const int32_t voxel = ((at[2] & 7) * MAP_SIDE + (at[1] & 7)) * MAP_SIDE + (at[0] & 7);
-    map_voxel_color(map_block_at(r->v, r->v->after[c->block][side]), voxel, rgba);
 }
 
 const uint8_t *rlf_map_predict_color(rlf_map *map)
@@ -333,6 +376,7 @@ const uint8_t *rlf_map_predict_color(rlf_map *map)
     const rlf_prediction *p = &map->out.last;
     map_caster c = {.map = map, .camera = p->camera, .eye = p->T_world_camera.p, .out = &map->out};
     c.R_world_camera = rlf_quat_to_mat3(rlf_quat_normalize(p->T_world_camera.q));
+    prepare_rays(&c);
     ray r;
     ray_begin(&c, &r);
     for (int32_t y = 0; y < p->camera.height; y++) {
@@ -343,7 +387,7 @@ const uint8_t *rlf_map_predict_color(rlf_map *map)
             memset(rgba, 0, 4);
             ray_make(&c, x, y, &r);
             if (p->depth[i] > 0.0f && corners_at(&r, p->depth[i], &at)) {
-                nearest_color(&r, &at, rgba);
+                map_voxel_color(map_block_at(r.v, at.block), nearest_voxel(&at), rgba);
             }
         }
     }

@@ -3,58 +3,33 @@
  * surface. */
 #include "map/predict.h"
 
+#include <string.h>
+
 /* A cube's width from any side, in its edges: neighbours that touch leave no hole. */
 #define DIAGONAL 1.7321f
 
-/* What a block covers of the picture. */
-typedef struct pixel_box {
-    double x0, y0, x1, y1, far_z;
-} pixel_box;
-
-/* False when nothing of a box about `middle` is in the picture. `half` is half of its extent along
- * the camera's axes. */
-static bool cover(const rlf_camera *c, rlf_vec3 middle, rlf_vec3 half, pixel_box *out)
-{
-    const double far_z = middle.z + half.z,
-                 near_z = rlf_max(middle.z - half.z, (double)RLF_FUSE_NEAREST_M);
-    if (!(far_z > (double)RLF_FUSE_NEAREST_M)) {
-        return false;
-    }
-    const double left = middle.x - half.x, right = middle.x + half.x;
-    const double top = middle.y - half.y, bottom = middle.y + half.y;
-    out->x0 = c->cx + c->fx * left / (left < 0.0 ? near_z : far_z);
-    out->x1 = c->cx + c->fx * right / (right > 0.0 ? near_z : far_z);
-    out->y0 = c->cy + c->fy * top / (top < 0.0 ? near_z : far_z);
-    out->y1 = c->cy + c->fy * bottom / (bottom > 0.0 ? near_z : far_z);
-    out->far_z = far_z;
-    return out->x1 >= 0.0 && out->y1 >= 0.0 && out->x0 <= c->width - 1.0 &&
-           out->y0 <= c->height - 1.0;
-}
-
-static void widen(map_caster *caster, const pixel_box *box)
-{
-    const rlf_camera *c = &caster->camera;
-    const int32_t x0 = (int32_t)rlf_max(box->x0, 0.0) / MAP_TILE;
-    const int32_t y0 = (int32_t)rlf_max(box->y0, 0.0) / MAP_TILE;
-    const int32_t x1 = (int32_t)rlf_min(box->x1, c->width - 1.0) / MAP_TILE;
-    const int32_t y1 = (int32_t)rlf_min(box->y1, c->height - 1.0) / MAP_TILE;
-    for (int32_t y = y0; y <= y1; y++) {
-        float *row = &caster->out->tile_far[y * caster->tile_columns];
-        for (int32_t x = x0; x <= x1; x++) {
-            row[x] = (float)rlf_max((double)row[x], box->far_z);
-        }
-    }
-}
-
-/* A square of `size` pixels at depth z. */
+/* A square of `size` pixels. One over the depth is linear in the picture on a plane, and is cut at
+ * what the square's surface can have. */
 typedef struct splat {
-    float u, v, z, size;
+    float u, v, size;
+    float inverse, by_x, by_y, least, most;
     int32_t block;
 } splat;
 
 static float least_of(float a, float b)
 {
     return a < b ? a : b;
+}
+
+/* The tiles of these pixels have a surface as far as z. */
+static void widen(map_caster *caster, int32_t x0, int32_t y0, int32_t x1, int32_t y1, float z)
+{
+    for (int32_t y = y0 / MAP_TILE; y <= y1 / MAP_TILE; y++) {
+        float *row = &caster->out->tile_far[y * caster->tile_columns];
+        for (int32_t x = x0 / MAP_TILE; x <= x1 / MAP_TILE; x++) {
+            row[x] = row[x] > z ? row[x] : z;
+        }
+    }
 }
 
 /* At least one pixel, the nearest. */
@@ -66,11 +41,18 @@ static void draw_point(map_caster *caster, const splat *p)
     const float bottom = least_of(p->v + half, (float)height - 0.5f);
     const int32_t x0 = p->u - half > -1.0f ? (int32_t)(p->u - half + 1.0f) : 0;
     const int32_t y0 = p->v - half > -1.0f ? (int32_t)(p->v - half + 1.0f) : 0;
-    for (int32_t y = y0; (float)y <= bottom; y++) {
+    if (!((float)x0 <= right && (float)y0 <= bottom)) {
+        return;
+    }
+    const int32_t x1 = (int32_t)right, y1 = (int32_t)bottom;
+    widen(caster, x0, y0, x1, y1, 1.0f / p->least + caster->slack);
+    for (int32_t y = y0; y <= y1; y++) {
         const ptrdiff_t row = (ptrdiff_t)y * width;
-        for (int32_t x = x0; (float)x <= right; x++) {
-            if (p->z < caster->out->depth[row + x]) {
-                caster->out->depth[row + x] = p->z;
+        for (int32_t x = x0; x <= x1; x++) {
+            float inverse = p->inverse + ((float)x - p->u) * p->by_x + ((float)y - p->v) * p->by_y;
+            inverse = inverse > p->least ? least_of(inverse, p->most) : p->least;
+            if (inverse > caster->out->depth[row + x]) {
+                caster->out->depth[row + x] = inverse;
                 caster->out->start[row + x] = p->block;
             }
         }
@@ -78,114 +60,191 @@ static void draw_point(map_caster *caster, const splat *p)
 }
 
 /* All voxels in front of the surface, as large as they are: near surfaces have no holes then. */
-static void draw_voxels(map_caster *caster, int32_t block, rlf_vec3 corner, float voxel_f)
+static void draw_voxels(map_caster *caster, int32_t block, const float corner[3], float voxel_f)
 {
     const rlf_camera *c = &caster->camera;
-    const double voxel = caster->map->def.voxel_m;
     const rlf_splat_camera camera = {(float)c->fx, (float)c->fy, (float)c->cx, (float)c->cy};
-    rlf_fuse_place place = {.origin = {(float)corner.x, (float)corner.y, (float)corner.z}};
-    for (int32_t k = 0; k < 3; k++) {
-        for (int32_t r = 0; r < 3; r++) {
-            place.step[k][r] = (float)(caster->R_camera_world.m[r][k] * voxel);
-        }
-    }
+    rlf_fuse_place place = {.origin = {corner[0], corner[1], corner[2]}};
+    memcpy(place.step, caster->step, sizeof(place.step));
     rlf_splat_points points;
     const map_block *b = map_block_at(&caster->map->volume, block);
     const int32_t count = rlf_kernel_splat_block(b, &place, &camera, &points);
     for (int32_t i = 0; i < count; i++) {
         const float z = points.z[i];
         if (z > 0.0f) {
-            const splat p = {points.u[i], points.v[i], z, DIAGONAL * voxel_f / z, block};
+            const float inverse = 1.0f / z;
+            const splat p = {.u = points.u[i],
+                             .v = points.v[i],
+                             .size = DIAGONAL * voxel_f * inverse,
+                             .inverse = inverse,
+                             .least = inverse,
+                             .most = inverse,
+                             .block = block};
             draw_point(caster, &p);
         }
     }
 }
 
-/* One square for each eighth of the block, about its middle, wide enough from any side, and as far
- * as its voxel in front of the surface. */
-static void draw_eighths(map_caster *caster, int32_t block, rlf_vec3 corner, float voxel_f)
+/* The plane of a patch whose voxel is at q: one over depth at the square's middle, and its slopes.
+ * False on faces that look away. */
+static bool lay_plane(const map_caster *caster, const rlf_fuse_patch *patch, const float q[3],
+                      splat *p)
+{
+    const float scale = caster->per_metre / 127.0f; /* steps are a voxel long */
+    float n[3], offset = 0.0f, way2 = 0.0f;
+    for (int32_t r = 0; r < 3; r++) {
+        n[r] = scale * (caster->step[0][r] * (float)patch->normal[0] +
+                        caster->step[1][r] * (float)patch->normal[1] +
+                        caster->step[2][r] * (float)patch->normal[2]);
+        offset += n[r] * q[r];
+        way2 += q[r] * q[r];
+    }
+    if (offset > 0.0f && offset * offset > 0.1f * way2) {
+        return false;
+    }
+    offset -= (float)patch->ahead / (256.0f * caster->per_metre);
+    if (offset * offset > 0.01f * way2 && offset < 0.0f) {
+        const float inverse = 1.0f / offset;
+        p->by_x = n[0] * inverse / (float)caster->camera.fx;
+        p->by_y = n[1] * inverse / (float)caster->camera.fy;
+        p->inverse = n[2] * inverse + (p->u - (float)caster->camera.cx) * p->by_x +
+                     (p->v - (float)caster->camera.cy) * p->by_y;
+    }
+    return true;
+}
+
+/* One square for each eighth of the block, about its middle, wide enough from any side, on the
+ * plane of its surface. */
+static void draw_eighths(map_caster *caster, int32_t block, const float corner[3], float voxel_f)
 {
     const rlf_camera *c = &caster->camera;
-    const double *ahead = caster->R_camera_world.m[2], voxel = caster->map->def.voxel_m;
-    const uint16_t *front = caster->map->volume.front[block];
+    const rlf_fuse_patch *front = caster->map->volume.front[block];
+    const float reach = 2.0f * DIAGONAL / caster->per_metre; /* half of the eighth's diagonal */
     for (int32_t k = 0; k < 8; k++) {
-        if (front[k] == RLF_FUSE_NO_VOXEL) {
+        const int32_t voxel = front[k].voxel;
+        const float *to = caster->to_eighth[k], z = corner[2] + to[2];
+        if (voxel == RLF_FUSE_NO_VOXEL || !(z > RLF_FUSE_NEAREST_M + reach)) {
             continue;
         }
-        const rlf_vec3 at = rlf_add(corner, caster->to_eighth[k]);
-        const double z =
-            corner.z + voxel * (ahead[0] * (front[k] & 7) + ahead[1] * (front[k] >> 3 & 7) +
-                                ahead[2] * (front[k] >> 6));
-        if (at.z > (double)RLF_FUSE_NEAREST_M && z > (double)RLF_FUSE_NEAREST_M) {
-            const double inverse = 1.0 / at.z;
-            const splat p = {(float)(c->fx * at.x * inverse + c->cx),
-                             (float)(c->fy * at.y * inverse + c->cy), (float)z,
-                             4.0f * DIAGONAL * voxel_f * (float)inverse, block};
+        const float inverse = 1.0f / z;
+        float q[3];
+        for (int32_t r = 0; r < 3; r++) {
+            q[r] = corner[r] + caster->step[0][r] * (float)(voxel & 7) +
+                   caster->step[1][r] * (float)(voxel >> 3 & 7) +
+                   caster->step[2][r] * (float)(voxel >> 6);
+        }
+        splat p = {.u = (float)c->fx * (corner[0] + to[0]) * inverse + (float)c->cx,
+                   .v = (float)c->fy * (corner[1] + to[1]) * inverse + (float)c->cy,
+                   .size = 4.0f * DIAGONAL * voxel_f * inverse,
+                   .inverse = 1.0f / q[2],
+                   .least = 1.0f / (z + reach),
+                   .most = 1.0f / (z - reach),
+                   .block = block};
+        if (lay_plane(caster, &front[k], q, &p)) {
             draw_point(caster, &p);
         }
     }
 }
 
 /* Where a voxel is less than half a pixel, four of them are less than two. */
-static void draw_block(map_caster *caster, int32_t block, rlf_vec3 corner)
+static void draw_block(map_caster *caster, int32_t block, const float corner[3])
 {
     const rlf_camera *c = &caster->camera;
     const float voxel_f = (float)(caster->map->def.voxel_m * rlf_max(c->fx, c->fy));
-    if (voxel_f < 0.5f * (float)corner.z) {
+    if (voxel_f < 0.5f * corner[2]) {
         draw_eighths(caster, block, corner, voxel_f);
     } else {
         draw_voxels(caster, block, corner, voxel_f);
     }
 }
 
-/* Half of a block's extent along each of the camera's axes. */
-static rlf_vec3 half_extent(const map_caster *caster)
+/* The sides of what the camera sees: n . p > -margin for a ball about p that reaches in. */
+typedef struct frustum {
+    float x[4], y[4], z[4], margin[4];
+} frustum;
+
+static frustum frustum_of(const rlf_camera *c, double radius)
+{
+    /* Tangents of the ways along the picture's edges. */
+    const double left = (-1.0 - c->cx) / c->fx, right = (c->width - c->cx) / c->fx;
+    const double top = (-1.0 - c->cy) / c->fy, bottom = (c->height - c->cy) / c->fy;
+    const rlf_vec3 n[4] = {{1, 0, -left}, {-1, 0, right}, {0, 1, -top}, {0, -1, bottom}};
+    frustum out;
+    for (int32_t k = 0; k < 4; k++) {
+        out.x[k] = (float)n[k].x;
+        out.y[k] = (float)n[k].y;
+        out.z[k] = (float)n[k].z;
+        out.margin[k] = (float)(radius * rlf_length(n[k]));
+    }
+    return out;
+}
+
+static bool is_in_view(const frustum *f, const float p[3], float radius)
+{
+    bool is_in = p[2] > RLF_FUSE_NEAREST_M - radius;
+    for (int32_t k = 0; k < 4; k++) {
+        is_in &= f->x[k] * p[0] + f->y[k] * p[1] + f->z[k] * p[2] > -f->margin[k];
+    }
+    return is_in;
+}
+
+static void begin(map_caster *caster)
 {
     const rlf_mat3 *R = &caster->R_camera_world;
-    const double half = 0.5 * caster->map->def.voxel_m * MAP_SIDE;
-    double out[3];
-    for (int32_t r = 0; r < 3; r++) {
-        double sum = 0.0;
-        for (int32_t k = 0; k < 3; k++) {
-            sum += R->m[r][k] < 0.0 ? -R->m[r][k] : R->m[r][k];
-        }
-        out[r] = half * sum;
+    const rlf_camera *c = &caster->camera;
+    const double voxel = caster->map->def.voxel_m, side = voxel * MAP_SIDE;
+    const int32_t rows = (c->height + MAP_TILE - 1) / MAP_TILE;
+    caster->tile_columns = (c->width + MAP_TILE - 1) / MAP_TILE;
+    caster->slack = (float)(4.0 * voxel);
+    for (int32_t i = 0; i < rows * caster->tile_columns; i++) {
+        caster->out->tile_far[i] = 0.0f;
     }
-    return rlf_vec3_make(out[0], out[1], out[2]);
+    for (int32_t i = 0; i < c->width * c->height; i++) {
+        caster->out->depth[i] = 0.0f;
+    }
+    for (int32_t k = 0; k < 8; k++) {
+        const double low = 0.25 * side, high = 0.75 * side;
+        const rlf_vec3 middle =
+            rlf_mat3_mul_vec(R, rlf_vec3_make((k & 1) != 0 ? high : low, (k & 2) != 0 ? high : low,
+                                              (k & 4) != 0 ? high : low));
+        caster->to_eighth[k][0] = (float)middle.x;
+        caster->to_eighth[k][1] = (float)middle.y;
+        caster->to_eighth[k][2] = (float)middle.z;
+    }
+    caster->per_metre = (float)(1.0 / voxel);
+    for (int32_t k = 0; k < 9; k++) {
+        caster->step[k / 3][k % 3] = (float)(R->m[k % 3][k / 3] * voxel);
+    }
 }
 
 void map_splat(map_caster *caster)
 {
     const map_volume *v = &caster->map->volume;
     const rlf_mat3 *R = &caster->R_camera_world;
-    const rlf_camera *c = &caster->camera;
-    const double side = caster->map->def.voxel_m * MAP_SIDE;
-    const int32_t rows = (c->height + MAP_TILE - 1) / MAP_TILE;
-    caster->tile_columns = (c->width + MAP_TILE - 1) / MAP_TILE;
-    for (int32_t i = 0; i < rows * caster->tile_columns; i++) {
-        caster->out->tile_far[i] = 0.0f;
+    const double side = caster->map->def.voxel_m * MAP_SIDE, radius = 0.5 * DIAGONAL * side;
+    const frustum f = frustum_of(&caster->camera, radius);
+    /* From the eye to the world's origin, and along a block's edges. */
+    const rlf_vec3 origin = rlf_mat3_mul_vec(R, rlf_scale(caster->eye, -1.0));
+    const float first[3] = {(float)origin.x, (float)origin.y, (float)origin.z};
+    float edge[3][3], middle[3];
+    for (int32_t r = 0; r < 3; r++) {
+        for (int32_t k = 0; k < 3; k++) {
+            edge[r][k] = (float)(R->m[r][k] * side);
+        }
+        middle[r] = 0.5f * (edge[r][0] + edge[r][1] + edge[r][2]);
     }
-    for (int32_t i = 0; i < c->width * c->height; i++) {
-        caster->out->depth[i] = MAP_NOTHING;
-    }
-    const rlf_vec3 half = half_extent(caster), diagonal = {0.5 * side, 0.5 * side, 0.5 * side};
-    const rlf_vec3 to_middle = rlf_mat3_mul_vec(R, diagonal);
-    for (int32_t k = 0; k < 8; k++) {
-        const double low = 0.25 * side, high = 0.75 * side;
-        const rlf_vec3 middle = {(k & 1) != 0 ? high : low, (k & 2) != 0 ? high : low,
-                                 (k & 4) != 0 ? high : low};
-        caster->to_eighth[k] = rlf_mat3_mul_vec(R, middle);
-    }
+    begin(caster);
     for (int32_t i = 0; i < v->high; i++) {
         if ((v->flags[i] & MAP_HAS_SURFACE) == 0) {
             continue;
         }
-        const int16_t *at = v->place[i];
-        const rlf_vec3 corner = rlf_mat3_mul_vec(
-            R, rlf_sub(rlf_vec3_make(at[0] * side, at[1] * side, at[2] * side), caster->eye));
-        pixel_box box;
-        if (cover(c, rlf_add(corner, to_middle), half, &box)) {
-            widen(caster, &box);
+        const float a = (float)v->place[i][0], b = (float)v->place[i][1], c = (float)v->place[i][2];
+        float corner[3], p[3];
+        for (int32_t r = 0; r < 3; r++) {
+            corner[r] = first[r] + (edge[r][0] * a + edge[r][1] * b + edge[r][2] * c);
+            p[r] = corner[r] + middle[r];
+        }
+        if (is_in_view(&f, p, (float)radius)) {
             draw_block(caster, i, corner);
         }
     }

@@ -47,7 +47,7 @@ typedef struct map_volume {
     uint32_t *marked;    /* the frame that saw it last */
     uint32_t *kept;      /* the epoch in which the journal took it */
     uint8_t *flags;
-    uint16_t (*front)[8]; /* as rlf_fuse_summary has it */
+    rlf_fuse_patch (*front)[8];
     int32_t *free_list;
     int32_t free_count;
     map_entry *table;

@@ -16,7 +16,7 @@ typedef struct level {
     int32_t stride, rounds;
 } level;
 
-static const level levels[] = {{4, 8}, {2, 5}, {1, 4}};
+static const level levels[] = {{4, 8}, {2, 5}};
 #define LEVELS ((int)(sizeof(levels) / sizeof(levels[0])))
 
 typedef struct row_job {

@@ -4,6 +4,8 @@
 #define ALIKE 0.12     /* a view this near to a keyframe is no new one */
 #define DEPTH_SPAN 0.3 /* share of the depth: a larger difference counts as this */
 #define GREY_SPAN 40.0 /* levels */
+#define TURN_X 8       /* cells by which a view may be turned from its keyframe: a quarter */
+#define TURN_Y 6
 
 void track_thumbnail_make(const rlf_tracker *tracker, const rlf_track_view *view,
                           track_thumbnail *out)
@@ -33,31 +35,83 @@ void track_thumbnail_make(const rlf_tracker *tracker, const rlf_track_view *view
     }
 }
 
-double track_thumbnail_difference(const track_thumbnail *a, const track_thumbnail *b)
+/* The part of a grid that lies on another that is moved by (dx, dy). */
+typedef struct overlap {
+    int32_t x0, x1, y0, y1, shift; /* of a; b's cell is the same less shift */
+} overlap;
+
+static overlap overlap_of(int32_t dx, int32_t dy)
 {
-    double offset = 0.0, sum = 0.0;
-    int32_t lit = 0, common = 0;
-    for (int32_t i = 0; i < TRACK_THUMB; i++) {
-        if (a->grey[i] > 0.0f && b->grey[i] > 0.0f) {
-            offset += (double)(a->grey[i] - b->grey[i]);
-            lit++;
+    return (overlap){dx > 0 ? dx : 0, TRACK_THUMB_WIDTH + (dx < 0 ? dx : 0), dy > 0 ? dy : 0,
+                     TRACK_THUMB_HEIGHT + (dy < 0 ? dy : 0), dy * TRACK_THUMB_WIDTH + dx};
+}
+
+/* By how much a is brighter: exposure. */
+static double brighter(const track_thumbnail *a, const track_thumbnail *b, const overlap *o)
+{
+    double sum = 0.0;
+    int32_t lit = 0;
+    for (int32_t y = o->y0; y < o->y1; y++) {
+        for (int32_t x = o->x0; x < o->x1; x++) {
+            const int32_t i = y * TRACK_THUMB_WIDTH + x;
+            if (a->grey[i] > 0.0f && b->grey[i - o->shift] > 0.0f) {
+                sum += (double)(a->grey[i] - b->grey[i - o->shift]);
+                lit++;
+            }
         }
     }
-    offset = lit > 0 ? offset / lit : 0.0; /* exposure */
-    for (int32_t i = 0; i < TRACK_THUMB; i++) {
-        const double za = (double)a->depth[i], zb = (double)b->depth[i];
-        if (za > 0.0 && zb > 0.0) {
-            const double d = za > zb ? (za - zb) / za : (zb - za) / zb;
-            sum += rlf_min(d / DEPTH_SPAN, 1.0);
-            common++;
-        }
-        if (a->grey[i] > 0.0f && b->grey[i] > 0.0f) {
-            const double d = (double)(a->grey[i] - b->grey[i]) - offset;
-            sum += rlf_min((d < 0.0 ? -d : d) / GREY_SPAN, 1.0);
-            common++;
+    return lit > 0 ? sum / lit : 0.0;
+}
+
+double track_thumbnail_difference(const track_thumbnail *a, const track_thumbnail *b, int32_t dx,
+                                  int32_t dy)
+{
+    const overlap o = overlap_of(dx, dy);
+    const double offset = brighter(a, b, &o);
+    double sum = 0.0;
+    int32_t common = 0;
+    for (int32_t y = o.y0; y < o.y1; y++) {
+        for (int32_t x = o.x0; x < o.x1; x++) {
+            const int32_t i = y * TRACK_THUMB_WIDTH + x, k = i - o.shift;
+            const double za = (double)a->depth[i], zb = (double)b->depth[k];
+            if (za > 0.0 && zb > 0.0) {
+                const double d = za > zb ? (za - zb) / za : (zb - za) / zb;
+                sum += rlf_min(d / DEPTH_SPAN, 1.0);
+                common++;
+            }
+            if (a->grey[i] > 0.0f && b->grey[k] > 0.0f) {
+                const double d = (double)(a->grey[i] - b->grey[k]) - offset;
+                sum += rlf_min((d < 0.0 ? -d : d) / GREY_SPAN, 1.0);
+                common++;
+            }
         }
     }
-    return common > TRACK_THUMB / 8 ? sum / common : 1.0;
+    return common > TRACK_THUMB / 4 ? sum / common : 1.0;
+}
+
+/* A view is like a keyframe that was turned a little: what it shows is shifted by whole cells. */
+static double best_turn(const rlf_tracker *tracker, const track_thumbnail *view,
+                        const track_keyframe *keyframe, rlf_pose *out)
+{
+    double best = 2.0;
+    int32_t best_x = 0, best_y = 0;
+    for (int32_t dy = -TURN_Y; dy <= TURN_Y; dy += 2) {
+        for (int32_t dx = -TURN_X; dx <= TURN_X; dx += 2) {
+            const double d = track_thumbnail_difference(view, &keyframe->view, dx, dy);
+            if (d < best) {
+                best = d;
+                best_x = dx;
+                best_y = dy;
+            }
+        }
+    }
+    const rlf_camera *c = &tracker->def.rig.depth;
+    const double right = best_x * (double)c->width / TRACK_THUMB_WIDTH / c->fx;
+    const double down = best_y * (double)c->height / TRACK_THUMB_HEIGHT / c->fy;
+    const rlf_vec3 turn = {rlf_atan2(down, 1.0), -rlf_atan2(right, 1.0), 0.0};
+    const rlf_pose T_key_view = {{0, 0, 0}, rlf_quat_from_rotation_vector(turn)};
+    *out = rlf_pose_mul(&keyframe->T_world_camera, &T_key_view);
+    return best;
 }
 
 int32_t rlf_tracker_recall(rlf_tracker *tracker, const rlf_track_view *view, rlf_pose *out_poses,
@@ -73,9 +127,9 @@ int32_t rlf_tracker_recall(rlf_tracker *tracker, const rlf_track_view *view, rlf
     track_thumbnail thumbnail;
     track_thumbnail_make(tracker, view, &thumbnail);
     for (int32_t i = 0; i < tracker->keyframe_count; i++) {
-        const track_keyframe *keyframe = &tracker->keyframes[i];
-        const double difference = track_thumbnail_difference(&thumbnail, &keyframe->view);
-        int32_t at = count < max ? count++ : max;
+        rlf_pose T;
+        const double difference = best_turn(tracker, &thumbnail, &tracker->keyframes[i], &T);
+        int32_t at = difference < 1.0 ? (count < max ? count++ : max) : -1;
         while (at > 0 && best[at - 1] > difference) {
             if (at < max) {
                 best[at] = best[at - 1];
@@ -83,9 +137,9 @@ int32_t rlf_tracker_recall(rlf_tracker *tracker, const rlf_track_view *view, rlf
             }
             at--;
         }
-        if (at < max) {
+        if (at >= 0 && at < max) {
             best[at] = difference;
-            out_poses[at] = keyframe->T_world_camera;
+            out_poses[at] = T;
         }
     }
     return count;
@@ -100,7 +154,7 @@ static void keep(rlf_tracker *tracker, const rlf_track_view *view, const rlf_pos
     track_keyframe *next = &tracker->keyframes[tracker->keyframe_count];
     track_thumbnail_make(tracker, view, &next->view);
     for (int32_t i = 0; i < tracker->keyframe_count; i++) {
-        if (track_thumbnail_difference(&next->view, &tracker->keyframes[i].view) < ALIKE) {
+        if (track_thumbnail_difference(&next->view, &tracker->keyframes[i].view, 0, 0) < ALIKE) {
             return;
         }
     }

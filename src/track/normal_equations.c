@@ -7,8 +7,9 @@
  * sensor that measures disparity has them grow with the square. */
 #define SHARED_SIGMA 0.002
 #define LEAST_COSINE 0.1 /* at lower angles depth says little about the distance to the plane */
-#define GREY_SIGMA 5.0   /* levels: of a picture against the map's mean of many */
-#define GREY_CUT 6.0     /* Tukey's limit, in those */
+#define GREY_SIGMA                                                                                 \
+    15.0             /* levels: of a picture against what the map predicts, a few voxels a pixel */
+#define GREY_CUT 6.0 /* Tukey's limit, in those */
 
 /* A rotation and a translation in single precision. */
 typedef struct motion {

@@ -34,7 +34,9 @@ struct rlf_tracker {
 
 void track_thumbnail_make(const rlf_tracker *tracker, const rlf_track_view *view,
                           track_thumbnail *out);
-/* How unlike two thumbnails are, 0 = alike; 1 where they have nothing in common. */
-double track_thumbnail_difference(const track_thumbnail *a, const track_thumbnail *b);
+/* How unlike two thumbnails are where b, moved by (dx, dy) cells, lies on a: 0 = alike; 1 where
+ * they have nothing in common. */
+double track_thumbnail_difference(const track_thumbnail *a, const track_thumbnail *b, int32_t dx,
+                                  int32_t dy);
 
 #endif

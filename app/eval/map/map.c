@@ -1,5 +1,5 @@
 /* The map of a room against the true one: its mesh, what is missing, what a person who left leaves
- * behind, memory and time. Poses are the true ones: what a tracker adds is not measured here. */
+ * behind, and memory. Poses are the true ones: what a tracker adds is not measured here. */
 #include "command.h"
 #include "eval/map/view.h"
 #include "eval/sections.h"
@@ -26,8 +26,6 @@ static const char *const scene = "map";
 typedef struct map_run {
     map_camera camera;
     fuser fuser;
-    double integrate_ms[FRAMES], predict_ms[FRAMES];
-    int32_t count;
 } map_run;
 
 static rlf_result open_run(map_run *run, const char *source, double time_s, int64_t seed)
@@ -50,30 +48,7 @@ static rlf_result fuse_one(map_run *run, map_camera *camera, int32_t i)
     if (result != RLF_OK || command_interrupted) {
         return command_interrupted ? RLF_END : result;
     }
-    result = fuser_add(&run->fuser, &camera->frame, &camera->T_world_camera, NULL);
-    const rlf_camera half = rlf_camera_decimate(&camera->rig.depth, 2);
-    rlf_prediction prediction;
-    const int64_t start = rlf_clock_ns();
-    if (result == RLF_OK) {
-        result = rlf_map_predict(run->fuser.map, &half, &camera->T_world_camera, &prediction);
-    }
-    if (run->count < FRAMES) {
-        run->predict_ms[run->count] = (double)(rlf_clock_ns() - start) * 1e-6;
-        run->integrate_ms[run->count++] = run->fuser.integrate_ms;
-    }
-    return result;
-}
-
-static int by_value(const void *a, const void *b)
-{
-    const double p = *(const double *)a, q = *(const double *)b;
-    return (p > q) - (p < q);
-}
-
-static double median(double *values, int32_t count)
-{
-    qsort(values, (size_t)count, sizeof(values[0]), by_value);
-    return count > 0 ? values[count / 2] : NAN;
+    return fuser_add(&run->fuser, &camera->frame, &camera->T_world_camera, NULL);
 }
 
 static void add(eval_table *table, const char *key, const char *title, double value)
@@ -151,10 +126,6 @@ static rlf_result run_room(eval_table *table, int64_t seed)
     if (result == RLF_OK) {
         const rlf_map_status s = rlf_map_get_status(run->fuser.map);
         add(table, "memory", "  memory of the map, MB", (double)s.bytes * 1e-6);
-        add(table, "integrate", "  integrate, 512x424, one core, median, ms",
-            median(run->integrate_ms, run->count));
-        add(table, "predict", "  predict at half of it, one core, median, ms",
-            median(run->predict_ms, run->count));
     }
     close_run(run);
     rlf_free(run);

@@ -10,11 +10,10 @@
 #include <string.h>
 
 #define FRAMES_MAX 4096
-#define COVER_FIRST 40  /* frames of tracking before the lens is covered ... */
-#define COVER_FRAMES 30 /* ... for a second ... */
-#define COVER_EVERY 60  /* ... and again */
+#define DARK_FRAMES 3          /* of a lens that is covered, ... */
+#define DARK_STEP_NS 333333333 /* ... for a second */
+#define STEP_NS 33333333
 #define FOUND_WITHIN 10 /* frames */
-#define FOUND_M 0.02
 #define WRONG_M 0.05
 #define DEGREES (180.0 / RLF_PI)
 
@@ -26,9 +25,9 @@ typedef struct run {
     uint16_t *dark; /* a depth picture without depth */
     trajectory path;
     rlf_pose first, last_true, last_found; /* the first true camera in its own world */
-    bool has_last;
-    bool is_waiting; /* covered a moment ago, not found again yet */
-    int64_t seen, good, lost, wrong, covers, found_again;
+    bool has_last, is_covered; /* is_covered: now and again, since the path was measured */
+    int64_t time_ns;           /* of the last frame */
+    int64_t seen, good, lost, wrong, found_again;
     double values[SERIES][FRAMES_MAX];
     int32_t count[SERIES];
 } run;
@@ -55,13 +54,6 @@ static double median(run *r, series s)
     return r->values[s][r->count[s] / 2];
 }
 
-/* Frames of the cover's period since it began; negative before the first. */
-static int64_t since_cover(const run *r)
-{
-    const int64_t after = r->seen - COVER_FIRST;
-    return !r->options->is_covered || after < 0 ? -1 : after % COVER_EVERY;
-}
-
 /* Turn between two attitudes, radians. */
 static double turn_of(rlf_quat q)
 {
@@ -82,61 +74,121 @@ static void add_drift(run *r, const rlf_pose *found, const rlf_pose *truth)
     add(r, DRIFT_RAD, turn_of(off.q));
 }
 
-static void judge_cover(run *r, bool is_right)
+static double off_by(const run *r, const rlf_pose *from)
 {
-    const int64_t since = since_cover(r);
-    if (since == 0) {
-        r->covers++;
-        r->is_waiting = true;
-    }
-    if (r->is_waiting && since >= COVER_FRAMES && since < COVER_FRAMES + FOUND_WITHIN && is_right) {
-        r->found_again++;
-        r->is_waiting = false;
-    }
+    return rlf_length(rlf_sub(r->fuser.pose.last.T_world_camera.p, from->p));
 }
 
 /* `truth` is in the world of the first camera. */
-static rlf_result judge(run *r, int64_t time_ns, const rlf_pose *truth)
+static rlf_result judge(run *r, const rlf_pose *truth)
 {
     const rlf_track_result *found = &r->fuser.pose.last;
-    const double off = rlf_length(rlf_sub(found->T_world_camera.p, truth->p));
     const bool is_lost = found->health == RLF_TRACK_LOST;
     const bool is_good = found->health == RLF_TRACK_GOOD;
-    judge_cover(r, is_good && off < FOUND_M);
     r->lost += is_lost;
     r->good += is_good;
-    r->wrong += is_good && off > WRONG_M;
+    r->wrong += is_good && off_by(r, truth) > WRONG_M;
     if (r->has_last && !is_lost) {
         add_drift(r, &found->T_world_camera, truth);
     }
     r->has_last = !is_lost;
     r->last_found = found->T_world_camera;
     r->last_true = *truth;
-    return is_lost ? RLF_OK : trajectory_add(&r->path, time_ns, &found->T_world_camera, truth);
+    return trajectory_add(&r->path, r->time_ns, &found->T_world_camera, truth);
 }
 
-static rlf_result add_frame(run *r, rlf_frame *frame)
+/* The next frame with a true pose into tracker and map: a frame without the truth tells nothing. */
+static rlf_result next_frame(run *r, rlf_source *source, rlf_pose *out_truth)
 {
-    const int64_t since = since_cover(r);
-    if (since >= 0 && since < COVER_FRAMES) {
-        frame->depth_u16 = r->dark;
-        frame->depth_f32 = NULL;
-        frame->depth_stride = frame->rig->depth.width * (ptrdiff_t)sizeof(uint16_t);
-        frame->color.data = NULL;
+    rlf_frame frame;
+    rlf_result result = RLF_NO_FRAME;
+    while (result == RLF_NO_FRAME || (result == RLF_OK && !frame.has_pose)) {
+        result = command_interrupted ? RLF_END : rlf_source_next(source, &frame);
     }
+    if (result != RLF_OK) {
+        return result;
+    }
+    r->time_ns = r->is_covered ? r->time_ns + STEP_NS : frame.time_ns;
+    frame.time_ns = r->time_ns;
     if (r->seen == 0) {
-        r->first = rlf_pose_invert(&frame->T_world_camera);
+        r->first = rlf_pose_invert(&frame.T_world_camera);
     }
-    const rlf_pose truth = rlf_pose_mul(&r->first, &frame->T_world_camera);
-    rlf_result result = fuser_add(&r->fuser, frame, NULL, NULL);
-    if (result == RLF_OK) {
-        result = judge(r, frame->time_ns, &truth);
-        add(r, TRACK_MS, r->fuser.pose.align_ms);
-        add(r, PREDICT_MS, r->fuser.pose.predict_ms);
-        add(r, INTEGRATE_MS, r->fuser.integrate_ms);
-        r->seen++;
+    *out_truth = rlf_pose_mul(&r->first, &frame.T_world_camera);
+    r->seen++;
+    return fuser_add(&r->fuser, &frame, NULL, NULL);
+}
+
+static rlf_result run_frames(run *r, rlf_source *source)
+{
+    rlf_result result = RLF_OK;
+    while (result == RLF_OK && (r->options->frames == 0 || r->seen < r->options->frames)) {
+        rlf_pose truth;
+        result = next_frame(r, source, &truth);
+        if (result == RLF_OK) {
+            result = judge(r, &truth);
+            add(r, TRACK_MS, r->fuser.pose.align_ms);
+            add(r, PREDICT_MS, r->fuser.pose.predict_ms);
+            add(r, INTEGRATE_MS, r->fuser.integrate_ms);
+        }
+    }
+    return result == RLF_END ? RLF_OK : result;
+}
+
+static rlf_result cover_lens(run *r, const rlf_rig *rig)
+{
+    rlf_result result = RLF_OK;
+    for (int i = 0; i < DARK_FRAMES && result == RLF_OK; i++) {
+        r->time_ns += DARK_STEP_NS;
+        const rlf_frame dark = {.rig = rig,
+                                .sequence = (uint64_t)r->seen++,
+                                .time_ns = r->time_ns,
+                                .depth_u16 = r->dark,
+                                .depth_stride = rig->depth.width * (ptrdiff_t)sizeof(uint16_t),
+                                .depth_units_per_metre = 1000.0};
+        result = fuser_add(&r->fuser, &dark, NULL, NULL);
     }
     return result;
+}
+
+/* The lens is covered, and the camera is elsewhere on its way when it sees again. It is found when
+ * it is where it was found at first: what the whole way is off is told by itself. */
+static rlf_result run_covers(run *r, rlf_source *source)
+{
+    const rlf_source_info *info = rlf_source_get_info(source);
+    const int64_t count = r->options->covers;
+    const int64_t frames = r->seen - FOUND_WITHIN;
+    rlf_result result = RLF_OK;
+    r->is_covered = true;
+    for (int64_t i = 0; i < count && result == RLF_OK && frames > 0; i++) {
+        result = cover_lens(r, &info->rig);
+        /* 7 has no factor in common with 20: far and near in turn. */
+        const int64_t first = i * 7 % count * frames / count;
+        if (result == RLF_OK) {
+            result = rlf_source_seek(source, first);
+        }
+        bool is_found = false;
+        for (int k = 0; k < FOUND_WITHIN && result == RLF_OK && !is_found; k++) {
+            rlf_pose truth;
+            result = next_frame(r, source, &truth);
+            is_found = result == RLF_OK && r->fuser.pose.last.health == RLF_TRACK_GOOD &&
+                       off_by(r, &r->path.found[first + k]) < WRONG_M;
+        }
+        r->found_again += is_found;
+    }
+    return result;
+}
+
+/* What a camera that is taken to stand still would be off, RMS. */
+static double spread(const trajectory *t)
+{
+    rlf_vec3 sum = {0, 0, 0};
+    double squares = 0.0;
+    for (int32_t i = 0; i < t->count; i++) {
+        sum = rlf_add(sum, t->truth[i]);
+        squares += rlf_dot(t->truth[i], t->truth[i]);
+    }
+    const double n = t->count;
+    return n > 0 ? sqrt(rlf_max(0.0, squares / n - rlf_dot(sum, sum) / (n * n))) : NAN;
 }
 
 static void summarise(run *r, moving_figures *out)
@@ -151,23 +203,7 @@ static void summarise(run *r, moving_figures *out)
     out->track_ms = median(r, TRACK_MS);
     out->predict_ms = median(r, PREDICT_MS);
     out->integrate_ms = median(r, INTEGRATE_MS);
-    out->covers = r->covers;
-    out->found_again = r->found_again;
-}
-
-static rlf_result run_frames(run *r, rlf_source *source)
-{
-    while (!command_interrupted && (r->options->frames == 0 || r->seen < r->options->frames)) {
-        rlf_frame frame;
-        rlf_result result = rlf_source_next(source, &frame);
-        if (result == RLF_OK && frame.has_pose) { /* a frame without the truth tells nothing */
-            result = add_frame(r, &frame);
-        }
-        if (result != RLF_OK && result != RLF_NO_FRAME) {
-            return result == RLF_END ? RLF_OK : result;
-        }
-    }
-    return RLF_OK;
+    out->still_mm = 1000.0 * spread(&r->path);
 }
 
 rlf_result moving_measure(rlf_source *source, const moving_options *options, moving_figures *out)
@@ -190,6 +226,11 @@ rlf_result moving_measure(rlf_source *source, const moving_options *options, mov
         result = run_frames(r, source);
         summarise(r, out);
     }
+    if (result == RLF_OK) {
+        result = run_covers(r, source);
+        out->found_again = 100.0 * (double)r->found_again / (double)options->covers;
+    }
+    result = result == RLF_END ? RLF_OK : result;
     fuser_close(&r->fuser);
     trajectory_free(&r->path);
     rlf_pool_destroy(&pool);

@@ -4,24 +4,27 @@
 
 #include "relief/source.h"
 
-/* What happens to the pictures. */
 typedef struct moving_options {
-    int64_t frames;  /* at most; 0 = all */
-    bool is_covered; /* the lens is covered for a second, again and again */
+    int64_t frames; /* at most; 0 = all */
+    int64_t covers; /* after them: so often the lens is covered for a second */
 } moving_options;
 
 /* Of one clip. NAN = there is none. */
 typedef struct moving_figures {
-    double ate_mm;     /* absolute trajectory error, RMSE after the best rigid motion */
-    double drift_mm;   /* a frame's motion against the true one, median */
-    double drift_deg;  /* likewise, its turn */
-    double lost_share; /* percent of the frames */
-    double wrong_good; /* percent of the frames said to be good that are more than 5 cm off */
+    double ate_mm;      /* absolute trajectory error, RMSE after the best rigid motion */
+    double still_mm;    /* that of a camera that is taken to stand still */
+    double drift_mm;    /* a frame's motion against the true one, median */
+    double drift_deg;   /* likewise, its turn */
+    double lost_share;  /* percent of the frames */
+    double wrong_good;  /* percent of the frames said to be good that are more than 5 cm off */
+    double found_again; /* percent of the covers: good and within 5 cm of where that frame was
+                           found at first, 10 frames later */
     double track_ms, predict_ms, integrate_ms; /* medians */
-    int64_t covers, found_again; /* lens covered; good and within 2 cm 10 frames later */
 } moving_figures;
 
-/* Runs the source from where it stands to its end, one thread. */
+/* Runs the source, which can seek, from where it stands to its end, one thread. */
 rlf_result moving_measure(rlf_source *source, const moving_options *options, moving_figures *out);
+/* Opens `text` and measures it. Says on stderr what came out. */
+rlf_result moving_measure_clip(const char *name, const char *text, moving_figures *out);
 
 #endif

@@ -1,18 +1,22 @@
 /* The camera's pose of each frame, tracked against the map that the frames before it made. */
-#ifndef RELIEF_APP_FUSE_CAMERA_POSE_H
-#define RELIEF_APP_FUSE_CAMERA_POSE_H
+#ifndef RELIEF_PIPELINE_CAMERA_POSE_H
+#define RELIEF_PIPELINE_CAMERA_POSE_H
 
 #include "relief/map.h"
 #include "relief/track.h"
 
 typedef struct camera_pose {
     rlf_tracker *tracker;
-    rlf_camera camera;     /* that is predicted for: half the depth camera's size */
+    rlf_camera camera;     /* that is predicted for: a quarter of the depth camera's size */
     rlf_depth_noise noise; /* of the depth camera */
     uint8_t *is_static;    /* 0 = in front of the room that is known; a pixel each */
     rlf_track_result last; /* of the last frame */
     bool has_first;
-    int64_t lost_count;          /* frames */
+    bool may_fuse;       /* the last pose is trusted: good, and for a while after a lost track */
+    int32_t proven;      /* good frames since the track was lost, at most PROOF_FRAMES */
+    int32_t since_fence; /* good frames */
+    int64_t time_ns;     /* of the last frame */
+    int64_t lost_count;  /* frames */
     double predict_ms, align_ms; /* of the last frame */
 } camera_pose;
 

@@ -1,9 +1,14 @@
 /* Predict, align, accept; after a lost track, poses that looked alike. */
-#include "fuse/camera_pose.h"
+#include "pipeline/camera_pose.h"
 
 #include <string.h>
 
-#define STARTS 4            /* keyframes that are tried after a lost track, one a frame each */
+#define STARTS 6            /* keyframes that are tried after a lost track */
+#define ROUNDS 2            /* of prediction and alignment for each */
+#define SURE_OVERLAP 0.5    /* after a lost track so much must lie on the room, ... */
+#define PROOF_FRAMES 5      /* ... for so many frames before anything is fused again */
+#define FENCE_FRAMES 10     /* good frames in a row between two fences of the map */
+#define GAP_NS 200000000    /* after a longer gap nobody knows where the camera is */
 #define IN_FRONT_M 0.05     /* what is nearer than the room by more than this moves, */
 #define IN_FRONT_SIGMAS 6.0 /* and by more than this */
 
@@ -16,7 +21,7 @@ rlf_result camera_pose_open(camera_pose *c, const rlf_rig *rig, rlf_pool *pool)
     rlf_camera camera = rig->depth;
     camera.distortion_model = RLF_DISTORTION_NONE;
     memset(camera.distortion, 0, sizeof(camera.distortion));
-    c->camera = rlf_camera_decimate(&camera, 2);
+    c->camera = rlf_camera_decimate(&camera, 4);
     c->noise = rig->noise;
     c->is_static = rlf_alloc((size_t)rig->depth.width * (size_t)rig->depth.height);
     return c->is_static != NULL ? rlf_tracker_create(&def, &c->tracker) : RLF_ERROR_MEMORY;
@@ -50,17 +55,55 @@ static rlf_result try_start(camera_pose *c, rlf_map *map, const rlf_track_view *
     return result;
 }
 
-/* The keyframes that look alike, the likeliest first, until one fits. */
+/* How well a pose fits. What lies on a wrong place of the room is less, and lies worse. */
+static double worth(const rlf_track_result *r)
+{
+    return r->health == RLF_TRACK_LOST ? 0.0 : r->overlap / (1.0 + r->rms_sigma);
+}
+
+/* From where the camera was, and from keyframes that look alike: the best of what fits. */
 static rlf_result find_again(camera_pose *c, rlf_map *map, const rlf_track_view *view,
                              rlf_prediction *prediction)
 {
     rlf_pose starts[STARTS];
     const int32_t count = rlf_tracker_recall(c->tracker, view, starts, STARTS);
+    rlf_track_result best = c->last;
     rlf_result result = RLF_OK;
-    for (int32_t i = 0; i < count && result == RLF_OK && c->last.health == RLF_TRACK_LOST; i++) {
-        result = try_start(c, map, view, &starts[i], prediction, &c->last);
+    for (int32_t i = 0; i < count && result == RLF_OK; i++) {
+        rlf_track_result tried = {.T_world_camera = starts[i], .health = RLF_TRACK_GOOD};
+        for (int k = 0; k < ROUNDS && result == RLF_OK && tried.health != RLF_TRACK_LOST; k++) {
+            const rlf_pose start = tried.T_world_camera;
+            result = try_start(c, map, view, &start, prediction, &tried);
+        }
+        best = worth(&tried) > worth(&best) ? tried : best;
     }
-    return result;
+    if (best.overlap < SURE_OVERLAP) {
+        best = (rlf_track_result){.T_world_camera = c->last.T_world_camera,
+                                  .weak_way = c->last.weak_way};
+    }
+    c->last = best;
+    return result == RLF_OK && best.health != RLF_TRACK_LOST
+               ? rlf_map_predict(map, &c->camera, &best.T_world_camera, prediction)
+               : result;
+}
+
+/* What was fused just before the track was lost may be wrong: it is taken back. After that poses
+ * are proven before anything is fused. */
+static void guard_map(camera_pose *c, rlf_map *map)
+{
+    const bool is_good = c->last.health == RLF_TRACK_GOOD;
+    if (c->last.health == RLF_TRACK_LOST) {
+        if (c->proven >= PROOF_FRAMES) {
+            (void)rlf_map_take_back(map);
+        }
+        c->proven = 0;
+    } else if (is_good && c->proven < PROOF_FRAMES) {
+        c->proven++;
+    } else if (is_good && ++c->since_fence >= FENCE_FRAMES) {
+        rlf_map_fence(map);
+        c->since_fence = 0;
+    }
+    c->may_fuse = is_good && c->proven >= PROOF_FRAMES;
 }
 
 /* Pixels in front of the room that is known are not static. */
@@ -94,24 +137,30 @@ rlf_result camera_pose_find(camera_pose *c, rlf_map *map, const rlf_surface *sur
     c->predict_ms = c->align_ms = 0.0;
     const rlf_track_view view = {.depth = surface->depth, .grey = grey};
     if (!c->has_first) {
-        c->has_first = true;
+        c->has_first = c->may_fuse = true;
+        c->proven = PROOF_FRAMES;
         c->last = (rlf_track_result){.T_world_camera = rlf_tracker_guess(c->tracker, time_ns),
                                      .health = RLF_TRACK_GOOD,
                                      .overlap = 1.0};
+        c->time_ns = time_ns;
         memset(c->is_static, 1, (size_t)surface->width * (size_t)surface->height);
         rlf_tracker_accept(c->tracker, &view, time_ns, &c->last);
         return RLF_OK;
     }
     const rlf_pose start = rlf_tracker_guess(c->tracker, time_ns);
+    const bool was_lost =
+        c->last.health == RLF_TRACK_LOST || time_ns - c->time_ns > GAP_NS || time_ns <= c->time_ns;
     rlf_prediction prediction;
     rlf_result result = try_start(c, map, &view, &start, &prediction, &c->last);
-    if (result == RLF_OK && c->last.health == RLF_TRACK_LOST) {
+    c->time_ns = time_ns;
+    if (result == RLF_OK && (was_lost || c->last.health == RLF_TRACK_LOST)) {
         result = find_again(c, map, &view, &prediction);
     }
     if (result != RLF_OK) {
         return result;
     }
     c->lost_count += c->last.health == RLF_TRACK_LOST;
+    guard_map(c, map);
     rlf_tracker_accept(c->tracker, &view, time_ns, &c->last);
     mark_static(c, surface, &prediction, &c->noise);
     return RLF_OK;
