@@ -72,8 +72,7 @@ typedef struct phys_body {
     uint8_t side[2]; /* field_state: which side of foreground and background it belongs to */
 
     struct phys_grab *grab; /* the hand that holds it, or NULL; see grab/grab.h */
-    int32_t grip_frames;    /* in a row in which it was gripped and not yet held ... */
-    double grip_width;      /* ... and how far the fingers were off it in the last one, metres */
+    int32_t grip_frames;    /* in a row in which it was gripped and not yet held */
 
     char name[RLF_NAME_MAX];
     float color[3];

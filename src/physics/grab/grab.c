@@ -4,7 +4,7 @@
 /* Frames in a row in which the sides grip before the body is held: one may be noise. */
 #define GRIP_FRAMES 2
 /* Frames in a row in which a side is seen to be gone before the body is let go. */
-#define OPEN_FRAMES 2
+#define OPEN_FRAMES 4
 /* The hand may be lost for so many frames: noise, or something passes before it. */
 #define LOST_FRAMES 3
 /* Of the joint, rad/s: errors fade within two frames, without a swing. */
@@ -14,12 +14,10 @@
 #define PAST_SPEED 0.3
 /* A body that passes the sides faster is not held by them yet, m/s. */
 #define CATCH_SPEED 0.6
-/* Sides that are so much farther apart than they were have let go, metres. */
-#define OPEN_M GRID_NOISE_M
-/* Sides that come nearer are believed so far in one frame: a share. */
-#define TRUST 0.25
-/* Fingers that come nearer by more in a frame are not closed yet, metres. */
-#define CLOSING_M (0.5 * GRID_MARGIN)
+/* Of the pixels that touched, fewer than this share still do: the hand is open. */
+#define OPEN_SHARE 0.35
+/* Of what is seen, so much is believed in one frame: a share. */
+#define SETTLE 0.05
 #define KEEP_PIXELS 2.0
 #define HAND_POINTS_MIN 12
 
@@ -44,7 +42,8 @@ static phys_grab *free_grab(rlf_world *world)
     return NULL;
 }
 
-static void begin(rlf_world *world, const grid_query *query, phys_body *body, const grab_grip *grip)
+static void begin(rlf_world *world, const grid_query *query, phys_body *body, const grab_grip *grip,
+                  double weight)
 {
     phys_grab *grab = free_grab(world);
     if (grab == NULL) {
@@ -58,7 +57,7 @@ static void begin(rlf_world *world, const grid_query *query, phys_body *body, co
     grab->axis = grip->axis;
     grab->ends[0] = grip->sides[0].point;
     grab->ends[1] = grip->sides[1].point;
-    grab->width = grip->sides[0].off + grip->sides[1].off;
+    grab->weight = weight;
     grab_learn_hand(query, body, grab);
     grab->is_used = grab->point_count >= HAND_POINTS_MIN;
     if (grab->is_used) {
@@ -79,33 +78,40 @@ static void seek(rlf_world *world, const grid_query *query, phys_body *body)
         rlf_vec3 v = rlf_rotate(rlf_quat_conjugate(body->q), body->v);
         is_gripped = grab_find_grip(&touches, &grip) && moves_as_one(&grip, v);
     }
-    double width = is_gripped ? grip.sides[0].off + grip.sides[1].off : 0.0;
-    bool is_closed = is_gripped && width > body->grip_width - CLOSING_M;
-    body->grip_frames = is_gripped ? body->grip_frames + 1 : 0;
-    body->grip_width = width;
-    if (body->grip_frames >= GRIP_FRAMES && is_closed) {
+    body->grip_frames = is_gripped ? body->grip_frames + 1 : body->grip_frames / 2;
+    if (is_gripped && body->grip_frames >= GRIP_FRAMES && !phys_body_is_fixed(body)) {
         body->grip_frames = 0;
-        begin(world, query, body, &grip);
+        begin(world, query, body, &grip, touches.weight + touches.deep);
     }
 }
 
-/* Whether the hand is seen to be open: its sides are farther apart than they were, or one that does
- * not touch any more is not hidden. A body that is off the hand's middle is nearer to one side and
- * farther from the other. */
-static bool is_open(const grid_query *query, phys_grab *grab, const grab_touches *touches,
-                    double tolerance)
+/* Whether the hand is seen to be open: much less of it touches than when it closed, or nothing on
+ * one side, and the camera sees beyond where that was. */
+static bool is_open(const grid_query *query, phys_grab *grab, const grab_touches *touches)
 {
-    double width = 0.0;
+    double weight = touches->weight + touches->deep;
+    double tolerance = GRID_NOISE_M + grab_tolerance(query, grab->T_world_hand.p);
+    bool has_left = weight < OPEN_SHARE * grab->weight;
     for (int32_t side = 0; side < 2; side++) {
         grab_patch patch = grab_side(touches, grab->axis, side == 0 ? -1.0 : 1.0);
-        if (patch.weight < KEEP_PIXELS) {
-            return grab_is_seen_through(query, grab, grab->ends[side], tolerance);
+        if (patch.weight >= KEEP_PIXELS) {
+            grab->ends[side] = rlf_add(grab->seat, patch.point);
+        } else if (grab_is_seen_through(query, grab, grab->ends[side], tolerance)) {
+            has_left = true;
         }
-        grab->ends[side] = patch.point;
-        width += patch.off;
     }
-    grab->width += TRUST * rlf_min(width - grab->width, 0.0); /* a flying pixel is no finger */
-    return width > grab->width + OPEN_M;
+    grab->weight += has_left ? 0.0 : SETTLE * (weight - grab->weight);
+    return has_left;
+}
+
+/* The body settles in the middle between its two sides, where both touch. */
+static void settle(phys_grab *grab, const grab_touches *touches)
+{
+    grab_patch a = grab_side(touches, grab->axis, -1.0);
+    grab_patch b = grab_side(touches, grab->axis, 1.0);
+    if (rlf_min(a.weight, b.weight) >= KEEP_PIXELS) {
+        grab->seat = rlf_mad(grab->seat, grab->axis, SETTLE * 0.5 * (b.off - a.off));
+    }
 }
 
 static void note_past(phys_grab *grab)
@@ -128,16 +134,18 @@ static bool hold(const grid_query *query, phys_body *body, double dt)
         return ++grab->lost_frames < LOST_FRAMES;
     }
     grab->lost_frames = 0;
-    double tolerance = OPEN_M + grab_tolerance(query, grab->T_world_hand.p);
+    rlf_pose pose = grab->T_world_hand;
     grab_touches touches;
-    grab_look(query, body, &grab->T_world_hand, 0.0, tolerance, &touches);
-    bool has_opened = is_open(query, grab, &touches, tolerance);
+    pose.p = rlf_transform(&grab->T_world_hand, grab->seat);
+    grab_look(query, body, &pose, 0.0, grab_tolerance(query, pose.p), &touches);
+    bool has_opened = is_open(query, grab, &touches);
+    settle(grab, &touches);
     grab->open_frames = has_opened ? grab->open_frames + 1 : 0;
     if (!has_opened) {
         note_past(grab);
     }
     /* What does not come along is held by something stronger. */
-    double left = rlf_length(rlf_sub(grab->T_world_hand.p, body->x)) - rlf_length(grab->v) * dt;
+    double left = rlf_length(rlf_sub(pose.p, body->x)) - rlf_length(grab->v) * dt;
     return grab->open_frames < OPEN_FRAMES && left < body->shape.radius;
 }
 
@@ -149,7 +157,7 @@ void phys_grab_update(rlf_world *world, const grid_query *query, double dt)
     }
     for (int32_t i = 0; i < world->body_top; i++) {
         phys_body *body = &world->bodies[i];
-        if (!body->is_alive || phys_body_is_fixed(body)) {
+        if (!body->is_alive || (phys_body_is_fixed(body) && !body->is_held)) {
             continue;
         }
         if (body->grab == NULL) {
@@ -209,7 +217,7 @@ void phys_grab_pull(const rlf_world *world, phys_body *body)
 {
     const phys_grab *grab = body->grab;
     double tau = rlf_clamp(world->grid_tau, -1.0, 0.1);
-    rlf_vec3 place = rlf_mad(grab->T_world_hand.p, grab->v, tau);
+    rlf_vec3 place = rlf_mad(rlf_transform(&grab->T_world_hand, grab->seat), grab->v, tau);
     rlf_quat turn = rlf_quat_from_rotation_vector(rlf_scale(grab->w, tau));
     turn = rlf_quat_mul(rlf_quat_mul(turn, grab->T_world_hand.q), rlf_quat_conjugate(body->q));
     double sign = turn.w < 0.0 ? -2.0 : 2.0;

@@ -28,12 +28,13 @@ struct phys_grab {
     int32_t body;
     rlf_pose T_world_hand; /* when the newest grid was seen */
     rlf_vec3 v, w;         /* of the hand then, world */
-    rlf_vec3 ends[2];      /* where the two sides touch, hand frame */
+    rlf_vec3 ends[2];      /* where the two sides touched last, hand frame */
     rlf_vec3 axis;         /* unit, from the first to the second, hand frame */
     rlf_vec3 past_v[GRAB_PAST], past_w[GRAB_PAST]; /* the newest first */
     int32_t past_count;
-    double width; /* the least that its sides have been off the body, both together, metres */
-    int32_t open_frames; /* in a row in which a side was seen to be gone */
+    rlf_vec3 seat;       /* where the body sits between the sides, hand frame */
+    double weight;       /* pixels that touch while it is closed, smoothed */
+    int32_t open_frames; /* in a row in which little of the hand touched */
     int32_t lost_frames; /* ... in which the hand was not found */
     int32_t point_count, rim_count;
     rlf_vec3 points[GRAB_POINTS_MAX]; /* hand frame */

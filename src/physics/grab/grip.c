@@ -5,8 +5,11 @@
 
 /* Cosine of the friction cone of skin, whose coefficient is 0.8. */
 #define CONE_COS 0.78
+/* Cosine between the normals of two sides that hold a body between them: with what is hidden
+ * behind it they leave it no way out. */
+#define OPPOSED_COS (-0.35)
 /* A side is touched by so many pixels, or it is noise. */
-#define PIXELS_MIN 4.0
+#define PIXELS_MIN 6.0
 /* More pixels deep in the body than this share of those that touch it: it is passed through. */
 #define DEEP_SHARE 0.5
 
@@ -40,21 +43,19 @@ grab_patch grab_side(const grab_touches *touches, rlf_vec3 axis, double sign)
     return mean_of(&sum);
 }
 
-/* The grip along the line between two patches. */
+/* The grip of two patches that face each other. */
 static bool try_pair(const grab_touches *touches, int32_t i, int32_t k, grab_grip *out)
 {
-    grab_patch a = mean_of(&touches->patches[i]), b = mean_of(&touches->patches[k]);
-    rlf_vec3 line = rlf_sub(b.point, a.point);
-    if (!is_in_cone(rlf_neg(a.normal), line) || !is_in_cone(b.normal, line)) {
+    rlf_vec3 a = rlf_normalize(touches->patches[i].normal);
+    rlf_vec3 b = rlf_normalize(touches->patches[k].normal);
+    if (rlf_dot(a, b) > OPPOSED_COS) {
         return false;
     }
-    rlf_vec3 axis = rlf_normalize(line);
-    out->sides[0] = grab_side(touches, axis, -1.0);
-    out->sides[1] = grab_side(touches, axis, 1.0);
-    line = rlf_sub(out->sides[1].point, out->sides[0].point);
-    out->axis = rlf_normalize(line);
-    return is_in_cone(rlf_neg(out->sides[0].normal), line) &&
-           is_in_cone(out->sides[1].normal, line);
+    out->axis = rlf_normalize(rlf_sub(b, a));
+    out->sides[0] = grab_side(touches, out->axis, -1.0);
+    out->sides[1] = grab_side(touches, out->axis, 1.0);
+    rlf_vec3 line = rlf_sub(out->sides[1].point, out->sides[0].point);
+    return is_in_cone(out->axis, line);
 }
 
 bool grab_find_grip(const grab_touches *touches, grab_grip *out)
