@@ -8,6 +8,7 @@ rm -rf "$work"
 mkdir -p "$work"
 cd "$work" || exit 1
 failures=0
+small='synthetic:empty?color=96x54' # small pictures are made soon
 
 fail()
 {
@@ -79,16 +80,16 @@ expect_done scenes
 grep -q "^rain  *synthetic:room  *all shapes rain" stdout.txt || fail "scenes: $(cat stdout.txt)"
 grep -q "^thesis/arm  *synthetic:room  *a cube" stdout.txt || fail "scenes: $(cat stdout.txt)"
 [ "$(awk '{ print (NF >= 4) }' stdout.txt | sort -u)" = 1 ] || fail "scenes: one line tells nothing: $(cat stdout.txt)"
-expect_done run synthetic:empty --scene stack --headless --frames 1 --quiet --log by_name
+expect_done run "$small" --scene stack --headless --frames 1 --quiet --log by_name
 grep -c . by_name/bodies.csv | grep -qx 11 || fail "--scene stack: $(cat by_name/bodies.csv)"
-expect_done run synthetic:empty --scene thesis/arm --headless --frames 1 --quiet
+expect_done run "$small" --scene thesis/arm --headless --frames 1 --quiet
 echo '{"about":"mine","source":"synthetic:empty","bodies":[]}' >stack
-expect_done run synthetic:empty --scene stack --headless --frames 1 --quiet --log by_file
+expect_done run "$small" --scene stack --headless --frames 1 --quiet --log by_file
 grep -c . by_file/bodies.csv | grep -qx 1 || fail "--scene stack, a file: $(cat by_file/bodies.csv)"
 rm stack
 
 # What is not kept is said to be, once, and not to those who want quiet.
-expect_done run synthetic:empty --headless --frames 1
+expect_done run "$small" --headless --frames 1
 [ "$(wc -l <stderr.txt)" -eq 1 ] && grep -q "nothing will be kept: add --video" stderr.txt ||
     fail "headless without output: $(cat stderr.txt)"
 grep -q "^1 frame, renderer soft" stdout.txt || fail "one frame: $(cat stdout.txt)"
@@ -96,10 +97,10 @@ grep -q "^light: .* the default$" stdout.txt || fail "no light was given: $(cat 
 grep -q -- "-0\.0*[, )]" stdout.txt && fail "minus nothing: $(cat stdout.txt)"
 for quiet in --quiet --hash "--log kept" "--pictures kept"; do
     # shellcheck disable=SC2086 # words
-    expect_done run synthetic:empty --headless --frames 1 $quiet
+    expect_done run "$small" --headless --frames 1 $quiet
     [ -s stderr.txt ] && fail "headless with $quiet: $(cat stderr.txt)"
 done
-expect_done run synthetic:empty --headless --frames 1 --light 0,1,0 --hash
+expect_done run "$small" --headless --frames 1 --light 0,1,0 --hash
 grep -q "^light: .* given$" stdout.txt || fail "a light was given: $(cat stdout.txt)"
 
 # A legend is in the picture that asked for one, and in no other.
@@ -237,11 +238,11 @@ awk 'BEGIN {
         printf "%s{\"size\":[0.02,0.02,0.02],\"position\":[%.2f,%.2f,2]}", i ? "," : "", i % 50 * 0.04 - 1, int(i / 50) * 0.04 - 1
     printf "]}"
 }' >many.json
-expect_done run synthetic:empty --scene many.json --headless --frames 2 --quiet --log log_many
+expect_done run "$small" --scene many.json --headless --frames 2 --quiet --log log_many
 [ "$(wc -l <log_many/bodies.csv)" -eq 3001 ] || fail "1500 bodies: $(wc -l <log_many/bodies.csv) rows"
 echo '{"spawn":[{"body":{"name":"n","size":[0.02,0.02,0.02],"position":[0,-0.4,2]},"pattern":"grid",
     "count":[50,30,1],"spacing":[0.04,0.04,0.04]}]}' >spawn.json
-expect_done run synthetic:empty --scene spawn.json --headless --frames 2 --quiet --log log_spawn
+expect_done run "$small" --scene spawn.json --headless --frames 2 --quiet --log log_spawn
 [ "$(grep -c '^[01],[^,]*,n_[0-9]*,' log_spawn/bodies.csv)" -eq 3000 ] || fail "spawn: $(tail -n 1 log_spawn/bodies.csv)"
 
 # Without OpenGL, or a build without it, the soft renderer draws the same pictures and one line says so.
@@ -268,9 +269,9 @@ grep -q "2632" stdout.txt || fail "measure: no 56x47 centre"
 expect_error 2 "use 6 or more" measure synthetic:thesis --frames 5
 expect_error 2 "goes without" measure synthetic:empty --up --noise
 expect_error 1 "has no frames" measure "synthetic:room?color=96x54&frames=0" --up
-expect_done measure synthetic:empty --up --frames 2
+expect_done measure "$small" --up --frames 2
 grep -q "looks down by 0.0 degrees" stdout.txt || fail "measure --up: $(cat stdout.txt)"
-expect_done measure synthetic:empty --noise --frames 2 --json noise.json
+expect_done measure "$small" --noise --frames 2 --json noise.json
 grep -q '"temporal_mm"' noise.json || fail "measure --noise: noise.json"
 
 # Accuracy.

@@ -110,7 +110,7 @@ static void workers_do_not_matter(void **state)
 static void thousands_in_one_place(void **state)
 {
     (void)state;
-    const int count = heavy(10000, 200);
+    const int count = heavy(5000, 200);
     rlf_world *world = make_world(count, NULL);
     rlf_body_def def = rlf_body_def_default();
     for (int i = 0; i < count; i++) {
