@@ -66,8 +66,13 @@ typedef struct rlf_reconstruct_def {
     double foreground_min_m;       /* ... and above this, metres */
     double absorb_after_s; /* ADAPTIVE: still foreground becomes background; default 20, 0 never */
 
-    bool enable_flying_removal; /* live: true */
-    bool enable_fill;           /* live: true: fill small holes (reason FILLED) */
+    /* live: true: takes off pixels that mix the depths of both sides of an edge. They lie on no
+     * surface; their reason is FLYING. */
+    bool enable_flying_removal;
+    /* live: true: fills small holes (reason FILLED), each from the side of the edge that the known
+     * pixels about it vote for. What lies in the sensor's shadow shows the farther side. Without
+     * it, such pixels have no depth. */
+    bool enable_fill;
     bool enable_smoothing; /* live: true: averages depth within planes, as far as the sensor's noise
                               explains what it takes away; never across an edge or a crease */
     bool enable_wide_planes; /* live: true, needs smoothing: planes up to 40 pixels wide where the
