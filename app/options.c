@@ -176,3 +176,16 @@ int options_parse(const char *command, int argc, char **argv, const option_def *
     }
     return -1;
 }
+
+bool options_take_orbit(const char *text, void *out)
+{
+    rlf_orbit *orbit = out;
+    double yaw_deg, pitch_deg;
+    double zoom = 1.0;
+    char rest;
+    int count = sscanf(text, "%lf,%lf,%lf%c", &yaw_deg, &pitch_deg, &zoom, &rest);
+    bool is_good = (count == 2 || count == 3) && yaw_deg >= -360.0 && yaw_deg <= 360.0 &&
+                   pitch_deg >= -85.0 && pitch_deg <= 85.0 && zoom >= 0.1 && zoom <= 10.0;
+    *orbit = (rlf_orbit){yaw_deg * RLF_PI / 180.0, pitch_deg * RLF_PI / 180.0, zoom};
+    return is_good && (count == 3 || strchr(strchr(text, ',') + 1, ',') == NULL);
+}

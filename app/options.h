@@ -36,4 +36,8 @@ typedef struct option_def {
 int options_parse(const char *command, int argc, char **argv, const option_def *options,
                   void (*print_help)(void));
 
+/* Reads an rlf_orbit: degrees, and the distance. `choices` of an option that does. */
+#define OPTIONS_ORBIT "use YAW,PITCH or YAW,PITCH,ZOOM: within 360, 85 degrees, 0.1 to 10"
+bool options_take_orbit(const char *text, void *out);
+
 #endif

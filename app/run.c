@@ -14,6 +14,20 @@
 #include <stdio.h>
 #include <string.h>
 
+static void print_camera_help(void)
+{
+    printf("  --camera NAME         auto (default): fixed until the view as a whole moves, then\n"
+           "                        moving; moving: tracked against a map from the first frame;\n"
+           "                        fixed: never tracked\n"
+           "  --poses NAME          of a moving camera: tracked (default), or source: its own\n"
+           "  --map FILE.map        a known room, as relief fuse --save writes it: the camera is\n"
+           "                        looked for in it\n"
+           "  --log DIR             frames.csv, bodies.csv, contacts.csv, hands.csv, and\n"
+           "                        trajectory.txt when the camera moves\n"
+           "  --hands               look for hands, for hands.csv\n"
+           "  --grab                real fingers can hold bodies (experimental)\n");
+}
+
 static void print_help(void)
 {
     printf(
@@ -43,20 +57,19 @@ static void print_help(void)
         "  --picture-every N     default 30\n"
         "  --picture-at LIST     instead: these frames alone, e.g. 60,92\n"
         "  --picture-shrink N    average N x N pixels of a picture into one\n"
-        "  --log DIR             frames.csv, bodies.csv, contacts.csv, hands.csv\n"
-        "  --hands               look for hands, for hands.csv\n"
-        "  --grab                real fingers can hold bodies (experimental)\n"
         "  --record FILE.mcap    what the source gives, for playing it again (see `relief\n"
         "                        record`, whose --codec, --jpeg-quality, --lossless and\n"
         "                        --compression work here, too)\n"
-        "  --record-bodies       the bodies' poses, too, as frames of /tf\n"
+        "  --record-bodies       the bodies' poses, too, as frames of /tf\n");
+    print_camera_help();
+    printf(
         "  --view NAME[,NAME...] camera (default), depth, normals, mesh, regions, foreground,\n"
         "                        background, velocity, thickness, reason, points, contacts,\n"
-        "                        known, hands;\n"
+        "                        known, hands, map;\n"
         "                        up to four of them side by side\n"
         "  --legend              what the colours of every view mean, with units, in the picture\n"
-        "  --orbit YAW,PITCH[,ZOOM]   where points are seen from: degrees to the right and\n"
-        "                        up, and the distance, 1 being the camera's\n"
+        "  --orbit YAW,PITCH[,ZOOM]   where points and map are seen from: degrees to the\n"
+        "                        right and up, and the distance, 1 being the camera's\n"
         "  --gravity X,Y,Z       m/s^2 to the right, down and forward, in place of the\n"
         "                        scene's; or floor: down is where the first frame's floor,\n"
         "                        tables and walls say; clips' default if the scene says none\n"
@@ -77,7 +90,8 @@ static void print_help(void)
         "  relief run synthetic:room\n"
         "  relief run synthetic:room --headless --frames 200 --video out.mp4 --log log\n"
         "  relief run synthetic:thesis --profile thesis --headless --pictures pictures\n"
-        "  relief run path/to/clip --headless --view normals --video - | mpv -\n");
+        "  relief run path/to/clip --headless --view normals --video - | mpv -\n"
+        "  relief run synthetic:room?path=orbit --headless --log log --pictures pictures\n");
 }
 
 static bool take_renderer(const char *text, void *out)
@@ -112,19 +126,6 @@ static bool take_views(const char *text, void *out)
     return false;
 }
 
-static bool take_orbit(const char *text, void *out)
-{
-    rlf_orbit *orbit = out;
-    double yaw_deg, pitch_deg;
-    double zoom = 1.0;
-    char rest;
-    int count = sscanf(text, "%lf,%lf,%lf%c", &yaw_deg, &pitch_deg, &zoom, &rest);
-    bool is_good = (count == 2 || count == 3) && yaw_deg >= -360.0 && yaw_deg <= 360.0 &&
-                   pitch_deg >= -85.0 && pitch_deg <= 85.0 && zoom >= 0.1 && zoom <= 10.0;
-    *orbit = (rlf_orbit){yaw_deg * RLF_PI / 180.0, pitch_deg * RLF_PI / 180.0, zoom};
-    return is_good && (count == 3 || strchr(strchr(text, ',') + 1, ',') == NULL);
-}
-
 static bool take_light(const char *text, void *out)
 {
     session_options *s = out;
@@ -147,6 +148,26 @@ static bool take_gravity(const char *text, void *out)
     *g = rlf_world_def_default().gravity;
     return s->finds_gravity || (sscanf(text, "%lf,%lf,%lf%c", &g->x, &g->y, &g->z, &rest) == 3 &&
                                 rlf_vec3_is_finite(*g) && rlf_length(*g) <= 1000.0);
+}
+
+static bool take_camera(const char *text, void *out)
+{
+    static const char *const names[3] = {"fixed", "moving", "auto"};
+    rlf_camera_mode *mode = out;
+    for (int i = 0; i < 3; i++) {
+        if (strcmp(text, names[i]) == 0) {
+            *mode = (rlf_camera_mode)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool take_poses(const char *text, void *out)
+{
+    rlf_pose_origin *poses = out;
+    *poses = strcmp(text, "source") == 0 ? RLF_POSES_SOURCE : RLF_POSES_TRACKED;
+    return *poses == RLF_POSES_SOURCE || strcmp(text, "tracked") == 0;
 }
 
 static bool take_end(const char *text, void *out)
@@ -236,6 +257,22 @@ static const char *const *view_names(void)
         .high = 64                                                                                 \
     }
 
+/* Rows of the table that say where the camera is. */
+#define CAMERA_OPTIONS(s)                                                                          \
+    {.name = "camera",                                                                             \
+     .kind = OPTION_CHOICE,                                                                        \
+     .out = &(s)->camera,                                                                          \
+     .take = take_camera,                                                                          \
+     .choices = "use fixed, moving or auto"},                                                      \
+        {.name = "poses",                                                                          \
+         .kind = OPTION_CHOICE,                                                                    \
+         .out = &(s)->poses,                                                                       \
+         .take = take_poses,                                                                       \
+         .choices = "use tracked or source"},                                                      \
+    {                                                                                              \
+        .name = "map", .kind = OPTION_TEXT, .out = &(s)->map_path                                  \
+    }
+
 static int read_options(int argc, char **argv, run_options *o)
 {
     session_options *s = &o->session;
@@ -259,6 +296,7 @@ static int read_options(int argc, char **argv, run_options *o)
         PICTURE_OPTIONS(out),
         {.name = "hands", .kind = OPTION_FLAG, .out = &s->enable_hands},
         {.name = "grab", .kind = OPTION_FLAG, .out = &s->enable_grab},
+        CAMERA_OPTIONS(s),
         {.name = "log", .kind = OPTION_TEXT, .out = &out->log_folder},
         {.name = "record", .kind = OPTION_TEXT, .out = &s->record.path},
         {.name = "record-bodies", .kind = OPTION_FLAG, .out = &s->record.keeps_bodies},
@@ -273,8 +311,8 @@ static int read_options(int argc, char **argv, run_options *o)
         {.name = "orbit",
          .kind = OPTION_CHOICE,
          .out = &o->orbit,
-         .take = take_orbit,
-         .choices = "use YAW,PITCH or YAW,PITCH,ZOOM: within 360, 85 degrees, 0.1 to 10"},
+         .take = options_take_orbit,
+         .choices = OPTIONS_ORBIT},
         {.name = "gravity",
          .kind = OPTION_CHOICE,
          .out = s,
@@ -310,6 +348,7 @@ static int parse(int argc, char **argv, run_options *o)
 {
     o->session = session_options_default();
     o->session.use_default_scene = true;
+    o->session.camera = RLF_CAMERA_AUTO;
     o->session.record.is_beside_loop = true;
     o->output.picture_every = 30;
     o->output.picture_shrink = 1;

@@ -125,6 +125,8 @@ rlf_result run_output_add(run_output *out, const rlf_pipeline_output *frame)
     out->frames++;
     out->last_index = frame->frame_index;
     out->moving_frames += frame->surface->camera_moves;
+    out->tracked_frames += frame->track != NULL;
+    out->lost_frames += frame->track != NULL && frame->track->health == RLF_TRACK_LOST;
     out->gravity = frame->snapshot->gravity;
     out->gravity_confidence = frame->gravity_confidence;
     out->light = frame->render.light_direction;
@@ -238,7 +240,11 @@ void run_output_print_summary(const run_output *out, const char *how,
                 command_tidy(out->gravity.z, 2), out->gravity_confidence,
                 is_sure ? "" : ": not sure; if it is wrong, pass --gravity X,Y,Z");
     }
-    if (out->moving_frames > 0) {
+    if (out->tracked_frames > 0) {
+        fprintf(file, "camera:   tracked in %lld %s, lost in %lld\n",
+                (long long)out->tracked_frames, command_frames(out->tracked_frames),
+                (long long)out->lost_frames);
+    } else if (out->moving_frames > 0) {
         fprintf(file, "camera:   moved in %lld %s; put it still (it is not tracked)\n",
                 (long long)out->moving_frames, command_frames(out->moving_frames));
     }
@@ -257,7 +263,7 @@ void run_output_print_summary(const run_output *out, const char *how,
         fprintf(file, "pictures: %s (%lld)\n", o->picture_folder, (long long)out->pictures);
     }
     if (o->log_folder != NULL) {
-        fprintf(file, "logs:     %s/frames.csv, bodies.csv, contacts.csv, hands.csv\n",
-                o->log_folder);
+        fprintf(file, "logs:     %s/frames.csv, bodies.csv, contacts.csv, hands.csv%s\n",
+                o->log_folder, out->tracked_frames > 0 ? ", trajectory.txt" : "");
     }
 }

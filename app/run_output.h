@@ -35,8 +35,9 @@ typedef struct run_output {
     int64_t frames, pictures;
     int64_t last_index; /* of the frames */
     int64_t start_ns, last_frame_ns, last_progress_ns;
-    int64_t moving_frames; /* in which the camera moved */
-    rlf_vec3 gravity;      /* of the last frame */
+    int64_t moving_frames;               /* in which the camera moved and was not tracked */
+    int64_t tracked_frames, lost_frames; /* of a camera that moves */
+    rlf_vec3 gravity;                    /* of the last frame */
     double gravity_confidence;
     rlf_vec3 light; /* of the last picture: where it shines to; 0 = no picture */
     bool is_light_estimated;

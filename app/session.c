@@ -89,6 +89,9 @@ static rlf_result create_pipeline(const session_options *options, session *s)
     settings_warn(&options->settings, &def.reconstruct);
     def.enable_render = options->enable_render;
     def.enable_hands = options->enable_hands;
+    def.camera = options->camera;
+    def.poses = options->poses;
+    def.map = s->map;
     def.world.enable_grab = options->enable_grab;
     if (options->is_occlusion_set) {
         def.compositor.occlusion = options->occlusion;
@@ -105,6 +108,18 @@ static rlf_result create_pipeline(const session_options *options, session *s)
     return rlf_pipeline_create(&def, &s->pipeline);
 }
 
+static rlf_result open_map(const session_options *options, session *s)
+{
+    if (options->map_path == NULL) {
+        return RLF_OK;
+    }
+    rlf_map_def def = rlf_map_def_default();
+    def.rig = rlf_source_get_info(s->source)->rig;
+    def.pool = s->pool;
+    rlf_result result = rlf_map_create(&def, &s->map);
+    return result == RLF_OK ? rlf_map_read_file(s->map, options->map_path) : result;
+}
+
 static rlf_result open_all(const session_options *options, session *s)
 {
     rlf_result result = rlf_pool_create(options->thread_count, &s->pool);
@@ -116,6 +131,9 @@ static rlf_result open_all(const session_options *options, session *s)
     }
     if (result == RLF_OK && (options->record.path != NULL || options->record.is_switched)) {
         result = open_recorder(options, s);
+    }
+    if (result == RLF_OK) {
+        result = open_map(options, s);
     }
     if (result == RLF_OK && options->is_played) {
         result = playback_wrap(&s->source, options->end, &s->playback);
@@ -137,6 +155,7 @@ void session_close(session *s)
 {
     recorder_destroy(&s->recorder, NULL);
     rlf_pipeline_destroy(&s->pipeline);
+    rlf_map_destroy(&s->map);
     rlf_scene_destroy(&s->scene);
     rlf_source_destroy(&s->source);
     rlf_pool_destroy(&s->pool);

@@ -33,12 +33,16 @@ typedef struct session_options {
     playback_end end;
     bool enable_render;
     bool enable_hands, enable_grab;
+    rlf_camera_mode camera; /* default fixed */
+    rlf_pose_origin poses;
+    const char *map_path; /* of a room that is known; NULL = none */
 } session_options;
 
 typedef struct session {
     rlf_pool *pool;
     rlf_source *source;
     rlf_scene scene;
+    rlf_map *map; /* that is known; NULL = none */
     rlf_pipeline *pipeline;
     rlf_reconstruct_def reconstruct; /* that the pipeline was made with */
     playback *playback;              /* the source's; NULL = it is not played */

@@ -3,6 +3,7 @@
 #include "command.h"
 #include "commands.h"
 #include "fuse/fuser.h"
+#include "fuse/picture.h"
 #include "fuse/trajectory.h"
 #include "options.h"
 
@@ -14,7 +15,8 @@
 #define PROGRESS_INTERVAL_NS 500000000
 
 typedef struct fuse_options {
-    const char *source, *out_path, *map_path, *trajectory_path;
+    const char *source, *out_path, *map_path, *trajectory_path, *picture_path;
+    rlf_orbit orbit;
     int64_t frame_limit;
     int32_t voxel_mm, memory_mb, thread_count, min_weight;
     bool is_quiet, use_source_poses;
@@ -29,6 +31,7 @@ typedef struct fuse_run {
     rlf_pose T_first_source; /* the first camera's frame is the world */
     int64_t seen, fused, without_pose;
     trajectory trajectory;
+    room_view room;
     double predict_ms, align_ms, integrate_ms;
     int64_t last_progress_ns;
 } fuse_run;
@@ -42,6 +45,8 @@ static void print_help(void)
         "  --out FILE        the mesh: .ply, .obj or .glb\n"
         "  --save FILE       the map itself, to start in a known room\n"
         "  --trajectory FILE the camera's way: time tx ty tz qx qy qz qw, as TUM's tools read it\n"
+        "  --picture FILE    the room and the camera's way in it, as a .png\n"
+        "  --orbit YAW,PITCH[,ZOOM]   where the picture is seen from: degrees, and distance\n"
         "  --poses NAME      tracked (default), or source: the source's own, as groundtruth.txt\n"
         "  --frames N        at most so many frames\n"
         "  --voxel MM        edge of a voxel, 2..50 mm, default 6\n"
@@ -68,6 +73,12 @@ static int parse(int argc, char **argv, fuse_options *o)
         {.name = "out", .kind = OPTION_TEXT, .out = &o->out_path},
         {.name = "save", .kind = OPTION_TEXT, .out = &o->map_path},
         {.name = "trajectory", .kind = OPTION_TEXT, .out = &o->trajectory_path},
+        {.name = "picture", .kind = OPTION_TEXT, .out = &o->picture_path},
+        {.name = "orbit",
+         .kind = OPTION_CHOICE,
+         .out = &o->orbit,
+         .take = options_take_orbit,
+         .choices = OPTIONS_ORBIT},
         {.name = "poses",
          .kind = OPTION_CHOICE,
          .out = o,
@@ -93,8 +104,10 @@ static int parse(int argc, char **argv, fuse_options *o)
     if (argc - optind != 1) {
         return command_usage("fuse", "needs one SOURCE");
     }
-    if (o->out_path == NULL && o->map_path == NULL && o->trajectory_path == NULL) {
-        return command_usage("fuse", "needs --out FILE, --save FILE or --trajectory FILE");
+    if (o->out_path == NULL && o->map_path == NULL && o->trajectory_path == NULL &&
+        o->picture_path == NULL) {
+        return command_usage("fuse",
+                             "needs --out, --save, --trajectory or --picture, each with a FILE");
     }
     if (o->out_path != NULL && rlf_map_mesh_check_name(o->out_path) != RLF_OK) {
         return command_usage("fuse", "--out '%s': a mesh's name ends with .ply, .obj or .glb",
@@ -104,15 +117,15 @@ static int parse(int argc, char **argv, fuse_options *o)
     return -1;
 }
 
-/* Both files can be written: told before the work, not after it. */
+/* All files can be written: told before the work, not after it. */
 static rlf_result check_files(const fuse_options *o)
 {
-    rlf_result result = o->out_path != NULL ? rlf_file_check(o->out_path) : RLF_OK;
-    if (result == RLF_OK && o->map_path != NULL) {
-        result = rlf_file_check(o->map_path);
+    const char *const paths[4] = {o->out_path, o->map_path, o->trajectory_path, o->picture_path};
+    rlf_result result = RLF_OK;
+    for (int i = 0; result == RLF_OK && i < 4; i++) {
+        result = paths[i] != NULL ? rlf_file_check(paths[i]) : RLF_OK;
     }
-    return result == RLF_OK && o->trajectory_path != NULL ? rlf_file_check(o->trajectory_path)
-                                                          : result;
+    return result;
 }
 
 static rlf_result open_all(fuse_run *run)
@@ -190,9 +203,9 @@ static rlf_result add_frame(fuse_run *run, const rlf_frame *frame)
     }
     run->fused++;
     run->integrate_ms += run->fuser.integrate_ms;
-    return trajectory_add(&run->trajectory, frame->time_ns,
-                          is_tracked ? &run->fuser.pose.last.T_world_camera : &T,
-                          has_pose ? &T : NULL);
+    const rlf_pose *found = is_tracked ? &run->fuser.pose.last.T_world_camera : &T;
+    room_view_pass(&run->room, found, run->fuser.surface);
+    return trajectory_add(&run->trajectory, frame->time_ns, found, has_pose ? &T : NULL);
 }
 
 static rlf_result fuse_frames(fuse_run *run)
@@ -252,6 +265,9 @@ static rlf_result write_files(fuse_run *run)
     }
     if (result == RLF_OK && o->trajectory_path != NULL) {
         result = trajectory_write(&run->trajectory, o->trajectory_path);
+    }
+    if (result == RLF_OK && o->picture_path != NULL) {
+        result = fuse_picture_write(o->picture_path, &run->fuser, &run->room, &o->orbit, run->pool);
     }
     if (result == RLF_OK && !o->is_quiet) {
         print_summary(run, &mesh);

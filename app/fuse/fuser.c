@@ -37,52 +37,14 @@ rlf_result fuser_open(fuser *f, const rlf_rig *rig, const fuser_options *options
         const rlf_reconstruct_def stage = stage_def(rig, pool);
         result = rlf_reconstruct_create(&stage, &f->stage);
     }
-    if (result == RLF_OK && rig->has_color) {
-        const size_t pixels = (size_t)rig->depth.width * (size_t)rig->depth.height;
-        f->rgba = rlf_alloc_array(pixels, 4);
-        f->grey = rlf_alloc(pixels);
-        result = f->rgba != NULL && f->grey != NULL ? RLF_OK : RLF_ERROR_MEMORY;
+    if (result == RLF_OK) {
+        result = color_view_open(&f->color, rig);
     }
     f->is_tracked = options->is_tracked;
     if (result == RLF_OK && f->is_tracked) {
         result = camera_pose_open(&f->pose, rig, pool);
     }
     return result;
-}
-
-/* Where a colour camera sees a point; -1 when it does not. */
-static ptrdiff_t color_pixel(const rlf_rig *rig, rlf_vec3 p_depth)
-{
-    double u, v;
-    const rlf_vec3 p = rlf_transform(&rig->T_color_depth, p_depth);
-    if (!rlf_camera_project(&rig->color, p, &u, &v) || !(u > -0.5 && v > -0.5) ||
-        !(u < rig->color.width - 0.5 && v < rig->color.height - 0.5)) {
-        return -1;
-    }
-    return (ptrdiff_t)(int32_t)(v + 0.5) * rig->color.width + (int32_t)(u + 0.5);
-}
-
-/* What is behind a nearer surface gets that one's colour: the parallax of a rig is small, and other
- * views tell. */
-static bool color_view(const fuser *f, const rlf_frame *frame, const rlf_surface *s)
-{
-    const rlf_image_rgba8 *color = &frame->color;
-    if (f->rgba == NULL || color->data == NULL) {
-        return false;
-    }
-    for (int32_t i = 0; i < s->width * s->height; i++) {
-        ptrdiff_t pixel = s->depth[i] > 0.0f ? color_pixel(f->rig, rlf_surface_point(s, i)) : -1;
-        uint8_t *out = &f->rgba[4 * (ptrdiff_t)i];
-        memset(out, 0, 4);
-        f->grey[i] = 0;
-        if (pixel >= 0) {
-            const ptrdiff_t y = pixel / color->width, x = pixel % color->width;
-            memcpy(out, (const uint8_t *)color->data + y * color->stride + 4 * x, 3);
-            out[3] = 255;
-            f->grey[i] = (uint8_t)(1 + (77 * out[0] + 150 * out[1] + 29 * out[2]) / 257);
-        }
-    }
-    return true;
 }
 
 static double ms_since(int64_t start_ns)
@@ -99,12 +61,13 @@ rlf_result fuser_add(fuser *f, const rlf_frame *frame, const rlf_pose *T_world_c
     if (result != RLF_OK) {
         return result;
     }
+    f->surface = s;
     f->surface_ms = ms_since(start);
     start = rlf_clock_ns();
-    const bool has_color = color_view(f, frame, s);
+    const bool has_color = color_view_take(&f->color, f->rig, frame, s);
     f->color_ms = ms_since(start);
     if (f->is_tracked) {
-        result = camera_pose_find(&f->pose, f->map, s, has_color ? f->grey : NULL, frame->time_ns);
+        result = camera_pose_find(&f->pose, f->map, s, has_color ? f->color.grey : NULL, frame->time_ns);
         if (result != RLF_OK || f->pose.last.health != RLF_TRACK_GOOD) {
             return result;
         }
@@ -117,7 +80,7 @@ rlf_result fuser_add(fuser *f, const rlf_frame *frame, const rlf_pose *T_world_c
         .normal_y = s->normal_y,
         .normal_z = s->normal_z,
         .is_static = f->is_tracked ? f->pose.is_static : NULL,
-        .rgba = has_color ? f->rgba : NULL,
+        .rgba = has_color ? f->color.rgba : NULL,
     };
     result = rlf_map_integrate(f->map, &view, T_world_camera, out_change);
     f->integrate_ms = ms_since(start);
@@ -129,7 +92,5 @@ void fuser_close(fuser *f)
     rlf_map_destroy(&f->map);
     rlf_reconstruct_destroy(&f->stage);
     camera_pose_close(&f->pose);
-    rlf_free(f->rgba);
-    rlf_free(f->grey);
-    f->rgba = f->grey = NULL;
+    color_view_close(&f->color);
 }

@@ -3,7 +3,8 @@
 #ifndef RELIEF_APP_FUSE_FUSER_H
 #define RELIEF_APP_FUSE_FUSER_H
 
-#include "fuse/camera_pose.h"
+#include "pipeline/camera_pose.h"
+#include "pipeline/color_view.h"
 #include "relief/io.h"
 
 typedef struct fuser_options {
@@ -17,7 +18,8 @@ typedef struct fuser {
     rlf_map *map;
     rlf_reconstruct *stage;
     const rlf_rig *rig;
-    uint8_t *rgba, *grey; /* a depth pixel each */
+    const rlf_surface *surface; /* of the last frame; NULL before the first */
+    color_view color;
     bool is_tracked;
     camera_pose pose;
     double surface_ms, color_ms, integrate_ms; /* of the last frame */

@@ -28,11 +28,13 @@ static bool pixel_at(const viewer *v, double x, double y, double *out_u, double 
 static bool ray_at(const viewer *v, double x, double y, viewer_ray *out)
 {
     double pixel_u, pixel_v;
-    if ((v->view == RLF_VIEW_POINTS && !v->is_beside) || !pixel_at(v, x, y, &pixel_u, &pixel_v)) {
+    const bool is_elsewhere = v->view == RLF_VIEW_POINTS || v->view == RLF_VIEW_MAP;
+    if ((is_elsewhere && !v->is_beside) || !pixel_at(v, x, y, &pixel_u, &pixel_v)) {
         return false;
     }
     rlf_compositor_def def = rlf_pipeline_get_compositor_def(v->stage.pipeline);
-    *out = viewer_ray_make(&def, &v->options->T_world_camera, pixel_u, pixel_v);
+    const rlf_pose T_world_camera = viewer_camera(v);
+    *out = viewer_ray_make(&def, &T_world_camera, pixel_u, pixel_v);
     return true;
 }
 

@@ -59,6 +59,12 @@ typedef struct viewer {
     size_t text_size, marks_size;
 } viewer;
 
+/* Where the camera is: as in the last frame, or before the first as the options say. */
+static inline rlf_pose viewer_camera(const viewer *v)
+{
+    return v->has_frame ? v->frame.T_world_camera : v->options->T_world_camera;
+}
+
 /* Puts a line over the picture for three seconds. */
 void viewer_show_message(viewer *v, const char *text);
 

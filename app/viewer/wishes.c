@@ -39,7 +39,8 @@ static void nudge(viewer *v, const viewer_wishes *wishes)
     char text[VIEWER_PLACE_TEXT];
     double step = wishes->is_fine ? 0.1 : 1.0;
     rlf_vec3 shift = {wishes->nudge_x, wishes->nudge_y, wishes->nudge_z};
-    viewer_place_nudge(&v->place, v->stage.pipeline, &v->options->T_world_camera,
+    const rlf_pose T_world_camera = viewer_camera(v);
+    viewer_place_nudge(&v->place, v->stage.pipeline, &T_world_camera,
                        rlf_scale(shift, 0.01 * step), wishes->nudge_turn * step * RLF_PI / 180.0,
                        text);
     if (text[0] != '\0') {

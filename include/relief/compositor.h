@@ -3,6 +3,7 @@
 #ifndef RELIEF_COMPOSITOR_H
 #define RELIEF_COMPOSITOR_H
 
+#include "relief/prediction.h"
 #include "relief/snapshot.h"
 #include "relief/surface.h"
 
@@ -27,7 +28,8 @@ typedef enum rlf_view {
                                its impulse */
     RLF_VIEW_KNOWN = 12,    /* camera, with the models of real things as wireframes */
     RLF_VIEW_HANDS = 13,    /* camera, with the marks of the input: palms, finger tips, gestures */
-    RLF_VIEW_COUNT = 14
+    RLF_VIEW_MAP = 14, /* the fused room and the bodies from anywhere: orbit; the camera's way */
+    RLF_VIEW_COUNT = 15
 } rlf_view;
 
 /* Name as in `--view`, e.g. "normals"; NULL outside the range. */
@@ -60,12 +62,25 @@ RLF_API rlf_legend rlf_view_legend(rlf_view view, const rlf_rig *rig);
 RLF_API void rlf_legend_draw(const rlf_legend *legend, const rlf_image_rgba8 *image);
 
 /* Where RLF_VIEW_POINTS is seen from: the camera turned about a point in front of it, in the middle
- * of the sensor's range. All zero = from where the camera is. */
+ * of the sensor's range. All zero = from where the camera is. RLF_VIEW_MAP turns alike, about the
+ * room's middle. */
 typedef struct rlf_orbit {
     double yaw;   /* radians; > 0: from further right */
     double pitch; /* radians, within +-1.5; > 0: from further up */
     double zoom;  /* distance to that point over the camera's, 0.1 to 10; 0 = 1 */
 } rlf_orbit;
+
+/* The static room as RLF_VIEW_MAP shows it. All is borrowed for one call. */
+typedef struct rlf_room_sight {
+    /* From where the picture is seen, e.g. by rlf_map_predict. Of any size; its camera, resized,
+     * is the picture's. */
+    const rlf_prediction *prediction;
+    /* Colours (R, G, B, A; A = 0: none) of its pixels; NULL = none. Where there is none the normal
+     * gives a grey. */
+    const uint8_t *rgba;
+    const rlf_vec3 *path; /* where the camera has been, world, metres */
+    int32_t path_count;
+} rlf_room_sight;
 
 /* Writes a line of text in warm white, letters of 5 x 7 dots, from (x, y), the top left corner;
  * `scale` >= 1 pixels a dot. Its dots become opaque, all else stays. What is outside the image is
@@ -133,6 +148,14 @@ typedef struct rlf_compositor_def {
 /* All fields at the defaults that they name. `rig`, `grid` and the rays are still to be set. */
 RLF_API rlf_compositor_def rlf_compositor_def_default(void);
 
+/* Where RLF_VIEW_MAP is seen from: behind and somewhat above a `box` about the room and the
+ * camera's way, as `T_world_base` looks, usually the first camera; far enough to see all, and
+ * turned by the orbit about the box's middle. out_camera is the picture's without its lens, no
+ * larger than the depth camera, as rlf_map_predict takes it. Thread-safety: any. */
+RLF_API void rlf_room_look(const rlf_compositor_def *def, const rlf_aabb *box,
+                           const rlf_pose *T_world_base, const rlf_orbit *orbit,
+                           rlf_camera *out_camera, rlf_pose *out_T_world_view);
+
 /* Everything one picture is made of; all borrowed for the call. */
 typedef struct rlf_render_input {
     const rlf_frame *frame;       /* required; its colour may be missing: depth is shown in grey */
@@ -141,6 +164,7 @@ typedef struct rlf_render_input {
     rlf_pose T_world_camera;      /* depth camera in the world */
     rlf_view view;                /* what the picture shows */
     rlf_orbit orbit;              /* of RLF_VIEW_POINTS */
+    const rlf_room_sight *room;   /* of RLF_VIEW_MAP; NULL = there is no map, and a line says so */
     const char *const *overlay;   /* text lines, top left; used with enable_overlay */
     int32_t overlay_count;
     const rlf_plot *plot;  /* bottom left; used with enable_overlay; NULL = none */

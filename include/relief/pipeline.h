@@ -6,8 +6,10 @@
 #include "relief/compositor.h"
 #include "relief/hands.h"
 #include "relief/known.h"
+#include "relief/map.h"
 #include "relief/reconstruct.h"
 #include "relief/source.h"
+#include "relief/track.h"
 #include "relief/world.h"
 
 #ifdef __cplusplus
@@ -60,6 +62,21 @@ RLF_API void rlf_scene_destroy(rlf_scene *scene);
  * with it: RLF_ERROR_INVALID. */
 typedef const rlf_surface *(*rlf_surface_fn)(void *context, const rlf_surface *sensed);
 
+/* Whether the camera stands. */
+typedef enum rlf_camera_mode {
+    RLF_CAMERA_FIXED = 0,  /* it stands; while it is moved all is one sheet at rest */
+    RLF_CAMERA_MOVING = 1, /* its pose is found for each frame, against a map of the room */
+    RLF_CAMERA_AUTO = 2    /* it stands until the view as a whole moves; from then on MOVING.
+                              Needs the adaptive background; else as FIXED */
+} rlf_camera_mode;
+
+/* Who says where a moving camera is. */
+typedef enum rlf_pose_origin {
+    RLF_POSES_TRACKED = 0, /* a tracker, see track.h */
+    RLF_POSES_SOURCE = 1   /* the source's own poses, the first one being the mount pose; a frame
+                              without one keeps the last pose and is not fused */
+} rlf_pose_origin;
+
 /* All that a pipeline is made of. From rlf_pipeline_def_default, for the settings of the stages
  * depend on profile and source; then change what shall differ. */
 typedef struct rlf_pipeline_def {
@@ -69,10 +86,16 @@ typedef struct rlf_pipeline_def {
     rlf_reconstruct_def reconstruct; /* set by rlf_pipeline_def_default from profile and source */
     rlf_world_def world; /* its capacities are raised to what the scene needs, and 256 throws */
     rlf_compositor_def compositor;
-    const rlf_scene *scene;         /* copied; NULL = no bodies */
-    bool enable_render;             /* default true; false: no picture is made */
-    bool enable_hands;              /* default false; true where the scene binds their events */
-    rlf_pose T_world_camera;        /* mount pose; default identity */
+    const rlf_scene *scene;  /* copied; NULL = no bodies */
+    bool enable_render;      /* default true; false: no picture is made */
+    bool enable_hands;       /* default false; true where the scene binds their events */
+    rlf_pose T_world_camera; /* mount pose; default identity */
+    rlf_camera_mode camera;  /* default fixed; what moves needs the live profile */
+    rlf_pose_origin poses;   /* of a moving camera; default tracked */
+    /* The room of a moving camera: borrowed for the pipeline's life and fused into. One that holds
+     * blocks is a known room: the camera is looked for in it, and its world is the world. NULL
+     * (default): a room of the pipeline's own, empty, made when it is needed. */
+    rlf_map *map;
     rlf_surface_fn replace_surface; /* default NULL: physics gets what was sensed */
     void *replace_context;
     rlf_pool *pool; /* borrowed; NULL = one thread */
@@ -95,8 +118,12 @@ typedef struct rlf_pipeline_output {
     double time_s;       /* since the first frame */
     rlf_frame frame;
     const rlf_surface *surface;
-    rlf_pose T_world_camera; /* depth camera in the world */
-    const rlf_hands *hands;  /* NULL when none are looked for; see rlf_pipeline_set_hands */
+    rlf_pose T_world_camera;       /* depth camera in the world */
+    const rlf_track_result *track; /* how sure a moving camera's pose is; NULL while it stands */
+    /* What the map shows from about there; NULL = nothing known, or RLF_VIEW_MAP was drawn, which
+     * has the map predict for its own camera. */
+    const rlf_prediction *room;
+    const rlf_hands *hands;        /* NULL when none are looked for; see rlf_pipeline_set_hands */
     const rlf_snapshot *snapshot;
     double gravity_confidence; /* 0..1; below RLF_UP_SURE it is a guess; 1 when it was given */
     rlf_render_output render;  /* image.data NULL when rendering is off */
@@ -130,7 +157,7 @@ RLF_API rlf_compositor_def rlf_pipeline_get_compositor_def(const rlf_pipeline *p
 #define RLF_PIPELINE_VIEWS 4
 RLF_API rlf_result rlf_pipeline_set_views(rlf_pipeline *pipeline, const rlf_view *views,
                                           int32_t count);
-/* Where RLF_VIEW_POINTS is seen from in the next pictures. */
+/* Where RLF_VIEW_POINTS and RLF_VIEW_MAP are seen from in the next pictures. */
 RLF_API void rlf_pipeline_set_orbit(rlf_pipeline *pipeline, const rlf_orbit *orbit);
 /* True: a plot of the milliseconds per stage of the last frames, with overlay lines. default false
  */
@@ -176,6 +203,8 @@ RLF_API rlf_result rlf_pipeline_set_hands(rlf_pipeline *pipeline, bool is_on);
 /* The hands of the last frame, in the depth camera's frame; NULL when none are looked for, and
  * before the first frame. Valid until the next step. */
 RLF_API const rlf_hands *rlf_pipeline_hands(const rlf_pipeline *pipeline);
+/* The room of a moving camera; NULL while there is none. For questions and views between steps. */
+RLF_API rlf_map *rlf_pipeline_get_map(rlf_pipeline *pipeline);
 /* The world, to add or throw bodies between steps. */
 RLF_API rlf_world *rlf_pipeline_get_world(rlf_pipeline *pipeline);
 

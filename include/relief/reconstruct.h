@@ -22,9 +22,10 @@ typedef enum rlf_normal_method {
 } rlf_normal_method;
 
 typedef enum rlf_background_method {
-    RLF_BACKGROUND_OFF = 0,     /* every pixel is front sheet; no background */
-    RLF_BACKGROUND_AVERAGE = 1, /* thesis 4.4.1: mean of the first frames, static for ever */
-    RLF_BACKGROUND_ADAPTIVE = 2 /* per pixel, one-sided noise-scaled test, replaced by evidence */
+    RLF_BACKGROUND_OFF = 0,      /* every pixel is front sheet; no background */
+    RLF_BACKGROUND_AVERAGE = 1,  /* thesis 4.4.1: mean of the first frames, static for ever */
+    RLF_BACKGROUND_ADAPTIVE = 2, /* per pixel, one-sided noise-scaled test, replaced by evidence */
+    RLF_BACKGROUND_GIVEN = 3     /* the camera moves: give_background tells for each frame */
 } rlf_background_method;
 
 typedef enum rlf_segment_method {
@@ -34,6 +35,21 @@ typedef enum rlf_segment_method {
     RLF_SEGMENT_OBJECTS = 3 /* as NOISE; planes that things stand on are regions of their own, and
                                things that touch are parted where they meet in a concave edge */
 } rlf_segment_method;
+
+/* What is known of the room where the camera is now. Planes of the grid's size, which hold until
+ * the frame is finished. */
+typedef struct rlf_given_background {
+    const float *depth;                          /* metres along z; 0 = unknown */
+    const float *normal_x, *normal_y, *normal_z; /* unit, towards the camera; 0 = unknown */
+    double slack_m;        /* how far the depth may be off, beside the sensor's noise */
+    rlf_pose T_now_before; /* the frame before's camera in this one's frame */
+    bool has_before;       /* that is known */
+} rlf_given_background;
+
+/* Called once a frame when its depth, normals, reasons, rays and time are in *seen; all else there
+ * means nothing yet. False = the camera's place is not known: all is one sheet at rest. */
+typedef bool (*rlf_give_background_fn)(void *context, const rlf_surface *seen,
+                                       rlf_given_background *out);
 
 /* All settings of the surface stage. Any mix of methods can be run. */
 typedef struct rlf_reconstruct_def {
@@ -60,9 +76,11 @@ typedef struct rlf_reconstruct_def {
     bool keep_region_points;   /* fill region_points; the thesis collision needs it */
 
     rlf_background_method background_method;
+    rlf_give_background_fn give_background; /* GIVEN: must be set */
+    void *give_context;
     int32_t background_frames;     /* frames averaged at start; default 5 */
     double foreground_threshold_m; /* AVERAGE: |z - z_bg| above this is foreground */
-    double foreground_sigmas;      /* ADAPTIVE: z_bg - z above this many sigma(z) ... */
+    double foreground_sigmas;      /* ADAPTIVE, GIVEN: z_bg - z above this many sigma(z) ... */
     double foreground_min_m;       /* ... and above this, metres */
     double absorb_after_s; /* ADAPTIVE: still foreground becomes background; default 20, 0 never */
 

@@ -97,6 +97,8 @@ typedef struct rlf_surface {
      * one sheet at rest and nothing is foreground: the background is learnt anew when it stands.
      * Always false with a background other than adaptive. */
     bool camera_moves;
+    /* When camera_moves begins: the camera as it was up to 8 frames ago, in this frame's camera. */
+    rlf_pose T_now_before;
 
     /* Regions of both layers; region_points lists pixel indices region by region when kept. */
     const rlf_region *regions;

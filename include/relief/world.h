@@ -1,6 +1,7 @@
 /* Relief: the physics stage. Rigid bodies among real surfaces.
  *
- * Physics knows no camera: the real surface comes in as an rlf_grid, planes plus a projection.
+ * Physics knows no camera: the real surface comes in as an rlf_grid, planes plus a projection, and
+ * what no grid sees now as an rlf_map.
  * SPDX-License-Identifier: MIT */
 #ifndef RELIEF_WORLD_H
 #define RELIEF_WORLD_H
@@ -10,6 +11,8 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+struct rlf_map; /* map.h */
 
 /* ---- the real surface as physics sees it
  * --------------------------------------------------------- */
@@ -153,6 +156,12 @@ RLF_API bool rlf_world_apply_force(rlf_world *world, rlf_body_id id, rlf_vec3 fo
 
 /* Gravity, m/s^2, from now on; bodies that sleep wake up. False when it is not finite. */
 RLF_API bool rlf_world_set_gravity(rlf_world *world, rlf_vec3 gravity);
+
+/* The static room where the grid does not see: beyond its view, and behind what it shows. Borrowed
+ * until the next call or the world's end; it may be fused into between advances, not during one.
+ * Same world frame as the poses of the grids. NULL (at first): nothing is known there, and all is
+ * as without. Live method only. Free: call it when the room changes hands, not every frame. */
+RLF_API void rlf_world_set_room(rlf_world *world, const struct rlf_map *room);
 
 /* Advances time by dt seconds against the surface `grid`, which may be NULL for empty space and is
  * only read during the call. 0 < dt <= 1: anything else is the caller's mistake, is told as such

@@ -218,6 +218,13 @@ static void learn_row(background_color *background, rlf_registration *registrati
     }
 }
 
+void background_color_forget(background_color *background)
+{
+    memset(background->colors, 0, 4 * (size_t)background->width * (size_t)background->height);
+    background->next_row = 0;
+    background->is_whole = false;
+}
+
 static void learn(background_color *background, rlf_registration *registration,
                   const rlf_image_rgba8 *color, const rlf_surface *surface)
 {
@@ -227,9 +234,7 @@ static void learn(background_color *background, rlf_registration *registration,
         learn_row(background, registration, color, surface, &v);
     }
     if (v.other > v.same) {
-        memset(background->colors, 0, 4 * (size_t)background->width * (size_t)background->height);
-        background->next_row = 0;
-        background->is_whole = false;
+        background_color_forget(background);
     }
 }
 

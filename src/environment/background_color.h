@@ -35,6 +35,9 @@ rlf_result background_color_create(const rlf_registration *registration, const r
                                    const rlf_pose *T_picture_depth, background_color *out);
 void background_color_destroy(background_color *background);
 
+/* As at the start. */
+void background_color_forget(background_color *background);
+
 /* Learns some rows from a new frame. Without colour or a background nothing is done. */
 void background_color_update(background_color *background, rlf_registration *registration,
                              const rlf_frame *frame, const rlf_surface *surface);

@@ -282,6 +282,17 @@ static void fill_offsets(edge_matte *s, const rlf_image_rgba8 *color)
     }
 }
 
+static uint16_t next_number(uint16_t picture)
+{
+    return (uint16_t)(picture == EDGE_MATTE_PICTURES ? 1 : picture + 1);
+}
+
+/* A number is left out, and so no pixel is of the picture before. */
+void edge_matte_forget(edge_matte *s)
+{
+    s->picture = s->picture != 0 ? next_number(s->picture) : 0;
+}
+
 void edge_matte_update(edge_matte *s, const rlf_plane_f32 *z, const known_layer *known,
                        const rlf_frame *frame)
 {
@@ -296,7 +307,7 @@ void edge_matte_update(edge_matte *s, const rlf_plane_f32 *z, const known_layer 
         fill_offsets(s, &frame->color);
     }
     if (p.is_new) {
-        s->picture = (uint16_t)(s->picture == EDGE_MATTE_PICTURES ? 1 : s->picture + 1);
+        s->picture = next_number(s->picture);
     }
     s->last_sequence = frame->sequence;
     rlf_parallel_for(s->pool, s->rows, 1, edge_matte_find_jumps, &p);

@@ -86,6 +86,9 @@ void edge_matte_spread_bodies(edge_matte *s);
 void edge_matte_update(edge_matte *s, const rlf_plane_f32 *z, const known_layer *known,
                        const rlf_frame *frame) RLF_INSIDE(edge_matte_update);
 
+/* What pixels showed is no longer there: the next update is as the first. */
+void edge_matte_forget(edge_matte *s) RLF_INSIDE(edge_matte_forget);
+
 /* edge_matte_line.c: a row or a column of the picture; all steps are to the next pixel of it. */
 typedef struct edge_matte_line {
     const float *z;

@@ -134,10 +134,24 @@ const known_layer *real_depth_known(const real_depth *real)
     return real->known.count > 0 ? &real->known : NULL;
 }
 
+/* Colours that the room had elsewhere in the picture say nothing. */
+static void follow_camera(real_depth *real, const rlf_pose *T_world_camera)
+{
+    const double nearest = real->seen.least > 0.0f ? (double)real->seen.least : 1.0;
+    real->has_moved =
+        sight_change_update(&real->sight, T_world_camera, &real->registration->color, nearest);
+    if (real->has_moved && !real->uses_frame) {
+        background_color_forget(&real->lost.background);
+    }
+}
+
 rlf_result real_depth_update(real_depth *real, const observation *now, const edge_matte *bodies,
                              const real_windows *needed)
 {
     real_windows windows = *needed;
+    if (bodies != NULL) {
+        follow_camera(real, &now->T_world_camera);
+    }
     if (!real->uses_frame && bodies != NULL) {
         real->nearest = lost_depth_update(&real->lost, real->registration, now->frame, now->surface,
                                           bodies, needed, real->input, real->nearest);

@@ -7,6 +7,7 @@
 #include "environment/lost_depth.h"
 #include "environment/depth_tiles.h"
 #include "environment/real_windows.h"
+#include "environment/sight_change.h"
 
 typedef struct real_depth {
     rlf_registration *registration;
@@ -20,6 +21,9 @@ typedef struct real_depth {
     int32_t width, height; /* of input */
     float *ray_x, *ray_y;  /* uses_frame only */
     uint8_t *is_in_lens;   /* uses_frame only */
+
+    sight_change sight; /* of what is remembered pixel by pixel while bodies are in the picture */
+    bool has_moved;     /* by that: it is forgotten */
 
     depth_tiles seen; /* of the surface, as it was last read */
     lost_depth lost;  /* not uses_frame only */
@@ -56,9 +60,9 @@ void real_depth_destroy(real_depth *real) RLF_INSIDE(real_depth_destroy);
 /* Reads the depth that is to be registered, and fills `seen`. */
 void real_depth_read(real_depth *real, const observation *now) RLF_INSIDE(real_depth_read);
 /* Fills windows of z with what was read last; of other pixels nothing is known. Pixels without
- * depth take the background's, when the surface knows it; `settles`: what is around them and what
- * the picture shows decides (lost_depth.h). Models of real things take their place.
- * RLF_ERROR_MEMORY as known_layer_place. */
+ * depth take the background's, when the surface knows it; with `bodies` what is around them and
+ * what the picture shows decides (lost_depth.h), and has_moved says whether the matte is to forget.
+ * Models of real things take their place. RLF_ERROR_MEMORY as known_layer_place. */
 rlf_result real_depth_update(real_depth *real, const observation *now, const edge_matte *bodies,
                              const real_windows *needed) RLF_INSIDE(real_depth_update);
 

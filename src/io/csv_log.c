@@ -1,4 +1,5 @@
-/* The logs of a run: frames.csv, bodies.csv, contacts.csv and hands.csv. */
+/* The logs of a run: frames.csv, bodies.csv, contacts.csv and hands.csv; trajectory.txt once the
+ * camera moves. */
 #include "relief/io.h"
 #include "io/file.h"
 #include "io/number.h"
@@ -13,7 +14,10 @@ typedef struct row {
 } row;
 
 struct rlf_csv_log {
-    io_out_file frames, bodies, contacts, hands;
+    io_out_file frames, bodies, contacts, hands, trajectory;
+    char folder[IO_PATH_MAX];
+    bool has_first, has_moved;
+    rlf_pose T_first_world; /* the first camera's frame */
 };
 
 static void add_bytes(row *r, const char *text, size_t length)
@@ -109,11 +113,13 @@ static rlf_result open_all(rlf_csv_log *log, const char *folder)
 /* Closes all; they appear together or, when one cannot be written, not at all. */
 static rlf_result close_all(rlf_csv_log *log, rlf_result result)
 {
-    io_out_file *const files[4] = {&log->frames, &log->bodies, &log->contacts, &log->hands};
-    for (int i = 0; i < 4; i++) {
+    io_out_file *const files[5] = {&log->frames, &log->bodies, &log->contacts, &log->hands,
+                                   &log->trajectory};
+    const int count = log->has_moved ? 5 : 4;
+    for (int i = 0; i < count; i++) {
         result = io_out_finish(files[i], result);
     }
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < count; i++) {
         result = io_out_settle(files[i], result);
     }
     return result;
@@ -133,6 +139,7 @@ rlf_result rlf_csv_log_open(const char *folder, rlf_csv_log **out)
     if (log == NULL) {
         return RLF_ERROR_MEMORY;
     }
+    (void)snprintf(log->folder, sizeof(log->folder), "%s", folder);
     result = open_all(log, folder);
     if (result != RLF_OK) {
         close_all(log, result);
@@ -271,6 +278,32 @@ static rlf_result write_hands(rlf_csv_log *log, const rlf_pipeline_output *outpu
     return result;
 }
 
+/* As TUM's tools read it, from the first frame on that a camera moves in; a frame that could not be
+ * placed is left out. */
+static rlf_result write_trajectory(rlf_csv_log *log, const rlf_pipeline_output *output)
+{
+    rlf_result result = RLF_OK;
+    if (!log->has_first) {
+        log->T_first_world = rlf_pose_invert(&output->T_world_camera);
+        log->has_first = true;
+    }
+    if (output->track == NULL || output->track->health == RLF_TRACK_LOST) {
+        return RLF_OK;
+    }
+    if (!log->has_moved) {
+        log->has_moved = true;
+        result = open_one(&log->trajectory, log->folder, "trajectory.txt",
+                          "# time tx ty tz qx qy qz qw: seconds, metres; the camera in the world, "
+                          "which is the first camera's frame\n");
+    }
+    const rlf_pose T = rlf_pose_mul(&log->T_first_world, &output->T_world_camera);
+    char text[ROW_SIZE];
+    const int length = snprintf(text, sizeof(text), "%.6f %.6f %.6f %.6f %.8f %.8f %.8f %.8f\n",
+                                (double)output->frame.time_ns * 1e-9, T.p.x, T.p.y, T.p.z, T.q.x,
+                                T.q.y, T.q.z, T.q.w);
+    return result == RLF_OK ? io_out_write(&log->trajectory, text, (size_t)length) : result;
+}
+
 rlf_result rlf_csv_log_write(rlf_csv_log *log, const rlf_pipeline_output *output)
 {
     if (!RLF_ASSERT(log != NULL && output != NULL) ||
@@ -284,7 +317,10 @@ rlf_result rlf_csv_log_write(rlf_csv_log *log, const rlf_pipeline_output *output
     if (result == RLF_OK) {
         result = write_contacts(log, output);
     }
-    return result == RLF_OK ? write_hands(log, output) : result;
+    if (result == RLF_OK) {
+        result = write_hands(log, output);
+    }
+    return result == RLF_OK ? write_trajectory(log, output) : result;
 }
 
 rlf_result rlf_csv_log_close(rlf_csv_log **log)

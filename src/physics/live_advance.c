@@ -23,16 +23,30 @@ static rlf_vec3 up_in_grid(const rlf_world *world, const rlf_grid *grid)
     return rlf_normalize(rlf_neg(rlf_rotate(q_grid_world, world->def.gravity)));
 }
 
-/* The shell is a part of the room: it is looked for now and then, and anew for a moved camera. */
-static void find_room(rlf_world *world, const rlf_grid *grid)
+/* A camera that moves through a room that is known takes the shell along; else all is new. */
+static void follow_camera(rlf_world *world, const rlf_grid *grid)
 {
-    bool is_same_pose = memcmp(&world->room_pose, &grid->T_world_grid, sizeof(rlf_pose)) == 0;
-    if (!is_same_pose) {
-        memset(&world->room, 0, sizeof(world->room));
-    } else if (world->room.turn > 0 && world->time < world->room_time + ROOM_PERIOD) {
+    if (memcmp(&world->room_pose, &grid->T_world_grid, sizeof(rlf_pose)) == 0) {
         return;
     }
+    if (world->map != NULL) {
+        rlf_pose T_before_world = rlf_pose_invert(&world->room_pose);
+        rlf_pose T_before_now = rlf_pose_mul(&T_before_world, &grid->T_world_grid);
+        room_planes_carry(&world->room, &T_before_now);
+        world->rest_version++;
+    } else {
+        memset(&world->room, 0, sizeof(world->room));
+    }
     world->room_pose = grid->T_world_grid;
+}
+
+/* The shell is a part of the room: it is looked for now and then. */
+static void find_room(rlf_world *world, const rlf_grid *grid)
+{
+    follow_camera(world, grid);
+    if (world->room.turn > 0 && world->time < world->room_time + ROOM_PERIOD) {
+        return;
+    }
     world->room_time = world->time;
     world->rest_version++;
     room_planes_update(&world->room, grid);
@@ -89,6 +103,7 @@ static grid_query query_now(rlf_world *world, const rlf_grid *grid, double h)
     query.foreground = &world->foreground_tiles;
     query.background = &world->background_tiles;
     query.room = phys_world_has_room(world, grid) ? &world->room : NULL;
+    query.map = world->map;
     query.up = up_in_grid(world, grid);
     return query;
 }
@@ -287,8 +302,24 @@ static void grab(rlf_world *world, const rlf_grid *grid, double dt)
     }
 }
 
+/* A grid that sees nothing: all of a room that is known is answered for by its map. */
+static bool project_nothing(const void *context, rlf_vec3 p, double *out_u, double *out_v)
+{
+    (void)context, (void)p, (void)out_u, (void)out_v;
+    return false;
+}
+
+static const float no_ray[1] = {0.0f};
+static const rlf_grid blind_grid = {.width = 1,
+                                    .height = 1,
+                                    .ray_x = no_ray,
+                                    .ray_y = no_ray,
+                                    .project = project_nothing,
+                                    .T_world_grid = {.q = {.w = 1.0}}};
+
 void phys_live_advance(rlf_world *world, const rlf_grid *grid, double dt)
 {
+    grid = grid == NULL && world->map != NULL ? &blind_grid : grid;
     int32_t count = (int32_t)(dt * world->def.step_hz + 1.0 - 1e-6);
     count = count < 1 ? 1 : count;
     double h = dt / count;

@@ -1,5 +1,6 @@
 /* Sleep: a body that is still, and whose neighbours are, is left alone until something happens to
  * it. */
+#include "physics/grid/mapped/mapped.h"
 #include "physics/sleep.h"
 
 /* A body is still while its place, averaged over blocks of time, does not drift: the noise of a
@@ -95,6 +96,19 @@ static bool has_moved(const grid_query *query, phys_body *body, int32_t index, d
     return is_moved || change > WANDER || change < -WANDER;
 }
 
+/* Whether the grid sees all places at which a sleeper touches the surface. In a room that is known
+ * one that nobody sees sleeps on: what it lies on is not gone because its pixels are. */
+static bool is_watched(const grid_query *query, const phys_body *body)
+{
+    for (int32_t i = 0; i < body->surface_count; i++) {
+        rlf_vec3 p = rlf_transform(&query->T_grid_world, body->surface[i].anchor_b);
+        if (!mapped_is_seen(query->grid, p)) {
+            return false;
+        }
+    }
+    return mapped_is_seen(query->grid, rlf_transform(&query->T_grid_world, body->x));
+}
+
 void phys_wake_by_surface(rlf_world *world, const grid_query *query, double horizon)
 {
     for (int32_t i = 0; i < world->body_top; i++) {
@@ -111,7 +125,8 @@ void phys_wake_by_surface(rlf_world *world, const grid_query *query, double hori
             continue;
         }
         bool is_alone = !grid_collide_prepare(query, body);
-        if (is_alone && body->rest_version == world->rest_version) {
+        if (is_alone && (body->rest_version == world->rest_version ||
+                         (world->map != NULL && !is_watched(query, body)))) {
             continue;
         }
         body->rest_version = is_alone ? world->rest_version : 0;

@@ -218,6 +218,13 @@ bool rlf_world_set_gravity(rlf_world *world, rlf_vec3 gravity)
     return true;
 }
 
+void rlf_world_set_room(rlf_world *world, const struct rlf_map *room)
+{
+    if (RLF_ASSERT(world != NULL)) {
+        world->map = room;
+    }
+}
+
 void rlf_world_reset(rlf_world *world)
 {
     if (!RLF_ASSERT(world != NULL)) {

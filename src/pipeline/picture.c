@@ -141,6 +141,13 @@ static rlf_result render_one(rlf_pipeline *p, const rlf_render_input *input, rlf
     return result == RLF_OK ? rlf_compositor_render(p->compositor, input, out) : result;
 }
 
+/* The room from the orbit. The map then no longer holds what it predicted for the frame. */
+static const rlf_room_sight *look_at_room(rlf_pipeline *p)
+{
+    p->last.room = NULL;
+    return room_view_look(&p->room, rlf_pipeline_get_map(p), &p->compositor_def, &p->orbit);
+}
+
 /* The views one after the other; all but the first have their name as overlay. */
 static rlf_result render_views(rlf_pipeline *p, rlf_render_input *input)
 {
@@ -149,6 +156,7 @@ static rlf_result render_views(rlf_pipeline *p, rlf_render_input *input)
     for (int32_t i = 0; result == RLF_OK && i < p->view_count; i++) {
         const char *name = rlf_view_name(p->views[i]);
         input->view = p->views[i];
+        input->room = input->view == RLF_VIEW_MAP ? look_at_room(p) : NULL;
         if (i > 0) {
             input->overlay = &name;
             input->overlay_count = 1;
@@ -181,12 +189,15 @@ rlf_result pipeline_draw(rlf_pipeline *p)
     if (!p->def.enable_render) {
         return RLF_OK;
     }
+    if (p->last.track == NULL || p->last.track->health != RLF_TRACK_LOST) {
+        room_view_pass(&p->room, &p->last.T_world_camera, p->last.surface);
+    }
     hand_stage_draw(&p->hands);
     rlf_render_input input = {
         .frame = &p->last.frame,
         .surface = p->last.surface,
         .snapshot = p->last.snapshot,
-        .T_world_camera = p->def.T_world_camera,
+        .T_world_camera = p->camera.T_world,
         .orbit = p->orbit,
         .overlay = p->overlay_lines,
         .overlay_count = p->overlay_count,

@@ -9,195 +9,6 @@
 #define AWAY_FRAMES 10    /* missing in such a gap: it is no slow clip, the camera was away */
 #define STALE_S 1.0       /* without a frame: what is shown is no longer what is there */
 #define GRAVITY_FRAMES 10 /* that are asked at most which way is up */
-#define THROWS_MAX 256    /* bodies that there is room for beside a scene's */
-
-rlf_pipeline_def rlf_pipeline_def_default(rlf_profile profile, rlf_source *source, rlf_pool *pool)
-{
-    rlf_pipeline_def def;
-    memset(&def, 0, sizeof(def));
-    def.cookie = RLF_DEF_COOKIE;
-    def.profile = profile;
-    def.source = source;
-    def.enable_render = true;
-    def.T_world_camera = rlf_pose_identity();
-    def.pool = pool;
-    if (!RLF_ASSERT(source != NULL)) {
-        return def;
-    }
-    const rlf_rig *rig = &rlf_source_get_info(source)->rig;
-    bool is_thesis = profile == RLF_PROFILE_THESIS;
-    def.reconstruct = rlf_reconstruct_def_default(profile, rig);
-    def.reconstruct.pool = pool;
-    def.world = rlf_world_def_default();
-    def.world.method = is_thesis ? RLF_PHYSICS_THESIS : RLF_PHYSICS_LIVE;
-    def.world.pool = pool;
-    def.compositor = rlf_compositor_def_default();
-    def.compositor.rig = *rig;
-    def.compositor.occlusion = is_thesis ? RLF_OCCLUSION_THESIS : RLF_OCCLUSION_SOFT;
-    def.compositor.pool = pool;
-    return def;
-}
-
-static rlf_result copy_scene(rlf_pipeline *p, const rlf_scene *scene)
-{
-    p->scene.gravity = p->def.world.gravity;
-    p->scene.border = p->def.world.border;
-    if (scene == NULL) {
-        return RLF_OK;
-    }
-    p->scene.gravity = scene->gravity;
-    p->scene.finds_gravity = scene->finds_gravity;
-    p->scene.border = scene->border;
-    memcpy(p->scene.on, scene->on, sizeof(p->scene.on));
-    p->scene.body_count = scene->body_count;
-    p->scene.bodies = rlf_alloc_array((size_t)scene->body_count, sizeof(*scene->bodies));
-    if (p->scene.bodies == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
-    if (scene->body_count > 0) {
-        memcpy(p->scene.bodies, scene->bodies, (size_t)scene->body_count * sizeof(*scene->bodies));
-    }
-    return RLF_OK;
-}
-
-static rlf_result add_bodies(rlf_pipeline *p)
-{
-    for (int32_t i = 0; i < p->scene.body_count; i++) {
-        rlf_body_id id;
-        rlf_result result = rlf_world_add_body(p->world, &p->scene.bodies[i], &id);
-        if (result != RLF_OK) {
-            return result;
-        }
-    }
-    return known_models_start(&p->known, p->world);
-}
-
-/* Rays of the decimated grid for the compositor; the surface's own are not known before the first
- * frame. */
-static rlf_result make_rays(rlf_pipeline *p, const rlf_camera *depth)
-{
-    rlf_camera grid = rlf_camera_decimate(depth, p->def.reconstruct.scale_factor);
-    size_t count = (size_t)grid.width * (size_t)grid.height;
-    p->ray_x = rlf_alloc_array(count, sizeof(float));
-    p->ray_y = rlf_alloc_array(count, sizeof(float));
-    if (p->ray_x == NULL || p->ray_y == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
-    for (int32_t i = 0; i < (int32_t)count; i++) {
-        rlf_vec3 ray;
-        if (rlf_camera_unproject(&grid, i % grid.width, i / grid.width, &ray)) {
-            p->ray_x[i] = (float)ray.x;
-            p->ray_y[i] = (float)ray.y;
-        }
-    }
-    p->compositor_def.grid = grid;
-    p->compositor_def.ray_x = p->ray_x;
-    p->compositor_def.ray_y = p->ray_y;
-    return RLF_OK;
-}
-
-/* A scene's file cannot ask for a larger world: its bodies do, with as many contacts for each as
- * the default has. */
-static void make_room(rlf_world_def *def, const rlf_scene *scene)
-{
-    const double CONTACTS_EACH = 16, CONTACTS_MAX = 1e7;
-    int32_t bodies = scene->body_count + RLF_KNOWN_MAX + THROWS_MAX;
-    if (def->body_capacity < bodies) {
-        def->body_capacity = bodies;
-        def->contact_capacity =
-            (int32_t)rlf_min(CONTACTS_MAX, rlf_max(def->contact_capacity, bodies * CONTACTS_EACH));
-    }
-}
-
-static rlf_result create_stages(rlf_pipeline *p)
-{
-    rlf_result result = rlf_reconstruct_create(&p->def.reconstruct, &p->reconstruct);
-    if (result != RLF_OK) {
-        return result;
-    }
-    p->def.world.gravity = p->scene.gravity;
-    p->def.world.border = p->scene.border;
-    make_room(&p->def.world, &p->scene);
-    result = rlf_world_create(&p->def.world, &p->world);
-    if (result != RLF_OK) {
-        return result;
-    }
-    p->region_capacity = 2 * p->def.reconstruct.region_capacity + 2; /* two layers */
-    p->regions = rlf_alloc_array((size_t)p->region_capacity, sizeof(*p->regions));
-    if (p->regions == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
-    p->compositor_def = p->def.compositor;
-    result = make_rays(p, &p->def.reconstruct.rig.depth);
-    if (result == RLF_OK) {
-        const rlf_camera *seen = &p->compositor_def.grid;
-        result = far_side_create(seen->width, seen->height, &p->far);
-    }
-    if (result == RLF_OK && (p->def.enable_hands || hand_scene_binds(&p->scene))) {
-        result = rlf_pipeline_set_hands(p, true);
-    }
-    if (result != RLF_OK || !p->def.enable_render) {
-        return result;
-    }
-    return rlf_compositor_create_soft(&p->compositor_def, &p->compositor);
-}
-
-rlf_result rlf_pipeline_create(const rlf_pipeline_def *def, rlf_pipeline **out)
-{
-    if (!RLF_ASSERT(out != NULL)) {
-        return RLF_ERROR_INVALID;
-    }
-    *out = NULL;
-    if (!RLF_ASSERT(def != NULL && def->cookie == RLF_DEF_COOKIE && def->source != NULL)) {
-        return rlf_fail(RLF_ERROR_INVALID, "pipeline def: start from rlf_pipeline_def_default");
-    }
-    rlf_pipeline *p = rlf_alloc(sizeof(*p));
-    if (p == NULL) {
-        return RLF_ERROR_MEMORY;
-    }
-    p->def = *def;
-    rlf_result result = copy_scene(p, def->scene);
-    if (result == RLF_OK) {
-        result = known_models_create(def->scene, &p->known);
-    }
-    if (result == RLF_OK) {
-        result = create_stages(p);
-    }
-    if (result == RLF_OK) {
-        result = add_bodies(p);
-    }
-    if (result != RLF_OK) {
-        rlf_pipeline_destroy(&p);
-        return result;
-    }
-    for (int32_t i = 0; i < OVERLAY_LINES_MAX; i++) {
-        p->overlay_lines[i] = p->overlay[i];
-    }
-    p->view_count = 1;
-    *out = p;
-    return RLF_OK;
-}
-
-void rlf_pipeline_destroy(rlf_pipeline **pipeline)
-{
-    if (pipeline == NULL || *pipeline == NULL) {
-        return;
-    }
-    rlf_pipeline *p = *pipeline;
-    *pipeline = NULL;
-    rlf_compositor_destroy(&p->compositor);
-    rlf_world_destroy(&p->world);
-    known_models_destroy(&p->known);
-    rlf_reconstruct_destroy(&p->reconstruct);
-    rlf_free(p->sheet.data);
-    far_side_destroy(&p->far);
-    hand_stage_destroy(&p->hands);
-    rlf_free(p->regions);
-    rlf_free(p->ray_x);
-    rlf_free(p->ray_y);
-    rlf_free(p->scene.bodies);
-    rlf_free(p);
-}
 
 void rlf_pipeline_set_surface_times(rlf_pipeline *p, rlf_surface_times *times)
 {
@@ -217,7 +28,7 @@ static double elapsed_ms(int64_t *since_ns)
 static rlf_known_view known_view(const rlf_pipeline *p)
 {
     const rlf_rig *rig = &rlf_source_get_info(p->def.source)->rig;
-    const rlf_known_view view = {p->last.surface, rig, p->def.T_world_camera};
+    const rlf_known_view view = {p->last.surface, rig, p->camera.T_world};
     return view;
 }
 
@@ -240,7 +51,7 @@ static void find_gravity(rlf_pipeline *p)
     rlf_vec3 up;
     double confidence = rlf_surface_find_up(p->last.surface, &up);
     if (confidence > p->last.gravity_confidence) {
-        rlf_vec3 down = rlf_neg(rlf_rotate(p->def.T_world_camera.q, up));
+        rlf_vec3 down = rlf_neg(rlf_rotate(p->camera.T_world.q, up));
         rlf_world_set_gravity(p->world, rlf_scale(down, rlf_length(p->scene.gravity)));
         p->last.gravity_confidence = confidence;
     }
@@ -268,21 +79,22 @@ static void seek_gravity(rlf_pipeline *p)
 static void make_grid(rlf_pipeline *p, rlf_grid *out)
 {
     const rlf_surface *s = p->last.surface;
-    grid_from_surface(s, &p->def.T_world_camera, p->regions, p->region_capacity, out);
+    grid_from_surface(s, &p->camera.T_world, p->regions, p->region_capacity, out);
     if (p->def.world.method == RLF_PHYSICS_LIVE && out->foreground.thickness != NULL) {
         rlf_vec3 gravity = rlf_world_get_snapshot(p->world)->gravity;
-        rlf_vec3 down = rlf_rotate(rlf_quat_conjugate(p->def.T_world_camera.q), gravity);
+        rlf_vec3 down = rlf_rotate(rlf_quat_conjugate(p->camera.T_world.q), gravity);
         out->foreground.thickness = far_side_thicken(&p->far, s, down);
     }
 }
 
-/* Bodies wait for a camera that was away: what they would have met meanwhile nobody saw. Times
- * alone decide, so that a recording gives the same bodies. */
+/* Bodies wait for a camera that was away, or does not know where it is: what they would have met
+ * meanwhile nobody saw. Times alone decide, so that a recording gives the same bodies. */
 static double time_to_advance(const rlf_pipeline *p, double gap_s)
 {
     const double rate = rlf_source_get_info(p->def.source)->frames_per_second;
     const bool was_away = gap_s > ADVANCE_MAX_S && gap_s * rate > AWAY_FRAMES;
-    return was_away ? 0.0 : rlf_min(gap_s, ADVANCE_MAX_S);
+    const bool is_lost = p->camera.moving.is_on && !moving_is_placed(&p->camera.moving);
+    return was_away || is_lost ? 0.0 : rlf_min(gap_s, ADVANCE_MAX_S);
 }
 
 static rlf_result advance_world(rlf_pipeline *p)
@@ -313,18 +125,6 @@ static rlf_result advance_world(rlf_pipeline *p)
     return RLF_OK;
 }
 
-/* One line when it begins. */
-static void tell_motion(rlf_pipeline *p)
-{
-    if (p->last.surface->camera_moves && !p->has_moved) {
-        rlf_log(RLF_LOG_WARNING,
-                "the camera moves (frame %lld): put it still; while it moves all is "
-                "taken to be at rest, and bodies do not move with the room",
-                (long long)p->frame_index);
-        p->has_moved = true;
-    }
-}
-
 static void find_hands(rlf_pipeline *p)
 {
     int64_t clock = rlf_clock_ns();
@@ -335,27 +135,26 @@ static void find_hands(rlf_pipeline *p)
 
 static rlf_result answer_hands(rlf_pipeline *p)
 {
-    const hand_answer answer = {&p->scene, p->world, p->def.T_world_camera};
+    const hand_answer answer = {&p->scene, p->world, p->camera.T_world};
     if (!hand_stage_answer(&p->hands, &answer)) {
         return RLF_OK;
     }
     const rlf_vec3 gravity = rlf_world_get_snapshot(p->world)->gravity;
     rlf_world_reset(p->world);
     rlf_world_set_gravity(p->world, gravity);
-    return add_bodies(p);
+    return pipeline_add_bodies(p);
 }
 
 static rlf_result make_surface(rlf_pipeline *p)
 {
     const rlf_surface *surface;
-    rlf_result result = rlf_reconstruct_process(p->reconstruct, &p->last.frame, &surface);
+    rlf_result result = camera_see(p, &surface);
     if (result == RLF_OK && p->def.replace_surface != NULL) {
         surface = p->def.replace_surface(p->def.replace_context, surface);
         result = surface != NULL ? RLF_OK : rlf_fail(RLF_ERROR_INVALID, "replace_surface failed");
     }
     if (result == RLF_OK) {
         p->last.surface = surface;
-        tell_motion(p);
         find_hands(p);
         result = answer_hands(p);
     }
@@ -379,7 +178,6 @@ rlf_result rlf_pipeline_step(rlf_pipeline *p, rlf_pipeline_output *out)
         return result;
     }
     last->frame = frame;
-    last->T_world_camera = p->def.T_world_camera;
     last->times.capture_ms = elapsed_ms(&clock);
     result = make_surface(p);
     if (result != RLF_OK) {
@@ -432,9 +230,10 @@ rlf_result rlf_pipeline_restart(rlf_pipeline *p)
     rlf_reconstruct_reset(p->reconstruct);
     rlf_world_reset(p->world);
     hand_stage_restart(&p->hands);
+    p->room.path_count = 0;
     p->frame_index = 0;
-    p->has_moved = false;
-    return add_bodies(p);
+    result = camera_start(p);
+    return result == RLF_OK ? pipeline_add_bodies(p) : result;
 }
 
 rlf_result rlf_pipeline_set_known(rlf_pipeline *p, const rlf_known_def *def, rlf_known_fit *out_fit)
@@ -473,4 +272,9 @@ const rlf_known_def *rlf_pipeline_get_known(const rlf_pipeline *p, int32_t *out_
 rlf_world *rlf_pipeline_get_world(rlf_pipeline *p)
 {
     return RLF_ASSERT(p != NULL) ? p->world : NULL;
+}
+
+rlf_map *rlf_pipeline_get_map(rlf_pipeline *p)
+{
+    return RLF_ASSERT(p != NULL) ? p->camera.moving.map : NULL;
 }

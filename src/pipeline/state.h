@@ -4,9 +4,11 @@
 
 #include "relief/pipeline.h"
 
+#include "pipeline/camera.h"
 #include "pipeline/far_side.h"
 #include "pipeline/hands.h"
 #include "pipeline/known.h"
+#include "pipeline/room_view.h"
 
 #define OVERLAY_LINES_MAX 32
 #define OVERLAY_LINE_SIZE 128
@@ -16,8 +18,9 @@
 
 struct rlf_pipeline {
     rlf_pipeline_def def;
-    rlf_scene scene; /* copy; hulls stay the caller's */
-    rlf_reconstruct *reconstruct;
+    rlf_scene scene;              /* copy; hulls stay the caller's */
+    rlf_reconstruct *reconstruct; /* of a camera that stands */
+    camera camera;
     rlf_world *world;
     known_models known;
     rlf_compositor *compositor;
@@ -27,6 +30,7 @@ struct rlf_pipeline {
     int32_t region_capacity;
     far_side far;
     hand_stage hands;
+    room_view room;
 
     rlf_view views[RLF_PIPELINE_VIEWS];
     int32_t view_count;
@@ -40,7 +44,6 @@ struct rlf_pipeline {
     int32_t overlay_count;
 
     int32_t gravity_frames; /* that are still asked which way is up */
-    bool has_moved;         /* the camera, and that was told */
     int64_t frame_index;    /* of the next frame */
     int64_t first_time_ns, last_time_ns;
     rlf_pipeline_output last;
@@ -48,6 +51,13 @@ struct rlf_pipeline {
 
 /* picture.c: p->last.render from the rest of p->last; nothing when the pipeline draws nothing. */
 rlf_result pipeline_draw(rlf_pipeline *p);
+/* create.c: the scene's bodies, into a world without any. */
+rlf_result pipeline_add_bodies(rlf_pipeline *p);
+/* camera.c: as at the first frame; the camera stands or moves, as the def says. */
+rlf_result camera_start(rlf_pipeline *p);
+/* The surface of p->last.frame, and from where it was seen: p->camera.T_world and p->last. */
+rlf_result camera_see(rlf_pipeline *p, const rlf_surface **out);
+void camera_stop(rlf_pipeline *p);
 /* One more frame in the plot, from p->last.times. */
 void pipeline_note_times(rlf_pipeline *p);
 

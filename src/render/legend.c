@@ -124,6 +124,12 @@ static void add_rows(rlf_legend *legend, rlf_view view, const rlf_rig *rig)
         add(legend, soft_rgb(255, 90, 90), "finger tip");
         add(legend, soft_rgb(255, 230, 60), "pinch");
         break;
+    case RLF_VIEW_MAP:
+        add(legend, soft_color_path(), "where the camera has been");
+        add(legend, soft_rgb(255, 255, 255), "the camera now, 0.25 m long");
+        add(legend, soft_rgb(150, 150, 150), "grey: seen without colour");
+        add(legend, soft_color_dark(), "dark: not seen yet");
+        break;
     case RLF_VIEW_CAMERA:
     case RLF_VIEW_COUNT: break;
     }
@@ -146,6 +152,7 @@ rlf_legend rlf_view_legend(rlf_view view, const rlf_rig *rig)
         "contacts: arrow along the normal, length by impulse, N s",
         "known: models of real things",
         "hands: palms, finger tips, gestures",
+        "map: the room so far, from anywhere",
     };
     rlf_legend legend;
     memset(&legend, 0, sizeof(legend));

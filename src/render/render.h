@@ -14,6 +14,9 @@ rlf_pose render_pose(const rlf_compositor_def *def) RLF_INSIDE(render_pose); /* 
 
 real_depth_def render_depth_def(const rlf_compositor_def *def) RLF_INSIDE(render_depth_def);
 observation render_observation(const rlf_render_input *input) RLF_INSIDE(render_observation);
+/* T_view_base of an orbit: the base looks along z at a point `pivot_m` metres before it, and the
+ * view is turned about that. Angles that are not finite are 0. */
+rlf_pose render_orbit_pose(const rlf_orbit *orbit, double pivot_m);
 /* Tells the matte where the bodies of a snapshot are; NULL = none. */
 void render_place_bodies(edge_matte *edges, const rlf_camera *camera,
                          const rlf_pose *T_picture_world, const rlf_snapshot *snapshot)

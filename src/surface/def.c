@@ -107,6 +107,10 @@ static rlf_result check_limits(const limit *limits, int32_t count)
 rlf_result rlf_reconstruct_def_check(const rlf_reconstruct_def *def)
 {
     rlf_result result = rlf_camera_check(&def->rig.depth, "reconstruct: rig.depth");
+    if (def->background_method == RLF_BACKGROUND_GIVEN && def->give_background == NULL) {
+        result = rlf_fail(RLF_ERROR_INVALID, "reconstruct: a given background needs "
+                                             "give_background");
+    }
     if (result != RLF_OK) {
         return result;
     }
@@ -123,7 +127,7 @@ rlf_result rlf_reconstruct_def_check(const rlf_reconstruct_def *def)
         {"segment_color_tau", def->segment_color_tau, 0, 2},
         {"min_region_points", def->min_region_points, 0, 1e9},
         {"region_capacity", def->region_capacity, 1, 4096},
-        {"background_method", def->background_method, RLF_BACKGROUND_OFF, RLF_BACKGROUND_ADAPTIVE},
+        {"background_method", def->background_method, RLF_BACKGROUND_OFF, RLF_BACKGROUND_GIVEN},
         {"background_frames", def->background_frames, 1, 255},
         {"foreground_threshold_m", def->foreground_threshold_m, 0, 1000},
         {"foreground_sigmas", def->foreground_sigmas, 0, 1000},

@@ -86,6 +86,9 @@ static void take_all(void *context)
     for (int i = 0; i < RLF_RECONSTRUCT_SURFACES; i++) {
         take_slot(&stage->ring[i], arena, def, grid);
     }
+    if (def->background_method == RLF_BACKGROUND_GIVEN) {
+        take_slot(&stage->carried, arena, def, grid);
+    }
     background_allocate(&stage->background, arena, def, grid);
     static_allocate(&stage->background.thick, arena, def, grid);
     temporal_allocate(&stage->temporal, arena, def, grid);

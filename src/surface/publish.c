@@ -11,11 +11,9 @@ static int32_t count_foreground(const rlf_reconstruct *stage, const rlf_slot *sl
     return count;
 }
 
-void surface_publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot)
+void surface_publish_seen(const rlf_reconstruct *stage, rlf_slot *slot)
 {
-    const background_image *image = background_image_newest(stage);
     rlf_surface *s = &slot->surface;
-    s->sequence = frame->sequence;
     s->width = stage->grid.width;
     s->height = stage->grid.height;
     s->scale_factor = stage->grid.factor;
@@ -27,12 +25,20 @@ void surface_publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *s
     s->normal_x = slot->normal[0];
     s->normal_y = slot->normal[1];
     s->normal_z = slot->normal[2];
+    s->reason = slot->reason;
+}
+
+void surface_publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot)
+{
+    const background_image *image = background_image_newest(stage);
+    rlf_surface *s = &slot->surface;
+    s->sequence = frame->sequence;
+    surface_publish_seen(stage, slot);
     s->velocity_x = slot->velocity[0];
     s->velocity_y = slot->velocity[1];
     s->velocity_z = slot->velocity[2];
     s->thickness = slot->thickness;
     s->label = slot->label;
-    s->reason = slot->reason;
     s->foreground = slot->foreground;
     const float *none = stage->work.zero_plane;
     s->background_depth = image == NULL ? none : image->depth;
@@ -46,6 +52,7 @@ void surface_publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *s
     s->background_version = image == NULL ? 0 : (int64_t)image->version + publications;
     s->background_state = stage->background.state;
     s->camera_moves = stage->ego.moves;
+    s->T_now_before = stage->ego.found;
     s->regions = slot->regions;
     s->region_count = slot->foreground_region_first + slot->foreground_region_count;
     s->region_points = slot->region_points;

@@ -75,7 +75,7 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
     thin_reset(&stage->thin, &stage->grid);
     rlf_ego_motion_reset(&stage->ego);
     rlf_shadow_reset(&stage->shadow);
-    stage->previous = NULL;
+    stage->previous = stage->before = NULL;
 }
 
 static rlf_result check_frame(const rlf_reconstruct *stage, const rlf_frame *frame)
@@ -183,6 +183,9 @@ rlf_result rlf_reconstruct_process(rlf_reconstruct *stage, const rlf_frame *fram
     rlf_slot *slot = &stage->ring[stage->current];
     slot->surface.time_ns = frame->time_ns;
     rlf_stage_start_times(stage);
+    const bool is_given = stage->def.background_method == RLF_BACKGROUND_GIVEN;
+    stage->before = stage->previous;
+    stage->previous = is_given ? NULL : stage->previous;
     make_surface(stage, frame, slot);
     stage->previous = slot;
     *out_surface = &slot->surface;

@@ -47,6 +47,8 @@ struct rlf_reconstruct {
     rlf_slot ring[RLF_RECONSTRUCT_SURFACES];
     int32_t current;          /* slot being made or last made */
     const rlf_slot *previous; /* slot of the frame before, NULL at the first */
+    rlf_slot carried;         /* GIVEN: that, carried into this frame's camera */
+    const rlf_slot *before;   /* GIVEN: slot of the frame before; previous = NULL until carried */
     int32_t next_label;
     rlf_background background;
     temporal temporal;

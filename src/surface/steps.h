@@ -185,6 +185,18 @@ bool rlf_region_is_flat(const rlf_reconstruct *stage, const rlf_region *region);
 /* Updates the model with slot->depth and writes slot->foreground. */
 void rlf_background_update(rlf_reconstruct *stage, const float *kept, rlf_slot *slot);
 void rlf_background_adaptive_update(rlf_reconstruct *stage, const float *kept, rlf_slot *slot);
+/* 1 in slot->foreground where the 3x3 majority of `seen` is foreground, RLF_SEEN_UNKNOWN where it
+ * is unknown; and the spans of that. */
+void background_majority(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *seen);
+/* Components of slot->foreground; those that are unknown are decided. */
+void background_find_front(rlf_reconstruct *stage, const rlf_slot *slot);
+/* ---- background/given.c ---- */
+/* Asks for the room behind each pixel and writes slot->foreground. What is known of the frame
+ * before is carried into this one's camera. */
+void background_given_update(rlf_reconstruct *stage, rlf_slot *slot);
+/* ---- motion/carry.c ---- */
+/* stage->previous as the camera of this frame would have seen it: its foreground and regions. */
+void motion_carry(rlf_reconstruct *stage, const rlf_pose *T_now_before);
 /* ---- background/depart.c: what stood and starts to move; all do nothing without its planes ----
  */
 /* The things of the background are those that thickness/static_pieces.c has just found. */
@@ -243,6 +255,8 @@ void rlf_thickness_estimate(rlf_reconstruct *stage, rlf_slot *slot, const float 
 void segment_frame(rlf_reconstruct *stage, rlf_slot *slot);
 
 /* ---- publish.c ---- */
+/* The part of the surface that is known when depth and normals are. */
+void surface_publish_seen(const rlf_reconstruct *stage, rlf_slot *slot);
 void surface_publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot);
 
 #endif

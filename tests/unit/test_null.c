@@ -73,6 +73,7 @@ CALL(compositor_name, (void)rlf_compositor_name(NULL))
 CALL(compositor_render, result = rlf_compositor_render(NULL, NULL, NULL))
 CALL(view_parse, (void)rlf_view_parse(NULL, NULL))
 CALL(draw_text, (void)rlf_draw_text(NULL, 0, 0, 1, NULL))
+CALL(room_look, rlf_room_look(NULL, NULL, NULL, NULL, NULL, NULL))
 CALL(view_legend, (void)rlf_view_legend(RLF_VIEW_DEPTH, NULL))
 CALL(legend_draw, rlf_legend_draw(NULL, NULL))
 CALL(source_create_custom, result = rlf_source_create_custom(NULL, NULL, NULL, NULL))
@@ -146,6 +147,7 @@ static const struct {
     {"compositor_render", compositor_render},
     {"view_parse", view_parse},
     {"draw_text", draw_text},
+    {"room_look", room_look},
     {"view_legend", view_legend},
     {"legend_draw", legend_draw},
     {"source_create_custom", source_create_custom},

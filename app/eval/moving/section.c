@@ -1,6 +1,7 @@
 /* Section moving: the camera moves, its pose is found. Synthetic paths, where the truth is known,
  * and real clips with poses. */
 #include "eval/moving/moving.h"
+#include "eval/moving/thrown.h"
 #include "eval/sections.h"
 
 #include "relief/io.h"
@@ -95,9 +96,28 @@ static rlf_result run_real(eval_table *table)
     return result;
 }
 
+static rlf_result run_thrown(eval_table *table, int64_t seed)
+{
+    thrown_figures f;
+    rlf_result result = thrown_measure(seed, &f);
+    if (result == RLF_OK) {
+        eval_table_add(table, "moving thrown", "lost", "bodies lost of 1000 thrown",
+                       RLF_PROFILE_LIVE, f.gone + f.sunk + f.hanging);
+        eval_table_add(table, "moving thrown", "sunk", "  more than 1 cm inside of the room",
+                       RLF_PROFILE_LIVE, f.sunk);
+        eval_table_add(table, "moving thrown", "hanging", "  more than 1 cm over it",
+                       RLF_PROFILE_LIVE, f.hanging);
+        eval_table_add(table, "moving thrown", "restless", "not asleep after all",
+                       RLF_PROFILE_LIVE, f.restless);
+        eval_table_add(table, "moving thrown", "surface_ms", "contacts with grid and map, mean, ms",
+                       RLF_PROFILE_LIVE, f.surface_ms);
+    }
+    return result;
+}
+
 rlf_result eval_moving_run(eval_table *table, int64_t seed, int profile_mask)
 {
-    rlf_result result = RLF_OK;
+    rlf_result result = run_thrown(table, seed);
     (void)profile_mask; /* poses do not depend on it */
     for (size_t i = 0; i < sizeof(synthetic) / sizeof(synthetic[0]) && result == RLF_OK; i++) {
         char text[256];

@@ -285,6 +285,9 @@ static void update_edges(gl_compositor *c, const rlf_render_input *input)
     edge_matte *s = &c->edges;
     int32_t width = s->cover.width;
     int32_t height = s->cover.height;
+    if (c->real.has_moved) {
+        edge_matte_forget(s);
+    }
     edge_matte_update(s, &c->real.z, real_depth_known(&c->real), input->frame);
     gl_texture_upload_f32(&c->near_texture, s->near_z.data, width, height);
     gl_texture_upload_f32(&c->far_texture, s->far_z.data, width, height);

@@ -106,3 +106,13 @@ soft_color soft_color_known(void)
 {
     return soft_rgb(90, 255, 160);
 }
+
+soft_color soft_color_path(void)
+{
+    return soft_rgb(255, 190, 60);
+}
+
+soft_color soft_color_dark(void)
+{
+    return soft_rgb(18, 20, 24);
+}

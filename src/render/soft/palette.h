@@ -26,5 +26,7 @@ soft_color soft_color_contact(rlf_contact_other other);
 soft_color soft_color_foreground(void);
 soft_color soft_color_unseen(void); /* points behind others */
 soft_color soft_color_known(void);
+soft_color soft_color_path(void); /* where the camera has been */
+soft_color soft_color_dark(void); /* where a view from anywhere shows nothing */
 
 #endif

@@ -12,6 +12,7 @@
 #include "render/soft/marks.h"
 #include "render/soft/view_contacts.h"
 #include "render/soft/view_known.h"
+#include "render/soft/view_map.h"
 #include "render/soft/view_mesh.h"
 #include "render/soft/view_points.h"
 #include "render/soft/views.h"
@@ -232,6 +233,9 @@ static rlf_result draw_camera(soft *s, const rlf_render_input *input)
         return result;
     }
     soft_set_background(s, &input->frame->color);
+    if (has_edges && s->real.has_moved) {
+        edge_matte_forget(&s->edges);
+    }
     if (has_edges) {
         edge_matte_update(&s->edges, &s->real.z, real_depth_known(&s->real), input->frame);
     }
@@ -295,6 +299,9 @@ static rlf_result render(void *self, const rlf_render_input *input, rlf_render_o
     } else if (input->view == RLF_VIEW_POINTS) {
         clear_matte(s);
         result = soft_draw_points(s, input);
+    } else if (input->view == RLF_VIEW_MAP) {
+        clear_matte(s);
+        result = soft_draw_map(s, input);
     } else if (input->view == RLF_VIEW_MESH) {
         result = draw_mesh(s, input);
     } else {

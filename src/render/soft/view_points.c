@@ -4,6 +4,7 @@
  * bodies as in the main view, with that buffer for the real world. */
 #include "render/soft/view_points.h"
 
+#include "render/render.h"
 #include "render/soft/bodies.h"
 #include "render/soft/draw.h"
 #include "render/soft/palette.h"
@@ -11,41 +12,22 @@
 #include "render/soft/soft.h"
 #include "render/soft/views.h"
 
-#define PITCH_MAX 1.5
-#define ZOOM_MIN 0.1
-#define ZOOM_MAX 10.0
 #define SPLAT_MAX 12.0 /* pixels: half a square */
 #define FRUSTUM_M 0.25 /* length of the camera that is drawn */
 
-static double finite_or(double value, double otherwise)
+/* The middle of the sensor's range. */
+static double pivot_of(const rlf_rig *rig)
 {
-    return rlf_is_finite(value) ? value : otherwise;
+    return rig->depth_max_m > rig->depth_min_m ? 0.5 * (rig->depth_min_m + rig->depth_max_m) : 2.5;
 }
 
-/* T_view_depth of an orbit. */
-static rlf_pose orbit_pose(const soft *s, const rlf_orbit *orbit)
-{
-    const rlf_rig *rig = &s->def.rig;
-    double middle =
-        rig->depth_max_m > rig->depth_min_m ? 0.5 * (rig->depth_min_m + rig->depth_max_m) : 2.5;
-    double zoom = finite_or(orbit->zoom, 0.0);
-    zoom = zoom > 0.0 ? rlf_clamp(zoom, ZOOM_MIN, ZOOM_MAX) : 1.0;
-    double pitch = rlf_clamp(finite_or(orbit->pitch, 0.0), -PITCH_MAX, PITCH_MAX);
-    rlf_quat yaw = rlf_quat_from_axis_angle(rlf_vec3_make(0, 1, 0), finite_or(orbit->yaw, 0.0));
-    rlf_quat up = rlf_quat_from_axis_angle(rlf_vec3_make(1, 0, 0), pitch);
-    rlf_pose T = {{0, 0, 0}, rlf_quat_mul(up, yaw)};
-    rlf_vec3 pivot = rlf_rotate(T.q, rlf_vec3_make(0, 0, middle));
-    T.p = rlf_vec3_make(-pivot.x, -pivot.y, middle * zoom - pivot.z);
-    return T;
-}
-
-static void clear(soft *s)
+void soft_clear_view(soft *s)
 {
     for (int32_t y = 0; y < s->image.height; y++) {
         uint8_t *row = rlf_rgba8_row(&s->image, y);
         float *z = rlf_f32_row(&s->real.z, y);
         for (int32_t x = 0; x < s->image.width; x++) {
-            soft_put(row + 4 * (ptrdiff_t)x, soft_rgb(18, 20, 24));
+            soft_put(row + 4 * (ptrdiff_t)x, soft_color_dark());
             z[x] = 0.0f;
         }
     }
@@ -101,8 +83,7 @@ static void draw_all_points(soft *s, const rlf_render_input *input)
     }
 }
 
-/* Where the camera is: its corners, as far as they are in the picture. */
-static void draw_frustum(soft *s)
+void soft_draw_frustum(const soft *s)
 {
     const rlf_camera *k = &s->def.grid;
     soft_point ends[5];
@@ -136,16 +117,16 @@ rlf_result soft_draw_points(soft *s, const rlf_render_input *input)
     const rlf_occlusion occlusion = s->def.occlusion;
     rlf_camera pinhole = camera;
     pinhole.distortion_model = RLF_DISTORTION_NONE;
-    rlf_pose T_view_depth = orbit_pose(s, &input->orbit);
+    rlf_pose T_view_depth = render_orbit_pose(&input->orbit, pivot_of(&s->def.rig));
     soft_set_viewpoint(s, &pinhole, &T_view_depth);
     s->def.occlusion = RLF_OCCLUSION_DEPTH;
-    clear(s);
+    soft_clear_view(s);
     draw_all_points(s, input);
     rlf_result result = soft_scene_build(s, input);
     if (result == RLF_OK && s->scene.body_count > 0) {
         soft_draw_bodies(s, false);
     }
-    draw_frustum(s);
+    soft_draw_frustum(s);
     s->def.occlusion = occlusion;
     soft_set_viewpoint(s, &camera, &T_picture_depth);
     return result;

@@ -73,6 +73,12 @@ static void majority_rows(void *context, int32_t begin, int32_t end, int32_t wor
     }
 }
 
+void background_majority(rlf_reconstruct *stage, const rlf_slot *slot, uint8_t *seen)
+{
+    model_job job = {.stage = stage, .slot = slot, .seen = seen};
+    rlf_parallel_for(stage->def.pool, stage->grid.height, RLF_ROW_GRAIN, majority_rows, &job);
+}
+
 /* ---- what stands still ---- */
 
 static int32_t step_ms(const rlf_reconstruct *stage, const rlf_slot *slot)
@@ -190,7 +196,7 @@ static void restore(rlf_reconstruct *stage, const rlf_slot *slot)
 /* ---- a frame ---- */
 
 /* The image of the background is made by now: it needs the same memory. */
-static void find_front(rlf_reconstruct *stage, rlf_slot *slot)
+void background_find_front(rlf_reconstruct *stage, const rlf_slot *slot)
 {
     const rlf_span *spans = stage->work.front;
     rlf_segment_links(stage, RLF_SEGMENT_NOISE, slot->depth, slot->foreground, spans);
@@ -241,7 +247,7 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, const float *kept, r
     background->state = RLF_BACKGROUND_READY;
     if (!learning) {
         rlf_depart_follow(stage, slot, job.seen);
-        rlf_parallel_for(def->pool, stage->grid.height, RLF_ROW_GRAIN, majority_rows, &job);
+        background_majority(stage, slot, job.seen);
         restore(stage, slot);
         rlf_depart_find(stage, slot);
     }
@@ -251,7 +257,7 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, const float *kept, r
     }
     rlf_background_cover(stage, kept, slot, learning);
     if (!learning) {
-        find_front(stage, slot);
+        background_find_front(stage, slot);
         absorb(stage, slot);
     }
 }

@@ -61,6 +61,7 @@ void rlf_background_update(rlf_reconstruct *stage, const float *kept, rlf_slot *
     case RLF_BACKGROUND_OFF: memset(slot->foreground, 0, (size_t)stage->grid.count); break;
     case RLF_BACKGROUND_AVERAGE: update_average(stage, slot); break;
     case RLF_BACKGROUND_ADAPTIVE: rlf_background_adaptive_update(stage, kept, slot); break;
+    case RLF_BACKGROUND_GIVEN: background_given_update(stage, slot); break;
     }
 }
 

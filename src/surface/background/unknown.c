@@ -138,6 +138,9 @@ static bool is_component_front(const rlf_reconstruct *stage, int32_t component)
     const rlf_work *work = &stage->work;
     int32_t size = work->size[component], own = size - work->vote[1][component];
     int32_t least = stage->def.min_region_points;
+    if (stage->def.background_method == RLF_BACKGROUND_GIVEN) {
+        return 2 * work->vote[0][component] >= size; /* a camera that turns sees new walls */
+    }
     return (10 * work->vote[0][component] >= size || size >= least) &&
            (own == size || own >= least || own == 0);
 }

@@ -190,7 +190,7 @@ void rlf_ego_motion_reset(rlf_ego_motion *ego)
 {
     ego->count = ego->age = ego->seen_frames = ego->hold = 0;
     ego->moves = false;
-    ego->pose = ego->step = rlf_pose_identity();
+    ego->pose = ego->step = ego->found = rlf_pose_identity();
 }
 
 void rlf_ego_motion_watch(rlf_reconstruct *stage, const float *depth)
@@ -204,6 +204,7 @@ void rlf_ego_motion_watch(rlf_reconstruct *stage, const float *depth)
     ego->pose = rlf_pose_mul(&ego->step, &ego->pose);
     bool has = has_moved(&job, &ego->pose);
     ego->step = has ? rlf_pose_mul(&ego->pose, &back) : rlf_pose_identity();
+    ego->found = has ? ego->pose : ego->found;
     ego->age++;
     ego->seen_frames = has ? ego->seen_frames + 1 : 0;
     if (has && (ego->moves || ego->seen_frames >= SURE_FRAMES)) {

@@ -17,6 +17,7 @@ typedef struct rlf_ego_motion {
     rlf_ego_point points[RLF_EGO_POINTS];
     int32_t count, age;  /* age: frames since they were seen */
     rlf_pose pose, step; /* their motion since then, and that of the last frame */
+    rlf_pose found;      /* their motion when it was seen last */
     int32_t seen_frames; /* in a row in which the camera moved */
     int32_t hold;        /* frames for which it is still taken to move */
     bool moves;

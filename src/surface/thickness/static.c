@@ -184,7 +184,8 @@ void static_advance(rlf_reconstruct *stage)
 
 bool static_is_wanted(const rlf_reconstruct_def *def)
 {
-    return def->enable_thickness && def->background_method != RLF_BACKGROUND_OFF;
+    return def->enable_thickness && def->background_method != RLF_BACKGROUND_OFF &&
+           def->background_method != RLF_BACKGROUND_GIVEN;
 }
 
 void static_allocate(static_thickness *state, rlf_arena *arena, const rlf_reconstruct_def *def,

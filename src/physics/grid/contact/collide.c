@@ -2,6 +2,7 @@
  * outlines and bumps against it. Costs per body, not per pixel; nothing is built per frame. */
 #include "physics/grid/ball/ball.h"
 #include "physics/grid/contact/search.h"
+#include "physics/grid/mapped/mapped.h"
 #include "physics/grid/unseen/unseen.h"
 
 /* Most substeps between two queries: a body that falls from rest must not fall through the margin;
@@ -92,10 +93,13 @@ static bool update_side(grid_job *job, uint8_t *side)
     field_cell cell;
     rlf_vec3 seen = rlf_mad(job->motion.centre, job->scan.surface_velocity, -job->query->tau);
     field_state state = FIELD_NONE;
-    if (job->scan.is_near) {
+    bool is_mapped = job->tiles == job->query->background && mapped_answers(job->query, seen);
+    if (job->scan.is_near && !is_mapped) {
         state = grid_field_state(job->query->grid, job->sheet, seen, &cell);
     }
-    if (state == FIELD_BEHIND && *side == FIELD_FRONT && is_swept(job, &cell, seen)) {
+    if (is_mapped) {
+        *side = FIELD_NONE; /* whatever the sheet guesses of its back */
+    } else if (state == FIELD_BEHIND && *side == FIELD_FRONT && is_swept(job, &cell, seen)) {
         *side = FIELD_INSIDE;
     } else if (state != FIELD_INSIDE && !(state == FIELD_BEHIND && *side == FIELD_INSIDE)) {
         *side = (uint8_t)state;
@@ -269,7 +273,9 @@ static void collide_layers(grid_job *job, grid_shift shift, phys_body *body, int
     collide_out_of_view(job, shift, &beyond);
     collide_layer(job, query->background, &body->side[1]);
     add_out_of_view(job, &beyond);
+    mapped_drop_guesses(job);
     grid_unseen_collide(job);
+    mapped_collide(job);
     body->surface_clear = rlf_min(body->surface_clear, clearance_of(job));
     grid_reduce(job, body, body_index, RLF_CONTACT_BACKGROUND);
 }

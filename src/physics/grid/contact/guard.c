@@ -1,6 +1,7 @@
 /* A body whose centre would enter the surface unseen by its contacts bounces there. */
 #include "physics/grid/cast.h"
 #include "physics/grid/contact/contact.h"
+#include "physics/grid/mapped/mapped.h"
 
 /* What stands in the way, world. */
 typedef struct guard_wall {
@@ -64,6 +65,37 @@ static bool enters(const grid_query *query, const rlf_grid_sheet *sheet, rlf_vec
            grid_cast(query->grid, sheet, start, path, 0.0, &outside, hit);
 }
 
+/* Bounces a body that moves into the wall, from where it was before. */
+static bool hold_back(const grid_query *query, phys_body *body, int32_t body_index, rlf_vec3 before,
+                      const guard_wall *wall)
+{
+    if (rlf_dot(wall->normal, rlf_sub(body->v, wall->velocity)) >= 0.0) {
+        return false; /* it leaves through that face: held back it would hang there for ever */
+    }
+    body->x = rlf_mad(before, wall->velocity, query->step);
+    bounce(query, body, body_index, wall);
+    return true;
+}
+
+/* Whether the map answers where the way begins, or where it enters what the sheet guesses. */
+static bool is_map_asked(const grid_query *query, rlf_vec3 from, const field_hit *hit)
+{
+    return mapped_answers(query, from) || mapped_answers(query, hit->point);
+}
+
+/* The same by the map, where the grid does not see. */
+static void guard_by_map(const grid_query *query, phys_body *body, int32_t body_index,
+                         rlf_vec3 before)
+{
+    mapped_touch touch;
+    if (mapped_cast(query, before, rlf_sub(body->x, before), 0.0, &touch) &&
+        touch.separation >= 0.0) {
+        guard_wall wall = {.normal = touch.normal, .point = touch.point};
+        wall.other = RLF_CONTACT_BACKGROUND;
+        hold_back(query, body, body_index, before, &wall);
+    }
+}
+
 void grid_guard_centre(const grid_query *query, phys_body *body, int32_t body_index,
                        rlf_vec3 before)
 {
@@ -79,18 +111,19 @@ void grid_guard_centre(const grid_query *query, phys_body *body, int32_t body_in
         if (i == 0 && body->grab != NULL) {
             continue; /* fingers may close on it as far as they like */
         }
-        if (!enters(query, sheets[i], from, to, flow, &hit)) {
+        if (!enters(query, sheets[i], from, to, flow, &hit) ||
+            (i == 1 && is_map_asked(query, from, &hit))) {
             continue;
         }
         guard_wall wall = {.other = others[i], .label = hit.label};
         wall.normal = rlf_rotate(T_world_grid->q, hit.normal);
         wall.velocity = rlf_rotate(T_world_grid->q, flow);
         wall.point = rlf_transform(T_world_grid, rlf_mad(hit.point, flow, query->tau));
-        if (rlf_dot(wall.normal, rlf_sub(body->v, wall.velocity)) >= 0.0) {
-            continue; /* it leaves through that face: held back it would hang there for ever */
+        if (hold_back(query, body, body_index, before, &wall)) {
+            return;
         }
-        body->x = rlf_mad(before, wall.velocity, query->step);
-        bounce(query, body, body_index, &wall);
-        return;
+    }
+    if (query->map != NULL) {
+        guard_by_map(query, body, body_index, before);
     }
 }

@@ -162,6 +162,20 @@ bool room_planes_glide(room_planes *shell, double dt)
     return has_moved;
 }
 
+static void carry(room_plane *plane, const rlf_pose *T_before_now)
+{
+    plane->offset -= rlf_dot(plane->normal, T_before_now->p);
+    plane->normal = rlf_rotate(rlf_quat_conjugate(T_before_now->q), plane->normal);
+}
+
+void room_planes_carry(room_planes *shell, const rlf_pose *T_before_now)
+{
+    for (int32_t i = 0; i < shell->count; i++) {
+        carry(&shell->planes[i], T_before_now);
+        carry(&shell->fitted[i], T_before_now);
+    }
+}
+
 bool room_is_hidden(const rlf_grid *grid, rlf_vec3 q)
 {
     field_cell cell;

@@ -34,6 +34,10 @@ void room_planes_update(room_planes *shell, const rlf_grid *grid);
  * when all are there. */
 bool room_planes_glide(room_planes *shell, double dt);
 
+/* The planes in the frame of a camera that moved from where they are told: T_before_now takes
+ * points of its new frame to the old one. */
+void room_planes_carry(room_planes *shell, const rlf_pose *T_before_now);
+
 /* Whether the shell counts at q (grid frame): the camera does not see that place. */
 bool room_is_hidden(const rlf_grid *grid, rlf_vec3 q);
 

@@ -1,7 +1,8 @@
 /* What is taken for solid where the camera does not look, and in which order.
  *
  * 1. What the layers measure: their own depth and thickness, and nothing where the camera looks
- *    through. No guess below counts where a layer has free space.
+ *    through. No guess below counts where a layer has free space, nor where a map of the room
+ *    knows what is there (mapped/mapped.h).
  * 2. What the picture's border cuts goes on beyond it (out_of_view.c): the body is searched at a
  *    place moved into view, and only contacts with what reaches the border count.
  * 3. The room's planes (room_planes.c) are solid without end where nothing is seen, and behind what
@@ -12,6 +13,7 @@
  * does.
  *
  * Without RLF_BORDER_EXTEND 2 to 4 are off. */
+#include "physics/grid/mapped/mapped.h"
 #include "physics/grid/unseen/unseen.h"
 #include "physics/grid/unseen/upright_face.h"
 
@@ -25,7 +27,7 @@ static void touch_plane(grid_job *job, const room_plane *plane, rlf_vec3 anchor,
     double approach = -rlf_dot(plane->normal, v);
     double separation = room_plane_height(plane, q);
     if (separation < GRID_MARGIN + rlf_max(0.0, approach) * job->window.horizon &&
-        room_is_hidden(job->query->grid, q)) {
+        room_is_hidden(job->query->grid, q) && !mapped_answers(job->query, q)) {
         grid_hit hit = {.point = rlf_mad(q, plane->normal, -separation), .normal = plane->normal};
         hit.anchor = anchor;
         hit.rounding = rounding;

@@ -1,6 +1,6 @@
 /* The camera's pose of each frame, tracked against the map that the frames before it made. */
-#ifndef RELIEF_APP_FUSE_CAMERA_POSE_H
-#define RELIEF_APP_FUSE_CAMERA_POSE_H
+#ifndef RELIEF_PIPELINE_CAMERA_POSE_H
+#define RELIEF_PIPELINE_CAMERA_POSE_H
 
 #include "relief/map.h"
 #include "relief/track.h"

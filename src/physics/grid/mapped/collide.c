@@ -1,0 +1,129 @@
+/* Points of a body's surface against the map, where the grid does not see. */
+#include "physics/grid/mapped/mapped.h"
+
+#include "relief/map.h"
+
+/* The directions of the map's surface about a body, grid frame. */
+typedef struct mapped_normals {
+    rlf_vec3 of[GRID_NORMALS_MAX];
+    int32_t count;
+} mapped_normals;
+
+static void note_normal(mapped_normals *normals, rlf_vec3 normal)
+{
+    for (int32_t i = 0; i < normals->count; i++) {
+        if (rlf_dot(normals->of[i], normal) > ONE_PLANE_COS) {
+            return;
+        }
+    }
+    if (normals->count < GRID_NORMALS_MAX) {
+        normals->of[normals->count++] = normal;
+    }
+}
+
+/* The body's point that a core point and a direction name, from its centre, grid frame. */
+static rlf_vec3 arm_of(const grid_job *job, rlf_vec3 anchor, double rounding, rlf_vec3 normal)
+{
+    return rlf_mad(rlf_mat3_mul_vec(&job->motion.R_grid_body, anchor), normal, -rounding);
+}
+
+void mapped_drop_guesses(grid_job *job)
+{
+    int32_t kept = 0;
+    for (int32_t i = 0; job->query->map != NULL && i < job->hit_count; i++) {
+        const grid_hit *hit = &job->hits[i];
+        rlf_vec3 q = rlf_add(job->motion.centre,
+                             arm_of(job, hit->anchor, hit->rounding, hit->normal));
+        if (!mapped_answers(job->query, q) && !mapped_answers(job->query, hit->point)) {
+            job->hits[kept++] = *hit;
+        }
+    }
+    job->hit_count = job->query->map != NULL ? kept : job->hit_count;
+}
+
+/* Casts a point at `arm` from the centre along its way; *touch is in the world. */
+static bool cast_arm(const grid_job *job, rlf_vec3 arm, double margin, mapped_touch *touch)
+{
+    const rlf_grid *grid = job->query->grid;
+    rlf_vec3 q = rlf_add(job->motion.centre, arm);
+    rlf_vec3 v = rlf_add(job->motion.v, rlf_cross(job->motion.w, arm));
+    rlf_vec3 path = rlf_scale(v, job->window.horizon);
+    if (mapped_is_seen(grid, q) && mapped_is_seen(grid, rlf_add(q, path))) {
+        return false;
+    }
+    return mapped_cast(job->query, rlf_transform(&grid->T_world_grid, q),
+                       rlf_rotate(grid->T_world_grid.q, path), margin, touch);
+}
+
+static void add_touch(grid_job *job, const mapped_touch *touch, rlf_vec3 anchor, double rounding,
+                      rlf_vec3 towards)
+{
+    grid_hit hit = {.point = rlf_transform(&job->query->T_grid_world, touch->point)};
+    hit.normal = rlf_rotate(job->query->T_grid_world.q, touch->normal);
+    hit.anchor = anchor;
+    hit.rounding = rounding;
+    hit.separation = touch->separation;
+    if (rounding > 0.0) { /* the touching point of a round body follows the plane that was found */
+        rlf_vec3 core = rlf_mad(arm_of(job, anchor, rounding, towards), towards, rounding);
+        core = rlf_add(core, job->motion.centre);
+        hit.separation = rlf_dot(hit.normal, rlf_sub(core, hit.point)) - rounding;
+    }
+    grid_add_hit(job, &hit);
+}
+
+/* The sample points of the body's surface. Of what is round they only tell directions. */
+static void meet_samples(grid_job *job, bool is_round, mapped_normals *normals)
+{
+    const double ROUND_SHARE = 0.2; /* of the radius: as much lower is a ball between its samples */
+    const phys_shape *shape = &job->body->shape;
+    double margin = GRID_MARGIN + (is_round ? ROUND_SHARE * shape->radius : 0.0);
+    for (int32_t i = 0; i < shape->point_count; i++) {
+        mapped_touch touch;
+        rlf_vec3 none = {0, 0, 0};
+        if (cast_arm(job, arm_of(job, shape->points[i], 0.0, none), margin, &touch)) {
+            note_normal(normals, rlf_rotate(job->query->T_grid_world.q, touch.normal));
+            if (!is_round) {
+                add_touch(job, &touch, shape->points[i], 0.0, none);
+            }
+        }
+    }
+}
+
+/* The points that a shape names for each of those directions. */
+static void meet_supports(grid_job *job, const mapped_normals *normals)
+{
+    for (int32_t i = 0; i < normals->count; i++) {
+        rlf_vec3 core[2], normal = normals->of[i];
+        double rounding;
+        rlf_vec3 down = rlf_mat3_mul_vec(&job->motion.R_body_grid, rlf_neg(normal));
+        int32_t count = phys_shape_support(&job->body->shape, down, core, &rounding);
+        for (int32_t k = 0; k < count; k++) {
+            mapped_touch touch;
+            if (cast_arm(job, arm_of(job, core[k], rounding, normal), GRID_MARGIN, &touch)) {
+                add_touch(job, &touch, core[k], rounding, normal);
+            }
+        }
+    }
+}
+
+void mapped_collide(grid_job *job)
+{
+    if (job->query->map == NULL) {
+        return;
+    }
+    rlf_vec3 centre = rlf_transform(&job->query->grid->T_world_grid, job->motion.centre);
+    rlf_map_point there = rlf_map_sample(job->query->map, centre);
+    double gap = there.state == RLF_MAP_FREE ? there.distance : 0.0;
+    job->scan.nearest2 = rlf_min(job->scan.nearest2, gap * gap);
+    if (gap > job->window.reach) {
+        return;
+    }
+    rlf_shape_type type = job->body->shape.shape.type;
+    bool is_round = type == RLF_SHAPE_SPHERE || type == RLF_SHAPE_CAPSULE;
+    mapped_normals normals = {.count = 0};
+    if (rlf_dot(job->query->up, job->query->up) > 0.0) {
+        note_normal(&normals, job->query->up);
+    }
+    meet_samples(job, is_round, &normals);
+    meet_supports(job, &normals);
+}

@@ -1,0 +1,116 @@
+/* A camera that stands, one that moves, and the step from the one to the other. */
+#include "pipeline/state.h"
+
+#include <string.h>
+
+#define KEEP_NS 1000000000 /* a standing camera's background is kept so often */
+#define TOLD_NS 500000000  /* within which it is told that the camera moves */
+
+void camera_stop(rlf_pipeline *p)
+{
+    moving_stop(&p->camera.moving);
+    rlf_free(p->camera.still);
+    memset(&p->camera, 0, sizeof(p->camera));
+}
+
+rlf_result camera_start(rlf_pipeline *p)
+{
+    const rlf_pipeline_def *def = &p->def;
+    camera_stop(p);
+    p->camera.T_world = def->T_world_camera;
+    const bool is_known = def->map != NULL && rlf_map_get_status(def->map).block_count > 0;
+    if (def->camera == RLF_CAMERA_MOVING || (def->camera == RLF_CAMERA_AUTO && is_known)) {
+        return moving_start(&p->camera.moving, def, NULL);
+    }
+    const rlf_reconstruct_def *surface = &def->reconstruct;
+    p->camera.is_watched = def->camera == RLF_CAMERA_AUTO && surface->scale_factor == 1 &&
+                           surface->background_method == RLF_BACKGROUND_ADAPTIVE;
+    if (p->camera.is_watched) {
+        const rlf_camera *depth = &surface->rig.depth;
+        p->camera.still =
+            rlf_alloc_array(2 * (size_t)depth->width * (size_t)depth->height, sizeof(float));
+    }
+    return p->camera.is_watched && p->camera.still == NULL ? RLF_ERROR_MEMORY : RLF_OK;
+}
+
+/* What the room looked like from where the camera stood: the map begins with it. */
+static void keep_still(camera *c, const rlf_surface *s)
+{
+    const int32_t last = (c->still_count + 1) % 2, next = c->still_count % 2;
+    const bool is_due = c->still_count == 0 || s->time_ns - c->still_ns[last] >= KEEP_NS;
+    if (is_due && s->background_state == RLF_BACKGROUND_READY) {
+        const size_t count = (size_t)s->width * (size_t)s->height;
+        memcpy(c->still + (size_t)next * count, s->background_depth, count * sizeof(*c->still));
+        c->still_ns[next] = s->time_ns;
+        c->still_count++;
+    }
+}
+
+/* The newest that was kept before the camera can have begun to move; NULL = none was. */
+static const float *find_still(const camera *c, const rlf_surface *s)
+{
+    const size_t count = (size_t)s->width * (size_t)s->height;
+    const int32_t last = (c->still_count + 1) % 2;
+    const bool is_old = s->time_ns - c->still_ns[last] >= TOLD_NS || c->still_count == 1;
+    const int32_t chosen = is_old ? last : 1 - last;
+    return c->still_count > 0 ? c->still + (size_t)chosen * count : NULL;
+}
+
+/* One line when it begins. */
+static void tell_motion(rlf_pipeline *p, const rlf_surface *s)
+{
+    if (s->camera_moves && !p->camera.has_told) {
+        rlf_log(RLF_LOG_WARNING,
+                "the camera moves (frame %lld): put it still, or let it move with --camera auto; "
+                "while it moves all is taken to be at rest, and bodies do not move with the room",
+                (long long)p->frame_index);
+        p->camera.has_told = true;
+    }
+}
+
+static rlf_result see_moving(rlf_pipeline *p, const rlf_surface **out)
+{
+    moving *m = &p->camera.moving;
+    rlf_result result = moving_process(m, &p->last.frame, out);
+    p->camera.T_world = m->T_world_camera;
+    p->last.track = &m->track;
+    p->last.room = m->has_room ? &m->room : NULL;
+    return result;
+}
+
+/* From now on it moves. */
+static rlf_result begin_to_move(rlf_pipeline *p, const rlf_surface *s)
+{
+    camera *c = &p->camera;
+    rlf_log(RLF_LOG_INFO, "the camera moves (frame %lld): it is tracked from now on",
+            (long long)p->frame_index);
+    c->is_watched = false;
+    const moving_from from = {find_still(c, s), s->time_ns, s->T_now_before};
+    return moving_start(&c->moving, &p->def, from.still != NULL ? &from : NULL);
+}
+
+static rlf_result see_standing(rlf_pipeline *p, const rlf_surface **out)
+{
+    rlf_result result = rlf_reconstruct_process(p->reconstruct, &p->last.frame, out);
+    if (result != RLF_OK || !p->camera.is_watched) {
+        if (result == RLF_OK) {
+            tell_motion(p, *out);
+        }
+        return result;
+    }
+    if (!(*out)->camera_moves) {
+        keep_still(&p->camera, *out);
+        return RLF_OK;
+    }
+    result = begin_to_move(p, *out);
+    return result == RLF_OK ? see_moving(p, out) : result;
+}
+
+rlf_result camera_see(rlf_pipeline *p, const rlf_surface **out)
+{
+    p->last.track = NULL;
+    p->last.room = NULL;
+    rlf_result result = p->camera.moving.is_on ? see_moving(p, out) : see_standing(p, out);
+    p->last.T_world_camera = p->camera.T_world;
+    return result;
+}

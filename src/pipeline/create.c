@@ -1,0 +1,200 @@
+/* A pipeline is made, with all of its stages and the scene, and goes. */
+#include "base/cookie.h"
+#include "pipeline/state.h"
+
+#include <string.h>
+
+#define THROWS_MAX 256 /* bodies that there is room for beside a scene's */
+
+rlf_pipeline_def rlf_pipeline_def_default(rlf_profile profile, rlf_source *source, rlf_pool *pool)
+{
+    rlf_pipeline_def def;
+    memset(&def, 0, sizeof(def));
+    def.cookie = RLF_DEF_COOKIE;
+    def.profile = profile;
+    def.source = source;
+    def.enable_render = true;
+    def.T_world_camera = rlf_pose_identity();
+    def.pool = pool;
+    if (!RLF_ASSERT(source != NULL)) {
+        return def;
+    }
+    const rlf_rig *rig = &rlf_source_get_info(source)->rig;
+    bool is_thesis = profile == RLF_PROFILE_THESIS;
+    def.reconstruct = rlf_reconstruct_def_default(profile, rig);
+    def.reconstruct.pool = pool;
+    def.world = rlf_world_def_default();
+    def.world.method = is_thesis ? RLF_PHYSICS_THESIS : RLF_PHYSICS_LIVE;
+    def.world.pool = pool;
+    def.compositor = rlf_compositor_def_default();
+    def.compositor.rig = *rig;
+    def.compositor.occlusion = is_thesis ? RLF_OCCLUSION_THESIS : RLF_OCCLUSION_SOFT;
+    def.compositor.pool = pool;
+    return def;
+}
+
+static rlf_result copy_scene(rlf_pipeline *p, const rlf_scene *scene)
+{
+    p->scene.gravity = p->def.world.gravity;
+    p->scene.border = p->def.world.border;
+    if (scene == NULL) {
+        return RLF_OK;
+    }
+    p->scene.gravity = scene->gravity;
+    p->scene.finds_gravity = scene->finds_gravity;
+    p->scene.border = scene->border;
+    memcpy(p->scene.on, scene->on, sizeof(p->scene.on));
+    p->scene.body_count = scene->body_count;
+    p->scene.bodies = rlf_alloc_array((size_t)scene->body_count, sizeof(*scene->bodies));
+    if (p->scene.bodies == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    if (scene->body_count > 0) {
+        memcpy(p->scene.bodies, scene->bodies, (size_t)scene->body_count * sizeof(*scene->bodies));
+    }
+    return RLF_OK;
+}
+
+rlf_result pipeline_add_bodies(rlf_pipeline *p)
+{
+    for (int32_t i = 0; i < p->scene.body_count; i++) {
+        rlf_body_id id;
+        rlf_result result = rlf_world_add_body(p->world, &p->scene.bodies[i], &id);
+        if (result != RLF_OK) {
+            return result;
+        }
+    }
+    return known_models_start(&p->known, p->world);
+}
+
+/* Rays of the decimated grid for the compositor; the surface's own are not known before the first
+ * frame. */
+static rlf_result make_rays(rlf_pipeline *p, const rlf_camera *depth)
+{
+    rlf_camera grid = rlf_camera_decimate(depth, p->def.reconstruct.scale_factor);
+    size_t count = (size_t)grid.width * (size_t)grid.height;
+    p->ray_x = rlf_alloc_array(count, sizeof(float));
+    p->ray_y = rlf_alloc_array(count, sizeof(float));
+    if (p->ray_x == NULL || p->ray_y == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    for (int32_t i = 0; i < (int32_t)count; i++) {
+        rlf_vec3 ray;
+        if (rlf_camera_unproject(&grid, i % grid.width, i / grid.width, &ray)) {
+            p->ray_x[i] = (float)ray.x;
+            p->ray_y[i] = (float)ray.y;
+        }
+    }
+    p->compositor_def.grid = grid;
+    p->compositor_def.ray_x = p->ray_x;
+    p->compositor_def.ray_y = p->ray_y;
+    return RLF_OK;
+}
+
+/* A scene's file cannot ask for a larger world: its bodies do, with as many contacts for each as
+ * the default has. */
+static void make_room(rlf_world_def *def, const rlf_scene *scene)
+{
+    const double CONTACTS_EACH = 16, CONTACTS_MAX = 1e7;
+    int32_t bodies = scene->body_count + RLF_KNOWN_MAX + THROWS_MAX;
+    if (def->body_capacity < bodies) {
+        def->body_capacity = bodies;
+        def->contact_capacity =
+            (int32_t)rlf_min(CONTACTS_MAX, rlf_max(def->contact_capacity, bodies * CONTACTS_EACH));
+    }
+}
+
+static rlf_result create_stages(rlf_pipeline *p)
+{
+    rlf_result result = rlf_reconstruct_create(&p->def.reconstruct, &p->reconstruct);
+    if (result != RLF_OK) {
+        return result;
+    }
+    p->def.world.gravity = p->scene.gravity;
+    p->def.world.border = p->scene.border;
+    make_room(&p->def.world, &p->scene);
+    result = rlf_world_create(&p->def.world, &p->world);
+    if (result != RLF_OK) {
+        return result;
+    }
+    p->region_capacity = 2 * p->def.reconstruct.region_capacity + 2; /* two layers */
+    p->regions = rlf_alloc_array((size_t)p->region_capacity, sizeof(*p->regions));
+    if (p->regions == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    p->compositor_def = p->def.compositor;
+    result = make_rays(p, &p->def.reconstruct.rig.depth);
+    if (result == RLF_OK) {
+        const rlf_camera *seen = &p->compositor_def.grid;
+        result = far_side_create(seen->width, seen->height, &p->far);
+    }
+    if (result == RLF_OK && (p->def.enable_hands || hand_scene_binds(&p->scene))) {
+        result = rlf_pipeline_set_hands(p, true);
+    }
+    if (result != RLF_OK || !p->def.enable_render) {
+        return result;
+    }
+    return rlf_compositor_create_soft(&p->compositor_def, &p->compositor);
+}
+
+rlf_result rlf_pipeline_create(const rlf_pipeline_def *def, rlf_pipeline **out)
+{
+    if (!RLF_ASSERT(out != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
+    *out = NULL;
+    if (!RLF_ASSERT(def != NULL && def->cookie == RLF_DEF_COOKIE && def->source != NULL)) {
+        return rlf_fail(RLF_ERROR_INVALID, "pipeline def: start from rlf_pipeline_def_default");
+    }
+    rlf_pipeline *p = rlf_alloc(sizeof(*p));
+    if (p == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    p->def = *def;
+    rlf_result result = copy_scene(p, def->scene);
+    if (result == RLF_OK) {
+        result = known_models_create(def->scene, &p->known);
+    }
+    if (result == RLF_OK) {
+        result = create_stages(p);
+    }
+    if (result == RLF_OK) {
+        result = pipeline_add_bodies(p);
+    }
+    if (result == RLF_OK) {
+        result = camera_start(p);
+    }
+    if (result != RLF_OK) {
+        rlf_pipeline_destroy(&p);
+        return result;
+    }
+    for (int32_t i = 0; i < OVERLAY_LINES_MAX; i++) {
+        p->overlay_lines[i] = p->overlay[i];
+    }
+    p->view_count = 1;
+    p->camera.T_world = p->def.T_world_camera;
+    *out = p;
+    return RLF_OK;
+}
+
+void rlf_pipeline_destroy(rlf_pipeline **pipeline)
+{
+    if (pipeline == NULL || *pipeline == NULL) {
+        return;
+    }
+    rlf_pipeline *p = *pipeline;
+    *pipeline = NULL;
+    rlf_compositor_destroy(&p->compositor);
+    rlf_world_destroy(&p->world);
+    known_models_destroy(&p->known);
+    rlf_reconstruct_destroy(&p->reconstruct);
+    camera_stop(p);
+    rlf_free(p->sheet.data);
+    far_side_destroy(&p->far);
+    hand_stage_destroy(&p->hands);
+    rlf_free(p->regions);
+    rlf_free(p->ray_x);
+    rlf_free(p->ray_y);
+    rlf_free(p->scene.bodies);
+    rlf_free(p);
+}

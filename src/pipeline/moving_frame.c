@@ -1,0 +1,202 @@
+/* A frame of a moving camera: pose, room, surface, map, in this order.
+ *
+ * The surface stage asks for the room when a frame's depth is clean (moving_give): the camera is
+ * placed by that depth, and what the map shows from there is the background. When the stage is done
+ * its foreground is known, and all else is fused into the map. */
+#include "pipeline/moving.h"
+
+#include <string.h>
+
+#define FENCE_NS 1000000000 /* what was fused longer ago is right: the camera is still placed */
+#define UNIT_ERROR 0.01     /* of a quaternion's length, squared */
+
+/* ---- pose ---- */
+
+static bool is_pose(const rlf_pose *T)
+{
+    const double length = T->q.x * T->q.x + T->q.y * T->q.y + T->q.z * T->q.z + T->q.w * T->q.w;
+    return rlf_is_finite(T->p.x) && rlf_is_finite(T->p.y) && rlf_is_finite(T->p.z) &&
+           rlf_is_finite(length) && length > 1.0 - UNIT_ERROR && length < 1.0 + UNIT_ERROR;
+}
+
+/* The source's pose, the first one being where the camera is taken to start. */
+static void take_source_pose(moving *m)
+{
+    const rlf_frame *frame = m->frame;
+    const bool has = frame->has_pose && is_pose(&frame->T_world_camera);
+    m->pose.last.T_world_camera = m->T_world_camera;
+    m->pose.last.health = has ? RLF_TRACK_GOOD : RLF_TRACK_LOST;
+    if (!has && !m->has_told_source) {
+        m->has_told_source = true;
+        rlf_log(RLF_LOG_WARNING, "poses of the source: frame %llu has %s; such frames are left out",
+                (unsigned long long)frame->sequence,
+                frame->has_pose ? "one that is no pose (not finite, or a quaternion that is not of "
+                                  "length 1)"
+                                : "none");
+    }
+    if (has && !m->has_source) {
+        const rlf_pose T_source_world = rlf_pose_invert(&frame->T_world_camera);
+        m->T_world_source = rlf_pose_mul(&m->T_world_camera, &T_source_world);
+        m->has_source = true;
+    }
+    if (has) {
+        m->pose.last.T_world_camera = rlf_pose_mul(&m->T_world_source, &frame->T_world_camera);
+    }
+}
+
+/* One line when it changes. */
+static void tell_health(moving *m)
+{
+    const rlf_track_health health = m->track.health;
+    const unsigned long long number = (unsigned long long)m->frame->sequence;
+    if (health == m->told || m->poses == RLF_POSES_SOURCE) {
+        return;
+    }
+    if (health == RLF_TRACK_LOST) {
+        rlf_log(RLF_LOG_WARNING,
+                "camera: lost (frame %llu): bodies wait; show it what it has seen before", number);
+    } else if (health == RLF_TRACK_WEAK) {
+        const rlf_vec3 w = m->track.weak_way;
+        rlf_log(RLF_LOG_WARNING,
+                "camera: weak (frame %llu): how far it moves along %.2f, %.2f, %.2f is a guess",
+                number, w.x, w.y, w.z);
+    } else {
+        rlf_log(RLF_LOG_INFO, "camera: tracked again (frame %llu)", number);
+    }
+    m->told = health;
+}
+
+static rlf_result find_pose(moving *m, const rlf_surface *seen)
+{
+    rlf_result result = RLF_OK;
+    m->has_color = color_view_take(&m->color, &m->rig, m->frame, seen);
+    if (m->poses == RLF_POSES_SOURCE) {
+        take_source_pose(m);
+    } else {
+        result = camera_pose_find(&m->pose, m->map, seen, m->has_color ? m->color.grey : NULL,
+                                  m->frame->time_ns);
+    }
+    m->track = m->pose.last;
+    if (result == RLF_OK) {
+        tell_health(m);
+    }
+    return result;
+}
+
+/* ---- room ---- */
+
+bool moving_give(void *context, const rlf_surface *seen, rlf_given_background *out)
+{
+    moving *m = context;
+    m->has_room = false;
+    m->result = find_pose(m, seen);
+    if (m->result != RLF_OK || !moving_is_placed(m)) {
+        return false;
+    }
+    m->T_world_camera = m->track.T_world_camera;
+    m->result = rlf_map_predict(m->map, &m->pose.camera, &m->T_world_camera, &m->room);
+    if (m->result != RLF_OK) {
+        return false;
+    }
+    m->has_room = true;
+    room_planes_take(&m->planes, &m->room, seen, m->pool);
+    const rlf_pose T_camera_world = rlf_pose_invert(&m->T_world_camera);
+    *out = (rlf_given_background){
+        .depth = m->planes.depth,
+        .normal_x = m->planes.normal[0],
+        .normal_y = m->planes.normal[1],
+        .normal_z = m->planes.normal[2],
+        .slack_m = rlf_map_truncation(m->map),
+        .T_now_before = rlf_pose_mul(&T_camera_world, &m->T_world_before),
+        .has_before = m->has_before,
+    };
+    return true;
+}
+
+/* ---- map ---- */
+
+/* Neither what stands in front nor what is beside it, nor what nobody saw. */
+static void mark_static(moving *m, const rlf_surface *s)
+{
+    const int32_t width = s->width, count = s->width * s->height;
+    for (int32_t i = 0; i < count; i++) {
+        m->is_static[i] = s->reason[i] == RLF_REASON_OK;
+    }
+    if (s->foreground_count == 0) {
+        return;
+    }
+    for (int32_t i = width + 1; i < count - width - 1; i++) {
+        if (s->foreground[i] != 0) {
+            for (int32_t k = -1; k <= 1; k++) {
+                memset(m->is_static + i + (ptrdiff_t)k * width - 1, 0, 3);
+            }
+        }
+    }
+}
+
+rlf_result moving_fuse_whole(moving *m, const rlf_map_view *view, const rlf_pose *T_world_camera)
+{
+    rlf_map_change change;
+    int64_t fused = 0;
+    rlf_result result;
+    do {
+        result = rlf_map_integrate(m->map, view, T_world_camera, &change);
+        fused += change.blocks_fused;
+    } while (result == RLF_OK && change.blocks_fused > 0 && fused < change.blocks_seen);
+    return result;
+}
+
+static rlf_result fuse(moving *m, const rlf_surface *s)
+{
+    const rlf_map_view view = {
+        .depth = s->depth,
+        .normal_x = s->normal_x,
+        .normal_y = s->normal_y,
+        .normal_z = s->normal_z,
+        .is_static = m->is_static,
+        .rgba = m->has_color ? m->color.rgba : NULL,
+    };
+    mark_static(m, s);
+    if (m->has_fence) {
+        if (s->time_ns - m->fence_ns >= FENCE_NS) {
+            rlf_map_fence(m->map);
+            m->fence_ns = s->time_ns;
+        }
+        return rlf_map_integrate(m->map, &view, &m->T_world_camera, NULL);
+    }
+    rlf_result result = moving_fuse_whole(m, &view, &m->T_world_camera);
+    rlf_map_fence(m->map); /* where the first frame was seen from is what the world is */
+    m->fence_ns = s->time_ns;
+    m->has_fence = true;
+    return result;
+}
+
+/* What was fused since the last fence may have been put in the wrong place. A frame that shows next
+ * to nothing was lost for that alone. */
+static void take_back(moving *m, const rlf_surface *s)
+{
+    const bool sees = 10 * s->valid_count > s->width * s->height;
+    if (m->has_before && sees && m->poses == RLF_POSES_TRACKED) {
+        rlf_map_take_back(m->map);
+    }
+}
+
+rlf_result moving_process(moving *m, const rlf_frame *frame, const rlf_surface **out)
+{
+    m->frame = frame;
+    m->result = RLF_OK;
+    rlf_result result = rlf_reconstruct_process(m->stage, frame, out);
+    result = result == RLF_OK ? m->result : result;
+    if (result != RLF_OK) {
+        return result;
+    }
+    const bool is_placed = moving_is_placed(m);
+    if (!is_placed) {
+        take_back(m, *out);
+    } else if (m->track.health == RLF_TRACK_GOOD) {
+        result = fuse(m, *out);
+    }
+    m->T_world_before = m->T_world_camera;
+    m->has_before = is_placed;
+    return result;
+}
