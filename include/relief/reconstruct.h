@@ -84,8 +84,13 @@ typedef struct rlf_reconstruct_def {
     double foreground_min_m;       /* ... and above this, metres */
     double absorb_after_s; /* ADAPTIVE: still foreground becomes background; default 20, 0 never */
 
-    bool enable_flying_removal; /* live: true */
-    bool enable_fill;           /* live: true: fill small holes (reason FILLED) */
+    /* live: true: takes off pixels that mix the depths of both sides of an edge. They lie on no
+     * surface; their reason is FLYING. */
+    bool enable_flying_removal;
+    /* live: true: fills small holes (reason FILLED), each from the side of the edge that the known
+     * pixels about it vote for. What lies in the sensor's shadow shows the farther side. Without
+     * it, such pixels have no depth. */
+    bool enable_fill;
     bool enable_smoothing; /* live: true: averages depth within planes, as far as the sensor's noise
                               explains what it takes away; never across an edge or a crease */
     bool enable_wide_planes; /* live: true, needs smoothing: planes up to 40 pixels wide where the
@@ -103,11 +108,6 @@ typedef struct rlf_reconstruct_def {
     bool enable_coast; /* live: true, needs velocity, thickness: thin things go on for 0.3 s where a
                           gap hides them, and keep the depth that was seen before they turned; flat
                           ones, a book in a hand, are followed as boxes (Harris 1990) */
-
-    bool enable_color_sides; /* live: true, needs fill: at edges of what moves the colour picture
-                                helps to decide on which side of the edge a dropped pixel is. The
-                                picture's offset is learnt, and it is not asked while it does not
-                                fit depth; without colour nothing changes */
 
     rlf_pool *pool; /* borrowed; NULL = one thread; a grid below 8192 pixels has one anyway */
 } rlf_reconstruct_def;

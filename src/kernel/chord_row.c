@@ -9,14 +9,6 @@ RLF_KERNEL_PART float conic_profile(const rlf_kernel_chord c, float k)
     return sqrtf((k - c.begin) * (c.end - k));
 }
 
-RLF_KERNEL_PART float wedge_profile(const rlf_kernel_chord c, float k)
-{
-    float l = k - c.begin, r = c.end - k;
-    float rising = l / (c.apex - c.begin), falling = r / (c.end - c.apex);
-    float slope = k < c.apex ? rising : falling;
-    return 0.5f * slope * (c.end - c.begin);
-}
-
 /* One value for each sample and sum. */
 typedef struct samples {
     float n[RLF_CHORD_RUN], s[RLF_CHORD_RUN], h[RLF_CHORD_RUN], y[RLF_CHORD_RUN];
@@ -27,12 +19,6 @@ typedef struct samples {
 RLF_KERNEL_PART void make_profile(const rlf_kernel_chord c, float metres, int32_t first,
                                   int32_t count, float *restrict out)
 {
-    if (c.is_wedge) {
-        for (int32_t i = 0; i < count; i++) {
-            out[i] = wedge_profile(c, (float)(first + i)) * metres;
-        }
-        return;
-    }
     for (int32_t i = 0; i < count; i++) {
         out[i] = conic_profile(c, (float)(first + i)) * metres;
     }
@@ -103,9 +89,5 @@ RLF_KERNEL void rlf_kernel_chord_solid_run(const rlf_kernel_chord *chord,
         weight[i] = w;
         middle[i] = w * (s.middle + s.slope * k);
         half[i] = both * inverse;
-    }
-    for (int32_t i = 0; c.is_wedge && i < count; i++) { /* its back is the front turned about */
-        half[i] =
-            weight[i] * s.half * wedge_profile(c, c.begin + c.end - (float)(first + step * i));
     }
 }

@@ -523,10 +523,9 @@ void rlf_kernel_thickness_row(const rlf_kernel_thickness *limits, const float *r
 
 #define RLF_CHORD_RUN 64 /* most pixels at a time */
 
-/* Ends in steps along its line; a conic, or a wedge whose edge is at the apex. */
+/* Ends in steps along its line. */
 typedef struct rlf_kernel_chord {
-    float begin, end, apex;
-    bool is_wedge;
+    float begin, end;
 } rlf_kernel_chord;
 
 /* Variance of depth: of a sample, and by how far the ends are known; the depth z and its inverse

@@ -34,4 +34,4 @@ if "$root/script/thresholds" --most 1 "$work/sample" "$work/sample" >/dev/null; 
     exit 1
 fi
 exec "$root/script/thresholds" --files --most 2.9 src/surface --most 7.2 src/query \
-    --most 3.4 src/physics/grid --most 1.6 src/render --most 2.5 src/kernel
+    --most 2.7 src/physics/grid --most 1.6 src/render --most 2.5 src/kernel

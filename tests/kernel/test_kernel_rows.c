@@ -323,16 +323,13 @@ static void chord_sums_are_their_definition(void **state)
     analytic_random r = {13};
     const rlf_kernel_chord_noise noise = {1e-5f, {2e-5f, 3e-5f}, 0.006f, 0.5f, 2.0f};
     for (int32_t count = 1; count <= RLF_CHORD_RUN; count++) {
-        const float apex = 5.5f + 0.4f * (float)count;
-        const rlf_kernel_chord chord = {4.5f, 5.5f + (float)count, apex, count % 3 == 0};
+        const rlf_kernel_chord chord = {4.5f, 5.5f + (float)count};
         float seen[RLF_CHORD_RUN];
         double n = 0.0, hy = 0.0;
         for (int32_t i = 0; i < count; i++) {
             seen[i] = random_uniform(&r) < 0.2 ? 0.0f : (float)(0.5 + 0.02 * random_uniform(&r));
             double k = 5 + i, left = k - chord.begin, right = chord.end - k;
-            double side = k < apex ? left / (apex - chord.begin) : right / (chord.end - apex);
-            double wedge = 0.5 * side * (chord.end - chord.begin);
-            double h = noise.metres * (chord.is_wedge ? wedge : sqrt(left * right));
+            double h = noise.metres * sqrt(left * right);
             double below = noise.noise * left * right + noise.blur[0] * right * right +
                            noise.blur[1] * left * left;
             double weight = seen[i] > 0.0f ? left * right / below : 0.0;
@@ -352,17 +349,13 @@ static void chord_solid_is_its_definition(void **state)
     const rlf_kernel_chord_solid solid = {0.7f, 0.5f, 0.001f, 0.02f};
     for (int32_t count = 1; count <= RLF_CHORD_RUN; count++) {
         const int32_t step = 1 + count % 2;
-        const float apex = 5.5f + 0.4f * (float)(step * count);
-        const rlf_kernel_chord chord = {4.5f, 5.5f + (float)(step * count), apex, count % 3 == 0};
+        const rlf_kernel_chord chord = {4.5f, 5.5f + (float)(step * count)};
         float weight[RLF_CHORD_RUN], middle[RLF_CHORD_RUN], half[RLF_CHORD_RUN];
         rlf_kernel_chord_solid_run(&chord, &solid, 5, step, count, weight, middle, half);
         for (int32_t i = 0; i < count; i++) {
             double k = 5 + step * i, left = k - chord.begin, right = chord.end - k;
-            double side = right < apex - chord.begin ? right / (apex - chord.begin)
-                                                     : left / (chord.end - apex);
-            double wedge = 0.5 * side * (chord.end - chord.begin);
             double w = solid.share / (left * right);
-            double h = w * solid.half * (chord.is_wedge ? wedge : sqrt(left * right));
+            double h = w * solid.half * sqrt(left * right);
             double m = w * (solid.middle + solid.slope * k);
             assert_true(rlf_max(weight[i] - w, w - weight[i]) <= 1e-5 * w);
             assert_true(rlf_max(middle[i] - m, m - middle[i]) <= 1e-5 * m);

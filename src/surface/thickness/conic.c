@@ -39,7 +39,7 @@ static rlf_kernel_chord_sums sum_samples(const rlf_chord_job *job, const rlf_lin
     float sigma = rlf_kernel_sigma(job->noise, z);
     /* d sqrt(l r) / dl = sqrt(r / l) / 2: what an end that is not sharp is worth in depth */
     float v0 = 0.5f * c->blur[0] * c->metres, v1 = 0.5f * c->blur[1] * c->metres;
-    const rlf_kernel_chord ends = {c->begin, c->end, c->apex, c->apex >= c->begin};
+    const rlf_kernel_chord ends = {c->begin, c->end};
     float lines = 1.0f / (float)job->step; /* a line is worth those between it and the next */
     const rlf_kernel_chord_noise noise = {lines * (sigma * sigma + shape_error_m * shape_error_m),
                                           {lines * v0 * v0, lines * v1 * v1},
@@ -142,7 +142,7 @@ static rlf_conic solve_body(const rlf_chord *c, const rlf_chord_moments *e)
     float width = (c->end - c->begin) * c->metres, of_trunk = trunk_depth_m / width;
     bool is_broad = of_trunk < usual_ratio, is_flat = f.ratio <= flat_ratio;
     float usual = is_broad ? of_trunk : usual_ratio;
-    bool is_conic = c->is_of_people && c->apex < c->begin && width > wide_m;
+    bool is_conic = c->is_of_people && width > wide_m;
     if (is_conic && (f.ratio < usual || is_broad)) {
         float excess = f.variance > c->noise ? f.variance - c->noise : 0.0f;
         float share = is_flat ? 1.0f : excess / (excess + unlike_conic_m * unlike_conic_m);
@@ -224,7 +224,7 @@ void rlf_chord_paint(const rlf_chord_job *job, const rlf_line *line, const rlf_c
     const painting p = {
         .job = job,
         .line = line,
-        .chord = {c->begin, c->end, c->apex, c->apex >= c->begin},
+        .chord = {c->begin, c->end},
         .solid = {.share = trust(c, &f) / (c->metres * c->metres),
                   .middle = c->inverse - w2 * f.middle - slope * 0.5f * (c->begin + c->end),
                   .slope = slope,

@@ -14,8 +14,7 @@ static const float crease_jump_m = 0.15f;
 static const float crease_least = 1.0f; /* sum of the slopes on both sides */
 static const float rim_slope = 0.5f;    /* a side as steep as this ends at the crease */
 static const float link_jump_m = 0.12f, link_gap_m = 0.2f;
-static const float one_body = 4.0f;    /* variance of a conic's rest, of what noise explains */
-static const float wedge_share = 0.3f; /* of the conic's variance */
+static const float one_body = 4.0f; /* variance of a conic's rest, of what noise explains */
 static const float shape_error_m = 0.003f;
 
 typedef enum piece_end { END, HIDDEN, BORDER } piece_end;
@@ -102,7 +101,6 @@ static bool make_chord(const pieces *p, const piece *const *piece_list, int32_t 
         out->blur[1] = 0.5f * length;
     }
     out->label = first->label;
-    out->apex = out->begin - 1.0f;
     out->part_count = count;
     for (int32_t i = 0; i < count; i++) {
         out->part[i] = (rlf_chord_part){piece_list[i]->begin, piece_list[i]->end};
@@ -154,36 +152,6 @@ static bool is_one_body(const pieces *p, piece *s)
     return rlf_chord_solve(&s->chord, &s->chord.own).variance < one_body * explained;
 }
 
-/* Pixel that lies farthest in front of the line between the piece's ends. */
-static int32_t find_edge(const pieces *p, const piece *s)
-{
-    float first = front_at(p, s->begin), last = front_at(p, s->end - 1), best = 0.0f;
-    float slope = (last - first) / (float)(s->end - 1 - s->begin);
-    int32_t at = s->begin;
-    for (int32_t k = s->begin; k < s->end; k++) {
-        float ahead = first + slope * (float)(k - s->begin) - front_at(p, k);
-        if (ahead > best) {
-            best = ahead;
-            at = k;
-        }
-    }
-    return at;
-}
-
-/* Two plane faces that meet at an edge explain the front much better than a conic: a box seen at an
- * edge. Its back is the front turned about the middle. */
-static void try_wedge(const pieces *p, piece *s)
-{
-    rlf_chord wedge = s->chord;
-    wedge.apex = (float)find_edge(p, s);
-    if (wedge.apex > wedge.begin + 2.0f && wedge.apex < wedge.end - 2.0f &&
-        rlf_chord_measure(p->job, p->line, &wedge) &&
-        rlf_chord_solve(&wedge, &wedge.own).variance <
-            wedge_share * rlf_chord_solve(&s->chord, &s->chord.own).variance) {
-        s->chord = wedge;
-    }
-}
-
 /* Cuts piece i in two if it is two bodies. A side that does not fall towards the crease goes on
  * behind the other. */
 static bool split(pieces *p, int32_t i, int32_t splits)
@@ -195,7 +163,6 @@ static bool split(pieces *p, int32_t i, int32_t splits)
     }
     int32_t at = find_crease(p, s, rim);
     if (at < 0) {
-        try_wedge(p, s);
         return false;
     }
     memmove(s + 1, s, (size_t)(p->count - i) * sizeof *s);

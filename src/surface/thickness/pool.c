@@ -69,7 +69,7 @@ static void take_shape(const rlf_chord_job *job, rlf_chord *c, const rlf_chord *
     const float q = pooled_share;
     bool is_every = job->step == 1;
     c->running = c->own;
-    if (share > alike && (other->apex < other->begin) == (c->apex < c->begin)) {
+    if (share > alike) {
         /* a line stands for half of those beside it that are left out */
         float beside = is_every ? q : (0.5f * q + q * q + 0.5f * q * q * q) / (1.0f + q);
         add_moments(&c->running, &other->running, is_every ? q : q * q);

@@ -35,7 +35,6 @@ typedef struct rlf_chord {
     float begin, end; /* of the body, in steps; part of it may be hidden */
     float blur[2];    /* how well these are known, steps */
     float covered[2]; /* steps at these that something nearer hides, by guess */
-    float apex;       /* of a wedge, steps; < begin: it is a conic */
     float metres;     /* per step, at the reference depth */
     float inverse;    /* of the reference depth */
     float noise;      /* variance of depth there, m^2 */

@@ -1,8 +1,6 @@
 /* Boxes and rays. */
 #include "surface/thin/slab.h"
 
-static const double least_z = 0.1;
-
 slab_view slab_look(const slab *s)
 {
     slab_view view = {.centre = s->pose.p};
@@ -24,7 +22,7 @@ bool slab_cut_ray(const slab_view *view, double x, double y, double *enter, doub
 {
     const double parallel = 1e-9, far_m = 1e9;
     const rlf_vec3 ray = rlf_vec3_make(x, y, 1.0);
-    *enter = least_z;
+    *enter = THIN_LEAST_Z;
     *leave = far_m;
     for (int k = 0; k < 3; k++) {
         double along = rlf_dot(ray, view->axis[k]), from = rlf_dot(view->centre, view->axis[k]);
@@ -38,7 +36,7 @@ bool slab_cut_ray(const slab_view *view, double x, double y, double *enter, doub
         *enter = rlf_max(*enter, (from - half) / along);
         *leave = rlf_min(*leave, (from + half) / along);
     }
-    return *enter > least_z && *enter < *leave;
+    return *enter > THIN_LEAST_Z && *enter < *leave;
 }
 
 bool slab_is_near(const slab_view *view, rlf_vec3 p, double metres)
@@ -63,7 +61,7 @@ rlf_rect slab_window(const image_grid *grid, const slab_view *view, int32_t marg
             p = rlf_mad(p, view->axis[k], (corner >> k & 1) != 0 ? view->half[k] : -view->half[k]);
         }
         double at[2];
-        if (p.z < least_z || !rlf_camera_project(&grid->camera, p, &at[0], &at[1])) {
+        if (p.z < THIN_LEAST_Z || !rlf_camera_project(&grid->camera, p, &at[0], &at[1])) {
             return none;
         }
         for (int c = 0; c < 2; c++) {

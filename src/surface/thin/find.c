@@ -29,7 +29,6 @@ static const double flat_m = 0.006, flat_rms_m = 0.0035;
 static const double step_m = 0.03;  /* behind the plane */
 static const double side_m = 0.045; /* a thin side is narrower */
 static const double least_area_m2 = 0.015, least_full = 0.7;
-static const double least_half_m = 0.04;
 static const double least_facing = 0.2; /* sine of the angle between the face and the ray */
 static const double least_steps = 0.4, least_ends = 0.8;
 static const double first_half_m = 0.01; /* half a slab's thickness, before it is seen */
@@ -285,8 +284,8 @@ static bool take(const patch *p, uint8_t *visited, slab *out)
         return false;
     }
     const rectangle r = surround(p);
-    if (area < least_full * area_of(&r) || r.high[0] - r.low[0] < 2.0 * least_half_m ||
-        r.high[1] - r.low[1] < 2.0 * least_half_m) {
+    if (area < least_full * area_of(&r) || r.high[0] - r.low[0] < 2.0 * THIN_STEP_M ||
+        r.high[1] - r.low[1] < 2.0 * THIN_STEP_M) {
         return false;
     }
     mark(p, visited, 2);

@@ -17,7 +17,6 @@ enum {
 
 static const double thing_m = 0.025;   /* what is seen so near the box is it */
 static const double outline_m = 0.015; /* the same, where its outline is looked for */
-static const double step_m = 0.04;     /* what is seen so far behind it is something else */
 static const double robust_m = 0.010;  /* scale of Geman and McClure's weight */
 static const double shared = 0.15;     /* weight of one measurement: neighbours have one error */
 static const double outline_px = 0.7;  /* how well a step places the outline */
@@ -179,7 +178,7 @@ static sight look_at(const equations *sum, const double at[2], const double out[
     } else if (slab_is_near(&sum->view, p, outline_m)) {
         s.kind = THING;
     } else {
-        s.kind = s.seen > z + step_m ? BEYOND : BEFORE;
+        s.kind = s.seen > z + THIN_STEP_M ? BEYOND : BEFORE;
     }
     return s;
 }
@@ -193,7 +192,7 @@ static bool find_step(const equations *sum, const double at[2], const double out
     sight last = {.kind = NOTHING, .seen = z}, step = {.kind = NOTHING};
     for (int32_t k = -REACH_PX; k <= REACH_PX && (k <= 0 || step.kind == NOTHING); k++) {
         sight s = look_at(sum, at, out, k, z);
-        if (s.kind == BEFORE || (s.kind == BEYOND && s.seen < last.seen + step_m)) {
+        if (s.kind == BEFORE || (s.kind == BEYOND && s.seen < last.seen + THIN_STEP_M)) {
             return false;
         }
         last = s.kind == THING ? s : last;

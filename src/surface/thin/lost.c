@@ -19,8 +19,6 @@ enum {
     REACH_PX = 2, /* velocity is off by this much */
     CHUNK = 128   /* pixels that are looked at together */
 };
-static const float least_z = 0.1f;
-static const float body_jump_m = 0.04f;
 static const float known_before_m = 0.03f; /* nothing seen beside it is nearer than this */
 static const float step_behind = 0.05f;    /* share of the depth: a nearer end is no background */
 
@@ -31,7 +29,8 @@ static int32_t run_length(const rlf_slot *slot, ptrdiff_t k, ptrdiff_t step, int
     for (int32_t n = 0; n < limit; n++) {
         k += step;
         float next = slot->depth[k];
-        if (slot->foreground[k] == 0 || !(next > 0.0f) || rlf_kernel_abs(next - z) > body_jump_m) {
+        if (slot->foreground[k] == 0 || !(next > 0.0f) ||
+            rlf_kernel_abs(next - z) > (float)THIN_STEP_M) {
             return n;
         }
         z = next;
@@ -70,8 +69,12 @@ static void expect_pixels(const thin_in *in, thin *state, int32_t first, int32_t
     const image_grid *grid = in->grid;
     const rlf_slot *before = in->before;
     const ptrdiff_t at = (ptrdiff_t)y * grid->width + first;
-    const rlf_kernel_motion motion = {
-        in->dt, (float)grid->camera.fx, (float)grid->camera.fy, least_z, grid->width, grid->height};
+    const rlf_kernel_motion motion = {in->dt,
+                                      (float)grid->camera.fx,
+                                      (float)grid->camera.fy,
+                                      (float)THIN_LEAST_Z,
+                                      grid->width,
+                                      grid->height};
     const rlf_kernel_moving_row row = {
         before->foreground + at,
         before->depth + at,

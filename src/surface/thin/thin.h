@@ -11,6 +11,12 @@
 #include "surface/arena.h"
 #include "surface/frame.h"
 
+/* Metres. What is farther off is another thing; half a slab's width at least, and its thickness at
+ * most. */
+#define THIN_STEP_M 0.04
+/* Metres: nothing is seen nearer than this. */
+#define THIN_LEAST_Z 0.1
+
 /* A thin flat thing that moves, as a box: see slab.h. */
 enum { SLAB_UNKNOWNS = 9, SLABS = 4, SLAB_PATCH = 4096 };
 

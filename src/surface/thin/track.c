@@ -11,8 +11,7 @@ static const double frame_s = 1.0 / 30.0;
 static const double follow_share = 0.8; /* of a change of velocity */
 static const double spin_left = 0.9;    /* of a frame's, in the next */
 static const double longest_lost_s = 0.6, longest_passed_s = 0.1;
-static const double behind_m = 0.04;
-static const double least_half_m = 0.038, most_half_m = 0.6, thickest_half_m = 0.04;
+static const double least_half_m = 0.038, most_half_m = 0.6;
 static const double young_s = 0.25; /* it is a slab if it is not lost before */
 enum { LEAST_FACES = 4, LEAST_SHARE = 4, MOST_PIXELS = 2048 };
 
@@ -70,7 +69,7 @@ static bool is_passed(const thin_in *in, const slab *s)
             if (in->depth[i] > 0.0f &&
                 slab_cut_ray(&view, grid->ray_x[i], grid->ray_y[i], &enter, &leave)) {
                 seen++;
-                beyond += in->depth[i] > leave + behind_m;
+                beyond += in->depth[i] > leave + THIN_STEP_M;
             }
         }
     }
@@ -79,9 +78,9 @@ static bool is_passed(const thin_in *in, const slab *s)
 
 static bool is_slab(const slab *s)
 {
-    return rlf_vec3_is_finite(s->pose.p) && s->half[2] < thickest_half_m &&
-           s->half[0] > least_half_m && s->half[0] < most_half_m && s->half[1] > least_half_m &&
-           s->half[1] < most_half_m && s->lost_s < (s->age_s < young_s ? 1e-6 : longest_lost_s) &&
+    return rlf_vec3_is_finite(s->pose.p) && s->half[2] < THIN_STEP_M && s->half[0] > least_half_m &&
+           s->half[0] < most_half_m && s->half[1] > least_half_m && s->half[1] < most_half_m &&
+           s->lost_s < (s->age_s < young_s ? 1e-6 : longest_lost_s) &&
            s->passed_s < longest_passed_s;
 }
 

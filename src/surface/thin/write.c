@@ -1,10 +1,10 @@
 /* What a slab is known to be where it is seen: how thick, and edge-on how fast. */
+#include "surface/thickness/thickness.h"
 #include "surface/thin/slab.h"
 
 static const double thing_m = 0.03;
 static const double edge_on = 0.2;  /* sine of the angle between the face and the view */
 static const double slowest = 0.08; /* m/s: what is slower may rest */
-static const float least_m = 0.02f; /* as of all else: thickness/thickness.c */
 
 /* One slab and the frame that it is written to. */
 typedef struct writer {
@@ -43,7 +43,7 @@ static void write_pixel(const writer *w, int32_t x, int32_t y)
          !slab_cut_ray(&w->wide, u, v, &enter, &leave))) {
         return;
     }
-    const float deep = (float)leave - z, thickness = deep > least_m ? deep : least_m;
+    const float deep = (float)leave - z, thickness = deep > RLF_THINNEST_M ? deep : RLF_THINNEST_M;
     const bool is_cut = behind > 0.0f && z + thickness > behind;
     w->slot->thickness[i] = !is_cut ? thickness : behind > z ? behind - z : 0.0f;
     if (w->is_edge_on && w->slot->reason[i] != RLF_REASON_OK) {

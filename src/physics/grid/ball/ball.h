@@ -1,7 +1,7 @@
 /* A ball against a layer: the door to this folder.
  *
  * Every pixel says when the moving ball would reach it; the earliest of each direction is a touch.
- * About a touch the pixels give the plane that the ball meets, or the boundary of its face. */
+ * About a touch the pixels give the plane that the ball meets, or the end of its face. */
 #ifndef RLF_PHYSICS_GRID_BALL_BALL_H
 #define RLF_PHYSICS_GRID_BALL_BALL_H
 

@@ -4,7 +4,7 @@
  * fraction of a pixel, also where the pixels beside the edge are wrong. A ball touches the solid
  * behind all of them where that comes nearest to its centre: on a face, on an edge or in the
  * corner. */
-#include "physics/grid/ball/boundary.h"
+#include "physics/grid/ball/corner.h"
 
 #define TRIES 4         /* planes that are looked for */
 #define BESIDE_PX 2     /* of the place that is touched the faces are seen, steps */
@@ -25,13 +25,12 @@ static bool is_convex(const patch_plane *a, const patch_plane *b)
 
 static void find_faces(const grid_patch *p, const patch_mean *face, patch_corner *out)
 {
-    const rlf_vec3 any = {0, 0, 0};
     rlf_vec3 tried[TRIES] = {face->normal};
     out->faces[0] = (patch_plane){face->normal, face->point, 0.0};
     out->count = 1;
     for (int32_t i = 1; i < TRIES && out->count < CORNER_FACES; i++) {
         patch_plane *plane = &out->faces[out->count];
-        if (!plane_find(p, p->samples[p->nearest].point, GRID_THIN_M, tried, i, any, plane)) {
+        if (!plane_find(p, p->samples[p->nearest].point, GRID_THIN_M, tried, i, plane)) {
             return;
         }
         tried[i] = plane->normal;

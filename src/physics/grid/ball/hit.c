@@ -5,11 +5,12 @@
  * nearest. Where that plane ends before the ball's centre is above it, the ball meets an edge, and
  * the contact points from the edge to the centre. */
 #include "physics/grid/ball/ball.h"
+#include "physics/grid/ball/corner.h"
 #include "physics/grid/ball/patch.h"
-#include "physics/grid/ball/boundary.h"
 
 #define EDGE_MOVES 6
-#define MOVES 4 /* of the patch to the pixel that is touched first */
+#define PLANE_NEAR (2.0 * GRID_MARGIN) /* metres: a plane through a sample, up to noise */
+#define MOVES 4                        /* of the patch to the pixel that is touched first */
 
 /* Pixels this far apart span the patch that a ball all but touches: radius sqrt(2 r band). */
 static int32_t patch_step(const grid_job *job, double z)
@@ -116,19 +117,52 @@ static void add_hit(grid_job *job, double time, const patch_mean *touched, int32
     }
 }
 
+/* Where a face ends before its point under the ball's centre: where it meets other seen faces; else
+ * at the nearest sample. */
+typedef struct face_end {
+    patch_corner corner;
+    rlf_vec3 sample;
+} face_end;
+
+/* Pixels that are no averages over time are not asked for their planes' corner. */
+static face_end find_end(const grid_patch *p, const patch_mean *mean, bool is_averaged)
+{
+    face_end end = {.sample = p->samples[p->nearest].point};
+    if (is_averaged) {
+        (void)corner_find(p, mean, &end.corner);
+    }
+    return end;
+}
+
+/* The end's point that is nearest to the ball's centre. */
+static rlf_vec3 end_nearest(const face_end *end, rlf_vec3 centre)
+{
+    return end->corner.count > 1 ? corner_nearest(&end->corner, centre) : end->sample;
+}
+
+/* Replaces the mean's plane by the one near the nearest sample that holds most samples. */
+static void find_face(const grid_patch *p, patch_mean *mean)
+{
+    patch_plane plane;
+    if (plane_find(p, p->samples[p->nearest].point, PLANE_NEAR, NULL, 0, &plane)) {
+        mean->normal = plane.normal;
+        mean->point = plane.point;
+    }
+}
+
 /* When the ball comes to the end of the face, which stands out beyond the pixels that show it, and
  * where on it. False when it does not before the next query: pixels are noted for balls that are
  * wider by what is between them. */
-static bool meet_end(const grid_patch *p, const face_boundary *end, const patch_mean *face,
-                     double *time, rlf_vec3 *out)
+static bool meet_end(const grid_patch *p, const face_end *end, const patch_mean *face, double *time,
+                     rlf_vec3 *out)
 {
     double start = rlf_max(0.0, p->time);
-    rlf_vec3 v = face->velocity, edge = end->point;
+    rlf_vec3 v = face->velocity, edge = end->sample;
     bool is_reached = false;
     for (int32_t i = 0; i < EDGE_MOVES; i++) {
         double later = rlf_max(0.0, *time) - start;
         rlf_vec3 centre = rlf_mad(patch_centre_at(p->job, *time), v, -later);
-        edge = patch_boundary_nearest(end, centre);
+        edge = end_nearest(end, centre);
         double next;
         if (grid_ball_time(p->job, rlf_mad(edge, v, -start), v, 0.0, &next)) {
             *time = next;
@@ -175,16 +209,15 @@ static bool face_back(const grid_patch *p, patch_mean *touched)
 /* The contact points from the edge to the ball's centre. */
 static bool face_edge(grid_patch *p, grid_touch *touch, patch_mean *touched)
 {
-    face_boundary end;
     look_closer(p, touched);
     if (p->nearest < 0) {
         return false;
     }
     bool is_averaged = p->job->sheet->velocity_x == NULL;
     if (is_averaged) {
-        patch_find_face(p, touched);
+        find_face(p, touched);
     }
-    patch_find_boundary(p, touched, is_averaged, &end);
+    const face_end end = find_end(p, touched, is_averaged);
     double time = p->time;
     rlf_vec3 edge;
     if (!meet_end(p, &end, touched, &time, &edge)) {

@@ -71,13 +71,10 @@ typedef struct patch_plane {
     double support; /* samples on it */
 } patch_plane;
 
-#define PLANE_NEAR (2.0 * GRID_MARGIN) /* metres: a plane through q, up to noise */
-
 /* The plane that passes q no farther off than `near` metres and holds most samples, of those that
- * bend away from all `count` normals of `others`, and hold a direction `along` (0: any). False when
- * too few samples say. */
+ * bend away from all `count` normals of `others`. False when too few samples say. */
 bool plane_find(const grid_patch *p, rlf_vec3 q, double near, const rlf_vec3 *others, int32_t count,
-                rlf_vec3 along, patch_plane *out);
+                patch_plane *out);
 
 /* Whether the sample is on the plane, up to noise. */
 bool plane_holds(const patch_plane *plane, const patch_sample *s);

@@ -68,14 +68,12 @@ static void refine_plane(const grid_patch *p, patch_plane *plane)
     plane->normal = rlf_normalize(rlf_mad(rlf_mad(plane->normal, s.e, -slope_x), s.f, -slope_y));
 }
 
-/* Whether the plane may be the one that is sought: near q, along `along`, and none of `others`. */
+/* Whether the plane may be the one that is sought: near q, and none of `others`. */
 static bool is_sought(const patch_plane *plane, rlf_vec3 q, double near, const rlf_vec3 *others,
-                      int32_t count, rlf_vec3 along)
+                      int32_t count)
 {
-    const double ASLANT = 0.4; /* cosine */
     double off = rlf_dot(plane->normal, rlf_sub(q, plane->point));
-    double slope = rlf_dot(plane->normal, along);
-    bool is_good = off < near && off > -near && slope < ASLANT && slope > -ASLANT;
+    bool is_good = off < near && off > -near;
     for (int32_t i = 0; i < count; i++) {
         is_good = is_good && rlf_dot(plane->normal, others[i]) < SAME_FACE_COS;
     }
@@ -88,13 +86,13 @@ bool plane_holds(const patch_plane *plane, const patch_sample *s)
 }
 
 bool plane_find(const grid_patch *p, rlf_vec3 q, double near, const rlf_vec3 *others, int32_t count,
-                rlf_vec3 along, patch_plane *out)
+                patch_plane *out)
 {
     *out = (patch_plane){.support = 0.0};
     for (int32_t i = 0; i < p->count; i += 2) { /* every second one is tried */
         const patch_sample *s = &p->samples[i];
         patch_plane plane = {s->cell.normal, s->point, 0.0};
-        if (!is_sought(&plane, q, near, others, count, along)) {
+        if (!is_sought(&plane, q, near, others, count)) {
             continue;
         }
         double slack = slack_at(s->point.z);
