@@ -61,6 +61,7 @@ rlf_result fuser_add(fuser *f, const rlf_frame *frame, const rlf_pose *T_world_c
     if (result != RLF_OK) {
         return result;
     }
+    f->surface = s;
     f->surface_ms = ms_since(start);
     start = rlf_clock_ns();
     const bool has_color = color_view_take(&f->color, f->rig, frame, s);

@@ -40,9 +40,8 @@ static void nudge(viewer *v, const viewer_wishes *wishes)
     double step = wishes->is_fine ? 0.1 : 1.0;
     rlf_vec3 shift = {wishes->nudge_x, wishes->nudge_y, wishes->nudge_z};
     const rlf_pose T_world_camera = viewer_camera(v);
-    viewer_place_nudge(&v->place, v->stage.pipeline, &T_world_camera,
-                       rlf_scale(shift, 0.01 * step), wishes->nudge_turn * step * RLF_PI / 180.0,
-                       text);
+    viewer_place_nudge(&v->place, v->stage.pipeline, &T_world_camera, rlf_scale(shift, 0.01 * step),
+                       wishes->nudge_turn * step * RLF_PI / 180.0, text);
     if (text[0] != '\0') {
         viewer_show_message(v, text);
     }

@@ -123,7 +123,7 @@ typedef struct rlf_pipeline_output {
     /* What the map shows from about there; NULL = nothing known, or RLF_VIEW_MAP was drawn, which
      * has the map predict for its own camera. */
     const rlf_prediction *room;
-    const rlf_hands *hands;        /* NULL when none are looked for; see rlf_pipeline_set_hands */
+    const rlf_hands *hands; /* NULL when none are looked for; see rlf_pipeline_set_hands */
     const rlf_snapshot *snapshot;
     double gravity_confidence; /* 0..1; below RLF_UP_SURE it is a guess; 1 when it was given */
     rlf_render_output render;  /* image.data NULL when rendering is off */

@@ -7,6 +7,9 @@
 #define TUKEY 4.685
 #define MEDIAN_TO_SIGMA 1.4826
 #define LEAST_POINTS 200 /* at the finest level */
+/* A direction that has so many times the least share of the information is determined well: there a
+ * picture, which shifts with the voxels' colours, would only disturb. */
+#define WELL_DETERMINED 2.0
 /* Share of the whole information: a hundredth of the least that a direction must have, so that it
  * costs the determined ones one hundredth of a step. */
 #define DAMPING 1e-4
@@ -141,6 +144,21 @@ static bool align_level(row_job *job, const level *l, double least, track_sums *
     return true;
 }
 
+/* How much brightness counts, 0..1: where depth leaves a direction undetermined. */
+static double weigh_grey(row_job *job, double least)
+{
+    if (job->view->grey == NULL || job->prediction->grey == NULL) {
+        return 0.0;
+    }
+    job->stride = levels[0].stride;
+    job->gate.grey_weight = 0.0;
+    const track_sums sums = sum_all(job);
+    const track_constraint constraint = track_constraint_of(&sums);
+    const double share =
+        rlf_min(rlf_min(constraint.share[0], constraint.share[1]), constraint.share[2]);
+    return rlf_clamp((WELL_DETERMINED - share / least) / (WELL_DETERMINED - 1.0), 0.0, 1.0);
+}
+
 /* What the sums at the end say about the pose. */
 static void judge(const rlf_tracker *t, const track_sums *sums, const rlf_prediction *prediction,
                   rlf_track_result *out)
@@ -185,6 +203,7 @@ rlf_result rlf_tracker_align(rlf_tracker *tracker, const rlf_track_view *view,
     job.T = rlf_pose_mul(&T_camera_world, start);
     job.gate = (track_gate){.metres = tracker->def.gate_m, .cut = 1e9};
     *out = (rlf_track_result){.T_world_camera = *start, .weak_way = {0, 0, 1}};
+    job.gate.grey_weight = weigh_grey(&job, tracker->def.least_constraint);
     track_sums sums = {.a = {0}};
     for (int i = 0; i < LEVELS; i++) {
         if (!align_level(&job, &levels[i], tracker->def.least_constraint, &sums)) {

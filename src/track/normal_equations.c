@@ -7,9 +7,8 @@
  * sensor that measures disparity has them grow with the square. */
 #define SHARED_SIGMA 0.002
 #define LEAST_COSINE 0.1 /* at lower angles depth says little about the distance to the plane */
-#define GREY_SIGMA                                                                                 \
-    15.0             /* levels: of a picture against what the map predicts, a few voxels a pixel */
-#define GREY_CUT 6.0 /* Tukey's limit, in those */
+#define GREY_SIGMA 5.0   /* levels: of a picture against the prediction */
+#define GREY_CUT 6.0     /* Tukey's limit, in those */
 
 /* A rotation and a translation in single precision. */
 typedef struct motion {
@@ -80,7 +79,7 @@ static void add_match(track_sums *sums, const match *m, double cut)
 /* Brightness: the prediction at the moved point, against the frame's (Kerl et al. 2013). It tells
  * what planes cannot: how far the camera slid along them. du, dv: from the pixel's middle. */
 static void add_grey(track_sums *sums, const rlf_prediction *prediction, size_t at, float du,
-                     float dv, const double p[3], double frame_grey, double offset)
+                     float dv, const double p[3], double frame_grey, const track_gate *gate)
 {
     const size_t width = (size_t)prediction->camera.width;
     const uint8_t *g = &prediction->grey[at];
@@ -88,7 +87,7 @@ static void add_grey(track_sums *sums, const rlf_prediction *prediction, size_t 
         return;
     }
     const double gu = 0.5 * (g[1] - *(g - 1)), gv = 0.5 * (g[width] - *(g - width));
-    const double r = g[0] + gu * (double)du + gv * (double)dv - frame_grey - offset;
+    const double r = g[0] + gu * (double)du + gv * (double)dv - frame_grey - gate->grey;
     const double u = r / (GREY_SIGMA * GREY_CUT);
     if (!(u > -1.0 && u < 1.0)) {
         return;
@@ -102,8 +101,8 @@ static void add_grey(track_sums *sums, const rlf_prediction *prediction, size_t 
                          n[0],
                          n[1],
                          n[2]};
-    add_equation(sums, j, r, robust / (GREY_SIGMA * GREY_SIGMA));
-    sums->grey_residual += robust * (r + offset);
+    add_equation(sums, j, r, gate->grey_weight * robust / (GREY_SIGMA * GREY_SIGMA));
+    sums->grey_residual += robust * (r + gate->grey);
     sums->grey_weight += robust;
 }
 
@@ -158,10 +157,10 @@ void track_sums_add_row(track_sums *sums, const track_points *points, int32_t ro
                          sqrt(across * across + shared * shared)};
         add_match(sums, &m, gate.cut);
         const int32_t ui = (int32_t)u, vi = (int32_t)v;
-        if (prediction->grey != NULL && points->grey[i] != 0 && ui > 0 && vi > 0 &&
+        if (gate.grey_weight > 0.0 && points->grey[i] != 0 && ui > 0 && vi > 0 &&
             ui + 1 < c->width && vi + 1 < c->height) {
             add_grey(sums, prediction, at, u - (float)ui - 0.5f, v - (float)vi - 0.5f, m.p,
-                     points->grey[i], gate.grey);
+                     points->grey[i], &gate);
         }
     }
 }

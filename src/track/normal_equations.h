@@ -23,9 +23,10 @@ typedef struct track_sums {
 
 /* How points count. */
 typedef struct track_gate {
-    double metres; /* farther ones do not count */
-    double cut;    /* Tukey's limit, in expected deviations */
-    double grey;   /* levels by which the prediction is brighter than the frame */
+    double metres;      /* farther ones do not count */
+    double cut;         /* Tukey's limit, in expected deviations */
+    double grey;        /* levels by which the prediction is brighter than the frame */
+    double grey_weight; /* 0..1: how much brightness counts */
 } track_gate;
 
 /* Adds the points of row `row`, every `stride`-th column. T: the frame's camera to the
