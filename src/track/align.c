@@ -79,8 +79,17 @@ static double median_of(const track_sums *sums)
     return (double)TRACK_BINS / TRACK_BINS_PER_SIGMA;
 }
 
+/* How much brightness counts, 0..1: where depth leaves a direction undetermined. */
+static double grey_weight(const track_constraint *constraint, double least)
+{
+    const double *s = constraint->share;
+    const double share = rlf_min(rlf_min(s[0], s[1]), s[2]);
+    return rlf_clamp((WELL_DETERMINED - share / least) / (WELL_DETERMINED - 1.0), 0.0, 1.0);
+}
+
 /* Solves for the small motion, without its part along ways that are not determined. */
-static void solve(const track_sums *sums, double least, double x[6])
+static void solve(const track_sums *sums, const track_constraint *constraint, double least,
+                  double x[6])
 {
     double a[6][6];
     int k = 0;
@@ -94,11 +103,10 @@ static void solve(const track_sums *sums, double least, double x[6])
         a[i][i] += DAMPING * (i < 3 ? turning : sums->information);
     }
     math_solve_six(a, sums->b, x);
-    const track_constraint constraint = track_constraint_of(sums);
     rlf_vec3 t = rlf_vec3_make(x[3], x[4], x[5]);
     for (int i = 0; i < 3; i++) {
-        if (constraint.share[i] < least) {
-            t = rlf_mad(t, constraint.way[i], -rlf_dot(t, constraint.way[i]));
+        if (constraint->share[i] < least) {
+            t = rlf_mad(t, constraint->way[i], -rlf_dot(t, constraint->way[i]));
         }
     }
     x[3] = t.x;
@@ -129,34 +137,23 @@ static bool align_level(row_job *job, const level *l, double least, track_sums *
             return false;
         }
         double x[6];
-        solve(sums, least, x);
+        const track_constraint constraint = track_constraint_of(sums);
+        const double grey = grey_weight(&constraint, least);
+        const bool is_weighed = grey <= job->gate.grey_weight;
+        solve(sums, &constraint, least, x);
         if (!move(&job->T, x)) {
             return false;
         }
         job->gate.cut = rlf_max(TUKEY * MEDIAN_TO_SIGMA * median_of(sums), 2.0);
         job->gate.grey = sums->grey_weight > 0.0 ? sums->grey_residual / sums->grey_weight : 0.0;
+        job->gate.grey_weight = rlf_max(job->gate.grey_weight, grey);
         const double small = 1e-5; /* radians, metres */
-        if (x[0] * x[0] + x[1] * x[1] + x[2] * x[2] < small * small &&
+        if (is_weighed && x[0] * x[0] + x[1] * x[1] + x[2] * x[2] < small * small &&
             x[3] * x[3] + x[4] * x[4] + x[5] * x[5] < small * small) {
             break;
         }
     }
     return true;
-}
-
-/* How much brightness counts, 0..1: where depth leaves a direction undetermined. */
-static double weigh_grey(row_job *job, double least)
-{
-    if (job->view->grey == NULL || job->prediction->grey == NULL) {
-        return 0.0;
-    }
-    job->stride = levels[0].stride;
-    job->gate.grey_weight = 0.0;
-    const track_sums sums = sum_all(job);
-    const track_constraint constraint = track_constraint_of(&sums);
-    const double share =
-        rlf_min(rlf_min(constraint.share[0], constraint.share[1]), constraint.share[2]);
-    return rlf_clamp((WELL_DETERMINED - share / least) / (WELL_DETERMINED - 1.0), 0.0, 1.0);
 }
 
 /* What the sums at the end say about the pose. */
@@ -203,7 +200,6 @@ rlf_result rlf_tracker_align(rlf_tracker *tracker, const rlf_track_view *view,
     job.T = rlf_pose_mul(&T_camera_world, start);
     job.gate = (track_gate){.metres = tracker->def.gate_m, .cut = 1e9};
     *out = (rlf_track_result){.T_world_camera = *start, .weak_way = {0, 0, 1}};
-    job.gate.grey_weight = weigh_grey(&job, tracker->def.least_constraint);
     track_sums sums = {.a = {0}};
     for (int i = 0; i < LEVELS; i++) {
         if (!align_level(&job, &levels[i], tracker->def.least_constraint, &sums)) {
