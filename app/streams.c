@@ -27,6 +27,10 @@ int streams_end(int status)
     if (!is_full || status != EXIT_DONE) {
         return status;
     }
+    if (errno == 0) { /* an earlier write failed; the next one tells why */
+        clearerr(stdout);
+        (void)(putchar('\n') != EOF && fflush(stdout) == 0);
+    }
     fprintf(stderr, "relief: standard output cannot be written: %s: check what reads it\n",
             errno != 0 ? strerror(errno) : "an earlier write failed");
     return EXIT_FAILED;

@@ -126,3 +126,8 @@ rlf_result camera_see(rlf_pipeline *p, const rlf_surface **out)
     p->last.T_world_camera = p->camera.T_world;
     return result;
 }
+
+rlf_map *rlf_pipeline_get_map(rlf_pipeline *p)
+{
+    return RLF_ASSERT(p != NULL) ? p->camera.moving.map : NULL;
+}

@@ -273,8 +273,3 @@ rlf_world *rlf_pipeline_get_world(rlf_pipeline *p)
 {
     return RLF_ASSERT(p != NULL) ? p->world : NULL;
 }
-
-rlf_map *rlf_pipeline_get_map(rlf_pipeline *p)
-{
-    return RLF_ASSERT(p != NULL) ? p->camera.moving.map : NULL;
-}
