@@ -46,7 +46,7 @@ typedef struct rlf_tracker_def {
     double least_overlap;    /* share of the frame's points that must lie on the prediction, 0..1;
                                 default 0.3 */
     double least_constraint; /* least share of the points' information that a direction must have;
-                                below it the direction is weak; default 0.01 */
+                                below it the direction is weak; default 0.003 */
     int32_t keyframe_max;    /* views that are remembered for rlf_tracker_recall; default 256 */
     rlf_pool *pool;          /* borrowed; NULL = one thread */
 } rlf_tracker_def;

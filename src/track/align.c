@@ -7,11 +7,12 @@
 #define TUKEY 4.685
 #define MEDIAN_TO_SIGMA 1.4826
 #define LEAST_POINTS 200 /* at the finest level */
-/* A direction that has so many times the least share of the information is determined well: there a
- * picture, which shifts with the voxels' colours, would only disturb. */
-#define WELL_DETERMINED 2.0
-/* Share of the whole information: a hundredth of the least that a direction must have, so that it
- * costs the determined ones one hundredth of a step. */
+/* Shares of the whole information: a direction with less than the first needs all the help that
+ * brightness gives; one with more than the second none: blurred by the voxels, it would disturb. */
+#define GREY_WHOLE 0.01
+#define GREY_NONE 0.02
+/* Share of the whole information: a thirtieth of the least that a direction must have, so that it
+ * costs the determined ones one thirtieth of a step. */
 #define DAMPING 1e-4
 
 /* Every so many points, and so many rounds. */
@@ -80,11 +81,11 @@ static double median_of(const track_sums *sums)
 }
 
 /* How much brightness counts, 0..1: where depth leaves a direction undetermined. */
-static double grey_weight(const track_constraint *constraint, double least)
+static double grey_weight(const track_constraint *constraint)
 {
     const double *s = constraint->share;
     const double share = rlf_min(rlf_min(s[0], s[1]), s[2]);
-    return rlf_clamp((WELL_DETERMINED - share / least) / (WELL_DETERMINED - 1.0), 0.0, 1.0);
+    return rlf_clamp((GREY_NONE - share) / (GREY_NONE - GREY_WHOLE), 0.0, 1.0);
 }
 
 /* Solves for the small motion, without its part along ways that are not determined. */
@@ -138,7 +139,7 @@ static bool align_level(row_job *job, const level *l, double least, track_sums *
         }
         double x[6];
         const track_constraint constraint = track_constraint_of(sums);
-        const double grey = grey_weight(&constraint, least);
+        const double grey = grey_weight(&constraint);
         const bool is_weighed = grey <= job->gate.grey_weight;
         solve(sums, &constraint, least, x);
         if (!move(&job->T, x)) {
