@@ -118,11 +118,26 @@ static rlf_result see_standing(rlf_pipeline *p, const rlf_surface **out)
     return result == RLF_OK ? see_moving(p, out) : result;
 }
 
+/* Who records poses moves the camera: the surface stage need not find that out. */
+static rlf_result begin_with_poses(rlf_pipeline *p)
+{
+    camera *c = &p->camera;
+    if (!c->is_watched || p->frame_index > 0 || !p->last.frame.has_pose) {
+        return RLF_OK;
+    }
+    c->is_watched = false;
+    return start_moving(p, NULL);
+}
+
 rlf_result camera_see(rlf_pipeline *p, const rlf_surface **out)
 {
     p->last.track = NULL;
     p->last.room = NULL;
-    rlf_result result = p->camera.moving.is_on ? see_moving(p, out) : see_standing(p, out);
+    rlf_result result = begin_with_poses(p);
+    if (result != RLF_OK) {
+        return result;
+    }
+    result = p->camera.moving.is_on ? see_moving(p, out) : see_standing(p, out);
     p->last.T_world_camera = p->camera.T_world;
     return result;
 }

@@ -26,6 +26,7 @@ typedef struct room_source {
     rlf_camera camera;
     int64_t frame, frame_count;
     int64_t bad_frame; /* its pose is none; < 0: all are good */
+    bool has_poses;    /* frames say where the camera is */
     bool stands;       /* the camera does not move */
     bool has_thing;    /* something comes before the wall */
 } room_source;
@@ -98,7 +99,7 @@ static rlf_result room_next(void *self, rlf_frame *out)
     out->depth_u16 = s->depth;
     out->depth_stride = WIDTH * sizeof(uint16_t);
     out->depth_units_per_metre = 1000;
-    out->has_pose = true;
+    out->has_pose = s->has_poses;
     out->T_world_camera = T;
     if (s->frame == s->bad_frame) {
         out->T_world_camera.q.x = (double)NAN;
@@ -259,12 +260,25 @@ static void count_poses(void *context, rlf_log_level level, const char *line)
     told += strstr(line, "poses of the source") != NULL;
 }
 
+static void a_camera_with_poses_is_tracked_at_once(void **state)
+{
+    (void)state;
+    rlf_source *source = open_room(1);
+    memory.has_poses = true;
+    rlf_pipeline *pipeline = open_pipeline(source, RLF_CAMERA_AUTO, RLF_POSES_TRACKED);
+    rlf_pipeline_output out;
+    assert_int_equal(rlf_pipeline_step(pipeline, &out), RLF_OK);
+    assert_non_null(out.track);
+    close_all(&pipeline, &source);
+}
+
 static void a_pose_that_is_none_is_told_once_and_left_out(void **state)
 {
     (void)state;
     rlf_source *source = open_room(STILL + 20);
     rlf_pipeline *pipeline = open_pipeline(source, RLF_CAMERA_MOVING, RLF_POSES_SOURCE);
     rlf_pipeline_output out;
+    memory.has_poses = true;
     memory.bad_frame = STILL + 10;
     told = 0;
     rlf_set_log(count_poses, NULL);
@@ -286,6 +300,7 @@ int main(void)
         cmocka_unit_test(bodies_stay_in_the_world_when_the_camera_begins_to_move),
         cmocka_unit_test(a_camera_that_stands_is_as_a_fixed_one),
         cmocka_unit_test(what_comes_before_the_room_is_foreground),
+        cmocka_unit_test(a_camera_with_poses_is_tracked_at_once),
         cmocka_unit_test(a_pose_that_is_none_is_told_once_and_left_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
