@@ -3,8 +3,8 @@
 #ifndef RELIEF_APP_FUSE_FUSER_H
 #define RELIEF_APP_FUSE_FUSER_H
 
-#include "pipeline/camera_pose.h"
-#include "pipeline/color_view.h"
+#include "pipeline/moving/camera_pose.h"
+#include "pipeline/moving/color_view.h"
 #include "relief/io.h"
 
 typedef struct fuser_options {

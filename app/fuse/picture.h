@@ -3,7 +3,7 @@
 #define RELIEF_APP_FUSE_PICTURE_H
 
 #include "fuse/fuser.h"
-#include "pipeline/room_view.h"
+#include "pipeline/moving/room_view.h"
 
 /* After at least one frame, all of which `view` has passed. */
 rlf_result fuse_picture_write(const char *path, const fuser *f, room_view *view,

@@ -2,7 +2,7 @@
 #ifndef RELIEF_PIPELINE_CAMERA_H
 #define RELIEF_PIPELINE_CAMERA_H
 
-#include "pipeline/moving.h"
+#include "pipeline/moving/moving.h"
 
 typedef struct camera {
     rlf_pose T_world; /* of the newest frame */

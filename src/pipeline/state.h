@@ -8,7 +8,7 @@
 #include "pipeline/far_side.h"
 #include "pipeline/hands.h"
 #include "pipeline/known.h"
-#include "pipeline/room_view.h"
+#include "pipeline/moving/room_view.h"
 
 #define OVERLAY_LINES_MAX 32
 #define OVERLAY_LINE_SIZE 128

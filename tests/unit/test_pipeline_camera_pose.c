@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "pipeline/camera_pose.h"
+#include "pipeline/moving/camera_pose.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* From the smaller, undistorted picture of a prediction to the grid's pixels: the planes of the
  * four about a ray are continued to it, and the nearest counts. */
-#include "pipeline/room_planes.h"
+#include "pipeline/moving/room_planes.h"
 
 static const float longest = 0.2f; /* share of depth that a plane is continued by */
 

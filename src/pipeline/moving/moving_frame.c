@@ -3,7 +3,7 @@
  * The surface stage asks for the room when a frame's depth is clean (moving_give): the camera is
  * placed by that depth, and what the map shows from there is the background. When the stage is done
  * its foreground is known, and all else is fused into the map. */
-#include "pipeline/moving.h"
+#include "pipeline/moving/moving.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* A moving camera begins and ends. */
-#include "pipeline/moving.h"
+#include "pipeline/moving/moving.h"
 
 #include <string.h>
 

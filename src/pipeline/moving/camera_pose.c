@@ -1,5 +1,5 @@
 /* Predict, align, accept; after a lost track, poses that looked alike. */
-#include "pipeline/camera_pose.h"
+#include "pipeline/moving/camera_pose.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* Where the camera has been, and the room from an orbit. */
-#include "pipeline/room_view.h"
+#include "pipeline/moving/room_view.h"
 
 #define PATH_STEP_M 0.01 /* at first; less is noise */
 

@@ -5,9 +5,9 @@
 
 #include "relief/pipeline.h"
 
-#include "pipeline/camera_pose.h"
-#include "pipeline/color_view.h"
-#include "pipeline/room_planes.h"
+#include "pipeline/moving/camera_pose.h"
+#include "pipeline/moving/color_view.h"
+#include "pipeline/moving/room_planes.h"
 
 typedef struct moving {
     bool is_on;
