@@ -61,7 +61,7 @@ if(TARGET relief_app AND CMAKE_BUILD_TYPE STREQUAL Release)
              COMMAND relief_app eval --scene ${scene} --profile live --seeds 1 --threads 1)
   endforeach()
   add_test(NAME app.bounds_picture COMMAND relief_app eval --scene picture --profile live --seeds 2)
-  add_test(NAME app.eval_random COMMAND relief_app eval --random --rooms 1 --frames 12 --threads 1 --profile live)
+  add_test(NAME app.eval_random COMMAND relief_app eval --random --rooms 1 --frames 20 --threads 1 --profile live)
   set_tests_properties(app.bounds_room app.bounds_chair app.bounds_book app.bounds_simulator
                        app.bounds_planes app.bounds_plate app.bounds_physics app.bounds_known
                        app.bounds_picture app.eval_random PROPERTIES LABELS app TIMEOUT 3600)
