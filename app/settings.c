@@ -44,6 +44,8 @@ static const setting table[] = {
     {"velocity", KIND_SWITCH, AT(enable_velocity), switch_words, "velocity per pixel and region"},
     {"thickness", KIND_SWITCH, AT(enable_thickness), switch_words, "thickness per pixel"},
     {"coast", KIND_SWITCH, AT(enable_coast), switch_words, "thin things go on where they are lost"},
+    {"color_sides", KIND_SWITCH, AT(enable_color_sides), switch_words,
+     "colour tells the sides of edges"},
     {"dilation", KIND_SWITCH, AT(enable_dilation), switch_words, "regions grow as in fig. 4.12"},
     {"normal_method", KIND_WORD, AT(normal_method), normal_words, "without smoothing"},
     {"normals_face_camera", KIND_SWITCH, AT(normals_face_camera), switch_words,
@@ -205,6 +207,11 @@ static bool can_coast(const rlf_reconstruct_def *def)
     return def->enable_thickness && def->enable_velocity;
 }
 
+static bool has_color_to_fill(const rlf_reconstruct_def *def)
+{
+    return def->enable_fill && def->rig.has_color;
+}
+
 static bool has_color(const rlf_reconstruct_def *def)
 {
     return def->rig.has_color;
@@ -248,6 +255,7 @@ static const need needs[] = {
     {"hold", has_steadying, "steadying=on"},
     {"edge_normals", has_smoothing, "smoothing=on"},
     {"coast", can_coast, "thickness=on and velocity=on"},
+    {"color_sides", has_color_to_fill, "fill=on and a colour picture"},
     {"dilation", segments_as_thesis, "background_segment=thesis or foreground_segment=thesis"},
     {"background_frames", has_background, "a background_method other than off"},
     {"absorb_after_s", is_adaptive, "background_method=adaptive"},

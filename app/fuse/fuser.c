@@ -18,6 +18,7 @@ static rlf_reconstruct_def stage_def(const rlf_rig *rig, rlf_pool *pool)
     def.enable_velocity = false;
     def.enable_thickness = false;
     def.enable_coast = false;
+    def.enable_color_sides = false;
     def.pool = pool;
     return def;
 }

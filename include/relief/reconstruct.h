@@ -109,6 +109,11 @@ typedef struct rlf_reconstruct_def {
                           gap hides them, and keep the depth that was seen before they turned; flat
                           ones, a book in a hand, are followed as boxes (Harris 1990) */
 
+    bool enable_color_sides; /* live: true, needs fill: at edges of what moves the colour picture
+                                helps to decide on which side of the edge a dropped pixel is. The
+                                picture's offset is learnt, and it is not asked while it does not
+                                fit depth; without colour nothing changes */
+
     rlf_pool *pool; /* borrowed; NULL = one thread; a grid below 8192 pixels has one anyway */
 } rlf_reconstruct_def;
 

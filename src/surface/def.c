@@ -59,6 +59,7 @@ static void set_live(rlf_reconstruct_def *def)
     def->enable_velocity = true;
     def->enable_thickness = true;
     def->enable_coast = true;
+    def->enable_color_sides = true;
 }
 
 rlf_reconstruct_def rlf_reconstruct_def_default(rlf_profile profile, const rlf_rig *rig)

@@ -96,6 +96,7 @@ static void take_all(void *context)
     tracks_allocate(&stage->tracks, arena, def);
     stage->objects = objects_allocate(arena, def, grid);
     thin_allocate(&stage->thin, arena, def, grid);
+    color_guide_allocate(&stage->guide, arena, def, grid);
     velocity_allocate(&stage->velocity, arena, grid);
     chords_allocate(&stage->chords, arena, def, grid);
     take_work(&stage->work, arena, def, grid);

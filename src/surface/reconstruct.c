@@ -73,6 +73,7 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
     rlf_objects_reset(stage->objects, stage->grid.count);
     stage->tracks.count = 0;
     thin_reset(&stage->thin, &stage->grid);
+    rlf_color_guide_reset(stage);
     rlf_ego_motion_reset(&stage->ego);
     rlf_shadow_reset(&stage->shadow);
     stage->previous = stage->before = NULL;
@@ -152,7 +153,7 @@ static void make_surface(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slo
     /* Noise is averaged within planes, which have normals. */
     normals_smooth(stage, work->kept, slot);
     /* Small holes are filled; they, creases and contours get normals from beside them. */
-    depth_fill(stage, work->kept, slot, work->was_seen);
+    depth_fill(stage, frame, work->kept, slot, work->was_seen);
     normals_complete(stage, slot, work->was_seen);
     /* What is not the background is the foreground; normals that differ by layer are known now. */
     find_background(stage, frame, work->kept, slot);

@@ -7,6 +7,7 @@
 
 #include "kernel/kernel.h"
 #include "surface/background/state.h"
+#include "surface/depth/color_guide.h"
 #include "surface/depth/shadow.h"
 #include "surface/depth/state.h"
 #include "surface/motion/ego_motion.h"
@@ -53,8 +54,9 @@ struct rlf_reconstruct {
     rlf_background background;
     temporal temporal;
     normals_state normals;
-    rlf_tracks tracks;           /* of the foreground */
-    thin thin;                   /* of the foreground */
+    rlf_tracks tracks; /* of the foreground */
+    thin thin;         /* of the foreground */
+    rlf_color_guide guide;
     struct rlf_objects *objects; /* see objects/objects.h; NULL = they are not wanted */
     rlf_ego_motion ego;
     rlf_shadow shadow;

@@ -14,6 +14,7 @@ static rlf_reconstruct_def stage_def(const rlf_pipeline_def *def)
     stage.enable_steadying = false;
     stage.enable_hold = false;
     stage.enable_coast = false;
+    stage.enable_color_sides = false;
     return stage;
 }
 

@@ -13,7 +13,8 @@ void depth_track_thin(rlf_reconstruct *stage, const float *kept, const rlf_slot 
 /* In `kept` dropped pixels are recalled, and noise is averaged over time. */
 void depth_average(rlf_reconstruct *stage, const float *raw, float *kept, uint8_t *reason);
 /* Small holes of the slot's depth are filled. `was_seen`: 1 where there was a depth before. */
-void depth_fill(rlf_reconstruct *stage, const float *kept, rlf_slot *slot, uint8_t *was_seen);
+void depth_fill(rlf_reconstruct *stage, const rlf_frame *frame, const float *kept, rlf_slot *slot,
+                uint8_t *was_seen);
 
 /* ---- read.c: eq. 4.1 ---- */
 /* Raw depth of the frame, every factor-th pixel, to metres with reasons. */

@@ -12,6 +12,7 @@
  * there (thin/thin.h). The outermost pixels, which drivers' filters leave
  * empty, go on as the two inside of them. A hole about as wide as the widest that is filled is
  * filled in some rows and not in others: what is left of it then is closed. */
+#include "surface/depth/color_guide.h"
 #include "surface/depth/shadow.h"
 #include "surface/depth/depth.h"
 #include "surface/steps.h"
@@ -19,9 +20,6 @@
 #include "surface/window.h"
 
 #include "kernel/batch.h"
-
-/* Columns and rows from a pixel to the next of a line of gap_patch.c. */
-static const int32_t line_step[RLF_LINE_NONE][2] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
 
 /* Share of the depth, from a side's end to a hole pixel. */
 static const float MOST_CHANGE = 0.05f;
@@ -84,7 +82,8 @@ typedef struct fill_queue {
     rlf_gap_ends ends;
     float lost[RLF_BATCH]; /* depth of a thing that the gap hides, 0 = none */
     rlf_windows depth;
-    float *found; /* what comes next goes there */
+    rlf_color_sum *sum; /* of the rows that are being filled */
+    float *found;       /* what comes next goes there */
 } fill_queue;
 
 /* The next pixel with depth from (x, y) is no farther than `farthest`; false when there is none. */
@@ -113,7 +112,7 @@ static bool is_slit(const fill_job *job, const fill_queue *q, int32_t k)
 {
     const float edge_width = 2.0f;
     const rlf_gap_ends *ends = &q->ends;
-    const int32_t *line = line_step[q->line[k]];
+    const int32_t *line = rlf_line_step[q->line[k]];
     int32_t x = q->x[k], y = q->y[k];
     float farthest = ends->before[k] > ends->after[k] ? ends->before[k] : ends->after[k];
     bool wide = ends->to_before[k] > edge_width && ends->to_after[k] > edge_width;
@@ -131,7 +130,7 @@ static void vote_by_shadow(const fill_job *job, const fill_queue *q, float votes
     const rlf_gap_ends *ends = &q->ends;
     for (int32_t k = 0; k < q->count && job->stage->shadow.is_known; k++) {
         float before = ends->before[k], after = ends->after[k];
-        int32_t along = line_step[q->line[k]][0]; /* columns, from before to after */
+        int32_t along = rlf_line_step[q->line[k]][0]; /* columns, from before to after */
         if (along == 0 || !rlf_gap_is_edge(before, after, ends->to_before[k] + ends->to_after[k])) {
             continue;
         }
@@ -149,11 +148,49 @@ static bool may_fill(uint8_t reason)
     return reason == RLF_REASON_NO_RETURN || reason == RLF_REASON_FLYING;
 }
 
+/* The nearer side stands before the background, and something moves there: of what stands still
+ * the pixels that were seen are recalled. */
+static bool may_ask(const fill_job *job, const fill_queue *q, int32_t k)
+{
+    const float least_before = 1.02f;
+    const rlf_gap_ends *ends = &q->ends;
+    const int32_t *line = rlf_line_step[q->line[k]];
+    float before = ends->before[k], after = ends->after[k];
+    float near_end = before < after ? before : after;
+    int32_t steps = (int32_t)(before < after ? -ends->to_before[k] : ends->to_after[k]);
+    if (!rlf_gap_is_edge(before, after, ends->to_before[k] + ends->to_after[k]) ||
+        !temporal_may_move(job->stage, q->x[k], q->y[k])) {
+        return false;
+    }
+    float behind = depth_behind(job, q->x[k] + steps * line[0], q->y[k] + steps * line[1]);
+    return !(behind > 0.0f) || behind > least_before * near_end;
+}
+
+/* Adds what the colour picture says. */
+static void ask_picture(const fill_job *job, fill_queue *q, float votes[RLF_BATCH])
+{
+    bool may[RLF_BATCH];
+    for (int32_t k = 0; k < q->count; k++) {
+        may[k] = may_ask(job, q, k);
+    }
+    const rlf_guide_cases cases = {.count = q->count,
+                                   .x = q->x,
+                                   .y = q->y,
+                                   .line = q->line,
+                                   .ends = &q->ends,
+                                   .depth = &q->depth,
+                                   .votes = votes};
+    rlf_color_guide_vote(job->stage, &cases, may, q->sum);
+}
+
 static void fill_batch(const fill_job *job, fill_queue *q)
 {
     float filled[RLF_BATCH], votes[RLF_BATCH];
     uint8_t kind[RLF_BATCH];
     rlf_kernel_fill_votes(&q->depth, &q->ends, votes);
+    if (job->stage->guide.image.data != NULL) {
+        ask_picture(job, q, votes);
+    }
     vote_by_shadow(job, q, votes);
     rlf_kernel_fill_batch(&q->depth, &q->ends, votes, filled, kind);
     for (int32_t k = 0; k < q->count; k++) {
@@ -193,7 +230,7 @@ static void push(const fill_job *job, int32_t x, int32_t y, const rlf_gaps *gaps
 {
     const image_grid *grid = &job->stage->grid;
     const float *at = job->depth + (ptrdiff_t)y * grid->width + x;
-    const int32_t *line = line_step[gaps->line[k]];
+    const int32_t *line = rlf_line_step[gaps->line[k]];
     ptrdiff_t step = line[0] + (ptrdiff_t)line[1] * grid->width;
     int32_t lane = q->count++;
     look_ahead(job, at - job->depth);
@@ -245,7 +282,9 @@ static void fill_rows(void *context, int32_t begin, int32_t end, int32_t worker)
     (void)worker;
     const fill_job *job = context;
     int32_t width = job->stage->grid.width;
-    fill_queue queue = {.found = job->found + (ptrdiff_t)begin * width};
+    const rlf_color_guide *side = &job->stage->guide;
+    fill_queue queue = {.sum = side->part != NULL ? side->part + begin / RLF_ROW_GRAIN : NULL,
+                        .found = job->found + (ptrdiff_t)begin * width};
     for (int32_t y = begin; y < end; y++) {
         const uint8_t *reason = job->reason + (ptrdiff_t)y * width; /* 0 = OK */
         for (int32_t x = 0; (x = rlf_kernel_next_mark(reason, x, width)) < width; x++) {

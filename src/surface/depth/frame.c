@@ -43,13 +43,16 @@ void depth_average(rlf_reconstruct *stage, const float *raw, float *kept, uint8_
     }
 }
 
-void depth_fill(rlf_reconstruct *stage, const float *kept, rlf_slot *slot, uint8_t *was_seen)
+void depth_fill(rlf_reconstruct *stage, const rlf_frame *frame, const float *kept, rlf_slot *slot,
+                uint8_t *was_seen)
 {
     if (!stage->def.enable_fill) {
         rlf_kernel_has_row(slot->depth, stage->grid.count, was_seen);
         return;
     }
     rlf_shadow_learn(stage, kept);
+    rlf_color_guide_start(stage, frame);
     rlf_fill_holes(stage, slot, was_seen);
+    rlf_color_guide_learn(stage);
     rlf_stage_add_time(stage, RLF_SURFACE_FILL);
 }
