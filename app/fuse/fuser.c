@@ -43,7 +43,8 @@ rlf_result fuser_open(fuser *f, const rlf_rig *rig, const fuser_options *options
     }
     f->is_tracked = options->is_tracked;
     if (result == RLF_OK && f->is_tracked) {
-        result = camera_pose_open(&f->pose, rig, pool);
+        f->is_static = rlf_alloc((size_t)rig->depth.width * (size_t)rig->depth.height);
+        result = f->is_static != NULL ? camera_pose_open(&f->pose, rig, pool) : RLF_ERROR_MEMORY;
     }
     return result;
 }
@@ -74,6 +75,7 @@ rlf_result fuser_add(fuser *f, const rlf_frame *frame, const rlf_pose *T_world_c
             return result;
         }
         T_world_camera = &f->pose.last.T_world_camera;
+        camera_pose_mark_static(&f->pose, s, f->is_static);
     }
     start = rlf_clock_ns();
     const rlf_map_view view = {
@@ -81,7 +83,7 @@ rlf_result fuser_add(fuser *f, const rlf_frame *frame, const rlf_pose *T_world_c
         .normal_x = s->normal_x,
         .normal_y = s->normal_y,
         .normal_z = s->normal_z,
-        .is_static = f->is_tracked ? f->pose.is_static : NULL,
+        .is_static = f->is_tracked ? f->is_static : NULL,
         .rgba = has_color ? f->color.rgba : NULL,
     };
     result = rlf_map_integrate(f->map, &view, T_world_camera, out_change);
@@ -95,4 +97,6 @@ void fuser_close(fuser *f)
     rlf_reconstruct_destroy(&f->stage);
     camera_pose_close(&f->pose);
     color_view_close(&f->color);
+    rlf_free(f->is_static);
+    f->is_static = NULL;
 }

@@ -112,11 +112,13 @@ static rlf_track_health feed(void)
     f.time_ns += FRAME_NS;
     assert_int_equal(camera_pose_find(&f.camera, f.map, &f.surface, f.grey, f.time_ns), RLF_OK);
     if (f.camera.may_fuse) {
+        static uint8_t is_static[PIXELS];
+        camera_pose_mark_static(&f.camera, &f.surface, is_static);
         const rlf_map_view view = {.depth = f.depth,
                                    .normal_x = f.normal[0],
                                    .normal_y = f.normal[1],
                                    .normal_z = f.normal[2],
-                                   .is_static = f.camera.is_static,
+                                   .is_static = is_static,
                                    .rgba = f.rgba};
         assert_int_equal(rlf_map_integrate(f.map, &view, &f.camera.last.T_world_camera, NULL),
                          RLF_OK);

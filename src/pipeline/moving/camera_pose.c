@@ -23,15 +23,12 @@ rlf_result camera_pose_open(camera_pose *c, const rlf_rig *rig, rlf_pool *pool)
     memset(camera.distortion, 0, sizeof(camera.distortion));
     c->camera = rlf_camera_decimate(&camera, 4);
     c->noise = rig->noise;
-    c->is_static = rlf_alloc((size_t)rig->depth.width * (size_t)rig->depth.height);
-    return c->is_static != NULL ? rlf_tracker_create(&def, &c->tracker) : RLF_ERROR_MEMORY;
+    return rlf_tracker_create(&def, &c->tracker);
 }
 
 void camera_pose_close(camera_pose *c)
 {
     rlf_tracker_destroy(&c->tracker);
-    rlf_free(c->is_static);
-    c->is_static = NULL;
 }
 
 static double ms_since(int64_t start_ns)
@@ -106,14 +103,17 @@ static void guard_map(camera_pose *c, rlf_map *map)
     c->may_fuse = is_good && c->proven >= PROOF_FRAMES;
 }
 
-/* Pixels in front of the room that is known are not static. */
-static void mark_static(camera_pose *c, const rlf_surface *s, const rlf_prediction *p,
-                        const rlf_depth_noise *noise)
+void camera_pose_mark_static(const camera_pose *c, const rlf_surface *s, uint8_t *is_static)
 {
+    const rlf_prediction *p = &c->prediction;
+    if (p->depth == NULL) { /* the first frame */
+        memset(is_static, 1, (size_t)s->width * (size_t)s->height);
+        return;
+    }
     const rlf_pose T_predicted_world = rlf_pose_invert(&p->T_world_camera);
     const rlf_pose T = rlf_pose_mul(&T_predicted_world, &c->last.T_world_camera);
     for (int32_t i = 0; i < s->width * s->height; i++) {
-        c->is_static[i] = 1;
+        is_static[i] = 1;
         if (!(s->depth[i] > 0.0f)) {
             continue;
         }
@@ -126,8 +126,8 @@ static void mark_static(camera_pose *c, const rlf_surface *s, const rlf_predicti
         const double room =
             (double)p->depth[(int32_t)(v + 0.5) * p->camera.width + (int32_t)(u + 0.5)];
         const double nearer =
-            rlf_max(IN_FRONT_M, IN_FRONT_SIGMAS * rlf_depth_noise_sigma(noise, q.z));
-        c->is_static[i] = !(room > 0.0 && q.z < room - nearer);
+            rlf_max(IN_FRONT_M, IN_FRONT_SIGMAS * rlf_depth_noise_sigma(&c->noise, q.z));
+        is_static[i] = !(room > 0.0 && q.z < room - nearer);
     }
 }
 
@@ -143,18 +143,16 @@ rlf_result camera_pose_find(camera_pose *c, rlf_map *map, const rlf_surface *sur
                                      .health = RLF_TRACK_GOOD,
                                      .overlap = 1.0};
         c->time_ns = time_ns;
-        memset(c->is_static, 1, (size_t)surface->width * (size_t)surface->height);
         rlf_tracker_accept(c->tracker, &view, time_ns, &c->last);
         return RLF_OK;
     }
     const rlf_pose start = rlf_tracker_guess(c->tracker, time_ns);
     const bool was_lost =
         c->last.health == RLF_TRACK_LOST || time_ns - c->time_ns > GAP_NS || time_ns <= c->time_ns;
-    rlf_prediction prediction;
-    rlf_result result = try_start(c, map, &view, &start, &prediction, &c->last);
+    rlf_result result = try_start(c, map, &view, &start, &c->prediction, &c->last);
     c->time_ns = time_ns;
     if (result == RLF_OK && (was_lost || c->last.health == RLF_TRACK_LOST)) {
-        result = find_again(c, map, &view, &prediction);
+        result = find_again(c, map, &view, &c->prediction);
     }
     if (result != RLF_OK) {
         return result;
@@ -162,6 +160,5 @@ rlf_result camera_pose_find(camera_pose *c, rlf_map *map, const rlf_surface *sur
     c->lost_count += c->last.health == RLF_TRACK_LOST;
     guard_map(c, map);
     rlf_tracker_accept(c->tracker, &view, time_ns, &c->last);
-    mark_static(c, surface, &prediction, &c->noise);
     return RLF_OK;
 }

@@ -51,7 +51,6 @@ static rlf_result fuse_still(moving *m, const rlf_pose *T_world_camera, const mo
     rlf_tracker_accept(m->pose.tracker, &view, from->time_ns, last);
     m->pose.has_first = true;
     rlf_map_fence(m->map);
-    m->fence_ns = from->time_ns;
     m->has_fence = true;
     return result;
 }

@@ -33,7 +33,6 @@ typedef struct moving {
     rlf_track_health told;
     bool is_known_room; /* the map was not empty at the start, and the camera is not found yet */
     bool has_fence;
-    int64_t fence_ns; /* when the map was said to be right last */
     rlf_result result;
 } moving;
 

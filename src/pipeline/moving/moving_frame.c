@@ -7,8 +7,7 @@
 
 #include <string.h>
 
-#define FENCE_NS 1000000000 /* what was fused longer ago is right: the camera is still placed */
-#define UNIT_ERROR 0.01     /* of a quaternion's length, squared */
+#define UNIT_ERROR 0.01 /* of a quaternion's length, squared */
 
 /* ---- pose ---- */
 
@@ -159,27 +158,12 @@ static rlf_result fuse(moving *m, const rlf_surface *s)
     };
     mark_static(m, s);
     if (m->has_fence) {
-        if (s->time_ns - m->fence_ns >= FENCE_NS) {
-            rlf_map_fence(m->map);
-            m->fence_ns = s->time_ns;
-        }
         return rlf_map_integrate(m->map, &view, &m->T_world_camera, NULL);
     }
     rlf_result result = moving_fuse_whole(m, &view, &m->T_world_camera);
     rlf_map_fence(m->map); /* where the first frame was seen from is what the world is */
-    m->fence_ns = s->time_ns;
     m->has_fence = true;
     return result;
-}
-
-/* What was fused since the last fence may have been put in the wrong place. A frame that shows next
- * to nothing was lost for that alone. */
-static void take_back(moving *m, const rlf_surface *s)
-{
-    const bool sees = 10 * s->valid_count > s->width * s->height;
-    if (m->has_before && sees && m->poses == RLF_POSES_TRACKED) {
-        rlf_map_take_back(m->map);
-    }
 }
 
 rlf_result moving_process(moving *m, const rlf_frame *frame, const rlf_surface **out)
@@ -192,9 +176,7 @@ rlf_result moving_process(moving *m, const rlf_frame *frame, const rlf_surface *
         return result;
     }
     const bool is_placed = moving_is_placed(m);
-    if (!is_placed) {
-        take_back(m, *out);
-    } else if (m->pose.may_fuse) {
+    if (is_placed && m->pose.may_fuse) {
         result = fuse(m, *out);
     }
     m->T_world_before = m->T_world_camera;
