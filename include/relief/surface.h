@@ -97,6 +97,8 @@ typedef struct rlf_surface {
      * one sheet at rest and nothing is foreground: the background is learnt anew when it stands.
      * Always false with a background other than adaptive. */
     bool camera_moves;
+    /* The view as a whole seems to have moved, and it is not sure yet that the camera did. */
+    bool camera_may_move;
     /* When camera_moves begins: the camera as it was up to 8 frames ago, in this frame's camera. */
     rlf_pose T_now_before;
 

@@ -45,14 +45,17 @@ rlf_result camera_start(rlf_pipeline *p)
     return p->camera.is_watched && p->camera.still == NULL ? RLF_ERROR_MEMORY : RLF_OK;
 }
 
-/* What the room looked like from where the camera stood: the map begins with it. */
+/* What the room looked like from where the camera stood: the map begins with it. The first frame
+ * counts as it is: who moves the camera from then on shows no background of a standing one. */
 static void keep_still(camera *c, const rlf_surface *s)
 {
     const int32_t last = (c->still_count + 1) % 2, next = c->still_count % 2;
-    const bool is_due = c->still_count == 0 || s->time_ns - c->still_ns[last] >= KEEP_NS;
-    if (is_due && s->background_state == RLF_BACKGROUND_READY) {
+    const bool is_first = c->still_count == 0;
+    const bool is_due = s->time_ns - c->still_ns[last] >= KEEP_NS;
+    if (is_first || (is_due && s->background_state == RLF_BACKGROUND_READY)) {
         const size_t count = (size_t)s->width * (size_t)s->height;
-        memcpy(c->still + (size_t)next * count, s->background_depth, count * sizeof(*c->still));
+        const float *room = is_first ? s->depth : s->background_depth;
+        memcpy(c->still + (size_t)next * count, room, count * sizeof(*c->still));
         c->still_ns[next] = s->time_ns;
         c->still_count++;
     }

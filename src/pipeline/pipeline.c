@@ -88,13 +88,15 @@ static void make_grid(rlf_pipeline *p, rlf_grid *out)
 }
 
 /* Bodies wait for a camera that was away, or does not know where it is: what they would have met
- * meanwhile nobody saw. Times alone decide, so that a recording gives the same bodies. */
+ * meanwhile nobody saw. So they do while the view as a whole seems to move: a room that swings
+ * would throw them. What was seen alone decides, so that a recording gives the same bodies. */
 static double time_to_advance(const rlf_pipeline *p, double gap_s)
 {
     const double rate = rlf_source_get_info(p->def.source)->frames_per_second;
     const bool was_away = gap_s > ADVANCE_MAX_S && gap_s * rate > AWAY_FRAMES;
     const bool is_lost = p->camera.moving.is_on && !moving_is_placed(&p->camera.moving);
-    return was_away || is_lost ? 0.0 : rlf_min(gap_s, ADVANCE_MAX_S);
+    const bool is_unsure = is_lost || p->last.surface->camera_may_move;
+    return was_away || is_unsure ? 0.0 : rlf_min(gap_s, ADVANCE_MAX_S);
 }
 
 static rlf_result advance_world(rlf_pipeline *p)

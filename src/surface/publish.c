@@ -52,6 +52,7 @@ void surface_publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *s
     s->background_version = image == NULL ? 0 : (int64_t)image->version + publications;
     s->background_state = stage->background.state;
     s->camera_moves = stage->ego.moves;
+    s->camera_may_move = stage->ego.seen_frames > 0 && !stage->ego.moves;
     s->T_now_before = stage->ego.found;
     s->regions = slot->regions;
     s->region_count = slot->foreground_region_first + slot->foreground_region_count;

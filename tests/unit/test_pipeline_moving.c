@@ -207,6 +207,27 @@ static void bodies_stay_in_the_world_when_the_camera_begins_to_move(void **state
     close_all(&pipeline, &source);
 }
 
+static void bodies_wait_until_it_is_sure_that_the_camera_moves(void **state)
+{
+    (void)state;
+    rlf_source *source = open_room(STILL + PERIOD);
+    memory.frame = STILL + PERIOD / 8;
+    rlf_pipeline *pipeline = open_pipeline(source, RLF_CAMERA_AUTO, RLF_POSES_TRACKED);
+    rlf_pipeline_output out = {.track = NULL};
+    rlf_vec3 before = {0, 0, 0};
+    int32_t waits = 0;
+    while (out.track == NULL) {
+        assert_int_equal(rlf_pipeline_step(pipeline, &out), RLF_OK);
+        if (out.surface->camera_may_move) {
+            assert_true(rlf_length(rlf_sub(place_of(&out), before)) == 0.0);
+            waits++;
+        }
+        before = place_of(&out);
+    }
+    assert_true(waits > 0);
+    close_all(&pipeline, &source);
+}
+
 static uint64_t run_hash(rlf_camera_mode camera)
 {
     rlf_source *source = open_room(STILL);
@@ -298,6 +319,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bodies_stay_in_the_world_when_the_camera_begins_to_move),
+        cmocka_unit_test(bodies_wait_until_it_is_sure_that_the_camera_moves),
         cmocka_unit_test(a_camera_that_stands_is_as_a_fixed_one),
         cmocka_unit_test(what_comes_before_the_room_is_foreground),
         cmocka_unit_test(a_camera_with_poses_is_tracked_at_once),
