@@ -150,6 +150,11 @@ typedef struct rlf_map_status {
 
 RLF_API rlf_map_status rlf_map_get_status(const rlf_map *map);
 
+/* Poses from which the map was seen, world from camera, at least 0.25 m or 15 degrees apart, 256 at
+ * most; the map's, until it changes. They are kept in files. A tracker that comes into a known room
+ * remembers what is predicted from there (rlf_tracker_remember). */
+RLF_API const rlf_pose *rlf_map_get_viewpoints(const rlf_map *map, int32_t *out_count);
+
 /* ---- mesh ------------------------------------------------------------------------------------ */
 
 /* Triangles of the zero level, counter-clockwise as seen from free space. World frame, metres. */

@@ -97,6 +97,11 @@ RLF_API rlf_result rlf_tracker_align(rlf_tracker *tracker, const rlf_track_view 
 RLF_API void rlf_tracker_accept(rlf_tracker *tracker, const rlf_track_view *view, int64_t time_ns,
                                 const rlf_track_result *result);
 
+/* Keeps what is predicted at a pose as a keyframe: a camera that comes into a known room is found
+ * where a keyframe looks like its view. Nothing is kept when one looks alike, or there is no room.
+ */
+RLF_API void rlf_tracker_remember(rlf_tracker *tracker, const rlf_prediction *prediction);
+
 /* Poses of the keyframes that look most like the view, the likeliest first; at most `max`. Returns
  * how many. Each is a start for rlf_map_predict and rlf_tracker_align. A keyframe is turned, by up
  * to a quarter of the picture, to where it looks most like the view. Source: small thumbnails

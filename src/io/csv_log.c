@@ -16,8 +16,7 @@ typedef struct row {
 struct rlf_csv_log {
     io_out_file frames, bodies, contacts, hands, trajectory;
     char folder[IO_PATH_MAX];
-    bool has_first, has_moved;
-    rlf_pose T_first_world; /* the first camera's frame */
+    bool has_moved;
 };
 
 static void add_bytes(row *r, const char *text, size_t length)
@@ -283,20 +282,16 @@ static rlf_result write_hands(rlf_csv_log *log, const rlf_pipeline_output *outpu
 static rlf_result write_trajectory(rlf_csv_log *log, const rlf_pipeline_output *output)
 {
     rlf_result result = RLF_OK;
-    if (!log->has_first) {
-        log->T_first_world = rlf_pose_invert(&output->T_world_camera);
-        log->has_first = true;
-    }
     if (output->track == NULL || output->track->health == RLF_TRACK_LOST) {
         return RLF_OK;
     }
     if (!log->has_moved) {
         log->has_moved = true;
         result = open_one(&log->trajectory, log->folder, "trajectory.txt",
-                          "# time tx ty tz qx qy qz qw: seconds, metres; the camera in the world, "
-                          "which is the first camera's frame\n");
+                          "# time tx ty tz qx qy qz qw: seconds, metres; the camera in the "
+                          "world\n");
     }
-    const rlf_pose T = rlf_pose_mul(&log->T_first_world, &output->T_world_camera);
+    const rlf_pose T = output->T_world_camera;
     char text[ROW_SIZE];
     const int length = snprintf(text, sizeof(text), "%.6f %.6f %.6f %.6f %.8f %.8f %.8f %.8f\n",
                                 (double)output->frame.time_ns * 1e-9, T.p.x, T.p.y, T.p.z, T.q.x,

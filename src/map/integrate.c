@@ -292,6 +292,7 @@ rlf_result rlf_map_integrate(rlf_map *map, const rlf_map_view *view, const rlf_p
     }
     rlf_parallel_for(map->def.pool, map->chosen_count, GRAIN, fuse_blocks, &job);
     give_back_empty(&job);
+    map_viewpoints_add(map, &job.T_world_camera);
     map->frames++;
     job.change.blocks_seen = map->seen_count;
     job.change.blocks_fused = map->chosen_count;

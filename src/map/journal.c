@@ -27,6 +27,7 @@ static void begin_epoch(rlf_map *map)
     map->journal.memo_count = 0;
     map->journal.slot_count = 0;
     map->journal.frames = map->frames;
+    map->journal.viewpoint_count = map->viewpoint_count;
 }
 
 void rlf_map_fence(rlf_map *map)
@@ -117,6 +118,7 @@ bool rlf_map_take_back(rlf_map *map)
     }
     restore(map);
     map->frames = j->frames;
+    map->viewpoint_count = j->viewpoint_count;
     begin_epoch(map);
     j->has_moved = false;
     return was_whole;

@@ -177,6 +177,7 @@ void rlf_map_clear(rlf_map *map)
     }
     map_volume_clear(&map->volume);
     map->frames = 0;
+    map->viewpoint_count = 0;
     map->is_full = false;
     map->carve_cursor = 0;
     memset(&map->out.last, 0, sizeof(map->out.last));

@@ -23,6 +23,9 @@ typedef struct map_slabs {
     int32_t slab_count, slab_capacity;
 } map_slabs;
 
+/* Most poses from which a map knows that it was seen. */
+#define MAP_VIEWPOINTS 256
+
 /* A place in the table of blocks; block < 0 = nobody there. */
 typedef struct map_entry {
     uint64_t key;
@@ -68,6 +71,7 @@ typedef struct map_journal {
     map_memo *memo;
     int32_t memo_count, memo_capacity;
     int64_t frames; /* at the fence */
+    int32_t viewpoint_count;
     bool has_moved; /* the fence had to move by itself */
 } map_journal;
 
@@ -94,6 +98,8 @@ struct rlf_map {
     int32_t *seen, *chosen;   /* blocks of this frame */
     int32_t seen_count, chosen_count;
     int32_t carve_cursor;
+    rlf_pose viewpoint[MAP_VIEWPOINTS]; /* world from camera */
+    int32_t viewpoint_count;
     int64_t frames;
     uint32_t tick; /* counts frames, also those that were taken back */
     bool is_full;
@@ -176,6 +182,9 @@ void map_voxel_color(const map_block *block, int32_t voxel, uint8_t rgba[4]);
 
 /* ---- map.c */
 bool map_pose_is_sound(const rlf_pose *T);
+
+/* ---- viewpoints.c: none when one is near already, or there is no room */
+void map_viewpoints_add(rlf_map *map, const rlf_pose *T_world_camera);
 /* Squared distance of a block's middle from a point, m^2. */
 double map_block_distance2(const rlf_map *map, int32_t block, rlf_vec3 p);
 

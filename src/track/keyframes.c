@@ -7,10 +7,9 @@
 #define TURN_X 8       /* cells by which a view may be turned from its keyframe: a quarter */
 #define TURN_Y 6
 
-void track_thumbnail_make(const rlf_tracker *tracker, const rlf_track_view *view,
+void track_thumbnail_make(int32_t width, int32_t height, const float *plane, const uint8_t *luma,
                           track_thumbnail *out)
 {
-    const int32_t width = tracker->def.rig.depth.width, height = tracker->def.rig.depth.height;
     for (int32_t cell = 0; cell < TRACK_THUMB; cell++) {
         const int32_t cx = cell % TRACK_THUMB_WIDTH, cy = cell / TRACK_THUMB_WIDTH;
         const int32_t x0 = cx * width / TRACK_THUMB_WIDTH,
@@ -22,12 +21,12 @@ void track_thumbnail_make(const rlf_tracker *tracker, const rlf_track_view *view
         for (int32_t y = y0; y < y1; y += 2) {
             for (int32_t x = x0; x < x1; x += 2) {
                 const size_t i = (size_t)y * (size_t)width + (size_t)x;
-                const double z = (double)view->depth[i];
+                const double z = (double)plane[i];
                 const bool is_deep = z > 0.0 && z < 100.0;
                 depth += is_deep ? z : 0.0;
                 deep += is_deep;
-                grey += view->grey != NULL ? view->grey[i] : 0;
-                lit += view->grey != NULL && view->grey[i] != 0;
+                grey += luma != NULL ? luma[i] : 0;
+                lit += luma != NULL && luma[i] != 0;
             }
         }
         out->depth[cell] = deep > 0 ? (float)(depth / deep) : 0.0f;
@@ -125,7 +124,8 @@ int32_t rlf_tracker_recall(rlf_tracker *tracker, const rlf_track_view *view, rlf
     int32_t count = 0;
     max = max < MOST ? max : MOST;
     track_thumbnail thumbnail;
-    track_thumbnail_make(tracker, view, &thumbnail);
+    const rlf_camera *camera = &tracker->def.rig.depth;
+    track_thumbnail_make(camera->width, camera->height, view->depth, view->grey, &thumbnail);
     for (int32_t i = 0; i < tracker->keyframe_count; i++) {
         rlf_pose T;
         const double difference = best_turn(tracker, &thumbnail, &tracker->keyframes[i], &T);
@@ -145,14 +145,15 @@ int32_t rlf_tracker_recall(rlf_tracker *tracker, const rlf_track_view *view, rlf
     return count;
 }
 
-/* Keeps the view as a keyframe unless there is one that looks alike, or no room. */
-static void keep(rlf_tracker *tracker, const rlf_track_view *view, const rlf_pose *T)
+/* Keeps the planes as a keyframe unless there is one that looks alike, or no room. */
+static void keep(rlf_tracker *tracker, const rlf_camera *camera, const float *depth,
+                 const uint8_t *grey, const rlf_pose *T)
 {
     if (tracker->keyframe_count >= tracker->def.keyframe_max) {
         return;
     }
     track_keyframe *next = &tracker->keyframes[tracker->keyframe_count];
-    track_thumbnail_make(tracker, view, &next->view);
+    track_thumbnail_make(camera->width, camera->height, depth, grey, &next->view);
     for (int32_t i = 0; i < tracker->keyframe_count; i++) {
         if (track_thumbnail_difference(&next->view, &tracker->keyframes[i].view, 0, 0) < ALIKE) {
             return;
@@ -178,6 +179,15 @@ void rlf_tracker_accept(rlf_tracker *tracker, const rlf_track_view *view, int64_
     tracker->time_ns = time_ns;
     tracker->pose_count += tracker->pose_count < 2;
     if (result->health == RLF_TRACK_GOOD && view != NULL && view->depth != NULL) {
-        keep(tracker, view, &result->T_world_camera);
+        keep(tracker, &tracker->def.rig.depth, view->depth, view->grey, &result->T_world_camera);
     }
+}
+
+void rlf_tracker_remember(rlf_tracker *tracker, const rlf_prediction *prediction)
+{
+    if (!RLF_ASSERT(tracker != NULL && prediction != NULL && prediction->depth != NULL)) {
+        return;
+    }
+    keep(tracker, &prediction->camera, prediction->depth, prediction->grey,
+         &prediction->T_world_camera);
 }

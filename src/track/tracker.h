@@ -32,7 +32,8 @@ struct rlf_tracker {
     int32_t pose_count; /* 0, 1 or 2 of them are known */
 };
 
-void track_thumbnail_make(const rlf_tracker *tracker, const rlf_track_view *view,
+/* Of planes of width x height; grey may be NULL. */
+void track_thumbnail_make(int32_t width, int32_t height, const float *plane, const uint8_t *luma,
                           track_thumbnail *out);
 /* How unlike two thumbnails are where b, moved by (dx, dy) cells, lies on a: 0 = alike; 1 where
  * they have nothing in common. */

@@ -40,6 +40,11 @@ static void what_is_saved_comes_back(void **state)
     const rlf_map_point a = rlf_map_sample(map, p), b = rlf_map_sample(other, p);
     assert_int_equal(a.state, RLF_MAP_FREE);
     assert_true(a.distance == b.distance && a.gradient.z == b.gradient.z);
+    int32_t seen_from, again_from;
+    const rlf_pose *from = rlf_map_get_viewpoints(map, &seen_from);
+    const rlf_pose *loaded = rlf_map_get_viewpoints(other, &again_from);
+    assert_true(seen_from > 0 && seen_from == again_from);
+    assert_memory_equal(from, loaded, (size_t)seen_from * sizeof(*from));
     map_room_fuse(&room, other, 1); /* and goes on */
     rlf_free(file.data);
     rlf_free(again.data);
@@ -87,6 +92,11 @@ static void a_cut_or_hostile_file_is_refused(void **state)
     file.data[23] = 0x7f; /* two thousand million blocks */
     check_refused(map, file, RLF_ERROR_CAPACITY);
     file.data[23] = 0;
+    file.data[27] = 0x7f; /* as many viewpoints */
+    check_refused(map, file, RLF_ERROR_FORMAT);
+    file.data[27] = 0;
+    memset(file.data + 28, 0xff, 8); /* a viewpoint at NaN */
+    check_refused(map, file, RLF_ERROR_FORMAT);
     memset(file.data + 12, 0xff, 8); /* NaN */
     check_refused(map, file, RLF_ERROR_FORMAT);
     map_room_fuse(&room, map, 2);

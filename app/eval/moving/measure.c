@@ -27,7 +27,7 @@ typedef struct run {
     rlf_pose first, last_true, last_found; /* the first true camera in its own world */
     bool has_last, is_covered; /* is_covered: now and again, since the path was measured */
     int64_t time_ns;           /* of the last frame */
-    int64_t seen, good, lost, wrong, found_again;
+    int64_t seen, good, lost, wrong;
     double values[SERIES][FRAMES_MAX];
     int32_t count[SERIES];
 } run;
@@ -150,17 +150,29 @@ static rlf_result cover_lens(run *r, const rlf_rig *rig)
     return result;
 }
 
-/* The lens is covered, and the camera is elsewhere on its way when it sees again. It is found when
- * it is where it was found at first: what the whole way is off is told by itself. */
-static rlf_result run_covers(run *r, rlf_source *source)
+/* Another camera, which knows the map and nothing of where it is. */
+static rlf_result enter(run *r, const rlf_rig *rig)
+{
+    camera_pose_close(&r->fuser.pose);
+    rlf_result result = camera_pose_open(&r->fuser.pose, rig, NULL);
+    return result == RLF_OK ? camera_pose_know(&r->fuser.pose, r->fuser.map) : result;
+}
+
+/* What happens before the camera sees again, elsewhere on its way. */
+typedef rlf_result (*interruption)(run *r, const rlf_rig *rig);
+
+/* Percent of the interruptions after which the camera is found: it is where it was found at first.
+ * What the whole way is off is told by itself. */
+static rlf_result run_covers(run *r, rlf_source *source, interruption interrupt, double *out)
 {
     const rlf_source_info *info = rlf_source_get_info(source);
     const int64_t count = r->options->covers;
-    const int64_t frames = r->seen - FOUND_WITHIN;
+    const int64_t frames = r->path.count - FOUND_WITHIN;
     rlf_result result = RLF_OK;
+    int64_t found = 0;
     r->is_covered = true;
     for (int64_t i = 0; i < count && result == RLF_OK && frames > 0; i++) {
-        result = cover_lens(r, &info->rig);
+        result = interrupt(r, &info->rig);
         /* 7 has no factor in common with 20: far and near in turn. */
         const int64_t first = i * 7 % count * frames / count;
         if (result == RLF_OK) {
@@ -173,8 +185,9 @@ static rlf_result run_covers(run *r, rlf_source *source)
             is_found = result == RLF_OK && r->fuser.pose.last.health == RLF_TRACK_GOOD &&
                        off_by(r, &r->path.found[first + k]) < WRONG_M;
         }
-        r->found_again += is_found;
+        found += is_found;
     }
+    *out = 100.0 * (double)found / (double)count;
     return result;
 }
 
@@ -227,8 +240,10 @@ rlf_result moving_measure(rlf_source *source, const moving_options *options, mov
         summarise(r, out);
     }
     if (result == RLF_OK) {
-        result = run_covers(r, source);
-        out->found_again = 100.0 * (double)r->found_again / (double)options->covers;
+        result = run_covers(r, source, cover_lens, &out->found_again);
+    }
+    if (result == RLF_OK) {
+        result = run_covers(r, source, enter, &out->found_known);
     }
     result = result == RLF_END ? RLF_OK : result;
     fuser_close(&r->fuser);

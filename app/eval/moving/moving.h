@@ -6,7 +6,8 @@
 
 typedef struct moving_options {
     int64_t frames; /* at most; 0 = all */
-    int64_t covers; /* after them: so often the lens is covered for a second */
+    int64_t covers; /* after them: so often the lens is covered for a second, and so often another
+                       camera comes in */
 } moving_options;
 
 /* Of one clip. NAN = there is none. */
@@ -19,6 +20,7 @@ typedef struct moving_figures {
     double wrong_good;  /* percent of the frames said to be good that are more than 5 cm off */
     double found_again; /* percent of the covers: good and within 5 cm of where that frame was
                            found at first, 10 frames later */
+    double found_known; /* likewise, of as many cameras that come into the room that is mapped */
     double track_ms, predict_ms, integrate_ms; /* medians */
 } moving_figures;
 

@@ -38,6 +38,7 @@ static void add_rows(eval_table *table, const char *name, const moving_figures *
         {"wrong_good_percent", "frames said to be good and over 5 cm off, %", f->wrong_good},
         {"found_again_percent", "found again within 10 frames of a covered lens, %",
          f->found_again},
+        {"found_known_percent", "found within 10 frames in a known room, %", f->found_known},
         {"track_ms", "tracker a frame, median, ms", f->track_ms},
         {"predict_ms", "prediction a frame, median, ms", f->predict_ms},
         {"integrate_ms", "fusion a frame, median, ms", f->integrate_ms},
@@ -62,8 +63,9 @@ rlf_result moving_measure_clip(const char *name, const char *text, moving_figure
     rlf_source_destroy(&source);
     rlf_pool_destroy(&pool);
     if (result == RLF_OK) {
-        fprintf(stderr, "%s: %.1f mm, %.1f %% lost, %.0f %% found again\n", name, out->ate_mm,
-                out->lost_share, out->found_again);
+        fprintf(stderr,
+                "%s: %.1f mm, %.1f %% lost, %.0f %% found again, %.0f %% found in the known room\n",
+                name, out->ate_mm, out->lost_share, out->found_again, out->found_known);
     }
     return result;
 }

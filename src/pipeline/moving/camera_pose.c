@@ -31,6 +31,22 @@ void camera_pose_close(camera_pose *c)
     rlf_tracker_destroy(&c->tracker);
 }
 
+rlf_result camera_pose_know(camera_pose *c, rlf_map *map)
+{
+    int32_t count;
+    const rlf_pose *viewpoints = rlf_map_get_viewpoints(map, &count);
+    rlf_result result = RLF_OK;
+    for (int32_t i = 0; i < count && result == RLF_OK; i++) {
+        rlf_prediction seen;
+        result = rlf_map_predict(map, &c->camera, &viewpoints[i], &seen);
+        if (result == RLF_OK) {
+            rlf_tracker_remember(c->tracker, &seen);
+        }
+    }
+    c->has_first = true;
+    return result;
+}
+
 static double ms_since(int64_t start_ns)
 {
     return (double)(rlf_clock_ns() - start_ns) * 1e-6;

@@ -22,6 +22,8 @@ typedef struct camera_pose {
 
 /* Close what was opened, also after an error. */
 rlf_result camera_pose_open(camera_pose *c, const rlf_rig *rig, rlf_pool *pool);
+/* A map that is known already: the camera is looked for where that was seen from. */
+rlf_result camera_pose_know(camera_pose *c, rlf_map *map);
 /* Finds the pose of a frame whose depth is `surface`'s; `grey` may be NULL. The first frame's is
  * the identity. */
 rlf_result camera_pose_find(camera_pose *c, rlf_map *map, const rlf_surface *surface,

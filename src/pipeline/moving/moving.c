@@ -106,8 +106,9 @@ rlf_result moving_start(moving *m, const rlf_pipeline_def *def, const moving_fro
             from != NULL ? rlf_pose_invert(&from->T_now_before) : rlf_pose_identity();
         m->T_world_camera = rlf_pose_mul(&def->T_world_camera, &moved);
         rlf_tracker_reset(m->pose.tracker, &m->T_world_camera);
-        m->is_known_room = rlf_map_get_status(m->map).block_count > 0;
-        m->pose.has_first = m->is_known_room;
+    }
+    if (result == RLF_OK && rlf_map_get_status(m->map).block_count > 0) {
+        result = camera_pose_know(&m->pose, m->map);
     }
     if (result == RLF_OK && from != NULL && from->still != NULL) {
         result = fuse_still(m, &def->T_world_camera, from);

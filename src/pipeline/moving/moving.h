@@ -31,7 +31,6 @@ typedef struct moving {
     bool has_before;
     rlf_track_result track;
     rlf_track_health told;
-    bool is_known_room; /* the map was not empty at the start, and the camera is not found yet */
     bool has_fence;
     rlf_result result;
 } moving;
