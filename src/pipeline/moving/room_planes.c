@@ -22,7 +22,9 @@ static void fill_tables(room_planes *r, const rlf_camera *lens, const rlf_camera
     for (int32_t i = 0; i < lens->width * lens->height; i++) {
         rlf_vec3 ray;
         const bool has_ray = rlf_camera_unproject(lens, i % lens->width, i / lens->width, &ray);
-        const double u = ray.x * p->fx + p->cx, v = ray.y * p->fy + p->cy;
+        /* In single precision, as the surface has its rays. */
+        const double u = (double)(float)ray.x * p->fx + p->cx;
+        const double v = (double)(float)ray.y * p->fy + p->cy;
         const bool is_in = has_ray && u > -0.5 && v > -0.5 && u < p->width - 0.5 &&
                            v < p->height - 0.5 && p->width > 1 && p->height > 1;
         const int32_t x = is_in ? (int32_t)rlf_clamp(u, 0.0, p->width - 2.0) : 0;
@@ -86,8 +88,8 @@ typedef struct room_job {
 } room_job;
 
 /* Of `count` pixels from `begin` on: one over the nearest depth, and whose plane that is. */
-static void find_nearest(const room_job *job, int32_t begin, int32_t count, float inverse[LANES],
-                         int32_t from[LANES])
+static void find_nearest(const room_job *job, int32_t begin, int32_t count, float *restrict inverse,
+                         int32_t *restrict from)
 {
     const room_planes *r = job->planes;
     const float *ray_x = job->s->ray_x + begin, *ray_y = job->s->ray_y + begin;
@@ -99,8 +101,10 @@ static void find_nearest(const room_job *job, int32_t begin, int32_t count, floa
     for (int32_t k = 0; k < 4; k++) {
         const int32_t step = k / 2 * job->p->camera.width + k % 2;
         float x[LANES], y[LANES], one[LANES], own[LANES];
+        int32_t at[LANES];
         for (int32_t i = 0; i < count; i++) {
             const struct room_plane *plane = &r->planes[first[i] + step];
+            at[i] = first[i] + step;
             x[i] = plane->x;
             y[i] = plane->y;
             one[i] = plane->one;
@@ -108,11 +112,14 @@ static void find_nearest(const room_job *job, int32_t begin, int32_t count, floa
         }
         for (int32_t i = 0; i < count; i++) {
             const float there = x[i] * ray_x[i] + y[i] * ray_y[i] + one[i];
-            const bool goes_on =
+            /* A number, not a choice: that would not be vectorised. */
+            const int32_t is_near =
                 (there * (1.0f + longest) > own[i]) & (there * (1.0f - longest) < own[i]);
-            const float w = goes_on ? there : own[i];
-            from[i] = w > inverse[i] ? first[i] + step : from[i];
-            inverse[i] = w > inverse[i] ? w : inverse[i];
+            const float near = (float)is_near, before = inverse[i];
+            const float w = near * there + (1.0f - near) * own[i];
+            const int32_t is_nearer = w > before;
+            from[i] += is_nearer * (at[i] - from[i]);
+            inverse[i] = w > before ? w : before;
         }
     }
 }
