@@ -39,7 +39,7 @@ rlf_result fuser_open(fuser *f, const rlf_rig *rig, const fuser_options *options
         result = rlf_reconstruct_create(&stage, &f->stage);
     }
     if (result == RLF_OK) {
-        result = color_view_open(&f->color, rig);
+        result = color_view_open(&f->color, rig, pool);
     }
     f->is_tracked = options->is_tracked;
     if (result == RLF_OK && f->is_tracked) {
@@ -66,7 +66,7 @@ rlf_result fuser_add(fuser *f, const rlf_frame *frame, const rlf_pose *T_world_c
     f->surface = s;
     f->surface_ms = ms_since(start);
     start = rlf_clock_ns();
-    const bool has_color = color_view_take(&f->color, f->rig, frame, s);
+    const bool has_color = color_view_take(&f->color, frame, s);
     f->color_ms = ms_since(start);
     if (f->is_tracked) {
         result =

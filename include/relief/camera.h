@@ -72,7 +72,7 @@ typedef enum rlf_registered {
 typedef struct rlf_registration rlf_registration;
 
 /* Prepares to warp depth (camera `depth`, rays ray_x, ray_y of its grid, each width*height floats,
- * borrowed for the object's life) into `color`. T_color_depth: p_color = T p_depth. */
+ * read in this call only) into `color`. T_color_depth: p_color = T p_depth. */
 RLF_API rlf_result rlf_registration_create(const rlf_camera *depth, const float *ray_x,
                                            const float *ray_y, const rlf_camera *color,
                                            const rlf_pose *T_color_depth, rlf_registration **out);
@@ -103,6 +103,13 @@ typedef struct rlf_aligned {
  * nothing. */
 RLF_API void rlf_registration_align(rlf_registration *registration, const float *depth,
                                     const rlf_aligned *out);
+
+/* Where the pixels of row y of the depth grid are seen, 0 <= y < height: for each the byte of an
+ * RGBA8 picture of the colour camera's size whose rows are `stride` bytes apart; -1 where it has no
+ * depth or is beyond the picture. What something nearer hides gets that one's. `depth` is the whole
+ * grid's. Allocates nothing. Thread-safety: any number of calls at a time. */
+RLF_API void rlf_registration_find_pixels(const rlf_registration *registration, const float *depth,
+                                          int32_t y, ptrdiff_t stride, int32_t *out_bytes);
 
 #ifdef __cplusplus
 }

@@ -55,9 +55,10 @@ pixel_rect registration_widen(const rlf_registration *r, const pixel_rect *windo
 void registration_columns(const rlf_registration *r, int32_t x0, int32_t x1, double nearest,
                           int32_t out[2]);
 
-/* register_warp.c: colour pixels of columns [x0, x1) of row y of the depth grid, into r->points. */
-void registration_project(rlf_registration *r, const float *depth, int32_t y, int32_t x0,
-                          int32_t x1);
+/* register_warp.c: colour pixels of columns [x0, x1) of row y of the depth grid, into points, one
+ * each from 0 on. */
+void registration_project(const rlf_registration *r, const float *depth, int32_t y, int32_t x0,
+                          int32_t x1, const rlf_kernel_points *points);
 
 /* rlf_registration_apply for pixels in `wanted`: of the others nothing is known afterwards. No
  * depth is nearer than `nearest` metres; 0 = not known. */

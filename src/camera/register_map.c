@@ -5,6 +5,31 @@
 
 #define NEARER 0.98f /* of a pixel's depth: what is nearer hides it */
 
+void rlf_registration_find_pixels(const rlf_registration *r, const float *depth, int32_t y,
+                                  ptrdiff_t stride, int32_t *out)
+{
+    if (!RLF_ASSERT(r != NULL && depth != NULL && out != NULL && y >= 0 && y < r->height)) {
+        return;
+    }
+    enum { PART = 64 };
+    float u[PART], v[PART], scale[PART], z[PART];
+    const rlf_kernel_points points = {u, v, scale, z};
+    const float right = (float)r->color.width - 0.5f, bottom = (float)r->color.height - 0.5f;
+    for (int32_t x = 0; x < r->width; x += PART) {
+        const int32_t count = r->width - x < PART ? r->width - x : PART;
+        registration_project(r, depth, y, x, x + count, &points);
+        for (int32_t i = 0; i < count; i++) {
+            const bool is_inside = (scale[i] > 0.0f) & (z[i] < RLF_KERNEL_NOTHING) &
+                                   (u[i] > -0.5f) & (v[i] > -0.5f) & (u[i] < right) &
+                                   (v[i] < bottom);
+            const float column = is_inside ? u[i] : 0.0f, row = is_inside ? v[i] : 0.0f;
+            const int32_t byte =
+                (int32_t)(row + 0.5f) * (int32_t)stride + 4 * (int32_t)(column + 0.5f);
+            out[x + i] = is_inside ? byte : -1;
+        }
+    }
+}
+
 /* Row `y` of the depth image; its points are in r->points. */
 static void map_row(const rlf_registration *r, const rlf_plane_f32 *registered, uint8_t *out)
 {
@@ -36,7 +61,7 @@ void rlf_registration_align(rlf_registration *r, const float *depth, const rlf_a
     rlf_registration_apply(r, depth, &out->depth, &out->state);
     for (int32_t y = 0; out->seen != NULL && y < r->height; y++) {
         size_t first = (size_t)y * (size_t)r->width;
-        registration_project(r, depth, y, 0, r->width);
+        registration_project(r, depth, y, 0, r->width, &r->points);
         map_row(r, &out->depth, out->seen + first);
     }
 }

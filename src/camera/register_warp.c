@@ -130,18 +130,17 @@ static rlf_kernel_points points_at(const rlf_registration *r, int32_t x)
     return (rlf_kernel_points){p->u + x, p->v + x, p->scale + x, p->z + x};
 }
 
-void registration_project(rlf_registration *r, const float *depth, int32_t y, int32_t x0,
-                          int32_t x1)
+void registration_project(const rlf_registration *r, const float *depth, int32_t y, int32_t x0,
+                          int32_t x1, const rlf_kernel_points *points)
 {
     const size_t first = (size_t)y * (size_t)r->width + (size_t)x0;
     const rlf_kernel_rays rays = {r->a + y * r->row_a + x0, r->b + first, r->c + y * r->row_c + x0};
-    const rlf_kernel_points points = points_at(r, x0);
-    rlf_kernel_project_row(&r->pinhole, &rays, depth + first, x1 - x0, &points);
+    rlf_kernel_project_row(&r->pinhole, &rays, depth + first, x1 - x0, points);
     if (r->lens.du != NULL) {
-        rlf_kernel_distort_row(&r->lens, x1 - x0, &points);
+        rlf_kernel_distort_row(&r->lens, x1 - x0, points);
     }
     if (r->size != NULL) {
-        rlf_kernel_stretch_row(r->size + first, x1 - x0, points.scale);
+        rlf_kernel_stretch_row(r->size + first, x1 - x0, points->scale);
     }
 }
 
@@ -165,7 +164,7 @@ static void draw_row(rlf_registration *r, const float *depth, int32_t y, const i
     const rlf_kernel_points points = points_at(r, x[0]);
     const rlf_kernel_splat *row = &r->row;
     const rlf_kernel_splat part = {row->x0 + x[0], row->x1 + x[0], row->y + x[0], row->y0 + x[0]};
-    registration_project(r, depth, y, x[0], x[1]);
+    registration_project(r, depth, y, x[0], x[1], &points);
     rlf_kernel_splat_row(&r->pinhole, &points, x[1] - x[0], &part);
     splat(r, x[0], x[1], rows);
 }

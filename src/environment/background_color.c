@@ -203,7 +203,8 @@ static void learn_row(background_color *background, rlf_registration *registrati
     uint8_t *known = background->colors + 4 * (ptrdiff_t)y * background->width;
     background->next_row = y + 1 < background->height ? y + 1 : 0;
     background->is_whole = background->is_whole || background->next_row == 0;
-    registration_project(registration, surface->background_depth, y, 0, background->width);
+    registration_project(registration, surface->background_depth, y, 0, background->width,
+                         &registration->points);
     for (int32_t x = 0; x < background->width; x++) {
         const bool is_seen = (cells[x / CELL] & NOT_CLEAR) == 0 && p->scale[x] > 0.0f &&
                              p->z[x] < RLF_KERNEL_NOTHING;

@@ -20,51 +20,25 @@ typedef struct level {
     int32_t stride, rounds;
 } level;
 
-static const level levels[] = {{4, 8}, {2, 5}};
+static const level levels[] = {{2, 8}, {1, 5}};
 #define LEVELS ((int)(sizeof(levels) / sizeof(levels[0])))
 
-typedef struct row_job {
+typedef struct align_job {
     rlf_tracker *tracker;
     const rlf_track_view *view;
     const rlf_prediction *prediction;
     rlf_pose T;
     track_gate gate;
-    int32_t stride;
-} row_job;
+} align_job;
 
 static void fill_points(void *context, int32_t begin, int32_t end, int32_t worker)
 {
-    const row_job *job = context;
+    const align_job *job = context;
     const rlf_tracker *t = job->tracker;
     (void)worker;
     for (int32_t row = begin; row < end; row++) {
         track_points_row(&t->points, &t->def.rig, t->ray_x, t->ray_y, job->view, row);
     }
-}
-
-static void sum_rows(void *context, int32_t begin, int32_t end, int32_t worker)
-{
-    const row_job *job = context;
-    (void)worker;
-    for (int32_t row = begin; row < end; row++) {
-        track_sums *sums = &job->tracker->rows[row];
-        *sums = (track_sums){.a = {0}};
-        track_sums_add_row(sums, &job->tracker->points, row * job->stride, job->stride,
-                           job->prediction, &job->T, job->gate);
-    }
-}
-
-/* Row by row in order: the same sum for any number of threads. */
-static track_sums sum_all(row_job *job)
-{
-    rlf_tracker *t = job->tracker;
-    const int32_t rows = (t->points.height + job->stride - 1) / job->stride;
-    rlf_parallel_for(t->def.pool, rows, 4, sum_rows, job);
-    track_sums all = {.a = {0}};
-    for (int32_t row = 0; row < rows; row++) {
-        track_sums_add(&all, &t->rows[row]);
-    }
-    return all;
 }
 
 /* The median of the residuals over their deviation, from the bins. */
@@ -129,11 +103,11 @@ static bool move(rlf_pose *T, const double x[6])
 }
 
 /* Rounds of one level; the limit for outliers follows the residuals. */
-static bool align_level(row_job *job, const level *l, double least, track_sums *sums)
+static bool align_level(align_job *job, const level *l, double least, track_sums *sums)
 {
-    job->stride = l->stride;
     for (int32_t round = 0; round < l->rounds; round++) {
-        *sums = sum_all(job);
+        *sums =
+            track_sums_of(&job->tracker->points, l->stride, job->prediction, &job->T, &job->gate);
         if (sums->matched * l->stride * l->stride < LEAST_POINTS || !(sums->information > 0.0)) {
             return false;
         }
@@ -195,7 +169,7 @@ rlf_result rlf_tracker_align(rlf_tracker *tracker, const rlf_track_view *view,
     if (!is_pose(start) || !is_pose(&prediction->T_world_camera)) {
         return rlf_fail(RLF_ERROR_INVALID, "track: the pose to start from is not a pose");
     }
-    row_job job = {.tracker = tracker, .view = view, .prediction = prediction, .stride = 1};
+    align_job job = {.tracker = tracker, .view = view, .prediction = prediction};
     rlf_parallel_for(tracker->def.pool, tracker->points.height, 4, fill_points, &job);
     const rlf_pose T_camera_world = rlf_pose_invert(&prediction->T_world_camera);
     job.T = rlf_pose_mul(&T_camera_world, start);

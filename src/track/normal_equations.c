@@ -1,186 +1,265 @@
-/* Point to plane residuals of one row of points (Chen and Medioni 1991). */
+/* Point to plane residuals (Chen and Medioni 1991), sixteen points at a time. */
 #include "track/normal_equations.h"
 
 #include "kernel/kernel.h"
 
 /* Metres per square metre of depth: errors that neighbours share, so that no mean takes them out. A
  * sensor that measures disparity has them grow with the square. */
-#define SHARED_SIGMA 0.002
-#define LEAST_COSINE 0.1 /* at lower angles depth says little about the distance to the plane */
-#define GREY_SIGMA 5.0   /* levels: of a picture against the prediction */
-#define GREY_CUT 6.0     /* Tukey's limit, in those */
+#define SHARED_SIGMA 0.002f
+#define LEAST_COSINE 0.1f /* at lower angles depth says little about the distance to the plane */
+#define LEAST_DEPTH 0.05f /* metres */
+#define GREY_SIGMA 5.0f   /* levels: of a picture against the prediction */
+#define GREY_CUT 6.0f     /* Tukey's limit, in those */
 
-/* A rotation and a translation in single precision. */
-typedef struct motion {
+enum { LANES = 16 };
+
+/* Terms of the sums, in track_sums' order. */
+enum { A, B = 21, INFORMATION = 27, SQUARED, WEIGHT, GREY_RESIDUAL, GREY_WEIGHT, TERMS };
+
+/* A rotation and a translation, the prediction's camera and the gate, in single precision. */
+typedef struct view {
     float m[3][3], t[3];
-} motion;
+    float fx, fy, cx, cy;
+    float metres, cut, grey, grey_weight;
+} view;
 
-static motion motion_of(const rlf_pose *T)
+/* Sixteen points. */
+typedef struct lanes {
+    float x[LANES], y[LANES], z[LANES]; /* moved */
+    float sigma[LANES];                 /* of the depth */
+    int32_t at[LANES];                  /* pixel of the prediction; 0 where there is none */
+    float u[LANES], v[LANES];
+    int32_t is_in[LANES]; /* 1: in the prediction's picture */
+    float qz[LANES], n[3][LANES];
+    float residual[LANES], deviation[LANES];
+    int32_t is_matched[LANES];
+    int32_t bin[LANES];
+} lanes;
+
+typedef struct lane_sums {
+    float of[TERMS][LANES];
+} lane_sums;
+
+static view view_of(const rlf_prediction *prediction, const rlf_pose *T, const track_gate *gate)
 {
+    const rlf_camera *c = &prediction->camera;
     const rlf_mat3 r = rlf_quat_to_mat3(T->q);
-    motion out;
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) {
-            out.m[i][j] = (float)r.m[i][j];
-        }
+    view out = {.t = {(float)T->p.x, (float)T->p.y, (float)T->p.z},
+                .fx = (float)c->fx,
+                .fy = (float)c->fy,
+                .cx = (float)c->cx,
+                .cy = (float)c->cy,
+                .metres = (float)gate->metres,
+                .cut = (float)gate->cut,
+                .grey = (float)gate->grey,
+                .grey_weight = (float)gate->grey_weight};
+    for (int i = 0; i < 9; i++) {
+        out.m[i / 3][i % 3] = (float)r.m[i / 3][i % 3];
     }
-    out.t[0] = (float)T->p.x;
-    out.t[1] = (float)T->p.y;
-    out.t[2] = (float)T->p.z;
+    if (prediction->grey == NULL || c->width < 3 || c->height < 3) {
+        out.grey_weight = 0.0f;
+    }
     return out;
 }
 
-/* A point on the prediction. */
-typedef struct match {
-    double p[3], n[3]; /* the moved point and the surface's normal */
-    double residual;   /* metres */
-    double deviation;  /* that is expected of it */
-} match;
-
-/* Adds the square of `residual` with its derivative, times w. */
-static void add_equation(track_sums *sums, const double j[6], double residual, double w)
+/* Points from `first` on, `stride` apart, moved into the prediction's picture. */
+RLF_KERNEL_PART void project(const view *c, const track_points *points, size_t first,
+                             int32_t stride, int32_t count, const rlf_camera *camera,
+                             lanes *restrict l)
 {
-    int32_t k = 0;
-    for (int r = 0; r < 6; r++) {
-        const double wj = w * j[r];
-        for (int c = 0; c <= r; c++) {
-            sums->a[k++] += wj * j[c];
-        }
-        sums->b[r] -= wj * residual;
+    const float width = (float)camera->width, height = (float)camera->height;
+    float px[LANES] = {0}, py[LANES] = {0}, pz[LANES] = {0};
+    for (int32_t i = 0; i < count; i++) {
+        const size_t from = first + (size_t)(i * stride);
+        px[i] = points->x[from];
+        py[i] = points->y[from];
+        pz[i] = points->z[from];
+        l->sigma[i] = points->sigma[from];
+    }
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < LANES; i++) {
+        const float x = c->m[0][0] * px[i] + c->m[0][1] * py[i] + c->m[0][2] * pz[i] + c->t[0];
+        const float y = c->m[1][0] * px[i] + c->m[1][1] * py[i] + c->m[1][2] * pz[i] + c->t[1];
+        const float z = c->m[2][0] * px[i] + c->m[2][1] * py[i] + c->m[2][2] * pz[i] + c->t[2];
+        const float deep = z > LEAST_DEPTH ? z : LEAST_DEPTH;
+        const float u = c->fx * x / deep + c->cx + 0.5f, v = c->fy * y / deep + c->cy + 0.5f;
+        const int32_t is_in = (pz[i] > 0.0f ? 1 : 0) & (z > LEAST_DEPTH ? 1 : 0) &
+                              (u >= 0.0f ? 1 : 0) & (v >= 0.0f ? 1 : 0) & (u < width ? 1 : 0) &
+                              (v < height ? 1 : 0);
+        const float column = is_in != 0 ? u : 0.0f, row = is_in != 0 ? v : 0.0f;
+        l->x[i] = x;
+        l->y[i] = y;
+        l->z[i] = deep;
+        l->u[i] = column;
+        l->v[i] = row;
+        l->is_in[i] = is_in;
+        l->at[i] = (int32_t)row * camera->width + (int32_t)column;
     }
 }
 
-static void add_match(track_sums *sums, const match *m, double cut)
+/* How far the points are off the predicted planes, and whether that is within the gate. */
+RLF_KERNEL_PART void match(const view *c, const rlf_prediction *prediction, lanes *restrict l)
 {
-    const double u = m->residual / m->deviation;
-    const double size = u < 0.0 ? -u : u;
-    const int32_t bin = (int32_t)rlf_min(size * TRACK_BINS_PER_SIGMA, TRACK_BINS - 1);
-    sums->bins[bin]++;
-    sums->matched++;
-    if (size >= cut) {
-        return;
+    for (int32_t i = 0; i < LANES; i++) {
+        const int32_t at = l->at[i];
+        l->qz[i] = prediction->depth[at];
+        l->n[0][i] = prediction->normal_x[at];
+        l->n[1][i] = prediction->normal_y[at];
+        l->n[2][i] = prediction->normal_z[at];
     }
-    const double rest = 1.0 - u * u / (cut * cut);
-    const double robust = rest * rest;
-    const double w = robust / (m->deviation * m->deviation);
-    const double *p = m->p, *n = m->n;
-    const double j[6] = {p[1] * n[2] - p[2] * n[1],
-                         p[2] * n[0] - p[0] * n[2],
-                         p[0] * n[1] - p[1] * n[0],
-                         n[0],
-                         n[1],
-                         n[2]};
-    add_equation(sums, j, m->residual, w);
-    sums->information += w;
-    sums->squared += robust * u * u;
-    sums->weight += robust;
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < LANES; i++) {
+        const float x = l->x[i], y = l->y[i], z = l->z[i], qz = l->qz[i];
+        const float qx = ((float)(int32_t)l->u[i] - c->cx) / c->fx * qz;
+        const float qy = ((float)(int32_t)l->v[i] - c->cy) / c->fy * qz;
+        const float nx = l->n[0][i], ny = l->n[1][i], nz = l->n[2][i];
+        const float facing = nx * x + ny * y + nz * z;
+        const float residual = nx * (x - qx) + ny * (y - qy) + nz * (z - qz);
+        /* Depth moves a point along its ray: so much of that is across the plane. */
+        const float across = l->sigma[i] * facing / z, shared = SHARED_SIGMA * z * z;
+        const float deviation = sqrtf(across * across + shared * shared);
+        const float size = rlf_kernel_abs(residual);
+        const float bin = size / deviation * TRACK_BINS_PER_SIGMA;
+        l->residual[i] = residual;
+        l->deviation[i] = deviation;
+        l->is_matched[i] = l->is_in[i] & (qz > 0.0f ? 1 : 0) & (size < c->metres ? 1 : 0) &
+                           (facing <= -LEAST_COSINE * sqrtf(x * x + y * y + z * z) ? 1 : 0);
+        l->bin[i] = (int32_t)(bin < TRACK_BINS - 1 ? bin : TRACK_BINS - 1);
+    }
+}
+
+/* Adds the squares of residuals r with their derivatives, times w; n: how r changes as the point
+ * moves. */
+RLF_KERNEL_PART void add_equations(const lanes *restrict l, const float n[3][LANES],
+                                   const float *restrict residual, const float *restrict w,
+                                   lane_sums *restrict sums)
+{
+    float j[6][LANES];
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < LANES; i++) {
+        j[0][i] = l->y[i] * n[2][i] - l->z[i] * n[1][i];
+        j[1][i] = l->z[i] * n[0][i] - l->x[i] * n[2][i];
+        j[2][i] = l->x[i] * n[1][i] - l->y[i] * n[0][i];
+        j[3][i] = n[0][i];
+        j[4][i] = n[1][i];
+        j[5][i] = n[2][i];
+    }
+    int32_t k = 0;
+    for (int32_t r = 0; r < 6; r++) {
+        float wj[LANES];
+        RLF_KERNEL_WHOLE
+        for (int32_t i = 0; i < LANES; i++) {
+            wj[i] = w[i] * j[r][i];
+            sums->of[B + r][i] -= wj[i] * residual[i];
+        }
+        for (int32_t c = 0; c <= r; c++, k++) {
+            RLF_KERNEL_WHOLE
+            for (int32_t i = 0; i < LANES; i++) {
+                sums->of[A + k][i] += wj[i] * j[c][i];
+            }
+        }
+    }
+}
+
+/* Tukey's weights. */
+RLF_KERNEL_PART void add_depth(const view *c, const lanes *restrict l, lane_sums *restrict sums)
+{
+    float w[LANES];
+    RLF_KERNEL_WHOLE
+    for (int32_t i = 0; i < LANES; i++) {
+        const float inverse = 1.0f / l->deviation[i], u = l->residual[i] * inverse;
+        const float rest = 1.0f - u * u / (c->cut * c->cut);
+        const float robust = l->is_matched[i] != 0 && rest > 0.0f ? rest * rest : 0.0f;
+        w[i] = robust * inverse * inverse;
+        sums->of[INFORMATION][i] += w[i];
+        sums->of[SQUARED][i] += robust * u * u;
+        sums->of[WEIGHT][i] += robust;
+    }
+    add_equations(l, (const float(*)[LANES])l->n, l->residual, w, sums);
 }
 
 /* Brightness: the prediction at the moved point, against the frame's (Kerl et al. 2013). It tells
- * what planes cannot: how far the camera slid along them. du, dv: from the pixel's middle. */
-static void add_grey(track_sums *sums, const rlf_prediction *prediction, size_t at, float du,
-                     float dv, const double p[3], double frame_grey, const track_gate *gate)
+ * what planes cannot: how far the camera slid along them. */
+RLF_KERNEL_PART void add_grey(const view *c, const rlf_prediction *prediction,
+                              const float *restrict seen, const lanes *restrict l,
+                              lane_sums *restrict sums)
 {
-    const size_t width = (size_t)prediction->camera.width;
-    const uint8_t *g = &prediction->grey[at];
-    if (g[0] == 0 || *(g - 1) == 0 || g[1] == 0 || *(g - width) == 0 || g[width] == 0) {
-        return;
+    const int32_t width = prediction->camera.width, height = prediction->camera.height;
+    float n[3][LANES], residual[LANES], w[LANES];
+    for (int32_t i = 0; i < LANES; i++) {
+        const int32_t x = (int32_t)l->u[i], y = (int32_t)l->v[i];
+        const bool is_inside = l->is_matched[i] != 0 && seen[i] > 0.0f && x > 0 && y > 0 &&
+                               x + 1 < width && y + 1 < height;
+        const uint8_t *g = &prediction->grey[is_inside ? l->at[i] : width + 1];
+        const bool is_whole = is_inside && g[0] != 0 && *(g - 1) != 0 && g[1] != 0 &&
+                              *(g - width) != 0 && g[width] != 0;
+        const float gu = 0.5f * (float)(g[1] - *(g - 1));
+        const float gv = 0.5f * (float)(g[width] - *(g - width));
+        const float du = l->u[i] - (float)x - 0.5f, dv = l->v[i] - (float)y - 0.5f;
+        residual[i] = (float)g[0] + gu * du + gv * dv - seen[i] - c->grey;
+        const float u = residual[i] / (GREY_SIGMA * GREY_CUT), rest = 1.0f - u * u;
+        const float robust = is_whole && rest > 0.0f ? rest * rest : 0.0f;
+        n[0][i] = gu * c->fx / l->z[i];
+        n[1][i] = gv * c->fy / l->z[i];
+        n[2][i] = -(n[0][i] * l->x[i] + n[1][i] * l->y[i]) / l->z[i];
+        w[i] = c->grey_weight * robust / (GREY_SIGMA * GREY_SIGMA);
+        sums->of[GREY_RESIDUAL][i] += robust * (residual[i] + c->grey);
+        sums->of[GREY_WEIGHT][i] += robust;
     }
-    const double gu = 0.5 * (g[1] - *(g - 1)), gv = 0.5 * (g[width] - *(g - width));
-    const double r = g[0] + gu * (double)du + gv * (double)dv - frame_grey - gate->grey;
-    const double u = r / (GREY_SIGMA * GREY_CUT);
-    if (!(u > -1.0 && u < 1.0)) {
-        return;
-    }
-    const double robust = (1.0 - u * u) * (1.0 - u * u);
-    const double a = gu * prediction->camera.fx / p[2], b = gv * prediction->camera.fy / p[2];
-    const double n[3] = {a, b, -(a * p[0] + b * p[1]) / p[2]};
-    const double j[6] = {p[1] * n[2] - p[2] * n[1],
-                         p[2] * n[0] - p[0] * n[2],
-                         p[0] * n[1] - p[1] * n[0],
-                         n[0],
-                         n[1],
-                         n[2]};
-    add_equation(sums, j, r, gate->grey_weight * robust / (GREY_SIGMA * GREY_SIGMA));
-    sums->grey_residual += robust * (r + gate->grey);
-    sums->grey_weight += robust;
+    add_equations(l, (const float(*)[LANES])n, residual, w, sums);
 }
 
-void track_sums_add_row(track_sums *sums, const track_points *points, int32_t row, int32_t stride,
-                        const rlf_prediction *prediction, const rlf_pose *T, track_gate gate)
+/* One row, into single precision: it is short. */
+RLF_KERNEL static void add_row(const view *c, const track_points *points, int32_t row,
+                               int32_t stride, const rlf_prediction *prediction,
+                               lane_sums *restrict out, track_sums *restrict counts)
 {
-    const motion g = motion_of(T);
-    const rlf_camera *c = &prediction->camera;
-    const float fx = (float)c->fx, fy = (float)c->fy;
-    const float cx = (float)(c->cx + 0.5), cy = (float)(c->cy + 0.5);
-    for (int32_t column = 0; column < points->width; column += stride) {
-        const size_t i = (size_t)row * (size_t)points->width + (size_t)column;
-        const float pz = points->z[i];
-        if (pz == 0.0f) {
-            continue;
+    const int32_t columns = (points->width + stride - 1) / stride;
+    lanes l = {.sigma = {0}};
+    for (int32_t column = 0; column < columns; column += LANES) {
+        const int32_t count = columns - column < LANES ? columns - column : LANES;
+        const size_t first = (size_t)row * (size_t)points->width + (size_t)(column * stride);
+        project(c, points, first, stride, count, &prediction->camera, &l);
+        match(c, prediction, &l);
+        add_depth(c, &l, out);
+        for (int32_t i = 0; i < LANES; i++) {
+            counts->tried += l.is_in[i];
+            counts->matched += l.is_matched[i];
+            counts->bins[l.bin[i]] += l.is_matched[i];
         }
-        const float px = points->x[i], py = points->y[i];
-        const float x = g.m[0][0] * px + g.m[0][1] * py + g.m[0][2] * pz + g.t[0];
-        const float y = g.m[1][0] * px + g.m[1][1] * py + g.m[1][2] * pz + g.t[1];
-        const float z = g.m[2][0] * px + g.m[2][1] * py + g.m[2][2] * pz + g.t[2];
-        if (!(z > 0.05f)) {
-            continue;
-        }
-        const float u = fx * x / z + cx, v = fy * y / z + cy;
-        if (!(u >= 0.0f && v >= 0.0f && u < (float)c->width && v < (float)c->height)) {
-            continue;
-        }
-        const size_t at = (size_t)(int32_t)v * (size_t)c->width + (size_t)(int32_t)u;
-        const float qz = prediction->depth[at];
-        sums->tried++;
-        if (!(qz > 0.0f)) {
-            continue;
-        }
-        const float qx = ((float)(int32_t)u - (float)c->cx) / fx * qz;
-        const float qy = ((float)(int32_t)v - (float)c->cy) / fy * qz;
-        const float nx = prediction->normal_x[at], ny = prediction->normal_y[at],
-                    nz = prediction->normal_z[at];
-        const float along = (nx * x + ny * y + nz * z) / sqrtf(x * x + y * y + z * z);
-        const float dx = x - qx, dy = y - qy, dz = z - qz;
-        const float residual = nx * dx + ny * dy + nz * dz;
-        if (along > (float)-LEAST_COSINE ||
-            !(residual < (float)gate.metres && residual > (float)-gate.metres)) {
-            continue;
-        }
-        /* Depth moves a point along its ray: so much of that is across the plane. */
-        const double shared = SHARED_SIGMA * (double)z * (double)z;
-        const double across =
-            (double)points->sigma[i] * (double)(nx * x + ny * y + nz * z) / (double)z;
-        const match m = {{(double)x, (double)y, (double)z},
-                         {(double)nx, (double)ny, (double)nz},
-                         (double)residual,
-                         sqrt(across * across + shared * shared)};
-        add_match(sums, &m, gate.cut);
-        const int32_t ui = (int32_t)u, vi = (int32_t)v;
-        if (gate.grey_weight > 0.0 && points->grey[i] != 0 && ui > 0 && vi > 0 &&
-            ui + 1 < c->width && vi + 1 < c->height) {
-            add_grey(sums, prediction, at, u - (float)ui - 0.5f, v - (float)vi - 0.5f, m.p,
-                     points->grey[i], &gate);
+        if (c->grey_weight > 0.0f) {
+            float seen[LANES] = {0};
+            for (int32_t i = 0; i < count; i++) {
+                seen[i] = (float)points->grey[first + (size_t)(i * stride)];
+            }
+            add_grey(c, prediction, seen, &l, out);
         }
     }
 }
 
-void track_sums_add(track_sums *sums, const track_sums *part)
+track_sums track_sums_of(const track_points *points, int32_t stride,
+                         const rlf_prediction *prediction, const rlf_pose *T,
+                         const track_gate *gate)
 {
-    for (int i = 0; i < 21; i++) {
-        sums->a[i] += part->a[i];
+    const view c = view_of(prediction, T, gate);
+    track_sums out = {.a = {0}};
+    double sum[TERMS][LANES] = {{0}}, total[TERMS] = {0};
+    for (int32_t row = 0; row < points->height; row += stride) {
+        lane_sums part = {.of = {{0}}};
+        add_row(&c, points, row, stride, prediction, &part, &out);
+        for (int32_t k = 0; k < TERMS * LANES; k++) {
+            sum[k / LANES][k % LANES] += (double)part.of[k / LANES][k % LANES];
+        }
     }
-    for (int i = 0; i < 6; i++) {
-        sums->b[i] += part->b[i];
+    for (int32_t k = 0; k < TERMS * LANES; k++) {
+        total[k / LANES] += sum[k / LANES][k % LANES];
     }
-    sums->information += part->information;
-    sums->squared += part->squared;
-    sums->weight += part->weight;
-    sums->grey_residual += part->grey_residual;
-    sums->grey_weight += part->grey_weight;
-    sums->tried += part->tried;
-    sums->matched += part->matched;
-    for (int i = 0; i < TRACK_BINS; i++) {
-        sums->bins[i] += part->bins[i];
-    }
+    memcpy(out.a, total + A, sizeof(out.a));
+    memcpy(out.b, total + B, sizeof(out.b));
+    out.information = total[INFORMATION];
+    out.squared = total[SQUARED];
+    out.weight = total[WEIGHT];
+    out.grey_residual = total[GREY_RESIDUAL];
+    out.grey_weight = total[GREY_WEIGHT];
+    return out;
 }

@@ -29,11 +29,10 @@ typedef struct track_gate {
     double grey_weight; /* 0..1: how much brightness counts */
 } track_gate;
 
-/* Adds the points of row `row`, every `stride`-th column. T: the frame's camera to the
- * prediction's. */
-void track_sums_add_row(track_sums *sums, const track_points *points, int32_t row, int32_t stride,
-                        const rlf_prediction *prediction, const rlf_pose *T, track_gate gate);
-/* sums += part. */
-void track_sums_add(track_sums *sums, const track_sums *part);
+/* Of every `stride`-th point of every `stride`-th row. T: the frame's camera to the prediction's.
+ */
+track_sums track_sums_of(const track_points *points, int32_t stride,
+                         const rlf_prediction *prediction, const rlf_pose *T,
+                         const track_gate *gate);
 
 #endif

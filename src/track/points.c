@@ -1,4 +1,4 @@
-/* Depth pixels, four by four, to points. */
+/* Of each 4 x 4 depth pixels the first 2 x 2, to a point. */
 #include "track/points.h"
 
 /* Four pixels lie on one surface when their depths are within so many sigma, or within the slope of
@@ -41,7 +41,7 @@ void track_points_row(const track_points *points, const rlf_rig *rig, const floa
     const size_t width = (size_t)rig->depth.width;
     for (int32_t column = 0; column < points->width; column++) {
         const size_t to = (size_t)row * (size_t)points->width + (size_t)column;
-        const size_t first = 2 * (size_t)row * width + 2 * (size_t)column;
+        const size_t first = 4 * (size_t)row * width + 4 * (size_t)column;
         const size_t at[4] = {first, first + 1, first + width, first + width + 1};
         const block b = read_block(rig, view, at);
         points->z[to] = 0.0f;

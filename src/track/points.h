@@ -1,4 +1,4 @@
-/* A frame as points: the means of 2 x 2 depth pixels that lie on one surface. */
+/* A frame as points: means of 2 x 2 depth pixels that lie on one surface, at every fourth pixel. */
 #ifndef RLF_TRACK_POINTS_H
 #define RLF_TRACK_POINTS_H
 
@@ -12,7 +12,7 @@ typedef struct track_points {
     uint8_t *grey;    /* 0 = none */
 } track_points;
 
-/* Fills row `row` of the points from rows 2 row and 2 row + 1 of the view; ray_x, ray_y are the
+/* Fills row `row` of the points from rows 4 row and 4 row + 1 of the view; ray_x, ray_y are the
  * depth camera's tables. */
 void track_points_row(const track_points *points, const rlf_rig *rig, const float *ray_x,
                       const float *ray_y, const rlf_track_view *view, int32_t row);

@@ -49,8 +49,8 @@ static rlf_result allocate(rlf_tracker *t)
 {
     const rlf_camera *camera = &t->def.rig.depth;
     const size_t pixels = (size_t)camera->width * (size_t)camera->height;
-    t->points.width = camera->width / 2;
-    t->points.height = camera->height / 2;
+    t->points.width = (camera->width / 2 + 1) / 2;
+    t->points.height = (camera->height / 2 + 1) / 2;
     const size_t points = (size_t)t->points.width * (size_t)t->points.height;
     t->ray_x = rlf_alloc_array(pixels, sizeof(float));
     t->ray_y = rlf_alloc_array(pixels, sizeof(float));
@@ -59,11 +59,10 @@ static rlf_result allocate(rlf_tracker *t)
     t->points.z = rlf_alloc_array(points + 1, sizeof(float));
     t->points.sigma = rlf_alloc_array(points + 1, sizeof(float));
     t->points.grey = rlf_alloc(points + 1);
-    t->rows = rlf_alloc_array((size_t)t->points.height + 1, sizeof(*t->rows));
     t->keyframes = rlf_alloc_array((size_t)t->def.keyframe_max, sizeof(*t->keyframes));
     return t->ray_x != NULL && t->ray_y != NULL && t->points.x != NULL && t->points.y != NULL &&
                    t->points.z != NULL && t->points.sigma != NULL && t->points.grey != NULL &&
-                   t->rows != NULL && t->keyframes != NULL
+                   t->keyframes != NULL
                ? RLF_OK
                : RLF_ERROR_MEMORY;
 }
@@ -117,7 +116,6 @@ void rlf_tracker_destroy(rlf_tracker **tracker)
     rlf_free(t->points.z);
     rlf_free(t->points.sigma);
     rlf_free(t->points.grey);
-    rlf_free(t->rows);
     rlf_free(t->keyframes);
     rlf_free(t);
     *tracker = NULL;

@@ -23,7 +23,6 @@ struct rlf_tracker {
     rlf_tracker_def def;
     float *ray_x, *ray_y;
     track_points points;
-    track_sums *rows; /* one per row of points */
     track_keyframe *keyframes;
     int32_t keyframe_count;
     /* The last two poses that were not lost. */

@@ -41,6 +41,7 @@ CALL(camera_projection, (void)rlf_camera_projection(NULL, 1, 2))
 CALL(registration_create, result = rlf_registration_create(NULL, NULL, NULL, NULL, NULL, NULL))
 CALL(registration_apply, (void)rlf_registration_apply(NULL, NULL, NULL, NULL))
 CALL(registration_align, (void)rlf_registration_align(NULL, NULL, NULL))
+CALL(registration_find_pixels, (void)rlf_registration_find_pixels(NULL, NULL, 0, 4, NULL))
 CALL(mesh_indices, (void)rlf_mesh_indices(2, 2, NULL))
 CALL(mesh_indices_valid, (void)rlf_mesh_indices_valid(NULL, 1, NULL))
 CALL(mesh_indices_region, (void)rlf_mesh_indices_region(NULL, NULL, 1, NULL))
@@ -115,6 +116,7 @@ static const struct {
     {"registration_create", registration_create},
     {"registration_apply", registration_apply},
     {"registration_align", registration_align},
+    {"registration_find_pixels", registration_find_pixels},
     {"mesh_indices", mesh_indices},
     {"mesh_indices_valid", mesh_indices_valid},
     {"mesh_indices_region", mesh_indices_region},

@@ -220,6 +220,39 @@ static void shadow_has_its_side_width_and_depth(void **state)
     }
 }
 
+/* Row by row without a z-buffer: every pixel lands where its point is seen, or nowhere. */
+static void pixels_of_a_row_are_found(void **state)
+{
+    (void)state;
+    enum { STRIDE = 960 * 4 + 64 };
+    rig g = make_rig(depth_camera(), color_camera(), translation(-0.052, 0, 0));
+    two_planes(&g, 200, 299, 1.5, 3.0);
+    g.z[200 * 512 + 400] = 0.0f;
+    int32_t outside = 0;
+    for (int32_t y = 0; y < 424; y += 100) {
+        int32_t bytes[512];
+        rlf_registration_find_pixels(g.registration, g.z, y, STRIDE, bytes);
+        for (int32_t x = 0; x < 512; x++) {
+            const rlf_camera *c = &g.color;
+            const double z = (double)g.z[y * 512 + x];
+            const double u =
+                c->fx * ((x - g.depth.cx) / g.depth.fx - (z > 0.0 ? 0.052 / z : 0.0)) + c->cx;
+            const double v = c->fy * (y - g.depth.cy) / g.depth.fy + c->cy;
+            const bool is_in =
+                z > 0.0 && u > -0.5 && v > -0.5 && u < c->width - 0.5 && v < c->height - 0.5;
+            if (!is_in) {
+                outside++;
+                assert_int_equal(bytes[x], -1);
+            } else {
+                assert_true(fabs(bytes[x] / STRIDE - v) < 0.501);
+                assert_true(fabs(bytes[x] % STRIDE / 4 - u) < 0.501);
+            }
+        }
+    }
+    assert_true(outside > 1 && outside < 3 * 512);
+    free_rig(&g);
+}
+
 /* The strip of the far wall that the near edge keeps from the colour camera lies on the other side
  * of the strip that it keeps from the depth camera, and is as wide in depth pixels. */
 static void both_maps_know_what_is_hidden(void **state)
@@ -424,6 +457,7 @@ int main(void)
         cmocka_unit_test(distorted_depth_camera_leaves_no_gaps),
         cmocka_unit_test(shadow_has_its_side_width_and_depth),
         cmocka_unit_test(both_maps_know_what_is_hidden),
+        cmocka_unit_test(pixels_of_a_row_are_found),
         cmocka_unit_test(vertical_baseline_fills_columns),
         cmocka_unit_test(rows_are_those_of_the_picture),
         cmocka_unit_test(wide_holes_stay_empty),

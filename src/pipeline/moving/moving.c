@@ -69,10 +69,10 @@ static rlf_result open_all(moving *m, const rlf_pipeline_def *def)
         result = camera_pose_open(&m->pose, &m->rig, def->pool);
     }
     if (result == RLF_OK) {
-        result = color_view_open(&m->color, &m->rig);
+        result = color_view_open(&m->color, &m->rig, def->pool);
     }
     if (result == RLF_OK) {
-        result = room_planes_open(&m->planes, pixels);
+        result = room_planes_open(&m->planes, &m->rig.depth, &m->pose.camera);
     }
     m->is_static = result == RLF_OK ? rlf_alloc(pixels) : NULL;
     return result == RLF_OK && m->is_static == NULL ? RLF_ERROR_MEMORY : result;

@@ -69,7 +69,7 @@ static void tell_health(moving *m)
 static rlf_result find_pose(moving *m, const rlf_surface *seen)
 {
     rlf_result result = RLF_OK;
-    m->has_color = color_view_take(&m->color, &m->rig, m->frame, seen);
+    m->has_color = color_view_take(&m->color, m->frame, seen);
     if (m->poses == RLF_POSES_SOURCE) {
         take_source_pose(m);
     } else {

@@ -1,16 +1,54 @@
 /* From the smaller, undistorted picture of a prediction to the grid's pixels: the planes of the
- * four about a ray are continued to it, and the nearest counts. */
+ * four about a ray are continued to it, and the nearest counts.
+ *
+ * One over the depth at which a ray (x, y, 1) meets a plane is linear in x and y. */
 #include "pipeline/moving/room_planes.h"
+
+#define GRAIN 16 /* rows */
+
+enum { LANES = 16 };
 
 static const float longest = 0.2f; /* share of depth that a plane is continued by */
 
-rlf_result room_planes_open(room_planes *r, size_t pixels)
+/* One over the depth at a ray: x, y and 1 times these; and at the pixel's own ray. All 0 where
+ * nothing is known. */
+struct room_plane {
+    float x, y, one, own;
+};
+
+static void fill_tables(room_planes *r, const rlf_camera *lens, const rlf_camera *p)
 {
+    const int32_t none = p->width * p->height;
+    for (int32_t i = 0; i < lens->width * lens->height; i++) {
+        rlf_vec3 ray;
+        const bool has_ray = rlf_camera_unproject(lens, i % lens->width, i / lens->width, &ray);
+        /* In single precision, as the surface has its rays. */
+        const double u = (double)(float)ray.x * p->fx + p->cx;
+        const double v = (double)(float)ray.y * p->fy + p->cy;
+        const bool is_in = has_ray && u > -0.5 && v > -0.5 && u < p->width - 0.5 &&
+                           v < p->height - 0.5 && p->width > 1 && p->height > 1;
+        const int32_t x = is_in ? (int32_t)rlf_clamp(u, 0.0, p->width - 2.0) : 0;
+        const int32_t y = is_in ? (int32_t)rlf_clamp(v, 0.0, p->height - 2.0) : 0;
+        r->first[i] = is_in ? y * p->width + x : 0;
+        r->nearest[i] = is_in ? (int32_t)(v + 0.5) * p->width + (int32_t)(u + 0.5) : none;
+    }
+}
+
+rlf_result room_planes_open(room_planes *r, const rlf_camera *lens, const rlf_camera *predicted)
+{
+    const size_t pixels = (size_t)lens->width * (size_t)lens->height;
+    const size_t planes = (size_t)predicted->width * (size_t)(predicted->height + 1) + 2;
     r->depth = rlf_alloc_array(pixels, sizeof(float));
-    bool has_all = r->depth != NULL;
+    r->first = rlf_alloc_array(pixels, sizeof(int32_t));
+    r->nearest = rlf_alloc_array(pixels, sizeof(int32_t));
+    r->planes = rlf_alloc_array(planes, sizeof(*r->planes));
+    bool has_all = r->depth != NULL && r->first != NULL && r->nearest != NULL && r->planes != NULL;
     for (int k = 0; k < 3; k++) {
         r->normal[k] = rlf_alloc_array(pixels, sizeof(float));
         has_all = has_all && r->normal[k] != NULL;
+    }
+    if (has_all) {
+        fill_tables(r, lens, predicted);
     }
     return has_all ? RLF_OK : RLF_ERROR_MEMORY;
 }
@@ -18,10 +56,29 @@ rlf_result room_planes_open(room_planes *r, size_t pixels)
 void room_planes_close(room_planes *r)
 {
     rlf_free(r->depth);
+    rlf_free(r->first);
+    rlf_free(r->nearest);
+    rlf_free(r->planes);
     for (int k = 0; k < 3; k++) {
         rlf_free(r->normal[k]);
     }
     *r = (room_planes){.depth = NULL};
+}
+
+static void make_planes(const room_planes *r, const rlf_prediction *p)
+{
+    const float fx = (float)p->camera.fx, fy = (float)p->camera.fy;
+    for (int32_t y = 0, i = 0; y < p->camera.height; y++) {
+        const float ray_y = ((float)y - (float)p->camera.cy) / fy;
+        for (int32_t x = 0; x < p->camera.width; x++, i++) {
+            const float ray_x = ((float)x - (float)p->camera.cx) / fx;
+            const float nx = p->normal_x[i], ny = p->normal_y[i], n = p->normal_z[i];
+            const float offset = p->depth[i] * (nx * ray_x + ny * ray_y + n);
+            const float scale = offset != 0.0f ? 1.0f / offset : 0.0f;
+            r->planes[i] = (struct room_plane){nx * scale, ny * scale, n * scale,
+                                               p->depth[i] > 0.0f ? 1.0f / p->depth[i] : 0.0f};
+        }
+    }
 }
 
 typedef struct room_job {
@@ -30,45 +87,59 @@ typedef struct room_job {
     const rlf_surface *s;
 } room_job;
 
-/* Where the plane of the prediction's pixel k meets a ray; 0 = nothing is known there. */
-static float plane_depth(const rlf_prediction *p, int32_t k, const float own[2], const float ray[2])
+/* Of `count` pixels from `begin` on: one over the nearest depth, and whose plane that is. */
+static void find_nearest(const room_job *job, int32_t begin, int32_t count, float *restrict inverse,
+                         int32_t *restrict from)
 {
-    const float z = p->depth[k];
-    const float x = p->normal_x[k], y = p->normal_y[k], n = p->normal_z[k];
-    const float along = x * ray[0] + y * ray[1] + n;
-    const float share = along != 0.0f ? (x * own[0] + y * own[1] + n) / along : 0.0f;
-    return share > 1.0f - longest && share < 1.0f + longest ? z * share : z;
-}
-
-static void take_pixel(const room_job *job, int32_t i)
-{
-    const rlf_prediction *p = job->p;
-    const rlf_surface *s = job->s;
-    const float ray[2] = {s->ray_x[i], s->ray_y[i]};
-    const double u = ray[0] * p->camera.fx + p->camera.cx, v = ray[1] * p->camera.fy + p->camera.cy;
-    const int32_t width = p->camera.width;
-    float z = 0.0f;
-    int32_t from = 0;
-    if (u > -0.5 && v > -0.5 && u < width - 0.5 && v < p->camera.height - 0.5) {
-        const int32_t x = (int32_t)rlf_clamp(u, 0.0, width - 2.0);
-        const int32_t y = (int32_t)rlf_clamp(v, 0.0, p->camera.height - 2.0);
-        const float step[2] = {(float)(1.0 / p->camera.fx), (float)(1.0 / p->camera.fy)};
-        const float first[2] = {(x - (float)p->camera.cx) * step[0],
-                                (y - (float)p->camera.cy) * step[1]};
-        const int32_t nearest = (int32_t)(v + 0.5) * width + (int32_t)(u + 0.5);
-        for (int k = 0; k < 4 && p->depth[nearest] > 0.0f; k++) {
-            const int32_t at = (y + k / 2) * width + x + k % 2;
-            const float own[2] = {first[0] + (k % 2 ? step[0] : 0.0f),
-                                  first[1] + (k / 2 ? step[1] : 0.0f)};
-            const float plane = plane_depth(p, at, own, ray);
-            from = plane > 0.0f && (plane < z || !(z > 0.0f)) ? at : from;
-            z = plane > 0.0f && (plane < z || !(z > 0.0f)) ? plane : z;
+    const room_planes *r = job->planes;
+    const float *ray_x = job->s->ray_x + begin, *ray_y = job->s->ray_y + begin;
+    const int32_t *first = r->first + begin;
+    for (int32_t i = 0; i < count; i++) {
+        inverse[i] = 0.0f;
+        from[i] = 0;
+    }
+    for (int32_t k = 0; k < 4; k++) {
+        const int32_t step = k / 2 * job->p->camera.width + k % 2;
+        float x[LANES], y[LANES], one[LANES], own[LANES];
+        int32_t at[LANES];
+        for (int32_t i = 0; i < count; i++) {
+            const struct room_plane *plane = &r->planes[first[i] + step];
+            at[i] = first[i] + step;
+            x[i] = plane->x;
+            y[i] = plane->y;
+            one[i] = plane->one;
+            own[i] = plane->own;
+        }
+        for (int32_t i = 0; i < count; i++) {
+            const float there = x[i] * ray_x[i] + y[i] * ray_y[i] + one[i];
+            /* A number, not a choice: that would not be vectorised. */
+            const int32_t is_near =
+                (there * (1.0f + longest) > own[i]) & (there * (1.0f - longest) < own[i]);
+            const float near = (float)is_near, before = inverse[i];
+            const float w = near * there + (1.0f - near) * own[i];
+            const int32_t is_nearer = w > before;
+            from[i] += is_nearer * (at[i] - from[i]);
+            inverse[i] = w > before ? w : before;
         }
     }
+}
+
+static void take_pixels(const room_job *job, int32_t begin, int32_t count)
+{
+    const room_planes *r = job->planes;
+    const rlf_prediction *p = job->p;
     const float *const normal[3] = {p->normal_x, p->normal_y, p->normal_z};
-    job->planes->depth[i] = z;
+    float inverse[LANES], is_known[LANES];
+    int32_t from[LANES];
+    find_nearest(job, begin, count, inverse, from);
+    for (int32_t i = 0; i < count; i++) {
+        is_known[i] = r->planes[r->nearest[begin + i]].own > 0.0f ? 1.0f : 0.0f;
+        r->depth[begin + i] = is_known[i] / (inverse[i] > 0.0f ? inverse[i] : 1.0f);
+    }
     for (int k = 0; k < 3; k++) {
-        job->planes->normal[k][i] = z > 0.0f ? normal[k][from] : 0.0f;
+        for (int32_t i = 0; i < count; i++) {
+            r->normal[k][begin + i] = is_known[i] * normal[k][from[i]];
+        }
     }
 }
 
@@ -76,14 +147,18 @@ static void take_rows(void *context, int32_t begin, int32_t end, int32_t worker)
 {
     (void)worker;
     const room_job *job = context;
-    for (int32_t i = begin * job->s->width; i < end * job->s->width; i++) {
-        take_pixel(job, i);
+    const int32_t last = end * job->s->width;
+    int32_t i = begin * job->s->width;
+    for (; i + LANES <= last; i += LANES) {
+        take_pixels(job, i, LANES);
     }
+    take_pixels(job, i, last - i);
 }
 
 void room_planes_take(const room_planes *r, const rlf_prediction *p, const rlf_surface *s,
                       rlf_pool *pool)
 {
     room_job job = {r, p, s};
-    rlf_parallel_for(pool, s->height, 16, take_rows, &job);
+    make_planes(r, p);
+    rlf_parallel_for(pool, s->height, GRAIN, take_rows, &job);
 }
