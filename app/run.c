@@ -22,6 +22,7 @@ static void print_camera_help(void)
            "  --poses NAME          of a moving camera: tracked (default), or source: its own\n"
            "  --map FILE.map        a known room, as relief fuse --save writes it: the camera is\n"
            "                        looked for in it\n"
+           "  --save-map FILE.map   at the end: the room that a moving camera has seen, for --map\n"
            "  --log DIR             frames.csv, bodies.csv, contacts.csv, hands.csv, and\n"
            "                        trajectory.txt when the camera moves\n"
            "  --hands               look for hands, for hands.csv\n"
@@ -297,6 +298,7 @@ static int read_options(int argc, char **argv, run_options *o)
         {.name = "hands", .kind = OPTION_FLAG, .out = &s->enable_hands},
         {.name = "grab", .kind = OPTION_FLAG, .out = &s->enable_grab},
         CAMERA_OPTIONS(s),
+        {.name = "save-map", .kind = OPTION_TEXT, .out = &o->save_map_path},
         {.name = "log", .kind = OPTION_TEXT, .out = &out->log_folder},
         {.name = "record", .kind = OPTION_TEXT, .out = &s->record.path},
         {.name = "record-bodies", .kind = OPTION_FLAG, .out = &s->record.keeps_bodies},
@@ -459,6 +461,19 @@ static rlf_result run_frames(run_options *o, session *s, run_output *output)
     return run_window(o, s, output);
 }
 
+/* Also after Ctrl-C. */
+static rlf_result save_map(const run_options *o, session *s)
+{
+    if (o->save_map_path == NULL) {
+        return RLF_OK;
+    }
+    const rlf_map *map = rlf_pipeline_get_map(s->pipeline);
+    return map != NULL ? rlf_map_write_file(map, o->save_map_path)
+                       : rlf_fail(RLF_ERROR_INVALID,
+                                  "--save-map: the camera has not moved, so there is no map; add "
+                                  "--camera moving");
+}
+
 static int run_session(run_options *o, session *s)
 {
     const rlf_source_info *info = rlf_source_get_info(s->source);
@@ -472,6 +487,7 @@ static int run_session(run_options *o, session *s)
     if (result == RLF_OK) {
         result = run_frames(o, s, &output);
     }
+    result = result == RLF_OK ? save_map(o, s) : result;
     int status = result == RLF_OK ? EXIT_DONE : command_failed();
     if (status == EXIT_DONE && command_interrupted && output.frames == 0) {
         status = command_stopped("run");
@@ -500,7 +516,7 @@ static bool writes_something(const run_options *o)
 {
     const run_output_options *out = &o->output;
     return out->video_path != NULL || out->picture_folder != NULL || out->log_folder != NULL ||
-           o->session.record.path != NULL || out->print_hash;
+           o->session.record.path != NULL || o->save_map_path != NULL || out->print_hash;
 }
 
 /* What is written or counted ends with the recording, unless one asks for more. */

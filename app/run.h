@@ -24,6 +24,7 @@ typedef struct run_options {
     int32_t view_count;
     bool shows_legend;
     rlf_orbit orbit;
+    const char *save_map_path; /* NULL = not saved */
     run_window_options window;
 } run_options;
 

@@ -328,6 +328,14 @@ done
 ls arrays/regions/000006_*.ply >/dev/null || fail "export: regions"
 [ -s arrays/true_poses.csv ] || fail "export: true_poses.csv"
 
+# A room that was seen is a known room for the next run; a camera that stands makes none.
+moving='synthetic:room?path=handheld&color=96x54&frames=8'
+expect_done run "$moving" --camera moving --headless --save-map room.map
+expect_done run "$moving" --camera moving --headless --map room.map --log mapped
+[ "$(wc -l <mapped/trajectory.txt)" -ge 8 ] || fail "--map: the camera is not found"
+expect_error 1 "the camera has not moved" run "$small&frames=2" --headless --save-map none.map
+[ -e none.map ] && fail "--save-map: there is no map to be written"
+
 # Ctrl-C ends a run with whole files.
 "$relief" run "synthetic:room?color=96x54&frames=-1" --headless --video long.y4m --log long_log --quiet &
 pid=$!
