@@ -23,12 +23,20 @@ rlf_result camera_pose_open(camera_pose *c, const rlf_rig *rig, rlf_pool *pool)
     memset(camera.distortion, 0, sizeof(camera.distortion));
     c->camera = rlf_camera_decimate(&camera, 4);
     c->noise = rig->noise;
-    return rlf_tracker_create(&def, &c->tracker);
+    const size_t pixels = (size_t)c->camera.width * (size_t)c->camera.height;
+    c->planes = rlf_alloc_array(4 * pixels, sizeof(float));
+    c->grey = rlf_alloc(pixels);
+    return c->planes != NULL && c->grey != NULL ? rlf_tracker_create(&def, &c->tracker)
+                                                : RLF_ERROR_MEMORY;
 }
 
 void camera_pose_close(camera_pose *c)
 {
     rlf_tracker_destroy(&c->tracker);
+    rlf_free(c->planes);
+    rlf_free(c->grey);
+    c->planes = NULL;
+    c->grey = NULL;
 }
 
 rlf_result camera_pose_know(camera_pose *c, rlf_map *map)
@@ -52,20 +60,54 @@ static double ms_since(int64_t start_ns)
     return (double)(rlf_clock_ns() - start_ns) * 1e-6;
 }
 
-static rlf_result try_start(camera_pose *c, rlf_map *map, const rlf_track_view *view,
-                            const rlf_pose *start, rlf_prediction *prediction,
-                            rlf_track_result *out)
+static rlf_result predict(camera_pose *c, rlf_map *map, const rlf_pose *T_world_camera,
+                          rlf_prediction *out)
 {
-    int64_t begin = rlf_clock_ns();
-    rlf_result result = rlf_map_predict(map, &c->camera, start, prediction);
+    const int64_t begin = rlf_clock_ns();
+    const rlf_result result = rlf_map_predict(map, &c->camera, T_world_camera, out);
     c->predict_ms += ms_since(begin);
+    return result;
+}
+
+static rlf_result align(camera_pose *c, const rlf_track_view *view,
+                        const rlf_prediction *prediction, const rlf_pose *start,
+                        rlf_track_result *out)
+{
+    const int64_t begin = rlf_clock_ns();
+    const rlf_result result = rlf_tracker_align(c->tracker, view, prediction, start, out);
+    c->align_ms += ms_since(begin);
+    return result;
+}
+
+static rlf_result try_start(camera_pose *c, rlf_map *map, const rlf_track_view *view,
+                            const rlf_pose *start, rlf_track_result *out)
+{
+    rlf_prediction prediction;
+    const rlf_result result = predict(c, map, start, &prediction);
+    return result == RLF_OK ? align(c, view, &prediction, start, out) : result;
+}
+
+/* What the map shows from a pose, in planes of its own: those of the map are anybody's. */
+rlf_result camera_pose_predict(camera_pose *c, rlf_map *map, const rlf_pose *T_world_camera)
+{
+    rlf_prediction *p = &c->prediction;
+    const rlf_result result = predict(c, map, T_world_camera, p);
+    c->has_prediction = result == RLF_OK;
     if (result != RLF_OK) {
         return result;
     }
-    begin = rlf_clock_ns();
-    result = rlf_tracker_align(c->tracker, view, prediction, start, out);
-    c->align_ms += ms_since(begin);
-    return result;
+    const size_t pixels = (size_t)c->camera.width * (size_t)c->camera.height;
+    const float **from[4] = {&p->depth, &p->normal_x, &p->normal_y, &p->normal_z};
+    for (size_t k = 0; k < 4; k++) {
+        float *to = c->planes + k * pixels;
+        memcpy(to, *from[k], pixels * sizeof(float));
+        *from[k] = to;
+    }
+    if (p->grey != NULL) {
+        memcpy(c->grey, p->grey, pixels);
+        p->grey = c->grey;
+    }
+    return RLF_OK;
 }
 
 /* How well a pose fits. What lies on a wrong place of the room is less, and lies worse. */
@@ -75,8 +117,7 @@ static double worth(const rlf_track_result *r)
 }
 
 /* From where the camera was, and from keyframes that look alike: the best of what fits. */
-static rlf_result find_again(camera_pose *c, rlf_map *map, const rlf_track_view *view,
-                             rlf_prediction *prediction)
+static rlf_result find_again(camera_pose *c, rlf_map *map, const rlf_track_view *view)
 {
     rlf_pose starts[STARTS];
     const int32_t count = rlf_tracker_recall(c->tracker, view, starts, STARTS);
@@ -86,7 +127,7 @@ static rlf_result find_again(camera_pose *c, rlf_map *map, const rlf_track_view 
         rlf_track_result tried = {.T_world_camera = starts[i], .health = RLF_TRACK_GOOD};
         for (int k = 0; k < ROUNDS && result == RLF_OK && tried.health != RLF_TRACK_LOST; k++) {
             const rlf_pose start = tried.T_world_camera;
-            result = try_start(c, map, view, &start, prediction, &tried);
+            result = try_start(c, map, view, &start, &tried);
         }
         best = worth(&tried) > worth(&best) ? tried : best;
     }
@@ -95,9 +136,7 @@ static rlf_result find_again(camera_pose *c, rlf_map *map, const rlf_track_view 
                                   .weak_way = c->last.weak_way};
     }
     c->last = best;
-    return result == RLF_OK && best.health != RLF_TRACK_LOST
-               ? rlf_map_predict(map, &c->camera, &best.T_world_camera, prediction)
-               : result;
+    return result;
 }
 
 /* What was fused just before the track was lost may be wrong: it is taken back. After that poses
@@ -122,19 +161,17 @@ static void guard_map(camera_pose *c, rlf_map *map)
 void camera_pose_mark_static(const camera_pose *c, const rlf_surface *s, uint8_t *is_static)
 {
     const rlf_prediction *p = &c->prediction;
-    if (p->depth == NULL) { /* the first frame */
+    if (!c->has_prediction) { /* the first frame */
         memset(is_static, 1, (size_t)s->width * (size_t)s->height);
         return;
     }
-    const rlf_pose T_predicted_world = rlf_pose_invert(&p->T_world_camera);
-    const rlf_pose T = rlf_pose_mul(&T_predicted_world, &c->last.T_world_camera);
     for (int32_t i = 0; i < s->width * s->height; i++) {
         is_static[i] = 1;
         if (!(s->depth[i] > 0.0f)) {
             continue;
         }
         double u, v;
-        const rlf_vec3 q = rlf_transform(&T, rlf_surface_point(s, i));
+        const rlf_vec3 q = rlf_surface_point(s, i);
         if (!rlf_camera_project(&p->camera, q, &u, &v) || u < 0.0 || v < 0.0 ||
             u + 0.5 >= p->camera.width || v + 0.5 >= p->camera.height) {
             continue;
@@ -165,16 +202,22 @@ rlf_result camera_pose_find(camera_pose *c, rlf_map *map, const rlf_surface *sur
     const rlf_pose start = rlf_tracker_guess(c->tracker, time_ns);
     const bool was_lost =
         c->last.health == RLF_TRACK_LOST || time_ns - c->time_ns > GAP_NS || time_ns <= c->time_ns;
-    rlf_result result = try_start(c, map, &view, &start, &c->prediction, &c->last);
+    /* Against what the map showed from the frame before (Newcombe et al. 2011): one prediction is
+     * enough for a frame. */
+    rlf_result result = c->has_prediction && !was_lost
+                            ? align(c, &view, &c->prediction, &start, &c->last)
+                            : try_start(c, map, &view, &start, &c->last);
     c->time_ns = time_ns;
     if (result == RLF_OK && (was_lost || c->last.health == RLF_TRACK_LOST)) {
-        result = find_again(c, map, &view, &c->prediction);
+        result = find_again(c, map, &view);
     }
     if (result != RLF_OK) {
         return result;
     }
+    c->has_prediction = false;
     c->lost_count += c->last.health == RLF_TRACK_LOST;
     guard_map(c, map);
     rlf_tracker_accept(c->tracker, &view, time_ns, &c->last);
-    return RLF_OK;
+    return c->last.health != RLF_TRACK_LOST ? camera_pose_predict(c, map, &c->last.T_world_camera)
+                                            : RLF_OK;
 }

@@ -10,7 +10,10 @@ typedef struct camera_pose {
     rlf_camera camera;         /* that is predicted for: a quarter of the depth camera's size */
     rlf_depth_noise noise;     /* of the depth camera */
     rlf_track_result last;     /* of the last frame */
-    rlf_prediction prediction; /* that it was aligned with; the map's, until it predicts again */
+    rlf_prediction prediction; /* at the last pose, when there is one */
+    bool has_prediction;
+    float *planes; /* of the prediction */
+    uint8_t *grey;
     bool has_first;
     bool may_fuse;       /* the last pose is trusted: good, and for a while after a lost track */
     int32_t proven;      /* good frames since the track was lost, at most PROOF_FRAMES */
@@ -28,8 +31,10 @@ rlf_result camera_pose_know(camera_pose *c, rlf_map *map);
  * the identity. */
 rlf_result camera_pose_find(camera_pose *c, rlf_map *map, const rlf_surface *surface,
                             const uint8_t *grey, int64_t time_ns);
-/* Pixels of the frame that was found last in front of the room that is known: 0, else 1. Before the
- * map predicts again. For who has no foreground. */
+/* c->prediction of a pose that was found otherwise. */
+rlf_result camera_pose_predict(camera_pose *c, rlf_map *map, const rlf_pose *T_world_camera);
+/* Pixels of the frame that was found last in front of the room that is known: 0, else 1. For who
+ * has no foreground. */
 void camera_pose_mark_static(const camera_pose *c, const rlf_surface *surface, uint8_t *is_static);
 void camera_pose_close(camera_pose *c);
 

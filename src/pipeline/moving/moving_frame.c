@@ -72,6 +72,9 @@ static rlf_result find_pose(moving *m, const rlf_surface *seen)
     m->has_color = color_view_take(&m->color, m->frame, seen);
     if (m->poses == RLF_POSES_SOURCE) {
         take_source_pose(m);
+        result = m->pose.last.health != RLF_TRACK_LOST
+                     ? camera_pose_predict(&m->pose, m->map, &m->pose.last.T_world_camera)
+                     : RLF_OK;
     } else {
         result = camera_pose_find(&m->pose, m->map, seen, m->has_color ? m->color.grey : NULL,
                                   m->frame->time_ns);
@@ -94,10 +97,13 @@ bool moving_give(void *context, const rlf_surface *seen, rlf_given_background *o
         return false;
     }
     m->T_world_camera = m->track.T_world_camera;
-    m->result = rlf_map_predict(m->map, &m->pose.camera, &m->T_world_camera, &m->room);
+    if (!m->pose.has_prediction) { /* of the first frame: nothing is known yet */
+        m->result = camera_pose_predict(&m->pose, m->map, &m->T_world_camera);
+    }
     if (m->result != RLF_OK) {
         return false;
     }
+    m->room = m->pose.prediction;
     m->has_room = true;
     room_planes_take(&m->planes, &m->room, seen, m->pool);
     const rlf_pose T_camera_world = rlf_pose_invert(&m->T_world_camera);
