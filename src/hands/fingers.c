@@ -4,10 +4,12 @@
 #include <string.h>
 
 #define DIRECTIONS 128
-#define ARM_COS 0.5          /* directions this close to the arm's are the arm: 60 degrees */
-#define FINGER_REACH 1.55    /* a finger ends beyond so many palm radii from its centre */
-#define PROMINENCE_M 0.014   /* and sticks out of what is beside it by its own width */
-#define FINGER_END_M 0.018   /* its last joint is so long */
+#define ARM_COS                                                                                    \
+    0.5                    /* directions this close to the arm's are the arm: 60 degrees; no wrist \
+                              bends fingers so far back */
+#define FINGER_REACH 1.80  /* a finger ends beyond so many palm radii from its centre */
+#define PROMINENCE_M 0.014 /* and sticks out of what is beside it by its own width */
+#define FINGER_END_M 0.018 /* its last joint is so long */
 #define FINGER_WIDTH_M 0.030 /* and not wider than this; two fingers side by side are */
 #define HAND_REACH_M 0.145   /* no finger's end is further from the palm's centre */
 #define TIP_M 0.006          /* of the end, that is averaged */
@@ -27,28 +29,35 @@ static int32_t direction_of(double x, double y)
     return k < DIRECTIONS ? k : DIRECTIONS - 1;
 }
 
-/* Reads the outline; returns the hand's area in pixels. */
+/* Pixel i is of the arm by its direction in the picture or, of an arm towards the camera that the
+ * hand hides, in space. */
+static bool is_of_arm(const hand_patch *p, const hand_palm *palm, int32_t i)
+{
+    const double pixel = (double)p->spacing * palm->z;
+    const double x = i % p->width - palm->x, y = (double)(i / p->width) - palm->y;
+    const double square = x * x + y * y, disc = palm->radius * palm->radius;
+    const double forward = x * palm->arm_x + y * palm->arm_y;
+    const bool is_behind = forward * forward > ARM_COS * ARM_COS * square ||
+                           (double)p->along[i] > palm->along + palm->radius;
+    const rlf_vec3 off = rlf_sub(hand_patch_point(p, i), palm->centre);
+    const double ahead = rlf_dot(off, palm->arm), away = rlf_dot(off, off);
+    return (forward < 0.0 && is_behind && square * pixel * pixel > disc) ||
+           (ahead < 0.0 && ahead * ahead > ARM_COS * ARM_COS * away && away > disc);
+}
+
+/* Reads the outline; returns the hand's area in pixels. Distances are those in the picture: at an
+ * edge the depth is a mix of both sides, and would make the longest finger of noise. */
 static int32_t read_outline(outline *o, const hand_patch *p, const hand_palm *palm)
 {
     const double pixel = (double)p->spacing * palm->z;
     int32_t area = 0;
     memset(o, 0, sizeof(*o));
     for (int32_t i = 0; i < p->width * p->height; i++) {
-        if (p->disc[i] <= 0) {
+        if (p->disc[i] <= 0 || is_of_arm(p, palm, i)) {
             continue;
         }
         const double x = i % p->width - palm->x, y = (double)(i / p->width) - palm->y;
-        const double square = x * x + y * y;
-        const double forward = x * palm->arm_x + y * palm->arm_y;
-        const bool is_behind = forward * forward > ARM_COS * ARM_COS * square ||
-                               (double)p->along[i] > palm->along + palm->radius;
-        const bool is_arm =
-            forward < 0.0 && is_behind && square * pixel * pixel > palm->radius * palm->radius;
-        if (is_arm) {
-            continue;
-        }
-        const double rise = (double)p->z[i] - palm->z;
-        const float far = (float)sqrt(square * pixel * pixel + rise * rise);
+        const float far = (float)(sqrt(x * x + y * y) * pixel);
         if ((double)far > HAND_REACH_M) {
             continue;
         }

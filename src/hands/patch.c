@@ -5,7 +5,7 @@
 #define PIXELS_LEAST 24  /* of a hand */
 #define SAME_SIGMAS 6.0f /* of noise; beyond it and SAME_M a pixel is not what its cell is */
 #define SAME_M 0.03f     /* two cells' slant */
-#define BEHIND_M 0.03f   /* what a ring shows is behind the fingers at least this much */
+#define BEHIND_M 0.10f   /* behind the fingers; nearer than that is the own palm */
 #define RING_LEAST_M2                                                                              \
     0.0001                  /* a finger's cross section: what is smaller is a hole in the depth    \
                              */

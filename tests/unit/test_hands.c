@@ -264,6 +264,59 @@ static void test_arm_forward(void **state)
     bench_destroy(&b);
 }
 
+/* A sensor mixes the depths of both sides of an edge: every pixel of it, here 55 mm behind. */
+static void mix_edges(hand_scene *s)
+{
+    for (int i = 1; i < SCENE_N - 1; i++) {
+        const bool is_edge = s->foreground[i - 1] == 0 || s->foreground[i + 1] == 0;
+        s->depth[i] += s->foreground[i] != 0 && is_edge ? 0.055f : 0.0f;
+    }
+}
+
+static void test_fist_with_mixed_edges(void **state)
+{
+    (void)state;
+    bench b = bench_create();
+    scene_hand h = {.palm = {0.0, 0.75, 2.4}, .turn = 0.1, .arm = 0.8};
+    const rlf_hands *out = NULL;
+    for (int k = 0; k < 8; k++) {
+        b.time_ns += FRAME_NS;
+        scene_clear(b.scene, 4.0, b.time_ns);
+        h.palm.x += 0.01; /* hands move */
+        scene_draw_hand(b.scene, &h);
+        mix_edges(b.scene);
+        scene_noise(b.scene);
+        out = rlf_hand_tracker_update(b.tracker, &b.scene->surface);
+        check_finite(out);
+    }
+    const rlf_hand *seen = near_point(out, h.palm);
+    assert_non_null(seen);
+    print_message("%s, %d tips, confidence %.2f\n", rlf_gesture_name(seen->gesture),
+                  seen->tip_count, seen->confidence);
+    assert_int_equal(seen->gesture, RLF_GESTURE_FIST);
+    bench_destroy(&b);
+}
+
+/* Through a pinch one sees the room: what is 70 mm behind a ring may be the hand's own palm. */
+static void test_palm_in_ring_is_no_pinch(void **state)
+{
+    (void)state;
+    bench b = bench_create();
+    scene_hand h = {.palm = {0.0, 0.0, 0.8}, .turn = 0.3, .fingers = FINGERS_RING, .arm = 0.7};
+    const rlf_hands *out = NULL;
+    for (int k = 0; k < 4; k++) {
+        b.time_ns += FRAME_NS;
+        scene_clear(b.scene, 0.87, b.time_ns);
+        scene_draw_hand(b.scene, &h);
+        scene_noise(b.scene);
+        out = rlf_hand_tracker_update(b.tracker, &b.scene->surface);
+    }
+    assert_int_equal(out->count, 1);
+    print_message("%s\n", rlf_gesture_name(out->hand[0].gesture));
+    assert_int_not_equal(out->hand[0].gesture, RLF_GESTURE_PINCH);
+    bench_destroy(&b);
+}
+
 /* An arm that ends in a doll: its head is as large as a palm, but what is behind it is no forearm.
  */
 static void draw_doll(hand_scene *s)
@@ -475,11 +528,18 @@ static void test_names(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_open_hand),     cmocka_unit_test(test_gestures),
-        cmocka_unit_test(test_people),        cmocka_unit_test(test_arm_forward),
-        cmocka_unit_test(test_no_hands),      cmocka_unit_test(test_follows),
-        cmocka_unit_test(test_motions),       cmocka_unit_test(test_same_bits),
-        cmocka_unit_test(test_empty_and_odd), cmocka_unit_test(test_names),
+        cmocka_unit_test(test_open_hand),
+        cmocka_unit_test(test_gestures),
+        cmocka_unit_test(test_fist_with_mixed_edges),
+        cmocka_unit_test(test_palm_in_ring_is_no_pinch),
+        cmocka_unit_test(test_people),
+        cmocka_unit_test(test_arm_forward),
+        cmocka_unit_test(test_no_hands),
+        cmocka_unit_test(test_follows),
+        cmocka_unit_test(test_motions),
+        cmocka_unit_test(test_same_bits),
+        cmocka_unit_test(test_empty_and_odd),
+        cmocka_unit_test(test_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
