@@ -28,6 +28,8 @@ typedef struct run_options {
     run_window_options window;
 } run_options;
 
+/* Returns -1 to go on, or an exit status. */
+int run_parse(int argc, char **argv, run_options *o);
 /* Runs the session's frames in a window until it is closed. Another source, scene or settings that
  * its user chooses take the place of what is in *s. */
 rlf_result run_window(const run_options *o, session *s, run_output *output);
