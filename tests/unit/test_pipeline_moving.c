@@ -29,6 +29,8 @@ typedef struct room_source {
     bool has_poses;    /* frames say where the camera is */
     bool stands;       /* the camera does not move */
     bool has_thing;    /* something comes before the wall */
+    bool is_other;     /* another room: its walls and floor are slanted */
+    double reach;      /* of the motion, 1 */
 } room_source;
 
 static double to_box(const rlf_aabb *box, rlf_vec3 p, rlf_vec3 d)
@@ -72,8 +74,9 @@ static rlf_pose pose_at(const room_source *s, int64_t frame)
 {
     const double t = s->stands || frame < STILL ? 0.0 : (double)(frame - STILL) / PERIOD;
     const double swing = 0.5 - 0.5 * cos(2.0 * RLF_PI * t);
-    return (rlf_pose){rlf_vec3_make(0.15 * swing, 0.0, 0.05 * swing),
-                      rlf_quat_from_rotation_vector(rlf_vec3_make(0.0, 0.25 * swing, 0.0))};
+    const double far = s->reach * swing;
+    return (rlf_pose){rlf_vec3_make(0.15 * far, 0.0, 0.05 * far),
+                      rlf_quat_from_rotation_vector(rlf_vec3_make(0.0, 0.25 * far, 0.0))};
 }
 
 static rlf_result room_next(void *self, rlf_frame *out)
@@ -88,7 +91,11 @@ static rlf_result room_next(void *self, rlf_frame *out)
     for (int32_t i = 0; i < WIDTH * HEIGHT; i++) {
         rlf_vec3 ray;
         (void)rlf_camera_unproject(&s->camera, i % WIDTH, i / WIDTH, &ray);
-        const rlf_vec3 p = rlf_rotate(q, T.p), d = rlf_rotate(q, rlf_rotate(T.q, ray));
+        rlf_vec3 p = rlf_rotate(q, T.p), d = rlf_rotate(q, rlf_rotate(T.q, ray));
+        if (s->is_other) {
+            p = rlf_vec3_make(p.x + 0.3 * p.z, p.y + 0.3 * p.x, p.z);
+            d = rlf_vec3_make(d.x + 0.3 * d.z, d.y + 0.3 * d.x, d.z);
+        }
         const double room = to_room(p, d, false), z = has_thing ? to_room(p, d, true) : room;
         s->is_thing[i] = z < room;
         s->depth[i] = (uint16_t)(1000.0 * z + 0.5);
@@ -138,6 +145,7 @@ static rlf_source *open_room(int64_t frame_count)
     memory.camera = info.rig.depth;
     memory.frame_count = frame_count;
     memory.bad_frame = -1;
+    memory.reach = 1.0;
     const rlf_source_methods methods = {.next = room_next};
     rlf_source *source = NULL;
     assert_int_equal(rlf_source_create_custom(&methods, &info, &memory, &source), RLF_OK);
@@ -315,6 +323,39 @@ static void a_pose_that_is_none_is_told_once_and_left_out(void **state)
     close_all(&pipeline, &source);
 }
 
+/* The pose of the first frame that a new pipeline sees in a room that is mapped. */
+static rlf_track_health first_in_known_room(rlf_source *source, rlf_pose *out)
+{
+    rlf_pipeline *pipeline = open_pipeline(source, RLF_CAMERA_MOVING, RLF_POSES_TRACKED);
+    rlf_pipeline_output frame;
+    memory.frame = STILL + 20;
+    assert_int_equal(rlf_pipeline_step(pipeline, &frame), RLF_OK);
+    const rlf_track_health health = frame.track->health;
+    *out = frame.T_world_camera;
+    rlf_pipeline_destroy(&pipeline);
+    return health;
+}
+
+static void a_camera_is_found_where_a_known_room_was_seen_from(void **state)
+{
+    (void)state;
+    rlf_source *source = open_room(STILL + PERIOD);
+    memory.reach = 2.0;
+    memory.frame = STILL - 5;
+    rlf_pipeline *pipeline = open_pipeline(source, RLF_CAMERA_MOVING, RLF_POSES_TRACKED);
+    rlf_pipeline_output out;
+    while (rlf_pipeline_step(pipeline, &out) == RLF_OK) {
+    }
+    rlf_pipeline_destroy(&pipeline);
+    rlf_pose found;
+    assert_int_equal(first_in_known_room(source, &found), RLF_TRACK_GOOD);
+    const rlf_pose T = pose_at(&memory, STILL + 20);
+    assert_true(rlf_length(rlf_sub(found.p, T.p)) < 0.02);
+    memory.is_other = true;
+    assert_int_equal(first_in_known_room(source, &found), RLF_TRACK_LOST);
+    close_all(&pipeline, &source);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -324,6 +365,7 @@ int main(void)
         cmocka_unit_test(what_comes_before_the_room_is_foreground),
         cmocka_unit_test(a_camera_with_poses_is_tracked_at_once),
         cmocka_unit_test(a_pose_that_is_none_is_told_once_and_left_out),
+        cmocka_unit_test(a_camera_is_found_where_a_known_room_was_seen_from),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

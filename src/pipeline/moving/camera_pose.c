@@ -6,6 +6,7 @@
 #define STARTS 6            /* keyframes that are tried after a lost track */
 #define ROUNDS 2            /* of prediction and alignment for each */
 #define SURE_OVERLAP 0.5    /* after a lost track so much must lie on the room, ... */
+#define SURE_SIGMAS 2.5     /* ... not worse than this: in another room it is 3 to 14, ... */
 #define PROOF_FRAMES 5      /* ... for so many frames before anything is fused again */
 #define FENCE_FRAMES 10     /* good frames in a row between two fences of the map */
 #define GAP_NS 200000000    /* after a longer gap nobody knows where the camera is */
@@ -131,7 +132,8 @@ static rlf_result find_again(camera_pose *c, rlf_map *map, const rlf_track_view 
         }
         best = worth(&tried) > worth(&best) ? tried : best;
     }
-    if (best.overlap < SURE_OVERLAP) {
+    if (best.health != RLF_TRACK_GOOD || best.overlap < SURE_OVERLAP ||
+        best.rms_sigma > SURE_SIGMAS) {
         best = (rlf_track_result){.T_world_camera = c->last.T_world_camera,
                                   .weak_way = c->last.weak_way};
     }
