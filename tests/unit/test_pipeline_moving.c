@@ -19,6 +19,7 @@
 #define STILL 25  /* frames before the camera moves ... */
 #define PERIOD 60 /* ... to the side and back */
 #define THING_FROM 40
+#define ABSORB_S 1.0
 
 typedef struct room_source {
     uint16_t depth[WIDTH * HEIGHT];
@@ -172,6 +173,7 @@ static rlf_pipeline *open_pipeline(rlf_source *source, rlf_camera_mode camera,
     def.camera = camera;
     def.poses = poses;
     def.map = map;
+    def.reconstruct.absorb_after_s = ABSORB_S;
     rlf_pipeline *pipeline = NULL;
     assert_int_equal(rlf_pipeline_create(&def, &pipeline), RLF_OK);
     return pipeline;
@@ -280,6 +282,25 @@ static void what_comes_before_the_room_is_foreground(void **state)
     close_all(&pipeline, &source);
 }
 
+static void what_is_put_down_becomes_the_room(void **state)
+{
+    (void)state;
+    rlf_source *source = open_room(THING_FROM + 75);
+    rlf_pipeline *pipeline = open_pipeline(source, RLF_CAMERA_MOVING, RLF_POSES_TRACKED);
+    rlf_pipeline_output out;
+    memory.has_thing = true;
+    while (rlf_pipeline_step(pipeline, &out) == RLF_OK) {
+        const bool is_visitor = out.frame_index >= THING_FROM && out.frame_index < THING_FROM + 25;
+        int32_t front = 0;
+        for (int32_t i = 0; i < WIDTH * HEIGHT; i++) {
+            front += memory.is_thing[i] && out.surface->foreground[i];
+        }
+        assert_true(!is_visitor || front > 300);
+        assert_true(out.frame_index < THING_FROM + 70 || front == 0);
+    }
+    close_all(&pipeline, &source);
+}
+
 static int32_t told;
 
 static void count_poses(void *context, rlf_log_level level, const char *line)
@@ -363,6 +384,7 @@ int main(void)
         cmocka_unit_test(bodies_wait_until_it_is_sure_that_the_camera_moves),
         cmocka_unit_test(a_camera_that_stands_is_as_a_fixed_one),
         cmocka_unit_test(what_comes_before_the_room_is_foreground),
+        cmocka_unit_test(what_is_put_down_becomes_the_room),
         cmocka_unit_test(a_camera_with_poses_is_tracked_at_once),
         cmocka_unit_test(a_pose_that_is_none_is_told_once_and_left_out),
         cmocka_unit_test(a_camera_is_found_where_a_known_room_was_seen_from),

@@ -98,6 +98,7 @@ rlf_result moving_start(moving *m, const rlf_pipeline_def *def, const moving_fro
     m->rig = rlf_source_get_info(def->source)->rig;
     m->pool = def->pool;
     m->poses = def->poses;
+    m->absorb_after_s = def->reconstruct.absorb_after_s;
     m->T_world_camera = def->T_world_camera;
     m->told = RLF_TRACK_GOOD;
     result = open_all(m, def);

@@ -5,6 +5,7 @@
 
 #include "relief/pipeline.h"
 
+#include "pipeline/moving/absorb.h"
 #include "pipeline/moving/camera_pose.h"
 #include "pipeline/moving/color_view.h"
 #include "pipeline/moving/room_planes.h"
@@ -25,7 +26,9 @@ typedef struct moving {
     room_planes planes;
     rlf_prediction room;
     bool has_room;
-    uint8_t *is_static;     /* a depth pixel each */
+    uint8_t *is_static; /* a depth pixel each */
+    absorb still;
+    double absorb_after_s;
     const rlf_frame *frame; /* while it is processed */
     rlf_pose T_world_camera, T_world_before;
     bool has_before;

@@ -121,7 +121,8 @@ bool moving_give(void *context, const rlf_surface *seen, rlf_given_background *o
 
 /* ---- map ---- */
 
-/* Neither what stands in front nor what is beside it, nor what nobody saw. */
+/* Neither what stands in front, unless it has stood there for long, nor what is beside it, nor what
+ * nobody saw. */
 static void mark_static(moving *m, const rlf_surface *s)
 {
     const int32_t width = s->width, count = s->width * s->height;
@@ -132,7 +133,7 @@ static void mark_static(moving *m, const rlf_surface *s)
         return;
     }
     for (int32_t i = width + 1; i < count - width - 1; i++) {
-        if (s->foreground[i] != 0) {
+        if (s->foreground[i] != 0 && !absorb_is_room(&m->still, s->label[i])) {
             for (int32_t k = -1; k <= 1; k++) {
                 memset(m->is_static + i + (ptrdiff_t)k * width - 1, 0, 3);
             }
@@ -162,6 +163,7 @@ static rlf_result fuse(moving *m, const rlf_surface *s)
         .is_static = m->is_static,
         .rgba = m->has_color ? m->color.rgba : NULL,
     };
+    absorb_update(&m->still, s, &m->T_world_camera, m->absorb_after_s);
     mark_static(m, s);
     if (m->has_fence) {
         return rlf_map_integrate(m->map, &view, &m->T_world_camera, NULL);
