@@ -120,8 +120,7 @@ typedef struct rlf_pipeline_output {
     const rlf_surface *surface;
     rlf_pose T_world_camera;       /* depth camera in the world */
     const rlf_track_result *track; /* how sure a moving camera's pose is; NULL while it stands */
-    /* What the map shows from about there; NULL = nothing known, or RLF_VIEW_MAP was drawn, which
-     * has the map predict for its own camera. */
+    /* What the map shows from there; NULL = nothing is known. */
     const rlf_prediction *room;
     const rlf_hands *hands; /* NULL when none are looked for; see rlf_pipeline_set_hands */
     const rlf_snapshot *snapshot;

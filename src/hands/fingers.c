@@ -4,12 +4,10 @@
 #include <string.h>
 
 #define DIRECTIONS 128
-#define ARM_COS                                                                                    \
-    0.5                    /* directions this close to the arm's are the arm: 60 degrees; no wrist \
-                              bends fingers so far back */
-#define FINGER_REACH 1.80  /* a finger ends beyond so many palm radii from its centre */
-#define PROMINENCE_M 0.014 /* and sticks out of what is beside it by its own width */
-#define FINGER_END_M 0.018 /* its last joint is so long */
+#define ARM_COS 0.5          /* directions this close to the arm's are the arm: 60 degrees */
+#define FINGER_REACH 1.80    /* a finger ends beyond so many palm radii from its centre */
+#define PROMINENCE_M 0.014   /* and sticks out of what is beside it by its own width */
+#define FINGER_END_M 0.018   /* its last joint is so long */
 #define FINGER_WIDTH_M 0.030 /* and not wider than this; two fingers side by side are */
 #define HAND_REACH_M 0.145   /* no finger's end is further from the palm's centre */
 #define TIP_M 0.006          /* of the end, that is averaged */

@@ -89,7 +89,7 @@ static rlf_result see_moving(rlf_pipeline *p, const rlf_surface **out)
     rlf_result result = moving_process(m, &p->last.frame, out);
     p->camera.T_world = m->T_world_camera;
     p->last.track = &m->track;
-    p->last.room = m->has_room ? &m->room : NULL;
+    p->last.room = m->has_room ? &m->pose.prediction : NULL;
     return result;
 }
 

@@ -141,10 +141,9 @@ static rlf_result render_one(rlf_pipeline *p, const rlf_render_input *input, rlf
     return result == RLF_OK ? rlf_compositor_render(p->compositor, input, out) : result;
 }
 
-/* The room from the orbit. The map then no longer holds what it predicted for the frame. */
+/* The room from the orbit. */
 static const rlf_room_sight *look_at_room(rlf_pipeline *p)
 {
-    p->last.room = NULL;
     return room_view_look(&p->room, rlf_pipeline_get_map(p), &p->compositor_def, &p->orbit);
 }
 

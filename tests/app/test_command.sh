@@ -334,6 +334,7 @@ expect_done run "$moving" --camera moving --headless --save-map room.map
 expect_done run "$moving" --camera moving --headless --map room.map --log mapped
 [ "$(wc -l <mapped/trajectory.txt)" -ge 8 ] || fail "--map: the camera is not found"
 expect_error 1 "the camera has not moved" run "$small&frames=2" --headless --save-map none.map
+expect_error 1 "no/room.map: cannot be created" run "$moving" --camera moving --headless --save-map no/room.map
 [ -e none.map ] && fail "--save-map: there is no map to be written"
 
 # Ctrl-C ends a run with whole files.

@@ -47,8 +47,7 @@ endif()
 
 if(NOT RELIEF_SANITIZE)
   house_check(other_compiler ${house}/other_compiler.sh ${PROJECT_SOURCE_DIR}
-              ${CMAKE_CURRENT_BINARY_DIR}/other_compiler ${CMAKE_C_COMPILER} ${CMAKE_GENERATOR}
-              ${CMAKE_NM})
+              ${CMAKE_CURRENT_BINARY_DIR}/other_compiler ${CMAKE_C_COMPILER} ${CMAKE_GENERATOR})
 endif()
 
 # A sanitized library would ask the stranger's program for the same sanitizers.
@@ -59,4 +58,9 @@ if(NOT RELIEF_SANITIZE)
               -DCC=${CMAKE_C_COMPILER} -DGENERATOR=${CMAKE_GENERATOR} -DCONFIG=$<CONFIG>
               -DWITH_IO=$<TARGET_EXISTS:relief_io> -DWITH_GL=$<TARGET_EXISTS:relief_gl>
               -DWITH_APP=$<TARGET_EXISTS:relief_app> -P ${house}/install.cmake)
+  house_check(shared ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -DNM=${CMAKE_NM}
+              -DWORK=${CMAKE_CURRENT_BINARY_DIR}/shared -DCONSUMER=${house}/consumer
+              -DCC=${CMAKE_C_COMPILER} -DGENERATOR=${CMAKE_GENERATOR}
+              -DWITH_IO=$<TARGET_EXISTS:relief_io> -DWITH_GL=$<TARGET_EXISTS:relief_gl>
+              -DWITH_APP=NO -P ${house}/shared.cmake)
 endif()

@@ -1,9 +1,15 @@
 /* Things that stand still, by their place in the room: labels end when a thing is half fused. */
 #include "pipeline/moving/absorb.h"
 
-#define STRAY_M 0.05 /* a centroid that stands: seen from elsewhere it shows another side */
-#define PART 1.1     /* no part of a thing is larger than the thing by more than this */
-#define GONE_NS 2000000000
+#define STRAY_M 0.05       /* a centroid that stands: seen from elsewhere it shows another side */
+#define PART 1.1           /* sizes that differ by less are the same; no part is larger */
+#define BLINK_NS 200000000 /* what is not seen there for longer has gone, ... */
+#define GONE_NS 2000000000 /* ... and of what is fused already the last part */
+
+static bool is_due(const absorb_thing *thing, int64_t now_ns, int64_t after_ns)
+{
+    return now_ns - thing->since_ns >= after_ns;
+}
 
 /* The thing that a region is, or for one that is fused already, a part of. */
 static absorb_thing *find(absorb *a, const absorb_thing *region, int64_t after_ns)
@@ -11,21 +17,24 @@ static absorb_thing *find(absorb *a, const absorb_thing *region, int64_t after_n
     for (int32_t i = 0; i < a->thing_count; i++) {
         absorb_thing *thing = &a->thing[i];
         const double way = rlf_length(rlf_sub(region->place, thing->place));
-        const bool is_room = region->seen_ns - thing->since_ns >= after_ns;
-        if (way < STRAY_M ||
-            (is_room && way < thing->radius && region->radius < PART * thing->radius)) {
+        const bool is_as_large = region->radius < PART * thing->radius;
+        const bool stands = way < STRAY_M && thing->radius < PART * region->radius;
+        const bool is_part = is_due(thing, region->seen_ns, after_ns) && way < thing->radius;
+        if (is_as_large && (stands || is_part)) {
             return thing;
         }
     }
     return NULL;
 }
 
-static void forget(absorb *a, int64_t now_ns)
+/* Who comes back to where he was a while ago has not stood there. */
+static void forget(absorb *a, int64_t now_ns, int64_t after_ns)
 {
     int32_t kept = 0;
     for (int32_t i = 0; i < a->thing_count; i++) {
         const int64_t unseen_ns = now_ns - a->thing[i].seen_ns;
-        if (unseen_ns >= 0 && unseen_ns < GONE_NS) {
+        const bool is_room = is_due(&a->thing[i], a->thing[i].seen_ns, after_ns);
+        if (unseen_ns >= 0 && unseen_ns < (is_room ? GONE_NS : BLINK_NS)) {
             a->thing[kept++] = a->thing[i];
         }
     }
@@ -36,7 +45,7 @@ void absorb_update(absorb *a, const rlf_surface *s, const rlf_pose *T_world_came
 {
     const int64_t after_ns = (int64_t)(1e9 * rlf_clamp(after_s, 0.0, 1e9));
     a->label_count = 0;
-    forget(a, s->time_ns);
+    forget(a, s->time_ns, after_ns);
     for (int32_t i = 0; i < s->region_count && after_ns > 0; i++) {
         const rlf_region *r = &s->regions[i];
         if (r->layer != RLF_LAYER_FOREGROUND) {
@@ -54,7 +63,7 @@ void absorb_update(absorb *a, const rlf_surface *s, const rlf_pose *T_world_came
             continue;
         }
         thing->seen_ns = s->time_ns;
-        if (s->time_ns - thing->since_ns >= after_ns && a->label_count < ABSORB_LABELS) {
+        if (is_due(thing, s->time_ns, after_ns) && a->label_count < ABSORB_LABELS) {
             a->label[a->label_count++] = r->label;
         }
     }

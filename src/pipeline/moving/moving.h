@@ -24,8 +24,7 @@ typedef struct moving {
     color_view color;
     bool has_color; /* of this frame */
     room_planes planes;
-    rlf_prediction room;
-    bool has_room;
+    bool has_room;      /* pose.prediction is what stands behind the frame */
     uint8_t *is_static; /* a depth pixel each */
     absorb still;
     double absorb_after_s;

@@ -103,9 +103,8 @@ bool moving_give(void *context, const rlf_surface *seen, rlf_given_background *o
     if (m->result != RLF_OK) {
         return false;
     }
-    m->room = m->pose.prediction;
     m->has_room = true;
-    room_planes_take(&m->planes, &m->room, seen, m->pool);
+    room_planes_take(&m->planes, &m->pose.prediction, seen, m->pool);
     const rlf_pose T_camera_world = rlf_pose_invert(&m->T_world_camera);
     *out = (rlf_given_background){
         .depth = m->planes.depth,

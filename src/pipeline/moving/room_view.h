@@ -1,7 +1,5 @@
 /* The view of the whole room: where it is seen from, and the camera's way in it.
- *
- * A map keeps its last prediction only. The tracker's and the surface's come first in a frame; the
- * view's is made when the picture is, and then that of the frame is gone. */
+ */
 #ifndef RLF_PIPELINE_ROOM_VIEW_H
 #define RLF_PIPELINE_ROOM_VIEW_H
 
