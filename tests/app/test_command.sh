@@ -404,7 +404,7 @@ head -n 1 closed/frames.csv | grep -q "^frame," || fail "closed streams: $(head 
 head -n 1 closed/contacts.csv | grep -q "^frame," || fail "closed streams: $(head -n 1 closed/contacts.csv)"
 
 # A video on standard output is a video from its first byte to its last.
-"$relief" run "synthetic:room?color=96x54&frames=2&color=64x36" --headless --video - --hash --record both.mcap >video.y4m 2>stderr.txt ||
+"$relief" run "synthetic:room?color=96x54&frames=2&color=64x36" --headless --video - --hash --record both/ >video.y4m 2>stderr.txt ||
     fail "video on stdout: status $?"
 grep -q "^hash [0-9a-f]\{16\}$" stderr.txt || fail "video on stdout: no hash: $(cat stderr.txt)"
 header=$(head -n 1 video.y4m | wc -c)
