@@ -351,8 +351,9 @@ rlf_result recorder_tap(recorder *r, rlf_source **source)
     }
     *t = (tap){.recorder = r, .source = *source};
     rlf_source *tapped = NULL;
-    rlf_result result =
-        rlf_source_create_custom(&methods, rlf_source_get_info(*source), t, &tapped);
+    rlf_source_info info = *rlf_source_get_info(*source);
+    info.rig.depth_offset_m = 0.0; /* is taken away already */
+    rlf_result result = rlf_source_create_custom(&methods, &info, t, &tapped);
     if (result != RLF_OK) {
         rlf_free(t);
         return result;

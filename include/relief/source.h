@@ -19,6 +19,9 @@ typedef struct rlf_source_info {
     bool is_live;             /* true: newest frame wins; false: lock-step, every frame */
     char device[128];         /* driver, model and serial number, or the format; "" = unknown */
     bool can_seek;            /* rlf_source_seek works */
+    rlf_vec3 gravity;         /* m/s^2, in the depth camera's frame at the first frame, from how the
+                                 camera is mounted; 0 = it does not know */
+    bool is_simulated;        /* the pictures are computed: their light is that of a renderer */
 } rlf_source_info;
 
 /* What became of a source's frames so far. */

@@ -2,12 +2,13 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/recording/sink.h"
 
+#include "io/clip/frame_note.h"
 #include "io/codec/picture_encode.h"
 #include "io/file.h"
+#include "io/folder/origin.h"
 
 #include <errno.h>
 #include <inttypes.h>
-#include <math.h>
 #include <unistd.h>
 
 #define LEVEL 3               /* of zlib, as rlf_png_write has it */
@@ -16,10 +17,12 @@
 
 typedef struct folder_sink {
     char path[IO_PATH_MAX];
+    rlf_source_info info;
     rlf_rig rig;
     double units_per_metre;
     int32_t jpeg_quality;
-    FILE *depth_list, *color_list;
+    FILE *depth_list, *color_list, *pose_list, *note_list;
+    io_frame_notes notes;
     io_jpeg_encoder *jpeg;
     io_byte_buffer file;
     void *scratch;    /* rows without padding */
@@ -32,49 +35,6 @@ static rlf_result fail_write(const folder_sink *s)
 {
     return rlf_fail(RLF_ERROR_IO, "%s: cannot be written: %s: free some space or write elsewhere",
                     s->path, strerror(errno));
-}
-
-static void print_camera(FILE *file, const rlf_camera *c)
-{
-    fprintf(file,
-            "\"width\": %d, \"height\": %d,\n    \"fx\": %.17g, \"fy\": %.17g, \"cx\": %.17g, "
-            "\"cy\": %.17g",
-            (int)c->width, (int)c->height, c->fx, c->fy, c->cx, c->cy);
-    if (c->distortion_model != RLF_DISTORTION_NONE) {
-        const bool is_rational = c->distortion_model == RLF_DISTORTION_RATIONAL_POLYNOMIAL;
-        fprintf(file, ",\n    \"distortion_model\": \"%s\", \"distortion\": [",
-                is_rational ? "rational_polynomial" : "plumb_bob");
-        for (int i = 0; i < (is_rational ? 8 : 5); i++) {
-            fprintf(file, "%s%.17g", i > 0 ? ", " : "", c->distortion[i]);
-        }
-        fprintf(file, "]");
-    }
-}
-
-static void print_rig(FILE *file, const folder_sink *s)
-{
-    const rlf_rig *r = &s->rig;
-    fprintf(file, "{\n  \"depth\": {");
-    print_camera(file, &r->depth);
-    fprintf(file,
-            ",\n    \"units_per_metre\": %.17g, \"depth_min_m\": %.17g, \"depth_max_m\": %.17g,\n"
-            "    \"noise\": [%.17g, %.17g, %.17g]}",
-            s->units_per_metre, r->depth_min_m, r->depth_max_m, r->noise.c0, r->noise.c1,
-            r->noise.c2);
-    if (r->has_color) {
-        const rlf_quat q = r->T_color_depth.q;
-        const rlf_vec3 x = rlf_rotate(q, rlf_vec3_make(1, 0, 0)); /* the columns */
-        const rlf_vec3 y = rlf_rotate(q, rlf_vec3_make(0, 1, 0));
-        const rlf_vec3 z = rlf_rotate(q, rlf_vec3_make(0, 0, 1));
-        const rlf_vec3 t = r->T_color_depth.p;
-        fprintf(file, ",\n  \"color\": {");
-        print_camera(file, &r->color);
-        fprintf(file, "},\n  \"depth_to_color\": {\"rotation\": [");
-        fprintf(file, "[%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g]", x.x,
-                y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z);
-        fprintf(file, "],\n    \"translation\": [%.17g, %.17g, %.17g]}", t.x, t.y, t.z);
-    }
-    fprintf(file, "\n}\n");
 }
 
 /* Opens NAME in the folder for writing. */
@@ -94,16 +54,15 @@ static rlf_result open_in(const folder_sink *s, const char *name, FILE **out)
     return result;
 }
 
+/* The offset is taken away from what is recorded. */
 static rlf_result write_camera(const folder_sink *s)
 {
-    FILE *file = NULL;
-    rlf_result result = open_in(s, "camera.json", &file);
-    if (result != RLF_OK) {
-        return result;
-    }
-    print_rig(file, s);
-    const bool is_bad = ferror(file) != 0;
-    return fclose(file) != 0 || is_bad ? fail_write(s) : RLF_OK;
+    char path[IO_PATH_MAX];
+    rlf_rig rig = s->rig;
+    rig.depth_offset_m = 0.0;
+    rlf_result result = io_path_join(s->path, "camera.json", path);
+    return result == RLF_OK ? rlf_rig_save(path, RLF_RIG_RELIEF, &rig, s->units_per_metre, NULL)
+                            : result;
 }
 
 /* Once the first frame says what the depth is. */
@@ -118,7 +77,13 @@ static rlf_result start(folder_sink *s, const rlf_frame *frame)
     }
     s->scratch = rlf_alloc_array(pixels, 4);
     s->counts = rlf_alloc_array(pixels, 2);
-    return s->scratch != NULL && s->counts != NULL ? write_camera(s) : RLF_ERROR_MEMORY;
+    if (s->scratch == NULL || s->counts == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    s->notes.has_color_camera = s->rig.has_color;
+    s->notes.flags = frame->flags & (RLF_FRAME_UNMIRRORED | RLF_FRAME_ALIGNED);
+    rlf_result result = write_camera(s);
+    return result == RLF_OK ? io_folder_write_origin(s->path, &s->info, s->notes.flags) : result;
 }
 
 static const uint16_t *counts_of(folder_sink *s, const rlf_frame *frame)
@@ -180,6 +145,41 @@ static rlf_result add_color(folder_sink *s, const rlf_frame *frame)
     return result;
 }
 
+/* A list that begins with the first line that it has. */
+static rlf_result open_list(const folder_sink *s, const char *name, FILE **list)
+{
+    return *list != NULL ? RLF_OK : open_in(s, name, list);
+}
+
+static rlf_result add_pose(folder_sink *s, const rlf_frame *frame)
+{
+    const rlf_pose *T = &frame->T_world_camera;
+    const int64_t time = frame->time_ns > 0 ? frame->time_ns : 0;
+    rlf_result result = open_list(s, IO_FOLDER_POSES, &s->pose_list);
+    if (result != RLF_OK) {
+        return result;
+    }
+    fprintf(s->pose_list,
+            "%" PRId64 ".%09" PRId64 " %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n",
+            time / 1000000000, time % 1000000000, T->p.x, T->p.y, T->p.z, T->q.x, T->q.y, T->q.z,
+            T->q.w);
+    return fflush(s->pose_list) == 0 ? RLF_OK : fail_write(s);
+}
+
+static rlf_result add_notes(folder_sink *s, const rlf_frame *frame)
+{
+    io_frame_note notes[2];
+    const int32_t count = io_frame_notes_add(&s->notes, frame, notes);
+    rlf_result result = open_list(s, IO_FOLDER_FRAMES, &s->note_list);
+    for (int32_t i = 0; i < count && result == RLF_OK; i++) {
+        char text[IO_FRAME_NOTE_TEXT];
+        io_frame_note_print(&notes[i], text);
+        fprintf(s->note_list, "%s\n", text);
+        result = fflush(s->note_list) == 0 ? RLF_OK : fail_write(s);
+    }
+    return result;
+}
+
 static rlf_result folder_add(void *self, const rlf_frame *frame)
 {
     folder_sink *s = self;
@@ -204,6 +204,12 @@ static rlf_result folder_add(void *self, const rlf_frame *frame)
     if (result == RLF_OK) {
         result = add_file(s, s->depth_list, name, frame->time_ns);
     }
+    if (result == RLF_OK && frame->has_pose) {
+        result = add_pose(s, frame);
+    }
+    if (result == RLF_OK) {
+        result = add_notes(s, frame);
+    }
     s->frames += result == RLF_OK ? 1 : 0;
     return result;
 }
@@ -216,8 +222,11 @@ static uint64_t folder_bytes(const void *self)
 static rlf_result folder_close(void *self, rlf_recording_status *status)
 {
     folder_sink *s = self;
-    bool is_bad = s->depth_list != NULL && fclose(s->depth_list) != 0;
-    is_bad = (s->color_list != NULL && fclose(s->color_list) != 0) || is_bad;
+    FILE *const lists[4] = {s->depth_list, s->color_list, s->pose_list, s->note_list};
+    bool is_bad = false;
+    for (int i = 0; i < 4; i++) {
+        is_bad = (lists[i] != NULL && fclose(lists[i]) != 0) || is_bad;
+    }
     rlf_result result = is_bad ? fail_write(s) : RLF_OK;
     status->bytes = s->bytes;
     io_jpeg_encoder_destroy(&s->jpeg);
@@ -240,9 +249,24 @@ static rlf_result make_folders(const folder_sink *s)
     return result;
 }
 
+/* Of an earlier recording: they would be taken for this one's. */
+static void remove_old(const folder_sink *s)
+{
+    static const char *const names[3] = {IO_FOLDER_POSES, IO_FOLDER_SOURCE, IO_FOLDER_FRAMES};
+    for (int i = 0; i < 3; i++) {
+        char path[IO_PATH_MAX];
+        if (io_path_join(s->path, names[i], path) == RLF_OK) {
+            (void)unlink(path);
+        }
+    }
+}
+
 static rlf_result open_all(folder_sink *s)
 {
     rlf_result result = make_folders(s);
+    if (result == RLF_OK) {
+        remove_old(s);
+    }
     if (result == RLF_OK) {
         result = open_in(s, "depth.txt", &s->depth_list);
     }
@@ -260,6 +284,7 @@ rlf_result io_folder_sink_open(const char *path, const rlf_source_info *info,
         return RLF_ERROR_MEMORY;
     }
     snprintf(s->path, sizeof(s->path), "%s", path);
+    s->info = *info;
     s->rig = info->rig;
     s->jpeg_quality = def->jpeg_quality;
     *out = (io_sink){.add = folder_add, .close = folder_close, .bytes = folder_bytes, .self = s};
