@@ -2,10 +2,12 @@
 #define _POSIX_C_SOURCE 200809L
 #include "recorder.h"
 
+#include "output_name.h"
 #include "record_queue.h"
 
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 
 struct recorder {
@@ -32,6 +34,16 @@ struct recorder {
 recorder_options recorder_options_default(void)
 {
     return (recorder_options){.def = rlf_recording_def_default()};
+}
+
+bool recorder_take_path(const char *text, void *out)
+{
+    struct stat status;
+    const size_t length = strlen(text);
+    const bool is_there = stat(text, &status) == 0 && S_ISDIR(status.st_mode);
+    const bool is_folder = length > 0 && text[length - 1] == '/';
+    ((recorder_options *)out)->path = text;
+    return is_there || is_folder || output_name_has(text, ".mcap");
 }
 
 bool recorder_take_codec(const char *text, void *out)

@@ -5,6 +5,7 @@
 #include "io/folder/origin.h"
 #include "io/camera_json.h"
 #include "io/picture/picture.h"
+#include "io/reading.h"
 #include "io/source/backends.h"
 #include "io/clip/clip.h"
 
@@ -20,6 +21,7 @@ typedef struct folder {
     io_layout layout;
     io_clip_origin origin;
     io_frame_note *notes;
+    io_reading reading;
     io_buffer file; /* of the picture being decoded */
 } folder;
 
@@ -80,6 +82,7 @@ static void folder_destroy(void *context)
     folder *self = context;
     io_layout_free(&self->layout);
     rlf_free(self->notes);
+    io_reading_end_folder(&self->reading);
     io_buffer_free(&self->file);
     rlf_free(self);
 }
@@ -304,6 +307,7 @@ static rlf_result folder_open(const rlf_address *address, rlf_opened *out)
         return RLF_ERROR_MEMORY;
     }
     memcpy(self->path, path, strlen(path) + 1);
+    self->reading = io_reading_begin_folder(path);
     result = open_all(address, self, out);
     if (result != RLF_OK) {
         folder_destroy(self);

@@ -263,15 +263,18 @@ static void remove_old(const folder_sink *s)
 
 static rlf_result open_all(folder_sink *s)
 {
-    rlf_result result = make_folders(s);
+    rlf_result result = rlf_make_folder(s->path);
     if (result == RLF_OK) {
-        remove_old(s);
+        result = make_folders(s);
     }
     if (result == RLF_OK) {
         result = open_in(s, "depth.txt", &s->depth_list);
     }
     if (result == RLF_OK && s->rig.has_color) {
         result = open_in(s, "rgb.txt", &s->color_list);
+    }
+    if (result == RLF_OK) {
+        remove_old(s);
     }
     return result == RLF_OK ? io_jpeg_encoder_create(&s->jpeg) : result;
 }

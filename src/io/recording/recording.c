@@ -3,7 +3,7 @@
 #include "io/recording/sink.h"
 
 #include <string.h>
-
+#include <strings.h>
 #include <sys/stat.h>
 
 #define COOKIE 0x52454331u
@@ -30,6 +30,37 @@ static bool is_folder(const char *path)
            (stat(path, &status) == 0 && S_ISDIR(status.st_mode));
 }
 
+/* A device and a pipe may have any name. */
+static bool is_mcap(const char *path)
+{
+    struct stat status;
+    const char *dot = strrchr(path, '.');
+    return (dot != NULL && strcasecmp(dot, ".mcap") == 0) ||
+           (stat(path, &status) == 0 && !S_ISREG(status.st_mode));
+}
+
+static rlf_result check_def(const char *path, const rlf_recording_def *def)
+{
+    if (def->jpeg_quality < 0 || def->jpeg_quality > 100 || !(def->chunk_s > 0.0)) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "%s: the quality must be 0 to 100, and a chunk longer "
+                        "than 0 s",
+                        path);
+    }
+    if ((unsigned)def->depth_codec > RLF_DEPTH_PNG ||
+        (unsigned)def->compression > RLF_COMPRESSION_NONE) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "%s: depth codec %d and compression %d: use values of rlf_depth_codec and "
+                        "rlf_compression",
+                        path, (int)def->depth_codec, (int)def->compression);
+    }
+    return is_folder(path) || is_mcap(path)
+               ? RLF_OK
+               : rlf_fail(RLF_ERROR_INVALID,
+                          "%s: is no name of a recording: end it in .mcap, or in / for a folder",
+                          path);
+}
+
 rlf_result rlf_recording_open(const char *path, const rlf_source_info *info,
                               const rlf_recording_def *def, rlf_recording **out)
 {
@@ -38,17 +69,15 @@ rlf_result rlf_recording_open(const char *path, const rlf_source_info *info,
         return RLF_ERROR_INVALID;
     }
     *out = NULL;
-    if (def->jpeg_quality < 0 || def->jpeg_quality > 100 || !(def->chunk_s > 0.0)) {
-        return rlf_fail(RLF_ERROR_INVALID,
-                        "%s: the quality must be 0 to 100, and a chunk longer "
-                        "than 0 s",
-                        path);
+    rlf_result result = check_def(path, def);
+    if (result != RLF_OK) {
+        return result;
     }
     rlf_recording *recording = rlf_alloc(sizeof(*recording));
     if (recording == NULL) {
         return RLF_ERROR_MEMORY;
     }
-    rlf_result result = is_folder(path) ? io_folder_sink_open(path, info, def, &recording->sink)
+    result = is_folder(path) ? io_folder_sink_open(path, info, def, &recording->sink)
                                         : io_mcap_sink_open(path, info, def, &recording->sink);
     if (result != RLF_OK) {
         rlf_free(recording);
