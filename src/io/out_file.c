@@ -112,7 +112,8 @@ rlf_result io_out_finish(io_out_file *file, rlf_result result)
         file->write_errno = errno;
     }
     file->stream = NULL;
-    return result == RLF_OK && file->write_errno != 0 ? fail_write(file) : result;
+    /* What the caller says after a failed write is a consequence of it. */
+    return file->write_errno != 0 ? fail_write(file) : result;
 }
 
 rlf_result io_out_settle(const io_out_file *file, rlf_result result)

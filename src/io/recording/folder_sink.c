@@ -11,9 +11,16 @@
 #include <inttypes.h>
 #include <unistd.h>
 
+#define LINE_SIZE 512
 #define LEVEL 3               /* of zlib, as rlf_png_write has it */
 #define FLOAT_COUNTS 5000.0   /* per metre, as TUM has it: up to 13.1 m */
 #define FAR_FLOAT_COUNTS 1000 /* for cameras that see farther */
+
+/* A file of lines, each of which is there whole or not at all. */
+typedef struct text_list {
+    int descriptor; /* -1 = none */
+    int64_t size;   /* bytes of whole lines */
+} text_list;
 
 typedef struct folder_sink {
     char path[IO_PATH_MAX];
@@ -21,7 +28,7 @@ typedef struct folder_sink {
     rlf_rig rig;
     double units_per_metre;
     int32_t jpeg_quality;
-    FILE *depth_list, *color_list, *pose_list, *note_list;
+    text_list depth_list, color_list, pose_list, note_list;
     io_frame_notes notes;
     io_jpeg_encoder *jpeg;
     io_byte_buffer file;
@@ -37,21 +44,34 @@ static rlf_result fail_write(const folder_sink *s)
                     s->path, strerror(errno));
 }
 
-/* Opens NAME in the folder for writing. */
-static rlf_result open_in(const folder_sink *s, const char *name, FILE **out)
+/* Opens NAME in the folder for writing, unless it is open. */
+static rlf_result open_list(const folder_sink *s, const char *name, text_list *list)
 {
     char path[IO_PATH_MAX];
+    if (list->descriptor >= 0) {
+        return RLF_OK;
+    }
     rlf_result result = io_path_join(s->path, name, path);
-    int descriptor = -1;
-    *out = NULL;
-    if (result == RLF_OK) {
-        result = io_out_open_in_place(path, &descriptor);
+    return result == RLF_OK ? io_out_open_in_place(path, &list->descriptor) : result;
+}
+
+static rlf_result add_line(const folder_sink *s, text_list *list, const char *line)
+{
+    const size_t length = strlen(line);
+    size_t done = 0;
+    while (done < length) {
+        const ssize_t got = write(list->descriptor, line + done, length - done);
+        if (got < 0 && errno != EINTR) {
+            rlf_result result = fail_write(s);
+            if (ftruncate(list->descriptor, (off_t)list->size) == 0) {
+                lseek(list->descriptor, (off_t)list->size, SEEK_SET);
+            }
+            return result;
+        }
+        done += got > 0 ? (size_t)got : 0;
     }
-    if (result == RLF_OK && (*out = fdopen(descriptor, "w")) == NULL) {
-        result = fail_write(s);
-        close(descriptor);
-    }
-    return result;
+    list->size += (int64_t)length;
+    return RLF_OK;
 }
 
 /* The offset is taken away from what is recorded. */
@@ -103,7 +123,7 @@ static const uint16_t *counts_of(folder_sink *s, const rlf_frame *frame)
 
 /* The file, and a line in the list: in this order, so that the list never names what is not there.
  */
-static rlf_result add_file(folder_sink *s, FILE *list, const char *name, int64_t time_ns)
+static rlf_result add_file(folder_sink *s, text_list *list, const char *name, int64_t time_ns)
 {
     char path[IO_PATH_MAX];
     rlf_result result = io_path_join(s->path, name, path);
@@ -115,8 +135,10 @@ static rlf_result add_file(folder_sink *s, FILE *list, const char *name, int64_t
     }
     s->bytes += s->file.size;
     const int64_t time = time_ns > 0 ? time_ns : 0;
-    fprintf(list, "%" PRId64 ".%09" PRId64 " %s\n", time / 1000000000, time % 1000000000, name);
-    return fflush(list) == 0 ? RLF_OK : fail_write(s);
+    char line[LINE_SIZE];
+    snprintf(line, sizeof(line), "%" PRId64 ".%09" PRId64 " %s\n", time / 1000000000,
+             time % 1000000000, name);
+    return add_line(s, list, line);
 }
 
 static rlf_result add_color(folder_sink *s, const rlf_frame *frame)
@@ -138,32 +160,24 @@ static rlf_result add_color(folder_sink *s, const rlf_frame *frame)
         result = io_png_encode(&def, &s->file);
     }
     if (result == RLF_OK) {
-        result = add_file(s, s->color_list, name, time_ns);
+        result = add_file(s, &s->color_list, name, time_ns);
     }
     s->last_color_ns = time_ns;
     s->colors += result == RLF_OK ? 1 : 0;
     return result;
 }
 
-/* A list that begins with the first line that it has. */
-static rlf_result open_list(const folder_sink *s, const char *name, FILE **list)
-{
-    return *list != NULL ? RLF_OK : open_in(s, name, list);
-}
-
 static rlf_result add_pose(folder_sink *s, const rlf_frame *frame)
 {
     const rlf_pose *T = &frame->T_world_camera;
     const int64_t time = frame->time_ns > 0 ? frame->time_ns : 0;
+    char line[LINE_SIZE];
+    snprintf(line, sizeof(line),
+             "%" PRId64 ".%09" PRId64 " %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n",
+             time / 1000000000, time % 1000000000, T->p.x, T->p.y, T->p.z, T->q.x, T->q.y, T->q.z,
+             T->q.w);
     rlf_result result = open_list(s, IO_FOLDER_POSES, &s->pose_list);
-    if (result != RLF_OK) {
-        return result;
-    }
-    fprintf(s->pose_list,
-            "%" PRId64 ".%09" PRId64 " %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n",
-            time / 1000000000, time % 1000000000, T->p.x, T->p.y, T->p.z, T->q.x, T->q.y, T->q.z,
-            T->q.w);
-    return fflush(s->pose_list) == 0 ? RLF_OK : fail_write(s);
+    return result == RLF_OK ? add_line(s, &s->pose_list, line) : result;
 }
 
 static rlf_result add_notes(folder_sink *s, const rlf_frame *frame)
@@ -173,9 +187,10 @@ static rlf_result add_notes(folder_sink *s, const rlf_frame *frame)
     rlf_result result = open_list(s, IO_FOLDER_FRAMES, &s->note_list);
     for (int32_t i = 0; i < count && result == RLF_OK; i++) {
         char text[IO_FRAME_NOTE_TEXT];
+        char line[LINE_SIZE];
         io_frame_note_print(&notes[i], text);
-        fprintf(s->note_list, "%s\n", text);
-        result = fflush(s->note_list) == 0 ? RLF_OK : fail_write(s);
+        snprintf(line, sizeof(line), "%s\n", text);
+        result = add_line(s, &s->note_list, line);
     }
     return result;
 }
@@ -199,16 +214,16 @@ static rlf_result folder_add(void *self, const rlf_frame *frame)
                             (ptrdiff_t)s->rig.depth.width * 2,
                             IO_PNG_GREY_U16,
                             LEVEL};
-    s->file.size = 0;
-    result = io_png_encode(&def, &s->file);
-    if (result == RLF_OK) {
-        result = add_file(s, s->depth_list, name, frame->time_ns);
-    }
-    if (result == RLF_OK && frame->has_pose) {
-        result = add_pose(s, frame);
-    }
+    result = frame->has_pose ? add_pose(s, frame) : RLF_OK;
     if (result == RLF_OK) {
         result = add_notes(s, frame);
+    }
+    s->file.size = 0;
+    if (result == RLF_OK) {
+        result = io_png_encode(&def, &s->file);
+    }
+    if (result == RLF_OK) { /* last: a frame that is listed is whole */
+        result = add_file(s, &s->depth_list, name, frame->time_ns);
     }
     s->frames += result == RLF_OK ? 1 : 0;
     return result;
@@ -222,12 +237,13 @@ static uint64_t folder_bytes(const void *self)
 static rlf_result folder_close(void *self, rlf_recording_status *status)
 {
     folder_sink *s = self;
-    FILE *const lists[4] = {s->depth_list, s->color_list, s->pose_list, s->note_list};
+    text_list *const lists[4] = {&s->depth_list, &s->color_list, &s->pose_list, &s->note_list};
     bool is_bad = false;
     for (int i = 0; i < 4; i++) {
-        is_bad = (lists[i] != NULL && fclose(lists[i]) != 0) || is_bad;
+        is_bad = (lists[i]->descriptor >= 0 && close(lists[i]->descriptor) != 0) || is_bad;
     }
     rlf_result result = is_bad ? fail_write(s) : RLF_OK;
+    status->frames = (uint64_t)s->frames;
     status->bytes = s->bytes;
     io_jpeg_encoder_destroy(&s->jpeg);
     io_byte_buffer_free(&s->file);
@@ -268,10 +284,10 @@ static rlf_result open_all(folder_sink *s)
         result = make_folders(s);
     }
     if (result == RLF_OK) {
-        result = open_in(s, "depth.txt", &s->depth_list);
+        result = open_list(s, "depth.txt", &s->depth_list);
     }
     if (result == RLF_OK && s->rig.has_color) {
-        result = open_in(s, "rgb.txt", &s->color_list);
+        result = open_list(s, "rgb.txt", &s->color_list);
     }
     if (result == RLF_OK) {
         remove_old(s);
@@ -287,6 +303,8 @@ rlf_result io_folder_sink_open(const char *path, const rlf_source_info *info,
         return RLF_ERROR_MEMORY;
     }
     snprintf(s->path, sizeof(s->path), "%s", path);
+    s->depth_list.descriptor = s->color_list.descriptor = -1;
+    s->pose_list.descriptor = s->note_list.descriptor = -1;
     s->info = *info;
     s->rig = info->rig;
     s->jpeg_quality = def->jpeg_quality;

@@ -7,9 +7,14 @@
 #include <sys/stat.h>
 
 #define COOKIE 0x52454331u
+#define TIME_MAX_NS INT64_C(4000000000000000000) /* the year 2096; what ROS has room for */
 
 struct rlf_recording {
     io_sink sink;
+    rlf_rig rig;
+    bool has_first; /* the next two are the first frame's, and all others' */
+    bool is_float;
+    double units_per_metre;
     rlf_recording_status status;
 };
 
@@ -83,17 +88,50 @@ rlf_result rlf_recording_open(const char *path, const rlf_source_info *info,
         rlf_free(recording);
         return result;
     }
+    recording->rig = info->rig;
     *out = recording;
+    return RLF_OK;
+}
+
+/* All frames of a recording are of one kind, and its times have room for nanoseconds. */
+static rlf_result check_frame(const rlf_recording *r, const rlf_frame *f)
+{
+    rlf_result result = rlf_frame_check(&r->rig, f, "recording");
+    if (result != RLF_OK) {
+        return result;
+    }
+    const int64_t color_ns = f->color.data != NULL ? f->color_time_ns : 0;
+    if (f->time_ns < 0 || f->time_ns > TIME_MAX_NS || color_ns > TIME_MAX_NS) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "recording: frame %llu: its time is %lld ns: use 0 to %lld",
+                        (unsigned long long)f->sequence,
+                        (long long)(color_ns > TIME_MAX_NS ? color_ns : f->time_ns),
+                        (long long)TIME_MAX_NS);
+    }
+    const bool is_float = f->depth_f32 != NULL;
+    if (r->has_first &&
+        (is_float != r->is_float || (!is_float && f->depth_units_per_metre != r->units_per_metre))) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "recording: frame %llu: its depth is in other units than that of the first "
+                        "one: begin another recording",
+                        (unsigned long long)f->sequence);
+    }
     return RLF_OK;
 }
 
 rlf_result rlf_recording_add(rlf_recording *recording, const rlf_frame *frame)
 {
-    if (!RLF_ASSERT(recording != NULL && frame != NULL) ||
-        !RLF_ASSERT(frame->depth_u16 != NULL || frame->depth_f32 != NULL)) {
+    if (!RLF_ASSERT(recording != NULL && frame != NULL)) {
         return RLF_ERROR_INVALID;
     }
-    rlf_result result = recording->sink.add(recording->sink.self, frame);
+    rlf_result result = check_frame(recording, frame);
+    if (result != RLF_OK) {
+        return result;
+    }
+    recording->has_first = true;
+    recording->is_float = frame->depth_f32 != NULL;
+    recording->units_per_metre = frame->depth_units_per_metre;
+    result = recording->sink.add(recording->sink.self, frame);
     recording->status.frames += result == RLF_OK ? 1 : 0;
     recording->status.bytes = recording->sink.bytes(recording->sink.self);
     return result;
@@ -102,13 +140,16 @@ rlf_result rlf_recording_add(rlf_recording *recording, const rlf_frame *frame)
 rlf_result rlf_recording_add_bodies(rlf_recording *recording, int64_t time_ns,
                                     const rlf_snapshot *snapshot)
 {
+    if (!RLF_ASSERT(recording != NULL && snapshot != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
     const io_sink *sink = &recording->sink;
     return sink->add_bodies != NULL ? sink->add_bodies(sink->self, time_ns, snapshot) : RLF_OK;
 }
 
 rlf_recording_status rlf_recording_get_status(const rlf_recording *recording)
 {
-    return recording->status;
+    return RLF_ASSERT(recording != NULL) ? recording->status : (rlf_recording_status){0};
 }
 
 rlf_result rlf_recording_close(rlf_recording **recording, rlf_recording_status *out)
