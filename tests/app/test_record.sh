@@ -51,12 +51,40 @@ for source in 'synthetic:random?seed=7&color=96x54' 'synthetic:room?path=orbit&c
     done
 done
 
-# What is read is never written to.
+# What is read is never written to, whatever it is called.
 cp all.mcap same.mcap
-for source in all.mcap mcap:all.mcap 'mcap:all.mcap?depth=x' ./all.mcap; do
+ln -s all.mcap link.mcap
+ln all.mcap hard.mcap
+"$relief" record all.mcap clip/ --frames 3 --quiet
+cp -r clip same_clip
+ln -s clip way
+for source in all.mcap mcap:all.mcap 'mcap:all.mcap?start=1' ./all.mcap hard.mcap 'simulated:?of=all.mcap'; do
     expect 2 'give another name' "$relief" record "$source" all.mcap
+    expect 2 'give another name' "$relief" record "$source" link.mcap
 done
+run_one="run --headless --frames 1 --quiet"
+# shellcheck disable=SC2086 # words
+{
+    expect 1 'give another name' "$relief" $run_one link.mcap --record hard.mcap
+    expect 1 'give another name' "$relief" $run_one clip --record clip/
+    expect 1 'give another name' "$relief" $run_one way --record clip
+    expect 1 'give another name' "$relief" $run_one clip --record clip/depth/
+    expect 1 'give another name' "$relief" $run_one clip --log way
+    expect 1 'give another name' "$relief" $run_one clip --pictures clip/rgb
+}
+expect 1 'give another name' "$relief" export clip --out clip --what depth
+expect 1 'give another name' "$relief" fuse clip --trajectory clip/depth.txt
+expect 1 'give another name' "$relief" fuse clip --picture way/rgb/000000.png
+expect 1 'give another name' "$relief" measure clip --json clip/camera.json
 cmp all.mcap same.mcap || fail "a file that was read has changed"
+diff -r clip same_clip || fail "a folder that was read has changed"
+
+# A name says what is in the file.
+for name in a.mp4 a.bag a.mcap.txt a; do
+    expect 2 'end the name in .mcap' "$relief" record synthetic:room $name
+    expect 2 'end the name in .mcap' "$relief" run synthetic:room --headless --record $name
+    [ ! -e $name ] || fail "$name was made"
+done
 
 # Seconds, and a folder and back.
 expect 0 '31 frames' "$relief" record synthetic:room second.mcap --seconds 1
@@ -77,6 +105,26 @@ expect_one_line
 grep -q 'free some space' out.txt || fail "a full disk says: $(cat out.txt)"
 expect 0 'frame' "$relief" record full.mcap again.mcap
 grep -q warning out.txt && fail "the file of a full disk was not closed: $(cat out.txt)"
+
+# `timeout` sends its signal to the command and once more to its group: that is one signal.
+for after in 0.9 1.2 1.5 1.8; do
+    status=0
+    timeout $after "$relief" record 'synthetic:empty?frames=-1&color=0' timeout.mcap --quiet 2>out.txt || status=$?
+    [ "$status" = 124 ] || fail "timeout $after: exit status $status"
+    grep -q "before the first frame" out.txt && continue # a busy machine
+    "$relief" info timeout.mcap --frames 1 >out.txt 2>&1 || fail "timeout $after: $(cat out.txt)"
+    grep -q warning out.txt && fail "timeout $after: not closed: $(cat out.txt)"
+done
+
+# A camera that hangs keeps nobody, also when every frame of it counts.
+"$relief" record 'simulated:?direct=1&hang=2&of=synthetic:empty?color=0' hang.mcap --quiet 2>out.txt &
+child=$!
+sleep 3
+start=$(date +%s%N)
+kill -s INT "$child"
+wait "$child" || true
+took=$((($(date +%s%N) - start) / 1000000))
+[ $took -lt 4000 ] || fail "a camera that hangs: Ctrl-C took $took ms" # twice as long as it should
 
 # Ctrl-C closes the file; kill -9 leaves one that is repaired by reading.
 for signal in INT KILL; do

@@ -162,5 +162,5 @@ int main(void)
         cmocka_unit_test(a_folder_forgets_what_was_recorded_there),
         cmocka_unit_test(texts_that_are_no_note_are_refused),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, test_folder_make, test_folder_remove);
 }
