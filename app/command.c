@@ -25,13 +25,6 @@ int command_set(const char *command, setting_list *s, const char *text)
                                            : command_usage(command, "--set: %s", rlf_error_text());
 }
 
-void command_load_plugin(const char *path)
-{
-    if (rlf_plugin_load(path) != RLF_OK) {
-        rlf_log(RLF_LOG_WARNING, "%s", rlf_error_text());
-    }
-}
-
 int command_failed(void)
 {
     fprintf(stderr, "relief: %s\n", rlf_error_text());

@@ -22,9 +22,7 @@ void command_catch_interrupts(void);
 int command_usage(const char *command, const char *format, ...) RLF_PRINTF(2, 3);
 /* `--set TEXT` of a command: -1 to go on, or EXIT_USAGE after saying what is wrong with it. */
 int command_set(const char *command, setting_list *s, const char *text);
-/* `--plugin FILE` of a command: loads it, or says in a warning why not; the rest goes on. */
-void command_load_plugin(const char *path);
-/* Its line of the help. */
+/* Line of the help of commands that take --plugin. */
 #define COMMAND_PLUGIN_HELP                                                                        \
     "  --plugin FILE     a plug-in that brings a camera or a format; any number\n"
 /* Prints the library's error line and returns EXIT_FAILED. */

@@ -74,7 +74,7 @@ static int parse(int argc, char **argv, export_options *o)
     o->frames.end = INT64_MAX;
     session_options *s = &o->session;
     const option_def options[] = {
-        {.name = "out", .kind = OPTION_TEXT, .out = &o->out_folder},
+        {.name = "out", .kind = OPTION_FOLDER, .out = &o->out_folder},
         {.name = "what", .kind = OPTION_TEXT, .out = &o->what},
         {.name = "frames",
          .kind = OPTION_CHOICE,

@@ -73,23 +73,40 @@ static const subcommand *find(const char *name)
 
 static int refuse(const char *name)
 {
+    static const char *const options[] = {"--help", "--version", NULL};
     const char *names[SUBCOMMAND_COUNT + 2] = {"help"};
+    const bool is_option = name[0] == '-';
     for (int i = 0; i < SUBCOMMAND_COUNT; i++) {
         names[i + 1] = subcommands[i].name;
     }
     char nearest[SUGGEST_TEXT];
-    fprintf(stderr, "relief: there is no command '%s': %s (see `relief --help`)\n", name,
-            suggest_text(name, names, false, nearest));
+    fprintf(stderr, "relief: there is no %s '%s': %s (see `relief --help`)\n",
+            is_option ? "option" : "command", name,
+            suggest_text(name, is_option ? options : names, false, nearest));
+    return EXIT_USAGE;
+}
+
+static bool is_either(const char *text, const char *a, const char *b)
+{
+    return strcmp(text, a) == 0 || strcmp(text, b) == 0;
+}
+
+static int refuse_more(const char *after, const char *argument)
+{
+    fprintf(stderr, "relief: '%s' after %s: leave it out (see `relief --help`)\n", argument, after);
     return EXIT_USAGE;
 }
 
 /* `relief help` and `relief help COMMAND`. */
 static int help(int argc, char **argv)
 {
-    const bool is_asked = argc > 2 && argv[2][0] != '-';
+    const bool is_asked = argc > 2 && !is_either(argv[2], "--help", "-h");
     const subcommand *found = is_asked ? find(argv[2]) : NULL;
     if (is_asked && found == NULL) {
         return refuse(argv[2]);
+    }
+    if (argc > 3) {
+        return refuse_more("help", argv[3]);
     }
     if (found != NULL) {
         char asked[] = "--help";
@@ -98,11 +115,6 @@ static int help(int argc, char **argv)
     }
     print_help(stdout);
     return EXIT_DONE;
-}
-
-static bool is_either(const char *text, const char *a, const char *b)
-{
-    return strcmp(text, a) == 0 || strcmp(text, b) == 0;
 }
 
 static int run(int argc, char **argv)
@@ -115,7 +127,11 @@ static int run(int argc, char **argv)
     if (strcmp(name, "help") == 0) {
         return help(argc, argv);
     }
-    if (is_either(name, "--help", "-h")) {
+    const bool asks_help = is_either(name, "--help", "-h");
+    if (argc > 2 && (asks_help || is_either(name, "--version", "-V"))) {
+        return refuse_more(name, argv[2]);
+    }
+    if (asks_help) {
         print_help(stdout);
         return EXIT_DONE;
     }

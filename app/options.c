@@ -1,7 +1,8 @@
-/* Options by getopt_long, from a table. */
+/* Options of a command, from a table. */
 #include "options.h"
 
 #include "command.h"
+#include "output_name.h"
 #include "relief/io.h"
 #include "scene_files.h"
 #include "session.h"
@@ -11,16 +12,14 @@
 #include <stdio.h>
 #include <string.h>
 
-#define OPTIONS_MAX 64
 #define NAME_SIZE 64
 #define LIST_SIZE 1024
-#define FIRST_VALUE 256 /* of getopt's for the table's options: none is a letter */
 
-static int take_int(const char *command, const option_def *o)
+static int take_int(const char *command, const option_def *o, const char *text)
 {
     int64_t value = 0;
-    if (!command_parse_int(optarg, o->low, o->high, &value)) {
-        return command_usage(command, "--%s '%s': use a number from %lld to %lld", o->name, optarg,
+    if (!command_parse_int(text, o->low, o->high, &value)) {
+        return command_usage(command, "--%s '%s': use a number from %lld to %lld", o->name, text,
                              (long long)o->low, (long long)o->high);
     }
     if (o->kind == OPTION_INT32) {
@@ -57,60 +56,66 @@ static bool find_wrong_name(const char *text, const char *const *names, char out
     }
 }
 
-static int refuse_choice(const char *command, const option_def *o)
+static int refuse_choice(const char *command, const option_def *o, const char *text)
 {
     char name[NAME_SIZE];
     char nearest[SUGGEST_TEXT];
-    if (o->names == NULL || !find_wrong_name(optarg, o->names, name)) {
-        return command_usage(command, "--%s '%s': %s", o->name, optarg, o->choices);
+    if (o->names == NULL || !find_wrong_name(text, o->names, name)) {
+        return command_usage(command, "--%s '%s': %s", o->name, text, o->choices);
     }
-    return command_usage(command, "--%s '%s': %s: %s", o->name, optarg, o->choices,
+    return command_usage(command, "--%s '%s': %s: %s", o->name, text, o->choices,
                          suggest_text(name, o->names, true, nearest));
 }
 
 /* One scene a command: its path lives as long as the program. */
-static int take_scene(const char *command, const option_def *o)
+static int take_scene(const char *command, const option_def *o, const char *text)
 {
     static char path[SCENE_PATH];
     char message[SUGGEST_TEXT + SCENE_TEXT];
-    if (!scene_files_find(optarg, path, message, sizeof(message))) {
+    if (!scene_files_find(text, path, message, sizeof(message))) {
         return command_usage(command, "--%s: %s", o->name, message);
     }
     *(const char **)o->out = path;
     return -1;
 }
 
-static int take(const char *command, const option_def *o)
+/* A file or a folder to be written: its name must not say that it is something else. */
+static int take_output(const char *command, const option_def *o, const char *text)
 {
-    switch (o->kind) {
-    case OPTION_FLAG: *(bool *)o->out = true; return -1;
-    case OPTION_TEXT: *(const char **)o->out = optarg; return -1;
-    case OPTION_INT32:
-    case OPTION_INT64: return take_int(command, o);
-    case OPTION_PROFILE:
-        return session_parse_profile(optarg, o->out)
-                   ? -1
-                   : command_usage(command, "--%s '%s': use live or thesis", o->name, optarg);
-    case OPTION_PLUGIN: command_load_plugin(optarg); return -1;
-    case OPTION_SET: return command_set(command, o->out, optarg);
-    case OPTION_SCENE: return take_scene(command, o);
-    case OPTION_CHOICE: return o->take(optarg, o->out) ? -1 : refuse_choice(command, o);
+    const bool is_file = o->kind == OPTION_FILE;
+    if (is_file ? !output_name_is_right(text, o->choices) : !output_name_is_folder(text)) {
+        return command_usage(command, "--%s '%s': give %s%s", o->name, text,
+                             is_file ? "a file that ends in " : "a folder, not the name of a file",
+                             is_file ? o->choices : "");
     }
+    *(const char **)o->out = text;
     return -1;
 }
 
-/* getopt's view of the table; an option's value is its place. False when the table is too long. */
-static bool list_options(const option_def *options, struct option *out)
+static int take_plugin(const char *path)
 {
-    int count = 0;
-    for (; options[count].name != NULL && count < OPTIONS_MAX; count++) {
-        bool has_value = options[count].kind != OPTION_FLAG;
-        out[count] =
-            (struct option){options[count].name, has_value ? required_argument : no_argument, NULL,
-                            FIRST_VALUE + count};
+    return rlf_plugin_load(path) == RLF_OK ? -1 : command_failed();
+}
+
+static int take(const char *command, const option_def *o, const char *text)
+{
+    switch (o->kind) {
+    case OPTION_FLAG: *(bool *)o->out = true; return -1;
+    case OPTION_TEXT: *(const char **)o->out = text; return -1;
+    case OPTION_INT32:
+    case OPTION_INT64: return take_int(command, o, text);
+    case OPTION_PROFILE:
+        return session_parse_profile(text, o->out)
+                   ? -1
+                   : command_usage(command, "--%s '%s': use live or thesis", o->name, text);
+    case OPTION_PLUGIN: return take_plugin(text);
+    case OPTION_SET: return command_set(command, o->out, text);
+    case OPTION_SCENE: return take_scene(command, o, text);
+    case OPTION_CHOICE: return o->take(text, o->out) ? -1 : refuse_choice(command, o, text);
+    case OPTION_FILE:
+    case OPTION_FOLDER: return take_output(command, o, text);
     }
-    out[count] = (struct option){"help", no_argument, NULL, 'h'};
-    return options[count].name == NULL;
+    return -1;
 }
 
 /* What has no room is cut. */
@@ -120,30 +125,29 @@ static void add_word(char out[LIST_SIZE], const char *before, const char *word)
     (void)snprintf(out + used, LIST_SIZE - used, "%s%s", before, word);
 }
 
-/* After getopt's '?': the argument it stopped at may be the next one, so it tells of short ones
- * itself. */
+/* The one that is near, or those that begin so. */
 static int refuse_option(const char *command, const option_def *options, const char *argument)
 {
-    if (optopt >= FIRST_VALUE) {
-        return command_usage(command, "--%s takes no value", options[optopt - FIRST_VALUE].name);
-    }
-    if (optopt != 0) {
-        return command_usage(command, "unknown option '-%c'", optopt);
-    }
     char name[NAME_SIZE];
     char begins_so[LIST_SIZE] = "";
     char all[LIST_SIZE] = "help";
     char nearest[NAME_SIZE];
+    int count = 0;
     (void)snprintf(name, sizeof(name), "%.*s", (int)strcspn(argument, "="), argument);
     const char *word = name + strspn(name, "-");
     for (int i = 0; options[i].name != NULL; i++) {
         add_word(all, " ", options[i].name);
         if (strncmp(options[i].name, word, strlen(word)) == 0) {
             add_word(begins_so, " --", options[i].name);
+            count++;
         }
     }
-    if (begins_so[0] != '\0') {
+    if (count > 1) {
         return command_usage(command, "'%s' may be one of%s", name, begins_so);
+    }
+    if (count == 1) {
+        return command_usage(command, "unknown option '%s': did you mean '%s'?", name,
+                             begins_so + 1);
     }
     const bool is_near = rlf_word_nearest(all, word, nearest, sizeof(nearest));
     return command_usage(command, "unknown option '%s'%s%s%s", name,
@@ -151,29 +155,80 @@ static int refuse_option(const char *command, const option_def *options, const c
                          is_near ? "'?" : "");
 }
 
+/* The option whose name is the whole of "--NAME" or of what stands before "="; NULL = none. */
+static const option_def *find_option(const option_def *options, const char *argument)
+{
+    const char *name = argument + 2;
+    const size_t length = strcspn(name, "=");
+    for (int i = 0; options[i].name != NULL; i++) {
+        if (strlen(options[i].name) == length && strncmp(options[i].name, name, length) == 0) {
+            return &options[i];
+        }
+    }
+    return NULL;
+}
+
+/* Takes the option at *at and what belongs to it; *at is then its last word. */
+static int take_option(const char *command, int argc, char **argv, const option_def *options,
+                       int *at)
+{
+    const char *argument = argv[*at];
+    if (argument[1] != '-') {
+        return command_usage(command, "unknown option '-%c'", argument[1]);
+    }
+    const option_def *o = find_option(options, argument);
+    if (o == NULL) {
+        return refuse_option(command, options, argument);
+    }
+    const char *equal = strchr(argument, '=');
+    if (o->kind == OPTION_FLAG && equal != NULL) {
+        return command_usage(command, "--%s takes no value", o->name);
+    }
+    const bool is_next = o->kind != OPTION_FLAG && equal == NULL;
+    if (is_next && *at + 1 >= argc) {
+        return command_usage(command, "%s needs a value", argument);
+    }
+    *at += is_next ? 1 : 0;
+    return take(command, o, equal != NULL ? equal + 1 : argv[*at]);
+}
+
+static bool is_help(const char *argument)
+{
+    return strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0;
+}
+
+/* Moves argv[from..to] before the arguments, which begin at *first. */
+static void move_up(char **argv, int from, int to, int *first)
+{
+    for (int i = from; i <= to; i++, ++*first) {
+        char *option = argv[i];
+        memmove(&argv[*first + 1], &argv[*first], (size_t)(i - *first) * sizeof(argv[0]));
+        argv[*first] = option;
+    }
+}
+
 int options_parse(const char *command, int argc, char **argv, const option_def *options,
                   void (*print_help)(void))
 {
-    struct option list[OPTIONS_MAX + 2];
-    memset(list, 0, sizeof(list));
-    if (!list_options(options, list)) {
-        return command_usage(command, "has more than %d options: OPTIONS_MAX", OPTIONS_MAX);
-    }
-    optopt = 0;
-    opterr = 0; /* the messages below instead */
-    int option;
-    while ((option = getopt_long(argc, argv, ":h", list, NULL)) != -1) {
-        int status = -1;
-        switch (option) {
-        case 'h': print_help(); return EXIT_DONE;
-        case ':': return command_usage(command, "%s needs a value", argv[optind - 1]);
-        case '?': return refuse_option(command, options, argv[optind - 1]);
-        default: status = take(command, &options[option - FIRST_VALUE]); break;
+    int first = 1; /* of the arguments found so far */
+    bool is_over = false;
+    for (int at = 1; at < argc && !is_over; at++) {
+        const int from = at;
+        is_over = strcmp(argv[at], "--") == 0;
+        if (argv[at][0] != '-' || argv[at][1] == '\0') {
+            continue;
         }
+        if (is_help(argv[at])) {
+            print_help();
+            return EXIT_DONE;
+        }
+        const int status = is_over ? -1 : take_option(command, argc, argv, options, &at);
         if (status >= 0) {
             return status;
         }
+        move_up(argv, from, at, &first);
     }
+    optind = first;
     return -1;
 }
 

@@ -14,7 +14,9 @@ typedef enum option_kind {
     OPTION_SET = 5,     /* setting_list: one more "NAME=VALUE" */
     OPTION_CHOICE = 6,  /* read by `take` */
     OPTION_PLUGIN = 7,  /* loads a plug-in: `out` is not used */
-    OPTION_SCENE = 8 /* const char *: path of a scene, given as a file or by a shipped one's name */
+    OPTION_SCENE = 8, /* const char *: path of a scene, given as a file or by a shipped one's name */
+    OPTION_FILE = 9,  /* const char *: a file to be written, with an ending of `choices` */
+    OPTION_FOLDER = 10 /* const char *: a folder to be written into */
 } option_kind;
 
 /* A table ends with a NULL name. */
@@ -25,14 +27,17 @@ typedef struct option_def {
     int64_t low, high;
     /* Reads the text into `out`; false when it is none of `choices`. */
     bool (*take)(const char *text, void *out);
-    const char *choices; /* for the message: "use live, thesis or both" */
+    /* For the message: "use live, thesis or both"; of a file its endings: ".yml .yaml". */
+    const char *choices;
     /* Words of which the text has one, or several with commas between: the message lists them, or
      * tells the nearest one. NULL = `choices` says it all; ends with NULL. */
     const char *const *names;
 } option_def;
 
-/* Reads the options of argv and leaves getopt's `optind` at the first argument. --help and -h print
- * the help. Returns -1 to go on, or an exit status after one line that says what is wrong. */
+/* Reads the options of argv, whole names only, and puts the arguments behind them, in their order;
+ * `optind` of <getopt.h> is then the first one's place. All that follows "--" are arguments. --help
+ * and -h print the help. Returns -1 to go on, or an exit status after one line that says what is
+ * wrong. */
 int options_parse(const char *command, int argc, char **argv, const option_def *options,
                   void (*print_help)(void));
 

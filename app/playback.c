@@ -132,9 +132,10 @@ rlf_result playback_wrap(rlf_source **source, playback_end end, playback **out)
                                                .truth = playback_truth,
                                                .status = playback_status,
                                                .destroy = playback_destroy};
-    const rlf_source_info *info = rlf_source_get_info(*source);
+    rlf_source_info info = *rlf_source_get_info(*source);
+    info.rig.depth_offset_m = 0.0; /* is taken away already */
     *out = NULL;
-    if (info->is_live) {
+    if (info.is_live) {
         return RLF_OK;
     }
     playback *p = rlf_alloc(sizeof(*p));
@@ -143,7 +144,7 @@ rlf_result playback_wrap(rlf_source **source, playback_end end, playback **out)
     }
     *p = (playback){.source = *source, .end = end, .index = -1};
     rlf_source *played = NULL;
-    const rlf_result result = rlf_source_create_custom(&methods, info, p, &played);
+    const rlf_result result = rlf_source_create_custom(&methods, &info, p, &played);
     if (result != RLF_OK) {
         rlf_free(p);
         return result;

@@ -8,7 +8,6 @@
 #include <getopt.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #define PROGRESS_INTERVAL_NS 200000000
@@ -51,19 +50,6 @@ static bool is_folder_name(const char *path)
     return length > 0 && path[length - 1] == '/';
 }
 
-/* A file that is read must not be emptied to write to it. */
-static bool is_same_file(const char *source, const char *path)
-{
-    char place[4096];
-    struct stat a;
-    struct stat b;
-    const char *colon = strchr(source, ':');
-    snprintf(place, sizeof(place), "%s", colon != NULL ? colon + 1 : source);
-    place[strcspn(place, "?")] = '\0';
-    const bool is_there = stat(source, &a) == 0 || stat(place, &a) == 0;
-    return is_there && stat(path, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
-}
-
 static int parse(int argc, char **argv, record_options *o)
 {
     *o = (record_options){.recorder = recorder_options_default(), .frames = -1, .seconds = -1};
@@ -86,10 +72,8 @@ static int parse(int argc, char **argv, record_options *o)
                                        "FOLDER/");
     }
     o->source = argv[optind];
-    o->recorder.path = argv[optind + 1];
-    if (is_same_file(o->source, o->recorder.path)) {
-        return command_usage("record", "cannot write %s while it reads it: give another name",
-                             o->recorder.path);
+    if (!recorder_take_path(argv[optind + 1], &o->recorder)) {
+        return command_usage("record", "'%s': " RECORDER_PATH, argv[optind + 1]);
     }
     if (o->recorder.def.jpeg_quality < 0) {
         o->recorder.def.jpeg_quality = is_folder_name(o->recorder.path) ? 0 : quality;
@@ -187,6 +171,9 @@ static int record(const record_options *o, rlf_source **source)
     const rlf_source_info *info = rlf_source_get_info(*source);
     progress p = {.start_ns = rlf_clock_ns(), .total = total_of(o, info)};
     rlf_result result = recorder_create(&o->recorder, info, &r);
+    if (result == RLF_ERROR_INVALID) { /* what is read */
+        return command_usage("record", "%s", rlf_error_text());
+    }
     if (result == RLF_OK) {
         result = recorder_tap(r, source);
     }

@@ -1,13 +1,21 @@
 /* Frames that wait to be written. */
+#define _POSIX_C_SOURCE 200809L
 #include "record_queue.h"
 
 #include <string.h>
+#include <time.h>
+
+#define NS_PER_S INT64_C(1000000000)
 
 void record_queue_init(record_queue *queue, const rlf_rig *rig)
 {
     memset(queue, 0, sizeof(*queue));
     pthread_mutex_init(&queue->lock, NULL);
-    pthread_cond_init(&queue->changed, NULL);
+    pthread_condattr_t attributes;
+    pthread_condattr_init(&attributes);
+    pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC); /* rlf_clock_ns's */
+    pthread_cond_init(&queue->changed, &attributes);
+    pthread_condattr_destroy(&attributes);
     queue->rig = *rig;
     const size_t depth = (size_t)rig->depth.width * (size_t)rig->depth.height * 4;
     const size_t color =
@@ -85,6 +93,19 @@ void record_queue_close(record_queue *queue)
     queue->is_closed = true;
     pthread_cond_broadcast(&queue->changed);
     pthread_mutex_unlock(&queue->lock);
+}
+
+int32_t record_queue_drain(record_queue *queue, int64_t until_ns)
+{
+    const struct timespec until = {.tv_sec = (time_t)(until_ns / NS_PER_S),
+                                   .tv_nsec = (long)(until_ns % NS_PER_S)};
+    pthread_mutex_lock(&queue->lock);
+    while (queue->count > 0 && rlf_clock_ns() < until_ns) {
+        pthread_cond_timedwait(&queue->changed, &queue->lock, &until);
+    }
+    const int32_t count = queue->count;
+    pthread_mutex_unlock(&queue->lock);
+    return count;
 }
 
 static void copy_rows(void *to, const void *from, ptrdiff_t stride, size_t row, int32_t height)

@@ -47,6 +47,9 @@ record_item *record_queue_front(record_queue *queue);
 void record_queue_pop(record_queue *queue);
 /* Nothing more comes in. */
 void record_queue_close(record_queue *queue);
+/* Waits until the queue is empty, at most until that time of rlf_clock_ns; returns how many items
+ * there are still. */
+int32_t record_queue_drain(record_queue *queue, int64_t until_ns);
 
 /* Copies into an item; false when memory is short or the planes are not what the rig says. */
 bool record_item_set_frame(record_item *item, const rlf_rig *rig, const rlf_frame *frame);

@@ -2,11 +2,17 @@
 #define _POSIX_C_SOURCE 200809L
 #include "recorder.h"
 
+#include "command.h"
+#include "output_name.h"
 #include "record_queue.h"
 
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
+
+#define TELL_NS INT64_C(300000000) /* after which it is told that there is more to be written */
+#define END_NS INT64_C(1200000000) /* after which that is left out */
 
 struct recorder {
     recorder_options options;
@@ -21,6 +27,8 @@ struct recorder {
     int64_t last_ns;       /* of the frames in the queue, for sources that start again */
     bool has_last;
     _Atomic uint64_t dropped;
+    _Atomic bool leaves_rest; /* what waits is not written any more */
+    uint64_t left;            /* frames that were not; the thread's own */
     /* What the thread says; under the queue's lock. */
     rlf_recording_status written;
     bool has_failed;
@@ -32,6 +40,16 @@ struct recorder {
 recorder_options recorder_options_default(void)
 {
     return (recorder_options){.def = rlf_recording_def_default()};
+}
+
+bool recorder_take_path(const char *text, void *out)
+{
+    struct stat status;
+    const size_t length = strlen(text);
+    const bool is_there = stat(text, &status) == 0 && S_ISDIR(status.st_mode);
+    const bool is_folder = length > 0 && text[length - 1] == '/';
+    ((recorder_options *)out)->path = text;
+    return is_there || is_folder || output_name_has(text, ".mcap");
 }
 
 bool recorder_take_codec(const char *text, void *out)
@@ -85,7 +103,9 @@ static void *write_all(void *context)
     bool is_good = true;
     record_item *item;
     while ((item = record_queue_front(&r->queue)) != NULL) {
-        if (is_good) {
+        if (r->leaves_rest) {
+            r->left += item->is_bodies ? 0 : 1;
+        } else if (is_good) {
             const rlf_result result =
                 item->is_bodies
                     ? rlf_recording_add_bodies(r->recording, item->frame.time_ns, &item->snapshot)
@@ -111,7 +131,8 @@ static rlf_result start(recorder *r, const char *path)
     }
     r->has_failed = r->has_last = false;
     r->written = (rlf_recording_status){0};
-    r->dropped = 0;
+    r->dropped = r->left = 0;
+    r->leaves_rest = false;
     record_queue_init(&r->queue, &r->info.rig);
     if (pthread_create(&r->thread, NULL, write_all, r) != 0) {
         rlf_recording_close(&r->recording, NULL);
@@ -161,6 +182,28 @@ recorder_status recorder_get_status(recorder *r)
     return status;
 }
 
+/* After Ctrl-C a slow disk or processor does not keep the user for long. */
+static void end_soon(recorder *r)
+{
+    const int64_t now_ns = rlf_clock_ns();
+    const int32_t waiting = record_queue_drain(&r->queue, now_ns + TELL_NS);
+    if (waiting > 0) {
+        rlf_log(RLF_LOG_WARNING, "%s: stopped; %d frames are still to be written", r->path,
+                (int)waiting);
+        r->leaves_rest = record_queue_drain(&r->queue, now_ns + END_NS) > 0;
+    }
+}
+
+static void tell_left(const recorder *r)
+{
+    if (r->left > 0) {
+        rlf_log(RLF_LOG_WARNING,
+                "%s: the last %llu frames were left out: the disk or the processor was too slow "
+                "for them",
+                r->path, (unsigned long long)r->left);
+    }
+}
+
 /* Waits until all is written. */
 static rlf_result stop(recorder *r, recorder_status *out)
 {
@@ -168,7 +211,11 @@ static rlf_result stop(recorder *r, recorder_status *out)
     r->is_running = false;
     pthread_mutex_unlock(&r->fills);
     record_queue_close(&r->queue);
+    if (command_interrupted) {
+        end_soon(r);
+    }
     pthread_join(r->thread, NULL);
+    tell_left(r);
     rlf_recording_status written;
     rlf_result result = rlf_recording_close(&r->recording, &written);
     if (r->has_failed) {
@@ -351,8 +398,9 @@ rlf_result recorder_tap(recorder *r, rlf_source **source)
     }
     *t = (tap){.recorder = r, .source = *source};
     rlf_source *tapped = NULL;
-    rlf_result result =
-        rlf_source_create_custom(&methods, rlf_source_get_info(*source), t, &tapped);
+    rlf_source_info info = *rlf_source_get_info(*source);
+    info.rig.depth_offset_m = 0.0; /* is taken away already */
+    rlf_result result = rlf_source_create_custom(&methods, &info, t, &tapped);
     if (result != RLF_OK) {
         rlf_free(t);
         return result;

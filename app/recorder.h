@@ -51,6 +51,9 @@ recorder_options recorder_options_default(void);
         .take = recorder_take_compression, .choices = "use zstd, lz4 or none"                      \
     }
 
+/* "FILE.mcap", or "FOLDER/". `choices` of an option that takes one. */
+#define RECORDER_PATH "end the name in .mcap, or in / for a folder"
+bool recorder_take_path(const char *text, void *out);
 bool recorder_take_codec(const char *text, void *out);
 bool recorder_take_color(const char *text, void *out);
 bool recorder_take_compression(const char *text, void *out);

@@ -1,5 +1,4 @@
 /* `relief run`: frames through the whole pipeline, in a window or headless. */
-#define _POSIX_C_SOURCE 200809L
 #include "command.h"
 #include "commands.h"
 #include "run.h"
@@ -12,7 +11,6 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 /* Without a SOURCE the window's start page asks for one. */
 static int choose_source(run_options *o)
@@ -105,25 +103,6 @@ static rlf_result run_frames(run_options *o, session *s, run_output *output)
     return run_window(o, s, output);
 }
 
-/* Before the run: afterwards the room would be lost. */
-static rlf_result check_map_path(const run_options *o)
-{
-    const char *path = o->save_map_path;
-    if (path == NULL) {
-        return RLF_OK;
-    }
-    const char *name = strrchr(path, '/');
-    const int length = name == NULL ? 1 : (int)(name - path) + 1;
-    char folder[4096];
-    const int written = snprintf(folder, sizeof(folder), "%.*s", length, name == NULL ? "." : path);
-    return written < (int)sizeof(folder) && access(folder, W_OK | X_OK) == 0
-               ? RLF_OK
-               : rlf_fail(RLF_ERROR_IO,
-                          "%s: cannot be created: choose a folder that exists and that you may "
-                          "write to",
-                          path);
-}
-
 /* Also after Ctrl-C. */
 static rlf_result save_map(const run_options *o, session *s)
 {
@@ -145,7 +124,8 @@ static int run_session(run_options *o, session *s)
         total = o->frame_count;
     }
     static run_output output; /* large: timing samples */
-    rlf_result result = check_map_path(o);
+    /* Before the run: afterwards the room would be lost. */
+    rlf_result result = o->save_map_path != NULL ? rlf_file_check(o->save_map_path) : RLF_OK;
     if (result == RLF_OK) {
         result = run_output_open(&o->output, info, total, &output);
     }

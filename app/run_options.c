@@ -1,6 +1,7 @@
 /* The options of `relief run`, and its help. */
 #include "command.h"
 #include "options.h"
+#include "output_name.h"
 #include "run.h"
 
 #include <getopt.h>
@@ -164,6 +165,14 @@ static bool take_poses(const char *text, void *out)
     return *poses == RLF_POSES_SOURCE || strcmp(text, "tracked") == 0;
 }
 
+static bool take_video(const char *text, void *out)
+{
+    *(const char **)out = text;
+    return strcmp(text, "-") == 0 || strncmp(text, "pipewire:", strlen("pipewire:")) == 0 ||
+           strncmp(text, "/dev/video", strlen("/dev/video")) == 0 ||
+           output_name_has(text, ".mp4 .y4m");
+}
+
 static bool take_end(const char *text, void *out)
 {
     run_options *o = out;
@@ -235,7 +244,7 @@ static const char *const *view_names(void)
 
 /* Rows of the table that say which pictures are kept. */
 #define PICTURE_OPTIONS(out)                                                                       \
-    {.name = "pictures", .kind = OPTION_TEXT, .out = &(out)->picture_folder},                      \
+    {.name = "pictures", .kind = OPTION_FOLDER, .out = &(out)->picture_folder},                      \
         {.name = "picture-every",                                                                  \
          .kind = OPTION_INT64,                                                                     \
          .out = &(out)->picture_every,                                                             \
@@ -286,14 +295,26 @@ static int read_options(int argc, char **argv, run_options *o)
          .out = &o->frame_count,
          .low = 1,
          .high = 1000000000},
-        {.name = "video", .kind = OPTION_TEXT, .out = &out->video_path},
+        {.name = "video",
+         .kind = OPTION_CHOICE,
+         .out = &out->video_path,
+         .take = take_video,
+         .choices = "end the name in .mp4 or .y4m, or give - for Y4M on standard output, "
+                    "pipewire:NAME or /dev/videoN"},
         PICTURE_OPTIONS(out),
         {.name = "hands", .kind = OPTION_FLAG, .out = &s->enable_hands},
         {.name = "grab", .kind = OPTION_FLAG, .out = &s->enable_grab},
         CAMERA_OPTIONS(s),
-        {.name = "save-map", .kind = OPTION_TEXT, .out = &o->save_map_path},
-        {.name = "log", .kind = OPTION_TEXT, .out = &out->log_folder},
-        {.name = "record", .kind = OPTION_TEXT, .out = &s->record.path},
+        {.name = "save-map",
+         .kind = OPTION_FILE,
+         .out = &o->save_map_path,
+         .choices = ".map"},
+        {.name = "log", .kind = OPTION_FOLDER, .out = &out->log_folder},
+        {.name = "record",
+         .kind = OPTION_CHOICE,
+         .out = &s->record,
+         .take = recorder_take_path,
+         .choices = RECORDER_PATH},
         {.name = "record-bodies", .kind = OPTION_FLAG, .out = &s->record.keeps_bodies},
         RECORDER_OPTIONS(&s->record),
         {.name = "view",

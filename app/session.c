@@ -45,28 +45,26 @@ void session_set_scale(rlf_reconstruct_def *def, int32_t factor)
     def->scale_factor = factor;
 }
 
-static bool is_real(const session_options *options)
-{
-    return strncmp(options->source, "synthetic:", strlen("synthetic:")) != 0;
-}
-
-static bool matches_light(const session_options *options)
+static bool matches_light(const session_options *options, const rlf_source_info *info)
 {
     bool is_wanted =
-        options->profile == RLF_PROFILE_LIVE && is_real(options) && !options->keeps_light;
+        options->profile == RLF_PROFILE_LIVE && !info->is_simulated && !options->keeps_light;
     return options->matches_light || is_wanted;
 }
 
-/* The synthetic room's camera is level; where no one says so of another, its floor tells. Not for
- * those who only look: nothing falls there. */
-static void set_gravity(const session_options *options, rlf_scene *scene)
+/* Where neither the user nor the scene nor the source says which way is down, the floor tells. Not
+ * for those who only look: nothing falls there. */
+static void set_gravity(const session_options *options, const rlf_source_info *info,
+                        rlf_scene *scene)
 {
     if (options->is_gravity_set) {
         scene->finds_gravity = options->finds_gravity;
         scene->gravity = options->gravity;
-    } else if (!scene->is_gravity_given) {
-        bool has_bodies = options->scene_path != NULL || options->use_default_scene;
-        scene->finds_gravity = is_real(options) && has_bodies && options->scene == NULL;
+    } else if (!scene->is_gravity_given && options->scene == NULL) {
+        const bool is_known = rlf_length(info->gravity) > 0.0;
+        const bool has_bodies = options->scene_path != NULL || options->use_default_scene;
+        scene->gravity = is_known ? info->gravity : scene->gravity;
+        scene->finds_gravity = !is_known && has_bodies;
     }
 }
 
@@ -79,7 +77,8 @@ static rlf_result open_recorder(const session_options *options, session *s)
 
 static rlf_result create_pipeline(const session_options *options, session *s)
 {
-    set_gravity(options, &s->scene);
+    const rlf_source_info *info = rlf_source_get_info(s->source);
+    set_gravity(options, info, &s->scene);
     rlf_pipeline_def def = rlf_pipeline_def_default(options->profile, s->source, s->pool);
     def.scene = &s->scene;
     if (options->scale_factor > 0) {
@@ -99,7 +98,7 @@ static rlf_result create_pipeline(const session_options *options, session *s)
     if (options->is_light_set) {
         def.compositor.light_direction = options->light_direction;
     }
-    const bool matches = matches_light(options);
+    const bool matches = matches_light(options, info);
     def.compositor.estimates_light = matches;
     def.compositor.estimates_light_direction = matches && !options->is_light_set;
     def.compositor.enable_real_shade = !options->no_real_shade;

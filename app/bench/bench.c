@@ -45,7 +45,7 @@ static int parse(int argc, char **argv, bench_options *o)
         {.name = "threads", .kind = OPTION_INT32, .out = &o->threads, .low = 0, .high = 64},
         {.name = "quick", .kind = OPTION_FLAG, .out = &o->is_quick},
         {.name = "live", .kind = OPTION_FLAG, .out = &o->is_live},
-        {.name = "json", .kind = OPTION_TEXT, .out = &o->json_path},
+        {.name = "json", .kind = OPTION_FILE, .out = &o->json_path, .choices = ".json"},
         {.name = "peer-clip", .kind = OPTION_TEXT, .out = &o->clip_path},
         {.name = "peers", .kind = OPTION_TEXT, .out = &o->peers_path},
         {.name = "compare", .kind = OPTION_TEXT, .out = &o->compare_path},

@@ -138,6 +138,9 @@ static rlf_result measure_memory(const bench_case *c, const bench_options *o, be
     rlf_source *source = NULL;
     rlf_result result = rlf_open_source(o->source, NULL, &source);
     add_memory(table, c->name, "memory/capture", bench_memory_now() - before);
+    if (result == RLF_OK && o->json_path != NULL) {
+        result = rlf_file_check(o->json_path); /* what is read is not written */
+    }
     rlf_source_destroy(&source);
     result = result == RLF_OK ? session_open(&options, &s) : result;
     if (result != RLF_OK) {

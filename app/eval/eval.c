@@ -237,7 +237,7 @@ static int parse(int argc, char **argv, eval_options *o)
          .choices = "list some of velocity,thickness,depth,normals,background,camera,pixels, or "
                     "all"},
         {.name = "threads", .kind = OPTION_INT64, .out = &o->threads, .low = 0, .high = 64},
-        {.name = "json", .kind = OPTION_TEXT, .out = &o->json_path},
+        {.name = "json", .kind = OPTION_FILE, .out = &o->json_path, .choices = ".json"},
         {.name = "set", .kind = OPTION_SET, .out = &o->settings},
         {0},
     };

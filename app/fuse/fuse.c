@@ -71,9 +71,12 @@ static int parse(int argc, char **argv, fuse_options *o)
     *o = (fuse_options){.frame_limit = INT64_MAX, .min_weight = 32};
     const option_def options[] = {
         {.name = "out", .kind = OPTION_TEXT, .out = &o->out_path},
-        {.name = "save", .kind = OPTION_TEXT, .out = &o->map_path},
-        {.name = "trajectory", .kind = OPTION_TEXT, .out = &o->trajectory_path},
-        {.name = "picture", .kind = OPTION_TEXT, .out = &o->picture_path},
+        {.name = "save", .kind = OPTION_FILE, .out = &o->map_path, .choices = ".map"},
+        {.name = "trajectory",
+         .kind = OPTION_FILE,
+         .out = &o->trajectory_path,
+         .choices = ".txt"},
+        {.name = "picture", .kind = OPTION_FILE, .out = &o->picture_path, .choices = ".png"},
         {.name = "orbit",
          .kind = OPTION_CHOICE,
          .out = &o->orbit,
@@ -137,6 +140,9 @@ static rlf_result open_all(fuse_run *run)
     }
     if (result == RLF_OK) {
         result = rlf_open_source(o->source, run->pool, &run->source);
+    }
+    if (result == RLF_OK) {
+        result = check_files(o); /* none is what is read */
     }
     if (result == RLF_OK) {
         const fuser_options options = {.voxel_m = o->voxel_mm * 0.001,

@@ -38,7 +38,7 @@ static int parse(int argc, char **argv, info_options *o)
          .out = &o->frame_limit,
          .low = 1,
          .high = 1000000000},
-        {.name = "json", .kind = OPTION_TEXT, .out = &o->json_path},
+        {.name = "json", .kind = OPTION_FILE, .out = &o->json_path, .choices = ".json"},
         {.name = "plugin", .kind = OPTION_PLUGIN},
         {0},
     };

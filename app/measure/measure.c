@@ -78,8 +78,8 @@ static int parse(int argc, char **argv, measure_options *o)
          .take = take_scales,
          .choices = "use up to 8 numbers from 1 to 64"},
         {.name = "profile", .kind = OPTION_PROFILE, .out = &o->profile},
-        {.name = "csv", .kind = OPTION_TEXT, .out = &o->csv_path},
-        {.name = "json", .kind = OPTION_TEXT, .out = &o->json_path},
+        {.name = "csv", .kind = OPTION_FILE, .out = &o->csv_path, .choices = ".csv"},
+        {.name = "json", .kind = OPTION_FILE, .out = &o->json_path, .choices = ".json"},
         {.name = "noise", .kind = OPTION_FLAG, .out = &o->noise},
         {.name = "up", .kind = OPTION_FLAG, .out = &o->up},
         {.name = "turned", .kind = OPTION_FLAG, .out = &o->turned},
@@ -127,6 +127,13 @@ static rlf_result measure_frames(const measure_options *o, session *s, measure_p
     return result == RLF_END ? RLF_OK : result;
 }
 
+/* Before the work, and once more with the source open, since what it reads is not written. */
+static rlf_result check_files(const measure_options *o)
+{
+    rlf_result result = o->json_path != NULL ? rlf_file_check(o->json_path) : RLF_OK;
+    return result == RLF_OK && o->csv_path != NULL ? rlf_file_check(o->csv_path) : result;
+}
+
 static rlf_result measure_scale(const measure_options *o, int32_t scale, measure_points *out)
 {
     session_options options = session_options_default();
@@ -144,7 +151,8 @@ static rlf_result measure_scale(const measure_options *o, int32_t scale, measure
         session_close(&s);
         return rlf_fail(RLF_ERROR_INVALID, "%s: has no end; add --frames N", o->source);
     }
-    result = measure_frames(o, &s, out);
+    result = check_files(o);
+    result = result == RLF_OK ? measure_frames(o, &s, out) : result;
     session_close(&s);
     if (result == RLF_OK && out->width == 0 && !command_interrupted) {
         return rlf_fail(RLF_ERROR_INVALID,
@@ -186,10 +194,7 @@ int measure_main(int argc, char **argv)
     if (status >= 0) {
         return status;
     }
-    if (options.json_path != NULL && rlf_file_check(options.json_path) != RLF_OK) {
-        return command_failed();
-    }
-    if (options.csv_path != NULL && rlf_file_check(options.csv_path) != RLF_OK) {
+    if (check_files(&options) != RLF_OK) {
         return command_failed();
     }
     rlf_result result;

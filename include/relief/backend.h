@@ -18,7 +18,7 @@ extern "C" {
 
 /* Counts up when a struct of this header or of source.h changes. A plug-in of another version is
  * refused with a line that says so. */
-#define RLF_BACKEND_VERSION 1 /* checked before any other field is read */
+#define RLF_BACKEND_VERSION 2 /* checked before any other field is read */
 /* Most "key=value" pairs of one SOURCE; more are an error before a back end is asked. */
 #define RLF_ADDRESS_KEYS_MAX 16
 

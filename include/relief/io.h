@@ -101,7 +101,8 @@ typedef struct rlf_recording_def {
 } rlf_recording_def;
 
 typedef struct rlf_recording_status {
-    uint64_t frames; /* added */
+    uint64_t frames; /* added; once it is closed those that can be read back: a full disk keeps
+                        fewer */
     uint64_t bytes;  /* written so far; about, until it is closed */
 } rlf_recording_status;
 

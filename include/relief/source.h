@@ -19,6 +19,9 @@ typedef struct rlf_source_info {
     bool is_live;             /* true: newest frame wins; false: lock-step, every frame */
     char device[128];         /* driver, model and serial number, or the format; "" = unknown */
     bool can_seek;            /* rlf_source_seek works */
+    rlf_vec3 gravity;         /* m/s^2, in the depth camera's frame at the first frame, from how the
+                                 camera is mounted; 0 = it does not know */
+    bool is_simulated;        /* the pictures are computed: their light is that of a renderer */
 } rlf_source_info;
 
 /* What became of a source's frames so far. */
@@ -95,7 +98,8 @@ RLF_API void rlf_source_destroy(rlf_source **source);
  * constant for the source's life. */
 RLF_API const rlf_source_info *rlf_source_get_info(const rlf_source *source);
 /* Next frame; its planes are the source's and stay valid until the next call that returns RLF_OK:
- * a call that gives no frame leaves the last one alone.
+ * a call that gives no frame leaves the last one alone. RLF_ERROR_INVALID: the source made one that
+ * rlf_frame_check refuses.
  * Thread-safety: one thread at a time. */
 RLF_API rlf_result rlf_source_next(rlf_source *source, rlf_frame *out_frame);
 /* The first frame is the next one again. RLF_ERROR_UNSUPPORTED when the source cannot, as a

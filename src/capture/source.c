@@ -75,6 +75,9 @@ rlf_result rlf_source_next(rlf_source *source, rlf_frame *out_frame)
     rlf_result result = source->methods.next(source->self, &frame);
     frame.rig = &source->info.rig;
     if (result == RLF_OK) {
+        result = rlf_frame_check(&source->info.rig, &frame, source->info.name);
+    }
+    if (result == RLF_OK) {
         if (source->corrected != NULL) {
             depth_offset_take(&source->info.rig, source->corrected, &frame);
         }

@@ -20,6 +20,8 @@ static const rlf_depth_noise default_noise = {0.0008, 0.0, 0.0012};
 
 /* Deviation from a rotation that rounding to four decimals can cause. */
 #define ROTATION_TOLERANCE 1e-3
+/* Of the cosine of half an angle: the rotation and the quaternion were written as one. */
+#define QUATERNION_TOLERANCE 1e-12
 
 static void warn_unknown(const io_json_object *object, const char *const *known, size_t count)
 {
@@ -226,9 +228,26 @@ static rlf_result read_rotation(const io_json_object *object, rlf_quat *out)
     return RLF_OK;
 }
 
+/* The same motion bit by bit, as Relief wrote it. Where the two differ someone has changed the
+ * rotation, which counts. */
+static rlf_result read_quaternion(const io_json_object *object, rlf_quat *inout)
+{
+    static const io_json_field field = {
+        "quaternion", "four numbers x y z w of unit length, the same as rotation", -1, 1, false};
+    double n[4] = {inout->x, inout->y, inout->z, inout->w};
+    rlf_result result = io_json_get_numbers(object, &field, n, 4);
+    const double cosine = n[0] * inout->x + n[1] * inout->y + n[2] * inout->z + n[3] * inout->w;
+    const double square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2] + n[3] * n[3];
+    if (result == RLF_OK && cosine * cosine > 1.0 - QUATERNION_TOLERANCE &&
+        square < 1.0 + QUATERNION_TOLERANCE) {
+        *inout = (rlf_quat){n[0], n[1], n[2], n[3]};
+    }
+    return result;
+}
+
 rlf_result io_rig_read_motion(const io_json_object *top, rlf_rig *rig)
 {
-    static const char *const known[] = {"rotation", "translation"};
+    static const char *const known[] = {"rotation", "quaternion", "translation"};
     static const io_json_field field = {
         "depth_to_color", "an object with rotation and translation: p_color = R p_depth + t", 0, 0,
         false};
@@ -241,6 +260,9 @@ rlf_result io_rig_read_motion(const io_json_object *top, rlf_rig *rig)
     }
     double t[3];
     result = read_rotation(&object, &rig->T_color_depth.q);
+    if (result == RLF_OK) {
+        result = read_quaternion(&object, &rig->T_color_depth.q);
+    }
     if (result == RLF_OK) {
         result = io_json_get_numbers(&object, &translation, t, 3);
     }

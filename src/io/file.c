@@ -3,6 +3,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/file.h"
 
+#include "io/reading.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>
@@ -53,22 +55,22 @@ rlf_result io_file_open(io_file *file, const char *path, const char *cure)
     file->descriptor = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     struct stat status;
     if (file->descriptor < 0 || fstat(file->descriptor, &status) != 0) {
-        rlf_result result =
-            rlf_fail(RLF_ERROR_IO, "%s: cannot be opened: %s: %s", path, strerror(errno), cure);
-        io_file_close(file);
-        return result;
+        return rlf_fail(RLF_ERROR_IO, "%s: cannot be opened: %s: %s", path, strerror(errno), cure);
     }
     if (!S_ISREG(status.st_mode)) {
-        io_file_close(file);
+        close(file->descriptor);
+        file->descriptor = -1;
         return rlf_fail(RLF_ERROR_IO, "%s: is not a regular file: give the name of a file", path);
     }
     file->size = (int64_t)status.st_size;
+    io_reading_begin_file(file->descriptor);
     return RLF_OK;
 }
 
 void io_file_close(io_file *file)
 {
     if (file->descriptor >= 0) {
+        io_reading_end_file(file->descriptor);
         close(file->descriptor);
     }
     file->descriptor = -1;

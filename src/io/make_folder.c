@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "relief/io.h"
 #include "io/file.h"
+#include "io/reading.h"
 
 #include <errno.h>
 #include <string.h>
@@ -54,5 +55,6 @@ rlf_result rlf_make_folder(const char *path)
         }
         part[i] = '/';
     }
-    return make_one(part);
+    rlf_result result = io_reading_check_folder(part);
+    return result == RLF_OK ? make_one(part) : result;
 }

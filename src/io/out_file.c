@@ -3,6 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/file.h"
 
+#include "io/reading.h"
 #include "relief/io.h"
 
 #include <errno.h>
@@ -37,6 +38,10 @@ static rlf_result prepare(io_out_file *file, const char *path)
     bool exists = stat(path, &status) == 0;
     if (exists && S_ISDIR(status.st_mode)) {
         return rlf_fail(RLF_ERROR_IO, "%s: is a folder: give the name of a file in it", path);
+    }
+    rlf_result result = io_reading_check_file(path);
+    if (result != RLF_OK) {
+        return result;
     }
     file->is_direct = exists && !S_ISREG(status.st_mode);
     memcpy(file->path, path, length + 1);
@@ -107,7 +112,8 @@ rlf_result io_out_finish(io_out_file *file, rlf_result result)
         file->write_errno = errno;
     }
     file->stream = NULL;
-    return result == RLF_OK && file->write_errno != 0 ? fail_write(file) : result;
+    /* What the caller says after a failed write is a consequence of it. */
+    return file->write_errno != 0 ? fail_write(file) : result;
 }
 
 rlf_result io_out_settle(const io_out_file *file, rlf_result result)
@@ -135,11 +141,15 @@ rlf_result io_out_close(io_out_file *file, rlf_result result)
 
 rlf_result io_out_open_in_place(const char *path, int *out_descriptor)
 {
+    *out_descriptor = -1;
+    rlf_result result = io_reading_check_file(path);
+    if (result != RLF_OK) {
+        return result;
+    }
     *out_descriptor = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
     if (*out_descriptor < 0) {
         return fail_create(path);
     }
-    rlf_result result = RLF_OK;
     if (flock(*out_descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         result = rlf_fail(RLF_ERROR_IO,
                           "%s: cannot be created: another program is writing it: choose another "

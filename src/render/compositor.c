@@ -90,5 +90,13 @@ rlf_result rlf_compositor_render(rlf_compositor *compositor, const rlf_render_in
         !RLF_ASSERT((int)input->view >= 0 && input->view < RLF_VIEW_COUNT)) {
         return RLF_ERROR_INVALID;
     }
+    const rlf_image_rgba8 *color = &input->frame->color;
+    if (color->data != NULL &&
+        (color->width < 1 || color->height < 1 || color->stride < 4 * (ptrdiff_t)color->width)) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "render: a colour picture of %d x %d pixels has rows of %lld bytes: use 4 "
+                        "bytes a pixel or more",
+                        (int)color->width, (int)color->height, (long long)color->stride);
+    }
     return compositor->methods.render(compositor->self, input, out);
 }

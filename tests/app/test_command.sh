@@ -62,6 +62,29 @@ expect_error 2 "did you mean 'export'" help exprt
 expect_error 2 "'--viw': did you mean '--view'" run synthetic:room --viw camera
 expect_error 2 "'--pict' may be one of --pictures --picture-every" run synthetic:room --pict here
 expect_error 2 "unknown option '-x'" run -xyz
+expect_error 2 "'--headles': did you mean '--headless'" run "$small" --headles --frames 1
+expect_error 2 "'--frame': did you mean '--frames'" run "$small" --headless --frame=1
+expect_error 2 "no option '--verson': did you mean '--version'" --verson
+expect_error 2 "no option '--runn'" help --runn
+expect_error 2 "'x' after help" help run x
+expect_error 2 "unknown option '--bogus'" settings --bogus
+expect_error 2 "needs a value" run "$small" --headless --frames
+expect_error 2 "takes one SOURCE only" run "$small" -- --headless --hash
+
+# The ending of a name tells no lie.
+expect_error 2 "end the name in .mp4 or .y4m" run "$small" --headless --video o.mcap
+expect_error 2 "end the name in .mp4 or .y4m" run "$small" --headless --video o
+expect_error 2 "ends in .map" run "$small" --headless --save-map o.ply
+expect_error 2 "a folder, not" run "$small" --headless --log o.csv
+expect_error 2 "a folder, not" run "$small" --headless --pictures o.png
+expect_error 2 "ends in .png" fuse "$small" --picture o.jpg
+expect_error 2 "ends in .map" fuse "$small" --save o.ply
+expect_error 2 "ends in .txt" fuse "$small" --trajectory o.json
+expect_error 2 "ends with .ply" fuse "$small" --out o.stl
+expect_error 2 "ends in .json" info "$small" --json o.csv
+expect_error 2 "ends in .csv" measure "$small" --csv o.json
+expect_error 2 "a folder, not" export "$small" --what depth --out o.npy
+ls o o.* 2>/dev/null && fail "a name that lies was used"
 expect_error 2 "headless takes no value" run "synthetic:room?color=96x54" --headless=1
 expect_error 2 "did you mean 'normals'? there are camera, depth" run synthetic:room --view depth,noraml
 expect_error 2 "views: there are camera, depth" run synthetic:room --view smell

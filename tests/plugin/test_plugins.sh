@@ -53,9 +53,11 @@ grep -q "NOT HERE: libnosuch.so is not installed" out.txt ||
 RELIEF_PLUGIN_PATH=$work/found "$relief" info nosuch: >out.txt 2>err.txt && fail "opened nosuch:"
 grep -q "apt install nosuch" err.txt || fail "nosuch: $(cat err.txt)"
 
-# A bad one by name is a warning, and the rest goes on.
-"$relief" info synthetic:room --plugin "$bad/version.so" >out.txt 2>err.txt ||
-    fail "info with a bad plug-in: $(cat err.txt)"
+# A bad one by name is an error: it was asked for.
+"$relief" info synthetic:room --plugin /no/such.so >out.txt 2>err.txt && fail "info with no plug-in"
+[ "$(wc -l <err.txt)" -eq 1 ] && grep -q "such.so: cannot be loaded" err.txt || fail "$(cat err.txt)"
+"$relief" info synthetic:room --plugin "$bad/version.so" >out.txt 2>err.txt &&
+    fail "info with a bad plug-in goes on"
 grep -q "version.so: the plug-in is made for version 999" err.txt || fail "$(cat err.txt)"
 
 [ "$failures" -eq 0 ] && echo "plug-ins: all as told"

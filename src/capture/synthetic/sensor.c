@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#define GRAVITY_M_S2 9.81
 #define KINECT_F 365.5        /* depth camera of the Kinect v2, pixels */
 #define KINECT_COLOR_F 1081.0 /* colour camera, pixels at 1920 x 1080 */
 #define KINECT_BASELINE 0.052 /* metres from the depth camera to the colour camera, along +x */
@@ -268,13 +269,15 @@ rlf_result rlf_synthetic_create(const rlf_synthetic_def *def, rlf_source **out)
     }
     rlf_source_info info = {.frame_count = def->frame_count,
                             .frames_per_second = def->frames_per_second,
-                            .can_seek = true};
+                            .can_seek = true,
+                            .is_simulated = true};
     (void)snprintf(info.name, sizeof(info.name), "synthetic:%s", synth_scene_name(def->scene));
     synth_sensor *sensor = NULL;
     result = sensor_create(def, &info.rig, &sensor);
     if (result != RLF_OK) {
         return result;
     }
+    info.gravity = rlf_scale(sensor->scene.down, GRAVITY_M_S2);
     static const rlf_source_methods methods = {.next = sensor_next,
                                                .restart = sensor_restart,
                                                .truth = sensor_truth,

@@ -7,15 +7,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Colour farther in time than this shows something else than the depth (one and a half frames at
- * 30 per second; TUM clips differ by up to 20 ms). */
-#define COLOR_GAP_MAX_NS 50000000
-
 /* A depth frame that is given: where it is, and the colour picture that goes with it. */
 typedef struct clip_frame {
     int32_t depth, color; /* indices into the reader's times; color -1 = none */
     int64_t time_ns, color_time_ns;
     int64_t sequence; /* with the frames that the camera lost before it */
+    uint32_t flags;
     rlf_pose pose;
     bool has_pose;
 } clip_frame;
@@ -52,7 +49,7 @@ static void fill_frame(const clip *c, const clip_frame *f, rlf_frame *out)
     out->sequence = (uint64_t)f->sequence;
     out->time_ns = f->time_ns;
     out->color_time_ns = f->color >= 0 ? f->color_time_ns : 0;
-    out->flags = c->def.flags | (c->is_continued ? 0u : (uint32_t)RLF_FRAME_DISCONTINUITY);
+    out->flags = f->flags | (c->is_continued ? 0u : (uint32_t)RLF_FRAME_DISCONTINUITY);
     out->depth_f32 = is_float ? c->depth : NULL;
     out->depth_u16 = is_float ? NULL : c->depth;
     out->depth_stride = (ptrdiff_t)c->def.rig.depth.width * (is_float ? 4 : 2);
@@ -65,7 +62,8 @@ static void fill_frame(const clip *c, const clip_frame *f, rlf_frame *out)
 static void count_given(clip *c, const clip_frame *f)
 {
     if (c->is_continued && f > c->frames) {
-        c->lost += (uint64_t)(f->sequence - f[-1].sequence - 1);
+        const int64_t step = f->sequence - f[-1].sequence; /* a count may have begun anew */
+        c->lost += step > 1 ? (uint64_t)step - 1 : 0;
     }
     c->unpaired += c->def.color_count > 0 && f->color < 0 ? 1 : 0;
 }
@@ -137,26 +135,50 @@ static void clip_destroy(void *self)
     free_clip(c);
 }
 
+/* What the times tell: the frame's number and its colour. */
+static void follow_times(const clip *c, int64_t interval_ns, clip_frame *f)
+{
+    const io_clip_def *d = &c->def;
+    const int64_t gap_max = d->color_gap_max_ns > 0 ? d->color_gap_max_ns : IO_COLOR_GAP_MAX_NS;
+    if (f > c->frames) {
+        const int64_t gap_ns = f->time_ns - f[-1].time_ns;
+        f->sequence =
+            f[-1].sequence + 1 + (d->origin.has_notes ? 0 : io_time_lost(gap_ns, interval_ns));
+    }
+    f->flags = d->flags;
+    f->color = io_time_nearest(d->color_times, d->color_count, f->time_ns, gap_max);
+}
+
+static void follow_note(const clip *c, clip_frame *f)
+{
+    const io_clip_def *d = &c->def;
+    const io_frame_note *note =
+        io_frame_note_find(d->origin.notes, d->origin.note_count, f->time_ns);
+    if (note == NULL) {
+        return;
+    }
+    f->sequence = (int64_t)note->sequence;
+    f->flags = note->flags;
+    f->color = note->has_color
+                   ? io_time_nearest(d->color_times, d->color_count, note->color_time_ns, 0)
+                   : -1;
+}
+
 /* Of two frames with the same time the first is given. */
 static void list_frames(clip *c, int64_t interval_ns)
 {
     const io_clip_def *d = &c->def;
-    const int64_t gap_max = d->color_gap_max_ns > 0 ? d->color_gap_max_ns : COLOR_GAP_MAX_NS;
-    int64_t sequence = 0;
     for (int32_t i = 0; i < d->depth_count; i++) {
         const int64_t time_ns = d->depth_times[i];
         if (c->count > 0 && time_ns == c->frames[c->count - 1].time_ns) {
             c->doubled++;
             continue;
         }
-        if (c->count > 0) {
-            sequence += 1 + io_time_lost(time_ns - c->frames[c->count - 1].time_ns, interval_ns);
-        }
         clip_frame *f = &c->frames[c->count++];
         f->depth = i;
         f->time_ns = time_ns;
-        f->sequence = sequence;
-        f->color = io_time_nearest(d->color_times, d->color_count, time_ns, gap_max);
+        follow_times(c, interval_ns, f);
+        follow_note(c, f);
         f->color_time_ns = f->color >= 0 ? d->color_times[f->color] : 0;
         f->pose = d->poses != NULL ? d->poses[i] : rlf_pose_identity();
         const rlf_quat q = f->pose.q;
@@ -168,6 +190,7 @@ static void list_frames(clip *c, int64_t interval_ns)
     c->def.depth_times = NULL;
     c->def.color_times = NULL;
     c->def.poses = NULL;
+    c->def.origin.notes = NULL;
 }
 
 static rlf_result allocate(clip *c)
@@ -217,7 +240,12 @@ static void describe(const clip *c, int64_t interval_ns, rlf_opened *out)
     snprintf(out->info.name, sizeof(out->info.name), "%.127s", c->def.name);
     out->info.rig = c->def.rig;
     out->info.frame_count = c->count;
-    out->info.frames_per_second = interval_ns > 0 ? 1e9 / (double)interval_ns : 0.0;
+    const io_clip_origin *origin = &c->def.origin;
+    out->info.frames_per_second = origin->frames_per_second > 0.0 ? origin->frames_per_second
+                                  : interval_ns > 0               ? 1e9 / (double)interval_ns
+                                                                  : 0.0;
+    out->info.gravity = origin->gravity;
+    out->info.is_simulated = origin->is_simulated;
     out->info.can_seek = true;
 }
 

@@ -3,7 +3,21 @@
 #ifndef RLF_IO_CLIP_CLIP_H
 #define RLF_IO_CLIP_CLIP_H
 
+#include "io/clip/frame_note.h"
 #include "relief/backend.h"
+
+#define IO_GRAVITY_MAX 1000.0 /* m/s^2 */
+#define IO_RATE_MAX 1e6       /* frames a second */
+
+/* What a recording of Relief's own keeps of its source; all zero = it is none. */
+typedef struct io_clip_origin {
+    rlf_vec3 gravity; /* as in rlf_source_info */
+    bool is_simulated;
+    double frames_per_second;   /* 0 = by the times */
+    bool has_notes;             /* what is not noted of a frame is as usual */
+    const io_frame_note *notes; /* sorted by time */
+    int32_t note_count;
+} io_clip_origin;
 
 /* What a reader knows once its file is open. Arrays are copied. */
 typedef struct io_clip_def {
@@ -16,6 +30,7 @@ typedef struct io_clip_def {
                               not of unit length = none for that frame */
     int64_t color_gap_max_ns; /* colour farther in time is not paired; 0 = 50 ms */
     uint32_t flags;           /* rlf_frame_flag of every frame */
+    io_clip_origin origin;
     bool skips_damaged;       /* a frame that cannot be read is counted and passed over */
     /* Reads entry `index` of the depth times: rig.depth.width x height uint16_t or float. */
     rlf_result (*read_depth)(void *self, int32_t index, void *out);

@@ -2,8 +2,10 @@
 #define _POSIX_C_SOURCE 200809L
 #include "relief/io.h"
 #include "io/folder/layout.h"
+#include "io/folder/origin.h"
 #include "io/camera_json.h"
 #include "io/picture/picture.h"
+#include "io/reading.h"
 #include "io/source/backends.h"
 #include "io/clip/clip.h"
 
@@ -17,6 +19,9 @@ typedef struct folder {
     double units_per_metre;
     uint32_t flags;
     io_layout layout;
+    io_clip_origin origin;
+    io_frame_note *notes;
+    io_reading reading;
     io_buffer file; /* of the picture being decoded */
 } folder;
 
@@ -76,6 +81,8 @@ static void folder_destroy(void *context)
 {
     folder *self = context;
     io_layout_free(&self->layout);
+    rlf_free(self->notes);
+    io_reading_end_folder(&self->reading);
     io_buffer_free(&self->file);
     rlf_free(self);
 }
@@ -233,6 +240,7 @@ static rlf_result open_clip(folder *self, rlf_opened *out)
                                  .color_count = self->layout.color.count,
                                  .poses = self->layout.poses,
                                  .flags = self->flags,
+                                 .origin = self->origin,
                                  .read_depth = read_depth,
                                  .read_color = read_color,
                                  .destroy = folder_destroy,
@@ -253,6 +261,9 @@ static rlf_result open_all(const rlf_address *address, folder *self, rlf_opened 
     if (result == RLF_OK) {
         check_color(self);
         result = check_sizes(self);
+    }
+    if (result == RLF_OK) {
+        result = io_folder_read_origin(self->path, &self->origin, &self->flags, &self->notes);
     }
     if (result == RLF_OK) {
         /* Pictures rarely come out larger than their pixels: one reservation serves the clip. */
@@ -296,6 +307,7 @@ static rlf_result folder_open(const rlf_address *address, rlf_opened *out)
         return RLF_ERROR_MEMORY;
     }
     memcpy(self->path, path, strlen(path) + 1);
+    self->reading = io_reading_begin_folder(path);
     result = open_all(address, self, out);
     if (result != RLF_OK) {
         folder_destroy(self);

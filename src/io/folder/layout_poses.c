@@ -3,6 +3,7 @@
 #include "io/folder/layout.h"
 
 #include "io/folder/numbered_files.h"
+#include "io/folder/origin.h"
 #include "io/folder/pose_files.h"
 
 #include <dirent.h>
@@ -69,13 +70,16 @@ static rlf_result read_tum(const char *folder, io_layout *layout)
         result = io_pose_list_tum(&file, &list);
     }
     const bool is_icl = layout->kind == IO_LAYOUT_ICL;
+    /* Those of a recording have the times of its frames, or there is none. */
+    const int64_t gap_ns = exists(folder, IO_FOLDER_SOURCE) ? 0
+                           : is_icl                         ? TUM_GAP_NS / 2
+                                                            : TUM_GAP_NS;
     for (int32_t i = 0; i < list.count && is_icl; i++) {
         list.times[i] /= IO_NUMBERED_RATE; /* frame numbers there, too */
         list.poses[i] = io_pose_flip_y(&list.poses[i]);
     }
     for (int32_t i = 0; result == RLF_OK && i < layout->depth.count; i++) {
-        io_pose_list_match(&list, &layout->depth.entries[i].time_ns, 1,
-                           is_icl ? TUM_GAP_NS / 2 : TUM_GAP_NS, &layout->poses[i]);
+        io_pose_list_match(&list, &layout->depth.entries[i].time_ns, 1, gap_ns, &layout->poses[i]);
     }
     io_pose_list_free(&list);
     io_buffer_free(&buffer);

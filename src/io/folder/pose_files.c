@@ -12,6 +12,7 @@
 #define LOG_NUMBERS 19 /* of one pose of a .log: 3 and 16 */
 /* Rounding to three digits; more is no rotation. */
 #define ROTATION_TOLERANCE 1e-2
+#define EXACT_TOLERANCE 1e-14 /* of a square of unit length, in double numbers */
 
 typedef struct cursor {
     const char *at, *end;
@@ -106,7 +107,9 @@ static bool make_pose(const double *n, int count, rlf_pose *out)
     if (count < 8 || !isfinite(sum) || fabs(square - 1.0) > 0.1) {
         return false;
     }
-    *out = (rlf_pose){rlf_vec3_make(n[1], n[2], n[3]), rlf_quat_normalize(q)};
+    /* What was written with all its digits stays as it is. */
+    const bool is_exact = fabs(square - 1.0) < EXACT_TOLERANCE;
+    *out = (rlf_pose){rlf_vec3_make(n[1], n[2], n[3]), is_exact ? q : rlf_quat_normalize(q)};
     return true;
 }
 

@@ -175,8 +175,12 @@ static void take_frame(io_live *l, rlf_frame *frame)
     l->has_device_frame = true;
     frame->host_time_ns = frame->host_time_ns != 0 ? frame->host_time_ns : now_ns;
     const bool is_new = live_follow_frame(&l->follow, now_ns, frame, &lost);
-    const bool is_good = is_new && live_slot_copy(&l->slots[l->filled], &l->info.rig, frame);
+    const bool is_good = is_new && rlf_frame_check(&l->info.rig, frame, l->name) == RLF_OK;
+    if (is_good) {
+        live_slot_copy(&l->slots[l->filled], &l->info.rig, frame);
+    }
     pthread_mutex_lock(&l->mutex);
+    snprintf(l->refused, sizeof(l->refused), "%s", is_new && !is_good ? rlf_error_text() : "");
     l->counts.lost += lost;
     l->counts.doubled += is_new ? 0 : 1;
     l->counts.damaged += is_new && !is_good ? 1 : 0;

@@ -100,7 +100,12 @@ static rlf_result wait_for_frame(io_live *l)
     const bool has_frame = l->has_newest;
     const rlf_result outcome = l->outcome;
     const bool is_described = l->is_described;
+    char refused[LIVE_TEXT];
+    memcpy(refused, l->refused, sizeof(refused));
     pthread_mutex_unlock(&l->mutex);
+    if (!has_frame && outcome == RLF_OK && refused[0] != '\0') {
+        return rlf_fail(RLF_ERROR_DEVICE, "%s", refused);
+    }
     if (has_frame) {
         return RLF_OK;
     }

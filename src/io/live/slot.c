@@ -33,22 +33,8 @@ static void copy_rows(void *out, const void *from, ptrdiff_t stride, size_t row_
     }
 }
 
-static bool is_good(const rlf_rig *rig, const rlf_frame *f)
+void live_slot_copy(live_slot *slot, const rlf_rig *rig, const rlf_frame *f)
 {
-    const ptrdiff_t size = f->depth_u16 != NULL ? 2 : 4;
-    const bool has_one = (f->depth_u16 == NULL) != (f->depth_f32 == NULL);
-    const bool is_color_right =
-        f->color.data == NULL ||
-        (rig->has_color && f->color.width == rig->color.width &&
-         f->color.height == rig->color.height && f->color.stride >= 4 * (ptrdiff_t)f->color.width);
-    return has_one && f->depth_stride >= size * rig->depth.width && is_color_right;
-}
-
-bool live_slot_copy(live_slot *slot, const rlf_rig *rig, const rlf_frame *f)
-{
-    if (!is_good(rig, f)) {
-        return false;
-    }
     const bool is_u16 = f->depth_u16 != NULL;
     const int32_t width = rig->depth.width;
     const int32_t height = rig->depth.height;
@@ -60,7 +46,9 @@ bool live_slot_copy(live_slot *slot, const rlf_rig *rig, const rlf_frame *f)
     own->depth_u16 = is_u16 ? slot->depth : NULL;
     own->depth_f32 = is_u16 ? NULL : slot->depth;
     own->depth_stride = (ptrdiff_t)row_size;
-    if (f->color.data != NULL) {
+    if (!rig->has_color) {
+        own->color = (rlf_image_rgba8){0};
+    } else if (f->color.data != NULL) {
         own->color.data = slot->color;
         own->color.stride = 4 * (ptrdiff_t)f->color.width;
         copy_rows(slot->color, f->color.data, f->color.stride, (size_t)own->color.stride,
@@ -71,5 +59,4 @@ bool live_slot_copy(live_slot *slot, const rlf_rig *rig, const rlf_frame *f)
         own->confidence_stride = width;
         copy_rows(slot->confidence, f->confidence, f->confidence_stride, (size_t)width, height);
     }
-    return true;
 }

@@ -13,7 +13,7 @@ typedef struct live_slot {
 rlf_result live_slot_create(const rlf_rig *rig, live_slot *out);
 void live_slot_destroy(live_slot *slot);
 
-/* False when the driver's frame does not have the planes that its cameras say. */
-bool live_slot_copy(live_slot *slot, const rlf_rig *rig, const rlf_frame *frame);
+/* A frame that rlf_frame_check allows. */
+void live_slot_copy(live_slot *slot, const rlf_rig *rig, const rlf_frame *frame);
 
 #endif

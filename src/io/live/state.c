@@ -77,7 +77,10 @@ void live_tell_silence(io_live *l, const char *reason)
     const bool is_new = !l->is_told && !l->is_stopping;
     l->is_told = l->is_told || is_new;
     l->is_connected = false;
+    char refused[LIVE_TEXT];
+    memcpy(refused, l->refused, sizeof(refused));
     pthread_mutex_unlock(&l->mutex);
+    reason = reason == NULL && refused[0] != '\0' ? refused : reason;
     if (is_new && reason == NULL) {
         rlf_log(RLF_LOG_WARNING, "camera %s: no frame for 1 s: is it unplugged? trying again",
                 l->name);

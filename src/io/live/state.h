@@ -46,6 +46,7 @@ typedef struct io_live {
         past_counts; /* by this connection's driver, by earlier ones' */
     int64_t last_frame_ns;
     bool is_connected, is_told; /* told: that there are no frames */
+    char refused[LIVE_TEXT];    /* why the last frame was not taken; "" = it was */
     bool is_stopping, is_done, is_abandoned;
     rlf_result outcome; /* RLF_OK while it runs; RLF_END or an error: it is over */
     char error[LIVE_TEXT];
@@ -58,8 +59,8 @@ void live_free(io_live *live);
 void live_add_counts(const rlf_source_status *from, rlf_source_status *sum);
 /* Waits for news at most until this time; call with the mutex held. */
 void live_wait(io_live *live, int64_t until_ns);
-/* Says once that there are no frames, and why (NULL = none came for a second); the next frame says
- * that they are back. Call without the mutex. */
+/* Says once that there are no frames, and why (NULL = none came for a second, or none that could be
+ * taken); the next frame says that they are back. Call without the mutex. */
 void live_tell_silence(io_live *live, const char *reason);
 /* Ends the source: RLF_END, or an error with its line. */
 void live_finish(io_live *live, rlf_result outcome, const char *line);

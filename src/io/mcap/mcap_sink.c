@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/recording/sink.h"
 
+#include "io/clip/frame_note.h"
 #include "io/codec/picture_encode.h"
 #include "io/codec/rvl.h"
 #include "io/mcap/recording_format.h"
@@ -27,7 +28,8 @@ typedef struct mcap_sink {
     rlf_source_info info;
     rlf_recording_def def;
     bool is_started;
-    uint16_t depth, color, depth_info, color_info, tf_static, tf, pose;
+    uint16_t depth, color, depth_info, color_info, tf_static, tf, pose, note;
+    io_frame_notes notes;
     io_rvl rvl;
     io_jpeg_encoder *jpeg;
     void *scratch; /* rows without padding */
@@ -44,19 +46,22 @@ static void add_metadata(mcap_sink *s, const rlf_frame *frame)
     struct timespec now = {0};
     clock_gettime(CLOCK_REALTIME, &now);
     const int64_t unix_ns = (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
-    char numbers[8][32];
-    const double values[6] = {frame->depth_f32 != NULL ? 1000.0 : frame->depth_units_per_metre,
+    char numbers[9][32];
+    char gravity[96];
+    const rlf_vec3 g = s->info.gravity;
+    const double values[7] = {frame->depth_f32 != NULL ? 1000.0 : frame->depth_units_per_metre,
                               r->depth_min_m,
                               r->depth_max_m,
                               r->noise.c0,
                               r->noise.c1,
-                              r->noise.c2};
-    for (int i = 0; i < 6; i++) {
+                              r->noise.c2,
+                              s->info.frames_per_second};
+    for (int i = 0; i < 7; i++) {
         snprintf(numbers[i], sizeof(numbers[i]), "%.17g", values[i]);
     }
-    const uint32_t lasting = RLF_FRAME_UNMIRRORED | RLF_FRAME_ALIGNED;
-    snprintf(numbers[6], sizeof(numbers[6]), "%u", (unsigned)(frame->flags & lasting));
-    snprintf(numbers[7], sizeof(numbers[7]), "%lld", (long long)(unix_ns - frame->time_ns));
+    snprintf(numbers[7], sizeof(numbers[7]), "%u", (unsigned)s->notes.flags);
+    snprintf(numbers[8], sizeof(numbers[8]), "%lld", (long long)(unix_ns - frame->time_ns));
+    snprintf(gravity, sizeof(gravity), "%.17g %.17g %.17g", g.x, g.y, g.z);
     const io_mcap_pair pairs[] = {
         {"version", "1"},
         {IO_KEY_UNITS, numbers[0]},
@@ -65,8 +70,12 @@ static void add_metadata(mcap_sink *s, const rlf_frame *frame)
         {IO_KEY_NOISE_0, numbers[3]},
         {IO_KEY_NOISE_1, numbers[4]},
         {IO_KEY_NOISE_2, numbers[5]},
-        {IO_KEY_FLAGS, numbers[6]},
-        {IO_KEY_UNIX_OFFSET, numbers[7]},
+        {IO_KEY_RATE, numbers[6]},
+        {IO_KEY_GRAVITY, gravity},
+        {IO_KEY_SIMULATED, s->info.is_simulated ? "1" : "0"},
+        {IO_KEY_FLAGS, numbers[7]},
+        {IO_KEY_NOTES, "1"},
+        {IO_KEY_UNIX_OFFSET, numbers[8]},
         {IO_KEY_SOURCE, s->info.name},
         {IO_KEY_DEVICE, s->info.device},
     };
@@ -78,6 +87,7 @@ static void add_schema(mcap_sink *s, io_ros_type type)
     io_mcap_add_schema(s->writer, io_ros_type_name(type), io_ros_type_text(type));
 }
 
+/* All that may come: a channel cannot be added later. */
 static void add_channels(mcap_sink *s, const rlf_frame *frame)
 {
     static const char lasting[] = QOS("transient_local");
@@ -103,10 +113,10 @@ static void add_channels(mcap_sink *s, const rlf_frame *frame)
     add_schema(s, IO_ROS_TF);
     s->tf_static = io_mcap_add_channel(w, "/tf_static", lasting);
     s->tf = io_mcap_add_channel(w, "/tf", passing);
-    if (frame->has_pose) {
-        add_schema(s, IO_ROS_POSE_STAMPED);
-        s->pose = io_mcap_add_channel(w, IO_TOPIC_POSE, passing);
-    }
+    add_schema(s, IO_ROS_POSE_STAMPED);
+    s->pose = io_mcap_add_channel(w, IO_TOPIC_POSE, passing);
+    add_schema(s, IO_ROS_STRING);
+    s->note = io_mcap_add_channel(w, IO_TOPIC_FRAME, passing);
 }
 
 static io_ros_header header_at(int64_t time_ns, const char *frame_id)
@@ -144,6 +154,8 @@ static rlf_result start(mcap_sink *s, const rlf_frame *frame)
         return RLF_ERROR_MEMORY;
     }
     s->is_started = true;
+    s->notes.has_color_camera = r->has_color;
+    s->notes.flags = frame->flags & (RLF_FRAME_UNMIRRORED | RLF_FRAME_ALIGNED);
     add_metadata(s, frame);
     add_channels(s, frame);
     add_info(s, s->depth_info, frame->time_ns, IO_FRAME_DEPTH, &r->depth);
@@ -256,6 +268,19 @@ static void add_pose(mcap_sink *s, const rlf_frame *frame)
     io_mcap_end(s->writer, true);
 }
 
+static void add_notes(mcap_sink *s, const rlf_frame *frame)
+{
+    io_frame_note notes[2];
+    const int32_t count = io_frame_notes_add(&s->notes, frame, notes);
+    for (int32_t i = 0; i < count; i++) {
+        char text[IO_FRAME_NOTE_TEXT];
+        io_frame_note_print(&notes[i], text);
+        io_cdr_writer cdr = io_cdr_begin(io_mcap_begin(s->writer, s->note, notes[i].time_ns));
+        io_cdr_put_text(&cdr, text);
+        io_mcap_end(s->writer, true);
+    }
+}
+
 /* Written when it is as long as it may be. The first frame goes out at once, so that from then on
  * the file can be read whatever happens. */
 static rlf_result flush_when_due(mcap_sink *s, int64_t time_ns)
@@ -281,8 +306,11 @@ static rlf_result mcap_add(void *self, const rlf_frame *frame)
     if (result == RLF_OK) {
         result = add_depth(s, frame);
     }
-    if (result == RLF_OK && frame->has_pose && s->pose > 0) {
+    if (result == RLF_OK && frame->has_pose) {
         add_pose(s, frame);
+    }
+    if (result == RLF_OK) {
+        add_notes(s, frame);
     }
     s->frames += result == RLF_OK ? 1 : 0;
     return result == RLF_OK ? flush_when_due(s, frame->time_ns) : result;
@@ -325,6 +353,7 @@ static rlf_result mcap_close(void *self, rlf_recording_status *status)
     io_mcap_written written = {0};
     rlf_result result = io_mcap_writer_close(&s->writer, &written);
     status->bytes = written.bytes;
+    status->frames = s->is_started ? written.of_channel[s->depth - 1] : 0; /* a full disk keeps few */
     io_jpeg_encoder_destroy(&s->jpeg);
     rlf_free(s->scratch);
     rlf_free(s);

@@ -3,6 +3,7 @@
  */
 #define _POSIX_C_SOURCE 200809L
 #include "relief/io.h"
+#include "io/mcap/origin.h"
 #include "io/mcap/recording_format.h"
 #include "io/mcap/topics.h"
 #include "io/source/backends.h"
@@ -25,6 +26,7 @@ typedef struct mcap {
     rlf_rig rig;
     double units_per_metre;
     uint32_t flags;
+    io_clip_origin origin;
 } mcap;
 
 static rlf_result read_depth(void *self, int32_t index, void *out)
@@ -110,23 +112,11 @@ static int64_t *times_of(const mcap *m, const io_mcap_stream *s)
 /* ---- poses ------------------------------------------------------------------------------------
  */
 
-static int32_t find_poses(const mcap *m)
-{
-    for (int32_t i = 0; i < io_mcap_channel_count(m->reader); i++) {
-        const io_mcap_channel *c = io_mcap_channel_at(m->reader, i);
-        if (c->type == IO_ROS_POSE_STAMPED && strcmp(c->topic, IO_TOPIC_POSE) == 0 &&
-            c->count > 0) {
-            return i;
-        }
-    }
-    return -1;
-}
-
 /* Of each depth picture the pose with its time; a zero quaternion where there is none. NULL when
  * the file has no poses. */
 static rlf_pose *poses_of(mcap *m, const int64_t *times, int32_t count)
 {
-    const int32_t index = find_poses(m);
+    const int32_t index = io_mcap_find_channel(m->reader, IO_ROS_POSE_STAMPED, IO_TOPIC_POSE);
     rlf_pose *poses = index >= 0 ? rlf_alloc_array((size_t)count, sizeof(poses[0])) : NULL;
     if (poses == NULL) {
         return NULL;
@@ -231,25 +221,16 @@ static rlf_result find_rig(const rlf_address *address, mcap *m)
     return RLF_OK;
 }
 
-/* What ROS has no message for, from a recording of our own; nonsense changes nothing. */
-static double metadata_number(const mcap *m, const char *key, double low, double high,
-                              double otherwise)
-{
-    const char *text = io_mcap_metadata(m->reader, key);
-    const double value = text != NULL ? strtod(text, NULL) : otherwise;
-    return value >= low && value <= high ? value : otherwise;
-}
-
 static void read_metadata(mcap *m)
 {
     rlf_rig *r = &m->rig;
-    m->units_per_metre = metadata_number(m, IO_KEY_UNITS, 1, 1e6, m->units_per_metre);
-    r->depth_max_m = metadata_number(m, IO_KEY_DEPTH_MAX, 1e-3, 1000, r->depth_max_m);
-    r->depth_min_m = metadata_number(m, IO_KEY_DEPTH_MIN, 0, r->depth_max_m, r->depth_min_m);
-    r->noise.c0 = metadata_number(m, IO_KEY_NOISE_0, -1, 1, r->noise.c0);
-    r->noise.c1 = metadata_number(m, IO_KEY_NOISE_1, -1, 1, r->noise.c1);
-    r->noise.c2 = metadata_number(m, IO_KEY_NOISE_2, -1, 1, r->noise.c2);
-    m->flags |= (uint32_t)metadata_number(m, IO_KEY_FLAGS, 0, 3, 0);
+    m->units_per_metre = io_mcap_number(m->reader, IO_KEY_UNITS, 1, 1e6, m->units_per_metre);
+    r->depth_max_m = io_mcap_number(m->reader, IO_KEY_DEPTH_MAX, 1e-3, 1000, r->depth_max_m);
+    r->depth_min_m = io_mcap_number(m->reader, IO_KEY_DEPTH_MIN, 0, r->depth_max_m, r->depth_min_m);
+    r->noise.c0 = io_mcap_number(m->reader, IO_KEY_NOISE_0, -1, 1, r->noise.c0);
+    r->noise.c1 = io_mcap_number(m->reader, IO_KEY_NOISE_1, -1, 1, r->noise.c1);
+    r->noise.c2 = io_mcap_number(m->reader, IO_KEY_NOISE_2, -1, 1, r->noise.c2);
+    m->flags |= (uint32_t)io_mcap_number(m->reader, IO_KEY_FLAGS, 0, 3, 0);
 }
 
 /* ---- opening ----------------------------------------------------------------------------------
@@ -287,6 +268,9 @@ static rlf_result prepare(const rlf_address *address, mcap *m)
         return result;
     }
     const bool is_own = io_mcap_metadata(m->reader, IO_KEY_UNITS) != NULL;
+    if (is_own) {
+        io_mcap_read_origin(m->reader, &m->origin);
+    }
     if (is_own && address->rig == NULL) {
         read_metadata(m);
     }
@@ -311,6 +295,7 @@ static rlf_result open_clip(mcap *m, rlf_opened *out)
     int64_t *color_times = times_of(m, &m->color);
     const int32_t count = count_of(m, &m->depth);
     rlf_pose *poses = depth_times != NULL ? poses_of(m, depth_times, count) : NULL;
+    io_frame_note *notes = io_mcap_read_notes(m->reader, &m->origin);
     rlf_result result = RLF_ERROR_MEMORY;
     if (depth_times != NULL && color_times != NULL) {
         const io_clip_def def = {.name = m->path,
@@ -323,6 +308,7 @@ static rlf_result open_clip(mcap *m, rlf_opened *out)
                                  .depth_count = count,
                                  .color_count = count_of(m, &m->color),
                                  .flags = m->flags,
+                                 .origin = m->origin,
                                  .skips_damaged = true,
                                  .read_depth = read_depth,
                                  .read_color = read_color,
@@ -333,6 +319,7 @@ static rlf_result open_clip(mcap *m, rlf_opened *out)
     rlf_free(depth_times);
     rlf_free(color_times);
     rlf_free(poses);
+    rlf_free(notes);
     return result;
 }
 

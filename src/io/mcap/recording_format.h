@@ -9,6 +9,8 @@
 #define IO_TOPIC_COLOR_INFO "/relief/color/camera_info"
 #define IO_TOPIC_POSE "/relief/pose"
 
+#define IO_TOPIC_FRAME "/relief/frame"
+
 #define IO_FRAME_DEPTH "relief_depth_optical_frame"
 #define IO_FRAME_COLOR "relief_color_optical_frame"
 #define IO_FRAME_WORLD "relief_world"
@@ -23,6 +25,10 @@
 #define IO_KEY_FLAGS "frame_flags"
 #define IO_KEY_SOURCE "source"
 #define IO_KEY_DEVICE "device"
+#define IO_KEY_GRAVITY "gravity_m_s2" /* "X Y Z" */
+#define IO_KEY_SIMULATED "is_simulated"
+#define IO_KEY_RATE "frames_per_second"
+#define IO_KEY_NOTES "frame_notes" /* there are: what is not noted of a frame is as usual */
 #define IO_KEY_UNIX_OFFSET "unix_minus_stamp_ns"
 
 #endif

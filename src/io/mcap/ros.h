@@ -15,6 +15,7 @@ typedef enum io_ros_type {
     IO_ROS_CAMERA_INFO,
     IO_ROS_TF,
     IO_ROS_POSE_STAMPED,
+    IO_ROS_STRING,
     IO_ROS_TYPE_COUNT
 } io_ros_type;
 
@@ -61,6 +62,8 @@ bool io_ros_read_camera_info(const uint8_t *data, size_t size, io_ros_camera_inf
 /* At most `capacity`; *out_count says how many. */
 bool io_ros_read_tf(const uint8_t *data, size_t size, io_ros_transform *out, uint32_t capacity,
                     uint32_t *out_count);
+/* std_msgs/String; what has no room in `out` is cut. */
+bool io_ros_read_string(const uint8_t *data, size_t size, char *out, size_t capacity);
 bool io_ros_read_pose(const uint8_t *data, size_t size, io_ros_header *header, rlf_pose *out);
 
 /* A message up to its bytes; they follow, then io_cdr_end_bytes with what this returns. */

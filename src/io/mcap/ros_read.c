@@ -98,3 +98,10 @@ bool io_ros_read_pose(const uint8_t *data, size_t size, io_ros_header *header, r
     *out = get_pose(&r);
     return !r.is_bad;
 }
+
+bool io_ros_read_string(const uint8_t *data, size_t size, char *out, size_t capacity)
+{
+    io_cdr_reader r = io_cdr_open(data, size);
+    io_cdr_get_text(&r, out, capacity);
+    return !r.is_bad;
+}

@@ -38,6 +38,7 @@ static const struct {
                              "geometry_msgs/Quaternion orientation\n" RULE
                              "MSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\n"
                              "float64 z\n" QUATERNION},
+    [IO_ROS_STRING] = {"std_msgs/msg/String", "string data\n"},
 };
 
 const char *io_ros_type_name(io_ros_type type)

@@ -18,6 +18,7 @@ typedef struct io_mcap_pair {
 
 typedef struct io_mcap_written {
     uint64_t bytes, messages, chunks;
+    uint64_t of_channel[IO_MCAP_CHANNELS_MAX]; /* messages; that of id 1 first */
 } io_mcap_written;
 
 /* Makes the file, or replaces what is there. */

@@ -180,8 +180,8 @@ rlf_result io_mcap_writer_close(io_mcap_writer **writer, io_mcap_written *out)
         result = io_mcap_fail_write(w);
     }
     if (out != NULL) {
-        uint64_t counts[IO_MCAP_CHANNELS_MAX];
-        *out = (io_mcap_written){w->size, count_messages(w, counts), entry_count(w)};
+        *out = (io_mcap_written){.bytes = w->size, .chunks = entry_count(w)};
+        out->messages = count_messages(w, out->of_channel);
     }
     (void)fdatasync(w->file);
     const bool is_closed = close(w->file) == 0;

@@ -2,24 +2,34 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/recording/sink.h"
 
+#include "io/clip/frame_note.h"
 #include "io/codec/picture_encode.h"
 #include "io/file.h"
+#include "io/folder/origin.h"
 
 #include <errno.h>
 #include <inttypes.h>
-#include <math.h>
 #include <unistd.h>
 
+#define LINE_SIZE 512
 #define LEVEL 3               /* of zlib, as rlf_png_write has it */
 #define FLOAT_COUNTS 5000.0   /* per metre, as TUM has it: up to 13.1 m */
 #define FAR_FLOAT_COUNTS 1000 /* for cameras that see farther */
 
+/* A file of lines, each of which is there whole or not at all. */
+typedef struct text_list {
+    int descriptor; /* -1 = none */
+    int64_t size;   /* bytes of whole lines */
+} text_list;
+
 typedef struct folder_sink {
     char path[IO_PATH_MAX];
+    rlf_source_info info;
     rlf_rig rig;
     double units_per_metre;
     int32_t jpeg_quality;
-    FILE *depth_list, *color_list;
+    text_list depth_list, color_list, pose_list, note_list;
+    io_frame_notes notes;
     io_jpeg_encoder *jpeg;
     io_byte_buffer file;
     void *scratch;    /* rows without padding */
@@ -34,76 +44,45 @@ static rlf_result fail_write(const folder_sink *s)
                     s->path, strerror(errno));
 }
 
-static void print_camera(FILE *file, const rlf_camera *c)
-{
-    fprintf(file,
-            "\"width\": %d, \"height\": %d,\n    \"fx\": %.17g, \"fy\": %.17g, \"cx\": %.17g, "
-            "\"cy\": %.17g",
-            (int)c->width, (int)c->height, c->fx, c->fy, c->cx, c->cy);
-    if (c->distortion_model != RLF_DISTORTION_NONE) {
-        const bool is_rational = c->distortion_model == RLF_DISTORTION_RATIONAL_POLYNOMIAL;
-        fprintf(file, ",\n    \"distortion_model\": \"%s\", \"distortion\": [",
-                is_rational ? "rational_polynomial" : "plumb_bob");
-        for (int i = 0; i < (is_rational ? 8 : 5); i++) {
-            fprintf(file, "%s%.17g", i > 0 ? ", " : "", c->distortion[i]);
-        }
-        fprintf(file, "]");
-    }
-}
-
-static void print_rig(FILE *file, const folder_sink *s)
-{
-    const rlf_rig *r = &s->rig;
-    fprintf(file, "{\n  \"depth\": {");
-    print_camera(file, &r->depth);
-    fprintf(file,
-            ",\n    \"units_per_metre\": %.17g, \"depth_min_m\": %.17g, \"depth_max_m\": %.17g,\n"
-            "    \"noise\": [%.17g, %.17g, %.17g]}",
-            s->units_per_metre, r->depth_min_m, r->depth_max_m, r->noise.c0, r->noise.c1,
-            r->noise.c2);
-    if (r->has_color) {
-        const rlf_quat q = r->T_color_depth.q;
-        const rlf_vec3 x = rlf_rotate(q, rlf_vec3_make(1, 0, 0)); /* the columns */
-        const rlf_vec3 y = rlf_rotate(q, rlf_vec3_make(0, 1, 0));
-        const rlf_vec3 z = rlf_rotate(q, rlf_vec3_make(0, 0, 1));
-        const rlf_vec3 t = r->T_color_depth.p;
-        fprintf(file, ",\n  \"color\": {");
-        print_camera(file, &r->color);
-        fprintf(file, "},\n  \"depth_to_color\": {\"rotation\": [");
-        fprintf(file, "[%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g]", x.x,
-                y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z);
-        fprintf(file, "],\n    \"translation\": [%.17g, %.17g, %.17g]}", t.x, t.y, t.z);
-    }
-    fprintf(file, "\n}\n");
-}
-
-/* Opens NAME in the folder for writing. */
-static rlf_result open_in(const folder_sink *s, const char *name, FILE **out)
+/* Opens NAME in the folder for writing, unless it is open. */
+static rlf_result open_list(const folder_sink *s, const char *name, text_list *list)
 {
     char path[IO_PATH_MAX];
+    if (list->descriptor >= 0) {
+        return RLF_OK;
+    }
     rlf_result result = io_path_join(s->path, name, path);
-    int descriptor = -1;
-    *out = NULL;
-    if (result == RLF_OK) {
-        result = io_out_open_in_place(path, &descriptor);
-    }
-    if (result == RLF_OK && (*out = fdopen(descriptor, "w")) == NULL) {
-        result = fail_write(s);
-        close(descriptor);
-    }
-    return result;
+    return result == RLF_OK ? io_out_open_in_place(path, &list->descriptor) : result;
 }
 
+static rlf_result add_line(const folder_sink *s, text_list *list, const char *line)
+{
+    const size_t length = strlen(line);
+    size_t done = 0;
+    while (done < length) {
+        const ssize_t got = write(list->descriptor, line + done, length - done);
+        if (got < 0 && errno != EINTR) {
+            rlf_result result = fail_write(s);
+            if (ftruncate(list->descriptor, (off_t)list->size) == 0) {
+                lseek(list->descriptor, (off_t)list->size, SEEK_SET);
+            }
+            return result;
+        }
+        done += got > 0 ? (size_t)got : 0;
+    }
+    list->size += (int64_t)length;
+    return RLF_OK;
+}
+
+/* The offset is taken away from what is recorded. */
 static rlf_result write_camera(const folder_sink *s)
 {
-    FILE *file = NULL;
-    rlf_result result = open_in(s, "camera.json", &file);
-    if (result != RLF_OK) {
-        return result;
-    }
-    print_rig(file, s);
-    const bool is_bad = ferror(file) != 0;
-    return fclose(file) != 0 || is_bad ? fail_write(s) : RLF_OK;
+    char path[IO_PATH_MAX];
+    rlf_rig rig = s->rig;
+    rig.depth_offset_m = 0.0;
+    rlf_result result = io_path_join(s->path, "camera.json", path);
+    return result == RLF_OK ? rlf_rig_save(path, RLF_RIG_RELIEF, &rig, s->units_per_metre, NULL)
+                            : result;
 }
 
 /* Once the first frame says what the depth is. */
@@ -118,7 +97,13 @@ static rlf_result start(folder_sink *s, const rlf_frame *frame)
     }
     s->scratch = rlf_alloc_array(pixels, 4);
     s->counts = rlf_alloc_array(pixels, 2);
-    return s->scratch != NULL && s->counts != NULL ? write_camera(s) : RLF_ERROR_MEMORY;
+    if (s->scratch == NULL || s->counts == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    s->notes.has_color_camera = s->rig.has_color;
+    s->notes.flags = frame->flags & (RLF_FRAME_UNMIRRORED | RLF_FRAME_ALIGNED);
+    rlf_result result = write_camera(s);
+    return result == RLF_OK ? io_folder_write_origin(s->path, &s->info, s->notes.flags) : result;
 }
 
 static const uint16_t *counts_of(folder_sink *s, const rlf_frame *frame)
@@ -138,7 +123,7 @@ static const uint16_t *counts_of(folder_sink *s, const rlf_frame *frame)
 
 /* The file, and a line in the list: in this order, so that the list never names what is not there.
  */
-static rlf_result add_file(folder_sink *s, FILE *list, const char *name, int64_t time_ns)
+static rlf_result add_file(folder_sink *s, text_list *list, const char *name, int64_t time_ns)
 {
     char path[IO_PATH_MAX];
     rlf_result result = io_path_join(s->path, name, path);
@@ -150,8 +135,10 @@ static rlf_result add_file(folder_sink *s, FILE *list, const char *name, int64_t
     }
     s->bytes += s->file.size;
     const int64_t time = time_ns > 0 ? time_ns : 0;
-    fprintf(list, "%" PRId64 ".%09" PRId64 " %s\n", time / 1000000000, time % 1000000000, name);
-    return fflush(list) == 0 ? RLF_OK : fail_write(s);
+    char line[LINE_SIZE];
+    snprintf(line, sizeof(line), "%" PRId64 ".%09" PRId64 " %s\n", time / 1000000000,
+             time % 1000000000, name);
+    return add_line(s, list, line);
 }
 
 static rlf_result add_color(folder_sink *s, const rlf_frame *frame)
@@ -173,10 +160,38 @@ static rlf_result add_color(folder_sink *s, const rlf_frame *frame)
         result = io_png_encode(&def, &s->file);
     }
     if (result == RLF_OK) {
-        result = add_file(s, s->color_list, name, time_ns);
+        result = add_file(s, &s->color_list, name, time_ns);
     }
     s->last_color_ns = time_ns;
     s->colors += result == RLF_OK ? 1 : 0;
+    return result;
+}
+
+static rlf_result add_pose(folder_sink *s, const rlf_frame *frame)
+{
+    const rlf_pose *T = &frame->T_world_camera;
+    const int64_t time = frame->time_ns > 0 ? frame->time_ns : 0;
+    char line[LINE_SIZE];
+    snprintf(line, sizeof(line),
+             "%" PRId64 ".%09" PRId64 " %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n",
+             time / 1000000000, time % 1000000000, T->p.x, T->p.y, T->p.z, T->q.x, T->q.y, T->q.z,
+             T->q.w);
+    rlf_result result = open_list(s, IO_FOLDER_POSES, &s->pose_list);
+    return result == RLF_OK ? add_line(s, &s->pose_list, line) : result;
+}
+
+static rlf_result add_notes(folder_sink *s, const rlf_frame *frame)
+{
+    io_frame_note notes[2];
+    const int32_t count = io_frame_notes_add(&s->notes, frame, notes);
+    rlf_result result = open_list(s, IO_FOLDER_FRAMES, &s->note_list);
+    for (int32_t i = 0; i < count && result == RLF_OK; i++) {
+        char text[IO_FRAME_NOTE_TEXT];
+        char line[LINE_SIZE];
+        io_frame_note_print(&notes[i], text);
+        snprintf(line, sizeof(line), "%s\n", text);
+        result = add_line(s, &s->note_list, line);
+    }
     return result;
 }
 
@@ -199,10 +214,16 @@ static rlf_result folder_add(void *self, const rlf_frame *frame)
                             (ptrdiff_t)s->rig.depth.width * 2,
                             IO_PNG_GREY_U16,
                             LEVEL};
-    s->file.size = 0;
-    result = io_png_encode(&def, &s->file);
+    result = frame->has_pose ? add_pose(s, frame) : RLF_OK;
     if (result == RLF_OK) {
-        result = add_file(s, s->depth_list, name, frame->time_ns);
+        result = add_notes(s, frame);
+    }
+    s->file.size = 0;
+    if (result == RLF_OK) {
+        result = io_png_encode(&def, &s->file);
+    }
+    if (result == RLF_OK) { /* last: a frame that is listed is whole */
+        result = add_file(s, &s->depth_list, name, frame->time_ns);
     }
     s->frames += result == RLF_OK ? 1 : 0;
     return result;
@@ -216,9 +237,13 @@ static uint64_t folder_bytes(const void *self)
 static rlf_result folder_close(void *self, rlf_recording_status *status)
 {
     folder_sink *s = self;
-    bool is_bad = s->depth_list != NULL && fclose(s->depth_list) != 0;
-    is_bad = (s->color_list != NULL && fclose(s->color_list) != 0) || is_bad;
+    text_list *const lists[4] = {&s->depth_list, &s->color_list, &s->pose_list, &s->note_list};
+    bool is_bad = false;
+    for (int i = 0; i < 4; i++) {
+        is_bad = (lists[i]->descriptor >= 0 && close(lists[i]->descriptor) != 0) || is_bad;
+    }
     rlf_result result = is_bad ? fail_write(s) : RLF_OK;
+    status->frames = (uint64_t)s->frames;
     status->bytes = s->bytes;
     io_jpeg_encoder_destroy(&s->jpeg);
     io_byte_buffer_free(&s->file);
@@ -240,14 +265,32 @@ static rlf_result make_folders(const folder_sink *s)
     return result;
 }
 
+/* Of an earlier recording: they would be taken for this one's. */
+static void remove_old(const folder_sink *s)
+{
+    static const char *const names[3] = {IO_FOLDER_POSES, IO_FOLDER_SOURCE, IO_FOLDER_FRAMES};
+    for (int i = 0; i < 3; i++) {
+        char path[IO_PATH_MAX];
+        if (io_path_join(s->path, names[i], path) == RLF_OK) {
+            (void)unlink(path);
+        }
+    }
+}
+
 static rlf_result open_all(folder_sink *s)
 {
-    rlf_result result = make_folders(s);
+    rlf_result result = rlf_make_folder(s->path);
     if (result == RLF_OK) {
-        result = open_in(s, "depth.txt", &s->depth_list);
+        result = make_folders(s);
+    }
+    if (result == RLF_OK) {
+        result = open_list(s, "depth.txt", &s->depth_list);
     }
     if (result == RLF_OK && s->rig.has_color) {
-        result = open_in(s, "rgb.txt", &s->color_list);
+        result = open_list(s, "rgb.txt", &s->color_list);
+    }
+    if (result == RLF_OK) {
+        remove_old(s);
     }
     return result == RLF_OK ? io_jpeg_encoder_create(&s->jpeg) : result;
 }
@@ -260,6 +303,9 @@ rlf_result io_folder_sink_open(const char *path, const rlf_source_info *info,
         return RLF_ERROR_MEMORY;
     }
     snprintf(s->path, sizeof(s->path), "%s", path);
+    s->depth_list.descriptor = s->color_list.descriptor = -1;
+    s->pose_list.descriptor = s->note_list.descriptor = -1;
+    s->info = *info;
     s->rig = info->rig;
     s->jpeg_quality = def->jpeg_quality;
     *out = (io_sink){.add = folder_add, .close = folder_close, .bytes = folder_bytes, .self = s};

@@ -9,7 +9,7 @@ typedef struct io_sink {
     rlf_result (*add)(void *self, const rlf_frame *frame);
     /* NULL = such a sink keeps no bodies. */
     rlf_result (*add_bodies)(void *self, int64_t time_ns, const rlf_snapshot *snapshot);
-    /* Finishes and frees. */
+    /* Finishes and frees. Sets how many frames and bytes can be read back. */
     rlf_result (*close)(void *self, rlf_recording_status *status);
     /* Bytes written so far. */
     uint64_t (*bytes)(const void *self);

@@ -163,6 +163,8 @@ static rlf_result describe(const rlf_address *address, simulated *s, rlf_source_
     snprintf(out->name, sizeof(out->name), "%.127s", address->source);
     snprintf(out->device, sizeof(out->device), "simulated camera that plays %.80s", info->name);
     out->rig = info->rig;
+    out->gravity = info->gravity;
+    out->is_simulated = info->is_simulated;
     out->frame_count = -1;
     out->frames_per_second = rate;
     out->is_live = true;

@@ -1,4 +1,5 @@
 /* From the SOURCE of a command line to a source. */
+#include "io/live/direct.h"
 #include "io/live/live.h"
 #include "io/simulated/simulated.h"
 #include "io/source/backends.h"
@@ -59,6 +60,24 @@ static rlf_result wrap(const io_replay *replay, const char *source, rlf_opened *
     return result;
 }
 
+/* A camera's frames come by a thread, the newest first; or each in its turn. */
+static rlf_result open_device(const rlf_backend *backend, bool is_direct,
+                              const rlf_address *address, rlf_opened *out)
+{
+    if (backend->is_live && !is_direct) {
+        return io_live_open(backend, address, out);
+    }
+    rlf_result result = backend->open(address, out);
+    if (result != RLF_OK || !backend->is_live) {
+        return result;
+    }
+    result = io_direct_wrap(address->source, out);
+    if (result != RLF_OK && out->methods.destroy != NULL) {
+        out->methods.destroy(out->self);
+    }
+    return result;
+}
+
 static rlf_result open_with(const rlf_backend *backend, const char *source, io_address *parts,
                             rlf_source **out)
 {
@@ -82,9 +101,7 @@ static rlf_result open_with(const rlf_backend *backend, const char *source, io_a
     rlf_opened opened;
     memset(&opened, 0, sizeof(opened));
     if (result == RLF_OK) {
-        const bool has_thread = backend->is_live && !replay.is_direct;
-        result = has_thread ? io_live_open(backend, &address, &opened)
-                            : backend->open(&address, &opened);
+        result = open_device(backend, replay.is_direct, &address, &opened);
     }
     if (result == RLF_OK) {
         result = wrap(&replay, source, &opened);
