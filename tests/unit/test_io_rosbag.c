@@ -193,7 +193,7 @@ static void topics_can_be_chosen(void **state)
     char name[TEST_PATH_MAX];
     snprintf(name, sizeof(name), "rosbag:%s?depth=/tf_static", test_path("clip.bag"));
     test_expect_error(rlf_open_source(name, NULL, &source), RLF_ERROR_INVALID, "clip.bag",
-                      "depth=/tf_static", "rosbag info");
+                      "depth=/tf_static", "/camera/depth/image_raw (16UC1)");
     snprintf(name, sizeof(name), "rosbag:%s?gap=x", test_path("clip.bag"));
     test_expect_error(rlf_open_source(name, NULL, &source), RLF_ERROR_INVALID, "clip.bag", "gap=x",
                       "milliseconds");
