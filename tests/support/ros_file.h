@@ -15,7 +15,7 @@
 typedef struct ros_file {
     io_mcap_writer *mcap;
     bag_file *bag;
-    uint32_t topics;
+    int32_t ms; /* of the next pictures, behind ROS_TIME_S */
 } ros_file;
 
 static inline ros_file ros_file_open(const char *stem)
@@ -23,7 +23,7 @@ static inline ros_file ros_file_open(const char *stem)
     char name[64];
     ros_file f = {.bag = bag_file_new()};
     snprintf(name, sizeof(name), "%s.mcap", stem);
-    assert_int_equal(io_mcap_writer_create(test_path(name), IO_MCAP_LZ4, &f.mcap), RLF_OK);
+    assert_int_equal(io_mcap_writer_create(test_path(name), IO_MCAP_PLAIN, &f.mcap), RLF_OK);
     return f;
 }
 
@@ -57,7 +57,8 @@ static inline void ros_image(ros_file *f, uint16_t topic, const char *frame_id,
 {
     io_ros_image image = {.width = size[0], .height = size[1]};
     image.step = size[1] > 0 ? (uint32_t)(bytes / size[1]) : 0;
-    image.header.stamp_ns = ROS_TIME_S * INT64_C(1000000000);
+    image.header.stamp_ns = (ROS_TIME_S * INT64_C(1000) + f->ms) * 1000000;
+    const double seconds = ROS_TIME_S + 1e-3 * f->ms;
     strcpy(image.header.frame_id, frame_id);
     strcpy(image.encoding, encoding);
     io_cdr_writer cdr = io_cdr_begin(io_mcap_begin(f->mcap, topic, image.header.stamp_ns));
@@ -68,14 +69,14 @@ static inline void ros_image(ros_file *f, uint16_t topic, const char *frame_id,
     io_mcap_end(f->mcap, true);
 
     byte_file *m = calloc(1, sizeof(*m));
-    bag_header(m, ROS_TIME_S, frame_id);
+    bag_header(m, seconds, frame_id);
     if (size[0] == 0) {
         bytes_text(m, encoding);
         bytes_block(m, data, bytes);
     } else {
         bag_image(m, encoding, size, data, bytes);
     }
-    bag_file_message(f->bag, topic, ROS_TIME_S, m);
+    bag_file_message(f->bag, topic, seconds, m);
     free(m);
 }
 
@@ -119,8 +120,8 @@ static inline void ros_info(ros_file *f, uint16_t topic, const io_camera_info *i
 }
 
 /* `child` is x metres to the right of `parent`. */
-static inline void ros_transform(ros_file *f, uint16_t topic, const char *parent,
-                                 const char *child, double x)
+static inline void ros_transform(ros_file *f, uint16_t topic, const char *parent, const char *child,
+                                 double x)
 {
     const double t[3] = {x, 0, 0}, q[4] = {0, 0, 0, 1};
     io_ros_transform transform = {.T_parent_child = rlf_pose_identity()};

@@ -113,21 +113,44 @@ static void what_is_left_out_is_told(void **state)
         const char *text; /* NULL: nothing is lost */
         int distortion;
     } cases[] = {
-        {"/d/image", "rational_polynomial", {[0] = 0.1, [8] = 0.001, [12] = 0.01}, 0, 0, 0,
+        {"/d/image",
+         "rational_polynomial",
+         {[0] = 0.1, [8] = 0.001, [12] = 0.01},
+         0,
+         0,
+         0,
          "thin prism (s1 to s4 = 0.001 0 0 0), tilt (tauX, tauY = 0.01 0)",
          RLF_DISTORTION_RATIONAL_POLYNOMIAL},
         {"/d/image", "plumb_bob", {[13] = 0.01}, 0, 0, 0, "tilt", RLF_DISTORTION_NONE},
         {"/d/image", "equidistant", {0.1, 0.01}, 0, 0, 0, "\"equidistant\"", RLF_DISTORTION_NONE},
         {"/d/image", "equidistant", {0}, 0, 0, 0, NULL, RLF_DISTORTION_NONE},
         {"/d/image", "plumb_bob", {0.1}, 0.02, 90, 0, NULL, RLF_DISTORTION_PLUMB_BOB},
-        {"/d/image", "plumb_bob", {0.1, 0, 0, 0, 0, 0.2}, 0, 0, 0, NULL,
+        {"/d/image",
+         "plumb_bob",
+         {0.1, 0, 0, 0, 0, 0.2},
+         0,
+         0,
+         0,
+         NULL,
          RLF_DISTORTION_RATIONAL_POLYNOMIAL},
         {"/d/image", "", {0.1}, 0, 0, 0, NULL, RLF_DISTORTION_PLUMB_BOB},
         {"/d/image", "plumb_bob", {0}, 0.02, 0, 0, "R turns by 1.15 degrees", RLF_DISTORTION_NONE},
         {"/d/image", "plumb_bob", {0}, 0, 90, 0, "P that differs from K", RLF_DISTORTION_NONE},
-        {"/d/image_rect", "plumb_bob", {0.1}, 0.02, 0, 0, "turns the camera by 1.15 degrees",
+        {"/d/image_rect",
+         "plumb_bob",
+         {0.1},
+         0.02,
+         0,
+         0,
+         "turns the camera by 1.15 degrees",
          RLF_DISTORTION_NONE},
-        {"/d/image_rect", "plumb_bob", {0.1}, 0, 0, -5, "baseline in P (0.05 m)",
+        {"/d/image_rect",
+         "plumb_bob",
+         {0.1},
+         0,
+         0,
+         -5,
+         "baseline in P (0.05 m)",
          RLF_DISTORTION_NONE},
         {"/d/image_rect", "plumb_bob", {0.1}, 0, 90, 0, NULL, RLF_DISTORTION_NONE},
     };
@@ -288,7 +311,7 @@ static void depth_in_a_png_is_read(void **state)
 {
     (void)state;
     static const char *const formats[] = {
-        "png",   "16UC1; png compressed ", "mono16; png compressed ", "16UC1; compressedDepth png",
+        "png",  "16UC1; png compressed ", "mono16; png compressed ", "16UC1; compressedDepth png",
         ".png", "16UC1; compressedDepth"};
     uint8_t png[4096] = {0};
     for (size_t i = 0; i < 2 * sizeof(formats) / sizeof(formats[0]); i++) {

@@ -72,7 +72,7 @@ static io_ros_type type_of_schema(const io_mcap_reader *reader, uint16_t id)
     return IO_ROS_OTHER;
 }
 
-static int32_t find_channel(const io_mcap_reader *reader, uint16_t id)
+int32_t io_mcap_find_channel(const io_mcap_reader *reader, uint16_t id)
 {
     const io_mcap_channel *channels = reader->channels.items;
     for (int32_t i = 0; i < reader->channels.count; i++) {
@@ -90,7 +90,7 @@ void io_mcap_take_channel(io_mcap_reader *reader, io_mcap_cursor record)
     const io_mcap_cursor topic = io_mcap_take_block(&record);
     const io_mcap_cursor encoding = io_mcap_take_block(&record);
     if (record.is_bad || type == IO_ROS_OTHER || !io_mcap_equals(&encoding, "cdr") ||
-        topic.size >= IO_MCAP_TOPIC_MAX || find_channel(reader, id) >= 0 ||
+        topic.size >= IO_MCAP_TOPIC_MAX || io_mcap_find_channel(reader, id) >= 0 ||
         reader->channels.count >= IO_MCAP_CHANNELS_READ_MAX) {
         return;
     }
@@ -104,7 +104,7 @@ void io_mcap_take_channel(io_mcap_reader *reader, io_mcap_cursor record)
 void io_mcap_list_message(io_mcap_reader *reader, uint16_t channel_id, uint64_t time, int32_t chunk,
                           uint64_t offset)
 {
-    const int32_t channel = find_channel(reader, channel_id);
+    const int32_t channel = io_mcap_find_channel(reader, channel_id);
     if (channel < 0 || time > INT64_MAX) {
         return;
     }

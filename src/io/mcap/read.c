@@ -10,26 +10,43 @@ static void forget(io_mcap_reader *reader)
     reader->channels.count = 0;
     reader->chunks.count = 0;
     reader->messages.count = 0;
+    reader->bad_chunks = 0;
     for (int i = 0; i < IO_MCAP_CACHED; i++) {
         reader->cache[i].chunk = -1;
+    }
+}
+
+static void tell_scan(const io_mcap_reader *reader, io_mcap_summary summary, uint64_t end)
+{
+    const int chunks = (int)(reader->chunks.count - reader->bad_chunks);
+    if (summary == IO_MCAP_SUMMARY_NOT_CLOSED) {
+        rlf_log(RLF_LOG_WARNING,
+                "%s: was not closed as it should have been: its %d whole chunks, and %d messages, "
+                "were found by reading all of it",
+                reader->file.path, chunks, (int)reader->messages.count);
+    } else if (summary == IO_MCAP_SUMMARY_DAMAGED || !reader->is_to_end) {
+        rlf_log(RLF_LOG_WARNING,
+                "%s: is damaged (byte %llu of %llu): its %d whole chunks, and %d messages, were "
+                "found by reading all of it",
+                reader->file.path, (unsigned long long)end, (unsigned long long)reader->size,
+                chunks, (int)reader->messages.count);
     }
 }
 
 static rlf_result list_all(io_mcap_reader *reader)
 {
     forget(reader);
-    if (!io_mcap_read_summary(reader)) {
+    const io_mcap_summary summary = io_mcap_read_summary(reader);
+    if (summary != IO_MCAP_SUMMARY_READ) {
+        uint64_t end = 0;
         forget(reader);
-        if (!io_mcap_scan(reader)) {
+        if (!io_mcap_scan(reader, &end)) {
             return rlf_fail(RLF_ERROR_FORMAT,
                             "%s: is not an MCAP file, or has less than its first bytes: record it "
                             "again",
                             reader->file.path);
         }
-        rlf_log(RLF_LOG_WARNING,
-                "%s: was not closed as it should have been, or has no index: its %d whole chunks "
-                "were found by reading all of it",
-                reader->file.path, (int)(reader->chunks.count - reader->bad_chunks));
+        tell_scan(reader, summary, end);
     }
     if (reader->is_full) {
         rlf_log(RLF_LOG_WARNING, "%s: has more than %d messages: the rest is left out",

@@ -35,7 +35,7 @@ static io_ros_picture kind_of(io_ros_pixels pixels)
     if (pixels == IO_ROS_UNKNOWN) {
         return IO_ROS_PICTURE_NONE;
     }
-    return io_ros_is_depth(pixels)    ? IO_ROS_PICTURE_DEPTH
+    return io_ros_is_depth(pixels)  ? IO_ROS_PICTURE_DEPTH
            : pixels == IO_ROS_MONO8 ? IO_ROS_PICTURE_GREY
                                     : IO_ROS_PICTURE_COLOR;
 }

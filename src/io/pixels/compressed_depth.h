@@ -5,8 +5,8 @@
 #include "io/codec/rvl.h"
 #include "io/file.h"
 
-/* Whether a message of that format and data holds depth: compressedDepth, or a PNG of 16-bit grey, as
- * the plain compressed transport and cv_bridge write it. */
+/* Whether a message of that format and data holds depth: compressedDepth, or a PNG of 16-bit grey,
+ * as the plain compressed transport and cv_bridge write it. */
 bool io_compressed_depth_is(const io_bytes *file, const char *format);
 
 /* The size it says; false when it says none. */

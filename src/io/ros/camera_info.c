@@ -22,10 +22,10 @@ RLF_PRINTF(2, 3) static void lose(losses *l, const char *format, ...)
     const size_t room = sizeof(l->text) - l->length;
     const int comma = snprintf(l->text + l->length, room, "%s", l->length > 0 ? ", " : "");
     l->length += comma > 0 ? (size_t)comma : 0;
-    const int got = l->length < sizeof(l->text) ? vsnprintf(l->text + l->length,
-                                                            sizeof(l->text) - l->length, format,
-                                                            arguments)
-                                                : 0;
+    const int got =
+        l->length < sizeof(l->text)
+            ? vsnprintf(l->text + l->length, sizeof(l->text) - l->length, format, arguments)
+            : 0;
     l->length += got > 0 ? (size_t)got : 0;
     l->length = l->length < sizeof(l->text) ? l->length : sizeof(l->text) - 1;
     va_end(arguments);
@@ -127,8 +127,9 @@ static void check_rectification(const io_camera_info *info, bool uses_p, losses 
         }
     } else if (!is_any(info->d, 0, IO_ROS_DISTORTION_MAX)) {
         if (degrees > ROUNDING) {
-            lose(lost, "a rectification (R turns by %.3g degrees; pictures are taken as not "
-                       "rectified)",
+            lose(lost,
+                 "a rectification (R turns by %.3g degrees; pictures are taken as not "
+                 "rectified)",
                  degrees);
         }
         if (has_other_p(info)) {

@@ -54,11 +54,10 @@ static int32_t color_score(const io_ros_topics *topics, const io_ros_topic *t, c
     }
     const bool is_other = has(t->name, "fisheye") || has(t->name, "confidence") ||
                           has(t->name, "depth") || has(t->name, "disparity");
-    const int32_t score =
-        8 + (has(t->name, "rgb") || has(t->name, "color") ? 8 : 0) -
-        (is_other || is_infrared(t->name) ? 16 : 0) - (is_grey ? 4 : 0) +
-        (io_ros_has_info(topics, t) ? 4 : 0) - (has(t->name, "compressed") ? 1 : 0) +
-        2 * common_parts(t->name, depth);
+    const int32_t score = 8 + (has(t->name, "rgb") || has(t->name, "color") ? 8 : 0) -
+                          (is_other || is_infrared(t->name) ? 16 : 0) - (is_grey ? 4 : 0) +
+                          (io_ros_has_info(topics, t) ? 4 : 0) -
+                          (has(t->name, "compressed") ? 1 : 0) + 2 * common_parts(t->name, depth);
     return score > 0 || is_other ? score : 1;
 }
 
@@ -115,8 +114,8 @@ static const char *list_topics(const io_ros_topics *topics, int32_t without, boo
 /* Counts of 16 bits may be an infrared picture, too. */
 static bool can_be_color(const io_ros_topic *t)
 {
-    const bool is_counts = strncmp(t->encoding, "32FC1", 5) != 0 &&
-                           strstr(t->encoding, "compressedDepth") == NULL;
+    const bool is_counts =
+        strncmp(t->encoding, "32FC1", 5) != 0 && strstr(t->encoding, "compressedDepth") == NULL;
     return t->kind != IO_ROS_PICTURE_NONE && (t->kind != IO_ROS_PICTURE_DEPTH || is_counts);
 }
 
@@ -153,9 +152,10 @@ static rlf_result fail_depth(const io_ros_topics *topics, const char *wished)
 static rlf_result fail_color(const io_ros_topics *topics, const char *wished)
 {
     char list[512];
-    return rlf_fail(RLF_ERROR_INVALID,
-                    "%s: color=%.100s: holds no pictures of that topic: its topics of pictures are:%s",
-                    topics->name, wished, list_topics(topics, -1, false, list, sizeof(list)));
+    return rlf_fail(
+        RLF_ERROR_INVALID,
+        "%s: color=%.100s: holds no pictures of that topic: its topics of pictures are:%s",
+        topics->name, wished, list_topics(topics, -1, false, list, sizeof(list)));
 }
 
 /* Depth of the colour camera's pixels, when nothing else joins the two. */

@@ -14,7 +14,7 @@ typedef enum io_ros_picture {
 
 /* A topic of pictures, as its first readable one has it. */
 typedef struct io_ros_topic {
-    const char *name; /* the caller's */
+    const char *name;  /* the caller's */
     char encoding[64]; /* of an Image, or the format of a CompressedImage */
     char frame_id[IO_ROS_NAME_MAX];
     io_ros_picture kind;

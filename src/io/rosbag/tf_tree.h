@@ -12,8 +12,8 @@ typedef struct tf_tree {
     int32_t count;
 } tf_tree;
 
-/* Adds the transforms of a bag; of each pair of frames the first one counts. What does not fit or is
- * no transform is left out. */
+/* Adds the transforms of a bag; of each pair of frames the first one counts. What does not fit or
+ * is no transform is left out. */
 void tf_tree_read(tf_tree *tree, bag *b);
 void tf_tree_free(tf_tree *tree);
 

@@ -69,9 +69,9 @@ static io_ros_picture kind_of(const message_image *image)
     }
     const bool is_grey =
         strcmp(image->encoding, "mono8") == 0 || strcmp(image->encoding, "8UC1") == 0;
-    return is_grey                                  ? IO_ROS_PICTURE_GREY
+    return is_grey                                 ? IO_ROS_PICTURE_GREY
            : io_pixels_is_picture(image->encoding) ? IO_ROS_PICTURE_COLOR
-                                                    : IO_ROS_PICTURE_NONE;
+                                                   : IO_ROS_PICTURE_NONE;
 }
 
 static bool size_of(const message_image *image, int32_t *out_width, int32_t *out_height)
@@ -106,8 +106,8 @@ static void add_pictures(bag_topics *t, int32_t connection)
     }
     memcpy(topic->encoding, image.encoding, sizeof(topic->encoding));
     memcpy(topic->frame_id, image.frame_id, sizeof(topic->frame_id));
-    topic->kind = size_of(&image, &topic->width, &topic->height) ? kind_of(&image)
-                                                                 : IO_ROS_PICTURE_NONE;
+    topic->kind =
+        size_of(&image, &topic->width, &topic->height) ? kind_of(&image) : IO_ROS_PICTURE_NONE;
 }
 
 static void add_info(bag_topics *t, int32_t connection)
