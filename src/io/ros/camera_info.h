@@ -4,9 +4,10 @@
 
 #include "io/camera_window.h"
 
-#define IO_ROS_NAME_MAX 128      /* of a frame, bytes with the ending zero */
-#define IO_ROS_DISTORTION_MAX 14 /* OpenCV's longest model; thin prism and tilt are its last six   \
-                                  */
+#define IO_ROS_NAME_MAX 128 /* of a frame, bytes with the ending zero */
+#define IO_ROS_DISTORTION_MAX                                                                      \
+    14 /* OpenCV's longest model; thin prism and tilt are its last six                             \
+        */
 
 typedef struct io_camera_info {
     char frame_id[IO_ROS_NAME_MAX];
