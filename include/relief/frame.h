@@ -39,6 +39,10 @@ typedef struct rlf_rig {
                               rlf_source_observe give depth from which it is taken away */
 } rlf_rig;
 
+/* Times lie within this of 0, 146 years either way, so that any two can be subtracted. A frame with
+ * another time is refused. */
+#define RLF_TIME_MAX_NS ((INT64_C(1) << 62) - 1)
+
 /* What a source says about a frame, bits of rlf_frame.flags. */
 typedef enum rlf_frame_flag {
     /* The driver gave mirrored pictures. The planes here are not: x is right. */

@@ -1,6 +1,7 @@
 /* The source object: caller's methods plus what is constant about them. */
 #include "capture/source_object.h"
 
+#include "base/time_range.h"
 #include "capture/depth_offset.h"
 
 struct rlf_source {
@@ -74,6 +75,7 @@ rlf_result rlf_source_next(rlf_source *source, rlf_frame *out_frame)
     rlf_frame frame = {.rig = &source->info.rig};
     rlf_result result = source->methods.next(source->self, &frame);
     frame.rig = &source->info.rig;
+    result = result == RLF_OK ? check_times(source->info.name, &frame) : result;
     if (result == RLF_OK) {
         if (source->corrected != NULL) {
             depth_offset_take(&source->info.rig, source->corrected, &frame);

@@ -5,6 +5,7 @@
 #include "surface/thickness/static.h"
 
 #include "base/cookie.h"
+#include "base/time_range.h"
 
 #include <string.h>
 
@@ -108,7 +109,7 @@ static rlf_result check_frame(const rlf_reconstruct *stage, const rlf_frame *fra
                         (unsigned long long)frame->sequence, (int)frame->rig->depth.width,
                         (int)frame->rig->depth.height, (int)camera->width, (int)camera->height);
     }
-    return RLF_OK;
+    return check_times("reconstruct", frame);
 }
 
 /* What the background is, and with it the foreground. */

@@ -121,8 +121,10 @@ static rlf_result parse(const io_bytes *file, part *out)
     }
     if (result == RLF_OK) {
         const io_json_object top = io_json_top(file, document);
+        /* An empty object is told what is missing. */
         const bool is_own =
-            kind == IO_CALIBRATION_JSON && (has_key(&top, "depth") || has_key(&top, "color"));
+            kind == IO_CALIBRATION_JSON &&
+            (has_key(&top, "depth") || has_key(&top, "color") || json_object_size(document) == 0);
         result = is_own ? io_rig_from_json(&top, &out->rig, &out->units_per_metre)
                         : read_part(&top, out);
     }

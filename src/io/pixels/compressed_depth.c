@@ -49,9 +49,12 @@ static bool is_rvl(const char *format)
 /* The PNG behind the head; the plain compressed transport writes PNG alone. */
 static io_bytes png_of(const io_bytes *file)
 {
-    const size_t head = io_png_is(file) ? 0 : HEADER_SIZE;
-    const size_t begin = file->size < head ? file->size : head;
-    return (io_bytes){file->name, file->data + begin, file->size - begin};
+    if (io_png_is(file)) {
+        return *file;
+    }
+    return file->size > HEADER_SIZE
+               ? (io_bytes){file->name, file->data + HEADER_SIZE, file->size - HEADER_SIZE}
+               : (io_bytes){file->name, NULL, 0};
 }
 
 bool io_compressed_depth_size(const io_bytes *file, const char *format, int32_t *out_width,

@@ -2,6 +2,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/recording/sink.h"
 
+#include "io/clip/pairing.h"
+
 #include <string.h>
 
 #include <sys/stat.h>
@@ -63,6 +65,12 @@ rlf_result rlf_recording_add(rlf_recording *recording, const rlf_frame *frame)
     if (!RLF_ASSERT(recording != NULL && frame != NULL) ||
         !RLF_ASSERT(frame->depth_u16 != NULL || frame->depth_f32 != NULL)) {
         return RLF_ERROR_INVALID;
+    }
+    if (!io_time_is_usable(frame->time_ns) || !io_time_is_usable(frame->color_time_ns)) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "recording: frame %llu: its time, %lld ns, is more than 146 years: use "
+                        "nanoseconds from any nearer origin",
+                        (unsigned long long)frame->sequence, (long long)frame->time_ns);
     }
     rlf_result result = recording->sink.add(recording->sink.self, frame);
     recording->status.frames += result == RLF_OK ? 1 : 0;
