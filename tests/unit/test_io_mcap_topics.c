@@ -9,6 +9,8 @@
 
 #include "relief/io.h"
 #include "io/codec/picture_encode.h"
+#include "io/mcap/compress.h"
+#include "io/mcap/read.h"
 #include "ros_file.h"
 
 #include <math.h>
@@ -343,6 +345,132 @@ static void depth_in_a_png_is_read(void **state)
     }
 }
 
+/* ---- what other drivers and recorders write ------------------------------------------------- */
+
+/* As a ZED driver does: depth in metres in the colour camera's pixels, and a map of confidence that
+ * looks like depth and has more pictures. */
+static void confidence_is_no_depth(void **state)
+{
+    (void)state;
+    float metres[48];
+    uint8_t bgra[192] = {0};
+    for (int i = 0; i < 48; i++) {
+        metres[i] = 1.0f + (float)i;
+    }
+    ros_file f = ros_file_open("a");
+    const uint16_t m = ros_topic(&f, IO_ROS_IMAGE, "/zed/zed_node/confidence/confidence_map");
+    const uint16_t d = ros_topic(&f, IO_ROS_IMAGE, "/zed/zed_node/depth/depth_registered");
+    const uint16_t c = ros_topic(&f, IO_ROS_IMAGE, "/zed/zed_node/rgb/image_rect_color");
+    const uint16_t di = ros_topic(&f, IO_ROS_CAMERA_INFO, "/zed/zed_node/depth/camera_info");
+    const uint16_t ci = ros_topic(&f, IO_ROS_CAMERA_INFO, "/zed/zed_node/rgb/camera_info");
+    const io_camera_info info = ros_lens("zed_left", small, 7);
+    ros_info(&f, di, &info);
+    ros_info(&f, ci, &info);
+    ros_image(&f, m, "zed_left", "32FC1", small, metres, sizeof(metres));
+    f.ms = 33;
+    ros_image(&f, m, "zed_left", "32FC1", small, metres, sizeof(metres));
+    ros_image(&f, d, "zed_left", "32FC1", small, metres, sizeof(metres));
+    ros_image(&f, c, "zed_left", "bgra8", small, bgra, sizeof(bgra));
+    ros_file_close(&f, "a");
+    for (int kind = 0; kind < 2; kind++) {
+        rlf_source *source = NULL;
+        rlf_frame frame;
+        assert_int_equal(open_one(kind, "", &source), RLF_OK);
+        assert_int_equal(rlf_source_get_info(source)->frame_count, 1);
+        assert_true(rlf_source_get_info(source)->rig.has_color);
+        assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+        assert_true((frame.flags & RLF_FRAME_ALIGNED) != 0 && frame.color.data != NULL);
+        assert_int_equal(told.count, 0);
+        rlf_source_destroy(&source);
+    }
+}
+
+static void what_is_not_read_is_named(void **state)
+{
+    (void)state;
+    ros_file f = ros_file_open("a");
+    const uint16_t g = ros_topic(&f, IO_ROS_IMAGE, "/stereo/disparity_raw");
+    ros_image(&f, g, "d", "8UC1", small, rgb, 48);
+    io_mcap_add_schema(f.mcap, "foxglove.CompressedImage", "");
+    const uint16_t p = io_mcap_add_channel(f.mcap, "/cam/depth", "");
+    io_mcap_begin(f.mcap, p, 0);
+    io_mcap_end(f.mcap, true);
+    io_mcap_add_schema(f.mcap, "stereo_msgs/msg/DisparityImage", "");
+    io_mcap_add_channel(f.mcap, "/stereo/disparity", "");
+    bag_file_connect(f.bag, 9, "/stereo/disparity", "stereo_msgs/DisparityImage");
+    ros_file_close(&f, "a");
+    rlf_source *source = NULL;
+    for (int kind = 0; kind < 2; kind++) {
+        test_expect_error(open_one(kind, "", &source), RLF_ERROR_FORMAT,
+                          "its topics of pictures are: /stereo/disparity_raw (8UC1)",
+                          kind == 0 ? "/stereo/disparity (stereo_msgs/msg/DisparityImage, cdr)"
+                                    : "not read: /stereo/disparity (stereo_msgs/DisparityImage)",
+                          kind == 0 ? "not read: /cam/depth (foxglove.CompressedImage" : NULL);
+    }
+}
+
+/* ros2 bag record --compression-mode message. */
+static void messages_packed_one_by_one_are_read(void **state)
+{
+    (void)state;
+    ros_file f = ros_file_open("plain");
+    const uint16_t d = ros_topic(&f, IO_ROS_IMAGE, "/d/image");
+    const uint16_t i = ros_topic(&f, IO_ROS_CAMERA_INFO, "/d/camera_info");
+    const io_camera_info info = ros_lens("d", small, 5);
+    ros_info(&f, i, &info);
+    ros_image(&f, d, "d", "16UC1", small, depth_mm, sizeof(depth_mm));
+    ros_file_close(&f, "plain");
+
+    io_mcap_reader *reader = NULL;
+    io_mcap_writer *writer = NULL;
+    io_mcap_compressor *compressor = NULL;
+    assert_int_equal(io_mcap_reader_open(test_path("plain.mcap"), &reader), RLF_OK);
+    assert_int_equal(io_mcap_writer_create(test_path("a.mcap"), IO_MCAP_PLAIN, &writer), RLF_OK);
+    assert_int_equal(io_mcap_compressor_create(&compressor), RLF_OK);
+    for (int32_t c = 0; c < io_mcap_channel_count(reader); c++) {
+        const io_mcap_channel *from = io_mcap_channel_at(reader, c);
+        io_cdr_span bytes;
+        io_mcap_add_schema(writer, io_ros_type_name(from->type), io_ros_type_text(from->type));
+        const uint16_t to = io_mcap_add_channel(writer, from->topic, "");
+        assert_int_equal(io_mcap_read(reader, from->first, &bytes), RLF_OK);
+        io_byte_buffer *out = io_mcap_begin(writer, to, 0);
+        assert_int_equal(io_mcap_compress(compressor, IO_MCAP_ZSTD, bytes.data, bytes.size, out),
+                         RLF_OK);
+        io_mcap_end(writer, true);
+    }
+    assert_int_equal(io_mcap_writer_close(&writer, NULL), RLF_OK);
+    io_mcap_reader_close(&reader);
+    io_mcap_compressor_destroy(&compressor);
+
+    rlf_source *source = NULL;
+    rlf_frame frame;
+    if (open_one(0, "", &source) != RLF_OK || rlf_source_next(source, &frame) != RLF_OK) {
+        fail_msg("%s", rlf_error_text());
+    }
+    assert_memory_equal(frame.depth_u16, depth_mm, sizeof(depth_mm));
+    rlf_source_destroy(&source);
+}
+
+static void other_forms_of_recordings_are_named(void **state)
+{
+    (void)state;
+    rlf_source *source = NULL;
+    test_write_text("a.db3", "SQLite format 3");
+    test_expect_error(rlf_open_source(test_path("a.db3"), NULL, &source), RLF_ERROR_UNSUPPORTED,
+                      "a.db3", "SQLite", "ros2 bag convert");
+    test_write_text("a.mcap.zstd", "x");
+    test_expect_error(rlf_open_source(test_path("a.mcap.zstd"), NULL, &source),
+                      RLF_ERROR_UNSUPPORTED, "a.mcap.zstd", "packed", "zstd -d");
+    /* The folder that holds them all, as `ros2 bag record` makes it. */
+    test_write_text("metadata.yaml", "rosbag2_bagfile_information:\n");
+    test_expect_error(rlf_open_source(test_folder, NULL, &source), RLF_ERROR_UNSUPPORTED, "folder",
+                      "SQLite", "ros2 bag convert");
+    test_write_text("a_1.mcap", "x");
+    test_write_text("a_0.mcap", "x");
+    test_expect_error(rlf_open_source(test_folder, NULL, &source), RLF_ERROR_UNSUPPORTED,
+                      "is the folder of a ROS 2 recording", "2 files", "such as a_0.mcap");
+}
+
 int main(void)
 {
 #define ROS_TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
@@ -352,6 +480,10 @@ int main(void)
         ROS_TEST(a_lens_of_another_size_is_never_taken),
         ROS_TEST(aligned_depth_serves_without_transforms),
         ROS_TEST(depth_in_a_png_is_read),
+        ROS_TEST(confidence_is_no_depth),
+        ROS_TEST(what_is_not_read_is_named),
+        ROS_TEST(messages_packed_one_by_one_are_read),
+        ROS_TEST(other_forms_of_recordings_are_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

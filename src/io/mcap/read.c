@@ -11,6 +11,7 @@ static void forget(io_mcap_reader *reader)
     reader->chunks.count = 0;
     reader->messages.count = 0;
     reader->bad_chunks = 0;
+    reader->strangers[0] = '\0';
     for (int i = 0; i < IO_MCAP_CACHED; i++) {
         reader->cache[i].chunk = -1;
     }
@@ -96,6 +97,7 @@ void io_mcap_reader_close(io_mcap_reader **reader)
     rlf_free(r->messages.items);
     io_buffer_free(&r->packed);
     io_buffer_free(&r->loose);
+    io_buffer_free(&r->plain);
     for (int i = 0; i < IO_MCAP_CACHED; i++) {
         io_buffer_free(&r->cache[i].buffer);
     }
@@ -120,6 +122,11 @@ const io_mcap_message *io_mcap_message_at(const io_mcap_reader *reader, int32_t 
     return (const io_mcap_message *)reader->messages.items + index;
 }
 
+const char *io_mcap_strangers(const io_mcap_reader *reader)
+{
+    return reader->strangers;
+}
+
 void io_mcap_set_time(io_mcap_reader *reader, int32_t index, int64_t time_ns)
 {
     ((io_mcap_message *)reader->messages.items)[index].time_ns = time_ns;
@@ -132,8 +139,28 @@ static rlf_result fail_message(const io_mcap_reader *reader, const io_mcap_messa
                     1e-9 * (double)m->time_ns);
 }
 
+/* `ros2 bag record --compression-mode message` packs each message by itself. */
+static rlf_result unpack_message(io_mcap_reader *reader, const io_mcap_message *m,
+                                 io_cdr_span *inout)
+{
+    const uint64_t size = io_mcap_zstd_size(inout->data, inout->size);
+    if (size == 0) {
+        return RLF_OK;
+    }
+    if (size > IO_MCAP_CHUNK_MAX) {
+        return fail_message(reader, m);
+    }
+    rlf_result result = io_buffer_reserve(&reader->plain, (size_t)size);
+    if (result == RLF_OK && !io_mcap_decompress(reader->compressor, IO_MCAP_ZSTD, inout->data,
+                                                inout->size, reader->plain.data, (size_t)size)) {
+        return fail_message(reader, m);
+    }
+    *inout = (io_cdr_span){reader->plain.data, (size_t)size};
+    return result;
+}
+
 /* Content of a record that is expected to be a message of the channel. */
-static rlf_result take_message(const io_mcap_reader *reader, const io_mcap_message *m,
+static rlf_result take_message(io_mcap_reader *reader, const io_mcap_message *m,
                                io_mcap_cursor bytes, io_cdr_span *out)
 {
     io_mcap_cursor record = {0};
@@ -145,7 +172,7 @@ static rlf_result take_message(const io_mcap_reader *reader, const io_mcap_messa
         return fail_message(reader, m);
     }
     *out = (io_cdr_span){record.data, record.size};
-    return RLF_OK;
+    return unpack_message(reader, m, out);
 }
 
 static rlf_result read_loose(io_mcap_reader *reader, const io_mcap_message *m, io_cdr_span *out)

@@ -17,6 +17,7 @@ void *io_mcap_list_add(io_mcap_list *list, size_t size);
 typedef struct io_mcap_schema {
     uint16_t id;
     io_ros_type type;
+    char name[64]; /* of type IO_ROS_OTHER: of pictures that are not read */
 } io_mcap_schema;
 
 typedef struct io_mcap_chunk {
@@ -43,6 +44,7 @@ struct io_mcap_reader {
     io_mcap_list schemas, channels, chunks, messages;
     io_buffer packed; /* a chunk before it is decompressed, a summary, a block of indexes */
     io_buffer loose;  /* a message outside chunks */
+    io_buffer plain;  /* a message that was compressed by itself */
     io_mcap_cached cache[IO_MCAP_CACHED];
     uint64_t calls;
     int32_t bad_chunks;
@@ -50,6 +52,7 @@ struct io_mcap_reader {
     bool is_to_end;                      /* a walk came to the end of the data */
     bool is_full;                        /* more messages than are listed */
     bool lacks_memory;                   /* a list could not grow */
+    char strangers[512];                 /* topics of pictures that are not read */
     char metadata[IO_MCAP_METADATA_MAX]; /* key, 0, value, 0, ..., 0 */
 };
 

@@ -107,6 +107,7 @@ rlf_result io_mcap_topics_create(io_mcap_reader *reader, const char *path, io_mc
     t->lists = (io_ros_topics){.name = path,
                                .pictures = t->pictures,
                                .infos = t->infos,
+                               .strangers = io_mcap_strangers(reader),
                                .is_joined = is_joined,
                                .self = t};
     for (int32_t i = 0; i < io_mcap_channel_count(reader); i++) {

@@ -136,17 +136,18 @@ static int32_t find_named(const io_ros_topics *topics, const char *name, bool wa
 static rlf_result fail_depth(const io_ros_topics *topics, const char *wished)
 {
     char list[512];
+    const char *also = topics->strangers[0] != '\0' ? "; not read:" : "";
     list_topics(topics, -1, false, list, sizeof(list));
     if (wished != NULL) {
         return rlf_fail(RLF_ERROR_INVALID,
                         "%s: depth=%.100s: holds no depth pictures of that topic (" DEPTH_KINDS
-                        "): its topics of pictures are:%s",
-                        topics->name, wished, list);
+                        "): its topics of pictures are:%s%s%s",
+                        topics->name, wished, list, also, topics->strangers);
     }
     return rlf_fail(RLF_ERROR_FORMAT,
                     "%s: holds no depth pictures (" DEPTH_KINDS
-                    "): record the camera's depth topic too; its topics of pictures are:%s",
-                    topics->name, list);
+                    "): record the camera's depth topic too; its topics of pictures are:%s%s%s",
+                    topics->name, list, also, topics->strangers);
 }
 
 static rlf_result fail_color(const io_ros_topics *topics, const char *wished)

@@ -34,6 +34,7 @@ typedef struct io_ros_topics {
     const io_ros_topic *pictures;
     const io_ros_info_topic *infos;
     int32_t picture_count, info_count;
+    const char *strangers; /* topics of pictures in messages that are not read; "" = none */
     /* Whether the file's transforms lead from one frame to the other. */
     bool (*is_joined)(void *self, const char *from, const char *to);
     void *self;
@@ -45,6 +46,12 @@ typedef struct io_ros_topics {
  * topic of depth is told. Fails when there is no depth, or not what was named. */
 rlf_result io_ros_choose(const io_ros_topics *topics, const char *depth, const char *color,
                          int32_t *out_depth, int32_t *out_color);
+
+/* Whether messages of a type are pictures or depth in a form that is not read. */
+bool io_ros_is_stranger(const char *type);
+/* Adds "TOPIC (TYPE, ENCODING)" to the texts of strangers, once. `encoding` may be "". */
+void io_ros_add_stranger(char *out, size_t size, const char *topic, const char *type,
+                         const char *encoding);
 
 /* Index into infos of the calibration of a topic: the one beside it, else one of its frame_id, else
  * one of its size, which is told. -1 = none that describes pictures of its size. */

@@ -143,6 +143,7 @@ rlf_result bag_topics_read(bag *b, const char *path, bag_topics *out)
     out->lists = (io_ros_topics){.name = path,
                                  .pictures = out->pictures,
                                  .infos = out->infos,
+                                 .strangers = out->strangers,
                                  .is_joined = is_joined,
                                  .self = out};
     for (int32_t i = 0; i < count; i++) {
@@ -151,6 +152,9 @@ rlf_result bag_topics_read(bag *b, const char *path, bag_topics *out)
             add_pictures(out, i);
         } else if (kind == MESSAGE_CAMERA_INFO) {
             add_info(out, i);
+        } else if (kind == MESSAGE_OTHER && io_ros_is_stranger(bag_connection_at(b, i)->type)) {
+            io_ros_add_stranger(out->strangers, sizeof(out->strangers),
+                                bag_connection_at(b, i)->topic, bag_connection_at(b, i)->type, "");
         }
     }
     tf_tree_read(&out->transforms, b);

@@ -15,6 +15,7 @@ typedef struct bag_topics {
     int32_t *connections; /* of the pictures */
     io_ros_info_topic *infos;
     io_ros_topics lists;
+    char strangers[512];
     int32_t depth, color; /* pictures; -1 = none */
 } bag_topics;
 
