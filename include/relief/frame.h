@@ -39,10 +39,6 @@ typedef struct rlf_rig {
                               rlf_source_observe give depth from which it is taken away */
 } rlf_rig;
 
-/* Times lie within this of 0, 146 years either way, so that any two can be subtracted. A frame with
- * another time is refused. */
-#define RLF_TIME_MAX_NS ((INT64_C(1) << 62) - 1)
-
 /* What a source says about a frame, bits of rlf_frame.flags. */
 typedef enum rlf_frame_flag {
     /* The driver gave mirrored pictures. The planes here are not: x is right. */
@@ -58,7 +54,9 @@ typedef enum rlf_frame_flag {
  * and stay valid until its next frame: who needs them for longer copies them. */
 typedef struct rlf_frame {
     uint64_t sequence; /* counts up by one per frame that the device made; gaps are lost frames */
-    int64_t time_ns;   /* device time, nanoseconds; increases from frame to frame */
+    /* Device time, nanoseconds; increases from frame to frame. This and the next two lie within
+     * RLF_TIME_MAX_NS: a frame with another time is refused. */
+    int64_t time_ns;
     int64_t host_time_ns;  /* rlf_clock_ns() when the frame reached this machine; 0 = unknown, as in
                               files */
     int64_t color_time_ns; /* device time of the colour picture; 0 = as time_ns */

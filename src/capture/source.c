@@ -75,7 +75,10 @@ rlf_result rlf_source_next(rlf_source *source, rlf_frame *out_frame)
     rlf_frame frame = {.rig = &source->info.rig};
     rlf_result result = source->methods.next(source->self, &frame);
     frame.rig = &source->info.rig;
-    result = result == RLF_OK ? check_times(source->info.name, &frame) : result;
+    if (result == RLF_OK) {
+        const int64_t times[3] = {frame.time_ns, frame.color_time_ns, frame.host_time_ns};
+        result = check_times(source->info.name, frame.sequence, times);
+    }
     if (result == RLF_OK) {
         if (source->corrected != NULL) {
             depth_offset_take(&source->info.rig, source->corrected, &frame);

@@ -109,7 +109,8 @@ static rlf_result check_frame(const rlf_reconstruct *stage, const rlf_frame *fra
                         (unsigned long long)frame->sequence, (int)frame->rig->depth.width,
                         (int)frame->rig->depth.height, (int)camera->width, (int)camera->height);
     }
-    return check_times("reconstruct", frame);
+    const int64_t times[3] = {frame->time_ns, frame->color_time_ns, frame->host_time_ns};
+    return check_times("reconstruct", frame->sequence, times);
 }
 
 /* What the background is, and with it the foreground. */

@@ -2,7 +2,7 @@
 #ifndef RLF_IO_CLIP_PAIRING_H
 #define RLF_IO_CLIP_PAIRING_H
 
-#include "relief/frame.h"
+#include "relief/base.h"
 
 /* Whether it lies within RLF_TIME_MAX_NS, so that any two times can be subtracted. */
 bool io_time_is_usable(int64_t time_ns);

@@ -189,14 +189,14 @@ static void take_statistics(io_mcap_reader *reader, io_mcap_cursor record)
 {
     io_mcap_take(&record, 8 + 2 + 4 + 4 + 4 + 4 + 8 + 8);
     io_mcap_cursor counts = io_mcap_take_block(&record);
+    const io_mcap_channel *channels = reader->channels.items;
     bool is_all = !record.is_bad;
     count_listed(reader);
     while (counts.size > 0 && !counts.is_bad) {
         const int32_t channel =
             io_mcap_find_channel(reader, (uint16_t)io_mcap_take_number(&counts, 2));
         const uint64_t count = io_mcap_take_number(&counts, 8);
-        is_all = is_all &&
-                 (channel < 0 || (uint64_t)io_mcap_channel_at(reader, channel)->count >= count);
+        is_all = is_all && (channel < 0 || (uint64_t)channels[channel].count >= count);
     }
     reader->lists_all = is_all && !counts.is_bad;
 }
