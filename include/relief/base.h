@@ -127,6 +127,9 @@ RLF_API const char *rlf_isa_name(void);
 
 /* ---- clock ----------------------------------------------------------------------------------- */
 
+/* Times lie within this of 0, 146 years either way, so that any two can be subtracted. */
+#define RLF_TIME_MAX_NS ((INT64_C(1) << 62) - 1)
+
 /* Monotonic time in nanoseconds (CLOCK_MONOTONIC: stands still while the machine sleeps); only
  * differences mean anything. Thread-safety: safe. */
 RLF_API int64_t rlf_clock_ns(void);

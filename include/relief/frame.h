@@ -54,7 +54,9 @@ typedef enum rlf_frame_flag {
  * and stay valid until its next frame: who needs them for longer copies them. */
 typedef struct rlf_frame {
     uint64_t sequence; /* counts up by one per frame that the device made; gaps are lost frames */
-    int64_t time_ns;   /* device time, nanoseconds; increases from frame to frame */
+    /* Device time, nanoseconds; increases from frame to frame. This and the next two lie within
+     * RLF_TIME_MAX_NS: a frame with another time is refused. */
+    int64_t time_ns;
     int64_t host_time_ns;  /* rlf_clock_ns() when the frame reached this machine; 0 = unknown, as in
                               files */
     int64_t color_time_ns; /* device time of the colour picture; 0 = as time_ns */

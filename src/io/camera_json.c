@@ -32,6 +32,20 @@ static void warn_unknown(const io_json_object *object, const char *const *known,
     }
 }
 
+/* Numbers beside "none" would be dropped, whatever they are for. */
+static rlf_result check_no_distortion(const io_json_object *object, const json_t *numbers)
+{
+    for (size_t i = 0; i < json_array_size(numbers); i++) {
+        if (json_number_value(json_array_get(numbers, i)) != 0.0) {
+            return io_json_fail(
+                object, "distortion",
+                "has numbers other than 0 beside the distortion_model \"none\": name "
+                "their model, or leave them out");
+        }
+    }
+    return RLF_OK;
+}
+
 static rlf_result read_distortion(const io_json_object *object, rlf_camera *camera)
 {
     static const io_json_field model_field = {
@@ -54,7 +68,7 @@ static rlf_result read_distortion(const io_json_object *object, rlf_camera *came
                             model_field.meaning);
     }
     if (model == NULL || strcmp(model, "none") == 0) {
-        return RLF_OK;
+        return check_no_distortion(object, numbers);
     }
     if (strcmp(model, "plumb_bob") == 0) {
         camera->distortion_model = RLF_DISTORTION_PLUMB_BOB;

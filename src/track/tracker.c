@@ -2,6 +2,7 @@
 #include "track/tracker.h"
 
 #include "base/cookie.h"
+#include "base/time_range.h"
 
 #define GUESS_GAP_NS 200000000 /* after a longer gap nobody knows how the camera goes on */
 
@@ -137,6 +138,9 @@ rlf_pose rlf_tracker_guess(const rlf_tracker *tracker, int64_t time_ns)
     const rlf_pose identity = {{0, 0, 0}, rlf_quat_identity()};
     if (!RLF_ASSERT(tracker != NULL)) {
         return identity;
+    }
+    if (!time_is_usable(time_ns)) {
+        return tracker->pose;
     }
     const int64_t last = tracker->time_ns - tracker->before_ns;
     const int64_t next = time_ns - tracker->time_ns;

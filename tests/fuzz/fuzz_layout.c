@@ -54,7 +54,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         io_frame_list_free(&depth);
         io_frame_list_free(&color);
     }
-    if (io_pose_list_tum(&file, &poses) == RLF_OK) {
+    if (io_pose_list_tum(&file, 0.0, 1.0, &poses) == RLF_OK) {
         check_poses(&poses);
     }
     if (io_pose_list_log(&file, &poses) == RLF_OK) {

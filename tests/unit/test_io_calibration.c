@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "io/calibration/text.h"
+#include "io/calibration/xml.h"
 #include "io_support.h"
 #include "relief/io.h"
 
@@ -119,11 +120,22 @@ static const char mrcal[] =
     "    'extrinsics': [ 0., 0., 0., 0., 0., 0.,],\n    'imagersize': [ 640, 480,],\n"
     "    'icam_intrinsics': 0,\n    'optimization_inputs': b'P~J(u0#2',\n}\n";
 
+/* As OpenCV writes it by the name of the file, with what its sample of calibration adds. */
+static const char xml[] =
+    "<?xml version=\"1.0\"?>\n<!-- made > by -->\n<opencv_storage>\n"
+    "<calibration_time>\"Wed 25 Nov\"</calibration_time>\n<image_width>640</image_width>\n"
+    "<image_height>480</image_height>\n<flags>2</flags>\n"
+    "<camera_matrix type_id=\"opencv-matrix\">\n  <rows>3</rows>\n  <cols>3</cols>\n"
+    "  <dt>d</dt>\n  <data>\n    5.25e+002 0. 3.195e+02 0. 525.\n    239.5 0. 0. 1.</data>"
+    "</camera_matrix>\n<distortion_coefficients type_id=\"opencv-matrix\"><rows>5</rows>"
+    "<data>0.1 -0.2 0. 0. 0.05</data></distortion_coefficients>\n<image_points><_>1. 2.</_>"
+    "<_>3. 4.</_></image_points>\n</opencv_storage>\n";
+
 static void texts_of_other_programs_are_read(void **state)
 {
     (void)state;
-    const char *const texts[] = {echo, opencv, mrcal};
-    for (int i = 0; i < 3; i++) {
+    const char *const texts[] = {echo, opencv, mrcal, xml};
+    for (int i = 0; i < 4; i++) {
         rlf_rig rig;
         if (load_text("camera.txt", texts[i], &rig) != RLF_OK) {
             fail_msg("%s", rlf_error_text());
@@ -134,6 +146,55 @@ static void texts_of_other_programs_are_read(void **state)
         assert_int_equal(rig.depth.distortion_model, RLF_DISTORTION_PLUMB_BOB);
         assert_true(rig.depth.distortion[1] == -0.2 && rig.depth.distortion[4] == 0.05);
     }
+}
+
+#define CAM(name, model, lens, more)                                                               \
+    name ":\n  camera_model: pinhole\n  distortion_model: " model "\n  distortion_coeffs: " lens   \
+         "\n  intrinsics: [461.5, 460.25, 362.5, 246.0]\n  resolution: [752, 480]\n"               \
+         "  rostopic: /" name "/image_raw\n  cam_overlaps: [1]\n" more
+#define CHAIN                                                                                      \
+    "  T_cn_cnm1:\n  - [0.0, -1.0, 0.0, -0.11]\n  - [1.0, 0.0, 0.0, 0.02]\n"                       \
+    "  - [0.0, 0.0, 1.0, 0.0]\n  - [0.0, 0.0, 0.0, 1.0]\n"
+
+static void a_chain_of_kalibr_is_read(void **state)
+{
+    (void)state;
+    rlf_rig rig;
+    test_log log = {0};
+    rlf_set_log(test_log_line, &log);
+    assert_int_equal(
+        load_text("chain.yaml", CAM("cam0", "radtan", "[0.01, -0.02, 1e-4, 2e-4]", ""), &rig),
+        RLF_OK);
+    assert_true(!rig.has_color && rig.depth.width == 752 && rig.depth.height == 480);
+    assert_true(rig.depth.fx == 461.5 && rig.depth.fy == 460.25);
+    assert_true(rig.depth.cx == 362.5 && rig.depth.cy == 246.0);
+    assert_true(rig.depth.distortion[1] == -0.02 && rig.depth.distortion[3] == 2e-4);
+    assert_int_equal(rig.depth.distortion_model, RLF_DISTORTION_PLUMB_BOB);
+    const char two[] =
+        CAM("cam0", "radtan", "[0.01, -0.02, 1e-4, 2e-4]", "") CAM("cam1", "none", "[]", CHAIN);
+    assert_int_equal(load_text("chain.yaml", two, &rig), RLF_OK);
+    assert_true(rig.has_color && rig.color.distortion_model == RLF_DISTORTION_NONE);
+    const rlf_vec3 p = rlf_transform(&rig.T_color_depth, rlf_vec3_make(1.0, 2.0, 3.0));
+    assert_true(fabs(p.x + 2.11) < 1e-12 && fabs(p.y - 1.02) < 1e-12 && fabs(p.z - 3.0) < 1e-12);
+    assert_int_equal(log.count, 0);
+    const char three[] = CAM("cam0", "none", "[]", "") CAM("cam1", "none", "[]", CHAIN)
+        CAM("cam2", "none", "[]", CHAIN);
+    assert_int_equal(load_text("chain.yaml", three, &rig), RLF_OK);
+    assert_non_null(strstr(log.last, "more than two cameras"));
+    rlf_set_log(NULL, NULL);
+}
+
+/* K is of the whole picture. */
+static void a_window_of_ros_is_applied(void **state)
+{
+    (void)state;
+    rlf_rig rig;
+    const char text[] = "height: 480\nwidth: 640\nk: [525, 0, 319.5, 0, 525, 239.5, 0, 0, 1]\n"
+                        "d: []\nbinning_x: 2\nbinning_y: 2\nroi:\n  x_offset: 64\n  y_offset: 0\n"
+                        "  height: 480\n  width: 512\n  do_rectify: false\n";
+    assert_int_equal(load_text("a.yaml", text, &rig), RLF_OK);
+    assert_true(rig.depth.width == 256 && rig.depth.height == 240 && rig.depth.fx == 262.5);
+    assert_true(rig.depth.cx == 127.5 && rig.depth.cy == 119.5);
 }
 
 /* ROS tells the baseline of a rectified pair in P. */
@@ -193,6 +254,26 @@ static const struct {
      "only LENSMODEL_PINHOLE"},
     {"a.cameramodel", "{'lensmodel': 'LENSMODEL_PINHOLE', 'intrinsics': [1, 2]}", RLF_ERROR_INVALID,
      "intrinsics has 2 numbers"},
+    {"a.yaml", CAM("cam0", "equidistant", "[0, 0, 0, 0]", ""), RLF_ERROR_INVALID,
+     "cam0.distortion_model is \"equidistant\": only radtan"},
+    {"a.yaml", "cam0:\n  camera_model: omni\n", RLF_ERROR_INVALID, "only pinhole is read"},
+    {"a.yaml", CAM("cam0", "none", "[]", "") CAM("cam1", "none", "[]", ""), RLF_ERROR_INVALID,
+     "cam1.T_cn_cnm1 must be four rows"},
+    {"a.yaml", "parameters:\n  rate: 30\n", RLF_ERROR_INVALID, "settings of a camera's driver"},
+    {"a.yaml", SIZE_LINES K_LINE "fisheye_model: 1\n", RLF_ERROR_INVALID, "fisheye_model is set"},
+    {"a.yaml", SIZE_LINES K_LINE "roi: {x_offset: 60, width: 8, height: 8}\n", RLF_ERROR_INVALID,
+     "leaves no part of the picture"},
+    {"a.yaml", SIZE_LINES K_LINE "binning_x: 0.5\n", RLF_ERROR_INVALID, "whole number"},
+    {"a.xml", "<mesh></mesh>", RLF_ERROR_FORMAT, "of XML only OpenCV's FileStorage is read"},
+    {"a.xml", "<opencv_storage><a>1</b></opencv_storage>", RLF_ERROR_FORMAT, "does not end"},
+    {"a.xml", "<opencv_storage><rate>1</rate></opencv_storage>", RLF_ERROR_INVALID,
+     "its first key is rate"},
+    {"a.json", "", RLF_ERROR_FORMAT, "is empty"},
+    {"a.yaml", " \n\t", RLF_ERROR_FORMAT, "is empty"},
+    {"a.json", "\x89PNG\r\n", RLF_ERROR_FORMAT, "looks like a PNG picture"},
+    {"a.yaml", "\x89MCAP0\r\n", RLF_ERROR_FORMAT, "an MCAP recording: give it as the SOURCE"},
+    {"a.json", "{\"bodies\": []}", RLF_ERROR_INVALID, "a scene of Relief"},
+    {"a.json", "{\"mass\": 1}", RLF_ERROR_INVALID, "its first key is mass"},
     {"a.json", "{\"intrinsic_matrix\": [1, 2]}", RLF_ERROR_INVALID, "intrinsic_matrix has 2"},
 };
 
@@ -214,8 +295,8 @@ static void damaged_texts_do_no_harm(void **state)
 {
     (void)state;
     static const char bytes[] = "\0[]{}:,'\"#-!\n &\xff";
-    const char *const texts[] = {echo, opencv, mrcal};
-    for (int t = 0; t < 3; t++) {
+    const char *const texts[] = {echo, opencv, mrcal, xml};
+    for (int t = 0; t < 4; t++) {
         const size_t length = strlen(texts[t]);
         char *copy = malloc(length);
         assert_non_null(copy);
@@ -225,7 +306,9 @@ static void damaged_texts_do_no_harm(void **state)
                 copy[cut] = bytes[b];
                 const io_bytes file = {"x", (const uint8_t *)copy, b == 0 ? cut : length};
                 json_t *value = NULL;
-                if (io_calibration_text_parse(&file, &value) == RLF_OK) {
+                const rlf_result result = t == 3 ? io_calibration_xml_parse(&file, &value)
+                                                 : io_calibration_text_parse(&file, &value);
+                if (result == RLF_OK) {
                     assert_non_null(value);
                     json_decref(value);
                 }
@@ -240,6 +323,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_format_comes_back),
         cmocka_unit_test(texts_of_other_programs_are_read),
+        cmocka_unit_test(a_chain_of_kalibr_is_read),
+        cmocka_unit_test(a_window_of_ros_is_applied),
         cmocka_unit_test(a_rectified_pair_of_ros_has_its_baseline),
         cmocka_unit_test(what_does_not_fit_is_refused_with_a_reason),
         cmocka_unit_test(damaged_texts_do_no_harm),

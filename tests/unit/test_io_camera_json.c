@@ -136,6 +136,9 @@ static const broken broken_files[] = {
      "depth.noise has 2 numbers", "c0"},
     {"{\"depth\":{" SIZE LENS ",\"units_per_metre\":1,\"distortion_model\":\"fisheye\"}}",
      RLF_ERROR_INVALID, "depth.distortion_model is \"fisheye\"", "plumb_bob"},
+    {"{\"depth\":{" SIZE LENS ",\"units_per_metre\":1,\"distortion_model\":\"none\","
+     "\"distortion\":[0.1,0]}}",
+     RLF_ERROR_INVALID, "depth.distortion has numbers other than 0", "leave them out"},
     {"{\"depth\":{" SIZE LENS ",\"units_per_metre\":1,\"distortion\":[1,2,3,4,5]}}",
      RLF_ERROR_INVALID, "depth.distortion_model is missing", "plumb_bob"},
     {"{\"depth\":{" SIZE LENS ",\"units_per_metre\":1,\"distortion_model\":\"plumb_bob\"}}",

@@ -134,6 +134,33 @@ static void a_damaged_frame_is_told_or_left_out(void **state)
     rlf_source_destroy(&source);
 }
 
+static void times_beyond_all_reason_are_refused(void **state)
+{
+    (void)state;
+    static const int64_t times[][2] = {{INT64_MIN, INT64_MAX}, {0, INT64_MAX}, {INT64_MIN, 0}};
+    static const int64_t good[2] = {-RLF_TIME_MAX_NS, RLF_TIME_MAX_NS};
+    for (int i = 0; i < 6; i++) {
+        const bool is_color = i >= 3;
+        reader r = {.damaged = -1};
+        io_clip_def def = {.name = "clip",
+                           .units_per_metre = 1000.0,
+                           .depth_times = is_color ? good : times[i % 3],
+                           .color_times = is_color ? times[i % 3] : good,
+                           .depth_count = 2,
+                           .color_count = 2,
+                           .read_depth = read_depth,
+                           .read_color = read_color,
+                           .self = &r};
+        def.rig.depth = (rlf_camera){.width = 2, .height = 2, .fx = 1, .fy = 1};
+        def.rig.color = def.rig.depth;
+        def.rig.has_color = true;
+        rlf_opened opened;
+        assert_int_equal(io_clip_open(&def, &opened), RLF_ERROR_FORMAT);
+        assert_non_null(strstr(rlf_error_text(), is_color ? "clip: colour" : "clip: depth"));
+        assert_non_null(strstr(rlf_error_text(), "correct its times"));
+    }
+}
+
 static void addresses_are_taken_apart(void **state)
 {
     (void)state;
@@ -162,6 +189,7 @@ int main(void)
         cmocka_unit_test(lost_doubled_and_unpaired_frames_are_counted),
         cmocka_unit_test(a_seek_says_that_the_frame_does_not_follow),
         cmocka_unit_test(a_damaged_frame_is_told_or_left_out),
+        cmocka_unit_test(times_beyond_all_reason_are_refused),
         cmocka_unit_test(addresses_are_taken_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

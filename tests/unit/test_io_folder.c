@@ -172,6 +172,78 @@ static void unix_times_keep_their_nanoseconds(void **state)
     io_frame_list_free(&list);
 }
 
+/* depth.txt of three pictures, with a value for each: whose unit, in units per second, is found. */
+static void other_units_are_understood(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *times[3];
+        int64_t first_ns, last_ns; /* -1 = refused */
+        const char *told;          /* NULL = nothing */
+    } lists[] = {
+        {{"0", "0.033", "0.066"}, 0, 66000000, NULL},
+        {{"0", "1", "2"}, 0, INT64_C(2000000000), NULL},
+        {{"1700000000", "1700000060", "1700000120"},
+         INT64_C(1700000000000000000),
+         INT64_C(1700000120000000000),
+         NULL},
+        {{"0", "33.3", "66.7"}, 0, 66700000, "milliseconds"},
+        {{"500.25", "533", "566"}, 500250000, 566000000, "milliseconds"},
+        {{"1700000000000", "1700000000033", "1700000000066"},
+         INT64_C(1700000000000000000),
+         INT64_C(1700000000066000000),
+         "milliseconds"},
+        {{"12000000", "12033333", "12066666"},
+         INT64_C(12000000000),
+         INT64_C(12066666000),
+         "microseconds"},
+        {{"1700000000000000", "1700000000033333", "1700000000066666.5"},
+         INT64_C(1700000000000000000),
+         INT64_C(1700000000066666500),
+         "microseconds"},
+        {{"1700000000000000001", "1700000000033333334", "1700000000066666667"},
+         INT64_C(1700000000000000001),
+         INT64_C(1700000000066666667),
+         "nanoseconds"},
+        {{"5000000000", "5033333333", "5066666667"},
+         INT64_C(5000000000),
+         INT64_C(5066666667),
+         "nanoseconds"},
+        /* 5 ms or 5 s: only a date tells. */
+        {{"1700000000000000000", "1700000000005000000", "1700000000010000000"},
+         INT64_C(1700000000000000000),
+         INT64_C(1700000000010000000),
+         "nanoseconds"},
+        {{"900000000000", "900005000000", "900010000000"}, -1, -1, NULL},
+        {{"0", "5000", "10000"}, 0, INT64_C(10000000000000), NULL}, /* seconds, as ever */
+    };
+    for (size_t i = 0; i < sizeof(lists) / sizeof(lists[0]); i++) {
+        char text[256];
+        snprintf(text, sizeof(text), "%s a\n%s b\n%s c\n", lists[i].times[0], lists[i].times[1],
+                 lists[i].times[2]);
+        io_bytes file = {"depth.txt", (const uint8_t *)text, strlen(text)};
+        io_frame_list list;
+        test_log log = {0};
+        rlf_set_log(test_log_line, &log);
+        const rlf_result result = io_frame_list_parse(&file, &list);
+        rlf_set_log(NULL, NULL);
+        if (lists[i].first_ns < 0) {
+            test_expect_error(result, RLF_ERROR_FORMAT, "depth.txt:1", "more than 4600000000",
+                              "write seconds");
+            continue;
+        }
+        assert_int_equal(result, RLF_OK);
+        if (list.entries[0].time_ns != lists[i].first_ns ||
+            list.entries[2].time_ns != lists[i].last_ns) {
+            fail_msg("%s: %lld %lld", lists[i].times[0], (long long)list.entries[0].time_ns,
+                     (long long)list.entries[2].time_ns);
+        }
+        assert_int_equal(log.count, lists[i].told != NULL ? 1 : 0);
+        assert_true(lists[i].told == NULL || strstr(log.last, lists[i].told) != NULL);
+        io_frame_list_free(&list);
+    }
+}
+
 static void broken_lists_are_refused(void **state)
 {
     (void)state;
@@ -434,6 +506,7 @@ int main(void)
         CLIP_TEST(frames_allocate_nothing),
         CLIP_TEST(times_that_go_back_are_sorted_with_a_warning),
         cmocka_unit_test(unix_times_keep_their_nanoseconds),
+        cmocka_unit_test(other_units_are_understood),
         CLIP_TEST(broken_lists_are_refused),
         CLIP_TEST(the_camera_has_the_size_of_its_pictures),
         CLIP_TEST(missing_and_broken_camera_json),

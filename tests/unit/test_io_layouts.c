@@ -320,9 +320,48 @@ static void every_prefix_of_the_poses_is_safe(void **state)
         assert_int_equal(io_pose_list_log(&file, &list), RLF_OK);
         assert_true(list.count <= 1);
         io_pose_list_free(&list);
-        assert_int_equal(io_pose_list_tum(&file, &list), RLF_OK);
+        assert_int_equal(io_pose_list_tum(&file, 0.0, 1.0, &list), RLF_OK);
         io_pose_list_free(&list);
         io_pose_matrix(&file, &pose);
+    }
+}
+
+/* Poses go with the pictures' times, which tell their unit. */
+static void poses_in_other_units_are_understood(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *first, *last;
+        double first_s, last_s; /* of the pictures */
+        int64_t last_ns;        /* of the poses */
+        const char *told;       /* NULL = nothing */
+    } cases[] = {
+        {"0.5", "9.5", 0.0, 10.0, INT64_C(9500000000), NULL},
+        {"0", "10000", 0.0, 10.0, INT64_C(10000000000), "milliseconds"},
+        {"100", "300000", 0.1, 290.0, INT64_C(300000000000), "milliseconds"},
+        {"0", "120", 0.0, 121.0, INT64_C(120000000000), NULL}, /* one a minute */
+        {"0", "99", 0.0, 3.3, INT64_C(99000000000), NULL},     /* numbers of pictures */
+        {"1700000000000000000", "1700000200000000000", 1700000050.0, 1700000060.0,
+         INT64_C(1700000200000000000), "nanoseconds"},
+        {"1700000000000000", "1700000200000000", 1700000050.0, 1700000050.0,
+         INT64_C(1700000200000000000), "microseconds"},
+    };
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        char text[256];
+        snprintf(text, sizeof(text), "%s 0 0 0 0 0 0 1\n%s 1 0 0 0 0 0 1\n", cases[i].first,
+                 cases[i].last);
+        const io_bytes file = {"groundtruth.txt", (const uint8_t *)text, strlen(text)};
+        io_pose_list list;
+        test_log log = {0};
+        rlf_set_log(test_log_line, &log);
+        assert_int_equal(io_pose_list_tum(&file, cases[i].first_s, cases[i].last_s, &list), RLF_OK);
+        rlf_set_log(NULL, NULL);
+        assert_int_equal(list.count, 2);
+        if (list.times[1] != cases[i].last_ns || log.count != (cases[i].told != NULL ? 1 : 0)) {
+            fail_msg("%zu: %lld, %s", i, (long long)list.times[1], log.last);
+        }
+        assert_true(cases[i].told == NULL || strstr(log.last, cases[i].told) != NULL);
+        io_pose_list_free(&list);
     }
 }
 
@@ -330,6 +369,7 @@ int main(void)
 {
 #define FOLDER_TEST(f) cmocka_unit_test_setup_teardown(f, test_folder_make, test_folder_remove)
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(poses_in_other_units_are_understood),
         FOLDER_TEST(tum_has_poses_and_a_known_camera),
         cmocka_unit_test(associations_come_in_either_order),
         FOLDER_TEST(icl_is_turned_to_y_down),

@@ -171,7 +171,7 @@ static void topics_can_be_chosen(void **state)
     assert_non_null(strstr(rlf_source_get_info(source)->device, "infra1"));
     rlf_source_destroy(&source);
     snprintf(address, sizeof(address), "mcap:%s?depth=/nothing", test_path("a.mcap"));
-    test_expect_error(rlf_open_source(address, NULL, &source), RLF_ERROR_FORMAT, "a.mcap",
+    test_expect_error(rlf_open_source(address, NULL, &source), RLF_ERROR_INVALID, "a.mcap",
                       "/nothing", "/camera/depth/image_rect_raw");
     snprintf(address, sizeof(address), "mcap:%s?color=/nothing", test_path("a.mcap"));
     test_expect_error(rlf_open_source(address, NULL, &source), RLF_ERROR_INVALID, "a.mcap",

@@ -193,7 +193,7 @@ static void topics_can_be_chosen(void **state)
     char name[TEST_PATH_MAX];
     snprintf(name, sizeof(name), "rosbag:%s?depth=/tf_static", test_path("clip.bag"));
     test_expect_error(rlf_open_source(name, NULL, &source), RLF_ERROR_INVALID, "clip.bag",
-                      "depth=/tf_static", "rosbag info");
+                      "depth=/tf_static", "/camera/depth/image_raw (16UC1)");
     snprintf(name, sizeof(name), "rosbag:%s?gap=x", test_path("clip.bag"));
     test_expect_error(rlf_open_source(name, NULL, &source), RLF_ERROR_INVALID, "clip.bag", "gap=x",
                       "milliseconds");
@@ -259,6 +259,31 @@ static void chunks_that_lie_are_refused(void **state)
         test_expect_error(rlf_open_source(test_path("clip.bag"), NULL, &source), RLF_ERROR_FORMAT,
                           "clip.bag", "no depth pictures", NULL);
         assert_non_null(strstr(log.last, i < 2 ? "damaged or cut short at byte" : "claims to"));
+    }
+    rlf_set_log(NULL, NULL);
+}
+
+/* A chunk that claims to be empty has no memory to unpack into. */
+static void a_chunk_that_claims_to_be_empty_is_refused(void **state)
+{
+    (void)state;
+    test_log log = {0};
+    rlf_set_log(test_log_line, &log);
+    const char *const kinds[3] = {"lz4", "bz2", "none"};
+    for (int i = 0; i < 3; i++) {
+        bag_file *b = bag_file_new();
+        bag_sample_chunk(b, 0);
+        byte_file *packed = calloc(1, sizeof(*packed));
+        bag_sample_lz4(&b->chunk, packed);
+        packed->size = i == 2 ? 0 : packed->size;
+        b->chunk.size = 0; /* what the header will claim */
+        bag_file_flush(b, kinds[i], packed, false);
+        save(b);
+        free(packed);
+        rlf_source *source = NULL;
+        const rlf_result wanted = rlf_open_source(test_path("clip.bag"), NULL, &source);
+        assert_true(wanted == RLF_ERROR_FORMAT || wanted == RLF_ERROR_UNSUPPORTED);
+        assert_null(source);
     }
     rlf_set_log(NULL, NULL);
 }
@@ -342,6 +367,7 @@ int main(void)
         BAG_TEST(topics_can_be_chosen),
         BAG_TEST(every_prefix_gives_whole_frames),
         BAG_TEST(chunks_that_lie_are_refused),
+        BAG_TEST(a_chunk_that_claims_to_be_empty_is_refused),
         BAG_TEST(a_file_that_is_no_bag_is_told),
         BAG_TEST(without_camera_info_a_file_beside_serves),
         cmocka_unit_test(realsense_topics_are_known),

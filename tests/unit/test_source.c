@@ -102,6 +102,44 @@ static void optional_methods_may_be_missing(void **state)
     assert_int_equal(c.destroyed, 0);
 }
 
+typedef struct stamped {
+    counter counts;
+    int64_t times[3]; /* time_ns, color_time_ns, host_time_ns */
+} stamped;
+
+static rlf_result stamped_next(void *self, rlf_frame *out)
+{
+    stamped *s = self;
+    rlf_result result = counter_next(&s->counts, out);
+    out->time_ns = s->times[0];
+    out->color_time_ns = s->times[1];
+    out->host_time_ns = s->times[2];
+    return result;
+}
+
+/* Any two times can be subtracted. */
+static void times_that_cannot_be_subtracted_are_refused(void **state)
+{
+    (void)state;
+    static const int64_t bad[] = {INT64_MIN, INT64_MAX, RLF_TIME_MAX_NS + 1, -RLF_TIME_MAX_NS - 1};
+    static const char *const names[3] = {"time_ns", "color_time_ns", "host_time_ns"};
+    rlf_source_info info = make_info();
+    rlf_source_methods methods = {.next = stamped_next};
+    for (int i = 0; i < 12; i++) {
+        stamped s = {.counts = {.limit = 3}, .times = {RLF_TIME_MAX_NS, -RLF_TIME_MAX_NS, 0}};
+        rlf_source *source = NULL;
+        rlf_frame frame;
+        assert_int_equal(rlf_source_create_custom(&methods, &info, &s, &source), RLF_OK);
+        assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+        s.times[i % 3] = bad[i / 3];
+        assert_int_equal(rlf_source_next(source, &frame), RLF_ERROR_INVALID);
+        assert_non_null(strstr(rlf_error_text(), "counter: frame 1: "));
+        assert_non_null(strstr(rlf_error_text(), names[i % 3]));
+        assert_non_null(strstr(rlf_error_text(), "nanoseconds"));
+        rlf_source_destroy(&source);
+    }
+}
+
 static void a_bad_camera_is_named_and_self_is_kept(void **state)
 {
     (void)state;
@@ -170,6 +208,7 @@ int main(void)
         cmocka_unit_test(frames_come_in_order_with_the_rig),
         cmocka_unit_test(the_depth_offset_is_taken_away),
         cmocka_unit_test(optional_methods_may_be_missing),
+        cmocka_unit_test(times_that_cannot_be_subtracted_are_refused),
         cmocka_unit_test(a_bad_camera_is_named_and_self_is_kept),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -220,6 +220,8 @@ static void test_the_camera_goes_on_as_it_did(void **state)
     assert_float_equal(rlf_tracker_guess(f.tracker, 66000000).p.x, 0.02, 1e-9);
     assert_float_equal(rlf_tracker_guess(f.tracker, 5000000000).p.x, 0.01, 1e-9);
     assert_float_equal(rlf_tracker_guess(f.tracker, 0).p.x, 0.01, 1e-9);
+    assert_float_equal(rlf_tracker_guess(f.tracker, INT64_MAX).p.x, 0.01, 1e-9);
+    assert_float_equal(rlf_tracker_guess(f.tracker, INT64_MIN).p.x, 0.01, 1e-9);
     rlf_tracker_destroy(&f.tracker);
 }
 

@@ -1,7 +1,10 @@
 /* Any calibration file as a rig. */
 #include "relief/io.h"
+#include "io/calibration/kalibr.h"
+#include "io/calibration/kind.h"
 #include "io/calibration/lens.h"
 #include "io/calibration/text.h"
+#include "io/calibration/xml.h"
 #include "io/camera_json.h"
 
 #include <string.h>
@@ -26,34 +29,6 @@ static bool has_key(const io_json_object *top, const char *key)
     return json_object_get(top->value, key) != NULL;
 }
 
-static bool ends_with(const char *text, const char *end)
-{
-    const size_t length = strlen(text), end_length = strlen(end);
-    return length >= end_length && strcmp(text + length - end_length, end) == 0;
-}
-
-/* By the name; else JSON begins with a bracket, and mrcal's files name a lens model. */
-static bool is_json(const io_bytes *file)
-{
-    static const char model[] = "lensmodel";
-    if (ends_with(file->name, ".json") || file->size == 0) {
-        return true;
-    }
-    if (ends_with(file->name, ".yaml") || ends_with(file->name, ".yml") ||
-        ends_with(file->name, ".cameramodel")) {
-        return false;
-    }
-    size_t i = 0;
-    while (i < file->size && strchr(" \t\r\n\xEF\xBB\xBF", file->data[i]) != NULL) {
-        i++;
-    }
-    bool has_model = false;
-    for (size_t k = i; k + sizeof(model) < file->size && k < i + 4096; k++) {
-        has_model = has_model || memcmp(file->data + k, model, sizeof(model) - 1) == 0;
-    }
-    return i < file->size && (file->data[i] == '{' || file->data[i] == '[') && !has_model;
-}
-
 /* R and T of OpenCV's stereo calibration: p2 = R p1 + T. */
 static rlf_result read_stereo(const io_json_object *top, part *out)
 {
@@ -71,16 +46,8 @@ static rlf_result read_stereo(const io_json_object *top, part *out)
                             "and T are missing: a pair needs p2 = R p1 + T, 9 and 3 "
                             "numbers");
     }
-    /* camera.json's own check of rotations and of metres. */
-    json_t *motion =
-        json_pack("{s:{s:[[f,f,f],[f,f,f],[f,f,f]],s:[f,f,f]}}", "depth_to_color", "rotation", r[0],
-                  r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], "translation", t[0], t[1], t[2]);
-    io_json_object object = *top;
-    object.value = motion;
-    result = motion != NULL ? io_rig_read_motion(&object, &out->rig) : RLF_ERROR_MEMORY;
     out->has_motion = true;
-    json_decref(motion);
-    return result;
+    return io_calibration_set_motion(top, r, 3, t, 1, &out->rig);
 }
 
 /* ROS has a rectified pair's baseline in P: P[3] = -fx baseline, and R turns into that frame. */
@@ -119,13 +86,21 @@ static rlf_result read_yaml(const io_json_object *top, part *out)
 
 static rlf_result read_part(const io_json_object *top, part *out)
 {
+    rlf_result result = RLF_OK;
     if (has_key(top, "lensmodel")) {
         out->has_reference = true;
         return io_calibration_read_mrcal(top, &out->rig.depth, &out->T_camera_reference);
     }
-    const bool is_open3d = has_key(top, "intrinsic_matrix") || has_key(top, "intrinsic");
-    rlf_result result =
-        is_open3d ? io_calibration_read_open3d(top, &out->rig.depth) : read_yaml(top, out);
+    if (io_calibration_is_kalibr(top)) {
+        return io_calibration_read_kalibr(top, &out->rig, &out->has_motion);
+    }
+    if (has_key(top, "intrinsic_matrix") || has_key(top, "intrinsic")) {
+        result = io_calibration_read_open3d(top, &out->rig.depth);
+    } else if (io_calibration_has_matrix(top)) {
+        result = read_yaml(top, out);
+    } else {
+        return io_calibration_fail_unknown(top);
+    }
     if (result == RLF_OK && has_key(top, "depth_to_color")) {
         out->has_motion = true;
         result = io_rig_read_motion(top, &out->rig);
@@ -137,15 +112,21 @@ static rlf_result parse(const io_bytes *file, part *out)
 {
     *out = (part){.rig = io_rig_default(), .units_per_metre = UNITS_DEFAULT};
     json_t *document = NULL;
-    const bool is_text = !is_json(file);
-    rlf_result result =
-        is_text ? io_calibration_text_parse(file, &document) : io_json_parse(file, &document);
+    io_calibration_kind kind = IO_CALIBRATION_JSON;
+    rlf_result result = io_calibration_kind_of(file, &kind);
+    if (result == RLF_OK) {
+        result = kind == IO_CALIBRATION_JSON   ? io_json_parse(file, &document)
+                 : kind == IO_CALIBRATION_TEXT ? io_calibration_text_parse(file, &document)
+                                               : io_calibration_xml_parse(file, &document);
+    }
     if (result == RLF_OK) {
         const io_json_object top = io_json_top(file, document);
-        const bool is_foreign = is_text || has_key(&top, "intrinsic_matrix") ||
-                                has_key(&top, "intrinsic") || has_key(&top, "lensmodel");
-        result = is_foreign ? read_part(&top, out)
-                            : io_rig_from_json(&top, &out->rig, &out->units_per_metre);
+        /* An empty object is told what is missing. */
+        const bool is_own =
+            kind == IO_CALIBRATION_JSON &&
+            (has_key(&top, "depth") || has_key(&top, "color") || json_object_size(document) == 0);
+        result = is_own ? io_rig_from_json(&top, &out->rig, &out->units_per_metre)
+                        : read_part(&top, out);
     }
     json_decref(document);
     return result;

@@ -2,6 +2,9 @@
  * Open3D share: k1 k2 p1 p2 k3 k4 k5 k6. */
 #include "io/calibration/lens.h"
 
+#include "io/camera_json.h"
+#include "io/camera_window.h"
+
 #include <string.h>
 
 #define COEFFICIENTS_MAX 14 /* OpenCV's: thin prism and tilt follow, which must be 0 here */
@@ -35,7 +38,7 @@ rlf_result io_calibration_numbers(const io_json_object *top, const char *const *
 }
 
 /* Wide bounds, as of camera.json: they catch normalised intrinsics and wrong sizes. */
-static rlf_result check_lens(const io_json_object *top, const rlf_camera *c)
+rlf_result io_calibration_check_lens(const io_json_object *top, const rlf_camera *c)
 {
     const double size[2] = {c->width, c->height};
     const double focal[2] = {c->fx, c->fy};
@@ -52,8 +55,8 @@ static rlf_result check_lens(const io_json_object *top, const rlf_camera *c)
     return RLF_OK;
 }
 
-static rlf_result set_coefficients(const io_json_object *top, const double *k, size_t count,
-                                   rlf_camera *c)
+rlf_result io_calibration_set_coefficients(const io_json_object *top, const double *k, size_t count,
+                                           rlf_camera *c)
 {
     for (size_t i = 8; i < count; i++) {
         if (k[i] != 0.0) {
@@ -91,6 +94,20 @@ static rlf_result set_size(const io_json_object *top, double width, double heigh
     return RLF_OK;
 }
 
+rlf_result io_calibration_set_motion(const io_json_object *top, const double *r, size_t row,
+                                     const double *t, size_t step, rlf_rig *out)
+{
+    json_t *motion =
+        json_pack("{s:{s:[[f,f,f],[f,f,f],[f,f,f]],s:[f,f,f]}}", "depth_to_color", "rotation", r[0],
+                  r[1], r[2], r[row], r[row + 1], r[row + 2], r[2 * row], r[2 * row + 1],
+                  r[2 * row + 2], "translation", t[0], t[step], t[2 * step]);
+    io_json_object object = *top;
+    object.value = motion;
+    rlf_result result = motion != NULL ? io_rig_read_motion(&object, out) : RLF_ERROR_MEMORY;
+    json_decref(motion);
+    return result;
+}
+
 /* ---- ROS and OpenCV ------------------------------------------------------------------------- */
 
 static rlf_result read_size(const io_json_object *top, rlf_camera *c)
@@ -122,14 +139,73 @@ static rlf_result check_model(const io_json_object *top)
         return io_json_fail(top, field.key,
                             "is \"%.60s\": only plumb_bob and rational_polynomial are read", model);
     }
+    const json_t *fisheye = json_object_get(top->value, "fisheye_model"); /* of OpenCV's sample */
+    if (json_is_true(fisheye) || json_number_value(fisheye) != 0.0) {
+        return io_json_fail(top, "fisheye_model",
+                            "is set: fisheye lenses are not read: calibrate without it");
+    }
     return result;
+}
+
+static const char *const matrices[2][9] = {
+    {"camera_matrix", "cameraMatrix", "Camera_Matrix", "K", "k", "M1", "K1", "cameraMatrix1", NULL},
+    {"M2", "K2", "cameraMatrix2", NULL}};
+
+bool io_calibration_has_matrix(const io_json_object *top)
+{
+    static const char *const sizes[] = {"image_width", "width", "image_size", "imageSize", NULL};
+    const char *const *const lists[2] = {matrices[0], sizes};
+    for (int l = 0; l < 2; l++) {
+        for (const char *const *name = lists[l]; *name != NULL; name++) {
+            if (json_object_get(top->value, *name) != NULL) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+static rlf_result get_count(const json_t *from, const char *key, const io_json_object *top,
+                            uint32_t *out)
+{
+    const json_t *value = json_object_get(from, key);
+    const double number = json_is_number(value) ? json_number_value(value) : 0.0;
+    if (!(number >= 0.0 && number <= RLF_IMAGE_SIZE_MAX) || number != (uint32_t)number) {
+        return io_json_fail(top, key, "is %g: it must be a whole number of pixels", number);
+    }
+    *out = (uint32_t)number;
+    return RLF_OK;
+}
+
+/* What ROS's CameraInfo says of the picture's part: K is of the whole. */
+static rlf_result apply_window(const io_json_object *top, rlf_camera *c)
+{
+    const json_t *roi = json_object_get(top->value, "roi");
+    io_camera_window w = {0};
+    const struct {
+        const json_t *from;
+        const char *key;
+        uint32_t *to;
+    } fields[6] = {{top->value, "binning_x", &w.binning_x},
+                   {top->value, "binning_y", &w.binning_y},
+                   {roi, "x_offset", &w.x},
+                   {roi, "y_offset", &w.y},
+                   {roi, "width", &w.width},
+                   {roi, "height", &w.height}};
+    for (int i = 0; i < 6; i++) {
+        rlf_result result = get_count(fields[i].from, fields[i].key, top, fields[i].to);
+        if (result != RLF_OK) {
+            return result;
+        }
+    }
+    return io_camera_window_apply(&w, c)
+               ? RLF_OK
+               : io_json_fail(top, "roi", "or binning leaves no part of the picture of %d x %d",
+                              (int)c->width, (int)c->height);
 }
 
 rlf_result io_calibration_read_matrix(const io_json_object *top, bool second, rlf_camera *out)
 {
-    static const char *const matrices[2][9] = {{"camera_matrix", "cameraMatrix", "Camera_Matrix",
-                                                "K", "k", "M1", "K1", "cameraMatrix1", NULL},
-                                               {"M2", "K2", "cameraMatrix2", NULL}};
     static const char *const lenses[2][9] = {{"distortion_coefficients", "distCoeffs",
                                               "dist_coeffs", "Distortion_Coefficients", "D", "d",
                                               "D1", "distCoeffs1", NULL},
@@ -156,8 +232,9 @@ rlf_result io_calibration_read_matrix(const io_json_object *top, bool second, rl
     out->cx = m[2];
     out->fy = m[4];
     out->cy = m[5];
-    result = result == RLF_OK ? set_coefficients(top, k, lens_count, out) : result;
-    return result == RLF_OK ? check_lens(top, out) : result;
+    result = result == RLF_OK ? io_calibration_set_coefficients(top, k, lens_count, out) : result;
+    result = result == RLF_OK ? io_calibration_check_lens(top, out) : result;
+    return result == RLF_OK ? apply_window(top, out) : result;
 }
 
 /* ---- Open3D --------------------------------------------------------------------------------- */
@@ -181,7 +258,7 @@ rlf_result io_calibration_read_open3d(const io_json_object *top, rlf_camera *out
     out->fy = m[4];
     out->cx = m[6];
     out->cy = m[7];
-    return result == RLF_OK ? check_lens(from, out) : result;
+    return result == RLF_OK ? io_calibration_check_lens(from, out) : result;
 }
 
 /* ---- mrcal ---------------------------------------------------------------------------------- */
@@ -234,6 +311,7 @@ rlf_result io_calibration_read_mrcal(const io_json_object *top, rlf_camera *out,
     out->cx = k[2];
     out->cy = k[3];
     *out_T_camera_reference = pose_from_rt(rt);
-    result = result == RLF_OK ? set_coefficients(top, k + 4, counts[i] - 4, out) : result;
-    return result == RLF_OK ? check_lens(top, out) : result;
+    result =
+        result == RLF_OK ? io_calibration_set_coefficients(top, k + 4, counts[i] - 4, out) : result;
+    return result == RLF_OK ? io_calibration_check_lens(top, out) : result;
 }

@@ -258,12 +258,32 @@ static rlf_result check_rig(const io_clip_def *def)
     return result;
 }
 
+static rlf_result check_times(const char *name, const char *kind, const int64_t *times,
+                              int32_t count)
+{
+    for (int32_t i = 0; i < count; i++) {
+        if (!io_time_is_usable(times[i])) {
+            return rlf_fail(RLF_ERROR_FORMAT,
+                            "%s: %s picture %d has the time %lld ns, more than 146 years: record "
+                            "it again, or correct its times",
+                            name, kind, (int)i, (long long)times[i]);
+        }
+    }
+    return RLF_OK;
+}
+
 rlf_result io_clip_open(const io_clip_def *def, rlf_opened *out)
 {
     if (def->depth_count < 1) {
         return rlf_fail(RLF_ERROR_FORMAT, "%s: holds no depth pictures", def->name);
     }
     rlf_result result = check_rig(def);
+    if (result == RLF_OK) {
+        result = check_times(def->name, "depth", def->depth_times, def->depth_count);
+    }
+    if (result == RLF_OK) {
+        result = check_times(def->name, "colour", def->color_times, def->color_count);
+    }
     if (result != RLF_OK) {
         return result;
     }

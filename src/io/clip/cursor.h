@@ -22,8 +22,10 @@ static inline const uint8_t *cursor_take(cursor *c, size_t size)
         return NULL;
     }
     const uint8_t *at = c->data;
-    c->data += size;
-    c->left -= size;
+    if (size > 0) { /* where nothing is left there may be no bytes to point to */
+        c->data += size;
+        c->left -= size;
+    }
     return at;
 }
 

@@ -198,9 +198,10 @@ static void set_times(io_log *log, int64_t *ticks, int64_t *scratch)
         ticks[i] = log->frames[i].ticks;
     }
     /* Counted from the first, so that no product overflows. */
-    const int64_t unit = ns_per_tick(io_time_interval(ticks, log->count, scratch));
-    const int64_t span = log->count > 0 ? ticks[log->count - 1] - ticks[0] : 0;
-    const bool is_timed = unit > 0 && span >= 0 && span < INT64_MAX / 4 / unit;
+    const uint64_t span = log->count > 0 ? (uint64_t)ticks[log->count - 1] - (uint64_t)ticks[0] : 0;
+    const bool is_near = span < INT64_MAX / 4;
+    const int64_t unit = is_near ? ns_per_tick(io_time_interval(ticks, log->count, scratch)) : 0;
+    const bool is_timed = unit > 0 && (int64_t)span < INT64_MAX / 4 / unit;
     if (!is_timed && log->count > 1) {
         rlf_log(RLF_LOG_WARNING,
                 "%s: its times are none of a camera: %d frames per second are "

@@ -3,6 +3,11 @@
 
 #include <stdlib.h>
 
+bool io_time_is_usable(int64_t time_ns)
+{
+    return time_ns >= -RLF_TIME_MAX_NS && time_ns <= RLF_TIME_MAX_NS;
+}
+
 int32_t io_time_nearest(const int64_t *times, int32_t count, int64_t time_ns, int64_t max_gap_ns)
 {
     /* First time at or after time_ns. */

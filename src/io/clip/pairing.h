@@ -4,6 +4,15 @@
 
 #include "relief/base.h"
 
+/* Whether it lies within RLF_TIME_MAX_NS, so that any two times can be subtracted. */
+bool io_time_is_usable(int64_t time_ns);
+
+/* a + b, wrapped around: clocks of bad drivers may say anything. */
+static inline int64_t io_time_sum(int64_t a_ns, int64_t b_ns)
+{
+    return (int64_t)((uint64_t)a_ns + (uint64_t)b_ns);
+}
+
 /* Index of the time nearest to time_ns (the earlier of two equally near), or -1 when there is none
  * or the nearest is more than max_gap_ns away. `times` does not decrease. */
 int32_t io_time_nearest(const int64_t *times, int32_t count, int64_t time_ns, int64_t max_gap_ns);

@@ -2,6 +2,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "io/clip/replay.h"
 
+#include "io/clip/pairing.h"
+
 #include <string.h>
 #include <time.h>
 
@@ -9,6 +11,10 @@
 /* A caller that comes later than this paused: playing goes on from where it is. */
 #define LATE_MAX_NS 250000000
 #define INTERVAL_DEFAULT_NS 33333333 /* over the seam of a loop when the rate is not known */
+
+/* Of a slower recording the rate is taken as unknown, and no frame is due later than that. */
+#define RATE_MIN 1e-9
+#define SINCE_MAX_NS 9e18
 
 typedef struct replay {
     io_replay keys;
@@ -60,16 +66,31 @@ static rlf_result start_again(replay *r)
     return result;
 }
 
-/* Time and count go on over the seam of a loop. */
-static void renumber(replay *r, rlf_frame *f)
+static rlf_result fail_time(const replay *r, int64_t time_ns)
 {
+    return rlf_fail(RLF_ERROR_FORMAT,
+                    "%s: a frame has the time %lld ns, more than 146 years: record it again, or "
+                    "correct its times",
+                    r->inner.info.name, (long long)time_ns);
+}
+
+/* Time and count go on over the seam of a loop. */
+static rlf_result renumber(replay *r, rlf_frame *f)
+{
+    if (!io_time_is_usable(f->time_ns)) {
+        return fail_time(r, f->time_ns);
+    }
     if (r->is_first && r->has_jumped) {
-        r->time_offset_ns = r->last_time_ns + r->interval_ns - f->time_ns;
+        r->time_offset_ns = io_time_sum(r->last_time_ns, r->interval_ns - f->time_ns);
         r->sequence_offset = (int64_t)(r->last_sequence + 1 - f->sequence);
         r->is_at_seam = true;
     }
-    f->time_ns += r->time_offset_ns;
-    f->color_time_ns += f->color_time_ns != 0 ? r->time_offset_ns : 0;
+    const bool has_color_time = f->color_time_ns != 0;
+    f->time_ns = io_time_sum(f->time_ns, r->time_offset_ns);
+    f->color_time_ns = has_color_time ? io_time_sum(f->color_time_ns, r->time_offset_ns) : 0;
+    if (!io_time_is_usable(f->time_ns)) {
+        return fail_time(r, f->time_ns);
+    }
     f->sequence += (uint64_t)r->sequence_offset;
     if (r->is_first) {
         f->flags &= ~(uint32_t)RLF_FRAME_DISCONTINUITY; /* of going to `start` */
@@ -77,6 +98,7 @@ static void renumber(replay *r, rlf_frame *f)
     r->last_time_ns = f->time_ns;
     r->last_sequence = f->sequence;
     r->is_first = false;
+    return RLF_OK;
 }
 
 static void set_flags(replay *r, rlf_frame *f)
@@ -107,7 +129,7 @@ static rlf_result read_on(replay *r, rlf_frame *out)
         }
         const int64_t index = r->position++;
         if (result == RLF_OK) {
-            renumber(r, out);
+            result = renumber(r, out);
         }
         if (result != RLF_OK || !is_dropped(r, index)) {
             r->frames_in++;
@@ -171,7 +193,8 @@ static void copy_planes(const replay *r, rlf_frame *f)
 static rlf_result wait_for_due(replay *r)
 {
     const int64_t now_ns = rlf_clock_ns();
-    const int64_t since_ns = (int64_t)((double)(r->held.time_ns - r->time_base_ns) / r->keys.speed);
+    const double since = (double)(r->held.time_ns - r->time_base_ns) / r->keys.speed;
+    const int64_t since_ns = (int64_t)rlf_clamp(since, -SINCE_MAX_NS, SINCE_MAX_NS);
     int64_t wait_ns = r->is_started ? r->due_base_ns + since_ns - now_ns : 0;
     if (!r->is_started || wait_ns < -LATE_MAX_NS) {
         r->is_started = true;
@@ -327,7 +350,7 @@ static void describe(replay *r, rlf_opened *inout)
     inout->self = r;
     inout->info.frame_count = r->keys.loop || r->end < 0 ? -1 : r->end - r->begin;
     const double rate = inout->info.frames_per_second;
-    r->interval_ns = rate > 0.0 ? (int64_t)(1e9 / rate + 0.5) : INTERVAL_DEFAULT_NS;
+    r->interval_ns = rate > RATE_MIN ? (int64_t)(1e9 / rate + 0.5) : INTERVAL_DEFAULT_NS;
     if (r->keys.aligned == 1) {
         set_aligned(&inout->info.rig);
     }

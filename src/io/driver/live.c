@@ -83,6 +83,11 @@ bool io_live_pose(const float rotation[9], const float translation[3], double me
     return rlf_vec3_is_finite(out->p);
 }
 
+int64_t io_live_time(uint64_t microseconds)
+{
+    return microseconds <= RLF_TIME_MAX_NS / 1000 ? (int64_t)microseconds * 1000 : 0;
+}
+
 bool io_live_count_frame(io_live_count *c, uint64_t number, int64_t time_ns, rlf_frame *out)
 {
     if (c->has_last && number == c->number) {
@@ -93,7 +98,9 @@ bool io_live_count_frame(io_live_count *c, uint64_t number, int64_t time_ns, rlf
         c->has_last && (c->is_restarted || number < c->number || time_ns <= c->time_ns);
     if (is_new) {
         c->sequence++;
-        c->offset_ns += c->time_ns - time_ns + (c->interval_ns > 0 ? c->interval_ns : 1);
+        const int64_t back_ns = io_time_sum(c->time_ns, -time_ns);
+        const int64_t step_ns = c->interval_ns > 0 ? c->interval_ns : 1;
+        c->offset_ns = io_time_sum(c->offset_ns, io_time_sum(back_ns, step_ns));
         out->flags |= RLF_FRAME_DISCONTINUITY;
     } else if (c->has_last) {
         c->sequence += number - c->number;
@@ -104,7 +111,7 @@ bool io_live_count_frame(io_live_count *c, uint64_t number, int64_t time_ns, rlf
     c->number = number;
     c->time_ns = time_ns;
     out->sequence = c->sequence;
-    out->time_ns = time_ns + c->offset_ns;
+    out->time_ns = io_time_sum(time_ns, c->offset_ns);
     return true;
 }
 

@@ -37,6 +37,9 @@ typedef struct io_live_count {
     uint64_t lost, doubled;
 } io_live_count;
 
+/* A device's microseconds in nanoseconds; 0 for more than RLF_TIME_MAX_NS. */
+int64_t io_live_time(uint64_t microseconds);
+
 /* Sets sequence, time_ns and the flag of a discontinuity of *out from the device's count and time.
  * False when the frame is the last one again: it must not be given. A count or a time that goes
  * back is a device that started anew. */

@@ -92,7 +92,7 @@ static uint64_t count_steps(io_stream_pair *pair, int64_t time_ns, int64_t index
     }
     if (gap < 0) {
         /* The device's clock started again: time here goes on. */
-        pair->shift_ns += pair->interval_ns - gap;
+        pair->shift_ns = io_time_sum(pair->shift_ns, pair->interval_ns - gap);
         pair->is_broken = true;
         return 1;
     }
@@ -176,7 +176,7 @@ static void fill_frame(io_stream_pair *pair, const io_stream_slot *depth, int32_
     const rlf_rig *rig = pair->rig;
     memset(out, 0, sizeof(*out));
     out->sequence = depth->sequence;
-    out->time_ns = depth->time_ns + pair->shift_ns;
+    out->time_ns = io_time_sum(depth->time_ns, pair->shift_ns);
     out->host_time_ns = depth->host_time_ns;
     out->flags = pair->flags | (pair->is_broken ? (uint32_t)RLF_FRAME_DISCONTINUITY : 0u);
     out->depth_u16 = depth->data;

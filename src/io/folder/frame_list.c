@@ -1,11 +1,18 @@
 /* Lists of timestamped files. */
 #include "io/folder/frame_list.h"
 
+#include "io/folder/time_unit.h"
+
 #include <stdlib.h>
 #include <string.h>
 
-#define NS_PER_S 1000000000
-#define SECONDS_MAX INT64_C(9000000000) /* the year 2255; keeps nanoseconds within 64 bits */
+#define BILLION 1000000000
+#define WHOLE_MAX (INT64_MAX / 10 - 1)
+
+/* A time as it stands in the file: before its unit is known. */
+typedef struct number {
+    int64_t whole, billionths;
+} number;
 
 static bool is_blank(char c)
 {
@@ -13,33 +20,30 @@ static bool is_blank(char c)
 }
 
 /* Exact decimal reading: a double cannot hold nanoseconds of Unix time. Digits after the ninth are
- * dropped. Returns what follows the number, or NULL. */
-static const char *parse_seconds(const char *text, int64_t *out_ns)
+ * dropped; a number of too many digits stays at more than any time. Returns what follows it, or
+ * NULL. */
+static const char *parse_number(const char *text, number *out)
 {
-    int64_t seconds = 0;
     int digits = 0;
+    *out = (number){0, 0};
     for (; *text >= '0' && *text <= '9'; text++, digits++) {
-        seconds = seconds * 10 + (*text - '0');
-        if (seconds > SECONDS_MAX) {
-            *out_ns = INT64_MAX;
-            return NULL;
-        }
+        const bool is_full = out->whole > WHOLE_MAX;
+        out->whole = is_full ? INT64_MAX : out->whole * 10 + (*text - '0');
     }
-    int64_t fraction = 0;
     if (*text == '.') {
-        int64_t unit = NS_PER_S / 10;
+        int64_t unit = BILLION / 10;
         for (text++; *text >= '0' && *text <= '9'; text++, digits++) {
-            fraction += (*text - '0') * unit;
+            out->billionths += (*text - '0') * unit;
             unit /= 10;
         }
     }
-    *out_ns = seconds * NS_PER_S + fraction;
     return digits > 0 ? text : NULL;
 }
 
 /* Reads one line, which is zero-terminated and is cut at its last non-blank character. RLF_NO_FRAME
  * means that it holds no entry. */
-static rlf_result parse_line(const char *file, int32_t number, char *line, io_list_entry *out)
+static rlf_result parse_line(const char *file, int32_t row, char *line, number *out_time,
+                             io_list_entry *out)
 {
     size_t length = strlen(line);
     while (length > 0 && is_blank(line[length - 1])) {
@@ -51,18 +55,12 @@ static rlf_result parse_line(const char *file, int32_t number, char *line, io_li
     if (*line == '\0' || *line == '#') {
         return RLF_NO_FRAME;
     }
-    const char *rest = parse_seconds(line, &out->time_ns);
-    if (rest == NULL && out->time_ns == INT64_MAX) {
-        return rlf_fail(RLF_ERROR_FORMAT,
-                        "%s:%d: its time is more than %lld seconds: write seconds, not "
-                        "milliseconds or less",
-                        file, (int)number, (long long)SECONDS_MAX);
-    }
+    const char *rest = parse_number(line, out_time);
     if (rest == NULL || (!is_blank(*rest) && *rest != '\0')) {
         return rlf_fail(RLF_ERROR_FORMAT,
                         "%s:%d: does not start with a time in seconds, like 12.345678: write one "
                         "\"SECONDS FILE\" per line",
-                        file, (int)number);
+                        file, (int)row);
     }
     while (is_blank(*rest)) {
         rest++;
@@ -71,10 +69,10 @@ static rlf_result parse_line(const char *file, int32_t number, char *line, io_li
         return rlf_fail(RLF_ERROR_FORMAT,
                         "%s:%d: has no file name after the time: write one \"SECONDS FILE\" per "
                         "line",
-                        file, (int)number);
+                        file, (int)row);
     }
     out->name = rest;
-    out->line = number;
+    out->line = row;
     return RLF_OK;
 }
 
@@ -100,15 +98,16 @@ static void sort_by_time(const char *file, io_frame_list *list)
     }
 }
 
-static rlf_result parse_lines(const char *file, io_frame_list *list)
+static rlf_result parse_lines(const char *file, number *times, io_frame_list *list)
 {
-    int32_t number = 0;
+    int32_t row = 0;
     for (char *line = list->text; line != NULL;) {
         char *end = strchr(line, '\n');
         if (end != NULL) {
             *end = '\0';
         }
-        rlf_result result = parse_line(file, ++number, line, &list->entries[list->count]);
+        rlf_result result =
+            parse_line(file, ++row, line, &times[list->count], &list->entries[list->count]);
         if (result < 0) {
             return result;
         }
@@ -116,6 +115,52 @@ static rlf_result parse_lines(const char *file, io_frame_list *list)
         line = end != NULL ? end + 1 : NULL;
     }
     return RLF_OK;
+}
+
+static int compare_doubles(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* What the numbers mean. In doubt they are seconds, if they can be. */
+static rlf_result set_times(const char *file, const number *times, double *values, double *scratch,
+                            io_frame_list *list)
+{
+    for (int32_t i = 0; i < list->count; i++) {
+        values[i] = (double)times[i].whole + 1e-9 * (double)times[i].billionths;
+    }
+    qsort(values, (size_t)list->count, sizeof(values[0]), compare_doubles);
+    const int64_t found = io_time_unit(values, list->count, scratch);
+    const int64_t unit = found > 0 ? found : 1;
+    for (int32_t i = 0; i < list->count; i++) {
+        if (!((double)times[i].whole <= IO_SECONDS_MAX * (double)unit)) {
+            return rlf_fail(RLF_ERROR_FORMAT,
+                            "%s:%d: its time is more than %.0f seconds: write seconds, not "
+                            "milliseconds or less",
+                            file, (int)list->entries[i].line, IO_SECONDS_MAX);
+        }
+        list->entries[i].time_ns = io_time_in_ns(times[i].whole, times[i].billionths, unit);
+    }
+    io_time_unit_tell(file, unit);
+    return RLF_OK;
+}
+
+/* The lines and then, when all are known, their times. */
+static rlf_result parse_all(const char *file, size_t lines, io_frame_list *out)
+{
+    number *times = rlf_alloc_array(lines, sizeof(times[0]));
+    double *values = rlf_alloc_array(lines, sizeof(values[0]));
+    double *scratch = rlf_alloc_array(lines, sizeof(scratch[0]));
+    rlf_result result = RLF_ERROR_MEMORY;
+    if (times != NULL && values != NULL && scratch != NULL) {
+        result = parse_lines(file, times, out);
+        result = result == RLF_OK ? set_times(file, times, values, scratch, out) : result;
+    }
+    rlf_free(times);
+    rlf_free(values);
+    rlf_free(scratch);
+    return result;
 }
 
 rlf_result io_frame_list_parse(const io_bytes *marked, io_frame_list *out)
@@ -140,7 +185,7 @@ rlf_result io_frame_list_parse(const io_bytes *marked, io_frame_list *out)
     if (file->size > 0) {
         memcpy(out->text, file->data, file->size);
     }
-    rlf_result result = parse_lines(file->name, out);
+    rlf_result result = parse_all(file->name, lines, out);
     if (result != RLF_OK) {
         io_frame_list_free(out);
         return result;

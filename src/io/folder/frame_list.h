@@ -19,8 +19,9 @@ typedef struct io_frame_list {
     char *text; /* holds the names */
 } io_frame_list;
 
-/* Lines "SECONDS NAME"; empty lines and lines that start with # are skipped. Times that go
- * backwards are sorted, with a warning. */
+/* Lines "SECONDS NAME", or in another unit that is beyond doubt (time_unit.h), which is told; empty
+ * lines and lines that start with # are skipped. Times that go backwards are sorted, with a
+ * warning. */
 rlf_result io_frame_list_parse(const io_bytes *file, io_frame_list *out);
 void io_frame_list_free(io_frame_list *list);
 

@@ -61,15 +61,19 @@ static rlf_result read_tum(const char *folder, io_layout *layout)
     if (!exists(folder, name) && !find_ending(folder, ".gt.freiburg", name)) {
         return RLF_NO_FRAME;
     }
+    const bool is_icl = layout->kind == IO_LAYOUT_ICL;
     char path[IO_PATH_MAX];
     io_buffer buffer = {0};
     io_bytes file;
     io_pose_list list = {0};
     rlf_result result = read_whole(folder, name, &buffer, &file, path);
     if (result == RLF_OK) {
-        result = io_pose_list_tum(&file, &list);
+        const io_frame_list *d = &layout->depth;
+        const double scale = is_icl ? 1e-9 * IO_NUMBERED_RATE : 1e-9;
+        const double first_s = d->count > 0 ? scale * (double)d->entries[0].time_ns : 0.0;
+        const double last_s = d->count > 0 ? scale * (double)d->entries[d->count - 1].time_ns : 0.0;
+        result = io_pose_list_tum(&file, first_s, last_s, &list);
     }
-    const bool is_icl = layout->kind == IO_LAYOUT_ICL;
     /* Those of a recording have the times of its frames, or there is none. */
     const int64_t gap_ns = exists(folder, IO_FOLDER_SOURCE) ? 0
                            : is_icl                         ? TUM_GAP_NS / 2

@@ -52,7 +52,7 @@ static bool parse_name(const char *name, const char *prefix, const char *const *
     if (*rest == '-') {
         rest++;
         const int64_t micros = read_number(&rest);
-        if (micros < 0) {
+        if (micros < 0 || micros > INT64_MAX / 1000) {
             return false;
         }
         *out_ns = micros * 1000;

@@ -1,6 +1,7 @@
 /* Where the camera was, from the files that come with data sets. */
 #include "io/folder/pose_files.h"
 
+#include "io/folder/time_unit.h"
 #include "io/number.h"
 #include "io/clip/pairing.h"
 
@@ -114,7 +115,7 @@ static bool make_pose(const double *n, int count, rlf_pose *out)
 }
 
 typedef struct timed_pose {
-    int64_t time_ns;
+    double time; /* as it stands in the file */
     rlf_pose pose;
 } timed_pose;
 
@@ -122,10 +123,33 @@ static int compare(const void *a, const void *b)
 {
     const timed_pose *x = a;
     const timed_pose *y = b;
-    return (x->time_ns > y->time_ns) - (x->time_ns < y->time_ns);
+    return (x->time > y->time) - (x->time < y->time);
 }
 
-rlf_result io_pose_list_tum(const io_bytes *file, io_pose_list *out)
+/* Sorted; those that are no times in the file's unit are left out. */
+static void set_times(const char *file, timed_pose *poses, int32_t count, double first_s,
+                      double last_s, io_pose_list *out)
+{
+    qsort(poses, (size_t)count, sizeof(poses[0]), compare);
+    const int64_t unit =
+        count > 0 ? io_time_unit_beside(poses[0].time, poses[count - 1].time, first_s, last_s) : 1;
+    for (int32_t i = 0; i < count; i++) {
+        const double seconds = poses[i].time / (double)unit;
+        if (fabs(seconds) < IO_SECONDS_MAX) {
+            out->times[out->count] = (int64_t)(seconds * 1e9);
+            out->poses[out->count++] = poses[i].pose;
+        }
+    }
+    io_time_unit_tell(file, unit);
+    if (out->count < count) {
+        rlf_log(RLF_LOG_WARNING,
+                "%s: %d of its %d poses have times of more than %.0f seconds and are left out: "
+                "write seconds",
+                file, (int)(count - out->count), (int)count, IO_SECONDS_MAX);
+    }
+}
+
+rlf_result io_pose_list_tum(const io_bytes *file, double first_s, double last_s, io_pose_list *out)
 {
     const int32_t lines = count_lines(file);
     timed_pose *poses = rlf_alloc_array((size_t)lines, sizeof(poses[0]));
@@ -139,17 +163,12 @@ rlf_result io_pose_list_tum(const io_bytes *file, io_pose_list *out)
             found++;
         }
         skip_line(&c);
-        if (make_pose(n, found, &poses[count].pose) && fabs(n[0]) < 9e9) {
-            poses[count++].time_ns = (int64_t)(n[0] * 1e9);
+        if (make_pose(n, found, &poses[count].pose) && isfinite(n[0])) {
+            poses[count++].time = n[0];
         }
     }
     if (result == RLF_OK) {
-        qsort(poses, (size_t)count, sizeof(poses[0]), compare);
-        for (int32_t i = 0; i < count; i++) {
-            out->times[i] = poses[i].time_ns;
-            out->poses[i] = poses[i].pose;
-        }
-        out->count = count;
+        set_times(file->name, poses, count, first_s, last_s, out);
     }
     rlf_free(poses);
     return result;

@@ -17,8 +17,9 @@ typedef struct io_pose_list {
 void io_pose_list_free(io_pose_list *list);
 
 /* TUM: "SECONDS tx ty tz qx qy qz qw" per line, # before comments. Lines that are no pose, NaN and
- * zero quaternions are none. */
-rlf_result io_pose_list_tum(const io_bytes *file, io_pose_list *out);
+ * zero quaternions are none. `first_s` and `last_s` are the pictures' times in seconds: they tell
+ * when the file has another unit (time_unit.h). */
+rlf_result io_pose_list_tum(const io_bytes *file, double first_s, double last_s, io_pose_list *out);
 
 /* Open3D and Redwood: three numbers, then four rows of a 4x4 matrix, and so on. */
 rlf_result io_pose_list_log(const io_bytes *file, io_pose_list *out);

@@ -1,13 +1,12 @@
 /* Frames of an Azure Kinect or Femto camera. */
 #include "io/k4a/k4a.h"
 
+#include "io/clip/pairing.h"
 #include "io/file.h"
 #include "io/picture/picture.h"
 #include "io/pixels/pixels_check.h"
 
 #include <string.h>
-
-#define MICROSECOND_NS 1000
 
 static bool has_size(const k4a *k, k4a_image_t image, const rlf_camera *camera)
 {
@@ -18,7 +17,7 @@ static bool has_size(const k4a *k, k4a_image_t image, const rlf_camera *camera)
 
 static int64_t time_of(const k4a *k, k4a_image_t image)
 {
-    return (int64_t)k->api->image_get_device_timestamp_usec(image) * MICROSECOND_NS;
+    return io_live_time(k->api->image_get_device_timestamp_usec(image));
 }
 
 static rlf_result fill_depth(k4a *k, k4a_image_t image, rlf_frame *out)
@@ -77,7 +76,7 @@ static void fill_color(k4a *k, k4a_image_t image, rlf_frame *out)
         return;
     }
     out->color = k->color;
-    out->color_time_ns = time_of(k, image) + k->count.offset_ns;
+    out->color_time_ns = io_time_sum(time_of(k, image), k->count.offset_ns);
 }
 
 static rlf_result fill(k4a *k, k4a_capture_t capture, rlf_frame *out)

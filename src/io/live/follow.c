@@ -1,6 +1,8 @@
 /* Times and counts of a camera's frames, kept going when its own clock or counter starts anew. */
 #include "io/live/follow.h"
 
+#include "io/clip/pairing.h"
+
 /* The device's clock and this machine's agree about the time between two frames up to this; a wider
  * difference is a clock that was set, or wrapped around. */
 #define CLOCKS_APART_NS INT64_C(1000000000)
@@ -35,6 +37,10 @@ bool live_follow_frame(live_follow *f, int64_t host_ns, rlf_frame *frame, uint64
     const uint64_t device_sequence = frame->sequence;
     const int64_t device_time_ns = frame->time_ns;
     *out_lost = 0;
+    if (!f->has_last && !io_time_is_usable(device_time_ns)) {
+        frame->time_ns = host_ns; /* time goes on from here */
+        frame->color_time_ns = 0;
+    }
     if (f->has_last) {
         const int64_t host_gap_ns = host_ns > f->host_ns ? host_ns - f->host_ns : 1;
         const int64_t gap_ns = gap_between(f->device_time_ns, device_time_ns);

@@ -74,14 +74,32 @@ static bool read_numbers(const json_t *array, double *out, size_t count)
     return true;
 }
 
+/* The early model differs in the terms p1 and p2, which are 0 in every camera that was sold. */
+static void tell_lost(const char *file, const json_t *intrinsics, const double v[14])
+{
+    const char *type = json_string_value(json_object_get(intrinsics, "ModelType"));
+    const bool has_centre = v[10] != 0.0 || v[11] != 0.0;
+    const bool has_tangent = v[12] != 0.0 || v[13] != 0.0;
+    const bool is_known = type == NULL || strstr(type, "BrownConrady") != NULL ||
+                          (strstr(type, "Rational6KT") != NULL && !has_tangent);
+    if (!is_known || has_centre) {
+        rlf_log(RLF_LOG_WARNING,
+                "%s: the attached calibration has %s%.60s, which Relief does not have: it is left "
+                "out; give a calibration with ?camera=FILE",
+                file, has_centre ? "a centre of distortion" : "the lens model ",
+                has_centre ? "" : type);
+    }
+}
+
 /* cx cy fx fy, k1 .. k6, the centre of distortion (0), p2 p1. A pixel's corner is its origin. */
-static bool read_intrinsics(json_t *from, const window *w, rlf_camera *out)
+static bool read_intrinsics(const char *file, json_t *from, const window *w, rlf_camera *out)
 {
     double v[14];
     const json_t *intrinsics = json_object_get(from, "Intrinsics");
     if (!read_numbers(json_object_get(intrinsics, "ModelParameters"), v, 14)) {
         return false;
     }
+    tell_lost(file, intrinsics, v);
     out->cx = v[0] * w->width - w->left - 0.5;
     out->cy = v[1] * w->height - w->top - 0.5;
     out->fx = v[2] * w->width;
@@ -125,10 +143,10 @@ static rlf_result read_all(json_t *top, const char *file, rlf_rig *rig)
     if (result != RLF_OK) {
         return result;
     }
-    bool is_whole = read_intrinsics(depth, &w, &rig->depth) && read_pose(depth, &T_depth);
+    bool is_whole = read_intrinsics(file, depth, &w, &rig->depth) && read_pose(depth, &T_depth);
     if (is_whole && rig->has_color) {
         w = color_window(&rig->color, color);
-        is_whole = read_intrinsics(color, &w, &rig->color) && read_pose(color, &T_color);
+        is_whole = read_intrinsics(file, color, &w, &rig->color) && read_pose(color, &T_color);
     }
     if (!is_whole) {
         return rlf_fail(RLF_ERROR_FORMAT,

@@ -104,6 +104,16 @@ bool io_mcap_can_become(io_mcap_compression compression, const uint8_t *data, si
     return said == ZSTD_CONTENTSIZE_UNKNOWN || said == out_size;
 }
 
+uint64_t io_mcap_zstd_size(const uint8_t *data, size_t size)
+{
+    static const uint8_t magic[4] = {0x28, 0xB5, 0x2F, 0xFD};
+    if (size < sizeof(magic) || memcmp(data, magic, sizeof(magic)) != 0) {
+        return 0;
+    }
+    const unsigned long long said = ZSTD_getFrameContentSize(data, size);
+    return said == ZSTD_CONTENTSIZE_UNKNOWN || said == ZSTD_CONTENTSIZE_ERROR ? 0 : said;
+}
+
 static bool unlz4(LZ4F_dctx *context, const uint8_t *data, size_t size, uint8_t *out,
                   size_t out_size)
 {

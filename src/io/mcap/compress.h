@@ -16,6 +16,9 @@ const char *io_mcap_compression_name(io_mcap_compression compression);
 /* False for a name that this build does not know. */
 bool io_mcap_compression_parse(const io_mcap_cursor *name, io_mcap_compression *out);
 
+/* What a frame of zstd says that it unpacks to; 0 = it is none, or does not say. */
+uint64_t io_mcap_zstd_size(const uint8_t *data, size_t size);
+
 /* Appends the compressed bytes. */
 rlf_result io_mcap_compress(io_mcap_compressor *compressor, io_mcap_compression compression,
                             const uint8_t *data, size_t size, io_byte_buffer *out);

@@ -1,6 +1,8 @@
 /* What the MCAP reader knows: lists that grow, and bytes of the file. */
 #include "io/mcap/reader.h"
 
+#include "io/ros/topics.h"
+
 #include <stdlib.h>
 
 #define LIST_FIRST 64
@@ -45,34 +47,51 @@ rlf_result io_mcap_read_block(const io_mcap_reader *reader, uint64_t offset, uin
 /* ---- lists ------------------------------------------------------------------------------------
  */
 
-void io_mcap_take_schema(io_mcap_reader *reader, io_mcap_cursor record)
-{
-    const uint16_t id = (uint16_t)io_mcap_take_number(&record, 2);
-    const io_mcap_cursor name = io_mcap_take_block(&record);
-    for (int type = IO_ROS_OTHER + 1; type < IO_ROS_TYPE_COUNT && !name.is_bad; type++) {
-        if (io_mcap_equals(&name, io_ros_type_name((io_ros_type)type))) {
-            io_mcap_schema *schema = io_mcap_list_add(&reader->schemas, sizeof(*schema));
-            if (schema != NULL && reader->schemas.count < IO_MCAP_CHANNELS_READ_MAX) {
-                *schema = (io_mcap_schema){id, (io_ros_type)type};
-            } else if (schema != NULL) {
-                reader->schemas.count--;
-            }
-        }
-    }
-}
-
-static io_ros_type type_of_schema(const io_mcap_reader *reader, uint16_t id)
+static const io_mcap_schema *find_schema(const io_mcap_reader *reader, uint16_t id)
 {
     const io_mcap_schema *schemas = reader->schemas.items;
     for (int32_t i = 0; i < reader->schemas.count; i++) {
         if (schemas[i].id == id) {
-            return schemas[i].type;
+            return &schemas[i];
         }
     }
-    return IO_ROS_OTHER;
+    return NULL;
 }
 
-static int32_t find_channel(const io_mcap_reader *reader, uint16_t id)
+void io_mcap_take_schema(io_mcap_reader *reader, io_mcap_cursor record)
+{
+    io_mcap_schema schema = {.id = (uint16_t)io_mcap_take_number(&record, 2)};
+    const io_mcap_cursor name = io_mcap_take_block(&record);
+    io_mcap_copy(&name, schema.name, sizeof(schema.name));
+    for (int type = IO_ROS_OTHER + 1; type < IO_ROS_TYPE_COUNT && !name.is_bad; type++) {
+        if (io_mcap_equals(&name, io_ros_type_name((io_ros_type)type))) {
+            schema.type = (io_ros_type)type;
+        }
+    }
+    const bool is_wanted = schema.type != IO_ROS_OTHER || io_ros_is_stranger(schema.name);
+    if (name.is_bad || !is_wanted || find_schema(reader, schema.id) != NULL ||
+        reader->schemas.count >= IO_MCAP_CHANNELS_READ_MAX) {
+        return;
+    }
+    io_mcap_schema *place = io_mcap_list_add(&reader->schemas, sizeof(*place));
+    if (place != NULL) {
+        *place = schema;
+    }
+}
+
+/* A topic of pictures whose messages are not read. */
+static void note_stranger(io_mcap_reader *reader, const io_mcap_schema *schema,
+                          const io_mcap_cursor *topic, const io_mcap_cursor *encoding)
+{
+    char name[IO_MCAP_TOPIC_MAX], how[32];
+    if (io_ros_is_stranger(schema->name)) {
+        io_mcap_copy(topic, name, sizeof(name));
+        io_mcap_copy(encoding, how, sizeof(how));
+        io_ros_add_stranger(reader->strangers, sizeof(reader->strangers), name, schema->name, how);
+    }
+}
+
+int32_t io_mcap_find_channel(const io_mcap_reader *reader, uint16_t id)
 {
     const io_mcap_channel *channels = reader->channels.items;
     for (int32_t i = 0; i < reader->channels.count; i++) {
@@ -86,17 +105,22 @@ static int32_t find_channel(const io_mcap_reader *reader, uint16_t id)
 void io_mcap_take_channel(io_mcap_reader *reader, io_mcap_cursor record)
 {
     const uint16_t id = (uint16_t)io_mcap_take_number(&record, 2);
-    const io_ros_type type = type_of_schema(reader, (uint16_t)io_mcap_take_number(&record, 2));
+    const io_mcap_schema *schema = find_schema(reader, (uint16_t)io_mcap_take_number(&record, 2));
     const io_mcap_cursor topic = io_mcap_take_block(&record);
     const io_mcap_cursor encoding = io_mcap_take_block(&record);
-    if (record.is_bad || type == IO_ROS_OTHER || !io_mcap_equals(&encoding, "cdr") ||
-        topic.size >= IO_MCAP_TOPIC_MAX || find_channel(reader, id) >= 0 ||
+    const bool is_read =
+        schema != NULL && schema->type != IO_ROS_OTHER && io_mcap_equals(&encoding, "cdr");
+    if (!record.is_bad && schema != NULL && !is_read) {
+        note_stranger(reader, schema, &topic, &encoding);
+    }
+    if (record.is_bad || !is_read || topic.size >= IO_MCAP_TOPIC_MAX ||
+        io_mcap_find_channel(reader, id) >= 0 ||
         reader->channels.count >= IO_MCAP_CHANNELS_READ_MAX) {
         return;
     }
     io_mcap_channel *channel = io_mcap_list_add(&reader->channels, sizeof(*channel));
     if (channel != NULL) {
-        *channel = (io_mcap_channel){.id = id, .type = type};
+        *channel = (io_mcap_channel){.id = id, .type = schema->type};
         io_mcap_copy(&topic, channel->topic, sizeof(channel->topic));
     }
 }
@@ -104,7 +128,7 @@ void io_mcap_take_channel(io_mcap_reader *reader, io_mcap_cursor record)
 void io_mcap_list_message(io_mcap_reader *reader, uint16_t channel_id, uint64_t time, int32_t chunk,
                           uint64_t offset)
 {
-    const int32_t channel = find_channel(reader, channel_id);
+    const int32_t channel = io_mcap_find_channel(reader, channel_id);
     if (channel < 0 || time > INT64_MAX) {
         return;
     }

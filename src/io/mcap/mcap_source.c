@@ -6,6 +6,7 @@
 #include "io/mcap/origin.h"
 #include "io/mcap/recording_format.h"
 #include "io/mcap/topics.h"
+#include "io/mcap/transforms.h"
 #include "io/source/backends.h"
 #include "io/clip/clip.h"
 
@@ -21,6 +22,7 @@ static const rlf_depth_noise default_noise = {0.0008, 0.0, 0.0012};
 typedef struct mcap {
     char path[IO_PATH_MAX];
     io_mcap_reader *reader;
+    io_mcap_topics *topics;
     io_mcap_stream depth, color;
     io_ros_decoder decoder;
     rlf_rig rig;
@@ -51,6 +53,7 @@ static rlf_result read_color(void *self, int32_t index, const rlf_image_rgba8 *o
 static void mcap_destroy(void *self)
 {
     mcap *m = self;
+    io_mcap_topics_destroy(&m->topics);
     io_mcap_reader_close(&m->reader);
     rlf_free(m->decoder.counts);
     rlf_free(m);
@@ -166,26 +169,29 @@ static void find_camera_file(const char *path, char out[IO_PATH_MAX])
 
 static rlf_result fail_camera(const mcap *m)
 {
+    char problem[256];
     return rlf_fail(RLF_ERROR_FORMAT,
-                    "%s: has no sensor_msgs/msg/CameraInfo of %d x %d for %s: give the calibration "
-                    "with ?camera=FILE, or as camera.json beside the file",
-                    m->path, (int)m->depth.width, (int)m->depth.height,
-                    io_mcap_channel_at(m->reader, m->depth.channel)->topic);
+                    "%s: has no usable CameraInfo for %s (%s): give the calibration with "
+                    "?camera=FILE, or as camera.json beside the file",
+                    m->path, io_mcap_channel_at(m->reader, m->depth.channel)->topic,
+                    io_mcap_why_no_camera(m->topics, &m->depth, problem, sizeof(problem)));
 }
 
 /* Colour without a calibration of its own is the depth's when the pictures are of one camera. */
 static void find_color_camera(mcap *m)
 {
     const bool is_same = strcmp(m->depth.frame_id, m->color.frame_id) == 0;
-    m->rig.has_color = io_mcap_find_camera(m->reader, m->path, &m->color, &m->rig.color);
+    m->rig.has_color = io_mcap_find_camera(m->topics, &m->color, &m->rig.color);
     if (!m->rig.has_color && is_same && m->depth.width == m->color.width &&
         m->depth.height == m->color.height) {
         m->rig.color = m->rig.depth;
         m->rig.has_color = true;
     }
     if (!m->rig.has_color) {
-        rlf_log(RLF_LOG_WARNING, "%s: has no CameraInfo for %s: there is no colour", m->path,
-                io_mcap_channel_at(m->reader, m->color.channel)->topic);
+        char problem[256];
+        rlf_log(RLF_LOG_WARNING, "%s: has no usable CameraInfo for %s (%s): there is no colour",
+                m->path, io_mcap_channel_at(m->reader, m->color.channel)->topic,
+                io_mcap_why_no_camera(m->topics, &m->color, problem, sizeof(problem)));
         return;
     }
     if (is_same) {
@@ -211,7 +217,7 @@ static rlf_result find_rig(const rlf_address *address, mcap *m)
         return RLF_OK;
     }
     char file[IO_PATH_MAX];
-    if (!io_mcap_find_camera(m->reader, m->path, &m->depth, &m->rig.depth)) {
+    if (!io_mcap_find_camera(m->topics, &m->depth, &m->rig.depth)) {
         find_camera_file(m->path, file);
         return file[0] != '\0' ? rlf_rig_load(file, &m->rig, &m->units_per_metre) : fail_camera(m);
     }
@@ -260,7 +266,10 @@ static rlf_result prepare(const rlf_address *address, mcap *m)
 {
     const io_mcap_wishes wishes = {rlf_address_get(address, "depth"),
                                    rlf_address_get(address, "color")};
-    rlf_result result = io_mcap_find_streams(m->reader, m->path, &wishes, &m->depth, &m->color);
+    rlf_result result = io_mcap_topics_create(m->reader, m->path, &m->topics);
+    if (result == RLF_OK) {
+        result = io_mcap_find_streams(m->topics, &wishes, &m->depth, &m->color);
+    }
     if (result == RLF_OK) {
         result = find_rig(address, m);
     }

@@ -6,9 +6,8 @@
 #include "io/pixels/pixels.h"
 
 /* compressed_depth_image_transport: what kind, and two floats that turn counts into inverse depth.
- * RVL has the width and the height behind it. */
+ */
 #define DEPTH_HEAD 12
-#define RVL_HEAD 8
 
 static io_ros_pixels raw_pixels(const char *encoding)
 {
@@ -32,12 +31,13 @@ static io_ros_pixels compressed_pixels(const io_ros_image *image)
         }
         return is_metres ? IO_ROS_DEPTH_PNG_F32 : IO_ROS_DEPTH_PNG;
     }
-    if (strncmp(format, "16UC1", 5) == 0 || strncmp(format, "mono16", 6) == 0) {
-        return IO_ROS_DEPTH_PNG;
-    }
+    /* The plain compressed transport and cv_bridge: the file itself tells. */
     const io_cdr_span *d = &image->data;
     const bool is_jpeg = d->size >= 2 && d->data[0] == 0xFF && d->data[1] == 0xD8;
     const io_bytes file = {"", d->data, d->size};
+    if (io_compressed_depth_is(&file, format)) {
+        return IO_ROS_DEPTH_PNG;
+    }
     return is_jpeg || io_png_is(&file) ? IO_ROS_PICTURE : IO_ROS_UNKNOWN;
 }
 
@@ -57,68 +57,18 @@ bool io_ros_is_metres(io_ros_pixels pixels)
            pixels == IO_ROS_DEPTH_PNG_F32;
 }
 
-/* The bytes of the picture itself: a PNG of compressedDepth begins behind a head. */
-static io_bytes picture_of(const char *name, const io_ros_image *image, io_ros_pixels pixels)
-{
-    const io_cdr_span *d = &image->data;
-    io_bytes file = {name, d->data, d->size};
-    const bool has_head = (pixels == IO_ROS_DEPTH_PNG || pixels == IO_ROS_DEPTH_PNG_F32) &&
-                          !io_png_is(&file) && d->size >= DEPTH_HEAD;
-    if (has_head) {
-        file.data += DEPTH_HEAD;
-        file.size -= DEPTH_HEAD;
-    }
-    return file;
-}
-
-static uint32_t big_endian(const uint8_t *data, size_t bytes)
-{
-    uint32_t value = 0;
-    for (size_t i = 0; i < bytes; i++) {
-        value = value << 8 | data[i];
-    }
-    return value;
-}
-
-/* The start-of-frame segment: its marker, two bytes of length, one of precision, then the size. */
-static bool jpeg_size(const io_bytes *file, uint32_t *out_width, uint32_t *out_height)
-{
-    size_t at = 2;
-    while (at + 9 <= file->size && file->data[at] == 0xFF) {
-        const uint8_t marker = file->data[at + 1];
-        if (marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 &&
-            marker != 0xCC) {
-            *out_height = big_endian(file->data + at + 5, 2);
-            *out_width = big_endian(file->data + at + 7, 2);
-            return true;
-        }
-        at += marker == 0xFF ? 1 : 2 + big_endian(file->data + at + 2, 2);
-    }
-    return false;
-}
-
 bool io_ros_picture_size(const io_ros_image *image, io_ros_pixels pixels, int32_t *out_width,
                          int32_t *out_height)
 {
-    uint32_t width = image->width;
-    uint32_t height = image->height;
-    if (pixels == IO_ROS_DEPTH_RVL || pixels == IO_ROS_DEPTH_RVL_F32) {
-        if (image->data.size < DEPTH_HEAD + RVL_HEAD) {
-            return false;
-        }
-        memcpy(&width, image->data.data + DEPTH_HEAD, 4);
-        memcpy(&height, image->data.data + DEPTH_HEAD + 4, 4);
-    } else if (width == 0) {
-        const io_bytes file = picture_of("", image, pixels);
-        if (io_png_is(&file) && file.size >= 24) {
-            width = big_endian(file.data + 16, 4);
-            height = big_endian(file.data + 20, 4);
-        } else if (!jpeg_size(&file, &width, &height)) {
-            return false;
-        }
+    const io_bytes file = {"", image->data.data, image->data.size};
+    if (image->width == 0 && io_ros_is_depth(pixels)) {
+        return io_compressed_depth_size(&file, image->encoding, out_width, out_height);
     }
-    *out_width = (int32_t)(width <= RLF_IMAGE_SIZE_MAX ? width : 0);
-    *out_height = (int32_t)(height <= RLF_IMAGE_SIZE_MAX ? height : 0);
+    if (image->width == 0) {
+        return pixels == IO_ROS_PICTURE && io_picture_size(&file, out_width, out_height);
+    }
+    *out_width = (int32_t)(image->width <= RLF_IMAGE_SIZE_MAX ? image->width : 0);
+    *out_height = (int32_t)(image->height <= RLF_IMAGE_SIZE_MAX ? image->height : 0);
     return *out_width > 0 && *out_height > 0;
 }
 
@@ -205,8 +155,8 @@ rlf_result io_ros_decode_depth(const io_ros_decoder *decoder, const io_ros_image
 rlf_result io_ros_decode_color(const io_ros_decoder *decoder, const io_ros_image *image,
                                io_ros_pixels pixels, const rlf_image_rgba8 *out)
 {
-    if (pixels == IO_ROS_PICTURE) {
-        const io_bytes file = picture_of(decoder->name, image, pixels);
+    if (pixels == IO_ROS_PICTURE || pixels == IO_ROS_DEPTH_PNG) {
+        const io_bytes file = {decoder->name, image->data.data, image->data.size};
         io_picture picture = {
             .width = out->width, .height = out->height, .data = out->data, .is_opaque = true};
         return io_picture_decode(&file, &picture);

@@ -10,26 +10,44 @@ static void forget(io_mcap_reader *reader)
     reader->channels.count = 0;
     reader->chunks.count = 0;
     reader->messages.count = 0;
+    reader->bad_chunks = 0;
+    reader->strangers[0] = '\0';
     for (int i = 0; i < IO_MCAP_CACHED; i++) {
         reader->cache[i].chunk = -1;
+    }
+}
+
+static void tell_scan(const io_mcap_reader *reader, io_mcap_summary summary, uint64_t end)
+{
+    const int chunks = (int)(reader->chunks.count - reader->bad_chunks);
+    if (summary == IO_MCAP_SUMMARY_NOT_CLOSED) {
+        rlf_log(RLF_LOG_WARNING,
+                "%s: was not closed as it should have been: its %d whole chunks, and %d messages, "
+                "were found by reading all of it",
+                reader->file.path, chunks, (int)reader->messages.count);
+    } else if (summary == IO_MCAP_SUMMARY_DAMAGED || !reader->is_to_end) {
+        rlf_log(RLF_LOG_WARNING,
+                "%s: is damaged (byte %llu of %llu): its %d whole chunks, and %d messages, were "
+                "found by reading all of it",
+                reader->file.path, (unsigned long long)end, (unsigned long long)reader->size,
+                chunks, (int)reader->messages.count);
     }
 }
 
 static rlf_result list_all(io_mcap_reader *reader)
 {
     forget(reader);
-    if (!io_mcap_read_summary(reader)) {
+    const io_mcap_summary summary = io_mcap_read_summary(reader);
+    if (summary != IO_MCAP_SUMMARY_READ) {
+        uint64_t end = 0;
         forget(reader);
-        if (!io_mcap_scan(reader)) {
+        if (!io_mcap_scan(reader, &end)) {
             return rlf_fail(RLF_ERROR_FORMAT,
                             "%s: is not an MCAP file, or has less than its first bytes: record it "
                             "again",
                             reader->file.path);
         }
-        rlf_log(RLF_LOG_WARNING,
-                "%s: was not closed as it should have been, or has no index: its %d whole chunks "
-                "were found by reading all of it",
-                reader->file.path, (int)(reader->chunks.count - reader->bad_chunks));
+        tell_scan(reader, summary, end);
     }
     if (reader->is_full) {
         rlf_log(RLF_LOG_WARNING, "%s: has more than %d messages: the rest is left out",
@@ -79,6 +97,7 @@ void io_mcap_reader_close(io_mcap_reader **reader)
     rlf_free(r->messages.items);
     io_buffer_free(&r->packed);
     io_buffer_free(&r->loose);
+    io_buffer_free(&r->plain);
     for (int i = 0; i < IO_MCAP_CACHED; i++) {
         io_buffer_free(&r->cache[i].buffer);
     }
@@ -103,6 +122,11 @@ const io_mcap_message *io_mcap_message_at(const io_mcap_reader *reader, int32_t 
     return (const io_mcap_message *)reader->messages.items + index;
 }
 
+const char *io_mcap_strangers(const io_mcap_reader *reader)
+{
+    return reader->strangers;
+}
+
 void io_mcap_set_time(io_mcap_reader *reader, int32_t index, int64_t time_ns)
 {
     ((io_mcap_message *)reader->messages.items)[index].time_ns = time_ns;
@@ -115,8 +139,28 @@ static rlf_result fail_message(const io_mcap_reader *reader, const io_mcap_messa
                     1e-9 * (double)m->time_ns);
 }
 
+/* `ros2 bag record --compression-mode message` packs each message by itself. */
+static rlf_result unpack_message(io_mcap_reader *reader, const io_mcap_message *m,
+                                 io_cdr_span *inout)
+{
+    const uint64_t size = io_mcap_zstd_size(inout->data, inout->size);
+    if (size == 0) {
+        return RLF_OK;
+    }
+    if (size > IO_MCAP_CHUNK_MAX) {
+        return fail_message(reader, m);
+    }
+    rlf_result result = io_buffer_reserve(&reader->plain, (size_t)size);
+    if (result == RLF_OK && !io_mcap_decompress(reader->compressor, IO_MCAP_ZSTD, inout->data,
+                                                inout->size, reader->plain.data, (size_t)size)) {
+        return fail_message(reader, m);
+    }
+    *inout = (io_cdr_span){reader->plain.data, (size_t)size};
+    return result;
+}
+
 /* Content of a record that is expected to be a message of the channel. */
-static rlf_result take_message(const io_mcap_reader *reader, const io_mcap_message *m,
+static rlf_result take_message(io_mcap_reader *reader, const io_mcap_message *m,
                                io_mcap_cursor bytes, io_cdr_span *out)
 {
     io_mcap_cursor record = {0};
@@ -128,7 +172,7 @@ static rlf_result take_message(const io_mcap_reader *reader, const io_mcap_messa
         return fail_message(reader, m);
     }
     *out = (io_cdr_span){record.data, record.size};
-    return RLF_OK;
+    return unpack_message(reader, m, out);
 }
 
 static rlf_result read_loose(io_mcap_reader *reader, const io_mcap_message *m, io_cdr_span *out)

@@ -42,6 +42,8 @@ void io_mcap_set_time(io_mcap_reader *reader, int32_t index, int64_t time_ns);
 void io_mcap_sort(io_mcap_reader *reader);
 /* Content of a message, valid until the next call. RLF_ERROR_FORMAT when its chunk is damaged. */
 rlf_result io_mcap_read(io_mcap_reader *reader, int32_t index, io_cdr_span *out);
+/* Topics of pictures in messages that are not read, as text; "" = none. */
+const char *io_mcap_strangers(const io_mcap_reader *reader);
 /* Value of a key of the Metadata record "relief", or NULL. */
 const char *io_mcap_metadata(const io_mcap_reader *reader, const char *key);
 

@@ -17,6 +17,7 @@ void *io_mcap_list_add(io_mcap_list *list, size_t size);
 typedef struct io_mcap_schema {
     uint16_t id;
     io_ros_type type;
+    char name[64]; /* of type IO_ROS_OTHER: of pictures that are not read */
 } io_mcap_schema;
 
 typedef struct io_mcap_chunk {
@@ -43,11 +44,15 @@ struct io_mcap_reader {
     io_mcap_list schemas, channels, chunks, messages;
     io_buffer packed; /* a chunk before it is decompressed, a summary, a block of indexes */
     io_buffer loose;  /* a message outside chunks */
+    io_buffer plain;  /* a message that was compressed by itself */
     io_mcap_cached cache[IO_MCAP_CACHED];
     uint64_t calls;
     int32_t bad_chunks;
+    bool lists_all;                      /* Statistics: as many messages as there are */
+    bool is_to_end;                      /* a walk came to the end of the data */
     bool is_full;                        /* more messages than are listed */
     bool lacks_memory;                   /* a list could not grow */
+    char strangers[512];                 /* topics of pictures that are not read */
     char metadata[IO_MCAP_METADATA_MAX]; /* key, 0, value, 0, ..., 0 */
 };
 
@@ -56,6 +61,9 @@ bool io_mcap_read_at(const io_mcap_reader *reader, uint64_t offset, void *out, s
 /* The same into a buffer of the reader. */
 rlf_result io_mcap_read_block(const io_mcap_reader *reader, uint64_t offset, uint64_t size,
                               io_buffer *buffer);
+
+/* -1 = none of that id. */
+int32_t io_mcap_find_channel(const io_mcap_reader *reader, uint16_t id);
 
 /* Records that say what is in the file; others are passed over. `chunk` -1: in the file itself. */
 void io_mcap_take_schema(io_mcap_reader *reader, io_mcap_cursor record);
@@ -69,9 +77,16 @@ const io_mcap_cached *io_mcap_load_chunk(io_mcap_reader *reader, int32_t index);
 /* Lists what is in a chunk by looking into it. */
 void io_mcap_walk_chunk(io_mcap_reader *reader, int32_t index);
 
-/* Lists the file from its summary; false when there is none that can be used. */
-bool io_mcap_read_summary(io_mcap_reader *reader);
-/* Lists the file from its beginning. False when it does not begin as one. */
-bool io_mcap_scan(io_mcap_reader *reader);
+typedef enum io_mcap_summary {
+    IO_MCAP_SUMMARY_READ = 0,
+    IO_MCAP_SUMMARY_NONE,      /* closed, and without an index of its chunks, as it may be */
+    IO_MCAP_SUMMARY_DAMAGED,   /* closed, but what it says is not to be trusted */
+    IO_MCAP_SUMMARY_NOT_CLOSED /* the end is not that of an MCAP file */
+} io_mcap_summary;
+
+/* Lists the file from its summary, with the messages that are in no chunk. */
+io_mcap_summary io_mcap_read_summary(io_mcap_reader *reader);
+/* Lists the file from its beginning, up to *out_end. False when it does not begin as one. */
+bool io_mcap_scan(io_mcap_reader *reader, uint64_t *out_end);
 
 #endif

@@ -4,9 +4,8 @@
 #define RLF_IO_MCAP_ROS_H
 
 #include "io/mcap/cdr.h"
+#include "io/ros/camera_info.h"
 #include "relief/frame.h"
-
-#define IO_ROS_NAME_MAX 128
 
 typedef enum io_ros_type {
     IO_ROS_OTHER = 0,
@@ -38,15 +37,6 @@ typedef struct io_ros_image {
     io_cdr_span data;
 } io_ros_image;
 
-typedef struct io_ros_camera_info {
-    io_ros_header header;
-    uint32_t width, height;
-    char model[32];
-    double d[8];
-    uint32_t d_count; /* as the message says; at most 8 are kept */
-    double k[9], r[9], p[12];
-} io_ros_camera_info;
-
 /* p_parent = T p_child */
 typedef struct io_ros_transform {
     int64_t stamp_ns;
@@ -58,7 +48,7 @@ typedef struct io_ros_transform {
 bool io_ros_read_header(const uint8_t *data, size_t size, io_ros_header *out);
 bool io_ros_read_image(const uint8_t *data, size_t size, io_ros_image *out);
 bool io_ros_read_compressed(const uint8_t *data, size_t size, io_ros_image *out);
-bool io_ros_read_camera_info(const uint8_t *data, size_t size, io_ros_camera_info *out);
+bool io_ros_read_camera_info(const uint8_t *data, size_t size, io_camera_info *out);
 /* At most `capacity`; *out_count says how many. */
 bool io_ros_read_tf(const uint8_t *data, size_t size, io_ros_transform *out, uint32_t capacity,
                     uint32_t *out_count);

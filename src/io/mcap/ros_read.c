@@ -44,11 +44,25 @@ bool io_ros_read_compressed(const uint8_t *data, size_t size, io_ros_image *out)
     return !r.is_bad;
 }
 
-bool io_ros_read_camera_info(const uint8_t *data, size_t size, io_ros_camera_info *out)
+static io_camera_window get_window(io_cdr_reader *r)
+{
+    io_camera_window w;
+    w.binning_x = io_cdr_get_u32(r);
+    w.binning_y = io_cdr_get_u32(r);
+    w.x = io_cdr_get_u32(r);
+    w.y = io_cdr_get_u32(r);
+    w.height = io_cdr_get_u32(r);
+    w.width = io_cdr_get_u32(r);
+    return w;
+}
+
+bool io_ros_read_camera_info(const uint8_t *data, size_t size, io_camera_info *out)
 {
     io_cdr_reader r = io_cdr_open(data, size);
+    io_ros_header header;
     memset(out, 0, sizeof(*out));
-    get_header(&r, &out->header);
+    get_header(&r, &header);
+    memcpy(out->frame_id, header.frame_id, sizeof(out->frame_id));
     out->height = io_cdr_get_u32(&r);
     out->width = io_cdr_get_u32(&r);
     io_cdr_get_text(&r, out->model, sizeof(out->model));
@@ -56,13 +70,14 @@ bool io_ros_read_camera_info(const uint8_t *data, size_t size, io_ros_camera_inf
     for (uint32_t i = 0; i < out->d_count && !r.is_bad; i++) {
         double d;
         io_cdr_get_doubles(&r, &d, 1);
-        if (i < 8) {
+        if (i < IO_ROS_DISTORTION_MAX) {
             out->d[i] = d;
         }
     }
     io_cdr_get_doubles(&r, out->k, 9);
     io_cdr_get_doubles(&r, out->r, 9);
     io_cdr_get_doubles(&r, out->p, 12);
+    out->window = get_window(&r);
     return !r.is_bad;
 }
 

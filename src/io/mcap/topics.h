@@ -23,18 +23,21 @@ typedef struct io_mcap_wishes {
 rlf_result io_mcap_read_picture(io_mcap_reader *reader, const io_mcap_stream *stream, int32_t index,
                                 io_ros_image *out);
 
-/* Depth: the topic wished for, else the one with most pictures. Colour: the one wished for, else
- * the same, colours before grey. Fails when there is no depth. */
-rlf_result io_mcap_find_streams(io_mcap_reader *reader, const char *path,
-                                const io_mcap_wishes *wishes, io_mcap_stream *depth,
-                                io_mcap_stream *color);
+/* The topics of pictures and of calibrations. */
+typedef struct io_mcap_topics io_mcap_topics;
 
-/* The camera of a stream from the CameraInfo beside it, or with its frame_id, or of its size. */
-bool io_mcap_find_camera(io_mcap_reader *reader, const char *path, const io_mcap_stream *stream,
+rlf_result io_mcap_topics_create(io_mcap_reader *reader, const char *path, io_mcap_topics **out);
+void io_mcap_topics_destroy(io_mcap_topics **topics);
+
+/* The two streams; color->channel -1 = none. Fails when there is no depth. */
+rlf_result io_mcap_find_streams(const io_mcap_topics *topics, const io_mcap_wishes *wishes,
+                                io_mcap_stream *depth, io_mcap_stream *color);
+
+/* The camera of a stream from the CameraInfo that describes its pictures. False when there is none
+ * that can be used: io_mcap_why_no_camera tells. */
+bool io_mcap_find_camera(const io_mcap_topics *topics, const io_mcap_stream *stream,
                          rlf_camera *out);
-
-/* From /tf_static; false when the two frames are not joined. */
-bool io_mcap_find_transform(io_mcap_reader *reader, const char *from, const char *to,
-                            rlf_pose *out_T_to_from);
+const char *io_mcap_why_no_camera(const io_mcap_topics *topics, const io_mcap_stream *stream,
+                                  char *out, size_t size);
 
 #endif

@@ -1,6 +1,7 @@
 /* Cameras through OpenNI2: PrimeSense, Asus Xtion, older Orbbec. */
 #include "io/openni2/device.h"
 #include "io/source/backends.h"
+#include "io/driver/live.h"
 #include "io/driver/stream_pair.h"
 
 #include <stdatomic.h>
@@ -54,7 +55,7 @@ static void push_depth(camera *c, const openni2_frame *f)
         io_depth_row((const void *)row, f->width, c->device.depth.flips,
                      out + (ptrdiff_t)y * f->width);
     }
-    io_stream_pair_push_depth(&c->pair, (int64_t)f->time_us * 1000, f->index > 0 ? f->index : -1);
+    io_stream_pair_push_depth(&c->pair, io_live_time(f->time_us), f->index > 0 ? f->index : -1);
 }
 
 static void push_color(camera *c, const openni2_frame *f)
@@ -64,7 +65,7 @@ static void push_color(camera *c, const openni2_frame *f)
         io_rgb_row((const uint8_t *)f->data + (ptrdiff_t)y * f->stride, f->width,
                    c->device.color.flips, rlf_rgba8_row(&out, y));
     }
-    io_stream_pair_push_color(&c->pair, (int64_t)f->time_us * 1000);
+    io_stream_pair_push_color(&c->pair, io_live_time(f->time_us));
 }
 
 /* Takes a frame from the stream that has one. */

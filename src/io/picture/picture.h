@@ -19,6 +19,8 @@ typedef struct io_picture {
 } io_picture;
 
 bool io_png_is(const io_bytes *file);
+/* Whether it is a PNG of 16-bit grey, as depth is. */
+bool io_png_is_u16(const io_bytes *file);
 
 /* 16-bit grey PNG to uint16_t. On failure nothing stays allocated. */
 rlf_result io_png_decode_u16(const io_bytes *file, io_picture *picture);

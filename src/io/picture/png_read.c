@@ -134,6 +134,13 @@ bool io_png_is(const io_bytes *file)
     return file->size >= 8 && png_sig_cmp(file->data, 0, 8) == 0;
 }
 
+bool io_png_is_u16(const io_bytes *file)
+{
+    /* Behind the signature and the head of IHDR: width, height, depth, kind of colour. */
+    return io_png_is(file) && file->size >= 26 && file->data[24] == 16 &&
+           file->data[25] == PNG_COLOR_TYPE_GRAY;
+}
+
 static rlf_result check_signature(const io_bytes *file)
 {
     if (file->size == 0) {

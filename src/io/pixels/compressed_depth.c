@@ -36,6 +36,44 @@ static rlf_result fail_short(const io_bytes *file)
                     file->name, file->size);
 }
 
+bool io_compressed_depth_is(const io_bytes *file, const char *format)
+{
+    return strstr(format, "compressedDepth") != NULL || io_png_is_u16(file);
+}
+
+static bool is_rvl(const char *format)
+{
+    return strstr(format, "rvl") != NULL;
+}
+
+/* The PNG behind the head; the plain compressed transport writes PNG alone. */
+static io_bytes png_of(const io_bytes *file)
+{
+    if (io_png_is(file)) {
+        return *file;
+    }
+    return file->size > HEADER_SIZE
+               ? (io_bytes){file->name, file->data + HEADER_SIZE, file->size - HEADER_SIZE}
+               : (io_bytes){file->name, NULL, 0};
+}
+
+bool io_compressed_depth_size(const io_bytes *file, const char *format, int32_t *out_width,
+                              int32_t *out_height)
+{
+    int32_t size[2] = {0, 0};
+    const io_bytes png = png_of(file);
+    if (!is_rvl(format)) {
+        return png.size > 0 && io_picture_size(&png, out_width, out_height);
+    }
+    if (file->size >= HEADER_SIZE + RVL_SIZE) {
+        memcpy(size, file->data + HEADER_SIZE, sizeof(size));
+    }
+    *out_width = size[0];
+    *out_height = size[1];
+    return size[0] > 0 && size[1] > 0 && size[0] <= RLF_IMAGE_SIZE_MAX &&
+           size[1] <= RLF_IMAGE_SIZE_MAX;
+}
+
 static rlf_result decode_rvl(const io_rvl *rvl, const io_bytes *file, int32_t width, int32_t height,
                              uint16_t *out)
 {
@@ -59,15 +97,13 @@ static rlf_result decode_rvl(const io_rvl *rvl, const io_bytes *file, int32_t wi
 rlf_result io_compressed_depth_counts(const io_rvl *rvl, const io_bytes *file, const char *format,
                                       int32_t width, int32_t height, uint16_t *out)
 {
-    if (strstr(format, "rvl") != NULL) {
+    if (is_rvl(format)) {
         return decode_rvl(rvl, file, width, height, out);
     }
-    /* The plain compressed transport writes PNG alone. */
-    const size_t head = io_png_is(file) ? 0 : HEADER_SIZE;
-    if (file->size <= head) {
+    const io_bytes png = png_of(file);
+    if (png.size == 0) {
         return fail_short(file);
     }
-    const io_bytes png = {file->name, file->data + head, file->size - head};
     io_picture picture = {.width = width, .height = height, .data = out};
     return io_png_decode_u16(&png, &picture);
 }

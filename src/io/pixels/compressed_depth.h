@@ -5,6 +5,14 @@
 #include "io/codec/rvl.h"
 #include "io/file.h"
 
+/* Whether a message of that format and data holds depth: compressedDepth, or a PNG of 16-bit grey,
+ * as the plain compressed transport and cv_bridge write it. */
+bool io_compressed_depth_is(const io_bytes *file, const char *format);
+
+/* The size it says; false when it says none. */
+bool io_compressed_depth_size(const io_bytes *file, const char *format, int32_t *out_width,
+                              int32_t *out_height);
+
 /* Counts as they were coded, PNG or RVL. `format` is the message's, e.g. "16UC1; compressedDepth
  * png"; `file` its data: 12 bytes that say how floats were quantised, then the picture. `out` has
  * room for width x height counts; another size is an error. */

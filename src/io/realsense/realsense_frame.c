@@ -1,4 +1,5 @@
 /* Frames of a RealSense camera. */
+#include "io/clip/pairing.h"
 #include "io/pixels/pixels_check.h"
 #include "io/realsense/realsense.h"
 
@@ -72,7 +73,7 @@ static int64_t time_of(const realsense *r, const rs2_frame *frame)
 {
     rs2_error *error = NULL;
     const double ms = r->api->get_frame_timestamp(frame, &error);
-    const bool is_known = !io_realsense_forget(r->api, &error) && ms > 0.0 && ms < 9.0e12;
+    const bool is_known = !io_realsense_forget(r->api, &error) && ms > 0.0 && ms < 4.6e12;
     return is_known ? (int64_t)llround(ms * 1e6) : 0;
 }
 
@@ -122,7 +123,7 @@ static void fill_color(realsense *r, const rs2_frame *color, rlf_frame *out)
     out->color = r->color;
     /* Two clocks cannot be compared: the library paired them. */
     if (domain_of(r, color) == r->domain) {
-        out->color_time_ns = time_of(r, color) + r->count.offset_ns;
+        out->color_time_ns = io_time_sum(time_of(r, color), r->count.offset_ns);
     }
 }
 

@@ -74,6 +74,9 @@ rlf_result bag_check_packing(const char *path, bag_packing packing)
 
 rlf_result bag_decompress(const io_bytes *in, bag_packing packing, uint8_t *out, size_t out_size)
 {
+    if (in->size == 0 || out_size == 0) { /* there are no bytes to point to */
+        return in->size == out_size ? RLF_OK : fail_damaged(in);
+    }
     switch (packing) {
     case BAG_PACKING_LZ4: return unpack_lz4(in, out, out_size);
     case BAG_PACKING_BZ2: return unpack_bz2(in, out, out_size);
@@ -82,9 +85,7 @@ rlf_result bag_decompress(const io_bytes *in, bag_packing packing, uint8_t *out,
     if (in->size != out_size) {
         return fail_damaged(in);
     }
-    if (out_size > 0) {
-        memcpy(out, in->data, out_size); /* of an empty chunk there are no bytes to point to */
-    }
+    memcpy(out, in->data, out_size);
     return RLF_OK;
 }
 

@@ -2,7 +2,6 @@
 #include "io/rosbag/bag_rig.h"
 
 #include "io/camera_json.h"
-#include "io/rosbag/tf_tree.h"
 #include "io/clip/rig_beside.h"
 
 #include <string.h>
@@ -16,33 +15,25 @@ static bool is_realsense(const char *topic)
     return strncmp(topic, "/device_", 8) == 0;
 }
 
-static bool is_rectified(const char *topic)
+static int32_t connection_of(const bag_topics *topics, int32_t picture)
 {
-    return strstr(topic, "rect") != NULL;
+    return topics->connections[picture];
 }
 
-/* The frame of a topic's first picture; "" when it says none. */
-static void frame_of(bag *b, int32_t connection, char out[FRAME_ID_MAX])
+/* False when no calibration fits, or the one that does cannot be used; `out_problem` tells. */
+static bool read_camera(const bag_topics *topics, int32_t picture, rlf_camera *out,
+                        char out_problem[256])
 {
-    io_bytes message;
-    message_image image;
-    out[0] = '\0';
-    if (bag_topics_first(b, connection, &message) == RLF_OK &&
-        message_read_image(&message, message_kind_of(bag_connection_at(b, connection)->type),
-                           &image) == RLF_OK) {
-        memcpy(out, image.frame_id, FRAME_ID_MAX);
+    const io_ros_topic *topic = &topics->pictures[picture];
+    const int32_t found = io_ros_find_info(&topics->lists, topic);
+    if (found < 0) {
+        io_ros_tell_info(&topics->lists, topic, out_problem, 256);
+        return false;
     }
-}
-
-static rlf_result read_camera(bag *b, int32_t pictures, int32_t info, rlf_camera *out)
-{
-    io_bytes message;
-    char frame_id[FRAME_ID_MAX];
-    rlf_result result = bag_topics_first(b, info, &message);
-    return result == RLF_OK
-               ? message_read_camera(&message, is_rectified(bag_connection_at(b, pictures)->topic),
-                                     out, frame_id)
-               : result;
+    rlf_result result =
+        io_camera_info_lens(&topics->infos[found].info, topics->lists.name, topic->name, out);
+    snprintf(out_problem, 256, "%.255s", result != RLF_OK ? rlf_error_text() : "");
+    return result == RLF_OK;
 }
 
 /* A stream's transform from the device's reference stream (p_stream = T p_reference). */
@@ -60,41 +51,29 @@ static rlf_pose realsense_pose(bag *b, int32_t connection)
     return pose;
 }
 
-static void find_realsense_pose(bag *b, const bag_topics *topics, bag_rig *out)
+static void find_realsense_pose(const bag_topics *topics, bag_rig *out)
 {
-    const rlf_pose T_depth_reference = realsense_pose(b, topics->depth);
-    const rlf_pose T_color_reference = realsense_pose(b, topics->color);
+    const rlf_pose T_depth_reference =
+        realsense_pose(topics->bag, connection_of(topics, topics->depth));
+    const rlf_pose T_color_reference =
+        realsense_pose(topics->bag, connection_of(topics, topics->color));
     const rlf_pose T_reference_depth = rlf_pose_invert(&T_depth_reference);
     out->rig.T_color_depth = rlf_pose_mul(&T_color_reference, &T_reference_depth);
 }
 
-static void find_tf_pose(bag *b, const bag_topics *topics, bag_rig *out)
+static void find_tf_pose(const bag_topics *topics, bag_rig *out)
 {
-    char depth_frame[FRAME_ID_MAX];
-    char color_frame[FRAME_ID_MAX];
-    frame_of(b, topics->depth, depth_frame);
-    frame_of(b, topics->color, color_frame);
+    const char *depth_frame = topics->pictures[topics->depth].frame_id;
+    const char *color_frame = topics->pictures[topics->color].frame_id;
     out->is_aligned = strcmp(depth_frame, color_frame) == 0;
-    if (out->is_aligned) {
-        return;
-    }
-    tf_tree tree = {0};
-    for (int32_t i = 0; i < bag_entry_count(b); i++) {
-        const bag_entry *entry = bag_entry_at(b, i);
-        io_bytes message;
-        if (message_kind_of(bag_connection_at(b, entry->connection)->type) == MESSAGE_TF &&
-            bag_message(b, entry, &message) == RLF_OK) {
-            tf_tree_add(&tree, &message);
-        }
-    }
-    if (!tf_tree_find(&tree, depth_frame, color_frame, &out->rig.T_color_depth)) {
+    if (!out->is_aligned &&
+        !tf_tree_find(&topics->transforms, depth_frame, color_frame, &out->rig.T_color_depth)) {
         out->rig.T_color_depth = rlf_pose_identity();
         rlf_log(RLF_LOG_WARNING,
                 "%s: no transform leads from \"%s\" to \"%s\", so depth and colour are taken as "
                 "seen from one place: record /tf_static, or give ?camera=FILE",
-                bag_connection_at(b, topics->depth)->topic, depth_frame, color_frame);
+                topics->pictures[topics->depth].name, depth_frame, color_frame);
     }
-    tf_tree_free(&tree);
 }
 
 /* The value of an option of the depth sensor; 0 = it has none. */
@@ -121,19 +100,22 @@ static double realsense_units(bag *b, int32_t depth)
     return metres >= 1e-6 && metres <= 1.0 ? 1.0 / metres : 1000.0;
 }
 
-static void read_realsense(bag *b, const bag_topics *topics, bag_rig *out)
+static void read_realsense(const bag_topics *topics, bag_rig *out)
 {
-    out->units_per_metre = realsense_units(b, topics->depth);
+    bag *b = topics->bag;
+    const int32_t depth = connection_of(topics, topics->depth);
+    out->units_per_metre = realsense_units(b, depth);
     /* sigma = z^2 e / (f b) of a stereo camera; the baseline is in millimetres. */
-    const double baseline = realsense_option(b, topics->depth, "/Stereo Baseline/value") / 1000.0;
+    const double baseline = realsense_option(b, depth, "/Stereo Baseline/value") / 1000.0;
     if (baseline > 0.01 && baseline < 1.0 && out->rig.depth.fx > 1.0) {
         out->rig.noise =
             (rlf_depth_noise){0.0005, 0.0, MATCH_ERROR_PX / (out->rig.depth.fx * baseline)};
     }
 }
 
-static void read_device(bag *b, const bag_topics *topics, bag_rig *out)
+static void read_device(const bag_topics *topics, bag_rig *out)
 {
+    bag *b = topics->bag;
     char name[64] = "ROS 1 bag";
     char serial[48] = "";
     for (int32_t i = 0; i < bag_entry_count(b); i++) {
@@ -151,59 +133,53 @@ static void read_device(bag *b, const bag_topics *topics, bag_rig *out)
         snprintf(out->device, sizeof(out->device), "%s, serial number %s", name, serial);
     } else {
         snprintf(out->device, sizeof(out->device), "%s, %.90s", name,
-                 bag_connection_at(b, topics->depth)->topic);
+                 topics->pictures[topics->depth].name);
     }
 }
 
-static void read_color(bag *b, const bag_topics *topics, bag_rig *out)
+static void read_color(const bag_topics *topics, bag_rig *out)
 {
-    const char *topic = bag_connection_at(b, topics->color)->topic;
-    if (topics->color_info < 0) {
+    char problem[256];
+    const char *topic = topics->pictures[topics->color].name;
+    if (!read_camera(topics, topics->color, &out->rig.color, problem)) {
         rlf_log(RLF_LOG_WARNING,
-                "%s: has no CameraInfo, so there is no colour: record its camera_info, or give "
-                "?camera=FILE",
-                topic);
-        return;
-    }
-    if (read_camera(b, topics->color, topics->color_info, &out->rig.color) != RLF_OK) {
-        rlf_log(RLF_LOG_WARNING, "%s; so there is no colour", rlf_error_text());
+                "%s: has no usable CameraInfo (%s), so there is no colour: record its camera_info, "
+                "or give ?camera=FILE",
+                topic, problem);
         return;
     }
     out->rig.has_color = true;
     if (is_realsense(topic)) {
-        find_realsense_pose(b, topics, out);
+        find_realsense_pose(topics, out);
     } else {
-        find_tf_pose(b, topics, out);
+        find_tf_pose(topics, out);
     }
 }
 
-rlf_result bag_rig_read(const rlf_address *address, bag *b, const bag_topics *topics, bag_rig *out)
+rlf_result bag_rig_read(const rlf_address *address, const bag_topics *topics, bag_rig *out)
 {
+    char problem[256] = "";
     memset(out, 0, sizeof(*out));
     out->rig = io_rig_default();
     out->units_per_metre = 1000.0;
-    read_device(b, topics, out);
-    const bool has_info = topics->depth_info >= 0;
-    if (address->rig != NULL || !has_info) {
+    read_device(topics, out);
+    const char *topic = topics->pictures[topics->depth].name;
+    if (address->rig != NULL || !read_camera(topics, topics->depth, &out->rig.depth, problem)) {
         bool is_found = false;
         rlf_result result = io_rig_beside(address, &out->rig, &out->units_per_metre, &is_found);
         if (result != RLF_OK || is_found) {
             return result;
         }
         return rlf_fail(RLF_ERROR_FORMAT,
-                        "%s: topic %s has no CameraInfo: record its camera_info, or give the "
-                        "calibration with ?camera=FILE",
-                        address->source, bag_connection_at(b, topics->depth)->topic);
+                        "%s: topic %s has no usable CameraInfo (%s): record its camera_info, or "
+                        "give the calibration with ?camera=FILE",
+                        address->source, topic, problem);
     }
-    rlf_result result = read_camera(b, topics->depth, topics->depth_info, &out->rig.depth);
-    if (result != RLF_OK) {
-        return result;
-    }
-    if (is_realsense(bag_connection_at(b, topics->depth)->topic)) {
-        read_realsense(b, topics, out);
+    if (is_realsense(topic)) {
+        read_realsense(topics, out);
     }
     if (topics->color >= 0) {
-        read_color(b, topics, out);
+        read_color(topics, out);
     }
     return RLF_OK;
 }

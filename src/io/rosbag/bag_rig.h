@@ -13,6 +13,6 @@ typedef struct bag_rig {
 } bag_rig;
 
 /* From CameraInfo and transforms, unless the user gave a calibration or one is beside the file. */
-rlf_result bag_rig_read(const rlf_address *address, bag *b, const bag_topics *topics, bag_rig *out);
+rlf_result bag_rig_read(const rlf_address *address, const bag_topics *topics, bag_rig *out);
 
 #endif

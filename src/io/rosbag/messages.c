@@ -35,11 +35,11 @@ static rlf_result fail_short(const io_bytes *message)
 }
 
 /* std_msgs/Header. */
-static int64_t read_header(cursor *c, char frame_id[FRAME_ID_MAX])
+static int64_t read_header(cursor *c, char frame_id[IO_ROS_NAME_MAX])
 {
     cursor_u32(c); /* counts up */
     const int64_t time_ns = cursor_time(c);
-    cursor_text(c, frame_id, FRAME_ID_MAX);
+    cursor_text(c, frame_id, IO_ROS_NAME_MAX);
     return time_ns;
 }
 
@@ -87,97 +87,43 @@ bool message_read_time(const io_bytes *message, int64_t *out_ns)
     return !c.is_short;
 }
 
-/* What CameraInfo says of the lens. */
-typedef struct lens {
-    char model[48];
-    uint32_t count;
-    double d[8];
-} lens;
-
-static void read_lens(cursor *c, lens *out)
+static void read_doubles(cursor *c, double *out, int count)
 {
-    memset(out, 0, sizeof(*out));
-    cursor_text(c, out->model, sizeof(out->model));
-    out->count = cursor_u32(c);
-    cursor values = {c->data, 0, false};
-    const uint8_t *at = cursor_take(c, (size_t)out->count * 8);
-    values.data = at;
-    values.left = at != NULL ? (size_t)out->count * 8 : 0;
-    for (uint32_t i = 0; i < out->count && i < 8; i++) {
-        out->d[i] = cursor_f64(&values);
+    for (int i = 0; i < count; i++) {
+        out[i] = cursor_f64(c);
     }
 }
 
-static bool is_zero(const lens *l)
+static io_camera_window read_window(cursor *c)
 {
-    for (int i = 0; i < 8; i++) {
-        if (l->d[i] != 0.0) {
-            return false;
-        }
-    }
-    return true;
+    io_camera_window w;
+    w.binning_x = cursor_u32(c);
+    w.binning_y = cursor_u32(c);
+    w.x = cursor_u32(c);
+    w.y = cursor_u32(c);
+    w.height = cursor_u32(c);
+    w.width = cursor_u32(c);
+    return w;
 }
 
-static rlf_result set_lens(const io_bytes *message, const lens *l, rlf_camera *out)
-{
-    if (is_zero(l)) {
-        return RLF_OK;
-    }
-    /* The words of ROS, and of librealsense, which projects with all three of its Brown models
-     * alike: from the ray to the distorted picture. */
-    const bool is_rational = strcmp(l->model, "rational_polynomial") == 0 && l->count >= 8;
-    const bool is_brown = strcmp(l->model, "plumb_bob") == 0 || l->model[0] == '\0' ||
-                          strcmp(l->model, "Brown Conrady") == 0 ||
-                          strcmp(l->model, "Modified Brown Conrady") == 0 ||
-                          strcmp(l->model, "Inverse Brown Conrady") == 0;
-    if (!is_rational && !is_brown) {
-        return rlf_fail(RLF_ERROR_UNSUPPORTED,
-                        "%s: the lens model is \"%s\", which cannot be used: give a calibration "
-                        "with ?camera=FILE",
-                        message->name, l->model);
-    }
-    out->distortion_model =
-        is_rational ? RLF_DISTORTION_RATIONAL_POLYNOMIAL : RLF_DISTORTION_PLUMB_BOB;
-    memcpy(out->distortion, l->d, (is_rational ? 8 : 5) * sizeof(double));
-    return RLF_OK;
-}
-
-rlf_result message_read_camera(const io_bytes *message, bool is_rectified, rlf_camera *out,
-                               char frame_id[FRAME_ID_MAX])
+bool message_read_info(const io_bytes *message, io_camera_info *out)
 {
     cursor c = {message->data, message->size, false};
     memset(out, 0, sizeof(*out));
-    read_header(&c, frame_id);
-    const uint32_t height = cursor_u32(&c);
-    const uint32_t width = cursor_u32(&c);
-    lens l;
-    read_lens(&c, &l);
-    double k[9];
-    double p[12];
-    for (int i = 0; i < 9; i++) {
-        k[i] = cursor_f64(&c);
-    }
-    cursor_take(&c, 9 * sizeof(double)); /* the rotation that rectifies */
-    for (int i = 0; i < 12; i++) {
-        p[i] = cursor_f64(&c);
-    }
-    if (c.is_short || width > RLF_IMAGE_SIZE_MAX || height > RLF_IMAGE_SIZE_MAX) {
-        return fail_short(message);
-    }
-    out->width = (int32_t)width;
-    out->height = (int32_t)height;
-    if (is_rectified && p[0] > 0.0) {
-        out->fx = p[0];
-        out->fy = p[5];
-        out->cx = p[2];
-        out->cy = p[6];
-        return RLF_OK;
-    }
-    out->fx = k[0];
-    out->fy = k[4];
-    out->cx = k[2];
-    out->cy = k[5];
-    return set_lens(message, &l, out);
+    read_header(&c, out->frame_id);
+    out->height = cursor_u32(&c);
+    out->width = cursor_u32(&c);
+    cursor_text(&c, out->model, sizeof(out->model));
+    out->d_count = cursor_u32(&c);
+    const int kept =
+        out->d_count < IO_ROS_DISTORTION_MAX ? (int)out->d_count : IO_ROS_DISTORTION_MAX;
+    read_doubles(&c, out->d, kept);
+    cursor_take(&c, ((size_t)out->d_count - (size_t)kept) * sizeof(double));
+    read_doubles(&c, out->k, 9);
+    read_doubles(&c, out->r, 9);
+    read_doubles(&c, out->p, 12);
+    out->window = read_window(&c);
+    return !c.is_short;
 }
 
 bool message_read_transform(const io_bytes *message, rlf_pose *out)

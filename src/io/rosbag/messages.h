@@ -2,11 +2,9 @@
 #ifndef RLF_IO_ROSBAG_MESSAGES_H
 #define RLF_IO_ROSBAG_MESSAGES_H
 
-#include "relief/camera.h"
 #include "io/file.h"
 #include "io/pixels/pixels.h"
-
-#define FRAME_ID_MAX 96
+#include "io/ros/camera_info.h"
 
 typedef enum message_kind {
     MESSAGE_OTHER,
@@ -24,8 +22,8 @@ message_kind message_kind_of(const char *type);
 /* sensor_msgs/Image or CompressedImage; points into the message. */
 typedef struct message_image {
     int64_t time_ns; /* of its header */
-    char frame_id[FRAME_ID_MAX];
-    char encoding[96]; /* or the compressed one's format */
+    char frame_id[IO_ROS_NAME_MAX];
+    char encoding[64]; /* or the compressed one's format */
     bool is_compressed;
     io_pixels pixels;       /* of an Image */
     io_bytes file;          /* of a CompressedImage */
@@ -38,10 +36,8 @@ rlf_result message_read_image(const io_bytes *message, message_kind kind, messag
 /* Only the time of a message with a header. False when it is cut short. */
 bool message_read_time(const io_bytes *message, int64_t *out_ns);
 
-/* sensor_msgs/CameraInfo. `is_rectified`: of the rectified picture, which has no distortion.
- * RLF_ERROR_UNSUPPORTED for lens models that Relief does not have. */
-rlf_result message_read_camera(const io_bytes *message, bool is_rectified, rlf_camera *out,
-                               char frame_id[FRAME_ID_MAX]);
+/* sensor_msgs/CameraInfo. False when it is cut short. */
+bool message_read_info(const io_bytes *message, io_camera_info *out);
 
 /* geometry_msgs/Transform: p_out = T p_in. False when it is no transform. */
 bool message_read_transform(const io_bytes *message, rlf_pose *out);

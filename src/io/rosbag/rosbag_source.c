@@ -179,9 +179,10 @@ static void sort_pictures(stream *s)
 
 static rlf_result list_all(rosbag *self, const bag_topics *topics)
 {
-    rlf_result result = list_pictures(self, topics->depth, &self->depth);
+    const int32_t color = self->rig.has_color ? topics->connections[topics->color] : -1;
+    rlf_result result = list_pictures(self, topics->connections[topics->depth], &self->depth);
     if (result == RLF_OK) {
-        result = list_pictures(self, self->rig.has_color ? topics->color : -1, &self->color);
+        result = list_pictures(self, color, &self->color);
     }
     if (result == RLF_OK) {
         use_stamps(self);
@@ -191,16 +192,20 @@ static rlf_result list_all(rosbag *self, const bag_topics *topics)
     return result;
 }
 
-/* What the first depth picture says that the calibration cannot. */
-static rlf_result check_first(rosbag *self, bool *out_is_float)
+/* A calibration that the user gave, or that lies beside the file, may be of other pictures. */
+static rlf_result check_rig(const rosbag *self, const bag_topics *topics)
 {
-    message_image image;
-    rlf_result result = read_image(self, &self->depth, 0, &image);
-    if (result != RLF_OK) {
+    const io_ros_topic *d = &topics->pictures[topics->depth];
+    const io_pixels depth = {.name = d->name, .width = d->width, .height = d->height};
+    rlf_result result = check_size(self, &depth);
+    if (result != RLF_OK || !self->rig.has_color) {
         return result;
     }
-    *out_is_float = strncmp(image.encoding, "32FC1", 5) == 0;
-    return image.is_compressed ? RLF_OK : check_size(self, &image.pixels);
+    const io_ros_topic *c = &topics->pictures[topics->color];
+    const rlf_camera *camera = &self->rig.color;
+    return c->width == camera->width && c->height == camera->height
+               ? RLF_OK
+               : io_picture_fail_size(c->name, c->width, c->height, camera->width, camera->height);
 }
 
 static rlf_result read_gap(const rlf_address *address, int64_t *out_ns)
@@ -239,14 +244,14 @@ static void warn_unpaired(const char *name, const rosbag *self, int64_t gap_ns)
     }
 }
 
-static rlf_result open_clip(const rlf_address *address, rosbag *self, bool is_aligned,
-                            rlf_opened *out)
+static rlf_result open_clip(const rlf_address *address, rosbag *self, const bag_topics *topics,
+                            bool is_aligned, rlf_opened *out)
 {
-    bool is_float = false;
+    const bool is_float = strncmp(topics->pictures[topics->depth].encoding, "32FC1", 5) == 0;
     int64_t gap_ns = COLOR_GAP_NS;
     rlf_result result = read_gap(address, &gap_ns);
     if (result == RLF_OK) {
-        result = check_first(self, &is_float);
+        result = check_rig(self, topics);
     }
     if (result != RLF_OK) {
         return result;
@@ -270,34 +275,46 @@ static rlf_result open_clip(const rlf_address *address, rosbag *self, bool is_al
     return io_clip_open(&def, out);
 }
 
+static rlf_result open_topics(const rlf_address *address, rosbag *self, bag_topics *topics,
+                              rlf_opened *out)
+{
+    bag_rig rig;
+    rlf_result result =
+        io_ros_choose(&topics->lists, rlf_address_get(address, "depth"),
+                      rlf_address_get(address, "color"), &topics->depth, &topics->color);
+    if (result == RLF_OK) {
+        result = bag_rig_read(address, topics, &rig);
+    }
+    if (result != RLF_OK) {
+        return result;
+    }
+    self->rig = rig.rig;
+    self->rig.has_color = rig.rig.has_color && topics->color >= 0;
+    self->units_per_metre = rig.units_per_metre;
+    result = list_all(self, topics);
+    if (result == RLF_OK) {
+        result = open_clip(address, self, topics, rig.is_aligned, out);
+    }
+    if (result == RLF_OK) {
+        memcpy(out->info.device, rig.device, sizeof(out->info.device));
+    }
+    return result;
+}
+
 static rlf_result open_all(const rlf_address *address, rosbag *self, rlf_opened *out)
 {
-    bag_topics topics;
-    bag_rig rig;
     rlf_result result = bag_open(address->place, &self->bag);
     if (result == RLF_OK) {
         bag_topics_mark(self->bag);
         result = bag_index(self->bag);
     }
     if (result == RLF_OK) {
-        result = bag_topics_choose(self->bag, address->source, rlf_address_get(address, "depth"),
-                                   rlf_address_get(address, "color"), &topics);
-    }
-    if (result == RLF_OK) {
-        result = bag_rig_read(address, self->bag, &topics, &rig);
-    }
-    if (result != RLF_OK) {
-        return result;
-    }
-    self->rig = rig.rig;
-    self->rig.has_color = rig.rig.has_color && topics.color >= 0;
-    self->units_per_metre = rig.units_per_metre;
-    result = list_all(self, &topics);
-    if (result == RLF_OK) {
-        result = open_clip(address, self, rig.is_aligned, out);
-    }
-    if (result == RLF_OK) {
-        memcpy(out->info.device, rig.device, sizeof(out->info.device));
+        bag_topics topics;
+        result = bag_topics_read(self->bag, address->place, &topics);
+        if (result == RLF_OK) {
+            result = open_topics(address, self, &topics, out);
+        }
+        bag_topics_free(&topics);
     }
     return result;
 }

@@ -7,7 +7,7 @@
 #define EDGES_MAX 512
 
 struct tf_edge {
-    char parent[FRAME_ID_MAX], child[FRAME_ID_MAX];
+    char parent[IO_ROS_NAME_MAX], child[IO_ROS_NAME_MAX];
     rlf_pose T_parent_child;
 };
 
@@ -37,13 +37,13 @@ static void add_edge(tf_tree *tree, const tf_edge *edge)
     }
 }
 
-void tf_tree_add(tf_tree *tree, const io_bytes *message)
+static void add_message(tf_tree *tree, const io_bytes *message)
 {
     cursor c = {message->data, message->size, false};
     const uint32_t count = cursor_u32(&c);
     for (uint32_t i = 0; i < count; i++) {
         tf_edge edge;
-        char name[FRAME_ID_MAX];
+        char name[IO_ROS_NAME_MAX];
         cursor_u32(&c);
         cursor_time(&c);
         cursor_text(&c, name, sizeof(name));
@@ -57,6 +57,18 @@ void tf_tree_add(tf_tree *tree, const io_bytes *message)
         const io_bytes transform = {message->name, at, 7 * sizeof(double)};
         if (message_read_transform(&transform, &edge.T_parent_child)) {
             add_edge(tree, &edge);
+        }
+    }
+}
+
+void tf_tree_read(tf_tree *tree, bag *b)
+{
+    for (int32_t i = 0; i < bag_entry_count(b); i++) {
+        const bag_entry *entry = bag_entry_at(b, i);
+        io_bytes message;
+        if (message_kind_of(bag_connection_at(b, entry->connection)->type) == MESSAGE_TF &&
+            bag_message(b, entry, &message) == RLF_OK) {
+            add_message(tree, &message);
         }
     }
 }

@@ -3,7 +3,7 @@
 #define RLF_IO_ROSBAG_TF_TREE_H
 
 #include "relief/math.h"
-#include "io/file.h"
+#include "io/rosbag/bag.h"
 
 typedef struct tf_edge tf_edge;
 
@@ -12,9 +12,9 @@ typedef struct tf_tree {
     int32_t count;
 } tf_tree;
 
-/* Adds the transforms of a message; of each pair of frames the first one counts. What does not fit
- * or is no transform is left out. */
-void tf_tree_add(tf_tree *tree, const io_bytes *message);
+/* Adds the transforms of a bag; of each pair of frames the first one counts. What does not fit or
+ * is no transform is left out. */
+void tf_tree_read(tf_tree *tree, bag *b);
 void tf_tree_free(tf_tree *tree);
 
 /* p_to = T p_from. False when the two frames are not joined. */

@@ -1,9 +1,10 @@
 /* Which topics of a bag are the depth and the colour pictures. */
-#define _POSIX_C_SOURCE 200809L
 #include "io/rosbag/topics.h"
 
+#include "io/picture/picture.h"
+#include "io/pixels/compressed_depth.h"
+
 #include <string.h>
-#include <strings.h>
 
 /* Of what does not change one message is enough; transforms come spread over a few. */
 #define FEW 256
@@ -55,161 +56,115 @@ int32_t bag_topics_beside(bag *b, int32_t connection, int32_t depth, const char 
     return -1;
 }
 
-/* How much of a CameraInfo's topic is its camera's: drivers put it into the pictures' own folder,
- * librealsense one below. */
-static size_t folder_length(const char *topic)
+static io_ros_picture kind_of(const message_image *image)
 {
-    const char *slash = strrchr(topic, '/');
-    size_t length = slash != NULL ? (size_t)(slash - topic) : 0;
-    if (length >= 5 && strncmp(topic + length - 5, "/info", 5) == 0) {
-        length -= 5;
+    if (image->is_compressed) {
+        int32_t width, height;
+        return io_compressed_depth_is(&image->file, image->encoding) ? IO_ROS_PICTURE_DEPTH
+               : io_picture_size(&image->file, &width, &height)      ? IO_ROS_PICTURE_COLOR
+                                                                     : IO_ROS_PICTURE_NONE;
     }
-    return length;
-}
-
-/* The CameraInfo of the innermost folder that the pictures are in. */
-static int32_t find_info(bag *b, int32_t connection)
-{
-    const char *topic = bag_connection_at(b, connection)->topic;
-    int32_t best = -1;
-    size_t best_length = 0;
-    for (int32_t i = 0; i < bag_connection_count(b); i++) {
-        const bag_connection *c = bag_connection_at(b, i);
-        const size_t length = folder_length(c->topic);
-        if (message_kind_of(c->type) == MESSAGE_CAMERA_INFO && c->count > 0 &&
-            strncmp(topic, c->topic, length) == 0 && topic[length] == '/' &&
-            (best < 0 || length > best_length)) {
-            best = i;
-            best_length = length;
-        }
-    }
-    return best;
-}
-
-static bool has(const char *topic, const char *word)
-{
-    const size_t length = strlen(word);
-    for (; *topic != '\0'; topic++) {
-        if (strncasecmp(topic, word, length) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
-typedef enum picture_kind {
-    PICTURE_OTHER,
-    PICTURE_DEPTH,
-    PICTURE_COLOR,
-    PICTURE_GREY
-} picture_kind;
-
-static picture_kind kind_of(bag *b, int32_t connection)
-{
-    io_bytes message;
-    message_image image;
-    const message_kind kind = message_kind_of(bag_connection_at(b, connection)->type);
-    if ((kind != MESSAGE_IMAGE && kind != MESSAGE_COMPRESSED_IMAGE) ||
-        bag_topics_first(b, connection, &message) != RLF_OK ||
-        message_read_image(&message, kind, &image) != RLF_OK) {
-        return PICTURE_OTHER;
-    }
-    if (image.is_compressed) {
-        const bool is_depth = strstr(image.encoding, "compressedDepth") != NULL ||
-                              strncmp(image.encoding, "16UC1", 5) == 0 ||
-                              strncmp(image.encoding, "mono16", 6) == 0;
-        return is_depth ? PICTURE_DEPTH : PICTURE_COLOR;
+    if (io_pixels_is_depth(image->encoding)) {
+        return IO_ROS_PICTURE_DEPTH;
     }
     const bool is_grey =
-        strcmp(image.encoding, "mono8") == 0 || strcmp(image.encoding, "8UC1") == 0;
-    return io_pixels_is_depth(image.encoding) ? PICTURE_DEPTH
-                                              : (is_grey ? PICTURE_GREY : PICTURE_COLOR);
+        strcmp(image->encoding, "mono8") == 0 || strcmp(image->encoding, "8UC1") == 0;
+    return is_grey                                 ? IO_ROS_PICTURE_GREY
+           : io_pixels_is_picture(image->encoding) ? IO_ROS_PICTURE_COLOR
+                                                   : IO_ROS_PICTURE_NONE;
 }
 
-/* How likely a topic of depth pictures is the one that is meant: one named so, as the camera made
- * it, with its calibration, before a copy of it. */
-static int32_t depth_score(bag *b, int32_t connection)
+static bool size_of(const message_image *image, int32_t *out_width, int32_t *out_height)
 {
-    const char *topic = bag_connection_at(b, connection)->topic;
-    return 16 + (has(topic, "depth") ? 8 : 0) -
-           (has(topic, "infra") || has(topic, "/ir") ? 12 : 0) - (has(topic, "aligned") ? 1 : 0) -
-           (has(topic, "compressed") ? 1 : 0) + (find_info(b, connection) >= 0 ? 4 : 0);
+    const io_pixels *p = &image->pixels;
+    if (image->is_compressed) {
+        return io_compressed_depth_is(&image->file, image->encoding)
+                   ? io_compressed_depth_size(&image->file, image->encoding, out_width, out_height)
+                   : io_picture_size(&image->file, out_width, out_height);
+    }
+    if (p->width < 1 || p->height < 1 || p->width > RLF_IMAGE_SIZE_MAX ||
+        p->height > RLF_IMAGE_SIZE_MAX) {
+        return false;
+    }
+    *out_width = (int32_t)p->width;
+    *out_height = (int32_t)p->height;
+    return true;
 }
 
-static int32_t color_score(bag *b, int32_t connection, const char *depth_topic)
+/* What a connection's first picture is. */
+static void add_pictures(bag_topics *t, int32_t connection)
 {
-    const char *topic = bag_connection_at(b, connection)->topic;
-    const bool is_other = has(topic, "infra") || has(topic, "/ir") || has(topic, "fisheye") ||
-                          has(topic, "confidence") || has(topic, "depth");
-    return 8 + (has(topic, "rgb") || has(topic, "color") ? 8 : 0) - (is_other ? 16 : 0) +
-           (kind_of(b, connection) == PICTURE_GREY ? -4 : 0) +
-           (find_info(b, connection) >= 0 ? 4 : 0) - (has(topic, "compressed") ? 1 : 0) +
-           2 * common_parts(topic, depth_topic);
+    const bag_connection *c = bag_connection_at(t->bag, connection);
+    io_ros_topic *topic = &t->pictures[t->lists.picture_count];
+    io_bytes message;
+    message_image image;
+    *topic = (io_ros_topic){.name = c->topic, .count = c->count, .encoding = "no pictures"};
+    t->connections[t->lists.picture_count++] = connection;
+    if (bag_topics_first(t->bag, connection, &message) != RLF_OK ||
+        message_read_image(&message, message_kind_of(c->type), &image) != RLF_OK) {
+        return;
+    }
+    memcpy(topic->encoding, image.encoding, sizeof(topic->encoding));
+    memcpy(topic->frame_id, image.frame_id, sizeof(topic->frame_id));
+    topic->kind =
+        size_of(&image, &topic->width, &topic->height) ? kind_of(&image) : IO_ROS_PICTURE_NONE;
 }
 
-static int32_t find_named(bag *b, const char *name)
+static void add_info(bag_topics *t, int32_t connection)
 {
-    for (int32_t i = 0; i < bag_connection_count(b); i++) {
-        const bag_connection *c = bag_connection_at(b, i);
-        const message_kind kind = message_kind_of(c->type);
-        if (strcmp(c->topic, name) == 0 && c->count > 0 &&
-            (kind == MESSAGE_IMAGE || kind == MESSAGE_COMPRESSED_IMAGE)) {
-            return i;
+    io_bytes message;
+    io_ros_info_topic *topic = &t->infos[t->lists.info_count];
+    topic->name = bag_connection_at(t->bag, connection)->topic;
+    if (bag_topics_first(t->bag, connection, &message) == RLF_OK &&
+        message_read_info(&message, &topic->info)) {
+        t->lists.info_count++;
+    }
+}
+
+/* librealsense has its transforms in topics of their own. */
+static bool is_joined(void *self, const char *from, const char *to)
+{
+    const bag_topics *t = self;
+    rlf_pose pose;
+    return strncmp(t->pictures[0].name, "/device_", 8) == 0 ||
+           tf_tree_find(&t->transforms, from, to, &pose);
+}
+
+rlf_result bag_topics_read(bag *b, const char *path, bag_topics *out)
+{
+    const int32_t count = bag_connection_count(b);
+    *out = (bag_topics){.bag = b, .depth = -1, .color = -1};
+    out->pictures = rlf_alloc_array((size_t)count, sizeof(out->pictures[0]));
+    out->connections = rlf_alloc_array((size_t)count, sizeof(out->connections[0]));
+    out->infos = rlf_alloc_array((size_t)count, sizeof(out->infos[0]));
+    if (out->pictures == NULL || out->connections == NULL || out->infos == NULL) {
+        return RLF_ERROR_MEMORY;
+    }
+    out->lists = (io_ros_topics){.name = path,
+                                 .pictures = out->pictures,
+                                 .infos = out->infos,
+                                 .strangers = out->strangers,
+                                 .is_joined = is_joined,
+                                 .self = out};
+    for (int32_t i = 0; i < count; i++) {
+        const message_kind kind = message_kind_of(bag_connection_at(b, i)->type);
+        if (kind == MESSAGE_IMAGE || kind == MESSAGE_COMPRESSED_IMAGE) {
+            add_pictures(out, i);
+        } else if (kind == MESSAGE_CAMERA_INFO) {
+            add_info(out, i);
+        } else if (kind == MESSAGE_OTHER && io_ros_is_stranger(bag_connection_at(b, i)->type)) {
+            io_ros_add_stranger(out->strangers, sizeof(out->strangers),
+                                bag_connection_at(b, i)->topic, bag_connection_at(b, i)->type, "");
         }
     }
-    return -1;
-}
-
-/* The best topic, more pictures first where two score alike. */
-static int32_t find_best(bag *b, const char *depth_topic)
-{
-    int32_t best = -1;
-    int32_t best_score = 0;
-    for (int32_t i = 0; i < bag_connection_count(b); i++) {
-        const picture_kind kind = kind_of(b, i);
-        const bool fits = depth_topic == NULL ? kind == PICTURE_DEPTH
-                                              : kind == PICTURE_COLOR || kind == PICTURE_GREY;
-        const int32_t score =
-            !fits ? 0 : (depth_topic == NULL ? depth_score(b, i) : color_score(b, i, depth_topic));
-        const bool is_longer =
-            best >= 0 && bag_connection_at(b, i)->count > bag_connection_at(b, best)->count;
-        if (score > best_score || (score > 0 && score == best_score && is_longer)) {
-            best = i;
-            best_score = score;
-        }
-    }
-    return best;
-}
-
-static rlf_result fail_topic(const char *path, const char *key, const char *name)
-{
-    return rlf_fail(RLF_ERROR_INVALID,
-                    "%s: %s=%.100s: holds no pictures of that topic: rosbag info lists the topics",
-                    path, key, name);
-}
-
-rlf_result bag_topics_choose(bag *b, const char *path, const char *depth_name,
-                             const char *color_name, bag_topics *out)
-{
-    *out = (bag_topics){-1, -1, -1, -1};
-    out->depth = depth_name != NULL ? find_named(b, depth_name) : find_best(b, NULL);
-    if (out->depth < 0) {
-        return depth_name != NULL
-                   ? fail_topic(path, "depth", depth_name)
-                   : rlf_fail(RLF_ERROR_FORMAT,
-                              "%s: holds no depth pictures (sensor_msgs/Image of 16UC1, mono16 or "
-                              "32FC1, or compressedDepth): record the camera's depth topic too",
-                              path);
-    }
-    if (color_name == NULL) {
-        out->color = find_best(b, bag_connection_at(b, out->depth)->topic);
-    } else if (strcmp(color_name, "none") != 0) {
-        out->color = find_named(b, color_name);
-        if (out->color < 0) {
-            return fail_topic(path, "color", color_name);
-        }
-    }
-    out->depth_info = find_info(b, out->depth);
-    out->color_info = out->color >= 0 ? find_info(b, out->color) : -1;
+    tf_tree_read(&out->transforms, b);
     return RLF_OK;
+}
+
+void bag_topics_free(bag_topics *topics)
+{
+    tf_tree_free(&topics->transforms);
+    rlf_free(topics->pictures);
+    rlf_free(topics->connections);
+    rlf_free(topics->infos);
 }

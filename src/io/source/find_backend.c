@@ -4,6 +4,7 @@
 
 #include "io/source/backends.h"
 #include "io/source/absent.h"
+#include "io/source/foreign_file.h"
 #include "relief/io.h"
 
 #include <stdio.h>
@@ -43,13 +44,23 @@ static const rlf_backend *by_scheme(const char *scheme)
     return NULL;
 }
 
-static const rlf_backend *by_path(const char *path)
+/* A plug-in may know what is foreign here. */
+static const rlf_backend *by_extension(const char *path)
 {
     const rlf_backend *b;
     for (int32_t i = 0; (b = io_backend_at(i)) != NULL; i++) {
         if (has_extension(path, b->extensions)) {
             return b;
         }
+    }
+    return NULL;
+}
+
+static const rlf_backend *by_path(const char *path)
+{
+    const rlf_backend *b = by_extension(path);
+    if (b != NULL) {
+        return b;
     }
     for (int32_t i = 0; (b = io_backend_at(i)) != NULL; i++) {
         if (b->recognises != NULL && b->recognises(path)) {
@@ -133,6 +144,12 @@ static rlf_result fail_path(const char *source, const char *path)
 rlf_result io_backend_find(const char *source, const io_address *address, const rlf_backend **out)
 {
     const bool is_path = address->scheme[0] == '\0';
+    if (is_path && by_extension(address->place) == NULL) {
+        rlf_result result = io_foreign_check(source, address->place);
+        if (result != RLF_OK) {
+            return result;
+        }
+    }
     *out = is_path ? by_path(address->place) : by_scheme(address->scheme);
     if (*out == NULL) {
         return is_path ? fail_path(source, address->place) : fail_scheme(source, address->scheme);
