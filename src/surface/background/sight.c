@@ -17,25 +17,28 @@ enum {
 #define WARM_UP_NS 3000000000 /* from the first depth on: a sensor has started by then */
 
 typedef struct tally {
-    int32_t seen, known, unknown, fresh; /* pixels; fresh: unknown, and without depth before */
+    int32_t seen;           /* pixels with depth as it came */
+    int32_t known;          /* background */
+    int32_t unknown, fresh; /* depth that it is not known of; and there was none before */
 } tally;
 
-RLF_KERNEL static tally count_row(const float *restrict depth, const float *restrict mean,
-                                  const float *restrict before, int32_t count)
+RLF_KERNEL static tally count_row(const float *restrict raw, const float *restrict depth,
+                                  const float *restrict mean, const float *restrict before,
+                                  int32_t count)
 {
     int32_t seen = 0, known = 0, unknown = 0, fresh = 0;
     for (int32_t i = 0; i < count; i++) {
-        int32_t is_seen = depth[i] > 0.0f ? 1 : 0, is_known = mean[i] > 0.0f ? 1 : 0;
-        int32_t was_empty = before[i] > 0.0f ? 0 : 1;
-        seen += is_seen;
+        int32_t is_known = mean[i] > 0.0f ? 1 : 0, was_empty = before[i] > 0.0f ? 0 : 1;
+        int32_t is_new = (depth[i] > 0.0f ? 1 : 0) & (1 - is_known);
+        seen += raw[i] > 0.0f ? 1 : 0;
         known += is_known;
-        unknown += is_seen & (1 - is_known);
-        fresh += is_seen & (1 - is_known) & was_empty;
+        unknown += is_new;
+        fresh += is_new & was_empty;
     }
     return (tally){seen, known, unknown, fresh};
 }
 
-static tally count_all(const rlf_reconstruct *stage)
+static tally count_all(const rlf_reconstruct *stage, const rlf_slot *slot)
 {
     const rlf_slot *last = stage->previous != NULL ? stage->previous : stage->before;
     const int32_t width = stage->grid.width;
@@ -43,8 +46,8 @@ static tally count_all(const rlf_reconstruct *stage)
     for (int32_t y = 0; y < stage->grid.height; y++) {
         const ptrdiff_t row = (ptrdiff_t)y * width;
         const float *before = last != NULL ? last->depth + row : stage->work.zeros;
-        const tally t =
-            count_row(stage->work.raw + row, stage->background.mean + row, before, width);
+        const tally t = count_row(stage->work.raw + row, slot->depth + row,
+                                  stage->background.mean + row, before, width);
         sum.seen += t.seen;
         sum.known += t.known;
         sum.unknown += t.unknown;
@@ -124,7 +127,7 @@ static bool shows_more(const rlf_reconstruct *stage, const tally *t)
 void rlf_sight_take(rlf_reconstruct *stage, const rlf_slot *slot)
 {
     rlf_sight *sight = &stage->sight;
-    const tally t = count_all(stage);
+    const tally t = count_all(stage, slot);
     sight->has_room = has_room(sight, &t, stage->grid.count, slot->surface.time_ns);
     sight->is_blind = !shows_enough(stage, &t);
     sight->seen = t.seen;
