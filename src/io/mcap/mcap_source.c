@@ -323,7 +323,6 @@ static rlf_result open_clip(mcap *m, rlf_opened *out)
                                  .depth_count = count,
                                  .color_count = count_of(m, &m->color),
                                  .flags = m->flags,
-                                 .skips_damaged = true,
                                  .read_depth = read_depth,
                                  .read_color = read_color,
                                  .destroy = mcap_destroy,
