@@ -35,7 +35,7 @@ typedef struct clip {
     uint64_t doubled, unpaired, lost;
     uint64_t unread, unread_color; /* pictures */
     int32_t unread_in_a_row;
-    bool has_given, has_told;
+    bool has_given, has_told_first, has_told;
     char first_error[512]; /* of a depth picture */
 } clip;
 
@@ -84,7 +84,6 @@ static rlf_result leave_out(clip *c, rlf_result result)
     snprintf(reason, sizeof(reason), "%s", rlf_error_text());
     if (c->unread++ == 0) {
         memcpy(c->first_error, reason, sizeof(reason));
-        rlf_log(RLF_LOG_WARNING, "%s; frames that cannot be read are left out", reason);
     }
     if (++c->unread_in_a_row < UNREAD_MAX) {
         return RLF_OK;
@@ -92,6 +91,15 @@ static rlf_result leave_out(clip *c, rlf_result result)
     c->unread_in_a_row = 0;
     return rlf_fail(result, "%s (and the %d frames before it could not be read either)", reason,
                     UNREAD_MAX - 1);
+}
+
+/* The first one, once it is known that others can be read. */
+static void tell_first(clip *c)
+{
+    if (c->unread > 0 && !c->has_told_first) {
+        c->has_told_first = true;
+        rlf_log(RLF_LOG_WARNING, "%s; frames that cannot be read are left out", c->first_error);
+    }
 }
 
 /* Depth counts: without its colour picture a frame goes without colour. */
@@ -113,6 +121,7 @@ static void tell_unread(clip *c)
         return;
     }
     c->has_told = true;
+    tell_first(c);
     if (c->unread > 0) {
         rlf_log(RLF_LOG_WARNING, "%s: %llu of %d depth pictures could not be read: left out",
                 c->name, (unsigned long long)c->unread, (int)c->count);
@@ -141,6 +150,7 @@ static rlf_result clip_next(void *self, rlf_frame *out)
         const clip_frame *f = &c->frames[c->next++];
         rlf_result result = c->def.read_depth(c->def.self, f->depth, c->depth);
         if (result == RLF_OK) {
+            tell_first(c);
             count_given(c, f);
             fill_frame(c, f, find_color(c, f), out);
             c->is_continued = c->has_given = true;
