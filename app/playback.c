@@ -149,6 +149,7 @@ rlf_result playback_wrap(rlf_source **source, playback_end end, playback **out)
         rlf_free(p);
         return result;
     }
+    rlf_source_expect_range(p->source, 0.0, 0.0); /* it is asked of what is played */
     *source = played;
     *out = p;
     return RLF_OK;

@@ -409,6 +409,7 @@ rlf_result recorder_tap(recorder *r, rlf_source **source)
         t->is_observed = true;
         r->observed = t->source;
     }
+    rlf_source_expect_range(t->source, 0.0, 0.0); /* it is asked of what is tapped */
     *source = tapped;
     return RLF_OK;
 }

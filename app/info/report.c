@@ -88,6 +88,16 @@ static void print_missing(const survey *s)
     printf("\n");
 }
 
+/* "  5.1", or ">200" where that is all that is known. */
+static void write_noise(double noise_m, char out[16])
+{
+    if (noise_m < STILLNESS_MOST_M) {
+        snprintf(out, 16, "%5.1f", 1000 * noise_m);
+    } else {
+        snprintf(out, 16, " >%.0f", 1000 * STILLNESS_MOST_M);
+    }
+}
+
 static void print_stillness(const stillness_result *r, const rlf_rig *rig)
 {
     if (r->frames < STILLNESS_FRAMES_MIN) {
@@ -103,10 +113,12 @@ static void print_stillness(const stillness_result *r, const rlf_rig *rig)
         if (bin->pixels < 100) {
             continue;
         }
-        char end[16];
+        char end[16], median[16], most[16];
+        write_noise(bin->median_m, median);
+        write_noise(bin->most_m, most);
         snprintf(end, sizeof(end), b + 1 < INFO_BINS ? "%.1f" : "   ", (b + 1) * INFO_BIN_M);
-        printf("        %.1f-%s m  median %5.1f mm, 90 %% below %5.1f mm, taken to be %5.1f mm\n",
-               b * INFO_BIN_M, end, 1000 * bin->median_m, 1000 * bin->most_m,
+        printf("        %.1f-%s m  median %s mm, 90 %% below %s mm, taken to be %5.1f mm\n",
+               b * INFO_BIN_M, end, median, most,
                1000 * rlf_depth_noise_sigma(&rig->noise, (b + 0.5) * INFO_BIN_M));
     }
 }

@@ -6,6 +6,7 @@
 
 #define STILLNESS_FRAMES_MIN 8
 #define STILLNESS_FRAMES_MAX 60
+#define STILLNESS_MOST_M 0.2 /* a deviation of that is this or more */
 
 typedef struct stillness stillness;
 

@@ -90,7 +90,10 @@ static rlf_result read_all(reader *r, const survey_options *options)
         rlf_frame frame;
         rlf_result result = rlf_source_next(r->source, &frame);
         if (result == RLF_END) {
-            return RLF_OK;
+            return r->out->frames > 0 || r->out->failed == 0
+                       ? RLF_OK
+                       : rlf_fail(RLF_ERROR_FORMAT, "%s (no frame could be read)",
+                                  r->out->first_error);
         }
         if (result == RLF_OK) {
             add_frame(r, &frame);

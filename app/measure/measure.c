@@ -156,9 +156,18 @@ static rlf_result measure_scale(const measure_options *o, int32_t scale, measure
     session_close(&s);
     if (result == RLF_OK && out->width == 0 && !command_interrupted) {
         return rlf_fail(RLF_ERROR_INVALID,
-                        "%s: too few frames; the first 5 are needed for the background", o->source);
+                        "%s: too few frames with depth; the first 5 are needed for the background", o->source);
     }
     return result;
+}
+
+/* What the first reading of a source has said, the others need not say again. */
+static void log_once(void *context, rlf_log_level level, const char *line)
+{
+    const int32_t *scale = context;
+    if (level <= RLF_LOG_WARNING && *scale == 0) {
+        fprintf(stderr, "relief: %s%s\n", level == RLF_LOG_WARNING ? "warning: " : "", line);
+    }
 }
 
 static rlf_result measure_table(const measure_options *o)
@@ -166,7 +175,9 @@ static rlf_result measure_table(const measure_options *o)
     measure_points points[MEASURE_SCALES_MAX];
     memset(points, 0, sizeof(points));
     rlf_result result = RLF_OK;
-    for (int32_t i = 0; i < o->scale_count && result == RLF_OK; i++) {
+    static int32_t i;
+    rlf_set_log(log_once, &i);
+    for (i = 0; i < o->scale_count && result == RLF_OK; i++) {
         result = measure_scale(o, o->scales[i], &points[i]);
     }
     measure_report report = {.source = o->source,

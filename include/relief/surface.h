@@ -93,6 +93,11 @@ typedef struct rlf_surface {
     /* While it and background_depth stay the same, so do the planes above; 0 = not known. */
     int64_t background_version;
     rlf_background_state background_state;
+    /* No depth, or hardly any: the sensor warms up, or its lens is covered. Nothing is learnt of
+     * such a frame, nothing of it is foreground, and a pipeline's bodies wait. Hardly any: less
+     * than a tenth of the background that is known; before there is any, less than a tenth of the
+     * picture, for at most 3 s. */
+    bool is_blind;
     /* The camera itself moves, or did within the last 8 frames; told within 10 frames. Then all is
      * one sheet at rest and nothing is foreground: the background is learnt anew when it stands.
      * Always false with a background other than adaptive. */

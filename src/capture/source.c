@@ -2,12 +2,14 @@
 #include "capture/source_object.h"
 
 #include "capture/depth_offset.h"
+#include "capture/range_watch.h"
 
 struct rlf_source {
     rlf_source_methods methods;
     rlf_source_info info;
     void *self;
     uint64_t given;
+    range_watch range;
     char *corrected;      /* two planes of depth without its offset: of next, and of observe */
     rlf_frame_fn watcher; /* what observe calls when there is an offset */
     void *watcher_context;
@@ -44,6 +46,7 @@ rlf_result rlf_source_create_custom(const rlf_source_methods *methods, const rlf
     *source = (rlf_source){.methods = *methods, .info = *info, .corrected = corrected};
     source->info.name[sizeof(source->info.name) - 1] = '\0';
     source->self = self;
+    source->range = (range_watch){.min_m = info->rig.depth_min_m, .max_m = info->rig.depth_max_m};
     *out = source;
     return RLF_OK;
 }
@@ -81,10 +84,19 @@ rlf_result rlf_source_next(rlf_source *source, rlf_frame *out_frame)
         if (source->corrected != NULL) {
             depth_offset_take(&source->info.rig, source->corrected, &frame);
         }
+        range_watch_see(&source->range, source->info.name, &frame);
         *out_frame = frame;
         source->given++;
     }
     return result;
+}
+
+void rlf_source_expect_range(rlf_source *source, double min_m, double max_m)
+{
+    if (RLF_ASSERT(source != NULL)) {
+        source->range.min_m = min_m;
+        source->range.max_m = max_m;
+    }
 }
 
 rlf_result rlf_source_restart(rlf_source *source)

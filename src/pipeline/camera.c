@@ -114,7 +114,9 @@ static rlf_result see_standing(rlf_pipeline *p, const rlf_surface **out)
         return result;
     }
     if (!(*out)->camera_moves) {
-        keep_still(&p->camera, *out);
+        if (!(*out)->is_blind) {
+            keep_still(&p->camera, *out);
+        }
         return RLF_OK;
     }
     result = begin_to_move(p, *out);

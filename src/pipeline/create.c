@@ -106,6 +106,8 @@ static void make_room(rlf_world_def *def, const rlf_scene *scene)
 
 static rlf_result create_stages(rlf_pipeline *p)
 {
+    rlf_source_expect_range(p->def.source, p->def.reconstruct.depth_min_m,
+                            p->def.reconstruct.depth_max_m);
     rlf_result result = rlf_reconstruct_create(&p->def.reconstruct, &p->reconstruct);
     if (result != RLF_OK) {
         return result;

@@ -8,6 +8,7 @@
 #define ADVANCE_MAX_S 1.0 /* a longer gap between frames advances physics by this much only */
 #define AWAY_FRAMES 10    /* missing in such a gap: it is no slow clip, the camera was away */
 #define STALE_S 1.0       /* without a frame: what is shown is no longer what is there */
+#define BLIND_S 0.5       /* without depth: it is told */
 #define GRAVITY_FRAMES 10 /* that are asked at most which way is up */
 
 void rlf_pipeline_set_surface_times(rlf_pipeline *p, rlf_surface_times *times)
@@ -66,7 +67,7 @@ static void seek_gravity(rlf_pipeline *p)
         p->last.gravity_confidence = p->scene.finds_gravity ? 0.0 : 1.0;
         p->gravity_frames = p->scene.finds_gravity ? GRAVITY_FRAMES : 0;
     }
-    if (p->gravity_frames > 0) {
+    if (p->gravity_frames > 0 && !p->last.surface->is_blind) {
         find_gravity(p);
         p->gravity_frames = p->last.gravity_confidence < RLF_UP_SURE ? p->gravity_frames - 1 : 0;
         if (p->gravity_frames == 0) {
@@ -87,16 +88,55 @@ static void make_grid(rlf_pipeline *p, rlf_grid *out)
     }
 }
 
-/* Bodies wait for a camera that was away, or does not know where it is: what they would have met
- * meanwhile nobody saw. So they do while the view as a whole seems to move: a room that swings
+/* Bodies wait for a camera that was away, that shows no depth, or that does not know where it is:
+ * what they would have met meanwhile nobody saw. So they do while the view as a whole seems to move: a room that swings
  * would throw them. What was seen alone decides, so that a recording gives the same bodies. */
 static double time_to_advance(const rlf_pipeline *p, double gap_s)
 {
     const double rate = rlf_source_get_info(p->def.source)->frames_per_second;
     const bool was_away = gap_s > ADVANCE_MAX_S && gap_s * rate > AWAY_FRAMES;
     const bool is_lost = p->camera.moving.is_on && !moving_is_placed(&p->camera.moving);
-    const bool is_unsure = is_lost || p->last.surface->camera_may_move;
+    const bool is_unsure =
+        is_lost || p->last.surface->camera_may_move || p->last.surface->is_blind;
     return was_away || is_unsure ? 0.0 : rlf_min(gap_s, ADVANCE_MAX_S);
+}
+
+/* One line when bodies have waited for depth for a while, and one when they go on. */
+static void tell_blind(rlf_pipeline *p)
+{
+    const int64_t now = p->last.frame.time_ns;
+    if (!p->last.surface->is_blind) {
+        if (p->has_told_blind) {
+            rlf_log(RLF_LOG_INFO, "there is depth (frame %lld): bodies move",
+                    (long long)p->frame_index);
+        }
+        p->is_blind = p->has_told_blind = false;
+        return;
+    }
+    p->blind_since_ns = p->is_blind ? p->blind_since_ns : now;
+    p->is_blind = true;
+    if (!p->has_told_blind && (double)(now - p->blind_since_ns) * 1e-9 > BLIND_S) {
+        p->has_told_blind = true;
+        rlf_log(RLF_LOG_WARNING,
+                "no depth, or hardly any, for %.1f s (frame %lld): bodies wait; is the lens "
+                "covered?",
+                BLIND_S, (long long)p->frame_index);
+    }
+}
+
+/* Models of known things are placed in the first frame that shows the room. */
+static rlf_result place_known(rlf_pipeline *p, rlf_grid *grid)
+{
+    const rlf_surface *s = p->last.surface;
+    if (!p->has_room && s->is_blind) {
+        return RLF_OK;
+    }
+    if (p->has_room) {
+        return known_models_clear_grid(&p->known, s, rlf_world_get_snapshot(p->world), grid);
+    }
+    p->has_room = true;
+    const rlf_known_view view = known_view(p);
+    return known_models_solve(&p->known, &view, p->world);
 }
 
 static rlf_result advance_world(rlf_pipeline *p)
@@ -104,12 +144,10 @@ static rlf_result advance_world(rlf_pipeline *p)
     rlf_pipeline_output *out = &p->last;
     rlf_grid grid;
     seek_gravity(p);
+    tell_blind(p);
     make_grid(p, &grid);
     bool is_first = p->frame_index == 0;
-    const rlf_known_view view = known_view(p);
-    rlf_result result = is_first ? known_models_solve(&p->known, &view, p->world)
-                                 : known_models_clear_grid(&p->known, out->surface,
-                                                           rlf_world_get_snapshot(p->world), &grid);
+    rlf_result result = place_known(p, &grid);
     if (result != RLF_OK) {
         return result;
     }
@@ -233,6 +271,7 @@ rlf_result rlf_pipeline_restart(rlf_pipeline *p)
     rlf_world_reset(p->world);
     hand_stage_restart(&p->hands);
     p->room.path_count = 0;
+    p->has_room = p->is_blind = p->has_told_blind = false;
     p->frame_index = 0;
     result = camera_start(p);
     return result == RLF_OK ? pipeline_add_bodies(p) : result;

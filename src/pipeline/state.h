@@ -43,6 +43,10 @@ struct rlf_pipeline {
     const char *overlay_lines[OVERLAY_LINES_MAX];
     int32_t overlay_count;
 
+    bool has_room;          /* a frame has shown depth */
+    bool is_blind;          /* the newest frame has not, ... */
+    bool has_told_blind;    /* ... which is told, */
+    int64_t blind_since_ns; /* since then */
     int32_t gravity_frames; /* that are still asked which way is up */
     int64_t frame_index;    /* of the next frame */
     int64_t first_time_ns, last_time_ns;

@@ -26,6 +26,7 @@ void surface_publish_seen(const rlf_reconstruct *stage, rlf_slot *slot)
     s->normal_y = slot->normal[1];
     s->normal_z = slot->normal[2];
     s->reason = slot->reason;
+    s->is_blind = stage->sight.is_blind;
 }
 
 void surface_publish(rlf_reconstruct *stage, const rlf_frame *frame, rlf_slot *slot)

@@ -66,6 +66,7 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
     if (!RLF_ASSERT(stage != NULL)) {
         return;
     }
+    rlf_sight_reset(&stage->sight);
     rlf_background_reset(&stage->background, &stage->grid);
     static_reset(&stage->background.thick);
     temporal_reset(&stage->temporal, &stage->grid);
@@ -97,6 +98,7 @@ static void find_background(rlf_reconstruct *stage, const rlf_frame *frame, cons
                             rlf_slot *slot)
 {
     rlf_color_sample(stage, frame, slot->depth);
+    rlf_sight_take(stage, slot);
     rlf_background_update(stage, kept, slot);
     rlf_color_learn(stage, slot->foreground);
     rlf_stage_add_time(stage, RLF_SURFACE_BACKGROUND);

@@ -51,6 +51,7 @@ struct rlf_reconstruct {
     rlf_slot carried;         /* GIVEN: that, carried into this frame's camera */
     const rlf_slot *before;   /* GIVEN: slot of the frame before; previous = NULL until carried */
     int32_t next_label;
+    rlf_sight sight;
     rlf_background background;
     temporal temporal;
     normals_state normals;

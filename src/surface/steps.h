@@ -181,6 +181,10 @@ void rlf_region_measure(rlf_reconstruct *stage, const rlf_layer_in *in, rlf_laye
 /* Whether it is a plane up to noise. */
 bool rlf_region_is_flat(const rlf_reconstruct *stage, const rlf_region *region);
 
+/* ---- background/sight.c ---- */
+void rlf_sight_reset(rlf_sight *sight);
+/* Of the frame that was read, before it changes the background. */
+void rlf_sight_take(rlf_reconstruct *stage, const rlf_slot *slot);
 /* ---- background/background.c, background/adaptive.c ---- */
 /* Updates the model with slot->depth and writes slot->foreground. */
 void rlf_background_update(rlf_reconstruct *stage, const float *kept, rlf_slot *slot);

@@ -8,19 +8,21 @@
 #include "io/source/address.h"
 #include "io/clip/clip.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #define MS INT64_C(1000000)
 
 typedef struct reader {
-    int32_t damaged; /* index that cannot be read; -1 = none */
+    int32_t damaged, damaged_end; /* so many from this index on cannot be read; -1 = none */
+    int32_t damaged_color;
     int32_t destroyed;
 } reader;
 
 static rlf_result read_depth(void *self, int32_t index, void *out)
 {
     const reader *r = self;
-    if (index == r->damaged) {
+    if (index >= r->damaged && index < r->damaged_end) {
         return rlf_fail(RLF_ERROR_FORMAT, "frame %d: is damaged", (int)index);
     }
     ((uint16_t *)out)[0] = (uint16_t)(1000 + index);
@@ -29,7 +31,10 @@ static rlf_result read_depth(void *self, int32_t index, void *out)
 
 static rlf_result read_color(void *self, int32_t index, const rlf_image_rgba8 *out)
 {
-    (void)self;
+    const reader *r = self;
+    if (index == r->damaged_color) {
+        return rlf_fail(RLF_ERROR_FORMAT, "colour %d: is damaged", (int)index);
+    }
     out->data[0] = (uint8_t)index;
     return RLF_OK;
 }
@@ -42,7 +47,7 @@ static void destroy(void *self)
 static const int64_t depth_times[6] = {0, 33 * MS, 66 * MS, 66 * MS, 165 * MS, 198 * MS};
 static const int64_t color_times[3] = {2 * MS, 60 * MS, 190 * MS};
 
-static rlf_source *open_clip(reader *r, bool skips)
+static rlf_source *open_clip(reader *r)
 {
     io_clip_def def = {.name = "clip",
                        .units_per_metre = 1000.0,
@@ -51,7 +56,6 @@ static rlf_source *open_clip(reader *r, bool skips)
                        .depth_count = 6,
                        .color_count = 3,
                        .color_gap_max_ns = 20 * MS,
-                       .skips_damaged = skips,
                        .read_depth = read_depth,
                        .read_color = read_color,
                        .destroy = destroy,
@@ -70,8 +74,8 @@ static rlf_source *open_clip(reader *r, bool skips)
 static void lost_doubled_and_unpaired_frames_are_counted(void **state)
 {
     (void)state;
-    reader r = {.damaged = -1};
-    rlf_source *source = open_clip(&r, false);
+    reader r = {.damaged_color = -1};
+    rlf_source *source = open_clip(&r);
     const rlf_source_info *info = rlf_source_get_info(source);
     assert_int_equal(info->frame_count, 5);
     assert_true(info->frames_per_second > 30.2 && info->frames_per_second < 30.4);
@@ -100,8 +104,8 @@ static void lost_doubled_and_unpaired_frames_are_counted(void **state)
 static void a_seek_says_that_the_frame_does_not_follow(void **state)
 {
     (void)state;
-    reader r = {.damaged = -1};
-    rlf_source *source = open_clip(&r, false);
+    reader r = {.damaged_color = -1};
+    rlf_source *source = open_clip(&r);
     rlf_frame frame;
     assert_int_equal(rlf_source_seek(source, 3), RLF_OK);
     assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
@@ -114,23 +118,54 @@ static void a_seek_says_that_the_frame_does_not_follow(void **state)
     rlf_source_destroy(&source);
 }
 
-static void a_damaged_frame_is_told_or_left_out(void **state)
+typedef struct log_lines {
+    int32_t count;
+    char last[256];
+} log_lines;
+
+static void keep_line(void *context, rlf_log_level level, const char *text)
+{
+    log_lines *lines = context;
+    (void)level;
+    lines->count++;
+    (void)snprintf(lines->last, sizeof(lines->last), "%s", text);
+}
+
+static void a_damaged_frame_is_left_out_and_told(void **state)
 {
     (void)state;
-    reader r = {.damaged = 1};
+    reader r = {.damaged = 1, .damaged_end = 3, .damaged_color = 2};
+    log_lines lines = {0};
+    rlf_set_log(keep_line, &lines);
     rlf_frame frame;
-    rlf_source *source = open_clip(&r, false);
+    rlf_source *source = open_clip(&r);
     assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
-    assert_int_equal(rlf_source_next(source, &frame), RLF_ERROR_FORMAT);
+    assert_int_equal(lines.count, 0);
     assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
-    assert_int_equal(frame.depth_u16[0], 1002);
+    assert_int_equal(frame.depth_u16[0], 1004);
+    assert_int_equal(lines.count, 1);
+    assert_string_equal(lines.last, "frame 1: is damaged; frames that cannot be read are left out");
+    assert_int_equal(rlf_source_next(source, &frame), RLF_OK); /* depth counts */
+    assert_null(frame.color.data);
+    assert_string_equal(lines.last, "colour 2: is damaged; such frames have no colour");
+    assert_int_equal(rlf_source_next(source, &frame), RLF_END);
+    assert_int_equal(rlf_source_get_status(source).damaged, 3);
+    assert_int_equal(lines.count, 4);
     rlf_source_destroy(&source);
+    assert_int_equal(lines.count, 4);
     rlf_set_log(NULL, NULL);
-    source = open_clip(&r, true);
-    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
-    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
-    assert_int_equal(frame.depth_u16[0], 1002);
-    assert_int_equal(rlf_source_get_status(source).damaged, 1);
+}
+
+static void a_clip_that_cannot_be_read_fails(void **state)
+{
+    (void)state;
+    rlf_set_log(NULL, NULL);
+    reader r = {.damaged = 0, .damaged_end = 6, .damaged_color = -1};
+    rlf_frame frame;
+    rlf_source *source = open_clip(&r);
+    assert_int_equal(rlf_source_next(source, &frame), RLF_ERROR_FORMAT);
+    assert_string_equal(rlf_error_text(),
+                        "frame 0: is damaged (and no other frame could be read)");
     rlf_source_destroy(&source);
 }
 
@@ -161,6 +196,40 @@ static void times_beyond_all_reason_are_refused(void **state)
     }
 }
 
+/* Not this picture or that: the disk, or the whole folder. */
+static void ten_damaged_frames_in_a_row_end_the_clip(void **state)
+{
+    (void)state;
+    reader r = {.damaged = 2, .damaged_end = 12, .damaged_color = -1};
+    int64_t times[20];
+    for (int i = 0; i < 20; i++) {
+        times[i] = 33 * MS * i;
+    }
+    const io_clip_def def = {.name = "clip",
+                             .rig = {.depth = {.width = 2, .height = 2, .fx = 1, .fy = 1}},
+                             .units_per_metre = 1000.0,
+                             .depth_times = times,
+                             .depth_count = 20,
+                             .read_depth = read_depth,
+                             .self = &r};
+    for (int longer = 0; longer < 2; longer++) {
+        rlf_opened opened;
+        rlf_source *source = NULL;
+        assert_int_equal(io_clip_open(&def, &opened), RLF_OK);
+        assert_int_equal(
+            rlf_source_create_custom(&opened.methods, &opened.info, opened.self, &source), RLF_OK);
+        rlf_frame frame;
+        r.damaged = longer ? 2 : 3;
+        assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+        assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+        if (!longer) {
+            assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+        }
+        assert_int_equal(rlf_source_next(source, &frame), longer ? RLF_ERROR_FORMAT : RLF_OK);
+        rlf_source_destroy(&source);
+    }
+}
+
 static void addresses_are_taken_apart(void **state)
 {
     (void)state;
@@ -188,7 +257,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lost_doubled_and_unpaired_frames_are_counted),
         cmocka_unit_test(a_seek_says_that_the_frame_does_not_follow),
-        cmocka_unit_test(a_damaged_frame_is_told_or_left_out),
+        cmocka_unit_test(a_damaged_frame_is_left_out_and_told),
+        cmocka_unit_test(a_clip_that_cannot_be_read_fails),
+        cmocka_unit_test(ten_damaged_frames_in_a_row_end_the_clip),
         cmocka_unit_test(times_beyond_all_reason_are_refused),
         cmocka_unit_test(addresses_are_taken_apart),
     };

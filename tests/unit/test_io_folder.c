@@ -288,7 +288,8 @@ static void missing_and_broken_camera_json(void **state)
     test_write_text("camera.json", "{}");
     expect_open_error(RLF_ERROR_INVALID, "camera.json", "depth is missing", "intrinsics");
     remove(test_path("camera.json"));
-    expect_open_error(RLF_ERROR_IO, "camera.json", "No such file", "docs/formats.md");
+    expect_open_error(RLF_ERROR_INVALID, "camera.json", "no camera is known for pictures of 16 x 8",
+                      "?camera=FILE");
 }
 
 static void broken_color_list_is_refused(void **state)
@@ -298,50 +299,109 @@ static void broken_color_list_is_refused(void **state)
     expect_open_error(RLF_ERROR_FORMAT, "rgb.txt:1", "time in seconds", "SECONDS FILE");
 }
 
-/* Each of these happens in the second frame: the first one works. */
-static void expect_second_frame_error(rlf_result wanted, const char *file, const char *part,
-                                      const char *cure)
+/* Each of these happens to the second frame: it is left out, with a line that says why and one that
+ * counts. */
+static void expect_second_left_out(const char *file, const char *part, const char *cure)
 {
+    test_log log = {0};
+    rlf_set_log(test_log_line, &log);
     rlf_source *source = open_clip();
     rlf_frame frame;
     assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
-    test_expect_error(rlf_source_next(source, &frame), wanted, file, part, cure);
-    assert_int_equal(rlf_source_next(source, &frame), RLF_OK); /* going on is possible */
+    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
     assert_int_equal(frame.depth_u16[0], 300);
+    const char *const words[3] = {file, part, cure};
+    for (int k = 0; k < 3; k++) {
+        if (strstr(log.last, words[k]) == NULL) {
+            fail_msg("\"%s\" does not mention \"%s\"", log.last, words[k]);
+        }
+    }
+    assert_int_equal(log.count, 1);
+    assert_int_equal(rlf_source_get_status(source).damaged, 1);
+    while (rlf_source_next(source, &frame) == RLF_OK) {
+    }
+    assert_int_equal(log.count, 2);
+    assert_non_null(strstr(log.last, "1 of 5 depth pictures could not be read: left out"));
     rlf_source_destroy(&source);
+    rlf_set_log(NULL, NULL);
 }
 
 static void bad_depth_picture_in_the_middle(void **state)
 {
     (void)state;
     write_depth("d1.png", 1, H, W);
-    expect_second_frame_error(RLF_ERROR_FORMAT, "d1.png", "8 x 16 but camera.json says 16 x 8",
-                              "camera.json");
+    expect_second_left_out("d1.png", "8 x 16 but camera.json says 16 x 8", "camera.json");
     test_write("d1.png", "", 0);
-    expect_second_frame_error(RLF_ERROR_FORMAT, "d1.png", "0 bytes", "again");
+    expect_second_left_out("d1.png", "0 bytes", "again");
     size_t size;
     char *whole = test_read(test_path("d0.png"), &size);
     test_write("d1.png", whole, size / 2);
     free(whole);
-    expect_second_frame_error(RLF_ERROR_FORMAT, "d1.png", "cut short", "again");
+    expect_second_left_out("d1.png", "cut short", "again");
     write_color("d1.png", 3);
-    expect_second_frame_error(RLF_ERROR_FORMAT, "d1.png", "8-bit colour", "16-bit grey PNG");
+    expect_second_left_out("d1.png", "8-bit colour", "16-bit grey PNG");
     test_write("d1.png", jpeg_sample, sizeof(jpeg_sample));
-    expect_second_frame_error(RLF_ERROR_FORMAT, "d1.png", "not a PNG", "convert");
+    expect_second_left_out("d1.png", "not a PNG", "convert");
     remove(test_path("d1.png"));
-    expect_second_frame_error(RLF_ERROR_IO, "d1.png", "No such file", "line 3 out of depth.txt");
+    expect_second_left_out("d1.png", "No such file", "line 3 out of depth.txt");
+}
+
+/* The clip's size is what most of its pictures say. */
+static void a_bad_first_picture_is_left_out(void **state)
+{
+    (void)state;
+    write_depth("d0.png", 1, H, W);
+    rlf_source *source = open_clip();
+    rlf_frame frame;
+    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    assert_int_equal(frame.depth_u16[0], 200);
+    rlf_source_destroy(&source);
+}
+
+static void nothing_that_can_be_read_is_an_error(void **state)
+{
+    (void)state;
+    const char *const names[5] = {"d0.png", "d1.png", "d2.png", "d3.png", "d 4.png"};
+    for (int i = 0; i < 5; i++) {
+        write_color(names[i], 3);
+    }
+    rlf_source *source = open_clip();
+    rlf_frame frame;
+    test_expect_error(rlf_source_next(source, &frame), RLF_ERROR_FORMAT, "d0.png", "8-bit colour",
+                      "no other frame");
+    rlf_source_destroy(&source);
+}
+
+/* Depth counts: the frame is there, without colour. */
+static void expect_second_without_color(const char *file, const char *part, const char *cure)
+{
+    test_log log = {0};
+    rlf_set_log(test_log_line, &log);
+    rlf_source *source = open_clip();
+    rlf_frame frame;
+    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    assert_non_null(frame.color.data);
+    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    assert_int_equal(frame.depth_u16[0], 200);
+    assert_null(frame.color.data);
+    assert_non_null(strstr(log.last, file));
+    assert_non_null(strstr(log.last, part));
+    assert_non_null(strstr(log.last, cure));
+    assert_int_equal(rlf_source_next(source, &frame), RLF_OK);
+    assert_non_null(frame.color.data);
+    rlf_source_destroy(&source);
+    rlf_set_log(NULL, NULL);
 }
 
 static void bad_color_picture_in_the_middle(void **state)
 {
     (void)state;
     test_write("c1.png", jpeg_sample, sizeof(jpeg_sample) - 40);
-    expect_second_frame_error(RLF_ERROR_FORMAT, "c1.png", "cut short", "again");
+    expect_second_without_color("c1.png", "cut short", "again");
     write_depth("c1.png", 1, 4, 4);
-    expect_second_frame_error(RLF_ERROR_FORMAT, "c1.png", "4 x 4 but camera.json says 16 x 8",
-                              "camera.json");
+    expect_second_without_color("c1.png", "4 x 4 but camera.json says 16 x 8", "camera.json");
     remove(test_path("c1.png"));
-    expect_second_frame_error(RLF_ERROR_IO, "c1.png", "No such file", "line 2 out of rgb.txt");
+    expect_second_without_color("c1.png", "No such file", "line 2 out of rgb.txt");
 }
 
 static void clip_without_color(void **state)
@@ -512,6 +572,8 @@ int main(void)
         CLIP_TEST(missing_and_broken_camera_json),
         CLIP_TEST(broken_color_list_is_refused),
         CLIP_TEST(bad_depth_picture_in_the_middle),
+        CLIP_TEST(a_bad_first_picture_is_left_out),
+        CLIP_TEST(nothing_that_can_be_read_is_an_error),
         CLIP_TEST(bad_color_picture_in_the_middle),
         CLIP_TEST(clip_without_color),
         CLIP_TEST(half_of_the_color_is_none),

@@ -7,6 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
+/* So many frames in a row that cannot be read end the clip: it is not this or that picture. */
+#define UNREAD_MAX 10
+
 /* A depth frame that is given: where it is, and the colour picture that goes with it. */
 typedef struct clip_frame {
     int32_t depth, color; /* indices into the reader's times; color -1 = none */
@@ -26,7 +29,11 @@ typedef struct clip {
     int32_t shown_color;
     void *depth;
     rlf_image_rgba8 color;
-    uint64_t doubled, damaged, unpaired, lost;
+    uint64_t doubled, unpaired, lost;
+    uint64_t unread, unread_color; /* pictures */
+    int32_t unread_in_a_row;
+    bool has_given, has_told_first, has_told;
+    char first_error[512]; /* of a depth picture */
 } clip;
 
 static rlf_result read_color(clip *c, int32_t index)
@@ -42,19 +49,19 @@ static rlf_result read_color(clip *c, int32_t index)
     return result;
 }
 
-static void fill_frame(const clip *c, const clip_frame *f, rlf_frame *out)
+static void fill_frame(const clip *c, const clip_frame *f, bool has_color, rlf_frame *out)
 {
     const bool is_float = c->def.units_per_metre <= 0.0;
     memset(out, 0, sizeof(*out));
     out->sequence = (uint64_t)f->sequence;
     out->time_ns = f->time_ns;
-    out->color_time_ns = f->color >= 0 ? f->color_time_ns : 0;
+    out->color_time_ns = has_color ? f->color_time_ns : 0;
     out->flags = f->flags | (c->is_continued ? 0u : (uint32_t)RLF_FRAME_DISCONTINUITY);
     out->depth_f32 = is_float ? c->depth : NULL;
     out->depth_u16 = is_float ? NULL : c->depth;
     out->depth_stride = (ptrdiff_t)c->def.rig.depth.width * (is_float ? 4 : 2);
     out->depth_units_per_metre = c->def.units_per_metre;
-    out->color = f->color >= 0 ? c->color : (rlf_image_rgba8){0};
+    out->color = has_color ? c->color : (rlf_image_rgba8){0};
     out->has_pose = f->has_pose;
     out->T_world_camera = f->pose;
 }
@@ -68,6 +75,71 @@ static void count_given(clip *c, const clip_frame *f)
     c->unpaired += c->def.color_count > 0 && f->color < 0 ? 1 : 0;
 }
 
+/* A depth picture that cannot be read leaves its frame out. */
+static rlf_result leave_out(clip *c, rlf_result result)
+{
+    char reason[sizeof(c->first_error)];
+    snprintf(reason, sizeof(reason), "%s", rlf_error_text());
+    if (c->unread++ == 0) {
+        memcpy(c->first_error, reason, sizeof(reason));
+    }
+    if (++c->unread_in_a_row < UNREAD_MAX) {
+        return RLF_OK;
+    }
+    c->unread_in_a_row = 0;
+    return rlf_fail(result, "%s (and the %d frames before it could not be read either)", reason,
+                    UNREAD_MAX - 1);
+}
+
+/* The first one, once it is known that others can be read. */
+static void tell_first(clip *c)
+{
+    if (c->unread > 0 && !c->has_told_first) {
+        c->has_told_first = true;
+        rlf_log(RLF_LOG_WARNING, "%s; frames that cannot be read are left out", c->first_error);
+    }
+}
+
+/* Depth counts: without its colour picture a frame goes without colour. */
+static bool find_color(clip *c, const clip_frame *f)
+{
+    if (f->color < 0 || read_color(c, f->color) == RLF_OK) {
+        return f->color >= 0;
+    }
+    if (c->unread_color++ == 0) {
+        rlf_log(RLF_LOG_WARNING, "%s; such frames have no colour", rlf_error_text());
+    }
+    return false;
+}
+
+/* One line about what could not be read, when the clip is over. */
+static void tell_unread(clip *c)
+{
+    if (c->has_told || !c->has_given) {
+        return;
+    }
+    c->has_told = true;
+    tell_first(c);
+    if (c->unread > 0) {
+        rlf_log(RLF_LOG_WARNING, "%s: %llu of %d depth pictures could not be read: left out",
+                c->name, (unsigned long long)c->unread, (int)c->count);
+    }
+    if (c->unread_color > 0) {
+        rlf_log(RLF_LOG_WARNING,
+                "%s: %llu colour pictures could not be read: frames without colour", c->name,
+                (unsigned long long)c->unread_color);
+    }
+}
+
+static rlf_result end_clip(clip *c)
+{
+    tell_unread(c);
+    return c->has_given || c->unread == 0
+               ? RLF_END
+               : rlf_fail(RLF_ERROR_FORMAT, "%s (and no other frame could be read)",
+                          c->first_error);
+}
+
 static rlf_result clip_next(void *self, rlf_frame *out)
 {
     clip *c = self;
@@ -75,25 +147,20 @@ static rlf_result clip_next(void *self, rlf_frame *out)
         /* A frame that fails is passed over by the next call: the caller may go on. */
         const clip_frame *f = &c->frames[c->next++];
         rlf_result result = c->def.read_depth(c->def.self, f->depth, c->depth);
-        if (result == RLF_OK && f->color >= 0) {
-            result = read_color(c, f->color);
-        }
         if (result == RLF_OK) {
+            tell_first(c);
             count_given(c, f);
-            fill_frame(c, f, out);
-            c->is_continued = true;
+            fill_frame(c, f, find_color(c, f), out);
+            c->is_continued = c->has_given = true;
+            c->unread_in_a_row = 0;
             return RLF_OK;
         }
-        c->damaged++;
-        if (!c->def.skips_damaged || result == RLF_ERROR_MEMORY) {
+        result = result == RLF_ERROR_MEMORY ? result : leave_out(c, result);
+        if (result != RLF_OK) {
             return result;
         }
-        if (c->damaged == 1) {
-            rlf_log(RLF_LOG_WARNING, "%s; frames that cannot be read are left out",
-                    rlf_error_text());
-        }
     }
-    return RLF_END;
+    return end_clip(c);
 }
 
 static rlf_result clip_seek(void *self, int64_t index)
@@ -115,7 +182,7 @@ static void clip_status(void *self, rlf_source_status *out)
     out->lost = c->lost;
     out->doubled = c->doubled;
     out->unpaired = c->unpaired;
-    out->damaged = c->damaged;
+    out->damaged = c->unread + c->unread_color;
 }
 
 static void free_clip(clip *c)
@@ -129,6 +196,7 @@ static void free_clip(clip *c)
 static void clip_destroy(void *self)
 {
     clip *c = self;
+    tell_unread(c);
     if (c->def.destroy != NULL) {
         c->def.destroy(c->def.self);
     }

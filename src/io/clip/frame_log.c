@@ -245,7 +245,6 @@ static rlf_result make_clip(io_log *log, const lists *l, rlf_opened *out)
                              .depth_count = log->count,
                              .color_count = log->colored_count,
                              .poses = log->has_poses ? l->poses : NULL,
-                             .skips_damaged = true,
                              .read_depth = read_depth,
                              .read_color = read_color,
                              .destroy = io_log_free,

@@ -1,6 +1,7 @@
 /* Frames from a folder of pictures, in the TUM layout with camera.json or in those of data sets. */
 #define _POSIX_C_SOURCE 200809L
 #include "relief/io.h"
+#include "io/folder/guess_camera.h"
 #include "io/folder/layout.h"
 #include "io/folder/origin.h"
 #include "io/camera_json.h"
@@ -9,6 +10,7 @@
 #include "io/source/backends.h"
 #include "io/clip/clip.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -125,21 +127,31 @@ static void check_color(folder *self)
     self->rig.has_color = has_pictures && self->rig.has_color;
 }
 
-/* The first picture tells whether the camera's size is right, before memory is asked for that is
- * many times as large. One that cannot be read is told when its frame comes. */
+enum { ASKED = 3 }; /* pictures of a list: its first, its middle and its last one */
+
+/* They tell whether the camera's size is right, before memory is asked for that is many times as
+ * large. One that differs from the others, or cannot be read, is told when its frame comes. */
 static rlf_result check_size(folder *self, const io_frame_list *list, const rlf_camera *camera)
 {
-    char path[IO_PATH_MAX];
-    io_bytes file;
-    int32_t width = 0;
-    int32_t height = 0;
-    if (list->count == 0 ||
-        read_entry(self, &list->entries[0], "the folder", &file, path) != RLF_OK ||
-        !io_picture_size(&file, &width, &height) ||
-        (width == camera->width && height == camera->height)) {
-        return RLF_OK;
+    rlf_result result = RLF_OK;
+    for (int k = 0; k < ASKED && list->count > 0; k++) {
+        char path[IO_PATH_MAX];
+        io_bytes file;
+        int32_t width = 0;
+        int32_t height = 0;
+        const io_list_entry *entry = &list->entries[k * (list->count - 1) / (ASKED - 1)];
+        if (read_entry(self, entry, "the folder", &file, path) != RLF_OK ||
+            !io_picture_size(&file, &width, &height)) {
+            continue;
+        }
+        if (width == camera->width && height == camera->height) {
+            return RLF_OK;
+        }
+        if (result == RLF_OK) {
+            result = io_picture_fail_size(path, width, height, camera->width, camera->height);
+        }
     }
-    return io_picture_fail_size(path, width, height, camera->width, camera->height);
+    return result;
 }
 
 static rlf_result check_sizes(folder *self)
@@ -150,48 +162,84 @@ static rlf_result check_sizes(folder *self)
                : result;
 }
 
-/* Size of the first picture of a list; nothing stays decoded. */
-static rlf_result picture_size(folder *self, const io_list_entry *entry, bool is_depth,
-                               io_picture *out)
+/* The first picture of a list that can be read; the caller frees its data. */
+static rlf_result read_first(folder *self, const io_frame_list *list, bool is_depth,
+                             io_picture *out)
 {
-    char path[IO_PATH_MAX];
-    io_bytes file;
-    memset(out, 0, sizeof(*out));
-    rlf_result result = read_entry(self, entry, "the folder", &file, path);
-    if (result == RLF_OK) {
-        result = is_depth ? io_png_decode_u16(&file, out) : io_picture_decode(&file, out);
-    }
-    if (result == RLF_OK) {
-        rlf_free(out->data);
-        out->data = NULL;
+    rlf_result result = RLF_OK;
+    for (int k = 0; k < ASKED; k++) {
+        char path[IO_PATH_MAX];
+        io_bytes file;
+        memset(out, 0, sizeof(*out));
+        const io_list_entry *entry = &list->entries[k * (list->count - 1) / (ASKED - 1)];
+        result = read_entry(self, entry, "the folder", &file, path);
+        if (result == RLF_OK) {
+            result = is_depth ? io_png_decode_u16(&file, out) : io_picture_decode(&file, out);
+        }
+        if (result == RLF_OK) {
+            return RLF_OK;
+        }
     }
     return result;
 }
 
-/* Without camera.json: one camera for both pictures, as all these data sets have them aligned. */
+static rlf_result make_depth_camera(folder *self)
+{
+    io_picture depth;
+    rlf_result result = read_first(self, &self->layout.depth, true, &depth);
+    if (result == RLF_OK) {
+        result = io_layout_camera(self->path, &self->layout, depth.width, depth.height,
+                                  &self->rig.depth);
+        self->units_per_metre = self->layout.units_per_metre;
+        if (self->units_per_metre <= 0.0) {
+            self->units_per_metre =
+                io_guess_units(depth.data, (size_t)depth.width * (size_t)depth.height);
+            rlf_log(RLF_LOG_WARNING, "%s: depth is taken to have %g counts a metre", self->path,
+                    self->units_per_metre);
+        }
+        rlf_free(depth.data);
+    }
+    return result;
+}
+
+/* Pictures of one shape are taken to be aligned, as in all these data sets. */
+static rlf_result make_color_camera(folder *self)
+{
+    rlf_rig *rig = &self->rig;
+    io_picture color;
+    if (read_first(self, &self->layout.color, false, &color) != RLF_OK) {
+        return RLF_OK; /* each is told when its frame comes */
+    }
+    rlf_free(color.data);
+    const double shape = (double)color.width / color.height;
+    const double ours = (double)rig->depth.width / rig->depth.height;
+    rig->has_color = fabs(shape - ours) < 0.02 * ours;
+    if (rig->has_color) {
+        rig->color = rlf_camera_resize(&rig->depth, color.width, color.height);
+    } else {
+        rlf_log(RLF_LOG_WARNING,
+                "%s: colour is left out: its pictures of %d x %d are not aligned to depth's %d x "
+                "%d, and without a camera.json nothing tells where its camera is",
+                self->path, (int)color.width, (int)color.height, (int)rig->depth.width,
+                (int)rig->depth.height);
+        io_frame_list_free(&self->layout.color);
+    }
+    return RLF_OK;
+}
+
+/* Without camera.json: one camera for both pictures. */
 static rlf_result make_rig(folder *self)
 {
     const rlf_rig defaults = io_rig_default();
-    io_picture depth;
     rlf_rig *rig = &self->rig;
-    rlf_result result = picture_size(self, &self->layout.depth.entries[0], true, &depth);
-    if (result == RLF_OK) {
-        result =
-            io_layout_camera(self->path, &self->layout, depth.width, depth.height, &rig->depth);
-    }
+    rlf_result result = make_depth_camera(self);
     if (result == RLF_OK && self->layout.color.count > 0) {
-        io_picture color;
-        result = picture_size(self, &self->layout.color.entries[0], false, &color);
-        rig->has_color = result == RLF_OK;
-        if (result == RLF_OK) {
-            rig->color = rlf_camera_resize(&rig->depth, color.width, color.height);
-        }
+        result = make_color_camera(self);
     }
     rig->T_color_depth = rlf_pose_identity();
     rig->depth_min_m = defaults.depth_min_m;
     rig->depth_max_m = defaults.depth_max_m;
     rig->noise = defaults.noise;
-    self->units_per_metre = self->layout.units_per_metre;
     self->flags = RLF_FRAME_ALIGNED;
     return result;
 }
@@ -203,10 +251,7 @@ static rlf_result load_rig(const rlf_address *address, folder *self)
         self->units_per_metre = address->units_per_metre;
         return RLF_OK;
     }
-    /* depth.txt alone is a clip of the user's own: its camera cannot be guessed. */
-    const bool is_data_set = self->layout.kind != IO_LAYOUT_TUM || !exists(self, "depth.txt") ||
-                             strstr(self->path, "freiburg") != NULL;
-    if (is_data_set && !exists(self, "camera.json")) {
+    if (!exists(self, "camera.json")) {
         return make_rig(self);
     }
     char camera_path[IO_PATH_MAX];

@@ -3,8 +3,10 @@
 #include "io/folder/layout.h"
 
 #include "io/folder/associations.h"
+#include "io/folder/named_files.h"
 #include "io/folder/numbered_files.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -42,7 +44,7 @@ static rlf_result read_tum(const char *folder, io_layout *out)
     out->description = "folder in the TUM layout";
     out->depth_list_name = "depth.txt";
     out->color_list_name = "rgb.txt";
-    out->units_per_metre = 5000.0;
+    out->units_per_metre = strstr(folder, "freiburg") != NULL ? 5000.0 : 0.0;
     rlf_result result = read_list(
         folder, "depth.txt",
         "write one \"SECONDS FILE\" line per depth picture there, and camera.json beside it",
@@ -101,6 +103,78 @@ static rlf_result read_redwood(const char *folder, io_layout *out)
     return result;
 }
 
+/* 16-bit grey PNG, by its header. */
+static bool is_depth_picture(const char *folder, const char *name)
+{
+    char path[IO_PATH_MAX];
+    unsigned char head[26] = {0}; /* signature, length, "IHDR", width, height, bits, colour type */
+    FILE *file = io_path_join(folder, name, path) == RLF_OK ? fopen(path, "rb") : NULL;
+    const bool is_whole = file != NULL && fread(head, 1, sizeof(head), file) == sizeof(head);
+    if (file != NULL) {
+        fclose(file);
+    }
+    return is_whole && memcmp(head + 12, "IHDR", 4) == 0 && head[24] == 16 && head[25] == 0;
+}
+
+/* Nothing in the names says depth: all PNG files of the folder are of depth, or none is taken. */
+static rlf_result read_bare(const char *folder, io_layout *out)
+{
+    rlf_result result = io_named_list(folder, "", "", depth_endings, &out->depth);
+    for (int32_t i = 0; i < out->depth.count; i++) {
+        if (!is_depth_picture(folder, out->depth.entries[i].name)) {
+            io_frame_list_free(&out->depth);
+        }
+    }
+    return result;
+}
+
+/* Whatever they are called: pictures in a folder for depth, or that say so in their names. */
+static rlf_result read_named(const char *folder, io_layout *out)
+{
+    static const char *const depth_subs[] = {"depth", "depths", "depth_images", "", NULL};
+    static const char *const color_subs[] = {"rgb", "color", "colour", "image", "images", "", NULL};
+    static const char *const color_words[] = {"rgb", "color", "colour", NULL};
+    out->kind = IO_LAYOUT_NAMED;
+    out->description = "folder of pictures, in the order of their names";
+    rlf_result result = RLF_OK;
+    for (int i = 0; depth_subs[i] != NULL && result == RLF_OK && out->depth.count == 0; i++) {
+        const char *word = depth_subs[i][0] == '\0' ? "depth" : "";
+        result = io_named_list(folder, depth_subs[i], word, depth_endings, &out->depth);
+    }
+    if (result == RLF_OK && out->depth.count == 0) {
+        return read_bare(folder, out);
+    }
+    for (int i = 0; color_subs[i] != NULL && result == RLF_OK && out->color.count == 0; i++) {
+        const bool is_beside = color_subs[i][0] == '\0';
+        for (int k = 0; color_words[k] != NULL && result == RLF_OK && out->color.count == 0; k++) {
+            result = io_named_list(folder, color_subs[i], is_beside ? color_words[k] : "",
+                                   color_endings, &out->color);
+        }
+    }
+    return result;
+}
+
+/* One line: nothing tells the times, nor always which pictures go together. */
+static rlf_result take_named(const char *folder, io_layout *out)
+{
+    rlf_result result = read_named(folder, out);
+    if (result != RLF_OK || out->depth.count == 0) {
+        return result;
+    }
+    const int32_t colors = out->color.count;
+    if (!io_named_pair(&out->depth, &out->color)) {
+        io_frame_list_free(&out->color);
+    }
+    rlf_log(RLF_LOG_WARNING,
+            "%s: has no depth.txt: %d depth pictures are taken in the order of their names (%s "
+            "first), %d a second%s",
+            folder, (int)out->depth.count, out->depth.entries[0].name, IO_NUMBERED_RATE,
+            colors > out->color.count
+                ? "; those of colour are left out: nothing tells which go together"
+                : "");
+    return RLF_OK;
+}
+
 static const char *associations_name(const char *folder)
 {
     static const char *const names[] = {"associations.txt", "associated.txt", "association.txt"};
@@ -127,6 +201,10 @@ rlf_result io_layout_read(const char *folder, io_layout *out)
     if (result == RLF_OK && out->depth.count == 0) {
         io_layout_free(out);
         result = read_redwood(folder, out);
+    }
+    if (result == RLF_OK && out->depth.count == 0) {
+        io_layout_free(out);
+        result = take_named(folder, out);
     }
     if (result == RLF_OK && out->depth.count == 0) {
         io_layout_free(out);

@@ -2,6 +2,7 @@
  * known to have used. */
 #include "io/folder/layout.h"
 
+#include "io/folder/guess_camera.h"
 #include "io/json.h"
 
 #include <math.h>
@@ -43,38 +44,53 @@ static const known_camera known[] = {
 };
 #define KNOWN_COUNT ((int)(sizeof(known) / sizeof(known[0])))
 
-static const known_camera *find_known(const char *folder, io_layout_kind kind)
+/* TUM's layout is used by many: of a clip of the user's own nothing is known. */
+static const known_camera *find_known(const char *folder, const io_layout *layout)
 {
     for (int i = 0; i < KNOWN_COUNT; i++) {
-        if (known[i].kind == kind &&
-            (known[i].name == NULL || strstr(folder, known[i].name) != NULL)) {
+        const bool is_named = known[i].name != NULL && strstr(folder, known[i].name) != NULL;
+        const bool is_any = known[i].name == NULL && layout->units_per_metre > 0.0;
+        if (known[i].kind == layout->kind && (is_named || is_any)) {
             return &known[i];
         }
     }
     return NULL;
 }
 
-static rlf_result use_known(const char *folder, const io_layout *layout, int32_t width,
-                            int32_t height, rlf_camera *out)
+static rlf_camera camera_of(const known_camera *k, int32_t width, int32_t height)
 {
-    const known_camera *k = find_known(folder, layout->kind);
-    /* A picture of another shape was cut: nobody knows where. */
-    if (k == NULL || (int64_t)width * 480 != (int64_t)height * 640) {
-        return rlf_fail(RLF_ERROR_INVALID,
-                        "%s/camera.json: is missing, and no camera is known for pictures of %d x "
-                        "%d: write the intrinsics there, docs/formats.md shows how",
-                        folder, (int)width, (int)height);
-    }
     rlf_camera camera = {
         .width = 640, .height = 480, .fx = k->fx, .fy = k->fy, .cx = k->cx, .cy = k->cy};
     memcpy(camera.distortion, k->distortion, sizeof(k->distortion));
     camera.distortion_model =
         k->distortion[0] != 0.0 ? RLF_DISTORTION_PLUMB_BOB : RLF_DISTORTION_NONE;
-    *out = rlf_camera_resize(&camera, width, height);
+    return rlf_camera_resize(&camera, width, height);
+}
+
+static rlf_result use_known(const char *folder, const io_layout *layout, int32_t width,
+                            int32_t height, rlf_camera *out)
+{
+    const known_camera *k = find_known(folder, layout);
+    /* A picture of another shape was cut: nobody knows where. */
+    const bool is_whole = (int64_t)width * 480 == (int64_t)height * 640;
+    const char *guess = NULL;
+    if (k != NULL && is_whole) {
+        *out = camera_of(k, width, height);
+    } else {
+        guess = io_guess_camera(width, height, out);
+    }
+    if ((k == NULL || !is_whole) && guess == NULL) {
+        return rlf_fail(RLF_ERROR_INVALID,
+                        "%s/camera.json: is missing, and no camera is known for pictures of %d x "
+                        "%d: write the intrinsics there, docs/formats.md shows how, or give "
+                        "SOURCE?camera=FILE",
+                        folder, (int)width, (int)height);
+    }
     rlf_log(RLF_LOG_WARNING,
-            "%s: has no camera.json: the intrinsics are taken to be %s: fx %.1f fy %.1f cx %.1f cy "
-            "%.1f",
-            folder, k->note, out->fx, out->fy, out->cx, out->cy);
+            "%s: has no camera.json: the intrinsics are %s %s: fx %.1f fy %.1f cx %.1f cy %.1f; if "
+            "the camera is another one, give SOURCE?camera=FILE or write camera.json there",
+            folder, guess != NULL ? "a guess by the pictures' size, those of" : "taken to be",
+            guess != NULL ? guess : k->note, out->fx, out->fy, out->cx, out->cy);
     return RLF_OK;
 }
 

@@ -144,6 +144,7 @@ rlf_result io_layout_read_poses(const char *folder, io_layout *layout)
     }
     rlf_result result = RLF_OK;
     switch (layout->kind) {
+    case IO_LAYOUT_NAMED: break;
     case IO_LAYOUT_TUM:
     case IO_LAYOUT_ICL: result = read_tum(folder, layout); break;
     case IO_LAYOUT_SCENES7: result = read_scenes7(folder, layout); break;

@@ -263,7 +263,6 @@ static rlf_result open_clip(const rlf_address *address, matroska *self, rlf_open
                              .color_times = self->color.times,
                              .depth_count = self->depth.count,
                              .color_count = self->color.count,
-                             .skips_damaged = true,
                              .read_depth = read_depth,
                              .read_color = read_color,
                              .destroy = matroska_destroy,

@@ -119,7 +119,7 @@ static int64_t *times_of(const mcap *m, const io_mcap_stream *s)
  * the file has no poses. */
 static rlf_pose *poses_of(mcap *m, const int64_t *times, int32_t count)
 {
-    const int32_t index = io_mcap_find_channel(m->reader, IO_ROS_POSE_STAMPED, IO_TOPIC_POSE);
+    const int32_t index = io_mcap_find_topic(m->reader, IO_ROS_POSE_STAMPED, IO_TOPIC_POSE);
     rlf_pose *poses = index >= 0 ? rlf_alloc_array((size_t)count, sizeof(poses[0])) : NULL;
     if (poses == NULL) {
         return NULL;
@@ -318,7 +318,6 @@ static rlf_result open_clip(mcap *m, rlf_opened *out)
                                  .color_count = count_of(m, &m->color),
                                  .flags = m->flags,
                                  .origin = m->origin,
-                                 .skips_damaged = true,
                                  .read_depth = read_depth,
                                  .read_color = read_color,
                                  .destroy = mcap_destroy,

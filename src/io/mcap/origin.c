@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-int32_t io_mcap_find_channel(const io_mcap_reader *reader, io_ros_type type, const char *topic)
+int32_t io_mcap_find_topic(const io_mcap_reader *reader, io_ros_type type, const char *topic)
 {
     for (int32_t i = 0; i < io_mcap_channel_count(reader); i++) {
         const io_mcap_channel *c = io_mcap_channel_at(reader, i);
@@ -45,7 +45,7 @@ void io_mcap_read_origin(const io_mcap_reader *reader, io_clip_origin *out)
 
 io_frame_note *io_mcap_read_notes(io_mcap_reader *reader, io_clip_origin *origin)
 {
-    const int32_t index = io_mcap_find_channel(reader, IO_ROS_STRING, IO_TOPIC_FRAME);
+    const int32_t index = io_mcap_find_topic(reader, IO_ROS_STRING, IO_TOPIC_FRAME);
     const io_mcap_channel *c = index >= 0 ? io_mcap_channel_at(reader, index) : NULL;
     io_frame_note *notes = c != NULL && origin->has_notes
                                ? rlf_alloc_array((size_t)c->count, sizeof(notes[0]))

@@ -6,7 +6,7 @@
 #include "io/mcap/read.h"
 
 /* The channel of that type and topic that has messages; -1 = none. */
-int32_t io_mcap_find_channel(const io_mcap_reader *reader, io_ros_type type, const char *topic);
+int32_t io_mcap_find_topic(const io_mcap_reader *reader, io_ros_type type, const char *topic);
 /* What ROS has no message for, from the metadata; nonsense changes nothing. */
 double io_mcap_number(const io_mcap_reader *reader, const char *key, double low, double high,
                       double otherwise);

@@ -316,7 +316,6 @@ static rlf_result open_clip(oni *o, rlf_opened *out)
             .color_count = o->index.color.count,
             .flags = (flips ? (uint32_t)RLF_FRAME_UNMIRRORED : 0u) |
                      (o->is_aligned && o->rig.has_color ? (uint32_t)RLF_FRAME_ALIGNED : 0u),
-            .skips_damaged = true,
             .read_depth = read_depth,
             .read_color = read_color,
             .destroy = oni_destroy,

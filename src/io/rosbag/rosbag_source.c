@@ -267,7 +267,6 @@ static rlf_result open_clip(const rlf_address *address, rosbag *self, const bag_
                              .color_count = self->color.count,
                              .color_gap_max_ns = gap_ns,
                              .flags = is_aligned ? RLF_FRAME_ALIGNED : 0,
-                             .skips_damaged = true,
                              .read_depth = read_depth,
                              .read_color = read_color,
                              .destroy = rosbag_destroy,

@@ -92,6 +92,10 @@ bool moving_give(void *context, const rlf_surface *seen, rlf_given_background *o
 {
     moving *m = context;
     m->has_room = false;
+    if (seen->is_blind) { /* it says nothing of where the camera is */
+        m->track.health = RLF_TRACK_LOST;
+        return false;
+    }
     m->result = find_pose(m, seen);
     if (m->result != RLF_OK || !moving_is_placed(m)) {
         return false;

@@ -222,6 +222,7 @@ void rlf_background_adaptive_update(rlf_reconstruct *stage, const float *kept, r
     if (stage->ego.moves || (knows && rlf_background_is_cut(stage, slot->depth))) {
         start_anew(stage);
     }
+    background->frames = stage->sight.shows_more ? 0 : background->frames;
     bool learning = background->frames < def->background_frames;
     model_job job = {.stage = stage,
                      .slot = slot,

@@ -31,6 +31,9 @@ static void update_average(rlf_reconstruct *stage, rlf_slot *slot)
 {
     rlf_background *background = &stage->background;
     int32_t count = stage->grid.count;
+    if (stage->sight.shows_more) {
+        rlf_background_reset(background, &stage->grid);
+    }
     if (background->state != RLF_BACKGROUND_READY) {
         background->state = RLF_BACKGROUND_LEARNING;
         memset(slot->foreground, 0, (size_t)count);
@@ -54,9 +57,25 @@ static void update_average(rlf_reconstruct *stage, rlf_slot *slot)
     }
 }
 
+/* What is known stays as it is. */
+static void keep(rlf_reconstruct *stage, const rlf_slot *slot)
+{
+    rlf_background *background = &stage->background;
+    if (background->state == RLF_BACKGROUND_NONE &&
+        stage->def.background_method != RLF_BACKGROUND_OFF) {
+        background->state = RLF_BACKGROUND_LEARNING;
+    }
+    memset(slot->foreground, 0, (size_t)stage->grid.count);
+    memset(stage->work.front, 0, (size_t)stage->grid.height * sizeof *stage->work.front);
+}
+
 void rlf_background_update(rlf_reconstruct *stage, const float *kept, rlf_slot *slot)
 {
     stage->has_components = false;
+    if (stage->sight.is_blind && stage->def.background_method != RLF_BACKGROUND_GIVEN) {
+        keep(stage, slot);
+        return;
+    }
     switch (stage->def.background_method) {
     case RLF_BACKGROUND_OFF: memset(slot->foreground, 0, (size_t)stage->grid.count); break;
     case RLF_BACKGROUND_AVERAGE: update_average(stage, slot); break;

@@ -16,6 +16,17 @@ typedef struct rlf_depart {
     bool is_urgent;                  /* something has left in this frame */
 } rlf_depart;
 
+/* How much of the room the newest frame shows: see background/sight.c. */
+typedef struct rlf_sight {
+    int64_t first_ns; /* of the first frame with any depth, if has_depth */
+    int32_t seen;     /* pixels with depth of the newest frame */
+    bool has_depth;
+    bool is_warm;    /* the sensor has given depth for long enough to have started */
+    bool has_room;   /* a frame has shown the room */
+    bool is_blind;   /* the newest shows nothing, or hardly anything: nothing is learnt of it */
+    bool shows_more; /* it shows much that the background is not known of */
+} rlf_sight;
+
 /* The background model. AVERAGE: mean holds sums until it is ready. */
 typedef struct rlf_background {
     float *mean;
