@@ -23,7 +23,8 @@ typedef struct rlf_depth_noise {
  * nothing is divided by nothing. */
 static inline double rlf_depth_noise_sigma(const rlf_depth_noise *noise, double z)
 {
-    return rlf_max(noise->c0 + z * (noise->c1 + z * noise->c2), 0.0003);
+    return RLF_ASSERT(noise != NULL) ? rlf_max(noise->c0 + z * (noise->c1 + z * noise->c2), 0.0003)
+                                     : 0.0;
 }
 
 /* The cameras of a sensor, fixed for a source's life: stages size their planes by it once. */

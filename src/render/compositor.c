@@ -2,6 +2,7 @@
 #include "relief/compositor.h"
 
 #include "base/cookie.h"
+#include "camera/checks.h"
 
 #include <string.h>
 
@@ -77,7 +78,7 @@ void rlf_compositor_destroy(rlf_compositor **compositor)
 const char *rlf_compositor_name(const rlf_compositor *compositor)
 {
     if (!RLF_ASSERT(compositor != NULL)) {
-        return "";
+        return NULL;
     }
     return compositor->methods.name != NULL ? compositor->methods.name : "custom";
 }
@@ -90,5 +91,12 @@ rlf_result rlf_compositor_render(rlf_compositor *compositor, const rlf_render_in
         !RLF_ASSERT((int)input->view >= 0 && input->view < RLF_VIEW_COUNT)) {
         return RLF_ERROR_INVALID;
     }
-    return compositor->methods.render(compositor->self, input, out);
+    rlf_result result = RLF_OK;
+    if (input->frame->rig != NULL) {
+        result = frame_check(input->frame, input->frame->rig, "compositor");
+    }
+    if (result == RLF_OK) {
+        result = pose_check(&input->T_world_camera, "compositor", "T_world_camera");
+    }
+    return result == RLF_OK ? compositor->methods.render(compositor->self, input, out) : result;
 }

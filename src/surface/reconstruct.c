@@ -5,6 +5,7 @@
 #include "surface/thickness/static.h"
 
 #include "base/cookie.h"
+#include "camera/checks.h"
 
 #include <string.h>
 
@@ -82,25 +83,6 @@ void rlf_reconstruct_reset(rlf_reconstruct *stage)
 static rlf_result check_frame(const rlf_reconstruct *stage, const rlf_frame *frame)
 {
     const rlf_camera *camera = &stage->def.rig.depth;
-    if ((frame->depth_u16 == NULL) == (frame->depth_f32 == NULL)) {
-        return rlf_fail(RLF_ERROR_INVALID,
-                        "reconstruct: frame %llu: set exactly one of depth_u16 and depth_f32",
-                        (unsigned long long)frame->sequence);
-    }
-    ptrdiff_t sample = frame->depth_u16 != NULL ? 2 : 4;
-    if (frame->depth_stride < sample * camera->width || frame->depth_stride % sample != 0) {
-        return rlf_fail(RLF_ERROR_INVALID,
-                        "reconstruct: frame %llu: depth_stride is %lld; use at least %lld bytes, a "
-                        "multiple of %d",
-                        (unsigned long long)frame->sequence, (long long)frame->depth_stride,
-                        (long long)(sample * camera->width), (int)sample);
-    }
-    double units = frame->depth_units_per_metre;
-    if (frame->depth_u16 != NULL && (!(units > 0.0) || !rlf_is_finite(units))) {
-        return rlf_fail(RLF_ERROR_INVALID,
-                        "reconstruct: frame %llu: depth_units_per_metre is %g; use 1000 for mm",
-                        (unsigned long long)frame->sequence, units);
-    }
     if (frame->rig != NULL &&
         (frame->rig->depth.width != camera->width || frame->rig->depth.height != camera->height)) {
         return rlf_fail(RLF_ERROR_INVALID,
@@ -108,7 +90,7 @@ static rlf_result check_frame(const rlf_reconstruct *stage, const rlf_frame *fra
                         (unsigned long long)frame->sequence, (int)frame->rig->depth.width,
                         (int)frame->rig->depth.height, (int)camera->width, (int)camera->height);
     }
-    return RLF_OK;
+    return frame_check(frame, &stage->def.rig, "reconstruct");
 }
 
 /* What the background is, and with it the foreground. */

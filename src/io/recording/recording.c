@@ -73,13 +73,16 @@ rlf_result rlf_recording_add(rlf_recording *recording, const rlf_frame *frame)
 rlf_result rlf_recording_add_bodies(rlf_recording *recording, int64_t time_ns,
                                     const rlf_snapshot *snapshot)
 {
+    if (!RLF_ASSERT(recording != NULL && snapshot != NULL)) {
+        return RLF_ERROR_INVALID;
+    }
     const io_sink *sink = &recording->sink;
     return sink->add_bodies != NULL ? sink->add_bodies(sink->self, time_ns, snapshot) : RLF_OK;
 }
 
 rlf_recording_status rlf_recording_get_status(const rlf_recording *recording)
 {
-    return recording->status;
+    return RLF_ASSERT(recording != NULL) ? recording->status : (rlf_recording_status){0};
 }
 
 rlf_result rlf_recording_close(rlf_recording **recording, rlf_recording_status *out)
