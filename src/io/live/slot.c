@@ -1,8 +1,6 @@
 /* Room for one frame of a camera, kept while its driver goes on. */
 #include "io/live/slot.h"
 
-#include "camera/checks.h"
-
 #include <string.h>
 
 rlf_result live_slot_create(const rlf_rig *rig, live_slot *out)
@@ -37,10 +35,16 @@ static void copy_rows(void *out, const void *from, ptrdiff_t stride, size_t row_
 
 static bool is_good(const rlf_rig *rig, const rlf_frame *f)
 {
+    const ptrdiff_t size = f->depth_u16 != NULL ? 2 : 4;
+    const bool has_one = (f->depth_u16 == NULL) != (f->depth_f32 == NULL);
     const bool is_color_right =
-        f->color.data == NULL || (rig->has_color && f->color.width == rig->color.width &&
-                                  f->color.height == rig->color.height);
-    return is_color_right && frame_check(f, rig, "camera") == RLF_OK;
+        f->color.data == NULL ||
+        (rig->has_color && f->color.width == rig->color.width &&
+         f->color.height == rig->color.height && f->color.stride >= 4 * (ptrdiff_t)f->color.width);
+    const bool is_confidence_right =
+        f->confidence == NULL || f->confidence_stride >= rig->depth.width;
+    return has_one && f->depth_stride >= size * rig->depth.width && is_color_right &&
+           is_confidence_right;
 }
 
 bool live_slot_copy(live_slot *slot, const rlf_rig *rig, const rlf_frame *f)
